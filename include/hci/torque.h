@@ -1,0 +1,61 @@
+/* The torque model
+ *
+ *     T(θ, i) = e(θ)·i + ½ iᵀ L'(θ) i + T_cog(θ)            L' = ∂L/∂θ_m
+ *
+ * mutual, reluctance and cogging torque in N·m; θ electrical, e the back-EMF per mechanical speed in V·s/rad. */
+#ifndef HCI_TORQUE_H
+#define HCI_TORQUE_H
+
+#include "hci/harmonic.h"
+#include "hci/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Entries of a symmetric 3×3 phase matrix in storage order. */
+enum { HCI_AA, HCI_BB, HCI_CC, HCI_AB, HCI_BC, HCI_CA, HCI_PHASE_MATRIX };
+
+/* One order of L'(θ), each entry S sin(mθ) + C cos(mθ) in H per mechanical radian (N·m/A²). */
+typedef struct {
+    double order;
+    double sine[HCI_PHASE_MATRIX];
+    double cosine[HCI_PHASE_MATRIX];
+} hci_inductance_slope;
+
+/* What the torque model knows of a machine. The arrays belong to the caller; any may be NULL with count 0. */
+typedef struct {
+    int pole_pairs;                    /* p >= 1; θ = p·θ_m */
+    const hci_wave *back_emf;          /* e_s(θ), N·m/A */
+    size_t back_emf_count;
+    const hci_harmonic *cogging;       /* T_cog(θ), N·m */
+    size_t cogging_count;
+    const hci_inductance_slope *slope; /* L'(θ), H/rad */
+    size_t slope_count;
+} hci_machine;
+
+/* Torque in N·m at one electrical angle for phase currents in A. O(harmonics); may run in an interrupt. */
+double hci_torque_at(const hci_machine *machine, double theta_rad, const double i_abc[3]);
+
+/* ∂T/∂i = e(θ) + L'(θ) i, in N·m/A. Same cost. */
+void hci_torque_gradient_at(const hci_machine *machine, double theta_rad, const double i_abc[3], double gradient[3]);
+
+/* Upper bound of the number of orders that hci_torque_orders can find for `current_count` current waves. */
+size_t hci_torque_orders_capacity(const hci_machine *machine, size_t current_count);
+
+/* Every order at which the machine can have torque with these currents, ascending, each once, order 0 included.
+ * orders: out, capacity entries; count: out. HCI_ERROR_CAPACITY if capacity is below the bound above. */
+hci_status hci_torque_orders(const hci_machine *machine, const hci_wave *currents, size_t current_count,
+                             double *orders, size_t capacity, size_t *count);
+
+/* The torque spectrum in closed form: spectrum[k] is the torque's harmonic at orders[k] in N·m.
+ * orders: ascending, each once, as hci_torque_orders gives them; torque at an order not listed is left out.
+ * spectrum: out, order_count entries. O((emf + currents·slopes)·currents·log orders). */
+void hci_torque_spectrum(const hci_machine *machine, const hci_wave *currents, size_t current_count,
+                         const double *orders, size_t order_count, hci_harmonic *spectrum);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,103 @@
+#include "hci/harmonic.h"
+
+#include <math.h>
+#include <stdbool.h>
+
+static const double COS_THIRD = -0.5;
+static const double SIN_THIRD = 0.86602540378443864676;
+
+double hci_amplitude(double sine, double cosine)
+{
+    return hypot(sine, cosine);
+}
+
+double hci_phase_rad(double sine, double cosine)
+{
+    const double phase = atan2(cosine, sine);
+    return phase > -HCI_PI ? phase : HCI_PI;
+}
+
+hci_harmonic hci_harmonic_polar(double order, double amplitude, double phase_rad)
+{
+    const hci_harmonic mean = {0.0, 0.0, amplitude};
+    const hci_harmonic h = {order, amplitude * cos(phase_rad), amplitude * sin(phase_rad)};
+    return order < HCI_ORDER_TOLERANCE ? mean : h;
+}
+
+hci_wave hci_wave_polar(double order, int sequence, double amplitude, double phase_rad)
+{
+    const hci_wave w = {order, sequence, amplitude * cos(phase_rad), amplitude * sin(phase_rad)};
+    return w;
+}
+
+int hci_sequence_of_order(double order)
+{
+    const int remainder = (int)fmod(floor(order + 0.5), 3.0);
+    return remainder == 2 ? -1 : remainder;
+}
+
+double hci_harmonics_at(const hci_harmonic *terms, size_t count, double theta_rad)
+{
+    double sum = 0.0;
+    for (size_t k = 0; k < count; ++k) {
+        const double angle = terms[k].order * theta_rad;
+        sum += terms[k].sine * sin(angle) + terms[k].cosine * cos(angle);
+    }
+    return sum;
+}
+
+/* With x = S sin nθ + C cos nθ and y = S cos nθ − C sin nθ, phase s is x cos(σ2πs/3) − y sin(σ2πs/3). */
+void hci_waves_at(const hci_wave *waves, size_t count, double theta_rad, double abc[3])
+{
+    abc[0] = abc[1] = abc[2] = 0.0;
+    for (size_t k = 0; k < count; ++k) {
+        const double s = sin(waves[k].order * theta_rad), c = cos(waves[k].order * theta_rad);
+        const double x = waves[k].sine * s + waves[k].cosine * c;
+        const double y = waves[k].sine * c - waves[k].cosine * s;
+        const double cos_shift = waves[k].sequence == 0 ? 1.0 : COS_THIRD;
+        const double sin_shift = waves[k].sequence * SIN_THIRD;
+        abc[0] += x;
+        abc[1] += cos_shift * x - sin_shift * y;
+        abc[2] += cos_shift * x + sin_shift * y;
+    }
+}
+
+/* At order 0, (−1, S, C) is the same constant current as (+1, −S, C). */
+static hci_wave canonical(hci_wave wave)
+{
+    if (wave.order < HCI_ORDER_TOLERANCE && wave.sequence == -1) {
+        wave.sequence = 1;
+        wave.sine = -wave.sine;
+    }
+    return wave;
+}
+
+static bool same_component(hci_wave a, hci_wave b)
+{
+    return a.sequence == b.sequence && fabs(a.order - b.order) < HCI_ORDER_TOLERANCE;
+}
+
+/* Σ_s x_s² averages to (3/2)A², except a constant zero-sequence current, which is C in every phase: 3 C². */
+static double mean_square_of(hci_wave sum)
+{
+    if (sum.sequence == 0 && sum.order < HCI_ORDER_TOLERANCE) return 3.0 * sum.cosine * sum.cosine;
+    return 1.5 * (sum.sine * sum.sine + sum.cosine * sum.cosine);
+}
+
+double hci_waves_mean_square(const hci_wave *waves, size_t count)
+{
+    double total = 0.0;
+    for (size_t k = 0; k < count; ++k) {
+        hci_wave sum = canonical(waves[k]);
+        bool counted = false;
+        for (size_t j = 0; j < count && !counted; ++j) {
+            const hci_wave other = canonical(waves[j]);
+            if (j == k || !same_component(sum, other)) continue;
+            counted = j < k;
+            sum.sine += other.sine;
+            sum.cosine += other.cosine;
+        }
+        if (!counted) total += mean_square_of(sum);
+    }
+    return total;
+}
