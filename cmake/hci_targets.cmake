@@ -1,0 +1,46 @@
+# What every target of this project has in common.
+
+set(HCI_WARNINGS
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wdouble-promotion -Wstrict-prototypes
+    -Wmissing-prototypes -Wcast-qual -Wvla)
+
+# Without contraction a·b + c is rounded twice on every machine, so results do not depend on whether it has an FMA unit.
+set(HCI_ARITHMETIC -ffp-contract=off)
+
+function(hci_target_defaults target)
+    set_target_properties(${target} PROPERTIES C_STANDARD 99 C_STANDARD_REQUIRED ON C_EXTENSIONS OFF)
+    target_compile_options(${target} PRIVATE ${HCI_WARNINGS} ${HCI_ARITHMETIC})
+    if(HCI_WERROR)
+        target_compile_options(${target} PRIVATE -Werror)
+    endif()
+endfunction()
+
+# A static library hci::<name> from the *.c of the current folder, with its public headers.
+function(hci_add_library name)
+    file(GLOB sources CONFIGURE_DEPENDS *.c)
+    add_library(hci_${name} STATIC ${sources})
+    add_library(hci::${name} ALIAS hci_${name})
+    set_target_properties(hci_${name} PROPERTIES EXPORT_NAME ${name} LINKER_LANGUAGE C)
+    target_include_directories(hci_${name}
+        PUBLIC "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>" "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>"
+        PRIVATE "${PROJECT_SOURCE_DIR}/src")
+    hci_target_defaults(hci_${name})
+endfunction()
+
+# Sets HCI_WITH_HOST: ON demands SuiteSparse and cJSON, AUTO takes them where they are.
+macro(hci_decide_host)
+    set(HCI_WITH_HOST OFF)
+    if(HCI_BUILD_HOST STREQUAL "AUTO")
+        find_package(SuiteSparse QUIET)
+        find_package(cJSON QUIET)
+        if(SuiteSparse_FOUND AND cJSON_FOUND)
+            set(HCI_WITH_HOST ON)
+        else()
+            message(STATUS "hci: SuiteSparse or cJSON not found, building hci::core alone")
+        endif()
+    elseif(HCI_BUILD_HOST)
+        find_package(SuiteSparse REQUIRED)
+        find_package(cJSON REQUIRED)
+        set(HCI_WITH_HOST ON)
+    endif()
+endmacro()

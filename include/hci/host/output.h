@@ -1,0 +1,37 @@
+/* A set of output files that appears whole or not at all. Files are written under temporary names in their folder and
+ * renamed together by hci_output_commit; hci_output_discard removes them. */
+#ifndef HCI_HOST_OUTPUT_H
+#define HCI_HOST_OUTPUT_H
+
+#include "hci/host/note.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct hci_output hci_output;
+
+/* Opens a set of files in `folder`, which is made (with its parents) if it is missing. HCI_ERROR_OUTPUT, _MEMORY. */
+hci_status hci_output_open(const char *folder, hci_output **output, hci_note *note);
+
+/* Starts the next file; `name` has no folder part. What is written from now on goes into it. */
+hci_status hci_output_file(hci_output *output, const char *name, hci_note *note);
+
+/* Appends to the current file. Write errors (disk full, …) are remembered and reported by the commit. */
+void hci_output_text(hci_output *output, const char *format, ...) HCI_PRINTF(2, 3);
+
+/* One CSV number: shortest text that reads back to the same double, followed by `end` (',' or '\n'). */
+void hci_output_number(hci_output *output, double value, char end);
+
+/* Flushes, checks and renames every file, and frees `output` in any case. On failure no file of the set is left,
+ * and files that were there before are untouched. HCI_ERROR_OUTPUT. */
+hci_status hci_output_commit(hci_output *output, hci_note *note);
+
+/* Removes the temporary files and frees. output may be NULL. */
+void hci_output_discard(hci_output *output);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

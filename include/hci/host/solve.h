@@ -1,0 +1,94 @@
+/* From a wanted torque spectrum to harmonic currents: the main job. */
+#ifndef HCI_HOST_SOLVE_H
+#define HCI_HOST_SOLVE_H
+
+#include "hci/host/machine.h"
+#include "hci/host/tables.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum { HCI_METHOD_AUTO, HCI_METHOD_LU, HCI_METHOD_UMFPACK, HCI_METHOD_QR, HCI_METHOD_POINTWISE } hci_method;
+typedef enum { HCI_COMPARE_ALL, HCI_COMPARE_SQUARE } hci_compare;
+
+const char *hci_method_name(hci_method method);
+
+/* Tells of progress on long work: what is done and the share 0 … 1 of it. */
+typedef void hci_progress(void *context, const char *what, double share);
+
+typedef struct {
+    const hci_target *target;
+    const hci_component_set *set; /* NULL: choose (method pointwise needs none) */
+    size_t choose_at_most;        /* with set NULL: at most so many components, 0 for as many as it takes */
+    const hci_wave *held;         /* a fundamental that is held fixed, or NULL to solve for it too */
+    hci_method method;
+    hci_compare compare;
+    double tolerance;             /* an order is reached when its error is at most this × the largest target; 0: 1e-6 */
+    double loss_allowance;        /* with choose_at_most: copper loss allowed over the pointwise limit; 0: 1.10 */
+    double limit_current_A;       /* largest phase current allowed; 0: none */
+    double limit_voltage_V;       /* dc-link voltage that the line voltages must stay below; 0: none */
+    double speed_rad_per_s;       /* mechanical, for the voltage; 0 with no limit_voltage_V */
+    hci_progress *progress;       /* may be NULL */
+    void *progress_context;
+} hci_solve_options;
+
+/* Why an order is as it is. */
+typedef enum {
+    HCI_ORDER_REACHED,     /* within the tolerance of its target */
+    HCI_ORDER_FREE,        /* weight 0: not cared for */
+    HCI_ORDER_MISSED,      /* compared, but not within the tolerance */
+    HCI_ORDER_PARASITIC,   /* not compared, and not within the tolerance */
+    HCI_ORDER_UNREACHABLE  /* no component of the set reaches it */
+} hci_order_verdict;
+
+const char *hci_order_verdict_name(hci_order_verdict verdict);
+
+typedef struct {
+    hci_harmonic target_Nm, torque_Nm, before_Nm; /* before: the plain fundamental of the same mean torque */
+    double error_Nm;                              /* |torque − target| as a peak amplitude */
+    hci_order_verdict verdict;
+    hci_component remedy; /* for an unreachable order: the component that would reach it with the least current */
+} hci_solved_order;
+
+typedef struct {
+    hci_currents current;        /* all that flows, a held fundamental included */
+    hci_wave *per_Nm, *constant; /* current = mean torque × per_Nm + constant, or NULL when something is held fixed */
+    hci_solved_order *order;     /* ascending */
+    size_t order_count;
+    size_t rows, unknowns, rank;
+    double condition;            /* estimate; NAN where the method has none */
+    hci_method method;           /* the one that was used */
+    double tolerance_Nm;
+    double worst_error_Nm, worst_order;
+    double mean_square_A2;           /* mean of i_a² + i_b² + i_c² */
+    double plain_amplitude_A;        /* the plain fundamental that the ratios refer to; 0 when the mean torque is 0 */
+    double loss_to_plain;            /* copper loss ratio, NAN when there is no plain fundamental */
+    double limit_mean_square_A2;     /* the pointwise limit; NAN when it does not exist (e⊥ vanishes at an angle) */
+    double loss_to_limit;
+    double peak_phase_current_A;
+    double peak_line_voltage_V;      /* at the speed asked for; NAN without one */
+    bool within_limits;              /* true where no limit was asked for */
+    double torque_at_limit_Nm;       /* largest mean torque with the same ripple that keeps the current limit; NAN when
+                                        that is not known or none does */
+    size_t period_turns;             /* electrical turns after which everything repeats */
+} hci_solution;
+
+/* HCI_OK; HCI_NOT_REACHED with the nearest result when a cared-for order is not within the tolerance or a limit is not kept
+ * (the result is not bent to the limit); or an error with
+ * a note, and then *solution is empty. Otherwise *solution is to be given to hci_solution_release. */
+hci_status hci_solve(const hci_machine_data *machine, const hci_solve_options *options, hci_solution *solution,
+                     hci_note *note);
+void hci_solution_release(hci_solution *solution);
+
+/* Writes currents.csv, waveform.csv, spectrum.csv, summary.json and, where currents are linear in the mean torque,
+ * currents_per_Nm.csv and currents_constant.csv into `folder`; all or none. */
+hci_status hci_solution_write(const hci_machine_data *machine, const hci_solution *solution, hci_status verdict,
+                              const char *folder, hci_note *note);
+
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

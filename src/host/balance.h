@@ -1,0 +1,56 @@
+/* The harmonic balance U x = h of one task and one list of components. */
+#ifndef HCI_SRC_HOST_BALANCE_H
+#define HCI_SRC_HOST_BALANCE_H
+
+#include "hci/host/solve.h"
+#include "sparse.h"
+
+/* What is wanted of which machine, and what flows already. */
+typedef struct {
+    const hci_machine *machine;
+    bool has_neutral;
+    const hci_target *target;
+    const hci_wave *held; /* or NULL */
+    size_t period_turns;  /* electrical turns after which every order named so far repeats */
+    hci_progress *progress;
+    void *progress_context;
+} hci_task;
+
+/* U, h and what their rows mean. Right-hand sides are two columns: what 1 N·m of mean torque adds, and the rest (wanted ripple less
+ * cogging less the torque of what is held), so that h = mean torque × first + second. Rows of U and h carry the weights
+ * of their orders; orders of weight 0 are left out. */
+typedef struct {
+    double *order; /* compared orders, ascending */
+    size_t order_count, rows, unknowns;
+    double *row_weight;
+    double *h;     /* rows × 2 */
+    hci_sparse u;  /* rows × unknowns; owned */
+} hci_balance;
+
+/* The wanted mean torque in N·m. */
+double hci_target_mean_Nm(const hci_target *target);
+
+/* The target at an order; {0} and weight 1 when it is not listed. */
+hci_target_order hci_target_at(const hci_target *target, double order);
+
+hci_status hci_balance_make(const hci_task *task, const hci_component *component, size_t count, hci_compare compare,
+                            hci_balance *balance, hci_note *note);
+void hci_balance_release(hci_balance *balance);
+
+/* Choice of components, without a limit to their number: the lowest top order whose exact solution costs at most 1 % more
+ * copper than the pointwise limit. x: out, the solution (unknowns × 2), the caller's to free. */
+hci_status hci_choose_all(const hci_task *task, double tolerance_Nm, double limit_mean_square_A2, hci_component_set *set,
+                          double **x, hci_note *note);
+
+/* The best set of at most `most` components: least worst order with at most loss_A2 of mean square current. */
+hci_status hci_choose_few(const hci_task *task, size_t most, double tolerance_Nm, double loss_A2, hci_component_set *set,
+                          double **x, hci_note *note);
+
+/* The pointwise limit i = (T* − T_cog) e⊥/(e⊥·e⊥). mean_square_A2: of the limit, NAN where e⊥ vanishes. */
+double hci_pointwise_mean_square_A2(const hci_task *task);
+
+/* The limit as waves in two parts, per N·m of mean torque and the rest, of the same `count` components. Arrays are the
+ * caller's to free. HCI_ERROR_NUMERIC when e⊥ vanishes at an angle. */
+hci_status hci_pointwise_waves(const hci_task *task, hci_component_set *set, double **x, hci_note *note);
+
+#endif

@@ -1,0 +1,97 @@
+#include "limits.h"
+
+#include <math.h>
+
+/* Angles at which peaks are looked for: 16 in the shortest period. */
+static size_t angles(const hci_solution *s, double top)
+{
+    for (size_t k = 0; k < s->current.count; ++k) top = fmax(top, s->current.wave[k].order);
+    return s->period_turns * (size_t)ceil(16.0 * top);
+}
+
+/* Largest phase current of mean × per_Nm + constant, or of the whole current when there are no parts. */
+static double peak_current_A(const hci_solution *s, double mean_Nm)
+{
+    const size_t count = angles(s, 1.0);
+    double peak = 0.0;
+    for (size_t k = 0; k < count; ++k) {
+        const double theta_rad = 2.0 * HCI_PI * (double)(s->period_turns * k) / (double)count;
+        double a[3], b[3];
+        if (s->per_Nm) {
+            hci_waves_at(s->per_Nm, s->current.count, theta_rad, a);
+            hci_waves_at(s->constant, s->current.count, theta_rad, b);
+            for (int phase = 0; phase < 3; ++phase) peak = fmax(peak, fabs(mean_Nm * a[phase] + b[phase]));
+        } else {
+            hci_waves_at(s->current.wave, s->current.count, theta_rad, a);
+            for (int phase = 0; phase < 3; ++phase) peak = fmax(peak, fabs(a[phase]));
+        }
+    }
+    return peak;
+}
+
+/* The peak is a convex function of the mean torque, so the means that keep the limit are an interval. */
+static double torque_at_limit_Nm(const hci_solution *s, double wanted_Nm, double limit_A)
+{
+    double good = 0.0, bad = wanted_Nm;
+    if (!s->per_Nm || peak_current_A(s, 0.0) > limit_A) return NAN;
+    for (int step = 0; step < 40; ++step) {
+        const double middle = 0.5 * (good + bad);
+        *(peak_current_A(s, middle) <= limit_A ? &good : &bad) = middle;
+    }
+    return good;
+}
+
+/* v = R i + ω L di/dθ + ω_m e at one angle, L the mean of both axes; largest difference of two phases. */
+static double line_voltage_V(const hci_machine_data *m, const hci_solution *s, double speed_rad_per_s, double theta_rad)
+{
+    const double inductance_H = 0.5 * (m->inductance_d_H + m->inductance_q_H);
+    const double omega_rad_per_s = m->pole_pairs * speed_rad_per_s;
+    double e[3], v[3] = {0.0, 0.0, 0.0};
+    hci_waves_at(m->model.back_emf, m->model.back_emf_count, theta_rad, e);
+    for (size_t k = 0; k < s->current.count; ++k) {
+        const hci_wave w = s->current.wave[k];
+        const hci_wave slope = {w.order, w.sequence, -w.order * w.cosine, w.order * w.sine};
+        double i[3], i_slope[3];
+        hci_waves_at(&w, 1, theta_rad, i);
+        hci_waves_at(&slope, 1, theta_rad, i_slope);
+        for (int phase = 0; phase < 3; ++phase)
+            v[phase] += m->resistance_ohm * i[phase] + omega_rad_per_s * inductance_H * i_slope[phase];
+    }
+    for (int phase = 0; phase < 3; ++phase) v[phase] += speed_rad_per_s * e[phase];
+    return fmax(fabs(v[0] - v[1]), fmax(fabs(v[1] - v[2]), fabs(v[2] - v[0])));
+}
+
+static hci_status peak_voltage(const hci_machine_data *m, double speed_rad_per_s, hci_solution *s, hci_note *note)
+{
+    double top = 1.0;
+    size_t count;
+    if (isnan(m->resistance_ohm) || isnan(m->inductance_d_H) || isnan(m->inductance_q_H))
+        return hci_note_set(note, HCI_ERROR_INPUT,
+                            "machine.csv: the voltage needs `resistance`, `inductance_d` and `inductance_q`; add these rows "
+                            "or leave out --limit-voltage");
+    for (size_t k = 0; k < m->model.back_emf_count; ++k) top = fmax(top, m->model.back_emf[k].order);
+    count = angles(s, top);
+    s->peak_line_voltage_V = 0.0;
+    for (size_t k = 0; k < count; ++k) {
+        const double theta_rad = 2.0 * HCI_PI * (double)(s->period_turns * k) / (double)count;
+        s->peak_line_voltage_V = fmax(s->peak_line_voltage_V, line_voltage_V(m, s, speed_rad_per_s, theta_rad));
+    }
+    return HCI_OK;
+}
+
+hci_status hci_limits_check(const hci_machine_data *machine, const hci_solve_options *options, hci_solution *solution,
+                            hci_note *note)
+{
+    const double wanted_Nm = solution->order_count > 0 ? solution->order[0].target_Nm.cosine : 0.0;
+    hci_status status = HCI_OK;
+    solution->within_limits = true;
+    solution->peak_line_voltage_V = solution->torque_at_limit_Nm = NAN;
+    solution->peak_phase_current_A = peak_current_A(solution, wanted_Nm);
+    if (options->limit_current_A > 0.0 && solution->peak_phase_current_A > options->limit_current_A) {
+        solution->within_limits = false;
+        solution->torque_at_limit_Nm = torque_at_limit_Nm(solution, wanted_Nm, options->limit_current_A);
+    }
+    if (options->limit_voltage_V > 0.0) status = peak_voltage(machine, options->speed_rad_per_s, solution, note);
+    if (solution->peak_line_voltage_V > options->limit_voltage_V) solution->within_limits = false;
+    return status;
+}

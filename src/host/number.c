@@ -1,0 +1,214 @@
+#include "number.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "hci/host/csv.h"
+
+/* A decimal: (−1)^negative · significand · 10^exponent, exact unless digits were dropped. */
+typedef struct {
+    bool negative, dropped;
+    char mark;
+    uint64_t significand;
+    long long exponent;
+} decimal;
+
+static bool is_digit(char c)
+{
+    return c >= '0' && c <= '9';
+}
+
+static bool is_mark(char c, bool comma)
+{
+    return c == '.' || (comma && c == ',');
+}
+
+/* Digits and at most one decimal mark. Returns the end, or NULL without any digit. */
+static const char *read_digits(const char *text, bool comma, decimal *out)
+{
+    bool any = false;
+    for (;; text++) {
+        if (is_digit(*text)) {
+            any = true;
+            if (out->significand < 1000000000000000000u) {
+                out->significand = out->significand * 10 + (uint64_t)(*text - '0');
+                if (out->mark != 0) out->exponent--;
+            } else {
+                out->dropped = true;
+                if (out->mark == 0) out->exponent++;
+            }
+        } else if (is_mark(*text, comma) && out->mark == 0) {
+            out->mark = *text;
+        } else {
+            return any ? text : NULL;
+        }
+    }
+}
+
+/* "e-12". The clamp is far outside any double, and far inside long long whatever the number of digits. */
+static const char *read_exponent(const char *text, decimal *out)
+{
+    const bool negative = text[1] == '-';
+    text += text[1] == '-' || text[1] == '+' ? 2 : 1;
+    if (!is_digit(*text)) return NULL;
+    long long exponent = 0;
+    for (; is_digit(*text); text++) {
+        if (exponent < 1000000000000) exponent = exponent * 10 + (*text - '0');
+    }
+    out->exponent += negative ? -exponent : exponent;
+    return text;
+}
+
+static bool read_decimal(const char *text, bool comma, decimal *out)
+{
+    out->negative = *text == '-';
+    if (*text == '-' || *text == '+') text++;
+    text = read_digits(text, comma, out);
+    if (text != NULL && (*text == 'e' || *text == 'E')) text = read_exponent(text, out);
+    return text != NULL && *text == '\0';
+}
+
+/* Exact with one rounding: both factors are doubles without error (Clinger 1990). */
+static bool convert_exactly(const decimal *number, double *value)
+{
+    static const double power[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
+                                   1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+    if (FLT_EVAL_METHOD != 0 || number->dropped || number->significand > (UINT64_C(1) << 53)) return false;
+    if (number->exponent < -22 || number->exponent > 22) return false;
+    const double significand = (double)number->significand;
+    *value =
+        number->exponent < 0 ? significand / power[-number->exponent] : significand * power[number->exponent];
+    return true;
+}
+
+/* Half-way cases of a double need at most 767 digits; what follows counts only as "not zero". */
+enum { DIGITS_MAX = 800 };
+
+/* The number as "digits e exponent" for strtod: without a decimal mark the locale has no say. */
+static double convert_slowly(const char *text, const decimal *number)
+{
+    char digits[DIGITS_MAX + 32];
+    size_t count = 0;
+    long long dropped = 0, fraction = 0;
+    bool sticky = false, after_mark = false;
+    for (; *text != '\0' && *text != 'e' && *text != 'E'; text++) {
+        if (number->mark != 0 && *text == number->mark) after_mark = true;
+        if (!is_digit(*text)) continue;
+        fraction += after_mark;
+        if (count == 0 && *text == '0') continue;
+        if (count < DIGITS_MAX) {
+            digits[count++] = *text;
+        } else {
+            dropped++;
+            sticky = sticky || *text != '0';
+        }
+    }
+    if (sticky) digits[DIGITS_MAX - 1] = '1';
+    decimal tail = {0};
+    if (*text != '\0') read_exponent(text, &tail);
+    snprintf(digits + count, sizeof digits - count, "e%lld", tail.exponent - fraction + dropped);
+    return strtod(digits, NULL);
+}
+
+static bool is_word(const char *text, const char *word)
+{
+    for (; *word != '\0'; text++, word++) {
+        if (*text != *word && *text != *word - 'a' + 'A') return false;
+    }
+    return *text == '\0';
+}
+
+static hci_number_kind kind_of_word(const char *text)
+{
+    if (*text == '-' || *text == '+') text++;
+    const bool special = is_word(text, "nan") || is_word(text, "inf") || is_word(text, "infinity");
+    return special ? HCI_NUMBER_NOT_FINITE : HCI_NUMBER_NONE;
+}
+
+hci_number_kind hci_number_read(const char *text, bool comma, double *value, char *mark)
+{
+    decimal number = {0};
+    double magnitude = 0;
+    *mark = 0;
+    if (!read_decimal(text, comma, &number)) return kind_of_word(text);
+    if (number.significand != 0 && !convert_exactly(&number, &magnitude))
+        magnitude = convert_slowly(text, &number);
+    if (!isfinite(magnitude)) return HCI_NUMBER_NOT_FINITE;
+    *value = number.negative ? -magnitude : magnitude;
+    *mark = number.mark;
+    return HCI_NUMBER_FINITE;
+}
+
+bool hci_number_parse(const char *text, double *value)
+{
+    char mark;
+    return hci_number_read(text, false, value, &mark) == HCI_NUMBER_FINITE;
+}
+
+/* "1e+09" of printf, in any locale, as "1.0e9". */
+static void tidy(const char *printed, char *text)
+{
+    bool mark = false;
+    for (; *printed != '\0' && *printed != 'e'; printed++) {
+        if (is_digit(*printed) || *printed == '-') {
+            *text++ = *printed;
+        } else if (!mark) {
+            *text++ = '.';
+            mark = true;
+        }
+    }
+    if (!mark) text = (char *)memcpy(text, ".0", 2) + 2;
+    if (*printed == 'e') {
+        *text++ = *printed++;
+        if (*printed == '-') *text++ = '-';
+        while (*printed == '-' || *printed == '+' || *printed == '0')
+            printed++;
+    }
+    memcpy(text, printed, strlen(printed) + 1);
+}
+
+static bool reads_back(const char *text, double value)
+{
+    double back = 0;
+    return hci_number_parse(text, &back) && !(back < value) && !(back > value);
+}
+
+/* Doubles are closer below a power of two than above it. So the nearest 16 digits may fall below too far, and
+ * the next ones up be near enough. */
+static bool next_16_digits_read_back(double power_of_two, char *text)
+{
+    char printed[40];
+    snprintf(printed, sizeof printed, "%.15e", power_of_two);
+    char *last = printed + strcspn(printed, "e") - 1;
+    if (*last == '9') return false;
+    ++*last;
+    tidy(printed, text);
+    return reads_back(text, power_of_two);
+}
+
+static bool is_power_of_two(double value)
+{
+    int exponent;
+    const double fraction = fabs(frexp(value, &exponent));
+    return !(fraction > 0.5) && !(fraction < 0.5);
+}
+
+void hci_number_text(double value, char text[32])
+{
+    char printed[40];
+    if (!isfinite(value)) {
+        snprintf(text, 32, "%s", isnan(value) ? "nan" : value > 0 ? "inf" : "-inf");
+        return;
+    }
+    /* 15 digits survive the way through a normal double, so no shorter try can find a shorter text. */
+    for (int precision = fabs(value) < DBL_MIN ? 1 : 15; precision <= 17; precision++) {
+        snprintf(printed, sizeof printed, "%.*g", precision, value);
+        tidy(printed, text);
+        if (reads_back(text, value)) return;
+        if (precision == 16 && is_power_of_two(value) && next_16_digits_read_back(value, text)) return;
+    }
+}

@@ -1,0 +1,106 @@
+/* The files that a solution is written to. */
+#include <math.h>
+#include <string.h>
+
+#include "hci/frames.h"
+#include "hci/host/output.h"
+#include "hci/host/summary.h"
+
+static void write_currents(hci_output *out, const hci_currents *currents, const hci_wave *wave, const char *amplitude_column)
+{
+    hci_output_text(out, "order,set,%s,phase_rad\n", amplitude_column);
+    for (size_t k = 0; k < currents->count; ++k) {
+        hci_output_number(out, wave[k].order, ',');
+        hci_output_text(out, "%s,", hci_set_name(currents->set[k]));
+        hci_output_number(out, hci_amplitude(wave[k].sine, wave[k].cosine), ',');
+        hci_output_number(out, hci_phase_rad(wave[k].sine, wave[k].cosine), '\n');
+    }
+}
+
+/* At order 0 the amplitude is the signed mean and the phase π/2, so that A sin(nθ + γ) holds for every row. */
+static void write_polar(hci_output *out, hci_harmonic h)
+{
+    const bool mean = h.order < HCI_ORDER_TOLERANCE;
+    hci_output_number(out, mean ? h.cosine : hci_amplitude(h.sine, h.cosine), ',');
+    hci_output_number(out, mean ? HCI_PI / 2 : hci_phase_rad(h.sine, h.cosine), ',');
+}
+
+static void write_spectrum(hci_output *out, const hci_solution *s)
+{
+    hci_output_text(out, "order,target_Nm,target_phase_rad,torque_Nm,torque_phase_rad,error_Nm,before_Nm,"
+                         "before_phase_rad,verdict\n");
+    for (size_t k = 0; k < s->order_count; ++k) {
+        const hci_solved_order *o = &s->order[k];
+        hci_output_number(out, o->torque_Nm.order, ',');
+        write_polar(out, o->target_Nm);
+        write_polar(out, o->torque_Nm);
+        hci_output_number(out, o->error_Nm, ',');
+        write_polar(out, o->before_Nm);
+        hci_output_text(out, "%s\n", hci_order_verdict_name(o->verdict));
+    }
+}
+
+/* Enough points to draw the highest order that flows or is made, at least one a degree. */
+static size_t points_per_turn(const hci_solution *s)
+{
+    double top = 0.0;
+    for (size_t k = 0; k < s->current.count; ++k) top = fmax(top, s->current.wave[k].order);
+    for (size_t k = 0; k < s->order_count; ++k) top = fmax(top, s->order[k].torque_Nm.order);
+    return (size_t)fmax(360.0, 8.0 * ceil(top));
+}
+
+static void write_waveform(hci_output *out, const hci_machine_data *m, const hci_solution *s)
+{
+    const size_t per_turn = points_per_turn(s);
+    hci_output_text(out, "theta_e_rad,ia_A,ib_A,ic_A,id_A,iq_A,torque_Nm\n");
+    for (size_t k = 0; k < per_turn * s->period_turns; ++k) {
+        const double theta_rad = 2.0 * HCI_PI * (double)k / (double)per_turn;
+        double abc[3];
+        hci_dq dq;
+        hci_waves_at(s->current.wave, s->current.count, theta_rad, abc);
+        dq = hci_park(hci_clarke(abc), theta_rad);
+        hci_output_number(out, theta_rad, ',');
+        for (int phase = 0; phase < 3; ++phase) hci_output_number(out, abc[phase], ',');
+        hci_output_number(out, dq.d, ',');
+        hci_output_number(out, dq.q, ',');
+        hci_output_number(out, hci_torque_at(&m->model, theta_rad, abc), '\n');
+    }
+}
+
+static hci_status write_summary(hci_output *out, const hci_solution *s, hci_status verdict, hci_note *note)
+{
+    char *json = hci_solution_json(s, verdict);
+    if (!json) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the summary");
+    hci_output_text(out, "%s\n", json);
+    hci_text_free(json);
+    return HCI_OK;
+}
+
+static hci_status write_files(hci_output *out, const hci_machine_data *m, const hci_solution *s, hci_status verdict,
+                              hci_note *note)
+{
+    hci_status status = hci_output_file(out, "currents.csv", note);
+    if (!status) write_currents(out, &s->current, s->current.wave, "amplitude_A");
+    if (!status && s->per_Nm) status = hci_output_file(out, "currents_per_Nm.csv", note);
+    if (!status && s->per_Nm) write_currents(out, &s->current, s->per_Nm, "amplitude_A_per_Nm");
+    if (!status && s->per_Nm) status = hci_output_file(out, "currents_constant.csv", note);
+    if (!status && s->per_Nm) write_currents(out, &s->current, s->constant, "amplitude_A");
+    if (!status) status = hci_output_file(out, "spectrum.csv", note);
+    if (!status) write_spectrum(out, s);
+    if (!status) status = hci_output_file(out, "waveform.csv", note);
+    if (!status) write_waveform(out, m, s);
+    if (!status) status = hci_output_file(out, "summary.json", note);
+    return status ? status : write_summary(out, s, verdict, note);
+}
+
+hci_status hci_solution_write(const hci_machine_data *machine, const hci_solution *solution, hci_status verdict,
+                              const char *folder, hci_note *note)
+{
+    hci_output *out;
+    hci_status status = hci_output_open(folder, &out, note);
+    if (status) return status;
+    status = write_files(out, machine, solution, verdict, note);
+    if (!status) return hci_output_commit(out, note);
+    hci_output_discard(out);
+    return status;
+}

@@ -1,0 +1,217 @@
+#include "sparse.h"
+
+#include <SuiteSparseQR_C.h>
+#include <math.h>
+#include <string.h>
+#include <umfpack.h>
+
+#include "memory.h"
+
+/* ---- UMFPACK --------------------------------------------------------------------------------------------------- */
+
+static hci_status umfpack_status(SuiteSparse_long code, hci_note *note)
+{
+    if (code == UMFPACK_OK) return HCI_OK;
+    if (code == UMFPACK_WARNING_singular_matrix) return HCI_ERROR_SINGULAR;
+    if (code == UMFPACK_ERROR_out_of_memory) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory in the sparse LU");
+    return hci_note_set(note, HCI_ERROR_NUMERIC, "UMFPACK failed with status %ld", (long)code);
+}
+
+static hci_status umfpack_substitute(const hci_sparse *a, void *numeric, const double *b, size_t right_sides, double *x,
+                                     hci_note *note)
+{
+    for (size_t k = 0; k < right_sides; ++k) {
+        double *column = x + k * a->columns;
+        const SuiteSparse_long code = umfpack_dl_solve(UMFPACK_A, a->column_start, a->row, a->value, column,
+                                                       b + k * a->rows, numeric, NULL, NULL);
+        const hci_status status = umfpack_status(code, note);
+        if (status) return status;
+        for (size_t j = 0; j < a->columns; ++j)
+            if (!isfinite(column[j])) return HCI_ERROR_SINGULAR;
+    }
+    return HCI_OK;
+}
+
+hci_status hci_sparse_lu_solve(const hci_sparse *a, const double *b, size_t right_sides, double *x, double *condition,
+                               hci_note *note)
+{
+    const SuiteSparse_long n = (SuiteSparse_long)a->columns;
+    double info[UMFPACK_INFO];
+    void *symbolic = NULL, *numeric = NULL;
+    hci_status status;
+    status = umfpack_status(umfpack_dl_symbolic(n, n, a->column_start, a->row, a->value, &symbolic, NULL, info), note);
+    if (!status)
+        status = umfpack_status(
+            umfpack_dl_numeric(a->column_start, a->row, a->value, symbolic, &numeric, NULL, info), note);
+    umfpack_dl_free_symbolic(&symbolic);
+    if (!status) {
+        *condition = 1.0 / info[UMFPACK_RCOND];
+        status = umfpack_substitute(a, numeric, b, right_sides, x, note);
+    }
+    umfpack_dl_free_numeric(&numeric);
+    return status;
+}
+
+/* ---- SPQR ------------------------------------------------------------------------------------------------------ */
+
+static cholmod_sparse as_cholmod(const hci_sparse *a)
+{
+    cholmod_sparse s;
+    memset(&s, 0, sizeof s);
+    s.nrow = a->rows;
+    s.ncol = a->columns;
+    s.nzmax = (size_t)a->column_start[a->columns];
+    s.p = a->column_start;
+    s.i = a->row;
+    s.x = a->value;
+    s.itype = CHOLMOD_LONG;
+    s.xtype = CHOLMOD_REAL;
+    s.dtype = CHOLMOD_DOUBLE;
+    s.sorted = 1;
+    s.packed = 1;
+    return s;
+}
+
+static cholmod_dense as_dense(const double *x, size_t rows, size_t columns, double *copy)
+{
+    cholmod_dense d;
+    memset(&d, 0, sizeof d);
+    memcpy(copy, x, rows * columns * sizeof *x);
+    d.nrow = d.d = rows;
+    d.ncol = columns;
+    d.nzmax = rows * columns;
+    d.x = copy;
+    d.xtype = CHOLMOD_REAL;
+    d.dtype = CHOLMOD_DOUBLE;
+    return d;
+}
+
+enum { POWER_STEPS = 20 };
+
+static double normalise(double *x, size_t n)
+{
+    double sum = 0.0;
+    for (size_t k = 0; k < n; ++k) sum += x[k] * x[k];
+    sum = sqrt(sum);
+    for (size_t k = 0; k < n && sum > 0.0; ++k) x[k] /= sum;
+    return sum;
+}
+
+static cholmod_dense *start_vector(size_t n, cholmod_common *cc)
+{
+    cholmod_dense *x = cholmod_l_allocate_dense(n, 1, n, CHOLMOD_REAL, cc);
+    double *value = x ? x->x : NULL;
+    for (size_t k = 0; x && k < n; ++k) value[k] = 1.0 + 0.37 * (double)(k * 7 % 11);
+    if (x) normalise(value, n);
+    return x;
+}
+
+/* Largest singular value of R by power iteration on R Rᵀ; 0 when memory is out. */
+static double largest_singular(cholmod_sparse *r, cholmod_common *cc)
+{
+    double one[2] = {1.0, 0.0}, zero[2] = {0.0, 0.0}, square = 0.0;
+    cholmod_dense *x = start_vector(r->nrow, cc);
+    cholmod_dense *y = cholmod_l_allocate_dense(r->ncol, 1, r->ncol, CHOLMOD_REAL, cc);
+    for (int step = 0; step < POWER_STEPS && x && y; ++step) {
+        cholmod_l_sdmult(r, 1, one, zero, x, y, cc);
+        cholmod_l_sdmult(r, 0, one, zero, y, x, cc);
+        square = normalise(x->x, x->nrow);
+    }
+    cholmod_l_free_dense(&x, cc);
+    cholmod_l_free_dense(&y, cc);
+    return sqrt(square);
+}
+
+/* Smallest singular value by power iteration on (R Rᵀ)⁻¹ = R₂⁻¹ R₂⁻ᵀ, from the factors of Rᵀ; 0 when memory is out. */
+static double smallest_singular(SuiteSparseQR_C_factorization *qr, size_t n, cholmod_common *cc)
+{
+    cholmod_dense *x = start_vector(n, cc);
+    double growth = INFINITY;
+    for (int step = 0; step < POWER_STEPS && x; ++step) {
+        cholmod_dense *y = SuiteSparseQR_C_solve(SPQR_RTX_EQUALS_B, qr, x, cc);
+        cholmod_l_free_dense(&x, cc);
+        x = y ? SuiteSparseQR_C_solve(SPQR_RX_EQUALS_B, qr, y, cc) : NULL;
+        cholmod_l_free_dense(&y, cc);
+        if (x) growth = normalise(x->x, n);
+    }
+    cholmod_l_free_dense(&x, cc);
+    return sqrt(1.0 / growth);
+}
+
+/* min ‖y‖ with R y = c for R of full row rank: Rᵀ = Q₂ R₂, so y = Q₂ R₂⁻ᵀ c. NULL when it fails. */
+static cholmod_dense *least_norm(cholmod_sparse *r, cholmod_dense *c, double *condition, cholmod_common *cc)
+{
+    cholmod_sparse *r_transposed = cholmod_l_transpose(r, 1, cc);
+    SuiteSparseQR_C_factorization *qr =
+        r_transposed ? SuiteSparseQR_C_factorize(SPQR_ORDERING_FIXED, SPQR_NO_TOL, r_transposed, cc) : NULL;
+    cholmod_dense *z = qr ? SuiteSparseQR_C_solve(SPQR_RTX_EQUALS_ETB, qr, c, cc) : NULL;
+    cholmod_dense *y = z ? SuiteSparseQR_C_qmult(SPQR_QX, qr, z, cc) : NULL;
+    if (y) *condition = largest_singular(r, cc) / smallest_singular(qr, r->nrow, cc);
+    cholmod_l_free_dense(&z, cc);
+    SuiteSparseQR_C_free(&qr, cc);
+    cholmod_l_free_sparse(&r_transposed, cc);
+    return y;
+}
+
+/* x[E[k]] = y[k]; a NULL permutation is the identity. */
+static void unpermute(const cholmod_dense *y, const SuiteSparse_long *permutation, size_t columns, double *x)
+{
+    const double *value = y->x;
+    for (size_t k = 0; k < y->ncol; ++k)
+        for (size_t j = 0; j < columns; ++j)
+            x[k * columns + (permutation ? (size_t)permutation[j] : j)] = value[k * y->d + j];
+}
+
+static hci_status qr_status(const cholmod_common *cc, hci_note *note)
+{
+    if (cc->status == CHOLMOD_OUT_OF_MEMORY)
+        return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory in the sparse QR");
+    return hci_note_set(note, HCI_ERROR_NUMERIC, "SPQR failed with status %d", cc->status);
+}
+
+/* A E = Q R with C = Qᵀ B, R cut to `rank` rows; then the least-norm y of R y = C and x = E y. */
+static hci_status qr_solve(const hci_sparse *a, cholmod_dense *b, double *x, size_t *rank, double *condition,
+                           cholmod_common *cc, hci_note *note)
+{
+    cholmod_sparse matrix = as_cholmod(a), *r = NULL;
+    cholmod_dense *c = NULL, *y = NULL;
+    SuiteSparse_long *permutation = NULL;
+    const SuiteSparse_long found = SuiteSparseQR_C(SPQR_ORDERING_DEFAULT, SPQR_DEFAULT_TOL, 0, 0, &matrix, NULL, b,
+                                                   NULL, &c, &r, &permutation, NULL, NULL, NULL, cc);
+    hci_status status = HCI_OK;
+    if (found > 0) {
+        *rank = (size_t)found;
+        y = least_norm(r, c, condition, cc);
+    }
+    if (found < 0 || (found > 0 && !y))
+        status = qr_status(cc, note);
+    else if (y)
+        unpermute(y, permutation, a->columns, x);
+    cholmod_l_free_dense(&y, cc);
+    cholmod_l_free_dense(&c, cc);
+    cholmod_l_free_sparse(&r, cc);
+    if (permutation) cholmod_l_free(a->columns, sizeof *permutation, permutation, cc);
+    return status;
+}
+
+hci_status hci_sparse_qr_solve(const hci_sparse *a, const double *b, size_t right_sides, double *x, size_t *rank,
+                               double *condition, hci_note *note)
+{
+    cholmod_common cc;
+    cholmod_dense right;
+    double *copy;
+    hci_status status;
+    memset(x, 0, a->columns * right_sides * sizeof *x);
+    *rank = 0;
+    *condition = NAN;
+    if (a->rows == 0 || a->columns == 0) return HCI_OK;
+    copy = hci_memory_new(a->rows * right_sides, sizeof *copy);
+    if (!copy) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for %zu rows", a->rows);
+    cholmod_l_start(&cc);
+    cc.print = 0;
+    right = as_dense(b, a->rows, right_sides, copy);
+    status = qr_solve(a, &right, x, rank, condition, &cc, note);
+    cholmod_l_finish(&cc);
+    hci_memory_free(copy);
+    return status;
+}

@@ -1,0 +1,130 @@
+/* Summaries as JSON. The only file that knows cJSON. */
+#include <cjson/cJSON.h>
+#include <math.h>
+#include <string.h>
+
+#include "hci/host/summary.h"
+#include "hci/version.h"
+#include "memory.h"
+
+/* JSON has no NaN: a number that does not exist is null. False when memory is out. */
+static bool add_number(cJSON *object, const char *name, double value)
+{
+    return (isfinite(value) ? cJSON_AddNumberToObject(object, name, value) : cJSON_AddNullToObject(object, name)) != NULL;
+}
+
+static bool add_text(cJSON *object, const char *name, const char *text)
+{
+    return cJSON_AddStringToObject(object, name, text) != NULL;
+}
+
+static bool add_order(cJSON *list, const hci_solved_order *o)
+{
+    cJSON *item = cJSON_CreateObject();
+    bool good = item && cJSON_AddItemToArray(list, item) && add_number(item, "order", o->torque_Nm.order) &&
+                add_number(item, "error_Nm", o->error_Nm) &&
+                add_text(item, "verdict", hci_order_verdict_name(o->verdict));
+    if (good && o->verdict == HCI_ORDER_UNREACHABLE) {
+        cJSON *remedy = cJSON_AddObjectToObject(item, "remedy");
+        good = remedy && add_number(remedy, "order", o->remedy.order) &&
+               add_text(remedy, "set", o->remedy.sequence > 0 ? "pos" : o->remedy.sequence < 0 ? "neg" : "zero");
+    }
+    return good;
+}
+
+/* Orders of one kind as an array of their numbers, or with what there is to say of each. */
+static bool add_orders(cJSON *root, const char *name, const hci_solution *s, hci_order_verdict first, hci_order_verdict last,
+                       bool with_detail)
+{
+    cJSON *list = cJSON_AddArrayToObject(root, name);
+    bool good = list != NULL;
+    for (size_t k = 0; k < s->order_count && good; ++k) {
+        const hci_solved_order *o = &s->order[k];
+        cJSON *number;
+        if (o->verdict < first || o->verdict > last) continue;
+        if (with_detail) {
+            good = add_order(list, o);
+            continue;
+        }
+        number = cJSON_CreateNumber(o->torque_Nm.order);
+        good = number && cJSON_AddItemToArray(list, number);
+    }
+    return good;
+}
+
+static bool add_system(cJSON *root, const hci_solution *s)
+{
+    cJSON *system = cJSON_AddObjectToObject(root, "system");
+    return system && add_text(system, "method", hci_method_name(s->method)) &&
+           add_number(system, "rows", (double)s->rows) && add_number(system, "unknowns", (double)s->unknowns) &&
+           add_number(system, "rank", (double)s->rank) && add_number(system, "condition", s->condition);
+}
+
+static bool add_current(cJSON *root, const hci_solution *s)
+{
+    cJSON *current = cJSON_AddObjectToObject(root, "current");
+    return current && add_number(current, "components", (double)s->current.count) &&
+           add_number(current, "peak_phase_A", s->peak_phase_current_A) &&
+           add_number(current, "peak_line_voltage_V", s->peak_line_voltage_V) &&
+           cJSON_AddBoolToObject(current, "within_limits", s->within_limits) &&
+           add_number(current, "torque_at_limit_Nm", s->torque_at_limit_Nm) &&
+           add_number(current, "mean_square_A2", s->mean_square_A2) &&
+           add_number(current, "plain_amplitude_A", s->plain_amplitude_A) &&
+           add_number(current, "loss_ratio_to_plain", s->loss_to_plain) &&
+           add_number(current, "limit_mean_square_A2", s->limit_mean_square_A2) &&
+           add_number(current, "loss_ratio_to_limit", s->loss_to_limit);
+}
+
+static bool add_torque(cJSON *root, const hci_solution *s)
+{
+    cJSON *torque = cJSON_AddObjectToObject(root, "torque");
+    const bool has_mean = s->order_count > 0 && s->order[0].torque_Nm.order < HCI_ORDER_TOLERANCE;
+    return torque && add_number(torque, "mean_Nm", has_mean ? s->order[0].torque_Nm.cosine : 0.0) &&
+           add_number(torque, "worst_error_Nm", s->worst_error_Nm) && add_number(torque, "worst_order", s->worst_order) &&
+           add_number(torque, "tolerance_Nm", s->tolerance_Nm) &&
+           add_number(torque, "period_electrical_turns", (double)s->period_turns) &&
+           add_orders(torque, "reached_orders", s, HCI_ORDER_REACHED, HCI_ORDER_REACHED, false) &&
+           add_orders(torque, "free_orders", s, HCI_ORDER_FREE, HCI_ORDER_FREE, false) &&
+           add_orders(torque, "missed_orders", s, HCI_ORDER_MISSED, HCI_ORDER_MISSED, true) &&
+           add_orders(torque, "parasitic_orders", s, HCI_ORDER_PARASITIC, HCI_ORDER_PARASITIC, true) &&
+           add_orders(torque, "unreachable_orders", s, HCI_ORDER_UNREACHABLE, HCI_ORDER_UNREACHABLE, true);
+}
+
+char *hci_solution_json(const hci_solution *solution, hci_status verdict)
+{
+    cJSON *root = cJSON_CreateObject();
+    char *text = NULL;
+    if (root && add_text(root, "command", "solve") && add_text(root, "version", HCI_VERSION_STRING) &&
+        cJSON_AddBoolToObject(root, "reached", verdict == HCI_OK) && add_system(root, solution) &&
+        add_torque(root, solution) && add_current(root, solution))
+        text = cJSON_Print(root);
+    cJSON_Delete(root);
+    return text;
+}
+
+static bool add_table(cJSON *root, const hci_emit_request *request, const hci_emit_result *result)
+{
+    return add_text(root, "name", request->name) && add_text(root, "format", request->format) &&
+           add_text(root, "frame", request->frame == HCI_TABLE_ABC ? "abc" : "dq") &&
+           add_number(root, "points", (double)result->points) && add_number(root, "columns", (double)result->columns) &&
+           add_number(root, "parts", (double)result->parts) &&
+           add_number(root, "period_electrical_turns", (double)result->period_turns) &&
+           add_number(root, "bytes", (double)result->bytes) && add_number(root, "max_error_A", result->max_error_A) &&
+           add_number(root, "peak_A", result->peak_A) && add_number(root, "crc32", result->crc32);
+}
+
+char *hci_emit_json(const hci_emit_request *request, const hci_emit_result *result)
+{
+    cJSON *root = cJSON_CreateObject();
+    char *text = NULL;
+    if (root && add_text(root, "command", "emit") && add_text(root, "version", HCI_VERSION_STRING) &&
+        add_table(root, request, result))
+        text = cJSON_Print(root);
+    cJSON_Delete(root);
+    return text;
+}
+
+void hci_text_free(char *text)
+{
+    cJSON_free(text);
+}

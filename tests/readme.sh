@@ -1,0 +1,58 @@
+#!/bin/sh
+# The README's two commands work in a fresh copy: the first leaves the results that the README names, the second is what
+# .ci/run calls and passes.
+#   readme.sh SOURCE_DIR
+set -eu
+cd "$1"
+readme=$PWD/README.md
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+fail() {
+    echo "readme: $*"
+    exit 1
+}
+
+# The first fenced block after the line or heading TITLE.
+command_after() {
+    awk -v title="$1" '
+        { text = $0; sub(/^#+ */, "", text); sub(/[:.]? *$/, "", text) }
+        fenced && /^```/ { exit }
+        fenced { print }
+        found && /^```/ { fenced = 1 }
+        text == title { found = 1 }' "$readme"
+}
+
+# What a clone of the working tree would hold; all but build products where git cannot tell.
+fresh_copy() {
+    if git ls-files -co --exclude-standard >"$work/listed" 2>/dev/null && [ -s "$work/listed" ]; then
+        while read -r file; do [ ! -e "$file" ] || echo "$file"; done <"$work/listed" >"$work/files"
+        tar -cf - -T "$work/files"
+    else
+        tar -cf - --exclude=./.git --exclude=./.deps --exclude='./build*' --exclude=./out .
+    fi | tar -xf - -C "$work/copy"
+}
+
+[ -f "$readme" ] || fail "no README.md"
+start=$(command_after "Set up and run")
+test=$(command_after "Test")
+[ "$(echo "$start" | grep -c .)" -eq 1 ] || fail 'not one command after "Set up and run"'
+[ "$(echo "$test" | grep -c .)" -eq 1 ] || fail 'not one command after "Test"'
+[ "$(tail -n 1 .ci/run)" = "$test" ] || fail ".ci/run does not end with the README's test command: $test"
+
+mkdir "$work/copy"
+fresh_copy
+[ ! -d .deps ] || cp -R .deps "$work/copy/.deps"
+cd "$work/copy"
+
+echo "--- $start"
+sh -c "$start"
+results=$(grep -o 'out/machine_a/[A-Za-z0-9_.]*[A-Za-z0-9]' "$readme" | sort -u)
+[ -n "$results" ] || fail "names no result below out/machine_a"
+for result in $results; do
+    [ -s "$result" ] || fail "$start did not write $result"
+done
+
+echo "--- $test"
+HCI_TEST_EXCLUDE='readme|slow' sh -c "$test" | tee "$work/log"
+grep -q '^100% tests passed' "$work/log" || fail "$test did not pass"
