@@ -166,10 +166,11 @@ static void show_limits(const hci_solution *s)
 
 void cli_show_solution(const hci_solution *s, const char *machine, const char *target)
 {
-    bool reached = s->within_limits;
+    bool reached = true;
     cli_progress_end();
     for (size_t k = 0; k < s->order_count; ++k) reached = reached && s->order[k].verdict <= HCI_ORDER_FREE;
-    fprintf(stderr, "%s: %s, %s\n", reached ? "reached" : "not reached (the nearest is given)", machine, target);
+    fprintf(stderr, "%s%s: %s, %s\n", reached ? "reached" : "not reached (the nearest is given)",
+            s->within_limits ? "" : ", but a limit is not kept", machine, target);
     fprintf(stderr, "  torque       mean %.6g N·m; worst error %.3g N·m at order %g (tolerance %.3g N·m)\n",
             s->order_count ? s->order[0].torque_Nm.cosine : 0.0, s->worst_error_Nm, s->worst_order, s->tolerance_Nm);
     show_current(s);

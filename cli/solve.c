@@ -1,3 +1,4 @@
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -101,6 +102,8 @@ static hci_status read_numbers(const cli_arguments *a, hci_solve_options *o, hci
     double count = 0.0;
     hci_status status = HCI_OK;
     if (a->value[AUTO]) status = cli_number("auto", a->value[AUTO], 1.0, 1e4, &count, note);
+    if (!status && count != floor(count))
+        status = hci_note_set(note, HCI_ERROR_ARGUMENT, "--auto: found `%s`, expected a whole number", a->value[AUTO]);
     if (!status && a->value[TOLERANCE]) status = cli_number("tolerance", a->value[TOLERANCE], 1e-14, 1.0, &o->tolerance, note);
     if (!status && a->value[MAX_LOSS]) status = cli_number("max-loss", a->value[MAX_LOSS], 1.0, 1e6, &o->loss_allowance, note);
     if (!status) status = read_limits(a, o, note);
@@ -195,7 +198,7 @@ static int run(const cli_arguments *a)
 const cli_command cli_solve = {
     "solve", "MACHINE --target FILE",
     "Finds the harmonic currents that make the machine produce the wanted torque spectrum.\n"
-    "Writes currents.csv, waveform.csv, spectrum.csv and summary.json.",
+    "Writes currents.csv, waveform.csv, spectrum.csv, summary.json and solution.svg.",
     OPTIONS, 1,
     "  hci-solve solve data/machine_a --target data/scenarios/02/target.csv --auto -o out/machine_a\n"
     "  hci-solve solve data/machine_a --target data/scenarios/02/target.csv \\\n"

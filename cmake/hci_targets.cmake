@@ -1,8 +1,9 @@
 # What every target of this project has in common.
 
+# Clang's -Wdouble-promotion objects to `double x = INFINITY`, too.
 set(HCI_WARNINGS
-    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wdouble-promotion -Wstrict-prototypes
-    -Wmissing-prototypes -Wcast-qual -Wvla)
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion $<$<C_COMPILER_ID:GNU>:-Wdouble-promotion>
+    -Wstrict-prototypes -Wmissing-prototypes -Wcast-qual -Wvla)
 
 # Without contraction a·b + c is rounded twice on every machine, so results do not depend on whether it has an FMA unit.
 set(HCI_ARITHMETIC -ffp-contract=off)
@@ -25,6 +26,23 @@ function(hci_add_library name)
         PUBLIC "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>" "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>"
         PRIVATE "${PROJECT_SOURCE_DIR}/src")
     hci_target_defaults(hci_${name})
+endfunction()
+
+# A program <name> of one source, which may use private headers: linked with hci::host if it includes a header of host,
+# with hci::core otherwise. HCI_LAYER is set to the layer; no program is made where that layer is not built.
+function(hci_add_program name source)
+    file(STRINGS ${source} host_includes REGEX "^#include \".*host/")
+    set(layer core)
+    if(host_includes)
+        set(layer host)
+    endif()
+    set(HCI_LAYER ${layer} PARENT_SCOPE)
+    if(TARGET hci::${layer})
+        add_executable(${name} ${source})
+        target_link_libraries(${name} PRIVATE hci::${layer})
+        target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}/src")
+        hci_target_defaults(${name})
+    endif()
 endfunction()
 
 # Sets HCI_WITH_HOST: ON demands SuiteSparse and cJSON, AUTO takes them where they are.

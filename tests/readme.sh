@@ -13,10 +13,10 @@ fail() {
     exit 1
 }
 
-# The first fenced block after the line or heading TITLE.
+# The first fenced block after the heading or line TITLE, which may go on with "(remark)" and a colon.
 command_after() {
     awk -v title="$1" '
-        { text = $0; sub(/^#+ */, "", text); sub(/[:.]? *$/, "", text) }
+        { text = $0; sub(/^#+ */, "", text); sub(/ *(\(.*\))?:? *$/, "", text) }
         fenced && /^```/ { exit }
         fenced { print }
         found && /^```/ { fenced = 1 }
@@ -47,9 +47,9 @@ cd "$work/copy"
 
 echo "--- $start"
 sh -c "$start"
-results=$(grep -o 'out/machine_a/[A-Za-z0-9_.]*[A-Za-z0-9]' "$readme" | sort -u)
-[ -n "$results" ] || fail "names no result below out/machine_a"
-for result in $results; do
+named=$(grep -o 'out/machine_a/[A-Za-z0-9_.]*[A-Za-z0-9]' "$readme" || true)
+always='currents.csv waveform.csv spectrum.csv summary.json machine_a.h machine_a.c'
+for result in $named $(printf 'out/machine_a/%s ' $always); do
     [ -s "$result" ] || fail "$start did not write $result"
 done
 

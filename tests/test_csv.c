@@ -1,5 +1,5 @@
-/* Reading CSV: the files of tests/files/csv with what they hold or what is said of them, a round trip of random tables,
- * numbers and units against other ways to compute them, and memory that runs out. */
+/* Reading CSV: the files of tests/files/csv with what they hold or what is said of them, a round trip of
+ * random tables, numbers and units against other ways to compute them, and memory that runs out. */
 #define _POSIX_C_SOURCE 200809L
 
 #include "hci/host/csv.h"
@@ -23,9 +23,19 @@
 #define CONVERSION 4e-16
 
 static char scratch[64];
+static int first_free;
+
+/* The descriptor that the next file will have; it stays the same unless a file is left open. */
+static int next_descriptor(void)
+{
+    const int descriptor = dup(0);
+    close(descriptor);
+    return descriptor;
+}
 
 void setUp(void)
 {
+    first_free = next_descriptor();
     snprintf(scratch, sizeof scratch, "/tmp/hci-test-csv-XXXXXX");
     const int descriptor = mkstemp(scratch);
     TEST_ASSERT_TRUE(descriptor >= 0);
@@ -36,6 +46,7 @@ void tearDown(void)
 {
     hci_memory_fail_after(-1);
     unlink(scratch);
+    TEST_ASSERT_EQUAL_MESSAGE(first_free, next_descriptor(), "a file is left open");
 }
 
 static const char *file_path(const char *name)
@@ -71,58 +82,59 @@ typedef struct {
 } expected_column;
 
 static const expected_column good[] = {
-    {"bom",                        "order",           1, {1}                 },
-    {"bom",                        "amplitude_V",     1, {21.93}             },
-    {"crlf",                       "order",           2, {1, 5}              },
-    {"crlf",                       "amplitude_V",     2, {21.93, 0.5}        },
-    {"cr",                         "amplitude_V",     2, {21.93, 0.5}        },
-    {"no_final_newline",           "amplitude_V",     2, {21.93, 0.5}        },
-    {"semicolon_decimal_comma",    "amplitude_V",     2, {21.93, 0.5}        },
-    {"semicolon_decimal_point",    "amplitude_V",     2, {21.93, 0.5}        },
-    {"tab",                        "amplitude_V",     2, {21.93, 0.5}        },
-    {"comments",                   "amplitude_V",     2, {21.93, 0.5}        },
-    {"blank_lines",                "amplitude_V",     2, {21.93, 0.5}        },
-    {"blanks_around",              "order",           2, {1, 5}              },
-    {"blanks_around",              "amplitude_V",     2, {21.93, 0.5}        },
-    {"quoted_separator_in_header", "value",           1, {1.5}               },
-    {"unit_row",                   "theta_e_rad",     1, {REF_PI}            },
-    {"unit_row",                   "ia_A",            1, {1.5}               },
-    {"unit_row",                   "order",           1, {5}                 },
-    {"unit_row_bare_cells",        "theta_e_deg",     1, {180 / REF_PI}      },
-    {"unit_row_bare_cells",        "ia_A",            1, {2}                 },
-    {"unit_row_bare_cells",        "order",           1, {3}                 },
-    {"unit_row_utf8",              "inertia_kgm2",    1, {1}                 },
-    {"unit_row_utf8",              "R_ohm",           1, {2e-3}              },
-    {"unit_row_utf8",              "Kt_Nm_per_A",     1, {3}                 },
-    {"unit_row_utf8",              "Ld_H",            1, {4e-6}              },
-    {"unit_row_utf8",              "t_s",             1, {5e-6}              },
-    {"unit_row_utf8",              "temperature_C",   1, {6}                 },
-    {"unit_row_only",              "theta_e_rad",     0, {0}                 },
-    {"unit_row_repeats_suffix",    "theta_e_rad",     1, {1}                 },
-    {"unit_suffix",                "theta_e_rad",     1, {REF_PI}            },
-    {"unit_suffix",                "speed_rad_per_s", 1, {100 * REF_PI}      },
-    {"unit_suffix",                "speed_rpm",       1, {3000}              },
-    {"unit_suffix",                "ia_A",            1, {1.5}               },
-    {"unit_suffix",                "time_s",          1, {0.25}              },
-    {"unit_suffix",                "torque_Nm",       1, {0.75}              },
-    {"unit_brackets",              "theta_e_rad",     1, {REF_PI / 2}        },
-    {"unit_brackets",              "speed_rad_per_s", 1, {2 * REF_PI}        },
-    {"unit_brackets",              "torque_Nm",       1, {7}                 },
-    {"unit_brackets",              "time_s",          1, {8}                 },
-    {"bare_names",                 "theta_e_rad",     1, {1.5}               },
-    {"bare_names",                 "theta_e_deg",     1, {1.5}               },
-    {"bare_names",                 "speed_rpm",       1, {100}               },
-    {"upper_case_names",           "theta_e_rad",     1, {REF_PI / 2}        },
-    {"upper_case_names",           "time_s",          1, {5e-3}              },
-    {"upper_case_names",           "ia_A",            1, {7}                 },
-    {"upper_case_names",           "torque_Nm",       1, {8}                 },
-    {"text_table",                 "value",           2, {5, 100}            },
-    {"text_table_of_phases",       "gain",            2, {1, 1}              },
-    {"header_only",                "order",           0, {0}                 },
-    {"trailing_separators",        "amplitude_V",     3, {21.93, 0.5, 0.25}  },
-    {"nameless_column",            "order",           2, {1, 5}              },
-    {"nameless_column",            "amplitude_V",     2, {21.93, 0.5}        },
-    {"spreadsheet_end",            "amplitude_V",     1, {21.93}             },
+    {"bom",                        "order",           1, {1}               },
+    {"bom",                        "amplitude_V",     1, {21.93}           },
+    {"crlf",                       "order",           2, {1, 5}            },
+    {"crlf",                       "amplitude_V",     2, {21.93, 0.5}      },
+    {"cr",                         "amplitude_V",     2, {21.93, 0.5}      },
+    {"no_final_newline",           "amplitude_V",     2, {21.93, 0.5}      },
+    {"semicolon_decimal_comma",    "amplitude_V",     2, {21.93, 0.5}      },
+    {"semicolon_decimal_point",    "amplitude_V",     2, {21.93, 0.5}      },
+    {"tab",                        "amplitude_V",     2, {21.93, 0.5}      },
+    {"comments",                   "amplitude_V",     2, {21.93, 0.5}      },
+    {"blank_lines",                "amplitude_V",     2, {21.93, 0.5}      },
+    {"blanks_around",              "order",           2, {1, 5}            },
+    {"blanks_around",              "amplitude_V",     2, {21.93, 0.5}      },
+    {"quoted_separator_in_header", "value",           1, {1.5}             },
+    {"unit_row",                   "theta_e_rad",     1, {REF_PI}          },
+    {"unit_row",                   "ia_A",            1, {1.5}             },
+    {"unit_row",                   "order",           1, {5}               },
+    {"unit_row_bare_cells",        "theta_e_deg",     1, {180 / REF_PI}    },
+    {"unit_row_bare_cells",        "ia_A",            1, {2}               },
+    {"unit_row_bare_cells",        "order",           1, {3}               },
+    {"unit_row_utf8",              "inertia_kgm2",    1, {1}               },
+    {"unit_row_utf8",              "R_ohm",           1, {2e-3}            },
+    {"unit_row_utf8",              "Kt_Nm_per_A",     1, {3}               },
+    {"unit_row_utf8",              "Ld_H",            1, {4e-6}            },
+    {"unit_row_utf8",              "t_s",             1, {5e-6}            },
+    {"unit_row_utf8",              "temperature_C",   1, {6}               },
+    {"unit_row_only",              "theta_e_rad",     0, {0}               },
+    {"unit_row_repeats_suffix",    "theta_e_rad",     1, {1}               },
+    {"unit_suffix",                "theta_e_rad",     1, {REF_PI}          },
+    {"unit_suffix",                "speed_rad_per_s", 1, {100 * REF_PI}    },
+    {"unit_suffix",                "speed_rpm",       1, {3000}            },
+    {"unit_suffix",                "ia_A",            1, {1.5}             },
+    {"unit_suffix",                "time_s",          1, {0.25}            },
+    {"unit_suffix",                "torque_Nm",       1, {0.75}            },
+    {"unit_brackets",              "theta_e_rad",     1, {REF_PI / 2}      },
+    {"unit_brackets",              "speed_rad_per_s", 1, {2 * REF_PI}      },
+    {"unit_brackets",              "torque_Nm",       1, {7}               },
+    {"unit_brackets",              "time_s",          1, {8}               },
+    {"bare_names",                 "theta_e_rad",     1, {1.5}             },
+    {"bare_names",                 "theta_e_deg",     1, {1.5}             },
+    {"bare_names",                 "speed_rpm",       1, {100}             },
+    {"upper_case_names",           "theta_e_rad",     1, {REF_PI / 2}      },
+    {"upper_case_names",           "time_s",          1, {5e-3}            },
+    {"upper_case_names",           "ia_A",            1, {7}               },
+    {"upper_case_names",           "torque_Nm",       1, {8}               },
+    {"text_table",                 "value",           2, {5, 100}          },
+    {"text_table_of_phases",       "gain",            2, {1, 1}            },
+    {"header_only",                "order",           0, {0}               },
+    {"trailing_separators",        "amplitude_V",     3, {21.93, 0.5, 0.25}},
+    {"bare_separators_between",    "amplitude_V",     2, {21.93, 0.5}      },
+    {"nameless_column",            "order",           2, {1, 5}            },
+    {"nameless_column",            "amplitude_V",     2, {21.93, 0.5}      },
+    {"spreadsheet_end",            "amplitude_V",     1, {21.93}           },
 };
 
 static void well_formed_files_give_their_numbers(void)
@@ -148,27 +160,35 @@ static const struct {
     const char *text;
     size_t line;
 } texts[] = {
-    {"quoted",               "name",              0, "a,b",                   2},
-    {"quoted",               "source, \"remark\"", 0, "say \"so\"",            2},
-    {"quoted",               "NAME",              1, "two\nlines",            3},
-    {"quoted",               "source, \"remark\"", 1, "plain \"inside\" word", 3},
-    {"quoted",               "name",              2, "last",                  5},
-    {"quoted",               "source, \"remark\"", 2, "#5",                    5},
-    {"text_table",           "name",              0, "pole_pairs",            2},
-    {"text_table",           "source",            0, "data sheet, p. 2",      2},
-    {"text_table",           "unit",              1, "Hz",                    3},
-    {"text_table",           "source",            1, "",                      3},
-    {"text_table_of_units",  "quantity",          0, "A",                     2},
-    {"text_table_of_units",  "unit",              1, "rad",                   3},
-    {"text_table_of_phases", "phase",             0, "A",                     2},
-    {"unit_row",             "set",               0, "sym",                   3},
-    {"comments",             "order",             0, "1",                     5},
-    {"comments",             "order",             1, "5",                     6},
-    {"blank_lines",          "order",             1, "5",                     8},
-    {"cr",                   "order",             1, "5",                     3},
-    {"crlf",                 "order",             1, "5",                     3},
-    {"empty_cells",          "note",              0, "",                      2},
-    {"empty_cells",          "note",              1, "",                      3},
+    {"quoted",                  "name",               0, "a,b",                   2},
+    {"quoted",                  "source, \"remark\"", 0, "say \"so\"",            2},
+    {"quoted",                  "NAME",               1, "two\nlines",            3},
+    {"quoted",                  "source, \"remark\"", 1, "plain \"inside\" word", 3},
+    {"quoted",                  "name",               2, "last",                  5},
+    {"quoted",                  "source, \"remark\"", 2, "#5",                    5},
+    {"text_table",              "name",               0, "pole_pairs",            2},
+    {"text_table",              "source",             0, "data sheet, p. 2",      2},
+    {"text_table",              "unit",               1, "Hz",                    3},
+    {"text_table",              "source",             1, "",                      3},
+    {"text_table_of_units",     "quantity",           0, "A",                     2},
+    {"text_table_of_units",     "unit",               1, "rad",                   3},
+    {"text_table_of_phases",    "phase",              0, "A",                     2},
+    {"unit_row",                "set",                0, "sym",                   3},
+    {"comments",                "order",              0, "1",                     5},
+    {"comments",                "order",              1, "5",                     6},
+    {"blank_lines",             "order",              1, "5",                     8},
+    {"cr",                      "order",              1, "5",                     3},
+    {"crlf",                    "order",              1, "5",                     3},
+    {"crlf_with_comments",      "order",              0, "1",                     5},
+    {"tab_empty_cells",         "amplitude_V",        0, "",                      2},
+    {"tab_empty_cells",         "note",               0, "3",                     2},
+    {"tab_empty_cells",         "amplitude_V",        1, "",                      3},
+    {"cr_in_quotes",            "name",               0, "a\rb",                  2},
+    {"cr_in_quotes",            "name",               1, "c",                     4},
+    {"bare_separators_between", "order",              1, "5",                     5},
+    {"text_table_of_one_unit",  "unit",               0, "V",                     2},
+    {"empty_cells",             "note",               0, "",                      2},
+    {"empty_cells",             "note",               1, "",                      3},
 };
 
 static void cells_give_their_text_and_rows_their_line(void)
@@ -177,7 +197,8 @@ static void cells_give_their_text_and_rows_their_line(void)
         const char *text = NULL;
         hci_note note = {0};
         hci_csv *csv = open_file(texts[k].file);
-        TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_csv_text(csv, texts[k].column, texts[k].row, &text, &note), note.text);
+        TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_csv_text(csv, texts[k].column, texts[k].row, &text, &note),
+                                  note.text);
         TEST_ASSERT_EQUAL_STRING_MESSAGE(texts[k].text, text, texts[k].file);
         TEST_ASSERT_EQUAL_MESSAGE(texts[k].line, hci_csv_line(csv, texts[k].row), texts[k].file);
         hci_csv_free(csv);
@@ -211,9 +232,10 @@ static void a_single_number_is_not_converted(void)
     TEST_ASSERT_EQUAL(HCI_OK, hci_csv_number(csv, "value", 1, &value, &note));
     TEST_ASSERT_EQUAL_DOUBLE(100, value);
     TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, hci_csv_number(csv, "name", 1, &value, &note));
-    TEST_ASSERT_EQUAL_STRING("tests/files/csv/text_table.csv:3: column 1 `name`: found `emf_frequency`, expected a finite "
-                             "number; write it with a decimal point, e.g. 21.93",
-                             note.text);
+    TEST_ASSERT_EQUAL_STRING(
+        "tests/files/csv/text_table.csv:3: column 1 `name`: found `emf_frequency`, expected a finite "
+        "number; write it with a decimal point, e.g. 21.93",
+        note.text);
     TEST_ASSERT_EQUAL_DOUBLE(100, value);
     hci_csv_free(csv);
 }
@@ -223,55 +245,100 @@ static void a_single_number_is_not_converted(void)
 #define AS_IN_HEADER(n) "expected " n " as in the header (line 1); "
 #define DECIMAL_COMMA   "if the comma is the decimal mark, write a decimal point or separate the columns by ;"
 #define SAVE_UTF8       "; save it as CSV in UTF-8"
-#define NO_NAMES        "found no line of text, expected a header row of column names; write the names in the first line"
-#define FINITE          ", expected a finite number; "
-#define WITH_POINT      "write it with a decimal point, e.g. 21.93"
-#define UNIT_ROW        "in a row of units each cell must be a known unit, 1, - or empty"
+#define NO_NAMES                                                                                             \
+    "found no line of text, expected a header row of column names; write the names in the first line"
+#define FINITE     ", expected a finite number; "
+#define WITH_POINT "write it with a decimal point, e.g. 21.93"
+#define UNIT_ROW   "in a row of units each cell must be a known unit, 1, - or empty"
 
 /* column NULL: hci_csv_read refuses it. The text follows the path and a colon. */
 static const struct {
     const char *file, *column, *text;
 } bad[] = {
-    {"empty", NULL, " " NO_NAMES},
-    {"bom_only", NULL, " " NO_NAMES},
-    {"comments_only", NULL, " " NO_NAMES},
-    {"short_row", NULL, "3: column 3 `phase_rad`: found the end of the line, " AS_IN_HEADER("3 fields") "complete the line or remove it"},
-    {"cut_off", NULL, "3: column 3 `phase_rad`: found the end of the line, " AS_IN_HEADER("3 fields") "complete the line or remove it"},
-    {"long_row", NULL, "3: column 3: found `0`, " AS_IN_HEADER("2 fields") DECIMAL_COMMA},
-    {"long_row_semicolon", NULL, "2: column 3: found `x`, " AS_IN_HEADER("2 fields") "remove what is too much, or quote a text that holds the separator"},
-    {"decimal_comma_among_commas", NULL, "2: column 3: found `93`, " AS_IN_HEADER("2 fields") DECIMAL_COMMA},
-    {"decimal_comma_one_column", NULL, "2: column 2: found `5`, " AS_IN_HEADER("1 field") DECIMAL_COMMA},
-    {"duplicate_header", NULL, "1: column 3 `IA_a`: found the name of column 2 again, expected each name once; rename or remove one of them"},
-    {"no_header", NULL, "1: column 1: found `0.5`, expected a column name; put a row of column names first"},
-    {"nul", NULL, "2: found a NUL byte, expected text" SAVE_UTF8},
-    {"spreadsheet", NULL, "1: found a NUL byte, expected text" SAVE_UTF8},
-    {"utf16le", NULL, " found UTF-16, expected UTF-8" SAVE_UTF8},
-    {"utf16be", NULL, " found UTF-16, expected UTF-8" SAVE_UTF8},
-    {"latin1_header", NULL, "1: column 2: found `temp_\\xb0C`, expected text in UTF-8; save the file as CSV in UTF-8"},
-    {"unclosed_quote", NULL, "3: column 2: found an opening quote only, expected a closing quote; close the quotes, and write a quote inside of them twice"},
-    {"text_after_quote", NULL, "2: column 2: found text after a closing quote, expected a separator or the end of the line; write a quote inside of quotes twice"},
-    {"control_characters_in_row", NULL, "2: column 2: found `\\x1b[31mred\\x07`, " AS_IN_HEADER("1 field") DECIMAL_COMMA},
+    {"empty",                               NULL,              " " NO_NAMES                                                                       },
+    {"bom_only",                            NULL,              " " NO_NAMES                                                                       },
+    {"comments_only",                       NULL,              " " NO_NAMES                                                                       },
+    {"short_row",                           NULL,
+     "3: column 3 `phase_rad`: found the end of the line, " AS_IN_HEADER(
+         "3 fields") "complete the line or remove it"                                                                                             },
+    {"cut_off",                             NULL,
+     "3: column 3 `phase_rad`: found the end of the line, " AS_IN_HEADER(
+         "3 fields") "complete the line or remove it"                                                                                             },
+    {"long_row",                            NULL,              "3: column 3: found `0`, " AS_IN_HEADER("2 fields") DECIMAL_COMMA                  },
+    {"long_row_semicolon",                  NULL,
+     "2: column 3: found `x`, " AS_IN_HEADER(
+         "2 fields") "remove what is too much, or quote a text that holds the separator"                                                          },
+    {"decimal_comma_among_commas",          NULL,              "2: column 3: found `93`, " AS_IN_HEADER("2 fields") DECIMAL_COMMA                 },
+    {"decimal_comma_one_column",            NULL,              "2: column 2: found `5`, " AS_IN_HEADER("1 field") DECIMAL_COMMA                   },
+    {"duplicate_header",                    NULL,
+     "1: column 3 `IA_a`: found the name of column 2 again, expected each name once; rename or remove one of "
+     "them"                                                                                                                                       },
+    {"no_header",                           NULL,              "1: column 1: found `0.5`, expected a column name; put a row of column names first"},
+    {"nul",                                 NULL,              "2: found a NUL byte, expected text" SAVE_UTF8                                     },
+    {"spreadsheet",                         NULL,              "1: found a NUL byte, expected text" SAVE_UTF8                                     },
+    {"utf16le",                             NULL,              " found UTF-16, expected UTF-8" SAVE_UTF8                                          },
+    {"utf16be",                             NULL,              " found UTF-16, expected UTF-8" SAVE_UTF8                                          },
+    {"latin1_header",                       NULL,
+     "1: column 2: found `temp_\\xb0C`, expected text in UTF-8; save the file as CSV in UTF-8"                                                    },
+    {"unclosed_quote",                      NULL,
+     "3: column 2: found an opening quote only, expected a closing quote; close the quotes, and write a "
+     "quote inside of them twice"                                                                                                                 },
+    {"unclosed_quote_at_the_end",           NULL,
+     "2: column 2: found an opening quote only, expected a closing quote; close the quotes, and write a "
+     "quote inside of them twice"                                                                                                                 },
+    {"unclosed_quote_after_doubled_quotes", NULL,
+     "2: column 2: found an opening quote only, expected a closing quote; close the quotes, and write a "
+     "quote inside of them twice"                                                                                                                 },
+    {"text_after_quote",                    NULL,
+     "2: column 2: found text after a closing quote, expected a separator or the end of the line; write a "
+     "quote inside of quotes twice"                                                                                                               },
+    {"control_characters_in_row",           NULL,
+     "2: column 2: found `\\x1b[31mred\\x07`, " AS_IN_HEADER("1 field") DECIMAL_COMMA                                                             },
 
-    {"duplicate_quantity", "theta_e_rad", "1: column 2 `theta_e_deg`: found `theta_e_rad` a second time, expected one column for it; remove or rename one of them"},
-    {"nan", "amplitude_V", "2: column 2 `amplitude_V`: found `nan`" FINITE "remove the line or correct the value"},
-    {"inf", "amplitude_V", "3: column 2 `amplitude_V`: found `-Infinity`" FINITE "remove the line or correct the value"},
-    {"overflow", "amplitude_V", "2: column 2 `amplitude_V`: found `1e999`" FINITE "remove the line or correct the value"},
-    {"overflow_in_conversion", "speed_rad_per_s", "2: column 1 `speed_rev_per_s`: found `1.7e308`" FINITE "remove the line or correct the value"},
-    {"empty_cell", "amplitude_V", "2: column 2 `amplitude_V`: found an empty cell" FINITE "fill the cell or remove the line"},
-    {"unit_row_before_empty_cell", "theta_e_rad", "3: column 1 `theta_e`: found an empty cell" FINITE "fill the cell or remove the line"},
-    {"text_for_number", "amplitude_V", "3: column 2 `amplitude_V`: found `abc`" FINITE WITH_POINT},
-    {"hexadecimal", "amplitude_V", "2: column 2 `amplitude_V`: found `0x10`" FINITE WITH_POINT},
-    {"two_marks", "amplitude_V", "2: column 2 `amplitude_V`: found `1.2.3`" FINITE WITH_POINT},
-    {"thousands", "amplitude_V", "2: column 2 `amplitude_V`: found `1.234,5`" FINITE WITH_POINT},
-    {"decimal_comma_tab", "amplitude_V", "2: column 2 `amplitude_V`: found `0,5`" FINITE WITH_POINT},
-    {"mixed_decimal_marks", "amplitude_V", "3: column 2 `amplitude_V`: found `1.234`, expected one decimal mark in all of the column; write no marks between thousands, and the same decimal mark everywhere"},
-    {"control_characters", "amplitude_V", "2: column 2 `amplitude_V`: found `\\x1b]0;x\\x07\\x7f\\xc2\\x9b`" FINITE WITH_POINT},
-    {"quoted_newline_line_number", "value", "5: column 2 `value`: found `x`" FINITE WITH_POINT},
-    {"unit_row_unknown", "theta_e_rad", "2: column 2 `ia`: found `furlong`, expected a unit, as in the other cells; " UNIT_ROW},
-    {"unit_row_mega", "ia_A", "2: column 2 `ia`: found `MA`, expected a unit, as in the other cells; " UNIT_ROW},
-    {"unit_wrong_dimension", "torque_Nm", "2: column 1 `torque`: found the unit `A`, expected a unit of the quantity asked for; correct the unit"},
-    {"unit_conflict", "theta_e_rad", "2: column 1 `theta_e_rad`: found the unit `deg`, expected the unit in the column's name; correct the unit"},
-    {"text_table", "torque_Nm", "1: found no column `torque_Nm` but `name`, `value`, `unit`, `source`, expected it in the header; add it or rename a column"},
+    {"duplicate_quantity",                  "theta_e_rad",
+     "1: column 2 `theta_e_deg`: found `theta_e_rad` a second time, expected one column for it; remove or "
+     "rename one of them"                                                                                                                         },
+    {"nan",                                 "amplitude_V",
+     "2: column 2 `amplitude_V`: found `nan`" FINITE "remove the line or correct the value"                                                       },
+    {"inf",                                 "amplitude_V",
+     "3: column 2 `amplitude_V`: found `-Infinity`" FINITE "remove the line or correct the value"                                                 },
+    {"overflow",                            "amplitude_V",
+     "2: column 2 `amplitude_V`: found `1e999`" FINITE "remove the line or correct the value"                                                     },
+    {"overflow_in_conversion",              "speed_rad_per_s",
+     "2: column 1 `speed_rev_per_s`: found `1.7e308`" FINITE "remove the line or correct the value"                                               },
+    {"empty_cell",                          "amplitude_V",
+     "2: column 2 `amplitude_V`: found an empty cell" FINITE "fill the cell or remove the line"                                                   },
+    {"unit_row_before_empty_cell",          "theta_e_rad",
+     "3: column 1 `theta_e`: found an empty cell" FINITE "fill the cell or remove the line"                                                       },
+    {"text_for_number",                     "amplitude_V",     "3: column 2 `amplitude_V`: found `abc`" FINITE WITH_POINT                         },
+    {"hexadecimal",                         "amplitude_V",     "2: column 2 `amplitude_V`: found `0x10`" FINITE WITH_POINT                        },
+    {"two_marks",                           "amplitude_V",     "2: column 2 `amplitude_V`: found `1.2.3`" FINITE WITH_POINT                       },
+    {"thousands",                           "amplitude_V",     "2: column 2 `amplitude_V`: found `1.234,5`" FINITE WITH_POINT                     },
+    {"decimal_comma_tab",                   "amplitude_V",     "2: column 2 `amplitude_V`: found `0,5`" FINITE WITH_POINT                         },
+    {"mixed_decimal_marks",                 "amplitude_V",
+     "3: column 2 `amplitude_V`: found `1.234`, expected one decimal mark in all of the column; write no "
+     "marks between thousands, and the same decimal mark everywhere"                                                                              },
+    {"control_characters",                  "amplitude_V",
+     "2: column 2 `amplitude_V`: found `\\x1b]0;x\\x07\\x7f\\xc2\\x9b`" FINITE WITH_POINT                                                         },
+    {"quoted_newline_line_number",          "value",           "5: column 2 `value`: found `x`" FINITE WITH_POINT                                 },
+    {"unit_row_unknown",                    "theta_e_rad",
+     "2: column 2 `ia`: found `furlong`, expected a unit, as in the other cells; " UNIT_ROW                                                       },
+    {"unit_row_mega",                       "ia_A",
+     "2: column 2 `ia`: found `MA`, expected a unit, as in the other cells; " UNIT_ROW                                                            },
+    {"unit_wrong_dimension",                "torque_Nm",
+     "2: column 1 `torque`: found the unit `A`, expected a unit of the quantity asked for; correct the unit"                                      },
+    {"unit_conflict",                       "theta_e_rad",
+     "2: column 1 `theta_e_rad`: found the unit `deg`, expected the unit in the column's name; correct the "
+     "unit"                                                                                                                                       },
+    {"unit_suffix",                         "ia_V",
+     "1: found no column `ia_V` but `theta_e_deg`, `speed_rpm`, `ia_mA`, `time_ms`, `torque_mNm`, expected "
+     "it in the header; add it or rename a column"                                                                                                },
+    {"nameless_column",                     "ia_A",
+     "1: found no column `ia_A` but `order`, `amplitude_V`, expected it in the header; add it or rename a "
+     "column"                                                                                                                                     },
+    {"text_table",                          "torque_Nm",
+     "1: found no column `torque_Nm` but `name`, `value`, `unit`, `source`, expected it in the header; add "
+     "it or rename a column"                                                                                                                      },
 };
 
 static void faulty_files_are_refused_with_place_and_remedy(void)
@@ -298,9 +365,10 @@ static void a_text_that_is_not_utf8_is_refused(void)
     hci_csv *csv = open_file("latin1_text");
     TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, hci_csv_text(csv, "name", 0, &text, &note));
     TEST_ASSERT_NULL(text);
-    TEST_ASSERT_EQUAL_STRING("tests/files/csv/latin1_text.csv:2: column 1: found `D\\xfcse`, expected text in UTF-8; save the "
-                             "file as CSV in UTF-8",
-                             note.text);
+    TEST_ASSERT_EQUAL_STRING(
+        "tests/files/csv/latin1_text.csv:2: column 1: found `D\\xfcse`, expected text in UTF-8; save the "
+        "file as CSV in UTF-8",
+        note.text);
     hci_csv_free(csv);
 }
 
@@ -316,13 +384,35 @@ static void a_long_cell_is_cut_in_the_note(void)
     hci_csv_free(csv);
 }
 
+/* Whatever the lengths, the list of columns ends between two characters. */
+static void a_long_list_of_columns_is_cut_in_the_note(void)
+{
+    for (int length = 1; length < 60; length++) {
+        char text[8192];
+        size_t used = 0;
+        hci_note note = {0};
+        hci_csv *csv;
+        for (int c = 0; c < 99; c++)
+            used += (size_t)snprintf(text + used, sizeof text - used, "%0*d\xC2\xB5,", length, c);
+        write_scratch(text, used);
+        TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_csv_read(scratch, &csv, &note), note.text);
+        TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, hci_csv_numbers(csv, "torque_Nm", NULL, &note));
+        TEST_ASSERT_TRUE(hci_utf8_valid(note.text));
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(note.text, "`, \xE2\x80\xA6, expected it in the header;"),
+                                     note.text);
+        hci_csv_free(csv);
+    }
+}
+
 static void a_caller_can_point_at_a_cell(void)
 {
     hci_note note = {0};
     hci_csv *csv = open_file("unit_suffix");
-    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, hci_csv_error(csv, "speed_rad_per_s", 0, &note, "a speed below 10", "brake"));
-    TEST_ASSERT_EQUAL_STRING(
-        "tests/files/csv/unit_suffix.csv:2: column 2 `speed_rpm`: found `3000`, expected a speed below 10; brake", note.text);
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT,
+                      hci_csv_error(csv, "speed_rad_per_s", 0, &note, "a speed below 10", "brake"));
+    TEST_ASSERT_EQUAL_STRING("tests/files/csv/unit_suffix.csv:2: column 2 `speed_rpm`: found `3000`, "
+                             "expected a speed below 10; brake",
+                             note.text);
     TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, hci_csv_error(csv, "order", 0, NULL, "x", "y"));
     hci_csv_free(csv);
 }
@@ -334,8 +424,8 @@ static void assert_unreadable(const char *path, const char *reason)
     char expected[HCI_NOTE_SIZE];
     TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, hci_csv_read(path, &csv, &note));
     TEST_ASSERT_NULL(csv);
-    snprintf(expected, sizeof expected, "%s: cannot be read: %s; give the path of a CSV file that you may read", path,
-             reason);
+    snprintf(expected, sizeof expected,
+             "%s: cannot be read: %s; give the path of a CSV file that you may read", path, reason);
     TEST_ASSERT_EQUAL_STRING(expected, note.text);
 }
 
@@ -379,10 +469,12 @@ static void the_number_of_columns_is_limited(void)
         hci_note note = {0};
         hci_csv *csv;
         size_t used = 0;
-        for (int c = 0; c < columns; c++) used += (size_t)snprintf(text + used, sizeof text - used, "x%d,", c);
+        for (int c = 0; c < columns; c++)
+            used += (size_t)snprintf(text + used, sizeof text - used, "x%d,", c);
         write_scratch(text, used);
         TEST_ASSERT_EQUAL(columns == 4096 ? HCI_OK : HCI_ERROR_INPUT, hci_csv_read(scratch, &csv, &note));
-        TEST_ASSERT_TRUE(columns == 4096 || strstr(note.text, ":1: column 4097: found another column, expected 4096") != NULL);
+        TEST_ASSERT_TRUE(columns == 4096 ||
+                         strstr(note.text, ":1: column 4097: found another column, expected 4096") != NULL);
         hci_csv_free(csv);
     }
 }
@@ -409,13 +501,14 @@ static bool often(uint64_t *seed)
 /* Pieces that a reader may trip over. No blanks at the ends: they are trimmed. */
 static void random_cell(uint64_t *seed, bool first, char *cell)
 {
-    static const char *const piece[] = {"a", "\"", ",", ";", "\t.", "\n", "\r\n.", "#", "1", "\xC3\xA9", "\xCE\xA9", " b", "-"};
+    static const char *const piece[] = {"a", "\"", ",",        ";",        "\t.", "\n", "\r\n.",
+                                        "#", "1",  "\xC3\xA9", "\xCE\xA9", " b",  "-"};
     snprintf(cell, CELL, "%s", first ? "x" : "");
     for (size_t n = below(seed, 5); n > 0; n--) {
         const char *next = piece[below(seed, sizeof piece / sizeof *piece)];
         if (strlen(cell) + strlen(next) < CELL - 1) memcpy(cell + strlen(cell), next, strlen(next) + 1);
     }
-    if (strchr(" \t\n\r", cell[0]) != NULL) memmove(cell + 1, cell, strlen(cell) + 1), cell[0] = 'y';
+    if (cell[0] != '\0' && strchr(" \t\n\r", cell[0]) != NULL) cell[0] = 'y';
 }
 
 static void random_table(uint64_t *seed, table *t)
@@ -423,7 +516,8 @@ static void random_table(uint64_t *seed, table *t)
     t->rows = below(seed, ROWS + 1);
     t->columns = 1 + below(seed, COLUMNS);
     for (size_t row = 0; row < t->rows; row++) {
-        for (size_t column = 0; column < t->columns; column++) random_cell(seed, column == 0, t->cells[row][column]);
+        for (size_t column = 0; column < t->columns; column++)
+            random_cell(seed, column == 0, t->cells[row][column]);
     }
 }
 
@@ -442,7 +536,8 @@ static void append_cell(uint64_t *seed, const char *cell, char separator, char *
     *out = '\0';
 }
 
-static void append_row(uint64_t *seed, const table *t, size_t row, char separator, const char *newline, char *out)
+static void append_row(uint64_t *seed, const table *t, size_t row, char separator, const char *newline,
+                       char *out)
 {
     for (size_t column = 0; column < t->columns; column++) {
         const char between[] = {separator, '\0'};
@@ -457,7 +552,8 @@ static void write_table(uint64_t *seed, const table *t, char *out)
     static const char separators[] = ",;\t";
     static const char *const newlines[] = {"\n", "\r\n", "\r"}, *const fillers[] = {"", "", "# c, \"", "  "};
     /* A header of one name does not show a separator: then it is the comma. */
-    const char separator = separators[t->columns > 1 ? below(seed, 3) : 0], *newline = newlines[below(seed, 3)];
+    const char separator = separators[t->columns > 1 ? below(seed, 3) : 0],
+               *newline = newlines[below(seed, 3)];
     snprintf(out, 8, "%s", often(seed) ? "\xEF\xBB\xBF" : "");
     for (size_t column = 0; column < t->columns; column++) {
         sprintf(out + strlen(out), "%.*sc%zu", column > 0, &separator, column);
@@ -501,14 +597,15 @@ static void a_table_comes_back_however_it_is_written(void)
 static void long_and_odd_numbers_are_rounded_once(void)
 {
     /* The fifth is in 4.9406564584124654e-324 ± half of it; the last is 0.1 with 900 zeros around. */
-    const double expected[] = {0.1,     9007199254740992.0, 9007199254740994.0, DBL_MAX, 0x1p-1074, 0.0, 0.5, 5.0,
-                               700.0, -0.0,               1.0};
+    const double expected[] = {
+        0.1, 9007199254740992.0, 9007199254740994.0, DBL_MAX, 0x1p-1074, 0.0, 0.5, 5.0, 700.0, -0.0, 1.0};
     double values[11];
     hci_note note = {0};
     hci_csv *csv = open_file("long_numbers");
     TEST_ASSERT_EQUAL(11, hci_csv_rows(csv));
     TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_csv_numbers(csv, "x", values, &note), note.text);
-    for (size_t k = 0; k < 11; k++) TEST_ASSERT_EQUAL_MEMORY(&expected[k], &values[k], sizeof values[k]);
+    for (size_t k = 0; k < 11; k++)
+        TEST_ASSERT_EQUAL_MEMORY(&expected[k], &values[k], sizeof values[k]);
     hci_csv_free(csv);
 }
 
@@ -535,9 +632,11 @@ static void parsing_agrees_with_strtod_to_the_last_bit(void)
 
 static void texts_that_are_no_numbers_are_refused(void)
 {
-    static const char *const no[] = {"",    " ",   "-",    "+",     ".",    "e5",  "1e",       "1e+",      "1 ", " 1",
-                                     "1,5", "0x1", "1f",   "1..2",  "--1",  "+-1", "nan",      "inf",      "1e309",
-                                     "1d5", "1_0", "1e5.", "-1e999", "NaN(1)", "1e99999999999999999999"};
+    static const char *const no[] = {"",    " ",    "-",      "+",      ".",
+                                     "e5",  "1e",   "1e+",    "1 ",     " 1",
+                                     "1,5", "0x1",  "1f",     "1..2",   "--1",
+                                     "+-1", "nan",  "inf",    "1e309",  "1d5",
+                                     "1_0", "1e5.", "-1e999", "NaN(1)", "1e99999999999999999999"};
     for (size_t k = 0; k < sizeof no / sizeof *no; k++) {
         double value = 7;
         TEST_ASSERT_FALSE_MESSAGE(hci_number_parse(no[k], &value), no[k]);
@@ -551,12 +650,24 @@ static void numbers_are_written_as_short_as_they_can_be(void)
         double value;
         const char *text;
     } known[] = {
-        {0.0, "0.0"},       {-0.0, "-0.0"},       {1.0, "1.0"},           {0.1, "0.1"},           {-2.5, "-2.5"},
-        {100000, "100000.0"}, {1e22, "1.0e22"},   {1e-7, "1.0e-7"},       {1.0 / 3, "0.3333333333333333"},
-        {0.1 + 0.2, "0.30000000000000004"},       {21.93, "21.93"},       {0x1p-1074, "5.0e-324"},
-        {0x1p-24, "5.960464477539063e-8"},        {0x1p-791, "7.678447687145631e-239"},
-        {DBL_MAX, "1.7976931348623157e308"},      {DBL_MIN, "2.2250738585072014e-308"},
-        {9007199254740993.0, "9007199254740992.0"}, {-1.2345678901234568e-300, "-1.2345678901234568e-300"},
+        {0.0,                      "0"                       },
+        {-0.0,                     "-0"                      },
+        {1.0,                      "1"                       },
+        {0.1,                      "0.1"                     },
+        {-2.5,                     "-2.5"                    },
+        {100000,                   "100000"                  },
+        {1e22,                     "1e22"                    },
+        {1e-7,                     "1e-7"                    },
+        {1.0 / 3,                  "0.3333333333333333"      },
+        {0.1 + 0.2,                "0.30000000000000004"     },
+        {21.93,                    "21.93"                   },
+        {0x1p-1074,                "5e-324"                  },
+        {0x1p-24,                  "5.960464477539063e-8"    },
+        {0x1p-791,                 "7.678447687145631e-239"  },
+        {DBL_MAX,                  "1.7976931348623157e308"  },
+        {DBL_MIN,                  "2.2250738585072014e-308" },
+        {9007199254740993.0,       "9007199254740992"        },
+        {-1.2345678901234568e-300, "-1.2345678901234568e-300"},
     };
     char text[32];
     for (size_t k = 0; k < sizeof known / sizeof *known; k++) {
@@ -582,7 +693,6 @@ static void what_is_written_reads_back_to_the_same_bits(void)
         char text[32];
         if (!isfinite(value)) continue;
         hci_number_text(value, text);
-        TEST_ASSERT_NOT_NULL(strchr(text, '.'));
         TEST_ASSERT_TRUE_MESSAGE(hci_number_parse(text, &back), text);
         TEST_ASSERT_EQUAL_MEMORY_MESSAGE(&value, &back, sizeof value, text);
         back = strtod(text, NULL);
@@ -594,7 +704,8 @@ static void a_locale_with_a_decimal_comma_changes_nothing(void)
 {
     static const char *const names[] = {"de_DE.UTF-8", "de_DE.utf8", "de_DE", "fr_FR.UTF-8", "it_IT.UTF-8"};
     const char *set = NULL;
-    for (size_t k = 0; k < sizeof names / sizeof *names && set == NULL; k++) set = setlocale(LC_ALL, names[k]);
+    for (size_t k = 0; k < sizeof names / sizeof *names && set == NULL; k++)
+        set = setlocale(LC_ALL, names[k]);
     if (set == NULL) TEST_IGNORE_MESSAGE("no locale with a decimal comma here");
     char text[32], printed[8];
     double value = 0;
@@ -616,17 +727,54 @@ static void units_convert_by_their_definition(void)
         const char *from, *to;
         double factor;
     } known[] = {
-        {"deg", "rad", REF_PI / 180}, {"rad", "deg", 180 / REF_PI}, {"\xC2\xB0", "rad", REF_PI / 180}, {"rev", "deg", 360},
-        {"rpm", "rad/s", REF_PI / 30}, {"1/min", "rpm", 1}, {"rad_per_s", "rpm", 30 / REF_PI}, {"RPM", "rad/s", REF_PI / 30},
-        {"rad/s", "rad_per_s", 1}, {"rad_s", "rad/s", 1}, {"rev/s", "rpm", 60},
-        {"mA", "A", 1e-3}, {"A", "mA", 1e3}, {"mV", "kV", 1e-6}, {"ms", "us", 1e3}, {"\xC2\xB5s", "s", 1e-6}, {"\xCE\xBCs", "s", 1e-6},
-        {"mNm", "Nm", 1e-3}, {"N\xC2\xB7m", "Nm", 1}, {"N*m", "N m", 1}, {"N-m", "N.m", 1}, {"N_m", "N\xE2\x8B\x85m", 1},
-        {"Nm_per_A", "V\xC2\xB7s/rad", 1}, {"Vs/rad", "Nm/A", 1}, {"V_s_per_rad", "N\xC2\xB7m/A", 1}, {"V*s/rad", "mNm/A", 1e3},
-        {"mH", "H", 1e-3}, {"uH", "mH", 1e-3}, {"\xC2\xB5H", "H", 1e-6}, {"H/rad", "H_per_rad", 1},
-        {"\xCE\xA9", "ohm", 1}, {"\xE2\x84\xA6", "mohm", 1e3}, {"m\xCE\xA9", "ohm", 1e-3}, {"Ohm", "ohm", 1},
-        {"kg\xC2\xB7m\xC2\xB2", "kgm2", 1}, {"kg*m^2", "kg_m2", 1}, {"kg m2", "kg\xC2\xB7m\xC2\xB2", 1},
-        {"Nms_per_rad", "N\xC2\xB7m\xC2\xB7s/rad", 1}, {"Nm\xC2\xB7s/rad", "Nms/rad", 1}, {"N_m_s_per_rad", "N m s / rad", 1},
-        {"degC", "C", 1}, {"\xC2\xB0""C", "degC", 1}, {"kHz", "Hz", 1e3}, {"kW", "W", 1e3}, {"%", "1", 0.01}, {"", "1", 1}, {"-", "1", 1},
+        {"deg",                 "rad",                     REF_PI / 180},
+        {"rad",                 "deg",                     180 / REF_PI},
+        {"\xC2\xB0",            "rad",                     REF_PI / 180},
+        {"rev",                 "deg",                     360         },
+        {"rpm",                 "rad/s",                   REF_PI / 30 },
+        {"1/min",               "rpm",                     1           },
+        {"rad_per_s",           "rpm",                     30 / REF_PI },
+        {"RPM",                 "rad/s",                   REF_PI / 30 },
+        {"rad/s",               "rad_per_s",               1           },
+        {"rad_s",               "rad/s",                   1           },
+        {"rev/s",               "rpm",                     60          },
+        {"mA",                  "A",                       1e-3        },
+        {"A",                   "mA",                      1e3         },
+        {"mV",                  "kV",                      1e-6        },
+        {"ms",                  "us",                      1e3         },
+        {"\xC2\xB5s",           "s",                       1e-6        },
+        {"\xCE\xBCs",           "s",                       1e-6        },
+        {"mNm",                 "Nm",                      1e-3        },
+        {"N\xC2\xB7m",          "Nm",                      1           },
+        {"N*m",                 "N m",                     1           },
+        {"N-m",                 "N.m",                     1           },
+        {"N_m",                 "N\xE2\x8B\x85m",          1           },
+        {"Nm_per_A",            "V\xC2\xB7s/rad",          1           },
+        {"Vs/rad",              "Nm/A",                    1           },
+        {"V_s_per_rad",         "N\xC2\xB7m/A",            1           },
+        {"V*s/rad",             "mNm/A",                   1e3         },
+        {"mH",                  "H",                       1e-3        },
+        {"uH",                  "mH",                      1e-3        },
+        {"\xC2\xB5H",           "H",                       1e-6        },
+        {"H/rad",               "H_per_rad",               1           },
+        {"\xCE\xA9",            "ohm",                     1           },
+        {"\xE2\x84\xA6",        "mohm",                    1e3         },
+        {"m\xCE\xA9",           "ohm",                     1e-3        },
+        {"Ohm",                 "ohm",                     1           },
+        {"kg\xC2\xB7m\xC2\xB2", "kgm2",                    1           },
+        {"kg*m^2",              "kg_m2",                   1           },
+        {"kg m2",               "kg\xC2\xB7m\xC2\xB2",     1           },
+        {"Nms_per_rad",         "N\xC2\xB7m\xC2\xB7s/rad", 1           },
+        {"Nm\xC2\xB7s/rad",     "Nms/rad",                 1           },
+        {"N_m_s_per_rad",       "N m s / rad",             1           },
+        {"degC",                "C",                       1           },
+        {"\xC2\xB0"
+         "C",          "degC",                    1           },
+        {"kHz",                 "Hz",                      1e3         },
+        {"kW",                  "W",                       1e3         },
+        {"%",                   "1",                       0.01        },
+        {"",                    "1",                       1           },
+        {"-",                   "1",                       1           },
     };
     for (size_t k = 0; k < sizeof known / sizeof *known; k++) {
         double factor = 0;
@@ -638,8 +786,19 @@ static void units_convert_by_their_definition(void)
 static void units_of_other_dimensions_do_not_convert(void)
 {
     static const char *const pairs[][2] = {
-        {"A", "V"}, {"rad", "rad/s"}, {"Hz", "rad/s"}, {"Nm", "Nm/A"}, {"H", "H/rad"}, {"1", "rad"}, {"MA", "A"}, {"m", "1"},
-        {"m_rad", "rad"}, {"furlong", "furlong"}, {"rad", ""}, {"Nm ", "A"}, {"kilogram times metre squared", "kgm2"},
+        {"A",                            "V"      },
+        {"rad",                          "rad/s"  },
+        {"Hz",                           "rad/s"  },
+        {"Nm",                           "Nm/A"   },
+        {"H",                            "H/rad"  },
+        {"1",                            "rad"    },
+        {"MA",                           "A"      },
+        {"m",                            "1"      },
+        {"m_rad",                        "rad"    },
+        {"furlong",                      "furlong"},
+        {"rad",                          ""       },
+        {"Nm ",                          "A"      },
+        {"kilogram times metre squared", "kgm2"   },
     };
     for (size_t k = 0; k < sizeof pairs / sizeof *pairs; k++) {
         double factor = 7;
@@ -663,7 +822,8 @@ static void the_first_error_wins(void)
 static void a_note_is_cut_between_characters(void)
 {
     static char text[2 * HCI_NOTE_SIZE + 1];
-    for (size_t k = 0; k < HCI_NOTE_SIZE; k++) memcpy(text + 2 * k, "\xC3\xA9", 2);
+    for (size_t k = 0; k < HCI_NOTE_SIZE; k++)
+        memcpy(text + 2 * k, "\xC3\xA9", 2);
     for (size_t shift = 0; shift < 2; shift++) {
         hci_note note = {0};
         hci_note_set(&note, HCI_ERROR_INPUT, "%.*s%s", (int)shift, "x", text);
@@ -674,10 +834,29 @@ static void a_note_is_cut_between_characters(void)
 
 static void utf8_is_told_from_other_bytes(void)
 {
-    static const char *const yes[] = {"", "a", "\xC2\x80", "\xDF\xBF", "\xE0\xA0\x80", "\xEF\xBF\xBF", "\xF0\x90\x80\x80", "\xF4\x8F\xBF\xBF"};
-    static const char *const no[] = {"\x80", "\xC1\xBF", "\xC2", "\xC2x", "\xE0\x9F\xBF", "\xED\xA0\x80", "\xF0\x8F\xBF\xBF", "\xF4\x90\x80\x80", "\xF8\x88\x80\x80\x80", "\xFF", "\xE2\x82"};
-    for (size_t k = 0; k < sizeof yes / sizeof *yes; k++) TEST_ASSERT_TRUE_MESSAGE(hci_utf8_valid(yes[k]), yes[k]);
-    for (size_t k = 0; k < sizeof no / sizeof *no; k++) TEST_ASSERT_FALSE_MESSAGE(hci_utf8_valid(no[k]), no[k]);
+    static const char *const yes[] = {"",
+                                      "a",
+                                      "\xC2\x80",
+                                      "\xDF\xBF",
+                                      "\xE0\xA0\x80",
+                                      "\xEF\xBF\xBF",
+                                      "\xF0\x90\x80\x80",
+                                      "\xF4\x8F\xBF\xBF"};
+    static const char *const no[] = {"\x80",
+                                     "\xC1\xBF",
+                                     "\xC2",
+                                     "\xC2x",
+                                     "\xE0\x9F\xBF",
+                                     "\xED\xA0\x80",
+                                     "\xF0\x8F\xBF\xBF",
+                                     "\xF4\x90\x80\x80",
+                                     "\xF8\x88\x80\x80\x80",
+                                     "\xFF",
+                                     "\xE2\x82"};
+    for (size_t k = 0; k < sizeof yes / sizeof *yes; k++)
+        TEST_ASSERT_TRUE_MESSAGE(hci_utf8_valid(yes[k]), yes[k]);
+    for (size_t k = 0; k < sizeof no / sizeof *no; k++)
+        TEST_ASSERT_FALSE_MESSAGE(hci_utf8_valid(no[k]), no[k]);
 }
 
 static void a_long_path_keeps_its_end(void)
@@ -696,7 +875,8 @@ static void write_long_file(void)
 {
     FILE *stream = fopen(scratch, "w");
     fputs("time_s,torque_Nm\n", stream);
-    for (int row = 0; row < 20000; row++) fprintf(stream, "%d.5,%d\n", row, 20000 - row);
+    for (int row = 0; row < 20000; row++)
+        fprintf(stream, "%d.5,%d\n", row, 20000 - row);
     fclose(stream);
 }
 
@@ -718,7 +898,8 @@ static void every_allocation_may_fail(void)
         TEST_ASSERT_TRUE(status == HCI_OK || strstr(note.text, "not enough memory") != NULL);
         hci_csv_free(csv);
     }
-    for (int row = 0; row < 20000; row++) TEST_ASSERT_EQUAL_DOUBLE(20000 - row, values[row]);
+    for (int row = 0; row < 20000; row++)
+        TEST_ASSERT_EQUAL_DOUBLE(20000 - row, values[row]);
     TEST_ASSERT_TRUE(failures > 8);
 }
 
@@ -745,6 +926,7 @@ int main(void)
     RUN_TEST(faulty_files_are_refused_with_place_and_remedy);
     RUN_TEST(a_text_that_is_not_utf8_is_refused);
     RUN_TEST(a_long_cell_is_cut_in_the_note);
+    RUN_TEST(a_long_list_of_columns_is_cut_in_the_note);
     RUN_TEST(a_caller_can_point_at_a_cell);
     RUN_TEST(what_cannot_be_opened_is_said_with_its_reason);
     RUN_TEST(a_pipe_is_read_like_a_file);

@@ -34,17 +34,19 @@ double hci_norm_1(size_t m, size_t n, const double *a);
 double hci_lu_condition(size_t n, const double *lu, const size_t *pivot, double norm_1, double *work);
 
 /* Iterative refinement of x until the componentwise backward error stops falling; at most 5 steps. A step
- * that would raise the error is not taken. a: the unfactored n×n matrix; b: right-hand side; x: in/out;
- * work: n doubles. Returns the backward error max_i |b − A x|_i / (|A||x| + |b|)_i. O(n²) a step. */
+ * that would raise the error is not taken.
+ * a: the unfactored n×n matrix; b: right-hand side; x: in/out; work: n doubles. Returns the
+ * backward error max_i |b − A x|_i / (|A||x| + |b|)_i. O(n²) a step. */
 double hci_lu_refine(size_t n, const double *a, const double *lu, const size_t *pivot, const double *b, double *x,
                      double *work);
 
 /* Complete orthogonal decomposition A P = Q [T 0; 0 0] Zᵀ of an m×n matrix: the least-squares solution of
- * least norm for every shape and rank. a: in/out, m×n; column: out, n entries (column permutation);
- * factor_work: hci_orthogonal_workspace(m, n) doubles, kept with a for the solve. relative_tolerance: a
- * column whose remaining norm is below it times the largest first norm counts as dependent; 0 picks max(m,
- * n)·2⁻⁵². rank: out. condition: out, may be NULL: |R_11|/|R_rr|, a cheap estimate (1 at rank 0). Elements
- * near the ends of the range of a double are no danger: the factors are those of A times a power of two.
+ * least norm for every shape and rank.
+ * a: in/out, m×n; column: out, n entries (column permutation); factor_work: hci_orthogonal_workspace(m, n)
+ * doubles, kept with a for the solve. relative_tolerance: a column whose remaining norm is below it times the
+ * largest first norm counts as dependent; 0 picks 2⁻⁵²·max(m, n). rank: out. condition: out, may be NULL:
+ * |R_11|/|R_rr|, a cheap estimate (1 at rank 0). Elements near the ends of the range of a double are no
+ * danger: the factors are those of A times a power of two.
  * HCI_ERROR_NOT_FINITE when a is not finite. O(m n min(m, n)). */
 size_t hci_orthogonal_workspace(size_t m, size_t n);
 hci_status hci_orthogonal_factor(size_t m, size_t n, double *a, double relative_tolerance, size_t *column,

@@ -23,6 +23,9 @@ typedef struct {
     double cosine[HCI_PHASE_MATRIX];
 } hci_inductance_slope;
 
+/* One order of L(θ) itself, in H: the same layout. L' follows from it: S' = −p m C, C' = p m S. */
+typedef hci_inductance_slope hci_inductance;
+
 /* What the torque model knows of a machine. The arrays belong to the caller; any may be NULL with count 0. */
 typedef struct {
     int pole_pairs;                    /* p >= 1; θ = p·θ_m */
@@ -39,6 +42,12 @@ double hci_torque_at(const hci_machine *machine, double theta_rad, const double 
 
 /* ∂T/∂i = e(θ) + L'(θ) i, in N·m/A. Same cost. */
 void hci_torque_gradient_at(const hci_machine *machine, double theta_rad, const double i_abc[3], double gradient[3]);
+
+/* L'(θ) i(θ) as waves, for slopes and current waves: what the reluctance adds to the back-EMF in ∂T/∂i. Equal orders and
+ * sequences are joined and what is below 1e-15 of the largest is dropped. waves: out, room for
+ * hci_slope_waves_capacity entries; returns how many. O(slopes·currents·log). */
+size_t hci_slope_waves_capacity(const hci_machine *machine, size_t current_count);
+size_t hci_slope_waves(const hci_machine *machine, const hci_wave *currents, size_t current_count, hci_wave *waves);
 
 /* Upper bound of the number of orders that hci_torque_orders can find for `current_count` current waves. */
 size_t hci_torque_orders_capacity(const hci_machine *machine, size_t current_count);

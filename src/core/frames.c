@@ -34,3 +34,53 @@ hci_alpha_beta hci_park_inverse(hci_dq x, double theta_rad)
     const hci_alpha_beta y = {-x.d * c + x.q * s, -x.d * s - x.q * c, x.zero};
     return y;
 }
+
+static const double sqrt_3_2 = 1.22474487139158904910;
+
+/* The orthonormal αβ vector is sqrt(3/2) times the amplitude-invariant one. */
+hci_dqx_frame hci_dqx_frame_of(const double e_abc[3])
+{
+    const hci_alpha_beta e = hci_clarke(e_abc);
+    const double size = hypot(e.alpha, e.beta);
+    const hci_dqx_frame none = {0.0, 0.0, 0.0};
+    if (!(size > 0.0)) return none;
+    const hci_dqx_frame frame = {1.0 / size, e.alpha / size, e.beta / size};
+    return frame;
+}
+
+hci_dqx hci_dqx_from_abc(hci_dqx_frame frame, const double abc[3])
+{
+    const hci_dqx none = {0.0, 0.0};
+    if (frame.a_x == 0.0) return none;
+    const hci_alpha_beta x = hci_clarke(abc);
+    const double scale = sqrt_3_2 / frame.a_x;
+    const hci_dqx y = {scale * (frame.q_beta * x.alpha - frame.q_alpha * x.beta),
+                       scale * (frame.q_alpha * x.alpha + frame.q_beta * x.beta)};
+    return y;
+}
+
+void hci_dqx_to_abc(hci_dqx_frame frame, hci_dqx x, double abc[3])
+{
+    const double scale = frame.a_x / sqrt_3_2;
+    const hci_alpha_beta y = {scale * (frame.q_beta * x.d + frame.q_alpha * x.q),
+                              scale * (frame.q_beta * x.q - frame.q_alpha * x.d), 0.0};
+    hci_clarke_inverse(y, abc);
+}
+
+/* L' of a phase matrix between two phase vectors of the orthonormal plane. */
+static double between(const double slope[6], const double u[3], const double v[3])
+{
+    return slope[0] * u[0] * v[0] + slope[1] * u[1] * v[1] + slope[2] * u[2] * v[2] +
+           slope[3] * (u[0] * v[1] + u[1] * v[0]) + slope[4] * (u[1] * v[2] + u[2] * v[1]) +
+           slope[5] * (u[2] * v[0] + u[0] * v[2]);
+}
+
+hci_dqx_slope hci_dqx_slope_of(hci_dqx_frame frame, const double slope_abc[6])
+{
+    const hci_dqx along_d = {1.0, 0.0}, along_q = {0.0, 1.0};
+    double d[3], q[3];
+    hci_dqx_to_abc(frame, along_d, d);
+    hci_dqx_to_abc(frame, along_q, q);
+    const hci_dqx_slope slope = {between(slope_abc, d, d), between(slope_abc, d, q), between(slope_abc, q, q)};
+    return slope;
+}

@@ -3,6 +3,8 @@
 #include <math.h>
 #include <stdbool.h>
 
+#include "sort.h"
+
 static const double COS_THIRD = -0.5;
 static const double SIN_THIRD = 0.86602540378443864676;
 
@@ -60,6 +62,52 @@ void hci_waves_at(const hci_wave *waves, size_t count, double theta_rad, double 
         abc[1] += cos_shift * x - sin_shift * y;
         abc[2] += cos_shift * x + sin_shift * y;
     }
+}
+
+static bool comes_after(const hci_wave *a, const hci_wave *b)
+{
+    if (fabs(a->order - b->order) >= HCI_ORDER_TOLERANCE) return a->order > b->order;
+    return a->sequence > b->sequence;
+}
+
+static bool wave_comes_after(const void *items, size_t a, size_t b)
+{
+    const hci_wave *waves = items;
+    return comes_after(&waves[a], &waves[b]);
+}
+
+static void swap_waves(void *items, size_t a, size_t b)
+{
+    hci_wave *waves = items;
+    const hci_wave kept = waves[a];
+    waves[a] = waves[b];
+    waves[b] = kept;
+}
+
+static double largest_amplitude(const hci_wave *waves, size_t count)
+{
+    double largest = 0.0;
+    for (size_t k = 0; k < count; ++k) largest = fmax(largest, hypot(waves[k].sine, waves[k].cosine));
+    return largest;
+}
+
+size_t hci_waves_join(hci_wave *waves, size_t count, double relative_floor)
+{
+    static const hci_sorting BY_ORDER = {wave_comes_after, swap_waves};
+    size_t joined = 0, kept = 0;
+    hci_sort(waves, count, &BY_ORDER);
+    for (size_t k = 0; k < count; ++k) {
+        if (joined > 0 && !comes_after(&waves[k], &waves[joined - 1])) {
+            waves[joined - 1].sine += waves[k].sine;
+            waves[joined - 1].cosine += waves[k].cosine;
+        } else {
+            waves[joined++] = waves[k];
+        }
+    }
+    const double floor_value = relative_floor * largest_amplitude(waves, joined);
+    for (size_t k = 0; k < joined; ++k)
+        if (hypot(waves[k].sine, waves[k].cosine) > floor_value) waves[kept++] = waves[k];
+    return kept;
 }
 
 /* At order 0, (−1, S, C) is the same constant current as (+1, −S, C). */

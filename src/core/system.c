@@ -3,6 +3,8 @@
 #include <math.h>
 #include <stdbool.h>
 
+#include "sort.h"
+
 /* What one back-EMF wave makes of one component, at one torque order:
  *     S_torque = sine_from_sine·S + sine_from_cosine·C,     C_torque likewise. */
 typedef struct {
@@ -37,32 +39,25 @@ static size_t pair_blocks(hci_wave e, hci_component c, torque_block blocks[2])
     return n;
 }
 
-static void sift_down(double *heap, size_t root, size_t count)
+static bool order_comes_after(const void *items, size_t a, size_t b)
 {
-    for (size_t child; (child = 2 * root + 1) < count; root = child) {
-        if (child + 1 < count && heap[child + 1] > heap[child]) ++child;
-        if (heap[root] >= heap[child]) return;
-        const double swap = heap[root];
-        heap[root] = heap[child];
-        heap[child] = swap;
-    }
+    const double *orders = items;
+    return orders[a] > orders[b];
 }
 
-static void heap_sort(double *x, size_t count)
+static void swap_orders(void *items, size_t a, size_t b)
 {
-    for (size_t k = count / 2; k-- > 0;) sift_down(x, k, count);
-    for (size_t k = count; k-- > 1;) {
-        const double swap = x[0];
-        x[0] = x[k];
-        x[k] = swap;
-        sift_down(x, 0, k);
-    }
+    double *orders = items;
+    const double kept = orders[a];
+    orders[a] = orders[b];
+    orders[b] = kept;
 }
 
 size_t hci_orders_sort(double *orders, size_t count)
 {
+    static const hci_sorting ASCENDING = {order_comes_after, swap_orders};
     size_t kept = 0;
-    heap_sort(orders, count);
+    hci_sort(orders, count, &ASCENDING);
     for (size_t k = 0; k < count; ++k)
         if (kept == 0 || orders[k] - orders[kept - 1] > HCI_ORDER_TOLERANCE) orders[kept++] = orders[k];
     return kept;

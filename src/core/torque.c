@@ -118,6 +118,58 @@ static void spectrum_add(const double *orders, size_t order_count, hci_harmonic 
     spectrum[at].cosine += p.im;
 }
 
+/* The phasors of three phases at one order as waves of the three sequences: W_σ = ⅓ Σ_s Y_s e^{jσ2πs/3}. A negative order
+ * folds onto the positive one: Im(Y e^{−jmθ}) = Im(−Y* e^{jmθ}). */
+static void add_sequences(double order, const phasor y[3], hci_wave waves[3])
+{
+    for (int sequence = -1; sequence <= 1; ++sequence) {
+        const phasor back = {COS_THIRD, sequence * SIN_THIRD}, ahead = {COS_THIRD, -sequence * SIN_THIRD};
+        const phasor one = {1.0, 0.0};
+        phasor sum = {0.0, 0.0};
+        for (unsigned s = 0; s < 3; ++s) {
+            const phasor folded = {order < 0.0 ? -y[s].re : y[s].re, y[s].im};
+            const phasor turned = times(folded, s == 0 || sequence == 0 ? one : s == 1 ? back : ahead);
+            sum.re += turned.re / 3.0;
+            sum.im += turned.im / 3.0;
+        }
+        waves[sequence + 1] = (hci_wave){fabs(order), sequence, sum.re, sum.im};
+        if (fabs(order) < HCI_ORDER_TOLERANCE && sequence == 0) waves[sequence + 1].sine = 0.0;
+    }
+}
+
+/* One order of L' times one wave. Im(Λ e^{jmθ}) Im(I e^{jnθ}) = ½ Re(Λ I* e^{j(m−n)θ} − Λ I e^{j(m+n)θ}), and
+ * Re(Z e^{jkθ}) = Im(jZ e^{jkθ}). */
+static void slope_times_wave(const hci_inductance_slope *t, const hci_wave *i, hci_wave waves[6])
+{
+    phasor difference[3] = {{0.0, 0.0}, {0.0, 0.0}, {0.0, 0.0}}, sum[3] = {{0.0, 0.0}, {0.0, 0.0}, {0.0, 0.0}};
+    for (unsigned q = 0; q < HCI_PHASE_MATRIX; ++q) {
+        for (unsigned mirrored = 0; mirrored <= (ROW[q] != COLUMN[q]); ++mirrored) {
+            const unsigned row = mirrored ? COLUMN[q] : ROW[q], column = mirrored ? ROW[q] : COLUMN[q];
+            const phasor slope = {0.5 * t->sine[q], 0.5 * t->cosine[q]}, current = phase_phasor(i, column);
+            const phasor beat = times(slope, conjugate(current)), product = times(slope, current);
+            difference[row].re += -beat.im;
+            difference[row].im += beat.re;
+            sum[row].re += product.im;
+            sum[row].im += -product.re;
+        }
+    }
+    add_sequences(t->order - i->order, difference, waves);
+    add_sequences(t->order + i->order, sum, waves + 3);
+}
+
+size_t hci_slope_waves_capacity(const hci_machine *machine, size_t current_count)
+{
+    return 6 * machine->slope_count * current_count;
+}
+
+size_t hci_slope_waves(const hci_machine *machine, const hci_wave *currents, size_t current_count, hci_wave *waves)
+{
+    size_t n = 0;
+    for (size_t t = 0; t < machine->slope_count; ++t)
+        for (size_t k = 0; k < current_count; ++k, n += 6) slope_times_wave(&machine->slope[t], &currents[k], waves + n);
+    return hci_waves_join(waves, n, 1e-15);
+}
+
 /* ½ xᵀ L' y for one order of L' and two waves, closed form.
  * With x = Im(X e^{jnθ}), y = Im(Y e^{jkθ}):  xy = ½ Re(X Y* e^{j(n−k)θ} − X Y e^{j(n+k)θ}), and
  * Im(Λ e^{jmθ}) Re(Z e^{jqθ}) = ½ Im(Λ Z e^{j(m+q)θ} + Λ Z* e^{j(m−q)θ}). */

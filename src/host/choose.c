@@ -71,23 +71,30 @@ static void attempt_release(attempt *a)
     memset(a, 0, sizeof *a);
 }
 
-/* The least-norm solution of the set that `a` holds, with all orders compared, and its worth. */
-static hci_status attempt_solve(const hci_task *t, attempt *a, hci_note *note)
+/* The least-norm solution of a balance of the set that `a` holds, and its worth. a->x: room for it. */
+static hci_status attempt_balance(const hci_task *t, const hci_balance *b, attempt *a, hci_note *note)
 {
-    hci_balance b;
-    double *r, condition;
+    const double mean_Nm = hci_target_mean_Nm(t->target);
+    double *r = hci_memory_new(b->rows, sizeof *r), condition;
     size_t rank;
-    hci_status status = hci_balance_make(t, a->set.component, a->set.count, HCI_COMPARE_ALL, &b, note);
-    if (status) return status;
-    r = hci_memory_new(b.rows, sizeof *r);
-    a->x = hci_memory_new(2 * b.unknowns, sizeof *a->x);
-    status = r && a->x ? hci_sparse_qr_solve(&b.u, b.h, 2, a->x, &rank, &condition, note) : no_memory(note);
+    const hci_status status =
+        r ? hci_sparse_qr_solve(&b->u, b->h, 2, a->x, &rank, &condition, note) : no_memory(note);
     if (!status) {
-        const double mean_Nm = hci_target_mean_Nm(t->target);
-        a->worth.worst_Nm = hci_worst_error_Nm(&b, a->x, mean_Nm, r);
+        a->worth.worst_Nm = hci_worst_error_Nm(b, a->x, mean_Nm, r);
         a->worth.mean_square_A2 = hci_coordinates_mean_square_A2(&a->set, a->x, mean_Nm);
     }
     hci_memory_free(r);
+    return status;
+}
+
+/* The same with all orders compared. */
+static hci_status attempt_solve(const hci_task *t, attempt *a, hci_note *note)
+{
+    hci_balance b;
+    hci_status status = hci_balance_make(t, a->set.component, a->set.count, HCI_COMPARE_ALL, &b, note);
+    if (status) return status;
+    a->x = hci_memory_new(2 * b.unknowns, sizeof *a->x);
+    status = a->x ? attempt_balance(t, &b, a, note) : no_memory(note);
     hci_balance_release(&b);
     return status;
 }
@@ -264,15 +271,12 @@ static hci_status attempt_level(const hci_task *t, const hci_balance *b, const h
     return status;
 }
 
-static hci_status attempt_exact(const hci_task *t, const hci_component_set *all, const size_t *pick, size_t count,
+static hci_status attempt_exact(const hci_task *t, const hci_balance *b, const hci_component_set *all, const size_t *pick,
                                 const preference *p, attempt *best, hci_note *note)
 {
     attempt a;
-    hci_status status = copy_set(all, pick, count, &a, note);
-    if (status) return status;
-    hci_memory_free(a.x);
-    a.x = NULL;
-    status = attempt_solve(t, &a, note);
+    hci_status status = copy_set(all, pick, b->unknowns / 2, &a, note);
+    if (!status) status = attempt_balance(t, b, &a, note);
     if (status)
         attempt_release(&a);
     else
@@ -294,7 +298,7 @@ static hci_status try_subset(const hci_task *t, const hci_component_set *all, co
     hci_level_tighten_mean(&b);
     for (size_t k = 0; k < SOLVES && !status; ++k)
         status = attempt_level(t, &b, all, pick, SOLVE_PRICE[k] * scale, p, best, note);
-    if (!status) status = attempt_exact(t, all, pick, count, p, best, note);
+    if (!status) status = attempt_exact(t, &b, all, pick, p, best, note);
     hci_balance_release(&b);
     return status;
 }

@@ -170,19 +170,21 @@ static void set_separator(reader *r)
 }
 
 /* Takes the quotes off a cell at *at = '"' (RFC 4180: "" is one "). start, end: out. Leaves *at after the
- * closing quote. */
+ * closing quote; false where there is none. */
 static bool unquote(reader *r, char **at, char **start, char **end)
 {
     char *from = *at + 1, *to = from;
     *start = from;
     for (; *from != '\0'; from++) {
-        if (*from == '"' && *++from != '"') break;
+        if (*from == '"' && *++from != '"') {
+            *at = from;
+            *end = to;
+            return true;
+        }
         if (*from == '\n' || (*from == '\r' && from[1] != '\n')) r->line++;
         *to++ = *from;
     }
-    *at = from;
-    *end = to;
-    return from[-1] == '"';
+    return false;
 }
 
 /* One cell. On return r->next is at its separator, its newline or the end, with that byte in *stop. */
@@ -208,7 +210,8 @@ static hci_status read_cell(reader *r, size_t column, char **cell, char *stop)
             at++;
         end = at;
     }
-    start = skip_blanks(start, '\0');
+    while (start < end && is_blank(*start, '\0'))
+        start++;
     while (end > start && is_blank(end[-1], '\0'))
         end--;
     *stop = *at;

@@ -76,16 +76,20 @@ static match find_column(const hci_csv *csv, const char *name)
     return result;
 }
 
-/* "`a`, `b`, …" as far as there is room. */
+/* "`a`, `b`, …" as far as there is room. Columns without a name are left out. */
 static void list_columns(const hci_csv *csv, char *out, size_t size)
 {
-    char quoted[HCI_QUOTE_SIZE];
+    static const char more[] = ", \xE2\x80\xA6";
     size_t used = 0;
     for (size_t column = 0; column < csv->columns; column++) {
-        const char *name = hci_quote(hci_csv_cell(csv, 0, column), quoted);
-        if (used + strlen(name) + sizeof ", \xE2\x80\xA6" > size) name = "\xE2\x80\xA6";
-        used += (size_t)snprintf(out + used, size - used, "%s%s", column > 0 ? ", " : "", name);
-        if (*name != '`') break;
+        char quoted[HCI_QUOTE_SIZE];
+        const char *name = hci_quote(hci_csv_cell(csv, 0, column), quoted), *between = used > 0 ? ", " : "";
+        if (*hci_csv_cell(csv, 0, column) == '\0') continue;
+        if (used + strlen(between) + strlen(name) + sizeof more > size) {
+            memcpy(out + used, more, sizeof more);
+            return;
+        }
+        used += (size_t)snprintf(out + used, size - used, "%s%s", between, name);
     }
 }
 

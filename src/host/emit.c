@@ -222,7 +222,16 @@ static size_t find_period(const hci_wave *waves, size_t count)
 
 /* ---- the table ---- */
 
-/* One list of both parts, with orders made exact multiples of 1/period. */
+/* The order becomes an exact multiple of 1/turns; coordinates that are rounding dust become 0. */
+static hci_wave clean_wave(hci_wave w, double turns)
+{
+    w.order = floor(w.order * turns + 0.5) / turns;
+    w.sine = hci_tabulation_clean(w.sine);
+    w.cosine = hci_tabulation_clean(w.cosine);
+    return w;
+}
+
+/* One list of both parts. */
 static hci_status take_waves(hci_emission *e, hci_note *note)
 {
     const hci_emit_request *r = e->request;
@@ -239,7 +248,7 @@ static hci_status take_waves(hci_emission *e, hci_note *note)
             "with more decimals",
             (int)HCI_EMIT_MAX_TURNS);
     for (size_t k = 0; k < count; ++k)
-        e->waves[k].order = floor(e->waves[k].order * (double)turns + 0.5) / (double)turns;
+        e->waves[k] = clean_wave(e->waves[k], (double)turns);
     const hci_tabulation t = {.constant = e->waves,
                               .per_Nm = e->waves + r->current_count,
                               .constant_count = r->current_count,
@@ -304,7 +313,7 @@ static void fill_probes(hci_emission *e)
         p->torque_Nm += 0.0f; /* no −0 */
         hci_tabulation_exact(&e->tabulation, p->angle, (double)p->torque_Nm, exact, NULL);
         for (size_t s = 0; s < 3; ++s)
-            p->expected[s] = hci_tabulation_round(exact[s]);
+            p->expected[s] = (float)hci_tabulation_clean(exact[s]);
     }
     e->table.probes = e->probes;
     e->table.probe_count = HCI_EMIT_PROBES;

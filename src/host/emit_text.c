@@ -3,16 +3,23 @@
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "hci/host/csv.h"
 #include "hci/version.h"
 
-/* Nine significant digits, which is enough for a float, with a decimal point in every locale. */
+/* Nine significant digits, which is enough for a float, with a decimal point in every locale and for every value, so
+ * that C takes it for a floating constant. */
 static const char *number(double value, char text[32])
 {
-    char digits[32];
+    char digits[32], exponent[8];
+    size_t mantissa;
     snprintf(digits, sizeof digits, "%.9g", value);
     hci_number_text(strtod(digits, NULL), text);
+    if (strchr(text, '.')) return text;
+    mantissa = strcspn(text, "e");
+    snprintf(exponent, sizeof exponent, "%s", text + mantissa);
+    snprintf(text + mantissa, 32 - mantissa, ".0%s", exponent);
     return text;
 }
 

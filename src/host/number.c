@@ -9,9 +9,9 @@
 
 #include "hci/host/csv.h"
 
-/* A decimal: (−1)^negative · significand · 10^exponent, exact unless digits were dropped. */
+/* A decimal: (−1)^negative · significand · 10^exponent, exact while the significand is below 10^18. */
 typedef struct {
-    bool negative, dropped;
+    bool negative;
     char mark;
     uint64_t significand;
     long long exponent;
@@ -38,7 +38,6 @@ static const char *read_digits(const char *text, bool comma, decimal *out)
                 out->significand = out->significand * 10 + (uint64_t)(*text - '0');
                 if (out->mark != 0) out->exponent--;
             } else {
-                out->dropped = true;
                 if (out->mark == 0) out->exponent++;
             }
         } else if (is_mark(*text, comma) && out->mark == 0) {
@@ -77,7 +76,7 @@ static bool convert_exactly(const decimal *number, double *value)
 {
     static const double power[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
                                    1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
-    if (FLT_EVAL_METHOD != 0 || number->dropped || number->significand > (UINT64_C(1) << 53)) return false;
+    if (FLT_EVAL_METHOD != 0 || number->significand > (UINT64_C(1) << 53)) return false;
     if (number->exponent < -22 || number->exponent > 22) return false;
     const double significand = (double)number->significand;
     *value =
@@ -149,7 +148,7 @@ bool hci_number_parse(const char *text, double *value)
     return hci_number_read(text, false, value, &mark) == HCI_NUMBER_FINITE;
 }
 
-/* "1e+09" of printf, in any locale, as "1.0e9". */
+/* "1e+09" of printf, in any locale, as "1e9". */
 static void tidy(const char *printed, char *text)
 {
     bool mark = false;
@@ -161,7 +160,6 @@ static void tidy(const char *printed, char *text)
             mark = true;
         }
     }
-    if (!mark) text = (char *)memcpy(text, ".0", 2) + 2;
     if (*printed == 'e') {
         *text++ = *printed++;
         if (*printed == '-') *text++ = '-';

@@ -153,7 +153,7 @@ static hci_status check_target(const char *target, hci_note *note)
     if (!S_ISREG(status.st_mode)) {
         return output_error(target, note, "found something that is not a plain file", "name another file");
     }
-    if (access(target, W_OK) != 0)
+    if (faccessat(AT_FDCWD, target, W_OK, AT_EACCESS) != 0)
         return output_error(target, note, strerror(errno), "make the file writable");
     return HCI_OK;
 }

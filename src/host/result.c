@@ -5,6 +5,7 @@
 #include "hci/frames.h"
 #include "hci/host/output.h"
 #include "hci/host/summary.h"
+#include "plot.h"
 
 static void write_currents(hci_output *out, const hci_currents *currents, const hci_wave *wave, const char *amplitude_column)
 {
@@ -89,6 +90,8 @@ static hci_status write_files(hci_output *out, const hci_machine_data *m, const 
     if (!status) write_spectrum(out, s);
     if (!status) status = hci_output_file(out, "waveform.csv", note);
     if (!status) write_waveform(out, m, s);
+    if (!status) status = hci_output_file(out, "solution.svg", note);
+    if (!status) hci_plot_solution(out, m, s);
     if (!status) status = hci_output_file(out, "summary.json", note);
     return status ? status : write_summary(out, s, verdict, note);
 }

@@ -1,5 +1,6 @@
 #include "hci/host/solve.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -132,6 +133,7 @@ static hci_status dense_lu_in(const hci_balance *b, double *a, double *lu, doubl
     status = hci_lu_factor(n, lu, pivot);
     if (status) return status;
     *condition = hci_lu_condition(n, lu, pivot, hci_norm_1(n, n, a), work);
+    if (!(*condition * (double)n * DBL_EPSILON < 1.0)) return HCI_ERROR_SINGULAR;
     memcpy(x, b->h, 2 * n * sizeof *x);
     for (size_t side = 0; side < 2; ++side) {
         hci_lu_solve(n, lu, pivot, x + side * n);

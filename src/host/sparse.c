@@ -1,11 +1,31 @@
 #include "sparse.h"
 
 #include <SuiteSparseQR_C.h>
+#include <float.h>
 #include <math.h>
+#include <stdbool.h>
 #include <string.h>
 #include <umfpack.h>
 
 #include "memory.h"
+
+enum { POWER_STEPS = 20 };
+
+static double normalise(double *x, size_t n)
+{
+    double sum = 0.0;
+    for (size_t k = 0; k < n; ++k) sum += x[k] * x[k];
+    sum = sqrt(sum);
+    for (size_t k = 0; k < n && sum > 0.0; ++k) x[k] /= sum;
+    return sum;
+}
+
+/* A unit vector that no likely singular vector is at right angles to. */
+static void start_values(double *x, size_t n)
+{
+    for (size_t k = 0; k < n; ++k) x[k] = 1.0 + 0.37 * (double)(k * 7 % 11);
+    normalise(x, n);
+}
 
 /* ---- UMFPACK --------------------------------------------------------------------------------------------------- */
 
@@ -32,22 +52,68 @@ static hci_status umfpack_substitute(const hci_sparse *a, void *numeric, const d
     return HCI_OK;
 }
 
+/* y = A x, or Aᵀ x. */
+static void multiply(const hci_sparse *a, bool transposed, const double *x, double *y)
+{
+    for (size_t i = 0; i < a->rows; ++i) y[i] = 0.0;
+    for (size_t j = 0; j < a->columns; ++j)
+        for (int64_t k = a->column_start[j]; k < a->column_start[j + 1]; ++k)
+            if (transposed)
+                y[j] += a->value[k] * x[a->row[k]];
+            else
+                y[a->row[k]] += a->value[k] * x[j];
+}
+
+/* Ratio of the largest to the smallest singular value of a square A by power iterations on AᵀA and (AᵀA)⁻¹, since the
+ * pivots alone can be wrong by orders of magnitude. x, y: workspace of n. */
+static hci_status umfpack_condition(const hci_sparse *a, void *numeric, double *x, double *y, double *condition,
+                                    hci_note *note)
+{
+    const size_t n = a->columns;
+    double largest = 0.0, growth = 0.0;
+    hci_status status = HCI_OK;
+    start_values(x, n);
+    for (int step = 0; step < POWER_STEPS; ++step) {
+        multiply(a, false, x, y);
+        multiply(a, true, y, x);
+        largest = normalise(x, n);
+    }
+    start_values(x, n);
+    for (int step = 0; step < POWER_STEPS && !status; ++step) {
+        status = umfpack_status(
+            umfpack_dl_solve(UMFPACK_At, a->column_start, a->row, a->value, y, x, numeric, NULL, NULL), note);
+        if (!status)
+            status = umfpack_status(
+                umfpack_dl_solve(UMFPACK_A, a->column_start, a->row, a->value, x, y, numeric, NULL, NULL), note);
+        growth = normalise(x, n);
+    }
+    *condition = sqrt(largest) * sqrt(growth);
+    if (!status && !(*condition * (double)n * DBL_EPSILON < 1.0)) status = HCI_ERROR_SINGULAR;
+    return status;
+}
+
+static hci_status umfpack_examine(const hci_sparse *a, void *numeric, double *condition, hci_note *note)
+{
+    double *work = hci_memory_new(2 * a->columns, sizeof *work);
+    const hci_status status = work ? umfpack_condition(a, numeric, work, work + a->columns, condition, note)
+                                   : hci_note_set(note, HCI_ERROR_MEMORY, "out of memory in the sparse LU");
+    hci_memory_free(work);
+    return status;
+}
+
 hci_status hci_sparse_lu_solve(const hci_sparse *a, const double *b, size_t right_sides, double *x, double *condition,
                                hci_note *note)
 {
     const SuiteSparse_long n = (SuiteSparse_long)a->columns;
-    double info[UMFPACK_INFO];
     void *symbolic = NULL, *numeric = NULL;
     hci_status status;
-    status = umfpack_status(umfpack_dl_symbolic(n, n, a->column_start, a->row, a->value, &symbolic, NULL, info), note);
+    status = umfpack_status(umfpack_dl_symbolic(n, n, a->column_start, a->row, a->value, &symbolic, NULL, NULL), note);
     if (!status)
         status = umfpack_status(
-            umfpack_dl_numeric(a->column_start, a->row, a->value, symbolic, &numeric, NULL, info), note);
+            umfpack_dl_numeric(a->column_start, a->row, a->value, symbolic, &numeric, NULL, NULL), note);
     umfpack_dl_free_symbolic(&symbolic);
-    if (!status) {
-        *condition = 1.0 / info[UMFPACK_RCOND];
-        status = umfpack_substitute(a, numeric, b, right_sides, x, note);
-    }
+    if (!status) status = umfpack_examine(a, numeric, condition, note);
+    if (!status) status = umfpack_substitute(a, numeric, b, right_sides, x, note);
     umfpack_dl_free_numeric(&numeric);
     return status;
 }
@@ -86,23 +152,10 @@ static cholmod_dense as_dense(const double *x, size_t rows, size_t columns, doub
     return d;
 }
 
-enum { POWER_STEPS = 20 };
-
-static double normalise(double *x, size_t n)
-{
-    double sum = 0.0;
-    for (size_t k = 0; k < n; ++k) sum += x[k] * x[k];
-    sum = sqrt(sum);
-    for (size_t k = 0; k < n && sum > 0.0; ++k) x[k] /= sum;
-    return sum;
-}
-
 static cholmod_dense *start_vector(size_t n, cholmod_common *cc)
 {
     cholmod_dense *x = cholmod_l_allocate_dense(n, 1, n, CHOLMOD_REAL, cc);
-    double *value = x ? x->x : NULL;
-    for (size_t k = 0; x && k < n; ++k) value[k] = 1.0 + 0.37 * (double)(k * 7 % 11);
-    if (x) normalise(value, n);
+    if (x) start_values(x->x, n);
     return x;
 }
 
@@ -113,9 +166,8 @@ static double largest_singular(cholmod_sparse *r, cholmod_common *cc)
     cholmod_dense *x = start_vector(r->nrow, cc);
     cholmod_dense *y = cholmod_l_allocate_dense(r->ncol, 1, r->ncol, CHOLMOD_REAL, cc);
     for (int step = 0; step < POWER_STEPS && x && y; ++step) {
-        cholmod_l_sdmult(r, 1, one, zero, x, y, cc);
-        cholmod_l_sdmult(r, 0, one, zero, y, x, cc);
-        square = normalise(x->x, x->nrow);
+        const int good = cholmod_l_sdmult(r, 1, one, zero, x, y, cc) && cholmod_l_sdmult(r, 0, one, zero, y, x, cc);
+        square = good ? normalise(x->x, x->nrow) : 0.0;
     }
     cholmod_l_free_dense(&x, cc);
     cholmod_l_free_dense(&y, cc);
@@ -126,13 +178,13 @@ static double largest_singular(cholmod_sparse *r, cholmod_common *cc)
 static double smallest_singular(SuiteSparseQR_C_factorization *qr, size_t n, cholmod_common *cc)
 {
     cholmod_dense *x = start_vector(n, cc);
-    double growth = INFINITY;
+    double growth = HUGE_VAL;
     for (int step = 0; step < POWER_STEPS && x; ++step) {
         cholmod_dense *y = SuiteSparseQR_C_solve(SPQR_RTX_EQUALS_B, qr, x, cc);
         cholmod_l_free_dense(&x, cc);
         x = y ? SuiteSparseQR_C_solve(SPQR_RX_EQUALS_B, qr, y, cc) : NULL;
         cholmod_l_free_dense(&y, cc);
-        if (x) growth = normalise(x->x, n);
+        growth = x ? normalise(x->x, n) : HUGE_VAL;
     }
     cholmod_l_free_dense(&x, cc);
     return sqrt(1.0 / growth);
@@ -146,7 +198,14 @@ static cholmod_dense *least_norm(cholmod_sparse *r, cholmod_dense *c, double *co
         r_transposed ? SuiteSparseQR_C_factorize(SPQR_ORDERING_FIXED, SPQR_NO_TOL, r_transposed, cc) : NULL;
     cholmod_dense *z = qr ? SuiteSparseQR_C_solve(SPQR_RTX_EQUALS_ETB, qr, c, cc) : NULL;
     cholmod_dense *y = z ? SuiteSparseQR_C_qmult(SPQR_QX, qr, z, cc) : NULL;
-    if (y) *condition = largest_singular(r, cc) / smallest_singular(qr, r->nrow, cc);
+    if (y) {
+        const double largest = largest_singular(r, cc), smallest = smallest_singular(qr, r->nrow, cc);
+        *condition = largest / smallest;
+        if (!(largest > 0.0 && smallest > 0.0)) {
+            cholmod_l_free_dense(&y, cc);
+            cc->status = CHOLMOD_OUT_OF_MEMORY;
+        }
+    }
     cholmod_l_free_dense(&z, cc);
     SuiteSparseQR_C_free(&qr, cc);
     cholmod_l_free_sparse(&r_transposed, cc);

@@ -8,31 +8,36 @@
  * next. */
 static const double DUST = 1e-12;
 
-static double amplitude_sum(const hci_wave *waves, size_t count, double power)
+static double amplitude(const hci_wave *w)
 {
-    double sum = 0.0;
-    for (size_t k = 0; k < count; ++k)
-        sum += hci_amplitude(waves[k].sine, waves[k].cosine) * pow(waves[k].order, power);
-    return sum;
-}
-
-static double weighted_sum(const hci_tabulation *t, double power)
-{
-    return t->torque_Nm * amplitude_sum(t->per_Nm, t->per_Nm_count, power) +
-           amplitude_sum(t->constant, t->constant_count, power);
+    return hci_amplitude(w->sine, w->cosine);
 }
 
 double hci_tabulation_bound_A(const hci_tabulation *t)
 {
-    return weighted_sum(t, 0.0);
+    double constant = 0.0, per_Nm = 0.0;
+    for (size_t k = 0; k < t->constant_count; ++k)
+        constant += amplitude(&t->constant[k]);
+    for (size_t k = 0; k < t->per_Nm_count; ++k)
+        per_Nm += amplitude(&t->per_Nm[k]);
+    return constant + t->torque_Nm * per_Nm;
 }
 
-/* Σ|A|n² bounds |d²i/dθ²| of a phase current. In the rotor frame order n turns into n ± 1: Σ|A|(n + 1)². */
+/* |d²i/dθ²| of one wave: seen from the rotor, (n, σ) has the order n − σ. */
+static double curvature(const hci_tabulation *t, const hci_wave *w)
+{
+    const double order = t->frame == HCI_TABLE_ABC ? w->order : w->order - w->sequence;
+    return order * order * amplitude(w);
+}
+
 static double curvature_bound_A(const hci_tabulation *t)
 {
-    const double stator = weighted_sum(t, 2.0);
-    if (t->frame == HCI_TABLE_ABC) return stator;
-    return stator + 2.0 * weighted_sum(t, 1.0) + weighted_sum(t, 0.0);
+    double constant = 0.0, per_Nm = 0.0;
+    for (size_t k = 0; k < t->constant_count; ++k)
+        constant += curvature(t, &t->constant[k]);
+    for (size_t k = 0; k < t->per_Nm_count; ++k)
+        per_Nm += curvature(t, &t->per_Nm[k]);
+    return constant + t->torque_Nm * per_Nm;
 }
 
 static double highest_order(const hci_tabulation *t)
@@ -71,9 +76,9 @@ void hci_tabulation_exact(const hci_tabulation *t, uint32_t angle, double torque
     if (phase_A != NULL) *phase_A = fmax(fabs(abc[0]), fmax(fabs(abc[1]), fabs(abc[2])));
 }
 
-float hci_tabulation_round(double current)
+double hci_tabulation_clean(double current)
 {
-    return fabs(current) < DUST ? 0.0f : (float)current;
+    return fabs(current) < DUST ? 0.0 : current;
 }
 
 /* ---- rows ---- */
@@ -85,7 +90,7 @@ static void fill_part(const hci_tabulation *t, const hci_wave *waves, size_t cou
     hci_waves_at(waves, count, theta_rad, abc);
     to_frame(t, abc, theta_rad, value);
     for (size_t k = 0; k < t->columns; ++k)
-        out[k] = hci_tabulation_round(value[k]);
+        out[k] = (float)hci_tabulation_clean(value[k]);
 }
 
 /* Row k of a table; the last one, the guard, is computed as the first one. */
@@ -201,7 +206,7 @@ static bool tabulate(const hci_tabulation *t, grid g, double limit_A, double *fi
 void hci_tabulate(const hci_tabulation *t, size_t points, float *rows, hci_table_f32 *table)
 {
     double first = 0.0;
-    (void)tabulate(t, grid_of(t, points), INFINITY, &first, rows, table);
+    (void)tabulate(t, grid_of(t, points), HUGE_VAL, &first, rows, table);
 }
 
 /* The error does not fall steadily with the points, so each number is tried in turn, beginning where the one

@@ -23,8 +23,8 @@ double hci_tabulation_bound_A(const hci_tabulation *t);
 void hci_tabulation_exact(const hci_tabulation *t, uint32_t angle, double torque_Nm, double current[3],
                           double *phase_A);
 
-/* A current as it is emitted: single precision, and 0 instead of the rounding dust of sin and cos. */
-float hci_tabulation_round(double current);
+/* A current in A or A/(N·m), or 0 where it is but rounding dust of sin and cos. */
+double hci_tabulation_clean(double current);
 
 /* Fills rows[(points + 1)·columns·parts], measures it, and states points, error and peak in *table, whose
  * other fields but probes and CRC are set too. */

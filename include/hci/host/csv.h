@@ -29,7 +29,8 @@ size_t hci_csv_line(const hci_csv *csv, size_t row);
  * back in the unit asked for. A column without any unit is taken to be in the unit asked for. */
 bool hci_csv_has(const hci_csv *csv, const char *column);
 
-/* The numbers of a column into values[hci_csv_rows]. Missing column, or text that is not a finite number: HCI_ERROR_INPUT. */
+/* The numbers of a column into values[hci_csv_rows]. Missing column, or text that is not a finite number: HCI_ERROR_INPUT,
+ * and values is undefined. */
 hci_status hci_csv_numbers(const hci_csv *csv, const char *column, double *values, hci_note *note);
 
 /* The number in one cell, as it stands (no unit conversion). Not a finite number: HCI_ERROR_INPUT. */
@@ -46,7 +47,8 @@ hci_status hci_csv_error(const hci_csv *csv, const char *column, size_t row, hci
  * "rad/s", "rad_per_s"). False when unknown or of another dimension. */
 bool hci_unit_factor(const char *unit, const char *wanted_unit, double *factor);
 
-/* Shortest decimal text that reads back to the same double, always with a decimal point; buffer of 32 bytes. */
+/* Shortest decimal text that reads back to the same double, with a point for the decimal mark in any locale; buffer of
+ * 32 bytes. */
 void hci_number_text(double value, char text[32]);
 
 /* Text to double, without regard to the locale; the whole text must be a finite number. */

@@ -1,10 +1,8 @@
-/* Must be refused: "core-symbol: core_sincos.o uses sincos". GCC merges the two calls unless it is told not to. */
-#include <math.h>
+/* Must be refused: "core-symbol: core_sincos.o uses sincos". Not in C99; GCC makes it of sin(x) and cos(x). */
+void sincos(double x, double *s, double *c);
+void hci_control_sincos(double x, double *out);
 
-void hci_control_sincos(double x, double *s, double *c);
-
-void hci_control_sincos(double x, double *s, double *c)
+void hci_control_sincos(double x, double *out)
 {
-    *s = sin(x);
-    *c = cos(x);
+    sincos(x, out, out + 1);
 }

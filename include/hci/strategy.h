@@ -1,0 +1,51 @@
+/* Currents that make a wanted torque at one angle, for any machine with T = e·i + ½ iᵀL'i + T_cog in a star connection.
+ *
+ *   HCI_STRATEGY_ID0      i_d = 0 and i_q from the mutual torque alone: reluctance and cogging torque remain as ripple
+ *   HCI_STRATEGY_CANCEL   the same i_q, and the i_d that makes reluctance plus cogging torque zero
+ *   HCI_STRATEGY_MTPA     the shortest current of all that make the torque
+ *
+ * i_d and i_q are those of the extended frame dq_x (frames.h): q lies along the back-EMF. */
+#ifndef HCI_STRATEGY_H
+#define HCI_STRATEGY_H
+
+#include "hci/frames.h"
+#include "hci/status.h"
+#include "hci/torque.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum { HCI_STRATEGY_ID0, HCI_STRATEGY_CANCEL, HCI_STRATEGY_MTPA } hci_strategy;
+
+/* The machine at one angle, in the orthonormal (power-invariant) αβ plane. */
+typedef struct {
+    double e[2];      /* back-EMF, N·m/A; x·x is i_a² + i_b² + i_c² */
+    double slope[3];  /* L'_αα, L'_αβ, L'_ββ, N·m/A² */
+    double cogging_Nm;
+} hci_machine_point;
+
+/* The machine at an electrical angle. O(harmonics). */
+hci_machine_point hci_machine_at(const hci_machine *machine, double theta_rad);
+
+/* Torque of a current x in the same plane. */
+double hci_point_torque_Nm(const hci_machine_point *point, const double x[2]);
+
+/* Orthonormal αβ to phase currents of zero sum, and back. */
+void hci_plane_to_abc(const double x[2], double abc[3]);
+void hci_plane_from_abc(const double abc[3], double x[2]);
+
+/* The current of a strategy for a wanted torque. previous: the answer at a neighbouring angle, or NULL; where both roots
+ * of `cancel` are equally long the one nearer to it is taken, so that the current is continuous along θ.
+ * x: out, also where the answer is no: then the current that comes nearest to the torque.
+ * least_iq_A: out, may be NULL; for `cancel`, the smallest i_q (in A of the orthonormal plane) from which an i_d exists
+ * at this angle, 0 when any does, infinite when none.
+ * HCI_OK, or HCI_NOT_REACHED when no current of this strategy exists. O(1), about 20 square roots at most. */
+hci_status hci_strategy_current(const hci_machine_point *point, hci_strategy strategy, double torque_Nm,
+                                const double *previous, double x[2], double *least_iq_A);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

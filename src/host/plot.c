@@ -1,0 +1,625 @@
+/* Four panels on a canvas of 1000 × 792 pixels, and words above and below. */
+#include "plot.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "hci/frames.h"
+#include "svg.h"
+
+enum { WIDTH = 1000, HEIGHT = 792 };
+
+static const hci_svg_box TORQUE = {62, 128, 540, 370}, SPECTRUM = {622, 128, 980, 370};
+static const hci_svg_box CURRENT = {62, 464, 540, 706}, VECTOR = {622, 464, 980, 706};
+
+/* Okabe and Ito's palette, told apart by colour-blind readers and by lightness in a grey print. */
+static const char STYLE[] =
+    ".hci{font:12px system-ui,'Helvetica Neue',Arial,sans-serif}.hci text{fill:#1c1f23}"
+    ".hci .back{fill:#fff}.hci .verdict{font-size:18px;font-weight:600}.hci .facts{font-size:13px}"
+    ".hci .head{font-size:13px;font-weight:600}.hci .quiet{fill:#5a6068}.hci .small{font-size:11px}"
+    ".hci .sub{font-size:70%}.hci .no{fill:#c04a00;font-weight:700}.hci .middle{text-anchor:middle}"
+    ".hci .end{text-anchor:end}"
+    ".hci path,.hci polyline{fill:none;stroke-linejoin:round;stroke-linecap:round}"
+    ".hci .grid{stroke:#e4e6ea}.hci .axis{stroke:#8b9099}.hci .before{stroke:#8b9099;stroke-width:1.1}"
+    ".hci rect.before{fill:#a9aeb6;stroke:none}"
+    ".hci .wanted{stroke:#e69f00;stroke-width:5;stroke-opacity:.5;stroke-linecap:butt}"
+    ".hci rect.wanted{fill:#e69f00;fill-opacity:.25;stroke-width:1.2;stroke-opacity:1}"
+    ".hci .after{stroke:#0072b2;stroke-width:1.6}.hci rect.after{fill:#0072b2;stroke:none}"
+    ".hci .a{stroke:#0072b2;stroke-width:1.8}.hci .b{stroke:#e69f00;stroke-width:1.5}"
+    ".hci .c{stroke:#009e73;stroke-width:1.5}.hci .path{stroke:#0072b2;stroke-width:1.2}"
+    ".hci .start{fill:#0072b2}.hci .plain{fill:none;stroke:#5a6068;stroke-width:1.8}"
+    ".hci .cross,.hci .ring{fill:none;stroke:#c04a00;stroke-width:1.8}"
+    "@media(prefers-color-scheme:dark){.hci text{fill:#eceff2}.hci .back{fill:#16191d}"
+    ".hci .quiet{fill:#a6adb6}.hci .no{fill:#ff8c50}.hci .grid{stroke:#2b3037}.hci .axis{stroke:#737a84}"
+    ".hci .before{stroke:#858c96}.hci rect.before{fill:#6c737d}.hci .wanted{stroke-opacity:.75}"
+    ".hci .after,.hci .a,.hci .path{stroke:#56b4e9}.hci rect.after,.hci .start{fill:#56b4e9}"
+    ".hci .c{stroke:#2fc79a}.hci .plain{stroke:#a6adb6}.hci .cross,.hci .ring{stroke:#ff8c50}}";
+
+/* ---- curves over the angle ---- */
+
+enum { BEFORE, WANTED, AFTER, PHASE_A, PHASE_B, PHASE_C, PLAIN_A, CURVES };
+
+/* Each of the COLUMNS steps of a curve has two vertices: its extremes in the order in which they come. */
+enum { COLUMNS = 360, VERTICES = 2 * COLUMNS, MOST_FINE = 64 };
+
+typedef struct {
+    const hci_solution *solution;
+    hci_wave plain;
+    double top_order; /* highest one that can be seen */
+    double turns;     /* electrical turns drawn */
+    size_t fine;      /* samples of a column */
+    double value[CURVES][VERTICES + 1];
+} curves;
+
+static double amplitude(hci_harmonic h)
+{
+    return h.order < HCI_ORDER_TOLERANCE ? fabs(h.cosine) : hci_amplitude(h.sine, h.cosine);
+}
+
+static double largest_of(const hci_solved_order *o)
+{
+    return fmax(amplitude(o->target_Nm), fmax(amplitude(o->torque_Nm), amplitude(o->before_Nm)));
+}
+
+static double order_of(const hci_solved_order *o)
+{
+    return o->torque_Nm.order;
+}
+
+/* Below this share of the largest amplitude a harmonic is thinner than a line. */
+#define VISIBLE 2e-3
+
+static double visible_top_order(const hci_solution *s)
+{
+    double torque_Nm = 0.0, current_A = 0.0, top = 1.0;
+    for (size_t k = 0; k < s->order_count; ++k)
+        torque_Nm = fmax(torque_Nm, largest_of(&s->order[k]));
+    for (size_t k = 0; k < s->current.count; ++k)
+        current_A = fmax(current_A, hci_amplitude(s->current.wave[k].sine, s->current.wave[k].cosine));
+    for (size_t k = 0; k < s->order_count; ++k)
+        if (largest_of(&s->order[k]) >= VISIBLE * torque_Nm) top = fmax(top, order_of(&s->order[k]));
+    for (size_t k = 0; k < s->current.count; ++k)
+        if (hci_amplitude(s->current.wave[k].sine, s->current.wave[k].cosine) >= VISIBLE * current_A)
+            top = fmax(top, s->current.wave[k].order);
+    return top;
+}
+
+/* Order 0 comes first where it is there at all. */
+static double mean_Nm(const hci_solution *s, bool wanted)
+{
+    if (s->order_count == 0 || order_of(&s->order[0]) >= HCI_ORDER_TOLERANCE) return 0.0;
+    return wanted ? s->order[0].target_Nm.cosine : s->order[0].torque_Nm.cosine;
+}
+
+/* The fundamental that before_Nm refers to: the one that is held, or the one in phase with the back-EMF. */
+static hci_wave plain_fundamental(const hci_machine_data *machine, const hci_solution *s)
+{
+    const double sign = mean_Nm(s, true) < 0.0 ? -1.0 : 1.0;
+    double phase_rad = 0.0;
+    if (!s->per_Nm && s->current.count > 0) return s->current.wave[0];
+    for (size_t k = 0; k < machine->model.back_emf_count; ++k) {
+        const hci_wave *e = &machine->model.back_emf[k];
+        if (fabs(e->order - 1.0) < HCI_ORDER_TOLERANCE)
+            phase_rad = hci_phase_rad(sign * e->sine, sign * e->cosine);
+    }
+    return hci_wave_polar(1.0, 1, s->plain_amplitude_A, phase_rad);
+}
+
+static void sample(const curves *c, double theta_rad, double value[CURVES])
+{
+    const hci_solution *s = c->solution;
+    double plain[3];
+    for (size_t k = BEFORE; k <= AFTER; ++k)
+        value[k] = 0.0;
+    for (size_t k = 0; k < s->order_count; ++k) {
+        const hci_solved_order *o = &s->order[k];
+        const double sine = sin(order_of(o) * theta_rad), cosine = cos(order_of(o) * theta_rad);
+        value[BEFORE] += o->before_Nm.sine * sine + o->before_Nm.cosine * cosine;
+        value[WANTED] += o->target_Nm.sine * sine + o->target_Nm.cosine * cosine;
+        value[AFTER] += o->torque_Nm.sine * sine + o->torque_Nm.cosine * cosine;
+    }
+    hci_waves_at(s->current.wave, s->current.count, theta_rad, &value[PHASE_A]);
+    hci_waves_at(&c->plain, 1, theta_rad, plain);
+    value[PLAIN_A] = plain[0];
+}
+
+static double sample_angle_rad(const curves *c, size_t column, size_t k)
+{
+    return 2.0 * HCI_PI * c->turns * ((double)column + (double)k / (double)c->fine) / COLUMNS;
+}
+
+static void fill_column(curves *c, size_t column)
+{
+    double low[CURVES], high[CURVES], value[CURVES];
+    size_t low_at[CURVES] = {0}, high_at[CURVES] = {0};
+    sample(c, sample_angle_rad(c, column, 0), low);
+    memcpy(high, low, sizeof high);
+    for (size_t k = 1; k < c->fine; ++k) {
+        sample(c, sample_angle_rad(c, column, k), value);
+        for (size_t j = 0; j < CURVES; ++j) {
+            if (value[j] < low[j]) low[j] = value[j], low_at[j] = k;
+            if (value[j] > high[j]) high[j] = value[j], high_at[j] = k;
+        }
+    }
+    for (size_t j = 0; j < CURVES; ++j) {
+        const bool low_first = low_at[j] <= high_at[j];
+        c->value[j][2 * column] = low_first ? low[j] : high[j];
+        c->value[j][2 * column + 1] = low_first ? high[j] : low[j];
+    }
+}
+
+static void fill_curves(curves *c, const hci_machine_data *machine, const hci_solution *s)
+{
+    const double most = (double)COLUMNS * MOST_FINE;
+    double end[CURVES];
+    c->solution = s;
+    c->plain = plain_fundamental(machine, s);
+    c->top_order = visible_top_order(s);
+    c->turns = fmax(1.0, fmin((double)s->period_turns, floor(most / (8.0 * c->top_order))));
+    c->fine = (size_t)fmax(2.0, fmin(MOST_FINE, ceil(8.0 * c->top_order * c->turns / COLUMNS)));
+    for (size_t k = 0; k < COLUMNS; ++k)
+        fill_column(c, k);
+    sample(c, sample_angle_rad(c, COLUMNS, 0), end);
+    for (size_t j = 0; j < CURVES; ++j)
+        c->value[j][VERTICES] = end[j];
+}
+
+static hci_svg_range range_of_values(const double *value)
+{
+    hci_svg_range r = HCI_SVG_NOTHING;
+    for (size_t k = 0; k <= VERTICES; ++k)
+        hci_svg_include(&r, value[k]);
+    return r;
+}
+
+static hci_svg_range range_of(const curves *c, size_t first, size_t last)
+{
+    hci_svg_range r = HCI_SVG_NOTHING;
+    for (size_t j = first; j <= last; ++j) {
+        const hci_svg_range one = range_of_values(c->value[j]);
+        hci_svg_include(&r, one.low);
+        hci_svg_include(&r, one.high);
+    }
+    return r;
+}
+
+static void draw_curve(hci_output *out, const char *style, const double *value, const hci_svg_axis *x,
+                       const hci_svg_axis *y)
+{
+    const hci_svg_range r = range_of_values(value);
+    const size_t step = fabs(hci_svg_at(y, r.high) - hci_svg_at(y, r.low)) < 0.01
+                            ? VERTICES
+                            : 1; /* a flat one needs its ends only */
+    hci_svg_line_begin(out, style);
+    for (size_t k = 0; k <= VERTICES; k += step)
+        hci_svg_line_point(out, x->from + (x->to - x->from) * (double)k / VERTICES, hci_svg_at(y, value[k]));
+    hci_svg_line_end(out);
+}
+
+static void draw_angle(hci_output *out, const curves *c, const hci_svg_axis *x, const hci_svg_box *b)
+{
+    char text[HCI_SVG_NUMBER_SIZE + 80];
+    hci_svg_grid(out, x, b, false);
+    if (c->turns < (double)c->solution->period_turns)
+        snprintf(text, sizeof text, "electrical angle in degrees; %.0f of the %zu turns of the period",
+                 c->turns, c->solution->period_turns);
+    else
+        snprintf(text, sizeof text, "electrical angle in degrees");
+    hci_svg_label(out, "quiet middle", 0.5 * (b->left + b->right), b->bottom + 35.0, text);
+}
+
+/* ---- the four panels ---- */
+
+static void draw_torque(hci_output *out, const curves *c)
+{
+    static const hci_svg_entry LEGEND[] = {
+        {HCI_SVG_LINE, "before", "before"},
+        {HCI_SVG_LINE, "wanted", "wanted"},
+        {HCI_SVG_LINE, "after",  "after" }
+    };
+    const hci_svg_axis x = hci_svg_axis_of_angle(c->turns, &TORQUE);
+    const hci_svg_axis y = hci_svg_axis_over(range_of(c, BEFORE, AFTER), TORQUE.bottom, TORQUE.top, 6.0);
+    hci_svg_head(out, &TORQUE, "Torque in N·m", LEGEND, 3);
+    draw_angle(out, c, &x, &TORQUE);
+    hci_svg_grid(out, &y, &TORQUE, true);
+    draw_curve(out, "before", c->value[BEFORE], &x, &y);
+    draw_curve(out, "wanted", c->value[WANTED], &x, &y);
+    draw_curve(out, "after", c->value[AFTER], &x, &y);
+}
+
+/* The letter of a phase over its peak. */
+static void draw_phase_letter(hci_output *out, const double *value, const char *letter, const hci_svg_axis *y)
+{
+    size_t peak = 0;
+    for (size_t k = 1; k < VERTICES; ++k)
+        if (value[k] > value[peak]) peak = k;
+    hci_svg_label(out, "head middle", CURRENT.left + (CURRENT.right - CURRENT.left) * (double)peak / VERTICES,
+                  hci_svg_at(y, value[peak]) - 5.0, letter);
+}
+
+static void draw_currents(hci_output *out, const curves *c)
+{
+    static const hci_svg_entry LEGEND[] = {
+        {HCI_SVG_LINE, "before", "i_a before"},
+        {HCI_SVG_LINE, "a",      "i_a"       },
+        {HCI_SVG_LINE, "b",      "i_b"       },
+        {HCI_SVG_LINE, "c",      "i_c"       }
+    };
+    const hci_svg_axis x = hci_svg_axis_of_angle(c->turns, &CURRENT);
+    const hci_svg_axis y = hci_svg_axis_over(range_of(c, PHASE_A, PLAIN_A), CURRENT.bottom, CURRENT.top, 6.0);
+    hci_svg_head(out, &CURRENT, "Phase currents in A", LEGEND, 4);
+    draw_angle(out, c, &x, &CURRENT);
+    hci_svg_grid(out, &y, &CURRENT, true);
+    draw_curve(out, "before", c->value[PLAIN_A], &x, &y);
+    draw_curve(out, "c", c->value[PHASE_C], &x, &y);
+    draw_curve(out, "b", c->value[PHASE_B], &x, &y);
+    draw_curve(out, "a", c->value[PHASE_A], &x, &y);
+    draw_phase_letter(out, c->value[PHASE_A], "a", &y);
+    draw_phase_letter(out, c->value[PHASE_B], "b", &y);
+    draw_phase_letter(out, c->value[PHASE_C], "c", &y);
+}
+
+/* ---- current vector ---- */
+
+static hci_dq vector_at(const hci_wave *waves, size_t count, double theta_rad)
+{
+    double abc[3];
+    hci_waves_at(waves, count, theta_rad, abc);
+    return hci_park(hci_clarke(abc), theta_rad);
+}
+
+enum { MOST_VECTORS = 10 * COLUMNS };
+
+static size_t vector_count(const curves *c)
+{
+    return (size_t)fmax(VERTICES, fmin(MOST_VECTORS, ceil(64.0 * c->top_order * c->turns)));
+}
+
+static hci_dq vector_sample(const curves *c, size_t k, size_t count)
+{
+    const double theta_rad = 2.0 * HCI_PI * c->turns * (double)k / (double)count;
+    return vector_at(c->solution->current.wave, c->solution->current.count, theta_rad);
+}
+
+/* Widens an axis about its middle. */
+static void widen(hci_svg_axis *a, double span)
+{
+    const double middle = 0.5 * (a->low + a->high);
+    a->low = middle - 0.5 * span;
+    a->high = middle + 0.5 * span;
+}
+
+/* Both axes with the same number of amperes a pixel. */
+static void vector_axes(const curves *c, hci_dq plain, hci_svg_axis *d, hci_svg_axis *q)
+{
+    const double width = VECTOR.right - VECTOR.left, height = VECTOR.bottom - VECTOR.top;
+    hci_svg_range d_A = HCI_SVG_NOTHING, q_A = HCI_SVG_NOTHING;
+    double scale;
+    for (size_t k = 0, count = vector_count(c); k < count; ++k) {
+        const hci_dq i = vector_sample(c, k, count);
+        hci_svg_include(&d_A, i.d);
+        hci_svg_include(&q_A, i.q);
+    }
+    hci_svg_include(&d_A, plain.d);
+    hci_svg_include(&q_A, plain.q);
+    if (d_A.high - d_A.low <= 1e-6 * (fabs(q_A.high) + fabs(q_A.low)))
+        d_A = (hci_svg_range){d_A.low - 1e-6, d_A.high + 1e-6};
+    *d = hci_svg_axis_over(d_A, VECTOR.left, VECTOR.right, 6.0);
+    *q = hci_svg_axis_over(q_A, VECTOR.bottom, VECTOR.top, 6.0);
+    scale = fmax((d->high - d->low) / width, (q->high - q->low) / height);
+    widen(d, scale * width);
+    widen(q, scale * height);
+    d->step = q->step = hci_svg_nice_step(scale * height / 6.0);
+}
+
+/* Points closer than one and a half pixels to the last one are left out. */
+static void draw_path(hci_output *out, const curves *c, const hci_svg_axis *d, const hci_svg_axis *q)
+{
+    const size_t count = vector_count(c);
+    double last_x = -1e9, last_y = -1e9;
+    hci_svg_line_begin(out, "path");
+    for (size_t k = 0; k <= count; ++k) {
+        const hci_dq i = vector_sample(c, k, count);
+        const double x = hci_svg_at(d, i.d), y = hci_svg_at(q, i.q);
+        if (k < count && hypot(x - last_x, y - last_y) < 1.5) continue;
+        hci_svg_line_point(out, x, y);
+        last_x = x;
+        last_y = y;
+    }
+    hci_svg_line_end(out);
+}
+
+/* With a rim, to be seen on a dense path. */
+static void draw_vector_mark(hci_output *out, const char *style, double x, double y)
+{
+    hci_svg_circle(out, "back", x, y, 6.5);
+    hci_svg_circle(out, style, x, y, 4.2);
+}
+
+static void draw_vector(hci_output *out, const curves *c)
+{
+    static const hci_svg_entry LEGEND[] = {
+        {HCI_SVG_DOT,  "plain", "before"},
+        {HCI_SVG_LINE, "path",  "after" },
+        {HCI_SVG_DOT,  "start", "at 0°"}
+    };
+    const hci_dq plain = vector_at(&c->plain, 1, 0.0), start = vector_sample(c, 0, 1);
+    hci_svg_axis d, q;
+    vector_axes(c, plain, &d, &q);
+    hci_svg_head(out, &VECTOR, "Current vector, i_q in A", LEGEND, 3);
+    hci_svg_grid(out, &d, &VECTOR, false);
+    hci_svg_grid(out, &q, &VECTOR, true);
+    hci_svg_label(out, "quiet middle", 0.5 * (VECTOR.left + VECTOR.right), VECTOR.bottom + 35.0, "i_d in A");
+    draw_path(out, c, &d, &q);
+    draw_vector_mark(out, "plain", hci_svg_at(&d, plain.d), hci_svg_at(&q, plain.q));
+    draw_vector_mark(out, "start", hci_svg_at(&d, start.d), hci_svg_at(&q, start.q));
+}
+
+/* ---- spectrum ---- */
+
+enum { MOST_GROUPS = 16 };
+
+/* Bars below this share of the largest are a pixel high. */
+#define WORTHWHILE 5e-3
+
+static bool is_missed(const hci_solved_order *o)
+{
+    return o->verdict > HCI_ORDER_FREE;
+}
+
+/* What an order is worth showing: its size, but a missed one never less than some of the largest. */
+static double worth_of(const hci_solved_order *o, double largest_Nm)
+{
+    const double size_Nm = fmax(largest_of(o), o->error_Nm);
+    return is_missed(o) ? fmax(size_Nm, 0.02 * largest_Nm + o->error_Nm) : size_Nm;
+}
+
+static bool is_ripple(const hci_solved_order *o)
+{
+    return order_of(o) >= HCI_ORDER_TOLERANCE;
+}
+
+static double largest_ripple_Nm(const hci_solution *s)
+{
+    double largest = 0.0;
+    for (size_t k = 0; k < s->order_count; ++k)
+        if (is_ripple(&s->order[k])) largest = fmax(largest, largest_of(&s->order[k]));
+    return largest;
+}
+
+static int by_place(const void *a, const void *b)
+{
+    const size_t x = *(const size_t *)a, y = *(const size_t *)b;
+    return (x > y) - (x < y);
+}
+
+/* The orders of most worth, ascending; returns how many. */
+static size_t choose_groups(const hci_solution *s, size_t group[MOST_GROUPS], size_t *eligible)
+{
+    const double largest = largest_ripple_Nm(s);
+    double worth[MOST_GROUPS];
+    size_t count = 0;
+    *eligible = 0;
+    for (size_t k = 0; k < s->order_count; ++k) {
+        const double w = worth_of(&s->order[k], largest);
+        size_t place = count;
+        if (!is_ripple(&s->order[k]) || !(w > WORTHWHILE * largest)) continue;
+        ++*eligible;
+        if (count < MOST_GROUPS)
+            ++count;
+        else if (w > worth[MOST_GROUPS - 1])
+            place = MOST_GROUPS - 1;
+        else
+            continue;
+        for (; place > 0 && worth[place - 1] < w; --place) {
+            worth[place] = worth[place - 1];
+            group[place] = group[place - 1];
+        }
+        worth[place] = w;
+        group[place] = k;
+    }
+    qsort(group, count, sizeof *group, by_place);
+    return count;
+}
+
+/* A height of nothing still shows as a line. */
+static void draw_bar(hci_output *out, const char *style, double left, double width, double value,
+                     const hci_svg_axis *y)
+{
+    hci_svg_rectangle(out, style, left, fmin(hci_svg_at(y, value), y->from - 1.5), left + width, y->from);
+}
+
+static void draw_group(hci_output *out, const hci_solved_order *o, double middle, double width,
+                       const hci_svg_axis *y)
+{
+    const double bar = fmin(13.0, 0.27 * width), top = hci_svg_at(y, largest_of(o)) - 9.0;
+    char text[HCI_SVG_NUMBER_SIZE];
+    draw_bar(out, "before", middle - 1.5 * bar, bar, amplitude(o->before_Nm), y);
+    draw_bar(out, "wanted", middle - 0.5 * bar, bar, amplitude(o->target_Nm), y);
+    draw_bar(out, "after", middle + 0.5 * bar, bar, amplitude(o->torque_Nm), y);
+    if (o->verdict == HCI_ORDER_UNREACHABLE) hci_svg_cross(out, middle, top);
+    if (is_missed(o) && o->verdict != HCI_ORDER_UNREACHABLE) hci_svg_circle(out, "ring", middle, top, 4.0);
+    hci_svg_short_text(text, order_of(o));
+    hci_svg_label(out, is_missed(o) ? "no middle" : "quiet middle", middle, SPECTRUM.bottom + 17.0, text);
+}
+
+static void draw_spectrum_foot(hci_output *out, const hci_solution *s, size_t shown, size_t eligible)
+{
+    static const hci_svg_entry MARKS[] = {
+        {HCI_SVG_DOT,   "ring", "missed"     },
+        {HCI_SVG_CROSS, "",     "unreachable"}
+    };
+    bool missed = false, unreachable = false;
+    char text[80];
+    for (size_t k = 0; k < s->order_count; ++k) {
+        unreachable = unreachable || s->order[k].verdict == HCI_ORDER_UNREACHABLE;
+        missed = missed || (is_missed(&s->order[k]) && s->order[k].verdict != HCI_ORDER_UNREACHABLE);
+    }
+    if (shown < eligible)
+        snprintf(text, sizeof text, "electrical order, the largest %zu of %zu", shown, eligible);
+    else
+        snprintf(text, sizeof text, "electrical order");
+    hci_svg_label(out, "quiet", SPECTRUM.left, SPECTRUM.bottom + 35.0, text);
+    hci_svg_legend(out, missed ? MARKS : MARKS + 1, (size_t)missed + (size_t)unreachable, SPECTRUM.right,
+                   SPECTRUM.bottom + 35.0);
+}
+
+static void draw_spectrum(hci_output *out, const hci_solution *s)
+{
+    static const hci_svg_entry LEGEND[] = {
+        {HCI_SVG_BAR, "before", "before"},
+        {HCI_SVG_BAR, "wanted", "wanted"},
+        {HCI_SVG_BAR, "after",  "after" }
+    };
+    const hci_svg_range peaks = {0.0, 1.04 * largest_ripple_Nm(s)};
+    const hci_svg_axis y = hci_svg_axis_over(peaks.high > 0.0 ? peaks : (hci_svg_range){0.0, 1.0},
+                                             SPECTRUM.bottom, SPECTRUM.top, 6.0);
+    size_t group[MOST_GROUPS], eligible;
+    const size_t count = choose_groups(s, group, &eligible);
+    const double width = fmin((SPECTRUM.right - SPECTRUM.left) / (double)(count > 0 ? count : 1), 60.0);
+    const double left = 0.5 * (SPECTRUM.left + SPECTRUM.right - width * (double)count);
+    hci_svg_head(out, &SPECTRUM, "Ripple in N·m (peak)", LEGEND, 3);
+    hci_svg_grid(out, &y, &SPECTRUM, true);
+    for (size_t k = 0; k < count; ++k)
+        draw_group(out, &s->order[group[k]], left + width * ((double)k + 0.5), width, &y);
+    if (count == 0)
+        hci_svg_label(out, "quiet middle", 0.5 * (SPECTRUM.left + SPECTRUM.right),
+                      0.5 * (SPECTRUM.top + SPECTRUM.bottom), "no torque ripple");
+    draw_spectrum_foot(out, s, count, eligible);
+}
+
+/* ---- words ---- */
+
+enum { LINE_SIZE = 512 };
+
+static size_t missed_count(const hci_solution *s)
+{
+    size_t missed = 0;
+    for (size_t k = 0; k < s->order_count; ++k)
+        missed += is_missed(&s->order[k]);
+    return missed;
+}
+
+static void missed_line(char line[LINE_SIZE], const hci_solution *s, size_t missed)
+{
+    char order[HCI_SVG_NUMBER_SIZE], error[HCI_SVG_NUMBER_SIZE], more[HCI_SVG_NUMBER_SIZE] = "";
+    hci_svg_short_text(order, s->worst_order);
+    hci_svg_quantity_text(error, s->worst_error_Nm, "N·m");
+    if (missed > 1)
+        snprintf(more, sizeof more, ", %zu more order%s missed", missed - 1, missed > 2 ? "s" : "");
+    snprintf(line, LINE_SIZE, "Not reached: order %s is off by %s%s", order, error, more);
+}
+
+static void limit_line(char line[LINE_SIZE], const hci_solution *s)
+{
+    char current[HCI_SVG_NUMBER_SIZE], voltage[HCI_SVG_NUMBER_SIZE];
+    hci_svg_quantity_text(current, s->peak_phase_current_A, "A");
+    hci_svg_quantity_text(voltage, s->peak_line_voltage_V, "V");
+    snprintf(line, LINE_SIZE, "Over a limit: the wanted torque takes a peak phase current of %s", current);
+    if (isfinite(s->peak_line_voltage_V))
+        snprintf(line + strlen(line), LINE_SIZE - strlen(line), " and line voltage of %s", voltage);
+}
+
+static void verdict_line(char line[LINE_SIZE], const hci_solution *s)
+{
+    const size_t missed = missed_count(s);
+    char tolerance[HCI_SVG_NUMBER_SIZE];
+    hci_svg_quantity_text(tolerance, s->tolerance_Nm, "N·m");
+    if (missed > 0)
+        missed_line(line, s, missed);
+    else if (!s->within_limits)
+        limit_line(line, s);
+    else
+        snprintf(line, LINE_SIZE, "Reached: every torque order is within %s of what is wanted", tolerance);
+}
+
+static void peak_to_peak_text(char text[HCI_SVG_NUMBER_SIZE], const curves *c, size_t curve)
+{
+    const hci_svg_range r = range_of_values(c->value[curve]);
+    hci_svg_quantity_text(text, r.high - r.low, "N·m");
+}
+
+static void facts_line(char line[LINE_SIZE], const curves *c)
+{
+    const hci_solution *s = c->solution;
+    char mean[HCI_SVG_NUMBER_SIZE], error[HCI_SVG_NUMBER_SIZE], order[HCI_SVG_NUMBER_SIZE],
+        before[HCI_SVG_NUMBER_SIZE], after[HCI_SVG_NUMBER_SIZE], loss[HCI_SVG_NUMBER_SIZE];
+    hci_svg_quantity_text(mean, mean_Nm(s, false), "N·m");
+    hci_svg_quantity_text(error, s->worst_error_Nm, "N·m");
+    hci_svg_short_text(order, s->worst_order);
+    peak_to_peak_text(before, c, BEFORE);
+    peak_to_peak_text(after, c, AFTER);
+    snprintf(line, LINE_SIZE,
+             "mean torque %s · worst error %s at order %s · peak to peak %s before, %s after", mean, error,
+             order, before, after);
+    if (!isfinite(s->loss_to_plain)) return;
+    hci_svg_short_text(loss, s->loss_to_plain);
+    snprintf(line + strlen(line), LINE_SIZE - strlen(line), " · copper loss × %s", loss);
+}
+
+static void baseline_line(char line[LINE_SIZE], const curves *c)
+{
+    const hci_solution *s = c->solution;
+    char plain[HCI_SVG_NUMBER_SIZE], limit[HCI_SVG_NUMBER_SIZE];
+    hci_svg_quantity_text(plain, s->plain_amplitude_A, "A");
+    if (!(s->plain_amplitude_A > 0.0))
+        snprintf(line, LINE_SIZE,
+                 "Before: no current, since no mean torque is wanted; what is left is cogging.");
+    else if (!s->per_Nm)
+        snprintf(line, LINE_SIZE,
+                 "Before: the held fundamental of %s alone. The copper loss is relative to its", plain);
+    else
+        snprintf(line, LINE_SIZE,
+                 "Before: a plain sine of %s with the wanted mean torque. The copper loss is relative to its",
+                 plain);
+    if (!(s->plain_amplitude_A > 0.0)) return;
+    if (isfinite(s->loss_to_limit) && missed_count(s) == 0) {
+        hci_svg_fixed_text(limit, fmin(s->loss_to_limit, 1e6), 3);
+        snprintf(line + strlen(line), LINE_SIZE - strlen(line), " and %s × the least possible", limit);
+    }
+    snprintf(line + strlen(line), LINE_SIZE - strlen(line), ".");
+}
+
+static void draw_words(hci_output *out, const curves *c)
+{
+    char verdict[LINE_SIZE], facts[LINE_SIZE], baseline[LINE_SIZE];
+    verdict_line(verdict, c->solution);
+    facts_line(facts, c);
+    baseline_line(baseline, c);
+    hci_output_text(out, "<title id=\"hci-title\">");
+    hci_svg_text(out, verdict);
+    hci_output_text(out, "</title>\n<desc id=\"hci-desc\">");
+    hci_svg_text(out, facts);
+    hci_output_text(
+        out, ". Four panels: torque over the electrical angle, torque ripple by electrical order, phase "
+             "currents, and the path of the current vector. ");
+    hci_svg_text(out, baseline);
+    hci_output_text(out, "</desc>\n<style>%s</style>\n", STYLE);
+    hci_svg_rectangle(out, "back", 0.0, 0.0, WIDTH, HEIGHT);
+    hci_svg_label(out, "verdict", 28.0, 38.0, verdict);
+    hci_svg_label(out, "facts quiet", 28.0, 62.0, facts);
+    hci_svg_label(out, "small quiet", 28.0, HEIGHT - 26.0, baseline);
+    hci_svg_label(
+        out, "small quiet", 28.0, HEIGHT - 11.0,
+        "Amplitudes are peak values; angles and orders are electrical. Torque is that of the model: mutual "
+        "and cogging.");
+}
+
+void hci_plot_solution(hci_output *out, const hci_machine_data *machine, const hci_solution *solution)
+{
+    curves c;
+    fill_curves(&c, machine, solution);
+    hci_output_text(
+        out,
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"hci\" viewBox=\"0 0 %d %d\" role=\"img\" "
+        "aria-labelledby=\"hci-title\" aria-describedby=\"hci-desc\">\n",
+        WIDTH, HEIGHT);
+    draw_words(out, &c);
+    draw_torque(out, &c);
+    draw_spectrum(out, solution);
+    draw_currents(out, &c);
+    draw_vector(out, &c);
+    hci_output_text(out, "</svg>\n");
+}

@@ -1,0 +1,278 @@
+/* The only file that writes SVG. */
+#include "svg.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- numbers as text, without the locale ---- */
+
+void hci_svg_fixed_text(char text[HCI_SVG_NUMBER_SIZE], double value, int decimals)
+{
+    const double power = pow(10.0, decimals);
+    const long long scaled = llround(fmin(fabs(value) * power, 1e15)), unit = llround(power);
+    const char *sign = value < 0.0 && scaled > 0 ? "−" : "";
+    if (decimals == 0)
+        snprintf(text, HCI_SVG_NUMBER_SIZE, "%s%lld", sign, scaled);
+    else
+        snprintf(text, HCI_SVG_NUMBER_SIZE, "%s%lld.%0*lld", sign, scaled / unit, decimals, scaled % unit);
+}
+
+static int decade(double value)
+{
+    return isfinite(value) && value != 0.0 ? (int)floor(log10(fabs(value)) + 1e-9) : 0;
+}
+
+/* A multiple of `step` with the decimals that the step has. */
+static void tick_text(char text[HCI_SVG_NUMBER_SIZE], double value, double step)
+{
+    const int exponent = decade(fmax(fabs(value), step));
+    if (fabs(value) < 0.5 * step) {
+        hci_svg_fixed_text(text, 0.0, step >= 1e-4 && step < 1.0 ? -decade(step) : 0);
+    } else if (step >= 1e-4 && fabs(value) < 1e6) {
+        hci_svg_fixed_text(text, value, step < 1.0 ? -decade(step) : 0);
+    } else {
+        hci_svg_fixed_text(text, value / pow(10.0, exponent),
+                           exponent - decade(step) < 9 ? exponent - decade(step) : 9);
+        snprintf(text + strlen(text), HCI_SVG_NUMBER_SIZE - strlen(text), "e%d", exponent);
+    }
+}
+
+void hci_svg_short_text(char text[HCI_SVG_NUMBER_SIZE], double value)
+{
+    const int exponent = fabs(value) >= 1e-6 ? decade(value) : 0;
+    hci_svg_fixed_text(text, value, exponent < 3 ? 3 - exponent : 0);
+    if (!strchr(text, '.')) return;
+    for (char *end = text + strlen(text) - 1; *end == '0' || *end == '.'; --end) {
+        const bool point = *end == '.';
+        *end = '\0';
+        if (point) return;
+    }
+}
+
+void hci_svg_quantity_text(char text[HCI_SVG_NUMBER_SIZE], double value, const char *unit)
+{
+    static const char *const PREFIX[] = {"p", "n", "µ", "m", "", "k", "M"};
+    int k = 4;
+    if (!isfinite(value) || fabs(value) >= 1e9) {
+        snprintf(text, HCI_SVG_NUMBER_SIZE, "> 1000 M%s", unit);
+    } else if (value != 0.0 && fabs(value) < 1e-12) {
+        snprintf(text, HCI_SVG_NUMBER_SIZE, "< 1 p%s", unit);
+    } else {
+        for (; fabs(value) >= 1000.0 && k < 6; ++k)
+            value /= 1000.0;
+        for (; fabs(value) < 0.1 && value != 0.0 && k > 0; --k)
+            value *= 1000.0;
+        hci_svg_short_text(text, value);
+        snprintf(text + strlen(text), HCI_SVG_NUMBER_SIZE - strlen(text), " %s%s", PREFIX[k], unit);
+    }
+}
+
+/* ---- elements ---- */
+
+/* A coordinate in hundredths; what lies far out or is no number goes to the edge. */
+static void put(hci_output *out, double value, const char *after)
+{
+    const double limited = value > -9999.0 ? fmin(value, 9999.0) : -9999.0;
+    const long hundredths = lround(100.0 * limited);
+    hci_output_text(out, "%s%ld.%02ld%s", hundredths < 0 ? "-" : "", labs(hundredths) / 100,
+                    labs(hundredths) % 100, after);
+}
+
+void hci_svg_segment(hci_output *out, const char *style, double x1, double y1, double x2, double y2)
+{
+    hci_output_text(out, "<path class=\"%s\" d=\"M", style);
+    put(out, x1, " ");
+    put(out, y1, "L");
+    put(out, x2, " ");
+    put(out, y2, "\"/>\n");
+}
+
+void hci_svg_rectangle(hci_output *out, const char *style, double left, double top, double right,
+                       double bottom)
+{
+    hci_output_text(out, "<rect class=\"%s\" x=\"", style);
+    put(out, left, "\" y=\"");
+    put(out, top, "\" width=\"");
+    put(out, fmax(right - left, 0.0), "\" height=\"");
+    put(out, fmax(bottom - top, 0.0), "\"/>\n");
+}
+
+void hci_svg_circle(hci_output *out, const char *style, double x, double y, double radius)
+{
+    hci_output_text(out, "<circle class=\"%s\" cx=\"", style);
+    put(out, x, "\" cy=\"");
+    put(out, y, "\" r=\"");
+    put(out, radius, "\"/>\n");
+}
+
+void hci_svg_cross(hci_output *out, double x, double y)
+{
+    hci_svg_segment(out, "cross", x - 4.0, y - 4.0, x + 4.0, y + 4.0);
+    hci_svg_segment(out, "cross", x - 4.0, y + 4.0, x + 4.0, y - 4.0);
+}
+
+void hci_svg_line_begin(hci_output *out, const char *style)
+{
+    hci_output_text(out, "<polyline class=\"%s\" points=\"", style);
+}
+
+void hci_svg_line_point(hci_output *out, double x, double y)
+{
+    put(out, x, ",");
+    put(out, y, " ");
+}
+
+void hci_svg_line_end(hci_output *out)
+{
+    hci_output_text(out, "\"/>\n");
+}
+
+static void put_character(hci_output *out, char c)
+{
+    if (strchr("<>&\"", c))
+        hci_output_text(out, "&#%d;", c);
+    else
+        hci_output_text(out, "%c", c);
+}
+
+void hci_svg_text(hci_output *out, const char *text)
+{
+    for (; *text; ++text)
+        put_character(out, *text);
+}
+
+/* A blank at the start of a tspan would be lost: it is a shift instead. */
+static void put_with_subscripts(hci_output *out, const char *text)
+{
+    bool lowered = false;
+    for (; *text; ++text) {
+        if (*text != '_' || !text[1]) {
+            put_character(out, *text);
+            continue;
+        }
+        hci_output_text(out, "<tspan class=\"sub\" dy=\"3\">%c</tspan><tspan dy=\"-3\"%s>", text[1],
+                        text[2] == ' ' ? " dx=\"4\"" : "");
+        text += text[2] == ' ' ? 2 : 1;
+        lowered = true;
+    }
+    if (lowered) hci_output_text(out, "</tspan>");
+}
+
+void hci_svg_label(hci_output *out, const char *style, double x, double y, const char *text)
+{
+    hci_output_text(out, "<text class=\"%s\" x=\"", style);
+    put(out, x, "\" y=\"");
+    put(out, y, "\">");
+    put_with_subscripts(out, text);
+    hci_output_text(out, "</text>\n");
+}
+
+/* Width of a 12 px text in the mean of common fonts. */
+static double text_width(const char *text)
+{
+    double width = 0.0;
+    for (; *text; ++text)
+        if (((unsigned char)*text & 0xC0u) != 0x80u && *text != '_') width += 6.3;
+    return width;
+}
+
+/* ---- axes ---- */
+
+void hci_svg_include(hci_svg_range *r, double value)
+{
+    if (!isfinite(value)) return;
+    r->low = fmin(r->low, value);
+    r->high = fmax(r->high, value);
+}
+
+double hci_svg_at(const hci_svg_axis *a, double value)
+{
+    const double share = (value - a->low) / (a->high - a->low);
+    return a->from + fmin(fmax(share, 0.0), 1.0) * (a->to - a->from);
+}
+
+double hci_svg_nice_step(double least)
+{
+    const double ten = pow(10.0, floor(log10(least))), share = least / ten;
+    return ten * (share <= 1.0 ? 1.0 : share <= 2.0 ? 2.0 : share <= 5.0 ? 5.0 : 10.0);
+}
+
+/* A range that can be drawn: not empty, not a point, with zero when that is near. */
+static hci_svg_range drawable(hci_svg_range r)
+{
+    const double size = fmax(fabs(r.low), fabs(r.high));
+    if (!(r.low <= r.high) || !(size > 1e-200) || size > 1e200) return (hci_svg_range){-1.0, 1.0};
+    if (r.high - r.low <= 1e-9 * size) return (hci_svg_range){r.low - 0.1 * size, r.high + 0.1 * size};
+    if (r.low > 0.0 && r.low < 0.5 * r.high) r.low = 0.0;
+    if (r.high < 0.0 && r.high > 0.5 * r.low) r.high = 0.0;
+    return r;
+}
+
+hci_svg_axis hci_svg_axis_over(hci_svg_range r, double from, double to, double most_ticks)
+{
+    const hci_svg_range shown = drawable(r);
+    const double margin = 0.05 * (shown.high - shown.low);
+    hci_svg_axis a = {shown.low, shown.high, from, to, 0.0};
+    if (shown.low != 0.0) a.low -= margin;
+    if (shown.high != 0.0) a.high += margin;
+    a.step = hci_svg_nice_step((a.high - a.low) / most_ticks);
+    return a;
+}
+
+hci_svg_axis hci_svg_axis_of_angle(double turns, const hci_svg_box *b)
+{
+    static const double STEP_DEG[] = {60,   90,    180,   360,   720,    1800,  3600,
+                                      7200, 18000, 36000, 72000, 180000, 360000};
+    hci_svg_axis a = {0.0, 360.0 * turns, b->left, b->right, 0.0};
+    size_t k = 0;
+    while (k + 1 < sizeof STEP_DEG / sizeof STEP_DEG[0] && 8.0 * STEP_DEG[k] < a.high)
+        ++k;
+    a.step = STEP_DEG[k];
+    return a;
+}
+
+void hci_svg_grid(hci_output *out, const hci_svg_axis *a, const hci_svg_box *b, bool upwards)
+{
+    const double first = ceil(a->low / a->step - 1e-9), last = floor(a->high / a->step + 1e-9);
+    for (double k = first; k <= last; k += 1.0) {
+        const double place = hci_svg_at(a, k * a->step);
+        char text[HCI_SVG_NUMBER_SIZE];
+        tick_text(text, k * a->step, a->step);
+        if (upwards) {
+            hci_svg_segment(out, k == 0.0 ? "axis" : "grid", b->left, place, b->right, place);
+            hci_svg_label(out, "quiet end", b->left - 8.0, place + 4.0, text);
+        } else {
+            hci_svg_segment(out, k == 0.0 && a->low < 0.0 ? "axis" : "grid", place, b->top, place, b->bottom);
+            hci_svg_label(out, "quiet middle", place, b->bottom + 17.0, text);
+        }
+    }
+}
+
+/* ---- legends ---- */
+
+static void draw_mark(hci_output *out, hci_svg_entry e, double x, double y)
+{
+    if (e.mark == HCI_SVG_LINE) hci_svg_segment(out, e.style, x, y, x + 16.0, y);
+    if (e.mark == HCI_SVG_BAR) hci_svg_rectangle(out, e.style, x + 5.0, y - 5.0, x + 14.0, y + 5.0);
+    if (e.mark == HCI_SVG_DOT) hci_svg_circle(out, e.style, x + 10.0, y, 4.0);
+    if (e.mark == HCI_SVG_CROSS) hci_svg_cross(out, x + 10.0, y);
+}
+
+void hci_svg_legend(hci_output *out, const hci_svg_entry *entries, size_t count, double right, double y)
+{
+    while (count-- > 0) {
+        right -= text_width(entries[count].text);
+        hci_svg_label(out, "legend", right, y, entries[count].text);
+        draw_mark(out, entries[count], right - 22.0, y - 4.0);
+        right -= 38.0;
+    }
+}
+
+void hci_svg_head(hci_output *out, const hci_svg_box *b, const char *title, const hci_svg_entry *entries,
+                  size_t count)
+{
+    hci_svg_label(out, "head", b->left - 34.0, b->top - 18.0, title);
+    hci_svg_legend(out, entries, count, b->right, b->top - 18.0);
+}

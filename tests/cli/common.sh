@@ -1,0 +1,70 @@
+# Read by the tests of the command line, which are called as `sh SCRIPT SOURCE_DIR BUILD_DIR HCI_SOLVE`: a folder to write
+# in, a way to run the program, and checks that go on after a failure.
+
+set -u
+export LC_ALL=C
+export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}exitcode=99" UBSAN_OPTIONS="${UBSAN_OPTIONS:+$UBSAN_OPTIONS:}exitcode=99"
+
+source_dir=$(cd "$1" && pwd) && hci_solve=$3 || exit 1
+case $hci_solve in
+    /*) ;;
+    *) hci_solve=$PWD/$hci_solve ;;
+esac
+work=$(mktemp -d) || exit 1
+trap 'chmod -R u+rwX "$work"; rm -rf "$work"' EXIT
+trap 'exit 1' HUP INT TERM
+
+checks=0
+failures=0
+shown= # what ran last
+
+fail() {
+    failures=$((failures + 1))
+    echo "FAILED: $*"
+    [ -z "$shown" ] || echo "    after: $shown"
+    [ ! -s "$work/stderr" ] || sed 's/^/    stderr: /' "$work/stderr" | head -n 4
+}
+
+# check WHAT COMMAND...: the command succeeds.
+check() {
+    what=$1
+    shift
+    checks=$((checks + 1))
+    "$@" || fail "$what"
+}
+
+# run CODE WORD...: the program ends with this exit code; what it says is in $work/stdout and $work/stderr.
+run() {
+    expected=$1
+    shift
+    shown="hci-solve $*"
+    checks=$((checks + 1))
+    "$hci_solve" "$@" >"$work/stdout" 2>"$work/stderr" </dev/null
+    code=$?
+    [ "$code" -eq "$expected" ] || fail "exit code $code, expected $expected"
+}
+
+# says EXPRESSION...: each extended regular expression is found on standard error.
+says() {
+    for expression; do
+        checks=$((checks + 1))
+        grep -Eq -e "$expression" "$work/stderr" || fail "standard error lacks: $expression"
+    done
+}
+
+nothing_on_stdout() {
+    check "standard output is not empty" [ ! -s "$work/stdout" ]
+}
+
+nothing_on_stderr() {
+    check "standard error is not empty" [ ! -s "$work/stderr" ]
+}
+
+finish() {
+    shown=
+    [ "$failures" -eq 0 ] || {
+        echo "$failures of $checks checks failed"
+        exit 1
+    }
+    echo "$checks checks"
+}

@@ -1,0 +1,137 @@
+/* Any bytes as a CSV file, as a number and as a unit: nothing crashes, and what is said of them keeps the
+ * promises.
+ *
+ *     clang -DHCI_FUZZER -fsanitize=fuzzer,address,undefined …    searches: fuzz_csv CORPUS_FOLDER
+ * tests/files/csv gcc -fsanitize=address,undefined …                          replays: fuzz_csv FILE… */
+#define _POSIX_C_SOURCE 200809L
+
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "hci/host/csv.h"
+#include "host/quote.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+static void require(int promise, const char *text)
+{
+    if (promise) return;
+    fprintf(stderr, "broken promise: %s\n", text);
+    abort();
+}
+
+/* A terminal may show it. */
+static void check_note(hci_status status, const hci_note *note)
+{
+    require((status == HCI_OK) == (note->text[0] == '\0'), "a note with each error, and none without");
+    require(status == HCI_OK || status == HCI_ERROR_INPUT, "errors of the input only");
+    require(hci_utf8_valid(note->text), "a note in UTF-8");
+    for (const char *at = note->text; *at != '\0'; at++)
+        require((unsigned char)*at >= 0x20 && *at != 0x7F, "no control characters");
+}
+
+static void check_cells(const hci_csv *csv, const char *column)
+{
+    for (size_t row = 0; row < hci_csv_rows(csv); row++) {
+        const char *text = NULL;
+        double value = 0;
+        hci_note note = {0}, pointing = {0}, number = {0};
+        const hci_status status = hci_csv_text(csv, column, row, &text, &note);
+        check_note(status, &note);
+        require(status != HCI_OK || hci_utf8_valid(text), "text in UTF-8");
+        check_note(hci_csv_error(csv, column, row, &pointing, "something else", "change it"), &pointing);
+        check_note(hci_csv_number(csv, column, row, &value, &number), &number);
+        require(isfinite(value), "a finite number");
+        require(row == 0 || hci_csv_line(csv, row) > hci_csv_line(csv, row - 1), "rows in ascending lines");
+    }
+}
+
+static void check_column(const hci_csv *csv, const char *column)
+{
+    double *values = malloc(hci_csv_rows(csv) * sizeof *values + 1);
+    hci_note note = {0};
+    const hci_status status = hci_csv_numbers(csv, column, values, &note);
+    check_note(status, &note);
+    require(status != HCI_OK || hci_csv_has(csv, column), "no numbers from a column that is not there");
+    for (size_t row = 0; status == HCI_OK && row < hci_csv_rows(csv); row++)
+        require(isfinite(values[row]), "finite numbers");
+    free(values);
+    if (hci_csv_has(csv, column)) check_cells(csv, column);
+}
+
+static void check_file(const char *path, size_t size)
+{
+    static const char *const columns[] = {
+        "order", "amplitude_V", "theta_e_rad", "speed_rad_per_s", "ia_A", "time_s", "name", "value", "x"};
+    hci_csv *csv;
+    hci_note note = {0};
+    const hci_status status = hci_csv_read(path, &csv, &note);
+    check_note(status, &note);
+    require((status == HCI_OK) == (csv != NULL), "a table or an error");
+    if (csv == NULL) return;
+    require(hci_csv_rows(csv) < size, "fewer rows than bytes");
+    for (size_t k = 0; k < sizeof columns / sizeof *columns; k++)
+        check_column(csv, columns[k]);
+    hci_csv_free(csv);
+}
+
+/* Decimal numbers are what strtod makes of them; what is written reads back. */
+static void check_text(const char *text)
+{
+    double value = 0, back = 0, factor = 1;
+    char written[32];
+    if (hci_unit_factor(text, "rad", &factor))
+        require(factor > 0 && factor < 7, "an angle of at most one turn");
+    if (!hci_number_parse(text, &value)) return;
+    const double reference = strtod(text, NULL);
+    require(memcmp(&value, &reference, sizeof value) == 0, "the value of strtod");
+    hci_number_text(value, written);
+    require(hci_number_parse(written, &back) && memcmp(&value, &back, sizeof value) == 0,
+            "the same number back");
+}
+
+/* A file without a name, so that nothing is left behind; /dev/fd reads it from its beginning. */
+static int open_nameless(char path[32])
+{
+    char name[] = "/tmp/hci-fuzz-csv-XXXXXX";
+    const int descriptor = mkstemp(name);
+    require(descriptor >= 0 && unlink(name) == 0, "a file to write into");
+    snprintf(path, 32, "/dev/fd/%d", descriptor);
+    return descriptor;
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    static char path[32];
+    static int descriptor = -1;
+    char text[1024];
+    if (descriptor < 0) descriptor = open_nameless(path);
+    require(ftruncate(descriptor, 0) == 0 && pwrite(descriptor, data, size, 0) == (ssize_t)size,
+            "a file that is written");
+    check_file(path, size);
+    const size_t length = size < sizeof text ? size : sizeof text - 1;
+    if (length > 0) memcpy(text, data, length);
+    text[length] = '\0';
+    check_text(text);
+    return 0;
+}
+
+#ifndef HCI_FUZZER
+int main(int count, char **paths)
+{
+    static uint8_t data[1 << 20];
+    for (int k = 1; k < count; k++) {
+        FILE *stream = fopen(paths[k], "rb");
+        require(stream != NULL, paths[k]);
+        const size_t size = fread(data, 1, sizeof data, stream);
+        fclose(stream);
+        (void)LLVMFuzzerTestOneInput(data, size);
+    }
+    printf("%d inputs\n", count - 1);
+    return 0;
+}
+#endif

@@ -1,0 +1,414 @@
+/* Every host path with an allocator that fails after n allocations, for n = 0, 1, 2, … until the path succeeds. Under
+ * -fsanitize=address the same run shows that nothing leaks. SuiteSparse and cJSON allocate through the same door. */
+#define _XOPEN_SOURCE 700
+
+#include <cjson/cJSON.h>
+#include <dirent.h>
+#include <dlfcn.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "hci/host/emit.h"
+#include "hci/host/solve.h"
+#include "hci/host/summary.h"
+#include "host/memory.h"
+#include "host/sparse.h"
+#include "unity.h"
+
+static char root[64];
+static hci_machine_data machine;
+static hci_target target;
+static hci_component_set set;
+static hci_wave fundamental;
+
+/* ---- the door of SuiteSparse ------------------------------------------------------------------------------------ */
+
+/* The first members of SuiteSparse_config up to version 5, where it is a variable; later versions have functions that set
+ * them. Both are looked up in the running program, so that one test serves both. */
+typedef struct {
+    void *(*malloc_func)(size_t);
+    void *(*calloc_func)(size_t, size_t);
+    void *(*realloc_func)(void *, size_t);
+    void (*free_func)(void *);
+} suitesparse_memory;
+
+static const suitesparse_memory DOOR = {hci_memory_malloc, hci_memory_new, hci_memory_realloc, hci_memory_free};
+
+static void set_by_function(void *program, const char *name, const void *function)
+{
+    void (*setter)(void *) = NULL;
+    void *argument = NULL;
+    void *symbol = dlsym(program, name);
+    TEST_ASSERT_NOT_NULL_MESSAGE(symbol, name);
+    memcpy(&setter, &symbol, sizeof symbol);
+    memcpy(&argument, function, sizeof argument);
+    setter(argument);
+}
+
+static void route_suitesparse(void)
+{
+    void *program = dlopen(NULL, RTLD_NOW);
+    suitesparse_memory *variable = dlsym(program, "SuiteSparse_config");
+    if (variable != NULL) {
+        *variable = DOOR;
+    } else {
+        set_by_function(program, "SuiteSparse_config_malloc_func_set", &DOOR.malloc_func);
+        set_by_function(program, "SuiteSparse_config_calloc_func_set", &DOOR.calloc_func);
+        set_by_function(program, "SuiteSparse_config_realloc_func_set", &DOOR.realloc_func);
+        set_by_function(program, "SuiteSparse_config_free_func_set", &DOOR.free_func);
+    }
+    dlclose(program);
+}
+
+/* ---- the sweep -------------------------------------------------------------------------------------------------- */
+
+/* Does something from beginning to end and leaves nothing behind. figure: out on success, a number that a hidden failure
+ * would change. */
+typedef hci_status path(double *figure);
+
+/* A path as it is when memory is there; then with n allocations for n = 0, 1, 2, … 200 and then in steps of a fiftieth.
+ * What does not fail must give the same figure. Returns how many allocations it took (the callers ask for a third of what
+ * it was when written, so that a door that is not used is noticed). */
+static long sweep(path *run)
+{
+    double expected = 0.0, figure = 0.0;
+    const hci_status good = run(&expected);
+    long n = 0;
+    TEST_ASSERT_TRUE(good == HCI_OK || good == HCI_NOT_REACHED);
+    for (;; n += n < 200 ? 1 : n / 50) {
+        hci_status status;
+        hci_memory_fail_after(n);
+        status = run(&figure);
+        hci_memory_fail_after(-1);
+        if (status == good) break;
+        TEST_ASSERT_EQUAL_INT(HCI_ERROR_MEMORY, status);
+    }
+    TEST_ASSERT_EQUAL_DOUBLE(expected, figure);
+    return n;
+}
+
+/* A failure has said why. */
+static hci_status noted(hci_status status, const hci_note *note)
+{
+    TEST_ASSERT_EQUAL_INT(status > HCI_NOT_REACHED, note->text[0] != '\0');
+    return status;
+}
+
+static int entries(const char *folder)
+{
+    int count = -2;
+    DIR *list = opendir(folder);
+    if (list == NULL) return -1;
+    while (readdir(list) != NULL) ++count;
+    closedir(list);
+    return count;
+}
+
+static void remove_files(const char *folder)
+{
+    DIR *list = opendir(folder);
+    for (const struct dirent *entry; list != NULL && (entry = readdir(list)) != NULL;) {
+        char name[512];
+        snprintf(name, sizeof name, "%s/%s", folder, entry->d_name);
+        if (entry->d_name[0] != '.') remove(name);
+    }
+    if (list != NULL) closedir(list);
+    rmdir(folder);
+}
+
+static const char *in_root(const char *name)
+{
+    static char text[128];
+    snprintf(text, sizeof text, "%s/%s", root, name);
+    return text;
+}
+
+/* ---- fixtures --------------------------------------------------------------------------------------------------- */
+
+void setUp(void)
+{
+    hci_note note = {{0}};
+    FILE *file;
+    const cJSON_Hooks hooks = {hci_memory_malloc, hci_memory_free};
+    cJSON_Hooks copy = hooks;
+    cJSON_InitHooks(&copy);
+    snprintf(root, sizeof root, "/tmp/hci-test-memory-XXXXXX");
+    TEST_ASSERT_NOT_NULL(mkdtemp(root));
+    file = fopen(in_root("target.csv"), "w");
+    TEST_ASSERT_NOT_NULL(file);
+    fputs("order,amplitude_Nm,phase_rad,weight\n0,2.5,1.5707963267948966,1\n6,0.1,0.3,0.5\n12,0,0,0\n", file);
+    fclose(file);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_machine_read("data/machine_a", &machine, &note), note.text);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_target_read("data/scenarios/02/target.csv", &target, &note), note.text);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_component_set_read("data/scenarios/02/harmonics.csv", false, &set, &note),
+                              note.text);
+    fundamental = hci_wave_polar(1.0, 1, 12.0, 0.2);
+}
+
+void tearDown(void)
+{
+    hci_memory_fail_after(-1);
+    hci_machine_release(&machine);
+    hci_target_release(&target);
+    hci_component_set_release(&set);
+    remove_files(root);
+    cJSON_InitHooks(NULL);
+}
+
+/* ---- reading ---------------------------------------------------------------------------------------------------- */
+
+static hci_status read_machine(double *figure)
+{
+    hci_machine_data m;
+    hci_note note = {{0}};
+    const hci_status status = hci_machine_read("data/machine_a", &m, &note);
+    if (status == HCI_OK) {
+        *figure = m.back_emf[4].sine + m.cogging[5].cosine;
+    } else {
+        TEST_ASSERT_NULL(m.back_emf);
+        TEST_ASSERT_NULL(m.cogging);
+    }
+    hci_machine_release(&m);
+    return noted(status, &note);
+}
+
+static hci_status read_target(double *figure)
+{
+    hci_target t;
+    hci_note note = {{0}};
+    const hci_status status = hci_target_read(in_root("target.csv"), &t, &note);
+    if (status == HCI_OK) {
+        *figure = t.order[1].torque_Nm.sine + t.order[1].weight;
+    } else {
+        TEST_ASSERT_NULL(t.order);
+    }
+    hci_target_release(&t);
+    return noted(status, &note);
+}
+
+static hci_status read_set(double *figure)
+{
+    hci_component_set s;
+    hci_note note = {{0}};
+    const hci_status status = hci_component_set_read("data/scenarios/05/harmonics.csv", false, &s, &note);
+    *figure = (double)s.count;
+    if (status != HCI_OK) {
+        TEST_ASSERT_NULL(s.component);
+    }
+    hci_component_set_release(&s);
+    return noted(status, &note);
+}
+
+static hci_status read_currents(double *figure)
+{
+    hci_currents c;
+    hci_note note = {{0}};
+    const hci_status status = hci_currents_read("data/example_currents/currents.csv", false, &c, &note);
+    *figure = (double)(c.hash >> 12);
+    if (status != HCI_OK) {
+        TEST_ASSERT_NULL(c.wave);
+    }
+    hci_currents_release(&c);
+    return noted(status, &note);
+}
+
+static void test_reading(void)
+{
+    TEST_ASSERT_TRUE(sweep(read_machine) > 10);
+    TEST_ASSERT_TRUE(sweep(read_target) > 5);
+    TEST_ASSERT_TRUE(sweep(read_set) > 5);
+    TEST_ASSERT_TRUE(sweep(read_currents) > 5);
+}
+
+/* ---- sparse solvers --------------------------------------------------------------------------------------------- */
+
+/* [4 1 0; 1 3 1; 0 1 2] */
+static hci_sparse matrix(void)
+{
+    static int64_t start[] = {0, 2, 5, 7}, row[] = {0, 1, 0, 1, 2, 1, 2};
+    static double value[] = {4.0, 1.0, 1.0, 3.0, 1.0, 1.0, 2.0};
+    return (hci_sparse){3, 3, start, row, value};
+}
+
+static hci_status by_umfpack(double *figure)
+{
+    const double b[3] = {1.0, 2.0, 3.0};
+    const hci_sparse a = matrix();
+    double x[3] = {0.0}, condition = 0.0;
+    hci_note note = {{0}};
+    const hci_status status = hci_sparse_lu_solve(&a, b, 1, x, &condition, &note);
+    *figure = x[0] + condition;
+    return noted(status, &note);
+}
+
+static hci_status by_spqr(double *figure)
+{
+    const double b[3] = {1.0, 2.0, 3.0};
+    const hci_sparse a = matrix();
+    double x[3] = {0.0}, condition = 0.0;
+    size_t rank = 0;
+    hci_note note = {{0}};
+    const hci_status status = hci_sparse_qr_solve(&a, b, 1, x, &rank, &condition, &note);
+    *figure = x[0] + condition + (double)rank;
+    return noted(status, &note);
+}
+
+static void test_sparse_solvers(void)
+{
+    TEST_ASSERT_TRUE(sweep(by_umfpack) > 40);
+    TEST_ASSERT_TRUE(sweep(by_spqr) > 40);
+}
+
+/* ---- solving ---------------------------------------------------------------------------------------------------- */
+
+static hci_solve_options options;
+
+static hci_status run_solve(double *figure)
+{
+    hci_solution s;
+    hci_note note = {{0}};
+    const hci_status status = hci_solve(&machine, &options, &s, &note);
+    if (status <= HCI_NOT_REACHED) {
+        *figure = s.mean_square_A2 + s.worst_error_Nm + (isnan(s.condition) ? 0.0 : s.condition) + (double)s.rank;
+    } else {
+        TEST_ASSERT_NULL(s.current.wave);
+        TEST_ASSERT_NULL(s.order);
+        TEST_ASSERT_NULL(s.per_Nm);
+        TEST_ASSERT_EQUAL_UINT64(0, s.order_count);
+    }
+    hci_solution_release(&s);
+    return noted(status, &note);
+}
+
+static void wish(const hci_component_set *of, const hci_wave *held, hci_method method)
+{
+    memset(&options, 0, sizeof options);
+    options.target = &target;
+    options.set = of;
+    options.held = held;
+    options.method = method;
+}
+
+static void test_solving_a_square_system(void)
+{
+    static const hci_method METHOD[] = {HCI_METHOD_AUTO, HCI_METHOD_LU, HCI_METHOD_UMFPACK, HCI_METHOD_QR};
+    hci_component component[2] = {{5.0, -1}, {11.0, -1}};
+    hci_set name[2] = {HCI_SET_NEG, HCI_SET_NEG};
+    const hci_component_set two = {component, name, 2, {{0}}};
+    for (size_t k = 0; k < 4; ++k) {
+        wish(&two, &fundamental, METHOD[k]);
+        options.compare = HCI_COMPARE_SQUARE;
+        TEST_ASSERT_TRUE(sweep(run_solve) > 15);
+    }
+}
+
+static void test_solving_a_deficient_system(void)
+{
+    wish(&set, &fundamental, HCI_METHOD_AUTO);
+    TEST_ASSERT_TRUE(sweep(run_solve) > 100);
+    wish(&set, NULL, HCI_METHOD_QR);
+    TEST_ASSERT_TRUE(sweep(run_solve) > 100);
+}
+
+/* Cogging up to order 12 alone, so that there are few candidates. */
+static void test_choosing(void)
+{
+    machine.model.cogging_count = 2;
+    wish(NULL, NULL, HCI_METHOD_AUTO);
+    TEST_ASSERT_TRUE(sweep(run_solve) > 100);
+    options.choose_at_most = 3;
+    TEST_ASSERT_TRUE(sweep(run_solve) > 100);
+}
+
+static void test_pointwise(void)
+{
+    wish(NULL, NULL, HCI_METHOD_POINTWISE);
+    TEST_ASSERT_TRUE(sweep(run_solve) > 5);
+}
+
+/* ---- writing ---------------------------------------------------------------------------------------------------- */
+
+static hci_solution solution;
+
+static hci_status write_solution(double *figure)
+{
+    hci_note note = {{0}};
+    const hci_status status = hci_solution_write(&machine, &solution, HCI_OK, in_root("out"), &note);
+    *figure = (double)entries(in_root("out"));
+    if (status != HCI_OK) {
+        TEST_ASSERT_EQUAL_INT(-1, entries(in_root("out")));
+    }
+    remove_files(in_root("out"));
+    return noted(status, &note);
+}
+
+static hci_status write_json(double *figure)
+{
+    char *text = hci_solution_json(&solution, HCI_OK);
+    if (text == NULL) return HCI_ERROR_MEMORY;
+    *figure = (double)strlen(text);
+    hci_text_free(text);
+    return HCI_OK;
+}
+
+static hci_status write_emit_json(double *figure)
+{
+    const hci_emit_request request = {"memory", "f32", HCI_TABLE_ABC, false, NULL, 0, NULL, 0, 0.0, 0, 0.0, NULL, 0, 0};
+    const hci_emit_result result = {0};
+    char *text = hci_emit_json(&request, &result);
+    if (text == NULL) return HCI_ERROR_MEMORY;
+    *figure = (double)strlen(text);
+    hci_text_free(text);
+    return HCI_OK;
+}
+
+static hci_status emit(double *figure)
+{
+    hci_note note = {{0}};
+    hci_emit_request request = {0};
+    hci_emit_result result = {0};
+    hci_status status;
+    request.name = "memory";
+    request.format = "f32";
+    request.currents = solution.constant;
+    request.per_Nm = solution.per_Nm;
+    request.current_count = request.per_Nm_count = solution.current.count;
+    request.reference_torque_Nm = 3.0;
+    request.points = 32;
+    status = hci_emit(in_root("out"), &request, &result, &note);
+    *figure = result.max_error_A + (double)result.crc32;
+    if (status != HCI_OK) {
+        TEST_ASSERT_EQUAL_INT(-1, entries(in_root("out")));
+    }
+    remove_files(in_root("out"));
+    return noted(status, &note);
+}
+
+static void test_writing(void)
+{
+    hci_note note = {{0}};
+    wish(&set, NULL, HCI_METHOD_AUTO);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_solve(&machine, &options, &solution, &note), note.text);
+    TEST_ASSERT_TRUE(sweep(write_json) > 40);
+    TEST_ASSERT_TRUE(sweep(write_emit_json) > 15);
+    TEST_ASSERT_TRUE(sweep(write_solution) > 40);
+    TEST_ASSERT_TRUE(sweep(emit) > 5);
+    hci_solution_release(&solution);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    route_suitesparse();
+    RUN_TEST(test_reading);
+    RUN_TEST(test_sparse_solvers);
+    RUN_TEST(test_solving_a_square_system);
+    RUN_TEST(test_solving_a_deficient_system);
+    RUN_TEST(test_choosing);
+    RUN_TEST(test_pointwise);
+    RUN_TEST(test_writing);
+    return UNITY_END();
+}
