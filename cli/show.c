@@ -143,14 +143,32 @@ static void show_system(const hci_solution *s)
             s->unknowns, s->rank, s->condition, hci_method_name(s->method));
 }
 
+static void show_newton(const hci_solution *s)
+{
+    if (s->newton_steps > 0)
+        fprintf(stderr, "  newton       %zu steps, last change %.2g of the current\n", s->newton_steps, s->newton_change);
+}
+
+static void show_gaps(const hci_solution *s)
+{
+    if (s->gap_count == 0) return;
+    fprintf(stderr, "  no current   at %zu range%s of angle (electrical degrees):", s->gap_count, s->gap_count == 1 ? "" : "s");
+    for (size_t k = 0; k < s->gap_count && k < 6; ++k)
+        fprintf(stderr, " %.1f–%.1f", s->gap[k].from_rad * 180.0 / HCI_PI, s->gap[k].to_rad * 180.0 / HCI_PI);
+    fprintf(stderr, "%s\n", s->gap_count > 6 ? " …" : "");
+    if (isfinite(s->least_iq_A) && s->least_iq_A > 0.0)
+        fprintf(stderr, "               from i_q = %.4g A on there is one at every angle\n", s->least_iq_A);
+}
+
 static void show_current(const hci_solution *s)
 {
+    const bool to_plain = isfinite(s->loss_to_plain), to_limit = isfinite(s->loss_to_limit);
     fprintf(stderr, "  currents     %zu components up to order %g, peak phase current %.4g A\n", s->current.count, top_order(s),
             s->peak_phase_current_A);
-    fprintf(stderr, "  copper loss ");
-    if (isfinite(s->loss_to_plain))
-        fprintf(stderr, " %.4g × the plain fundamental of %.4g A", s->loss_to_plain, s->plain_amplitude_A);
-    if (isfinite(s->loss_to_limit)) fprintf(stderr, "; %.4g × the pointwise limit", s->loss_to_limit);
+    if (!to_plain && !to_limit) return;
+    fprintf(stderr, "  copper loss  ");
+    if (to_plain) fprintf(stderr, "%.4g × the plain fundamental of %.4g A", s->loss_to_plain, s->plain_amplitude_A);
+    if (to_limit) fprintf(stderr, "%s%.4g × the pointwise limit", to_plain ? "; " : "", s->loss_to_limit);
     fputc('\n', stderr);
 }
 
@@ -176,6 +194,8 @@ void cli_show_solution(const hci_solution *s, const char *machine, const char *t
     show_current(s);
     show_limits(s);
     show_system(s);
+    show_newton(s);
+    show_gaps(s);
     show_failures(s, HCI_ORDER_UNREACHABLE, "no component of the set reaches");
     show_failures(s, HCI_ORDER_MISSED, "compared, not met");
     show_failures(s, HCI_ORDER_PARASITIC, "not compared, not met");

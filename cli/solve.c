@@ -11,6 +11,7 @@ enum {
     AUTO,
     FUNDAMENTAL,
     METHOD,
+    STRATEGY,
     COMPARE,
     TOLERANCE,
     MAX_LOSS,
@@ -29,6 +30,7 @@ static const cli_option OPTIONS[] = {
     [AUTO] = {"auto", 0, CLI_COUNT_OPTIONAL, "K", "choose the components (default), at most K of them"},
     [FUNDAMENTAL] = {"fundamental", 0, CLI_VALUE, "A,RAD", "hold the fundamental at peak amplitude and phase"},
     [METHOD] = {"method", 0, CLI_VALUE, "NAME", "auto, lu, umfpack, qr or pointwise"},
+    [STRATEGY] = {"strategy", 0, CLI_VALUE, "NAME", "of pointwise: id0, cancel (i_d cancels reluctance and cogging) or mtpa"},
     [COMPARE] = {"compare", 0, CLI_VALUE, "WHAT", "all (default): every order reached; square: as many as unknowns"},
     [TOLERANCE] = {"tolerance", 0, CLI_VALUE, "SHARE", "of the mean torque; an order within it is reached (1e-6)"},
     [MAX_LOSS] = {"max-loss", 0, CLI_VALUE, "RATIO", "with --auto K: copper over the pointwise limit (1.10)"},
@@ -64,11 +66,15 @@ static hci_status read_fundamental(const char *text, hci_wave *held, hci_note *n
 static hci_status read_choices(const cli_arguments *a, hci_solve_options *o, hci_note *note)
 {
     static const char *const METHODS[] = {"auto", "lu", "umfpack", "qr", "pointwise", NULL};
+    static const char *const STRATEGIES[] = {"mtpa", "id0", "cancel", NULL};
     static const char *const COMPARES[] = {"all", "square", NULL};
     int choice = 0;
     hci_status status = HCI_OK;
     if (a->value[METHOD]) status = cli_choice("method", a->value[METHOD], METHODS, &choice, note);
     o->method = (hci_method)choice;
+    choice = 0;
+    if (!status && a->value[STRATEGY]) status = cli_choice("strategy", a->value[STRATEGY], STRATEGIES, &choice, note);
+    o->strategy = (hci_strategy)choice;
     choice = 0;
     if (!status && a->value[COMPARE]) status = cli_choice("compare", a->value[COMPARE], COMPARES, &choice, note);
     o->compare = (hci_compare)choice;
@@ -77,6 +83,8 @@ static hci_status read_choices(const cli_arguments *a, hci_solve_options *o, hci
         return hci_note_set(note, HCI_ERROR_ARGUMENT, "--harmonics names the components; leave out --auto or --method pointwise");
     if (a->given[AUTO] && o->method != HCI_METHOD_AUTO)
         return hci_note_set(note, HCI_ERROR_ARGUMENT, "--auto chooses the method too; leave out --method");
+    if (a->given[STRATEGY] && o->method != HCI_METHOD_POINTWISE)
+        return hci_note_set(note, HCI_ERROR_ARGUMENT, "--strategy works angle by angle; add --method pointwise");
     if (!a->given[HARMONICS] && (a->given[COMPARE] || o->method == HCI_METHOD_LU || o->method == HCI_METHOD_UMFPACK))
         return hci_note_set(note, HCI_ERROR_ARGUMENT, "--compare and --method lu or umfpack need a set: --harmonics FILE");
     return HCI_OK;

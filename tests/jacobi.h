@@ -40,18 +40,21 @@ static inline double jacobi_rotate(size_t m, size_t n, double *w, double *v, siz
 static inline void jacobi_turn(size_t m, size_t n, double *w, double *v)
 {
     double worst = 1.0;
-    for (size_t k = 0; k < n * n; ++k) v[k] = k % (n + 1) == 0 ? 1.0 : 0.0;
+    for (size_t k = 0; k < n * n; ++k)
+        v[k] = k % (n + 1) == 0 ? 1.0 : 0.0;
     for (int sweep = 0; sweep < 60 && worst > 1e-15; ++sweep) {
         worst = 0.0;
         for (size_t p = 0; p + 1 < n; ++p)
-            for (size_t q = p + 1; q < n; ++q) worst = fmax(worst, jacobi_rotate(m, n, w, v, p, q));
+            for (size_t q = p + 1; q < n; ++q)
+                worst = fmax(worst, jacobi_rotate(m, n, w, v, p, q));
     }
 }
 
 static inline double jacobi_norm(size_t m, const double *column)
 {
     double sum = 0.0;
-    for (size_t i = 0; i < m; ++i) sum += column[i] * column[i];
+    for (size_t i = 0; i < m; ++i)
+        sum += column[i] * column[i];
     return sqrt(sum);
 }
 
@@ -62,13 +65,16 @@ static inline void jacobi_apply(size_t rows, size_t columns, const double *w, co
 {
     const size_t from_length = transposed ? columns : rows, to_length = transposed ? rows : columns;
     const double *from = transposed ? v : w, *to = transposed ? w : v;
-    for (size_t i = 0; i < to_length; ++i) x[i] = 0.0;
+    for (size_t i = 0; i < to_length; ++i)
+        x[i] = 0.0;
     for (size_t j = 0; j < columns; ++j) {
         const double norm = jacobi_norm(rows, w + j * rows);
         double dot = 0.0;
         if (norm <= cut) continue;
-        for (size_t i = 0; i < from_length; ++i) dot += from[i + j * from_length] * b[i];
-        for (size_t i = 0; i < to_length; ++i) x[i] += to[i + j * to_length] * (dot / norm) / norm;
+        for (size_t i = 0; i < from_length; ++i)
+            dot += from[i + j * from_length] * b[i];
+        for (size_t i = 0; i < to_length; ++i)
+            x[i] += to[i + j * to_length] * (dot / norm) / norm;
     }
 }
 
@@ -81,8 +87,8 @@ typedef struct {
 
 /* x: out, n × sides: least norm among the minimisers of ‖A x − b‖; singular values below `relative_cut` times
  * the largest count as zero. a: m×n column-major; x and b may be NULL for the singular values alone. */
-static inline jacobi_values jacobi_solve(size_t m, size_t n, const double *a, double relative_cut, size_t sides,
-                                         const double *b, double *x)
+static inline jacobi_values jacobi_solve(size_t m, size_t n, const double *a, double relative_cut,
+                                         size_t sides, const double *b, double *x)
 {
     const int transposed = m < n;
     const size_t rows = transposed ? n : m, columns = transposed ? m : n;
@@ -90,9 +96,11 @@ static inline jacobi_values jacobi_solve(size_t m, size_t n, const double *a, do
     double *w = calloc(rows * columns + 1, sizeof *w), *v = calloc(columns * columns + 1, sizeof *v);
     if (w == NULL || v == NULL) abort();
     for (size_t j = 0; j < n; ++j)
-        for (size_t i = 0; i < m; ++i) w[transposed ? j + i * n : i + j * m] = a[i + j * m];
+        for (size_t i = 0; i < m; ++i)
+            w[transposed ? j + i * n : i + j * m] = a[i + j * m];
     if (columns > 0) jacobi_turn(rows, columns, w, v);
-    for (size_t j = 0; j < columns; ++j) found.largest = fmax(found.largest, jacobi_norm(rows, w + j * rows));
+    for (size_t j = 0; j < columns; ++j)
+        found.largest = fmax(found.largest, jacobi_norm(rows, w + j * rows));
     for (size_t j = 0; j < columns; ++j) {
         const double norm = jacobi_norm(rows, w + j * rows);
         if (norm <= relative_cut * found.largest) {

@@ -1,7 +1,8 @@
-/* A second implementation for the tests: back-EMF, currents and torque sampled over whole electrical turns from
- * their sine formulas, and the naive Fourier sum of the torque. Bin k is order k/turns.
+/* A second implementation for the tests: back-EMF, currents and torque sampled over whole electrical turns
+ * from their sine formulas, and the naive Fourier sum of the torque. Bin k is order k/turns.
  *
- *     T(θ) = Σ_s e_s i_s + T_cog,   e_s = Σ E sin(μ(θ − 2πs/3) + φ),   i_s = Σ S sin(nθ − σ2πs/3) + C cos(…) */
+ *     T(θ) = Σ_s e_s i_s + T_cog,   e_s = Σ E sin(μ(θ − 2πs/3) + φ),   i_s = Σ S sin(nθ − σ2πs/3) + C cos(…)
+ */
 #ifndef SAMPLED_H
 #define SAMPLED_H
 
@@ -56,7 +57,8 @@ static inline void sampled_machine(sampled *w, size_t turns, size_t per_turn, co
 static inline void sampled_currents(sampled *w, const hci_wave *waves, size_t count, int with_cogging)
 {
     for (int s = 0; s < 3; ++s)
-        for (size_t j = 0; j < w->count; ++j) w->i[s][j] = 0.0;
+        for (size_t j = 0; j < w->count; ++j)
+            w->i[s][j] = 0.0;
     for (size_t k = 0; k < count; ++k)
         for (int s = 0; s < 3; ++s)
             sampled_add(w, waves[k].order, waves[k].sine, waves[k].cosine,
@@ -85,7 +87,8 @@ static inline double sampled_mean_square(const sampled *w)
 {
     double sum = 0.0;
     for (int s = 0; s < 3; ++s)
-        for (size_t j = 0; j < w->count; ++j) sum += w->i[s][j] * w->i[s][j];
+        for (size_t j = 0; j < w->count; ++j)
+            sum += w->i[s][j] * w->i[s][j];
     return sum / (double)w->count;
 }
 
@@ -93,7 +96,8 @@ static inline double sampled_peak(const sampled *w)
 {
     double peak = 0.0;
     for (int s = 0; s < 3; ++s)
-        for (size_t j = 0; j < w->count; ++j) peak = fmax(peak, fabs(w->i[s][j]));
+        for (size_t j = 0; j < w->count; ++j)
+            peak = fmax(peak, fabs(w->i[s][j]));
     return peak;
 }
 
@@ -101,7 +105,8 @@ static inline double sampled_peak(const sampled *w)
 static inline double sampled_normal(const sampled *w, size_t j, int has_neutral, double e[3])
 {
     const double mean = has_neutral ? 0.0 : (w->e[0][j] + w->e[1][j] + w->e[2][j]) / 3.0;
-    for (int s = 0; s < 3; ++s) e[s] = w->e[s][j] - mean;
+    for (int s = 0; s < 3; ++s)
+        e[s] = w->e[s][j] - mean;
     return e[0] * e[0] + e[1] * e[1] + e[2] * e[2];
 }
 

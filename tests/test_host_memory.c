@@ -1,5 +1,6 @@
-/* Every host path with an allocator that fails after n allocations, for n = 0, 1, 2, … until the path succeeds. Under
- * -fsanitize=address the same run shows that nothing leaks. SuiteSparse and cJSON allocate through the same door. */
+/* Every host path with an allocator that fails after n allocations, for n = 0, 1, 2, … until the path
+ * succeeds. Under -fsanitize=address the same run shows that nothing leaks. SuiteSparse and cJSON allocate
+ * through the same door. */
 #define _XOPEN_SOURCE 700
 
 #include <cjson/cJSON.h>
@@ -24,10 +25,11 @@ static hci_target target;
 static hci_component_set set;
 static hci_wave fundamental;
 
-/* ---- the door of SuiteSparse ------------------------------------------------------------------------------------ */
+/* ---- the door of SuiteSparse
+ * ------------------------------------------------------------------------------------ */
 
-/* The first members of SuiteSparse_config up to version 5, where it is a variable; later versions have functions that set
- * them. Both are looked up in the running program, so that one test serves both. */
+/* The first members of SuiteSparse_config up to version 5, where it is a variable; later versions have
+ * functions that set them. Both are looked up in the running program, so that one test serves both. */
 typedef struct {
     void *(*malloc_func)(size_t);
     void *(*calloc_func)(size_t, size_t);
@@ -35,7 +37,8 @@ typedef struct {
     void (*free_func)(void *);
 } suitesparse_memory;
 
-static const suitesparse_memory DOOR = {hci_memory_malloc, hci_memory_new, hci_memory_realloc, hci_memory_free};
+static const suitesparse_memory DOOR = {hci_memory_malloc, hci_memory_new, hci_memory_realloc,
+                                        hci_memory_free};
 
 static void set_by_function(void *program, const char *name, const void *function)
 {
@@ -63,22 +66,23 @@ static void route_suitesparse(void)
     dlclose(program);
 }
 
-/* ---- the sweep -------------------------------------------------------------------------------------------------- */
+/* ---- the sweep
+ * -------------------------------------------------------------------------------------------------- */
 
-/* Does something from beginning to end and leaves nothing behind. figure: out on success, a number that a hidden failure
- * would change. */
+/* Does something from beginning to end and leaves nothing behind. figure: out on success, a number that a
+ * hidden failure would change. */
 typedef hci_status path(double *figure);
 
-/* A path as it is when memory is there; then with n allocations for n = 0, 1, 2, … 200 and then in steps of a fiftieth.
- * What does not fail must give the same figure. Returns how many allocations it took (the callers ask for a third of what
- * it was when written, so that a door that is not used is noticed). */
+/* A path as it is when memory is there; then with n allocations for n = 0, 1, 2, … 200 and then in steps of a
+ * fiftieth. What does not fail must give the same figure. Returns how many allocations it took (the callers
+ * ask for a third of what it was when written, so that a door that is not used is noticed). */
 static long sweep(path *run)
 {
     double expected = 0.0, figure = 0.0;
     const hci_status good = run(&expected);
     long n = 0;
     TEST_ASSERT_TRUE(good == HCI_OK || good == HCI_NOT_REACHED);
-    for (;; n += n < 200 ? 1 : n / 50) {
+    for (;; n += n < 1000 ? 1 : n / 50) {
         hci_status status;
         hci_memory_fail_after(n);
         status = run(&figure);
@@ -102,7 +106,8 @@ static int entries(const char *folder)
     int count = -2;
     DIR *list = opendir(folder);
     if (list == NULL) return -1;
-    while (readdir(list) != NULL) ++count;
+    while (readdir(list) != NULL)
+        ++count;
     closedir(list);
     return count;
 }
@@ -126,7 +131,8 @@ static const char *in_root(const char *name)
     return text;
 }
 
-/* ---- fixtures --------------------------------------------------------------------------------------------------- */
+/* ---- fixtures
+ * --------------------------------------------------------------------------------------------------- */
 
 void setUp(void)
 {
@@ -142,9 +148,10 @@ void setUp(void)
     fputs("order,amplitude_Nm,phase_rad,weight\n0,2.5,1.5707963267948966,1\n6,0.1,0.3,0.5\n12,0,0,0\n", file);
     fclose(file);
     TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_machine_read("data/machine_a", &machine, &note), note.text);
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_target_read("data/scenarios/02/target.csv", &target, &note), note.text);
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_component_set_read("data/scenarios/02/harmonics.csv", false, &set, &note),
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_target_read("data/scenarios/02/target.csv", &target, &note),
                               note.text);
+    TEST_ASSERT_EQUAL_MESSAGE(
+        HCI_OK, hci_component_set_read("data/scenarios/02/harmonics.csv", false, &set, &note), note.text);
     fundamental = hci_wave_polar(1.0, 1, 12.0, 0.2);
 }
 
@@ -158,7 +165,8 @@ void tearDown(void)
     cJSON_InitHooks(NULL);
 }
 
-/* ---- reading ---------------------------------------------------------------------------------------------------- */
+/* ---- reading
+ * ---------------------------------------------------------------------------------------------------- */
 
 static hci_status read_machine(double *figure)
 {
@@ -223,7 +231,8 @@ static void test_reading(void)
     TEST_ASSERT_TRUE(sweep(read_currents) > 5);
 }
 
-/* ---- sparse solvers --------------------------------------------------------------------------------------------- */
+/* ---- sparse solvers
+ * --------------------------------------------------------------------------------------------- */
 
 /* [4 1 0; 1 3 1; 0 1 2] */
 static hci_sparse matrix(void)
@@ -262,7 +271,8 @@ static void test_sparse_solvers(void)
     TEST_ASSERT_TRUE(sweep(by_spqr) > 40);
 }
 
-/* ---- solving ---------------------------------------------------------------------------------------------------- */
+/* ---- solving
+ * ---------------------------------------------------------------------------------------------------- */
 
 static hci_solve_options options;
 
@@ -272,7 +282,8 @@ static hci_status run_solve(double *figure)
     hci_note note = {{0}};
     const hci_status status = hci_solve(&machine, &options, &s, &note);
     if (status <= HCI_NOT_REACHED) {
-        *figure = s.mean_square_A2 + s.worst_error_Nm + (isnan(s.condition) ? 0.0 : s.condition) + (double)s.rank;
+        *figure =
+            s.mean_square_A2 + s.worst_error_Nm + (isnan(s.condition) ? 0.0 : s.condition) + (double)s.rank;
     } else {
         TEST_ASSERT_NULL(s.current.wave);
         TEST_ASSERT_NULL(s.order);
@@ -295,7 +306,10 @@ static void wish(const hci_component_set *of, const hci_wave *held, hci_method m
 static void test_solving_a_square_system(void)
 {
     static const hci_method METHOD[] = {HCI_METHOD_AUTO, HCI_METHOD_LU, HCI_METHOD_UMFPACK, HCI_METHOD_QR};
-    hci_component component[2] = {{5.0, -1}, {11.0, -1}};
+    hci_component component[2] = {
+        {5.0,  -1},
+        {11.0, -1}
+    };
     hci_set name[2] = {HCI_SET_NEG, HCI_SET_NEG};
     const hci_component_set two = {component, name, 2, {{0}}};
     for (size_t k = 0; k < 4; ++k) {
@@ -313,9 +327,10 @@ static void test_solving_a_deficient_system(void)
     TEST_ASSERT_TRUE(sweep(run_solve) > 100);
 }
 
-/* Cogging up to order 12 alone, so that there are few candidates. */
+/* A sine and cogging up to order 12, so that there are few candidates and every allocation can fail. */
 static void test_choosing(void)
 {
+    machine.model.back_emf_count = 1;
     machine.model.cogging_count = 2;
     wish(NULL, NULL, HCI_METHOD_AUTO);
     TEST_ASSERT_TRUE(sweep(run_solve) > 100);
@@ -326,10 +341,14 @@ static void test_choosing(void)
 static void test_pointwise(void)
 {
     wish(NULL, NULL, HCI_METHOD_POINTWISE);
+    options.strategy = HCI_STRATEGY_MTPA;
+    TEST_ASSERT_TRUE(sweep(run_solve) > 5);
+    options.strategy = HCI_STRATEGY_ID0;
     TEST_ASSERT_TRUE(sweep(run_solve) > 5);
 }
 
-/* ---- writing ---------------------------------------------------------------------------------------------------- */
+/* ---- writing
+ * ---------------------------------------------------------------------------------------------------- */
 
 static hci_solution solution;
 
@@ -356,7 +375,8 @@ static hci_status write_json(double *figure)
 
 static hci_status write_emit_json(double *figure)
 {
-    const hci_emit_request request = {"memory", "f32", HCI_TABLE_ABC, false, NULL, 0, NULL, 0, 0.0, 0, 0.0, NULL, 0, 0};
+    const hci_emit_request request = {"memory", "f32", HCI_TABLE_ABC, false, NULL, 0, NULL, 0,
+                                      0.0,      0,     0.0,           NULL,  0,    0};
     const hci_emit_result result = {0};
     char *text = hci_emit_json(&request, &result);
     if (text == NULL) return HCI_ERROR_MEMORY;

@@ -223,7 +223,10 @@ static scale read_scale(const char *style, bool upwards, double fixed, double lo
         if (fabs((upwards ? x : y) - fixed) > 0.01 || place < low || place > high) continue;
         last = place;
         last_value = parse(end + 2);
-        if (isnan(first)) first = last, first_value = last_value;
+        if (isnan(first)) {
+            first = last;
+            first_value = last_value;
+        }
     }
     TEST_ASSERT_TRUE_MESSAGE(last != first && last_value != first_value, "fewer than two numbers at an axis");
     return (scale){first, first_value, (last_value - first_value) / (last - first)};
@@ -351,8 +354,7 @@ static void test_currents_are_read_back(void)
 
 static void test_plain_sine_of_braking_is_turned(void)
 {
-    for (size_t k = 0; k < 3; ++k)
-        order[0] = solved(0.0, -2.1, -2.1, -2.1, HCI_ORDER_REACHED);
+    order[0] = solved(0.0, -2.1, -2.1, -2.1, HCI_ORDER_REACHED);
     draw();
     const scale s = read_scale("quiet end", true, 54.0, 450.0, 720.0);
     const char *at = find("<polyline class=\"before\" points=\"", 1);

@@ -1,5 +1,6 @@
-/* Machine A and the twelve published scenarios in data/: what the published sets can do, and what a free choice of
- * components does better. Torque, copper and the pointwise limit are sampled here; the library gives the currents. */
+/* Machine A and the twelve published scenarios in data/: what the published sets can do, and what a free
+ * choice of components does better. Torque, copper and the pointwise limit are sampled here; the library
+ * gives the currents. */
 #include "hci/host/solve.h"
 
 #include <stdio.h>
@@ -13,9 +14,20 @@ enum { SCENARIOS = 12, SAMPLES = 4096, BINS = 160, PLAIN_COPPER_A2 = 216 /* 1.5�
 
 /* Machine A as printed (Tables 4 and 5): peak volts at 50 Hz electrical over ω_m = 2π·50/2 rad/s. */
 static const ref_wave EMF_V[] = {
-    {1.0, 0.0, 21.93, 0.0}, {5.0, 0.0, -5.02, 0.0}, {7.0, 0.0, 4.80, 0.0}, {11.0, 0.0, -8.10, 0.0}, {13.0, 0.0, -1.61, 0.0}};
-static const ref_wave COGGING_NM[] = {{6.0, 0.0, 0.0021, 1.22},  {12.0, 0.0, 0.3102, 1.76}, {18.0, 0.0, 0.0031, -1.57},
-                                      {24.0, 0.0, 0.3702, -1.19}, {30.0, 0.0, 0.0011, 1.88}, {36.0, 0.0, 0.2470, 2.15}};
+    {1.0,  0.0, 21.93, 0.0},
+    {5.0,  0.0, -5.02, 0.0},
+    {7.0,  0.0, 4.80,  0.0},
+    {11.0, 0.0, -8.10, 0.0},
+    {13.0, 0.0, -1.61, 0.0}
+};
+static const ref_wave COGGING_NM[] = {
+    {6.0,  0.0, 0.0021, 1.22 },
+    {12.0, 0.0, 0.3102, 1.76 },
+    {18.0, 0.0, 0.0031, -1.57},
+    {24.0, 0.0, 0.3702, -1.19},
+    {30.0, 0.0, 0.0011, 1.88 },
+    {36.0, 0.0, 0.2470, 2.15 }
+};
 enum { EMF = sizeof EMF_V / sizeof EMF_V[0], COGGING = sizeof COGGING_NM / sizeof COGGING_NM[0] };
 
 static hci_machine_data machine;
@@ -34,7 +46,8 @@ void tearDown(void)
 {
 }
 
-/* ---- a scenario ------------------------------------------------------------------------------------------------ */
+/* ---- a scenario
+ * ------------------------------------------------------------------------------------------------ */
 
 static void path_of(int scenario, const char *name, char path[64])
 {
@@ -47,7 +60,8 @@ static size_t rows_of(const char *path)
     size_t rows = 0;
     FILE *file = fopen(path, "r");
     TEST_ASSERT_NOT_NULL_MESSAGE(file, path);
-    while (fgets(line, sizeof line, file) != NULL) rows += line[0] != '#' && line[0] != '\n';
+    while (fgets(line, sizeof line, file) != NULL)
+        rows += line[0] != '#' && line[0] != '\n';
     fclose(file);
     return rows - 1;
 }
@@ -87,7 +101,8 @@ static void unload(void)
     hci_component_set_release(&published);
 }
 
-static hci_status solve(const hci_component_set *set, const hci_wave *held, size_t at_most, hci_solution *solution)
+static hci_status solve(const hci_component_set *set, const hci_wave *held, size_t at_most,
+                        hci_solution *solution)
 {
     hci_note note = {{0}};
     hci_solve_options options = {0};
@@ -101,9 +116,11 @@ static hci_status solve(const hci_component_set *set, const hci_wave *held, size
     return status;
 }
 
-/* ---- judged by samples ----------------------------------------------------------------------------------------- */
+/* ---- judged by samples
+ * ----------------------------------------------------------------------------------------- */
 
-/* Worst |torque − target| of any order as a share of the mean torque, and copper over that of the 12 A sine. */
+/* Worst |torque − target| of any order as a share of the mean torque, and copper over that of the 12 A sine.
+ */
 typedef struct {
     double worst, worst_target, copper, top_order;
 } judgement;
@@ -120,7 +137,8 @@ static judgement judge(const hci_solution *s)
 {
     judgement j = {0.0, 0.0, 0.0, 0.0};
     double energy = 0.0;
-    for (size_t k = 0; k < s->current.count; ++k) j.top_order = fmax(j.top_order, s->current.wave[k].order);
+    for (size_t k = 0; k < s->current.count; ++k)
+        j.top_order = fmax(j.top_order, s->current.wave[k].order);
     TEST_ASSERT_TRUE(j.top_order + 13.0 < SAMPLES / 2);
     sampled_currents(&samples, s->current.wave, s->current.count, 1);
     j.copper = sampled_mean_square(&samples) / PLAIN_COPPER_A2;
@@ -144,7 +162,8 @@ static double limit(void)
     return sampled_limit(&samples, wanted, 0) / PLAIN_COPPER_A2;
 }
 
-/* ---- the published sets ---------------------------------------------------------------------------------------- */
+/* ---- the published sets
+ * ---------------------------------------------------------------------------------------- */
 
 /* The spectrum is told as the samples show it, and at most orders that the set cannot reach are called so. */
 static void test_published_sets(void)
@@ -158,7 +177,8 @@ static void test_published_sets(void)
         TEST_ASSERT_DOUBLE_WITHIN(1e-9, j.worst, s.worst_error_Nm / mean_Nm);
         TEST_ASSERT_DOUBLE_WITHIN(1e-12, j.copper, s.loss_to_plain); /* the 12 A sine is what is held */
         for (size_t q = 0; q < s.order_count && k > 1; ++q)
-            TEST_ASSERT_EQUAL_INT(k == 7 && s.order[q].torque_Nm.order == 5.0, s.order[q].verdict == HCI_ORDER_UNREACHABLE);
+            TEST_ASSERT_EQUAL_INT(k == 7 && s.order[q].torque_Nm.order == 5.0,
+                                  s.order[q].verdict == HCI_ORDER_UNREACHABLE);
         hci_solution_release(&s);
         unload();
     }
@@ -174,7 +194,8 @@ static void test_the_first_scenario_is_the_plain_sine(void)
     TEST_ASSERT_EQUAL_UINT64(0, s.unknowns);
     TEST_ASSERT_EQUAL_UINT64(0, s.rank);
     TEST_ASSERT_EQUAL_UINT64(1, s.current.count);
-    for (size_t q = 0; q < s.order_count; ++q) out_of_reach += s.order[q].verdict == HCI_ORDER_UNREACHABLE;
+    for (size_t q = 0; q < s.order_count; ++q)
+        out_of_reach += s.order[q].verdict == HCI_ORDER_UNREACHABLE;
     TEST_ASSERT_EQUAL_UINT64(6, out_of_reach); /* 6, 12, … 36 */
     TEST_ASSERT_EQUAL_INT(HCI_ORDER_REACHED, s.order[0].verdict);
     hci_solution_release(&s);
@@ -217,12 +238,14 @@ static void test_the_seventh_scenario_and_its_remedy(void)
     more.count = published.count + 1;
     more.set = set;
     solve(&more, &fundamental, 0, &s);
-    for (size_t q = 0; q < s.order_count; ++q) TEST_ASSERT_TRUE(s.order[q].verdict != HCI_ORDER_UNREACHABLE);
+    for (size_t q = 0; q < s.order_count; ++q)
+        TEST_ASSERT_TRUE(s.order[q].verdict != HCI_ORDER_UNREACHABLE);
     hci_solution_release(&s);
     unload();
 }
 
-/* ---- a free choice --------------------------------------------------------------------------------------------- */
+/* ---- a free choice
+ * --------------------------------------------------------------------------------------------- */
 
 /* 1.303 is theory.md's figure, given to four digits. */
 static void test_limit_of_the_second_scenario(void)
@@ -252,10 +275,11 @@ static void test_auto(void)
     }
 }
 
-/* As many components as the published file has rows, and the fundamental, which it holds. At least nine scenarios within
- * 1 % of the mean at every order: 2 to 5 and 8 to 12 were so when this was written; 1 has one component alone, 6 and 7 have
- * 13 for two systems of orders. Where the published set reaches its target orders (within 1 % of the mean), it does not pay
- * less copper; its copper elsewhere is that of another torque. */
+/* As many components as the published file has rows, and the fundamental, which it holds. At least nine
+ * scenarios within 1 % of the mean at every order: 2 to 5 and 8 to 12 were so when this was written; 1 has
+ * one component alone, 6 and 7 have 13 for two systems of orders. Where the published set reaches its target
+ * orders (within 1 % of the mean), it does not pay less copper; its copper elsewhere is that of another
+ * torque. */
 static void test_auto_at_most(void)
 {
     int within = 0;
@@ -268,12 +292,13 @@ static void test_auto_at_most(void)
         solve(&published, &fundamental, 0, &paper);
         solve(NULL, NULL, most, &ours);
         const judgement p = judge(&paper), o = judge(&ours);
-        printf("%8d %2zu %20.4f %% %8.4f %% %15.3f %8.3f %6.3f\n", k, most, 100.0 * p.worst, 100.0 * o.worst, p.copper,
-               o.copper, least);
+        printf("%8d %2zu %20.4f %% %8.4f %% %15.3f %8.3f %6.3f\n", k, most, 100.0 * p.worst, 100.0 * o.worst,
+               p.copper, o.copper, least);
         within += o.worst <= 0.01;
         TEST_ASSERT_TRUE(ours.current.count <= most);
         TEST_ASSERT_TRUE(o.copper <= 1.1 * least); /* the allowance */
-        TEST_ASSERT_TRUE(fabs(samples.cosine[0]) <= 0.1 * o.worst * mean_Nm + 1e-9); /* the mean is not traded away */
+        TEST_ASSERT_TRUE(fabs(samples.cosine[0]) <=
+                         0.1 * o.worst * mean_Nm + 1e-9); /* the mean is not traded away */
         TEST_ASSERT_TRUE(o.worst <= p.worst + 1e-6);
         if (p.worst_target <= 0.01) {
             TEST_ASSERT_TRUE(o.copper <= p.copper);

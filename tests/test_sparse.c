@@ -53,32 +53,38 @@ static void draw(uint64_t *seed, size_t rows, size_t columns, double fill, matri
 static void draw_of_rank(uint64_t *seed, size_t rows, size_t columns, size_t rank, matrix *a)
 {
     double left[MOST * MOST], right[MOST * MOST];
-    for (size_t k = 0; k < rows * rank; ++k) left[k] = ref_uniform(seed, -1.0, 1.0);
-    for (size_t k = 0; k < rank * columns; ++k) right[k] = ref_uniform(seed, -1.0, 1.0);
+    for (size_t k = 0; k < rows * rank; ++k)
+        left[k] = ref_uniform(seed, -1.0, 1.0);
+    for (size_t k = 0; k < rank * columns; ++k)
+        right[k] = ref_uniform(seed, -1.0, 1.0);
     a->rows = rows;
     a->columns = columns;
     memset(a->dense, 0, sizeof a->dense);
     for (size_t j = 0; j < columns; ++j)
         for (size_t k = 0; k < rank; ++k)
-            for (size_t i = 0; i < rows; ++i) a->dense[i + j * rows] += left[i + k * rows] * right[k + j * rank];
+            for (size_t i = 0; i < rows; ++i)
+                a->dense[i + j * rows] += left[i + k * rows] * right[k + j * rank];
 }
 
 static void draw_sides(uint64_t *seed, size_t rows, double *b)
 {
-    for (size_t k = 0; k < SIDES * rows; ++k) b[k] = ref_uniform(seed, -1.0, 1.0);
+    for (size_t k = 0; k < SIDES * rows; ++k)
+        b[k] = ref_uniform(seed, -1.0, 1.0);
 }
 
 static double largest_of(const double *x, size_t n)
 {
     double largest = 0.0;
-    for (size_t k = 0; k < n; ++k) largest = ref_worse(largest, x[k]);
+    for (size_t k = 0; k < n; ++k)
+        largest = ref_worse(largest, x[k]);
     return largest;
 }
 
 static double largest_difference(const double *x, const double *y, size_t n)
 {
     double largest = 0.0;
-    for (size_t k = 0; k < n; ++k) largest = ref_worse(largest, x[k] - y[k]);
+    for (size_t k = 0; k < n; ++k)
+        largest = ref_worse(largest, x[k] - y[k]);
     return largest;
 }
 
@@ -94,7 +100,8 @@ static void check_qr(matrix *a, uint64_t *seed)
     draw_sides(seed, a->rows, b);
     truth = jacobi_solve(a->rows, a->columns, a->dense, 1e-11, SIDES, b, expected);
     TEST_ASSERT_TRUE(truth.dropped <= 1e-13 * truth.largest && truth.smallest >= 1e-9 * truth.largest);
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_sparse_qr_solve(&s, b, SIDES, x, &rank, &condition, &note), note.text);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_sparse_qr_solve(&s, b, SIDES, x, &rank, &condition, &note),
+                              note.text);
     TEST_ASSERT_EQUAL_UINT64(truth.rank, rank);
     if (truth.rank == 0) {
         TEST_ASSERT_EQUAL_DOUBLE(0.0, largest_of(x, SIDES * a->columns));
@@ -102,9 +109,11 @@ static void check_qr(matrix *a, uint64_t *seed)
         return;
     }
     const double ratio = truth.largest / truth.smallest;
-    /* The error of a least-squares solution grows by the condition squared times the residual; 100 for sums. */
-    const double bound = 100.0 * 2.2e-16 * ratio * (ratio * largest_of(b, SIDES * a->rows) / truth.largest +
-                                                    largest_of(expected, SIDES * a->columns));
+    /* The error of a least-squares solution grows by the condition squared times the residual; 100 for sums.
+     */
+    const double bound =
+        100.0 * 2.2e-16 * ratio *
+        (ratio * largest_of(b, SIDES * a->rows) / truth.largest + largest_of(expected, SIDES * a->columns));
     TEST_ASSERT_DOUBLE_WITHIN(bound, 0.0, largest_difference(x, expected, SIDES * a->columns));
     TEST_ASSERT_TRUE(condition >= 0.5 * ratio && condition <= 2.0 * ratio);
 }
@@ -141,8 +150,10 @@ static void test_qr_with_zero_rows_and_columns(void)
         const size_t row = (size_t)ref_integer(&seed, 0, (int)rows - 1);
         const size_t column = (size_t)ref_integer(&seed, 0, (int)columns - 1);
         draw(&seed, rows, columns, 0.7, &a);
-        for (size_t i = 0; i < rows; ++i) a.dense[i + column * rows] = 0.0;
-        for (size_t j = 0; j < columns; ++j) a.dense[row + j * rows] = 0.0;
+        for (size_t i = 0; i < rows; ++i)
+            a.dense[i + column * rows] = 0.0;
+        for (size_t j = 0; j < columns; ++j)
+            a.dense[row + j * rows] = 0.0;
         check_qr(&a, &seed);
     }
 }
@@ -156,7 +167,8 @@ static void test_qr_condition_over_many_scales(void)
         draw(&seed, rows, columns, 1.0, &a);
         for (size_t j = 0; j < columns; ++j) {
             const double scale = pow(10.0, ref_uniform(&seed, -3.0, 3.0));
-            for (size_t i = 0; i < rows; ++i) a.dense[i + j * rows] *= scale;
+            for (size_t i = 0; i < rows; ++i)
+                a.dense[i + j * rows] *= scale;
         }
         check_qr(&a, &seed);
     }
@@ -165,7 +177,12 @@ static void test_qr_condition_over_many_scales(void)
 static void test_qr_of_nothing(void)
 {
     static matrix a;
-    const size_t shape[4][2] = {{0, 0}, {0, 5}, {5, 0}, {3, 4}}; /* the last: all zero */
+    const size_t shape[4][2] = {
+        {0, 0},
+        {0, 5},
+        {5, 0},
+        {3, 4}
+    }; /* the last: all zero */
     uint64_t seed = 20205;
     for (size_t k = 0; k < 4; ++k) {
         memset(&a, 0, sizeof a);
@@ -185,7 +202,8 @@ static void test_lu_of_regular_squares(void)
         double b[SIDES * MOST], x[SIDES * MOST], expected[SIDES * MOST], condition = -1.0;
         const size_t n = (size_t)ref_integer(&seed, 1, 30);
         draw(&seed, n, n, ref_uniform(&seed, 0.2, 1.0), &a);
-        for (size_t j = 0; j < n; ++j) a.dense[j + j * n] += ref_uniform(&seed, 0.5, 1.0);
+        for (size_t j = 0; j < n; ++j)
+            a.dense[j + j * n] += ref_uniform(&seed, 0.5, 1.0);
         draw_sides(&seed, n, b);
         const hci_sparse s = compress(&a);
         const jacobi_values truth = jacobi_solve(n, n, a.dense, 1e-11, SIDES, b, expected);
@@ -208,7 +226,8 @@ static void check_singular(matrix *a, const char *what)
     hci_note note = {{0}};
     uint64_t seed = 20207;
     draw_sides(&seed, a->rows, b);
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_ERROR_SINGULAR, hci_sparse_lu_solve(&s, b, SIDES, x, &condition, &note), what);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_ERROR_SINGULAR, hci_sparse_lu_solve(&s, b, SIDES, x, &condition, &note),
+                              what);
     TEST_ASSERT_EQUAL_STRING_MESSAGE("", note.text, what);
 }
 
@@ -222,10 +241,12 @@ static void test_lu_of_singular_squares(void)
         draw_of_rank(&seed, n, n, (size_t)ref_integer(&seed, 0, (int)n - 1), &a);
         check_singular(&a, "rank");
         draw(&seed, n, n, 0.8, &a);
-        for (size_t i = 0; i < n; ++i) a.dense[i + j * n] = 0.0;
+        for (size_t i = 0; i < n; ++i)
+            a.dense[i + j * n] = 0.0;
         check_singular(&a, "zero column");
         draw(&seed, n, n, 0.8, &a);
-        for (size_t i = 0; i < n; ++i) a.dense[j + i * n] = 0.0;
+        for (size_t i = 0; i < n; ++i)
+            a.dense[j + i * n] = 0.0;
         check_singular(&a, "zero row");
         draw(&seed, n, n, 0.8, &a);
         memcpy(a.dense + j * n, a.dense + other * n, n * sizeof *a.dense);

@@ -16,7 +16,7 @@
 extern "C" {
 #endif
 
-typedef enum { HCI_STRATEGY_ID0, HCI_STRATEGY_CANCEL, HCI_STRATEGY_MTPA } hci_strategy;
+typedef enum { HCI_STRATEGY_MTPA, HCI_STRATEGY_ID0, HCI_STRATEGY_CANCEL } hci_strategy;
 
 /* The machine at one angle, in the orthonormal (power-invariant) αβ plane. */
 typedef struct {
@@ -38,9 +38,10 @@ void hci_plane_from_abc(const double abc[3], double x[2]);
 /* The current of a strategy for a wanted torque. previous: the answer at a neighbouring angle, or NULL; where both roots
  * of `cancel` are equally long the one nearer to it is taken, so that the current is continuous along θ.
  * x: out, also where the answer is no: then the current that comes nearest to the torque.
- * least_iq_A: out, may be NULL; for `cancel`, the smallest i_q (in A of the orthonormal plane) from which an i_d exists
- * at this angle, 0 when any does, infinite when none.
- * HCI_OK, or HCI_NOT_REACHED when no current of this strategy exists. O(1), about 20 square roots at most. */
+ * least_iq_A: out, may be NULL; for `cancel`, the smallest |i_q| (in A of the orthonormal plane) from which on an i_d exists
+ * at this angle, 0 when for any, infinite when from none on.
+ * HCI_OK, or HCI_NOT_REACHED when no current of this strategy exists. A few Newton steps, each of one square root; some
+ * tens where L' is nearly singular or the torque is within 1e-9 of the most there is. */
 hci_status hci_strategy_current(const hci_machine_point *point, hci_strategy strategy, double torque_Nm,
                                 const double *previous, double x[2], double *least_iq_A);
 

@@ -1,5 +1,6 @@
 #include "hci/strategy.h"
 
+#include <float.h>
 #include <math.h>
 #include <stddef.h>
 
@@ -79,9 +80,10 @@ static void from_axes(const axes *a, double id, double iq, double x[2])
     x[1] = iq * a->q_axis[1] - id * a->q_axis[0];
 }
 
-/* Smallest |i_q| with M'² i_q² − L'_d (L'_q i_q² + 2 T_cog) >= 0. */
+/* Smallest |i_q| with M'² i_q² − L'_d (L'_q i_q² + 2 T_cog) >= 0 there and beyond. Without L'_d and M' no i_d has an effect. */
 static double least_iq(const axes *a, double cogging_Nm)
 {
+    if (a->d == 0.0 && a->dq == 0.0) return a->q == 0.0 && cogging_Nm == 0.0 ? 0.0 : HUGE_VAL;
     const double growth = a->dq * a->dq - a->d * a->q, needed = 2.0 * a->d * cogging_Nm;
     if (needed <= 0.0 && growth >= 0.0) return 0.0;
     return growth > 0.0 ? sqrt(needed / growth) : HUGE_VAL;
@@ -123,22 +125,40 @@ static hci_status cancel(const axes *a, double cogging_Nm, double iq, const doub
  * 0 <= λ < 1/h_1 when the larger eigenvalue h_1 is positive, and λ >= 0 otherwise. */
 typedef struct {
     double g[2], h[2]; /* h[0] >= h[1] */
+    double gap;        /* h[0] − h[1] */
     double axis[2];    /* eigenvector of h[0]; that of h[1] is (−axis_1, axis_0) */
     double tau;
 } shortest;
 
+/* Unit eigenvector of the larger eigenvalue of ((half, off), (off, −half)); where they are equal, along e. */
+static void leading_axis(double half, double off, const double e[2], double axis[2])
+{
+    const double radius = hypot(half, off), size = hypot(e[0], e[1]);
+    axis[0] = size > 0.0 ? e[0] / size : 1.0;
+    axis[1] = size > 0.0 ? e[1] / size : 0.0;
+    if (radius > 0.0) {
+        const double large = sqrt(0.5 + 0.5 * fabs(half) / radius), small = 0.5 * off / (radius * large);
+        axis[0] = half < 0.0 ? small : large;
+        axis[1] = half < 0.0 ? large : small;
+    }
+}
+
+/* The eigenvalue nearer to zero comes from the determinant: mean ∓ radius would leave it the rounding of the other one. */
 static shortest turn(const hci_machine_point *p, double tau)
 {
     const double sign = tau < 0.0 ? -1.0 : 1.0;
     const double mean = 0.5 * sign * (p->slope[0] + p->slope[2]), half = 0.5 * sign * (p->slope[0] - p->slope[2]);
-    const double radius = hypot(half, p->slope[1]), angle = 0.5 * atan2(sign * p->slope[1], half);
-    const double size = hypot(p->e[0], p->e[1]);
-    const double c = radius > 0.0 ? cos(angle) : size > 0.0 ? p->e[0] / size : 1.0;
-    const double s = radius > 0.0 ? sin(angle) : size > 0.0 ? p->e[1] / size : 0.0;
-    const shortest t = {{sign * (c * p->e[0] + s * p->e[1]), sign * (c * p->e[1] - s * p->e[0])},
-                        {mean + radius, mean - radius},
-                        {c, s},
-                        sign * tau};
+    const double radius = hypot(half, p->slope[1]), outer = mean < 0.0 ? mean - radius : mean + radius;
+    const double determinant = p->slope[0] * p->slope[2] - p->slope[1] * p->slope[1];
+    const double inner = outer != 0.0 ? determinant / outer : 0.0;
+    shortest t = {{0.0, 0.0}, {inner, outer}, 2.0 * radius, {0.0, 0.0}, sign * tau};
+    if (mean >= 0.0) {
+        t.h[0] = outer;
+        t.h[1] = inner;
+    }
+    leading_axis(half, sign * p->slope[1], p->e, t.axis);
+    t.g[0] = sign * (t.axis[0] * p->e[0] + t.axis[1] * p->e[1]);
+    t.g[1] = sign * (t.axis[0] * p->e[1] - t.axis[1] * p->e[0]);
     return t;
 }
 
@@ -172,26 +192,29 @@ static double lambda_of(const unknown *u, double t, double left[2])
     const double *h = u->problem->h;
     const double lambda = u->by_delta ? (1.0 - t) / h[0] : t;
     left[0] = u->by_delta ? t : 1.0 - t * h[0];
-    left[1] = 1.0 - lambda * h[1];
+    left[1] = left[0] + lambda * u->problem->gap;
     return lambda;
 }
 
-/* Newton's method kept inside a shrinking bracket; φ − τ has opposite signs at its ends. */
+/* Newton's method kept inside a shrinking bracket, 0 < low <= high, at whose ends φ − τ has opposite signs; it starts at the
+ * end where φ >= τ. Near the pole φ is about 1/δ², so there the method is applied to 1/√φ. */
 static double solve_in(const unknown *u, double low, double high)
 {
-    double t = 0.5 * (low + high);
-    for (int step = 0; step < 200 && high - low > 1e-16 * high; ++step) {
+    const double tau = u->problem->tau;
+    double t = u->by_delta ? low : high;
+    for (int step = 0; step < 200 && high - low > 4.0 * DBL_EPSILON * high; ++step) {
         double left[2], slope;
-        const double lambda = lambda_of(u, t, left);
-        const double error = torque_of(u->problem, lambda, left, &slope) - u->problem->tau;
+        const double lambda = lambda_of(u, t, left), torque = torque_of(u->problem, lambda, left, &slope);
+        const double error = torque - tau;
+        if (fabs(error) <= DBL_EPSILON * tau) break;
         if ((error > 0.0) == !u->by_delta)
             high = t;
         else
             low = t;
-        if (error == 0.0) break;
-        const double next = t - error / (u->by_delta ? -slope / u->problem->h[0] : slope);
-        if (fabs(next - t) <= 1e-16 * t) break;
-        t = next > low && next < high ? next : sqrt(low) * sqrt(high) > low ? sqrt(low) * sqrt(high) : 0.5 * (low + high);
+        const double next = u->by_delta ? t - 2.0 * torque * (1.0 - sqrt(torque / tau)) * u->problem->h[0] / slope
+                                        : t - error / slope;
+        if (fabs(next - t) <= 2.0 * DBL_EPSILON * t) break;
+        t = next > low && next < high ? next : sqrt(low) * sqrt(high);
     }
     return t;
 }
@@ -207,11 +230,21 @@ static void set_current(const shortest *p, const unknown *u, double t, double x[
 /* Below it g_0 counts as zero. */
 #define LEAST_DELTA 1e-150
 
-/* λ in (0, high]; φ(high) >= τ. φ' <= |g|² at first or grows, so low = 0 is always below. */
-static void solve_by_lambda(const shortest *p, double high, double x[2])
+/* λ with λh_0 <= ½, where φ' <= 8|g|²; limit bounds the search. Zero where φ stays below τ, if only by rounding. */
+static int solve_by_lambda(const shortest *p, double limit, double x[2])
 {
     const unknown u = {p, 0};
-    set_current(p, &u, solve_in(&u, 0.0, high), x);
+    double left[2], slope, high = p->tau / (p->g[0] * p->g[0] + p->g[1] * p->g[1]), low = 0.125 * high;
+    for (; high < limit; high *= 2.0) {
+        lambda_of(&u, high, left);
+        if (torque_of(p, high, left, &slope) >= p->tau) break;
+        low = high;
+    }
+    high = fmin(high, limit);
+    lambda_of(&u, high, left);
+    if (!(torque_of(p, high, left, &slope) >= p->tau)) return 0;
+    set_current(p, &u, solve_in(&u, low, high), x);
+    return 1;
 }
 
 /* h_0 > 0 and the root beyond λ = ½/h_0. φ >= g_0²(δ⁻² − 1)/(2h_0) gives the lower end for δ. With g_0 = 0 the pole may not
@@ -220,7 +253,7 @@ static void solve_by_delta(const shortest *p, const double *previous, double x[2
 {
     const unknown u = {p, 1};
     const double low = 1.0 / sqrt(1.0 + 2.0 * p->h[0] * p->tau / (p->g[0] * p->g[0]));
-    const double left = 1.0 - p->h[1] / p->h[0], ratio = left > 0.0 ? p->g[1] / left : 0.0;
+    const double left = p->gap / p->h[0], ratio = left > 0.0 ? p->g[1] / left : 0.0;
     const double at_pole = 0.5 * (1.0 + left) * ratio * ratio / p->h[0];
     if (low > LEAST_DELTA || at_pole >= p->tau) {
         set_current(p, &u, solve_in(&u, fmax(low, LEAST_DELTA), 0.5), x);
@@ -234,23 +267,14 @@ static void solve_by_delta(const shortest *p, const double *previous, double x[2
 /* Both eigenvalues <= 0: φ(∞) = Σ g²/(2|h|) is the most torque there is, at x = −H⁻¹g. */
 static hci_status solve_bounded(const shortest *p, double x[2])
 {
-    double most = 0.0, high = p->tau / (p->g[0] * p->g[0] + p->g[1] * p->g[1]);
-    double y[2] = {0.0, 0.0}, left[2], slope;
+    double most = 0.0, y[2] = {0.0, 0.0};
     for (int k = 0; k < 2; ++k) {
         if (p->g[k] != 0.0) most += p->h[k] < 0.0 ? -0.5 * p->g[k] * p->g[k] / p->h[k] : HUGE_VAL;
         if (p->h[k] < 0.0) y[k] = -p->g[k] / p->h[k];
     }
-    if (!(most > p->tau)) {
-        turn_back(p, y, x);
-        return HCI_NOT_REACHED;
-    }
-    const unknown u = {p, 0};
-    for (int doubling = 0; doubling < 2000; ++doubling, high *= 2.0) {
-        lambda_of(&u, high, left);
-        if (torque_of(p, high, left, &slope) >= p->tau) break;
-    }
-    solve_by_lambda(p, high, x);
-    return HCI_OK;
+    if (most > p->tau && solve_by_lambda(p, 1e300, x)) return HCI_OK;
+    turn_back(p, y, x);
+    return most < p->tau ? HCI_NOT_REACHED : HCI_OK;
 }
 
 static hci_status shortest_current(const hci_machine_point *point, double tau, const double *previous, double x[2])
@@ -259,13 +283,7 @@ static hci_status shortest_current(const hci_machine_point *point, double tau, c
     if (tau == 0.0) return HCI_OK;
     const shortest p = turn(point, tau);
     if (!(p.h[0] > 0.0)) return solve_bounded(&p, x);
-    const unknown u = {&p, 0};
-    double left[2], slope;
-    const double half = lambda_of(&u, 0.5 / p.h[0], left);
-    if (torque_of(&p, half, left, &slope) >= p.tau)
-        solve_by_lambda(&p, half, x);
-    else
-        solve_by_delta(&p, previous, x);
+    if (!solve_by_lambda(&p, 0.5 / p.h[0], x)) solve_by_delta(&p, previous, x);
     return HCI_OK;
 }
 

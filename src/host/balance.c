@@ -21,7 +21,7 @@ hci_target_order hci_target_at(const hci_target *target, double order)
 
 static size_t most_orders(const hci_task *t, size_t count)
 {
-    return 1 + t->target->count + t->machine->cogging_count + 2 * t->machine->back_emf_count * (count + 1);
+    return 1 + t->target->count + t->machine->cogging_count + t->offset_count + 2 * t->gain_count * (count + 1);
 }
 
 /* Orders that matter whatever the components: mean, target, cogging, torque of what is held. */
@@ -32,27 +32,26 @@ static size_t given_orders(const hci_task *t, double *order)
     order[n++] = 0.0;
     for (size_t k = 0; k < t->target->count; ++k) order[n++] = t->target->order[k].torque_Nm.order;
     for (size_t k = 0; k < m->cogging_count; ++k) order[n++] = m->cogging[k].order;
+    for (size_t k = 0; k < t->offset_count; ++k) order[n++] = t->offset[k].order;
     if (t->held)
-        n += hci_component_orders(m->back_emf, m->back_emf_count, (hci_component){t->held->order, t->held->sequence},
-                                  order + n);
+        n += hci_component_orders(t->gain, t->gain_count, (hci_component){t->held->order, t->held->sequence}, order + n);
     return hci_orders_sort(order, n);
 }
 
-/* Orders of weight 0 are not compared at all. */
+/* Orders of weight 0, and above the highest that is to be compared, are not. */
 static size_t drop_free_orders(const hci_task *t, double *order, size_t n)
 {
+    const double top = t->compared_up_to > 0.0 ? t->compared_up_to + HCI_ORDER_TOLERANCE : HUGE_VAL;
     size_t kept = 0;
     for (size_t k = 0; k < n; ++k)
-        if (hci_target_at(t->target, order[k]).weight > 0.0) order[kept++] = order[k];
+        if (order[k] <= top && hci_target_at(t->target, order[k]).weight > 0.0) order[kept++] = order[k];
     return kept;
 }
 
 static size_t all_orders(const hci_task *t, const hci_component *component, size_t count, double *order)
 {
-    const hci_machine *m = t->machine;
     size_t n = given_orders(t, order);
-    for (size_t k = 0; k < count; ++k)
-        n += hci_component_orders(m->back_emf, m->back_emf_count, component[k], order + n);
+    for (size_t k = 0; k < count; ++k) n += hci_component_orders(t->gain, t->gain_count, component[k], order + n);
     return drop_free_orders(t, order, hci_orders_sort(order, n));
 }
 
@@ -75,12 +74,12 @@ static size_t square_orders(const hci_task *t, double *order, size_t n, size_t c
 
 /* ---- right-hand sides ------------------------------------------------------------------------------------------ */
 
-static void subtract_at(const hci_balance *b, hci_harmonic term, hci_harmonic *rest)
+static void add_at(const hci_balance *b, double factor, hci_harmonic term, hci_harmonic *rest)
 {
     const size_t at = hci_orders_find(b->order, b->order_count, term.order);
     if (at == b->order_count) return;
-    rest[at].sine -= term.sine;
-    rest[at].cosine -= term.cosine;
+    rest[at].sine += factor * term.sine;
+    rest[at].cosine += factor * term.cosine;
 }
 
 static void fill_right_sides(const hci_task *t, hci_balance *b, hci_harmonic *rest)
@@ -91,10 +90,11 @@ static void fill_right_sides(const hci_task *t, hci_balance *b, hci_harmonic *re
         const bool mean = b->order[k] < HCI_ORDER_TOLERANCE;
         rest[k] = (hci_harmonic){b->order[k], wanted.torque_Nm.sine, mean ? 0.0 : wanted.torque_Nm.cosine};
     }
-    for (size_t k = 0; k < m->cogging_count; ++k) subtract_at(b, m->cogging[k], rest);
+    for (size_t k = 0; k < m->cogging_count; ++k) add_at(b, -1.0, m->cogging[k], rest);
+    for (size_t k = 0; k < t->offset_count; ++k) add_at(b, 1.0, t->offset[k], rest);
     if (t->held) {
         const hci_wave against = {t->held->order, t->held->sequence, -t->held->sine, -t->held->cosine};
-        hci_system_add_torque(m->back_emf, m->back_emf_count, &against, 1, b->order, b->order_count, rest);
+        hci_system_add_torque(t->gain, t->gain_count, &against, 1, b->order, b->order_count, rest);
     }
     if (b->order_count > 0 && b->order[0] < HCI_ORDER_TOLERANCE) b->h[0] = 1.0;
     hci_spectrum_to_rows(rest, b->order_count, b->h + b->rows);
@@ -119,9 +119,9 @@ static void apply_weights(const hci_task *t, hci_balance *b)
     for (int64_t k = 0; k < b->u.column_start[b->unknowns]; ++k) b->u.value[k] *= b->row_weight[b->u.row[k]];
 }
 
-static bool reserve_rows(hci_balance *b, size_t count, size_t emf_count)
+static bool reserve_rows(hci_balance *b, size_t count, size_t gain_count)
 {
-    const size_t entries = hci_system_capacity(emf_count, count);
+    const size_t entries = hci_system_capacity(gain_count, count);
     b->rows = hci_orders_rows(b->order, b->order_count);
     b->unknowns = 2 * count;
     b->row_weight = hci_memory_new(b->rows, sizeof *b->row_weight);
@@ -137,7 +137,6 @@ static bool reserve_rows(hci_balance *b, size_t count, size_t emf_count)
 hci_status hci_balance_make(const hci_task *task, const hci_component *component, size_t count, hci_compare compare,
                             hci_balance *balance, hci_note *note)
 {
-    const hci_machine *m = task->machine;
     hci_harmonic *rest = NULL;
     memset(balance, 0, sizeof *balance);
     balance->order = hci_memory_new(2 * most_orders(task, count), sizeof *balance->order);
@@ -148,13 +147,13 @@ hci_status hci_balance_make(const hci_task *task, const hci_component *component
                                                  balance->order + most_orders(task, count));
         rest = hci_memory_new(balance->order_count, sizeof *rest);
     }
-    if (!rest || !reserve_rows(balance, count, m->back_emf_count)) {
+    if (!rest || !reserve_rows(balance, count, task->gain_count)) {
         hci_memory_free(rest);
         hci_balance_release(balance);
         return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for a system of %zu components", count);
     }
     fill_right_sides(task, balance, rest);
-    hci_system_sparse(m->back_emf, m->back_emf_count, component, count, balance->order, balance->order_count,
+    hci_system_sparse(task->gain, task->gain_count, component, count, balance->order, balance->order_count,
                       balance->u.column_start, balance->u.row, balance->u.value);
     apply_weights(task, balance);
     hci_memory_free(rest);

@@ -16,12 +16,11 @@ static bool touches(const double *order, size_t order_count, const double *wante
 /* Grows the connected part: marks components that reach an order in `order`, adds what they reach, until nothing is new. */
 static size_t connect(const hci_task *t, const hci_component *all, size_t count, bool *used, double *order, size_t orders)
 {
-    const hci_machine *m = t->machine;
     for (bool grown = true; grown;) {
         size_t n = orders;
         grown = false;
         for (size_t k = 0; k < count; ++k) {
-            const size_t reached = hci_component_orders(m->back_emf, m->back_emf_count, all[k], order + n);
+            const size_t reached = hci_component_orders(t->gain, t->gain_count, all[k], order + n);
             if (used[k] || !touches(order + n, reached, order, orders)) continue;
             used[k] = grown = true;
             n += reached;
@@ -56,6 +55,7 @@ static size_t starting_orders(const hci_task *t, double *order)
     order[n++] = 0.0;
     for (size_t k = 0; k < t->target->count; ++k) order[n++] = t->target->order[k].torque_Nm.order;
     for (size_t k = 0; k < t->machine->cogging_count; ++k) order[n++] = t->machine->cogging[k].order;
+    for (size_t k = 0; k < t->offset_count; ++k) order[n++] = t->offset[k].order;
     return hci_orders_sort(order, n);
 }
 
@@ -72,9 +72,9 @@ static void keep_used(hci_component_set *set, size_t count, const bool *used)
 hci_status hci_candidates(const hci_task *t, double top_order, hci_component_set *set, hci_note *note)
 {
     const size_t most = 3 * ((size_t)(top_order * (double)t->period_turns) + 2);
-    const size_t reach = 2 * t->machine->back_emf_count;
+    const size_t reach = 2 * t->gain_count;
     bool *used = hci_memory_new(most, sizeof *used);
-    double *order = hci_memory_new(1 + t->target->count + t->machine->cogging_count + reach * (most + 1), sizeof *order);
+    double *order = hci_memory_new(1 + t->target->count + t->machine->cogging_count + t->offset_count + reach * (most + 1), sizeof *order);
     hci_status status = HCI_OK;
     memset(set, 0, sizeof *set);
     set->component = hci_memory_new(most, sizeof *set->component);

@@ -109,12 +109,32 @@ static void report(const hci_task *t, double share)
 #define LOSS_MARGIN 1.01 /* copper over the pointwise limit at which no further orders are worth it */
 #define DOUBLINGS   5
 
+/* The worst error with all orders compared, for a solution that was found with fewer. */
+static hci_status attempt_check(const hci_task *t, attempt *a, hci_note *note)
+{
+    hci_balance b;
+    double *r;
+    const hci_status status = hci_balance_make(t, a->set.component, a->set.count, HCI_COMPARE_ALL, &b, note);
+    if (status) return status;
+    r = hci_memory_new(b.rows, sizeof *r);
+    if (r) a->worth.worst_Nm = hci_worst_error_Nm(&b, a->x, hci_target_mean_Nm(t->target), r);
+    hci_memory_free(r);
+    hci_balance_release(&b);
+    return r ? HCI_OK : no_memory(note);
+}
+
+/* The back-EMF of a surface-magnet machine ends at some order, and every order that the components reach can be made
+ * right. e + L'i does not end: there the orders above the components' own are left to fall off by themselves, or
+ * they would take all the freedom that is to save copper. */
 static hci_status attempt_up_to(const hci_task *t, double top_order, attempt *a, hci_note *note)
 {
+    hci_task limited = *t;
     hci_status status;
     memset(a, 0, sizeof *a);
-    status = hci_candidates(t, top_order, &a->set, note);
-    if (!status) status = attempt_solve(t, a, note);
+    if (t->offset_count > 0) limited.compared_up_to = top_order;
+    status = hci_candidates(&limited, top_order, &a->set, note);
+    if (!status) status = attempt_solve(&limited, a, note);
+    if (!status && t->offset_count > 0) status = attempt_check(t, a, note);
     if (status) attempt_release(a);
     return status;
 }
@@ -201,31 +221,26 @@ done:
 /* ---- at most K -------------------------------------------------------------------------------------------------- */
 
 /* Prices of copper (ρ as a share of the largest diagonal of UᵀU) at which subsets are searched, and at which each is solved. */
-static const double SEARCH_PRICE[] = {1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5};
-static const double SOLVE_PRICE[] = {1e-2, 3e-3, 1e-3, 1e-4, 1e-6};
+static const double SEARCH_PRICE[] = {1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5};
+static const double SOLVE_PRICE[] = {1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 1e-4, 1e-6};
 enum {
     SEARCHES = sizeof SEARCH_PRICE / sizeof SEARCH_PRICE[0],
     SOLVES = sizeof SOLVE_PRICE / sizeof SOLVE_PRICE[0]
 };
 
-/* What makes one solution better than another. */
-typedef struct {
-    double tolerance_Nm, allowed_A2;
-} preference;
-
-/* Within the allowed copper first; then, when both are exact, less copper; else the smaller worst order. */
-static bool is_better(const preference *p, hci_worth a, hci_worth b)
+bool hci_is_better(const hci_preference *p, hci_worth a, hci_worth b)
 {
     const bool a_allowed = a.mean_square_A2 <= p->allowed_A2, b_allowed = b.mean_square_A2 <= p->allowed_A2;
     if (a_allowed != b_allowed) return a_allowed;
+    if (!a_allowed) return a.mean_square_A2 < b.mean_square_A2;
     if (a.worst_Nm <= p->tolerance_Nm && b.worst_Nm <= p->tolerance_Nm) return a.mean_square_A2 < b.mean_square_A2;
     return a.worst_Nm < b.worst_Nm;
 }
 
 /* Makes `best` the better of the two and releases the other. */
-static void keep_better(const preference *p, attempt *best, attempt *a)
+static void keep_better(const hci_preference *p, attempt *best, attempt *a)
 {
-    if (!best->x || is_better(p, a->worth, best->worth)) {
+    if (!best->x || hci_is_better(p, a->worth, best->worth)) {
         attempt_release(best);
         *best = *a;
     } else {
@@ -254,14 +269,14 @@ static hci_status copy_set(const hci_component_set *from, const size_t *pick, si
 
 /* The set solved for level errors at one price of copper. */
 static hci_status attempt_level(const hci_task *t, const hci_balance *b, const hci_component_set *all, const size_t *pick,
-                                double ridge, const preference *p, attempt *best, hci_note *note)
+                                double ridge, const hci_preference *p, attempt *best, hci_note *note)
 {
     attempt a;
     double *room = hci_memory_new(hci_level_room(b), sizeof *room);
     hci_status status = room ? copy_set(all, pick, b->unknowns / 2, &a, note) : no_memory(note);
     if (!status) {
         const hci_status solved =
-            hci_level_errors(b, &a.set, hci_target_mean_Nm(t->target), ridge, room, a.x, &a.worth);
+            hci_level_errors(b, &a.set, hci_target_mean_Nm(t->target), ridge, p, room, a.x, &a.worth);
         if (solved == HCI_OK)
             keep_better(p, best, &a);
         else
@@ -272,7 +287,7 @@ static hci_status attempt_level(const hci_task *t, const hci_balance *b, const h
 }
 
 static hci_status attempt_exact(const hci_task *t, const hci_balance *b, const hci_component_set *all, const size_t *pick,
-                                const preference *p, attempt *best, hci_note *note)
+                                const hci_preference *p, attempt *best, hci_note *note)
 {
     attempt a;
     hci_status status = copy_set(all, pick, b->unknowns / 2, &a, note);
@@ -286,7 +301,7 @@ static hci_status attempt_exact(const hci_task *t, const hci_balance *b, const h
 
 /* Solves one subset at every price and exactly, and keeps the best. */
 static hci_status try_subset(const hci_task *t, const hci_component_set *all, const size_t *pick, size_t count, double scale,
-                             const preference *p, attempt *best, hci_note *note)
+                             const hci_preference *p, attempt *best, hci_note *note)
 {
     hci_balance b;
     hci_component_set chosen = {hci_memory_new(count, sizeof *chosen.component), NULL, count, {{0}}};
@@ -328,7 +343,7 @@ static double fill_cost(const hci_balance *b, double mean_Nm, hci_subset_cost *c
 
 /* Searches at every price of copper. */
 static hci_status search(const hci_task *t, const hci_component_set *all, size_t most, hci_subset_cost *c, double scale,
-                         hci_subset_room *room, const preference *p, attempt *best, hci_note *note)
+                         hci_subset_room *room, const hci_preference *p, attempt *best, hci_note *note)
 {
     hci_status status = HCI_OK;
     for (size_t k = 0; k < SEARCHES && !status; ++k) {
@@ -371,7 +386,7 @@ static void release(hci_subset_cost *c, hci_subset_room *room, double *column)
     hci_memory_free(column);
 }
 
-static hci_status choose_among(const hci_task *t, const hci_component_set *all, size_t most, const preference *p,
+static hci_status choose_among(const hci_task *t, const hci_component_set *all, size_t most, const hci_preference *p,
                                attempt *best, hci_note *note)
 {
     hci_balance b;
@@ -391,18 +406,18 @@ static hci_status choose_among(const hci_task *t, const hci_component_set *all, 
     return status;
 }
 
-hci_status hci_choose_few(const hci_task *task, size_t most, double tolerance_Nm, double loss_A2, hci_component_set *set,
-                          double **x, hci_note *note)
+hci_status hci_choose_few(const hci_task *task, const hci_component_set *only, size_t most, double tolerance_Nm,
+                          double loss_A2, hci_component_set *set, double **x, hci_note *note)
 {
-    const preference p = {tolerance_Nm, loss_A2};
+    const hci_preference p = {tolerance_Nm, loss_A2};
     double torque_order, emf_order;
-    hci_component_set all;
+    hci_component_set all = {0};
     attempt best;
-    hci_status status;
+    hci_status status = HCI_OK;
     memset(&best, 0, sizeof best);
     hci_candidates_span(task, &torque_order, &emf_order);
-    status = hci_candidates(task, ceil(torque_order + 2.0 * emf_order), &all, note);
-    if (!status) status = choose_among(task, &all, most, &p, &best, note);
+    if (!only) status = hci_candidates(task, ceil(torque_order + 2.0 * emf_order), &all, note);
+    if (!status) status = choose_among(task, only ? only : &all, most, &p, &best, note);
     hci_component_set_release(&all);
     if (status) {
         attempt_release(&best);

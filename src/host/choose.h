@@ -9,6 +9,14 @@ typedef struct {
     double worst_Nm, mean_square_A2;
 } hci_worth;
 
+typedef struct {
+    double tolerance_Nm, allowed_A2;
+} hci_preference;
+
+/* Within the allowed copper first (less copper where neither is); then, when both are exact, less copper; else the smaller
+ * worst order. */
+bool hci_is_better(const hci_preference *p, hci_worth a, hci_worth b);
+
 /* ---- candidates.c */
 
 /* The highest order that is wanted or disturbed, and the highest of the back-EMF. */
@@ -57,8 +65,8 @@ void hci_level_tighten_mean(hci_balance *b);
 /* Doubles of `room` that hci_level_errors needs. */
 size_t hci_level_room(const hci_balance *b);
 
-/* x (out, unknowns × 2) with the smallest worst error found, for one price of copper. */
-hci_status hci_level_errors(const hci_balance *b, const hci_component_set *set, double mean_Nm, double ridge, double *room,
-                            double *best_x, hci_worth *best);
+/* The best x (out, unknowns × 2) met while errors are levelled at one price of copper. */
+hci_status hci_level_errors(const hci_balance *b, const hci_component_set *set, double mean_Nm, double ridge,
+                            const hci_preference *preference, double *room, double *best_x, hci_worth *best);
 
 #endif

@@ -156,7 +156,9 @@ static hci_status number_error(const hci_csv *csv, size_t record, size_t column,
     char found[HCI_QUOTE_SIZE];
     if (kind == HCI_NUMBER_NOT_FINITE) remedy = "remove the line or correct the value";
     if (*hci_csv_cell(csv, record, column) == '\0') remedy = "fill the cell or remove the line";
-    if (record == 1 && is_broken_unit_row(csv, &column)) {
+    size_t odd = column;
+    if (record == 1 && is_broken_unit_row(csv, &odd)) {
+        column = odd;
         expected = "a unit, as in the other cells";
         remedy = "in a row of units each cell must be a known unit, 1, - or empty";
     }

@@ -14,6 +14,9 @@ static const char *const SLOPE[HCI_PHASE_MATRIX] = {"dLa_H_per_rad",  "dLb_H_per
 /* Orders whose slope is below this share of the largest are left out. */
 #define NEGLIGIBLE_SLOPE 1e-6
 
+/* Entries that differ from a balanced winding's by no more than this share of the largest are rounding. */
+#define BALANCED 1e-6
+
 #define ANGLE_TOLERANCE_RAD 1e-4
 
 /* Checks the angles and tells how many rows make one turn: all of them, or all but the repeated end point. */
@@ -66,6 +69,51 @@ static hci_inductance_slope slope_of(const hci_inductance *l, int pole_pairs)
     return slope;
 }
 
+/* Three entries that are one waveform shifted by a third of a turn each have S + jC of order m turned by −m2π/3 from one to
+ * the next. Their mean, turned to the first. */
+static void mean_of_three(const hci_inductance *t, size_t first, double *sine, double *cosine)
+{
+    *sine = *cosine = 0.0;
+    for (size_t q = 0; q < 3; ++q) {
+        const double angle = 2.0 * HCI_PI / 3.0 * t->order * (double)q;
+        *sine += (t->sine[first + q] * cos(angle) - t->cosine[first + q] * sin(angle)) / 3.0;
+        *cosine += (t->sine[first + q] * sin(angle) + t->cosine[first + q] * cos(angle)) / 3.0;
+    }
+}
+
+/* The balanced form of one order: the mean of three, turned to each. */
+static hci_inductance balanced(const hci_inductance *t)
+{
+    hci_inductance b = {t->order, {0}, {0}};
+    for (size_t first = 0; first < HCI_PHASE_MATRIX; first += 3) {
+        double s, c;
+        mean_of_three(t, first, &s, &c);
+        for (size_t q = 0; q < 3; ++q) {
+            const double angle = 2.0 * HCI_PI / 3.0 * t->order * (double)q;
+            b.sine[first + q] = s * cos(angle) + c * sin(angle);
+            b.cosine[first + q] = c * cos(angle) - s * sin(angle);
+        }
+    }
+    return b;
+}
+
+/* A table that is balanced but for its last digits is taken as balanced: else rounding connects every order with every other
+ * one. */
+static void balance(hci_inductance *terms, size_t count)
+{
+    double largest = 0.0, deviation = 0.0;
+    for (size_t k = 0; k < count; ++k) {
+        hci_inductance difference = balanced(&terms[k]);
+        for (size_t q = 0; q < HCI_PHASE_MATRIX; ++q) {
+            difference.sine[q] -= terms[k].sine[q];
+            difference.cosine[q] -= terms[k].cosine[q];
+        }
+        largest = fmax(largest, largest_entry(&terms[k]));
+        deviation = fmax(deviation, largest_entry(&difference));
+    }
+    for (size_t k = 0; k < count && deviation <= BALANCED * largest; ++k) terms[k] = balanced(&terms[k]);
+}
+
 /* Keeps the orders that matter. terms: all orders of the file, L or L'. */
 static void keep_orders(const hci_inductance *terms, size_t count, bool are_slopes, int pole_pairs, hci_inductance_table *t)
 {
@@ -100,6 +148,7 @@ static hci_status analyse(const hci_csv *csv, int pole_pairs, double *theta_rad,
     orders = (count + 1) / 2;
     for (size_t m = 0; m < orders && !status; ++m)
         status = analyse_order(column, rows, count, theta_rad[0], m, &terms[m]);
+    if (!status) balance(terms, orders);
     if (!status) keep_orders(terms, orders, are_slopes, pole_pairs, t);
     return status;
 }

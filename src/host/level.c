@@ -70,26 +70,26 @@ size_t hci_level_room(const hci_balance *b)
     return b->unknowns * b->unknowns + 2 * b->unknowns + 3 * b->rows + b->order_count;
 }
 
-hci_status hci_level_errors(const hci_balance *b, const hci_component_set *set, double mean_Nm, double ridge, double *room,
-                               double *best_x, hci_worth *best)
+hci_status hci_level_errors(const hci_balance *b, const hci_component_set *set, double mean_Nm, double ridge,
+                            const hci_preference *preference, double *room, double *best_x, hci_worth *best)
 {
     const size_t n = b->unknowns;
     double *g = room, *x = g + n * n, *r = x + 2 * n + b->rows, *row_weight = r + b->rows,
            *order_weight = row_weight + b->rows;
-    best->worst_Nm = INFINITY;
+    *best = (hci_worth){HUGE_VAL, HUGE_VAL};
     for (size_t k = 0; k < b->order_count; ++k) order_weight[k] = 1.0;
     for (int step = 0; step < LAWSON_STEPS; ++step) {
-        double worst;
+        hci_worth worth;
         spread_weights(b, order_weight, row_weight);
         if (weighted_solve(b, row_weight, ridge, g, x)) return HCI_ERROR_NUMERIC;
-        worst = hci_worst_error_Nm(b, x, mean_Nm, r);
-        if (worst < best->worst_Nm) {
-            best->worst_Nm = worst;
-            best->mean_square_A2 = hci_coordinates_mean_square_A2(set, x, mean_Nm);
+        worth.worst_Nm = hci_worst_error_Nm(b, x, mean_Nm, r);
+        worth.mean_square_A2 = hci_coordinates_mean_square_A2(set, x, mean_Nm);
+        if (step == 0 || hci_is_better(preference, worth, *best)) {
+            *best = worth;
             memcpy(best_x, x, 2 * n * sizeof *x);
         }
-        if (worst <= 0.0) break;
-        lawson_update(b, r, worst, order_weight);
+        if (worth.worst_Nm <= 0.0) break;
+        lawson_update(b, r, worth.worst_Nm, order_weight);
     }
     return HCI_OK;
 }

@@ -9,6 +9,7 @@
 #include <sys/stat.h>
 
 #include "hci/host/csv.h"
+#include "inductance.h"
 #include "memory.h"
 #include "spectrum_table.h"
 
@@ -199,6 +200,18 @@ static hci_status cogging_read(const char *path, hci_machine_data *m, hci_note *
     return status;
 }
 
+static hci_status inductance_read(const char *path, hci_machine_data *m, hci_note *note)
+{
+    hci_inductance_table table;
+    const hci_status status = hci_inductance_read(path, m->model.pole_pairs, &table, note);
+    m->inductance = table.inductance;
+    m->inductance_count = table.inductance_count;
+    m->slope = table.slope;
+    m->model.slope = table.slope;
+    m->model.slope_count = table.slope_count;
+    return status;
+}
+
 static hci_status folder_read(const char *folder, hci_machine_data *m, hci_note *note)
 {
     char path[PATH_SIZE];
@@ -209,7 +222,7 @@ static hci_status folder_read(const char *folder, hci_machine_data *m, hci_note 
     if (!status) status = join(path, folder, "cogging.csv", note);
     if (!status && is_there(path)) status = cogging_read(path, m, note);
     if (!status) status = join(path, folder, "inductance.csv", note);
-    m->has_inductance = !status && is_there(path);
+    if (!status && is_there(path)) status = inductance_read(path, m, note);
     if (!status) status = join(path, folder, "effects.csv", note);
     m->has_effects = !status && is_there(path);
     return status;
@@ -235,5 +248,7 @@ void hci_machine_release(hci_machine_data *machine)
 {
     hci_memory_free(machine->back_emf);
     hci_memory_free(machine->cogging);
+    hci_memory_free(machine->slope);
+    hci_memory_free(machine->inductance);
     memset(machine, 0, sizeof *machine);
 }

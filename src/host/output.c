@@ -22,6 +22,7 @@ typedef struct {
     char *temporary; /* written until the commit */
     char *backup;    /* keeps an older target while the set is renamed */
     bool renamed, has_backup;
+    bool absent;     /* the target is taken away rather than replaced */
     bool not_finite; /* such a number was to be written */
     int error;       /* errno of the first failed write */
 } file;
@@ -254,6 +255,13 @@ hci_status hci_output_file(hci_output *output, const char *name, hci_note *note)
     return status;
 }
 
+hci_status hci_output_without(hci_output *output, const char *name, hci_note *note)
+{
+    const hci_status status = hci_output_file(output, name, note);
+    if (status == HCI_OK) output->files[output->count - 1].absent = true;
+    return status;
+}
+
 void hci_output_text(hci_output *output, const char *format, ...)
 {
     assert(output->stream != NULL);
@@ -296,14 +304,19 @@ static bool make_backup(file *f)
     return f->has_backup;
 }
 
+static bool take_away(const file *f)
+{
+    return unlink(f->target) == 0 || errno == ENOENT;
+}
+
 static hci_status publish(file *f, hci_note *note)
 {
     const hci_status status = check_target(f->target, note);
     if (status != HCI_OK) return status;
-    if (!make_backup(f) || rename(f->temporary, f->target) != 0) {
+    if (!make_backup(f) || !(f->absent ? take_away(f) : rename(f->temporary, f->target) == 0)) {
         return output_error(f->target, note, strerror(errno), "check the folder");
     }
-    f->renamed = true;
+    f->renamed = !f->absent;
     return HCI_OK;
 }
 

@@ -139,8 +139,13 @@ static void fill_column(curves *c, size_t column)
     for (size_t k = 1; k < c->fine; ++k) {
         sample(c, sample_angle_rad(c, column, k), value);
         for (size_t j = 0; j < CURVES; ++j) {
-            if (value[j] < low[j]) low[j] = value[j], low_at[j] = k;
-            if (value[j] > high[j]) high[j] = value[j], high_at[j] = k;
+            if (value[j] < low[j]) {
+                low[j] = value[j];
+                low_at[j] = k;
+            } else if (value[j] > high[j]) {
+                high[j] = value[j];
+                high_at[j] = k;
+            }
         }
     }
     for (size_t j = 0; j < CURVES; ++j) {
@@ -603,8 +608,7 @@ static void draw_words(hci_output *out, const curves *c)
     hci_svg_label(out, "small quiet", 28.0, HEIGHT - 26.0, baseline);
     hci_svg_label(
         out, "small quiet", 28.0, HEIGHT - 11.0,
-        "Amplitudes are peak values; angles and orders are electrical. Torque is that of the model: mutual "
-        "and cogging.");
+        "Amplitudes are peak values; angles and orders are electrical; the torque is that of the model.");
 }
 
 void hci_plot_solution(hci_output *out, const hci_machine_data *machine, const hci_solution *solution)

@@ -1,5 +1,6 @@
-/* The pointwise limit: at each angle the shortest current that makes the wanted torque,
- *     i(θ) = (T*(θ) − T_cog(θ)) e⊥ / (e⊥·e⊥)        e⊥ = e − mean(e) in a star connection. */
+/* Currents found angle by angle. The shortest that make the wanted torque are, without reluctance torque,
+ *     i(θ) = (T*(θ) − T_cog(θ)) e⊥ / (e⊥·e⊥)        e⊥ = e − mean(e) in a star connection,
+ * which is linear in the torque; all else is left to hci_strategy_current. */
 #include <math.h>
 
 #include "balance.h"
@@ -9,18 +10,26 @@
 
 enum { SAMPLES_PER_TURN = 2048, TOP_ORDER = 512 };
 
-/* e⊥ and the torque that currents must make in two parts: per N·m of mean torque (1) and the rest. Returns e⊥·e⊥. */
+/* The ripple that is wanted beside the mean. */
+static double wanted_ripple_Nm(const hci_task *t, double theta_rad)
+{
+    double sum_Nm = 0.0;
+    for (size_t k = 0; k < t->target->count; ++k) {
+        const hci_harmonic h = t->target->order[k].torque_Nm;
+        if (h.order >= HCI_ORDER_TOLERANCE) sum_Nm += hci_harmonics_at(&h, 1, theta_rad);
+    }
+    return sum_Nm;
+}
+
+/* e⊥ and the torque that currents must make beside the mean. Returns e⊥·e⊥. */
 static double wanted_at(const hci_task *t, double theta_rad, double e[3], double *rest_Nm)
 {
     double mean;
     hci_waves_at(t->machine->back_emf, t->machine->back_emf_count, theta_rad, e);
     mean = t->has_neutral ? 0.0 : (e[0] + e[1] + e[2]) / 3.0;
     for (int s = 0; s < 3; ++s) e[s] -= mean;
-    *rest_Nm = -hci_harmonics_at(t->machine->cogging, t->machine->cogging_count, theta_rad);
-    for (size_t k = 0; k < t->target->count; ++k) {
-        const hci_harmonic h = t->target->order[k].torque_Nm;
-        if (h.order >= HCI_ORDER_TOLERANCE) *rest_Nm += hci_harmonics_at(&h, 1, theta_rad);
-    }
+    *rest_Nm = wanted_ripple_Nm(t, theta_rad) -
+               hci_harmonics_at(t->machine->cogging, t->machine->cogging_count, theta_rad);
     return e[0] * e[0] + e[1] * e[1] + e[2] * e[2];
 }
 
@@ -33,37 +42,97 @@ static double vanishing(const hci_task *t)
     return 1e-6 * largest * largest;
 }
 
-double hci_pointwise_mean_square_A2(const hci_task *task)
+static double angle_rad(size_t k)
 {
-    const size_t count = SAMPLES_PER_TURN * task->period_turns;
-    const double mean_Nm = hci_target_mean_Nm(task->target), floor_value = vanishing(task);
+    return 2.0 * HCI_PI * (double)k / SAMPLES_PER_TURN;
+}
+
+/* Whether the currents are (T* − T_cog) e⊥/(e⊥·e⊥), which is linear in the torque. */
+static bool is_linear(const hci_task *t)
+{
+    return t->machine->slope_count == 0 && t->strategy == HCI_STRATEGY_MTPA;
+}
+
+static double linear_mean_square_A2(const hci_task *t, size_t count)
+{
+    const double mean_Nm = hci_target_mean_Nm(t->target), floor_value = vanishing(t);
     double sum = 0.0;
     for (size_t k = 0; k < count; ++k) {
         double e[3], rest_Nm;
-        const double square = wanted_at(task, 2.0 * HCI_PI * (double)k / SAMPLES_PER_TURN, e, &rest_Nm);
+        const double square = wanted_at(t, angle_rad(k), e, &rest_Nm);
         if (square <= floor_value) return NAN;
         sum += (mean_Nm + rest_Nm) * (mean_Nm + rest_Nm) / square;
     }
     return sum / (double)count;
 }
 
+double hci_pointwise_mean_square_A2(const hci_task *task)
+{
+    const size_t count = SAMPLES_PER_TURN * task->period_turns;
+    const double mean_Nm = hci_target_mean_Nm(task->target);
+    double sum = 0.0, x[2] = {0.0, 0.0};
+    if (task->machine->slope_count == 0) return linear_mean_square_A2(task, count);
+    for (size_t k = 0; k < count; ++k) {
+        const hci_machine_point point = hci_machine_at(task->machine, angle_rad(k));
+        const double wanted_Nm = mean_Nm + wanted_ripple_Nm(task, angle_rad(k));
+        if (hci_strategy_current(&point, HCI_STRATEGY_MTPA, wanted_Nm, k > 0 ? x : NULL, x, NULL)) return NAN;
+        sum += x[0] * x[0] + x[1] * x[1];
+    }
+    return sum / (double)count;
+}
+
+static void store(double *row, size_t count, size_t k, size_t part, double scale, const double abc[3])
+{
+    const hci_alpha_beta x = hci_clarke(abc);
+    row[(3 * part + 0) * count + k] = scale * x.alpha;
+    row[(3 * part + 1) * count + k] = scale * x.beta;
+    row[(3 * part + 2) * count + k] = scale * x.zero;
+}
+
 /* Samples of α, β, zero of both parts: six rows of `count`. False where e⊥ vanishes. */
-static bool sample(const hci_task *t, size_t count, double *row)
+static bool sample_linear(const hci_task *t, size_t count, double *row)
 {
     const double floor_value = vanishing(t);
     for (size_t k = 0; k < count; ++k) {
         double e[3], rest_Nm;
-        const double square = wanted_at(t, 2.0 * HCI_PI * (double)k / SAMPLES_PER_TURN, e, &rest_Nm);
-        const hci_alpha_beta x = hci_clarke(e);
+        const double square = wanted_at(t, angle_rad(k), e, &rest_Nm);
         if (square <= floor_value) return false;
-        for (size_t part = 0; part < 2; ++part) {
-            const double scale = (part == 0 ? 1.0 : rest_Nm) / square;
-            row[(3 * part + 0) * count + k] = scale * x.alpha;
-            row[(3 * part + 1) * count + k] = scale * x.beta;
-            row[(3 * part + 2) * count + k] = scale * x.zero;
-        }
+        store(row, count, k, 0, 1.0 / square, e);
+        store(row, count, k, 1, rest_Nm / square, e);
     }
     return true;
+}
+
+/* Angle k has no answer: it lengthens the last gap or opens a new one. */
+static void note_gap(hci_solution *s, size_t k)
+{
+    const bool stored = s->gap_count > 0 && s->gap_count <= HCI_MOST_GAPS;
+    hci_angle_gap *last = stored ? &s->gap[s->gap_count - 1] : NULL;
+    if (last && angle_rad(k) - last->to_rad < 1.5 * angle_rad(1)) {
+        last->to_rad = angle_rad(k);
+        return;
+    }
+    if (s->gap_count < HCI_MOST_GAPS) s->gap[s->gap_count] = (hci_angle_gap){angle_rad(k), angle_rad(k)};
+    ++s->gap_count;
+}
+
+/* The same for any strategy and machine; everything is in the second part. */
+static void sample_strategy(const hci_task *t, size_t count, double *row, hci_solution *s)
+{
+    const double mean_Nm = hci_target_mean_Nm(t->target), to_amplitude = sqrt(2.0 / 3.0);
+    const double nothing[3] = {0.0, 0.0, 0.0};
+    double x[2] = {0.0, 0.0};
+    for (size_t k = 0; k < count; ++k) {
+        const hci_machine_point point = hci_machine_at(t->machine, angle_rad(k));
+        double abc[3], least_iq_A;
+        if (hci_strategy_current(&point, t->strategy, mean_Nm + wanted_ripple_Nm(t, angle_rad(k)), k > 0 ? x : NULL, x,
+                                 &least_iq_A))
+            note_gap(s, k);
+        s->least_iq_A = fmax(s->least_iq_A, to_amplitude * least_iq_A);
+        hci_plane_to_abc(x, abc);
+        store(row, count, k, 0, 0.0, nothing);
+        store(row, count, k, 1, 1.0, abc);
+    }
 }
 
 /* Coordinates of the three sequences at one order from those of α, β and zero. With x_s = A sin(nθ − σ2πs/3 + γ), α has (S, C) and β
@@ -105,25 +174,37 @@ static hci_status analyse(const hci_task *t, size_t count, const double *row, si
     return HCI_OK;
 }
 
-hci_status hci_pointwise_waves(const hci_task *task, hci_component_set *set, double **x, hci_note *note)
+static hci_status sample(const hci_task *t, size_t count, double *row, hci_solution *s, hci_note *note)
+{
+    if (!is_linear(t)) {
+        sample_strategy(t, count, row, s);
+        return HCI_OK;
+    }
+    if (sample_linear(t, count, row)) return HCI_OK;
+    return hci_note_set(note, HCI_ERROR_NUMERIC,
+                        "the back-EMF of all phases vanishes at some angle, so no current makes torque there; check "
+                        "back_emf.csv or solve with a set of harmonics");
+}
+
+hci_status hci_pointwise_answer(const hci_task *task, hci_answer *answer, hci_solution *solution, hci_note *note)
 {
     const size_t count = SAMPLES_PER_TURN * task->period_turns, orders = TOP_ORDER * task->period_turns + 1;
     double *row = hci_memory_new(6 * count, sizeof *row);
+    hci_component_set *set = &answer->set;
     hci_status status = HCI_OK;
-    *x = hci_memory_new(12 * orders, sizeof **x);
+    answer->x = hci_memory_new(12 * orders, sizeof *answer->x);
     set->component = hci_memory_new(3 * orders, sizeof *set->component);
     set->set = hci_memory_new(3 * orders, sizeof *set->set);
-    if (!row || !*x || !set->component || !set->set)
+    if (!row || !answer->x || !set->component || !set->set)
         status = hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for %zu samples", count);
-    if (!status && !sample(task, count, row))
-        status = hci_note_set(note, HCI_ERROR_NUMERIC,
-                              "the back-EMF of all phases vanishes at some angle, so no current makes torque there; "
-                              "check back_emf.csv or solve with a set of harmonics");
+    if (!status) status = sample(task, count, row, solution, note);
     for (size_t k = 0; k < orders && !status; ++k) {
-        status = analyse(task, count, row, k, 3 * orders, set, *x);
+        status = analyse(task, count, row, k, 3 * orders, set, answer->x);
         if (task->progress) task->progress(task->progress_context, "Fourier analysis", (double)(k + 1) / (double)orders);
     }
     set->count = status ? 0 : 3 * orders;
+    solution->method = HCI_METHOD_POINTWISE;
+    solution->condition = NAN;
     hci_memory_free(row);
     return status;
 }

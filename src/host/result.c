@@ -77,15 +77,21 @@ static hci_status write_summary(hci_output *out, const hci_solution *s, hci_stat
     return HCI_OK;
 }
 
+/* A file of one part of the currents, or none where they have no parts. */
+static hci_status write_part(hci_output *out, const char *name, const hci_solution *s, const hci_wave *wave,
+                             const char *amplitude_column, hci_note *note)
+{
+    const hci_status status = wave ? hci_output_file(out, name, note) : hci_output_without(out, name, note);
+    if (!status && wave) write_currents(out, &s->current, wave, amplitude_column);
+    return status;
+}
+
 static hci_status write_files(hci_output *out, const hci_machine_data *m, const hci_solution *s, hci_status verdict,
                               hci_note *note)
 {
-    hci_status status = hci_output_file(out, "currents.csv", note);
-    if (!status) write_currents(out, &s->current, s->current.wave, "amplitude_A");
-    if (!status && s->per_Nm) status = hci_output_file(out, "currents_per_Nm.csv", note);
-    if (!status && s->per_Nm) write_currents(out, &s->current, s->per_Nm, "amplitude_A_per_Nm");
-    if (!status && s->per_Nm) status = hci_output_file(out, "currents_constant.csv", note);
-    if (!status && s->per_Nm) write_currents(out, &s->current, s->constant, "amplitude_A");
+    hci_status status = write_part(out, "currents.csv", s, s->current.wave, "amplitude_A", note);
+    if (!status) status = write_part(out, "currents_per_Nm.csv", s, s->per_Nm, "amplitude_A_per_Nm", note);
+    if (!status) status = write_part(out, "currents_constant.csv", s, s->constant, "amplitude_A", note);
     if (!status) status = hci_output_file(out, "spectrum.csv", note);
     if (!status) write_spectrum(out, s);
     if (!status) status = hci_output_file(out, "waveform.csv", note);

@@ -201,10 +201,7 @@ static cholmod_dense *least_norm(cholmod_sparse *r, cholmod_dense *c, double *co
     if (y) {
         const double largest = largest_singular(r, cc), smallest = smallest_singular(qr, r->nrow, cc);
         *condition = largest / smallest;
-        if (!(largest > 0.0 && smallest > 0.0)) {
-            cholmod_l_free_dense(&y, cc);
-            cc->status = CHOLMOD_OUT_OF_MEMORY;
-        }
+        if (!(largest > 0.0 && smallest > 0.0)) cholmod_l_free_dense(&y, cc);
     }
     cholmod_l_free_dense(&z, cc);
     SuiteSparseQR_C_free(&qr, cc);

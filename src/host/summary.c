@@ -57,7 +57,23 @@ static bool add_system(cJSON *root, const hci_solution *s)
     cJSON *system = cJSON_AddObjectToObject(root, "system");
     return system && add_text(system, "method", hci_method_name(s->method)) &&
            add_number(system, "rows", (double)s->rows) && add_number(system, "unknowns", (double)s->unknowns) &&
-           add_number(system, "rank", (double)s->rank) && add_number(system, "condition", s->condition);
+           add_number(system, "rank", (double)s->rank) && add_number(system, "condition", s->condition) &&
+           add_number(system, "newton_steps", (double)s->newton_steps) &&
+           add_number(system, "newton_change", s->newton_change);
+}
+
+/* Angles at which a strategy has no current. */
+static bool add_gaps(cJSON *root, const hci_solution *s)
+{
+    cJSON *gaps = cJSON_AddObjectToObject(root, "angles_without_current");
+    cJSON *list = gaps ? cJSON_AddArrayToObject(gaps, "ranges_rad") : NULL;
+    bool good = list && add_number(gaps, "count", (double)s->gap_count) && add_number(gaps, "least_iq_A", s->least_iq_A);
+    for (size_t k = 0; k < s->gap_count && k < HCI_MOST_GAPS && good; ++k) {
+        const double ends[2] = {s->gap[k].from_rad, s->gap[k].to_rad};
+        cJSON *range = cJSON_CreateDoubleArray(ends, 2);
+        good = range && cJSON_AddItemToArray(list, range);
+    }
+    return good;
 }
 
 static bool add_current(cJSON *root, const hci_solution *s)
@@ -95,7 +111,7 @@ char *hci_solution_json(const hci_solution *solution, hci_status verdict)
     cJSON *root = cJSON_CreateObject();
     char *text = NULL;
     if (root && add_text(root, "command", "solve") && add_text(root, "version", HCI_VERSION_STRING) &&
-        cJSON_AddBoolToObject(root, "reached", verdict == HCI_OK) && add_system(root, solution) &&
+        cJSON_AddBoolToObject(root, "reached", verdict == HCI_OK) && add_system(root, solution) && add_gaps(root, solution) &&
         add_torque(root, solution) && add_current(root, solution))
         text = cJSON_Print(root);
     cJSON_Delete(root);

@@ -1,4 +1,5 @@
-/* A machine: a folder of small tables (machine.csv, back_emf.csv, cogging.csv). */
+/* A machine: a folder of small tables (machine.csv, back_emf.csv, cogging.csv,
+ * inductance.csv). */
 #ifndef HCI_HOST_MACHINE_H
 #define HCI_HOST_MACHINE_H
 
@@ -31,11 +32,13 @@ typedef struct {
     HCI_MACHINE_VALUES(HCI_MACHINE_FIELD)
 #undef HCI_MACHINE_FIELD
     bool has_neutral;     /* connection star-neutral */
-    bool has_inductance;  /* inductance.csv is there */
     bool has_effects;     /* effects.csv is there */
-    hci_machine model;    /* points into the two arrays below */
+    hci_machine model;    /* points into the arrays below */
     hci_wave *back_emf;
     hci_harmonic *cogging;
+    hci_inductance_slope *slope;
+    hci_inductance *inductance; /* L(θ) of inductance.csv; NULL without it or when it holds slopes only */
+    size_t inductance_count;
     hci_note remark;      /* what a reader should know: names that were not understood, or "" */
 } hci_machine_data;
 

@@ -19,6 +19,9 @@ hci_status hci_output_open(const char *folder, hci_output **output, hci_note *no
  * HCI_ERROR_OUTPUT, _MEMORY; discard the set then. */
 hci_status hci_output_file(hci_output *output, const char *name, hci_note *note);
 
+/* A file that the set does not have: one of this name that an earlier run left is removed by the commit. */
+hci_status hci_output_without(hci_output *output, const char *name, hci_note *note);
+
 /* Appends to the current file. Write errors (disk full, …) are remembered and reported by the commit. */
 void hci_output_text(hci_output *output, const char *format, ...) HCI_PRINTF(2, 3);
 

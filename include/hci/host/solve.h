@@ -4,6 +4,7 @@
 
 #include "hci/host/machine.h"
 #include "hci/host/tables.h"
+#include "hci/strategy.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -23,6 +24,7 @@ typedef struct {
     size_t choose_at_most;        /* with set NULL: at most so many components, 0 for as many as it takes */
     const hci_wave *held;         /* a fundamental that is held fixed, or NULL to solve for it too */
     hci_method method;
+    hci_strategy strategy;        /* of the pointwise method */
     hci_compare compare;
     double tolerance;             /* an order is reached when its error is at most this × the largest target; 0: 1e-6 */
     double loss_allowance;        /* with choose_at_most: copper loss allowed over the pointwise limit; 0: 1.10 */
@@ -51,12 +53,24 @@ typedef struct {
     hci_component remedy; /* for an unreachable order: the component that would reach it with the least current */
 } hci_solved_order;
 
+/* A range of electrical angles. */
+typedef struct {
+    double from_rad, to_rad;
+} hci_angle_gap;
+
+enum { HCI_MOST_GAPS = 32 };
+
 typedef struct {
     hci_currents current;        /* all that flows, a held fundamental included */
     hci_wave *per_Nm, *constant; /* current = mean torque × per_Nm + constant, or NULL when something is held fixed */
     hci_solved_order *order;     /* ascending */
     size_t order_count;
     size_t rows, unknowns, rank;
+    size_t newton_steps;         /* 0 for a machine without reluctance torque */
+    double newton_change;        /* of the current in the last step, as a share of it */
+    hci_angle_gap gap[HCI_MOST_GAPS]; /* pointwise: where the strategy has no current; the first ones */
+    size_t gap_count;            /* all of them */
+    double least_iq_A;           /* strategy `cancel`: the i_q from which it has one at every angle; infinite if none */
     double condition;            /* estimate; NAN where the method has none */
     hci_method method;           /* the one that was used */
     double tolerance_Nm;

@@ -1,0 +1,203 @@
+/* What the currents of a solution do: torque and verdict of every order, and the copper loss. */
+#include <math.h>
+
+#include "balance.h"
+#include "gain.h"
+#include "memory.h"
+
+#define NEGLIGIBLE 1e-12 /* waves of e + ½L'i below this share of the largest make no torque worth a line */
+
+static hci_status no_memory(hci_note *note)
+{
+    return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the torque spectrum");
+}
+
+/* The plain fundamental: the one that is held, or the least sine that makes the wanted mean torque. */
+static hci_wave plain_fundamental(const hci_task *t)
+{
+    const double mean_Nm = hci_target_mean_Nm(t->target);
+    if (t->held) return *t->held;
+    for (size_t k = 0; k < t->machine->back_emf_count; ++k) {
+        const hci_wave *e = &t->machine->back_emf[k];
+        const double square = e->sine * e->sine + e->cosine * e->cosine;
+        if (fabs(e->order - 1.0) < HCI_ORDER_TOLERANCE && square > 0.0) {
+            const double scale = mean_Nm / (1.5 * square);
+            return (hci_wave){1.0, 1, scale * e->sine, scale * e->cosine};
+        }
+    }
+    return (hci_wave){1.0, 1, 0.0, 0.0};
+}
+
+/* Every order that the currents or the plain fundamental make torque at, that is wanted, or that cogging has. */
+typedef struct {
+    double *order;
+    size_t count;
+    hci_wave *gain, *plain_gain; /* e + ½L'i for the currents and for the plain fundamental */
+    size_t gain_count, plain_gain_count;
+} reach;
+
+static size_t add_orders(const hci_wave *gain, size_t gain_count, const hci_wave *wave, size_t count, double *order)
+{
+    size_t n = 0;
+    for (size_t k = 0; k < count; ++k)
+        n += hci_component_orders(gain, gain_count, (hci_component){wave[k].order, wave[k].sequence}, order + n);
+    return n;
+}
+
+static hci_status find_reach(const hci_task *t, const hci_solution *s, const hci_wave *plain, reach *r, hci_note *note)
+{
+    const hci_machine *m = t->machine;
+    hci_status status = hci_gain_waves(m, s->current.wave, s->current.count, 0.5, NEGLIGIBLE, &r->gain, &r->gain_count, note);
+    if (!status) status = hci_gain_waves(m, plain, 1, 0.5, NEGLIGIBLE, &r->plain_gain, &r->plain_gain_count, note);
+    if (status) return status;
+    r->order = hci_memory_new(1 + m->cogging_count + t->target->count + 2 * r->gain_count * s->current.count +
+                                  2 * r->plain_gain_count,
+                              sizeof *r->order);
+    if (!r->order) return no_memory(note);
+    r->order[r->count++] = 0.0;
+    for (size_t k = 0; k < m->cogging_count; ++k) r->order[r->count++] = m->cogging[k].order;
+    for (size_t k = 0; k < t->target->count; ++k) r->order[r->count++] = t->target->order[k].torque_Nm.order;
+    r->count += add_orders(r->gain, r->gain_count, s->current.wave, s->current.count, r->order + r->count);
+    r->count += add_orders(r->plain_gain, r->plain_gain_count, plain, 1, r->order + r->count);
+    r->count = hci_orders_sort(r->order, r->count);
+    return HCI_OK;
+}
+
+/* Torque of waves at every order of the reach: (e + ½L'i)·i + T_cog. */
+static void torque_of(const hci_task *t, const reach *r, const hci_wave *gain, size_t gain_count, const hci_wave *wave,
+                      size_t count, hci_harmonic *torque)
+{
+    for (size_t k = 0; k < r->count; ++k) torque[k] = (hci_harmonic){r->order[k], 0.0, 0.0};
+    for (size_t k = 0; k < t->machine->cogging_count; ++k) {
+        const size_t at = hci_orders_find(r->order, r->count, t->machine->cogging[k].order);
+        torque[at].sine += t->machine->cogging[k].sine;
+        torque[at].cosine += t->machine->cogging[k].cosine;
+    }
+    hci_system_add_torque(gain, gain_count, wave, count, r->order, r->count, torque);
+}
+
+/* The component that makes torque order m with one wave of the gain; the lower of the two possible orders. */
+static hci_component component_for(const hci_wave *gain, double m)
+{
+    return m > gain->order ? (hci_component){m - gain->order, -gain->sequence}
+                           : (hci_component){m + gain->order, gain->sequence};
+}
+
+/* The one that needs the least current, of those that may flow and are not held already. */
+static hci_component remedy_for(const hci_task *t, double m)
+{
+    hci_component best = {0.0, 0};
+    double strongest = 0.0;
+    for (size_t k = 0; k < t->gain_count; ++k) {
+        const hci_wave *gain = &t->gain[k];
+        const hci_component c = component_for(gain, m);
+        const double strength = hci_amplitude(gain->sine, gain->cosine);
+        const bool is_held = t->held && c.sequence == t->held->sequence && fabs(c.order - t->held->order) < HCI_ORDER_TOLERANCE;
+        if (strength <= strongest || is_held || (gain->sequence == 0 && !t->has_neutral)) continue;
+        strongest = strength;
+        best = c;
+    }
+    return best;
+}
+
+/* Whether any component of the set reaches the order. reached: room for the orders of one component. */
+static bool is_touched(const hci_task *t, const hci_component_set *set, double order, double *reached)
+{
+    for (size_t k = 0; k < set->count; ++k) {
+        const size_t n = hci_component_orders(t->gain, t->gain_count, set->component[k], reached);
+        for (size_t j = 0; j < n; ++j)
+            if (fabs(reached[j] - order) < HCI_ORDER_TOLERANCE) return true;
+    }
+    return false;
+}
+
+typedef struct {
+    const hci_task *task;
+    const hci_component_set *set;
+    const double *compared; /* NULL: all orders are compared */
+    size_t compared_count;
+    double *reached; /* room for the orders of one component */
+} judge;
+
+static hci_order_verdict judge_order(const judge *j, const hci_solved_order *o, double tolerance_Nm)
+{
+    const double order = o->torque_Nm.order;
+    if (hci_target_at(j->task->target, order).weight <= 0.0) return HCI_ORDER_FREE;
+    if (o->error_Nm <= tolerance_Nm) return HCI_ORDER_REACHED;
+    if (!is_touched(j->task, j->set, order, j->reached)) return HCI_ORDER_UNREACHABLE;
+    if (j->compared && hci_orders_find(j->compared, j->compared_count, order) == j->compared_count)
+        return HCI_ORDER_PARASITIC;
+    return HCI_ORDER_MISSED;
+}
+
+/* Target, torque and error of every order, and the worst of those cared for. */
+static void judge_orders(const judge *j, const hci_harmonic *torque, const hci_harmonic *before, hci_solution *s)
+{
+    s->worst_error_Nm = -1.0;
+    for (size_t k = 0; k < s->order_count; ++k) {
+        hci_solved_order *o = &s->order[k];
+        o->target_Nm = hci_target_at(j->task->target, torque[k].order).torque_Nm;
+        o->torque_Nm = torque[k];
+        o->before_Nm = before[k];
+        o->error_Nm = hypot(torque[k].sine - o->target_Nm.sine, torque[k].cosine - o->target_Nm.cosine);
+        o->verdict = judge_order(j, o, s->tolerance_Nm);
+        if (o->verdict == HCI_ORDER_UNREACHABLE) o->remedy = remedy_for(j->task, o->torque_Nm.order);
+        if (o->verdict == HCI_ORDER_FREE || o->error_Nm <= s->worst_error_Nm) continue;
+        s->worst_error_Nm = o->error_Nm;
+        s->worst_order = o->torque_Nm.order;
+    }
+    if (s->worst_error_Nm < 0.0) s->worst_error_Nm = 0.0;
+}
+
+static hci_status fill_orders(const judge *j, const reach *r, const hci_wave *plain, hci_solution *s, hci_note *note)
+{
+    hci_harmonic *torque = hci_memory_new(2 * r->count, sizeof *torque);
+    s->order = hci_memory_new(r->count, sizeof *s->order);
+    s->order_count = s->order ? r->count : 0;
+    if (torque && s->order) {
+        torque_of(j->task, r, r->gain, r->gain_count, s->current.wave, s->current.count, torque);
+        torque_of(j->task, r, r->plain_gain, r->plain_gain_count, plain, 1, torque + r->count);
+        judge_orders(j, torque, torque + r->count, s);
+    }
+    hci_memory_free(torque);
+    return torque && s->order ? HCI_OK : no_memory(note);
+}
+
+/* NAN where there is nothing to compare with. */
+static double ratio(double value, double reference)
+{
+    if (!(reference > 0.0)) return NAN;
+    return value / reference;
+}
+
+static void fill_losses(const hci_task *t, hci_solution *s)
+{
+    const hci_wave plain = plain_fundamental(t);
+    s->mean_square_A2 = hci_waves_mean_square(s->current.wave, s->current.count);
+    s->plain_amplitude_A = hci_amplitude(plain.sine, plain.cosine);
+    s->loss_to_plain = ratio(s->mean_square_A2, 1.5 * s->plain_amplitude_A * s->plain_amplitude_A);
+    s->loss_to_limit = ratio(s->mean_square_A2, s->limit_mean_square_A2);
+}
+
+hci_status hci_judge(const hci_task *task, const hci_component_set *set, hci_compare compare, hci_solution *solution,
+                     hci_note *note)
+{
+    const hci_wave plain = plain_fundamental(task);
+    hci_balance b = {0};
+    reach r = {0};
+    double *reached = hci_memory_new(2 * task->gain_count, sizeof *reached);
+    hci_status status = reached ? find_reach(task, solution, &plain, &r, note) : no_memory(note);
+    if (!status && compare == HCI_COMPARE_SQUARE)
+        status = hci_balance_make(task, set->component, set->count, compare, &b, note);
+    if (!status) {
+        const judge j = {task, set, b.order, b.order_count, reached};
+        status = fill_orders(&j, &r, &plain, solution, note);
+    }
+    hci_balance_release(&b);
+    hci_memory_free(reached);
+    hci_memory_free(r.order);
+    hci_memory_free(r.gain);
+    hci_memory_free(r.plain_gain);
+    if (!status) fill_losses(task, solution);
+    return status;
+}
