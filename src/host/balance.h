@@ -82,6 +82,13 @@ void hci_newton_release(hci_newton_room *room);
 hci_status hci_judge(const hci_task *task, const hci_component_set *set, hci_compare compare, hci_solution *solution,
                      hci_note *note);
 
+/* Weighted error of the true torque of a current: the largest at any order, and the sum of all squares. */
+typedef struct {
+    double worst_Nm, square_sum;
+} hci_torque_error;
+
+hci_status hci_judge_error(const hci_task *task, const hci_wave *wave, size_t count, hci_torque_error *error, hci_note *note);
+
 /* The pointwise limit i = (T* − T_cog) e⊥/(e⊥·e⊥). mean_square_A2: of the limit, NAN where e⊥ vanishes. */
 double hci_pointwise_mean_square_A2(const hci_task *task);
 

@@ -28,44 +28,63 @@ static hci_wave plain_fundamental(const hci_task *t)
     return (hci_wave){1.0, 1, 0.0, 0.0};
 }
 
-/* Every order that the currents or the plain fundamental make torque at, that is wanted, or that cogging has. */
+/* e + ½L'i of a current, whose product with it is the mutual and reluctance torque. */
 typedef struct {
-    double *order;
+    const hci_wave *wave;
     size_t count;
-    hci_wave *gain, *plain_gain; /* e + ½L'i for the currents and for the plain fundamental */
-    size_t gain_count, plain_gain_count;
-} reach;
+    hci_wave *gain;
+    size_t gain_count;
+} acting;
 
-static size_t add_orders(const hci_wave *gain, size_t gain_count, const hci_wave *wave, size_t count, double *order)
+static size_t orders_of(const acting *c, double *order)
 {
     size_t n = 0;
-    for (size_t k = 0; k < count; ++k)
-        n += hci_component_orders(gain, gain_count, (hci_component){wave[k].order, wave[k].sequence}, order + n);
+    for (size_t k = 0; k < c->count; ++k)
+        n += hci_component_orders(c->gain, c->gain_count, (hci_component){c->wave[k].order, c->wave[k].sequence}, order + n);
     return n;
 }
 
-static hci_status find_reach(const hci_task *t, const hci_solution *s, const hci_wave *plain, reach *r, hci_note *note)
+/* Every order that two currents make torque at (the second may have no waves), that is wanted, or that cogging has. */
+typedef struct {
+    double *order;
+    size_t count;
+    acting first, second;
+} reach;
+
+static hci_status find_reach(const hci_task *t, const hci_wave *first, size_t first_count, const hci_wave *second,
+                             size_t second_count, reach *r, hci_note *note)
 {
     const hci_machine *m = t->machine;
-    hci_status status = hci_gain_waves(m, s->current.wave, s->current.count, 0.5, NEGLIGIBLE, &r->gain, &r->gain_count, note);
-    if (!status) status = hci_gain_waves(m, plain, 1, 0.5, NEGLIGIBLE, &r->plain_gain, &r->plain_gain_count, note);
+    hci_status status = hci_gain_waves(m, first, first_count, 0.5, NEGLIGIBLE, &r->first.gain, &r->first.gain_count, note);
+    if (!status)
+        status = hci_gain_waves(m, second, second_count, 0.5, NEGLIGIBLE, &r->second.gain, &r->second.gain_count, note);
     if (status) return status;
-    r->order = hci_memory_new(1 + m->cogging_count + t->target->count + 2 * r->gain_count * s->current.count +
-                                  2 * r->plain_gain_count,
+    r->first.wave = first;
+    r->first.count = first_count;
+    r->second.wave = second;
+    r->second.count = second_count;
+    r->order = hci_memory_new(1 + m->cogging_count + t->target->count + 2 * r->first.gain_count * first_count +
+                                  2 * r->second.gain_count * second_count,
                               sizeof *r->order);
     if (!r->order) return no_memory(note);
     r->order[r->count++] = 0.0;
     for (size_t k = 0; k < m->cogging_count; ++k) r->order[r->count++] = m->cogging[k].order;
     for (size_t k = 0; k < t->target->count; ++k) r->order[r->count++] = t->target->order[k].torque_Nm.order;
-    r->count += add_orders(r->gain, r->gain_count, s->current.wave, s->current.count, r->order + r->count);
-    r->count += add_orders(r->plain_gain, r->plain_gain_count, plain, 1, r->order + r->count);
+    r->count += orders_of(&r->first, r->order + r->count);
+    r->count += orders_of(&r->second, r->order + r->count);
     r->count = hci_orders_sort(r->order, r->count);
     return HCI_OK;
 }
 
-/* Torque of waves at every order of the reach: (e + ½L'i)·i + T_cog. */
-static void torque_of(const hci_task *t, const reach *r, const hci_wave *gain, size_t gain_count, const hci_wave *wave,
-                      size_t count, hci_harmonic *torque)
+static void release_reach(reach *r)
+{
+    hci_memory_free(r->order);
+    hci_memory_free(r->first.gain);
+    hci_memory_free(r->second.gain);
+}
+
+/* Torque of a current at every order of the reach: (e + ½L'i)·i + T_cog. */
+static void torque_of(const hci_task *t, const reach *r, const acting *c, hci_harmonic *torque)
 {
     for (size_t k = 0; k < r->count; ++k) torque[k] = (hci_harmonic){r->order[k], 0.0, 0.0};
     for (size_t k = 0; k < t->machine->cogging_count; ++k) {
@@ -73,7 +92,31 @@ static void torque_of(const hci_task *t, const reach *r, const hci_wave *gain, s
         torque[at].sine += t->machine->cogging[k].sine;
         torque[at].cosine += t->machine->cogging[k].cosine;
     }
-    hci_system_add_torque(gain, gain_count, wave, count, r->order, r->count, torque);
+    hci_system_add_torque(c->gain, c->gain_count, c->wave, c->count, r->order, r->count, torque);
+}
+
+static double distance_Nm(hci_harmonic a, hci_harmonic b)
+{
+    return hypot(a.sine - b.sine, a.cosine - b.cosine);
+}
+
+hci_status hci_judge_error(const hci_task *task, const hci_wave *wave, size_t count, hci_torque_error *error, hci_note *note)
+{
+    reach r = {0};
+    hci_harmonic *torque = NULL;
+    hci_status status = find_reach(task, wave, count, wave, 0, &r, note);
+    if (!status && !(torque = hci_memory_new(r.count, sizeof *torque))) status = no_memory(note);
+    if (!status) torque_of(task, &r, &r.first, torque);
+    *error = (hci_torque_error){0.0, 0.0};
+    for (size_t k = 0; k < r.count && !status; ++k) {
+        const hci_target_order wanted = hci_target_at(task->target, r.order[k]);
+        const double amplitude = wanted.weight * distance_Nm(torque[k], wanted.torque_Nm);
+        error->worst_Nm = fmax(error->worst_Nm, amplitude);
+        error->square_sum += amplitude * amplitude;
+    }
+    hci_memory_free(torque);
+    release_reach(&r);
+    return status;
 }
 
 /* The component that makes torque order m with one wave of the gain; the lower of the two possible orders. */
@@ -139,7 +182,7 @@ static void judge_orders(const judge *j, const hci_harmonic *torque, const hci_h
         o->target_Nm = hci_target_at(j->task->target, torque[k].order).torque_Nm;
         o->torque_Nm = torque[k];
         o->before_Nm = before[k];
-        o->error_Nm = hypot(torque[k].sine - o->target_Nm.sine, torque[k].cosine - o->target_Nm.cosine);
+        o->error_Nm = distance_Nm(torque[k], o->target_Nm);
         o->verdict = judge_order(j, o, s->tolerance_Nm);
         if (o->verdict == HCI_ORDER_UNREACHABLE) o->remedy = remedy_for(j->task, o->torque_Nm.order);
         if (o->verdict == HCI_ORDER_FREE || o->error_Nm <= s->worst_error_Nm) continue;
@@ -149,14 +192,14 @@ static void judge_orders(const judge *j, const hci_harmonic *torque, const hci_h
     if (s->worst_error_Nm < 0.0) s->worst_error_Nm = 0.0;
 }
 
-static hci_status fill_orders(const judge *j, const reach *r, const hci_wave *plain, hci_solution *s, hci_note *note)
+static hci_status fill_orders(const judge *j, const reach *r, hci_solution *s, hci_note *note)
 {
     hci_harmonic *torque = hci_memory_new(2 * r->count, sizeof *torque);
     s->order = hci_memory_new(r->count, sizeof *s->order);
     s->order_count = s->order ? r->count : 0;
     if (torque && s->order) {
-        torque_of(j->task, r, r->gain, r->gain_count, s->current.wave, s->current.count, torque);
-        torque_of(j->task, r, r->plain_gain, r->plain_gain_count, plain, 1, torque + r->count);
+        torque_of(j->task, r, &r->first, torque);
+        torque_of(j->task, r, &r->second, torque + r->count);
         judge_orders(j, torque, torque + r->count, s);
     }
     hci_memory_free(torque);
@@ -186,18 +229,16 @@ hci_status hci_judge(const hci_task *task, const hci_component_set *set, hci_com
     hci_balance b = {0};
     reach r = {0};
     double *reached = hci_memory_new(2 * task->gain_count, sizeof *reached);
-    hci_status status = reached ? find_reach(task, solution, &plain, &r, note) : no_memory(note);
+    hci_status status = reached ? find_reach(task, solution->current.wave, solution->current.count, &plain, 1, &r, note) : no_memory(note);
     if (!status && compare == HCI_COMPARE_SQUARE)
         status = hci_balance_make(task, set->component, set->count, compare, &b, note);
     if (!status) {
         const judge j = {task, set, b.order, b.order_count, reached};
-        status = fill_orders(&j, &r, &plain, solution, note);
+        status = fill_orders(&j, &r, solution, note);
     }
     hci_balance_release(&b);
     hci_memory_free(reached);
-    hci_memory_free(r.order);
-    hci_memory_free(r.gain);
-    hci_memory_free(r.plain_gain);
+    release_reach(&r);
     if (!status) fill_losses(task, solution);
     return status;
 }

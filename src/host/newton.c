@@ -242,16 +242,45 @@ static double relative_change(const double *x, const double *g, size_t n)
     return size > 0.0 ? sqrt(change / size) : 0.0;
 }
 
-/* Where to go on from: the answer itself at first and where the set has changed, else the mixture. */
-static hci_status move_on(const hci_task *t, const hci_answer *next, double *g, size_t count, iteration *i, hci_solution *s,
-                          hci_note *note)
+/* For a given set, which may be far from reaching the target so that a whole step can lead away from the best: the mixture if that
+ * lowers the squared error of the true torque, else as far towards g as does. */
+static hci_status descend(const hci_task *t, const hci_component_set *set, const double *g, iteration *i, hci_note *note)
+{
+    const size_t n = 2 * set->count;
+    double *from = hci_memory_new(n, sizeof *from);
+    hci_torque_error before, now = {0.0, 0.0};
+    hci_status status = from ? hci_judge_error(t, i->p.wave, i->p.count, &before, note) : no_memory(note);
+    if (!status) memcpy(from, i->x, n * sizeof *from);
+    if (!status) mix(&i->mixer, i->x, g);
+    for (double share = 2.0; share > 1e-3 && !status; share *= 0.5) { /* 2 stands for the mixture */
+        for (size_t k = 0; share < 2.0 && k < n; ++k) i->x[k] = from[k] + share * (g[k] - from[k]);
+        status = set_point(t, set, i->x, &i->p, note);
+        if (!status) status = hci_judge_error(t, i->p.wave, i->p.count, &now, note);
+        if (now.square_sum <= before.square_sum) break;
+    }
+    hci_memory_free(from);
+    return status;
+}
+
+/* How the point follows the answers. */
+typedef enum {
+    MIX,     /* a free choice: the linear problem is solved exactly every time */
+    MIDDLE,  /* few components: the choice jumps between prices of copper, which no acceleration can follow */
+    DESCEND, /* a given set */
+} manner;
+
+/* Where to go on from: the answer itself at first and where the set has changed, else as the manner says. */
+static hci_status move_on(const hci_task *t, const hci_answer *next, manner how, double *g, size_t count, iteration *i,
+                          hci_solution *s, hci_note *note)
 {
     const size_t n = 2 * next->set.count;
     hci_status status = HCI_OK;
     s->newton_change = 1.0;
     if (i->x && count == next->set.count) {
         s->newton_change = relative_change(i->x, g, n);
-        mix(&i->mixer, i->x, g);
+        if (how == MIX) mix(&i->mixer, i->x, g);
+        for (size_t k = 0; how == MIDDLE && k < n; ++k) i->x[k] = 0.5 * (i->x[k] + g[k]);
+        if (how == DESCEND) status = descend(t, &next->set, g, i, note);
         hci_memory_free(g);
     } else {
         hci_memory_free(i->x);
@@ -275,10 +304,11 @@ static hci_status step(hci_task *t, const hci_solve_options *o, hci_newton_room 
     hci_answer next = {{0}, NULL};
     double *g = NULL;
     hci_status status = linearise(t, &i->p, room, note);
-    if (a->x && !o->set && o->choose_at_most == 0) t->compared_up_to = top_order(&a->set); /* as hci_choose_all did */
+    if (a->x && !o->set && o->choose_at_most == 0 && t->offset_count > 0)
+        t->compared_up_to = top_order(&a->set); /* as hci_choose_all did */
     if (!status) status = hci_linear_answer(t, o, a->x ? &a->set : NULL, &next, s, note);
     if (!status && !(g = coordinates(t, &next))) status = no_memory(note);
-    if (!status) status = move_on(t, &next, g, a->set.count, i, s, note);
+    if (!status) status = move_on(t, &next, o->choose_at_most > 0 ? MIDDLE : o->set ? DESCEND : MIX, g, a->set.count, i, s, note);
     if (status) {
         hci_answer_release(&next);
         return status;
@@ -305,6 +335,62 @@ static hci_status iterate(hci_task *t, const hci_solve_options *o, hci_newton_ro
                         s->newton_steps, s->newton_change);
 }
 
+/* Copies an answer into room that is as large. */
+static hci_status keep_answer(const hci_answer *from, hci_answer *to, hci_note *note)
+{
+    const size_t n = from->set.count;
+    hci_answer_release(to);
+    to->set.component = hci_memory_new(n, sizeof *to->set.component);
+    to->set.set = hci_memory_new(n, sizeof *to->set.set);
+    to->x = hci_memory_new(4 * n, sizeof *to->x);
+    if (!to->set.component || !to->set.set || !to->x) return no_memory(note);
+    memcpy(to->set.component, from->set.component, n * sizeof *to->set.component);
+    memcpy(to->set.set, from->set.set, n * sizeof *to->set.set);
+    memcpy(to->x, from->x, 4 * n * sizeof *to->x);
+    to->set.count = n;
+    return HCI_OK;
+}
+
+/* True worst error of an answer. */
+static hci_status worth_of(const hci_task *t, const hci_answer *a, double *worst_Nm, hci_note *note)
+{
+    point p = {NULL, 0};
+    hci_torque_error error = {0.0, 0.0};
+    hci_status status = point_of(t, a, &p, note);
+    if (!status) status = hci_judge_error(t, p.wave, p.count, &error, note);
+    *worst_Nm = error.worst_Nm;
+    hci_memory_free(p.wave);
+    return status;
+}
+
+/* Few components: no answer is exact, so the one whose true torque is best is kept, until no better one has come for a while. */
+static hci_status search(hci_task *t, const hci_solve_options *o, hci_newton_room *room, hci_answer *a, iteration *i,
+                         hci_solution *s, hci_note *note)
+{
+    enum { PATIENCE = 8 };
+    hci_answer best = {{0}, NULL};
+    double least_Nm = HUGE_VAL;
+    hci_status status = HCI_OK;
+    for (size_t since = 0; since < PATIENCE && s->newton_steps < MOST_STEPS && !status; ++since) {
+        double worst_Nm = HUGE_VAL;
+        status = step(t, o, room, a, i, s, note);
+        if (!status) status = worth_of(t, a, &worst_Nm, note);
+        if (!status && worst_Nm < (1.0 - 1e-6) * least_Nm) {
+            status = keep_answer(a, &best, note);
+            least_Nm = worst_Nm;
+            since = 0;
+        }
+        if (t->progress) t->progress(t->progress_context, "Newton", (double)s->newton_steps / MOST_STEPS);
+    }
+    if (status) {
+        hci_answer_release(&best);
+        return status;
+    }
+    hci_answer_release(a);
+    *a = best;
+    return HCI_OK;
+}
+
 hci_status hci_newton_answer(hci_task *task, const hci_solve_options *options, hci_newton_room *room, hci_answer *answer,
                              hci_solution *solution, hci_note *note)
 {
@@ -313,7 +399,10 @@ hci_status hci_newton_answer(hci_task *task, const hci_solve_options *options, h
     memset(&i, 0, sizeof i);
     status = begin(task, &i.p, note);
     if (!status) keep_in_set(&i.p, options->set, options->held);
-    if (!status) status = iterate(task, options, room, answer, &i, solution, note);
+    if (!status && options->choose_at_most > 0)
+        status = search(task, options, room, answer, &i, solution, note);
+    else if (!status)
+        status = iterate(task, options, room, answer, &i, solution, note);
     task->compared_up_to = 0.0;
     hci_memory_free(i.p.wave);
     hci_memory_free(i.x);
