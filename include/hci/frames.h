@@ -40,7 +40,8 @@ typedef struct {
     double d, q;
 } hci_dqx;
 
-/* The frame for a back-EMF e_abc. Where e has no part without zero sequence there is none: a_x is then 0 and the axis (0, 0). */
+/* The frame for a back-EMF e_abc. Where e has no part without zero sequence, or 1/|e| is no finite number,
+ * there is none: a_x is then 0 and the axis (0, 0). */
 hci_dqx_frame hci_dqx_frame_of(const double e_abc[3]);
 
 /* x_abc of zero sum to the frame and back; a frame with a_x = 0 gives zeros. */

@@ -41,10 +41,10 @@ static const double sqrt_3_2 = 1.22474487139158904910;
 hci_dqx_frame hci_dqx_frame_of(const double e_abc[3])
 {
     const hci_alpha_beta e = hci_clarke(e_abc);
-    const double size = hypot(e.alpha, e.beta);
+    const double size = hypot(e.alpha, e.beta), a_x = 1.0 / size;
     const hci_dqx_frame none = {0.0, 0.0, 0.0};
-    if (!(size > 0.0)) return none;
-    const hci_dqx_frame frame = {1.0 / size, e.alpha / size, e.beta / size};
+    if (!(a_x > 0.0 && a_x < HUGE_VAL)) return none;
+    const hci_dqx_frame frame = {a_x, e.alpha / size, e.beta / size};
     return frame;
 }
 

@@ -230,11 +230,13 @@ static void set_current(const shortest *p, const unknown *u, double t, double x[
 /* Below it g_0 counts as zero. */
 #define LEAST_DELTA 1e-150
 
-/* λ with λh_0 <= ½, where φ' <= 8|g|²; limit bounds the search. Zero where φ stays below τ, if only by rounding. */
+/* λ with λh_0 <= ½, where φ' <= 8|g|²; limit bounds the search, which starts above 0 even for a back-EMF that is not finite.
+ * Zero where φ stays below τ, if only by rounding. */
 static int solve_by_lambda(const shortest *p, double limit, double x[2])
 {
     const unknown u = {p, 0};
-    double left[2], slope, high = p->tau / (p->g[0] * p->g[0] + p->g[1] * p->g[1]), low = 0.125 * high;
+    const double square = p->g[0] * p->g[0] + p->g[1] * p->g[1];
+    double left[2], slope, high = fmax(p->tau / square, DBL_MIN), low = 0.125 * high;
     for (; high < limit; high *= 2.0) {
         lambda_of(&u, high, left);
         if (torque_of(p, high, left, &slope) >= p->tau) break;
@@ -299,7 +301,8 @@ hci_status hci_strategy_current(const hci_machine_point *point, hci_strategy str
     if (strategy == HCI_STRATEGY_MTPA)
         return shortest_current(point, torque_Nm - point->cogging_Nm, previous, x);
     x[0] = x[1] = 0.0;
-    if (!(a.e > 0.0)) return torque_Nm == 0.0 ? HCI_OK : HCI_NOT_REACHED;
+    const double currentless_Nm = strategy == HCI_STRATEGY_CANCEL ? point->cogging_Nm : 0.0;
+    if (!(a.e > 0.0)) return torque_Nm == currentless_Nm ? HCI_OK : HCI_NOT_REACHED;
     if (strategy == HCI_STRATEGY_CANCEL)
         status = cancel(&a, point->cogging_Nm, torque_Nm / a.e, previous, &id);
     from_axes(&a, id, torque_Nm / a.e, x);
