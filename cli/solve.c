@@ -83,6 +83,8 @@ static hci_status read_choices(const cli_arguments *a, hci_solve_options *o, hci
         return hci_note_set(note, HCI_ERROR_ARGUMENT, "--harmonics names the components; leave out --auto or --method pointwise");
     if (a->given[AUTO] && o->method != HCI_METHOD_AUTO)
         return hci_note_set(note, HCI_ERROR_ARGUMENT, "--auto chooses the method too; leave out --method");
+    if (a->given[MAX_LOSS] && !a->value[AUTO])
+        return hci_note_set(note, HCI_ERROR_ARGUMENT, "--max-loss goes with --auto K");
     if (a->given[STRATEGY] && o->method != HCI_METHOD_POINTWISE)
         return hci_note_set(note, HCI_ERROR_ARGUMENT, "--strategy works angle by angle; add --method pointwise");
     if (!a->given[HARMONICS] && (a->given[COMPARE] || o->method == HCI_METHOD_LU || o->method == HCI_METHOD_UMFPACK))
