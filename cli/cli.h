@@ -62,6 +62,9 @@ void cli_show_solution(const hci_solution *solution, const char *machine, const 
 
 /* ---- the commands */
 
-extern const cli_command cli_solve, cli_emit;
+extern const cli_command cli_solve, cli_simulate, cli_emit;
+
+/* After the help of `simulate`: what a scenario may hold. */
+void cli_print_scenario_names(void);
 
 #endif

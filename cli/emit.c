@@ -12,18 +12,21 @@
 enum { NAME, FORMAT, FRAME, POINTS, MAX_ERROR, PER_TORQUE, REFERENCE, OUT, JSON, QUIET, HELP };
 
 static const cli_option OPTIONS[] = {
-    [NAME] = {"name", 0, CLI_VALUE, "ID", "of the table and its files, a C identifier"},
-    [FORMAT] = {"format", 0, CLI_VALUE, "NAME", "f32 (default)"},
-    [FRAME] = {"frame", 0, CLI_VALUE, "NAME", "abc (default): phase currents; dq: rotor frame"},
-    [POINTS] = {"points", 0, CLI_VALUE, "N", "rows of the table (256)"},
-    [MAX_ERROR] = {"max-error", 0, CLI_VALUE, "A", "instead: the fewest rows that keep every current within it"},
-    [PER_TORQUE] = {"per-torque", 0, CLI_FLAG, NULL, "two parts, i = T*A + B, for every mean torque T (needs a folder)"},
-    [REFERENCE] = {"reference-torque", 0, CLI_VALUE, "NM", "with --per-torque: the largest T (default: the one solved for)"},
-    [OUT] = {"out", 'o', CLI_VALUE, "FOLDER", "where ID.h and ID.c go (default: here)"},
-    [JSON] = {"json", 0, CLI_FLAG, NULL, "the summary as JSON on standard output"},
-    [QUIET] = {"quiet", 'q', CLI_FLAG, NULL, "no words, only errors"},
-    [HELP] = {"help", 'h', CLI_FLAG, NULL, "this text"},
-    {NULL, 0, CLI_FLAG, NULL, NULL},
+    [NAME] = {"name",             0,   CLI_VALUE, "ID",     "of the table and its files, a C identifier"    },
+    [FORMAT] = {"format",           0,   CLI_VALUE, "NAME",   "f32 (default)"                                 },
+    [FRAME] = {"frame",            0,   CLI_VALUE, "NAME",   "abc (default): phase currents; dq: rotor frame"},
+    [POINTS] = {"points",           0,   CLI_VALUE, "N",      "rows of the table (256)"                       },
+    [MAX_ERROR] = {"max-error",        0,   CLI_VALUE, "A",
+              "instead: the fewest rows that keep every current within it"                                  },
+    [PER_TORQUE] = {"per-torque",       0,   CLI_FLAG,  NULL,
+              "two parts, i = T*A + B, for every mean torque T (needs a folder)"                            },
+    [REFERENCE] = {"reference-torque", 0,   CLI_VALUE, "NM",
+              "with --per-torque: the largest T (default: the one solved for)"                              },
+    [OUT] = {"out",              'o', CLI_VALUE, "FOLDER", "where ID.h and ID.c go (default: here)"        },
+    [JSON] = {"json",             0,   CLI_FLAG,  NULL,     "the summary as JSON on standard output"        },
+    [QUIET] = {"quiet",            'q', CLI_FLAG,  NULL,     "no words, only errors"                         },
+    [HELP] = {"help",             'h', CLI_FLAG,  NULL,     "this text"                                     },
+    {NULL,               0,   CLI_FLAG,  NULL,     NULL                                            },
 };
 
 enum { PATH_SIZE = 4096 };
@@ -41,10 +44,12 @@ static bool is_folder(const char *path)
     return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
 }
 
-static hci_status read_currents(const char *folder, const char *file, bool per_Nm, hci_currents *currents, hci_note *note)
+static hci_status read_currents(const char *folder, const char *file, bool per_Nm, hci_currents *currents,
+                                hci_note *note)
 {
     char path[PATH_SIZE];
-    const int length = file ? snprintf(path, sizeof path, "%s/%s", folder, file) : snprintf(path, sizeof path, "%s", folder);
+    const int length =
+        file ? snprintf(path, sizeof path, "%s/%s", folder, file) : snprintf(path, sizeof path, "%s", folder);
     if (length < 0 || length >= PATH_SIZE)
         return hci_note_set(note, HCI_ERROR_INPUT, "%.200s…: the path is too long", folder);
     return hci_currents_read(path, per_Nm, currents, note);
@@ -61,12 +66,21 @@ static hci_status read_mean_torque(const char *folder, double *torque_Nm, hci_no
     status = hci_csv_read(path, &csv, note);
     if (status) return status;
     if (hci_csv_rows(csv) > 0) status = hci_csv_number(csv, "order", 0, &order, note);
-    if (!status && order == 0.0) status = hci_csv_number(csv, "torque_Nm", 0, torque_Nm, note);
+    if (!status && order == 0.0) status = hci_csv_number(csv, "target_Nm", 0, torque_Nm, note);
     hci_csv_free(csv);
     if (!status && (order != 0.0 || *torque_Nm == 0.0))
-        return hci_note_set(note, HCI_ERROR_INPUT, "%s: no mean torque in it; give --reference-torque NM", path);
+        return hci_note_set(note, HCI_ERROR_INPUT, "%s: no mean torque in it; give --reference-torque NM",
+                            path);
     *torque_Nm = fabs(*torque_Nm);
     return status;
+}
+
+static bool has_parts(const char *folder)
+{
+    char path[PATH_SIZE];
+    struct stat info;
+    snprintf(path, sizeof path, "%s/currents_per_Nm.csv", folder);
+    return stat(path, &info) == 0;
 }
 
 static hci_status read_parts(const cli_arguments *a, inputs *in, hci_note *note)
@@ -74,11 +88,19 @@ static hci_status read_parts(const cli_arguments *a, inputs *in, hci_note *note)
     const char *from = a->word[0];
     hci_status status;
     if (!is_folder(from))
-        return hci_note_set(note, HCI_ERROR_ARGUMENT, "--per-torque needs the folder that `solve` wrote, not one file: %s", from);
+        return hci_note_set(note, HCI_ERROR_ARGUMENT,
+                            "--per-torque needs the folder that `solve` wrote, not one file: %s", from);
+    if (!has_parts(from))
+        return hci_note_set(
+            note, HCI_ERROR_INPUT,
+            "%s: no currents_per_Nm.csv: these currents are not linear in the mean torque (a held "
+            "fundamental, or reluctance torque); leave out --per-torque",
+            from);
     status = read_currents(from, "currents_constant.csv", false, &in->current, note);
     if (!status) status = read_currents(from, "currents_per_Nm.csv", true, &in->per_Nm, note);
     if (!status && a->value[REFERENCE])
-        status = cli_number("reference-torque", a->value[REFERENCE], 1e-9, 1e9, &in->request.reference_torque_Nm, note);
+        status = cli_number("reference-torque", a->value[REFERENCE], 1e-9, 1e9,
+                            &in->request.reference_torque_Nm, note);
     else if (!status)
         status = read_mean_torque(from, &in->request.reference_torque_Nm, note);
     in->request.per_Nm = in->per_Nm.wave;
@@ -100,10 +122,13 @@ static hci_status read_options(const cli_arguments *a, hci_emit_request *r, hci_
     if (a->given[REFERENCE] && !a->given[PER_TORQUE])
         return hci_note_set(note, HCI_ERROR_ARGUMENT, "emit: --reference-torque goes with --per-torque");
     if (a->value[FRAME]) status = cli_choice("frame", a->value[FRAME], FRAMES, &frame, note);
-    if (!status && a->value[POINTS]) status = cli_number("points", a->value[POINTS], 1.0, HCI_EMIT_MAX_POINTS, &points, note);
+    if (!status && a->value[POINTS])
+        status = cli_number("points", a->value[POINTS], 1.0, HCI_EMIT_MAX_POINTS, &points, note);
     if (!status && points != floor(points))
-        status = hci_note_set(note, HCI_ERROR_ARGUMENT, "--points: found `%s`, expected a whole number", a->value[POINTS]);
-    if (!status && a->value[MAX_ERROR]) status = cli_number("max-error", a->value[MAX_ERROR], 1e-12, 1e9, &r->max_error_A, note);
+        status = hci_note_set(note, HCI_ERROR_ARGUMENT, "--points: found `%s`, expected a whole number",
+                              a->value[POINTS]);
+    if (!status && a->value[MAX_ERROR])
+        status = cli_number("max-error", a->value[MAX_ERROR], 1e-12, 1e9, &r->max_error_A, note);
     r->frame = frame == 0 ? HCI_TABLE_ABC : HCI_TABLE_DQ;
     r->points = (size_t)points;
     return status;
@@ -122,13 +147,15 @@ static hci_status read_inputs(const cli_arguments *a, inputs *in, hci_note *note
     if (!status && a->given[PER_TORQUE])
         status = read_parts(a, in, note);
     else if (!status)
-        status = read_currents(a->word[0], is_folder(a->word[0]) ? "currents.csv" : NULL, false, &in->current, note);
+        status = read_currents(a->word[0], is_folder(a->word[0]) ? "currents.csv" : NULL, false, &in->current,
+                               note);
     if (status) return status;
     in->request.currents = in->current.wave;
     in->request.current_count = in->current.count;
     in->request.has_neutral = has_zero_sequence(&in->current) || has_zero_sequence(&in->per_Nm);
     in->request.input_hash = in->current.hash ^ (in->per_Nm.hash * 31u);
-    snprintf(in->provenance[0], sizeof in->provenance[0], "%zu current components, solved by hci-solve", in->current.count);
+    snprintf(in->provenance[0], sizeof in->provenance[0], "%zu current components, solved by hci-solve",
+             in->current.count);
     in->lines[0] = in->provenance[0];
     in->request.provenance = in->lines;
     in->request.provenance_count = 1;
@@ -138,9 +165,11 @@ static hci_status read_inputs(const cli_arguments *a, inputs *in, hci_note *note
 static void show(const hci_emit_request *r, const hci_emit_result *result, const char *folder)
 {
     fprintf(stderr, "emitted: %s/%s.h and %s.c\n", folder, r->name, r->name);
-    fprintf(stderr, "  table        %zu points of %zu values in %zu part%s, %zu bytes, frame %s\n", result->points, result->columns,
-            result->parts, result->parts == 1 ? "" : "s", result->bytes, r->frame == HCI_TABLE_ABC ? "abc" : "dq");
-    fprintf(stderr, "  period       %zu electrical turn%s\n", result->period_turns, result->period_turns == 1 ? "" : "s");
+    fprintf(stderr, "  table        %zu points of %zu values in %zu part%s, %zu bytes, frame %s\n",
+            result->points, result->columns, result->parts, result->parts == 1 ? "" : "s", result->bytes,
+            r->frame == HCI_TABLE_ABC ? "abc" : "dq");
+    fprintf(stderr, "  period       %zu electrical turn%s\n", result->period_turns,
+            result->period_turns == 1 ? "" : "s");
     fprintf(stderr, "  error        at most %.3g A of a peak of %.4g A", result->max_error_A, result->peak_A);
     if (r->per_Nm) fprintf(stderr, ", up to %.4g N·m", r->reference_torque_Nm);
     fprintf(stderr, "\n  runtime      hci/table.h\n");
@@ -173,12 +202,15 @@ static int run(const cli_arguments *a)
 }
 
 const cli_command cli_emit = {
-    "emit", "CURRENTS_OR_FOLDER --name ID",
+    "emit",
+    "CURRENTS_OR_FOLDER --name ID",
     "Turns currents into C tables for a microcontroller.\n"
     "Writes ID.h and ID.c, which need the header hci/table.h and nothing else.",
-    OPTIONS, 1,
+    OPTIONS,
+    1,
     "  hci-solve solve data/machine_a --target data/scenarios/02/target.csv --auto -o out/machine_a\n"
     "  hci-solve emit out/machine_a --name machine_a --frame dq --max-error 0.01 -o out/machine_a\n"
-    "  hci-solve emit out/machine_a --name machine_a_linear --frame dq --points 512 --per-torque -o out/machine_a\n"
+    "  hci-solve emit out/machine_a --name machine_a_linear --frame dq --points 512 --per-torque -o "
+    "out/machine_a\n"
     "\nExit codes: 0 done; 2 command line; 3 input; 4 numerical; 5 output\n",
     run};

@@ -8,7 +8,7 @@
 #include "cli.h"
 #include "hci/version.h"
 
-static const cli_command *const COMMANDS[] = {&cli_solve, &cli_emit};
+static const cli_command *const COMMANDS[] = {&cli_solve, &cli_simulate, &cli_emit};
 enum { COMMAND_COUNT = sizeof COMMANDS / sizeof COMMANDS[0] };
 
 static int print_usage(FILE *stream)
@@ -31,6 +31,7 @@ static int run_command(const cli_command *command, int count, char *const *words
     for (int k = 0; k < count; ++k)
         if (strcmp(words[k], "--help") == 0 || strcmp(words[k], "-h") == 0) {
             cli_print_help(command);
+            if (command == &cli_simulate) cli_print_scenario_names();
             return 0;
         }
     status = cli_parse(command, count, words, &arguments, &note);

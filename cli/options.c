@@ -25,17 +25,18 @@ static bool is_count(const char *text)
 }
 
 /* One option at words[*at], with its value in the same word after `=` or in the next one. */
-static hci_status take_option(const cli_command *command, int count, char *const *words, int *at, cli_arguments *a,
-                              hci_note *note)
+static hci_status take_option(const cli_command *command, int count, char *const *words, int *at,
+                              cli_arguments *a, hci_note *note)
 {
     const char *word = words[*at], *equals = strchr(word, '=');
     const bool is_long = word[1] == '-';
     const size_t length = equals ? (size_t)(equals - word) - 2 : strlen(word) - 2;
     const char *next = *at + 1 < count ? words[*at + 1] : NULL;
-    const int k = is_long ? find_option(command->options, word + 2, length) : find_letter(command->options, word[1]);
+    const int k =
+        is_long ? find_option(command->options, word + 2, length) : find_letter(command->options, word[1]);
     if (k < 0 || (!is_long && word[2] != '\0'))
-        return hci_note_set(note, HCI_ERROR_ARGUMENT, "%s: unknown option `%s`; see hci-solve %s --help", command->name,
-                            word, command->name);
+        return hci_note_set(note, HCI_ERROR_ARGUMENT, "%s: unknown option `%s`; see hci-solve %s --help",
+                            command->name, word, command->name);
     if (a->given[k])
         return hci_note_set(note, HCI_ERROR_ARGUMENT, "%s: `%s` is given twice", command->name, word);
     a->given[k] = true;
@@ -54,7 +55,8 @@ static hci_status take_option(const cli_command *command, int count, char *const
     return HCI_OK;
 }
 
-hci_status cli_parse(const cli_command *command, int count, char *const *words, cli_arguments *arguments, hci_note *note)
+hci_status cli_parse(const cli_command *command, int count, char *const *words, cli_arguments *arguments,
+                     hci_note *note)
 {
     hci_status status = HCI_OK;
     bool only_words = false;
@@ -68,19 +70,22 @@ hci_status cli_parse(const cli_command *command, int count, char *const *words, 
             arguments->word[arguments->words++] = words[k];
     }
     if (!status && arguments->words != command->words_needed)
-        status = hci_note_set(note, HCI_ERROR_ARGUMENT, "%s: found %zu words, expected %zu: %s; see hci-solve %s --help",
-                              command->name, arguments->words, command->words_needed, command->words, command->name);
+        status = hci_note_set(note, HCI_ERROR_ARGUMENT,
+                              "%s: found %zu words, expected %zu: %s; see hci-solve %s --help", command->name,
+                              arguments->words, command->words_needed, command->words, command->name);
     return status;
 }
 
-hci_status cli_number(const char *option, const char *text, double low, double high, double *value, hci_note *note)
+hci_status cli_number(const char *option, const char *text, double low, double high, double *value,
+                      hci_note *note)
 {
     if (hci_number_parse(text, value) && *value >= low && *value <= high) return HCI_OK;
-    return hci_note_set(note, HCI_ERROR_ARGUMENT, "--%s: found `%s`, expected a number from %g to %g", option, text, low,
-                        high);
+    return hci_note_set(note, HCI_ERROR_ARGUMENT, "--%s: found `%s`, expected a number from %g to %g", option,
+                        text, low, high);
 }
 
-hci_status cli_choice(const char *option, const char *text, const char *const *choices, int *value, hci_note *note)
+hci_status cli_choice(const char *option, const char *text, const char *const *choices, int *value,
+                      hci_note *note)
 {
     char list[128] = "";
     for (*value = 0; choices[*value]; ++*value) {
@@ -88,7 +93,8 @@ hci_status cli_choice(const char *option, const char *text, const char *const *c
         if (strcmp(choices[*value], text) == 0) return HCI_OK;
         snprintf(list + used, sizeof list - used, "%s%s", used ? ", " : "", choices[*value]);
     }
-    return hci_note_set(note, HCI_ERROR_ARGUMENT, "--%s: found `%s`, expected one of: %s", option, text, list);
+    return hci_note_set(note, HCI_ERROR_ARGUMENT, "--%s: found `%s`, expected one of: %s", option, text,
+                        list);
 }
 
 void cli_print_help(const cli_command *command)

@@ -25,23 +25,29 @@ enum {
 };
 
 static const cli_option OPTIONS[] = {
-    [TARGET] = {"target", 0, CLI_VALUE, "FILE", "wanted torque: order,amplitude_Nm,phase_rad[,weight]"},
-    [HARMONICS] = {"harmonics", 0, CLI_VALUE, "FILE", "components to use: order,set (sym, asym, pos, neg)"},
-    [AUTO] = {"auto", 0, CLI_COUNT_OPTIONAL, "K", "choose the components (default), at most K of them"},
-    [FUNDAMENTAL] = {"fundamental", 0, CLI_VALUE, "A,RAD", "hold the fundamental at peak amplitude and phase"},
-    [METHOD] = {"method", 0, CLI_VALUE, "NAME", "auto, lu, umfpack, qr or pointwise"},
-    [STRATEGY] = {"strategy", 0, CLI_VALUE, "NAME", "of pointwise: id0, cancel (i_d cancels reluctance and cogging) or mtpa"},
-    [COMPARE] = {"compare", 0, CLI_VALUE, "WHAT", "all (default): every order reached; square: as many as unknowns"},
-    [TOLERANCE] = {"tolerance", 0, CLI_VALUE, "SHARE", "of the mean torque; an order within it is reached (1e-6)"},
-    [MAX_LOSS] = {"max-loss", 0, CLI_VALUE, "RATIO", "with --auto K: copper over the pointwise limit (1.10)"},
-    [LIMIT_CURRENT] = {"limit-current", 0, CLI_VALUE, "A", "largest phase current; exit code 1 when it is exceeded"},
-    [LIMIT_VOLTAGE] = {"limit-voltage", 0, CLI_VALUE, "V", "dc-link voltage for the line voltages; with --speed"},
-    [SPEED] = {"speed", 0, CLI_VALUE, "RPM", "mechanical speed for --limit-voltage"},
-    [OUT] = {"out", 'o', CLI_VALUE, "FOLDER", "where the results go; without it nothing is written"},
-    [JSON] = {"json", 0, CLI_FLAG, NULL, "the summary as JSON on standard output"},
-    [QUIET] = {"quiet", 'q', CLI_FLAG, NULL, "no words, only errors"},
-    [HELP] = {"help", 'h', CLI_FLAG, NULL, "this text"},
-    {NULL, 0, CLI_FLAG, NULL, NULL},
+    [TARGET] = {"target",        0,   CLI_VALUE,          "FILE",   "wanted torque: order,amplitude_Nm,phase_rad[,weight]" },
+    [HARMONICS] = {"harmonics",     0,   CLI_VALUE,          "FILE",   "components to use: order,set (sym, asym, pos, neg)"   },
+    [AUTO] = {"auto",          0,   CLI_COUNT_OPTIONAL, "K",      "choose the components (default), at most K of them"   },
+    [FUNDAMENTAL] = {"fundamental",   0,   CLI_VALUE,          "A,RAD",
+                "hold the fundamental at peak amplitude and phase"                                                         },
+    [METHOD] = {"method",        0,   CLI_VALUE,          "NAME",   "auto, lu, umfpack, qr or pointwise"                   },
+    [STRATEGY] = {"strategy",      0,   CLI_VALUE,          "NAME",
+                "of pointwise: id0, cancel (i_d cancels reluctance and cogging) or mtpa"                                   },
+    [COMPARE] = {"compare",       0,   CLI_VALUE,          "WHAT",
+                "all (default): every order reached; square: as many as unknowns"                                          },
+    [TOLERANCE] = {"tolerance",     0,   CLI_VALUE,          "SHARE",
+                "of the mean torque; an order within it is reached (1e-6)"                                                 },
+    [MAX_LOSS] = {"max-loss",      0,   CLI_VALUE,          "RATIO",  "with --auto K: copper over the pointwise limit (1.10)"},
+    [LIMIT_CURRENT] = {"limit-current", 0,   CLI_VALUE,          "A",
+                "largest phase current; exit code 1 when it is exceeded"                                                   },
+    [LIMIT_VOLTAGE] = {"limit-voltage", 0,   CLI_VALUE,          "V",
+                "dc-link voltage for the line voltages; with --speed"                                                      },
+    [SPEED] = {"speed",         0,   CLI_VALUE,          "RPM",    "mechanical speed for --limit-voltage"                 },
+    [OUT] = {"out",           'o', CLI_VALUE,          "FOLDER", "where the results go; without it nothing is written"  },
+    [JSON] = {"json",          0,   CLI_FLAG,           NULL,     "the summary as JSON on standard output"               },
+    [QUIET] = {"quiet",         'q', CLI_FLAG,           NULL,     "no words, only errors"                                },
+    [HELP] = {"help",          'h', CLI_FLAG,           NULL,     "this text"                                            },
+    {NULL,            0,   CLI_FLAG,           NULL,     NULL                                                   },
 };
 
 /* AMPLITUDE_A,PHASE_rad */
@@ -54,13 +60,15 @@ static hci_status read_fundamental(const char *text, hci_wave *held, hci_note *n
     if (comma && length < sizeof amplitude) {
         memcpy(amplitude, text, length);
         amplitude[length] = '\0';
-        if (hci_number_parse(amplitude, &amplitude_A) && hci_number_parse(comma + 1, &phase_rad)) {
+        if (hci_number_parse(amplitude, &amplitude_A) && hci_number_parse(comma + 1, &phase_rad) &&
+            fabs(amplitude_A) <= 1e9 && fabs(phase_rad) <= 1e6) {
             *held = hci_wave_polar(1.0, 1, amplitude_A, phase_rad);
             return HCI_OK;
         }
     }
-    return hci_note_set(note, HCI_ERROR_ARGUMENT,
-                        "--fundamental: found `%s`, expected peak amplitude in A and phase in rad, such as 12,0.2", text);
+    return hci_note_set(
+        note, HCI_ERROR_ARGUMENT,
+        "--fundamental: found `%s`, expected peak amplitude in A and phase in rad, such as 12,0.2", text);
 }
 
 static hci_status read_choices(const cli_arguments *a, hci_solve_options *o, hci_note *note)
@@ -73,22 +81,28 @@ static hci_status read_choices(const cli_arguments *a, hci_solve_options *o, hci
     if (a->value[METHOD]) status = cli_choice("method", a->value[METHOD], METHODS, &choice, note);
     o->method = (hci_method)choice;
     choice = 0;
-    if (!status && a->value[STRATEGY]) status = cli_choice("strategy", a->value[STRATEGY], STRATEGIES, &choice, note);
+    if (!status && a->value[STRATEGY])
+        status = cli_choice("strategy", a->value[STRATEGY], STRATEGIES, &choice, note);
     o->strategy = (hci_strategy)choice;
     choice = 0;
-    if (!status && a->value[COMPARE]) status = cli_choice("compare", a->value[COMPARE], COMPARES, &choice, note);
+    if (!status && a->value[COMPARE])
+        status = cli_choice("compare", a->value[COMPARE], COMPARES, &choice, note);
     o->compare = (hci_compare)choice;
     if (status) return status;
     if (a->given[HARMONICS] && (a->given[AUTO] || o->method == HCI_METHOD_POINTWISE))
-        return hci_note_set(note, HCI_ERROR_ARGUMENT, "--harmonics names the components; leave out --auto or --method pointwise");
+        return hci_note_set(note, HCI_ERROR_ARGUMENT,
+                            "--harmonics names the components; leave out --auto or --method pointwise");
     if (a->given[AUTO] && o->method != HCI_METHOD_AUTO)
         return hci_note_set(note, HCI_ERROR_ARGUMENT, "--auto chooses the method too; leave out --method");
     if (a->given[MAX_LOSS] && !a->value[AUTO])
         return hci_note_set(note, HCI_ERROR_ARGUMENT, "--max-loss goes with --auto K");
     if (a->given[STRATEGY] && o->method != HCI_METHOD_POINTWISE)
-        return hci_note_set(note, HCI_ERROR_ARGUMENT, "--strategy works angle by angle; add --method pointwise");
-    if (!a->given[HARMONICS] && (a->given[COMPARE] || o->method == HCI_METHOD_LU || o->method == HCI_METHOD_UMFPACK))
-        return hci_note_set(note, HCI_ERROR_ARGUMENT, "--compare and --method lu or umfpack need a set: --harmonics FILE");
+        return hci_note_set(note, HCI_ERROR_ARGUMENT,
+                            "--strategy works angle by angle; add --method pointwise");
+    if (!a->given[HARMONICS] &&
+        (a->given[COMPARE] || o->method == HCI_METHOD_LU || o->method == HCI_METHOD_UMFPACK))
+        return hci_note_set(note, HCI_ERROR_ARGUMENT,
+                            "--compare and --method lu or umfpack need a set: --harmonics FILE");
     return HCI_OK;
 }
 
@@ -102,7 +116,8 @@ static hci_status read_limits(const cli_arguments *a, hci_solve_options *o, hci_
         status = cli_number("limit-current", a->value[LIMIT_CURRENT], 1e-9, 1e9, &o->limit_current_A, note);
     if (!status && a->value[LIMIT_VOLTAGE])
         status = cli_number("limit-voltage", a->value[LIMIT_VOLTAGE], 1e-9, 1e9, &o->limit_voltage_V, note);
-    if (!status && a->value[SPEED]) status = cli_number("speed", a->value[SPEED], -1e7, 1e7, &speed_rpm, note);
+    if (!status && a->value[SPEED])
+        status = cli_number("speed", a->value[SPEED], -1e7, 1e7, &speed_rpm, note);
     o->speed_rad_per_s = speed_rpm * HCI_PI / 30.0;
     return status;
 }
@@ -113,9 +128,12 @@ static hci_status read_numbers(const cli_arguments *a, hci_solve_options *o, hci
     hci_status status = HCI_OK;
     if (a->value[AUTO]) status = cli_number("auto", a->value[AUTO], 1.0, 1e4, &count, note);
     if (!status && count != floor(count))
-        status = hci_note_set(note, HCI_ERROR_ARGUMENT, "--auto: found `%s`, expected a whole number", a->value[AUTO]);
-    if (!status && a->value[TOLERANCE]) status = cli_number("tolerance", a->value[TOLERANCE], 1e-14, 1.0, &o->tolerance, note);
-    if (!status && a->value[MAX_LOSS]) status = cli_number("max-loss", a->value[MAX_LOSS], 1.0, 1e6, &o->loss_allowance, note);
+        status = hci_note_set(note, HCI_ERROR_ARGUMENT, "--auto: found `%s`, expected a whole number",
+                              a->value[AUTO]);
+    if (!status && a->value[TOLERANCE])
+        status = cli_number("tolerance", a->value[TOLERANCE], 1e-14, 1.0, &o->tolerance, note);
+    if (!status && a->value[MAX_LOSS])
+        status = cli_number("max-loss", a->value[MAX_LOSS], 1.0, 1e6, &o->loss_allowance, note);
     if (!status) status = read_limits(a, o, note);
     if (!status && a->value[FUNDAMENTAL]) {
         status = read_fundamental(a->value[FUNDAMENTAL], held, note);
@@ -123,7 +141,8 @@ static hci_status read_numbers(const cli_arguments *a, hci_solve_options *o, hci
     }
     o->choose_at_most = (size_t)count;
     if (!status && !a->value[TARGET])
-        status = hci_note_set(note, HCI_ERROR_ARGUMENT, "solve: the wanted torque is missing; add --target FILE");
+        status =
+            hci_note_set(note, HCI_ERROR_ARGUMENT, "solve: the wanted torque is missing; add --target FILE");
     return status;
 }
 
@@ -175,6 +194,12 @@ static int give_results(const cli_arguments *a, const inputs *in, const hci_solu
         cli_remark(&in->machine.remark);
         cli_remark(&in->set.remark);
     }
+    if (!a->given[QUIET] && (size_t)in->machine.model.pole_pairs % s->period_turns != 0)
+        fprintf(
+            stderr,
+            "hci-solve: note: everything repeats after %zu electrical turns only, which is no part of the "
+            "mechanical turn of %d; a rotor angle cannot drive it\n",
+            s->period_turns, in->machine.model.pole_pairs);
     if (a->value[OUT]) status = hci_solution_write(&in->machine, s, verdict, a->value[OUT], &note);
     if (!status && !a->given[QUIET]) cli_show_solution(s, a->word[0], a->value[TARGET]);
     if (!status && a->given[JSON]) status = print_json(s, verdict, &note);
@@ -206,12 +231,15 @@ static int run(const cli_arguments *a)
 }
 
 const cli_command cli_solve = {
-    "solve", "MACHINE --target FILE",
+    "solve",
+    "MACHINE --target FILE",
     "Finds the harmonic currents that make the machine produce the wanted torque spectrum.\n"
     "Writes currents.csv, waveform.csv, spectrum.csv, summary.json and solution.svg.",
-    OPTIONS, 1,
+    OPTIONS,
+    1,
     "  hci-solve solve data/machine_a --target data/scenarios/02/target.csv --auto -o out/machine_a\n"
     "  hci-solve solve data/machine_a --target data/scenarios/02/target.csv \\\n"
     "      --harmonics data/scenarios/02/harmonics.csv --fundamental 12,0.2 -o out/published\n"
-    "\nExit codes: 0 reached; 1 not reached, the nearest is given; 2 command line; 3 input; 4 numerical; 5 output\n",
+    "\nExit codes: 0 reached; 1 not reached, the nearest is given; 2 command line; 3 input; 4 numerical; 5 "
+    "output\n",
     run};

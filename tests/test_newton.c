@@ -1,5 +1,5 @@
-/* Interior-magnet machines: the harmonic balance by Newton's method and the pointwise strategies, judged by torque that is sampled
- * here from e·i + ½iᵀL'i + T_cog with cosines of its own. */
+/* Interior-magnet machines: the harmonic balance by Newton's method and the pointwise strategies, judged by
+ * torque that is sampled here from e·i + ½iᵀL'i + T_cog with cosines of its own. */
 #include <math.h>
 #include <string.h>
 
@@ -45,9 +45,11 @@ static void make_machine(machine *m, double saliency)
     static const double EMF[EMF_ORDERS] = {1, 5, 7}, L[L_ORDERS] = {2, 4, 8}, COGGING[2] = {6, 12};
     memset(m, 0, sizeof *m);
     for (int k = 0; k < EMF_ORDERS; ++k) {
-        m->emf[k] = (ref_wave){EMF[k], 0, k == 0 ? 1.0 : ref_uniform(&seed, 0.02, 0.12), ref_uniform(&seed, -3, 3)};
+        m->emf[k] =
+            (ref_wave){EMF[k], 0, k == 0 ? 1.0 : ref_uniform(&seed, 0.02, 0.12), ref_uniform(&seed, -3, 3)};
         if (k == 0) m->emf[k].phase = 0.0;
-        m->back_emf[k] = hci_wave_polar(EMF[k], hci_sequence_of_order(EMF[k]), m->emf[k].amplitude, m->emf[k].phase);
+        m->back_emf[k] =
+            hci_wave_polar(EMF[k], hci_sequence_of_order(EMF[k]), m->emf[k].amplitude, m->emf[k].phase);
     }
     for (int k = 0; k < 2; ++k) {
         m->cogging[k] = (ref_wave){COGGING[k], 0, ref_uniform(&seed, 0.05, 0.2), ref_uniform(&seed, -3, 3)};
@@ -61,14 +63,16 @@ static void make_machine(machine *m, double saliency)
     }
     m->data.pole_pairs = POLE_PAIRS;
     m->data.resistance_ohm = m->data.inductance_d_H = m->data.inductance_q_H = NAN;
-    m->data.model = (hci_machine){POLE_PAIRS, m->back_emf, EMF_ORDERS, m->cogging_terms, 2, m->slope, L_ORDERS};
+    m->data.model =
+        (hci_machine){POLE_PAIRS, m->back_emf, EMF_ORDERS, m->cogging_terms, 2, m->slope, L_ORDERS};
 }
 
 /* Torque at one angle from the formulas above. */
 static double torque_at(const machine *m, double theta, const double i[3])
 {
     double torque = 0.0;
-    for (int k = 0; k < 2; ++k) torque += m->cogging[k].amplitude * sin(m->cogging[k].order * theta + m->cogging[k].phase);
+    for (int k = 0; k < 2; ++k)
+        torque += m->cogging[k].amplitude * sin(m->cogging[k].order * theta + m->cogging[k].phase);
     for (int s = 0; s < 3; ++s) {
         const double shifted = theta - 2.0 * REF_PI * s / 3.0;
         for (int k = 0; k < EMF_ORDERS; ++k)
@@ -95,7 +99,8 @@ static void current_at(const hci_solution *s, double theta, double i[3])
     }
 }
 
-/* Largest difference between the promised spectrum and that of the sampled torque, over all orders below 300. */
+/* Largest difference between the promised spectrum and that of the sampled torque, over all orders below
+ * 300. */
 static double worst_promise(const machine *m, const hci_solution *s)
 {
     static double torque[SAMPLES];
@@ -127,8 +132,14 @@ static const hci_target TARGET = {wanted, 2};
 
 static void want(double mean_Nm, double order, double amplitude_Nm)
 {
-    wanted[0] = (hci_target_order){{0.0, 0.0, mean_Nm}, 1.0};
-    wanted[1] = (hci_target_order){{order, amplitude_Nm, 0.0}, 1.0};
+    wanted[0] = (hci_target_order){
+        {0.0, 0.0, mean_Nm},
+        1.0
+    };
+    wanted[1] = (hci_target_order){
+        {order, amplitude_Nm, 0.0},
+        1.0
+    };
 }
 
 static hci_status solve(const machine *m, const hci_solve_options *o, hci_solution *s)
@@ -151,8 +162,16 @@ void tearDown(void)
 /* 1e-9 of the torque: rounding of some hundred products, far below any wrong term. */
 static void promised_torque_is_what_the_currents_make(void)
 {
-    static const hci_component SET[] = {{1, 1}, {5, -1}, {7, 1}, {11, -1}, {13, 1}, {2, 1}};
-    static const hci_set NAMES[] = {HCI_SET_POS, HCI_SET_NEG, HCI_SET_POS, HCI_SET_NEG, HCI_SET_POS, HCI_SET_POS};
+    static const hci_component SET[] = {
+        {1,  1 },
+        {5,  -1},
+        {7,  1 },
+        {11, -1},
+        {13, 1 },
+        {2,  1 }
+    };
+    static const hci_set NAMES[] = {HCI_SET_POS, HCI_SET_NEG, HCI_SET_POS,
+                                    HCI_SET_NEG, HCI_SET_POS, HCI_SET_POS};
     hci_component component[6];
     hci_set name[6];
     memcpy(component, SET, sizeof SET);
@@ -185,7 +204,7 @@ static void auto_reaches_the_target_near_the_least_copper(void)
         make_machine(&m, ref_uniform(&seed, 0.02, 0.15));
         want(ref_uniform(&seed, 1, 5), trial % 2 ? 6 : 1, ref_uniform(&seed, 0, 0.5));
         TEST_ASSERT_EQUAL(HCI_OK, solve(&m, &o, &s));
-        TEST_ASSERT_TRUE(s.newton_steps > 1 && s.newton_change < 1e-10);
+        TEST_ASSERT_TRUE(s.newton_steps > 1 && s.newton_converged && s.newton_change <= 1e-9);
         TEST_ASSERT_TRUE(s.loss_to_limit > 1.0 - 1e-9 && s.loss_to_limit < 1.02);
         hci_solution_release(&s);
     }
@@ -223,7 +242,8 @@ static double distance(const hci_solution *a, const hci_solution *b)
         double x[3], y[3];
         current_at(a, 2.0 * REF_PI * j / SAMPLES, x);
         current_at(b, 2.0 * REF_PI * j / SAMPLES, y);
-        for (int s = 0; s < 3; ++s) sum += (x[s] - y[s]) * (x[s] - y[s]);
+        for (int s = 0; s < 3; ++s)
+            sum += (x[s] - y[s]) * (x[s] - y[s]);
     }
     return sqrt(sum / SAMPLES);
 }
@@ -262,12 +282,14 @@ static void gaps_of_cancel_are_where_no_root_is(void)
 {
     machine m;
     hci_solution s;
-    const hci_solve_options o = {.target = &TARGET, .method = HCI_METHOD_POINTWISE, .strategy = HCI_STRATEGY_CANCEL};
+    const hci_solve_options o = {
+        .target = &TARGET, .method = HCI_METHOD_POINTWISE, .strategy = HCI_STRATEGY_CANCEL};
     int missing = 0, inside = 0;
     make_machine(&m, 0.15);
     for (int k = 0; k < 2; ++k) {
         m.cogging[k].amplitude *= 4.0;
-        m.cogging_terms[k] = hci_harmonic_polar(m.cogging[k].order, m.cogging[k].amplitude, m.cogging[k].phase);
+        m.cogging_terms[k] =
+            hci_harmonic_polar(m.cogging[k].order, m.cogging[k].amplitude, m.cogging[k].phase);
     }
     want(1.0, 6, 0.0);
     TEST_ASSERT_EQUAL(HCI_NOT_REACHED, solve(&m, &o, &s));
@@ -284,7 +306,8 @@ static void gaps_of_cancel_are_where_no_root_is(void)
             }
         size = hypot(e[0], e[1]);
         for (int phase = 0; phase < 3; ++phase) {
-            const double c = sqrt(2.0 / 3.0) * cos(2.0 * REF_PI * phase / 3.0), n = sqrt(2.0 / 3.0) * sin(2.0 * REF_PI * phase / 3.0);
+            const double c = sqrt(2.0 / 3.0) * cos(2.0 * REF_PI * phase / 3.0),
+                         n = sqrt(2.0 / 3.0) * sin(2.0 * REF_PI * phase / 3.0);
             q[phase] = (c * e[0] + n * e[1]) / size;
             d[phase] = (c * e[1] - n * e[0]) / size;
             with_q[phase] = q[phase] * wanted[0].torque_Nm.cosine / size;
@@ -293,13 +316,16 @@ static void gaps_of_cancel_are_where_no_root_is(void)
         /* T(x d + i_q q) is a quadratic in x: its three coefficients from torques at −1, 0 and 1 */
         const double at_zero = torque_at(&m, theta, with_q) - wanted[0].torque_Nm.cosine;
         const double plus = torque_at(&m, theta, both) - wanted[0].torque_Nm.cosine;
-        for (int phase = 0; phase < 3; ++phase) both[phase] = with_q[phase] - d[phase];
+        for (int phase = 0; phase < 3; ++phase)
+            both[phase] = with_q[phase] - d[phase];
         const double minus = torque_at(&m, theta, both) - wanted[0].torque_Nm.cosine;
         const double a = 0.5 * (plus + minus) - at_zero, b = 0.5 * (plus - minus);
         int in_gap = 0;
         (void)zero;
-        for (size_t k = 0; k < s.gap_count; ++k) in_gap |= theta > s.gap[k].from_rad - 1e-9 && theta < s.gap[k].to_rad + 1e-9;
-        TEST_ASSERT_EQUAL_INT_MESSAGE(b * b - 4.0 * a * at_zero < 0.0, in_gap, "the gap is where the discriminant is negative");
+        for (size_t k = 0; k < s.gap_count; ++k)
+            in_gap |= theta > s.gap[k].from_rad - 1e-9 && theta < s.gap[k].to_rad + 1e-9;
+        TEST_ASSERT_EQUAL_INT_MESSAGE(b * b - 4.0 * a * at_zero < 0.0, in_gap,
+                                      "the gap is where the discriminant is negative");
         missing += in_gap;
         inside += !in_gap;
     }
@@ -315,10 +341,12 @@ static void unreachable_torque_is_said(void)
     hci_note note = {{0}};
     const hci_solve_options o = {.target = &TARGET, .method = HCI_METHOD_POINTWISE};
     make_machine(&m, 0.0);
-    for (int k = 0; k < L_ORDERS; ++k) memset(m.slope[k].sine, 0, sizeof m.slope[k].sine);
+    for (int k = 0; k < L_ORDERS; ++k)
+        memset(m.slope[k].sine, 0, sizeof m.slope[k].sine);
     memset(m.slope[0].cosine, 0, sizeof m.slope[0].cosine);
     m.slope[0].order = 0.0; /* not physical, but definite: the same −0.1 N·m/A² in each phase */
-    for (int s3 = 0; s3 < 3; ++s3) m.slope[0].cosine[s3] = -0.1;
+    for (int s3 = 0; s3 < 3; ++s3)
+        m.slope[0].cosine[s3] = -0.1;
     want(60.0, 6, 0.0);
     const hci_status status = hci_solve(&m.data, &o, &s, &note);
     TEST_ASSERT_EQUAL(HCI_NOT_REACHED, status);

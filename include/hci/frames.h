@@ -1,5 +1,5 @@
-/* Clarke and Park transforms, amplitude-invariant, in the project's frame: q in phase with the fundamental
- * of the back-EMF, d on the magnet axis, i_a = i_q sin θ − i_d cos θ. i_q > 0 makes positive torque, i_d > 0
+/* Clarke and Park transforms, amplitude-invariant, in the project's frame: q in phase with the fundamental of
+ * the back-EMF, d on the magnet axis, i_a = i_q sin θ − i_d cos θ. i_q > 0 makes positive torque, i_d > 0
  * strengthens the magnets' flux. */
 #ifndef HCI_FRAMES_H
 #define HCI_FRAMES_H
@@ -24,13 +24,14 @@ void hci_clarke_inverse(hci_alpha_beta x, double abc[3]);
 hci_dq hci_park(hci_alpha_beta x, double theta_rad);
 hci_alpha_beta hci_park_inverse(hci_dq x, double theta_rad);
 
-/* The extended frame dq_x for a back-EMF that is not sinusoidal: at every angle q lies along the back-EMF vector, and the
- * scale a_x makes the mutual torque sqrt(3/2)·i_qx whatever the angle (Oliveira et al. 2005, in the conventions here):
+/* The extended frame dq_x for a back-EMF that is not sinusoidal: at every angle q lies along the back-EMF
+ * vector, and the scale a_x makes the mutual torque sqrt(3/2)·i_qx whatever the angle (Oliveira et al. 2005,
+ * in the conventions here):
  *
  *     a_x = sqrt(3/2)/|e_αβ|,    x_dqx = (1/a_x) R x_αβ,    e_dx = 0,    T_mutual = a_x² e_qx i_qx
  *
- * with αβ here in the power-invariant Clarke frame and R the orthonormal rotation onto (d, q). For a sinusoidal
- * back-EMF of amplitude E, a_x = 1/E and x_dqx is sqrt(3/2)·E times the ordinary dq. */
+ * with αβ here in the power-invariant Clarke frame and R the orthonormal rotation onto (d, q). For a
+ * sinusoidal back-EMF of amplitude E, a_x = 1/E and x_dqx is sqrt(3/2)·E times the ordinary dq. */
 typedef struct {
     double a_x;             /* A/(N·m) */
     double q_alpha, q_beta; /* unit vector of the q axis; the d axis is (q_beta, −q_alpha) */
@@ -48,8 +49,9 @@ hci_dqx_frame hci_dqx_frame_of(const double e_abc[3]);
 hci_dqx hci_dqx_from_abc(hci_dqx_frame frame, const double abc[3]);
 void hci_dqx_to_abc(hci_dqx_frame frame, hci_dqx x, double abc[3]);
 
-/* Slopes of the inductances in the frame, (L'_d, M'_dq, L'_q) = a_x² R L'_αβ Rᵀ, so that the reluctance torque is
- * ½L'_d i_d² + M'_dq i_d i_q + ½L'_q i_q² in currents of this frame. slope_abc: entries HCI_AA … HCI_CA of torque.h. */
+/* Slopes of the inductances in the frame, (L'_d, M'_dq, L'_q) = a_x² R L'_αβ Rᵀ, so that the reluctance
+ * torque is ½L'_d i_d² + M'_dq i_d i_q + ½L'_q i_q² in currents of this frame. slope_abc: entries HCI_AA …
+ * HCI_CA of torque.h. */
 typedef struct {
     double d, dq, q;
 } hci_dqx_slope;

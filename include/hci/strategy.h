@@ -1,7 +1,8 @@
-/* Currents that make a wanted torque at one angle, for any machine with T = e·i + ½ iᵀL'i + T_cog in a star connection.
+/* Currents that make a wanted torque at one angle, for any machine with T = e·i + ½ iᵀL'i + T_cog in a star
+ * connection.
  *
- *   HCI_STRATEGY_ID0      i_d = 0 and i_q from the mutual torque alone: reluctance and cogging torque remain as ripple
- *   HCI_STRATEGY_CANCEL   the same i_q, and the i_d that makes reluctance plus cogging torque zero
+ *   HCI_STRATEGY_ID0      i_d = 0 and i_q from the mutual torque alone: reluctance and cogging torque remain
+ * as ripple HCI_STRATEGY_CANCEL   the same i_q, and the i_d that makes reluctance plus cogging torque zero
  *   HCI_STRATEGY_MTPA     the shortest current of all that make the torque
  *
  * i_d and i_q are those of the extended frame dq_x (frames.h): q lies along the back-EMF. */
@@ -20,8 +21,8 @@ typedef enum { HCI_STRATEGY_MTPA, HCI_STRATEGY_ID0, HCI_STRATEGY_CANCEL } hci_st
 
 /* The machine at one angle, in the orthonormal (power-invariant) αβ plane. */
 typedef struct {
-    double e[2];      /* back-EMF, N·m/A; x·x is i_a² + i_b² + i_c² */
-    double slope[3];  /* L'_αα, L'_αβ, L'_ββ, N·m/A² */
+    double e[2];     /* back-EMF, N·m/A; x·x is i_a² + i_b² + i_c² */
+    double slope[3]; /* L'_αα, L'_αβ, L'_ββ, N·m/A² */
     double cogging_Nm;
 } hci_machine_point;
 
@@ -35,13 +36,14 @@ double hci_point_torque_Nm(const hci_machine_point *point, const double x[2]);
 void hci_plane_to_abc(const double x[2], double abc[3]);
 void hci_plane_from_abc(const double abc[3], double x[2]);
 
-/* The current of a strategy for a wanted torque. previous: the answer at a neighbouring angle, or NULL; where both roots
- * of `cancel` are equally long the one nearer to it is taken, so that the current is continuous along θ.
- * x: out, also where the answer is no: then the current that comes nearest to the torque.
- * least_iq_A: out, may be NULL; for `cancel`, the smallest |i_q| (in A of the orthonormal plane) from which on an i_d exists
- * at this angle, 0 when for any, infinite when from none on.
- * HCI_OK, or HCI_NOT_REACHED when no current of this strategy exists. A few Newton steps, each of one square root; some
- * tens where L' is nearly singular or the torque is within 1e-9 of the most there is. */
+/* The current of a strategy for a wanted torque. previous: the answer at a neighbouring angle, or NULL; where
+ * both roots of `cancel` are equally long the one nearer to it is taken, so that the current is continuous
+ * along θ.
+ * x: out, also where the answer is no: then the current that comes nearest to the torque. least_iq_A: out,
+ * may be NULL; for `cancel`, the smallest |i_q| (in A of the orthonormal plane) from which on an i_d exists
+ * at this angle, 0 when for any, infinite when from none on. HCI_OK, or HCI_NOT_REACHED when no current of
+ * this strategy exists. A few Newton steps, each of one square root; some tens where L' is nearly singular or
+ * the torque is within 1e-9 of the most there is. */
 hci_status hci_strategy_current(const hci_machine_point *point, hci_strategy strategy, double torque_Nm,
                                 const double *previous, double x[2], double *least_iq_A);
 

@@ -2,7 +2,8 @@
  *
  *     T(θ, i) = e(θ)·i + ½ iᵀ L'(θ) i + T_cog(θ)            L' = ∂L/∂θ_m
  *
- * mutual, reluctance and cogging torque in N·m; θ electrical, e the back-EMF per mechanical speed in V·s/rad. */
+ * mutual, reluctance and cogging torque in N·m; θ electrical, e the back-EMF per mechanical speed in
+ * V·s/rad. */
 #ifndef HCI_TORQUE_H
 #define HCI_TORQUE_H
 
@@ -28,10 +29,10 @@ typedef hci_inductance_slope hci_inductance;
 
 /* What the torque model knows of a machine. The arrays belong to the caller; any may be NULL with count 0. */
 typedef struct {
-    int pole_pairs;                    /* p >= 1; θ = p·θ_m */
-    const hci_wave *back_emf;          /* e_s(θ), N·m/A */
+    int pole_pairs;           /* p >= 1; θ = p·θ_m */
+    const hci_wave *back_emf; /* e_s(θ), N·m/A */
     size_t back_emf_count;
-    const hci_harmonic *cogging;       /* T_cog(θ), N·m */
+    const hci_harmonic *cogging; /* T_cog(θ), N·m */
     size_t cogging_count;
     const hci_inductance_slope *slope; /* L'(θ), H/rad */
     size_t slope_count;
@@ -41,18 +42,21 @@ typedef struct {
 double hci_torque_at(const hci_machine *machine, double theta_rad, const double i_abc[3]);
 
 /* ∂T/∂i = e(θ) + L'(θ) i, in N·m/A. Same cost. */
-void hci_torque_gradient_at(const hci_machine *machine, double theta_rad, const double i_abc[3], double gradient[3]);
+void hci_torque_gradient_at(const hci_machine *machine, double theta_rad, const double i_abc[3],
+                            double gradient[3]);
 
-/* L'(θ) i(θ) as waves, for slopes and current waves: what the reluctance adds to the back-EMF in ∂T/∂i. Equal orders and
- * sequences are joined and what is below 1e-15 of the largest is dropped. waves: out, room for
+/* L'(θ) i(θ) as waves, for slopes and current waves: what the reluctance adds to the back-EMF in ∂T/∂i. Equal
+ * orders and sequences are joined and what is below 1e-15 of the largest is dropped. waves: out, room for
  * hci_slope_waves_capacity entries; returns how many. O(slopes·currents·log). */
 size_t hci_slope_waves_capacity(const hci_machine *machine, size_t current_count);
-size_t hci_slope_waves(const hci_machine *machine, const hci_wave *currents, size_t current_count, hci_wave *waves);
+size_t hci_slope_waves(const hci_machine *machine, const hci_wave *currents, size_t current_count,
+                       hci_wave *waves);
 
 /* Upper bound of the number of orders that hci_torque_orders can find for `current_count` current waves. */
 size_t hci_torque_orders_capacity(const hci_machine *machine, size_t current_count);
 
-/* Every order at which the machine can have torque with these currents, ascending, each once, order 0 included.
+/* Every order at which the machine can have torque with these currents, ascending, each once, order 0
+ * included.
  * orders: out, capacity entries; count: out. HCI_ERROR_CAPACITY if capacity is below the bound above. */
 hci_status hci_torque_orders(const hci_machine *machine, const hci_wave *currents, size_t current_count,
                              double *orders, size_t capacity, size_t *count);

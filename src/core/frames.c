@@ -81,6 +81,7 @@ hci_dqx_slope hci_dqx_slope_of(hci_dqx_frame frame, const double slope_abc[6])
     double d[3], q[3];
     hci_dqx_to_abc(frame, along_d, d);
     hci_dqx_to_abc(frame, along_q, q);
-    const hci_dqx_slope slope = {between(slope_abc, d, d), between(slope_abc, d, q), between(slope_abc, q, q)};
+    const hci_dqx_slope slope = {between(slope_abc, d, d), between(slope_abc, d, q),
+                                 between(slope_abc, q, q)};
     return slope;
 }

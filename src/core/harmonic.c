@@ -87,7 +87,8 @@ static void swap_waves(void *items, size_t a, size_t b)
 static double largest_amplitude(const hci_wave *waves, size_t count)
 {
     double largest = 0.0;
-    for (size_t k = 0; k < count; ++k) largest = fmax(largest, hypot(waves[k].sine, waves[k].cosine));
+    for (size_t k = 0; k < count; ++k)
+        largest = fmax(largest, hypot(waves[k].sine, waves[k].cosine));
     return largest;
 }
 

@@ -11,7 +11,8 @@ static void sift_down(void *items, size_t root, size_t count, const hci_sorting 
 
 void hci_sort(void *items, size_t count, const hci_sorting *sorting)
 {
-    for (size_t k = count / 2; k-- > 0;) sift_down(items, k, count, sorting);
+    for (size_t k = count / 2; k-- > 0;)
+        sift_down(items, k, count, sorting);
     for (size_t k = count; k-- > 1;) {
         sorting->swap(items, 0, k);
         sift_down(items, 0, k, sorting);

@@ -52,7 +52,7 @@ double hci_point_torque_Nm(const hci_machine_point *point, const double x[2])
            0.5 * h[2] * x[1] * x[1] + point->cogging_Nm;
 }
 
-/* ---- i_d = 0, and i_d that cancels ----------------------------------------------------------------------------- */
+/* ---- i_d = 0, and i_d that cancels ---- */
 
 /* The point in the orthonormal (d, q) axes: |e| and L'_d, M', L'_q. */
 typedef struct {
@@ -63,7 +63,10 @@ typedef struct {
 
 static axes axes_of(const hci_machine_point *p)
 {
-    axes a = {{0.0, 0.0}, hypot(p->e[0], p->e[1]), 0.0, 0.0, 0.0};
+    axes a = {
+        {0.0, 0.0},
+        hypot(p->e[0], p->e[1]), 0.0, 0.0, 0.0
+    };
     if (!(a.e > 0.0)) return a;
     const double qa = p->e[0] / a.e, qb = p->e[1] / a.e;
     a.q_axis[0] = qa;
@@ -80,7 +83,8 @@ static void from_axes(const axes *a, double id, double iq, double x[2])
     x[1] = iq * a->q_axis[1] - id * a->q_axis[0];
 }
 
-/* Smallest |i_q| with M'² i_q² − L'_d (L'_q i_q² + 2 T_cog) >= 0 there and beyond. Without L'_d and M' no i_d has an effect. */
+/* Smallest |i_q| with M'² i_q² − L'_d (L'_q i_q² + 2 T_cog) >= 0 there and beyond. Without L'_d and M' no i_d
+ * has an effect. */
 static double least_iq(const axes *a, double cogging_Nm)
 {
     if (a->d == 0.0 && a->dq == 0.0) return a->q == 0.0 && cogging_Nm == 0.0 ? 0.0 : HUGE_VAL;
@@ -97,8 +101,9 @@ static double pick_root(double small, double large, const axes *a, const double 
     return fabs(large - id) < fabs(small - id) ? large : small;
 }
 
-/* ½L'_d i_d² + M' i_q i_d + c = 0 with c = ½L'_q i_q² + T_cog: the smaller root is −2c/(b ± sqrt(b² − 2 L'_d c)) with b = M' i_q
- * and the sign of b, which has no trouble where L'_d vanishes. Where the root is complex, the i_d of the extremum. */
+/* ½L'_d i_d² + M' i_q i_d + c = 0 with c = ½L'_q i_q² + T_cog: the smaller root is −2c/(b ± sqrt(b² − 2 L'_d
+ * c)) with b = M' i_q and the sign of b, which has no trouble where L'_d vanishes. Where the root is complex,
+ * the i_d of the extremum. */
 static hci_status cancel(const axes *a, double cogging_Nm, double iq, const double *previous, double *id)
 {
     const double b = a->dq * iq, c = 0.5 * a->q * iq * iq + cogging_Nm, square = b * b - 2.0 * a->d * c;
@@ -115,14 +120,14 @@ static hci_status cancel(const axes *a, double cogging_Nm, double iq, const doub
     return HCI_OK;
 }
 
-/* ---- shortest current ------------------------------------------------------------------------------------------ */
+/* ---- shortest current ---- */
 
 /* min ½|x|² with g·x + ½xᵀHx = τ. In the eigenvectors of H, x_k = λ g_k/(1 − λh_k), and
  *
  *     φ(λ) = Σ g_k² λ(2 − λh_k) / (2(1 − λh_k)²) = τ,    φ' = Σ g_k²/(1 − λh_k)³ > 0
  *
- * where I − λH is positive definite, which is where the solution is the global one. Signs are turned so that τ > 0; then
- * 0 <= λ < 1/h_1 when the larger eigenvalue h_1 is positive, and λ >= 0 otherwise. */
+ * where I − λH is positive definite, which is where the solution is the global one. Signs are turned so that
+ * τ > 0; then 0 <= λ < 1/h_1 when the larger eigenvalue h_1 is positive, and λ >= 0 otherwise. */
 typedef struct {
     double g[2], h[2]; /* h[0] >= h[1] */
     double gap;        /* h[0] − h[1] */
@@ -143,15 +148,22 @@ static void leading_axis(double half, double off, const double e[2], double axis
     }
 }
 
-/* The eigenvalue nearer to zero comes from the determinant: mean ∓ radius would leave it the rounding of the other one. */
+/* The eigenvalue nearer to zero comes from the determinant: mean ∓ radius would leave it the rounding of the
+ * other one. */
 static shortest turn(const hci_machine_point *p, double tau)
 {
     const double sign = tau < 0.0 ? -1.0 : 1.0;
-    const double mean = 0.5 * sign * (p->slope[0] + p->slope[2]), half = 0.5 * sign * (p->slope[0] - p->slope[2]);
+    const double mean = 0.5 * sign * (p->slope[0] + p->slope[2]),
+                 half = 0.5 * sign * (p->slope[0] - p->slope[2]);
     const double radius = hypot(half, p->slope[1]), outer = mean < 0.0 ? mean - radius : mean + radius;
     const double determinant = p->slope[0] * p->slope[2] - p->slope[1] * p->slope[1];
     const double inner = outer != 0.0 ? determinant / outer : 0.0;
-    shortest t = {{0.0, 0.0}, {inner, outer}, 2.0 * radius, {0.0, 0.0}, sign * tau};
+    shortest t = {
+        {0.0,   0.0  },
+        {inner, outer},
+        2.0 * radius, {0.0,   0.0  },
+        sign * tau
+    };
     if (mean >= 0.0) {
         t.h[0] = outer;
         t.h[1] = inner;
@@ -196,8 +208,9 @@ static double lambda_of(const unknown *u, double t, double left[2])
     return lambda;
 }
 
-/* Newton's method kept inside a shrinking bracket, 0 < low <= high, at whose ends φ − τ has opposite signs; it starts at the
- * end where φ >= τ. Near the pole φ is about 1/δ², so there the method is applied to 1/√φ. */
+/* Newton's method kept inside a shrinking bracket, 0 < low <= high, at whose ends φ − τ has opposite
+ * signs; it starts at the end where φ >= τ. Near the pole φ is about 1/δ², so there the method is applied
+ * to 1/√φ. */
 static double solve_in(const unknown *u, double low, double high)
 {
     const double tau = u->problem->tau;
@@ -211,8 +224,9 @@ static double solve_in(const unknown *u, double low, double high)
             high = t;
         else
             low = t;
-        const double next = u->by_delta ? t - 2.0 * torque * (1.0 - sqrt(torque / tau)) * u->problem->h[0] / slope
-                                        : t - error / slope;
+        const double next = u->by_delta
+                                ? t - 2.0 * torque * (1.0 - sqrt(torque / tau)) * u->problem->h[0] / slope
+                                : t - error / slope;
         if (fabs(next - t) <= 2.0 * DBL_EPSILON * t) break;
         t = next > low && next < high ? next : sqrt(low) * sqrt(high);
     }
@@ -223,15 +237,16 @@ static void set_current(const shortest *p, const unknown *u, double t, double x[
 {
     double left[2], y[2];
     const double lambda = lambda_of(u, t, left);
-    for (int k = 0; k < 2; ++k) y[k] = lambda * p->g[k] / left[k];
+    for (int k = 0; k < 2; ++k)
+        y[k] = lambda * p->g[k] / left[k];
     turn_back(p, y, x);
 }
 
 /* Below it g_0 counts as zero. */
 #define LEAST_DELTA 1e-150
 
-/* λ with λh_0 <= ½, where φ' <= 8|g|²; limit bounds the search, which starts above 0 even for a back-EMF that is not finite.
- * Zero where φ stays below τ, if only by rounding. */
+/* λ with λh_0 <= ½, where φ' <= 8|g|²; limit bounds the search, which starts above 0 even for a back-EMF that
+ * is not finite. Zero where φ stays below τ, if only by rounding. */
 static int solve_by_lambda(const shortest *p, double limit, double x[2])
 {
     const unknown u = {p, 0};
@@ -249,8 +264,9 @@ static int solve_by_lambda(const shortest *p, double limit, double x[2])
     return 1;
 }
 
-/* h_0 > 0 and the root beyond λ = ½/h_0. φ >= g_0²(δ⁻² − 1)/(2h_0) gives the lower end for δ. With g_0 = 0 the pole may not
- * reach τ: then λ = 1/h_0 and the rest of the torque comes from a current along that eigenvector, of either sign. */
+/* h_0 > 0 and the root beyond λ = ½/h_0. φ >= g_0²(δ⁻² − 1)/(2h_0) gives the lower end for δ. With g_0 = 0
+ * the pole may not reach τ: then λ = 1/h_0 and the rest of the torque comes from a current along that
+ * eigenvector, of either sign. */
 static void solve_by_delta(const shortest *p, const double *previous, double x[2])
 {
     const unknown u = {p, 1};
@@ -279,7 +295,8 @@ static hci_status solve_bounded(const shortest *p, double x[2])
     return most < p->tau ? HCI_NOT_REACHED : HCI_OK;
 }
 
-static hci_status shortest_current(const hci_machine_point *point, double tau, const double *previous, double x[2])
+static hci_status shortest_current(const hci_machine_point *point, double tau, const double *previous,
+                                   double x[2])
 {
     x[0] = x[1] = 0.0;
     if (tau == 0.0) return HCI_OK;
@@ -289,7 +306,7 @@ static hci_status shortest_current(const hci_machine_point *point, double tau, c
     return HCI_OK;
 }
 
-/* ---- all of them ----------------------------------------------------------------------------------------------- */
+/* ---- all of them ---- */
 
 hci_status hci_strategy_current(const hci_machine_point *point, hci_strategy strategy, double torque_Nm,
                                 const double *previous, double x[2], double *least_iq_A)

@@ -13,8 +13,8 @@ typedef struct {
     double cosine_from_sine, cosine_from_cosine;
 } torque_block;
 
-/* +(3/2)IE cos((n−μ)θ + γ − φ); with P = E cos φ, Q = E sin φ:
- * I E cos(γ−φ) = P S + Q C and I E sin(γ−φ) = P C − Q S, so S_m = Q S − P C and C_m = P S + Q C; m < 0 negates S_m. */
+/* +(3/2)IE cos((n−μ)θ + γ − φ); with P = E cos φ, Q = E sin φ: I E cos(γ−φ) = P S + Q C and I E sin(γ−φ) = P
+ * C − Q S, so S_m = Q S − P C and C_m = P S + Q C; m < 0 negates S_m. */
 static torque_block difference_block(hci_wave e, double order)
 {
     const double m = order - e.order, fold = m < 0.0 ? -1.5 : 1.5;
@@ -29,8 +29,8 @@ static torque_block sum_block(hci_wave e, double order)
     return b;
 }
 
-/* Up to two blocks for a pair; returns how many. Σ_s keeps the difference when the sequences agree and the sum when
- * they are opposite. */
+/* Up to two blocks for a pair; returns how many. Σ_s keeps the difference when the sequences agree and the
+ * sum when they are opposite. */
 static size_t pair_blocks(hci_wave e, hci_component c, torque_block blocks[2])
 {
     size_t n = 0;
@@ -91,13 +91,15 @@ size_t hci_orders_row(const double *orders, size_t count, size_t k)
     return k == 0 ? 0 : 2 * k - (starts_with_mean(orders, count) ? 1 : 0);
 }
 
-size_t hci_component_orders(const hci_wave *back_emf, size_t emf_count, hci_component component, double *orders)
+size_t hci_component_orders(const hci_wave *back_emf, size_t emf_count, hci_component component,
+                            double *orders)
 {
     size_t n = 0;
     for (size_t k = 0; k < emf_count; ++k) {
         torque_block blocks[2];
         const size_t found = pair_blocks(back_emf[k], component, blocks);
-        for (size_t j = 0; j < found; ++j) orders[n++] = blocks[j].order;
+        for (size_t j = 0; j < found; ++j)
+            orders[n++] = blocks[j].order;
     }
     return n;
 }
@@ -117,8 +119,8 @@ typedef struct {
 typedef void block_user(void *context, placed_block at);
 
 /* Calls `use` for every block that a component makes at a compared order. */
-static void place_blocks(const hci_wave *back_emf, size_t emf_count, hci_component component, const double *orders,
-                         size_t order_count, block_user *use, void *context)
+static void place_blocks(const hci_wave *back_emf, size_t emf_count, hci_component component,
+                         const double *orders, size_t order_count, block_user *use, void *context)
 {
     for (size_t k = 0; k < emf_count; ++k) {
         torque_block blocks[2];
@@ -143,7 +145,8 @@ typedef struct {
 static void column_add(column *c, size_t row, double value)
 {
     size_t k = c->count;
-    while (k > 0 && c->row[k - 1] >= (int64_t)row) --k;
+    while (k > 0 && c->row[k - 1] >= (int64_t)row)
+        --k;
     if (k < c->count && c->row[k] == (int64_t)row) {
         c->value[k] += value;
         return;
@@ -165,8 +168,8 @@ static void add_to_column(void *context, placed_block at)
 }
 
 void hci_system_sparse(const hci_wave *back_emf, size_t emf_count, const hci_component *components,
-                       size_t component_count, const double *orders, size_t order_count, int64_t *column_start,
-                       int64_t *row, double *value)
+                       size_t component_count, const double *orders, size_t order_count,
+                       int64_t *column_start, int64_t *row, double *value)
 {
     size_t nonzeros = 0;
     column_start[0] = 0;
@@ -199,7 +202,8 @@ void hci_system_dense(const hci_wave *back_emf, size_t emf_count, const hci_comp
                       size_t component_count, const double *orders, size_t order_count, double *u)
 {
     const size_t rows = hci_orders_rows(orders, order_count);
-    for (size_t k = 0; k < rows * 2 * component_count; ++k) u[k] = 0.0;
+    for (size_t k = 0; k < rows * 2 * component_count; ++k)
+        u[k] = 0.0;
     for (size_t c = 0; c < component_count; ++c) {
         column_pair pair = {u + 2 * c * rows, u + (2 * c + 1) * rows};
         place_blocks(back_emf, emf_count, components[c], orders, order_count, add_to_pair, &pair);
@@ -222,7 +226,8 @@ static void add_to_spectrum(void *context, placed_block at)
 }
 
 void hci_system_add_torque(const hci_wave *back_emf, size_t emf_count, const hci_wave *currents,
-                           size_t current_count, const double *orders, size_t order_count, hci_harmonic *spectrum)
+                           size_t current_count, const double *orders, size_t order_count,
+                           hci_harmonic *spectrum)
 {
     for (size_t k = 0; k < current_count; ++k) {
         const hci_component component = {currents[k].order, currents[k].sequence};

@@ -13,11 +13,13 @@ static const unsigned char COLUMN[HCI_PHASE_MATRIX] = {0, 1, 2, 1, 2, 0};
 
 static void slope_at(const hci_machine *m, double theta_rad, double slope[HCI_PHASE_MATRIX])
 {
-    for (size_t q = 0; q < HCI_PHASE_MATRIX; ++q) slope[q] = 0.0;
+    for (size_t q = 0; q < HCI_PHASE_MATRIX; ++q)
+        slope[q] = 0.0;
     for (size_t k = 0; k < m->slope_count; ++k) {
         const hci_inductance_slope *t = &m->slope[k];
         const double s = sin(t->order * theta_rad), c = cos(t->order * theta_rad);
-        for (size_t q = 0; q < HCI_PHASE_MATRIX; ++q) slope[q] += t->sine[q] * s + t->cosine[q] * c;
+        for (size_t q = 0; q < HCI_PHASE_MATRIX; ++q)
+            slope[q] += t->sine[q] * s + t->cosine[q] * c;
     }
 }
 
@@ -36,23 +38,27 @@ double hci_torque_at(const hci_machine *machine, double theta_rad, const double 
     slope_at(machine, theta_rad, slope);
     slope_times(slope, i_abc, y);
     torque = hci_harmonics_at(machine->cogging, machine->cogging_count, theta_rad);
-    for (int s = 0; s < 3; ++s) torque += (e[s] + 0.5 * y[s]) * i_abc[s];
+    for (int s = 0; s < 3; ++s)
+        torque += (e[s] + 0.5 * y[s]) * i_abc[s];
     return torque;
 }
 
-void hci_torque_gradient_at(const hci_machine *machine, double theta_rad, const double i_abc[3], double gradient[3])
+void hci_torque_gradient_at(const hci_machine *machine, double theta_rad, const double i_abc[3],
+                            double gradient[3])
 {
     double slope[HCI_PHASE_MATRIX], y[3];
     hci_waves_at(machine->back_emf, machine->back_emf_count, theta_rad, gradient);
     slope_at(machine, theta_rad, slope);
     slope_times(slope, i_abc, y);
-    for (int s = 0; s < 3; ++s) gradient[s] += y[s];
+    for (int s = 0; s < 3; ++s)
+        gradient[s] += y[s];
 }
 
 size_t hci_torque_orders_capacity(const hci_machine *machine, size_t current_count)
 {
     const size_t pairs = current_count * (current_count + 1) / 2;
-    return 1 + machine->cogging_count + 2 * machine->back_emf_count * current_count + 4 * machine->slope_count * pairs;
+    return 1 + machine->cogging_count + 2 * machine->back_emf_count * current_count +
+           4 * machine->slope_count * pairs;
 }
 
 /* A product of orders m, n, k has the orders |m ± (n ± k)|. */
@@ -71,7 +77,8 @@ hci_status hci_torque_orders(const hci_machine *machine, const hci_wave *current
     size_t n = 0;
     if (capacity < hci_torque_orders_capacity(machine, current_count)) return HCI_ERROR_CAPACITY;
     orders[n++] = 0.0;
-    for (size_t k = 0; k < machine->cogging_count; ++k) orders[n++] = machine->cogging[k].order;
+    for (size_t k = 0; k < machine->cogging_count; ++k)
+        orders[n++] = machine->cogging[k].order;
     for (size_t k = 0; k < current_count; ++k) {
         const hci_component c = {currents[k].order, currents[k].sequence};
         n += hci_component_orders(machine->back_emf, machine->back_emf_count, c, orders + n);
@@ -79,7 +86,8 @@ hci_status hci_torque_orders(const hci_machine *machine, const hci_wave *current
     for (size_t t = 0; t < machine->slope_count; ++t)
         for (size_t j = 0; j < current_count; ++j)
             for (size_t k = 0; k <= j; ++k)
-                n += reluctance_orders(machine->slope[t].order, currents[j].order, currents[k].order, orders + n);
+                n += reluctance_orders(machine->slope[t].order, currents[j].order, currents[k].order,
+                                       orders + n);
     *count = hci_orders_sort(orders, n);
     return HCI_OK;
 }
@@ -118,8 +126,8 @@ static void spectrum_add(const double *orders, size_t order_count, hci_harmonic 
     spectrum[at].cosine += p.im;
 }
 
-/* The phasors of three phases at one order as waves of the three sequences: W_σ = ⅓ Σ_s Y_s e^{jσ2πs/3}. A negative order
- * folds onto the positive one: Im(Y e^{−jmθ}) = Im(−Y* e^{jmθ}). */
+/* The phasors of three phases at one order as waves of the three sequences: W_σ = ⅓ Σ_s Y_s e^{jσ2πs/3}. A
+ * negative order folds onto the positive one: Im(Y e^{−jmθ}) = Im(−Y* e^{jmθ}). */
 static void add_sequences(double order, const phasor y[3], hci_wave waves[3])
 {
     for (int sequence = -1; sequence <= 1; ++sequence) {
@@ -141,7 +149,13 @@ static void add_sequences(double order, const phasor y[3], hci_wave waves[3])
  * Re(Z e^{jkθ}) = Im(jZ e^{jkθ}). */
 static void slope_times_wave(const hci_inductance_slope *t, const hci_wave *i, hci_wave waves[6])
 {
-    phasor difference[3] = {{0.0, 0.0}, {0.0, 0.0}, {0.0, 0.0}}, sum[3] = {{0.0, 0.0}, {0.0, 0.0}, {0.0, 0.0}};
+    phasor difference[3] =
+        {
+            {0.0, 0.0},
+            {0.0, 0.0},
+            {0.0, 0.0}
+    },
+           sum[3] = {{0.0, 0.0}, {0.0, 0.0}, {0.0, 0.0}};
     for (unsigned q = 0; q < HCI_PHASE_MATRIX; ++q) {
         for (unsigned mirrored = 0; mirrored <= (ROW[q] != COLUMN[q]); ++mirrored) {
             const unsigned row = mirrored ? COLUMN[q] : ROW[q], column = mirrored ? ROW[q] : COLUMN[q];
@@ -162,19 +176,21 @@ size_t hci_slope_waves_capacity(const hci_machine *machine, size_t current_count
     return 6 * machine->slope_count * current_count;
 }
 
-size_t hci_slope_waves(const hci_machine *machine, const hci_wave *currents, size_t current_count, hci_wave *waves)
+size_t hci_slope_waves(const hci_machine *machine, const hci_wave *currents, size_t current_count,
+                       hci_wave *waves)
 {
     size_t n = 0;
     for (size_t t = 0; t < machine->slope_count; ++t)
-        for (size_t k = 0; k < current_count; ++k, n += 6) slope_times_wave(&machine->slope[t], &currents[k], waves + n);
+        for (size_t k = 0; k < current_count; ++k, n += 6)
+            slope_times_wave(&machine->slope[t], &currents[k], waves + n);
     return hci_waves_join(waves, n, 1e-15);
 }
 
-/* ½ xᵀ L' y for one order of L' and two waves, closed form.
- * With x = Im(X e^{jnθ}), y = Im(Y e^{jkθ}):  xy = ½ Re(X Y* e^{j(n−k)θ} − X Y e^{j(n+k)θ}), and
- * Im(Λ e^{jmθ}) Re(Z e^{jqθ}) = ½ Im(Λ Z e^{j(m+q)θ} + Λ Z* e^{j(m−q)θ}). */
-static void reluctance_pair(const hci_inductance_slope *t, const hci_wave *x, const hci_wave *y, double weight,
-                            const double *orders, size_t order_count, hci_harmonic *spectrum)
+/* ½ xᵀ L' y for one order of L' and two waves, closed form. With x = Im(X e^{jnθ}), y = Im(Y e^{jkθ}):  xy =
+ * ½ Re(X Y* e^{j(n−k)θ} − X Y e^{j(n+k)θ}), and Im(Λ e^{jmθ}) Re(Z e^{jqθ}) = ½ Im(Λ Z e^{j(m+q)θ} + Λ Z*
+ * e^{j(m−q)θ}). */
+static void reluctance_pair(const hci_inductance_slope *t, const hci_wave *x, const hci_wave *y,
+                            double weight, const double *orders, size_t order_count, hci_harmonic *spectrum)
 {
     const double m = t->order, difference = x->order - y->order, sum = x->order + y->order;
     for (unsigned q = 0; q < HCI_PHASE_MATRIX; ++q) {
@@ -195,13 +211,14 @@ static void reluctance_pair(const hci_inductance_slope *t, const hci_wave *x, co
 void hci_torque_spectrum(const hci_machine *machine, const hci_wave *currents, size_t current_count,
                          const double *orders, size_t order_count, hci_harmonic *spectrum)
 {
-    for (size_t k = 0; k < order_count; ++k) spectrum[k] = (hci_harmonic){orders[k], 0.0, 0.0};
+    for (size_t k = 0; k < order_count; ++k)
+        spectrum[k] = (hci_harmonic){orders[k], 0.0, 0.0};
     for (size_t k = 0; k < machine->cogging_count; ++k) {
         const hci_harmonic *c = &machine->cogging[k];
         spectrum_add(orders, order_count, spectrum, c->order, (phasor){c->sine, c->cosine});
     }
-    hci_system_add_torque(machine->back_emf, machine->back_emf_count, currents, current_count, orders, order_count,
-                          spectrum);
+    hci_system_add_torque(machine->back_emf, machine->back_emf_count, currents, current_count, orders,
+                          order_count, spectrum);
     for (size_t t = 0; t < machine->slope_count; ++t)
         for (size_t j = 0; j < current_count; ++j)
             for (size_t k = 0; k <= j; ++k)

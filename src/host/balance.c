@@ -14,14 +14,18 @@ hci_target_order hci_target_at(const hci_target *target, double order)
 {
     for (size_t k = 0; k < target->count; ++k)
         if (fabs(target->order[k].torque_Nm.order - order) < HCI_ORDER_TOLERANCE) return target->order[k];
-    return (hci_target_order){{order, 0.0, 0.0}, 1.0};
+    return (hci_target_order){
+        {order, 0.0, 0.0},
+        1.0
+    };
 }
 
-/* ---- which orders are compared --------------------------------------------------------------------------------- */
+/* ---- which orders are compared ---- */
 
 static size_t most_orders(const hci_task *t, size_t count)
 {
-    return 1 + t->target->count + t->machine->cogging_count + t->offset_count + 2 * t->gain_count * (count + 1);
+    return 1 + t->target->count + t->machine->cogging_count + t->offset_count +
+           2 * t->gain_count * (count + 1);
 }
 
 /* Orders that matter whatever the components: mean, target, cogging, torque of what is held. */
@@ -30,11 +34,15 @@ static size_t given_orders(const hci_task *t, double *order)
     const hci_machine *m = t->machine;
     size_t n = 0;
     order[n++] = 0.0;
-    for (size_t k = 0; k < t->target->count; ++k) order[n++] = t->target->order[k].torque_Nm.order;
-    for (size_t k = 0; k < m->cogging_count; ++k) order[n++] = m->cogging[k].order;
-    for (size_t k = 0; k < t->offset_count; ++k) order[n++] = t->offset[k].order;
+    for (size_t k = 0; k < t->target->count; ++k)
+        order[n++] = t->target->order[k].torque_Nm.order;
+    for (size_t k = 0; k < m->cogging_count; ++k)
+        order[n++] = m->cogging[k].order;
+    for (size_t k = 0; k < t->offset_count; ++k)
+        order[n++] = t->offset[k].order;
     if (t->held)
-        n += hci_component_orders(t->gain, t->gain_count, (hci_component){t->held->order, t->held->sequence}, order + n);
+        n += hci_component_orders(t->gain, t->gain_count, (hci_component){t->held->order, t->held->sequence},
+                                  order + n);
     return hci_orders_sort(order, n);
 }
 
@@ -51,13 +59,14 @@ static size_t drop_free_orders(const hci_task *t, double *order, size_t n)
 static size_t all_orders(const hci_task *t, const hci_component *component, size_t count, double *order)
 {
     size_t n = given_orders(t, order);
-    for (size_t k = 0; k < count; ++k) n += hci_component_orders(t->gain, t->gain_count, component[k], order + n);
+    for (size_t k = 0; k < count; ++k)
+        n += hci_component_orders(t->gain, t->gain_count, component[k], order + n);
     return drop_free_orders(t, order, hci_orders_sort(order, n));
 }
 
-/* The paper's square system: as many orders as components. The given ones come first, then the lowest others. With a held
- * fundamental the mean is left out and U is square; without one the mean is compared, which leaves one unknown free.
- * spare: room for as many orders again. */
+/* The paper's square system: as many orders as components. The given ones come first, then the lowest others.
+ * With a held fundamental the mean is left out and U is square; without one the mean is compared, which
+ * leaves one unknown free. spare: room for as many orders again. */
 static size_t square_orders(const hci_task *t, double *order, size_t n, size_t count, double *spare)
 {
     const size_t given = drop_free_orders(t, spare, given_orders(t, spare));
@@ -72,7 +81,7 @@ static size_t square_orders(const hci_task *t, double *order, size_t n, size_t c
     return hci_orders_sort(order, taken);
 }
 
-/* ---- right-hand sides ------------------------------------------------------------------------------------------ */
+/* ---- right-hand sides ---- */
 
 static void add_at(const hci_balance *b, double factor, hci_harmonic term, hci_harmonic *rest)
 {
@@ -90,8 +99,10 @@ static void fill_right_sides(const hci_task *t, hci_balance *b, hci_harmonic *re
         const bool mean = b->order[k] < HCI_ORDER_TOLERANCE;
         rest[k] = (hci_harmonic){b->order[k], wanted.torque_Nm.sine, mean ? 0.0 : wanted.torque_Nm.cosine};
     }
-    for (size_t k = 0; k < m->cogging_count; ++k) add_at(b, -1.0, m->cogging[k], rest);
-    for (size_t k = 0; k < t->offset_count; ++k) add_at(b, 1.0, t->offset[k], rest);
+    for (size_t k = 0; k < m->cogging_count; ++k)
+        add_at(b, -1.0, m->cogging[k], rest);
+    for (size_t k = 0; k < t->offset_count; ++k)
+        add_at(b, 1.0, t->offset[k], rest);
     if (t->held) {
         const hci_wave against = {t->held->order, t->held->sequence, -t->held->sine, -t->held->cosine};
         hci_system_add_torque(t->gain, t->gain_count, &against, 1, b->order, b->order_count, rest);
@@ -100,7 +111,7 @@ static void fill_right_sides(const hci_task *t, hci_balance *b, hci_harmonic *re
     hci_spectrum_to_rows(rest, b->order_count, b->h + b->rows);
 }
 
-/* ---- all of it ------------------------------------------------------------------------------------------------- */
+/* ---- all of it ---- */
 
 /* Multiplies each row of h and U by the weight of its order. */
 static void apply_weights(const hci_task *t, hci_balance *b)
@@ -116,7 +127,8 @@ static void apply_weights(const hci_task *t, hci_balance *b)
         b->h[i] *= b->row_weight[i];
         b->h[b->rows + i] *= b->row_weight[i];
     }
-    for (int64_t k = 0; k < b->u.column_start[b->unknowns]; ++k) b->u.value[k] *= b->row_weight[b->u.row[k]];
+    for (int64_t k = 0; k < b->u.column_start[b->unknowns]; ++k)
+        b->u.value[k] *= b->row_weight[b->u.row[k]];
 }
 
 static bool reserve_rows(hci_balance *b, size_t count, size_t gain_count)
@@ -134,8 +146,8 @@ static bool reserve_rows(hci_balance *b, size_t count, size_t gain_count)
     return b->row_weight && b->h && b->u.column_start && b->u.row && b->u.value;
 }
 
-hci_status hci_balance_make(const hci_task *task, const hci_component *component, size_t count, hci_compare compare,
-                            hci_balance *balance, hci_note *note)
+hci_status hci_balance_make(const hci_task *task, const hci_component *component, size_t count,
+                            hci_compare compare, hci_balance *balance, hci_note *note)
 {
     hci_harmonic *rest = NULL;
     memset(balance, 0, sizeof *balance);

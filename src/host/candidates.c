@@ -1,5 +1,5 @@
-/* Candidates for the currents: every component up to a top order that the balance connects, through the back-EMF, with an
- * order that is wanted or disturbed. */
+/* Candidates for the currents: every component up to a top order that the balance connects, through the
+ * back-EMF, with an order that is wanted or disturbed. */
 #include <math.h>
 #include <string.h>
 
@@ -13,8 +13,10 @@ static bool touches(const double *order, size_t order_count, const double *wante
     return false;
 }
 
-/* Grows the connected part: marks components that reach an order in `order`, adds what they reach, until nothing is new. */
-static size_t connect(const hci_task *t, const hci_component *all, size_t count, bool *used, double *order, size_t orders)
+/* Grows the connected part: marks components that reach an order in `order`, adds what they reach, until
+ * nothing is new. */
+static size_t connect(const hci_task *t, const hci_component *all, size_t count, bool *used, double *order,
+                      size_t orders)
 {
     for (bool grown = true; grown;) {
         size_t n = orders;
@@ -53,9 +55,12 @@ static size_t starting_orders(const hci_task *t, double *order)
 {
     size_t n = 0;
     order[n++] = 0.0;
-    for (size_t k = 0; k < t->target->count; ++k) order[n++] = t->target->order[k].torque_Nm.order;
-    for (size_t k = 0; k < t->machine->cogging_count; ++k) order[n++] = t->machine->cogging[k].order;
-    for (size_t k = 0; k < t->offset_count; ++k) order[n++] = t->offset[k].order;
+    for (size_t k = 0; k < t->target->count; ++k)
+        order[n++] = t->target->order[k].torque_Nm.order;
+    for (size_t k = 0; k < t->machine->cogging_count; ++k)
+        order[n++] = t->machine->cogging[k].order;
+    for (size_t k = 0; k < t->offset_count; ++k)
+        order[n++] = t->offset[k].order;
     return hci_orders_sort(order, n);
 }
 
@@ -74,7 +79,9 @@ hci_status hci_candidates(const hci_task *t, double top_order, hci_component_set
     const size_t most = 3 * ((size_t)(top_order * (double)t->period_turns) + 2);
     const size_t reach = 2 * t->gain_count;
     bool *used = hci_memory_new(most, sizeof *used);
-    double *order = hci_memory_new(1 + t->target->count + t->machine->cogging_count + t->offset_count + reach * (most + 1), sizeof *order);
+    double *order = hci_memory_new(1 + t->target->count + t->machine->cogging_count + t->offset_count +
+                                       reach * (most + 1),
+                                   sizeof *order);
     hci_status status = HCI_OK;
     memset(set, 0, sizeof *set);
     set->component = hci_memory_new(most, sizeof *set->component);
@@ -84,7 +91,8 @@ hci_status hci_candidates(const hci_task *t, double top_order, hci_component_set
         connect(t, set->component, count, used, order, starting_orders(t, order));
         keep_used(set, count, used);
     } else {
-        status = hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for candidates up to order %g", top_order);
+        status =
+            hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for candidates up to order %g", top_order);
     }
     hci_memory_free(used);
     hci_memory_free(order);
@@ -94,7 +102,10 @@ hci_status hci_candidates(const hci_task *t, double top_order, hci_component_set
 void hci_candidates_span(const hci_task *t, double *torque_order, double *emf_order)
 {
     *torque_order = *emf_order = 1.0;
-    for (size_t k = 0; k < t->target->count; ++k) *torque_order = fmax(*torque_order, t->target->order[k].torque_Nm.order);
-    for (size_t k = 0; k < t->machine->cogging_count; ++k) *torque_order = fmax(*torque_order, t->machine->cogging[k].order);
-    for (size_t k = 0; k < t->machine->back_emf_count; ++k) *emf_order = fmax(*emf_order, t->machine->back_emf[k].order);
+    for (size_t k = 0; k < t->target->count; ++k)
+        *torque_order = fmax(*torque_order, t->target->order[k].torque_Nm.order);
+    for (size_t k = 0; k < t->machine->cogging_count; ++k)
+        *torque_order = fmax(*torque_order, t->machine->cogging[k].order);
+    for (size_t k = 0; k < t->machine->back_emf_count; ++k)
+        *emf_order = fmax(*emf_order, t->machine->back_emf[k].order);
 }

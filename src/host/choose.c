@@ -10,7 +10,7 @@ static hci_status no_memory(hci_note *note)
     return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory while choosing harmonics");
 }
 
-/* ---- measures of a solution ------------------------------------------------------------------------------------ */
+/* ---- measures of a solution ---- */
 
 /* x = mean × first column + second column. */
 static double total(const double *x, size_t unknowns, double mean_Nm, size_t j)
@@ -23,8 +23,10 @@ double hci_coordinates_mean_square_A2(const hci_component_set *set, const double
 {
     double sum = 0.0;
     for (size_t k = 0; k < set->count; ++k) {
-        const double s = total(x, 2 * set->count, mean_Nm, 2 * k), c = total(x, 2 * set->count, mean_Nm, 2 * k + 1);
-        const bool constant = set->component[k].order < HCI_ORDER_TOLERANCE && set->component[k].sequence == 0;
+        const double s = total(x, 2 * set->count, mean_Nm, 2 * k),
+                     c = total(x, 2 * set->count, mean_Nm, 2 * k + 1);
+        const bool constant =
+            set->component[k].order < HCI_ORDER_TOLERANCE && set->component[k].sequence == 0;
         sum += constant ? 3.0 * c * c : 1.5 * (s * s + c * c);
     }
     return sum;
@@ -33,7 +35,8 @@ double hci_coordinates_mean_square_A2(const hci_component_set *set, const double
 /* r = U x − h for the total of both columns; rows are weighted. */
 static void residual(const hci_balance *b, const double *x, double mean_Nm, double *r)
 {
-    for (size_t i = 0; i < b->rows; ++i) r[i] = -(mean_Nm * b->h[i] + b->h[b->rows + i]);
+    for (size_t i = 0; i < b->rows; ++i)
+        r[i] = -(mean_Nm * b->h[i] + b->h[b->rows + i]);
     for (size_t j = 0; j < b->unknowns; ++j) {
         const double value = total(x, b->unknowns, mean_Nm, j);
         for (int64_t k = b->u.column_start[j]; k < b->u.column_start[j + 1]; ++k)
@@ -53,7 +56,8 @@ double hci_worst_error_Nm(const hci_balance *b, const double *x, double mean_Nm,
 {
     double worst = 0.0;
     residual(b, x, mean_Nm, r);
-    for (size_t k = 0; k < b->order_count; ++k) worst = fmax(worst, hci_residual_amplitude_Nm(b, r, k));
+    for (size_t k = 0; k < b->order_count; ++k)
+        worst = fmax(worst, hci_residual_amplitude_Nm(b, r, k));
     return worst;
 }
 
@@ -104,7 +108,7 @@ static void report(const hci_task *t, double share)
     if (t->progress) t->progress(t->progress_context, "choosing harmonics", share);
 }
 
-/* ---- without a limit to their number --------------------------------------------------------------------------- */
+/* ---- without a limit to their number ---- */
 
 #define LOSS_MARGIN 1.01 /* copper over the pointwise limit at which no further orders are worth it */
 #define DOUBLINGS   5
@@ -123,9 +127,9 @@ static hci_status attempt_check(const hci_task *t, attempt *a, hci_note *note)
     return r ? HCI_OK : no_memory(note);
 }
 
-/* The back-EMF of a surface-magnet machine ends at some order, and every order that the components reach can be made
- * right. e + L'i does not end: there the orders above the components' own are left to fall off by themselves, or
- * they would take all the freedom that is to save copper. */
+/* The back-EMF of a surface-magnet machine ends at some order, and every order that the components reach can
+ * be made right. e + L'i does not end: there the orders above the components' own are left to fall off by
+ * themselves, or they would take all the freedom that is to save copper. */
 static hci_status attempt_up_to(const hci_task *t, double top_order, attempt *a, hci_note *note)
 {
     hci_task limited = *t;
@@ -141,12 +145,13 @@ static hci_status attempt_up_to(const hci_task *t, double top_order, attempt *a,
 
 static bool good_enough(const attempt *a, double tolerance_Nm, double limit_A2)
 {
-    return a->worth.worst_Nm <= 0.1 * tolerance_Nm && (isnan(limit_A2) || a->worth.mean_square_A2 <= LOSS_MARGIN * limit_A2);
+    return a->worth.worst_Nm <= 0.1 * tolerance_Nm &&
+           (isnan(limit_A2) || a->worth.mean_square_A2 <= LOSS_MARGIN * limit_A2);
 }
 
 /* Fewer and fewer orders: the lowest top order in (bad, good] that is still good enough. */
-static hci_status bisect(const hci_task *t, double bad, double good, double tolerance_Nm, double limit_A2, attempt *best,
-                         hci_note *note)
+static hci_status bisect(const hci_task *t, double bad, double good, double tolerance_Nm, double limit_A2,
+                         attempt *best, hci_note *note)
 {
     const double step = 1.0 / (double)t->period_turns;
     while (good - bad > 1.5 * step) {
@@ -173,22 +178,25 @@ static void drop_unused(attempt *a)
     const size_t n = a->set.count;
     double largest = 0.0;
     size_t kept = 0;
-    for (size_t k = 0; k < 4 * n; ++k) largest = fmax(largest, fabs(a->x[k]));
+    for (size_t k = 0; k < 4 * n; ++k)
+        largest = fmax(largest, fabs(a->x[k]));
     for (size_t k = 0; k < n; ++k) {
         const double *s = a->x + 2 * k, *c = s + 2 * n;
         if (fmax(fmax(fabs(s[0]), fabs(s[1])), fmax(fabs(c[0]), fabs(c[1]))) <= 1e-13 * largest) continue;
         a->set.component[kept] = a->set.component[k];
         a->set.set[kept] = a->set.set[k];
-        for (size_t q = 0; q < 2; ++q) a->x[2 * kept + q] = s[q];
-        for (size_t q = 0; q < 2; ++q) a->x[2 * n + 2 * kept + q] = c[q];
+        for (size_t q = 0; q < 2; ++q)
+            a->x[2 * kept + q] = s[q];
+        for (size_t q = 0; q < 2; ++q)
+            a->x[2 * n + 2 * kept + q] = c[q];
         ++kept;
     }
     memmove(a->x + 2 * kept, a->x + 2 * n, 2 * kept * sizeof *a->x);
     a->set.count = kept;
 }
 
-hci_status hci_choose_all(const hci_task *task, double tolerance_Nm, double limit_mean_square_A2, hci_component_set *set,
-                          double **x, hci_note *note)
+hci_status hci_choose_all(const hci_task *task, double tolerance_Nm, double limit_mean_square_A2,
+                          hci_component_set *set, double **x, hci_note *note)
 {
     double torque_order, emf_order, below, top;
     attempt best;
@@ -218,9 +226,10 @@ done:
     return HCI_OK;
 }
 
-/* ---- at most K -------------------------------------------------------------------------------------------------- */
+/* ---- at most K ---- */
 
-/* Prices of copper (ρ as a share of the largest diagonal of UᵀU) at which subsets are searched, and at which each is solved. */
+/* Prices of copper (ρ as a share of the largest diagonal of UᵀU) at which subsets are searched, and at which
+ * each is solved. */
 static const double SEARCH_PRICE[] = {1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5};
 static const double SOLVE_PRICE[] = {1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 1e-4, 1e-6};
 enum {
@@ -233,7 +242,8 @@ bool hci_is_better(const hci_preference *p, hci_worth a, hci_worth b)
     const bool a_allowed = a.mean_square_A2 <= p->allowed_A2, b_allowed = b.mean_square_A2 <= p->allowed_A2;
     if (a_allowed != b_allowed) return a_allowed;
     if (!a_allowed) return a.mean_square_A2 < b.mean_square_A2;
-    if (a.worst_Nm <= p->tolerance_Nm && b.worst_Nm <= p->tolerance_Nm) return a.mean_square_A2 < b.mean_square_A2;
+    if (a.worst_Nm <= p->tolerance_Nm && b.worst_Nm <= p->tolerance_Nm)
+        return a.mean_square_A2 < b.mean_square_A2;
     return a.worst_Nm < b.worst_Nm;
 }
 
@@ -249,7 +259,8 @@ static void keep_better(const hci_preference *p, attempt *best, attempt *a)
     memset(a, 0, sizeof *a);
 }
 
-static hci_status copy_set(const hci_component_set *from, const size_t *pick, size_t count, attempt *to, hci_note *note)
+static hci_status copy_set(const hci_component_set *from, const size_t *pick, size_t count, attempt *to,
+                           hci_note *note)
 {
     memset(to, 0, sizeof *to);
     to->set.component = hci_memory_new(count, sizeof *to->set.component);
@@ -268,8 +279,9 @@ static hci_status copy_set(const hci_component_set *from, const size_t *pick, si
 }
 
 /* The set solved for level errors at one price of copper. */
-static hci_status attempt_level(const hci_task *t, const hci_balance *b, const hci_component_set *all, const size_t *pick,
-                                double ridge, const hci_preference *p, attempt *best, hci_note *note)
+static hci_status attempt_level(const hci_task *t, const hci_balance *b, const hci_component_set *all,
+                                const size_t *pick, double ridge, const hci_preference *p, attempt *best,
+                                hci_note *note)
 {
     attempt a;
     double *room = hci_memory_new(hci_level_room(b), sizeof *room);
@@ -286,8 +298,8 @@ static hci_status attempt_level(const hci_task *t, const hci_balance *b, const h
     return status;
 }
 
-static hci_status attempt_exact(const hci_task *t, const hci_balance *b, const hci_component_set *all, const size_t *pick,
-                                const hci_preference *p, attempt *best, hci_note *note)
+static hci_status attempt_exact(const hci_task *t, const hci_balance *b, const hci_component_set *all,
+                                const size_t *pick, const hci_preference *p, attempt *best, hci_note *note)
 {
     attempt a;
     hci_status status = copy_set(all, pick, b->unknowns / 2, &a, note);
@@ -300,20 +312,22 @@ static hci_status attempt_exact(const hci_task *t, const hci_balance *b, const h
 }
 
 /* Solves one subset at every price and exactly, and keeps the best. */
-static hci_status try_subset(const hci_task *t, const hci_component_set *all, const size_t *pick, size_t count, double scale,
-                             const hci_preference *p, attempt *best, hci_note *note)
+static hci_status try_subset(const hci_task *t, const hci_component_set *all, const size_t *pick,
+                             size_t count, double scale, const hci_preference *p, attempt *best,
+                             hci_note *note)
 {
     hci_balance b;
     hci_component_set chosen = {hci_memory_new(count, sizeof *chosen.component), NULL, count, {{0}}};
     hci_status status = chosen.component ? HCI_OK : no_memory(note);
-    for (size_t k = 0; k < count && !status; ++k) chosen.component[k] = all->component[pick[k]];
+    for (size_t k = 0; k < count && !status; ++k)
+        chosen.component[k] = all->component[pick[k]];
     if (!status) status = hci_balance_make(t, chosen.component, count, HCI_COMPARE_ALL, &b, note);
     hci_memory_free(chosen.component);
     if (status) return status;
     hci_level_tighten_mean(&b);
+    status = attempt_exact(t, &b, all, pick, p, best, note);
     for (size_t k = 0; k < SOLVES && !status; ++k)
         status = attempt_level(t, &b, all, pick, SOLVE_PRICE[k] * scale, p, best, note);
-    if (!status) status = attempt_exact(t, &b, all, pick, p, best, note);
     hci_balance_release(&b);
     return status;
 }
@@ -323,7 +337,8 @@ static double fill_cost(const hci_balance *b, double mean_Nm, hci_subset_cost *c
 {
     const hci_sparse *u = &b->u;
     double largest = 0.0;
-    for (size_t i = 0; i < b->rows; ++i) column[i] = 0.0;
+    for (size_t i = 0; i < b->rows; ++i)
+        column[i] = 0.0;
     for (size_t j = 0; j < c->n; ++j) {
         c->b[j] = 0.0;
         for (int64_t k = u->column_start[j]; k < u->column_start[j + 1]; ++k) {
@@ -332,21 +347,25 @@ static double fill_cost(const hci_balance *b, double mean_Nm, hci_subset_cost *c
         }
         for (size_t i = 0; i < c->n; ++i) {
             double sum = 0.0;
-            for (int64_t k = u->column_start[i]; k < u->column_start[i + 1]; ++k) sum += u->value[k] * column[u->row[k]];
+            for (int64_t k = u->column_start[i]; k < u->column_start[i + 1]; ++k)
+                sum += u->value[k] * column[u->row[k]];
             c->gram[i + j * c->n] = sum;
         }
         largest = fmax(largest, c->gram[j + j * c->n]);
-        for (int64_t k = u->column_start[j]; k < u->column_start[j + 1]; ++k) column[u->row[k]] = 0.0;
+        for (int64_t k = u->column_start[j]; k < u->column_start[j + 1]; ++k)
+            column[u->row[k]] = 0.0;
     }
     return largest;
 }
 
 /* Searches at every price of copper. */
-static hci_status search(const hci_task *t, const hci_component_set *all, size_t most, hci_subset_cost *c, double scale,
-                         hci_subset_room *room, const hci_preference *p, attempt *best, hci_note *note)
+static hci_status search(const hci_task *t, const hci_component_set *all, size_t most, hci_subset_cost *c,
+                         double scale, hci_subset_room *room, const hci_preference *p, attempt *best,
+                         hci_note *note)
 {
     hci_status status = HCI_OK;
-    for (size_t k = 0; k < SEARCHES && !status; ++k) {
+    const size_t searches = most < all->count ? (size_t)SEARCHES : 1; /* else there is one subset only */
+    for (size_t k = 0; k < searches && !status; ++k) {
         report(t, (double)k / SEARCHES);
         c->ridge = SEARCH_PRICE[k] * scale;
         if (hci_subset_eliminate(c, most, room) || hci_subset_exchange(c, room, most)) continue;
@@ -370,7 +389,8 @@ static bool reserve(const hci_balance *b, hci_subset_cost *c, hci_subset_room *r
     room->active = hci_memory_new(n, sizeof *room->active);
     room->in = hci_memory_new(n, sizeof *room->in);
     *column = hci_memory_new(b->rows, sizeof **column);
-    return c->gram && c->b && room->p && room->work && room->x && room->v && room->active && room->in && *column;
+    return c->gram && c->b && room->p && room->work && room->x && room->v && room->active && room->in &&
+           *column;
 }
 
 static void release(hci_subset_cost *c, hci_subset_room *room, double *column)
@@ -386,8 +406,8 @@ static void release(hci_subset_cost *c, hci_subset_room *room, double *column)
     hci_memory_free(column);
 }
 
-static hci_status choose_among(const hci_task *t, const hci_component_set *all, size_t most, const hci_preference *p,
-                               attempt *best, hci_note *note)
+static hci_status choose_among(const hci_task *t, const hci_component_set *all, size_t most,
+                               const hci_preference *p, attempt *best, hci_note *note)
 {
     hci_balance b;
     hci_subset_cost cost = {0};
@@ -406,19 +426,46 @@ static hci_status choose_among(const hci_task *t, const hci_component_set *all, 
     return status;
 }
 
-hci_status hci_choose_few(const hci_task *task, const hci_component_set *only, size_t most, double tolerance_Nm,
-                          double loss_A2, hci_component_set *set, double **x, hci_note *note)
+/* Chooses among all candidates up to `top`; `best` is kept where it is better. count: out, how many there
+ * are. */
+static hci_status choose_up_to(const hci_task *t, double top, size_t most, const hci_preference *p,
+                               attempt *best, size_t *count, hci_note *note)
+{
+    hci_component_set all;
+    hci_status status = hci_candidates(t, top, &all, note);
+    *count = all.count;
+    if (!status) status = choose_among(t, &all, most, p, best, note);
+    hci_component_set_release(&all);
+    return status;
+}
+
+/* Up to somewhat above the orders that matter, and higher until there was a choice among several times
+ * `most`. */
+static hci_status choose_freely(const hci_task *t, size_t most, const hci_preference *p, attempt *best,
+                                hci_note *note)
+{
+    double torque_order, emf_order, top;
+    size_t count = 0;
+    hci_status status;
+    hci_candidates_span(t, &torque_order, &emf_order);
+    top = ceil(torque_order + 2.0 * emf_order);
+    status = choose_up_to(t, top, most, p, best, &count, note);
+    for (int doubling = 0; !status && count < 3 * most && doubling < DOUBLINGS && 2.0 * top < HCI_MOST_ORDER;
+         ++doubling)
+        status = choose_up_to(t, top *= 2.0, most, p, best, &count, note);
+    return status;
+}
+
+hci_status hci_choose_few(const hci_task *task, const hci_component_set *only, size_t most,
+                          double tolerance_Nm, double loss_A2, hci_component_set *set, double **x,
+                          hci_note *note)
 {
     const hci_preference p = {tolerance_Nm, loss_A2};
-    double torque_order, emf_order;
-    hci_component_set all = {0};
     attempt best;
-    hci_status status = HCI_OK;
+    hci_status status;
     memset(&best, 0, sizeof best);
-    hci_candidates_span(task, &torque_order, &emf_order);
-    if (!only) status = hci_candidates(task, ceil(torque_order + 2.0 * emf_order), &all, note);
-    if (!status) status = choose_among(task, only ? only : &all, most, &p, &best, note);
-    hci_component_set_release(&all);
+    status =
+        only ? choose_among(task, only, most, &p, &best, note) : choose_freely(task, most, &p, &best, note);
     if (status) {
         attempt_release(&best);
         return status;

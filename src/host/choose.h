@@ -13,8 +13,8 @@ typedef struct {
     double tolerance_Nm, allowed_A2;
 } hci_preference;
 
-/* Within the allowed copper first (less copper where neither is); then, when both are exact, less copper; else the smaller
- * worst order. */
+/* Within the allowed copper first (less copper where neither is); then, when both are exact, less copper;
+ * else the smaller worst order. */
 bool hci_is_better(const hci_preference *p, hci_worth a, hci_worth b);
 
 /* ---- candidates.c */
@@ -30,7 +30,8 @@ hci_status hci_candidates(const hci_task *task, double top_order, hci_component_
 /* (3/2) Σ I² over components that are all different. */
 double hci_coordinates_mean_square_A2(const hci_component_set *set, const double *x, double mean_Nm);
 
-/* Amplitude of the residual r at compared order k, and the largest of all. r: workspace of rows, out the residual. */
+/* Amplitude of the residual r at compared order k, and the largest of all. r: workspace of rows, out the
+ * residual. */
 double hci_residual_amplitude_Nm(const hci_balance *b, const double *r, size_t k);
 double hci_worst_error_Nm(const hci_balance *b, const double *x, double mean_Nm, double *r);
 
@@ -50,16 +51,18 @@ typedef struct {
     bool *in;                 /* n */
 } hci_subset_room;
 
-/* From all candidates down to `most`, each time leaving out the component that costs least. HCI_ERROR_NUMERIC when ρ is too
- * small for the normal equations. */
+/* From all candidates down to `most`, each time leaving out the component that costs least. HCI_ERROR_NUMERIC
+ * when ρ is too small for the normal equations. */
 hci_status hci_subset_eliminate(const hci_subset_cost *c, size_t most, hci_subset_room *room);
 
-/* Exchanges a member for a candidate, the best pair each time, as long as that lowers f; at most 20 per member. */
+/* Exchanges a member for a candidate, the best pair each time, as long as that lowers f; at most 20 per
+ * member. */
 hci_status hci_subset_exchange(const hci_subset_cost *c, hci_subset_room *room, size_t count);
 
 /* ---- level.c */
 
-/* Makes the row of the mean torque ten times as heavy, so that a small set does not trade it for less ripple. */
+/* Makes the row of the mean torque ten times as heavy, so that a small set does not trade it for less
+ * ripple. */
 void hci_level_tighten_mean(hci_balance *b);
 
 /* Doubles of `room` that hci_level_errors needs. */

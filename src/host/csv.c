@@ -286,6 +286,11 @@ bool hci_text_begins(const char *text, const char *start, size_t length)
     return true;
 }
 
+bool hci_text_is(const char *text, const char *word)
+{
+    return hci_text_begins(text, word, strlen(word) + 1);
+}
+
 hci_number_kind hci_csv_kind(const hci_csv *csv, const char *cell)
 {
     double value;

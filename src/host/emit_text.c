@@ -8,8 +8,8 @@
 #include "hci/host/csv.h"
 #include "hci/version.h"
 
-/* Nine significant digits, which is enough for a float, with a decimal point in every locale and for every value, so
- * that C takes it for a floating constant. */
+/* Nine significant digits, which is enough for a float, with a decimal point in every locale and for every
+ * value, so that C takes it for a floating constant. */
 static const char *number(double value, char text[32])
 {
     char digits[32], exponent[8];

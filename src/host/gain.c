@@ -12,7 +12,8 @@ hci_status hci_gain_waves(const hci_machine *machine, const hci_wave *currents, 
     *wave_count = 0;
     *waves = hci_memory_new(emf_count + hci_slope_waves_capacity(machine, count), sizeof **waves);
     if (!*waves)
-        return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the reluctance torque of %zu current components", count);
+        return hci_note_set(note, HCI_ERROR_MEMORY,
+                            "out of memory for the reluctance torque of %zu current components", count);
     n = hci_slope_waves(machine, currents, count, *waves);
     for (size_t k = 0; k < n; ++k) {
         (*waves)[k].sine *= share;

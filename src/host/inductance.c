@@ -20,11 +20,13 @@ static const char *const SLOPE[HCI_PHASE_MATRIX] = {"dLa_H_per_rad",  "dLb_H_per
 #define ANGLE_TOLERANCE_RAD 1e-4
 
 /* Checks the angles and tells how many rows make one turn: all of them, or all but the repeated end point. */
-static hci_status check_angles(const hci_csv *csv, const double *theta_rad, size_t rows, size_t *count, hci_note *note)
+static hci_status check_angles(const hci_csv *csv, const double *theta_rad, size_t rows, size_t *count,
+                               hci_note *note)
 {
     double step_rad;
     if (rows < 8)
-        return hci_note_set(note, HCI_ERROR_INPUT, "%s: found %zu rows, expected at least 8 over one electrical turn",
+        return hci_note_set(note, HCI_ERROR_INPUT,
+                            "%s: found %zu rows, expected at least 8 over one electrical turn",
                             hci_csv_path(csv), rows);
     *count = fabs(theta_rad[rows - 1] - theta_rad[0] - 2.0 * HCI_PI) < ANGLE_TOLERANCE_RAD ? rows - 1 : rows;
     step_rad = 2.0 * HCI_PI / (double)*count;
@@ -35,7 +37,8 @@ static hci_status check_angles(const hci_csv *csv, const double *theta_rad, size
     return HCI_OK;
 }
 
-/* Coefficients of one order for all six columns; the first angle need not be zero: sin m(θ − θ_0) is turned back. */
+/* Coefficients of one order for all six columns; the first angle need not be zero: sin m(θ − θ_0) is turned
+ * back. */
 static hci_status analyse_order(const double *column, size_t stride, size_t count, double first_rad, size_t m,
                                 hci_inductance *out)
 {
@@ -54,7 +57,8 @@ static hci_status analyse_order(const double *column, size_t stride, size_t coun
 static double largest_entry(const hci_inductance *t)
 {
     double largest = 0.0;
-    for (size_t q = 0; q < HCI_PHASE_MATRIX; ++q) largest = fmax(largest, hypot(t->sine[q], t->cosine[q]));
+    for (size_t q = 0; q < HCI_PHASE_MATRIX; ++q)
+        largest = fmax(largest, hypot(t->sine[q], t->cosine[q]));
     return largest;
 }
 
@@ -69,8 +73,8 @@ static hci_inductance_slope slope_of(const hci_inductance *l, int pole_pairs)
     return slope;
 }
 
-/* Three entries that are one waveform shifted by a third of a turn each have S + jC of order m turned by −m2π/3 from one to
- * the next. Their mean, turned to the first. */
+/* Three entries that are one waveform shifted by a third of a turn each have S + jC of order m turned by
+ * −m2π/3 from one to the next. Their mean, turned to the first. */
 static void mean_of_three(const hci_inductance *t, size_t first, double *sine, double *cosine)
 {
     *sine = *cosine = 0.0;
@@ -97,8 +101,8 @@ static hci_inductance balanced(const hci_inductance *t)
     return b;
 }
 
-/* A table that is balanced but for its last digits is taken as balanced: else rounding connects every order with every other
- * one. */
+/* A table that is balanced but for its last digits is taken as balanced: else rounding connects every order
+ * with every other one. */
 static void balance(hci_inductance *terms, size_t count)
 {
     double largest = 0.0, deviation = 0.0;
@@ -111,11 +115,13 @@ static void balance(hci_inductance *terms, size_t count)
         largest = fmax(largest, largest_entry(&terms[k]));
         deviation = fmax(deviation, largest_entry(&difference));
     }
-    for (size_t k = 0; k < count && deviation <= BALANCED * largest; ++k) terms[k] = balanced(&terms[k]);
+    for (size_t k = 0; k < count && deviation <= BALANCED * largest; ++k)
+        terms[k] = balanced(&terms[k]);
 }
 
 /* Keeps the orders that matter. terms: all orders of the file, L or L'. */
-static void keep_orders(const hci_inductance *terms, size_t count, bool are_slopes, int pole_pairs, hci_inductance_table *t)
+static void keep_orders(const hci_inductance *terms, size_t count, bool are_slopes, int pole_pairs,
+                        hci_inductance_table *t)
 {
     double largest = 0.0;
     for (size_t k = 0; k < count; ++k)
@@ -128,7 +134,8 @@ static void keep_orders(const hci_inductance *terms, size_t count, bool are_slop
     }
 }
 
-static hci_status read_columns(const hci_csv *csv, bool are_slopes, double *theta_rad, double *column, hci_note *note)
+static hci_status read_columns(const hci_csv *csv, bool are_slopes, double *theta_rad, double *column,
+                               hci_note *note)
 {
     const size_t rows = hci_csv_rows(csv);
     hci_status status = hci_csv_numbers(csv, "theta_e_rad", theta_rad, note);
@@ -137,8 +144,8 @@ static hci_status read_columns(const hci_csv *csv, bool are_slopes, double *thet
     return status;
 }
 
-static hci_status analyse(const hci_csv *csv, int pole_pairs, double *theta_rad, double *column, hci_inductance *terms,
-                          hci_inductance_table *t, hci_note *note)
+static hci_status analyse(const hci_csv *csv, int pole_pairs, double *theta_rad, double *column,
+                          hci_inductance *terms, hci_inductance_table *t, hci_note *note)
 {
     const size_t rows = hci_csv_rows(csv);
     const bool are_slopes = !hci_csv_has(csv, VALUE[0]) && hci_csv_has(csv, SLOPE[0]);
@@ -163,7 +170,8 @@ static hci_status from_csv(const hci_csv *csv, int pole_pairs, hci_inductance_ta
     t->inductance = hci_memory_new(rows, sizeof *t->inductance);
     t->slope = hci_memory_new(rows, sizeof *t->slope);
     if (!theta_rad || !column || !terms || !t->inductance || !t->slope)
-        status = hci_note_set(note, HCI_ERROR_MEMORY, "%s: out of memory for %zu rows", hci_csv_path(csv), rows);
+        status =
+            hci_note_set(note, HCI_ERROR_MEMORY, "%s: out of memory for %zu rows", hci_csv_path(csv), rows);
     if (!status) status = analyse(csv, pole_pairs, theta_rad, column, terms, t, note);
     hci_memory_free(theta_rad);
     hci_memory_free(column);

@@ -5,7 +5,8 @@
 #include "hci/host/note.h"
 #include "hci/torque.h"
 
-/* The harmonics of a table. inductance: L(θ), NULL when the file holds slopes only. Both are the caller's to free. */
+/* The harmonics of a table. inductance: L(θ), NULL when the file holds slopes only. Both are the caller's to
+ * free. */
 typedef struct {
     hci_inductance *inductance;
     size_t inductance_count;
@@ -13,8 +14,8 @@ typedef struct {
     size_t slope_count;
 } hci_inductance_table;
 
-/* Columns theta_e_rad and La_H, Lb_H, Lc_H, Mab_H, Mbc_H, Mca_H, or dLa_H_per_rad … dMca_H_per_rad (per mechanical
- * radian). Angles in equal steps over one electrical turn, with or without the end point. */
+/* Columns theta_e_rad and La_H, Lb_H, Lc_H, Mab_H, Mbc_H, Mca_H, or dLa_H_per_rad … dMca_H_per_rad (per
+ * mechanical radian). Angles in equal steps over one electrical turn, with or without the end point. */
 hci_status hci_inductance_read(const char *path, int pole_pairs, hci_inductance_table *table, hci_note *note);
 
 #endif

@@ -40,36 +40,43 @@ static size_t orders_of(const acting *c, double *order)
 {
     size_t n = 0;
     for (size_t k = 0; k < c->count; ++k)
-        n += hci_component_orders(c->gain, c->gain_count, (hci_component){c->wave[k].order, c->wave[k].sequence}, order + n);
+        n += hci_component_orders(c->gain, c->gain_count,
+                                  (hci_component){c->wave[k].order, c->wave[k].sequence}, order + n);
     return n;
 }
 
-/* Every order that two currents make torque at (the second may have no waves), that is wanted, or that cogging has. */
+/* Every order that two currents make torque at (the second may have no waves), that is wanted, or that
+ * cogging has. */
 typedef struct {
     double *order;
     size_t count;
     acting first, second;
 } reach;
 
-static hci_status find_reach(const hci_task *t, const hci_wave *first, size_t first_count, const hci_wave *second,
-                             size_t second_count, reach *r, hci_note *note)
+static hci_status find_reach(const hci_task *t, const hci_wave *first, size_t first_count,
+                             const hci_wave *second, size_t second_count, reach *r, hci_note *note)
 {
     const hci_machine *m = t->machine;
-    hci_status status = hci_gain_waves(m, first, first_count, 0.5, NEGLIGIBLE, &r->first.gain, &r->first.gain_count, note);
+    hci_status status =
+        hci_gain_waves(m, first, first_count, 0.5, NEGLIGIBLE, &r->first.gain, &r->first.gain_count, note);
     if (!status)
-        status = hci_gain_waves(m, second, second_count, 0.5, NEGLIGIBLE, &r->second.gain, &r->second.gain_count, note);
+        status = hci_gain_waves(m, second, second_count, 0.5, NEGLIGIBLE, &r->second.gain,
+                                &r->second.gain_count, note);
     if (status) return status;
     r->first.wave = first;
     r->first.count = first_count;
     r->second.wave = second;
     r->second.count = second_count;
-    r->order = hci_memory_new(1 + m->cogging_count + t->target->count + 2 * r->first.gain_count * first_count +
-                                  2 * r->second.gain_count * second_count,
-                              sizeof *r->order);
+    r->order =
+        hci_memory_new(1 + m->cogging_count + t->target->count + 2 * r->first.gain_count * first_count +
+                           2 * r->second.gain_count * second_count,
+                       sizeof *r->order);
     if (!r->order) return no_memory(note);
     r->order[r->count++] = 0.0;
-    for (size_t k = 0; k < m->cogging_count; ++k) r->order[r->count++] = m->cogging[k].order;
-    for (size_t k = 0; k < t->target->count; ++k) r->order[r->count++] = t->target->order[k].torque_Nm.order;
+    for (size_t k = 0; k < m->cogging_count; ++k)
+        r->order[r->count++] = m->cogging[k].order;
+    for (size_t k = 0; k < t->target->count; ++k)
+        r->order[r->count++] = t->target->order[k].torque_Nm.order;
     r->count += orders_of(&r->first, r->order + r->count);
     r->count += orders_of(&r->second, r->order + r->count);
     r->count = hci_orders_sort(r->order, r->count);
@@ -86,7 +93,8 @@ static void release_reach(reach *r)
 /* Torque of a current at every order of the reach: (e + ½L'i)·i + T_cog. */
 static void torque_of(const hci_task *t, const reach *r, const acting *c, hci_harmonic *torque)
 {
-    for (size_t k = 0; k < r->count; ++k) torque[k] = (hci_harmonic){r->order[k], 0.0, 0.0};
+    for (size_t k = 0; k < r->count; ++k)
+        torque[k] = (hci_harmonic){r->order[k], 0.0, 0.0};
     for (size_t k = 0; k < t->machine->cogging_count; ++k) {
         const size_t at = hci_orders_find(r->order, r->count, t->machine->cogging[k].order);
         torque[at].sine += t->machine->cogging[k].sine;
@@ -100,7 +108,8 @@ static double distance_Nm(hci_harmonic a, hci_harmonic b)
     return hypot(a.sine - b.sine, a.cosine - b.cosine);
 }
 
-hci_status hci_judge_error(const hci_task *task, const hci_wave *wave, size_t count, hci_torque_error *error, hci_note *note)
+hci_status hci_judge_error(const hci_task *task, const hci_wave *wave, size_t count, hci_torque_error *error,
+                           hci_note *note)
 {
     reach r = {0};
     hci_harmonic *torque = NULL;
@@ -135,12 +144,19 @@ static hci_component remedy_for(const hci_task *t, double m)
         const hci_wave *gain = &t->gain[k];
         const hci_component c = component_for(gain, m);
         const double strength = hci_amplitude(gain->sine, gain->cosine);
-        const bool is_held = t->held && c.sequence == t->held->sequence && fabs(c.order - t->held->order) < HCI_ORDER_TOLERANCE;
+        const bool is_held = t->held && m >= HCI_ORDER_TOLERANCE && c.sequence == t->held->sequence &&
+                             fabs(c.order - t->held->order) < HCI_ORDER_TOLERANCE;
         if (strength <= strongest || is_held || (gain->sequence == 0 && !t->has_neutral)) continue;
         strongest = strength;
         best = c;
     }
     return best;
+}
+
+bool hci_remedy_exists(const hci_solved_order *order)
+{
+    const bool is_none = order->remedy.sequence == 0 && order->remedy.order < HCI_ORDER_TOLERANCE;
+    return order->verdict == HCI_ORDER_UNREACHABLE && !is_none;
 }
 
 /* Whether any component of the set reaches the order. reached: room for the orders of one component. */
@@ -174,7 +190,8 @@ static hci_order_verdict judge_order(const judge *j, const hci_solved_order *o, 
 }
 
 /* Target, torque and error of every order, and the worst of those cared for. */
-static void judge_orders(const judge *j, const hci_harmonic *torque, const hci_harmonic *before, hci_solution *s)
+static void judge_orders(const judge *j, const hci_harmonic *torque, const hci_harmonic *before,
+                         hci_solution *s)
 {
     s->worst_error_Nm = -1.0;
     for (size_t k = 0; k < s->order_count; ++k) {
@@ -222,14 +239,16 @@ static void fill_losses(const hci_task *t, hci_solution *s)
     s->loss_to_limit = ratio(s->mean_square_A2, s->limit_mean_square_A2);
 }
 
-hci_status hci_judge(const hci_task *task, const hci_component_set *set, hci_compare compare, hci_solution *solution,
-                     hci_note *note)
+hci_status hci_judge(const hci_task *task, const hci_component_set *set, hci_compare compare,
+                     hci_solution *solution, hci_note *note)
 {
     const hci_wave plain = plain_fundamental(task);
     hci_balance b = {0};
     reach r = {0};
     double *reached = hci_memory_new(2 * task->gain_count, sizeof *reached);
-    hci_status status = reached ? find_reach(task, solution->current.wave, solution->current.count, &plain, 1, &r, note) : no_memory(note);
+    hci_status status =
+        reached ? find_reach(task, solution->current.wave, solution->current.count, &plain, 1, &r, note)
+                : no_memory(note);
     if (!status && compare == HCI_COMPARE_SQUARE)
         status = hci_balance_make(task, set->component, set->count, compare, &b, note);
     if (!status) {

@@ -5,23 +5,27 @@
 #include "choose.h"
 #include "hci/dense.h"
 
-/* Lawson's iteration: least squares with weights that grow where the error is largest, until the largest errors are
- * level. The mean is held ten times tighter than the rest, so that a small set does not trade it for less ripple. */
+/* Lawson's iteration: least squares with weights that grow where the error is largest, until the largest
+ * errors are level. The mean is held ten times tighter than the rest, so that a small set does not trade it
+ * for less ripple. */
 enum { LAWSON_STEPS = 60, MEAN_TIGHTER = 10 };
 
 /* Normal equations (Uᵀ W U + ρI) x = Uᵀ W h for both columns of h, solved in place of x. g: unknowns². */
-static hci_status weighted_solve(const hci_balance *b, const double *row_weight, double ridge, double *g, double *x)
+static hci_status weighted_solve(const hci_balance *b, const double *row_weight, double ridge, double *g,
+                                 double *x)
 {
     const size_t n = b->unknowns;
     const hci_sparse *u = &b->u;
     double *column = x + 2 * n; /* one dense weighted column of U, in the room behind x */
     for (size_t j = 0; j < n; ++j) {
-        for (size_t i = 0; i < b->rows; ++i) column[i] = 0.0;
+        for (size_t i = 0; i < b->rows; ++i)
+            column[i] = 0.0;
         for (int64_t k = u->column_start[j]; k < u->column_start[j + 1]; ++k)
             column[u->row[k]] = u->value[k] * row_weight[u->row[k]];
         for (size_t i = j; i < n; ++i) {
             double sum = i == j ? ridge : 0.0;
-            for (int64_t k = u->column_start[i]; k < u->column_start[i + 1]; ++k) sum += u->value[k] * column[u->row[k]];
+            for (int64_t k = u->column_start[i]; k < u->column_start[i + 1]; ++k)
+                sum += u->value[k] * column[u->row[k]];
             g[i + j * n] = sum;
         }
         x[j] = x[n + j] = 0.0;
@@ -44,7 +48,8 @@ static void lawson_update(const hci_balance *b, const double *r, double worst, d
         order_weight[k] *= hci_residual_amplitude_Nm(b, r, k) / worst + 1e-9;
         sum += order_weight[k];
     }
-    for (size_t k = 0; k < b->order_count; ++k) order_weight[k] *= (double)b->order_count / sum;
+    for (size_t k = 0; k < b->order_count; ++k)
+        order_weight[k] *= (double)b->order_count / sum;
 }
 
 static void spread_weights(const hci_balance *b, const double *order_weight, double *row_weight)
@@ -77,7 +82,8 @@ hci_status hci_level_errors(const hci_balance *b, const hci_component_set *set, 
     double *g = room, *x = g + n * n, *r = x + 2 * n + b->rows, *row_weight = r + b->rows,
            *order_weight = row_weight + b->rows;
     *best = (hci_worth){HUGE_VAL, HUGE_VAL};
-    for (size_t k = 0; k < b->order_count; ++k) order_weight[k] = 1.0;
+    for (size_t k = 0; k < b->order_count; ++k)
+        order_weight[k] = 1.0;
     for (int step = 0; step < LAWSON_STEPS; ++step) {
         hci_worth worth;
         spread_weights(b, order_weight, row_weight);

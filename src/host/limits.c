@@ -5,7 +5,8 @@
 /* Angles at which peaks are looked for: 16 in the shortest period. */
 static size_t angles(const hci_solution *s, double top)
 {
-    for (size_t k = 0; k < s->current.count; ++k) top = fmax(top, s->current.wave[k].order);
+    for (size_t k = 0; k < s->current.count; ++k)
+        top = fmax(top, s->current.wave[k].order);
     return s->period_turns * (size_t)ceil(16.0 * top);
 }
 
@@ -20,10 +21,12 @@ static double peak_current_A(const hci_solution *s, double mean_Nm)
         if (s->per_Nm) {
             hci_waves_at(s->per_Nm, s->current.count, theta_rad, a);
             hci_waves_at(s->constant, s->current.count, theta_rad, b);
-            for (int phase = 0; phase < 3; ++phase) peak = fmax(peak, fabs(mean_Nm * a[phase] + b[phase]));
+            for (int phase = 0; phase < 3; ++phase)
+                peak = fmax(peak, fabs(mean_Nm * a[phase] + b[phase]));
         } else {
             hci_waves_at(s->current.wave, s->current.count, theta_rad, a);
-            for (int phase = 0; phase < 3; ++phase) peak = fmax(peak, fabs(a[phase]));
+            for (int phase = 0; phase < 3; ++phase)
+                peak = fmax(peak, fabs(a[phase]));
         }
     }
     return peak;
@@ -41,10 +44,23 @@ static double torque_at_limit_Nm(const hci_solution *s, double wanted_Nm, double
     return good;
 }
 
-/* v = R i + ω L di/dθ + ω_m e at one angle, L the mean of both axes; largest difference of two phases. */
-static double line_voltage_V(const hci_machine_data *m, const hci_solution *s, double speed_rad_per_s, double theta_rad)
+/* Synchronous inductance: the mean of both axes, or of the table's mean self less mean mutual inductance.
+ * NAN: not known. */
+static double inductance_H(const hci_machine_data *m)
 {
-    const double inductance_H = 0.5 * (m->inductance_d_H + m->inductance_q_H);
+    const hci_inductance *l = m->inductance;
+    if (m->inductance_count > 0 && l->order < HCI_ORDER_TOLERANCE)
+        return (l->cosine[HCI_AA] + l->cosine[HCI_BB] + l->cosine[HCI_CC] - l->cosine[HCI_AB] -
+                l->cosine[HCI_BC] - l->cosine[HCI_CA]) /
+               3.0;
+    return 0.5 * (m->inductance_d_H + m->inductance_q_H);
+}
+
+/* v = R i + ω L di/dθ + ω_m e at one angle, L the mean of both axes; largest difference of two phases. */
+static double line_voltage_V(const hci_machine_data *m, const hci_solution *s, double speed_rad_per_s,
+                             double theta_rad)
+{
+    const double l_H = inductance_H(m);
     const double omega_rad_per_s = m->pole_pairs * speed_rad_per_s;
     double e[3], v[3] = {0.0, 0.0, 0.0};
     hci_waves_at(m->model.back_emf, m->model.back_emf_count, theta_rad, e);
@@ -55,32 +71,37 @@ static double line_voltage_V(const hci_machine_data *m, const hci_solution *s, d
         hci_waves_at(&w, 1, theta_rad, i);
         hci_waves_at(&slope, 1, theta_rad, i_slope);
         for (int phase = 0; phase < 3; ++phase)
-            v[phase] += m->resistance_ohm * i[phase] + omega_rad_per_s * inductance_H * i_slope[phase];
+            v[phase] += m->resistance_ohm * i[phase] + omega_rad_per_s * l_H * i_slope[phase];
     }
-    for (int phase = 0; phase < 3; ++phase) v[phase] += speed_rad_per_s * e[phase];
+    for (int phase = 0; phase < 3; ++phase)
+        v[phase] += speed_rad_per_s * e[phase];
     return fmax(fabs(v[0] - v[1]), fmax(fabs(v[1] - v[2]), fabs(v[2] - v[0])));
 }
 
-static hci_status peak_voltage(const hci_machine_data *m, double speed_rad_per_s, hci_solution *s, hci_note *note)
+static hci_status peak_voltage(const hci_machine_data *m, double speed_rad_per_s, hci_solution *s,
+                               hci_note *note)
 {
     double top = 1.0;
     size_t count;
-    if (isnan(m->resistance_ohm) || isnan(m->inductance_d_H) || isnan(m->inductance_q_H))
-        return hci_note_set(note, HCI_ERROR_INPUT,
-                            "machine.csv: the voltage needs `resistance`, `inductance_d` and `inductance_q`; add these rows "
-                            "or leave out --limit-voltage");
-    for (size_t k = 0; k < m->model.back_emf_count; ++k) top = fmax(top, m->model.back_emf[k].order);
+    if (isnan(m->resistance_ohm) || isnan(inductance_H(m)))
+        return hci_note_set(
+            note, HCI_ERROR_INPUT,
+            "machine.csv: the voltage needs `resistance`, `inductance_d` and `inductance_q`; add these rows "
+            "or leave out --limit-voltage");
+    for (size_t k = 0; k < m->model.back_emf_count; ++k)
+        top = fmax(top, m->model.back_emf[k].order);
     count = angles(s, top);
     s->peak_line_voltage_V = 0.0;
     for (size_t k = 0; k < count; ++k) {
         const double theta_rad = 2.0 * HCI_PI * (double)(s->period_turns * k) / (double)count;
-        s->peak_line_voltage_V = fmax(s->peak_line_voltage_V, line_voltage_V(m, s, speed_rad_per_s, theta_rad));
+        s->peak_line_voltage_V =
+            fmax(s->peak_line_voltage_V, line_voltage_V(m, s, speed_rad_per_s, theta_rad));
     }
     return HCI_OK;
 }
 
-hci_status hci_limits_check(const hci_machine_data *machine, const hci_solve_options *options, hci_solution *solution,
-                            hci_note *note)
+hci_status hci_limits_check(const hci_machine_data *machine, const hci_solve_options *options,
+                            hci_solution *solution, hci_note *note)
 {
     const double wanted_Nm = solution->order_count > 0 ? solution->order[0].target_Nm.cosine : 0.0;
     hci_status status = HCI_OK;
@@ -91,7 +112,8 @@ hci_status hci_limits_check(const hci_machine_data *machine, const hci_solve_opt
         solution->within_limits = false;
         solution->torque_at_limit_Nm = torque_at_limit_Nm(solution, wanted_Nm, options->limit_current_A);
     }
-    if (options->limit_voltage_V > 0.0) status = peak_voltage(machine, options->speed_rad_per_s, solution, note);
+    if (options->limit_voltage_V > 0.0)
+        status = peak_voltage(machine, options->speed_rad_per_s, solution, note);
     if (solution->peak_line_voltage_V > options->limit_voltage_V) solution->within_limits = false;
     return status;
 }

@@ -29,7 +29,8 @@ static hci_status copy_given_set(const hci_solve_options *o, hci_answer *a, hci_
     bool add = !o->held;
     size_t n = 0;
     for (size_t k = 0; k < o->set->count; ++k)
-        if (o->set->component[k].sequence == 1 && fabs(o->set->component[k].order - 1.0) < HCI_ORDER_TOLERANCE)
+        if (o->set->component[k].sequence == 1 &&
+            fabs(o->set->component[k].order - 1.0) < HCI_ORDER_TOLERANCE)
             add = false;
     a->set.component = hci_memory_new(o->set->count + 1, sizeof *a->set.component);
     a->set.set = hci_memory_new(o->set->count + 1, sizeof *a->set.set);
@@ -48,8 +49,8 @@ static hci_status copy_given_set(const hci_solve_options *o, hci_answer *a, hci_
 }
 
 /* Dense LU of the core with refinement, both right-hand sides. */
-static hci_status dense_lu_in(const hci_balance *b, double *a, double *lu, double *work, size_t *pivot, double *x,
-                              double *condition)
+static hci_status dense_lu_in(const hci_balance *b, double *a, double *lu, double *work, size_t *pivot,
+                              double *x, double *condition)
 {
     const size_t n = b->rows;
     hci_status status;
@@ -74,36 +75,43 @@ static hci_status dense_lu(const hci_balance *b, double *x, double *condition, h
     const size_t n = b->rows;
     double *room = hci_memory_new(2 * n * n + 2 * n, sizeof *room);
     size_t *pivot = hci_memory_new(n, sizeof *pivot);
-    const hci_status status =
-        room && pivot ? dense_lu_in(b, room, room + n * n, room + 2 * n * n, pivot, x, condition) : no_memory(note);
+    const hci_status status = room && pivot
+                                  ? dense_lu_in(b, room, room + n * n, room + 2 * n * n, pivot, x, condition)
+                                  : no_memory(note);
     hci_memory_free(room);
     hci_memory_free(pivot);
     return status;
 }
 
-static hci_status square_solve(const hci_balance *b, hci_method method, double *x, double *condition, hci_note *note)
+static hci_status square_solve(const hci_balance *b, hci_method method, double *x, double *condition,
+                               hci_note *note)
 {
     if (method == HCI_METHOD_LU) return dense_lu(b, x, condition, note);
     return hci_sparse_lu_solve(&b->u, b->h, 2, x, condition, note);
 }
 
-/* LU where the system is square and regular, the orthogonal solve elsewhere; a named method is taken at its word. */
-static hci_status solve_balance(const hci_balance *b, hci_method wanted, double *x, hci_solution *s, hci_note *note)
+/* LU where the system is square and regular, the orthogonal solve elsewhere; a named method is taken at its
+ * word. */
+static hci_status solve_balance(const hci_balance *b, hci_method wanted, double *x, hci_solution *s,
+                                hci_note *note)
 {
     const bool square = b->rows == b->unknowns && b->rows > 0;
     hci_status status;
     if (!square && (wanted == HCI_METHOD_LU || wanted == HCI_METHOD_UMFPACK))
-        return hci_note_set(note, HCI_ERROR_ARGUMENT,
-                            "method %s needs a square system, but there are %zu equations for %zu unknowns; use --method qr, "
-                            "or --compare square with a held fundamental",
-                            hci_method_name(wanted), b->rows, b->unknowns);
+        return hci_note_set(
+            note, HCI_ERROR_ARGUMENT,
+            "method %s needs a square system, but there are %zu equations for %zu unknowns; use --method qr, "
+            "or --compare square with a held fundamental",
+            hci_method_name(wanted), b->rows, b->unknowns);
     s->method = wanted == HCI_METHOD_AUTO ? HCI_METHOD_UMFPACK : wanted;
     if (square && s->method != HCI_METHOD_QR) {
         s->rank = b->rows;
         status = square_solve(b, s->method, x, &s->condition, note);
         if (status == HCI_ERROR_SINGULAR && wanted != HCI_METHOD_AUTO)
-            return hci_note_set(note, status, "method %s: U is singular; use --method qr", hci_method_name(wanted));
-        if (status != HCI_ERROR_SINGULAR && (status || wanted != HCI_METHOD_AUTO || s->condition <= WORST_CONDITION))
+            return hci_note_set(note, status, "method %s: U is singular; use --method qr",
+                                hci_method_name(wanted));
+        if (status != HCI_ERROR_SINGULAR &&
+            (status || wanted != HCI_METHOD_AUTO || s->condition <= WORST_CONDITION))
             return status;
     }
     s->method = HCI_METHOD_QR;
@@ -127,7 +135,8 @@ static hci_status describe(const hci_task *t, const hci_answer *a, hci_solution 
     return status;
 }
 
-static hci_status solve_given(const hci_task *t, const hci_solve_options *o, hci_answer *a, hci_solution *s, hci_note *note)
+static hci_status solve_given(const hci_task *t, const hci_solve_options *o, hci_answer *a, hci_solution *s,
+                              hci_note *note)
 {
     hci_balance b;
     hci_status status = copy_given_set(o, a, note);
@@ -140,8 +149,9 @@ static hci_status solve_given(const hci_task *t, const hci_solve_options *o, hci
     return status;
 }
 
-hci_status hci_linear_answer(const hci_task *task, const hci_solve_options *options, const hci_component_set *only,
-                             hci_answer *answer, hci_solution *solution, hci_note *note)
+hci_status hci_linear_answer(const hci_task *task, const hci_solve_options *options,
+                             const hci_component_set *only, hci_answer *answer, hci_solution *solution,
+                             hci_note *note)
 {
     const double allowance = options->loss_allowance > 0.0 ? options->loss_allowance : DEFAULT_LOSS_ALLOWANCE;
     const double limit_A2 = solution->limit_mean_square_A2;
@@ -150,8 +160,9 @@ hci_status hci_linear_answer(const hci_task *task, const hci_solve_options *opti
     given.set = options->set ? options->set : only;
     given.method = options->set ? options->method : HCI_METHOD_QR;
     if (options->choose_at_most > 0)
-        status = hci_choose_few(task, only, options->choose_at_most, solution->tolerance_Nm,
-                                isnan(limit_A2) ? HUGE_VAL : allowance * limit_A2, &answer->set, &answer->x, note);
+        status =
+            hci_choose_few(task, only, options->choose_at_most, solution->tolerance_Nm,
+                           isnan(limit_A2) ? HUGE_VAL : allowance * limit_A2, &answer->set, &answer->x, note);
     else if (given.set)
         return solve_given(task, &given, answer, solution, note);
     else

@@ -44,7 +44,8 @@ static hci_status join(char path[PATH_SIZE], const char *folder, const char *fil
 {
     const int length = snprintf(path, PATH_SIZE, "%s/%s", folder, file);
     if (length > 0 && length < PATH_SIZE) return HCI_OK;
-    return hci_note_set(note, HCI_ERROR_INPUT, "%.200s…: the path is longer than %d bytes", folder, PATH_SIZE - 1);
+    return hci_note_set(note, HCI_ERROR_INPUT, "%.200s…: the path is longer than %d bytes", folder,
+                        PATH_SIZE - 1);
 }
 
 static hci_status connection_read(const hci_csv *csv, size_t row, hci_machine_data *m, hci_note *note)
@@ -52,8 +53,8 @@ static hci_status connection_read(const hci_csv *csv, size_t row, hci_machine_da
     const char *text;
     const hci_status status = hci_csv_text(csv, "value", row, &text, note);
     if (status) return status;
-    m->has_neutral = strcmp(text, "star-neutral") == 0;
-    if (m->has_neutral || strcmp(text, "star") == 0) return HCI_OK;
+    m->has_neutral = hci_text_is(text, "star-neutral");
+    if (m->has_neutral || hci_text_is(text, "star")) return HCI_OK;
     return hci_csv_error(csv, "value", row, note, "`star` or `star-neutral`",
                          "for a delta winding give the equivalent star's values");
 }
@@ -107,12 +108,14 @@ static hci_status row_read(const hci_csv *csv, size_t row, hci_machine_data *m, 
 static hci_status pole_pairs_check(const char *path, hci_machine_data *m, hci_note *note)
 {
     if (isnan(m->pole_pairs))
-        return hci_note_set(note, HCI_ERROR_INPUT, "%s: no `pole_pairs`; add a row `pole_pairs,N,1,source`", path);
+        return hci_note_set(note, HCI_ERROR_INPUT, "%s: no `pole_pairs`; add a row `pole_pairs,N,1,source`",
+                            path);
     if (m->pole_pairs < 1.0 || m->pole_pairs > 1000.0 || m->pole_pairs != floor(m->pole_pairs))
-        return hci_note_set(note, HCI_ERROR_INPUT,
-                            "%s: `pole_pairs`: found %g, expected a whole number from 1 to 1000; a machine with N poles "
-                            "has N/2 pole pairs",
-                            path, m->pole_pairs);
+        return hci_note_set(
+            note, HCI_ERROR_INPUT,
+            "%s: `pole_pairs`: found %g, expected a whole number from 1 to 1000; a machine with N poles "
+            "has N/2 pole pairs",
+            path, m->pole_pairs);
     m->model.pole_pairs = (int)m->pole_pairs;
     return HCI_OK;
 }
@@ -124,8 +127,10 @@ static hci_status scalars_read(const char *path, hci_machine_data *m, hci_note *
     hci_status status = hci_csv_read(path, &csv, note);
     if (status) return status;
     list_scalars(m, list);
-    for (size_t k = 0; k < SCALARS; ++k) *list[k].value = NAN;
-    for (size_t row = 0; row < hci_csv_rows(csv) && !status; ++row) status = row_read(csv, row, m, note);
+    for (size_t k = 0; k < SCALARS; ++k)
+        *list[k].value = NAN;
+    for (size_t row = 0; row < hci_csv_rows(csv) && !status; ++row)
+        status = row_read(csv, row, m, note);
     hci_csv_free(csv);
     return status ? status : pole_pairs_check(path, m, note);
 }
@@ -136,10 +141,11 @@ static hci_status emf_scale(const hci_csv *csv, const hci_machine_data *m, doubl
     *scale = 1.0;
     if (hci_csv_has(csv, "amplitude_Nm_per_A")) return HCI_OK;
     if (isnan(m->emf_frequency_Hz) || m->emf_frequency_Hz <= 0.0)
-        return hci_note_set(note, HCI_ERROR_INPUT,
-                            "%s: the back-EMF is in volts, but machine.csv has no positive `emf_frequency`; add the "
-                            "electrical frequency in Hz at which it was measured, or give amplitude_Nm_per_A",
-                            hci_csv_path(csv));
+        return hci_note_set(
+            note, HCI_ERROR_INPUT,
+            "%s: the back-EMF is in volts, but machine.csv has no positive `emf_frequency`; add the "
+            "electrical frequency in Hz at which it was measured, or give amplitude_Nm_per_A",
+            hci_csv_path(csv));
     *scale = m->pole_pairs / (2.0 * HCI_PI * m->emf_frequency_Hz);
     return HCI_OK;
 }
@@ -147,10 +153,23 @@ static hci_status emf_scale(const hci_csv *csv, const hci_machine_data *m, doubl
 static hci_status emf_order_check(const hci_csv *csv, const hci_harmonic *h, const size_t *row_of, size_t k,
                                   hci_note *note)
 {
-    if (h[k].order >= 1.0 - HCI_ORDER_TOLERANCE && fabs(h[k].order - floor(h[k].order + 0.5)) < HCI_ORDER_TOLERANCE)
+    if (h[k].order >= 1.0 - HCI_ORDER_TOLERANCE &&
+        fabs(h[k].order - floor(h[k].order + 0.5)) < HCI_ORDER_TOLERANCE)
         return HCI_OK;
-    return hci_csv_error(csv, "order", row_of[k], note, "a whole electrical order from 1",
-                         "orders count periods in one electrical turn: mechanical order divided by pole pairs");
+    return hci_csv_error(
+        csv, "order", row_of[k], note, "a whole electrical order from 1",
+        "orders count periods in one electrical turn: mechanical order divided by pole pairs");
+}
+
+/* In N·m/A, or V·s/rad. */
+#define LEAST_EMF 1e-12
+
+static double largest_amplitude(const hci_harmonic *h, size_t count)
+{
+    double largest = 0.0;
+    for (size_t k = 0; k < count; ++k)
+        largest = fmax(largest, hci_amplitude(h[k].sine, h[k].cosine));
+    return largest;
 }
 
 static hci_status emf_from_csv(const hci_csv *csv, hci_machine_data *m, hci_note *note)
@@ -161,15 +180,23 @@ static hci_status emf_from_csv(const hci_csv *csv, hci_machine_data *m, hci_note
     double scale;
     hci_status status = emf_scale(csv, m, &scale, note);
     if (!status)
-        status = hci_spectrum_rows(csv, per_ampere ? "amplitude_Nm_per_A" : "amplitude_V", &h, &row_of, &count, note);
-    for (size_t k = 0; k < count && !status; ++k) status = emf_order_check(csv, h, row_of, k, note);
+        status = hci_spectrum_rows(csv, per_ampere ? "amplitude_Nm_per_A" : "amplitude_V", &h, &row_of,
+                                   &count, note);
+    for (size_t k = 0; k < count && !status; ++k)
+        status = emf_order_check(csv, h, row_of, k, note);
     if (!status && count == 0)
-        status = hci_note_set(note, HCI_ERROR_INPUT, "%s: no rows, expected at least order 1", hci_csv_path(csv));
+        status =
+            hci_note_set(note, HCI_ERROR_INPUT, "%s: no rows, expected at least order 1", hci_csv_path(csv));
+    if (!status && largest_amplitude(h, count) * scale < LEAST_EMF)
+        status =
+            hci_note_set(note, HCI_ERROR_INPUT,
+                         "%s: every amplitude is zero or below 1e-12 N·m/A; check the values and their unit",
+                         hci_csv_path(csv));
     if (!status && !(m->back_emf = hci_memory_new(count, sizeof *m->back_emf)))
         status = hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for %zu back-EMF orders", count);
     for (size_t k = 0; k < count && !status; ++k)
-        m->back_emf[k] = (hci_wave){h[k].order, hci_sequence_of_order(h[k].order), scale * h[k].sine,
-                                    scale * h[k].cosine};
+        m->back_emf[k] =
+            (hci_wave){h[k].order, hci_sequence_of_order(h[k].order), scale * h[k].sine, scale * h[k].cosine};
     hci_memory_free(h);
     hci_memory_free(row_of);
     m->model.back_emf = m->back_emf;
@@ -234,11 +261,13 @@ hci_status hci_machine_read(const char *path, hci_machine_data *machine, hci_not
     hci_status status;
     memset(machine, 0, sizeof *machine);
     if (stat(path, &info) != 0)
-        return hci_note_set(note, HCI_ERROR_INPUT, "%s: %s; expected the folder of a machine with machine.csv and back_emf.csv",
+        return hci_note_set(note, HCI_ERROR_INPUT,
+                            "%s: %s; expected the folder of a machine with machine.csv and back_emf.csv",
                             path, strerror(errno));
     if (!S_ISDIR(info.st_mode))
-        return hci_note_set(note, HCI_ERROR_INPUT,
-                            "%s: found a file, expected the folder of a machine with machine.csv and back_emf.csv", path);
+        return hci_note_set(
+            note, HCI_ERROR_INPUT,
+            "%s: found a file, expected the folder of a machine with machine.csv and back_emf.csv", path);
     status = folder_read(path, machine, note);
     if (status) hci_machine_release(machine);
     return status;

@@ -1,9 +1,11 @@
-/* The harmonic balance of an interior-magnet machine. T = e·i + ½iᵀL'i + T_cog is quadratic in the currents; linearised at i_k,
+/* The harmonic balance of an interior-magnet machine. T = e·i + ½iᵀL'i + T_cog is quadratic in the currents;
+ * linearised at i_k,
  *
  *     (e + L'i_k)·i = T* − T_cog + ½i_kᵀL'i_k,
  *
- * which is the linear problem with e + L'i_k in place of the back-EMF and the reluctance torque of i_k added to the wanted one. Its
- * least-norm solutions converge to the currents of least copper loss that make the torque. */
+ * which is the linear problem with e + L'i_k in place of the back-EMF and the reluctance torque of i_k added
+ * to the wanted one. Its least-norm solutions converge to the currents of least copper loss that make the
+ * torque. */
 #include <math.h>
 #include <string.h>
 
@@ -12,9 +14,10 @@
 #include "hci/dense.h"
 #include "memory.h"
 
-enum { MOST_STEPS = 100 };
+enum { MOST_STEPS = 60 };
 
-#define CONVERGED       1e-11 /* change of the current as a share of it */
+#define CONVERGED       1e-9  /* change of the current as a share of it */
+#define NEARLY          1e-4  /* the same for a choice of few components, which jumps a little to the end */
 #define NEGLIGIBLE_GAIN 1e-10 /* share of the largest wave of e + L'i */
 
 /* Currents where the problem is linearised. */
@@ -41,15 +44,16 @@ static hci_status point_of(const hci_task *t, const hci_answer *a, point *p, hci
     if (t->held) wave[p->count++] = *t->held;
     for (size_t k = 0; k < n; ++k) {
         const double *x = a->x + 2 * k, *rest = x + 2 * n;
-        wave[p->count++] = (hci_wave){a->set.component[k].order, a->set.component[k].sequence, mean_Nm * x[0] + rest[0],
-                                      mean_Nm * x[1] + rest[1]};
+        wave[p->count++] = (hci_wave){a->set.component[k].order, a->set.component[k].sequence,
+                                      mean_Nm * x[0] + rest[0], mean_Nm * x[1] + rest[1]};
     }
     p->count = hci_waves_join(wave, p->count, 1e-12);
     return HCI_OK;
 }
 
 /* Reluctance torque ½ i·(L'i) of the point, at every order that it has. */
-static hci_status reluctance(const hci_machine *m, const point *p, hci_harmonic **torque, size_t *count, hci_note *note)
+static hci_status reluctance(const hci_machine *m, const point *p, hci_harmonic **torque, size_t *count,
+                             hci_note *note)
 {
     const size_t capacity = hci_slope_waves_capacity(m, p->count);
     hci_wave *slope = hci_memory_new(capacity, sizeof *slope);
@@ -60,10 +64,12 @@ static hci_status reluctance(const hci_machine *m, const point *p, hci_harmonic 
     slopes = hci_slope_waves(m, p->wave, p->count, slope);
     order = hci_memory_new(2 * slopes * p->count + 1, sizeof *order);
     for (size_t k = 0; order && k < p->count; ++k)
-        n += hci_component_orders(slope, slopes, (hci_component){p->wave[k].order, p->wave[k].sequence}, order + n);
+        n += hci_component_orders(slope, slopes, (hci_component){p->wave[k].order, p->wave[k].sequence},
+                                  order + n);
     if (order) n = hci_orders_sort(order, n);
     *torque = order ? hci_memory_new(n, sizeof **torque) : NULL;
-    for (size_t k = 0; *torque && k < n; ++k) (*torque)[k] = (hci_harmonic){order[k], 0.0, 0.0};
+    for (size_t k = 0; *torque && k < n; ++k)
+        (*torque)[k] = (hci_harmonic){order[k], 0.0, 0.0};
     if (*torque) hci_system_add_torque(slope, slopes, p->wave, p->count, order, n, *torque);
     for (size_t k = 0; *torque && k < n; ++k) {
         (*torque)[k].sine *= 0.5;
@@ -80,7 +86,8 @@ static size_t drop_small(hci_harmonic *torque, size_t count)
 {
     double largest = 0.0;
     size_t kept = 0;
-    for (size_t k = 0; k < count; ++k) largest = fmax(largest, hypot(torque[k].sine, torque[k].cosine));
+    for (size_t k = 0; k < count; ++k)
+        largest = fmax(largest, hypot(torque[k].sine, torque[k].cosine));
     for (size_t k = 0; k < count; ++k)
         if (hypot(torque[k].sine, torque[k].cosine) > 1e-13 * largest) torque[kept++] = torque[k];
     return kept;
@@ -91,7 +98,8 @@ static hci_status linearise(hci_task *t, const point *p, hci_newton_room *room, 
 {
     hci_status status;
     hci_newton_release(room);
-    status = hci_gain_waves(t->machine, p->wave, p->count, 1.0, NEGLIGIBLE_GAIN, &room->gain, &t->gain_count, note);
+    status = hci_gain_waves(t->machine, p->wave, p->count, 1.0, NEGLIGIBLE_GAIN, &room->gain, &t->gain_count,
+                            note);
     if (!status) status = reluctance(t->machine, p, &room->offset, &t->offset_count, note);
     if (status) return status;
     t->offset_count = drop_small(room->offset, t->offset_count);
@@ -124,8 +132,8 @@ static hci_status begin(hci_task *t, point *p, hci_note *note)
     return status;
 }
 
-/* Keeps of the starting currents what the set can carry, lest the first step be linearised where no step can get to. set: NULL for
- * a set yet to be chosen. */
+/* Keeps of the starting currents what the set can carry, lest the first step be linearised where no step can
+ * get to. set: NULL for a set yet to be chosen. */
 static void keep_in_set(point *p, const hci_component_set *set, const hci_wave *held)
 {
     size_t kept = 0;
@@ -142,12 +150,13 @@ static void keep_in_set(point *p, const hci_component_set *set, const hci_wave *
     if (held) p->wave[p->count++] = *held;
 }
 
-/* Anderson's acceleration of x ← g(x): with the last few changes of x and of f = g − x, the combination of them that would have made f
- * least. Without it the iteration swings, and where the reluctance torque is large it diverges. */
+/* Anderson's acceleration of x ← g(x): with the last few changes of x and of f = g − x, the combination of
+ * them that would have made f least. Without it the iteration swings, and where the reluctance torque is
+ * large it diverges. */
 typedef struct {
-    double *x, *f;         /* of the last step, n each */
-    double *dx, *df;       /* n × MEMORY, a ring */
-    double *a, *b, *work;  /* least squares */
+    double *x, *f;        /* of the last step, n each */
+    double *dx, *df;      /* n × MEMORY, a ring */
+    double *a, *b, *work; /* least squares */
     size_t n, steps;
 } mixer;
 
@@ -195,12 +204,13 @@ static void mix(mixer *m, double *x, const double *g)
         hci_orthogonal_solve(n, known, m->a, column, m->work, rank, m->b, weight, room);
     for (size_t k = 0; k < n; ++k) {
         x[k] = m->x[k] + m->f[k];
-        for (size_t j = 0; j < known; ++j) x[k] -= weight[j] * (m->dx[j * n + k] + m->df[j * n + k]);
+        for (size_t j = 0; j < known; ++j)
+            x[k] -= weight[j] * (m->dx[j * n + k] + m->df[j * n + k]);
     }
     ++m->steps;
 }
 
-/* ---- the iteration --------------------------------------------------------------------------------------------- */
+/* ---- the iteration ---- */
 
 typedef struct {
     point p;
@@ -214,12 +224,14 @@ static double *coordinates(const hci_task *t, const hci_answer *a)
     const double mean_Nm = hci_target_mean_Nm(t->target);
     const size_t n = 2 * a->set.count;
     double *x = hci_memory_new(n, sizeof *x);
-    for (size_t k = 0; x && k < n; ++k) x[k] = mean_Nm * a->x[k] + a->x[n + k];
+    for (size_t k = 0; x && k < n; ++k)
+        x[k] = mean_Nm * a->x[k] + a->x[n + k];
     return x;
 }
 
 /* Waves at coordinates x on the set, with what is held. */
-static hci_status set_point(const hci_task *t, const hci_component_set *set, const double *x, point *p, hci_note *note)
+static hci_status set_point(const hci_task *t, const hci_component_set *set, const double *x, point *p,
+                            hci_note *note)
 {
     hci_wave *wave = hci_memory_new(set->count + 1, sizeof *wave);
     if (!wave) return no_memory(note);
@@ -228,7 +240,8 @@ static hci_status set_point(const hci_task *t, const hci_component_set *set, con
     p->count = 0;
     if (t->held) wave[p->count++] = *t->held;
     for (size_t k = 0; k < set->count; ++k)
-        wave[p->count++] = (hci_wave){set->component[k].order, set->component[k].sequence, x[2 * k], x[2 * k + 1]};
+        wave[p->count++] =
+            (hci_wave){set->component[k].order, set->component[k].sequence, x[2 * k], x[2 * k + 1]};
     return HCI_OK;
 }
 
@@ -242,9 +255,10 @@ static double relative_change(const double *x, const double *g, size_t n)
     return size > 0.0 ? sqrt(change / size) : 0.0;
 }
 
-/* For a given set, which may be far from reaching the target so that a whole step can lead away from the best: the mixture if that
- * lowers the squared error of the true torque, else as far towards g as does. */
-static hci_status descend(const hci_task *t, const hci_component_set *set, const double *g, iteration *i, hci_note *note)
+/* For a given set, which may be far from reaching the target so that a whole step can lead away from the
+ * best: the mixture if that lowers the squared error of the true torque, else as far towards g as does. */
+static hci_status descend(const hci_task *t, const hci_component_set *set, const double *g, iteration *i,
+                          hci_note *note)
 {
     const size_t n = 2 * set->count;
     double *from = hci_memory_new(n, sizeof *from);
@@ -253,7 +267,8 @@ static hci_status descend(const hci_task *t, const hci_component_set *set, const
     if (!status) memcpy(from, i->x, n * sizeof *from);
     if (!status) mix(&i->mixer, i->x, g);
     for (double share = 2.0; share > 1e-3 && !status; share *= 0.5) { /* 2 stands for the mixture */
-        for (size_t k = 0; share < 2.0 && k < n; ++k) i->x[k] = from[k] + share * (g[k] - from[k]);
+        for (size_t k = 0; share < 2.0 && k < n; ++k)
+            i->x[k] = from[k] + share * (g[k] - from[k]);
         status = set_point(t, set, i->x, &i->p, note);
         if (!status) status = hci_judge_error(t, i->p.wave, i->p.count, &now, note);
         if (now.square_sum <= before.square_sum) break;
@@ -270,8 +285,8 @@ typedef enum {
 } manner;
 
 /* Where to go on from: the answer itself at first and where the set has changed, else as the manner says. */
-static hci_status move_on(const hci_task *t, const hci_answer *next, manner how, double *g, size_t count, iteration *i,
-                          hci_solution *s, hci_note *note)
+static hci_status move_on(const hci_task *t, const hci_answer *next, manner how, double *g, size_t count,
+                          iteration *i, hci_solution *s, hci_note *note)
 {
     const size_t n = 2 * next->set.count;
     hci_status status = HCI_OK;
@@ -279,7 +294,8 @@ static hci_status move_on(const hci_task *t, const hci_answer *next, manner how,
     if (i->x && count == next->set.count) {
         s->newton_change = relative_change(i->x, g, n);
         if (how == MIX) mix(&i->mixer, i->x, g);
-        for (size_t k = 0; how == MIDDLE && k < n; ++k) i->x[k] = 0.5 * (i->x[k] + g[k]);
+        for (size_t k = 0; how == MIDDLE && k < n; ++k)
+            i->x[k] = 0.5 * (i->x[k] + g[k]);
         if (how == DESCEND) status = descend(t, &next->set, g, i, note);
         hci_memory_free(g);
     } else {
@@ -293,13 +309,15 @@ static hci_status move_on(const hci_task *t, const hci_answer *next, manner how,
 static double top_order(const hci_component_set *set)
 {
     double top = 0.0;
-    for (size_t k = 0; k < set->count; ++k) top = fmax(top, set->component[k].order);
+    for (size_t k = 0; k < set->count; ++k)
+        top = fmax(top, set->component[k].order);
     return top;
 }
 
-/* One step: linearise, solve, see how far the current moved. From the second step on the set of the first is kept. */
-static hci_status step(hci_task *t, const hci_solve_options *o, hci_newton_room *room, hci_answer *a, iteration *i,
-                       hci_solution *s, hci_note *note)
+/* One step: linearise, solve, see how far the current moved. From the second step on the set of the first is
+ * kept. */
+static hci_status step(hci_task *t, const hci_solve_options *o, hci_newton_room *room, hci_answer *a,
+                       iteration *i, hci_solution *s, hci_note *note)
 {
     hci_answer next = {{0}, NULL};
     double *g = NULL;
@@ -308,7 +326,12 @@ static hci_status step(hci_task *t, const hci_solve_options *o, hci_newton_room 
         t->compared_up_to = top_order(&a->set); /* as hci_choose_all did */
     if (!status) status = hci_linear_answer(t, o, a->x ? &a->set : NULL, &next, s, note);
     if (!status && !(g = coordinates(t, &next))) status = no_memory(note);
-    if (!status) status = move_on(t, &next, o->choose_at_most > 0 ? MIDDLE : o->set ? DESCEND : MIX, g, a->set.count, i, s, note);
+    if (!status)
+        status = move_on(t, &next,
+                         o->choose_at_most > 0 ? MIDDLE
+                         : o->set              ? DESCEND
+                                               : MIX,
+                         g, a->set.count, i, s, note);
     if (status) {
         hci_answer_release(&next);
         return status;
@@ -317,22 +340,6 @@ static hci_status step(hci_task *t, const hci_solve_options *o, hci_newton_room 
     *a = next;
     ++s->newton_steps;
     return HCI_OK;
-}
-
-static hci_status iterate(hci_task *t, const hci_solve_options *o, hci_newton_room *room, hci_answer *a, iteration *i,
-                          hci_solution *s, hci_note *note)
-{
-    do {
-        const hci_status status = step(t, o, room, a, i, s, note);
-        if (status) return status;
-        if (t->progress) t->progress(t->progress_context, "Newton", (double)s->newton_steps / MOST_STEPS);
-        if (!isfinite(s->newton_change)) break;
-        if (s->newton_change <= CONVERGED) return HCI_OK;
-    } while (s->newton_steps < MOST_STEPS);
-    return hci_note_set(note, HCI_ERROR_NUMERIC,
-                        "Newton's method did not converge: after %zu steps the current still changes by %.2g of itself; ask "
-                        "for less torque, give more harmonics, or use --method pointwise",
-                        s->newton_steps, s->newton_change);
 }
 
 /* Copies an answer into room that is as large. */
@@ -363,26 +370,39 @@ static hci_status worth_of(const hci_task *t, const hci_answer *a, double *worst
     return status;
 }
 
-/* Few components: no answer is exact, so the one whose true torque is best is kept, until no better one has come for a while. */
-static hci_status search(hci_task *t, const hci_solve_options *o, hci_newton_room *room, hci_answer *a, iteration *i,
-                         hci_solution *s, hci_note *note)
+/* Whether to go on: until the current rests; or, where no step has come nearer to the wanted torque for a
+ * while, in vain. A choice of few components is never exact and need not rest. */
+static bool goes_on(const hci_solve_options *o, const hci_solution *s, size_t since_better)
 {
-    enum { PATIENCE = 8 };
+    const size_t patience = o->choose_at_most > 0 ? 8 : 25;
+    return s->newton_change > CONVERGED && s->newton_steps < MOST_STEPS && since_better < patience;
+}
+
+/* Steps until the current rests. Where it does not, the answer whose true torque came nearest is kept. */
+static hci_status iterate(hci_task *t, const hci_solve_options *o, hci_newton_room *room, hci_answer *a,
+                          iteration *i, hci_solution *s, hci_note *note)
+{
     hci_answer best = {{0}, NULL};
     double least_Nm = HUGE_VAL;
-    hci_status status = HCI_OK;
-    for (size_t since = 0; since < PATIENCE && s->newton_steps < MOST_STEPS && !status; ++since) {
+    size_t since_better = 0;
+    hci_status status;
+    do {
         double worst_Nm = HUGE_VAL;
         status = step(t, o, room, a, i, s, note);
         if (!status) status = worth_of(t, a, &worst_Nm, note);
+        ++since_better;
         if (!status && worst_Nm < (1.0 - 1e-6) * least_Nm) {
             status = keep_answer(a, &best, note);
             least_Nm = worst_Nm;
-            since = 0;
+            since_better = 0;
         }
         if (t->progress) t->progress(t->progress_context, "Newton", (double)s->newton_steps / MOST_STEPS);
-    }
-    if (status) {
+    } while (!status && goes_on(o, s, since_better));
+    s->newton_converged = s->newton_change <= (o->choose_at_most > 0 ? NEARLY : CONVERGED);
+    if (!status && !best.x)
+        status =
+            hci_note_set(note, HCI_ERROR_NUMERIC, "Newton's method leads nowhere; try --method pointwise");
+    if (status || (s->newton_change <= CONVERGED && o->choose_at_most == 0)) {
         hci_answer_release(&best);
         return status;
     }
@@ -391,18 +411,15 @@ static hci_status search(hci_task *t, const hci_solve_options *o, hci_newton_roo
     return HCI_OK;
 }
 
-hci_status hci_newton_answer(hci_task *task, const hci_solve_options *options, hci_newton_room *room, hci_answer *answer,
-                             hci_solution *solution, hci_note *note)
+hci_status hci_newton_answer(hci_task *task, const hci_solve_options *options, hci_newton_room *room,
+                             hci_answer *answer, hci_solution *solution, hci_note *note)
 {
     iteration i;
     hci_status status;
     memset(&i, 0, sizeof i);
     status = begin(task, &i.p, note);
     if (!status) keep_in_set(&i.p, options->set, options->held);
-    if (!status && options->choose_at_most > 0)
-        status = search(task, options, room, answer, &i, solution, note);
-    else if (!status)
-        status = iterate(task, options, room, answer, &i, solution, note);
+    if (!status) status = iterate(task, options, room, answer, &i, solution, note);
     task->compared_up_to = 0.0;
     hci_memory_free(i.p.wave);
     hci_memory_free(i.x);

@@ -27,13 +27,14 @@ static double wanted_at(const hci_task *t, double theta_rad, double e[3], double
     double mean;
     hci_waves_at(t->machine->back_emf, t->machine->back_emf_count, theta_rad, e);
     mean = t->has_neutral ? 0.0 : (e[0] + e[1] + e[2]) / 3.0;
-    for (int s = 0; s < 3; ++s) e[s] -= mean;
+    for (int s = 0; s < 3; ++s)
+        e[s] -= mean;
     *rest_Nm = wanted_ripple_Nm(t, theta_rad) -
                hci_harmonics_at(t->machine->cogging, t->machine->cogging_count, theta_rad);
     return e[0] * e[0] + e[1] * e[1] + e[2] * e[2];
 }
 
-/* e⊥·e⊥ is called zero below this share of the fundamental's. */
+/* e⊥·e⊥ is called zero below this, a share of the largest harmonic's. */
 static double vanishing(const hci_task *t)
 {
     double largest = 0.0;
@@ -103,17 +104,12 @@ static bool sample_linear(const hci_task *t, size_t count, double *row)
     return true;
 }
 
-/* Angle k has no answer: it lengthens the last gap or opens a new one. */
-static void note_gap(hci_solution *s, size_t k)
+/* Angle k has no answer: it lengthens the last gap or, after an angle that has one, opens a new one. */
+static void note_gap(hci_solution *s, size_t k, bool is_new)
 {
-    const bool stored = s->gap_count > 0 && s->gap_count <= HCI_MOST_GAPS;
-    hci_angle_gap *last = stored ? &s->gap[s->gap_count - 1] : NULL;
-    if (last && angle_rad(k) - last->to_rad < 1.5 * angle_rad(1)) {
-        last->to_rad = angle_rad(k);
-        return;
-    }
-    if (s->gap_count < HCI_MOST_GAPS) s->gap[s->gap_count] = (hci_angle_gap){angle_rad(k), angle_rad(k)};
-    ++s->gap_count;
+    if (is_new && s->gap_count < HCI_MOST_GAPS) s->gap[s->gap_count].from_rad = angle_rad(k);
+    if (is_new) ++s->gap_count;
+    if (s->gap_count <= HCI_MOST_GAPS) s->gap[s->gap_count - 1].to_rad = angle_rad(k);
 }
 
 /* The same for any strategy and machine; everything is in the second part. */
@@ -122,12 +118,15 @@ static void sample_strategy(const hci_task *t, size_t count, double *row, hci_so
     const double mean_Nm = hci_target_mean_Nm(t->target), to_amplitude = sqrt(2.0 / 3.0);
     const double nothing[3] = {0.0, 0.0, 0.0};
     double x[2] = {0.0, 0.0};
+    bool in_gap = false;
     for (size_t k = 0; k < count; ++k) {
         const hci_machine_point point = hci_machine_at(t->machine, angle_rad(k));
+        const double wanted_Nm = mean_Nm + wanted_ripple_Nm(t, angle_rad(k));
         double abc[3], least_iq_A;
-        if (hci_strategy_current(&point, t->strategy, mean_Nm + wanted_ripple_Nm(t, angle_rad(k)), k > 0 ? x : NULL, x,
-                                 &least_iq_A))
-            note_gap(s, k);
+        const bool is_missing =
+            hci_strategy_current(&point, t->strategy, wanted_Nm, k > 0 ? x : NULL, x, &least_iq_A) != HCI_OK;
+        if (is_missing) note_gap(s, k, !in_gap);
+        in_gap = is_missing;
         s->least_iq_A = fmax(s->least_iq_A, to_amplitude * least_iq_A);
         hci_plane_to_abc(x, abc);
         store(row, count, k, 0, 0.0, nothing);
@@ -135,8 +134,9 @@ static void sample_strategy(const hci_task *t, size_t count, double *row, hci_so
     }
 }
 
-/* Coordinates of the three sequences at one order from those of α, β and zero. With x_s = A sin(nθ − σ2πs/3 + γ), α has (S, C) and β
- * has (C, −S) for σ = +1 and (−C, S) for σ = −1; at order 0 the positive sequence alone spans the plane. */
+/* Coordinates of the three sequences at one order from those of α, β and zero. With x_s = A sin(nθ − σ2πs/3 +
+ * γ), α has (S, C) and β has (C, −S) for σ = +1 and (−C, S) for σ = −1; at order 0 the positive sequence
+ * alone spans the plane. */
 static void sequences(const hci_harmonic a, const hci_harmonic b, const hci_harmonic zero, double x[3][2])
 {
     const bool mean = a.order < HCI_ORDER_TOLERANCE;
@@ -181,12 +181,14 @@ static hci_status sample(const hci_task *t, size_t count, double *row, hci_solut
         return HCI_OK;
     }
     if (sample_linear(t, count, row)) return HCI_OK;
-    return hci_note_set(note, HCI_ERROR_NUMERIC,
-                        "the back-EMF of all phases vanishes at some angle, so no current makes torque there; check "
-                        "back_emf.csv or solve with a set of harmonics");
+    return hci_note_set(
+        note, HCI_ERROR_NUMERIC,
+        "the back-EMF of all phases vanishes at some angle, so no current makes torque there; check "
+        "back_emf.csv or solve with a set of harmonics");
 }
 
-hci_status hci_pointwise_answer(const hci_task *task, hci_answer *answer, hci_solution *solution, hci_note *note)
+hci_status hci_pointwise_answer(const hci_task *task, hci_answer *answer, hci_solution *solution,
+                                hci_note *note)
 {
     const size_t count = SAMPLES_PER_TURN * task->period_turns, orders = TOP_ORDER * task->period_turns + 1;
     double *row = hci_memory_new(6 * count, sizeof *row);
@@ -200,7 +202,8 @@ hci_status hci_pointwise_answer(const hci_task *task, hci_answer *answer, hci_so
     if (!status) status = sample(task, count, row, solution, note);
     for (size_t k = 0; k < orders && !status; ++k) {
         status = analyse(task, count, row, k, 3 * orders, set, answer->x);
-        if (task->progress) task->progress(task->progress_context, "Fourier analysis", (double)(k + 1) / (double)orders);
+        if (task->progress)
+            task->progress(task->progress_context, "Fourier analysis", (double)(k + 1) / (double)orders);
     }
     set->count = status ? 0 : 3 * orders;
     solution->method = HCI_METHOD_POINTWISE;

@@ -7,7 +7,8 @@
 #include "hci/host/summary.h"
 #include "plot.h"
 
-static void write_currents(hci_output *out, const hci_currents *currents, const hci_wave *wave, const char *amplitude_column)
+static void write_currents(hci_output *out, const hci_currents *currents, const hci_wave *wave,
+                           const char *amplitude_column)
 {
     hci_output_text(out, "order,set,%s,phase_rad\n", amplitude_column);
     for (size_t k = 0; k < currents->count; ++k) {
@@ -18,7 +19,8 @@ static void write_currents(hci_output *out, const hci_currents *currents, const 
     }
 }
 
-/* At order 0 the amplitude is the signed mean and the phase π/2, so that A sin(nθ + γ) holds for every row. */
+/* At order 0 the amplitude is the signed mean and the phase π/2, so that A sin(nθ + γ) holds for every
+ * row. */
 static void write_polar(hci_output *out, hci_harmonic h)
 {
     const bool mean = h.order < HCI_ORDER_TOLERANCE;
@@ -45,8 +47,10 @@ static void write_spectrum(hci_output *out, const hci_solution *s)
 static size_t points_per_turn(const hci_solution *s)
 {
     double top = 0.0;
-    for (size_t k = 0; k < s->current.count; ++k) top = fmax(top, s->current.wave[k].order);
-    for (size_t k = 0; k < s->order_count; ++k) top = fmax(top, s->order[k].torque_Nm.order);
+    for (size_t k = 0; k < s->current.count; ++k)
+        top = fmax(top, s->current.wave[k].order);
+    for (size_t k = 0; k < s->order_count; ++k)
+        top = fmax(top, s->order[k].torque_Nm.order);
     return (size_t)fmax(360.0, 8.0 * ceil(top));
 }
 
@@ -61,7 +65,8 @@ static void write_waveform(hci_output *out, const hci_machine_data *m, const hci
         hci_waves_at(s->current.wave, s->current.count, theta_rad, abc);
         dq = hci_park(hci_clarke(abc), theta_rad);
         hci_output_number(out, theta_rad, ',');
-        for (int phase = 0; phase < 3; ++phase) hci_output_number(out, abc[phase], ',');
+        for (int phase = 0; phase < 3; ++phase)
+            hci_output_number(out, abc[phase], ',');
         hci_output_number(out, dq.d, ',');
         hci_output_number(out, dq.q, ',');
         hci_output_number(out, hci_torque_at(&m->model, theta_rad, abc), '\n');
@@ -86,8 +91,8 @@ static hci_status write_part(hci_output *out, const char *name, const hci_soluti
     return status;
 }
 
-static hci_status write_files(hci_output *out, const hci_machine_data *m, const hci_solution *s, hci_status verdict,
-                              hci_note *note)
+static hci_status write_files(hci_output *out, const hci_machine_data *m, const hci_solution *s,
+                              hci_status verdict, hci_note *note)
 {
     hci_status status = write_part(out, "currents.csv", s, s->current.wave, "amplitude_A", note);
     if (!status) status = write_part(out, "currents_per_Nm.csv", s, s->per_Nm, "amplitude_A_per_Nm", note);
@@ -102,8 +107,8 @@ static hci_status write_files(hci_output *out, const hci_machine_data *m, const 
     return status ? status : write_summary(out, s, verdict, note);
 }
 
-hci_status hci_solution_write(const hci_machine_data *machine, const hci_solution *solution, hci_status verdict,
-                              const char *folder, hci_note *note)
+hci_status hci_solution_write(const hci_machine_data *machine, const hci_solution *solution,
+                              hci_status verdict, const char *folder, hci_note *note)
 {
     hci_output *out;
     hci_status status = hci_output_open(folder, &out, note);

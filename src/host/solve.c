@@ -27,15 +27,20 @@ const char *hci_order_verdict_name(hci_order_verdict verdict)
     return NAME[verdict];
 }
 
-/* ---- the task -------------------------------------------------------------------------------------------------- */
+/* ---- the task ---- */
 
 static bool all_whole(const hci_task *t, const hci_component_set *set, size_t turns)
 {
-#define IS_WHOLE(order) (fabs((order) * (double)turns - floor((order) * (double)turns + 0.5)) < HCI_ORDER_TOLERANCE * (double)turns)
+#define IS_WHOLE(order)                                                                                      \
+    (fabs((order) * (double)turns - floor((order) * (double)turns + 0.5)) <                                  \
+     HCI_ORDER_TOLERANCE * (double)turns)
     bool whole = !t->held || IS_WHOLE(t->held->order);
-    for (size_t k = 0; k < t->target->count; ++k) whole = whole && IS_WHOLE(t->target->order[k].torque_Nm.order);
-    for (size_t k = 0; k < t->machine->cogging_count; ++k) whole = whole && IS_WHOLE(t->machine->cogging[k].order);
-    for (size_t k = 0; set && k < set->count; ++k) whole = whole && IS_WHOLE(set->component[k].order);
+    for (size_t k = 0; k < t->target->count; ++k)
+        whole = whole && IS_WHOLE(t->target->order[k].torque_Nm.order);
+    for (size_t k = 0; k < t->machine->cogging_count; ++k)
+        whole = whole && IS_WHOLE(t->machine->cogging[k].order);
+    for (size_t k = 0; set && k < set->count; ++k)
+        whole = whole && IS_WHOLE(set->component[k].order);
 #undef IS_WHOLE
     return whole;
 }
@@ -44,27 +49,31 @@ static hci_status find_period(hci_task *t, const hci_component_set *set, hci_not
 {
     for (t->period_turns = 1; t->period_turns <= MOST_TURNS; ++t->period_turns)
         if (all_whole(t, set, t->period_turns)) return HCI_OK;
-    return hci_note_set(note, HCI_ERROR_INPUT,
-                        "the orders have no common period of at most %d electrical turns; write fractional orders as "
-                        "k/pole_pairs with at least 7 digits",
-                        MOST_TURNS);
+    return hci_note_set(
+        note, HCI_ERROR_INPUT,
+        "the orders have no common period of at most %d electrical turns; write fractional orders as "
+        "k/pole_pairs with at least 7 digits",
+        MOST_TURNS);
 }
 
 static hci_status check_machine(const hci_machine_data *m, const hci_solve_options *o, hci_note *note)
 {
     if (m->has_effects)
         return hci_note_set(note, HCI_ERROR_INPUT,
-                            "effects.csv holds effects that this version does not solve for; without that file they are left out");
+                            "effects.csv holds effects that this version does not solve for; without that "
+                            "file they are left out");
     if (m->model.slope_count > 0 && m->has_neutral)
-        return hci_note_set(note, HCI_ERROR_INPUT,
-                            "an interior-magnet machine is solved in star connection only; machine.csv says star-neutral");
+        return hci_note_set(
+            note, HCI_ERROR_INPUT,
+            "an interior-magnet machine is solved in star connection only; machine.csv says star-neutral");
     if (o->method == HCI_METHOD_POINTWISE && o->held)
         return hci_note_set(note, HCI_ERROR_ARGUMENT,
                             "method pointwise finds the whole current; it cannot hold the fundamental fixed");
     return HCI_OK;
 }
 
-static hci_status make_task(const hci_machine_data *m, const hci_solve_options *o, hci_task *t, hci_note *note)
+static hci_status make_task(const hci_machine_data *m, const hci_solve_options *o, hci_task *t,
+                            hci_note *note)
 {
     const hci_status status = check_machine(m, o, note);
     memset(t, 0, sizeof *t);
@@ -81,14 +90,15 @@ static hci_status make_task(const hci_machine_data *m, const hci_solve_options *
     for (size_t k = 0; o->held && o->set && k < o->set->count; ++k)
         if (o->set->component[k].sequence == o->held->sequence &&
             fabs(o->set->component[k].order - o->held->order) < HCI_ORDER_TOLERANCE)
-            return hci_note_set(note, HCI_ERROR_INPUT,
-                                "the set of harmonics names %s %g, which is held fixed; leave it out of the set or do "
-                                "not hold the fundamental",
-                                hci_set_name(o->set->set[k]), o->held->order);
+            return hci_note_set(
+                note, HCI_ERROR_INPUT,
+                "the set of harmonics names %s %g, which is held fixed; leave it out of the set or do "
+                "not hold the fundamental",
+                hci_set_name(o->set->set[k]), o->held->order);
     return find_period(t, o->set, note);
 }
 
-/* ---- what flows ------------------------------------------------------------------------------------------------ */
+/* ---- what flows ---- */
 
 /* Components below this share of the largest are rounding, not current. */
 #define NEGLIGIBLE 1e-12
@@ -109,10 +119,10 @@ static double largest_current(const hci_answer *a, double mean_Nm)
     return largest;
 }
 
-/* Waves of the total, of the part per N·m and of the constant part. A given set keeps all its components, a chosen or
- * pointwise one only those that carry current. */
-static hci_status fill_currents(const hci_answer *a, const hci_solve_options *o, bool is_linear, hci_solution *s,
-                                hci_note *note)
+/* Waves of the total, of the part per N·m and of the constant part. A given set keeps all its components, a
+ * chosen or pointwise one only those that carry current. */
+static hci_status fill_currents(const hci_answer *a, const hci_solve_options *o, bool is_linear,
+                                hci_solution *s, hci_note *note)
 {
     const double mean_Nm = hci_target_mean_Nm(o->target), largest = largest_current(a, mean_Nm);
     const size_t n = a->set.count, most = n + 1;
@@ -121,7 +131,8 @@ static hci_status fill_currents(const hci_answer *a, const hci_solve_options *o,
     s->current.set = hci_memory_new(most, sizeof *s->current.set);
     s->per_Nm = is_linear ? hci_memory_new(most, sizeof *s->per_Nm) : NULL;
     s->constant = is_linear ? hci_memory_new(most, sizeof *s->constant) : NULL;
-    if (!s->current.wave || !s->current.set || (is_linear && (!s->per_Nm || !s->constant))) return no_memory(note);
+    if (!s->current.wave || !s->current.set || (is_linear && (!s->per_Nm || !s->constant)))
+        return no_memory(note);
     if (o->held) {
         s->current.set[out] = HCI_SET_POS;
         s->current.wave[out++] = *o->held;
@@ -143,18 +154,22 @@ static hci_status fill_currents(const hci_answer *a, const hci_solve_options *o,
     return HCI_OK;
 }
 
-/* ---- all of it ------------------------------------------------------------------------------------------------- */
+/* ---- all of it ---- */
 
-/* An error is measured against the mean torque, or where none is wanted against the largest wanted or cogging torque. */
+/* An error is measured against the mean torque, or where that is next to nothing against the largest wanted
+ * or cogging torque. */
+#define LEAST_SHARE 1e-3
+
 static double torque_scale_Nm(const hci_task *t)
 {
-    double scale = fabs(hci_target_mean_Nm(t->target));
-    if (scale > 0.0) return scale;
+    const double mean_Nm = fabs(hci_target_mean_Nm(t->target));
+    double scale = 0.0;
     for (size_t k = 0; k < t->target->count; ++k)
-        scale = fmax(scale, hci_amplitude(t->target->order[k].torque_Nm.sine, t->target->order[k].torque_Nm.cosine));
+        scale = fmax(scale,
+                     hci_amplitude(t->target->order[k].torque_Nm.sine, t->target->order[k].torque_Nm.cosine));
     for (size_t k = 0; k < t->machine->cogging_count; ++k)
         scale = fmax(scale, hci_amplitude(t->machine->cogging[k].sine, t->machine->cogging[k].cosine));
-    return scale;
+    return mean_Nm > 0.0 ? fmax(mean_Nm, LEAST_SHARE * scale) : scale;
 }
 
 static hci_status verdict_of(const hci_solution *s)
@@ -164,16 +179,16 @@ static hci_status verdict_of(const hci_solution *s)
     return s->within_limits ? HCI_OK : HCI_NOT_REACHED;
 }
 
-static hci_status find_answer(hci_task *t, const hci_solve_options *o, hci_newton_room *room, hci_answer *a, hci_solution *s,
-                              hci_note *note)
+static hci_status find_answer(hci_task *t, const hci_solve_options *o, hci_newton_room *room, hci_answer *a,
+                              hci_solution *s, hci_note *note)
 {
     if (o->method == HCI_METHOD_POINTWISE) return hci_pointwise_answer(t, a, s, note);
     if (t->machine->slope_count > 0) return hci_newton_answer(t, o, room, a, s, note);
     return hci_linear_answer(t, o, NULL, a, s, note);
 }
 
-static hci_status solve(const hci_machine_data *machine, const hci_solve_options *o, hci_newton_room *room, hci_answer *a,
-                        hci_solution *s, hci_note *note)
+static hci_status solve(const hci_machine_data *machine, const hci_solve_options *o, hci_newton_room *room,
+                        hci_answer *a, hci_solution *s, hci_note *note)
 {
     const bool is_linear = !o->held && machine->model.slope_count == 0;
     hci_task task;
@@ -189,8 +204,8 @@ static hci_status solve(const hci_machine_data *machine, const hci_solve_options
     return status;
 }
 
-hci_status hci_solve(const hci_machine_data *machine, const hci_solve_options *options, hci_solution *solution,
-                     hci_note *note)
+hci_status hci_solve(const hci_machine_data *machine, const hci_solve_options *options,
+                     hci_solution *solution, hci_note *note)
 {
     hci_newton_room room = {NULL, NULL};
     hci_answer a = {{0}, NULL};

@@ -14,31 +14,35 @@ enum { POWER_STEPS = 20 };
 static double normalise(double *x, size_t n)
 {
     double sum = 0.0;
-    for (size_t k = 0; k < n; ++k) sum += x[k] * x[k];
+    for (size_t k = 0; k < n; ++k)
+        sum += x[k] * x[k];
     sum = sqrt(sum);
-    for (size_t k = 0; k < n && sum > 0.0; ++k) x[k] /= sum;
+    for (size_t k = 0; k < n && sum > 0.0; ++k)
+        x[k] /= sum;
     return sum;
 }
 
 /* A unit vector that no likely singular vector is at right angles to. */
 static void start_values(double *x, size_t n)
 {
-    for (size_t k = 0; k < n; ++k) x[k] = 1.0 + 0.37 * (double)(k * 7 % 11);
+    for (size_t k = 0; k < n; ++k)
+        x[k] = 1.0 + 0.37 * (double)(k * 7 % 11);
     normalise(x, n);
 }
 
-/* ---- UMFPACK --------------------------------------------------------------------------------------------------- */
+/* ---- UMFPACK ---- */
 
 static hci_status umfpack_status(SuiteSparse_long code, hci_note *note)
 {
     if (code == UMFPACK_OK) return HCI_OK;
     if (code == UMFPACK_WARNING_singular_matrix) return HCI_ERROR_SINGULAR;
-    if (code == UMFPACK_ERROR_out_of_memory) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory in the sparse LU");
+    if (code == UMFPACK_ERROR_out_of_memory)
+        return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory in the sparse LU");
     return hci_note_set(note, HCI_ERROR_NUMERIC, "UMFPACK failed with status %ld", (long)code);
 }
 
-static hci_status umfpack_substitute(const hci_sparse *a, void *numeric, const double *b, size_t right_sides, double *x,
-                                     hci_note *note)
+static hci_status umfpack_substitute(const hci_sparse *a, void *numeric, const double *b, size_t right_sides,
+                                     double *x, hci_note *note)
 {
     for (size_t k = 0; k < right_sides; ++k) {
         double *column = x + k * a->columns;
@@ -55,7 +59,8 @@ static hci_status umfpack_substitute(const hci_sparse *a, void *numeric, const d
 /* y = A x, or Aᵀ x. */
 static void multiply(const hci_sparse *a, bool transposed, const double *x, double *y)
 {
-    for (size_t i = 0; i < a->rows; ++i) y[i] = 0.0;
+    for (size_t i = 0; i < a->rows; ++i)
+        y[i] = 0.0;
     for (size_t j = 0; j < a->columns; ++j)
         for (int64_t k = a->column_start[j]; k < a->column_start[j + 1]; ++k)
             if (transposed)
@@ -64,10 +69,10 @@ static void multiply(const hci_sparse *a, bool transposed, const double *x, doub
                 y[a->row[k]] += a->value[k] * x[j];
 }
 
-/* Ratio of the largest to the smallest singular value of a square A by power iterations on AᵀA and (AᵀA)⁻¹, since the
- * pivots alone can be wrong by orders of magnitude. x, y: workspace of n. */
-static hci_status umfpack_condition(const hci_sparse *a, void *numeric, double *x, double *y, double *condition,
-                                    hci_note *note)
+/* Ratio of the largest to the smallest singular value of a square A by power iterations on AᵀA and (AᵀA)⁻¹,
+ * since the pivots alone can be wrong by orders of magnitude. x, y: workspace of n. */
+static hci_status umfpack_condition(const hci_sparse *a, void *numeric, double *x, double *y,
+                                    double *condition, hci_note *note)
 {
     const size_t n = a->columns;
     double largest = 0.0, growth = 0.0;
@@ -84,7 +89,8 @@ static hci_status umfpack_condition(const hci_sparse *a, void *numeric, double *
             umfpack_dl_solve(UMFPACK_At, a->column_start, a->row, a->value, y, x, numeric, NULL, NULL), note);
         if (!status)
             status = umfpack_status(
-                umfpack_dl_solve(UMFPACK_A, a->column_start, a->row, a->value, x, y, numeric, NULL, NULL), note);
+                umfpack_dl_solve(UMFPACK_A, a->column_start, a->row, a->value, x, y, numeric, NULL, NULL),
+                note);
         growth = normalise(x, n);
     }
     *condition = sqrt(largest) * sqrt(growth);
@@ -101,13 +107,14 @@ static hci_status umfpack_examine(const hci_sparse *a, void *numeric, double *co
     return status;
 }
 
-hci_status hci_sparse_lu_solve(const hci_sparse *a, const double *b, size_t right_sides, double *x, double *condition,
-                               hci_note *note)
+hci_status hci_sparse_lu_solve(const hci_sparse *a, const double *b, size_t right_sides, double *x,
+                               double *condition, hci_note *note)
 {
     const SuiteSparse_long n = (SuiteSparse_long)a->columns;
     void *symbolic = NULL, *numeric = NULL;
     hci_status status;
-    status = umfpack_status(umfpack_dl_symbolic(n, n, a->column_start, a->row, a->value, &symbolic, NULL, NULL), note);
+    status = umfpack_status(
+        umfpack_dl_symbolic(n, n, a->column_start, a->row, a->value, &symbolic, NULL, NULL), note);
     if (!status)
         status = umfpack_status(
             umfpack_dl_numeric(a->column_start, a->row, a->value, symbolic, &numeric, NULL, NULL), note);
@@ -118,7 +125,7 @@ hci_status hci_sparse_lu_solve(const hci_sparse *a, const double *b, size_t righ
     return status;
 }
 
-/* ---- SPQR ------------------------------------------------------------------------------------------------------ */
+/* ---- SPQR ---- */
 
 static cholmod_sparse as_cholmod(const hci_sparse *a)
 {
@@ -166,7 +173,8 @@ static double largest_singular(cholmod_sparse *r, cholmod_common *cc)
     cholmod_dense *x = start_vector(r->nrow, cc);
     cholmod_dense *y = cholmod_l_allocate_dense(r->ncol, 1, r->ncol, CHOLMOD_REAL, cc);
     for (int step = 0; step < POWER_STEPS && x && y; ++step) {
-        const int good = cholmod_l_sdmult(r, 1, one, zero, x, y, cc) && cholmod_l_sdmult(r, 0, one, zero, y, x, cc);
+        const int good =
+            cholmod_l_sdmult(r, 1, one, zero, x, y, cc) && cholmod_l_sdmult(r, 0, one, zero, y, x, cc);
         square = good ? normalise(x->x, x->nrow) : 0.0;
     }
     cholmod_l_free_dense(&x, cc);
@@ -174,7 +182,8 @@ static double largest_singular(cholmod_sparse *r, cholmod_common *cc)
     return sqrt(square);
 }
 
-/* Smallest singular value by power iteration on (R Rᵀ)⁻¹ = R₂⁻¹ R₂⁻ᵀ, from the factors of Rᵀ; 0 when memory is out. */
+/* Smallest singular value by power iteration on (R Rᵀ)⁻¹ = R₂⁻¹ R₂⁻ᵀ, from the factors of Rᵀ; 0 when memory
+ * is out. */
 static double smallest_singular(SuiteSparseQR_C_factorization *qr, size_t n, cholmod_common *cc)
 {
     cholmod_dense *x = start_vector(n, cc);
@@ -232,8 +241,8 @@ static hci_status qr_solve(const hci_sparse *a, cholmod_dense *b, double *x, siz
     cholmod_sparse matrix = as_cholmod(a), *r = NULL;
     cholmod_dense *c = NULL, *y = NULL;
     SuiteSparse_long *permutation = NULL;
-    const SuiteSparse_long found = SuiteSparseQR_C(SPQR_ORDERING_DEFAULT, SPQR_DEFAULT_TOL, 0, 0, &matrix, NULL, b,
-                                                   NULL, &c, &r, &permutation, NULL, NULL, NULL, cc);
+    const SuiteSparse_long found = SuiteSparseQR_C(SPQR_ORDERING_DEFAULT, SPQR_DEFAULT_TOL, 0, 0, &matrix,
+                                                   NULL, b, NULL, &c, &r, &permutation, NULL, NULL, NULL, cc);
     hci_status status = HCI_OK;
     if (found > 0) {
         *rank = (size_t)found;
@@ -250,8 +259,8 @@ static hci_status qr_solve(const hci_sparse *a, cholmod_dense *b, double *x, siz
     return status;
 }
 
-hci_status hci_sparse_qr_solve(const hci_sparse *a, const double *b, size_t right_sides, double *x, size_t *rank,
-                               double *condition, hci_note *note)
+hci_status hci_sparse_qr_solve(const hci_sparse *a, const double *b, size_t right_sides, double *x,
+                               size_t *rank, double *condition, hci_note *note)
 {
     cholmod_common cc;
     cholmod_dense right;

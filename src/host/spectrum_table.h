@@ -5,10 +5,11 @@
 #include "hci/harmonic.h"
 #include "hci/host/csv.h"
 
-/* Reads `order`, `amplitude_column` (with its unit) and `phase_rad` into *terms, ascending by order; (*row_of)[k] is
- * the data row that term k stood in. Amplitudes may be negative. At order 0 the amplitude is the mean and the phase
- * 0 or π/2. Negative and repeated orders are errors. Both arrays are the caller's to free with hci_memory_free. */
-hci_status hci_spectrum_rows(const hci_csv *csv, const char *amplitude_column, hci_harmonic **terms, size_t **row_of,
-                             size_t *count, hci_note *note);
+/* Reads `order`, `amplitude_column` (with its unit) and `phase_rad` into *terms, ascending by order;
+ * (*row_of)[k] is the data row that term k stood in. Amplitudes may be negative. At order 0 the amplitude is
+ * the mean and the phase 0 or π/2. Negative and repeated orders are errors. Both arrays are the caller's to
+ * free with hci_memory_free. */
+hci_status hci_spectrum_rows(const hci_csv *csv, const char *amplitude_column, hci_harmonic **terms,
+                             size_t **row_of, size_t *count, hci_note *note);
 
 #endif

@@ -23,22 +23,25 @@ static double block_form(block m, double x, double y)
     return m.xx * x * x + 2.0 * m.xy * x * y + m.yy * y * y;
 }
 
-/* Inverse of a symmetric positive definite n×n matrix by Cholesky. a: in the matrix (lower triangle), destroyed. */
+/* Inverse of a symmetric positive definite n×n matrix by Cholesky. a: in the matrix (lower triangle),
+ * destroyed. */
 static hci_status spd_inverse(size_t n, double *a, double *inverse)
 {
     const hci_status status = hci_cholesky_factor(n, a);
     if (status) return status;
     for (size_t j = 0; j < n; ++j) {
         double *column = inverse + j * n;
-        for (size_t i = 0; i < n; ++i) column[i] = i == j ? 1.0 : 0.0;
+        for (size_t i = 0; i < n; ++i)
+            column[i] = i == j ? 1.0 : 0.0;
         hci_cholesky_solve(n, a, column);
     }
     return HCI_OK;
 }
 
-/* The inverse P of G_S + ρI and x = P b_S for the subset S = active[0 … count). p: 2count × 2count; work as large. */
-static hci_status subset_inverse(const hci_subset_cost *c, const size_t *active, size_t count, double *p, double *x,
-                                 double *work)
+/* The inverse P of G_S + ρI and x = P b_S for the subset S = active[0 … count). p: 2count × 2count; work as
+ * large. */
+static hci_status subset_inverse(const hci_subset_cost *c, const size_t *active, size_t count, double *p,
+                                 double *x, double *work)
 {
     const size_t m = 2 * count;
     for (size_t j = 0; j < m; ++j)
@@ -48,7 +51,8 @@ static hci_status subset_inverse(const hci_subset_cost *c, const size_t *active,
     if (spd_inverse(m, work, p) != HCI_OK) return HCI_ERROR_SINGULAR;
     for (size_t i = 0; i < m; ++i) {
         x[i] = 0.0;
-        for (size_t j = 0; j < m; ++j) x[i] += p[i + j * m] * c->b[2 * active[j / 2] + j % 2];
+        for (size_t j = 0; j < m; ++j)
+            x[i] += p[i + j * m] * c->b[2 * active[j / 2] + j % 2];
     }
     return HCI_OK;
 }
@@ -66,15 +70,18 @@ static double removal_cost(const double *p, size_t m, const double *x, size_t k)
     return block_form(block_inverse(block_of(p, m, k)), x[2 * k], x[2 * k + 1]);
 }
 
-/* P ← P − P_:k (P_kk)⁻¹ P_k:,  x ← x − P_:k (P_kk)⁻¹ x_k: row and column k become zero. v: workspace of 2m. */
+/* P ← P − P_:k (P_kk)⁻¹ P_k:,  x ← x − P_:k (P_kk)⁻¹ x_k: row and column k become zero. v: workspace of
+ * 2m. */
 static void remove_component(double *p, size_t m, double *x, size_t k, double *v)
 {
     const block inverse = block_inverse(block_of(p, m, k));
     const double x0 = x[2 * k], x1 = x[2 * k + 1];
     memcpy(v, p + 2 * k * m, 2 * m * sizeof *v);
     for (size_t j = 0; j < m; ++j) {
-        const double w0 = inverse.xx * v[j] + inverse.xy * v[m + j], w1 = inverse.xy * v[j] + inverse.yy * v[m + j];
-        for (size_t i = 0; i < m; ++i) p[i + j * m] -= v[i] * w0 + v[m + i] * w1;
+        const double w0 = inverse.xx * v[j] + inverse.xy * v[m + j],
+                     w1 = inverse.xy * v[j] + inverse.yy * v[m + j];
+        for (size_t i = 0; i < m; ++i)
+            p[i + j * m] -= v[i] * w0 + v[m + i] * w1;
         x[j] -= w0 * x0 + w1 * x1;
     }
 }
@@ -88,7 +95,8 @@ hci_status hci_subset_eliminate(const hci_subset_cost *c, size_t most, hci_subse
         room->active[k] = k;
         room->in[k] = true;
     }
-    if (subset_inverse(c, room->active, candidates_left, room->p, room->x, room->work)) return HCI_ERROR_NUMERIC;
+    if (subset_inverse(c, room->active, candidates_left, room->p, room->x, room->work))
+        return HCI_ERROR_NUMERIC;
     for (size_t left = candidates_left; left > most; --left) {
         double least = INFINITY;
         size_t victim = 0;
@@ -107,7 +115,8 @@ hci_status hci_subset_eliminate(const hci_subset_cost *c, size_t most, hci_subse
     return HCI_OK;
 }
 
-/* Bringing candidate j into S: v = P G_Sj, s = (G_jj + ρI − G_jS v)⁻¹, y = s (b_j − G_jS x); f falls by yᵀ s⁻¹ y. */
+/* Bringing candidate j into S: v = P G_Sj, s = (G_jj + ρI − G_jS v)⁻¹, y = s (b_j − G_jS x); f falls by yᵀ
+ * s⁻¹ y. */
 typedef struct {
     block s;
     double y0, y1, gain;
@@ -121,12 +130,15 @@ static entry enter(const hci_subset_cost *c, const hci_subset_room *room, size_t
     block schur = {g0[2 * j] + c->ridge, g0[2 * j + 1], g1[2 * j + 1] + c->ridge};
     double r0 = c->b[2 * j], r1 = c->b[2 * j + 1];
     entry e;
-    for (size_t i = 0; i < 2 * m; ++i) v[i] = 0.0;
+    for (size_t i = 0; i < 2 * m; ++i)
+        v[i] = 0.0;
     for (size_t k = 0; k < m; ++k) {
         const size_t row = 2 * room->active[k / 2] + k % 2;
         if (g0[row] == 0.0 && g1[row] == 0.0) continue;
-        for (size_t i = 0; i < m; ++i) v[i] += room->p[i + k * m] * g0[row];
-        for (size_t i = 0; i < m; ++i) v[m + i] += room->p[i + k * m] * g1[row];
+        for (size_t i = 0; i < m; ++i)
+            v[i] += room->p[i + k * m] * g0[row];
+        for (size_t i = 0; i < m; ++i)
+            v[m + i] += room->p[i + k * m] * g1[row];
     }
     for (size_t k = 0; k < m; ++k) {
         const size_t row = 2 * room->active[k / 2] + k % 2;
@@ -157,7 +169,8 @@ static double removal_cost_after(const hci_subset_room *room, size_t m, const en
 }
 
 /* The exchange of a member for a candidate that lowers f most; 0 when none does. */
-static double best_exchange(const hci_subset_cost *c, const hci_subset_room *room, size_t count, size_t *out, size_t *in)
+static double best_exchange(const hci_subset_cost *c, const hci_subset_room *room, size_t count, size_t *out,
+                            size_t *in)
 {
     double best = 0.0;
     for (size_t j = 0; j < c->n / 2; ++j) {
@@ -177,7 +190,8 @@ static double best_exchange(const hci_subset_cost *c, const hci_subset_room *roo
 static double subset_value(const hci_subset_cost *c, const hci_subset_room *room, size_t count)
 {
     double gained = 0.0;
-    for (size_t k = 0; k < 2 * count; ++k) gained += c->b[2 * room->active[k / 2] + k % 2] * room->x[k];
+    for (size_t k = 0; k < 2 * count; ++k)
+        gained += c->b[2 * room->active[k / 2] + k % 2] * room->x[k];
     return gained;
 }
 

@@ -1,8 +1,10 @@
 /* Summaries as JSON. The only file that knows cJSON. */
 #include <cjson/cJSON.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
+#include "hci/host/simulate.h"
 #include "hci/host/summary.h"
 #include "hci/version.h"
 #include "memory.h"
@@ -24,7 +26,7 @@ static bool add_order(cJSON *list, const hci_solved_order *o)
     bool good = item && cJSON_AddItemToArray(list, item) && add_number(item, "order", o->torque_Nm.order) &&
                 add_number(item, "error_Nm", o->error_Nm) &&
                 add_text(item, "verdict", hci_order_verdict_name(o->verdict));
-    if (good && o->verdict == HCI_ORDER_UNREACHABLE) {
+    if (good && hci_remedy_exists(o)) {
         cJSON *remedy = cJSON_AddObjectToObject(item, "remedy");
         good = remedy && add_number(remedy, "order", o->remedy.order) &&
                add_text(remedy, "set", o->remedy.sequence > 0 ? "pos" : o->remedy.sequence < 0 ? "neg" : "zero");
@@ -59,7 +61,8 @@ static bool add_system(cJSON *root, const hci_solution *s)
            add_number(system, "rows", (double)s->rows) && add_number(system, "unknowns", (double)s->unknowns) &&
            add_number(system, "rank", (double)s->rank) && add_number(system, "condition", s->condition) &&
            add_number(system, "newton_steps", (double)s->newton_steps) &&
-           add_number(system, "newton_change", s->newton_change);
+           add_number(system, "newton_change", s->newton_change) &&
+           cJSON_AddBoolToObject(system, "newton_converged", s->newton_steps == 0 || s->newton_converged);
 }
 
 /* Angles at which a strategy has no current. */
@@ -135,6 +138,75 @@ char *hci_emit_json(const hci_emit_request *request, const hci_emit_result *resu
     char *text = NULL;
     if (root && add_text(root, "command", "emit") && add_text(root, "version", HCI_VERSION_STRING) &&
         add_table(root, request, result))
+        text = cJSON_Print(root);
+    cJSON_Delete(root);
+    return text;
+}
+
+/* ---- a simulation ---- */
+
+static cJSON *add_statistics(cJSON *root, const char *name, const char *unit, const hci_statistics *x)
+{
+    cJSON *object = cJSON_AddObjectToObject(root, name);
+    const double value[] = {x->mean, x->rms, x->most, x->least};
+    static const char *const NAME[] = {"mean", "rms", "max", "min"};
+    bool good = object != NULL;
+    for (int k = 0; k < 4 && good; ++k) {
+        char key[48];
+        snprintf(key, sizeof key, "%s_%s", NAME[k], unit);
+        good = add_number(object, key, value[k]);
+    }
+    return good ? object : NULL;
+}
+
+static bool add_evaluation(cJSON *root, const hci_simulation *s)
+{
+    cJSON *part = cJSON_AddObjectToObject(root, "evaluation");
+    return part && add_number(part, "step_s", s->step_s) && add_number(part, "from_s", s->from_s) &&
+           add_number(part, "to_s", s->to_s) && add_number(part, "periods", (double)s->periods) &&
+           add_number(part, "period_electrical_turns", (double)s->period_turns);
+}
+
+static bool add_torque_and_current(cJSON *root, const hci_simulation *s)
+{
+    cJSON *torque = add_statistics(root, "torque", "Nm", &s->torque_Nm), *current;
+    if (!torque || !add_number(torque, "T_ripple", s->T_ripple_percent) || !add_number(torque, "F_ripple", s->F_ripple_percent))
+        return false;
+    current = add_statistics(root, "current", "A", &s->current_A);
+    return current && add_number(current, "peak_phase_A", s->peak_phase_A) &&
+           add_number(current, "plain_amplitude_A", s->plain_amplitude_A) &&
+           add_number(current, "loss_ratio_to_plain", s->loss_to_plain) && add_number(current, "copper_loss_W", s->copper_W) &&
+           add_statistics(root, "current_dqx", "A", &s->current_dqx_A) &&
+           add_statistics(root, "speed", "rad_per_s", &s->speed_rad_per_s);
+}
+
+static bool add_control(cJSON *root, const hci_simulation *s)
+{
+    cJSON *part = cJSON_AddObjectToObject(root, "control");
+    return part && add_number(part, "switching_frequency_Hz", s->switching_frequency_Hz) &&
+           add_number(part, "samples", (double)s->samples) &&
+           add_number(part, "samples_without_current", (double)s->without_current) &&
+           add_number(part, "samples_limited", (double)s->limited) &&
+           add_number(part, "samples_without_current_from_start", (double)s->without_current_from_start) &&
+           add_number(part, "samples_limited_from_start", (double)s->limited_from_start);
+}
+
+static bool add_energy(cJSON *root, const hci_energies *j)
+{
+    cJSON *part = cJSON_AddObjectToObject(root, "energy");
+    return part && add_number(part, "electrical_J", j->electrical) && add_number(part, "copper_J", j->copper) &&
+           add_number(part, "stored_J", j->stored) && add_number(part, "mechanical_J", j->mechanical) &&
+           add_number(part, "residual_J", j->residual) && add_number(part, "load_J", j->load) &&
+           add_number(part, "friction_J", j->friction) && add_number(part, "kinetic_J", j->kinetic);
+}
+
+char *hci_simulation_json(const hci_simulation *simulation)
+{
+    cJSON *root = cJSON_CreateObject();
+    char *text = NULL;
+    if (root && add_text(root, "command", "simulate") && add_text(root, "version", HCI_VERSION_STRING) &&
+        add_evaluation(root, simulation) && add_torque_and_current(root, simulation) && add_control(root, simulation) &&
+        add_energy(root, &simulation->energy_J))
         text = cJSON_Print(root);
     cJSON_Delete(root);
     return text;

@@ -1,4 +1,5 @@
-/* CSV as users have it: comma, semicolon or tab, LF or CRLF, BOM, comment lines, quoted fields, a row of units. */
+/* CSV as users have it: comma, semicolon or tab, LF or CRLF, BOM, comment lines, quoted fields, a row of
+ * units. */
 #ifndef HCI_HOST_CSV_H
 #define HCI_HOST_CSV_H
 
@@ -13,8 +14,9 @@ extern "C" {
 
 typedef struct hci_csv hci_csv;
 
-/* Reads a whole file. On success *csv is to be given to hci_csv_free; on failure it is NULL and the note names file,
- * line, column, what was found, what was expected and the remedy. HCI_ERROR_INPUT or HCI_ERROR_MEMORY. */
+/* Reads a whole file. On success *csv is to be given to hci_csv_free; on failure it is NULL and the note
+ * names file, line, column, what was found, what was expected and the remedy. HCI_ERROR_INPUT or
+ * HCI_ERROR_MEMORY. */
 hci_status hci_csv_read(const char *path, hci_csv **csv, hci_note *note);
 void hci_csv_free(hci_csv *csv);
 
@@ -24,31 +26,37 @@ size_t hci_csv_rows(const hci_csv *csv);
 /* Line in the file (from 1) of data row `row`, for messages. */
 size_t hci_csv_line(const hci_csv *csv, size_t row);
 
-/* A column is asked for by its canonical name with its unit suffix ("theta_e_rad"). A file may have it in any unit of the same
- * dimension ("theta_e_deg", or "theta_e" with `deg` in the row of units) and without regard to case; values come
- * back in the unit asked for. A column without any unit is taken to be in the unit asked for. */
+/* A column is asked for by its canonical name with its unit suffix ("theta_e_rad"). A file may have it in any
+ * unit of the same dimension ("theta_e_deg", or "theta_e" with `deg` in the row of units) and without regard
+ * to case; values come back in the unit asked for. A column without any unit is taken to be in the unit asked
+ * for. */
 bool hci_csv_has(const hci_csv *csv, const char *column);
 
-/* The numbers of a column into values[hci_csv_rows]. Missing column, or text that is not a finite number: HCI_ERROR_INPUT,
- * and values is undefined. */
+/* The numbers of a column into values[hci_csv_rows]. Missing column, or text that is not a finite number:
+ * HCI_ERROR_INPUT, and values is undefined. */
 hci_status hci_csv_numbers(const hci_csv *csv, const char *column, double *values, hci_note *note);
 
 /* The number in one cell, as it stands (no unit conversion). Not a finite number: HCI_ERROR_INPUT. */
 hci_status hci_csv_number(const hci_csv *csv, const char *column, size_t row, double *value, hci_note *note);
 
 /* One cell as text with quotes removed and blanks trimmed; owned by csv. Missing column: HCI_ERROR_INPUT. */
-hci_status hci_csv_text(const hci_csv *csv, const char *column, size_t row, const char **text, hci_note *note);
+hci_status hci_csv_text(const hci_csv *csv, const char *column, size_t row, const char **text,
+                        hci_note *note);
 
-/* An error at a cell: "file:line: column `name`: found `text`, expected ...; remedy". Returns HCI_ERROR_INPUT. */
-hci_status hci_csv_error(const hci_csv *csv, const char *column, size_t row, hci_note *note, const char *expected,
-                         const char *remedy);
+/* An error at a cell: "file:line: column `name`: found `text`, expected ...; remedy". Returns
+ * HCI_ERROR_INPUT. */
+hci_status hci_csv_error(const hci_csv *csv, const char *column, size_t row, hci_note *note,
+                         const char *expected, const char *remedy);
 
-/* Factor from `unit` to `wanted_unit` ("deg" → "rad"); both spelt as suffixes or as in a row of units ("N·m", "Nm",
- * "rad/s", "rad_per_s"). False when unknown or of another dimension. */
+/* Factor from `unit` to `wanted_unit` ("deg" → "rad"); both spelt as suffixes or as in a row of units ("N·m",
+ * "Nm", "rad/s", "rad_per_s"). False when unknown or of another dimension. */
 bool hci_unit_factor(const char *unit, const char *wanted_unit, double *factor);
 
-/* Shortest decimal text that reads back to the same double, with a point for the decimal mark in any locale; buffer of
- * 32 bytes. */
+/* Whether two words are the same but for the case of ASCII letters. */
+bool hci_text_is(const char *text, const char *word);
+
+/* Shortest decimal text that reads back to the same double, with a point for the decimal mark in any locale;
+ * buffer of 32 bytes. */
 void hci_number_text(double value, char text[32]);
 
 /* Text to double, without regard to the locale; the whole text must be a finite number. */

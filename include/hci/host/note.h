@@ -1,4 +1,5 @@
-/* What went wrong, in words for the user: file, line, column, what was found, what was expected and the remedy. */
+/* What went wrong, in words for the user: file, line, column, what was found, what was expected and the
+ * remedy. */
 #ifndef HCI_HOST_NOTE_H
 #define HCI_HOST_NOTE_H
 
@@ -21,8 +22,9 @@ typedef struct {
 #define HCI_PRINTF(format_index, first)
 #endif
 
-/* Writes the note (unless it already says something; note may be NULL) and returns `status`, so that a failing
- * function can end with `return hci_note_set(note, HCI_ERROR_INPUT, "...")`. Long texts are cut at the end. */
+/* Writes the note (unless it already says something; note may be NULL) and returns `status`, so that a
+ * failing function can end with `return hci_note_set(note, HCI_ERROR_INPUT, "...")`. Long texts are cut at
+ * the end. */
 hci_status hci_note_set(hci_note *note, hci_status status, const char *format, ...) HCI_PRINTF(3, 4);
 
 #ifdef __cplusplus

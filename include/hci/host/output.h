@@ -1,5 +1,5 @@
-/* A set of output files that appears whole or not at all. Files are written under temporary names in their folder and
- * renamed together by hci_output_commit; hci_output_discard removes them. */
+/* A set of output files that appears whole or not at all. Files are written under temporary names in their
+ * folder and renamed together by hci_output_commit; hci_output_discard removes them. */
 #ifndef HCI_HOST_OUTPUT_H
 #define HCI_HOST_OUTPUT_H
 
@@ -11,12 +11,13 @@ extern "C" {
 
 typedef struct hci_output hci_output;
 
-/* Opens a set of files in `folder`, which is made (with its parents) if it is missing. HCI_ERROR_OUTPUT, _MEMORY. */
+/* Opens a set of files in `folder`, which is made (with its parents) if it is missing. HCI_ERROR_OUTPUT,
+ * _MEMORY. */
 hci_status hci_output_open(const char *folder, hci_output **output, hci_note *note);
 
-/* Starts the next file; `name` has no folder part. What is written from now on goes into it. A target that is there
- * already must be a plain file that may be written. HCI_ERROR_ARGUMENT for a name with a folder part or a second time,
- * HCI_ERROR_OUTPUT, _MEMORY; discard the set then. */
+/* Starts the next file; `name` has no folder part. What is written from now on goes into it. A target that is
+ * there already must be a plain file that may be written. HCI_ERROR_ARGUMENT for a name with a folder part or
+ * a second time, HCI_ERROR_OUTPUT, _MEMORY; discard the set then. */
 hci_status hci_output_file(hci_output *output, const char *name, hci_note *note);
 
 /* A file that the set does not have: one of this name that an earlier run left is removed by the commit. */
@@ -25,14 +26,14 @@ hci_status hci_output_without(hci_output *output, const char *name, hci_note *no
 /* Appends to the current file. Write errors (disk full, …) are remembered and reported by the commit. */
 void hci_output_text(hci_output *output, const char *format, ...) HCI_PRINTF(2, 3);
 
-/* One CSV number: shortest text that reads back to the same double, followed by `end` (',' or '\n'). A value that is
- * not finite is remembered, and the commit fails with HCI_ERROR_NOT_FINITE. */
+/* One CSV number: shortest text that reads back to the same double, followed by `end` (',' or '\n'). A value
+ * that is not finite is remembered, and the commit fails with HCI_ERROR_NOT_FINITE. */
 void hci_output_number(hci_output *output, double value, char end);
 
-/* Flushes, checks and renames every file, and frees `output` in any case. On failure no file of the set is left,
- * and files that were there before are untouched: each is kept by a second link until the last rename has succeeded.
- * A process that is killed can leave hidden `.hci-*` files behind, and between two renames a part of the set.
- * HCI_ERROR_OUTPUT, _NOT_FINITE. */
+/* Flushes, checks and renames every file, and frees `output` in any case. On failure no file of the set is
+ * left, and files that were there before are untouched: each is kept by a second link until the last rename
+ * has succeeded. A process that is killed can leave hidden `.hci-*` files behind, and between two renames a
+ * part of the set. HCI_ERROR_OUTPUT, _NOT_FINITE. */
 hci_status hci_output_commit(hci_output *output, hci_note *note);
 
 /* Removes the temporary files and frees. output may be NULL. */

@@ -10,7 +10,13 @@
 extern "C" {
 #endif
 
-typedef enum { HCI_METHOD_AUTO, HCI_METHOD_LU, HCI_METHOD_UMFPACK, HCI_METHOD_QR, HCI_METHOD_POINTWISE } hci_method;
+typedef enum {
+    HCI_METHOD_AUTO,
+    HCI_METHOD_LU,
+    HCI_METHOD_UMFPACK,
+    HCI_METHOD_QR,
+    HCI_METHOD_POINTWISE
+} hci_method;
 typedef enum { HCI_COMPARE_ALL, HCI_COMPARE_SQUARE } hci_compare;
 
 const char *hci_method_name(hci_method method);
@@ -24,34 +30,38 @@ typedef struct {
     size_t choose_at_most;        /* with set NULL: at most so many components, 0 for as many as it takes */
     const hci_wave *held;         /* a fundamental that is held fixed, or NULL to solve for it too */
     hci_method method;
-    hci_strategy strategy;        /* of the pointwise method */
+    hci_strategy strategy; /* of the pointwise method */
     hci_compare compare;
-    double tolerance;             /* an order is reached when its error is at most this × the largest target; 0: 1e-6 */
-    double loss_allowance;        /* with choose_at_most: copper loss allowed over the pointwise limit; 0: 1.10 */
-    double limit_current_A;       /* largest phase current allowed; 0: none */
-    double limit_voltage_V;       /* dc-link voltage that the line voltages must stay below; 0: none */
-    double speed_rad_per_s;       /* mechanical, for the voltage; 0 with no limit_voltage_V */
-    hci_progress *progress;       /* may be NULL */
+    double tolerance;       /* an order is reached within this share of the mean torque; 0: 1e-6 */
+    double loss_allowance;  /* with choose_at_most: copper loss allowed over the pointwise limit; 0: 1.10 */
+    double limit_current_A; /* largest phase current allowed; 0: none */
+    double limit_voltage_V; /* dc-link voltage that the line voltages must stay below; 0: none */
+    double speed_rad_per_s; /* mechanical, for the voltage; 0 with no limit_voltage_V */
+    hci_progress *progress; /* may be NULL */
     void *progress_context;
 } hci_solve_options;
 
 /* Why an order is as it is. */
 typedef enum {
-    HCI_ORDER_REACHED,     /* within the tolerance of its target */
-    HCI_ORDER_FREE,        /* weight 0: not cared for */
-    HCI_ORDER_MISSED,      /* compared, but not within the tolerance */
-    HCI_ORDER_PARASITIC,   /* not compared, and not within the tolerance */
-    HCI_ORDER_UNREACHABLE  /* no component of the set reaches it */
+    HCI_ORDER_REACHED,    /* within the tolerance of its target */
+    HCI_ORDER_FREE,       /* weight 0: not cared for */
+    HCI_ORDER_MISSED,     /* compared, but not within the tolerance */
+    HCI_ORDER_PARASITIC,  /* not compared, and not within the tolerance */
+    HCI_ORDER_UNREACHABLE /* no component of the set reaches it */
 } hci_order_verdict;
 
 const char *hci_order_verdict_name(hci_order_verdict verdict);
 
 typedef struct {
-    hci_harmonic target_Nm, torque_Nm, before_Nm; /* before: the plain fundamental of the same mean torque */
-    double error_Nm;                              /* |torque − target| as a peak amplitude */
+    hci_harmonic target_Nm, torque_Nm;
+    hci_harmonic before_Nm; /* of the plain fundamental with the same mean torque */
+    double error_Nm;        /* |torque − target| as a peak amplitude */
     hci_order_verdict verdict;
-    hci_component remedy; /* for an unreachable order: the component that would reach it with the least current */
+    hci_component remedy; /* where unreachable: what would reach it with the least current; see below */
 } hci_solved_order;
+
+/* Whether an order is unreachable and some component would reach it. */
+bool hci_remedy_exists(const hci_solved_order *order);
 
 /* A range of electrical angles. */
 typedef struct {
@@ -61,45 +71,58 @@ typedef struct {
 enum { HCI_MOST_GAPS = 32 };
 
 typedef struct {
-    hci_currents current;        /* all that flows, a held fundamental included */
-    hci_wave *per_Nm, *constant; /* current = mean torque × per_Nm + constant, or NULL when something is held fixed */
-    hci_solved_order *order;     /* ascending */
+    /* What flows, a held fundamental included: mean torque × per_Nm + constant, which are NULL where currents
+     * are not linear in the mean torque (held fundamental, reluctance torque). */
+    hci_currents current;
+    hci_wave *per_Nm, *constant;
+
+    /* What it does. Orders ascending; worst of those cared for. */
+    hci_solved_order *order;
     size_t order_count;
-    size_t rows, unknowns, rank;
-    size_t newton_steps;         /* 0 for a machine without reluctance torque */
-    double newton_change;        /* of the current in the last step, as a share of it */
-    hci_angle_gap gap[HCI_MOST_GAPS]; /* pointwise: where the strategy has no current; the first ones */
-    size_t gap_count;            /* all of them */
-    double least_iq_A;           /* strategy `cancel`: the i_q from which it has one at every angle; infinite if none */
-    double condition;            /* estimate; NAN where the method has none */
-    hci_method method;           /* the one that was used */
     double tolerance_Nm;
     double worst_error_Nm, worst_order;
-    double mean_square_A2;           /* mean of i_a² + i_b² + i_c² */
-    double plain_amplitude_A;        /* the plain fundamental that the ratios refer to; 0 when the mean torque is 0 */
-    double loss_to_plain;            /* copper loss ratio, NAN when there is no plain fundamental */
-    double limit_mean_square_A2;     /* the pointwise limit; NAN when it does not exist (e⊥ vanishes at an angle) */
-    double loss_to_limit;
-    double peak_phase_current_A;
-    double peak_line_voltage_V;      /* at the speed asked for; NAN without one */
-    bool within_limits;              /* true where no limit was asked for */
-    double torque_at_limit_Nm;       /* largest mean torque with the same ripple that keeps the current limit; NAN when
-                                        that is not known or none does */
-    size_t period_turns;             /* electrical turns after which everything repeats */
+    size_t period_turns; /* electrical turns after which everything repeats */
+
+    /* How it was found. condition: an estimate, NAN where the method has none. newton_change: of the current
+     * in the last step, as a share of it; 0 steps for a machine without reluctance torque. */
+    hci_method method;
+    size_t rows, unknowns, rank;
+    double condition;
+    size_t newton_steps;
+    double newton_change;
+    bool newton_converged; /* else the nearest answer met on the way */
+
+    /* Pointwise: where the strategy has no current (the first ranges; gap_count is of all). least_iq_A: for
+     * `cancel`, the i_q from which it has one at every angle, infinite if none. */
+    hci_angle_gap gap[HCI_MOST_GAPS];
+    size_t gap_count;
+    double least_iq_A;
+
+    /* What it costs. mean_square: mean of i_a² + i_b² + i_c². Ratios are of copper loss, to the plain
+     * fundamental (0 A when no mean torque is wanted; ratio NAN) and to the pointwise limit (NAN when e⊥
+     * vanishes at an angle). */
+    double mean_square_A2;
+    double plain_amplitude_A, loss_to_plain;
+    double limit_mean_square_A2, loss_to_limit;
+
+    /* Whether it fits. Voltage: at the speed asked for, NAN without one. torque_at_limit: the largest mean
+     * torque with the same ripple that keeps the current limit, NAN when not known or none does. */
+    bool within_limits; /* true where no limit was asked for */
+    double peak_phase_current_A, peak_line_voltage_V;
+    double torque_at_limit_Nm;
 } hci_solution;
 
-/* HCI_OK; HCI_NOT_REACHED with the nearest result when a cared-for order is not within the tolerance or a limit is not kept
- * (the result is not bent to the limit); or an error with
- * a note, and then *solution is empty. Otherwise *solution is to be given to hci_solution_release. */
-hci_status hci_solve(const hci_machine_data *machine, const hci_solve_options *options, hci_solution *solution,
-                     hci_note *note);
+/* HCI_OK; HCI_NOT_REACHED with the nearest result when a cared-for order is not within the tolerance or a
+ * limit is not kept (the result is not bent to the limit); or an error with a note, and then *solution is
+ * empty. Otherwise *solution is to be given to hci_solution_release. */
+hci_status hci_solve(const hci_machine_data *machine, const hci_solve_options *options,
+                     hci_solution *solution, hci_note *note);
 void hci_solution_release(hci_solution *solution);
 
-/* Writes currents.csv, waveform.csv, spectrum.csv, summary.json and, where currents are linear in the mean torque,
- * currents_per_Nm.csv and currents_constant.csv into `folder`; all or none. */
-hci_status hci_solution_write(const hci_machine_data *machine, const hci_solution *solution, hci_status verdict,
-                              const char *folder, hci_note *note);
-
+/* Writes currents.csv, waveform.csv, spectrum.csv, solution.svg, summary.json and, where currents are linear
+ * in the mean torque, currents_per_Nm.csv and currents_constant.csv into `folder`; all or none. */
+hci_status hci_solution_write(const hci_machine_data *machine, const hci_solution *solution,
+                              hci_status verdict, const char *folder, hci_note *note);
 
 #ifdef __cplusplus
 }

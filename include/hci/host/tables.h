@@ -42,13 +42,13 @@ typedef struct {
     uint64_t hash; /* FNV-1a over the values */
 } hci_currents;
 
-/* target: columns order, amplitude_Nm, phase_rad and optionally weight. At order 0 the amplitude is the signed mean and the
- * phase 0 or π/2. Orders ascending on return. HCI_ERROR_INPUT, HCI_ERROR_MEMORY. */
+/* target: columns order, amplitude_Nm, phase_rad and optionally weight. At order 0 the amplitude is the
+ * signed mean and the phase 0 or π/2. Orders ascending on return. HCI_ERROR_INPUT, HCI_ERROR_MEMORY. */
 hci_status hci_target_read(const char *path, hci_target *target, hci_note *note);
 void hci_target_release(hci_target *target);
 
-/* harmonic set: columns order, set. A file with a header alone is an empty set. Orders divisible by three are refused
- * as `sym` unless the machine has a neutral conductor. */
+/* harmonic set: columns order, set. A file with a header alone is an empty set. Orders divisible by three are
+ * refused as `sym` unless the machine has a neutral conductor. */
 hci_status hci_component_set_read(const char *path, bool has_neutral, hci_component_set *set, hci_note *note);
 void hci_component_set_release(hci_component_set *set);
 

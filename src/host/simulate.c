@@ -1,0 +1,142 @@
+/* The run: one step after another, each shown to the evaluation and to the trajectory. */
+#include <math.h>
+#include <string.h>
+
+#include "memory.h"
+#include "simulation.h"
+
+typedef struct {
+    hci_setup *setup;
+    hci_evaluation *evaluation;
+    hci_trajectory trajectory;
+    hci_output *out; /* NULL: nothing is written */
+} run;
+
+static void start_sensors(hci_setup *setup)
+{
+    const hci_plant_state *plant = &setup->state.plant;
+    const double first[HCI_SENSE_COUNT] = {0.0, 0.0, 0.0, plant->theta_m_rad, plant->speed_rad_per_s, 0.0};
+    for (size_t k = 0; k < HCI_SENSE_COUNT; ++k)
+        hci_sensor_start(&setup->sensor[k], &setup->state.sensors[k], setup->ring[k],
+                         setup->seed * HCI_SENSE_COUNT + k, first[k]);
+}
+
+static double load_at(const hci_setup *setup, double time_s)
+{
+    return time_s >= setup->load_2_from_s - 0.5 * setup->drive.control.step_s ? setup->load_2_Nm
+                                                                              : setup->load_Nm;
+}
+
+static hci_counts counts_of(const hci_control_state *control)
+{
+    return (hci_counts){control->hysteresis.switchings, control->unreached, control->limited};
+}
+
+/* What held at the start of the step that has just been made; its counts are there already. */
+static void make_record(const hci_setup *setup, const hci_plant_state *before, double time_s, double load_Nm,
+                        hci_record *record)
+{
+    const hci_drive *drive = &setup->drive;
+    const bool imposed = drive->control.loop == HCI_CURRENT_IDEAL;
+    hci_plant_state at = *before;
+    for (int k = 0; k < 2; ++k) {
+        at.i[k] = record->i[k] = imposed ? setup->state.control.reference[k] : before->i[k];
+        record->v[k] = setup->state.control.v[k];
+    }
+    record->time_s = time_s;
+    record->angle_rad = drive->plant.table.pole_pairs * hci_plant_angle_rad(before);
+    record->speed_rad_per_s = before->speed_rad_per_s;
+    record->torque_Nm = setup->state.torque_Nm;
+    record->load_Nm = load_Nm;
+    record->point = hci_plant_at(&drive->plant, &at);
+    record->state = &setup->state;
+}
+
+static bool is_finite(const hci_plant_state *s)
+{
+    return isfinite(s->i[0]) && isfinite(s->i[1]) && isfinite(s->speed_rad_per_s) && isfinite(s->theta_m_rad);
+}
+
+static hci_status make_step(run *r, size_t k, hci_note *note)
+{
+    hci_setup *setup = r->setup;
+    const double time_s = (double)k * setup->drive.control.step_s, load_Nm = load_at(setup, time_s);
+    const bool evaluated = time_s >= setup->settle_s - 0.5 * setup->drive.control.step_s;
+    const hci_plant_state before = setup->state.plant;
+    hci_record record;
+    record.counts = counts_of(&setup->state.control);
+    hci_drive_step(&setup->drive, &setup->state, setup->set_point, load_Nm);
+    if (!is_finite(&setup->state.plant))
+        return hci_note_set(note, HCI_ERROR_NUMERIC,
+                            "at %g s the state left the finite numbers; give a smaller `step`, or a "
+                            "`speed_kp` or `current_kp` "
+                            "that the step can follow",
+                            time_s);
+    if (!evaluated && !r->out) return HCI_OK;
+    make_record(setup, &before, time_s, load_Nm, &record);
+    if (evaluated) hci_evaluation_add(r->evaluation, &record);
+    if (r->out) hci_trajectory_add(&r->trajectory, &record);
+    return HCI_OK;
+}
+
+static hci_status make_steps(run *r, const hci_simulate_options *options, hci_note *note)
+{
+    const size_t steps = r->setup->steps, share = steps / 256 + 1;
+    hci_status status = HCI_OK;
+    start_sensors(r->setup);
+    /* One step more than the duration has, for the values at its end. */
+    for (size_t k = 0; k <= steps && !status; ++k) {
+        status = make_step(r, k, note);
+        if (options->progress && k % share == 0)
+            options->progress(options->progress_context, "simulating", (double)k / (double)steps);
+    }
+    return status;
+}
+
+/* Files are opened before the first step, so that a folder that cannot be written to costs no time. */
+static hci_status run_and_write(run *r, const hci_simulate_options *options, hci_simulation *simulation,
+                                hci_note *note)
+{
+    hci_status status = options->folder ? hci_output_open(options->folder, &r->out, note) : HCI_OK;
+    if (!status && r->out) status = hci_trajectory_begin(&r->trajectory, r->out, r->setup, note);
+    if (!status) status = make_steps(r, options, note);
+    if (!status) status = hci_evaluation_finish(r->evaluation, simulation, note);
+    if (!status && r->out) {
+        hci_trajectory_end(&r->trajectory);
+        status = hci_simulation_write(r->out, simulation, note);
+    }
+    if (status)
+        hci_output_discard(r->out);
+    else if (r->out)
+        status = hci_output_commit(r->out, note);
+    return status;
+}
+
+hci_status hci_simulate(const hci_machine_data *machine, const hci_scenario *scenario,
+                        const hci_simulate_options *options, hci_simulation *simulation, hci_note *note)
+{
+    hci_setup *setup = hci_memory_new(1, sizeof *setup);
+    run r = {0};
+    hci_status status;
+    memset(simulation, 0, sizeof *simulation);
+    if (!setup) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory");
+    r.setup = setup;
+    status = hci_setup_make(machine, options->effects, scenario, setup, note);
+    if (!status && !(r.evaluation = hci_evaluation_new(setup)))
+        status = hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the evaluation");
+    if (!status) {
+        simulation->remark = setup->remark;
+        status = run_and_write(&r, options, simulation, note);
+    }
+    if (status) hci_simulation_release(simulation);
+    hci_evaluation_free(r.evaluation);
+    hci_setup_release(setup);
+    hci_memory_free(setup);
+    return status;
+}
+
+void hci_simulation_release(hci_simulation *simulation)
+{
+    hci_memory_free(simulation->spectrum_Nm);
+    memset(simulation, 0, sizeof *simulation);
+}
