@@ -38,13 +38,16 @@ typedef struct {
 } cli_command;
 
 /* Parses what follows the command. HCI_ERROR_ARGUMENT with a note that names the word and the remedy. */
-hci_status cli_parse(const cli_command *command, int count, char *const *words, cli_arguments *arguments, hci_note *note);
+hci_status cli_parse(const cli_command *command, int count, char *const *words, cli_arguments *arguments,
+                     hci_note *note);
 
 /* A number of an option; HCI_ERROR_ARGUMENT unless it is finite and inside [low, high]. */
-hci_status cli_number(const char *option, const char *text, double low, double high, double *value, hci_note *note);
+hci_status cli_number(const char *option, const char *text, double low, double high, double *value,
+                      hci_note *note);
 
 /* Position of a word in a NULL-ended list of choices; HCI_ERROR_ARGUMENT when it is none of them. */
-hci_status cli_choice(const char *option, const char *text, const char *const *choices, int *value, hci_note *note);
+hci_status cli_choice(const char *option, const char *text, const char *const *choices, int *value,
+                      hci_note *note);
 
 void cli_print_help(const cli_command *command);
 

@@ -13,7 +13,8 @@ enum { COMMAND_COUNT = sizeof COMMANDS / sizeof COMMANDS[0] };
 
 static int print_usage(FILE *stream)
 {
-    fprintf(stream, "hci-solve COMMAND [OPTIONS]\n\nPhase currents that make a permanent-magnet motor produce the torque you want.\n\n");
+    fprintf(stream, "hci-solve COMMAND [OPTIONS]\n\nPhase currents that make a permanent-magnet motor "
+                    "produce the torque you want.\n\n");
     for (size_t k = 0; k < COMMAND_COUNT; ++k) {
         const char *end = strchr(COMMANDS[k]->does, '\n');
         const int length = end ? (int)(end - COMMANDS[k]->does) : (int)strlen(COMMANDS[k]->does);
@@ -42,7 +43,8 @@ static int run(int argc, char **argv)
 {
     const char *word = argc > 1 ? argv[1] : "";
     if (strcmp(word, "--version") == 0) return puts("hci-solve " HCI_VERSION_STRING), 0;
-    if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0 || strcmp(word, "help") == 0) return print_usage(stdout);
+    if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0 || strcmp(word, "help") == 0)
+        return print_usage(stdout);
     for (size_t k = 0; k < COMMAND_COUNT; ++k)
         if (strcmp(word, COMMANDS[k]->name) == 0) return run_command(COMMANDS[k], argc - 2, argv + 2);
     if (argc > 1) fprintf(stderr, "hci-solve: unknown command `%s`\n", word);

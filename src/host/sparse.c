@@ -22,6 +22,12 @@ static double normalise(double *x, size_t n)
     return sum;
 }
 
+/* An estimate is good when a step changes its square by less than a per cent. */
+static bool is_settled(double before, double now)
+{
+    return before > 0.0 && fabs(now - before) <= 0.01 * now;
+}
+
 /* A unit vector that no likely singular vector is at right angles to. */
 static void start_values(double *x, size_t n)
 {
@@ -75,21 +81,27 @@ static hci_status umfpack_condition(const hci_sparse *a, void *numeric, double *
                                     double *condition, hci_note *note)
 {
     const size_t n = a->columns;
-    double largest = 0.0, growth = 0.0;
+    double control[UMFPACK_CONTROL], largest = 0.0, growth = 0.0, before = -1.0;
     hci_status status = HCI_OK;
+    umfpack_dl_defaults(control);
+    control[UMFPACK_IRSTEP] = 0.0;
     start_values(x, n);
-    for (int step = 0; step < POWER_STEPS; ++step) {
+    for (int step = 0; step < POWER_STEPS && !is_settled(before, largest); ++step) {
+        before = largest;
         multiply(a, false, x, y);
         multiply(a, true, y, x);
         largest = normalise(x, n);
     }
     start_values(x, n);
-    for (int step = 0; step < POWER_STEPS && !status; ++step) {
+    before = -1.0;
+    for (int step = 0; step < POWER_STEPS && !status && !is_settled(before, growth); ++step) {
+        before = growth;
         status = umfpack_status(
-            umfpack_dl_solve(UMFPACK_At, a->column_start, a->row, a->value, y, x, numeric, NULL, NULL), note);
+            umfpack_dl_solve(UMFPACK_At, a->column_start, a->row, a->value, y, x, numeric, control, NULL),
+            note);
         if (!status)
             status = umfpack_status(
-                umfpack_dl_solve(UMFPACK_A, a->column_start, a->row, a->value, x, y, numeric, NULL, NULL),
+                umfpack_dl_solve(UMFPACK_A, a->column_start, a->row, a->value, x, y, numeric, control, NULL),
                 note);
         growth = normalise(x, n);
     }

@@ -12,7 +12,8 @@
 /* JSON has no NaN: a number that does not exist is null. False when memory is out. */
 static bool add_number(cJSON *object, const char *name, double value)
 {
-    return (isfinite(value) ? cJSON_AddNumberToObject(object, name, value) : cJSON_AddNullToObject(object, name)) != NULL;
+    return (isfinite(value) ? cJSON_AddNumberToObject(object, name, value)
+                            : cJSON_AddNullToObject(object, name)) != NULL;
 }
 
 static bool add_text(cJSON *object, const char *name, const char *text)
@@ -29,14 +30,17 @@ static bool add_order(cJSON *list, const hci_solved_order *o)
     if (good && hci_remedy_exists(o)) {
         cJSON *remedy = cJSON_AddObjectToObject(item, "remedy");
         good = remedy && add_number(remedy, "order", o->remedy.order) &&
-               add_text(remedy, "set", o->remedy.sequence > 0 ? "pos" : o->remedy.sequence < 0 ? "neg" : "zero");
+               add_text(remedy, "set",
+                        o->remedy.sequence > 0   ? "pos"
+                        : o->remedy.sequence < 0 ? "neg"
+                                                 : "zero");
     }
     return good;
 }
 
 /* Orders of one kind as an array of their numbers, or with what there is to say of each. */
-static bool add_orders(cJSON *root, const char *name, const hci_solution *s, hci_order_verdict first, hci_order_verdict last,
-                       bool with_detail)
+static bool add_orders(cJSON *root, const char *name, const hci_solution *s, hci_order_verdict first,
+                       hci_order_verdict last, bool with_detail)
 {
     cJSON *list = cJSON_AddArrayToObject(root, name);
     bool good = list != NULL;
@@ -58,7 +62,8 @@ static bool add_system(cJSON *root, const hci_solution *s)
 {
     cJSON *system = cJSON_AddObjectToObject(root, "system");
     return system && add_text(system, "method", hci_method_name(s->method)) &&
-           add_number(system, "rows", (double)s->rows) && add_number(system, "unknowns", (double)s->unknowns) &&
+           add_number(system, "rows", (double)s->rows) &&
+           add_number(system, "unknowns", (double)s->unknowns) &&
            add_number(system, "rank", (double)s->rank) && add_number(system, "condition", s->condition) &&
            add_number(system, "newton_steps", (double)s->newton_steps) &&
            add_number(system, "newton_change", s->newton_change) &&
@@ -70,7 +75,8 @@ static bool add_gaps(cJSON *root, const hci_solution *s)
 {
     cJSON *gaps = cJSON_AddObjectToObject(root, "angles_without_current");
     cJSON *list = gaps ? cJSON_AddArrayToObject(gaps, "ranges_rad") : NULL;
-    bool good = list && add_number(gaps, "count", (double)s->gap_count) && add_number(gaps, "least_iq_A", s->least_iq_A);
+    bool good = list && add_number(gaps, "count", (double)s->gap_count) &&
+                add_number(gaps, "least_iq_A", s->least_iq_A);
     for (size_t k = 0; k < s->gap_count && k < HCI_MOST_GAPS && good; ++k) {
         const double ends[2] = {s->gap[k].from_rad, s->gap[k].to_rad};
         cJSON *range = cJSON_CreateDoubleArray(ends, 2);
@@ -99,7 +105,8 @@ static bool add_torque(cJSON *root, const hci_solution *s)
     cJSON *torque = cJSON_AddObjectToObject(root, "torque");
     const bool has_mean = s->order_count > 0 && s->order[0].torque_Nm.order < HCI_ORDER_TOLERANCE;
     return torque && add_number(torque, "mean_Nm", has_mean ? s->order[0].torque_Nm.cosine : 0.0) &&
-           add_number(torque, "worst_error_Nm", s->worst_error_Nm) && add_number(torque, "worst_order", s->worst_order) &&
+           add_number(torque, "worst_error_Nm", s->worst_error_Nm) &&
+           add_number(torque, "worst_order", s->worst_order) &&
            add_number(torque, "tolerance_Nm", s->tolerance_Nm) &&
            add_number(torque, "period_electrical_turns", (double)s->period_turns) &&
            add_orders(torque, "reached_orders", s, HCI_ORDER_REACHED, HCI_ORDER_REACHED, false) &&
@@ -114,8 +121,8 @@ char *hci_solution_json(const hci_solution *solution, hci_status verdict)
     cJSON *root = cJSON_CreateObject();
     char *text = NULL;
     if (root && add_text(root, "command", "solve") && add_text(root, "version", HCI_VERSION_STRING) &&
-        cJSON_AddBoolToObject(root, "reached", verdict == HCI_OK) && add_system(root, solution) && add_gaps(root, solution) &&
-        add_torque(root, solution) && add_current(root, solution))
+        cJSON_AddBoolToObject(root, "reached", verdict == HCI_OK) && add_system(root, solution) &&
+        add_gaps(root, solution) && add_torque(root, solution) && add_current(root, solution))
         text = cJSON_Print(root);
     cJSON_Delete(root);
     return text;
@@ -125,10 +132,12 @@ static bool add_table(cJSON *root, const hci_emit_request *request, const hci_em
 {
     return add_text(root, "name", request->name) && add_text(root, "format", request->format) &&
            add_text(root, "frame", request->frame == HCI_TABLE_ABC ? "abc" : "dq") &&
-           add_number(root, "points", (double)result->points) && add_number(root, "columns", (double)result->columns) &&
+           add_number(root, "points", (double)result->points) &&
+           add_number(root, "columns", (double)result->columns) &&
            add_number(root, "parts", (double)result->parts) &&
            add_number(root, "period_electrical_turns", (double)result->period_turns) &&
-           add_number(root, "bytes", (double)result->bytes) && add_number(root, "max_error_A", result->max_error_A) &&
+           add_number(root, "bytes", (double)result->bytes) &&
+           add_number(root, "max_error_A", result->max_error_A) &&
            add_number(root, "peak_A", result->peak_A) && add_number(root, "crc32", result->crc32);
 }
 
@@ -170,12 +179,14 @@ static bool add_evaluation(cJSON *root, const hci_simulation *s)
 static bool add_torque_and_current(cJSON *root, const hci_simulation *s)
 {
     cJSON *torque = add_statistics(root, "torque", "Nm", &s->torque_Nm), *current;
-    if (!torque || !add_number(torque, "T_ripple", s->T_ripple_percent) || !add_number(torque, "F_ripple", s->F_ripple_percent))
+    if (!torque || !add_number(torque, "T_ripple", s->T_ripple_percent) ||
+        !add_number(torque, "F_ripple", s->F_ripple_percent))
         return false;
     current = add_statistics(root, "current", "A", &s->current_A);
     return current && add_number(current, "peak_phase_A", s->peak_phase_A) &&
            add_number(current, "plain_amplitude_A", s->plain_amplitude_A) &&
-           add_number(current, "loss_ratio_to_plain", s->loss_to_plain) && add_number(current, "copper_loss_W", s->copper_W) &&
+           add_number(current, "loss_ratio_to_plain", s->loss_to_plain) &&
+           add_number(current, "copper_loss_W", s->copper_W) &&
            add_statistics(root, "current_dqx", "A", &s->current_dqx_A) &&
            add_statistics(root, "speed", "rad_per_s", &s->speed_rad_per_s);
 }
@@ -194,10 +205,11 @@ static bool add_control(cJSON *root, const hci_simulation *s)
 static bool add_energy(cJSON *root, const hci_energies *j)
 {
     cJSON *part = cJSON_AddObjectToObject(root, "energy");
-    return part && add_number(part, "electrical_J", j->electrical) && add_number(part, "copper_J", j->copper) &&
-           add_number(part, "stored_J", j->stored) && add_number(part, "mechanical_J", j->mechanical) &&
-           add_number(part, "residual_J", j->residual) && add_number(part, "load_J", j->load) &&
-           add_number(part, "friction_J", j->friction) && add_number(part, "kinetic_J", j->kinetic);
+    return part && add_number(part, "electrical_J", j->electrical) &&
+           add_number(part, "copper_J", j->copper) && add_number(part, "stored_J", j->stored) &&
+           add_number(part, "mechanical_J", j->mechanical) && add_number(part, "residual_J", j->residual) &&
+           add_number(part, "load_J", j->load) && add_number(part, "friction_J", j->friction) &&
+           add_number(part, "kinetic_J", j->kinetic);
 }
 
 char *hci_simulation_json(const hci_simulation *simulation)
@@ -205,8 +217,8 @@ char *hci_simulation_json(const hci_simulation *simulation)
     cJSON *root = cJSON_CreateObject();
     char *text = NULL;
     if (root && add_text(root, "command", "simulate") && add_text(root, "version", HCI_VERSION_STRING) &&
-        add_evaluation(root, simulation) && add_torque_and_current(root, simulation) && add_control(root, simulation) &&
-        add_energy(root, &simulation->energy_J))
+        add_evaluation(root, simulation) && add_torque_and_current(root, simulation) &&
+        add_control(root, simulation) && add_energy(root, &simulation->energy_J))
         text = cJSON_Print(root);
     cJSON_Delete(root);
     return text;

@@ -9,7 +9,8 @@
 extern "C" {
 #endif
 
-/* As in summary.json. To be freed with hci_text_free; NULL when memory is out. A number that does not exist is null. */
+/* As in summary.json. To be freed with hci_text_free; NULL when memory is out. A number that does not exist
+ * is null. */
 char *hci_solution_json(const hci_solution *solution, hci_status verdict);
 char *hci_emit_json(const hci_emit_request *request, const hci_emit_result *result);
 void hci_text_free(char *text);
