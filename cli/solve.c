@@ -1,6 +1,9 @@
+#define _POSIX_C_SOURCE 200809L
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "cli.h"
 #include "hci/host/csv.h"
@@ -155,10 +158,30 @@ typedef struct {
     hci_solve_options options;
 } inputs;
 
+/* An input that stands in the output folder under the name of a result would be replaced by it. */
+static hci_status keep_apart(const char *input, const char *folder, hci_note *note)
+{
+    static const char *const RESULTS[] = {"currents.csv", "currents_per_Nm.csv", "currents_constant.csv",
+                                          "spectrum.csv", "waveform.csv"};
+    struct stat from, to;
+    char path[4096];
+    if (!input || !folder || stat(input, &from) != 0) return HCI_OK;
+    for (size_t k = 0; k < sizeof RESULTS / sizeof RESULTS[0]; ++k) {
+        snprintf(path, sizeof path, "%s/%s", folder, RESULTS[k]);
+        if (stat(path, &to) == 0 && to.st_dev == from.st_dev && to.st_ino == from.st_ino)
+            return hci_note_set(note, HCI_ERROR_ARGUMENT,
+                                "%s would be replaced by a result of the same name; give another --out",
+                                input);
+    }
+    return HCI_OK;
+}
+
 static hci_status read_inputs(const cli_arguments *a, inputs *in, hci_note *note)
 {
     hci_status status = read_choices(a, &in->options, note);
     if (!status) status = read_numbers(a, &in->options, &in->held, note);
+    if (!status) status = keep_apart(a->value[TARGET], a->value[OUT], note);
+    if (!status) status = keep_apart(a->value[HARMONICS], a->value[OUT], note);
     if (!status) status = hci_machine_read(a->word[0], &in->machine, note);
     if (!status) status = hci_target_read(a->value[TARGET], &in->target, note);
     if (!status && a->value[HARMONICS])

@@ -25,6 +25,15 @@ not_written() {
     check "older files have changed" cmp -s "$work/before" "$work/after"
 }
 
+# ---- an input that a result would replace
+
+mkdir "$work/same"
+cp $target "$work/same/spectrum.csv"
+run 2 solve data/machine_a --target "$work/same/spectrum.csv" --auto -o "$work/same"
+says 'would be replaced by a result of the same name; give another --out'
+check "the target has changed" cmp -s $target "$work/same/spectrum.csv"
+check "something was written" [ "$(ls "$work/same")" = spectrum.csv ]
+
 # Older results, of another solve.
 run 0 solve data/machine_b --target $target --auto -q -o "$work/old/results"
 cp -R "$work/old" "$work/pristine"
