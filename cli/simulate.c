@@ -41,9 +41,11 @@ void cli_print_scenario_names(void)
 
 static void show_torque(const hci_simulation *s)
 {
-    fprintf(stderr, "  torque       mean %.6g N·m, %.6g to %.6g; T_ripple %.4g %%, F_ripple %.4g %%\n",
-            s->torque_Nm.mean, s->torque_Nm.least, s->torque_Nm.most, s->T_ripple_percent,
-            s->F_ripple_percent);
+    fprintf(stderr, "  torque       mean %.6g N·m, %.6g to %.6g", s->torque_Nm.mean, s->torque_Nm.least,
+            s->torque_Nm.most);
+    if (isfinite(s->T_ripple_percent))
+        fprintf(stderr, "; T_ripple %.4g %%, F_ripple %.4g %%", s->T_ripple_percent, s->F_ripple_percent);
+    fputc('\n', stderr);
     fprintf(stderr,
             "  current      mean %.4g A, rms %.4g, %.4g to %.4g (vector length); peak phase current %.4g A\n",
             s->current_A.mean, s->current_A.rms, s->current_A.least, s->current_A.most, s->peak_phase_A);

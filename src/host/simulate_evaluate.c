@@ -5,6 +5,7 @@
  *     S_n, C_n = 2/Θ ∫ T (sin, cos)(nθ) dθ,   dθ = ω_e dt,   Θ = ∫ dθ
  */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "memory.h"
@@ -240,6 +241,9 @@ static hci_statistics statistics(double mean, double mean_square, const reached 
     return (hci_statistics){mean, sqrt(fmax(mean_square, 0.0)), x->most[extreme], x->least[extreme]};
 }
 
+/* A mean that is a smaller share than this of the swing about it is no measure for a ripple. */
+#define LEAST_MEAN 0.01
+
 static void give_statistics(const hci_evaluation *e, const reached *x, double time_s, hci_simulation *s)
 {
     const double *sum = x->integral, offset = sum[TORQUE] / time_s, mean = e->reference_Nm + offset;
@@ -249,9 +253,10 @@ static void give_statistics(const hci_evaluation *e, const reached *x, double ti
     s->current_dqx_A = statistics(sum[DQX] / time_s, sum[DQX_2] / time_s, x, MOST_DQX);
     s->speed_rad_per_s = statistics(sum[SPEED] / time_s, sum[SPEED_2] / time_s, x, MOST_SPEED);
     s->peak_phase_A = x->most[MOST_PHASE];
-    s->T_ripple_percent =
-        mean != 0.0 ? 100.0 * (s->torque_Nm.most - s->torque_Nm.least) / fabs(mean) : (double)NAN;
-    s->F_ripple_percent = mean != 0.0 ? 100.0 * sqrt(variance) / fabs(mean) : (double)NAN;
+    const double swing = s->torque_Nm.most - s->torque_Nm.least;
+    const bool has_mean = fabs(mean) > LEAST_MEAN * swing && mean != 0.0;
+    s->T_ripple_percent = has_mean ? 100.0 * swing / fabs(mean) : (double)NAN;
+    s->F_ripple_percent = has_mean ? 100.0 * sqrt(variance) / fabs(mean) : (double)NAN;
 }
 
 static void give_losses(const hci_evaluation *e, hci_simulation *s)
@@ -260,7 +265,7 @@ static void give_losses(const hci_evaluation *e, hci_simulation *s)
                  plain = fabs(s->torque_Nm.mean) / (1.5 * e->setup->fundamental_Nm_per_A);
     s->copper_W = 1.5 * e->setup->drive.plant.resistance_ohm * square;
     s->plain_amplitude_A = plain;
-    s->loss_to_plain = plain > 0.0 ? square / (plain * plain) : (double)NAN;
+    s->loss_to_plain = isfinite(s->T_ripple_percent) && plain > 0.0 ? square / (plain * plain) : (double)NAN;
 }
 
 static void give_control(const hci_evaluation *e, const reached *x, double time_s, hci_simulation *s)
@@ -297,6 +302,55 @@ static void give_energies(const hci_evaluation *e, const reached *x, double time
     j->residual = j->electrical - j->copper - j->stored - j->mechanical;
 }
 
+/* What a reader must know is added to the remark. */
+static void add_remark(hci_simulation *s, const char *text)
+{
+    const size_t used = strlen(s->remark.text);
+    snprintf(s->remark.text + used, sizeof s->remark.text - used, "%s%s", used > 0 ? "; " : "", text);
+}
+
+/* Largest share of the energies that may be lost to the step. */
+#define LARGEST_IMBALANCE 0.01
+
+static void check_balance(hci_simulation *s)
+{
+    const hci_energies *j = &s->energy_J;
+    const double all = fabs(j->electrical) + fabs(j->copper) + fabs(j->mechanical);
+    s->energy_balances = !(fabs(j->residual) > LARGEST_IMBALANCE * all);
+    if (!s->energy_balances)
+        add_remark(
+            s, "the energy does not balance within 1 %, so these figures mean nothing; give a smaller step");
+}
+
+static void check_speed(const hci_evaluation *e, hci_simulation *s)
+{
+    const double wanted = e->setup->set_point, mean = s->speed_rad_per_s.mean;
+    char text[160];
+    if (!e->setup->drive.control.speed_controlled || fabs(mean - wanted) <= 0.01 * fabs(wanted)) return;
+    snprintf(text, sizeof text, "the speed is %.5g rpm on average, not the %.5g rpm asked for",
+             mean * 30.0 / HCI_PI, wanted * 30.0 / HCI_PI);
+    add_remark(s, text);
+}
+
+/* Orders whose period has at least this many steps at the highest speed are in the spectrum. */
+#define STEPS_OF_A_PERIOD 4.0
+
+static size_t trusted_orders(const hci_evaluation *e, hci_simulation *s)
+{
+    const double speed = fmax(fabs(s->speed_rad_per_s.most), fabs(s->speed_rad_per_s.least));
+    const double turn_s = 2.0 * HCI_PI / (e->setup->drive.plant.table.pole_pairs * speed);
+    const double most = (double)e->setup->period_turns * turn_s / (STEPS_OF_A_PERIOD * s->step_s);
+    char text[240];
+    if (most >= (double)(e->orders - 1)) return e->orders;
+    snprintf(text, sizeof text,
+             "the spectrum ends at order %g, above which a period has fewer than 4 steps; what the torque "
+             "has there folds "
+             "onto the orders below, so give a smaller step",
+             floor(most) / (double)e->setup->period_turns);
+    add_remark(s, text);
+    return (size_t)most + 1;
+}
+
 /* Where the rotor turns backwards both dθ and Θ are negative. */
 static void give_spectrum(const hci_evaluation *e, hci_simulation *s)
 {
@@ -310,7 +364,7 @@ static void give_spectrum(const hci_evaluation *e, hci_simulation *s)
     }
     s->spectrum_Nm[0].sine = 0.0;
     s->spectrum_Nm[0].cosine += e->reference_Nm;
-    s->spectrum_count = e->orders;
+    s->spectrum_count = trusted_orders(e, s);
 }
 
 hci_status hci_evaluation_finish(hci_evaluation *e, hci_simulation *s, hci_note *note)
@@ -326,6 +380,8 @@ hci_status hci_evaluation_finish(hci_evaluation *e, hci_simulation *s, hci_note 
     give_losses(e, s);
     give_control(e, x, time_s, s);
     give_energies(e, x, time_s, s);
+    check_balance(s);
+    check_speed(e, s);
     if (e->periods == 0) return HCI_OK;
     s->spectrum_Nm = hci_memory_new(e->orders, sizeof *s->spectrum_Nm);
     if (!s->spectrum_Nm)

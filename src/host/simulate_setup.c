@@ -348,6 +348,15 @@ static bool is_folder(const char *path)
     return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
 }
 
+/* Whether a folder of `solve` has the currents in parts that a torque scales. */
+static bool has_parts(const char *folder)
+{
+    char path[HCI_SCENARIO_PATH_SIZE + 32];
+    struct stat info;
+    snprintf(path, sizeof path, "%s/currents_per_Nm.csv", folder);
+    return stat(path, &info) == 0;
+}
+
 static hci_status read_waves(const job *b)
 {
     hci_setup *p = b->setup;
@@ -357,6 +366,9 @@ static hci_status read_waves(const job *b)
         return wrong(b, "`currents` is one file, which a torque cannot scale; give the folder that `solve` "
                         "wrote, or delete the set "
                         "point");
+    if (p->has_command && !has_parts(b->scenario->currents))
+        return wrong(b, "`currents`: this solution has no currents_per_Nm.csv: it is for one torque (a held "
+                        "fundamental, or reluctance torque); use `strategy`, or delete the set point");
     status = read_part(b,
                        !folder          ? NULL
                        : p->has_command ? "currents_constant.csv"

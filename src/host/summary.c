@@ -202,12 +202,14 @@ static bool add_control(cJSON *root, const hci_simulation *s)
            add_number(part, "samples_limited_from_start", (double)s->limited_from_start);
 }
 
-static bool add_energy(cJSON *root, const hci_energies *j)
+static bool add_energy(cJSON *root, const hci_simulation *s)
 {
+    const hci_energies *j = &s->energy_J;
     cJSON *part = cJSON_AddObjectToObject(root, "energy");
     return part && add_number(part, "electrical_J", j->electrical) &&
            add_number(part, "copper_J", j->copper) && add_number(part, "stored_J", j->stored) &&
            add_number(part, "mechanical_J", j->mechanical) && add_number(part, "residual_J", j->residual) &&
+           cJSON_AddBoolToObject(part, "balances", s->energy_balances) &&
            add_number(part, "load_J", j->load) && add_number(part, "friction_J", j->friction) &&
            add_number(part, "kinetic_J", j->kinetic);
 }
@@ -218,7 +220,7 @@ char *hci_simulation_json(const hci_simulation *simulation)
     char *text = NULL;
     if (root && add_text(root, "command", "simulate") && add_text(root, "version", HCI_VERSION_STRING) &&
         add_evaluation(root, simulation) && add_torque_and_current(root, simulation) &&
-        add_control(root, simulation) && add_energy(root, &simulation->energy_J))
+        add_control(root, simulation) && add_energy(root, simulation))
         text = cJSON_Print(root);
     cJSON_Delete(root);
     return text;

@@ -137,9 +137,9 @@ typedef struct {
     hci_statistics current_A;     /* length of the current vector, amplitude-invariant */
     hci_statistics current_dqx_A; /* sqrt(i_dx² + i_qx²) */
     double peak_phase_A;
-    double T_ripple_percent,
-        F_ripple_percent; /* 100 (T_max − T_min)/T_mean, 100 rms(T − T_mean)/T_mean; NAN when T_mean is 0 */
-    double copper_W;      /* NAN without a resistance */
+    double T_ripple_percent, F_ripple_percent; /* 100 (T_max − T_min)/T_mean, 100 rms(T − T_mean)/T_mean; NAN
+                                                * when T_mean is 0, or less than 1 % of T_max − T_min */
+    double copper_W;                           /* NAN without a resistance */
     double plain_amplitude_A; /* sine in phase with the back-EMF's fundamental that would make the mean torque
                                  with it */
     double loss_to_plain;     /* copper loss over that of the sine; NAN when there is none */
@@ -149,6 +149,7 @@ typedef struct {
     size_t samples; /* of the reference currents */
     size_t without_current_from_start, limited_from_start;
     hci_energies energy_J;
+    bool energy_balances;      /* within 1 %, or not known */
     hci_harmonic *spectrum_Nm; /* order 0 first; NULL with count 0 where not one period was turned */
     size_t spectrum_count;
     hci_note remark; /* what a reader should know, or "" */
