@@ -113,6 +113,20 @@ rows duration,0.1,s prescribed_speed,80,rpm torque_reference,2,Nm
 run 5 simulate data/machine_c "$scenario" -o "$work/file"
 nothing_on_stdout
 
+# ---- figures that mean nothing are not passed off as results
+
+rows prescribed_speed,80,rpm torque_reference,8,Nm current_control,hysteresis, step,5,ms duration,2,s
+run 0 simulate data/machine_c "$scenario" --json
+says 'energy does not balance within 1 %.*spectrum ends at order 18'
+check "the imbalance is not in the summary" grep -q '"balances":[[:space:]]*false' "$work/stdout"
+rows prescribed_speed,80,rpm torque_reference,0,Nm duration,0.9,s
+run 0 simulate data/machine_c "$scenario" --json
+check "a ripple without a mean has a figure" grep -q '"T_ripple":[[:space:]]*null' "$work/stdout"
+printf 'order,amplitude_Nm,phase_rad\n0,8,0\n' >"$work/eight.csv"
+run 0 solve data/machine_c --target "$work/eight.csv" -q -o "$work/interior"
+rows prescribed_speed,80,rpm torque_reference,4,Nm currents,"$work/interior", duration,0.9,s
+refused 3 'no currents_per_Nm.csv: it is for one torque' data/machine_c "$scenario"
+
 # ---- the help and docs/simulate.md name the same names
 
 run 0 simulate --help
