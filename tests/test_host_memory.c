@@ -73,16 +73,19 @@ static void route_suitesparse(void)
  * hidden failure would change. */
 typedef hci_status path(double *figure);
 
-/* A path as it is when memory is there; then with n allocations for n = 0, 1, 2, … 200 and then in steps of a
- * fiftieth. What does not fail must give the same figure. Returns how many allocations it took (the callers
- * ask for a third of what it was when written, so that a door that is not used is noticed). */
+/* So many first allocations fail one by one, later ones in steps of this part of their number. */
+static long one_by_one = 1000, part = 50;
+
+/* A path as it is when memory is there; then with n allocations for n = 0, 1, 2, …. What does not fail must
+ * give the same figure. Returns how many allocations it took (the callers ask for a third of what it was when
+ * written, so that a door that is not used is noticed). */
 static long sweep(path *run)
 {
     double expected = 0.0, figure = 0.0;
     const hci_status good = run(&expected);
     long n = 0;
     TEST_ASSERT_TRUE(good == HCI_OK || good == HCI_NOT_REACHED);
-    for (;; n += n < 1000 ? 1 : n / 50) {
+    for (;; n += n < one_by_one ? 1 : n / part) {
         hci_status status;
         hci_memory_fail_after(n);
         status = run(&figure);
@@ -183,6 +186,21 @@ static hci_status read_machine(double *figure)
     return noted(status, &note);
 }
 
+static hci_status read_interior(double *figure)
+{
+    hci_machine_data m;
+    hci_note note = {{0}};
+    const hci_status status = hci_machine_read("data/machine_c", &m, &note);
+    if (status == HCI_OK) {
+        *figure = m.slope[1].sine[HCI_AB] + m.inductance[0].cosine[HCI_AA];
+    } else {
+        TEST_ASSERT_NULL(m.slope);
+        TEST_ASSERT_NULL(m.inductance);
+    }
+    hci_machine_release(&m);
+    return noted(status, &note);
+}
+
 static hci_status read_target(double *figure)
 {
     hci_target t;
@@ -226,6 +244,7 @@ static hci_status read_currents(double *figure)
 static void test_reading(void)
 {
     TEST_ASSERT_TRUE(sweep(read_machine) > 10);
+    TEST_ASSERT_TRUE(sweep(read_interior) > 15);
     TEST_ASSERT_TRUE(sweep(read_target) > 5);
     TEST_ASSERT_TRUE(sweep(read_set) > 5);
     TEST_ASSERT_TRUE(sweep(read_currents) > 5);
@@ -347,6 +366,33 @@ static void test_pointwise(void)
     TEST_ASSERT_TRUE(sweep(run_solve) > 5);
 }
 
+/* Newton's method on machine C cut down to its largest orders: a free choice, few components, a given set. A
+ * run takes a tenth of a second, so fewer of the allocations are tried one by one. */
+static void test_newton(void)
+{
+    hci_component component[2] = {
+        {1.0, 1 },
+        {5.0, -1}
+    };
+    hci_set name[2] = {HCI_SET_POS, HCI_SET_NEG};
+    const hci_component_set two = {component, name, 2, {{0}}};
+    hci_note note = {{0}};
+    hci_machine_release(&machine);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_machine_read("data/machine_c", &machine, &note), note.text);
+    machine.model.back_emf_count = machine.model.slope_count = 1;
+    machine.model.cogging_count = 0;
+    one_by_one = 16;
+    part = 8;
+    wish(NULL, NULL, HCI_METHOD_AUTO);
+    TEST_ASSERT_TRUE(sweep(run_solve) > 100);
+    options.choose_at_most = 2;
+    TEST_ASSERT_TRUE(sweep(run_solve) > 100);
+    wish(&two, NULL, HCI_METHOD_AUTO);
+    TEST_ASSERT_TRUE(sweep(run_solve) > 100);
+    one_by_one = 1000;
+    part = 50;
+}
+
 /* ---- writing
  * ---------------------------------------------------------------------------------------------------- */
 
@@ -429,6 +475,7 @@ int main(void)
     RUN_TEST(test_solving_a_deficient_system);
     RUN_TEST(test_choosing);
     RUN_TEST(test_pointwise);
+    RUN_TEST(test_newton);
     RUN_TEST(test_writing);
     return UNITY_END();
 }

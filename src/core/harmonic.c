@@ -4,9 +4,7 @@
 #include <stdbool.h>
 
 #include "sort.h"
-
-static const double COS_THIRD = -0.5;
-static const double SIN_THIRD = 0.86602540378443864676;
+#include "third.h"
 
 double hci_amplitude(double sine, double cosine)
 {

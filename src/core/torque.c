@@ -3,9 +3,7 @@
 #include <math.h>
 
 #include "hci/system.h"
-
-static const double COS_THIRD = -0.5;
-static const double SIN_THIRD = 0.86602540378443864676;
+#include "third.h"
 
 /* Row and column of each stored entry of a phase matrix; entries off the diagonal stand for two. */
 static const unsigned char ROW[HCI_PHASE_MATRIX] = {0, 1, 2, 0, 1, 2};
