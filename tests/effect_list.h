@@ -10,7 +10,7 @@
 #include "hci/effect.h"
 #include "unity.h"
 
-enum { EL_EFFECTS = 16, EL_TERMS = 32 };
+enum { EL_EFFECTS = 16, EL_TERMS = 96 };
 
 typedef struct {
     hci_effect effect[EL_EFFECTS];

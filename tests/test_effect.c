@@ -606,7 +606,7 @@ static void test_registry(void)
         TEST_ASSERT_NOT_NULL_MESSAGE(room, NAMES[k]);
         TEST_ASSERT_EQUAL_STRING(NAMES[k], room->name);
         TEST_ASSERT_TRUE(room->equation && room->signature && room->parameter_count > 0);
-        TEST_ASSERT_TRUE(room->torque || room->undo);
+        TEST_ASSERT_TRUE(room->torque || room->torque_of_all || room->undo);
         TEST_ASSERT_TRUE(!room->sense == !room->undo && !room->undo == !room->undo_adjoint);
     }
     TEST_ASSERT_NOT_NULL(hci_effect_room_at(count - 1));

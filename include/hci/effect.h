@@ -38,6 +38,7 @@ typedef struct {
     double i_abc[3];          /* A */
     double change_A_per_s[3]; /* how fast the currents change in the rotor frame, as phase quantities: 0 for
                                * currents that turn with the rotor. Only delays use it */
+    double curvature_A_per_s2[3]; /* the same of that rate; where it is not known, 0 */
     double temperature_C;     /* of the magnets; NAN where it is not known, which stands for the reference */
 } hci_sample;
 
@@ -112,12 +113,18 @@ struct hci_effect_room {
     const char *signature; /* how it shows in a residual */
     const hci_effect_parameter *parameter;
     size_t parameter_count;
-    bool in_machine; /* `torque` acts in the air gap, else only between it and the reading */
+    bool in_machine;       /* `torque` acts in the air gap, else only between it and the reading */
+    bool beyond_quadratic; /* the torque is of higher than second degree in the currents */
 
     /* Adds what one term contributes to the torque at a true sample. Returns ∂T/∂value, the regressor of a
      * linear parameter. */
     double (*torque)(const hci_effect *effect, const hci_effect_term *term, const hci_machine *machine,
                      const hci_sample *truth, hci_effect_torque *sum);
+
+    /* In place of `torque` where there may be many terms: adds what all of them contribute. by_value: out,
+     * ∂T/∂value of each term, or NULL. */
+    void (*torque_of_all)(const hci_effect *effect, const hci_machine *machine, const hci_sample *truth,
+                          hci_effect_torque *sum, double *by_value);
 
     /* What brakes the shaft of a simulated drive: the smooth part at a speed, and the Coulomb part. */
     double (*drag_Nm)(const hci_effect *effect, double speed_rad_per_s);

@@ -54,20 +54,22 @@ size_t hci_effects_terms(const hci_effects *effects)
 
 /* ---- the declared machine ---- */
 
-/* d/dθ (S sin nθ + C cos nθ) has S' = −nC, C' = nS. */
 void hci_effect_declared_emf(const hci_machine *machine, double theta_m_rad, double e[3], double slope[3])
 {
     const double p = machine->pole_pairs, theta = p * theta_m_rad;
-    hci_waves_at(machine->back_emf, machine->back_emf_count, theta, e);
     for (int s = 0; s < 3; ++s)
-        slope[s] = 0.0;
+        e[s] = slope[s] = 0.0;
     for (size_t k = 0; k < machine->back_emf_count; ++k) {
         const hci_wave *w = &machine->back_emf[k];
-        const hci_wave turned = {w->order, w->sequence, -p * w->order * w->cosine, p * w->order * w->sine};
-        double x[3];
-        hci_waves_at(&turned, 1, theta, x);
-        for (int s = 0; s < 3; ++s)
-            slope[s] += x[s];
+        const double s = sin(w->order * theta), c = cos(w->order * theta), n = p * w->order;
+        const double x = w->sine * s + w->cosine * c, y = w->sine * c - w->cosine * s;
+        double of_wave[3], of_slope[3];
+        hci_effect_phases(x, y, w->sequence, of_wave);
+        hci_effect_phases(n * y, -n * x, w->sequence, of_slope);
+        for (int phase = 0; phase < 3; ++phase) {
+            e[phase] += of_wave[phase];
+            slope[phase] += of_slope[phase];
+        }
     }
 }
 
@@ -121,18 +123,31 @@ static void add_declared(const hci_machine *machine, const hci_sample *truth, hc
 
 /* ---- torque ---- */
 
+/* Adds the torque of one effect; by_value: out, its terms' derivatives, or NULL. */
+static void add_effect(const hci_effect *effect, const hci_machine *machine, const hci_sample *truth,
+                       hci_effect_torque *sum, double *by_value)
+{
+    if (effect->room->torque_of_all) {
+        effect->room->torque_of_all(effect, machine, truth, sum, by_value);
+        return;
+    }
+    for (size_t k = 0; k < effect->count; ++k) {
+        const double by =
+            effect->room->torque ? effect->room->torque(effect, &effect->term[k], machine, truth, sum) : 0.0;
+        if (by_value) by_value[k] = by;
+    }
+}
+
 /* Adds the torque of all rooms, or of those in the machine. */
 static void add_effects(const hci_machine *machine, const hci_effects *effects, const hci_sample *truth,
                         bool outside_too, hci_effect_torque *sum, double *by_value)
 {
     for (size_t j = 0; j < effects->count; ++j) {
         const hci_effect *effect = &effects->effect[j];
-        const bool acts = effect->room->torque && (outside_too || effect->room->in_machine);
-        for (size_t k = 0; k < effect->count; ++k) {
-            const double by =
-                acts ? effect->room->torque(effect, &effect->term[k], machine, truth, sum) : 0.0;
-            if (by_value) *by_value++ = by;
-        }
+        const bool acts = outside_too || effect->room->in_machine;
+        if (acts) add_effect(effect, machine, truth, sum, by_value);
+        for (size_t k = 0; k < effect->count && by_value; ++k, ++by_value)
+            if (!acts) *by_value = 0.0;
     }
 }
 

@@ -21,20 +21,21 @@ static int sequence_of(const hci_effect_term *term)
     return term->parameter < NEGATIVE ? 1 : term->parameter < ZERO ? -1 : 0;
 }
 
-static double torque(const hci_effect *effect, const hci_effect_term *term, const hci_machine *machine,
-                     const hci_sample *truth, hci_effect_torque *sum)
+static void torque_of_all(const hci_effect *effect, const hci_machine *machine, const hci_sample *truth,
+                          hci_effect_torque *sum, double *by_value)
 {
-    (void)effect;
-    const double k = hci_effect_periods(term->order, machine->pole_pairs);
-    const int sequence = sequence_of(term);
-    double e[3], slope[3];
-    for (int s = 0; s < 3; ++s) {
-        const double x = k * truth->theta_m_rad - sequence * 2.0 * HCI_PI * s / 3.0;
-        const hci_effect_oscillation f = hci_effect_oscillate(term->parameter % 2 == 1, k, x);
-        e[s] = f.value;
-        slope[s] = f.slope;
+    hci_effect_turn turn = {HCI_EFFECT_NO_TURN, 0.0, 0.0};
+    for (size_t k = 0; k < effect->count; ++k) {
+        const hci_effect_term *term = &effect->term[k];
+        const bool cosine = term->parameter % 2 == 1;
+        double e[3], slope[3];
+        hci_effect_turn_to(&turn, term->order, machine->pole_pairs, truth->theta_m_rad);
+        const double x = cosine ? turn.c : turn.s, y = cosine ? -turn.s : turn.c;
+        hci_effect_phases(x, y, sequence_of(term), e);
+        hci_effect_phases(turn.k * y, -turn.k * x, sequence_of(term), slope);
+        const double by = hci_effect_add_emf(sum, term->value, e, slope, truth->i_abc);
+        if (by_value) by_value[k] = by;
     }
-    return hci_effect_add_emf(sum, term->value, e, slope, truth->i_abc);
 }
 
 const hci_effect_room hci_effect_back_emf = {
@@ -44,5 +45,5 @@ const hci_effect_room hci_effect_back_emf = {
         "grows with the current; at n ± the orders of the currents, n of another sequence at DC and order 2",
     HCI_EFFECT_PARAMETERS(PARAMETER),
     .in_machine = true,
-    .torque = torque,
+    .torque_of_all = torque_of_all,
 };

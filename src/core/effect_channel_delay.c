@@ -21,14 +21,18 @@ static void turn(double abc[3], double angle_rad)
     hci_clarke_inverse(y, abc);
 }
 
-/* Moves angle and currents on in time; the currents in the rotor frame by their rate of change. */
+/* Moves angle and currents on in time; the currents in the rotor frame by their rate of change and its own. */
 static void advance(hci_sample *x, int pole_pairs, double angle_s, double current_s)
 {
     x->theta_m_rad += x->speed_rad_per_s * angle_s;
-    for (int k = 0; k < 3; ++k)
-        x->i_abc[k] += current_s * x->change_A_per_s[k];
+    for (int k = 0; k < 3; ++k) {
+        const double curvature = x->curvature_A_per_s2[k];
+        x->i_abc[k] += current_s * (x->change_A_per_s[k] + 0.5 * current_s * curvature);
+        x->change_A_per_s[k] += current_s * curvature;
+    }
     turn(x->i_abc, pole_pairs * x->speed_rad_per_s * current_s);
     turn(x->change_A_per_s, pole_pairs * x->speed_rad_per_s * current_s);
+    turn(x->curvature_A_per_s2, pole_pairs * x->speed_rad_per_s * current_s);
 }
 
 /* From the moment of the torque that is read to the moments of the others, and back. */

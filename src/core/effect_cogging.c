@@ -8,16 +8,18 @@ static const hci_effect_parameter PARAMETER[] = {
     HCI_ORDERED("cosine", "Nm", "of cos nθ", 1e-6),
 };
 
-static double torque(const hci_effect *effect, const hci_effect_term *term, const hci_machine *machine,
-                     const hci_sample *truth, hci_effect_torque *sum)
+static void torque_of_all(const hci_effect *effect, const hci_machine *machine, const hci_sample *truth,
+                          hci_effect_torque *sum, double *by_value)
 {
-    (void)effect;
-    const double k = hci_effect_periods(term->order, machine->pole_pairs);
-    const hci_effect_oscillation f =
-        hci_effect_oscillate(term->parameter == COSINE, k, k * truth->theta_m_rad);
-    sum->torque_Nm += term->value * f.value;
-    sum->by_angle += term->value * f.slope;
-    return f.value;
+    hci_effect_turn turn = {HCI_EFFECT_NO_TURN, 0.0, 0.0};
+    for (size_t k = 0; k < effect->count; ++k) {
+        const hci_effect_term *term = &effect->term[k];
+        hci_effect_turn_to(&turn, term->order, machine->pole_pairs, truth->theta_m_rad);
+        const hci_effect_oscillation f = hci_effect_oscillate(&turn, term->parameter == COSINE);
+        sum->torque_Nm += term->value * f.value;
+        sum->by_angle += term->value * f.slope;
+        if (by_value) by_value[k] = f.value;
+    }
 }
 
 const hci_effect_room hci_effect_cogging = {
@@ -26,5 +28,5 @@ const hci_effect_room hci_effect_cogging = {
     .signature = "independent of current and speed, at any order",
     HCI_EFFECT_PARAMETERS(PARAMETER),
     .in_machine = true,
-    .torque = torque,
+    .torque_of_all = torque_of_all,
 };

@@ -13,10 +13,11 @@ static const hci_effect_parameter PARAMETER[] = {
 static hci_effect_oscillation error_at(const hci_effect *effect, double theta_m_rad)
 {
     hci_effect_oscillation sum = {0.0, 0.0};
+    hci_effect_turn turn = {HCI_EFFECT_NO_TURN, 0.0, 0.0};
     for (size_t j = 0; j < effect->count; ++j) {
         const hci_effect_term *t = &effect->term[j];
-        const hci_effect_oscillation f =
-            hci_effect_oscillate(t->parameter == COSINE, t->order, t->order * theta_m_rad);
+        hci_effect_turn_to(&turn, t->order, 1, theta_m_rad);
+        const hci_effect_oscillation f = hci_effect_oscillate(&turn, t->parameter == COSINE);
         sum.value += t->value * f.value;
         sum.slope += t->value * f.slope;
     }
@@ -52,11 +53,11 @@ static void undo_adjoint(const hci_effect *effect, int pole_pairs, const hci_sam
     hci_sample after = *before;
     undo(effect, pole_pairs, &after);
     by->by_angle /= 1.0 + error_at(effect, after.theta_m_rad).slope;
+    hci_effect_turn turn = {HCI_EFFECT_NO_TURN, 0.0, 0.0};
     for (size_t j = 0; j < effect->count; ++j) {
         const hci_effect_term *t = &effect->term[j];
-        by_value[j] =
-            -by->by_angle *
-            hci_effect_oscillate(t->parameter == COSINE, t->order, t->order * after.theta_m_rad).value;
+        hci_effect_turn_to(&turn, t->order, 1, after.theta_m_rad);
+        by_value[j] = -by->by_angle * hci_effect_oscillate(&turn, t->parameter == COSINE).value;
     }
 }
 

@@ -17,14 +17,20 @@ static const hci_effect_parameter PARAMETER[] = {
     HCI_ORDERED("qq_cosine", "H", "of L_qq, cos nθ", 0.0),
 };
 
-static double torque(const hci_effect *effect, const hci_effect_term *term, const hci_machine *machine,
-                     const hci_sample *truth, hci_effect_torque *sum)
+static void torque_of_all(const hci_effect *effect, const hci_machine *machine, const hci_sample *truth,
+                          hci_effect_torque *sum, double *by_value)
 {
-    (void)effect;
-    const int q = (int)(term->parameter / 2);
-    const double scale = q == 1 ? 1.5 : 0.75;
-    const hci_coenergy_term w = {term->order, term->parameter % 2 == 1, 2 - q, q};
-    return scale * hci_coenergy_add(sum, scale * term->value, &w, machine->pole_pairs, truth);
+    hci_coenergy w;
+    hci_coenergy_begin(&w, machine->pole_pairs, truth, 1.0);
+    for (size_t k = 0; k < effect->count; ++k) {
+        const hci_effect_term *term = &effect->term[k];
+        const int q = (int)(term->parameter / 2);
+        const double scale = q == 1 ? 1.5 : 0.75;
+        const double by =
+            hci_coenergy_add(&w, 2 - q, q, term->parameter % 2 == 1, term->order, scale * term->value);
+        if (by_value) by_value[k] = scale * by;
+    }
+    hci_coenergy_end(&w, sum);
 }
 
 const hci_effect_room hci_effect_reluctance = {
@@ -33,5 +39,5 @@ const hci_effect_room hci_effect_reluctance = {
     .signature = "grows with the square of the current; mean and orders 6k, order 2 with unequal phases",
     HCI_EFFECT_PARAMETERS(PARAMETER),
     .in_machine = true,
-    .torque = torque,
+    .torque_of_all = torque_of_all,
 };

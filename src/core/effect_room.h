@@ -54,16 +54,42 @@ static inline double hci_effect_periods(double order, int pole_pairs)
     return fabs(k - whole) < HCI_ORDER_TOLERANCE * pole_pairs ? whole : k;
 }
 
-/* sin or cos of an angle, and its derivative by the mechanical angle. */
+/* sin and cos of k θ_m, kept while k stays: terms of one order follow each other. Start with
+ * HCI_EFFECT_NO_TURN. */
+#define HCI_EFFECT_NO_TURN (-1.0)
+
+typedef struct {
+    double k, s, c;
+} hci_effect_turn;
+
+static inline void hci_effect_turn_to(hci_effect_turn *turn, double order, int pole_pairs, double theta_m_rad)
+{
+    const double k = hci_effect_periods(order, pole_pairs);
+    if (k == turn->k) return;
+    turn->k = k;
+    turn->s = sin(k * theta_m_rad);
+    turn->c = cos(k * theta_m_rad);
+}
+
+/* sin or cos of k θ_m, and its derivative by θ_m. */
 typedef struct {
     double value, slope;
 } hci_effect_oscillation;
 
-static inline hci_effect_oscillation hci_effect_oscillate(bool cosine, double periods, double angle_rad)
+static inline hci_effect_oscillation hci_effect_oscillate(const hci_effect_turn *turn, bool cosine)
 {
-    const double s = sin(angle_rad), c = cos(angle_rad);
-    const hci_effect_oscillation x = {cosine ? c : s, cosine ? -periods * s : periods * c};
+    const hci_effect_oscillation x = {cosine ? turn->c : turn->s,
+                                      cosine ? -turn->k * turn->s : turn->k * turn->c};
     return x;
+}
+
+/* Phase s lags by σ2πs/3: x cos(σ2πs/3) − y sin(σ2πs/3) of a wave x and the one y a quarter ahead of it. */
+static inline void hci_effect_phases(double x, double y, int sequence, double abc[3])
+{
+    const double half = sequence == 0 ? 1.0 : -0.5, side = sequence * 0.86602540378443864676;
+    abc[0] = x;
+    abc[1] = half * x - side * y;
+    abc[2] = half * x + side * y;
 }
 
 /* Adds weight × e·i, with e of the phases in N·m/A and its slope by θ_m; returns e·i. */
