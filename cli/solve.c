@@ -7,6 +7,8 @@
 
 #include "cli.h"
 #include "hci/host/csv.h"
+#include "hci/host/effects.h"
+#include "hci/host/solve.h"
 
 enum {
     TARGET,
@@ -21,6 +23,7 @@ enum {
     LIMIT_CURRENT,
     LIMIT_VOLTAGE,
     SPEED,
+    TEMPERATURE,
     OUT,
     JSON,
     QUIET,
@@ -46,6 +49,8 @@ static const cli_option OPTIONS[] = {
     [LIMIT_VOLTAGE] = {"limit-voltage", 0,   CLI_VALUE,          "V",
                 "dc-link voltage for the line voltages; with --speed"                                                      },
     [SPEED] = {"speed",         0,   CLI_VALUE,          "RPM",    "mechanical speed for --limit-voltage"                 },
+    [TEMPERATURE] = {"temperature",   0,   CLI_VALUE,          "C",
+                "of the magnets, for magnet_temperature in effects.csv"                                                    },
     [OUT] = {"out",           'o', CLI_VALUE,          "FOLDER", "where the results go; without it nothing is written"  },
     [JSON] = {"json",          0,   CLI_FLAG,           NULL,     "the summary as JSON on standard output"               },
     [QUIET] = {"quiet",         'q', CLI_FLAG,           NULL,     "no words, only errors"                                },
@@ -138,6 +143,10 @@ static hci_status read_numbers(const cli_arguments *a, hci_solve_options *o, hci
     if (!status && a->value[MAX_LOSS])
         status = cli_number("max-loss", a->value[MAX_LOSS], 1.0, 1e6, &o->loss_allowance, note);
     if (!status) status = read_limits(a, o, note);
+    if (!status && a->value[TEMPERATURE]) {
+        status = cli_number("temperature", a->value[TEMPERATURE], -273.15, 1e4, &o->temperature_C, note);
+        o->at_temperature = true;
+    }
     if (!status && a->value[FUNDAMENTAL]) {
         status = read_fundamental(a->value[FUNDAMENTAL], held, note);
         o->held = held;
@@ -152,6 +161,7 @@ static hci_status read_numbers(const cli_arguments *a, hci_solve_options *o, hci
 /* Everything that is read, in one place so that it is released in one place. */
 typedef struct {
     hci_machine_data machine;
+    hci_effects_data effects;
     hci_target target;
     hci_component_set set;
     hci_wave held;
@@ -183,10 +193,12 @@ static hci_status read_inputs(const cli_arguments *a, inputs *in, hci_note *note
     if (!status) status = keep_apart(a->value[TARGET], a->value[OUT], note);
     if (!status) status = keep_apart(a->value[HARMONICS], a->value[OUT], note);
     if (!status) status = hci_machine_read(a->word[0], &in->machine, note);
+    if (!status) status = hci_effects_read_machine(a->word[0], &in->effects, note);
     if (!status) status = hci_target_read(a->value[TARGET], &in->target, note);
     if (!status && a->value[HARMONICS])
         status = hci_component_set_read(a->value[HARMONICS], in->machine.has_neutral, &in->set, note);
     in->options.target = &in->target;
+    in->options.effects = &in->effects.list;
     in->options.set = a->value[HARMONICS] ? &in->set : NULL;
     in->options.progress = a->given[QUIET] ? NULL : cli_progress;
     return status;
@@ -195,6 +207,7 @@ static hci_status read_inputs(const cli_arguments *a, inputs *in, hci_note *note
 static void release_inputs(inputs *in)
 {
     hci_machine_release(&in->machine);
+    hci_effects_release(&in->effects);
     hci_target_release(&in->target);
     hci_component_set_release(&in->set);
 }
@@ -216,6 +229,7 @@ static int give_results(const cli_arguments *a, const inputs *in, const hci_solu
     if (!a->given[QUIET]) {
         cli_remark(&in->machine.remark);
         cli_remark(&in->set.remark);
+        cli_remark(&s->remark);
     }
     if (!a->given[QUIET] && (size_t)in->machine.model.pole_pairs % s->period_turns != 0)
         fprintf(

@@ -100,7 +100,13 @@ printf 'value,unit\n2,1\n' >"$m/machine.csv"; refused 3 'machine.csv:1: .*name'
 # ---- what is there but not yet understood is not left out in silence
 
 printf 'theta_e_rad,La_H,Lb_H,Lc_H,Mab_H,Mbc_H,Mca_H\n0,1,1,1,0,0,0\n' >"$m/inductance.csv"; refused 3 'inductance.csv'
-printf 'effect,parameter,value,unit,std_error\n' >"$m/effects.csv"; refused 3 'effects.csv'
+effects='effect,parameter,value,unit,std_error'
+printf '%s\nwobble,a,1,,\n' $effects >"$m/effects.csv"; refused 3 'effects.csv:2: .*`wobble`, expected one of cogging'
+printf '%s\nsaturation,d9q0_sine_6,1,Nm,\n' $effects >"$m/effects.csv"; refused 3 'effects.csv:2: .*`d9q0_sine_6`, expected one of d3q0_sine_ORDER'
+printf '%s\nsaturation,d0q3_sine_0.3333,1,Nm,\n' $effects >"$m/effects.csv"; refused 3 'no common period .*k/pole_pairs'
+printf '%s\ncogging,sine_0.3333,1,Nm,\n' $effects >"$m/effects.csv"; refused 3 'effects.csv: .*no common period .*k/pole_pairs'
+sed -i 's/star,/star-neutral,/' "$m/machine.csv"; printf '%s\nsaturation,d0q3_sine_6,0.001,Nm,\n' $effects >"$m/effects.csv"; refused 3 'star connection only'
+refused 2 '--temperature' -- --temperature warm
 
 # ---- any table: what is wrong, and where
 

@@ -47,6 +47,30 @@ void hci_plane_from_abc(const double abc[3], double x[2]);
 hci_status hci_strategy_current(const hci_machine_point *point, hci_strategy strategy, double torque_Nm,
                                 const double *previous, double x[2], double *least_iq_A);
 
+/* ---- any smooth torque ---- */
+
+/* A torque in N·m of the current x in the same plane, with its gradient in N·m/A. */
+typedef struct {
+    double (*at)(const void *context, const double x[2], double gradient[2]);
+    const void *context;
+} hci_smooth_torque;
+
+/* The same strategies for any smooth torque. mutual: the torque up to the second degree at this angle; its
+ * T_cog is T without current, its e gives the axes and the mutual torque e·x, and its shortest current the
+ * size of the currents to be looked at.
+ *
+ *     mtpa      the shortest x with T(x) = τ, as the shortest of the lengths r(φ) at which T along a ray is
+ * τ. previous NULL: the shortest of 48 rays to begin with, which finds the best of several ranges; otherwise
+ * the ray of `previous`, which follows one range along θ id0       i_d = 0, i_q = τ/e_q: whatever is not
+ * mutual torque stays cancel    i_q = τ/e_q and the shortest i_d with T = τ, that is i_d cancels all that is
+ * not mutual torque
+ *
+ * x: out, also where the answer is no, as above. HCI_OK or HCI_NOT_REACHED. Some tens of torques from a
+ * neighbouring current, about a thousand without one. */
+hci_status hci_strategy_smooth_current(const hci_smooth_torque *torque, const hci_machine_point *mutual,
+                                       hci_strategy strategy, double torque_Nm, const double *previous,
+                                       double x[2]);
+
 #ifdef __cplusplus
 }
 #endif

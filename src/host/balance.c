@@ -5,6 +5,11 @@
 
 #include "memory.h"
 
+bool hci_task_is_linear(const hci_task *task)
+{
+    return task->machine->slope_count == 0 && !task->beyond;
+}
+
 double hci_target_mean_Nm(const hci_target *target)
 {
     return hci_target_at(target, 0.0).torque_Nm.cosine;

@@ -2,16 +2,19 @@
 #ifndef HCI_SRC_HOST_BALANCE_H
 #define HCI_SRC_HOST_BALANCE_H
 
+#include "corrected.h"
 #include "hci/host/solve.h"
 #include "hci/strategy.h"
 #include "sparse.h"
 
 /* What is wanted of which machine, and what flows already.
  *
- * gain is ∂T/∂i: the back-EMF, and for an interior-magnet machine e + L'i where it is linearised. offset is
- * what linearising adds to the wanted torque: the reluctance torque there. */
+ * machine holds all torque up to the second degree in the currents, beyond what is above it. gain is ∂T/∂i:
+ * the back-EMF, and where the torque is not linear e + L'i and more, at the currents where it is linearised.
+ * offset is what linearising adds to the wanted torque: the reluctance torque there. */
 typedef struct {
     const hci_machine *machine;
+    const hci_effects_plant *beyond; /* or NULL */
     bool has_neutral;
     const hci_target *target;
     const hci_wave *held; /* or NULL */
@@ -45,6 +48,20 @@ typedef struct {
 
 void hci_answer_release(hci_answer *answer);
 
+/* A task for a machine: all but the target zero, the gain of no current. */
+void hci_task_begin(const hci_corrected *corrected, const hci_target *target, hci_task *task);
+
+/* Of the magnets; NAN, which is the reference, where none is given. */
+double hci_temperature_C(const hci_solve_options *options);
+
+/* Fills period_turns for everything in the task, the components of a set (or NULL) and given waves.
+ * HCI_ERROR_INPUT when there is no common period. */
+hci_status hci_task_find_period(hci_task *task, const hci_component_set *set, const hci_wave *wave,
+                                size_t count, hci_note *note);
+
+/* Whether the torque is linear in the currents. */
+bool hci_task_is_linear(const hci_task *task);
+
 /* The wanted mean torque in N·m. */
 double hci_target_mean_Nm(const hci_target *target);
 
@@ -73,8 +90,8 @@ hci_status hci_linear_answer(const hci_task *task, const hci_solve_options *opti
                              const hci_component_set *only, hci_answer *answer, hci_solution *solution,
                              hci_note *note);
 
-/* The same for an interior-magnet machine, by Newton's method: task->gain and task->offset follow the
- * current; what they point to is in *room, to be released by hci_newton_release after the task was last
+/* The same for a machine whose torque is not linear, by Newton's method: task->gain and task->offset follow
+ * the current; what they point to is in *room, to be released by hci_newton_release after the task was last
  * used. */
 typedef struct {
     hci_wave *gain;
@@ -89,6 +106,11 @@ void hci_newton_release(hci_newton_room *room);
  * reach an order. */
 hci_status hci_judge(const hci_task *task, const hci_component_set *set, hci_compare compare,
                      hci_solution *solution, hci_note *note);
+
+/* True torque of a current at every order at which it has any, that is wanted or that cogging has, and at 0.
+ * *torque: out, to be freed with hci_memory_free. */
+hci_status hci_judge_spectrum(const hci_task *task, const hci_wave *wave, size_t count, hci_harmonic **torque,
+                              size_t *torque_count, hci_note *note);
 
 /* Weighted error of the true torque of a current: the largest at any order, and the sum of all squares. */
 typedef struct {

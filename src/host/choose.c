@@ -113,6 +113,10 @@ static void report(const hci_task *t, double share)
 #define LOSS_MARGIN 1.01 /* copper over the pointwise limit at which no further orders are worth it */
 #define DOUBLINGS   5
 
+/* A current that needs more than this of a torque that is sampled has a kink, and no order would be enough.
+ */
+#define MOST_SAMPLED_ORDER 512.0
+
 /* The worst error with all orders compared, for a solution that was found with fewer. */
 static hci_status attempt_check(const hci_task *t, attempt *a, hci_note *note)
 {
@@ -210,7 +214,8 @@ hci_status hci_choose_all(const hci_task *task, double tolerance_Nm, double limi
         report(task, 0.5 * doubling / DOUBLINGS);
         status = attempt_up_to(task, top, &best, note);
         if (status || good_enough(&best, tolerance_Nm, limit_mean_square_A2)) break;
-        if (doubling == DOUBLINGS) goto done; /* the best there is; the caller sees what it is worth */
+        if (doubling == DOUBLINGS || (task->beyond && 2.0 * top > MOST_SAMPLED_ORDER))
+            goto done; /* the best there is; the caller sees what it is worth */
         below = top;
         top *= 2.0;
     }

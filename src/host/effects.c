@@ -15,6 +15,9 @@
 #define PATH_SIZE 4096
 #define LIST_SIZE 640
 
+/* Of a longer list of parameters, these many are named: half from its start, half from its end. */
+enum { MOST_NAMES = 20 };
+
 /* ---- reading ---- */
 
 /* One row of the file; `room` is a place in the registry. */
@@ -42,8 +45,14 @@ static hci_status room_error(const hci_csv *csv, size_t row, hci_note *note)
 static hci_status parameter_error(const hci_csv *csv, size_t row, const hci_effect_room *room, hci_note *note)
 {
     char list[LIST_SIZE] = "one of";
-    for (size_t k = 0; k < room->parameter_count; ++k)
-        append(list, k > 0 ? ", " : " ", room->parameter[k].name, room->parameter[k].ordered ? "_ORDER" : "");
+    const size_t count = room->parameter_count;
+    const size_t from = count > MOST_NAMES ? MOST_NAMES / 2 : count, to = count - MOST_NAMES / 2;
+    for (size_t k = 0; k < count; ++k) {
+        if (k == from) append(list, ", ", "…", "");
+        if (k < from || k >= to)
+            append(list, k > 0 ? ", " : " ", room->parameter[k].name,
+                   room->parameter[k].ordered ? "_ORDER" : "");
+    }
     return hci_csv_error(csv, "parameter", row, note, list,
                          "these are the parameters of this effect; an order is a number, as in sine_18");
 }

@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "balance.h"
+#include "beyond.h"
 #include "gain.h"
 #include "memory.h"
 
@@ -12,7 +13,7 @@ static hci_status no_memory(hci_note *note)
     return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the torque spectrum");
 }
 
-/* The plain fundamental: the one that is held, or the least sine that makes the wanted mean torque. */
+/* The plain fundamental: the one that is held, or the least sine whose mutual torque has the wanted mean. */
 static hci_wave plain_fundamental(const hci_task *t)
 {
     const double mean_Nm = hci_target_mean_Nm(t->target);
@@ -20,7 +21,7 @@ static hci_wave plain_fundamental(const hci_task *t)
     for (size_t k = 0; k < t->machine->back_emf_count; ++k) {
         const hci_wave *e = &t->machine->back_emf[k];
         const double square = e->sine * e->sine + e->cosine * e->cosine;
-        if (fabs(e->order - 1.0) < HCI_ORDER_TOLERANCE && square > 0.0) {
+        if (fabs(e->order - 1.0) < HCI_ORDER_TOLERANCE && e->sequence == 1 && square > 0.0) {
             const double scale = mean_Nm / (1.5 * square);
             return (hci_wave){1.0, 1, scale * e->sine, scale * e->cosine};
         }
@@ -28,13 +29,33 @@ static hci_wave plain_fundamental(const hci_task *t)
     return (hci_wave){1.0, 1, 0.0, 0.0};
 }
 
-/* e + ½L'i of a current, whose product with it is the mutual and reluctance torque. */
+/* A current, e + ½L'i, whose product with it is the mutual and reluctance torque, and the torque beyond. */
 typedef struct {
     const hci_wave *wave;
     size_t count;
     hci_wave *gain;
     size_t gain_count;
+    hci_harmonic *beyond;
+    size_t beyond_count;
 } acting;
+
+static hci_status act(const hci_task *t, const hci_wave *wave, size_t count, acting *a, hci_note *note)
+{
+    hci_status status =
+        hci_gain_waves(t->machine, wave, count, 0.5, NEGLIGIBLE, &a->gain, &a->gain_count, note);
+    a->wave = wave;
+    a->count = count;
+    if (!status && t->beyond && count > 0)
+        status =
+            hci_beyond_torque(t->beyond, t->period_turns, wave, count, &a->beyond, &a->beyond_count, note);
+    return status;
+}
+
+static void release_acting(acting *a)
+{
+    hci_memory_free(a->gain);
+    hci_memory_free(a->beyond);
+}
 
 static size_t orders_of(const acting *c, double *order)
 {
@@ -42,6 +63,8 @@ static size_t orders_of(const acting *c, double *order)
     for (size_t k = 0; k < c->count; ++k)
         n += hci_component_orders(c->gain, c->gain_count,
                                   (hci_component){c->wave[k].order, c->wave[k].sequence}, order + n);
+    for (size_t k = 0; k < c->beyond_count; ++k)
+        order[n++] = c->beyond[k].order;
     return n;
 }
 
@@ -57,20 +80,13 @@ static hci_status find_reach(const hci_task *t, const hci_wave *first, size_t fi
                              const hci_wave *second, size_t second_count, reach *r, hci_note *note)
 {
     const hci_machine *m = t->machine;
-    hci_status status =
-        hci_gain_waves(m, first, first_count, 0.5, NEGLIGIBLE, &r->first.gain, &r->first.gain_count, note);
-    if (!status)
-        status = hci_gain_waves(m, second, second_count, 0.5, NEGLIGIBLE, &r->second.gain,
-                                &r->second.gain_count, note);
+    hci_status status = act(t, first, first_count, &r->first, note);
+    if (!status) status = act(t, second, second_count, &r->second, note);
     if (status) return status;
-    r->first.wave = first;
-    r->first.count = first_count;
-    r->second.wave = second;
-    r->second.count = second_count;
-    r->order =
-        hci_memory_new(1 + m->cogging_count + t->target->count + 2 * r->first.gain_count * first_count +
-                           2 * r->second.gain_count * second_count,
-                       sizeof *r->order);
+    r->order = hci_memory_new(
+        1 + m->cogging_count + t->target->count + 2 * r->first.gain_count * first_count +
+            2 * r->second.gain_count * second_count + r->first.beyond_count + r->second.beyond_count,
+        sizeof *r->order);
     if (!r->order) return no_memory(note);
     r->order[r->count++] = 0.0;
     for (size_t k = 0; k < m->cogging_count; ++k)
@@ -86,20 +102,26 @@ static hci_status find_reach(const hci_task *t, const hci_wave *first, size_t fi
 static void release_reach(reach *r)
 {
     hci_memory_free(r->order);
-    hci_memory_free(r->first.gain);
-    hci_memory_free(r->second.gain);
+    release_acting(&r->first);
+    release_acting(&r->second);
 }
 
-/* Torque of a current at every order of the reach: (e + ½L'i)·i + T_cog. */
+static void add_to_reach(const reach *r, hci_harmonic term, hci_harmonic *torque)
+{
+    const size_t at = hci_orders_find(r->order, r->count, term.order);
+    torque[at].sine += term.sine;
+    torque[at].cosine += term.cosine;
+}
+
+/* Torque of a current at every order of the reach: (e + ½L'i)·i + T_cog, and what is beyond. */
 static void torque_of(const hci_task *t, const reach *r, const acting *c, hci_harmonic *torque)
 {
     for (size_t k = 0; k < r->count; ++k)
         torque[k] = (hci_harmonic){r->order[k], 0.0, 0.0};
-    for (size_t k = 0; k < t->machine->cogging_count; ++k) {
-        const size_t at = hci_orders_find(r->order, r->count, t->machine->cogging[k].order);
-        torque[at].sine += t->machine->cogging[k].sine;
-        torque[at].cosine += t->machine->cogging[k].cosine;
-    }
+    for (size_t k = 0; k < t->machine->cogging_count; ++k)
+        add_to_reach(r, t->machine->cogging[k], torque);
+    for (size_t k = 0; k < c->beyond_count; ++k)
+        add_to_reach(r, c->beyond[k], torque);
     hci_system_add_torque(c->gain, c->gain_count, c->wave, c->count, r->order, r->count, torque);
 }
 
@@ -108,23 +130,36 @@ static double distance_Nm(hci_harmonic a, hci_harmonic b)
     return hypot(a.sine - b.sine, a.cosine - b.cosine);
 }
 
+hci_status hci_judge_spectrum(const hci_task *task, const hci_wave *wave, size_t count, hci_harmonic **torque,
+                              size_t *torque_count, hci_note *note)
+{
+    reach r = {0};
+    hci_status status = find_reach(task, wave, count, wave, 0, &r, note);
+    *torque = NULL;
+    *torque_count = 0;
+    if (!status && !(*torque = hci_memory_new(r.count, sizeof **torque))) status = no_memory(note);
+    if (!status) {
+        torque_of(task, &r, &r.first, *torque);
+        *torque_count = r.count;
+    }
+    release_reach(&r);
+    return status;
+}
+
 hci_status hci_judge_error(const hci_task *task, const hci_wave *wave, size_t count, hci_torque_error *error,
                            hci_note *note)
 {
-    reach r = {0};
-    hci_harmonic *torque = NULL;
-    hci_status status = find_reach(task, wave, count, wave, 0, &r, note);
-    if (!status && !(torque = hci_memory_new(r.count, sizeof *torque))) status = no_memory(note);
-    if (!status) torque_of(task, &r, &r.first, torque);
+    hci_harmonic *torque;
+    size_t orders;
+    const hci_status status = hci_judge_spectrum(task, wave, count, &torque, &orders, note);
     *error = (hci_torque_error){0.0, 0.0};
-    for (size_t k = 0; k < r.count && !status; ++k) {
-        const hci_target_order wanted = hci_target_at(task->target, r.order[k]);
+    for (size_t k = 0; k < orders; ++k) {
+        const hci_target_order wanted = hci_target_at(task->target, torque[k].order);
         const double amplitude = wanted.weight * distance_Nm(torque[k], wanted.torque_Nm);
         error->worst_Nm = fmax(error->worst_Nm, amplitude);
         error->square_sum += amplitude * amplitude;
     }
     hci_memory_free(torque);
-    release_reach(&r);
     return status;
 }
 

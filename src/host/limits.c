@@ -2,6 +2,9 @@
 
 #include <math.h>
 
+#include "balance.h"
+#include "hci/strategy.h"
+
 /* Angles at which peaks are looked for: 16 in the shortest period. */
 static size_t angles(const hci_solution *s, double top)
 {
@@ -56,13 +59,34 @@ static double inductance_H(const hci_machine_data *m)
     return 0.5 * (m->inductance_d_H + m->inductance_q_H);
 }
 
-/* v = R i + ω L di/dθ + ω_m e at one angle, L the mean of both axes; largest difference of two phases. */
-static double line_voltage_V(const hci_machine_data *m, const hci_solution *s, double speed_rad_per_s,
+/* What the effects add to the voltage: ω_m ∂T_x/∂i + ω L_x di/dθ. */
+static void add_effects(const hci_machine_data *m, const hci_solve_options *o, double theta_rad,
+                        const double i[3], const double i_slope[3], double v[3])
+{
+    hci_sample truth = {0};
+    double slope[2], flux[2], induced[3];
+    truth.theta_m_rad = theta_rad / m->pole_pairs;
+    truth.temperature_C = hci_temperature_C(o);
+    for (int phase = 0; phase < 3; ++phase)
+        truth.i_abc[phase] = i[phase];
+    const hci_effect_torque x = hci_effects_torque(&m->model, o->effects, &truth, NULL);
+    hci_plane_from_abc(i_slope, slope);
+    flux[0] = x.inductance_H[0] * slope[0] + x.inductance_H[1] * slope[1];
+    flux[1] = x.inductance_H[1] * slope[0] + x.inductance_H[2] * slope[1];
+    hci_plane_to_abc(flux, induced);
+    for (int phase = 0; phase < 3; ++phase)
+        v[phase] += o->speed_rad_per_s * (x.by_current[phase] + m->pole_pairs * induced[phase]);
+}
+
+/* v = R i + ω L di/dθ + ω_m e at one angle, L the mean of both axes, and what effects add; largest difference
+ * of two phases. */
+static double line_voltage_V(const hci_machine_data *m, const hci_solve_options *o, const hci_solution *s,
                              double theta_rad)
 {
+    const double speed_rad_per_s = o->speed_rad_per_s;
     const double l_H = inductance_H(m);
     const double omega_rad_per_s = m->pole_pairs * speed_rad_per_s;
-    double e[3], v[3] = {0.0, 0.0, 0.0};
+    double e[3], v[3] = {0.0, 0.0, 0.0}, current[3] = {0.0, 0.0, 0.0}, change[3] = {0.0, 0.0, 0.0};
     hci_waves_at(m->model.back_emf, m->model.back_emf_count, theta_rad, e);
     for (size_t k = 0; k < s->current.count; ++k) {
         const hci_wave w = s->current.wave[k];
@@ -70,15 +94,19 @@ static double line_voltage_V(const hci_machine_data *m, const hci_solution *s, d
         double i[3], i_slope[3];
         hci_waves_at(&w, 1, theta_rad, i);
         hci_waves_at(&slope, 1, theta_rad, i_slope);
-        for (int phase = 0; phase < 3; ++phase)
+        for (int phase = 0; phase < 3; ++phase) {
             v[phase] += m->resistance_ohm * i[phase] + omega_rad_per_s * l_H * i_slope[phase];
+            current[phase] += i[phase];
+            change[phase] += i_slope[phase];
+        }
     }
     for (int phase = 0; phase < 3; ++phase)
         v[phase] += speed_rad_per_s * e[phase];
+    if (o->effects) add_effects(m, o, theta_rad, current, change, v);
     return fmax(fabs(v[0] - v[1]), fmax(fabs(v[1] - v[2]), fabs(v[2] - v[0])));
 }
 
-static hci_status peak_voltage(const hci_machine_data *m, double speed_rad_per_s, hci_solution *s,
+static hci_status peak_voltage(const hci_machine_data *m, const hci_solve_options *o, hci_solution *s,
                                hci_note *note)
 {
     double top = 1.0;
@@ -90,12 +118,12 @@ static hci_status peak_voltage(const hci_machine_data *m, double speed_rad_per_s
             "or leave out --limit-voltage");
     for (size_t k = 0; k < m->model.back_emf_count; ++k)
         top = fmax(top, m->model.back_emf[k].order);
+    if (o->effects) top = fmax(top, hci_effects_top_order(o->effects));
     count = angles(s, top);
     s->peak_line_voltage_V = 0.0;
     for (size_t k = 0; k < count; ++k) {
         const double theta_rad = 2.0 * HCI_PI * (double)(s->period_turns * k) / (double)count;
-        s->peak_line_voltage_V =
-            fmax(s->peak_line_voltage_V, line_voltage_V(m, s, speed_rad_per_s, theta_rad));
+        s->peak_line_voltage_V = fmax(s->peak_line_voltage_V, line_voltage_V(m, o, s, theta_rad));
     }
     return HCI_OK;
 }
@@ -112,8 +140,7 @@ hci_status hci_limits_check(const hci_machine_data *machine, const hci_solve_opt
         solution->within_limits = false;
         solution->torque_at_limit_Nm = torque_at_limit_Nm(solution, wanted_Nm, options->limit_current_A);
     }
-    if (options->limit_voltage_V > 0.0)
-        status = peak_voltage(machine, options->speed_rad_per_s, solution, note);
+    if (options->limit_voltage_V > 0.0) status = peak_voltage(machine, options, solution, note);
     if (solution->peak_line_voltage_V > options->limit_voltage_V) solution->within_limits = false;
     return status;
 }

@@ -4,12 +4,14 @@
  *     (e + L'i_k)·i = T* − T_cog + ½i_kᵀL'i_k,
  *
  * which is the linear problem with e + L'i_k in place of the back-EMF and the reluctance torque of i_k added
- * to the wanted one. Its least-norm solutions converge to the currents of least copper loss that make the
- * torque. */
+ * to the wanted one. A torque T_x of a higher degree, as saturation makes it, is linearised alike: ∂T_x/∂i
+ * joins the gain and ∂T_x/∂i·i_k − T_x what is added. Least-norm solutions converge to the currents of least
+ * copper loss that make the torque. */
 #include <math.h>
 #include <string.h>
 
 #include "balance.h"
+#include "beyond.h"
 #include "gain.h"
 #include "hci/dense.h"
 #include "memory.h"
@@ -93,6 +95,32 @@ static size_t drop_small(hci_harmonic *torque, size_t count)
     return kept;
 }
 
+/* Appends torque and gain of what is beyond the second degree. */
+static hci_status append_beyond(hci_task *t, const hci_beyond_linear *x, hci_newton_room *room,
+                                hci_note *note)
+{
+    hci_wave *gain = hci_memory_resize(room->gain, t->gain_count + x->gain_count, sizeof *gain);
+    if (gain) room->gain = gain;
+    hci_harmonic *offset = hci_memory_resize(room->offset, t->offset_count + x->offset_count, sizeof *offset);
+    if (offset) room->offset = offset;
+    if (!gain || !offset) return no_memory(note);
+    memcpy(gain + t->gain_count, x->gain, x->gain_count * sizeof *gain);
+    memcpy(offset + t->offset_count, x->offset, x->offset_count * sizeof *offset);
+    t->gain_count = hci_waves_join(gain, t->gain_count + x->gain_count, NEGLIGIBLE_GAIN);
+    t->offset_count += x->offset_count;
+    return HCI_OK;
+}
+
+static hci_status linearise_beyond(hci_task *t, const point *p, hci_newton_room *room, hci_note *note)
+{
+    hci_beyond_linear x;
+    hci_status status = hci_beyond_linearise(t->beyond, t->period_turns, p->wave, p->count, &x, note);
+    if (status) return status;
+    status = append_beyond(t, &x, room, note);
+    hci_beyond_release(&x);
+    return status;
+}
+
 /* Makes the task linear at the point. */
 static hci_status linearise(hci_task *t, const point *p, hci_newton_room *room, hci_note *note)
 {
@@ -101,6 +129,7 @@ static hci_status linearise(hci_task *t, const point *p, hci_newton_room *room, 
     status = hci_gain_waves(t->machine, p->wave, p->count, 1.0, NEGLIGIBLE_GAIN, &room->gain, &t->gain_count,
                             note);
     if (!status) status = reluctance(t->machine, p, &room->offset, &t->offset_count, note);
+    if (!status && t->beyond) status = linearise_beyond(t, p, room, note);
     if (status) return status;
     t->offset_count = drop_small(room->offset, t->offset_count);
     t->gain = room->gain;

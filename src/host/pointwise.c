@@ -51,7 +51,7 @@ static double angle_rad(size_t k)
 /* Whether the currents are (T* − T_cog) e⊥/(e⊥·e⊥), which is linear in the torque. */
 static bool is_linear(const hci_task *t)
 {
-    return t->machine->slope_count == 0 && t->strategy == HCI_STRATEGY_MTPA;
+    return hci_task_is_linear(t) && t->strategy == HCI_STRATEGY_MTPA;
 }
 
 static double linear_mean_square_A2(const hci_task *t, size_t count)
@@ -67,16 +67,74 @@ static double linear_mean_square_A2(const hci_task *t, size_t count)
     return sum / (double)count;
 }
 
+/* The torque at one angle, and what of it is beyond the second degree. */
+typedef struct {
+    hci_machine_point point;
+    const hci_effects_plant *beyond;
+    double theta_rad;
+} angle;
+
+static double smooth_torque(const void *context, const double x[2], double gradient[2])
+{
+    const angle *a = context;
+    const double *h = a->point.slope;
+    hci_sample s = {0};
+    s.theta_m_rad = a->theta_rad / a->beyond->machine->pole_pairs;
+    s.temperature_C = a->beyond->temperature_C;
+    hci_plane_to_abc(x, s.i_abc);
+    const hci_effect_torque t = hci_effects_torque(a->beyond->machine, a->beyond->effects, &s, NULL);
+    hci_plane_from_abc(t.by_current, gradient);
+    gradient[0] += a->point.e[0] + h[0] * x[0] + h[1] * x[1];
+    gradient[1] += a->point.e[1] + h[1] * x[0] + h[2] * x[1];
+    return hci_point_torque_Nm(&a->point, x) + t.torque_Nm;
+}
+
+/* Angles a turn at which the shortest of all currents is looked for afresh. */
+enum { SEARCHES_PER_TURN = 32 };
+
+/* Along the range of the angle before, and now and then in all directions, since another range may have
+ * become the shorter one. x: in and out. */
+static hci_status shortest_smooth(const hci_smooth_torque *torque, const hci_machine_point *point, size_t k,
+                                  double wanted_Nm, double x[2])
+{
+    const double before[2] = {x[0], x[1]};
+    double found[2];
+    hci_status status = HCI_NOT_REACHED, searched;
+    if (k > 0) status = hci_strategy_smooth_current(torque, point, HCI_STRATEGY_MTPA, wanted_Nm, before, x);
+    if (!status && k % (SAMPLES_PER_TURN / SEARCHES_PER_TURN) != 0) return HCI_OK;
+    searched = hci_strategy_smooth_current(torque, point, HCI_STRATEGY_MTPA, wanted_Nm, NULL, found);
+    if (k == 0 || (!searched && (status || hypot(found[0], found[1]) < (1.0 - 1e-6) * hypot(x[0], x[1])))) {
+        x[0] = found[0];
+        x[1] = found[1];
+    }
+    return status && searched ? HCI_NOT_REACHED : HCI_OK;
+}
+
+/* x: in the current of sample k − 1, out that of sample k. least_iq_A: out, may be NULL; NAN where it is not
+ * known. */
+static hci_status current_at(const hci_task *t, hci_strategy strategy, size_t k, double wanted_Nm,
+                             double x[2], double *least_iq_A)
+{
+    const angle a = {hci_machine_at(t->machine, angle_rad(k)), t->beyond, angle_rad(k)};
+    const hci_smooth_torque torque = {smooth_torque, &a};
+    const double before[2] = {x[0], x[1]};
+    if (!t->beyond)
+        return hci_strategy_current(&a.point, strategy, wanted_Nm, k > 0 ? before : NULL, x, least_iq_A);
+    if (least_iq_A) *least_iq_A = 0.0;
+    if (least_iq_A && strategy == HCI_STRATEGY_CANCEL) *least_iq_A = NAN;
+    if (strategy == HCI_STRATEGY_MTPA) return shortest_smooth(&torque, &a.point, k, wanted_Nm, x);
+    return hci_strategy_smooth_current(&torque, &a.point, strategy, wanted_Nm, k > 0 ? before : NULL, x);
+}
+
 double hci_pointwise_mean_square_A2(const hci_task *task)
 {
     const size_t count = SAMPLES_PER_TURN * task->period_turns;
     const double mean_Nm = hci_target_mean_Nm(task->target);
     double sum = 0.0, x[2] = {0.0, 0.0};
-    if (task->machine->slope_count == 0) return linear_mean_square_A2(task, count);
+    if (hci_task_is_linear(task)) return linear_mean_square_A2(task, count);
     for (size_t k = 0; k < count; ++k) {
-        const hci_machine_point point = hci_machine_at(task->machine, angle_rad(k));
         const double wanted_Nm = mean_Nm + wanted_ripple_Nm(task, angle_rad(k));
-        if (hci_strategy_current(&point, HCI_STRATEGY_MTPA, wanted_Nm, k > 0 ? x : NULL, x, NULL)) return NAN;
+        if (current_at(task, HCI_STRATEGY_MTPA, k, wanted_Nm, x, NULL)) return NAN;
         sum += x[0] * x[0] + x[1] * x[1];
     }
     return sum / (double)count;
@@ -120,14 +178,13 @@ static void sample_strategy(const hci_task *t, size_t count, double *row, hci_so
     double x[2] = {0.0, 0.0};
     bool in_gap = false;
     for (size_t k = 0; k < count; ++k) {
-        const hci_machine_point point = hci_machine_at(t->machine, angle_rad(k));
         const double wanted_Nm = mean_Nm + wanted_ripple_Nm(t, angle_rad(k));
         double abc[3], least_iq_A;
-        const bool is_missing =
-            hci_strategy_current(&point, t->strategy, wanted_Nm, k > 0 ? x : NULL, x, &least_iq_A) != HCI_OK;
+        const bool is_missing = current_at(t, t->strategy, k, wanted_Nm, x, &least_iq_A) != HCI_OK;
         if (is_missing) note_gap(s, k, !in_gap);
         in_gap = is_missing;
         s->least_iq_A = fmax(s->least_iq_A, to_amplitude * least_iq_A);
+        if (isnan(least_iq_A)) s->least_iq_A = least_iq_A;
         hci_plane_to_abc(x, abc);
         store(row, count, k, 0, 0.0, nothing);
         store(row, count, k, 1, 1.0, abc);

@@ -54,6 +54,17 @@ static size_t points_per_turn(const hci_solution *s)
     return (size_t)fmax(360.0, 8.0 * ceil(top));
 }
 
+/* With effects the spectrum, which holds every order, is all that says the torque without them at hand. */
+static double torque_at(const hci_machine_data *m, const hci_solution *s, double theta_rad,
+                        const double abc[3])
+{
+    double sum_Nm = 0.0;
+    if (!s->with_effects) return hci_torque_at(&m->model, theta_rad, abc);
+    for (size_t k = 0; k < s->order_count; ++k)
+        sum_Nm += hci_harmonics_at(&s->order[k].torque_Nm, 1, theta_rad);
+    return sum_Nm;
+}
+
 static void write_waveform(hci_output *out, const hci_machine_data *m, const hci_solution *s)
 {
     const size_t per_turn = points_per_turn(s);
@@ -69,7 +80,7 @@ static void write_waveform(hci_output *out, const hci_machine_data *m, const hci
             hci_output_number(out, abc[phase], ',');
         hci_output_number(out, dq.d, ',');
         hci_output_number(out, dq.q, ',');
-        hci_output_number(out, hci_torque_at(&m->model, theta_rad, abc), '\n');
+        hci_output_number(out, torque_at(m, s, theta_rad, abc), '\n');
     }
 }
 

@@ -1,6 +1,7 @@
 #include "hci/host/solve.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "balance.h"
@@ -8,7 +9,6 @@
 #include "memory.h"
 
 #define DEFAULT_TOLERANCE 1e-6
-#define MOST_TURNS        4096
 
 static hci_status no_memory(hci_note *note)
 {
@@ -29,64 +29,32 @@ const char *hci_order_verdict_name(hci_order_verdict verdict)
 
 /* ---- the task ---- */
 
-static bool all_whole(const hci_task *t, const hci_component_set *set, size_t turns)
-{
-#define IS_WHOLE(order)                                                                                      \
-    (fabs((order) * (double)turns - floor((order) * (double)turns + 0.5)) <                                  \
-     HCI_ORDER_TOLERANCE * (double)turns)
-    bool whole = !t->held || IS_WHOLE(t->held->order);
-    for (size_t k = 0; k < t->target->count; ++k)
-        whole = whole && IS_WHOLE(t->target->order[k].torque_Nm.order);
-    for (size_t k = 0; k < t->machine->cogging_count; ++k)
-        whole = whole && IS_WHOLE(t->machine->cogging[k].order);
-    for (size_t k = 0; set && k < set->count; ++k)
-        whole = whole && IS_WHOLE(set->component[k].order);
-#undef IS_WHOLE
-    return whole;
-}
-
-static hci_status find_period(hci_task *t, const hci_component_set *set, hci_note *note)
-{
-    for (t->period_turns = 1; t->period_turns <= MOST_TURNS; ++t->period_turns)
-        if (all_whole(t, set, t->period_turns)) return HCI_OK;
-    return hci_note_set(
-        note, HCI_ERROR_INPUT,
-        "the orders have no common period of at most %d electrical turns; write fractional orders as "
-        "k/pole_pairs with at least 7 digits",
-        MOST_TURNS);
-}
-
 static hci_status check_machine(const hci_machine_data *m, const hci_solve_options *o, hci_note *note)
 {
-    if (m->has_effects)
+    if (m->has_effects && !o->effects)
         return hci_note_set(note, HCI_ERROR_INPUT,
-                            "effects.csv holds effects that this version does not solve for; without that "
-                            "file they are left out");
-    if (m->model.slope_count > 0 && m->has_neutral)
-        return hci_note_set(
-            note, HCI_ERROR_INPUT,
-            "an interior-magnet machine is solved in star connection only; machine.csv says star-neutral");
+                            "effects.csv holds effects that were not given; read it with "
+                            "hci_effects_read_machine, or remove it to leave them out");
     if (o->method == HCI_METHOD_POINTWISE && o->held)
         return hci_note_set(note, HCI_ERROR_ARGUMENT,
                             "method pointwise finds the whole current; it cannot hold the fundamental fixed");
     return HCI_OK;
 }
 
-static hci_status make_task(const hci_machine_data *m, const hci_solve_options *o, hci_task *t,
-                            hci_note *note)
+/* The neutral conductor carries a zero sequence, which the methods for torque that is not linear leave out.
+ */
+static hci_status check_star(const hci_machine_data *m, const hci_task *t, hci_note *note)
 {
-    const hci_status status = check_machine(m, o, note);
-    memset(t, 0, sizeof *t);
-    t->machine = &m->model;
-    t->has_neutral = m->has_neutral;
-    t->target = o->target;
-    t->held = o->held;
-    t->gain = m->model.back_emf;
-    t->gain_count = m->model.back_emf_count;
-    t->strategy = o->strategy;
-    t->progress = o->progress;
-    t->progress_context = o->progress_context;
-    if (status) return status;
+    if (hci_task_is_linear(t) || !m->has_neutral) return HCI_OK;
+    return hci_note_set(
+        note, HCI_ERROR_INPUT,
+        m->model.slope_count > 0
+            ? "an interior-magnet machine is solved in star connection only; machine.csv says star-neutral"
+            : "reluctance and saturation are solved in star connection only; machine.csv says star-neutral");
+}
+
+static hci_status check_held(const hci_solve_options *o, hci_note *note)
+{
     for (size_t k = 0; o->held && o->set && k < o->set->count; ++k)
         if (o->set->component[k].sequence == o->held->sequence &&
             fabs(o->set->component[k].order - o->held->order) < HCI_ORDER_TOLERANCE)
@@ -95,7 +63,22 @@ static hci_status make_task(const hci_machine_data *m, const hci_solve_options *
                 "the set of harmonics names %s %g, which is held fixed; leave it out of the set or do "
                 "not hold the fundamental",
                 hci_set_name(o->set->set[k]), o->held->order);
-    return find_period(t, o->set, note);
+    return HCI_OK;
+}
+
+static hci_status make_task(const hci_machine_data *m, const hci_corrected *c, const hci_solve_options *o,
+                            hci_task *t, hci_note *note)
+{
+    hci_status status;
+    hci_task_begin(c, o->target, t);
+    t->has_neutral = m->has_neutral;
+    t->held = o->held;
+    t->strategy = o->strategy;
+    t->progress = o->progress;
+    t->progress_context = o->progress_context;
+    status = check_star(m, t, note);
+    if (!status) status = check_held(o, note);
+    return status ? status : hci_task_find_period(t, o->set, o->held, o->held ? 1 : 0, note);
 }
 
 /* ---- what flows ---- */
@@ -183,37 +166,59 @@ static hci_status find_answer(hci_task *t, const hci_solve_options *o, hci_newto
                               hci_solution *s, hci_note *note)
 {
     if (o->method == HCI_METHOD_POINTWISE) return hci_pointwise_answer(t, a, s, note);
-    if (t->machine->slope_count > 0) return hci_newton_answer(t, o, room, a, s, note);
+    if (!hci_task_is_linear(t)) return hci_newton_answer(t, o, room, a, s, note);
     return hci_linear_answer(t, o, NULL, a, s, note);
 }
 
-static hci_status solve(const hci_machine_data *machine, const hci_solve_options *o, hci_newton_room *room,
-                        hci_answer *a, hci_solution *s, hci_note *note)
+/* Names of the effects that do not act in the machine, and what that means. */
+static void remark_left_out(const hci_effects *effects, hci_note *remark)
 {
-    const bool is_linear = !o->held && machine->model.slope_count == 0;
+    char names[256] = "";
+    for (size_t k = 0; k < effects->count; ++k) {
+        const size_t used = strlen(names);
+        if (effects->effect[k].room->in_machine) continue;
+        snprintf(names + used, sizeof names - used, "%s%s", used > 0 ? ", " : "",
+                 effects->effect[k].room->name);
+    }
+    hci_note_set(
+        remark, HCI_OK,
+        "effects.csv: left out, since not in the machine: %s; the currents are for the true angle and the "
+        "true current, so the drive that plays them has to correct what its sensors read",
+        names);
+}
+
+static hci_status solve(const hci_machine_data *machine, const hci_corrected *c, const hci_solve_options *o,
+                        hci_newton_room *room, hci_answer *a, hci_solution *s, hci_note *note)
+{
     hci_task task;
-    hci_status status = make_task(machine, o, &task, note);
+    hci_status status = make_task(machine, c, o, &task, note);
     if (status) return status;
+    s->with_effects = o->effects && o->effects->count > 0;
     s->period_turns = task.period_turns;
     s->tolerance_Nm = (o->tolerance > 0.0 ? o->tolerance : DEFAULT_TOLERANCE) * torque_scale_Nm(&task);
     s->limit_mean_square_A2 = hci_pointwise_mean_square_A2(&task);
     status = find_answer(&task, o, room, a, s, note);
-    if (!status) status = fill_currents(a, o, is_linear, s, note);
+    if (!status) status = fill_currents(a, o, !o->held && hci_task_is_linear(&task), s, note);
     if (!status) status = hci_judge(&task, &a->set, o->set ? o->compare : HCI_COMPARE_ALL, s, note);
     if (!status) status = hci_limits_check(machine, o, s, note);
+    if (!status && c->left_out > 0) remark_left_out(o->effects, &s->remark);
     return status;
 }
 
 hci_status hci_solve(const hci_machine_data *machine, const hci_solve_options *options,
                      hci_solution *solution, hci_note *note)
 {
+    const double temperature_C = hci_temperature_C(options);
     hci_newton_room room = {NULL, NULL};
     hci_answer a = {{0}, NULL};
-    hci_status status;
+    hci_corrected c = {0};
+    hci_status status = check_machine(machine, options, note);
     memset(solution, 0, sizeof *solution);
-    status = solve(machine, options, &room, &a, solution, note);
+    if (!status) status = hci_corrected_make(&machine->model, options->effects, temperature_C, &c, note);
+    if (!status) status = solve(machine, &c, options, &room, &a, solution, note);
     hci_answer_release(&a);
     hci_newton_release(&room);
+    hci_corrected_release(&c);
     if (!status) return verdict_of(solution);
     hci_solution_release(solution);
     return status;

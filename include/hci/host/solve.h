@@ -2,6 +2,7 @@
 #ifndef HCI_HOST_SOLVE_H
 #define HCI_HOST_SOLVE_H
 
+#include "hci/effect.h"
 #include "hci/host/machine.h"
 #include "hci/host/tables.h"
 #include "hci/strategy.h"
@@ -37,6 +38,9 @@ typedef struct {
     double limit_current_A; /* largest phase current allowed; 0: none */
     double limit_voltage_V; /* dc-link voltage that the line voltages must stay below; 0: none */
     double speed_rad_per_s; /* mechanical, for the voltage; 0 with no limit_voltage_V */
+    const hci_effects *effects; /* beside the declared machine, or NULL; needed where it has_effects */
+    bool at_temperature;        /* magnets are at temperature_C, else at the reference of their effect */
+    double temperature_C;
     hci_progress *progress; /* may be NULL */
     void *progress_context;
 } hci_solve_options;
@@ -84,7 +88,7 @@ typedef struct {
     size_t period_turns; /* electrical turns after which everything repeats */
 
     /* How it was found. condition: an estimate, NAN where the method has none. newton_change: of the current
-     * in the last step, as a share of it; 0 steps for a machine without reluctance torque. */
+     * in the last step, as a share of it; 0 steps for a machine without reluctance torque and saturation. */
     hci_method method;
     size_t rows, unknowns, rank;
     double condition;
@@ -93,7 +97,8 @@ typedef struct {
     bool newton_converged; /* else the nearest answer met on the way */
 
     /* Pointwise: where the strategy has no current (the first ranges; gap_count is of all). least_iq_A: for
-     * `cancel`, the i_q from which it has one at every angle, infinite if none. */
+     * `cancel`, the i_q from which it has one at every angle, infinite if none, NAN where not known
+     * (saturation). */
     hci_angle_gap gap[HCI_MOST_GAPS];
     size_t gap_count;
     double least_iq_A;
@@ -110,6 +115,9 @@ typedef struct {
     bool within_limits; /* true where no limit was asked for */
     double peak_phase_current_A, peak_line_voltage_V;
     double torque_at_limit_Nm;
+
+    bool with_effects; /* torque and voltage are those of the machine with its effects */
+    hci_note remark;   /* what the user should know of them, or "" */
 } hci_solution;
 
 /* HCI_OK; HCI_NOT_REACHED with the nearest result when a cared-for order is not within the tolerance or a
@@ -118,6 +126,25 @@ typedef struct {
 hci_status hci_solve(const hci_machine_data *machine, const hci_solve_options *options,
                      hci_solution *solution, hci_note *note);
 void hci_solution_release(hci_solution *solution);
+
+/* What given currents do on a machine. Torque spectrum: orders ascending, those that have any torque, that
+ * are wanted, and 0. rms_error: of the torque from its target, orders of weight 0 left out; ripples: 100 (max
+ * − min)/mean and 100·rms(T − mean)/mean, NAN without a mean. */
+typedef struct {
+    hci_harmonic *torque_Nm;
+    size_t order_count, period_turns;
+    double mean_Nm, rms_error_Nm, worst_error_Nm, worst_order;
+    double peak_to_peak_Nm, T_ripple_percent, F_ripple_percent;
+} hci_judgement;
+
+/* Evaluates currents that were found elsewhere, such as for the declared machine, on a machine with effects
+ * (or NULL), magnets at the reference temperature. currents: count star waves. *judgement: out; on success to
+ * be given to hci_judgement_release, else empty. HCI_ERROR_INPUT when orders have no common period,
+ * HCI_ERROR_MEMORY. */
+hci_status hci_judge_currents(const hci_machine_data *machine, const hci_effects *effects,
+                              const hci_wave *currents, size_t count, const hci_target *target,
+                              hci_judgement *judgement, hci_note *note);
+void hci_judgement_release(hci_judgement *judgement);
 
 /* Writes currents.csv, waveform.csv, spectrum.csv, solution.svg, summary.json and, where currents are linear
  * in the mean torque, currents_per_Nm.csv and currents_constant.csv into `folder`; all or none. */
