@@ -592,6 +592,25 @@ static void a_table_comes_back_however_it_is_written(void)
     }
 }
 
+static void columns_are_listed_and_found_by_any_name(void)
+{
+    static const char text[] = "Time (ms),\"a, b\",theta_e_deg\n1,2,3\n";
+    hci_note note = {0};
+    hci_csv *csv;
+    size_t column = 9;
+    write_scratch(text, sizeof text - 1);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_csv_read(scratch, &csv, &note), note.text);
+    TEST_ASSERT_EQUAL(3, (int)hci_csv_columns(csv));
+    TEST_ASSERT_EQUAL_STRING("Time (ms)", hci_csv_name(csv, 0));
+    TEST_ASSERT_EQUAL_STRING("a, b", hci_csv_name(csv, 1));
+    TEST_ASSERT_TRUE(hci_csv_find(csv, "time_s", &column));
+    TEST_ASSERT_EQUAL(0, (int)column);
+    TEST_ASSERT_TRUE(hci_csv_find(csv, "theta_e_rad", &column));
+    TEST_ASSERT_EQUAL(2, (int)column);
+    TEST_ASSERT_FALSE(hci_csv_find(csv, "theta_m_rad", &column));
+    hci_csv_free(csv);
+}
+
 /* ---- numbers ---- */
 
 static void long_and_odd_numbers_are_rounded_once(void)
@@ -627,6 +646,25 @@ static void parsing_agrees_with_strtod_to_the_last_bit(void)
         const double reference = strtod(text, NULL);
         TEST_ASSERT_TRUE_MESSAGE(hci_number_parse(text, &value), text);
         TEST_ASSERT_EQUAL_MEMORY_MESSAGE(&reference, &value, sizeof value, text);
+    }
+}
+
+/* Middles between two doubles, a unit in the last digit above and below, and what has 16 to 19 digits: where
+ * a rounding of a rounding goes wrong. */
+static void numbers_near_the_middle_between_two_doubles_are_rounded_once(void)
+{
+    uint64_t seed = 12;
+    for (int trial = 0; trial < 300000; trial++) {
+        char text[64];
+        const double value = ldexp(ref_uniform(&seed, 1, 2), (int)below(&seed, 280) - 140);
+        const double middle_digits[] = {16, 17, 18, 19, 40};
+        const double digits = middle_digits[below(&seed, 5)];
+        const long double middle = (long double)value + ((long double)nextafter(value, 1e300) - value) / 2;
+        snprintf(text, sizeof text, "%.*Le", (int)digits - 1, middle);
+        double read = 0;
+        const double reference = strtod(text, NULL);
+        TEST_ASSERT_TRUE_MESSAGE(hci_number_parse(text, &read), text);
+        TEST_ASSERT_EQUAL_MEMORY_MESSAGE(&reference, &read, sizeof read, text);
     }
 }
 
@@ -932,8 +970,10 @@ int main(void)
     RUN_TEST(a_pipe_is_read_like_a_file);
     RUN_TEST(the_number_of_columns_is_limited);
     RUN_TEST(a_table_comes_back_however_it_is_written);
+    RUN_TEST(columns_are_listed_and_found_by_any_name);
     RUN_TEST(long_and_odd_numbers_are_rounded_once);
     RUN_TEST(parsing_agrees_with_strtod_to_the_last_bit);
+    RUN_TEST(numbers_near_the_middle_between_two_doubles_are_rounded_once);
     RUN_TEST(texts_that_are_no_numbers_are_refused);
     RUN_TEST(numbers_are_written_as_short_as_they_can_be);
     RUN_TEST(what_is_written_reads_back_to_the_same_bits);

@@ -126,6 +126,24 @@ bool hci_csv_has(const hci_csv *csv, const char *column)
     return kind != MATCH_NONE && kind != MATCH_OTHER_UNIT;
 }
 
+bool hci_csv_find(const hci_csv *csv, const char *name, size_t *column)
+{
+    const match found = find_column(csv, name);
+    *column = found.column;
+    return found.kind != MATCH_NONE;
+}
+
+size_t hci_csv_columns(const hci_csv *csv)
+{
+    return csv->columns;
+}
+
+const char *hci_csv_name(const hci_csv *csv, size_t column)
+{
+    assert(column < csv->columns);
+    return hci_csv_cell(csv, 0, column);
+}
+
 static const char *quote_cell(const char *cell, char out[HCI_QUOTE_SIZE])
 {
     return *cell != '\0' ? hci_quote(cell, out) : "an empty cell";

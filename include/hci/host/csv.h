@@ -32,6 +32,14 @@ size_t hci_csv_line(const hci_csv *csv, size_t row);
  * for. */
 bool hci_csv_has(const hci_csv *csv, const char *column);
 
+/* The columns of the file: how many, and the name of each as it stands in the header ("" where it has none).
+ */
+size_t hci_csv_columns(const hci_csv *csv);
+const char *hci_csv_name(const hci_csv *csv, size_t column);
+
+/* Which column of the file hci_csv_numbers takes for a canonical name, or complains of; false: none. */
+bool hci_csv_find(const hci_csv *csv, const char *name, size_t *column);
+
 /* The numbers of a column into values[hci_csv_rows]. Missing column, or text that is not a finite number:
  * HCI_ERROR_INPUT, and values is undefined. */
 hci_status hci_csv_numbers(const hci_csv *csv, const char *column, double *values, hci_note *note);

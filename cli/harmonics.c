@@ -1,0 +1,250 @@
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli.h"
+#include "hci/harmonic.h"
+#include "hci/host/csv.h"
+#include "hci/host/waveform.h"
+
+enum { QUANTITY, POLE_PAIRS, ORDERS, MAX_ORDER, CONSTANT, OUT, JSON, QUIET, HELP };
+
+static const cli_option OPTIONS[] = {
+    [QUANTITY] = {"quantity",        0,   CLI_VALUE, "NAME",     "back_emf or cogging"                                },
+    [POLE_PAIRS] = {"pole-pairs",      0,   CLI_VALUE, "P",        "of the machine (half its poles)"                    },
+    [ORDERS] = {"orders",          0,   CLI_VALUE, "LIST",
+                  "these electrical orders and no others, such as 1,5,7 or 12/7"                                      },
+    [MAX_ORDER] = {"max-order",       0,   CLI_VALUE, "N",        "highest electrical order looked at (60)"            },
+    [CONSTANT] = {"torque-constant", 0,   CLI_VALUE, "NM_PER_A",
+                  "cogging of a run with currents: torque of 1 A of i_q"                                              },
+    [OUT] = {"out",             'o', CLI_VALUE, "FOLDER",   "where the table goes; without it nothing is written"},
+    [JSON] = {"json",            0,   CLI_FLAG,  NULL,       "the summary as JSON on standard output"             },
+    [QUIET] = {"quiet",           'q', CLI_FLAG,  NULL,       "no words, only errors"                              },
+    [HELP] = {"help",            'h', CLI_FLAG,  NULL,       "this text"                                          },
+    {NULL,              0,   CLI_FLAG,  NULL,       NULL                                                 },
+};
+
+enum { MOST_ORDERS = 256, MOST_ROWS = 24, BAR_WIDTH = 30 };
+
+/* ---- options ---- */
+
+/* A number, or a fraction of two such as 12/7. */
+static bool read_order(const char *text, double *order)
+{
+    char top[32];
+    double below = 1.0;
+    const char *slash = strchr(text, '/');
+    const size_t length = slash ? (size_t)(slash - text) : strlen(text);
+    if (length >= sizeof top) return false;
+    memcpy(top, text, length);
+    top[length] = '\0';
+    if (!hci_number_parse(top, order)) return false;
+    if (slash && (!hci_number_parse(slash + 1, &below) || below <= 0.0)) return false;
+    *order /= below;
+    return true;
+}
+
+static hci_status read_orders(const char *text, double orders[MOST_ORDERS], size_t *count, hci_note *note)
+{
+    for (*count = 0; *count < MOST_ORDERS;) {
+        char word[64];
+        const size_t length = strcspn(text, ",");
+        snprintf(word, sizeof word, "%.*s", (int)(length < sizeof word ? length : sizeof word - 1), text);
+        if (!read_order(word, &orders[*count]))
+            return hci_note_set(note, HCI_ERROR_ARGUMENT,
+                                "--orders: found `%s`, expected electrical orders such as 1,5,7 or 12/7",
+                                word);
+        ++*count;
+        if (text[length] == '\0') return HCI_OK;
+        text += length + 1;
+    }
+    return hci_note_set(note, HCI_ERROR_ARGUMENT, "--orders: found more than %d orders", (int)MOST_ORDERS);
+}
+
+static hci_status read_pole_pairs(const cli_arguments *a, int *pole_pairs, hci_note *note)
+{
+    double value = 0.0;
+    const char *text = a->value[POLE_PAIRS];
+    if (!text) return hci_note_set(note, HCI_ERROR_ARGUMENT, "harmonics: add --pole-pairs P");
+    const hci_status status = cli_number("pole-pairs", text, 1.0, 1000.0, &value, note);
+    if (!status && value != floor(value))
+        return hci_note_set(note, HCI_ERROR_ARGUMENT, "--pole-pairs: found `%s`, expected a whole number",
+                            text);
+    *pole_pairs = (int)value;
+    return status;
+}
+
+static hci_status read_options(const cli_arguments *a, hci_waveform_options *o, double orders[MOST_ORDERS],
+                               hci_note *note)
+{
+    static const char *const QUANTITIES[] = {"back_emf", "cogging", NULL};
+    int quantity = 0;
+    hci_status status;
+    if (!a->value[QUANTITY])
+        return hci_note_set(note, HCI_ERROR_ARGUMENT, "harmonics: add --quantity back_emf or cogging");
+    status = cli_choice("quantity", a->value[QUANTITY], QUANTITIES, &quantity, note);
+    o->quantity = (hci_waveform_quantity)quantity;
+    o->max_order = o->torque_constant_Nm_per_A = NAN;
+    if (!status) status = read_pole_pairs(a, &o->pole_pairs, note);
+    if (!status && a->given[ORDERS] && a->given[MAX_ORDER])
+        return hci_note_set(note, HCI_ERROR_ARGUMENT, "harmonics: give --orders or --max-order, not both");
+    if (!status && a->given[CONSTANT] && o->quantity != HCI_WAVEFORM_COGGING)
+        return hci_note_set(note, HCI_ERROR_ARGUMENT, "--torque-constant goes with --quantity cogging");
+    if (!status && a->value[ORDERS]) {
+        status = read_orders(a->value[ORDERS], orders, &o->order_count, note);
+        o->orders = orders;
+    }
+    if (!status && a->value[MAX_ORDER])
+        status = cli_number("max-order", a->value[MAX_ORDER], 1.0, HCI_MOST_ORDER, &o->max_order, note);
+    if (!status && a->value[CONSTANT])
+        status =
+            cli_number("torque-constant", a->value[CONSTANT], 1e-9, 1e6, &o->torque_constant_Nm_per_A, note);
+    return status;
+}
+
+/* ---- words ---- */
+
+static void show_channels(const hci_waveform *w)
+{
+    for (int s = 0; s < 3; ++s) {
+        const hci_waveform_channel *c = &w->channel[s];
+        fprintf(stderr,
+                "  %-12s offset %.4g ± %.1g V, %.5g ± %.1g times the others, phase %+.4f ± %.1g rad%s\n",
+                c->name, c->offset_V, c->offset_error_V, c->ratio, c->ratio_error, c->phase_error_rad,
+                c->phase_error, c->left_out ? " (left out)" : "");
+    }
+}
+
+static void show_source(const hci_waveform *w)
+{
+    if (w->quantity == HCI_WAVEFORM_COGGING) {
+        fprintf(stderr, "  mean         %.5g N·m\n", w->mean_Nm);
+        if (isfinite(w->friction_Nm))
+            fprintf(stderr, "  friction     %.5g ± %.2g N·m (half the difference of the directions)\n",
+                    w->friction_Nm, w->friction_error_Nm);
+        return;
+    }
+    if (isfinite(w->frequency_Hz))
+        fprintf(stderr, "  frequency    %.7g Hz electrical, drifting by %.3g Hz/s (from the voltages)\n",
+                w->frequency_Hz, w->drift_Hz_per_s);
+    fprintf(stderr, "  speed        %.6g rpm mean\n", w->speed_rad_per_s * 30.0 / HCI_PI);
+    show_channels(w);
+}
+
+static void show_test(const hci_waveform *w)
+{
+    if (w->turns_forward + w->turns_backward > 0)
+        fprintf(stderr, "  turns        %zu forward, %zu backward, %s\n", w->turns_forward, w->turns_backward,
+                w->step < 1.0 ? "mechanical" : "electrical");
+    fprintf(stderr, "  errors       %s\n",
+            w->between_turns ? "from how the turns differ"
+            : w->step > 0.0  ? "from the orders around"
+                             : "from what the orders leave");
+    if (w->count == 0 || w->largest_left <= 0.0) return;
+    for (size_t k = 0; k < w->count; ++k)
+        if (fabs(w->order[k].order - w->largest_left) < HCI_ORDER_TOLERANCE)
+            fprintf(stderr,
+                    "  left out     %zu of %zu orders up to %.6g, which noise can make; the largest is "
+                    "order %.6g, %.3g ± %.1g\n",
+                    w->count - w->kept, w->count, w->order[w->count - 1].order, w->largest_left,
+                    w->order[k].amplitude, w->order[k].std_error);
+}
+
+/* Amplitude below which orders are not listed, so that at most MOST_ROWS are. */
+static double threshold(const hci_waveform *w, double largest)
+{
+    double limit = 0.0;
+    for (size_t rows = MOST_ROWS + 1; rows > MOST_ROWS; limit = limit > 0.0 ? 1.2 * limit : 1e-6 * largest) {
+        rows = 0;
+        for (size_t k = 0; k < w->count; ++k)
+            rows += w->order[k].kept && w->order[k].amplitude >= limit;
+        if (rows <= MOST_ROWS) break;
+    }
+    return limit;
+}
+
+static void show_orders(const hci_waveform *w)
+{
+    double largest = 0.0;
+    size_t shown = 0;
+    for (size_t k = 0; k < w->count; ++k)
+        if (w->order[k].kept) largest = fmax(largest, w->order[k].amplitude);
+    const double limit = threshold(w, largest);
+    fprintf(stderr, "\n  %9s %11s %9s %8s\n", "order", w->quantity == HCI_WAVEFORM_COGGING ? "N·m" : "N·m/A",
+            "±", "phase");
+    for (size_t k = 0; k < w->count; ++k) {
+        const hci_waveform_order *o = &w->order[k];
+        if (!o->kept || o->amplitude < limit) continue;
+        shown++;
+        fprintf(stderr, "  %9.6g %10.4g %9.1e %8.4f  ", o->order, o->amplitude, o->std_error, o->phase_rad);
+        for (int b = 0; b < (int)(BAR_WIDTH * o->amplitude / largest + 0.5); ++b)
+            fputc('#', stderr);
+        fputc('\n', stderr);
+    }
+    if (shown < w->kept) fprintf(stderr, "  and %zu smaller ones\n", w->kept - shown);
+}
+
+static void show(const hci_waveform *w, const cli_arguments *a)
+{
+    fprintf(stderr, "%s: %s, %zu order%s\n",
+            w->quantity == HCI_WAVEFORM_COGGING ? "cogging torque" : "back-EMF", a->word[0], w->kept,
+            w->kept == 1 ? "" : "s");
+    show_source(w);
+    show_test(w);
+    if (w->kept > 0) show_orders(w);
+}
+
+/* ---- the command ---- */
+
+static hci_status print_json(const hci_waveform *w, hci_note *note)
+{
+    char *json = hci_waveform_json(w);
+    if (!json) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the summary");
+    puts(json);
+    hci_text_free(json);
+    return HCI_OK;
+}
+
+static hci_status analyse(const cli_arguments *a, const hci_waveform_options *o, const hci_run *run,
+                          hci_note *note)
+{
+    hci_waveform waveform;
+    hci_status status = hci_waveform_find(run, o, &waveform, note);
+    if (status) return status;
+    if (a->value[OUT]) status = hci_waveform_write(&waveform, a->value[OUT], note);
+    if (!status && !a->given[QUIET]) {
+        cli_remark(&run->remark);
+        cli_remark(&waveform.remark);
+        show(&waveform, a);
+    }
+    if (!status && a->given[JSON]) status = print_json(&waveform, note);
+    hci_waveform_release(&waveform);
+    return status;
+}
+
+static int run(const cli_arguments *a)
+{
+    double orders[MOST_ORDERS];
+    hci_waveform_options options;
+    hci_note note = {{0}};
+    hci_run recording;
+    memset(&options, 0, sizeof options);
+    memset(&recording, 0, sizeof recording);
+    hci_status status = read_options(a, &options, orders, &note);
+    if (!status) status = hci_run_read(a->word[0], options.pole_pairs, NAN, &recording, &note);
+    if (!status) status = analyse(a, &options, &recording, &note);
+    hci_run_release(&recording);
+    return status ? cli_fail(status, &note) : 0;
+}
+
+const cli_command cli_harmonics = {
+    "harmonics",
+    "RUN --quantity {back_emf,cogging} --pole-pairs P",
+    "Finds the orders of a measured waveform: amplitude, phase and standard errors.\n"
+    "Writes back_emf.csv or cogging.csv, as a machine folder has them.",
+    OPTIONS,
+    1,
+    "  hci-solve simulate data/machine_a data/drive/driven.csv -o out/driven\n"
+    "  hci-solve harmonics out/driven/trajectory.csv --quantity cogging --pole-pairs 2 -o out/driven\n"
+    "\nExit codes: 0 done; 2 command line; 3 input; 4 numerical; 5 output\n",
+    run};

@@ -1,0 +1,82 @@
+#define _POSIX_C_SOURCE 200809L
+
+#include <math.h>
+#include <stdio.h>
+#include <sys/stat.h>
+
+#include "cli.h"
+#include "hci/host/predict.h"
+
+enum { OUT, JSON, QUIET, HELP };
+
+static const cli_option OPTIONS[] = {
+    [OUT] = {"out",   'o', CLI_VALUE, "FILE", "the run with the model's torque; without it nothing is written"},
+    [JSON] = {"json",  0,   CLI_FLAG,  NULL,   "the summary as JSON on standard output"                        },
+    [QUIET] = {"quiet", 'q', CLI_FLAG,  NULL,   "no words, only errors"                                         },
+    [HELP] = {"help",  'h', CLI_FLAG,  NULL,   "this text"                                                     },
+    {NULL,    0,   CLI_FLAG,  NULL,   NULL                                                            },
+};
+
+static void show(const hci_prediction *p, const cli_arguments *a)
+{
+    static const char *const SOURCE[] = {"no torque in the run", "torque as measured",
+                                         "held at rest: the torque on the shaft is 0",
+                                         "a free shaft: torque is inertia x acceleration"};
+    fprintf(stderr, "predicted: %s, %s\n", a->word[0], a->word[1]);
+    fprintf(stderr, "  run          %zu sample%s, %s\n", p->count, p->count == 1 ? "" : "s",
+            SOURCE[p->source]);
+    if (isfinite(p->mean_torque_Nm))
+        fprintf(stderr, "  torque       mean %.6g N·m, ripple %.4g N·m rms\n", p->mean_torque_Nm,
+                p->ripple_torque_Nm);
+    fprintf(stderr, "  model        mean %.6g N·m, ripple %.4g N·m rms\n", p->mean_model_Nm,
+            p->ripple_model_Nm);
+    if (isfinite(p->rms_residual_Nm))
+        fprintf(stderr, "  residual     %.4g N·m rms, mean %.4g N·m, at most %.4g N·m (sample %zu)\n",
+                p->rms_residual_Nm, p->mean_residual_Nm, p->worst_residual_Nm, p->worst_sample + 1);
+    if (a->value[OUT]) fprintf(stderr, "  written      %s\n", a->value[OUT]);
+}
+
+/* The run itself is a measurement, and not to be replaced. */
+static hci_status keep_apart(const char *run, const char *out, hci_note *note)
+{
+    struct stat from, to;
+    if (!out || stat(run, &from) != 0 || stat(out, &to) != 0) return HCI_OK;
+    if (to.st_dev != from.st_dev || to.st_ino != from.st_ino) return HCI_OK;
+    return hci_note_set(note, HCI_ERROR_ARGUMENT,
+                        "%.300s would be replaced by its prediction; give another --out", run);
+}
+
+static hci_status print_json(const hci_prediction *p, hci_note *note)
+{
+    char *json = hci_prediction_json(p);
+    if (!json) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the summary");
+    puts(json);
+    hci_text_free(json);
+    return HCI_OK;
+}
+
+static int run(const cli_arguments *a)
+{
+    hci_prediction prediction;
+    hci_note note = {{0}};
+    hci_status status = keep_apart(a->word[1], a->value[OUT], &note);
+    if (!status) status = hci_predict_file(a->word[0], a->word[1], a->value[OUT], &prediction, &note);
+    if (!status && !a->given[QUIET]) {
+        cli_remark(&prediction.remark);
+        show(&prediction, a);
+    }
+    if (!status && a->given[JSON]) status = print_json(&prediction, &note);
+    return status ? cli_fail(status, &note) : 0;
+}
+
+const cli_command cli_predict = {
+    "predict",
+    "MACHINE RUN",
+    "Says what the machine's model and its effects make of a run's angle and currents.\n"
+    "Writes the run with torque_model_Nm and residual_Nm (recorded less model) added.",
+    OPTIONS,
+    2,
+    "  hci-solve simulate data/machine_a data/drive/imposed.csv -o out/imposed\n"
+    "  hci-solve predict data/machine_a out/imposed/trajectory.csv -o out/predicted.csv\n"
+    "\nExit codes: 0 done; 2 command line; 3 input; 4 numerical; 5 output\n",
+    run};

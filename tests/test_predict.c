@@ -1,0 +1,290 @@
+/* The model's torque for a run, against the torque formula written out, and the run written again. */
+#define _POSIX_C_SOURCE 200809L
+
+#include "hci/host/predict.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "hci/host/csv.h"
+#include "hci/host/effects.h"
+#include "hci/host/summary.h"
+#include "host/memory.h"
+#include "unity.h"
+
+#define PI 3.14159265358979323846
+
+static char folder[64], machine[96], run_path[96], out[96], effects_path[128];
+static hci_note note;
+static hci_prediction prediction;
+
+static void write_file(const char *path, const char *text)
+{
+    FILE *file = fopen(path, "w");
+    TEST_ASSERT_NOT_NULL(file);
+    fputs(text, file);
+    fclose(file);
+}
+
+void setUp(void)
+{
+    char path[128];
+    snprintf(folder, sizeof folder, "/tmp/hci-test-predict-XXXXXX");
+    TEST_ASSERT_NOT_NULL(mkdtemp(folder));
+    snprintf(machine, sizeof machine, "%s", folder);
+    snprintf(run_path, sizeof run_path, "%s/run.csv", folder);
+    snprintf(out, sizeof out, "%s/out.csv", folder);
+    snprintf(effects_path, sizeof effects_path, "%s/effects.csv", folder);
+    snprintf(path, sizeof path, "%s/machine.csv", folder);
+    write_file(path, "name,value,unit,source\npole_pairs,3,1,\ninertia,0.01,kgm2,\n");
+    snprintf(path, sizeof path, "%s/back_emf.csv", folder);
+    write_file(path, "order,amplitude_Nm_per_A,phase_rad\n1,0.5,0\n5,0.02,0.4\n");
+    snprintf(path, sizeof path, "%s/cogging.csv", folder);
+    write_file(path, "order,amplitude_Nm,phase_rad\n6,0.1,1\n");
+    memset(&note, 0, sizeof note);
+}
+
+void tearDown(void)
+{
+    static const char *const names[] = {"machine.csv", "back_emf.csv", "cogging.csv",
+                                        "effects.csv", "run.csv",      "out.csv"};
+    hci_memory_fail_after(-1);
+    for (size_t k = 0; k < sizeof names / sizeof *names; ++k) {
+        char path[128];
+        snprintf(path, sizeof path, "%s/%s", folder, names[k]);
+        unlink(path);
+    }
+    TEST_ASSERT_EQUAL_MESSAGE(0, rmdir(folder), "a file is left");
+}
+
+/* The machine above. */
+static double torque_at(double theta_m, double id, double iq)
+{
+    const double theta = 3.0 * theta_m;
+    double sum = 0.1 * sin(6.0 * theta + 1.0);
+    for (int s = 0; s < 3; ++s) {
+        const double turned = theta - 2.0 * PI * s / 3.0;
+        sum += (0.5 * sin(turned) + 0.02 * sin(5.0 * turned + 0.4)) * (iq * sin(turned) - id * cos(turned));
+    }
+    return sum;
+}
+
+static void predict(void)
+{
+    const hci_status status = hci_predict_file(machine, run_path, out, &prediction, &note);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, status, note.text);
+}
+
+static hci_csv *read_out(void)
+{
+    hci_csv *csv;
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_csv_read(out, &csv, &note), note.text);
+    return csv;
+}
+
+static void has_text(const char *part, const char *whole)
+{
+    if (strstr(whole, part) != NULL) return;
+    char message[1400];
+    snprintf(message, sizeof message, "`%s` is not in `%s`", part, whole);
+    TEST_FAIL_MESSAGE(message);
+}
+
+enum { SAMPLES = 400 };
+
+/* At `speed` rad/s, with currents that change; torque that is read: of `late_s` before, and `more_Nm`. */
+static void record(double speed, double late_s, double more_Nm)
+{
+    FILE *file = fopen(run_path, "w");
+    fprintf(file, "time_s,theta_m_rad,speed_rad_per_s,id_A,iq_A,torque_Nm\n");
+    for (int k = 0; k < SAMPLES; ++k) {
+        const double t = 1e-4 * k, before = t - late_s;
+        fprintf(file, "%.12g,%.12g,%.12g,%.12g,%.12g,%.12g\n", t, speed * t, speed, -1.0 + 5.0 * t,
+                2.0 + 20.0 * t,
+                torque_at(speed * before, -1.0 + 5.0 * before, 2.0 + 20.0 * before) + more_Nm);
+    }
+    fclose(file);
+}
+
+static void test_torque_and_residual(void)
+{
+    double model[SAMPLES], residual[SAMPLES];
+    record(50.0, 0.0, 0.25);
+    predict();
+    hci_csv *csv = read_out();
+    TEST_ASSERT_EQUAL(SAMPLES, (int)hci_csv_rows(csv));
+    TEST_ASSERT_EQUAL(HCI_OK, hci_csv_numbers(csv, "torque_model_Nm", model, &note));
+    TEST_ASSERT_EQUAL(HCI_OK, hci_csv_numbers(csv, "residual_Nm", residual, &note));
+    for (int k = 0; k < SAMPLES; ++k) {
+        const double t = 1e-4 * k;
+        TEST_ASSERT_DOUBLE_WITHIN(1e-10, torque_at(50.0 * t, -1.0 + 5.0 * t, 2.0 + 20.0 * t), model[k]);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-10, 0.25, residual[k]);
+    }
+    TEST_ASSERT_DOUBLE_WITHIN(1e-10, 0.25, prediction.rms_residual_Nm);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-10, 0.25, prediction.mean_torque_Nm - prediction.mean_model_Nm);
+    TEST_ASSERT_EQUAL(HCI_TORQUE_MEASURED, prediction.source);
+    hci_csv_free(csv);
+}
+
+/* 300 µs late at 200 rad/s: 10 degrees electrical. Currents that change need their rate. */
+static void test_effects_act(void)
+{
+    record(200.0, 3e-4, 0.25);
+    predict();
+    TEST_ASSERT_TRUE(prediction.rms_residual_Nm > 0.255);
+    write_file(effects_path, "effect,parameter,value,unit,std_error\nchannel_delay,torque,300,us,\n"
+                             "torque_sensor,offset,0.25,Nm,\n");
+    predict();
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0.0, prediction.rms_residual_Nm);
+}
+
+/* A lag of 5 ms of a torque that steps at the start of the run stays behind by dT/dt·τ once it has settled.
+ */
+static void test_the_sensor_lags_along_time(void)
+{
+    FILE *file = fopen(run_path, "w");
+    fprintf(file, "time_s,theta_m_rad,iq_A,torque_Nm\n");
+    for (int k = 0; k < 2000; ++k)
+        fprintf(file, "%.12g,0.3,%.12g,0\n", 1e-4 * k, 10.0 * 1e-4 * k);
+    fclose(file);
+    write_file(effects_path, "effect,parameter,value,unit,std_error\ntorque_sensor,time_constant,5,ms,\n");
+    predict();
+    double model[2000];
+    hci_csv *csv = read_out();
+    TEST_ASSERT_EQUAL(HCI_OK, hci_csv_numbers(csv, "torque_model_Nm", model, &note));
+    const double slope = (torque_at(0.3, 0.0, 1.0) - torque_at(0.3, 0.0, 0.0)) * 10.0;
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, torque_at(0.3, 0.0, 1.999) - slope * 5e-3, model[1999]);
+    hci_csv_free(csv);
+    TEST_ASSERT_EQUAL(HCI_TORQUE_HOLDING, prediction.source);
+}
+
+static void test_a_free_shaft(void)
+{
+    FILE *file = fopen(run_path, "w");
+    fprintf(file, "time_s,theta_m_rad,speed_rad_per_s,iq_A\n");
+    for (int k = 0; k < 1000; ++k) {
+        const double t = 1e-3 * k;
+        fprintf(file, "%.12g,%.12g,%.12g,1\n", t, 50.0 * t * t, 100.0 * t);
+    }
+    fclose(file);
+    predict();
+    double inertia[1000], model[1000], residual[1000];
+    hci_csv *csv = read_out();
+    TEST_ASSERT_EQUAL(HCI_OK, hci_csv_numbers(csv, "torque_inertia_Nm", inertia, &note));
+    TEST_ASSERT_EQUAL(HCI_OK, hci_csv_numbers(csv, "torque_model_Nm", model, &note));
+    TEST_ASSERT_EQUAL(HCI_OK, hci_csv_numbers(csv, "residual_Nm", residual, &note));
+    for (int k = 0; k < 1000; ++k) {
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, 1.0, inertia[k]); /* 0.01 kg·m² · 100 rad/s² */
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, inertia[k] - model[k], residual[k]);
+    }
+    TEST_ASSERT_EQUAL(HCI_TORQUE_INERTIA, prediction.source);
+    hci_csv_free(csv);
+}
+
+static void assert_file(const char *path, const char *expected)
+{
+    char found[2000];
+    FILE *file = fopen(path, "r");
+    TEST_ASSERT_NOT_NULL(file);
+    found[fread(found, 1, sizeof found - 1, file)] = '\0';
+    fclose(file);
+    TEST_ASSERT_EQUAL_STRING(expected, found);
+}
+
+/* No cogging at θ = −1/6, no other torque without current. */
+static void test_columns_pass_through(void)
+{
+    char path[128];
+    snprintf(path, sizeof path, "%s/cogging.csv", folder);
+    unlink(path);
+    write_file(run_path, "\xEF\xBB\xBF# a comment\r\n"
+                         "Theta_M;Torque;note;residual_Nm;x,y\r\n"
+                         "deg;mNm;-;-;-\r\n"
+                         "1,50;-12,5;\"say \"\"so\"\"; or, not\";9;\r\n"
+                         "2,0;1e3;#2;9;a\tb\r\n");
+    predict();
+    assert_file(out, "Theta_M,Torque,note,\"x,y\",torque_model_Nm,residual_Nm\n"
+                     "deg,mNm,-,-,Nm,Nm\n"
+                     "1.50,-12.5,\"say \"\"so\"\"; or, not\",,0,-0.0125\n"
+                     "2.0,1e3,#2,\"a\tb\",0,1\n");
+    hci_csv *csv = read_out();
+    const char *text;
+    TEST_ASSERT_EQUAL(HCI_OK, hci_csv_text(csv, "note", 0, &text, &note));
+    TEST_ASSERT_EQUAL_STRING("say \"so\"; or, not", text);
+    hci_csv_free(csv);
+}
+
+static void test_a_run_without_torque_has_no_residual(void)
+{
+    write_file(run_path, "theta_m_rad,iq_A\n0,1\n1,1\n");
+    predict();
+    TEST_ASSERT_TRUE(isnan(prediction.rms_residual_Nm));
+    hci_csv *csv = read_out();
+    TEST_ASSERT_FALSE(hci_csv_has(csv, "residual_Nm"));
+    TEST_ASSERT_TRUE(hci_csv_has(csv, "torque_model_Nm"));
+    hci_csv_free(csv);
+    char *json = hci_prediction_json(&prediction);
+    has_text("\"rms_Nm\":\tnull", json);
+    has_text("\"torque_source\":\t\"none\"", json);
+    hci_text_free(json);
+}
+
+static void test_what_an_effect_lacks_is_told(void)
+{
+    write_file(run_path, "theta_e_rad,torque_Nm\n0,1\n1,1\n");
+    write_file(effects_path,
+               "effect,parameter,value,unit,std_error\nfriction,coulomb,0.1,Nm,\n"
+               "torque_sensor,time_constant,5,ms,\nmagnet_temperature,emf_per_kelvin,-0.001,1/K,\n"
+               "mechanical_order,sine_0.333333333,0.1,Nm,\n");
+    predict();
+    has_text("without time", prediction.remark.text);
+    has_text("without a speed", prediction.remark.text);
+    has_text("without a temperature", prediction.remark.text);
+    has_text("orders k/p", prediction.remark.text);
+}
+
+static void test_refused(void)
+{
+    write_file(run_path, "time_s,va_V,vb_V,vc_V\n0,1,1,1\n");
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, hci_predict_file(machine, run_path, out, &prediction, &note));
+    has_text("found no angle", note.text);
+    TEST_ASSERT_TRUE(access(out, F_OK) != 0);
+}
+
+static void test_memory_runs_out_everywhere(void)
+{
+    record(50.0, 0.0, 0.0);
+    write_file(effects_path, "effect,parameter,value,unit,std_error\nchannel_delay,torque,300,us,\n");
+    hci_status status = HCI_ERROR_MEMORY;
+    long allowed = 0;
+    for (; status == HCI_ERROR_MEMORY; ++allowed) {
+        hci_note said = {{0}};
+        hci_memory_fail_after(allowed);
+        status = hci_predict_file(machine, run_path, out, &prediction, &said);
+        hci_memory_fail_after(-1);
+        if (status == HCI_ERROR_MEMORY) {
+            has_text("memory", said.text);
+            TEST_ASSERT_TRUE(access(out, F_OK) != 0);
+        }
+    }
+    TEST_ASSERT_EQUAL(HCI_OK, status);
+    TEST_ASSERT_TRUE(allowed > 20);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_torque_and_residual);
+    RUN_TEST(test_effects_act);
+    RUN_TEST(test_the_sensor_lags_along_time);
+    RUN_TEST(test_a_free_shaft);
+    RUN_TEST(test_columns_pass_through);
+    RUN_TEST(test_a_run_without_torque_has_no_residual);
+    RUN_TEST(test_what_an_effect_lacks_is_told);
+    RUN_TEST(test_refused);
+    RUN_TEST(test_memory_runs_out_everywhere);
+    return UNITY_END();
+}

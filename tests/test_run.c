@@ -1,0 +1,632 @@
+/* Reading runs: what each column becomes, against the motion that the files were written from. */
+#define _POSIX_C_SOURCE 200809L
+
+#include "hci/host/run.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "host/memory.h"
+#include "unity.h"
+
+#define PI       3.14159265358979323846
+#define MEASURED "../shared/measured/"
+
+/* Files are written with 9 decimals. */
+#define TEXT 1e-8
+
+enum { MOST = 20000 };
+
+static char folder[64], path[96];
+static hci_run run;
+static hci_note note;
+
+void setUp(void)
+{
+    snprintf(folder, sizeof folder, "/tmp/hci-test-run-XXXXXX");
+    TEST_ASSERT_NOT_NULL(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/run.csv", folder);
+    memset(&run, 0, sizeof run);
+    memset(&note, 0, sizeof note);
+}
+
+void tearDown(void)
+{
+    hci_memory_fail_after(-1);
+    hci_run_release(&run);
+    unlink(path);
+    TEST_ASSERT_EQUAL(0, rmdir(folder));
+}
+
+/* ---- files ---- */
+
+static FILE *begin(const char *header)
+{
+    FILE *file = fopen(path, "w");
+    TEST_ASSERT_NOT_NULL(file);
+    fprintf(file, "%s\n", header);
+    return file;
+}
+
+static void row(FILE *file, int count, ...)
+{
+    va_list values;
+    va_start(values, count);
+    for (int k = 0; k < count; ++k)
+        fprintf(file, "%s%.9f", k > 0 ? "," : "", va_arg(values, double));
+    fprintf(file, "\n");
+    va_end(values);
+}
+
+static void text(const char *content)
+{
+    FILE *file = fopen(path, "w");
+    TEST_ASSERT_NOT_NULL(file);
+    fputs(content, file);
+    fclose(file);
+}
+
+static void read_run(int pole_pairs, double inertia_kgm2)
+{
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_run_read(path, pole_pairs, inertia_kgm2, &run, &note), note.text);
+}
+
+static void read_text(const char *content, int pole_pairs)
+{
+    text(content);
+    read_run(pole_pairs, NAN);
+}
+
+static void has_text(const char *part, const char *whole)
+{
+    if (strstr(whole, part) == NULL) {
+        char message[1400];
+        snprintf(message, sizeof message, "`%s` is not in `%s`", part, whole);
+        TEST_FAIL_MESSAGE(message);
+    }
+}
+
+static void refused(const char *content, const char *why)
+{
+    hci_note said = {{0}};
+    text(content);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_ERROR_INPUT, hci_run_read(path, 4, NAN, &run, &said), content);
+    has_text(why, said.text);
+    has_text("run.csv", said.text);
+    TEST_ASSERT_EQUAL(0, run.count);
+    TEST_ASSERT_NULL(run.name);
+}
+
+/* ---- a motion ---- */
+
+static double angle_at(double t)
+{
+    return 0.4 + 30.0 * t + 1.5 * sin(9.0 * t);
+}
+
+static double speed_at(double t)
+{
+    return 30.0 + 13.5 * cos(9.0 * t);
+}
+
+static double acceleration_at(double t)
+{
+    return -121.5 * sin(9.0 * t);
+}
+
+/* Uneven, but ascending. */
+static double time_at(int k)
+{
+    return 1e-3 * (k + 0.4 * sin(1.7 * k));
+}
+
+static double wrapped(double angle, double from)
+{
+    return angle - 2.0 * PI * floor((angle - from) / (2.0 * PI));
+}
+
+/* Angles of the run less those of the motion, which may differ by one constant, a multiple of `turn`. */
+static void assert_motion(int n, double turn)
+{
+    const double ahead = run.theta_m_rad[0] - angle_at(time_at(0));
+    TEST_ASSERT_EQUAL(n, (int)run.count);
+    TEST_ASSERT_DOUBLE_WITHIN(TEXT, 0.0, remainder(ahead, turn));
+    for (int k = 0; k < n; ++k)
+        TEST_ASSERT_DOUBLE_WITHIN(TEXT, angle_at(time_at(k)) + ahead, run.theta_m_rad[k]);
+}
+
+/* ---- angles ---- */
+
+static void write_angle(const char *header, int n, double factor, double unit, double wrap_from, bool wrap)
+{
+    FILE *file = begin(header);
+    for (int k = 0; k < n; ++k) {
+        const double angle = factor * angle_at(time_at(k));
+        row(file, 2, time_at(k), (wrap ? wrapped(angle, wrap_from) : angle) / unit);
+    }
+    fclose(file);
+}
+
+static void test_wraps_of_every_kind_are_taken_out(void)
+{
+    const double from[] = {0.0, -PI, -PI / 2.0};
+    for (int k = 0; k < 3; ++k) {
+        write_angle("time_s,theta_m_rad", 2000, 1.0, 1.0, from[k], true);
+        read_run(4, NAN);
+        TEST_ASSERT_TRUE(run.turn_known);
+        assert_motion(2000, 2.0 * PI);
+        hci_run_release(&run);
+        write_angle("time_s,theta_e_deg", 2000, 4.0, PI / 180.0, from[k], true);
+        read_run(4, NAN);
+        TEST_ASSERT_FALSE(run.turn_known);
+        assert_motion(2000, 2.0 * PI / 4.0);
+        hci_run_release(&run);
+    }
+}
+
+static void test_unwrapped_angles_stay(void)
+{
+    write_angle("time_s,theta_m_rad", 2000, 1.0, 1.0, 0.0, false);
+    read_run(4, NAN);
+    TEST_ASSERT_TRUE(run.turn_known);
+    TEST_ASSERT_DOUBLE_WITHIN(TEXT, angle_at(time_at(0)), run.theta_m_rad[0]);
+    assert_motion(2000, 2.0 * PI);
+    hci_run_release(&run);
+    write_angle("time_s,theta_e_rad", 2000, 4.0, 1.0, 0.0, false);
+    read_run(4, NAN);
+    TEST_ASSERT_TRUE(run.turn_known);
+    assert_motion(2000, 1e9);
+}
+
+static void test_an_electrical_angle_within_a_turn_knows_no_turn(void)
+{
+    read_text("theta_e_rad,torque_Nm\n0,1\n1,2\n3,3\n", 4);
+    TEST_ASSERT_FALSE(run.turn_known);
+    hci_run_release(&run);
+    read_text("theta_e_rad,torque_Nm\n0,1\n1,2\n3,3\n", 1);
+    TEST_ASSERT_TRUE(run.turn_known);
+}
+
+/* p times a mechanical angle that is wrapped. */
+static void test_wrap_at_several_turns(void)
+{
+    FILE *file = begin("time_s,theta_e_rad");
+    for (int k = 0; k < 2000; ++k)
+        row(file, 2, time_at(k), 4.0 * wrapped(angle_at(time_at(k)), 0.0));
+    fclose(file);
+    read_run(4, NAN);
+    TEST_ASSERT_TRUE(run.turn_known);
+    assert_motion(2000, 2.0 * PI);
+}
+
+static void test_unwrapped_coarse_samples_keep_their_turns(void)
+{
+    FILE *file = begin("time_s,theta_e_rad");
+    for (int k = 0; k < 200; ++k)
+        row(file, 2, 1e-3 * k, 4.1 * k);
+    fclose(file);
+    read_run(4, NAN);
+    for (int k = 0; k < 200; ++k)
+        TEST_ASSERT_DOUBLE_WITHIN(TEXT, 4.1 * k / 4.0, run.theta_m_rad[k]);
+}
+
+/* A logger that lost two turns, and a few samples. */
+static void test_a_gap_forward_is_no_wrap(void)
+{
+    FILE *file = begin("theta_e_rad,torque_Nm");
+    for (int k = 0; k < 1000; ++k)
+        row(file, 2, 0.02 * k + (k < 500 ? 0.0 : 4.0 * PI), 1.0);
+    fclose(file);
+    read_run(4, NAN);
+    TEST_ASSERT_DOUBLE_WITHIN(TEXT, (0.02 * 999 + 4.0 * PI) / 4.0, run.theta_m_rad[999]);
+}
+
+/* 0.8 turns from sample to sample look like −0.2. */
+static void test_speed_tells_the_turns_of_coarse_samples(void)
+{
+    FILE *file = begin("time_s,theta_e_rad,speed_rad_per_s");
+    for (int k = 0; k < 500; ++k)
+        row(file, 3, 1e-3 * k, wrapped(1.6 * PI * k, 0.0), 1.6 * PI / 4.0 * 1e3 * (1.0 + 0.05 * sin(k)));
+    fclose(file);
+    read_run(4, NAN);
+    for (int k = 0; k < 500; ++k)
+        TEST_ASSERT_DOUBLE_WITHIN(1e-7, 1.6 * PI * k / 4.0, run.theta_m_rad[k] - run.theta_m_rad[0]);
+    has_text("499 steps are taken from the speed", run.remark.text);
+}
+
+static void test_coarse_samples_without_a_speed_are_refused(void)
+{
+    char content[4000];
+    size_t used = (size_t)sprintf(content, "time_s,theta_e_rad\n");
+    for (int k = 0; k < 100; ++k)
+        used += (size_t)sprintf(content + used, "%d,%.6f\n", k, wrapped(0.9 * PI * k, 0.0));
+    refused(content, "sample faster, add a speed column");
+}
+
+/* Tables of locked-rotor points: nothing is a path there. */
+static void test_scattered_points_get_no_turns(void)
+{
+    unsigned seed = 7;
+    double angle[300];
+    FILE *file = begin("theta_e_rad,torque_Nm");
+    for (int k = 0; k < 300; ++k) {
+        seed = seed * 1664525u + 1013904223u;
+        angle[k] = 2.0 * PI * (seed >> 8) / 16777216.0;
+        row(file, 2, angle[k], 1.0);
+    }
+    fclose(file);
+    read_run(3, NAN);
+    for (int k = 0; k < 300; ++k)
+        TEST_ASSERT_DOUBLE_WITHIN(TEXT, angle[k] / 3.0, run.theta_m_rad[k]);
+    has_text("without order", run.remark.text);
+    TEST_ASSERT_NULL(run.speed_rad_per_s);
+}
+
+/* There and back with a wrap, without time: a holding map. */
+static void test_a_path_without_time_is_unwrapped(void)
+{
+    FILE *file = begin("theta_m_rad,iq_A,torque_Nm");
+    for (int k = 0; k < 800; ++k) {
+        const double angle = 3.0 + 0.01 * (k < 400 ? k : 800 - k);
+        row(file, 3, wrapped(angle, 0.0), 0.1, 0.0);
+    }
+    fclose(file);
+    read_run(3, NAN);
+    for (int k = 0; k < 800; ++k)
+        TEST_ASSERT_DOUBLE_WITHIN(TEXT, 3.0 + 0.01 * (k < 400 ? k : 800 - k), run.theta_m_rad[k]);
+    TEST_ASSERT_EQUAL(HCI_TORQUE_HOLDING, run.torque_source);
+    TEST_ASSERT_NULL(run.time_s);
+    TEST_ASSERT_NULL(run.speed_rad_per_s);
+}
+
+static void test_both_angles_give_phase_and_turns(void)
+{
+    FILE *file = begin("time_s,theta_m_rad,theta_e_rad");
+    for (int k = 0; k < 2000; ++k) {
+        const double angle = angle_at(time_at(k));
+        row(file, 3, time_at(k), wrapped(angle + 0.001 * sin(k), 0.0), wrapped(4.0 * angle + 1.0, 0.0));
+    }
+    fclose(file);
+    read_run(4, NAN);
+    TEST_ASSERT_TRUE(run.turn_known);
+    for (int k = 0; k < 2000; ++k)
+        TEST_ASSERT_DOUBLE_WITHIN(TEXT, angle_at(time_at(k)) + 0.25, run.theta_m_rad[k]);
+    has_text("theta_e is ahead of pole pairs x theta_m by 1 rad", run.remark.text);
+    hci_run_release(&run);
+    read_run(8, NAN);
+    TEST_ASSERT_FALSE(run.turn_known);
+    has_text("does not follow theta_e with 8 pole pairs", run.remark.text);
+    for (int k = 0; k < 2000; ++k)
+        TEST_ASSERT_DOUBLE_WITHIN(TEXT, (angle_at(time_at(k)) - angle_at(time_at(0))) * 4.0 / 8.0,
+                                  run.theta_m_rad[k] - run.theta_m_rad[0]);
+}
+
+/* ---- speed ---- */
+
+static void test_recorded_speed_is_kept_and_converted(void)
+{
+    read_text("time_s,theta_m_rad,speed_rpm\n0,0,60\n1,6.2,60\n2,12.4,90\n", 2);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 3.0 * PI, run.speed_rad_per_s[2]);
+}
+
+static void test_speed_is_the_slope_of_the_angle(void)
+{
+    write_angle("time_s,theta_e_rad", 3000, 4.0, 1.0, 0.0, true);
+    read_run(4, NAN);
+    for (int k = 0; k < 3000; ++k)
+        TEST_ASSERT_DOUBLE_WITHIN(2e-3, speed_at(time_at(k)), run.speed_rad_per_s[k]);
+}
+
+/* An encoder of 512 counts: one count a sample is 12 rad/s, so that a difference of two samples would be
+ * worth nothing. */
+static void test_slope_survives_an_encoder(void)
+{
+    const double count = 2.0 * PI / 512.0;
+    FILE *file = begin("time_s,theta_m_rad");
+    for (int k = 0; k < 5000; ++k)
+        row(file, 2, 1e-3 * k, count * floor((2.0 * 1e-3 * k + 0.3 * sin(2e-3 * k)) / count));
+    fclose(file);
+    read_run(4, NAN);
+    for (int k = 0; k < 5000; ++k)
+        TEST_ASSERT_DOUBLE_WITHIN(0.1, 2.0 + 0.6 * cos(2e-3 * k), run.speed_rad_per_s[k]);
+}
+
+static void test_a_speed_of_0_while_the_angle_moves_is_replaced(void)
+{
+    FILE *file = begin("time_s,theta_m_rad,speed_rad_per_s,iq_A,torque_Nm");
+    for (int k = 0; k < 400; ++k)
+        row(file, 5, 0.1 * k, 0.01 * (k < 200 ? k : 400 - k), 0.0, 0.1, 0.0);
+    fclose(file);
+    read_run(4, NAN);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0.1, run.speed_rad_per_s[100]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, -0.1, run.speed_rad_per_s[300]);
+    has_text("the speed is 0 but the angle moves", run.remark.text);
+    hci_run_release(&run);
+    read_text("time_s,theta_m_rad,speed_rad_per_s\n0,0.001,0\n1,0.002,0\n2,0.001,0\n", 2);
+    TEST_ASSERT_TRUE(run.speed_rad_per_s[0] == 0.0 && run.speed_rad_per_s[1] == 0.0);
+}
+
+/* ---- currents and voltages ---- */
+
+static void test_phase_currents(void)
+{
+    read_text("theta_m_rad,ia_A,ib_mA,ic_A\n0,1,2000,4\n0.1,5,6000,8\n", 2);
+    const double expected[] = {1.0, 2.0, 4.0, 5.0, 6.0, 8.0};
+    for (int k = 0; k < 6; ++k)
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, expected[k], run.i_A[k]);
+    TEST_ASSERT_TRUE(run.has_sum);
+}
+
+static void test_two_of_three_currents(void)
+{
+    const char *const header[] = {"ib_A,ic_A", "ia_A,ic_A", "ia_A,ib_A"};
+    for (int s = 0; s < 3; ++s) {
+        char content[100];
+        snprintf(content, sizeof content, "theta_m_rad,%s\n0,1,2\n", header[s]);
+        read_text(content, 2);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, -3.0, run.i_A[s]);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.0, run.i_A[0] + run.i_A[1] + run.i_A[2]);
+        TEST_ASSERT_FALSE(run.has_sum);
+        hci_run_release(&run);
+    }
+}
+
+static void test_dq_currents_turn_with_the_angle(void)
+{
+    FILE *file = begin("theta_m_rad,id_A,iq_A");
+    for (int k = 0; k < 100; ++k)
+        row(file, 3, 0.1 * k, -1.0 + 0.1 * k, 2.0);
+    fclose(file);
+    read_run(3, NAN);
+    for (int k = 0; k < 100; ++k)
+        for (int s = 0; s < 3; ++s) {
+            const double theta = 3.0 * 0.1 * k - 2.0 * PI * s / 3.0;
+            TEST_ASSERT_DOUBLE_WITHIN(TEXT, 2.0 * sin(theta) - (-1.0 + 0.1 * k) * cos(theta),
+                                      run.i_A[3 * k + s]);
+        }
+    TEST_ASSERT_FALSE(run.has_sum);
+}
+
+static void test_iq_alone_and_no_current(void)
+{
+    read_text("theta_e_rad,iq_A\n0.5,2\n", 3);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 2.0 * sin(0.5), run.i_A[0]);
+    hci_run_release(&run);
+    read_text("theta_e_rad,torque_Nm\n0.5,2\n", 3);
+    TEST_ASSERT_TRUE(run.i_A[0] == 0.0 && run.i_A[1] == 0.0 && run.i_A[2] == 0.0);
+    has_text("no currents: taken as 0", run.remark.text);
+}
+
+static void test_voltages(void)
+{
+    read_text("time_s,va_V,vb_V,vc_V\n0,1,2,3\n1,4,5,6\n", 3);
+    TEST_ASSERT_NULL(run.theta_m_rad);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 6.0, run.v_V[5]);
+    hci_run_release(&run);
+    /* phases 3, −1, −2 */
+    read_text("time_s,vab_V,vbc_V,vca_V\n0,4,1,-5\n", 3);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 3.0, run.v_V[0]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, -1.0, run.v_V[1]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, -2.0, run.v_V[2]);
+    has_text("divisible by three", run.remark.text);
+}
+
+/* ---- torque ---- */
+
+static void test_torque_sources(void)
+{
+    read_text("theta_m_rad,torque_Nm,temperature_C\n0,0,40\n1,0.5,41\n", 2);
+    TEST_ASSERT_EQUAL(HCI_TORQUE_MEASURED, run.torque_source);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 41.0, run.temperature_C[1]);
+    hci_run_release(&run);
+    read_text("theta_m_rad,torque_Nm\n0,0\n1,-0\n", 2);
+    TEST_ASSERT_EQUAL(HCI_TORQUE_HOLDING, run.torque_source);
+    TEST_ASSERT_NOT_NULL(run.torque_Nm);
+    hci_run_release(&run);
+    read_text("theta_m_rad,iq_A\n0,0\n1,-0\n", 2);
+    TEST_ASSERT_EQUAL(HCI_TORQUE_NONE, run.torque_source);
+    TEST_ASSERT_NULL(run.torque_Nm);
+}
+
+static void test_torque_of_inertia(void)
+{
+    FILE *file = begin("time_s,theta_m_rad,speed_rad_per_s");
+    for (int k = 0; k < 3000; ++k)
+        row(file, 3, time_at(k), angle_at(time_at(k)), speed_at(time_at(k)));
+    fclose(file);
+    read_run(4, 0.02);
+    TEST_ASSERT_EQUAL(HCI_TORQUE_INERTIA, run.torque_source);
+    for (int k = 0; k < 3000; ++k)
+        TEST_ASSERT_DOUBLE_WITHIN(0.02 * 0.05, 0.02 * acceleration_at(time_at(k)), run.torque_Nm[k]);
+}
+
+/* ---- what is refused ---- */
+
+static void test_refused_runs(void)
+{
+    refused("time_s,theta_m_rad\n0,1\n2,1\n1,1\n", "run.csv:4: column 1 `time_s`: found `1`");
+    refused("time_s,theta_m_rad\n0,1\n2,1\n2,1\n", "they are equal");
+    refused("theta_m_rad,ia_A\n0,1\n", "two or three of ia_A, ib_A, ic_A");
+    refused("theta_m_rad,id_A\n0,1\n", "add the column iq_A");
+    refused("time_s,va_V,vb_V,vc_V,iq_A\n0,1,1,1,1\n", "theta_e_rad or theta_m_rad");
+    refused("time_s,torque_Nm\n0,1\n", "found no column `theta_m_rad` but `time_s`, `torque_Nm`");
+    refused("theta_m_rad,torque_Nm\n", "a header and no samples");
+    refused("theta_m_rad,torque_Nm\n1,x\n", "found `x`");
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, hci_run_read("no/such/file", 4, NAN, &run, NULL));
+    text("theta_m_rad,torque_Nm\n1,1\n");
+    TEST_ASSERT_EQUAL(HCI_ERROR_ARGUMENT, hci_run_read(path, 0, NAN, &run, NULL));
+}
+
+static void test_unused_columns_are_named(void)
+{
+    read_text("theta_m_rad,torqe_Nm,iq_A,va_V\n0,1,1,1\n", 2);
+    has_text("columns not used: `torqe_Nm`, `va_V`", run.remark.text);
+}
+
+static void test_memory_runs_out_everywhere(void)
+{
+    FILE *file = begin("time_s,theta_m_rad,theta_e_rad,id_A,iq_A,va_V,vb_V,vc_V,temperature_C");
+    for (int k = 0; k < 20; ++k)
+        row(file, 9, 1.0 * k, 0.1 * k, 0.2 * k, 0.0, 1.0, 0.0, 0.0, 0.0, 20.0);
+    fclose(file);
+    hci_status status = HCI_ERROR_MEMORY;
+    long allowed = 0;
+    for (; status == HCI_ERROR_MEMORY; ++allowed) {
+        memset(&note, 0, sizeof note);
+        hci_memory_fail_after(allowed);
+        status = hci_run_read(path, 2, 0.1, &run, &note);
+        if (status == HCI_ERROR_MEMORY) {
+            has_text("memory", note.text);
+            TEST_ASSERT_EQUAL(0, run.count);
+        }
+    }
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, status, note.text);
+    TEST_ASSERT_TRUE(allowed > 15);
+}
+
+/* ---- lists ---- */
+
+static char list_path[96], sub[96];
+
+static void count_progress(void *context, const char *what, double share)
+{
+    TEST_ASSERT_NOT_NULL(what);
+    TEST_ASSERT_TRUE(share >= 0.0 && share < 1.0);
+    ++*(int *)context;
+}
+
+static void write_list(const char *content)
+{
+    FILE *file = fopen(list_path, "w");
+    TEST_ASSERT_NOT_NULL(file);
+    fputs(content, file);
+    fclose(file);
+}
+
+static void refused_list(const char *content, const char *why)
+{
+    hci_runs runs;
+    hci_note said = {{0}};
+    write_list(content);
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, hci_runs_read(list_path, 2, NAN, &runs, NULL, NULL, &said));
+    has_text(why, said.text);
+    TEST_ASSERT_NULL(runs.run);
+}
+
+static void test_lists_are_relative_to_themselves(void)
+{
+    hci_runs runs;
+    int calls = 0;
+    snprintf(sub, sizeof sub, "%s/sub", folder);
+    snprintf(list_path, sizeof list_path, "%s/sub/list.csv", folder);
+    TEST_ASSERT_EQUAL(0, mkdir(sub, 0700));
+    text("theta_m_rad,torque_Nm\n0,1\n");
+    char again[200];
+    snprintf(again, sizeof again, "file,role,note\n../run.csv,Fit,x\n%s,holdout,\n", path);
+    write_list(again);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_runs_read(list_path, 2, NAN, &runs, count_progress, &calls, &note),
+                              note.text);
+    TEST_ASSERT_EQUAL(2, (int)runs.count);
+    TEST_ASSERT_EQUAL(2, calls);
+    TEST_ASSERT_EQUAL(HCI_ROLE_FIT, runs.role[0]);
+    TEST_ASSERT_EQUAL(HCI_ROLE_HOLDOUT, runs.role[1]);
+    TEST_ASSERT_EQUAL_STRING("../run.csv", runs.run[0].name);
+    hci_runs_release(&runs);
+    refused_list("file,role\n../run.csv,train\n", "`fit` or `holdout`");
+    refused_list("file,role\n../run.csv,fit\n../run.csv,holdout\n", "each file once");
+    refused_list("file,role\n../none.csv,fit\n", "none.csv: cannot be read");
+    refused_list("file,role\n", "found no run");
+    refused_list("file\n../run.csv\n", "`role`");
+    unlink(list_path);
+    rmdir(sub);
+}
+
+/* ---- measured ---- */
+
+static bool measured(const char *file)
+{
+    struct stat info;
+    snprintf(sub, sizeof sub, MEASURED "%s", file);
+    return stat(sub, &info) == 0;
+}
+
+static void read_measured(const char *file, int pole_pairs, double inertia_kgm2)
+{
+    if (!measured(file)) TEST_IGNORE_MESSAGE("no " MEASURED);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_run_read(sub, pole_pairs, inertia_kgm2, &run, &note), note.text);
+}
+
+/* One turn forward, then back: the recorded speed is 0. */
+static void test_measured_holding_run(void)
+{
+    read_measured("laas_mn4004/hold.csv", 12, NAN);
+    TEST_ASSERT_EQUAL(HCI_TORQUE_HOLDING, run.torque_source);
+    TEST_ASSERT_TRUE(run.turn_known);
+    size_t forward = 0, backward = 0;
+    for (size_t k = 0; k < run.count; ++k) {
+        const bool first_half = k < run.count / 2;
+        forward += first_half && run.speed_rad_per_s[k] > 0.0;
+        backward += !first_half && run.speed_rad_per_s[k] < 0.0;
+    }
+    TEST_ASSERT_TRUE(forward > run.count * 45 / 100 && backward > run.count * 45 / 100);
+}
+
+/* J about 5.3e-6 kg·m², K_t 0.0279 N·m/A: the torque of the current, less friction, moves the rotor. */
+static void test_measured_free_shaft(void)
+{
+    read_measured("laas_mn4004/acceleration.csv", 12, 5.3e-6);
+    TEST_ASSERT_EQUAL(HCI_TORQUE_INERTIA, run.torque_source);
+    double largest = 0.0;
+    for (size_t k = 0; k < run.count; ++k)
+        largest = fmax(largest, fabs(run.torque_Nm[k]));
+    TEST_ASSERT_TRUE(largest > 0.002 && largest < 0.05);
+}
+
+static void test_measured_tables_without_time(void)
+{
+    read_measured("prius2004_locked_rotor/locked_250A.csv", 4, NAN);
+    TEST_ASSERT_EQUAL(HCI_TORQUE_MEASURED, run.torque_source);
+    TEST_ASSERT_FALSE(run.turn_known);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 3.071081 / 4.0, run.theta_m_rad[run.count - 1]);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_wraps_of_every_kind_are_taken_out);
+    RUN_TEST(test_unwrapped_angles_stay);
+    RUN_TEST(test_an_electrical_angle_within_a_turn_knows_no_turn);
+    RUN_TEST(test_wrap_at_several_turns);
+    RUN_TEST(test_unwrapped_coarse_samples_keep_their_turns);
+    RUN_TEST(test_a_gap_forward_is_no_wrap);
+    RUN_TEST(test_speed_tells_the_turns_of_coarse_samples);
+    RUN_TEST(test_coarse_samples_without_a_speed_are_refused);
+    RUN_TEST(test_scattered_points_get_no_turns);
+    RUN_TEST(test_a_path_without_time_is_unwrapped);
+    RUN_TEST(test_both_angles_give_phase_and_turns);
+    RUN_TEST(test_recorded_speed_is_kept_and_converted);
+    RUN_TEST(test_speed_is_the_slope_of_the_angle);
+    RUN_TEST(test_slope_survives_an_encoder);
+    RUN_TEST(test_a_speed_of_0_while_the_angle_moves_is_replaced);
+    RUN_TEST(test_phase_currents);
+    RUN_TEST(test_two_of_three_currents);
+    RUN_TEST(test_dq_currents_turn_with_the_angle);
+    RUN_TEST(test_iq_alone_and_no_current);
+    RUN_TEST(test_voltages);
+    RUN_TEST(test_torque_sources);
+    RUN_TEST(test_torque_of_inertia);
+    RUN_TEST(test_refused_runs);
+    RUN_TEST(test_unused_columns_are_named);
+    RUN_TEST(test_memory_runs_out_everywhere);
+    RUN_TEST(test_lists_are_relative_to_themselves);
+    RUN_TEST(test_measured_holding_run);
+    RUN_TEST(test_measured_free_shaft);
+    RUN_TEST(test_measured_tables_without_time);
+    return UNITY_END();
+}
