@@ -65,7 +65,7 @@ void cli_show_solution(const hci_solution *solution, const char *machine, const 
 
 /* ---- the commands */
 
-extern const cli_command cli_solve, cli_simulate, cli_emit;
+extern const cli_command cli_harmonics, cli_solve, cli_predict, cli_simulate, cli_emit, cli_diagnose;
 
 /* After the help of `simulate`: what a scenario may hold. */
 void cli_print_scenario_names(void);

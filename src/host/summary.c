@@ -4,8 +4,10 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "hci/host/predict.h"
 #include "hci/host/simulate.h"
 #include "hci/host/summary.h"
+#include "hci/host/waveform.h"
 #include "hci/version.h"
 #include "memory.h"
 
@@ -128,6 +130,86 @@ char *hci_solution_json(const hci_solution *solution, hci_status verdict)
     return text;
 }
 
+/* ---- diagnosis ---- */
+
+static bool add_finding(cJSON *list, const hci_finding *f)
+{
+    cJSON *item = cJSON_CreateObject();
+    return item && cJSON_AddItemToArray(list, item) && add_text(item, "effect", f->effect) &&
+           add_text(item, "verdict", hci_finding_verdict_name(f->verdict)) &&
+           add_number(item, "delta_bic", f->delta_bic) &&
+           add_number(item, "residual_share", f->residual_share) && add_text(item, "detail", f->detail);
+}
+
+static bool add_run(cJSON *list, const hci_run_errors *e)
+{
+    cJSON *item = cJSON_CreateObject();
+    return item && cJSON_AddItemToArray(list, item) && add_text(item, "file", e->file) &&
+           add_text(item, "role", e->role == HCI_ROLE_FIT ? "fit" : "holdout") &&
+           add_number(item, "mean_torque_Nm", e->mean_torque_Nm) &&
+           add_number(item, "rms_before_Nm", e->rms_before_Nm) &&
+           add_number(item, "rms_after_Nm", e->rms_after_Nm) &&
+           add_number(item, "rms_after_low_Nm", e->after_low_Nm) &&
+           add_number(item, "rms_after_high_Nm", e->after_high_Nm) &&
+           add_number(item, "noise_floor_Nm", e->noise_floor_Nm) &&
+           add_number(item, "index_slip_rad", e->slip_rad);
+}
+
+static bool add_unexplained(cJSON *list, const hci_unexplained *u)
+{
+    cJSON *item = cJSON_CreateObject();
+    return item && cJSON_AddItemToArray(list, item) && add_number(item, "order", u->order) &&
+           add_number(item, "sine_Nm", u->sine_Nm) && add_number(item, "cosine_Nm", u->cosine_Nm) &&
+           add_number(item, "current_exponent", u->current_exponent) &&
+           add_number(item, "speed_exponent", u->speed_exponent) &&
+           cJSON_AddBoolToObject(item, "turns_sign", u->turns_sign) &&
+           add_number(item, "amplitude_Nm", u->amplitude_Nm);
+}
+
+static bool add_currents(cJSON *root, const char *name, const hci_judgement *j, const hci_solution *s)
+{
+    cJSON *item = cJSON_AddObjectToObject(root, name);
+    return item && add_number(item, "mean_Nm", j->mean_Nm) &&
+           add_number(item, "rms_error_Nm", j->rms_error_Nm) &&
+           add_number(item, "T_ripple_percent", j->T_ripple_percent) &&
+           add_number(item, "F_ripple_percent", j->F_ripple_percent) &&
+           add_number(item, "mean_square_A2", s->mean_square_A2);
+}
+
+static bool add_diagnosis_lists(cJSON *root, const hci_diagnosis *d)
+{
+    cJSON *findings = cJSON_AddArrayToObject(root, "effects"), *runs = cJSON_AddArrayToObject(root, "runs");
+    cJSON *unexplained = cJSON_AddArrayToObject(root, "unexplained");
+    bool good = findings && runs && unexplained;
+    for (size_t k = 0; k < d->findings && good; ++k)
+        good = add_finding(findings, &d->finding[k]);
+    for (size_t k = 0; k < d->runs && good; ++k)
+        good = add_run(runs, &d->run[k]);
+    for (size_t k = 0; k < d->unexplained_count && good; ++k)
+        good = add_unexplained(unexplained, &d->unexplained[k]);
+    return good;
+}
+
+char *hci_diagnosis_json(const hci_diagnosis *d, const hci_resolution *r)
+{
+    char words[2048], *text = NULL;
+    cJSON *root = cJSON_CreateObject();
+    hci_diagnosis_words(d, words, sizeof words);
+    if (root && add_text(root, "command", "diagnose") && add_text(root, "version", HCI_VERSION_STRING) &&
+        add_text(root, "verdict", hci_diagnosis_verdict_name(d->verdict)) && add_text(root, "words", words) &&
+        add_text(root, "measure_next", d->advice) && add_number(root, "rms_before_Nm", d->rms_before_Nm) &&
+        add_number(root, "rms_after_Nm", d->rms_after_Nm) && add_number(root, "noise_Nm", d->noise_Nm) &&
+        add_number(root, "holdout_rms_before_Nm", d->holdout_before_Nm) &&
+        add_number(root, "holdout_rms_after_Nm", d->holdout_after_Nm) &&
+        add_number(root, "holdout_noise_Nm", d->holdout_noise_Nm) &&
+        cJSON_AddBoolToObject(root, "does_not_repeat", d->wanders) && add_diagnosis_lists(root, d) &&
+        (!r || (add_currents(root, "old_currents", &r->old_currents, &r->before) &&
+                add_currents(root, "new_currents", &r->new_currents, &r->after))))
+        text = cJSON_Print(root);
+    cJSON_Delete(root);
+    return text;
+}
+
 static bool add_table(cJSON *root, const hci_emit_request *request, const hci_emit_result *result)
 {
     return add_text(root, "name", request->name) && add_text(root, "format", request->format) &&
@@ -221,6 +303,105 @@ char *hci_simulation_json(const hci_simulation *simulation)
     if (root && add_text(root, "command", "simulate") && add_text(root, "version", HCI_VERSION_STRING) &&
         add_evaluation(root, simulation) && add_torque_and_current(root, simulation) &&
         add_control(root, simulation) && add_energy(root, simulation))
+        text = cJSON_Print(root);
+    cJSON_Delete(root);
+    return text;
+}
+
+/* ---- a prediction ---- */
+
+static const char *source_name(hci_torque_source source)
+{
+    static const char *const NAME[] = {"none", "measured", "holding", "inertia"};
+    return NAME[source];
+}
+
+static bool add_residual(cJSON *root, const hci_prediction *p)
+{
+    cJSON *part = cJSON_AddObjectToObject(root, "residual");
+    return part && add_number(part, "mean_Nm", p->mean_residual_Nm) &&
+           add_number(part, "rms_Nm", p->rms_residual_Nm) &&
+           add_number(part, "worst_Nm", p->worst_residual_Nm) &&
+           add_number(part, "worst_sample", (double)p->worst_sample);
+}
+
+char *hci_prediction_json(const hci_prediction *prediction)
+{
+    const hci_prediction *p = prediction;
+    cJSON *root = cJSON_CreateObject(), *torque = NULL, *model = NULL;
+    char *text = NULL;
+    if (root && add_text(root, "command", "predict") && add_text(root, "version", HCI_VERSION_STRING) &&
+        add_number(root, "samples", (double)p->count) &&
+        add_text(root, "torque_source", source_name(p->source)))
+        torque = cJSON_AddObjectToObject(root, "torque");
+    if (torque && add_number(torque, "mean_Nm", p->mean_torque_Nm) &&
+        add_number(torque, "ripple_rms_Nm", p->ripple_torque_Nm))
+        model = cJSON_AddObjectToObject(root, "model");
+    if (model && add_number(model, "mean_Nm", p->mean_model_Nm) &&
+        add_number(model, "ripple_rms_Nm", p->ripple_model_Nm) && add_residual(root, p) &&
+        add_text(root, "remark", p->remark.text))
+        text = cJSON_Print(root);
+    cJSON_Delete(root);
+    return text;
+}
+
+/* ---- a measured waveform ---- */
+
+static bool add_waveform_order(cJSON *list, const hci_waveform_order *o)
+{
+    cJSON *item = cJSON_CreateObject();
+    return item && cJSON_AddItemToArray(list, item) && add_number(item, "order", o->order) &&
+           add_number(item, "amplitude", o->amplitude) && add_number(item, "phase_rad", o->phase_rad) &&
+           add_number(item, "std_error", o->std_error) && add_number(item, "chance", o->chance) &&
+           cJSON_AddBoolToObject(item, "kept", o->kept);
+}
+
+static bool add_channel(cJSON *list, const hci_waveform_channel *c)
+{
+    cJSON *item = cJSON_CreateObject();
+    return item && cJSON_AddItemToArray(list, item) && add_text(item, "channel", c->name) &&
+           add_number(item, "offset_V", c->offset_V) &&
+           add_number(item, "offset_error_V", c->offset_error_V) &&
+           add_number(item, "ratio_to_others", c->ratio) && add_number(item, "ratio_error", c->ratio_error) &&
+           add_number(item, "phase_error_rad", c->phase_error_rad) &&
+           add_number(item, "phase_error_std_error_rad", c->phase_error) &&
+           cJSON_AddBoolToObject(item, "left_out", c->left_out);
+}
+
+static bool add_waveform(cJSON *root, const hci_waveform *w)
+{
+    const bool emf = w->quantity == HCI_WAVEFORM_BACK_EMF;
+    cJSON *orders = cJSON_AddArrayToObject(root, "orders"), *channels = NULL;
+    bool good = orders != NULL;
+    for (size_t k = 0; k < w->count && good; ++k)
+        good = add_waveform_order(orders, &w->order[k]);
+    if (good && emf) good = (channels = cJSON_AddArrayToObject(root, "channels")) != NULL;
+    for (int s = 0; s < 3 && good && emf; ++s)
+        good = add_channel(channels, &w->channel[s]);
+    return good;
+}
+
+char *hci_waveform_json(const hci_waveform *waveform)
+{
+    const hci_waveform *w = waveform;
+    const bool emf = w->quantity == HCI_WAVEFORM_BACK_EMF;
+    cJSON *root = cJSON_CreateObject();
+    char *text = NULL;
+    if (root && add_text(root, "command", "harmonics") && add_text(root, "version", HCI_VERSION_STRING) &&
+        add_text(root, "quantity", emf ? "back_emf" : "cogging") &&
+        add_text(root, "unit", emf ? "Nm_per_A" : "Nm") && add_number(root, "kept", (double)w->kept) &&
+        add_number(root, "turns_forward", (double)w->turns_forward) &&
+        add_number(root, "turns_backward", (double)w->turns_backward) &&
+        add_text(root, "errors_from",
+                 w->between_turns ? "turns"
+                 : w->step > 0.0  ? "orders_around"
+                                  : "residual") &&
+        add_number(root, "mean_Nm", w->mean_Nm) && add_number(root, "friction_Nm", w->friction_Nm) &&
+        add_number(root, "friction_std_error_Nm", w->friction_error_Nm) &&
+        add_number(root, "frequency_Hz", w->frequency_Hz) &&
+        add_number(root, "drift_Hz_per_s", w->drift_Hz_per_s) &&
+        add_number(root, "speed_rad_per_s", w->speed_rad_per_s) && add_waveform(root, w) &&
+        add_text(root, "remark", w->remark.text))
         text = cJSON_Print(root);
     cJSON_Delete(root);
     return text;

@@ -2,6 +2,7 @@
 #ifndef HCI_HOST_SUMMARY_H
 #define HCI_HOST_SUMMARY_H
 
+#include "hci/host/diagnose.h"
 #include "hci/host/emit.h"
 #include "hci/host/solve.h"
 
@@ -12,6 +13,7 @@ extern "C" {
 /* As in summary.json. To be freed with hci_text_free; NULL when memory is out. A number that does not exist
  * is null. */
 char *hci_solution_json(const hci_solution *solution, hci_status verdict);
+char *hci_diagnosis_json(const hci_diagnosis *diagnosis, const hci_resolution *resolution);
 char *hci_emit_json(const hci_emit_request *request, const hci_emit_result *result);
 void hci_text_free(char *text);
 

@@ -1,0 +1,135 @@
+/* From recordings to the physical effect that the model lacks. */
+#ifndef HCI_HOST_DIAGNOSE_H
+#define HCI_HOST_DIAGNOSE_H
+
+#include "hci/host/effects.h"
+#include "hci/host/machine.h"
+#include "hci/host/run.h"
+#include "hci/host/solve.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct {
+    double resolution; /* what the model is not asked to be better than, as a share of the largest rms torque
+                        * of a run; 0: 5e-4 */
+    hci_progress *progress; /* may be NULL */
+    void *progress_context;
+} hci_diagnose_options;
+
+typedef enum {
+    HCI_FINDING_ADDED,     /* the recordings show it */
+    HCI_FINDING_AMBIGUOUS, /* it, or another one that is listed, fits as well */
+    HCI_FINDING_REJECTED   /* not needed */
+} hci_finding_verdict;
+
+const char *hci_finding_verdict_name(hci_finding_verdict verdict);
+
+enum { HCI_DETAIL_SIZE = 512 };
+
+/* One effect. */
+typedef struct {
+    const char *effect; /* as in effects.csv; `unknown` for what no effect explains */
+    hci_finding_verdict verdict;
+    double delta_bic; /* fall of the Bayesian information criterion by having it: positive speaks for it */
+    double residual_share; /* of the mean square of the residual before, that it explains; NAN: none */
+    char detail[HCI_DETAIL_SIZE];
+} hci_finding;
+
+/* One run before and after. */
+typedef struct {
+    const char *file; /* belongs to the runs */
+    hci_role role;
+    double mean_torque_Nm;
+    double rms_before_Nm, rms_after_Nm;
+    double after_low_Nm, after_high_Nm; /* 95 % confidence interval of rms_after_Nm */
+    double noise_floor_Nm;
+    double
+        slip_rad; /* the run's mechanical angle is ahead of that of the others by this; it was turned back */
+} hci_run_errors;
+
+/* The residual at one order. */
+typedef struct {
+    size_t run;
+    double order;
+    double before_Nm, after_Nm; /* peak amplitude */
+    double noise_Nm;            /* amplitude that noise alone exceeds once in twenty times */
+} hci_residual_line;
+
+/* An order that no effect explains, and how it grows over the runs:
+ * T = (S sin nθ + C cos nθ) |i/A|^a |ω/(rad/s)|^b (sign ω)^c, a description and not physics. */
+typedef struct {
+    double order;
+    double sine_Nm, cosine_Nm;
+    double current_exponent, speed_exponent; /* a, b */
+    bool turns_sign;                         /* c */
+    double amplitude_Nm;                     /* at the largest current and speed of the recordings */
+} hci_unexplained;
+
+enum { HCI_MOST_FINDINGS = 20, HCI_MOST_UNEXPLAINED = 8 };
+
+typedef enum {
+    HCI_DIAGNOSIS_COMPLETE,  /* nothing is missing */
+    HCI_DIAGNOSIS_EXPLAINED, /* the effects added explain the residual */
+    HCI_DIAGNOSIS_AMBIGUOUS, /* several explain it equally well */
+    HCI_DIAGNOSIS_UNKNOWN    /* none does */
+} hci_diagnosis_verdict;
+
+const char *hci_diagnosis_verdict_name(hci_diagnosis_verdict verdict);
+
+/* Start with {0}. */
+typedef struct {
+    hci_diagnosis_verdict verdict;
+    hci_finding finding[HCI_MOST_FINDINGS]; /* most important first */
+    size_t findings;
+    hci_effects_data effects; /* of the corrected machine: declared ones and added ones */
+    hci_run_errors *run;      /* of each run with a torque */
+    size_t runs;
+    hci_residual_line *line;
+    size_t lines;
+    hci_unexplained unexplained[HCI_MOST_UNEXPLAINED];
+    size_t unexplained_count;
+    double rms_before_Nm, rms_after_Nm, noise_Nm;                 /* of the runs that were fitted */
+    double holdout_before_Nm, holdout_after_Nm, holdout_noise_Nm; /* NAN without such runs */
+    char advice[3 * HCI_DETAIL_SIZE];                             /* what to measure next, or "" */
+    bool wanders; /* something is left that does not repeat with the turn */
+} hci_diagnosis;
+
+/* HCI_OK; HCI_NOT_REACHED when the verdict is ambiguous or unknown; or an error with a note, and then
+ * *diagnosis is empty. HCI_ERROR_INPUT when no run to be fitted has a torque. runs: kept as long as the
+ * diagnosis. */
+hci_status hci_diagnose(const hci_machine_data *machine, const hci_effects *declared, const hci_runs *runs,
+                        const hci_diagnose_options *options, hci_diagnosis *diagnosis, hci_note *note);
+void hci_diagnosis_release(hci_diagnosis *diagnosis);
+
+/* The verdict as a few plain sentences. size: of text, 2048 will do. */
+void hci_diagnosis_words(const hci_diagnosis *diagnosis, char *text, size_t size);
+
+/* Currents for a target torque before and after the correction. */
+typedef struct {
+    hci_solution before, after; /* for the declared machine and for the corrected one */
+    hci_status before_status, after_status;
+    hci_judgement old_currents, new_currents; /* both on the corrected machine */
+} hci_resolution;
+
+/* Solves for the declared machine and for the corrected one, and tells what both currents do on the corrected
+ * one. options: target and limits, effects are set here. HCI_OK or HCI_NOT_REACHED (of the corrected
+ * machine), or an error with a note, and then *resolution is empty. */
+hci_status hci_diagnosis_resolve(const hci_machine_data *machine, const hci_effects *declared,
+                                 const hci_diagnosis *diagnosis, const hci_solve_options *options,
+                                 hci_resolution *resolution, hci_note *note);
+void hci_resolution_release(hci_resolution *resolution);
+
+/* Writes effects.csv, errors.csv, residual_spectrum.csv, summary.json and, where something is not explained,
+ * unexplained.csv into `folder`, and the corrected machine into `folder`/machine: the tables of
+ * machine_folder as they are, with effects.csv. resolution: for the summary, or NULL. */
+hci_status hci_diagnosis_write(const hci_diagnosis *diagnosis, const hci_resolution *resolution,
+                               const hci_runs *runs, const char *machine_folder, const char *folder,
+                               hci_note *note);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
