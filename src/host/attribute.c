@@ -237,39 +237,120 @@ static double worth_of(const hci_suspect *x, double rows)
     return x->room->parameter[x->term[0].parameter].ordered ? fmax(WORTH, LITTLE * rows) : WORTH;
 }
 
-/* Takes suspects of rooms a and b into the sweep while they are worth it, and those out that are no more.
- * Returns the fall of the score. in: out, of each suspect. */
-static double greedy(hci_sweep *sweep, const choice *c, size_t a, size_t b, bool *in)
+/* A set of suspects that grows: those of rooms a and b that are not in the model yet. */
+typedef struct {
+    hci_sweep *sweep;
+    const choice *choice;
+    size_t a, b;
+    bool *in; /* of each suspect */
+    double cost;
+} growing;
+
+static bool is_open(const growing *g, size_t k)
 {
-    const double before = sweep->square;
-    const int steps = hci_suspect_room(a) == hci_effect_room_find("saturation") ? MOST_POWERS : MOST_ORDERS;
-    double cost = 0.0;
-    memset(in, 0, c->list->count * sizeof *in);
-    for (int step = 0; step < steps; ++step) {
-        double most = 0.0;
-        size_t best = c->list->count;
-        for (size_t k = 0; k < c->list->count; ++k) {
-            const hci_suspect *x = &c->list->suspect[k];
-            if (in[k] || x->in || !allowed(x, a, b)) continue;
-            const double gain = hci_sweep_worth(sweep, c->column[k], x->count) - hci_suspect_cost(x, c->rows);
-            if (gain > most && (step == 0 || gain > worth_of(x, c->rows))) {
-                most = gain;
-                best = k;
-            }
-        }
-        if (best == c->list->count || !enter(sweep, c, best, true)) break;
-        in[best] = true;
-        cost += hci_suspect_cost(&c->list->suspect[best], c->rows);
-        for (size_t k = 0; k < c->list->count; ++k) {
-            const hci_suspect *x = &c->list->suspect[k];
-            if (!in[k] || k == best) continue;
-            if (hci_sweep_worth(sweep, c->column[k], x->count) > hci_suspect_cost(x, c->rows)) continue;
-            enter(sweep, c, k, false);
-            in[k] = false;
-            cost -= hci_suspect_cost(x, c->rows);
+    const hci_suspect *x = &g->choice->list->suspect[k];
+    return !g->in[k] && !x->in && allowed(x, g->a, g->b);
+}
+
+static double cost_of(const growing *g, size_t k)
+{
+    return hci_suspect_cost(&g->choice->list->suspect[k], g->choice->rows);
+}
+
+static double worth(const growing *g, size_t k)
+{
+    return hci_sweep_worth(g->sweep, g->choice->column[k], g->choice->list->suspect[k].count);
+}
+
+static bool take(growing *g, size_t k)
+{
+    if (!enter(g->sweep, g->choice, k, true)) return false;
+    g->in[k] = true;
+    g->cost += cost_of(g, k);
+    return true;
+}
+
+/* Takes in the one that is worth most over its cost. */
+static bool take_best(growing *g, bool first)
+{
+    const size_t n = g->choice->list->count;
+    size_t best = n;
+    double most = 0.0;
+    for (size_t k = 0; k < n; ++k) {
+        if (!is_open(g, k)) continue;
+        const double gain = worth(g, k) - cost_of(g, k);
+        if (gain > most && (first || gain > worth_of(&g->choice->list->suspect[k], g->choice->rows))) {
+            most = gain;
+            best = k;
         }
     }
-    return before - sweep->square - cost;
+    return best < n && take(g, best);
+}
+
+/* Takes out those that are no longer worth their cost, the least worthy first. */
+static void leave_worthless(growing *g)
+{
+    for (;;) {
+        const size_t n = g->choice->list->count;
+        size_t worst = n;
+        double least = 0.0;
+        for (size_t k = 0; k < n; ++k) {
+            if (!g->in[k]) continue;
+            const double gain = worth(g, k) - cost_of(g, k);
+            if (gain < least) {
+                least = gain;
+                worst = k;
+            }
+        }
+        if (worst == n) return;
+        enter(g->sweep, g->choice, worst, false);
+        g->in[worst] = false;
+        g->cost -= cost_of(g, worst);
+    }
+}
+
+/* Takes suspects in while they are worth it, and those out that are no more. Returns the fall of the score.
+ */
+static double grow(growing *g, double before)
+{
+    const bool powers = hci_suspect_room(g->a) == hci_effect_room_find("saturation");
+    for (int step = 0; step < (powers ? MOST_POWERS : MOST_ORDERS); ++step) {
+        if (!take_best(g, step == 0 && g->cost == 0.0)) break;
+        leave_worthless(g);
+    }
+    return before - g->sweep->square - g->cost;
+}
+
+/* The mean torque of an iron that saturates takes several powers of the currents at once, none of which is
+ * worth much alone: all of them first. */
+static bool seed_powers(growing *g)
+{
+    const hci_effect_room *saturation = hci_effect_room_find("saturation");
+    bool any = false;
+    for (size_t k = 0; k < g->choice->list->count; ++k) {
+        const hci_suspect *x = &g->choice->list->suspect[k];
+        if (x->room == saturation && x->term[0].order == 0.0 && is_open(g, k)) any = take(g, k) || any;
+    }
+    if (any) leave_worthless(g);
+    return any;
+}
+
+/* What suspects of rooms a and b are worth beside the model; in: out, those that are. */
+static double trial_gain(hci_sweep *sweep, const hci_sweep *base, const choice *c, size_t a, size_t b,
+                         bool *in, bool *seeded)
+{
+    growing g = {sweep, c, a, b, in, 0.0};
+    hci_sweep_copy(sweep, base);
+    const double plain = grow(&g, base->square);
+    g.in = seeded;
+    g.cost = 0.0;
+    hci_sweep_copy(sweep, base);
+    memset(seeded, 0, c->list->count * sizeof *seeded);
+    if (!seed_powers(&g)) return plain;
+    const double gain = grow(&g, base->square);
+    if (gain <= plain) return plain;
+    memcpy(in, seeded, c->list->count * sizeof *in);
+    return gain;
 }
 
 /* ---- trials ---- */
@@ -303,8 +384,9 @@ static hci_status trials_fill(search *s, trials *t, const hci_normal *normal, bo
     bool made = column && hci_sweep_start(&base, normal) && hci_sweep_start(&sweep, normal);
     const choice c = {&t->list, column, normal->rows};
     s->rows = normal->rows;
-    t->flags = hci_memory_new((n + 1) * sizeof t->trial / sizeof t->trial[0], sizeof *t->flags);
+    t->flags = hci_memory_new((n + 1) * (sizeof t->trial / sizeof t->trial[0] + 1), sizeof *t->flags);
     made = made && t->flags;
+    bool *seeded = t->flags + (n + 1) * (sizeof t->trial / sizeof t->trial[0]);
     for (size_t k = 0, at = 0; made && k < n; ++k) {
         column[k] = at;
         at += t->list.suspect[k].count;
@@ -314,8 +396,7 @@ static hci_status trials_fill(search *s, trials *t, const hci_normal *normal, bo
         for (size_t b = a; b < (pairs ? rooms : a + 1); ++b) {
             trial *x = &t->trial[t->count];
             *x = (trial){a, b, 0.0, t->flags + t->count * (n + 1)};
-            hci_sweep_copy(&sweep, &base);
-            x->gain = greedy(&sweep, &c, a, b, x->in);
+            x->gain = trial_gain(&sweep, &base, &c, a, b, x->in, seeded);
             ++t->count;
         }
     }
@@ -624,11 +705,12 @@ static hci_status rivals_of(search *s, hci_suspects *model, hci_fit *fit, const 
         if (other == room || room_in(model, other) || x->gain < 0.6 * worth - 20.0) continue;
         status = trial_fit(s, &t, x, &m, &rival, note);
         if (status) break;
-        if (rival.score < fit->score - 0.5) {
+        const bool strange = other == &hci_unknown_room; /* has to be better, not as good */
+        if (!out && rival.score < fit->score - (strange ? DECISIVE : 0.5)) {
             replace(model, &m);
             *swapped = true;
             status = noise_renew(s, model, fit, note);
-        } else if (out && rival.score < fit->score + EQUAL) {
+        } else if (out && !strange && rival.score < fit->score + EQUAL) {
             hci_verdict *v = &out->verdict[x->a];
             v->ambiguous = true;
             v->rival_of = room;

@@ -33,7 +33,7 @@ typedef struct {
 
 typedef struct {
     const hci_run *runs;
-    double resolution_Nm; /* what the model is not asked to be better than */
+    double resolution_Nm;       /* what the model is not asked to be better than */
     double reference_current_A; /* of saturation; NAN: the largest of the runs */
     hci_progress *progress;
     void *context;

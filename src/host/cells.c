@@ -168,10 +168,13 @@ static bool alike(const lap *a, const lap *b, double current_A, double speed)
 static bool stretch_finish(const hci_run *r, int pole_pairs, hci_cells *cells, const hci_stretch *s)
 {
     hci_cell *cell = cells->cell + s->first;
-    bool series;
+    bool series = false;
     for (size_t k = 0; k < s->count; ++k)
         cell[k].raw = cell[k].reading;
-    if (!hci_smooth_stretch(cell, s, pole_pairs, r->turn_known, &series)) return false;
+    /* in a holding test the current is what is measured, noise and all */
+    if (r->torque_source != HCI_TORQUE_HOLDING &&
+        !hci_smooth_stretch(cell, s, pole_pairs, r->turn_known, &series))
+        return false;
     if (s->timed && !series) changes_set(cell, s->count, pole_pairs);
     for (size_t k = 0; k < s->count; ++k) {
         const hci_sample *x = &cell[k].reading;

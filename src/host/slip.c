@@ -8,7 +8,8 @@
 enum { ORDERS = 48, ANGLES = 720 };
 
 #define LITTLE_CURRENT 0.05 /* share of the largest that counts as none */
-#define ALIKE          0.75 /* correlation of turned residuals that are the same map */
+#define ALIKE          0.9  /* correlation of turned residuals that are the same map */
+#define SPREAD         1.6  /* orders that share the power of a map: one alone fits itself at many angles */
 #define BETTER         0.25 /* by so much more than unturned ones */
 
 /* Fourier sums of a run's residual over the mechanical angle, orders 1 … ORDERS. */
@@ -45,6 +46,17 @@ static void map_make(const hci_cells *cells, size_t run, const double *residual,
         m->sine[n] /= count;
         m->power += m->cosine[n] * m->cosine[n] + m->sine[n] * m->sine[n];
     }
+}
+
+/* How many orders share the power, weighted: 1 for a single one. */
+static double spread_of(const map *m)
+{
+    double fourth = 0.0;
+    for (int n = 0; n < ORDERS; ++n) {
+        const double power = m->cosine[n] * m->cosine[n] + m->sine[n] * m->sine[n];
+        fourth += power * power;
+    }
+    return fourth > 0.0 ? m->power * m->power / fourth : 0.0;
 }
 
 /* Correlation of a with b turned back by an angle. */
@@ -108,7 +120,7 @@ hci_status hci_slip_find(const hci_cells *cells, const hci_run *runs, const doub
     for (size_t k = 0; k < count; ++k) {
         const bool usable = is_usable(cells, runs, k, most_A);
         if (usable) map_make(cells, k, residual_Nm, &maps[k]);
-        maps[k].usable = usable;
+        maps[k].usable = usable && spread_of(&maps[k]) > SPREAD;
         slip_rad[k] = 0.0;
     }
     const size_t reference = reference_of(maps, count);

@@ -17,7 +17,7 @@ hci_growth hci_growth_of(size_t g)
 bool hci_growth_is_known(size_t g, double order)
 {
     const hci_growth x = hci_growth_of(g);
-    if (order > 0.0) return g == 0;
+    if (order > 0.0) return x.speed == 0.0 && !x.turns_sign && x.current == floor(x.current);
     return !x.turns_sign || (x.current == 0.0 && x.speed != 0.5);
 }
 

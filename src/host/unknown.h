@@ -21,7 +21,7 @@ extern const hci_effect_room hci_unknown_room; /* parameter 2g is the sine, 2g +
 
 hci_growth hci_growth_of(size_t g);
 
-/* Whether known effects grow so: not at all, or at order 0 like friction. */
+/* Whether known effects grow so: with a whole power of the current, or at order 0 like friction. */
 bool hci_growth_is_known(size_t g, double order);
 
 double hci_growth_at(size_t g, double current_A, double speed_rad_per_s);
