@@ -20,7 +20,7 @@ typedef struct {
     const char *help;
 } cli_option;
 
-enum { CLI_MOST_OPTIONS = 24, CLI_MOST_WORDS = 4 };
+enum { CLI_MOST_OPTIONS = 32, CLI_MOST_WORDS = 4 };
 
 typedef struct {
     bool given[CLI_MOST_OPTIONS];
@@ -65,7 +65,8 @@ void cli_show_solution(const hci_solution *solution, const char *machine, const 
 
 /* ---- the commands */
 
-extern const cli_command cli_harmonics, cli_solve, cli_predict, cli_simulate, cli_emit, cli_diagnose;
+extern const cli_command cli_harmonics, cli_solve, cli_predict, cli_simulate, cli_emit, cli_diagnose,
+    cli_init;
 
 /* After the help of `simulate`: what a scenario may hold. */
 void cli_print_scenario_names(void);

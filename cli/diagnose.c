@@ -1,6 +1,9 @@
+#define _POSIX_C_SOURCE 200809L
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "cli.h"
 #include "hci/host/diagnose.h"
@@ -28,6 +31,19 @@ typedef struct {
     hci_diagnose_options options;
 } inputs;
 
+/* The machine that is read would be replaced by the corrected one. */
+static hci_status keep_apart(const char *machine, const char *folder, hci_note *note)
+{
+    struct stat from, to;
+    char path[4096];
+    if (!folder || snprintf(path, sizeof path, "%s/machine", folder) >= (int)sizeof path) return HCI_OK;
+    if (stat(machine, &from) != 0 || stat(path, &to) != 0 || from.st_dev != to.st_dev ||
+        from.st_ino != to.st_ino)
+        return HCI_OK;
+    return hci_note_set(note, HCI_ERROR_ARGUMENT,
+                        "%s would be replaced by a result of the same name; give another --out", machine);
+}
+
 static hci_status read_inputs(const cli_arguments *a, inputs *in, hci_note *note)
 {
     hci_status status = HCI_OK;
@@ -35,7 +51,8 @@ static hci_status read_inputs(const cli_arguments *a, inputs *in, hci_note *note
     if (!a->value[RUNS])
         return hci_note_set(note, HCI_ERROR_ARGUMENT,
                             "diagnose: the recordings are missing; add --runs LIST");
-    if (a->value[RESOLUTION])
+    status = keep_apart(a->word[0], a->value[OUT], note);
+    if (!status && a->value[RESOLUTION])
         status = cli_number("resolution", a->value[RESOLUTION], 1e-6, 50.0, &percent, note);
     in->options.resolution = percent / 100.0;
     in->options.progress = a->given[QUIET] ? NULL : cli_progress;
@@ -156,7 +173,9 @@ static hci_status write_results(const cli_arguments *a, const inputs *in, const 
     if (status || !r) return status;
     if (snprintf(folder, sizeof folder, "%s/solution", a->value[OUT]) >= (int)sizeof folder)
         return hci_note_set(note, HCI_ERROR_OUTPUT, "%.200s…: the path is too long", a->value[OUT]);
-    return hci_solution_write(&in->machine, &r->after, r->after_status, folder, note);
+    return hci_solution_write_with_report(
+        &in->machine, &r->after, r->after_status,
+        &(hci_report_sources){.machine = a->word[0], .target = a->value[TARGET]}, folder, note);
 }
 
 static int give_results(const cli_arguments *a, const inputs *in, const hci_diagnosis *d,
@@ -216,8 +235,8 @@ const cli_command cli_diagnose = {
     "diagnose",
     "MACHINE --runs LIST",
     "Finds what the model of the machine lacks to describe recordings, and corrects it.\n"
-    "Writes machine/, effects.csv, errors.csv, residual_spectrum.csv, summary.json and, with --target,\n"
-    "solution/.",
+    "Writes machine/, effects.csv, errors.csv, residual_spectrum.csv, summary.json, report.html and, with\n"
+    "--target, solution/.",
     OPTIONS,
     1,
     "  hci-solve diagnose data/fem_c/machine --runs data/fem_c/runs.csv -o out/diagnosed\n"

@@ -8,7 +8,8 @@
 #include "cli.h"
 #include "hci/version.h"
 
-static const cli_command *const COMMANDS[] = {&cli_harmonics, &cli_solve, &cli_predict, &cli_simulate, &cli_diagnose, &cli_emit};
+static const cli_command *const COMMANDS[] = {&cli_harmonics, &cli_solve, &cli_predict, &cli_simulate,
+                                              &cli_diagnose,  &cli_emit,  &cli_init};
 enum { COMMAND_COUNT = sizeof COMMANDS / sizeof COMMANDS[0] };
 
 static int print_usage(FILE *stream)

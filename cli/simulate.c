@@ -5,12 +5,13 @@
 #include "cli.h"
 #include "hci/host/simulate.h"
 
-enum { CURRENTS, OUT, JSON, QUIET, HELP };
+enum { CURRENTS, OUT, REPORT, JSON, QUIET, HELP };
 
 static const cli_option OPTIONS[] = {
     [CURRENTS] = {"currents", 0,   CLI_VALUE, "PATH",
                   "impose these: currents.csv, or a folder that `solve` wrote"                               },
     [OUT] = {"out",      'o', CLI_VALUE, "FOLDER", "where the results go; without it nothing is written"},
+    [REPORT] = {"report",   0,   CLI_FLAG,  NULL,     "report.html beside the results, for people"         },
     [JSON] = {"json",     0,   CLI_FLAG,  NULL,     "the summary as JSON on standard output"             },
     [QUIET] = {"quiet",    'q', CLI_FLAG,  NULL,     "no words, only errors"                              },
     [HELP] = {"help",     'h', CLI_FLAG,  NULL,     "this text"                                          },
@@ -122,8 +123,12 @@ static hci_status simulate(const cli_arguments *a, const hci_machine_data *machi
 {
     const hci_simulate_options options = {a->value[OUT], effects, a->given[QUIET] ? NULL : cli_progress,
                                           NULL};
+    const hci_report_sources sources = {.machine = a->word[0],
+                                        .scenario = a->word[1],
+                                        .currents = scenario->currents[0] ? scenario->currents : NULL};
     hci_simulation simulation;
-    hci_status status = hci_simulate(machine, scenario, &options, &simulation, note);
+    hci_status status = hci_simulate_with_report(machine, scenario, &options,
+                                                 a->given[REPORT] ? &sources : NULL, &simulation, note);
     cli_progress_end();
     if (!status && !a->given[QUIET]) {
         cli_remark(&machine->remark);
@@ -144,7 +149,12 @@ static int run(const cli_arguments *a)
     };
     hci_scenario scenario;
     hci_note note = {{0}};
-    hci_status status = hci_machine_read(a->word[0], &machine, &note);
+    hci_status status = HCI_OK;
+    memset(&machine, 0, sizeof machine);
+    if (a->given[REPORT] && !a->given[OUT])
+        status =
+            hci_note_set(&note, HCI_ERROR_ARGUMENT, "--report is written into a folder; add --out FOLDER");
+    if (!status) status = hci_machine_read(a->word[0], &machine, &note);
     if (!status) status = hci_effects_read_machine(a->word[0], &effects, &note);
     if (!status) status = hci_scenario_read(a->word[1], &scenario, &note);
     if (!status && a->given[CURRENTS]) status = override_currents(a->value[CURRENTS], &scenario, &note);
@@ -158,7 +168,7 @@ const cli_command cli_simulate = {
     "simulate",
     "MACHINE SCENARIO",
     "Runs the drive in time: machine, shaft, current and speed control, sensors.\n"
-    "Writes trajectory.csv, spectrum.csv and summary.json.",
+    "Writes trajectory.csv, spectrum.csv and summary.json; with --report also report.html.",
     OPTIONS,
     2,
     "  hci-solve simulate data/machine_a data/drive/imposed.csv -o out/imposed\n"

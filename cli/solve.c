@@ -25,6 +25,7 @@ enum {
     SPEED,
     TEMPERATURE,
     OUT,
+    REPORT,
     JSON,
     QUIET,
     HELP
@@ -52,6 +53,7 @@ static const cli_option OPTIONS[] = {
     [TEMPERATURE] = {"temperature",   0,   CLI_VALUE,          "C",
                 "of the magnets, for magnet_temperature in effects.csv"                                                    },
     [OUT] = {"out",           'o', CLI_VALUE,          "FOLDER", "where the results go; without it nothing is written"  },
+    [REPORT] = {"report",        0,   CLI_FLAG,           NULL,     "report.html beside the results, for people"           },
     [JSON] = {"json",          0,   CLI_FLAG,           NULL,     "the summary as JSON on standard output"               },
     [QUIET] = {"quiet",         'q', CLI_FLAG,           NULL,     "no words, only errors"                                },
     [HELP] = {"help",          'h', CLI_FLAG,           NULL,     "this text"                                            },
@@ -188,7 +190,11 @@ static hci_status keep_apart(const char *input, const char *folder, hci_note *no
 
 static hci_status read_inputs(const cli_arguments *a, inputs *in, hci_note *note)
 {
-    hci_status status = read_choices(a, &in->options, note);
+    hci_status status = HCI_OK;
+    if (a->given[REPORT] && !a->given[OUT])
+        status =
+            hci_note_set(note, HCI_ERROR_ARGUMENT, "--report is written into a folder; add --out FOLDER");
+    if (!status) status = read_choices(a, &in->options, note);
     if (!status) status = read_numbers(a, &in->options, &in->held, note);
     if (!status) status = keep_apart(a->value[TARGET], a->value[OUT], note);
     if (!status) status = keep_apart(a->value[HARMONICS], a->value[OUT], note);
@@ -223,6 +229,8 @@ static hci_status print_json(const hci_solution *s, hci_status verdict, hci_note
 
 static int give_results(const cli_arguments *a, const inputs *in, const hci_solution *s, hci_status verdict)
 {
+    const hci_report_sources sources = {
+        .machine = a->word[0], .target = a->value[TARGET], .harmonics = a->value[HARMONICS]};
     hci_note note = {{0}};
     hci_status status = HCI_OK;
     cli_progress_end();
@@ -237,7 +245,9 @@ static int give_results(const cli_arguments *a, const inputs *in, const hci_solu
             "hci-solve: note: everything repeats after %zu electrical turns only, which is no part of the "
             "mechanical turn of %d; a rotor angle cannot drive it\n",
             s->period_turns, in->machine.model.pole_pairs);
-    if (a->value[OUT]) status = hci_solution_write(&in->machine, s, verdict, a->value[OUT], &note);
+    if (a->value[OUT])
+        status = hci_solution_write_with_report(&in->machine, s, verdict, a->given[REPORT] ? &sources : NULL,
+                                                a->value[OUT], &note);
     if (!status && !a->given[QUIET]) cli_show_solution(s, a->word[0], a->value[TARGET]);
     if (!status && a->given[JSON]) status = print_json(s, verdict, &note);
     return status ? cli_fail(status, &note) : hci_status_exit_code(verdict);
@@ -271,7 +281,8 @@ const cli_command cli_solve = {
     "solve",
     "MACHINE --target FILE",
     "Finds the harmonic currents that make the machine produce the wanted torque spectrum.\n"
-    "Writes currents.csv, waveform.csv, spectrum.csv, summary.json and solution.svg.",
+    "Writes currents.csv, waveform.csv, spectrum.csv, summary.json and solution.svg;\n"
+    "with --report also report.html.",
     OPTIONS,
     1,
     "  hci-solve solve data/machine_a --target data/scenarios/02/target.csv --auto -o out/machine_a\n"

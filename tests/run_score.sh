@@ -4,7 +4,7 @@
 # HCI_SCORE_CASES and HCI_SCORE_REQUIRE replace what stands here. More cases tell more: score --cases 10, or --fresh.
 
 cases=${HCI_SCORE_CASES:-1}
-require=${HCI_SCORE_REQUIRE:-exact=0,false=1}
+require=${HCI_SCORE_REQUIRE:-exact=0.9,false=0,holdout=1.15,within2=0.85}
 
 build_dir=$2
 hci_solve=$3

@@ -8,9 +8,14 @@
 #include "hci/frames.h"
 #include "memory.h"
 
-enum { SAMPLES_PER_PERIOD = 96, MOST_SAMPLES = 1024 };
+enum { SAMPLES_PER_PERIOD = 96, MOST_SAMPLES = 1024, POINTS = 64 };
 
-#define DECISIVE 20.0 /* χ² */
+/* In units of χ². */
+#define DECISIVE 20.0
+#define NOTHING  4.0 /* less would be chance */
+
+#define REGULAR             1e-9 /* share of a diagonal that is added to it, so that rounding makes no pivot negative */
+#define ANY_SPEED_RAD_PER_S 10.0 /* where the recordings have none */
 
 /* A steady run. */
 typedef struct {
@@ -21,10 +26,17 @@ typedef struct {
     double most_A, least_speed, most_speed, noise_Nm, temperature_C;
 } range;
 
+static double mean_noise_Nm(const hci_evidence *e)
+{
+    double sum = 0.0, count = 0.0;
+    for (const hci_stretch *s = NULL; (s = hci_evidence_next(e, s)) != NULL; count += 1.0)
+        sum += hci_evidence_noise(e, s)->rms;
+    return sum / fmax(1.0, count);
+}
+
 static range range_of(const hci_evidence *e)
 {
-    range x = {0.0, INFINITY, 0.0, 0.0, NAN};
-    double count = 0.0;
+    range x = {0.0, INFINITY, 0.0, mean_noise_Nm(e), NAN};
     for (size_t r = 0; r < e->cells->run_count; ++r) {
         const hci_run_figures *f = &e->cells->figures[r];
         const double speed = fabs(f->mean_speed_rad_per_s);
@@ -33,13 +45,7 @@ static range range_of(const hci_evidence *e)
         x.most_speed = fmax(x.most_speed, speed);
         if (isfinite(f->temperature_C)) x.temperature_C = f->temperature_C;
     }
-    for (size_t k = 0; k < e->cells->stretch_count; ++k) {
-        if (!e->use[e->cells->stretch[k].run]) continue;
-        x.noise_Nm += e->noise[k].rms;
-        count += 1.0;
-    }
-    x.noise_Nm /= fmax(1.0, count);
-    if (!isfinite(x.least_speed)) x.least_speed = x.most_speed = 10.0;
+    if (!isfinite(x.least_speed)) x.least_speed = x.most_speed = ANY_SPEED_RAD_PER_S;
     if (x.most_speed < 2.0 * x.least_speed) x.most_speed = 4.0 * x.least_speed;
     return x;
 }
@@ -84,7 +90,7 @@ static bool bench_make(const hci_evidence *e, double noise_Nm, trial_bench *b)
     const size_t n = wanted < MOST_SAMPLES ? wanted : MOST_SAMPLES;
     memset(b, 0, sizeof *b);
     b->cell = hci_memory_new(n, sizeof *b->cell);
-    b->stretch = (hci_stretch){0, 0, n, 1, 1.0, true};
+    b->stretch = (hci_stretch){0, 0, n, 1, 1.0, true, true};
     b->run.torque_source = HCI_TORQUE_MEASURED;
     b->run.turn_known = true;
     b->cells = (hci_cells){b->cell, n, &b->stretch, 1, &b->figures, 1};
@@ -105,7 +111,7 @@ static double remaining(const hci_normal *difference, const hci_normal *known, d
     for (size_t j = 0; j < n; ++j)
         for (size_t i = 0; i < n; ++i)
             work[i + j * n] = known->gram[i + j * n] + difference->gram[i + j * n] +
-                              (i == j ? 1e-9 * known->gram[i + j * n] + 1e-300 : 0.0);
+                              (i == j ? REGULAR * known->gram[i + j * n] + 1e-300 : 0.0);
     if (hci_cholesky_factor(n, work)) return 0.0;
     memcpy(step, difference->moment, n * sizeof *step);
     hci_cholesky_solve(n, work, step);
@@ -114,21 +120,28 @@ static double remaining(const hci_normal *difference, const hci_normal *known, d
     return difference->square - fall;
 }
 
-static hci_status point_score(const hci_evidence *e, trial_bench *b, const operating_point *at,
-                              double temperature_C, const hci_effects *right, const hci_suspects *wrong,
-                              const hci_normal *known, double *residual, double *work, double *score,
-                              hci_note *note)
+/* What the points are compared with. */
+typedef struct {
+    const hci_suspects *wrong;
+    hci_model right;
+    hci_normal known; /* what the recordings know of the parameters of `wrong` */
+    range range;
+    trial_bench bench;
+    double *residual_Nm, *work; /* [samples], [n² + n] */
+} comparison;
+
+static hci_status point_score(comparison *c, const operating_point *at, double *score, hci_note *note)
 {
     hci_normal difference;
-    hci_status status;
-    turn_fill(at, e->machine->pole_pairs, temperature_C, b->cell, b->cells.count);
+    trial_bench *b = &c->bench;
+    turn_fill(at, b->evidence.machine->pole_pairs, c->range.temperature_C, b->cell, b->cells.count);
     b->stretch.period_s = 2.0 * HCI_PI / fabs(at->speed_rad_per_s);
-    status = hci_evidence_residual(&b->evidence, right, residual, note);
+    hci_status status = hci_evidence_residual(&b->evidence, &c->right.list, c->residual_Nm, note);
     for (size_t k = 0; k < b->cells.count && !status; ++k)
-        b->cell[k].torque_Nm = -residual[k];
-    if (!status) status = hci_evidence_normal(&b->evidence, wrong, false, &difference, note);
+        b->cell[k].torque_Nm = -c->residual_Nm[k];
+    if (!status) status = hci_evidence_normal(&b->evidence, c->wrong, false, &difference, note);
     if (status) return status;
-    *score = remaining(&difference, known, work);
+    *score = remaining(&difference, &c->known, c->work);
     hci_normal_release(&difference);
     return HCI_OK;
 }
@@ -143,12 +156,10 @@ static operating_point point_at(const range *r, int k)
     return p;
 }
 
-enum { POINTS = 64 };
-
 static void words(const operating_point *p, double score, const char *right, const char *wrong, char *text,
                   size_t size)
 {
-    if (score < 4.0) {
+    if (score < NOTHING) {
         snprintf(text, size,
                  "no steady run within these currents and speeds tells %s from %s; it takes another kind of "
                  "measurement",
@@ -164,36 +175,58 @@ static void words(const operating_point *p, double score, const char *right, con
              score < DECISIVE ? ", so several turns" : "");
 }
 
-hci_status hci_advise(const hci_evidence *evidence, const hci_suspects *right, const hci_suspects *wrong,
-                      const char *right_name, const char *wrong_name, char *text, size_t size, hci_note *note)
+/* The first point that is decisive, or the best one. */
+static hci_status point_find(comparison *c, operating_point *best, double *most, hci_note *note)
 {
-    const range r = range_of(evidence);
-    hci_normal known;
-    hci_model model;
-    trial_bench b;
-    operating_point best = {0.0, 0.0, 0.0};
-    double *work = NULL, most = 0.0;
-    hci_status status = hci_evidence_normal(evidence, wrong, false, &known, note);
-    if (status) return status;
-    status = hci_model_make(evidence->declared, right, false, &model, note);
-    if (!status && bench_make(evidence, r.noise_Nm, &b)) {
-        work = hci_memory_new(known.n * known.n + known.n + b.cells.count + 1, sizeof *work);
-        for (int k = 0; work && k < POINTS && most < DECISIVE && !status; ++k) {
-            const operating_point p = point_at(&r, k);
-            double score = 0.0;
-            status = point_score(evidence, &b, &p, r.temperature_C, &model.list, wrong, &known,
-                                 work + known.n * known.n + known.n, work, &score, note);
-            if (score > most) {
-                most = score;
-                best = p;
-            }
+    hci_status status = HCI_OK;
+    *best = (operating_point){0.0, 0.0, 0.0};
+    *most = 0.0;
+    for (int k = 0; k < POINTS && *most < DECISIVE && !status; ++k) {
+        const operating_point p = point_at(&c->range, k);
+        double score = 0.0;
+        status = point_score(c, &p, &score, note);
+        if (score > *most) {
+            *most = score;
+            *best = p;
         }
-        hci_memory_free(b.cell);
     }
-    if (!status && !work) status = hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the advice");
-    if (!status) words(&best, most, right_name, wrong_name, text, size);
-    hci_memory_free(work);
-    hci_model_release(&model);
-    hci_normal_release(&known);
+    return status;
+}
+
+static hci_status comparison_make(const hci_evidence *e, const hci_advice_request *request, comparison *c,
+                                  hci_note *note)
+{
+    memset(c, 0, sizeof *c);
+    c->wrong = request->wrong;
+    c->range = range_of(e);
+    hci_status status = hci_model_make(e->declared, request->right, false, &c->right, note);
+    if (!status) status = hci_evidence_normal(e, request->wrong, false, &c->known, note);
+    if (status) return status;
+    const size_t n = c->known.n;
+    if (bench_make(e, c->range.noise_Nm, &c->bench))
+        c->work = hci_memory_new(n * n + n + c->bench.cells.count + 1, sizeof *c->work);
+    if (!c->work) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the advice");
+    c->residual_Nm = c->work + n * n + n;
+    return HCI_OK;
+}
+
+static void comparison_release(comparison *c)
+{
+    hci_memory_free(c->bench.cell);
+    hci_memory_free(c->work);
+    hci_model_release(&c->right);
+    hci_normal_release(&c->known);
+}
+
+hci_status hci_advise(const hci_evidence *evidence, const hci_advice_request *request, char *text,
+                      size_t size, hci_note *note)
+{
+    comparison c;
+    operating_point best;
+    double most;
+    hci_status status = comparison_make(evidence, request, &c, note);
+    if (!status) status = point_find(&c, &best, &most, note);
+    if (!status) words(&best, most, request->right_name, request->wrong_name, text, size);
+    comparison_release(&c);
     return status;
 }

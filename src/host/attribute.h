@@ -3,7 +3,14 @@
 #define HCI_SRC_HOST_ATTRIBUTE_H
 
 #include "evidence.h"
+#include "fit.h"
 #include "hci/host/solve.h"
+
+/* An account of the recordings: effects with values, and how well they describe them. Start with {0}. */
+typedef struct {
+    hci_suspects suspects; /* those that are in have values and standard errors */
+    hci_fit fit;
+} hci_account;
 
 /* What came of one effect. */
 typedef struct {
@@ -13,39 +20,35 @@ typedef struct {
     const hci_effect_room *rival_of; /* the one that it could stand for */
     double gain;                     /* fall of the score by having it: positive speaks for it */
     double explained_Nm;             /* rms of what the model loses without it */
-    hci_suspects alternative;        /* of a rival: the model with it instead */
+    hci_account alternative;         /* of a rival: the account with it instead */
 } hci_verdict;
 
 enum { HCI_MOST_ROOMS = 16 };
 
 /* Start with {0}. */
 typedef struct {
-    hci_suspects suspects; /* the model: those that are in, with values and standard errors */
-    hci_fit fit, before;   /* with the noise that was found in the end */
-    double excess; /* variance of the residual that is left over that of the noise under its lines, less 1 */
-    double
-        clumps; /* how much the size of the errors varies along a run, over what noise does; 1: like noise */
+    hci_account account;   /* with the noise that was found in the end */
+    hci_fit before;        /* without any effect, with the same noise */
     bool unknown;          /* something is left that no effect explains, and it is not small */
-    double unexplained_Nm; /* its rms */
+    bool wanders;          /* what is left does not repeat with the turn */
+    double unexplained_Nm; /* rms of what no effect explains */
     hci_verdict verdict[HCI_MOST_ROOMS];
     size_t rooms;
+    bool plausible[HCI_MOST_ROOMS]
+                  [HCI_MOST_ROOMS]; /* without the first, the second would explain a part of it */
 } hci_attribution;
 
 typedef struct {
     const hci_run *runs;
     double resolution_Nm;       /* what the model is not asked to be better than */
     double reference_current_A; /* of saturation; NAN: the largest of the runs */
-    hci_progress *progress;
+    hci_progress *progress;     /* may be NULL */
     void *context;
 } hci_attribute_options;
 
-/* evidence->noise: in/out. HCI_ERROR_MEMORY. */
+/* evidence->noise: in/out. On failure *attribution is empty. HCI_ERROR_MEMORY. Seconds: some hundred fits. */
 hci_status hci_attribute(hci_evidence *evidence, const hci_attribute_options *options,
                          hci_attribution *attribution, hci_note *note);
 void hci_attribution_release(hci_attribution *attribution);
-
-/* Noise of each stretch in use from the residual of a model with so many parameters. */
-hci_status hci_attribute_noise(hci_evidence *evidence, const double *residual_Nm, size_t parameters,
-                               double floor_Nm, hci_note *note);
 
 #endif

@@ -61,6 +61,10 @@ static void say_errors(words *w, const hci_diagnosis *d)
 static void say_unknown(words *w, const hci_diagnosis *d)
 {
     say(w, "No known effect explains what the model lacks.");
+    if (d->contradicted)
+        say(w, " Effects that describe the runs that were fitted do not describe those that were held out, "
+               "and were "
+               "dropped.");
     if (d->wanders) say(w, " Something in it does not repeat with the turn of the rotor.");
     for (size_t k = 0; k < d->unexplained_count; ++k) {
         const hci_unexplained *u = &d->unexplained[k];
@@ -85,6 +89,9 @@ void hci_diagnosis_words(const hci_diagnosis *d, char *text, size_t size)
             "Nothing is missing: what the model leaves, %.3g N·m rms, is the noise of the recordings (%.3g "
             "N·m).",
             d->rms_after_Nm, d->noise_Nm);
+        if (d->holdout_after_Nm > 1.5 * d->holdout_noise_Nm)
+            say(&w, " But on the runs that were held out it is %.3g N·m, and their noise is %.3g N·m.",
+                d->holdout_after_Nm, d->holdout_noise_Nm);
         return;
     case HCI_DIAGNOSIS_EXPLAINED:
         say(&w, "The model lacked ");

@@ -1,4 +1,5 @@
-/* effects.csv, errors.csv, residual_spectrum.csv, summary.json and the corrected machine of a diagnosis. */
+/* effects.csv, errors.csv, residual_spectrum.csv, summary.json, report.html and the corrected machine of a
+ * diagnosis. */
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -7,6 +8,7 @@
 #include "hci/host/csv.h"
 #include "hci/host/diagnose.h"
 #include "hci/host/summary.h"
+#include "report.h"
 
 enum { PATH_SIZE = 4096 };
 
@@ -118,6 +120,13 @@ static hci_status summary_write(hci_output *out, const hci_diagnosis *d, const h
     return status;
 }
 
+static hci_status report_write(hci_output *out, const hci_diagnosis *d, const hci_resolution *resolution,
+                               const hci_runs *runs, const char *machine_folder, hci_note *note)
+{
+    const hci_status status = hci_output_file(out, "report.html", note);
+    return status ? status : hci_report_diagnosis(out, d, resolution, runs, machine_folder, note);
+}
+
 /* ---- the corrected machine ---- */
 
 /* A table of the machine as it is; one that is not there is none. */
@@ -166,7 +175,10 @@ hci_status hci_diagnosis_write(const hci_diagnosis *d, const hci_resolution *res
     if (!status) status = spectrum_write(out, d, runs, note);
     if (!status) status = unexplained_write(out, d, note);
     if (!status) status = summary_write(out, d, resolution, note);
+    if (!status) status = report_write(out, d, resolution, runs, machine_folder, note);
     if (!status) status = machine_write(d, machine_folder, folder, &machine, note);
+    if (!status) status = hci_output_check(machine, note);
+    if (!status) status = hci_output_check(out, note);
     if (status) {
         hci_output_discard(machine);
         hci_output_discard(out);

@@ -1,8 +1,11 @@
-/* How well a machine with effects describes recordings: weighted residuals, normal equations, and the fit. */
+/* How well a machine with effects describes recordings: residuals, their noise, and weighted normal
+ * equations.
+ */
 #ifndef HCI_SRC_HOST_EVIDENCE_H
 #define HCI_SRC_HOST_EVIDENCE_H
 
 #include "cells.h"
+#include "model.h"
 #include "noise.h"
 #include "normal.h"
 #include "suspects.h"
@@ -18,54 +21,35 @@ typedef struct {
     double *sum_deviation_A; /* of each run: noise of i_a + i_b + i_c; NAN where that says nothing */
 } hci_evidence;
 
-/* The effects of suspects that are in (or of all), on top of the declared ones. Release with
- * hci_model_release. */
-typedef struct {
-    hci_effects list;
-    hci_effect *effect;
-    hci_effect_term *term;
-    size_t *column; /* of each term of the suspects, in their order: its place in the list */
-    size_t columns; /* how many terms the suspects have */
-} hci_model;
+/* The stretch of a run in use that follows `after` (NULL: the first one); NULL behind the last. */
+const hci_stretch *hci_evidence_next(const hci_evidence *evidence, const hci_stretch *after);
+hci_noise *hci_evidence_noise(const hci_evidence *evidence, const hci_stretch *stretch);
 
-hci_status hci_model_make(const hci_effects *declared, const hci_suspects *suspects, bool all,
-                          hci_model *model, hci_note *note);
-void hci_model_release(hci_model *model);
-
-/* Measured less modelled torque of each cell of the runs in use, others 0: residual_Nm[cells]. */
+/* Measured less modelled torque of each cell of the runs in use, others 0: residual_Nm[cells].
+ * HCI_ERROR_MEMORY. O(cells·terms). */
 hci_status hci_evidence_residual(const hci_evidence *evidence, const hci_effects *effects,
                                  double *residual_Nm, hci_note *note);
 
+/* Sets the noise of each stretch in use from the residual of a model with so many parameters: where a stretch
+ * is long enough from its spectrum between the orders, otherwise from what all short ones leave. floor_Nm:
+ * rms of white noise that is added. HCI_ERROR_MEMORY. */
+hci_status hci_evidence_noise_find(const hci_evidence *evidence, const double *residual_Nm, size_t parameters,
+                                   double floor_Nm, hci_note *note);
+
 /* Normal equations with a column for each term of the suspects that are in (or of all of them), at their
- * present values. */
+ * present values: rows are torques and, where they say something, sums of the phase currents. On failure
+ * *normal is empty. HCI_ERROR_MEMORY. O(cells·columns²). */
 hci_status hci_evidence_normal(const hci_evidence *evidence, const hci_suspects *suspects, bool all,
                                hci_normal *normal, hci_note *note);
 
+/* What x·y, whose sum is 0 at the solution, scatters over blocks of the recordings. Start with {0}. */
 typedef struct {
-    double square;     /* χ² at the solution */
-    size_t parameters; /* terms that are in */
-    double score;      /* χ² + parameters·ln(samples) + prices: the smaller the better */
-    double rows;
-} hci_fit;
+    double *square; /* Σ over blocks of (Σ xy)(Σ xy)ᵀ: [n][n], and behind it n of work */
+    size_t blocks;
+} hci_scatter;
 
-/* Values of the suspects that are in, by Gauss–Newton steps that are shortened where they would not do. Sets
- * their standard errors too. HCI_ERROR_MEMORY. */
-hci_status hci_evidence_fit(const hci_evidence *evidence, hci_suspects *suspects, hci_fit *fit,
-                            hci_note *note);
-
-/* Raises the standard errors of the suspects that are in where the residual is more correlated than the model of the
- * noise has it: from the scatter of sums over blocks of the recordings. Nothing happens with few recordings.
- * HCI_ERROR_MEMORY. */
-hci_status hci_evidence_errors(const hci_evidence *evidence, hci_suspects *suspects, hci_note *note);
-
-/* Looks for a resonance of the torque sensor over a grid of frequencies: natural_frequency_Hz and damping
- * where χ² falls most, and by how much; 0 where no grid point helps. residual_Nm: of the model without one.
- * O(cells) for each of some hundred grid points. HCI_ERROR_MEMORY. */
-hci_status hci_evidence_resonance(const hci_evidence *evidence, const double *residual_Nm,
-                                  double *natural_frequency_Hz, double *damping, double *gain,
-                                  hci_note *note);
-
-/* The price of a suspect's coming in: of its parameters and of the choice. */
-double hci_suspect_cost(const hci_suspect *suspect, double rows);
+/* The same with the scatter, of the suspects that are in. Free scatter->square. On failure both are empty. */
+hci_status hci_evidence_scatter(const hci_evidence *evidence, const hci_suspects *suspects,
+                                hci_normal *normal, hci_scatter *scatter, hci_note *note);
 
 #endif

@@ -5,8 +5,8 @@
 #include "evidence.h"
 #include "hci/host/diagnose.h"
 
-/* before_Nm, after_Nm: of each cell. noise_Nm: rms for each run. lines: out, by run and order, to be freed.
- * HCI_ERROR_MEMORY. O(cells·orders). */
+/* before_Nm, after_Nm: of each cell. noise_Nm: rms for each run. lines: out, by run and order, to be freed;
+ * NULL on failure. HCI_ERROR_MEMORY. O(cells·orders). */
 hci_status hci_lines_make(const hci_evidence *evidence, const double *before_Nm, const double *after_Nm,
                           const double *noise_Nm, hci_residual_line **lines, size_t *count, hci_note *note);
 

@@ -5,7 +5,7 @@
 
 #include "hci/harmonic.h"
 
-enum { HALF_WINDOW = 20 };
+enum { HALF_WINDOW = 20 }; /* frequencies on each side that a level is the median of */
 
 static const double LN_2 = 0.69314718055994530942;
 

@@ -10,8 +10,8 @@ enum { HCI_NOISE_MEMORY = 6, HCI_NOISE_LEAST = 128 /* samples to tell a colour f
 /* x_k = Σ_j prediction_j x_{k−j} + innovation */
 typedef struct {
     double prediction[HCI_NOISE_MEMORY];
-    double innovation; /* rms */
-    double rms;
+    double innovation; /* rms, in the unit of x */
+    double rms;        /* of x */
 } hci_noise;
 
 /* Finds the noise under the lines of a residual of n ≥ HCI_NOISE_LEAST samples: the median of the periodogram
@@ -25,7 +25,7 @@ void hci_noise_find(const double *residual, size_t n, bool closed, double floor,
 hci_noise hci_noise_white(double rms);
 
 /* In place: samples x[n][columns], one after the other in time, to rows of variance 1 that do not depend on
- * each other. */
+ * each other. innovation and rms must not be 0. O(n·columns). */
 void hci_noise_whiten(const hci_noise *noise, double *x, size_t n, size_t columns);
 
 #endif

@@ -1,5 +1,6 @@
 #include "normal.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -149,24 +150,30 @@ void hci_sweep_out(hci_sweep *s, size_t k)
     pivot(s, k);
 }
 
-/* vᵀ M⁻¹ v of the block of neighbouring columns, by Cholesky's method; what depends is left out. */
+/* Row i of the Cholesky factor L of the block of neighbouring columns; what depends has a diagonal of 0. */
+static void worth_row(const hci_sweep *s, size_t first, size_t i, double l[MOST_GROUP][MOST_GROUP])
+{
+    const size_t row = first + i;
+    const double whole = s->in[row] ? s->a[row * s->n + row] : s->diagonal[row];
+    for (size_t j = 0; j <= i; ++j) {
+        double x = s->a[row * s->n + first + j];
+        for (size_t k = 0; k < j; ++k)
+            x -= l[i][k] * l[j][k];
+        if (j < i)
+            l[i][j] = l[j][j] > 0.0 ? x / l[j][j] : 0.0;
+        else
+            l[i][i] = x > DEPENDENT * whole && x > 0.0 ? sqrt(x) : 0.0;
+    }
+}
+
+/* vᵀ M⁻¹ v = |z|² of L z = v. */
 double hci_sweep_worth(const hci_sweep *s, size_t first, size_t count)
 {
     double l[MOST_GROUP][MOST_GROUP], z[MOST_GROUP], sum = 0.0;
+    assert(count <= MOST_GROUP);
     for (size_t i = 0; i < count; ++i) {
-        const size_t row = first + i;
-        z[i] = s->b[row];
-        for (size_t j = 0; j <= i; ++j) {
-            double x = s->a[row * s->n + first + j];
-            for (size_t k = 0; k < j; ++k)
-                x -= l[i][k] * l[j][k];
-            if (j < i) {
-                l[i][j] = l[j][j] > 0.0 ? x / l[j][j] : 0.0;
-            } else {
-                const double whole = s->in[row] ? s->a[row * s->n + row] : s->diagonal[row];
-                l[i][i] = x > DEPENDENT * whole && x > 0.0 ? sqrt(x) : 0.0;
-            }
-        }
+        worth_row(s, first, i, l);
+        z[i] = s->b[first + i];
         for (size_t k = 0; k < i; ++k)
             z[i] -= l[i][k] * z[k];
         z[i] = l[i][i] > 0.0 ? z[i] / l[i][i] : 0.0;

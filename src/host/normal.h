@@ -14,7 +14,7 @@ typedef struct {
     double rows;
 } hci_normal;
 
-/* False when memory is out. */
+/* Zeros. False when memory is out, and then *normal is empty. */
 bool hci_normal_start(hci_normal *normal, size_t n);
 void hci_normal_release(hci_normal *normal);
 
@@ -32,6 +32,7 @@ typedef struct {
     double square; /* remaining sum of squares */
 } hci_sweep;
 
+/* False when memory is out, and then *sweep is empty. O(n²). */
 bool hci_sweep_start(hci_sweep *sweep, const hci_normal *normal);
 void hci_sweep_copy(hci_sweep *to, const hci_sweep *from); /* of the same size */
 void hci_sweep_release(hci_sweep *sweep);
@@ -39,10 +40,12 @@ void hci_sweep_release(hci_sweep *sweep);
 /* Takes a column in. False when it depends on those that are in, to a share 1e-9 of its square; nothing is
  * changed then. O(n²). */
 bool hci_sweep_in(hci_sweep *sweep, size_t column);
+
+/* Takes it out again; nothing happens where it is not in. O(n²). */
 void hci_sweep_out(hci_sweep *sweep, size_t column);
 
 /* By how much the sum of squares would fall if `count` neighbouring columns that are out came in, or rise if
- * those that are in left; all of them in or all out, at most 8. Dependent columns add nothing. */
+ * those that are in left; all of them in or all out, at most 8. Dependent columns add nothing. O(count³). */
 double hci_sweep_worth(const hci_sweep *sweep, size_t first, size_t count);
 
 #endif

@@ -330,11 +330,20 @@ static void withdraw(file *f)
     }
 }
 
-static hci_status publish_all(hci_output *output, hci_note *note)
+hci_status hci_output_check(hci_output *output, hci_note *note)
 {
     hci_status status = HCI_OK;
+    close_stream(output);
     for (size_t i = 0; i < output->count && status == HCI_OK; i++)
         status = check_written(&output->files[i], note);
+    for (size_t i = 0; i < output->count && status == HCI_OK; i++)
+        status = check_target(output->files[i].target, note);
+    return status;
+}
+
+static hci_status publish_all(hci_output *output, hci_note *note)
+{
+    hci_status status = hci_output_check(output, note);
     for (size_t i = 0; i < output->count && status == HCI_OK; i++)
         status = publish(&output->files[i], note);
     for (size_t i = output->count; i-- > 0;) {
@@ -347,7 +356,6 @@ static hci_status publish_all(hci_output *output, hci_note *note)
 
 hci_status hci_output_commit(hci_output *output, hci_note *note)
 {
-    close_stream(output);
     const hci_status status = publish_all(output, note);
     if (status == HCI_OK) output->existing = strlen(output->folder);
     hci_output_discard(output);

@@ -15,7 +15,7 @@ static const hci_svg_box TORQUE = {62, 128, 540, 370}, SPECTRUM = {622, 128, 980
 static const hci_svg_box CURRENT = {62, 464, 540, 706}, VECTOR = {622, 464, 980, 706};
 
 /* Okabe and Ito's palette, told apart by colour-blind readers and by lightness in a grey print. */
-static const char STYLE[] =
+const char hci_plot_style[] =
     ".hci{font:12px system-ui,'Helvetica Neue',Arial,sans-serif}.hci text{fill:#1c1f23}"
     ".hci .back{fill:#fff}.hci .verdict{font-size:18px;font-weight:600}.hci .facts{font-size:13px}"
     ".hci .head{font-size:13px;font-weight:600}.hci .quiet{fill:#5a6068}.hci .small{font-size:11px}"
@@ -31,11 +31,17 @@ static const char STYLE[] =
     ".hci .c{stroke:#009e73;stroke-width:1.5}.hci .path{stroke:#0072b2;stroke-width:1.2}"
     ".hci .start{fill:#0072b2}.hci .plain{fill:none;stroke:#5a6068;stroke-width:1.8}"
     ".hci .cross,.hci .ring{fill:none;stroke:#c04a00;stroke-width:1.8}"
-    "@media(prefers-color-scheme:dark){.hci text{fill:#eceff2}.hci .back{fill:#16191d}"
+    ".hci .noise{stroke:#c04a00;stroke-width:1.6}.hci "
+    ".spread{stroke:#0072b2;stroke-width:5;stroke-opacity:.3}"
+    ".hci circle.dot{fill:#0072b2}.hci circle.hollow{fill:#fff;stroke:#0072b2;stroke-width:1.8}"
+    ".hci circle.before{fill:#8b9099;stroke:none}.hci .maybe{fill:#e69f00}.hci .rail{stroke:#c3c7cd}"
+    "@media screen and (prefers-color-scheme:dark){.hci text{fill:#eceff2}.hci .back{fill:#16191d}"
     ".hci .quiet{fill:#a6adb6}.hci .no{fill:#ff8c50}.hci .grid{stroke:#2b3037}.hci .axis{stroke:#737a84}"
     ".hci .before{stroke:#858c96}.hci rect.before{fill:#6c737d}.hci .wanted{stroke-opacity:.75}"
     ".hci .after,.hci .a,.hci .path{stroke:#56b4e9}.hci rect.after,.hci .start{fill:#56b4e9}"
-    ".hci .c{stroke:#2fc79a}.hci .plain{stroke:#a6adb6}.hci .cross,.hci .ring{stroke:#ff8c50}}";
+    ".hci .c{stroke:#2fc79a}.hci .plain{stroke:#a6adb6}.hci .cross,.hci .ring{stroke:#ff8c50}"
+    ".hci .noise{stroke:#ff8c50}.hci .spread{stroke:#56b4e9}.hci circle.dot{fill:#56b4e9}"
+    ".hci circle.hollow{fill:#16191d;stroke:#56b4e9}.hci .rail{stroke:#4a515a}}";
 
 /* ---- curves over the angle ---- */
 
@@ -497,7 +503,7 @@ static void draw_spectrum(hci_output *out, const hci_solution *s)
 
 /* ---- words ---- */
 
-enum { LINE_SIZE = 512 };
+enum { LINE_SIZE = HCI_PLOT_LINE_SIZE };
 
 static size_t missed_count(const hci_solution *s)
 {
@@ -587,43 +593,94 @@ static void baseline_line(char line[LINE_SIZE], const curves *c)
     snprintf(line + strlen(line), LINE_SIZE - strlen(line), ".");
 }
 
-static void draw_words(hci_output *out, const curves *c)
+static void draw_words(hci_output *out, const hci_plot_facts *f)
 {
-    char verdict[LINE_SIZE], facts[LINE_SIZE], baseline[LINE_SIZE];
-    verdict_line(verdict, c->solution);
-    facts_line(facts, c);
-    baseline_line(baseline, c);
-    hci_output_text(out, "<title id=\"hci-title\">");
-    hci_svg_text(out, verdict);
-    hci_output_text(out, "</title>\n<desc id=\"hci-desc\">");
-    hci_svg_text(out, facts);
-    hci_output_text(
-        out, ". Four panels: torque over the electrical angle, torque ripple by electrical order, phase "
-             "currents, and the path of the current vector. ");
-    hci_svg_text(out, baseline);
-    hci_output_text(out, "</desc>\n<style>%s</style>\n", STYLE);
+    hci_output_text(out, "<style>%s</style>\n", hci_plot_style);
     hci_svg_rectangle(out, "back", 0.0, 0.0, WIDTH, HEIGHT);
-    hci_svg_label(out, "verdict", 28.0, 38.0, verdict);
-    hci_svg_label(out, "facts quiet", 28.0, 62.0, facts);
-    hci_svg_label(out, "small quiet", 28.0, HEIGHT - 26.0, baseline);
+    hci_svg_label(out, "verdict", 28.0, 38.0, f->verdict);
+    hci_svg_label(out, "facts quiet", 28.0, 62.0, f->facts);
+    hci_svg_label(out, "small quiet", 28.0, HEIGHT - 26.0, f->baseline);
     hci_svg_label(
         out, "small quiet", 28.0, HEIGHT - 11.0,
         "Amplitudes are peak values; angles and orders are electrical; the torque is that of the model.");
 }
 
-void hci_plot_solution(hci_output *out, const hci_machine_data *machine, const hci_solution *solution)
+static void fill_vector_ranges(const curves *c, hci_plot_facts *f)
+{
+    f->d_A = f->q_A = HCI_SVG_NOTHING;
+    for (size_t k = 0, count = vector_count(c); k < count; ++k) {
+        const hci_dq i = vector_sample(c, k, count);
+        hci_svg_include(&f->d_A, i.d);
+        hci_svg_include(&f->q_A, i.q);
+    }
+}
+
+static void fill_facts(const curves *c, hci_plot_facts *f)
+{
+    verdict_line(f->verdict, c->solution);
+    facts_line(f->facts, c);
+    baseline_line(f->baseline, c);
+    f->before_Nm = range_of_values(c->value[BEFORE]);
+    f->wanted_Nm = range_of_values(c->value[WANTED]);
+    f->after_Nm = range_of_values(c->value[AFTER]);
+    for (size_t k = 0; k < 3; ++k)
+        f->phase_A[k] = range_of_values(c->value[PHASE_A + k]);
+    f->plain_dq_A = vector_at(&c->plain, 1, 0.0);
+    fill_vector_ranges(c, f);
+}
+
+void hci_plot_solution_facts(const hci_machine_data *machine, const hci_solution *solution,
+                             hci_plot_facts *facts)
 {
     curves c;
     fill_curves(&c, machine, solution);
-    hci_output_text(
-        out,
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"hci\" viewBox=\"0 0 %d %d\" role=\"img\" "
-        "aria-labelledby=\"hci-title\" aria-describedby=\"hci-desc\">\n",
-        WIDTH, HEIGHT);
-    draw_words(out, &c);
+    fill_facts(&c, facts);
+}
+
+void hci_plot_solution(hci_output *out, const hci_machine_data *machine, const hci_solution *solution)
+{
+    char description[2 * LINE_SIZE + 200];
+    hci_plot_facts f;
+    curves c;
+    fill_curves(&c, machine, solution);
+    fill_facts(&c, &f);
+    snprintf(description, sizeof description,
+             "%s. Four panels: torque over the electrical angle, torque ripple by electrical order, phase "
+             "currents, and the path of the current vector. %s",
+             f.facts, f.baseline);
+    hci_svg_begin(out, &(hci_svg_picture){"hci", f.verdict, description, 0, 0, WIDTH, HEIGHT});
+    draw_words(out, &f);
     draw_torque(out, &c);
     draw_spectrum(out, solution);
     draw_currents(out, &c);
     draw_vector(out, &c);
-    hci_output_text(out, "</svg>\n");
+    hci_svg_end(out);
+}
+
+void hci_plot_solution_panel(hci_output *out, const hci_machine_data *machine, const hci_solution *solution,
+                             hci_plot_panel panel)
+{
+    static const char *const ID[] = {"torque", "spectrum", "current", "vector"};
+    static const char *const TITLE[] = {"Torque over the electrical angle: before, wanted, after",
+                                        "Torque ripple by electrical order: before, wanted, after",
+                                        "Phase currents over the electrical angle",
+                                        "Path of the current vector in the plane of i_d and i_q"};
+    static const char *const DESCRIPTION[] = {
+        "Lines in N·m over the electrical angle in degrees. The table beside it has the extremes.",
+        "Bars in N·m, peak amplitude, three for each order. The table beside it has the numbers.",
+        "Lines in A over the electrical angle in degrees: the plain sine of phase a, and phases a, b and c "
+        "of "
+        "the solution. The table beside it has the waves that they are made of.",
+        "i_q in A over i_d in A: the point of the plain sine, the path of the solution and where it is at "
+        "angle 0. The table beside it has the extremes."};
+    const int left = panel == HCI_PANEL_SPECTRUM || panel == HCI_PANEL_VECTOR ? 516 : 20;
+    const int top = panel == HCI_PANEL_CURRENT || panel == HCI_PANEL_VECTOR ? 428 : 92;
+    curves c;
+    fill_curves(&c, machine, solution);
+    hci_svg_begin(out, &(hci_svg_picture){ID[panel], TITLE[panel], DESCRIPTION[panel], left, top, 540, 322});
+    if (panel == HCI_PANEL_TORQUE) draw_torque(out, &c);
+    if (panel == HCI_PANEL_SPECTRUM) draw_spectrum(out, solution);
+    if (panel == HCI_PANEL_CURRENT) draw_currents(out, &c);
+    if (panel == HCI_PANEL_VECTOR) draw_vector(out, &c);
+    hci_svg_end(out);
 }

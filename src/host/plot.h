@@ -1,13 +1,75 @@
-/* A solution as one picture: torque, its spectrum, phase currents and current vector. */
+/* What is drawn. Each function appends one <svg> element to the current file of `out`: a file of its own, or
+ * part of an HTML page. No script, font or other reference; same input, same bytes. They allocate nothing and
+ * cannot fail: write errors are kept by `out`. */
 #ifndef HCI_SRC_HOST_PLOT_H
 #define HCI_SRC_HOST_PLOT_H
 
+#include "hci/frames.h"
+#include "hci/host/diagnose.h"
 #include "hci/host/output.h"
 #include "hci/host/solve.h"
+#include "svg.h"
 
-/* Appends one <svg> element to the current file of `out`: a file of its own, or part of an HTML page. No
- * script, font or other reference; same input, same bytes. Allocates nothing and cannot fail: write errors
- * are kept by `out`. O(samples·(orders + components)), at most 23040 samples. */
+/* The style sheet of all of them. hci_plot_solution brings it along; for the others it is part of the page.
+ */
+extern const char hci_plot_style[];
+
+/* ---- plot.c: a solution ---- */
+
+/* Torque, its spectrum, phase currents and current vector as one picture under a verdict.
+ * O(samples·(orders + components)), at most 23040 samples; so are the next two. */
 void hci_plot_solution(hci_output *out, const hci_machine_data *machine, const hci_solution *solution);
+
+/* One of the four panels as a picture. */
+typedef enum { HCI_PANEL_TORQUE, HCI_PANEL_SPECTRUM, HCI_PANEL_CURRENT, HCI_PANEL_VECTOR } hci_plot_panel;
+
+void hci_plot_solution_panel(hci_output *out, const hci_machine_data *machine, const hci_solution *solution,
+                             hci_plot_panel panel);
+
+enum { HCI_PLOT_LINE_SIZE = 512 };
+
+/* What the picture says in words, and the extremes of its curves. */
+typedef struct {
+    char verdict[HCI_PLOT_LINE_SIZE], facts[HCI_PLOT_LINE_SIZE], baseline[HCI_PLOT_LINE_SIZE];
+    hci_svg_range before_Nm, wanted_Nm, after_Nm, phase_A[3], d_A, q_A;
+    hci_dq plain_dq_A; /* of the plain sine */
+} hci_plot_facts;
+
+void hci_plot_solution_facts(const hci_machine_data *machine, const hci_solution *solution,
+                             hci_plot_facts *facts);
+
+/* ---- plot_parts.c: pieces of the following ---- */
+
+/* The `most` places k < count of the largest weights above 0, ascending; returns how many. O(count·most). */
+size_t hci_plot_largest(double (*weight)(const void *context, size_t k), const void *context, size_t count,
+                        size_t most, size_t *place);
+
+/* What there is at one order; NAN for what there is not. */
+typedef struct {
+    double order;
+    double before_Nm, after_Nm, noise_Nm; /* peak amplitude */
+    size_t before_run, after_run;         /* where it comes from */
+} hci_plot_order;
+
+/* Amplitudes over the order, ascending; logarithmic over at most four decades. */
+void hci_plot_orders(hci_output *out, const hci_svg_picture *words, const hci_plot_order *order, size_t count,
+                     bool logarithmic);
+
+/* ---- plot_diagnose.c ---- */
+
+/* Effects by the fall of the BIC, and the share of the residual that is each one's alone. */
+void hci_plot_findings(hci_output *out, const hci_diagnosis *diagnosis);
+
+/* Error of the runs before and after, those held out first; at most so many of each role. */
+enum { HCI_PLOT_MOST_RUNS = 40 };
+void hci_plot_runs(hci_output *out, const hci_diagnosis *diagnosis);
+
+/* Values with their 95 % intervals, all of them in one unit. */
+void hci_plot_terms(hci_output *out, const char *id, const char *title, const hci_effect *effect,
+                    const size_t *term, size_t count);
+
+/* "sine_18" */
+enum { HCI_PLOT_NAME_SIZE = 96 };
+void hci_plot_term_name(char name[HCI_PLOT_NAME_SIZE], const hci_effect *effect, size_t term);
 
 #endif

@@ -6,6 +6,7 @@
 #include "hci/host/output.h"
 #include "hci/host/summary.h"
 #include "plot.h"
+#include "report.h"
 
 static void write_currents(hci_output *out, const hci_currents *currents, const hci_wave *wave,
                            const char *amplitude_column)
@@ -118,13 +119,30 @@ static hci_status write_files(hci_output *out, const hci_machine_data *m, const 
     return status ? status : write_summary(out, s, verdict, note);
 }
 
+static hci_status write_report(hci_output *out, const hci_machine_data *m, const hci_solution *s,
+                               hci_status verdict, const hci_report_sources *sources, hci_note *note)
+{
+    const hci_status status =
+        sources ? hci_output_file(out, "report.html", note) : hci_output_without(out, "report.html", note);
+    if (!status && sources) hci_report_solution(out, m, s, verdict, sources);
+    return status;
+}
+
 hci_status hci_solution_write(const hci_machine_data *machine, const hci_solution *solution,
                               hci_status verdict, const char *folder, hci_note *note)
+{
+    return hci_solution_write_with_report(machine, solution, verdict, NULL, folder, note);
+}
+
+hci_status hci_solution_write_with_report(const hci_machine_data *machine, const hci_solution *solution,
+                                          hci_status verdict, const hci_report_sources *sources,
+                                          const char *folder, hci_note *note)
 {
     hci_output *out;
     hci_status status = hci_output_open(folder, &out, note);
     if (status) return status;
     status = write_files(out, machine, solution, verdict, note);
+    if (!status) status = write_report(out, machine, solution, verdict, sources, note);
     if (!status) return hci_output_commit(out, note);
     hci_output_discard(out);
     return status;

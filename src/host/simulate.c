@@ -9,7 +9,8 @@ typedef struct {
     hci_setup *setup;
     hci_evaluation *evaluation;
     hci_trajectory trajectory;
-    hci_output *out; /* NULL: nothing is written */
+    hci_output *out;                   /* NULL: nothing is written */
+    const hci_report_sources *sources; /* NULL: no report */
 } run;
 
 static void start_sensors(hci_setup *setup)
@@ -93,27 +94,47 @@ static hci_status make_steps(run *r, const hci_simulate_options *options, hci_no
     return status;
 }
 
+/* The report draws what is evaluated. */
+static hci_status begin_traces(run *r, hci_note *note)
+{
+    if (!r->out || !r->sources) return HCI_OK;
+    r->trajectory.traces = hci_memory_new(1, sizeof *r->trajectory.traces);
+    if (!r->trajectory.traces) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the report");
+    hci_traces_begin(r->trajectory.traces, r->setup->settle_s,
+                     (double)r->setup->steps * r->setup->drive.control.step_s);
+    return HCI_OK;
+}
+
 /* Files are opened before the first step, so that a folder that cannot be written to costs no time. */
 static hci_status run_and_write(run *r, const hci_simulate_options *options, hci_simulation *simulation,
                                 hci_note *note)
 {
     hci_status status = options->folder ? hci_output_open(options->folder, &r->out, note) : HCI_OK;
     if (!status && r->out) status = hci_trajectory_begin(&r->trajectory, r->out, r->setup, note);
+    if (!status) status = begin_traces(r, note);
     if (!status) status = make_steps(r, options, note);
     if (!status) status = hci_evaluation_finish(r->evaluation, simulation, note);
     if (!status && r->out) {
         hci_trajectory_end(&r->trajectory);
-        status = hci_simulation_write(r->out, simulation, note);
+        status = hci_simulation_write(r->out, simulation, r->trajectory.traces, r->sources, note);
     }
     if (status)
         hci_output_discard(r->out);
     else if (r->out)
         status = hci_output_commit(r->out, note);
+    hci_memory_free(r->trajectory.traces);
     return status;
 }
 
 hci_status hci_simulate(const hci_machine_data *machine, const hci_scenario *scenario,
                         const hci_simulate_options *options, hci_simulation *simulation, hci_note *note)
+{
+    return hci_simulate_with_report(machine, scenario, options, NULL, simulation, note);
+}
+
+hci_status hci_simulate_with_report(const hci_machine_data *machine, const hci_scenario *scenario,
+                                    const hci_simulate_options *options, const hci_report_sources *sources,
+                                    hci_simulation *simulation, hci_note *note)
 {
     hci_setup *setup = hci_memory_new(1, sizeof *setup);
     run r = {0};
@@ -121,6 +142,7 @@ hci_status hci_simulate(const hci_machine_data *machine, const hci_scenario *sce
     memset(simulation, 0, sizeof *simulation);
     if (!setup) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory");
     r.setup = setup;
+    r.sources = sources;
     status = hci_setup_make(machine, options->effects, scenario, setup, note);
     if (!status && !(r.evaluation = hci_evaluation_new(setup)))
         status = hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the evaluation");

@@ -1,8 +1,9 @@
-/* trajectory.csv, spectrum.csv and summary.json of a simulation. */
+/* trajectory.csv, spectrum.csv, summary.json and report.html of a simulation. */
 #include <math.h>
 
 #include "hci/frames.h"
 #include "hci/host/summary.h"
+#include "report.h"
 #include "simulation.h"
 
 /* ---- trajectory: what a logger would read, then the truth where sensors stand between ---- */
@@ -113,8 +114,18 @@ static void put_truth(hci_trajectory *t, const hci_record *r)
     put(t, r->torque_Nm);
 }
 
+static void add_to_traces(hci_traces *traces, const hci_record *r)
+{
+    double value[HCI_TRACES];
+    value[HCI_TRACE_TORQUE_NM] = r->torque_Nm;
+    value[HCI_TRACE_SPEED_RPM] = r->speed_rad_per_s * 30.0 / HCI_PI;
+    hci_plane_to_abc(r->i, &value[HCI_TRACE_A_A]);
+    hci_traces_add(traces, r->time_s, value);
+}
+
 void hci_trajectory_add(hci_trajectory *t, const hci_record *r)
 {
+    if (t->traces) add_to_traces(t->traces, r);
     if (is_read_late(t)) set_currents(t, r->state->measured.i_abc);
     if (t->waited >= t->setup->every) write_row(t);
     if (t->columns == 0) {
@@ -151,7 +162,17 @@ static void write_spectrum(hci_output *out, const hci_simulation *s)
     }
 }
 
-hci_status hci_simulation_write(hci_output *out, const hci_simulation *simulation, hci_note *note)
+static hci_status write_report(hci_output *out, const hci_simulation *simulation, const hci_traces *traces,
+                               const hci_report_sources *sources, hci_note *note)
+{
+    const hci_status status =
+        sources ? hci_output_file(out, "report.html", note) : hci_output_without(out, "report.html", note);
+    if (status || !sources) return status;
+    return hci_report_simulation(out, simulation, traces, sources, note);
+}
+
+hci_status hci_simulation_write(hci_output *out, const hci_simulation *simulation, const hci_traces *traces,
+                                const hci_report_sources *sources, hci_note *note)
 {
     char *json = hci_simulation_json(simulation);
     hci_status status = json ? HCI_OK : hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the summary");
@@ -160,5 +181,6 @@ hci_status hci_simulation_write(hci_output *out, const hci_simulation *simulatio
     if (!status) status = hci_output_file(out, "summary.json", note);
     if (!status) hci_output_text(out, "%s\n", json);
     hci_text_free(json);
+    if (!status) status = write_report(out, simulation, traces, sources, note);
     return status;
 }

@@ -6,6 +6,7 @@
 
 #include "hci/host/output.h"
 #include "hci/host/simulate.h"
+#include "plot_traces.h"
 
 /* ---- simulate_setup.c: the scenario with all its defaults, on the machine ---- */
 
@@ -75,6 +76,7 @@ typedef struct {
     double row[32];
     size_t columns, waited;
     double v_sum[2];
+    hci_traces *traces; /* for the report, or NULL */
 } hci_trajectory;
 
 hci_status hci_trajectory_begin(hci_trajectory *trajectory, hci_output *out, const hci_setup *setup,
@@ -82,7 +84,8 @@ hci_status hci_trajectory_begin(hci_trajectory *trajectory, hci_output *out, con
 void hci_trajectory_add(hci_trajectory *trajectory, const hci_record *record);
 void hci_trajectory_end(hci_trajectory *trajectory);
 
-/* spectrum.csv and summary.json. */
-hci_status hci_simulation_write(hci_output *out, const hci_simulation *simulation, hci_note *note);
+/* spectrum.csv, summary.json and, with sources, report.html. */
+hci_status hci_simulation_write(hci_output *out, const hci_simulation *simulation, const hci_traces *traces,
+                                const hci_report_sources *sources, hci_note *note);
 
 #endif

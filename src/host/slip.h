@@ -12,7 +12,8 @@
 hci_status hci_slip_find(const hci_cells *cells, const hci_run *runs, const double *residual_Nm,
                          double *slip_rad, hci_note *note);
 
-/* Turns the angles of a run's cells back. */
-void hci_slip_undo(hci_cells *cells, size_t run, double slip_rad);
+/* Turns the angles of a run's cells back, and their currents with them: those were read as i_d and i_q of the
+ * slipped angle. */
+void hci_slip_undo(hci_cells *cells, size_t run, int pole_pairs, double slip_rad);
 
 #endif

@@ -13,10 +13,11 @@ enum {
     MOST_ORDER = 24, /* electrical, of the currents in the rotor frame */
     ALL_ORDERS = 7,  /* up to here those of the mechanical turn too */
     MOST_PERIODS = 200,
-    LEAST_SAMPLES = 10 /* for each coefficient */
+    LEAST_SAMPLES = 20 /* for each coefficient */
 };
 
-#define STEADY 0.05 /* change of current and speed within the stretch */
+#define STEADY  0.05 /* change of current within the stretch, as a share */
+#define TURNING 0.5  /* and of speed, for the angle to be a smooth curve */
 
 /* ---- angle ---- */
 
@@ -27,7 +28,7 @@ static bool is_turning(const hci_cell *cell, size_t n)
         least = fmin(least, cell[k].reading.speed_rad_per_s);
         most = fmax(most, cell[k].reading.speed_rad_per_s);
     }
-    return least * most > 0.0 && most - least < 0.5 * fmax(fabs(most), fabs(least));
+    return least * most > 0.0 && most - least < TURNING * fmax(fabs(most), fabs(least));
 }
 
 /* The value at `at` of the parabola through the angles around it; x: time from there. */
@@ -166,8 +167,9 @@ static bool coordinate_smooth(series_room *r, size_t n, const size_t *periods, i
     return true;
 }
 
-static bool currents_smooth(hci_cell *cell, size_t n, int pole_pairs, const size_t *periods, size_t count,
-                            series_room *r)
+/* Rows of the basis and the coordinates of each sample. */
+static void coordinates_read(const hci_cell *cell, size_t n, int pole_pairs, const size_t *periods,
+                             size_t count, series_room *r)
 {
     for (size_t k = 0; k < n; ++k) {
         const hci_sample *x = &cell[k].reading;
@@ -177,21 +179,35 @@ static bool currents_smooth(hci_cell *cell, size_t n, int pole_pairs, const size
         r->coordinate[1][k] = i.q;
         r->coordinate[2][k] = i.zero;
     }
+}
+
+static void phases_of(double *const axis[3], size_t k, double scale, double theta_rad, double *phases)
+{
+    const hci_dq x = {scale * axis[0][k], scale * axis[1][k], scale * axis[2][k]};
+    hci_clarke_inverse(hci_park_inverse(x, theta_rad), phases);
+}
+
+static void coordinates_write(const series_room *r, size_t n, int pole_pairs, hci_cell *cell)
+{
+    for (size_t k = 0; k < n; ++k) {
+        hci_sample *x = &cell[k].reading;
+        const double theta = pole_pairs * x->theta_m_rad, speed = x->speed_rad_per_s;
+        phases_of(r->coordinate, k, 1.0, theta, x->i_abc);
+        phases_of(r->slope, k, speed, theta, x->change_A_per_s);
+        phases_of(r->curvature, k, speed * speed, theta, x->curvature_A_per_s2);
+    }
+}
+
+/* Replaces the currents by their series; false, and nothing is changed, where one has no solution. */
+static bool currents_smooth(hci_cell *cell, size_t n, int pole_pairs, const size_t *periods, size_t count,
+                            series_room *r)
+{
+    coordinates_read(cell, n, pole_pairs, periods, count, r);
     hci_normal_add(&r->normal, r->rows, r->coordinate[0], n);
     hci_normal_finish(&r->normal);
     for (int c = 0; c < 3; ++c)
         if (!coordinate_smooth(r, n, periods, c)) return false;
-    for (size_t k = 0; k < n; ++k) {
-        hci_sample *x = &cell[k].reading;
-        const double theta = pole_pairs * x->theta_m_rad, speed = x->speed_rad_per_s;
-        const hci_dq i = {r->coordinate[0][k], r->coordinate[1][k], r->coordinate[2][k]};
-        const hci_dq change = {speed * r->slope[0][k], speed * r->slope[1][k], speed * r->slope[2][k]};
-        hci_clarke_inverse(hci_park_inverse(i, theta), x->i_abc);
-        const hci_dq curvature = {speed * speed * r->curvature[0][k], speed * speed * r->curvature[1][k],
-                                  speed * speed * r->curvature[2][k]};
-        hci_clarke_inverse(hci_park_inverse(change, theta), x->change_A_per_s);
-        hci_clarke_inverse(hci_park_inverse(curvature, theta), x->curvature_A_per_s2);
-    }
+    coordinates_write(r, n, pole_pairs, cell);
     return true;
 }
 

@@ -202,6 +202,7 @@ char *hci_diagnosis_json(const hci_diagnosis *d, const hci_resolution *r)
         add_number(root, "holdout_rms_before_Nm", d->holdout_before_Nm) &&
         add_number(root, "holdout_rms_after_Nm", d->holdout_after_Nm) &&
         add_number(root, "holdout_noise_Nm", d->holdout_noise_Nm) &&
+        cJSON_AddBoolToObject(root, "contradicted_by_holdout", d->contradicted) &&
         cJSON_AddBoolToObject(root, "does_not_repeat", d->wanders) && add_diagnosis_lists(root, d) &&
         (!r || (add_currents(root, "old_currents", &r->old_currents, &r->before) &&
                 add_currents(root, "new_currents", &r->new_currents, &r->after))))
@@ -402,6 +403,57 @@ char *hci_waveform_json(const hci_waveform *waveform)
         add_number(root, "drift_Hz_per_s", w->drift_Hz_per_s) &&
         add_number(root, "speed_rad_per_s", w->speed_rad_per_s) && add_waveform(root, w) &&
         add_text(root, "remark", w->remark.text))
+        text = cJSON_Print(root);
+    cJSON_Delete(root);
+    return text;
+}
+
+/* ---- data sheet ---- */
+
+static bool add_constants(cJSON *root, const hci_sheet *s)
+{
+    static const struct {
+        hci_sheet_reading reading;
+        const char *key;
+    } SHOWN[] = {
+        {HCI_SHEET_TORQUE_PEAK,    "torque_constant_peak_Nm_per_A"},
+        {HCI_SHEET_TORQUE_RMS,     "torque_constant_rms_Nm_per_A" },
+        {HCI_SHEET_TORQUE_DC,      "torque_constant_dc_Nm_per_A"  },
+        {HCI_SHEET_VOLT_LINE_RMS,  "line_rms_V_per_krpm"          },
+        {HCI_SHEET_VOLT_LINE_PEAK, "line_peak_V_per_krpm"         },
+        {HCI_SHEET_KV_LINE_PEAK,   "kv_line_peak_rpm_per_V"       },
+        {HCI_SHEET_FLUX,           "flux_linkage_Wb"              },
+    };
+    const double emf = hci_sheet_emf(s->reading, s->strength, s->pole_pairs);
+    bool good = add_number(root, "back_emf_Vs_per_rad", emf);
+    for (size_t k = 0; k < sizeof SHOWN / sizeof *SHOWN && good; ++k)
+        good = add_number(root, SHOWN[k].key, hci_sheet_value(SHOWN[k].reading, emf, s->pole_pairs));
+    return good;
+}
+
+static bool add_files(cJSON *root, bool cogging)
+{
+    cJSON *files = cJSON_AddArrayToObject(root, "files");
+    return files && cJSON_AddItemToArray(files, cJSON_CreateString("machine.csv")) &&
+           cJSON_AddItemToArray(files, cJSON_CreateString("back_emf.csv")) &&
+           (!cogging || cJSON_AddItemToArray(files, cJSON_CreateString("cogging.csv")));
+}
+
+char *hci_init_json(const hci_sheet *s)
+{
+    const double order = s->slots > 0 ? hci_cogging_order(s->slots, s->pole_pairs) : (double)NAN;
+    cJSON *root = cJSON_CreateObject();
+    char *text = NULL;
+    hci_note remark;
+    hci_sheet_remark(s, &remark);
+    if (root && add_text(root, "command", "init") && add_text(root, "version", HCI_VERSION_STRING) &&
+        add_number(root, "pole_pairs", s->pole_pairs) && add_number(root, "sheet_value", s->strength) &&
+        add_text(root, "sheet_unit", hci_sheet_unit(s->reading)) &&
+        add_text(root, "sheet_reading", hci_sheet_meaning(s->reading)) && add_constants(root, s) &&
+        add_number(root, "resistance_ohm", hci_sheet_resistance_ohm(s)) &&
+        add_number(root, "rated_current_A", hci_sheet_current_A(s)) &&
+        add_number(root, "cogging_order", order) && add_files(root, s->slots > 0) &&
+        add_text(root, "remark", remark.text))
         text = cJSON_Print(root);
     cJSON_Delete(root);
     return text;

@@ -137,10 +137,28 @@ static void put_character(hci_output *out, char c)
         hci_output_text(out, "%c", c);
 }
 
+/* Bytes of the character that begins here: 0 where it is not UTF-8, or one that XML cannot hold. */
+static size_t character_length(const char *text)
+{
+    const unsigned char *u = (const unsigned char *)text;
+    const size_t length = u[0] < 0x80 ? 1 : u[0] < 0xC2 ? 0 : u[0] < 0xE0 ? 2 : u[0] < 0xF0 ? 3 : 4;
+    const bool surrogate = u[0] == 0xED && u[1] >= 0xA0, last = u[0] == 0xEF && u[1] == 0xBF && u[2] >= 0xBE;
+    const bool overlong = (u[0] == 0xE0 && u[1] < 0xA0) || (u[0] == 0xF0 && u[1] < 0x90);
+    if (u[0] > 0xF4 || (u[0] == 0xF4 && u[1] >= 0x90) || surrogate || last || overlong) return 0;
+    for (size_t k = 1; k < length; ++k)
+        if ((u[k] & 0xC0u) != 0x80u) return 0;
+    return u[0] < 0x20 && !strchr("\t\n\r", *text) ? 0 : length;
+}
+
 void hci_svg_text(hci_output *out, const char *text)
 {
-    for (; *text; ++text)
-        put_character(out, *text);
+    while (*text) {
+        size_t length = character_length(text);
+        if (length == 0) hci_output_text(out, "\xEF\xBF\xBD"); /* the replacement character */
+        if (length == 0) ++text;
+        for (; length > 0; --length)
+            put_character(out, *text++);
+    }
 }
 
 /* A blank at the start of a tspan would be lost: it is a shift instead. */
@@ -176,6 +194,39 @@ static double text_width(const char *text)
     for (; *text; ++text)
         if (((unsigned char)*text & 0xC0u) != 0x80u && *text != '_') width += 6.3;
     return width;
+}
+
+void hci_svg_name(hci_output *out, const char *style, double x, double y, const char *text, size_t most)
+{
+    size_t length = 0;
+    for (const char *c = text; *c; ++c)
+        length += ((unsigned char)*c & 0xC0u) != 0x80u;
+    hci_output_text(out, "<text class=\"%s\" x=\"", style);
+    put(out, x, "\" y=\"");
+    put(out, y, "\">");
+    if (length > most) hci_output_text(out, "…");
+    for (size_t left_out = 0; length > most && left_out <= length - most;)
+        left_out += ((unsigned char)*++text & 0xC0u) != 0x80u;
+    hci_svg_text(out, text);
+    hci_output_text(out, "</text>\n");
+}
+
+void hci_svg_begin(hci_output *out, const hci_svg_picture *p)
+{
+    hci_output_text(out,
+                    "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"hci\" viewBox=\"%d %d %d %d\" "
+                    "role=\"img\" aria-labelledby=\"%s-title\" aria-describedby=\"%s-desc\">\n<title "
+                    "id=\"%s-title\">",
+                    p->left, p->top, p->width, p->height, p->id, p->id, p->id);
+    hci_svg_text(out, p->title);
+    hci_output_text(out, "</title>\n<desc id=\"%s-desc\">", p->id);
+    hci_svg_text(out, p->description);
+    hci_output_text(out, "</desc>\n");
+}
+
+void hci_svg_end(hci_output *out)
+{
+    hci_output_text(out, "</svg>\n");
 }
 
 /* ---- axes ---- */
@@ -248,6 +299,64 @@ void hci_svg_grid(hci_output *out, const hci_svg_axis *a, const hci_svg_box *b, 
             hci_svg_label(out, "quiet middle", place, b->bottom + 17.0, text);
         }
     }
+}
+
+/* ---- logarithmic axes ---- */
+
+/* The next of 1, 2, 5 times a power of ten, as a logarithm: not above, or not below. */
+static double snapped(double value, bool up)
+{
+    const double ten = floor(log10(value) + 1e-9), share = value / pow(10.0, ten);
+    const double below = share < 2.0 - 1e-9 ? 1.0 : share < 5.0 - 1e-9 ? 2.0 : 5.0;
+    const double above = share <= 1.0 + 1e-9   ? 1.0
+                         : share <= 2.0 + 1e-9 ? 2.0
+                         : share <= 5.0 + 1e-9 ? 5.0
+                                               : 10.0;
+    return ten + log10(up ? above : below);
+}
+
+hci_svg_axis hci_svg_log_axis(hci_svg_range r, double from, double to, double most_decades)
+{
+    hci_svg_axis a = {-1.0, 0.0, from, to, 1.0};
+    if (!(r.high > 1e-200) || !(r.high < 1e200)) return a;
+    a.high = snapped(r.high, true);
+    a.low = snapped(fmax(r.low > 0.0 ? r.low : 0.0, r.high * pow(10.0, -most_decades)), false);
+    a.low = fmin(a.low, a.high - 1.0);
+    return a;
+}
+
+double hci_svg_log_at(const hci_svg_axis *a, double value)
+{
+    return value > 0.0 ? hci_svg_at(a, log10(value)) : a->from;
+}
+
+static void draw_log_line(hci_output *out, const hci_svg_axis *a, const hci_svg_box *b, bool upwards,
+                          double value)
+{
+    const double place = hci_svg_log_at(a, value);
+    char text[HCI_SVG_NUMBER_SIZE];
+    tick_text(text, value, pow(10.0, floor(log10(value) + 1e-9)));
+    if (upwards) {
+        hci_svg_segment(out, "grid", b->left, place, b->right, place);
+        hci_svg_label(out, "quiet end", b->left - 8.0, place + 4.0, text);
+    } else {
+        hci_svg_segment(out, "grid", place, b->top, place, b->bottom);
+        hci_svg_label(out, "quiet middle", place, b->bottom + 17.0, text);
+    }
+}
+
+void hci_svg_log_grid(hci_output *out, const hci_svg_axis *a, const hci_svg_box *b, bool upwards)
+{
+    static const double SHARE[] = {1.0, 2.0, 5.0};
+    const double room = fabs(a->to - a->from) / (upwards ? 26.0 : 46.0);
+    const size_t shares = 3.0 * (a->high - a->low) <= room ? 3 : 1;
+    const double apart = fmax(1.0, ceil((a->high - a->low) / fmax(room, 1.0)));
+    for (double k = floor(a->low); k <= a->high + 1e-6; k += apart)
+        for (size_t j = 0; j < shares; ++j) {
+            const double at = k + log10(SHARE[j]);
+            if (at >= a->low - 1e-6 && at <= a->high + 1e-6)
+                draw_log_line(out, a, b, upwards, SHARE[j] * pow(10.0, k));
+        }
 }
 
 /* ---- legends ---- */

@@ -38,8 +38,23 @@ void hci_svg_line_end(hci_output *out);
 /* Text with what XML needs escaped; the letter after an underscore is a subscript. */
 void hci_svg_label(hci_output *out, const char *style, double x, double y, const char *text);
 
-/* The same without an element around it and without subscripts, as for <title>. */
+/* The same without an element around it and without subscripts, as for <title>. What is no UTF-8, or no
+ * character of XML, becomes U+FFFD. */
 void hci_svg_text(hci_output *out, const char *text);
+
+/* A name as it stands, of which the last `most` characters are shown. */
+void hci_svg_name(hci_output *out, const char *style, double x, double y, const char *text, size_t most);
+
+/* ---- pictures ---- */
+
+/* id: letters, for the attributes that point to title and description; once in a document. */
+typedef struct {
+    const char *id, *title, *description;
+    int left, top, width, height; /* what is seen of the canvas */
+} hci_svg_picture;
+
+void hci_svg_begin(hci_output *out, const hci_svg_picture *picture);
+void hci_svg_end(hci_output *out);
 
 /* ---- axes ---- */
 
@@ -75,6 +90,12 @@ hci_svg_axis hci_svg_axis_of_angle(double turns, const hci_svg_box *b);
 
 /* Grid lines and numbers of an axis that runs upwards, or to the right. */
 void hci_svg_grid(hci_output *out, const hci_svg_axis *a, const hci_svg_box *b, bool upwards);
+
+/* Logarithmic, from a 1, 2 or 5 times a power of ten to another, at least one decade. What is too small, or
+ * not above 0, lies at its lower end. */
+hci_svg_axis hci_svg_log_axis(hci_svg_range r, double from, double to, double most_decades);
+double hci_svg_log_at(const hci_svg_axis *a, double value);
+void hci_svg_log_grid(hci_output *out, const hci_svg_axis *a, const hci_svg_box *b, bool upwards);
 
 /* ---- legends ---- */
 

@@ -10,7 +10,9 @@ static const double OF_SPEED[] = {0.0, 0.5, 1.0, 2.0};
 
 hci_growth hci_growth_of(size_t g)
 {
-    const hci_growth x = {OF_CURRENT[g % 8], OF_SPEED[g / 8 % 4], g / 32 > 0};
+    enum { CURRENTS = sizeof OF_CURRENT / sizeof *OF_CURRENT, SPEEDS = sizeof OF_SPEED / sizeof *OF_SPEED };
+    const hci_growth x = {OF_CURRENT[g % CURRENTS], OF_SPEED[g / CURRENTS % SPEEDS],
+                          g / (CURRENTS * SPEEDS) > 0};
     return x;
 }
 

@@ -93,7 +93,9 @@ typedef struct {
     double rms_before_Nm, rms_after_Nm, noise_Nm;                 /* of the runs that were fitted */
     double holdout_before_Nm, holdout_after_Nm, holdout_noise_Nm; /* NAN without such runs */
     char advice[3 * HCI_DETAIL_SIZE];                             /* what to measure next, or "" */
-    bool wanders; /* something is left that does not repeat with the turn */
+    bool contradicted; /* effects described the runs that were fitted, but not those held out, and were
+                          dropped */
+    bool wanders;      /* something is left that does not repeat with the turn */
 } hci_diagnosis;
 
 /* HCI_OK; HCI_NOT_REACHED when the verdict is ambiguous or unknown; or an error with a note, and then
@@ -121,9 +123,9 @@ hci_status hci_diagnosis_resolve(const hci_machine_data *machine, const hci_effe
                                  hci_resolution *resolution, hci_note *note);
 void hci_resolution_release(hci_resolution *resolution);
 
-/* Writes effects.csv, errors.csv, residual_spectrum.csv, summary.json and, where something is not explained,
- * unexplained.csv into `folder`, and the corrected machine into `folder`/machine: the tables of
- * machine_folder as they are, with effects.csv. resolution: for the summary, or NULL. */
+/* Writes effects.csv, errors.csv, residual_spectrum.csv, summary.json, report.html and, where something is
+ * not explained, unexplained.csv into `folder`, and the corrected machine into `folder`/machine: the tables
+ * of machine_folder as they are, with effects.csv. resolution: for summary and report, or NULL. */
 hci_status hci_diagnosis_write(const hci_diagnosis *diagnosis, const hci_resolution *resolution,
                                const hci_runs *runs, const char *machine_folder, const char *folder,
                                hci_note *note);

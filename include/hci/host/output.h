@@ -30,6 +30,10 @@ void hci_output_text(hci_output *output, const char *format, ...) HCI_PRINTF(2, 
  * that is not finite is remembered, and the commit fails with HCI_ERROR_NOT_FINITE. */
 void hci_output_number(hci_output *output, double value, char end);
 
+/* Ends the last file and tells what the commit would find wrong with what was written: for sets in several
+ * folders that are to appear together. HCI_ERROR_OUTPUT, _NOT_FINITE; discard the set then. */
+hci_status hci_output_check(hci_output *output, hci_note *note);
+
 /* Flushes, checks and renames every file, and frees `output` in any case. On failure no file of the set is
  * left, and files that were there before are untouched: each is kept by a second link until the last rename
  * has succeeded. A process that is killed can leave hidden `.hci-*` files behind, and between two renames a

@@ -170,6 +170,11 @@ typedef struct {
  * Same input, same result to the bit on one libm. */
 hci_status hci_simulate(const hci_machine_data *machine, const hci_scenario *scenario,
                         const hci_simulate_options *options, hci_simulation *simulation, hci_note *note);
+
+/* The same, and report.html in the folder; NULL: without. */
+hci_status hci_simulate_with_report(const hci_machine_data *machine, const hci_scenario *scenario,
+                                    const hci_simulate_options *options, const hci_report_sources *sources,
+                                    hci_simulation *simulation, hci_note *note);
 void hci_simulation_release(hci_simulation *simulation);
 
 /* As in summary.json. To be freed with hci_text_free of summary.h; NULL when memory is out. */

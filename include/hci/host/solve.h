@@ -4,6 +4,7 @@
 
 #include "hci/effect.h"
 #include "hci/host/machine.h"
+#include "hci/host/report.h"
 #include "hci/host/tables.h"
 #include "hci/strategy.h"
 
@@ -150,6 +151,11 @@ void hci_judgement_release(hci_judgement *judgement);
  * in the mean torque, currents_per_Nm.csv and currents_constant.csv into `folder`; all or none. */
 hci_status hci_solution_write(const hci_machine_data *machine, const hci_solution *solution,
                               hci_status verdict, const char *folder, hci_note *note);
+
+/* The same, and report.html beside them; NULL: without. */
+hci_status hci_solution_write_with_report(const hci_machine_data *machine, const hci_solution *solution,
+                                          hci_status verdict, const hci_report_sources *sources,
+                                          const char *folder, hci_note *note);
 
 #ifdef __cplusplus
 }

@@ -4,6 +4,7 @@
 
 #include "hci/host/diagnose.h"
 #include "hci/host/emit.h"
+#include "hci/host/init.h"
 #include "hci/host/solve.h"
 
 #ifdef __cplusplus
@@ -14,6 +15,7 @@ extern "C" {
  * is null. */
 char *hci_solution_json(const hci_solution *solution, hci_status verdict);
 char *hci_diagnosis_json(const hci_diagnosis *diagnosis, const hci_resolution *resolution);
+char *hci_init_json(const hci_sheet *sheet);
 char *hci_emit_json(const hci_emit_request *request, const hci_emit_result *result);
 void hci_text_free(char *text);
 

@@ -1,0 +1,25 @@
+/* The pages of report.html, appended to the current file of `out`. */
+#ifndef HCI_SRC_HOST_REPORT_H
+#define HCI_SRC_HOST_REPORT_H
+
+#include "hci/host/diagnose.h"
+#include "hci/host/output.h"
+#include "hci/host/report.h"
+#include "hci/host/simulate.h"
+#include "hci/host/solve.h"
+#include "plot_traces.h"
+
+/* HCI_ERROR_MEMORY. */
+hci_status hci_report_diagnosis(hci_output *out, const hci_diagnosis *diagnosis,
+                                const hci_resolution *resolution, const hci_runs *runs,
+                                const char *machine_folder, hci_note *note);
+
+/* verdict: what hci_solve returned. */
+void hci_report_solution(hci_output *out, const hci_machine_data *machine, const hci_solution *solution,
+                         hci_status verdict, const hci_report_sources *sources);
+
+/* HCI_ERROR_MEMORY. */
+hci_status hci_report_simulation(hci_output *out, const hci_simulation *simulation, const hci_traces *traces,
+                                 const hci_report_sources *sources, hci_note *note);
+
+#endif

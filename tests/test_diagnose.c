@@ -1,0 +1,182 @@
+/* What is found in recordings in which one thing is hidden that the tables of the machine do not say, or
+ * nothing. */
+#define _XOPEN_SOURCE 700
+
+#include "host/memory.h"
+
+#include "diagnosing.h"
+
+void setUp(void)
+{
+    bench_start();
+}
+
+void tearDown(void)
+{
+    bench_end();
+}
+
+/* Within three standard errors, and those are what so many samples of so much noise allow, or not much more.
+ */
+static void is_value(double expected, double deviation, const hci_effect_term *t)
+{
+    TEST_ASSERT_TRUE(t->std_error > 0.7 * deviation && t->std_error < 1.6 * deviation);
+    TEST_ASSERT_DOUBLE_WITHIN(3.0 * t->std_error, expected, t->value);
+}
+
+static void test_nothing_is_missing(void)
+{
+    record_map(0.0, 0.0);
+    TEST_ASSERT_EQUAL_INT(HCI_OK, diagnose(NULL));
+    TEST_ASSERT_EQUAL_INT(HCI_DIAGNOSIS_COMPLETE, diagnosis.verdict);
+    TEST_ASSERT_EQUAL_UINT64(diagnosis.findings, count_of(HCI_FINDING_REJECTED));
+    TEST_ASSERT_EQUAL_UINT64(0, diagnosis.effects.list.count);
+    TEST_ASSERT_EQUAL_UINT64(4, diagnosis.runs);
+    TEST_ASSERT_DOUBLE_WITHIN(0.06 * NOISE_NM, NOISE_NM, diagnosis.rms_after_Nm); /* 1800 samples: ± 1.7 % */
+    TEST_ASSERT_DOUBLE_WITHIN(0.1 * NOISE_NM, NOISE_NM, diagnosis.noise_Nm);
+    TEST_ASSERT_TRUE(isnan(diagnosis.holdout_after_Nm));
+}
+
+/* What is wrong in a run that is held out shows in its error and nowhere else. */
+static void test_a_run_held_out_takes_no_part(void)
+{
+    record_map(0.0, 0.0);
+    record(450, &(point){60.0, 2.0, 0.0, 0.05, 0.0});
+    role[4] = HCI_ROLE_HOLDOUT;
+    TEST_ASSERT_EQUAL_INT(HCI_OK, diagnose(NULL));
+    TEST_ASSERT_EQUAL_INT(HCI_DIAGNOSIS_COMPLETE, diagnosis.verdict);
+    TEST_ASSERT_DOUBLE_WITHIN(0.06 * NOISE_NM, NOISE_NM, diagnosis.rms_after_Nm);
+    TEST_ASSERT_DOUBLE_WITHIN(0.06 * 0.05, sqrt(0.0025 + NOISE_NM * NOISE_NM), diagnosis.holdout_after_Nm);
+}
+
+/* One run is held out: it takes no part, and gets better all the same. */
+static void test_current_offset(void)
+{
+    record_map(0.3, 0.0);
+    record(450, &(point){-40.0, 5.0, 0.3, 0.0, 0.0});
+    role[4] = HCI_ROLE_HOLDOUT;
+    TEST_ASSERT_EQUAL_INT(HCI_OK, diagnose(NULL));
+    TEST_ASSERT_EQUAL_INT(HCI_DIAGNOSIS_EXPLAINED, diagnosis.verdict);
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_ADDED, found("current_offset")->verdict);
+    TEST_ASSERT_EQUAL_UINT64(1, count_of(HCI_FINDING_ADDED));
+    TEST_ASSERT_EQUAL_UINT64(0, count_of(HCI_FINDING_AMBIGUOUS));
+    TEST_ASSERT_EQUAL_STRING("current_offset", diagnosis.finding[0].effect);
+    is_value(0.3, NOISE_NM / (K_NM_PER_A * sqrt(1800.0 / 2.0)), term("current_offset", "a", 0.0));
+    const double wave = 0.3 * K_NM_PER_A / sqrt(2.0);
+    TEST_ASSERT_DOUBLE_WITHIN(0.06 * NOISE_NM, sqrt(wave * wave + NOISE_NM * NOISE_NM),
+                              diagnosis.rms_before_Nm);
+    TEST_ASSERT_DOUBLE_WITHIN(0.06 * NOISE_NM, NOISE_NM, diagnosis.rms_after_Nm);
+    TEST_ASSERT_DOUBLE_WITHIN(0.1 * NOISE_NM, NOISE_NM, diagnosis.holdout_after_Nm);
+    TEST_ASSERT_DOUBLE_WITHIN(0.02, wave * wave / (wave * wave + NOISE_NM * NOISE_NM),
+                              found("current_offset")->residual_share);
+    TEST_ASSERT_TRUE(diagnosis.run[4].role == HCI_ROLE_HOLDOUT && diagnosis.run[4].rms_before_Nm > wave);
+}
+
+/* Noisy currents make a noisy torque of the model, and a slow sensor in the model would smooth that: it is no
+ * finding. */
+static void test_noise_of_currents_is_no_sensor(void)
+{
+    for (int k = 0; k < 2; ++k) {
+        record(600, &(point){k == 0 ? 60.0 : -150.0, 2.0 + 5.0 * k, 0.0, 0.0, 0.0});
+        for (size_t j = 0; j < 1800; ++j)
+            run[k].i_A[j] += 0.02 * rec_normal(&seed);
+    }
+    TEST_ASSERT_EQUAL_INT(HCI_OK, diagnose(NULL));
+    TEST_ASSERT_EQUAL_INT(HCI_DIAGNOSIS_COMPLETE, diagnosis.verdict);
+    TEST_ASSERT_EQUAL_UINT64(0, diagnosis.effects.list.count);
+}
+
+/* The current that holds a shaft against a torque, turned slowly there and back twice round; none is
+ * measured. */
+static void hold(double coulomb_Nm, double cogging_Nm, double irregular_Nm)
+{
+    hci_run *r = add_run(2400);
+    r->torque_source = HCI_TORQUE_HOLDING;
+    for (size_t k = 0; k < r->count; ++k) {
+        const bool back = k >= r->count / 2;
+        const double x = (double)(back ? r->count - 1 - k : k) / 600.0, theta_m = 2.0 * REF_PI * x;
+        const double torque = (back ? -coulomb_Nm : coulomb_Nm) - cogging_Nm * sin(6.0 * P * theta_m) -
+                              0.5 * cogging_Nm * cos(2.0 * P * theta_m) +
+                              irregular_Nm * sin(0.002 * (double)k + 9.0 * sin(0.0007 * (double)k));
+        r->time_s[k] = 0.02 * (double)k;
+        r->theta_m_rad[k] = theta_m;
+        r->speed_rad_per_s[k] = (back ? -2.0 : 2.0) * REF_PI / 600.0 / 0.02;
+        rec_phases(0.0, torque / (1.5 * K_NM_PER_A) + 0.01 * rec_normal(&seed), P * theta_m, r->i_A + 3 * k);
+    }
+}
+
+static void test_holding_map(void)
+{
+    hold(0.08, 0.1, 0.0);
+    diagnose(NULL);
+    const double deviation = 1.5 * K_NM_PER_A * 0.01 / sqrt(2400.0); /* of a mean */
+    is_value(0.1, sqrt(2.0) * deviation, term("cogging", "sine", 6.0));
+    is_value(0.05, sqrt(2.0) * deviation, term("cogging", "cosine", 2.0));
+    is_value(0.08, deviation, term("friction", "coulomb", 0.0));
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_REJECTED, found("back_emf")->verdict);
+    TEST_ASSERT_EQUAL_UINT64(2, diagnosis.effects.list.count);
+}
+
+/* An angle that is a quarter of a period off would make no torque of any current: no explanation. */
+static void test_holding_map_says_nothing_of_the_angle(void)
+{
+    hold(0.0, 0.0, 0.1);
+    diagnose(NULL);
+    TEST_ASSERT_EQUAL_UINT64(0, diagnosis.effects.list.count);
+    TEST_ASSERT_EQUAL_INT(HCI_DIAGNOSIS_UNKNOWN, diagnosis.verdict);
+}
+
+/* At one speed and in one direction friction and a wrong zero of the torque sensor are one and the same. */
+static void test_friction_or_zero_of_the_sensor(void)
+{
+    for (int k = 0; k < 3; ++k)
+        record(450, &(point){60.0, 3.0 * k, 0.0, 0.05, 0.0});
+    TEST_ASSERT_EQUAL_INT(HCI_NOT_REACHED, diagnose(NULL));
+    TEST_ASSERT_EQUAL_INT(HCI_DIAGNOSIS_AMBIGUOUS, diagnosis.verdict);
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_AMBIGUOUS, found("friction")->verdict);
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_AMBIGUOUS, found("torque_sensor")->verdict);
+    TEST_ASSERT_EQUAL_UINT64(2, count_of(HCI_FINDING_AMBIGUOUS));
+    TEST_ASSERT_EQUAL_UINT64(1, diagnosis.effects.list.count);
+    TEST_ASSERT_DOUBLE_WITHIN(0.06 * NOISE_NM, NOISE_NM, diagnosis.rms_after_Nm);
+}
+
+static void test_what_does_not_repeat(void)
+{
+    for (int k = 0; k < 2; ++k)
+        record(900, &(point){k == 1 ? -150.0 : 60.0, 4.0 * k, 0.0, 0.0, 0.2});
+    TEST_ASSERT_EQUAL_INT(HCI_NOT_REACHED, diagnose(NULL));
+    TEST_ASSERT_EQUAL_INT(HCI_DIAGNOSIS_UNKNOWN, diagnosis.verdict);
+    TEST_ASSERT_EQUAL_STRING("unknown", diagnosis.finding[0].effect);
+    TEST_ASSERT_EQUAL_UINT64(0, diagnosis.effects.list.count);
+    TEST_ASSERT_EQUAL_DOUBLE(diagnosis.rms_before_Nm, diagnosis.rms_after_Nm);
+}
+
+/* A wave that is odd in time, the same in each run: a growth that no effect has and Coulomb friction each
+ * take a part, and what stands in the machine has to stand among the findings (diagnose() looks). */
+static void test_machine_and_findings_agree(void)
+{
+    static const double SPEED[] = {60.0, -150.0}, CURRENT[] = {0.0, 4.0};
+    for (int k = 0; k < 4; ++k) {
+        record(800, &(point){SPEED[k / 2], CURRENT[k % 2], 0.0, 0.0, 0.0});
+        for (size_t j = 0; j < 800; ++j) {
+            const double x = 0.75 * run[k].theta_m_rad[j];
+            run[k].torque_Nm[j] += 0.2 * sin(0.37 * x + 5.0 * sin(0.211 * x));
+        }
+    }
+    diagnose(NULL);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_nothing_is_missing);
+    RUN_TEST(test_a_run_held_out_takes_no_part);
+    RUN_TEST(test_current_offset);
+    RUN_TEST(test_noise_of_currents_is_no_sensor);
+    RUN_TEST(test_holding_map);
+    RUN_TEST(test_holding_map_says_nothing_of_the_angle);
+    RUN_TEST(test_friction_or_zero_of_the_sensor);
+    RUN_TEST(test_what_does_not_repeat);
+    RUN_TEST(test_machine_and_findings_agree);
+    return UNITY_END();
+}
