@@ -70,6 +70,13 @@ static hci_status verdicts_of_others(hci_search *s, hci_attribution *a, hci_note
     return status;
 }
 
+/* Where the angle begins is a convention once the phases of a torque are free. */
+static bool is_convention(const hci_effect_room *room, const hci_effect_room *as)
+{
+    return room == hci_effect_room_find("position_offset") &&
+           (as == hci_effect_room_find("cogging") || as == hci_effect_room_find("mechanical_order"));
+}
+
 /* Marks a room that looks the same as a part of another, unless it would explain nothing without that. */
 static void same_mark(hci_attribution *a, size_t room, const hci_effect_room *as)
 {
@@ -77,7 +84,7 @@ static void same_mark(hci_attribution *a, size_t room, const hci_effect_room *as
     size_t k = 0;
     while (a->verdict[k].room != as)
         ++k;
-    if (v->in || v->ambiguous || !a->plausible[k][room]) return;
+    if (v->in || v->ambiguous || !a->plausible[k][room] || is_convention(v->room, as)) return;
     v->ambiguous = a->verdict[k].ambiguous = true;
     v->rival_of = as;
     v->gain = a->verdict[k].gain;

@@ -5,7 +5,7 @@
 #include "unknown.h"
 
 #define EQUAL          6.0  /* models whose scores differ by less fit as well as each other */
-#define PART           0.02 /* of what an effect is worth that makes another one plausible beside it */
+#define PART           0.3  /* of what an effect is worth that makes another one plausible beside it */
 #define PROMISED_SHARE 0.6  /* what a rival must promise of what the effect is worth … */
 #define PROMISED_LESS  20.0 /* … less so much: promises are of a linearised problem */
 

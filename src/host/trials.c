@@ -118,13 +118,15 @@ hci_status hci_trials_make(hci_search *s, const hci_suspects *model, bool pairs,
 
 /* ---- terms that look the same ---- */
 
-/* Whether a sweep leaves less than a share of all columns of a suspect. */
+/* Whether a sweep leaves less than a share of all columns of a suspect, what is expected of them aside. */
 static bool is_within(const bench *b, const hci_sweep *sweep, size_t suspect, double share)
 {
     for (size_t j = 0; j < b->choice.list->suspect[suspect].count; ++j) {
         const size_t c = b->column[suspect] + j;
-        const double whole = sweep->diagonal[c];
-        if (!(whole > 0.0) || sweep->a[c * sweep->n + c] > share * whole) return false;
+        const double expected = b->choice.list->suspect[suspect].deviation;
+        const double prior = expected > 0.0 ? 1.0 / (expected * expected) : 0.0;
+        const double whole = sweep->diagonal[c] - prior, rest = sweep->a[c * sweep->n + c] - prior;
+        if (!(whole > 0.0) || rest > share * whole) return false;
     }
     return true;
 }
