@@ -54,7 +54,8 @@ static hci_status verdict_of(hci_search *s, hci_attribution *a, hci_verdict *v, 
     v->gain = without.fit.score - a->account.fit.score;
     status = hci_search_explained(s, &a->account.suspects, &without.suspects, &v->explained_Nm, note);
     hci_account_release(&without);
-    return status ? status : hci_search_rivals(s, v->room, a, note);
+    if (status || a->unknown) return status; /* nothing that is known stands firm beside what is not */
+    return hci_search_rivals(s, v->room, a, note);
 }
 
 /* What those that are not in would be worth. */
@@ -94,6 +95,7 @@ static void same_mark(hci_attribution *a, size_t room, const hci_effect_room *as
 static hci_status verdicts_of_same(hci_search *s, hci_attribution *a, hci_note *note)
 {
     const hci_effect_room *same_as[HCI_MOST_ROOMS];
+    if (a->unknown) return HCI_OK;
     const hci_status status = hci_trials_same(s, &a->account.suspects, same_as, note);
     for (size_t r = 0; r < a->rooms && !status; ++r)
         if (same_as[r]) same_mark(a, r, same_as[r]);
