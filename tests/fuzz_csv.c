@@ -1,5 +1,5 @@
-/* Any bytes as a CSV file, as a number and as a unit: nothing crashes, and what is said of them keeps the
- * promises.
+/* Any bytes as a CSV file, as a recording, as a number and as a unit: nothing crashes, and what is said of
+ * them keeps the promises.
  *
  *     clang -DHCI_FUZZER -fsanitize=fuzzer,address,undefined …    searches: fuzz_csv CORPUS_FOLDER
  * tests/files/csv gcc -fsanitize=address,undefined …                          replays: fuzz_csv FILE… */
@@ -13,6 +13,8 @@
 #include <unistd.h>
 
 #include "hci/host/csv.h"
+#include "hci/host/run.h"
+#include "host/csv_alias.h"
 #include "host/quote.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
@@ -25,13 +27,18 @@ static void require(int promise, const char *text)
 }
 
 /* A terminal may show it. */
+static void check_text_shown(const char *text)
+{
+    require(hci_utf8_valid(text), "a note in UTF-8");
+    for (; *text != '\0'; text++)
+        require((unsigned char)*text >= 0x20 && *text != 0x7F, "no control characters");
+}
+
 static void check_note(hci_status status, const hci_note *note)
 {
     require((status == HCI_OK) == (note->text[0] == '\0'), "a note with each error, and none without");
     require(status == HCI_OK || status == HCI_ERROR_INPUT, "errors of the input only");
-    require(hci_utf8_valid(note->text), "a note in UTF-8");
-    for (const char *at = note->text; *at != '\0'; at++)
-        require((unsigned char)*at >= 0x20 && *at != 0x7F, "no control characters");
+    check_text_shown(note->text);
 }
 
 static void check_cells(const hci_csv *csv, const char *column)
@@ -63,6 +70,30 @@ static void check_column(const hci_csv *csv, const char *column)
     if (hci_csv_has(csv, column)) check_cells(csv, column);
 }
 
+/* What a column is taken for is found again, and said in words that a terminal may show. */
+static void check_aliases(const hci_csv *csv)
+{
+    for (size_t k = 0; k < hci_alias_count; k++) {
+        size_t column = 0;
+        hci_note told = {0};
+        if (hci_aliases[k].column == NULL || !hci_csv_find(csv, hci_aliases[k].column, &column)) continue;
+        require(column < hci_csv_columns(csv), "a column of the file");
+        require(hci_csv_told(csv, hci_aliases[k].column, &told) == (told.text[0] != '\0'), "told in words");
+        check_text_shown(told.text);
+    }
+}
+
+static void check_run(const hci_csv *csv)
+{
+    hci_run run;
+    hci_note note = {0};
+    check_note(hci_run_of_csv(csv, 3, 1e-3, &run, &note), &note);
+    check_text_shown(run.remark.text);
+    for (size_t k = 0; run.theta_m_rad != NULL && k < run.count; k++)
+        require(isfinite(run.theta_m_rad[k]), "finite angles");
+    hci_run_release(&run);
+}
+
 static void check_file(const char *path, size_t size)
 {
     static const char *const columns[] = {
@@ -76,6 +107,8 @@ static void check_file(const char *path, size_t size)
     require(hci_csv_rows(csv) < size, "fewer rows than bytes");
     for (size_t k = 0; k < sizeof columns / sizeof *columns; k++)
         check_column(csv, columns[k]);
+    check_aliases(csv);
+    check_run(csv);
     hci_csv_free(csv);
 }
 

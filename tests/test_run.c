@@ -393,6 +393,23 @@ static void test_dq_currents_turn_with_the_angle(void)
     TEST_ASSERT_FALSE(run.has_sum);
 }
 
+/* e leads the magnets' flux: v_q lies along sin, v_d along −cos. A drive's log of v_q alone has v_d = 0, and
+ * without an angle both are left. */
+static void test_dq_voltages_turn_with_the_angle(void)
+{
+    read_text("theta_e_rad,ud_V,uq_V\n0.5,-1,2\n", 3);
+    for (int s = 0; s < 3; ++s) {
+        const double theta = 0.5 - 2.0 * PI * s / 3.0;
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, 2.0 * sin(theta) + cos(theta), run.v_V[s]);
+    }
+    hci_run_release(&run);
+    read_text("theta_e_rad,q_axis_voltage\n0.5,2000 \n", 3);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 2000.0 * sin(0.5), run.v_V[0]);
+    hci_run_release(&run);
+    read_text("theta_e_rad,va_V,vb_V,vc_V,vq_V\n0.5,1,2,3,4\n", 3);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 3.0, run.v_V[2]);
+}
+
 static void test_iq_alone_and_no_current(void)
 {
     read_text("theta_e_rad,iq_A\n0.5,2\n", 3);
@@ -617,6 +634,7 @@ int main(void)
     RUN_TEST(test_phase_currents);
     RUN_TEST(test_two_of_three_currents);
     RUN_TEST(test_dq_currents_turn_with_the_angle);
+    RUN_TEST(test_dq_voltages_turn_with_the_angle);
     RUN_TEST(test_iq_alone_and_no_current);
     RUN_TEST(test_voltages);
     RUN_TEST(test_torque_sources);

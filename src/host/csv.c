@@ -147,24 +147,9 @@ static bool find_record(reader *r)
     }
 }
 
-/* The most frequent separator of the header line, outside quotes. */
-static char detect_separator(const char *header)
-{
-    static const char candidates[] = "\t;,";
-    size_t count[3] = {0};
-    bool quoted = false;
-    for (; *header != '\0' && (quoted || (*header != '\n' && *header != '\r')); header++) {
-        if (*header == '"') quoted = !quoted;
-        const char *which = quoted ? NULL : strchr(candidates, *header);
-        if (which != NULL) count[which - candidates]++;
-    }
-    if (count[0] > 0 && count[0] >= count[1] && count[0] >= count[2]) return '\t';
-    return count[1] > 0 && count[1] >= count[2] ? ';' : ',';
-}
-
 static void set_separator(reader *r)
 {
-    r->csv->separator = detect_separator(r->next);
+    r->csv->separator = hci_csv_separator(r->next);
     r->stop[(unsigned char)r->csv->separator] = true;
     r->stop['\n'] = r->stop['\r'] = r->stop[0] = true;
 }
@@ -291,6 +276,11 @@ bool hci_text_is(const char *text, const char *word)
     return hci_text_begins(text, word, strlen(word) + 1);
 }
 
+bool hci_csv_same_name(const char *a, const char *b)
+{
+    return strlen(a) == 1 ? strcmp(a, b) == 0 : hci_text_is(a, b);
+}
+
 hci_number_kind hci_csv_kind(const hci_csv *csv, const char *cell)
 {
     double value;
@@ -313,7 +303,7 @@ static hci_status check_name(const hci_csv *csv, size_t column, hci_note *note)
     if (!hci_utf8_valid(name)) return hci_csv_encoding_error(csv, line, column, name, note);
     for (size_t i = 0; i < column && *name != '\0'; i++) {
         const char *other = hci_csv_cell(csv, 0, i);
-        if (!hci_text_begins(other, name, strlen(name) + 1)) continue;
+        if (!hci_csv_same_name(other, name)) continue;
         char found[64];
         snprintf(found, sizeof found, "the name of column %zu again", i + 1);
         return hci_csv_cell_error(csv, line, column, name, note, found, "each name once",
@@ -337,6 +327,16 @@ static hci_status check_header(const hci_csv *csv, hci_note *note)
     return hci_csv_cell_error(csv, hci_csv_record_line(csv, 0), last, NULL, note,
                               hci_quote(hci_csv_cell(csv, 0, last), found), "a column name",
                               "put a row of column names first");
+}
+
+/* To the line that the table begins with. */
+static void pass_foreword(reader *r)
+{
+    const char *start = hci_csv_table_start(r->next, &r->csv->has_foreword);
+    while (r->csv->has_foreword && r->next < start) {
+        r->next += strcspn(r->next, "\r\n");
+        skip_newline(r);
+    }
 }
 
 static hci_status read_header(reader *r)
@@ -414,32 +414,53 @@ static hci_status read_rows(reader *r)
 
 /* ---- row of units ---- */
 
-/* The unit that the row of units names for a column, NULL where it says nothing. */
+const hci_unit *hci_csv_cell_unit(const char *cell)
+{
+    const size_t length = strlen(cell);
+    if (length >= 2 &&
+        ((cell[0] == '(' && cell[length - 1] == ')') || (cell[0] == '[' && cell[length - 1] == ']')))
+        return hci_unit_find(cell + 1, length - 2);
+    return hci_unit_find(cell, length);
+}
+
+bool hci_csv_says_no_unit(const char *cell)
+{
+    return *cell == '\0' || strcmp(cell, "1") == 0 || strcmp(cell, "-") == 0;
+}
+
 const hci_unit *hci_csv_row_unit(const hci_csv *csv, size_t column)
 {
     if (!csv->has_units) return NULL;
     const char *cell = hci_csv_cell(csv, 1, column);
-    return *cell == '\0' || strcmp(cell, "-") == 0 ? NULL : hci_unit_find(cell, strlen(cell));
+    return *cell == '\0' || strcmp(cell, "-") == 0 ? NULL : hci_csv_cell_unit(cell);
+}
+
+/* Are there no words below a cell of record 1? */
+static bool has_no_words_below(const hci_csv *csv, size_t column)
+{
+    const char *below = csv->records > 2 ? hci_csv_cell(csv, 2, column) : "";
+    return *below == '\0' || hci_csv_kind(csv, below) != HCI_NUMBER_NONE;
 }
 
 /* Record 1 is a row of units when each cell is a unit, "1", "-" or empty, at least one is a true unit, and no
- * column with a true unit goes on with words (a column of phases "A", "B", "C" is not in ampere). A table
- * with a column named `unit` gives its units row by row. */
+ * column with a true unit goes on with words (a column of phases "A", "B", "C" is not in ampere). Where
+ * several are true units, others may be words above numbers: units that are not known here. A table with a
+ * column named `unit` gives its units row by row. */
 static bool find_units(const hci_csv *csv)
 {
-    size_t units = 0;
+    size_t units = 0, others = 0;
     if (csv->records < 2) return false;
     for (size_t column = 0; column < csv->columns; column++) {
         const char *cell = hci_csv_cell(csv, 1, column);
         if (hci_text_begins(hci_csv_cell(csv, 0, column), "unit", sizeof "unit")) return false;
-        if (*cell == '\0' || strcmp(cell, "1") == 0 || strcmp(cell, "-") == 0) continue;
-        if (hci_unit_find(cell, strlen(cell)) == NULL || hci_csv_kind(csv, cell) != HCI_NUMBER_NONE)
-            return false;
-        const char *below = csv->records > 2 ? hci_csv_cell(csv, 2, column) : "";
-        if (*below != '\0' && hci_csv_kind(csv, below) == HCI_NUMBER_NONE) return false;
-        units++;
+        if (hci_csv_says_no_unit(cell)) continue;
+        if (hci_csv_kind(csv, cell) != HCI_NUMBER_NONE || !has_no_words_below(csv, column)) return false;
+        if (hci_csv_cell_unit(cell) != NULL)
+            units++;
+        else
+            others++;
     }
-    return units > 0;
+    return others > 0 ? units > 1 && csv->records > 2 : units > 0;
 }
 
 /* ---- the table ---- */
@@ -452,6 +473,7 @@ static hci_status read_table(hci_csv *csv, hci_note *note)
     if (status == HCI_OK) status = check_encoding(csv, size, note);
     if (status != HCI_OK) return status;
     r.next = csv->text + (strncmp(csv->text, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0);
+    pass_foreword(&r);
     status = read_header(&r);
     if (status == HCI_OK) status = read_rows(&r);
     if (status == HCI_OK) csv->has_units = find_units(csv);

@@ -46,6 +46,8 @@ static void HCI_PRINTF(2, 3) remark(reader *r, const char *format, ...)
     const size_t start = used + (size_t)snprintf(text + used, size - used, "%s", used > 0 ? "; " : "");
     if (start < size) vsnprintf(text + start, size - start, format, arguments);
     va_end(arguments);
+    for (size_t end = strlen(text); end > 0 && !hci_utf8_valid(text); --end) /* cut within a character */
+        text[end - 1] = '\0';
 }
 
 static bool has(const reader *r, const char *name)
@@ -65,7 +67,9 @@ static void leave(reader *r, const char *name)
 static hci_status read_column(reader *r, const char *name, double **values)
 {
     size_t column;
+    hci_note told = {{0}};
     if (!hci_csv_find(r->csv, name, &column)) return HCI_OK;
+    if (hci_csv_told(r->csv, name, &told)) remark(r, "%s", told.text);
     r->used[column] = true;
     *values = hci_memory_new(r->run->count, sizeof **values);
     if (*values == NULL) return memory_error(r);
@@ -94,6 +98,18 @@ static hci_status read_time(reader *r)
                              equal ? "write the time with more digits, or remove one of the two samples"
                                    : "sort the samples by time, or remove the column if they have no order");
     }
+    return status;
+}
+
+/* The mechanical speed, or the electrical one by the pole pairs. */
+static hci_status read_speed(reader *r)
+{
+    double **speed = &r->run->speed_rad_per_s;
+    hci_status status = read_column(r, "speed_rad_per_s", speed);
+    if (status != HCI_OK || *speed != NULL) return status;
+    status = read_column(r, "speed_e_rad_per_s", speed);
+    for (size_t k = 0; status == HCI_OK && *speed != NULL && k < r->run->count; ++k)
+        (*speed)[k] /= r->pole_pairs;
     return status;
 }
 
@@ -255,7 +271,7 @@ static int count_of(const reader *r, const char *const name[3])
     return has(r, name[0]) + has(r, name[1]) + has(r, name[2]);
 }
 
-static hci_status turn_dq(const reader *r, const double *d, const double *q)
+static hci_status turn_dq(const reader *r, const double *d, const double *q, double *phases)
 {
     const hci_run *run = r->run;
     if (run->theta_m_rad == NULL)
@@ -263,20 +279,21 @@ static hci_status turn_dq(const reader *r, const double *d, const double *q)
                        "theta_e_rad or theta_m_rad to turn it into phase currents",
                        "add the angle or give phase currents");
     for (size_t k = 0; k < run->count; ++k) {
-        const hci_dq i = {.d = d != NULL ? d[k] : 0.0, .q = q[k]};
-        hci_clarke_inverse(hci_park_inverse(i, r->pole_pairs * run->theta_m_rad[k]), run->i_A + 3 * k);
+        const hci_dq x = {.d = d != NULL ? d[k] : 0.0, .q = q[k]};
+        hci_clarke_inverse(hci_park_inverse(x, r->pole_pairs * run->theta_m_rad[k]), phases + 3 * k);
     }
     return HCI_OK;
 }
 
-static hci_status read_dq(reader *r)
+/* Phase quantities of those along d and q; d is 0 without its column. phases: [count][3], 0 without q. */
+static hci_status read_dq(reader *r, const char *d_name, const char *q_name, double **phases)
 {
     double *d = NULL, *q = NULL;
-    hci_status status = read_column(r, "iq_A", &q);
-    if (status == HCI_OK) status = read_column(r, "id_A", &d);
-    if (status == HCI_OK) r->run->i_A = hci_memory_new(r->run->count, 3 * sizeof(double));
-    if (status == HCI_OK && r->run->i_A == NULL) status = memory_error(r);
-    if (status == HCI_OK && q != NULL) status = turn_dq(r, d, q);
+    hci_status status = read_column(r, q_name, &q);
+    if (status == HCI_OK) status = read_column(r, d_name, &d);
+    if (status == HCI_OK) *phases = hci_memory_new(r->run->count, 3 * sizeof(double));
+    if (status == HCI_OK && *phases == NULL) status = memory_error(r);
+    if (status == HCI_OK && q != NULL) status = turn_dq(r, d, q, *phases);
     hci_memory_free(d);
     hci_memory_free(q);
     return status;
@@ -297,7 +314,7 @@ static hci_status read_currents(reader *r)
     if (has(r, "id_A") && !has(r, "iq_A"))
         return missing(r, "id_A without iq_A", "both, or iq_A alone", "add the column iq_A");
     if (!has(r, "iq_A") && r->run->theta_m_rad != NULL) remark(r, "no currents: taken as 0");
-    return read_dq(r);
+    return read_dq(r, "id_A", "iq_A", &r->run->i_A);
 }
 
 static hci_status read_voltages(reader *r)
@@ -305,6 +322,8 @@ static hci_status read_voltages(reader *r)
     static const char *const PHASE[3] = {"va_V", "vb_V", "vc_V"}, *const LINE[3] = {"vab_V", "vbc_V",
                                                                                     "vca_V"};
     if (count_of(r, PHASE) == 3) return read_phases(r, PHASE, &r->run->v_V);
+    if (count_of(r, PHASE) == 0 && count_of(r, LINE) < 2 && has(r, "vq_V") && r->run->theta_m_rad != NULL)
+        return read_dq(r, "vd_V", "vq_V", &r->run->v_V);
     if (count_of(r, PHASE) > 0 || count_of(r, LINE) < 2) return HCI_OK;
     const hci_status status = read_phases(r, LINE, &r->run->v_V);
     for (size_t k = 0; status == HCI_OK && k < r->run->count; ++k) {
@@ -367,7 +386,8 @@ static hci_status check_columns(const reader *r)
 {
     double unused;
     if (has(r, "theta_m_rad") || has(r, "theta_e_rad") || has(r, "va_V") || has(r, "vab_V")) return HCI_OK;
-    return hci_csv_number(r->csv, "theta_m_rad", 0, &unused, r->note);
+    const hci_status status = hci_csv_check_clear(r->csv, r->note);
+    return status != HCI_OK ? status : hci_csv_number(r->csv, "theta_m_rad", 0, &unused, r->note);
 }
 
 static hci_status read_all(reader *r, double inertia_kgm2)
@@ -375,8 +395,10 @@ static hci_status read_all(reader *r, double inertia_kgm2)
     hci_run *run = r->run;
     hci_angle_path path = HCI_ANGLE_WITHIN;
     hci_status status = check_columns(r);
+    if (status == HCI_OK && hci_csv_header_line(r->csv) > 0)
+        remark(r, "line %zu is the header, what stands before it is not read", hci_csv_header_line(r->csv));
     if (status == HCI_OK) status = read_time(r);
-    if (status == HCI_OK) status = read_column(r, "speed_rad_per_s", &run->speed_rad_per_s);
+    if (status == HCI_OK) status = read_speed(r);
     if (status == HCI_OK) status = read_angles(r, &path);
     if (status == HCI_OK) status = complete_speed(r, path);
     if (status == HCI_OK) status = read_currents(r);

@@ -1,5 +1,5 @@
-/* CSV as users have it: comma, semicolon or tab, LF or CRLF, BOM, comment lines, quoted fields, a row of
- * units. */
+/* CSV as users and their tools have it: comma, semicolon or tab, LF or CRLF, BOM, comment lines, lines before
+ * the header, quoted fields, a row of units. */
 #ifndef HCI_HOST_CSV_H
 #define HCI_HOST_CSV_H
 
@@ -12,15 +12,21 @@
 extern "C" {
 #endif
 
+/* A table that has been read. */
 typedef struct hci_csv hci_csv;
 
 /* Reads a whole file. On success *csv is to be given to hci_csv_free; on failure it is NULL and the note
  * names file, line, column, what was found, what was expected and the remedy. HCI_ERROR_INPUT or
  * HCI_ERROR_MEMORY. */
 hci_status hci_csv_read(const char *path, hci_csv **csv, hci_note *note);
+
+/* Frees a table; NULL is fine. */
 void hci_csv_free(hci_csv *csv);
 
+/* The path that it was read from; owned by csv. */
 const char *hci_csv_path(const hci_csv *csv);
+
+/* Rows of data: without the header, the row of units and comments. */
 size_t hci_csv_rows(const hci_csv *csv);
 
 /* Line in the file (from 1) of data row `row`, for messages. */
@@ -32,13 +38,26 @@ size_t hci_csv_line(const hci_csv *csv, size_t row);
  * for. */
 bool hci_csv_has(const hci_csv *csv, const char *column);
 
-/* The columns of the file: how many, and the name of each as it stands in the header ("" where it has none).
- */
+/* How many columns the file has. */
 size_t hci_csv_columns(const hci_csv *csv);
+
+/* The name of a column as it stands in the header, "" where it has none; owned by csv. */
 const char *hci_csv_name(const hci_csv *csv, size_t column);
 
-/* Which column of the file hci_csv_numbers takes for a canonical name, or complains of; false: none. */
+/* Which column of the file hci_csv_numbers takes for a canonical name, or complains of; false: none. A column
+ * that goes by the name of another tool ("erpm", "d_axis_current") is taken where none has the canonical
+ * name; docs/files.md lists these names. */
 bool hci_csv_find(const hci_csv *csv, const char *name, size_t *column);
+
+/* What was supposed of the column that is taken for a canonical name, where its name in the file could mean
+ * something else ("`erpm` is read as …"). told: out, start with {0}; false: nothing. */
+bool hci_csv_told(const hci_csv *csv, const char *name, hci_note *told);
+
+/* HCI_ERROR_INPUT for a column such as `theta`, which may be a mechanical or an electrical angle. */
+hci_status hci_csv_check_clear(const hci_csv *csv, hci_note *note);
+
+/* Line of the header in the file, where lines before it were passed over; 0: there were none. */
+size_t hci_csv_header_line(const hci_csv *csv);
 
 /* The numbers of a column into values[hci_csv_rows]. Missing column, or text that is not a finite number:
  * HCI_ERROR_INPUT, and values is undefined. */
