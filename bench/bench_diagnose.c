@@ -149,7 +149,7 @@ static cost use_hci(const char *path)
     c.read_MB = peak_MB();
     c.rows = run.count;
 
-    const hci_runs runs = {&run, &role, 1};
+    const hci_runs runs = {.run = &run, .role = &role, .count = 1};
     const hci_diagnose_options options = {0};
     start_s = bench_now_s();
     const hci_status status = hci_diagnose(&machine, &none, &runs, &options, &diagnosis, &note);

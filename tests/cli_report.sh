@@ -48,7 +48,9 @@ printf 'file,role\nruns/1.csv,fit\nruns/2.csv,fit\n"runs/%s",holdout\nruns/4.csv
 run 0 diagnose machine --runs runs.csv -q -o out
 alone out/report.html
 check "the name of a run is not escaped" grep -q 'runs/&#60;b&#62;&#38;,.csv' out/report.html
-check "no machine" grep -q 'Declared machine: machine<' out/report.html
+check "no machine" grep -q 'Machine: machine<' out/report.html
+check "no list of runs" grep -q 'List of runs: runs.csv<' out/report.html
+check "figures do not say what they were made from" [ "$(grep -c 'Made from: machine, runs.csv\.' out/report.html)" -eq "$(grep -c '<figure>' out/report.html)" ]
 check "cogging was not found" grep -q '^1,cogging,added,' out/effects.csv
 check "the verdict is not that of the summary" grep -q 'The model lacked cogging' out/report.html
 column out/errors.csv 3 4 5 6 7 8 >"$work/numbers"

@@ -53,7 +53,7 @@ static inline void bench_start(void)
     write_file("machine.csv", "name,value,unit,source\npole_pairs,3,1,test\nconnection,star,,test\n");
     write_file("back_emf.csv", "order,amplitude_Nm_per_A,phase_rad\n1,0.2,0\n");
     TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_machine_read(root, &machine, &note), note.text);
-    runs = (hci_runs){run, role, 0};
+    runs = (hci_runs){.run = run, .role = role};
     memset(&options, 0, sizeof options);
 }
 

@@ -25,7 +25,7 @@ enum { MOST_BYTES = 400000, RUNS = 4, LINES = 6, TERMS = 20 };
 static char folder[64], path[96], page[MOST_BYTES];
 
 static hci_run run[RUNS];
-static char name[RUNS][64];
+static char name[RUNS][64], list[] = "bench/<runs>.csv";
 static hci_role role[RUNS];
 static hci_runs runs;
 static hci_run_errors error[RUNS];
@@ -43,18 +43,27 @@ static void make_runs(void)
         snprintf(name[k], sizeof name[k], "runs/%zu.csv", k);
         run[k].name = name[k];
         role[k] = k == 3 ? HCI_ROLE_HOLDOUT : HCI_ROLE_FIT;
-        error[k] = (hci_run_errors){name[k], role[k], 1.0 / 3.0 + (double)k, BEFORE[k], 0.004, 0.0035, 0.0045,
-                                    0.003,   0.0};
+        error[k] = (hci_run_errors){.file = name[k],
+                                    .role = role[k],
+                                    .mean_torque_Nm = 1.0 / 3.0 + (double)k,
+                                    .rms_before_Nm = BEFORE[k],
+                                    .rms_after_Nm = 0.004,
+                                    .after_low_Nm = 0.0035,
+                                    .after_high_Nm = 0.0045,
+                                    .noise_floor_Nm = 0.003};
     }
-    runs = (hci_runs){run, role, RUNS};
+    runs = (hci_runs){.run = run, .role = role, .count = RUNS, .list = list};
 }
 
 static void make_terms(void)
 {
     const hci_effect_room *room = hci_effect_room_find("cogging");
-    effect = (hci_effect){room, term, TERMS};
+    effect = (hci_effect){.room = room, .term = term, .count = TERMS};
     for (size_t k = 0; k < TERMS; ++k)
-        term[k] = (hci_effect_term){k % 2, (double)(k / 2 + 1), 0.01 * (double)(k + 1), 0.0003};
+        term[k] = (hci_effect_term){.parameter = k % 2,
+                                    .order = (double)(k / 2 + 1),
+                                    .value = 0.01 * (double)(k + 1),
+                                    .std_error = 0.0003};
 }
 
 void setUp(void)
@@ -65,13 +74,22 @@ void setUp(void)
     make_runs();
     make_terms();
     for (size_t k = 0; k < LINES; ++k)
-        line[k] = (hci_residual_line){k / 3, 6.0 * (double)(k % 3), 0.2 / (double)(k + 1), 0.001, 0.0005};
+        line[k] = (hci_residual_line){.run = k / 3,
+                                      .order = 6.0 * (double)(k % 3),
+                                      .before_Nm = 0.2 / (double)(k + 1),
+                                      .after_Nm = 0.001,
+                                      .noise_Nm = 0.0005};
     diagnosis = (hci_diagnosis){0};
     diagnosis.verdict = HCI_DIAGNOSIS_EXPLAINED;
-    diagnosis.finding[0] = (hci_finding){"cogging", HCI_FINDING_ADDED, 12345.678, 0.9, "sine_6 = 0.1 Nm"};
-    diagnosis.finding[1] = (hci_finding){"friction", HCI_FINDING_REJECTED, -2.5, NAN, ""};
+    diagnosis.finding[0] = (hci_finding){.effect = "cogging",
+                                         .verdict = HCI_FINDING_ADDED,
+                                         .delta_bic = 12345.678,
+                                         .residual_share = 0.9,
+                                         .detail = "sine_6 = 0.1 Nm"};
+    diagnosis.finding[1] = (hci_finding){
+        .effect = "friction", .verdict = HCI_FINDING_REJECTED, .delta_bic = -2.5, .residual_share = NAN};
     diagnosis.findings = 2;
-    diagnosis.effects.list = (hci_effects){&effect, 1};
+    diagnosis.effects.list = (hci_effects){.effect = &effect, .count = 1};
     diagnosis.run = error;
     diagnosis.runs = RUNS;
     diagnosis.line = line;
@@ -228,10 +246,14 @@ static void check_pictures(size_t expected)
 /* Nothing comes from elsewhere, and nothing runs. */
 static void check_alone(void)
 {
-    static const char *const NONE[] = {"<script", "<link", "<img",    "<iframe",    "<object", "src=",
-                                       "href=",   "url(",  "@import", "@font-face", "onload",  "javascript:"};
+    static const char *const NONE[] = {"<script", "<link",      "<img",        "<iframe",
+                                       "<object", "src=",       "href=\"http", "url(",
+                                       "@import", "@font-face", "onload",      "javascript:"};
     for (size_t k = 0; k < sizeof NONE / sizeof *NONE; ++k)
         check_lacks(NONE[k]);
+    TEST_ASSERT_EQUAL_UINT64_MESSAGE(1, count_of("href="), "a link other than that within the page");
+    check_has("href=\"#evidence\"");
+    TEST_ASSERT_EQUAL_UINT64(1, count_of("id=\"evidence\""));
     TEST_ASSERT_EQUAL_UINT64(count_of("xmlns=\"http://www.w3.org/2000/svg\""), count_of("://"));
 }
 
@@ -246,6 +268,7 @@ static void check_page(size_t pictures)
     TEST_ASSERT_EQUAL_UINT64(count_of("<table>"),
                              count_of("<div class=\"table\" tabindex=\"0\" role=\"region\" "));
     TEST_ASSERT_EQUAL_UINT64(count_of("<figure>"), count_of(" Numbers: ")); /* the source of each */
+    TEST_ASSERT_EQUAL_UINT64(count_of("<figure>"), count_of(". Made from: "));
 }
 
 /* ---- the diagnosis ---- */
@@ -254,11 +277,13 @@ static void test_diagnosis(void)
 {
     char words[2048];
     write_diagnosis(NULL);
-    check_page(4);
+    check_page(5);
     hci_diagnosis_words(&diagnosis, words, sizeof words);
     check_has(words);
     check_has("Explained");
-    check_has("data/&#60;machine&#62;");
+    check_has("Machine: data/&#60;machine&#62;");
+    check_has("List of runs: bench/&#60;runs&#62;.csv");
+    check_has("Made from: data/&#60;machine&#62;, bench/&#60;runs&#62;.csv.");
     for (size_t k = 0; k < RUNS; ++k) {
         check_has(name[k]);
         check_number(error[k].mean_torque_Nm);
@@ -287,7 +312,9 @@ static void test_largest_of_each_order(void)
         "<tr><td><data value=\"6\">6</data></td><td><data value=\"0.1\">0.1</data></td><td class=\"text\">"
         "runs/0.csv</td><td><data value=\"0.09\">0.09</data></td><td class=\"text\">runs/1.csv</td><td>"
         "<data value=\"0.0007\">0.0007</data></td></tr>");
-    check_lacks("<data value=\"0.04\">"); /* order 6 of run 1 before, the smaller one */
+    char *table = strstr(page, "<caption>The largest 3 of 3 orders"), *end = strstr(table, "</table>");
+    *end = '\0';
+    TEST_ASSERT_NULL(strstr(table, "<data value=\"0.04\">")); /* order 6 of run 1 before, the smaller one */
 }
 
 static void test_other_verdicts(void)
@@ -298,7 +325,7 @@ static void test_other_verdicts(void)
         diagnosis.lines = k == 0 ? 0 : LINES;
         diagnosis.effects.list.count = k == 0 ? 0 : 1;
         write_diagnosis(NULL);
-        check_page(k == 0 ? 2 : 4);
+        check_page(k == 0 ? 2 : 5);
         check_has(SAID[k]);
         check_has(k < 2 ? "badge good" : "badge bad");
     }
@@ -312,11 +339,17 @@ static void test_what_is_seldom(void)
     resolution.new_currents.T_ripple_percent = NAN;
     error[1].slip_rad = 2.0 * REF_PI / 3.0;
     snprintf(diagnosis.advice, sizeof diagnosis.advice, "a run at 3 A & 100 rpm");
-    diagnosis.unexplained[0] = (hci_unexplained){7.5, 0.01, 0.02, 0.5, 1.0, true, 0.0625};
+    diagnosis.unexplained[0] = (hci_unexplained){.order = 7.5,
+                                                 .sine_Nm = 0.01,
+                                                 .cosine_Nm = 0.02,
+                                                 .current_exponent = 0.5,
+                                                 .speed_exponent = 1.0,
+                                                 .turns_sign = true,
+                                                 .amplitude_Nm = 0.0625};
     diagnosis.unexplained_count = 1;
     diagnosis.holdout_after_Nm = NAN;
     write_diagnosis(&resolution);
-    check_page(4);
+    check_page(5);
     check_has("a run at 3 A &#38; 100 rpm");
     check_has("Index slips");
     check_has(">120</data>");
@@ -332,7 +365,7 @@ static void test_hostile_names(void)
              "\xff\x01\xed\xa0\x80Gr\xc3\xb6\xc3\x9f"
              "e\xc3");
     write_diagnosis(NULL);
-    check_page(4);
+    check_page(5);
     check_has("a&#60;script&#62;alert(&#34;1&#34;)&#60;/script&#62;&#38;'b.csv");
     check_has("Größe");
     check_lacks("\xff");
@@ -357,7 +390,7 @@ static void test_odd_numbers(void)
     term[1].value = 0.0;
     diagnosis.finding[0].delta_bic = 1e300;
     write_diagnosis(NULL);
-    check_page(4);
+    check_page(5);
     check_lacks("nan");
     check_lacks("inf\"");
 }
@@ -475,7 +508,7 @@ static void test_traces_keep_peaks(void)
         double value[HCI_TRACES] = {sin(2.0 * REF_PI * time_s), time_s, 0.0, 0.0, 0.0};
         if (k == 70000) value[0] = 9.0;
         if (k == 3) value[0] = 99.0; /* before it begins */
-        hci_traces_add(&traces, time_s, value);
+        hci_traces_add(&traces, time_s, 0.0, value);
     }
     const hci_svg_range torque = hci_traces_range(&traces, HCI_TRACE_TORQUE_NM, 1.0, 2.0);
     TEST_ASSERT_EQUAL_DOUBLE(9.0, torque.high);
@@ -512,6 +545,41 @@ static void test_digits(void)
         TEST_ASSERT_NOT_NULL_MESSAGE(at, CASE[k].shown);
         ++at;
     }
+}
+
+/* A column of 80.001 … 80.004 tells its values apart; one of 0.2 … 80 has four digits. */
+static void test_digits_in_a_column(void)
+{
+    hci_output *out = open_page();
+    hci_html_number_in(out, 80.001234, 0.003);
+    hci_html_number_in(out, 80.001234, 80.0);
+    hci_html_number_in(out, 0.2000004, 80.0);
+    hci_html_number_in(out, 5.0, 0.0);
+    hci_html_number_in(out, NAN, 1.0);
+    read_page(out);
+    check_has(">80.001234<");
+    check_has(">80<");
+    check_has(">0.2<");
+    check_has(">5<");
+    check_has("<td>–</td>");
+}
+
+/* Of all values of an effect the one that is the largest multiple of its error; none for what was rejected.
+ */
+static void test_clearest_value(void)
+{
+    size_t at = 0;
+    term[7].std_error = 1e-6;
+    term[8].std_error = 0.0;
+    TEST_ASSERT_EQUAL_PTR(&effect, hci_plot_clearest(&diagnosis, &diagnosis.finding[0], &at));
+    TEST_ASSERT_EQUAL_UINT64(7, at);
+    TEST_ASSERT_NULL(hci_plot_clearest(&diagnosis, &diagnosis.finding[1], &at));
+    write_diagnosis(NULL);
+    check_has("sine_4 = 0.08 ± 1.96e−6 "); /* the 8th is the second of order 4 */
+    check_has(">± 0.0025 %<");
+    for (size_t k = 0; k < TERMS; ++k)
+        term[k].std_error = NAN;
+    TEST_ASSERT_NULL(hci_plot_clearest(&diagnosis, &diagnosis.finding[0], &at));
 }
 
 /* ---- colours ---- */
@@ -575,14 +643,14 @@ static void test_solution(void)
     memset(&machine, 0, sizeof machine);
     memset(&s, 0, sizeof s);
     memset(order, 0, sizeof order);
-    machine.model = (hci_machine){2, &back_emf, 1, NULL, 0, NULL, 0};
+    machine.model = (hci_machine){.pole_pairs = 2, .back_emf = &back_emf, .back_emf_count = 1};
     order[0].target_Nm = order[0].torque_Nm = order[0].before_Nm = hci_harmonic_polar(0.0, 2.1, REF_PI / 2.0);
     order[1].target_Nm = hci_harmonic_polar(6.0, 0.0, 0.0);
     order[1].torque_Nm = hci_harmonic_polar(6.0, 0.3125, 1.0);
     order[1].before_Nm = hci_harmonic_polar(6.0, 0.5, 1.0);
     order[1].error_Nm = 0.3125;
     order[1].verdict = HCI_ORDER_MISSED;
-    s.current = (hci_currents){wave, set, 2, 0};
+    s.current = (hci_currents){.wave = wave, .set = set, .count = 2};
     s.order = order;
     s.order_count = 2;
     s.period_turns = 1;
@@ -616,7 +684,7 @@ static void test_simulation(void)
     memset(&s, 0, sizeof s);
     s.to_s = 1.0;
     s.energy_balances = true;
-    s.torque_Nm = (hci_statistics){2.5, 2.51, 2.75, 2.125};
+    s.torque_Nm = (hci_statistics){.mean = 2.5, .rms = 2.51, .most = 2.75, .least = 2.125};
     s.T_ripple_percent = 25.0;
     s.F_ripple_percent = 7.0;
     s.energy_J.electrical = NAN;
@@ -628,7 +696,7 @@ static void test_simulation(void)
         hci_output *out = open_page();
         TEST_ASSERT_EQUAL(HCI_OK, hci_report_simulation(out, &s, &traces, &sources, &note));
         read_page(out);
-        check_page(periods ? 4 : 3);
+        check_page(periods ? 6 : 3);
         check_number(2.125);
     }
     check_number(0.25);
@@ -653,6 +721,8 @@ int main(void)
     RUN_TEST(test_largest);
     RUN_TEST(test_traces_keep_peaks);
     RUN_TEST(test_digits);
+    RUN_TEST(test_digits_in_a_column);
+    RUN_TEST(test_clearest_value);
     RUN_TEST(test_contrast);
     RUN_TEST(test_solution);
     RUN_TEST(test_simulation);

@@ -12,6 +12,8 @@
 #include "plot.h"
 #include "svg.h"
 
+enum { LONGEST_WORD = 24 };
+
 /* The same grounds as those of the pictures. Text has a contrast of at least 4.5 on both. */
 static const char STYLE[] =
     ":root{color-scheme:light dark;--ink:#1c1f23;--quiet:#5a6068;--ground:#fff;--line:#d9dce1;"
@@ -35,24 +37,29 @@ static const char STYLE[] =
     "figure{margin:1rem 0;display:grid;grid-template-columns:minmax(0,1fr);gap:1rem 2rem;align-items:start}"
     "figcaption{grid-column:1/-1}.picture,.table{overflow:auto}"
     ".picture svg{display:block;width:100%;height:auto;max-width:38rem}"
-    ".picture:focus-visible,.table:focus-visible{outline:2px solid var(--link);outline-offset:2px}"
-    "@media (min-width:62rem){figure{grid-template-columns:minmax(0,5fr) minmax(0,7fr)}"
-    ".table{max-height:30rem}}"
-    "@media (max-width:30rem){.picture svg{min-width:22rem}.tiles li{flex-basis:9rem}.tiles "
+    ":focus-visible{outline:3px solid var(--link);outline-offset:2px}"
+    ".skip{position:absolute;left:.5rem;top:-4rem;padding:.4rem "
+    ".8rem;background:var(--ground);color:var(--link)}"
+    ".skip:focus{top:.5rem}"
+    "figure .table{max-height:21rem}figure .table:only-child{max-height:28rem}"
+    "@media (min-width:62rem){figure{grid-template-columns:minmax(0,5fr) minmax(0,7fr)}}"
+    "@media (max-width:30rem){.picture .hci,.picture .hci .head{font-size:14px}.tiles "
+    "li{flex-basis:9rem}.tiles "
     "b{font-size:1.1rem}"
     "main{padding:1rem .8rem 2rem}}"
     "table{border-collapse:collapse;font-size:.8125rem;font-variant-numeric:tabular-nums;min-width:60%}"
-    "caption{text-align:left;padding-bottom:.3rem}"
+    "caption{text-align:left;padding-bottom:.3rem;position:sticky;left:0;max-width:calc(100vw - 2rem)}"
     "th,td{text-align:right;padding:.2rem .5rem;border-bottom:1px solid var(--line);vertical-align:top}"
     "th{position:sticky;top:0;background:var(--ground);vertical-align:bottom}"
     "th.text,td.text{text-align:left}td.text{white-space:nowrap}"
-    "td.text:last-child{white-space:normal;min-width:13rem}"
+    "td.words{white-space:normal;min-width:9rem}"
     "td:first-child,th:first-child{padding-left:0}.table+.table{margin-top:1rem}"
-    "@media print{body{font-size:10pt}main{max-width:none;padding:0}figure{display:block}"
-    ".table,.picture{overflow:visible;max-height:none}.picture svg{max-width:13.5cm;min-width:0}"
-    ".picture,.table,tr,.tiles,p{break-inside:avoid}h2,section "
-    "p,caption{break-after:avoid}th{position:static}"
-    "td.text{white-space:normal;overflow-wrap:anywhere}}";
+    "@media print{body{font-size:10pt}main{max-width:none;padding:0}figure{display:block}.skip{display:none}"
+    "figure .table,figure .table:only-child,.picture{overflow:visible;max-height:none}.picture "
+    "svg{max-width:12.5cm;min-width:0}"
+    ".picture,tr,.tiles,p{break-inside:avoid}h2,section p,caption,thead{break-after:avoid}th{position:static}"
+    "caption{position:static;max-width:none}th,td{padding:.1rem .4rem}"
+    "td.long{white-space:normal;overflow-wrap:anywhere;min-width:11em}td.words{min-width:9em}}";
 
 /* ---- the page ---- */
 
@@ -64,8 +71,10 @@ void hci_html_begin(hci_output *out, const char *heading, const char *verdict, b
     hci_svg_text(out, heading);
     hci_output_text(out, ": ");
     hci_svg_text(out, verdict);
-    hci_output_text(out, "</title>\n<style>%s\n%s</style>\n</head>\n<body>\n<main>\n<h1>", STYLE,
-                    hci_plot_style);
+    hci_output_text(out,
+                    "</title>\n<style>%s\n%s</style>\n</head>\n<body>\n<a class=\"skip\" href=\"#evidence\">"
+                    "Skip to the evidence</a>\n<main>\n<h1>",
+                    STYLE, hci_plot_style);
     hci_svg_text(out, heading);
     hci_output_text(out, "</h1>\n<p><span class=\"badge %s\">", good ? "good" : "bad");
     hci_svg_text(out, verdict);
@@ -141,7 +150,7 @@ void hci_html_tile_number(hci_output *out, const char *name, double value, const
 
 void hci_html_tiles_end(hci_output *out)
 {
-    hci_output_text(out, "</ul>\n");
+    hci_output_text(out, "</ul>\n<div id=\"evidence\" tabindex=\"-1\"></div>\n");
 }
 
 /* ---- figures ---- */
@@ -157,12 +166,14 @@ void hci_html_figure_tables(hci_output *out)
     hci_output_text(out, "</div>\n<div>\n");
 }
 
-void hci_html_figure_end(hci_output *out, const char *caption, const char *source)
+void hci_html_figure_end(hci_output *out, const char *caption, const char *numbers, const char *origin)
 {
     hci_output_text(out, "</div>\n<figcaption>");
     hci_svg_text(out, caption);
     hci_output_text(out, " Numbers: ");
-    hci_svg_text(out, source);
+    hci_svg_text(out, numbers);
+    if (origin[0]) hci_output_text(out, ". Made from: ");
+    hci_svg_text(out, origin);
     hci_output_text(out, ".</figcaption>\n</figure>\n");
 }
 
@@ -199,11 +210,22 @@ void hci_html_row_end(hci_output *out)
     hci_output_text(out, "</tr>\n");
 }
 
-void hci_html_cell(hci_output *out, const char *text)
+static void put_cell(hci_output *out, const char *style, const char *text)
 {
-    hci_output_text(out, "<td class=\"text\">");
+    hci_output_text(out, "<td class=\"%s\">", style);
     hci_svg_text(out, text);
     hci_output_text(out, "</td>");
+}
+
+/* On paper a long one may break anywhere. */
+void hci_html_cell(hci_output *out, const char *text)
+{
+    put_cell(out, strlen(text) > LONGEST_WORD ? "text long" : "text", text);
+}
+
+void hci_html_cell_words(hci_output *out, const char *text)
+{
+    put_cell(out, "text words", text);
 }
 
 /* ---- numbers ---- */
@@ -245,15 +267,26 @@ void hci_html_quantity_text(char text[HCI_HTML_NUMBER_SIZE], double value, const
     snprintf(text + strlen(text), HCI_HTML_NUMBER_SIZE - strlen(text), " %s", unit);
 }
 
-void hci_html_number(hci_output *out, double value)
+static void put_number(hci_output *out, double value, int digits)
 {
     char text[HCI_HTML_NUMBER_SIZE], exact[32];
-    put_digits(text, value, 4);
+    put_digits(text, value, digits);
     hci_number_text(value, exact);
     if (isfinite(value))
         hci_output_text(out, "<td><data value=\"%s\">%s</data></td>", exact, text);
     else
         hci_output_text(out, "<td>%s</td>", text);
+}
+
+void hci_html_number(hci_output *out, double value)
+{
+    put_number(out, value, 4);
+}
+
+void hci_html_number_in(hci_output *out, double value, double span)
+{
+    const double share = fabs(value) / span;
+    put_number(out, value, share > 1.0 && share < 1e8 ? 4 + (int)log10(share) : 4);
 }
 
 void hci_html_quantity(hci_output *out, const char *name, double value)

@@ -32,14 +32,17 @@ void hci_html_tile(hci_output *out, const char *name, const char *value, const c
 /* Of a number with its unit; nothing where it is not finite. */
 void hci_html_tile_number(hci_output *out, const char *name, double value, const char *unit,
                           const char *remark);
+
+/* After them comes the evidence, to which the first link of the page leads. */
 void hci_html_tiles_end(hci_output *out);
 
 /* ---- a picture and its table ---- */
 
-/* Between them the <svg>; then, after the caption, tables. source: the files of the numbers. */
+/* Between them the <svg>; then tables, then the caption. numbers: the files that hold them; origin: those
+ * that they were made from. */
 void hci_html_figure(hci_output *out);
 void hci_html_figure_tables(hci_output *out);
-void hci_html_figure_end(hci_output *out, const char *caption, const char *source);
+void hci_html_figure_end(hci_output *out, const char *caption, const char *numbers, const char *origin);
 
 /* ---- tables ---- */
 
@@ -50,6 +53,9 @@ void hci_html_row(hci_output *out);
 void hci_html_row_end(hci_output *out);
 void hci_html_cell(hci_output *out, const char *text);
 
+/* A text that may take several lines. */
+void hci_html_cell_words(hci_output *out, const char *text);
+
 /* With its unit and a prefix to that, but for % and ×. */
 void hci_html_quantity_text(char text[HCI_HTML_NUMBER_SIZE], double value, const char *unit);
 
@@ -58,6 +64,10 @@ void hci_html_quantity(hci_output *out, const char *name, double value);
 
 /* Four significant digits, and the whole number for programs; a dash for what is not finite. */
 void hci_html_number(hci_output *out, double value);
+
+/* With as many digits more as tell a thousandth of `span` apart, which is that of the values in the column.
+ */
+void hci_html_number_in(hci_output *out, double value, double span);
 
 /* Three significant digits, for sentences. */
 void hci_html_number_text(char text[HCI_HTML_NUMBER_SIZE], double value);

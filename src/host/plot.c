@@ -14,7 +14,9 @@ enum { WIDTH = 1000, HEIGHT = 792 };
 static const hci_svg_box TORQUE = {62, 128, 540, 370}, SPECTRUM = {622, 128, 980, 370};
 static const hci_svg_box CURRENT = {62, 464, 540, 706}, VECTOR = {622, 464, 980, 706};
 
-/* Okabe and Ito's palette, told apart by colour-blind readers and by lightness in a grey print. */
+/* Okabe and Ito's palette, told apart by colour-blind readers and by lightness in a grey print; darker in the
+ * light, where marks need a contrast of 3 to the ground. Grid and rails are below that: nothing is read from
+ * them alone. */
 const char hci_plot_style[] =
     ".hci{font:12px system-ui,'Helvetica Neue',Arial,sans-serif}.hci text{fill:#1c1f23}"
     ".hci .back{fill:#fff}.hci .verdict{font-size:18px;font-weight:600}.hci .facts{font-size:13px}"
@@ -22,26 +24,34 @@ const char hci_plot_style[] =
     ".hci .sub{font-size:70%}.hci .no{fill:#c04a00;font-weight:700}.hci .middle{text-anchor:middle}"
     ".hci .end{text-anchor:end}"
     ".hci path,.hci polyline{fill:none;stroke-linejoin:round;stroke-linecap:round}"
-    ".hci .grid{stroke:#e4e6ea}.hci .axis{stroke:#8b9099}.hci .before{stroke:#8b9099;stroke-width:1.1}"
-    ".hci rect.before{fill:#a9aeb6;stroke:none}"
-    ".hci .wanted{stroke:#e69f00;stroke-width:5;stroke-opacity:.5;stroke-linecap:butt}"
-    ".hci rect.wanted{fill:#e69f00;fill-opacity:.25;stroke-width:1.2;stroke-opacity:1}"
+    ".hci .grid{stroke:#e4e6ea}.hci .axis{stroke:#8b9099}.hci .before{stroke:#767c86;stroke-width:1.1}"
+    ".hci rect.before{fill:#8b9099;stroke:none}"
+    ".hci .wanted{stroke:#b87a00;stroke-width:2.4;stroke-linecap:butt;stroke-dasharray:6 4}"
+    ".hci rect.wanted{fill:none;stroke-width:1.2;stroke-dasharray:none}"
     ".hci .after{stroke:#0072b2;stroke-width:1.6}.hci rect.after{fill:#0072b2;stroke:none}"
-    ".hci .a{stroke:#0072b2;stroke-width:1.8}.hci .b{stroke:#e69f00;stroke-width:1.5}"
+    ".hci .a{stroke:#0072b2;stroke-width:1.8}.hci .b{stroke:#b87a00;stroke-width:1.5}"
     ".hci .c{stroke:#009e73;stroke-width:1.5}.hci .path{stroke:#0072b2;stroke-width:1.2}"
     ".hci .start{fill:#0072b2}.hci .plain{fill:none;stroke:#5a6068;stroke-width:1.8}"
     ".hci .cross,.hci .ring{fill:none;stroke:#c04a00;stroke-width:1.8}"
     ".hci .noise{stroke:#c04a00;stroke-width:1.6}.hci "
-    ".spread{stroke:#0072b2;stroke-width:5;stroke-opacity:.3}"
+    ".spread{stroke:#0072b2;stroke-width:3;stroke-opacity:.8}"
     ".hci circle.dot{fill:#0072b2}.hci circle.hollow{fill:#fff;stroke:#0072b2;stroke-width:1.8}"
-    ".hci circle.before{fill:#8b9099;stroke:none}.hci .maybe{fill:#e69f00}.hci .rail{stroke:#c3c7cd}"
+    ".hci circle.before{fill:#8b9099;stroke:none}.hci .maybe{fill:#b87a00}.hci .rail{stroke:#c3c7cd}"
+    ".hci .plus{fill:#0072b2}.hci .within{fill:none;stroke:#0072b2;stroke-width:1.2}.hci "
+    ".minus{fill:#fff;stroke:#c04a00;stroke-width:1.2}.hci .band{fill:#eceef1}"
+    ".hci .haze{stroke:#e1e4e8;stroke-width:1.6}.hci .edge{stroke:#767c86;stroke-width:.8}"
+    ".hci .limit{stroke:#c04a00;stroke-width:1.4;stroke-dasharray:5 3}"
     "@media screen and (prefers-color-scheme:dark){.hci text{fill:#eceff2}.hci .back{fill:#16191d}"
     ".hci .quiet{fill:#a6adb6}.hci .no{fill:#ff8c50}.hci .grid{stroke:#2b3037}.hci .axis{stroke:#737a84}"
-    ".hci .before{stroke:#858c96}.hci rect.before{fill:#6c737d}.hci .wanted{stroke-opacity:.75}"
+    ".hci .before{stroke:#858c96}.hci rect.before{fill:#6c737d}.hci .wanted{stroke:#e69f00}"
     ".hci .after,.hci .a,.hci .path{stroke:#56b4e9}.hci rect.after,.hci .start{fill:#56b4e9}"
-    ".hci .c{stroke:#2fc79a}.hci .plain{stroke:#a6adb6}.hci .cross,.hci .ring{stroke:#ff8c50}"
+    ".hci .b{stroke:#e69f00}.hci .maybe{fill:#e69f00}.hci .c{stroke:#2fc79a}.hci .plain{stroke:#a6adb6}.hci "
+    ".cross,.hci .ring{stroke:#ff8c50}"
     ".hci .noise{stroke:#ff8c50}.hci .spread{stroke:#56b4e9}.hci circle.dot{fill:#56b4e9}"
-    ".hci circle.hollow{fill:#16191d;stroke:#56b4e9}.hci .rail{stroke:#4a515a}}";
+    ".hci circle.hollow{fill:#16191d;stroke:#56b4e9}.hci .rail{stroke:#4a515a}"
+    ".hci .plus{fill:#56b4e9}.hci .within{stroke:#56b4e9}.hci .minus{fill:#16191d;stroke:#ff8c50}.hci "
+    ".band{fill:#262b32}"
+    ".hci .haze{stroke:#2b3037}.hci .edge{stroke:#858c96}.hci .limit{stroke:#ff8c50}}";
 
 /* ---- curves over the angle ---- */
 
@@ -223,34 +233,35 @@ static void draw_angle(hci_output *out, const curves *c, const hci_svg_axis *x, 
 
 /* ---- the four panels ---- */
 
-static void draw_torque(hci_output *out, const curves *c)
+static void draw_torque(hci_output *out, const curves *c, const hci_svg_box *b)
 {
     static const hci_svg_entry LEGEND[] = {
         {HCI_SVG_LINE, "before", "before"},
         {HCI_SVG_LINE, "wanted", "wanted"},
         {HCI_SVG_LINE, "after",  "after" }
     };
-    const hci_svg_axis x = hci_svg_axis_of_angle(c->turns, &TORQUE);
-    const hci_svg_axis y = hci_svg_axis_over(range_of(c, BEFORE, AFTER), TORQUE.bottom, TORQUE.top, 6.0);
-    hci_svg_head(out, &TORQUE, "Torque in N·m", LEGEND, 3);
-    draw_angle(out, c, &x, &TORQUE);
-    hci_svg_grid(out, &y, &TORQUE, true);
+    const hci_svg_axis x = hci_svg_axis_of_angle(c->turns, b);
+    const hci_svg_axis y = hci_svg_axis_over(range_of(c, BEFORE, AFTER), b->bottom, b->top, 6.0);
+    hci_svg_head(out, b, "Torque in N·m", LEGEND, 3);
+    draw_angle(out, c, &x, b);
+    hci_svg_grid(out, &y, b, true);
     draw_curve(out, "before", c->value[BEFORE], &x, &y);
-    draw_curve(out, "wanted", c->value[WANTED], &x, &y);
     draw_curve(out, "after", c->value[AFTER], &x, &y);
+    draw_curve(out, "wanted", c->value[WANTED], &x, &y); /* dashed, so that what lies under it is seen */
 }
 
 /* The letter of a phase over its peak. */
-static void draw_phase_letter(hci_output *out, const double *value, const char *letter, const hci_svg_axis *y)
+static void draw_phase_letter(hci_output *out, const double *value, const char *letter, const hci_svg_axis *y,
+                              const hci_svg_box *b)
 {
     size_t peak = 0;
     for (size_t k = 1; k < VERTICES; ++k)
         if (value[k] > value[peak]) peak = k;
-    hci_svg_label(out, "head middle", CURRENT.left + (CURRENT.right - CURRENT.left) * (double)peak / VERTICES,
+    hci_svg_label(out, "head middle", b->left + (b->right - b->left) * (double)peak / VERTICES,
                   hci_svg_at(y, value[peak]) - 5.0, letter);
 }
 
-static void draw_currents(hci_output *out, const curves *c)
+static void draw_currents(hci_output *out, const curves *c, const hci_svg_box *b)
 {
     static const hci_svg_entry LEGEND[] = {
         {HCI_SVG_LINE, "before", "i_a before"},
@@ -258,18 +269,18 @@ static void draw_currents(hci_output *out, const curves *c)
         {HCI_SVG_LINE, "b",      "i_b"       },
         {HCI_SVG_LINE, "c",      "i_c"       }
     };
-    const hci_svg_axis x = hci_svg_axis_of_angle(c->turns, &CURRENT);
-    const hci_svg_axis y = hci_svg_axis_over(range_of(c, PHASE_A, PLAIN_A), CURRENT.bottom, CURRENT.top, 6.0);
-    hci_svg_head(out, &CURRENT, "Phase currents in A", LEGEND, 4);
-    draw_angle(out, c, &x, &CURRENT);
-    hci_svg_grid(out, &y, &CURRENT, true);
+    const hci_svg_axis x = hci_svg_axis_of_angle(c->turns, b);
+    const hci_svg_axis y = hci_svg_axis_over(range_of(c, PHASE_A, PLAIN_A), b->bottom, b->top, 6.0);
+    hci_svg_head(out, b, "Phase currents in A", LEGEND, 4);
+    draw_angle(out, c, &x, b);
+    hci_svg_grid(out, &y, b, true);
     draw_curve(out, "before", c->value[PLAIN_A], &x, &y);
     draw_curve(out, "c", c->value[PHASE_C], &x, &y);
     draw_curve(out, "b", c->value[PHASE_B], &x, &y);
     draw_curve(out, "a", c->value[PHASE_A], &x, &y);
-    draw_phase_letter(out, c->value[PHASE_A], "a", &y);
-    draw_phase_letter(out, c->value[PHASE_B], "b", &y);
-    draw_phase_letter(out, c->value[PHASE_C], "c", &y);
+    draw_phase_letter(out, c->value[PHASE_A], "a", &y, b);
+    draw_phase_letter(out, c->value[PHASE_B], "b", &y, b);
+    draw_phase_letter(out, c->value[PHASE_C], "c", &y, b);
 }
 
 /* ---- current vector ---- */
@@ -294,20 +305,10 @@ static hci_dq vector_sample(const curves *c, size_t k, size_t count)
     return vector_at(c->solution->current.wave, c->solution->current.count, theta_rad);
 }
 
-/* Widens an axis about its middle. */
-static void widen(hci_svg_axis *a, double span)
-{
-    const double middle = 0.5 * (a->low + a->high);
-    a->low = middle - 0.5 * span;
-    a->high = middle + 0.5 * span;
-}
-
 /* Both axes with the same number of amperes a pixel. */
-static void vector_axes(const curves *c, hci_dq plain, hci_svg_axis *d, hci_svg_axis *q)
+static void vector_axes(const curves *c, hci_dq plain, const hci_svg_box *b, hci_svg_axis *d, hci_svg_axis *q)
 {
-    const double width = VECTOR.right - VECTOR.left, height = VECTOR.bottom - VECTOR.top;
     hci_svg_range d_A = HCI_SVG_NOTHING, q_A = HCI_SVG_NOTHING;
-    double scale;
     for (size_t k = 0, count = vector_count(c); k < count; ++k) {
         const hci_dq i = vector_sample(c, k, count);
         hci_svg_include(&d_A, i.d);
@@ -315,14 +316,7 @@ static void vector_axes(const curves *c, hci_dq plain, hci_svg_axis *d, hci_svg_
     }
     hci_svg_include(&d_A, plain.d);
     hci_svg_include(&q_A, plain.q);
-    if (d_A.high - d_A.low <= 1e-6 * (fabs(q_A.high) + fabs(q_A.low)))
-        d_A = (hci_svg_range){d_A.low - 1e-6, d_A.high + 1e-6};
-    *d = hci_svg_axis_over(d_A, VECTOR.left, VECTOR.right, 6.0);
-    *q = hci_svg_axis_over(q_A, VECTOR.bottom, VECTOR.top, 6.0);
-    scale = fmax((d->high - d->low) / width, (q->high - q->low) / height);
-    widen(d, scale * width);
-    widen(q, scale * height);
-    d->step = q->step = hci_svg_nice_step(scale * height / 6.0);
+    hci_svg_equal_axes(d_A, q_A, b, d, q);
 }
 
 /* Points closer than one and a half pixels to the last one are left out. */
@@ -349,7 +343,7 @@ static void draw_vector_mark(hci_output *out, const char *style, double x, doubl
     hci_svg_circle(out, style, x, y, 4.2);
 }
 
-static void draw_vector(hci_output *out, const curves *c)
+static void draw_vector(hci_output *out, const curves *c, const hci_svg_box *b)
 {
     static const hci_svg_entry LEGEND[] = {
         {HCI_SVG_DOT,  "plain", "before"},
@@ -358,11 +352,11 @@ static void draw_vector(hci_output *out, const curves *c)
     };
     const hci_dq plain = vector_at(&c->plain, 1, 0.0), start = vector_sample(c, 0, 1);
     hci_svg_axis d, q;
-    vector_axes(c, plain, &d, &q);
-    hci_svg_head(out, &VECTOR, "Current vector, i_q in A", LEGEND, 3);
-    hci_svg_grid(out, &d, &VECTOR, false);
-    hci_svg_grid(out, &q, &VECTOR, true);
-    hci_svg_label(out, "quiet middle", 0.5 * (VECTOR.left + VECTOR.right), VECTOR.bottom + 35.0, "i_d in A");
+    vector_axes(c, plain, b, &d, &q);
+    hci_svg_head(out, b, "Current vector, i_q in A", LEGEND, 3);
+    hci_svg_grid(out, &d, b, false);
+    hci_svg_grid(out, &q, b, true);
+    hci_svg_label(out, "quiet middle", 0.5 * (b->left + b->right), b->bottom + 35.0, "i_d in A");
     draw_path(out, c, &d, &q);
     draw_vector_mark(out, "plain", hci_svg_at(&d, plain.d), hci_svg_at(&q, plain.q));
     draw_vector_mark(out, "start", hci_svg_at(&d, start.d), hci_svg_at(&q, start.q));
@@ -400,39 +394,18 @@ static double largest_ripple_Nm(const hci_solution *s)
     return largest;
 }
 
-static int by_place(const void *a, const void *b)
-{
-    const size_t x = *(const size_t *)a, y = *(const size_t *)b;
-    return (x > y) - (x < y);
-}
+typedef struct {
+    const hci_solution *solution;
+    double largest_Nm;
+} ripple;
 
-/* The orders of most worth, ascending; returns how many. */
-static size_t choose_groups(const hci_solution *s, size_t group[MOST_GROUPS], size_t *eligible)
+/* 0 for what is not worth a group of bars. */
+static double group_weight(const void *context, size_t k)
 {
-    const double largest = largest_ripple_Nm(s);
-    double worth[MOST_GROUPS];
-    size_t count = 0;
-    *eligible = 0;
-    for (size_t k = 0; k < s->order_count; ++k) {
-        const double w = worth_of(&s->order[k], largest);
-        size_t place = count;
-        if (!is_ripple(&s->order[k]) || !(w > WORTHWHILE * largest)) continue;
-        ++*eligible;
-        if (count < MOST_GROUPS)
-            ++count;
-        else if (w > worth[MOST_GROUPS - 1])
-            place = MOST_GROUPS - 1;
-        else
-            continue;
-        for (; place > 0 && worth[place - 1] < w; --place) {
-            worth[place] = worth[place - 1];
-            group[place] = group[place - 1];
-        }
-        worth[place] = w;
-        group[place] = k;
-    }
-    qsort(group, count, sizeof *group, by_place);
-    return count;
+    const ripple *r = context;
+    const hci_solved_order *o = &r->solution->order[k];
+    const double worth = worth_of(o, r->largest_Nm);
+    return is_ripple(o) && worth > WORTHWHILE * r->largest_Nm ? worth : 0.0;
 }
 
 /* A height of nothing still shows as a line. */
@@ -453,10 +426,11 @@ static void draw_group(hci_output *out, const hci_solved_order *o, double middle
     if (o->verdict == HCI_ORDER_UNREACHABLE) hci_svg_cross(out, middle, top);
     if (is_missed(o) && o->verdict != HCI_ORDER_UNREACHABLE) hci_svg_circle(out, "ring", middle, top, 4.0);
     hci_svg_short_text(text, order_of(o));
-    hci_svg_label(out, is_missed(o) ? "no middle" : "quiet middle", middle, SPECTRUM.bottom + 17.0, text);
+    hci_svg_label(out, is_missed(o) ? "no middle" : "quiet middle", middle, y->from + 17.0, text);
 }
 
-static void draw_spectrum_foot(hci_output *out, const hci_solution *s, size_t shown, size_t eligible)
+static void draw_spectrum_foot(hci_output *out, const hci_solution *s, const hci_svg_box *b, size_t shown,
+                               size_t eligible)
 {
     static const hci_svg_entry MARKS[] = {
         {HCI_SVG_DOT,   "ring", "missed"     },
@@ -472,12 +446,12 @@ static void draw_spectrum_foot(hci_output *out, const hci_solution *s, size_t sh
         snprintf(text, sizeof text, "electrical order, the largest %zu of %zu", shown, eligible);
     else
         snprintf(text, sizeof text, "electrical order");
-    hci_svg_label(out, "quiet", SPECTRUM.left, SPECTRUM.bottom + 35.0, text);
-    hci_svg_legend(out, missed ? MARKS : MARKS + 1, (size_t)missed + (size_t)unreachable, SPECTRUM.right,
-                   SPECTRUM.bottom + 35.0);
+    hci_svg_label(out, "quiet", b->left, b->bottom + 35.0, text);
+    hci_svg_legend(out, missed ? MARKS : MARKS + 1, (size_t)missed + (size_t)unreachable, b->right,
+                   b->bottom + 35.0);
 }
 
-static void draw_spectrum(hci_output *out, const hci_solution *s)
+static void draw_spectrum(hci_output *out, const hci_solution *s, const hci_svg_box *b)
 {
     static const hci_svg_entry LEGEND[] = {
         {HCI_SVG_BAR, "before", "before"},
@@ -485,20 +459,26 @@ static void draw_spectrum(hci_output *out, const hci_solution *s)
         {HCI_SVG_BAR, "after",  "after" }
     };
     const hci_svg_range peaks = {0.0, 1.04 * largest_ripple_Nm(s)};
-    const hci_svg_axis y = hci_svg_axis_over(peaks.high > 0.0 ? peaks : (hci_svg_range){0.0, 1.0},
-                                             SPECTRUM.bottom, SPECTRUM.top, 6.0);
-    size_t group[MOST_GROUPS], eligible;
-    const size_t count = choose_groups(s, group, &eligible);
-    const double width = fmin((SPECTRUM.right - SPECTRUM.left) / (double)(count > 0 ? count : 1), 60.0);
-    const double left = 0.5 * (SPECTRUM.left + SPECTRUM.right - width * (double)count);
-    hci_svg_head(out, &SPECTRUM, "Ripple in N·m (peak)", LEGEND, 3);
-    hci_svg_grid(out, &y, &SPECTRUM, true);
+    const hci_svg_axis y =
+        hci_svg_axis_over(peaks.high > 0.0 ? peaks : (hci_svg_range){0.0, 1.0}, b->bottom, b->top, 6.0);
+    const ripple r = {s, largest_ripple_Nm(s)};
+    size_t group[MOST_GROUPS], eligible = 0;
+    const size_t count = hci_plot_largest(group_weight, &r, s->order_count, MOST_GROUPS, group);
+    const double width = fmin((b->right - b->left) / (double)(count > 0 ? count : 1), 60.0);
+    const double left = 0.5 * (b->left + b->right - width * (double)count);
+    for (size_t k = 0; k < s->order_count; ++k)
+        eligible += group_weight(&r, k) > 0.0;
+    hci_svg_head(out, b, "Ripple in N·m (peak)", LEGEND, 3);
+    hci_svg_grid(out, &y, b, true);
     for (size_t k = 0; k < count; ++k)
         draw_group(out, &s->order[group[k]], left + width * ((double)k + 0.5), width, &y);
+    if (y.from - hci_svg_at(&y, s->tolerance_Nm) > 1.5 && count > 0)
+        hci_svg_segment(out, "limit", b->left, hci_svg_at(&y, s->tolerance_Nm), b->right,
+                        hci_svg_at(&y, s->tolerance_Nm));
     if (count == 0)
-        hci_svg_label(out, "quiet middle", 0.5 * (SPECTRUM.left + SPECTRUM.right),
-                      0.5 * (SPECTRUM.top + SPECTRUM.bottom), "no torque ripple");
-    draw_spectrum_foot(out, s, count, eligible);
+        hci_svg_label(out, "quiet middle", 0.5 * (b->left + b->right), 0.5 * (b->top + b->bottom),
+                      "no torque ripple");
+    draw_spectrum_foot(out, s, b, count, eligible);
 }
 
 /* ---- words ---- */
@@ -579,16 +559,20 @@ static void baseline_line(char line[LINE_SIZE], const curves *c)
         snprintf(line, LINE_SIZE,
                  "Before: no current, since no mean torque is wanted; what is left is cogging.");
     else if (!s->per_Nm)
-        snprintf(line, LINE_SIZE,
-                 "Before: the held fundamental of %s alone. The copper loss is relative to its", plain);
+        snprintf(
+            line, LINE_SIZE,
+            "Before: the held fundamental of %s alone. Copper loss is relative to that of this fundamental",
+            plain);
     else
-        snprintf(line, LINE_SIZE,
-                 "Before: a plain sine of %s with the wanted mean torque. The copper loss is relative to its",
-                 plain);
+        snprintf(
+            line, LINE_SIZE,
+            "Before: a plain sine of %s with the wanted mean torque. Copper loss is relative to that of this "
+            "sine",
+            plain);
     if (!(s->plain_amplitude_A > 0.0)) return;
     if (isfinite(s->loss_to_limit) && missed_count(s) == 0) {
         hci_svg_fixed_text(limit, fmin(s->loss_to_limit, 1e6), 3);
-        snprintf(line + strlen(line), LINE_SIZE - strlen(line), " and %s × the least possible", limit);
+        snprintf(line + strlen(line), LINE_SIZE - strlen(line), ", and is %s × the least possible", limit);
     }
     snprintf(line + strlen(line), LINE_SIZE - strlen(line), ".");
 }
@@ -650,10 +634,10 @@ void hci_plot_solution(hci_output *out, const hci_machine_data *machine, const h
              f.facts, f.baseline);
     hci_svg_begin(out, &(hci_svg_picture){"hci", f.verdict, description, 0, 0, WIDTH, HEIGHT});
     draw_words(out, &f);
-    draw_torque(out, &c);
-    draw_spectrum(out, solution);
-    draw_currents(out, &c);
-    draw_vector(out, &c);
+    draw_torque(out, &c, &TORQUE);
+    draw_spectrum(out, solution, &SPECTRUM);
+    draw_currents(out, &c, &CURRENT);
+    draw_vector(out, &c, &VECTOR);
     hci_svg_end(out);
 }
 
@@ -673,14 +657,27 @@ void hci_plot_solution_panel(hci_output *out, const hci_machine_data *machine, c
         "the solution. The table beside it has the waves that they are made of.",
         "i_q in A over i_d in A: the point of the plain sine, the path of the solution and where it is at "
         "angle 0. The table beside it has the extremes."};
-    const int left = panel == HCI_PANEL_SPECTRUM || panel == HCI_PANEL_VECTOR ? 516 : 20;
-    const int top = panel == HCI_PANEL_CURRENT || panel == HCI_PANEL_VECTOR ? 428 : 92;
+    static const hci_svg_box BOX = {76, 36, 540, 278};
     curves c;
     fill_curves(&c, machine, solution);
-    hci_svg_begin(out, &(hci_svg_picture){ID[panel], TITLE[panel], DESCRIPTION[panel], left, top, 540, 322});
-    if (panel == HCI_PANEL_TORQUE) draw_torque(out, &c);
-    if (panel == HCI_PANEL_SPECTRUM) draw_spectrum(out, solution);
-    if (panel == HCI_PANEL_CURRENT) draw_currents(out, &c);
-    if (panel == HCI_PANEL_VECTOR) draw_vector(out, &c);
+    hci_svg_begin(out, &(hci_svg_picture){ID[panel], TITLE[panel], DESCRIPTION[panel], 12, 0, 552, 322});
+    if (panel == HCI_PANEL_TORQUE) draw_torque(out, &c, &BOX);
+    if (panel == HCI_PANEL_SPECTRUM) draw_spectrum(out, solution, &BOX);
+    if (panel == HCI_PANEL_CURRENT) draw_currents(out, &c, &BOX);
+    if (panel == HCI_PANEL_VECTOR) draw_vector(out, &c, &BOX);
     hci_svg_end(out);
+}
+
+void hci_plot_solution_point(const hci_machine_data *machine, const hci_solution *solution, double theta_rad,
+                             hci_plot_point *point)
+{
+    const curves c = {.solution = solution, .plain = plain_fundamental(machine, solution)};
+    double value[CURVES];
+    sample(&c, theta_rad, value);
+    point->before_Nm = value[BEFORE];
+    point->wanted_Nm = value[WANTED];
+    point->after_Nm = value[AFTER];
+    point->plain_A = value[PLAIN_A];
+    memcpy(point->phase_A, &value[PHASE_A], sizeof point->phase_A);
+    point->dq_A = vector_at(solution->current.wave, solution->current.count, theta_rad);
 }

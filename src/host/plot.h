@@ -8,6 +8,7 @@
 #include "hci/host/diagnose.h"
 #include "hci/host/output.h"
 #include "hci/host/solve.h"
+#include "hci/host/waveform.h"
 #include "svg.h"
 
 /* The style sheet of all of them. hci_plot_solution brings it along; for the others it is part of the page.
@@ -38,6 +39,49 @@ typedef struct {
 void hci_plot_solution_facts(const hci_machine_data *machine, const hci_solution *solution,
                              hci_plot_facts *facts);
 
+/* What the curves are at one electrical angle. */
+typedef struct {
+    double before_Nm, wanted_Nm, after_Nm;
+    double plain_A; /* phase a before */
+    double phase_A[3];
+    hci_dq dq_A;
+} hci_plot_point;
+
+void hci_plot_solution_point(const hci_machine_data *machine, const hci_solution *solution, double theta_rad,
+                             hci_plot_point *point);
+
+/* ---- plot_waveform.c ---- */
+
+/* A measured waveform as a picture with a style sheet of its own: over a turn, and by order.
+ * O(points·orders). */
+void hci_plot_waveform(hci_output *out, const hci_waveform *waveform);
+
+/* ---- plot_matrix.c: numbers in rows and columns, as squares whose size tells theirs ---- */
+
+/* U: torque orders down, current components to the right. Where they are more than fit, a square is the
+ * largest of several. What solves nothing is marked. O(entries). */
+void hci_plot_system(hci_output *out, const hci_solution *solution);
+
+/* Whether a component of U carries current in the solution. */
+bool hci_plot_is_used(const hci_solution *solution, hci_component component);
+
+/* Entries below this share of the largest are not worth a mark. */
+#define HCI_PLOT_ZERO 1e-6
+
+/* Residual after by run and order, before it behind. run, order: what is shown, ascending; at most
+ * HCI_PLOT_MOST_CELLS of each. */
+enum { HCI_PLOT_MOST_CELLS = 24 };
+
+typedef struct {
+    const hci_diagnosis *diagnosis;
+    const hci_runs *runs;
+    const size_t *run;
+    const double *order;
+    size_t runs_shown, orders_shown;
+} hci_plot_map;
+
+void hci_plot_residuals(hci_output *out, const hci_plot_map *map);
+
 /* ---- plot_parts.c: pieces of the following ---- */
 
 /* The `most` places k < count of the largest weights above 0, ascending; returns how many. O(count·most). */
@@ -57,7 +101,12 @@ void hci_plot_orders(hci_output *out, const hci_svg_picture *words, const hci_pl
 
 /* ---- plot_diagnose.c ---- */
 
-/* Effects by the fall of the BIC, and the share of the residual that is each one's alone. */
+/* Of a finding that is in the game, the effect of the corrected machine and the term whose value is the
+ * largest multiple of its standard error; NULL where none has one. */
+const hci_effect *hci_plot_clearest(const hci_diagnosis *diagnosis, const hci_finding *finding, size_t *term);
+
+/* Effects by the fall of the BIC, the share of the residual that is each one's alone, and the 95 % interval
+ * of its clearest value as a share of it. */
 void hci_plot_findings(hci_output *out, const hci_diagnosis *diagnosis);
 
 /* Error of the runs before and after, those held out first; at most so many of each role. */

@@ -5,17 +5,19 @@
 
 #include "plot.h"
 
-enum { WIDTH = 480, ROW = 21, FIRST_ROW = 62 };
+enum { WIDTH = 540, ROW = 21, FIRST_ROW = 62 };
 
-/* Middle of row k, and the canvas for so many rows. */
+/* Middle of row k. */
 static double row_y(size_t k)
 {
     return FIRST_ROW + ROW * ((double)k + 0.5);
 }
 
-static int height_of(size_t rows)
+static void begin_rows(hci_output *out, const char *id, const char *title, const char *description,
+                       size_t rows)
 {
-    return FIRST_ROW + ROW * (int)rows + 46;
+    const int height = FIRST_ROW + ROW * (int)rows + 46;
+    hci_svg_begin(out, &(hci_svg_picture){id, title, description, 0, 0, WIDTH, height});
 }
 
 static hci_svg_box box_of(double left, double right, size_t rows)
@@ -41,6 +43,43 @@ static const char *style_of(hci_finding_verdict verdict)
     return STYLE[verdict];
 }
 
+const hci_effect *hci_plot_clearest(const hci_diagnosis *d, const hci_finding *f, size_t *term)
+{
+    const hci_effect *found = NULL;
+    double most = 0.0;
+    for (size_t k = 0; k < d->effects.list.count && f->verdict != HCI_FINDING_REJECTED; ++k) {
+        const hci_effect *e = &d->effects.list.effect[k];
+        if (strcmp(e->room->name, f->effect) != 0) continue;
+        for (size_t j = 0; j < e->count; ++j) {
+            const double clearness = fabs(e->term[j].value) / e->term[j].std_error;
+            if (!(e->term[j].std_error > 0.0) || !(clearness > most)) continue;
+            most = clearness;
+            *term = j;
+            found = e;
+        }
+    }
+    return found;
+}
+
+static double rounded_percent(double percent)
+{
+    const double power = pow(10.0, 1.0 - floor(log10(percent)));
+    return round(percent * power) / power;
+}
+
+/* "± 0.4 %" */
+static void draw_uncertainty(hci_output *out, const hci_diagnosis *d, const hci_finding *f, double y)
+{
+    char text[HCI_SVG_NUMBER_SIZE + 16] = "± ";
+    size_t term;
+    const hci_effect *e = hci_plot_clearest(d, f, &term);
+    if (!e) return;
+    hci_svg_short_text(text + strlen(text),
+                       rounded_percent(196.0 * e->term[term].std_error / fabs(e->term[term].value)));
+    strcat(text, " %");
+    hci_svg_label(out, "quiet end", WIDTH - 8.0, y + 4.0, text);
+}
+
 static void draw_finding(hci_output *out, const hci_finding *f, double y, const hci_svg_axis *bic,
                          const hci_svg_axis *share)
 {
@@ -64,9 +103,9 @@ static size_t shown_findings(const hci_diagnosis *d, const hci_finding *shown[HC
 
 static const char FINDINGS[] =
     "Two bars for each effect: the fall of the Bayesian information criterion on a logarithmic axis, and the "
-    "share in per cent of the residual's mean square that is this effect's alone. The table beside it has "
-    "the "
-    "numbers.";
+    "share in per cent of the residual's mean square that is this effect's alone; at the right the 95 % "
+    "interval "
+    "of its clearest value, in per cent of it. The table beside it has the numbers.";
 
 void hci_plot_findings(hci_output *out, const hci_diagnosis *d)
 {
@@ -77,29 +116,31 @@ void hci_plot_findings(hci_output *out, const hci_diagnosis *d)
     };
     const hci_finding *shown[HCI_MOST_FINDINGS];
     const size_t rows = shown_findings(d, shown);
-    const hci_svg_box left = box_of(150.0, 310.0, rows), right = box_of(345.0, 465.0, rows);
+    const hci_svg_box left = box_of(150.0, 320.0, rows), right = box_of(346.0, 430.0, rows);
     hci_svg_range most = {1.0, 10.0};
     hci_svg_axis bic, share = {0.0, 100.0, right.left, right.right, 50.0};
     for (size_t k = 0; k < rows; ++k)
         hci_svg_include(&most, shown[k]->delta_bic);
     bic = hci_svg_log_axis((hci_svg_range){1.0, most.high}, left.left, left.right, 12.0);
-    hci_svg_begin(out, &(hci_svg_picture){"findings", "Effects by how much the recordings speak for them",
-                                          FINDINGS, 0, 0, WIDTH, height_of(rows)});
-    hci_svg_legend(out, LEGEND, 3, right.right, 18.0);
+    begin_rows(out, "findings", "Effects by how much the recordings speak for them", FINDINGS, rows);
+    hci_svg_legend(out, LEGEND, 3, WIDTH - 8.0, 18.0);
     hci_svg_label(out, "head", left.left, FIRST_ROW - 12.0, "ΔBIC");
-    hci_svg_label(out, "head", right.left, FIRST_ROW - 12.0, "its own share in %");
+    hci_svg_label(out, "head", right.left, FIRST_ROW - 12.0, "own share, %");
+    hci_svg_label(out, "head end", WIDTH - 8.0, FIRST_ROW - 12.0, "certainty");
     hci_svg_log_grid(out, &bic, &left, false);
     hci_svg_grid(out, &share, &right, false);
     if (rows == 0) hci_svg_label(out, "quiet", 4.0, FIRST_ROW - 12.0, "no effect is needed");
-    for (size_t k = 0; k < rows; ++k)
+    for (size_t k = 0; k < rows; ++k) {
         draw_finding(out, shown[k], row_y(k), &bic, &share);
+        draw_uncertainty(out, d, shown[k], row_y(k));
+    }
     draw_foot(out, &left, "logarithmic");
     hci_svg_end(out);
 }
 
 /* ---- runs ---- */
 
-static const hci_svg_box RUNS = {176, 0, 466, 0};
+static const hci_svg_box RUNS = {176, 0, 524, 0};
 
 static double holdout_weight(const void *context, size_t k)
 {
@@ -117,7 +158,7 @@ static void draw_run(hci_output *out, const hci_run_errors *e, double y, const h
 {
     const double before = hci_svg_log_at(x, e->rms_before_Nm), after = hci_svg_log_at(x, e->rms_after_Nm),
                  noise = hci_svg_log_at(x, e->noise_floor_Nm);
-    hci_svg_name(out, "quiet", 4.0, y + 4.0, e->file, 26);
+    hci_svg_name(out, "quiet", 4.0, y + 4.0, e->file, 22);
     hci_svg_segment(out, "rail", before, y, after, y);
     hci_svg_segment(out, "spread", hci_svg_log_at(x, e->after_low_Nm), y, hci_svg_log_at(x, e->after_high_Nm),
                     y);
@@ -169,8 +210,7 @@ void hci_plot_runs(hci_output *out, const hci_diagnosis *d)
     const hci_svg_box b = box_of(RUNS.left, RUNS.right, rows);
     const hci_svg_range r = range_of_runs(d, held, helds, range_of_runs(d, fitted, fits, HCI_SVG_NOTHING));
     const hci_svg_axis x = hci_svg_log_axis(r, b.left, b.right, 4.0);
-    hci_svg_begin(out, &(hci_svg_picture){"runs", "Error of each run before and after, with its noise",
-                                          ERRORS, 0, 0, WIDTH, height_of(rows)});
+    begin_rows(out, "runs", "Error of each run before and after, with its noise", ERRORS, rows);
     hci_svg_legend(out, LEGEND, 4, RUNS.right, 18.0);
     hci_svg_log_grid(out, &x, &b, false);
     draw_runs_of(out, d, "Fitted", fitted, fits, draw_runs_of(out, d, "Held out", held, helds, 0, &x), &x);
@@ -222,10 +262,10 @@ void hci_plot_terms(hci_output *out, const char *id, const char *title, const hc
         hci_svg_include(&r, t->value + half_interval(t));
     }
     x = hci_svg_axis_over(r, b.left, b.right, 5.0);
-    hci_svg_begin(out, &(hci_svg_picture){id, title,
-                                          "One row for each parameter: the value and its 95 % interval. The "
-                                          "table beside it has the numbers.",
-                                          0, 0, WIDTH, height_of(count)});
+    begin_rows(
+        out, id, title,
+        "One row for each parameter: the value and its 95 % interval. The table beside it has the numbers.",
+        count);
     hci_svg_label(out, "head", 4.0, FIRST_ROW - 34.0, title);
     hci_svg_grid(out, &x, &b, false);
     for (size_t k = 0; k < count; ++k)

@@ -84,15 +84,22 @@ static void draw_order(hci_output *out, const order_axes *a, const hci_plot_orde
 void hci_plot_orders(hci_output *out, const hci_svg_picture *words, const hci_plot_order *order, size_t count,
                      bool logarithmic)
 {
-    static const hci_svg_entry LEGEND[] = {
+    static const hci_svg_entry COMPARED[] = {
         {HCI_SVG_DOT,  "before", "before"},
         {HCI_SVG_DOT,  "dot",    "after" },
         {HCI_SVG_LINE, "noise",  "noise" }
     };
+    static const hci_svg_entry ALONE[] = {
+        {HCI_SVG_DOT,  "dot",   "torque"},
+        {HCI_SVG_LINE, "noise", "floor" }
+    };
     const order_axes a = axes_of(order, count, logarithmic);
     const bool compared = count > 0 && isfinite(order[0].before_Nm);
     hci_svg_begin(out, words);
-    hci_svg_head(out, &ORDERS, "N·m (peak amplitude)", LEGEND, compared ? 3 : 0);
+    hci_svg_head(out, &ORDERS, "N·m (peak amplitude)", compared ? COMPARED : ALONE,
+                 compared                                   ? 3
+                 : count > 0 && isfinite(order[0].noise_Nm) ? 2
+                                                            : 0);
     if (logarithmic)
         hci_svg_log_grid(out, &a.y, &ORDERS, true);
     else

@@ -3,12 +3,13 @@
 
 #include <math.h>
 
-static const hci_svg_box BOX = {64, 40, 468, 220};
+static const hci_svg_box BOX = {64, 40, 462, 220};
 
 void hci_traces_begin(hci_traces *t, double from_s, double to_s)
 {
     t->from_s = from_s;
     t->to_s = to_s;
+    hci_turn_means_begin(&t->turn);
     for (size_t j = 0; j < HCI_TRACES; ++j)
         for (size_t k = 0; k < HCI_TRACE_INTERVALS; ++k)
             t->extremes[j][k] = HCI_SVG_NOTHING;
@@ -20,13 +21,15 @@ static double middle_s(const hci_traces *t, size_t k)
     return t->from_s + (t->to_s - t->from_s) * ((double)k + 0.5) / HCI_TRACE_INTERVALS;
 }
 
-void hci_traces_add(hci_traces *t, double time_s, const double value[HCI_TRACES])
+void hci_traces_add(hci_traces *t, double time_s, double theta_e_rad, const double value[HCI_TRACES])
 {
     const double share = (time_s - t->from_s) / (t->to_s - t->from_s);
     if (!(share >= 0.0 && share <= 1.0)) return;
     const size_t k = (size_t)fmin(HCI_TRACE_INTERVALS * share, HCI_TRACE_INTERVALS - 1.0);
     for (size_t j = 0; j < HCI_TRACES; ++j)
         hci_svg_include(&t->extremes[j][k], value[j]);
+    hci_turn_means_add(&t->turn, theta_e_rad, value[HCI_TRACE_TORQUE_NM],
+                       hci_park(hci_clarke(&value[HCI_TRACE_A_A]), theta_e_rad));
 }
 
 static bool is_inside(const hci_traces *t, hci_trace j, size_t k, double from_s, double to_s)

@@ -4,6 +4,7 @@
 #define HCI_SRC_HOST_PLOT_TRACES_H
 
 #include "hci/host/output.h"
+#include "plot_turn.h"
 #include "svg.h"
 
 typedef enum {
@@ -20,12 +21,13 @@ enum { HCI_TRACE_INTERVALS = 720 };
 typedef struct {
     double from_s, to_s;
     hci_svg_range extremes[HCI_TRACES][HCI_TRACE_INTERVALS]; /* low > high where there was no sample */
+    hci_turn_means turn;                                     /* of the same time */
 } hci_traces;
 
 void hci_traces_begin(hci_traces *traces, double from_s, double to_s);
 
-/* What is outside the time is left out. */
-void hci_traces_add(hci_traces *traces, double time_s, const double value[HCI_TRACES]);
+/* What is outside the time is left out. theta_e_rad: to which the phase currents are turned. */
+void hci_traces_add(hci_traces *traces, double time_s, double theta_e_rad, const double value[HCI_TRACES]);
 
 /* The extremes in from_s … to_s; each picture as plot.h says. */
 hci_svg_range hci_traces_range(const hci_traces *traces, hci_trace trace, double from_s, double to_s);

@@ -9,6 +9,13 @@
 #include "hci/host/solve.h"
 #include "plot_traces.h"
 
+/* The files that are named, in one line, which ends in between where it is too long. */
+enum { HCI_REPORT_ORIGIN_SIZE = 1024 };
+void hci_report_origin(char text[HCI_REPORT_ORIGIN_SIZE], const hci_report_sources *sources);
+
+/* A section that names them one by one. */
+void hci_report_show_sources(hci_output *out, const hci_report_sources *sources);
+
 /* HCI_ERROR_MEMORY. */
 hci_status hci_report_diagnosis(hci_output *out, const hci_diagnosis *diagnosis,
                                 const hci_resolution *resolution, const hci_runs *runs,

@@ -9,7 +9,7 @@
 #include "plot.h"
 #include "report.h"
 
-enum { WORDS_SIZE = 2048, MOST_ORDERS = 24, MOST_TERMS = 16 };
+enum { WORDS_SIZE = 2048, MOST_ORDERS = 24, MOST_LINES = 40, MOST_TERMS = 16 };
 
 /* ---- verdict ---- */
 
@@ -67,6 +67,11 @@ static void say_advice(hci_output *out, const hci_diagnosis *d)
 
 /* ---- effects ---- */
 
+static const char *unit_of(const hci_effect *e, size_t term)
+{
+    return e->room->parameter[e->term[term].parameter].unit;
+}
+
 /* For an effect that is in the game, how it shows itself; parameters have a table of their own. */
 static void cell_of_finding(hci_output *out, const hci_finding *f)
 {
@@ -74,13 +79,30 @@ static void cell_of_finding(hci_output *out, const hci_finding *f)
     char text[HCI_DETAIL_SIZE + 16];
     const bool rival = strncmp(f->detail, "in place of", 11) == 0;
     snprintf(text, sizeof text, "%s", room && !rival ? room->signature : f->detail);
-    hci_html_cell(out, f->verdict == HCI_FINDING_REJECTED ? "" : text);
+    hci_html_cell_words(out, f->verdict == HCI_FINDING_REJECTED ? "" : text);
+}
+
+/* The value that is known best, and how well: the interval holds it with 95 %. */
+static void cell_of_certainty(hci_output *out, const hci_diagnosis *d, const hci_finding *f)
+{
+    char text[2 * HCI_PLOT_NAME_SIZE] = "", name[HCI_PLOT_NAME_SIZE], value[HCI_HTML_NUMBER_SIZE],
+                  half[HCI_HTML_NUMBER_SIZE];
+    size_t term;
+    const hci_effect *e = hci_plot_clearest(d, f, &term);
+    if (e) {
+        hci_plot_term_name(name, e, term);
+        hci_html_number_text(value, e->term[term].value);
+        hci_html_number_text(half, 1.96 * e->term[term].std_error);
+        snprintf(text, sizeof text, "%.40s = %s ± %s %.20s", name, value, half, unit_of(e, term));
+    }
+    hci_html_cell_words(out, text);
 }
 
 static void table_of_findings(hci_output *out, const hci_diagnosis *d)
 {
-    static const char *const COLUMN[] = {"Rank",           "<Effect",       "<Verdict", "ΔBIC",
-                                         "Own share in %", "<How it shows", NULL};
+    static const char *const COLUMN[] = {
+        "Rank",          "<Effect", "<Verdict", "ΔBIC", "Own share in %", "<Clearest value ± 95 %",
+        "<How it shows", NULL};
     hci_html_table(out, "Effects in order of importance", COLUMN);
     for (size_t k = 0; k < d->findings; ++k) {
         const hci_finding *f = &d->finding[k];
@@ -90,13 +112,14 @@ static void table_of_findings(hci_output *out, const hci_diagnosis *d)
         hci_html_cell(out, hci_finding_verdict_name(f->verdict));
         hci_html_number(out, f->delta_bic);
         hci_html_number(out, 100.0 * f->residual_share);
+        cell_of_certainty(out, d, f);
         cell_of_finding(out, f);
         hci_html_row_end(out);
     }
     hci_html_table_end(out);
 }
 
-static void show_findings(hci_output *out, const hci_diagnosis *d)
+static void show_findings(hci_output *out, const hci_diagnosis *d, const char *origin)
 {
     hci_html_section(out, "What the model lacks");
     hci_html_paragraph(
@@ -105,13 +128,16 @@ static void show_findings(hci_output *out, const hci_diagnosis *d)
         "10 the recordings speak clearly for it, and at 0 it was not needed. Its own share is "
         "what would come back of the residual's mean square if this effect alone were left "
         "out; what several effects can explain is no one's own, so shares need not sum to "
-        "100 %.");
+        "100 %. Certainty is the 95 % interval of the clearest value, in per cent of it.");
     hci_html_figure(out);
     hci_plot_findings(out, d);
     hci_html_figure_tables(out);
     table_of_findings(out, d);
-    hci_html_figure_end(out, "Baseline: the residual of the declared machine on the fitted runs.",
-                        "effects.csv");
+    hci_html_figure_end(out,
+                        "Baseline: the residual of the declared machine on the fitted runs. Certainty: half "
+                        "the 95 % interval of the value that is "
+                        "the largest multiple of its standard error.",
+                        "effects.csv", origin);
     hci_html_section_end(out);
 }
 
@@ -121,9 +147,10 @@ static void table_of_runs(hci_output *out, const hci_diagnosis *d)
 {
     static const char *const COLUMN[] = {"<Run",      "<Role",     "Mean N·m", "Before N·m", "After N·m",
                                          "Noise N·m", "95 % from", "to",       NULL};
-    hci_html_table(out, "rms of measured less modelled torque", COLUMN);
-    for (size_t k = 0; k < d->runs; ++k) {
-        const hci_run_errors *e = &d->run[k];
+    hci_html_table(out, "rms of measured less modelled torque, runs held out first", COLUMN);
+    for (size_t k = 0; k < 2 * d->runs; ++k) {
+        const hci_run_errors *e = &d->run[k % d->runs];
+        if (e->role != (k < d->runs ? HCI_ROLE_HOLDOUT : HCI_ROLE_FIT)) continue;
         const double value[] = {e->mean_torque_Nm, e->rms_before_Nm, e->rms_after_Nm,
                                 e->noise_floor_Nm, e->after_low_Nm,  e->after_high_Nm};
         hci_html_row(out);
@@ -158,7 +185,7 @@ static void say_slips(hci_output *out, const hci_diagnosis *d)
     hci_html_table_end(out);
 }
 
-static void show_runs(hci_output *out, const hci_diagnosis *d)
+static void show_runs(hci_output *out, const hci_diagnosis *d, const char *origin)
 {
     hci_html_section(out, "How well it fits, run by run");
     hci_html_paragraph(out, NULL,
@@ -172,7 +199,7 @@ static void show_runs(hci_output *out, const hci_diagnosis *d)
                         "Before: the declared machine. After: the corrected one. Of more than 40 runs of "
                         "one role the picture has those with the largest error after. Noise left of the "
                         "axis is not drawn.",
-                        "errors.csv");
+                        "errors.csv", origin);
     say_slips(out, d);
     hci_html_section_end(out);
 }
@@ -182,6 +209,7 @@ static void show_runs(hci_output *out, const hci_diagnosis *d)
 typedef struct {
     hci_plot_order *order;
     size_t count;
+    double *of_run_Nm; /* the largest amplitude after of each run */
 } orders;
 
 static int by_order(const void *a, const void *b)
@@ -210,19 +238,23 @@ static void take_line(orders *o, const hci_residual_line *x)
     }
 }
 
-static hci_status orders_make(const hci_diagnosis *d, orders *o, hci_note *note)
+static hci_status orders_make(const hci_diagnosis *d, const hci_runs *runs, orders *o, hci_note *note)
 {
     hci_residual_line *line = hci_memory_new(d->lines + 1, sizeof *line);
     o->order = hci_memory_new(d->lines + 1, sizeof *o->order);
-    o->count = 0;
-    if (line && o->order) {
+    o->of_run_Nm = hci_memory_new(runs->count + 1, sizeof *o->of_run_Nm);
+    const bool has_room = line && o->order && o->of_run_Nm;
+    if (has_room) {
         if (d->lines > 0) memcpy(line, d->line, d->lines * sizeof *line);
         qsort(line, d->lines, sizeof *line, by_order);
-        for (size_t k = 0; k < d->lines; ++k)
+        for (size_t k = 0; k < d->lines; ++k) {
+            double *largest_Nm = &o->of_run_Nm[line[k].run];
             take_line(o, &line[k]);
+            *largest_Nm = fmax(*largest_Nm, line[k].after_Nm);
+        }
     }
     hci_memory_free(line);
-    return line && o->order ? HCI_OK : hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the report");
+    return has_room ? HCI_OK : hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the report");
 }
 
 static double order_weight(const void *context, size_t k)
@@ -254,7 +286,74 @@ static void table_of_orders(hci_output *out, const orders *o, const hci_runs *ru
     hci_html_table_end(out);
 }
 
-static void show_orders(hci_output *out, const orders *o, const hci_runs *runs)
+/* ---- by run and order ---- */
+
+typedef struct {
+    const hci_diagnosis *diagnosis;
+    const double *after_Nm; /* the largest of each run */
+} run_sizes;
+
+static double run_weight(const void *context, size_t k)
+{
+    return ((const run_sizes *)context)->after_Nm[k];
+}
+
+static double line_weight(const void *context, size_t k)
+{
+    return ((const hci_diagnosis *)context)->line[k].after_Nm;
+}
+
+static void table_of_lines(hci_output *out, const hci_diagnosis *d, const hci_runs *runs)
+{
+    static const char *const COLUMN[] = {"<Run", "Order", "Before N·m", "After N·m", "Noise N·m", NULL};
+    size_t place[MOST_LINES];
+    const size_t count = hci_plot_largest(line_weight, d, d->lines, MOST_LINES, place);
+    char caption[120];
+    snprintf(caption, sizeof caption, "The largest %zu of %zu amplitudes that are left", count, d->lines);
+    hci_html_table(out, caption, COLUMN);
+    for (size_t k = 0; k < count; ++k) {
+        const hci_residual_line *x = &d->line[place[k]];
+        hci_html_row(out);
+        hci_html_cell(out, runs->run[x->run].name);
+        hci_html_number(out, x->order);
+        hci_html_number(out, x->before_Nm);
+        hci_html_number(out, x->after_Nm);
+        hci_html_number(out, x->noise_Nm);
+        hci_html_row_end(out);
+    }
+    hci_html_table_end(out);
+}
+
+static void draw_map(hci_output *out, const hci_diagnosis *d, const orders *o, const hci_runs *runs)
+{
+    size_t place[HCI_PLOT_MOST_CELLS], run[HCI_PLOT_MOST_CELLS];
+    double order[HCI_PLOT_MOST_CELLS];
+    const run_sizes sizes = {d, o->of_run_Nm};
+    hci_plot_map map = {d, runs, run, order, 0, 0};
+    map.runs_shown = hci_plot_largest(run_weight, &sizes, runs->count, HCI_PLOT_MOST_CELLS, run);
+    map.orders_shown = hci_plot_largest(order_weight, o, o->count, HCI_PLOT_MOST_CELLS, place);
+    for (size_t k = 0; k < map.orders_shown; ++k)
+        order[k] = o->order[place[k]].order;
+    hci_plot_residuals(out, &map);
+}
+
+static void show_map(hci_output *out, const hci_diagnosis *d, const orders *o, const hci_runs *runs,
+                     const char *origin)
+{
+    hci_html_figure(out);
+    draw_map(out, d, o, runs);
+    hci_html_figure_tables(out);
+    table_of_lines(out, d, runs);
+    hci_html_figure_end(
+        out,
+        "Before: the declared machine. After: the corrected one. Names in bold are runs held out. Of more "
+        "than 24 runs or orders the picture has those with the largest amplitude. The side of a square "
+        "grows with the logarithm of the amplitude over four decades.",
+        "residual_spectrum.csv", origin);
+}
+
+static void show_orders(hci_output *out, const hci_diagnosis *d, const orders *o, const hci_runs *runs,
+                        const char *origin)
 {
     static const hci_svg_picture WORDS = {
         "orders",
@@ -281,7 +380,8 @@ static void show_orders(hci_output *out, const orders *o, const hci_runs *runs)
         hci_html_figure_end(out,
                             "Before: the declared machine. After: the corrected one. Four decades are drawn; "
                             "what is less lies below them.",
-                            "residual_spectrum.csv");
+                            "residual_spectrum.csv", origin);
+        show_map(out, d, o, runs, origin);
     }
     hci_html_section_end(out);
 }
@@ -293,11 +393,6 @@ typedef struct {
     const hci_effect *effect;
     const char *unit;
 } term_group;
-
-static const char *unit_of(const hci_effect *e, size_t term)
-{
-    return e->room->parameter[e->term[term].parameter].unit;
-}
 
 static double term_weight(const void *context, size_t k)
 {
@@ -330,14 +425,15 @@ static void table_of_terms(hci_output *out, const char *caption, const hci_effec
         hci_html_cell(out, name);
         hci_html_number(out, t->value);
         hci_html_number(out, t->std_error);
-        hci_html_cell(out, e->room->parameter[t->parameter].meaning);
+        hci_html_cell_words(out, e->room->parameter[t->parameter].meaning);
         hci_html_row_end(out);
     }
     hci_html_table_end(out);
 }
 
 /* A picture only where there are errors to compare. */
-static void show_group(hci_output *out, const hci_diagnosis *d, const term_group *g, size_t *pictures)
+static void show_group(hci_output *out, const hci_diagnosis *d, const term_group *g, size_t *pictures,
+                       const char *origin)
 {
     size_t term[MOST_TERMS], all = 0, with_error = 0;
     const size_t count = hci_plot_largest(term_weight, g, g->effect->count, MOST_TERMS, term);
@@ -359,24 +455,24 @@ static void show_group(hci_output *out, const hci_diagnosis *d, const term_group
     hci_html_figure_tables(out);
     table_of_terms(out, caption, g->effect, term, count);
     snprintf(caption, sizeof caption, "%zu of %zu values of this effect in this unit.", count, all);
-    hci_html_figure_end(out, caption, "machine/effects.csv");
+    hci_html_figure_end(out, caption, "machine/effects.csv", origin);
 }
 
-static void show_parameters(hci_output *out, const hci_diagnosis *d)
+static void show_parameters(hci_output *out, const hci_diagnosis *d, const char *origin)
 {
     size_t pictures = 0;
     if (d->effects.list.count == 0) return;
     hci_html_section(out, "Parameters of the effects");
     hci_html_paragraph(out, NULL,
-                       "What the corrected machine has beyond its declared tables. Bars are 95 % intervals: "
-                       "1.96 standard errors to each side.");
+                       "What the corrected machine, in the folder machine beside this page, has beyond its "
+                       "declared tables. Bars are 95 % intervals: 1.96 standard errors to each side.");
     for (size_t k = 0; k < d->effects.list.count; ++k) {
         const hci_effect *e = &d->effects.list.effect[k];
         for (size_t j = 0; j < e->count; ++j) {
             size_t i = 0;
             while (strcmp(unit_of(e, i), unit_of(e, j)) != 0)
                 ++i;
-            if (i == j) show_group(out, d, &(term_group){e, unit_of(e, j)}, &pictures);
+            if (i == j) show_group(out, d, &(term_group){e, unit_of(e, j)}, &pictures, origin);
         }
     }
     hci_html_section_end(out);
@@ -446,35 +542,28 @@ static void show_resolution(hci_output *out, const hci_resolution *r)
 
 /* ---- the page ---- */
 
-static void say_sources(hci_output *out, const hci_diagnosis *d, const char *machine_folder)
-{
-    hci_html_section(out, "Sources");
-    hci_html_say(out, NULL, "Declared machine: %s", machine_folder);
-    hci_html_say(out, NULL,
-                 "Recordings: the %zu runs that are named above, as the run list names them. Corrected "
-                 "machine: the folder machine beside this file.",
-                 d->runs);
-    hci_html_section_end(out);
-}
-
 hci_status hci_report_diagnosis(hci_output *out, const hci_diagnosis *d, const hci_resolution *resolution,
                                 const hci_runs *runs, const char *machine_folder, hci_note *note)
 {
-    orders o = {NULL, 0};
-    const hci_status status = orders_make(d, &o, note);
+    const hci_report_sources sources = {.machine = machine_folder, .runs = runs->list};
+    char origin[HCI_REPORT_ORIGIN_SIZE];
+    orders o = {NULL, 0, NULL};
+    const hci_status status = orders_make(d, runs, &o, note);
+    hci_report_origin(origin, &sources);
     if (!status) {
         say_verdict(out, d);
         show_tiles(out, d);
         say_advice(out, d);
         if (resolution) show_resolution(out, resolution);
-        show_findings(out, d);
-        show_runs(out, d);
-        show_orders(out, &o, runs);
-        show_parameters(out, d);
+        show_findings(out, d, origin);
+        show_runs(out, d, origin);
+        show_orders(out, d, &o, runs, origin);
+        show_parameters(out, d, origin);
         show_unexplained(out, d);
-        say_sources(out, d, machine_folder);
+        hci_report_show_sources(out, &sources);
         hci_html_end(out);
     }
     hci_memory_free(o.order);
+    hci_memory_free(o.of_run_Nm);
     return status;
 }

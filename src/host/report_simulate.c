@@ -1,32 +1,52 @@
 /* The page of a simulation. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "html.h"
 #include "memory.h"
 #include "plot.h"
 #include "report.h"
 
-enum { MOST_ORDERS = 24 };
+/* SLICES of the evaluated time and STEPS of a turn: rows of the tables. STEPS: as in report_solve.c. */
+enum { MOST_ORDERS = 24, SLICES = 20, STEPS = 40, LEAST_FOR_FLOOR = 8 };
 
 /* ---- verdict ---- */
 
+/* What a reader wants to know who will not read on. */
+static void say_facts(hci_output *out, const hci_simulation *s)
+{
+    char mean[HCI_HTML_NUMBER_SIZE], speed[HCI_HTML_NUMBER_SIZE], swing[HCI_HTML_NUMBER_SIZE], loss[128] = "";
+    hci_html_quantity_text(mean, s->torque_Nm.mean, "N·m");
+    hci_html_quantity_text(swing, s->torque_Nm.most - s->torque_Nm.least, "N·m");
+    hci_html_number_text(speed, s->speed_rad_per_s.mean * 30.0 / HCI_PI);
+    if (isfinite(s->loss_to_plain)) {
+        char ratio[HCI_HTML_NUMBER_SIZE];
+        hci_html_number_text(ratio, s->loss_to_plain);
+        snprintf(loss, sizeof loss,
+                 " Its copper loss is %s times that of a plain sine with the same mean torque.", ratio);
+    }
+    hci_html_say(out, "lead",
+                 "The drive makes %s on average at %s rpm; its torque varies by %s from peak to peak.%s",
+                 mean, speed, swing, loss);
+}
+
 static void say_verdict(hci_output *out, const hci_simulation *s)
 {
-    char from[HCI_HTML_NUMBER_SIZE], to[HCI_HTML_NUMBER_SIZE], speed[HCI_HTML_NUMBER_SIZE];
+    char from[HCI_HTML_NUMBER_SIZE], to[HCI_HTML_NUMBER_SIZE];
     hci_html_begin(out, "Simulation of the drive",
                    !s->energy_balances ? "Not to be trusted: the energy does not balance"
                    : s->remark.text[0] ? "Done, with a remark"
                                        : "Done",
                    s->energy_balances);
+    say_facts(out, s);
     hci_html_number_text(from, s->from_s);
     hci_html_number_text(to, s->to_s);
-    hci_html_number_text(speed, s->speed_rad_per_s.mean * 30.0 / HCI_PI);
     if (s->periods > 0)
-        hci_html_say(out, "lead", "Evaluated from %s s to %s s: %zu whole period%s at %s rpm.", from, to,
-                     s->periods, s->periods == 1 ? "" : "s", speed);
+        hci_html_say(out, NULL, "Evaluated from %s s to %s s: %zu whole period%s.", from, to, s->periods,
+                     s->periods == 1 ? "" : "s");
     else
-        hci_html_say(out, "lead",
+        hci_html_say(out, NULL,
                      "Evaluated from %s s to %s s, in which the rotor has not turned one period: there is "
                      "no spectrum.",
                      from, to);
@@ -48,14 +68,40 @@ static void row_of(hci_output *out, const char *name, const hci_statistics *x, d
     hci_html_row(out);
     hci_html_cell(out, name);
     for (size_t k = 0; k < 4; ++k)
-        hci_html_number(out, factor * value[k]);
+        hci_html_number_in(out, factor * value[k], factor * (x->most - x->least));
     hci_html_row_end(out);
 }
 
 static const char *const STATISTICS[] = {"<Quantity", "Mean", "rms", "Least", "Most", NULL};
 
+/* The extremes of slices of the evaluated time, which are what the picture draws. */
+static void table_of_slices(hci_output *out, const hci_simulation *s, const hci_traces *t, hci_trace first,
+                            hci_trace last)
+{
+    static const char *const ONE[] = {"From ms", "to ms", "Least", "Most", NULL};
+    static const char *const THREE[] = {"From ms",  "to ms",     "Least i_a", "Most i_a", "Least i_b",
+                                        "Most i_b", "Least i_c", "Most i_c",  NULL};
+    const double slice_s = (s->to_s - s->from_s) / SLICES;
+    const hci_svg_range all = hci_traces_range(t, first, s->from_s, s->to_s);
+    const double span = all.high - all.low;
+    hci_html_table(out, "Extremes over the time", first == last ? ONE : THREE);
+    for (size_t k = 0; k < SLICES; ++k) {
+        const double from_s = s->from_s + slice_s * (double)k, to_s = from_s + slice_s;
+        hci_html_row(out);
+        hci_html_number(out, 1e3 * from_s);
+        hci_html_number(out, 1e3 * to_s);
+        for (size_t j = first; j <= (size_t)last; ++j) {
+            const hci_svg_range r = hci_traces_range(t, (hci_trace)j, from_s, to_s);
+            hci_html_number_in(out, r.low, span);
+            hci_html_number_in(out, r.high, span);
+        }
+        hci_html_row_end(out);
+    }
+    hci_html_table_end(out);
+}
+
 static void figure_of(hci_output *out, const hci_simulation *s, const hci_traces *t, hci_trace first,
-                      hci_trace last, const hci_svg_picture *words)
+                      hci_trace last, const hci_svg_picture *words, const char *origin)
 {
     hci_html_figure(out);
     hci_plot_trace(out, t, words, first, last, s->from_s, s->to_s);
@@ -68,13 +114,14 @@ static void figure_of(hci_output *out, const hci_simulation *s, const hci_traces
         row_of(out, "√(i_dx² + i_qx²) A", &s->current_dqx_A, 1.0);
     }
     hci_html_table_end(out);
-    hci_html_figure_end(out,
-                        "True values over the evaluated time, not what sensors read. Where there are more "
-                        "samples than can be drawn, the line runs between their extremes.",
-                        "summary.json, and trajectory.csv with the course");
+    table_of_slices(out, s, t, first, last);
+    hci_html_figure_end(
+        out,
+        "True values, not what sensors read; between extremes where samples are denser than the picture.",
+        "summary.json, and trajectory.csv with the course", origin);
 }
 
-static void show_traces(hci_output *out, const hci_simulation *s, const hci_traces *t)
+static void show_traces(hci_output *out, const hci_simulation *s, const hci_traces *t, const char *origin)
 {
     static const hci_svg_picture
         TORQUE = {"torque",
@@ -93,16 +140,81 @@ static void show_traces(hci_output *out, const hci_simulation *s, const hci_trac
                  264},
         CURRENT = {"current",
                    "Phase currents in A",
-                   "Three lines over time in ms. The table beside it has mean and "
-                   "extremes of the current vector.",
+                   "Three lines over time in ms. The tables beside it have the extremes over the time, and "
+                   "mean and extremes of the current vector.",
                    0,
                    0,
                    480,
                    264};
     hci_html_section(out, "Over time");
-    figure_of(out, s, t, HCI_TRACE_TORQUE_NM, HCI_TRACE_TORQUE_NM, &TORQUE);
-    figure_of(out, s, t, HCI_TRACE_SPEED_RPM, HCI_TRACE_SPEED_RPM, &SPEED);
-    figure_of(out, s, t, HCI_TRACE_A_A, HCI_TRACE_C_A, &CURRENT);
+    figure_of(out, s, t, HCI_TRACE_TORQUE_NM, HCI_TRACE_TORQUE_NM, &TORQUE, origin);
+    figure_of(out, s, t, HCI_TRACE_SPEED_RPM, HCI_TRACE_SPEED_RPM, &SPEED, origin);
+    figure_of(out, s, t, HCI_TRACE_A_A, HCI_TRACE_C_A, &CURRENT, origin);
+    hci_html_section_end(out);
+}
+
+/* ---- over one turn ---- */
+
+static void table_of_turn_torque(hci_output *out, const hci_turn_means *t)
+{
+    static const char *const COLUMN[] = {"From °", "to °", "Least N·m", "Mean N·m", "Most N·m", NULL};
+    hci_html_table(out, "Torque over the electrical angle", COLUMN);
+    for (size_t k = 0; k < STEPS; ++k) {
+        const hci_turn_mean m = hci_turn_mean_of(t, k * (HCI_TURN_STEPS / STEPS), HCI_TURN_STEPS / STEPS);
+        const double value[] = {360.0 / STEPS * (double)k, 360.0 / STEPS * (double)(k + 1),
+                                m.torque_range_Nm.low, m.torque_Nm, m.torque_range_Nm.high};
+        hci_html_row(out);
+        for (size_t j = 0; j < sizeof value / sizeof *value; ++j)
+            hci_html_number(out, m.samples > 0 || j < 2 ? value[j] : (double)NAN);
+        hci_html_row_end(out);
+    }
+    hci_html_table_end(out);
+}
+
+/* One step of the picture in each row, where the mean of several would cut the corners of the path. */
+static void table_of_turn_vector(hci_output *out, const hci_turn_means *t)
+{
+    static const char *const COLUMN[] = {"Angle °", "i_d A", "i_q A", "Length A", NULL};
+    hci_html_table(out, "Mean current vector at electrical angles", COLUMN);
+    for (size_t k = 0; k < HCI_TURN_STEPS; k += HCI_TURN_STEPS / STEPS) {
+        const hci_turn_mean m = hci_turn_mean_of(t, k, 1);
+        if (m.samples == 0) continue;
+        const double value[] = {360.0 * ((double)k + 0.5) / HCI_TURN_STEPS, m.current_A.d, m.current_A.q,
+                                hypot(m.current_A.d, m.current_A.q)};
+        hci_html_row(out);
+        for (size_t j = 0; j < sizeof value / sizeof *value; ++j)
+            hci_html_number(out, value[j]);
+        hci_html_row_end(out);
+    }
+    hci_html_table_end(out);
+}
+
+static void show_turn(hci_output *out, const hci_simulation *s, const hci_turn_means *t, const char *origin)
+{
+    char caption[240], plain[HCI_HTML_NUMBER_SIZE];
+    const double plain_A = isfinite(s->plain_amplitude_A) ? s->plain_amplitude_A : 0.0;
+    if (s->periods == 0) return;
+    hci_html_section(out, "Over one electrical turn");
+    hci_html_figure(out);
+    hci_plot_turn_torque(out, t);
+    hci_html_figure_tables(out);
+    table_of_turn_torque(out, t);
+    hci_html_figure_end(out,
+                        "Every sample of the evaluated time and what remains to the end, by its electrical "
+                        "angle: what repeats "
+                        "with the turn is in the mean, what does not widens the band.",
+                        "trajectory.csv with the course", origin);
+    hci_html_figure(out);
+    hci_plot_turn_vector(out, t, (hci_dq){.q = s->torque_Nm.mean < 0.0 ? -plain_A : plain_A});
+    hci_html_figure_tables(out);
+    table_of_turn_vector(out, t);
+    hci_html_quantity_text(plain, plain_A, "A");
+    snprintf(caption, sizeof caption,
+             "Baseline: the plain sine of %s in phase with the back-EMF, which would make the same mean "
+             "torque with it. d is the "
+             "magnet axis, q leads it.",
+             plain);
+    hci_html_figure_end(out, caption, "trajectory.csv with the course", origin);
     hci_html_section_end(out);
 }
 
@@ -137,7 +249,32 @@ static void table_of_orders(hci_output *out, const hci_simulation *s)
     hci_html_table_end(out);
 }
 
-static void show_spectrum(hci_output *out, const hci_simulation *s, const hci_plot_order *order)
+static int by_size(const void *a, const void *b)
+{
+    const double x = ((const hci_plot_order *)a)->after_Nm, y = ((const hci_plot_order *)b)->after_Nm;
+    return (x > y) - (x < y);
+}
+
+static int by_order(const void *a, const void *b)
+{
+    const double x = ((const hci_plot_order *)a)->order, y = ((const hci_plot_order *)b)->order;
+    return (x > y) - (x < y);
+}
+
+/* The median: what switching, noise and steps leave at any order, since what repeats with the turn is at few
+ * of them. */
+static void set_floor(hci_plot_order *order, size_t count)
+{
+    if (count < LEAST_FOR_FLOOR) return;
+    qsort(order, count, sizeof *order, by_size);
+    const double floor_Nm = order[count / 2].after_Nm;
+    for (size_t k = 0; k < count; ++k)
+        order[k].noise_Nm = floor_Nm;
+    qsort(order, count, sizeof *order, by_order);
+}
+
+static void show_spectrum(hci_output *out, const hci_simulation *s, const hci_plot_order *order,
+                          const char *origin)
 {
     static const hci_svg_picture WORDS = {
         "spectrum",
@@ -147,14 +284,22 @@ static void show_spectrum(hci_output *out, const hci_simulation *s, const hci_pl
         0,
         480,
         304};
+    char caption[400], floor[HCI_HTML_NUMBER_SIZE];
     if (s->spectrum_count < 2) return;
+    hci_html_quantity_text(floor, order[0].noise_Nm, "N·m");
+    snprintf(caption, sizeof caption,
+             "Over whole periods of the angle; the picture leaves the mean out. A strategy asks for a "
+             "constant torque: it wants "
+             "none of these orders.%s%s%s",
+             isfinite(order[0].noise_Nm) ? " The floor is the median of all orders, " : "",
+             isfinite(order[0].noise_Nm) ? floor : "",
+             isfinite(order[0].noise_Nm) ? ": about what switching and noise leave anywhere." : "");
     hci_html_section(out, "Torque ripple by order");
     hci_html_figure(out);
     hci_plot_orders(out, &WORDS, order, s->spectrum_count - 1, false);
     hci_html_figure_tables(out);
     table_of_orders(out, s);
-    hci_html_figure_end(out, "Over whole periods of the angle; the picture leaves the mean out.",
-                        "spectrum.csv");
+    hci_html_figure_end(out, caption, "spectrum.csv", origin);
     hci_html_section_end(out);
 }
 
@@ -182,29 +327,25 @@ static void show_drive(hci_output *out, const hci_simulation *s)
     hci_html_section_end(out);
 }
 
-static void say_sources(hci_output *out, const hci_report_sources *sources)
-{
-    hci_html_section(out, "Sources");
-    if (sources->machine) hci_html_say(out, NULL, "Machine: %s", sources->machine);
-    if (sources->scenario) hci_html_say(out, NULL, "Scenario: %s", sources->scenario);
-    if (sources->currents) hci_html_say(out, NULL, "Imposed currents: %s", sources->currents);
-    hci_html_section_end(out);
-}
-
 hci_status hci_report_simulation(hci_output *out, const hci_simulation *s, const hci_traces *traces,
                                  const hci_report_sources *sources, hci_note *note)
 {
     hci_plot_order *order = hci_memory_new(s->spectrum_count + 1, sizeof *order);
+    char origin[HCI_REPORT_ORIGIN_SIZE];
     if (!order) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the report");
     for (size_t k = 1; k < s->spectrum_count; ++k) {
         const hci_harmonic h = s->spectrum_Nm[k];
-        order[k - 1] = (hci_plot_order){h.order, NAN, hci_amplitude(h.sine, h.cosine), NAN, 0, 0};
+        order[k - 1] = (hci_plot_order){
+            .order = h.order, .before_Nm = NAN, .after_Nm = hci_amplitude(h.sine, h.cosine), .noise_Nm = NAN};
     }
+    if (s->spectrum_count > 0) set_floor(order, s->spectrum_count - 1);
+    hci_report_origin(origin, sources);
     say_verdict(out, s);
-    show_traces(out, s, traces);
-    show_spectrum(out, s, order);
+    show_turn(out, s, &traces->turn, origin);
+    show_spectrum(out, s, order, origin);
+    show_traces(out, s, traces, origin);
     show_drive(out, s);
-    say_sources(out, sources);
+    hci_report_show_sources(out, sources);
     hci_html_end(out);
     hci_memory_free(order);
     return HCI_OK;

@@ -42,6 +42,13 @@ static hci_status check_once(const list_reader *l, size_t row, const char *file)
     return HCI_OK;
 }
 
+static char *copy_of(const char *text)
+{
+    char *copy = hci_memory_malloc(strlen(text) + 1);
+    if (copy != NULL) memcpy(copy, text, strlen(text) + 1);
+    return copy;
+}
+
 /* `file` relative to the folder of the list; the caller frees it. */
 static char *path_of(const char *list, const char *file)
 {
@@ -63,10 +70,8 @@ static hci_status read_one(const list_reader *l, size_t row, const char *file, h
     if (status != HCI_OK) return status;
     l->runs->count = row + 1;
     hci_memory_free(run->name);
-    run->name = hci_memory_malloc(strlen(file) + 1);
-    if (run->name == NULL) return memory_error(l);
-    memcpy(run->name, file, strlen(file) + 1);
-    return HCI_OK;
+    run->name = copy_of(file);
+    return run->name != NULL ? HCI_OK : memory_error(l);
 }
 
 static hci_status read_row(const list_reader *l, size_t row)
@@ -93,7 +98,8 @@ static hci_status read_rows(const list_reader *l,
     }
     l->runs->run = hci_memory_new(rows, sizeof *l->runs->run);
     l->runs->role = hci_memory_new(rows, sizeof *l->runs->role);
-    if (l->runs->run == NULL || l->runs->role == NULL) return memory_error(l);
+    l->runs->list = copy_of(hci_csv_path(l->csv));
+    if (l->runs->run == NULL || l->runs->role == NULL || l->runs->list == NULL) return memory_error(l);
     for (size_t row = 0; row < rows && status == HCI_OK; ++row) {
         if (progress != NULL) progress(context, "reading runs", (double)row / (double)rows);
         status = read_row(l, row);
@@ -122,5 +128,6 @@ void hci_runs_release(hci_runs *runs)
         hci_run_release(&runs->run[k]);
     hci_memory_free(runs->run);
     hci_memory_free(runs->role);
+    hci_memory_free(runs->list);
     memset(runs, 0, sizeof *runs);
 }

@@ -120,7 +120,7 @@ static void add_to_traces(hci_traces *traces, const hci_record *r)
     value[HCI_TRACE_TORQUE_NM] = r->torque_Nm;
     value[HCI_TRACE_SPEED_RPM] = r->speed_rad_per_s * 30.0 / HCI_PI;
     hci_plane_to_abc(r->i, &value[HCI_TRACE_A_A]);
-    hci_traces_add(traces, r->time_s, value);
+    hci_traces_add(traces, r->time_s, r->angle_rad, value);
 }
 
 void hci_trajectory_add(hci_trajectory *t, const hci_record *r)

@@ -137,6 +137,29 @@ static hci_status fill_currents(const hci_answer *a, const hci_solve_options *o,
     return HCI_OK;
 }
 
+/* Takes the set from the answer. */
+static hci_status fill_system(const hci_task *t, hci_answer *a, hci_solution *s, hci_note *note)
+{
+    const size_t entries = hci_system_capacity(t->gain_count, a->set.count);
+    hci_solved_system *u = &s->system;
+    double *order = hci_memory_new(s->order_count, sizeof *order);
+    bool has_room;
+    u->column_start = hci_memory_new(2 * a->set.count + 1, sizeof *u->column_start);
+    u->row = hci_memory_new(entries, sizeof *u->row);
+    u->value = hci_memory_new(entries, sizeof *u->value);
+    has_room = order && u->column_start && u->row && u->value;
+    if (has_room) {
+        for (size_t k = 0; k < s->order_count; ++k)
+            order[k] = s->order[k].torque_Nm.order;
+        hci_system_sparse(t->gain, t->gain_count, a->set.component, a->set.count, order, s->order_count,
+                          u->column_start, u->row, u->value);
+        u->set = a->set;
+        a->set = (hci_component_set){0};
+    }
+    hci_memory_free(order);
+    return has_room ? HCI_OK : no_memory(note);
+}
+
 /* ---- all of it ---- */
 
 /* An error is measured against the mean torque, or where that is next to nothing against the largest wanted
@@ -200,6 +223,7 @@ static hci_status solve(const hci_machine_data *machine, const hci_corrected *c,
     status = find_answer(&task, o, room, a, s, note);
     if (!status) status = fill_currents(a, o, !o->held && hci_task_is_linear(&task), s, note);
     if (!status) status = hci_judge(&task, &a->set, o->set ? o->compare : HCI_COMPARE_ALL, s, note);
+    if (!status && o->method != HCI_METHOD_POINTWISE) status = fill_system(&task, a, s, note);
     if (!status) status = hci_limits_check(machine, o, s, note);
     if (!status && c->left_out > 0) remark_left_out(o->effects, &s->remark);
     return status;
@@ -230,5 +254,9 @@ void hci_solution_release(hci_solution *solution)
     hci_memory_free(solution->per_Nm);
     hci_memory_free(solution->constant);
     hci_memory_free(solution->order);
+    hci_component_set_release(&solution->system.set);
+    hci_memory_free(solution->system.column_start);
+    hci_memory_free(solution->system.row);
+    hci_memory_free(solution->system.value);
     memset(solution, 0, sizeof *solution);
 }

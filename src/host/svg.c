@@ -187,12 +187,12 @@ void hci_svg_label(hci_output *out, const char *style, double x, double y, const
     hci_output_text(out, "</text>\n");
 }
 
-/* Width of a 12 px text in the mean of common fonts. */
+/* Width of a 12 px text in a wide font. */
 static double text_width(const char *text)
 {
     double width = 0.0;
     for (; *text; ++text)
-        if (((unsigned char)*text & 0xC0u) != 0x80u && *text != '_') width += 6.3;
+        if (((unsigned char)*text & 0xC0u) != 0x80u && *text != '_') width += 7.0;
     return width;
 }
 
@@ -270,6 +270,29 @@ hci_svg_axis hci_svg_axis_over(hci_svg_range r, double from, double to, double m
     if (shown.high != 0.0) a.high += margin;
     a.step = hci_svg_nice_step((a.high - a.low) / most_ticks);
     return a;
+}
+
+/* Widens an axis about its middle. */
+static void widen(hci_svg_axis *a, double span)
+{
+    const double middle = 0.5 * (a->low + a->high);
+    a->low = middle - 0.5 * span;
+    a->high = middle + 0.5 * span;
+}
+
+void hci_svg_equal_axes(hci_svg_range x, hci_svg_range y, const hci_svg_box *b, hci_svg_axis *x_axis,
+                        hci_svg_axis *y_axis)
+{
+    const double width = b->right - b->left, height = b->bottom - b->top;
+    double scale;
+    if (x.high - x.low <= 1e-6 * (fabs(y.high) + fabs(y.low)))
+        x = (hci_svg_range){x.low - 1e-6, x.high + 1e-6};
+    *x_axis = hci_svg_axis_over(x, b->left, b->right, 6.0);
+    *y_axis = hci_svg_axis_over(y, b->bottom, b->top, 6.0);
+    scale = fmax((x_axis->high - x_axis->low) / width, (y_axis->high - y_axis->low) / height);
+    widen(x_axis, scale * width);
+    widen(y_axis, scale * height);
+    x_axis->step = y_axis->step = hci_svg_nice_step(scale * height / 6.0);
 }
 
 hci_svg_axis hci_svg_axis_of_angle(double turns, const hci_svg_box *b)

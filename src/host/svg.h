@@ -88,6 +88,10 @@ hci_svg_axis hci_svg_axis_over(hci_svg_range r, double from, double to, double m
 /* 0 to 360·turns degrees over the width of the box. */
 hci_svg_axis hci_svg_axis_of_angle(double turns, const hci_svg_box *b);
 
+/* Two axes that fill the box with the same length of a unit on both. */
+void hci_svg_equal_axes(hci_svg_range x, hci_svg_range y, const hci_svg_box *b, hci_svg_axis *x_axis,
+                        hci_svg_axis *y_axis);
+
 /* Grid lines and numbers of an axis that runs upwards, or to the right. */
 void hci_svg_grid(hci_output *out, const hci_svg_axis *a, const hci_svg_box *b, bool upwards);
 

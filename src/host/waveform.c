@@ -10,6 +10,7 @@
 #include "hci/frames.h"
 #include "hci/host/output.h"
 #include "memory.h"
+#include "plot.h"
 #include "quote.h"
 #include "waveform_parts.h"
 
@@ -467,5 +468,11 @@ hci_status hci_waveform_write(const hci_waveform *w, const char *folder, hci_not
         hci_output_number(output, o->phase_rad, ',');
         hci_output_number(output, o->std_error, '\n');
     }
+    status = hci_output_file(output, emf ? "back_emf.svg" : "cogging.svg", note);
+    if (status != HCI_OK) {
+        hci_output_discard(output);
+        return status;
+    }
+    hci_plot_waveform(output, w);
     return hci_output_commit(output, note);
 }

@@ -10,9 +10,10 @@ extern "C" {
 /* Where the numbers of a report come from, as the user named it: shown as it stands. NULL where there is no
  * such file. */
 typedef struct {
-    const char *machine;
+    const char *machine;             /* folder */
     const char *target, *harmonics;  /* of a solution */
     const char *scenario, *currents; /* of a simulation */
+    const char *runs;                /* of a diagnosis */
 } hci_report_sources;
 
 #ifdef __cplusplus

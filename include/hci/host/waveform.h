@@ -8,41 +8,46 @@
 extern "C" {
 #endif
 
-typedef enum { HCI_WAVEFORM_BACK_EMF, HCI_WAVEFORM_COGGING } hci_waveform_quantity;
+/* What is looked for. */
+typedef enum {
+    HCI_WAVEFORM_BACK_EMF, /* phase voltages of an open machine, by speed */
+    HCI_WAVEFORM_COGGING   /* torque without current, or less what the current makes */
+} hci_waveform_quantity;
 
+/* How to look for it. */
 typedef struct {
-    hci_waveform_quantity quantity;
-    int pole_pairs;
+    hci_waveform_quantity quantity; /* what for */
+    int pole_pairs;                 /* of the machine, >= 1 */
     const double *orders; /* electrical, ascending, above 0, these and no others; NULL: what stands out */
-    size_t order_count;
-    double max_order;                /* electrical; NAN: 60, or what the samples bear */
+    size_t order_count;   /* entries of orders */
+    double max_order;     /* electrical; NAN: 60, or what the samples bear */
     double torque_constant_Nm_per_A; /* of i_q, for a run with currents; NAN: not given */
 } hci_waveform_options;
 
 /* One order: amplitude·sin(order·θ + phase). Amplitudes in N·m (cogging) or V·s/rad = N·m/A (back-EMF, phase
  * a to the star point). */
 typedef struct {
-    double order;
-    double amplitude, phase_rad;
-    double std_error; /* of the amplitude; that of the phase is std_error/amplitude */
-    double chance;    /* that noise alone makes so much */
-    bool kept;
+    double order;                /* electrical */
+    double amplitude, phase_rad; /* peak, and phase at θ = 0 */
+    double std_error;            /* of the amplitude; that of the phase is std_error/amplitude */
+    double chance;               /* that noise alone makes so much */
+    bool kept;                   /* stands out of the noise, or was asked for */
 } hci_waveform_order;
 
 /* How one voltage channel compares with the other two. */
 typedef struct {
-    const char *name; /* va, vb, vc */
-    double offset_V, offset_error_V;
+    const char *name;                    /* va, vb, vc */
+    double offset_V, offset_error_V;     /* of the channel, and its standard error */
     double ratio, ratio_error;           /* of its fundamental to the mean of the others that count */
     double phase_error_rad, phase_error; /* beyond its third of a turn, and the standard error of that */
     bool left_out;                       /* does not count: its scale is another, or it shows nothing */
 } hci_waveform_channel;
 
-/* Start with {0}. */
+/* The orders of a waveform. Start with {0}. */
 typedef struct {
-    hci_waveform_quantity quantity;
-    hci_waveform_order *order; /* ascending, all that were looked at */
-    size_t count, kept;
+    hci_waveform_quantity quantity;       /* what was looked for */
+    hci_waveform_order *order;            /* ascending, all that were looked at */
+    size_t count, kept;                   /* entries of order, and how many of them are kept */
     double step;                          /* between orders that were looked at; 0: they were given */
     double largest_left;                  /* largest order that was not kept, 0: none */
     size_t turns_forward, turns_backward; /* that were averaged, each 1/step electrical turns long */
@@ -57,7 +62,9 @@ typedef struct {
     hci_note remark;                       /* what the reader should know, or "" */
 } hci_waveform;
 
-/* Cogging: torque_Nm − torque_constant·i_q over the angle. A holding run, whose torque is 0, needs the
+/* Finds the orders of a recording.
+ *
+ * Cogging: torque_Nm − torque_constant·i_q over the angle. A holding run, whose torque is 0, needs the
  * constant. The angle is cut into turns, mechanical where they are known and gone round, else electrical;
  * each is fitted by all orders at once, forward and backward are averaged, so that friction drops out.
  *
@@ -75,10 +82,13 @@ typedef struct {
  * it cannot tell, HCI_ERROR_MEMORY. On failure *waveform is empty. */
 hci_status hci_waveform_find(const hci_run *run, const hci_waveform_options *options, hci_waveform *waveform,
                              hci_note *note);
+
+/* Frees what a waveform holds and empties it. */
 void hci_waveform_release(hci_waveform *waveform);
 
 /* Writes back_emf.csv (order,amplitude_Nm_per_A,phase_rad,std_error_Nm_per_A) or cogging.csv
- * (order,amplitude_Nm,phase_rad,std_error_Nm) into a folder. HCI_ERROR_OUTPUT, _MEMORY. */
+ * (order,amplitude_Nm,phase_rad,std_error_Nm) into a folder, and a picture of it, back_emf.svg or
+ * cogging.svg. HCI_ERROR_OUTPUT, _MEMORY. */
 hci_status hci_waveform_write(const hci_waveform *waveform, const char *folder, hci_note *note);
 
 /* As JSON; to be freed with hci_text_free; NULL when memory is out. */
