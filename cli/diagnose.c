@@ -8,7 +8,7 @@
 #include "cli.h"
 #include "hci/host/diagnose.h"
 
-enum { RUNS, OUT, TARGET, RESOLUTION, JSON, QUIET, HELP };
+enum { RUNS, OUT, TARGET, RESOLUTION, CLI_COMMON_KEYS };
 
 static const cli_option OPTIONS[] = {
     [RUNS] = {"runs",       0,   CLI_VALUE, "LIST",    "table file,role: the recordings to fit and those held out"},
@@ -17,10 +17,7 @@ static const cli_option OPTIONS[] = {
               "wanted torque: solve the currents again for the corrected machine"                                 },
     [RESOLUTION] = {"resolution", 0,   CLI_VALUE, "PERCENT",
               "of the largest torque; what the model need not be better than [0.05]"                              },
-    [JSON] = {"json",       0,   CLI_FLAG,  NULL,      "the summary as JSON on standard output"                   },
-    [QUIET] = {"quiet",      'q', CLI_FLAG,  NULL,      "no words, only errors"                                    },
-    [HELP] = {"help",       'h', CLI_FLAG,  NULL,      "this text"                                                },
-    {NULL,         0,   CLI_FLAG,  NULL,      NULL                                                       },
+    CLI_COMMON_OPTIONS
 };
 
 typedef struct {
@@ -55,7 +52,7 @@ static hci_status read_inputs(const cli_arguments *a, inputs *in, hci_note *note
     if (!status && a->value[RESOLUTION])
         status = cli_number("resolution", a->value[RESOLUTION], 1e-6, 50.0, &percent, note);
     in->options.resolution = percent / 100.0;
-    in->options.progress = a->given[QUIET] ? NULL : cli_progress;
+    in->options.progress = cli_progress;
     if (!status && a->value[TARGET]) status = hci_target_read(a->value[TARGET], &in->target, note);
     if (!status) status = hci_machine_read(a->word[0], &in->machine, note);
     if (!status) status = hci_effects_read_machine(a->word[0], &in->declared, note);
@@ -75,83 +72,168 @@ static void release_inputs(inputs *in)
 
 /* ---- words ---- */
 
-/* A long text in lines, indented. */
-static void show_text(const char *text)
+enum { MOST_TERMS = 3 }; /* of an effect that are shown */
+
+static size_t terms_of(const hci_diagnosis *d, const char *effect)
 {
-    enum { WIDTH = 96 };
-    while (*text != '\0') {
-        size_t length = strlen(text);
-        if (length > WIDTH) {
-            length = WIDTH;
-            while (length > 1 && text[length] != ' ')
-                --length;
-        }
-        fprintf(stderr, "  %.*s\n", (int)length, text);
-        text += length;
-        while (*text == ' ')
-            ++text;
-    }
+    for (size_t k = 0; k < d->effects.list.count; ++k)
+        if (strcmp(d->effects.list.effect[k].room->name, effect) == 0) return d->effects.list.effect[k].count;
+    return 0;
 }
 
-static void show_findings(const hci_diagnosis *d)
+/* Bytes up to the end of so many parts of a text that are divided by semicolons. */
+static size_t parts_length(const char *text, size_t parts)
 {
-    for (size_t k = 0; k < d->findings; ++k) {
-        const hci_finding *f = &d->finding[k];
-        if (f->verdict == HCI_FINDING_REJECTED) continue;
-        fprintf(stderr, "  %-12s %s: %s\n", hci_finding_verdict_name(f->verdict), f->effect, f->detail);
-        fprintf(stderr, "               ΔBIC %.4g", f->delta_bic);
-        if (isfinite(f->residual_share))
-            fprintf(stderr, "; explains %.3g %% of the mean square of the residual",
-                    100.0 * f->residual_share);
-        fputc('\n', stderr);
+    size_t length = 0;
+    for (; parts > 0 && text[length]; --parts) {
+        length += length > 0;
+        length += strcspn(text + length, ";");
     }
+    return length;
 }
 
-static void show_runs(const hci_diagnosis *d)
+static void show_finding(const hci_diagnosis *d, const hci_finding *f)
 {
-    fprintf(stderr,
-            "  run                           role     mean/N·m   rms before    after      noise/N·m\n");
-    for (size_t k = 0; k < d->runs; ++k) {
-        const hci_run_errors *e = &d->run[k];
-        const size_t length = strlen(e->file);
-        fprintf(stderr, "  %-29s %-8s %-10.4g %-12.4g  %-9.4g  %.4g\n",
-                length > 29 ? e->file + length - 29 : e->file, e->role == HCI_ROLE_FIT ? "fit" : "holdout",
-                e->mean_torque_Nm, e->rms_before_Nm, e->rms_after_Nm, e->noise_floor_Nm);
-    }
+    const size_t terms = terms_of(d, f->effect), length = parts_length(f->detail, MOST_TERMS);
+    cli_say("  %-12s %s: %.*s", hci_finding_verdict_name(f->verdict), f->effect, (int)length, f->detail);
+    if (f->detail[length] && terms > MOST_TERMS) cli_say("; and %zu more", terms - MOST_TERMS);
+    cli_say("\n");
+}
+
+static void show_slips(const hci_diagnosis *d)
+{
     for (size_t k = 0; k < d->runs; ++k)
         if (d->run[k].slip_rad != 0.0)
-            fprintf(stderr,
-                    "  index slip   %s: its mechanical angle is %.4g° ahead of that of the others; turned "
+            cli_say("  index slip   %s: its mechanical angle is %.4g° ahead of that of the others; turned "
                     "back here\n",
                     d->run[k].file, d->run[k].slip_rad * 180.0 / HCI_PI);
 }
 
 static void show_resolution(const hci_resolution *r)
 {
-    fprintf(stderr,
-            "  old currents on the corrected machine: mean %.4g N·m, rms error %.3g N·m, T_ripple %.3g %%\n"
-            "  new currents:                          mean %.4g N·m, rms error %.3g N·m, T_ripple %.3g %%, "
-            "copper "
-            "%.3f × the old\n",
-            r->old_currents.mean_Nm, r->old_currents.rms_error_Nm, r->old_currents.T_ripple_percent,
+    cli_say("  old currents mean %.4g N·m, rms error %.3g N·m, T_ripple %.3g %% on the corrected machine\n",
+            r->old_currents.mean_Nm, r->old_currents.rms_error_Nm, r->old_currents.T_ripple_percent);
+    cli_say("  new currents mean %.4g N·m, rms error %.3g N·m, T_ripple %.3g %%, copper %.3f × the old\n",
             r->new_currents.mean_Nm, r->new_currents.rms_error_Nm, r->new_currents.T_ripple_percent,
             r->after.mean_square_A2 / r->before.mean_square_A2);
 }
 
+/* ---- bars ---- */
+
+static bool is_shown(const hci_finding *f)
+{
+    return f->verdict != HCI_FINDING_REJECTED;
+}
+
+/* Torque that an effect alone explains. */
+static double own_Nm(const hci_diagnosis *d, const hci_finding *f)
+{
+    return sqrt(f->residual_share) * d->rms_before_Nm;
+}
+
+static void finding_row(const void *context, size_t row, cli_cell cell[])
+{
+    const hci_diagnosis *d = context;
+    const hci_finding *f = d->finding;
+    for (size_t shown = 0; shown < row || !is_shown(f); ++f)
+        shown += is_shown(f);
+    snprintf(cell[0].text, sizeof cell[0].text, "%s", f->effect);
+    snprintf(cell[1].text, sizeof cell[1].text, "%s", hci_finding_verdict_name(f->verdict));
+    snprintf(cell[2].text, sizeof cell[2].text, "%.4g", f->delta_bic);
+    if (!isfinite(f->residual_share)) return;
+    snprintf(cell[3].text, sizeof cell[3].text, "%.4g", own_Nm(d, f));
+    cell[4].value = own_Nm(d, f);
+}
+
+static void draw_findings(const hci_diagnosis *d)
+{
+    static const cli_column COLUMNS[] = {
+        {CLI_LEFT,  "effect" },
+        {CLI_LEFT,  "verdict"},
+        {CLI_RIGHT, "ΔBIC"  },
+        {CLI_RIGHT, "own"    },
+        {CLI_BAR,   ""       }
+    };
+    size_t rows = 0;
+    for (size_t k = 0; k < d->findings; ++k)
+        rows += is_shown(&d->finding[k]);
+    cli_draw(&(cli_chart){.caption =
+                              "effects by evidence (ΔBIC); own: rms torque that only this one explains, N·m",
+                          .column = COLUMNS,
+                          .columns = 5,
+                          .rows = rows,
+                          .fill = finding_row,
+                          .context = d,
+                          .unit = "N·m"});
+}
+
+typedef struct {
+    const hci_diagnosis *diagnosis;
+    size_t pick[CLI_MOST_ROWS];
+} worst_runs;
+
+static double error_Nm(const void *diagnosis, size_t k)
+{
+    return ((const hci_diagnosis *)diagnosis)->run[k].rms_after_Nm;
+}
+
+static void run_row(const void *context, size_t row, cli_cell cell[])
+{
+    const worst_runs *w = context;
+    const hci_run_errors *e = &w->diagnosis->run[w->pick[row]];
+    snprintf(cell[0].text, sizeof cell[0].text, "%s",
+             strlen(e->file) < 40 ? e->file : e->file + strlen(e->file) - 40);
+    snprintf(cell[1].text, sizeof cell[1].text, "%s", e->role == HCI_ROLE_FIT ? "fit" : "holdout");
+    snprintf(cell[2].text, sizeof cell[2].text, "%.4g", e->rms_before_Nm);
+    cell[3].value = e->rms_before_Nm;
+    snprintf(cell[4].text, sizeof cell[4].text, "%.4g", e->rms_after_Nm);
+    cell[5].value = e->rms_after_Nm;
+    cell[3].mark = cell[5].mark = e->noise_floor_Nm;
+}
+
+static void draw_runs(const hci_diagnosis *d)
+{
+    static const cli_column COLUMNS[] = {
+        {CLI_LEFT,  "run"   },
+        {CLI_LEFT,  "role"  },
+        {CLI_RIGHT, "before"},
+        {CLI_BAR,   ""      },
+        {CLI_RIGHT, "after" },
+        {CLI_BAR,   ""      }
+    };
+    char caption[240];
+    worst_runs w = {.diagnosis = d};
+    const size_t rows = cli_pick(error_Nm, d, d->runs, 0.0, w.pick);
+    snprintf(caption, sizeof caption,
+             "error of each run (rms of measured less modelled torque), N·m; before: the machine as "
+             "declared; %s noise, where it is in the range",
+             cli_is_ascii() ? "|" : "│");
+    cli_draw(&(cli_chart){.caption = caption,
+                          .column = COLUMNS,
+                          .columns = 6,
+                          .rows = rows,
+                          .fill = run_row,
+                          .context = &w,
+                          .logarithmic = true,
+                          .unit = "N·m"});
+    if (rows < d->runs) cli_say("  and %zu runs with smaller errors\n", d->runs - rows);
+}
+
 static void show(const hci_diagnosis *d, const hci_resolution *r, const cli_arguments *a)
 {
+    static const char *const TONES[] = {CLI_GOOD, CLI_GOOD, CLI_WARN, CLI_BAD};
     char words[2048];
     hci_diagnosis_words(d, words, sizeof words);
-    fprintf(stderr, "diagnosed: %s, %s: %s\n", a->word[0], a->value[RUNS],
+    cli_say("diagnosed: %s, %s: %s%s" CLI_PLAIN "\n", a->word[0], a->value[RUNS], TONES[d->verdict],
             hci_diagnosis_verdict_name(d->verdict));
-    show_text(words);
-    show_findings(d);
-    show_runs(d);
-    if (d->advice[0]) {
-        fprintf(stderr, "  measure next:\n");
-        show_text(d->advice);
-    }
+    cli_say_paragraph(2, words);
+    for (size_t k = 0; k < d->findings; ++k)
+        if (is_shown(&d->finding[k])) show_finding(d, &d->finding[k]);
+    show_slips(d);
+    if (d->advice[0]) cli_say("  measure next %s\n", d->advice);
     if (r) show_resolution(r);
+    draw_findings(d);
+    draw_runs(d);
 }
 
 /* ---- the command ---- */
@@ -178,17 +260,22 @@ static hci_status write_results(const cli_arguments *a, const inputs *in, const 
         &(hci_report_sources){.machine = a->word[0], .target = a->value[TARGET]}, folder, note);
 }
 
+static void show_remarks(const inputs *in)
+{
+    cli_remark(&in->machine.remark);
+    for (size_t k = 0; k < in->runs.count; ++k)
+        cli_remark(&in->runs.run[k].remark);
+}
+
 static int give_results(const cli_arguments *a, const inputs *in, const hci_diagnosis *d,
                         const hci_resolution *r, hci_status verdict)
 {
     hci_note note = {{0}};
     hci_status status = HCI_OK;
     cli_progress_end();
-    if (!a->given[QUIET]) cli_remark(&in->machine.remark);
-    for (size_t k = 0; k < in->runs.count && !a->given[QUIET]; ++k)
-        cli_remark(&in->runs.run[k].remark);
     if (a->value[OUT]) status = write_results(a, in, d, r, &note);
-    if (!status && !a->given[QUIET]) show(d, r, a);
+    if (!status && cli_is_wordy()) show(d, r, a);
+    if (!status) show_remarks(in);
     if (!status && a->given[JSON]) status = print_json(d, r, &note);
     return status ? cli_fail(status, &note) : hci_status_exit_code(verdict);
 }
@@ -240,7 +327,5 @@ const cli_command cli_diagnose = {
     OPTIONS,
     1,
     "  hci-solve diagnose data/fem_c/machine --runs data/fem_c/runs.csv -o out/diagnosed\n"
-    "\nExit codes: 0 explained, or nothing is missing; 1 ambiguous or not explained; 2 command line; 3 "
-    "input; "
-    "4 numerical; 5 output\n",
+    "\nExit codes: 0 explained, or nothing is missing; 1 ambiguous or not explained; " CLI_EXIT_ERRORS,
     run};

@@ -9,7 +9,7 @@
 #include "hci/host/csv.h"
 #include "hci/host/emit.h"
 
-enum { NAME, FORMAT, FRAME, POINTS, MAX_ERROR, PER_TORQUE, REFERENCE, OUT, JSON, QUIET, HELP };
+enum { NAME, FORMAT, FRAME, POINTS, MAX_ERROR, PER_TORQUE, REFERENCE, OUT, CLI_COMMON_KEYS };
 
 static const cli_option OPTIONS[] = {
     [NAME] = {"name",             0,   CLI_VALUE, "ID",     "of the table and its files, a C identifier"    },
@@ -23,10 +23,7 @@ static const cli_option OPTIONS[] = {
     [REFERENCE] = {"reference-torque", 0,   CLI_VALUE, "NM",
               "with --per-torque: the largest T (default: the one solved for)"                              },
     [OUT] = {"out",              'o', CLI_VALUE, "FOLDER", "where ID.h and ID.c go (default: here)"        },
-    [JSON] = {"json",             0,   CLI_FLAG,  NULL,     "the summary as JSON on standard output"        },
-    [QUIET] = {"quiet",            'q', CLI_FLAG,  NULL,     "no words, only errors"                         },
-    [HELP] = {"help",             'h', CLI_FLAG,  NULL,     "this text"                                     },
-    {NULL,               0,   CLI_FLAG,  NULL,     NULL                                            },
+    CLI_COMMON_OPTIONS
 };
 
 enum { PATH_SIZE = 4096 };
@@ -164,15 +161,15 @@ static hci_status read_inputs(const cli_arguments *a, inputs *in, hci_note *note
 
 static void show(const hci_emit_request *r, const hci_emit_result *result, const char *folder)
 {
-    fprintf(stderr, "emitted: %s/%s.h and %s.c\n", folder, r->name, r->name);
-    fprintf(stderr, "  table        %zu points of %zu values in %zu part%s, %zu bytes, frame %s\n",
-            result->points, result->columns, result->parts, result->parts == 1 ? "" : "s", result->bytes,
+    cli_say(CLI_GOOD "emitted" CLI_PLAIN ": %s/%s.h and %s.c\n", folder, r->name, r->name);
+    cli_say("  table        %zu points of %zu values in %zu part%s, %zu bytes, frame %s\n", result->points,
+            result->columns, result->parts, result->parts == 1 ? "" : "s", result->bytes,
             r->frame == HCI_TABLE_ABC ? "abc" : "dq");
-    fprintf(stderr, "  period       %zu electrical turn%s\n", result->period_turns,
+    cli_say("  period       %zu electrical turn%s\n", result->period_turns,
             result->period_turns == 1 ? "" : "s");
-    fprintf(stderr, "  error        at most %.3g A of a peak of %.4g A", result->max_error_A, result->peak_A);
-    if (r->per_Nm) fprintf(stderr, ", up to %.4g N·m", r->reference_torque_Nm);
-    fprintf(stderr, "\n  runtime      hci/table.h\n");
+    cli_say("  error        at most %.3g A of a peak of %.4g A", result->max_error_A, result->peak_A);
+    if (r->per_Nm) cli_say(", up to %.4g N·m", r->reference_torque_Nm);
+    cli_say("\n  runtime      hci/table.h\n");
 }
 
 static hci_status print_json(const hci_emit_request *r, const hci_emit_result *result, hci_note *note)
@@ -194,7 +191,7 @@ static int run(const cli_arguments *a)
     memset(&in, 0, sizeof in);
     status = read_inputs(a, &in, &note);
     if (!status) status = hci_emit(folder, &in.request, &result, &note);
-    if (!status && !a->given[QUIET]) show(&in.request, &result, folder);
+    if (!status && cli_is_wordy()) show(&in.request, &result, folder);
     if (!status && a->given[JSON]) status = print_json(&in.request, &result, &note);
     hci_currents_release(&in.current);
     hci_currents_release(&in.per_Nm);
@@ -212,5 +209,5 @@ const cli_command cli_emit = {
     "  hci-solve emit out/machine_a --name machine_a --frame dq --max-error 0.01 -o out/machine_a\n"
     "  hci-solve emit out/machine_a --name machine_a_linear --frame dq --points 512 --per-torque -o "
     "out/machine_a\n"
-    "\nExit codes: 0 done; 2 command line; 3 input; 4 numerical; 5 output\n",
+    "\nExit codes: 0 done; " CLI_EXIT_ERRORS,
     run};

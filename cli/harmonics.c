@@ -7,7 +7,7 @@
 #include "hci/host/csv.h"
 #include "hci/host/waveform.h"
 
-enum { QUANTITY, POLE_PAIRS, ORDERS, MAX_ORDER, CONSTANT, OUT, JSON, QUIET, HELP };
+enum { QUANTITY, POLE_PAIRS, ORDERS, MAX_ORDER, CONSTANT, OUT, CLI_COMMON_KEYS };
 
 static const cli_option OPTIONS[] = {
     [QUANTITY] = {"quantity",        0,   CLI_VALUE, "NAME",     "back_emf or cogging"                                },
@@ -18,13 +18,10 @@ static const cli_option OPTIONS[] = {
     [CONSTANT] = {"torque-constant", 0,   CLI_VALUE, "NM_PER_A",
                   "cogging of a run with currents: torque of 1 A of i_q"                                              },
     [OUT] = {"out",             'o', CLI_VALUE, "FOLDER",   "where the table goes; without it nothing is written"},
-    [JSON] = {"json",            0,   CLI_FLAG,  NULL,       "the summary as JSON on standard output"             },
-    [QUIET] = {"quiet",           'q', CLI_FLAG,  NULL,       "no words, only errors"                              },
-    [HELP] = {"help",            'h', CLI_FLAG,  NULL,       "this text"                                          },
-    {NULL,              0,   CLI_FLAG,  NULL,       NULL                                                 },
+    CLI_COMMON_OPTIONS
 };
 
-enum { MOST_ORDERS = 256, MOST_ROWS = 24, BAR_WIDTH = 30 };
+enum { MOST_ORDERS = 256 };
 
 /* ---- options ---- */
 
@@ -108,8 +105,7 @@ static void show_channels(const hci_waveform *w)
 {
     for (int s = 0; s < 3; ++s) {
         const hci_waveform_channel *c = &w->channel[s];
-        fprintf(stderr,
-                "  %-12s offset %.4g ± %.1g V, %.5g ± %.1g times the others, phase %+.4f ± %.1g rad%s\n",
+        cli_say("  %-12s offset %.4g ± %.1g V, %.5g ± %.1g times the others, phase %+.4f ± %.1g rad%s\n",
                 c->name, c->offset_V, c->offset_error_V, c->ratio, c->ratio_error, c->phase_error_rad,
                 c->phase_error, c->left_out ? " (left out)" : "");
     }
@@ -118,75 +114,91 @@ static void show_channels(const hci_waveform *w)
 static void show_source(const hci_waveform *w)
 {
     if (w->quantity == HCI_WAVEFORM_COGGING) {
-        fprintf(stderr, "  mean         %.5g N·m\n", w->mean_Nm);
+        cli_say("  mean         %.5g N·m\n", w->mean_Nm);
         if (isfinite(w->friction_Nm))
-            fprintf(stderr, "  friction     %.5g ± %.2g N·m (half the difference of the directions)\n",
+            cli_say("  friction     %.5g ± %.2g N·m (half the difference of the directions)\n",
                     w->friction_Nm, w->friction_error_Nm);
         return;
     }
     if (isfinite(w->frequency_Hz))
-        fprintf(stderr, "  frequency    %.7g Hz electrical, drifting by %.3g Hz/s (from the voltages)\n",
+        cli_say("  frequency    %.7g Hz electrical, drifting by %.3g Hz/s (from the voltages)\n",
                 w->frequency_Hz, w->drift_Hz_per_s);
-    fprintf(stderr, "  speed        %.6g rpm mean\n", w->speed_rad_per_s * 30.0 / HCI_PI);
+    cli_say("  speed        %.6g rpm mean\n", w->speed_rad_per_s * 30.0 / HCI_PI);
     show_channels(w);
 }
 
 static void show_test(const hci_waveform *w)
 {
     if (w->turns_forward + w->turns_backward > 0)
-        fprintf(stderr, "  turns        %zu forward, %zu backward, %s\n", w->turns_forward, w->turns_backward,
+        cli_say("  turns        %zu forward, %zu backward, %s\n", w->turns_forward, w->turns_backward,
                 w->step < 1.0 ? "mechanical" : "electrical");
-    fprintf(stderr, "  errors       %s\n",
-            w->between_turns ? "from how the turns differ"
-            : w->step > 0.0  ? "from the orders around"
-                             : "from what the orders leave");
+    cli_say("  errors       %s\n", w->between_turns ? "from how the turns differ"
+                                   : w->step > 0.0  ? "from the orders around"
+                                                    : "from what the orders leave");
     if (w->count == 0 || w->largest_left <= 0.0) return;
     for (size_t k = 0; k < w->count; ++k)
         if (fabs(w->order[k].order - w->largest_left) < HCI_ORDER_TOLERANCE)
-            fprintf(stderr,
-                    "  left out     %zu of %zu orders up to %.6g, which noise can make; the largest is "
+            cli_say("  left out     %zu of %zu orders up to %.6g, which noise can make; the largest is "
                     "order %.6g, %.3g ± %.1g\n",
                     w->count - w->kept, w->count, w->order[w->count - 1].order, w->largest_left,
                     w->order[k].amplitude, w->order[k].std_error);
 }
 
-/* Amplitude below which orders are not listed, so that at most MOST_ROWS are. */
-static double threshold(const hci_waveform *w, double largest)
+/* ---- spectrum ---- */
+
+static double kept_amplitude(const void *waveform, size_t k)
 {
-    double limit = 0.0;
-    for (size_t rows = MOST_ROWS + 1; rows > MOST_ROWS; limit = limit > 0.0 ? 1.2 * limit : 1e-6 * largest) {
-        rows = 0;
-        for (size_t k = 0; k < w->count; ++k)
-            rows += w->order[k].kept && w->order[k].amplitude >= limit;
-        if (rows <= MOST_ROWS) break;
-    }
-    return limit;
+    const hci_waveform_order *o = &((const hci_waveform *)waveform)->order[k];
+    return o->kept ? o->amplitude : 0.0;
+}
+
+typedef struct {
+    const hci_waveform *waveform;
+    size_t pick[CLI_MOST_ROWS];
+} spectrum;
+
+static void spectrum_row(const void *context, size_t row, cli_cell cell[])
+{
+    const spectrum *s = context;
+    const hci_waveform_order *o = &s->waveform->order[s->pick[row]];
+    snprintf(cell[0].text, sizeof cell[0].text, "%.6g", o->order);
+    snprintf(cell[1].text, sizeof cell[1].text, "%.4g", o->amplitude);
+    snprintf(cell[2].text, sizeof cell[2].text, "%.1e", o->std_error);
+    snprintf(cell[3].text, sizeof cell[3].text, "%.4f", o->phase_rad);
+    cell[4].value = o->amplitude;
+    cell[4].mark = o->std_error;
 }
 
 static void show_orders(const hci_waveform *w)
 {
-    double largest = 0.0;
-    size_t shown = 0;
-    for (size_t k = 0; k < w->count; ++k)
-        if (w->order[k].kept) largest = fmax(largest, w->order[k].amplitude);
-    const double limit = threshold(w, largest);
-    fprintf(stderr, "\n  %9s %11s %9s %8s\n", "order", w->quantity == HCI_WAVEFORM_COGGING ? "N·m" : "N·m/A",
-            "±", "phase");
-    for (size_t k = 0; k < w->count; ++k) {
-        const hci_waveform_order *o = &w->order[k];
-        if (!o->kept || o->amplitude < limit) continue;
-        shown++;
-        fprintf(stderr, "  %9.6g %10.4g %9.1e %8.4f  ", o->order, o->amplitude, o->std_error, o->phase_rad);
-        for (int b = 0; b < (int)(BAR_WIDTH * o->amplitude / largest + 0.5); ++b)
-            fputc('#', stderr);
-        fputc('\n', stderr);
-    }
-    if (shown < w->kept) fprintf(stderr, "  and %zu smaller ones\n", w->kept - shown);
+    static const cli_column COLUMNS[] = {
+        {CLI_RIGHT, "order"    },
+        {CLI_RIGHT, "amplitude"},
+        {CLI_RIGHT, "std error"},
+        {CLI_RIGHT, "phase/rad"},
+        {CLI_BAR,   ""         }
+    };
+    const bool cogging = w->quantity == HCI_WAVEFORM_COGGING;
+    char caption[160];
+    spectrum s = {.waveform = w};
+    const size_t rows = cli_pick(kept_amplitude, w, w->count, 1e-6, s.pick);
+    snprintf(caption, sizeof caption, "%s by electrical order, %s; in the bars %s is the standard error",
+             cogging ? "cogging torque" : "back-EMF", cogging ? "N·m (peak)" : "N·m/A (peak of a phase)",
+             cli_is_ascii() ? "|" : "│");
+    cli_draw(&(cli_chart){.caption = caption,
+                          .column = COLUMNS,
+                          .columns = 5,
+                          .rows = rows,
+                          .fill = spectrum_row,
+                          .context = &s,
+                          .logarithmic = true,
+                          .unit = cogging ? "N·m" : "N·m/A"});
+    if (rows < w->kept) cli_say("  and %zu smaller ones\n", w->kept - rows);
 }
 
 static void show(const hci_waveform *w, const cli_arguments *a)
 {
-    fprintf(stderr, "%s: %s, %zu order%s\n",
+    cli_say("%s%s" CLI_PLAIN ": %s, %zu order%s\n", w->kept > 0 ? CLI_GOOD : CLI_WARN,
             w->quantity == HCI_WAVEFORM_COGGING ? "cogging torque" : "back-EMF", a->word[0], w->kept,
             w->kept == 1 ? "" : "s");
     show_source(w);
@@ -212,10 +224,10 @@ static hci_status analyse(const cli_arguments *a, const hci_waveform_options *o,
     hci_status status = hci_waveform_find(run, o, &waveform, note);
     if (status) return status;
     if (a->value[OUT]) status = hci_waveform_write(&waveform, a->value[OUT], note);
-    if (!status && !a->given[QUIET]) {
+    if (!status && cli_is_wordy()) {
+        show(&waveform, a);
         cli_remark(&run->remark);
         cli_remark(&waveform.remark);
-        show(&waveform, a);
     }
     if (!status && a->given[JSON]) status = print_json(&waveform, note);
     hci_waveform_release(&waveform);
@@ -246,5 +258,5 @@ const cli_command cli_harmonics = {
     1,
     "  hci-solve simulate data/machine_a data/drive/driven.csv -o out/driven\n"
     "  hci-solve harmonics out/driven/trajectory.csv --quantity cogging --pole-pairs 2 -o out/driven\n"
-    "\nExit codes: 0 done; 2 command line; 3 input; 4 numerical; 5 output\n",
+    "\nExit codes: 0 done; " CLI_EXIT_ERRORS,
     run};

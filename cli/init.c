@@ -30,9 +30,7 @@ enum {
     RATED_SPEED,
     DC_LINK,
     OUT,
-    JSON,
-    QUIET,
-    HELP,
+    CLI_COMMON_KEYS,
     OPTION_COUNT
 };
 
@@ -63,10 +61,7 @@ static const cli_option OPTIONS[] = {
     [RATED_SPEED] = {"rated-speed",     0,   CLI_VALUE, "RPM",       "mechanical"                                             },
     [DC_LINK] = {"dc-link",         0,   CLI_VALUE, "V",         "voltage of the battery or supply"                       },
     [OUT] = {"out",             'o', CLI_VALUE, "FOLDER",    "where the tables go (default: NAME)"                    },
-    [JSON] = {"json",            0,   CLI_FLAG,  NULL,        "the summary as JSON on standard output"                 },
-    [QUIET] = {"quiet",           'q', CLI_FLAG,  NULL,        "no words, only errors"                                  },
-    [HELP] = {"help",            'h', CLI_FLAG,  NULL,        "this text"                                              },
-    {NULL,              0,   CLI_FLAG,  NULL,        NULL                                                     },
+    CLI_COMMON_OPTIONS
 };
 
 typedef char every_option_has_a_place[(int)OPTION_COUNT <= (int)CLI_MOST_OPTIONS ? 1 : -1];
@@ -256,44 +251,42 @@ static hci_status read_sheet(const cli_arguments *a, hci_sheet *s, hci_note *not
 static void show_constants(const hci_sheet *s)
 {
     const double emf = hci_sheet_emf(s->reading, s->strength, s->pole_pairs);
-    fprintf(stderr, "  pole pairs   %d (%d magnets)\n", s->pole_pairs, 2 * s->pole_pairs);
-    fprintf(stderr, "  back-EMF     %.5g V·s/rad, peak of a phase, from %g %s read as %s\n", emf, s->strength,
+    cli_say("  pole pairs   %d (%d magnets)\n", s->pole_pairs, 2 * s->pole_pairs);
+    cli_say("  back-EMF     %.5g V·s/rad, peak of a phase, from %g %s read as %s\n", emf, s->strength,
             hci_sheet_unit(s->reading), hci_sheet_meaning(s->reading));
-    fprintf(stderr, "  which is, to compare with the sheet (if one of them differs by 1.41 or 1.73, the "
-                    "reading is another):\n");
+    cli_say("  which is, to compare with the sheet (if one of them differs by 1.41 or 1.73, the "
+            "reading is another):\n");
     for (int reading = 0; reading <= (int)HCI_SHEET_FLUX; ++reading)
-        fprintf(stderr, "    %10.5g %-7s %s\n",
-                hci_sheet_value((hci_sheet_reading)reading, emf, s->pole_pairs),
+        cli_say("    %10.5g %-7s %s\n", hci_sheet_value((hci_sheet_reading)reading, emf, s->pole_pairs),
                 hci_sheet_unit((hci_sheet_reading)reading), hci_sheet_meaning((hci_sheet_reading)reading));
 }
 
 static void show_next(const hci_sheet *s, const char *folder)
 {
-    fprintf(stderr,
-            "next\n"
+    const int p = s->pole_pairs;
+    cli_say("next\n"
             "  open the tables: what is missing stands there, with how to measure it\n"
             "  harmonics, which make the ripple, are in no data sheet; measure and take them over:\n");
-    fprintf(stderr, "    hci-solve harmonics RUN --quantity back_emf --pole-pairs %d -o %s\n", s->pole_pairs,
+    cli_say("    hci-solve harmonics RUN --quantity back_emf --pole-pairs %d -o %s\n", p, folder);
+    cli_say("    hci-solve harmonics RUN --quantity cogging --pole-pairs %d -o %s\n", p, folder);
+    cli_say("  currents for the torque you want:\n"
+            "    hci-solve solve %s --target FILE --auto -o OUT\n",
             folder);
-    fprintf(stderr, "    hci-solve harmonics RUN --quantity cogging --pole-pairs %d -o %s\n", s->pole_pairs,
-            folder);
-    fprintf(stderr, "  currents for the torque you want:  hci-solve solve %s --target FILE --auto -o OUT\n",
-            folder);
-    fprintf(stderr, "  when the bench disagrees:          hci-solve diagnose %s --runs LIST -o OUT\n",
+    cli_say("  when the bench disagrees:\n"
+            "    hci-solve diagnose %s --runs LIST -o OUT\n",
             folder);
 }
 
 static void show(const hci_sheet *s, const char *folder)
 {
     hci_note remark;
-    fprintf(stderr, "machine: %s: machine.csv, back_emf.csv%s\n", folder,
+    cli_say(CLI_GOOD "machine" CLI_PLAIN ": %s: machine.csv, back_emf.csv%s\n", folder,
             s->slots > 0 ? ", cogging.csv" : "");
     hci_sheet_remark(s, &remark);
     cli_remark(&remark);
     show_constants(s);
     if (s->slots > 0)
-        fprintf(stderr,
-                "  cogging      first at order %d (%d in a mechanical turn); amplitudes 0 until measured\n",
+        cli_say("  cogging      first at order %d (%d in a mechanical turn); amplitudes 0 until measured\n",
                 hci_cogging_order(s->slots, s->pole_pairs),
                 s->pole_pairs * hci_cogging_order(s->slots, s->pole_pairs));
     show_next(s, folder);
@@ -307,7 +300,7 @@ static int run(const cli_arguments *a)
     hci_status status = read_sheet(a, &sheet, &note);
     if (!status) status = hci_init_write(folder, &sheet, &note);
     if (status) return cli_fail(status, &note);
-    if (!a->given[QUIET]) show(&sheet, folder);
+    if (cli_is_wordy()) show(&sheet, folder);
     if (a->given[JSON]) {
         char *json = hci_init_json(&sheet);
         if (!json)
@@ -329,5 +322,5 @@ const cli_command cli_init = {
     "  hci-solve solve out/mn4004 --target data/scenarios/02/target.csv --auto -o out/mn4004_currents\n"
     "  hci-solve init servo --pole-pairs 4 --volt-per-krpm 98 --resistance 1.9 --resistance-of line -o "
     "out/servo\n"
-    "\nExit codes: 0 done; 2 command line; 3 input; 4 numerical; 5 output\n",
+    "\nExit codes: 0 done; " CLI_EXIT_ERRORS,
     run};

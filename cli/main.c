@@ -8,21 +8,57 @@
 #include "cli.h"
 #include "hci/version.h"
 
-static const cli_command *const COMMANDS[] = {&cli_harmonics, &cli_solve, &cli_predict, &cli_simulate,
-                                              &cli_diagnose,  &cli_emit,  &cli_init};
+/* In the order in which one uses them. */
+static const cli_command *const COMMANDS[] = {&cli_init, &cli_check,    &cli_harmonics, &cli_solve,
+                                              &cli_emit, &cli_simulate, &cli_predict,   &cli_diagnose};
 enum { COMMAND_COUNT = sizeof COMMANDS / sizeof COMMANDS[0] };
 
 static int print_usage(FILE *stream)
 {
-    fprintf(stream, "hci-solve COMMAND [OPTIONS]\n\nPhase currents that make a permanent-magnet motor "
-                    "produce the torque you want.\n\n");
+    const int width = cli_width(fileno(stream));
+    fprintf(stream, "hci-solve COMMAND [OPTIONS]\n\n");
+    cli_print_wrapped(
+        stream, width, 0, 0,
+        "Phase currents that make a permanent-magnet motor produce the torque you want. Commands, in "
+        "the order in which one uses them:");
+    fputc('\n', stream);
     for (size_t k = 0; k < COMMAND_COUNT; ++k) {
-        const char *end = strchr(COMMANDS[k]->does, '\n');
-        const int length = end ? (int)(end - COMMANDS[k]->does) : (int)strlen(COMMANDS[k]->does);
-        fprintf(stream, "  %-10s %.*s\n", COMMANDS[k]->name, length, COMMANDS[k]->does);
+        char line[256];
+        snprintf(line, sizeof line, "%.*s", (int)strcspn(COMMANDS[k]->does, "\n"), COMMANDS[k]->does);
+        fprintf(stream, "  %-10s ", COMMANDS[k]->name);
+        cli_print_wrapped(stream, width, 13, 13, line);
     }
-    fprintf(stream, "\nhci-solve COMMAND --help tells more; hci-solve --version tells the version.\n");
+    fprintf(stream, "\nFrom a data sheet to C tables\n"
+                    "  hci-solve init mn4004 --poles 24 --kv 300 --slots 18 -o out/mn4004\n"
+                    "  hci-solve solve out/mn4004 --target data/scenarios/02/target.csv \\\n"
+                    "      --auto -o out/currents\n"
+                    "  hci-solve emit out/currents --name mn4004 --frame dq -o out/firmware\n\n");
+    cli_print_wrapped(
+        stream, width, 0, 0,
+        "Each command says on the terminal what it found, writes its files where --out says, and ends "
+        "with exit code 0 when all is well. hci-solve COMMAND --help tells its options, files and exit "
+        "codes, with an example; hci-solve --version the version.");
+    fputc('\n', stream);
+    cli_print_wrapped(
+        stream, width, 0, 0,
+        "Documentation: man hci-solve; guides to each step and the formats of all files in docs/ of "
+        "the sources, installed in share/doc/hci-solve.");
     return 0;
+}
+
+static int unknown_command(const char *word)
+{
+    const char *names[COMMAND_COUNT + 1] = {NULL}, *nearest;
+    hci_note note = {{0}};
+    for (size_t k = 0; k < COMMAND_COUNT; ++k)
+        names[k] = COMMANDS[k]->name;
+    nearest = cli_nearest(word, names);
+    return cli_fail(hci_note_set(&note, HCI_ERROR_ARGUMENT,
+                                 "unknown command `%s`%s%s%s hci-solve --help lists the commands, hci-solve "
+                                 "COMMAND --help tells of one",
+                                 word, nearest ? "; did you mean `" : ";", nearest ? nearest : "",
+                                 nearest ? "`?" : ""),
+                    &note);
 }
 
 static int run_command(const cli_command *command, int count, char *const *words)
@@ -37,6 +73,7 @@ static int run_command(const cli_command *command, int count, char *const *words
             return 0;
         }
     status = cli_parse(command, count, words, &arguments, &note);
+    if (!status) status = cli_terminal_begin(command, &arguments, &note);
     return status ? cli_fail(status, &note) : command->run(&arguments);
 }
 
@@ -48,7 +85,8 @@ static int run(int argc, char **argv)
         return print_usage(stdout);
     for (size_t k = 0; k < COMMAND_COUNT; ++k)
         if (strcmp(word, COMMANDS[k]->name) == 0) return run_command(COMMANDS[k], argc - 2, argv + 2);
-    if (argc > 1) fprintf(stderr, "hci-solve: unknown command `%s`\n", word);
+    if (strcmp(word, "reference") == 0) return cli_reference(COMMANDS, COMMAND_COUNT, argc - 2, argv + 2);
+    if (argc > 1) return unknown_command(word);
     print_usage(stderr);
     return hci_status_exit_code(HCI_ERROR_ARGUMENT);
 }
@@ -59,6 +97,7 @@ int main(int argc, char **argv)
     int exit_code;
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN);
+    cli_signals_catch();
     exit_code = run(argc, argv);
     if (fflush(stdout) != 0 || ferror(stdout)) {
         fprintf(stderr, "hci-solve: standard output: %s\n", strerror(errno));

@@ -7,33 +7,57 @@
 #include "cli.h"
 #include "hci/host/predict.h"
 
-enum { OUT, JSON, QUIET, HELP };
+enum { OUT, CLI_COMMON_KEYS };
 
 static const cli_option OPTIONS[] = {
-    [OUT] = {"out",   'o', CLI_VALUE, "FILE", "the run with the model's torque; without it nothing is written"},
-    [JSON] = {"json",  0,   CLI_FLAG,  NULL,   "the summary as JSON on standard output"                        },
-    [QUIET] = {"quiet", 'q', CLI_FLAG,  NULL,   "no words, only errors"                                         },
-    [HELP] = {"help",  'h', CLI_FLAG,  NULL,   "this text"                                                     },
-    {NULL,    0,   CLI_FLAG,  NULL,   NULL                                                            },
+    [OUT] = {"out", 'o', CLI_VALUE, "FILE", "the run with the model's torque; without it nothing is written"},
+    CLI_COMMON_OPTIONS
 };
+
+/* ---- words ---- */
+
+static void ripple_row(const void *context, size_t row, cli_cell cell[])
+{
+    const hci_prediction *p = context;
+    const char *const NAMES[] = {"measured", "modelled", "measured less modelled"};
+    const double values[] = {p->ripple_torque_Nm, p->ripple_model_Nm, p->rms_residual_Nm};
+    snprintf(cell[0].text, sizeof cell[0].text, "%s", NAMES[row]);
+    snprintf(cell[1].text, sizeof cell[1].text, "%.4g", values[row]);
+    cell[2].value = values[row];
+}
+
+static void show_ripple(const hci_prediction *p)
+{
+    static const cli_column COLUMNS[] = {
+        {CLI_LEFT,  "torque"},
+        {CLI_RIGHT, "rms"   },
+        {CLI_BAR,   ""      }
+    };
+    cli_draw(&(cli_chart){.caption = "rms of the torque about its mean, and of the difference, N·m",
+                          .column = COLUMNS,
+                          .columns = 3,
+                          .rows = 3,
+                          .fill = ripple_row,
+                          .context = p,
+                          .unit = "N·m"});
+}
 
 static void show(const hci_prediction *p, const cli_arguments *a)
 {
     static const char *const SOURCE[] = {"no torque in the run", "torque as measured",
                                          "held at rest: the torque on the shaft is 0",
                                          "a free shaft: torque is inertia x acceleration"};
-    fprintf(stderr, "predicted: %s, %s\n", a->word[0], a->word[1]);
-    fprintf(stderr, "  run          %zu sample%s, %s\n", p->count, p->count == 1 ? "" : "s",
-            SOURCE[p->source]);
+    cli_say(CLI_GOOD "predicted" CLI_PLAIN ": %s, %s\n", a->word[0], a->word[1]);
+    cli_say("  run          %zu sample%s, %s\n", p->count, p->count == 1 ? "" : "s", SOURCE[p->source]);
     if (isfinite(p->mean_torque_Nm))
-        fprintf(stderr, "  torque       mean %.6g N·m, ripple %.4g N·m rms\n", p->mean_torque_Nm,
+        cli_say("  torque       mean %.6g N·m, ripple %.4g N·m rms\n", p->mean_torque_Nm,
                 p->ripple_torque_Nm);
-    fprintf(stderr, "  model        mean %.6g N·m, ripple %.4g N·m rms\n", p->mean_model_Nm,
-            p->ripple_model_Nm);
+    cli_say("  model        mean %.6g N·m, ripple %.4g N·m rms\n", p->mean_model_Nm, p->ripple_model_Nm);
     if (isfinite(p->rms_residual_Nm))
-        fprintf(stderr, "  residual     %.4g N·m rms, mean %.4g N·m, at most %.4g N·m (sample %zu)\n",
+        cli_say("  residual     %.4g N·m rms, mean %.4g N·m, at most %.4g N·m (sample %zu)\n",
                 p->rms_residual_Nm, p->mean_residual_Nm, p->worst_residual_Nm, p->worst_sample + 1);
-    if (a->value[OUT]) fprintf(stderr, "  written      %s\n", a->value[OUT]);
+    if (a->value[OUT]) cli_say("  written      %s\n", a->value[OUT]);
+    if (isfinite(p->rms_residual_Nm)) show_ripple(p);
 }
 
 /* The run itself is a measurement, and not to be replaced. */
@@ -61,9 +85,9 @@ static int run(const cli_arguments *a)
     hci_note note = {{0}};
     hci_status status = keep_apart(a->word[1], a->value[OUT], &note);
     if (!status) status = hci_predict_file(a->word[0], a->word[1], a->value[OUT], &prediction, &note);
-    if (!status && !a->given[QUIET]) {
-        cli_remark(&prediction.remark);
+    if (!status && cli_is_wordy()) {
         show(&prediction, a);
+        cli_remark(&prediction.remark);
     }
     if (!status && a->given[JSON]) status = print_json(&prediction, &note);
     return status ? cli_fail(status, &note) : 0;
@@ -78,5 +102,5 @@ const cli_command cli_predict = {
     2,
     "  hci-solve simulate data/machine_a data/drive/imposed.csv -o out/imposed\n"
     "  hci-solve predict data/machine_a out/imposed/trajectory.csv -o out/predicted.csv\n"
-    "\nExit codes: 0 done; 2 command line; 3 input; 4 numerical; 5 output\n",
+    "\nExit codes: 0 done; " CLI_EXIT_ERRORS,
     run};

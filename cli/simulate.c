@@ -1,35 +1,48 @@
+#define _POSIX_C_SOURCE 200809L
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "cli.h"
 #include "hci/host/simulate.h"
 
-enum { CURRENTS, OUT, REPORT, JSON, QUIET, HELP };
+enum { CURRENTS, OUT, REPORT, CLI_COMMON_KEYS };
 
 static const cli_option OPTIONS[] = {
     [CURRENTS] = {"currents", 0,   CLI_VALUE, "PATH",
                   "impose these: currents.csv, or a folder that `solve` wrote"                               },
     [OUT] = {"out",      'o', CLI_VALUE, "FOLDER", "where the results go; without it nothing is written"},
     [REPORT] = {"report",   0,   CLI_FLAG,  NULL,     "report.html beside the results, for people"         },
-    [JSON] = {"json",     0,   CLI_FLAG,  NULL,     "the summary as JSON on standard output"             },
-    [QUIET] = {"quiet",    'q', CLI_FLAG,  NULL,     "no words, only errors"                              },
-    [HELP] = {"help",     'h', CLI_FLAG,  NULL,     "this text"                                          },
-    {NULL,       0,   CLI_FLAG,  NULL,     NULL                                                 },
+    CLI_COMMON_OPTIONS
 };
 
 /* ---- help ---- */
 
+enum { MEANING_AT = 41, NARROW_AT = 6 }; /* column of the terminal */
+
 static void print_name(const char *name, const char *unit, const char *fallback, const char *what)
 {
+    const int width = cli_width(STDOUT_FILENO);
+    char text[256];
     if (what[0] == '\0') return;
-    printf("  %-24s %-12s %s%s%s%s\n", name, strcmp(unit, "count") == 0 || strcmp(unit, "1") == 0 ? "" : unit,
-           what, fallback[0] ? " [" : "", fallback, fallback[0] ? "]" : "");
+    if (strcmp(unit, "count") == 0 || strcmp(unit, "1") == 0) unit = "";
+    snprintf(text, sizeof text, "%s%s%s%s", what, fallback[0] ? " [" : "", fallback, fallback[0] ? "]" : "");
+    printf("  %-24s %-*s", name, width < 2 * MEANING_AT - 2 ? 0 : MEANING_AT - 27, unit);
+    if (width >= 2 * MEANING_AT - 2) {
+        cli_print_wrapped(stdout, width, MEANING_AT, MEANING_AT, text);
+        return;
+    }
+    printf("\n%*s", NARROW_AT, "");
+    cli_print_wrapped(stdout, width, NARROW_AT, NARROW_AT, text);
 }
 
 void cli_print_scenario_names(void)
 {
-    printf("\nA scenario is a table name,value,unit. Its names, units and [defaults]\n");
+    putchar('\n');
+    cli_print_wrapped(stdout, cli_width(STDOUT_FILENO), 0, 0,
+                      "A scenario is a table name,value,unit. Its names, units and [defaults]");
 #define PRINT_WORD(name, choices, fallback, what) print_name(name, "", fallback, what ": " choices);
     HCI_SCENARIO_WORDS(PRINT_WORD)
 #undef PRINT_WORD
@@ -42,15 +55,14 @@ void cli_print_scenario_names(void)
 
 static void show_torque(const hci_simulation *s)
 {
-    fprintf(stderr, "  torque       mean %.6g N·m, %.6g to %.6g", s->torque_Nm.mean, s->torque_Nm.least,
+    cli_say("  torque       mean %.6g N·m, %.6g to %.6g", s->torque_Nm.mean, s->torque_Nm.least,
             s->torque_Nm.most);
     if (isfinite(s->T_ripple_percent))
-        fprintf(stderr, "; T_ripple %.4g %%, F_ripple %.4g %%", s->T_ripple_percent, s->F_ripple_percent);
-    fputc('\n', stderr);
-    fprintf(stderr,
-            "  current      mean %.4g A, rms %.4g, %.4g to %.4g (vector length); peak phase current %.4g A\n",
+        cli_say("; T_ripple %.4g %%, F_ripple %.4g %%", s->T_ripple_percent, s->F_ripple_percent);
+    cli_say("\n");
+    cli_say("  current      mean %.4g A, rms %.4g, %.4g to %.4g (vector length); peak phase current %.4g A\n",
             s->current_A.mean, s->current_A.rms, s->current_A.least, s->current_A.most, s->peak_phase_A);
-    fprintf(stderr, "  in dq_x      mean %.4g A, rms %.4g, %.4g to %.4g\n", s->current_dqx_A.mean,
+    cli_say("  in dq_x      mean %.4g A, rms %.4g, %.4g to %.4g\n", s->current_dqx_A.mean,
             s->current_dqx_A.rms, s->current_dqx_A.least, s->current_dqx_A.most);
 }
 
@@ -58,43 +70,139 @@ static void show_loss(const hci_simulation *s)
 {
     const bool watts = isfinite(s->copper_W), ratio = isfinite(s->loss_to_plain);
     if (!watts && !ratio) return;
-    fprintf(stderr, "  copper loss  ");
-    if (watts) fprintf(stderr, "%.4g W", s->copper_W);
+    cli_say("  copper loss  ");
+    if (watts) cli_say("%.4g W", s->copper_W);
     if (ratio)
-        fprintf(stderr, "%s%.4g × the plain fundamental of %.4g A", watts ? ", " : "", s->loss_to_plain,
+        cli_say("%s%.4g × the plain fundamental of %.4g A", watts ? ", " : "", s->loss_to_plain,
                 s->plain_amplitude_A);
-    fputc('\n', stderr);
+    cli_say("\n");
 }
 
 static void show_control(const hci_simulation *s)
 {
-    if (isfinite(s->switching_frequency_Hz))
-        fprintf(stderr, "  switching    %.4g Hz\n", s->switching_frequency_Hz);
+    if (isfinite(s->switching_frequency_Hz)) cli_say("  switching    %.4g Hz\n", s->switching_frequency_Hz);
     if (s->without_current > 0)
-        fprintf(stderr, "  no current   for the torque at %zu of %zu samples; the nearest was used\n",
+        cli_say("  no current   for the torque at %zu of %zu samples; the nearest was used\n",
                 s->without_current, s->samples);
-    if (s->limited > 0)
-        fprintf(stderr, "  limited      current at %zu of %zu samples\n", s->limited, s->samples);
+    if (s->limited > 0) cli_say("  limited      current at %zu of %zu samples\n", s->limited, s->samples);
     if (isfinite(s->energy_J.residual))
-        fprintf(stderr, "  energy       %.5g J in, %.5g J copper, %.5g J to the shaft; error %.2g J\n",
+        cli_say("  energy       %.5g J in, %.5g J copper, %.5g J to the shaft; error %.2g J\n",
                 s->energy_J.electrical, s->energy_J.copper, s->energy_J.mechanical, s->energy_J.residual);
 }
 
-static void show(const hci_simulation *s, const cli_arguments *a)
+/* ---- spectrum ---- */
+
+typedef struct {
+    const hci_simulation *simulation;
+    const hci_judgement *before; /* of the plain fundamental; no orders: there is none */
+    double largest_Nm;
+    size_t pick[CLI_MOST_ROWS];
+} spectrum;
+
+static double amplitude(hci_harmonic h)
 {
-    fprintf(stderr, "simulated: %s, %s\n", a->word[0], a->word[1]);
+    return h.order < HCI_ORDER_TOLERANCE ? 0.0 : hypot(h.sine, h.cosine);
+}
+
+static double before_Nm(const spectrum *s, double order)
+{
+    for (size_t k = 0; k < s->before->order_count; ++k)
+        if (fabs(s->before->torque_Nm[k].order - order) < HCI_ORDER_TOLERANCE)
+            return amplitude(s->before->torque_Nm[k]);
+    return 0.0;
+}
+
+static double largest_of(const void *context, size_t k)
+{
+    const spectrum *s = context;
+    const hci_harmonic h = s->simulation->spectrum_Nm[k];
+    return h.order < HCI_ORDER_TOLERANCE ? 0.0 : fmax(amplitude(h), before_Nm(s, h.order));
+}
+
+static void spectrum_row(const void *context, size_t row, cli_cell cell[])
+{
+    const spectrum *s = context;
+    const hci_harmonic h = s->simulation->spectrum_Nm[s->pick[row]];
+    snprintf(cell[0].text, sizeof cell[0].text, "%.5g", h.order);
+    cli_number_text(amplitude(h), s->largest_Nm, cell[1].text, sizeof cell[1].text);
+    cell[2].value = amplitude(h);
+    if (s->before->order_count == 0) return;
+    cell[3] = cell[1];
+    cell[4] = cell[2];
+    cli_number_text(before_Nm(s, h.order), s->largest_Nm, cell[1].text, sizeof cell[1].text);
+    cell[2].value = before_Nm(s, h.order);
+}
+
+static void show_spectrum(const hci_simulation *s, const hci_judgement *before)
+{
+    static const cli_column ALONE[] = {
+        {CLI_RIGHT, "order" },
+        {CLI_RIGHT, "torque"},
+        {CLI_BAR,   ""      }
+    };
+    static const cli_column COMPARED[] = {
+        {CLI_RIGHT, "order" },
+        {CLI_RIGHT, "before"},
+        {CLI_BAR,   ""      },
+        {CLI_RIGHT, "after" },
+        {CLI_BAR,   ""      }
+    };
+    const bool compared = before->order_count > 0;
+    char caption[256];
+    spectrum x = {.simulation = s, .before = before};
+    const size_t rows = cli_pick(largest_of, &x, s->spectrum_count, 5e-3, x.pick);
+    size_t length =
+        (size_t)snprintf(caption, sizeof caption, "torque ripple by electrical order, N·m (peak)");
+    for (size_t k = 0; k < rows; ++k)
+        x.largest_Nm = fmax(x.largest_Nm, largest_of(&x, x.pick[k]));
+    if (compared)
+        snprintf(caption + length, sizeof caption - length,
+                 "; before: the plain fundamental of %.4g A as it should flow, T_ripple %.4g %%",
+                 s->plain_amplitude_A, before->T_ripple_percent);
+    cli_draw(&(cli_chart){.caption = caption,
+                          .column = compared ? COMPARED : ALONE,
+                          .columns = compared ? 5 : 3,
+                          .rows = rows,
+                          .fill = spectrum_row,
+                          .context = &x,
+                          .unit = "N·m"});
+}
+
+/* Torque of the sine that would make the same mean torque: what the ripple is compared with. */
+static void judge_plain(const hci_machine_data *machine, const hci_effects *effects, const hci_simulation *s,
+                        hci_judgement *before)
+{
+    const hci_target none = {NULL, 0};
+    hci_note note = {{0}};
+    *before = (hci_judgement){0};
+    for (size_t k = 0; k < machine->model.back_emf_count; ++k) {
+        const hci_wave e = machine->model.back_emf[k];
+        const double size = hypot(e.sine, e.cosine);
+        if (fabs(e.order - 1.0) > HCI_ORDER_TOLERANCE || e.sequence != 1 || !(size > 0.0)) continue;
+        if (!(s->plain_amplitude_A > 0.0) || !isfinite(s->T_ripple_percent)) continue;
+        const double sign = s->torque_Nm.mean < 0.0 ? -1.0 : 1.0, a = sign * s->plain_amplitude_A / size;
+        const hci_wave plain = {1.0, 1, a * e.sine, a * e.cosine};
+        if (hci_judge_currents(machine, effects, &plain, 1, &none, before, &note))
+            *before = (hci_judgement){0};
+        return;
+    }
+}
+
+static void show(const hci_simulation *s, const hci_judgement *before, const cli_arguments *a)
+{
+    const bool doubtful = !s->energy_balances || s->limited > 0 || s->without_current > 0;
+    cli_say("%ssimulated" CLI_PLAIN ": %s, %s\n", doubtful ? CLI_WARN : CLI_GOOD, a->word[0], a->word[1]);
     if (s->periods > 0)
-        fprintf(stderr, "  evaluated    %g s to %g s, %zu whole period%s at %.5g rpm (%.5g to %.5g)\n",
-                s->from_s, s->to_s, s->periods, s->periods == 1 ? "" : "s",
-                s->speed_rad_per_s.mean * 30.0 / HCI_PI, s->speed_rad_per_s.least * 30.0 / HCI_PI,
-                s->speed_rad_per_s.most * 30.0 / HCI_PI);
+        cli_say("  evaluated    %g s to %g s, %zu whole period%s at %.5g rpm (%.5g to %.5g)\n", s->from_s,
+                s->to_s, s->periods, s->periods == 1 ? "" : "s", s->speed_rad_per_s.mean * 30.0 / HCI_PI,
+                s->speed_rad_per_s.least * 30.0 / HCI_PI, s->speed_rad_per_s.most * 30.0 / HCI_PI);
     else
-        fprintf(stderr,
-                "  evaluated    %g s to %g s, in which the rotor has not turned one period: no spectrum\n",
+        cli_say("  evaluated    %g s to %g s, in which the rotor has not turned one period: no spectrum\n",
                 s->from_s, s->to_s);
     show_torque(s);
     show_loss(s);
     show_control(s);
+    show_spectrum(s, before);
 }
 
 /* ---- the command ---- */
@@ -121,19 +229,22 @@ static hci_status print_json(const hci_simulation *s, hci_note *note)
 static hci_status simulate(const cli_arguments *a, const hci_machine_data *machine,
                            const hci_effects *effects, const hci_scenario *scenario, hci_note *note)
 {
-    const hci_simulate_options options = {a->value[OUT], effects, a->given[QUIET] ? NULL : cli_progress,
-                                          NULL};
+    cli_work work = {scenario->duration_s, "s simulated"};
+    const hci_simulate_options options = {a->value[OUT], effects, cli_progress, &work};
     const hci_report_sources sources = {.machine = a->word[0],
                                         .scenario = a->word[1],
                                         .currents = scenario->currents[0] ? scenario->currents : NULL};
     hci_simulation simulation;
+    hci_judgement before;
     hci_status status = hci_simulate_with_report(machine, scenario, &options,
                                                  a->given[REPORT] ? &sources : NULL, &simulation, note);
     cli_progress_end();
-    if (!status && !a->given[QUIET]) {
+    if (!status && cli_is_wordy()) {
+        judge_plain(machine, effects, &simulation, &before);
+        show(&simulation, &before, a);
+        hci_judgement_release(&before);
         cli_remark(&machine->remark);
         cli_remark(&simulation.remark);
-        show(&simulation, a);
     }
     if (!status && a->given[JSON]) status = print_json(&simulation, note);
     hci_simulation_release(&simulation);
@@ -173,5 +284,5 @@ const cli_command cli_simulate = {
     2,
     "  hci-solve simulate data/machine_a data/drive/imposed.csv -o out/imposed\n"
     "  hci-solve simulate data/machine_c data/drive/filho_strategy_3.csv -o out/strategy_3\n"
-    "\nExit codes: 0 done; 2 command line; 3 input; 4 numerical; 5 output\n",
+    "\nExit codes: 0 done; " CLI_EXIT_ERRORS,
     run};

@@ -26,9 +26,7 @@ enum {
     TEMPERATURE,
     OUT,
     REPORT,
-    JSON,
-    QUIET,
-    HELP
+    CLI_COMMON_KEYS
 };
 
 static const cli_option OPTIONS[] = {
@@ -54,10 +52,7 @@ static const cli_option OPTIONS[] = {
                 "of the magnets, for magnet_temperature in effects.csv"                                                    },
     [OUT] = {"out",           'o', CLI_VALUE,          "FOLDER", "where the results go; without it nothing is written"  },
     [REPORT] = {"report",        0,   CLI_FLAG,           NULL,     "report.html beside the results, for people"           },
-    [JSON] = {"json",          0,   CLI_FLAG,           NULL,     "the summary as JSON on standard output"               },
-    [QUIET] = {"quiet",         'q', CLI_FLAG,           NULL,     "no words, only errors"                                },
-    [HELP] = {"help",          'h', CLI_FLAG,           NULL,     "this text"                                            },
-    {NULL,            0,   CLI_FLAG,           NULL,     NULL                                                   },
+    CLI_COMMON_OPTIONS
 };
 
 /* AMPLITUDE_A,PHASE_rad */
@@ -206,7 +201,7 @@ static hci_status read_inputs(const cli_arguments *a, inputs *in, hci_note *note
     in->options.target = &in->target;
     in->options.effects = &in->effects.list;
     in->options.set = a->value[HARMONICS] ? &in->set : NULL;
-    in->options.progress = a->given[QUIET] ? NULL : cli_progress;
+    in->options.progress = cli_progress;
     return status;
 }
 
@@ -227,6 +222,26 @@ static hci_status print_json(const hci_solution *s, hci_status verdict, hci_note
     return HCI_OK;
 }
 
+static void remark_period(const inputs *in, const hci_solution *s)
+{
+    hci_note remark = {{0}};
+    if ((size_t)in->machine.model.pole_pairs % s->period_turns == 0) return;
+    hci_note_set(
+        &remark, HCI_OK,
+        "everything repeats after %zu electrical turns only, which is no part of the mechanical turn of %d; "
+        "a rotor angle cannot drive it",
+        s->period_turns, in->machine.model.pole_pairs);
+    cli_remark(&remark);
+}
+
+static void show_remarks(const inputs *in, const hci_solution *s)
+{
+    cli_remark(&in->machine.remark);
+    cli_remark(&in->set.remark);
+    cli_remark(&s->remark);
+    remark_period(in, s);
+}
+
 static int give_results(const cli_arguments *a, const inputs *in, const hci_solution *s, hci_status verdict)
 {
     const hci_report_sources sources = {
@@ -234,21 +249,11 @@ static int give_results(const cli_arguments *a, const inputs *in, const hci_solu
     hci_note note = {{0}};
     hci_status status = HCI_OK;
     cli_progress_end();
-    if (!a->given[QUIET]) {
-        cli_remark(&in->machine.remark);
-        cli_remark(&in->set.remark);
-        cli_remark(&s->remark);
-    }
-    if (!a->given[QUIET] && (size_t)in->machine.model.pole_pairs % s->period_turns != 0)
-        fprintf(
-            stderr,
-            "hci-solve: note: everything repeats after %zu electrical turns only, which is no part of the "
-            "mechanical turn of %d; a rotor angle cannot drive it\n",
-            s->period_turns, in->machine.model.pole_pairs);
     if (a->value[OUT])
         status = hci_solution_write_with_report(&in->machine, s, verdict, a->given[REPORT] ? &sources : NULL,
                                                 a->value[OUT], &note);
-    if (!status && !a->given[QUIET]) cli_show_solution(s, a->word[0], a->value[TARGET]);
+    if (!status && cli_is_wordy()) cli_show_solution(s, a->word[0], a->value[TARGET]);
+    if (!status) show_remarks(in, s);
     if (!status && a->given[JSON]) status = print_json(s, verdict, &note);
     return status ? cli_fail(status, &note) : hci_status_exit_code(verdict);
 }
@@ -288,6 +293,5 @@ const cli_command cli_solve = {
     "  hci-solve solve data/machine_a --target data/scenarios/02/target.csv --auto -o out/machine_a\n"
     "  hci-solve solve data/machine_a --target data/scenarios/02/target.csv \\\n"
     "      --harmonics data/scenarios/02/harmonics.csv --fundamental 12,0.2 -o out/published\n"
-    "\nExit codes: 0 reached; 1 not reached, the nearest is given; 2 command line; 3 input; 4 numerical; 5 "
-    "output\n",
+    "\nExit codes: 0 reached; 1 not reached, the nearest is given; " CLI_EXIT_ERRORS,
     run};

@@ -12,6 +12,13 @@ nothing_on_stderr
 cp "$work/stdout" "$work/usage"
 commands=$(sed -n 's/^  \([a-z]*\) .*/\1/p' "$work/usage")
 check "no commands in the help" [ -n "$commands" ]
+# shellcheck disable=SC2086
+commands=$(echo $commands)
+check "not in the order in which one uses them: $commands" \
+    [ "$(echo "$commands" | sed 's/ check / /')" = "init harmonics solve emit simulate predict diagnose" ]
+for words in 'hci-solve init .* -o out/' 'hci-solve COMMAND --help' 'Documentation: man hci-solve'; do
+    check "the help lacks: $words" grep -q -e "$words" "$work/usage"
+done
 for word in -h help; do
     run 0 "$word"
     check "$word differs from --help" cmp -s "$work/stdout" "$work/usage"
@@ -48,8 +55,16 @@ for command in $commands; do
         # the words of an example have no blanks or quotes in them
         # shellcheck disable=SC2086
         run 0 ${words#hci-solve }
-        check "example wrote nothing into $folder: $words" [ -n "$(ls "${folder:?}" 2>/dev/null)" ]
+        [ -z "$folder" ] || check "example wrote nothing into $folder: $words" [ -n "$(ls "$folder" 2>/dev/null)" ]
     done <"$work/examples"
+    check "help of $command does not say what is written" grep -Eq '^Writes |changes nothing' "$work/help"
+    sed -n '/^Options of every command/,/^$/p' "$work/help" >"$work/common"
+    [ -s "$work/every" ] || cp "$work/common" "$work/every"
+    check "the options of every command are other ones, or in other words, in $command" \
+        eval "sed 's/  */ /g' '$work/common' | tr '\n' ' ' | tr -s ' ' >'$work/a'; sed 's/  */ /g' '$work/every' | tr '\n' ' ' | tr -s ' ' | cmp -s - '$work/a'"
+    COLUMNS=60 "$hci_solve" "$command" --help >"$work/narrow"
+    check "help of $command is wider than 60 columns" \
+        eval "! sed '/^Example/,/^\$/d;1d;/order,amplitude_Nm,phase_rad/d' '$work/narrow' | grep -q '.\{61\}'" # one word
     # what the help lists is understood: no option of it is unknown
     for option in $(sed -n '/^Example/q;s/^  [ -][ a-z][ ,] \(--[a-z-]*\) .*/\1/p' "$work/help"); do
         "$hci_solve" "$command" "$option" >/dev/null 2>"$work/stderr"
@@ -71,14 +86,20 @@ target=data/scenarios/02/target.csv
 set=data/scenarios/02/harmonics.csv
 
 wrong 'COMMAND' # no word at all: the usage
-wrong 'unknown command `sovle`' sovle
+wrong 'unknown command `sovle`; did you mean `solve`\? ' sovle
 says 'hci-solve COMMAND --help'
+check "a mistyped command is answered with a page" [ "$(wc -l <"$work/stderr")" -eq 1 ]
+wrong 'did you mean `simulate`\?' simulat
+wrong 'unknown command `xyzzy`; hci-solve --help' xyzzy
 wrong 'unknown command `--bogus`' --bogus
 wrong 'found 0 words, expected 1: MACHINE --target FILE; see hci-solve solve --help' solve
 wrong 'found 2 words, expected 1' solve data/machine_a data/machine_b --target $target
 wrong 'unknown option `--bogus`; see hci-solve solve --help' solve data/machine_a --bogus
-wrong 'unknown option `--targe`' solve data/machine_a --targe $target
-wrong 'unknown option `--targets=x`' solve data/machine_a --targets=x
+wrong 'unknown option `--targe`; did you mean `--target`\? see hci-solve solve --help' solve data/machine_a --targe $target
+wrong 'unknown option `--targets=x`; did you mean `--target`' solve data/machine_a --targets=x
+wrong 'unknown option `--tagret`; did you mean `--target`' solve data/machine_a --tagret $target # neighbours swapped
+wrong 'unknown option `--harm`; did you mean `--harmonics`' solve data/machine_a --harm x        # a beginning
+wrong 'unknown option `--outt=x`; did you mean `--out`' simulate data/machine_a --outt=x
 wrong 'unknown option `-x`' solve data/machine_a -x
 wrong 'unknown option `-qx`' solve data/machine_a --target $target -qx
 wrong '`--target` needs a value: FILE' solve data/machine_a --target

@@ -47,6 +47,8 @@ says 'T_ripple [0-9.]+e-1[0-9] %'
 
 run 0 simulate data/machine_c data/drive/filho_strategy_3.csv --json -o "$work/three"
 check "--json differs from summary.json" cmp -s "$work/stdout" "$work/three/summary.json"
+nothing_on_stderr
+run 0 simulate data/machine_c data/drive/filho_strategy_3.csv
 says 'evaluated    1.75 s to 2.5 s, 2 whole periods at 80 rpm' 'switching    [0-9.]+ Hz' 'energy .* J in'
 near "$(value "$work/three/summary.json" mean_Nm)" 8 1e-4
 near "$(value "$work/three/summary.json" T_ripple)" 3.9 0.15 # what a band of 0.1 A lets through
@@ -116,8 +118,9 @@ nothing_on_stdout
 # ---- figures that mean nothing are not passed off as results
 
 rows prescribed_speed,80,rpm torque_reference,8,Nm current_control,hysteresis, step,5,ms duration,2,s
-run 0 simulate data/machine_c "$scenario" --json
+run 0 simulate data/machine_c "$scenario"
 says 'energy does not balance within 1 %.*spectrum ends at order 18'
+run 0 simulate data/machine_c "$scenario" --json
 check "the imbalance is not in the summary" grep -q '"balances":[[:space:]]*false' "$work/stdout"
 rows prescribed_speed,80,rpm torque_reference,0,Nm duration,0.9,s
 run 0 simulate data/machine_c "$scenario" --json
@@ -130,7 +133,7 @@ refused 3 'no currents_per_Nm.csv: it is for one torque' data/machine_c "$scenar
 # ---- the help and docs/simulate.md name the same names
 
 run 0 simulate --help
-sed -n '/^A scenario is/,$s/^  \([a-z0-9_]*\) .*/\1/p' "$work/stdout" | sort >"$work/in_help"
+sed -n '/^A scenario is/,$s/^  \([a-z0-9_]\{1,\}\) .*/\1/p' "$work/stdout" | sort >"$work/in_help"
 sed -n 's/^| `\([a-z0-9_]*\)` | .*/\1/p' docs/simulate.md | grep -v -E '^(torque|current|current_dqx|control|energy)$|_[bc]$' | sort >"$work/in_docs"
 check "names: $(diff "$work/in_help" "$work/in_docs" | head -n 3)" cmp -s "$work/in_help" "$work/in_docs"
 

@@ -144,7 +144,7 @@ done
 
 run 0 solve data/machine_a --target $target --auto --json
 check "--json differs from summary.json" cmp -s "$work/stdout" "$work/auto/summary.json"
-says '^reached'
+nothing_on_stderr
 run 0 solve data/machine_a --target $target --auto --json --quiet
 check "--json differs with --quiet" cmp -s "$work/stdout" "$work/auto/summary.json"
 nothing_on_stderr

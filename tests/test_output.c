@@ -430,6 +430,38 @@ static void every_allocation_may_fail(void)
     TEST_ASSERT_TRUE(failures > 8);
 }
 
+/* ---- signals ---- */
+
+static void assert_no_signal_waits(void)
+{
+    sigset_t held;
+    TEST_ASSERT_EQUAL(0, sigprocmask(SIG_BLOCK, NULL, &held));
+    TEST_ASSERT_FALSE(sigismember(&held, SIGINT) || sigismember(&held, SIGTERM));
+}
+
+/* What a handler of Ctrl-C leaves: sets inside one another, in folders of their own and in one that was
+ * there. */
+static void abandoned_sets_leave_nothing(void)
+{
+    hci_note note = {0};
+    put(in_root("a.csv"), "old\n");
+    hci_output *done = two_files(in_root("done"));
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_output_commit(done, &note), note.text);
+    hci_output *here = two_files(root), *outer = two_files(in_root("made/for/it"));
+    hci_output *gone = two_files(in_root("made/gone")), *inner = two_files(in_root("made/for/it/machine"));
+    hci_output_discard(gone);
+    assert_no_signal_waits();
+    hci_output_abandon();
+    TEST_ASSERT_EQUAL(-1, entries(in_root("made")));
+    TEST_ASSERT_EQUAL(2, entries(in_root("done")));
+    TEST_ASSERT_EQUAL(2, entries(root)); /* a.csv and done */
+    assert_holds(in_root("a.csv"), "old\n");
+    hci_output_discard(inner);
+    hci_output_discard(here);
+    hci_output_discard(outer);
+    assert_no_signal_waits();
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -452,5 +484,6 @@ int main(void)
     RUN_TEST(a_number_that_is_not_finite_is_not_written);
     RUN_TEST(a_full_disk_leaves_nothing);
     RUN_TEST(every_allocation_may_fail);
+    RUN_TEST(abandoned_sets_leave_nothing);
     return UNITY_END();
 }

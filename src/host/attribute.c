@@ -1,6 +1,7 @@
 #include "attribute.h"
 
 #include <assert.h>
+#include <math.h>
 #include <string.h>
 
 #include "memory.h"
@@ -9,10 +10,7 @@
 
 enum { MOST_EFFECTS = 6, MOST_ROUNDS = 14 };
 
-static void tell(const hci_search *s, const char *what, double share)
-{
-    if (s->options->progress) s->options->progress(s->options->context, what, share);
-}
+#define SEARCH_SHARE 0.7 /* of the whole work */
 
 /* ---- the search ---- */
 
@@ -31,12 +29,21 @@ static hci_status round_run(hci_search *s, hci_account *account, bool *again, hc
     return status;
 }
 
+/* Of the whole work that is done before a round. Nobody knows how many rounds come; the later ones take
+ * longer.
+ */
+static double share_before(int round)
+{
+    return SEARCH_SHARE * pow(1.0 - pow(0.85, round), 1.5);
+}
+
 static hci_status search_run(hci_search *s, hci_account *account, hci_note *note)
 {
+    hci_search_begin(s, "looking for effects", 0.0, 0.0);
     hci_status status = hci_search_renew(s, account, note);
     bool again = true;
     for (int round = 0; again && !status && round < MOST_ROUNDS; ++round) {
-        tell(s, "looking for effects", 0.1 + 0.6 * round / MOST_ROUNDS);
+        hci_search_begin(s, "looking for effects", share_before(round), share_before(round + 1));
         status = round_run(s, account, &again, note);
     }
     return status;
@@ -119,7 +126,7 @@ static hci_status attribute(hci_search *s, hci_attribution *a, hci_note *note)
     hci_suspects none = {0};
     hci_status status = search_run(s, &a->account, note);
     if (status) return status;
-    tell(s, "weighing the evidence", 0.75);
+    hci_search_begin(s, "weighing the evidence", SEARCH_SHARE, 1.0);
     status = hci_search_settle(s, a, note);
     if (!status) status = verdicts(s, a, note);
     if (!status) status = hci_evidence_errors(s->evidence, &a->account.suspects, note);
@@ -131,7 +138,7 @@ hci_status hci_attribute(hci_evidence *evidence, const hci_attribute_options *op
                          hci_attribution *attribution, hci_note *note)
 {
     const size_t cells = evidence->cells->count;
-    hci_search s = {evidence, options, NULL, NULL, 1};
+    hci_search s = {.evidence = evidence, .options = options, .richness = 1};
     memset(attribution, 0, sizeof *attribution);
     attribution->rooms = hci_suspect_rooms();
     assert(attribution->rooms <= HCI_MOST_ROOMS);

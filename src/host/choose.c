@@ -431,15 +431,33 @@ static hci_status choose_among(const hci_task *t, const hci_component_set *all, 
     return status;
 }
 
+#define PASS   0.4 /* of the work that is left that a pass is thought to be, unless it is the last */
+#define CHOICE 3   /* candidates for each component that are a choice */
+
+/* One of several passes: its shares are those of a part of the work. */
+typedef struct {
+    hci_task task;
+    const hci_task *whole;
+    double from, until;
+} pass;
+
+static void tell_pass(void *context, const char *what, double share)
+{
+    const pass *p = context;
+    p->whole->progress(p->whole->progress_context, what, p->from + share * (p->until - p->from));
+}
+
 /* Chooses among all candidates up to `top`; `best` is kept where it is better. count: out, how many there
  * are. */
-static hci_status choose_up_to(const hci_task *t, double top, size_t most, const hci_preference *p,
-                               attempt *best, size_t *count, hci_note *note)
+static hci_status choose_up_to(pass *part, double top, size_t most, const hci_preference *p, attempt *best,
+                               size_t *count, hci_note *note)
 {
     hci_component_set all;
-    hci_status status = hci_candidates(t, top, &all, note);
+    hci_status status = hci_candidates(part->whole, top, &all, note);
     *count = all.count;
-    if (!status) status = choose_among(t, &all, most, p, best, note);
+    part->from = part->until;
+    part->until = all.count < CHOICE * most ? part->from + PASS * (1.0 - part->from) : 1.0;
+    if (!status) status = choose_among(&part->task, &all, most, p, best, note);
     hci_component_set_release(&all);
     return status;
 }
@@ -451,13 +469,16 @@ static hci_status choose_freely(const hci_task *t, size_t most, const hci_prefer
 {
     double torque_order, emf_order, top;
     size_t count = 0;
+    pass part = {*t, t, 0.0, 0.0};
     hci_status status;
+    if (t->progress) part.task.progress = tell_pass;
+    part.task.progress_context = &part;
     hci_candidates_span(t, &torque_order, &emf_order);
     top = ceil(torque_order + 2.0 * emf_order);
-    status = choose_up_to(t, top, most, p, best, &count, note);
-    for (int doubling = 0; !status && count < 3 * most && doubling < DOUBLINGS && 2.0 * top < HCI_MOST_ORDER;
-         ++doubling)
-        status = choose_up_to(t, top *= 2.0, most, p, best, &count, note);
+    status = choose_up_to(&part, top, most, p, best, &count, note);
+    for (int doubling = 0;
+         !status && count < CHOICE * most && doubling < DOUBLINGS && 2.0 * top < HCI_MOST_ORDER; ++doubling)
+        status = choose_up_to(&part, top *= 2.0, most, p, best, &count, note);
     return status;
 }
 

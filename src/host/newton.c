@@ -399,12 +399,25 @@ static hci_status worth_of(const hci_task *t, const hci_answer *a, double *worst
     return status;
 }
 
+static size_t patience(const hci_solve_options *o)
+{
+    return o->choose_at_most > 0 ? 8 : 25;
+}
+
 /* Whether to go on: until the current rests; or, where no step has come nearer to the wanted torque for a
  * while, in vain. A choice of few components is never exact and need not rest. */
 static bool goes_on(const hci_solve_options *o, const hci_solution *s, size_t since_better)
 {
-    const size_t patience = o->choose_at_most > 0 ? 8 : 25;
-    return s->newton_change > CONVERGED && s->newton_steps < MOST_STEPS && since_better < patience;
+    return s->newton_change > CONVERGED && s->newton_steps < MOST_STEPS && since_better < patience(o);
+}
+
+/* How near the end is, by whatever may bring it. */
+static double share_of(const hci_solve_options *o, const hci_solution *s, size_t since_better, double before)
+{
+    const double steps = (double)s->newton_steps / MOST_STEPS,
+                 rest = log(fmax(s->newton_change, CONVERGED)) / log(CONVERGED),
+                 wait = (double)since_better / (double)patience(o);
+    return fmax(before, fmax(fmax(steps, rest), wait));
 }
 
 /* Steps until the current rests. Where it does not, the answer whose true torque came nearest is kept. */
@@ -412,7 +425,8 @@ static hci_status iterate(hci_task *t, const hci_solve_options *o, hci_newton_ro
                           iteration *i, hci_solution *s, hci_note *note)
 {
     hci_answer best = {{0}, NULL};
-    double least_Nm = HUGE_VAL;
+    hci_progress *const tell = t->progress;
+    double least_Nm = HUGE_VAL, share = 0.0;
     size_t since_better = 0;
     hci_status status;
     do {
@@ -425,8 +439,11 @@ static hci_status iterate(hci_task *t, const hci_solve_options *o, hci_newton_ro
             least_Nm = worst_Nm;
             since_better = 0;
         }
-        if (t->progress) t->progress(t->progress_context, "Newton", (double)s->newton_steps / MOST_STEPS);
+        share = share_of(o, s, since_better, share);
+        if (tell) tell(t->progress_context, "Newton's method", share);
+        t->progress = NULL; /* from the second step on the choice is made, and takes no time of its own */
     } while (!status && goes_on(o, s, since_better));
+    t->progress = tell;
     s->newton_converged = s->newton_change <= (o->choose_at_most > 0 ? NEARLY : CONVERGED);
     if (!status && !best.x)
         status =

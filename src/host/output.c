@@ -6,6 +6,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -33,7 +34,41 @@ struct hci_output {
     file *files;
     size_t count;
     FILE *stream; /* of the last file */
+    hci_output *older;
 };
+
+/* ---- signals ---- */
+
+/* All open sets, the newest first. A handler may walk through them: whatever changes them, or renames their
+ * files, makes signals wait. */
+static hci_output *newest;
+
+static void hold_signals(sigset_t *before)
+{
+    sigset_t all;
+    sigfillset(&all);
+    sigprocmask(SIG_BLOCK, &all, before);
+}
+
+static void release_signals(const sigset_t *before)
+{
+    sigprocmask(SIG_SETMASK, before, NULL);
+}
+
+static void enter(hci_output *output)
+{
+    output->older = newest;
+    newest = output;
+}
+
+static void leave(const hci_output *output)
+{
+    for (hci_output **at = &newest; *at != NULL; at = &(*at)->older)
+        if (*at == output) {
+            *at = output->older;
+            return;
+        }
+}
 
 /* ---- messages ---- */
 
@@ -121,9 +156,8 @@ static hci_status make_folders(hci_output *output, hci_note *note)
     return HCI_OK;
 }
 
-hci_status hci_output_open(const char *folder, hci_output **output, hci_note *note)
+static hci_status open_set(const char *folder, hci_output **output, hci_note *note)
 {
-    *output = NULL;
     if (*folder == '\0')
         return output_error("output", note, "the folder has no name", "name one, or . for this one");
     hci_output *set = hci_memory_new(1, sizeof *set);
@@ -135,10 +169,21 @@ hci_status hci_output_open(const char *folder, hci_output **output, hci_note *no
     memcpy(set->folder, folder, strlen(folder) + 1);
     const hci_status status = make_folders(set, note);
     if (status == HCI_OK) {
+        enter(set);
         *output = set;
     } else {
         hci_output_discard(set);
     }
+    return status;
+}
+
+hci_status hci_output_open(const char *folder, hci_output **output, hci_note *note)
+{
+    sigset_t signals;
+    *output = NULL;
+    hold_signals(&signals);
+    const hci_status status = open_set(folder, output, note);
+    release_signals(&signals);
     return status;
 }
 
@@ -231,11 +276,9 @@ static void close_stream(hci_output *output)
     output->stream = NULL;
 }
 
-hci_status hci_output_file(hci_output *output, const char *name, hci_note *note)
+static hci_status add_file(hci_output *output, const char *name, hci_note *note)
 {
-    hci_status status = check_name(output, name, note);
-    if (status != HCI_OK) return status;
-    close_stream(output);
+    hci_status status;
     file *files = hci_memory_resize(output->files, output->count + 1, sizeof *files);
     if (files == NULL) return memory_error(name, note);
     output->files = files;
@@ -252,6 +295,18 @@ hci_status hci_output_file(hci_output *output, const char *name, hci_note *note)
     } else {
         forget(f);
     }
+    return status;
+}
+
+hci_status hci_output_file(hci_output *output, const char *name, hci_note *note)
+{
+    sigset_t signals;
+    hci_status status = check_name(output, name, note);
+    if (status != HCI_OK) return status;
+    close_stream(output);
+    hold_signals(&signals);
+    status = add_file(output, name, note);
+    release_signals(&signals);
     return status;
 }
 
@@ -356,15 +411,22 @@ static hci_status publish_all(hci_output *output, hci_note *note)
 
 hci_status hci_output_commit(hci_output *output, hci_note *note)
 {
+    sigset_t signals;
+    close_stream(output);
+    hold_signals(&signals);
     const hci_status status = publish_all(output, note);
     if (status == HCI_OK) output->existing = strlen(output->folder);
     hci_output_discard(output);
+    release_signals(&signals);
     return status;
 }
 
 void hci_output_discard(hci_output *output)
 {
+    sigset_t signals;
     if (output == NULL) return;
+    hold_signals(&signals);
+    leave(output);
     close_stream(output);
     for (size_t i = 0; i < output->count; i++) {
         if (!output->files[i].renamed) unlink(output->files[i].temporary);
@@ -374,4 +436,14 @@ void hci_output_discard(hci_output *output)
     hci_memory_free(output->files);
     hci_memory_free(output->folder);
     hci_memory_free(output);
+    release_signals(&signals);
+}
+
+void hci_output_abandon(void)
+{
+    for (hci_output *output = newest; output != NULL; output = output->older) {
+        for (size_t i = 0; i < output->count; i++)
+            unlink(output->files[i].temporary);
+        remove_folders(output);
+    }
 }

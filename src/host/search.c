@@ -6,6 +6,29 @@
 #define NOTICEABLE 0.05 /* least torque of an effect, as a share of the noise of a sample */
 #define RESOLVED   0.5  /* and as a share of the resolution */
 
+#define PART 0.02 /* of what is left of a step that a fit or a residual takes */
+
+/* ---- progress ---- */
+
+static void tell(const hci_search *s)
+{
+    if (s->options->progress) s->options->progress(s->options->context, s->doing, s->share);
+}
+
+void hci_search_begin(hci_search *s, const char *doing, double from, double until)
+{
+    s->doing = doing;
+    s->share = from;
+    s->until = until;
+    tell(s);
+}
+
+void hci_search_tell(hci_search *s)
+{
+    s->share += PART * (s->until - s->share);
+    tell(s);
+}
+
 /* ---- accounts ---- */
 
 hci_status hci_account_copy(const hci_account *from, hci_account *to, hci_note *note)
@@ -32,6 +55,7 @@ hci_status hci_search_without(hci_search *s, const hci_account *account, const h
 {
     hci_status status = hci_account_copy(account, without, note);
     if (status) return status;
+    hci_search_tell(s);
     hci_suspects_leave(&without->suspects, room);
     status = hci_evidence_fit(s->evidence, &without->suspects, &without->fit, note);
     if (status) hci_account_release(without);
@@ -44,6 +68,7 @@ hci_status hci_search_residual(hci_search *s, const hci_suspects *suspects, hci_
 {
     hci_model model;
     hci_status status = hci_model_make(s->evidence->declared, suspects, false, &model, note);
+    hci_search_tell(s);
     if (!status) status = hci_evidence_residual(s->evidence, &model.list, s->residual_Nm, note);
     hci_model_release(&model);
     return status;

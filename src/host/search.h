@@ -12,7 +12,14 @@ typedef struct {
     const hci_attribute_options *options;
     double *residual_Nm, *variance; /* of each cell, of the model looked at last */
     int richness;                   /* of saturation */
+    const char *doing;
+    double share, until; /* of all work: done so far, and when the step at hand is done */
 } hci_search;
+
+/* Tells of a step that takes the work from one share of the whole to another. */
+void hci_search_begin(hci_search *search, const char *doing, double from, double until);
+/* Tells of a part of it: there is no knowing how many follow, so each takes a little of what is left. */
+void hci_search_tell(hci_search *search);
 
 /* ---- accounts ---- */
 

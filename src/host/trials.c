@@ -89,15 +89,18 @@ static void trial_add(hci_trials *t, bench *b, size_t room_a, size_t room_b)
     ++t->count;
 }
 
-static hci_status trials_fill(hci_trials *t, const hci_normal *normal, bool pairs, hci_note *note)
+static hci_status trials_fill(hci_search *s, hci_trials *t, const hci_normal *normal, bool pairs,
+                              hci_note *note)
 {
     const size_t rooms = hci_suspect_rooms();
     bench b;
     t->flags = hci_memory_new((t->list.count + 1) * HCI_MOST_TRIALS, sizeof *t->flags);
     const bool made = bench_make(&t->list, normal, &b) && t->flags;
-    for (size_t room_a = 0; made && room_a < rooms; ++room_a)
+    for (size_t room_a = 0; made && room_a < rooms; ++room_a) {
+        hci_search_tell(s);
         for (size_t room_b = room_a; room_b < (pairs ? rooms : room_a + 1); ++room_b)
             trial_add(t, &b, room_a, room_b);
+    }
     bench_release(&b);
     return made ? HCI_OK : no_memory(note);
 }
@@ -110,7 +113,7 @@ hci_status hci_trials_make(hci_search *s, const hci_suspects *model, bool pairs,
     hci_status status = suspects_renew(s, model, &t->list, note);
     if (status) return status;
     status = hci_evidence_normal(s->evidence, &t->list, true, &normal, note);
-    if (!status) status = trials_fill(t, &normal, pairs, note);
+    if (!status) status = trials_fill(s, t, &normal, pairs, note);
     hci_normal_release(&normal);
     if (status) hci_trials_release(t);
     return status;

@@ -9,6 +9,7 @@
 extern "C" {
 #endif
 
+/* A set of files that is being written. */
 typedef struct hci_output hci_output;
 
 /* Opens a set of files in `folder`, which is made (with its parents) if it is missing. HCI_ERROR_OUTPUT,
@@ -36,12 +37,16 @@ hci_status hci_output_check(hci_output *output, hci_note *note);
 
 /* Flushes, checks and renames every file, and frees `output` in any case. On failure no file of the set is
  * left, and files that were there before are untouched: each is kept by a second link until the last rename
- * has succeeded. A process that is killed can leave hidden `.hci-*` files behind, and between two renames a
- * part of the set. HCI_ERROR_OUTPUT, _NOT_FINITE. */
+ * has succeeded; signals wait until then. A process that is killed can leave hidden `.hci-*` files behind,
+ * and between two renames a part of the set. HCI_ERROR_OUTPUT, _NOT_FINITE. */
 hci_status hci_output_commit(hci_output *output, hci_note *note);
 
 /* Removes the temporary files and frees. output may be NULL. */
 void hci_output_discard(hci_output *output);
+
+/* For the handler of a signal that ends the program, and safe there: removes what all sets that are open have
+ * written and the folders that they have made. Their memory stays. For programs of one thread. */
+void hci_output_abandon(void);
 
 #ifdef __cplusplus
 }
