@@ -25,11 +25,11 @@ extern "C" {
  * While the output is limited the integral is drawn towards the limit with the time constant k_p/k_i
  * (back-calculation); with k_p = 0 it stays at the limit. */
 typedef struct {
-    double proportional;
-    double integral_per_s;
+    double proportional;   /* k_p, unit of y by unit of ε */
+    double integral_per_s; /* k_i, the same per second */
 } hci_pi;
 
-/* integral: in/out. Returns y. */
+/* One sample of the controller. integral: in/out, in the unit of y. sample_s: > 0. Returns y. */
 double hci_pi_step(const hci_pi *pi, double *integral, double error, double limit, double sample_s);
 
 /* Two-level hysteresis control, each phase for itself: a leg goes to the negative rail when its current is
@@ -41,6 +41,7 @@ typedef struct {
     unsigned hold_steps; /* between two switchings of a leg; 0 and 1 are no restriction */
 } hci_hysteresis;
 
+/* What a hysteresis control keeps from step to step. */
 typedef struct {
     unsigned legs;       /* bit s set: leg s at the positive rail */
     unsigned held[3];    /* steps for which leg s must still rest */
@@ -59,11 +60,12 @@ unsigned hci_hysteresis_step(const hci_hysteresis *hysteresis, hci_hysteresis_st
  * Gains in V/A and V/(A·s) are the same in amplitude-invariant and orthonormal axes. The voltage is turned
  * ahead by the rotor's way from the sample to the middle of its use. */
 typedef struct {
-    hci_pi pi;
+    hci_pi pi;     /* of both axes, V/A and V/(A·s) */
     int decoupled; /* adds ω (e + L'i) and the rotation of L i, from the table */
     int delayed;   /* the voltage is used one sample later, as with a PWM unit that is loaded once a period */
 } hci_current_pi;
 
+/* What a PI current control keeps from sample to sample. */
 typedef struct {
     double integral[2]; /* d, q, V */
     double v[2];        /* in use, αβ */
@@ -72,23 +74,29 @@ typedef struct {
 
 /* ---- the controller ---- */
 
-typedef enum { HCI_CURRENT_IDEAL, HCI_CURRENT_HYSTERESIS, HCI_CURRENT_PI } hci_current_loop;
+/* How currents follow their references. */
+typedef enum {
+    HCI_CURRENT_IDEAL,      /* they are their references */
+    HCI_CURRENT_HYSTERESIS, /* each phase for itself, switched voltages */
+    HCI_CURRENT_PI          /* in the rotor frame, average voltages */
+} hci_current_loop;
 
 /* Where reference currents come from, from a time on: a strategy; or, when there are waves, T·per_Nm(θ) +
  * fixed(θ). */
 typedef struct {
-    double from_s;
-    hci_strategy strategy;
-    const hci_wave *per_Nm; /* A/(N·m) */
-    size_t per_Nm_count;
-    const hci_wave *fixed; /* A */
-    size_t fixed_count;
+    double from_s;          /* time from which on it holds */
+    hci_strategy strategy;  /* used when there are no waves */
+    const hci_wave *per_Nm; /* A/(N·m); NULL with count 0 */
+    size_t per_Nm_count;    /* entries of per_Nm */
+    const hci_wave *fixed;  /* A; NULL with count 0 */
+    size_t fixed_count;     /* entries of fixed */
 } hci_current_source;
 
+/* The controller of a drive. */
 typedef struct {
     const hci_plant_table *table; /* what the controller knows of the machine */
     double step_s;                /* of the plant */
-    double dc_link_V;
+    double dc_link_V;             /* voltage of the dc link, > 0; not used by the ideal loop */
 
     int speed_controlled; /* the set point is a speed in rad/s, otherwise a torque in N·m */
     hci_pi speed;         /* N·m·s/rad and N·m/rad */
@@ -105,35 +113,37 @@ typedef struct {
      * frames.h, as the second paper's 8 A each, where 1 N·m of mutual torque takes sqrt(2/3) of i_qx whatever
      * the machine; waves are not limited by them. The peak limit holds for all: the length of the current, as
      * the peak of the sine that is as long. */
-    double id_limit, iq_limit, peak_limit_A;
+    double id_limit;     /* of a strategy's |i_dx| */
+    double iq_limit;     /* of a strategy's |i_qx| */
+    double peak_limit_A; /* of any reference, as the peak of a sine */
 
-    hci_current_loop loop;
-    hci_hysteresis hysteresis;
-    hci_current_pi current;
+    hci_current_loop loop;     /* which of the three */
+    hci_hysteresis hysteresis; /* of the hysteresis loop */
+    hci_current_pi current;    /* of the PI loop */
 } hci_control;
 
 /* All zeros is a controller before its first step. */
 typedef struct {
-    uint64_t step;
+    uint64_t step;                     /* steps done */
     unsigned speed_wait, current_wait; /* steps to the next sample */
-    size_t source;
-    double speed_integral_Nm;
-    double torque_Nm; /* command */
-    double answer[2]; /* the strategy's current before limits, αβ */
-    int has_answer;
-    uint64_t unreached; /* samples at which the strategy had no current for the torque */
-    uint64_t limited;   /* samples at which a current limit was active */
-    hci_hysteresis_state hysteresis;
-    hci_current_pi_state current;
-    double reference[2]; /* A, αβ */
-    double v[2];         /* V, αβ; not used by the ideal loop */
+    size_t source;                     /* the one in use */
+    double speed_integral_Nm;          /* of the speed loop */
+    double torque_Nm;                  /* command */
+    double answer[2];                  /* the strategy's current before limits, αβ */
+    int has_answer;                    /* whether answer is one */
+    uint64_t unreached;                /* samples at which the strategy had no current for the torque */
+    uint64_t limited;                  /* samples at which a current limit was active */
+    hci_hysteresis_state hysteresis;   /* of the hysteresis loop */
+    hci_current_pi_state current;      /* of the PI loop */
+    double reference[2];               /* A, αβ */
+    double v[2];                       /* V, αβ; not used by the ideal loop */
 } hci_control_state;
 
 /* What a controller reads. */
 typedef struct {
-    double i_abc[3];
-    double theta_m_rad;
-    double speed_rad_per_s;
+    double i_abc[3];        /* phase currents, A */
+    double theta_m_rad;     /* mechanical angle */
+    double speed_rad_per_s; /* mechanical speed */
 } hci_measurement;
 
 /* One step: state->v (state->reference with the ideal loop) is what the plant gets until the next one.
@@ -143,25 +153,28 @@ void hci_control_step(const hci_control *control, hci_control_state *state, cons
 
 /* ---- the closed loop ---- */
 
+/* The sensors of a drive, and their number. */
 enum {
-    HCI_SENSE_IA,
-    HCI_SENSE_IB,
-    HCI_SENSE_IC,
-    HCI_SENSE_ANGLE,
-    HCI_SENSE_SPEED,
-    HCI_SENSE_TORQUE,
-    HCI_SENSE_COUNT
+    HCI_SENSE_IA,     /* current of phase a, A */
+    HCI_SENSE_IB,     /* of phase b, A */
+    HCI_SENSE_IC,     /* of phase c, A */
+    HCI_SENSE_ANGLE,  /* mechanical angle, rad */
+    HCI_SENSE_SPEED,  /* mechanical speed, rad/s */
+    HCI_SENSE_TORQUE, /* torque, N·m; logged, and not used by the controller */
+    HCI_SENSE_COUNT   /* how many */
 };
 
+/* Machine, controller and sensors in a closed loop. */
 typedef struct {
-    hci_plant plant;
-    hci_control control;
+    hci_plant plant;           /* machine and shaft */
+    hci_control control;       /* and what drives them */
     const hci_sensor *sensors; /* HCI_SENSE_COUNT of them, or NULL: all ideal */
 } hci_drive;
 
+/* The state of a drive. */
 typedef struct {
-    hci_plant_state plant;
-    hci_control_state control;
+    hci_plant_state plant;                     /* of machine and shaft */
+    hci_control_state control;                 /* of the controller */
     hci_sensor_state sensors[HCI_SENSE_COUNT]; /* started by the caller, when there are sensors */
     hci_measurement measured;                  /* at the start of the last step */
     double torque_Nm;                          /* true torque there */

@@ -40,6 +40,9 @@ double hci_lu_condition(size_t n, const double *lu, const size_t *pivot, double 
 double hci_lu_refine(size_t n, const double *a, const double *lu, const size_t *pivot, const double *b,
                      double *x, double *work);
 
+/* Doubles of factor_work that hci_orthogonal_factor needs for an m×n matrix. */
+size_t hci_orthogonal_workspace(size_t m, size_t n);
+
 /* Complete orthogonal decomposition A P = Q [T 0; 0 0] Zᵀ of an m×n matrix: the least-squares solution of
  * least norm for every shape and rank.
  * a: in/out, m×n; column: out, n entries (column permutation); factor_work: hci_orthogonal_workspace(m, n)
@@ -48,7 +51,6 @@ double hci_lu_refine(size_t n, const double *a, const double *lu, const size_t *
  * |R_11|/|R_rr|, a cheap estimate (1 at rank 0). Elements near the ends of the range of a double are no
  * danger: the factors are those of A times a power of two. HCI_ERROR_NOT_FINITE when a is not finite. O(m n
  * min(m, n)). */
-size_t hci_orthogonal_workspace(size_t m, size_t n);
 hci_status hci_orthogonal_factor(size_t m, size_t n, double *a, double relative_tolerance, size_t *column,
                                  double *factor_work, size_t *rank, double *condition);
 

@@ -39,12 +39,12 @@ typedef struct {
     double change_A_per_s[3]; /* how fast the currents change in the rotor frame, as phase quantities: 0 for
                                * currents that turn with the rotor. Only delays use it */
     double curvature_A_per_s2[3]; /* the same of that rate; where it is not known, 0 */
-    double temperature_C;     /* of the magnets; NAN where it is not known, which stands for the reference */
+    double temperature_C; /* of the magnets; NAN where it is not known, which stands for the reference */
 } hci_sample;
 
 /* A torque and its derivatives at a true sample; zeros to begin with. */
 typedef struct {
-    double torque_Nm;
+    double torque_Nm;       /* T_x */
     double by_current[3];   /* ∂T/∂i_s, N·m/A */
     double by_change[3];    /* by change_A_per_s, N·m·s/A; of readings only */
     double by_angle;        /* ∂T/∂θ_m at constant phase currents, N·m/rad */
@@ -53,6 +53,7 @@ typedef struct {
 
 /* ---- effects ---- */
 
+/* One kind of number that an effect has. */
 typedef struct {
     const char *name;    /* in effects.csv; with `ordered`, what stands before "_ORDER" */
     const char *unit;    /* in which values are kept */
@@ -68,23 +69,24 @@ typedef struct {
 typedef struct {
     size_t parameter; /* in the room's list */
     double order;     /* of an ordered parameter, else 0 */
-    double value;
+    double value;     /* in the parameter's unit */
     double std_error; /* NAN where it is not known */
 } hci_effect_term;
 
+/* What is known of an effect, below. */
 typedef struct hci_effect_room hci_effect_room;
 
 /* A room with values: one effect of one machine. The terms belong to the caller. */
 typedef struct {
-    const hci_effect_room *room;
-    const hci_effect_term *term;
-    size_t count;
+    const hci_effect_room *room; /* what is known of it */
+    const hci_effect_term *term; /* its values, in any order */
+    size_t count;                /* entries of term */
 } hci_effect;
 
 /* All effects of a machine, in any order. */
 typedef struct {
     const hci_effect *effect; /* may be NULL with count 0 */
-    size_t count;
+    size_t count;             /* entries of effect */
 } hci_effects;
 
 /* ---- rooms ---- */
@@ -92,27 +94,30 @@ typedef struct {
 /* One link in the chain from the true value of a channel to hci_sensor: called once a step, with eight
  * doubles of its own that are 0 at the start. */
 typedef struct {
+    /* From the value so far to the next. */
     double (*modify)(const hci_effect *effect, const hci_plant_state *plant, double step_s, double *memory,
                      double value, double theta_m_rad);
-    const hci_effect *effect;
-    double memory[8];
+    const hci_effect *effect; /* first argument of modify */
+    double memory[8];         /* its own */
 } hci_effect_link;
 
+/* Most links of a channel. */
 enum { HCI_EFFECT_LINKS = 8 };
 
+/* What effects put between a true quantity and its sensor. */
 typedef struct {
     hci_effect_link link[HCI_EFFECT_LINKS]; /* in the order in which they act */
-    size_t count;
-    double delay_s; /* of the reading */
+    size_t count;                           /* links in use */
+    double delay_s;                         /* of the reading */
 } hci_effect_channel;
 
 /* What is known of an effect. A function that does not concern it is NULL. */
 struct hci_effect_room {
-    const char *name;
-    const char *equation;
-    const char *signature; /* how it shows in a residual */
-    const hci_effect_parameter *parameter;
-    size_t parameter_count;
+    const char *name;                      /* as in effects.csv */
+    const char *equation;                  /* in words and letters, for people */
+    const char *signature;                 /* how it shows in a residual */
+    const hci_effect_parameter *parameter; /* the kinds of numbers that it has */
+    size_t parameter_count;                /* entries of parameter */
     bool in_machine;       /* `torque` acts in the air gap, else only between it and the reading */
     bool beyond_quadratic; /* the torque is of higher than second degree in the currents */
 
@@ -126,12 +131,16 @@ struct hci_effect_room {
     void (*torque_of_all)(const hci_effect *effect, const hci_machine *machine, const hci_sample *truth,
                           hci_effect_torque *sum, double *by_value);
 
-    /* What brakes the shaft of a simulated drive: the smooth part at a speed, and the Coulomb part. */
+    /* What brakes the shaft of a simulated drive: the smooth part at a speed. */
     double (*drag_Nm)(const hci_effect *effect, double speed_rad_per_s);
+
+    /* And the Coulomb part. */
     double (*coulomb_Nm)(const hci_effect *effect);
 
-    /* In place: a true sample to the reading, and back. */
+    /* In place: a true sample to the reading. */
     void (*sense)(const hci_effect *effect, int pole_pairs, hci_sample *x);
+
+    /* In place: a reading to the true sample. */
     void (*undo)(const hci_effect *effect, int pole_pairs, hci_sample *x);
 
     /* The adjoint of `undo`: turns the derivatives of a torque by what `undo` returned (by_angle, by_current,
@@ -151,8 +160,10 @@ struct hci_effect_room {
                    double *by_value, size_t columns, size_t own_column);
 };
 
-/* The registry: room k, NULL from the last one on; and by name, NULL when there is none. */
+/* Room k of the registry; NULL behind the last one. */
 const hci_effect_room *hci_effect_room_at(size_t k);
+
+/* The room of an effect by its name in effects.csv; NULL when there is none. */
 const hci_effect_room *hci_effect_room_find(const char *name);
 
 /* The value of a parameter that is not ordered, or its standard. */
@@ -168,23 +179,28 @@ size_t hci_effects_terms(const hci_effects *effects);
 hci_effect_torque hci_effects_torque(const hci_machine *machine, const hci_effects *effects,
                                      const hci_sample *truth, double *by_value);
 
-/* For hci_plant_effect: context is an hci_effects_plant. Adds torque, motional voltage, inductance and drag;
- * the Coulomb part is hci_effects_coulomb_Nm, which belongs into hci_plant.coulomb_Nm, where it neither
- * chatters nor creeps. */
+/* The context of hci_effects_apply. */
 typedef struct {
-    const hci_machine *machine;
-    const hci_effects *effects;
-    double temperature_C;
+    const hci_machine *machine; /* declared */
+    const hci_effects *effects; /* what it has beyond that */
+    double temperature_C;       /* of the magnets; NAN: the reference */
 } hci_effects_plant;
 
+/* For hci_plant_effect: context is an hci_effects_plant. Adds torque, motional voltage, inductance and drag
+ * of the effects in the machine; the Coulomb part is not in it. */
 void hci_effects_apply(const void *context, const hci_plant_state *state, hci_plant_point *point);
+
+/* The Coulomb part of the effects in N·m, which belongs into hci_plant.coulomb_Nm, where it neither chatters
+ * nor creeps. */
 double hci_effects_coulomb_Nm(const hci_effects *effects);
 
 /* ---- bench ---- */
 
-/* What is read while the torque of `truth` is read, and back. Speed and rotor-frame rate of change are taken
- * as constant over a delay. */
+/* What is read while the torque of `truth` is read. Speed and rotor-frame rate of change are taken as
+ * constant over a delay. */
 hci_sample hci_effects_sense(const hci_effects *effects, int pole_pairs, const hci_sample *truth);
+
+/* The inverse: the true sample behind a reading. */
 hci_sample hci_effects_undo(const hci_effects *effects, int pole_pairs, const hci_sample *reading);
 
 /* The torque in N·m that a torque sensor without lag reads beside this reading of the others: declared

@@ -17,6 +17,9 @@ extern "C" {
 hci_status hci_fourier_uniform(const double *samples, size_t count, size_t turns, double order,
                                hci_harmonic *out);
 
+/* Doubles of workspace that hci_fourier_fit needs for so many orders. */
+size_t hci_fourier_fit_workspace(size_t order_count);
+
 /* Least-squares fit of Σ S sin(nθ) + C cos(nθ) to samples at any angles (uneven, wrapped or not; fractional
  * orders need angles that are unwrapped, or wrapped at a period of theirs such as the mechanical turn).
  * theta_rad, samples: count entries; orders: ascending, each once; out: order_count entries; work:
@@ -27,7 +30,6 @@ hci_status hci_fourier_uniform(const double *samples, size_t count, size_t turns
  * HCI_ERROR_ARGUMENT for orders out of order, HCI_ERROR_NOT_FINITE; HCI_ERROR_SINGULAR when the angles cannot
  * tell the orders apart (fewer samples than unknowns, aliases, a column within 1e-10 of the others); out is
  * then untouched. O(count·order_count²). */
-size_t hci_fourier_fit_workspace(size_t order_count);
 hci_status hci_fourier_fit(const double *theta_rad, const double *samples, size_t count, const double *orders,
                            size_t order_count, hci_harmonic *out, double *work);
 

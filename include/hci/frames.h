@@ -8,20 +8,30 @@
 extern "C" {
 #endif
 
+/* Three phase quantities in the stationary frame, amplitude-invariant, in their unit. */
 typedef struct {
-    double alpha, beta, zero;
+    double alpha, beta; /* alpha on the axis of phase a, beta a quarter turn ahead */
+    double zero;        /* mean of the three */
 } hci_alpha_beta;
 
+/* Three phase quantities in the rotor frame, amplitude-invariant, in their unit. */
 typedef struct {
-    double d, q, zero;
+    double d, q; /* d on the magnet axis, q a quarter of an electrical turn ahead */
+    double zero; /* mean of the three */
 } hci_dq;
 
 /* α = (2a − b − c)/3, β = (b − c)/√3, zero = (a + b + c)/3. May run in an interrupt. */
 hci_alpha_beta hci_clarke(const double abc[3]);
+
+/* The inverse: a = α + zero, b = −α/2 + √3 β/2 + zero, c = −α/2 − √3 β/2 + zero. abc: out. May run in an
+ * interrupt. */
 void hci_clarke_inverse(hci_alpha_beta x, double abc[3]);
 
-/* d = −α cos θ − β sin θ, q = α sin θ − β cos θ. */
+/* d = −α cos θ − β sin θ, q = α sin θ − β cos θ; zero stays. theta_rad: electrical. May run in an interrupt.
+ */
 hci_dq hci_park(hci_alpha_beta x, double theta_rad);
+
+/* The inverse: α = −d cos θ + q sin θ, β = −d sin θ − q cos θ; zero stays. May run in an interrupt. */
 hci_alpha_beta hci_park_inverse(hci_dq x, double theta_rad);
 
 /* The extended frame dq_x for a back-EMF that is not sinusoidal: at every angle q lies along the back-EMF
@@ -37,25 +47,28 @@ typedef struct {
     double q_alpha, q_beta; /* unit vector of the q axis; the d axis is (q_beta, −q_alpha) */
 } hci_dqx_frame;
 
+/* A quantity in the extended frame. Currents are in N·m there: the mutual torque is sqrt(3/2)·i_qx. */
 typedef struct {
-    double d, q;
+    double d, q; /* q along the back-EMF vector */
 } hci_dqx;
 
 /* The frame for a back-EMF e_abc. Where e has no part without zero sequence, or 1/|e| is no finite number,
  * there is none: a_x is then 0 and the axis (0, 0). */
 hci_dqx_frame hci_dqx_frame_of(const double e_abc[3]);
 
-/* x_abc of zero sum to the frame and back; a frame with a_x = 0 gives zeros. */
+/* Phase quantities of zero sum to the frame; a frame with a_x = 0 gives zeros. */
 hci_dqx hci_dqx_from_abc(hci_dqx_frame frame, const double abc[3]);
+
+/* Back to phase quantities of zero sum. abc: out; zeros for a frame with a_x = 0. */
 void hci_dqx_to_abc(hci_dqx_frame frame, hci_dqx x, double abc[3]);
 
-/* Slopes of the inductances in the frame, (L'_d, M'_dq, L'_q) = a_x² R L'_αβ Rᵀ, so that the reluctance
- * torque is ½L'_d i_d² + M'_dq i_d i_q + ½L'_q i_q² in currents of this frame. slope_abc: entries HCI_AA …
- * HCI_CA of torque.h. */
+/* Slopes of the inductances in the extended frame. */
 typedef struct {
-    double d, dq, q;
+    double d, dq, q; /* L'_d, M'_dq, L'_q */
 } hci_dqx_slope;
 
+/* (L'_d, M'_dq, L'_q) = a_x² R L'_αβ Rᵀ, so that the reluctance torque is ½L'_d i_d² + M'_dq i_d i_q +
+ * ½L'_q i_q² in currents of this frame. slope_abc: entries HCI_AA … HCI_CA of torque.h, H/rad. */
 hci_dqx_slope hci_dqx_slope_of(hci_dqx_frame frame, const double slope_abc[6]);
 
 #ifdef __cplusplus

@@ -18,6 +18,7 @@
 extern "C" {
 #endif
 
+/* π, which C99 does not have. */
 #define HCI_PI 3.14159265358979323846
 
 /* Two orders closer than this are the same order. */
@@ -26,12 +27,14 @@ extern "C" {
 /* Highest order that files may name. */
 #define HCI_MOST_ORDER 2000.0
 
+/* One order of a periodic quantity, S sin(nθ) + C cos(nθ), in the quantity's unit. */
 typedef struct {
     double order;  /* n >= 0 */
     double sine;   /* S = A cos γ */
     double cosine; /* C = A sin γ; the mean at order 0 */
 } hci_harmonic;
 
+/* One order and sequence of a three-phase quantity, A sin(nθ − σ·2πs/3 + γ), in the quantity's unit. */
 typedef struct {
     double order;  /* n >= 0 */
     int sequence;  /* σ: +1, −1 or 0 */
@@ -39,8 +42,10 @@ typedef struct {
     double cosine; /* C = A sin γ */
 } hci_wave;
 
-/* Peak amplitude A >= 0 and phase γ in (−π, π] of linear coordinates. */
+/* Peak amplitude A >= 0 of linear coordinates. */
 double hci_amplitude(double sine, double cosine);
+
+/* Phase γ in (−π, π] of linear coordinates. */
 double hci_phase_rad(double sine, double cosine);
 
 /* The harmonic A sin(nθ + γ). At order 0 the amplitude is the mean itself and the phase is not used. */

@@ -29,8 +29,8 @@ extern "C" {
  * and no term. */
 typedef struct {
     const hci_inductance *terms; /* order 0 included; NULL with count 0 */
-    size_t count;
-    double d_H, q_H;
+    size_t count;                /* entries of terms */
+    double d_H, q_H;             /* of the part that is constant in the rotor frame */
 } hci_plant_inductance;
 
 /* The machine at one angle. Effects (below) may change any of it. */
@@ -43,10 +43,10 @@ typedef struct {
 /* Rows of a value and a slope of e_α, e_β, T_cog, L_αα, L_αβ, L_ββ at equal steps of the angle, over `turns`
  * electrical turns. The plant and a controller may share one, or have different ones. */
 typedef struct {
-    const double *rows;
-    int points;
-    int pole_pairs;
-    int turns;
+    const double *rows;    /* points + 1 rows of 12 values; the caller's */
+    int points;            /* of the whole table */
+    int pole_pairs;        /* of the machine */
+    int turns;             /* electrical turns that it holds */
     int salient;           /* 0 when L is the same at all angles: then L' = 0 */
     double points_per_rad; /* mechanical */
 } hci_plant_table;
@@ -72,6 +72,7 @@ hci_plant_point hci_plant_table_at(const hci_plant_table *table, double theta_m_
 
 /* ---- the plant ---- */
 
+/* The state of machine and shaft. All zeros is a currentless rotor at rest at angle 0. */
 typedef struct {
     double i[2];            /* A, αβ */
     double speed_rad_per_s; /* ω */
@@ -84,18 +85,20 @@ typedef struct {
  * scaling e: a hot magnet, an eccentric rotor. Saturation sets L to ∂ψ/∂i, chooses e so that e + L'i =
  * ∂ψ/∂θ_m, and mends T by T_cog. */
 typedef struct {
-    void (*apply)(const void *context, const hci_plant_state *state, hci_plant_point *point);
-    const void *context;
+    void (*apply)(const void *context, const hci_plant_state *state,
+                  hci_plant_point *point); /* point: in/out */
+    const void *context;                   /* first argument of apply */
 } hci_plant_effect;
 
+/* Machine and shaft of a drive. */
 typedef struct {
-    hci_plant_table table;
+    hci_plant_table table;           /* the machine over the angle */
     double resistance_ohm;           /* of a phase */
     double inertia_kgm2;             /* > 0; INFINITY keeps the speed, whatever the torque */
     double viscous_Nms;              /* B, N·m·s/rad */
     double coulomb_Nm;               /* T_c >= 0, moving and at rest */
     const hci_plant_effect *effects; /* NULL with count 0; applied in order */
-    size_t effect_count;
+    size_t effect_count;             /* entries of effects */
 } hci_plant;
 
 /* One step of dt_s with the voltage v (V, αβ; hci_inverter_* below) and the load torque held: classical

@@ -13,24 +13,26 @@
 extern "C" {
 #endif
 
+/* What a sensor does to the quantity that it measures. */
 typedef struct {
-    double gain_error; /* 0.01: reads 1 % too much */
-    double offset;
-    double noise;   /* standard deviation of white Gaussian noise */
-    double quantum; /* read to the nearest multiple of it; 0: not quantised */
-    size_t delay_steps;
+    double gain_error;  /* 0.01: reads 1 % too much */
+    double offset;      /* of the reading, in the quantity's unit */
+    double noise;       /* standard deviation of white Gaussian noise */
+    double quantum;     /* read to the nearest multiple of it; 0: not quantised */
+    size_t delay_steps; /* age of the reading in steps */
     /* Another effect of the sensor, on the true value and before all others; NULL: none. theta_m_rad: true
      * angle of the rotor, which is all that an eccentric encoder needs. */
     double (*modify)(const void *context, double value, double theta_m_rad);
-    const void *context;
+    const void *context; /* first argument of modify */
 } hci_sensor;
 
+/* What a sensor keeps from step to step; made by hci_sensor_start. */
 typedef struct {
     uint64_t random; /* state of the generator */
     double spare;    /* normal deviates come in pairs */
-    int has_spare;
-    double *ring;
-    size_t next;
+    int has_spare;   /* whether spare is one */
+    double *ring;    /* readings that are on their way; the caller's */
+    size_t next;     /* place in the ring of the oldest */
 } hci_sensor_state;
 
 /* Doubles that a sensor's ring needs: its delay. */

@@ -19,6 +19,7 @@ extern "C" {
     X(HCI_ERROR_MEMORY,     4, "out of memory")                                                     \
     X(HCI_ERROR_OUTPUT,     5, "could not write")
 
+/* What a function returns. Values above HCI_NOT_REACHED are failures. */
 typedef enum {
 #define HCI_STATUS_NAME(name, exit_code, text) name,
     HCI_STATUS_LIST(HCI_STATUS_NAME)

@@ -35,8 +35,10 @@ size_t hci_orders_sort(double *orders, size_t count);
 /* Position of `order` in a sorted list, or `count` when it is not there. O(log n). */
 size_t hci_orders_find(const double *orders, size_t count, double order);
 
-/* Number of rows of U for these compared orders, and the first row of order k. */
+/* Number of rows of U for these compared orders: two for each, one for order 0. */
 size_t hci_orders_rows(const double *orders, size_t count);
+
+/* The first row of order k of these compared orders. */
 size_t hci_orders_row(const double *orders, size_t count, size_t k);
 
 /* The torque orders that one component reaches with a back-EMF: at most 2·emf_count entries, unsorted,
@@ -65,8 +67,10 @@ void hci_system_add_torque(const hci_wave *back_emf, size_t emf_count, const hci
                            size_t current_count, const double *orders, size_t order_count,
                            hci_harmonic *spectrum);
 
-/* Coordinates (S_n, C_n), (C_0 at order 0) of a spectrum as a column of hci_orders_rows entries, and back. */
+/* Coordinates (S_n, C_n), (C_0 at order 0) of a spectrum as a column. rows: out, hci_orders_rows entries. */
 void hci_spectrum_to_rows(const hci_harmonic *spectrum, size_t count, double *rows);
+
+/* The column back to a spectrum. spectrum: out, count entries, whose orders are those given. */
 void hci_spectrum_from_rows(const double *orders, size_t count, const double *rows, hci_harmonic *spectrum);
 
 #ifdef __cplusplus

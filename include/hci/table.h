@@ -17,6 +17,7 @@
 /* Version of the layout below; emitted files refuse to compile with another one. */
 #define HCI_TABLE_VERSION 1
 
+/* A cast that neither C nor C++ warns of. */
 #ifdef __cplusplus
 #define HCI_TABLE_CAST(type, value) static_cast<type>(value)
 #else
@@ -25,37 +26,42 @@
 
 /* Phase currents, positive into the machine. */
 typedef struct {
-    float ia_A, ib_A, ic_A;
+    float ia_A, ib_A, ic_A; /* of phases a, b and c */
 } hci_currents_abc;
 
 /* Rotor-frame currents, amplitude-invariant: i_a = i_q sin θ − i_d cos θ. */
 typedef struct {
-    float id_A, iq_A;
+    float id_A, iq_A; /* on the magnet axis, and a quarter of an electrical turn ahead */
 } hci_currents_dq;
 
-typedef enum { HCI_TABLE_ABC, HCI_TABLE_DQ } hci_table_frame;
+/* What the columns of a table are. */
+typedef enum {
+    HCI_TABLE_ABC, /* phase currents */
+    HCI_TABLE_DQ   /* rotor-frame currents */
+} hci_table_frame;
 
 /* A point between the rows with the currents that are due there. */
 typedef struct {
-    uint32_t angle;
+    uint32_t angle;    /* 2^32 is one period of the table */
     float torque_Nm;   /* not used by a table of one part */
     float expected[3]; /* A: ia, ib, ic or id, iq, 0 */
 } hci_table_f32_probe;
 
+/* A table of currents over the angle, as `hci-solve emit` writes it: constant, in flash. */
 typedef struct {
     const float
         *rows; /* points + 1 rows of parts·columns values, A(θ) before B(θ); the last row repeats the first */
-    const hci_table_f32_probe *probes;
-    uint32_t probe_count;
-    uint32_t points;  /* >= 1, not only powers of two */
-    uint32_t columns; /* abc: 2 for a star (ic = −ia − ib), 3 with a neutral conductor; dq: 2 */
-    uint32_t parts;   /* 1 or 2 */
-    hci_table_frame frame;
-    uint32_t period_turns; /* electrical turns in 2^32 of angle */
-    uint32_t crc32;        /* of the rows */
-    float max_error_A;     /* largest error of any current at any angle, for |T| <= reference_torque_Nm */
-    float peak_A;          /* largest |phase current|, for |T| <= reference_torque_Nm */
-    float reference_torque_Nm;
+    const hci_table_f32_probe *probes; /* points to check at start-up */
+    uint32_t probe_count;              /* entries of probes */
+    uint32_t points;                   /* >= 1, not only powers of two */
+    uint32_t columns;          /* abc: 2 for a star (ic = −ia − ib), 3 with a neutral conductor; dq: 2 */
+    uint32_t parts;            /* 1 or 2 */
+    hci_table_frame frame;     /* of the columns */
+    uint32_t period_turns;     /* electrical turns in 2^32 of angle */
+    uint32_t crc32;            /* of the rows */
+    float max_error_A;         /* largest error of any current at any angle, for |T| <= reference_torque_Nm */
+    float peak_A;              /* largest |phase current|, for |T| <= reference_torque_Nm */
+    float reference_torque_Nm; /* largest |T| for which error and peak hold; 0 with one part */
 } hci_table_f32;
 
 /* ---- angles ---- */
@@ -105,6 +111,7 @@ static inline const float *hci_table_f32_row(const hci_table_f32 *table, uint32_
     return table->rows + HCI_TABLE_CAST(uint32_t, position >> 32) * row_values;
 }
 
+/* The value between one row and the next, by linear interpolation; fraction: 0 … 1. */
 static inline float hci_table_f32_between(const float *value, uint32_t row_values, float fraction)
 {
     return value[0] + fraction * (value[row_values] - value[0]);
@@ -188,11 +195,12 @@ static inline void hci_table_f32_currents(const hci_table_f32 *table, uint32_t a
 
 /* ---- check at start-up ---- */
 
+/* What a check of a table has found. */
 typedef enum {
-    HCI_TABLE_GOOD,
-    HCI_TABLE_BAD_SHAPE,
-    HCI_TABLE_BAD_CRC,
-    HCI_TABLE_BAD_PROBE
+    HCI_TABLE_GOOD,      /* nothing wrong */
+    HCI_TABLE_BAD_SHAPE, /* points, columns or parts that no table has */
+    HCI_TABLE_BAD_CRC,   /* its rows are not those that were written */
+    HCI_TABLE_BAD_PROBE  /* this processor computes other currents from them */
 } hci_table_verdict;
 
 /* CRC-32 of one value's IEEE 754 bits, low byte first, after `crc`. */

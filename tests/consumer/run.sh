@@ -100,6 +100,20 @@ cc $strict "$consumer/core/main.c" "$work/torque.o" $(pkg_config --cflags --libs
 cc $strict "$consumer/host/main.c" $(pkg_config --cflags --libs hci-host) -o "$work/host"
 "$work/host"
 
+step the programs of docs/api.md
+api=$1/docs/api.md
+# api_program N LIBRARY [ARGUMENT...]: the Nth program on the page prints what the page says.
+api_program() {
+    awk -v n="$1" '/^```c$/ { k++; on = 1; next } /^```$/ { on = 0 } on && k == n' "$api" >"$work/api$1.c"
+    awk -v n="$1" '/^```c$/ { k++; p = 0 } /prints$/ { p = k } p == n && sub(/^    /, "")' "$api" >"$work/printed"
+    [ -s "$work/printed" ] || { echo "docs/api.md does not say what its program $1 prints"; exit 1; }
+    cc $strict "$work/api$1.c" $(pkg_config --cflags --libs "$2") -o "$work/api$1"
+    (program=$work/api$1 && shift 2 && cd "$work" && "$program" "$@") | diff "$work/printed" -
+}
+api_program 1 hci-core
+api_program 2 hci-host "$1/data/machine_a" "$1/data/scenarios/02/target.csv"
+[ -s "$work/currents/currents.csv" ]
+
 step core alone
 cmake --install "$3" --prefix "$work/core-only"
 use_package "$work/core-only" core

@@ -10,10 +10,10 @@
 extern "C" {
 #endif
 
-/* Start with {0}, which is no effect. */
+/* Effects with their values. Start with {0}, which is no effect. */
 typedef struct {
-    hci_effects list; /* points into the arrays below */
-    hci_effect *effect;
+    hci_effects list;      /* points into the arrays below */
+    hci_effect *effect;    /* list.count of them */
     hci_effect_term *term; /* of all effects, hci_effects_terms(&list) of them */
 } hci_effects_data;
 
@@ -25,6 +25,8 @@ hci_status hci_effects_read(const char *path, hci_effects_data *effects, hci_not
 
 /* The same from effects.csv of a machine folder; none there: no effect. */
 hci_status hci_effects_read_machine(const char *folder, hci_effects_data *effects, hci_note *note);
+
+/* Frees what effects hold and empties them. */
 void hci_effects_release(hci_effects_data *effects);
 
 /* Writes effects.csv as the next file of a set, in the order given; what hci_effects_read makes of it is
@@ -44,6 +46,8 @@ typedef struct hci_effects_attachment hci_effects_attachment;
 hci_status hci_effects_attach(const hci_effects *effects, const hci_machine *machine, double temperature_C,
                               const hci_plant_state *state, hci_drive *drive, hci_sensor *sensors,
                               hci_effects_attachment **attachment, hci_note *note);
+
+/* Frees an attachment; the drive must not be used any more. NULL is fine. */
 void hci_effects_detach(hci_effects_attachment *attachment);
 
 #ifdef __cplusplus

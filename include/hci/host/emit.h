@@ -18,11 +18,11 @@ extern "C" {
 /* A table has at most so many points and its period at most so many electrical turns. */
 enum { HCI_EMIT_POINTS = 256, HCI_EMIT_MAX_POINTS = 65536, HCI_EMIT_MAX_TURNS = 4096 };
 
-/* Start with {0}; the arrays and strings belong to the caller. */
+/* What goes into a table. Start with {0}; the arrays and strings belong to the caller. */
 typedef struct {
-    const char *name;   /* of the table, its two files and nothing else: a C identifier */
-    const char *format; /* "f32" */
-    hci_table_frame frame;
+    const char *name;              /* of the table, its two files and nothing else: a C identifier */
+    const char *format;            /* "f32" */
+    hci_table_frame frame;         /* phase currents, or rotor frame */
     bool has_neutral;              /* else a star connection: no zero sequence, ic = −ia − ib */
     const hci_wave *currents;      /* i(θ) in A, or B(θ) when there is a part proportional to torque */
     size_t current_count;          /* 0: none */
@@ -32,16 +32,18 @@ typedef struct {
     size_t points;                 /* 0: from max_error_A, or HCI_EMIT_POINTS without that either */
     double max_error_A;            /* > 0: the fewest points that keep every current within it; else 0 */
     const char *const *provenance; /* lines for the comment, without paths and dates */
-    size_t provenance_count;
-    uint64_t input_hash; /* 64-bit FNV-1a of what the currents were read from */
+    size_t provenance_count;       /* entries of provenance */
+    uint64_t input_hash;           /* 64-bit FNV-1a of what the currents were read from */
 } hci_emit_request;
 
+/* What a table has become. */
 typedef struct {
-    size_t points, columns, parts, period_turns;
-    size_t bytes;       /* of the rows */
+    size_t points, columns, parts; /* of the table: rows, values of one part in a row, 1 or 2 parts */
+    size_t period_turns;           /* electrical turns in one period */
+    size_t bytes;                  /* of the rows */
     double max_error_A; /* holds at every angle for |T| <= reference_torque_Nm, single precision included */
     double peak_A;      /* largest |phase current| */
-    uint32_t crc32;
+    uint32_t crc32;     /* of the rows */
 } hci_emit_result;
 
 /* Writes NAME.h and NAME.c into `folder`, both or none; same request, same bytes. result and note may be

@@ -13,11 +13,12 @@ extern "C" {
 
 /* How a data sheet may say how strong the magnets are: X(name, unit, what is meant). k_e is the peak of the
  * back-EMF of a phase, line to star point, in V·s/rad of the mechanical angle, and ω is mechanical.
- *   Kv             rpm per volt: of sqrt(3) k_e ω (line to line, peak), of its rms, or of k_e ω
- *   volt per krpm  the same voltages at 1000 rpm
- *   N·m/A          of a sine: torque 3/2 k_e I by its peak or its rms; dc: sqrt(3) k_e, as of a brushless
- * motor in block commutation, where N·m/A times rpm/V is 60/(2π) flux linkage   of a phase, peak: k_e = pole
- * pairs × flux */
+ *
+ * - Kv: rpm per volt of sqrt(3) k_e ω (line to line, peak), of its rms, or of k_e ω.
+ * - Volt per krpm: the same voltages at 1000 rpm.
+ * - N·m/A of a sine: torque 3/2 k_e I by its peak or its rms; dc: sqrt(3) k_e, as of a brushless motor in
+ * block commutation, where N·m/A times rpm/V is 60/(2π).
+ * - Flux linkage of a phase, peak: k_e = pole pairs × flux. */
 #define HCI_SHEET_READINGS(X)                                                                                \
     X(HCI_SHEET_KV_LINE_PEAK, "rpm/V", "Kv of the line-to-line peak")                                        \
     X(HCI_SHEET_KV_LINE_RMS, "rpm/V", "Kv of the line-to-line rms")                                          \
@@ -31,6 +32,7 @@ extern "C" {
     X(HCI_SHEET_TORQUE_DC, "Nm/A", "torque per ampere of line current in block commutation")                 \
     X(HCI_SHEET_FLUX, "Wb", "flux linkage of a phase, peak")
 
+/* One of these readings; each says its unit and what is meant. */
 typedef enum {
 #define HCI_SHEET_NAME(name, unit, meaning) name,
     HCI_SHEET_READINGS(HCI_SHEET_NAME)
@@ -39,33 +41,41 @@ typedef enum {
 
 /* What the sheet says, as it says it. Not given: NAN, and 0 slots. */
 typedef struct {
-    const char *name; /* of the machine, for the first line of the tables */
-    int pole_pairs;   /* from 1 to 1000 */
-    int slots;        /* up to HCI_MOST_SLOTS */
-    hci_sheet_reading reading;
-    double strength; /* above 0, in the unit of the reading */
-    double resistance_ohm;
-    bool resistance_of_line; /* between two terminals, not of a phase */
-    double inductance_d_H, inductance_q_H;
-    double inertia_kgm2;
-    double rated_current_A;
-    bool rated_current_is_rms;
-    double rated_torque_Nm, rated_speed_rpm, dc_link_voltage_V;
+    const char *name;                      /* of the machine, for the first line of the tables */
+    int pole_pairs;                        /* from 1 to 1000 */
+    int slots;                             /* up to HCI_MOST_SLOTS */
+    hci_sheet_reading reading;             /* what strength is */
+    double strength;                       /* above 0, in the unit of the reading */
+    double resistance_ohm;                 /* of what the next says */
+    bool resistance_of_line;               /* between two terminals, not of a phase */
+    double inductance_d_H, inductance_q_H; /* of a phase, along the magnets and across them */
+    double inertia_kgm2;                   /* of the rotor */
+    double rated_current_A;                /* of a phase, as the next says */
+    bool rated_current_is_rms;             /* else peak */
+    double rated_torque_Nm;                /* on the shaft */
+    double rated_speed_rpm;                /* mechanical */
+    double dc_link_voltage_V;              /* of battery or supply */
 } hci_sheet;
 
+/* Most slots of a stator. */
 enum { HCI_MOST_SLOTS = 600 };
 
-/* k_e in V·s/rad (mechanical, phase peak; the same number is N·m/A of a phase) of a value above 0, and back.
- */
+/* k_e in V·s/rad (mechanical, phase peak; the same number is N·m/A of a phase) of a value above 0. */
 double hci_sheet_emf(hci_sheet_reading reading, double value, int pole_pairs);
+
+/* And back: the value that a sheet with this reading gives for k_e above 0. */
 double hci_sheet_value(hci_sheet_reading reading, double emf_Vs_per_rad, int pole_pairs);
 
-/* Unit and meaning as in the list; static strings. */
+/* The unit as in the list; a static string. */
 const char *hci_sheet_unit(hci_sheet_reading reading);
+
+/* What is meant, as in the list; a static string. */
 const char *hci_sheet_meaning(hci_sheet_reading reading);
 
-/* Of one phase, and as a peak; NAN where the sheet does not say. */
+/* Resistance of one phase; NAN where the sheet does not say. */
 double hci_sheet_resistance_ohm(const hci_sheet *sheet);
+
+/* Rated current as a peak; NAN where the sheet does not say. */
 double hci_sheet_current_A(const hci_sheet *sheet);
 
 /* First electrical order of the cogging torque, lcm(slots, 2p)/p; slots and pole_pairs from 1. */

@@ -9,13 +9,16 @@
 extern "C" {
 #endif
 
+/* Bytes of a note. */
 #define HCI_NOTE_SIZE 1024
 
-/* Start with {0}. The first error wins: a note that already has a text is not overwritten. */
+/* A text for the user. Start with {0}. The first error wins: a note that already has a text is not
+ * overwritten. */
 typedef struct {
-    char text[HCI_NOTE_SIZE];
+    char text[HCI_NOTE_SIZE]; /* "" for nothing to say */
 } hci_note;
 
+/* Lets a compiler check the arguments of a function like printf. */
 #if defined(__GNUC__)
 #define HCI_PRINTF(format_index, first) __attribute__((format(printf, format_index, first)))
 #else

@@ -25,10 +25,10 @@ hci_status hci_predict(const hci_machine_data *machine, const hci_effects *effec
 
 /* In sum, over the samples; NAN where the run has no torque. */
 typedef struct {
-    size_t count;
-    hci_torque_source source;
-    double mean_model_Nm, ripple_model_Nm; /* ripple: rms about the mean */
-    double mean_torque_Nm, ripple_torque_Nm;
+    size_t count;                             /* samples */
+    hci_torque_source source;                 /* where the torque of the run is from */
+    double mean_model_Nm, ripple_model_Nm;    /* ripple: rms about the mean */
+    double mean_torque_Nm, ripple_torque_Nm;  /* the same of the run's torque */
     double mean_residual_Nm, rms_residual_Nm; /* residual: torque of the run − model */
     double worst_residual_Nm;                 /* largest absolute value */
     size_t worst_sample;                      /* where, from 0 */

@@ -90,13 +90,15 @@ extern "C" {
     X("strategy_2", "mtpa, id0, cancel", "none", "from strategy_2_from on")                                  \
     X("currents", "path", "none", "currents.csv, or the folder that `solve` wrote; relative to this file")
 
+/* Bytes of a path. */
 enum { HCI_SCENARIO_PATH_SIZE = 4096 };
 
+/* What the drive is to do. Start with hci_scenario_init. */
 typedef struct {
 #define HCI_SCENARIO_FIELD(field, name, unit, low, high, fallback, what) double field;
     HCI_SCENARIO_VALUES(HCI_SCENARIO_FIELD)
 #undef HCI_SCENARIO_FIELD
-    hci_current_loop current_control;
+    hci_current_loop current_control;      /* how currents follow their references */
     hci_strategy strategy, strategy_2;     /* strategy_2 is used with strategy_2_from_s */
     char currents[HCI_SCENARIO_PATH_SIZE]; /* "" for none */
     char path[HCI_SCENARIO_PATH_SIZE];     /* of the scenario, for messages; "" for none */
@@ -111,15 +113,19 @@ hci_status hci_scenario_read(const char *path, hci_scenario *scenario, hci_note 
 
 /* ---- the simulation ---- */
 
+/* A quantity over the evaluated time, in its unit. */
 typedef struct {
-    double mean, rms, most, least;
+    double mean;  /* over time */
+    double rms;   /* root of the mean square */
+    double most;  /* largest value */
+    double least; /* smallest value */
 } hci_statistics;
 
 /* Energies over the evaluated time, J. What is not known (ideal current sources have no voltage) is NAN.
  * electrical = copper + stored + mechanical + residual. */
 typedef struct {
-    double electrical;
-    double copper;
+    double electrical;              /* ∫v·i, into the machine */
+    double copper;                  /* lost in the winding */
     double stored;                  /* ½iᵀLi, and the energy of the cogging torque; NAN with effects */
     double mechanical;              /* ∫Tω */
     double load, friction, kinetic; /* mechanical = load + friction + kinetic, but for the integration error;
@@ -127,41 +133,43 @@ typedef struct {
     double residual;                /* error of integration */
 } hci_energies;
 
-/* Means are over time, from from_s to to_s: whole periods of the angle, or all of the time where not one was
- * turned. */
+/* What a simulated drive has done. Means are over time, from from_s to to_s: whole periods of the angle, or
+ * all of the time where not one was turned. */
 typedef struct {
-    double step_s, from_s, to_s;
-    size_t periods;      /* whole ones that were evaluated */
-    size_t period_turns; /* electrical turns in one */
-    hci_statistics torque_Nm, speed_rad_per_s;
-    hci_statistics current_A;     /* length of the current vector, amplitude-invariant */
-    hci_statistics current_dqx_A; /* sqrt(i_dx² + i_qx²) */
-    double peak_phase_A;
+    double step_s;                             /* fixed step */
+    double from_s, to_s;                       /* what was evaluated */
+    size_t periods;                            /* whole ones that were evaluated */
+    size_t period_turns;                       /* electrical turns in one */
+    hci_statistics torque_Nm, speed_rad_per_s; /* of the machine; mechanical */
+    hci_statistics current_A;                  /* length of the current vector, amplitude-invariant */
+    hci_statistics current_dqx_A;              /* sqrt(i_dx² + i_qx²) */
+    double peak_phase_A;                       /* largest |phase current| */
     double T_ripple_percent, F_ripple_percent; /* 100 (T_max − T_min)/T_mean, 100 rms(T − T_mean)/T_mean; NAN
                                                 * when T_mean is 0, or less than 1 % of T_max − T_min */
     double copper_W;                           /* NAN without a resistance */
     double plain_amplitude_A; /* sine in phase with the back-EMF's fundamental that would make the mean torque
                                  with it */
     double loss_to_plain;     /* copper loss over that of the sine; NAN when there is none */
-    double switching_frequency_Hz; /* mean of the legs, NAN without switching */
-    size_t without_current,
-        limited;    /* samples at which the strategy had no current; at which a current limit held */
-    size_t samples; /* of the reference currents */
-    size_t without_current_from_start, limited_from_start;
-    hci_energies energy_J;
-    bool energy_balances;      /* within 1 %, or not known */
+    double switching_frequency_Hz;                         /* mean of the legs, NAN without switching */
+    size_t without_current;                                /* samples at which the strategy had no current */
+    size_t limited;                                        /* samples at which a current limit held */
+    size_t samples;                                        /* of the reference currents */
+    size_t without_current_from_start, limited_from_start; /* the same from the start on */
+    hci_energies energy_J;                                 /* where it went */
+    bool energy_balances;                                  /* within 1 %, or not known */
     hci_harmonic *spectrum_Nm; /* order 0 first; NULL with count 0 where not one period was turned */
-    size_t spectrum_count;
-    hci_note remark; /* what a reader should know, or "" */
+    size_t spectrum_count;     /* entries of spectrum_Nm */
+    hci_note remark;           /* what a reader should know, or "" */
 } hci_simulation;
 
+/* What a simulation is given besides machine and scenario. */
 typedef struct {
     const char
         *folder; /* for trajectory.csv, spectrum.csv, summary.json, all or none; NULL: nothing is written */
     const hci_effects *effects; /* of the machine, on plant and sensors, not known to the controller; NULL
                                    only where it has no effects.csv */
     hci_progress *progress;     /* may be NULL */
-    void *progress_context;
+    void *progress_context;     /* first argument of progress */
 } hci_simulate_options;
 
 /* Runs the scenario. HCI_OK, and *simulation is to be given to hci_simulation_release; or an error with a
@@ -175,6 +183,8 @@ hci_status hci_simulate(const hci_machine_data *machine, const hci_scenario *sce
 hci_status hci_simulate_with_report(const hci_machine_data *machine, const hci_scenario *scenario,
                                     const hci_simulate_options *options, const hci_report_sources *sources,
                                     hci_simulation *simulation, hci_note *note);
+
+/* Frees what a simulation holds and empties it. */
 void hci_simulation_release(hci_simulation *simulation);
 
 /* As in summary.json. To be freed with hci_text_free of summary.h; NULL when memory is out. */

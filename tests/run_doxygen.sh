@@ -1,0 +1,33 @@
+#!/bin/sh
+# labels: docs
+# The API reference is built without a warning: every public function, struct, field, constant and macro has its docstring. An undocumented
+# one is refused. The programs on its main page are run by tests/consumer/run.sh.
+#   run_doxygen.sh SOURCE_DIR
+set -eu
+cd "$1"
+command -v doxygen >/dev/null || { echo "skipped: no doxygen here"; exit 77; }
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+scripts/docs "$work/docs" 2>&1 || { echo "the docstrings above are missing or wrong"; exit 1; }
+for header in $(cd include && find hci -name '*.h'); do
+    page=$(basename "$header" .h | sed 's/_/__/g')_8h.html
+    [ -s "$work/docs/html/$page" ] || { echo "no page of $header"; exit 1; }
+    grep -q "$page" "$work/docs/html/index.html" || { echo "docs/api.md does not name $header"; exit 1; }
+done
+
+# the same with one docstring less, in a copy
+mkdir "$work/copy"
+cp -R Doxyfile cmake docs include scripts "$work/copy"
+refused() {
+    if (cd "$work/copy" && scripts/docs "$work/refused") >"$work/log" 2>&1; then
+        echo "not refused: $1"
+        exit 1
+    fi
+    grep -q "$1" "$work/log" || { cat "$work/log"; echo "refused, but not because of: $1"; exit 1; }
+}
+printf 'int hci_undocumented(void);\n' >>"$work/copy/include/hci/version.h"
+refused 'hci_undocumented.*is not documented'
+cp include/hci/version.h "$work/copy/include/hci/version.h"
+sed -i 's|/\* V, .* not used by the ideal loop \*/||' "$work/copy/include/hci/control.h"
+refused 'Member v.*hci_control_state is not documented'
