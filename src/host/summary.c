@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "hci/host/check.h"
 #include "hci/host/predict.h"
 #include "hci/host/simulate.h"
 #include "hci/host/summary.h"
@@ -403,6 +404,82 @@ char *hci_waveform_json(const hci_waveform *waveform)
         add_number(root, "drift_Hz_per_s", w->drift_Hz_per_s) &&
         add_number(root, "speed_rad_per_s", w->speed_rad_per_s) && add_waveform(root, w) &&
         add_text(root, "remark", w->remark.text))
+        text = cJSON_Print(root);
+    cJSON_Delete(root);
+    return text;
+}
+
+/* ---- a check of conventions ---- */
+
+static bool add_check_finding(cJSON *list, const hci_check_finding *f)
+{
+    cJSON *item = cJSON_CreateObject(), *alternatives = NULL;
+    bool good = item && cJSON_AddItemToArray(list, item) && add_text(item, "slip", f->slip) &&
+                add_text(item, "file", f->file) && add_number(item, "line", (double)f->line) &&
+                add_text(item, "column", f->column) && add_text(item, "found", f->found) &&
+                add_text(item, "should_be", f->should_be) &&
+                add_number(item, "probability", f->probability) && add_text(item, "words", f->words) &&
+                add_text(item, "told_by", f->told_by) &&
+                (alternatives = cJSON_AddArrayToObject(item, "alternatives")) != NULL;
+    for (size_t k = 0; k < f->alternatives && good; ++k) {
+        cJSON *name = cJSON_CreateString(f->alternative[k]);
+        good = name && cJSON_AddItemToArray(alternatives, name);
+    }
+    return good;
+}
+
+static bool add_check_evidence(cJSON *list, const hci_check_evidence *e)
+{
+    cJSON *item = cJSON_CreateObject();
+    return item && cJSON_AddItemToArray(list, item) && add_text(item, "name", e->name) &&
+           add_text(item, "words", e->words) && add_number(item, "declared", e->declared) &&
+           add_number(item, "expected", e->expected) && add_number(item, "as_read", e->as_read) &&
+           add_number(item, "tolerance", e->tolerance) &&
+           add_text(item, "state", hci_check_state_name(e->state));
+}
+
+static bool add_check_gap(cJSON *list, const hci_check_gap *g)
+{
+    cJSON *item = cJSON_CreateObject();
+    return item && cJSON_AddItemToArray(list, item) && add_text(item, "name", g->name) &&
+           add_text(item, "words", g->words) && add_text(item, "needs", g->needs);
+}
+
+static bool add_check_lists(cJSON *root, const hci_check *c)
+{
+    cJSON *findings = cJSON_AddArrayToObject(root, "findings"),
+          *evidence = cJSON_AddArrayToObject(root, "evidence"),
+          *unchecked = cJSON_AddArrayToObject(root, "unchecked");
+    bool good = findings && evidence && unchecked;
+    for (size_t k = 0; k < c->findings && good; ++k)
+        good = add_check_finding(findings, &c->finding[k]);
+    for (size_t k = 0; k < c->evidences && good; ++k)
+        good = add_check_evidence(evidence, &c->evidence[k]);
+    for (size_t k = 0; k < c->gaps && good; ++k)
+        good = add_check_gap(unchecked, &c->gap[k]);
+    return good;
+}
+
+static bool add_check_runs(cJSON *root, const hci_check *c)
+{
+    cJSON *runs = cJSON_AddArrayToObject(root, "runs");
+    bool good = runs != NULL;
+    for (size_t k = 0; k < c->runs && good; ++k) {
+        cJSON *name = cJSON_CreateString(c->run[k]);
+        good = name && cJSON_AddItemToArray(runs, name);
+    }
+    return good;
+}
+
+char *hci_check_json(const hci_check *check)
+{
+    cJSON *root = cJSON_CreateObject();
+    char *text = NULL;
+    if (root && add_text(root, "command", "check") && add_text(root, "version", HCI_VERSION_STRING) &&
+        add_text(root, "machine", check->machine) && add_check_runs(root, check) &&
+        add_text(root, "verdict", hci_check_verdict_name(check->verdict)) &&
+        add_number(root, "probability_as_declared", check->probability_as_declared) &&
+        add_check_lists(root, check))
         text = cJSON_Print(root);
     cJSON_Delete(root);
     return text;

@@ -26,24 +26,27 @@ extern "C" {
     X(rated_torque_Nm, "rated_torque", "Nm")                                                                 \
     X(rated_speed_rad_per_s, "rated_speed", "rad_per_s")
 
+/* A machine as read from its folder. Start with {0}. */
 typedef struct {
 #define HCI_MACHINE_FIELD(field, name, unit) double field;
     HCI_MACHINE_VALUES(HCI_MACHINE_FIELD)
 #undef HCI_MACHINE_FIELD
-    bool has_neutral;  /* connection star-neutral */
-    bool has_effects;  /* effects.csv is there */
-    hci_machine model; /* points into the arrays below */
-    hci_wave *back_emf;
-    hci_harmonic *cogging;
-    hci_inductance_slope *slope;
-    hci_inductance *inductance; /* L(θ) of inductance.csv; NULL without it or when it holds slopes only */
-    size_t inductance_count;
-    hci_note remark; /* what a reader should know: names that were not understood, or "" */
+    bool has_neutral;            /* connection star-neutral */
+    bool has_effects;            /* effects.csv is there */
+    hci_machine model;           /* points into the arrays below */
+    hci_wave *back_emf;          /* of model */
+    hci_harmonic *cogging;       /* of model */
+    hci_inductance_slope *slope; /* of model */
+    hci_inductance *inductance;  /* L(θ) of inductance.csv; NULL without it or when it holds slopes only */
+    size_t inductance_count;     /* entries of inductance */
+    hci_note remark;             /* what a reader should know: names that were not understood, or "" */
 } hci_machine_data;
 
 /* Reads the folder `path`. On success *machine is to be given to hci_machine_release; on failure it is empty
  * and the note says why. HCI_ERROR_INPUT, HCI_ERROR_MEMORY. */
 hci_status hci_machine_read(const char *path, hci_machine_data *machine, hci_note *note);
+
+/* Frees what a machine holds and empties it. */
 void hci_machine_release(hci_machine_data *machine);
 
 #ifdef __cplusplus

@@ -1,0 +1,161 @@
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli.h"
+#include "hci/host/check.h"
+#include "hci/host/output.h"
+
+enum { OUT, CLI_COMMON_KEYS };
+
+static const cli_option OPTIONS[] = {
+    [OUT] = {"out", 'o', CLI_VALUE, "FOLDER", "where summary.json goes; without it nothing is written"},
+    CLI_COMMON_OPTIONS
+};
+
+/* ---- words ---- */
+
+static size_t found_count(const hci_check *c)
+{
+    size_t count = 0;
+    for (size_t k = 0; k < c->findings; ++k)
+        count += c->finding[k].probability >= HCI_CHECK_FOUND;
+    return count;
+}
+
+/* No count of agreeing numbers makes certain. */
+static const char *sure(double probability, char text[32])
+{
+    if (probability >= 0.9995)
+        snprintf(text, 32, "more than 99.9 %%");
+    else
+        snprintf(text, 32, "%.3g %%", 100.0 * probability);
+    return text;
+}
+
+static void show_verdict(const hci_check *c)
+{
+    const size_t found = found_count(c);
+    char text[32];
+    switch (c->verdict) {
+    case HCI_CHECK_CONSISTENT:
+        cli_say(CLI_GOOD "consistent" CLI_PLAIN
+                         ": the files agree as they are declared, as far as they can be checked\n");
+        break;
+    case HCI_CHECK_SLIPS:
+        cli_say(CLI_BAD "%zu slip%s found" CLI_PLAIN ": %s, %s sure%s\n", found, found == 1 ? "" : "s",
+                c->finding[0].words, sure(c->finding[0].probability, text),
+                found > 1 ? "; and more below" : "");
+        break;
+    case HCI_CHECK_AMBIGUOUS:
+        cli_say(CLI_WARN "ambiguous" CLI_PLAIN
+                         ": something is read wrongly (%s sure), and several readings mend it\n",
+                sure(1.0 - c->probability_as_declared, text));
+        break;
+    case HCI_CHECK_NOT_UNDERSTOOD:
+        cli_say(CLI_WARN "not understood" CLI_PLAIN ": something disagrees that no known slip explains\n");
+        break;
+    }
+}
+
+static void show_alternatives(const hci_check_finding *f)
+{
+    cli_say("    or instead: ");
+    for (size_t k = 0; k < f->alternatives; ++k)
+        cli_say("%s%s", k > 0 ? ", " : "", f->alternative[k]);
+    cli_say("; would tell: %s\n", f->told_by);
+}
+
+static void show_finding(const hci_check_finding *f)
+{
+    const bool found = f->probability >= HCI_CHECK_FOUND;
+    char text[32];
+    cli_say("\n  %s%s" CLI_PLAIN " %s: %s (%s)\n", found ? CLI_BAD : CLI_WARN, found ? "found" : "possible",
+            f->slip, f->words, sure(f->probability, text));
+    cli_say("    %s:%zu: column %s: found %s, should be %s\n", f->file, f->line, f->column, f->found,
+            f->should_be);
+    if (f->alternatives > 0) show_alternatives(f);
+}
+
+static void show_evidence_of(const hci_check *c, hci_check_state state, const char *title)
+{
+    size_t shown = 0;
+    for (size_t k = 0; k < c->evidences; ++k) {
+        const hci_check_evidence *e = &c->evidence[k];
+        if (e->state != state) continue;
+        if (shown++ == 0) cli_say("\n  %-64s %10s %10s %10s\n", title, "declared", "as read", "expected");
+        cli_say("    %-62s %10.4g %10.4g %10.4g\n", e->words, e->declared, e->as_read, e->expected);
+    }
+}
+
+static void show_gaps(const hci_check *c)
+{
+    if (c->gaps > 0) cli_say("\n  could not be checked, and what would allow it\n");
+    for (size_t k = 0; k < c->gaps; ++k)
+        cli_say("    %s: %s\n", c->gap[k].words, c->gap[k].needs);
+}
+
+static void show(const hci_check *c)
+{
+    show_verdict(c);
+    for (size_t k = 0; k < c->findings; ++k)
+        show_finding(&c->finding[k]);
+    show_evidence_of(c, HCI_CHECK_MENDED, "evidence: does not agree as declared, and does as read");
+    show_evidence_of(c, HCI_CHECK_WORSE, "speaks against it: agrees as declared, and not as read");
+    show_evidence_of(c, HCI_CHECK_UNMENDED, "not understood: agrees in no reading");
+    show_evidence_of(c, HCI_CHECK_AGREES, "checked and consistent");
+    show_gaps(c);
+}
+
+/* ---- the command ---- */
+
+static hci_status write_summary(const char *folder, const char *json, hci_note *note)
+{
+    hci_output *output;
+    hci_status status = hci_output_open(folder, &output, note);
+    if (status) return status;
+    status = hci_output_file(output, "summary.json", note);
+    if (status) {
+        hci_output_discard(output);
+        return status;
+    }
+    hci_output_text(output, "%s\n", json);
+    return hci_output_commit(output, note);
+}
+
+static hci_status give_summary(const hci_check *c, const cli_arguments *a, hci_note *note)
+{
+    hci_status status = HCI_OK;
+    char *json;
+    if (!a->given[JSON] && !a->value[OUT]) return HCI_OK;
+    json = hci_check_json(c);
+    if (!json) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the summary");
+    if (a->value[OUT]) status = write_summary(a->value[OUT], json, note);
+    if (!status && a->given[JSON]) puts(json);
+    hci_text_free(json);
+    return status;
+}
+
+static int run(const cli_arguments *a)
+{
+    static hci_check check;
+    hci_note note = {{0}};
+    const hci_status status = hci_check_files(a->word[0], a->word + 1, a->words - 1, &check, &note);
+    if (status && status != HCI_NOT_REACHED) return cli_fail(status, &note);
+    if (cli_is_wordy()) show(&check);
+    const hci_status given = give_summary(&check, a, &note);
+    return given ? cli_fail(given, &note) : hci_status_exit_code(status);
+}
+
+const cli_command cli_check = {
+    "check",
+    "MACHINE [RUN...]",
+    "Finds slips of convention in a machine's tables and in recordings: poles, rms, line, sign, angle, "
+    "order.\n"
+    "Says which reading makes the numbers agree, how sure it is, and which line to change; changes nothing.",
+    OPTIONS,
+    1 | CLI_OR_MORE,
+    "  hci-solve check data/machine_c\n"
+    "  hci-solve check data/fem_c/machine data/fem_c/runs/I0.csv data/fem_c/runs/id0_iq6.csv\n"
+    "\nExit codes: 0 consistent; 1 slips found, ambiguous or not understood; " CLI_EXIT_ERRORS,
+    run};

@@ -1,0 +1,574 @@
+/* The convention doctor, on recordings of four electrical turns that are written here sample by sample from
+ * sines: a motor with 4 pole pairs, k_e = 0.1 V·s/rad, R = 0.2 ohm, L = 1 mH, i_q = 10 A, i_d = -2 A at 50
+ * rad/s, and the same driven without current. */
+#define _POSIX_C_SOURCE 200809L
+
+#include "hci/host/check.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "hci/host/summary.h"
+#include "host/memory.h"
+#include "unity.h"
+
+#define PI 3.14159265358979323846
+
+enum { SAMPLES = 400, FILES = 8 };
+
+static char folder[64], path[FILES][128];
+static size_t paths;
+static hci_check check;
+static hci_note note;
+
+/* ---- files */
+
+static void write_file(const char *name, const char *text)
+{
+    char *p = path[paths++];
+    snprintf(p, sizeof path[0], "%s/%s", folder, name);
+    FILE *file = fopen(p, "w");
+    TEST_ASSERT_NOT_NULL(file);
+    fputs(text, file);
+    fclose(file);
+}
+
+void setUp(void)
+{
+    snprintf(folder, sizeof folder, "/tmp/hci-test-check-XXXXXX");
+    TEST_ASSERT_NOT_NULL(mkdtemp(folder));
+    paths = 0;
+    memset(&note, 0, sizeof note);
+}
+
+static void remove_files(void)
+{
+    while (paths > 0)
+        unlink(path[--paths]);
+}
+
+void tearDown(void)
+{
+    hci_memory_fail_after(-1);
+    remove_files();
+    TEST_ASSERT_EQUAL_MESSAGE(0, rmdir(folder), "a file is left");
+}
+
+static const char MACHINE[] =
+    "name,value,unit,source\npole_pairs,4,1,\nresistance,0.2,ohm,\ninductance_d,1,mH,\n"
+    "inductance_q,1,mH,\nrated_current,10,A,\nrated_torque,1.5,Nm,\nrated_speed,50,rad/s,\n"
+    "dc_link_voltage,15,V,\n";
+
+/* A table of order 1 alone. */
+static void write_machine(const char *machine, const char *column, double amplitude, double phase)
+{
+    char text[160];
+    write_file("machine.csv", machine);
+    snprintf(text, sizeof text, "order,%s,phase_rad\n1,%.10g,%.10g\n", column, amplitude, phase);
+    write_file("back_emf.csv", text);
+}
+
+/* ---- recordings */
+
+typedef struct {
+    double time_s, theta, speed, i[3], v[3], torque_Nm;
+} sample;
+
+/* e_a = k_e ω sin θ; i_a = i_q sin θ − i_d cos θ; v = R i + L di/dt + e; b and c a third of a turn later. */
+static sample sample_at(int k, double i_d, double i_q)
+{
+    const double p = 4.0, k_e = 0.1, R = 0.2, L = 1e-3, speed = 50.0,
+                 time_s = 2.0 * PI / (p * speed) * k / 100.0;
+    sample x = {time_s, speed * time_s + 0.3, speed, {0}, {0}, 1.5 * k_e * i_q};
+    for (int s = 0; s < 3; ++s) {
+        const double a = p * x.theta - 2.0 * PI * s / 3.0;
+        x.i[s] = i_q * sin(a) - i_d * cos(a);
+        x.v[s] = R * x.i[s] + L * p * speed * (i_q * cos(a) + i_d * sin(a)) + k_e * speed * sin(a);
+    }
+    return x;
+}
+
+typedef void mistake(sample *x);
+
+static void none(sample *x)
+{
+    (void)x;
+}
+
+static void write_run(const char *name, const char *header, double i_d, double i_q, mistake *wrong)
+{
+    static char text[SAMPLES * 200];
+    size_t used = (size_t)snprintf(text, sizeof text, "%s\n", header);
+    for (int k = 0; k < SAMPLES; ++k) {
+        sample x = sample_at(k, i_d, i_q);
+        wrong(&x);
+        used += (size_t)snprintf(text + used, sizeof text - used,
+                                 "%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", x.time_s, x.theta,
+                                 x.speed, x.i[0], x.i[1], x.i[2], x.v[0], x.v[1], x.v[2], x.torque_Nm);
+    }
+    write_file(name, text);
+}
+
+static const char HEADER[] = "time_s,theta_m_rad,speed_rad_per_s,ia_A,ib_A,ic_A,va_V,vb_V,vc_V,torque_Nm";
+
+/* Both recordings with the same mistake, or only the one under load. */
+static hci_status check_runs(const char *header, mistake *wrong, bool unloaded)
+{
+    const char *run[2] = {path[paths], path[paths + 1]};
+    write_run("load.csv", header, -2.0, 10.0, wrong);
+    if (unloaded) write_run("back.csv", header, 0.0, 0.0, wrong);
+    return hci_check_files(folder, run, unloaded ? 2 : 1, &check, &note);
+}
+
+static hci_status check_machine(void)
+{
+    return hci_check_files(folder, NULL, 0, &check, &note);
+}
+
+/* ---- what is expected */
+
+static double evidence(const char *name)
+{
+    for (size_t k = 0; k < check.evidences; ++k)
+        if (strcmp(check.evidence[k].name, name) == 0) return check.evidence[k].declared;
+    TEST_FAIL_MESSAGE(name);
+    return NAN;
+}
+
+static void expect_only(const char *slip)
+{
+    char message[160];
+    snprintf(message, sizeof message, "%s: %zu findings, the first %s", slip, check.findings,
+             check.findings > 0 ? check.finding[0].slip : "none");
+    TEST_ASSERT_EQUAL_MESSAGE(1, (int)check.findings, message);
+    TEST_ASSERT_EQUAL_STRING(slip, check.finding[0].slip);
+    TEST_ASSERT_TRUE_MESSAGE(check.finding[0].probability > HCI_CHECK_FOUND, message);
+    TEST_ASSERT_EQUAL(HCI_CHECK_SLIPS, check.verdict);
+}
+
+static bool is_named(const hci_check_finding *f, const char *slip)
+{
+    for (size_t k = 0; k < f->alternatives; ++k)
+        if (strcmp(f->alternative[k], slip) == 0) return true;
+    return strcmp(f->slip, slip) == 0;
+}
+
+/* ---- a correct machine */
+
+static void test_correct_files_are_consistent(void)
+{
+    write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, check_runs(HEADER, none, true), note.text);
+    TEST_ASSERT_EQUAL(0, check.findings);
+    TEST_ASSERT_EQUAL(HCI_CHECK_CONSISTENT, check.verdict);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-3, 1.0, evidence("current_order"));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-3, 1.0, evidence("voltage_order"));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-3, 1.0, evidence("angle_speed"));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-3, 1.0, evidence("emf_size"));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-3, 0.0, evidence("emf_angle"));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-3, 1.0, evidence("resistance_size"));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-3, 1.0, evidence("torque_size"));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-3, 1.0, evidence("power_balance")); /* 1.5·50 W + 3/2·0.2·104 W */
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 1.0, evidence("rated_torque"));  /* 3/2·0.1·10 = 1.5 */
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, sqrt(3.0) * 5.0 / 15.0, evidence("rated_voltage"));
+}
+
+/* ---- slips of the tables, in numbers worked out by hand for k_e = 0.1 V·s/rad and 4 pole pairs */
+
+static void test_slips_of_the_emf(void)
+{
+    static const struct {
+        const char *slip;
+        double amplitude;
+    } CASES[] = {
+        {"emf_rms",                    0.0707106781}, /* 0.1/√2 */
+        {"emf_line",                   0.1732050808}, /* 0.1·√3 */
+        {"emf_line_rms",               0.1224744871}, /* 0.1·√3/√2 */
+        {"emf_volt_per_krpm",          10.471975512}, /* 0.1·104.71975512 */
+        {"emf_volt_per_krpm_line",     18.137993642}, /* ·√3 */
+        {"emf_volt_per_krpm_line_rms", 12.825498301}, /* ·√3/√2 */
+        {"emf_kv",                     55.132889543}, /* 9.5492965855/(√3·0.1) */
+        {"emf_volt_per_hz",            0.1570796327}, /* ψ·2π = 0.025·2π */
+        {"emf_flux_linkage",           0.025       }, /* 0.1/4 */
+    };
+    for (size_t k = 0; k < sizeof CASES / sizeof *CASES; ++k) {
+        write_machine(MACHINE, "amplitude_Nm_per_A", CASES[k].amplitude, 0.0);
+        TEST_ASSERT_EQUAL_MESSAGE(HCI_NOT_REACHED, check_runs(HEADER, none, true), note.text);
+        expect_only(CASES[k].slip);
+        TEST_ASSERT_EQUAL_STRING("0.1", check.finding[0].should_be);
+        TEST_ASSERT_EQUAL(2, check.finding[0].line);
+        TEST_ASSERT_EQUAL_STRING("amplitude_Nm_per_A", check.finding[0].column);
+        TEST_ASSERT_NOT_NULL(strstr(check.finding[0].file, "/back_emf.csv"));
+        remove_files();
+    }
+}
+
+/* 0.1 V·s/rad at 50 Hz electrical are 0.1·2π·50/4 = 7.85398 V. */
+static void test_an_emf_in_volts(void)
+{
+    char machine[sizeof MACHINE + 64];
+    snprintf(machine, sizeof machine, "%semf_frequency,50,Hz,\n", MACHINE);
+    write_machine(machine, "amplitude_V", 7.8539816, 0.0);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, check_runs(HEADER, none, true), note.text);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-3, 1.0, evidence("emf_size"));
+    remove_files();
+    write_machine(machine, "amplitude_V", 7.8539816 * 1.7320508, 0.0);
+    check_runs(HEADER, none, true);
+    expect_only("emf_line");
+    TEST_ASSERT_EQUAL_STRING("7.85398", check.finding[0].should_be);
+}
+
+static void change(char *text, const char *from, const char *to)
+{
+    char *at = strstr(text, from), rest[sizeof MACHINE + 64];
+    TEST_ASSERT_NOT_NULL(at);
+    strcpy(rest, at + strlen(from));
+    strcpy(at, to);
+    strcat(at, rest);
+}
+
+static void expect_slip_of_machine(const char *slip, const char *from, const char *to, const char *should_be,
+                                   int line)
+{
+    char machine[sizeof MACHINE + 64];
+    strcpy(machine, MACHINE);
+    change(machine, from, to);
+    write_machine(machine, "amplitude_Nm_per_A", 0.1, 0.0);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_NOT_REACHED, check_runs(HEADER, none, true), note.text);
+    expect_only(slip);
+    TEST_ASSERT_EQUAL_STRING(should_be, check.finding[0].should_be);
+    TEST_ASSERT_EQUAL(line, (int)check.finding[0].line);
+    TEST_ASSERT_NOT_NULL(strstr(check.finding[0].file, "/machine.csv"));
+    remove_files();
+}
+
+static void test_slips_of_machine_csv(void)
+{
+    expect_slip_of_machine("poles_for_pole_pairs", "pole_pairs,4", "pole_pairs,8", "4", 2);
+    expect_slip_of_machine("resistance_line", "resistance,0.2", "resistance,0.4", "0.2", 3);
+    expect_slip_of_machine("rated_current_rms", "rated_current,10", "rated_current,7.0710678", "10", 6);
+}
+
+/* e_a = −sin θ: the magnet axis at 0, or the sign. No recording tells them apart. */
+static void test_zero_on_the_d_axis_looks_like_a_sign(void)
+{
+    write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, PI);
+    TEST_ASSERT_EQUAL(HCI_NOT_REACHED, check_machine());
+    TEST_ASSERT_EQUAL(HCI_CHECK_AMBIGUOUS, check.verdict);
+    TEST_ASSERT_EQUAL(2, check.findings);
+    TEST_ASSERT_EQUAL_STRING("angle_zero_d_axis", check.finding[0].slip);
+    TEST_ASSERT_EQUAL_STRING("emf_sign", check.finding[1].slip);
+    TEST_ASSERT_TRUE(is_named(&check.finding[0], "emf_sign") &&
+                     is_named(&check.finding[1], "angle_zero_d_axis"));
+}
+
+/* e_a = ±cos θ */
+static void test_zero_on_the_q_axis(void)
+{
+    for (int sign = -1; sign <= 1; sign += 2) {
+        write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, sign * 0.5 * PI);
+        TEST_ASSERT_EQUAL(HCI_NOT_REACHED, check_machine());
+        expect_only("angle_zero_q_axis");
+        TEST_ASSERT_NOT_NULL(strstr(check.finding[0].words, sign > 0 ? "crest" : "trough"));
+        remove_files();
+    }
+}
+
+/* Tables of orders: what the loader of machines refuses is diagnosed. */
+static void test_slips_of_orders_and_phases(void)
+{
+    write_file("machine.csv", "name,value,unit\npole_pairs,4,1\nslots,24,1\n");
+    write_file("back_emf.csv", "order,amplitude_Nm_per_A,phase_rad\n4,0.1,0\n20,0.01,3.1416\n28,0.004,0\n");
+    write_file("cogging.csv", "order,amplitude_Nm,phase_rad\n24,0.02,1\n48,0.01,2\n");
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_NOT_REACHED, check_machine(), note.text);
+    TEST_ASSERT_EQUAL(2, check.findings); /* lcm(24, 8)/4 = 6 */
+    TEST_ASSERT_EQUAL_STRING("emf_orders_mechanical", check.finding[0].slip);
+    TEST_ASSERT_EQUAL_STRING("cogging_orders_mechanical", check.finding[1].slip);
+    remove_files();
+    write_file("machine.csv", "name,value,unit\npole_pairs,4,1\n");
+    write_file("back_emf.csv", "order,amplitude_Nm_per_A,phase_rad\n1,0.1,0\n5,0.01,180\n7,0.004,-35\n");
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_NOT_REACHED, check_machine(), note.text);
+    expect_only("phases_in_degrees");
+    TEST_ASSERT_EQUAL_STRING("phase_deg", check.finding[0].should_be);
+}
+
+/* L_a = L_0 + L_2 cos 2θ with L_d − L_q = 3 L_2 = −1 mH; slopes by 120° from phase to phase. */
+static void write_slopes(double per_mechanical)
+{
+    static char text[72 * 120];
+    const double two_L2 = 2.0 * -1e-3 / 3.0 * per_mechanical;
+    size_t used = (size_t)snprintf(text, sizeof text,
+                                   "theta_e_rad,dLa_H_per_rad,dLb_H_per_rad,dLc_H_per_rad,"
+                                   "dMab_H_per_rad,dMbc_H_per_rad,dMca_H_per_rad\n");
+    for (int k = 0; k < 36; ++k) {
+        const double t = 2.0 * PI * k / 36.0, third = 2.0 * PI / 3.0;
+        const double lag[6] = {0.0, 2.0 * third, 4.0 * third, third, 3.0 * third, 5.0 * third};
+        used += (size_t)snprintf(text + used, sizeof text - used, "%.9g", t);
+        for (int q = 0; q < 6; ++q)
+            used +=
+                (size_t)snprintf(text + used, sizeof text - used, ",%.9g", -two_L2 * sin(2.0 * t - lag[q]));
+        used += (size_t)snprintf(text + used, sizeof text - used, "\n");
+    }
+    write_file("inductance.csv", text);
+}
+
+static void test_slopes_per_electrical_radian(void)
+{
+    static const char SALIENT[] = "name,value,unit\npole_pairs,4,1\ninductance_d,1,mH\ninductance_q,2,mH\n";
+    write_machine(SALIENT, "amplitude_Nm_per_A", 0.1, 0.0);
+    write_slopes(4.0);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, check_machine(), note.text);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, 1.0, evidence("inductance_difference"));
+    remove_files();
+    write_machine(SALIENT, "amplitude_Nm_per_A", 0.1, 0.0);
+    write_slopes(1.0);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_NOT_REACHED, check_machine(), note.text);
+    expect_only("inductance_per_electrical_radian");
+}
+
+/* ---- slips of the recordings */
+
+static void swap_b_and_c(sample *x)
+{
+    const double i = x->i[1], v = x->v[1];
+    x->i[1] = x->i[2];
+    x->v[1] = x->v[2];
+    x->i[2] = i;
+    x->v[2] = v;
+}
+
+static void times(double x[3], double factor)
+{
+    for (int s = 0; s < 3; ++s)
+        x[s] *= factor;
+}
+
+static void voltages_to_lines(sample *x)
+{
+    const double a = x->v[0];
+    x->v[0] -= x->v[1];
+    x->v[1] -= x->v[2];
+    x->v[2] -= a;
+}
+
+#define MISTAKE(name, change)                                                                                \
+    static void name(sample *x)                                                                              \
+    {                                                                                                        \
+        change;                                                                                              \
+    }
+
+MISTAKE(electrical_angle, x->theta *= 4.0)
+MISTAKE(degrees, x->theta *= 57.29577951308232)
+MISTAKE(from_d_axis, x->theta += PI / 4.0)       /* e_a = −sin θ' with θ' = θ + π */
+MISTAKE(from_crest, x->theta -= 0.5 * PI / 4.0)  /* e_a = cos θ' with θ' = θ − π/2 */
+MISTAKE(from_trough, x->theta += 0.5 * PI / 4.0) /* e_a = −cos θ' with θ' = θ + π/2 */
+MISTAKE(angle_backward, x->theta = -x->theta)
+MISTAKE(currents_out, times(x->i, -1.0))
+MISTAKE(currents_rms, times(x->i, 0.70710678118))
+MISTAKE(voltages_out, times(x->v, -1.0))
+MISTAKE(generator, x->torque_Nm = -x->torque_Nm)
+MISTAKE(millinewton, x->torque_Nm *= 1000.0)
+MISTAKE(electrical_speed, x->speed *= 4.0)
+MISTAKE(rpm, x->speed *= 9.549296585513721)
+MISTAKE(milliseconds, x->time_s *= 1000.0)
+
+static void test_slips_of_recordings(void)
+{
+    static const struct {
+        const char *slip;
+        mistake *wrong;
+        const char *words;
+    } CASES[] = {
+        {"theta_electrical_for_mechanical", electrical_angle,  ""      },
+        {"theta_degrees_for_radians",       degrees,           ""      },
+        {"run_angle_zero_d_axis",           from_d_axis,       ""      },
+        {"run_angle_zero_q_axis",           from_crest,        "crest" },
+        {"run_angle_zero_q_axis",           from_trough,       "trough"},
+        {"direction_reversed",              angle_backward,    ""      },
+        {"phases_swapped",                  swap_b_and_c,      ""      },
+        {"current_rms",                     currents_rms,      ""      },
+        {"voltage_line",                    voltages_to_lines, ""      },
+        {"voltage_sign",                    voltages_out,      ""      },
+        {"torque_millinewton",              millinewton,       ""      },
+        {"speed_electrical",                electrical_speed,  ""      },
+        {"speed_rpm_for_rad_per_s",         rpm,               ""      },
+        {"time_milliseconds",               milliseconds,      ""      },
+        {"current_sign",                    currents_out,      ""      },
+        {"torque_sign",                     generator,         ""      },
+    };
+    for (size_t k = 0; k < sizeof CASES / sizeof *CASES; ++k) {
+        write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
+        TEST_ASSERT_EQUAL_MESSAGE(HCI_NOT_REACHED, check_runs(HEADER, CASES[k].wrong, true), note.text);
+        expect_only(CASES[k].slip);
+        TEST_ASSERT_EQUAL_MESSAGE(1, (int)check.finding[0].line, CASES[k].slip);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(check.finding[0].words, CASES[k].words), CASES[k].slip);
+        TEST_ASSERT_NOT_NULL(strstr(check.finding[0].file, "/load.csv"));
+        remove_files();
+    }
+}
+
+static void test_mechanical_angle_under_electrical_name(void)
+{
+    write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
+    check_runs("time_s,theta_e_rad,speed_rad_per_s,ia_A,ib_A,ic_A,va_V,vb_V,vc_V,torque_Nm", none, true);
+    expect_only("theta_mechanical_for_electrical");
+    TEST_ASSERT_EQUAL_STRING("theta_m_rad", check.finding[0].should_be);
+}
+
+/* Phases a and b carry i_d and i_q. */
+static void put_dq(sample *x, double factor)
+{
+    const bool loaded = x->torque_Nm > 0.0;
+    x->i[0] = loaded ? -2.0 * factor : 0.0;
+    x->i[1] = loaded ? 10.0 * factor : 0.0;
+}
+
+MISTAKE(dq, put_dq(x, 1.0))
+MISTAKE(dq_power_invariant, put_dq(x, 1.2247448714))
+MISTAKE(dq_rms, put_dq(x, 0.7071067812))
+
+static void test_slips_of_dq_currents(void)
+{
+    static const char DQ[] = "time_s,theta_m_rad,speed_rad_per_s,id_A,iq_A,unused,va_V,vb_V,vc_V,torque_Nm";
+    write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, check_runs(DQ, dq, true), note.text);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-3, 1.0, evidence("power_balance"));
+    remove_files();
+    write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
+    check_runs(DQ, dq_power_invariant, true);
+    expect_only("current_power_invariant");
+    remove_files();
+    write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
+    check_runs(DQ, dq_rms, true);
+    expect_only("current_dq_rms");
+}
+
+/* Without voltages nothing tells a current that is counted out of the machine from a torque that is. */
+static void test_signs_that_look_alike_are_all_named(void)
+{
+    write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
+    check_runs("time_s,theta_m_rad,speed_rad_per_s,ia_A,ib_A,ic_A,u,u2,u3,torque_Nm", currents_out, false);
+    TEST_ASSERT_EQUAL(HCI_CHECK_AMBIGUOUS, check.verdict);
+    TEST_ASSERT_TRUE(check.findings >= 2);
+    TEST_ASSERT_TRUE(is_named(&check.finding[0], "current_sign") &&
+                     is_named(&check.finding[0], "torque_sign") &&
+                     is_named(&check.finding[0], "run_angle_zero_d_axis"));
+}
+
+MISTAKE(two_at_once, currents_out(x); degrees(x))
+
+static void test_two_slips_at_once(void)
+{
+    write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
+    check_runs(HEADER, two_at_once, true);
+    TEST_ASSERT_EQUAL(2, check.findings);
+    TEST_ASSERT_EQUAL(HCI_CHECK_SLIPS, check.verdict);
+    TEST_ASSERT_TRUE(check.finding[0].probability > 0.8 && check.finding[1].probability > 0.8);
+    TEST_ASSERT_EQUAL_STRING("theta_degrees_for_radians", check.finding[0].slip);
+    TEST_ASSERT_EQUAL_STRING("current_sign", check.finding[1].slip);
+}
+
+MISTAKE(probe, x->v[2] *= 0.1)
+
+static void test_what_no_slip_explains_is_said(void)
+{
+    write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
+    TEST_ASSERT_EQUAL(HCI_NOT_REACHED, check_runs(HEADER, probe, true));
+    TEST_ASSERT_EQUAL(HCI_CHECK_NOT_UNDERSTOOD, check.verdict);
+    TEST_ASSERT_DOUBLE_WITHIN(0.01, 10.0, evidence("voltage_balance"));
+    TEST_ASSERT_EQUAL(0, check.findings);
+}
+
+/* ---- beside */
+
+static void test_data_of_the_project_are_consistent(void)
+{
+    static const char *const MACHINES[] = {"data/machine_a", "data/machine_b", "data/machine_c",
+                                           "data/machine_c_saturated"};
+    static const char *const RUNS[] = {"data/fem_c/runs/I0.csv", "data/fem_c/runs/id0_iq6.csv",
+                                       "data/fem_c/runs/id-6_iq6.csv", "data/fem_c/runs/neg.csv",
+                                       "data/fem_c/runs/inject1.csv"};
+    for (size_t k = 0; k < 4; ++k)
+        TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_check_files(MACHINES[k], NULL, 0, &check, &note), MACHINES[k]);
+    TEST_ASSERT_EQUAL(HCI_OK, hci_check_files("data/fem_c/machine", RUNS, 5, &check, &note));
+    TEST_ASSERT_EQUAL(0, check.findings);
+}
+
+/* Bench of others: 12 pole pairs and 0.01857 V·s/rad (their own figures), angle, speed and i_q. */
+static void test_measured_data(void)
+{
+    static const char *const RUNS[] = {"../shared/measured/laas_mn4004/acceleration.csv",
+                                       "../shared/measured/laas_mn4004/speed_control.csv",
+                                       "../shared/measured/laas_mn4004/hold.csv"};
+    static const char *const PROBE = "../shared/measured/trampa6340_back_emf/0500rpm.csv";
+    if (access(RUNS[0], R_OK) != 0) TEST_IGNORE_MESSAGE("no ../shared/measured");
+    write_machine("name,value,unit\npole_pairs,12,1\nresistance,0.7,ohm\n", "amplitude_Nm_per_A", 0.01857,
+                  0.0);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_check_files(folder, RUNS, 3, &check, &note), note.text);
+    TEST_ASSERT_DOUBLE_WITHIN(0.03, 1.0, evidence("angle_speed"));
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_NOT_REACHED, hci_check_files(folder, &PROBE, 1, &check, &note), note.text);
+    TEST_ASSERT_EQUAL(HCI_CHECK_NOT_UNDERSTOOD, check.verdict);
+    TEST_ASSERT_TRUE(evidence("voltage_balance") > 9.0); /* a ×10 probe on vc */
+}
+
+/* Names, units, samples: the place is that of the names. */
+static void test_the_place_is_the_header(void)
+{
+    write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
+    check_runs("# a bench\ntime,theta_m,speed,ia,ib,ic,va,vb,vc,torque\ns,rad,rad/s,A,A,A,V,V,V,Nm",
+               swap_b_and_c, true);
+    expect_only("phases_swapped");
+    TEST_ASSERT_EQUAL(2, (int)check.finding[0].line);
+    TEST_ASSERT_EQUAL_STRING("ia", check.finding[0].column);
+}
+
+static void test_wrong_input_is_said(void)
+{
+    write_file("machine.csv", "name,value,unit\npole_pairs,2.5,1\n");
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, check_machine());
+    TEST_ASSERT_NOT_NULL(strstr(note.text, "machine.csv:2"));
+}
+
+static void test_out_of_memory(void)
+{
+    const char *run[1] = {path[2]};
+    hci_status status = HCI_ERROR_MEMORY;
+    write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
+    write_run("load.csv", HEADER, -2.0, 10.0, none);
+    for (long count = 0; status == HCI_ERROR_MEMORY && count < 500; ++count) {
+        memset(&note, 0, sizeof note);
+        hci_memory_fail_after(count);
+        status = hci_check_files(folder, run, 1, &check, &note);
+    }
+    hci_memory_fail_after(-1);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, status, note.text);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_correct_files_are_consistent);
+    RUN_TEST(test_slips_of_the_emf);
+    RUN_TEST(test_an_emf_in_volts);
+    RUN_TEST(test_slips_of_machine_csv);
+    RUN_TEST(test_zero_on_the_d_axis_looks_like_a_sign);
+    RUN_TEST(test_zero_on_the_q_axis);
+    RUN_TEST(test_slips_of_orders_and_phases);
+    RUN_TEST(test_slopes_per_electrical_radian);
+    RUN_TEST(test_slips_of_recordings);
+    RUN_TEST(test_mechanical_angle_under_electrical_name);
+    RUN_TEST(test_slips_of_dq_currents);
+    RUN_TEST(test_signs_that_look_alike_are_all_named);
+    RUN_TEST(test_two_slips_at_once);
+    RUN_TEST(test_what_no_slip_explains_is_said);
+    RUN_TEST(test_data_of_the_project_are_consistent);
+    RUN_TEST(test_measured_data);
+    RUN_TEST(test_the_place_is_the_header);
+    RUN_TEST(test_wrong_input_is_said);
+    RUN_TEST(test_out_of_memory);
+    return UNITY_END();
+}
