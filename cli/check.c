@@ -77,22 +77,34 @@ static void show_finding(const hci_check_finding *f)
     if (f->alternatives > 0) show_alternatives(f);
 }
 
+/* Numbers first, so that long words may go on in the next line. */
 static void show_evidence_of(const hci_check *c, hci_check_state state, const char *title)
 {
     size_t shown = 0;
     for (size_t k = 0; k < c->evidences; ++k) {
         const hci_check_evidence *e = &c->evidence[k];
         if (e->state != state) continue;
-        if (shown++ == 0) cli_say("\n  %-64s %10s %10s %10s\n", title, "declared", "as read", "expected");
-        cli_say("    %-62s %10.4g %10.4g %10.4g\n", e->words, e->declared, e->as_read, e->expected);
+        if (shown++ == 0) cli_say("\n  %s\n    %9s %9s %9s\n", title, "declared", "as read", "expected");
+        cli_say("    %9.4g %9.4g %9.4g  %s\n", e->declared, e->as_read, e->expected, e->words);
     }
 }
 
+/* Relations by what they want: once each, where it stands first. */
 static void show_gaps(const hci_check *c)
 {
-    if (c->gaps > 0) cli_say("\n  could not be checked, and what would allow it\n");
-    for (size_t k = 0; k < c->gaps; ++k)
-        cli_say("    %s: %s\n", c->gap[k].words, c->gap[k].needs);
+    if (c->gaps > 0) cli_say("\n  not checked, for want of (what each tells: docs/check.md)\n");
+    for (size_t k = 0; k < c->gaps; ++k) {
+        char names[HCI_CHECK_MOST_EVIDENCE * 32] = "";
+        bool is_first = true;
+        for (size_t j = 0; j < k; ++j)
+            is_first = is_first && strcmp(c->gap[j].needs, c->gap[k].needs) != 0;
+        if (!is_first) continue;
+        for (size_t j = k; j < c->gaps; ++j)
+            if (strcmp(c->gap[j].needs, c->gap[k].needs) == 0)
+                snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", j > k ? ", " : "",
+                         c->gap[j].name);
+        cli_say("    %s: %s\n", c->gap[k].needs, names);
+    }
 }
 
 static void show(const hci_check *c)

@@ -177,6 +177,41 @@ static void test_correct_files_are_consistent(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-6, sqrt(3.0) * 5.0 / 15.0, evidence("rated_voltage"));
 }
 
+/* A shaft that is held from angle to angle, a turn forward and a turn back: 3/2 k_e i_q + T_cog ∓ friction =
+ * 0, T_cog = 0.05 sin(6·4 θ_m + 0.7). */
+static void write_holding(void)
+{
+    static char text[2 * SAMPLES * 64];
+    size_t used = (size_t)snprintf(text, sizeof text, "theta_m_rad,iq_A,torque_Nm\n");
+    for (int k = 0; k < 2 * SAMPLES; ++k) {
+        const int direction = k < SAMPLES ? 1 : -1;
+        const double theta_m = 2.0 * PI / SAMPLES * (direction > 0 ? k : 2 * SAMPLES - 1 - k);
+        const double cogging = 0.05 * sin(24.0 * theta_m + 0.7);
+        used += (size_t)snprintf(text + used, sizeof text - used, "%.9g,%.9g,0\n", theta_m,
+                                 (0.01 * direction - cogging) / (1.5 * 0.1));
+    }
+    write_file("hold.csv", text);
+}
+
+static void test_a_holding_map_knows_the_cogging_torque(void)
+{
+    const char *run[1] = {path[0]};
+    write_holding();
+    write_machine("name,value,unit,source\npole_pairs,4,1,\n", "amplitude_Nm_per_A", 0.1, 0.0);
+    write_file("cogging.csv", "order,amplitude_Nm,phase_rad\n6,0.05,0.7\n");
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_check_files(folder, run, 1, &check, &note), note.text);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, 1.0, evidence("cogging_size"));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0.0, evidence("cogging_angle"));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, 1.0, evidence("cogging_share"));
+    remove_files();
+    write_holding();
+    write_machine("name,value,unit,source\npole_pairs,8,1,\n", "amplitude_Nm_per_A", 0.1, 0.0);
+    write_file("cogging.csv", "order,amplitude_Nm,phase_rad\n6,0.05,0.7\n");
+    TEST_ASSERT_EQUAL(HCI_NOT_REACHED, hci_check_files(folder, run, 1, &check, &note));
+    TEST_ASSERT_TRUE(check.findings > 0);
+    TEST_ASSERT_EQUAL_STRING("poles_for_pole_pairs", check.finding[0].slip);
+}
+
 /* ---- slips of the tables, in numbers worked out by hand for k_e = 0.1 V·s/rad and 4 pole pairs */
 
 static void test_slips_of_the_emf(void)
@@ -552,6 +587,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_correct_files_are_consistent);
+    RUN_TEST(test_a_holding_map_knows_the_cogging_torque);
     RUN_TEST(test_slips_of_the_emf);
     RUN_TEST(test_an_emf_in_volts);
     RUN_TEST(test_slips_of_machine_csv);

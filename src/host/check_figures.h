@@ -33,12 +33,10 @@ typedef struct {
 
 /* ---- machine folder */
 
-/* Scalars of machine.csv, and the number of slots where it stands there. */
-#define CHECK_VALUES(X) HCI_MACHINE_VALUES(X) X(slots, "slots", "1")
-
+/* Scalars of machine.csv. */
 enum {
 #define CHECK_VALUE_NAME(field, name, unit) CHECK_##field,
-    CHECK_VALUES(CHECK_VALUE_NAME)
+    HCI_MACHINE_VALUES(CHECK_VALUE_NAME)
 #undef CHECK_VALUE_NAME
         CHECK_VALUE_COUNT
 };
@@ -76,15 +74,17 @@ typedef struct {
 typedef struct {
     char path[HCI_CHECK_PATH];
     size_t count;
-    double *theta, *torque_Nm; /* recorded angle (NULL: none), and torque of a run without current */
-    bool is_electrical;        /* the angle is theta_e */
-    bool dq_is_steady;         /* i_d, i_q are more than noise about 0 */
+    double *theta; /* recorded angle; NULL: none */
+    double *ripple; /* torque in N·m; where the shaft was held, −i_q in A: what balances the cogging torque */
+    bool is_held;       /* torque 0 throughout, and i_d, i_q */
+    bool is_electrical; /* the angle is theta_e */
+    bool dq_is_steady;  /* i_d, i_q are more than noise about 0 */
     bool has_abc, has_dq, has_voltage, has_speed, has_torque;
     double angle_range;                    /* of the recorded angle */
     double slope;                          /* of the recorded angle over the recorded time; NAN: unknown */
     double angle_ratio;                    /* theta_e over theta_m where both were recorded, else NAN */
     double speed;                          /* mean of the speed column */
-    double torque_mean_Nm, torque_ac_Nm2;  /* mean, and mean square about it */
+    double ripple_mean, ripple_square;     /* mean, and mean square about it */
     double current_square, voltage_square; /* mean |x|² */
     check_vector dq;                       /* mean of recorded i_d + j i_q */
     check_vector power;                    /* mean of voltage × conj(current) */

@@ -20,7 +20,7 @@ typedef struct {
 
 static const value_name VALUES[] = {
 #define LIST_ONE(field, name, unit) {name, unit},
-    CHECK_VALUES(LIST_ONE)
+    HCI_MACHINE_VALUES(LIST_ONE)
 #undef LIST_ONE
 };
 

@@ -22,7 +22,7 @@ static bool has_power(const check_figures *f, const check_run *r)
 
 static double shaft_power_W(const check_run *r, const check_view *v, const check_model *m)
 {
-    return r->torque_mean_Nm * v->torque * hci_check_speed_of(r, v, m);
+    return r->ripple_mean * v->torque * hci_check_speed_of(r, v, m);
 }
 
 /* 3/2 i² */
@@ -78,7 +78,7 @@ static void torque_add(check_fit *x, const check_figures *f, const check_run *r,
     const double unknown =
         known ? DROP_UNKNOWN * fabs(reluctance) : SALIENCY_UNKNOWN * 1.5 * m->emf * fabs(i.re);
     const double model = mutual + reluctance;
-    hci_check_fit_add(x, r->torque_mean_Nm * v->torque, model,
+    hci_check_fit_add(x, r->ripple_mean * v->torque, model,
                       (unknown + friction_Nm(f, hci_check_speed_of(r, v, m))) / fabs(model) /
                           PERCENT(TORQUE_TOLERANCE_PERCENT));
 }
@@ -94,15 +94,23 @@ check_value hci_check_of_torque_size(const check_figures *f, const check_view *v
 
 /* ---- torque without current */
 
+/* Nothing but the cogging torque: without current, or balanced by it while the shaft was held. */
 static const check_run *unloaded_torque(const check_figures *f)
 {
     const check_run *best = NULL;
     for (size_t k = 0; k < f->runs; ++k) {
         const check_run *r = &f->run[k];
-        if (!r->has_torque || !r->theta || hci_check_has_current(f, r) || !(r->torque_ac_Nm2 > 0.0)) continue;
+        const bool unloaded = r->is_held || (r->has_torque && !hci_check_has_current(f, r));
+        if (!unloaded || !r->theta || !(r->ripple_square > 0.0)) continue;
         if (!best || r->count > best->count) best = r;
     }
     return best;
+}
+
+/* N·m per what the ripple is in. */
+static double ripple_unit(const check_run *r, const check_view *v, const check_model *m)
+{
+    return r->is_held ? 1.5 * m->emf * v->current : v->torque;
 }
 
 static bool has_cogging(const check_figures *f)
@@ -117,14 +125,15 @@ check_value hci_check_of_cogging_share(const check_figures *f, const check_view 
     const check_run *r = unloaded_torque(f);
     double sum = 0.0, declared = 0.0;
     if (!r || !has_cogging(f)) return HCI_CHECK_NONE;
+    const double unit = r->is_held ? fabs(ripple_unit(r, v, m)) : 1.0;
     for (size_t k = 0; k < f->cogging.count; ++k) {
         const double order = hci_check_cogging_order(f, v, m, k) * hci_check_scale_of(r, v, m);
         if (!hci_check_is_significant(&f->cogging, k)) continue;
-        const double length = hci_check_length(hci_check_torque_order(r, order));
+        const double length = unit * hci_check_length(hci_check_torque_order(r, order));
         sum += 0.5 * length * length;
         declared += 0.5 * f->cogging.amplitude[k] * f->cogging.amplitude[k];
     }
-    return hci_check_found(fmin(1.0, sum / fmin(declared, r->torque_ac_Nm2)));
+    return hci_check_found(fmin(1.0, sum / fmin(declared, unit * unit * r->ripple_square)));
 }
 
 /* Measured over declared at the largest order of the table: S + jC of both, the table's turned by its zero.
@@ -139,9 +148,9 @@ static bool cogging_pair(const check_figures *f, const check_view *v, const chec
     const double phase = f->cogging.phase_rad[k] * v->phase_unit * v->cogging_phase_unit;
     const check_vector amplitude = {f->cogging.amplitude[k], 0.0};
     *declared = hci_check_turned(amplitude, phase - order * v->zero_rad);
-    *found = hci_check_turned(
-        hci_check_scaled(hci_check_torque_order(r, order * hci_check_scale_of(r, v, m)), v->torque),
-        -order * v->run_zero_rad);
+    *found = hci_check_turned(hci_check_scaled(hci_check_torque_order(r, order * hci_check_scale_of(r, v, m)),
+                                               ripple_unit(r, v, m)),
+                              -order * v->run_zero_rad);
     return true;
 }
 

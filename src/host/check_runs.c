@@ -345,6 +345,17 @@ static void frames_take(const check_figures *f, const samples *s, check_run *run
 
 /* ---- a run */
 
+/* 0 throughout: the shaft was held, and the torque is not a reading. */
+static void ripple_take(const samples *s, check_run *run)
+{
+    run->has_torque = square_about(s->torque, s->count, 0.0) > 0.0;
+    run->is_held = !run->has_torque && s->q != NULL;
+    for (size_t k = 0; run->is_held && k < s->count; ++k)
+        s->torque[k] = -s->q[k];
+    run->ripple_mean = mean_of(s->torque, s->count);
+    run->ripple_square = square_about(s->torque, s->count, run->ripple_mean);
+}
+
 static void means_take(const samples *s, check_run *run)
 {
     const size_t n = s->count;
@@ -353,12 +364,7 @@ static void means_take(const samples *s, check_run *run)
     run->angle_ratio = s->other ? ratio_of(s->theta, s->other, n) : (double)NAN;
     run->speed = s->speed ? mean_of(s->speed, n) : (double)NAN;
     run->has_speed = s->speed != NULL;
-    if (s->torque) {
-        run->torque_mean_Nm = mean_of(s->torque, n);
-        run->torque_ac_Nm2 = square_about(s->torque, n, run->torque_mean_Nm);
-        /* 0 throughout: the shaft was held, and the torque is not a reading. */
-        run->has_torque = run->torque_ac_Nm2 > 0.0 || fabs(run->torque_mean_Nm) > 0.0;
-    }
+    if (s->torque) ripple_take(s, run);
     if (s->q) {
         run->dq = (check_vector){s->d ? mean_of(s->d, n) : 0.0, mean_of(s->q, n)};
         run->current_square = square_about(s->q, n, 0.0) + (s->d ? square_about(s->d, n, 0.0) : 0.0);
@@ -394,7 +400,7 @@ static hci_status run_take(const hci_csv *csv, check_figures *f, check_run *run,
         means_take(&s, run);
         if (s.theta) frames_take(f, &s, run);
         run->theta = s.theta;
-        run->torque_Nm = s.torque;
+        run->ripple = s.torque;
         s.theta = s.torque = NULL;
     }
     samples_free(&s);
@@ -460,7 +466,7 @@ void hci_check_figures_release(check_figures *f)
 {
     for (size_t k = 0; k < f->runs; ++k) {
         hci_memory_free(f->run[k].theta);
-        hci_memory_free(f->run[k].torque_Nm);
+        hci_memory_free(f->run[k].ripple);
     }
     hci_memory_free(f->run);
     hci_memory_free(f->emf.order);
@@ -482,7 +488,7 @@ check_vector hci_check_torque_order(const check_run *run, double order)
     check_vector sum = {0.0, 0.0};
     const double share = 2.0 / (double)run->count;
     for (size_t k = 0; k < run->count; ++k) {
-        const double x = share * (run->torque_Nm[k] - run->torque_mean_Nm);
+        const double x = share * (run->ripple[k] - run->ripple_mean);
         sum.re += x * sin(order * run->theta[k]);
         sum.im += x * cos(order * run->theta[k]);
     }

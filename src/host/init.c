@@ -244,6 +244,10 @@ static hci_status machine_write(hci_output *out, const hci_sheet *s, hci_note *n
         "# that behaves alike at the terminals, as values between two terminals give it.\n"
         "connection,star,,assumed\n",
         s->pole_pairs, 2 * s->pole_pairs);
+    if (s->slots > 0)
+        hci_output_text(out, "slots,%d,1,\"data sheet: teeth of the stator\"\n", s->slots);
+    else
+        hci_output_text(out, "# slots,,1,  teeth of the stator; `check` asks the cogging orders for them\n");
     winding_write(out, s);
     ratings_write(out, s);
     shaft_write(out, s);

@@ -14,6 +14,7 @@ extern "C" {
 /* Scalars of machine.csv: X(field, name in the file, unit suffix of the canonical unit). Not given: NAN. */
 #define HCI_MACHINE_VALUES(X)                                                                                \
     X(pole_pairs, "pole_pairs", "1")                                                                         \
+    X(slots, "slots", "1")                                                                                   \
     X(emf_frequency_Hz, "emf_frequency", "Hz")                                                               \
     X(resistance_ohm, "resistance", "ohm")                                                                   \
     X(inductance_d_H, "inductance_d", "H")                                                                   \
