@@ -6,6 +6,7 @@
 #   run_browser.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
 # To look at them: python3 tests/browser/check.py chromium EMPTY_FOLDER --pictures FOLDER report.html
 . "$(dirname "$0")/cli/common.sh"
+use_plain_build
 skip() {
     echo "skipped: $*"
     exit 77

@@ -13,10 +13,10 @@
 #     write into ../no_figures why what the page shows is not what is printed with them.
 # tests/docs/controls are pages with one fault each, which must be found.
 . "$(dirname "$0")/cli/common.sh"
-build=$(cd "$2" && pwd) || exit 1
+use_plain_build
 shift 3
 docs=$source_dir/tests/docs
-rig=$build/tests/rig
+rig=$built/tests/rig
 [ -x "$rig" ] || rig=
 mkdir "$work/bin" && ln -s "$hci_solve" "$work/bin/hci-solve" && PATH=$work/bin:$PATH || exit 1
 unset HCI_JSON COLUMNS

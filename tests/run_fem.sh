@@ -5,8 +5,7 @@
 # C is data/fem_c; A and B, surface magnets, are looked for in ../shared/fem.
 #   run_fem.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
 . "$(dirname "$0")/cli/common.sh"
-plain=$2/nested/all/hci-solve # without sanitizers, where it is built
-[ ! -x "$plain" ] || hci_solve=$(cd "$(dirname "$plain")" && pwd)/hci-solve
+use_plain_build
 
 "$hci_solve" diagnose --help >/dev/null 2>&1 || {
     echo "skipped: hci-solve has no command diagnose"

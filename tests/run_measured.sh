@@ -4,8 +4,7 @@
 # they are compared with are in tests/measured. What is checked is what is known of the motors, or what another run shows.
 #   run_measured.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
 . "$(dirname "$0")/cli/common.sh"
-plain=$2/nested/all/hci-solve # without sanitizers, where it is built
-[ ! -x "$plain" ] || hci_solve=$(cd "$(dirname "$plain")" && pwd)/hci-solve
+use_plain_build
 
 [ -d "$source_dir/../shared/measured" ] || {
     echo "skipped: no measured recordings in ../shared/measured of the source folder"
