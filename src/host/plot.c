@@ -408,6 +408,8 @@ static double group_weight(const void *context, size_t k)
     return is_ripple(o) && worth > WORTHWHILE * r->largest_Nm ? worth : 0.0;
 }
 
+#define DIGIT 7.0 /* pixels */
+
 /* A height of nothing still shows as a line. */
 static void draw_bar(hci_output *out, const char *style, double left, double width, double value,
                      const hci_svg_axis *y)
@@ -415,7 +417,19 @@ static void draw_bar(hci_output *out, const char *style, double left, double wid
     hci_svg_rectangle(out, style, left, fmin(hci_svg_at(y, value), y->from - 1.5), left + width, y->from);
 }
 
-static void draw_group(hci_output *out, const hci_solved_order *o, double middle, double width,
+/* Whether the orders are too long to stand side by side. */
+static bool labels_touch(const hci_solution *s, const size_t *group, size_t count, double width)
+{
+    char text[HCI_SVG_NUMBER_SIZE];
+    for (size_t k = 0; k < count; ++k) {
+        hci_svg_short_text(text, order_of(&s->order[group[k]]));
+        if (DIGIT * (double)strlen(text) > width) return true;
+    }
+    return false;
+}
+
+/* down: how far below the axis the order stands. */
+static void draw_group(hci_output *out, const hci_solved_order *o, double middle, double width, double down,
                        const hci_svg_axis *y)
 {
     const double bar = fmin(13.0, 0.27 * width), top = hci_svg_at(y, largest_of(o)) - 9.0;
@@ -426,7 +440,7 @@ static void draw_group(hci_output *out, const hci_solved_order *o, double middle
     if (o->verdict == HCI_ORDER_UNREACHABLE) hci_svg_cross(out, middle, top);
     if (is_missed(o) && o->verdict != HCI_ORDER_UNREACHABLE) hci_svg_circle(out, "ring", middle, top, 4.0);
     hci_svg_short_text(text, order_of(o));
-    hci_svg_label(out, is_missed(o) ? "no middle" : "quiet middle", middle, y->from + 17.0, text);
+    hci_svg_label(out, is_missed(o) ? "no middle" : "quiet middle", middle, y->from + down, text);
 }
 
 static void draw_spectrum_foot(hci_output *out, const hci_solution *s, const hci_svg_box *b, size_t shown,
@@ -466,12 +480,17 @@ static void draw_spectrum(hci_output *out, const hci_solution *s, const hci_svg_
     const size_t count = hci_plot_largest(group_weight, &r, s->order_count, MOST_GROUPS, group);
     const double width = fmin((b->right - b->left) / (double)(count > 0 ? count : 1), 60.0);
     const double left = 0.5 * (b->left + b->right - width * (double)count);
+    const bool two_rows = labels_touch(s, group, count, width);
     for (size_t k = 0; k < s->order_count; ++k)
         eligible += group_weight(&r, k) > 0.0;
     hci_svg_head(out, b, "Ripple in N·m (peak)", LEGEND, 3);
     hci_svg_grid(out, &y, b, true);
     for (size_t k = 0; k < count; ++k)
-        draw_group(out, &s->order[group[k]], left + width * ((double)k + 0.5), width, &y);
+        draw_group(out, &s->order[group[k]], left + width * ((double)k + 0.5), width,
+                   !two_rows    ? 17.0
+                   : k % 2 == 0 ? 12.0
+                                : 23.0,
+                   &y);
     if (y.from - hci_svg_at(&y, s->tolerance_Nm) > 1.5 && count > 0)
         hci_svg_segment(out, "limit", b->left, hci_svg_at(&y, s->tolerance_Nm), b->right,
                         hci_svg_at(&y, s->tolerance_Nm));
