@@ -253,7 +253,7 @@ const cli_command cli_harmonics = {
     "harmonics",
     "RUN --quantity {back_emf,cogging} --pole-pairs P",
     "Finds the orders of a measured waveform: amplitude, phase and standard errors.\n"
-    "Writes back_emf.csv or cogging.csv, as a machine folder has them.",
+    "Writes back_emf.csv or cogging.csv, as a machine folder has them, and a picture beside it.",
     OPTIONS,
     1,
     "  hci-solve simulate data/machine_a data/drive/driven.csv -o out/driven\n"
