@@ -19,13 +19,16 @@ RESISTANCE = 0.703               # ohm
 INERTIA = 5.3e-6                 # kg·m²
 COULOMB = 1.48e-3                # N·m
 CURRENT_NOISE = 0.012            # A, mostly the regulator at work
+SPEED_NOISE = 0.6                # rad/s, of a counter
 CURRENT_STEP = 0.000977          # A, of the analogue-digital converter
 ANGLE_STEP = 2 * math.pi / 20000  # rad, of the encoder
 
 # Mechanical order, amplitude in N·m and phase of T = A sin(order·theta_m + phase), from the recorded holding current.
-COGGING = [(12, 8.41e-4, 3.035), (18, 1.169e-3, -2.974), (24, 5.10e-4, -1.727), (36, 4.02e-4, 2.862), (48, 2.39e-4, 0.865),
-           (54, 1.36e-4, 1.540), (71, 2.62e-4, 0.808), (72, 5.167e-3, 0.707), (73, 2.42e-4, -2.527), (90, 1.20e-4, -2.586),
-           (144, 6.77e-4, 1.354), (216, 2.08e-4, 2.015), (288, 3.6e-5, 2.483)]
+COGGING = [(12, 8.41e-4, 3.035), (13, 3.9e-5, 1.2), (18, 1.169e-3, -2.974), (19, 7.0e-5, 0.5), (24, 5.10e-4, -1.727), (36, 4.02e-4, 2.862),
+           (48, 2.39e-4, 0.865), (54, 1.36e-4, 1.540), (55, 9.17e-5, 2.894), (70, 5.32e-5, 0.334), (71, 2.62e-4, 0.808), (72, 5.167e-3, 0.707),
+           (73, 2.42e-4, -2.527), (74, 5.04e-5, -2.003), (90, 1.20e-4, -2.586), (108, 5.17e-5, -1.796), (143, 6.2e-5, 1.442),
+           (144, 6.77e-4, 1.354), (145, 4.8e-5, -1.701), (162, 3.0e-5, -1.725), (216, 2.08e-4, 2.015), (288, 3.6e-5, 2.483),
+           (360, 2.3e-5, -2.584), (432, 5.0e-5, 1.091), (576, 2.1e-5, 2.418)]
 TABLE = [sum(a * math.sin(n * k * 2 * math.pi / 7200 + g) for n, a, g in COGGING) for k in range(7201)]
 
 
@@ -55,9 +58,10 @@ def hold():
     time = 0.0
     for direction, angles in ((1, steps), (-1, steps[::-1])):
         for theta_m in angles:
-            time += 0.015
             current = (direction * COULOMB - cogging(theta_m)) / TORQUE_CONSTANT
-            yield time, counted(theta_m), 0, measured(current), measured(current) * RESISTANCE, 0
+            for _ in range(5):
+                yield time, counted(theta_m), 0, measured(current), measured(current) * RESISTANCE, 0
+                time += 0.003
 
 
 def free_shaft(current_of, duration):
@@ -92,7 +96,7 @@ def speed_control():
         return max(-1.0, min(1.0, 0.08 * (2 * math.pi - speed) + fed_forward + 0.02))
 
     for time, theta_m, speed, current in free_shaft(regulated, 30.0):
-        yield time, counted(theta_m), speed + random.gauss(0, 0.1), 2 * math.pi, measured(current), int(time > 15.0)
+        yield time, counted(theta_m), speed + random.gauss(0, SPEED_NOISE), 2 * math.pi, measured(current), int(time > 15.0)
 
 
 def main():
