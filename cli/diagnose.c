@@ -8,7 +8,7 @@
 #include "cli.h"
 #include "hci/host/diagnose.h"
 
-enum { RUNS, OUT, TARGET, RESOLUTION, CLI_COMMON_KEYS };
+enum { RUNS, OUT, TARGET, RESOLUTION, REPORT, CLI_COMMON_KEYS };
 
 static const cli_option OPTIONS[] = {
     [RUNS] = {"runs",       0,   CLI_VALUE, "LIST",    "table file,role: the recordings to fit and those held out"},
@@ -17,6 +17,8 @@ static const cli_option OPTIONS[] = {
               "wanted torque: solve the currents again for the corrected machine"                                 },
     [RESOLUTION] = {"resolution", 0,   CLI_VALUE, "PERCENT",
               "of the largest torque; what the model need not be better than [0.05]"                              },
+    [REPORT] = {"report",     0,   CLI_FLAG,  NULL,
+              "report.html is written in any case; taken for the sake of scripts"                                 },
     CLI_COMMON_OPTIONS
 };
 
@@ -322,8 +324,8 @@ const cli_command cli_diagnose = {
     "diagnose",
     "MACHINE --runs LIST",
     "Finds what the model of the machine lacks to describe recordings, and corrects it.\n"
-    "Writes machine/, effects.csv, errors.csv, residual_spectrum.csv, summary.json, report.html and, with\n"
-    "--target, solution/.",
+    "Writes machine/, effects.csv, errors.csv, residual_spectrum.csv, summary.json and report.html;\n"
+    "unexplained.csv where something is left that no effect explains; with --target, solution/.",
     OPTIONS,
     1,
     "  hci-solve diagnose data/fem_c/machine --runs data/fem_c/runs.csv -o out/diagnosed\n"

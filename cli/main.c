@@ -35,7 +35,8 @@ static int print_usage(FILE *stream)
                     "  hci-solve emit out/currents --name mn4004 --frame dq -o out/firmware\n\n");
     cli_print_wrapped(
         stream, width, 0, 0,
-        "Each command says on the terminal what it found, writes its files where --out says, and ends "
+        "Each command says what it found on standard error (with --json as JSON on standard output), writes "
+        "its files where --out says, and ends "
         "with exit code 0 when all is well. hci-solve COMMAND --help tells its options, files and exit "
         "codes, with an example; hci-solve --version the version.");
     fputc('\n', stream);
