@@ -15,6 +15,13 @@ static const cli_option OPTIONS[] = {
 
 /* ---- words ---- */
 
+/* Bounds and numbers, in one column. */
+static const char *expected_of(const hci_check_evidence *e, char text[32])
+{
+    snprintf(text, 32, e->at_most ? "<= %.4g" : "%.4g", e->expected);
+    return text;
+}
+
 static size_t found_count(const hci_check *c)
 {
     size_t count = 0;
@@ -35,17 +42,18 @@ static const char *sure(double probability, char text[32])
 
 static void show_verdict(const hci_check *c)
 {
-    const size_t found = found_count(c);
-    char text[32];
+    const size_t found = found_count(c), possible = c->findings - found;
+    char text[32], more[32] = "";
+    if (possible > 0) snprintf(more, sizeof more, ", %zu more possible", possible);
     switch (c->verdict) {
     case HCI_CHECK_CONSISTENT:
         cli_say(CLI_GOOD "consistent" CLI_PLAIN
                          ": the files agree as they are declared, as far as they can be checked\n");
         break;
     case HCI_CHECK_SLIPS:
-        cli_say(CLI_BAD "%zu slip%s found" CLI_PLAIN ": %s, %s sure%s\n", found, found == 1 ? "" : "s",
-                c->finding[0].words, sure(c->finding[0].probability, text),
-                found > 1 ? "; and more below" : "");
+        cli_say(CLI_BAD "%zu slip%s found" CLI_PLAIN "%s: %s, %s sure%s\n", found, found == 1 ? "" : "s",
+                more, c->finding[0].words, sure(c->finding[0].probability, text),
+                c->findings > 1 ? "; and more below" : "");
         break;
     case HCI_CHECK_AMBIGUOUS:
         cli_say(CLI_WARN "ambiguous" CLI_PLAIN
@@ -81,11 +89,12 @@ static void show_finding(const hci_check_finding *f)
 static void show_evidence_of(const hci_check *c, hci_check_state state, const char *title)
 {
     size_t shown = 0;
+    char text[32];
     for (size_t k = 0; k < c->evidences; ++k) {
         const hci_check_evidence *e = &c->evidence[k];
         if (e->state != state) continue;
         if (shown++ == 0) cli_say("\n  %s\n    %9s %9s %9s\n", title, "declared", "as read", "expected");
-        cli_say("    %9.4g %9.4g %9.4g  %s\n", e->declared, e->as_read, e->expected, e->words);
+        cli_say("    %9.4g %9.4g %9s  %s\n", e->declared, e->as_read, expected_of(e, text), e->words);
     }
 }
 
@@ -107,16 +116,36 @@ static void show_gaps(const hci_check *c)
     }
 }
 
+static void show_untold(const hci_check *c)
+{
+    for (size_t k = 0; k < c->untolds; ++k)
+        cli_say("%s%s", k > 0 ? ", " : "\n  cannot be told from these files: ", c->untold[k]);
+    if (c->untolds > 0) cli_say("\n");
+}
+
 static void show(const hci_check *c)
 {
     show_verdict(c);
     for (size_t k = 0; k < c->findings; ++k)
         show_finding(&c->finding[k]);
     show_evidence_of(c, HCI_CHECK_MENDED, "evidence: does not agree as declared, and does as read");
+    show_evidence_of(c, HCI_CHECK_BETTER, "better as read, but still off");
     show_evidence_of(c, HCI_CHECK_WORSE, "speaks against it: agrees as declared, and not as read");
     show_evidence_of(c, HCI_CHECK_UNMENDED, "not understood: agrees in no reading");
     show_evidence_of(c, HCI_CHECK_AGREES, "checked and consistent");
     show_gaps(c);
+    show_untold(c);
+}
+
+/* One look at a way of reading is enough where many recordings have it. */
+static void show_remarks(const hci_check *c)
+{
+    for (size_t k = 0; k < c->runs; ++k) {
+        bool is_first = true;
+        for (size_t j = 0; j < k; ++j)
+            is_first = is_first && strcmp(c->remark[j].text, c->remark[k].text) != 0;
+        if (is_first) cli_remark(&c->remark[k]);
+    }
 }
 
 /* ---- the command ---- */
@@ -154,6 +183,7 @@ static int run(const cli_arguments *a)
     hci_note note = {{0}};
     const hci_status status = hci_check_files(a->word[0], a->word + 1, a->words - 1, &check, &note);
     if (status && status != HCI_NOT_REACHED) return cli_fail(status, &note);
+    show_remarks(&check);
     if (cli_is_wordy()) show(&check);
     const hci_status given = give_summary(&check, a, &note);
     return given ? cli_fail(given, &note) : hci_status_exit_code(status);

@@ -91,6 +91,8 @@ bool cli_is_ascii(void);
 int cli_width(int descriptor);
 /* Columns that a text takes, styles not counted. */
 size_t cli_text_width(const char *text);
+/* The last `most` columns of a text, or all of it. */
+const char *cli_text_end(const char *text, size_t most);
 
 /* Styles inside a text; they vanish where there is no colour. */
 #define CLI_GOOD  "\001"
@@ -163,9 +165,9 @@ void cli_bar_text(double share, double mark, int cells, char *text);
 void cli_number_text(double value, double largest, char *text, size_t size);
 
 /* The largest of `count` values, at most CLI_MOST_ROWS, in their order; those below `least` of the largest
- * are left out. Returns how many. */
+ * do not count. Returns how many. left_out: how many more there are, or NULL. */
 size_t cli_pick(double (*value)(const void *context, size_t k), const void *context, size_t count,
-                double least, size_t pick[CLI_MOST_ROWS]);
+                double least, size_t pick[CLI_MOST_ROWS], size_t *left_out);
 
 /* ---- show.c */
 

@@ -183,8 +183,7 @@ static void run_row(const void *context, size_t row, cli_cell cell[])
 {
     const worst_runs *w = context;
     const hci_run_errors *e = &w->diagnosis->run[w->pick[row]];
-    snprintf(cell[0].text, sizeof cell[0].text, "%s",
-             strlen(e->file) < 40 ? e->file : e->file + strlen(e->file) - 40);
+    snprintf(cell[0].text, sizeof cell[0].text, "%s", cli_text_end(e->file, 40));
     snprintf(cell[1].text, sizeof cell[1].text, "%s", e->role == HCI_ROLE_FIT ? "fit" : "holdout");
     snprintf(cell[2].text, sizeof cell[2].text, "%.4g", e->rms_before_Nm);
     cell[3].value = e->rms_before_Nm;
@@ -205,7 +204,7 @@ static void draw_runs(const hci_diagnosis *d)
     };
     char caption[240];
     worst_runs w = {.diagnosis = d};
-    const size_t rows = cli_pick(error_Nm, d, d->runs, 0.0, w.pick);
+    const size_t rows = cli_pick(error_Nm, d, d->runs, 0.0, w.pick, NULL);
     snprintf(caption, sizeof caption,
              "error of each run (rms of measured less modelled torque), N·m; before: the machine as "
              "declared; %s noise, where it is in the range",

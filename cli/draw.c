@@ -1,4 +1,5 @@
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -40,28 +41,33 @@ void cli_number_text(double value, double largest, char *text, size_t size)
 
 /* ---- which rows ---- */
 
-static size_t count_from(double (*value)(const void *, size_t), const void *context, size_t count,
-                         double limit)
+static int by_place(const void *a, const void *b)
 {
-    size_t found = 0;
-    for (size_t k = 0; k < count; ++k)
-        found += value(context, k) >= limit;
-    return found;
+    const size_t x = *(const size_t *)a, y = *(const size_t *)b;
+    return (x > y) - (x < y);
 }
 
 size_t cli_pick(double (*value)(const void *context, size_t k), const void *context, size_t count,
-                double least, size_t pick[CLI_MOST_ROWS])
+                double least, size_t pick[CLI_MOST_ROWS], size_t *left_out)
 {
-    double largest = 0.0, limit;
-    size_t picked = 0;
+    double largest = 0.0;
+    size_t picked = 0, eligible = 0;
     for (size_t k = 0; k < count; ++k)
         largest = fmax(largest, value(context, k));
-    if (!(largest > 0.0)) return 0;
-    limit = least * largest;
-    while (count_from(value, context, count, limit) > CLI_MOST_ROWS)
-        limit = fmax(1.2 * limit, 1e-9 * largest);
-    for (size_t k = 0; k < count && picked < CLI_MOST_ROWS; ++k)
-        if (value(context, k) >= limit) pick[picked++] = k;
+    for (size_t k = 0; k < count && largest > 0.0; ++k) {
+        const double v = value(context, k);
+        size_t at = picked;
+        if (!(v >= least * largest)) continue;
+        ++eligible;
+        while (at > 0 && value(context, pick[at - 1]) < v)
+            --at;
+        if (at == CLI_MOST_ROWS) continue;
+        if (picked < CLI_MOST_ROWS) ++picked;
+        memmove(pick + at + 1, pick + at, (picked - at - 1) * sizeof *pick);
+        pick[at] = k;
+    }
+    qsort(pick, picked, sizeof *pick, by_place);
+    if (left_out) *left_out = eligible - picked;
     return picked;
 }
 

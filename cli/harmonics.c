@@ -181,7 +181,7 @@ static void show_orders(const hci_waveform *w)
     const bool cogging = w->quantity == HCI_WAVEFORM_COGGING;
     char caption[160];
     spectrum s = {.waveform = w};
-    const size_t rows = cli_pick(kept_amplitude, w, w->count, 1e-6, s.pick);
+    const size_t rows = cli_pick(kept_amplitude, w, w->count, 1e-6, s.pick, NULL);
     snprintf(caption, sizeof caption, "%s by electrical order, %s; in the bars %s is the standard error",
              cogging ? "cogging torque" : "back-EMF", cogging ? "N·m (peak)" : "N·m/A (peak of a phase)",
              cli_is_ascii() ? "|" : "│");

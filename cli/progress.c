@@ -97,7 +97,7 @@ static void times_text(char *text, size_t size)
         snprintf(text, size, "  %s, %s left", gone, left);
 }
 
-/* Where the terminal is narrow the rate goes first, then the bar. */
+/* Where the terminal is narrow the rate goes first, then the bar, then the times. */
 static void draw(const cli_work *work, const char *what)
 {
     char rate[TEXT_SIZE], times[TEXT_SIZE], line[3 * TEXT_SIZE], cells[4 * MOST_CELLS + 4] = "";
@@ -110,6 +110,7 @@ static void draw(const cli_work *work, const char *what)
         room += RATE;
     }
     if (room >= LEAST_CELLS) cli_bar_text(bar.share, NAN, room < MOST_CELLS ? room : MOST_CELLS, cells);
+    if ((int)cli_text_width(what) + FIGURES > width) times[0] = '\0';
     snprintf(line, sizeof line, "%s %s%s%3.0f %%%s%s", what, cells, cells[0] ? " " : "", 100.0 * bar.share,
              times, rate);
     bar.shown = 1;

@@ -50,7 +50,8 @@ static void show_spectrum(const hci_solution *s)
     };
     char caption[160], baseline[64] = "no current";
     spectrum x = {.solution = s};
-    const size_t rows = cli_pick(largest_of, s, s->order_count, 1e-3, x.pick);
+    size_t left_out;
+    const size_t rows = cli_pick(largest_of, s, s->order_count, 1e-3, x.pick, &left_out);
     for (size_t k = 0; k < rows; ++k)
         x.largest_Nm = fmax(x.largest_Nm, largest_of(s, x.pick[k]));
     if (s->plain_amplitude_A > 0.0)
@@ -63,6 +64,7 @@ static void show_spectrum(const hci_solution *s)
                           .fill = spectrum_row,
                           .context = &x,
                           .unit = "N·m"});
+    if (left_out > 0) cli_say("  and %zu smaller ones: spectrum.csv\n", left_out);
 }
 
 /* ---- words ---- */

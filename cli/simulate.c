@@ -150,7 +150,7 @@ static void show_spectrum(const hci_simulation *s, const hci_judgement *before)
     const bool compared = before->order_count > 0;
     char caption[256];
     spectrum x = {.simulation = s, .before = before};
-    const size_t rows = cli_pick(largest_of, &x, s->spectrum_count, 5e-3, x.pick);
+    const size_t rows = cli_pick(largest_of, &x, s->spectrum_count, 5e-3, x.pick, NULL);
     size_t length =
         (size_t)snprintf(caption, sizeof caption, "torque ripple by electrical order, N·m (peak)");
     for (size_t k = 0; k < rows; ++k)

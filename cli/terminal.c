@@ -111,6 +111,14 @@ size_t cli_text_width(const char *text)
     return width;
 }
 
+const char *cli_text_end(const char *text, size_t most)
+{
+    for (size_t width = cli_text_width(text); width > most; --width)
+        while (!begins_character(*++text))
+            ;
+    return text;
+}
+
 /* What a terminal of another locale would show as two wrong letters. */
 static const char *ascii_of(const char *text)
 {
@@ -129,6 +137,11 @@ static const char *ascii_of(const char *text)
         {"Ω",  "ohm"  },
         {"θ",  "theta"},
         {"ω",  "omega"},
+        {"γ",  "gamma"},
+        {"π",  "pi"   },
+        {"τ",  "tau"  },
+        {"χ",  "chi"  },
+        {"ψ",  "psi"  },
         {"½",  "1/2"  },
         {"≤", "<="   },
         {"≥", ">="   },
@@ -139,7 +152,7 @@ static const char *ascii_of(const char *text)
     };
     for (size_t k = 0; k < sizeof PAIRS / sizeof *PAIRS; ++k)
         if (strncmp(text, PAIRS[k][0], strlen(PAIRS[k][0])) == 0) return PAIRS[k][1];
-    return NULL;
+    return "?";
 }
 
 static void put_style(char style, FILE *stream)
@@ -151,7 +164,7 @@ static void put_style(char style, FILE *stream)
 /* `length` bytes; what would drive a terminal is no text. */
 static void put_text(const char *text, size_t length, FILE *stream)
 {
-    const bool ascii = isatty(STDERR_FILENO) && !is_utf8();
+    const bool ascii = isatty(fileno(stream)) && !is_utf8();
     for (size_t k = 0; k < length; ++k) {
         const char *plain = ascii && (unsigned char)text[k] >= 0x80 ? ascii_of(text + k) : NULL;
         if (text[k] >= CLI_GOOD[0] && text[k] <= CLI_PLAIN[0])

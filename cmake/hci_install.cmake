@@ -43,12 +43,12 @@ endif()
 # What the program says of itself, asked of the program that was just built.
 function(hci_install_reference kind folder name)
     add_custom_command(OUTPUT "${generated}/${name}"
-                       COMMAND "${CMAKE_COMMAND}" -E env --unset=COLUMNS $<TARGET_FILE:hci-solve> reference ${kind} > "${generated}/${name}"
+                       COMMAND "${CMAKE_COMMAND}" -E env --unset=COLUMNS ASAN_OPTIONS=detect_leaks=0 $<TARGET_FILE:hci-solve> reference ${kind} > "${generated}/${name}"
                        DEPENDS hci-solve VERBATIM)
     add_custom_target(hci_reference_${kind} ALL DEPENDS "${generated}/${name}")
     install(FILES "${generated}/${name}" DESTINATION "${folder}" COMPONENT program)
 endfunction()
-if(HCI_WITH_HOST AND NOT CMAKE_CROSSCOMPILING)
+if(HCI_WITH_HOST AND PROJECT_IS_TOP_LEVEL AND NOT CMAKE_CROSSCOMPILING)
     hci_install_reference(man "${CMAKE_INSTALL_MANDIR}/man1" hci-solve.1)
     hci_install_reference(bash "${CMAKE_INSTALL_DATAROOTDIR}/bash-completion/completions" hci-solve)
     hci_install_reference(zsh "${CMAKE_INSTALL_DATAROOTDIR}/zsh/site-functions" _hci-solve)

@@ -1,7 +1,7 @@
 #!/bin/sh
 # labels: cli docs
 # docs/files.md against the program: the columns of each file that is written, the keys of each summary, and each example read.
-# (The table of foreign names is compared with that of the program in test_csv.c.)
+# (The table of foreign names is compared with that of the program in test_csv_foreign.c.)
 #   cli_files.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
 . "$(dirname "$0")/cli/common.sh"
 cd "$source_dir" || exit 1

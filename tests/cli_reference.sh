@@ -176,6 +176,8 @@ typed() {
     shown=
 }
 
+python3 -c 'import pty; pty.openpty()' 2>/dev/null || { echo "the shells are left out: no pseudo-terminal here"; finish; exit 0; }
+
 for shell in bash zsh; do
     if ! command -v $shell >/dev/null || ! command -v python3 >/dev/null; then
         echo "skipped: completion in $shell, not here"

@@ -15,6 +15,7 @@ for chromium in chromium chromium-browser google-chrome google-chrome-stable '';
     ! command -v "$chromium" >/dev/null || break
 done
 [ -n "$chromium" ] || skip "neither chromium nor google-chrome is installed, so that the reports were not opened"
+"$chromium" --headless --no-sandbox --version >/dev/null 2>&1 || skip "$chromium does not start here"
 command -v python3 >/dev/null || skip "python3 is not installed, which drives the browser"
 
 cd "$source_dir" || exit 1

@@ -5,7 +5,9 @@
 #   run_doxygen.sh SOURCE_DIR
 set -eu
 cd "$1"
-command -v doxygen >/dev/null || { echo "skipped: no doxygen here"; exit 77; }
+for tool in doxygen python3; do
+    command -v $tool >/dev/null || { echo "skipped: no $tool here"; exit 77; }
+done
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 

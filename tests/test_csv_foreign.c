@@ -141,11 +141,14 @@ static void spelling_does_not_count(void)
 
 static void one_letter_stands_as_it_is_written(void)
 {
-    hci_csv *csv = read_text("t,T,n,N\n1,2,3,4\n");
+    hci_csv *csv = read_text("t,T,n [rpm],N\n1,2,3,4\n");
     TEST_ASSERT_EQUAL_DOUBLE(1, first_number(csv, "time_s"));
     TEST_ASSERT_EQUAL_DOUBLE(2, first_number(csv, "torque_Nm"));
     TEST_ASSERT_DOUBLE_WITHIN(1e-15, REF_PI / 10, first_number(csv, "speed_rad_per_s"));
     TEST_ASSERT_FALSE(hci_csv_has(csv, "temperature_C"));
+    hci_csv_free(csv);
+    csv = read_text("t,n\n1,2\n"); /* may be the number of the sample */
+    TEST_ASSERT_FALSE(hci_csv_has(csv, "speed_rad_per_s"));
     hci_csv_free(csv);
     csv = read_text("T (degC),x\n2,1\n");
     TEST_ASSERT_EQUAL_DOUBLE(2, first_number(csv, "temperature_C"));

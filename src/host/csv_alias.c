@@ -55,7 +55,7 @@ const hci_alias hci_aliases[] = {
     PLAIN("omega_el", "speed_e_rad_per_s", "rad/s", "many"),
     PLAIN("w_e", "speed_e_rad_per_s", "rad/s", "many"),
     TOLD("rpm", "speed_rad_per_s", "rpm", "many", "the mechanical speed"),
-    TOLD("n", "speed_rad_per_s", "rpm", "many", "the mechanical speed"),
+    TOLD("n", "speed_rad_per_s", NULL, "many", "the mechanical speed"),
     TOLD("omega", "speed_rad_per_s", "rad/s", "GEM", "the mechanical speed"),
     PLAIN("omega_m", "speed_rad_per_s", "rad/s", "many"),
     TOLD("w_m", "speed_rad_per_s", "rad/s", "Simulink", "the mechanical speed"),

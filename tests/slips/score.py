@@ -3,13 +3,13 @@
 import argparse
 import hashlib
 import json
-import multiprocessing
 import os
 import re
 import shutil
 import subprocess
 import sys
 import tempfile
+from multiprocessing.pool import ThreadPool
 from collections import Counter
 
 import slips
@@ -197,7 +197,7 @@ def report(options, results):
 def main():
     options = arguments()
     with tempfile.TemporaryDirectory(prefix="hci-slips-") as options.work:
-        with multiprocessing.Pool(options.jobs) as pool:
+        with ThreadPool(options.jobs) as pool:  # they only wait for the program
             results = pool.map(examine, tasks(options), chunksize=1)
         return report(options, results)
 
