@@ -121,6 +121,12 @@ wrong_list 'wrong.csv.*role' 'file\nslow.csv\n'
 wrong_list '`fit`' 'file,role\nslow.csv,holdout\n'
 cut -d, -f1-6 slow.csv >notorque.csv
 wrong_list 'torque_Nm' 'file,role\nnotorque.csv,fit\n'
+cp machine/machine.csv machine.kept # a log without a torque is no free shaft, and its load takes no magnets away
+echo 'inertia,0.001,kgm2,test' >>machine/machine.csv
+wrong_list 'notorque.csv: found no torque_Nm and no free shaft: .*makes 0.6 N·m' 'file,role\nback.csv,fit\nnotorque.csv,fit\n'
+echo 'rated_current,30,A,test' >>machine/machine.csv
+wrong_list 'not believable; run `check`' 'file,role\nnotorque.csv,fit\n'
+mv machine.kept machine/machine.csv
 sed '4s/.*/1,2,3/' slow.csv >short.csv
 wrong_list 'short.csv:4: ' 'file,role\nback.csv,fit\nshort.csv,fit\n'
 sed '7s/,60,/,nan,/' slow.csv >nan.csv

@@ -65,6 +65,30 @@ awk -F, 'NR == 1 { print "time_s,va_V,vb_V,vc_V"; next } { print $1 "," $2 "," $
 run 0 harmonics "$work/swapped.csv" --quantity back_emf --pole-pairs 4
 says 'a-c-b: taken as turned backward' 'frequency    -40 Hz'
 
+# ---- an angle with another zero, and doing what is said: v_a = sin x, recorded with theta_e = x - 0.3 or x + 0.3
+
+shifted() { # RAD FILE
+    awk -v zero="$1" 'BEGIN { print "time_s,theta_e_rad,speed_rad_per_s,va_V,vb_V,vc_V,iq_A"; turn = 8 * atan2(1, 1)
+        for (k = 0; k < 4000; ++k) { t = k / 20000; x = turn * 40 * t; e = x - zero; e -= turn * int(e / turn); if (e < 0) e += turn
+            printf "%.6f,%.9f,%.9f,%.9f,%.9f,%.9f,2\n", t, e, turn * 10, 5 * sin(x), 5 * sin(x - turn / 3), 5 * sin(x + turn / 3) } }' >"$2"
+}
+for zero in 0.3 -0.3; do
+    shifted $zero "$work/shifted.csv"
+    run 0 harmonics "$work/shifted.csv" --quantity back_emf --pole-pairs 4
+    says 'currents of 1\.41 A rms flow'
+    advice=$(tr '\n' ' ' <"$work/stderr" | sed -n 's/.*zero crossing: *\([a-z]* [0-9.]* rad [a-z]* theta_e\).*/\1/p')
+    case $advice in
+        'add '*' to theta_e') follows=$(echo "$advice" | awk '{ print $2 }') ;;
+        'subtract '*' from theta_e') follows=$(echo "$advice" | awk '{ print -$2 }') ;;
+        *) follows=0 ;;
+    esac
+    awk -F, -v add="$follows" 'NR > 1 { $2 = sprintf("%.9f", $2 + add) } { print }' OFS=, "$work/shifted.csv" >"$work/mended.csv"
+    run 0 harmonics "$work/mended.csv" --quantity back_emf --pole-pairs 4 -o "$work/mended"
+    check "$zero: \"$advice\" leaves the phase $(awk -F, '$1 == 1 { print $3 }' "$work/mended/back_emf.csv")" \
+        awk -F, '$1 == 1 { exit !($3 ^ 2 < 1e-8) }' "$work/mended/back_emf.csv"
+    check "$zero: still told" eval "! grep -q 'zero crossing' '$work/stderr'"
+done
+
 # ---- wrong: one line that says what and where, and nothing is written
 
 refused() { # CODE EXPRESSION WORD...
@@ -94,6 +118,9 @@ refused 2 'whole electrical orders only' "$work/voltages.csv" --quantity back_em
 refused 3 'found no voltages' "$recording" --quantity back_emf --pole-pairs 2
 refused 3 'found no angle' "$work/voltages.csv" --quantity cogging --pole-pairs 2
 refused 3 'none.csv: .*No such file' "$work/none.csv" --quantity cogging --pole-pairs 2
+sed '1s/theta_e_rad/theta/' "$work/shifted.csv" >"$work/theta.csv"
+refused 3 'theta.csv:1: column 2 `theta`: found an angle that may be mechanical or electrical' "$work/theta.csv" --quantity back_emf --pole-pairs 4
+refused 3 'column `theta_m_rad` but .*theta_e_rad will do as well' "$source_dir/data/machine_a/back_emf.csv" --quantity back_emf --pole-pairs 4
 printf 'theta_m_deg,iq_A,torque_Nm\n0,1,0\n1,2,0\n' >"$work/held.csv"
 refused 3 'add --torque-constant' "$work/held.csv" --quantity cogging --pole-pairs 2
 refused 3 'do not go round' "$work/held.csv" --quantity cogging --pole-pairs 2 --torque-constant 1

@@ -45,6 +45,13 @@ check "a residual without a torque" [ "$(head -n 1 "$work/out.csv")" = theta_e_d
 printf 'theta_e_deg,iq_A,torque_Nm\n0,1,0\n90,1,-0\n' >"$work/run.csv"
 run 0 predict data/machine_a "$work/run.csv"
 says 'held at rest'
+awk 'BEGIN { print "time_s,theta_e_rad,speed_rad_per_s,iq_A"; for (k = 0; k < 500; ++k) printf "%.3f,%.9f,50,2\n", k / 1000, 100 * k / 1000 }' >"$work/log.csv"
+cp -R data/machine_a "$work/driving"
+grep -v '^inertia,' data/machine_a/machine.csv >"$work/driving/machine.csv"
+echo 'inertia,0.001,kgm2,' >>"$work/driving/machine.csv"
+run 0 predict "$work/driving" "$work/log.csv" -o "$work/out.csv"
+says 'no torque in the run' 'no free shaft: by the model the current makes'
+check "a residual of a load that was not recorded" [ "$(head -n 1 "$work/out.csv")" = time_s,theta_e_rad,speed_rad_per_s,iq_A,torque_model_Nm ]
 cd "$work" && rm -rf empty && mkdir empty && cd empty || exit 1
 run 0 predict "$source_dir/data/machine_a" "$work/run.csv" -q
 nothing_on_stderr

@@ -166,6 +166,84 @@ static void test_machine_and_findings_agree(void)
     diagnose(NULL);
 }
 
+/* ---- what is not believed ---- */
+
+static void refused(const char *why)
+{
+    const hci_effects none = {NULL, 0};
+    hci_note said = {{0}};
+    hci_diagnosis_release(&diagnosis);
+    TEST_ASSERT_EQUAL_INT(HCI_ERROR_INPUT, hci_diagnose(&machine, &none, &runs, &options, &diagnosis, &said));
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(said.text, why), said.text);
+    TEST_ASSERT_EQUAL_UINT64(0, diagnosis.effects.list.count);
+    TEST_ASSERT_NULL(diagnosis.run);
+}
+
+/* A log at constant speed: the load was not recorded, and inertia × acceleration is next to nothing. */
+static void record_loaded(void)
+{
+    for (int k = 0; k < 2; ++k) {
+        record(450, &(point){k == 0 ? 60.0 : 90.0, 2.0 + k, 0.0, 0.0, 0.0});
+        run[k].torque_source = HCI_TORQUE_INERTIA;
+        for (size_t j = 0; j < 450; ++j)
+            run[k].torque_Nm[j] = 1e-6 * rec_normal(&seed);
+    }
+}
+
+static void test_a_shaft_with_a_load_is_not_free(void)
+{
+    record_loaded();
+    refused("run_1.csv: found no torque_Nm and no free shaft: by the model the current makes 0.9 N·m");
+}
+
+/* In a large machine the same torque could be its drag; then magnets that are cancelled are still no answer.
+ */
+static void test_magnets_are_not_cancelled(void)
+{
+    record_loaded();
+    machine.rated_current_A = 40.0;
+    refused("not believable; run `check`");
+    refused("drives a load");
+}
+
+/* Amperes where N·m were wanted, that is a sensor's factor of a tenth, for one. */
+static void test_a_tenth_of_the_magnets_is_not_believed(void)
+{
+    record_map(0.0, 0.0);
+    for (size_t r = 0; r < runs.count; ++r)
+        for (size_t k = 0; k < run[r].count; ++k)
+            run[r].torque_Nm[k] *= 0.1;
+    refused("found recordings of 0.03 N·m per ampere of i_q, expected about 0.3");
+}
+
+/* A quarter less is what weak magnets do. */
+static void test_weak_magnets_are_believed(void)
+{
+    record_map(0.0, 0.0);
+    for (size_t r = 0; r < runs.count; ++r)
+        for (size_t k = 0; k < run[r].count; ++k)
+            run[r].torque_Nm[k] *= 0.75;
+    TEST_ASSERT_TRUE(diagnose(NULL) <= HCI_NOT_REACHED);
+    TEST_ASSERT_DOUBLE_WITHIN(0.002, -0.05, term("back_emf", "sine", 1.0)->value);
+}
+
+/* i_q that swings, and a speed that follows it against a small friction. */
+static void test_words_tell_a_torque_of_inertia(void)
+{
+    static const double TORQUE_Nm = 0.3, FRICTION_Nm = 0.05;
+    char words[2048];
+    record(3000, &(point){60.0, 1.0, 0.0, 0.0, 0.0});
+    run[0].torque_source = HCI_TORQUE_INERTIA;
+    for (size_t k = 0; k < 3000; ++k) {
+        const double iq = sin(0.011 * (double)k);
+        rec_phases(0.0, iq, P * run[0].theta_m_rad[k], run[0].i_A + 3 * k);
+        run[0].torque_Nm[k] = TORQUE_Nm * iq - FRICTION_Nm + 0.01 * rec_normal(&seed);
+    }
+    TEST_ASSERT_TRUE(diagnose(NULL) <= HCI_NOT_REACHED);
+    hci_diagnosis_words(&diagnosis, words, sizeof words);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(words, "The torque of 1 of 1 runs is inertia x acceleration"), words);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -178,5 +256,10 @@ int main(void)
     RUN_TEST(test_friction_or_zero_of_the_sensor);
     RUN_TEST(test_what_does_not_repeat);
     RUN_TEST(test_machine_and_findings_agree);
+    RUN_TEST(test_a_shaft_with_a_load_is_not_free);
+    RUN_TEST(test_magnets_are_not_cancelled);
+    RUN_TEST(test_a_tenth_of_the_magnets_is_not_believed);
+    RUN_TEST(test_weak_magnets_are_believed);
+    RUN_TEST(test_words_tell_a_torque_of_inertia);
     return UNITY_END();
 }

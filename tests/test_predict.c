@@ -184,6 +184,83 @@ static void test_a_free_shaft(void)
     hci_csv_free(csv);
 }
 
+/* One second at 20 rad/s from `start`, gaining `gain` rad/s, at this i_q. */
+static void record_shaft(double gain, double iq)
+{
+    FILE *file = fopen(run_path, "w");
+    TEST_ASSERT_NOT_NULL(file);
+    fprintf(file, "time_s,theta_m_rad,speed_rad_per_s,iq_A\n");
+    for (int k = 0; k <= 1000; ++k) {
+        const double t = 1e-3 * k;
+        fprintf(file, "%.12g,%.12g,%.12g,%.12g\n", t, 20.0 * t + 0.5 * gain * t * t, 20.0 + gain * t, iq);
+    }
+    fclose(file);
+}
+
+/* 3/2·0.5 N·m/A times 2 A against nothing: there is a load. */
+static void test_a_shaft_with_a_load_has_no_torque(void)
+{
+    record_shaft(0.0, 2.0);
+    predict();
+    TEST_ASSERT_EQUAL(HCI_TORQUE_NONE, prediction.source);
+    TEST_ASSERT_TRUE(isnan(prediction.rms_residual_Nm));
+    TEST_ASSERT_DOUBLE_WITHIN(0.02, 1.5, prediction.mean_model_Nm);
+    has_text("the current makes 1.5 N·m on average, but inertia x acceleration is 0 N·m",
+             prediction.remark.text);
+    hci_csv *csv = read_out();
+    TEST_ASSERT_TRUE(hci_csv_has(csv, "torque_model_Nm"));
+    TEST_ASSERT_FALSE(hci_csv_has(csv, "torque_inertia_Nm"));
+    TEST_ASSERT_FALSE(hci_csv_has(csv, "residual_Nm"));
+    hci_csv_free(csv);
+    record_shaft(20.0, -2.0); /* driven by another machine, against the current */
+    predict();
+    TEST_ASSERT_EQUAL(HCI_TORQUE_NONE, prediction.source);
+}
+
+/* Its own drag may take half of what the current makes, and all of it where that is little for the machine or
+ * declared. */
+static void test_a_drag_of_its_own_is_allowed(void)
+{
+    static const char *const MACHINE = "name,value,unit,source\npole_pairs,3,1,\ninertia,0.01,kgm2,\n";
+    char path[128], text[200];
+    record_shaft(75.0, 2.0); /* 0.75 of 1.5 N·m accelerate */
+    predict();
+    TEST_ASSERT_EQUAL(HCI_TORQUE_INERTIA, prediction.source);
+    record_shaft(-75.0, 0.0); /* runs down */
+    predict();
+    TEST_ASSERT_EQUAL(HCI_TORQUE_INERTIA, prediction.source);
+    record_shaft(0.0, 2.0);
+    write_file(effects_path, "effect,parameter,value,unit,std_error\nfriction,coulomb,1.4,Nm,\n");
+    predict();
+    TEST_ASSERT_EQUAL(HCI_TORQUE_INERTIA, prediction.source);
+    unlink(effects_path);
+    snprintf(path, sizeof path, "%s/machine.csv", folder);
+    snprintf(text, sizeof text, "%srated_current,21,A,\n", MACHINE);
+    write_file(path, text);
+    predict();
+    TEST_ASSERT_EQUAL(HCI_TORQUE_INERTIA, prediction.source);
+    snprintf(text, sizeof text, "%srated_current,19,A,\n", MACHINE);
+    write_file(path, text);
+    predict();
+    TEST_ASSERT_EQUAL(HCI_TORQUE_NONE, prediction.source);
+}
+
+/* T-Motor MN4004: drags of 2 to 4 mN·m beside a friction of 1.5 mN·m in the holding test. */
+static void test_measured_free_shafts_stay_free(void)
+{
+    static const char *const FILES[] = {"speed_control.csv", "acceleration.csv"};
+    for (int k = 0; k < 2; ++k) {
+        char path[128];
+        snprintf(path, sizeof path, "../shared/measured/laas_mn4004/%s", FILES[k]);
+        if (access(path, R_OK) != 0) TEST_IGNORE_MESSAGE("no recordings in ../shared/measured");
+        TEST_ASSERT_EQUAL_MESSAGE(
+            HCI_OK, hci_predict_file("tests/measured/laas_mn4004", path, NULL, &prediction, &note),
+            note.text);
+        TEST_ASSERT_EQUAL(HCI_TORQUE_INERTIA, prediction.source);
+        has_text("as of a free shaft it is inertia x acceleration", prediction.remark.text);
+    }
+}
+
 static void assert_file(const char *path, const char *expected)
 {
     char found[2000];
@@ -281,6 +358,9 @@ int main(void)
     RUN_TEST(test_effects_act);
     RUN_TEST(test_the_sensor_lags_along_time);
     RUN_TEST(test_a_free_shaft);
+    RUN_TEST(test_a_shaft_with_a_load_has_no_torque);
+    RUN_TEST(test_a_drag_of_its_own_is_allowed);
+    RUN_TEST(test_measured_free_shafts_stay_free);
     RUN_TEST(test_columns_pass_through);
     RUN_TEST(test_a_run_without_torque_has_no_residual);
     RUN_TEST(test_what_an_effect_lacks_is_told);

@@ -459,6 +459,7 @@ static void test_torque_of_inertia(void)
     fclose(file);
     read_run(4, 0.02);
     TEST_ASSERT_EQUAL(HCI_TORQUE_INERTIA, run.torque_source);
+    has_text("as of a free shaft it is inertia x acceleration", run.remark.text);
     for (int k = 0; k < 3000; ++k)
         TEST_ASSERT_DOUBLE_WITHIN(0.02 * 0.05, 0.02 * acceleration_at(time_at(k)), run.torque_Nm[k]);
 }
@@ -473,6 +474,12 @@ static void test_refused_runs(void)
     refused("theta_m_rad,id_A\n0,1\n", "add the column iq_A");
     refused("time_s,va_V,vb_V,vc_V,iq_A\n0,1,1,1,1\n", "theta_e_rad or theta_m_rad");
     refused("time_s,torque_Nm\n0,1\n", "found no column `theta_m_rad` but `time_s`, `torque_Nm`");
+    refused("time_s,torque_Nm\n0,1\n", "theta_e_rad will do as well");
+    refused("time_s,theta,torque_Nm\n0,1,1\n",
+            "column 2 `theta`: found an angle that may be mechanical or electrical");
+    refused("time_s,theta,va_V,vb_V,vc_V\n0,1,1,1,1\n",
+            "column 2 `theta`: found an angle that may be mechanical or electrical");
+    refused("time_s,theta,vab_V,vbc_V\n0,1,1,1\n", "run.csv:1: column 2");
     refused("theta_m_rad,torque_Nm\n", "a header and no samples");
     refused("theta_m_rad,torque_Nm\n1,x\n", "found `x`");
     TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, hci_run_read("no/such/file", 4, NAN, &run, NULL));

@@ -324,7 +324,7 @@ static void test_torque_of_a_current_is_taken_away(void)
         torque[k] += 0.08 * (3.0 + sin(theta_m[k]));
     }
     find();
-    has_text("currents of", w.remark.text);
+    has_text("currents of 2.18 A rms flow", w.remark.text); /* √((9 + 1/2)/2) */
     TEST_ASSERT_DOUBLE_WITHIN(1e-3, 0.08, order_at(1.0 / 3.0)->amplitude);
     options.torque_constant_Nm_per_A = 0.08;
     find();
@@ -623,6 +623,56 @@ static void test_an_angle_with_another_zero_is_told(void)
     has_text("at -0.3 rad of phase a's fundamental", w.remark.text);
 }
 
+/* Does with the angle what the remark says. */
+static void follow_the_advice(void)
+{
+    char direction[16], preposition[8];
+    double electrical, mechanical;
+    const char *advice = strstr(w.remark.text, "crossing: ");
+    TEST_ASSERT_NOT_NULL_MESSAGE(advice, w.remark.text);
+    TEST_ASSERT_EQUAL_MESSAGE(4,
+                              sscanf(advice, "crossing: %15s %lf rad %7s theta_e (%lf rad", direction,
+                                     &electrical, preposition, &mechanical),
+                              advice);
+    const bool add = strcmp(direction, "add") == 0;
+    TEST_ASSERT_EQUAL_STRING(add ? "add" : "subtract", direction);
+    TEST_ASSERT_EQUAL_STRING(add ? "to" : "from", preposition);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-4, electrical / 3.0, mechanical);
+    for (size_t k = 0; k < run.count; ++k)
+        theta_m[k] += (add ? electrical : -electrical) / 3.0;
+}
+
+/* v_a = sin(θ − lag). */
+static void test_the_advice_on_the_angle_mends_it(void)
+{
+    static const double LAG_rad[] = {0.3, -0.3, 1.7, -2.9};
+    for (int k = 0; k < 4; ++k) {
+        const channels c = {
+            .gain = {1.0,        1.0,        1.0       },
+              .lag_rad = {LAG_rad[k], LAG_rad[k], LAG_rad[k]}
+        };
+        record_drive(20000, 1.0, 100.0, 0.0, &c);
+        with_angle();
+        find();
+        TEST_ASSERT_DOUBLE_WITHIN(1e-6, -LAG_rad[k], order_at(1.0)->phase_rad);
+        follow_the_advice();
+        find();
+        TEST_ASSERT_DOUBLE_WITHIN(1e-4, 0.0, order_at(1.0)->phase_rad);
+        TEST_ASSERT_EQUAL_STRING("", w.remark.text);
+    }
+}
+
+/* 2 A peak of a sine. */
+static void test_currents_are_told_as_rms_of_a_phase(void)
+{
+    record_drive(20000, 1.0, 100.0, 0.0, &EVEN);
+    with_angle();
+    for (size_t k = 0; k < run.count; ++k)
+        set_iq(k, 2.0);
+    find();
+    has_text("currents of 1.41 A rms flow", w.remark.text);
+}
+
 static void test_swapped_phases_are_told(void)
 {
     channels c = EVEN;
@@ -883,6 +933,8 @@ int main(void)
     RUN_TEST(test_turned_backward_with_an_angle);
     RUN_TEST(test_channels_that_differ);
     RUN_TEST(test_an_angle_with_another_zero_is_told);
+    RUN_TEST(test_the_advice_on_the_angle_mends_it);
+    RUN_TEST(test_currents_are_told_as_rms_of_a_phase);
     RUN_TEST(test_swapped_phases_are_told);
     RUN_TEST(test_back_emf_without_an_angle);
     RUN_TEST(test_frequency_is_exact_without_noise);

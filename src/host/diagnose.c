@@ -8,8 +8,11 @@
 #include "attribute.h"
 #include "bench.h"
 #include "findings.h"
+#include "free_shaft.h"
 #include "memory.h"
+#include "quote.h"
 #include "run_errors.h"
+#include "torque_constant.h"
 #include "unknown.h"
 
 #define RESOLUTION 5e-4 /* of the largest rms torque */
@@ -18,6 +21,9 @@
 #define NOISY         1.5  /* error of a run held out, over its noise … */
 #define COARSE        4.0  /* … or over the resolution, that speaks against the effects … */
 #define HARDLY_BETTER 0.5  /* … unless it is less than this share of the error without them */
+
+#define ROUNDING   1e-6
+#define BELIEVABLE 0.5 /* of the torque per ampere that is declared: a correction leaves no less */
 
 enum { LONGEST_ADVICE = 200 }; /* bytes of a sentence */
 
@@ -151,6 +157,26 @@ static hci_status withdraw(hci_bench *b, const hci_runs *runs, hci_attribution *
     return fill(b, runs, a, d, note);
 }
 
+/* A correction that takes the magnets away has been fitted to something that is meant otherwise. */
+static hci_status check_believable(const hci_machine_data *machine, const hci_effects *declared,
+                                   const hci_runs *runs, const hci_diagnosis *d, hci_note *note)
+{
+    char path[HCI_QUOTE_PATH_SIZE];
+    const double before = hci_torque_constant(&machine->model, declared);
+    const double left = hci_torque_constant(&machine->model, &d->effects.list);
+    const double after = fabs(left) < ROUNDING * before ? 0.0 : left;
+    bool has_free = false;
+    if (!(before > 0.0) || after >= BELIEVABLE * before) return HCI_OK;
+    for (size_t k = 0; k < runs->count; ++k)
+        has_free = has_free || runs->run[k].torque_source == HCI_TORQUE_INERTIA;
+    return hci_note_set(note, HCI_ERROR_INPUT,
+                        "%s: found recordings of %.3g N·m per ampere of i_q, expected about %.3g, as "
+                        "back_emf.csv has it: a correction that takes more than half of it away is not "
+                        "believable; run `check` with these recordings: units, signs, angle and back-EMF%s",
+                        runs->list != NULL ? hci_quote_path(runs->list, path) : "the runs", after, before,
+                        has_free ? ", and see whether a shaft without torque_Nm drives a load" : "");
+}
+
 static hci_status diagnose(hci_bench *b, const hci_machine_data *machine, const hci_runs *runs,
                            const hci_diagnose_options *options, hci_diagnosis *d, hci_note *note)
 {
@@ -165,6 +191,7 @@ static hci_status diagnose(hci_bench *b, const hci_machine_data *machine, const 
     if (!status && !a.unknown && d->verdict != HCI_DIAGNOSIS_COMPLETE &&
         is_contradicted(b, runs, d, how.resolution_Nm))
         status = withdraw(b, runs, &a, d, note);
+    if (!status) status = check_believable(machine, b->evidence.declared, runs, d, note);
     hci_attribution_release(&a);
     return status;
 }
@@ -187,7 +214,8 @@ hci_status hci_diagnose(const hci_machine_data *machine, const hci_effects *decl
         return hci_note_set(note, HCI_ERROR_INPUT,
                             "no run with the role `fit` has an angle and a torque; add torque_Nm (0 for a "
                             "holding test), or `inertia` to machine.csv for a free shaft");
-    hci_status status = hci_bench_make(machine, declared, runs, &b, note);
+    hci_status status = hci_free_shaft_check(machine, declared, runs->run, runs->count, note);
+    if (!status) status = hci_bench_make(machine, declared, runs, &b, note);
     if (status) return status;
     status = diagnose(&b, machine, runs, options, diagnosis, note);
     hci_bench_release(&b);

@@ -79,38 +79,55 @@ static void say_unknown(words *w, const hci_diagnosis *d)
     }
 }
 
-void hci_diagnosis_words(const hci_diagnosis *d, char *text, size_t size)
+/* A torque that no sensor read stands or falls with a shaft that drives nothing. */
+static void say_free_shafts(words *w, const hci_diagnosis *d)
 {
-    words w = {text, 0, size};
-    text[0] = '\0';
+    size_t count = 0;
+    for (size_t k = 0; k < d->runs; ++k)
+        count += d->run[k].source == HCI_TORQUE_INERTIA;
+    if (count > 0)
+        say(w, " The torque of %zu of %zu runs is inertia x acceleration, as of a free shaft.", count,
+            d->runs);
+}
+
+static void say_verdict(words *w, const hci_diagnosis *d)
+{
     switch (d->verdict) {
     case HCI_DIAGNOSIS_COMPLETE:
-        say(&w,
+        say(w,
             "Nothing is missing: what the model leaves, %.3g N·m rms, is the noise of the recordings (%.3g "
             "N·m).",
             d->rms_after_Nm, d->noise_Nm);
         if (d->holdout_after_Nm > 1.5 * d->holdout_noise_Nm)
-            say(&w, " But on the runs that were held out it is %.3g N·m, and their noise is %.3g N·m.",
+            say(w, " But on the runs that were held out it is %.3g N·m, and their noise is %.3g N·m.",
                 d->holdout_after_Nm, d->holdout_noise_Nm);
         return;
     case HCI_DIAGNOSIS_EXPLAINED:
-        say(&w, "The model lacked ");
-        say_names(&w, d, HCI_FINDING_ADDED, " and ");
-        say(&w, ".");
+        say(w, "The model lacked ");
+        say_names(w, d, HCI_FINDING_ADDED, " and ");
+        say(w, ".");
         break;
     case HCI_DIAGNOSIS_AMBIGUOUS:
         if (any(d, HCI_FINDING_ADDED)) {
-            say(&w, "The model lacked ");
-            say_names(&w, d, HCI_FINDING_ADDED, " and ");
-            say(&w, ". ");
+            say(w, "The model lacked ");
+            say_names(w, d, HCI_FINDING_ADDED, " and ");
+            say(w, ". ");
         }
-        say(&w, "These recordings do not tell ");
-        say_names(&w, d, HCI_FINDING_AMBIGUOUS, " and ");
-        say(&w, " apart: each explains them equally well.");
+        say(w, "These recordings do not tell ");
+        say_names(w, d, HCI_FINDING_AMBIGUOUS, " and ");
+        say(w, " apart: each explains them equally well.");
         break;
     case HCI_DIAGNOSIS_UNKNOWN:
-        say_unknown(&w, d);
+        say_unknown(w, d);
         return;
     }
-    say_errors(&w, d);
+    say_errors(w, d);
+}
+
+void hci_diagnosis_words(const hci_diagnosis *d, char *text, size_t size)
+{
+    words w = {text, 0, size};
+    text[0] = '\0';
+    say_verdict(&w, d);
+    say_free_shafts(&w, d);
 }

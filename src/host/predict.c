@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "csv_write.h"
+#include "free_shaft.h"
 #include "hci/frames.h"
 #include "hci/host/effects.h"
 #include "memory.h"
@@ -160,8 +161,22 @@ typedef struct {
     hci_effects_data effects;
     hci_csv *csv;
     hci_run run;
+    hci_note loaded;          /* why a shaft without a torque column is not free, or "" */
     double *model, *residual; /* residual: NULL where the run has no torque */
 } task;
+
+/* A shaft that drives something has a torque that is not known, and no residual. */
+static hci_status keep_free(task *t, hci_note *note)
+{
+    hci_run *run = &t->run;
+    const hci_status status = hci_free_shaft_check(&t->machine, &t->effects.list, run, 1, &t->loaded);
+    if (status != HCI_ERROR_INPUT)
+        return status == HCI_OK ? status : hci_note_set(note, status, "%s", t->loaded.text);
+    hci_memory_free(run->torque_Nm);
+    run->torque_Nm = NULL;
+    run->torque_source = HCI_TORQUE_NONE;
+    return HCI_OK;
+}
 
 static hci_status read_task(task *t, const char *machine, const char *run, hci_note *note)
 {
@@ -170,6 +185,7 @@ static hci_status read_task(task *t, const char *machine, const char *run, hci_n
     if (status == HCI_OK) status = hci_csv_read(run, &t->csv, note);
     if (status == HCI_OK)
         status = hci_run_of_csv(t->csv, t->machine.model.pole_pairs, t->machine.inertia_kgm2, &t->run, note);
+    if (status == HCI_OK) status = keep_free(t, note);
     return status;
 }
 
@@ -221,6 +237,7 @@ hci_status hci_predict_file(const char *machine, const char *run, const char *ou
         sum_up(&t.run, t.model, t.residual, prediction);
         add_remark(&prediction->remark, t.machine.remark.text);
         add_remark(&prediction->remark, t.run.remark.text);
+        add_remark(&prediction->remark, t.loaded.text);
         remark_missing(&t.run, &t.effects.list, &prediction->remark);
     }
     release_task(&t);

@@ -350,6 +350,7 @@ static hci_status torque_of_inertia(reader *r, double inertia_kgm2)
     for (size_t k = 0; k < run->count; ++k)
         run->torque_Nm[k] *= inertia_kgm2;
     run->torque_source = HCI_TORQUE_INERTIA;
+    remark(r, "no torque_Nm: as of a free shaft it is inertia x acceleration");
     return HCI_OK;
 }
 
@@ -381,13 +382,18 @@ static void remark_unused(reader *r)
     if (length > 0) remark(r, "columns not used: %s", list);
 }
 
-/* Neither angle nor voltages: most likely a column under another name. */
+/* Neither angle nor voltages: most likely a column under another name. Where voltages would do without an
+ * angle, one that may be either is refused all the same, and not passed over. */
 static hci_status check_columns(const reader *r)
 {
+    hci_note told = {{0}};
     double unused;
-    if (has(r, "theta_m_rad") || has(r, "theta_e_rad") || has(r, "va_V") || has(r, "vab_V")) return HCI_OK;
-    const hci_status status = hci_csv_check_clear(r->csv, r->note);
-    return status != HCI_OK ? status : hci_csv_number(r->csv, "theta_m_rad", 0, &unused, r->note);
+    if (has(r, "theta_m_rad") || has(r, "theta_e_rad")) return HCI_OK;
+    hci_status status = hci_csv_check_clear(r->csv, r->note);
+    if (status != HCI_OK || has(r, "va_V") || has(r, "vab_V")) return status;
+    status = hci_csv_number(r->csv, "theta_m_rad", 0, &unused, &told);
+    return status == HCI_OK ? status
+                            : hci_note_set(r->note, status, "%s; theta_e_rad will do as well", told.text);
 }
 
 static hci_status read_all(reader *r, double inertia_kgm2)

@@ -95,7 +95,8 @@ static double noise_of_spectrum(const hci_bench *b, size_t run)
 static hci_run_errors errors_of(const hci_bench *b, const hci_runs *runs, size_t run, const double *before,
                                 const double *after)
 {
-    hci_run_errors e = {.file = runs->run[run].name, .role = runs->role[run]};
+    hci_run_errors e = {
+        .file = runs->run[run].name, .role = runs->role[run], .source = runs->run[run].torque_source};
     const double spread = SIGMA_95 / sqrt(2.0 * samples_of(b, run));
     e.mean_torque_Nm = b->cells.figures[run].mean_torque_Nm;
     e.slip_rad = b->slip_rad[run];

@@ -147,20 +147,25 @@ hci_status hci_waveform_judge(const hci_waveform_task *t, const hci_turns *turns
 
 /* ---- cogging ---- */
 
+double hci_waveform_current_rms(const hci_run *run)
+{
+    double square_A2 = 0.0;
+    for (size_t k = 0; k < 3 * run->count; ++k)
+        square_A2 += run->i_A[k] * run->i_A[k];
+    return sqrt(square_A2 / (3.0 * (double)run->count));
+}
+
 /* What is left of the torque when that of the current is taken away. */
-static void cogging_values(const hci_waveform_task *t, double *value, double *current_rms)
+static void cogging_values(const hci_waveform_task *t, double *value)
 {
     const hci_run *run = t->run;
     const double constant =
         isnan(t->options->torque_constant_Nm_per_A) ? 0.0 : t->options->torque_constant_Nm_per_A;
-    double sum = 0.0;
     for (size_t k = 0; k < run->count; ++k) {
         const double theta = t->options->pole_pairs * run->theta_m_rad[k];
         const hci_dq i = hci_park(hci_clarke(run->i_A + 3 * k), theta);
         value[k] = run->torque_Nm[k] - constant * i.q;
-        sum += i.q * i.q + i.d * i.d;
     }
-    *current_rms = sqrt(sum / (double)run->count);
 }
 
 static hci_status check_cogging(const hci_waveform_task *t)
@@ -351,14 +356,15 @@ static hci_status judge_fit(const hci_waveform_task *t, const double *value, dou
     return status == HCI_ERROR_MEMORY ? hci_waveform_memory(t) : status;
 }
 
-static void remark_cogging(const hci_waveform_task *t, double current_rms)
+static void remark_cogging(const hci_waveform_task *t)
 {
     const hci_waveform *w = t->result;
-    if (isnan(t->options->torque_constant_Nm_per_A) && current_rms > 0.0)
+    const double rms_A = hci_waveform_current_rms(t->run);
+    if (isnan(t->options->torque_constant_Nm_per_A) && rms_A > 0.0)
         hci_waveform_remark(t,
                             "currents of %.3g A rms flow, and their torque is in the waveform; give "
                             "--torque-constant to take that of i_q away",
-                            current_rms);
+                            rms_A);
     if (w->step >= 1.0 && t->options->pole_pairs > 1)
         hci_waveform_remark(
             t, t->run->turn_known
@@ -376,8 +382,8 @@ static hci_status cogging_of(const hci_waveform_task *t, double *value, double *
 {
     hci_waveform *w = t->result;
     hci_turns turns = {.highest = 0};
-    double step, current_rms;
-    cogging_values(t, value, &current_rms);
+    double step;
+    cogging_values(t, value);
     hci_status status = find_turns(t, value, angle, &turns, &step);
     if (status == HCI_OK) {
         w->friction_Nm = hci_turns_half_difference(&turns, 0, &w->friction_error_Nm);
@@ -392,7 +398,7 @@ static hci_status cogging_of(const hci_waveform_task *t, double *value, double *
     }
     hci_turns_release(&turns);
     if (status == HCI_ERROR_MEMORY) return hci_waveform_memory(t);
-    if (status == HCI_OK) remark_cogging(t, current_rms);
+    if (status == HCI_OK) remark_cogging(t);
     return status;
 }
 

@@ -360,6 +360,17 @@ static hci_status compare_channels(const hci_waveform_task *t, const hci_turns *
 
 /* ---- the balanced part ---- */
 
+/* sin(θ + γ) has its rising zero where θ + γ is 0. */
+static void remark_zero(const hci_waveform_task *t, double phase_rad)
+{
+    hci_waveform_remark(t,
+                        "theta_e is 0 at %.4g rad of phase a's fundamental, not at its rising zero crossing: "
+                        "%s %.4g rad %s theta_e (%.4g rad %s theta_m)",
+                        phase_rad, phase_rad > 0.0 ? "add" : "subtract", fabs(phase_rad),
+                        phase_rad > 0.0 ? "to" : "from", fabs(phase_rad) / t->options->pole_pairs,
+                        phase_rad > 0.0 ? "to" : "from");
+}
+
 static hci_status judge_balanced(const hci_waveform_task *t, const hci_turns *turns, const emf_work *w)
 {
     hci_turns part = *turns;
@@ -375,21 +386,15 @@ static hci_status judge_balanced(const hci_waveform_task *t, const hci_turns *tu
     const double phase = hci_phase_rad(fundamental.mean.sine, fundamental.mean.cosine);
     const double error = fundamental.std_error / length_of(fundamental.mean);
     if (status == HCI_OK && !w->by_clock && fabs(phase) > fmax(0.01, TIMES_ERROR * error))
-        hci_waveform_remark(t,
-                            "the angle is 0 at %.4g rad of phase a's fundamental, not at its rising zero "
-                            "crossing; take that away from theta_e",
-                            phase);
+        remark_zero(t, phase);
     return status;
 }
 
 static void remark_currents(const hci_waveform_task *t)
 {
-    double square = 0.0;
-    for (size_t k = 0; k < 3 * t->run->count; ++k)
-        square += t->run->i_A[k] * t->run->i_A[k];
-    if (square > 0.0)
-        hci_waveform_remark(t, "currents of %.3g A rms flow: what they drop is in the voltages",
-                            sqrt(square / (double)t->run->count));
+    const double rms_A = hci_waveform_current_rms(t->run);
+    if (rms_A > 0.0)
+        hci_waveform_remark(t, "currents of %.3g A rms flow: what they drop is in the voltages", rms_A);
 }
 
 static hci_status back_emf_of(const hci_waveform_task *t, emf_work *w)

@@ -32,6 +32,9 @@ hci_status hci_waveform_refuse(const hci_waveform_task *t, const char *found, co
                                const char *remedy);
 hci_status hci_waveform_memory(const hci_waveform_task *t);
 
+/* Of the phase currents, A: √((i_a² + i_b² + i_c²)/3) of the mean squares; 1/√2 of the peak of a sine. */
+double hci_waveform_current_rms(const hci_run *run);
+
 /* hci_turns_fit of turns whose orders are `step` electrical ones apart, up to the order that is asked for. */
 hci_status hci_waveform_turns(const hci_waveform_task *t, const hci_turn_samples *samples, double step,
                               hci_turns *turns);

@@ -45,6 +45,7 @@ typedef struct {
 typedef struct {
     const char *file;                   /* belongs to the runs */
     hci_role role;                      /* fitted, or held out */
+    hci_torque_source source;           /* where its torque is from */
     double mean_torque_Nm;              /* of the recording */
     double rms_before_Nm, rms_after_Nm; /* of measured less modelled torque: declared and corrected machine */
     double after_low_Nm, after_high_Nm; /* 95 % confidence interval of rms_after_Nm */
@@ -106,7 +107,9 @@ typedef struct {
 } hci_diagnosis;
 
 /* Finds what is missing. HCI_OK; HCI_NOT_REACHED when the verdict is ambiguous or unknown; or an error with a
- * note, and then *diagnosis is empty. HCI_ERROR_INPUT when no run to be fitted has a torque. runs: kept as
+ * note, and then *diagnosis is empty. HCI_ERROR_INPUT when no run to be fitted has a torque, when a run
+ * without a torque column is no free shaft, and when the effects take more than half of the declared torque
+ * per ampere away, which nobody would believe. runs: kept as
  * long as the diagnosis. */
 hci_status hci_diagnose(const hci_machine_data *machine, const hci_effects *declared, const hci_runs *runs,
                         const hci_diagnose_options *options, hci_diagnosis *diagnosis, hci_note *note);
