@@ -43,7 +43,7 @@ static const char *sure(double probability, char text[32])
 static void show_verdict(const hci_check *c)
 {
     const size_t found = found_count(c), possible = c->findings - found;
-    char text[32], more[32] = "";
+    char text[32], more[64] = "";
     if (possible > 0) snprintf(more, sizeof more, ", %zu more possible", possible);
     switch (c->verdict) {
     case HCI_CHECK_CONSISTENT:
@@ -93,8 +93,8 @@ static void show_evidence_of(const hci_check *c, hci_check_state state, const ch
     for (size_t k = 0; k < c->evidences; ++k) {
         const hci_check_evidence *e = &c->evidence[k];
         if (e->state != state) continue;
-        if (shown++ == 0) cli_say("\n  %s\n    %9s %9s %9s\n", title, "declared", "as read", "expected");
-        cli_say("    %9.4g %9.4g %9s  %s\n", e->declared, e->as_read, expected_of(e, text), e->words);
+        if (shown++ == 0) cli_say("\n  %s\n    %10s %10s %9s\n", title, "declared", "as read", "expected");
+        cli_say("    %10.4g %10.4g %9s  %s\n", e->declared, e->as_read, expected_of(e, text), e->words);
     }
 }
 
@@ -130,6 +130,7 @@ static void show(const hci_check *c)
         show_finding(&c->finding[k]);
     show_evidence_of(c, HCI_CHECK_MENDED, "evidence: does not agree as declared, and does as read");
     show_evidence_of(c, HCI_CHECK_BETTER, "better as read, but still off");
+    show_evidence_of(c, HCI_CHECK_MENDABLE, "still off as read, and met with a slip that is possible");
     show_evidence_of(c, HCI_CHECK_WORSE, "speaks against it: agrees as declared, and not as read");
     show_evidence_of(c, HCI_CHECK_UNMENDED, "not understood: agrees in no reading");
     show_evidence_of(c, HCI_CHECK_AGREES, "checked and consistent");

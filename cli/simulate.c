@@ -94,7 +94,6 @@ static void show_control(const hci_simulation *s)
 
 typedef struct {
     const hci_simulation *simulation;
-    const hci_judgement *before; /* of the plain fundamental; no orders: there is none */
     double largest_Nm;
     size_t pick[CLI_MOST_ROWS];
 } spectrum;
@@ -106,9 +105,9 @@ static double amplitude(hci_harmonic h)
 
 static double before_Nm(const spectrum *s, double order)
 {
-    for (size_t k = 0; k < s->before->order_count; ++k)
-        if (fabs(s->before->torque_Nm[k].order - order) < HCI_ORDER_TOLERANCE)
-            return amplitude(s->before->torque_Nm[k]);
+    for (size_t k = 0; k < s->simulation->plain.order_count; ++k)
+        if (fabs(s->simulation->plain.torque_Nm[k].order - order) < HCI_ORDER_TOLERANCE)
+            return amplitude(s->simulation->plain.torque_Nm[k]);
     return 0.0;
 }
 
@@ -126,14 +125,14 @@ static void spectrum_row(const void *context, size_t row, cli_cell cell[])
     snprintf(cell[0].text, sizeof cell[0].text, "%.5g", h.order);
     cli_number_text(amplitude(h), s->largest_Nm, cell[1].text, sizeof cell[1].text);
     cell[2].value = amplitude(h);
-    if (s->before->order_count == 0) return;
+    if (s->simulation->plain.order_count == 0) return;
     cell[3] = cell[1];
     cell[4] = cell[2];
     cli_number_text(before_Nm(s, h.order), s->largest_Nm, cell[1].text, sizeof cell[1].text);
     cell[2].value = before_Nm(s, h.order);
 }
 
-static void show_spectrum(const hci_simulation *s, const hci_judgement *before)
+static void show_spectrum(const hci_simulation *s)
 {
     static const cli_column ALONE[] = {
         {CLI_RIGHT, "order" },
@@ -147,9 +146,9 @@ static void show_spectrum(const hci_simulation *s, const hci_judgement *before)
         {CLI_RIGHT, "after" },
         {CLI_BAR,   ""      }
     };
-    const bool compared = before->order_count > 0;
+    const bool compared = s->plain.order_count > 0;
     char caption[256];
-    spectrum x = {.simulation = s, .before = before};
+    spectrum x = {.simulation = s};
     const size_t rows = cli_pick(largest_of, &x, s->spectrum_count, 5e-3, x.pick, NULL);
     size_t length =
         (size_t)snprintf(caption, sizeof caption, "torque ripple by electrical order, N·m (peak)");
@@ -158,7 +157,7 @@ static void show_spectrum(const hci_simulation *s, const hci_judgement *before)
     if (compared)
         snprintf(caption + length, sizeof caption - length,
                  "; before: the plain fundamental of %.4g A as it should flow, T_ripple %.4g %%",
-                 s->plain_amplitude_A, before->T_ripple_percent);
+                 s->plain_amplitude_A, s->plain.T_ripple_percent);
     cli_draw(&(cli_chart){.caption = caption,
                           .column = compared ? COMPARED : ALONE,
                           .columns = compared ? 5 : 3,
@@ -168,27 +167,7 @@ static void show_spectrum(const hci_simulation *s, const hci_judgement *before)
                           .unit = "N·m"});
 }
 
-/* Torque of the sine that would make the same mean torque: what the ripple is compared with. */
-static void judge_plain(const hci_machine_data *machine, const hci_effects *effects, const hci_simulation *s,
-                        hci_judgement *before)
-{
-    const hci_target none = {NULL, 0};
-    hci_note note = {{0}};
-    *before = (hci_judgement){0};
-    for (size_t k = 0; k < machine->model.back_emf_count; ++k) {
-        const hci_wave e = machine->model.back_emf[k];
-        const double size = hypot(e.sine, e.cosine);
-        if (fabs(e.order - 1.0) > HCI_ORDER_TOLERANCE || e.sequence != 1 || !(size > 0.0)) continue;
-        if (!(s->plain_amplitude_A > 0.0) || !isfinite(s->T_ripple_percent)) continue;
-        const double sign = s->torque_Nm.mean < 0.0 ? -1.0 : 1.0, a = sign * s->plain_amplitude_A / size;
-        const hci_wave plain = {1.0, 1, a * e.sine, a * e.cosine};
-        if (hci_judge_currents(machine, effects, &plain, 1, &none, before, &note))
-            *before = (hci_judgement){0};
-        return;
-    }
-}
-
-static void show(const hci_simulation *s, const hci_judgement *before, const cli_arguments *a)
+static void show(const hci_simulation *s, const cli_arguments *a)
 {
     const bool doubtful = !s->energy_balances || s->limited > 0 || s->without_current > 0;
     cli_say("%ssimulated" CLI_PLAIN ": %s, %s\n", doubtful ? CLI_WARN : CLI_GOOD, a->word[0], a->word[1]);
@@ -202,7 +181,7 @@ static void show(const hci_simulation *s, const hci_judgement *before, const cli
     show_torque(s);
     show_loss(s);
     show_control(s);
-    show_spectrum(s, before);
+    show_spectrum(s);
 }
 
 /* ---- the command ---- */
@@ -235,14 +214,11 @@ static hci_status simulate(const cli_arguments *a, const hci_machine_data *machi
                                         .scenario = a->word[1],
                                         .currents = scenario->currents[0] ? scenario->currents : NULL};
     hci_simulation simulation;
-    hci_judgement before;
     hci_status status = hci_simulate_with_report(machine, scenario, &options,
                                                  a->given[REPORT] ? &sources : NULL, &simulation, note);
     cli_progress_end();
     if (!status && cli_is_wordy()) {
-        judge_plain(machine, effects, &simulation, &before);
-        show(&simulation, &before, a);
-        hci_judgement_release(&before);
+        show(&simulation, a);
         cli_remark(&machine->remark);
         cli_remark(&simulation.remark);
     }

@@ -53,6 +53,8 @@ check "no list of runs" grep -q 'List of runs: runs.csv<' out/report.html
 check "figures do not say what they were made from" [ "$(grep -c 'Made from: machine, runs.csv\.' out/report.html)" -eq "$(grep -c '<figure>' out/report.html)" ]
 check "cogging was not found" grep -q '^1,cogging,added,' out/effects.csv
 check "the verdict is not that of the summary" grep -q 'The model lacked cogging' out/report.html
+check "a fall of 0 that nobody computed" [ "$(grep -c ',rejected,0,' out/effects.csv)" -eq 0 ]
+check "nothing was rejected" grep -q ',rejected,,,""' out/effects.csv
 column out/errors.csv 3 4 5 6 7 8 >"$work/numbers"
 holds out/report.html
 column out/effects.csv 4 >"$work/numbers"
@@ -93,6 +95,12 @@ sed -n '2p' "$work/imposed/spectrum.csv" | tr ',' '\n' | sed -n '2,3p' >"$work/n
 holds "$work/imposed/report.html"
 sed -n 's/.*"mean_Nm":[[:space:]]*\([-0-9.e+]*\),*$/\1/p' "$work/imposed/summary.json" | sed 's/0*$//' >"$work/mean"
 check "the mean is not that of the summary" grep -Fq "<data value=\"$(cut -c 1-12 "$work/mean")" "$work/imposed/report.html"
+check "imposed currents taken for a strategy" [ "$(grep -c 'A strategy asks' "$work/imposed/report.html")" -eq 0 ]
+run 0 simulate data/machine_a data/drive/imposed.csv -o "$work/again" --report
+plain=$(sed -n 's/.*of 11.76 A as it should flow, T_ripple \([0-9]*\)\..*/\1/p' "$work/stderr")
+check "the terminal names no ripple before" [ -n "$plain" ]
+check "the page has another ripple before" grep -q "<b>$plain → " "$work/imposed/report.html"
+check "another order before" [ "$(awk '$1 == 6 { print $2 }' "$work/stderr")" = "$(sed -n 's|.*>6</data></td><td><data value="\([0-9.]\{6\}\).*|\1|p' "$work/imposed/report.html" | head -n 1)" ]
 run 0 simulate data/machine_a data/drive/imposed.csv -q -o "$work/imposed"
 check "the page of an earlier simulation" [ ! -e "$work/imposed/report.html" ]
 

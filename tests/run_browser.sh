@@ -22,6 +22,14 @@ cd "$source_dir" || exit 1
 run 0 solve data/machine_a --target data/scenarios/02/target.csv --auto -q -o "$work/solve" --report
 run 0 simulate data/machine_c data/drive/filho_strategy_3.csv -q -o "$work/simulate" --report
 run 0 diagnose data/fem_c/machine --runs data/fem_c/runs.csv -q -o "$work/diagnose"
+# orders that are no whole numbers, a torque of 50 mN.m with a ripple of a thousandth of it, and names that are long
+printf 'name,value,unit,source\npole_pairs,12,1,test\n' >"$work/machine.csv"
+mkdir -p "$work/small" && mv "$work/machine.csv" "$work/small/machine.csv"
+printf 'order,amplitude_Nm_per_A,phase_rad\n1,0.0184,0\n' >"$work/small/back_emf.csv"
+printf 'order,amplitude_Nm,phase_rad\n1.0833333333333333,3e-5,1\n4.583333333333333,1e-5,1\n5.916666666666667,1e-5,2\n6,5e-5,0.7\n6.083333333333333,1e-5,0\n' >"$work/small/cogging.csv"
+printf 'order,set,amplitude_A,phase_rad\n1,pos,1.814,0\n' >"$work/sine.csv"
+printf 'name,value,unit\nduration,2.1,s\nprescribed_speed,30,rpm\ncurrent_control,ideal,\nencoder_counts,20000,\n' >"$work/turn.csv"
+run 0 simulate "$work/small" "$work/turn.csv" --currents "$work/sine.csv" -q -o "$work/small_simulated" --report
 printf 'order,set\n1,pos\n5,neg\n' >"$work/set.csv"
 run 1 solve data/machine_a --target data/scenarios/02/target.csv --harmonics "$work/set.csv" -q -o "$work/missed" --report
 
@@ -45,6 +53,8 @@ spoil light role 'torque-title: no role' 's/role="img"/role="presentation"/'
 spoil light title 'vector-title: no title' 's/<title id="vector-title">[^<]*/<title id="vector-title">/'
 spoil light description 'system-title: no description' 's/id="system-desc"/id="nothing"/'
 spoil light table 'torque-title: no table follows' 's|<tbody>|<tbody hidden=""></tbody>&|'
+spoil light cut 'torque-title: cut off: ' 's/<text class="quiet end" x="[0-9.]*"/<text class="quiet end" x="14"/'
+spoil light over 'spectrum-title: over another text: ' '/id="spectrum-title"/,/<\/svg>/s/<text class="quiet middle" x="[0-9.]*"/<text class="quiet middle" x="300"/'
 spoil light sources 'spectrum-title: no sources' 's/ Made from: [^<]*//'
 spoil light headings 'headings are not in order' 's/<h2>/<h4>/'
 spoil light unnamed 'cannot be scrolled by keys' 's/class="table" tabindex="0"/class="table"/'

@@ -72,12 +72,13 @@ clean() {
 
 says_nothing_of_the_build() {
     for place in "$built" "$build" "$source_dir" "$work/first"; do
-        if grep -rlF -e "$place" "$1"; then
+        # as a path of its own: the last part of a short one, such as /src, stands in many words
+        if grep -rlE -e "(^|[^A-Za-z0-9_./-])$place(/|[^A-Za-z0-9_.-]|\$)" "$1"; then
             fail "the files above name $place"
         fi
     done
     strings "$1/bin/hci-solve" | grep -E '^/(home|root|tmp)/' && fail "the program names a folder"
-    find "$1" -name '*.gz' -exec gzip -dc {} + | grep -F -e "$source_dir" -e "$built" && fail "a compressed file names the build"
+    find "$1" -name '*.gz' -exec gzip -dc {} + | grep -E -e "(^|[^A-Za-z0-9_./-])($source_dir|$built)/" && fail "a compressed file names the build"
     return 0
 }
 

@@ -118,7 +118,9 @@ static const char HEADER[] = "time_s,theta_m_rad,speed_rad_per_s,ia_A,ib_A,ic_A,
 /* Both recordings with the same mistake, or only the one under load. */
 static hci_status check_runs(const char *header, mistake *wrong, bool unloaded)
 {
-    const char *run[2] = {path[paths], path[paths + 1]};
+    static const char *run[2]; /* what check.run points to */
+    run[0] = path[paths];
+    run[1] = path[paths + 1];
     write_run("load.csv", header, -2.0, 10.0, wrong);
     if (unloaded) write_run("back.csv", header, 0.0, 0.0, wrong);
     return hci_check_files(folder, run, unloaded ? 2 : 1, &check, &note);
@@ -155,6 +157,20 @@ static bool is_named(const hci_check_finding *f, const char *slip)
     for (size_t k = 0; k < f->alternatives; ++k)
         if (strcmp(f->alternative[k], slip) == 0) return true;
     return strcmp(f->slip, slip) == 0;
+}
+
+static bool is_gap(const char *name)
+{
+    for (size_t k = 0; k < check.gaps; ++k)
+        if (strcmp(check.gap[k].name, name) == 0) return true;
+    return false;
+}
+
+static bool is_untold(const char *slip)
+{
+    for (size_t k = 0; k < check.untolds; ++k)
+        if (strcmp(check.untold[k], slip) == 0) return true;
+    return false;
 }
 
 /* ---- a correct machine */
@@ -482,6 +498,101 @@ static void test_slips_of_dq_currents(void)
     expect_only("current_dq_rms");
 }
 
+/* As a drive logs it: v_d = R i_d − ω L i_q, v_q = R i_q + ω L i_d + k_e ω_m, and the electrical speed. */
+static void put_drive(sample *x, double i_d, double i_q, double factor)
+{
+    const double p = 4.0, k_e = 0.1, R = 0.2, L = 1e-3, reactance = p * x->speed * L;
+    x->i[0] = factor * i_d;
+    x->i[1] = factor * i_q;
+    x->v[0] = factor * (R * i_d - reactance * i_q);
+    x->v[1] = factor * (R * i_q + reactance * i_d + k_e * x->speed);
+    x->speed *= p;
+}
+
+/* What the bench makes without current has no torque. */
+static bool is_loaded(const sample *x)
+{
+    return x->torque_Nm > 0.0;
+}
+
+MISTAKE(drive, put_drive(x, is_loaded(x) ? -2.0 : 0.0, is_loaded(x) ? 10.0 : 0.0, 1.0))
+MISTAKE(drive_without_id, put_drive(x, 0.0, is_loaded(x) ? 10.0 : 0.0, 1.0))
+MISTAKE(drive_power_invariant,
+        put_drive(x, is_loaded(x) ? -2.0 : 0.0, is_loaded(x) ? 10.0 : 0.0, 1.2247448714))
+MISTAKE(drive_rms, put_drive(x, is_loaded(x) ? -2.0 : 0.0, is_loaded(x) ? 10.0 : 0.0, 0.7071067812))
+MISTAKE(drive_slowly, x->speed *= 0.1; x->time_s *= 10.0; drive(x))
+MISTAKE(drive_voltages_out, drive(x); times(x->v, -1.0))
+
+static const char DRIVE[] = "time_s,theta_m_rad,speed_e_rad_per_s,id_A,iq_A,,vd_V,vq_V,,torque_Nm";
+
+static void test_the_log_of_a_drive(void)
+{
+    write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, check_runs(DRIVE, drive, true), note.text);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, 1.0, evidence("angle_speed"));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, 1.0, evidence("emf_size"));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0.0, evidence("emf_angle"));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, 1.0, evidence("resistance_size"));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, 1.0, evidence("power_balance"));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, 1.0, evidence("torque_size"));
+    TEST_ASSERT_FALSE(is_untold("poles_for_pole_pairs"));
+}
+
+static void expect_slip_of_a_drive(const char *slip, const char *from, const char *to, mistake *wrong)
+{
+    char machine[sizeof MACHINE + 64];
+    strcpy(machine, MACHINE);
+    change(machine, from, to);
+    write_machine(machine, "amplitude_Nm_per_A", 0.1, 0.0);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_NOT_REACHED, check_runs(DRIVE, wrong, true), note.text);
+    expect_only(slip);
+    remove_files();
+}
+
+static void test_slips_in_the_log_of_a_drive(void)
+{
+    expect_slip_of_a_drive("poles_for_pole_pairs", "pole_pairs,4", "pole_pairs,8", drive);
+    expect_slip_of_a_drive("resistance_line", "resistance,0.2", "resistance,0.4", drive_slowly);
+    expect_slip_of_a_drive("current_power_invariant", "", "", drive_power_invariant);
+    expect_slip_of_a_drive("current_dq_rms", "", "", drive_rms);
+    expect_slip_of_a_drive("voltage_sign", "", "", drive_voltages_out);
+    TEST_ASSERT_EQUAL_STRING("vq_V", check.finding[0].column);
+}
+
+/* From 50 to −20 rad/s, driving with 10 A forward and 6 A backward. */
+static void turn_round(sample *x)
+{
+    const double whole_s = 2.0 * PI / 200.0 * 4.0, share = x->time_s / whole_s;
+    const double speed = 50.0 - 70.0 * share, i_q = speed > 0.0 ? 10.0 : -6.0;
+    x->theta = 0.3 + whole_s * (50.0 * share - 35.0 * share * share);
+    x->speed = speed;
+    x->torque_Nm = 0.15 * i_q;
+    put_drive(x, -1.0, i_q, 1.0);
+}
+
+static void test_a_speed_that_changes_its_sign(void)
+{
+    write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, check_runs(DRIVE, turn_round, false), note.text);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, 1.0, evidence("emf_size"));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0.0, evidence("emf_angle"));
+}
+
+/* v_d that nobody recorded is not 0: only 3/2 v_q i_q is left, and it is the power where no i_d flows. */
+static void test_v_q_alone(void)
+{
+    static const char ALONE[] = "time_s,theta_m_rad,speed_e_rad_per_s,id_A,iq_A,,,vq_V,,torque_Nm";
+    write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, check_runs(ALONE, drive_without_id, true), note.text);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, 1.0, evidence("power_balance"));
+    TEST_ASSERT_TRUE(is_gap("emf_size") && is_gap("emf_angle") && is_gap("resistance_size"));
+    TEST_ASSERT_NOT_NULL(strstr(check.remark[0].text, "v_q without v_d"));
+    remove_files();
+    write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, check_runs(ALONE, drive, true), note.text);
+    TEST_ASSERT_TRUE(is_gap("power_balance") && is_gap("emf_size"));
+}
+
 /* Without voltages nothing tells a current that is counted out of the machine from a torque that is. */
 static void test_signs_that_look_alike_are_all_named(void)
 {
@@ -561,6 +672,99 @@ static void test_the_place_is_the_header(void)
     TEST_ASSERT_EQUAL_STRING("ia", check.finding[0].column);
 }
 
+static void expect_in_json(const char *text)
+{
+    char *json = hci_check_json(&check);
+    TEST_ASSERT_NOT_NULL(json);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(json, text), json);
+    hci_text_free(json);
+}
+
+static void test_how_a_recording_was_read_is_said(void)
+{
+    write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
+    check_runs("time_s,theta_m_rad,speed_rad_per_s,Coil-U(A),Coil-V(A),Coil-W(A),va_V,vb_V,odd,torque_Nm",
+               none, true);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(check.remark[0].text, "`Coil-U(A)` is read as"),
+                                 check.remark[0].text);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(check.remark[1].text, "columns not used: `va_V`, `vb_V`, `odd`"),
+                                 check.remark[1].text);
+    expect_in_json("\"remark\":\t\"`Coil-U(A)` is read as");
+    remove_files();
+    write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
+    check_runs(HEADER, none, true);
+    TEST_ASSERT_EQUAL_STRING("", check.remark[0].text);
+    TEST_ASSERT_EQUAL_STRING("", check.remark[1].text);
+}
+
+static void test_an_angle_of_either_kind_is_refused(void)
+{
+    write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
+    TEST_ASSERT_EQUAL(
+        HCI_ERROR_INPUT,
+        check_runs("time_s,theta,speed_rad_per_s,ia_A,ib_A,ic_A,va_V,vb_V,vc_V,torque_Nm", none, false));
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(note.text, "theta_m or theta_e"), note.text);
+    remove_files();
+    memset(&note, 0, sizeof note);
+    write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT,
+                      check_runs("time_s,x,speed_rad_per_s,ia_A,ib_A,ic_A,,,,torque_Nm", none, false));
+    TEST_ASSERT_NOT_NULL_MESSAGE(
+        strstr(note.text, "theta_m_rad") && strstr(note.text, "theta_e_rad") ? note.text : NULL, note.text);
+}
+
+/* A table and nothing else: its k_e may be any reading's, while a phase of π/2 would show. */
+static void test_what_leaves_no_trace_is_said(void)
+{
+    write_machine("name,value,unit\npole_pairs,4,1\nresistance,0.2,ohm\n", "amplitude_Nm_per_A", 0.1, 0.0);
+    TEST_ASSERT_EQUAL(HCI_OK, check_machine());
+    TEST_ASSERT_TRUE(is_untold("poles_for_pole_pairs") && is_untold("emf_line") &&
+                     is_untold("resistance_line"));
+    TEST_ASSERT_FALSE(is_untold("angle_zero_q_axis") || is_untold("emf_orders_mechanical"));
+    TEST_ASSERT_FALSE(is_untold("voltage_line") ||
+                      is_untold("current_sign")); /* nothing that could have it */
+    expect_in_json("\"untold\":\t[\"poles_for_pole_pairs\"");
+    remove_files();
+    write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
+    TEST_ASSERT_EQUAL(HCI_OK, check_runs(HEADER, none, true));
+    TEST_ASSERT_EQUAL_MESSAGE(0, (int)check.untolds, check.untolds > 0 ? check.untold[0] : "");
+}
+
+/* The cogging orders are held against the slots where these are known. */
+static void test_a_relation_that_another_replaces_is_no_gap(void)
+{
+    write_machine("name,value,unit\npole_pairs,4,1\nslots,24,1\n", "amplitude_Nm_per_A", 0.1, 0.0);
+    write_file("cogging.csv", "order,amplitude_Nm,phase_rad\n6,0.05,0.7\n");
+    TEST_ASSERT_EQUAL(HCI_OK, check_machine());
+    TEST_ASSERT_FALSE(is_gap("cogging_slots"));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 1.0, evidence("cogging_first"));
+}
+
+static hci_check_state state(const char *name)
+{
+    for (size_t k = 0; k < check.evidences; ++k)
+        if (strcmp(check.evidence[k].name, name) == 0) return check.evidence[k].state;
+    TEST_FAIL_MESSAGE(name);
+    return HCI_CHECK_AGREES;
+}
+
+/* 0.19 = 1.1·√3·0.1, line to line of magnets that are a tenth stronger than they measure: two standard
+ * deviations. Of 0.1·√3 nothing is left. */
+static void test_what_is_nearer_is_not_called_mended(void)
+{
+    write_machine(MACHINE, "amplitude_Nm_per_A", 0.1732050808, 0.0);
+    check_runs(HEADER, none, true);
+    TEST_ASSERT_EQUAL(HCI_CHECK_MENDED, state("emf_size"));
+    remove_files();
+    write_machine(MACHINE, "amplitude_Nm_per_A", 0.1905255888, 0.0);
+    check_runs(HEADER, none, true);
+    expect_only("emf_line");
+    TEST_ASSERT_EQUAL(HCI_CHECK_BETTER, state("emf_size"));
+    TEST_ASSERT_EQUAL(HCI_CHECK_AGREES, state("rated_voltage"));
+    TEST_ASSERT_TRUE(check.evidence[0].expected > 0.0 && !check.evidence[0].at_most); /* emf_order */
+    expect_in_json("\"state\":\t\"better\"");
+}
+
 static void test_wrong_input_is_said(void)
 {
     write_file("machine.csv", "name,value,unit\npole_pairs,2.5,1\n");
@@ -598,12 +802,21 @@ int main(void)
     RUN_TEST(test_slips_of_recordings);
     RUN_TEST(test_mechanical_angle_under_electrical_name);
     RUN_TEST(test_slips_of_dq_currents);
+    RUN_TEST(test_the_log_of_a_drive);
+    RUN_TEST(test_slips_in_the_log_of_a_drive);
+    RUN_TEST(test_a_speed_that_changes_its_sign);
+    RUN_TEST(test_v_q_alone);
     RUN_TEST(test_signs_that_look_alike_are_all_named);
     RUN_TEST(test_two_slips_at_once);
     RUN_TEST(test_what_no_slip_explains_is_said);
     RUN_TEST(test_data_of_the_project_are_consistent);
     RUN_TEST(test_measured_data);
     RUN_TEST(test_the_place_is_the_header);
+    RUN_TEST(test_how_a_recording_was_read_is_said);
+    RUN_TEST(test_an_angle_of_either_kind_is_refused);
+    RUN_TEST(test_what_leaves_no_trace_is_said);
+    RUN_TEST(test_a_relation_that_another_replaces_is_no_gap);
+    RUN_TEST(test_what_is_nearer_is_not_called_mended);
     RUN_TEST(test_wrong_input_is_said);
     RUN_TEST(test_out_of_memory);
     return UNITY_END();

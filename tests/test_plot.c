@@ -491,17 +491,138 @@ static void test_nothing_is_allocated(void)
     TEST_ASSERT_EQUAL(HCI_OK, hci_output_commit(out, &note));
 }
 
-static void test_text_is_escaped(void)
+static hci_output *begin_part(void)
 {
     hci_output *out;
     hci_note note = {{0}};
     TEST_ASSERT_EQUAL(HCI_OK, hci_output_open(folder, &out, &note));
     TEST_ASSERT_EQUAL(HCI_OK, hci_output_file(out, "p.svg", &note));
-    hci_svg_label(out, "head", 1.005, -2.0, "a<b>&\"c\" i_q in A");
+    return out;
+}
+
+static void end_part(hci_output *out)
+{
+    hci_note note = {{0}};
     TEST_ASSERT_EQUAL(HCI_OK, hci_output_commit(out, &note));
     FILE *file = fopen(path, "rb");
     picture[fread(picture, 1, sizeof picture - 1, file)] = '\0';
     fclose(file);
+}
+
+/* Of digits, a point and a minus sign at 12 px in DejaVu Sans, by the advances in its metrics. */
+static double width_of(const char *text)
+{
+    double width = 0.0;
+    for (; *text && *text != '<'; ++text)
+        if (((unsigned char)*text & 0xC0u) != 0x80u)
+            width += 12.0 * (*text == '.'                  ? 0.318
+                             : *text == 'e'                ? 0.615
+                             : (unsigned char)*text >= 128 ? 0.838
+                                                           : 0.636);
+    return width;
+}
+
+/* The numbers of an axis by their values: plain ones where they are not small, all in one notation, and each
+ * within the picture, of which the box leaves 58 pixels at the left and 12 at the right. */
+static void test_numbers_of_an_axis(void)
+{
+    static const struct {
+        hci_svg_range r;
+        const char *is[2], *is_not;
+    } CASE[] = {
+        {{0.049918, 0.050083},     {">0.05000<", ">0.05005<"},       "e-"  },
+        {{0.0, 1.2e-6},            {">0<", ">1.0e-6<"},              "e-7" },
+        {{-3e-4, 3e-4},            {">−0.0002<", ">0.0002<"},      "e-"  },
+        {{1e4 - 1e-3, 1e4 + 1e-3}, {">10000.0000<", ">10000.0005<"}, "e"   },
+        {{0.0, 3e6},               {">0<", ">2e6<"},                 "000<"},
+        {{0.0, 0.0021},            {">0.000", ">0.002"},             "e-"  },
+    };
+    for (size_t k = 0; k < sizeof CASE / sizeof *CASE; ++k) {
+        hci_output *out = begin_part();
+        const hci_svg_box room = {58.0, 0.0, 400.0, 200.0};
+        const hci_svg_axis y = hci_svg_axis_over(CASE[k].r, 200.0, 0.0, 6.0);
+        const hci_svg_box b = hci_svg_box_beside(room, &y);
+        const hci_svg_axis x = {0.0, 2e5, b.left, b.right, 1e5};
+        hci_svg_grid(out, &y, &b, true);
+        hci_svg_grid(out, &x, &b, false);
+        end_part(out);
+        for (size_t j = 0; j < 2; ++j)
+            TEST_ASSERT_NOT_NULL_MESSAGE(strstr(picture, CASE[k].is[j]), CASE[k].is[j]);
+        for (const char *at = picture; (at = strstr(at, "<text class=\"quiet ")); ++at) {
+            const bool upright = strncmp(at + 19, "end", 3) == 0;
+            const double place = strtod(strstr(at, "x=\"") + 3, NULL), width = width_of(strchr(at, '>') + 1);
+            TEST_ASSERT_TRUE(upright ? place - width > 0.0 : place + 0.5 * width <= 412.0);
+            if (!upright) continue;
+            const char *odd = strstr(strchr(at, '>'), CASE[k].is_not);
+            TEST_ASSERT_TRUE_MESSAGE(!odd || odd > strstr(at, "</text>") + 1, CASE[k].is_not);
+        }
+    }
+}
+
+/* Labels under an axis: none over another one of its row, in as few rows as will do, and not thinned without
+ * need. */
+static void test_labels_make_room(void)
+{
+    static const struct {
+        double pitch, first, step;
+        size_t rows, shown;
+    } CASE[] = {
+        {40.0, 6.0,   6.0,       1, 24},
+        {17.0, 1.5,   1.5,       2, 24},
+        {14.7, 4.583, 1.0833333, 2, 12},
+        {3.0,  4.583, 1.0833333, 2, 4 },
+    };
+    for (size_t k = 0; k < sizeof CASE / sizeof *CASE; ++k) {
+        hci_svg_tag tag[24];
+        double end[2] = {-1e9, -1e9}, row_y[2] = {NAN, NAN};
+        size_t shown = 0;
+        hci_output *out = begin_part();
+        for (size_t j = 0; j < 24; ++j) {
+            tag[j].x = 100.0 + CASE[k].pitch * (double)j;
+            tag[j].style = "quiet middle";
+            hci_svg_short_text(tag[j].text, CASE[k].first + CASE[k].step * (double)j);
+        }
+        hci_svg_tags(out, tag, 24, 300.0);
+        end_part(out);
+        for (const char *at = picture; (at = strstr(at, "<text class=\"quiet middle\"")); ++at, ++shown) {
+            const double x = strtod(strstr(at, "x=\"") + 3, NULL), y = strtod(strstr(at, " y=\"") + 4, NULL);
+            const double half = 0.5 * width_of(strchr(at, '>') + 1);
+            const size_t row = !isnan(row_y[0]) && y != row_y[0];
+            TEST_ASSERT_TRUE(isnan(row_y[row]) || row_y[row] == y);
+            TEST_ASSERT_TRUE(x - half > end[row]);
+            row_y[row] = y;
+            end[row] = x + half;
+        }
+        TEST_ASSERT_EQUAL_UINT64(CASE[k].shown, shown);
+        TEST_ASSERT_EQUAL_UINT64(CASE[k].rows, isnan(row_y[1]) ? 1 : 2);
+    }
+}
+
+/* A name in bold has fewer letters in the same room; one that fits is whole. */
+static void test_names_fit(void)
+{
+    static const char NAME[] = "recordings/speed_control.csv";
+    hci_output *out = begin_part();
+    hci_svg_name(out, "quiet end", 0.0, 0.0, NAME, 162.0);
+    hci_svg_name(out, "head end", 0.0, 0.0, NAME, 162.0);
+    hci_svg_name(out, "head end", 0.0, 0.0, NAME, 400.0);
+    hci_svg_name(out, "quiet", 0.0, 0.0, "Größe", 1.0);
+    end_part(out);
+    const char *quiet = find(">…", 0), *bold = find(">…", 1),
+               *whole = find(">recordings/speed_control.csv<", 0);
+    const size_t letters = strcspn(quiet + 1, "<"), letters_bold = strcspn(bold + 1, "<");
+    TEST_ASSERT_TRUE(quiet < bold && bold < whole);
+    TEST_ASSERT_TRUE(letters_bold < letters && letters < sizeof NAME);
+    /* letters of 13 px in bold are 8.6 wide in this name on average: advances of DejaVu Sans Bold */
+    TEST_ASSERT_TRUE(8.6 * (double)(letters_bold - 2) < 162.0 && letters_bold > 12);
+    TEST_ASSERT_NOT_NULL(strstr(picture, ">…</text>"));
+}
+
+static void test_text_is_escaped(void)
+{
+    hci_output *out = begin_part();
+    hci_svg_label(out, "head", 1.005, -2.0, "a<b>&\"c\" i_q in A");
+    end_part(out);
     TEST_ASSERT_NOT_NULL(
         strstr(picture, ">a&#60;b&#62;&#38;&#34;c&#34; i<tspan class=\"sub\" dy=\"3\">q</tspan>"));
     TEST_ASSERT_NOT_NULL(strstr(picture, "y=\"-2.00\""));
@@ -662,8 +783,11 @@ static void test_small_ripple_on_a_large_mean(void)
     order[2] = solved(12.0, 0.0, 0.0, 0.0, HCI_ORDER_REACHED);
     draw();
     check_picture();
-    const scale s = read_scale("quiet end", true, 54.0, 120.0, 380.0);
+    /* the numbers need more than the margin, so that they stand further to the right */
+    const double x = strtod(find("<text class=\"quiet end\" x=\"", 0), NULL);
+    const scale s = read_scale("quiet end", true, x, 120.0, 380.0);
     TEST_ASSERT_DOUBLE_WITHIN(1e-4, 2e-3 / 220.0, fabs(s.slope));
+    TEST_ASSERT_TRUE(x > 54.0 + 1.0 && x - width_of("10000.0000") > 0.0);
 }
 
 int main(void)
@@ -680,6 +804,9 @@ int main(void)
     RUN_TEST(test_same_input_same_bytes_in_any_locale);
     RUN_TEST(test_nothing_is_allocated);
     RUN_TEST(test_text_is_escaped);
+    RUN_TEST(test_numbers_of_an_axis);
+    RUN_TEST(test_labels_make_room);
+    RUN_TEST(test_names_fit);
     RUN_TEST(test_number_texts);
     RUN_TEST(test_axes_of_any_range);
     RUN_TEST(test_no_current);

@@ -209,7 +209,7 @@ static void test_squares_are_the_entries(void)
     for (size_t i = 0; i < rows; ++i)
         for (size_t j = 0; j < 2 * solution.system.set.count; ++j)
             largest = fmax(largest, fabs(entry(i, j)));
-    const double cell = 20.0, left = 52.0, top = 66.0;
+    const double cell = 20.0, left = 64.0, top = 66.0;
     for (size_t i = 0; i < rows; ++i)
         for (size_t j = 0; j < 2 * solution.system.set.count; ++j) {
             const double value = entry(i, j), x = left + cell * ((double)j + 0.5),
@@ -284,7 +284,7 @@ static void test_large_systems_are_binned(void)
     draw(put_system);
     TEST_ASSERT_NOT_NULL(strstr(picture, ">a cell holds 7 torque orders by 7 components</text>"));
     TEST_ASSERT_EQUAL_UINT64(0, count_of("class=\"minus\""));
-    const double cell = (524.0 - 52.0) / 43.0;
+    const double cell = (524.0 - 64.0) / 43.0;
     size_t squares = 1; /* of the legend */
     for (size_t i = 0; i < 43; ++i)
         for (size_t j = 0; j < 43; ++j) {
@@ -295,7 +295,7 @@ static void test_large_systems_are_binned(void)
             const double side = fmax(0.9 * cell * sqrt(largest), 2.6);
             TEST_ASSERT_DOUBLE_WITHIN(
                 0.03, largest > 0.0 ? side : 0.0,
-                side_at("plus", 52.0 + cell * ((double)j + 0.5), 66.0 + cell * ((double)i + 0.5)));
+                side_at("plus", 64.0 + cell * ((double)j + 0.5), 66.0 + cell * ((double)i + 0.5)));
         }
     TEST_ASSERT_EQUAL_UINT64(squares, count_of("class=\"plus\""));
     TEST_ASSERT_TRUE(count_of("<text") < 120);
@@ -381,7 +381,7 @@ static hci_turn_means turn;
 
 static void put_turn(hci_output *out)
 {
-    hci_plot_turn_torque(out, &turn);
+    hci_plot_turn_torque(out, &turn, NULL);
     hci_plot_turn_vector(out, &turn, (hci_dq){.q = 3.0});
 }
 

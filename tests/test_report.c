@@ -526,14 +526,18 @@ static void test_digits(void)
         double value;
         const char *shown;
     } CASE[] = {
-        {0.0,         ">0<"            },
-        {1.0 / 3.0,   ">0.3333<"       },
-        {-2.34567e-9, ">−2.346e−9<"},
-        {123456.0,    ">123500<"       },
-        {0.00099996,  ">0.001<"        },
-        {99999.0,     ">100000<"       },
-        {NAN,         "<td>–</td>"   },
-        {HUGE_VAL,    "<td>–</td>"   },
+        {0.0,                   ">0<"              },
+        {1.0 / 3.0,             ">0.3333<"         },
+        {-2.34567e-9,           ">−2.346e−9<"  },
+        {123456.0,              ">123500<"         },
+        {0.00099996,            ">0.001<"          },
+        {99999.0,               ">100000<"         },
+        {7.666467083416871e-20, ">7.666e−20<"    },
+        {-1.23456e-300,         ">−1.235e−300<"},
+        {4.94e-324,             ">5e−324<"       },
+        {9.87654321e200,        ">9.877e200<"      },
+        {NAN,                   "<td>–</td>"     },
+        {HUGE_VAL,              "<td>–</td>"     },
     };
     hci_output *out = open_page();
     for (size_t k = 0; k < sizeof CASE / sizeof *CASE; ++k)
@@ -545,6 +549,21 @@ static void test_digits(void)
         TEST_ASSERT_NOT_NULL_MESSAGE(at, CASE[k].shown);
         ++at;
     }
+}
+
+/* What is below the least is rounding; the number itself is there for programs. */
+static void test_digits_above(void)
+{
+    hci_output *out = open_page();
+    hci_html_number_above(out, -7.666467083416871e-20, 1e-9);
+    hci_html_number_above(out, 1.00004e-9, 1e-9);
+    hci_html_number_above(out, NAN, 1e-9);
+    hci_html_number_above(out, 0.25, 0.0);
+    read_page(out);
+    check_has("<data value=\"-7.666467083416871e-20\">0</data>");
+    check_has(">1e−9<");
+    check_has("<td>–</td>");
+    check_has(">0.25<");
 }
 
 /* A column of 80.001 … 80.004 tells its values apart; one of 0.2 … 80 has four digits. */
@@ -562,6 +581,18 @@ static void test_digits_in_a_column(void)
     check_has(">0.2<");
     check_has(">5<");
     check_has("<td>–</td>");
+}
+
+/* A fall of 0 of what was rejected was not looked for; a rejected one with a fall, and an added one, have it.
+ */
+static void test_what_was_not_computed(void)
+{
+    diagnosis.finding[1].delta_bic = 0.0;
+    write_diagnosis(NULL);
+    check_has("friction</td><td class=\"text\">rejected</td><td>–</td>");
+    diagnosis.finding[1].verdict = HCI_FINDING_AMBIGUOUS;
+    write_diagnosis(NULL);
+    check_has("friction</td><td class=\"text\">ambiguous</td><td><data value=\"0\">0</data></td>");
 }
 
 /* Of all values of an effect the one that is the largest multiple of its error; none for what was rejected.
@@ -704,6 +735,69 @@ static void test_simulation(void)
     check_has("Scenario: a&#60;script&#62;");
 }
 
+/* A plain sine with 2.5 + 0.75 cos 2θ + 0.125 sin(θ/2) N·m, over two turns: its mean over a step is that of
+ * the two turns, since sin(θ/2) falls out; its extremes are not. */
+static void test_simulation_with_before(void)
+{
+    static hci_traces traces;
+    hci_harmonic spectrum[] = {
+        {0.0, 0.0,  2.5  },
+        {0.5, 0.0,  0.0  },
+        {1.0, 0.25, 0.0  },
+        {2.0, 0.0,  1e-17}
+    };
+    hci_harmonic plain[] = {
+        {0.0, 0.0,   2.5 },
+        {0.5, 0.125, 0.0 },
+        {2.0, 0.0,   0.75}
+    };
+    const hci_report_sources sources = {.machine = "m", .scenario = "s", .currents = "c"};
+    hci_simulation s;
+    hci_note note = {{0}};
+    memset(&s, 0, sizeof s);
+    s.to_s = 1.0;
+    s.periods = s.plain.period_turns = 2;
+    s.energy_balances = true;
+    s.torque_Nm = (hci_statistics){.mean = 2.5, .rms = 2.51, .most = 2.75, .least = 2.25};
+    s.T_ripple_percent = 20.0;
+    s.F_ripple_percent = 7.0;
+    s.plain_amplitude_A = 3.5;
+    s.spectrum_Nm = spectrum;
+    s.spectrum_count = 4;
+    s.plain.torque_Nm = plain;
+    s.plain.order_count = 3;
+    s.plain.peak_to_peak_Nm = 1.625;
+    s.plain.T_ripple_percent = 65.0;
+    s.plain.F_ripple_percent = 21.5;
+    hci_traces_begin(&traces, 0.0, 1.0);
+    for (int imposed = 0; imposed < 2; ++imposed) {
+        s.imposed = imposed;
+        hci_output *out = open_page();
+        TEST_ASSERT_EQUAL(HCI_OK, hci_report_simulation(out, &s, &traces, &sources, &note));
+        read_page(out);
+        check_page(6);
+        check_has("with a plain sine of the same mean torque by 1.625 N·m");
+        check_has("<b>65 → 20");
+        check_has("<b>21.5 → 7");
+        check_has("Before: the plain sine of 3.5 A in phase with the back-EMF");
+        /* order, before, after: the last is rounding */
+        check_has("<tr><td><data value=\"2\">2</data></td><td><data value=\"0.75\">0.75</data></td><td>"
+                  "<data value=\"1e-17\">0</data></td>");
+        check_has("<tr><td><data value=\"1\">1</data></td><td><data value=\"0\">0</data></td><td>"
+                  "<data value=\"0.25\">0.25</data></td>");
+        TEST_ASSERT_EQUAL_INT(!imposed, strstr(page, "A strategy asks for a constant torque") != NULL);
+        TEST_ASSERT_EQUAL_INT(imposed, strstr(page, "some of these orders may be wanted") != NULL);
+        TEST_ASSERT_EQUAL_UINT64(4, count_of(">before</text>") + count_of(">after</text>"));
+        /* 0° to 9°: the mean by the integral of cos 2θ */
+        const char *row =
+            strstr(strstr(page, "Before: least N·m"), "<data value=\"9\">9</data></td><td>") + 30;
+        const double low = number_after(row, "\""), mean = number_after(strstr(row, "</td><td>"), "\"");
+        const double last_rad = 8.875 * REF_PI / 180.0; /* of four samples in a degree */
+        TEST_ASSERT_DOUBLE_WITHIN(1e-4, 2.5 + 0.75 * sin(0.1 * REF_PI) / (0.1 * REF_PI), mean);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, 2.5 + 0.75 * cos(2.0 * last_rad) - 0.125 * sin(0.5 * last_rad), low);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -721,10 +815,13 @@ int main(void)
     RUN_TEST(test_largest);
     RUN_TEST(test_traces_keep_peaks);
     RUN_TEST(test_digits);
+    RUN_TEST(test_digits_above);
     RUN_TEST(test_digits_in_a_column);
+    RUN_TEST(test_what_was_not_computed);
     RUN_TEST(test_clearest_value);
     RUN_TEST(test_contrast);
     RUN_TEST(test_solution);
     RUN_TEST(test_simulation);
+    RUN_TEST(test_simulation_with_before);
     return UNITY_END();
 }

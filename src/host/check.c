@@ -12,7 +12,8 @@ const char *hci_check_verdict_name(hci_check_verdict verdict)
 
 const char *hci_check_state_name(hci_check_state state)
 {
-    static const char *const NAME[] = {"consistent", "mended", "not_understood", "worse"};
+    static const char *const NAME[] = {"consistent", "mended",         "better",
+                                       "mendable",   "not_understood", "worse"};
     return NAME[state];
 }
 
@@ -31,7 +32,7 @@ hci_status hci_check_files(const char *machine, const char *const *run, size_t r
     check->run = run;
     check->runs = runs;
     status = hci_check_machine_read(machine, &figures, note);
-    if (!status) status = hci_check_runs_read(run, runs, &figures, note);
+    if (!status) status = hci_check_runs_read(run, runs, &figures, check->remark, note);
     if (!status) status = hci_check_weigh(&figures, check, note);
     hci_check_figures_release(&figures);
     if (status) return status;

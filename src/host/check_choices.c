@@ -38,10 +38,13 @@ enum {
     AT_PHASES,
     AT_ABC,
     AT_DQ,
+    AT_DRIVE,
     AT_CURRENT,
     AT_VOLTAGE,
+    AT_PHASE_VOLTAGE,
     AT_TORQUE,
     AT_SPEED,
+    AT_SPEED_M,
     AT_TIME
 };
 
@@ -170,12 +173,17 @@ const check_choice HCI_CHECK_CHOICES[] = {
         "the phase currents are scaled to rms values", "every current times sqrt(2)", LOADED),
     ROW("current_power_invariant", OF_CURRENT, SLIP, FIELD(current), 0.81649658092772603, 0.0, AT_DQ,
         "id and iq are power-invariant, not amplitude-invariant", "id and iq times sqrt(2/3)", LOADED),
+    ROW("current_power_invariant", OF_CURRENT, SLIP, FIELD(dq), 0.81649658092772603, 0.0, AT_DRIVE,
+        "id, iq, vd and vq are power-invariant, not amplitude-invariant", "id, iq, vd and vq times sqrt(2/3)",
+        LOADED),
     ROW("current_dq_rms", OF_CURRENT, SLIP, FIELD(current), SQRT2, 0.0, AT_DQ, "id and iq are rms values",
         "id and iq times sqrt(2)", LOADED),
+    ROW("current_dq_rms", OF_CURRENT, SLIP, FIELD(dq), SQRT2, 0.0, AT_DRIVE,
+        "id, iq, vd and vq are rms values", "id, iq, vd and vq times sqrt(2)", LOADED),
     ROW("current_sign", OF_CURRENT_SIGN, SLIP, FIELD(current), -1.0, 0.0, AT_CURRENT,
         "the currents are counted out of the machine", "every current with the opposite sign",
         "voltages beside currents and torque, at a current with a clear copper loss"),
-    ROW("voltage_line", OF_VOLTAGE, SLIP, FIELD(voltage_is_line), 0.0, 1.0, AT_VOLTAGE,
+    ROW("voltage_line", OF_VOLTAGE, SLIP, FIELD(voltage_is_line), 0.0, 1.0, AT_PHASE_VOLTAGE,
         "the voltages are line to line: va holds v_ab, vb v_bc, vc v_ca", "vab_V, vbc_V, vca_V", UNLOADED),
     ROW("voltage_sign", OF_VOLTAGE_SIGN, SLIP, FIELD(voltage), -1.0, 0.0, AT_VOLTAGE,
         "the voltages have the opposite sign", "every voltage with the opposite sign",
@@ -186,7 +194,7 @@ const check_choice HCI_CHECK_CHOICES[] = {
         "voltages beside currents and torque, at a current with a clear copper loss"),
     ROW("torque_millinewton", OF_TORQUE_UNIT, SLIP, FIELD(torque), 1e-3, 0.0, AT_TORQUE,
         "the torque is in mN·m", "torque_mNm", LOADED),
-    ROW("speed_electrical", OF_SPEED, SLIP, FIELD(speed_electrical), 0.0, 1.0, AT_SPEED,
+    ROW("speed_electrical", OF_SPEED, SLIP, FIELD(speed_electrical), 0.0, 1.0, AT_SPEED_M,
         "the speed is electrical, not mechanical", "the speed divided by pole_pairs",
         "time, angle and phase currents or voltages beside the speed"),
     ROW("speed_rpm_for_rad_per_s", OF_SPEED, SLIP, FIELD(speed), RPM, 0.0, AT_SPEED, "the speed is in rpm",
@@ -218,6 +226,7 @@ check_view hci_check_view_declared(void)
                         .direction = 1.0,
                         .current = 1.0,
                         .voltage = 1.0,
+                        .dq = 1.0,
                         .torque = 1.0,
                         .speed = 1.0,
                         .time = 1.0};
@@ -322,11 +331,13 @@ static const check_place *run_place(const check_figures *f, int where)
             place = &r->theta_cell;
         if (where == AT_CURRENT || (where == AT_ABC && r->has_abc) || (where == AT_DQ && r->has_dq))
             place = &r->current_cell;
+        if (where == AT_DRIVE && r->has_dq && r->has_dq_voltage) place = &r->current_cell;
         if (where == AT_PHASES && r->theta_cell.path)
-            place = r->has_abc ? &r->current_cell : r->has_voltage ? &r->voltage_cell : NULL;
-        if (where == AT_VOLTAGE) place = &r->voltage_cell;
+            place = r->has_abc ? &r->current_cell : r->has_phase_voltage ? &r->voltage_cell : NULL;
+        if (where == AT_VOLTAGE || (where == AT_PHASE_VOLTAGE && r->has_phase_voltage))
+            place = &r->voltage_cell;
         if (where == AT_TORQUE && r->has_torque) place = &r->torque_cell;
-        if (where == AT_SPEED) place = &r->speed_cell;
+        if (where == AT_SPEED || (where == AT_SPEED_M && !r->speed_is_electrical)) place = &r->speed_cell;
         if (where == AT_TIME) place = &r->time_cell;
         if (place && place->path) return place;
     }

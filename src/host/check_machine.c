@@ -10,6 +10,7 @@
 
 #include "check_figures.h"
 #include "hci/frames.h"
+#include "hci/host/init.h"
 #include "inductance.h"
 #include "memory.h"
 #include "spectrum_table.h"
@@ -113,6 +114,16 @@ static hci_status pole_pairs_check(const check_figures *f, hci_note *note)
                         f->machine_path, f->cell[CHECK_pole_pairs].line, p);
 }
 
+static hci_status slots_check(const check_figures *f, hci_note *note)
+{
+    const double slots = f->value[CHECK_slots];
+    if (isnan(slots) || (slots >= 3.0 && slots <= HCI_MOST_SLOTS && slots == floor(slots))) return HCI_OK;
+    return hci_note_set(note, HCI_ERROR_INPUT,
+                        "%s:%zu: `slots`: found %g, expected a whole number from 3 to %d; count the teeth of "
+                        "the stator, or delete the row",
+                        f->machine_path, f->cell[CHECK_slots].line, slots, (int)HCI_MOST_SLOTS);
+}
+
 static hci_status scalars_read(check_figures *f, hci_note *note)
 {
     hci_csv *csv;
@@ -121,7 +132,8 @@ static hci_status scalars_read(check_figures *f, hci_note *note)
     for (size_t row = 0; row < hci_csv_rows(csv) && !status; ++row)
         status = row_read(csv, row, f, note);
     hci_csv_free(csv);
-    return status ? status : pole_pairs_check(f, note);
+    if (!status) status = pole_pairs_check(f, note);
+    return status ? status : slots_check(f, note);
 }
 
 /* ---- order, amplitude, phase */

@@ -51,6 +51,7 @@ check_value hci_check_of_cogging_sixes(const check_figures *f, const check_view 
 /* Slots per pole of the smallest stator whose cogging begins at this order; 100 where there is none. */
 static double slots_per_pole(double order, int pole_pairs)
 {
+    if (fabs(remainder(order, 1.0)) > 1e-3) return 100.0;
     for (int slots = 3; slots <= 200 * pole_pairs; slots += 3)
         if (fabs(hci_cogging_order(slots, pole_pairs) - order) < 1e-3) return slots / (2.0 * pole_pairs);
     return 100.0;

@@ -14,21 +14,28 @@ static double friction_Nm(const check_figures *f, double speed)
            hci_check_or_zero(f->value[CHECK_viscous_friction_Nms_per_rad]) * fabs(hci_check_or_zero(speed));
 }
 
+/* Of v_q alone it is whole where no i_d flows. */
+static bool knows_power(const check_run *r)
+{
+    if (r->has_dq_voltage) return r->has_dq && (!r->lacks_d_voltage || r->lacks_d_current);
+    return r->has_voltage && !hci_check_is_unbalanced(r->voltage_balance) && (r->has_abc || r->theta);
+}
+
 static bool has_power(const check_figures *f, const check_run *r)
 {
-    return r->has_voltage && !hci_check_is_unbalanced(r->voltage_balance) && r->has_torque &&
-           hci_check_has_speed(r) && hci_check_has_vector_current(f, r) && (r->has_abc || r->theta);
+    return knows_power(r) && r->has_torque && hci_check_has_speed(r) && hci_check_has_vector_current(f, r);
 }
 
 static double shaft_power_W(const check_run *r, const check_view *v, const check_model *m)
 {
-    return r->ripple_mean * v->torque * hci_check_speed_of(r, v, m);
+    return r->torque_at_speed * v->torque * hci_check_speed_of(r, v, m);
 }
 
 /* 3/2 i² */
 static double square_A2(const check_run *r, const check_view *v)
 {
-    return 1.5 * r->current_square * v->current * v->current;
+    const double dq = r->has_dq ? v->dq : 1.0;
+    return 1.5 * r->current_square * v->current * v->current * dq * dq;
 }
 
 /* A resistance that is not given is what the recordings miss in their power, each as much as it has: least
@@ -59,8 +66,9 @@ check_value hci_check_of_power_balance(const check_figures *f, const check_view 
         if (!has_power(f, r)) continue;
         const double power = hci_check_power_of(r, v, m), copper = resistance_ohm * square_A2(r, v);
         const double speed = hci_check_speed_of(r, v, m), friction = friction_Nm(f, speed) * fabs(speed);
+        const double command = r->has_dq_voltage ? COMMAND_UNKNOWN * fabs(power) : 0.0;
         hci_check_fit_add(&x, shaft_power_W(r, v, m) + copper, power,
-                          (DROP_UNKNOWN * copper + friction) / fabs(power) /
+                          hypot(DROP_UNKNOWN * copper + friction, command) / fabs(power) /
                               PERCENT(POWER_TOLERANCE_PERCENT));
     }
     return hci_check_fit_value(&x);
@@ -95,11 +103,11 @@ check_value hci_check_of_torque_size(const check_figures *f, const check_view *v
 /* ---- torque without current */
 
 /* Nothing but the cogging torque: without current, or balanced by it while the shaft was held. */
-static const check_run *unloaded_torque(const check_figures *f)
+static check_run *unloaded_torque(const check_figures *f)
 {
-    const check_run *best = NULL;
+    check_run *best = NULL;
     for (size_t k = 0; k < f->runs; ++k) {
-        const check_run *r = &f->run[k];
+        check_run *r = &f->run[k];
         const bool unloaded = r->is_held || (r->has_torque && !hci_check_has_current(f, r));
         if (!unloaded || !r->theta || !(r->ripple_square > 0.0)) continue;
         if (!best || r->count > best->count) best = r;
@@ -122,7 +130,7 @@ static bool has_cogging(const check_figures *f)
  * share of what the table declares. */
 check_value hci_check_of_cogging_share(const check_figures *f, const check_view *v, const check_model *m)
 {
-    const check_run *r = unloaded_torque(f);
+    check_run *r = unloaded_torque(f);
     double sum = 0.0, declared = 0.0;
     if (!r || !has_cogging(f)) return HCI_CHECK_NONE;
     const double unit = r->is_held ? fabs(ripple_unit(r, v, m)) : 1.0;
@@ -141,7 +149,7 @@ check_value hci_check_of_cogging_share(const check_figures *f, const check_view 
 static bool cogging_pair(const check_figures *f, const check_view *v, const check_model *m,
                          check_vector *found, check_vector *declared)
 {
-    const check_run *r = unloaded_torque(f);
+    check_run *r = unloaded_torque(f);
     const size_t k = f->cogging.largest;
     if (!r || !has_cogging(f)) return false;
     const double order = hci_check_cogging_order(f, v, m, k);

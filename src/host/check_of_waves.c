@@ -79,21 +79,24 @@ check_vector hci_check_emf_expected(double speed, const check_model *m)
 }
 
 /* jω(L_d i_d + jL_q i_q); without inductances 0. */
-static check_vector reactive_drop(check_vector i, double speed, const check_model *m)
+static check_vector reactive_drop(const check_loop *x, const check_model *m)
 {
-    const check_vector flux = {hci_check_or_zero(m->inductance_d_H) * i.re,
-                               hci_check_or_zero(m->inductance_q_H) * i.im};
-    return hci_check_turned(hci_check_scaled(flux, m->pole_pairs * speed), 0.5 * HCI_PI);
+    const check_vector flux = {hci_check_or_zero(m->inductance_d_H) * x->turning.re,
+                               hci_check_or_zero(m->inductance_q_H) * x->turning.im};
+    return hci_check_turned(hci_check_scaled(flux, m->pole_pairs), 0.5 * HCI_PI);
 }
 
-static check_vector drop_of(const check_figures *f, const check_run *r, const check_view *v,
+static check_vector drop_of(const check_figures *f, const check_run *r, const check_loop *x,
                             const check_model *m)
 {
     const check_vector none = {0.0, 0.0};
-    if (!hci_check_has_vector_current(f, r)) return none;
-    const check_vector i = hci_check_current_of(r, v, m);
-    return hci_check_sum(hci_check_scaled(i, m->resistance_ohm),
-                         reactive_drop(i, hci_check_speed_of(r, v, m), m));
+    if (!hci_check_has_drop(f, r)) return none;
+    return hci_check_sum(hci_check_scaled(x->current, m->resistance_ohm), reactive_drop(x, m));
+}
+
+static double voltage_unknown(const check_run *r, const check_loop *x)
+{
+    return r->has_dq_voltage ? COMMAND_UNKNOWN * hci_check_length(x->voltage) : 0.0;
 }
 
 /* Σ E Ê* / Σ |Ê|² over the recordings, with E = v − R i − jω(L_d i_d + jL_q i_q). */
@@ -104,11 +107,12 @@ static check_value emf_fit(const check_figures *f, const check_view *v, const ch
     for (size_t k = 0; k < f->runs; ++k) {
         const check_run *r = &f->run[k];
         if (!hci_check_has_emf(f, r, m)) continue;
-        const check_vector expected = hci_check_emf_expected(hci_check_speed_of(r, v, m), m),
-                           drop = drop_of(f, r, v, m);
-        const check_vector found = hci_check_sum(hci_check_voltage_of(r, v, m), hci_check_scaled(drop, -1.0));
+        const check_loop loop = hci_check_loop_of(r, v, m);
+        const check_vector expected = hci_check_emf_expected(loop.speed, m), drop = drop_of(f, r, &loop, m);
+        const check_vector found = hci_check_sum(loop.voltage, hci_check_scaled(drop, -1.0));
         const double length = hci_check_length(expected),
-                     unknown = DROP_UNKNOWN * hci_check_length(drop) / length / tolerance;
+                     unknown = hypot(DROP_UNKNOWN * hci_check_length(drop), voltage_unknown(r, &loop)) /
+                               length / tolerance;
         const check_vector cross = hci_check_product(found, hci_check_conjugate(expected));
         hci_check_fit_add(&re, cross.re / length, length, unknown);
         hci_check_fit_add(&im, cross.im / length, length, unknown);
@@ -139,15 +143,15 @@ check_value hci_check_of_resistance_size(const check_figures *f, const check_vie
         if (!hci_check_has_turning_voltage(r) || !hci_check_has_vector_current(f, r) ||
             isnan(m->resistance_ohm))
             continue;
-        const double speed = hci_check_speed_of(r, v, m);
-        const check_vector i = hci_check_current_of(r, v, m), e = hci_check_emf_expected(speed, m),
-                           l = reactive_drop(i, speed, m);
-        const check_vector rest =
-            hci_check_sum(hci_check_voltage_of(r, v, m), hci_check_scaled(hci_check_sum(e, l), -1.0));
+        const check_loop loop = hci_check_loop_of(r, v, m);
+        const check_vector i = loop.current, e = hci_check_emf_expected(loop.speed, m),
+                           l = reactive_drop(&loop, m);
+        const check_vector rest = hci_check_sum(loop.voltage, hci_check_scaled(hci_check_sum(e, l), -1.0));
         const double length = hci_check_length(i), drop = m->resistance_ohm * length;
         const double inductance = isnan(m->inductance_q_H) ? SALIENCY_UNKNOWN * hci_check_length(e)
                                                            : DROP_UNKNOWN * hci_check_length(l);
-        const double unknown = PERCENT(EMF_TOLERANCE_PERCENT) * hci_check_length(e) + inductance;
+        const double unknown = hypot(PERCENT(EMF_TOLERANCE_PERCENT) * hci_check_length(e) + inductance,
+                                     voltage_unknown(r, &loop));
         hci_check_fit_add(&x, hci_check_product(rest, hci_check_conjugate(i)).re / length, drop,
                           unknown / drop / PERCENT(RESISTANCE_TOLERANCE_PERCENT));
     }

@@ -34,6 +34,7 @@ typedef struct {
     double run_zero_rad;          /* θ = angle of the recording + this */
     double swapped;               /* 1: phases b and c of the recordings */
     double current, voltage;
+    double dq; /* factor of i_d, i_q and of v_d, v_q */
     double voltage_is_line;
     double torque;
     double speed, speed_electrical;
@@ -101,6 +102,7 @@ typedef struct {
     double cap; /* the most that one relation can say against a reading, in nats */
     check_value (*of)(const check_figures *f, const check_view *view, const check_model *model);
     const char *needs;
+    const char *instead; /* relation that says the same where it can be checked; "": none */
 } check_relation;
 
 extern const check_relation HCI_CHECK_RELATIONS[];

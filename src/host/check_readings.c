@@ -9,6 +9,15 @@
 /* A relation is met up to so many standard deviations. */
 #define MET 2.5
 
+/* What a reading is to have mended is met as well as this. */
+#define MENDED 1.5
+
+/* A relation that is not met is nearer when less than this of its deviation is left. */
+#define NEARER 0.5
+
+/* A slip leaves a trace where it changes what a relation costs by as much, in nats. */
+#define TRACE 1.0
+
 /* Tables and recordings of one bench are likely to have one zero of the angle. */
 #define SAME_ZERO 0.3
 
@@ -21,7 +30,7 @@ typedef struct {
 
 typedef struct {
     const check_figures *figures;
-    bool used[64]; /* of each relation */
+    bool used[HCI_CHECK_MOST_EVIDENCE]; /* of each relation */
     reading *list;
     size_t count, room;
     hci_status status;
@@ -204,8 +213,26 @@ static void add_finding(const weighing *w, const char *slip, hci_check *check)
 
 static hci_check_state state_of(double declared, double as_read)
 {
-    if (as_read <= MET) return declared <= MET ? HCI_CHECK_AGREES : HCI_CHECK_MENDED;
-    return declared <= MET ? HCI_CHECK_WORSE : HCI_CHECK_UNMENDED;
+    if (declared <= MET) return as_read <= MET ? HCI_CHECK_AGREES : HCI_CHECK_WORSE;
+    if (as_read <= MENDED) return HCI_CHECK_MENDED;
+    return as_read < fmax(MET, NEARER * declared) ? HCI_CHECK_BETTER : HCI_CHECK_UNMENDED;
+}
+
+static bool is_used(const weighing *w, const char *relation)
+{
+    for (size_t k = 0; k < HCI_CHECK_RELATION_COUNT; ++k)
+        if (w->used[k] && strcmp(HCI_CHECK_RELATIONS[k].name, relation) == 0) return true;
+    return false;
+}
+
+static bool possible_mends(const weighing *w, const hci_check *check, const check_relation *r)
+{
+    const check_choice *choice;
+    for (size_t k = 0; k < check->findings; ++k) {
+        const check_view view = view_of(best_with(w, check->finding[k].slip, &choice));
+        if (hci_check_deviation(r, relation_value(w->figures, r, &view)) <= MET) return true;
+    }
+    return false;
 }
 
 static void add_evidence(const weighing *w, const reading *best, hci_check *check)
@@ -214,20 +241,71 @@ static void add_evidence(const weighing *w, const reading *best, hci_check *chec
     for (size_t k = 0; k < HCI_CHECK_RELATION_COUNT; ++k) {
         const check_relation *r = &HCI_CHECK_RELATIONS[k];
         const check_value before = relation_value(w->figures, r, &declared);
+        if (!w->used[k] && is_used(w, r->instead)) continue;
         if (!w->used[k]) {
             check->gap[check->gaps++] = (hci_check_gap){r->name, r->words, r->needs};
             continue;
         }
         const check_value after = relation_value(w->figures, r, &view);
-        check->evidence[check->evidences++] =
-            (hci_check_evidence){r->name,
-                                 r->words,
-                                 before.found,
-                                 r->expected,
-                                 after.found,
-                                 r->tolerance * after.spread,
-                                 state_of(hci_check_deviation(r, before), hci_check_deviation(r, after))};
+        hci_check_evidence *e = &check->evidence[check->evidences++];
+        *e = (hci_check_evidence){r->name,
+                                  r->words,
+                                  before.found,
+                                  r->expected,
+                                  r->kind == CHECK_MOST,
+                                  after.found,
+                                  r->tolerance * after.spread,
+                                  state_of(hci_check_deviation(r, before), hci_check_deviation(r, after))};
+        if (e->state == HCI_CHECK_UNMENDED && possible_mends(w, check, r)) e->state = HCI_CHECK_MENDABLE;
     }
+}
+
+/* ---- what leaves no trace */
+
+/* The reading with one slip more, or with it in the place of the one about the same thing. */
+static check_view view_with(const reading *r, size_t choice)
+{
+    check_view view = hci_check_view_declared();
+    for (int k = 0; k < MOST_SLIPS; ++k)
+        if (r->choice[k] >= 0 && HCI_CHECK_CHOICES[r->choice[k]].aspect != HCI_CHECK_CHOICES[choice].aspect)
+            hci_check_view_take(&view, &HCI_CHECK_CHOICES[r->choice[k]]);
+    hci_check_view_take(&view, &HCI_CHECK_CHOICES[choice]);
+    return view;
+}
+
+static bool leaves_a_trace(const weighing *w, const reading *in, size_t choice)
+{
+    const check_view before = view_of(in), after = view_with(in, choice);
+    for (size_t k = 0; k < HCI_CHECK_RELATION_COUNT; ++k) {
+        const check_relation *r = &HCI_CHECK_RELATIONS[k];
+        if (w->used[k] && fabs(hci_check_loss(r, relation_value(w->figures, r, &after)) -
+                               hci_check_loss(r, relation_value(w->figures, r, &before))) > TRACE)
+            return true;
+    }
+    return false;
+}
+
+/* A slip that can stand in these files, and in none of its forms changes anything, neither in the files as
+ * declared nor in the best reading. */
+static bool is_untold(const weighing *w, const reading *best, const char *slip)
+{
+    bool applies = false;
+    if (has_slip(best, slip)) return false;
+    for (size_t k = 0; k < HCI_CHECK_CHOICE_COUNT; ++k) {
+        if (strcmp(HCI_CHECK_CHOICES[k].slip, slip) != 0 ||
+            !hci_check_choice_applies(&HCI_CHECK_CHOICES[k], w->figures))
+            continue;
+        if (leaves_a_trace(w, best, k) || leaves_a_trace(w, &w->list[0], k)) return false;
+        applies = true;
+    }
+    return applies;
+}
+
+static void add_untold(const weighing *w, const reading *best, hci_check *check)
+{
+    for (size_t k = 0; k < HCI_CHECK_CHOICE_COUNT && check->untolds < HCI_CHECK_MOST_UNTOLD; ++k)
+        if (is_first_row(k) && is_untold(w, best, HCI_CHECK_CHOICES[k].slip))
+            check->untold[check->untolds++] = HCI_CHECK_CHOICES[k].slip;
 }
 
 static hci_check_verdict verdict_of(const hci_check *check)
@@ -235,7 +313,8 @@ static hci_check_verdict verdict_of(const hci_check *check)
     if (check->findings > 0 && check->finding[0].probability >= HCI_CHECK_FOUND) return HCI_CHECK_SLIPS;
     if (check->probability_as_declared < 0.5) return HCI_CHECK_AMBIGUOUS;
     for (size_t k = 0; k < check->evidences; ++k)
-        if (check->evidence[k].state == HCI_CHECK_UNMENDED) return HCI_CHECK_NOT_UNDERSTOOD;
+        if (check->evidence[k].state == HCI_CHECK_UNMENDED || check->evidence[k].state == HCI_CHECK_MENDABLE)
+            return HCI_CHECK_NOT_UNDERSTOOD;
     return HCI_CHECK_CONSISTENT;
 }
 
@@ -246,6 +325,7 @@ static void conclude(weighing *w, hci_check *check)
     for (size_t k = 0; k < HCI_CHECK_CHOICE_COUNT; ++k)
         if (is_first_row(k)) add_finding(w, HCI_CHECK_CHOICES[k].slip, check);
     add_evidence(w, best, check);
+    add_untold(w, best, check);
     check->verdict = verdict_of(check);
 }
 

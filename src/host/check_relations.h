@@ -19,6 +19,10 @@ enum {
 /* Resistance (warm copper) and inductance (saturation) are known to a fifth. */
 #define DROP_UNKNOWN 0.2
 
+/* What a drive logs as v_d, v_q is what it has asked for: dead times and drops of its switches are not in it.
+ */
+#define COMMAND_UNKNOWN 0.05
+
 /* A machine without inductances is declared to have L_d = L_q; so much of k_e may p (L_d − L_q) i_d be after
  * all. */
 #define SALIENCY_UNKNOWN 0.15
@@ -50,7 +54,7 @@ double hci_check_angle_speed_of(const check_run *r, const check_view *v, const c
 double hci_check_column_speed_of(const check_run *r, const check_view *v, const check_model *m);
 double hci_check_speed_of(const check_run *r, const check_view *v, const check_model *m);
 check_vector hci_check_current_of(const check_run *r, const check_view *v, const check_model *m);
-check_vector hci_check_voltage_of(const check_run *r, const check_view *v, const check_model *m);
+check_loop hci_check_loop_of(const check_run *r, const check_view *v, const check_model *m);
 double hci_check_power_of(const check_run *r, const check_view *v, const check_model *m);
 check_vector hci_check_phase_of_line(check_vector x, const check_view *v);
 check_vector hci_check_emf_expected(double speed, const check_model *m);
@@ -60,6 +64,7 @@ bool hci_check_is_unbalanced(double balance);
 bool hci_check_has_speed(const check_run *r);
 bool hci_check_has_vector_current(const check_figures *f, const check_run *r);
 bool hci_check_has_turning_voltage(const check_run *r);
+bool hci_check_has_drop(const check_figures *f, const check_run *r);
 bool hci_check_has_emf(const check_figures *f, const check_run *r, const check_model *m);
 
 /* ---- relations */

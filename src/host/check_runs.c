@@ -1,5 +1,6 @@
 /* Figures of recordings: the angle as it stands, and means of what turns with it. */
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -7,6 +8,7 @@
 #include "csv_table.h"
 #include "hci/frames.h"
 #include "memory.h"
+#include "quote.h"
 
 /* A wave is said to turn with the rotor when it has this share of the mean square. */
 #define COHERENT 0.6
@@ -57,9 +59,11 @@ double hci_check_length(check_vector a)
 /* Samples of one file while its figures are taken; what it does not have is NULL. */
 typedef struct {
     size_t count;
-    double *time, *theta, *other, *speed, *torque, *d, *q;
+    double *time, *theta, *other, *speed, *torque, *d, *q, *vd, *vq;
     double *phase[3], *volt[3];
     check_vector *current, *voltage;
+    bool *used;       /* of each column of the file */
+    hci_note *remark; /* how they were read */
 } samples;
 
 static const char *const CURRENT[3] = {"ia_A", "ib_A", "ic_A"};
@@ -76,9 +80,49 @@ static bool has_three(const hci_csv *csv, const char *const name[3])
     return has(csv, name[0]) && has(csv, name[1]) && has(csv, name[2]);
 }
 
-static hci_status column_read(const hci_csv *csv, const char *name, double **values, hci_note *note)
+static void HCI_PRINTF(2, 3) remark(samples *s, const char *format, ...)
 {
+    char *text = s->remark->text;
+    const size_t used = strlen(text), size = sizeof s->remark->text;
+    va_list arguments;
+    va_start(arguments, format);
+    const size_t start = used + (size_t)snprintf(text + used, size - used, "%s", used > 0 ? "; " : "");
+    if (start < size) vsnprintf(text + start, size - start, format, arguments);
+    va_end(arguments);
+    for (size_t end = strlen(text); end > 0 && !hci_utf8_valid(text); --end) /* cut within a character */
+        text[end - 1] = '\0';
+}
+
+/* A column that says again what others say, or nothing to a check. */
+static void leave(const hci_csv *csv, const char *name, samples *s)
+{
+    size_t column;
+    if (hci_csv_find(csv, name, &column)) s->used[column] = true;
+}
+
+/* A column under an unknown name would otherwise be missed in silence. */
+static void remark_unused(const hci_csv *csv, samples *s)
+{
+    char list[300] = "";
+    size_t length = 0;
+    for (size_t column = 0; column < hci_csv_columns(csv) && length < sizeof list; ++column) {
+        char quoted[HCI_QUOTE_SIZE];
+        const char *name = hci_csv_name(csv, column);
+        if (s->used[column] || *name == '\0') continue;
+        length += (size_t)snprintf(list + length, sizeof list - length, "%s%s", length > 0 ? ", " : "",
+                                   hci_quote(name, quoted));
+    }
+    if (length >= sizeof list) memcpy(list + sizeof list - 4, "...", 4);
+    if (length > 0) remark(s, "columns not used: %s", list);
+}
+
+static hci_status column_read(const hci_csv *csv, const char *name, samples *s, double **values,
+                              hci_note *note)
+{
+    hci_note told = {{0}};
     if (!has(csv, name)) return HCI_OK;
+    if (hci_csv_told(csv, name, &told)) remark(s, "%s", told.text);
+    leave(csv, name, s);
     *values = hci_memory_new(hci_csv_rows(csv), sizeof **values);
     if (!*values) return hci_note_set(note, HCI_ERROR_MEMORY, "%s: out of memory", hci_csv_path(csv));
     return hci_csv_numbers(csv, name, *values, note);
@@ -98,19 +142,19 @@ static void places(const hci_csv *csv, check_run *run)
 {
     place(csv, run->is_electrical ? "theta_e_rad" : "theta_m_rad", run, &run->theta_cell);
     place(csv, "time_s", run, &run->time_cell);
-    place(csv, "speed_rad_per_s", run, &run->speed_cell);
+    place(csv, run->speed_is_electrical ? "speed_e_rad_per_s" : "speed_rad_per_s", run, &run->speed_cell);
     place(csv, run->has_abc ? "ia_A" : "iq_A", run, &run->current_cell);
-    place(csv, "va_V", run, &run->voltage_cell);
+    place(csv, run->has_dq_voltage ? "vq_V" : "va_V", run, &run->voltage_cell);
     place(csv, "torque_Nm", run, &run->torque_cell);
 }
 
 /* Three columns; of two, the third makes the sum 0. */
-static hci_status phases_read(const hci_csv *csv, const char *const name[3], double *column[3],
+static hci_status phases_read(const hci_csv *csv, const char *const name[3], samples *s, double *column[3],
                               hci_note *note)
 {
     hci_status status = HCI_OK;
-    for (int s = 0; s < 3 && !status; ++s)
-        status = column_read(csv, name[s], &column[s], note);
+    for (int k = 0; k < 3 && !status; ++k)
+        status = column_read(csv, name[k], s, &column[k], note);
     return status;
 }
 
@@ -148,52 +192,103 @@ static hci_status currents_read(const hci_csv *csv, check_run *run, samples *s, 
 {
     const int phases = has(csv, CURRENT[0]) + has(csv, CURRENT[1]) + has(csv, CURRENT[2]);
     hci_status status = HCI_OK;
-    run->has_abc = phases >= 2;
-    run->has_dq = !run->has_abc && has(csv, "iq_A");
-    if (run->has_abc) status = phases_read(csv, CURRENT, s->phase, note);
+    run->has_dq = has(csv, "iq_A") && (phases < 2 || run->has_dq_voltage);
+    run->has_abc = phases >= 2 && !run->has_dq;
+    for (int k = 0; k < 3; ++k)
+        leave(csv, CURRENT[k], s);
+    leave(csv, "id_A", s);
+    leave(csv, "iq_A", s);
+    if (run->has_abc) status = phases_read(csv, CURRENT, s, s->phase, note);
     if (!status && run->has_abc)
         status = vectors_make(s->phase, false, s->count, &s->current, run->path, note);
-    if (!status && run->has_dq) status = column_read(csv, "iq_A", &s->q, note);
-    if (!status && run->has_dq) status = column_read(csv, "id_A", &s->d, note);
+    if (!status && run->has_dq) status = column_read(csv, "iq_A", s, &s->q, note);
+    if (!status && run->has_dq) status = column_read(csv, "id_A", s, &s->d, note);
     return status;
+}
+
+static bool has_lines(const hci_csv *csv)
+{
+    return !has(csv, VOLTAGE[0]) && has(csv, LINE[0]) + has(csv, LINE[1]) + has(csv, LINE[2]) >= 2;
+}
+
+/* Beside phase currents alone they would need the drive's angle. */
+static void find_voltages(const hci_csv *csv, check_run *run)
+{
+    const int phases = has(csv, CURRENT[0]) + has(csv, CURRENT[1]) + has(csv, CURRENT[2]);
+    run->has_phase_voltage = has_lines(csv) || has_three(csv, VOLTAGE);
+    run->has_dq_voltage = !run->has_phase_voltage && has(csv, "vq_V") && (phases < 2 || has(csv, "iq_A"));
+    run->has_voltage = run->has_phase_voltage || run->has_dq_voltage;
 }
 
 static hci_status voltages_read(const hci_csv *csv, check_run *run, samples *s, hci_note *note)
 {
-    const bool lines =
-        !has(csv, VOLTAGE[0]) && has(csv, LINE[0]) + has(csv, LINE[1]) + has(csv, LINE[2]) >= 2;
+    const bool lines = has_lines(csv);
+    hci_status status = HCI_OK;
+    if (run->has_phase_voltage) {
+        leave(csv, "vd_V", s);
+        leave(csv, "vq_V", s);
+        status = phases_read(csv, lines ? LINE : VOLTAGE, s, s->volt, note);
+        return status ? status : vectors_make(s->volt, lines, s->count, &s->voltage, run->path, note);
+    }
+    if (run->has_dq_voltage) status = column_read(csv, "vq_V", s, &s->vq, note);
+    if (!status && run->has_dq_voltage) status = column_read(csv, "vd_V", s, &s->vd, note);
+    run->lacks_d_voltage = run->has_dq_voltage && !s->vd;
+    if (!status && run->lacks_d_voltage)
+        remark(s, "v_q without v_d: the back-EMF is not compared, and the power where no i_d flows");
+    return status;
+}
+
+/* Without an angle nothing turns; a column that may be the one or the other is not passed over. */
+static hci_status angle_check(const hci_csv *csv, hci_note *note)
+{
+    hci_note missing = {{0}};
+    double unused;
     hci_status status;
-    if (!lines && !has_three(csv, VOLTAGE)) return HCI_OK;
-    run->has_voltage = true;
-    status = phases_read(csv, lines ? LINE : VOLTAGE, s->volt, note);
-    return status ? status : vectors_make(s->volt, lines, s->count, &s->voltage, run->path, note);
+    if (has(csv, "theta_e_rad") || has(csv, "theta_m_rad")) return HCI_OK;
+    status = hci_csv_check_clear(csv, note);
+    if (status || has(csv, "va_V") || has(csv, "vab_V")) return status;
+    status = hci_csv_number(csv, "theta_m_rad", 0, &unused, &missing);
+    return hci_note_set(note, status, "%s; `theta_e_rad` will do as well", missing.text);
+}
+
+static hci_status speed_read(const hci_csv *csv, check_run *run, samples *s, hci_note *note)
+{
+    run->speed_is_electrical = !has(csv, "speed_rad_per_s") && has(csv, "speed_e_rad_per_s");
+    leave(csv, "speed_e_rad_per_s", s);
+    return column_read(csv, run->speed_is_electrical ? "speed_e_rad_per_s" : "speed_rad_per_s", s, &s->speed,
+                       note);
 }
 
 static hci_status samples_read(const hci_csv *csv, check_run *run, samples *s, hci_note *note)
 {
     const bool e = has(csv, "theta_e_rad"), m = has(csv, "theta_m_rad");
-    double unused;
-    hci_status status = HCI_OK;
-    if (!e && !m && !has(csv, "va_V") && !has(csv, "vab_V"))
-        return hci_csv_number(csv, "theta_m_rad", 0, &unused, note);
+    hci_status status = angle_check(csv, note);
     run->is_electrical = e;
-    if (e || m) status = column_read(csv, e ? "theta_e_rad" : "theta_m_rad", &s->theta, note);
-    if (!status && e && m) status = column_read(csv, "theta_m_rad", &s->other, note);
-    if (!status) status = column_read(csv, "time_s", &s->time, note);
-    if (!status) status = column_read(csv, "speed_rad_per_s", &s->speed, note);
-    if (!status) status = column_read(csv, "torque_Nm", &s->torque, note);
+    find_voltages(csv, run);
+    if (!status && hci_csv_header_line(csv) > 0)
+        remark(s, "line %zu is the header, what stands before it is not read", hci_csv_header_line(csv));
+    if (!status && (e || m)) status = column_read(csv, e ? "theta_e_rad" : "theta_m_rad", s, &s->theta, note);
+    if (!status && e && m) status = column_read(csv, "theta_m_rad", s, &s->other, note);
+    if (!status) status = column_read(csv, "time_s", s, &s->time, note);
+    if (!status) status = speed_read(csv, run, s, note);
+    if (!status) status = column_read(csv, "torque_Nm", s, &s->torque, note);
     if (!status) status = currents_read(csv, run, s, note);
-    return status ? status : voltages_read(csv, run, s, note);
+    if (!status) status = voltages_read(csv, run, s, note);
+    leave(csv, "temperature_C", s);
+    if (!status) remark_unused(csv, s);
+    return status;
 }
 
 static void samples_free(samples *s)
 {
-    double *const all[] = {s->time,     s->theta,    s->other,    s->speed,   s->torque,  s->d,      s->q,
-                           s->phase[0], s->phase[1], s->phase[2], s->volt[0], s->volt[1], s->volt[2]};
+    double *const all[] = {s->time,     s->theta,    s->other,   s->speed,   s->torque,
+                           s->d,        s->q,        s->vd,      s->vq,      s->phase[0],
+                           s->phase[1], s->phase[2], s->volt[0], s->volt[1], s->volt[2]};
     for (size_t k = 0; k < sizeof all / sizeof *all; ++k)
         hci_memory_free(all[k]);
     hci_memory_free(s->current);
     hci_memory_free(s->voltage);
+    hci_memory_free(s->used);
 }
 
 /* ---- means */
@@ -356,6 +451,51 @@ static void ripple_take(const samples *s, check_run *run)
     run->ripple_square = square_about(s->torque, s->count, run->ripple_mean);
 }
 
+static check_vector pair_at(const double *d, const double *q, size_t k)
+{
+    return (check_vector){d ? d[k] : 0.0, q ? q[k] : 0.0};
+}
+
+/* A voltage that does not follow the speed, as by a speed without sign, says nothing of it. */
+static void loop_take(const samples *s, check_run *run)
+{
+    double weights = 0.0, weight_square = 0.0, square = 0.0;
+    check_loop sum = {0};
+    for (size_t k = 0; k < s->count; ++k) {
+        const double speed = s->speed ? s->speed[k] : 1.0;
+        const check_vector v = pair_at(s->vd, s->vq, k), i = pair_at(s->d, s->q, k);
+        sum.voltage = hci_check_sum(sum.voltage, hci_check_scaled(v, speed));
+        sum.current = hci_check_sum(sum.current, hci_check_scaled(i, speed));
+        sum.turning = hci_check_sum(sum.turning, hci_check_scaled(i, speed * speed));
+        weights += fabs(speed);
+        weight_square += speed * speed;
+        square += v.re * v.re + v.im * v.im;
+        run->power = hci_check_sum(run->power, hci_check_product(v, hci_check_conjugate(i)));
+    }
+    const double length = hci_check_length(sum.voltage), share = weights > 0.0 ? 1.0 / weights : 0.0;
+    run->dq_voltage_is_coherent = length * length > COHERENT * weight_square * square;
+    run->voltage_square = square / (double)s->count;
+    run->power = hci_check_scaled(run->power, 1.0 / (double)s->count);
+    run->loop.voltage = hci_check_scaled(sum.voltage, share);
+    run->loop.current = hci_check_scaled(sum.current, share);
+    run->loop.turning = hci_check_scaled(sum.turning, share);
+    run->loop.speed = weight_square * share;
+}
+
+static double torque_at_speed(const samples *s, const check_run *run)
+{
+    double sum = 0.0;
+    if (!s->speed || !(fabs(run->speed) > 0.0)) return run->ripple_mean;
+    for (size_t k = 0; k < s->count; ++k)
+        sum += s->torque[k] * s->speed[k];
+    return sum / (double)s->count / run->speed;
+}
+
+static bool lacks_d_current(const samples *s, const check_run *run)
+{
+    return !s->d || square_about(s->d, s->count, 0.0) <= NO_CURRENT * NO_CURRENT * run->current_square;
+}
+
 static void means_take(const samples *s, check_run *run)
 {
     const size_t n = s->count;
@@ -365,6 +505,7 @@ static void means_take(const samples *s, check_run *run)
     run->speed = s->speed ? mean_of(s->speed, n) : (double)NAN;
     run->has_speed = s->speed != NULL;
     if (s->torque) ripple_take(s, run);
+    if (s->torque) run->torque_at_speed = torque_at_speed(s, run);
     if (s->q) {
         run->dq = (check_vector){s->d ? mean_of(s->d, n) : 0.0, mean_of(s->q, n)};
         run->current_square = square_about(s->q, n, 0.0) + (s->d ? square_about(s->d, n, 0.0) : 0.0);
@@ -372,7 +513,9 @@ static void means_take(const samples *s, check_run *run)
     run->dq_is_steady =
         hci_check_length(run->dq) * hci_check_length(run->dq) > COHERENT * run->current_square;
     if (s->current) run->current_square = mean_square(s->current, n);
+    run->lacks_d_current = lacks_d_current(s, run);
     if (s->voltage) run->voltage_square = mean_square(s->voltage, n);
+    if (s->vq) loop_take(s, run);
     run->frequency = frequency_of(s->voltage, s->time, n);
     run->current_sum = sum_of_phases(s->phase, n);
     run->current_balance = balance_of(s->phase, n);
@@ -384,9 +527,10 @@ static void means_take(const samples *s, check_run *run)
                                          1.0 / (double)n));
 }
 
-static hci_status run_take(const hci_csv *csv, check_figures *f, check_run *run, hci_note *note)
+static hci_status run_take(const hci_csv *csv, check_figures *f, check_run *run, hci_note *told,
+                           hci_note *note)
 {
-    samples s = {.count = hci_csv_rows(csv)};
+    samples s = {.count = hci_csv_rows(csv), .remark = told};
     hci_status status;
     run->count = s.count;
     if (s.count == 0)
@@ -394,6 +538,8 @@ static hci_status run_take(const hci_csv *csv, check_figures *f, check_run *run,
                             "%s: found a header and no samples, expected a row for each sample; record the "
                             "run again",
                             run->path);
+    s.used = hci_memory_new(hci_csv_columns(csv), sizeof *s.used);
+    if (!s.used) return hci_note_set(note, HCI_ERROR_MEMORY, "%s: out of memory", run->path);
     status = samples_read(csv, run, &s, note);
     if (!status) {
         places(csv, run);
@@ -407,7 +553,7 @@ static hci_status run_take(const hci_csv *csv, check_figures *f, check_run *run,
     return status;
 }
 
-static hci_status run_read(const char *path, check_figures *f, check_run *run, hci_note *note)
+static hci_status run_read(const char *path, check_figures *f, check_run *run, hci_note *told, hci_note *note)
 {
     hci_csv *csv;
     hci_status status;
@@ -416,7 +562,7 @@ static hci_status run_read(const char *path, check_figures *f, check_run *run, h
                             HCI_CHECK_PATH - 1);
     status = hci_csv_read(path, &csv, note);
     if (status) return status;
-    status = run_take(csv, f, run, note);
+    status = run_take(csv, f, run, told, note);
     hci_csv_free(csv);
     return status;
 }
@@ -448,14 +594,15 @@ static double no_current(const check_figures *f)
     return NO_CURRENT * most;
 }
 
-hci_status hci_check_runs_read(const char *const *path, size_t count, check_figures *f, hci_note *note)
+hci_status hci_check_runs_read(const char *const *path, size_t count, check_figures *f, hci_note *told,
+                               hci_note *note)
 {
     hci_status status = HCI_OK;
     scales_make(f);
     f->run = hci_memory_new(count, sizeof *f->run);
     if (!f->run) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for %zu runs", count);
     for (size_t k = 0; k < count && !status; ++k) {
-        status = run_read(path[k], f, &f->run[k], note);
+        status = run_read(path[k], f, &f->run[k], &told[k], note);
         ++f->runs;
     }
     f->no_current_A = no_current(f);
@@ -483,7 +630,7 @@ const check_frame *hci_check_frame_of(const check_run *run, double scale)
     return NULL;
 }
 
-check_vector hci_check_torque_order(const check_run *run, double order)
+static check_vector torque_order(const check_run *run, double order)
 {
     check_vector sum = {0.0, 0.0};
     const double share = 2.0 / (double)run->count;
@@ -493,6 +640,16 @@ check_vector hci_check_torque_order(const check_run *run, double order)
         sum.im += x * cos(order * run->theta[k]);
     }
     return sum;
+}
+
+check_vector hci_check_torque_order(check_run *run, double order)
+{
+    const size_t kept = run->known_count < CHECK_KNOWN_ORDERS ? run->known_count : CHECK_KNOWN_ORDERS;
+    for (size_t k = 0; k < kept; ++k)
+        if (fabs(run->known[k].order - order) <= 1e-12 * fabs(order)) return run->known[k].wave;
+    check_known_order *next = &run->known[run->known_count++ % CHECK_KNOWN_ORDERS];
+    *next = (check_known_order){order, torque_order(run, order)};
+    return next->wave;
 }
 
 bool hci_check_has_current(const check_figures *f, const check_run *run)

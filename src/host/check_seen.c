@@ -25,9 +25,15 @@ double hci_check_angle_speed_of(const check_run *r, const check_view *v, const c
     return r->slope * hci_check_scale_of(r, v, m) / m->pole_pairs / v->time;
 }
 
+/* Mechanical speed per what stands in the column. */
+static double column_speed(const check_run *r, const check_view *v, const check_model *m)
+{
+    return v->speed / (r->speed_is_electrical || v->speed_electrical > 0.0 ? m->pole_pairs : 1.0);
+}
+
 double hci_check_column_speed_of(const check_run *r, const check_view *v, const check_model *m)
 {
-    return r->speed * v->speed / (v->speed_electrical > 0.0 ? m->pole_pairs : 1.0);
+    return r->speed * column_speed(r, v, m);
 }
 
 double hci_check_speed_of(const check_run *r, const check_view *v, const check_model *m)
@@ -54,11 +60,11 @@ check_vector hci_check_current_of(const check_run *r, const check_view *v, const
 {
     const check_frame *frame = hci_check_frame_of(r, hci_check_scale_of(r, v, m));
     const check_vector none = {0.0, 0.0};
-    if (r->has_dq) return hci_check_scaled(r->dq, v->current);
+    if (r->has_dq) return hci_check_scaled(r->dq, v->current * v->dq);
     return r->has_abc && frame ? hci_check_scaled(dq_of(frame->current, v), v->current) : none;
 }
 
-check_vector hci_check_voltage_of(const check_run *r, const check_view *v, const check_model *m)
+static check_vector voltage_of(const check_run *r, const check_view *v, const check_model *m)
 {
     const check_frame *frame = hci_check_frame_of(r, hci_check_scale_of(r, v, m));
     check_vector way[2] = {
@@ -70,12 +76,31 @@ check_vector hci_check_voltage_of(const check_run *r, const check_view *v, const
     return hci_check_scaled(dq_of(way, v), v->voltage);
 }
 
+/* The drive has turned v_d, v_q with an angle of its own: no slip of the recorded one is in them. */
+check_loop hci_check_loop_of(const check_run *r, const check_view *v, const check_model *m)
+{
+    check_loop x = r->loop;
+    if (!r->has_dq_voltage) {
+        x.voltage = voltage_of(r, v, m);
+        x.current = hci_check_current_of(r, v, m);
+        x.speed = hci_check_speed_of(r, v, m);
+        x.turning = hci_check_scaled(x.current, x.speed);
+        return x;
+    }
+    const double speed = r->has_speed ? column_speed(r, v, m) : hci_check_angle_speed_of(r, v, m);
+    x.voltage = hci_check_scaled(x.voltage, v->voltage * v->dq);
+    x.current = hci_check_scaled(x.current, v->current * v->dq);
+    x.turning = hci_check_scaled(x.turning, v->current * v->dq * speed);
+    x.speed *= speed;
+    return x;
+}
+
 /* 3/2 Re(v i*). Of phase currents it needs no frame, so that a wrong angle does not spoil it. */
 double hci_check_power_of(const check_run *r, const check_view *v, const check_model *m)
 {
+    if (r->has_dq_voltage) return 1.5 * r->power.re * v->voltage * v->current * v->dq * v->dq;
     const check_vector p =
-        r->has_dq ? hci_check_product(hci_check_voltage_of(r, v, m),
-                                      hci_check_conjugate(hci_check_current_of(r, v, m)))
+        r->has_dq ? hci_check_product(voltage_of(r, v, m), hci_check_conjugate(hci_check_current_of(r, v, m)))
                   : hci_check_scaled(hci_check_phase_of_line(r->power, v), v->voltage * v->current);
     return 1.5 * p.re;
 }
@@ -106,14 +131,20 @@ bool hci_check_has_speed(const check_run *r)
 
 bool hci_check_has_turning_voltage(const check_run *r)
 {
+    if (r->has_dq_voltage) return r->dq_voltage_is_coherent && !r->lacks_d_voltage && hci_check_has_speed(r);
     return r->has_voltage && hci_check_turns(r->voltage_order) && hci_check_has_speed(r) &&
            !hci_check_is_unbalanced(r->voltage_balance);
 }
 
-/* What flows but does not turn with the rotor is an offset or noise, and not in the voltage's fundamental. */
+/* What flows in the phases but does not turn with the rotor is an offset or noise, and not in the voltage's
+ * fundamental. */
+bool hci_check_has_drop(const check_figures *f, const check_run *r)
+{
+    return r->has_dq_voltage ? hci_check_has_current(f, r) : hci_check_has_vector_current(f, r);
+}
+
 bool hci_check_has_emf(const check_figures *f, const check_run *r, const check_model *m)
 {
     return hci_check_has_turning_voltage(r) &&
-           (!hci_check_has_vector_current(f, r) ||
-            isfinite(m->resistance_ohm + m->inductance_d_H + m->inductance_q_H));
+           (!hci_check_has_drop(f, r) || isfinite(m->resistance_ohm + m->inductance_d_H + m->inductance_q_H));
 }

@@ -31,7 +31,7 @@ static hci_status findings_write(hci_output *out, const hci_diagnosis *d, hci_no
     for (size_t k = 0; k < d->findings; ++k) {
         const hci_finding *f = &d->finding[k];
         hci_output_text(out, "%zu,%s,%s,", k + 1, f->effect, hci_finding_verdict_name(f->verdict));
-        cell(out, f->delta_bic, ',');
+        cell(out, hci_report_delta_bic(f), ',');
         cell(out, f->residual_share, ',');
         hci_output_text(out, "\"%s\"\n", f->detail);
     }

@@ -230,13 +230,19 @@ void hci_html_cell_words(hci_output *out, const char *text)
 
 /* ---- numbers ---- */
 
-/* A power of ten is exact up to 22, so that the quotient is the nearest double of the digits. */
+/* A power of ten is exact up to 22, so that the quotient is the nearest double of the digits; beyond, that is
+ * what the digits are read as. */
 static double rounded(double value, int digits)
 {
     const int exponent = value != 0.0 ? (int)floor(log10(fabs(value))) + 1 - digits : 0;
     const double power = pow(10.0, abs(exponent) <= 22 ? abs(exponent) : 0);
-    if (exponent < -22 || exponent > 22) return value;
-    return exponent < 0 ? round(value * power) / power : round(value / power) * power;
+    char text[48];
+    if (exponent >= -22 && exponent <= 22)
+        return exponent < 0 ? round(value * power) / power : round(value / power) * power;
+    /* in two steps, since 10^exponent may be no number while the value is one */
+    const double half = pow(10.0, exponent / 2), whole = value / half / pow(10.0, exponent - exponent / 2);
+    snprintf(text, sizeof text, "%.0fe%d", round(whole), exponent);
+    return hci_number_parse(text, &value) ? value : whole;
 }
 
 static void put_digits(char text[HCI_HTML_NUMBER_SIZE], double value, int digits)
@@ -281,6 +287,17 @@ static void put_number(hci_output *out, double value, int digits)
 void hci_html_number(hci_output *out, double value)
 {
     put_number(out, value, 4);
+}
+
+void hci_html_number_above(hci_output *out, double value, double least)
+{
+    char exact[32];
+    if (!(fabs(value) < least)) {
+        put_number(out, value, 4);
+        return;
+    }
+    hci_number_text(value, exact);
+    hci_output_text(out, "<td><data value=\"%s\">0</data></td>", exact);
 }
 
 void hci_html_number_in(hci_output *out, double value, double span)

@@ -65,6 +65,9 @@ void hci_html_quantity(hci_output *out, const char *name, double value);
 /* Four significant digits, and the whole number for programs; a dash for what is not finite. */
 void hci_html_number(hci_output *out, double value);
 
+/* The same; what is below `least` is rounding and shown as 0. */
+void hci_html_number_above(hci_output *out, double value, double least);
+
 /* With as many digits more as tell a thousandth of `span` apart, which is that of the values in the column.
  */
 void hci_html_number_in(hci_output *out, double value, double span);

@@ -233,18 +233,19 @@ static void draw_angle(hci_output *out, const curves *c, const hci_svg_axis *x, 
 
 /* ---- the four panels ---- */
 
-static void draw_torque(hci_output *out, const curves *c, const hci_svg_box *b)
+static void draw_torque(hci_output *out, const curves *c, const hci_svg_box *room)
 {
     static const hci_svg_entry LEGEND[] = {
         {HCI_SVG_LINE, "before", "before"},
         {HCI_SVG_LINE, "wanted", "wanted"},
         {HCI_SVG_LINE, "after",  "after" }
     };
-    const hci_svg_axis x = hci_svg_axis_of_angle(c->turns, b);
-    const hci_svg_axis y = hci_svg_axis_over(range_of(c, BEFORE, AFTER), b->bottom, b->top, 6.0);
-    hci_svg_head(out, b, "Torque in N·m", LEGEND, 3);
-    draw_angle(out, c, &x, b);
-    hci_svg_grid(out, &y, b, true);
+    const hci_svg_axis y = hci_svg_axis_over(range_of(c, BEFORE, AFTER), room->bottom, room->top, 6.0);
+    const hci_svg_box b = hci_svg_box_beside(*room, &y);
+    const hci_svg_axis x = hci_svg_axis_of_angle(c->turns, &b);
+    hci_svg_head(out, &b, "Torque in N·m", LEGEND, 3);
+    draw_angle(out, c, &x, &b);
+    hci_svg_grid(out, &y, &b, true);
     draw_curve(out, "before", c->value[BEFORE], &x, &y);
     draw_curve(out, "after", c->value[AFTER], &x, &y);
     draw_curve(out, "wanted", c->value[WANTED], &x, &y); /* dashed, so that what lies under it is seen */
@@ -261,7 +262,7 @@ static void draw_phase_letter(hci_output *out, const double *value, const char *
                   hci_svg_at(y, value[peak]) - 5.0, letter);
 }
 
-static void draw_currents(hci_output *out, const curves *c, const hci_svg_box *b)
+static void draw_currents(hci_output *out, const curves *c, const hci_svg_box *room)
 {
     static const hci_svg_entry LEGEND[] = {
         {HCI_SVG_LINE, "before", "i_a before"},
@@ -269,18 +270,19 @@ static void draw_currents(hci_output *out, const curves *c, const hci_svg_box *b
         {HCI_SVG_LINE, "b",      "i_b"       },
         {HCI_SVG_LINE, "c",      "i_c"       }
     };
-    const hci_svg_axis x = hci_svg_axis_of_angle(c->turns, b);
-    const hci_svg_axis y = hci_svg_axis_over(range_of(c, PHASE_A, PLAIN_A), b->bottom, b->top, 6.0);
-    hci_svg_head(out, b, "Phase currents in A", LEGEND, 4);
-    draw_angle(out, c, &x, b);
-    hci_svg_grid(out, &y, b, true);
+    const hci_svg_axis y = hci_svg_axis_over(range_of(c, PHASE_A, PLAIN_A), room->bottom, room->top, 6.0);
+    const hci_svg_box b = hci_svg_box_beside(*room, &y);
+    const hci_svg_axis x = hci_svg_axis_of_angle(c->turns, &b);
+    hci_svg_head(out, &b, "Phase currents in A", LEGEND, 4);
+    draw_angle(out, c, &x, &b);
+    hci_svg_grid(out, &y, &b, true);
     draw_curve(out, "before", c->value[PLAIN_A], &x, &y);
     draw_curve(out, "c", c->value[PHASE_C], &x, &y);
     draw_curve(out, "b", c->value[PHASE_B], &x, &y);
     draw_curve(out, "a", c->value[PHASE_A], &x, &y);
-    draw_phase_letter(out, c->value[PHASE_A], "a", &y, b);
-    draw_phase_letter(out, c->value[PHASE_B], "b", &y, b);
-    draw_phase_letter(out, c->value[PHASE_C], "c", &y, b);
+    draw_phase_letter(out, c->value[PHASE_A], "a", &y, &b);
+    draw_phase_letter(out, c->value[PHASE_B], "b", &y, &b);
+    draw_phase_letter(out, c->value[PHASE_C], "c", &y, &b);
 }
 
 /* ---- current vector ---- */
@@ -343,7 +345,7 @@ static void draw_vector_mark(hci_output *out, const char *style, double x, doubl
     hci_svg_circle(out, style, x, y, 4.2);
 }
 
-static void draw_vector(hci_output *out, const curves *c, const hci_svg_box *b)
+static void draw_vector(hci_output *out, const curves *c, const hci_svg_box *room)
 {
     static const hci_svg_entry LEGEND[] = {
         {HCI_SVG_DOT,  "plain", "before"},
@@ -352,11 +354,13 @@ static void draw_vector(hci_output *out, const curves *c, const hci_svg_box *b)
     };
     const hci_dq plain = vector_at(&c->plain, 1, 0.0), start = vector_sample(c, 0, 1);
     hci_svg_axis d, q;
-    vector_axes(c, plain, b, &d, &q);
-    hci_svg_head(out, b, "Current vector, i_q in A", LEGEND, 3);
-    hci_svg_grid(out, &d, b, false);
-    hci_svg_grid(out, &q, b, true);
-    hci_svg_label(out, "quiet middle", 0.5 * (b->left + b->right), b->bottom + 35.0, "i_d in A");
+    vector_axes(c, plain, room, &d, &q);
+    const hci_svg_box b = hci_svg_box_beside(*room, &q);
+    vector_axes(c, plain, &b, &d, &q);
+    hci_svg_head(out, &b, "Current vector, i_q in A", LEGEND, 3);
+    hci_svg_grid(out, &d, &b, false);
+    hci_svg_grid(out, &q, &b, true);
+    hci_svg_label(out, "quiet middle", 0.5 * (b.left + b.right), b.bottom + 35.0, "i_d in A");
     draw_path(out, c, &d, &q);
     draw_vector_mark(out, "plain", hci_svg_at(&d, plain.d), hci_svg_at(&q, plain.q));
     draw_vector_mark(out, "start", hci_svg_at(&d, start.d), hci_svg_at(&q, start.q));
@@ -408,8 +412,6 @@ static double group_weight(const void *context, size_t k)
     return is_ripple(o) && worth > WORTHWHILE * r->largest_Nm ? worth : 0.0;
 }
 
-#define DIGIT 7.0 /* pixels */
-
 /* A height of nothing still shows as a line. */
 static void draw_bar(hci_output *out, const char *style, double left, double width, double value,
                      const hci_svg_axis *y)
@@ -417,30 +419,30 @@ static void draw_bar(hci_output *out, const char *style, double left, double wid
     hci_svg_rectangle(out, style, left, fmin(hci_svg_at(y, value), y->from - 1.5), left + width, y->from);
 }
 
-/* Whether the orders are too long to stand side by side. */
-static bool labels_touch(const hci_solution *s, const size_t *group, size_t count, double width)
-{
-    char text[HCI_SVG_NUMBER_SIZE];
-    for (size_t k = 0; k < count; ++k) {
-        hci_svg_short_text(text, order_of(&s->order[group[k]]));
-        if (DIGIT * (double)strlen(text) > width) return true;
-    }
-    return false;
-}
-
-/* down: how far below the axis the order stands. */
-static void draw_group(hci_output *out, const hci_solved_order *o, double middle, double width, double down,
+static void draw_group(hci_output *out, const hci_solved_order *o, double middle, double width,
                        const hci_svg_axis *y)
 {
     const double bar = fmin(13.0, 0.27 * width), top = hci_svg_at(y, largest_of(o)) - 9.0;
-    char text[HCI_SVG_NUMBER_SIZE];
     draw_bar(out, "before", middle - 1.5 * bar, bar, amplitude(o->before_Nm), y);
     draw_bar(out, "wanted", middle - 0.5 * bar, bar, amplitude(o->target_Nm), y);
     draw_bar(out, "after", middle + 0.5 * bar, bar, amplitude(o->torque_Nm), y);
     if (o->verdict == HCI_ORDER_UNREACHABLE) hci_svg_cross(out, middle, top);
     if (is_missed(o) && o->verdict != HCI_ORDER_UNREACHABLE) hci_svg_circle(out, "ring", middle, top, 4.0);
-    hci_svg_short_text(text, order_of(o));
-    hci_svg_label(out, is_missed(o) ? "no middle" : "quiet middle", middle, y->from + down, text);
+}
+
+/* Those of the groups with their orders below; `width` pixels each, from `left` on. */
+static void draw_groups(hci_output *out, const hci_solution *s, const size_t *group, size_t count,
+                        double left, double width, const hci_svg_axis *y)
+{
+    hci_svg_tag tag[MOST_GROUPS];
+    for (size_t k = 0; k < count; ++k) {
+        const hci_solved_order *o = &s->order[group[k]];
+        tag[k].x = left + width * ((double)k + 0.5);
+        tag[k].style = is_missed(o) ? "no middle" : "quiet middle";
+        hci_svg_short_text(tag[k].text, order_of(o));
+        draw_group(out, o, tag[k].x, width, y);
+    }
+    hci_svg_tags(out, tag, count, y->from);
 }
 
 static void draw_spectrum_foot(hci_output *out, const hci_solution *s, const hci_svg_box *b, size_t shown,
@@ -465,7 +467,7 @@ static void draw_spectrum_foot(hci_output *out, const hci_solution *s, const hci
                    b->bottom + 35.0);
 }
 
-static void draw_spectrum(hci_output *out, const hci_solution *s, const hci_svg_box *b)
+static void draw_spectrum(hci_output *out, const hci_solution *s, const hci_svg_box *room)
 {
     static const hci_svg_entry LEGEND[] = {
         {HCI_SVG_BAR, "before", "before"},
@@ -474,30 +476,25 @@ static void draw_spectrum(hci_output *out, const hci_solution *s, const hci_svg_
     };
     const hci_svg_range peaks = {0.0, 1.04 * largest_ripple_Nm(s)};
     const hci_svg_axis y =
-        hci_svg_axis_over(peaks.high > 0.0 ? peaks : (hci_svg_range){0.0, 1.0}, b->bottom, b->top, 6.0);
+        hci_svg_axis_over(peaks.high > 0.0 ? peaks : (hci_svg_range){0.0, 1.0}, room->bottom, room->top, 6.0);
+    const hci_svg_box b = hci_svg_box_beside(*room, &y);
     const ripple r = {s, largest_ripple_Nm(s)};
     size_t group[MOST_GROUPS], eligible = 0;
     const size_t count = hci_plot_largest(group_weight, &r, s->order_count, MOST_GROUPS, group);
-    const double width = fmin((b->right - b->left) / (double)(count > 0 ? count : 1), 60.0);
-    const double left = 0.5 * (b->left + b->right - width * (double)count);
-    const bool two_rows = labels_touch(s, group, count, width);
+    const double width = fmin((b.right - b.left) / (double)(count > 0 ? count : 1), 60.0);
+    const double left = 0.5 * (b.left + b.right - width * (double)count);
     for (size_t k = 0; k < s->order_count; ++k)
         eligible += group_weight(&r, k) > 0.0;
-    hci_svg_head(out, b, "Ripple in N·m (peak)", LEGEND, 3);
-    hci_svg_grid(out, &y, b, true);
-    for (size_t k = 0; k < count; ++k)
-        draw_group(out, &s->order[group[k]], left + width * ((double)k + 0.5), width,
-                   !two_rows    ? 17.0
-                   : k % 2 == 0 ? 12.0
-                                : 23.0,
-                   &y);
+    hci_svg_head(out, &b, "Ripple in N·m (peak)", LEGEND, 3);
+    hci_svg_grid(out, &y, &b, true);
+    draw_groups(out, s, group, count, left, width, &y);
     if (y.from - hci_svg_at(&y, s->tolerance_Nm) > 1.5 && count > 0)
-        hci_svg_segment(out, "limit", b->left, hci_svg_at(&y, s->tolerance_Nm), b->right,
+        hci_svg_segment(out, "limit", b.left, hci_svg_at(&y, s->tolerance_Nm), b.right,
                         hci_svg_at(&y, s->tolerance_Nm));
     if (count == 0)
-        hci_svg_label(out, "quiet middle", 0.5 * (b->left + b->right), 0.5 * (b->top + b->bottom),
+        hci_svg_label(out, "quiet middle", 0.5 * (b.left + b.right), 0.5 * (b.top + b.bottom),
                       "no torque ripple");
-    draw_spectrum_foot(out, s, b, count, eligible);
+    draw_spectrum_foot(out, s, &b, count, eligible);
 }
 
 /* ---- words ---- */

@@ -95,9 +95,10 @@ typedef struct {
     size_t before_run, after_run;         /* where it comes from */
 } hci_plot_order;
 
-/* Amplitudes over the order, ascending; logarithmic over at most four decades. */
+/* Amplitudes over the order, ascending; logarithmic over at most four decades. noise: what the legend calls
+ * noise_Nm; before_Nm and noise_Nm are there of all orders or of none. */
 void hci_plot_orders(hci_output *out, const hci_svg_picture *words, const hci_plot_order *order, size_t count,
-                     bool logarithmic);
+                     const char *noise, bool logarithmic);
 
 /* ---- plot_diagnose.c ---- */
 

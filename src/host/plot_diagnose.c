@@ -5,7 +5,8 @@
 
 #include "plot.h"
 
-enum { WIDTH = 540, ROW = 21, FIRST_ROW = 62 };
+/* EFFECTS: where their names end. */
+enum { WIDTH = 540, ROW = 21, FIRST_ROW = 62, EFFECTS = 170 };
 
 /* Middle of row k. */
 static double row_y(size_t k)
@@ -84,7 +85,8 @@ static void draw_finding(hci_output *out, const hci_finding *f, double y, const 
                          const hci_svg_axis *share)
 {
     const char *style = style_of(f->verdict);
-    hci_svg_name(out, f->verdict == HCI_FINDING_ADDED ? "head" : "quiet", 4.0, y + 4.0, f->effect, 24);
+    hci_svg_name(out, f->verdict == HCI_FINDING_ADDED ? "head" : "quiet", 4.0, y + 4.0, f->effect,
+                 EFFECTS - 8.0);
     if (f->delta_bic > 0.0)
         hci_svg_rectangle(out, style, bic->from, y - 6.0,
                           fmax(hci_svg_log_at(bic, f->delta_bic), bic->from + 1.5), y + 6.0);
@@ -116,7 +118,7 @@ void hci_plot_findings(hci_output *out, const hci_diagnosis *d)
     };
     const hci_finding *shown[HCI_MOST_FINDINGS];
     const size_t rows = shown_findings(d, shown);
-    const hci_svg_box left = box_of(150.0, 320.0, rows), right = box_of(346.0, 430.0, rows);
+    const hci_svg_box left = box_of(EFFECTS, 330.0, rows), right = box_of(356.0, 440.0, rows);
     hci_svg_range most = {1.0, 10.0};
     hci_svg_axis bic, share = {0.0, 100.0, right.left, right.right, 50.0};
     for (size_t k = 0; k < rows; ++k)
@@ -158,7 +160,7 @@ static void draw_run(hci_output *out, const hci_run_errors *e, double y, const h
 {
     const double before = hci_svg_log_at(x, e->rms_before_Nm), after = hci_svg_log_at(x, e->rms_after_Nm),
                  noise = hci_svg_log_at(x, e->noise_floor_Nm);
-    hci_svg_name(out, "quiet", 4.0, y + 4.0, e->file, 22);
+    hci_svg_name(out, "quiet", 4.0, y + 4.0, e->file, RUNS.left - 8.0);
     hci_svg_segment(out, "rail", before, y, after, y);
     hci_svg_segment(out, "spread", hci_svg_log_at(x, e->after_low_Nm), y, hci_svg_log_at(x, e->after_high_Nm),
                     y);
@@ -241,7 +243,7 @@ static void draw_term(hci_output *out, const hci_effect *effect, size_t term, do
                  high = hci_svg_at(x, t->value + half);
     char name[HCI_PLOT_NAME_SIZE];
     hci_plot_term_name(name, effect, term);
-    hci_svg_name(out, "quiet", 4.0, y + 4.0, name, 26);
+    hci_svg_name(out, "quiet", 4.0, y + 4.0, name, RUNS.left - 8.0);
     hci_svg_segment(out, "after", low, y, high, y);
     hci_svg_segment(out, "after", low, y - 5.0, low, y + 5.0);
     hci_svg_segment(out, "after", high, y - 5.0, high, y + 5.0);
@@ -266,7 +268,7 @@ void hci_plot_terms(hci_output *out, const char *id, const char *title, const hc
         out, id, title,
         "One row for each parameter: the value and its 95 % interval. The table beside it has the numbers.",
         count);
-    hci_svg_label(out, "head", 4.0, FIRST_ROW - 34.0, title);
+    hci_svg_name(out, "head", 4.0, FIRST_ROW - 34.0, title, WIDTH);
     hci_svg_grid(out, &x, &b, false);
     for (size_t k = 0; k < count; ++k)
         draw_term(out, effect, term[k], row_y(k), &x);

@@ -5,7 +5,7 @@
 
 #include "plot.h"
 
-enum { CANVAS = 540, LEFT = 52, RIGHT = 524, TOP = 66, LABEL = 13 };
+enum { CANVAS = 540, LEFT = 64, RIGHT = 524, TOP = 66, LABEL = 13 };
 
 #define ROUNDING   1e-12 /* currents below this share of the largest do not flow */
 #define LEAST_SIDE 2.6   /* pixels; every number that is not 0 is seen */
@@ -351,18 +351,19 @@ static void draw_line_of(hci_output *out, const hci_plot_map *m, const raster *r
 
 static void draw_map_names(hci_output *out, const hci_plot_map *m, const raster *r, const hci_svg_box *b)
 {
-    const size_t apart = (size_t)ceil(26.0 / r->width);
+    hci_svg_tag tag[HCI_PLOT_MOST_CELLS];
     for (size_t k = 0; k < m->runs_shown; ++k) {
         const double y = r->top + r->height * ((double)k + 0.5);
         hci_svg_name(out, m->runs->role[m->run[k]] == HCI_ROLE_HOLDOUT ? "head end" : "quiet end",
-                     b->left - 6.0, y + 4.0, m->runs->run[m->run[k]].name, 22);
+                     b->left - 6.0, y + 4.0, m->runs->run[m->run[k]].name, b->left - 10.0);
         hci_svg_segment(out, "grid", b->left, y + 0.5 * r->height, b->right, y + 0.5 * r->height);
     }
-    for (size_t k = 0; k < m->orders_shown; k += apart) {
-        char text[HCI_SVG_NUMBER_SIZE];
-        hci_svg_short_text(text, m->order[k]);
-        hci_svg_label(out, "quiet middle", r->left + r->width * ((double)k + 0.5), b->bottom + 16.0, text);
+    for (size_t k = 0; k < m->orders_shown; ++k) {
+        tag[k].x = r->left + r->width * ((double)k + 0.5);
+        tag[k].style = "quiet middle";
+        hci_svg_short_text(tag[k].text, m->order[k]);
     }
+    hci_svg_tags(out, tag, m->orders_shown, b->bottom);
 }
 
 void hci_plot_residuals(hci_output *out, const hci_plot_map *m)
@@ -379,13 +380,13 @@ void hci_plot_residuals(hci_output *out, const hci_plot_map *m)
         out, &(hci_svg_picture){"map", "Residual by run and electrical order, before and after",
                                 "A square for each run and order: its side grows with the logarithm of the "
                                 "amplitude in N·m, over four decades. The table beside it has the largest.",
-                                0, 0, CANVAS, (int)ceil(b.bottom) + 44});
+                                0, 0, CANVAS, (int)ceil(b.bottom) + 48});
     hci_svg_label(out, "head", 16.0, 22.0, "Residual: run down, electrical order across");
     hci_svg_legend(out, LEGEND, 3, RIGHT, 46.0);
     draw_map_names(out, m, &r, &b);
     draw_frame(out, &b);
     for (size_t k = 0; k < m->diagnosis->lines; ++k)
         draw_line_of(out, m, &r, &m->diagnosis->line[k], largest_Nm);
-    hci_svg_label(out, "quiet middle", 0.5 * (b.left + b.right), b.bottom + 34.0, "electrical order");
+    hci_svg_label(out, "quiet middle", 0.5 * (b.left + b.right), b.bottom + 39.0, "electrical order");
     hci_svg_end(out);
 }

@@ -38,6 +38,7 @@ size_t hci_plot_largest(double (*weight)(const void *context, size_t k), const v
 static const hci_svg_box ORDERS = {58, 52, 468, 262};
 
 typedef struct {
+    hci_svg_box box;
     hci_svg_axis x, y;
     bool logarithmic;
 } order_axes;
@@ -57,10 +58,10 @@ static order_axes axes_of(const hci_plot_order *order, size_t count, bool logari
             if (value[j] > 0.0) hci_svg_include(&amplitude_Nm, value[j]);
     }
     if (!logarithmic) amplitude_Nm.low = 0.0;
-    return (order_axes){hci_svg_axis_over(n, ORDERS.left, ORDERS.right, 10.0),
-                        logarithmic ? hci_svg_log_axis(amplitude_Nm, ORDERS.bottom, ORDERS.top, 4.0)
-                                    : hci_svg_axis_over(amplitude_Nm, ORDERS.bottom, ORDERS.top, 6.0),
-                        logarithmic};
+    const hci_svg_axis y = logarithmic ? hci_svg_log_axis(amplitude_Nm, ORDERS.bottom, ORDERS.top, 4.0)
+                                       : hci_svg_axis_over(amplitude_Nm, ORDERS.bottom, ORDERS.top, 6.0);
+    const hci_svg_box b = logarithmic ? ORDERS : hci_svg_box_beside(ORDERS, &y);
+    return (order_axes){b, hci_svg_axis_over(n, b.left, b.right, 10.0), y, logarithmic};
 }
 
 /* What lies below the axis is left out. */
@@ -82,32 +83,27 @@ static void draw_order(hci_output *out, const order_axes *a, const hci_plot_orde
 }
 
 void hci_plot_orders(hci_output *out, const hci_svg_picture *words, const hci_plot_order *order, size_t count,
-                     bool logarithmic)
+                     const char *noise, bool logarithmic)
 {
-    static const hci_svg_entry COMPARED[] = {
-        {HCI_SVG_DOT,  "before", "before"},
-        {HCI_SVG_DOT,  "dot",    "after" },
-        {HCI_SVG_LINE, "noise",  "noise" }
-    };
-    static const hci_svg_entry ALONE[] = {
-        {HCI_SVG_DOT,  "dot",   "torque"},
-        {HCI_SVG_LINE, "noise", "floor" }
+    const bool compared = count > 0 && isfinite(order[0].before_Nm);
+    const bool has_noise = count > 0 && isfinite(order[0].noise_Nm);
+    const hci_svg_entry entry[] = {
+        {HCI_SVG_DOT,  "before", "before"                     },
+        {HCI_SVG_DOT,  "dot",    compared ? "after" : "torque"},
+        {HCI_SVG_LINE, "noise",  noise                        }
     };
     const order_axes a = axes_of(order, count, logarithmic);
-    const bool compared = count > 0 && isfinite(order[0].before_Nm);
     hci_svg_begin(out, words);
-    hci_svg_head(out, &ORDERS, "N·m (peak amplitude)", compared ? COMPARED : ALONE,
-                 compared                                   ? 3
-                 : count > 0 && isfinite(order[0].noise_Nm) ? 2
-                                                            : 0);
+    hci_svg_head(out, &a.box, "N·m (peak amplitude)", compared ? entry : entry + 1,
+                 compared || has_noise ? (size_t)compared + 1 + (size_t)has_noise : 0);
     if (logarithmic)
-        hci_svg_log_grid(out, &a.y, &ORDERS, true);
+        hci_svg_log_grid(out, &a.y, &a.box, true);
     else
-        hci_svg_grid(out, &a.y, &ORDERS, true);
-    hci_svg_grid(out, &a.x, &ORDERS, false);
+        hci_svg_grid(out, &a.y, &a.box, true);
+    hci_svg_grid(out, &a.x, &a.box, false);
     for (size_t k = 0; k < count; ++k)
         draw_order(out, &a, &order[k]);
-    hci_svg_label(out, "quiet middle", 0.5 * (ORDERS.left + ORDERS.right), ORDERS.bottom + 35.0,
+    hci_svg_label(out, "quiet middle", 0.5 * (a.box.left + a.box.right), a.box.bottom + 35.0,
                   "electrical order");
     hci_svg_end(out);
 }

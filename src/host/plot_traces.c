@@ -77,20 +77,21 @@ void hci_plot_trace(hci_output *out, const hci_traces *t, const hci_svg_picture 
         {HCI_SVG_LINE, "c", "i_c"}
     };
     hci_svg_range r = HCI_SVG_NOTHING;
-    hci_svg_axis x = {1e3 * from_s, 1e3 * to_s, BOX.left, BOX.right, 1.0};
-    x.step = hci_svg_nice_step((x.high - x.low) / 7.0);
     for (size_t j = first; j <= (size_t)last; ++j) {
         const hci_svg_range one = hci_traces_range(t, (hci_trace)j, from_s, to_s);
         hci_svg_include(&r, one.low);
         hci_svg_include(&r, one.high);
     }
     const hci_svg_axis y = hci_svg_axis_over(r, BOX.bottom, BOX.top, 6.0);
+    const hci_svg_box b = hci_svg_box_beside(BOX, &y);
+    hci_svg_axis x = {1e3 * from_s, 1e3 * to_s, b.left, b.right, 1.0};
+    x.step = hci_svg_nice_step((x.high - x.low) / 7.0);
     hci_svg_begin(out, words);
-    hci_svg_head(out, &BOX, words->title, LEGEND, first == last ? 0 : 3);
-    hci_svg_grid(out, &x, &BOX, false);
-    hci_svg_grid(out, &y, &BOX, true);
+    hci_svg_head(out, &b, words->title, LEGEND, first == last ? 0 : 3);
+    hci_svg_grid(out, &x, &b, false);
+    hci_svg_grid(out, &y, &b, true);
     for (size_t j = first; j <= (size_t)last; ++j)
         draw_trace(out, t, (hci_trace)j, STYLE[j], &x, &y);
-    hci_svg_label(out, "quiet middle", 0.5 * (BOX.left + BOX.right), BOX.bottom + 35.0, "time in ms");
+    hci_svg_label(out, "quiet middle", 0.5 * (b.left + b.right), b.bottom + 35.0, "time in ms");
     hci_svg_end(out);
 }

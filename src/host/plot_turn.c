@@ -77,9 +77,10 @@ static void draw_edge(hci_output *out, const hci_turn_means *t, bool upper, cons
     hci_svg_line_end(out);
 }
 
-static void draw_mean(hci_output *out, const hci_turn_means *t, const hci_svg_axis *x, const hci_svg_axis *y)
+static void draw_mean(hci_output *out, const hci_turn_means *t, const char *style, const hci_svg_axis *x,
+                      const hci_svg_axis *y)
 {
-    hci_svg_line_begin(out, "after");
+    hci_svg_line_begin(out, style);
     for (size_t k = 0; k < HCI_TURN_STEPS; ++k)
         if (t->samples[k] > 0)
             hci_svg_line_point(out, hci_svg_at(x, angle_deg(k)),
@@ -87,29 +88,46 @@ static void draw_mean(hci_output *out, const hci_turn_means *t, const hci_svg_ax
     hci_svg_line_end(out);
 }
 
-void hci_plot_turn_torque(hci_output *out, const hci_turn_means *t)
+static hci_svg_range range_of_both(const hci_turn_means *t, const hci_turn_means *before)
 {
-    static const hci_svg_entry LEGEND[] = {
+    hci_svg_range r = hci_turn_mean_of(t, 0, HCI_TURN_STEPS).torque_range_Nm;
+    const hci_svg_range plain =
+        before ? hci_turn_mean_of(before, 0, HCI_TURN_STEPS).torque_range_Nm : HCI_SVG_NOTHING;
+    hci_svg_include(&r, plain.low);
+    hci_svg_include(&r, plain.high);
+    return r;
+}
+
+void hci_plot_turn_torque(hci_output *out, const hci_turn_means *t, const hci_turn_means *before)
+{
+    static const hci_svg_entry ALONE[] = {
         {HCI_SVG_LINE, "edge",  "least and most"},
         {HCI_SVG_LINE, "after", "mean"          }
     };
-    const hci_svg_axis x = hci_svg_axis_of_angle(1.0, &BOX);
-    const hci_svg_axis y =
-        hci_svg_axis_over(hci_turn_mean_of(t, 0, HCI_TURN_STEPS).torque_range_Nm, BOX.bottom, BOX.top, 6.0);
+    static const hci_svg_entry COMPARED[] = {
+        {HCI_SVG_LINE, "before", "before"},
+        {HCI_SVG_LINE, "after",  "after" }
+    };
+    const hci_svg_axis y = hci_svg_axis_over(range_of_both(t, before), BOX.bottom, BOX.top, 6.0);
+    const hci_svg_box b = hci_svg_box_beside(BOX, &y);
+    const hci_svg_axis x = hci_svg_axis_of_angle(1.0, &b);
     hci_svg_begin(out,
                   &(hci_svg_picture){
                       "turn", "Torque over one electrical turn",
                       "The mean over all turns in N·m at each electrical angle in degrees, and the band from "
-                      "the least to the most. The table beside it has the numbers.",
+                      "the least to the most; with a plain sine and simulated. The table beside it has the "
+                      "numbers.",
                       0, 0, 480, 284});
-    hci_svg_head(out, &BOX, "Torque in N·m", LEGEND, 2);
-    hci_svg_grid(out, &x, &BOX, false);
-    hci_svg_grid(out, &y, &BOX, true);
+    hci_svg_head(out, &b, "Torque in N·m", before ? COMPARED : ALONE, 2);
+    hci_svg_grid(out, &x, &b, false);
+    hci_svg_grid(out, &y, &b, true);
+    if (before) draw_band(out, before, &x, &y);
     draw_band(out, t, &x, &y);
+    if (before) draw_mean(out, before, "before", &x, &y);
     draw_edge(out, t, false, &x, &y);
     draw_edge(out, t, true, &x, &y);
-    draw_mean(out, t, &x, &y);
-    hci_svg_label(out, "quiet middle", 0.5 * (BOX.left + BOX.right), BOX.bottom + 35.0,
+    draw_mean(out, t, "after", &x, &y);
+    hci_svg_label(out, "quiet middle", 0.5 * (b.left + b.right), b.bottom + 35.0,
                   "electrical angle in degrees");
     hci_svg_end(out);
 }
@@ -142,17 +160,19 @@ void hci_plot_turn_vector(hci_output *out, const hci_turn_means *t, hci_dq plain
         hci_svg_include(&q_A, m.current_A.q);
     }
     hci_svg_equal_axes(d_A, q_A, &BOX, &d, &q);
+    const hci_svg_box b = hci_svg_box_beside(BOX, &q);
+    hci_svg_equal_axes(d_A, q_A, &b, &d, &q);
     hci_svg_begin(
         out, &(hci_svg_picture){
                  "vector", "Current vector in the plane of i_d and i_q",
                  "i_q in A over i_d in A: the path of the mean over all turns, and the point of the plain "
                  "sine with the same mean torque. The table beside it has the numbers.",
                  0, 0, 480, 284});
-    hci_svg_head(out, &BOX, "Current vector, i_q in A", LEGEND, 2);
-    hci_svg_grid(out, &d, &BOX, false);
-    hci_svg_grid(out, &q, &BOX, true);
+    hci_svg_head(out, &b, "Current vector, i_q in A", LEGEND, 2);
+    hci_svg_grid(out, &d, &b, false);
+    hci_svg_grid(out, &q, &b, true);
     draw_path(out, t, &d, &q);
     hci_svg_circle(out, "plain", hci_svg_at(&d, plain_A.d), hci_svg_at(&q, plain_A.q), 4.2);
-    hci_svg_label(out, "quiet middle", 0.5 * (BOX.left + BOX.right), BOX.bottom + 35.0, "i_d in A");
+    hci_svg_label(out, "quiet middle", 0.5 * (b.left + b.right), b.bottom + 35.0, "i_d in A");
     hci_svg_end(out);
 }

@@ -31,8 +31,9 @@ typedef struct {
 
 hci_turn_mean hci_turn_mean_of(const hci_turn_means *turn, size_t step, size_t many);
 
-/* Pictures as plot.h says. plain: the vector of the plain sine with the same mean torque. */
-void hci_plot_turn_torque(hci_output *out, const hci_turn_means *turn);
+/* Pictures as plot.h says. before, plain_A: torque, or NULL, and vector of what it is compared with, the
+ * plain sine with the same mean torque. */
+void hci_plot_turn_torque(hci_output *out, const hci_turn_means *turn, const hci_turn_means *before);
 void hci_plot_turn_vector(hci_output *out, const hci_turn_means *turn, hci_dq plain_A);
 
 #endif

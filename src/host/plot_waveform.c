@@ -80,17 +80,18 @@ static void draw_turn(hci_output *out, const hci_waveform *w, const curve *kept)
     const bool compared = w->kept < w->count;
     curve all = *kept;
     if (compared) fill(&all, w, true);
-    const hci_svg_axis x = hci_svg_axis_of_angle(1.0, &TURN);
     const hci_svg_axis y = hci_svg_axis_over(all.range, TURN.bottom, TURN.top, 6.0);
+    const hci_svg_box b = hci_svg_box_beside(TURN, &y);
+    const hci_svg_axis x = hci_svg_axis_of_angle(1.0, &b);
     char title[96];
     snprintf(title, sizeof title, "%s in %s", is_cogging(w) ? "Torque" : "Back-EMF of phase a by speed",
              unit_of(w));
-    hci_svg_head(out, &TURN, title, LEGEND, compared ? 2 : 0);
-    hci_svg_grid(out, &x, &TURN, false);
-    hci_svg_grid(out, &y, &TURN, true);
+    hci_svg_head(out, &b, title, LEGEND, compared ? 2 : 0);
+    hci_svg_grid(out, &x, &b, false);
+    hci_svg_grid(out, &y, &b, true);
     if (compared) draw_curve(out, &all, "before", &x, &y);
     draw_curve(out, kept, "after", &x, &y);
-    hci_svg_label(out, "quiet middle", 0.5 * (TURN.left + TURN.right), TURN.bottom + 35.0, angle_of(w));
+    hci_svg_label(out, "quiet middle", 0.5 * (b.left + b.right), b.bottom + 35.0, angle_of(w));
 }
 
 /* ---- by order ---- */

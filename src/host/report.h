@@ -21,6 +21,10 @@ hci_status hci_report_diagnosis(hci_output *out, const hci_diagnosis *diagnosis,
                                 const hci_resolution *resolution, const hci_runs *runs,
                                 const char *machine_folder, hci_note *note);
 
+/* NAN where it is not known: the search looks no further at an effect of which no part by itself lets the
+ * criterion fall. */
+double hci_report_delta_bic(const hci_finding *finding);
+
 /* verdict: what hci_solve returned. */
 void hci_report_solution(hci_output *out, const hci_machine_data *machine, const hci_solution *solution,
                          hci_status verdict, const hci_report_sources *sources);

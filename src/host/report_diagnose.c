@@ -98,6 +98,11 @@ static void cell_of_certainty(hci_output *out, const hci_diagnosis *d, const hci
     hci_html_cell_words(out, text);
 }
 
+double hci_report_delta_bic(const hci_finding *f)
+{
+    return f->verdict == HCI_FINDING_REJECTED && f->delta_bic == 0.0 ? (double)NAN : f->delta_bic;
+}
+
 static void table_of_findings(hci_output *out, const hci_diagnosis *d)
 {
     static const char *const COLUMN[] = {
@@ -110,7 +115,7 @@ static void table_of_findings(hci_output *out, const hci_diagnosis *d)
         hci_html_number(out, (double)(k + 1));
         hci_html_cell(out, f->effect);
         hci_html_cell(out, hci_finding_verdict_name(f->verdict));
-        hci_html_number(out, f->delta_bic);
+        hci_html_number(out, hci_report_delta_bic(f));
         hci_html_number(out, 100.0 * f->residual_share);
         cell_of_certainty(out, d, f);
         cell_of_finding(out, f);
@@ -125,7 +130,8 @@ static void show_findings(hci_output *out, const hci_diagnosis *d, const char *o
     hci_html_paragraph(
         out, NULL,
         "ΔBIC is how much the Bayesian information criterion falls by having the effect: above "
-        "10 the recordings speak clearly for it, and at 0 it was not needed. Its own share is "
+        "10 the recordings speak clearly for it; a dash is where no part of the effect by itself "
+        "lets it fall, so that it is not known. Its own share is "
         "what would come back of the residual's mean square if this effect alone were left "
         "out; what several effects can explain is no one's own, so shares need not sum to "
         "100 %. Certainty is the 95 % interval of the clearest value, in per cent of it.");
@@ -374,7 +380,7 @@ static void show_orders(hci_output *out, const hci_diagnosis *d, const orders *o
                      : "No order of the residual stands out of the noise, before or after.");
     if (o->count > 0) {
         hci_html_figure(out);
-        hci_plot_orders(out, &WORDS, o->order, o->count, true);
+        hci_plot_orders(out, &WORDS, o->order, o->count, "noise", true);
         hci_html_figure_tables(out);
         table_of_orders(out, o, runs);
         hci_html_figure_end(out,

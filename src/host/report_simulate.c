@@ -11,12 +11,20 @@
 /* SLICES of the evaluated time and STEPS of a turn: rows of the tables. STEPS: as in report_solve.c. */
 enum { MOST_ORDERS = 24, SLICES = 20, STEPS = 40, LEAST_FOR_FLOOR = 8 };
 
+enum { SAMPLES_IN_STEP = 4, MOST_TURNS = 64, BASELINE_SIZE = 256 };
+
 /* ---- verdict ---- */
+
+static bool has_before(const hci_simulation *s)
+{
+    return s->plain.order_count > 0;
+}
 
 /* What a reader wants to know who will not read on. */
 static void say_facts(hci_output *out, const hci_simulation *s)
 {
-    char mean[HCI_HTML_NUMBER_SIZE], speed[HCI_HTML_NUMBER_SIZE], swing[HCI_HTML_NUMBER_SIZE], loss[128] = "";
+    char mean[HCI_HTML_NUMBER_SIZE], speed[HCI_HTML_NUMBER_SIZE], swing[HCI_HTML_NUMBER_SIZE],
+        loss[128] = "", before[HCI_HTML_NUMBER_SIZE + 80] = "";
     hci_html_quantity_text(mean, s->torque_Nm.mean, "N·m");
     hci_html_quantity_text(swing, s->torque_Nm.most - s->torque_Nm.least, "N·m");
     hci_html_number_text(speed, s->speed_rad_per_s.mean * 30.0 / HCI_PI);
@@ -26,9 +34,31 @@ static void say_facts(hci_output *out, const hci_simulation *s)
         snprintf(loss, sizeof loss,
                  " Its copper loss is %s times that of a plain sine with the same mean torque.", ratio);
     }
+    if (has_before(s)) {
+        char plain[HCI_HTML_NUMBER_SIZE];
+        hci_html_quantity_text(plain, s->plain.peak_to_peak_Nm, "N·m");
+        snprintf(before, sizeof before, ", with a plain sine of the same mean torque by %s", plain);
+    }
     hci_html_say(out, "lead",
-                 "The drive makes %s on average at %s rpm; its torque varies by %s from peak to peak.%s",
-                 mean, speed, swing, loss);
+                 "The drive makes %s on average at %s rpm; its torque varies by %s%s from peak to peak%s.%s",
+                 mean, speed, swing[0] == '<' ? "less than" : "", swing + (swing[0] == '<'), before, loss);
+}
+
+/* "29.6 → 0.33 %" where there is a before. */
+static void tile_of_ripple(hci_output *out, const char *name, double before, double after,
+                           const char *formula)
+{
+    char from[HCI_HTML_NUMBER_SIZE], to[HCI_HTML_NUMBER_SIZE], value[2 * HCI_HTML_NUMBER_SIZE + 8],
+        remark[96];
+    if (!isfinite(after) || !isfinite(before)) {
+        hci_html_tile_number(out, name, after, "%", formula);
+        return;
+    }
+    hci_html_number_text(from, before);
+    hci_html_quantity_text(to, after, "%");
+    snprintf(value, sizeof value, "%s → %s", from, to);
+    snprintf(remark, sizeof remark, "plain sine → this drive; %s", formula);
+    hci_html_tile(out, name, value, remark);
 }
 
 static void say_verdict(hci_output *out, const hci_simulation *s)
@@ -53,8 +83,10 @@ static void say_verdict(hci_output *out, const hci_simulation *s)
     if (s->remark.text[0]) hci_html_paragraph(out, NULL, s->remark.text);
     hci_html_tiles(out);
     hci_html_tile_number(out, "Mean torque", s->torque_Nm.mean, "N·m", "over the evaluated time");
-    hci_html_tile_number(out, "T_ripple", s->T_ripple_percent, "%", "100 (T_max − T_min) / T_mean");
-    hci_html_tile_number(out, "F_ripple", s->F_ripple_percent, "%", "100 rms(T − T_mean) / T_mean");
+    tile_of_ripple(out, "T_ripple", has_before(s) ? s->plain.T_ripple_percent : (double)NAN,
+                   s->T_ripple_percent, "100 (T_max − T_min) / T_mean");
+    tile_of_ripple(out, "F_ripple", has_before(s) ? s->plain.F_ripple_percent : (double)NAN,
+                   s->F_ripple_percent, "100 rms(T − T_mean) / T_mean");
     hci_html_tile_number(out, "Copper loss", s->copper_W, "W", "mean");
     hci_html_tile_number(out, "Peak phase current", s->peak_phase_A, "A", "largest of the phases");
     hci_html_tiles_end(out);
@@ -155,17 +187,45 @@ static void show_traces(hci_output *out, const hci_simulation *s, const hci_trac
 
 /* ---- over one turn ---- */
 
-static void table_of_turn_torque(hci_output *out, const hci_turn_means *t)
+/* Torque of the plain sine over all turns of its period, a few samples in each step of the picture. */
+static void fill_before(hci_turn_means *t, const hci_judgement *plain)
 {
-    static const char *const COLUMN[] = {"From °", "to °", "Least N·m", "Mean N·m", "Most N·m", NULL};
-    hci_html_table(out, "Torque over the electrical angle", COLUMN);
+    const size_t turns = plain->period_turns > 0 ? plain->period_turns : 1;
+    const size_t samples = SAMPLES_IN_STEP * HCI_TURN_STEPS * (turns < MOST_TURNS ? turns : MOST_TURNS);
+    hci_turn_means_begin(t);
+    for (size_t k = 0; k < samples; ++k) {
+        const double theta_rad = 2.0 * HCI_PI * ((double)k + 0.5) / (SAMPLES_IN_STEP * HCI_TURN_STEPS);
+        double torque_Nm = 0.0;
+        for (size_t j = 0; j < plain->order_count; ++j) {
+            const hci_harmonic h = plain->torque_Nm[j];
+            if (h.sine != 0.0 || h.cosine != 0.0)
+                torque_Nm += h.sine * sin(h.order * theta_rad) + h.cosine * cos(h.order * theta_rad);
+        }
+        hci_turn_means_add(t, theta_rad, torque_Nm, (hci_dq){.d = 0.0});
+    }
+}
+
+static void cells_of_turn(hci_output *out, const hci_turn_means *t, size_t row)
+{
+    const hci_turn_mean m = hci_turn_mean_of(t, row * (HCI_TURN_STEPS / STEPS), HCI_TURN_STEPS / STEPS);
+    const double value[] = {m.torque_range_Nm.low, m.torque_Nm, m.torque_range_Nm.high};
+    for (size_t j = 0; j < sizeof value / sizeof *value; ++j)
+        hci_html_number(out, m.samples > 0 ? value[j] : (double)NAN);
+}
+
+/* before: NULL for none. */
+static void table_of_turn_torque(hci_output *out, const hci_turn_means *t, const hci_turn_means *before)
+{
+    static const char *const ALONE[] = {"From °", "to °", "Least N·m", "Mean N·m", "Most N·m", NULL};
+    static const char *const COMPARED[] = {
+        "From °", "to °", "Before: least N·m", "mean", "most", "After: least N·m", "mean", "most", NULL};
+    hci_html_table(out, "Torque over the electrical angle", before ? COMPARED : ALONE);
     for (size_t k = 0; k < STEPS; ++k) {
-        const hci_turn_mean m = hci_turn_mean_of(t, k * (HCI_TURN_STEPS / STEPS), HCI_TURN_STEPS / STEPS);
-        const double value[] = {360.0 / STEPS * (double)k, 360.0 / STEPS * (double)(k + 1),
-                                m.torque_range_Nm.low, m.torque_Nm, m.torque_range_Nm.high};
         hci_html_row(out);
-        for (size_t j = 0; j < sizeof value / sizeof *value; ++j)
-            hci_html_number(out, m.samples > 0 || j < 2 ? value[j] : (double)NAN);
+        hci_html_number(out, 360.0 / STEPS * (double)k);
+        hci_html_number(out, 360.0 / STEPS * (double)(k + 1));
+        if (before) cells_of_turn(out, before, k);
+        cells_of_turn(out, t, k);
         hci_html_row_end(out);
     }
     hci_html_table_end(out);
@@ -189,21 +249,39 @@ static void table_of_turn_vector(hci_output *out, const hci_turn_means *t)
     hci_html_table_end(out);
 }
 
-static void show_turn(hci_output *out, const hci_simulation *s, const hci_turn_means *t, const char *origin)
+/* "Before: …", or nothing. */
+static void say_baseline(char text[BASELINE_SIZE], const hci_simulation *s)
 {
-    char caption[240], plain[HCI_HTML_NUMBER_SIZE];
+    char plain[HCI_HTML_NUMBER_SIZE];
+    text[0] = '\0';
+    if (!has_before(s)) return;
+    hci_html_quantity_text(plain, s->plain_amplitude_A, "A");
+    snprintf(text, BASELINE_SIZE,
+             "Before: the plain sine of %s in phase with the back-EMF, which would make the same mean torque "
+             "with it, as it should flow, on the same machine. After: this drive. ",
+             plain);
+}
+
+/* before: NULL for none. */
+static void show_turn(hci_output *out, const hci_simulation *s, const hci_turn_means *t,
+                      const hci_turn_means *before, const char *origin)
+{
+    char caption[BASELINE_SIZE + 240], baseline[BASELINE_SIZE], plain[HCI_HTML_NUMBER_SIZE];
     const double plain_A = isfinite(s->plain_amplitude_A) ? s->plain_amplitude_A : 0.0;
     if (s->periods == 0) return;
     hci_html_section(out, "Over one electrical turn");
     hci_html_figure(out);
-    hci_plot_turn_torque(out, t);
+    hci_plot_turn_torque(out, t, before);
     hci_html_figure_tables(out);
-    table_of_turn_torque(out, t);
-    hci_html_figure_end(out,
-                        "Every sample of the evaluated time and what remains to the end, by its electrical "
-                        "angle: what repeats "
-                        "with the turn is in the mean, what does not widens the band.",
-                        "trajectory.csv with the course", origin);
+    table_of_turn_torque(out, t, before);
+    say_baseline(baseline, s);
+    snprintf(
+        caption, sizeof caption,
+        "%sEvery sample of the evaluated time and what remains to the end, by its electrical angle: what "
+        "repeats with the turn is in the mean, what does not widens the grey band from the least to the "
+        "most.",
+        baseline);
+    hci_html_figure_end(out, caption, "trajectory.csv with the course", origin);
     hci_html_figure(out);
     hci_plot_turn_vector(out, t, (hci_dq){.q = s->torque_Nm.mean < 0.0 ? -plain_A : plain_A});
     hci_html_figure_tables(out);
@@ -220,15 +298,39 @@ static void show_turn(hci_output *out, const hci_simulation *s, const hci_turn_m
 
 /* ---- spectrum ---- */
 
+/* NAN where there is nothing to compare with. */
+static double before_Nm(const hci_simulation *s, double order)
+{
+    for (size_t k = 0; k < s->plain.order_count; ++k) {
+        const hci_harmonic h = s->plain.torque_Nm[k];
+        if (fabs(h.order - order) < HCI_ORDER_TOLERANCE)
+            return order < HCI_ORDER_TOLERANCE ? h.cosine : hci_amplitude(h.sine, h.cosine);
+    }
+    return has_before(s) ? 0.0 : (double)NAN;
+}
+
+/* What rounding leaves of the torque at any order, as a share of the torque. */
+#define ROUNDING 1e-12
+
+static double rounding_Nm(const hci_simulation *s)
+{
+    return ROUNDING * fmax(fabs(s->torque_Nm.most), fabs(s->torque_Nm.least));
+}
+
 static double order_weight(const void *context, size_t k)
 {
-    const hci_harmonic *h = &((const hci_simulation *)context)->spectrum_Nm[k];
-    return k == 0 ? 1e100 : hci_amplitude(h->sine, h->cosine);
+    const hci_simulation *s = context;
+    const hci_harmonic h = s->spectrum_Nm[k];
+    const double size_Nm = fmax(hci_amplitude(h.sine, h.cosine), before_Nm(s, h.order));
+    return k == 0 ? 1e100 : size_Nm > rounding_Nm(s) ? size_Nm : 0.0;
 }
 
 static void table_of_orders(hci_output *out, const hci_simulation *s)
 {
-    static const char *const COLUMN[] = {"Order", "Torque N·m", "Phase rad", "% of the mean", NULL};
+    static const char *const COLUMN[] = {"Order",     "Before N·m",    "After N·m",
+                                         "Phase rad", "% of the mean", NULL};
+    const double least_Nm = rounding_Nm(s);
+    const double mean_Nm = isfinite(s->T_ripple_percent) ? fabs(s->spectrum_Nm[0].cosine) : (double)NAN;
     size_t place[MOST_ORDERS];
     const size_t count = hci_plot_largest(order_weight, s, s->spectrum_count, MOST_ORDERS, place);
     char caption[120];
@@ -240,10 +342,13 @@ static void table_of_orders(hci_output *out, const hci_simulation *s)
         const double size_Nm = mean ? h.cosine : hci_amplitude(h.sine, h.cosine);
         hci_html_row(out);
         hci_html_number(out, h.order);
-        hci_html_number(out, size_Nm);
-        hci_html_number(out, mean ? HCI_PI / 2 : hci_phase_rad(h.sine, h.cosine));
-        hci_html_number(out, isfinite(s->T_ripple_percent) ? 100.0 * size_Nm / fabs(s->spectrum_Nm[0].cosine)
-                                                           : (double)NAN);
+        hci_html_number_above(out, before_Nm(s, h.order), least_Nm);
+        hci_html_number_above(out, size_Nm, least_Nm);
+        if (mean || size_Nm >= least_Nm)
+            hci_html_number(out, mean ? HCI_PI / 2 : hci_phase_rad(h.sine, h.cosine));
+        else
+            hci_html_number(out, (double)NAN);
+        hci_html_number_above(out, 100.0 * size_Nm / mean_Nm, 100.0 * least_Nm / mean_Nm);
         hci_html_row_end(out);
     }
     hci_html_table_end(out);
@@ -279,24 +384,28 @@ static void show_spectrum(hci_output *out, const hci_simulation *s, const hci_pl
     static const hci_svg_picture WORDS = {
         "spectrum",
         "Torque ripple by electrical order",
-        "A stem for each order but 0, the mean: peak amplitude in N·m. The table beside it has the largest.",
+        "A stem for each order but 0, the mean: peak amplitude in N·m, with a plain sine and simulated. The "
+        "table beside it has the largest.",
         0,
         0,
         480,
         304};
-    char caption[400], floor[HCI_HTML_NUMBER_SIZE];
+    char caption[BASELINE_SIZE + 500], baseline[BASELINE_SIZE], floor[HCI_HTML_NUMBER_SIZE];
     if (s->spectrum_count < 2) return;
+    say_baseline(baseline, s);
     hci_html_quantity_text(floor, order[0].noise_Nm, "N·m");
     snprintf(caption, sizeof caption,
-             "Over whole periods of the angle; the picture leaves the mean out. A strategy asks for a "
-             "constant torque: it wants "
-             "none of these orders.%s%s%s",
+             "%sOver whole periods of the angle; the picture leaves the mean out%s. %s%s%s%s", baseline,
+             has_before(s) ? ", and what is more than four decades below the largest" : "",
+             s->imposed ? "The currents are imposed, and some of these orders may be wanted: the target that "
+                          "they were made for is not part of a simulation."
+                        : "A strategy asks for a constant torque: it wants none of these orders.",
              isfinite(order[0].noise_Nm) ? " The floor is the median of all orders, " : "",
              isfinite(order[0].noise_Nm) ? floor : "",
              isfinite(order[0].noise_Nm) ? ": about what switching and noise leave anywhere." : "");
     hci_html_section(out, "Torque ripple by order");
     hci_html_figure(out);
-    hci_plot_orders(out, &WORDS, order, s->spectrum_count - 1, false);
+    hci_plot_orders(out, &WORDS, order, s->spectrum_count - 1, "floor", has_before(s));
     hci_html_figure_tables(out);
     table_of_orders(out, s);
     hci_html_figure_end(out, caption, "spectrum.csv", origin);
@@ -331,22 +440,30 @@ hci_status hci_report_simulation(hci_output *out, const hci_simulation *s, const
                                  const hci_report_sources *sources, hci_note *note)
 {
     hci_plot_order *order = hci_memory_new(s->spectrum_count + 1, sizeof *order);
+    hci_turn_means *before = order ? hci_memory_new(1, sizeof *before) : NULL;
     char origin[HCI_REPORT_ORIGIN_SIZE];
-    if (!order) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the report");
+    if (!before) {
+        hci_memory_free(order);
+        return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the report");
+    }
+    if (has_before(s)) fill_before(before, &s->plain);
     for (size_t k = 1; k < s->spectrum_count; ++k) {
         const hci_harmonic h = s->spectrum_Nm[k];
-        order[k - 1] = (hci_plot_order){
-            .order = h.order, .before_Nm = NAN, .after_Nm = hci_amplitude(h.sine, h.cosine), .noise_Nm = NAN};
+        order[k - 1] = (hci_plot_order){.order = h.order,
+                                        .before_Nm = before_Nm(s, h.order),
+                                        .after_Nm = hci_amplitude(h.sine, h.cosine),
+                                        .noise_Nm = NAN};
     }
     if (s->spectrum_count > 0) set_floor(order, s->spectrum_count - 1);
     hci_report_origin(origin, sources);
     say_verdict(out, s);
-    show_turn(out, s, &traces->turn, origin);
+    show_turn(out, s, &traces->turn, has_before(s) ? before : NULL, origin);
     show_spectrum(out, s, order, origin);
     show_traces(out, s, traces, origin);
     show_drive(out, s);
     hci_report_show_sources(out, sources);
     hci_html_end(out);
+    hci_memory_free(before);
     hci_memory_free(order);
     return HCI_OK;
 }

@@ -11,6 +11,9 @@
  * repeats. */
 enum { MOST_ORDERS = 32, STEPS = 32, MOST_REACHED = 12, MOST_COMPONENTS = 60 };
 
+/* Torque below this share of the tolerance is rounding. */
+#define ROUNDING 1e-3
+
 typedef struct {
     hci_output *out;
     const hci_machine_data *machine;
@@ -136,23 +139,25 @@ static void table_of_vector_over_turn(const page *p)
     hci_html_table_end(p->out);
 }
 
-static void row_of_range(hci_output *out, const char *name, hci_svg_range r)
+/* least: what is below it is rounding. */
+static void row_of_range(hci_output *out, const char *name, hci_svg_range r, double least)
 {
     hci_html_row(out);
     hci_html_cell(out, name);
     hci_html_number(out, r.low);
     hci_html_number(out, r.high);
-    hci_html_number(out, r.high - r.low);
+    hci_html_number_above(out, r.high - r.low, least);
     hci_html_row_end(out);
 }
 
 static void tables_of_torque(const page *p)
 {
     static const char *const COLUMN[] = {"<Torque", "Least N·m", "Most N·m", "Peak to peak N·m", NULL};
+    const double least_Nm = ROUNDING * p->solution->tolerance_Nm;
     hci_html_table(p->out, "Extremes over the period", COLUMN);
-    row_of_range(p->out, "before", p->facts.before_Nm);
-    row_of_range(p->out, "wanted", p->facts.wanted_Nm);
-    row_of_range(p->out, "after", p->facts.after_Nm);
+    row_of_range(p->out, "before", p->facts.before_Nm, least_Nm);
+    row_of_range(p->out, "wanted", p->facts.wanted_Nm, least_Nm);
+    row_of_range(p->out, "after", p->facts.after_Nm, least_Nm);
     hci_html_table_end(p->out);
     table_of_torque_over_turn(p);
 }
@@ -185,10 +190,10 @@ static void tables_of_vector(const page *p)
     static const char *const COLUMN[] = {"<Current", "Least A", "Most A", "Swing A", NULL};
     const hci_plot_facts *f = &p->facts;
     hci_html_table(p->out, "Extremes over the period", COLUMN);
-    row_of_range(p->out, "i_d before", (hci_svg_range){f->plain_dq_A.d, f->plain_dq_A.d});
-    row_of_range(p->out, "i_q before", (hci_svg_range){f->plain_dq_A.q, f->plain_dq_A.q});
-    row_of_range(p->out, "i_d after", f->d_A);
-    row_of_range(p->out, "i_q after", f->q_A);
+    row_of_range(p->out, "i_d before", (hci_svg_range){f->plain_dq_A.d, f->plain_dq_A.d}, 0.0);
+    row_of_range(p->out, "i_q before", (hci_svg_range){f->plain_dq_A.q, f->plain_dq_A.q}, 0.0);
+    row_of_range(p->out, "i_d after", f->d_A, 0.0);
+    row_of_range(p->out, "i_q after", f->q_A, 0.0);
     hci_html_table_end(p->out);
     table_of_vector_over_turn(p);
 }
@@ -240,10 +245,10 @@ static void table_of_orders(const page *p)
         const hci_solved_order *o = &s->order[place[k]];
         hci_html_row(p->out);
         hci_html_number(p->out, o->torque_Nm.order);
-        hci_html_number(p->out, amplitude(o->before_Nm));
-        hci_html_number(p->out, amplitude(o->target_Nm));
-        hci_html_number(p->out, amplitude(o->torque_Nm));
-        hci_html_number(p->out, o->error_Nm);
+        const double value[] = {amplitude(o->before_Nm), amplitude(o->target_Nm), amplitude(o->torque_Nm),
+                                o->error_Nm};
+        for (size_t j = 0; j < sizeof value / sizeof *value; ++j)
+            hci_html_number_above(p->out, value[j], ROUNDING * s->tolerance_Nm);
         cell_of_verdict(p->out, o);
         hci_html_row_end(p->out);
     }
@@ -264,13 +269,15 @@ static void show_panel(const page *p, hci_plot_panel panel, void (*tables)(const
 
 static void show_torque(const page *p)
 {
-    char caption[320], tolerance[HCI_HTML_NUMBER_SIZE];
+    char caption[400], tolerance[HCI_HTML_NUMBER_SIZE];
     hci_html_quantity_text(tolerance, p->solution->tolerance_Nm, "N·m");
     snprintf(
         caption, sizeof caption,
         "An order counts as reached when it is within %s of what is wanted; a dashed line shows this where "
         "it is "
-        "high enough to be seen. What is left below is rounding. The picture leaves the mean, order 0, out.",
+        "high enough to be seen. What is left below is rounding, and less than a thousandth of it is shown "
+        "as 0. "
+        "The picture leaves the mean, order 0, out.",
         tolerance);
     hci_html_section(p->out, "Torque");
     show_panel(p, HCI_PANEL_TORQUE, tables_of_torque, p->facts.baseline, "waveform.csv");

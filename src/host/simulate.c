@@ -6,6 +6,7 @@
 #include "simulation.h"
 
 typedef struct {
+    const hci_machine_data *machine;
     hci_setup *setup;
     hci_evaluation *evaluation;
     hci_trajectory trajectory;
@@ -105,6 +106,35 @@ static hci_status begin_traces(run *r, hci_note *note)
     return HCI_OK;
 }
 
+/* The sine in phase with the back-EMF's fundamental that would make the mean torque with it; false: none. */
+static bool plain_sine(const hci_machine_data *machine, const hci_simulation *s, hci_wave *plain)
+{
+    if (!(s->plain_amplitude_A > 0.0) || !isfinite(s->T_ripple_percent)) return false;
+    for (size_t k = 0; k < machine->model.back_emf_count; ++k) {
+        const hci_wave e = machine->model.back_emf[k];
+        const double size = hypot(e.sine, e.cosine);
+        if (fabs(e.order - 1.0) > HCI_ORDER_TOLERANCE || e.sequence != 1 || !(size > 0.0)) continue;
+        const double a = (s->torque_Nm.mean < 0.0 ? -1.0 : 1.0) * s->plain_amplitude_A / size;
+        *plain = (hci_wave){1.0, 1, a * e.sine, a * e.cosine};
+        return true;
+    }
+    return false;
+}
+
+/* What the ripple is compared with. A machine whose orders have no common period has nothing of the kind. */
+static hci_status judge_plain(const hci_machine_data *machine, const hci_effects *effects, hci_simulation *s,
+                              hci_note *note)
+{
+    const hci_target none = {NULL, 0};
+    hci_note why = {{0}};
+    hci_wave plain;
+    if (!plain_sine(machine, s, &plain)) return HCI_OK;
+    if (hci_judge_currents(machine, effects, &plain, 1, &none, &s->plain, &why) != HCI_ERROR_MEMORY)
+        return HCI_OK;
+    *note = why;
+    return HCI_ERROR_MEMORY;
+}
+
 /* Files are opened before the first step, so that a folder that cannot be written to costs no time. */
 static hci_status run_and_write(run *r, const hci_simulate_options *options, hci_simulation *simulation,
                                 hci_note *note)
@@ -114,6 +144,7 @@ static hci_status run_and_write(run *r, const hci_simulate_options *options, hci
     if (!status) status = begin_traces(r, note);
     if (!status) status = make_steps(r, options, note);
     if (!status) status = hci_evaluation_finish(r->evaluation, simulation, note);
+    if (!status) status = judge_plain(r->machine, options->effects, simulation, note);
     if (!status && r->out) {
         hci_trajectory_end(&r->trajectory);
         status = hci_simulation_write(r->out, simulation, r->trajectory.traces, r->sources, note);
@@ -141,6 +172,7 @@ hci_status hci_simulate_with_report(const hci_machine_data *machine, const hci_s
     hci_status status;
     memset(simulation, 0, sizeof *simulation);
     if (!setup) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory");
+    r.machine = machine;
     r.setup = setup;
     r.sources = sources;
     status = hci_setup_make(machine, options->effects, scenario, setup, note);
@@ -148,6 +180,7 @@ hci_status hci_simulate_with_report(const hci_machine_data *machine, const hci_s
         status = hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the evaluation");
     if (!status) {
         simulation->remark = setup->remark;
+        simulation->imposed = scenario->currents[0] != '\0';
         status = run_and_write(&r, options, simulation, note);
     }
     if (status) hci_simulation_release(simulation);
@@ -160,5 +193,6 @@ hci_status hci_simulate_with_report(const hci_machine_data *machine, const hci_s
 void hci_simulation_release(hci_simulation *simulation)
 {
     hci_memory_free(simulation->spectrum_Nm);
+    hci_judgement_release(&simulation->plain);
     memset(simulation, 0, sizeof *simulation);
 }

@@ -411,21 +411,27 @@ char *hci_waveform_json(const hci_waveform *waveform)
 
 /* ---- a check of conventions ---- */
 
+static bool add_texts(cJSON *object, const char *name, const char *const *text, size_t count)
+{
+    cJSON *list = cJSON_AddArrayToObject(object, name);
+    bool good = list != NULL;
+    for (size_t k = 0; k < count && good; ++k) {
+        cJSON *item = cJSON_CreateString(text[k]);
+        good = item && cJSON_AddItemToArray(list, item);
+    }
+    return good;
+}
+
 static bool add_check_finding(cJSON *list, const hci_check_finding *f)
 {
-    cJSON *item = cJSON_CreateObject(), *alternatives = NULL;
+    cJSON *item = cJSON_CreateObject();
     bool good = item && cJSON_AddItemToArray(list, item) && add_text(item, "slip", f->slip) &&
                 add_text(item, "file", f->file) && add_number(item, "line", (double)f->line) &&
                 add_text(item, "column", f->column) && add_text(item, "found", f->found) &&
                 add_text(item, "should_be", f->should_be) &&
                 add_number(item, "probability", f->probability) && add_text(item, "words", f->words) &&
-                add_text(item, "told_by", f->told_by) &&
-                (alternatives = cJSON_AddArrayToObject(item, "alternatives")) != NULL;
-    for (size_t k = 0; k < f->alternatives && good; ++k) {
-        cJSON *name = cJSON_CreateString(f->alternative[k]);
-        good = name && cJSON_AddItemToArray(alternatives, name);
-    }
-    return good;
+                add_text(item, "told_by", f->told_by);
+    return good && add_texts(item, "alternatives", f->alternative, f->alternatives);
 }
 
 static bool add_check_evidence(cJSON *list, const hci_check_evidence *e)
@@ -433,8 +439,8 @@ static bool add_check_evidence(cJSON *list, const hci_check_evidence *e)
     cJSON *item = cJSON_CreateObject();
     return item && cJSON_AddItemToArray(list, item) && add_text(item, "name", e->name) &&
            add_text(item, "words", e->words) && add_number(item, "declared", e->declared) &&
-           add_number(item, "expected", e->expected) && add_number(item, "as_read", e->as_read) &&
-           add_number(item, "tolerance", e->tolerance) &&
+           add_number(item, "expected", e->expected) && cJSON_AddBoolToObject(item, "at_most", e->at_most) &&
+           add_number(item, "as_read", e->as_read) && add_number(item, "tolerance", e->tolerance) &&
            add_text(item, "state", hci_check_state_name(e->state));
 }
 
@@ -457,16 +463,19 @@ static bool add_check_lists(cJSON *root, const hci_check *c)
         good = add_check_evidence(evidence, &c->evidence[k]);
     for (size_t k = 0; k < c->gaps && good; ++k)
         good = add_check_gap(unchecked, &c->gap[k]);
-    return good;
+    return good && add_texts(root, "untold", c->untold, c->untolds);
 }
 
-static bool add_check_runs(cJSON *root, const hci_check *c)
+/* One for each recording that has something to say. */
+static bool add_check_remarks(cJSON *root, const hci_check *c)
 {
-    cJSON *runs = cJSON_AddArrayToObject(root, "runs");
-    bool good = runs != NULL;
+    cJSON *list = cJSON_AddArrayToObject(root, "remarks");
+    bool good = list != NULL;
     for (size_t k = 0; k < c->runs && good; ++k) {
-        cJSON *name = cJSON_CreateString(c->run[k]);
-        good = name && cJSON_AddItemToArray(runs, name);
+        if (!c->remark[k].text[0]) continue;
+        cJSON *item = cJSON_CreateObject();
+        good = item && cJSON_AddItemToArray(list, item) && add_text(item, "run", c->run[k]) &&
+               add_text(item, "remark", c->remark[k].text);
     }
     return good;
 }
@@ -476,8 +485,8 @@ char *hci_check_json(const hci_check *check)
     cJSON *root = cJSON_CreateObject();
     char *text = NULL;
     if (root && add_text(root, "command", "check") && add_text(root, "version", HCI_VERSION_STRING) &&
-        add_text(root, "machine", check->machine) && add_check_runs(root, check) &&
-        add_text(root, "verdict", hci_check_verdict_name(check->verdict)) &&
+        add_text(root, "machine", check->machine) && add_texts(root, "runs", check->run, check->runs) &&
+        add_check_remarks(root, check) && add_text(root, "verdict", hci_check_verdict_name(check->verdict)) &&
         add_number(root, "probability_as_declared", check->probability_as_declared) &&
         add_check_lists(root, check))
         text = cJSON_Print(root);

@@ -19,24 +19,27 @@ void hci_svg_fixed_text(char text[HCI_SVG_NUMBER_SIZE], double value, int decima
         snprintf(text, HCI_SVG_NUMBER_SIZE, "%s%lld.%0*lld", sign, scaled / unit, decimals, scaled % unit);
 }
 
+enum { MOST_DECIMALS = 12 };
+
 static int decade(double value)
 {
     return isfinite(value) && value != 0.0 ? (int)floor(log10(fabs(value)) + 1e-9) : 0;
 }
 
-/* A multiple of `step` with the decimals that the step has. */
-static void tick_text(char text[HCI_SVG_NUMBER_SIZE], double value, double step)
+/* A multiple of `step` with the decimals that the step has. largest: of the values on the axis, which share
+ * one notation; a power of ten where they are small or large, and not only near to one another. */
+static void tick_text(char text[HCI_SVG_NUMBER_SIZE], double value, double step, double largest)
 {
-    const int exponent = decade(fmax(fabs(value), step));
-    if (fabs(value) < 0.5 * step) {
-        hci_svg_fixed_text(text, 0.0, step >= 1e-4 && step < 1.0 ? -decade(step) : 0);
-    } else if (step >= 1e-4 && fabs(value) < 1e6) {
-        hci_svg_fixed_text(text, value, step < 1.0 ? -decade(step) : 0);
-    } else {
-        hci_svg_fixed_text(text, value / pow(10.0, exponent),
-                           exponent - decade(step) < 9 ? exponent - decade(step) : 9);
+    const bool plain = (step >= 1e-4 || largest >= 1e-3) && largest < 1e6;
+    const int exponent = plain ? 0 : decade(fmax(largest, step)), decimals = exponent - decade(step);
+    if (fabs(value) < 0.5 * step) value = 0.0;
+    hci_svg_fixed_text(text, value / pow(10.0, exponent),
+                       decimals < 0                    ? 0
+                       : value == 0.0 && exponent != 0 ? 0
+                       : decimals < MOST_DECIMALS      ? decimals
+                                                       : MOST_DECIMALS);
+    if (value != 0.0 && exponent != 0)
         snprintf(text + strlen(text), HCI_SVG_NUMBER_SIZE - strlen(text), "e%d", exponent);
-    }
 }
 
 void hci_svg_short_text(char text[HCI_SVG_NUMBER_SIZE], double value)
@@ -187,28 +190,70 @@ void hci_svg_label(hci_output *out, const char *style, double x, double y, const
     hci_output_text(out, "</text>\n");
 }
 
-/* Width of a 12 px text in a wide font. */
-static double text_width(const char *text)
+/* ---- widths: those of the widest of the common fonts, so that what has room here has it anywhere ---- */
+
+#define TAG_GAP 4.0  /* between two labels in a row */
+#define BOLD    1.22 /* of a heading, which is larger too */
+
+static double character_width(const char *c)
+{
+    if (((unsigned char)*c & 0xC0u) == 0x80u) return 0.0; /* within a character */
+    if (strncmp(c, "·", strlen("·")) == 0) return 3.9;
+    if (strncmp(c, "−", strlen("−")) == 0) return 10.1;
+    if ((unsigned char)*c >= 0x80) return 12.0;
+    if (strchr("mwMW%@", *c)) return 11.9;
+    if (*c >= 'A' && *c <= 'Z') return 9.5;
+    return strchr("fijlrt.,:;/()[]|!' -", *c) ? 4.9 : 7.7;
+}
+
+double hci_svg_text_width(const char *style, const char *text)
 {
     double width = 0.0;
     for (; *text; ++text)
-        if (((unsigned char)*text & 0xC0u) != 0x80u && *text != '_') width += 7.0;
-    return width;
+        width += character_width(text);
+    return width * (strncmp(style, "head", 4) == 0 || strncmp(style, "no", 2) == 0 ? BOLD : 1.0);
 }
 
-void hci_svg_name(hci_output *out, const char *style, double x, double y, const char *text, size_t most)
+void hci_svg_name(hci_output *out, const char *style, double x, double y, const char *text, double room)
 {
-    size_t length = 0;
-    for (const char *c = text; *c; ++c)
-        length += ((unsigned char)*c & 0xC0u) != 0x80u;
+    const bool is_whole = hci_svg_text_width(style, text) <= room;
+    room -= is_whole ? 0.0 : hci_svg_text_width(style, "…");
+    while (hci_svg_text_width(style, text) > room && *text)
+        do
+            ++text;
+        while (((unsigned char)*text & 0xC0u) == 0x80u);
     hci_output_text(out, "<text class=\"%s\" x=\"", style);
     put(out, x, "\" y=\"");
-    put(out, y, "\">");
-    if (length > most) hci_output_text(out, "…");
-    for (size_t left_out = 0; length > most && left_out <= length - most;)
-        left_out += ((unsigned char)*++text & 0xC0u) != 0x80u;
+    put(out, y, is_whole ? "\">" : "\">…");
     hci_svg_text(out, text);
     hci_output_text(out, "</text>\n");
+}
+
+/* Whether some stand too near to the next one of their row, where every `apart`-th is shown in so many rows.
+ */
+static bool tags_touch(const hci_svg_tag *tag, size_t count, size_t apart, size_t rows)
+{
+    for (size_t k = 0; k + apart * rows < count; k += apart) {
+        const hci_svg_tag *a = &tag[k], *b = &tag[k + apart * rows];
+        const double half =
+            0.5 * (hci_svg_text_width(a->style, a->text) + hci_svg_text_width(b->style, b->text));
+        if (b->x - a->x < half + TAG_GAP) return true;
+    }
+    return false;
+}
+
+void hci_svg_tags(hci_output *out, const hci_svg_tag *tag, size_t count, double y)
+{
+    size_t apart = 1, rows = 1;
+    if (tags_touch(tag, count, 1, 1)) rows = 2;
+    while (rows == 2 && apart < count && tags_touch(tag, count, apart, rows))
+        ++apart;
+    for (size_t k = 0; k < count; k += apart)
+        hci_svg_label(out, tag[k].style, tag[k].x,
+                      y + (rows == 1            ? 17.0
+                           : k / apart % 2 == 0 ? 12.0
+                                                : 23.0),
+                      tag[k].text);
 }
 
 void hci_svg_begin(hci_output *out, const hci_svg_picture *p)
@@ -230,6 +275,9 @@ void hci_svg_end(hci_output *out)
 }
 
 /* ---- axes ---- */
+
+#define NUMBER_GAP   8.0  /* between a box and the numbers at its left */
+#define RIGHT_MARGIN 12.0 /* that every picture has at the right of a box */
 
 void hci_svg_include(hci_svg_range *r, double value)
 {
@@ -307,20 +355,68 @@ hci_svg_axis hci_svg_axis_of_angle(double turns, const hci_svg_box *b)
     return a;
 }
 
+static double first_tick(const hci_svg_axis *a)
+{
+    return ceil(a->low / a->step - 1e-9);
+}
+
+static double last_tick(const hci_svg_axis *a)
+{
+    return floor(a->high / a->step + 1e-9);
+}
+
+static void text_of_tick(char text[HCI_SVG_NUMBER_SIZE], const hci_svg_axis *a, double k)
+{
+    tick_text(text, k * a->step, a->step, a->step * fmax(fabs(first_tick(a)), fabs(last_tick(a))));
+}
+
+hci_svg_box hci_svg_box_beside(hci_svg_box b, const hci_svg_axis *y)
+{
+    double widest = 0.0;
+    for (double k = first_tick(y); k <= last_tick(y); k += 1.0) {
+        char text[HCI_SVG_NUMBER_SIZE];
+        text_of_tick(text, y, k);
+        widest = fmax(widest, hci_svg_text_width("quiet end", text));
+    }
+    b.left += fmax(widest + NUMBER_GAP - HCI_SVG_MARGIN, 0.0);
+    return b;
+}
+
+/* The number of a grid line: at the left of the box, or below it and not beyond the room at its right. */
+static void draw_number(hci_output *out, const hci_svg_box *b, bool upwards, double place, const char *text)
+{
+    const double most = b->right + RIGHT_MARGIN - 0.5 * hci_svg_text_width("quiet middle", text);
+    if (upwards)
+        hci_svg_label(out, "quiet end", b->left - NUMBER_GAP, place + 4.0, text);
+    else
+        hci_svg_label(out, "quiet middle", fmin(place, most), b->bottom + 17.0, text);
+}
+
+/* Every so many of the numbers below a box stand clear of one another. */
+static double apart_below(const hci_svg_axis *a)
+{
+    const double pitch = fabs(a->to - a->from) * a->step / (a->high - a->low);
+    double widest = 0.0;
+    for (double k = first_tick(a); k <= last_tick(a); k += 1.0) {
+        char text[HCI_SVG_NUMBER_SIZE];
+        text_of_tick(text, a, k);
+        widest = fmax(widest, hci_svg_text_width("quiet middle", text));
+    }
+    return fmax(ceil((widest + TAG_GAP) / pitch), 1.0);
+}
+
 void hci_svg_grid(hci_output *out, const hci_svg_axis *a, const hci_svg_box *b, bool upwards)
 {
-    const double first = ceil(a->low / a->step - 1e-9), last = floor(a->high / a->step + 1e-9);
-    for (double k = first; k <= last; k += 1.0) {
+    const double apart = upwards ? 1.0 : apart_below(a);
+    for (double k = first_tick(a); k <= last_tick(a); k += 1.0) {
         const double place = hci_svg_at(a, k * a->step);
         char text[HCI_SVG_NUMBER_SIZE];
-        tick_text(text, k * a->step, a->step);
-        if (upwards) {
+        text_of_tick(text, a, k);
+        if (upwards)
             hci_svg_segment(out, k == 0.0 ? "axis" : "grid", b->left, place, b->right, place);
-            hci_svg_label(out, "quiet end", b->left - 8.0, place + 4.0, text);
-        } else {
+        else
             hci_svg_segment(out, k == 0.0 && a->low < 0.0 ? "axis" : "grid", place, b->top, place, b->bottom);
-            hci_svg_label(out, "quiet middle", place, b->bottom + 17.0, text);
-        }
+        if (fmod(k, apart) == 0.0) draw_number(out, b, upwards, place, text);
     }
 }
 
@@ -358,20 +454,18 @@ static void draw_log_line(hci_output *out, const hci_svg_axis *a, const hci_svg_
 {
     const double place = hci_svg_log_at(a, value);
     char text[HCI_SVG_NUMBER_SIZE];
-    tick_text(text, value, pow(10.0, floor(log10(value) + 1e-9)));
-    if (upwards) {
+    tick_text(text, value, pow(10.0, floor(log10(value) + 1e-9)), value);
+    if (upwards)
         hci_svg_segment(out, "grid", b->left, place, b->right, place);
-        hci_svg_label(out, "quiet end", b->left - 8.0, place + 4.0, text);
-    } else {
+    else
         hci_svg_segment(out, "grid", place, b->top, place, b->bottom);
-        hci_svg_label(out, "quiet middle", place, b->bottom + 17.0, text);
-    }
+    draw_number(out, b, upwards, place, text);
 }
 
 void hci_svg_log_grid(hci_output *out, const hci_svg_axis *a, const hci_svg_box *b, bool upwards)
 {
     static const double SHARE[] = {1.0, 2.0, 5.0};
-    const double room = fabs(a->to - a->from) / (upwards ? 26.0 : 46.0);
+    const double room = fabs(a->to - a->from) / (upwards ? 26.0 : 52.0);
     const size_t shares = 3.0 * (a->high - a->low) <= room ? 3 : 1;
     const double apart = fmax(1.0, ceil((a->high - a->low) / fmax(room, 1.0)));
     for (double k = floor(a->low); k <= a->high + 1e-6; k += apart)
@@ -395,7 +489,7 @@ static void draw_mark(hci_output *out, hci_svg_entry e, double x, double y)
 void hci_svg_legend(hci_output *out, const hci_svg_entry *entries, size_t count, double right, double y)
 {
     while (count-- > 0) {
-        right -= text_width(entries[count].text);
+        right -= hci_svg_text_width("legend", entries[count].text);
         hci_svg_label(out, "legend", right, y, entries[count].text);
         draw_mark(out, entries[count], right - 22.0, y - 4.0);
         right -= 38.0;

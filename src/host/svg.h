@@ -42,8 +42,21 @@ void hci_svg_label(hci_output *out, const char *style, double x, double y, const
  * character of XML, becomes U+FFFD. */
 void hci_svg_text(hci_output *out, const char *text);
 
-/* A name as it stands, of which the last `most` characters are shown. */
-void hci_svg_name(hci_output *out, const char *style, double x, double y, const char *text, size_t most);
+/* Pixels that a text takes at most in one of the common fonts; it is bold in the styles "head" and "no". */
+double hci_svg_text_width(const char *style, const char *text);
+
+/* A name as it stands, of which as much of the end is shown as there is room for, in pixels. */
+void hci_svg_name(hci_output *out, const char *style, double x, double y, const char *text, double room);
+
+/* Labels under an axis at y, ascending from left to right by their middle x: in one row where they fit side
+ * by side, else in two, else only every second, third … of them. */
+typedef struct {
+    double x;
+    const char *style;
+    char text[HCI_SVG_NUMBER_SIZE];
+} hci_svg_tag;
+
+void hci_svg_tags(hci_output *out, const hci_svg_tag *tag, size_t count, double y);
 
 /* ---- pictures ---- */
 
@@ -91,6 +104,12 @@ hci_svg_axis hci_svg_axis_of_angle(double turns, const hci_svg_box *b);
 /* Two axes that fill the box with the same length of a unit on both. */
 void hci_svg_equal_axes(hci_svg_range x, hci_svg_range y, const hci_svg_box *b, hci_svg_axis *x_axis,
                         hci_svg_axis *y_axis);
+
+/* Pixels at the left of a box in which the numbers of an upright axis stand. */
+enum { HCI_SVG_MARGIN = 58 };
+
+/* The box, narrower at its left where they need more. */
+hci_svg_box hci_svg_box_beside(hci_svg_box box, const hci_svg_axis *upright);
 
 /* Grid lines and numbers of an axis that runs upwards, or to the right. */
 void hci_svg_grid(hci_output *out, const hci_svg_axis *a, const hci_svg_box *b, bool upwards);

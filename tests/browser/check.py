@@ -81,6 +81,7 @@ def is_readable(browser, url):
     yield from requests(browser.events, url)
     yield from (f"light: {text}" for text in found["faint"] + found["pale"])
     yield from found["pictures"]
+    yield from found["labels"]
     yield from (f"cannot be scrolled by keys, or has no name: {text}" for text in found["unreachable"])
     if found["headings"]:
         yield "headings are not in order"

@@ -68,6 +68,17 @@
     ].filter(([bad]) => bad).map(([, what]) => `${svg.getAttribute("aria-labelledby")}: ${what}`);
   });
 
+  // Text of a picture: within it, and not over another one. Line boxes of two rows may touch.
+  const labels = [...document.querySelectorAll("svg")].flatMap((svg) => {
+    const edge = svg.getBoundingClientRect(), id = svg.getAttribute("aria-labelledby");
+    const texts = [...svg.querySelectorAll("text")].map((e) => [e.textContent, e.getBoundingClientRect()]);
+    const out = texts.filter(([, r]) => r.left < edge.left - 1 || r.right > edge.right + 1 || r.top < edge.top - 1 || r.bottom > edge.bottom + 1);
+    const over = texts.filter(([, a], k) => texts.slice(k + 1).some(([, b]) =>
+      Math.min(a.right, b.right) - Math.max(a.left, b.left) > 1
+      && Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 0.4 * Math.min(a.height, b.height)));
+    return [...out.map(([t]) => `${id}: cut off: ${t}`), ...over.map(([t]) => `${id}: over another text: ${t}`)];
+  });
+
   const levels = [...document.querySelectorAll("h1,h2,h3,h4,h5,h6")].map((h) => Number(h.tagName[1]));
   const headings = levels.filter((l, k) => (k === 0 ? l !== 1 : l > levels[k - 1] + 1 || l === 1)).length + (levels.length < 4);
 
@@ -75,7 +86,7 @@
   const scrolls = [...document.querySelectorAll("main *")]
     .filter((e) => !(e instanceof SVGElement) && /auto|scroll/.test(getComputedStyle(e).overflow));
   return {
-    faint: once(faint), pale: once(pale), pictures, headings,
+    faint: once(faint), pale: once(pale), pictures, headings, labels,
     count: document.querySelectorAll("svg").length,
     width: root.scrollWidth, window: window.innerWidth,
     unreachable: scrolls.filter((e) => e.tabIndex !== 0 || !e.getAttribute("aria-label")).map(name),

@@ -2,6 +2,7 @@
 #ifndef HCI_HOST_CHECK_H
 #define HCI_HOST_CHECK_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "hci/host/note.h"
@@ -16,6 +17,7 @@ enum {
     HCI_CHECK_MOST_FINDINGS = 12,    /* slips */
     HCI_CHECK_MOST_EVIDENCE = 32,    /* relations */
     HCI_CHECK_MOST_ALTERNATIVES = 8, /* slips that mend the same */
+    HCI_CHECK_MOST_UNTOLD = 64,      /* slips that leave no trace */
     HCI_CHECK_TEXT = 128,            /* bytes of a text */
     HCI_CHECK_PATH = 512             /* bytes of a path */
 };
@@ -53,6 +55,8 @@ typedef struct {
 typedef enum {
     HCI_CHECK_AGREES,   /* as declared */
     HCI_CHECK_MENDED,   /* by the best reading */
+    HCI_CHECK_BETTER,   /* is nearer in the best reading, but not met */
+    HCI_CHECK_MENDABLE, /* not by the best reading, but by one with a possible slip */
     HCI_CHECK_UNMENDED, /* by no reading */
     HCI_CHECK_WORSE     /* agreed as declared, and does not in the best reading */
 } hci_check_state;
@@ -62,6 +66,7 @@ typedef struct {
     const char *name, *words; /* static */
     double declared;          /* as the files are declared */
     double expected;          /* by the other numbers */
+    bool at_most;             /* expected is an upper bound */
     double as_read;           /* in the best reading */
     double tolerance;         /* one standard deviation, relative for a ratio */
     hci_check_state state;    /* how it stands */
@@ -83,6 +88,9 @@ typedef struct {
     size_t evidences;                                     /* entries of evidence in use */
     hci_check_gap gap[HCI_CHECK_MOST_EVIDENCE];           /* relations that could not */
     size_t gaps;                                          /* entries of gap in use */
+    const char *untold[HCI_CHECK_MOST_UNTOLD];            /* slips that would change nothing here; static */
+    size_t untolds;                                       /* entries of untold in use */
+    hci_note remark[HCI_CHECK_MOST_RUNS];                 /* how each recording was read, or "" */
     const char *machine;                                  /* the caller's */
     const char *const *run;                               /* the caller's */
     size_t runs;                                          /* entries of run */
@@ -98,7 +106,7 @@ hci_status hci_check_files(const char *machine, const char *const *run, size_t r
 /* "consistent", "slips", "ambiguous", "not_understood"; a static string. */
 const char *hci_check_verdict_name(hci_check_verdict verdict);
 
-/* "consistent", "mended", "not_understood", "worse"; a static string. */
+/* "consistent", "mended", "better", "mendable", "not_understood", "worse"; a static string. */
 const char *hci_check_state_name(hci_check_state state);
 
 /* As in summary.json. To be freed with hci_text_free; NULL when memory is out. */
