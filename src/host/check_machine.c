@@ -12,6 +12,7 @@
 #include "hci/frames.h"
 #include "hci/host/init.h"
 #include "inductance.h"
+#include "machine_folder.h"
 #include "memory.h"
 #include "spectrum_table.h"
 
@@ -24,20 +25,6 @@ static const value_name VALUES[] = {
     HCI_MACHINE_VALUES(LIST_ONE)
 #undef LIST_ONE
 };
-
-static bool is_there(const char *path)
-{
-    struct stat info;
-    return stat(path, &info) == 0 || errno != ENOENT;
-}
-
-static hci_status join(char path[HCI_CHECK_PATH], const char *folder, const char *file, hci_note *note)
-{
-    const int length = snprintf(path, HCI_CHECK_PATH, "%s/%s", folder, file);
-    if (length > 0 && length < HCI_CHECK_PATH) return HCI_OK;
-    return hci_note_set(note, HCI_ERROR_INPUT, "%.200s…: the path is longer than %d bytes", folder,
-                        HCI_CHECK_PATH - 1);
-}
 
 static void keep_text(char out[HCI_CHECK_TEXT], const char *text)
 {
@@ -57,17 +44,6 @@ static check_place place_of(const hci_csv *csv, const char *path, const char *na
 }
 
 /* ---- machine.csv */
-
-static hci_status connection_read(const hci_csv *csv, size_t row, check_figures *f, hci_note *note)
-{
-    const char *text;
-    const hci_status status = hci_csv_text(csv, "value", row, &text, note);
-    if (status) return status;
-    f->has_neutral = hci_text_is(text, "star-neutral");
-    if (f->has_neutral || hci_text_is(text, "star")) return HCI_OK;
-    return hci_csv_error(csv, "value", row, note, "`star` or `star-neutral`",
-                         "for a delta winding give the equivalent star's values");
-}
 
 static hci_status scalar_read(const hci_csv *csv, size_t row, size_t k, check_figures *f, hci_note *note)
 {
@@ -95,7 +71,7 @@ static hci_status row_read(const hci_csv *csv, size_t row, check_figures *f, hci
     const char *name;
     const hci_status status = hci_csv_text(csv, "name", row, &name, note);
     if (status) return status;
-    if (strcmp(name, "connection") == 0) return connection_read(csv, row, f, note);
+    if (strcmp(name, "connection") == 0) return hci_machine_connection(csv, row, &f->has_neutral, note);
     for (size_t k = 0; k < CHECK_VALUE_COUNT; ++k)
         if (strcmp(name, VALUES[k].name) == 0) return scalar_read(csv, row, k, f, note);
     return HCI_OK;
@@ -308,13 +284,14 @@ hci_status hci_check_machine_read(const char *folder, check_figures *f, hci_note
     hci_status status = folder_check(folder, note);
     for (size_t k = 0; k < CHECK_VALUE_COUNT; ++k)
         f->value[k] = NAN;
-    if (!status) status = join(f->machine_path, folder, "machine.csv", note);
+    if (!status) status = hci_machine_path(f->machine_path, HCI_CHECK_PATH, folder, "machine.csv", note);
     if (!status) status = scalars_read(f, note);
-    if (!status) status = join(f->emf.path, folder, "back_emf.csv", note);
+    if (!status) status = hci_machine_path(f->emf.path, HCI_CHECK_PATH, folder, "back_emf.csv", note);
     if (!status) status = emf_read(f, note);
-    if (!status) status = join(f->cogging.path, folder, "cogging.csv", note);
-    if (!status && is_there(f->cogging.path)) status = cogging_read(f, note);
-    if (!status) status = join(f->inductance.path, folder, "inductance.csv", note);
-    if (!status && is_there(f->inductance.path)) status = inductance_figures(f, note);
+    if (!status) status = hci_machine_path(f->cogging.path, HCI_CHECK_PATH, folder, "cogging.csv", note);
+    if (!status && hci_machine_has(f->cogging.path)) status = cogging_read(f, note);
+    if (!status)
+        status = hci_machine_path(f->inductance.path, HCI_CHECK_PATH, folder, "inductance.csv", note);
+    if (!status && hci_machine_has(f->inductance.path)) status = inductance_figures(f, note);
     return status;
 }

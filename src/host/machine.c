@@ -10,6 +10,7 @@
 
 #include "hci/host/csv.h"
 #include "inductance.h"
+#include "machine_folder.h"
 #include "memory.h"
 #include "spectrum_table.h"
 
@@ -34,27 +35,27 @@ static void list_scalars(hci_machine_data *m, scalar list[SCALARS])
 #undef LIST_ONE
 }
 
-static bool is_there(const char *path)
+bool hci_machine_has(const char *path)
 {
     struct stat info;
     return stat(path, &info) == 0 || errno != ENOENT;
 }
 
-static hci_status join(char path[PATH_SIZE], const char *folder, const char *file, hci_note *note)
+hci_status hci_machine_path(char *path, size_t size, const char *folder, const char *file, hci_note *note)
 {
-    const int length = snprintf(path, PATH_SIZE, "%s/%s", folder, file);
-    if (length > 0 && length < PATH_SIZE) return HCI_OK;
-    return hci_note_set(note, HCI_ERROR_INPUT, "%.200s…: the path is longer than %d bytes", folder,
-                        PATH_SIZE - 1);
+    const int length = snprintf(path, size, "%s/%s", folder, file);
+    if (length > 0 && (size_t)length < size) return HCI_OK;
+    return hci_note_set(note, HCI_ERROR_INPUT, "%.200s…: the path is longer than %zu bytes", folder,
+                        size - 1);
 }
 
-static hci_status connection_read(const hci_csv *csv, size_t row, hci_machine_data *m, hci_note *note)
+hci_status hci_machine_connection(const hci_csv *csv, size_t row, bool *has_neutral, hci_note *note)
 {
     const char *text;
     const hci_status status = hci_csv_text(csv, "value", row, &text, note);
     if (status) return status;
-    m->has_neutral = hci_text_is(text, "star-neutral");
-    if (m->has_neutral || hci_text_is(text, "star")) return HCI_OK;
+    *has_neutral = hci_text_is(text, "star-neutral");
+    if (*has_neutral || hci_text_is(text, "star")) return HCI_OK;
     return hci_csv_error(csv, "value", row, note, "`star` or `star-neutral`",
                          "for a delta winding give the equivalent star's values");
 }
@@ -97,7 +98,7 @@ static hci_status row_read(const hci_csv *csv, size_t row, hci_machine_data *m, 
     const char *name;
     const hci_status status = hci_csv_text(csv, "name", row, &name, note);
     if (status) return status;
-    if (strcmp(name, "connection") == 0) return connection_read(csv, row, m, note);
+    if (strcmp(name, "connection") == 0) return hci_machine_connection(csv, row, &m->has_neutral, note);
     list_scalars(m, list);
     for (size_t k = 0; k < SCALARS; ++k)
         if (strcmp(name, list[k].name) == 0) return scalar_read(csv, row, &list[k], note);
@@ -242,16 +243,16 @@ static hci_status inductance_read(const char *path, hci_machine_data *m, hci_not
 static hci_status folder_read(const char *folder, hci_machine_data *m, hci_note *note)
 {
     char path[PATH_SIZE];
-    hci_status status = join(path, folder, "machine.csv", note);
+    hci_status status = hci_machine_path(path, PATH_SIZE, folder, "machine.csv", note);
     if (!status) status = scalars_read(path, m, note);
-    if (!status) status = join(path, folder, "back_emf.csv", note);
+    if (!status) status = hci_machine_path(path, PATH_SIZE, folder, "back_emf.csv", note);
     if (!status) status = emf_read(path, m, note);
-    if (!status) status = join(path, folder, "cogging.csv", note);
-    if (!status && is_there(path)) status = cogging_read(path, m, note);
-    if (!status) status = join(path, folder, "inductance.csv", note);
-    if (!status && is_there(path)) status = inductance_read(path, m, note);
-    if (!status) status = join(path, folder, "effects.csv", note);
-    m->has_effects = !status && is_there(path);
+    if (!status) status = hci_machine_path(path, PATH_SIZE, folder, "cogging.csv", note);
+    if (!status && hci_machine_has(path)) status = cogging_read(path, m, note);
+    if (!status) status = hci_machine_path(path, PATH_SIZE, folder, "inductance.csv", note);
+    if (!status && hci_machine_has(path)) status = inductance_read(path, m, note);
+    if (!status) status = hci_machine_path(path, PATH_SIZE, folder, "effects.csv", note);
+    m->has_effects = !status && hci_machine_has(path);
     return status;
 }
 

@@ -11,6 +11,7 @@
 #include "hci/host/waveform.h"
 #include "hci/version.h"
 #include "memory.h"
+#include "report.h"
 
 /* JSON has no NaN: a number that does not exist is null. False when memory is out. */
 static bool add_number(cJSON *object, const char *name, double value)
@@ -138,7 +139,7 @@ static bool add_finding(cJSON *list, const hci_finding *f)
     cJSON *item = cJSON_CreateObject();
     return item && cJSON_AddItemToArray(list, item) && add_text(item, "effect", f->effect) &&
            add_text(item, "verdict", hci_finding_verdict_name(f->verdict)) &&
-           add_number(item, "delta_bic", f->delta_bic) &&
+           add_number(item, "delta_bic", hci_report_delta_bic(f)) &&
            add_number(item, "residual_share", f->residual_share) && add_text(item, "detail", f->detail);
 }
 
