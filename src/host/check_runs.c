@@ -1,6 +1,5 @@
 /* Figures of recordings: the angle as it stands, and means of what turns with it. */
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -80,19 +79,6 @@ static bool has_three(const hci_csv *csv, const char *const name[3])
     return has(csv, name[0]) && has(csv, name[1]) && has(csv, name[2]);
 }
 
-static void HCI_PRINTF(2, 3) remark(samples *s, const char *format, ...)
-{
-    char *text = s->remark->text;
-    const size_t used = strlen(text), size = sizeof s->remark->text;
-    va_list arguments;
-    va_start(arguments, format);
-    const size_t start = used + (size_t)snprintf(text + used, size - used, "%s", used > 0 ? "; " : "");
-    if (start < size) vsnprintf(text + start, size - start, format, arguments);
-    va_end(arguments);
-    for (size_t end = strlen(text); end > 0 && !hci_utf8_valid(text); --end) /* cut within a character */
-        text[end - 1] = '\0';
-}
-
 /* A column that says again what others say, or nothing to a check. */
 static void leave(const hci_csv *csv, const char *name, samples *s)
 {
@@ -100,28 +86,12 @@ static void leave(const hci_csv *csv, const char *name, samples *s)
     if (hci_csv_find(csv, name, &column)) s->used[column] = true;
 }
 
-/* A column under an unknown name would otherwise be missed in silence. */
-static void remark_unused(const hci_csv *csv, samples *s)
-{
-    char list[300] = "";
-    size_t length = 0;
-    for (size_t column = 0; column < hci_csv_columns(csv) && length < sizeof list; ++column) {
-        char quoted[HCI_QUOTE_SIZE];
-        const char *name = hci_csv_name(csv, column);
-        if (s->used[column] || *name == '\0') continue;
-        length += (size_t)snprintf(list + length, sizeof list - length, "%s%s", length > 0 ? ", " : "",
-                                   hci_quote(name, quoted));
-    }
-    if (length >= sizeof list) memcpy(list + sizeof list - 4, "...", 4);
-    if (length > 0) remark(s, "columns not used: %s", list);
-}
-
 static hci_status column_read(const hci_csv *csv, const char *name, samples *s, double **values,
                               hci_note *note)
 {
     hci_note told = {{0}};
     if (!has(csv, name)) return HCI_OK;
-    if (hci_csv_told(csv, name, &told)) remark(s, "%s", told.text);
+    if (hci_csv_told(csv, name, &told)) hci_note_add(s->remark, "%s", told.text);
     leave(csv, name, s);
     *values = hci_memory_new(hci_csv_rows(csv), sizeof **values);
     if (!*values) return hci_note_set(note, HCI_ERROR_MEMORY, "%s: out of memory", hci_csv_path(csv));
@@ -234,7 +204,8 @@ static hci_status voltages_read(const hci_csv *csv, check_run *run, samples *s, 
     if (!status && run->has_dq_voltage) status = column_read(csv, "vd_V", s, &s->vd, note);
     run->lacks_d_voltage = run->has_dq_voltage && !s->vd;
     if (!status && run->lacks_d_voltage)
-        remark(s, "v_q without v_d: the back-EMF is not compared, and the power where no i_d flows");
+        hci_note_add(s->remark,
+                     "v_q without v_d: the back-EMF is not compared, and the power where no i_d flows");
     return status;
 }
 
@@ -266,7 +237,8 @@ static hci_status samples_read(const hci_csv *csv, check_run *run, samples *s, h
     run->is_electrical = e;
     find_voltages(csv, run);
     if (!status && hci_csv_header_line(csv) > 0)
-        remark(s, "line %zu is the header, what stands before it is not read", hci_csv_header_line(csv));
+        hci_note_add(s->remark, "line %zu is the header, what stands before it is not read",
+                     hci_csv_header_line(csv));
     if (!status && (e || m)) status = column_read(csv, e ? "theta_e_rad" : "theta_m_rad", s, &s->theta, note);
     if (!status && e && m) status = column_read(csv, "theta_m_rad", s, &s->other, note);
     if (!status) status = column_read(csv, "time_s", s, &s->time, note);
@@ -275,7 +247,7 @@ static hci_status samples_read(const hci_csv *csv, check_run *run, samples *s, h
     if (!status) status = currents_read(csv, run, s, note);
     if (!status) status = voltages_read(csv, run, s, note);
     leave(csv, "temperature_C", s);
-    if (!status) remark_unused(csv, s);
+    if (!status) hci_csv_unused(csv, s->used, s->remark);
     return status;
 }
 

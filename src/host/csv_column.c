@@ -415,3 +415,18 @@ hci_status hci_csv_error(const hci_csv *csv, const char *column, size_t row, hci
     return hci_csv_cell_error(csv, hci_csv_line(csv, row), found.column, hci_csv_cell(csv, 0, found.column),
                               note, quote_cell(cell, quoted), expected, remedy);
 }
+
+void hci_csv_unused(const hci_csv *csv, const bool *used, hci_note *remark)
+{
+    char list[300] = "";
+    size_t length = 0;
+    for (size_t column = 0; column < hci_csv_columns(csv) && length < sizeof list; ++column) {
+        char quoted[HCI_QUOTE_SIZE];
+        const char *name = hci_csv_name(csv, column);
+        if (used[column] || *name == '\0') continue;
+        length += (size_t)snprintf(list + length, sizeof list - length, "%s%s", length > 0 ? ", " : "",
+                                   hci_quote(name, quoted));
+    }
+    if (length >= sizeof list) memcpy(list + sizeof list - 4, "...", 4);
+    if (length > 0) hci_note_add(remark, "columns not used: %s", list);
+}

@@ -53,6 +53,10 @@ const hci_unit *hci_csv_row_unit(const hci_csv *csv, size_t column);
 /* Is a name one of those that a recording has, here or elsewhere? */
 bool hci_csv_is_known(const char *name);
 
+/* Tells the columns that were not used, used[columns], in a remark: one under an unknown name would otherwise
+ * be missed in silence. */
+void hci_csv_unused(const hci_csv *csv, const bool *used, hci_note *remark);
+
 /* Does `text` begin with these `length` bytes, without regard to case? */
 bool hci_text_begins(const char *text, const char *start, size_t length);
 

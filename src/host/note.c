@@ -110,3 +110,15 @@ hci_status hci_note_set(hci_note *note, hci_status status, const char *format, .
     if (length >= (int)sizeof note->text) mend_end(note->text);
     return status;
 }
+
+void hci_note_add(hci_note *remark, const char *format, ...)
+{
+    char *text = remark->text;
+    const size_t used = strlen(text), size = sizeof remark->text;
+    va_list arguments;
+    va_start(arguments, format);
+    const size_t start = used + (size_t)snprintf(text + used, size - used, "%s", used > 0 ? "; " : "");
+    if (start < size) vsnprintf(text + start, size - start, format, arguments);
+    va_end(arguments);
+    mend_end(text);
+}

@@ -2,10 +2,10 @@
 
 #include <assert.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "csv_table.h"
 #include "hci/frames.h"
 #include "hci/harmonic.h"
 #include "hci/host/csv.h"
@@ -37,19 +37,6 @@ static hci_status memory_error(const reader *r)
                         hci_quote_path(hci_csv_path(r->csv), path), r->run->count);
 }
 
-static void HCI_PRINTF(2, 3) remark(reader *r, const char *format, ...)
-{
-    char *text = r->run->remark.text;
-    const size_t used = strlen(text), size = sizeof r->run->remark.text;
-    va_list arguments;
-    va_start(arguments, format);
-    const size_t start = used + (size_t)snprintf(text + used, size - used, "%s", used > 0 ? "; " : "");
-    if (start < size) vsnprintf(text + start, size - start, format, arguments);
-    va_end(arguments);
-    for (size_t end = strlen(text); end > 0 && !hci_utf8_valid(text); --end) /* cut within a character */
-        text[end - 1] = '\0';
-}
-
 static bool has(const reader *r, const char *name)
 {
     size_t column;
@@ -69,7 +56,7 @@ static hci_status read_column(reader *r, const char *name, double **values)
     size_t column;
     hci_note told = {{0}};
     if (!hci_csv_find(r->csv, name, &column)) return HCI_OK;
-    if (hci_csv_told(r->csv, name, &told)) remark(r, "%s", told.text);
+    if (hci_csv_told(r->csv, name, &told)) hci_note_add(&r->run->remark, "%s", told.text);
     r->used[column] = true;
     *values = hci_memory_new(r->run->count, sizeof **values);
     if (*values == NULL) return memory_error(r);
@@ -142,8 +129,9 @@ static hci_status complete_speed(reader *r, hci_angle_path path)
     if (!recorded) run->speed_rad_per_s = hci_memory_new(run->count, sizeof(double));
     if (run->speed_rad_per_s == NULL) return memory_error(r);
     hci_slope(run->time_s, run->theta_m_rad, run->count, run->speed_rad_per_s);
-    remark(r, recorded ? "the speed is 0 but the angle moves: the slope of the angle is taken"
-                       : "the speed is the slope of the angle");
+    hci_note_add(&r->run->remark, recorded
+                                      ? "the speed is 0 but the angle moves: the slope of the angle is taken"
+                                      : "the speed is the slope of the angle");
     return HCI_OK;
 }
 
@@ -179,9 +167,10 @@ static hci_status read_angle(reader *r, const char *name, double factor, double 
     hci_memory_free(rate);
     if (how->path == HCI_ANGLE_UNCLEAR) return unclear_error(r, r->run->speed_rad_per_s != NULL);
     if (how->path == HCI_ANGLE_SCATTERED)
-        remark(r, "%s: samples without order in the angle, taken as they stand", name);
+        hci_note_add(&r->run->remark, "%s: samples without order in the angle, taken as they stand", name);
     if (how->predicted > 0)
-        remark(r, "%s: whole turns of %zu steps are taken from the speed", name, how->predicted);
+        hci_note_add(&r->run->remark, "%s: whole turns of %zu steps are taken from the speed", name,
+                     how->predicted);
     return HCI_OK;
 }
 
@@ -206,9 +195,11 @@ static void join_angles(reader *r, const double *theta_e)
     const bool steady = hypot(sine, cosine) > STEADY * (double)n;
     r->run->turn_known = steady;
     if (!steady)
-        remark(r, "theta_m does not follow theta_e with %d pole pairs and is not used", r->pole_pairs);
+        hci_note_add(&r->run->remark, "theta_m does not follow theta_e with %d pole pairs and is not used",
+                     r->pole_pairs);
     else if (fabs(offset) > 0.01)
-        remark(r, "theta_e is ahead of pole pairs x theta_m by %.3g rad and gives the phase", offset);
+        hci_note_add(&r->run->remark,
+                     "theta_e is ahead of pole pairs x theta_m by %.3g rad and gives the phase", offset);
     for (size_t k = 0; k < n; ++k) {
         const double beside = steady ? p * theta_m[k] + offset : theta_e[k];
         theta_m[k] = (beside + remainder(theta_e[k] - beside, 2.0 * HCI_PI)) / p;
@@ -313,7 +304,8 @@ static hci_status read_currents(reader *r)
     }
     if (has(r, "id_A") && !has(r, "iq_A"))
         return missing(r, "id_A without iq_A", "both, or iq_A alone", "add the column iq_A");
-    if (!has(r, "iq_A") && r->run->theta_m_rad != NULL) remark(r, "no currents: taken as 0");
+    if (!has(r, "iq_A") && r->run->theta_m_rad != NULL)
+        hci_note_add(&r->run->remark, "no currents: taken as 0");
     return read_dq(r, "id_A", "iq_A", &r->run->i_A);
 }
 
@@ -333,7 +325,8 @@ static hci_status read_voltages(reader *r)
         v[1] = (bc - ab) / 3.0;
         v[2] = (ca - bc) / 3.0;
     }
-    remark(r, "phase voltages from line voltages: orders divisible by three are not in them");
+    hci_note_add(&r->run->remark,
+                 "phase voltages from line voltages: orders divisible by three are not in them");
     return status;
 }
 
@@ -350,7 +343,7 @@ static hci_status torque_of_inertia(reader *r, double inertia_kgm2)
     for (size_t k = 0; k < run->count; ++k)
         run->torque_Nm[k] *= inertia_kgm2;
     run->torque_source = HCI_TORQUE_INERTIA;
-    remark(r, "no torque_Nm: as of a free shaft it is inertia x acceleration");
+    hci_note_add(&r->run->remark, "no torque_Nm: as of a free shaft it is inertia x acceleration");
     return HCI_OK;
 }
 
@@ -365,22 +358,6 @@ static hci_status read_torque(reader *r, double inertia_kgm2)
 }
 
 /* ---- the run ---- */
-
-/* A column under an unknown name would otherwise be missed in silence. */
-static void remark_unused(reader *r)
-{
-    char list[300];
-    size_t length = 0;
-    for (size_t column = 0; column < hci_csv_columns(r->csv) && length < sizeof list; ++column) {
-        char quoted[HCI_QUOTE_SIZE];
-        const char *name = hci_csv_name(r->csv, column);
-        if (r->used[column] || *name == '\0') continue;
-        length += (size_t)snprintf(list + length, sizeof list - length, "%s%s", length > 0 ? ", " : "",
-                                   hci_quote(name, quoted));
-    }
-    if (length >= sizeof list) memcpy(list + sizeof list - 4, "...", 4);
-    if (length > 0) remark(r, "columns not used: %s", list);
-}
 
 /* Neither angle nor voltages: most likely a column under another name. Where voltages would do without an
  * angle, one that may be either is refused all the same, and not passed over. */
@@ -402,7 +379,8 @@ static hci_status read_all(reader *r, double inertia_kgm2)
     hci_angle_path path = HCI_ANGLE_WITHIN;
     hci_status status = check_columns(r);
     if (status == HCI_OK && hci_csv_header_line(r->csv) > 0)
-        remark(r, "line %zu is the header, what stands before it is not read", hci_csv_header_line(r->csv));
+        hci_note_add(&r->run->remark, "line %zu is the header, what stands before it is not read",
+                     hci_csv_header_line(r->csv));
     if (status == HCI_OK) status = read_time(r);
     if (status == HCI_OK) status = read_speed(r);
     if (status == HCI_OK) status = read_angles(r, &path);
@@ -411,7 +389,7 @@ static hci_status read_all(reader *r, double inertia_kgm2)
     if (status == HCI_OK) status = read_voltages(r);
     if (status == HCI_OK) status = read_column(r, "temperature_C", &run->temperature_C);
     if (status == HCI_OK) status = read_torque(r, inertia_kgm2);
-    if (status == HCI_OK) remark_unused(r);
+    if (status == HCI_OK) hci_csv_unused(r->csv, r->used, &r->run->remark);
     return status;
 }
 

@@ -1,7 +1,6 @@
 #include "hci/host/waveform.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -27,17 +26,6 @@
 enum { HIGHEST_MOST = 2000 };
 
 /* ---- words ---- */
-
-void hci_waveform_remark(const hci_waveform_task *t, const char *format, ...)
-{
-    char *text = t->result->remark.text;
-    const size_t used = strlen(text), size = sizeof t->result->remark.text;
-    va_list arguments;
-    va_start(arguments, format);
-    const size_t start = used + (size_t)snprintf(text + used, size - used, "%s", used > 0 ? "; " : "");
-    if (start < size) vsnprintf(text + start, size - start, format, arguments);
-    va_end(arguments);
-}
 
 hci_status hci_waveform_refuse(const hci_waveform_task *t, const char *found, const char *expected,
                                const char *remedy)
@@ -127,8 +115,9 @@ static void remark_limit(const hci_waveform_task *t, const hci_turns *turns, dou
     const double reached = (double)turns->highest * step;
     const double wanted = isnan(o->max_order) ? HCI_WAVEFORM_ORDER_MOST : o->max_order;
     if (o->orders != NULL || reached + step > wanted) return;
-    hci_waveform_remark(t, "orders above %.6g are not looked at: the samples lie too far apart%s", reached,
-                        isnan(o->max_order) && turns->count > 3 ? "; --max-order N puts turns together" : "");
+    hci_note_add(&t->result->remark, "orders above %.6g are not looked at: the samples lie too far apart%s",
+                 reached,
+                 isnan(o->max_order) && turns->count > 3 ? "; --max-order N puts turns together" : "");
 }
 
 hci_status hci_waveform_judge(const hci_waveform_task *t, const hci_turns *turns, size_t channel, double step)
@@ -350,9 +339,9 @@ static hci_status judge_fit(const hci_waveform_task *t, const double *value, dou
         return hci_waveform_refuse(t, "angles that cannot tell these orders apart", "samples all around",
                                    "give fewer orders, or measure over more of the turn");
     if (status == HCI_OK)
-        hci_waveform_remark(t,
-                            "the samples do not go round a turn: only the orders given were fitted, and any "
-                            "other one is in them");
+        hci_note_add(&t->result->remark,
+                     "the samples do not go round a turn: only the orders given were fitted, and any "
+                     "other one is in them");
     return status == HCI_ERROR_MEMORY ? hci_waveform_memory(t) : status;
 }
 
@@ -361,21 +350,21 @@ static void remark_cogging(const hci_waveform_task *t)
     const hci_waveform *w = t->result;
     const double rms_A = hci_waveform_current_rms(t->run);
     if (isnan(t->options->torque_constant_Nm_per_A) && rms_A > 0.0)
-        hci_waveform_remark(t,
-                            "currents of %.3g A rms flow, and their torque is in the waveform; give "
-                            "--torque-constant to take that of i_q away",
-                            rms_A);
+        hci_note_add(&t->result->remark,
+                     "currents of %.3g A rms flow, and their torque is in the waveform; give "
+                     "--torque-constant to take that of i_q away",
+                     rms_A);
     if (w->step >= 1.0 && t->options->pole_pairs > 1)
-        hci_waveform_remark(
-            t, t->run->turn_known
-                   ? "no whole mechanical turn is covered: only whole electrical orders are told "
-                     "apart"
-                   : "the angle is electrical and wrapped: only whole electrical orders are told "
-                     "apart");
+        hci_note_add(&t->result->remark,
+                     t->run->turn_known
+                         ? "no whole mechanical turn is covered: only whole electrical orders are told "
+                           "apart"
+                         : "the angle is electrical and wrapped: only whole electrical orders are told "
+                           "apart");
     if (w->turns_forward + w->turns_backward > 0 && isnan(w->friction_Nm))
-        hci_waveform_remark(t,
-                            "one direction only: friction is in the mean, and what of it follows the angle "
-                            "is in the orders");
+        hci_note_add(&t->result->remark,
+                     "one direction only: friction is in the mean, and what of it follows the angle "
+                     "is in the orders");
 }
 
 static hci_status cogging_of(const hci_waveform_task *t, double *value, double *angle)

@@ -187,8 +187,9 @@ static void turn_backward(const hci_waveform_task *t, emf_work *w)
     }
     t->result->frequency_Hz = -t->result->frequency_Hz;
     t->result->drift_Hz_per_s = -t->result->drift_Hz_per_s;
-    hci_waveform_remark(t, "the phases follow each other as a-c-b: taken as turned backward; if it turned "
-                           "forward, two phases are swapped");
+    hci_note_add(&t->result->remark,
+                 "the phases follow each other as a-c-b: taken as turned backward; if it turned "
+                 "forward, two phases are swapped");
 }
 
 /* Fits, and finds which way round the phases are. Without an angle a-c-b is the machine turned backward. */
@@ -199,8 +200,9 @@ static hci_status fit_in_sequence(const hci_waveform_task *t, emf_work *w, hci_t
     if (status != HCI_OK || sequence_of(turns) >= 0.0) return status;
     if (!w->by_clock) {
         w->sequence = -1;
-        hci_waveform_remark(t, "the phases follow the angle as a-c-b: two phases are swapped, or the angle "
-                               "counts backward; taken with b and c exchanged");
+        hci_note_add(&t->result->remark,
+                     "the phases follow the angle as a-c-b: two phases are swapped, or the angle "
+                     "counts backward; taken with b and c exchanged");
         return status;
     }
     turn_backward(t, w);
@@ -326,16 +328,18 @@ static const char *guess_of(double ratio)
 static void remark_channel(const hci_waveform_task *t, const hci_waveform_channel *c, double amplitude_V)
 {
     if (c->left_out)
-        hci_waveform_remark(t, "channel %s reads %.3g times the others%s; it is left out of the amplitudes",
-                            c->name, c->ratio, guess_of(c->ratio));
+        hci_note_add(&t->result->remark,
+                     "channel %s reads %.3g times the others%s; it is left out of the amplitudes", c->name,
+                     c->ratio, guess_of(c->ratio));
     else if (fabs(c->ratio - 1.0) > fmax(RATIO_TELLS, TIMES_ERROR * c->ratio_error))
-        hci_waveform_remark(t, "channel %s reads %.4g times the others%s", c->name, c->ratio,
-                            guess_of(c->ratio));
+        hci_note_add(&t->result->remark, "channel %s reads %.4g times the others%s", c->name, c->ratio,
+                     guess_of(c->ratio));
     if (fabs(c->offset_V) >
         fmax(OFFSET_TELLS * amplitude_V * (c->left_out ? c->ratio : 1.0), TIMES_ERROR * c->offset_error_V))
-        hci_waveform_remark(t, "channel %s has an offset of %.3g V", c->name, c->offset_V);
+        hci_note_add(&t->result->remark, "channel %s has an offset of %.3g V", c->name, c->offset_V);
     if (fabs(c->phase_error_rad) > fmax(PHASE_TELLS_rad, TIMES_ERROR * c->phase_error))
-        hci_waveform_remark(t, "channel %s is %.3g rad off its third of a turn", c->name, c->phase_error_rad);
+        hci_note_add(&t->result->remark, "channel %s is %.3g rad off its third of a turn", c->name,
+                     c->phase_error_rad);
 }
 
 static hci_status compare_channels(const hci_waveform_task *t, const hci_turns *turns, const emf_work *w,
@@ -363,12 +367,12 @@ static hci_status compare_channels(const hci_waveform_task *t, const hci_turns *
 /* sin(θ + γ) has its rising zero where θ + γ is 0. */
 static void remark_zero(const hci_waveform_task *t, double phase_rad)
 {
-    hci_waveform_remark(t,
-                        "theta_e is 0 at %.4g rad of phase a's fundamental, not at its rising zero crossing: "
-                        "%s %.4g rad %s theta_e (%.4g rad %s theta_m)",
-                        phase_rad, phase_rad > 0.0 ? "add" : "subtract", fabs(phase_rad),
-                        phase_rad > 0.0 ? "to" : "from", fabs(phase_rad) / t->options->pole_pairs,
-                        phase_rad > 0.0 ? "to" : "from");
+    hci_note_add(&t->result->remark,
+                 "theta_e is 0 at %.4g rad of phase a's fundamental, not at its rising zero crossing: "
+                 "%s %.4g rad %s theta_e (%.4g rad %s theta_m)",
+                 phase_rad, phase_rad > 0.0 ? "add" : "subtract", fabs(phase_rad),
+                 phase_rad > 0.0 ? "to" : "from", fabs(phase_rad) / t->options->pole_pairs,
+                 phase_rad > 0.0 ? "to" : "from");
 }
 
 static hci_status judge_balanced(const hci_waveform_task *t, const hci_turns *turns, const emf_work *w)
@@ -394,7 +398,8 @@ static void remark_currents(const hci_waveform_task *t)
 {
     const double rms_A = hci_waveform_current_rms(t->run);
     if (rms_A > 0.0)
-        hci_waveform_remark(t, "currents of %.3g A rms flow: what they drop is in the voltages", rms_A);
+        hci_note_add(&t->result->remark, "currents of %.3g A rms flow: what they drop is in the voltages",
+                     rms_A);
 }
 
 static hci_status back_emf_of(const hci_waveform_task *t, emf_work *w)
@@ -411,9 +416,9 @@ static hci_status back_emf_of(const hci_waveform_task *t, emf_work *w)
         choose_channels(&turns, w);
         if (w->by_clock) {
             align(&turns, w);
-            hci_waveform_remark(t,
-                                "without an angle a speed that ripples within a turn shows as orders beside "
-                                "the fundamental");
+            hci_note_add(&t->result->remark,
+                         "without an angle a speed that ripples within a turn shows as orders beside "
+                         "the fundamental");
         }
         status = compare_channels(t, &turns, w, inverse);
     }

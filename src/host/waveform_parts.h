@@ -24,9 +24,6 @@ hci_status hci_waveform_back_emf(const hci_waveform_task *t);
 hci_status hci_waveform_judge(const hci_waveform_task *t, const hci_turns *turns, size_t channel,
                               double step);
 
-/* Appends to the remark. */
-void HCI_PRINTF(2, 3) hci_waveform_remark(const hci_waveform_task *t, const char *format, ...);
-
 /* "RUN: found …, expected …; remedy", HCI_ERROR_INPUT. */
 hci_status hci_waveform_refuse(const hci_waveform_task *t, const char *found, const char *expected,
                                const char *remedy);

@@ -30,6 +30,9 @@ typedef struct {
  * the end. */
 hci_status hci_note_set(hci_note *note, hci_status status, const char *format, ...) HCI_PRINTF(3, 4);
 
+/* Appends to a remark, behind "; " where it already says something. Long texts are cut at the end. */
+void hci_note_add(hci_note *remark, const char *format, ...) HCI_PRINTF(2, 3);
+
 #ifdef __cplusplus
 }
 #endif
