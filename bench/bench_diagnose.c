@@ -21,8 +21,8 @@
 #include <csv.h>
 #endif
 
-#include "hci/frames.h"
-#include "hci/host/diagnose.h"
+#include "hci/machine/frames.h"
+#include "hci/host/diagnose/diagnose.h"
 #include "timing.h"
 
 enum { POLE_PAIRS = 2, EMF_COUNT = 3, COLUMNS = 7, REPEATS = 3, ROWS = 1000000, LEVELS = 5 };

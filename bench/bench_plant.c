@@ -5,7 +5,7 @@
 #include <stdio.h>
 
 #include "../tests/plant_machine.h"
-#include "hci/control.h"
+#include "hci/drive/control.h"
 #include "timing.h"
 
 /* Runs are short, so that the median is one without interruption. */

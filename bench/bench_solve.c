@@ -19,9 +19,9 @@
 #include <lapacke.h>
 #endif
 
-#include "hci/dense.h"
-#include "hci/system.h"
-#include "host/sparse.h"
+#include "hci/math/dense.h"
+#include "hci/machine/system.h"
+#include "host/numeric/sparse.h"
 #include "timing.h"
 
 enum { EMF_COUNT = 5, DENSE_COMPONENTS_MAX = 1536 };

@@ -3,8 +3,8 @@
 #include <string.h>
 
 #include "cli.h"
-#include "hci/host/check.h"
-#include "hci/host/output.h"
+#include "hci/host/check/check.h"
+#include "hci/host/base/output.h"
 
 enum { OUT, CLI_COMMON_KEYS };
 

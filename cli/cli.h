@@ -6,8 +6,8 @@
 #include <stddef.h>
 #include <stdio.h>
 
-#include "hci/host/note.h"
-#include "hci/host/summary.h"
+#include "hci/host/base/note.h"
+#include "hci/host/report/summary.h"
 
 /* ---- options.c */
 

@@ -6,7 +6,7 @@
 #include <sys/stat.h>
 
 #include "cli.h"
-#include "hci/host/diagnose.h"
+#include "hci/host/diagnose/diagnose.h"
 
 enum { RUNS, OUT, TARGET, RESOLUTION, REPORT, CLI_COMMON_KEYS };
 

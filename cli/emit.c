@@ -6,8 +6,8 @@
 #include <sys/stat.h>
 
 #include "cli.h"
-#include "hci/host/csv.h"
-#include "hci/host/emit.h"
+#include "hci/host/csv/csv.h"
+#include "hci/host/emit/emit.h"
 
 enum { NAME, FORMAT, FRAME, POINTS, MAX_ERROR, PER_TORQUE, REFERENCE, OUT, CLI_COMMON_KEYS };
 

@@ -3,9 +3,9 @@
 #include <string.h>
 
 #include "cli.h"
-#include "hci/harmonic.h"
-#include "hci/host/csv.h"
-#include "hci/host/waveform.h"
+#include "hci/math/harmonic.h"
+#include "hci/host/csv/csv.h"
+#include "hci/host/waveform/waveform.h"
 
 enum { QUANTITY, POLE_PAIRS, ORDERS, MAX_ORDER, CONSTANT, OUT, CLI_COMMON_KEYS };
 

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "cli.h"
-#include "hci/host/csv.h"
-#include "hci/host/init.h"
+#include "hci/host/csv/csv.h"
+#include "hci/host/machine/init.h"
 
 enum {
     POLE_PAIRS,

@@ -5,7 +5,7 @@
 #include <sys/stat.h>
 
 #include "cli.h"
-#include "hci/host/predict.h"
+#include "hci/host/recording/predict.h"
 
 enum { OUT, CLI_COMMON_KEYS };
 

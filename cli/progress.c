@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include "cli.h"
-#include "hci/host/output.h"
+#include "hci/host/base/output.h"
 
 #define SILENT_s    1.0 /* shorter work shows nothing */
 #define REDRAW_s    0.1

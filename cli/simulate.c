@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include "cli.h"
-#include "hci/host/simulate.h"
+#include "hci/host/simulate/simulate.h"
 
 enum { CURRENTS, OUT, REPORT, CLI_COMMON_KEYS };
 

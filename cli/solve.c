@@ -6,9 +6,9 @@
 #include <sys/stat.h>
 
 #include "cli.h"
-#include "hci/host/csv.h"
-#include "hci/host/effects.h"
-#include "hci/host/solve.h"
+#include "hci/host/csv/csv.h"
+#include "hci/host/machine/effects.h"
+#include "hci/host/solve/solve.h"
 
 enum {
     TARGET,

@@ -18,7 +18,7 @@ endfunction()
 
 # A static library hci::<name> from the *.c of the current folder, with its public headers.
 function(hci_add_library name)
-    file(GLOB sources CONFIGURE_DEPENDS *.c)
+    file(GLOB_RECURSE sources CONFIGURE_DEPENDS *.c)
     add_library(hci_${name} STATIC ${sources})
     add_library(hci::${name} ALIAS hci_${name})
     set_target_properties(hci_${name} PROPERTIES EXPORT_NAME ${name} LINKER_LANGUAGE C)

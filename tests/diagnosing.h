@@ -7,8 +7,8 @@
 #include <stdio.h>
 #include <unistd.h>
 
-#include "hci/host/diagnose.h"
-#include "host/memory.h"
+#include "hci/host/diagnose/diagnose.h"
+#include "host/base/memory.h"
 #include "recording.h"
 #include "unity.h"
 

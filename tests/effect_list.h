@@ -7,7 +7,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "hci/effect.h"
+#include "hci/effects/effects.h"
 #include "unity.h"
 
 enum { EL_EFFECTS = 16, EL_TERMS = 96 };

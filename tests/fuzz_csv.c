@@ -12,10 +12,10 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "hci/host/csv.h"
-#include "hci/host/run.h"
-#include "host/csv_alias.h"
-#include "host/quote.h"
+#include "hci/host/csv/csv.h"
+#include "hci/host/recording/run.h"
+#include "host/csv/alias.h"
+#include "host/base/quote.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 

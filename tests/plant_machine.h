@@ -10,7 +10,7 @@
 #include <math.h>
 #include <stddef.h>
 
-#include "hci/plant.h"
+#include "hci/drive/plant.h"
 
 enum { PM_MOST = 12 };
 

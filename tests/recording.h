@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "hci/host/run.h"
+#include "hci/host/recording/run.h"
 #include "reference.h"
 
 /* N(0, 1) */

@@ -7,7 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "hci/harmonic.h"
+#include "hci/math/harmonic.h"
 
 #define REF_SAMPLES 256 /* a multiple of 4 */
 #define REF_BAND    (REF_SAMPLES / 2)

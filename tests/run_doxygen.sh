@@ -31,5 +31,5 @@ refused() {
 printf 'int hci_undocumented(void);\n' >>"$work/copy/include/hci/version.h"
 refused 'hci_undocumented.*is not documented'
 cp include/hci/version.h "$work/copy/include/hci/version.h"
-sed -i 's|/\* V, .* not used by the ideal loop \*/||' "$work/copy/include/hci/control.h"
+sed -i 's|/\* V, .* not used by the ideal loop \*/||' "$work/copy/include/hci/drive/control.h"
 refused 'Member v.*hci_control_state is not documented'

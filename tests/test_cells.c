@@ -1,7 +1,7 @@
 /* What is left of long recordings, against the equations that they were made with. */
-#include "host/cells.h"
+#include "host/diagnose/prepare/binned_samples.h"
 
-#include "host/memory.h"
+#include "host/base/memory.h"
 #include "recording.h"
 #include "unity.h"
 

@@ -3,7 +3,7 @@
  * rad/s, and the same driven without current. */
 #define _POSIX_C_SOURCE 200809L
 
-#include "hci/host/check.h"
+#include "hci/host/check/check.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -12,8 +12,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "hci/host/summary.h"
-#include "host/memory.h"
+#include "hci/host/report/summary.h"
+#include "host/base/memory.h"
 #include "unity.h"
 
 #define PI 3.14159265358979323846

@@ -2,7 +2,7 @@
  * search has its own system (sampled unit currents), its own candidates and its own solver; it shares only
  * the criterion: copper within the allowance first, then the smallest worst order with the mean counted
  * tenfold, or less copper where both are exact. */
-#include "hci/host/solve.h"
+#include "hci/host/solve/solve.h"
 
 #include <string.h>
 

@@ -3,9 +3,9 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "hci/control.h"
-#include "hci/frames.h"
-#include "hci/torque.h"
+#include "hci/drive/control.h"
+#include "hci/machine/frames.h"
+#include "hci/machine/torque.h"
 #include "plant_machine.h"
 #include "reference.h"
 #include "unity.h"

@@ -2,7 +2,7 @@
  * random tables, numbers and units against other ways to compute them, and memory that runs out. */
 #define _POSIX_C_SOURCE 200809L
 
-#include "hci/host/csv.h"
+#include "hci/host/csv/csv.h"
 
 #include <float.h>
 #include <locale.h>
@@ -14,8 +14,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "host/memory.h"
-#include "host/quote.h"
+#include "host/base/memory.h"
+#include "host/base/quote.h"
 #include "reference.h"
 #include "unity.h"
 

@@ -8,10 +8,10 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "hci/host/csv.h"
-#include "hci/host/run.h"
-#include "host/csv_alias.h"
-#include "host/unit.h"
+#include "hci/host/csv/csv.h"
+#include "hci/host/recording/run.h"
+#include "host/csv/alias.h"
+#include "host/base/unit.h"
 #include "reference.h"
 #include "unity.h"
 

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "hci/system.h"
-#include "hci/torque.h"
+#include "hci/machine/system.h"
+#include "hci/machine/torque.h"
 #include "reference.h"
 #include "unity.h"
 

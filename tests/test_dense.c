@@ -1,6 +1,6 @@
 /* LU, Cholesky and the complete orthogonal decomposition: closed forms, laws over seeded draws, refused
  * input. */
-#include "hci/dense.h"
+#include "hci/math/dense.h"
 
 #include <float.h>
 #include <math.h>

@@ -2,7 +2,7 @@
  * nothing. */
 #define _XOPEN_SOURCE 700
 
-#include "host/memory.h"
+#include "host/base/memory.h"
 
 #include "diagnosing.h"
 

@@ -1,7 +1,7 @@
 /* The corrected machine on disk, the same bytes twice, and what goes wrong: no run to fit, no memory. */
 #define _XOPEN_SOURCE 700
 
-#include "host/memory.h"
+#include "host/base/memory.h"
 
 #include "diagnosing.h"
 

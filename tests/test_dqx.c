@@ -1,8 +1,8 @@
 /* The extended frame dq_x: power, the mutual torque's constant factor, the ordinary dq as its sinusoidal
  * case, and slopes of the inductances that keep the reluctance torque. References are sums over the three
  * phases. */
-#include "hci/frames.h"
-#include "hci/torque.h"
+#include "hci/machine/frames.h"
+#include "hci/machine/torque.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -9,8 +9,8 @@
 #include <unistd.h>
 
 #include "effect_list.h"
-#include "hci/host/effects.h"
-#include "host/memory.h"
+#include "hci/host/machine/effects.h"
+#include "host/base/memory.h"
 #include "plant_machine.h"
 #include "unity.h"
 

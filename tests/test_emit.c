@@ -9,8 +9,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "hci/host/emit.h"
-#include "host/memory.h"
+#include "hci/host/emit/emit.h"
+#include "host/base/memory.h"
 #include "reference.h"
 #include "unity.h"
 

@@ -1,6 +1,6 @@
 /* Fourier analysis against sums in long double, against known spectra, and at the edges of what samples can
  * tell. */
-#include "hci/fourier.h"
+#include "hci/math/fourier.h"
 
 #include <float.h>
 #include <math.h>

@@ -1,5 +1,5 @@
 /* Clarke and Park: round trips, power, and the signs of theory section 1. */
-#include "hci/frames.h"
+#include "hci/machine/frames.h"
 
 #include <math.h>
 #include <stdint.h>

@@ -1,5 +1,5 @@
 /* Harmonics and three-phase waves against their sine formulas. */
-#include "hci/harmonic.h"
+#include "hci/math/harmonic.h"
 
 #include "reference.h"
 #include "unity.h"

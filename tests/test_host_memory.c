@@ -12,11 +12,11 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "hci/host/emit.h"
-#include "hci/host/solve.h"
-#include "hci/host/summary.h"
-#include "host/memory.h"
-#include "host/sparse.h"
+#include "hci/host/emit/emit.h"
+#include "hci/host/solve/solve.h"
+#include "hci/host/report/summary.h"
+#include "host/base/memory.h"
+#include "host/numeric/sparse.h"
 #include "unity.h"
 
 static char root[64];

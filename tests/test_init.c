@@ -2,8 +2,8 @@
  * files. */
 #define _POSIX_C_SOURCE 200809L
 
-#include "hci/host/init.h"
-#include "hci/host/summary.h"
+#include "hci/host/machine/init.h"
+#include "hci/host/report/summary.h"
 
 #include <dirent.h>
 #include <math.h>
@@ -12,9 +12,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "hci/host/csv.h"
-#include "hci/host/machine.h"
-#include "host/memory.h"
+#include "hci/host/csv/csv.h"
+#include "hci/host/machine/machine.h"
+#include "host/base/memory.h"
 #include "unity.h"
 
 #define RAD_PER_S_AT_1000_RPM 104.71975511965977

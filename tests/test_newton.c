@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "hci/host/solve.h"
+#include "hci/host/solve/solve.h"
 #include "reference.h"
 #include "unity.h"
 

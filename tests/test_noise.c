@@ -1,5 +1,5 @@
 /* The noise under the lines of a recording, against processes whose equations are written here. */
-#include "host/noise.h"
+#include "host/numeric/noise.h"
 
 #include <math.h>
 #include <stdint.h>

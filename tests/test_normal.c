@@ -1,12 +1,12 @@
 /* Normal equations and the sweep operator against sums and Gram and Schmidt's method on the rows themselves.
  */
-#include "host/normal.h"
+#include "host/numeric/normal_equations.h"
 
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
 
-#include "host/memory.h"
+#include "host/base/memory.h"
 #include "reference.h"
 #include "unity.h"
 

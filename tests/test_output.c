@@ -1,7 +1,7 @@
 /* Sets of output files: whole or not at all, whatever goes wrong on the way. */
 #define _XOPEN_SOURCE 700
 
-#include "hci/host/output.h"
+#include "hci/host/base/output.h"
 
 #include <dirent.h>
 #include <float.h>
@@ -15,8 +15,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "hci/host/csv.h"
-#include "host/memory.h"
+#include "hci/host/csv/csv.h"
+#include "host/base/memory.h"
 #include "unity.h"
 
 static char root[64];

@@ -3,7 +3,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "hci/plant.h"
+#include "hci/drive/plant.h"
 #include "plant_machine.h"
 #include "reference.h"
 #include "unity.h"

@@ -18,7 +18,7 @@ int main(void)
 #include <sundials/sundials_context.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
-#include "hci/plant.h"
+#include "hci/drive/plant.h"
 #include "plant_machine.h"
 #include "unity.h"
 

@@ -3,7 +3,7 @@
  * be. */
 #define _XOPEN_SOURCE 700
 
-#include "host/plot.h"
+#include "host/draw/plot.h"
 
 #include <locale.h>
 #include <math.h>
@@ -13,8 +13,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "host/memory.h"
-#include "host/svg.h"
+#include "host/base/memory.h"
+#include "host/draw/svg.h"
 #include "reference.h"
 #include "unity.h"
 

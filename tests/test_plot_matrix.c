@@ -8,9 +8,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "host/memory.h"
-#include "host/plot.h"
-#include "host/plot_turn.h"
+#include "host/base/memory.h"
+#include "host/draw/plot.h"
+#include "host/draw/plot_turn.h"
 #include "reference.h"
 #include "unity.h"
 

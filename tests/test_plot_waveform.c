@@ -8,7 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "host/plot.h"
+#include "host/draw/plot.h"
 #include "unity.h"
 
 enum { MOST_BYTES = 400000 };

@@ -1,7 +1,7 @@
 /* The model's torque for a run, against the torque formula written out, and the run written again. */
 #define _POSIX_C_SOURCE 200809L
 
-#include "hci/host/predict.h"
+#include "hci/host/recording/predict.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -9,10 +9,10 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "hci/host/csv.h"
-#include "hci/host/effects.h"
-#include "hci/host/summary.h"
-#include "host/memory.h"
+#include "hci/host/csv/csv.h"
+#include "hci/host/machine/effects.h"
+#include "hci/host/report/summary.h"
+#include "host/base/memory.h"
 #include "unity.h"
 
 #define PI 3.14159265358979323846

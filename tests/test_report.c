@@ -2,7 +2,7 @@
  * their marks; with names that try to break out; the same bytes twice; without memory. */
 #define _XOPEN_SOURCE 700
 
-#include "host/report.h"
+#include "host/report/report.h"
 
 #include <locale.h>
 #include <math.h>
@@ -11,10 +11,10 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "hci/host/csv.h"
-#include "host/html.h"
-#include "host/memory.h"
-#include "host/plot.h"
+#include "hci/host/csv/csv.h"
+#include "host/draw/html.h"
+#include "host/base/memory.h"
+#include "host/draw/plot.h"
 #include "reference.h"
 #include "unity.h"
 

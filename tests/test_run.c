@@ -1,7 +1,7 @@
 /* Reading runs: what each column becomes, against the motion that the files were written from. */
 #define _POSIX_C_SOURCE 200809L
 
-#include "hci/host/run.h"
+#include "hci/host/recording/run.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -12,7 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "host/memory.h"
+#include "host/base/memory.h"
 #include "unity.h"
 
 #define PI       3.14159265358979323846

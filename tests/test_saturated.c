@@ -5,9 +5,9 @@
 #include <string.h>
 
 #include "effect_list.h"
-#include "hci/host/effects.h"
-#include "hci/host/solve.h"
-#include "host/memory.h"
+#include "hci/host/machine/effects.h"
+#include "hci/host/solve/solve.h"
+#include "host/base/memory.h"
 #include "reference.h"
 #include "unity.h"
 

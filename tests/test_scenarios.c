@@ -1,7 +1,7 @@
 /* Machine A and the twelve published scenarios in data/: what the published sets can do, and what a free
  * choice of components does better. Torque, copper and the pointwise limit are sampled here; the library
  * gives the currents. */
-#include "hci/host/solve.h"
+#include "hci/host/solve/solve.h"
 
 #include <stdio.h>
 #include <string.h>

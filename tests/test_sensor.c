@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdint.h>
 
-#include "hci/sensor.h"
+#include "hci/drive/sensor.h"
 #include "unity.h"
 
 enum { DRAWS = 1000000 };

@@ -10,10 +10,10 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "hci/host/csv.h"
-#include "hci/host/simulate.h"
-#include "hci/host/summary.h"
-#include "host/memory.h"
+#include "hci/host/csv/csv.h"
+#include "hci/host/simulate/simulate.h"
+#include "hci/host/report/summary.h"
+#include "host/base/memory.h"
 #include "unity.h"
 
 static char root[64];

@@ -1,5 +1,5 @@
 /* Readings that were smoothed, against the motion and the currents before noise and encoder. */
-#include "host/cells.h"
+#include "host/diagnose/prepare/binned_samples.h"
 #include "recording.h"
 #include "unity.h"
 

@@ -1,7 +1,7 @@
 /* Random machines, targets and sets: what hci_solve promises against sampled torque with a naive Fourier sum,
  * a system built from sampled unit currents, a pseudo-inverse by Jacobi rotations, and the laws of the
  * balance. */
-#include "hci/host/solve.h"
+#include "hci/host/solve/solve.h"
 
 #include <string.h>
 

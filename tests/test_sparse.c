@@ -1,5 +1,5 @@
 /* The sparse solvers against singular values and a pseudo-inverse by one-sided Jacobi rotations. */
-#include "host/sparse.h"
+#include "host/numeric/sparse.h"
 
 #include <string.h>
 

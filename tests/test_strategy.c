@@ -1,6 +1,6 @@
 /* The currents of the three strategies against brute force, closed forms and laws and, over a turn of machine
  * C, as the papers use them. References work in long double from the formulas alone. */
-#include "hci/strategy.h"
+#include "hci/machine/strategy.h"
 
 #include <float.h>
 #include <stdio.h>

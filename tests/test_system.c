@@ -1,5 +1,5 @@
 /* The closed-form system U x = h against a brute-force Fourier transform of e(θ)·i(θ). */
-#include "hci/system.h"
+#include "hci/machine/system.h"
 
 #include <string.h>
 

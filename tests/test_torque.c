@@ -1,5 +1,5 @@
 /* The torque model against its own formula, a brute-force Fourier transform and the laws of energy. */
-#include "hci/torque.h"
+#include "hci/machine/torque.h"
 
 #include <stdbool.h>
 #include <string.h>

@@ -2,7 +2,7 @@
  * and measured ones. */
 #define _POSIX_C_SOURCE 200809L
 
-#include "hci/host/waveform.h"
+#include "hci/host/waveform/waveform.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -11,9 +11,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "hci/host/machine.h"
-#include "hci/host/summary.h"
-#include "host/memory.h"
+#include "hci/host/machine/machine.h"
+#include "hci/host/report/summary.h"
+#include "host/base/memory.h"
 #include "reference.h"
 #include "unity.h"
 

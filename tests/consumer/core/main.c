@@ -1,6 +1,6 @@
 /* A user of the core alone: a current in the rotor frame back to phases, and the torque it makes. */
-#include <hci/frames.h>
-#include <hci/torque.h>
+#include <hci/machine/frames.h>
+#include <hci/machine/torque.h>
 #include <stdio.h>
 
 double consumer_torque_Nm(const hci_machine *machine, double iq_A);

@@ -1,6 +1,6 @@
 // The same headers from C++.
-#include <hci/frames.h>
-#include <hci/torque.h>
+#include <hci/machine/frames.h>
+#include <hci/machine/torque.h>
 
 extern "C" double consumer_torque_Nm(const hci_machine *machine, double iq_A);
 

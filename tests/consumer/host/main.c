@@ -1,7 +1,7 @@
 /* A user of the host library: the current that makes 1 N·m, through the sparse solver, and a file that is not
  * there. */
-#include <hci/host/csv.h>
-#include <hci/host/solve.h>
+#include <hci/host/csv/csv.h>
+#include <hci/host/solve/solve.h>
 #include <math.h>
 #include <stdio.h>
 

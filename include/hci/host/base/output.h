@@ -1,0 +1,55 @@
+/* A set of output files that appears whole or not at all. Files are written under temporary names in their
+ * folder and renamed together by hci_output_commit; hci_output_discard removes them. */
+#ifndef HCI_HOST_BASE_OUTPUT_H
+#define HCI_HOST_BASE_OUTPUT_H
+
+#include "hci/host/base/note.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* A set of files that is being written. */
+typedef struct hci_output hci_output;
+
+/* Opens a set of files in `folder`, which is made (with its parents) if it is missing. HCI_ERROR_OUTPUT,
+ * _MEMORY. */
+hci_status hci_output_open(const char *folder, hci_output **output, hci_note *note);
+
+/* Starts the next file; `name` has no folder part. What is written from now on goes into it. A target that is
+ * there already must be a plain file that may be written. HCI_ERROR_ARGUMENT for a name with a folder part or
+ * a second time, HCI_ERROR_OUTPUT, _MEMORY; discard the set then. */
+hci_status hci_output_file(hci_output *output, const char *name, hci_note *note);
+
+/* A file that the set does not have: one of this name that an earlier run left is removed by the commit. */
+hci_status hci_output_without(hci_output *output, const char *name, hci_note *note);
+
+/* Appends to the current file. Write errors (disk full, …) are remembered and reported by the commit. */
+void hci_output_text(hci_output *output, const char *format, ...) HCI_PRINTF(2, 3);
+
+/* One CSV number: shortest text that reads back to the same double, followed by `end` (',' or '\n'). A value
+ * that is not finite is remembered, and the commit fails with HCI_ERROR_NOT_FINITE. */
+void hci_output_number(hci_output *output, double value, char end);
+
+/* Ends the last file and tells what the commit would find wrong with what was written: for sets in several
+ * folders that are to appear together. HCI_ERROR_OUTPUT, _NOT_FINITE; discard the set then. */
+hci_status hci_output_check(hci_output *output, hci_note *note);
+
+/* Flushes, checks and renames every file, and frees `output` in any case. On failure no file of the set is
+ * left, and files that were there before are untouched: each is kept by a second link until the last rename
+ * has succeeded; signals wait until then. A process that is killed can leave hidden `.hci-*` files behind,
+ * and between two renames a part of the set. HCI_ERROR_OUTPUT, _NOT_FINITE. */
+hci_status hci_output_commit(hci_output *output, hci_note *note);
+
+/* Removes the temporary files and frees. output may be NULL. */
+void hci_output_discard(hci_output *output);
+
+/* For the handler of a signal that ends the program, and safe there: removes what all sets that are open have
+ * written and the folders that they have made. Their memory stays. For programs of one thread. */
+void hci_output_abandon(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,119 @@
+/* The convention doctor: which reading of a machine's tables and recordings makes them agree. */
+#ifndef HCI_HOST_CHECK_CHECK_H
+#define HCI_HOST_CHECK_CHECK_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "hci/host/base/note.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* How much there is room for. */
+enum {
+    HCI_CHECK_MOST_RUNS = 64,        /* recordings */
+    HCI_CHECK_MOST_FINDINGS = 12,    /* slips */
+    HCI_CHECK_MOST_EVIDENCE = 32,    /* relations */
+    HCI_CHECK_MOST_ALTERNATIVES = 8, /* slips that mend the same */
+    HCI_CHECK_MOST_UNTOLD = 64,      /* slips that leave no trace */
+    HCI_CHECK_TEXT = 128,            /* bytes of a text */
+    HCI_CHECK_PATH = 512             /* bytes of a path */
+};
+
+/* A slip is found from this probability on. */
+#define HCI_CHECK_FOUND 0.8
+
+/* And possible from this one on. */
+#define HCI_CHECK_POSSIBLE 0.2
+
+/* What can be said of a machine and its recordings as a whole. */
+typedef enum {
+    HCI_CHECK_CONSISTENT,    /* everything that could be checked agrees as declared */
+    HCI_CHECK_SLIPS,         /* at least one slip is found */
+    HCI_CHECK_AMBIGUOUS,     /* something is read wrongly, and several readings mend it */
+    HCI_CHECK_NOT_UNDERSTOOD /* something disagrees that no known slip explains */
+} hci_check_verdict;
+
+/* One slip that is found or possible. */
+typedef struct {
+    const char *slip;               /* name as in docs/check.md; a static string */
+    char file[HCI_CHECK_PATH];      /* where it stands */
+    size_t line;                    /* from 1 */
+    char column[HCI_CHECK_TEXT];    /* as the header spells it */
+    char found[HCI_CHECK_TEXT];     /* what stands there */
+    char should_be[HCI_CHECK_TEXT]; /* what it should be */
+    double probability;             /* of all readings with this slip */
+    const char *words;              /* what it means; static */
+    const char *told_by;            /* what would tell it from its alternatives; static */
+    const char *alternative[HCI_CHECK_MOST_ALTERNATIVES]; /* slips that mend the same things */
+    size_t alternatives;                                  /* entries of alternative in use */
+} hci_check_finding;
+
+/* How a relation stands. */
+typedef enum {
+    HCI_CHECK_AGREES,   /* as declared */
+    HCI_CHECK_MENDED,   /* by the best reading */
+    HCI_CHECK_BETTER,   /* is nearer in the best reading, but not met */
+    HCI_CHECK_MENDABLE, /* not by the best reading, but by one with a possible slip */
+    HCI_CHECK_UNMENDED, /* by no reading */
+    HCI_CHECK_WORSE     /* agreed as declared, and does not in the best reading */
+} hci_check_state;
+
+/* One relation that must hold between numbers of the files. */
+typedef struct {
+    const char *name, *words; /* static */
+    double declared;          /* as the files are declared */
+    double expected;          /* by the other numbers */
+    bool at_most;             /* expected is an upper bound */
+    double as_read;           /* in the best reading */
+    double tolerance;         /* one standard deviation, relative for a ratio */
+    hci_check_state state;    /* how it stands */
+} hci_check_evidence;
+
+/* A relation that could not be checked. */
+typedef struct {
+    const char *name, *words; /* of the relation; static */
+    const char *needs;        /* the value or recording that would allow it; static */
+} hci_check_gap;
+
+/* What a check has found. */
+typedef struct {
+    hci_check_verdict verdict;                            /* in a word */
+    hci_check_finding finding[HCI_CHECK_MOST_FINDINGS];   /* most probable first */
+    size_t findings;                                      /* entries of finding in use */
+    double probability_as_declared;                       /* that nothing is read wrongly */
+    hci_check_evidence evidence[HCI_CHECK_MOST_EVIDENCE]; /* relations that could be checked */
+    size_t evidences;                                     /* entries of evidence in use */
+    hci_check_gap gap[HCI_CHECK_MOST_EVIDENCE];           /* relations that could not */
+    size_t gaps;                                          /* entries of gap in use */
+    const char *untold[HCI_CHECK_MOST_UNTOLD];            /* slips that would change nothing here; static */
+    size_t untolds;                                       /* entries of untold in use */
+    hci_note remark[HCI_CHECK_MOST_RUNS];                 /* how each recording was read, or "" */
+    const char *machine;                                  /* the caller's */
+    const char *const *run;                               /* the caller's */
+    size_t runs;                                          /* entries of run */
+} hci_check;
+
+/* Reads the folder `machine` and `runs` recordings (at most HCI_CHECK_MOST_RUNS, which must have the same
+ * conventions), tries every reading of them with up to three slips, and says which one makes the numbers
+ * agree (docs/check.md). Nothing is written. machine and run must outlive *check. HCI_OK; HCI_NOT_REACHED for
+ * every verdict but consistent; HCI_ERROR_INPUT, _MEMORY, _ARGUMENT; *check is then undefined. O(samples). */
+hci_status hci_check_files(const char *machine, const char *const *run, size_t runs, hci_check *check,
+                           hci_note *note);
+
+/* "consistent", "slips", "ambiguous", "not_understood"; a static string. */
+const char *hci_check_verdict_name(hci_check_verdict verdict);
+
+/* "consistent", "mended", "better", "mendable", "not_understood", "worse"; a static string. */
+const char *hci_check_state_name(hci_check_state state);
+
+/* As in summary.json. To be freed with hci_text_free; NULL when memory is out. */
+char *hci_check_json(const hci_check *check);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,96 @@
+/* CSV as users and their tools have it: comma, semicolon or tab, LF or CRLF, BOM, comment lines, lines before
+ * the header, quoted fields, a row of units. */
+#ifndef HCI_HOST_CSV_CSV_H
+#define HCI_HOST_CSV_CSV_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "hci/host/base/note.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* A table that has been read. */
+typedef struct hci_csv hci_csv;
+
+/* Reads a whole file. On success *csv is to be given to hci_csv_free; on failure it is NULL and the note
+ * names file, line, column, what was found, what was expected and the remedy. HCI_ERROR_INPUT or
+ * HCI_ERROR_MEMORY. */
+hci_status hci_csv_read(const char *path, hci_csv **csv, hci_note *note);
+
+/* Frees a table; NULL is fine. */
+void hci_csv_free(hci_csv *csv);
+
+/* The path that it was read from; owned by csv. */
+const char *hci_csv_path(const hci_csv *csv);
+
+/* Rows of data: without the header, the row of units and comments. */
+size_t hci_csv_rows(const hci_csv *csv);
+
+/* Line in the file (from 1) of data row `row`, for messages. */
+size_t hci_csv_line(const hci_csv *csv, size_t row);
+
+/* A column is asked for by its canonical name with its unit suffix ("theta_e_rad"). A file may have it in any
+ * unit of the same dimension ("theta_e_deg", or "theta_e" with `deg` in the row of units) and without regard
+ * to case; values come back in the unit asked for. A column without any unit is taken to be in the unit asked
+ * for. */
+bool hci_csv_has(const hci_csv *csv, const char *column);
+
+/* How many columns the file has. */
+size_t hci_csv_columns(const hci_csv *csv);
+
+/* The name of a column as it stands in the header, "" where it has none; owned by csv. */
+const char *hci_csv_name(const hci_csv *csv, size_t column);
+
+/* Which column of the file hci_csv_numbers takes for a canonical name, or complains of; false: none. A column
+ * that goes by the name of another tool ("erpm", "d_axis_current") is taken where none has the canonical
+ * name; docs/files.md lists these names. */
+bool hci_csv_find(const hci_csv *csv, const char *name, size_t *column);
+
+/* What was supposed of the column that is taken for a canonical name, where its name in the file could mean
+ * something else ("`erpm` is read as …"). told: out, start with {0}; false: nothing. */
+bool hci_csv_told(const hci_csv *csv, const char *name, hci_note *told);
+
+/* HCI_ERROR_INPUT for a column such as `theta`, which may be a mechanical or an electrical angle. */
+hci_status hci_csv_check_clear(const hci_csv *csv, hci_note *note);
+
+/* Line of the header in the file, where lines before it were passed over; 0: there were none. */
+size_t hci_csv_header_line(const hci_csv *csv);
+
+/* The numbers of a column into values[hci_csv_rows]. Missing column, or text that is not a finite number:
+ * HCI_ERROR_INPUT, and values is undefined. */
+hci_status hci_csv_numbers(const hci_csv *csv, const char *column, double *values, hci_note *note);
+
+/* The number in one cell, as it stands (no unit conversion). Not a finite number: HCI_ERROR_INPUT. */
+hci_status hci_csv_number(const hci_csv *csv, const char *column, size_t row, double *value, hci_note *note);
+
+/* One cell as text with quotes removed and blanks trimmed; owned by csv. Missing column: HCI_ERROR_INPUT. */
+hci_status hci_csv_text(const hci_csv *csv, const char *column, size_t row, const char **text,
+                        hci_note *note);
+
+/* An error at a cell: "file:line: column `name`: found `text`, expected ...; remedy". Returns
+ * HCI_ERROR_INPUT. */
+hci_status hci_csv_error(const hci_csv *csv, const char *column, size_t row, hci_note *note,
+                         const char *expected, const char *remedy);
+
+/* Factor from `unit` to `wanted_unit` ("deg" → "rad"); both spelt as suffixes or as in a row of units ("N·m",
+ * "Nm", "rad/s", "rad_per_s"). False when unknown or of another dimension. */
+bool hci_unit_factor(const char *unit, const char *wanted_unit, double *factor);
+
+/* Whether two words are the same but for the case of ASCII letters. */
+bool hci_text_is(const char *text, const char *word);
+
+/* Shortest decimal text that reads back to the same double, with a point for the decimal mark in any locale;
+ * buffer of 32 bytes. */
+void hci_number_text(double value, char text[32]);
+
+/* Text to double, without regard to the locale; the whole text must be a finite number. */
+bool hci_number_parse(const char *text, double *value);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,151 @@
+/* From recordings to the physical effect that the model lacks. */
+#ifndef HCI_HOST_DIAGNOSE_DIAGNOSE_H
+#define HCI_HOST_DIAGNOSE_DIAGNOSE_H
+
+#include "hci/host/machine/effects.h"
+#include "hci/host/machine/machine.h"
+#include "hci/host/recording/run.h"
+#include "hci/host/solve/solve.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* How to look. All zeros will do. */
+typedef struct {
+    double resolution; /* what the model is not asked to be better than, as a share of the largest rms torque
+                        * of a run; 0: 5e-4 */
+    hci_progress *progress; /* may be NULL */
+    void *progress_context; /* first argument of progress */
+} hci_diagnose_options;
+
+/* What the recordings say of one effect. */
+typedef enum {
+    HCI_FINDING_ADDED,     /* the recordings show it */
+    HCI_FINDING_AMBIGUOUS, /* it, or another one that is listed, fits as well */
+    HCI_FINDING_REJECTED   /* not needed */
+} hci_finding_verdict;
+
+/* The verdict as in effects.csv: added, ambiguous, rejected; a static string. */
+const char *hci_finding_verdict_name(hci_finding_verdict verdict);
+
+/* Bytes of a detail. */
+enum { HCI_DETAIL_SIZE = 512 };
+
+/* One effect. */
+typedef struct {
+    const char *effect;          /* as in effects.csv; `unknown` for what no effect explains */
+    hci_finding_verdict verdict; /* what the recordings say of it */
+    double delta_bic; /* fall of the Bayesian information criterion by having it: positive speaks for it */
+    double residual_share;        /* of the mean square of the residual before, that it explains; NAN: none */
+    char detail[HCI_DETAIL_SIZE]; /* its parameters with standard errors, or why not; in words */
+} hci_finding;
+
+/* One run before and after. */
+typedef struct {
+    const char *file;                   /* belongs to the runs */
+    hci_role role;                      /* fitted, or held out */
+    hci_torque_source source;           /* where its torque is from */
+    double mean_torque_Nm;              /* of the recording */
+    double rms_before_Nm, rms_after_Nm; /* of measured less modelled torque: declared and corrected machine */
+    double after_low_Nm, after_high_Nm; /* 95 % confidence interval of rms_after_Nm */
+    double noise_floor_Nm;              /* rms that noise alone would leave */
+    double
+        slip_rad; /* the run's mechanical angle is ahead of that of the others by this; it was turned back */
+} hci_run_errors;
+
+/* The residual at one order. */
+typedef struct {
+    size_t run;                 /* index of the run among those with a torque */
+    double order;               /* electrical */
+    double before_Nm, after_Nm; /* peak amplitude */
+    double noise_Nm;            /* amplitude that noise alone exceeds once in twenty times */
+} hci_residual_line;
+
+/* An order that no effect explains, and how it grows over the runs:
+ * T = (S sin nθ + C cos nθ) |i/A|^a |ω/(rad/s)|^b (sign ω)^c, a description and not physics. */
+typedef struct {
+    double order;                            /* n, electrical */
+    double sine_Nm, cosine_Nm;               /* S, C */
+    double current_exponent, speed_exponent; /* a, b */
+    bool turns_sign;                         /* c */
+    double amplitude_Nm;                     /* at the largest current and speed of the recordings */
+} hci_unexplained;
+
+/* Room for effects, and for orders that none explains. */
+enum { HCI_MOST_FINDINGS = 20, HCI_MOST_UNEXPLAINED = 8 };
+
+/* What the recordings say of the model as a whole. */
+typedef enum {
+    HCI_DIAGNOSIS_COMPLETE,  /* nothing is missing */
+    HCI_DIAGNOSIS_EXPLAINED, /* the effects added explain the residual */
+    HCI_DIAGNOSIS_AMBIGUOUS, /* several explain it equally well */
+    HCI_DIAGNOSIS_UNKNOWN    /* none does */
+} hci_diagnosis_verdict;
+
+/* The verdict in a word: complete, explained, ambiguous, unknown; a static string. */
+const char *hci_diagnosis_verdict_name(hci_diagnosis_verdict verdict);
+
+/* What was found. Start with {0}. */
+typedef struct {
+    hci_diagnosis_verdict verdict;          /* in a word */
+    hci_finding finding[HCI_MOST_FINDINGS]; /* most important first */
+    size_t findings;                        /* entries of finding in use */
+    hci_effects_data effects;               /* of the corrected machine: declared ones and added ones */
+    hci_run_errors *run;                    /* of each run with a torque */
+    size_t runs;                            /* entries of run */
+    hci_residual_line *line;                /* orders that stand out of the noise, run by run */
+    size_t lines;                           /* entries of line */
+    hci_unexplained unexplained[HCI_MOST_UNEXPLAINED];            /* orders that no effect explains */
+    size_t unexplained_count;                                     /* entries of unexplained in use */
+    double rms_before_Nm, rms_after_Nm, noise_Nm;                 /* of the runs that were fitted */
+    double holdout_before_Nm, holdout_after_Nm, holdout_noise_Nm; /* NAN without such runs */
+    char advice[3 * HCI_DETAIL_SIZE];                             /* what to measure next, or "" */
+    bool contradicted; /* effects described the runs that were fitted, but not those held out, and were
+                          dropped */
+    bool wanders;      /* something is left that does not repeat with the turn */
+} hci_diagnosis;
+
+/* Finds what is missing. HCI_OK; HCI_NOT_REACHED when the verdict is ambiguous or unknown; or an error with a
+ * note, and then *diagnosis is empty. HCI_ERROR_INPUT when no run to be fitted has a torque, when a run
+ * without a torque column is no free shaft, and when the effects take more than half of the declared torque
+ * per ampere away, which nobody would believe. runs: kept as
+ * long as the diagnosis. */
+hci_status hci_diagnose(const hci_machine_data *machine, const hci_effects *declared, const hci_runs *runs,
+                        const hci_diagnose_options *options, hci_diagnosis *diagnosis, hci_note *note);
+
+/* Frees what a diagnosis holds and empties it. */
+void hci_diagnosis_release(hci_diagnosis *diagnosis);
+
+/* The verdict as a few plain sentences. size: of text, 2048 will do. */
+void hci_diagnosis_words(const hci_diagnosis *diagnosis, char *text, size_t size);
+
+/* Currents for a target torque before and after the correction. */
+typedef struct {
+    hci_solution before, after;               /* for the declared machine and for the corrected one */
+    hci_status before_status, after_status;   /* what solving them answered: HCI_OK or HCI_NOT_REACHED */
+    hci_judgement old_currents, new_currents; /* both on the corrected machine */
+} hci_resolution;
+
+/* Solves for the declared machine and for the corrected one, and tells what both currents do on the corrected
+ * one. options: target and limits, effects are set here. HCI_OK or HCI_NOT_REACHED (of the corrected
+ * machine), or an error with a note, and then *resolution is empty. */
+hci_status hci_diagnosis_resolve(const hci_machine_data *machine, const hci_effects *declared,
+                                 const hci_diagnosis *diagnosis, const hci_solve_options *options,
+                                 hci_resolution *resolution, hci_note *note);
+
+/* Frees what a resolution holds and empties it. */
+void hci_resolution_release(hci_resolution *resolution);
+
+/* Writes effects.csv, errors.csv, residual_spectrum.csv, summary.json, report.html and, where something is
+ * not explained, unexplained.csv into `folder`, and the corrected machine into `folder`/machine: the tables
+ * of machine_folder as they are, with effects.csv. resolution: for summary and report, or NULL. */
+hci_status hci_diagnosis_write(const hci_diagnosis *diagnosis, const hci_resolution *resolution,
+                               const hci_runs *runs, const char *machine_folder, const char *folder,
+                               hci_note *note);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

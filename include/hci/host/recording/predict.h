@@ -1,0 +1,53 @@
+/* What a machine's model says of a run: torque for the angle and the currents that were recorded. */
+#ifndef HCI_HOST_RECORDING_PREDICT_H
+#define HCI_HOST_RECORDING_PREDICT_H
+
+#include "hci/effects/effects.h"
+#include "hci/host/machine/machine.h"
+#include "hci/host/recording/run.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* The samples of a run as the effects take them. with_change: how fast the currents change in the rotor
+ * frame, which delays of channels ask for and which is 0 without; it needs time. What the run does not have
+ * is 0, temperatures NAN. reading: out, run->count. HCI_ERROR_INPUT for a run without an angle,
+ * HCI_ERROR_MEMORY. O(samples). */
+hci_status hci_predict_readings(const hci_run *run, int pole_pairs, bool with_change, hci_sample *reading,
+                                hci_note *note);
+
+/* The torque that the sensor of the bench should have read: declared machine, and effects, the sensor's lag
+ * along the run included where the run has time. torque_Nm: out, run->count. HCI_ERROR_INPUT, _MEMORY.
+ * O(samples·(terms + harmonics)). */
+hci_status hci_predict(const hci_machine_data *machine, const hci_effects *effects, const hci_run *run,
+                       double *torque_Nm, hci_note *note);
+
+/* In sum, over the samples; NAN where the run has no torque. */
+typedef struct {
+    size_t count;                             /* samples */
+    hci_torque_source source;                 /* where the torque of the run is from */
+    double mean_model_Nm, ripple_model_Nm;    /* ripple: rms about the mean */
+    double mean_torque_Nm, ripple_torque_Nm;  /* the same of the run's torque */
+    double mean_residual_Nm, rms_residual_Nm; /* residual: torque of the run − model */
+    double worst_residual_Nm;                 /* largest absolute value */
+    size_t worst_sample;                      /* where, from 0 */
+    hci_note remark;                          /* of reading and predicting, or "" */
+} hci_prediction;
+
+/* Predicts a run file by a machine folder with its effects, and writes the run's own columns with
+ * torque_model_Nm and, where the run has a torque, residual_Nm; of a free shaft also torque_inertia_Nm.
+ * A run without a torque column whose current makes much more than inertia times acceleration is no free
+ * shaft: it has no torque, and the remark says so. Columns of these names are replaced. out: path of the
+ * file, or NULL: nothing is written. *prediction: out. HCI_ERROR_INPUT, _MEMORY, _OUTPUT, _NOT_FINITE. */
+hci_status hci_predict_file(const char *machine, const char *run, const char *out, hci_prediction *prediction,
+                            hci_note *note);
+
+/* As JSON; to be freed with hci_text_free; NULL when memory is out. */
+char *hci_prediction_json(const hci_prediction *prediction);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,93 @@
+/* A recording from a bench, or a simulated one, and lists of them. */
+#ifndef HCI_HOST_RECORDING_RUN_H
+#define HCI_HOST_RECORDING_RUN_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "hci/host/csv/csv.h"
+#include "hci/host/base/note.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Where the torque of a run comes from. */
+typedef enum {
+    HCI_TORQUE_NONE,     /* neither of the following */
+    HCI_TORQUE_MEASURED, /* a column torque_Nm */
+    HCI_TORQUE_HOLDING, /* that column is 0 throughout: the shaft is at rest and the current is the reading */
+    HCI_TORQUE_INERTIA  /* a free shaft: moment of inertia × angular acceleration */
+} hci_torque_source;
+
+/* Columns of `count` samples as they were recorded; what the run does not have is NULL. Start with {0}. */
+typedef struct {
+    char *name;              /* the file as the list names it */
+    size_t count;            /* samples */
+    double *time_s;          /* ascending; NULL: the samples have no order in time */
+    double *theta_m_rad;     /* mechanical, unwrapped */
+    double *speed_rad_per_s; /* mechanical, signed; recorded, or the slope of the angle over time where it is
+                              * not or stands at 0 while the angle moves; NULL: not known */
+    double *i_A;             /* [count][3], phase currents; of dq currents, turned by the recorded angle */
+    double *torque_Nm;       /* on the shaft, as torque_source says */
+    double *temperature_C;   /* of the magnets */
+    double *v_V;             /* [count][3], phase voltages */
+    hci_torque_source torque_source; /* where torque_Nm is from */
+    bool turn_known; /* the angle is mechanical, or an electrical one that is not wrapped: orders k/p are in
+                        it */
+    bool has_sum;    /* all three currents were recorded, so that their sum says something */
+    hci_note remark; /* what was supposed on reading, or "" */
+} hci_run;
+
+/* Reads a run: an angle or voltages, and what else there is of time_s, theta_m_rad, theta_e_rad,
+ * speed_rad_per_s (or speed_e_rad_per_s, of the electrical angle), ia_A, ib_A, ic_A (of two the third makes
+ * the sum 0), id_A, iq_A (i_d is 0 without), torque_Nm, temperature_C, va_V, vb_V, vc_V (or line voltages
+ * vab_V, vbc_V, vca_V; or vd_V, vq_V, v_d being 0 without), in any unit and by the names of other tools,
+ * which the remark tells where they could mean something else. No current is none that flows.
+ *
+ * An angle within one turn that jumps by more than half a turn has been wrapped, and the turns are put back;
+ * one that is beyond a turn is as it stands, unless it jumps back against its way by whole turns. Samples
+ * without time, or all recorded at speed 0, of which one in twenty is more than a third of a turn from the
+ * one before are points without order, and keep the angles that they have. With time that is an error, unless
+ * the speed tells how far the shaft has turned. Of both angles the electrical one gives the phase.
+ *
+ * pole_pairs: to turn electrical angles into mechanical ones. inertia_kgm2: for a run without torque_Nm; NAN:
+ * not known, the torque is then missing. On failure *run is empty. HCI_ERROR_INPUT, _MEMORY, _ARGUMENT for
+ * less than one pole pair. O(samples). */
+hci_status hci_run_read(const char *path, int pole_pairs, double inertia_kgm2, hci_run *run, hci_note *note);
+
+/* The same of a file that has been read. */
+hci_status hci_run_of_csv(const hci_csv *csv, int pole_pairs, double inertia_kgm2, hci_run *run,
+                          hci_note *note);
+
+/* Frees what a run holds and empties it. */
+void hci_run_release(hci_run *run);
+
+/* What a run is for. */
+typedef enum {
+    HCI_ROLE_FIT,    /* the model is fitted to it */
+    HCI_ROLE_HOLDOUT /* the model is judged by it */
+} hci_role;
+
+/* A list of runs: columns file, role, optionally note. Start with {0}. */
+typedef struct {
+    hci_run *run;   /* in the order of the list */
+    hci_role *role; /* of each */
+    size_t count;   /* entries of run and of role */
+    char *list;     /* the file that names them, as it was given; NULL where there is none */
+} hci_runs;
+
+/* Reads a list and its runs, whose paths are relative to it. progress: called with the share of files read;
+ * may be NULL. HCI_ERROR_INPUT, _MEMORY. */
+hci_status hci_runs_read(const char *path, int pole_pairs, double inertia_kgm2, hci_runs *runs,
+                         void (*progress)(void *context, const char *what, double share), void *context,
+                         hci_note *note);
+
+/* Frees what a list holds, its runs included, and empties it. */
+void hci_runs_release(hci_runs *runs);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,188 @@
+/* From a wanted torque spectrum to harmonic currents: the main job. */
+#ifndef HCI_HOST_SOLVE_SOLVE_H
+#define HCI_HOST_SOLVE_SOLVE_H
+
+#include "hci/effects/effects.h"
+#include "hci/host/machine/machine.h"
+#include "hci/host/report/report.h"
+#include "hci/host/solve/tables.h"
+#include "hci/machine/strategy.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* How U x = h is solved. */
+typedef enum {
+    HCI_METHOD_AUTO,     /* by shape and size: one of the next three */
+    HCI_METHOD_LU,       /* dense LU, for square systems */
+    HCI_METHOD_UMFPACK,  /* sparse LU, for square systems */
+    HCI_METHOD_QR,       /* orthogonal: least squares, and of those the least current */
+    HCI_METHOD_POINTWISE /* angle by angle, by a strategy, without U */
+} hci_method;
+
+/* Which torque orders are rows of U. */
+typedef enum {
+    HCI_COMPARE_ALL,   /* every order that the components reach or that is wanted */
+    HCI_COMPARE_SQUARE /* as many as unknowns; what the others do is reported */
+} hci_compare;
+
+/* The name of a method as on the command line; a static string. */
+const char *hci_method_name(hci_method method);
+
+/* Tells of progress on long work: what is done and the share 0 … 1 of it. */
+typedef void hci_progress(void *context, const char *what, double share);
+
+/* What is asked for. Start with {0}; all but target may stay so. */
+typedef struct {
+    const hci_target *target;     /* wanted torque */
+    const hci_component_set *set; /* NULL: choose (method pointwise needs none) */
+    size_t choose_at_most;        /* with set NULL: at most so many components, 0 for as many as it takes */
+    const hci_wave *held;         /* a fundamental that is held fixed, or NULL to solve for it too */
+    hci_method method;            /* how to solve */
+    hci_strategy strategy;        /* of the pointwise method */
+    hci_compare compare;          /* which orders are rows */
+    double tolerance;             /* an order is reached within this share of the mean torque; 0: 1e-6 */
+    double loss_allowance;  /* with choose_at_most: copper loss allowed over the pointwise limit; 0: 1.10 */
+    double limit_current_A; /* largest phase current allowed; 0: none */
+    double limit_voltage_V; /* dc-link voltage that the line voltages must stay below; 0: none */
+    double speed_rad_per_s; /* mechanical, for the voltage; 0 with no limit_voltage_V */
+    const hci_effects *effects; /* beside the declared machine, or NULL; needed where it has_effects */
+    bool at_temperature;        /* magnets are at temperature_C, else at the reference of their effect */
+    double temperature_C;       /* of the magnets */
+    hci_progress *progress;     /* may be NULL */
+    void *progress_context;     /* first argument of progress */
+} hci_solve_options;
+
+/* Why an order is as it is. */
+typedef enum {
+    HCI_ORDER_REACHED,    /* within the tolerance of its target */
+    HCI_ORDER_FREE,       /* weight 0: not cared for */
+    HCI_ORDER_MISSED,     /* compared, but not within the tolerance */
+    HCI_ORDER_PARASITIC,  /* not compared, and not within the tolerance */
+    HCI_ORDER_UNREACHABLE /* no component of the set reaches it */
+} hci_order_verdict;
+
+/* The verdict in a word, as in summary.json; a static string. */
+const char *hci_order_verdict_name(hci_order_verdict verdict);
+
+/* One order of the torque. */
+typedef struct {
+    hci_harmonic target_Nm, torque_Nm; /* what was wanted, and what the currents make */
+    hci_harmonic before_Nm;            /* of the plain fundamental with the same mean torque */
+    double error_Nm;                   /* |torque − target| as a peak amplitude */
+    hci_order_verdict verdict;         /* why it is so */
+    hci_component remedy; /* where unreachable: what would reach it with the least current; see below */
+} hci_solved_order;
+
+/* Whether an order is unreachable and some component would reach it. */
+bool hci_remedy_exists(const hci_solved_order *order);
+
+/* A range of electrical angles. */
+typedef struct {
+    double from_rad, to_rad; /* ends, electrical */
+} hci_angle_gap;
+
+/* Most ranges that are kept. */
+enum { HCI_MOST_GAPS = 32 };
+
+/* U at the solution, in compressed columns, in N·m/A and without the weights of the orders. Columns: S and C
+ * of each component of the set in turn. Rows: S and C of each order of the solution in turn, order 0 with C
+ * alone. */
+typedef struct {
+    hci_component_set
+        set; /* asked for or chosen, those without current included; empty for method pointwise */
+    int64_t *column_start, *row; /* where each column begins, one more than columns; row of each value */
+    double *value;               /* of the entries */
+} hci_solved_system;
+
+/* Currents, what they do and what they cost. Made by hci_solve. */
+typedef struct {
+    hci_currents current; /* what flows, a held fundamental included */
+    hci_wave *per_Nm; /* A/(N·m): current = mean torque × per_Nm + constant, current.count waves each; NULL
+                       * where that is not so (held fundamental, reluctance torque) */
+    hci_wave *constant; /* A; NULL as per_Nm */
+
+    hci_solved_order *order;            /* what it does; ascending */
+    size_t order_count;                 /* entries of order */
+    double tolerance_Nm;                /* within which an order is reached */
+    double worst_error_Nm, worst_order; /* of those cared for */
+    size_t period_turns;                /* electrical turns after which everything repeats */
+
+    hci_method method;           /* how it was found */
+    size_t rows, unknowns, rank; /* of U; 0 for the pointwise method */
+    double condition;            /* an estimate; NAN where the method has none */
+    hci_solved_system system;    /* U itself */
+    size_t newton_steps;         /* 0 for a machine without reluctance torque and saturation */
+    double newton_change;        /* of the current in the last step, as a share of it */
+    bool newton_converged;       /* else the nearest answer met on the way */
+
+    hci_angle_gap gap[HCI_MOST_GAPS]; /* pointwise: where the strategy has no current, the first ranges */
+    size_t gap_count;                 /* of all ranges */
+    double least_iq_A; /* for `cancel`, the i_q from which it has a current at every angle; infinite if none,
+                        * NAN where not known (saturation) */
+
+    double mean_square_A2;    /* what it costs: mean of i_a² + i_b² + i_c² */
+    double plain_amplitude_A; /* of the plain fundamental with the same mean torque; 0 without one */
+    double loss_to_plain;     /* copper loss over that of the plain fundamental; NAN without one */
+    double limit_mean_square_A2, loss_to_limit; /* of the pointwise limit, and copper loss over that; NAN when
+                                                 * e⊥ vanishes at an angle */
+
+    bool within_limits;          /* whether it fits; true where no limit was asked for */
+    double peak_phase_current_A; /* largest |phase current| */
+    double peak_line_voltage_V;  /* largest |line voltage| at the speed asked for; NAN without one */
+    double torque_at_limit_Nm;   /* the largest mean torque with the same ripple that keeps the current limit;
+                                  * NAN when   not known or none does */
+
+    bool with_effects; /* torque and voltage are those of the machine with its effects */
+    hci_note remark;   /* what the user should know of them, or "" */
+} hci_solution;
+
+/* Finds the currents. HCI_OK; HCI_NOT_REACHED with the nearest result when a cared-for order is not within
+ * the tolerance or a limit is not kept (the result is not bent to the limit); or an error with a note, and
+ * then *solution is empty. Otherwise *solution is to be given to hci_solution_release. */
+hci_status hci_solve(const hci_machine_data *machine, const hci_solve_options *options,
+                     hci_solution *solution, hci_note *note);
+
+/* Frees what a solution holds and empties it. */
+void hci_solution_release(hci_solution *solution);
+
+/* What given currents do on a machine. */
+typedef struct {
+    hci_harmonic *torque_Nm; /* spectrum, ascending: orders that have torque or are wanted, and 0 */
+    size_t order_count;      /* entries of torque_Nm */
+    size_t period_turns;     /* electrical turns after which it repeats */
+    double mean_Nm;          /* order 0 */
+    double rms_error_Nm;     /* of the torque from its target, orders of weight 0 left out */
+    double worst_error_Nm, worst_order; /* the largest error of an order that is cared for, and that order */
+    double peak_to_peak_Nm;             /* max − min over the angle */
+    double T_ripple_percent;            /* 100 (max − min)/mean; NAN without a mean */
+    double F_ripple_percent;            /* 100 rms(T − mean)/mean; NAN without a mean */
+} hci_judgement;
+
+/* Evaluates currents that were found elsewhere, such as for the declared machine, on a machine with effects
+ * (or NULL), magnets at the reference temperature. currents: count star waves. *judgement: out; on success to
+ * be given to hci_judgement_release, else empty. HCI_ERROR_INPUT when orders have no common period,
+ * HCI_ERROR_MEMORY. */
+hci_status hci_judge_currents(const hci_machine_data *machine, const hci_effects *effects,
+                              const hci_wave *currents, size_t count, const hci_target *target,
+                              hci_judgement *judgement, hci_note *note);
+
+/* Frees what a judgement holds and empties it. */
+void hci_judgement_release(hci_judgement *judgement);
+
+/* Writes currents.csv, waveform.csv, spectrum.csv, solution.svg, summary.json and, where currents are linear
+ * in the mean torque, currents_per_Nm.csv and currents_constant.csv into `folder`; all or none. */
+hci_status hci_solution_write(const hci_machine_data *machine, const hci_solution *solution,
+                              hci_status verdict, const char *folder, hci_note *note);
+
+/* The same, and report.html beside them; NULL: without. */
+hci_status hci_solution_write_with_report(const hci_machine_data *machine, const hci_solution *solution,
+                                          hci_status verdict, const hci_report_sources *sources,
+                                          const char *folder, hci_note *note);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,104 @@
+/* Channels that are read late, each by its own time: a reading at t shows what was true at t − τ. Only the
+ * differences show in a residual. */
+#include "core/effects/type.h"
+
+#include "hci/machine/frames.h"
+
+enum { CURRENT, ANGLE, TORQUE };
+
+static const hci_effect_parameter PARAMETER[] = {
+    HCI_PLAIN("current", "s", "delay of the phase currents", 0.0, -DBL_MAX),
+    HCI_PLAIN("angle", "s", "delay of the position", 0.0, -DBL_MAX),
+    HCI_PLAIN("torque", "s", "delay of the torque", 0.0, -DBL_MAX),
+};
+
+/* x_abc turned with the rotor by an electrical angle; a zero sequence stays. */
+static void turn(double abc[3], double angle_rad)
+{
+    const hci_alpha_beta x = hci_clarke(abc);
+    const double s = sin(angle_rad), c = cos(angle_rad);
+    const hci_alpha_beta y = {c * x.alpha - s * x.beta, s * x.alpha + c * x.beta, x.zero};
+    hci_clarke_inverse(y, abc);
+}
+
+/* Moves angle and currents on in time; the currents in the rotor frame by their rate of change and its own. */
+static void advance(hci_sample *x, int pole_pairs, double angle_s, double current_s)
+{
+    x->theta_m_rad += x->speed_rad_per_s * angle_s;
+    for (int k = 0; k < 3; ++k) {
+        const double curvature = x->curvature_A_per_s2[k];
+        x->i_abc[k] += current_s * (x->change_A_per_s[k] + 0.5 * current_s * curvature);
+        x->change_A_per_s[k] += current_s * curvature;
+    }
+    turn(x->i_abc, pole_pairs * x->speed_rad_per_s * current_s);
+    turn(x->change_A_per_s, pole_pairs * x->speed_rad_per_s * current_s);
+    turn(x->curvature_A_per_s2, pole_pairs * x->speed_rad_per_s * current_s);
+}
+
+/* From the moment of the torque that is read to the moments of the others, and back. */
+static void sense(const hci_effect *effect, int pole_pairs, hci_sample *x)
+{
+    const double torque = hci_effect_value(effect, TORQUE);
+    advance(x, pole_pairs, torque - hci_effect_value(effect, ANGLE),
+            torque - hci_effect_value(effect, CURRENT));
+}
+
+static void undo(const hci_effect *effect, int pole_pairs, hci_sample *x)
+{
+    const double torque = hci_effect_value(effect, TORQUE);
+    advance(x, pole_pairs, hci_effect_value(effect, ANGLE) - torque,
+            hci_effect_value(effect, CURRENT) - torque);
+}
+
+/* ∂i/∂t of what undo returned: turn(change) + pω J i, J i = ∂(turned i)/∂angle. */
+static double by_current_time(int pole_pairs, const hci_sample *after, const hci_effect_torque *by)
+{
+    double quarter[3] = {after->i_abc[0], after->i_abc[1], after->i_abc[2]};
+    const double zero = (quarter[0] + quarter[1] + quarter[2]) / 3.0;
+    double sum = 0.0;
+    turn(quarter, 0.5 * HCI_PI);
+    for (int k = 0; k < 3; ++k)
+        sum += by->by_current[k] *
+               (after->change_A_per_s[k] + pole_pairs * after->speed_rad_per_s * (quarter[k] - zero));
+    return sum;
+}
+
+static void undo_adjoint(const hci_effect *effect, int pole_pairs, const hci_sample *before,
+                         hci_effect_torque *by, double *by_value)
+{
+    hci_sample after = *before;
+    undo(effect, pole_pairs, &after);
+    const double angle = by->by_angle * before->speed_rad_per_s;
+    const double current = by_current_time(pole_pairs, &after, by);
+    for (size_t k = 0; k < effect->count; ++k) {
+        const size_t parameter = effect->term[k].parameter;
+        by_value[k] = parameter == ANGLE ? angle : parameter == CURRENT ? current : -angle - current;
+    }
+    const double lead_s = hci_effect_value(effect, CURRENT) - hci_effect_value(effect, TORQUE);
+    turn(by->by_current, -pole_pairs * before->speed_rad_per_s * lead_s);
+    turn(by->by_change, -pole_pairs * before->speed_rad_per_s * lead_s);
+    for (int k = 0; k < 3; ++k)
+        by->by_change[k] += lead_s * by->by_current[k];
+}
+
+static void simulate(const hci_effect *effect, int pole_pairs, hci_sensor *sensors,
+                     hci_effect_channel *channels)
+{
+    (void)pole_pairs;
+    (void)sensors;
+    for (int s = HCI_SENSE_IA; s <= HCI_SENSE_IC; ++s)
+        channels[s].delay_s += hci_effect_value(effect, CURRENT);
+    channels[HCI_SENSE_ANGLE].delay_s += hci_effect_value(effect, ANGLE);
+    channels[HCI_SENSE_TORQUE].delay_s += hci_effect_value(effect, TORQUE);
+}
+
+const hci_effect_room hci_effect_channel_delay = {
+    .name = "channel_delay",
+    .equation = "x_read(t) = x(t − τ)",
+    .signature = "a phase in proportion to order and speed, unlike an offset",
+    HCI_EFFECT_PARAMETERS(PARAMETER),
+    .sense = sense,
+    .undo = undo,
+    .undo_adjoint = undo_adjoint,
+    .simulate = simulate,
+};

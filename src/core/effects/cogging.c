@@ -1,0 +1,32 @@
+/* Cogging torque that is not declared. */
+#include "core/effects/type.h"
+
+enum { SINE, COSINE };
+
+static const hci_effect_parameter PARAMETER[] = {
+    HCI_ORDERED("sine", "Nm", "of sin nθ", 1e-6),
+    HCI_ORDERED("cosine", "Nm", "of cos nθ", 1e-6),
+};
+
+static void torque_of_all(const hci_effect *effect, const hci_machine *machine, const hci_sample *truth,
+                          hci_effect_torque *sum, double *by_value)
+{
+    hci_effect_turn turn = {HCI_EFFECT_NO_TURN, 0.0, 0.0};
+    for (size_t k = 0; k < effect->count; ++k) {
+        const hci_effect_term *term = &effect->term[k];
+        hci_effect_turn_to(&turn, term->order, machine->pole_pairs, truth->theta_m_rad);
+        const hci_effect_oscillation f = hci_effect_oscillate(&turn, term->parameter == COSINE);
+        sum->torque_Nm += term->value * f.value;
+        sum->by_angle += term->value * f.slope;
+        if (by_value) by_value[k] = f.value;
+    }
+}
+
+const hci_effect_room hci_effect_cogging = {
+    .name = "cogging",
+    .equation = "T = Σ S sin nθ + C cos nθ",
+    .signature = "independent of current and speed, at any order",
+    HCI_EFFECT_PARAMETERS(PARAMETER),
+    .in_machine = true,
+    .torque_of_all = torque_of_all,
+};

@@ -1,0 +1,65 @@
+/* Current sensors that read too much or too little. */
+#include "core/effects/type.h"
+
+static const hci_effect_parameter PARAMETER[] = {
+    HCI_PLAIN("a", "1", "relative error of phase a", 0.0, -0.999),
+    HCI_PLAIN("b", "1", "relative error of phase b", 0.0, -0.999),
+    HCI_PLAIN("c", "1", "relative error of phase c", 0.0, -0.999),
+};
+
+static void sense(const hci_effect *effect, int pole_pairs, hci_sample *x)
+{
+    (void)pole_pairs;
+    for (size_t s = 0; s < 3; ++s) {
+        const double factor = 1.0 + hci_effect_value(effect, s);
+        x->i_abc[s] *= factor;
+        x->change_A_per_s[s] *= factor;
+    }
+}
+
+static void undo(const hci_effect *effect, int pole_pairs, hci_sample *x)
+{
+    (void)pole_pairs;
+    for (size_t s = 0; s < 3; ++s) {
+        const double factor = 1.0 + hci_effect_value(effect, s);
+        x->i_abc[s] /= factor;
+        x->change_A_per_s[s] /= factor;
+    }
+}
+
+/* ∂i/∂g = −i_read/(1 + g)², and so the rate of change. */
+static void undo_adjoint(const hci_effect *effect, int pole_pairs, const hci_sample *before,
+                         hci_effect_torque *by, double *by_value)
+{
+    (void)pole_pairs;
+    for (size_t s = 0; s < 3; ++s) {
+        by->by_current[s] /= 1.0 + hci_effect_value(effect, s);
+        by->by_change[s] /= 1.0 + hci_effect_value(effect, s);
+    }
+    for (size_t k = 0; k < effect->count; ++k) {
+        const size_t s = effect->term[k].parameter;
+        const double by_factor =
+            by->by_current[s] * before->i_abc[s] + by->by_change[s] * before->change_A_per_s[s];
+        by_value[k] = -by_factor / (1.0 + hci_effect_value(effect, s));
+    }
+}
+
+static void simulate(const hci_effect *effect, int pole_pairs, hci_sensor *sensors,
+                     hci_effect_channel *channels)
+{
+    (void)pole_pairs;
+    (void)channels;
+    for (size_t s = 0; s < 3; ++s)
+        sensors[HCI_SENSE_IA + s].gain_error += hci_effect_value(effect, s);
+}
+
+const hci_effect_room hci_effect_current_gain = {
+    .name = "current_gain",
+    .equation = "i_s,read = (1 + g_s) i_s",
+    .signature = "grows with the current; order 2 and the mean",
+    HCI_EFFECT_PARAMETERS(PARAMETER),
+    .sense = sense,
+    .undo = undo,
+    .undo_adjoint = undo_adjoint,
+    .simulate = simulate,
+};

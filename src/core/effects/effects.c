@@ -1,0 +1,257 @@
+#include "hci/effects/effects.h"
+
+#include "core/effects/type.h"
+
+/* ---- registry ---- */
+
+#define ROOM(name) &hci_effect_##name,
+static const hci_effect_room *const ROOMS[] = {HCI_EFFECT_ROOMS(ROOM)};
+#undef ROOM
+
+enum { ROOM_COUNT = sizeof ROOMS / sizeof *ROOMS };
+
+const hci_effect_room *hci_effect_room_at(size_t k)
+{
+    return k < ROOM_COUNT ? ROOMS[k] : NULL;
+}
+
+static bool same_text(const char *a, const char *b)
+{
+    while (*a != '\0' && *a == *b) {
+        ++a;
+        ++b;
+    }
+    return *a == *b;
+}
+
+const hci_effect_room *hci_effect_room_find(const char *name)
+{
+    for (size_t k = 0; k < ROOM_COUNT; ++k)
+        if (same_text(ROOMS[k]->name, name)) return ROOMS[k];
+    return NULL;
+}
+
+double hci_effect_value(const hci_effect *effect, size_t parameter)
+{
+    for (size_t k = 0; k < effect->count; ++k)
+        if (effect->term[k].parameter == parameter) return effect->term[k].value;
+    return effect->room->parameter[parameter].standard;
+}
+
+/* Terms of the effects before one. */
+static size_t first_term(const hci_effects *effects, size_t at)
+{
+    size_t sum = 0;
+    for (size_t k = 0; k < at; ++k)
+        sum += effects->effect[k].count;
+    return sum;
+}
+
+size_t hci_effects_terms(const hci_effects *effects)
+{
+    return first_term(effects, effects->count);
+}
+
+/* ---- the declared machine ---- */
+
+void hci_effect_declared_emf(const hci_machine *machine, double theta_m_rad, double e[3], double slope[3])
+{
+    const double p = machine->pole_pairs, theta = p * theta_m_rad;
+    for (int s = 0; s < 3; ++s)
+        e[s] = slope[s] = 0.0;
+    for (size_t k = 0; k < machine->back_emf_count; ++k) {
+        const hci_wave *w = &machine->back_emf[k];
+        const double s = sin(w->order * theta), c = cos(w->order * theta), n = p * w->order;
+        const double x = w->sine * s + w->cosine * c, y = w->sine * c - w->cosine * s;
+        double of_wave[3], of_slope[3];
+        hci_effect_phases(x, y, w->sequence, of_wave);
+        hci_effect_phases(n * y, -n * x, w->sequence, of_slope);
+        for (int phase = 0; phase < 3; ++phase) {
+            e[phase] += of_wave[phase];
+            slope[phase] += of_slope[phase];
+        }
+    }
+}
+
+static void add_cogging(const hci_machine *machine, double theta_rad, hci_effect_torque *sum)
+{
+    const double p = machine->pole_pairs;
+    for (size_t k = 0; k < machine->cogging_count; ++k) {
+        const hci_harmonic *h = &machine->cogging[k];
+        const double s = sin(h->order * theta_rad), c = cos(h->order * theta_rad);
+        sum->torque_Nm += h->sine * s + h->cosine * c;
+        sum->by_angle += p * h->order * (h->sine * c - h->cosine * s);
+    }
+}
+
+/* y = M i of a symmetric phase matrix; returns ½ i·y. */
+static double form(const double m[HCI_PHASE_MATRIX], const double i[3], double y[3])
+{
+    y[0] = m[HCI_AA] * i[0] + m[HCI_AB] * i[1] + m[HCI_CA] * i[2];
+    y[1] = m[HCI_AB] * i[0] + m[HCI_BB] * i[1] + m[HCI_BC] * i[2];
+    y[2] = m[HCI_CA] * i[0] + m[HCI_BC] * i[1] + m[HCI_CC] * i[2];
+    return 0.5 * (i[0] * y[0] + i[1] * y[1] + i[2] * y[2]);
+}
+
+static void add_reluctance(const hci_machine *machine, double theta_rad, const double i[3],
+                           hci_effect_torque *sum)
+{
+    double slope[HCI_PHASE_MATRIX] = {0.0}, turned[HCI_PHASE_MATRIX] = {0.0}, y[3], unused[3];
+    for (size_t k = 0; k < machine->slope_count; ++k) {
+        const hci_inductance_slope *t = &machine->slope[k];
+        const double s = sin(t->order * theta_rad), c = cos(t->order * theta_rad);
+        for (int q = 0; q < HCI_PHASE_MATRIX; ++q) {
+            slope[q] += t->sine[q] * s + t->cosine[q] * c;
+            turned[q] += machine->pole_pairs * t->order * (t->sine[q] * c - t->cosine[q] * s);
+        }
+    }
+    sum->torque_Nm += form(slope, i, y);
+    sum->by_angle += form(turned, i, unused);
+    for (int s = 0; s < 3; ++s)
+        sum->by_current[s] += y[s];
+}
+
+static void add_declared(const hci_machine *machine, const hci_sample *truth, hci_effect_torque *sum)
+{
+    const double theta = machine->pole_pairs * truth->theta_m_rad;
+    double e[3], slope[3];
+    hci_effect_declared_emf(machine, truth->theta_m_rad, e, slope);
+    hci_effect_add_emf(sum, 1.0, e, slope, truth->i_abc);
+    add_cogging(machine, theta, sum);
+    add_reluctance(machine, theta, truth->i_abc, sum);
+}
+
+/* ---- torque ---- */
+
+/* Adds the torque of one effect; by_value: out, its terms' derivatives, or NULL. */
+static void add_effect(const hci_effect *effect, const hci_machine *machine, const hci_sample *truth,
+                       hci_effect_torque *sum, double *by_value)
+{
+    if (effect->room->torque_of_all) {
+        effect->room->torque_of_all(effect, machine, truth, sum, by_value);
+        return;
+    }
+    for (size_t k = 0; k < effect->count; ++k) {
+        const double by =
+            effect->room->torque ? effect->room->torque(effect, &effect->term[k], machine, truth, sum) : 0.0;
+        if (by_value) by_value[k] = by;
+    }
+}
+
+/* Adds the torque of all rooms, or of those in the machine. */
+static void add_effects(const hci_machine *machine, const hci_effects *effects, const hci_sample *truth,
+                        bool outside_too, hci_effect_torque *sum, double *by_value)
+{
+    for (size_t j = 0; j < effects->count; ++j) {
+        const hci_effect *effect = &effects->effect[j];
+        const bool acts = outside_too || effect->room->in_machine;
+        if (acts) add_effect(effect, machine, truth, sum, by_value);
+        for (size_t k = 0; k < effect->count && by_value; ++k, ++by_value)
+            if (!acts) *by_value = 0.0;
+    }
+}
+
+hci_effect_torque hci_effects_torque(const hci_machine *machine, const hci_effects *effects,
+                                     const hci_sample *truth, double *by_value)
+{
+    hci_effect_torque sum = {.torque_Nm = 0.0};
+    add_effects(machine, effects, truth, false, &sum, by_value);
+    return sum;
+}
+
+/* ---- plant ---- */
+
+/* e += ∂T_x/∂i is the motional voltage; its torque e·i is not T_x, and the difference goes into T_cog. */
+static void add_to_point(const hci_effect_torque *x, const double i[2], hci_plant_point *point)
+{
+    double e[2];
+    hci_plane_from_abc(x->by_current, e);
+    for (int k = 0; k < 2; ++k)
+        point->magnetic.e[k] += e[k];
+    for (int k = 0; k < 3; ++k)
+        point->inductance_H[k] += x->inductance_H[k];
+    point->magnetic.cogging_Nm += x->torque_Nm - e[0] * i[0] - e[1] * i[1];
+}
+
+void hci_effects_apply(const void *context, const hci_plant_state *state, hci_plant_point *point)
+{
+    const hci_effects_plant *plant = context;
+    hci_sample truth = {0};
+    truth.theta_m_rad = state->theta_m_rad;
+    truth.speed_rad_per_s = state->speed_rad_per_s;
+    truth.temperature_C = plant->temperature_C;
+    hci_plane_to_abc(state->i, truth.i_abc);
+    const hci_effect_torque x = hci_effects_torque(plant->machine, plant->effects, &truth, NULL);
+    add_to_point(&x, state->i, point);
+    for (size_t k = 0; k < plant->effects->count; ++k) {
+        const hci_effect *effect = &plant->effects->effect[k];
+        if (effect->room->drag_Nm) point->shaft_Nm += effect->room->drag_Nm(effect, state->speed_rad_per_s);
+    }
+}
+
+double hci_effects_coulomb_Nm(const hci_effects *effects)
+{
+    double sum = 0.0;
+    for (size_t k = 0; k < effects->count; ++k) {
+        const hci_effect *effect = &effects->effect[k];
+        if (effect->room->coulomb_Nm) sum += effect->room->coulomb_Nm(effect);
+    }
+    return sum;
+}
+
+/* ---- bench ---- */
+
+hci_sample hci_effects_sense(const hci_effects *effects, int pole_pairs, const hci_sample *truth)
+{
+    hci_sample x = *truth;
+    for (size_t r = 0; r < ROOM_COUNT; ++r)
+        for (size_t k = 0; k < effects->count && ROOMS[r]->sense; ++k)
+            if (effects->effect[k].room == ROOMS[r]) ROOMS[r]->sense(&effects->effect[k], pole_pairs, &x);
+    return x;
+}
+
+hci_sample hci_effects_undo(const hci_effects *effects, int pole_pairs, const hci_sample *reading)
+{
+    hci_sample x = *reading;
+    for (size_t r = ROOM_COUNT; r-- > 0;)
+        for (size_t k = effects->count; k-- > 0 && ROOMS[r]->undo;)
+            if (effects->effect[k].room == ROOMS[r]) ROOMS[r]->undo(&effects->effect[k], pole_pairs, &x);
+    return x;
+}
+
+/* Back through the chain from the truth; what each step of `undo` got is what `sense` makes of its result. */
+static void add_bench(const hci_effects *effects, int pole_pairs, const hci_sample *truth,
+                      hci_effect_torque *by, double *by_value)
+{
+    hci_sample x = *truth;
+    for (size_t r = 0; r < ROOM_COUNT; ++r) {
+        for (size_t k = 0; k < effects->count && ROOMS[r]->undo_adjoint; ++k) {
+            const hci_effect *effect = &effects->effect[k];
+            if (effect->room != ROOMS[r]) continue;
+            ROOMS[r]->sense(effect, pole_pairs, &x);
+            ROOMS[r]->undo_adjoint(effect, pole_pairs, &x, by, by_value + first_term(effects, k));
+        }
+    }
+}
+
+double hci_effects_predict(const hci_machine *machine, const hci_effects *effects, const hci_sample *reading,
+                           double *by_value)
+{
+    const hci_sample truth = hci_effects_undo(effects, machine->pole_pairs, reading);
+    hci_effect_torque sum = {.torque_Nm = 0.0};
+    add_declared(machine, &truth, &sum);
+    add_effects(machine, effects, &truth, true, &sum, by_value);
+    if (by_value) add_bench(effects, machine->pole_pairs, &truth, &sum, by_value);
+    return sum.torque_Nm;
+}
+
+void hci_effects_filter(const hci_effects *effects, const double *time_s, size_t n, double *torque_Nm,
+                        double *by_value)
+{
+    const size_t columns = hci_effects_terms(effects);
+    for (size_t k = 0; k < effects->count; ++k) {
+        const hci_effect *effect = &effects->effect[k];
+        if (effect->room->filter)
+            effect->room->filter(effect, time_s, n, torque_Nm, by_value, columns, first_term(effects, k));
+    }
+}

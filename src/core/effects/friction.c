@@ -1,0 +1,68 @@
+/* Friction and drag between the air gap and the torque sensor. Positive values brake. */
+#include "core/effects/type.h"
+
+enum { COULOMB, VISCOUS, QUADRATIC };
+
+static const hci_effect_parameter PARAMETER[] = {
+    HCI_PLAIN("coulomb", "Nm", "with the sign of the speed", 0.0, -DBL_MAX),
+    HCI_PLAIN("viscous", "Nms_per_rad", "in proportion to the speed", 0.0, -DBL_MAX),
+    HCI_PLAIN("quadratic", "Nms2_per_rad2", "with the square of the speed", 0.0, -DBL_MAX),
+};
+
+static double law(size_t parameter, double speed)
+{
+    if (parameter == COULOMB) return (speed > 0.0) - (speed < 0.0);
+    return parameter == VISCOUS ? speed : speed * fabs(speed);
+}
+
+static double torque(const hci_effect *effect, const hci_effect_term *term, const hci_machine *machine,
+                     const hci_sample *truth, hci_effect_torque *sum)
+{
+    (void)effect;
+    (void)machine;
+    const double braking = law(term->parameter, truth->speed_rad_per_s);
+    sum->torque_Nm -= term->value * braking;
+    return -braking;
+}
+
+static double coulomb_Nm(const hci_effect *effect)
+{
+    return hci_effect_value(effect, COULOMB);
+}
+
+static double drag_Nm(const hci_effect *effect, double speed)
+{
+    return hci_effect_value(effect, VISCOUS) * law(VISCOUS, speed) +
+           hci_effect_value(effect, QUADRATIC) * law(QUADRATIC, speed);
+}
+
+static double modify(const hci_effect *effect, const hci_plant_state *plant, double step_s, double *memory,
+                     double value, double theta_m_rad)
+{
+    (void)step_s;
+    (void)memory;
+    (void)theta_m_rad;
+    if (!plant) return value;
+    const double speed = plant->speed_rad_per_s;
+    return value - coulomb_Nm(effect) * law(COULOMB, speed) - drag_Nm(effect, speed);
+}
+
+static void simulate(const hci_effect *effect, int pole_pairs, hci_sensor *sensors,
+                     hci_effect_channel *channels)
+{
+    const hci_effect_link link = {modify, effect, {0.0}};
+    (void)pole_pairs;
+    (void)sensors;
+    hci_effect_link_add(&channels[HCI_SENSE_TORQUE], &link);
+}
+
+const hci_effect_room hci_effect_friction = {
+    .name = "friction",
+    .equation = "T = −(T_c sign ω + B ω + Q ω |ω|)",
+    .signature = "mean only; with the sign, the value and the square of the speed",
+    HCI_EFFECT_PARAMETERS(PARAMETER),
+    .torque = torque,
+    .drag_Nm = drag_Nm,
+    .coulomb_Nm = coulomb_Nm,
+    .simulate = simulate,
+};

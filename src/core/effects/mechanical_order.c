@@ -1,0 +1,60 @@
+/* What repeats with the mechanical turn: an eccentric rotor, uneven magnets, gear mesh. */
+#include "core/effects/type.h"
+
+enum { IQ_SINE = 2 }; /* sine and cosine in turn */
+
+static const hci_effect_parameter PARAMETER[] = {
+    HCI_ORDERED("sine", "Nm", "of sin nθ", 1e-6),
+    HCI_ORDERED("cosine", "Nm", "of cos nθ", 1e-6),
+    HCI_ORDERED("iq_sine", "Nm_per_A", "of i_q sin nθ", 1e-6),
+    HCI_ORDERED("iq_cosine", "Nm_per_A", "of i_q cos nθ", 1e-6),
+};
+
+/* i_q as a back-EMF: ∂i_q/∂i_s = ⅔ sin(θ − 2πs/3), and its derivative by θ_m. */
+static void quadrature(int pole_pairs, double theta_m_rad, double q[3], double slope[3])
+{
+    const double s = 2.0 / 3.0 * sin(pole_pairs * theta_m_rad), c = 2.0 / 3.0 * cos(pole_pairs * theta_m_rad);
+    hci_effect_phases(s, c, 1, q);
+    hci_effect_phases(pole_pairs * c, -pole_pairs * s, 1, slope);
+}
+
+static double of_current(double value, const hci_effect_oscillation *f, const double q[3],
+                         const double q_slope[3], const double i[3], hci_effect_torque *sum)
+{
+    double e[3], slope[3];
+    for (int s = 0; s < 3; ++s) {
+        e[s] = f->value * q[s];
+        slope[s] = f->slope * q[s] + f->value * q_slope[s];
+    }
+    return hci_effect_add_emf(sum, value, e, slope, i);
+}
+
+static void torque_of_all(const hci_effect *effect, const hci_machine *machine, const hci_sample *truth,
+                          hci_effect_torque *sum, double *by_value)
+{
+    hci_effect_turn turn = {HCI_EFFECT_NO_TURN, 0.0, 0.0};
+    double q[3], q_slope[3];
+    quadrature(machine->pole_pairs, truth->theta_m_rad, q, q_slope);
+    for (size_t k = 0; k < effect->count; ++k) {
+        const hci_effect_term *term = &effect->term[k];
+        hci_effect_turn_to(&turn, term->order, machine->pole_pairs, truth->theta_m_rad);
+        const hci_effect_oscillation f = hci_effect_oscillate(&turn, term->parameter % 2 == 1);
+        double by = f.value;
+        if (term->parameter >= IQ_SINE) {
+            by = of_current(term->value, &f, q, q_slope, truth->i_abc, sum);
+        } else {
+            sum->torque_Nm += term->value * f.value;
+            sum->by_angle += term->value * f.slope;
+        }
+        if (by_value) by_value[k] = by;
+    }
+}
+
+const hci_effect_room hci_effect_mechanical_order = {
+    .name = "mechanical_order",
+    .equation = "T = Σ (S + S_q i_q) sin nθ + (C + C_q i_q) cos nθ, n = k/p",
+    .signature = "fractional electrical orders, independent of the current or in proportion to it",
+    HCI_EFFECT_PARAMETERS(PARAMETER),
+    .in_machine = true,
+    .torque_of_all = torque_of_all,
+};

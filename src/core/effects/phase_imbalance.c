@@ -1,0 +1,28 @@
+/* Phases with more or fewer turns: each declared back-EMF by its own factor. */
+#include "core/effects/type.h"
+
+static const hci_effect_parameter PARAMETER[] = {
+    HCI_PLAIN("a", "1", "back-EMF of phase a, relative change", 0.0, -DBL_MAX),
+    HCI_PLAIN("b", "1", "back-EMF of phase b, relative change", 0.0, -DBL_MAX),
+    HCI_PLAIN("c", "1", "back-EMF of phase c, relative change", 0.0, -DBL_MAX),
+};
+
+static double torque(const hci_effect *effect, const hci_effect_term *term, const hci_machine *machine,
+                     const hci_sample *truth, hci_effect_torque *sum)
+{
+    (void)effect;
+    double e[3], slope[3];
+    hci_effect_declared_emf(machine, truth->theta_m_rad, e, slope);
+    for (size_t s = 0; s < 3; ++s)
+        if (s != term->parameter) e[s] = slope[s] = 0.0;
+    return hci_effect_add_emf(sum, term->value, e, slope, truth->i_abc);
+}
+
+const hci_effect_room hci_effect_phase_imbalance = {
+    .name = "phase_imbalance",
+    .equation = "T = Σ_s g_s e_s(θ) i_s",
+    .signature = "grows with the current; mean and order 2 for sinusoidal currents",
+    HCI_EFFECT_PARAMETERS(PARAMETER),
+    .in_machine = true,
+    .torque = torque,
+};

@@ -1,0 +1,44 @@
+/* A position sensor whose zero is not the zero of the machine's angle. */
+#include "core/effects/type.h"
+
+enum { ANGLE };
+
+static const hci_effect_parameter PARAMETER[] = {
+    HCI_PLAIN("angle", "rad", "electrical angle that is read too much", 0.0, -DBL_MAX),
+};
+
+static void sense(const hci_effect *effect, int pole_pairs, hci_sample *x)
+{
+    x->theta_m_rad += hci_effect_value(effect, ANGLE) / pole_pairs;
+}
+
+static void undo(const hci_effect *effect, int pole_pairs, hci_sample *x)
+{
+    x->theta_m_rad -= hci_effect_value(effect, ANGLE) / pole_pairs;
+}
+
+static void undo_adjoint(const hci_effect *effect, int pole_pairs, const hci_sample *before,
+                         hci_effect_torque *by, double *by_value)
+{
+    (void)before;
+    for (size_t k = 0; k < effect->count; ++k)
+        by_value[k] = -by->by_angle / pole_pairs;
+}
+
+static void simulate(const hci_effect *effect, int pole_pairs, hci_sensor *sensors,
+                     hci_effect_channel *channels)
+{
+    (void)channels;
+    sensors[HCI_SENSE_ANGLE].offset += hci_effect_value(effect, ANGLE) / pole_pairs;
+}
+
+const hci_effect_room hci_effect_position_offset = {
+    .name = "position_offset",
+    .equation = "θ_read = θ + δ",
+    .signature = "∂T/∂θ times a constant, at every order",
+    HCI_EFFECT_PARAMETERS(PARAMETER),
+    .sense = sense,
+    .undo = undo,
+    .undo_adjoint = undo_adjoint,
+    .simulate = simulate,
+};

@@ -1,0 +1,43 @@
+/* Inductances that change with the angle, given in the rotor frame, where a balanced machine has orders 6k
+ * only:
+ *
+ *     W' = 3/2 (½ L_dd i_d² + L_dq i_d i_q + ½ L_qq i_q²)      L = Σ S sin nθ + C cos nθ
+ *
+ * An inductance rather than a torque, so that any values conserve energy: a torque ½ L'_qq i_q² of order 0,
+ * say, would turn a rotor for ever. Order 0 is the saliency, T = 3/2 p (L_d − L_q) i_d i_q; there only the
+ * difference of dd and qq makes torque. */
+#include "core/effects/coenergy.h"
+
+static const hci_effect_parameter PARAMETER[] = {
+    HCI_ORDERED("dd_sine", "H", "of L_dd, sin nθ", 1e-6),
+    HCI_ORDERED("dd_cosine", "H", "of L_dd, cos nθ", 0.0),
+    HCI_ORDERED("dq_sine", "H", "of L_dq, sin nθ", 1e-6),
+    HCI_ORDERED("dq_cosine", "H", "of L_dq, cos nθ", 0.0),
+    HCI_ORDERED("qq_sine", "H", "of L_qq, sin nθ", 1e-6),
+    HCI_ORDERED("qq_cosine", "H", "of L_qq, cos nθ", 0.0),
+};
+
+static void torque_of_all(const hci_effect *effect, const hci_machine *machine, const hci_sample *truth,
+                          hci_effect_torque *sum, double *by_value)
+{
+    hci_coenergy w;
+    hci_coenergy_begin(&w, machine->pole_pairs, truth, 1.0);
+    for (size_t k = 0; k < effect->count; ++k) {
+        const hci_effect_term *term = &effect->term[k];
+        const int q = (int)(term->parameter / 2);
+        const double scale = q == 1 ? 1.5 : 0.75;
+        const double by =
+            hci_coenergy_add(&w, 2 - q, q, term->parameter % 2 == 1, term->order, scale * term->value);
+        if (by_value) by_value[k] = scale * by;
+    }
+    hci_coenergy_end(&w, sum);
+}
+
+const hci_effect_room hci_effect_reluctance = {
+    .name = "reluctance",
+    .equation = "T = ∂W'/∂θ_m, W' = 3/2 (½ L_dd i_d² + L_dq i_d i_q + ½ L_qq i_q²)",
+    .signature = "grows with the square of the current; mean and orders 6k, order 2 with unequal phases",
+    HCI_EFFECT_PARAMETERS(PARAMETER),
+    .in_machine = true,
+    .torque_of_all = torque_of_all,
+};

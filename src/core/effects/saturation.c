@@ -1,0 +1,68 @@
+/* Iron that saturates: e and L' depend on the current, from the third to the eighth degree of the co-energy:
+ *
+ *     W' = Σ (S sin nθ + C cos nθ) (i_d/I_0)^a (i_q/I_0)^b      a + b = 3 … 8
+ *
+ * A polynomial is smooth through zero current, adds to the declared machine from the third degree on (the
+ * first is the back-EMF, the second the inductance), and is linear in its coefficients. As a co-energy it is
+ * integrable whatever the coefficients. The loss of mean torque with load is d1q2_cosine_0: T = p C (i_q³ − 2
+ * i_d² i_q)/I_0³, the d flux weakened by i_q. Coefficients are in N·m (that is J) at the reference current
+ * I_0. A little saturation is of degree 3 and 4; a machine far in it takes 6 and more. */
+#include "core/effects/coenergy.h"
+
+/* Powers a and b, degree by degree. */
+#define DEGREE_3(X)  X(3, 0) X(2, 1) X(1, 2) X(0, 3)
+#define DEGREE_4(X)  X(4, 0) X(3, 1) X(2, 2) X(1, 3) X(0, 4)
+#define DEGREE_5(X)  X(5, 0) X(4, 1) X(3, 2) X(2, 3) X(1, 4) X(0, 5)
+#define DEGREE_6(X)  X(6, 0) X(5, 1) X(4, 2) X(3, 3) X(2, 4) X(1, 5) X(0, 6)
+#define DEGREE_7(X)  X(7, 0) X(6, 1) X(5, 2) X(4, 3) X(3, 4) X(2, 5) X(1, 6) X(0, 7)
+#define DEGREE_8(X)  X(8, 0) X(7, 1) X(6, 2) X(5, 3) X(4, 4) X(3, 5) X(2, 6) X(1, 7) X(0, 8)
+#define MONOMIALS(X) DEGREE_3(X) DEGREE_4(X) DEGREE_5(X) DEGREE_6(X) DEGREE_7(X) DEGREE_8(X)
+
+#define PAIR(a, b)                                                                                           \
+    HCI_ORDERED("d" #a "q" #b "_sine", "Nm", "co-energy with i_d^" #a " i_q^" #b ", of sin nθ", 1e-6),       \
+        HCI_ORDERED("d" #a "q" #b "_cosine", "Nm", "co-energy with i_d^" #a " i_q^" #b ", of cos nθ", 0.0),
+
+#define POWERS(a, b) {a, b},
+
+static const struct {
+    int a, b;
+} MONOMIAL[] = {MONOMIALS(POWERS)};
+
+static const hci_effect_parameter PARAMETER[] = {
+    MONOMIALS(PAIR)
+        HCI_PLAIN("reference_current", "A", "current I_0 at which the coefficients are meant", 1.0, 1e-6),
+};
+
+enum { REFERENCE_CURRENT = sizeof PARAMETER / sizeof *PARAMETER - 1 };
+
+/* ∂T/∂I_0 = −Σ (a + b) T_k / I_0 */
+static void torque_of_all(const hci_effect *effect, const hci_machine *machine, const hci_sample *truth,
+                          hci_effect_torque *sum, double *by_value)
+{
+    const double reference_A = hci_effect_value(effect, REFERENCE_CURRENT);
+    double by_reference = 0.0;
+    hci_coenergy w;
+    hci_coenergy_begin(&w, machine->pole_pairs, truth, reference_A);
+    for (size_t k = 0; k < effect->count; ++k) {
+        const hci_effect_term *term = &effect->term[k];
+        if (term->parameter == REFERENCE_CURRENT) continue;
+        const int a = MONOMIAL[term->parameter / 2].a, b = MONOMIAL[term->parameter / 2].b;
+        const double by = hci_coenergy_add(&w, a, b, term->parameter % 2 == 1, term->order, term->value);
+        by_reference -= (a + b) * term->value * by / reference_A;
+        if (by_value) by_value[k] = by;
+    }
+    hci_coenergy_end(&w, sum);
+    for (size_t k = 0; by_value && k < effect->count; ++k)
+        if (effect->term[k].parameter == REFERENCE_CURRENT) by_value[k] = by_reference;
+}
+
+const hci_effect_room hci_effect_saturation = {
+    .name = "saturation",
+    .equation = "T = ∂W'/∂θ_m, W' = Σ (S sin nθ + C cos nθ) (i_d/I_0)^a (i_q/I_0)^b",
+    .signature =
+        "grows with the third or a higher power of the current; mean torque lost with load, orders 6k",
+    HCI_EFFECT_PARAMETERS(PARAMETER),
+    .in_machine = true,
+    .beyond_quadratic = true,
+    .torque_of_all = torque_of_all,
+};

@@ -1,0 +1,118 @@
+/* The registry of effects, and what several rooms share. */
+#ifndef HCI_SRC_CORE_EFFECTS_TYPE_H
+#define HCI_SRC_CORE_EFFECTS_TYPE_H
+
+#include <float.h>
+#include <math.h>
+
+#include "hci/effects/effects.h"
+
+/* One line a room. The order is that in which the bench's effects act on the way from the truth to the
+ * reading. */
+#define HCI_EFFECT_ROOMS(X)                                                                                  \
+    X(cogging)                                                                                               \
+    X(back_emf)                                                                                              \
+    X(phase_imbalance)                                                                                       \
+    X(reluctance)                                                                                            \
+    X(saturation)                                                                                            \
+    X(magnet_temperature)                                                                                    \
+    X(mechanical_order)                                                                                      \
+    X(friction)                                                                                              \
+    X(channel_delay)                                                                                         \
+    X(position_eccentricity)                                                                                 \
+    X(position_offset)                                                                                       \
+    X(current_gain)                                                                                          \
+    X(current_offset)                                                                                        \
+    X(torque_sensor)
+
+#define HCI_EFFECT_DECLARE(name) extern const hci_effect_room hci_effect_##name;
+HCI_EFFECT_ROOMS(HCI_EFFECT_DECLARE)
+#undef HCI_EFFECT_DECLARE
+
+/* Parameters: one value; one for each order from the least on; one for each whole order. */
+#define HCI_PLAIN(name, unit, meaning, standard, least)                                                      \
+    {                                                                                                        \
+        name, unit, meaning, standard, least, false, false, 0.0                                              \
+    }
+#define HCI_ORDERED(name, unit, meaning, least_order)                                                        \
+    {                                                                                                        \
+        name, unit, meaning, 0.0, -DBL_MAX, true, false, least_order                                         \
+    }
+#define HCI_WHOLE(name, unit, meaning, least_order)                                                          \
+    {                                                                                                        \
+        name, unit, meaning, 0.0, -DBL_MAX, true, true, least_order                                          \
+    }
+
+/* Members of a room. */
+#define HCI_EFFECT_PARAMETERS(table) .parameter = (table), .parameter_count = sizeof(table) / sizeof *(table)
+
+/* Periods in a mechanical turn of an electrical order, a whole number where it is near one: a file says
+ * 0.142857 and means 1/7. */
+static inline double hci_effect_periods(double order, int pole_pairs)
+{
+    const double k = order * pole_pairs, whole = floor(k + 0.5);
+    return fabs(k - whole) < HCI_ORDER_TOLERANCE * pole_pairs ? whole : k;
+}
+
+/* sin and cos of k θ_m, kept while k stays: terms of one order follow each other. Start with
+ * HCI_EFFECT_NO_TURN. */
+#define HCI_EFFECT_NO_TURN (-1.0)
+
+typedef struct {
+    double k, s, c;
+} hci_effect_turn;
+
+static inline void hci_effect_turn_to(hci_effect_turn *turn, double order, int pole_pairs, double theta_m_rad)
+{
+    const double k = hci_effect_periods(order, pole_pairs);
+    if (k == turn->k) return;
+    turn->k = k;
+    turn->s = sin(k * theta_m_rad);
+    turn->c = cos(k * theta_m_rad);
+}
+
+/* sin or cos of k θ_m, and its derivative by θ_m. */
+typedef struct {
+    double value, slope;
+} hci_effect_oscillation;
+
+static inline hci_effect_oscillation hci_effect_oscillate(const hci_effect_turn *turn, bool cosine)
+{
+    const hci_effect_oscillation x = {cosine ? turn->c : turn->s,
+                                      cosine ? -turn->k * turn->s : turn->k * turn->c};
+    return x;
+}
+
+/* Phase s lags by σ2πs/3: x cos(σ2πs/3) − y sin(σ2πs/3) of a wave x and the one y a quarter ahead of it. */
+static inline void hci_effect_phases(double x, double y, int sequence, double abc[3])
+{
+    const double half = sequence == 0 ? 1.0 : -0.5, side = sequence * 0.86602540378443864676;
+    abc[0] = x;
+    abc[1] = half * x - side * y;
+    abc[2] = half * x + side * y;
+}
+
+/* Adds weight × e·i, with e of the phases in N·m/A and its slope by θ_m; returns e·i. */
+static inline double hci_effect_add_emf(hci_effect_torque *sum, double weight, const double e[3],
+                                        const double slope[3], const double i[3])
+{
+    double torque = 0.0;
+    for (int s = 0; s < 3; ++s) {
+        torque += e[s] * i[s];
+        sum->by_current[s] += weight * e[s];
+        sum->by_angle += weight * slope[s] * i[s];
+    }
+    sum->torque_Nm += weight * torque;
+    return torque;
+}
+
+/* The declared back-EMF and its slope by θ_m. */
+void hci_effect_declared_emf(const hci_machine *machine, double theta_m_rad, double e[3], double slope[3]);
+
+static inline void hci_effect_link_add(hci_effect_channel *channel, const hci_effect_link *link)
+{
+    if (channel->count < HCI_EFFECT_LINKS) channel->link[channel->count] = *link;
+    ++channel->count;
+}
+
+#endif

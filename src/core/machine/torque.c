@@ -1,0 +1,225 @@
+#include "hci/machine/torque.h"
+
+#include <math.h>
+
+#include "hci/machine/system.h"
+#include "core/math/third.h"
+
+/* Row and column of each stored entry of a phase matrix; entries off the diagonal stand for two. */
+static const unsigned char ROW[HCI_PHASE_MATRIX] = {0, 1, 2, 0, 1, 2};
+static const unsigned char COLUMN[HCI_PHASE_MATRIX] = {0, 1, 2, 1, 2, 0};
+
+static void slope_at(const hci_machine *m, double theta_rad, double slope[HCI_PHASE_MATRIX])
+{
+    for (size_t q = 0; q < HCI_PHASE_MATRIX; ++q)
+        slope[q] = 0.0;
+    for (size_t k = 0; k < m->slope_count; ++k) {
+        const hci_inductance_slope *t = &m->slope[k];
+        const double s = sin(t->order * theta_rad), c = cos(t->order * theta_rad);
+        for (size_t q = 0; q < HCI_PHASE_MATRIX; ++q)
+            slope[q] += t->sine[q] * s + t->cosine[q] * c;
+    }
+}
+
+/* y = L' i */
+static void slope_times(const double slope[HCI_PHASE_MATRIX], const double i_abc[3], double y[3])
+{
+    y[0] = slope[HCI_AA] * i_abc[0] + slope[HCI_AB] * i_abc[1] + slope[HCI_CA] * i_abc[2];
+    y[1] = slope[HCI_AB] * i_abc[0] + slope[HCI_BB] * i_abc[1] + slope[HCI_BC] * i_abc[2];
+    y[2] = slope[HCI_CA] * i_abc[0] + slope[HCI_BC] * i_abc[1] + slope[HCI_CC] * i_abc[2];
+}
+
+double hci_torque_at(const hci_machine *machine, double theta_rad, const double i_abc[3])
+{
+    double e[3], slope[HCI_PHASE_MATRIX], y[3], torque;
+    hci_waves_at(machine->back_emf, machine->back_emf_count, theta_rad, e);
+    slope_at(machine, theta_rad, slope);
+    slope_times(slope, i_abc, y);
+    torque = hci_harmonics_at(machine->cogging, machine->cogging_count, theta_rad);
+    for (int s = 0; s < 3; ++s)
+        torque += (e[s] + 0.5 * y[s]) * i_abc[s];
+    return torque;
+}
+
+void hci_torque_gradient_at(const hci_machine *machine, double theta_rad, const double i_abc[3],
+                            double gradient[3])
+{
+    double slope[HCI_PHASE_MATRIX], y[3];
+    hci_waves_at(machine->back_emf, machine->back_emf_count, theta_rad, gradient);
+    slope_at(machine, theta_rad, slope);
+    slope_times(slope, i_abc, y);
+    for (int s = 0; s < 3; ++s)
+        gradient[s] += y[s];
+}
+
+size_t hci_torque_orders_capacity(const hci_machine *machine, size_t current_count)
+{
+    const size_t pairs = current_count * (current_count + 1) / 2;
+    return 1 + machine->cogging_count + 2 * machine->back_emf_count * current_count +
+           4 * machine->slope_count * pairs;
+}
+
+/* A product of orders m, n, k has the orders |m ± (n ± k)|. */
+static size_t reluctance_orders(double m, double n, double k, double *orders)
+{
+    orders[0] = fabs(m + (n + k));
+    orders[1] = fabs(m - (n + k));
+    orders[2] = fabs(m + (n - k));
+    orders[3] = fabs(m - (n - k));
+    return 4;
+}
+
+hci_status hci_torque_orders(const hci_machine *machine, const hci_wave *currents, size_t current_count,
+                             double *orders, size_t capacity, size_t *count)
+{
+    size_t n = 0;
+    if (capacity < hci_torque_orders_capacity(machine, current_count)) return HCI_ERROR_CAPACITY;
+    orders[n++] = 0.0;
+    for (size_t k = 0; k < machine->cogging_count; ++k)
+        orders[n++] = machine->cogging[k].order;
+    for (size_t k = 0; k < current_count; ++k) {
+        const hci_component c = {currents[k].order, currents[k].sequence};
+        n += hci_component_orders(machine->back_emf, machine->back_emf_count, c, orders + n);
+    }
+    for (size_t t = 0; t < machine->slope_count; ++t)
+        for (size_t j = 0; j < current_count; ++j)
+            for (size_t k = 0; k <= j; ++k)
+                n += reluctance_orders(machine->slope[t].order, currents[j].order, currents[k].order,
+                                       orders + n);
+    *count = hci_orders_sort(orders, n);
+    return HCI_OK;
+}
+
+/* S sin x + C cos x is the imaginary part of (S + jC) e^{jx}. */
+typedef struct {
+    double re, im;
+} phasor;
+
+static phasor times(phasor a, phasor b)
+{
+    const phasor p = {a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
+    return p;
+}
+
+static phasor conjugate(phasor a)
+{
+    const phasor p = {a.re, -a.im};
+    return p;
+}
+
+/* Phasor of phase s of a wave: (S + jC) e^{−jσ2πs/3}. */
+static phasor phase_phasor(const hci_wave *w, unsigned s)
+{
+    const phasor p = {w->sine, w->cosine};
+    const phasor turn = {COS_THIRD, s == 1 ? -w->sequence * SIN_THIRD : w->sequence * SIN_THIRD};
+    return s == 0 || w->sequence == 0 ? p : times(p, turn);
+}
+
+/* Adds Im(p e^{jmθ}) to the spectrum; a negative order folds onto −m with the phasor −p*. */
+static void spectrum_add(const double *orders, size_t order_count, hci_harmonic *spectrum, double m, phasor p)
+{
+    const size_t at = hci_orders_find(orders, order_count, fabs(m));
+    if (at == order_count) return;
+    if (fabs(m) >= HCI_ORDER_TOLERANCE) spectrum[at].sine += m < 0.0 ? -p.re : p.re;
+    spectrum[at].cosine += p.im;
+}
+
+/* The phasors of three phases at one order as waves of the three sequences: W_σ = ⅓ Σ_s Y_s e^{jσ2πs/3}. A
+ * negative order folds onto the positive one: Im(Y e^{−jmθ}) = Im(−Y* e^{jmθ}). */
+static void add_sequences(double order, const phasor y[3], hci_wave waves[3])
+{
+    for (int sequence = -1; sequence <= 1; ++sequence) {
+        const phasor back = {COS_THIRD, sequence * SIN_THIRD}, ahead = {COS_THIRD, -sequence * SIN_THIRD};
+        const phasor one = {1.0, 0.0};
+        phasor sum = {0.0, 0.0};
+        for (unsigned s = 0; s < 3; ++s) {
+            const phasor folded = {order < 0.0 ? -y[s].re : y[s].re, y[s].im};
+            const phasor turned = times(folded, s == 0 || sequence == 0 ? one : s == 1 ? back : ahead);
+            sum.re += turned.re / 3.0;
+            sum.im += turned.im / 3.0;
+        }
+        waves[sequence + 1] = (hci_wave){fabs(order), sequence, sum.re, sum.im};
+        if (fabs(order) < HCI_ORDER_TOLERANCE && sequence == 0) waves[sequence + 1].sine = 0.0;
+    }
+}
+
+/* One order of L' times one wave. Im(Λ e^{jmθ}) Im(I e^{jnθ}) = ½ Re(Λ I* e^{j(m−n)θ} − Λ I e^{j(m+n)θ}), and
+ * Re(Z e^{jkθ}) = Im(jZ e^{jkθ}). */
+static void slope_times_wave(const hci_inductance_slope *t, const hci_wave *i, hci_wave waves[6])
+{
+    phasor difference[3] =
+        {
+            {0.0, 0.0},
+            {0.0, 0.0},
+            {0.0, 0.0}
+    },
+           sum[3] = {{0.0, 0.0}, {0.0, 0.0}, {0.0, 0.0}};
+    for (unsigned q = 0; q < HCI_PHASE_MATRIX; ++q) {
+        for (unsigned mirrored = 0; mirrored <= (ROW[q] != COLUMN[q]); ++mirrored) {
+            const unsigned row = mirrored ? COLUMN[q] : ROW[q], column = mirrored ? ROW[q] : COLUMN[q];
+            const phasor slope = {0.5 * t->sine[q], 0.5 * t->cosine[q]}, current = phase_phasor(i, column);
+            const phasor beat = times(slope, conjugate(current)), product = times(slope, current);
+            difference[row].re += -beat.im;
+            difference[row].im += beat.re;
+            sum[row].re += product.im;
+            sum[row].im += -product.re;
+        }
+    }
+    add_sequences(t->order - i->order, difference, waves);
+    add_sequences(t->order + i->order, sum, waves + 3);
+}
+
+size_t hci_slope_waves_capacity(const hci_machine *machine, size_t current_count)
+{
+    return 6 * machine->slope_count * current_count;
+}
+
+size_t hci_slope_waves(const hci_machine *machine, const hci_wave *currents, size_t current_count,
+                       hci_wave *waves)
+{
+    size_t n = 0;
+    for (size_t t = 0; t < machine->slope_count; ++t)
+        for (size_t k = 0; k < current_count; ++k, n += 6)
+            slope_times_wave(&machine->slope[t], &currents[k], waves + n);
+    return hci_waves_join(waves, n, 1e-15);
+}
+
+/* ½ xᵀ L' y for one order of L' and two waves, closed form. With x = Im(X e^{jnθ}), y = Im(Y e^{jkθ}):  xy =
+ * ½ Re(X Y* e^{j(n−k)θ} − X Y e^{j(n+k)θ}), and Im(Λ e^{jmθ}) Re(Z e^{jqθ}) = ½ Im(Λ Z e^{j(m+q)θ} + Λ Z*
+ * e^{j(m−q)θ}). */
+static void reluctance_pair(const hci_inductance_slope *t, const hci_wave *x, const hci_wave *y,
+                            double weight, const double *orders, size_t order_count, hci_harmonic *spectrum)
+{
+    const double m = t->order, difference = x->order - y->order, sum = x->order + y->order;
+    for (unsigned q = 0; q < HCI_PHASE_MATRIX; ++q) {
+        for (unsigned mirrored = 0; mirrored <= (ROW[q] != COLUMN[q]); ++mirrored) {
+            const phasor slope = {0.125 * weight * t->sine[q], 0.125 * weight * t->cosine[q]};
+            const phasor minus = {-slope.re, -slope.im};
+            const phasor a = phase_phasor(x, mirrored ? COLUMN[q] : ROW[q]);
+            const phasor b = phase_phasor(y, mirrored ? ROW[q] : COLUMN[q]);
+            const phasor beat = times(a, conjugate(b)), product = times(a, b);
+            spectrum_add(orders, order_count, spectrum, m + difference, times(slope, beat));
+            spectrum_add(orders, order_count, spectrum, m - difference, times(slope, conjugate(beat)));
+            spectrum_add(orders, order_count, spectrum, m + sum, times(minus, product));
+            spectrum_add(orders, order_count, spectrum, m - sum, times(minus, conjugate(product)));
+        }
+    }
+}
+
+void hci_torque_spectrum(const hci_machine *machine, const hci_wave *currents, size_t current_count,
+                         const double *orders, size_t order_count, hci_harmonic *spectrum)
+{
+    for (size_t k = 0; k < order_count; ++k)
+        spectrum[k] = (hci_harmonic){orders[k], 0.0, 0.0};
+    for (size_t k = 0; k < machine->cogging_count; ++k) {
+        const hci_harmonic *c = &machine->cogging[k];
+        spectrum_add(orders, order_count, spectrum, c->order, (phasor){c->sine, c->cosine});
+    }
+    hci_system_add_torque(machine->back_emf, machine->back_emf_count, currents, current_count, orders,
+                          order_count, spectrum);
+    for (size_t t = 0; t < machine->slope_count; ++t)
+        for (size_t j = 0; j < current_count; ++j)
+            for (size_t k = 0; k <= j; ++k)
+                reluctance_pair(&machine->slope[t], &currents[j], &currents[k], j == k ? 1.0 : 2.0, orders,
+                                order_count, spectrum);
+}

@@ -1,0 +1,62 @@
+#include "host/base/memory.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+/* Negative: no limit. Written only while a test has set a limit, so threads may allocate freely without one.
+ */
+static long remaining = -1;
+
+void hci_memory_fail_after(long count)
+{
+    remaining = count;
+}
+
+static bool refused(void)
+{
+    if (remaining < 0) return false;
+    if (remaining == 0) return true;
+    remaining--;
+    return false;
+}
+
+static bool overflows(size_t count, size_t size)
+{
+    return size > 0 && count > SIZE_MAX / size;
+}
+
+/* malloc(0) and realloc(p, 0) may give NULL, which would look like a failure. */
+static size_t at_least_one(size_t size)
+{
+    return size > 0 ? size : 1;
+}
+
+void *hci_memory_new(size_t count, size_t size)
+{
+    if (refused() || overflows(count, size)) return NULL;
+    return calloc(at_least_one(count), at_least_one(size));
+}
+
+void *hci_memory_malloc(size_t size)
+{
+    if (refused()) return NULL;
+    return malloc(at_least_one(size));
+}
+
+void *hci_memory_realloc(void *block, size_t size)
+{
+    if (refused()) return NULL;
+    return realloc(block, at_least_one(size));
+}
+
+void *hci_memory_resize(void *block, size_t count, size_t size)
+{
+    if (overflows(count, size)) return NULL;
+    return hci_memory_realloc(block, count * size);
+}
+
+void hci_memory_free(void *block)
+{
+    free(block);
+}

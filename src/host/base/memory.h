@@ -1,0 +1,21 @@
+/* The one door to the heap for host code, with a trap door for tests. */
+#ifndef HCI_SRC_HOST_BASE_MEMORY_H
+#define HCI_SRC_HOST_BASE_MEMORY_H
+
+#include <stddef.h>
+
+/* Like calloc/realloc/free; NULL when memory is out. A size of 0 gives a valid pointer. */
+void *hci_memory_new(size_t count, size_t size);
+void *hci_memory_resize(void *block, size_t count, size_t size);
+void hci_memory_free(void *block);
+
+/* malloc and realloc by their own signatures, for the hooks of other libraries (calloc: hci_memory_new; free:
+ * hci_memory_free). */
+void *hci_memory_malloc(size_t size);
+void *hci_memory_realloc(void *block, size_t size);
+
+/* For tests: let `count` more allocations succeed and every later one fail; a negative count switches this
+ * off. SuiteSparse and cJSON are routed through the same door. */
+void hci_memory_fail_after(long count);
+
+#endif

@@ -1,0 +1,449 @@
+#define _POSIX_C_SOURCE 200809L
+
+#include "hci/host/base/output.h"
+
+#include <assert.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <math.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "hci/host/csv/csv.h"
+#include "host/base/memory.h"
+#include "host/base/quote.h"
+
+typedef struct {
+    char *target;    /* folder/name */
+    char *temporary; /* written until the commit */
+    char *backup;    /* keeps an older target while the set is renamed */
+    bool renamed, has_backup;
+    bool absent;     /* the target is taken away rather than replaced */
+    bool not_finite; /* such a number was to be written */
+    int error;       /* errno of the first failed write */
+} file;
+
+struct hci_output {
+    char *folder;
+    size_t existing; /* length of the part of `folder` that was there before */
+    file *files;
+    size_t count;
+    FILE *stream; /* of the last file */
+    hci_output *older;
+};
+
+/* ---- signals ---- */
+
+/* All open sets, the newest first. A handler may walk through them: whatever changes them, or renames their
+ * files, makes signals wait. */
+static hci_output *newest;
+
+static void hold_signals(sigset_t *before)
+{
+    sigset_t all;
+    sigfillset(&all);
+    sigprocmask(SIG_BLOCK, &all, before);
+}
+
+static void release_signals(const sigset_t *before)
+{
+    sigprocmask(SIG_SETMASK, before, NULL);
+}
+
+static void enter(hci_output *output)
+{
+    output->older = newest;
+    newest = output;
+}
+
+static void leave(const hci_output *output)
+{
+    for (hci_output **at = &newest; *at != NULL; at = &(*at)->older)
+        if (*at == output) {
+            *at = output->older;
+            return;
+        }
+}
+
+/* ---- messages ---- */
+
+static hci_status output_error(const char *path, hci_note *note, const char *found, const char *remedy)
+{
+    char shown[HCI_QUOTE_PATH_SIZE];
+    return hci_note_set(note, HCI_ERROR_OUTPUT, "%s: cannot be written: %s; %s", hci_quote_path(path, shown),
+                        found, remedy);
+}
+
+static hci_status memory_error(const char *path, hci_note *note)
+{
+    char shown[HCI_QUOTE_PATH_SIZE];
+    return hci_note_set(note, HCI_ERROR_MEMORY, "%s: not enough memory to write it",
+                        hci_quote_path(path, shown));
+}
+
+/* ---- the folder ---- */
+
+static bool is_folder(const char *path)
+{
+    struct stat status;
+    return stat(path, &status) == 0 && S_ISDIR(status.st_mode);
+}
+
+/* Length of the parent part of the first `length` bytes of a path, 0 for none: "a/b//" → "a". */
+static size_t parent_length(const char *path, size_t length)
+{
+    while (length > 0 && path[length - 1] == '/')
+        length--;
+    while (length > 0 && path[length - 1] != '/')
+        length--;
+    while (length > 1 && path[length - 1] == '/')
+        length--;
+    return length;
+}
+
+/* Does something at the first `length` bytes of the path, which is restored. */
+static int at_prefix(char *path, size_t length, int (*action)(const char *))
+{
+    const char cut = path[length];
+    path[length] = '\0';
+    const int result = action(path);
+    path[length] = cut;
+    return result;
+}
+
+static int make_folder(const char *path)
+{
+    return mkdir(path, 0777) == 0 || (errno == EEXIST && is_folder(path)) ? 0 : -1;
+}
+
+static int test_folder(const char *path)
+{
+    return is_folder(path) ? 0 : -1;
+}
+
+/* Removes what this set has made of the folder and its parents; rmdir leaves what is not empty. */
+static void remove_folders(hci_output *output)
+{
+    size_t length = strlen(output->folder);
+    for (; length > output->existing; length = parent_length(output->folder, length)) {
+        (void)at_prefix(output->folder, length, rmdir);
+    }
+}
+
+static hci_status make_folders(hci_output *output, hci_note *note)
+{
+    char *folder = output->folder;
+    const size_t whole = strlen(folder);
+    size_t length = whole;
+    while (length > 0 && at_prefix(folder, length, test_folder) != 0)
+        length = parent_length(folder, length);
+    output->existing = length;
+    while (length < whole) {
+        length += strspn(folder + length, "/");
+        length += strcspn(folder + length, "/");
+        if (at_prefix(folder, length, make_folder) != 0) {
+            const hci_status status =
+                output_error(folder, note, strerror(errno), "give a folder that can be made");
+            remove_folders(output);
+            return status;
+        }
+    }
+    return HCI_OK;
+}
+
+static hci_status open_set(const char *folder, hci_output **output, hci_note *note)
+{
+    if (*folder == '\0')
+        return output_error("output", note, "the folder has no name", "name one, or . for this one");
+    hci_output *set = hci_memory_new(1, sizeof *set);
+    if (set != NULL) set->folder = hci_memory_malloc(strlen(folder) + 1);
+    if (set == NULL || set->folder == NULL) {
+        hci_memory_free(set);
+        return memory_error(folder, note);
+    }
+    memcpy(set->folder, folder, strlen(folder) + 1);
+    const hci_status status = make_folders(set, note);
+    if (status == HCI_OK) {
+        enter(set);
+        *output = set;
+    } else {
+        hci_output_discard(set);
+    }
+    return status;
+}
+
+hci_status hci_output_open(const char *folder, hci_output **output, hci_note *note)
+{
+    sigset_t signals;
+    *output = NULL;
+    hold_signals(&signals);
+    const hci_status status = open_set(folder, output, note);
+    release_signals(&signals);
+    return status;
+}
+
+/* ---- one file ---- */
+
+/* Only a plain file that may be written is replaced: not a folder, a device, or a link to something else. */
+static hci_status check_target(const char *target, hci_note *note)
+{
+    struct stat status;
+    if (lstat(target, &status) != 0) return HCI_OK;
+    if (S_ISDIR(status.st_mode))
+        return output_error(target, note, "found a folder of this name", "remove or rename it");
+    if (!S_ISREG(status.st_mode)) {
+        return output_error(target, note, "found something that is not a plain file", "name another file");
+    }
+    if (faccessat(AT_FDCWD, target, W_OK, AT_EACCESS) != 0)
+        return output_error(target, note, strerror(errno), "make the file writable");
+    return HCI_OK;
+}
+
+static void forget(file *f)
+{
+    hci_memory_free(f->target);
+    hci_memory_free(f->temporary);
+    hci_memory_free(f->backup);
+}
+
+enum { TEMPORARY_SIZE = 64 };
+
+/* Everything that the commit will need is allocated here, so that it cannot fail for memory. */
+static hci_status name_file(const char *folder, const char *name, file *f, hci_note *note)
+{
+    const size_t length = strlen(folder) + 1;
+    f->target = hci_memory_malloc(length + strlen(name) + 1);
+    f->temporary = hci_memory_malloc(length + TEMPORARY_SIZE);
+    f->backup = hci_memory_malloc(length + TEMPORARY_SIZE);
+    if (f->target == NULL || f->temporary == NULL || f->backup == NULL) return memory_error(name, note);
+    snprintf(f->target, length + strlen(name) + 1, "%s/%s", folder, name);
+    return check_target(f->target, note);
+}
+
+/* Like mkstemp, but with the mode that the umask gives to any file. */
+static FILE *open_temporary(const char *folder, file *f)
+{
+    int descriptor = -1;
+    errno = EEXIST;
+    for (unsigned k = 0; descriptor < 0 && errno == EEXIST && k < 10000; k++) {
+        const size_t size = strlen(folder) + 1 + TEMPORARY_SIZE;
+        snprintf(f->temporary, size, "%s/.hci-%ld-%u.tmp", folder, (long)getpid(), k);
+        snprintf(f->backup, size, "%s/.hci-%ld-%u.old", folder, (long)getpid(), k);
+        descriptor = open(f->temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    }
+    if (descriptor < 0) return NULL;
+    FILE *stream = fdopen(descriptor, "w");
+    if (stream == NULL) {
+        const int error = errno;
+        close(descriptor);
+        unlink(f->temporary);
+        errno = error;
+    }
+    return stream;
+}
+
+static hci_status check_name(const hci_output *output, const char *name, hci_note *note)
+{
+    char quoted[HCI_QUOTE_SIZE];
+    bool usable =
+        *name != '\0' && strchr(name, '/') == NULL && strcmp(name, ".") != 0 && strcmp(name, "..") != 0;
+    for (size_t i = 0; i < output->count && usable; i++) {
+        usable = strcmp(strrchr(output->files[i].target, '/') + 1, name) != 0;
+    }
+    if (usable) return HCI_OK;
+    return hci_note_set(note, HCI_ERROR_ARGUMENT,
+                        "found %s, expected the name of a new output file without a folder",
+                        hci_quote(name, quoted));
+}
+
+static void remember(hci_output *output, int error)
+{
+    file *f = &output->files[output->count - 1];
+    if (f->error == 0) f->error = error != 0 ? error : EIO;
+}
+
+static void close_stream(hci_output *output)
+{
+    if (output->stream == NULL) return;
+    errno = 0;
+    if (ferror(output->stream)) remember(output, EIO);
+    if (fclose(output->stream) != 0) remember(output, errno);
+    output->stream = NULL;
+}
+
+static hci_status add_file(hci_output *output, const char *name, hci_note *note)
+{
+    hci_status status;
+    file *files = hci_memory_resize(output->files, output->count + 1, sizeof *files);
+    if (files == NULL) return memory_error(name, note);
+    output->files = files;
+    file *f = &files[output->count];
+    *f = (file){0};
+    status = name_file(output->folder, name, f, note);
+    if (status == HCI_OK) {
+        output->stream = open_temporary(output->folder, f);
+        if (output->stream == NULL)
+            status = output_error(f->target, note, strerror(errno), "check the folder");
+    }
+    if (status == HCI_OK) {
+        output->count++;
+    } else {
+        forget(f);
+    }
+    return status;
+}
+
+hci_status hci_output_file(hci_output *output, const char *name, hci_note *note)
+{
+    sigset_t signals;
+    hci_status status = check_name(output, name, note);
+    if (status != HCI_OK) return status;
+    close_stream(output);
+    hold_signals(&signals);
+    status = add_file(output, name, note);
+    release_signals(&signals);
+    return status;
+}
+
+hci_status hci_output_without(hci_output *output, const char *name, hci_note *note)
+{
+    const hci_status status = hci_output_file(output, name, note);
+    if (status == HCI_OK) output->files[output->count - 1].absent = true;
+    return status;
+}
+
+void hci_output_text(hci_output *output, const char *format, ...)
+{
+    assert(output->stream != NULL);
+    va_list arguments;
+    va_start(arguments, format);
+    errno = 0;
+    if (vfprintf(output->stream, format, arguments) < 0) remember(output, errno);
+    va_end(arguments);
+}
+
+void hci_output_number(hci_output *output, double value, char end)
+{
+    char text[32];
+    assert(output->stream != NULL);
+    if (!isfinite(value)) output->files[output->count - 1].not_finite = true;
+    hci_number_text(value, text);
+    errno = 0;
+    if (fputs(text, output->stream) < 0 || putc(end, output->stream) == EOF) remember(output, errno);
+}
+
+/* ---- all or nothing ---- */
+
+static hci_status check_written(const file *f, hci_note *note)
+{
+    char shown[HCI_QUOTE_PATH_SIZE];
+    if (f->error != 0)
+        return output_error(f->target, note, strerror(f->error), "free some space or name another folder");
+    if (!f->not_finite) return HCI_OK;
+    return hci_note_set(note, HCI_ERROR_NOT_FINITE, "%s: not written: a result is infinite or not a number",
+                        hci_quote_path(f->target, shown));
+}
+
+/* A second link keeps the target in its place; where the file system has none it is moved. A backup that a
+ * crashed run has left is never overwritten. */
+static bool make_backup(file *f)
+{
+    struct stat status;
+    if (lstat(f->target, &status) != 0) return true;
+    f->has_backup = link(f->target, f->backup) == 0 || (errno != EEXIST && rename(f->target, f->backup) == 0);
+    return f->has_backup;
+}
+
+static bool take_away(const file *f)
+{
+    return unlink(f->target) == 0 || errno == ENOENT;
+}
+
+static hci_status publish(file *f, hci_note *note)
+{
+    const hci_status status = check_target(f->target, note);
+    if (status != HCI_OK) return status;
+    if (!make_backup(f) || !(f->absent ? take_away(f) : rename(f->temporary, f->target) == 0)) {
+        return output_error(f->target, note, strerror(errno), "check the folder");
+    }
+    f->renamed = !f->absent;
+    return HCI_OK;
+}
+
+static void withdraw(file *f)
+{
+    if (f->has_backup) {
+        /* rename does nothing when both names are still links to one file */
+        if (rename(f->backup, f->target) == 0) unlink(f->backup);
+    } else if (f->renamed) {
+        unlink(f->target);
+    }
+}
+
+hci_status hci_output_check(hci_output *output, hci_note *note)
+{
+    hci_status status = HCI_OK;
+    close_stream(output);
+    for (size_t i = 0; i < output->count && status == HCI_OK; i++)
+        status = check_written(&output->files[i], note);
+    for (size_t i = 0; i < output->count && status == HCI_OK; i++)
+        status = check_target(output->files[i].target, note);
+    return status;
+}
+
+static hci_status publish_all(hci_output *output, hci_note *note)
+{
+    hci_status status = hci_output_check(output, note);
+    for (size_t i = 0; i < output->count && status == HCI_OK; i++)
+        status = publish(&output->files[i], note);
+    for (size_t i = output->count; i-- > 0;) {
+        file *f = &output->files[i];
+        if (status != HCI_OK) withdraw(f);
+        if (status == HCI_OK && f->has_backup) unlink(f->backup);
+    }
+    return status;
+}
+
+hci_status hci_output_commit(hci_output *output, hci_note *note)
+{
+    sigset_t signals;
+    close_stream(output);
+    hold_signals(&signals);
+    const hci_status status = publish_all(output, note);
+    if (status == HCI_OK) output->existing = strlen(output->folder);
+    hci_output_discard(output);
+    release_signals(&signals);
+    return status;
+}
+
+void hci_output_discard(hci_output *output)
+{
+    sigset_t signals;
+    if (output == NULL) return;
+    hold_signals(&signals);
+    leave(output);
+    close_stream(output);
+    for (size_t i = 0; i < output->count; i++) {
+        if (!output->files[i].renamed) unlink(output->files[i].temporary);
+        forget(&output->files[i]);
+    }
+    remove_folders(output);
+    hci_memory_free(output->files);
+    hci_memory_free(output->folder);
+    hci_memory_free(output);
+    release_signals(&signals);
+}
+
+void hci_output_abandon(void)
+{
+    for (hci_output *output = newest; output != NULL; output = output->older) {
+        for (size_t i = 0; i < output->count; i++)
+            unlink(output->files[i].temporary);
+        remove_folders(output);
+    }
+}

@@ -1,0 +1,21 @@
+/* Text from a file or a command line, made safe to show in a message. */
+#ifndef HCI_SRC_HOST_BASE_QUOTE_H
+#define HCI_SRC_HOST_BASE_QUOTE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* Length in bytes of the UTF-8 sequence at `text` (1 to 4), or 0 where it is not valid UTF-8. */
+size_t hci_utf8_length(const char *text);
+bool hci_utf8_valid(const char *text);
+
+enum { HCI_QUOTE_SIZE = 96, HCI_QUOTE_PATH_SIZE = 320 };
+
+/* `text` between backticks; control characters and bytes that are not UTF-8 as \xNN; cut with "…" when long.
+ */
+const char *hci_quote(const char *text, char out[HCI_QUOTE_SIZE]);
+
+/* A path without backticks; a long one loses its beginning. */
+const char *hci_quote_path(const char *path, char out[HCI_QUOTE_PATH_SIZE]);
+
+#endif

@@ -1,0 +1,40 @@
+#include "hci/host/check/check.h"
+
+#include <string.h>
+
+#include "host/check/interpretation.h"
+
+const char *hci_check_verdict_name(hci_check_verdict verdict)
+{
+    static const char *const NAME[] = {"consistent", "slips", "ambiguous", "not_understood"};
+    return NAME[verdict];
+}
+
+const char *hci_check_state_name(hci_check_state state)
+{
+    static const char *const NAME[] = {"consistent", "mended",         "better",
+                                       "mendable",   "not_understood", "worse"};
+    return NAME[state];
+}
+
+hci_status hci_check_files(const char *machine, const char *const *run, size_t runs, hci_check *check,
+                           hci_note *note)
+{
+    check_figures figures;
+    hci_status status;
+    memset(check, 0, sizeof *check);
+    memset(&figures, 0, sizeof figures);
+    if (runs > HCI_CHECK_MOST_RUNS)
+        return hci_note_set(note, HCI_ERROR_ARGUMENT,
+                            "found %zu recordings, expected at most %d; leave some out", runs,
+                            HCI_CHECK_MOST_RUNS);
+    check->machine = machine;
+    check->run = run;
+    check->runs = runs;
+    status = hci_check_machine_read(machine, &figures, note);
+    if (!status) status = hci_check_runs_read(run, runs, &figures, check->remark, note);
+    if (!status) status = hci_check_weigh(&figures, check, note);
+    hci_check_figures_release(&figures);
+    if (status) return status;
+    return check->verdict == HCI_CHECK_CONSISTENT ? HCI_OK : HCI_NOT_REACHED;
+}

@@ -1,0 +1,156 @@
+/* The numbers of a machine folder and its recordings as they stand in the files, taken once: what the
+ * relations of `check` are made of. */
+#ifndef HCI_SRC_HOST_CHECK_FIGURES_H
+#define HCI_SRC_HOST_CHECK_FIGURES_H
+
+#include <stdbool.h>
+
+#include "hci/host/check/check.h"
+#include "hci/host/csv/csv.h"
+#include "hci/host/machine/machine.h"
+
+/* ---- vectors of the plane: three phases as α + jβ, or d + jq */
+
+typedef struct {
+    double re, im;
+} check_vector;
+
+check_vector hci_check_product(check_vector a, check_vector b);
+check_vector hci_check_conjugate(check_vector a);
+check_vector hci_check_scaled(check_vector a, double factor);
+check_vector hci_check_turned(check_vector a, double angle_rad);
+check_vector hci_check_sum(check_vector a, check_vector b);
+double hci_check_length(check_vector a);
+
+/* ---- where a number stands */
+
+typedef struct {
+    const char *path;            /* NULL: the file does not have it */
+    size_t line;                 /* from 1 */
+    char column[HCI_CHECK_TEXT]; /* as the header spells it */
+    char text[HCI_CHECK_TEXT];   /* the cell */
+} check_place;
+
+/* ---- machine folder */
+
+/* Scalars of machine.csv. */
+enum {
+#define CHECK_VALUE_NAME(field, name, unit) CHECK_##field,
+    HCI_MACHINE_VALUES(CHECK_VALUE_NAME)
+#undef CHECK_VALUE_NAME
+        CHECK_VALUE_COUNT
+};
+
+/* order, amplitude, phase as they stand; phases in radians where the column says so. */
+typedef struct {
+    char path[HCI_CHECK_PATH];
+    size_t count; /* 0: no such table, or an empty one */
+    double *order, *amplitude, *phase_rad;
+    size_t largest;                                     /* row of the largest amplitude */
+    double most_phase_rad;                              /* largest absolute phase */
+    check_place order_cell, amplitude_cell, phase_cell; /* of that row */
+} check_table;
+
+typedef struct {
+    bool given, are_slopes;
+    double reluctance_Nm_per_A2;           /* mean torque at i_d = i_q = 1 A, with the declared pole pairs */
+    double inductance_d_H, inductance_q_H; /* mean over the turn; NAN for slopes */
+    char path[HCI_CHECK_PATH];
+    check_place cell;
+} check_inductance;
+
+/* ---- recordings */
+
+/* The recorded angle is turned into an electrical one by a factor; these are the factors that readings can
+ * ask for. */
+enum { CHECK_SCALES = 6, FORWARD = 0, BACKWARD = 1 };
+
+/* Means of x e^{∓jθ}, θ = scale × recorded angle: of waves that turn with the rotor, and against it. */
+typedef struct {
+    double scale;
+    check_vector current[2], voltage[2];
+} check_frame;
+
+/* Means of what stands in v = R i + jω(L_d i_d + jL_q i_q) + jω k_e, which holds sample by sample and so for
+ * every weighted mean. Those of v_d, v_q are weighted by the speed: Σ v ω / Σ |ω|, so that neither a speed
+ * that varies nor one that changes its sign spoils them. */
+typedef struct {
+    check_vector voltage, current;
+    check_vector turning; /* of speed × current */
+    double speed;         /* in the unit of its column */
+} check_loop;
+
+/* Readings ask for the same orders of the ripple again and again. */
+enum { CHECK_KNOWN_ORDERS = 256 };
+
+typedef struct {
+    double order;
+    check_vector wave;
+} check_known_order;
+
+typedef struct {
+    char path[HCI_CHECK_PATH];
+    size_t count;
+    check_known_order known[CHECK_KNOWN_ORDERS]; /* of the ripple; the oldest gives way */
+    size_t known_count;
+    double *theta; /* recorded angle; NULL: none */
+    double *ripple; /* torque in N·m; where the shaft was held, −i_q in A: what balances the cogging torque */
+    bool is_held;       /* torque 0 throughout, and i_d, i_q */
+    bool is_electrical; /* the angle is theta_e */
+    bool dq_is_steady;  /* i_d, i_q are more than noise about 0 */
+    bool has_abc, has_dq, has_voltage, has_speed, has_torque;
+    bool has_phase_voltage, has_dq_voltage; /* one of them where has_voltage */
+    bool lacks_d_voltage;                   /* v_q alone: what v_d is nobody knows */
+    bool lacks_d_current;                   /* i_d was not recorded, or is none */
+    bool speed_is_electrical;               /* its column */
+    bool dq_voltage_is_coherent;            /* follows the speed */
+    double angle_range;                     /* of the recorded angle */
+    double slope;                           /* of the recorded angle over the recorded time; NAN: unknown */
+    double angle_ratio;                     /* theta_e over theta_m where both were recorded, else NAN */
+    double speed;                           /* mean of the speed column */
+    double ripple_mean, ripple_square;      /* mean, and mean square about it */
+    double torque_at_speed;                 /* mean of torque × speed over the mean speed */
+    double current_square, voltage_square;  /* mean |x|² */
+    check_vector dq;                        /* mean of recorded i_d + j i_q */
+    check_vector power;                     /* mean of voltage × conj(current) */
+    check_loop loop;                        /* of v_d, v_q */
+    double current_order, voltage_order;    /* order and sequence against the recorded angle; NAN: none */
+    double frequency;   /* of the voltages over the recorded time, rad per unit of time; NAN: unknown */
+    double current_sum; /* rms of ia + ib + ic over the rms of the currents; NAN: not three columns */
+    double current_balance, voltage_balance; /* largest over smallest alternating rms of the phases */
+    check_frame frame[CHECK_SCALES];
+    check_place theta_cell, time_cell, speed_cell, current_cell, voltage_cell, torque_cell;
+} check_run;
+
+typedef struct {
+    char machine_path[HCI_CHECK_PATH];
+    double value[CHECK_VALUE_COUNT]; /* canonical units; NAN: not given */
+    check_place cell[CHECK_VALUE_COUNT];
+    bool has_neutral;
+    bool emf_in_volts;
+    check_table emf, cogging;
+    check_inductance inductance;
+    double scale[CHECK_SCALES];
+    size_t scales;
+    check_run *run;
+    size_t runs;
+    double no_current_A; /* runs with less are without current */
+} check_figures;
+
+/* Both start from {0}; what they leave is to be released even after a failure. */
+hci_status hci_check_machine_read(const char *folder, check_figures *f, hci_note *note);
+/* told: [count], how each recording was read. */
+hci_status hci_check_runs_read(const char *const *path, size_t count, check_figures *f, hci_note *told,
+                               hci_note *note);
+void hci_check_figures_release(check_figures *f);
+
+/* The frame of a scale, whatever its sign; NULL where the run has no angle. */
+const check_frame *hci_check_frame_of(const check_run *run, double scale);
+
+/* S + jC of the torque of a run at an order of the recorded angle, by its sums with sine and cosine.
+ * O(samples) the first time; the run keeps it. */
+check_vector hci_check_torque_order(check_run *run, double order);
+
+bool hci_check_has_current(const check_figures *f, const check_run *run);
+
+#endif

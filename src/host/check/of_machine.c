@@ -1,0 +1,297 @@
+/* Figures of a machine folder. Tables are read cell by cell and not by the loader, which refuses some of what
+ * a slip makes of them. */
+#define _POSIX_C_SOURCE 200809L
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "host/check/figures.h"
+#include "hci/machine/frames.h"
+#include "hci/host/machine/init.h"
+#include "host/machine/inductance.h"
+#include "host/machine/folder.h"
+#include "host/base/memory.h"
+#include "host/machine/spectrum_table.h"
+
+typedef struct {
+    const char *name, *unit;
+} value_name;
+
+static const value_name VALUES[] = {
+#define LIST_ONE(field, name, unit) {name, unit},
+    HCI_MACHINE_VALUES(LIST_ONE)
+#undef LIST_ONE
+};
+
+static void keep_text(char out[HCI_CHECK_TEXT], const char *text)
+{
+    snprintf(out, HCI_CHECK_TEXT, "%s", text);
+}
+
+/* The place of a cell of data row `row` in the column that the file has for `name`. */
+static check_place place_of(const hci_csv *csv, const char *path, const char *name, size_t row)
+{
+    check_place place = {.path = path, .line = hci_csv_line(csv, row)};
+    const char *text = "";
+    hci_note none = {{0}};
+    size_t column;
+    if (hci_csv_find(csv, name, &column)) keep_text(place.column, hci_csv_name(csv, column));
+    if (hci_csv_text(csv, name, row, &text, &none) == HCI_OK) keep_text(place.text, text);
+    return place;
+}
+
+/* ---- machine.csv */
+
+static hci_status scalar_read(const hci_csv *csv, size_t row, size_t k, check_figures *f, hci_note *note)
+{
+    const char *unit = "";
+    double factor = 1.0;
+    hci_status status;
+    if (f->cell[k].path)
+        return hci_csv_error(csv, "name", row, note, "each name once", "delete one of the two rows");
+    status = hci_csv_number(csv, "value", row, &f->value[k], note);
+    if (!status && hci_csv_has(csv, "unit")) status = hci_csv_text(csv, "unit", row, &unit, note);
+    if (status) return status;
+    if (unit[0] != '\0' && strcmp(unit, "1") != 0 && strcmp(unit, "-") != 0 &&
+        !hci_unit_factor(unit, VALUES[k].unit, &factor)) {
+        char expected[64];
+        snprintf(expected, sizeof expected, "a unit that converts to %s", VALUES[k].unit);
+        return hci_csv_error(csv, "unit", row, note, expected, "check the unit of this value");
+    }
+    f->value[k] *= factor;
+    f->cell[k] = place_of(csv, f->machine_path, "value", row);
+    return HCI_OK;
+}
+
+static hci_status row_read(const hci_csv *csv, size_t row, check_figures *f, hci_note *note)
+{
+    const char *name;
+    const hci_status status = hci_csv_text(csv, "name", row, &name, note);
+    if (status) return status;
+    if (strcmp(name, "connection") == 0) return hci_machine_connection(csv, row, &f->has_neutral, note);
+    for (size_t k = 0; k < CHECK_VALUE_COUNT; ++k)
+        if (strcmp(name, VALUES[k].name) == 0) return scalar_read(csv, row, k, f, note);
+    return HCI_OK;
+}
+
+static hci_status pole_pairs_check(const check_figures *f, hci_note *note)
+{
+    const double p = f->value[CHECK_pole_pairs];
+    if (p >= 1.0 && p <= 1000.0 && p == floor(p)) return HCI_OK;
+    if (isnan(p))
+        return hci_note_set(note, HCI_ERROR_INPUT, "%s: no `pole_pairs`; add a row `pole_pairs,N,1,source`",
+                            f->machine_path);
+    return hci_note_set(note, HCI_ERROR_INPUT,
+                        "%s:%zu: `pole_pairs`: found %g, expected a whole number from 1 to 1000; a machine "
+                        "with N poles has N/2 pole pairs",
+                        f->machine_path, f->cell[CHECK_pole_pairs].line, p);
+}
+
+static hci_status slots_check(const check_figures *f, hci_note *note)
+{
+    const double slots = f->value[CHECK_slots];
+    if (isnan(slots) || (slots >= 3.0 && slots <= HCI_MOST_SLOTS && slots == floor(slots))) return HCI_OK;
+    return hci_note_set(note, HCI_ERROR_INPUT,
+                        "%s:%zu: `slots`: found %g, expected a whole number from 3 to %d; count the teeth of "
+                        "the stator, or delete the row",
+                        f->machine_path, f->cell[CHECK_slots].line, slots, (int)HCI_MOST_SLOTS);
+}
+
+static hci_status scalars_read(check_figures *f, hci_note *note)
+{
+    hci_csv *csv;
+    hci_status status = hci_csv_read(f->machine_path, &csv, note);
+    if (status) return status;
+    for (size_t row = 0; row < hci_csv_rows(csv) && !status; ++row)
+        status = row_read(csv, row, f, note);
+    hci_csv_free(csv);
+    if (!status) status = pole_pairs_check(f, note);
+    return status ? status : slots_check(f, note);
+}
+
+/* ---- order, amplitude, phase */
+
+static void find_largest(check_table *t)
+{
+    for (size_t k = 0; k < t->count; ++k) {
+        if (fabs(t->amplitude[k]) > fabs(t->amplitude[t->largest])) t->largest = k;
+        t->most_phase_rad = fmax(t->most_phase_rad, fabs(t->phase_rad[k]));
+    }
+}
+
+static hci_status columns_read(const hci_csv *csv, const char *amplitude, check_table *t, hci_note *note)
+{
+    const size_t n = hci_csv_rows(csv);
+    hci_status status;
+    t->order = hci_memory_new(3 * n, sizeof *t->order);
+    if (!t->order) return hci_note_set(note, HCI_ERROR_MEMORY, "%s: out of memory", t->path);
+    t->amplitude = t->order + n;
+    t->phase_rad = t->order + 2 * n;
+    status = hci_csv_numbers(csv, "order", t->order, note);
+    if (!status) status = hci_csv_numbers(csv, amplitude, t->amplitude, note);
+    if (!status) status = hci_csv_numbers(csv, "phase_rad", t->phase_rad, note);
+    if (status || n == 0) return status;
+    t->count = n;
+    find_largest(t);
+    t->order_cell = place_of(csv, t->path, "order", t->largest);
+    t->amplitude_cell = place_of(csv, t->path, amplitude, t->largest);
+    t->phase_cell = place_of(csv, t->path, "phase_rad", t->largest);
+    return HCI_OK;
+}
+
+/* Ordinary mistakes (orders below 0 or twice, text) are those of the reader of tables. */
+static hci_status table_check(const hci_csv *csv, const char *amplitude, hci_note *note)
+{
+    hci_harmonic *terms = NULL;
+    size_t *row_of = NULL, count;
+    const hci_status status = hci_spectrum_rows(csv, amplitude, &terms, &row_of, &count, note);
+    hci_memory_free(terms);
+    hci_memory_free(row_of);
+    return status;
+}
+
+static hci_status emf_read(check_figures *f, hci_note *note)
+{
+    hci_csv *csv;
+    hci_status status = hci_csv_read(f->emf.path, &csv, note);
+    if (status) return status;
+    f->emf_in_volts = !hci_csv_has(csv, "amplitude_Nm_per_A");
+    const char *amplitude = f->emf_in_volts ? "amplitude_V" : "amplitude_Nm_per_A";
+    status = table_check(csv, amplitude, note);
+    if (!status) status = columns_read(csv, amplitude, &f->emf, note);
+    hci_csv_free(csv);
+    if (status) return status;
+    if (f->emf.count == 0 || !(fabs(f->emf.amplitude[f->emf.largest]) > 0.0))
+        return hci_note_set(note, HCI_ERROR_INPUT, "%s: no amplitude above 0, expected at least order 1",
+                            f->emf.path);
+    if (f->emf_in_volts && !(f->value[CHECK_emf_frequency_Hz] > 0.0))
+        return hci_note_set(
+            note, HCI_ERROR_INPUT,
+            "%s: the back-EMF is in volts, but machine.csv has no positive `emf_frequency`; add the "
+            "electrical frequency in Hz at which it was measured, or give amplitude_Nm_per_A",
+            f->emf.path);
+    return HCI_OK;
+}
+
+static hci_status cogging_read(check_figures *f, hci_note *note)
+{
+    hci_csv *csv;
+    hci_status status = hci_csv_read(f->cogging.path, &csv, note);
+    if (status) return status;
+    status = table_check(csv, "amplitude_Nm", note);
+    if (!status) status = columns_read(csv, "amplitude_Nm", &f->cogging, note);
+    hci_csv_free(csv);
+    return status;
+}
+
+/* ---- inductance.csv */
+
+enum { ANGLES = 720 };
+
+/* Phase currents of i_d, i_q at an angle. */
+static void phase_currents(double d, double q, double theta_rad, double i[3])
+{
+    hci_clarke_inverse(hci_park_inverse((hci_dq){.d = d, .q = q}, theta_rad), i);
+}
+
+static double mean_reluctance(const hci_inductance_table *t, int pole_pairs)
+{
+    const hci_machine m = {.pole_pairs = pole_pairs, .slope = t->slope, .slope_count = t->slope_count};
+    double sum = 0.0, i[3];
+    for (int k = 0; k < ANGLES; ++k) {
+        const double theta_rad = 2.0 * HCI_PI * k / ANGLES;
+        phase_currents(1.0, 1.0, theta_rad, i);
+        sum += hci_torque_at(&m, theta_rad, i) / ANGLES;
+    }
+    return sum;
+}
+
+static double energy_twice(const hci_inductance_table *t, double theta_rad, const double i[3])
+{
+    static const int A[] = {0, 1, 2, 0, 1, 2}, B[] = {0, 1, 2, 1, 2, 0};
+    double sum = 0.0;
+    for (size_t m = 0; m < t->inductance_count; ++m) {
+        const hci_inductance *l = &t->inductance[m];
+        const double s = sin(l->order * theta_rad), c = cos(l->order * theta_rad);
+        for (int q = 0; q < HCI_PHASE_MATRIX; ++q)
+            sum += (q < 3 ? 1.0 : 2.0) * i[A[q]] * i[B[q]] * (l->sine[q] * s + l->cosine[q] * c);
+    }
+    return sum;
+}
+
+/* ½ iᵀLi = ½·3/2·L_d i_d² for i_d = 1 A, and so for q. */
+static double mean_inductance(const hci_inductance_table *t, double d, double q)
+{
+    double sum = 0.0, i[3];
+    if (t->inductance_count == 0) return NAN;
+    for (int k = 0; k < ANGLES; ++k) {
+        const double theta_rad = 2.0 * HCI_PI * k / ANGLES;
+        phase_currents(d, q, theta_rad, i);
+        sum += energy_twice(t, theta_rad, i) / ANGLES;
+    }
+    return sum / 1.5;
+}
+
+static hci_status slope_cell_read(check_inductance *l, hci_note *note)
+{
+    hci_csv *csv;
+    const hci_status status = hci_csv_read(l->path, &csv, note);
+    if (status) return status;
+    l->cell = place_of(csv, l->path, "dLa_H_per_rad", 0);
+    hci_csv_free(csv);
+    return HCI_OK;
+}
+
+static hci_status inductance_figures(check_figures *f, hci_note *note)
+{
+    check_inductance *l = &f->inductance;
+    const int pole_pairs = (int)f->value[CHECK_pole_pairs];
+    hci_inductance_table table;
+    const hci_status status = hci_inductance_read(l->path, pole_pairs, &table, note);
+    if (status) return status;
+    l->given = true;
+    l->are_slopes = table.inductance_count == 0;
+    l->reluctance_Nm_per_A2 = mean_reluctance(&table, pole_pairs);
+    l->inductance_d_H = mean_inductance(&table, 1.0, 0.0);
+    l->inductance_q_H = mean_inductance(&table, 0.0, 1.0);
+    hci_memory_free(table.inductance);
+    hci_memory_free(table.slope);
+    return l->are_slopes ? slope_cell_read(l, note) : HCI_OK;
+}
+
+/* ---- the folder */
+
+static hci_status folder_check(const char *folder, hci_note *note)
+{
+    struct stat info;
+    if (stat(folder, &info) != 0)
+        return hci_note_set(note, HCI_ERROR_INPUT,
+                            "%.300s: %s; expected the folder of a machine with machine.csv and back_emf.csv",
+                            folder, strerror(errno));
+    if (!S_ISDIR(info.st_mode))
+        return hci_note_set(
+            note, HCI_ERROR_INPUT,
+            "%.300s: found a file, expected the folder of a machine with machine.csv and back_emf.csv",
+            folder);
+    return HCI_OK;
+}
+
+hci_status hci_check_machine_read(const char *folder, check_figures *f, hci_note *note)
+{
+    hci_status status = folder_check(folder, note);
+    for (size_t k = 0; k < CHECK_VALUE_COUNT; ++k)
+        f->value[k] = NAN;
+    if (!status) status = hci_machine_path(f->machine_path, HCI_CHECK_PATH, folder, "machine.csv", note);
+    if (!status) status = scalars_read(f, note);
+    if (!status) status = hci_machine_path(f->emf.path, HCI_CHECK_PATH, folder, "back_emf.csv", note);
+    if (!status) status = emf_read(f, note);
+    if (!status) status = hci_machine_path(f->cogging.path, HCI_CHECK_PATH, folder, "cogging.csv", note);
+    if (!status && hci_machine_has(f->cogging.path)) status = cogging_read(f, note);
+    if (!status)
+        status = hci_machine_path(f->inductance.path, HCI_CHECK_PATH, folder, "inductance.csv", note);
+    if (!status && hci_machine_has(f->inductance.path)) status = inductance_figures(f, note);
+    return status;
+}

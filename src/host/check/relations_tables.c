@@ -1,0 +1,140 @@
+/* What must hold between the tables of a machine, and with its ratings. */
+#include <math.h>
+
+#include "host/check/relations.h"
+#include "hci/host/machine/init.h"
+
+#define SQRT3 1.7320508075688772
+
+/* ---- tables */
+
+check_value hci_check_of_emf_order(const check_figures *f, const check_view *v, const check_model *m)
+{
+    const double order = f->emf.order[f->emf.largest];
+    return hci_check_found(v->emf_mechanical > 0.0 ? order / m->pole_pairs : order);
+}
+
+check_value hci_check_of_emf_phase(const check_figures *f, const check_view *v, const check_model *m)
+{
+    (void)f, (void)v;
+    return hci_check_found(m->emf_phase_rad);
+}
+
+check_value hci_check_of_emf_phase_range(const check_figures *f, const check_view *v, const check_model *m)
+{
+    (void)m;
+    return hci_check_found(f->emf.most_phase_rad * v->phase_unit * v->emf_phase_unit);
+}
+
+check_value hci_check_of_cogging_phase_range(const check_figures *f, const check_view *v,
+                                             const check_model *m)
+{
+    (void)m;
+    return f->cogging.count > 0
+               ? hci_check_found(f->cogging.most_phase_rad * v->phase_unit * v->cogging_phase_unit)
+               : HCI_CHECK_NONE;
+}
+
+/* lcm(slots, 2p)/p is a multiple of 6 for every balanced three-phase winding. */
+check_value hci_check_of_cogging_sixes(const check_figures *f, const check_view *v, const check_model *m)
+{
+    double sixes = 0.0, all = 0.0;
+    for (size_t k = 0; k < f->cogging.count; ++k) {
+        const double order = hci_check_cogging_order(f, v, m, k),
+                     square = f->cogging.amplitude[k] * f->cogging.amplitude[k];
+        if (fabs(remainder(order, 6.0)) < 1e-3) sixes += square;
+        all += square;
+    }
+    return hci_check_ratio_of(sixes, all);
+}
+
+/* Slots per pole of the smallest stator whose cogging begins at this order; 100 where there is none. */
+static double slots_per_pole(double order, int pole_pairs)
+{
+    if (fabs(remainder(order, 1.0)) > 1e-3) return 100.0;
+    for (int slots = 3; slots <= 200 * pole_pairs; slots += 3)
+        if (fabs(hci_cogging_order(slots, pole_pairs) - order) < 1e-3) return slots / (2.0 * pole_pairs);
+    return 100.0;
+}
+
+check_value hci_check_of_cogging_slots(const check_figures *f, const check_view *v, const check_model *m)
+{
+    double least = HUGE_VAL;
+    if (f->value[CHECK_slots] >= 3.0) return HCI_CHECK_NONE;
+    for (size_t k = 0; k < f->cogging.count; ++k)
+        if (hci_check_is_significant(&f->cogging, k))
+            least = fmin(least, slots_per_pole(hci_check_cogging_order(f, v, m, k), (int)m->pole_pairs));
+    return least < HUGE_VAL ? hci_check_found(least) : HCI_CHECK_NONE;
+}
+
+/* Uneven magnets and teeth add orders to it, but do not take it away. */
+check_value hci_check_of_cogging_first(const check_figures *f, const check_view *v, const check_model *m)
+{
+    double nearest = NAN;
+    if (!(f->value[CHECK_slots] >= 3.0)) return HCI_CHECK_NONE;
+    const double first = hci_cogging_order((int)f->value[CHECK_slots], (int)m->pole_pairs);
+    for (size_t k = 0; k < f->cogging.count; ++k) {
+        const double x = hci_check_cogging_order(f, v, m, k) / first;
+        if (hci_check_is_significant(&f->cogging, k) && !(fabs(log(x)) > fabs(log(nearest)))) nearest = x;
+    }
+    return hci_check_found(nearest);
+}
+
+check_value hci_check_of_inductance_difference(const check_figures *f, const check_view *v,
+                                               const check_model *m)
+{
+    const double d = f->value[CHECK_inductance_d_H], q = f->value[CHECK_inductance_q_H];
+    (void)v;
+    if (!f->inductance.given || !(fabs(d - q) > 0.1 * d)) return HCI_CHECK_NONE;
+    return hci_check_found(m->reluctance_Nm_per_A2 / (1.5 * m->pole_pairs * (d - q)));
+}
+
+/* ---- ratings */
+
+/* 3/2 k_e I, or what i_d adds at the best angle: max over β of A cos β + ½K I² sin 2β. */
+static double most_torque_Nm(const check_model *m, double mutual_Nm)
+{
+    const double k = m->reluctance_Nm_per_A2 * m->rated_current_A * m->rated_current_A;
+    double most = mutual_Nm;
+    for (int j = -45; j <= 45 && isfinite(k); ++j) {
+        const double b = HCI_PI * j / 180.0;
+        most = fmax(most, mutual_Nm * cos(b) + 0.5 * k * sin(2.0 * b));
+    }
+    return most;
+}
+
+check_value hci_check_of_rated_torque(const check_figures *f, const check_view *v, const check_model *m)
+{
+    const double rated_Nm = f->value[CHECK_rated_torque_Nm], mutual_Nm = 1.5 * m->emf * m->rated_current_A;
+    const double most_Nm = most_torque_Nm(m, mutual_Nm);
+    (void)v;
+    if (!(rated_Nm > 0.0) || !(mutual_Nm > 0.0)) return HCI_CHECK_NONE;
+    return hci_check_found(rated_Nm < mutual_Nm ? rated_Nm / mutual_Nm
+                           : rated_Nm > most_Nm ? rated_Nm / most_Nm
+                                                : 1.0);
+}
+
+/* At rated speed the back-EMF alone, line to line, is below the dc link. */
+check_value hci_check_of_rated_voltage(const check_figures *f, const check_view *v, const check_model *m)
+{
+    const double speed = f->value[CHECK_rated_speed_rad_per_s];
+    (void)v;
+    return speed > 0.0 ? hci_check_ratio_of(SQRT3 * m->emf * speed, f->value[CHECK_dc_link_voltage_V])
+                       : HCI_CHECK_NONE;
+}
+
+/* From a watch motor to a wind generator: ψ = k_e/p within a factor of 300 around 30 mWb. */
+check_value hci_check_of_flux_size(const check_figures *f, const check_view *v, const check_model *m)
+{
+    (void)f, (void)v;
+    return hci_check_found(exp(fabs(log(m->emf / m->pole_pairs / 0.03))));
+}
+
+/* The current that would cancel the magnets, ψ/L_d, over the rated one: within a factor of 30 around 5. */
+check_value hci_check_of_flux_per_current(const check_figures *f, const check_view *v, const check_model *m)
+{
+    const double l = m->inductance_d_H, i = m->rated_current_A;
+    (void)f, (void)v;
+    return l > 0.0 && i > 0.0 ? hci_check_found(exp(fabs(log(m->emf / m->pole_pairs / l / i / 5.0))))
+                              : HCI_CHECK_NONE;
+}

@@ -1,0 +1,204 @@
+/* What must hold for currents, voltages and speed of the recordings. */
+#include <math.h>
+
+#include "host/check/relations.h"
+
+#define SQRT3 1.7320508075688772
+
+/* ---- order and sequence */
+
+/* Of the recording that has most of it. */
+static check_value order_against_angle(const check_figures *f, const check_view *v, const check_model *m,
+                                       bool of_current)
+{
+    const check_run *best = NULL;
+    double most = 0.0;
+    for (size_t k = 0; k < f->runs; ++k) {
+        const check_run *r = &f->run[k];
+        const double square = of_current ? r->current_square : r->voltage_square;
+        if (!hci_check_turns(of_current ? r->current_order : r->voltage_order) || !(square > most)) continue;
+        if (of_current && !hci_check_has_current(f, r)) continue;
+        most = square;
+        best = r;
+    }
+    if (!best) return HCI_CHECK_NONE;
+    const double order =
+        (of_current ? best->current_order : best->voltage_order) / hci_check_scale_of(best, v, m);
+    return hci_check_found(v->swapped > 0.0 ? -order : order);
+}
+
+check_value hci_check_of_current_order(const check_figures *f, const check_view *v, const check_model *m)
+{
+    return order_against_angle(f, v, m, true);
+}
+
+check_value hci_check_of_voltage_order(const check_figures *f, const check_view *v, const check_model *m)
+{
+    return order_against_angle(f, v, m, false);
+}
+
+/* ---- speed */
+
+check_value hci_check_of_angle_speed(const check_figures *f, const check_view *v, const check_model *m)
+{
+    check_fit x = {0};
+    for (size_t k = 0; k < f->runs; ++k) {
+        const check_run *r = &f->run[k];
+        if (r->has_speed && isfinite(r->slope) && fabs(r->speed) > 0.0)
+            hci_check_fit_add(&x, hci_check_angle_speed_of(r, v, m), hci_check_column_speed_of(r, v, m), 0.0);
+    }
+    return hci_check_fit_value(&x);
+}
+
+check_value hci_check_of_angle_ratio(const check_figures *f, const check_view *v, const check_model *m)
+{
+    (void)v;
+    for (size_t k = 0; k < f->runs; ++k)
+        if (isfinite(f->run[k].angle_ratio)) return hci_check_found(f->run[k].angle_ratio / m->pole_pairs);
+    return HCI_CHECK_NONE;
+}
+
+check_value hci_check_of_frequency_speed(const check_figures *f, const check_view *v, const check_model *m)
+{
+    check_fit x = {0};
+    for (size_t k = 0; k < f->runs; ++k) {
+        const check_run *r = &f->run[k];
+        if (r->theta || !r->has_speed || !isfinite(r->frequency)) continue;
+        hci_check_fit_add(&x, fabs(r->frequency / v->time),
+                          fabs(m->pole_pairs * hci_check_column_speed_of(r, v, m)), 0.0);
+    }
+    return hci_check_fit_value(&x);
+}
+
+/* ---- back-EMF */
+
+/* Ê = jω_m k_e e^{jγ} */
+check_vector hci_check_emf_expected(double speed, const check_model *m)
+{
+    return hci_check_turned((check_vector){0.0, speed * m->emf}, m->emf_phase_rad);
+}
+
+/* jω(L_d i_d + jL_q i_q); without inductances 0. */
+static check_vector reactive_drop(const check_loop *x, const check_model *m)
+{
+    const check_vector flux = {hci_check_or_zero(m->inductance_d_H) * x->turning.re,
+                               hci_check_or_zero(m->inductance_q_H) * x->turning.im};
+    return hci_check_turned(hci_check_scaled(flux, m->pole_pairs), 0.5 * HCI_PI);
+}
+
+static check_vector drop_of(const check_figures *f, const check_run *r, const check_loop *x,
+                            const check_model *m)
+{
+    const check_vector none = {0.0, 0.0};
+    if (!hci_check_has_drop(f, r)) return none;
+    return hci_check_sum(hci_check_scaled(x->current, m->resistance_ohm), reactive_drop(x, m));
+}
+
+static double voltage_unknown(const check_run *r, const check_loop *x)
+{
+    return r->has_dq_voltage ? COMMAND_UNKNOWN * hci_check_length(x->voltage) : 0.0;
+}
+
+/* Σ E Ê* / Σ |Ê|² over the recordings, with E = v − R i − jω(L_d i_d + jL_q i_q). */
+static check_value emf_fit(const check_figures *f, const check_view *v, const check_model *m, bool of_angle)
+{
+    const double tolerance = of_angle ? PERCENT(EMF_ANGLE_TOLERANCE_PERCENT) : PERCENT(EMF_TOLERANCE_PERCENT);
+    check_fit re = {0}, im = {0};
+    for (size_t k = 0; k < f->runs; ++k) {
+        const check_run *r = &f->run[k];
+        if (!hci_check_has_emf(f, r, m)) continue;
+        const check_loop loop = hci_check_loop_of(r, v, m);
+        const check_vector expected = hci_check_emf_expected(loop.speed, m), drop = drop_of(f, r, &loop, m);
+        const check_vector found = hci_check_sum(loop.voltage, hci_check_scaled(drop, -1.0));
+        const double length = hci_check_length(expected),
+                     unknown = hypot(DROP_UNKNOWN * hci_check_length(drop), voltage_unknown(r, &loop)) /
+                               length / tolerance;
+        const check_vector cross = hci_check_product(found, hci_check_conjugate(expected));
+        hci_check_fit_add(&re, cross.re / length, length, unknown);
+        hci_check_fit_add(&im, cross.im / length, length, unknown);
+    }
+    check_value x = hci_check_fit_value(&re);
+    const double y = hci_check_fit_value(&im).found;
+    if (!isnan(x.found)) x.found = of_angle ? atan2(y, x.found) : hypot(x.found, y);
+    return x;
+}
+
+check_value hci_check_of_emf_size(const check_figures *f, const check_view *v, const check_model *m)
+{
+    return emf_fit(f, v, m, false);
+}
+
+check_value hci_check_of_emf_angle(const check_figures *f, const check_view *v, const check_model *m)
+{
+    return emf_fit(f, v, m, true);
+}
+
+/* The part of v − Ê − jω(L_d i_d + jL_q i_q) along the current, over R i. Inductances that are not known have
+ * a drop that is mostly across the current. */
+check_value hci_check_of_resistance_size(const check_figures *f, const check_view *v, const check_model *m)
+{
+    check_fit x = {0};
+    for (size_t k = 0; k < f->runs; ++k) {
+        const check_run *r = &f->run[k];
+        if (!hci_check_has_turning_voltage(r) || !hci_check_has_vector_current(f, r) ||
+            isnan(m->resistance_ohm))
+            continue;
+        const check_loop loop = hci_check_loop_of(r, v, m);
+        const check_vector i = loop.current, e = hci_check_emf_expected(loop.speed, m),
+                           l = reactive_drop(&loop, m);
+        const check_vector rest = hci_check_sum(loop.voltage, hci_check_scaled(hci_check_sum(e, l), -1.0));
+        const double length = hci_check_length(i), drop = m->resistance_ohm * length;
+        const double inductance = isnan(m->inductance_q_H) ? SALIENCY_UNKNOWN * hci_check_length(e)
+                                                           : DROP_UNKNOWN * hci_check_length(l);
+        const double unknown = hypot(PERCENT(EMF_TOLERANCE_PERCENT) * hci_check_length(e) + inductance,
+                                     voltage_unknown(r, &loop));
+        hci_check_fit_add(&x, hci_check_product(rest, hci_check_conjugate(i)).re / length, drop,
+                          unknown / drop / PERCENT(RESISTANCE_TOLERANCE_PERCENT));
+    }
+    return hci_check_fit_value(&x);
+}
+
+/* Without an angle: |v|/ω_e = k_e/p. */
+check_value hci_check_of_emf_per_frequency(const check_figures *f, const check_view *v, const check_model *m)
+{
+    check_fit x = {0};
+    for (size_t k = 0; k < f->runs; ++k) {
+        const check_run *r = &f->run[k];
+        if (r->theta || !isfinite(r->frequency) || hci_check_has_current(f, r) ||
+            hci_check_is_unbalanced(r->voltage_balance))
+            continue;
+        const double line = v->voltage_is_line > 0.0 ? SQRT3 : 1.0;
+        hci_check_fit_add(&x, sqrt(r->voltage_square) / line,
+                          fabs(r->frequency / v->time) * m->emf / m->pole_pairs, 0.0);
+    }
+    return hci_check_fit_value(&x);
+}
+
+/* ---- phases */
+
+check_value hci_check_of_current_sum(const check_figures *f, const check_view *v, const check_model *m)
+{
+    double worst = NAN;
+    (void)v, (void)m;
+    for (size_t k = 0; k < f->runs && !f->has_neutral; ++k)
+        if (hci_check_has_vector_current(f, &f->run[k])) worst = fmax(worst, f->run[k].current_sum);
+    return hci_check_found(worst);
+}
+
+check_value hci_check_of_current_balance(const check_figures *f, const check_view *v, const check_model *m)
+{
+    double worst = NAN;
+    (void)v, (void)m;
+    for (size_t k = 0; k < f->runs; ++k)
+        if (hci_check_has_vector_current(f, &f->run[k])) worst = fmax(worst, f->run[k].current_balance);
+    return hci_check_found(worst);
+}
+
+check_value hci_check_of_voltage_balance(const check_figures *f, const check_view *v, const check_model *m)
+{
+    double worst = NAN;
+    (void)v, (void)m;
+    for (size_t k = 0; k < f->runs; ++k)
+        worst = fmax(worst, f->run[k].voltage_balance);
+    return hci_check_found(worst);
+}

@@ -1,0 +1,109 @@
+#include "host/csv/write.h"
+
+#include <assert.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "host/csv/table.h"
+#include "hci/host/base/output.h"
+#include "host/base/memory.h"
+#include "host/base/quote.h"
+
+typedef struct {
+    const hci_csv *csv;
+    const hci_csv_added *added;
+    size_t added_count;
+    hci_output *output;
+    hci_note *note;
+} writer;
+
+static bool is_replaced(const writer *w, size_t column)
+{
+    for (size_t k = 0; k < w->added_count; ++k)
+        if (hci_text_is(hci_csv_cell(w->csv, 0, column), w->added[k].name)) return true;
+    return false;
+}
+
+static bool needs_quotes(const char *cell, bool first)
+{
+    return strpbrk(cell, ",;\t\"\r\n") != NULL || (first && *cell == '#');
+}
+
+/* A cell and the comma after it. */
+static void write_cell(const writer *w, const char *cell, bool first)
+{
+    if (!needs_quotes(cell, first)) {
+        hci_output_text(w->output, "%s,", cell);
+        return;
+    }
+    hci_output_text(w->output, "\"");
+    for (; *cell != '\0'; ++cell)
+        hci_output_text(w->output, "%s%c", *cell == '"' ? "\"" : "", *cell);
+    hci_output_text(w->output, "\",");
+}
+
+/* A number with a decimal comma gets a point, and keeps its digits. */
+static void write_number(const writer *w, const char *cell, const char *comma)
+{
+    hci_output_text(w->output, "%.*s.%s,", (int)(comma - cell), cell, comma + 1);
+}
+
+static hci_status write_own(const writer *w, size_t record)
+{
+    bool first = true;
+    for (size_t column = 0; column < w->csv->columns; ++column) {
+        const char *cell = hci_csv_cell(w->csv, record, column);
+        if (is_replaced(w, column)) continue;
+        if (!hci_utf8_valid(cell))
+            return hci_csv_encoding_error(w->csv, hci_csv_record_line(w->csv, record), column, cell, w->note);
+        const char *comma = w->csv->separator == ';' ? strchr(cell, ',') : NULL;
+        if (comma != NULL && hci_csv_kind(w->csv, cell) == HCI_NUMBER_FINITE)
+            write_number(w, cell, comma);
+        else
+            write_cell(w, cell, first);
+        first = false;
+    }
+    return HCI_OK;
+}
+
+static hci_status write_record(const writer *w, size_t record)
+{
+    const hci_status status = write_own(w, record);
+    const size_t first = hci_csv_first_record(w->csv);
+    for (size_t k = 0; k < w->added_count && status == HCI_OK; ++k) {
+        const char end = k + 1 < w->added_count ? ',' : '\n';
+        if (record >= first)
+            hci_output_number(w->output, w->added[k].value[record - first], end);
+        else
+            hci_output_text(w->output, "%s%c", record == 0 ? w->added[k].name : w->added[k].unit, end);
+    }
+    return status;
+}
+
+/* The folder of a path, and its last part. */
+static hci_status open_output(const char *path, hci_output **output, hci_note *note)
+{
+    const char *slash = strrchr(path, '/');
+    const size_t length = slash == NULL ? 1 : slash == path ? 1 : (size_t)(slash - path);
+    char *folder = hci_memory_malloc(length + 1);
+    if (folder == NULL) return hci_note_set(note, HCI_ERROR_MEMORY, "not enough memory for the output");
+    memcpy(folder, slash == NULL ? "." : path, length);
+    folder[length] = '\0';
+    hci_status status = hci_output_open(folder, output, note);
+    hci_memory_free(folder);
+    if (status == HCI_OK) status = hci_output_file(*output, slash == NULL ? path : slash + 1, note);
+    return status;
+}
+
+hci_status hci_csv_write_with(const hci_csv *csv, const hci_csv_added *added, size_t count, const char *path,
+                              hci_note *note)
+{
+    writer w = {csv, added, count, NULL, note};
+    assert(count > 0);
+    hci_status status = open_output(path, &w.output, note);
+    for (size_t record = 0; record < csv->records && status == HCI_OK; ++record)
+        status = write_record(&w, record);
+    if (status == HCI_OK) return hci_output_commit(w.output, note);
+    hci_output_discard(w.output);
+    return status;
+}

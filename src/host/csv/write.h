@@ -1,0 +1,18 @@
+/* A CSV file that was read, written again with further columns. */
+#ifndef HCI_SRC_HOST_CSV_WRITE_H
+#define HCI_SRC_HOST_CSV_WRITE_H
+
+#include "hci/host/csv/csv.h"
+
+typedef struct {
+    const char *name, *unit; /* unit: for a file that has a row of units */
+    const double *value;     /* hci_csv_rows of them */
+} hci_csv_added;
+
+/* Writes the columns of `csv` as they stand, but with comma and decimal point, and then those added; columns
+ * of the same name are left out. Comments are not kept. HCI_ERROR_INPUT for a text that is not UTF-8,
+ * _OUTPUT, _NOT_FINITE, _MEMORY. */
+hci_status hci_csv_write_with(const hci_csv *csv, const hci_csv_added *added, size_t count, const char *path,
+                              hci_note *note);
+
+#endif

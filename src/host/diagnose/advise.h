@@ -1,0 +1,21 @@
+/* The smallest further measurement that would tell two explanations apart. */
+#ifndef HCI_SRC_HOST_DIAGNOSE_ADVISE_H
+#define HCI_SRC_HOST_DIAGNOSE_ADVISE_H
+
+#include "host/diagnose/fit/evidence.h"
+
+/* Two explanations of the same recordings, and what they are called. */
+typedef struct {
+    const hci_suspects *right, *wrong;
+    const char *right_name, *wrong_name;
+} hci_advice_request;
+
+/* Looks through steady runs of one mechanical turn over currents, current angles, speeds and directions
+ * within the range of the recordings, and four times the speed where they have one only. For each, χ² by
+ * which the explanation `right` would contradict `wrong` after `wrong` has been fitted again, with what the
+ * recordings know of its parameters. text[size]: out, in words: the run with the least current and speed that
+ * is decisive, or the best one. HCI_ERROR_MEMORY. O(points·samples·parameters²). */
+hci_status hci_advise(const hci_evidence *evidence, const hci_advice_request *request, char *text,
+                      size_t size, hci_note *note);
+
+#endif

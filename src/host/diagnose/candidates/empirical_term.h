@@ -1,0 +1,29 @@
+/* A torque of one order that grows with current, speed and direction in a way that no known effect does: what
+ * an explanation by known effects has to be better than.
+ *
+ *     T = (S sin nθ + C cos nθ) |i|^a |ω|^b (sign ω)^c
+ *
+ * It competes like the other effects but never gets into a machine. */
+#ifndef HCI_SRC_HOST_DIAGNOSE_CANDIDATES_EMPIRICAL_TERM_H
+#define HCI_SRC_HOST_DIAGNOSE_CANDIDATES_EMPIRICAL_TERM_H
+
+#include "hci/effects/effects.h"
+
+/* How a torque grows: |i| and |ω| relative to 1 A and 1 rad/s. */
+typedef struct {
+    double current, speed; /* exponents */
+    bool turns_sign;       /* with the direction */
+} hci_growth;
+
+enum { HCI_GROWTHS = 64 };
+
+extern const hci_effect_room hci_unknown_room; /* parameter 2g is the sine, 2g + 1 the cosine of growth g */
+
+hci_growth hci_growth_of(size_t g);
+
+/* Whether known effects grow so: with a whole power of the current, or at order 0 like friction. */
+bool hci_growth_is_known(size_t g, double order);
+
+double hci_growth_at(size_t g, double current_A, double speed_rad_per_s);
+
+#endif

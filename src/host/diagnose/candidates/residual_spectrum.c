@@ -1,0 +1,222 @@
+#include "host/diagnose/candidates/residual_spectrum.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "hci/machine/frames.h"
+#include "host/base/memory.h"
+#include "host/diagnose/candidates/empirical_term.h"
+
+#define RESOLVED 0.48 /* orders for each sample of a turn */
+
+enum { MOST_PERIODS = 1200 /* in a mechanical turn */, MOST_ELECTRICAL = 96 };
+
+/* ---- sums ---- */
+
+/* The finest order that half of the steps of angle resolve. */
+static double range_of(const hci_cells *cells, const hci_stretch *x)
+{
+    double least = INFINITY, most = -INFINITY;
+    for (size_t k = x->first; k < x->first + x->count; ++k) {
+        least = fmin(least, cells->cell[k].reading.theta_m_rad);
+        most = fmax(most, cells->cell[k].reading.theta_m_rad);
+    }
+    return most - least;
+}
+
+static size_t most_periods(const hci_suspects_source *s)
+{
+    double sum = 0.0, turns = 0.0;
+    for (size_t k = 0; k < s->cells->stretch_count; ++k) {
+        const hci_stretch *x = &s->cells->stretch[k];
+        sum += (double)x->count;
+        turns += range_of(s->cells, x) / (2.0 * HCI_PI);
+    }
+    const double resolved = turns > 0.0 ? RESOLVED * sum / turns : 1.0;
+    const double wanted = fmin(resolved, MOST_ELECTRICAL * (double)s->machine->pole_pairs);
+    return (size_t)fmax(1.0, fmin(wanted, MOST_PERIODS)) + 1;
+}
+
+/* Means of the residual of each run, by weight. */
+static void means_of(const hci_suspects_source *s, double *mean, double *weight)
+{
+    for (size_t k = 0; k < s->cells->stretch_count; ++k) {
+        const hci_stretch *x = &s->cells->stretch[k];
+        for (size_t j = x->first; j < x->first + x->count; ++j) {
+            const double w = 1.0 / s->variance[j];
+            mean[x->run] += w * s->residual_Nm[j];
+            weight[x->run] += w;
+        }
+    }
+    for (size_t r = 0; r < s->cells->run_count; ++r)
+        if (weight[r] > 0.0) mean[r] /= weight[r];
+}
+
+/* Sums over all cells. */
+typedef struct {
+    double *with_current; /* [count][2]: with i_q; cosine and sine */
+    double weight, weight_iq;
+} sums;
+
+/* residual: weighted. of_run: sums of the cell's run. */
+static void cell_add(double angle_rad, double residual, double iq, size_t count, double *with_current,
+                     double *of_run)
+{
+    const double cs = cos(angle_rad), sn = sin(angle_rad);
+    double x = 1.0, y = 0.0;
+    for (size_t k = 0; k < count; ++k) {
+        of_run[2 * k] += residual * x;
+        of_run[2 * k + 1] += residual * y;
+        with_current[2 * k] += residual * iq * x;
+        with_current[2 * k + 1] += residual * iq * y;
+        const double next = cs * x - sn * y;
+        y = sn * x + cs * y;
+        x = next;
+    }
+}
+
+static void stretch_add(const hci_suspects_source *s, const hci_stretch *x, double mean,
+                        hci_line_spectrum *lines, sums *sum)
+{
+    for (size_t j = x->first; j < x->first + x->count; ++j) {
+        const hci_sample *reading = &s->cells->cell[j].reading;
+        const double w = 1.0 / s->variance[j], theta = reading->theta_m_rad;
+        const double iq = hci_park(hci_clarke(reading->i_abc), s->machine->pole_pairs * theta).q;
+        cell_add(theta * (double)lines->stride, w * (s->residual_Nm[j] - mean), iq, lines->count,
+                 sum->with_current, lines->of_run + 2 * lines->count * x->run);
+        lines->weight[x->run] += w;
+        sum->weight += w;
+        sum->weight_iq += w * iq * iq;
+    }
+}
+
+/* What a wave with these sums of residual × cos and × sin would explain. */
+static double explained(double cosine, double sine, double weight)
+{
+    return weight > 0.0 ? 2.0 * (cosine * cosine + sine * sine) / weight : 0.0;
+}
+
+static void lines_fill(const sums *sum, size_t runs, hci_line_spectrum *lines)
+{
+    for (size_t k = 0; k < lines->count; ++k) {
+        double cosine = 0.0, sine = 0.0;
+        for (size_t r = 0; r < runs; ++r) {
+            cosine += lines->of_run[2 * (lines->count * r + k)];
+            sine += lines->of_run[2 * (lines->count * r + k) + 1];
+        }
+        lines->still[k] = explained(cosine, sine, sum->weight);
+        lines->with_current[k] =
+            explained(sum->with_current[2 * k], sum->with_current[2 * k + 1], sum->weight_iq);
+    }
+}
+
+/* Everything in one block, which begins at `still`. */
+bool hci_line_spectrum_make(const hci_suspects_source *s, size_t stride, hci_line_spectrum *lines)
+{
+    const size_t runs = s->cells->run_count, count = most_periods(s) / stride + 1;
+    memset(lines, 0, sizeof *lines);
+    lines->stride = stride;
+    lines->count = count;
+    lines->still = hci_memory_new(4 * count + 2 * runs * count + 3 * runs, sizeof *lines->still);
+    if (!lines->still) return false;
+    lines->with_current = lines->still + count;
+    lines->of_run = lines->with_current + count;
+    lines->weight = lines->of_run + 2 * runs * count;
+    double *mean = lines->weight + runs, *of_mean = mean + runs;
+    sums sum = {of_mean + runs, 0.0, 0.0};
+    means_of(s, mean, of_mean);
+    for (size_t k = 0; k < s->cells->stretch_count; ++k) {
+        const hci_stretch *x = &s->cells->stretch[k];
+        stretch_add(s, x, mean[x->run], lines, &sum);
+    }
+    lines_fill(&sum, runs, lines);
+    return true;
+}
+
+void hci_line_spectrum_release(hci_line_spectrum *lines)
+{
+    hci_memory_free(lines->still);
+    memset(lines, 0, sizeof *lines);
+}
+
+/* ---- those that stand out ---- */
+
+static size_t common_divisor(size_t a, size_t b)
+{
+    while (b > 0) {
+        const size_t rest = a % b;
+        a = b;
+        b = rest;
+    }
+    return a;
+}
+
+/* Whether an order of the mechanical turn is one of slots and poles: a whole electrical order, or one that a
+ * group of the poles shares with a group of the slots. */
+static bool is_of_slots(size_t periods, size_t pole_pairs)
+{
+    if (periods % pole_pairs == 0) return true;
+    return periods > pole_pairs && periods % 3 == 0 && common_divisor(periods, pole_pairs) > 1;
+}
+
+static double strength(const hci_line_spectrum *lines, size_t k, bool slots)
+{
+    return slots ? lines->still[k] : fmax(lines->still[k], lines->with_current[k]);
+}
+
+size_t hci_line_spectrum_next(const hci_line_spectrum *lines, size_t pole_pairs, bool slots, double *under)
+{
+    size_t best = 0;
+    double most = HCI_STANDS_OUT;
+    for (size_t k = 1; k < lines->count; ++k) {
+        const double x = strength(lines, k, slots);
+        if (is_of_slots(k * lines->stride, pole_pairs) != slots || x >= *under || x <= most) continue;
+        most = x;
+        best = k;
+    }
+    *under = most;
+    return best * lines->stride;
+}
+
+/* ---- those that grow as nothing known does ---- */
+
+/* What a torque of one order and growth would explain. */
+static double growth_gain(const hci_line_spectrum *lines, const hci_cells *cells, size_t k, size_t g)
+{
+    double cosine = 0.0, sine = 0.0, weight = 0.0;
+    for (size_t r = 0; r < cells->run_count; ++r) {
+        const hci_run_figures *f = &cells->figures[r];
+        const double *sum = lines->of_run + 2 * (lines->count * r + k);
+        const double x = hci_growth_at(g, f->current_A, f->mean_speed_rad_per_s);
+        cosine += x * sum[0];
+        sine += x * sum[1];
+        weight += x * x * lines->weight[r];
+    }
+    return explained(cosine, sine, weight);
+}
+
+static bool is_among(size_t k, const size_t *list, size_t count)
+{
+    for (size_t j = 0; j < count; ++j)
+        if (list[j] == k) return true;
+    return false;
+}
+
+size_t hci_line_spectrum_unknown(const hci_line_spectrum *lines, const hci_cells *cells, const size_t *taken,
+                                 size_t count, size_t *growth)
+{
+    double most = 2.0 * HCI_STANDS_OUT; /* of many growths one fits by chance */
+    size_t best = 0;
+    for (size_t k = 1; k < lines->count; ++k) {
+        if (is_among(k, taken, count)) continue;
+        for (size_t g = 0; g < HCI_GROWTHS; ++g) {
+            if (hci_growth_is_known(g, (double)k)) continue;
+            const double gain = growth_gain(lines, cells, k, g);
+            if (!(gain > most)) continue;
+            most = gain;
+            best = k;
+            *growth = g;
+        }
+    }
+    return best;
+}

@@ -1,0 +1,235 @@
+#include "hci/host/diagnose/diagnose.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "host/diagnose/advise.h"
+#include "host/diagnose/search/attribute.h"
+#include "host/diagnose/fit/dataset.h"
+#include "host/diagnose/findings.h"
+#include "host/recording/free_shaft.h"
+#include "host/base/memory.h"
+#include "host/base/quote.h"
+#include "host/diagnose/run_errors.h"
+#include "host/machine/torque_constant.h"
+#include "host/diagnose/candidates/empirical_term.h"
+
+#define RESOLUTION 5e-4 /* of the largest rms torque */
+
+#define BEYOND        1.05 /* of the largest current and speed fitted: beyond it a run is no test */
+#define NOISY         1.5  /* error of a run held out, over its noise … */
+#define COARSE        4.0  /* … or over the resolution, that speaks against the effects … */
+#define HARDLY_BETTER 0.5  /* … unless it is less than this share of the error without them */
+
+#define ROUNDING   1e-6
+#define BELIEVABLE 0.5 /* of the torque per ampere that is declared: a correction leaves no less */
+
+enum { LONGEST_ADVICE = 200 }; /* bytes of a sentence */
+
+const char *hci_finding_verdict_name(hci_finding_verdict verdict)
+{
+    static const char *const NAMES[] = {"added", "ambiguous", "rejected"};
+    return NAMES[verdict];
+}
+
+const char *hci_diagnosis_verdict_name(hci_diagnosis_verdict verdict)
+{
+    static const char *const NAMES[] = {"complete", "explained", "ambiguous", "unknown"};
+    return NAMES[verdict];
+}
+
+/* ---- the corrected machine ---- */
+
+static hci_status effects_fill(const hci_evidence *e, const hci_suspects *suspects, hci_diagnosis *d,
+                               hci_note *note)
+{
+    hci_model model;
+    const hci_status status = hci_model_make(e->declared, suspects, false, &model, note);
+    if (status) return status;
+    d->effects = (hci_effects_data){model.list, model.effect, model.term};
+    hci_memory_free(model.column);
+    return HCI_OK;
+}
+
+/* ---- advice ---- */
+
+/* For terms that are the same in all runs it takes a run of another kind. */
+static void advice_of_same(const hci_verdict *v, char *text, size_t size)
+{
+    static const struct {
+        const char *effect, *run;
+    } WANTED[] = {
+        {"friction",       "the other direction of rotation, or three speeds"},
+        {"torque_sensor",  "the other direction of rotation"                 },
+        {"channel_delay",  "another speed, at least four times as fast"      },
+        {"current_offset", "a torque transducer and currents of their own"   },
+    };
+    const char *run = "another current, speed and direction";
+    for (size_t k = 0; k < sizeof WANTED / sizeof *WANTED; ++k)
+        if (strcmp(v->room->name, WANTED[k].effect) == 0) run = WANTED[k].run;
+    snprintf(text, size, "%s or %s: a run with %s would tell them apart", v->rival_of->name, v->room->name,
+             run);
+}
+
+/* What would tell the ambiguous ones apart, one sentence for each that there is room for. */
+static hci_status advice_fill(const hci_evidence *e, const hci_attribution *a, hci_diagnosis *d,
+                              hci_note *note)
+{
+    hci_status status = HCI_OK;
+    for (size_t r = 0; r < a->rooms && !status; ++r) {
+        const hci_verdict *v = &a->verdict[r];
+        const size_t used = strlen(d->advice);
+        if (v->in || !v->ambiguous || used + LONGEST_ADVICE > sizeof d->advice) continue;
+        if (used > 0) memcpy(d->advice + used, "; ", 3);
+        const size_t from = strlen(d->advice);
+        if (!v->alternative.suspects.suspect) {
+            advice_of_same(v, d->advice + from, sizeof d->advice - from);
+            continue;
+        }
+        const hci_advice_request request = {&a->account.suspects, &v->alternative.suspects, v->rival_of->name,
+                                            v->room->name};
+        status = hci_advise(e, &request, d->advice + from, sizeof d->advice - from, note);
+    }
+    return status;
+}
+
+/* ---- the whole ---- */
+
+/* What no effect explains is described, and then leaves: it never gets into a machine. */
+static hci_status fill(hci_bench *b, const hci_runs *runs, hci_attribution *a, hci_diagnosis *d,
+                       hci_note *note)
+{
+    hci_unexplained_fill(b, a, d);
+    hci_suspects_leave(&a->account.suspects, &hci_unknown_room);
+    hci_status status = effects_fill(&b->evidence, &a->account.suspects, d, note);
+    if (!status) status = advice_fill(&b->evidence, a, d, note);
+    if (!status) status = hci_run_errors_fill(b, runs, a->account.fit.parameters, d, note);
+    if (!status) hci_findings_fill(a, d);
+    return status;
+}
+
+/* ---- the test ---- */
+
+/* Whether a run is within the currents and speeds of those that were fitted. */
+static bool is_within(const hci_run_figures *f, const hci_bench *b)
+{
+    double most_A = 0.0, most_speed = 0.0;
+    for (size_t r = 0; r < b->cells.run_count; ++r) {
+        if (!b->fit[r]) continue;
+        most_A = fmax(most_A, b->cells.figures[r].current_A);
+        most_speed = fmax(most_speed, fabs(b->cells.figures[r].mean_speed_rad_per_s));
+    }
+    return f->current_A <= BEYOND * most_A && fabs(f->mean_speed_rad_per_s) <= BEYOND * most_speed;
+}
+
+/* Whether the runs held out speak against the effects: they are not described down to their noise, and hardly
+ * better than without. */
+static bool is_contradicted(const hci_bench *b, const hci_runs *runs, const hci_diagnosis *d,
+                            double resolution_Nm)
+{
+    double before = 0.0, after = 0.0, allowed = 0.0;
+    for (size_t k = 0, run = 0; k < runs->count && run < d->runs; ++k) {
+        const hci_run_errors *e = &d->run[run];
+        if (e->file != runs->run[k].name) continue;
+        ++run;
+        if (e->role == HCI_ROLE_FIT || !is_within(&b->cells.figures[k], b)) continue;
+        before += e->rms_before_Nm * e->rms_before_Nm;
+        after += e->rms_after_Nm * e->rms_after_Nm;
+        allowed += fmax(pow(NOISY * e->noise_floor_Nm, 2.0), pow(COARSE * resolution_Nm, 2.0));
+    }
+    return after > allowed && after > HARDLY_BETTER * HARDLY_BETTER * before;
+}
+
+/* What the runs held out contradict is not believed. */
+static hci_status withdraw(hci_bench *b, const hci_runs *runs, hci_attribution *a, hci_diagnosis *d,
+                           hci_note *note)
+{
+    const double strange_Nm2 = d->rms_before_Nm * d->rms_before_Nm - d->noise_Nm * d->noise_Nm;
+    for (size_t r = 0; r < a->rooms; ++r) {
+        hci_suspects_leave(&a->account.suspects, a->verdict[r].room);
+        a->verdict[r].in = a->verdict[r].ambiguous = false;
+    }
+    a->unknown = true;
+    a->unexplained_Nm = sqrt(fmax(0.0, strange_Nm2));
+    hci_diagnosis_release(d);
+    d->contradicted = true;
+    return fill(b, runs, a, d, note);
+}
+
+/* A correction that takes the magnets away has been fitted to something that is meant otherwise. */
+static hci_status check_believable(const hci_machine_data *machine, const hci_effects *declared,
+                                   const hci_runs *runs, const hci_diagnosis *d, hci_note *note)
+{
+    char path[HCI_QUOTE_PATH_SIZE];
+    const double before = hci_torque_constant(&machine->model, declared);
+    const double left = hci_torque_constant(&machine->model, &d->effects.list);
+    const double after = fabs(left) < ROUNDING * before ? 0.0 : left;
+    bool has_free = false;
+    if (!(before > 0.0) || after >= BELIEVABLE * before) return HCI_OK;
+    for (size_t k = 0; k < runs->count; ++k)
+        has_free = has_free || runs->run[k].torque_source == HCI_TORQUE_INERTIA;
+    return hci_note_set(note, HCI_ERROR_INPUT,
+                        "%s: found recordings of %.3g N·m per ampere of i_q, expected about %.3g, as "
+                        "back_emf.csv has it: a correction that takes more than half of it away is not "
+                        "believable; run `check` with these recordings: units, signs, angle and back-EMF%s",
+                        runs->list != NULL ? hci_quote_path(runs->list, path) : "the runs", after, before,
+                        has_free ? ", and see whether a shaft without torque_Nm drives a load" : "");
+}
+
+static hci_status diagnose(hci_bench *b, const hci_machine_data *machine, const hci_runs *runs,
+                           const hci_diagnose_options *options, hci_diagnosis *d, hci_note *note)
+{
+    const double resolution = options->resolution > 0.0 ? options->resolution : RESOLUTION;
+    const hci_attribute_options how = {runs->run, resolution * hci_bench_range_of(b).torque_Nm,
+                                       machine->rated_current_A, options->progress,
+                                       options->progress_context};
+    hci_attribution a;
+    hci_status status = hci_attribute(&b->evidence, &how, &a, note);
+    if (status) return status;
+    status = fill(b, runs, &a, d, note);
+    if (!status && !a.unknown && d->verdict != HCI_DIAGNOSIS_COMPLETE &&
+        is_contradicted(b, runs, d, how.resolution_Nm))
+        status = withdraw(b, runs, &a, d, note);
+    if (!status) status = check_believable(machine, b->evidence.declared, runs, d, note);
+    hci_attribution_release(&a);
+    return status;
+}
+
+static bool is_usable(const hci_runs *runs, size_t k)
+{
+    const hci_run *r = &runs->run[k];
+    return runs->role[k] == HCI_ROLE_FIT && r->torque_Nm && r->theta_m_rad && r->count > 0;
+}
+
+hci_status hci_diagnose(const hci_machine_data *machine, const hci_effects *declared, const hci_runs *runs,
+                        const hci_diagnose_options *options, hci_diagnosis *diagnosis, hci_note *note)
+{
+    hci_bench b;
+    size_t usable = 0;
+    memset(diagnosis, 0, sizeof *diagnosis);
+    for (size_t k = 0; k < runs->count; ++k)
+        usable += is_usable(runs, k);
+    if (usable == 0)
+        return hci_note_set(note, HCI_ERROR_INPUT,
+                            "no run with the role `fit` has an angle and a torque; add torque_Nm (0 for a "
+                            "holding test), or `inertia` to machine.csv for a free shaft");
+    hci_status status = hci_free_shaft_check(machine, declared, runs->run, runs->count, note);
+    if (!status) status = hci_bench_make(machine, declared, runs, &b, note);
+    if (status) return status;
+    status = diagnose(&b, machine, runs, options, diagnosis, note);
+    hci_bench_release(&b);
+    if (status) {
+        hci_diagnosis_release(diagnosis);
+        return status;
+    }
+    return diagnosis->verdict >= HCI_DIAGNOSIS_AMBIGUOUS ? HCI_NOT_REACHED : HCI_OK;
+}
+
+void hci_diagnosis_release(hci_diagnosis *d)
+{
+    hci_effects_release(&d->effects);
+    hci_memory_free(d->run);
+    hci_memory_free(d->line);
+    memset(d, 0, sizeof *d);
+}

@@ -1,0 +1,143 @@
+#include "host/diagnose/findings.h"
+
+#include <assert.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "host/diagnose/candidates/empirical_term.h"
+
+enum { LONGEST_TERM = 80 }; /* bytes of one term in words */
+
+/* ---- in words ---- */
+
+/* "sine_18 = 0.021 ± 0.0008 Nm" */
+static size_t describe_term(const hci_effect_room *room, const hci_effect_term *term, char *text, size_t size)
+{
+    const hci_effect_parameter *p = &room->parameter[term->parameter];
+    const char *unit = strcmp(p->unit, "1") == 0 ? "" : p->unit;
+    char order[32] = "";
+    if (p->ordered) snprintf(order, sizeof order, "_%.6g", term->order);
+    const int length =
+        snprintf(text, size, "%s%s = %.4g ± %.2g %s", p->name, order, term->value, term->std_error, unit);
+    return (size_t)length < size ? (size_t)length : size - 1;
+}
+
+/* All terms of a room that are in, as many as there is room for. */
+static void describe(const hci_suspects *suspects, const hci_effect_room *room, char *text, size_t size)
+{
+    size_t used = 0;
+    text[0] = '\0';
+    for (size_t k = 0; k < suspects->count; ++k) {
+        const hci_suspect *x = &suspects->suspect[k];
+        for (size_t j = 0; x->in && x->room == room && j < x->count; ++j) {
+            const char *between = used == 0 ? "" : "; ";
+            if (used + LONGEST_TERM > size) {
+                snprintf(text + used, size - used, "; …");
+                return;
+            }
+            used += (size_t)snprintf(text + used, size - used, "%s", between);
+            used += describe_term(room, &x->term[j], text + used, size - used);
+        }
+    }
+}
+
+/* ---- findings ---- */
+
+static hci_finding finding_of(const hci_attribution *a, const hci_verdict *v, double whole_Nm2)
+{
+    hci_finding f = {v->room->name, HCI_FINDING_REJECTED, v->gain, NAN, ""};
+    if (v->ambiguous)
+        f.verdict = HCI_FINDING_AMBIGUOUS;
+    else if (v->in)
+        f.verdict = HCI_FINDING_ADDED;
+    if (v->in && whole_Nm2 > 0.0) f.residual_share = fmin(1.0, v->explained_Nm * v->explained_Nm / whole_Nm2);
+    if (v->in) describe(&a->account.suspects, v->room, f.detail, sizeof f.detail);
+    if (!v->in && v->ambiguous) {
+        const int n = snprintf(f.detail, sizeof f.detail, "in place of %s: ", v->rival_of->name);
+        describe(&v->alternative.suspects, v->room, f.detail + n, sizeof f.detail - (size_t)n);
+        if (!v->alternative.suspects.suspect)
+            snprintf(f.detail, sizeof f.detail, "looks the same as a part of %s in all these runs",
+                     v->rival_of->name);
+    }
+    return f;
+}
+
+/* Added, ambiguous, rejected; among those the larger gain first. */
+static bool comes_after(const hci_finding *a, const hci_finding *b)
+{
+    return a->verdict > b->verdict || (a->verdict == b->verdict && a->delta_bic < b->delta_bic);
+}
+
+/* Puts a finding into its place. */
+static void finding_put(hci_diagnosis *d, const hci_finding *f)
+{
+    size_t at = d->findings;
+    assert(d->findings < HCI_MOST_FINDINGS);
+    for (; at > 0 && comes_after(&d->finding[at - 1], f); --at)
+        d->finding[at] = d->finding[at - 1];
+    d->finding[at] = *f;
+    ++d->findings;
+}
+
+/* What no effect explains goes first, in place of what the search says of it. */
+static void unknown_put(const hci_attribution *a, double whole_Nm2, hci_diagnosis *d)
+{
+    hci_finding *f = &d->finding[0];
+    size_t at = 0;
+    while (at < d->findings && strcmp(d->finding[at].effect, hci_unknown_room.name) != 0)
+        ++at;
+    assert(at < d->findings);
+    memmove(f + 1, f, at * sizeof *f);
+    *f = (hci_finding){hci_unknown_room.name, HCI_FINDING_ADDED, NAN, NAN, ""};
+    if (whole_Nm2 > 0.0) f->residual_share = a->unexplained_Nm * a->unexplained_Nm / whole_Nm2;
+    f->delta_bic = a->before.score - a->account.fit.score;
+    snprintf(f->detail, sizeof f->detail, "rms %.3g N·m that grows as no known effect does",
+             a->unexplained_Nm);
+}
+
+static hci_diagnosis_verdict verdict_of(const hci_attribution *a, const hci_diagnosis *d)
+{
+    hci_diagnosis_verdict verdict = HCI_DIAGNOSIS_COMPLETE;
+    if (a->unknown) return HCI_DIAGNOSIS_UNKNOWN;
+    for (size_t k = 0; k < d->findings; ++k) {
+        if (d->finding[k].verdict == HCI_FINDING_AMBIGUOUS) return HCI_DIAGNOSIS_AMBIGUOUS;
+        if (d->finding[k].verdict == HCI_FINDING_ADDED) verdict = HCI_DIAGNOSIS_EXPLAINED;
+    }
+    return verdict;
+}
+
+void hci_findings_fill(const hci_attribution *a, hci_diagnosis *d)
+{
+    const double whole_Nm2 = d->rms_before_Nm * d->rms_before_Nm;
+    for (size_t r = 0; r < a->rooms; ++r) {
+        const hci_finding f = finding_of(a, &a->verdict[r], whole_Nm2);
+        finding_put(d, &f);
+    }
+    if (a->unknown) unknown_put(a, whole_Nm2, d);
+    d->verdict = verdict_of(a, d);
+}
+
+/* ---- what is not explained ---- */
+
+static hci_unexplained unexplained_of(const hci_suspect *s, const hci_bench_range *most)
+{
+    const size_t g = s->term[0].parameter / 2;
+    const hci_growth growth = hci_growth_of(g);
+    const double sine = s->term[0].value, cosine = s->term[1].value;
+    const double grown = fabs(hci_growth_at(g, most->current_A, most->speed_rad_per_s));
+    return (hci_unexplained){
+        s->term[0].order,           sine, cosine, growth.current, growth.speed, growth.turns_sign,
+        hypot(sine, cosine) * grown};
+}
+
+void hci_unexplained_fill(const hci_bench *b, const hci_attribution *a, hci_diagnosis *d)
+{
+    const hci_bench_range most = hci_bench_range_of(b);
+    d->wanders = a->unknown && a->wanders;
+    for (size_t k = 0; k < a->account.suspects.count && a->unknown; ++k) {
+        const hci_suspect *s = &a->account.suspects.suspect[k];
+        if (s->in && s->room == &hci_unknown_room && d->unexplained_count < HCI_MOST_UNEXPLAINED)
+            d->unexplained[d->unexplained_count++] = unexplained_of(s, &most);
+    }
+}

@@ -1,0 +1,16 @@
+/* What an attribution says, as the findings of a diagnosis. */
+#ifndef HCI_SRC_HOST_DIAGNOSE_FINDINGS_H
+#define HCI_SRC_HOST_DIAGNOSE_FINDINGS_H
+
+#include "host/diagnose/search/attribute.h"
+#include "host/diagnose/fit/dataset.h"
+#include "hci/host/diagnose/diagnose.h"
+
+/* Fills finding, most important first, and the verdict. rms_before_Nm of the diagnosis is there already. */
+void hci_findings_fill(const hci_attribution *attribution, hci_diagnosis *diagnosis);
+
+/* Fills unexplained and wanders: what the search describes without knowing it. */
+void hci_unexplained_fill(const hci_bench *bench, const hci_attribution *attribution,
+                          hci_diagnosis *diagnosis);
+
+#endif

@@ -1,0 +1,95 @@
+#include "host/diagnose/fit/dataset.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "host/base/memory.h"
+#include "host/diagnose/prepare/index_alignment.h"
+
+#define ROUNDING 1e-6 /* noise of a sum of currents, as a share of them, that was not measured */
+
+enum { LEAST_SAMPLES = 16 }; /* for the noise of that sum */
+
+/* Noise of i_a + i_b + i_c from its changes between samples; where it is nothing but rounding it was not
+ * measured. */
+static double sum_deviation_A(const hci_run *r)
+{
+    double square = 0.0, largest = 0.0;
+    if (!r->has_sum || r->count < LEAST_SAMPLES) return NAN;
+    for (size_t k = 1; k < r->count; ++k) {
+        const double *i = r->i_A + 3 * k, *j = i - 3;
+        const double change = i[0] + i[1] + i[2] - j[0] - j[1] - j[2];
+        square += change * change;
+        largest = fmax(largest, fabs(i[0]) + fabs(i[1]) + fabs(i[2]));
+    }
+    const double deviation = sqrt(0.5 * square / (double)(r->count - 1));
+    return deviation > ROUNDING * largest ? deviation : (double)NAN;
+}
+
+static hci_status evidence_make(const hci_machine_data *machine, const hci_effects *declared,
+                                const hci_runs *runs, hci_bench *b, hci_note *note)
+{
+    hci_evidence *e = &b->evidence;
+    b->fit = hci_memory_new(2 * runs->count + 1, sizeof *b->fit);
+    b->slip_rad = hci_memory_new(runs->count + 1, sizeof *b->slip_rad);
+    *e = (hci_evidence){&machine->model, declared, &b->cells, runs->run, b->fit, false, NULL, NULL};
+    e->noise = hci_memory_new(b->cells.stretch_count + 1, sizeof *e->noise);
+    e->sum_deviation_A = hci_memory_new(runs->count + 1, sizeof *e->sum_deviation_A);
+    if (!b->fit || !b->slip_rad || !e->noise || !e->sum_deviation_A)
+        return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the recordings");
+    b->any = b->fit + runs->count;
+    for (size_t k = 0; k < runs->count; ++k) {
+        b->any[k] = true;
+        b->fit[k] = runs->role[k] == HCI_ROLE_FIT;
+        e->sum_deviation_A[k] = machine->has_neutral ? (double)NAN : sum_deviation_A(&runs->run[k]);
+    }
+    return HCI_OK;
+}
+
+static hci_status slips_undo(const hci_runs *runs, hci_bench *b, hci_note *note)
+{
+    double *residual_Nm = hci_memory_new(b->cells.count + 1, sizeof *residual_Nm);
+    if (!residual_Nm) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for comparing recordings");
+    b->evidence.use = b->any;
+    hci_status status = hci_evidence_residual(&b->evidence, b->evidence.declared, residual_Nm, note);
+    b->evidence.use = b->fit;
+    if (!status) status = hci_slip_find(&b->cells, runs->run, residual_Nm, b->slip_rad, note);
+    for (size_t k = 0; k < runs->count && !status; ++k)
+        if (b->slip_rad[k] != 0.0)
+            hci_slip_undo(&b->cells, k, b->evidence.machine->pole_pairs, b->slip_rad[k]);
+    hci_memory_free(residual_Nm);
+    return status;
+}
+
+hci_status hci_bench_make(const hci_machine_data *machine, const hci_effects *declared, const hci_runs *runs,
+                          hci_bench *b, hci_note *note)
+{
+    memset(b, 0, sizeof *b);
+    hci_status status = hci_cells_make(&machine->model, runs->run, runs->count, &b->cells, note);
+    if (!status) status = evidence_make(machine, declared, runs, b, note);
+    if (!status) status = slips_undo(runs, b, note);
+    if (status) hci_bench_release(b);
+    return status;
+}
+
+void hci_bench_release(hci_bench *b)
+{
+    hci_memory_free(b->slip_rad);
+    hci_memory_free(b->fit);
+    hci_memory_free(b->evidence.noise);
+    hci_memory_free(b->evidence.sum_deviation_A);
+    hci_cells_release(&b->cells);
+    memset(b, 0, sizeof *b);
+}
+
+hci_bench_range hci_bench_range_of(const hci_bench *b)
+{
+    hci_bench_range x = {0.0, 0.0, 0.0};
+    for (size_t r = 0; r < b->cells.run_count; ++r) {
+        const hci_run_figures *f = &b->cells.figures[r];
+        x.torque_Nm = fmax(x.torque_Nm, f->rms_torque_Nm);
+        x.current_A = fmax(x.current_A, f->current_A);
+        x.speed_rad_per_s = fmax(x.speed_rad_per_s, fabs(f->mean_speed_rad_per_s));
+    }
+    return x;
+}

@@ -1,0 +1,258 @@
+#include "host/diagnose/fit/fit.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "hci/math/dense.h"
+#include "host/base/memory.h"
+
+#define CONVERGED   0.02  /* fall of χ² that a step promises, when it is the last */
+#define REGULAR     1e-10 /* added to a diagonal of 1, so that rounding makes no pivot negative */
+#define WHERE_STUCK 1e-6  /* damping to begin with where the matrix is singular */
+#define WHERE_WORSE 1e-3  /* and where χ² rose */
+#define HARDER      10.0  /* factors of the damping */
+#define EASIER      0.1
+
+enum { MOST_STEPS = 25 };
+
+static hci_status no_memory(hci_note *note)
+{
+    return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for fitting effects");
+}
+
+double hci_suspect_cost(const hci_suspect *suspect, double rows)
+{
+    return suspect->price + (double)suspect->count * log(fmax(2.0, rows));
+}
+
+/* ---- values ---- */
+
+/* A term that is in, and the smallest value that it may have. */
+typedef struct {
+    hci_effect_term *term;
+    double least;
+} unknown;
+
+/* Those that are in, in the order of the columns. unknowns: out, may be NULL. Returns how many. */
+static size_t unknowns_of(hci_suspects *suspects, unknown *unknowns)
+{
+    size_t count = 0;
+    for (size_t k = 0; k < suspects->count; ++k) {
+        hci_suspect *s = &suspects->suspect[k];
+        for (size_t j = 0; s->in && j < s->count; ++j, ++count)
+            if (unknowns)
+                unknowns[count] = (unknown){&s->term[j], s->room->parameter[s->term[j].parameter].least};
+    }
+    return count;
+}
+
+static double score_of(const hci_suspects *suspects, const hci_normal *normal)
+{
+    double score = normal->square;
+    for (size_t k = 0; k < suspects->count; ++k)
+        if (suspects->suspect[k].in) score += hci_suspect_cost(&suspects->suspect[k], normal->rows);
+    return score;
+}
+
+/* ---- steps ---- */
+
+typedef struct {
+    const hci_evidence *evidence;
+    hci_suspects *suspects;
+    unknown *unknowns;                             /* [n] */
+    hci_normal normal;                             /* at the present values */
+    double *matrix;                                /* [n][n] */
+    double *scale, *unit, *step, *from, *variance; /* [n] */
+    double damping;
+} fitting;
+
+/* G + damping·diag G in units where the diagonal is 1; a column without effect is left alone. */
+static bool matrix_factor(fitting *f, double damping)
+{
+    const size_t n = f->normal.n;
+    const double *gram = f->normal.gram;
+    for (size_t k = 0; k < n; ++k)
+        f->scale[k] = gram[k * n + k] > 0.0 ? 1.0 / sqrt(gram[k * n + k]) : 0.0;
+    for (size_t j = 0; j < n; ++j)
+        for (size_t i = 0; i < n; ++i)
+            f->matrix[i + j * n] = gram[i + j * n] * f->scale[i] * f->scale[j] +
+                                   (i == j ? (f->scale[i] > 0.0 ? damping + REGULAR : 1.0) : 0.0);
+    return hci_cholesky_factor(n, f->matrix) == 0;
+}
+
+/* (G + damping·diag G) step = moment */
+static bool step_find(fitting *f, double damping)
+{
+    const size_t n = f->normal.n;
+    if (!matrix_factor(f, damping)) return false;
+    for (size_t k = 0; k < n; ++k)
+        f->step[k] = f->normal.moment[k] * f->scale[k];
+    hci_cholesky_solve(n, f->matrix, f->step);
+    for (size_t k = 0; k < n; ++k)
+        f->step[k] *= f->scale[k];
+    return true;
+}
+
+/* The diagonal of G⁻¹; not known where the matrix is singular. */
+static void errors_set(fitting *f)
+{
+    const size_t n = f->normal.n;
+    if (!matrix_factor(f, 0.0)) return;
+    for (size_t k = 0; k < n; ++k) {
+        memset(f->unit, 0, n * sizeof *f->unit);
+        f->unit[k] = 1.0;
+        hci_cholesky_solve(n, f->matrix, f->unit);
+        f->unknowns[k].term->std_error = sqrt(fmax(0.0, f->unit[k] * f->scale[k] * f->scale[k]));
+    }
+}
+
+/* Moves the values by a step, within what they may be. */
+static void values_move(fitting *f)
+{
+    for (size_t k = 0; k < f->normal.n; ++k) {
+        f->from[k] = f->unknowns[k].term->value;
+        f->unknowns[k].term->value = fmax(f->unknowns[k].least, f->from[k] + f->step[k]);
+    }
+}
+
+static void values_restore(fitting *f)
+{
+    for (size_t k = 0; k < f->normal.n; ++k)
+        f->unknowns[k].term->value = fmax(f->unknowns[k].least, f->from[k]);
+}
+
+/* The fall of χ² if the model were linear. */
+static double promise(const fitting *f)
+{
+    double sum = 0.0;
+    for (size_t k = 0; k < f->normal.n; ++k)
+        sum += f->normal.moment[k] * f->step[k];
+    return sum;
+}
+
+/* Takes a step, or takes it back when χ² rises and damps the next one. */
+static hci_status step_take(fitting *f, bool *last, hci_note *note)
+{
+    hci_normal next;
+    values_move(f);
+    const hci_status status = hci_evidence_normal(f->evidence, f->suspects, false, &next, note);
+    if (status) return status;
+    const double fall = f->normal.square - next.square;
+    if (next.square <= f->normal.square) {
+        hci_normal_release(&f->normal);
+        f->normal = next;
+        f->damping *= EASIER;
+        *last = fall < CONVERGED;
+        return HCI_OK;
+    }
+    values_restore(f);
+    hci_normal_release(&next);
+    f->damping = fmax(WHERE_WORSE, HARDER * f->damping);
+    return HCI_OK;
+}
+
+/* Steps until one promises next to nothing. */
+static hci_status steps_take(fitting *f, hci_note *note)
+{
+    hci_status status = HCI_OK;
+    bool last = false;
+    for (int k = 0; k < MOST_STEPS && !last && !status; ++k) {
+        if (!step_find(f, f->damping)) {
+            f->damping = fmax(WHERE_STUCK, HARDER * f->damping);
+            continue;
+        }
+        if (promise(f) < CONVERGED) break;
+        status = step_take(f, &last, note);
+    }
+    return status;
+}
+
+/* ---- the fit ---- */
+
+static hci_status fitting_make(const hci_evidence *e, hci_suspects *suspects, fitting *f, hci_note *note)
+{
+    const size_t n = unknowns_of(suspects, NULL);
+    memset(f, 0, sizeof *f);
+    f->evidence = e;
+    f->suspects = suspects;
+    f->unknowns = hci_memory_new(n + 1, sizeof *f->unknowns);
+    f->matrix = hci_memory_new(n * n + 5 * n + 1, sizeof *f->matrix);
+    if (!f->unknowns || !f->matrix) return no_memory(note);
+    f->scale = f->matrix + n * n;
+    f->unit = f->scale + n;
+    f->step = f->unit + n;
+    f->from = f->step + n;
+    f->variance = f->from + n;
+    unknowns_of(suspects, f->unknowns);
+    return HCI_OK;
+}
+
+static void fitting_release(fitting *f)
+{
+    hci_memory_free(f->unknowns);
+    hci_memory_free(f->matrix);
+    hci_normal_release(&f->normal);
+}
+
+hci_status hci_evidence_fit(const hci_evidence *evidence, hci_suspects *suspects, hci_fit *fit,
+                            hci_note *note)
+{
+    fitting f;
+    hci_status status = fitting_make(evidence, suspects, &f, note);
+    if (!status) status = hci_evidence_normal(evidence, suspects, false, &f.normal, note);
+    if (!status) status = steps_take(&f, note);
+    if (!status) {
+        errors_set(&f);
+        *fit = (hci_fit){f.normal.square, f.normal.n, score_of(suspects, &f.normal), f.normal.rows};
+    }
+    fitting_release(&f);
+    return status;
+}
+
+/* ---- standard errors ---- */
+
+enum { LEAST_BLOCKS = 5 }; /* for each parameter */
+
+/* uᵀ M u of the scatter M. */
+static double scatter_along(const double *square, const double *u, size_t n)
+{
+    double sum = 0.0;
+    for (size_t i = 0; i < n; ++i)
+        for (size_t j = 0; j < n; ++j)
+            sum += u[i] * square[i * n + j] * u[j];
+    return sum;
+}
+
+/* Diagonal of G⁻¹ M G⁻¹: what the scatter M does to the values. False where G is singular. */
+static bool sandwich(fitting *f, const double *square)
+{
+    const size_t n = f->normal.n;
+    for (size_t j = 0; j < n; ++j)
+        for (size_t i = 0; i < n; ++i)
+            f->matrix[i + j * n] = f->normal.gram[i + j * n] * (i == j ? 1.0 + REGULAR : 1.0);
+    if (hci_cholesky_factor(n, f->matrix)) return false;
+    for (size_t k = 0; k < n; ++k) {
+        memset(f->unit, 0, n * sizeof *f->unit);
+        f->unit[k] = 1.0;
+        hci_cholesky_solve(n, f->matrix, f->unit);
+        f->variance[k] = scatter_along(square, f->unit, n);
+    }
+    return true;
+}
+
+hci_status hci_evidence_errors(const hci_evidence *evidence, hci_suspects *suspects, hci_note *note)
+{
+    fitting f;
+    hci_scatter scatter = {NULL, 0};
+    hci_status status = fitting_make(evidence, suspects, &f, note);
+    if (!status) status = hci_evidence_scatter(evidence, suspects, &f.normal, &scatter, note);
+    const size_t n = f.normal.n;
+    if (!status && n > 0 && scatter.blocks > LEAST_BLOCKS * n && sandwich(&f, scatter.square))
+        for (size_t k = 0; k < n; ++k) {
+            hci_effect_term *term = f.unknowns[k].term;
+            term->std_error = fmax(term->std_error, sqrt(fmax(0.0, f.variance[k])));
+        }
+    hci_memory_free(scatter.square);
+    fitting_release(&f);
+    return status;
+}

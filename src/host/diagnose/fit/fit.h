@@ -1,0 +1,27 @@
+/* The values of suspects that describe recordings best, and how well that is. */
+#ifndef HCI_SRC_HOST_DIAGNOSE_FIT_FIT_H
+#define HCI_SRC_HOST_DIAGNOSE_FIT_FIT_H
+
+#include "host/diagnose/fit/evidence.h"
+
+typedef struct {
+    double square;     /* χ² at the solution */
+    size_t parameters; /* terms that are in */
+    double score;      /* χ² + parameters·ln(samples) + prices: the smaller the better */
+    double rows;
+} hci_fit;
+
+/* Values of the suspects that are in, by Gauss–Newton steps that are shortened where they would not do. Sets
+ * their standard errors too. On failure *fit is as it was. HCI_ERROR_MEMORY. O(steps·cells·parameters²). */
+hci_status hci_evidence_fit(const hci_evidence *evidence, hci_suspects *suspects, hci_fit *fit,
+                            hci_note *note);
+
+/* Raises the standard errors of the suspects that are in where the residual is more correlated than the model
+ * of the noise has it: from the scatter of sums over blocks of the recordings. Nothing happens with few
+ * recordings. HCI_ERROR_MEMORY. */
+hci_status hci_evidence_errors(const hci_evidence *evidence, hci_suspects *suspects, hci_note *note);
+
+/* The price of a suspect's coming in, in units of χ²: of its parameters and of the choice. */
+double hci_suspect_cost(const hci_suspect *suspect, double rows);
+
+#endif

@@ -1,0 +1,30 @@
+/* The effects of a machine with those that are suspected on top. */
+#ifndef HCI_SRC_HOST_DIAGNOSE_FIT_MODEL_H
+#define HCI_SRC_HOST_DIAGNOSE_FIT_MODEL_H
+
+#include "host/diagnose/candidates/candidates.h"
+
+/* A column of the normal equations: one term of a suspect. */
+typedef struct {
+    const hci_suspect *suspect;
+    size_t term;  /* of the suspect's */
+    size_t place; /* among all terms of the list, which is where its derivative stands */
+} hci_model_column;
+
+/* Start with {0}. Release with hci_model_release. */
+typedef struct {
+    hci_effects list;
+    hci_effect *effect;
+    hci_effect_term *term;
+    hci_model_column *column; /* in the order of the suspects and their terms */
+    size_t columns;
+} hci_model;
+
+/* declared: the effects that the machine has; a suspect replaces the value of a declared term. all: with all
+ * suspects, else with those that are in. suspects: kept as long as the model. HCI_ERROR_MEMORY, and then
+ * *model is empty. O(terms). */
+hci_status hci_model_make(const hci_effects *declared, const hci_suspects *suspects, bool all,
+                          hci_model *model, hci_note *note);
+void hci_model_release(hci_model *model);
+
+#endif

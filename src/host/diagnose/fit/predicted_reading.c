@@ -1,0 +1,129 @@
+#include "host/diagnose/fit/predicted_reading.h"
+
+#include <string.h>
+
+#include "host/base/memory.h"
+
+static const char *name_of(const hci_effect *effect, size_t term)
+{
+    return effect->room->parameter[effect->term[term].parameter].name;
+}
+
+/* A lag or a resonance; a time constant of 0 is none. */
+static bool has_dynamics(const hci_effects *effects)
+{
+    for (size_t k = 0; k < effects->count; ++k) {
+        const hci_effect *e = &effects->effect[k];
+        for (size_t j = 0; e->room->filter && j < e->count; ++j)
+            if (strcmp(name_of(e, j), "offset") != 0 && e->term[j].value > 0.0) return true;
+    }
+    return false;
+}
+
+/* Place of a time constant of 0 among all terms, or their number. */
+static size_t dormant_lag(const hci_effects *effects)
+{
+    size_t place = 0;
+    for (size_t k = 0; k < effects->count; ++k) {
+        const hci_effect *e = &effects->effect[k];
+        for (size_t j = 0; j < e->count; ++j, ++place)
+            if (e->room->filter && strcmp(name_of(e, j), "time_constant") == 0 && !(e->term[j].value > 0.0))
+                return place;
+    }
+    return place;
+}
+
+/* A lag of no duration answers with −dT/dt to a longer one. */
+static void lag_derivative(const double *torque, const double *time_s, size_t n, double *column,
+                           size_t stride)
+{
+    for (size_t k = 0; k < n; ++k) {
+        const size_t a = k > 0 ? k - 1 : k, b = k + 1 < n ? k + 1 : k;
+        const double step_s = time_s[b] - time_s[a];
+        column[k * stride] = step_s > 0.0 ? -(torque[b] - torque[a]) / step_s : 0.0;
+    }
+}
+
+bool hci_observation_is_dynamic(const hci_evidence *e, const hci_stretch *s)
+{
+    return s->timed && s->smooth && e->runs[s->run].torque_source == HCI_TORQUE_MEASURED;
+}
+
+static size_t longest_in_laps(const hci_evidence *e, bool dynamic)
+{
+    size_t most = 1;
+    for (size_t k = 0; k < e->cells->stretch_count; ++k) {
+        const hci_stretch *s = &e->cells->stretch[k];
+        const size_t n = s->count * (dynamic && s->turns > 0 ? HCI_LAPS : 1);
+        most = n > most ? n : most;
+    }
+    return most;
+}
+
+bool hci_observation_make(const hci_evidence *e, const hci_effects *effects, bool derivatives,
+                          hci_observation *o)
+{
+    const size_t most = longest_in_laps(e, has_dynamics(effects));
+    memset(o, 0, sizeof *o);
+    o->terms = hci_effects_terms(effects);
+    o->torque_Nm = hci_memory_new(2 * most, sizeof *o->torque_Nm);
+    if (derivatives) o->by_value = hci_memory_new(most * (o->terms + 1), sizeof *o->by_value);
+    if (!o->torque_Nm || (derivatives && !o->by_value)) {
+        hci_observation_release(o);
+        return false;
+    }
+    o->time_s = o->torque_Nm + most;
+    return true;
+}
+
+void hci_observation_release(hci_observation *o)
+{
+    hci_memory_free(o->torque_Nm);
+    hci_memory_free(o->by_value);
+    memset(o, 0, sizeof *o);
+}
+
+/* Without the dynamics of the sensor. */
+static void observe_still(const hci_evidence *e, const hci_effects *effects, const hci_stretch *s,
+                          hci_observation *o)
+{
+    const hci_cell *cell = e->cells->cell + s->first;
+    for (size_t k = 0; k < s->count; ++k) {
+        double *by_value = o->by_value ? o->by_value + k * o->terms : NULL;
+        o->torque_Nm[k] =
+            hci_effects_predict(e->machine, effects, e->raw ? &cell[k].raw : &cell[k].reading, by_value);
+        o->time_s[k] = cell[k].time_s;
+    }
+}
+
+/* Writes the first lap n cells long again behind it. */
+static void lap_repeat(hci_observation *o, size_t n, size_t lap, double period_s)
+{
+    memcpy(o->torque_Nm + lap * n, o->torque_Nm, n * sizeof *o->torque_Nm);
+    if (o->by_value)
+        memcpy(o->by_value + lap * n * o->terms, o->by_value, n * o->terms * sizeof *o->by_value);
+    for (size_t k = 0; k < n; ++k)
+        o->time_s[lap * n + k] = o->time_s[k] + (double)lap * period_s;
+}
+
+/* Keeps the last lap, in which the sensor has settled. */
+static void lap_keep(hci_observation *o, size_t n, size_t lap)
+{
+    memmove(o->torque_Nm, o->torque_Nm + lap * n, n * sizeof *o->torque_Nm);
+    if (o->by_value)
+        memmove(o->by_value, o->by_value + lap * n * o->terms, n * o->terms * sizeof *o->by_value);
+}
+
+void hci_observe(const hci_evidence *e, const hci_effects *effects, const hci_stretch *s, hci_observation *o)
+{
+    const bool sensor = hci_observation_is_dynamic(e, s), dynamic = sensor && has_dynamics(effects);
+    const size_t laps = dynamic && s->turns > 0 ? HCI_LAPS : 1, lag = dormant_lag(effects);
+    observe_still(e, effects, s, o);
+    if (o->by_value && sensor && lag < o->terms)
+        lag_derivative(o->torque_Nm, o->time_s, s->count, o->by_value + lag, o->terms);
+    if (!dynamic) return;
+    for (size_t lap = 1; lap < laps; ++lap)
+        lap_repeat(o, s->count, lap, s->period_s);
+    hci_effects_filter(effects, o->time_s, laps * s->count, o->torque_Nm, o->by_value);
+    if (laps > 1) lap_keep(o, s->count, laps - 1);
+}

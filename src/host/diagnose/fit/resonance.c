@@ -1,0 +1,109 @@
+#include "host/diagnose/fit/resonance.h"
+
+#include <math.h>
+
+#include "hci/math/harmonic.h"
+#include "host/base/memory.h"
+#include "host/diagnose/fit/predicted_reading.h"
+
+enum { FREQUENCIES = 48 };
+
+static const double DAMPING[] = {0.03, 0.1, 0.3};
+
+#define TOP 0.33 /* highest frequency, as a share of the sampling rate */
+
+/* Torque without and with the resonance, in laps of a steady turn. */
+typedef struct {
+    const hci_evidence *evidence;
+    const double *residual_Nm;
+    double *torque_Nm, *time_s, *y;
+} listening;
+
+/* The torque in the air gap: what was measured, less what the model leaves. */
+static void laps_fill(const listening *l, const hci_stretch *s, size_t laps)
+{
+    const hci_cell *cell = l->evidence->cells->cell + s->first;
+    for (size_t lap = 0; lap < laps; ++lap)
+        for (size_t k = 0; k < s->count; ++k) {
+            l->torque_Nm[lap * s->count + k] = cell[k].torque_Nm - l->residual_Nm[s->first + k];
+            l->time_s[lap * s->count + k] = cell[k].time_s + (double)lap * s->period_s;
+        }
+}
+
+static double stretch_square(const listening *l, const hci_effects *sensor, const hci_stretch *s)
+{
+    const hci_cell *cell = l->evidence->cells->cell + s->first;
+    const size_t n = s->count, laps = s->turns > 0 ? HCI_LAPS : 1;
+    double sum = 0.0;
+    laps_fill(l, s, laps);
+    if (sensor) hci_effects_filter(sensor, l->time_s, laps * n, l->torque_Nm, NULL);
+    for (size_t k = 0; k < n; ++k)
+        l->y[k] = cell[k].torque_Nm - l->torque_Nm[(laps - 1) * n + k];
+    hci_noise_whiten(hci_evidence_noise(l->evidence, s), l->y, n, 1);
+    for (size_t k = 0; k < n; ++k)
+        sum += l->y[k] * l->y[k];
+    return sum;
+}
+
+/* χ² of all that a sensor's dynamics could show in. sensor: NULL for one without. */
+static double sensor_square(const listening *l, const hci_effects *sensor)
+{
+    double sum = 0.0;
+    for (const hci_stretch *s = NULL; (s = hci_evidence_next(l->evidence, s)) != NULL;)
+        if (hci_observation_is_dynamic(l->evidence, s)) sum += stretch_square(l, sensor, s);
+    return sum;
+}
+
+static double square_with(const listening *l, double frequency_Hz, double damping)
+{
+    const hci_effect_room *room = hci_effect_room_find("torque_sensor");
+    const hci_effect_term term[] = {
+        {1, 0.0, frequency_Hz, NAN},
+        {2, 0.0, damping,      NAN}
+    };
+    const hci_effect effect = {room, term, 2};
+    const hci_effects sensor = {&effect, 1};
+    return sensor_square(l, &sensor);
+}
+
+/* From the slowest turn to a third of the sampling rate. */
+static void frequency_range(const hci_evidence *e, double *low_Hz, double *high_Hz)
+{
+    *low_Hz = INFINITY;
+    *high_Hz = 0.0;
+    for (const hci_stretch *s = NULL; (s = hci_evidence_next(e, s)) != NULL;) {
+        const hci_cell *cell = e->cells->cell + s->first;
+        const double length_s = s->turns > 0 ? s->period_s : cell[s->count - 1].time_s - cell[0].time_s;
+        const double speed = fabs(cell[s->count / 2].reading.speed_rad_per_s);
+        if (!hci_observation_is_dynamic(e, s) || !(length_s > 0.0)) continue;
+        *high_Hz = fmax(*high_Hz, TOP * (double)s->count / length_s);
+        if (speed > 0.0) *low_Hz = fmin(*low_Hz, speed / (2.0 * HCI_PI));
+    }
+}
+
+static void grid_search(const listening *l, hci_resonance *best)
+{
+    double low_Hz, high_Hz;
+    frequency_range(l->evidence, &low_Hz, &high_Hz);
+    const double before = sensor_square(l, NULL);
+    for (int k = 0; k < FREQUENCIES && low_Hz < high_Hz; ++k) {
+        const double frequency_Hz = low_Hz * pow(high_Hz / low_Hz, (double)k / (FREQUENCIES - 1));
+        for (size_t j = 0; j < sizeof DAMPING / sizeof *DAMPING; ++j) {
+            const double fall = before - square_with(l, frequency_Hz, DAMPING[j]);
+            if (fall > best->gain) *best = (hci_resonance){frequency_Hz, DAMPING[j], fall};
+        }
+    }
+}
+
+hci_status hci_resonance_find(const hci_evidence *evidence, const double *residual_Nm,
+                              hci_resonance *resonance, hci_note *note)
+{
+    const size_t most = hci_cells_longest(evidence->cells);
+    double *work = hci_memory_new((2 * HCI_LAPS + 1) * most, sizeof *work);
+    *resonance = (hci_resonance){0.0, 0.0, 0.0};
+    if (!work) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for resonances of the sensor");
+    const listening l = {evidence, residual_Nm, work, work + HCI_LAPS * most, work + 2 * HCI_LAPS * most};
+    grid_search(&l, resonance);
+    hci_memory_free(work);
+    return HCI_OK;
+}

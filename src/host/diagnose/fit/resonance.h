@@ -1,0 +1,17 @@
+/* A resonance of the torque sensor, looked for where a fit could not find it from nothing. */
+#ifndef HCI_SRC_HOST_DIAGNOSE_FIT_RESONANCE_H
+#define HCI_SRC_HOST_DIAGNOSE_FIT_RESONANCE_H
+
+#include "host/diagnose/fit/evidence.h"
+
+typedef struct {
+    double natural_frequency_Hz, damping;
+    double gain; /* fall of χ² */
+} hci_resonance;
+
+/* The point of a grid of frequencies and dampings where χ² falls most; all 0 where no point helps.
+ * residual_Nm: of the model without one. HCI_ERROR_MEMORY. O(cells) for each of some hundred points. */
+hci_status hci_resonance_find(const hci_evidence *evidence, const double *residual_Nm,
+                              hci_resonance *resonance, hci_note *note);
+
+#endif

@@ -1,0 +1,347 @@
+#include "host/diagnose/prepare/binned_samples.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "host/diagnose/prepare/current_rate.h"
+#include "host/diagnose/prepare/run_statistics.h"
+#include "hci/machine/frames.h"
+#include "host/base/memory.h"
+#include "host/diagnose/prepare/smooth.h"
+
+enum {
+    CELLS_PER_TURN = 4096, /* of a mean over turns */
+    LEAST_TURNS = 3,       /* for such a mean */
+    MOST_OPEN = 8          /* stretches of samples as they are, for each run */
+};
+
+#define STEADY   0.02 /* change of current and speed within a mean, as a share of their largest */
+#define STEADY_K 1.0  /* and of temperature, in kelvin */
+#define NEARLY   0.02 /* of a turn: turning back by more ends a lap, falling short by less does not count */
+
+/* One run on its way into the cells. */
+typedef struct {
+    const hci_run *run;
+    size_t index; /* in the list of runs */
+    int pole_pairs;
+    const hci_run_figures *figures;
+    hci_cells *cells;
+    size_t *room; /* for so many cells there is memory */
+} reduction;
+
+/* ---- samples ---- */
+
+static void sample_of(const hci_run *r, size_t k, hci_cell *c)
+{
+    memset(c, 0, sizeof *c);
+    c->reading.theta_m_rad = r->theta_m_rad[k];
+    c->reading.speed_rad_per_s = r->speed_rad_per_s ? r->speed_rad_per_s[k] : 0.0;
+    memcpy(c->reading.i_abc, r->i_A + 3 * k, sizeof c->reading.i_abc);
+    c->reading.temperature_C = r->temperature_C ? r->temperature_C[k] : (double)NAN;
+    c->torque_Nm = r->torque_Nm[k];
+    c->sum_A = r->has_sum ? r->i_A[3 * k] + r->i_A[3 * k + 1] + r->i_A[3 * k + 2] : (double)NAN;
+    c->time_s = r->time_s ? r->time_s[k] : 0.0;
+    c->count = 1.0;
+}
+
+/* Room for so many more cells: where they begin, NULL when memory is out. */
+static hci_cell *reserve(const reduction *x, size_t more)
+{
+    hci_cells *cells = x->cells;
+    if (cells->count + more > *x->room) {
+        const size_t wanted = 2 * (cells->count + more);
+        hci_cell *grown = hci_memory_resize(cells->cell, wanted, sizeof *grown);
+        if (!grown) return NULL;
+        cells->cell = grown;
+        *x->room = wanted;
+    }
+    return cells->cell + cells->count;
+}
+
+static bool stretch_add(hci_cells *cells, const hci_stretch *s)
+{
+    hci_stretch *grown = hci_memory_resize(cells->stretch, cells->stretch_count + 1, sizeof *grown);
+    if (!grown) return false;
+    cells->stretch = grown;
+    grown[cells->stretch_count++] = *s;
+    return true;
+}
+
+/* Keeps the readings, smooths them, and finds how fast the currents change. */
+static bool stretch_finish(const reduction *x, hci_stretch *s)
+{
+    hci_cell *cell = x->cells->cell + s->first;
+    bool series = false;
+    for (size_t k = 0; k < s->count; ++k)
+        cell[k].raw = cell[k].reading;
+    /* in a holding test the current is what is measured, noise and all */
+    if (x->run->torque_source != HCI_TORQUE_HOLDING &&
+        !hci_smooth_stretch(cell, s, x->pole_pairs, x->run->turn_known, &series))
+        return false;
+    if (s->timed && !series) hci_change_set(cell, s->count, x->pole_pairs);
+    for (size_t k = 0; k < s->count; ++k) {
+        const hci_sample *from = &cell[k].reading;
+        memcpy(cell[k].raw.change_A_per_s, from->change_A_per_s, sizeof from->change_A_per_s);
+        memcpy(cell[k].raw.curvature_A_per_s2, from->curvature_A_per_s2, sizeof from->curvature_A_per_s2);
+    }
+    s->smooth = series;
+    return stretch_add(x->cells, s);
+}
+
+/* ---- laps ---- */
+
+/* Samples of one turn, and their means. */
+typedef struct {
+    size_t first, count;
+    double d, q, speed, temperature;
+    bool whole;
+} lap;
+
+/* After which everything repeats. */
+static double turn_of(const reduction *x)
+{
+    return 2.0 * HCI_PI * (x->run->turn_known ? 1.0 : 1.0 / x->pole_pairs);
+}
+
+static double direction_of(const hci_run *r, size_t from, size_t to)
+{
+    return r->theta_m_rad[to] >= r->theta_m_rad[from] ? 1.0 : -1.0;
+}
+
+static double lap_direction(const hci_run *r, const lap *x)
+{
+    return direction_of(r, x->first, x->first + x->count - 1);
+}
+
+static void lap_add(const reduction *x, size_t k, lap *sum)
+{
+    const hci_run *r = x->run;
+    const hci_dq i = hci_park(hci_clarke(r->i_A + 3 * k), x->pole_pairs * r->theta_m_rad[k]);
+    sum->d += i.d;
+    sum->q += i.q;
+    sum->speed += r->speed_rad_per_s ? r->speed_rad_per_s[k] : 0.0;
+    sum->temperature += r->temperature_C ? r->temperature_C[k] : 0.0;
+}
+
+/* The next lap from a sample on: until the angle has gone once round, or turns back. */
+static lap lap_from(const reduction *x, size_t first)
+{
+    const double *theta = x->run->theta_m_rad, turn = turn_of(x);
+    lap sum = {first, 0, 0.0, 0.0, 0.0, 0.0, false};
+    double farthest = 0.0;
+    size_t k = first;
+    for (; k < x->run->count; ++k) {
+        const double gone = fabs(theta[k] - theta[first]);
+        if (gone >= turn || gone < farthest - NEARLY * turn) break;
+        farthest = fmax(farthest, gone);
+        lap_add(x, k, &sum);
+    }
+    sum.count = k - first;
+    sum.whole = k < x->run->count && farthest >= (1.0 - NEARLY) * turn;
+    sum.d /= (double)sum.count;
+    sum.q /= (double)sum.count;
+    sum.speed /= (double)sum.count;
+    sum.temperature /= (double)sum.count;
+    return sum;
+}
+
+/* Whether two laps may go into one mean. */
+static bool alike(const reduction *x, const lap *a, const lap *b)
+{
+    const double most_A = x->figures->current_A, most_speed = fabs(x->figures->mean_speed_rad_per_s);
+    return a->whole && b->whole && lap_direction(x->run, a) == lap_direction(x->run, b) &&
+           hypot(a->d - b->d, a->q - b->q) <= STEADY * most_A + 1e-12 &&
+           fabs(a->speed - b->speed) <= STEADY * most_speed + 1e-12 &&
+           fabs(a->temperature - b->temperature) < STEADY_K;
+}
+
+static bool laps_find(const reduction *x, lap **laps, size_t *count)
+{
+    size_t room = 64;
+    *count = 0;
+    *laps = hci_memory_new(room, sizeof **laps);
+    for (size_t at = 0; *laps && at < x->run->count;) {
+        if (*count == room) {
+            lap *grown = hci_memory_resize(*laps, room *= 2, sizeof *grown);
+            if (!grown) return false;
+            *laps = grown;
+        }
+        (*laps)[*count] = lap_from(x, at);
+        at += (*laps)[(*count)++].count;
+    }
+    return *laps != NULL;
+}
+
+/* ---- means over turns ---- */
+
+static void mean_add(hci_cell *c, const hci_cell *x)
+{
+    const double w = 1.0 / (c->count += 1.0);
+    hci_sample *m = &c->reading;
+    m->theta_m_rad += w * (x->reading.theta_m_rad - m->theta_m_rad);
+    m->speed_rad_per_s += w * (x->reading.speed_rad_per_s - m->speed_rad_per_s);
+    for (int s = 0; s < 3; ++s)
+        m->i_abc[s] += w * (x->reading.i_abc[s] - m->i_abc[s]);
+    m->temperature_C += w * (x->reading.temperature_C - m->temperature_C);
+    const double departure = x->torque_Nm - c->torque_Nm;
+    c->torque_Nm += w * departure;
+    c->scatter_N2m2 += departure * (x->torque_Nm - c->torque_Nm);
+    c->sum_A += w * (x->sum_A - c->sum_A);
+}
+
+/* Means of samples first … last over the turns, by angle. cell: [CELLS_PER_TURN]. */
+static void means_take(const reduction *x, size_t first, size_t last, hci_cell *cell)
+{
+    const double turn = turn_of(x);
+    memset(cell, 0, CELLS_PER_TURN * sizeof *cell);
+    for (size_t k = first; k <= last; ++k) {
+        hci_cell sample;
+        sample_of(x->run, k, &sample);
+        sample.reading.theta_m_rad -= turn * floor(sample.reading.theta_m_rad / turn);
+        const size_t at = (size_t)(sample.reading.theta_m_rad / turn * CELLS_PER_TURN);
+        mean_add(&cell[at < CELLS_PER_TURN ? at : CELLS_PER_TURN - 1], &sample);
+    }
+}
+
+/* Sorts the cells along time: against the angle when it falls; then gives them the time of a steady turn.
+ * Returns how many are not empty. */
+static size_t cells_close(hci_cell *cell, double direction, double turn_rad, double period_s)
+{
+    size_t kept = 0;
+    for (size_t k = 0; k < CELLS_PER_TURN; ++k)
+        if (cell[k].count > 0.0) cell[kept++] = cell[k];
+    for (size_t k = 0; direction < 0.0 && k < kept / 2; ++k) {
+        const hci_cell x = cell[k];
+        cell[k] = cell[kept - 1 - k];
+        cell[kept - 1 - k] = x;
+    }
+    for (size_t k = 0; k < kept; ++k)
+        cell[k].time_s =
+            fabs(cell[k].reading.theta_m_rad - cell[0].reading.theta_m_rad) / turn_rad * period_s;
+    return kept;
+}
+
+/* Time of one turn, from samples that do not span whole turns exactly; 0 without time. */
+static double period_of(const reduction *x, size_t first, size_t last)
+{
+    const hci_run *r = x->run;
+    const double span_rad = fabs(r->theta_m_rad[last] - r->theta_m_rad[first]);
+    return r->time_s ? (r->time_s[last] - r->time_s[first]) * turn_of(x) / span_rad : 0.0;
+}
+
+/* Adds the mean over some laps as one stretch. */
+static bool mean_stretch(const reduction *x, const lap *laps, size_t count)
+{
+    const hci_run *r = x->run;
+    const size_t first = laps[0].first, last = laps[count - 1].first + laps[count - 1].count - 1;
+    const double period_s = period_of(x, first, last);
+    hci_stretch s = {x->index, x->cells->count, 0, count, period_s, r->time_s != NULL, false};
+    hci_cell *cell = reserve(x, CELLS_PER_TURN);
+    if (!cell) return false;
+    means_take(x, first, last, cell);
+    s.count = cells_close(cell, direction_of(r, first, last), turn_of(x), period_s);
+    x->cells->count += s.count;
+    return stretch_finish(x, &s);
+}
+
+/* ---- samples as they are ---- */
+
+static bool open_stretch(const reduction *x, size_t first, size_t count)
+{
+    hci_stretch s = {x->index, x->cells->count, count, 0, 0.0, x->run->time_s != NULL, false};
+    hci_cell *cell = reserve(x, count);
+    if (!cell) return false;
+    for (size_t k = 0; k < count; ++k)
+        sample_of(x->run, first + k, &cell[k]);
+    x->cells->count += count;
+    return stretch_finish(x, &s);
+}
+
+/* A recording that is not steady and too long for all of it: parts of it, evenly spread. */
+static bool open_stretches(const reduction *x, size_t first, size_t count)
+{
+    const size_t pieces = (count + HCI_MOST_STRETCH - 1) / HCI_MOST_STRETCH;
+    const size_t kept = pieces < MOST_OPEN ? pieces : MOST_OPEN;
+    for (size_t k = 0; k < kept; ++k) {
+        const size_t piece = pieces * k / kept, length = count / pieces;
+        if (!open_stretch(x, first + piece * length, length)) return false;
+    }
+    return true;
+}
+
+/* ---- a run ---- */
+
+static size_t behind(const lap *x)
+{
+    return x->first + x->count;
+}
+
+/* Steady laps become one mean, what is between them stays as it is; a short rest behind them is left. */
+static bool laps_reduce(const reduction *x, const lap *laps, size_t count)
+{
+    size_t open = 0; /* first sample that is not in a stretch yet */
+    for (size_t k = 0, next; k < count; k = next) {
+        for (next = k + 1; next < count && alike(x, &laps[k], &laps[next]);)
+            ++next;
+        if (next - k < LEAST_TURNS) continue;
+        if (laps[k].first > open && !open_stretches(x, open, laps[k].first - open)) return false;
+        if (!mean_stretch(x, laps + k, next - k)) return false;
+        open = behind(&laps[next - 1]);
+    }
+    const size_t rest = x->run->count - open;
+    return (open > 0 && rest <= HCI_MOST_STRETCH) || open_stretches(x, open, rest);
+}
+
+static bool run_reduce(const reduction *x)
+{
+    lap *laps = NULL;
+    size_t count = 0;
+    if (x->run->count <= HCI_MOST_STRETCH) return open_stretch(x, 0, x->run->count);
+    const bool done = laps_find(x, &laps, &count) && laps_reduce(x, laps, count);
+    hci_memory_free(laps);
+    return done;
+}
+
+hci_status hci_cells_make(const hci_machine *machine, const hci_run *runs, size_t run_count, hci_cells *cells,
+                          hci_note *note)
+{
+    size_t room = 0;
+    memset(cells, 0, sizeof *cells);
+    cells->run_count = run_count;
+    cells->figures = hci_memory_new(run_count + 1, sizeof *cells->figures);
+    bool done = cells->figures != NULL;
+    for (size_t k = 0; k < run_count && done; ++k) {
+        const reduction x = {&runs[k], k, machine->pole_pairs, &cells->figures[k], cells, &room};
+        cells->figures[k] = hci_figures_of(&runs[k], machine->pole_pairs);
+        if (runs[k].torque_Nm && runs[k].theta_m_rad && runs[k].i_A && runs[k].count > 0)
+            done = run_reduce(&x);
+    }
+    if (done) return HCI_OK;
+    hci_cells_release(cells);
+    return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the recordings");
+}
+
+void hci_cells_release(hci_cells *cells)
+{
+    hci_memory_free(cells->cell);
+    hci_memory_free(cells->stretch);
+    hci_memory_free(cells->figures);
+    memset(cells, 0, sizeof *cells);
+}
+
+size_t hci_cells_longest(const hci_cells *cells)
+{
+    size_t most = 1;
+    for (size_t k = 0; k < cells->stretch_count; ++k)
+        most = cells->stretch[k].count > most ? cells->stretch[k].count : most;
+    return most;
+}
+
+const hci_stretch *hci_cells_next(const hci_cells *cells, size_t run, const hci_stretch *after)
+{
+    const hci_stretch *end = cells->stretch + cells->stretch_count;
+    const hci_stretch *s = after ? after + 1 : cells->stretch;
+    while (s < end && s->run != run)
+        ++s;
+    return s < end ? s : NULL;
+}

@@ -1,0 +1,64 @@
+/* Recordings made small: what is left of a long one is the mean over its turns, angle by angle. */
+#ifndef HCI_SRC_HOST_DIAGNOSE_PREPARE_BINNED_SAMPLES_H
+#define HCI_SRC_HOST_DIAGNOSE_PREPARE_BINNED_SAMPLES_H
+
+#include "hci/effects/effects.h"
+#include "hci/host/base/note.h"
+#include "hci/host/recording/run.h"
+
+/* A sample, or the mean of those at about the same angle in several turns. */
+typedef struct {
+    hci_sample reading; /* smoothed, for regressions */
+    hci_sample raw;     /* as it was read */
+    double torque_Nm;
+    double sum_A;        /* i_a + i_b + i_c; NAN where they were not recorded one by one */
+    double time_s;       /* ascending within a stretch; 0 where there is none */
+    double count;        /* samples in it */
+    double scatter_N2m2; /* sum of the squared departures of their torques from the mean */
+} hci_cell;
+
+enum { HCI_MOST_STRETCH = 4096 }; /* cells of a stretch */
+
+/* Cells that follow each other in time. */
+typedef struct {
+    size_t run;          /* in the list of runs */
+    size_t first, count; /* its cells */
+    size_t turns;    /* in the mean, electrical periods where the turn is not known; 0: samples as they are */
+    double period_s; /* of one turn, when turns > 0 */
+    bool timed;
+    bool smooth; /* the currents are free of noise */
+} hci_stretch;
+
+/* What a run says of itself before any model. */
+typedef struct {
+    double mean_torque_Nm, rms_torque_Nm;
+    double mean_speed_rad_per_s, current_A; /* root mean square of the current vector's length */
+    double mean_id_A, mean_iq_A;
+    double repeat_Nm; /* rms departure of a sample from the mean over the turns at its angle; NAN: one turn */
+    double angle_step_rad; /* smallest step of the mechanical angle: the encoder's resolution or finer */
+    double turns;          /* of the mechanical angle, from the least to the largest */
+    double temperature_C;  /* mean; NAN */
+} hci_run_figures;
+
+/* Start with {0}. */
+typedef struct {
+    hci_cell *cell;
+    size_t count;
+    hci_stretch *stretch;
+    size_t stretch_count;
+    hci_run_figures *figures; /* one for each run */
+    size_t run_count;
+} hci_cells;
+
+/* Runs without a torque give no cells. HCI_ERROR_MEMORY. O(samples). */
+hci_status hci_cells_make(const hci_machine *machine, const hci_run *runs, size_t run_count, hci_cells *cells,
+                          hci_note *note);
+void hci_cells_release(hci_cells *cells);
+
+/* Cells of the longest stretch, at least 1. */
+size_t hci_cells_longest(const hci_cells *cells);
+
+/* The stretch of a run that follows `after` (NULL: the first one); NULL behind the last. */
+const hci_stretch *hci_cells_next(const hci_cells *cells, size_t run, const hci_stretch *after);
+
+#endif

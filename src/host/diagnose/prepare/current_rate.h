@@ -1,0 +1,11 @@
+/* How fast the currents of a recording change in the rotor frame, from neighbouring samples. */
+#ifndef HCI_SRC_HOST_DIAGNOSE_PREPARE_CURRENT_RATE_H
+#define HCI_SRC_HOST_DIAGNOSE_PREPARE_CURRENT_RATE_H
+
+#include "host/diagnose/prepare/binned_samples.h"
+
+/* Sets reading.change_A_per_s of n cells that follow each other in time; left at 0 where there are too few.
+ * O(n). */
+void hci_change_set(hci_cell *cell, size_t n, int pole_pairs);
+
+#endif

@@ -1,0 +1,85 @@
+#include "host/diagnose/prepare/run_statistics.h"
+
+#include <math.h>
+
+#include "hci/machine/frames.h"
+#include "host/numeric/angle_bins.h"
+
+#define ROUNDING_RAD 1e-7 /* a step of angle up to this is none */
+#define FREEDOM      100.0
+
+enum { LEAST_TURNS = 3, LEAST_PER_RANGE = 4, MOST_STEPS = 20000 };
+
+/* The smallest step between neighbours that is not rounding. */
+static double angle_step(const hci_run *r)
+{
+    const size_t n = r->count < MOST_STEPS ? r->count : MOST_STEPS;
+    double least = INFINITY;
+    for (size_t k = 1; k < n; ++k) {
+        const double step = fabs(r->theta_m_rad[k] - r->theta_m_rad[k - 1]);
+        if (step > ROUNDING_RAD) least = fmin(least, step);
+    }
+    return isfinite(least) ? least : 0.0;
+}
+
+/* How much a range's mean torque rises from end to end, from those beside it. */
+static double rise_at(const hci_repeat *mean, size_t range)
+{
+    const size_t next = (range + 1) % mean->ranges, before = (range + mean->ranges - 1) % mean->ranges;
+    return 0.5 * (hci_repeat_mean(mean, next) - hci_repeat_mean(mean, before));
+}
+
+/* How far a sample is from the mean of those at the same angle in other turns. */
+static double repeatability(const hci_run *r, double turns)
+{
+    hci_repeat mean = {.ranges = HCI_MOST_RANGES}, level = {.ranges = HCI_MOST_RANGES};
+    if (!(turns >= LEAST_TURNS) || r->count < LEAST_PER_RANGE * HCI_MOST_RANGES) return NAN;
+    for (size_t k = 0; k < r->count; ++k)
+        hci_repeat_add(&mean, r->theta_m_rad[k] / (2.0 * HCI_PI), r->torque_Nm[k]);
+    for (size_t k = 0; k < r->count; ++k) {
+        const double x = r->theta_m_rad[k] / (2.0 * HCI_PI), place = HCI_MOST_RANGES * (x - floor(x));
+        const double rise = rise_at(&mean, hci_repeat_at(&mean, x));
+        hci_repeat_add(&level, x, r->torque_Nm[k] - rise * (place - floor(place) - 0.5));
+    }
+    return hci_repeat_rms(&level, FREEDOM);
+}
+
+/* From the least angle to the largest: a map that goes there and back is one turn. */
+static double turns_of(const hci_run *r)
+{
+    double least = r->theta_m_rad[0], most = least;
+    for (size_t k = 1; k < r->count; ++k) {
+        least = fmin(least, r->theta_m_rad[k]);
+        most = fmax(most, r->theta_m_rad[k]);
+    }
+    return (most - least) / (2.0 * HCI_PI);
+}
+
+static void sample_add(const hci_run *r, int pole_pairs, size_t k, hci_run_figures *f)
+{
+    const double n = (double)r->count;
+    const hci_dq i = hci_park(hci_clarke(r->i_A + 3 * k), pole_pairs * r->theta_m_rad[k]);
+    const double torque = r->torque_Nm ? r->torque_Nm[k] : 0.0;
+    f->mean_torque_Nm += torque / n;
+    f->rms_torque_Nm += torque * torque / n;
+    f->current_A += (i.d * i.d + i.q * i.q) / n;
+    f->mean_id_A += i.d / n;
+    f->mean_iq_A += i.q / n;
+    f->mean_speed_rad_per_s += r->speed_rad_per_s ? r->speed_rad_per_s[k] / n : 0.0;
+    if (r->temperature_C) f->temperature_C += r->temperature_C[k] / n;
+}
+
+hci_run_figures hci_figures_of(const hci_run *r, int pole_pairs)
+{
+    hci_run_figures f = {.repeat_Nm = NAN, .temperature_C = NAN};
+    if (r->count == 0 || !r->theta_m_rad || !r->i_A) return f;
+    if (r->temperature_C) f.temperature_C = 0.0;
+    for (size_t k = 0; k < r->count; ++k)
+        sample_add(r, pole_pairs, k, &f);
+    f.rms_torque_Nm = sqrt(f.rms_torque_Nm);
+    f.current_A = sqrt(f.current_A);
+    f.angle_step_rad = angle_step(r);
+    f.turns = turns_of(r);
+    if (r->torque_Nm) f.repeat_Nm = repeatability(r, f.turns);
+    return f;
+}

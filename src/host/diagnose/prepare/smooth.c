@@ -1,0 +1,246 @@
+#include "host/diagnose/prepare/smooth.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "hci/math/dense.h"
+#include "hci/machine/frames.h"
+#include "host/base/memory.h"
+#include "host/numeric/normal_equations.h"
+
+enum {
+    REACH = 10,      /* neighbours on each side for the angle */
+    MOST_ORDER = 24, /* electrical, of the currents in the rotor frame */
+    ALL_ORDERS = 7,  /* up to here those of the mechanical turn too */
+    MOST_PERIODS = 200,
+    LEAST_SAMPLES = 20 /* for each coefficient */
+};
+
+#define STEADY  0.05 /* change of current within the stretch, as a share */
+#define TURNING 0.5  /* and of speed, for the angle to be a smooth curve */
+
+/* ---- angle ---- */
+
+static bool is_turning(const hci_cell *cell, size_t n)
+{
+    double least = INFINITY, most = -INFINITY;
+    for (size_t k = 0; k < n; ++k) {
+        least = fmin(least, cell[k].reading.speed_rad_per_s);
+        most = fmax(most, cell[k].reading.speed_rad_per_s);
+    }
+    return least * most > 0.0 && most - least < TURNING * fmax(fabs(most), fabs(least));
+}
+
+/* The value at `at` of the parabola through the angles around it; x: time from there. */
+static double parabola_at(const hci_cell *cell, size_t from, size_t to, size_t at)
+{
+    double s[5] = {0.0}, y[3] = {0.0};
+    const double scale = cell[to].time_s - cell[from].time_s, base = cell[at].reading.theta_m_rad;
+    for (size_t k = from; k <= to; ++k) {
+        const double x = (cell[k].time_s - cell[at].time_s) / scale, v = cell[k].reading.theta_m_rad - base;
+        double power = 1.0;
+        for (int j = 0; j < 5; ++j, power *= x) {
+            s[j] += power;
+            if (j < 3) y[j] += power * v;
+        }
+    }
+    const double d = s[0] * (s[2] * s[4] - s[3] * s[3]) - s[1] * (s[1] * s[4] - s[2] * s[3]) +
+                     s[2] * (s[1] * s[3] - s[2] * s[2]);
+    const double c = y[0] * (s[2] * s[4] - s[3] * s[3]) - s[1] * (y[1] * s[4] - s[3] * y[2]) +
+                     s[2] * (y[1] * s[3] - s[2] * y[2]);
+    return d > 0.0 ? base + c / d : base;
+}
+
+static bool angle_smooth(hci_cell *cell, size_t n)
+{
+    double *smooth = hci_memory_new(n, sizeof *smooth);
+    if (!smooth) return false;
+    for (size_t k = 0; k < n; ++k) {
+        const size_t reach = k < REACH ? k : n - 1 - k < REACH ? n - 1 - k : REACH;
+        smooth[k] = reach < 2 ? cell[k].reading.theta_m_rad : parabola_at(cell, k - reach, k + reach, k);
+    }
+    for (size_t k = 0; k < n; ++k)
+        cell[k].reading.theta_m_rad = smooth[k];
+    hci_memory_free(smooth);
+    return true;
+}
+
+/* ---- currents ---- */
+
+/* Means of the halves of a stretch in the rotor frame are the same. */
+static bool is_steady(const hci_cell *cell, size_t n, int pole_pairs)
+{
+    double d[2] = {0.0}, q[2] = {0.0}, length = 0.0;
+    for (size_t k = 0; k < n; ++k) {
+        const hci_dq i =
+            hci_park(hci_clarke(cell[k].reading.i_abc), pole_pairs * cell[k].reading.theta_m_rad);
+        d[2 * k >= n] += 2.0 * i.d / (double)n;
+        q[2 * k >= n] += 2.0 * i.q / (double)n;
+        length += hypot(i.d, i.q) / (double)n;
+    }
+    return hypot(d[1] - d[0], q[1] - q[0]) <= STEADY * length;
+}
+
+/* Periods in a turn, ascending: all up to a few times the pole pairs, where irregularities of the rotor and
+ * of the encoder lie, and whole electrical ones up to the last. In the rotor frame injected 5th and 7th
+ * harmonics are of order 6. Without a known turn only the latter, in electrical orders. */
+static size_t periods_list(int pole_pairs, bool turns, size_t n, size_t *periods)
+{
+    const size_t p = (size_t)pole_pairs, most = n / (2 * LEAST_SAMPLES);
+    size_t count = 0;
+    for (size_t k = 1; k <= MOST_ORDER * p && count < MOST_PERIODS && count < most; ++k)
+        if (k % p == 0 || (turns && k <= ALL_ORDERS * p)) periods[count++] = k;
+    return count;
+}
+
+/* [1, cos, sin, cos, sin …] of the periods at an angle. */
+static void basis_at(double theta_m_rad, const size_t *periods, size_t count, double *row)
+{
+    const double c = cos(theta_m_rad), s = sin(theta_m_rad);
+    double x = 1.0, y = 0.0;
+    size_t k = 0;
+    row[0] = 1.0;
+    for (size_t j = 0; j < count; ++j) {
+        for (; k < periods[j]; ++k) {
+            const double next = c * x - s * y;
+            y = s * x + c * y;
+            x = next;
+        }
+        row[1 + 2 * j] = x;
+        row[2 + 2 * j] = y;
+    }
+}
+
+static double series_at(const double *row, const double *coefficients, size_t n)
+{
+    double sum = 0.0;
+    for (size_t k = 0; k < n; ++k)
+        sum += row[k] * coefficients[k];
+    return sum;
+}
+
+/* Coefficients of one coordinate by least squares; the angles of steady turns are spread evenly enough for
+ * normal equations. False where they are not. */
+static bool series_fit(const hci_normal *normal, double *factor, double *coefficients)
+{
+    memcpy(factor, normal->gram, normal->n * normal->n * sizeof *factor);
+    memcpy(coefficients, normal->moment, normal->n * sizeof *coefficients);
+    if (hci_cholesky_factor(normal->n, factor)) return false;
+    hci_cholesky_solve(normal->n, factor, coefficients);
+    return true;
+}
+
+/* dx/dθ_m and d²x/dθ_m² of a series; row: its basis. */
+static void slopes_at(const double *row, const double *coefficients, const size_t *periods, size_t count,
+                      double *slope, double *curvature)
+{
+    *slope = *curvature = 0.0;
+    for (size_t j = 0; j < count; ++j) {
+        const double k = (double)periods[j], c = coefficients[1 + 2 * j], s = coefficients[2 + 2 * j];
+        *slope += k * (s * row[1 + 2 * j] - c * row[2 + 2 * j]);
+        *curvature -= k * k * (c * row[1 + 2 * j] + s * row[2 + 2 * j]);
+    }
+}
+
+/* coordinate: i_d, i_q and the zero sequence of each sample; slope, curvature: their derivatives by the
+ * angle. */
+typedef struct {
+    double *rows, *coordinate[3], *slope[3], *curvature[3], *factor, *coefficients;
+    hci_normal normal;
+} series_room;
+
+/* Replaces one coordinate by its series. */
+static bool coordinate_smooth(series_room *r, size_t n, const size_t *periods, int axis)
+{
+    double *coordinate = r->coordinate[axis];
+    const size_t columns = r->normal.n;
+    memset(r->normal.moment, 0, columns * sizeof *r->normal.moment);
+    for (size_t k = 0; k < n; ++k)
+        for (size_t c = 0; c < columns; ++c)
+            r->normal.moment[c] += r->rows[k * columns + c] * coordinate[k];
+    if (!series_fit(&r->normal, r->factor, r->coefficients)) return false;
+    for (size_t k = 0; k < n; ++k) {
+        coordinate[k] = series_at(r->rows + k * columns, r->coefficients, columns);
+        slopes_at(r->rows + k * columns, r->coefficients, periods, columns / 2, &r->slope[axis][k],
+                  &r->curvature[axis][k]);
+    }
+    return true;
+}
+
+/* Rows of the basis and the coordinates of each sample. */
+static void coordinates_read(const hci_cell *cell, size_t n, int pole_pairs, const size_t *periods,
+                             size_t count, series_room *r)
+{
+    for (size_t k = 0; k < n; ++k) {
+        const hci_sample *x = &cell[k].reading;
+        const hci_dq i = hci_park(hci_clarke(x->i_abc), pole_pairs * x->theta_m_rad);
+        basis_at(x->theta_m_rad, periods, count, r->rows + k * r->normal.n);
+        r->coordinate[0][k] = i.d;
+        r->coordinate[1][k] = i.q;
+        r->coordinate[2][k] = i.zero;
+    }
+}
+
+static void phases_of(double *const axis[3], size_t k, double scale, double theta_rad, double *phases)
+{
+    const hci_dq x = {scale * axis[0][k], scale * axis[1][k], scale * axis[2][k]};
+    hci_clarke_inverse(hci_park_inverse(x, theta_rad), phases);
+}
+
+static void coordinates_write(const series_room *r, size_t n, int pole_pairs, hci_cell *cell)
+{
+    for (size_t k = 0; k < n; ++k) {
+        hci_sample *x = &cell[k].reading;
+        const double theta = pole_pairs * x->theta_m_rad, speed = x->speed_rad_per_s;
+        phases_of(r->coordinate, k, 1.0, theta, x->i_abc);
+        phases_of(r->slope, k, speed, theta, x->change_A_per_s);
+        phases_of(r->curvature, k, speed * speed, theta, x->curvature_A_per_s2);
+    }
+}
+
+/* Replaces the currents by their series; false, and nothing is changed, where one has no solution. */
+static bool currents_smooth(hci_cell *cell, size_t n, int pole_pairs, const size_t *periods, size_t count,
+                            series_room *r)
+{
+    coordinates_read(cell, n, pole_pairs, periods, count, r);
+    hci_normal_add(&r->normal, r->rows, r->coordinate[0], n);
+    hci_normal_finish(&r->normal);
+    for (int c = 0; c < 3; ++c)
+        if (!coordinate_smooth(r, n, periods, c)) return false;
+    coordinates_write(r, n, pole_pairs, cell);
+    return true;
+}
+
+static bool room_make(series_room *r, size_t n, size_t columns)
+{
+    memset(r, 0, sizeof *r);
+    r->rows = hci_memory_new(n * (columns + 9) + columns * (columns + 1), sizeof *r->rows);
+    if (!r->rows || !hci_normal_start(&r->normal, columns)) return false;
+    for (size_t c = 0; c < 3; ++c) {
+        r->coordinate[c] = r->rows + n * (columns + c);
+        r->slope[c] = r->rows + n * (columns + 3 + c);
+        r->curvature[c] = r->rows + n * (columns + 6 + c);
+    }
+    r->factor = r->rows + n * (columns + 9);
+    r->coefficients = r->factor + columns * columns;
+    return true;
+}
+
+bool hci_smooth_stretch(hci_cell *cell, const hci_stretch *stretch, int pole_pairs, bool turns, bool *series)
+{
+    const size_t n = stretch->count;
+    size_t periods[MOST_PERIODS];
+    const size_t count = periods_list(pole_pairs, turns, n, periods);
+    series_room room;
+    bool made;
+    *series = false;
+    if (stretch->timed && stretch->turns == 0 && n > 4 * REACH && is_turning(cell, n) &&
+        !angle_smooth(cell, n))
+        return false;
+    if (count < MOST_ORDER || !is_steady(cell, n, pole_pairs)) return true;
+    made = room_make(&room, n, 2 * count + 1);
+    if (made) *series = currents_smooth(cell, n, pole_pairs, periods, count, &room);
+    hci_memory_free(room.rows);
+    hci_normal_release(&room.normal);
+    return made;
+}

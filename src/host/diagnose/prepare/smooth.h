@@ -1,0 +1,13 @@
+/* Readings without their noise: a shaft turns smoothly between the steps of its encoder, and the currents of
+ * a steady run repeat with the angle. A regression on noisy readings would explain their noise. */
+#ifndef HCI_SRC_HOST_DIAGNOSE_PREPARE_SMOOTH_H
+#define HCI_SRC_HOST_DIAGNOSE_PREPARE_SMOOTH_H
+
+#include "host/diagnose/prepare/binned_samples.h"
+
+/* Smooths the readings of one stretch in place where it is steady; where it is not they stay. turns: orders
+ * of the mechanical turn are in it. series: out, whether the currents are a Fourier series over the angle
+ * now, with their rate of change from that. False when memory is out. O(cells). */
+bool hci_smooth_stretch(hci_cell *cell, const hci_stretch *stretch, int pole_pairs, bool turns, bool *series);
+
+#endif

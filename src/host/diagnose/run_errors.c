@@ -1,0 +1,181 @@
+#include "host/diagnose/run_errors.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "hci/math/harmonic.h"
+#include "host/diagnose/candidate_orders.h"
+#include "host/base/memory.h"
+#include "host/numeric/angle_bins.h"
+
+#define SIGMA_95    1.96 /* of a normal distribution, for 95 % */
+#define PER_RANGE   8.0  /* samples in a range of the turn */
+#define LEAST_TURNS 3.0
+#define FREEDOM     50.0
+
+static hci_status no_memory(hci_note *note)
+{
+    return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the errors of the recordings");
+}
+
+/* ---- one run ---- */
+
+static double samples_of(const hci_bench *b, size_t run)
+{
+    double count = 0.0;
+    for (const hci_stretch *s = NULL; (s = hci_cells_next(&b->cells, run, s)) != NULL;)
+        for (size_t j = s->first; j < s->first + s->count; ++j)
+            count += b->cells.cell[j].count;
+    return count;
+}
+
+/* Over samples: a mean over turns has the scatter of those that are in it too. NAN without cells. */
+static double rms_of(const hci_bench *b, size_t run, const double *residual)
+{
+    double sum = 0.0, count = 0.0;
+    for (const hci_stretch *s = NULL; (s = hci_cells_next(&b->cells, run, s)) != NULL;)
+        for (size_t j = s->first; j < s->first + s->count; ++j) {
+            sum += b->cells.cell[j].count * residual[j] * residual[j] + b->cells.cell[j].scatter_N2m2;
+            count += b->cells.cell[j].count;
+        }
+    return count > 0.0 ? sqrt(sum / count) : (double)NAN;
+}
+
+/* Of the samples in means over turns; NAN where there are none. */
+static double scatter_of(const hci_bench *b, size_t run)
+{
+    double sum = 0.0, freedom = 0.0;
+    for (const hci_stretch *s = NULL; (s = hci_cells_next(&b->cells, run, s)) != NULL;)
+        for (size_t j = s->first; j < s->first + s->count && s->turns > 0; ++j) {
+            sum += b->cells.cell[j].scatter_N2m2;
+            freedom += b->cells.cell[j].count - 1.0;
+        }
+    return freedom > FREEDOM ? sqrt(sum / freedom) : (double)NAN;
+}
+
+/* How far a sample's residual is from the mean of those at about the same angle. */
+static double repeatability(const hci_bench *b, size_t run, const double *residual, double turn_rad)
+{
+    hci_repeat repeat = {0};
+    double samples = 0.0;
+    for (const hci_stretch *s = NULL; (s = hci_cells_next(&b->cells, run, s)) != NULL;)
+        samples += (double)s->count;
+    const bool few = samples < PER_RANGE * HCI_MOST_RANGES;
+    repeat.ranges = few ? (size_t)(samples / PER_RANGE) + 1 : HCI_MOST_RANGES;
+    for (const hci_stretch *s = NULL; (s = hci_cells_next(&b->cells, run, s)) != NULL;)
+        for (size_t j = s->first; j < s->first + s->count; ++j)
+            hci_repeat_add(&repeat, b->cells.cell[j].raw.theta_m_rad / turn_rad, residual[j]);
+    return hci_repeat_rms(&repeat, FREEDOM);
+}
+
+/* From the turns that a run has; NAN where it has too few. */
+static double noise_of_turns(const hci_bench *b, const hci_run *runs, size_t run, const double *residual)
+{
+    const hci_run_figures *f = &b->cells.figures[run];
+    const double turn_rad = 2.0 * HCI_PI / (runs[run].turn_known ? 1.0 : b->evidence.machine->pole_pairs);
+    const double scatter = scatter_of(b, run);
+    if (isfinite(scatter)) return scatter;
+    if (f->turns * 2.0 * HCI_PI < LEAST_TURNS * turn_rad) return NAN;
+    return repeatability(b, run, residual, turn_rad);
+}
+
+/* From the spectrum between the orders; NAN without cells. */
+static double noise_of_spectrum(const hci_bench *b, size_t run)
+{
+    double sum = 0.0, count = 0.0;
+    for (const hci_stretch *s = NULL; (s = hci_cells_next(&b->cells, run, s)) != NULL;) {
+        const double rms = hci_evidence_noise(&b->evidence, s)->rms;
+        sum += (double)s->count * rms * rms;
+        count += (double)s->count;
+    }
+    return count > 0.0 ? sqrt(sum / count) : (double)NAN;
+}
+
+/* The relative deviation of an rms of n samples is 1/√(2n). */
+static hci_run_errors errors_of(const hci_bench *b, const hci_runs *runs, size_t run, const double *before,
+                                const double *after)
+{
+    hci_run_errors e = {
+        .file = runs->run[run].name, .role = runs->role[run], .source = runs->run[run].torque_source};
+    const double spread = SIGMA_95 / sqrt(2.0 * samples_of(b, run));
+    e.mean_torque_Nm = b->cells.figures[run].mean_torque_Nm;
+    e.slip_rad = b->slip_rad[run];
+    e.rms_before_Nm = rms_of(b, run, before);
+    e.rms_after_Nm = rms_of(b, run, after);
+    e.noise_floor_Nm = noise_of_turns(b, runs->run, run, after);
+    if (!isfinite(e.noise_floor_Nm)) e.noise_floor_Nm = noise_of_spectrum(b, run);
+    e.after_low_Nm = e.rms_after_Nm * fmax(0.0, 1.0 - spread);
+    e.after_high_Nm = e.rms_after_Nm * (1.0 + spread);
+    return e;
+}
+
+/* ---- all runs ---- */
+
+static hci_status lines_fill(const hci_bench *b, const double *before, const double *after, hci_diagnosis *d,
+                             hci_note *note)
+{
+    double *noise_Nm = hci_memory_new(b->cells.run_count + 1, sizeof *noise_Nm);
+    if (!noise_Nm) return no_memory(note);
+    for (size_t r = 0; r < b->cells.run_count; ++r)
+        noise_Nm[r] = noise_of_spectrum(b, r);
+    const hci_status status =
+        hci_lines_make(&b->evidence, before, after, noise_Nm, &d->line, &d->lines, note);
+    hci_memory_free(noise_Nm);
+    return status;
+}
+
+static hci_status runs_fill(const hci_bench *b, const hci_runs *runs, const double *before,
+                            const double *after, hci_diagnosis *d, hci_note *note)
+{
+    d->run = hci_memory_new(runs->count + 1, sizeof *d->run);
+    if (!d->run) return no_memory(note);
+    for (size_t k = 0; k < runs->count; ++k)
+        if (hci_cells_next(&b->cells, k, NULL)) d->run[d->runs++] = errors_of(b, runs, k, before, after);
+    return HCI_OK;
+}
+
+/* Root mean squares over the runs of one role; NAN where there is none. */
+static void totals_of(const hci_diagnosis *d, hci_role role, double *before_Nm, double *after_Nm,
+                      double *noise_Nm)
+{
+    double before = 0.0, after = 0.0, noise = 0.0, count = 0.0;
+    for (size_t k = 0; k < d->runs; ++k) {
+        const hci_run_errors *e = &d->run[k];
+        if (e->role != role) continue;
+        before += e->rms_before_Nm * e->rms_before_Nm;
+        after += e->rms_after_Nm * e->rms_after_Nm;
+        noise += e->noise_floor_Nm * e->noise_floor_Nm;
+        count += 1.0;
+    }
+    *before_Nm = count > 0.0 ? sqrt(before / count) : (double)NAN;
+    *after_Nm = count > 0.0 ? sqrt(after / count) : (double)NAN;
+    *noise_Nm = count > 0.0 ? sqrt(noise / count) : (double)NAN;
+}
+
+static hci_status fill(hci_bench *b, const hci_runs *runs, size_t parameters, double *before, double *after,
+                       hci_diagnosis *d, hci_note *note)
+{
+    hci_status status = hci_evidence_residual(&b->evidence, b->evidence.declared, before, note);
+    if (!status) status = hci_evidence_residual(&b->evidence, &d->effects.list, after, note);
+    if (!status) status = hci_evidence_noise_find(&b->evidence, after, parameters, 0.0, note);
+    if (!status) status = lines_fill(b, before, after, d, note);
+    if (!status) status = runs_fill(b, runs, before, after, d, note);
+    return status;
+}
+
+hci_status hci_run_errors_fill(hci_bench *b, const hci_runs *runs, size_t parameters, hci_diagnosis *d,
+                               hci_note *note)
+{
+    double *before = hci_memory_new(2 * b->cells.count + 1, sizeof *before);
+    if (!before) return no_memory(note);
+    b->evidence.use = b->any;
+    b->evidence.raw = true;
+    const hci_status status = fill(b, runs, parameters, before, before + b->cells.count, d, note);
+    b->evidence.use = b->fit;
+    b->evidence.raw = false;
+    hci_memory_free(before);
+    if (status) return status;
+    totals_of(d, HCI_ROLE_FIT, &d->rms_before_Nm, &d->rms_after_Nm, &d->noise_Nm);
+    totals_of(d, HCI_ROLE_HOLDOUT, &d->holdout_before_Nm, &d->holdout_after_Nm, &d->holdout_noise_Nm);
+    return HCI_OK;
+}

@@ -1,0 +1,14 @@
+/* The error of each run before and after a correction, and its noise. */
+#ifndef HCI_SRC_HOST_DIAGNOSE_RUN_ERRORS_H
+#define HCI_SRC_HOST_DIAGNOSE_RUN_ERRORS_H
+
+#include "host/diagnose/fit/dataset.h"
+#include "hci/host/diagnose/diagnose.h"
+
+/* Fills run, line and the totals of a diagnosis whose effects are there already. parameters: that were
+ * fitted. The noise of the bench's evidence becomes that of the readings of all runs. HCI_ERROR_MEMORY.
+ * O(cells·(terms + orders)). */
+hci_status hci_run_errors_fill(hci_bench *bench, const hci_runs *runs, size_t parameters,
+                               hci_diagnosis *diagnosis, hci_note *note);
+
+#endif

@@ -1,0 +1,163 @@
+#include "host/diagnose/search/attribute.h"
+
+#include <assert.h>
+#include <math.h>
+#include <string.h>
+
+#include "host/base/memory.h"
+#include "host/diagnose/search/search.h"
+#include "host/diagnose/search/candidate_models.h"
+
+enum { MOST_EFFECTS = 6, MOST_ROUNDS = 14 };
+
+#define SEARCH_SHARE 0.7 /* of the whole work */
+
+/* ---- the search ---- */
+
+/* One more effect, then without those that it makes superfluous; where none comes in, another in place of one
+ * that is. again: out, whether anything changed. */
+static hci_status round_run(hci_search *s, hci_account *account, bool *again, hci_note *note)
+{
+    hci_status status = HCI_OK;
+    *again = false;
+    if (hci_suspects_rooms_in(&account->suspects) < MOST_EFFECTS)
+        status = hci_search_forward(s, account, again, note);
+    if (!status && *again) status = hci_search_prune(s, account, note);
+    for (bool dropped = true; dropped && !status;)
+        status = hci_search_drop(s, account, &dropped, note);
+    if (!status && !*again) status = hci_search_swap(s, account, again, note);
+    return status;
+}
+
+/* Of the whole work that is done before a round. Nobody knows how many rounds come; the later ones take
+ * longer.
+ */
+static double share_before(int round)
+{
+    return SEARCH_SHARE * pow(1.0 - pow(0.85, round), 1.5);
+}
+
+static hci_status search_run(hci_search *s, hci_account *account, hci_note *note)
+{
+    hci_search_begin(s, "looking for effects", 0.0, 0.0);
+    hci_status status = hci_search_renew(s, account, note);
+    bool again = true;
+    for (int round = 0; again && !status && round < MOST_ROUNDS; ++round) {
+        hci_search_begin(s, "looking for effects", share_before(round), share_before(round + 1));
+        status = round_run(s, account, &again, note);
+    }
+    return status;
+}
+
+/* ---- verdicts ---- */
+
+/* What speaks for an effect that is in, and which others could stand in its place. */
+static hci_status verdict_of(hci_search *s, hci_attribution *a, hci_verdict *v, hci_note *note)
+{
+    hci_account without = {0};
+    v->in = true;
+    hci_status status = hci_search_without(s, &a->account, v->room, &without, note);
+    if (status) return status;
+    v->gain = without.fit.score - a->account.fit.score;
+    status = hci_search_explained(s, &a->account.suspects, &without.suspects, &v->explained_Nm, note);
+    hci_account_release(&without);
+    if (status || a->unknown) return status; /* nothing that is known stands firm beside what is not */
+    return hci_search_rivals(s, v->room, a, note);
+}
+
+/* What those that are not in would be worth. */
+static hci_status verdicts_of_others(hci_search *s, hci_attribution *a, hci_note *note)
+{
+    hci_trials t;
+    const hci_status status = hci_trials_make(s, &a->account.suspects, false, &t, note);
+    for (size_t k = 0; k < t.count && !status; ++k) {
+        hci_verdict *v = &a->verdict[t.trial[k].a];
+        if (!v->in && !v->ambiguous) v->gain = t.trial[k].gain;
+    }
+    hci_trials_release(&t);
+    return status;
+}
+
+/* Where the angle begins is a convention once the phases of a torque are free. */
+static bool is_convention(const hci_effect_room *room, const hci_effect_room *as)
+{
+    return room == hci_effect_room_find("position_offset") &&
+           (as == hci_effect_room_find("cogging") || as == hci_effect_room_find("mechanical_order"));
+}
+
+/* Marks a room that looks the same as a part of another, unless it would explain nothing without that. */
+static void same_mark(hci_attribution *a, size_t room, const hci_effect_room *as)
+{
+    hci_verdict *v = &a->verdict[room];
+    size_t k = 0;
+    while (a->verdict[k].room != as)
+        ++k;
+    if (v->in || v->ambiguous || !a->plausible[k][room] || is_convention(v->room, as)) return;
+    v->ambiguous = a->verdict[k].ambiguous = true;
+    v->rival_of = as;
+    v->gain = a->verdict[k].gain;
+}
+
+/* Effects that look the same as a part of one that is in. */
+static hci_status verdicts_of_same(hci_search *s, hci_attribution *a, hci_note *note)
+{
+    const hci_effect_room *same_as[HCI_MOST_ROOMS];
+    if (a->unknown) return HCI_OK;
+    const hci_status status = hci_trials_same(s, &a->account.suspects, same_as, note);
+    for (size_t r = 0; r < a->rooms && !status; ++r)
+        if (same_as[r]) same_mark(a, r, same_as[r]);
+    return status;
+}
+
+static hci_status verdicts(hci_search *s, hci_attribution *a, hci_note *note)
+{
+    hci_status status = HCI_OK;
+    for (size_t r = 0; r < a->rooms && !status; ++r)
+        if (hci_suspects_have(&a->account.suspects, a->verdict[r].room))
+            status = verdict_of(s, a, &a->verdict[r], note);
+    if (!status) status = verdicts_of_others(s, a, note);
+    return status ? status : verdicts_of_same(s, a, note);
+}
+
+/* ---- the whole ---- */
+
+static hci_status attribute(hci_search *s, hci_attribution *a, hci_note *note)
+{
+    hci_suspects none = {0};
+    hci_status status = search_run(s, &a->account, note);
+    if (status) return status;
+    hci_search_begin(s, "weighing the evidence", SEARCH_SHARE, 1.0);
+    status = hci_search_settle(s, a, note);
+    if (!status) status = verdicts(s, a, note);
+    if (!status) status = hci_evidence_errors(s->evidence, &a->account.suspects, note);
+    if (!status) status = hci_evidence_fit(s->evidence, &none, &a->before, note);
+    return status;
+}
+
+hci_status hci_attribute(hci_evidence *evidence, const hci_attribute_options *options,
+                         hci_attribution *attribution, hci_note *note)
+{
+    const size_t cells = evidence->cells->count;
+    hci_search s = {.evidence = evidence, .options = options, .richness = 1};
+    memset(attribution, 0, sizeof *attribution);
+    attribution->rooms = hci_suspect_rooms();
+    assert(attribution->rooms <= HCI_MOST_ROOMS);
+    for (size_t r = 0; r < attribution->rooms; ++r)
+        attribution->verdict[r].room = hci_suspect_room(r);
+    s.residual_Nm = hci_memory_new(2 * cells + 1, sizeof *s.residual_Nm);
+    if (!s.residual_Nm)
+        return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the search of effects");
+    s.variance = s.residual_Nm + cells;
+    const hci_status status = attribute(&s, attribution, note);
+    hci_memory_free(s.residual_Nm);
+    if (status) hci_attribution_release(attribution);
+    return status;
+}
+
+void hci_attribution_release(hci_attribution *a)
+{
+    for (size_t r = 0; r < a->rooms; ++r)
+        hci_account_release(&a->verdict[r].alternative);
+    hci_account_release(&a->account);
+    memset(a, 0, sizeof *a);
+}

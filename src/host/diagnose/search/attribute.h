@@ -1,0 +1,54 @@
+/* Which effects the recordings show: one at a time while the evidence is decisive. */
+#ifndef HCI_SRC_HOST_DIAGNOSE_SEARCH_ATTRIBUTE_H
+#define HCI_SRC_HOST_DIAGNOSE_SEARCH_ATTRIBUTE_H
+
+#include "host/diagnose/fit/evidence.h"
+#include "host/diagnose/fit/fit.h"
+#include "hci/host/solve/solve.h"
+
+/* An account of the recordings: effects with values, and how well they describe them. Start with {0}. */
+typedef struct {
+    hci_suspects suspects; /* those that are in have values and standard errors */
+    hci_fit fit;
+} hci_account;
+
+/* What came of one effect. */
+typedef struct {
+    const hci_effect_room *room;
+    bool in;                         /* in the model */
+    bool ambiguous;                  /* in, but others fit as well; or one of those others */
+    const hci_effect_room *rival_of; /* the one that it could stand for */
+    double gain;                     /* fall of the score by having it: positive speaks for it */
+    double explained_Nm;             /* rms of what the model loses without it */
+    hci_account alternative;         /* of a rival: the account with it instead */
+} hci_verdict;
+
+enum { HCI_MOST_ROOMS = 16 };
+
+/* Start with {0}. */
+typedef struct {
+    hci_account account;   /* with the noise that was found in the end */
+    hci_fit before;        /* without any effect, with the same noise */
+    bool unknown;          /* something is left that no effect explains, and it is not small */
+    bool wanders;          /* what is left does not repeat with the turn */
+    double unexplained_Nm; /* rms of what no effect explains */
+    hci_verdict verdict[HCI_MOST_ROOMS];
+    size_t rooms;
+    bool plausible[HCI_MOST_ROOMS]
+                  [HCI_MOST_ROOMS]; /* without the first, the second would explain a part of it */
+} hci_attribution;
+
+typedef struct {
+    const hci_run *runs;
+    double resolution_Nm;       /* what the model is not asked to be better than */
+    double reference_current_A; /* of saturation; NAN: the largest of the runs */
+    hci_progress *progress;     /* may be NULL */
+    void *context;
+} hci_attribute_options;
+
+/* evidence->noise: in/out. On failure *attribution is empty. HCI_ERROR_MEMORY. Seconds: some hundred fits. */
+hci_status hci_attribute(hci_evidence *evidence, const hci_attribute_options *options,
+                         hci_attribution *attribution, hci_note *note);
+void hci_attribution_release(hci_attribution *attribution);
+
+#endif

@@ -1,0 +1,203 @@
+#include <math.h>
+
+#include "host/diagnose/fit/resonance.h"
+#include "host/diagnose/search/search.h"
+#include "host/diagnose/search/candidate_models.h"
+
+/* Promises of the linearised problem, in units of the score. */
+#define PROMISING    (0.5 * HCI_DECISIVE) /* a single effect that is worth a fit */
+#define BEHIND_SHARE 0.3  /* how far behind the best promise it may be: this share of it … */
+#define BEHIND       60.0 /* … and so much */
+#define PAIR         (2.0 * HCI_DECISIVE) /* the same of two effects at once */
+
+#define PAIR_MARGIN     0.02 /* what two effects at once must explain more than one, as a share */
+#define RESONANCE_PRICE 12.0 /* of having looked at so many frequencies */
+#define MUCH            3.0  /* times the resolution, and … */
+#define STANDS_OUT      1.1  /* … times the noise: a residual that is worth high powers of the currents */
+
+enum { SINGLES = 3, RICHEST = 2 }; /* single effects that are fitted; of saturation */
+
+/* ---- which trials are worth a fit ---- */
+
+static bool is_pair(const hci_trial *x)
+{
+    return x->a != x->b;
+}
+
+static bool is_picked(const hci_trial *x, const hci_trial *const *picked, size_t count)
+{
+    for (size_t k = 0; k < count; ++k)
+        if (picked[k] == x) return true;
+    return false;
+}
+
+/* The best single effects. */
+static size_t singles_pick(const hci_trials *t, const hci_trial *picked[SINGLES])
+{
+    size_t count = 0;
+    while (count < SINGLES) {
+        const hci_trial *best = NULL;
+        for (size_t k = 0; k < t->count; ++k) {
+            const hci_trial *x = &t->trial[k];
+            if (is_pair(x) || x->gain < PROMISING || is_picked(x, picked, count)) continue;
+            if (!best || x->gain > best->gain) best = x;
+        }
+        if (!best) break;
+        if (count > 0 && best->gain < picked[0]->gain - BEHIND_SHARE * picked[0]->gain - BEHIND) break;
+        picked[count++] = best;
+    }
+    return count;
+}
+
+/* The best pair, of those with a room or (NULL) of all. */
+static const hci_trial *best_pair(const hci_trials *t, const hci_trial *with)
+{
+    const hci_trial *best = NULL;
+    for (size_t k = 0; k < t->count; ++k) {
+        const hci_trial *x = &t->trial[k];
+        if (!is_pair(x) || (with && x->a != with->a && x->b != with->a)) continue;
+        if (!best || x->gain > best->gain) best = x;
+    }
+    return best;
+}
+
+/* The best single effects, and the best pair where it beats what begins with the best of them. */
+static size_t trials_pick(const hci_trials *t, const hci_trial *picked[SINGLES + 1])
+{
+    size_t count = singles_pick(t, picked);
+    const hci_trial *pair = best_pair(t, NULL);
+    const hci_trial *with_first = count > 0 ? best_pair(t, picked[0]) : NULL;
+    if (pair && pair->gain > PAIR && (!with_first || pair->gain > with_first->gain + HCI_DECISIVE))
+        picked[count++] = pair;
+    return count;
+}
+
+/* ---- trials ---- */
+
+/* Whether saturation promises more than every other single effect. */
+static bool powers_lead(const hci_trials *t)
+{
+    const hci_effect_room *saturation = hci_effect_room_find("saturation");
+    double most = 0.0, powers = 0.0;
+    for (size_t k = 0; k < t->count; ++k) {
+        if (is_pair(&t->trial[k])) continue;
+        if (hci_suspect_room(t->trial[k].a) == saturation)
+            powers = t->trial[k].gain;
+        else
+            most = fmax(most, t->trial[k].gain);
+    }
+    return powers > most;
+}
+
+static bool is_much_left(const hci_search *s)
+{
+    const double rms = hci_search_residual_rms(s);
+    return !(rms < MUCH * s->options->resolution_Nm || rms < STANDS_OUT * hci_search_noise_rms(s));
+}
+
+/* High powers of the currents fit anything: they are looked into only where much is left, and taken only when
+ * nothing else explains more of it. */
+static hci_status trials_enriched(hci_search *s, const hci_suspects *model, hci_trials *t, hci_note *note)
+{
+    const int richness = s->richness;
+    const bool saturates = hci_suspects_have(model, hci_effect_room_find("saturation"));
+    hci_status status = hci_search_residual(s, model, note);
+    if (status) return status;
+    if (richness == RICHEST || !saturates || !is_much_left(s))
+        return hci_trials_make(s, model, true, t, note);
+    s->richness = RICHEST;
+    status = hci_trials_make(s, model, true, t, note);
+    if (status || powers_lead(t)) return status;
+    s->richness = richness;
+    hci_trials_release(t);
+    return hci_trials_make(s, model, true, t, note);
+}
+
+/* ---- one round ---- */
+
+/* The best account so far, and the score that the next one has to be below. */
+typedef struct {
+    hci_search *search;
+    const hci_account *present;
+    hci_account best;
+    double bar;
+} contest;
+
+/* Takes the candidate as the best where it is, else leaves it. */
+static hci_status contest_enter(contest *c, hci_account *candidate, double handicap, hci_note *note)
+{
+    const double score = candidate->fit.score + handicap;
+    bool noticeable = false;
+    if (!(score < c->bar)) return HCI_OK;
+    const hci_status status =
+        hci_search_noticeable(c->search, &candidate->suspects, &c->present->suspects, &noticeable, note);
+    if (!noticeable) return status;
+    c->bar = score;
+    hci_account_replace(&c->best, candidate);
+    return HCI_OK;
+}
+
+static hci_status trials_enter(contest *c, const hci_trials *t, hci_note *note)
+{
+    const hci_trial *picked[SINGLES + 1];
+    const size_t count = trials_pick(t, picked);
+    hci_status status = HCI_OK;
+    for (size_t k = 0; k < count && !status; ++k) {
+        hci_account candidate = {0};
+        const double handicap = is_pair(picked[k]) ? HCI_DECISIVE + PAIR_MARGIN * picked[0]->gain : 0.0;
+        status = hci_trial_fit(c->search, t, picked[k], &candidate, note);
+        if (!status) status = contest_enter(c, &candidate, handicap, note);
+        hci_account_release(&candidate);
+    }
+    return status;
+}
+
+/* The model with a resonance, fitted from the best point of a grid. */
+static hci_status resonance_fit(contest *c, const hci_suspect *x, hci_account *candidate, hci_note *note)
+{
+    hci_status status = hci_account_copy(c->present, candidate, note);
+    if (!status) status = hci_suspects_add(&candidate->suspects, x, note);
+    if (!status) status = hci_evidence_fit(c->search->evidence, &candidate->suspects, &candidate->fit, note);
+    return status;
+}
+
+/* The effect that no linearised problem finds: a resonance of the torque sensor. */
+static hci_status resonance_enter(contest *c, hci_note *note)
+{
+    const hci_effect_room *room = hci_effect_room_find("torque_sensor");
+    hci_suspect x = {.room = room, .count = 2, .price = RESONANCE_PRICE, .in = true};
+    hci_account candidate = {0};
+    hci_resonance found;
+    if (hci_suspects_have(&c->present->suspects, room)) return HCI_OK;
+    hci_status status = hci_search_residual(c->search, &c->present->suspects, note);
+    if (!status) status = hci_resonance_find(c->search->evidence, c->search->residual_Nm, &found, note);
+    if (status || found.gain < hci_suspect_cost(&x, c->present->fit.rows) + HCI_DECISIVE) return status;
+    x.term[0] = (hci_effect_term){1, 0.0, found.natural_frequency_Hz, NAN};
+    x.term[1] = (hci_effect_term){2, 0.0, found.damping, NAN};
+    status = resonance_fit(c, &x, &candidate, note);
+    if (!status) status = contest_enter(c, &candidate, 0.0, note);
+    hci_account_release(&candidate);
+    return status;
+}
+
+hci_status hci_search_forward(hci_search *s, hci_account *account, bool *added, hci_note *note)
+{
+    contest c = {
+        s, account, {{NULL, 0, 0.0}, {0.0, 0, 0.0, 0.0}},
+          account->fit.score - HCI_DECISIVE
+    };
+    hci_trials t;
+    hci_status status = trials_enriched(s, &account->suspects, &t, note);
+    *added = false;
+    if (status) return status;
+    status = trials_enter(&c, &t, note);
+    hci_trials_release(&t);
+    if (!status) status = resonance_enter(&c, note);
+    if (!status && c.best.suspects.suspect) {
+        hci_account_replace(account, &c.best);
+        *added = true;
+        status = hci_search_renew(s, account, note);
+    }
+    hci_account_release(&c.best);
+    return status;
+}

@@ -1,0 +1,161 @@
+#include "host/diagnose/search/group_selection.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "host/diagnose/fit/fit.h"
+
+#define SEED_MARGIN 10.0 /* what several powers at once must be worth over one by one, and the share */
+#define SEED_SHARE  0.1
+#define WORTH       2.0  /* least fall of the score for one more order of an effect */
+#define LITTLE      1e-3 /* and its least share of what noise is in all samples */
+
+enum { MOST_ORDERS = 12, MOST_POWERS = 80 }; /* that come in together; of saturation */
+
+typedef struct {
+    const hci_choice *choice;
+    const hci_effect_room *a, *b;
+    hci_sweep *sweep;
+    bool *in; /* of each suspect */
+    double cost;
+} growing;
+
+bool hci_choice_enter(const hci_choice *c, hci_sweep *sweep, size_t k)
+{
+    bool any = false;
+    for (size_t j = 0; j < c->list->suspect[k].count; ++j)
+        any = hci_sweep_in(sweep, c->column[k] + j) || any;
+    return any;
+}
+
+static void leave(const growing *g, size_t k)
+{
+    for (size_t j = 0; j < g->choice->list->suspect[k].count; ++j)
+        hci_sweep_out(g->sweep, g->choice->column[k] + j);
+}
+
+static bool is_open(const growing *g, size_t k)
+{
+    const hci_suspect *x = &g->choice->list->suspect[k];
+    return !g->in[k] && !x->in && (x->room == g->a || x->room == g->b);
+}
+
+static double cost_of(const growing *g, size_t k)
+{
+    return hci_suspect_cost(&g->choice->list->suspect[k], g->choice->rows);
+}
+
+/* What a suspect is worth over its cost: by coming in when it is out, by staying when it is in. */
+static double gain_of(const growing *g, size_t k)
+{
+    return hci_sweep_worth(g->sweep, g->choice->column[k], g->choice->list->suspect[k].count) - cost_of(g, k);
+}
+
+/* What one more suspect of an effect must bring: of many orders there is always one that brings a little. */
+static double least_gain(const growing *g, size_t k)
+{
+    const hci_suspect *x = &g->choice->list->suspect[k];
+    const bool ordered = x->room->parameter[x->term[0].parameter].ordered;
+    return ordered ? fmax(WORTH, LITTLE * g->choice->rows) : WORTH;
+}
+
+static bool take(growing *g, size_t k)
+{
+    if (!hci_choice_enter(g->choice, g->sweep, k)) return false;
+    g->in[k] = true;
+    g->cost += cost_of(g, k);
+    return true;
+}
+
+/* Takes in the one that is worth most over its cost. */
+static bool take_best(growing *g, bool first)
+{
+    const size_t n = g->choice->list->count;
+    size_t best = n;
+    double most = 0.0;
+    for (size_t k = 0; k < n; ++k) {
+        if (!is_open(g, k)) continue;
+        const double gain = gain_of(g, k);
+        if (gain > most && (first || gain > least_gain(g, k))) {
+            most = gain;
+            best = k;
+        }
+    }
+    return best < n && take(g, best);
+}
+
+/* The one that is worth least, where that is less than its cost; else the number of suspects. */
+static size_t worthless(const growing *g)
+{
+    const size_t n = g->choice->list->count;
+    size_t worst = n;
+    double least = 0.0;
+    for (size_t k = 0; k < n; ++k) {
+        if (!g->in[k]) continue;
+        const double gain = gain_of(g, k);
+        if (gain < least) {
+            least = gain;
+            worst = k;
+        }
+    }
+    return worst;
+}
+
+/* Takes out those that are no longer worth their cost, the least worthy first. */
+static void leave_worthless(growing *g)
+{
+    const size_t n = g->choice->list->count;
+    for (size_t k = worthless(g); k < n; k = worthless(g)) {
+        leave(g, k);
+        g->in[k] = false;
+        g->cost -= cost_of(g, k);
+    }
+}
+
+/* Takes suspects in while they are worth it, and those out that are no more. Returns the fall of the score.
+ */
+static double grow(growing *g)
+{
+    const int steps = g->a == hci_effect_room_find("saturation") ? MOST_POWERS : MOST_ORDERS;
+    for (int step = 0; step < steps; ++step) {
+        if (!take_best(g, step == 0 && g->cost == 0.0)) break;
+        leave_worthless(g);
+    }
+    return g->choice->base->square - g->sweep->square - g->cost;
+}
+
+/* The mean torque of an iron that saturates takes several powers of the currents at once, none of which is
+ * worth much alone: all of them first. */
+static bool seed_powers(growing *g)
+{
+    const hci_effect_room *saturation = hci_effect_room_find("saturation");
+    bool any = false;
+    for (size_t k = 0; k < g->choice->list->count; ++k) {
+        const hci_suspect *x = &g->choice->list->suspect[k];
+        if (x->room == saturation && x->term[0].order == 0.0 && is_open(g, k)) any = take(g, k) || any;
+    }
+    if (any) leave_worthless(g);
+    return any;
+}
+
+static void start(growing *g, bool *in)
+{
+    g->in = in;
+    g->cost = 0.0;
+    memset(in, 0, g->choice->list->count * sizeof *in);
+    hci_sweep_copy(g->sweep, g->choice->base);
+}
+
+double hci_choice_grow(const hci_choice *choice, const hci_effect_room *a, const hci_effect_room *b, bool *in,
+                       hci_sweep *sweep, bool *spare)
+{
+    growing g = {choice, a, b, sweep, NULL, 0.0};
+    start(&g, in);
+    const double plain = grow(&g);
+    start(&g, spare);
+    if (!seed_powers(&g)) return plain;
+    const double seeded = grow(&g);
+    if (seeded <= plain + fmax(SEED_MARGIN, SEED_SHARE * plain)) return plain;
+    memcpy(in, spare, choice->list->count * sizeof *in);
+    return seeded;
+}

@@ -1,0 +1,143 @@
+#include "host/diagnose/search/search.h"
+
+#include <math.h>
+#include <string.h>
+
+#define NOTICEABLE 0.05 /* least torque of an effect, as a share of the noise of a sample */
+#define RESOLVED   0.5  /* and as a share of the resolution */
+
+#define PART 0.02 /* of what is left of a step that a fit or a residual takes */
+
+/* ---- progress ---- */
+
+static void tell(const hci_search *s)
+{
+    if (s->options->progress) s->options->progress(s->options->context, s->doing, s->share);
+}
+
+void hci_search_begin(hci_search *s, const char *doing, double from, double until)
+{
+    s->doing = doing;
+    s->share = from;
+    s->until = until;
+    tell(s);
+}
+
+void hci_search_tell(hci_search *s)
+{
+    s->share += PART * (s->until - s->share);
+    tell(s);
+}
+
+/* ---- accounts ---- */
+
+hci_status hci_account_copy(const hci_account *from, hci_account *to, hci_note *note)
+{
+    to->fit = from->fit;
+    return hci_suspects_copy(&from->suspects, &to->suspects, note);
+}
+
+void hci_account_replace(hci_account *old, hci_account *by)
+{
+    hci_account_release(old);
+    *old = *by;
+    memset(by, 0, sizeof *by);
+}
+
+void hci_account_release(hci_account *account)
+{
+    hci_suspects_release(&account->suspects);
+    memset(account, 0, sizeof *account);
+}
+
+hci_status hci_search_without(hci_search *s, const hci_account *account, const hci_effect_room *room,
+                              hci_account *without, hci_note *note)
+{
+    hci_status status = hci_account_copy(account, without, note);
+    if (status) return status;
+    hci_search_tell(s);
+    hci_suspects_leave(&without->suspects, room);
+    status = hci_evidence_fit(s->evidence, &without->suspects, &without->fit, note);
+    if (status) hci_account_release(without);
+    return status;
+}
+
+/* ---- residual and noise ---- */
+
+hci_status hci_search_residual(hci_search *s, const hci_suspects *suspects, hci_note *note)
+{
+    hci_model model;
+    hci_status status = hci_model_make(s->evidence->declared, suspects, false, &model, note);
+    hci_search_tell(s);
+    if (!status) status = hci_evidence_residual(s->evidence, &model.list, s->residual_Nm, note);
+    hci_model_release(&model);
+    return status;
+}
+
+/* Smoothing takes the noise of currents and angle out of the residual, but not out of the few orders that
+ * effects are found in. */
+hci_status hci_search_noise(hci_search *s, const hci_suspects *suspects, hci_note *note)
+{
+    s->evidence->raw = true;
+    const hci_status status = hci_search_residual(s, suspects, note);
+    s->evidence->raw = false;
+    if (status) return status;
+    return hci_evidence_noise_find(s->evidence, s->residual_Nm, hci_suspects_terms_in(suspects),
+                                   s->options->resolution_Nm, note);
+}
+
+hci_status hci_search_renew(hci_search *s, hci_account *account, hci_note *note)
+{
+    const hci_status status = hci_search_noise(s, &account->suspects, note);
+    if (status) return status;
+    return hci_evidence_fit(s->evidence, &account->suspects, &account->fit, note);
+}
+
+double hci_search_residual_rms(const hci_search *s)
+{
+    double sum = 0.0, count = 0.0;
+    for (const hci_stretch *x = NULL; (x = hci_evidence_next(s->evidence, x)) != NULL;)
+        for (size_t j = x->first; j < x->first + x->count; ++j) {
+            sum += s->residual_Nm[j] * s->residual_Nm[j];
+            count += 1.0;
+        }
+    return count > 0.0 ? sqrt(sum / count) : 0.0;
+}
+
+double hci_search_noise_rms(const hci_search *s)
+{
+    double sum = 0.0, count = 0.0;
+    for (const hci_stretch *x = NULL; (x = hci_evidence_next(s->evidence, x)) != NULL;) {
+        const double rms = hci_evidence_noise(s->evidence, x)->rms;
+        sum += rms * rms * (double)x->count;
+        count += (double)x->count;
+    }
+    return count > 0.0 ? sqrt(sum / count) : 0.0;
+}
+
+/* ---- what an effect explains ---- */
+
+hci_status hci_search_explained(hci_search *s, const hci_suspects *with, const hci_suspects *without,
+                                double *explained_Nm, hci_note *note)
+{
+    hci_status status = hci_search_residual(s, with, note);
+    *explained_Nm = 0.0;
+    if (status) return status;
+    const double after = hci_search_residual_rms(s);
+    status = hci_search_residual(s, without, note);
+    if (status) return status;
+    const double before = hci_search_residual_rms(s);
+    *explained_Nm = sqrt(fmax(0.0, before * before - after * after));
+    return HCI_OK;
+}
+
+hci_status hci_search_noticeable(hci_search *s, const hci_suspects *with, const hci_suspects *without,
+                                 bool *noticeable, hci_note *note)
+{
+    double explained_Nm;
+    const hci_status status = hci_search_explained(s, with, without, &explained_Nm, note);
+    const double least = fmax(NOTICEABLE * hci_search_noise_rms(s), RESOLVED * s->options->resolution_Nm);
+    *noticeable =
+        !status && (explained_Nm > least || hci_suspects_rooms_in(with) == hci_suspects_rooms_in(without));
+    return status;
+}

@@ -1,0 +1,159 @@
+#include <math.h>
+#include <string.h>
+
+#include "host/base/memory.h"
+#include "host/diagnose/search/search.h"
+#include "host/diagnose/candidates/empirical_term.h"
+
+#define EXCESS       0.1  /* variance over that of the noise that tells of something that does not repeat */
+#define CLUMPS       1.35 /* the same of how uneven the errors are; noise makes 1.0 ± 0.1 */
+#define NOT_SMALL    2.0  /* times the resolution: rms of a residual that has to be understood */
+#define LEAST_SHARE  0.25 /* of the residual's mean square that counts as unexplained when it is uneven */
+#define OUTLYING     8.0  /* times the noise */
+#define FEW          5e-4 /* share of outliers that may be left out */
+#define SMALL        0.6  /* what is not understood is no finding below this share of what is */
+#define UNTOUCHED    1.5  /* a known effect this much larger than what is not understood stands beside it */
+#define LEAST_BLOCKS 50.0 /* to tell from how uneven errors are */
+
+enum { BLOCK = 24 }; /* samples */
+
+/* ---- whether what is left is noise ---- */
+
+/* Sums over the stretches that a judgement of the residual needs. */
+typedef struct {
+    double square, noise, rows;         /* residual and noise, N²·m² */
+    double block, block_square, blocks; /* sums of whitened squares over short blocks */
+} goodness;
+
+static void blocks_add(const double *whitened, size_t n, goodness *g)
+{
+    for (size_t j = HCI_NOISE_MEMORY; j + BLOCK <= n; j += BLOCK) {
+        double sum = 0.0;
+        for (size_t k = j; k < j + BLOCK; ++k)
+            sum += whitened[k] * whitened[k];
+        g->block += sum;
+        g->block_square += sum * sum;
+        g->blocks += 1.0;
+    }
+}
+
+/* Leaves out single samples that no noise explains, unless they are many. */
+static void outliers_drop(double *whitened, double *residual, size_t n)
+{
+    size_t count = 0;
+    for (size_t j = 0; j < n; ++j)
+        count += fabs(whitened[j]) > OUTLYING;
+    for (size_t j = 0; j < n && (double)count <= FEW * (double)n + 1.0; ++j)
+        if (fabs(whitened[j]) > OUTLYING) whitened[j] = residual[j] = 0.0;
+}
+
+static void goodness_add(const hci_noise *noise, double *residual, double *whitened, size_t n, goodness *g)
+{
+    memcpy(whitened, residual, n * sizeof *whitened);
+    hci_noise_whiten(noise, whitened, n, 1);
+    outliers_drop(whitened, residual, n);
+    for (size_t j = 0; j < n; ++j)
+        g->square += residual[j] * residual[j];
+    g->noise += (double)n * noise->rms * noise->rms;
+    g->rows += (double)n;
+    blocks_add(whitened, n, g);
+}
+
+/* How much the size of the errors varies along a run, over what noise does: the variance of a block's sum
+ * relative to its mean is 2/BLOCK for noise. */
+static double clumps_of(const goodness *g)
+{
+    if (g->blocks < LEAST_BLOCKS) return 1.0;
+    const double mean = g->block / g->blocks;
+    return (g->block_square / g->blocks - mean * mean) / (mean * mean) * 0.5 * BLOCK;
+}
+
+static hci_status goodness_of(hci_search *s, const hci_suspects *model, goodness *g, hci_note *note)
+{
+    double *whitened = hci_memory_new(hci_cells_longest(s->evidence->cells), sizeof *whitened);
+    memset(g, 0, sizeof *g);
+    if (!whitened) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for judging the residual");
+    const hci_status status = hci_search_noise(s, model, note);
+    for (const hci_stretch *x = NULL; !status && (x = hci_evidence_next(s->evidence, x)) != NULL;)
+        if (x->count >= HCI_NOISE_LEAST)
+            goodness_add(hci_evidence_noise(s->evidence, x), s->residual_Nm + x->first, whitened, x->count,
+                         g);
+    hci_memory_free(whitened);
+    return status;
+}
+
+/* Whether the residual that is left is noise: its variance against that of the noise under its lines, and
+ * whether its size is the same all along. */
+static hci_status residual_judge(hci_search *s, hci_attribution *a, hci_note *note)
+{
+    const double least_Nm = NOT_SMALL * s->options->resolution_Nm;
+    goodness g;
+    const hci_status status = goodness_of(s, &a->account.suspects, &g, note);
+    if (status || !(g.rows > 0.0)) return status;
+    const double excess = g.square / g.noise - 1.0, left = g.square / g.rows;
+    a->wanders = !(excess < EXCESS && clumps_of(&g) < CLUMPS);
+    a->unknown = a->wanders && left > least_Nm * least_Nm;
+    a->unexplained_Nm = a->unknown ? sqrt(left * fmax(excess / (1.0 + excess), LEAST_SHARE)) : 0.0;
+    return HCI_OK;
+}
+
+/* ---- what is understood beside what is not ---- */
+
+/* Adds what a room explains, as rms. Nothing where it is not in. */
+static hci_status explained_add(hci_search *s, const hci_account *account, const hci_effect_room *room,
+                                double *sum_Nm, hci_note *note)
+{
+    hci_account without = {0};
+    double explained_Nm = 0.0;
+    if (!hci_suspects_have(&account->suspects, room)) return HCI_OK;
+    hci_status status = hci_search_without(s, account, room, &without, note);
+    if (!status) status = hci_search_explained(s, &account->suspects, &without.suspects, &explained_Nm, note);
+    hci_account_release(&without);
+    *sum_Nm = hypot(*sum_Nm, explained_Nm);
+    return status;
+}
+
+static hci_status known_of(hci_search *s, const hci_account *account, double *known_Nm, hci_note *note)
+{
+    hci_status status = HCI_OK;
+    *known_Nm = 0.0;
+    for (size_t r = 0; hci_effect_room_at(r) && !status; ++r)
+        status = explained_add(s, account, hci_effect_room_at(r), known_Nm, note);
+    return status;
+}
+
+/* Known effects beside something larger that is not understood cannot be told from a part of it, and go; a
+ * description of a small remainder goes as well. */
+static hci_status rooms_leave(hci_search *s, hci_attribution *a, double strange_Nm, bool *changed,
+                              hci_note *note)
+{
+    hci_suspects *model = &a->account.suspects;
+    hci_status status = HCI_OK;
+    for (size_t r = 0; r < a->rooms && !status; ++r) {
+        const hci_effect_room *room = hci_suspect_room(r);
+        double explained_Nm = 0.0;
+        if (!hci_suspects_have(model, room) || (room == &hci_unknown_room) == a->unknown) continue;
+        if (a->unknown) status = explained_add(s, &a->account, room, &explained_Nm, note);
+        if (status || explained_Nm > UNTOUCHED * strange_Nm) continue;
+        hci_suspects_leave(model, room);
+        *changed = true;
+    }
+    return status;
+}
+
+hci_status hci_search_settle(hci_search *s, hci_attribution *a, hci_note *note)
+{
+    double known_Nm = 0.0;
+    bool changed = false;
+    hci_status status = residual_judge(s, a, note);
+    double strange_Nm = a->unexplained_Nm;
+    if (!status) status = explained_add(s, &a->account, &hci_unknown_room, &strange_Nm, note);
+    if (status || !(strange_Nm > 0.0)) return status;
+    status = known_of(s, &a->account, &known_Nm, note);
+    if (status) return status;
+    a->unknown = strange_Nm > SMALL * known_Nm;
+    status = rooms_leave(s, a, strange_Nm, &changed, note);
+    if (!status && changed) status = hci_search_renew(s, &a->account, note);
+    if (!status && a->unknown) a->unexplained_Nm = strange_Nm;
+    return status;
+}

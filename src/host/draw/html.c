@@ -1,0 +1,316 @@
+/* The only file that writes HTML. */
+#include "host/draw/html.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "hci/host/csv/csv.h"
+#include "hci/version.h"
+#include "host/draw/plot.h"
+#include "host/draw/svg.h"
+
+enum { LONGEST_WORD = 24 };
+
+/* The same grounds as those of the pictures. Text has a contrast of at least 4.5 on both. */
+static const char STYLE[] =
+    ":root{color-scheme:light dark;--ink:#1c1f23;--quiet:#5a6068;--ground:#fff;--line:#d9dce1;"
+    "--panel:#f5f6f8;--good:#00664a;--bad:#a63f00;--link:#005a8e}"
+    "@media screen and (prefers-color-scheme:dark){:root{--ink:#eceff2;--quiet:#a6adb6;--ground:#16191d;"
+    "--line:#363c45;--panel:#1e2228;--good:#4fd6a8;--bad:#ff9a66;--link:#56b4e9}}"
+    "*{box-sizing:border-box}html{-webkit-text-size-adjust:100%}"
+    "body{margin:0;background:var(--ground);color:var(--ink);"
+    "font:16px/1.5 system-ui,'Helvetica Neue',Arial,sans-serif}"
+    "main{max-width:80rem;margin:0 auto;padding:1.5rem 1.25rem 3rem}"
+    "h1{font-size:1.7rem;line-height:1.2;margin:.2rem 0 .6rem}"
+    "h2{font-size:1.25rem;margin:2.4rem 0 .3rem;padding-top:.9rem;border-top:1px solid var(--line)}"
+    "p{margin:.4rem 0;max-width:46rem;overflow-wrap:anywhere}.lead{font-size:1.15rem}"
+    ".quiet,figcaption,caption{color:var(--quiet);font-size:.875rem}"
+    ".badge{display:inline-block;border:2px solid currentColor;border-radius:.4rem;padding:.05rem .6rem;"
+    "font-weight:700}.good{color:var(--good)}.bad{color:var(--bad)}"
+    ".tiles{display:flex;flex-wrap:wrap;gap:.75rem;margin:1rem 0;padding:0;list-style:none}"
+    ".tiles li{background:var(--panel);border-radius:.5rem;padding:.6rem .9rem;flex:1 1 13rem}"
+    ".tiles b{display:block;font-size:1.25rem;line-height:1.3}"
+    ".tiles span{display:block;color:var(--quiet);font-size:.875rem}"
+    "figure{margin:1rem 0;display:grid;grid-template-columns:minmax(0,1fr);gap:1rem 2rem;align-items:start}"
+    "figcaption{grid-column:1/-1}.picture,.table{overflow:auto}"
+    ".picture svg{display:block;width:100%;height:auto;max-width:38rem}"
+    ":focus-visible{outline:3px solid var(--link);outline-offset:2px}"
+    ".skip{position:absolute;left:.5rem;top:-4rem;padding:.4rem "
+    ".8rem;background:var(--ground);color:var(--link)}"
+    ".skip:focus{top:.5rem}"
+    "figure .table{max-height:21rem}figure .table:only-child{max-height:28rem}"
+    "@media (min-width:62rem){figure{grid-template-columns:minmax(0,5fr) minmax(0,7fr)}}"
+    "@media (max-width:30rem){.picture .hci,.picture .hci .head{font-size:14px}.tiles "
+    "li{flex-basis:9rem}.tiles "
+    "b{font-size:1.1rem}"
+    "main{padding:1rem .8rem 2rem}}"
+    "table{border-collapse:collapse;font-size:.8125rem;font-variant-numeric:tabular-nums;min-width:60%}"
+    "caption{text-align:left;padding-bottom:.3rem;position:sticky;left:0;max-width:calc(100vw - 2rem)}"
+    "th,td{text-align:right;padding:.2rem .5rem;border-bottom:1px solid var(--line);vertical-align:top}"
+    "th{position:sticky;top:0;background:var(--ground);vertical-align:bottom}"
+    "th.text,td.text{text-align:left}td.text{white-space:nowrap}"
+    "td.words{white-space:normal;min-width:9rem}"
+    "td:first-child,th:first-child{padding-left:0}.table+.table{margin-top:1rem}"
+    "@media print{body{font-size:10pt}main{max-width:none;padding:0}figure{display:block}.skip{display:none}"
+    "figure .table,figure .table:only-child,.picture{overflow:visible;max-height:none}.picture "
+    "svg{max-width:12.5cm;min-width:0}"
+    ".picture,tr,.tiles,p{break-inside:avoid}h2,section p,caption,thead{break-after:avoid}th{position:static}"
+    "caption{position:static;max-width:none}th,td{padding:.1rem .4rem}"
+    "td.long{white-space:normal;overflow-wrap:anywhere;min-width:11em}td.words{min-width:9em}}";
+
+/* ---- the page ---- */
+
+void hci_html_begin(hci_output *out, const char *heading, const char *verdict, bool good)
+{
+    hci_output_text(out, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
+                         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
+                         "<meta name=\"generator\" content=\"hci-solve " HCI_VERSION_STRING "\"/>\n<title>");
+    hci_svg_text(out, heading);
+    hci_output_text(out, ": ");
+    hci_svg_text(out, verdict);
+    hci_output_text(out,
+                    "</title>\n<style>%s\n%s</style>\n</head>\n<body>\n<a class=\"skip\" href=\"#evidence\">"
+                    "Skip to the evidence</a>\n<main>\n<h1>",
+                    STYLE, hci_plot_style);
+    hci_svg_text(out, heading);
+    hci_output_text(out, "</h1>\n<p><span class=\"badge %s\">", good ? "good" : "bad");
+    hci_svg_text(out, verdict);
+    hci_output_text(out, "</span></p>\n");
+}
+
+void hci_html_end(hci_output *out)
+{
+    hci_html_paragraph(out, "quiet",
+                       "Written by hci-solve " HCI_VERSION_STRING ". Amplitudes are peak values, angles "
+                       "and orders electrical, unless it says otherwise. Four significant digits are "
+                       "shown; the CSV files beside this one hold all of them.");
+    hci_output_text(out, "</main>\n</body>\n</html>\n");
+}
+
+/* ---- text ---- */
+
+static void put_element(hci_output *out, const char *name, const char *style, const char *text)
+{
+    hci_output_text(out, "<%s%s%s%s>", name, style ? " class=\"" : "", style ? style : "", style ? "\"" : "");
+    hci_svg_text(out, text);
+    hci_output_text(out, "</%s>\n", name);
+}
+
+void hci_html_paragraph(hci_output *out, const char *style, const char *text)
+{
+    put_element(out, "p", style, text);
+}
+
+void hci_html_say(hci_output *out, const char *style, const char *format, ...)
+{
+    char text[4096];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    hci_html_paragraph(out, style, text);
+}
+
+void hci_html_section(hci_output *out, const char *heading)
+{
+    hci_output_text(out, "<section>\n");
+    put_element(out, "h2", NULL, heading);
+}
+
+void hci_html_section_end(hci_output *out)
+{
+    hci_output_text(out, "</section>\n");
+}
+
+void hci_html_tiles(hci_output *out)
+{
+    hci_output_text(out, "<ul class=\"tiles\">\n");
+}
+
+void hci_html_tile(hci_output *out, const char *name, const char *value, const char *remark)
+{
+    hci_output_text(out, "<li>");
+    put_element(out, "span", NULL, name);
+    put_element(out, "b", NULL, value);
+    put_element(out, "span", NULL, remark);
+    hci_output_text(out, "</li>\n");
+}
+
+void hci_html_tile_number(hci_output *out, const char *name, double value, const char *unit,
+                          const char *remark)
+{
+    char text[HCI_HTML_NUMBER_SIZE];
+    if (!isfinite(value)) return;
+    hci_html_quantity_text(text, value, unit);
+    hci_html_tile(out, name, text, remark);
+}
+
+void hci_html_tiles_end(hci_output *out)
+{
+    hci_output_text(out, "</ul>\n<div id=\"evidence\" tabindex=\"-1\"></div>\n");
+}
+
+/* ---- figures ---- */
+
+void hci_html_figure(hci_output *out)
+{
+    hci_output_text(
+        out, "<figure>\n<div class=\"picture\" tabindex=\"0\" role=\"group\" aria-label=\"Picture\">\n");
+}
+
+void hci_html_figure_tables(hci_output *out)
+{
+    hci_output_text(out, "</div>\n<div>\n");
+}
+
+void hci_html_figure_end(hci_output *out, const char *caption, const char *numbers, const char *origin)
+{
+    hci_output_text(out, "</div>\n<figcaption>");
+    hci_svg_text(out, caption);
+    hci_output_text(out, " Numbers: ");
+    hci_svg_text(out, numbers);
+    if (origin[0]) hci_output_text(out, ". Made from: ");
+    hci_svg_text(out, origin);
+    hci_output_text(out, ".</figcaption>\n</figure>\n");
+}
+
+/* ---- tables ---- */
+
+void hci_html_table(hci_output *out, const char *caption, const char *const *column)
+{
+    hci_output_text(out, "<div class=\"table\" tabindex=\"0\" role=\"region\" aria-label=\"");
+    hci_svg_text(out, caption);
+    hci_output_text(out, "\">\n<table>\n");
+    put_element(out, "caption", NULL, caption);
+    hci_output_text(out, "<thead><tr>");
+    for (; *column; ++column) {
+        const bool is_text = **column == '<';
+        hci_output_text(out, is_text ? "<th scope=\"col\" class=\"text\">" : "<th scope=\"col\">");
+        hci_svg_text(out, *column + is_text);
+        hci_output_text(out, "</th>");
+    }
+    hci_output_text(out, "</tr></thead>\n<tbody>\n");
+}
+
+void hci_html_table_end(hci_output *out)
+{
+    hci_output_text(out, "</tbody>\n</table>\n</div>\n");
+}
+
+void hci_html_row(hci_output *out)
+{
+    hci_output_text(out, "<tr>");
+}
+
+void hci_html_row_end(hci_output *out)
+{
+    hci_output_text(out, "</tr>\n");
+}
+
+static void put_cell(hci_output *out, const char *style, const char *text)
+{
+    hci_output_text(out, "<td class=\"%s\">", style);
+    hci_svg_text(out, text);
+    hci_output_text(out, "</td>");
+}
+
+/* On paper a long one may break anywhere. */
+void hci_html_cell(hci_output *out, const char *text)
+{
+    put_cell(out, strlen(text) > LONGEST_WORD ? "text long" : "text", text);
+}
+
+void hci_html_cell_words(hci_output *out, const char *text)
+{
+    put_cell(out, "text words", text);
+}
+
+/* ---- numbers ---- */
+
+/* A power of ten is exact up to 22, so that the quotient is the nearest double of the digits; beyond, that is
+ * what the digits are read as. */
+static double rounded(double value, int digits)
+{
+    const int exponent = value != 0.0 ? (int)floor(log10(fabs(value))) + 1 - digits : 0;
+    const double power = pow(10.0, abs(exponent) <= 22 ? abs(exponent) : 0);
+    char text[48];
+    if (exponent >= -22 && exponent <= 22)
+        return exponent < 0 ? round(value * power) / power : round(value / power) * power;
+    /* in two steps, since 10^exponent may be no number while the value is one */
+    const double half = pow(10.0, exponent / 2), whole = value / half / pow(10.0, exponent - exponent / 2);
+    snprintf(text, sizeof text, "%.0fe%d", round(whole), exponent);
+    return hci_number_parse(text, &value) ? value : whole;
+}
+
+static void put_digits(char text[HCI_HTML_NUMBER_SIZE], double value, int digits)
+{
+    char plain[32];
+    if (!isfinite(value)) {
+        snprintf(text, HCI_HTML_NUMBER_SIZE, "–");
+        return;
+    }
+    hci_number_text(rounded(value, digits), plain);
+    text[0] = '\0';
+    for (const char *c = plain; *c; ++c)
+        snprintf(text + strlen(text), HCI_HTML_NUMBER_SIZE - strlen(text), *c == '-' ? "−" : "%c", *c);
+}
+
+void hci_html_number_text(char text[HCI_HTML_NUMBER_SIZE], double value)
+{
+    put_digits(text, value, 3);
+}
+
+void hci_html_quantity_text(char text[HCI_HTML_NUMBER_SIZE], double value, const char *unit)
+{
+    if (strcmp(unit, "%") != 0 && strcmp(unit, "×") != 0) {
+        hci_svg_quantity_text(text, value, unit);
+        return;
+    }
+    hci_html_number_text(text, fabs(value) < 1e-9 ? 0.0 : value);
+    snprintf(text + strlen(text), HCI_HTML_NUMBER_SIZE - strlen(text), " %s", unit);
+}
+
+static void put_number(hci_output *out, double value, int digits)
+{
+    char text[HCI_HTML_NUMBER_SIZE], exact[32];
+    put_digits(text, value, digits);
+    hci_number_text(value, exact);
+    if (isfinite(value))
+        hci_output_text(out, "<td><data value=\"%s\">%s</data></td>", exact, text);
+    else
+        hci_output_text(out, "<td>%s</td>", text);
+}
+
+void hci_html_number(hci_output *out, double value)
+{
+    put_number(out, value, 4);
+}
+
+void hci_html_number_above(hci_output *out, double value, double least)
+{
+    char exact[32];
+    if (!(fabs(value) < least)) {
+        put_number(out, value, 4);
+        return;
+    }
+    hci_number_text(value, exact);
+    hci_output_text(out, "<td><data value=\"%s\">0</data></td>", exact);
+}
+
+void hci_html_number_in(hci_output *out, double value, double span)
+{
+    const double share = fabs(value) / span;
+    put_number(out, value, share > 1.0 && share < 1e8 ? 4 + (int)log10(share) : 4);
+}
+
+void hci_html_quantity(hci_output *out, const char *name, double value)
+{
+    if (!isfinite(value)) return;
+    hci_html_row(out);
+    hci_html_cell(out, name);
+    hci_html_number(out, value);
+    hci_html_row_end(out);
+}

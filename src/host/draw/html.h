@@ -1,0 +1,78 @@
+/* Writing a page: one file without script, font or picture from elsewhere, for screens light and dark, for
+ * telephones and for paper. It is well-formed XML too. Texts are escaped here. */
+#ifndef HCI_SRC_HOST_DRAW_HTML_H
+#define HCI_SRC_HOST_DRAW_HTML_H
+
+#include <stdbool.h>
+
+#include "hci/host/base/output.h"
+
+enum { HCI_HTML_NUMBER_SIZE = 48 };
+
+/* ---- the page ---- */
+
+/* Up to the heading; verdict: a word or a few on a badge; good: whether it is what one hopes for. */
+void hci_html_begin(hci_output *out, const char *heading, const char *verdict, bool good);
+void hci_html_end(hci_output *out);
+
+/* ---- text ---- */
+
+void hci_html_paragraph(hci_output *out, const char *style, const char *text);
+
+/* The same of parts that are put together, at most 4095 bytes. */
+void hci_html_say(hci_output *out, const char *style, const char *format, ...) HCI_PRINTF(3, 4);
+
+void hci_html_section(hci_output *out, const char *heading);
+void hci_html_section_end(hci_output *out);
+
+/* A few large figures in a row. */
+void hci_html_tiles(hci_output *out);
+void hci_html_tile(hci_output *out, const char *name, const char *value, const char *remark);
+
+/* Of a number with its unit; nothing where it is not finite. */
+void hci_html_tile_number(hci_output *out, const char *name, double value, const char *unit,
+                          const char *remark);
+
+/* After them comes the evidence, to which the first link of the page leads. */
+void hci_html_tiles_end(hci_output *out);
+
+/* ---- a picture and its table ---- */
+
+/* Between them the <svg>; then tables, then the caption. numbers: the files that hold them; origin: those
+ * that they were made from. */
+void hci_html_figure(hci_output *out);
+void hci_html_figure_tables(hci_output *out);
+void hci_html_figure_end(hci_output *out, const char *caption, const char *numbers, const char *origin);
+
+/* ---- tables ---- */
+
+/* column: names with units, NULL at the end; those that begin with '<' are text and lean to the left. */
+void hci_html_table(hci_output *out, const char *caption, const char *const *column);
+void hci_html_table_end(hci_output *out);
+void hci_html_row(hci_output *out);
+void hci_html_row_end(hci_output *out);
+void hci_html_cell(hci_output *out, const char *text);
+
+/* A text that may take several lines. */
+void hci_html_cell_words(hci_output *out, const char *text);
+
+/* With its unit and a prefix to that, but for % and ×. */
+void hci_html_quantity_text(char text[HCI_HTML_NUMBER_SIZE], double value, const char *unit);
+
+/* A row of a name and a number; nothing where it is not finite. */
+void hci_html_quantity(hci_output *out, const char *name, double value);
+
+/* Four significant digits, and the whole number for programs; a dash for what is not finite. */
+void hci_html_number(hci_output *out, double value);
+
+/* The same; what is below `least` is rounding and shown as 0. */
+void hci_html_number_above(hci_output *out, double value, double least);
+
+/* With as many digits more as tell a thousandth of `span` apart, which is that of the values in the column.
+ */
+void hci_html_number_in(hci_output *out, double value, double span);
+
+/* Three significant digits, for sentences. */
+void hci_html_number_text(char text[HCI_HTML_NUMBER_SIZE], double value);
+
+#endif

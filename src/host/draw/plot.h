@@ -1,0 +1,125 @@
+/* What is drawn. Each function appends one <svg> element to the current file of `out`: a file of its own, or
+ * part of an HTML page. No script, font or other reference; same input, same bytes. They allocate nothing and
+ * cannot fail: write errors are kept by `out`. */
+#ifndef HCI_SRC_HOST_DRAW_PLOT_H
+#define HCI_SRC_HOST_DRAW_PLOT_H
+
+#include "hci/machine/frames.h"
+#include "hci/host/diagnose/diagnose.h"
+#include "hci/host/base/output.h"
+#include "hci/host/solve/solve.h"
+#include "hci/host/waveform/waveform.h"
+#include "host/draw/svg.h"
+
+/* The style sheet of all of them. hci_plot_solution brings it along; for the others it is part of the page.
+ */
+extern const char hci_plot_style[];
+
+/* ---- plot.c: a solution ---- */
+
+/* Torque, its spectrum, phase currents and current vector as one picture under a verdict.
+ * O(samples·(orders + components)), at most 23040 samples; so are the next two. */
+void hci_plot_solution(hci_output *out, const hci_machine_data *machine, const hci_solution *solution);
+
+/* One of the four panels as a picture. */
+typedef enum { HCI_PANEL_TORQUE, HCI_PANEL_SPECTRUM, HCI_PANEL_CURRENT, HCI_PANEL_VECTOR } hci_plot_panel;
+
+void hci_plot_solution_panel(hci_output *out, const hci_machine_data *machine, const hci_solution *solution,
+                             hci_plot_panel panel);
+
+enum { HCI_PLOT_LINE_SIZE = 512 };
+
+/* What the picture says in words, and the extremes of its curves. */
+typedef struct {
+    char verdict[HCI_PLOT_LINE_SIZE], facts[HCI_PLOT_LINE_SIZE], baseline[HCI_PLOT_LINE_SIZE];
+    hci_svg_range before_Nm, wanted_Nm, after_Nm, phase_A[3], d_A, q_A;
+    hci_dq plain_dq_A; /* of the plain sine */
+} hci_plot_facts;
+
+void hci_plot_solution_facts(const hci_machine_data *machine, const hci_solution *solution,
+                             hci_plot_facts *facts);
+
+/* What the curves are at one electrical angle. */
+typedef struct {
+    double before_Nm, wanted_Nm, after_Nm;
+    double plain_A; /* phase a before */
+    double phase_A[3];
+    hci_dq dq_A;
+} hci_plot_point;
+
+void hci_plot_solution_point(const hci_machine_data *machine, const hci_solution *solution, double theta_rad,
+                             hci_plot_point *point);
+
+/* ---- plot_waveform.c ---- */
+
+/* A measured waveform as a picture with a style sheet of its own: over a turn, and by order.
+ * O(points·orders). */
+void hci_plot_waveform(hci_output *out, const hci_waveform *waveform);
+
+/* ---- plot_matrix.c: numbers in rows and columns, as squares whose size tells theirs ---- */
+
+/* U: torque orders down, current components to the right. Where they are more than fit, a square is the
+ * largest of several. What solves nothing is marked. O(entries). */
+void hci_plot_system(hci_output *out, const hci_solution *solution);
+
+/* Whether a component of U carries current in the solution. */
+bool hci_plot_is_used(const hci_solution *solution, hci_component component);
+
+/* Entries below this share of the largest are not worth a mark. */
+#define HCI_PLOT_ZERO 1e-6
+
+/* Residual after by run and order, before it behind. run, order: what is shown, ascending; at most
+ * HCI_PLOT_MOST_CELLS of each. */
+enum { HCI_PLOT_MOST_CELLS = 24 };
+
+typedef struct {
+    const hci_diagnosis *diagnosis;
+    const hci_runs *runs;
+    const size_t *run;
+    const double *order;
+    size_t runs_shown, orders_shown;
+} hci_plot_map;
+
+void hci_plot_residuals(hci_output *out, const hci_plot_map *map);
+
+/* ---- plot_parts.c: pieces of the following ---- */
+
+/* The `most` places k < count of the largest weights above 0, ascending; returns how many. O(count·most). */
+size_t hci_plot_largest(double (*weight)(const void *context, size_t k), const void *context, size_t count,
+                        size_t most, size_t *place);
+
+/* What there is at one order; NAN for what there is not. */
+typedef struct {
+    double order;
+    double before_Nm, after_Nm, noise_Nm; /* peak amplitude */
+    size_t before_run, after_run;         /* where it comes from */
+} hci_plot_order;
+
+/* Amplitudes over the order, ascending; logarithmic over at most four decades. noise: what the legend calls
+ * noise_Nm; before_Nm and noise_Nm are there of all orders or of none. */
+void hci_plot_orders(hci_output *out, const hci_svg_picture *words, const hci_plot_order *order, size_t count,
+                     const char *noise, bool logarithmic);
+
+/* ---- plot_diagnose.c ---- */
+
+/* Of a finding that is in the game, the effect of the corrected machine and the term whose value is the
+ * largest multiple of its standard error; NULL where none has one. */
+const hci_effect *hci_plot_clearest(const hci_diagnosis *diagnosis, const hci_finding *finding, size_t *term);
+
+/* Effects by the fall of the BIC, the share of the residual that is each one's alone, and the 95 % interval
+ * of its clearest value as a share of it. */
+void hci_plot_findings(hci_output *out, const hci_diagnosis *diagnosis);
+
+/* Error of the runs before and after, those held out first; at most so many of each role. */
+enum { HCI_PLOT_MOST_RUNS = 40 };
+void hci_plot_runs(hci_output *out, const hci_diagnosis *diagnosis);
+
+/* Values with their 95 % intervals, all of them in one unit. */
+void hci_plot_terms(hci_output *out, const char *id, const char *title, const hci_effect *effect,
+                    const size_t *term, size_t count);
+
+/* "sine_18" */
+enum { HCI_PLOT_NAME_SIZE = 96 };
+void hci_plot_term_name(char name[HCI_PLOT_NAME_SIZE], const hci_effect *effect, size_t term);
+
+#endif

@@ -1,0 +1,109 @@
+/* Pieces that several pictures are made of. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "host/draw/plot.h"
+
+/* ---- the largest ---- */
+
+static int by_place(const void *a, const void *b)
+{
+    const size_t x = *(const size_t *)a, y = *(const size_t *)b;
+    return (x > y) - (x < y);
+}
+
+size_t hci_plot_largest(double (*weight)(const void *context, size_t k), const void *context, size_t count,
+                        size_t most, size_t *place)
+{
+    size_t chosen = 0;
+    for (size_t k = 0; k < count; ++k) {
+        const double w = weight(context, k);
+        size_t at = chosen;
+        if (!(w > 0.0)) continue;
+        while (at > 0 && weight(context, place[at - 1]) < w)
+            --at;
+        if (at == most) continue;
+        if (chosen < most) ++chosen;
+        memmove(place + at + 1, place + at, (chosen - at - 1) * sizeof *place);
+        place[at] = k;
+    }
+    qsort(place, chosen, sizeof *place, by_place);
+    return chosen;
+}
+
+/* ---- amplitudes over the order ---- */
+
+static const hci_svg_box ORDERS = {58, 52, 468, 262};
+
+typedef struct {
+    hci_svg_box box;
+    hci_svg_axis x, y;
+    bool logarithmic;
+} order_axes;
+
+static double height_of(const order_axes *a, double amplitude_Nm)
+{
+    return a->logarithmic ? hci_svg_log_at(&a->y, amplitude_Nm) : hci_svg_at(&a->y, amplitude_Nm);
+}
+
+static order_axes axes_of(const hci_plot_order *order, size_t count, bool logarithmic)
+{
+    hci_svg_range n = {0.0, 1.0}, amplitude_Nm = HCI_SVG_NOTHING;
+    for (size_t k = 0; k < count; ++k) {
+        const double value[] = {order[k].before_Nm, order[k].after_Nm, order[k].noise_Nm};
+        hci_svg_include(&n, order[k].order);
+        for (size_t j = 0; j < 3; ++j)
+            if (value[j] > 0.0) hci_svg_include(&amplitude_Nm, value[j]);
+    }
+    if (!logarithmic) amplitude_Nm.low = 0.0;
+    const hci_svg_axis y = logarithmic ? hci_svg_log_axis(amplitude_Nm, ORDERS.bottom, ORDERS.top, 4.0)
+                                       : hci_svg_axis_over(amplitude_Nm, ORDERS.bottom, ORDERS.top, 6.0);
+    const hci_svg_box b = logarithmic ? ORDERS : hci_svg_box_beside(ORDERS, &y);
+    return (order_axes){b, hci_svg_axis_over(n, b.left, b.right, 10.0), y, logarithmic};
+}
+
+/* What lies below the axis is left out. */
+static void draw_stem(hci_output *out, const order_axes *a, const char *line, const char *dot, double order,
+                      double amplitude_Nm, double radius)
+{
+    const double x = hci_svg_at(&a->x, order), y = height_of(a, amplitude_Nm);
+    if (!(amplitude_Nm > 0.0) || y >= a->y.from) return;
+    hci_svg_segment(out, line, x, a->y.from, x, y);
+    hci_svg_circle(out, dot, x, y, radius);
+}
+
+static void draw_order(hci_output *out, const order_axes *a, const hci_plot_order *o)
+{
+    const double x = hci_svg_at(&a->x, o->order), y = height_of(a, o->noise_Nm);
+    draw_stem(out, a, "before", "before", o->order, o->before_Nm, 3.6);
+    draw_stem(out, a, "after", "dot", o->order, o->after_Nm, 2.4);
+    if (o->noise_Nm > 0.0 && y < a->y.from) hci_svg_segment(out, "noise", x - 3.0, y, x + 3.0, y);
+}
+
+void hci_plot_orders(hci_output *out, const hci_svg_picture *words, const hci_plot_order *order, size_t count,
+                     const char *noise, bool logarithmic)
+{
+    const bool compared = count > 0 && isfinite(order[0].before_Nm);
+    const bool has_noise = count > 0 && isfinite(order[0].noise_Nm);
+    const hci_svg_entry entry[] = {
+        {HCI_SVG_DOT,  "before", "before"                     },
+        {HCI_SVG_DOT,  "dot",    compared ? "after" : "torque"},
+        {HCI_SVG_LINE, "noise",  noise                        }
+    };
+    const order_axes a = axes_of(order, count, logarithmic);
+    hci_svg_begin(out, words);
+    hci_svg_head(out, &a.box, "N·m (peak amplitude)", compared ? entry : entry + 1,
+                 compared || has_noise ? (size_t)compared + 1 + (size_t)has_noise : 0);
+    if (logarithmic)
+        hci_svg_log_grid(out, &a.y, &a.box, true);
+    else
+        hci_svg_grid(out, &a.y, &a.box, true);
+    hci_svg_grid(out, &a.x, &a.box, false);
+    for (size_t k = 0; k < count; ++k)
+        draw_order(out, &a, &order[k]);
+    hci_svg_label(out, "quiet middle", 0.5 * (a.box.left + a.box.right), a.box.bottom + 35.0,
+                  "electrical order");
+    hci_svg_end(out);
+}

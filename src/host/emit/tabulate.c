@@ -1,0 +1,225 @@
+#include "host/emit/tabulate.h"
+
+#include <math.h>
+
+#include "hci/machine/frames.h"
+
+/* Below this a current in A or A/(N·m) is rounding dust of sin and cos, which differs from one libm to the
+ * next. */
+static const double DUST = 1e-12;
+
+static double amplitude(const hci_wave *w)
+{
+    return hci_amplitude(w->sine, w->cosine);
+}
+
+double hci_tabulation_bound_A(const hci_tabulation *t)
+{
+    double constant = 0.0, per_Nm = 0.0;
+    for (size_t k = 0; k < t->constant_count; ++k)
+        constant += amplitude(&t->constant[k]);
+    for (size_t k = 0; k < t->per_Nm_count; ++k)
+        per_Nm += amplitude(&t->per_Nm[k]);
+    return constant + t->torque_Nm * per_Nm;
+}
+
+/* |d²i/dθ²| of one wave: seen from the rotor, (n, σ) has the order n − σ. */
+static double curvature(const hci_tabulation *t, const hci_wave *w)
+{
+    const double order = t->frame == HCI_TABLE_ABC ? w->order : w->order - w->sequence;
+    return order * order * amplitude(w);
+}
+
+static double curvature_bound_A(const hci_tabulation *t)
+{
+    double constant = 0.0, per_Nm = 0.0;
+    for (size_t k = 0; k < t->constant_count; ++k)
+        constant += curvature(t, &t->constant[k]);
+    for (size_t k = 0; k < t->per_Nm_count; ++k)
+        per_Nm += curvature(t, &t->per_Nm[k]);
+    return constant + t->torque_Nm * per_Nm;
+}
+
+static double highest_order(const hci_tabulation *t)
+{
+    double highest = 1.0;
+    for (size_t k = 0; k < t->constant_count; ++k)
+        highest = fmax(highest, t->constant[k].order);
+    for (size_t k = 0; k < t->per_Nm_count; ++k)
+        highest = fmax(highest, t->per_Nm[k].order);
+    return highest;
+}
+
+static void to_frame(const hci_tabulation *t, const double abc[3], double theta_rad, double current[3])
+{
+    if (t->frame == HCI_TABLE_DQ) {
+        const hci_dq x = hci_park(hci_clarke(abc), theta_rad);
+        current[0] = x.d;
+        current[1] = x.q;
+        current[2] = 0.0;
+    } else {
+        for (size_t s = 0; s < 3; ++s)
+            current[s] = abc[s];
+    }
+}
+
+void hci_tabulation_exact(const hci_tabulation *t, uint32_t angle, double torque_Nm, double current[3],
+                          double *phase_A)
+{
+    const double theta_rad = 2.0 * HCI_PI * (double)t->period_turns * ((double)angle / 4294967296.0);
+    double abc[3], slope[3];
+    hci_waves_at(t->constant, t->constant_count, theta_rad, abc);
+    hci_waves_at(t->per_Nm, t->per_Nm_count, theta_rad, slope);
+    for (size_t s = 0; s < 3; ++s)
+        abc[s] += torque_Nm * slope[s];
+    to_frame(t, abc, theta_rad, current);
+    if (phase_A != NULL) *phase_A = fmax(fabs(abc[0]), fmax(fabs(abc[1]), fabs(abc[2])));
+}
+
+double hci_tabulation_clean(double current)
+{
+    return fabs(current) < DUST ? 0.0 : current;
+}
+
+/* ---- rows ---- */
+
+static void fill_part(const hci_tabulation *t, const hci_wave *waves, size_t count, double theta_rad,
+                      float *out)
+{
+    double abc[3], value[3];
+    hci_waves_at(waves, count, theta_rad, abc);
+    to_frame(t, abc, theta_rad, value);
+    for (size_t k = 0; k < t->columns; ++k)
+        out[k] = (float)hci_tabulation_clean(value[k]);
+}
+
+/* Row k of a table; the last one, the guard, is computed as the first one. */
+static void fill_row(const hci_tabulation *t, size_t points, size_t k, float *rows)
+{
+    const double share = (double)(k % points) / (double)points;
+    const double theta_rad = 2.0 * HCI_PI * (double)t->period_turns * share;
+    float *row = rows + k * t->parts * t->columns;
+    if (t->parts == 2) {
+        fill_part(t, t->per_Nm, t->per_Nm_count, theta_rad, row);
+        row += t->columns;
+    }
+    fill_part(t, t->constant, t->constant_count, theta_rad, row);
+}
+
+/* ---- error ---- */
+
+/* A grid of `fine` angles in each of `points` intervals, and what the error can be above that at the grid. */
+typedef struct {
+    size_t points, fine;
+    double margin_A;
+} grid;
+
+/* The error of a chord of f between two angles δ apart is a function with the curvature of f, so it passes
+ * the larger of its values there by δ²/8·max|f''| at most. Rows, interpolation and sums in single precision,
+ * with or without fused multiply-add, stay within 2⁻²¹ of the largest current of each other. */
+static grid grid_of(const hci_tabulation *t, size_t points)
+{
+    const double least = 64.0 * highest_order(t) * (double)t->period_turns / (double)points;
+    grid g = {points, (size_t)fmax(32.0, ceil(least)), 0.0};
+    const double step_rad = 2.0 * HCI_PI * (double)t->period_turns / ((double)points * (double)g.fine);
+    g.margin_A = step_rad * step_rad / 8.0 * curvature_bound_A(t) + ldexp(hci_tabulation_bound_A(t), -21);
+    return g;
+}
+
+/* The first angle of the runtime at or after grid angle j of interval k. */
+static uint32_t grid_angle(grid g, size_t k, size_t j)
+{
+    const uint64_t count = (uint64_t)g.points * g.fine;
+    return (uint32_t)((((uint64_t)k * g.fine + j) * (UINT64_C(1) << 32) + count - 1) / count);
+}
+
+typedef struct {
+    double error_A, peak_A;
+} extremes;
+
+static void measure_at(const hci_tabulation *t, const hci_table_f32 *table, uint32_t angle, double torque_Nm,
+                       extremes *most)
+{
+    double exact[3], phase_A;
+    float current[3];
+    hci_tabulation_exact(t, angle, torque_Nm, exact, &phase_A);
+    hci_table_f32_currents(table, angle, (float)torque_Nm, current);
+    for (size_t s = 0; s < 3; ++s)
+        most->error_A = fmax(most->error_A, fabs((double)current[s] - exact[s]));
+    most->peak_A = fmax(most->peak_A, phase_A);
+}
+
+/* Measures interval k, until the error passes `limit_A`. Currents are linear in torque: the ends decide. */
+static void measure_interval(const hci_tabulation *t, const hci_table_f32 *table, grid g, size_t k,
+                             double limit_A, extremes *most)
+{
+    for (size_t j = 0; j < g.fine && most->error_A <= limit_A; ++j) {
+        const uint32_t angle = grid_angle(g, k, j);
+        measure_at(t, table, angle, t->torque_Nm, most);
+        if (t->parts == 2) measure_at(t, table, angle, -t->torque_Nm, most);
+    }
+}
+
+static hci_table_f32 table_of(const hci_tabulation *t, size_t points, const float *rows)
+{
+    hci_table_f32 table = {0};
+    table.rows = rows;
+    table.points = (uint32_t)points;
+    table.columns = (uint32_t)t->columns;
+    table.parts = (uint32_t)t->parts;
+    table.frame = t->frame;
+    table.period_turns = (uint32_t)t->period_turns;
+    table.reference_torque_Nm = (float)t->torque_Nm;
+    return table;
+}
+
+/* The float that is not below x. */
+static float round_up(double x)
+{
+    const float y = (float)x;
+    return (double)y < x ? nextafterf(y, INFINITY) : y;
+}
+
+/* Fills and measures the table interval by interval, from interval *first on and around, and stops in the
+ * first one whose error passes the limit: *first is then that interval's place. False in that case. */
+static bool tabulate(const hci_tabulation *t, grid g, double limit_A, double *first, float *rows,
+                     hci_table_f32 *table)
+{
+    const size_t start = (size_t)(*first * (double)g.points);
+    extremes most = {0.0, 0.0};
+    *table = table_of(t, g.points, rows);
+    for (size_t n = 0; n < g.points; ++n) {
+        const size_t k = (start + n) % g.points;
+        fill_row(t, g.points, k, rows);
+        fill_row(t, g.points, k + 1, rows);
+        measure_interval(t, table, g, k, limit_A, &most);
+        if (most.error_A > limit_A) {
+            *first = ((double)k + 0.5) / (double)g.points;
+            return false;
+        }
+    }
+    table->max_error_A = round_up(most.error_A + g.margin_A);
+    table->peak_A = round_up(most.peak_A);
+    return true;
+}
+
+void hci_tabulate(const hci_tabulation *t, size_t points, float *rows, hci_table_f32 *table)
+{
+    double first = 0.0;
+    (void)tabulate(t, grid_of(t, points), HUGE_VAL, &first, rows, table);
+}
+
+/* The error does not fall steadily with the points, so each number is tried in turn, beginning where the one
+ * before has failed: that is nearly always enough to refuse it. */
+bool hci_tabulate_within(const hci_tabulation *t, double max_error_A, float *rows, hci_table_f32 *table)
+{
+    double first = 0.0;
+    for (size_t points = 1; points <= HCI_EMIT_MAX_POINTS; ++points) {
+        const grid g = grid_of(t, points);
+        const double limit_A = max_error_A - g.margin_A;
+        if (limit_A >= 0.0 && tabulate(t, g, limit_A, &first, rows, table) &&
+            (double)table->max_error_A <= max_error_A)
+            return true;
+    }
+    return false;
+}

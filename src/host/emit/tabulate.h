@@ -1,0 +1,37 @@
+/* From current waves to the rows of a table: its values, how far interpolation is off, and the fewest points.
+ */
+#ifndef HCI_SRC_HOST_EMIT_TABULATE_H
+#define HCI_SRC_HOST_EMIT_TABULATE_H
+
+#include "hci/host/emit/emit.h"
+
+/* i(θ) = T·A(θ) + B(θ) over a period of `period_turns` electrical turns, of which every order is a whole
+ * multiple. */
+typedef struct {
+    const hci_wave *constant, *per_Nm;
+    size_t constant_count, per_Nm_count;
+    hci_table_frame frame;
+    size_t columns, parts, period_turns;
+    double torque_Nm; /* error and peak are those of |T| up to this; 0 with one part */
+} hci_tabulation;
+
+/* Σ|A| of the waves at the reference torque: no current is larger. */
+double hci_tabulation_bound_A(const hci_tabulation *t);
+
+/* The exact currents ia, ib, ic or id, iq, 0 at an angle of the table. phase_A: out, may be NULL: the largest
+ * |phase current|. */
+void hci_tabulation_exact(const hci_tabulation *t, uint32_t angle, double torque_Nm, double current[3],
+                          double *phase_A);
+
+/* A current in A or A/(N·m), or 0 where it is but rounding dust of sin and cos. */
+double hci_tabulation_clean(double current);
+
+/* Fills rows[(points + 1)·columns·parts], measures it, and states points, error and peak in *table, whose
+ * other fields but probes and CRC are set too. */
+void hci_tabulate(const hci_tabulation *t, size_t points, float *rows, hci_table_f32 *table);
+
+/* The same with the fewest points whose error is at most max_error_A; rows for HCI_EMIT_MAX_POINTS points.
+ * False when no table is good enough; *table is then undefined. */
+bool hci_tabulate_within(const hci_tabulation *t, double max_error_A, float *rows, hci_table_f32 *table);
+
+#endif

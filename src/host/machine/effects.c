@@ -1,0 +1,444 @@
+#define _POSIX_C_SOURCE 200809L
+
+#include "hci/host/machine/effects.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "hci/host/csv/csv.h"
+#include "host/base/memory.h"
+
+#define PATH_SIZE 4096
+#define LIST_SIZE 640
+
+/* Of a longer list of parameters, these many are named: half from its start, half from its end. */
+enum { MOST_NAMES = 20 };
+
+/* ---- reading ---- */
+
+/* One row of the file; `room` is a place in the registry. */
+typedef struct {
+    size_t room;
+    hci_effect_term term;
+    size_t row;
+} effect_row;
+
+static void append(char list[LIST_SIZE], const char *before, const char *name, const char *after)
+{
+    const size_t used = strlen(list);
+    snprintf(list + used, LIST_SIZE - used, "%s%s%s", before, name, after);
+}
+
+static hci_status room_error(const hci_csv *csv, size_t row, hci_note *note)
+{
+    char list[LIST_SIZE] = "one of";
+    const hci_effect_room *room;
+    for (size_t k = 0; (room = hci_effect_room_at(k)) != NULL; ++k)
+        append(list, k > 0 ? ", " : " ", room->name, "");
+    return hci_csv_error(csv, "effect", row, note, list, "correct the name or delete the row");
+}
+
+static hci_status parameter_error(const hci_csv *csv, size_t row, const hci_effect_room *room, hci_note *note)
+{
+    char list[LIST_SIZE] = "one of";
+    const size_t count = room->parameter_count;
+    const size_t from = count > MOST_NAMES ? MOST_NAMES / 2 : count, to = count - MOST_NAMES / 2;
+    for (size_t k = 0; k < count; ++k) {
+        if (k == from) append(list, ", ", "…", "");
+        if (k < from || k >= to)
+            append(list, k > 0 ? ", " : " ", room->parameter[k].name,
+                   room->parameter[k].ordered ? "_ORDER" : "");
+    }
+    return hci_csv_error(csv, "parameter", row, note, list,
+                         "these are the parameters of this effect; an order is a number, as in sine_18");
+}
+
+static hci_status room_read(const hci_csv *csv, effect_row *r, hci_note *note)
+{
+    const hci_effect_room *room;
+    const char *name;
+    const hci_status status = hci_csv_text(csv, "effect", r->row, &name, note);
+    if (status) return status;
+    for (r->room = 0; (room = hci_effect_room_at(r->room)) != NULL; ++r->room)
+        if (strcmp(room->name, name) == 0) return HCI_OK;
+    return room_error(csv, r->row, note);
+}
+
+/* Is `name` the parameter, with its order where it has one? */
+static bool is_parameter(const hci_effect_parameter *parameter, const char *name, double *order)
+{
+    const size_t length = strlen(parameter->name);
+    *order = 0.0;
+    if (!parameter->ordered) return strcmp(parameter->name, name) == 0;
+    return strncmp(parameter->name, name, length) == 0 && name[length] == '_' &&
+           hci_number_parse(name + length + 1, order);
+}
+
+static hci_status order_check(const hci_csv *csv, const effect_row *r, const hci_effect_parameter *parameter,
+                              hci_note *note)
+{
+    const double order = r->term.order;
+    if (!parameter->ordered) return HCI_OK;
+    if (order < parameter->least_order)
+        return hci_csv_error(csv, "parameter", r->row, note,
+                             parameter->least_order >= 1.0  ? "an order from 1"
+                             : parameter->least_order > 0.0 ? "an order above 0"
+                                                            : "an order of 0 or more",
+                             "give a negative order as the positive one; order 0 is a mean and has no sine");
+    if (parameter->whole && fabs(order - floor(order + 0.5)) > HCI_ORDER_TOLERANCE)
+        return hci_csv_error(csv, "parameter", r->row, note, "a whole order",
+                             "fractional electrical orders are what mechanical_order is for");
+    return HCI_OK;
+}
+
+static hci_status parameter_read(const hci_csv *csv, effect_row *r, hci_note *note)
+{
+    const hci_effect_room *room = hci_effect_room_at(r->room);
+    const char *name;
+    const hci_status status = hci_csv_text(csv, "parameter", r->row, &name, note);
+    if (status) return status;
+    for (size_t k = 0; k < room->parameter_count; ++k) {
+        if (!is_parameter(&room->parameter[k], name, &r->term.order)) continue;
+        r->term.parameter = k;
+        return order_check(csv, r, &room->parameter[k], note);
+    }
+    return parameter_error(csv, r->row, room, note);
+}
+
+/* The factor to the parameter's unit, which may be one that files have nowhere else. */
+static hci_status unit_read(const hci_csv *csv, size_t row, const char *wanted, double *factor,
+                            hci_note *note)
+{
+    const char *unit = "";
+    char expected[64];
+    const hci_status status = hci_csv_has(csv, "unit") ? hci_csv_text(csv, "unit", row, &unit, note) : HCI_OK;
+    *factor = 1.0;
+    if (status || unit[0] == '\0' || strcmp(unit, "1") == 0 || strcmp(unit, "-") == 0 ||
+        strcmp(unit, wanted) == 0)
+        return status;
+    if (hci_unit_factor(unit, wanted, factor)) return HCI_OK;
+    snprintf(expected, sizeof expected, "a unit that converts to %s", wanted);
+    return hci_csv_error(csv, "unit", row, note, expected, "check the unit of this value");
+}
+
+/* An empty cell, or no such column, is a standard error that is not known. */
+static hci_status std_error_read(const hci_csv *csv, effect_row *r, hci_note *note)
+{
+    const char *text = "";
+    hci_status status = HCI_OK;
+    r->term.std_error = NAN;
+    if (hci_csv_has(csv, "std_error")) status = hci_csv_text(csv, "std_error", r->row, &text, note);
+    if (status || text[0] == '\0') return status;
+    status = hci_csv_number(csv, "std_error", r->row, &r->term.std_error, note);
+    if (!status && r->term.std_error < 0.0)
+        return hci_csv_error(csv, "std_error", r->row, note, "0 or more",
+                             "leave it empty when it is not known");
+    return status;
+}
+
+static hci_status value_read(const hci_csv *csv, effect_row *r, hci_note *note)
+{
+    const hci_effect_parameter *parameter = &hci_effect_room_at(r->room)->parameter[r->term.parameter];
+    double factor;
+    char expected[64];
+    hci_status status = hci_csv_number(csv, "value", r->row, &r->term.value, note);
+    if (!status) status = unit_read(csv, r->row, parameter->unit, &factor, note);
+    if (!status) status = std_error_read(csv, r, note);
+    if (status) return status;
+    r->term.value *= factor;
+    r->term.std_error *= factor;
+    if (!isfinite(r->term.value) || isinf(r->term.std_error))
+        return hci_csv_error(csv, "value", r->row, note, "a smaller number", "check the unit of this value");
+    if (r->term.value >= parameter->least) return HCI_OK;
+    snprintf(expected, sizeof expected, "at least %g in %s", parameter->least, parameter->unit);
+    return hci_csv_error(csv, "value", r->row, note, expected, "check the value and its sign");
+}
+
+/* By room, parameter and order; what is the same stays as it stood. */
+static int by_place(const void *a, const void *b)
+{
+    const effect_row *x = a, *y = b;
+    if (x->room != y->room) return x->room < y->room ? -1 : 1;
+    if (x->term.parameter != y->term.parameter) return x->term.parameter < y->term.parameter ? -1 : 1;
+    if (x->term.order != y->term.order) return x->term.order < y->term.order ? -1 : 1;
+    return x->row < y->row ? -1 : 1;
+}
+
+static hci_status rows_sort(const hci_csv *csv, effect_row *rows, size_t count, hci_note *note)
+{
+    if (count > 1) qsort(rows, count, sizeof *rows, by_place);
+    for (size_t k = 1; k < count; ++k) {
+        const effect_row *x = &rows[k - 1], *y = &rows[k];
+        if (x->room == y->room && x->term.parameter == y->term.parameter &&
+            y->term.order - x->term.order <= HCI_ORDER_TOLERANCE)
+            return hci_csv_error(csv, "parameter", x->row > y->row ? x->row : y->row, note,
+                                 "each parameter of an effect once", "join the two rows into one");
+    }
+    return HCI_OK;
+}
+
+static hci_status rows_read(const hci_csv *csv, effect_row *rows, size_t count, hci_note *note)
+{
+    hci_status status = HCI_OK;
+    for (size_t k = 0; k < count && !status; ++k) {
+        rows[k].row = k;
+        status = room_read(csv, &rows[k], note);
+        if (!status) status = parameter_read(csv, &rows[k], note);
+        if (!status) status = value_read(csv, &rows[k], note);
+    }
+    return status ? status : rows_sort(csv, rows, count, note);
+}
+
+/* Sorted rows to effects with their terms. */
+static void group(const effect_row *rows, size_t count, hci_effects_data *effects)
+{
+    size_t n = 0;
+    for (size_t k = 0; k < count; ++k) {
+        effects->term[k] = rows[k].term;
+        if (k == 0 || rows[k].room != rows[k - 1].room)
+            effects->effect[n++] = (hci_effect){hci_effect_room_at(rows[k].room), &effects->term[k], 0};
+        ++effects->effect[n - 1].count;
+    }
+    effects->list = (hci_effects){effects->effect, n};
+}
+
+static hci_status from_csv(const hci_csv *csv, hci_effects_data *effects, hci_note *note)
+{
+    const size_t count = hci_csv_rows(csv);
+    effect_row *rows = hci_memory_new(count, sizeof *rows);
+    hci_status status = HCI_OK;
+    effects->effect = hci_memory_new(count, sizeof *effects->effect);
+    effects->term = hci_memory_new(count, sizeof *effects->term);
+    if (!rows || !effects->effect || !effects->term)
+        status =
+            hci_note_set(note, HCI_ERROR_MEMORY, "%s: out of memory for %zu rows", hci_csv_path(csv), count);
+    if (!status) status = rows_read(csv, rows, count, note);
+    if (!status) group(rows, count, effects);
+    hci_memory_free(rows);
+    return status;
+}
+
+hci_status hci_effects_read(const char *path, hci_effects_data *effects, hci_note *note)
+{
+    hci_csv *csv;
+    hci_status status = hci_csv_read(path, &csv, note);
+    memset(effects, 0, sizeof *effects);
+    if (status) return status;
+    status = from_csv(csv, effects, note);
+    hci_csv_free(csv);
+    if (status) hci_effects_release(effects);
+    return status;
+}
+
+hci_status hci_effects_read_machine(const char *folder, hci_effects_data *effects, hci_note *note)
+{
+    char path[PATH_SIZE];
+    struct stat info;
+    const int length = snprintf(path, sizeof path, "%s/effects.csv", folder);
+    memset(effects, 0, sizeof *effects);
+    if (length < 0 || length >= PATH_SIZE)
+        return hci_note_set(note, HCI_ERROR_INPUT, "%.200s…: the path is longer than %d bytes", folder,
+                            PATH_SIZE - 1);
+    if (stat(path, &info) != 0 && errno == ENOENT) return HCI_OK;
+    return hci_effects_read(path, effects, note);
+}
+
+void hci_effects_release(hci_effects_data *effects)
+{
+    hci_memory_free(effects->effect);
+    hci_memory_free(effects->term);
+    memset(effects, 0, sizeof *effects);
+}
+
+/* ---- writing ---- */
+
+static void term_write(hci_output *output, const hci_effect_room *room, const hci_effect_term *term)
+{
+    const hci_effect_parameter *parameter = &room->parameter[term->parameter];
+    hci_output_text(output, "%s,%s", room->name, parameter->name);
+    if (parameter->ordered) {
+        char order[32];
+        hci_number_text(term->order, order);
+        hci_output_text(output, "_%s", order);
+    }
+    hci_output_text(output, ",");
+    hci_output_number(output, term->value, ',');
+    hci_output_text(output, "%s,", parameter->unit);
+    if (isnan(term->std_error))
+        hci_output_text(output, "\n");
+    else
+        hci_output_number(output, term->std_error, '\n');
+}
+
+hci_status hci_effects_write(hci_output *output, const hci_effects *effects, hci_note *note)
+{
+    const hci_status status = hci_output_file(output, "effects.csv", note);
+    if (status) return status;
+    hci_output_text(output, "effect,parameter,value,unit,std_error\n");
+    for (size_t k = 0; k < effects->count; ++k)
+        for (size_t j = 0; j < effects->effect[k].count; ++j)
+            term_write(output, effects->effect[k].room, &effects->effect[k].term[j]);
+    return HCI_OK;
+}
+
+/* ---- on a simulated drive ---- */
+
+/* What one sensor calls. */
+typedef struct {
+    hci_effect_channel channel;
+    hci_sensor before; /* as it was; its own modification comes first */
+    const hci_plant_state *state;
+    double step_s;
+} probe;
+
+struct hci_effects_attachment {
+    hci_effects_plant plant;
+    hci_plant_effect effect;
+    probe probe[HCI_SENSE_COUNT];
+    probe *probe_of[HCI_SENSE_COUNT]; /* a sensor's context is read-only, but its links remember */
+};
+
+static double modify(const void *context, double value, double theta_m_rad)
+{
+    probe *const p = *(probe *const *)context;
+    if (p->before.modify) value = p->before.modify(p->before.context, value, theta_m_rad);
+    for (size_t k = 0; k < p->channel.count; ++k) {
+        hci_effect_link *link = &p->channel.link[k];
+        value = link->modify(link->effect, p->state, p->step_s, link->memory, value, theta_m_rad);
+    }
+    return value;
+}
+
+/* The part of a delay that is no whole step, by linear interpolation. memory: started, last value, fraction,
+ * period of a value that wraps or 0. */
+static double delay_by_fraction(const hci_effect *effect, const hci_plant_state *plant, double step_s,
+                                double *memory, double value, double theta_m_rad)
+{
+    double change = memory[0] > 0.0 ? value - memory[1] : 0.0;
+    (void)effect;
+    (void)plant;
+    (void)step_s;
+    (void)theta_m_rad;
+    memory[0] = 1.0;
+    memory[1] = value;
+    if (memory[3] > 0.0) change -= memory[3] * floor(change / memory[3] + 0.5);
+    return value - memory[2] * change;
+}
+
+enum { MOST_STEPS = 1000000 };
+
+static hci_status delay_set(probe *p, bool wraps, hci_sensor *sensor, hci_note *note)
+{
+    const double steps = p->channel.delay_s / p->step_s, whole = floor(steps + 1e-9);
+    if (!(steps >= 0.0 && steps < MOST_STEPS))
+        return hci_note_set(
+            note, HCI_ERROR_ARGUMENT,
+            "channel_delay: found %g s, expected 0 or more and less than %d steps of the simulation; "
+            "delay the other channels instead of one by less than 0",
+            p->channel.delay_s, MOST_STEPS);
+    sensor->delay_steps += (size_t)whole;
+    if (steps - whole > 1e-9) {
+        const hci_effect_link link = {
+            delay_by_fraction, NULL, {0.0, 0.0, steps - whole, wraps ? 2.0 * HCI_PI : 0.0}
+        };
+        if (p->channel.count < HCI_EFFECT_LINKS) p->channel.link[p->channel.count] = link;
+        ++p->channel.count;
+    }
+    return HCI_OK;
+}
+
+/* Every room's say on the sensors, in the order of the registry. */
+static void rooms_simulate(const hci_effects *effects, int pole_pairs, hci_sensor *sensors,
+                           hci_effect_channel *channels)
+{
+    const hci_effect_room *room;
+    for (size_t r = 0; (room = hci_effect_room_at(r)) != NULL; ++r)
+        for (size_t k = 0; k < effects->count && room->simulate; ++k)
+            if (effects->effect[k].room == room)
+                room->simulate(&effects->effect[k], pole_pairs, sensors, channels);
+}
+
+static hci_status sensors_set(const hci_effects *effects, int pole_pairs, hci_effects_attachment *a,
+                              hci_sensor *sensors, hci_note *note)
+{
+    hci_effect_channel channels[HCI_SENSE_COUNT];
+    hci_status status = HCI_OK;
+    memset(channels, 0, sizeof channels);
+    rooms_simulate(effects, pole_pairs, sensors, channels);
+    for (int s = 0; s < HCI_SENSE_COUNT && !status; ++s) {
+        probe *p = &a->probe[s];
+        p->channel = channels[s];
+        p->before = sensors[s];
+        status = delay_set(p, s == HCI_SENSE_ANGLE, &sensors[s], note);
+        if (!status && p->channel.count > HCI_EFFECT_LINKS)
+            status = hci_note_set(note, HCI_ERROR_ARGUMENT,
+                                  "more than %d effects act on one sensor; join those of one kind",
+                                  HCI_EFFECT_LINKS);
+        a->probe_of[s] = p;
+        if (p->channel.count == 0) continue;
+        sensors[s].modify = modify;
+        sensors[s].context = &a->probe_of[s];
+    }
+    return status;
+}
+
+static hci_status attach_check(const hci_effects *effects, const hci_drive *drive, hci_note *note)
+{
+    if (drive->plant.effect_count > 0 || !(drive->control.step_s > 0.0))
+        return hci_note_set(note, HCI_ERROR_ARGUMENT,
+                            "effects belong on a drive that has a step and no effects yet");
+    if (drive->plant.coulomb_Nm + hci_effects_coulomb_Nm(effects) < 0.0)
+        return hci_note_set(
+            note, HCI_ERROR_ARGUMENT,
+            "friction: Coulomb friction is %g N·m in sum, expected 0 or more; a simulated shaft cannot "
+            "be driven by its bearings",
+            drive->plant.coulomb_Nm + hci_effects_coulomb_Nm(effects));
+    return HCI_OK;
+}
+
+static void drive_set(const hci_effects *effects, const hci_machine *machine, double temperature_C,
+                      hci_effects_attachment *a, hci_drive *drive)
+{
+    a->plant = (hci_effects_plant){machine, effects, temperature_C};
+    a->effect = (hci_plant_effect){hci_effects_apply, &a->plant};
+    drive->plant.effects = &a->effect;
+    drive->plant.effect_count = effects->count > 0 ? 1 : 0;
+    drive->plant.coulomb_Nm += hci_effects_coulomb_Nm(effects);
+}
+
+hci_status hci_effects_attach(const hci_effects *effects, const hci_machine *machine, double temperature_C,
+                              const hci_plant_state *state, hci_drive *drive, hci_sensor *sensors,
+                              hci_effects_attachment **attachment, hci_note *note)
+{
+    hci_sensor changed[HCI_SENSE_COUNT];
+    hci_effects_attachment *a;
+    hci_status status = attach_check(effects, drive, note);
+    *attachment = NULL;
+    if (status) return status;
+    a = hci_memory_new(1, sizeof *a);
+    if (!a) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the effects of the machine");
+    for (int s = 0; s < HCI_SENSE_COUNT; ++s) {
+        a->probe[s].state = state;
+        a->probe[s].step_s = drive->control.step_s;
+    }
+    memcpy(changed, sensors, sizeof changed);
+    status = sensors_set(effects, machine->pole_pairs, a, changed, note);
+    if (status) {
+        hci_memory_free(a);
+        return status;
+    }
+    memcpy(sensors, changed, sizeof changed);
+    drive_set(effects, machine, temperature_C, a, drive);
+    drive->sensors = sensors;
+    *attachment = a;
+    return HCI_OK;
+}
+
+void hci_effects_detach(hci_effects_attachment *attachment)
+{
+    hci_memory_free(attachment);
+}

@@ -1,0 +1,365 @@
+#define _POSIX_C_SOURCE 200809L
+
+#include "hci/host/machine/init.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "hci/math/harmonic.h"
+#include "hci/host/csv/csv.h"
+#include "hci/host/base/output.h"
+#include "host/base/quote.h"
+
+#define SQRT2       1.4142135623730951
+#define SQRT3       1.7320508075688772
+#define RPM         (2.0 * HCI_PI / 60.0) /* rad/s */
+#define MOST_TEXT   96
+#define MOST_FOLDER 4096
+
+enum { MOST_POLE_PAIRS = 1000, COGGING_ORDERS = 3 };
+
+/* ---- readings ---- */
+
+/* What the sheet's number is for k_e = 1: per rpm/V the inverse of the voltage at 1 rpm, else in proportion.
+ */
+static double value_of_one(hci_sheet_reading reading, int pole_pairs)
+{
+    switch (reading) {
+    case HCI_SHEET_KV_LINE_PEAK:
+        return 1.0 / (SQRT3 * RPM);
+    case HCI_SHEET_KV_LINE_RMS:
+        return SQRT2 / (SQRT3 * RPM);
+    case HCI_SHEET_KV_PHASE_PEAK:
+        return 1.0 / RPM;
+    case HCI_SHEET_VOLT_LINE_RMS:
+        return 1000.0 * RPM * SQRT3 / SQRT2;
+    case HCI_SHEET_VOLT_LINE_PEAK:
+        return 1000.0 * RPM * SQRT3;
+    case HCI_SHEET_VOLT_PHASE_PEAK:
+        return 1000.0 * RPM;
+    case HCI_SHEET_VOLT_PHASE_RMS:
+        return 1000.0 * RPM / SQRT2;
+    case HCI_SHEET_TORQUE_PEAK:
+        return 1.5;
+    case HCI_SHEET_TORQUE_RMS:
+        return 1.5 * SQRT2;
+    case HCI_SHEET_TORQUE_DC:
+        return SQRT3;
+    case HCI_SHEET_FLUX:
+        return 1.0 / pole_pairs;
+    }
+    return NAN;
+}
+
+static bool is_inverse(hci_sheet_reading reading)
+{
+    return reading == HCI_SHEET_KV_LINE_PEAK || reading == HCI_SHEET_KV_LINE_RMS ||
+           reading == HCI_SHEET_KV_PHASE_PEAK;
+}
+
+double hci_sheet_emf(hci_sheet_reading reading, double value, int pole_pairs)
+{
+    const double one = value_of_one(reading, pole_pairs);
+    return is_inverse(reading) ? one / value : value / one;
+}
+
+double hci_sheet_value(hci_sheet_reading reading, double emf_Vs_per_rad, int pole_pairs)
+{
+    const double one = value_of_one(reading, pole_pairs);
+    return is_inverse(reading) ? one / emf_Vs_per_rad : one * emf_Vs_per_rad;
+}
+
+const char *hci_sheet_unit(hci_sheet_reading reading)
+{
+    static const char *const UNIT[] = {
+#define UNIT_OF(name, unit, meaning) unit,
+        HCI_SHEET_READINGS(UNIT_OF)
+#undef UNIT_OF
+    };
+    return UNIT[reading];
+}
+
+const char *hci_sheet_meaning(hci_sheet_reading reading)
+{
+    static const char *const MEANING[] = {
+#define MEANING_OF(name, unit, meaning) meaning,
+        HCI_SHEET_READINGS(MEANING_OF)
+#undef MEANING_OF
+    };
+    return MEANING[reading];
+}
+
+int hci_cogging_order(int slots, int pole_pairs)
+{
+    int a = slots, b = 2 * pole_pairs;
+    while (b != 0) {
+        const int rest = a % b;
+        a = b;
+        b = rest;
+    }
+    return 2 * (slots / a);
+}
+
+static double emf(const hci_sheet *s)
+{
+    return hci_sheet_emf(s->reading, s->strength, s->pole_pairs);
+}
+
+double hci_sheet_current_A(const hci_sheet *s)
+{
+    return s->rated_current_A * (s->rated_current_is_rms ? SQRT2 : 1.0);
+}
+
+double hci_sheet_resistance_ohm(const hci_sheet *s)
+{
+    return s->resistance_ohm * (s->resistance_of_line ? 0.5 : 1.0);
+}
+
+/* ---- do the numbers of the sheet agree? ---- */
+
+/* Iron that saturates and torque lost in friction make a sheet's ratio a little smaller than 1. */
+#define LEAST_RATIO 0.8
+#define MOST_RATIO  1.2
+
+/* The slip whose factor is nearest to the ratio, within 8 %; "" if there is none. */
+static const char *slip_of(double ratio, bool from_flux)
+{
+    static const struct {
+        double factor;
+        bool flux_only;
+        const char *words;
+    } SLIP[] = {
+        {SQRT2,       false, ": about sqrt(2); is one of them rms and taken as peak?"         },
+        {1.0 / SQRT2, false, ": about 1/sqrt(2); is one of them peak and taken as rms?"       },
+        {SQRT3,       false, ": about sqrt(3); is a line-to-line value taken as of a phase?"  },
+        {1.0 / SQRT3, false, ": about 1/sqrt(3); is a value of a phase taken as line to line?"},
+        {2.0,         true,  ": about 2; are poles and pole pairs mixed up?"                  },
+        {0.5,         true,  ": about 1/2; are poles and pole pairs mixed up?"                },
+    };
+    for (size_t k = 0; k < sizeof SLIP / sizeof *SLIP; ++k)
+        if (fabs(ratio / SLIP[k].factor - 1.0) < 0.08 && (from_flux || !SLIP[k].flux_only))
+            return SLIP[k].words;
+    return "";
+}
+
+void hci_sheet_remark(const hci_sheet *s, hci_note *remark)
+{
+    const double torque_Nm = 1.5 * emf(s) * hci_sheet_current_A(s);
+    const double line_V = SQRT3 * emf(s) * s->rated_speed_rpm * RPM, ratio = s->rated_torque_Nm / torque_Nm;
+    *remark = (hci_note){{0}};
+    if (isfinite(ratio) && (ratio < LEAST_RATIO || ratio > MOST_RATIO))
+        hci_note_set(remark, HCI_OK,
+                     "rated torque %.4g N·m, but rated current and magnets make %.4g N·m: %.3g times%s",
+                     s->rated_torque_Nm, torque_Nm, ratio, slip_of(ratio, s->reading == HCI_SHEET_FLUX));
+    else if (line_V > s->dc_link_voltage_V)
+        hci_note_set(
+            remark, HCI_OK,
+            "at rated speed the back-EMF is %.4g V line-to-line peak, above the dc link of %.4g V: check "
+            "how the sheet's constant is meant, or expect field weakening",
+            line_V, s->dc_link_voltage_V);
+}
+
+/* ---- tables ---- */
+
+/* A text in a cell or a comment: control characters and bytes that are not UTF-8 would break the table. */
+static void name_write(hci_output *out, const char *name)
+{
+    char shown[HCI_QUOTE_SIZE];
+    hci_output_text(out, "%s", hci_quote(name, shown));
+}
+
+/* The value of the table, and where it comes from: the sheet's value, its unit and its reading. */
+static void row(hci_output *out, const char *name, double value, const char *unit, double sheet,
+                const char *sheet_unit, const char *reading)
+{
+    char text[32];
+    hci_output_text(out, "%s,", name);
+    hci_output_number(out, value, ',');
+    hci_number_text(sheet, text);
+    hci_output_text(out, "%s,\"data sheet: %s%s%s%s\"\n", unit, text, sheet_unit[0] ? " " : "", sheet_unit,
+                    reading);
+}
+
+/* A row, or the comment that tells how to come to one. */
+static void row_or(hci_output *out, const char *name, double value, const char *unit, double sheet,
+                   const char *reading, const char *missing)
+{
+    if (isnan(value))
+        hci_output_text(out, "# %s,,%s,  %s\n", name, unit, missing);
+    else
+        row(out, name, value, unit, sheet, unit, reading);
+}
+
+static void winding_write(hci_output *out, const hci_sheet *s)
+{
+    const double R = hci_sheet_resistance_ohm(s);
+    hci_output_text(
+        out, "#\n# Winding, of one phase to the star point. For copper loss, voltage and `simulate`.\n");
+    row_or(out, "resistance", R, "ohm", s->resistance_ohm,
+           s->resistance_of_line ? " between two terminals; halved" : " of a phase",
+           "send a dc current through two terminals: half of volt / ampere");
+    row_or(out, "inductance_d", s->inductance_d_H, "H", s->inductance_d_H, " of a phase",
+           "LCR meter on two terminals at 1 kHz at many rotor angles: half the smallest reading");
+    row_or(out, "inductance_q", s->inductance_q_H, "H", s->inductance_q_H, " of a phase",
+           "the same: half the largest reading; equal to inductance_d with surface magnets");
+}
+
+static void ratings_write(hci_output *out, const hci_sheet *s)
+{
+    hci_output_text(out, "#\n# Ratings. rated_current is the peak of the phase current.\n");
+    row_or(out, "rated_current", hci_sheet_current_A(s), "A", s->rated_current_A,
+           s->rated_current_is_rms ? " rms; times sqrt(2)" : " peak",
+           "peak of the current that it stands for long; sheets often give rms: times sqrt(2)");
+    row_or(out, "rated_torque", s->rated_torque_Nm, "Nm", s->rated_torque_Nm, "", "on the shaft");
+    row_or(out, "rated_speed", s->rated_speed_rpm, "rpm", s->rated_speed_rpm, "", "mechanical");
+    row_or(out, "dc_link_voltage", s->dc_link_voltage_V, "V", s->dc_link_voltage_V, "",
+           "battery or supply of the inverter");
+}
+
+static void shaft_write(hci_output *out, const hci_sheet *s)
+{
+    hci_output_text(out, "#\n# Shaft, for `simulate`.\n");
+    row_or(out, "inertia", s->inertia_kgm2, "kgm2", s->inertia_kgm2, "",
+           "with a known torque: torque / acceleration; 1 g cm2 is 1e-7 kgm2");
+    hci_output_text(out, "# viscous_friction,,Nms_per_rad,  slope of the torque without load over the speed\n"
+                         "# coulomb_friction,,Nm,  its value at very low speed\n");
+}
+
+static hci_status machine_write(hci_output *out, const hci_sheet *s, hci_note *note)
+{
+    const hci_status status = hci_output_file(out, "machine.csv", note);
+    if (status) return status;
+    hci_output_text(out, "# Machine ");
+    name_write(out, s->name);
+    hci_output_text(
+        out,
+        ", from its data sheet. A line that begins with # is not read: to give a value that is\n"
+        "# missing, take the # away and write the number after the first comma.\n"
+        "name,value,unit,source\n"
+        "# Pole pairs: half the number of magnets around the rotor.\n"
+        "pole_pairs,%d,1,\"data sheet: %d poles\"\n"
+        "# star or star-neutral (the star point is connected). A delta winding is written as the star\n"
+        "# that behaves alike at the terminals, as values between two terminals give it.\n"
+        "connection,star,,assumed\n",
+        s->pole_pairs, 2 * s->pole_pairs);
+    if (s->slots > 0)
+        hci_output_text(out, "slots,%d,1,\"data sheet: teeth of the stator\"\n", s->slots);
+    else
+        hci_output_text(out, "# slots,,1,  teeth of the stator; `check` asks the cogging orders for them\n");
+    winding_write(out, s);
+    ratings_write(out, s);
+    shaft_write(out, s);
+    return HCI_OK;
+}
+
+static hci_status emf_write(hci_output *out, const hci_sheet *s, hci_note *note)
+{
+    const hci_status status = hci_output_file(out, "back_emf.csv", note);
+    char text[32];
+    if (status) return status;
+    hci_number_text(s->strength, text);
+    hci_output_text(out, "# Back-EMF of machine ");
+    name_write(out, s->name);
+    hci_output_text(
+        out,
+        ": peak of a phase to the star point, divided by the mechanical\n"
+        "# speed: V s/rad, which is N m/A. A sine of 1 A peak in all phases makes 3/2 of it in N m.\n"
+        "# Order 1 from the data sheet: %s %s, read as %s.\n"
+        "# A sheet does not tell the harmonics (electrical orders 5, 7, 11, 13, ...), which make the\n"
+        "# torque ripple under load. To measure them turn the shaft with another motor, terminals open,\n"
+        "# record the three voltages, and let `hci-solve harmonics RUN --quantity back_emf` write this "
+        "file.\n"
+        "order,amplitude_Nm_per_A,phase_rad\n1,",
+        text, hci_sheet_unit(s->reading), hci_sheet_meaning(s->reading));
+    hci_output_number(out, emf(s), ',');
+    hci_output_text(out, "0\n");
+    return HCI_OK;
+}
+
+static hci_status cogging_write(hci_output *out, const hci_sheet *s, hci_note *note)
+{
+    const int first = hci_cogging_order(s->slots, s->pole_pairs);
+    const hci_status status = hci_output_file(out, "cogging.csv", note);
+    if (status) return status;
+    hci_output_text(out, "# Cogging torque of machine ");
+    name_write(out, s->name);
+    hci_output_text(
+        out,
+        ": the orders are known from %d slots and %d poles, the amplitudes are not.\n"
+        "# The first is lcm(slots, poles)/pole pairs = %d periods in an electrical turn (%d in a mechanical "
+        "one).\n"
+        "# To measure them turn the shaft slowly without current, record angle and torque (or the holding "
+        "current\n"
+        "# of a position loop), and let `hci-solve harmonics RUN --quantity cogging` write this file.\n"
+        "# Uneven magnets and slots add other orders, at multiples of 1/pole pairs; the measurement shows "
+        "them.\n"
+        "order,amplitude_Nm,phase_rad\n",
+        s->slots, 2 * s->pole_pairs, first, first * s->pole_pairs);
+    for (int k = 1; k <= COGGING_ORDERS && k * first <= (int)HCI_MOST_ORDER; ++k)
+        hci_output_text(out, "%d,0,0\n", k * first);
+    return HCI_OK;
+}
+
+/* ---- into a folder ---- */
+
+static bool not_below(double value, double least)
+{
+    return isnan(value) || (isfinite(value) && value >= least);
+}
+
+static hci_status sheet_check(const hci_sheet *s, hci_note *note)
+{
+    const double values[] = {s->resistance_ohm,  s->inductance_d_H,   s->inductance_q_H,
+                             s->inertia_kgm2,    s->rated_current_A,  s->rated_torque_Nm,
+                             s->rated_speed_rpm, s->dc_link_voltage_V};
+    bool good = s->pole_pairs >= 1 && s->pole_pairs <= MOST_POLE_PAIRS && s->slots >= 0 &&
+                s->slots <= HCI_MOST_SLOTS && s->strength > 0.0 && isfinite(s->strength);
+    for (size_t k = 0; k < sizeof values / sizeof *values && good; ++k)
+        good = not_below(values[k], 0.0);
+    if (!good)
+        return hci_note_set(note, HCI_ERROR_ARGUMENT,
+                            "a value of the data sheet is negative, not finite or out of its range");
+    if (emf(s) >= 1e-9 && emf(s) <= 1e6) return HCI_OK;
+    return hci_note_set(
+        note, HCI_ERROR_ARGUMENT,
+        "%g %s (%s): found a back-EMF of %.3g V·s/rad, expected 1e-9 to 1e6; check the value and "
+        "its unit",
+        s->strength, hci_sheet_unit(s->reading), hci_sheet_meaning(s->reading), emf(s));
+}
+
+/* Tables that are there are somebody's work, and inductance.csv or effects.csv would change what this machine
+ * is. */
+static hci_status nothing_there(const char *folder, hci_note *note)
+{
+    static const char *const TABLES[] = {"machine.csv", "back_emf.csv", "cogging.csv", "inductance.csv",
+                                         "effects.csv"};
+    char path[MOST_FOLDER], shown[HCI_QUOTE_PATH_SIZE];
+    struct stat info;
+    for (size_t k = 0; k < sizeof TABLES / sizeof *TABLES; ++k) {
+        const int length = snprintf(path, sizeof path, "%s/%s", folder, TABLES[k]);
+        if (length < 0 || length >= MOST_FOLDER)
+            return hci_note_set(note, HCI_ERROR_OUTPUT, "%.200s…: the path is too long", folder);
+        if (lstat(path, &info) != 0) continue;
+        return hci_note_set(
+            note, HCI_ERROR_OUTPUT,
+            "%s: is there already, and nothing is overwritten; name another folder, or move it away",
+            hci_quote_path(path, shown));
+    }
+    return HCI_OK;
+}
+
+hci_status hci_init_write(const char *folder, const hci_sheet *sheet, hci_note *note)
+{
+    hci_output *out = NULL;
+    hci_status status = sheet_check(sheet, note);
+    if (!status) status = nothing_there(folder, note);
+    if (!status) status = hci_output_open(folder, &out, note);
+    if (!status) status = machine_write(out, sheet, note);
+    if (!status) status = emf_write(out, sheet, note);
+    if (!status && sheet->slots > 0) status = cogging_write(out, sheet, note);
+    if (!status) return hci_output_commit(out, note);
+    hci_output_discard(out);
+    return status;
+}

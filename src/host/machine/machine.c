@@ -1,0 +1,284 @@
+#define _POSIX_C_SOURCE 200809L
+
+#include "hci/host/machine/machine.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "hci/host/csv/csv.h"
+#include "host/machine/inductance.h"
+#include "host/machine/folder.h"
+#include "host/base/memory.h"
+#include "host/machine/spectrum_table.h"
+
+#define PATH_SIZE 4096
+
+typedef struct {
+    const char *name, *unit;
+    double *value;
+} scalar;
+
+enum {
+#define COUNT_ONE(field, name, unit) +1
+    SCALARS = 0 HCI_MACHINE_VALUES(COUNT_ONE)
+#undef COUNT_ONE
+};
+
+static void list_scalars(hci_machine_data *m, scalar list[SCALARS])
+{
+    size_t k = 0;
+#define LIST_ONE(field, text, unit_text) list[k++] = (scalar){text, unit_text, &m->field};
+    HCI_MACHINE_VALUES(LIST_ONE)
+#undef LIST_ONE
+}
+
+bool hci_machine_has(const char *path)
+{
+    struct stat info;
+    return stat(path, &info) == 0 || errno != ENOENT;
+}
+
+hci_status hci_machine_path(char *path, size_t size, const char *folder, const char *file, hci_note *note)
+{
+    const int length = snprintf(path, size, "%s/%s", folder, file);
+    if (length > 0 && (size_t)length < size) return HCI_OK;
+    return hci_note_set(note, HCI_ERROR_INPUT, "%.200s…: the path is longer than %zu bytes", folder,
+                        size - 1);
+}
+
+hci_status hci_machine_connection(const hci_csv *csv, size_t row, bool *has_neutral, hci_note *note)
+{
+    const char *text;
+    const hci_status status = hci_csv_text(csv, "value", row, &text, note);
+    if (status) return status;
+    *has_neutral = hci_text_is(text, "star-neutral");
+    if (*has_neutral || hci_text_is(text, "star")) return HCI_OK;
+    return hci_csv_error(csv, "value", row, note, "`star` or `star-neutral`",
+                         "for a delta winding give the equivalent star's values");
+}
+
+/* The value of one row in the canonical unit; a unit of 1, - or nothing stands for the canonical one. */
+static hci_status scalar_read(const hci_csv *csv, size_t row, const scalar *s, hci_note *note)
+{
+    const char *unit = "";
+    double factor = 1.0;
+    hci_status status;
+    if (!isnan(*s->value))
+        return hci_csv_error(csv, "name", row, note, "each name once", "delete one of the two rows");
+    status = hci_csv_number(csv, "value", row, s->value, note);
+    if (!status && hci_csv_has(csv, "unit")) status = hci_csv_text(csv, "unit", row, &unit, note);
+    if (status) return status;
+    if (unit[0] != '\0' && strcmp(unit, "1") != 0 && strcmp(unit, "-") != 0 &&
+        !hci_unit_factor(unit, s->unit, &factor)) {
+        char expected[64];
+        snprintf(expected, sizeof expected, "a unit that converts to %s", s->unit);
+        return hci_csv_error(csv, "unit", row, note, expected, "check the unit of this value");
+    }
+    *s->value *= factor;
+    return HCI_OK;
+}
+
+static void remark_unknown(hci_machine_data *m, const char *path, const char *name)
+{
+    const size_t used = strlen(m->remark.text);
+    char *end = m->remark.text + used;
+    const size_t left = sizeof m->remark.text - used;
+    if (used == 0)
+        snprintf(end, left, "%.300s: not used: %.60s", path, name);
+    else
+        snprintf(end, left, ", %.60s", name);
+}
+
+static hci_status row_read(const hci_csv *csv, size_t row, hci_machine_data *m, hci_note *note)
+{
+    scalar list[SCALARS];
+    const char *name;
+    const hci_status status = hci_csv_text(csv, "name", row, &name, note);
+    if (status) return status;
+    if (strcmp(name, "connection") == 0) return hci_machine_connection(csv, row, &m->has_neutral, note);
+    list_scalars(m, list);
+    for (size_t k = 0; k < SCALARS; ++k)
+        if (strcmp(name, list[k].name) == 0) return scalar_read(csv, row, &list[k], note);
+    remark_unknown(m, hci_csv_path(csv), name);
+    return HCI_OK;
+}
+
+static hci_status pole_pairs_check(const char *path, hci_machine_data *m, hci_note *note)
+{
+    if (isnan(m->pole_pairs))
+        return hci_note_set(note, HCI_ERROR_INPUT, "%s: no `pole_pairs`; add a row `pole_pairs,N,1,source`",
+                            path);
+    if (m->pole_pairs < 1.0 || m->pole_pairs > 1000.0 || m->pole_pairs != floor(m->pole_pairs))
+        return hci_note_set(
+            note, HCI_ERROR_INPUT,
+            "%s: `pole_pairs`: found %g, expected a whole number from 1 to 1000; a machine with N poles "
+            "has N/2 pole pairs",
+            path, m->pole_pairs);
+    m->model.pole_pairs = (int)m->pole_pairs;
+    return HCI_OK;
+}
+
+static hci_status scalars_read(const char *path, hci_machine_data *m, hci_note *note)
+{
+    scalar list[SCALARS];
+    hci_csv *csv;
+    hci_status status = hci_csv_read(path, &csv, note);
+    if (status) return status;
+    list_scalars(m, list);
+    for (size_t k = 0; k < SCALARS; ++k)
+        *list[k].value = NAN;
+    for (size_t row = 0; row < hci_csv_rows(csv) && !status; ++row)
+        status = row_read(csv, row, m, note);
+    hci_csv_free(csv);
+    return status ? status : pole_pairs_check(path, m, note);
+}
+
+/* Volts at the electrical frequency f become V·s/rad by ω_m = 2πf/p. */
+static hci_status emf_scale(const hci_csv *csv, const hci_machine_data *m, double *scale, hci_note *note)
+{
+    *scale = 1.0;
+    if (hci_csv_has(csv, "amplitude_Nm_per_A")) return HCI_OK;
+    if (isnan(m->emf_frequency_Hz) || m->emf_frequency_Hz <= 0.0)
+        return hci_note_set(
+            note, HCI_ERROR_INPUT,
+            "%s: the back-EMF is in volts, but machine.csv has no positive `emf_frequency`; add the "
+            "electrical frequency in Hz at which it was measured, or give amplitude_Nm_per_A",
+            hci_csv_path(csv));
+    *scale = m->pole_pairs / (2.0 * HCI_PI * m->emf_frequency_Hz);
+    return HCI_OK;
+}
+
+static hci_status emf_order_check(const hci_csv *csv, const hci_harmonic *h, const size_t *row_of, size_t k,
+                                  hci_note *note)
+{
+    if (h[k].order >= 1.0 - HCI_ORDER_TOLERANCE &&
+        fabs(h[k].order - floor(h[k].order + 0.5)) < HCI_ORDER_TOLERANCE)
+        return HCI_OK;
+    return hci_csv_error(
+        csv, "order", row_of[k], note, "a whole electrical order from 1",
+        "orders count periods in one electrical turn: mechanical order divided by pole pairs");
+}
+
+/* In N·m/A, or V·s/rad. */
+#define LEAST_EMF 1e-12
+
+static double largest_amplitude(const hci_harmonic *h, size_t count)
+{
+    double largest = 0.0;
+    for (size_t k = 0; k < count; ++k)
+        largest = fmax(largest, hci_amplitude(h[k].sine, h[k].cosine));
+    return largest;
+}
+
+static hci_status emf_from_csv(const hci_csv *csv, hci_machine_data *m, hci_note *note)
+{
+    const bool per_ampere = hci_csv_has(csv, "amplitude_Nm_per_A");
+    hci_harmonic *h = NULL;
+    size_t count = 0, *row_of = NULL;
+    double scale;
+    hci_status status = emf_scale(csv, m, &scale, note);
+    if (!status)
+        status = hci_spectrum_rows(csv, per_ampere ? "amplitude_Nm_per_A" : "amplitude_V", &h, &row_of,
+                                   &count, note);
+    for (size_t k = 0; k < count && !status; ++k)
+        status = emf_order_check(csv, h, row_of, k, note);
+    if (!status && count == 0)
+        status =
+            hci_note_set(note, HCI_ERROR_INPUT, "%s: no rows, expected at least order 1", hci_csv_path(csv));
+    if (!status && largest_amplitude(h, count) * scale < LEAST_EMF)
+        status =
+            hci_note_set(note, HCI_ERROR_INPUT,
+                         "%s: every amplitude is zero or below 1e-12 N·m/A; check the values and their unit",
+                         hci_csv_path(csv));
+    if (!status && !(m->back_emf = hci_memory_new(count, sizeof *m->back_emf)))
+        status = hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for %zu back-EMF orders", count);
+    for (size_t k = 0; k < count && !status; ++k)
+        m->back_emf[k] =
+            (hci_wave){h[k].order, hci_sequence_of_order(h[k].order), scale * h[k].sine, scale * h[k].cosine};
+    hci_memory_free(h);
+    hci_memory_free(row_of);
+    m->model.back_emf = m->back_emf;
+    m->model.back_emf_count = status ? 0 : count;
+    return status;
+}
+
+static hci_status emf_read(const char *path, hci_machine_data *m, hci_note *note)
+{
+    hci_csv *csv;
+    hci_status status = hci_csv_read(path, &csv, note);
+    if (status) return status;
+    status = emf_from_csv(csv, m, note);
+    hci_csv_free(csv);
+    return status;
+}
+
+static hci_status cogging_read(const char *path, hci_machine_data *m, hci_note *note)
+{
+    hci_csv *csv;
+    size_t *row_of = NULL;
+    hci_status status = hci_csv_read(path, &csv, note);
+    if (status) return status;
+    status = hci_spectrum_rows(csv, "amplitude_Nm", &m->cogging, &row_of, &m->model.cogging_count, note);
+    m->model.cogging = m->cogging;
+    hci_memory_free(row_of);
+    hci_csv_free(csv);
+    return status;
+}
+
+static hci_status inductance_read(const char *path, hci_machine_data *m, hci_note *note)
+{
+    hci_inductance_table table;
+    const hci_status status = hci_inductance_read(path, m->model.pole_pairs, &table, note);
+    m->inductance = table.inductance;
+    m->inductance_count = table.inductance_count;
+    m->slope = table.slope;
+    m->model.slope = table.slope;
+    m->model.slope_count = table.slope_count;
+    return status;
+}
+
+static hci_status folder_read(const char *folder, hci_machine_data *m, hci_note *note)
+{
+    char path[PATH_SIZE];
+    hci_status status = hci_machine_path(path, PATH_SIZE, folder, "machine.csv", note);
+    if (!status) status = scalars_read(path, m, note);
+    if (!status) status = hci_machine_path(path, PATH_SIZE, folder, "back_emf.csv", note);
+    if (!status) status = emf_read(path, m, note);
+    if (!status) status = hci_machine_path(path, PATH_SIZE, folder, "cogging.csv", note);
+    if (!status && hci_machine_has(path)) status = cogging_read(path, m, note);
+    if (!status) status = hci_machine_path(path, PATH_SIZE, folder, "inductance.csv", note);
+    if (!status && hci_machine_has(path)) status = inductance_read(path, m, note);
+    if (!status) status = hci_machine_path(path, PATH_SIZE, folder, "effects.csv", note);
+    m->has_effects = !status && hci_machine_has(path);
+    return status;
+}
+
+hci_status hci_machine_read(const char *path, hci_machine_data *machine, hci_note *note)
+{
+    struct stat info;
+    hci_status status;
+    memset(machine, 0, sizeof *machine);
+    if (stat(path, &info) != 0)
+        return hci_note_set(note, HCI_ERROR_INPUT,
+                            "%s: %s; expected the folder of a machine with machine.csv and back_emf.csv",
+                            path, strerror(errno));
+    if (!S_ISDIR(info.st_mode))
+        return hci_note_set(
+            note, HCI_ERROR_INPUT,
+            "%s: found a file, expected the folder of a machine with machine.csv and back_emf.csv", path);
+    status = folder_read(path, machine, note);
+    if (status) hci_machine_release(machine);
+    return status;
+}
+
+void hci_machine_release(hci_machine_data *machine)
+{
+    hci_memory_free(machine->back_emf);
+    hci_memory_free(machine->cogging);
+    hci_memory_free(machine->slope);
+    hci_memory_free(machine->inductance);
+    memset(machine, 0, sizeof *machine);
+}

@@ -1,0 +1,30 @@
+#include "host/machine/torque_constant.h"
+
+#include <math.h>
+
+#include "hci/machine/frames.h"
+
+#define SMALL_A 1e-6 /* for which no machine saturates */
+
+enum { SAMPLES_PER_PERIOD = 96 };
+
+static double torque_at(const hci_machine *machine, const hci_effects *effects, double theta_m_rad,
+                        double iq_A)
+{
+    hci_sample reading = {.theta_m_rad = theta_m_rad, .temperature_C = NAN};
+    const hci_dq i = {0.0, iq_A, 0.0};
+    hci_clarke_inverse(hci_park_inverse(i, machine->pole_pairs * theta_m_rad), reading.i_abc);
+    return hci_effects_predict(machine, effects, &reading, NULL);
+}
+
+double hci_torque_constant(const hci_machine *machine, const hci_effects *effects)
+{
+    const int samples = SAMPLES_PER_PERIOD * machine->pole_pairs;
+    double difference_Nm = 0.0;
+    for (int k = 0; k < samples; ++k) {
+        const double theta_m_rad = 2.0 * HCI_PI * k / samples;
+        difference_Nm += torque_at(machine, effects, theta_m_rad, SMALL_A);
+        difference_Nm -= torque_at(machine, effects, theta_m_rad, -SMALL_A);
+    }
+    return difference_Nm / (2.0 * SMALL_A * samples);
+}

@@ -1,0 +1,191 @@
+#include "host/numeric/derivative.h"
+
+#include <math.h>
+#include <stdbool.h>
+
+/* Noise of a slope that is let pass, as a share of its rms. */
+#define NOISE_SHARE 0.02
+
+/* Slopes may change by so many times what noise explains (mean squares, of few independent samples). */
+#define UNEXPLAINED 2.0
+
+enum { WINDOW_LEAST = 5, STEPS_LEAST = 20, STILL_SHARE = 5, PROBES = 512 };
+
+/* ---- noise ---- */
+
+/* x[k] less the cubic through its four neighbours, over the standard deviation that has for unit noise. */
+static double interpolation_residual(const double *t, const double *x, size_t k)
+{
+    const size_t at[4] = {k - 2, k - 1, k + 1, k + 2};
+    double residual = x[k], variance = 1.0;
+    for (int i = 0; i < 4; ++i) {
+        double weight = 1.0;
+        for (int j = 0; j < 4; ++j)
+            if (j != i) weight *= (t[k] - t[at[j]]) / (t[at[i]] - t[at[j]]);
+        residual -= weight * x[at[i]];
+        variance += weight * weight;
+    }
+    return residual / sqrt(variance);
+}
+
+static double noise_rms(const double *t, const double *x, size_t n)
+{
+    double sum = 0.0;
+    for (size_t k = 2; k + 2 < n; ++k) {
+        const double residual = interpolation_residual(t, x, k);
+        sum += residual * residual;
+    }
+    return n > 4 ? sqrt(sum / (double)(n - 4)) : 0.0;
+}
+
+/* The step of an encoder that is slow against the sampling; 0 where x does not stand still between steps. */
+static double quantum_of(const double *x, size_t n)
+{
+    double quantum = INFINITY;
+    size_t still = 0;
+    for (size_t k = 1; k < n; ++k) {
+        const double step = fabs(x[k] - x[k - 1]);
+        if (step > 0.0) quantum = fmin(quantum, step);
+        still += !(step > 0.0);
+    }
+    return still * STILL_SHARE > n && isfinite(quantum) ? quantum : 0.0;
+}
+
+/* ---- the parabola ---- */
+
+/* Sums over the samples first … end − 1, about an origin near them so that little cancels. */
+typedef struct {
+    const double *t, *x;
+    size_t first, end;
+    double t0, x0, scale_s;
+    double moment[5], product[3]; /* Σ u^j, Σ u^j v */
+} window_sums;
+
+static void add(window_sums *s, size_t k, double sign)
+{
+    const double u = (s->t[k] - s->t0) / s->scale_s, v = s->x[k] - s->x0;
+    double power = sign;
+    for (int j = 0; j < 5; ++j, power *= u) {
+        s->moment[j] += power;
+        if (j < 3) s->product[j] += power * v;
+    }
+}
+
+static void start(window_sums *s, size_t first, size_t end)
+{
+    s->first = first;
+    s->end = end;
+    s->t0 = 0.5 * (s->t[first] + s->t[end - 1]);
+    s->x0 = s->x[(first + end) / 2];
+    s->scale_s = 0.5 * (s->t[end - 1] - s->t[first]);
+    for (int j = 0; j < 5; ++j)
+        s->moment[j] = 0.0;
+    for (int j = 0; j < 3; ++j)
+        s->product[j] = 0.0;
+    for (size_t k = first; k < end; ++k)
+        add(s, k, 1.0);
+}
+
+static double determinant(const double a[3], const double b[3], const double c[3])
+{
+    return a[0] * (b[1] * c[2] - b[2] * c[1]) - b[0] * (a[1] * c[2] - a[2] * c[1]) +
+           c[0] * (a[1] * b[2] - a[2] * b[1]);
+}
+
+/* Slope at time t of v = c_0 + c_1 u + c_2 u²; a straight line where the samples bear no parabola. */
+static double slope_at(const window_sums *s, double t)
+{
+    const double *m = s->moment, *v = s->product, u = (t - s->t0) / s->scale_s;
+    const double whole = determinant(m, m + 1, m + 2), line = m[0] * m[2] - m[1] * m[1];
+    if (whole > 1e-9 * m[0] * m[2] * m[4]) {
+        const double c1 = determinant(m, v, m + 2) / whole, c2 = determinant(m, m + 1, v) / whole;
+        return (c1 + 2.0 * c2 * u) / s->scale_s;
+    }
+    return (m[0] * v[1] - m[1] * v[0]) / line / s->scale_s;
+}
+
+/* ---- how long a window must be ---- */
+
+/* rms of the way over `window` samples. */
+static double way_over(const double *x, size_t n, size_t window)
+{
+    double square = 0.0;
+    for (size_t k = window - 1; k < n; ++k)
+        square += (x[k] - x[k - window + 1]) * (x[k] - x[k - window + 1]);
+    return sqrt(square / (double)(n - window + 1));
+}
+
+/* Slopes at some samples spread over the record; returns their mean square. */
+static double probe(window_sums *s, size_t n, size_t window, size_t count, double *slope)
+{
+    double square = 0.0;
+    for (size_t p = 0; p < count; ++p) {
+        const size_t first = count > 1 ? p * (n - window) / (count - 1) : 0;
+        start(s, first, first + window);
+        slope[p] = slope_at(s, s->t[first + window / 2]);
+        square += slope[p] * slope[p] / (double)count;
+    }
+    return square;
+}
+
+/* The next longer windows at the same samples: mean square of how the slopes change. */
+static double change_by(window_sums *s, size_t n, size_t window, size_t next, size_t count,
+                        const double *slope)
+{
+    double square = 0.0, used = 0.0;
+    for (size_t p = 0; p < count; ++p) {
+        const size_t first = count > 1 ? p * (n - window) / (count - 1) : 0, centre = first + window / 2;
+        if (centre < next / 2 || centre - next / 2 + next > n) continue;
+        start(s, centre - next / 2, centre - next / 2 + next);
+        const double change = slope_at(s, s->t[centre]) - slope[p];
+        square += change * change;
+        used += 1.0;
+    }
+    return used > 0.0 ? square / used : 0.0;
+}
+
+/* Windows grow until the noise is small against the slope, or until the slopes change by more than noise
+ * explains: then a longer one would smooth away what is to be seen (Lepski 1991). */
+static size_t window_of(window_sums *s, size_t n)
+{
+    double slope[PROBES];
+    const size_t most = n / 4 > WINDOW_LEAST ? n / 4 : n < WINDOW_LEAST ? n : WINDOW_LEAST;
+    const size_t probes = n < PROBES ? n : PROBES;
+    const double quantum = quantum_of(s->x, n), step_s = (s->t[n - 1] - s->t[0]) / (double)(n - 1);
+    size_t window = most < WINDOW_LEAST ? most : WINDOW_LEAST;
+    while (window < most && way_over(s->x, n, window) < STEPS_LEAST * quantum)
+        window += window / 2;
+    if (window >= most) return most;
+    /* Quantum after quantum is noise that lasts for as many samples as a quantum does. */
+    const double lasting = quantum > 0.0 ? (double)window * quantum / way_over(s->x, n, window) : 0.0;
+    const double noise = fmax(noise_rms(s->t, s->x, n), quantum * sqrt(lasting / 12.0)) / step_s;
+    for (size_t next = window + window / 2; next <= most; window = next, next += next / 2) {
+        const double length = (double)window, longer = (double)next;
+        const double variance = 12.0 * noise * noise / (length * length * length);
+        const double square = probe(s, n, window, probes, slope) - variance;
+        if (variance <= NOISE_SHARE * NOISE_SHARE * square) break;
+        const double explained = variance * (1.0 - pow(length / longer, 3.0));
+        if (change_by(s, n, window, next, probes, slope) > UNEXPLAINED * explained) break;
+    }
+    return window;
+}
+
+void hci_slope(const double *time_s, const double *x, size_t n, double *slope)
+{
+    window_sums sums = {.t = time_s, .x = x};
+    const size_t window = window_of(&sums, n), half = window / 2;
+    size_t since_start = window;
+    for (size_t k = 0; k < n; ++k, ++since_start) {
+        const size_t centred = k > half ? k - half : 0;
+        const size_t first = centred + window < n ? centred : n - window;
+        if (since_start >= window) {
+            start(&sums, first, first + window);
+            since_start = 0;
+        }
+        if (first > sums.first) {
+            add(&sums, sums.end++, 1.0);
+            add(&sums, sums.first++, -1.0);
+        }
+        slope[k] = slope_at(&sums, time_s[k]);
+    }
+}

@@ -1,0 +1,177 @@
+#include "host/numeric/noise.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "hci/math/harmonic.h"
+
+enum { HALF_WINDOW = 20 }; /* frequencies on each side that a level is the median of */
+
+static const double LN_2 = 0.69314718055994530942;
+
+static size_t power_of_two(size_t n)
+{
+    size_t m = 1;
+    while (m < n)
+        m *= 2;
+    return m;
+}
+
+size_t hci_noise_workspace(size_t n)
+{
+    return 4 * power_of_two(n) + 2 * HALF_WINDOW + 2;
+}
+
+/* ---- periodogram ---- */
+
+static void reorder(double *re, double *im, size_t n)
+{
+    for (size_t i = 1, j = 0; i < n; ++i) {
+        size_t bit = n >> 1;
+        for (; j & bit; bit >>= 1)
+            j ^= bit;
+        j ^= bit;
+        if (i < j) {
+            const double x = re[i], y = im[i];
+            re[i] = re[j];
+            im[i] = im[j];
+            re[j] = x;
+            im[j] = y;
+        }
+    }
+}
+
+/* Fast Fourier transform in place, n a power of two. */
+static void transform(double *re, double *im, size_t n)
+{
+    reorder(re, im, n);
+    for (size_t half = 1; half < n; half *= 2) {
+        for (size_t k = 0; k < half; ++k) {
+            const double angle = -HCI_PI * (double)k / (double)half, c = cos(angle), s = sin(angle);
+            for (size_t i = k; i < n; i += 2 * half) {
+                const double x = c * re[i + half] - s * im[i + half];
+                const double y = s * re[i + half] + c * im[i + half];
+                re[i + half] = re[i] - x;
+                im[i + half] = im[i] - y;
+                re[i] += x;
+                im[i] += y;
+            }
+        }
+    }
+}
+
+/* Power at `bins` frequencies from 0 to half the sampling rate, scaled so that white noise has its variance
+ * in each. A Hann window keeps the lines of an open record narrow. */
+static size_t periodogram_open(const double *x, size_t n, double *power, double *work)
+{
+    const size_t m = power_of_two(n);
+    double *re = work, *im = work + m, square = 0.0;
+    memset(work, 0, 2 * m * sizeof *work);
+    for (size_t k = 0; k < n; ++k) {
+        const double window = 1.0 - cos(2.0 * HCI_PI * ((double)k + 0.5) / (double)n);
+        re[k] = window * x[k];
+        square += window * window;
+    }
+    transform(re, im, m);
+    for (size_t k = 0; k <= m / 2; ++k)
+        power[k] = (re[k] * re[k] + im[k] * im[k]) / square;
+    return m / 2 + 1;
+}
+
+static size_t periodogram_closed(const double *x, size_t n, double *power)
+{
+    for (size_t k = 0; k <= n / 2; ++k) {
+        const double step = 2.0 * HCI_PI * (double)k / (double)n, c = 2.0 * cos(step);
+        double u = 0.0, v = 0.0;
+        for (size_t j = n; j-- > 0;) { /* Goertzel's recurrence */
+            const double next = x[j] + c * u - v;
+            v = u;
+            u = next;
+        }
+        power[k] = fabs(u * u + v * v - c * u * v) / (double)n;
+    }
+    return n / 2 + 1;
+}
+
+/* ---- under the lines ---- */
+
+static void sort(double *x, size_t n)
+{
+    for (size_t i = 1; i < n; ++i) {
+        const double v = x[i];
+        size_t j = i;
+        for (; j > 0 && x[j - 1] > v; --j)
+            x[j] = x[j - 1];
+        x[j] = v;
+    }
+}
+
+/* The mean power of noise is its median over ln 2. */
+static double level_at(const double *power, size_t bins, size_t at, double *window)
+{
+    const size_t from = at > HALF_WINDOW ? at - HALF_WINDOW : 0;
+    const size_t to = at + HALF_WINDOW < bins ? at + HALF_WINDOW : bins - 1;
+    memcpy(window, power + from, (to - from + 1) * sizeof *window);
+    sort(window, to - from + 1);
+    return window[(to - from) / 2] / LN_2;
+}
+
+/* ---- autoregression ---- */
+
+/* Levinson and Durbin: the predictor from the correlations r. */
+static void predictor(const double r[HCI_NOISE_MEMORY + 1], hci_noise *noise)
+{
+    double *a = noise->prediction, error = r[0];
+    for (int m = 0; m < HCI_NOISE_MEMORY; ++m) {
+        double old[HCI_NOISE_MEMORY], k = r[m + 1];
+        for (int j = 0; j < m; ++j)
+            k -= a[j] * r[m - j];
+        k = error > 0.0 ? k / error : 0.0;
+        memcpy(old, a, sizeof old);
+        a[m] = k;
+        for (int j = 0; j < m; ++j)
+            a[j] = old[j] - k * old[m - 1 - j];
+        error *= 1.0 - k * k;
+    }
+    noise->innovation = sqrt(fmax(error, 0.0));
+    noise->rms = sqrt(r[0]);
+}
+
+void hci_noise_find(const double *residual, size_t n, bool closed, double floor, hci_noise *noise,
+                    double *work)
+{
+    const size_t m = power_of_two(n);
+    double *power = work + 2 * m, *level = work + 3 * m + 1, *window = work + 4 * m;
+    double r[HCI_NOISE_MEMORY + 1] = {0.0};
+    const size_t bins =
+        closed ? periodogram_closed(residual, n, power) : periodogram_open(residual, n, power, work);
+    memset(noise, 0, sizeof *noise);
+    for (size_t k = 0; k < bins; ++k)
+        level[k] = level_at(power, bins, k, window);
+    for (size_t k = 0; k < bins; ++k)
+        for (int lag = 0; lag <= HCI_NOISE_MEMORY; ++lag)
+            r[lag] += level[k] * cos(HCI_PI * (double)lag * (double)k / (double)(bins - 1)) / (double)bins;
+    r[0] += floor * floor;
+    predictor(r, noise);
+}
+
+hci_noise hci_noise_white(double rms)
+{
+    const hci_noise noise = {{0.0}, rms, rms};
+    return noise;
+}
+
+void hci_noise_whiten(const hci_noise *noise, double *x, size_t n, size_t columns)
+{
+    for (size_t k = n; k-- > 0;) {
+        double *restrict row = x + k * columns;
+        const double scale = 1.0 / (k < HCI_NOISE_MEMORY ? noise->rms : noise->innovation);
+        for (size_t j = 0; j < HCI_NOISE_MEMORY && k >= HCI_NOISE_MEMORY; ++j) {
+            const double *before = row - (j + 1) * columns, weight = noise->prediction[j];
+            for (size_t c = 0; c < columns; ++c)
+                row[c] -= weight * before[c];
+        }
+        for (size_t c = 0; c < columns; ++c)
+            row[c] *= scale;
+    }
+}

@@ -1,0 +1,116 @@
+#include "host/numeric/unwrap.h"
+
+#include <math.h>
+#include <stdbool.h>
+
+#include "hci/math/harmonic.h"
+
+#define TURN (2.0 * HCI_PI)
+
+/* A path may have one step in twenty that is longer than a third of a turn. */
+enum { ODD_SHARE = 20 };
+
+typedef struct {
+    const double *time_s, *rate_rad_per_s;
+    size_t odd, jumps;
+    hci_unwrapping result;
+} unwrapper;
+
+/* Within half a turn; remainder() would be exact, and slow. */
+static double shortest_of(double step)
+{
+    return fabs(step) <= 0.5 * TURN ? step : step - TURN * round(step / TURN);
+}
+
+static bool is_still(const double *rate, size_t n)
+{
+    for (size_t k = 0; k < n; ++k)
+        if (fabs(rate[k]) > 0.0) return false;
+    return true;
+}
+
+static double range_of(const double *x, size_t n)
+{
+    double low = x[0], high = x[0];
+    for (size_t k = 1; k < n; ++k) {
+        low = fmin(low, x[k]);
+        high = fmax(high, x[k]);
+    }
+    return high - low;
+}
+
+/* What the speed says of the step to sample k. */
+static double expected_step(const unwrapper *u, size_t k)
+{
+    return 0.5 * (u->rate_rad_per_s[k - 1] + u->rate_rad_per_s[k]) * (u->time_s[k] - u->time_s[k - 1]);
+}
+
+/* The step to sample k of an angle that is kept within a turn: the shortest, or for a long one that which the
+ * speed tells. */
+static double step_within_turn(unwrapper *u, size_t k, double recorded)
+{
+    const double shortest = shortest_of(recorded);
+    if (u->rate_rad_per_s == NULL) {
+        u->odd += fabs(shortest) > TURN / 3.0;
+        return shortest;
+    }
+    const double expected = expected_step(u, k);
+    if (fabs(expected) <= TURN / 4.0 && fabs(shortest) <= TURN / 4.0) return shortest;
+    const double step = recorded + TURN * round((expected - recorded) / TURN);
+    u->odd += fabs(step - expected) > TURN / 4.0;
+    u->result.predicted += fabs(step - shortest) > 1.0;
+    return step;
+}
+
+/* Of an angle that is beyond a turn: as recorded, unless it jumps back by whole turns against its own way. */
+static double step_beyond_turn(const unwrapper *u, size_t k, double recorded, double before)
+{
+    const double shortest = shortest_of(recorded);
+    double expected = before;
+    if (u->rate_rad_per_s != NULL) expected = expected_step(u, k);
+    const bool back = recorded * expected < 0.0 && fabs(recorded) > 0.5 * TURN;
+    return back && fabs(shortest - expected) < 0.1 * TURN ? shortest : recorded;
+}
+
+static void note_jump(unwrapper *u, double taken_out)
+{
+    const double turns = fabs(taken_out) / TURN;
+    if (turns < 0.5) return;
+    if (u->jumps++ == 0) u->result.turns = (size_t)(turns + 0.5);
+}
+
+/* Takes the turns out, or with write = false only counts. */
+static void walk(unwrapper *u, double *angle, size_t n, bool within, bool write)
+{
+    double last = angle[0], turns = 0.0, before = n > 1 ? angle[1] - angle[0] : 0.0;
+    for (size_t k = 1; k < n; ++k) {
+        const double recorded = angle[k] - last;
+        const double step =
+            within ? step_within_turn(u, k, recorded) : step_beyond_turn(u, k, recorded, before);
+        note_jump(u, step - recorded);
+        turns += round((step - recorded) / TURN);
+        last = angle[k];
+        if (fabs(step) > 0.0) before = step;
+        if (write) angle[k] += TURN * turns;
+    }
+}
+
+static hci_angle_path path_of(const unwrapper *u, size_t n, bool within, bool separate)
+{
+    if (u->odd * ODD_SHARE > n) return separate ? HCI_ANGLE_SCATTERED : HCI_ANGLE_UNCLEAR;
+    if (u->jumps > 0) return HCI_ANGLE_UNWRAPPED;
+    return within ? HCI_ANGLE_WITHIN : HCI_ANGLE_WHOLE;
+}
+
+hci_unwrapping hci_unwrap(double *angle_rad, size_t n, const double *time_s, const double *rate_rad_per_s)
+{
+    const bool within = range_of(angle_rad, n) <= TURN * (1.0 + 1e-6);
+    const bool still = rate_rad_per_s != NULL && is_still(rate_rad_per_s, n);
+    const bool has_rate = time_s != NULL && rate_rad_per_s != NULL && !still;
+    unwrapper u = {.time_s = time_s, .rate_rad_per_s = has_rate ? rate_rad_per_s : NULL};
+    walk(&u, angle_rad, n, within, false);
+    u.result.path = path_of(&u, n, within, time_s == NULL || still);
+    const hci_unwrapping result = u.result;
+    if (result.path == HCI_ANGLE_UNWRAPPED) walk(&u, angle_rad, n, within, true);
+    return result;
+}

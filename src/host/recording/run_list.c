@@ -1,0 +1,133 @@
+#include <stdio.h>
+#include <string.h>
+
+#include "hci/host/csv/csv.h"
+#include "hci/host/recording/run.h"
+#include "host/base/memory.h"
+#include "host/base/quote.h"
+
+typedef struct {
+    const hci_csv *csv;
+    int pole_pairs;
+    double inertia_kgm2;
+    hci_runs *runs;
+    hci_note *note;
+} list_reader;
+
+static hci_status memory_error(const list_reader *l)
+{
+    char path[HCI_QUOTE_PATH_SIZE];
+    return hci_note_set(l->note, HCI_ERROR_MEMORY, "%s: not enough memory for its runs",
+                        hci_quote_path(hci_csv_path(l->csv), path));
+}
+
+static hci_status read_role(const list_reader *l, size_t row, hci_role *role)
+{
+    const char *text;
+    const hci_status status = hci_csv_text(l->csv, "role", row, &text, l->note);
+    if (status != HCI_OK) return status;
+    *role = hci_text_is(text, "holdout") ? HCI_ROLE_HOLDOUT : HCI_ROLE_FIT;
+    if (*role == HCI_ROLE_HOLDOUT || hci_text_is(text, "fit")) return HCI_OK;
+    return hci_csv_error(l->csv, "role", row, l->note, "`fit` or `holdout`",
+                         "say whether the model may learn from this run or is judged by it");
+}
+
+/* A run that is both learnt from and judged by would flatter the model. */
+static hci_status check_once(const list_reader *l, size_t row, const char *file)
+{
+    for (size_t other = 0; other < row; ++other)
+        if (strcmp(l->runs->run[other].name, file) == 0)
+            return hci_csv_error(l->csv, "file", row, l->note, "each file once",
+                                 "remove one of the two rows");
+    return HCI_OK;
+}
+
+static char *copy_of(const char *text)
+{
+    char *copy = hci_memory_malloc(strlen(text) + 1);
+    if (copy != NULL) memcpy(copy, text, strlen(text) + 1);
+    return copy;
+}
+
+/* `file` relative to the folder of the list; the caller frees it. */
+static char *path_of(const char *list, const char *file)
+{
+    const char *slash = file[0] == '/' ? NULL : strrchr(list, '/');
+    const size_t folder = slash != NULL ? (size_t)(slash - list) + 1 : 0;
+    char *path = hci_memory_malloc(folder + strlen(file) + 1);
+    if (path == NULL) return NULL;
+    memcpy(path, list, folder);
+    memcpy(path + folder, file, strlen(file) + 1);
+    return path;
+}
+
+static hci_status read_one(const list_reader *l, size_t row, const char *file, hci_run *run)
+{
+    char *path = path_of(hci_csv_path(l->csv), file);
+    if (path == NULL) return memory_error(l);
+    const hci_status status = hci_run_read(path, l->pole_pairs, l->inertia_kgm2, run, l->note);
+    hci_memory_free(path);
+    if (status != HCI_OK) return status;
+    l->runs->count = row + 1;
+    hci_memory_free(run->name);
+    run->name = copy_of(file);
+    return run->name != NULL ? HCI_OK : memory_error(l);
+}
+
+static hci_status read_row(const list_reader *l, size_t row)
+{
+    const char *file;
+    hci_status status = hci_csv_text(l->csv, "file", row, &file, l->note);
+    if (status == HCI_OK) status = read_role(l, row, &l->runs->role[row]);
+    if (status == HCI_OK && *file == '\0')
+        status =
+            hci_csv_error(l->csv, "file", row, l->note, "the path of a run", "fill it or remove the row");
+    if (status == HCI_OK) status = check_once(l, row, file);
+    return status == HCI_OK ? read_one(l, row, file, &l->runs->run[row]) : status;
+}
+
+static hci_status read_rows(const list_reader *l,
+                            void (*progress)(void *context, const char *what, double share), void *context)
+{
+    const size_t rows = hci_csv_rows(l->csv);
+    hci_status status = HCI_OK;
+    if (rows == 0) {
+        char path[HCI_QUOTE_PATH_SIZE];
+        return hci_note_set(l->note, HCI_ERROR_INPUT, "%s: found no run, expected a row for each; add one",
+                            hci_quote_path(hci_csv_path(l->csv), path));
+    }
+    l->runs->run = hci_memory_new(rows, sizeof *l->runs->run);
+    l->runs->role = hci_memory_new(rows, sizeof *l->runs->role);
+    l->runs->list = copy_of(hci_csv_path(l->csv));
+    if (l->runs->run == NULL || l->runs->role == NULL || l->runs->list == NULL) return memory_error(l);
+    for (size_t row = 0; row < rows && status == HCI_OK; ++row) {
+        if (progress != NULL) progress(context, "reading runs", (double)row / (double)rows);
+        status = read_row(l, row);
+    }
+    return status;
+}
+
+hci_status hci_runs_read(const char *path, int pole_pairs, double inertia_kgm2, hci_runs *runs,
+                         void (*progress)(void *context, const char *what, double share), void *context,
+                         hci_note *note)
+{
+    hci_csv *csv;
+    memset(runs, 0, sizeof *runs);
+    hci_status status = hci_csv_read(path, &csv, note);
+    if (status != HCI_OK) return status;
+    const list_reader l = {csv, pole_pairs, inertia_kgm2, runs, note};
+    status = read_rows(&l, progress, context);
+    hci_csv_free(csv);
+    if (status != HCI_OK) hci_runs_release(runs);
+    return status;
+}
+
+void hci_runs_release(hci_runs *runs)
+{
+    for (size_t k = 0; k < runs->count; ++k)
+        hci_run_release(&runs->run[k]);
+    hci_memory_free(runs->run);
+    hci_memory_free(runs->role);
+    hci_memory_free(runs->list);
+    memset(runs, 0, sizeof *runs);
+}

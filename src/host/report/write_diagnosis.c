@@ -1,0 +1,191 @@
+/* effects.csv, errors.csv, residual_spectrum.csv, summary.json, report.html and the corrected machine of a
+ * diagnosis. */
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "hci/host/csv/csv.h"
+#include "hci/host/diagnose/diagnose.h"
+#include "hci/host/report/summary.h"
+#include "host/report/report.h"
+
+enum { PATH_SIZE = 4096 };
+
+/* ---- tables ---- */
+
+/* NAN is an empty cell. */
+static void cell(hci_output *out, double value, char end)
+{
+    if (isfinite(value))
+        hci_output_number(out, value, end);
+    else
+        hci_output_text(out, "%c", end);
+}
+
+static hci_status findings_write(hci_output *out, const hci_diagnosis *d, hci_note *note)
+{
+    const hci_status status = hci_output_file(out, "effects.csv", note);
+    if (status) return status;
+    hci_output_text(out, "rank,effect,verdict,delta_bic,residual_share,detail\n");
+    for (size_t k = 0; k < d->findings; ++k) {
+        const hci_finding *f = &d->finding[k];
+        hci_output_text(out, "%zu,%s,%s,", k + 1, f->effect, hci_finding_verdict_name(f->verdict));
+        cell(out, hci_report_delta_bic(f), ',');
+        cell(out, f->residual_share, ',');
+        hci_output_text(out, "\"%s\"\n", f->detail);
+    }
+    return HCI_OK;
+}
+
+/* A name with what CSV needs quoted. */
+static void name_write(hci_output *out, const char *name)
+{
+    if (!strpbrk(name, ",\"\n")) {
+        hci_output_text(out, "%s,", name);
+        return;
+    }
+    hci_output_text(out, "\"");
+    for (; *name; ++name)
+        hci_output_text(out, *name == '"' ? "\"\"" : "%c", *name);
+    hci_output_text(out, "\",");
+}
+
+static hci_status errors_write(hci_output *out, const hci_diagnosis *d, hci_note *note)
+{
+    const hci_status status = hci_output_file(out, "errors.csv", note);
+    if (status) return status;
+    hci_output_text(out,
+                    "file,role,mean_torque_Nm,rms_before_Nm,rms_after_Nm,noise_floor_Nm,rms_after_low_Nm,"
+                    "rms_after_high_Nm\n");
+    for (size_t k = 0; k < d->runs; ++k) {
+        const hci_run_errors *e = &d->run[k];
+        name_write(out, e->file);
+        hci_output_text(out, "%s,", e->role == HCI_ROLE_FIT ? "fit" : "holdout");
+        cell(out, e->mean_torque_Nm, ',');
+        cell(out, e->rms_before_Nm, ',');
+        cell(out, e->rms_after_Nm, ',');
+        cell(out, e->noise_floor_Nm, ',');
+        cell(out, e->after_low_Nm, ',');
+        cell(out, e->after_high_Nm, '\n');
+    }
+    return HCI_OK;
+}
+
+static hci_status spectrum_write(hci_output *out, const hci_diagnosis *d, const hci_runs *runs,
+                                 hci_note *note)
+{
+    const hci_status status = hci_output_file(out, "residual_spectrum.csv", note);
+    if (status) return status;
+    hci_output_text(out, "file,order,before_Nm,after_Nm,noise_Nm\n");
+    for (size_t k = 0; k < d->lines; ++k) {
+        const hci_residual_line *x = &d->line[k];
+        name_write(out, runs->run[x->run].name);
+        cell(out, x->order, ',');
+        cell(out, x->before_Nm, ',');
+        cell(out, x->after_Nm, ',');
+        cell(out, x->noise_Nm, '\n');
+    }
+    return HCI_OK;
+}
+
+/* A description of what is not understood, for those who want to subtract it: not physics. */
+static hci_status unexplained_write(hci_output *out, const hci_diagnosis *d, hci_note *note)
+{
+    hci_status status;
+    if (d->unexplained_count == 0) return hci_output_without(out, "unexplained.csv", note);
+    status = hci_output_file(out, "unexplained.csv", note);
+    if (status) return status;
+    hci_output_text(out, "# not physics: T = (S sin n theta + C cos n theta) |i|^a |omega|^b sign(omega)^c\n"
+                         "order,sine_Nm,cosine_Nm,current_exponent,speed_exponent,direction_exponent\n");
+    for (size_t k = 0; k < d->unexplained_count; ++k) {
+        const hci_unexplained *u = &d->unexplained[k];
+        const double values[] = {u->order, u->sine_Nm, u->cosine_Nm, u->current_exponent, u->speed_exponent};
+        for (size_t j = 0; j < sizeof values / sizeof *values; ++j)
+            hci_output_number(out, values[j], ',');
+        hci_output_text(out, "%d\n", u->turns_sign ? 1 : 0);
+    }
+    return HCI_OK;
+}
+
+static hci_status summary_write(hci_output *out, const hci_diagnosis *d, const hci_resolution *resolution,
+                                hci_note *note)
+{
+    char *json = hci_diagnosis_json(d, resolution);
+    hci_status status;
+    if (!json) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the summary");
+    status = hci_output_file(out, "summary.json", note);
+    if (!status) hci_output_text(out, "%s\n", json);
+    hci_text_free(json);
+    return status;
+}
+
+static hci_status report_write(hci_output *out, const hci_diagnosis *d, const hci_resolution *resolution,
+                               const hci_runs *runs, const char *machine_folder, hci_note *note)
+{
+    const hci_status status = hci_output_file(out, "report.html", note);
+    return status ? status : hci_report_diagnosis(out, d, resolution, runs, machine_folder, note);
+}
+
+/* ---- the corrected machine ---- */
+
+/* A table of the machine as it is; one that is not there is none. */
+static hci_status table_copy(hci_output *out, const char *folder, const char *name, hci_note *note)
+{
+    char path[PATH_SIZE], part[4096];
+    hci_status status;
+    size_t length;
+    FILE *file;
+    if (snprintf(path, sizeof path, "%s/%s", folder, name) >= PATH_SIZE)
+        return hci_note_set(note, HCI_ERROR_INPUT, "%.200s…: the path is too long", folder);
+    file = fopen(path, "rb");
+    if (!file && errno == ENOENT) return hci_output_without(out, name, note);
+    if (!file) return hci_note_set(note, HCI_ERROR_INPUT, "%s: %s", path, strerror(errno));
+    status = hci_output_file(out, name, note);
+    while (!status && (length = fread(part, 1, sizeof part, file)) > 0)
+        hci_output_text(out, "%.*s", (int)length, part);
+    if (!status && ferror(file)) status = hci_note_set(note, HCI_ERROR_INPUT, "%s: cannot be read", path);
+    fclose(file);
+    return status;
+}
+
+static hci_status machine_write(const hci_diagnosis *d, const char *machine_folder, const char *folder,
+                                hci_output **out, hci_note *note)
+{
+    static const char *const TABLES[] = {"machine.csv", "back_emf.csv", "cogging.csv", "inductance.csv"};
+    char path[PATH_SIZE];
+    hci_status status;
+    if (snprintf(path, sizeof path, "%s/machine", folder) >= PATH_SIZE)
+        return hci_note_set(note, HCI_ERROR_OUTPUT, "%.200s…: the path is too long", folder);
+    status = hci_output_open(path, out, note);
+    for (size_t k = 0; k < sizeof TABLES / sizeof *TABLES && !status; ++k)
+        status = table_copy(*out, machine_folder, TABLES[k], note);
+    if (status) return status;
+    if (d->effects.list.count > 0) return hci_effects_write(*out, &d->effects.list, note);
+    return hci_output_without(*out, "effects.csv", note);
+}
+
+hci_status hci_diagnosis_write(const hci_diagnosis *d, const hci_resolution *resolution, const hci_runs *runs,
+                               const char *machine_folder, const char *folder, hci_note *note)
+{
+    hci_output *out = NULL, *machine = NULL;
+    hci_status status = hci_output_open(folder, &out, note);
+    if (!status) status = findings_write(out, d, note);
+    if (!status) status = errors_write(out, d, note);
+    if (!status) status = spectrum_write(out, d, runs, note);
+    if (!status) status = unexplained_write(out, d, note);
+    if (!status) status = summary_write(out, d, resolution, note);
+    if (!status) status = report_write(out, d, resolution, runs, machine_folder, note);
+    if (!status) status = machine_write(d, machine_folder, folder, &machine, note);
+    if (!status) status = hci_output_check(machine, note);
+    if (!status) status = hci_output_check(out, note);
+    if (status) {
+        hci_output_discard(machine);
+        hci_output_discard(out);
+        return status;
+    }
+    status = hci_output_commit(machine, note);
+    if (!status) return hci_output_commit(out, note);
+    hci_output_discard(out);
+    return status;
+}

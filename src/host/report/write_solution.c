@@ -1,0 +1,149 @@
+/* The files that a solution is written to. */
+#include <math.h>
+#include <string.h>
+
+#include "hci/machine/frames.h"
+#include "hci/host/base/output.h"
+#include "hci/host/report/summary.h"
+#include "host/draw/plot.h"
+#include "host/report/report.h"
+
+static void write_currents(hci_output *out, const hci_currents *currents, const hci_wave *wave,
+                           const char *amplitude_column)
+{
+    hci_output_text(out, "order,set,%s,phase_rad\n", amplitude_column);
+    for (size_t k = 0; k < currents->count; ++k) {
+        hci_output_number(out, wave[k].order, ',');
+        hci_output_text(out, "%s,", hci_set_name(currents->set[k]));
+        hci_output_number(out, hci_amplitude(wave[k].sine, wave[k].cosine), ',');
+        hci_output_number(out, hci_phase_rad(wave[k].sine, wave[k].cosine), '\n');
+    }
+}
+
+/* At order 0 the amplitude is the signed mean and the phase π/2, so that A sin(nθ + γ) holds for every
+ * row. */
+static void write_polar(hci_output *out, hci_harmonic h)
+{
+    const bool mean = h.order < HCI_ORDER_TOLERANCE;
+    hci_output_number(out, mean ? h.cosine : hci_amplitude(h.sine, h.cosine), ',');
+    hci_output_number(out, mean ? HCI_PI / 2 : hci_phase_rad(h.sine, h.cosine), ',');
+}
+
+static void write_spectrum(hci_output *out, const hci_solution *s)
+{
+    hci_output_text(out, "order,target_Nm,target_phase_rad,torque_Nm,torque_phase_rad,error_Nm,before_Nm,"
+                         "before_phase_rad,verdict\n");
+    for (size_t k = 0; k < s->order_count; ++k) {
+        const hci_solved_order *o = &s->order[k];
+        hci_output_number(out, o->torque_Nm.order, ',');
+        write_polar(out, o->target_Nm);
+        write_polar(out, o->torque_Nm);
+        hci_output_number(out, o->error_Nm, ',');
+        write_polar(out, o->before_Nm);
+        hci_output_text(out, "%s\n", hci_order_verdict_name(o->verdict));
+    }
+}
+
+/* Enough points to draw the highest order that flows or is made, at least one a degree. */
+static size_t points_per_turn(const hci_solution *s)
+{
+    double top = 0.0;
+    for (size_t k = 0; k < s->current.count; ++k)
+        top = fmax(top, s->current.wave[k].order);
+    for (size_t k = 0; k < s->order_count; ++k)
+        top = fmax(top, s->order[k].torque_Nm.order);
+    return (size_t)fmax(360.0, 8.0 * ceil(top));
+}
+
+/* With effects the spectrum, which holds every order, is all that says the torque without them at hand. */
+static double torque_at(const hci_machine_data *m, const hci_solution *s, double theta_rad,
+                        const double abc[3])
+{
+    double sum_Nm = 0.0;
+    if (!s->with_effects) return hci_torque_at(&m->model, theta_rad, abc);
+    for (size_t k = 0; k < s->order_count; ++k)
+        sum_Nm += hci_harmonics_at(&s->order[k].torque_Nm, 1, theta_rad);
+    return sum_Nm;
+}
+
+static void write_waveform(hci_output *out, const hci_machine_data *m, const hci_solution *s)
+{
+    const size_t per_turn = points_per_turn(s);
+    hci_output_text(out, "theta_e_rad,ia_A,ib_A,ic_A,id_A,iq_A,torque_Nm\n");
+    for (size_t k = 0; k < per_turn * s->period_turns; ++k) {
+        const double theta_rad = 2.0 * HCI_PI * (double)k / (double)per_turn;
+        double abc[3];
+        hci_dq dq;
+        hci_waves_at(s->current.wave, s->current.count, theta_rad, abc);
+        dq = hci_park(hci_clarke(abc), theta_rad);
+        hci_output_number(out, theta_rad, ',');
+        for (int phase = 0; phase < 3; ++phase)
+            hci_output_number(out, abc[phase], ',');
+        hci_output_number(out, dq.d, ',');
+        hci_output_number(out, dq.q, ',');
+        hci_output_number(out, torque_at(m, s, theta_rad, abc), '\n');
+    }
+}
+
+static hci_status write_summary(hci_output *out, const hci_solution *s, hci_status verdict, hci_note *note)
+{
+    char *json = hci_solution_json(s, verdict);
+    if (!json) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the summary");
+    hci_output_text(out, "%s\n", json);
+    hci_text_free(json);
+    return HCI_OK;
+}
+
+/* A file of one part of the currents, or none where they have no parts. */
+static hci_status write_part(hci_output *out, const char *name, const hci_solution *s, const hci_wave *wave,
+                             const char *amplitude_column, hci_note *note)
+{
+    const hci_status status = wave ? hci_output_file(out, name, note) : hci_output_without(out, name, note);
+    if (!status && wave) write_currents(out, &s->current, wave, amplitude_column);
+    return status;
+}
+
+static hci_status write_files(hci_output *out, const hci_machine_data *m, const hci_solution *s,
+                              hci_status verdict, hci_note *note)
+{
+    hci_status status = write_part(out, "currents.csv", s, s->current.wave, "amplitude_A", note);
+    if (!status) status = write_part(out, "currents_per_Nm.csv", s, s->per_Nm, "amplitude_A_per_Nm", note);
+    if (!status) status = write_part(out, "currents_constant.csv", s, s->constant, "amplitude_A", note);
+    if (!status) status = hci_output_file(out, "spectrum.csv", note);
+    if (!status) write_spectrum(out, s);
+    if (!status) status = hci_output_file(out, "waveform.csv", note);
+    if (!status) write_waveform(out, m, s);
+    if (!status) status = hci_output_file(out, "solution.svg", note);
+    if (!status) hci_plot_solution(out, m, s);
+    if (!status) status = hci_output_file(out, "summary.json", note);
+    return status ? status : write_summary(out, s, verdict, note);
+}
+
+static hci_status write_report(hci_output *out, const hci_machine_data *m, const hci_solution *s,
+                               hci_status verdict, const hci_report_sources *sources, hci_note *note)
+{
+    const hci_status status =
+        sources ? hci_output_file(out, "report.html", note) : hci_output_without(out, "report.html", note);
+    if (!status && sources) hci_report_solution(out, m, s, verdict, sources);
+    return status;
+}
+
+hci_status hci_solution_write(const hci_machine_data *machine, const hci_solution *solution,
+                              hci_status verdict, const char *folder, hci_note *note)
+{
+    return hci_solution_write_with_report(machine, solution, verdict, NULL, folder, note);
+}
+
+hci_status hci_solution_write_with_report(const hci_machine_data *machine, const hci_solution *solution,
+                                          hci_status verdict, const hci_report_sources *sources,
+                                          const char *folder, hci_note *note)
+{
+    hci_output *out;
+    hci_status status = hci_output_open(folder, &out, note);
+    if (status) return status;
+    status = write_files(out, machine, solution, verdict, note);
+    if (!status) status = write_report(out, machine, solution, verdict, sources, note);
+    if (!status) return hci_output_commit(out, note);
+    hci_output_discard(out);
+    return status;
+}

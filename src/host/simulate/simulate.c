@@ -1,0 +1,198 @@
+/* The run: one step after another, each shown to the evaluation and to the trajectory. */
+#include <math.h>
+#include <string.h>
+
+#include "host/base/memory.h"
+#include "host/simulate/simulation.h"
+
+typedef struct {
+    const hci_machine_data *machine;
+    hci_setup *setup;
+    hci_evaluation *evaluation;
+    hci_trajectory trajectory;
+    hci_output *out;                   /* NULL: nothing is written */
+    const hci_report_sources *sources; /* NULL: no report */
+} run;
+
+static void start_sensors(hci_setup *setup)
+{
+    const hci_plant_state *plant = &setup->state.plant;
+    const double first[HCI_SENSE_COUNT] = {0.0, 0.0, 0.0, plant->theta_m_rad, plant->speed_rad_per_s, 0.0};
+    for (size_t k = 0; k < HCI_SENSE_COUNT; ++k)
+        hci_sensor_start(&setup->sensor[k], &setup->state.sensors[k], setup->ring[k],
+                         setup->seed * HCI_SENSE_COUNT + k, first[k]);
+}
+
+static double load_at(const hci_setup *setup, double time_s)
+{
+    return time_s >= setup->load_2_from_s - 0.5 * setup->drive.control.step_s ? setup->load_2_Nm
+                                                                              : setup->load_Nm;
+}
+
+static hci_counts counts_of(const hci_control_state *control)
+{
+    return (hci_counts){control->hysteresis.switchings, control->unreached, control->limited};
+}
+
+/* What held at the start of the step that has just been made; its counts are there already. */
+static void make_record(const hci_setup *setup, const hci_plant_state *before, double time_s, double load_Nm,
+                        hci_record *record)
+{
+    const hci_drive *drive = &setup->drive;
+    const bool imposed = drive->control.loop == HCI_CURRENT_IDEAL;
+    hci_plant_state at = *before;
+    for (int k = 0; k < 2; ++k) {
+        at.i[k] = record->i[k] = imposed ? setup->state.control.reference[k] : before->i[k];
+        record->v[k] = setup->state.control.v[k];
+    }
+    record->time_s = time_s;
+    record->angle_rad = drive->plant.table.pole_pairs * hci_plant_angle_rad(before);
+    record->speed_rad_per_s = before->speed_rad_per_s;
+    record->torque_Nm = setup->state.torque_Nm;
+    record->load_Nm = load_Nm;
+    record->point = hci_plant_at(&drive->plant, &at);
+    record->state = &setup->state;
+}
+
+static bool is_finite(const hci_plant_state *s)
+{
+    return isfinite(s->i[0]) && isfinite(s->i[1]) && isfinite(s->speed_rad_per_s) && isfinite(s->theta_m_rad);
+}
+
+static hci_status make_step(run *r, size_t k, hci_note *note)
+{
+    hci_setup *setup = r->setup;
+    const double time_s = (double)k * setup->drive.control.step_s, load_Nm = load_at(setup, time_s);
+    const bool evaluated = time_s >= setup->settle_s - 0.5 * setup->drive.control.step_s;
+    const hci_plant_state before = setup->state.plant;
+    hci_record record;
+    record.counts = counts_of(&setup->state.control);
+    hci_drive_step(&setup->drive, &setup->state, setup->set_point, load_Nm);
+    if (!is_finite(&setup->state.plant))
+        return hci_note_set(note, HCI_ERROR_NUMERIC,
+                            "at %g s the state left the finite numbers; give a smaller `step`, or a "
+                            "`speed_kp` or `current_kp` "
+                            "that the step can follow",
+                            time_s);
+    if (!evaluated && !r->out) return HCI_OK;
+    make_record(setup, &before, time_s, load_Nm, &record);
+    if (evaluated) hci_evaluation_add(r->evaluation, &record);
+    if (r->out) hci_trajectory_add(&r->trajectory, &record);
+    return HCI_OK;
+}
+
+static hci_status make_steps(run *r, const hci_simulate_options *options, hci_note *note)
+{
+    const size_t steps = r->setup->steps, share = steps / 256 + 1;
+    hci_status status = HCI_OK;
+    start_sensors(r->setup);
+    /* One step more than the duration has, for the values at its end. */
+    for (size_t k = 0; k <= steps && !status; ++k) {
+        status = make_step(r, k, note);
+        if (options->progress && k % share == 0)
+            options->progress(options->progress_context, "simulating", (double)k / (double)steps);
+    }
+    return status;
+}
+
+/* The report draws what is evaluated. */
+static hci_status begin_traces(run *r, hci_note *note)
+{
+    if (!r->out || !r->sources) return HCI_OK;
+    r->trajectory.traces = hci_memory_new(1, sizeof *r->trajectory.traces);
+    if (!r->trajectory.traces) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the report");
+    hci_traces_begin(r->trajectory.traces, r->setup->settle_s,
+                     (double)r->setup->steps * r->setup->drive.control.step_s);
+    return HCI_OK;
+}
+
+/* The sine in phase with the back-EMF's fundamental that would make the mean torque with it; false: none. */
+static bool plain_sine(const hci_machine_data *machine, const hci_simulation *s, hci_wave *plain)
+{
+    if (!(s->plain_amplitude_A > 0.0) || !isfinite(s->T_ripple_percent)) return false;
+    for (size_t k = 0; k < machine->model.back_emf_count; ++k) {
+        const hci_wave e = machine->model.back_emf[k];
+        const double size = hypot(e.sine, e.cosine);
+        if (fabs(e.order - 1.0) > HCI_ORDER_TOLERANCE || e.sequence != 1 || !(size > 0.0)) continue;
+        const double a = (s->torque_Nm.mean < 0.0 ? -1.0 : 1.0) * s->plain_amplitude_A / size;
+        *plain = (hci_wave){1.0, 1, a * e.sine, a * e.cosine};
+        return true;
+    }
+    return false;
+}
+
+/* What the ripple is compared with. A machine whose orders have no common period has nothing of the kind. */
+static hci_status judge_plain(const hci_machine_data *machine, const hci_effects *effects, hci_simulation *s,
+                              hci_note *note)
+{
+    const hci_target none = {NULL, 0};
+    hci_note why = {{0}};
+    hci_wave plain;
+    if (!plain_sine(machine, s, &plain)) return HCI_OK;
+    if (hci_judge_currents(machine, effects, &plain, 1, &none, &s->plain, &why) != HCI_ERROR_MEMORY)
+        return HCI_OK;
+    *note = why;
+    return HCI_ERROR_MEMORY;
+}
+
+/* Files are opened before the first step, so that a folder that cannot be written to costs no time. */
+static hci_status run_and_write(run *r, const hci_simulate_options *options, hci_simulation *simulation,
+                                hci_note *note)
+{
+    hci_status status = options->folder ? hci_output_open(options->folder, &r->out, note) : HCI_OK;
+    if (!status && r->out) status = hci_trajectory_begin(&r->trajectory, r->out, r->setup, note);
+    if (!status) status = begin_traces(r, note);
+    if (!status) status = make_steps(r, options, note);
+    if (!status) status = hci_evaluation_finish(r->evaluation, simulation, note);
+    if (!status) status = judge_plain(r->machine, options->effects, simulation, note);
+    if (!status && r->out) {
+        hci_trajectory_end(&r->trajectory);
+        status = hci_simulation_write(r->out, simulation, r->trajectory.traces, r->sources, note);
+    }
+    if (status)
+        hci_output_discard(r->out);
+    else if (r->out)
+        status = hci_output_commit(r->out, note);
+    hci_memory_free(r->trajectory.traces);
+    return status;
+}
+
+hci_status hci_simulate(const hci_machine_data *machine, const hci_scenario *scenario,
+                        const hci_simulate_options *options, hci_simulation *simulation, hci_note *note)
+{
+    return hci_simulate_with_report(machine, scenario, options, NULL, simulation, note);
+}
+
+hci_status hci_simulate_with_report(const hci_machine_data *machine, const hci_scenario *scenario,
+                                    const hci_simulate_options *options, const hci_report_sources *sources,
+                                    hci_simulation *simulation, hci_note *note)
+{
+    hci_setup *setup = hci_memory_new(1, sizeof *setup);
+    run r = {0};
+    hci_status status;
+    memset(simulation, 0, sizeof *simulation);
+    if (!setup) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory");
+    r.machine = machine;
+    r.setup = setup;
+    r.sources = sources;
+    status = hci_setup_make(machine, options->effects, scenario, setup, note);
+    if (!status && !(r.evaluation = hci_evaluation_new(setup)))
+        status = hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the evaluation");
+    if (!status) {
+        simulation->remark = setup->remark;
+        simulation->imposed = scenario->currents[0] != '\0';
+        status = run_and_write(&r, options, simulation, note);
+    }
+    if (status) hci_simulation_release(simulation);
+    hci_evaluation_free(r.evaluation);
+    hci_setup_release(setup);
+    hci_memory_free(setup);
+    return status;
+}
+
+void hci_simulation_release(hci_simulation *simulation)
+{
+    hci_memory_free(simulation->spectrum_Nm);
+    hci_judgement_release(&simulation->plain);
+    memset(simulation, 0, sizeof *simulation);
+}

@@ -1,0 +1,189 @@
+#include "host/solve/harmonic_system.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "host/base/memory.h"
+
+bool hci_task_is_linear(const hci_task *task)
+{
+    return task->machine->slope_count == 0 && !task->beyond;
+}
+
+double hci_target_mean_Nm(const hci_target *target)
+{
+    return hci_target_at(target, 0.0).torque_Nm.cosine;
+}
+
+hci_target_order hci_target_at(const hci_target *target, double order)
+{
+    for (size_t k = 0; k < target->count; ++k)
+        if (fabs(target->order[k].torque_Nm.order - order) < HCI_ORDER_TOLERANCE) return target->order[k];
+    return (hci_target_order){
+        {order, 0.0, 0.0},
+        1.0
+    };
+}
+
+/* ---- which orders are compared ---- */
+
+static size_t most_orders(const hci_task *t, size_t count)
+{
+    return 1 + t->target->count + t->machine->cogging_count + t->offset_count +
+           2 * t->gain_count * (count + 1);
+}
+
+/* Orders that matter whatever the components: mean, target, cogging, torque of what is held. */
+static size_t given_orders(const hci_task *t, double *order)
+{
+    const hci_machine *m = t->machine;
+    size_t n = 0;
+    order[n++] = 0.0;
+    for (size_t k = 0; k < t->target->count; ++k)
+        order[n++] = t->target->order[k].torque_Nm.order;
+    for (size_t k = 0; k < m->cogging_count; ++k)
+        order[n++] = m->cogging[k].order;
+    for (size_t k = 0; k < t->offset_count; ++k)
+        order[n++] = t->offset[k].order;
+    if (t->held)
+        n += hci_component_orders(t->gain, t->gain_count, (hci_component){t->held->order, t->held->sequence},
+                                  order + n);
+    return hci_orders_sort(order, n);
+}
+
+/* Orders of weight 0, and above the highest that is to be compared, are not. */
+static size_t drop_free_orders(const hci_task *t, double *order, size_t n)
+{
+    const double top = t->compared_up_to > 0.0 ? t->compared_up_to + HCI_ORDER_TOLERANCE : HUGE_VAL;
+    size_t kept = 0;
+    for (size_t k = 0; k < n; ++k)
+        if (order[k] <= top && hci_target_at(t->target, order[k]).weight > 0.0) order[kept++] = order[k];
+    return kept;
+}
+
+static size_t all_orders(const hci_task *t, const hci_component *component, size_t count, double *order)
+{
+    size_t n = given_orders(t, order);
+    for (size_t k = 0; k < count; ++k)
+        n += hci_component_orders(t->gain, t->gain_count, component[k], order + n);
+    return drop_free_orders(t, order, hci_orders_sort(order, n));
+}
+
+/* The paper's square system: as many orders as components. The given ones come first, then the lowest others.
+ * With a held fundamental the mean is left out and U is square; without one the mean is compared, which
+ * leaves one unknown free. spare: room for as many orders again. */
+static size_t square_orders(const hci_task *t, double *order, size_t n, size_t count, double *spare)
+{
+    const size_t given = drop_free_orders(t, spare, given_orders(t, spare));
+    size_t taken = 0;
+    for (size_t k = 0; k < given; ++k)
+        if (!t->held || spare[k] >= HCI_ORDER_TOLERANCE) spare[taken++] = spare[k];
+    for (size_t k = 0, named = taken; k < n; ++k)
+        if (order[k] >= HCI_ORDER_TOLERANCE && hci_orders_find(spare, named, order[k]) == named)
+            spare[taken++] = order[k];
+    if (taken > count) taken = count;
+    memcpy(order, spare, taken * sizeof *order);
+    return hci_orders_sort(order, taken);
+}
+
+/* ---- right-hand sides ---- */
+
+static void add_at(const hci_balance *b, double factor, hci_harmonic term, hci_harmonic *rest)
+{
+    const size_t at = hci_orders_find(b->order, b->order_count, term.order);
+    if (at == b->order_count) return;
+    rest[at].sine += factor * term.sine;
+    rest[at].cosine += factor * term.cosine;
+}
+
+static void fill_right_sides(const hci_task *t, hci_balance *b, hci_harmonic *rest)
+{
+    const hci_machine *m = t->machine;
+    for (size_t k = 0; k < b->order_count; ++k) {
+        const hci_target_order wanted = hci_target_at(t->target, b->order[k]);
+        const bool mean = b->order[k] < HCI_ORDER_TOLERANCE;
+        rest[k] = (hci_harmonic){b->order[k], wanted.torque_Nm.sine, mean ? 0.0 : wanted.torque_Nm.cosine};
+    }
+    for (size_t k = 0; k < m->cogging_count; ++k)
+        add_at(b, -1.0, m->cogging[k], rest);
+    for (size_t k = 0; k < t->offset_count; ++k)
+        add_at(b, 1.0, t->offset[k], rest);
+    if (t->held) {
+        const hci_wave against = {t->held->order, t->held->sequence, -t->held->sine, -t->held->cosine};
+        hci_system_add_torque(t->gain, t->gain_count, &against, 1, b->order, b->order_count, rest);
+    }
+    if (b->order_count > 0 && b->order[0] < HCI_ORDER_TOLERANCE) b->h[0] = 1.0;
+    hci_spectrum_to_rows(rest, b->order_count, b->h + b->rows);
+}
+
+/* ---- all of it ---- */
+
+/* Multiplies each row of h and U by the weight of its order. */
+static void apply_weights(const hci_task *t, hci_balance *b)
+{
+    size_t i = 0;
+    for (size_t k = 0; k < b->order_count; ++k) {
+        b->row_weight[i++] = hci_target_at(t->target, b->order[k]).weight;
+        if (b->order[k] < HCI_ORDER_TOLERANCE) continue;
+        b->row_weight[i] = b->row_weight[i - 1];
+        ++i;
+    }
+    for (i = 0; i < b->rows; ++i) {
+        b->h[i] *= b->row_weight[i];
+        b->h[b->rows + i] *= b->row_weight[i];
+    }
+    for (int64_t k = 0; k < b->u.column_start[b->unknowns]; ++k)
+        b->u.value[k] *= b->row_weight[b->u.row[k]];
+}
+
+static bool reserve_rows(hci_balance *b, size_t count, size_t gain_count)
+{
+    const size_t entries = hci_system_capacity(gain_count, count);
+    b->rows = hci_orders_rows(b->order, b->order_count);
+    b->unknowns = 2 * count;
+    b->row_weight = hci_memory_new(b->rows, sizeof *b->row_weight);
+    b->h = hci_memory_new(2 * b->rows, sizeof *b->h);
+    b->u.rows = b->rows;
+    b->u.columns = b->unknowns;
+    b->u.column_start = hci_memory_new(b->unknowns + 1, sizeof *b->u.column_start);
+    b->u.row = hci_memory_new(entries, sizeof *b->u.row);
+    b->u.value = hci_memory_new(entries, sizeof *b->u.value);
+    return b->row_weight && b->h && b->u.column_start && b->u.row && b->u.value;
+}
+
+hci_status hci_balance_make(const hci_task *task, const hci_component *component, size_t count,
+                            hci_compare compare, hci_balance *balance, hci_note *note)
+{
+    hci_harmonic *rest = NULL;
+    memset(balance, 0, sizeof *balance);
+    balance->order = hci_memory_new(2 * most_orders(task, count), sizeof *balance->order);
+    if (balance->order) {
+        balance->order_count = all_orders(task, component, count, balance->order);
+        if (compare == HCI_COMPARE_SQUARE)
+            balance->order_count = square_orders(task, balance->order, balance->order_count, count,
+                                                 balance->order + most_orders(task, count));
+        rest = hci_memory_new(balance->order_count, sizeof *rest);
+    }
+    if (!rest || !reserve_rows(balance, count, task->gain_count)) {
+        hci_memory_free(rest);
+        hci_balance_release(balance);
+        return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for a system of %zu components", count);
+    }
+    fill_right_sides(task, balance, rest);
+    hci_system_sparse(task->gain, task->gain_count, component, count, balance->order, balance->order_count,
+                      balance->u.column_start, balance->u.row, balance->u.value);
+    apply_weights(task, balance);
+    hci_memory_free(rest);
+    return HCI_OK;
+}
+
+void hci_balance_release(hci_balance *balance)
+{
+    hci_memory_free(balance->order);
+    hci_memory_free(balance->row_weight);
+    hci_memory_free(balance->h);
+    hci_memory_free(balance->u.column_start);
+    hci_memory_free(balance->u.row);
+    hci_memory_free(balance->u.value);
+    memset(balance, 0, sizeof *balance);
+}

@@ -1,0 +1,270 @@
+/* Currents found angle by angle. The shortest that make the wanted torque are, without reluctance torque,
+ *     i(θ) = (T*(θ) − T_cog(θ)) e⊥ / (e⊥·e⊥)        e⊥ = e − mean(e) in a star connection,
+ * which is linear in the torque; all else is left to hci_strategy_current. */
+#include <math.h>
+
+#include "host/solve/harmonic_system.h"
+#include "hci/math/fourier.h"
+#include "hci/machine/frames.h"
+#include "host/base/memory.h"
+
+enum { SAMPLES_PER_TURN = 2048, TOP_ORDER = 512 };
+
+/* The ripple that is wanted beside the mean. */
+static double wanted_ripple_Nm(const hci_task *t, double theta_rad)
+{
+    double sum_Nm = 0.0;
+    for (size_t k = 0; k < t->target->count; ++k) {
+        const hci_harmonic h = t->target->order[k].torque_Nm;
+        if (h.order >= HCI_ORDER_TOLERANCE) sum_Nm += hci_harmonics_at(&h, 1, theta_rad);
+    }
+    return sum_Nm;
+}
+
+/* e⊥ and the torque that currents must make beside the mean. Returns e⊥·e⊥. */
+static double wanted_at(const hci_task *t, double theta_rad, double e[3], double *rest_Nm)
+{
+    double mean;
+    hci_waves_at(t->machine->back_emf, t->machine->back_emf_count, theta_rad, e);
+    mean = t->has_neutral ? 0.0 : (e[0] + e[1] + e[2]) / 3.0;
+    for (int s = 0; s < 3; ++s)
+        e[s] -= mean;
+    *rest_Nm = wanted_ripple_Nm(t, theta_rad) -
+               hci_harmonics_at(t->machine->cogging, t->machine->cogging_count, theta_rad);
+    return e[0] * e[0] + e[1] * e[1] + e[2] * e[2];
+}
+
+/* e⊥·e⊥ is called zero below this, a share of the largest harmonic's. */
+static double vanishing(const hci_task *t)
+{
+    double largest = 0.0;
+    for (size_t k = 0; k < t->machine->back_emf_count; ++k)
+        largest = fmax(largest, hci_amplitude(t->machine->back_emf[k].sine, t->machine->back_emf[k].cosine));
+    return 1e-6 * largest * largest;
+}
+
+static double angle_rad(size_t k)
+{
+    return 2.0 * HCI_PI * (double)k / SAMPLES_PER_TURN;
+}
+
+/* Whether the currents are (T* − T_cog) e⊥/(e⊥·e⊥), which is linear in the torque. */
+static bool is_linear(const hci_task *t)
+{
+    return hci_task_is_linear(t) && t->strategy == HCI_STRATEGY_MTPA;
+}
+
+static double linear_mean_square_A2(const hci_task *t, size_t count)
+{
+    const double mean_Nm = hci_target_mean_Nm(t->target), floor_value = vanishing(t);
+    double sum = 0.0;
+    for (size_t k = 0; k < count; ++k) {
+        double e[3], rest_Nm;
+        const double square = wanted_at(t, angle_rad(k), e, &rest_Nm);
+        if (square <= floor_value) return NAN;
+        sum += (mean_Nm + rest_Nm) * (mean_Nm + rest_Nm) / square;
+    }
+    return sum / (double)count;
+}
+
+/* The torque at one angle, and what of it is beyond the second degree. */
+typedef struct {
+    hci_machine_point point;
+    const hci_effects_plant *beyond;
+    double theta_rad;
+} angle;
+
+static double smooth_torque(const void *context, const double x[2], double gradient[2])
+{
+    const angle *a = context;
+    const double *h = a->point.slope;
+    hci_sample s = {0};
+    s.theta_m_rad = a->theta_rad / a->beyond->machine->pole_pairs;
+    s.temperature_C = a->beyond->temperature_C;
+    hci_plane_to_abc(x, s.i_abc);
+    const hci_effect_torque t = hci_effects_torque(a->beyond->machine, a->beyond->effects, &s, NULL);
+    hci_plane_from_abc(t.by_current, gradient);
+    gradient[0] += a->point.e[0] + h[0] * x[0] + h[1] * x[1];
+    gradient[1] += a->point.e[1] + h[1] * x[0] + h[2] * x[1];
+    return hci_point_torque_Nm(&a->point, x) + t.torque_Nm;
+}
+
+/* Angles a turn at which the shortest of all currents is looked for afresh. */
+enum { SEARCHES_PER_TURN = 32 };
+
+/* Along the range of the angle before, and now and then in all directions, since another range may have
+ * become the shorter one. x: in and out. */
+static hci_status shortest_smooth(const hci_smooth_torque *torque, const hci_machine_point *point, size_t k,
+                                  double wanted_Nm, double x[2])
+{
+    const double before[2] = {x[0], x[1]};
+    double found[2];
+    hci_status status = HCI_NOT_REACHED, searched;
+    if (k > 0) status = hci_strategy_smooth_current(torque, point, HCI_STRATEGY_MTPA, wanted_Nm, before, x);
+    if (!status && k % (SAMPLES_PER_TURN / SEARCHES_PER_TURN) != 0) return HCI_OK;
+    searched = hci_strategy_smooth_current(torque, point, HCI_STRATEGY_MTPA, wanted_Nm, NULL, found);
+    if (k == 0 || (!searched && (status || hypot(found[0], found[1]) < (1.0 - 1e-6) * hypot(x[0], x[1])))) {
+        x[0] = found[0];
+        x[1] = found[1];
+    }
+    return status && searched ? HCI_NOT_REACHED : HCI_OK;
+}
+
+/* x: in the current of sample k − 1, out that of sample k. least_iq_A: out, may be NULL; NAN where it is not
+ * known. */
+static hci_status current_at(const hci_task *t, hci_strategy strategy, size_t k, double wanted_Nm,
+                             double x[2], double *least_iq_A)
+{
+    const angle a = {hci_machine_at(t->machine, angle_rad(k)), t->beyond, angle_rad(k)};
+    const hci_smooth_torque torque = {smooth_torque, &a};
+    const double before[2] = {x[0], x[1]};
+    if (!t->beyond)
+        return hci_strategy_current(&a.point, strategy, wanted_Nm, k > 0 ? before : NULL, x, least_iq_A);
+    if (least_iq_A) *least_iq_A = 0.0;
+    if (least_iq_A && strategy == HCI_STRATEGY_CANCEL) *least_iq_A = NAN;
+    if (strategy == HCI_STRATEGY_MTPA) return shortest_smooth(&torque, &a.point, k, wanted_Nm, x);
+    return hci_strategy_smooth_current(&torque, &a.point, strategy, wanted_Nm, k > 0 ? before : NULL, x);
+}
+
+double hci_pointwise_mean_square_A2(const hci_task *task)
+{
+    const size_t count = SAMPLES_PER_TURN * task->period_turns;
+    const double mean_Nm = hci_target_mean_Nm(task->target);
+    double sum = 0.0, x[2] = {0.0, 0.0};
+    if (hci_task_is_linear(task)) return linear_mean_square_A2(task, count);
+    for (size_t k = 0; k < count; ++k) {
+        const double wanted_Nm = mean_Nm + wanted_ripple_Nm(task, angle_rad(k));
+        if (current_at(task, HCI_STRATEGY_MTPA, k, wanted_Nm, x, NULL)) return NAN;
+        sum += x[0] * x[0] + x[1] * x[1];
+    }
+    return sum / (double)count;
+}
+
+static void store(double *row, size_t count, size_t k, size_t part, double scale, const double abc[3])
+{
+    const hci_alpha_beta x = hci_clarke(abc);
+    row[(3 * part + 0) * count + k] = scale * x.alpha;
+    row[(3 * part + 1) * count + k] = scale * x.beta;
+    row[(3 * part + 2) * count + k] = scale * x.zero;
+}
+
+/* Samples of α, β, zero of both parts: six rows of `count`. False where e⊥ vanishes. */
+static bool sample_linear(const hci_task *t, size_t count, double *row)
+{
+    const double floor_value = vanishing(t);
+    for (size_t k = 0; k < count; ++k) {
+        double e[3], rest_Nm;
+        const double square = wanted_at(t, angle_rad(k), e, &rest_Nm);
+        if (square <= floor_value) return false;
+        store(row, count, k, 0, 1.0 / square, e);
+        store(row, count, k, 1, rest_Nm / square, e);
+    }
+    return true;
+}
+
+/* Angle k has no answer: it lengthens the last gap or, after an angle that has one, opens a new one. */
+static void note_gap(hci_solution *s, size_t k, bool is_new)
+{
+    if (is_new && s->gap_count < HCI_MOST_GAPS) s->gap[s->gap_count].from_rad = angle_rad(k);
+    if (is_new) ++s->gap_count;
+    if (s->gap_count <= HCI_MOST_GAPS) s->gap[s->gap_count - 1].to_rad = angle_rad(k);
+}
+
+/* The same for any strategy and machine; everything is in the second part. */
+static void sample_strategy(const hci_task *t, size_t count, double *row, hci_solution *s)
+{
+    const double mean_Nm = hci_target_mean_Nm(t->target), to_amplitude = sqrt(2.0 / 3.0);
+    const double nothing[3] = {0.0, 0.0, 0.0};
+    double x[2] = {0.0, 0.0};
+    bool in_gap = false;
+    for (size_t k = 0; k < count; ++k) {
+        const double wanted_Nm = mean_Nm + wanted_ripple_Nm(t, angle_rad(k));
+        double abc[3], least_iq_A;
+        const bool is_missing = current_at(t, t->strategy, k, wanted_Nm, x, &least_iq_A) != HCI_OK;
+        if (is_missing) note_gap(s, k, !in_gap);
+        in_gap = is_missing;
+        s->least_iq_A = fmax(s->least_iq_A, to_amplitude * least_iq_A);
+        if (isnan(least_iq_A)) s->least_iq_A = least_iq_A;
+        hci_plane_to_abc(x, abc);
+        store(row, count, k, 0, 0.0, nothing);
+        store(row, count, k, 1, 1.0, abc);
+    }
+}
+
+/* Coordinates of the three sequences at one order from those of α, β and zero. With x_s = A sin(nθ − σ2πs/3 +
+ * γ), α has (S, C) and β has (C, −S) for σ = +1 and (−C, S) for σ = −1; at order 0 the positive sequence
+ * alone spans the plane. */
+static void sequences(const hci_harmonic a, const hci_harmonic b, const hci_harmonic zero, double x[3][2])
+{
+    const bool mean = a.order < HCI_ORDER_TOLERANCE;
+    x[0][0] = mean ? -b.cosine : 0.5 * (a.sine - b.cosine);
+    x[0][1] = mean ? a.cosine : 0.5 * (a.cosine + b.sine);
+    x[1][0] = mean ? 0.0 : 0.5 * (a.sine + b.cosine);
+    x[1][1] = mean ? 0.0 : 0.5 * (a.cosine - b.sine);
+    x[2][0] = zero.sine;
+    x[2][1] = zero.cosine;
+}
+
+/* The three components of one order go to positions 3k, 3k+1, 3k+2. */
+static hci_status analyse(const hci_task *t, size_t count, const double *row, size_t k, size_t total,
+                          hci_component_set *set, double *x)
+{
+    const double order = (double)k / (double)t->period_turns;
+    static const hci_set NAME[3] = {HCI_SET_POS, HCI_SET_NEG, HCI_SET_ZERO};
+    static const int SEQUENCE[3] = {1, -1, 0};
+    for (size_t part = 0; part < 2; ++part) {
+        hci_harmonic h[3];
+        double coordinate[3][2];
+        for (size_t q = 0; q < 3; ++q) {
+            const hci_status status =
+                hci_fourier_uniform(row + (3 * part + q) * count, count, t->period_turns, order, &h[q]);
+            if (status) return status;
+        }
+        sequences(h[0], h[1], h[2], coordinate);
+        for (size_t q = 0; q < 3; ++q) {
+            set->component[3 * k + q] = (hci_component){order, SEQUENCE[q]};
+            set->set[3 * k + q] = NAME[q];
+            x[2 * total * part + 2 * (3 * k + q)] = coordinate[q][0];
+            x[2 * total * part + 2 * (3 * k + q) + 1] = coordinate[q][1];
+        }
+    }
+    return HCI_OK;
+}
+
+static hci_status sample(const hci_task *t, size_t count, double *row, hci_solution *s, hci_note *note)
+{
+    if (!is_linear(t)) {
+        sample_strategy(t, count, row, s);
+        return HCI_OK;
+    }
+    if (sample_linear(t, count, row)) return HCI_OK;
+    return hci_note_set(
+        note, HCI_ERROR_NUMERIC,
+        "the back-EMF of all phases vanishes at some angle, so no current makes torque there; check "
+        "back_emf.csv or solve with a set of harmonics");
+}
+
+hci_status hci_pointwise_answer(const hci_task *task, hci_answer *answer, hci_solution *solution,
+                                hci_note *note)
+{
+    const size_t count = SAMPLES_PER_TURN * task->period_turns, orders = TOP_ORDER * task->period_turns + 1;
+    double *row = hci_memory_new(6 * count, sizeof *row);
+    hci_component_set *set = &answer->set;
+    hci_status status = HCI_OK;
+    answer->x = hci_memory_new(12 * orders, sizeof *answer->x);
+    set->component = hci_memory_new(3 * orders, sizeof *set->component);
+    set->set = hci_memory_new(3 * orders, sizeof *set->set);
+    if (!row || !answer->x || !set->component || !set->set)
+        status = hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for %zu samples", count);
+    if (!status) status = sample(task, count, row, solution, note);
+    for (size_t k = 0; k < orders && !status; ++k) {
+        status = analyse(task, count, row, k, 3 * orders, set, answer->x);
+        if (task->progress)
+            task->progress(task->progress_context, "Fourier analysis", (double)(k + 1) / (double)orders);
+    }
+    set->count = status ? 0 : 3 * orders;
+    solution->method = HCI_METHOD_POINTWISE;
+    solution->condition = NAN;
+    hci_memory_free(row);
+    return status;
+}

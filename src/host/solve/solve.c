@@ -1,0 +1,262 @@
+#include "hci/host/solve/solve.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "host/solve/harmonic_system.h"
+#include "host/solve/limits.h"
+#include "host/base/memory.h"
+
+#define DEFAULT_TOLERANCE 1e-6
+
+static hci_status no_memory(hci_note *note)
+{
+    return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory while solving");
+}
+
+const char *hci_method_name(hci_method method)
+{
+    static const char *const NAME[] = {"auto", "lu", "umfpack", "qr", "pointwise"};
+    return NAME[method];
+}
+
+const char *hci_order_verdict_name(hci_order_verdict verdict)
+{
+    static const char *const NAME[] = {"reached", "free", "missed", "parasitic", "unreachable"};
+    return NAME[verdict];
+}
+
+/* ---- the task ---- */
+
+static hci_status check_machine(const hci_machine_data *m, const hci_solve_options *o, hci_note *note)
+{
+    if (m->has_effects && !o->effects)
+        return hci_note_set(note, HCI_ERROR_INPUT,
+                            "effects.csv holds effects that were not given; read it with "
+                            "hci_effects_read_machine, or remove it to leave them out");
+    if (o->method == HCI_METHOD_POINTWISE && o->held)
+        return hci_note_set(note, HCI_ERROR_ARGUMENT,
+                            "method pointwise finds the whole current; it cannot hold the fundamental fixed");
+    return HCI_OK;
+}
+
+/* The neutral conductor carries a zero sequence, which the methods for torque that is not linear leave out.
+ */
+static hci_status check_star(const hci_machine_data *m, const hci_task *t, hci_note *note)
+{
+    if (hci_task_is_linear(t) || !m->has_neutral) return HCI_OK;
+    return hci_note_set(
+        note, HCI_ERROR_INPUT,
+        m->model.slope_count > 0
+            ? "an interior-magnet machine is solved in star connection only; machine.csv says star-neutral"
+            : "reluctance and saturation are solved in star connection only; machine.csv says star-neutral");
+}
+
+static hci_status check_held(const hci_solve_options *o, hci_note *note)
+{
+    for (size_t k = 0; o->held && o->set && k < o->set->count; ++k)
+        if (o->set->component[k].sequence == o->held->sequence &&
+            fabs(o->set->component[k].order - o->held->order) < HCI_ORDER_TOLERANCE)
+            return hci_note_set(
+                note, HCI_ERROR_INPUT,
+                "the set of harmonics names %s %g, which is held fixed; leave it out of the set or do "
+                "not hold the fundamental",
+                hci_set_name(o->set->set[k]), o->held->order);
+    return HCI_OK;
+}
+
+static hci_status make_task(const hci_machine_data *m, const hci_corrected *c, const hci_solve_options *o,
+                            hci_task *t, hci_note *note)
+{
+    hci_status status;
+    hci_task_begin(c, o->target, t);
+    t->has_neutral = m->has_neutral;
+    t->held = o->held;
+    t->strategy = o->strategy;
+    t->progress = o->progress;
+    t->progress_context = o->progress_context;
+    status = check_star(m, t, note);
+    if (!status) status = check_held(o, note);
+    return status ? status : hci_task_find_period(t, o->set, o->held, o->held ? 1 : 0, note);
+}
+
+/* ---- what flows ---- */
+
+/* Components below this share of the largest are rounding, not current. */
+#define NEGLIGIBLE 1e-12
+
+static bool is_negligible(const hci_answer *a, double mean_Nm, size_t k, double largest)
+{
+    const double *x = a->x, *rest = x + 2 * a->set.count;
+    const double scale = fabs(mean_Nm) > 0.0 ? fabs(mean_Nm) : 1.0;
+    const double size = fmax(scale * hypot(x[2 * k], x[2 * k + 1]), hypot(rest[2 * k], rest[2 * k + 1]));
+    return size <= NEGLIGIBLE * largest;
+}
+
+static double largest_current(const hci_answer *a, double mean_Nm)
+{
+    double largest = 0.0;
+    for (size_t k = 0; k < 2 * a->set.count; ++k)
+        largest = fmax(largest, fmax(fabs(mean_Nm * a->x[k]), fabs(a->x[2 * a->set.count + k])));
+    return largest;
+}
+
+/* Waves of the total, of the part per N·m and of the constant part. A given set keeps all its components, a
+ * chosen or pointwise one only those that carry current. */
+static hci_status fill_currents(const hci_answer *a, const hci_solve_options *o, bool is_linear,
+                                hci_solution *s, hci_note *note)
+{
+    const double mean_Nm = hci_target_mean_Nm(o->target), largest = largest_current(a, mean_Nm);
+    const size_t n = a->set.count, most = n + 1;
+    size_t out = 0;
+    s->current.wave = hci_memory_new(most, sizeof *s->current.wave);
+    s->current.set = hci_memory_new(most, sizeof *s->current.set);
+    s->per_Nm = is_linear ? hci_memory_new(most, sizeof *s->per_Nm) : NULL;
+    s->constant = is_linear ? hci_memory_new(most, sizeof *s->constant) : NULL;
+    if (!s->current.wave || !s->current.set || (is_linear && (!s->per_Nm || !s->constant)))
+        return no_memory(note);
+    if (o->held) {
+        s->current.set[out] = HCI_SET_POS;
+        s->current.wave[out++] = *o->held;
+    }
+    for (size_t k = 0; k < n; ++k) {
+        const hci_component c = a->set.component[k];
+        const double *x = a->x + 2 * k, *rest = x + 2 * n;
+        if (!o->set && is_negligible(a, mean_Nm, k, largest)) continue;
+        s->current.set[out] = a->set.set[k];
+        s->current.wave[out] =
+            (hci_wave){c.order, c.sequence, mean_Nm * x[0] + rest[0], mean_Nm * x[1] + rest[1]};
+        if (is_linear) {
+            s->per_Nm[out] = (hci_wave){c.order, c.sequence, x[0], x[1]};
+            s->constant[out] = (hci_wave){c.order, c.sequence, rest[0], rest[1]};
+        }
+        ++out;
+    }
+    s->current.count = out;
+    return HCI_OK;
+}
+
+/* Takes the set from the answer. */
+static hci_status fill_system(const hci_task *t, hci_answer *a, hci_solution *s, hci_note *note)
+{
+    const size_t entries = hci_system_capacity(t->gain_count, a->set.count);
+    hci_solved_system *u = &s->system;
+    double *order = hci_memory_new(s->order_count, sizeof *order);
+    bool has_room;
+    u->column_start = hci_memory_new(2 * a->set.count + 1, sizeof *u->column_start);
+    u->row = hci_memory_new(entries, sizeof *u->row);
+    u->value = hci_memory_new(entries, sizeof *u->value);
+    has_room = order && u->column_start && u->row && u->value;
+    if (has_room) {
+        for (size_t k = 0; k < s->order_count; ++k)
+            order[k] = s->order[k].torque_Nm.order;
+        hci_system_sparse(t->gain, t->gain_count, a->set.component, a->set.count, order, s->order_count,
+                          u->column_start, u->row, u->value);
+        u->set = a->set;
+        a->set = (hci_component_set){0};
+    }
+    hci_memory_free(order);
+    return has_room ? HCI_OK : no_memory(note);
+}
+
+/* ---- all of it ---- */
+
+/* An error is measured against the mean torque, or where that is next to nothing against the largest wanted
+ * or cogging torque. */
+#define LEAST_SHARE 1e-3
+
+static double torque_scale_Nm(const hci_task *t)
+{
+    const double mean_Nm = fabs(hci_target_mean_Nm(t->target));
+    double scale = 0.0;
+    for (size_t k = 0; k < t->target->count; ++k)
+        scale = fmax(scale,
+                     hci_amplitude(t->target->order[k].torque_Nm.sine, t->target->order[k].torque_Nm.cosine));
+    for (size_t k = 0; k < t->machine->cogging_count; ++k)
+        scale = fmax(scale, hci_amplitude(t->machine->cogging[k].sine, t->machine->cogging[k].cosine));
+    return mean_Nm > 0.0 ? fmax(mean_Nm, LEAST_SHARE * scale) : scale;
+}
+
+static hci_status verdict_of(const hci_solution *s)
+{
+    for (size_t k = 0; k < s->order_count; ++k)
+        if (s->order[k].verdict > HCI_ORDER_FREE) return HCI_NOT_REACHED;
+    return s->within_limits ? HCI_OK : HCI_NOT_REACHED;
+}
+
+static hci_status find_answer(hci_task *t, const hci_solve_options *o, hci_newton_room *room, hci_answer *a,
+                              hci_solution *s, hci_note *note)
+{
+    if (o->method == HCI_METHOD_POINTWISE) return hci_pointwise_answer(t, a, s, note);
+    if (!hci_task_is_linear(t)) return hci_newton_answer(t, o, room, a, s, note);
+    return hci_linear_answer(t, o, NULL, a, s, note);
+}
+
+/* Names of the effects that do not act in the machine, and what that means. */
+static void remark_left_out(const hci_effects *effects, hci_note *remark)
+{
+    char names[256] = "";
+    for (size_t k = 0; k < effects->count; ++k) {
+        const size_t used = strlen(names);
+        if (effects->effect[k].room->in_machine) continue;
+        snprintf(names + used, sizeof names - used, "%s%s", used > 0 ? ", " : "",
+                 effects->effect[k].room->name);
+    }
+    hci_note_set(
+        remark, HCI_OK,
+        "effects.csv: left out, since not in the machine: %s; the currents are for the true angle and the "
+        "true current, so the drive that plays them has to correct what its sensors read",
+        names);
+}
+
+static hci_status solve(const hci_machine_data *machine, const hci_corrected *c, const hci_solve_options *o,
+                        hci_newton_room *room, hci_answer *a, hci_solution *s, hci_note *note)
+{
+    hci_task task;
+    hci_status status = make_task(machine, c, o, &task, note);
+    if (status) return status;
+    s->with_effects = o->effects && o->effects->count > 0;
+    s->period_turns = task.period_turns;
+    s->tolerance_Nm = (o->tolerance > 0.0 ? o->tolerance : DEFAULT_TOLERANCE) * torque_scale_Nm(&task);
+    s->limit_mean_square_A2 = hci_pointwise_mean_square_A2(&task);
+    status = find_answer(&task, o, room, a, s, note);
+    if (!status) status = fill_currents(a, o, !o->held && hci_task_is_linear(&task), s, note);
+    if (!status) status = hci_judge(&task, &a->set, o->set ? o->compare : HCI_COMPARE_ALL, s, note);
+    if (!status && o->method != HCI_METHOD_POINTWISE) status = fill_system(&task, a, s, note);
+    if (!status) status = hci_limits_check(machine, o, s, note);
+    if (!status && c->left_out > 0) remark_left_out(o->effects, &s->remark);
+    return status;
+}
+
+hci_status hci_solve(const hci_machine_data *machine, const hci_solve_options *options,
+                     hci_solution *solution, hci_note *note)
+{
+    const double temperature_C = hci_temperature_C(options);
+    hci_newton_room room = {NULL, NULL};
+    hci_answer a = {{0}, NULL};
+    hci_corrected c = {0};
+    hci_status status = check_machine(machine, options, note);
+    memset(solution, 0, sizeof *solution);
+    if (!status) status = hci_corrected_make(&machine->model, options->effects, temperature_C, &c, note);
+    if (!status) status = solve(machine, &c, options, &room, &a, solution, note);
+    hci_answer_release(&a);
+    hci_newton_release(&room);
+    hci_corrected_release(&c);
+    if (!status) return verdict_of(solution);
+    hci_solution_release(solution);
+    return status;
+}
+
+void hci_solution_release(hci_solution *solution)
+{
+    hci_currents_release(&solution->current);
+    hci_memory_free(solution->per_Nm);
+    hci_memory_free(solution->constant);
+    hci_memory_free(solution->order);
+    hci_component_set_release(&solution->system.set);
+    hci_memory_free(solution->system.column_start);
+    hci_memory_free(solution->system.row);
+    hci_memory_free(solution->system.value);
+    memset(solution, 0, sizeof *solution);
+}
