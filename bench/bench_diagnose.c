@@ -21,16 +21,15 @@
 #include <csv.h>
 #endif
 
-#include "hci/machine/frames.h"
 #include "hci/host/diagnose/diagnose.h"
+#include "hci/machine/frames.h"
 #include "timing.h"
 
 enum { POLE_PAIRS = 2, EMF_COUNT = 3, COLUMNS = 7, REPEATS = 3, ROWS = 1000000, LEVELS = 5 };
 
 static const double SAMPLE_s = 50e-6, SPEED_rad_per_s = 40.0, FRICTION_Nm = 0.02;
 static const hci_harmonic COGGING[2] = {
-    {12.0, 0.03, 0.01 },
-    {18.0, 0.02, -0.01}  /* not declared */
+    {12.0, 0.03, 0.01}, {18.0, 0.02, -0.01} /* not declared */
 };
 
 /* What a case takes. */

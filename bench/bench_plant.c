@@ -72,20 +72,16 @@ static plain_state plain_rate(const plain_plant *p, const plain_state *y)
     const double a = p->v[0] - p->resistance * y->i[0] - y->speed * (e[0] + hi[0]);
     const double b = p->v[1] - p->resistance * y->i[1] - y->speed * (e[1] + hi[1]);
     const double det = l[0] * l[2] - l[1] * l[1];
-    const plain_state rate = {
-        {(l[2] * a - l[1] * b) / det, (l[0] * b - l[1] * a) / det},
-        (torque - p->load - p->viscous * y->speed) / p->inertia,
-        y->speed
-    };
+    const plain_state rate = {{(l[2] * a - l[1] * b) / det, (l[0] * b - l[1] * a) / det},
+                              (torque - p->load - p->viscous * y->speed) / p->inertia,
+                              y->speed};
     return rate;
 }
 
 static plain_state plain_moved(const plain_state *y, const plain_state *k, double h)
 {
     const plain_state z = {
-        {y->i[0] + h * k->i[0], y->i[1] + h * k->i[1]},
-        y->speed + h * k->speed, y->angle + h * k->angle
-    };
+        {y->i[0] + h * k->i[0], y->i[1] + h * k->i[1]}, y->speed + h * k->speed, y->angle + h * k->angle};
     return z;
 }
 
@@ -109,10 +105,7 @@ typedef struct {
 static void run_plain(void *context)
 {
     plain_run *run = context;
-    run->last = (plain_state){
-        {0.0, 0.0},
-        8.0, 0.0
-    };
+    run->last = (plain_state){{0.0, 0.0}, 8.0, 0.0};
     for (int k = 0; k < PLAIN_STEPS; ++k)
         plain_step(&run->plant, &run->last, STEP_s);
 }
@@ -134,10 +127,7 @@ typedef struct {
 static void run_open(void *context)
 {
     open_run *run = context;
-    run->last = (hci_plant_state){
-        {0.0, 0.0},
-        8.0, 0.0, 0.0
-    };
+    run->last = (hci_plant_state){{0.0, 0.0}, 8.0, 0.0, 0.0};
     for (int k = 0; k < run->steps; ++k)
         hci_plant_step(&run->plant, &run->last, VOLTAGE_V, LOAD_Nm, STEP_s);
 }
@@ -161,12 +151,9 @@ static void report(const char *what, double step_time_s, double plain_s)
 static double bench_open(const hci_plant *plant, const pm_machine *machine)
 {
     plain_run plain = {
-        {machine,     plant->resistance_ohm, plant->inertia_kgm2, plant->viscous_Nms, {0.0, 0.0}, LOAD_Nm},
-        {{0.0, 0.0}, 0.0,               0.0                                 }
-    };
-    open_run open = {
-        *plant, PLAIN_STEPS, {{0.0, 0.0}, 0.0, 0.0, 0.0}
-    };
+        {machine, plant->resistance_ohm, plant->inertia_kgm2, plant->viscous_Nms, {0.0, 0.0}, LOAD_Nm},
+        {{0.0, 0.0}, 0.0, 0.0}};
+    open_run open = {*plant, PLAIN_STEPS, {{0.0, 0.0}, 0.0, 0.0, 0.0}};
     plain.plant.v[0] = VOLTAGE_V[0];
     plain.plant.v[1] = VOLTAGE_V[1];
     const double plain_s = bench_median_s(run_plain, &plain) / PLAIN_STEPS;
@@ -187,24 +174,22 @@ static closed_loop loop_of(const hci_plant *plant, const hci_current_source *sou
 {
     closed_loop c = {.set_point = SPEED_rad_per_s, .load_Nm = 8.0};
     c.drive.plant = *plant;
-    c.drive.control = (hci_control){
-        .table = &plant->table,
-        .step_s = step_s,
-        .dc_link_V = 311.0,
-        .speed_controlled = 1,
-        .speed = {20.0,                      200.0  },
-        .speed_every = every,
-        .torque_limit_Nm = 9.8,
-        .sources = source,
-        .source_count = 1,
-        .current_every = every,
-        .id_limit = 8.0,
-        .iq_limit = 8.0,
-        .peak_limit_A = INFINITY,
-        .loop = loop,
-        .hysteresis = { 0.1, hci_hysteresis_hold(20e3, step_s)},
-        .current = { {50.0, 5000.0},                        1,       1}
-    };
+    c.drive.control = (hci_control){.table = &plant->table,
+                                    .step_s = step_s,
+                                    .dc_link_V = 311.0,
+                                    .speed_controlled = 1,
+                                    .speed = {20.0, 200.0},
+                                    .speed_every = every,
+                                    .torque_limit_Nm = 9.8,
+                                    .sources = source,
+                                    .source_count = 1,
+                                    .current_every = every,
+                                    .id_limit = 8.0,
+                                    .iq_limit = 8.0,
+                                    .peak_limit_A = INFINITY,
+                                    .loop = loop,
+                                    .hysteresis = {0.1, hci_hysteresis_hold(20e3, step_s)},
+                                    .current = {{50.0, 5000.0}, 1, 1}};
     c.state.plant.speed_rad_per_s = SPEED_rad_per_s;
     return c;
 }

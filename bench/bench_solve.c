@@ -19,8 +19,8 @@
 #include <lapacke.h>
 #endif
 
-#include "hci/math/dense.h"
 #include "hci/machine/system.h"
+#include "hci/math/dense.h"
 #include "host/numeric/sparse.h"
 #include "timing.h"
 

@@ -3,15 +3,14 @@
 #include <string.h>
 
 #include "cli.h"
-#include "hci/host/check/check.h"
 #include "hci/host/base/output.h"
+#include "hci/host/check/check.h"
 
 enum { OUT, CLI_COMMON_KEYS };
 
 static const cli_option OPTIONS[] = {
     [OUT] = {"out", 'o', CLI_VALUE, "FOLDER", "where summary.json goes; without it nothing is written"},
-    CLI_COMMON_OPTIONS
-};
+    CLI_COMMON_OPTIONS};
 
 /* ---- words ---- */
 

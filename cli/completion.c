@@ -12,18 +12,18 @@ typedef enum { TAKES_TEXT, TAKES_WORD, TAKES_FILE, TAKES_FOLDER } takes;
 static const struct {
     const char *command, *option, *words;
 } CHOICES[] = {
-    {"harmonics", "quantity",      "back_emf cogging"                       },
-    {"solve",     "method",        "auto lu umfpack qr pointwise"           },
-    {"solve",     "strategy",      "mtpa id0 cancel"                        },
-    {"solve",     "compare",       "all square"                             },
-    {"emit",      "format",        "f32"                                    },
-    {"emit",      "frame",         "abc dq"                                 },
-    {"init",      "kv-of",         "line-peak line-rms phase-peak"          },
-    {"init",      "volt-of",       "line-rms line-peak phase-peak phase-rms"},
-    {"init",      "torque-of",     "peak rms dc"                            },
-    {"init",      "resistance-of", "phase line"                             },
-    {"init",      "current-of",    "peak rms"                               },
-    {"",          "color",         "auto always never"                      }, /* of every command */
+    {"harmonics", "quantity", "back_emf cogging"},
+    {"solve", "method", "auto lu umfpack qr pointwise"},
+    {"solve", "strategy", "mtpa id0 cancel"},
+    {"solve", "compare", "all square"},
+    {"emit", "format", "f32"},
+    {"emit", "frame", "abc dq"},
+    {"init", "kv-of", "line-peak line-rms phase-peak"},
+    {"init", "volt-of", "line-rms line-peak phase-peak phase-rms"},
+    {"init", "torque-of", "peak rms dc"},
+    {"init", "resistance-of", "phase line"},
+    {"init", "current-of", "peak rms"},
+    {"", "color", "auto always never"}, /* of every command */
 };
 
 static const char *words_of(const cli_command *command, const cli_option *option)

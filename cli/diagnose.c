@@ -11,16 +11,15 @@
 enum { RUNS, OUT, TARGET, RESOLUTION, REPORT, CLI_COMMON_KEYS };
 
 static const cli_option OPTIONS[] = {
-    [RUNS] = {"runs",       0,   CLI_VALUE, "LIST",    "table file,role: the recordings to fit and those held out"},
-    [OUT] = {"out",        'o', CLI_VALUE, "FOLDER",  "where the results go; without it nothing is written"      },
-    [TARGET] = {"target",     0,   CLI_VALUE, "FILE",
-              "wanted torque: solve the currents again for the corrected machine"                                 },
-    [RESOLUTION] = {"resolution", 0,   CLI_VALUE, "PERCENT",
-              "of the largest torque; what the model need not be better than [0.05]"                              },
-    [REPORT] = {"report",     0,   CLI_FLAG,  NULL,
-              "report.html is written in any case; taken for the sake of scripts"                                 },
-    CLI_COMMON_OPTIONS
-};
+    [RUNS] = {"runs", 0, CLI_VALUE, "LIST", "table file,role: the recordings to fit and those held out"},
+    [OUT] = {"out", 'o', CLI_VALUE, "FOLDER", "where the results go; without it nothing is written"},
+    [TARGET] = {"target", 0, CLI_VALUE, "FILE",
+                "wanted torque: solve the currents again for the corrected machine"},
+    [RESOLUTION] = {"resolution", 0, CLI_VALUE, "PERCENT",
+                    "of the largest torque; what the model need not be better than [0.05]"},
+    [REPORT] = {"report", 0, CLI_FLAG, NULL,
+                "report.html is written in any case; taken for the sake of scripts"},
+    CLI_COMMON_OPTIONS};
 
 typedef struct {
     hci_machine_data machine;
@@ -150,12 +149,7 @@ static void finding_row(const void *context, size_t row, cli_cell cell[])
 static void draw_findings(const hci_diagnosis *d)
 {
     static const cli_column COLUMNS[] = {
-        {CLI_LEFT,  "effect" },
-        {CLI_LEFT,  "verdict"},
-        {CLI_RIGHT, "ΔBIC"  },
-        {CLI_RIGHT, "own"    },
-        {CLI_BAR,   ""       }
-    };
+        {CLI_LEFT, "effect"}, {CLI_LEFT, "verdict"}, {CLI_RIGHT, "ΔBIC"}, {CLI_RIGHT, "own"}, {CLI_BAR, ""}};
     size_t rows = 0;
     for (size_t k = 0; k < d->findings; ++k)
         rows += is_shown(&d->finding[k]);
@@ -194,14 +188,8 @@ static void run_row(const void *context, size_t row, cli_cell cell[])
 
 static void draw_runs(const hci_diagnosis *d)
 {
-    static const cli_column COLUMNS[] = {
-        {CLI_LEFT,  "run"   },
-        {CLI_LEFT,  "role"  },
-        {CLI_RIGHT, "before"},
-        {CLI_BAR,   ""      },
-        {CLI_RIGHT, "after" },
-        {CLI_BAR,   ""      }
-    };
+    static const cli_column COLUMNS[] = {{CLI_LEFT, "run"}, {CLI_LEFT, "role"},   {CLI_RIGHT, "before"},
+                                         {CLI_BAR, ""},     {CLI_RIGHT, "after"}, {CLI_BAR, ""}};
     char caption[240];
     worst_runs w = {.diagnosis = d};
     const size_t rows = cli_pick(error_Nm, d, d->runs, 0.0, w.pick, NULL);

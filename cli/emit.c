@@ -12,19 +12,18 @@
 enum { NAME, FORMAT, FRAME, POINTS, MAX_ERROR, PER_TORQUE, REFERENCE, OUT, CLI_COMMON_KEYS };
 
 static const cli_option OPTIONS[] = {
-    [NAME] = {"name",             0,   CLI_VALUE, "ID",     "of the table and its files, a C identifier"    },
-    [FORMAT] = {"format",           0,   CLI_VALUE, "NAME",   "f32 (default)"                                 },
-    [FRAME] = {"frame",            0,   CLI_VALUE, "NAME",   "abc (default): phase currents; dq: rotor frame"},
-    [POINTS] = {"points",           0,   CLI_VALUE, "N",      "rows of the table (256)"                       },
-    [MAX_ERROR] = {"max-error",        0,   CLI_VALUE, "A",
-              "instead: the fewest rows that keep every current within it"                                  },
-    [PER_TORQUE] = {"per-torque",       0,   CLI_FLAG,  NULL,
-              "two parts, i = T*A + B, for every mean torque T (needs a folder)"                            },
-    [REFERENCE] = {"reference-torque", 0,   CLI_VALUE, "NM",
-              "with --per-torque: the largest T (default: the one solved for)"                              },
-    [OUT] = {"out",              'o', CLI_VALUE, "FOLDER", "where ID.h and ID.c go (default: here)"        },
-    CLI_COMMON_OPTIONS
-};
+    [NAME] = {"name", 0, CLI_VALUE, "ID", "of the table and its files, a C identifier"},
+    [FORMAT] = {"format", 0, CLI_VALUE, "NAME", "f32 (default)"},
+    [FRAME] = {"frame", 0, CLI_VALUE, "NAME", "abc (default): phase currents; dq: rotor frame"},
+    [POINTS] = {"points", 0, CLI_VALUE, "N", "rows of the table (256)"},
+    [MAX_ERROR] = {"max-error", 0, CLI_VALUE, "A",
+                   "instead: the fewest rows that keep every current within it"},
+    [PER_TORQUE] = {"per-torque", 0, CLI_FLAG, NULL,
+                    "two parts, i = T*A + B, for every mean torque T (needs a folder)"},
+    [REFERENCE] = {"reference-torque", 0, CLI_VALUE, "NM",
+                   "with --per-torque: the largest T (default: the one solved for)"},
+    [OUT] = {"out", 'o', CLI_VALUE, "FOLDER", "where ID.h and ID.c go (default: here)"},
+    CLI_COMMON_OPTIONS};
 
 enum { PATH_SIZE = 4096 };
 

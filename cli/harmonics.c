@@ -3,23 +3,22 @@
 #include <string.h>
 
 #include "cli.h"
-#include "hci/math/harmonic.h"
 #include "hci/host/csv/csv.h"
 #include "hci/host/waveform/waveform.h"
+#include "hci/math/harmonic.h"
 
 enum { QUANTITY, POLE_PAIRS, ORDERS, MAX_ORDER, CONSTANT, OUT, CLI_COMMON_KEYS };
 
 static const cli_option OPTIONS[] = {
-    [QUANTITY] = {"quantity",        0,   CLI_VALUE, "NAME",     "back_emf or cogging"                                },
-    [POLE_PAIRS] = {"pole-pairs",      0,   CLI_VALUE, "P",        "of the machine (half its poles)"                    },
-    [ORDERS] = {"orders",          0,   CLI_VALUE, "LIST",
-                  "these electrical orders and no others, such as 1,5,7 or 12/7"                                      },
-    [MAX_ORDER] = {"max-order",       0,   CLI_VALUE, "N",        "highest electrical order looked at (60)"            },
-    [CONSTANT] = {"torque-constant", 0,   CLI_VALUE, "NM_PER_A",
-                  "cogging of a run with currents: torque of 1 A of i_q"                                              },
-    [OUT] = {"out",             'o', CLI_VALUE, "FOLDER",   "where the table goes; without it nothing is written"},
-    CLI_COMMON_OPTIONS
-};
+    [QUANTITY] = {"quantity", 0, CLI_VALUE, "NAME", "back_emf or cogging"},
+    [POLE_PAIRS] = {"pole-pairs", 0, CLI_VALUE, "P", "of the machine (half its poles)"},
+    [ORDERS] = {"orders", 0, CLI_VALUE, "LIST",
+                "these electrical orders and no others, such as 1,5,7 or 12/7"},
+    [MAX_ORDER] = {"max-order", 0, CLI_VALUE, "N", "highest electrical order looked at (60)"},
+    [CONSTANT] = {"torque-constant", 0, CLI_VALUE, "NM_PER_A",
+                  "cogging of a run with currents: torque of 1 A of i_q"},
+    [OUT] = {"out", 'o', CLI_VALUE, "FOLDER", "where the table goes; without it nothing is written"},
+    CLI_COMMON_OPTIONS};
 
 enum { MOST_ORDERS = 256 };
 
@@ -171,13 +170,11 @@ static void spectrum_row(const void *context, size_t row, cli_cell cell[])
 
 static void show_orders(const hci_waveform *w)
 {
-    static const cli_column COLUMNS[] = {
-        {CLI_RIGHT, "order"    },
-        {CLI_RIGHT, "amplitude"},
-        {CLI_RIGHT, "std error"},
-        {CLI_RIGHT, "phase/rad"},
-        {CLI_BAR,   ""         }
-    };
+    static const cli_column COLUMNS[] = {{CLI_RIGHT, "order"},
+                                         {CLI_RIGHT, "amplitude"},
+                                         {CLI_RIGHT, "std error"},
+                                         {CLI_RIGHT, "phase/rad"},
+                                         {CLI_BAR, ""}};
     const bool cogging = w->quantity == HCI_WAVEFORM_COGGING;
     char caption[160];
     spectrum s = {.waveform = w};

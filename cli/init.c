@@ -35,34 +35,33 @@ enum {
 };
 
 static const cli_option OPTIONS[] = {
-    [POLE_PAIRS] = {"pole-pairs",      0,   CLI_VALUE, "P",         "half the number of magnets around the rotor"            },
-    [POLES] = {"poles",           0,   CLI_VALUE, "N",         "the same as magnets, 2 P"                               },
-    [KV] = {"kv",              0,   CLI_VALUE, "RPM_PER_V", "strength of the magnets as Kv: rpm per volt,"           },
-    [KV_OF] = {"kv-of",           0,   CLI_VALUE, "NAME",
-                    "... of line-peak (default, hobby motors), line-rms, phase-peak"                                         },
-    [VOLT] = {"volt-per-krpm",   0,   CLI_VALUE, "V",         "or as back-EMF at 1000 rpm,"                            },
-    [VOLT_OF] = {"volt-of",         0,   CLI_VALUE, "NAME",
-                    "... of line-rms (default, servo motors), line-peak, phase-peak, phase-rms"                              },
-    [TORQUE] = {"torque-constant", 0,   CLI_VALUE, "NM_PER_A",  "or as torque per ampere,"                               },
-    [TORQUE_OF] = {"torque-of",       0,   CLI_VALUE, "NAME",
-                    "... of a sine's peak (default), its rms, or dc: block commutation"                                      },
-    [FLUX] = {"flux",            0,   CLI_VALUE, "WB",        "or as flux linkage of a phase, peak (5.2 mWb is 0.0052)"},
-    [SLOTS] = {"slots",           0,   CLI_VALUE, "N",         "of the stator; gives the orders of the cogging torque"  },
-    [RESISTANCE] = {"resistance",      0,   CLI_VALUE, "OHM",       "of the winding,"                                        },
-    [RESISTANCE_OF] = {"resistance-of",   0,   CLI_VALUE, "NAME",
-                    "... of a phase (default), or line: between two terminals"                                               },
-    [INDUCTANCE] = {"inductance",      0,   CLI_VALUE, "H",         "of a phase: half of that between two terminals"         },
-    [INDUCTANCE_D] = {"inductance-d",    0,   CLI_VALUE, "H",         "instead, with --inductance-q: along the magnets"        },
-    [INDUCTANCE_Q] = {"inductance-q",    0,   CLI_VALUE, "H",         "... across the magnets"                                 },
-    [INERTIA] = {"inertia",         0,   CLI_VALUE, "KGM2",      "of the rotor (1 g cm2 is 1e-7)"                         },
-    [CURRENT] = {"rated-current",   0,   CLI_VALUE, "A",         "of a phase,"                                            },
-    [CURRENT_OF] = {"current-of",      0,   CLI_VALUE, "NAME",      "... as peak (default) or rms"                           },
-    [RATED_TORQUE] = {"rated-torque",    0,   CLI_VALUE, "NM",        "on the shaft"                                           },
-    [RATED_SPEED] = {"rated-speed",     0,   CLI_VALUE, "RPM",       "mechanical"                                             },
-    [DC_LINK] = {"dc-link",         0,   CLI_VALUE, "V",         "voltage of the battery or supply"                       },
-    [OUT] = {"out",             'o', CLI_VALUE, "FOLDER",    "where the tables go (default: NAME)"                    },
-    CLI_COMMON_OPTIONS
-};
+    [POLE_PAIRS] = {"pole-pairs", 0, CLI_VALUE, "P", "half the number of magnets around the rotor"},
+    [POLES] = {"poles", 0, CLI_VALUE, "N", "the same as magnets, 2 P"},
+    [KV] = {"kv", 0, CLI_VALUE, "RPM_PER_V", "strength of the magnets as Kv: rpm per volt,"},
+    [KV_OF] = {"kv-of", 0, CLI_VALUE, "NAME",
+               "... of line-peak (default, hobby motors), line-rms, phase-peak"},
+    [VOLT] = {"volt-per-krpm", 0, CLI_VALUE, "V", "or as back-EMF at 1000 rpm,"},
+    [VOLT_OF] = {"volt-of", 0, CLI_VALUE, "NAME",
+                 "... of line-rms (default, servo motors), line-peak, phase-peak, phase-rms"},
+    [TORQUE] = {"torque-constant", 0, CLI_VALUE, "NM_PER_A", "or as torque per ampere,"},
+    [TORQUE_OF] = {"torque-of", 0, CLI_VALUE, "NAME",
+                   "... of a sine's peak (default), its rms, or dc: block commutation"},
+    [FLUX] = {"flux", 0, CLI_VALUE, "WB", "or as flux linkage of a phase, peak (5.2 mWb is 0.0052)"},
+    [SLOTS] = {"slots", 0, CLI_VALUE, "N", "of the stator; gives the orders of the cogging torque"},
+    [RESISTANCE] = {"resistance", 0, CLI_VALUE, "OHM", "of the winding,"},
+    [RESISTANCE_OF] = {"resistance-of", 0, CLI_VALUE, "NAME",
+                       "... of a phase (default), or line: between two terminals"},
+    [INDUCTANCE] = {"inductance", 0, CLI_VALUE, "H", "of a phase: half of that between two terminals"},
+    [INDUCTANCE_D] = {"inductance-d", 0, CLI_VALUE, "H", "instead, with --inductance-q: along the magnets"},
+    [INDUCTANCE_Q] = {"inductance-q", 0, CLI_VALUE, "H", "... across the magnets"},
+    [INERTIA] = {"inertia", 0, CLI_VALUE, "KGM2", "of the rotor (1 g cm2 is 1e-7)"},
+    [CURRENT] = {"rated-current", 0, CLI_VALUE, "A", "of a phase,"},
+    [CURRENT_OF] = {"current-of", 0, CLI_VALUE, "NAME", "... as peak (default) or rms"},
+    [RATED_TORQUE] = {"rated-torque", 0, CLI_VALUE, "NM", "on the shaft"},
+    [RATED_SPEED] = {"rated-speed", 0, CLI_VALUE, "RPM", "mechanical"},
+    [DC_LINK] = {"dc-link", 0, CLI_VALUE, "V", "voltage of the battery or supply"},
+    [OUT] = {"out", 'o', CLI_VALUE, "FOLDER", "where the tables go (default: NAME)"},
+    CLI_COMMON_OPTIONS};
 
 typedef char every_option_has_a_place[(int)OPTION_COUNT <= (int)CLI_MOST_OPTIONS ? 1 : -1];
 
@@ -130,13 +129,16 @@ static const struct {
     hci_sheet_reading first;
     const char *choices[5];
 } STRENGTH[] = {
-    {KV,     KV_OF,     1e-3, 1e6, "rpm/V",  HCI_SHEET_KV_LINE_PEAK, {"line-peak", "line-rms", "phase-peak", NULL}             },
+    {KV, KV_OF, 1e-3, 1e6, "rpm/V", HCI_SHEET_KV_LINE_PEAK, {"line-peak", "line-rms", "phase-peak", NULL}},
     {VOLT,
-     VOLT_OF,           1e-6,
-     1e6,                          "V/krpm",
-     HCI_SHEET_VOLT_LINE_RMS,                                        {"line-rms", "line-peak", "phase-peak", "phase-rms", NULL}},
-    {TORQUE, TORQUE_OF, 1e-9, 1e6, "N·m/A", HCI_SHEET_TORQUE_PEAK,  {"peak", "rms", "dc", NULL}                               },
-    {FLUX,   -1,        1e-9, 1e3, "Wb",     HCI_SHEET_FLUX,         {NULL}                                                    },
+     VOLT_OF,
+     1e-6,
+     1e6,
+     "V/krpm",
+     HCI_SHEET_VOLT_LINE_RMS,
+     {"line-rms", "line-peak", "phase-peak", "phase-rms", NULL}},
+    {TORQUE, TORQUE_OF, 1e-9, 1e6, "N·m/A", HCI_SHEET_TORQUE_PEAK, {"peak", "rms", "dc", NULL}},
+    {FLUX, -1, 1e-9, 1e3, "Wb", HCI_SHEET_FLUX, {NULL}},
 };
 enum { STRENGTHS = sizeof STRENGTH / sizeof *STRENGTH };
 

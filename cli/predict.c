@@ -11,8 +11,7 @@ enum { OUT, CLI_COMMON_KEYS };
 
 static const cli_option OPTIONS[] = {
     [OUT] = {"out", 'o', CLI_VALUE, "FILE", "the run with the model's torque; without it nothing is written"},
-    CLI_COMMON_OPTIONS
-};
+    CLI_COMMON_OPTIONS};
 
 /* ---- words ---- */
 
@@ -28,11 +27,7 @@ static void ripple_row(const void *context, size_t row, cli_cell cell[])
 
 static void show_ripple(const hci_prediction *p)
 {
-    static const cli_column COLUMNS[] = {
-        {CLI_LEFT,  "torque"},
-        {CLI_RIGHT, "rms"   },
-        {CLI_BAR,   ""      }
-    };
+    static const cli_column COLUMNS[] = {{CLI_LEFT, "torque"}, {CLI_RIGHT, "rms"}, {CLI_BAR, ""}};
     cli_draw(&(cli_chart){.caption = "rms of the torque about its mean, and of the difference, N·m",
                           .column = COLUMNS,
                           .columns = 3,

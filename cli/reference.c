@@ -36,14 +36,9 @@ static const char EXIT_CODES[] = "\nExit codes: ";
 /* The guide of a command among the documents, or NULL. */
 static const char *guide_of(const char *command)
 {
-    static const char *const GUIDES[][2] = {
-        {"simulate",  "simulate.md" },
-        {"diagnose",  "diagnose.md" },
-        {"init",      "init.md"     },
-        {"harmonics", "measuring.md"},
-        {"predict",   "measuring.md"},
-        {"check",     "check.md"    }
-    };
+    static const char *const GUIDES[][2] = {{"simulate", "simulate.md"}, {"diagnose", "diagnose.md"},
+                                            {"init", "init.md"},         {"harmonics", "measuring.md"},
+                                            {"predict", "measuring.md"}, {"check", "check.md"}};
     for (size_t k = 0; k < sizeof GUIDES / sizeof GUIDES[0]; ++k)
         if (strcmp(GUIDES[k][0], command) == 0) return GUIDES[k][1];
     return NULL;
@@ -294,7 +289,7 @@ static void print_man(const reference_book *book)
 
 static const cli_option OPTIONS[] = {
     {"help", 'h', CLI_FLAG, NULL, "this text"},
-    {NULL,   0,   CLI_FLAG, NULL, NULL       },
+    {NULL, 0, CLI_FLAG, NULL, NULL},
 };
 
 static const cli_command REFERENCE = {

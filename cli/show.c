@@ -40,14 +40,8 @@ static void spectrum_row(const void *context, size_t row, cli_cell cell[])
 
 static void show_spectrum(const hci_solution *s)
 {
-    static const cli_column COLUMNS[] = {
-        {CLI_RIGHT, "order" },
-        {CLI_RIGHT, "before"},
-        {CLI_BAR,   ""      },
-        {CLI_RIGHT, "wanted"},
-        {CLI_RIGHT, "after" },
-        {CLI_BAR,   ""      }
-    };
+    static const cli_column COLUMNS[] = {{CLI_RIGHT, "order"},  {CLI_RIGHT, "before"}, {CLI_BAR, ""},
+                                         {CLI_RIGHT, "wanted"}, {CLI_RIGHT, "after"},  {CLI_BAR, ""}};
     char caption[160], baseline[64] = "no current";
     spectrum x = {.solution = s};
     size_t left_out;

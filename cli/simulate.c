@@ -11,12 +11,11 @@
 enum { CURRENTS, OUT, REPORT, CLI_COMMON_KEYS };
 
 static const cli_option OPTIONS[] = {
-    [CURRENTS] = {"currents", 0,   CLI_VALUE, "PATH",
-                  "impose these: currents.csv, or a folder that `solve` wrote"                               },
-    [OUT] = {"out",      'o', CLI_VALUE, "FOLDER", "where the results go; without it nothing is written"},
-    [REPORT] = {"report",   0,   CLI_FLAG,  NULL,     "report.html beside the results, for people"         },
-    CLI_COMMON_OPTIONS
-};
+    [CURRENTS] = {"currents", 0, CLI_VALUE, "PATH",
+                  "impose these: currents.csv, or a folder that `solve` wrote"},
+    [OUT] = {"out", 'o', CLI_VALUE, "FOLDER", "where the results go; without it nothing is written"},
+    [REPORT] = {"report", 0, CLI_FLAG, NULL, "report.html beside the results, for people"},
+    CLI_COMMON_OPTIONS};
 
 /* ---- help ---- */
 
@@ -134,18 +133,9 @@ static void spectrum_row(const void *context, size_t row, cli_cell cell[])
 
 static void show_spectrum(const hci_simulation *s)
 {
-    static const cli_column ALONE[] = {
-        {CLI_RIGHT, "order" },
-        {CLI_RIGHT, "torque"},
-        {CLI_BAR,   ""      }
-    };
+    static const cli_column ALONE[] = {{CLI_RIGHT, "order"}, {CLI_RIGHT, "torque"}, {CLI_BAR, ""}};
     static const cli_column COMPARED[] = {
-        {CLI_RIGHT, "order" },
-        {CLI_RIGHT, "before"},
-        {CLI_BAR,   ""      },
-        {CLI_RIGHT, "after" },
-        {CLI_BAR,   ""      }
-    };
+        {CLI_RIGHT, "order"}, {CLI_RIGHT, "before"}, {CLI_BAR, ""}, {CLI_RIGHT, "after"}, {CLI_BAR, ""}};
     const bool compared = s->plain.order_count > 0;
     char caption[256];
     spectrum x = {.simulation = s};
@@ -230,10 +220,7 @@ static hci_status simulate(const cli_arguments *a, const hci_machine_data *machi
 static int run(const cli_arguments *a)
 {
     hci_machine_data machine;
-    hci_effects_data effects = {
-        {NULL, 0},
-        NULL, NULL
-    };
+    hci_effects_data effects = {{NULL, 0}, NULL, NULL};
     hci_scenario scenario;
     hci_note note = {{0}};
     hci_status status = HCI_OK;

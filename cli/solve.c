@@ -30,30 +30,29 @@ enum {
 };
 
 static const cli_option OPTIONS[] = {
-    [TARGET] = {"target",        0,   CLI_VALUE,          "FILE",   "wanted torque: order,amplitude_Nm,phase_rad[,weight]" },
-    [HARMONICS] = {"harmonics",     0,   CLI_VALUE,          "FILE",   "components to use: order,set (sym, asym, pos, neg)"   },
-    [AUTO] = {"auto",          0,   CLI_COUNT_OPTIONAL, "K",      "choose the components (default), at most K of them"   },
-    [FUNDAMENTAL] = {"fundamental",   0,   CLI_VALUE,          "A,RAD",
-                "hold the fundamental at peak amplitude and phase"                                                         },
-    [METHOD] = {"method",        0,   CLI_VALUE,          "NAME",   "auto, lu, umfpack, qr or pointwise"                   },
-    [STRATEGY] = {"strategy",      0,   CLI_VALUE,          "NAME",
-                "of pointwise: id0, cancel (i_d cancels reluctance and cogging) or mtpa"                                   },
-    [COMPARE] = {"compare",       0,   CLI_VALUE,          "WHAT",
-                "all (default): every order reached; square: as many as unknowns"                                          },
-    [TOLERANCE] = {"tolerance",     0,   CLI_VALUE,          "SHARE",
-                "of the mean torque; an order within it is reached (1e-6)"                                                 },
-    [MAX_LOSS] = {"max-loss",      0,   CLI_VALUE,          "RATIO",  "with --auto K: copper over the pointwise limit (1.10)"},
-    [LIMIT_CURRENT] = {"limit-current", 0,   CLI_VALUE,          "A",
-                "largest phase current; exit code 1 when it is exceeded"                                                   },
-    [LIMIT_VOLTAGE] = {"limit-voltage", 0,   CLI_VALUE,          "V",
-                "dc-link voltage for the line voltages; with --speed"                                                      },
-    [SPEED] = {"speed",         0,   CLI_VALUE,          "RPM",    "mechanical speed for --limit-voltage"                 },
-    [TEMPERATURE] = {"temperature",   0,   CLI_VALUE,          "C",
-                "of the magnets, for magnet_temperature in effects.csv"                                                    },
-    [OUT] = {"out",           'o', CLI_VALUE,          "FOLDER", "where the results go; without it nothing is written"  },
-    [REPORT] = {"report",        0,   CLI_FLAG,           NULL,     "report.html beside the results, for people"           },
-    CLI_COMMON_OPTIONS
-};
+    [TARGET] = {"target", 0, CLI_VALUE, "FILE", "wanted torque: order,amplitude_Nm,phase_rad[,weight]"},
+    [HARMONICS] = {"harmonics", 0, CLI_VALUE, "FILE", "components to use: order,set (sym, asym, pos, neg)"},
+    [AUTO] = {"auto", 0, CLI_COUNT_OPTIONAL, "K", "choose the components (default), at most K of them"},
+    [FUNDAMENTAL] = {"fundamental", 0, CLI_VALUE, "A,RAD",
+                     "hold the fundamental at peak amplitude and phase"},
+    [METHOD] = {"method", 0, CLI_VALUE, "NAME", "auto, lu, umfpack, qr or pointwise"},
+    [STRATEGY] = {"strategy", 0, CLI_VALUE, "NAME",
+                  "of pointwise: id0, cancel (i_d cancels reluctance and cogging) or mtpa"},
+    [COMPARE] = {"compare", 0, CLI_VALUE, "WHAT",
+                 "all (default): every order reached; square: as many as unknowns"},
+    [TOLERANCE] = {"tolerance", 0, CLI_VALUE, "SHARE",
+                   "of the mean torque; an order within it is reached (1e-6)"},
+    [MAX_LOSS] = {"max-loss", 0, CLI_VALUE, "RATIO", "with --auto K: copper over the pointwise limit (1.10)"},
+    [LIMIT_CURRENT] = {"limit-current", 0, CLI_VALUE, "A",
+                       "largest phase current; exit code 1 when it is exceeded"},
+    [LIMIT_VOLTAGE] = {"limit-voltage", 0, CLI_VALUE, "V",
+                       "dc-link voltage for the line voltages; with --speed"},
+    [SPEED] = {"speed", 0, CLI_VALUE, "RPM", "mechanical speed for --limit-voltage"},
+    [TEMPERATURE] = {"temperature", 0, CLI_VALUE, "C",
+                     "of the magnets, for magnet_temperature in effects.csv"},
+    [OUT] = {"out", 'o', CLI_VALUE, "FOLDER", "where the results go; without it nothing is written"},
+    [REPORT] = {"report", 0, CLI_FLAG, NULL, "report.html beside the results, for people"},
+    CLI_COMMON_OPTIONS};
 
 /* AMPLITUDE_A,PHASE_rad */
 static hci_status read_fundamental(const char *text, hci_wave *held, hci_note *note)

@@ -14,8 +14,8 @@
 
 #include "hci/host/csv/csv.h"
 #include "hci/host/recording/run.h"
-#include "host/csv/alias.h"
 #include "host/base/quote.h"
+#include "host/csv/alias.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 

@@ -236,15 +236,15 @@ static void test_slips_of_the_emf(void)
         const char *slip;
         double amplitude;
     } CASES[] = {
-        {"emf_rms",                    0.0707106781}, /* 0.1/√2 */
-        {"emf_line",                   0.1732050808}, /* 0.1·√3 */
-        {"emf_line_rms",               0.1224744871}, /* 0.1·√3/√2 */
-        {"emf_volt_per_krpm",          10.471975512}, /* 0.1·104.71975512 */
-        {"emf_volt_per_krpm_line",     18.137993642}, /* ·√3 */
+        {"emf_rms", 0.0707106781},                    /* 0.1/√2 */
+        {"emf_line", 0.1732050808},                   /* 0.1·√3 */
+        {"emf_line_rms", 0.1224744871},               /* 0.1·√3/√2 */
+        {"emf_volt_per_krpm", 10.471975512},          /* 0.1·104.71975512 */
+        {"emf_volt_per_krpm_line", 18.137993642},     /* ·√3 */
         {"emf_volt_per_krpm_line_rms", 12.825498301}, /* ·√3/√2 */
-        {"emf_kv",                     55.132889543}, /* 9.5492965855/(√3·0.1) */
-        {"emf_volt_per_hz",            0.1570796327}, /* ψ·2π = 0.025·2π */
-        {"emf_flux_linkage",           0.025       }, /* 0.1/4 */
+        {"emf_kv", 55.132889543},                     /* 9.5492965855/(√3·0.1) */
+        {"emf_volt_per_hz", 0.1570796327},            /* ψ·2π = 0.025·2π */
+        {"emf_flux_linkage", 0.025},                  /* 0.1/4 */
     };
     for (size_t k = 0; k < sizeof CASES / sizeof *CASES; ++k) {
         write_machine(MACHINE, "amplitude_Nm_per_A", CASES[k].amplitude, 0.0);
@@ -434,22 +434,22 @@ static void test_slips_of_recordings(void)
         mistake *wrong;
         const char *words;
     } CASES[] = {
-        {"theta_electrical_for_mechanical", electrical_angle,  ""      },
-        {"theta_degrees_for_radians",       degrees,           ""      },
-        {"run_angle_zero_d_axis",           from_d_axis,       ""      },
-        {"run_angle_zero_q_axis",           from_crest,        "crest" },
-        {"run_angle_zero_q_axis",           from_trough,       "trough"},
-        {"direction_reversed",              angle_backward,    ""      },
-        {"phases_swapped",                  swap_b_and_c,      ""      },
-        {"current_rms",                     currents_rms,      ""      },
-        {"voltage_line",                    voltages_to_lines, ""      },
-        {"voltage_sign",                    voltages_out,      ""      },
-        {"torque_millinewton",              millinewton,       ""      },
-        {"speed_electrical",                electrical_speed,  ""      },
-        {"speed_rpm_for_rad_per_s",         rpm,               ""      },
-        {"time_milliseconds",               milliseconds,      ""      },
-        {"current_sign",                    currents_out,      ""      },
-        {"torque_sign",                     generator,         ""      },
+        {"theta_electrical_for_mechanical", electrical_angle, ""},
+        {"theta_degrees_for_radians", degrees, ""},
+        {"run_angle_zero_d_axis", from_d_axis, ""},
+        {"run_angle_zero_q_axis", from_crest, "crest"},
+        {"run_angle_zero_q_axis", from_trough, "trough"},
+        {"direction_reversed", angle_backward, ""},
+        {"phases_swapped", swap_b_and_c, ""},
+        {"current_rms", currents_rms, ""},
+        {"voltage_line", voltages_to_lines, ""},
+        {"voltage_sign", voltages_out, ""},
+        {"torque_millinewton", millinewton, ""},
+        {"speed_electrical", electrical_speed, ""},
+        {"speed_rpm_for_rad_per_s", rpm, ""},
+        {"time_milliseconds", milliseconds, ""},
+        {"current_sign", currents_out, ""},
+        {"torque_sign", generator, ""},
     };
     for (size_t k = 0; k < sizeof CASES / sizeof *CASES; ++k) {
         write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);

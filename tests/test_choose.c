@@ -10,8 +10,8 @@
 #include "sampled.h"
 #include "unity.h"
 
-/* Candidates up to order 18 + 2·7 = 32, doubled while there are few of them, and a back-EMF up to 7 make torque
- * up to 71 < 96. */
+/* Candidates up to order 18 + 2·7 = 32, doubled while there are few of them, and a back-EMF up to 7 make
+ * torque up to 71 < 96. */
 enum {
     PER_TURN = 192,
     BINS = PER_TURN / 2,
@@ -82,14 +82,9 @@ static void draw(uint64_t *seed, problem *p)
         if (ref_integer(seed, 0, 2) > 0)
             p->cogging[p->cogging_count++] =
                 (ref_wave){order, 0.0, ref_uniform(seed, 0.02, 0.4), ref_uniform(seed, -3.0, 3.0)};
-    p->wanted[0] = (hci_target_order){
-        {0.0, 0.0, 3.0},
-        1.0
-    };
-    p->wanted[1] = (hci_target_order){
-        {12.0, ref_uniform(seed, -0.3, 0.3), ref_uniform(seed, -0.3, 0.3)},
-        1.0
-    };
+    p->wanted[0] = (hci_target_order){{0.0, 0.0, 3.0}, 1.0};
+    p->wanted[1] =
+        (hci_target_order){{12.0, ref_uniform(seed, -0.3, 0.3), ref_uniform(seed, -0.3, 0.3)}, 1.0};
     for (size_t k = 0; k < p->emf_count; ++k)
         p->back_emf[k] = hci_wave_polar(p->emf[k].order, sequence_of(p->emf[k].order), p->emf[k].amplitude,
                                         p->emf[k].phase);

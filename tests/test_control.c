@@ -140,10 +140,7 @@ static void current_step(double step_s, double speed, int decoupled, double l_q,
     deviation[0] = deviation[1] = 0.0;
     drive.control.step_s = step_s;
     drive.control.loop = HCI_CURRENT_PI;
-    drive.control.current = (hci_current_pi){
-        {kp, ki},
-        decoupled, 0
-    };
+    drive.control.current = (hci_current_pi){{kp, ki}, decoupled, 0};
     drive.plant.inertia_kgm2 = INFINITY;
     state.plant.theta_m_rad = 0.7;
     state.plant.speed_rad_per_s = speed;
@@ -195,23 +192,14 @@ static void test_decoupling_removes_motion(void)
 /* One sample late, in steps of the sample; and turned ahead by one and a half samples of rotation. */
 static void test_pwm_delay_is_one_sample(void)
 {
-    double undelayed[2][2] = {
-        {0.0, 0.0},
-        {0.0, 0.0}
-    };
+    double undelayed[2][2] = {{0.0, 0.0}, {0.0, 0.0}};
     const double way = 3.0 * 2.0 * 4e-5;
     for (int delayed = 0; delayed < 2; ++delayed) {
         use_machine(&PM_SINE, 256);
         drive.control.loop = HCI_CURRENT_PI;
         drive.control.current_every = 4;
-        drive.control.current = (hci_current_pi){
-            {6.0, 0.0},
-            0, delayed
-        };
-        hci_measurement m = {
-            {0.0, 0.0, 0.0},
-            0.3, 2.0
-        };
+        drive.control.current = (hci_current_pi){{6.0, 0.0}, 0, delayed};
+        hci_measurement m = {{0.0, 0.0, 0.0}, 0.3, 2.0};
         for (int k = 0; k < 12; ++k) {
             hci_control_step(&drive.control, &state.control, &m, 1.0 + (k >= 4));
             const double *v = state.control.v;
@@ -234,10 +222,8 @@ static void test_current_loop_does_not_wind_up(void)
     use_machine(&PM_SINE, 4096);
     drive.control.dc_link_V = 60.0;
     drive.control.loop = HCI_CURRENT_PI;
-    drive.control.current = (hci_current_pi){
-        {12.0, 900.0},
-        1, 0
-    }; /* k_i/k_p = R/L: first order, no overshoot */
+    drive.control.current =
+        (hci_current_pi){{12.0, 900.0}, 1, 0}; /* k_i/k_p = R/L: first order, no overshoot */
     drive.plant.inertia_kgm2 = INFINITY;
     for (int k = 0; k < 20000; ++k) {
         hci_drive_step(&drive, &state, 27.0, 0.0);
@@ -336,10 +322,7 @@ static void test_current_limits(void)
     double most_d = 0.0;
     for (int k = 0; k < 100; ++k) {
         const double theta_m = 0.031 * k;
-        const hci_measurement m = {
-            {0.0, 0.0, 0.0},
-            theta_m, 0.0
-        };
+        const hci_measurement m = {{0.0, 0.0, 0.0}, theta_m, 0.0};
         double e[3], abc[3];
         hci_control_step(&drive.control, &state.control, &m, k % 2 ? 8.0 : -8.0);
         hci_waves_at(lists.emf, PM_INTERIOR.emf_count, 2.0 * theta_m, e);
@@ -353,10 +336,7 @@ static void test_current_limits(void)
     TEST_ASSERT_EQUAL_UINT64(100, state.control.limited);
     drive.control.peak_limit_A = 3.0;
     for (int k = 0; k < 100; ++k) {
-        const hci_measurement m = {
-            {0.0, 0.0, 0.0},
-            0.031 * k, 0.0
-        };
+        const hci_measurement m = {{0.0, 0.0, 0.0}, 0.031 * k, 0.0};
         hci_control_step(&drive.control, &state.control, &m, 8.0);
         TEST_ASSERT_DOUBLE_WITHIN(
             1e-12, 3.0, sqrt(2.0 / 3.0) * hypot(state.control.reference[0], state.control.reference[1]));
@@ -365,10 +345,7 @@ static void test_current_limits(void)
 
 static void test_torque_command_is_limited(void)
 {
-    const hci_measurement m = {
-        {0.0, 0.0, 0.0},
-        0.1, 0.0
-    };
+    const hci_measurement m = {{0.0, 0.0, 0.0}, 0.1, 0.0};
     use_machine(&PM_SINE, 256);
     drive.control.torque_limit_Nm = 2.0;
     hci_control_step(&drive.control, &state.control, &m, 5.0);
@@ -381,11 +358,9 @@ static void test_torque_command_is_limited(void)
  * source begins with the step at its time. */
 static void test_strategies_change_in_time(void)
 {
-    const hci_current_source sources[3] = {
-        {0.0,  HCI_STRATEGY_ID0,    NULL, 0, NULL, 0},
-        {0.01, HCI_STRATEGY_CANCEL, NULL, 0, NULL, 0},
-        {0.02, HCI_STRATEGY_MTPA,   NULL, 0, NULL, 0}
-    };
+    const hci_current_source sources[3] = {{0.0, HCI_STRATEGY_ID0, NULL, 0, NULL, 0},
+                                           {0.01, HCI_STRATEGY_CANCEL, NULL, 0, NULL, 0},
+                                           {0.02, HCI_STRATEGY_MTPA, NULL, 0, NULL, 0}};
     double off[3] = {0.0, 0.0, 0.0}, square[3] = {0.0, 0.0, 0.0};
     use_machine(&PM_INTERIOR, POINTS);
     drive.control.sources = sources;
@@ -425,11 +400,7 @@ static void test_unreached_samples_are_counted(void)
 
 static void test_waves_scale_with_torque(void)
 {
-    const ref_wave per_Nm =
-                       {
-                           1, 1, 0.7, 0.2
-    },
-                   fixed[2] = {{5, -1, 0.3, 1.0}, {7, 1, 0.2, -0.4}};
+    const ref_wave per_Nm = {1, 1, 0.7, 0.2}, fixed[2] = {{5, -1, 0.3, 1.0}, {7, 1, 0.2, -0.4}};
     hci_wave list[3];
     use_machine(&PM_SINE, 256);
     list[0] = hci_wave_polar(1, 1, 0.7, 0.2);
@@ -437,10 +408,7 @@ static void test_waves_scale_with_torque(void)
     list[2] = hci_wave_polar(7, 1, 0.2, -0.4);
     source = (hci_current_source){0.0, HCI_STRATEGY_ID0, list, 1, list + 1, 2};
     for (int k = 0; k < 50; ++k) {
-        const hci_measurement m = {
-            {0.0, 0.0, 0.0},
-            0.1 * k, 0.0
-        };
+        const hci_measurement m = {{0.0, 0.0, 0.0}, 0.1 * k, 0.0};
         double abc[3];
         hci_control_step(&drive.control, &state.control, &m, 4.0);
         hci_plane_to_abc(state.control.reference, abc);

@@ -10,8 +10,8 @@
 
 #include "hci/host/csv/csv.h"
 #include "hci/host/recording/run.h"
-#include "host/csv/alias.h"
 #include "host/base/unit.h"
+#include "host/csv/alias.h"
 #include "reference.h"
 #include "unity.h"
 
@@ -318,26 +318,26 @@ static const struct {
     size_t line;
     const char *name;
 } beginnings[] = {
-    {"a,b\n1,2\n3,4\n",                                         0, "a"      },
-    {"# about\n\na,b\n1,2\n",                                   0, "a"      },
-    {"Study\nCase,1\nTime(s),Torque(Nm)\n0,1\n1,2\n",           3, "Time(s)"},
+    {"a,b\n1,2\n3,4\n", 0, "a"},
+    {"# about\n\na,b\n1,2\n", 0, "a"},
+    {"Study\nCase,1\nTime(s),Torque(Nm)\n0,1\n1,2\n", 3, "Time(s)"},
     {"Study\r\nCase,1\r\nTime(s),Torque(Nm)\r\n0,1\r\n1,2\r\n", 3, "Time(s)"},
-    {"Title,Torque\nTime(s),Torque(Nm)\n0,1\n1,2\n",            2, "Time(s)"}, /* one known name against two */
-    {"speed,torque\nTime(s),Torque(Nm)\n0,1\n1,2\n",            0, "speed"  }, /* either */
-    {"this,that\nup,down\n0,1\n1,2\n",                          0, "this"   }, /* either */
-    {"this,that,more\nup,down\n0,1\n1,2\n",                     2, "up"     },
-    {"Model,X\n,,,\nTIME,CH1,CH2\n0,1,2\n",                     3, "TIME"   },
-    {"Length,4\nSource,CH1\nSecond,Volt\n0,1\n1,2\n",           2, "Source" }, /* a row of units is no header */
-    {"gain,pace,more\nbar,rpm,A\n1,2,3\n4,5,6\n",               0, "gain"   },
-    {"x-axis,1\nsecond,Volt\n0,1\n1,2\n",                       0, "x-axis" },
-    {"about;it\na;b;c\n1,5;2,5;3\n4;5;6\n",                     2, "a"      },
-    {"about\na\tb\n1\t2\n",                                     2, "a"      },
-    {"\"about, at\nlength\"\nx,y\n1,2\n",                       3, "x"      },
-    {"a,b\n1,x\n3,4\n",                                         0, "a"      }, /* a broken first row */
-    {"name,value\nfoo,bar\n1,2\n3,4\n",                         0, "name"   },
-    {"file,role\nx.csv,fit\ny.csv,fit\n",                       0, "file"   },
-    {"about\na,a\n1,2\n3,4\n",                                  0, "about"  }, /* not all different */
-    {"about\na,b\n1,2\n3,4,5\n",                                0, "about"  }, /* not as many numbers */
+    {"Title,Torque\nTime(s),Torque(Nm)\n0,1\n1,2\n", 2, "Time(s)"}, /* one known name against two */
+    {"speed,torque\nTime(s),Torque(Nm)\n0,1\n1,2\n", 0, "speed"},   /* either */
+    {"this,that\nup,down\n0,1\n1,2\n", 0, "this"},                  /* either */
+    {"this,that,more\nup,down\n0,1\n1,2\n", 2, "up"},
+    {"Model,X\n,,,\nTIME,CH1,CH2\n0,1,2\n", 3, "TIME"},
+    {"Length,4\nSource,CH1\nSecond,Volt\n0,1\n1,2\n", 2, "Source"}, /* a row of units is no header */
+    {"gain,pace,more\nbar,rpm,A\n1,2,3\n4,5,6\n", 0, "gain"},
+    {"x-axis,1\nsecond,Volt\n0,1\n1,2\n", 0, "x-axis"},
+    {"about;it\na;b;c\n1,5;2,5;3\n4;5;6\n", 2, "a"},
+    {"about\na\tb\n1\t2\n", 2, "a"},
+    {"\"about, at\nlength\"\nx,y\n1,2\n", 3, "x"},
+    {"a,b\n1,x\n3,4\n", 0, "a"}, /* a broken first row */
+    {"name,value\nfoo,bar\n1,2\n3,4\n", 0, "name"},
+    {"file,role\nx.csv,fit\ny.csv,fit\n", 0, "file"},
+    {"about\na,a\n1,2\n3,4\n", 0, "about"},   /* not all different */
+    {"about\na,b\n1,2\n3,4,5\n", 0, "about"}, /* not as many numbers */
 };
 
 static void the_header_is_found(void)
@@ -380,29 +380,29 @@ static void units_of_other_tools_convert(void)
         const char *from, *to;
         double factor;
     } known[] = {
-        {"Volt",         "V",     1                              },
-        {"second",       "s",     1                              },
-        {"sec",          "ms",    1e3                            },
-        {"ns",           "s",     1e-9                           },
-        {"degrees",      "rad",   REF_PI / 180                   },
-        {"turns",        "rad",   2 * REF_PI                     },
-        {"Revolution",   "deg",   360                            },
-        {"turn/s",       "rpm",   60                             },
-        {"deg/s",        "rpm",   1.0 / 6                        },
-        {"rev/min",      "rad/s", REF_PI / 30                    },
-        {"NewtonMeter",  "Nm",    1                              },
-        {"mNewtonMeter", "Nm",    1e-3                           },
-        {"kNm",          "Nm",    1e3                            },
-        {"N cm",         "Nm",    1e-2                           },
-        {"Ft-Lbs",       "Nm",    0.3048 * 4.4482216152605       },
-        {"lbf-in",       "Nm",    0.0254 * 4.4482216152605       },
-        {"oz-in",        "Nm",    0.0254 * 4.4482216152605 / 16.0},
-        {"kgf cm",       "Nm",    0.0980665                      },
-        {"g*cm^2",       "kgm2",  1e-7                           },
-        {"Wb",           "mWb",   1e3                            },
-        {"Vs",           "Wb",    1                              },
-        {"Celsius",      "degC",  1                              },
-        {"nH",           "H",     1e-9                           },
+        {"Volt", "V", 1},
+        {"second", "s", 1},
+        {"sec", "ms", 1e3},
+        {"ns", "s", 1e-9},
+        {"degrees", "rad", REF_PI / 180},
+        {"turns", "rad", 2 * REF_PI},
+        {"Revolution", "deg", 360},
+        {"turn/s", "rpm", 60},
+        {"deg/s", "rpm", 1.0 / 6},
+        {"rev/min", "rad/s", REF_PI / 30},
+        {"NewtonMeter", "Nm", 1},
+        {"mNewtonMeter", "Nm", 1e-3},
+        {"kNm", "Nm", 1e3},
+        {"N cm", "Nm", 1e-2},
+        {"Ft-Lbs", "Nm", 0.3048 * 4.4482216152605},
+        {"lbf-in", "Nm", 0.0254 * 4.4482216152605},
+        {"oz-in", "Nm", 0.0254 * 4.4482216152605 / 16.0},
+        {"kgf cm", "Nm", 0.0980665},
+        {"g*cm^2", "kgm2", 1e-7},
+        {"Wb", "mWb", 1e3},
+        {"Vs", "Wb", 1},
+        {"Celsius", "degC", 1},
+        {"nH", "H", 1e-9},
     };
     for (size_t k = 0; k < sizeof known / sizeof *known; ++k) {
         double factor = 0;

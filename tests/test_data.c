@@ -93,18 +93,11 @@ static const char *value_of(const table *t, const char *name)
 
 /* Tables 4 and 5 as printed, typed a second time. */
 static const double EMF_ORDER[5] = {1, 5, 7, 11, 13};
-static const double EMF_V[2][5] = {
-    {21.93,  -5.02, 4.80, -8.10, -1.61},
-    {111.53, 13.39, 3.39, -2.10, -2.07}
-};
-static const double COGGING_NM[2][7] = {
-    {0.0021, 0.3102, 0.0031, 0.3702, 0.0011, 0.2470, 0.0000},
-    {0.0000, 0.2246, 0.0374, 0.1402, 0.0691, 0.0000, 0.0241}
-};
-static const double COGGING_RAD[2][7] = {
-    {1.22, 1.76, -1.57, -1.19, 1.88,  2.15, 0.00},
-    {0.00, 1.76, -1.29, -1.19, -1.10, 0.00, 2.23}
-};
+static const double EMF_V[2][5] = {{21.93, -5.02, 4.80, -8.10, -1.61}, {111.53, 13.39, 3.39, -2.10, -2.07}};
+static const double COGGING_NM[2][7] = {{0.0021, 0.3102, 0.0031, 0.3702, 0.0011, 0.2470, 0.0000},
+                                        {0.0000, 0.2246, 0.0374, 0.1402, 0.0691, 0.0000, 0.0241}};
+static const double COGGING_RAD[2][7] = {{1.22, 1.76, -1.57, -1.19, 1.88, 2.15, 0.00},
+                                         {0.00, 1.76, -1.29, -1.19, -1.10, 0.00, 2.23}};
 
 static void machines_are_tables_2_to_5(void)
 {
@@ -176,10 +169,7 @@ static void transform_table_3(int m, ref_spectrum *out)
 
 /* Mean, order 6 and order 12 in N·m to three decimals, from E_1 cos 0.2 and |E_7 e^{-j0.2} − E_5 e^{j0.2}|
  * and |E_13 e^{-j0.2} − E_11 e^{j0.2}|, each times (3/2)·12 A; the published figures carry no more. */
-static const double TABLE_3_NM[2][3] = {
-    {2.463,  1.103, 0.762},
-    {12.526, 1.186, 0.095}
-};
+static const double TABLE_3_NM[2][3] = {{2.463, 1.103, 0.762}, {12.526, 1.186, 0.095}};
 
 static void mutual_torque_at_table_3(void)
 {
@@ -219,15 +209,8 @@ static size_t read_currents(const char *path, const char *set, ref_wave *waves)
 
 static void example_currents_are_table_1_twice(void)
 {
-    static const double expected[7][3] = {
-        {1,  10,     0   },
-        {2,  2,      0.25},
-        {4,  1,      0   },
-        {5,  0.5,    0   },
-        {7,  0.25,   0.5 },
-        {8,  0.125,  1   },
-        {10, 0.0625, 0   }
-    };
+    static const double expected[7][3] = {{1, 10, 0},     {2, 2, 0.25},  {4, 1, 0},      {5, 0.5, 0},
+                                          {7, 0.25, 0.5}, {8, 0.125, 1}, {10, 0.0625, 0}};
     ref_wave sym[8], asym[8];
     TEST_ASSERT_EQUAL_UINT64(7, read_currents("data/example_currents/currents.csv", "sym", sym));
     TEST_ASSERT_EQUAL_UINT64(7,
@@ -278,20 +261,21 @@ typedef struct {
 #define SHARED_SET "5 7 13 19 25 29 31 37"
 
 static const scenario TABLE_6[12] = {
-    {"",             "",                                                          {{0, 0, 0}},                         0 },
-    {PAPER_SYM,      SHARED_SET,                                                  {{0, 0, 0}},                         20},
-    {PAPER_SYM,      "2 5 6 7 8 12 13 14 18 19 23 25 27 29 31 37",                {{1, 3, 1}},                         36},
-    {PAPER_SYM,      "3 5 7 9 11 13 15 17 19 20 22 23 25 26 28 31 37",            {{2, 3, 0}},                         38},
-    {"4 " PAPER_SYM, "2 4 5 7 8 10 13 14 16 19 25 29 31 37",                      {{3, 3, 0}},                         32},
-    {PAPER_SYM,      SHARED_SET,                                                  {{4, 3, 0}},                         20},
-    {PAPER_SYM,      SHARED_SET,                                                  {{5, 3, 0}},                         20},
-    {PAPER_SYM,      SHARED_SET,                                                  {{6, 3, 0}},                         20},
-    {PAPER_SYM,      "4 5 7 10 13 17 19 23 25 29 31 35 37 41 47 53 58 64",        {{34, 3, 0}},                        40},
-    {PAPER_SYM,      "7 13 19 20 25 26 31 33 37 39 45 51 57 63 69 74 80",         {{50, 3, 0}},                        38},
-    {PAPER_SYM,      "2 3 5 7 8 9 11 12 13 14 15 17 19 20 22 23",                 {{2, 2, 0}, {13, 1, 0}},             40},
+    {"", "", {{0, 0, 0}}, 0},
+    {PAPER_SYM, SHARED_SET, {{0, 0, 0}}, 20},
+    {PAPER_SYM, "2 5 6 7 8 12 13 14 18 19 23 25 27 29 31 37", {{1, 3, 1}}, 36},
+    {PAPER_SYM, "3 5 7 9 11 13 15 17 19 20 22 23 25 26 28 31 37", {{2, 3, 0}}, 38},
+    {"4 " PAPER_SYM, "2 4 5 7 8 10 13 14 16 19 25 29 31 37", {{3, 3, 0}}, 32},
+    {PAPER_SYM, SHARED_SET, {{4, 3, 0}}, 20},
+    {PAPER_SYM, SHARED_SET, {{5, 3, 0}}, 20},
+    {PAPER_SYM, SHARED_SET, {{6, 3, 0}}, 20},
+    {PAPER_SYM, "4 5 7 10 13 17 19 23 25 29 31 35 37 41 47 53 58 64", {{34, 3, 0}}, 40},
+    {PAPER_SYM, "7 13 19 20 25 26 31 33 37 39 45 51 57 63 69 74 80", {{50, 3, 0}}, 38},
+    {PAPER_SYM, "2 3 5 7 8 9 11 12 13 14 15 17 19 20 22 23", {{2, 2, 0}, {13, 1, 0}}, 40},
     {PAPER_SYM,
-     "2 5 7 8 11 13 17 18 19 23 24 25 29 30 31 35 36 37 41 42 46 48 52 54 59 65", {{6, 1, 0}, {22, 1, 0}, {35, 1, 0}},
-     56                                                                                                                  },
+     "2 5 7 8 11 13 17 18 19 23 24 25 29 30 31 35 36 37 41 42 46 48 52 54 59 65",
+     {{6, 1, 0}, {22, 1, 0}, {35, 1, 0}},
+     56},
 };
 
 static void targets_are_table_6(void)

@@ -541,14 +541,8 @@ static void test_orthogonal_moore_penrose_for_every_small_shape(void)
 
 static void test_orthogonal_moore_penrose_for_larger_shapes(void)
 {
-    const size_t shape[][3] = {
-        {40, 40, 40},
-        {40, 40, 23},
-        {50, 30, 30},
-        {50, 30, 17},
-        {30, 50, 30},
-        {30, 50, 8 }
-    };
+    const size_t shape[][3] = {{40, 40, 40}, {40, 40, 23}, {50, 30, 30},
+                               {50, 30, 17}, {30, 50, 30}, {30, 50, 8}};
     for (size_t k = 0; k < sizeof shape / sizeof *shape; k++)
         check_shape(shape[k][0], shape[k][1], shape[k][2]);
 }

@@ -216,10 +216,7 @@ static void test_similarity_transform_of_the_paper_loses_a_x_squared(void)
     double least = HUGE_VAL, most = 0.0;
     for (int trial = 0; trial < TRIALS; ++trial) {
         double e[3], i[3], axis[2][3], slope[HCI_PHASE_MATRIX], l[3][3];
-        const hci_dqx ones[2] = {
-            {1.0, 0.0},
-            {0.0, 1.0}
-        };
+        const hci_dqx ones[2] = {{1.0, 0.0}, {0.0, 1.0}};
         draw_back_emf(e);
         draw_zero_sum(i);
         for (int k = 0; k < HCI_PHASE_MATRIX; ++k)

@@ -151,21 +151,21 @@ static double turn_current(const hci_sample *x, double theta, double d, double q
 }
 
 static const machine_case MACHINE[] = {
-    {"cogging",            "sine",           18.0,      0.02,   cogging_18      },
-    {"cogging",            "cosine",         0.333333,  0.02,   cogging_third   },
-    {"back_emf",           "sine",           5.0,       0.04,   emf_5           },
-    {"back_emf",           "neg_cosine",     1.0,       0.04,   emf_negative    },
-    {"back_emf",           "zero_sine",      3.0,       0.04,   emf_zero        },
-    {"phase_imbalance",    "b",              0.0,       -0.03,  imbalance_b     },
-    {"reluctance",         "dd_cosine",      0.0,       2e-3,   saliency        },
-    {"reluctance",         "qq_cosine",      6.0,       2e-3,   reluctance_q6   },
-    {"reluctance",         "dq_cosine",      0.0,       2e-3,   reluctance_cross},
-    {"saturation",         "d1q2_cosine",    0.0,       -0.01,  droop           },
-    {"saturation",         "d0q3_sine",      6.0,       0.01,   saturation_q3   },
-    {"saturation",         "d0q4_cosine",    12.0,      0.001,  saturation_q4   },
-    {"magnet_temperature", "emf_per_kelvin", 0.0,       -0.001, hot             },
-    {"mechanical_order",   "sine",           1.0 / 3.0, 0.03,   turn_constant   },
-    {"mechanical_order",   "iq_cosine",      0.666667,  0.03,   turn_current    },
+    {"cogging", "sine", 18.0, 0.02, cogging_18},
+    {"cogging", "cosine", 0.333333, 0.02, cogging_third},
+    {"back_emf", "sine", 5.0, 0.04, emf_5},
+    {"back_emf", "neg_cosine", 1.0, 0.04, emf_negative},
+    {"back_emf", "zero_sine", 3.0, 0.04, emf_zero},
+    {"phase_imbalance", "b", 0.0, -0.03, imbalance_b},
+    {"reluctance", "dd_cosine", 0.0, 2e-3, saliency},
+    {"reluctance", "qq_cosine", 6.0, 2e-3, reluctance_q6},
+    {"reluctance", "dq_cosine", 0.0, 2e-3, reluctance_cross},
+    {"saturation", "d1q2_cosine", 0.0, -0.01, droop},
+    {"saturation", "d0q3_sine", 6.0, 0.01, saturation_q3},
+    {"saturation", "d0q4_cosine", 12.0, 0.001, saturation_q4},
+    {"magnet_temperature", "emf_per_kelvin", 0.0, -0.001, hot},
+    {"mechanical_order", "sine", 1.0 / 3.0, 0.03, turn_constant},
+    {"mechanical_order", "iq_cosine", 0.666667, 0.03, turn_current},
 };
 
 enum { MACHINE_CASES = sizeof MACHINE / sizeof *MACHINE };

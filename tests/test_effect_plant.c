@@ -22,22 +22,22 @@ typedef struct {
 } room_case;
 
 static const room_case ROOMS[] = {
-    {"cogging",            "cosine",         18.0,      0.3,    0},
-    {"cogging",            "sine",           1.0 / 3.0, 0.3,    0},
-    {"mechanical_order",   "sine",           1.0 / 3.0, 0.3,    0},
-    {"mechanical_order",   "iq_cosine",      2.0 / 3.0, 0.2,    1},
-    {"back_emf",           "neg_sine",       1.0,       0.1,    1},
-    {"back_emf",           "cosine",         5.0,       0.1,    1},
-    {"phase_imbalance",    "b",              0.0,       -0.1,   1},
-    {"magnet_temperature", "emf_per_kelvin", 0.0,       -0.002, 1},
-    {"reluctance",         "dd_cosine",      0.0,       3e-3,   2},
-    {"reluctance",         "qq_sine",        6.0,       2e-3,   2},
-    {"reluctance",         "dq_cosine",      6.0,       2e-3,   2},
-    {"saturation",         "d1q2_cosine",    0.0,       -2e-4,  3},
-    {"saturation",         "d0q3_sine",      6.0,       1e-4,   3},
-    {"saturation",         "d2q1_cosine",    12.0,      1e-4,   3},
-    {"saturation",         "d4q0_cosine",    6.0,       4e-6,   4},
-    {"saturation",         "d2q2_sine",      6.0,       2e-5,   4},
+    {"cogging", "cosine", 18.0, 0.3, 0},
+    {"cogging", "sine", 1.0 / 3.0, 0.3, 0},
+    {"mechanical_order", "sine", 1.0 / 3.0, 0.3, 0},
+    {"mechanical_order", "iq_cosine", 2.0 / 3.0, 0.2, 1},
+    {"back_emf", "neg_sine", 1.0, 0.1, 1},
+    {"back_emf", "cosine", 5.0, 0.1, 1},
+    {"phase_imbalance", "b", 0.0, -0.1, 1},
+    {"magnet_temperature", "emf_per_kelvin", 0.0, -0.002, 1},
+    {"reluctance", "dd_cosine", 0.0, 3e-3, 2},
+    {"reluctance", "qq_sine", 6.0, 2e-3, 2},
+    {"reluctance", "dq_cosine", 6.0, 2e-3, 2},
+    {"saturation", "d1q2_cosine", 0.0, -2e-4, 3},
+    {"saturation", "d0q3_sine", 6.0, 1e-4, 3},
+    {"saturation", "d2q1_cosine", 12.0, 1e-4, 3},
+    {"saturation", "d4q0_cosine", 6.0, 4e-6, 4},
+    {"saturation", "d2q2_sine", 6.0, 2e-5, 4},
 };
 
 enum { ROOM_CASES = sizeof ROOMS / sizeof *ROOMS };
@@ -79,10 +79,7 @@ static double loop_energy(const hci_effects *effects, int turns, double *work)
     double sum = 0.0;
     *work = 0.0;
     for (int k = 0; k < N; ++k) {
-        hci_plant_state y = {
-            {0.0, 0.0},
-            0.0, 0.0, 0.0
-        };
+        hci_plant_state y = {{0.0, 0.0}, 0.0, 0.0, 0.0};
         double by_u, di[2];
         cycle((double)k / N, turns, &y.theta_m_rad, &by_u, y.i, di);
         const hci_plant_point p = point_of(effects, &y);
@@ -119,10 +116,7 @@ static void test_no_net_torque_at_constant_phase_current(void)
         double sum = 0.0, size = 0.0;
         list_of(&ROOMS[k], &l);
         for (int j = 0; j < N; ++j) {
-            hci_plant_state y = {
-                {3.0, -2.0},
-                0.0, 2.0 * EL_PI * j / N, 0.0
-            };
+            hci_plant_state y = {{3.0, -2.0}, 0.0, 2.0 * EL_PI * j / N, 0.0};
             const hci_plant_point p = point_of(&l.list, &y);
             sum += hci_point_torque_Nm(&p.magnetic, y.i);
             size += fabs(hci_point_torque_Nm(&p.magnetic, y.i));
@@ -138,10 +132,7 @@ static void test_point_has_the_torque(void)
     for (size_t k = 0; k < ROOM_CASES; ++k) {
         el_list l;
         list_of(&ROOMS[k], &l);
-        hci_plant_state y = {
-            {3.0, -2.0},
-            0.0, 0.7, 0.0
-        };
+        hci_plant_state y = {{3.0, -2.0}, 0.0, 0.7, 0.0};
         hci_sample x = {0};
         x.theta_m_rad = 0.7;
         x.temperature_C = 90.0;
@@ -159,10 +150,7 @@ static void test_inductance_of_saliency(void)
     el_add(&l, "reluctance", "dd_cosine", 0.0, 3e-3);
     for (int k = 0; k < 10; ++k) {
         const double theta_m = 0.2 * k, c = cos(3.0 * theta_m), s = sin(3.0 * theta_m);
-        const hci_plant_state y = {
-            {1.0, 2.0},
-            0.0, theta_m, 0.0
-        };
+        const hci_plant_state y = {{1.0, 2.0}, 0.0, theta_m, 0.0};
         const hci_plant_point p = point_of(&l.list, &y);
         TEST_ASSERT_DOUBLE_WITHIN(1e-16, 3e-3 * c * c, p.inductance_H[0]);
         TEST_ASSERT_DOUBLE_WITHIN(1e-16, 3e-3 * c * s, p.inductance_H[1]);
@@ -234,10 +222,7 @@ static double magnet(const room_case *c, double theta_m)
  * pair. */
 static double missing_energy(running *r, const room_case *c, double dt, double *turned_over)
 {
-    hci_plant_state y = {
-        {0.0, 0.0},
-        60.0, 0.1, 0.0
-    };
+    hci_plant_state y = {{0.0, 0.0}, 60.0, 0.1, 0.0};
     double sum = 0.0;
     *turned_over = 0.0;
     for (double t = 0.0; t < 0.02 - 0.5 * dt; t += 2.0 * dt) {
@@ -277,10 +262,7 @@ static void test_drag_brakes_the_shaft(void)
     el_add(&l, "friction", "coulomb", 0.0, 0.5);
     el_add(&l, "friction", "viscous", 0.0, 0.02);
     el_add(&l, "friction", "quadratic", 0.0, 0.003);
-    const hci_plant_state y = {
-        {3.0, -2.0},
-        -10.0, 0.7, 0.0
-    };
+    const hci_plant_state y = {{3.0, -2.0}, -10.0, 0.7, 0.0};
     const hci_plant_point p = point_of(&l.list, &y);
     TEST_ASSERT_DOUBLE_WITHIN(1e-15, -0.2 - 0.3, p.shaft_Nm); /* Coulomb is the plant's own */
     TEST_ASSERT_EQUAL_DOUBLE(0.0, p.magnetic.cogging_Nm);

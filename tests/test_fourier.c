@@ -93,13 +93,11 @@ static void test_uniform_against_sums_in_long_double(void)
 static void test_uniform_is_exact_for_fractional_orders(void)
 {
     enum { COUNT = 240, TURNS = 3, TERMS = 5 };
-    const hci_harmonic terms[TERMS] = {
-        {0.0,              0.0,  -2.5},
-        {1.0 / 3.0,        0.3,  -0.1},
-        {1.0,              12.0, 5.0 },
-        {7.0 / 3.0,        0.0,  0.7 },
-        {39.0 + 2.0 / 3.0, -1.0, 0.2 }
-    };
+    const hci_harmonic terms[TERMS] = {{0.0, 0.0, -2.5},
+                                       {1.0 / 3.0, 0.3, -0.1},
+                                       {1.0, 12.0, 5.0},
+                                       {7.0 / 3.0, 0.0, 0.7},
+                                       {39.0 + 2.0 / 3.0, -1.0, 0.2}};
     const double tolerance = 2e-13; /* 119/3 is rounded by 4e-15, over 19 rad; ulp of the 13 of order 1 */
     double x[COUNT];
     for (size_t j = 0; j < COUNT; j++)
@@ -144,17 +142,16 @@ static void test_uniform_refuses(void)
         size_t count, turns;
         double order;
     } bad[] = {
-        {12, 1, 6.0        }, /* count/2 is its own alias */
-        {12, 1, 7.0        }, /* alias of 5 */
-        {12, 2, 3.0        }, /* count/2 again, over two turns */
-        {12, 1, 1.5        }, /* not a whole number of periods */
-        {12, 3, 0.4        }, /* 1.2 periods */
-        {12, 1, -1.0       }, /* orders are not negative */
-        {12, 0, 1.0        }, /* no turn */
-        {0,  1, 0.0        }, /* no sample */
-        {12, 1, (double)NAN},
-        {12, 1, HUGE_VAL   },
-        {12, 1, 1.0 + 1e-5 }, /* farther from 1 than the order tolerance */
+        {12, 1, 6.0},  /* count/2 is its own alias */
+        {12, 1, 7.0},  /* alias of 5 */
+        {12, 2, 3.0},  /* count/2 again, over two turns */
+        {12, 1, 1.5},  /* not a whole number of periods */
+        {12, 3, 0.4},  /* 1.2 periods */
+        {12, 1, -1.0}, /* orders are not negative */
+        {12, 0, 1.0},  /* no turn */
+        {0, 1, 0.0},   /* no sample */
+        {12, 1, (double)NAN}, {12, 1, HUGE_VAL},
+        {12, 1, 1.0 + 1e-5}, /* farther from 1 than the order tolerance */
     };
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++)
         TEST_ASSERT_EQUAL_INT(HCI_ERROR_ARGUMENT,
@@ -191,14 +188,8 @@ static double *random_angles(size_t count, double reach_rad)
 static void test_fit_recovers_a_spectrum_from_uneven_angles(void)
 {
     enum { TERMS = 6 };
-    const hci_harmonic terms[TERMS] = {
-        {0.0,  0.0,  8.0 },
-        {0.25, 0.2,  -0.4},
-        {1.0,  12.0, 5.0 },
-        {1.25, 0.1,  0.1 },
-        {6.0,  -1.0, 0.5 },
-        {37.0, 0.01, 0.02}
-    };
+    const hci_harmonic terms[TERMS] = {{0.0, 0.0, 8.0},  {0.25, 0.2, -0.4}, {1.0, 12.0, 5.0},
+                                       {1.25, 0.1, 0.1}, {6.0, -1.0, 0.5},  {37.0, 0.01, 0.02}};
     const double orders[TERMS] = {0.0, 0.25, 1.0, 1.25, 6.0, 37.0};
     const size_t counts[] = {31, 32, 33, 63, 64, 65, 100, 1000};
     for (size_t c = 0; c < sizeof counts / sizeof *counts; c++) {
@@ -311,11 +302,7 @@ static void test_fit_separates_close_orders_over_few_turns(void)
 {
     enum { COUNT = 400, TERMS = 3 };
     const double orders[TERMS] = {0.98, 1.0, 1.02};
-    const hci_harmonic terms[TERMS] = {
-        {0.98, 0.3,  -0.2},
-        {1.0,  10.0, 1.0 },
-        {1.02, -0.1, 0.4 }
-    };
+    const hci_harmonic terms[TERMS] = {{0.98, 0.3, -0.2}, {1.0, 10.0, 1.0}, {1.02, -0.1, 0.4}};
     double theta[COUNT], x[COUNT];
     hci_harmonic out[TERMS];
     for (size_t j = 0; j < COUNT; j++) {
@@ -331,10 +318,7 @@ static void test_fit_says_when_the_angles_cannot_tell(void)
 {
     enum { COUNT = 24 };
     double theta[COUNT], x[COUNT], same[COUNT];
-    hci_harmonic out[2] = {
-        {-7.0, -7.0, -7.0},
-        {-7.0, -7.0, -7.0}
-    };
+    hci_harmonic out[2] = {{-7.0, -7.0, -7.0}, {-7.0, -7.0, -7.0}};
     for (size_t j = 0; j < COUNT; j++) {
         theta[j] = (double)(two_pi * (long double)j / COUNT);
         x[j] = draw();
@@ -360,18 +344,9 @@ static void test_fit_says_when_the_angles_cannot_tell(void)
 static void test_fit_refuses(void)
 {
     double theta[4] = {0.0, 1.0, 2.0, 3.0}, x[4] = {1.0, 1.0, 1.0, 1.0};
-    hci_harmonic out[2] = {
-        {-7.0, -7.0, -7.0},
-        {-7.0, -7.0, -7.0}
-    };
-    const double bad[][2] = {
-        {2.0,         1.0       },
-        {1.0,         1.0       },
-        {1.0,         1.0 + 1e-7},
-        {-1.0,        1.0       },
-        {1.0,         HUGE_VAL  },
-        {(double)NAN, 1.0       }
-    };
+    hci_harmonic out[2] = {{-7.0, -7.0, -7.0}, {-7.0, -7.0, -7.0}};
+    const double bad[][2] = {{2.0, 1.0},  {1.0, 1.0},      {1.0, 1.0 + 1e-7},
+                             {-1.0, 1.0}, {1.0, HUGE_VAL}, {(double)NAN, 1.0}};
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++)
         TEST_ASSERT_EQUAL_INT(HCI_ERROR_ARGUMENT, fit(theta, x, 4, bad[k], 2, out));
     const double one[1] = {1.0};

@@ -13,8 +13,8 @@
 #include <unistd.h>
 
 #include "hci/host/emit/emit.h"
-#include "hci/host/solve/solve.h"
 #include "hci/host/report/summary.h"
+#include "hci/host/solve/solve.h"
 #include "host/base/memory.h"
 #include "host/numeric/sparse.h"
 #include "unity.h"
@@ -325,10 +325,7 @@ static void wish(const hci_component_set *of, const hci_wave *held, hci_method m
 static void test_solving_a_square_system(void)
 {
     static const hci_method METHOD[] = {HCI_METHOD_AUTO, HCI_METHOD_LU, HCI_METHOD_UMFPACK, HCI_METHOD_QR};
-    hci_component component[2] = {
-        {5.0,  -1},
-        {11.0, -1}
-    };
+    hci_component component[2] = {{5.0, -1}, {11.0, -1}};
     hci_set name[2] = {HCI_SET_NEG, HCI_SET_NEG};
     const hci_component_set two = {component, name, 2, {{0}}};
     for (size_t k = 0; k < 4; ++k) {
@@ -370,10 +367,7 @@ static void test_pointwise(void)
  * run takes a tenth of a second, so fewer of the allocations are tried one by one. */
 static void test_newton(void)
 {
-    hci_component component[2] = {
-        {1.0, 1 },
-        {5.0, -1}
-    };
+    hci_component component[2] = {{1.0, 1}, {5.0, -1}};
     hci_set name[2] = {HCI_SET_POS, HCI_SET_NEG};
     const hci_component_set two = {component, name, 2, {{0}}};
     hci_note note = {{0}};

@@ -132,14 +132,8 @@ static const hci_target TARGET = {wanted, 2};
 
 static void want(double mean_Nm, double order, double amplitude_Nm)
 {
-    wanted[0] = (hci_target_order){
-        {0.0, 0.0, mean_Nm},
-        1.0
-    };
-    wanted[1] = (hci_target_order){
-        {order, amplitude_Nm, 0.0},
-        1.0
-    };
+    wanted[0] = (hci_target_order){{0.0, 0.0, mean_Nm}, 1.0};
+    wanted[1] = (hci_target_order){{order, amplitude_Nm, 0.0}, 1.0};
 }
 
 static hci_status solve(const machine *m, const hci_solve_options *o, hci_solution *s)
@@ -162,14 +156,7 @@ void tearDown(void)
 /* 1e-9 of the torque: rounding of some hundred products, far below any wrong term. */
 static void promised_torque_is_what_the_currents_make(void)
 {
-    static const hci_component SET[] = {
-        {1,  1 },
-        {5,  -1},
-        {7,  1 },
-        {11, -1},
-        {13, 1 },
-        {2,  1 }
-    };
+    static const hci_component SET[] = {{1, 1}, {5, -1}, {7, 1}, {11, -1}, {13, 1}, {2, 1}};
     static const hci_set NAMES[] = {HCI_SET_POS, HCI_SET_NEG, HCI_SET_POS,
                                     HCI_SET_NEG, HCI_SET_POS, HCI_SET_POS};
     hci_component component[6];

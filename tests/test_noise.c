@@ -191,10 +191,7 @@ static void test_whitened_is_white(void)
 /* The filter written out, with as many rows as it remembers, fewer and more; the columns do not mix. */
 static void test_whitening_of_columns(void)
 {
-    const hci_noise noise = {
-        {0.5, -0.25, 0.125, 0.1, -0.05, 0.3},
-        0.2, 0.7
-    };
+    const hci_noise noise = {{0.5, -0.25, 0.125, 0.1, -0.05, 0.3}, 0.2, 0.7};
     double in[3][20], out[20 * 3];
     for (size_t n = 0; n <= 20; ++n) {
         for (size_t k = 0; k < 3 * n; ++k)

@@ -38,10 +38,7 @@ static void use_machine(const pm_machine *m, size_t points)
 static double plane_entry(const pm_machine *m, double (*entry)(const pm_machine *, int, int, double), int a,
                           int b, double theta)
 {
-    static const double axis[2][3] = {
-        {2.0, -1.0, -1.0},
-        {0.0, 1.0,  -1.0}
-    };
+    static const double axis[2][3] = {{2.0, -1.0, -1.0}, {0.0, 1.0, -1.0}};
     static const double square[2] = {6.0, 2.0};
     double sum = 0.0;
     for (int r = 0; r < 3; ++r)
@@ -54,11 +51,7 @@ static double plane_entry(const pm_machine *m, double (*entry)(const pm_machine 
 static void assert_point(const pm_machine *m, const hci_plant_point *p, double theta, double step)
 {
     const double e[3] = {pm_emf(m, 0, theta), pm_emf(m, 1, theta), pm_emf(m, 2, theta)};
-    static const int index[3][2] = {
-        {0, 0},
-        {0, 1},
-        {1, 1}
-    };
+    static const int index[3][2] = {{0, 0}, {0, 1}, {1, 1}};
     double plane[2];
     hci_plane_from_abc(e, plane);
     TEST_ASSERT_DOUBLE_WITHIN(pow(13.0 * step, 4) / 384.0, plane[0], p->magnetic.e[0]);
@@ -171,10 +164,7 @@ static void test_any_angle_stays_within_the_table(void)
 static void test_a_state_that_is_not_a_number_ends_its_step(void)
 {
     const double bad[2] = {NAN, 0.0};
-    hci_plant_state y = {
-        {0.0, 0.0},
-        1.0, 0.0, 0.0
-    };
+    hci_plant_state y = {{0.0, 0.0}, 1.0, 0.0, 0.0};
     use_machine(&PM_INTERIOR, 256);
     plant.coulomb_Nm = 0.1;
     for (int k = 0; k < 3; ++k)
@@ -191,10 +181,7 @@ static void test_saliency_from_constants(void)
     TEST_ASSERT_TRUE(plant.table.salient);
     for (int k = 0; k < 20; ++k) {
         const double theta = 0.3 * k, s = sin(theta), c = cos(theta), d = -3.0, q = 4.0;
-        const hci_plant_state state = {
-            {s * q - c * d, -s * d - c * q},
-            0.0, theta / 3.0, 0.0
-        };
+        const hci_plant_state state = {{s * q - c * d, -s * d - c * q}, 0.0, theta / 3.0, 0.0};
         const double expected = 3.0 * (0.03 - 0.05) * d * q + sqrt(1.5) * 0.9 * q;
         TEST_ASSERT_DOUBLE_WITHIN(1e-9, expected, hci_plant_torque_Nm(&plant, &state));
     }
@@ -206,10 +193,7 @@ static const double VOLTAGE[2] = {14.0, 9.0};
 
 static hci_plant_state run(size_t steps, double total_s)
 {
-    hci_plant_state y = {
-        {1.0, -2.0},
-        12.0, 0.4, 0.0
-    };
+    hci_plant_state y = {{1.0, -2.0}, 12.0, 0.4, 0.0};
     for (size_t k = 0; k < steps; ++k)
         hci_plant_step(&plant, &y, VOLTAGE, 0.3, total_s / (double)steps);
     return y;
@@ -272,10 +256,7 @@ static double power_in(const hci_plant_state *y, double load_Nm)
  * the rule do. */
 static double energy_defect(const pm_machine *m, int pairs, double total_s)
 {
-    hci_plant_state y = {
-        {1.0, -2.0},
-        12.0, 0.4, 0.0
-    };
+    hci_plant_state y = {{1.0, -2.0}, 12.0, 0.4, 0.0};
     const double h = 0.5 * total_s / pairs, before = stored_energy(m, &y);
     double in = 0.0;
     for (int k = 0; k < pairs; ++k) {
@@ -305,10 +286,7 @@ static void test_energy_balance_falls_with_the_order(void)
  * potential of the formula differs from the table's by its error, 0.12·(24·2π/2048)⁴/384/48 < 1e-8 J. */
 static void test_energy_of_a_free_machine_is_conserved(void)
 {
-    hci_plant_state y = {
-        {1.0, -2.0},
-        60.0, 0.4, 0.0
-    };
+    hci_plant_state y = {{1.0, -2.0}, 60.0, 0.4, 0.0};
     const double none[2] = {0.0, 0.0};
     use_machine(&PM_INTERIOR, 2048);
     plant.resistance_ohm = 0.0;
@@ -329,10 +307,7 @@ static void test_energy_of_a_free_machine_is_conserved(void)
 /* Locked rotor: i = V/R (1 − e^{−Rt/L}) along each axis of L. RK4 at h/τ = 1/133 is within (h/τ)⁴/120. */
 static void test_locked_rotor_is_a_resistance_and_an_inductance(void)
 {
-    hci_plant_state y = {
-        {0.0, 0.0},
-        0.0, 0.9, 0.0
-    };
+    hci_plant_state y = {{0.0, 0.0}, 0.0, 0.9, 0.0};
     const double l = 0.02, h = 1e-4;
     use_machine(&PM_SINE, 256);
     TEST_ASSERT_FALSE(plant.table.salient);
@@ -352,10 +327,7 @@ static void check_run_down(double direction)
 {
     const double j = 0.01, b = 0.02, tc = 0.05, w0 = 30.0, none[2] = {0.0, 0.0}, h = 1e-3;
     const double rest_s = j / b * log(1.0 + b * w0 / tc), way = j * w0 / b - tc * rest_s / b;
-    hci_plant_state y = {
-        {0.0, 0.0},
-        direction * w0, 1.0, 0.0
-    };
+    hci_plant_state y = {{0.0, 0.0}, direction * w0, 1.0, 0.0};
     for (int k = 1; k <= 3000; ++k) {
         hci_plant_step_imposed(&plant, &y, none, 0.0, h);
         const double w = h * k < rest_s ? (w0 + tc / b) * exp(-b * h * k / j) - tc / b : 0.0;
@@ -377,10 +349,7 @@ static void test_run_down_with_friction(void)
 
 static void test_run_down_without_coulomb_friction(void)
 {
-    hci_plant_state y = {
-        {0.0, 0.0},
-        30.0, 1.0, 0.0
-    };
+    hci_plant_state y = {{0.0, 0.0}, 30.0, 1.0, 0.0};
     const double none[2] = {0.0, 0.0};
     use_machine(&PM_SINE, 256);
     plant.viscous_Nms = 0.02;
@@ -392,10 +361,7 @@ static void test_run_down_without_coulomb_friction(void)
 
 static void test_stiction_holds_and_lets_go(void)
 {
-    hci_plant_state y = {
-        {0.0, 0.0},
-        0.0, 1.0, 0.0
-    };
+    hci_plant_state y = {{0.0, 0.0}, 0.0, 1.0, 0.0};
     const double none[2] = {0.0, 0.0}, h = 1e-3;
     use_machine(&PM_SINE, 256);
     plant.coulomb_Nm = 0.05;
@@ -425,10 +391,7 @@ static void test_stiction_sees_all_torque_at_the_shaft(void)
 {
     const double torque = 0.04, none[2] = {0.0, 0.0};
     const hci_plant_effect effect = {pull, &torque};
-    hci_plant_state y = {
-        {0.0, 0.0},
-        0.0, 1.0, 0.0
-    };
+    hci_plant_state y = {{0.0, 0.0}, 0.0, 1.0, 0.0};
     use_machine(&PM_SINE, 256);
     plant.coulomb_Nm = 0.05;
     plant.effects = &effect;
@@ -444,10 +407,7 @@ static void test_stiction_sees_all_torque_at_the_shaft(void)
  * of RK4 adds at most (ωh)⁶/144 of the energy. */
 static void check_swing(double h)
 {
-    hci_plant_state y = {
-        {0.0, 0.0},
-        0.0, 0.4, 0.0
-    };
+    hci_plant_state y = {{0.0, 0.0}, 0.0, 0.4, 0.0};
     const double none[2] = {0.0, 0.0};
     double energy = stored_energy(&PM_SMOOTH, &y);
     int stopped = 0;
@@ -474,10 +434,7 @@ static void test_friction_never_feeds_in_energy(void)
 
 static void test_open_terminals_show_the_back_emf(void)
 {
-    const hci_plant_state y = {
-        {0.0, 0.0},
-        -37.0, 1.234, 0.0
-    };
+    const hci_plant_state y = {{0.0, 0.0}, -37.0, 1.234, 0.0};
     double v[3], mean = 0.0;
     use_machine(&PM_INTERIOR, POINTS);
     hci_plant_emf_V(&plant, &y, v);
@@ -494,10 +451,7 @@ static void test_sinusoidal_steady_state_is_the_phasor_solution(void)
     const double w = 20.0, h = 5e-5, we = 3.0 * w, l = 0.02, r = 1.5, v = 30.0, delta = 0.25;
     const double re = v * cos(delta) - 0.9 * w, im = v * sin(delta), size = r * r + we * we * l * l;
     const double ire = (re * r + im * we * l) / size, iim = (im * r - re * we * l) / size;
-    hci_plant_state y = {
-        {0.0, 0.0},
-        w, 0.0, 0.0
-    };
+    hci_plant_state y = {{0.0, 0.0}, w, 0.0, 0.0};
     double abc[3], plane[2];
     use_machine(&PM_SINE, 4096);
     plant.inertia_kgm2 = INFINITY;
@@ -566,14 +520,8 @@ static void warm_magnet(const void *context, const hci_plant_state *state, hci_p
 static void test_effects(void)
 {
     const double c = 1e-4, factor = 0.8, none[2] = {0.0, 0.0}, alpha[2] = {2.0, 0.0};
-    const hci_plant_effect effects[2] = {
-        {drag,        &c     },
-        {warm_magnet, &factor}
-    };
-    hci_plant_state y = {
-        {0.0, 0.0},
-        100.0, 0.0, 0.0
-    };
+    const hci_plant_effect effects[2] = {{drag, &c}, {warm_magnet, &factor}};
+    hci_plant_state y = {{0.0, 0.0}, 100.0, 0.0, 0.0};
     use_machine(&PM_SINE, 4096);
     plant.effects = effects;
     plant.effect_count = 2;
@@ -592,10 +540,7 @@ static void test_angle_is_wrapped_and_counted(void)
     use_machine(&PM_SINE, 64);
     plant.inertia_kgm2 = INFINITY;
     for (int sign = -1; sign <= 1; sign += 2) {
-        hci_plant_state y = {
-            {0.0, 0.0},
-            sign * 1000.0, 0.0, 0.0
-        };
+        hci_plant_state y = {{0.0, 0.0}, sign * 1000.0, 0.0, 0.0};
         for (int k = 0; k < 100000; ++k) {
             hci_plant_step_imposed(&plant, &y, none, 0.0, 1e-4);
             TEST_ASSERT_TRUE(y.theta_m_rad >= 0.0 && y.theta_m_rad < 2.0 * REF_PI);

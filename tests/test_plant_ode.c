@@ -86,9 +86,7 @@ static void set_legs(reference *r, int segment)
 /* The state after all segments; CVODE starts anew at each, where the voltage jumps. */
 static void integrate_reference(const pm_machine *machine, double y[4])
 {
-    reference r = {
-        machine, {0.0, 0.0, 0.0}
-    };
+    reference r = {machine, {0.0, 0.0, 0.0}};
     SUNContext context = NULL;
     double t;
     TEST_ASSERT_EQUAL_INT(0, SUNContext_Create(NULL, &context));
@@ -119,10 +117,7 @@ static const double START[4] = {0.0, 0.0, 6.0, 0.5};
 
 static void integrate_plant(const hci_plant *plant, int steps_per_segment, double y[4])
 {
-    hci_plant_state state = {
-        {0.0, 0.0},
-        START[2], START[3], 0.0
-    };
+    hci_plant_state state = {{0.0, 0.0}, START[2], START[3], 0.0};
     double v[2], abc[3];
     for (int k = 0; k < SEGMENTS; ++k) {
         hci_inverter_switched(DC_LINK_V, LEGS[k % 6], v);

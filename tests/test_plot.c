@@ -37,14 +37,12 @@ static hci_solved_order solved(double n, double before_Nm, double wanted_Nm, dou
                                hci_order_verdict verdict)
 {
     const double phase_rad = 0.3 * n;
-    return (hci_solved_order){
-        hci_harmonic_polar(n, wanted_Nm, phase_rad),
-        hci_harmonic_polar(n, after_Nm, phase_rad),
-        hci_harmonic_polar(n, before_Nm, phase_rad),
-        fabs(after_Nm - wanted_Nm),
-        verdict,
-        {0.0, 0}
-    };
+    return (hci_solved_order){hci_harmonic_polar(n, wanted_Nm, phase_rad),
+                              hci_harmonic_polar(n, after_Nm, phase_rad),
+                              hci_harmonic_polar(n, before_Nm, phase_rad),
+                              fabs(after_Nm - wanted_Nm),
+                              verdict,
+                              {0.0, 0}};
 }
 
 void setUp(void)
@@ -391,11 +389,7 @@ static void test_vector_is_read_back(void)
 static void test_spectrum_is_read_back(void)
 {
     static const char *const STYLE[] = {"before", "wanted", "after"};
-    static const double HEIGHT_Nm[3][2] = {
-        {0.5, 0.1},
-        {0.2, 0.0},
-        {0.3, 0.4}
-    };
+    static const double HEIGHT_Nm[3][2] = {{0.5, 0.1}, {0.2, 0.0}, {0.3, 0.4}};
     draw();
     const scale s = read_scale("quiet end", true, 614.0, 120.0, 380.0);
     for (int k = 0; k < 3; ++k)
@@ -530,12 +524,12 @@ static void test_numbers_of_an_axis(void)
         hci_svg_range r;
         const char *is[2], *is_not;
     } CASE[] = {
-        {{0.049918, 0.050083},     {">0.05000<", ">0.05005<"},       "e-"  },
-        {{0.0, 1.2e-6},            {">0<", ">1.0e-6<"},              "e-7" },
-        {{-3e-4, 3e-4},            {">−0.0002<", ">0.0002<"},      "e-"  },
-        {{1e4 - 1e-3, 1e4 + 1e-3}, {">10000.0000<", ">10000.0005<"}, "e"   },
-        {{0.0, 3e6},               {">0<", ">2e6<"},                 "000<"},
-        {{0.0, 0.0021},            {">0.000", ">0.002"},             "e-"  },
+        {{0.049918, 0.050083}, {">0.05000<", ">0.05005<"}, "e-"},
+        {{0.0, 1.2e-6}, {">0<", ">1.0e-6<"}, "e-7"},
+        {{-3e-4, 3e-4}, {">−0.0002<", ">0.0002<"}, "e-"},
+        {{1e4 - 1e-3, 1e4 + 1e-3}, {">10000.0000<", ">10000.0005<"}, "e"},
+        {{0.0, 3e6}, {">0<", ">2e6<"}, "000<"},
+        {{0.0, 0.0021}, {">0.000", ">0.002"}, "e-"},
     };
     for (size_t k = 0; k < sizeof CASE / sizeof *CASE; ++k) {
         hci_output *out = begin_part();
@@ -567,10 +561,10 @@ static void test_labels_make_room(void)
         double pitch, first, step;
         size_t rows, shown;
     } CASE[] = {
-        {40.0, 6.0,   6.0,       1, 24},
-        {17.0, 1.5,   1.5,       2, 24},
+        {40.0, 6.0, 6.0, 1, 24},
+        {17.0, 1.5, 1.5, 2, 24},
         {14.7, 4.583, 1.0833333, 2, 12},
-        {3.0,  4.583, 1.0833333, 2, 4 },
+        {3.0, 4.583, 1.0833333, 2, 4},
     };
     for (size_t k = 0; k < sizeof CASE / sizeof *CASE; ++k) {
         hci_svg_tag tag[24];
@@ -633,22 +627,11 @@ static void test_number_texts(void)
     static const struct {
         double value;
         const char *text;
-    } CASES[] = {
-        {0.0,       "0 A"      },
-        {12.0,      "12 A"     },
-        {-1.5,      "−1.5 A" },
-        {0.25,      "0.25 A"   },
-        {0.099,     "99 mA"    },
-        {2.463e-6,  "2.463 µA"},
-        {1e-13,     "< 1 pA"   },
-        {99995.0,   "100 kA"   },
-        {1.0 / 3.0, "0.3333 A" },
-        {1e200,     "> 1000 MA"},
-        {NAN,       "> 1000 MA"},
-        {1234567.0, "1.235 MA" },
-        {-0.00004,  "−40 µA"},
-        {3e-10,     "0.3 nA"   }
-    };
+    } CASES[] = {{0.0, "0 A"},         {12.0, "12 A"},      {-1.5, "−1.5 A"},
+                 {0.25, "0.25 A"},     {0.099, "99 mA"},    {2.463e-6, "2.463 µA"},
+                 {1e-13, "< 1 pA"},    {99995.0, "100 kA"}, {1.0 / 3.0, "0.3333 A"},
+                 {1e200, "> 1000 MA"}, {NAN, "> 1000 MA"},  {1234567.0, "1.235 MA"},
+                 {-0.00004, "−40 µA"}, {3e-10, "0.3 nA"}};
     for (size_t k = 0; k < sizeof CASES / sizeof CASES[0]; ++k) {
         char text[HCI_SVG_NUMBER_SIZE];
         hci_svg_quantity_text(text, CASES[k].value, "A");

@@ -59,12 +59,7 @@ static void solve(const char *target_name, const hci_component_set *set, hci_sta
 
 /* A set that reaches neither order 5 of scenario 7 nor 24, 30, 36, and has two components that nothing is
  * asked of. */
-static hci_component component[] = {
-    {5.0, -1},
-    {7.0, 1 },
-    {4.0, 1 },
-    {2.0, -1}
-};
+static hci_component component[] = {{5.0, -1}, {7.0, 1}, {4.0, 1}, {2.0, -1}};
 static hci_set set_name[] = {HCI_SET_NEG, HCI_SET_POS, HCI_SET_POS, HCI_SET_NEG};
 
 static void solve_poor_set(void)
@@ -255,9 +250,7 @@ static double many_value[2 * MANY];
 static void make_many(size_t orders, size_t components)
 {
     for (size_t k = 0; k < orders; ++k)
-        many_order[k] = (hci_solved_order){
-            .torque_Nm = {(double)k, 0.0, 0.0}
-        };
+        many_order[k] = (hci_solved_order){.torque_Nm = {(double)k, 0.0, 0.0}};
     for (size_t k = 0; k < components; ++k) {
         many_component[k] = (hci_component){(double)k + 1.0, 1};
         many_wave[k] = hci_wave_polar((double)k + 1.0, 1, 1.0, 0.0);
@@ -267,15 +260,14 @@ static void make_many(size_t orders, size_t components)
         many_row[j] = (int64_t)((2 * orders - 2) * j / (2 * components - 1));
         many_value[j] = j % 2 ? -0.25 : 1.0;
     }
-    solution = (hci_solution){
-        .current = {.wave = many_wave, .count = components},
-        .order = many_order,
-        .order_count = orders,
-        .system = { .set = {.component = many_component, .set = many_set, .count = components},
-                    .column_start = many_start,
-                    .row = many_row,
-                    .value = many_value}
-    };
+    solution =
+        (hci_solution){.current = {.wave = many_wave, .count = components},
+                       .order = many_order,
+                       .order_count = orders,
+                       .system = {.set = {.component = many_component, .set = many_set, .count = components},
+                                  .column_start = many_start,
+                                  .row = many_row,
+                                  .value = many_value}};
 }
 
 static void test_large_systems_are_binned(void)
@@ -353,11 +345,10 @@ static void test_map(void)
     static hci_run run[3] = {{.name = "a.csv"}, {.name = "b<.csv"}, {.name = "c.csv"}};
     static hci_role role[3] = {HCI_ROLE_FIT, HCI_ROLE_FIT, HCI_ROLE_HOLDOUT};
     static hci_residual_line line[] = {
-        {.run = 0, .order = 6.0,  .before_Nm = 1.0, .after_Nm = 0.01,   .noise_Nm = 0.001},
+        {.run = 0, .order = 6.0, .before_Nm = 1.0, .after_Nm = 0.01, .noise_Nm = 0.001},
         {.run = 2, .order = 12.0, .before_Nm = 0.1, .after_Nm = 0.0005, .noise_Nm = 0.001},
-        {.run = 1, .order = 6.0,  .before_Nm = 1.0, .after_Nm = 0.5,    .noise_Nm = 0.001},
-        {.run = 0, .order = 7.0,  .before_Nm = 1.0, .after_Nm = 0.5,    .noise_Nm = 0.001}
-    };
+        {.run = 1, .order = 6.0, .before_Nm = 1.0, .after_Nm = 0.5, .noise_Nm = 0.001},
+        {.run = 0, .order = 7.0, .before_Nm = 1.0, .after_Nm = 0.5, .noise_Nm = 0.001}};
     static const size_t shown[] = {0, 2};
     static const double order[] = {6.0, 12.0};
     static hci_runs runs = {.run = run, .role = role, .count = 3};

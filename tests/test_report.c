@@ -12,8 +12,8 @@
 #include <unistd.h>
 
 #include "hci/host/csv/csv.h"
-#include "host/draw/html.h"
 #include "host/base/memory.h"
+#include "host/draw/html.h"
 #include "host/draw/plot.h"
 #include "reference.h"
 #include "unity.h"
@@ -526,18 +526,18 @@ static void test_digits(void)
         double value;
         const char *shown;
     } CASE[] = {
-        {0.0,                   ">0<"              },
-        {1.0 / 3.0,             ">0.3333<"         },
-        {-2.34567e-9,           ">−2.346e−9<"  },
-        {123456.0,              ">123500<"         },
-        {0.00099996,            ">0.001<"          },
-        {99999.0,               ">100000<"         },
-        {7.666467083416871e-20, ">7.666e−20<"    },
-        {-1.23456e-300,         ">−1.235e−300<"},
-        {4.94e-324,             ">5e−324<"       },
-        {9.87654321e200,        ">9.877e200<"      },
-        {NAN,                   "<td>–</td>"     },
-        {HUGE_VAL,              "<td>–</td>"     },
+        {0.0, ">0<"},
+        {1.0 / 3.0, ">0.3333<"},
+        {-2.34567e-9, ">−2.346e−9<"},
+        {123456.0, ">123500<"},
+        {0.00099996, ">0.001<"},
+        {99999.0, ">100000<"},
+        {7.666467083416871e-20, ">7.666e−20<"},
+        {-1.23456e-300, ">−1.235e−300<"},
+        {4.94e-324, ">5e−324<"},
+        {9.87654321e200, ">9.877e200<"},
+        {NAN, "<td>–</td>"},
+        {HUGE_VAL, "<td>–</td>"},
     };
     hci_output *out = open_page();
     for (size_t k = 0; k < sizeof CASE / sizeof *CASE; ++k)
@@ -704,11 +704,7 @@ static void test_solution(void)
 static void test_simulation(void)
 {
     static hci_traces traces;
-    hci_harmonic spectrum[] = {
-        {0.0, 0.0,  2.5  },
-        {1.0, 0.25, 0.0  },
-        {2.0, 0.0,  0.125}
-    };
+    hci_harmonic spectrum[] = {{0.0, 0.0, 2.5}, {1.0, 0.25, 0.0}, {2.0, 0.0, 0.125}};
     const hci_report_sources sources = {.machine = "m", .scenario = HOSTILE};
     hci_simulation s;
     hci_note note = {{0}};
@@ -740,17 +736,8 @@ static void test_simulation(void)
 static void test_simulation_with_before(void)
 {
     static hci_traces traces;
-    hci_harmonic spectrum[] = {
-        {0.0, 0.0,  2.5  },
-        {0.5, 0.0,  0.0  },
-        {1.0, 0.25, 0.0  },
-        {2.0, 0.0,  1e-17}
-    };
-    hci_harmonic plain[] = {
-        {0.0, 0.0,   2.5 },
-        {0.5, 0.125, 0.0 },
-        {2.0, 0.0,   0.75}
-    };
+    hci_harmonic spectrum[] = {{0.0, 0.0, 2.5}, {0.5, 0.0, 0.0}, {1.0, 0.25, 0.0}, {2.0, 0.0, 1e-17}};
+    hci_harmonic plain[] = {{0.0, 0.0, 2.5}, {0.5, 0.125, 0.0}, {2.0, 0.0, 0.75}};
     const hci_report_sources sources = {.machine = "m", .scenario = "s", .currents = "c"};
     hci_simulation s;
     hci_note note = {{0}};

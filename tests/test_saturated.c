@@ -24,30 +24,14 @@ typedef struct {
 } term;
 
 static const term TERMS[] = {
-    {2, 0, 0.0,  true,  -0.10 },
-    {0, 2, 0.0,  true,  0.10  },
-    {1, 1, 6.0,  false, 0.02  },
-    {1, 2, 0.0,  true,  -0.40 },
-    {3, 0, 6.0,  true,  0.02  },
-    {0, 3, 6.0,  false, 0.02  },
-    {2, 2, 6.0,  true,  0.02  },
-    {0, 4, 0.0,  true,  0.10  },
-    {1, 4, 0.0,  true,  -0.10 },
-    {3, 2, 6.0,  true,  0.01  },
-    {0, 6, 12.0, true,  0.004 },
-    {4, 4, 6.0,  true,  -0.002},
+    {2, 0, 0.0, true, -0.10}, {0, 2, 0.0, true, 0.10},  {1, 1, 6.0, false, 0.02},  {1, 2, 0.0, true, -0.40},
+    {3, 0, 6.0, true, 0.02},  {0, 3, 6.0, false, 0.02}, {2, 2, 6.0, true, 0.02},   {0, 4, 0.0, true, 0.10},
+    {1, 4, 0.0, true, -0.10}, {3, 2, 6.0, true, 0.01},  {0, 6, 12.0, true, 0.004}, {4, 4, 6.0, true, -0.002},
 };
 enum { TERM_COUNT = sizeof TERMS / sizeof *TERMS };
 
-static const ref_wave EMF[] = {
-    {1, 1, 1.0,  0.0 },
-    {5, 5, 0.06, 0.4 },
-    {7, 7, 0.04, -1.0}
-};
-static const ref_wave COGGING[] = {
-    {6,  0, 0.12, 0.3 },
-    {12, 0, 0.06, -0.9}
-};
+static const ref_wave EMF[] = {{1, 1, 1.0, 0.0}, {5, 5, 0.06, 0.4}, {7, 7, 0.04, -1.0}};
+static const ref_wave COGGING[] = {{6, 0, 0.12, 0.3}, {12, 0, 0.06, -0.9}};
 
 /* ---- torque by formulas of its own ---- */
 
@@ -161,14 +145,8 @@ static const hci_target TARGET = {wanted, 2};
 
 static void want(double mean_Nm, double order, double amplitude_Nm)
 {
-    wanted[0] = (hci_target_order){
-        {0.0, 0.0, mean_Nm},
-        1.0
-    };
-    wanted[1] = (hci_target_order){
-        {order, amplitude_Nm, 0.0},
-        1.0
-    };
+    wanted[0] = (hci_target_order){{0.0, 0.0, mean_Nm}, 1.0};
+    wanted[1] = (hci_target_order){{order, amplitude_Nm, 0.0}, 1.0};
 }
 
 static double wanted_at(double theta)
@@ -350,12 +328,7 @@ static double squared_error(const hci_wave *wave, size_t count)
  * the set, and no single coordinate can be bettered by much. */
 static void test_a_given_set(void)
 {
-    static const hci_component COMPONENT[] = {
-        {1.0,  1 },
-        {5.0,  -1},
-        {7.0,  1 },
-        {11.0, -1}
-    };
+    static const hci_component COMPONENT[] = {{1.0, 1}, {5.0, -1}, {7.0, 1}, {11.0, -1}};
     static const hci_set NAME[] = {HCI_SET_POS, HCI_SET_NEG, HCI_SET_POS, HCI_SET_NEG};
     hci_component component[4];
     hci_set name[4];
@@ -523,14 +496,7 @@ static void expect_equal(const hci_solution *x, const hci_solution *y)
 /* L'_rs of the terms of second degree by differences of the co-energy, analysed by a sum of its own. */
 static void make_slopes(hci_inductance_slope *slope, size_t orders)
 {
-    static const int PAIR[6][2] = {
-        {0, 0},
-        {1, 1},
-        {2, 2},
-        {0, 1},
-        {1, 2},
-        {2, 0}
-    };
+    static const int PAIR[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}};
     enum { N = 64 };
     for (size_t n = 0; n < orders; ++n) {
         memset(&slope[n], 0, sizeof slope[n]);
@@ -582,12 +548,8 @@ static void test_reluctance_is_an_inductance_table(void)
 /* Back-EMF, cogging, temperature: the machine declared with the sums. */
 static void test_linear_effects_are_the_declared_machine(void)
 {
-    hci_wave other[4] = {
-        emf[0], emf[1], emf[2], {11.0, -1, 0.03, 0.01}
-    };
-    hci_harmonic more[3] = {
-        cogging[0], cogging[1], {18.0, 0.02, -0.03}
-    };
+    hci_wave other[4] = {emf[0], emf[1], emf[2], {11.0, -1, 0.03, 0.01}};
+    hci_harmonic more[3] = {cogging[0], cogging[1], {18.0, 0.02, -0.03}};
     hci_solve_options o = options();
     hci_solution s, declared;
     memset(&effects, 0, sizeof effects);

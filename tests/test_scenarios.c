@@ -13,21 +13,14 @@
 enum { SCENARIOS = 12, SAMPLES = 4096, BINS = 160, PLAIN_COPPER_A2 = 216 /* 1.5·12² */ };
 
 /* Machine A as printed (Tables 4 and 5): peak volts at 50 Hz electrical over ω_m = 2π·50/2 rad/s. */
-static const ref_wave EMF_V[] = {
-    {1.0,  0.0, 21.93, 0.0},
-    {5.0,  0.0, -5.02, 0.0},
-    {7.0,  0.0, 4.80,  0.0},
-    {11.0, 0.0, -8.10, 0.0},
-    {13.0, 0.0, -1.61, 0.0}
-};
-static const ref_wave COGGING_NM[] = {
-    {6.0,  0.0, 0.0021, 1.22 },
-    {12.0, 0.0, 0.3102, 1.76 },
-    {18.0, 0.0, 0.0031, -1.57},
-    {24.0, 0.0, 0.3702, -1.19},
-    {30.0, 0.0, 0.0011, 1.88 },
-    {36.0, 0.0, 0.2470, 2.15 }
-};
+static const ref_wave EMF_V[] = {{1.0, 0.0, 21.93, 0.0},
+                                 {5.0, 0.0, -5.02, 0.0},
+                                 {7.0, 0.0, 4.80, 0.0},
+                                 {11.0, 0.0, -8.10, 0.0},
+                                 {13.0, 0.0, -1.61, 0.0}};
+static const ref_wave COGGING_NM[] = {{6.0, 0.0, 0.0021, 1.22},   {12.0, 0.0, 0.3102, 1.76},
+                                      {18.0, 0.0, 0.0031, -1.57}, {24.0, 0.0, 0.3702, -1.19},
+                                      {30.0, 0.0, 0.0011, 1.88},  {36.0, 0.0, 0.2470, 2.15}};
 enum { EMF = sizeof EMF_V / sizeof EMF_V[0], COGGING = sizeof COGGING_NM / sizeof COGGING_NM[0] };
 
 static hci_machine_data machine;

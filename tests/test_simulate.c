@@ -11,8 +11,8 @@
 #include <unistd.h>
 
 #include "hci/host/csv/csv.h"
-#include "hci/host/simulate/simulate.h"
 #include "hci/host/report/summary.h"
+#include "hci/host/simulate/simulate.h"
 #include "host/base/memory.h"
 #include "unity.h"
 
@@ -209,12 +209,10 @@ static void test_imposed_currents_keep_the_promise_of_machine_c(void)
     static const struct {
         hci_method method;
         hci_strategy strategy;
-    } WAY[] = {
-        {HCI_METHOD_AUTO,      HCI_STRATEGY_MTPA  },
-        {HCI_METHOD_POINTWISE, HCI_STRATEGY_MTPA  },
-        {HCI_METHOD_POINTWISE, HCI_STRATEGY_CANCEL},
-        {HCI_METHOD_POINTWISE, HCI_STRATEGY_ID0   }
-    };
+    } WAY[] = {{HCI_METHOD_AUTO, HCI_STRATEGY_MTPA},
+               {HCI_METHOD_POINTWISE, HCI_STRATEGY_MTPA},
+               {HCI_METHOD_POINTWISE, HCI_STRATEGY_CANCEL},
+               {HCI_METHOD_POINTWISE, HCI_STRATEGY_ID0}};
     write_text("target.csv", "order,amplitude_Nm,phase_rad\n0,8,0\n");
     for (size_t k = 0; k < 4; ++k) {
         hci_solution solution = solve(&machine_c, in_root("target.csv"), WAY[k].method, WAY[k].strategy);
@@ -311,10 +309,8 @@ static hci_simulation run_experiment(int strategy)
 
 /* Tables 2 and 3: mean, maximum, minimum, F_ripple, T_ripple of the torque; mean, rms, maximum, minimum of
  * i_s. */
-static const double PAPER[2][9] = {
-    {8.00, 9.32, 6.54, 5.96, 34.79, 6.55, 6.56, 7.29, 5.74},
-    {8.00, 8.70, 7.36, 2.52, 16.64, 6.70, 6.70, 7.78, 6.13}
-};
+static const double PAPER[2][9] = {{8.00, 9.32, 6.54, 5.96, 34.79, 6.55, 6.56, 7.29, 5.74},
+                                   {8.00, 8.70, 7.36, 2.52, 16.64, 6.70, 6.70, 7.78, 6.13}};
 
 static void print_row(int strategy, const hci_simulation *s)
 {

@@ -140,10 +140,8 @@ static void draw_target(uint64_t *seed, bool weighted, problem *p)
             p->target_count = k;
             break;
         }
-        p->wanted[k] = (hci_target_order){
-            {used[k], amplitude * cos(phase), amplitude * sin(phase)},
-            weighted ? WEIGHT[ref_integer(seed, 0, 5)] : 1.0
-        };
+        p->wanted[k] = (hci_target_order){{used[k], amplitude * cos(phase), amplitude * sin(phase)},
+                                          weighted ? WEIGHT[ref_integer(seed, 0, 5)] : 1.0};
     }
     p->wanted[0].torque_Nm =
         (hci_harmonic){0.0, 0.0, ref_uniform(seed, 0.2, 5.0) * (ref_integer(seed, 0, 1) ? 1 : -1)};
@@ -937,10 +935,7 @@ static void plain_problem(problem *p)
     p->emf_count = p->cogging_count = p->target_count = 1;
     p->emf[0] = (ref_wave){1.0, 0.0, 0.5, 0.0};
     p->cogging[0] = (ref_wave){6.0, 0.0, 0.2, 1.0};
-    p->wanted[0] = (hci_target_order){
-        {0.0, 0.0, 3.0},
-        1.0
-    };
+    p->wanted[0] = (hci_target_order){{0.0, 0.0, 3.0}, 1.0};
     add_component(p, (hci_component){5.0, -1}, HCI_SET_NEG);
     add_component(p, (hci_component){7.0, 1}, HCI_SET_POS);
     bind(p);

@@ -177,12 +177,7 @@ static void test_qr_condition_over_many_scales(void)
 static void test_qr_of_nothing(void)
 {
     static matrix a;
-    const size_t shape[4][2] = {
-        {0, 0},
-        {0, 5},
-        {5, 0},
-        {3, 4}
-    }; /* the last: all zero */
+    const size_t shape[4][2] = {{0, 0}, {0, 5}, {5, 0}, {3, 4}}; /* the last: all zero */
     uint64_t seed = 20205;
     for (size_t k = 0; k < 4; ++k) {
         memset(&a, 0, sizeof a);

@@ -106,10 +106,7 @@ static point_case scaled(const point_case *c, double t, double i)
 
 static point_case draw_case(int kind)
 {
-    point_case c = {
-        {{0.0, 0.0}, {0.0, 0.0, 0.0}, 0.0},
-        0.0, kind
-    };
+    point_case c = {{{0.0, 0.0}, {0.0, 0.0, 0.0}, 0.0}, 0.0, kind};
     const double angle_rad =
         ref_integer(&seed, 0, 3) ? uniform(-4.0, 4.0) : 0.25 * REF_PI * ref_integer(&seed, -4, 4);
     const double size = ref_integer(&seed, 0, 7) ? fabs(draw_size(1.0)) : pow(10.0, uniform(-30.0, -8.0));
@@ -155,12 +152,10 @@ static problem problem_of(const point_case *c)
     const real outer = mean < 0.0L ? mean - radius : mean + radius;
     const real inner = outer == 0.0L ? 0.0L : (aa * bb - ab * ab) / outer;
     const real axis_rad = 0.5L * atan2l(ab, 0.5L * (aa - bb)), c0 = cosl(axis_rad), s0 = sinl(axis_rad);
-    const problem q = {
-        {sign * (c0 * c->p.e[0] + s0 * c->p.e[1]), sign * (c0 * c->p.e[1] - s0 * c->p.e[0])},
-        {mean < 0.0L ? inner : outer,              mean < 0.0L ? outer : inner             },
-        sign * given,
-        axis_rad
-    };
+    const problem q = {{sign * (c0 * c->p.e[0] + s0 * c->p.e[1]), sign * (c0 * c->p.e[1] - s0 * c->p.e[0])},
+                       {mean < 0.0L ? inner : outer, mean < 0.0L ? outer : inner},
+                       sign * given,
+                       axis_rad};
     return q;
 }
 
@@ -452,9 +447,7 @@ static void test_boundary_of_what_is_reached(void)
         TEST_ASSERT_EQUAL_INT(HCI_NOT_REACHED, shortest(&c, x));
     }
     const point_case exact = {
-        {{1.0, 0.0}, {-1.0, 0.0, -1.0}, 0.0},
-        0.5, NEGATIVE
-    }; /* T = i − i²/2 has ½ at 1 A */
+        {{1.0, 0.0}, {-1.0, 0.0, -1.0}, 0.0}, 0.5, NEGATIVE}; /* T = i − i²/2 has ½ at 1 A */
     double x[2];
     TEST_ASSERT_EQUAL_INT(HCI_OK, shortest(&exact, x));
     TEST_ASSERT_EQUAL_DOUBLE(1.0, x[0]);
@@ -469,27 +462,18 @@ static void test_hard_cases_by_their_closed_forms(void)
         const double e = uniform(0.1, 3.0), h = uniform(0.1, 3.0), k = uniform(0.1, 3.0),
                      torque = uniform(0.1, 9.0);
         const double e_rad = uniform(-3.0, 3.0);
-        const point_case zero = {
-            {{0.0, 0.0}, {h, 0.0, -k}, 0.0},
-            torque, HARD
-        };
+        const point_case zero = {{{0.0, 0.0}, {h, 0.0, -k}, 0.0}, torque, HARD};
         TEST_ASSERT_EQUAL_INT(HCI_OK, shortest(&zero, x));
         TEST_ASSERT_DOUBLE_WITHIN(1e-14 * length(x), sqrt(2.0 * torque / h), fabs(x[0]));
         TEST_ASSERT_DOUBLE_WITHIN(1e-14 * length(x), 0.0, x[1]);
-        const point_case round = {
-            {{e * cos(e_rad), e * sin(e_rad)}, {h, 0.0, h}, 0.0},
-            torque, HARD
-        };
+        const point_case round = {{{e * cos(e_rad), e * sin(e_rad)}, {h, 0.0, h}, 0.0}, torque, HARD};
         const double r = 2.0 * torque / (e + sqrt(e * e + 2.0 * h * torque));
         TEST_ASSERT_EQUAL_INT(HCI_OK, shortest(&round, x));
         TEST_ASSERT_DOUBLE_WITHIN(1e-14 * r, r * cos(e_rad), x[0]);
         TEST_ASSERT_DOUBLE_WITHIN(1e-14 * r, r * sin(e_rad), x[1]);
         /* along the second axis i = λe/(1 + λk) with λ = 1/h, the rest by the first axis alone */
         const double i = e / (h + k), rest = torque - e * i + 0.5 * k * i * i;
-        const point_case across = {
-            {{0.0, e}, {h, 0.0, -k}, 0.0},
-            torque, HARD
-        };
+        const point_case across = {{{0.0, e}, {h, 0.0, -k}, 0.0}, torque, HARD};
         if (rest < 0.01) continue;
         TEST_ASSERT_EQUAL_INT(HCI_OK, shortest(&across, x));
         TEST_ASSERT_DOUBLE_WITHIN(1e-14 * length(x), i, x[1]);
@@ -501,11 +485,7 @@ static void test_hard_cases_by_their_closed_forms(void)
 /* In the hard case both signs are as good: the one nearer to the answer before is taken. */
 static void test_hard_case_keeps_to_the_side_it_was_on(void)
 {
-    const hci_machine_point p = {
-        {0.0,  1.0 },
-        { 2.0, 0.0, -1.0},
-        0.0
-    };
+    const hci_machine_point p = {{0.0, 1.0}, {2.0, 0.0, -1.0}, 0.0};
     const double plus[2] = {3.0, 0.3}, minus[2] = {-3.0, 0.3};
     double x[2];
     hci_strategy_current(&p, HCI_STRATEGY_MTPA, 8.0, plus, x, NULL);
@@ -535,10 +515,7 @@ static void test_it_returns_whatever_it_is_given(void)
 {
     const double odd[9] = {0.0, 1.0, -1.0, 1e200, -1e-200, 5e-324, INFINITY, -INFINITY, NAN};
     for (int trial = 0; trial < 20000; ++trial) {
-        point_case c = {
-            {{0.0, 0.0}, {0.0, 0.0, 0.0}, 0.0},
-            odd[ref_integer(&seed, 0, 8)], HARD
-        };
+        point_case c = {{{0.0, 0.0}, {0.0, 0.0, 0.0}, 0.0}, odd[ref_integer(&seed, 0, 8)], HARD};
         double x[2], least_A;
         for (int k = 0; k < 2; ++k)
             c.p.e[k] = odd[ref_integer(&seed, 0, 8)];
@@ -562,8 +539,7 @@ static point_case turned(const point_case *c, double angle_rad)
           s * s * h[0] + 2.0 * k * s * h[1] + k * k * h[2]},
          c->p.cogging_Nm},
         c->torque_Nm,
-        c->kind
-    };
+        c->kind};
     return t;
 }
 
@@ -625,14 +601,12 @@ static axes axes_of(const point_case *c)
 {
     const real e = hypotl(c->p.e[0], c->p.e[1]), qa = c->p.e[0] / e, qb = c->p.e[1] / e;
     const real aa = c->p.slope[0], ab = c->p.slope[1], bb = c->p.slope[2];
-    const axes a = {
-        e,
-        {qa, qb},
-        qb * (aa * qb - ab * qa) - qa * (ab * qb - bb * qa),
-        qb * (aa * qa + ab * qb) - qa * (ab * qa + bb * qb),
-        qa * (aa * qa + ab * qb) + qb * (ab * qa + bb * qb),
-        c->torque_Nm / e
-    };
+    const axes a = {e,
+                    {qa, qb},
+                    qb * (aa * qb - ab * qa) - qa * (ab * qb - bb * qa),
+                    qb * (aa * qa + ab * qb) - qa * (ab * qa + bb * qb),
+                    qa * (aa * qa + ab * qb) + qb * (ab * qa + bb * qb),
+                    c->torque_Nm / e};
     return a;
 }
 
@@ -711,16 +685,8 @@ static void test_cancel_takes_the_shorter_root_just_where_there_is_one(void)
  * anyway. */
 static void test_cancel_stays_near_the_answer_before(void)
 {
-    const hci_machine_point tie = {
-        {0.0,  1.0},
-        { 2.0, 0.0, 0.0},
-        -1.0
-    }; /* i_d² = 1, d axis (1, 0) */
-    const hci_machine_point clear = {
-        {0.0,  1.0},
-        { 2.0, 3.0, 0.0},
-        -1.0
-    };
+    const hci_machine_point tie = {{0.0, 1.0}, {2.0, 0.0, 0.0}, -1.0}; /* i_d² = 1, d axis (1, 0) */
+    const hci_machine_point clear = {{0.0, 1.0}, {2.0, 3.0, 0.0}, -1.0};
     const double plus[2] = {0.7, 1.0}, minus[2] = {-0.7, 1.0}, far[2] = {-4.0, 1.0};
     double x[2];
     TEST_ASSERT_EQUAL_INT(HCI_OK, hci_strategy_current(&tie, HCI_STRATEGY_CANCEL, 1.0, plus, x, NULL));
@@ -741,11 +707,7 @@ static void test_cancel_where_l_d_vanishes(void)
                      id = -(0.5 * q * iq * iq + cogging_Nm) / (m * iq);
         for (int decade = 6; decade <= 18; decade += 4) {
             const double d = decade == 18 ? 0.0 : either_sign() * pow(10.0, -decade);
-            const hci_machine_point p = {
-                {0.0, 1.0},
-                { d,  m,   q},
-                cogging_Nm
-            };
+            const hci_machine_point p = {{0.0, 1.0}, {d, m, q}, cogging_Nm};
             double x[2];
             TEST_ASSERT_EQUAL_INT(HCI_OK, hci_strategy_current(&p, HCI_STRATEGY_CANCEL, iq, NULL, x, NULL));
             /* next term of the root: −½ L'_d i_d²/(M' i_q), with |i_d| < 20 */
@@ -767,11 +729,7 @@ static void test_least_iq_is_the_threshold(void)
     for (int trial = 0; trial < 6000; ++trial) {
         const double d = uniform(-2.0, 2.0), m = uniform(-2.0, 2.0), q = uniform(-2.0, 2.0);
         const double cogging_Nm = uniform(-1.0, 1.0), growth = m * m - d * q, needed = 2.0 * d * cogging_Nm;
-        const hci_machine_point p = {
-            {0.0, 2.0},
-            { d,  m,   q},
-            cogging_Nm
-        };
+        const hci_machine_point p = {{0.0, 2.0}, {d, m, q}, cogging_Nm};
         double x[2], least_A;
         if (fabs(growth) < 1e-3 || fabs(needed) < 1e-3) continue;
         hci_strategy_current(&p, HCI_STRATEGY_CANCEL, 1.0, NULL, x, &least_A);
@@ -794,11 +752,7 @@ static void test_least_iq_is_the_threshold(void)
 /* Without reluctance no i_d cancels any cogging, however large i_q. */
 static void test_cancel_without_reluctance(void)
 {
-    hci_machine_point p = {
-        {0.3,  0.4},
-        { 0.0, 0.0, 0.0},
-        0.0
-    };
+    hci_machine_point p = {{0.3, 0.4}, {0.0, 0.0, 0.0}, 0.0};
     double x[2], least_A;
     TEST_ASSERT_EQUAL_INT(HCI_OK, hci_strategy_current(&p, HCI_STRATEGY_CANCEL, 2.0, NULL, x, &least_A));
     TEST_ASSERT_EQUAL_DOUBLE(0.0, least_A);
@@ -813,11 +767,7 @@ static void test_cancel_without_reluctance(void)
 /* Without back-EMF there is no q axis: no current, and the cogging torque is all there is. */
 static void test_strategies_without_back_emf(void)
 {
-    hci_machine_point p = {
-        {0.0,  0.0 },
-        { 1.0, 0.5, -1.0},
-        0.2
-    };
+    hci_machine_point p = {{0.0, 0.0}, {1.0, 0.5, -1.0}, 0.2};
     double x[2];
     TEST_ASSERT_EQUAL_INT(HCI_NOT_REACHED, hci_strategy_current(&p, HCI_STRATEGY_ID0, 1.0, NULL, x, NULL));
     TEST_ASSERT_TRUE(x[0] == 0.0 && x[1] == 0.0);
@@ -871,10 +821,7 @@ static real length_by_bisection(const problem *q, real x[2])
 static point_case draw_machine_like(void)
 {
     const double e_rad = uniform(-4.0, 4.0), e = uniform(0.5, 2.0);
-    point_case c = {
-        {{e * cos(e_rad), e * sin(e_rad)}, {0.0, 0.0, 0.0}, uniform(-0.5, 0.5)},
-        0.0, INDEFINITE
-    };
+    point_case c = {{{e * cos(e_rad), e * sin(e_rad)}, {0.0, 0.0, 0.0}, uniform(-0.5, 0.5)}, 0.0, INDEFINITE};
     set_slope(c.p.slope, uniform(0.01, 0.5), uniform(-0.5, 0.5), uniform(-4.0, 4.0));
     c.torque_Nm = uniform(1.0, 20.0);
     return scaled(&c, either_sign(), 1.0);

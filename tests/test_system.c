@@ -207,10 +207,7 @@ static void add_torque_adds_to_what_is_there(void)
 {
     const hci_wave emf = hci_wave_polar(1, 1, 2.0, 0.0), current = hci_wave_polar(5, -1, 1.0, 0.0);
     const double orders[2] = {3, 6};
-    hci_harmonic spectrum[2] = {
-        {3, 0.25, 0.5},
-        {6, 0.75, 1.0}
-    };
+    hci_harmonic spectrum[2] = {{3, 0.25, 0.5}, {6, 0.75, 1.0}};
     hci_system_add_torque(&emf, 1, &current, 1, orders, 2, spectrum);
     TEST_ASSERT_EQUAL_DOUBLE(0.25, spectrum[0].sine);
     TEST_ASSERT_EQUAL_DOUBLE(0.5, spectrum[0].cosine);
@@ -256,10 +253,7 @@ static void zero_sequences_make_both_sum_and_difference(void)
 {
     const hci_wave third = hci_wave_polar(3, 0, 2.0, 0.3), ninth = hci_wave_polar(9, 0, 0.7, 1.1);
     double orders[2] = {0};
-    hci_harmonic spectrum[2] = {
-        {6,  0, 0},
-        {12, 0, 0}
-    };
+    hci_harmonic spectrum[2] = {{6, 0, 0}, {12, 0, 0}};
     TEST_ASSERT_EQUAL_UINT64(2, hci_component_orders(&third, 1, (hci_component){9, 0}, orders));
     TEST_ASSERT_EQUAL_UINT64(2, hci_orders_sort(orders, 2));
     hci_system_add_torque(&third, 1, &ninth, 1, orders, 2, spectrum);
@@ -425,9 +419,7 @@ static void mirrored_and_exchanged_waves_make_the_same_torque(void)
     uint64_t seed = 18;
     for (int k = 0; k < TRIALS; ++k) {
         double orders[MAX_ORDERS];
-        hci_harmonic torque[MAX_ORDERS], other[MAX_ORDERS] = {
-                                             {0, 0, 0}
-        };
+        hci_harmonic torque[MAX_ORDERS], other[MAX_ORDERS] = {{0, 0, 0}};
         draw(&t, &seed);
         const size_t count = reached_orders(&t, orders);
         add_torque_once(&t, orders, count, torque);
@@ -524,11 +516,7 @@ static void rows_with_and_without_a_mean(void)
 
 static void spectrum_and_rows_convert_both_ways(void)
 {
-    const hci_harmonic spectrum[3] = {
-        {0, 0, 2},
-        {1, 3, 4},
-        {6, 5, 6}
-    };
+    const hci_harmonic spectrum[3] = {{0, 0, 2}, {1, 3, 4}, {6, 5, 6}};
     const double orders[3] = {0, 1, 6}, expected[5] = {2, 3, 4, 5, 6};
     double rows[5] = {0};
     hci_harmonic back[3];

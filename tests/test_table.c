@@ -154,7 +154,7 @@ static void test_mechanical_angle_wraps(void)
 static const uint32_t KNOWN_CRC = 0x3322CA60u;
 static const float known_rows[] = {0.0f, 1.5f, -2.25f, 1e-7f, 0.0f, 1.5f};
 static const hci_table_f32_probe known_probes[] = {
-    {0x00000000u, 0.0f, {0.0f, 1.5f, -1.5f}     },
+    {0x00000000u, 0.0f, {0.0f, 1.5f, -1.5f}},
     {0x40000000u, 0.0f, {-1.125f, 0.75f, 0.375f}},
 };
 

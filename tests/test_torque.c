@@ -55,14 +55,7 @@ static hci_harmonic draw_cogging(ref_wave *formula, int turns, uint64_t *seed)
 }
 
 /* Where the entry in storage order stands in the matrix: AA, BB, CC, AB, BC, CA. */
-static const int PLACE[HCI_PHASE_MATRIX][2] = {
-    {0, 0},
-    {1, 1},
-    {2, 2},
-    {0, 1},
-    {1, 2},
-    {2, 0}
-};
+static const int PLACE[HCI_PHASE_MATRIX][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}};
 
 static hci_inductance_slope draw_slope(ref_matrix *formula, double order, uint64_t *seed)
 {

@@ -99,9 +99,9 @@ static bool kept(double order)
 
 /* Three pole pairs; 8/3 once in 1/8 of the mechanical turn. */
 static const ref_wave COGGING[] = {
-    {2.0,       0.0, 0.02,  0.7 },
+    {2.0, 0.0, 0.02, 0.7},
     {8.0 / 3.0, 0.0, 0.005, -2.0},
-    {6.0,       0.0, 0.05,  2.5 },
+    {6.0, 0.0, 0.05, 2.5},
 };
 enum { COGGING_COUNT = 3 };
 
@@ -475,10 +475,10 @@ static void test_options_and_runs_that_are_refused(void)
 /* ---- back-EMF ---- */
 
 static const ref_wave EMF[] = {
-    {1.0, 1.0, 0.10,  0.0 },
-    {3.0, 3.0, 0.01,  0.4 },
-    {5.0, 5.0, 0.02,  -1.0},
-    {7.0, 7.0, 0.004, 2.0 },
+    {1.0, 1.0, 0.10, 0.0},
+    {3.0, 3.0, 0.01, 0.4},
+    {5.0, 5.0, 0.02, -1.0},
+    {7.0, 7.0, 0.004, 2.0},
 };
 enum { EMF_COUNT = 4 };
 
@@ -488,9 +488,7 @@ typedef struct {
     int swapped; /* channels b and c exchanged */
 } channels;
 
-static const channels EVEN = {
-    .gain = {1.0, 1.0, 1.0}
-};
+static const channels EVEN = {.gain = {1.0, 1.0, 1.0}};
 
 /* Sample k at a mechanical angle and speed; ahead_rad: of the recorded zero of θ. */
 static void record_voltage(size_t k, double theta_m_rad, double speed_rad_per_s, const channels *c)
@@ -564,11 +562,7 @@ static void test_back_emf_with_an_angle(void)
 /* A rotor that runs down to a fifth, with offsets that grow against the voltage. */
 static void test_back_emf_of_a_run_down(void)
 {
-    channels c = {
-        .gain = {1.0, 1.0,  1.0},
-          .offset_V = {5.0, -3.0, 0.0},
-          .noise_V = 0.02
-    };
+    channels c = {.gain = {1.0, 1.0, 1.0}, .offset_V = {5.0, -3.0, 0.0}, .noise_V = 0.02};
     record_drive(40000, 2.0, 100.0, -40.0, &c);
     with_angle();
     find();
@@ -591,11 +585,7 @@ static void test_turned_backward_with_an_angle(void)
 static void test_channels_that_differ(void)
 {
     const channels c = {
-        .gain = {1.0, 9.6, 1.03},
-          .offset_V = {0.0, 0.0, 1.0 },
-          .lag_rad = {0.0, 0.0, 0.05},
-          .noise_V = 0.02
-    };
+        .gain = {1.0, 9.6, 1.03}, .offset_V = {0.0, 0.0, 1.0}, .lag_rad = {0.0, 0.0, 0.05}, .noise_V = 0.02};
     record_drive(20000, 1.0, 100.0, 0.0, &c);
     with_angle();
     find();
@@ -612,10 +602,7 @@ static void test_channels_that_differ(void)
 
 static void test_an_angle_with_another_zero_is_told(void)
 {
-    const channels c = {
-        .gain = {1.0, 1.0, 1.0},
-          .lag_rad = {0.3, 0.3, 0.3}
-    };
+    const channels c = {.gain = {1.0, 1.0, 1.0}, .lag_rad = {0.3, 0.3, 0.3}};
     record_drive(20000, 1.0, 100.0, 0.0, &c);
     with_angle();
     find();
@@ -647,10 +634,7 @@ static void test_the_advice_on_the_angle_mends_it(void)
 {
     static const double LAG_rad[] = {0.3, -0.3, 1.7, -2.9};
     for (int k = 0; k < 4; ++k) {
-        const channels c = {
-            .gain = {1.0,        1.0,        1.0       },
-              .lag_rad = {LAG_rad[k], LAG_rad[k], LAG_rad[k]}
-        };
+        const channels c = {.gain = {1.0, 1.0, 1.0}, .lag_rad = {LAG_rad[k], LAG_rad[k], LAG_rad[k]}};
         record_drive(20000, 1.0, 100.0, 0.0, &c);
         with_angle();
         find();
@@ -737,9 +721,7 @@ static void test_voltages_without_a_period(void)
 
 static void test_one_dead_channel(void)
 {
-    const channels c = {
-        .gain = {1.0, 0.0, 1.0}
-    };
+    const channels c = {.gain = {1.0, 0.0, 1.0}};
     record_drive(20000, 1.0, 100.0, 0.0, &c);
     with_angle();
     find();

@@ -7,17 +7,17 @@ extern "C" {
 #endif
 
 /* X(name, exit code, text). Values follow the order of the list; HCI_OK is 0. */
-#define HCI_STATUS_LIST(X)                                                                          \
-    X(HCI_OK,               0, "done")                                                              \
-    X(HCI_NOT_REACHED,      1, "done, but the answer is no; the nearest result is given")           \
-    X(HCI_ERROR_ARGUMENT,   2, "an argument is outside its range")                                  \
-    X(HCI_ERROR_INPUT,      3, "the input is wrong")                                                \
-    X(HCI_ERROR_CAPACITY,   4, "the caller's buffer is too small")                                  \
-    X(HCI_ERROR_SINGULAR,   4, "the matrix is singular to working precision")                       \
-    X(HCI_ERROR_NOT_FINITE, 4, "a value is infinite or not a number")                               \
-    X(HCI_ERROR_NUMERIC,    4, "the numerical method did not succeed")                              \
-    X(HCI_ERROR_MEMORY,     4, "out of memory")                                                     \
-    X(HCI_ERROR_OUTPUT,     5, "could not write")
+#define HCI_STATUS_LIST(X)                                                                                   \
+    X(HCI_OK, 0, "done")                                                                                     \
+    X(HCI_NOT_REACHED, 1, "done, but the answer is no; the nearest result is given")                         \
+    X(HCI_ERROR_ARGUMENT, 2, "an argument is outside its range")                                             \
+    X(HCI_ERROR_INPUT, 3, "the input is wrong")                                                              \
+    X(HCI_ERROR_CAPACITY, 4, "the caller's buffer is too small")                                             \
+    X(HCI_ERROR_SINGULAR, 4, "the matrix is singular to working precision")                                  \
+    X(HCI_ERROR_NOT_FINITE, 4, "a value is infinite or not a number")                                        \
+    X(HCI_ERROR_NUMERIC, 4, "the numerical method did not succeed")                                          \
+    X(HCI_ERROR_MEMORY, 4, "out of memory")                                                                  \
+    X(HCI_ERROR_OUTPUT, 5, "could not write")
 
 /* What a function returns. Values above HCI_NOT_REACHED are failures. */
 typedef enum {

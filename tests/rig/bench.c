@@ -14,20 +14,13 @@ typedef struct {
 } point;
 
 static const point PROGRAM[] = {
-    {0.0,  0.0,  0.0,  1,  false, false, false},
-    {0.0,  0.0,  0.0,  -1, false, false, false},
-    {0.25, 0.0,  1.0,  1,  false, false, false},
-    {0.5,  1.0,  1.0,  -1, false, false, false},
-    {1.0,  -0.7, 0.0,  1,  false, false, false},
-    {1.0,  0.1,  2.0,  -1, false, false, false},
-    {0.5,  -1.0, 2.0,  1,  true,  false, false},
-    {1.0,  0.8,  1.0,  -1, true,  true,  false},
-    {0.4,  0.5,  3.25, -1, false, false, true },
-    {0.75, -0.4, 3.75, 1,  false, true,  true },
-    {0.85, 0.3,  3.35, 1,  true,  false, true },
-    {0.5,  0.0,  2.0,  1,  false, true,  false},
-    {0.25, -0.6, 0.0,  -1, false, false, false},
-    {1.0,  0.6,  2.0,  1,  false, false, false},
+    {0.0, 0.0, 0.0, 1, false, false, false},    {0.0, 0.0, 0.0, -1, false, false, false},
+    {0.25, 0.0, 1.0, 1, false, false, false},   {0.5, 1.0, 1.0, -1, false, false, false},
+    {1.0, -0.7, 0.0, 1, false, false, false},   {1.0, 0.1, 2.0, -1, false, false, false},
+    {0.5, -1.0, 2.0, 1, true, false, false},    {1.0, 0.8, 1.0, -1, true, true, false},
+    {0.4, 0.5, 3.25, -1, false, false, true},   {0.75, -0.4, 3.75, 1, false, true, true},
+    {0.85, 0.3, 3.35, 1, true, false, true},    {0.5, 0.0, 2.0, 1, false, true, false},
+    {0.25, -0.6, 0.0, -1, false, false, false}, {1.0, 0.6, 2.0, 1, false, false, false},
 };
 enum { POINTS = sizeof PROGRAM / sizeof *PROGRAM, LEAST_POINTS = 11 };
 
@@ -276,10 +269,7 @@ static void read_one(const rig_case *c, const rig_run *run, double t_s, rig_rand
 int rig_run_read(const rig_case *c, const rig_run *run, rig_reading *out)
 {
     rig_random r = rig_random_of("readings", run->seed);
-    instrument in = {
-        rig_sensor_settled(c, run, 0.0), {0.0, 0.0, 0.0},
-           0.0, 0.0, 0.0
-    };
+    instrument in = {rig_sensor_settled(c, run, 0.0), {0.0, 0.0, 0.0}, 0.0, 0.0, 0.0};
     int count = 0, gap = 0;
     for (int k = 0; k < 30; ++k)
         (void)torque_noise(c, &r, &in.memory);

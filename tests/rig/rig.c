@@ -49,10 +49,7 @@ static void test_no_perpetual_motion(void)
 {
     for (int effect = 0; effect < RIG_EFFECTS; ++effect) {
         rig_case c;
-        rig_instant x = {
-            0.0, 10.0, {1.3, -0.4, -0.9},
-              60.0
-        };
+        rig_instant x = {0.0, 10.0, {1.3, -0.4, -0.9}, 60.0};
         double work = 0.0, size = 0.0;
         if (effect == RIG_FRICTION) continue;
         rig_case_draw(RIG_EFFECT_NAME[effect], 7, &c);
@@ -87,10 +84,7 @@ static void test_coenergy(void)
         const char *kind = RIG_EFFECT_NAME[seed % 2 ? RIG_RELUCTANCE : RIG_SATURATION];
         rig_case_draw(kind, seed, &c);
         const double h = 1e-5, a = c.machine.rated_current_A;
-        rig_instant x = {
-            0.1 * (double)seed, 10.0, {0.7 * a, -0.1 * a, -0.6 * a},
-                20.0
-        };
+        rig_instant x = {0.1 * (double)seed, 10.0, {0.7 * a, -0.1 * a, -0.6 * a}, 20.0};
         const double slope =
             (coenergy(&c, x.theta_m_rad + h, x.i_A) - coenergy(&c, x.theta_m_rad - h, x.i_A)) / (2.0 * h);
         const double torque = rig_torque_true(&c, &x) - rig_torque_declared(&c.machine, x.theta_m_rad, x.i_A);

@@ -165,18 +165,16 @@ static double factor_of(const char *unit)
     static const struct {
         const char *unit;
         double factor;
-    } LIST[] = {
-        {"deg",       0.017453292519943295},
-        {"mA",        1e-3                },
-        {"us",        1e-6                },
-        {"ms",        1e-3                },
-        {"mNm",       1e-3                },
-        {"%",         0.01                },
-        {"mH",        1e-3                },
-        {"uH",        1e-6                },
-        {"kHz",       1e3                 },
-        {"mNm_per_A", 1e-3                }
-    };
+    } LIST[] = {{"deg", 0.017453292519943295},
+                {"mA", 1e-3},
+                {"us", 1e-6},
+                {"ms", 1e-3},
+                {"mNm", 1e-3},
+                {"%", 0.01},
+                {"mH", 1e-3},
+                {"uH", 1e-6},
+                {"kHz", 1e3},
+                {"mNm_per_A", 1e-3}};
     for (size_t k = 0; k < sizeof LIST / sizeof *LIST; ++k)
         if (strcmp(unit, LIST[k].unit) == 0) return LIST[k].factor;
     return 1.0;
@@ -584,17 +582,17 @@ static void list_figures(const tally group[GROUPS], figure list[FIGURES])
 {
     const tally *fitted = &group[FITTED];
     const figure all[FIGURES] = {
-        {"exact",   "exact, all kinds",               share(group[ALL].credit,       group[ALL].cases),      0.95, false},
-        {"single",  "exact, one effect",              share(group[SINGLE].credit,    group[SINGLE].cases),   0.95, false},
-        {"two",     "exact, two effects",             share(group[TWO].credit,       group[TWO].cases),      0.95, false},
-        {"unknown", "inventions reported as unknown", share(group[INVENTED].credit,  group[INVENTED].cases),
-         0.95,                                                                                                     false},
-        {"false",   "additions with nothing hidden",  share(group[NONE].false_cases, group[NONE].cases),     0.02,
-         true                                                                                                           },
-        {"holdout", "held-out / noise, mean",         share(fitted->holdout,         fitted->held_out),      1.15, true },
-        {"worst",   "held-out / noise, worst",        share(fitted->worst,           fitted->held_out > 0),  1.15, true },
-        {"within2", "parameters within 2 std errors", share(fitted->within_2,        fitted->parameters),    0.90,
-         false                                                                                                          },
+        {"exact", "exact, all kinds", share(group[ALL].credit, group[ALL].cases), 0.95, false},
+        {"single", "exact, one effect", share(group[SINGLE].credit, group[SINGLE].cases), 0.95, false},
+        {"two", "exact, two effects", share(group[TWO].credit, group[TWO].cases), 0.95, false},
+        {"unknown", "inventions reported as unknown", share(group[INVENTED].credit, group[INVENTED].cases),
+         0.95, false},
+        {"false", "additions with nothing hidden", share(group[NONE].false_cases, group[NONE].cases), 0.02,
+         true},
+        {"holdout", "held-out / noise, mean", share(fitted->holdout, fitted->held_out), 1.15, true},
+        {"worst", "held-out / noise, worst", share(fitted->worst, fitted->held_out > 0), 1.15, true},
+        {"within2", "parameters within 2 std errors", share(fitted->within_2, fitted->parameters), 0.90,
+         false},
     };
     memcpy(list, all, sizeof all);
 }

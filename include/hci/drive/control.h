@@ -10,10 +10,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "hci/math/harmonic.h"
 #include "hci/drive/plant.h"
 #include "hci/drive/sensor.h"
 #include "hci/machine/strategy.h"
+#include "hci/math/harmonic.h"
 
 #ifdef __cplusplus
 extern "C" {

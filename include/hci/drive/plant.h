@@ -14,9 +14,9 @@
 
 #include <stddef.h>
 
-#include "hci/status.h"
 #include "hci/machine/strategy.h"
 #include "hci/machine/torque.h"
+#include "hci/status.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -6,8 +6,8 @@
 #define HCI_MACHINE_STRATEGY_H
 
 #include "hci/machine/frames.h"
-#include "hci/status.h"
 #include "hci/machine/torque.h"
+#include "hci/status.h"
 
 #ifdef __cplusplus
 extern "C" {

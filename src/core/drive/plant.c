@@ -174,20 +174,14 @@ static double step(motion *m, hci_plant_state *state, double dt_s)
 double hci_plant_step(const hci_plant *plant, hci_plant_state *state, const double v[2], double load_Nm,
                       double dt_s)
 {
-    motion m = {
-        plant, {v[0], v[1]},
-         load_Nm, 0, 1.0 / plant->inertia_kgm2, 0.0
-    };
+    motion m = {plant, {v[0], v[1]}, load_Nm, 0, 1.0 / plant->inertia_kgm2, 0.0};
     return step(&m, state, dt_s);
 }
 
 double hci_plant_step_imposed(const hci_plant *plant, hci_plant_state *state, const double i[2],
                               double load_Nm, double dt_s)
 {
-    motion m = {
-        plant, {0.0, 0.0},
-         load_Nm, 1, 1.0 / plant->inertia_kgm2, 0.0
-    };
+    motion m = {plant, {0.0, 0.0}, load_Nm, 1, 1.0 / plant->inertia_kgm2, 0.0};
     state->i[0] = i[0];
     state->i[1] = i[1];
     return step(&m, state, dt_s);

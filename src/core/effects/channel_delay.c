@@ -21,7 +21,8 @@ static void turn(double abc[3], double angle_rad)
     hci_clarke_inverse(y, abc);
 }
 
-/* Moves angle and currents on in time; the currents in the rotor frame by their rate of change and its own. */
+/* Moves angle and currents on in time; the currents in the rotor frame by their rate of change and its own.
+ */
 static void advance(hci_sample *x, int pole_pairs, double angle_s, double current_s)
 {
     x->theta_m_rad += x->speed_rad_per_s * angle_s;

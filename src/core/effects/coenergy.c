@@ -1,7 +1,7 @@
 #include "core/effects/coenergy.h"
 
-#include "hci/machine/frames.h"
 #include "core/math/third.h"
+#include "hci/machine/frames.h"
 
 static const double SQRT_2_3 = 0.81649658092772603273;
 

@@ -63,10 +63,7 @@ typedef struct {
 
 static axes axes_of(const hci_machine_point *p)
 {
-    axes a = {
-        {0.0, 0.0},
-        hypot(p->e[0], p->e[1]), 0.0, 0.0, 0.0
-    };
+    axes a = {{0.0, 0.0}, hypot(p->e[0], p->e[1]), 0.0, 0.0, 0.0};
     if (!(a.e > 0.0)) return a;
     const double qa = p->e[0] / a.e, qb = p->e[1] / a.e;
     a.q_axis[0] = qa;
@@ -158,12 +155,7 @@ static shortest turn(const hci_machine_point *p, double tau)
     const double radius = hypot(half, p->slope[1]), outer = mean < 0.0 ? mean - radius : mean + radius;
     const double determinant = p->slope[0] * p->slope[2] - p->slope[1] * p->slope[1];
     const double inner = outer != 0.0 ? determinant / outer : 0.0;
-    shortest t = {
-        {0.0,   0.0  },
-        {inner, outer},
-        2.0 * radius, {0.0,   0.0  },
-        sign * tau
-    };
+    shortest t = {{0.0, 0.0}, {inner, outer}, 2.0 * radius, {0.0, 0.0}, sign * tau};
     if (mean >= 0.0) {
         t.h[0] = outer;
         t.h[1] = inner;

@@ -3,8 +3,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "hci/math/harmonic.h"
 #include "hci/machine/strategy.h"
+#include "hci/math/harmonic.h"
 
 /* One angle. missing: wanted less what there is without current. size: of the currents that are looked at;
  * scale: of the torque, for what counts as reached. */
@@ -251,10 +251,7 @@ hci_status hci_strategy_smooth_current(const hci_smooth_torque *torque, const hc
     if (!(e > 0.0)) return HCI_NOT_REACHED;
     t.size_A = fmax(t.size_A, fabs(torque_Nm) / e);
     const line l = {
-        &t, {mutual->e[0] / e, mutual->e[1] / e },
-         {mutual->e[1] / e, -mutual->e[0] / e},
-         torque_Nm / e
-    };
+        &t, {mutual->e[0] / e, mutual->e[1] / e}, {mutual->e[1] / e, -mutual->e[0] / e}, torque_Nm / e};
     status = cancel(&l, previous, &i_d);
     for (int k = 0; k < 2; ++k)
         x[k] = l.i_q * l.q[k] + i_d * l.d[k];

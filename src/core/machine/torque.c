@@ -2,8 +2,8 @@
 
 #include <math.h>
 
-#include "hci/machine/system.h"
 #include "core/math/third.h"
+#include "hci/machine/system.h"
 
 /* Row and column of each stored entry of a phase matrix; entries off the diagonal stand for two. */
 static const unsigned char ROW[HCI_PHASE_MATRIX] = {0, 1, 2, 0, 1, 2};
@@ -147,12 +147,7 @@ static void add_sequences(double order, const phasor y[3], hci_wave waves[3])
  * Re(Z e^{jkθ}) = Im(jZ e^{jkθ}). */
 static void slope_times_wave(const hci_inductance_slope *t, const hci_wave *i, hci_wave waves[6])
 {
-    phasor difference[3] =
-        {
-            {0.0, 0.0},
-            {0.0, 0.0},
-            {0.0, 0.0}
-    },
+    phasor difference[3] = {{0.0, 0.0}, {0.0, 0.0}, {0.0, 0.0}},
            sum[3] = {{0.0, 0.0}, {0.0, 0.0}, {0.0, 0.0}};
     for (unsigned q = 0; q < HCI_PHASE_MATRIX; ++q) {
         for (unsigned mirrored = 0; mirrored <= (ROW[q] != COLUMN[q]); ++mirrored) {

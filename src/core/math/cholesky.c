@@ -4,8 +4,8 @@
  */
 #include <float.h>
 
-#include "hci/math/dense.h"
 #include "core/math/vector.h"
+#include "hci/math/dense.h"
 
 hci_status hci_cholesky_factor(size_t n, double *a)
 {

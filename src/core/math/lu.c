@@ -6,8 +6,8 @@
  * Nearly all of the work falls into A22 − L21 U12 at every scale: one kernel decides the speed, and no block
  * size has to be tuned to a cache. The left half is a whole number of UNROLL columns wide, so the kernel
  * never has a remainder in k. The recursion is log2(n) deep. */
-#include "hci/math/dense.h"
 #include "core/math/vector.h"
+#include "hci/math/dense.h"
 
 enum {
     UNROLL = 4, /* columns of A for one pass over C, and columns of C for one pass over A */

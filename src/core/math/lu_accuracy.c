@@ -1,8 +1,8 @@
 /* How far the solution of a square system can be trusted, and its refinement. */
 #include <float.h>
 
-#include "hci/math/dense.h"
 #include "core/math/vector.h"
+#include "hci/math/dense.h"
 
 double hci_norm_1(size_t m, size_t n, const double *a)
 {

@@ -10,8 +10,8 @@
  * in here overflows, and one that underflows belongs to a column far below every tolerance. */
 #include <float.h>
 
-#include "hci/math/dense.h"
 #include "core/math/householder.h"
+#include "hci/math/dense.h"
 
 /* The parts of factor_work. */
 typedef struct {

@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "host/check/interpretation.h"
 #include "hci/host/machine/init.h"
+#include "host/check/interpretation.h"
 
 #define SQRT2  1.4142135623730951
 #define SQRT3  1.7320508075688772

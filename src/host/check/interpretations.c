@@ -3,8 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "host/check/interpretation.h"
 #include "host/base/memory.h"
+#include "host/check/interpretation.h"
 
 /* A relation is met up to so many standard deviations. */
 #define MET 2.5
@@ -80,10 +80,7 @@ static double log_prior(const weighing *w, const reading *r, const check_view *v
 
 static void weigh(weighing *w, int first, int second, int third)
 {
-    reading r = {
-        {first, second, third},
-        0.0
-    };
+    reading r = {{first, second, third}, 0.0};
     if (w->status) return;
     if (w->count == w->room) {
         const size_t room = 2 * w->room + 64;

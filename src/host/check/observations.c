@@ -67,10 +67,7 @@ check_vector hci_check_current_of(const check_run *r, const check_view *v, const
 static check_vector voltage_of(const check_run *r, const check_view *v, const check_model *m)
 {
     const check_frame *frame = hci_check_frame_of(r, hci_check_scale_of(r, v, m));
-    check_vector way[2] = {
-        {0.0, 0.0},
-        {0.0, 0.0}
-    };
+    check_vector way[2] = {{0.0, 0.0}, {0.0, 0.0}};
     for (int k = FORWARD; frame && k <= BACKWARD; ++k)
         way[k] = hci_check_phase_of_line(frame->voltage[k], v);
     return hci_check_scaled(dq_of(way, v), v->voltage);

@@ -8,12 +8,12 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "host/check/figures.h"
-#include "hci/machine/frames.h"
 #include "hci/host/machine/init.h"
-#include "host/machine/inductance.h"
-#include "host/machine/folder.h"
+#include "hci/machine/frames.h"
 #include "host/base/memory.h"
+#include "host/check/figures.h"
+#include "host/machine/folder.h"
+#include "host/machine/inductance.h"
 #include "host/machine/spectrum_table.h"
 
 typedef struct {

@@ -3,11 +3,11 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "host/check/figures.h"
-#include "host/csv/table.h"
 #include "hci/machine/frames.h"
 #include "host/base/memory.h"
 #include "host/base/quote.h"
+#include "host/check/figures.h"
+#include "host/csv/table.h"
 
 /* A wave is said to turn with the rotor when it has this share of the mean square. */
 #define COHERENT 0.6

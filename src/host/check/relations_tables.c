@@ -1,8 +1,8 @@
 /* What must hold between the tables of a machine, and with its ratings. */
 #include <math.h>
 
-#include "host/check/relations.h"
 #include "hci/host/machine/init.h"
+#include "host/check/relations.h"
 
 #define SQRT3 1.7320508075688772
 

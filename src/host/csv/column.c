@@ -3,10 +3,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "host/csv/alias.h"
-#include "host/csv/table.h"
 #include "hci/host/csv/csv.h"
 #include "host/base/quote.h"
+#include "host/csv/alias.h"
+#include "host/csv/table.h"
 
 typedef enum {
     MATCH_NONE,

@@ -7,10 +7,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "host/csv/table.h"
 #include "host/base/memory.h"
 #include "host/base/quote.h"
 #include "host/base/unit.h"
+#include "host/csv/table.h"
 
 enum { COLUMNS_MAX = 4096, FIRST_READ = 1 << 16 };
 

@@ -4,10 +4,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "host/csv/table.h"
 #include "hci/host/base/output.h"
 #include "host/base/memory.h"
 #include "host/base/quote.h"
+#include "host/csv/table.h"
 
 typedef struct {
     const hci_csv *csv;

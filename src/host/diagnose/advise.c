@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "hci/math/dense.h"
 #include "hci/machine/frames.h"
+#include "hci/math/dense.h"
 #include "host/base/memory.h"
 
 enum { SAMPLES_PER_PERIOD = 96, MOST_SAMPLES = 1024, POINTS = 64 };

@@ -2,8 +2,8 @@
 #ifndef HCI_SRC_HOST_DIAGNOSE_CANDIDATE_ORDERS_H
 #define HCI_SRC_HOST_DIAGNOSE_CANDIDATE_ORDERS_H
 
-#include "host/diagnose/fit/evidence.h"
 #include "hci/host/diagnose/diagnose.h"
+#include "host/diagnose/fit/evidence.h"
 
 /* before_Nm, after_Nm: of each cell. noise_Nm: rms for each run. lines: out, by run and order, to be freed;
  * NULL on failure. HCI_ERROR_MEMORY. O(cells·orders). */

@@ -4,16 +4,16 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "host/diagnose/advise.h"
-#include "host/diagnose/search/attribute.h"
-#include "host/diagnose/fit/dataset.h"
-#include "host/diagnose/findings.h"
-#include "host/recording/free_shaft.h"
 #include "host/base/memory.h"
 #include "host/base/quote.h"
-#include "host/diagnose/run_errors.h"
-#include "host/machine/torque_constant.h"
+#include "host/diagnose/advise.h"
 #include "host/diagnose/candidates/empirical_term.h"
+#include "host/diagnose/findings.h"
+#include "host/diagnose/fit/dataset.h"
+#include "host/diagnose/run_errors.h"
+#include "host/diagnose/search/attribute.h"
+#include "host/machine/torque_constant.h"
+#include "host/recording/free_shaft.h"
 
 #define RESOLUTION 5e-4 /* of the largest rms torque */
 
@@ -60,10 +60,10 @@ static void advice_of_same(const hci_verdict *v, char *text, size_t size)
     static const struct {
         const char *effect, *run;
     } WANTED[] = {
-        {"friction",       "the other direction of rotation, or three speeds"},
-        {"torque_sensor",  "the other direction of rotation"                 },
-        {"channel_delay",  "another speed, at least four times as fast"      },
-        {"current_offset", "a torque transducer and currents of their own"   },
+        {"friction", "the other direction of rotation, or three speeds"},
+        {"torque_sensor", "the other direction of rotation"},
+        {"channel_delay", "another speed, at least four times as fast"},
+        {"current_offset", "a torque transducer and currents of their own"},
     };
     const char *run = "another current, speed and direction";
     for (size_t k = 0; k < sizeof WANTED / sizeof *WANTED; ++k)

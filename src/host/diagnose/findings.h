@@ -2,9 +2,9 @@
 #ifndef HCI_SRC_HOST_DIAGNOSE_FINDINGS_H
 #define HCI_SRC_HOST_DIAGNOSE_FINDINGS_H
 
-#include "host/diagnose/search/attribute.h"
-#include "host/diagnose/fit/dataset.h"
 #include "hci/host/diagnose/diagnose.h"
+#include "host/diagnose/fit/dataset.h"
+#include "host/diagnose/search/attribute.h"
 
 /* Fills finding, most important first, and the verdict. rms_before_Nm of the diagnosis is there already. */
 void hci_findings_fill(const hci_attribution *attribution, hci_diagnosis *diagnosis);

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "hci/math/harmonic.h"
-#include "host/diagnose/candidate_orders.h"
 #include "host/base/memory.h"
+#include "host/diagnose/candidate_orders.h"
 #include "host/numeric/angle_bins.h"
 
 #define SIGMA_95    1.96 /* of a normal distribution, for 95 % */

@@ -2,8 +2,8 @@
 #ifndef HCI_SRC_HOST_DIAGNOSE_RUN_ERRORS_H
 #define HCI_SRC_HOST_DIAGNOSE_RUN_ERRORS_H
 
-#include "host/diagnose/fit/dataset.h"
 #include "hci/host/diagnose/diagnose.h"
+#include "host/diagnose/fit/dataset.h"
 
 /* Fills run, line and the totals of a diagnosis whose effects are there already. parameters: that were
  * fitted. The noise of the bench's evidence becomes that of the readings of all runs. HCI_ERROR_MEMORY.

@@ -4,11 +4,11 @@
 #ifndef HCI_SRC_HOST_DRAW_PLOT_H
 #define HCI_SRC_HOST_DRAW_PLOT_H
 
-#include "hci/machine/frames.h"
-#include "hci/host/diagnose/diagnose.h"
 #include "hci/host/base/output.h"
+#include "hci/host/diagnose/diagnose.h"
 #include "hci/host/solve/solve.h"
 #include "hci/host/waveform/waveform.h"
+#include "hci/machine/frames.h"
 #include "host/draw/svg.h"
 
 /* The style sheet of all of them. hci_plot_solution brings it along; for the others it is part of the page.

@@ -111,11 +111,9 @@ static const char FINDINGS[] =
 
 void hci_plot_findings(hci_output *out, const hci_diagnosis *d)
 {
-    static const hci_svg_entry LEGEND[] = {
-        {HCI_SVG_BAR, "after",  "added"    },
-        {HCI_SVG_BAR, "maybe",  "ambiguous"},
-        {HCI_SVG_BAR, "before", "rejected" }
-    };
+    static const hci_svg_entry LEGEND[] = {{HCI_SVG_BAR, "after", "added"},
+                                           {HCI_SVG_BAR, "maybe", "ambiguous"},
+                                           {HCI_SVG_BAR, "before", "rejected"}};
     const hci_finding *shown[HCI_MOST_FINDINGS];
     const size_t rows = shown_findings(d, shown);
     const hci_svg_box left = box_of(EFFECTS, 330.0, rows), right = box_of(356.0, 440.0, rows);
@@ -199,12 +197,10 @@ static const char ERRORS[] =
 
 void hci_plot_runs(hci_output *out, const hci_diagnosis *d)
 {
-    static const hci_svg_entry LEGEND[] = {
-        {HCI_SVG_DOT,  "before", "before"          },
-        {HCI_SVG_DOT,  "hollow", "after (held out)"},
-        {HCI_SVG_DOT,  "dot",    "after (fitted)"  },
-        {HCI_SVG_LINE, "noise",  "noise"           }
-    };
+    static const hci_svg_entry LEGEND[] = {{HCI_SVG_DOT, "before", "before"},
+                                           {HCI_SVG_DOT, "hollow", "after (held out)"},
+                                           {HCI_SVG_DOT, "dot", "after (fitted)"},
+                                           {HCI_SVG_LINE, "noise", "noise"}};
     size_t held[HCI_PLOT_MOST_RUNS], fitted[HCI_PLOT_MOST_RUNS];
     const size_t helds = hci_plot_largest(holdout_weight, d, d->runs, HCI_PLOT_MOST_RUNS, held),
                  fits = hci_plot_largest(fit_weight, d, d->runs, HCI_PLOT_MOST_RUNS, fitted),

@@ -248,10 +248,7 @@ static void draw_frame(hci_output *out, const hci_svg_box *b)
 
 static void draw_legend(hci_output *out, const picture *p, bool has_band)
 {
-    hci_svg_entry entry[4] = {
-        {HCI_SVG_BAR, "plus",  "above 0"},
-        {HCI_SVG_BAR, "minus", "below 0"}
-    };
+    hci_svg_entry entry[4] = {{HCI_SVG_BAR, "plus", "above 0"}, {HCI_SVG_BAR, "minus", "below 0"}};
     const bool has_sign = p->rows.items_a_cell == 0 && p->columns.items_a_cell == 0;
     bool has_cross = false;
     size_t count = has_sign ? 2 : 1;
@@ -368,11 +365,9 @@ static void draw_map_names(hci_output *out, const hci_plot_map *m, const raster 
 
 void hci_plot_residuals(hci_output *out, const hci_plot_map *m)
 {
-    static const hci_svg_entry LEGEND[] = {
-        {HCI_SVG_BAR, "before", "before"             },
-        {HCI_SVG_BAR, "plus",   "after"              },
-        {HCI_SVG_BAR, "within", "after, within noise"}
-    };
+    static const hci_svg_entry LEGEND[] = {{HCI_SVG_BAR, "before", "before"},
+                                           {HCI_SVG_BAR, "plus", "after"},
+                                           {HCI_SVG_BAR, "within", "after, within noise"}};
     const double largest_Nm = largest_residual_Nm(m);
     const raster r = {NAMES, TOP, (RIGHT - NAMES) / (double)m->orders_shown, 17.0};
     const hci_svg_box b = {NAMES, TOP, RIGHT, TOP + 17.0 * (double)m->runs_shown};

@@ -87,11 +87,9 @@ void hci_plot_orders(hci_output *out, const hci_svg_picture *words, const hci_pl
 {
     const bool compared = count > 0 && isfinite(order[0].before_Nm);
     const bool has_noise = count > 0 && isfinite(order[0].noise_Nm);
-    const hci_svg_entry entry[] = {
-        {HCI_SVG_DOT,  "before", "before"                     },
-        {HCI_SVG_DOT,  "dot",    compared ? "after" : "torque"},
-        {HCI_SVG_LINE, "noise",  noise                        }
-    };
+    const hci_svg_entry entry[] = {{HCI_SVG_DOT, "before", "before"},
+                                   {HCI_SVG_DOT, "dot", compared ? "after" : "torque"},
+                                   {HCI_SVG_LINE, "noise", noise}};
     const order_axes a = axes_of(order, count, logarithmic);
     hci_svg_begin(out, words);
     hci_svg_head(out, &a.box, "N·m (peak amplitude)", compared ? entry : entry + 1,

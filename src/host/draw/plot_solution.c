@@ -235,11 +235,9 @@ static void draw_angle(hci_output *out, const curves *c, const hci_svg_axis *x, 
 
 static void draw_torque(hci_output *out, const curves *c, const hci_svg_box *room)
 {
-    static const hci_svg_entry LEGEND[] = {
-        {HCI_SVG_LINE, "before", "before"},
-        {HCI_SVG_LINE, "wanted", "wanted"},
-        {HCI_SVG_LINE, "after",  "after" }
-    };
+    static const hci_svg_entry LEGEND[] = {{HCI_SVG_LINE, "before", "before"},
+                                           {HCI_SVG_LINE, "wanted", "wanted"},
+                                           {HCI_SVG_LINE, "after", "after"}};
     const hci_svg_axis y = hci_svg_axis_over(range_of(c, BEFORE, AFTER), room->bottom, room->top, 6.0);
     const hci_svg_box b = hci_svg_box_beside(*room, &y);
     const hci_svg_axis x = hci_svg_axis_of_angle(c->turns, &b);
@@ -264,12 +262,10 @@ static void draw_phase_letter(hci_output *out, const double *value, const char *
 
 static void draw_currents(hci_output *out, const curves *c, const hci_svg_box *room)
 {
-    static const hci_svg_entry LEGEND[] = {
-        {HCI_SVG_LINE, "before", "i_a before"},
-        {HCI_SVG_LINE, "a",      "i_a"       },
-        {HCI_SVG_LINE, "b",      "i_b"       },
-        {HCI_SVG_LINE, "c",      "i_c"       }
-    };
+    static const hci_svg_entry LEGEND[] = {{HCI_SVG_LINE, "before", "i_a before"},
+                                           {HCI_SVG_LINE, "a", "i_a"},
+                                           {HCI_SVG_LINE, "b", "i_b"},
+                                           {HCI_SVG_LINE, "c", "i_c"}};
     const hci_svg_axis y = hci_svg_axis_over(range_of(c, PHASE_A, PLAIN_A), room->bottom, room->top, 6.0);
     const hci_svg_box b = hci_svg_box_beside(*room, &y);
     const hci_svg_axis x = hci_svg_axis_of_angle(c->turns, &b);
@@ -348,10 +344,7 @@ static void draw_vector_mark(hci_output *out, const char *style, double x, doubl
 static void draw_vector(hci_output *out, const curves *c, const hci_svg_box *room)
 {
     static const hci_svg_entry LEGEND[] = {
-        {HCI_SVG_DOT,  "plain", "before"},
-        {HCI_SVG_LINE, "path",  "after" },
-        {HCI_SVG_DOT,  "start", "at 0°"}
-    };
+        {HCI_SVG_DOT, "plain", "before"}, {HCI_SVG_LINE, "path", "after"}, {HCI_SVG_DOT, "start", "at 0°"}};
     const hci_dq plain = vector_at(&c->plain, 1, 0.0), start = vector_sample(c, 0, 1);
     hci_svg_axis d, q;
     vector_axes(c, plain, room, &d, &q);
@@ -448,10 +441,8 @@ static void draw_groups(hci_output *out, const hci_solution *s, const size_t *gr
 static void draw_spectrum_foot(hci_output *out, const hci_solution *s, const hci_svg_box *b, size_t shown,
                                size_t eligible)
 {
-    static const hci_svg_entry MARKS[] = {
-        {HCI_SVG_DOT,   "ring", "missed"     },
-        {HCI_SVG_CROSS, "",     "unreachable"}
-    };
+    static const hci_svg_entry MARKS[] = {{HCI_SVG_DOT, "ring", "missed"},
+                                          {HCI_SVG_CROSS, "", "unreachable"}};
     bool missed = false, unreachable = false;
     char text[80];
     for (size_t k = 0; k < s->order_count; ++k) {
@@ -469,11 +460,9 @@ static void draw_spectrum_foot(hci_output *out, const hci_solution *s, const hci
 
 static void draw_spectrum(hci_output *out, const hci_solution *s, const hci_svg_box *room)
 {
-    static const hci_svg_entry LEGEND[] = {
-        {HCI_SVG_BAR, "before", "before"},
-        {HCI_SVG_BAR, "wanted", "wanted"},
-        {HCI_SVG_BAR, "after",  "after" }
-    };
+    static const hci_svg_entry LEGEND[] = {{HCI_SVG_BAR, "before", "before"},
+                                           {HCI_SVG_BAR, "wanted", "wanted"},
+                                           {HCI_SVG_BAR, "after", "after"}};
     const hci_svg_range peaks = {0.0, 1.04 * largest_ripple_Nm(s)};
     const hci_svg_axis y =
         hci_svg_axis_over(peaks.high > 0.0 ? peaks : (hci_svg_range){0.0, 1.0}, room->bottom, room->top, 6.0);

@@ -72,10 +72,7 @@ void hci_plot_trace(hci_output *out, const hci_traces *t, const hci_svg_picture 
 {
     static const char *const STYLE[] = {"after", "after", "a", "b", "c"};
     static const hci_svg_entry LEGEND[] = {
-        {HCI_SVG_LINE, "a", "i_a"},
-        {HCI_SVG_LINE, "b", "i_b"},
-        {HCI_SVG_LINE, "c", "i_c"}
-    };
+        {HCI_SVG_LINE, "a", "i_a"}, {HCI_SVG_LINE, "b", "i_b"}, {HCI_SVG_LINE, "c", "i_c"}};
     hci_svg_range r = HCI_SVG_NOTHING;
     for (size_t j = first; j <= (size_t)last; ++j) {
         const hci_svg_range one = hci_traces_range(t, (hci_trace)j, from_s, to_s);

@@ -100,14 +100,10 @@ static hci_svg_range range_of_both(const hci_turn_means *t, const hci_turn_means
 
 void hci_plot_turn_torque(hci_output *out, const hci_turn_means *t, const hci_turn_means *before)
 {
-    static const hci_svg_entry ALONE[] = {
-        {HCI_SVG_LINE, "edge",  "least and most"},
-        {HCI_SVG_LINE, "after", "mean"          }
-    };
-    static const hci_svg_entry COMPARED[] = {
-        {HCI_SVG_LINE, "before", "before"},
-        {HCI_SVG_LINE, "after",  "after" }
-    };
+    static const hci_svg_entry ALONE[] = {{HCI_SVG_LINE, "edge", "least and most"},
+                                          {HCI_SVG_LINE, "after", "mean"}};
+    static const hci_svg_entry COMPARED[] = {{HCI_SVG_LINE, "before", "before"},
+                                             {HCI_SVG_LINE, "after", "after"}};
     const hci_svg_axis y = hci_svg_axis_over(range_of_both(t, before), BOX.bottom, BOX.top, 6.0);
     const hci_svg_box b = hci_svg_box_beside(BOX, &y);
     const hci_svg_axis x = hci_svg_axis_of_angle(1.0, &b);
@@ -147,10 +143,8 @@ static void draw_path(hci_output *out, const hci_turn_means *t, const hci_svg_ax
 
 void hci_plot_turn_vector(hci_output *out, const hci_turn_means *t, hci_dq plain_A)
 {
-    static const hci_svg_entry LEGEND[] = {
-        {HCI_SVG_DOT,  "plain", "plain sine"},
-        {HCI_SVG_LINE, "path",  "mean"      }
-    };
+    static const hci_svg_entry LEGEND[] = {{HCI_SVG_DOT, "plain", "plain sine"},
+                                           {HCI_SVG_LINE, "path", "mean"}};
     hci_svg_range d_A = {plain_A.d, plain_A.d}, q_A = {plain_A.q, plain_A.q};
     hci_svg_axis d, q;
     for (size_t k = 0; k < HCI_TURN_STEPS; ++k) {

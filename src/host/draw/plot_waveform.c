@@ -73,10 +73,8 @@ static void draw_curve(hci_output *out, const curve *c, const char *style, const
 
 static void draw_turn(hci_output *out, const hci_waveform *w, const curve *kept)
 {
-    static const hci_svg_entry LEGEND[] = {
-        {HCI_SVG_LINE, "before", "all orders that were looked at"},
-        {HCI_SVG_LINE, "after",  "orders kept"                   }
-    };
+    static const hci_svg_entry LEGEND[] = {{HCI_SVG_LINE, "before", "all orders that were looked at"},
+                                           {HCI_SVG_LINE, "after", "orders kept"}};
     const bool compared = w->kept < w->count;
     curve all = *kept;
     if (compared) fill(&all, w, true);
@@ -111,11 +109,9 @@ static void draw_order(hci_output *out, const hci_waveform_order *o, const hci_s
 
 static void draw_orders(hci_output *out, const hci_waveform *w)
 {
-    static const hci_svg_entry LEGEND[] = {
-        {HCI_SVG_DOT,  "before", "left out: noise can make it"},
-        {HCI_SVG_DOT,  "dot",    "kept"                       },
-        {HCI_SVG_LINE, "noise",  "95 % interval"              }
-    };
+    static const hci_svg_entry LEGEND[] = {{HCI_SVG_DOT, "before", "left out: noise can make it"},
+                                           {HCI_SVG_DOT, "dot", "kept"},
+                                           {HCI_SVG_LINE, "noise", "95 % interval"}};
     hci_svg_range order = {0.0, 1.0}, amplitude = HCI_SVG_NOTHING;
     char title[96];
     for (size_t k = 0; k < w->count; ++k) {

@@ -5,9 +5,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "host/emit/text.h"
 #include "host/base/memory.h"
 #include "host/base/quote.h"
+#include "host/emit/text.h"
 
 enum { NAME_LENGTH = 48 };
 

@@ -2,8 +2,8 @@
 #ifndef HCI_SRC_HOST_EMIT_TEXT_H
 #define HCI_SRC_HOST_EMIT_TEXT_H
 
-#include "hci/host/emit/emit.h"
 #include "hci/host/base/output.h"
+#include "hci/host/emit/emit.h"
 #include "host/emit/tabulate.h"
 
 enum { HCI_EMIT_PROBES = 8 };

@@ -343,8 +343,7 @@ static hci_status delay_set(probe *p, bool wraps, hci_sensor *sensor, hci_note *
     sensor->delay_steps += (size_t)whole;
     if (steps - whole > 1e-9) {
         const hci_effect_link link = {
-            delay_by_fraction, NULL, {0.0, 0.0, steps - whole, wraps ? 2.0 * HCI_PI : 0.0}
-        };
+            delay_by_fraction, NULL, {0.0, 0.0, steps - whole, wraps ? 2.0 * HCI_PI : 0.0}};
         if (p->channel.count < HCI_EFFECT_LINKS) p->channel.link[p->channel.count] = link;
         ++p->channel.count;
     }

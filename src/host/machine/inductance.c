@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "hci/math/fourier.h"
 #include "hci/host/csv/csv.h"
+#include "hci/math/fourier.h"
 #include "host/base/memory.h"
 
 static const char *const VALUE[HCI_PHASE_MATRIX] = {"La_H", "Lb_H", "Lc_H", "Mab_H", "Mbc_H", "Mca_H"};

@@ -7,9 +7,9 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "hci/math/harmonic.h"
-#include "hci/host/csv/csv.h"
 #include "hci/host/base/output.h"
+#include "hci/host/csv/csv.h"
+#include "hci/math/harmonic.h"
 #include "host/base/quote.h"
 
 #define SQRT2       1.4142135623730951
@@ -131,12 +131,12 @@ static const char *slip_of(double ratio, bool from_flux)
         bool flux_only;
         const char *words;
     } SLIP[] = {
-        {SQRT2,       false, ": about sqrt(2); is one of them rms and taken as peak?"         },
-        {1.0 / SQRT2, false, ": about 1/sqrt(2); is one of them peak and taken as rms?"       },
-        {SQRT3,       false, ": about sqrt(3); is a line-to-line value taken as of a phase?"  },
+        {SQRT2, false, ": about sqrt(2); is one of them rms and taken as peak?"},
+        {1.0 / SQRT2, false, ": about 1/sqrt(2); is one of them peak and taken as rms?"},
+        {SQRT3, false, ": about sqrt(3); is a line-to-line value taken as of a phase?"},
         {1.0 / SQRT3, false, ": about 1/sqrt(3); is a value of a phase taken as line to line?"},
-        {2.0,         true,  ": about 2; are poles and pole pairs mixed up?"                  },
-        {0.5,         true,  ": about 1/2; are poles and pole pairs mixed up?"                },
+        {2.0, true, ": about 2; are poles and pole pairs mixed up?"},
+        {0.5, true, ": about 1/2; are poles and pole pairs mixed up?"},
     };
     for (size_t k = 0; k < sizeof SLIP / sizeof *SLIP; ++k)
         if (fabs(ratio / SLIP[k].factor - 1.0) < 0.08 && (from_flux || !SLIP[k].flux_only))

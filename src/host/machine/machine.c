@@ -9,9 +9,9 @@
 #include <sys/stat.h>
 
 #include "hci/host/csv/csv.h"
-#include "host/machine/inductance.h"
-#include "host/machine/folder.h"
 #include "host/base/memory.h"
+#include "host/machine/folder.h"
+#include "host/machine/inductance.h"
 #include "host/machine/spectrum_table.h"
 
 #define PATH_SIZE 4096

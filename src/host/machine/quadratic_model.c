@@ -70,10 +70,7 @@ typedef struct {
 static void sample_at(const hci_effects_plant *within, const samples *s, size_t k)
 {
     static const int AT[3][3] = {
-        {HCI_AA, HCI_AB, HCI_CA},
-        {HCI_AB, HCI_BB, HCI_BC},
-        {HCI_CA, HCI_BC, HCI_CC}
-    };
+        {HCI_AA, HCI_AB, HCI_CA}, {HCI_AB, HCI_BB, HCI_BC}, {HCI_CA, HCI_BC, HCI_CC}};
     const double turn = (double)k * (double)s->turns / (double)s->count;
     hci_sample x = {0};
     x.theta_m_rad = 2.0 * HCI_PI * turn / within->machine->pole_pairs;

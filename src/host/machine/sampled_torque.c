@@ -3,9 +3,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "host/machine/quadratic_model.h"
 #include "hci/machine/frames.h"
 #include "host/base/memory.h"
+#include "host/machine/quadratic_model.h"
 #include "host/numeric/fft.h"
 
 #define LEAST_PER_TURN 1024.0

@@ -2,8 +2,8 @@
 #ifndef HCI_SRC_HOST_MACHINE_SPECTRUM_TABLE_H
 #define HCI_SRC_HOST_MACHINE_SPECTRUM_TABLE_H
 
-#include "hci/math/harmonic.h"
 #include "hci/host/csv/csv.h"
+#include "hci/math/harmonic.h"
 
 /* Reads `order`, `amplitude_column` (with its unit) and `phase_rad` into *terms, ascending by order;
  * (*row_of)[k] is the data row that term k stood in. Amplitudes may be negative. At order 0 the amplitude is

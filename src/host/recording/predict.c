@@ -4,13 +4,13 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "host/csv/write.h"
-#include "host/recording/free_shaft.h"
-#include "hci/machine/frames.h"
 #include "hci/host/machine/effects.h"
+#include "hci/machine/frames.h"
 #include "host/base/memory.h"
 #include "host/base/quote.h"
+#include "host/csv/write.h"
 #include "host/numeric/derivative.h"
+#include "host/recording/free_shaft.h"
 
 /* ---- readings ---- */
 
@@ -204,9 +204,7 @@ static hci_status predict_task(task *t, hci_note *note)
 
 static hci_status write_task(const task *t, const char *out, hci_note *note)
 {
-    hci_csv_added added[3] = {
-        {"torque_model_Nm", "Nm", t->model}
-    };
+    hci_csv_added added[3] = {{"torque_model_Nm", "Nm", t->model}};
     size_t count = 1;
     if (t->run.torque_source == HCI_TORQUE_INERTIA)
         added[count++] = (hci_csv_added){"torque_inertia_Nm", "Nm", t->run.torque_Nm};

@@ -5,12 +5,12 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "host/csv/table.h"
+#include "hci/host/csv/csv.h"
 #include "hci/machine/frames.h"
 #include "hci/math/harmonic.h"
-#include "hci/host/csv/csv.h"
 #include "host/base/memory.h"
 #include "host/base/quote.h"
+#include "host/csv/table.h"
 #include "host/numeric/derivative.h"
 #include "host/numeric/unwrap.h"
 

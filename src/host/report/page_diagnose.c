@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/draw/html.h"
 #include "host/base/memory.h"
+#include "host/draw/html.h"
 #include "host/draw/plot.h"
 #include "host/report/report.h"
 

@@ -3,8 +3,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "host/draw/html.h"
 #include "host/base/memory.h"
+#include "host/draw/html.h"
 #include "host/draw/plot.h"
 #include "host/report/report.h"
 

@@ -14,13 +14,8 @@ typedef struct {
 static void list_sources(const hci_report_sources *s, source list[SOURCES])
 {
     const source all[SOURCES] = {
-        {"Machine",          s->machine  },
-        {"Wanted torque",    s->target   },
-        {"Harmonics to use", s->harmonics},
-        {"Scenario",         s->scenario },
-        {"Imposed currents", s->currents },
-        {"List of runs",     s->runs     }
-    };
+        {"Machine", s->machine},   {"Wanted torque", s->target},      {"Harmonics to use", s->harmonics},
+        {"Scenario", s->scenario}, {"Imposed currents", s->currents}, {"List of runs", s->runs}};
     memcpy(list, all, sizeof all);
 }
 

@@ -2,8 +2,8 @@
 #ifndef HCI_SRC_HOST_REPORT_REPORT_H
 #define HCI_SRC_HOST_REPORT_REPORT_H
 
-#include "hci/host/diagnose/diagnose.h"
 #include "hci/host/base/output.h"
+#include "hci/host/diagnose/diagnose.h"
 #include "hci/host/report/report.h"
 #include "hci/host/simulate/simulate.h"
 #include "hci/host/solve/solve.h"

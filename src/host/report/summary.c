@@ -6,8 +6,8 @@
 
 #include "hci/host/check/check.h"
 #include "hci/host/recording/predict.h"
-#include "hci/host/simulate/simulate.h"
 #include "hci/host/report/summary.h"
+#include "hci/host/simulate/simulate.h"
 #include "hci/host/waveform/waveform.h"
 #include "hci/version.h"
 #include "host/base/memory.h"
@@ -503,13 +503,13 @@ static bool add_constants(cJSON *root, const hci_sheet *s)
         hci_sheet_reading reading;
         const char *key;
     } SHOWN[] = {
-        {HCI_SHEET_TORQUE_PEAK,    "torque_constant_peak_Nm_per_A"},
-        {HCI_SHEET_TORQUE_RMS,     "torque_constant_rms_Nm_per_A" },
-        {HCI_SHEET_TORQUE_DC,      "torque_constant_dc_Nm_per_A"  },
-        {HCI_SHEET_VOLT_LINE_RMS,  "line_rms_V_per_krpm"          },
-        {HCI_SHEET_VOLT_LINE_PEAK, "line_peak_V_per_krpm"         },
-        {HCI_SHEET_KV_LINE_PEAK,   "kv_line_peak_rpm_per_V"       },
-        {HCI_SHEET_FLUX,           "flux_linkage_Wb"              },
+        {HCI_SHEET_TORQUE_PEAK, "torque_constant_peak_Nm_per_A"},
+        {HCI_SHEET_TORQUE_RMS, "torque_constant_rms_Nm_per_A"},
+        {HCI_SHEET_TORQUE_DC, "torque_constant_dc_Nm_per_A"},
+        {HCI_SHEET_VOLT_LINE_RMS, "line_rms_V_per_krpm"},
+        {HCI_SHEET_VOLT_LINE_PEAK, "line_peak_V_per_krpm"},
+        {HCI_SHEET_KV_LINE_PEAK, "kv_line_peak_rpm_per_V"},
+        {HCI_SHEET_FLUX, "flux_linkage_Wb"},
     };
     const double emf = hci_sheet_emf(s->reading, s->strength, s->pole_pairs);
     bool good = add_number(root, "back_emf_Vs_per_rad", emf);

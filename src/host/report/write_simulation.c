@@ -1,8 +1,8 @@
 /* trajectory.csv, spectrum.csv, summary.json and report.html of a simulation. */
 #include <math.h>
 
-#include "hci/machine/frames.h"
 #include "hci/host/report/summary.h"
+#include "hci/machine/frames.h"
 #include "host/report/report.h"
 #include "host/simulate/simulation.h"
 

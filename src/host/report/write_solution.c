@@ -2,9 +2,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "hci/machine/frames.h"
 #include "hci/host/base/output.h"
 #include "hci/host/report/summary.h"
+#include "hci/machine/frames.h"
 #include "host/draw/plot.h"
 #include "host/report/report.h"
 

@@ -156,16 +156,14 @@ static void note_extremes(hci_evaluation *e, const hci_record *r)
 static level level_of(const hci_record *r)
 {
     const double *l = r->point.inductance_H, *i = r->i;
-    return (level){
-        r->time_s,
-        r->angle_rad,
-        r->speed_rad_per_s,
-        {i[0],    i[1]   },
-        {r->v[0], r->v[1]},
-        0.5 * (l[0] * i[0] * i[0] + 2.0 * l[1] * i[0] * i[1] + l[2] * i[1] * i[1]),
-        r->speed_rad_per_s * r->speed_rad_per_s,
-        r->counts
-    };
+    return (level){r->time_s,
+                   r->angle_rad,
+                   r->speed_rad_per_s,
+                   {i[0], i[1]},
+                   {r->v[0], r->v[1]},
+                   0.5 * (l[0] * i[0] * i[0] + 2.0 * l[1] * i[0] * i[1] + l[2] * i[1] * i[1]),
+                   r->speed_rad_per_s * r->speed_rad_per_s,
+                   r->counts};
 }
 
 /* ---- integrals ---- */

@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "host/solve/choose.h"
 #include "host/base/memory.h"
+#include "host/solve/choose.h"
 
 static bool touches(const double *order, size_t order_count, const double *wanted, size_t wanted_count)
 {

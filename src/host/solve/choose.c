@@ -2,8 +2,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "host/solve/choose.h"
 #include "host/base/memory.h"
+#include "host/solve/choose.h"
 
 static hci_status no_memory(hci_note *note)
 {

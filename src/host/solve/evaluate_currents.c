@@ -2,9 +2,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "host/solve/harmonic_system.h"
 #include "host/base/memory.h"
 #include "host/numeric/fft.h"
+#include "host/solve/harmonic_system.h"
 
 /* Samples in the period of the highest order: peaks between them are off by less than 1 − cos(π/16) of that
  * order. */

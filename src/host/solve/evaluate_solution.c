@@ -1,10 +1,10 @@
 /* What the currents of a solution do: torque and verdict of every order, and the copper loss. */
 #include <math.h>
 
-#include "host/solve/harmonic_system.h"
+#include "host/base/memory.h"
 #include "host/machine/sampled_torque.h"
 #include "host/machine/torque_gradient.h"
-#include "host/base/memory.h"
+#include "host/solve/harmonic_system.h"
 
 #define NEGLIGIBLE 1e-12 /* waves of e + ½L'i below this share of the largest make no torque worth a line */
 

@@ -19,10 +19,7 @@ hci_target_order hci_target_at(const hci_target *target, double order)
 {
     for (size_t k = 0; k < target->count; ++k)
         if (fabs(target->order[k].torque_Nm.order - order) < HCI_ORDER_TOLERANCE) return target->order[k];
-    return (hci_target_order){
-        {order, 0.0, 0.0},
-        1.0
-    };
+    return (hci_target_order){{order, 0.0, 0.0}, 1.0};
 }
 
 /* ---- which orders are compared ---- */

@@ -2,9 +2,9 @@
 #ifndef HCI_SRC_HOST_SOLVE_HARMONIC_SYSTEM_H
 #define HCI_SRC_HOST_SOLVE_HARMONIC_SYSTEM_H
 
-#include "host/machine/quadratic_model.h"
 #include "hci/host/solve/solve.h"
 #include "hci/machine/strategy.h"
+#include "host/machine/quadratic_model.h"
 #include "host/numeric/sparse.h"
 
 /* What is wanted of which machine, and what flows already.

@@ -2,8 +2,8 @@
 
 #include <math.h>
 
-#include "host/solve/harmonic_system.h"
 #include "hci/machine/strategy.h"
+#include "host/solve/harmonic_system.h"
 
 /* Angles at which peaks are looked for: 16 in the shortest period. */
 static size_t angles(const hci_solution *s, double top)

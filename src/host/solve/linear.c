@@ -3,9 +3,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "host/solve/harmonic_system.h"
 #include "hci/math/dense.h"
 #include "host/base/memory.h"
+#include "host/solve/harmonic_system.h"
 
 #define DEFAULT_LOSS_ALLOWANCE 1.10
 #define WORST_CONDITION        1e12 /* above it a square system is solved by QR instead */

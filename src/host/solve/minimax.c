@@ -2,8 +2,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "host/solve/choose.h"
 #include "hci/math/dense.h"
+#include "host/solve/choose.h"
 
 /* Lawson's iteration: least squares with weights that grow where the error is largest, until the largest
  * errors are level. The mean is held ten times tighter than the rest, so that a small set does not trade it

@@ -10,11 +10,11 @@
 #include <math.h>
 #include <string.h>
 
-#include "host/solve/harmonic_system.h"
-#include "host/machine/sampled_torque.h"
-#include "host/machine/torque_gradient.h"
 #include "hci/math/dense.h"
 #include "host/base/memory.h"
+#include "host/machine/sampled_torque.h"
+#include "host/machine/torque_gradient.h"
+#include "host/solve/harmonic_system.h"
 
 enum { MOST_STEPS = 60 };
 

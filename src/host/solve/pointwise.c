@@ -3,10 +3,10 @@
  * which is linear in the torque; all else is left to hci_strategy_current. */
 #include <math.h>
 
-#include "host/solve/harmonic_system.h"
-#include "hci/math/fourier.h"
 #include "hci/machine/frames.h"
+#include "hci/math/fourier.h"
 #include "host/base/memory.h"
+#include "host/solve/harmonic_system.h"
 
 enum { SAMPLES_PER_TURN = 2048, TOP_ORDER = 512 };
 

@@ -4,9 +4,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "host/base/memory.h"
 #include "host/solve/harmonic_system.h"
 #include "host/solve/limits.h"
-#include "host/base/memory.h"
 
 #define DEFAULT_TOLERANCE 1e-6
 

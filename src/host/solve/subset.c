@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "host/solve/choose.h"
 #include "hci/math/dense.h"
+#include "host/solve/choose.h"
 
 typedef struct {
     double xx, xy, yy; /* symmetric [xx xy; xy yy] */

@@ -4,13 +4,13 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "hci/host/base/output.h"
+#include "hci/machine/frames.h"
 #include "hci/math/dense.h"
 #include "hci/math/fourier.h"
-#include "hci/machine/frames.h"
-#include "hci/host/base/output.h"
 #include "host/base/memory.h"
-#include "host/draw/plot.h"
 #include "host/base/quote.h"
+#include "host/draw/plot.h"
 #include "host/waveform/parts.h"
 
 /* Of all orders looked at, noise is to make one in so many recordings. */
@@ -308,11 +308,9 @@ static void set_given(const hci_waveform_task *t, const hci_harmonic *fit, const
     const size_t count = t->options->order_count;
     hci_waveform *w = t->result;
     for (size_t k = 0; k < count; ++k) {
-        const hci_turn_estimate e = {
-            {fit[k + 1].sine, fit[k + 1].cosine},
-            error[k],
-            fmax((double)t->run->count - 2.0 * (double)count - 1.0, 2.0)
-        };
+        const hci_turn_estimate e = {{fit[k + 1].sine, fit[k + 1].cosine},
+                                     error[k],
+                                     fmax((double)t->run->count - 2.0 * (double)count - 1.0, 2.0)};
         set_order(&w->order[k], t->options->orders[k], &e);
         w->order[k].kept = true;
     }

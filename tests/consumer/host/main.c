@@ -17,19 +17,14 @@ static int missing_file_is_told(void)
 static int torque_is_solved(void)
 {
     hci_wave back_emf[] = {hci_wave_polar(1.0, +1, 0.5, 0.0)};
-    hci_component component[] = {
-        {1.0, +1}
-    };
+    hci_component component[] = {{1.0, +1}};
     hci_set name[] = {HCI_SET_POS};
-    hci_target_order order[] = {
-        {{0.0, 0.0, 1.0}, 1.0}
-    };
+    hci_target_order order[] = {{{0.0, 0.0, 1.0}, 1.0}};
     const hci_component_set set = {.component = component, .set = name, .count = 1};
     const hci_target target = {order, 1};
     const hci_solve_options options = {.target = &target, .set = &set};
-    const hci_machine_data machine = {
-        .pole_pairs = 4.0, .model = {.pole_pairs = 4, .back_emf = back_emf, .back_emf_count = 1}
-    };
+    const hci_machine_data machine = {.pole_pairs = 4.0,
+                                      .model = {.pole_pairs = 4, .back_emf = back_emf, .back_emf_count = 1}};
     hci_solution solution;
     hci_note note = {0};
     const hci_status status = hci_solve(&machine, &options, &solution, &note);

@@ -7,8 +7,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "hci/math/harmonic.h"
 #include "hci/host/base/note.h"
+#include "hci/math/harmonic.h"
 #include "hci/table.h"
 
 #ifdef __cplusplus

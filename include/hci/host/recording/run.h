@@ -5,8 +5,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "hci/host/csv/csv.h"
 #include "hci/host/base/note.h"
+#include "hci/host/csv/csv.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -2,10 +2,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "host/diagnose/candidates/residual_spectrum.h"
 #include "host/base/memory.h"
 #include "host/diagnose/candidates/candidates.h"
 #include "host/diagnose/candidates/empirical_term.h"
+#include "host/diagnose/candidates/residual_spectrum.h"
 
 enum {
     MOST_COGGING = 12,   /* orders of cogging that are looked into at a time */

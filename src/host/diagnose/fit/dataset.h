@@ -2,8 +2,8 @@
 #ifndef HCI_SRC_HOST_DIAGNOSE_FIT_DATASET_H
 #define HCI_SRC_HOST_DIAGNOSE_FIT_DATASET_H
 
-#include "host/diagnose/fit/evidence.h"
 #include "hci/host/machine/machine.h"
+#include "host/diagnose/fit/evidence.h"
 
 /* Start with {0}; it must not be moved. */
 typedef struct {

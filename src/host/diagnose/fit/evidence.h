@@ -4,11 +4,11 @@
 #ifndef HCI_SRC_HOST_DIAGNOSE_FIT_EVIDENCE_H
 #define HCI_SRC_HOST_DIAGNOSE_FIT_EVIDENCE_H
 
-#include "host/diagnose/prepare/binned_samples.h"
+#include "host/diagnose/candidates/candidates.h"
 #include "host/diagnose/fit/model.h"
+#include "host/diagnose/prepare/binned_samples.h"
 #include "host/numeric/noise.h"
 #include "host/numeric/normal_equations.h"
-#include "host/diagnose/candidates/candidates.h"
 
 typedef struct {
     const hci_machine *machine;

@@ -3,10 +3,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "host/diagnose/prepare/current_rate.h"
-#include "host/diagnose/prepare/run_statistics.h"
 #include "hci/machine/frames.h"
 #include "host/base/memory.h"
+#include "host/diagnose/prepare/current_rate.h"
+#include "host/diagnose/prepare/run_statistics.h"
 #include "host/diagnose/prepare/smooth.h"
 
 enum {

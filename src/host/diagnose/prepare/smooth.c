@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "hci/math/dense.h"
 #include "hci/machine/frames.h"
+#include "hci/math/dense.h"
 #include "host/base/memory.h"
 #include "host/numeric/normal_equations.h"
 

@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "host/base/memory.h"
-#include "host/diagnose/search/search.h"
 #include "host/diagnose/search/candidate_models.h"
+#include "host/diagnose/search/search.h"
 
 enum { MOST_EFFECTS = 6, MOST_ROUNDS = 14 };
 

@@ -2,9 +2,9 @@
 #ifndef HCI_SRC_HOST_DIAGNOSE_SEARCH_ATTRIBUTE_H
 #define HCI_SRC_HOST_DIAGNOSE_SEARCH_ATTRIBUTE_H
 
+#include "hci/host/solve/solve.h"
 #include "host/diagnose/fit/evidence.h"
 #include "host/diagnose/fit/fit.h"
-#include "hci/host/solve/solve.h"
 
 /* An account of the recordings: effects with values, and how well they describe them. Start with {0}. */
 typedef struct {

@@ -2,8 +2,8 @@
 
 #include <string.h>
 
-#include "host/diagnose/search/group_selection.h"
 #include "host/base/memory.h"
+#include "host/diagnose/search/group_selection.h"
 
 #define SAME       1e-4  /* share of a column that the model leaves of terms that look the same … */
 #define OWN        1e-2  /* … and of those that do not */

@@ -1,8 +1,8 @@
 #include <math.h>
 
 #include "host/diagnose/fit/resonance.h"
-#include "host/diagnose/search/search.h"
 #include "host/diagnose/search/candidate_models.h"
+#include "host/diagnose/search/search.h"
 
 /* Promises of the linearised problem, in units of the score. */
 #define PROMISING    (0.5 * HCI_DECISIVE) /* a single effect that is worth a fit */
@@ -182,10 +182,7 @@ static hci_status resonance_enter(contest *c, hci_note *note)
 
 hci_status hci_search_forward(hci_search *s, hci_account *account, bool *added, hci_note *note)
 {
-    contest c = {
-        s, account, {{NULL, 0, 0.0}, {0.0, 0, 0.0, 0.0}},
-          account->fit.score - HCI_DECISIVE
-    };
+    contest c = {s, account, {{NULL, 0, 0.0}, {0.0, 0, 0.0, 0.0}}, account->fit.score - HCI_DECISIVE};
     hci_trials t;
     hci_status status = trials_enriched(s, &account->suspects, &t, note);
     *added = false;

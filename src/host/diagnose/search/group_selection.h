@@ -2,8 +2,8 @@
 #ifndef HCI_SRC_HOST_DIAGNOSE_SEARCH_GROUP_SELECTION_H
 #define HCI_SRC_HOST_DIAGNOSE_SEARCH_GROUP_SELECTION_H
 
-#include "host/numeric/normal_equations.h"
 #include "host/diagnose/candidates/candidates.h"
+#include "host/numeric/normal_equations.h"
 
 /* What is chosen from. */
 typedef struct {

@@ -1,8 +1,8 @@
 #include <string.h>
 
-#include "host/diagnose/search/search.h"
-#include "host/diagnose/search/candidate_models.h"
 #include "host/diagnose/candidates/empirical_term.h"
+#include "host/diagnose/search/candidate_models.h"
+#include "host/diagnose/search/search.h"
 
 #define EQUAL          6.0  /* models whose scores differ by less fit as well as each other */
 #define PART           0.3  /* of what an effect is worth that makes another one plausible beside it */

@@ -2,8 +2,8 @@
 #include <string.h>
 
 #include "host/base/memory.h"
-#include "host/diagnose/search/search.h"
 #include "host/diagnose/candidates/empirical_term.h"
+#include "host/diagnose/search/search.h"
 
 #define EXCESS       0.1  /* variance over that of the noise that tells of something that does not repeat */
 #define CLUMPS       1.35 /* the same of how uneven the errors are; noise makes 1.0 ± 0.1 */
