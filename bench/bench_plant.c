@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "../tests/plant_machine.h"
+#include "../tests/support/plant_machine.h"
 #include "hci/drive/control.h"
 #include "timing.h"
 

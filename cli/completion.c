@@ -8,7 +8,8 @@
 
 typedef enum { TAKES_TEXT, TAKES_WORD, TAKES_FILE, TAKES_FOLDER } takes;
 
-/* Values that are one of a few words. tests/cli_reference.sh holds them against what the program accepts. */
+/* Values that are one of a few words. tests/cli/cli_reference.sh holds them against what the program accepts.
+ */
 static const struct {
     const char *command, *option, *words;
 } CHOICES[] = {

@@ -70,8 +70,8 @@ while read -r name; do
     case $name in
         */*) [ -e "$name" ] || fault "$theory: there is no $name" ;;
         hci_*) grep -rqw -e "$name" include src || fault "$theory: there is no $name" ;;
-        test_*) if [ -f "tests/$name.c" ]; then test=tests/$name.c; else grep -qw -e "RUN_TEST($name)" "$test" || fault "$theory: $test has no $name"; fi ;;
-        [a-z]*_*) grep -qw -e "RUN_TEST($name)" "$test" || fault "$theory: $test has no $name" ;;
+        test_*) file=$(find tests -name "$name.c")
+                if [ -n "$file" ]; then test=$file; else grep -qw -e "RUN_TEST($name)" "$test" || fault "$theory: $test has no $name"; fi ;;
     esac
 done <"$work"
 [ "$faults" -eq 0 ]

@@ -1,4 +1,4 @@
-#include "hci/effects/effects.h"
+#include "hci/effects/effect.h"
 
 #include "core/effects/type.h"
 

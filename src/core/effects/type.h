@@ -5,7 +5,7 @@
 #include <float.h>
 #include <math.h>
 
-#include "hci/effects/effects.h"
+#include "hci/effects/effect.h"
 
 /* One line a room. The order is that in which the bench's effects act on the way from the truth to the
  * reading. */

@@ -6,7 +6,7 @@
 #ifndef HCI_SRC_HOST_MACHINE_QUADRATIC_MODEL_H
 #define HCI_SRC_HOST_MACHINE_QUADRATIC_MODEL_H
 
-#include "hci/effects/effects.h"
+#include "hci/effects/effect.h"
 #include "hci/host/base/note.h"
 
 typedef struct {

@@ -2,7 +2,7 @@
 #ifndef HCI_SRC_HOST_MACHINE_SAMPLED_TORQUE_H
 #define HCI_SRC_HOST_MACHINE_SAMPLED_TORQUE_H
 
-#include "hci/effects/effects.h"
+#include "hci/effects/effect.h"
 #include "hci/host/base/note.h"
 
 /* The torque of star currents over `turns` electrical turns, which must be a period of all: the orders at

@@ -2,7 +2,7 @@
 #ifndef HCI_SRC_HOST_MACHINE_TORQUE_CONSTANT_H
 #define HCI_SRC_HOST_MACHINE_TORQUE_CONSTANT_H
 
-#include "hci/effects/effects.h"
+#include "hci/effects/effect.h"
 
 /* N·m per ampere of i_q as it is read, at rest, in the limit of small currents, averaged over a mechanical
  * turn: 3/2 of the fundamental of the back-EMF, with whatever effects make of it. O(terms + harmonics). */

@@ -1,4 +1,4 @@
-# The eight runs of docs/measuring.md, from the bench of tests/rig: a machine with two pole pairs and a current sensor with an offset. In the
+# The eight runs of docs/measuring.md, from the bench of tests/rigs/bench: a machine with two pole pairs and a current sensor with an offset. In the
 # runs without current the terminals are open, and their voltages are written by the formula.
 # Called in a scratch folder with $rig; without the bench it names what is then not there.
 [ -n "${rig:-}" ] || {

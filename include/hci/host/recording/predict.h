@@ -2,7 +2,7 @@
 #ifndef HCI_HOST_RECORDING_PREDICT_H
 #define HCI_HOST_RECORDING_PREDICT_H
 
-#include "hci/effects/effects.h"
+#include "hci/effects/effect.h"
 #include "hci/host/machine/machine.h"
 #include "hci/host/recording/run.h"
 

@@ -2,7 +2,7 @@
 #ifndef HCI_HOST_SOLVE_SOLVE_H
 #define HCI_HOST_SOLVE_SOLVE_H
 
-#include "hci/effects/effects.h"
+#include "hci/effects/effect.h"
 #include "hci/host/machine/machine.h"
 #include "hci/host/report/report.h"
 #include "hci/host/solve/tables.h"

@@ -7,7 +7,7 @@
 #ifndef HCI_SRC_HOST_DIAGNOSE_CANDIDATES_EMPIRICAL_TERM_H
 #define HCI_SRC_HOST_DIAGNOSE_CANDIDATES_EMPIRICAL_TERM_H
 
-#include "hci/effects/effects.h"
+#include "hci/effects/effect.h"
 
 /* How a torque grows: |i| and |ω| relative to 1 A and 1 rad/s. */
 typedef struct {

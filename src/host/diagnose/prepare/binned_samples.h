@@ -2,7 +2,7 @@
 #ifndef HCI_SRC_HOST_DIAGNOSE_PREPARE_BINNED_SAMPLES_H
 #define HCI_SRC_HOST_DIAGNOSE_PREPARE_BINNED_SAMPLES_H
 
-#include "hci/effects/effects.h"
+#include "hci/effects/effect.h"
 #include "hci/host/base/note.h"
 #include "hci/host/recording/run.h"
 

@@ -1,0 +1,265 @@
+#!/bin/sh
+# labels: cli
+# Wrong input files: exit code 3, file and line and a remedy on standard error, nothing on standard output and nothing
+# written. And the forms of a table that mean the same: the same bytes.
+#   cli_bad_input.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
+. "$1/tests/support/common.sh"
+
+m=$work/m t=$work/t.csv h=$work/h.csv
+header=order,amplitude_Nm,phase_rad
+
+# A right machine, target and set to spoil.
+fresh() {
+    rm -rf "$m" "$t" "$h"
+    mkdir "$m"
+    printf 'name,value,unit,source\npole_pairs,2,1,test\nemf_frequency,50,Hz,test\nconnection,star,,test\n' >"$m/machine.csv"
+    printf 'order,amplitude_V,phase_rad\n1,21.93,0\n5,-5.02,0\n7,4.80,0.1\n' >"$m/back_emf.csv"
+    printf '%s\n6,0.0021,1.22\n12,0.3102,1.76\n' $header >"$m/cogging.csv"
+    printf '%s\n0,2,0\n6,0.1,0.5\n' $header >"$t"
+    printf 'order,set\n5,sym\n7,asym\n11,neg\n13,pos\n' >"$h"
+}
+
+# refused CODE EXPRESSION... [-- OPTION...]: what the files are now is refused, and says each expression.
+refused() {
+    code_wanted=$1
+    shift
+    expressions=
+    while [ $# -gt 0 ] && [ "$1" != -- ]; do
+        expressions="$expressions$1
+"
+        shift
+    done
+    [ $# -eq 0 ] || shift
+    run "$code_wanted" solve "$m" --target "$t" -o "$work/out/sub" "$@"
+    nothing_on_stdout
+    says '^hci-solve: '
+    old_ifs=$IFS
+    IFS='
+'
+    for expression in $expressions; do says "$expression"; done
+    IFS=$old_ifs
+    check "more than one line is said" [ "$(wc -l <"$work/stderr")" -eq 1 ]
+    check "something was written" [ ! -e "$work/out" ]
+    rm -rf "$work/out"
+    fresh
+}
+
+fresh
+run 0 solve "$m" --target "$t" --harmonics "$h" -q
+fresh
+
+# ---- folders and files
+
+rm -r "$m"; refused 3 '/m: No such file or directory; expected the folder of a machine with machine.csv'
+rm -r "$m"; echo x >"$m"; refused 3 '/m: found a file, expected the folder of a machine'
+run 3 solve '' --target "$t"; says 'No such file'; nothing_on_stdout
+rm "$m/machine.csv"; refused 3 '/m/machine.csv: .*(No such file|not exist)'
+rm "$m/back_emf.csv"; refused 3 '/m/back_emf.csv: .*(No such file|not exist)'
+rm "$t"; refused 3 '/t.csv: .*(No such file|not exist)'
+rm "$h"; refused 3 '/h.csv: .*(No such file|not exist)' -- --harmonics "$h"
+for file in machine.csv back_emf.csv cogging.csv; do
+    rm "$m/$file"; mkdir "$m/$file"; refused 3 "/m/$file: .*(folder|directory)"
+    : >"$m/$file"; refused 3 "/m/$file(:1)?: found no line of text, expected a header row"
+    printf '# only a comment\n' >"$m/$file"; refused 3 "/m/$file(:[0-9]+)?: "
+    ln -sf nowhere "$m/$file"; [ $file = cogging.csv ] && fresh || refused 3 "/m/$file: .*No such file"
+    chmod 000 "$m/$file"
+    if [ -r "$m/$file" ]; then fresh; else refused 3 "/m/$file: .*Permission denied"; fi
+done
+rm "$t"; mkdir "$t"; refused 3 '/t.csv: .*(folder|directory)'
+: >"$t"; refused 3 '/t.csv(:1)?: found no line of text, expected a header row'
+printf '%s\n' $header >"$t"; refused 3 '/t.csv(:1)?: no rows, expected at least the mean torque'
+printf 'order,amplitude_V,phase_rad\n' >"$m/back_emf.csv"; refused 3 '/back_emf.csv(:1)?: no rows, expected at least order 1'
+printf 'name,value,unit,source\n' >"$m/machine.csv"; refused 3 '/machine.csv(:1)?: no .pole_pairs.; add a row'
+refused 3 '/dev/null' -- --harmonics /dev/null
+
+# ---- machine.csv
+
+machine() { # ROW...: instead of the right rows
+    { echo name,value,unit,source; printf '%s\n' "$@"; } >"$m/machine.csv"
+}
+hz=emf_frequency,50,Hz,test
+machine "$hz"; refused 3 'machine.csv: no .pole_pairs.; add a row .pole_pairs,N,1,source.'
+for value in 0 -2 3.5 1001 1e300; do
+    machine "pole_pairs,$value,1,x" "$hz"; refused 3 'machine.csv(:2)?: .pole_pairs.: found .*, expected a whole number from 1 to 1000; .*N/2 pole pairs'
+done
+for value in four '' nan inf 1e999 0x2 '2 2' 2,5; do
+    machine "pole_pairs,\"$value\",1,x" "$hz"; refused 3 'machine.csv:2: .*value' 'found' 'expected'
+done
+machine pole_pairs,2,1,x pole_pairs,2,1,x "$hz"; refused 3 'machine.csv:3: .*name.*pole_pairs.*each name once; delete one'
+machine pole_pairs,2,1,x "$hz" connection,delta,,x; refused 3 'machine.csv:4: .*delta.*expected .star. or .star-neutral.; .*equivalent star'
+machine pole_pairs,2,1,x "$hz" connection,,,x; refused 3 'machine.csv:4: .*expected .star. or .star-neutral.'
+machine pole_pairs,2,1,x; refused 3 'back_emf.csv.*in volts.*emf_frequency.*add the electrical frequency'
+machine pole_pairs,2,1,x emf_frequency,0,Hz,x; refused 3 'emf_frequency'
+machine pole_pairs,2,1,x emf_frequency,-50,Hz,x; refused 3 'emf_frequency'
+machine pole_pairs,2,1,x emf_frequency,50,furlong,x; refused 3 'machine.csv:3: .*unit.*furlong.*expected a unit that converts to Hz'
+machine pole_pairs,2,1,x emf_frequency,50,V,x; refused 3 'machine.csv:3: .*unit.*expected a unit that converts to Hz'
+machine pole_pairs,2,1,x "$hz" resistance,1,N,x; refused 3 'machine.csv:4: .*unit.*ohm'
+printf 'name,unit,source\npole_pairs,1,x\n' >"$m/machine.csv"; refused 3 'machine.csv:1: .*value'
+printf 'value,unit\n2,1\n' >"$m/machine.csv"; refused 3 'machine.csv:1: .*name'
+
+# ---- what is there but not yet understood is not left out in silence
+
+printf 'theta_e_rad,La_H,Lb_H,Lc_H,Mab_H,Mbc_H,Mca_H\n0,1,1,1,0,0,0\n' >"$m/inductance.csv"; refused 3 'inductance.csv'
+effects='effect,parameter,value,unit,std_error'
+printf '%s\nwobble,a,1,,\n' $effects >"$m/effects.csv"; refused 3 'effects.csv:2: .*`wobble`, expected one of cogging'
+printf '%s\nsaturation,d9q0_sine_6,1,Nm,\n' $effects >"$m/effects.csv"; refused 3 'effects.csv:2: .*`d9q0_sine_6`, expected one of d3q0_sine_ORDER'
+printf '%s\nsaturation,d0q3_sine_0.3333,1,Nm,\n' $effects >"$m/effects.csv"; refused 3 'no common period .*k/pole_pairs'
+printf '%s\ncogging,sine_0.3333,1,Nm,\n' $effects >"$m/effects.csv"; refused 3 'effects.csv: .*no common period .*k/pole_pairs'
+sed -i 's/star,/star-neutral,/' "$m/machine.csv"; printf '%s\nsaturation,d0q3_sine_6,0.001,Nm,\n' $effects >"$m/effects.csv"; refused 3 'star connection only'
+refused 2 '--temperature' -- --temperature warm
+
+# ---- any table: what is wrong, and where
+
+table() { # PATH NAME HEADER GOOD_ROW OPTIONS...
+    file=$1 shown_name=$2 columns=$3 good=$4
+    shift 4
+    where="/$shown_name:3"
+    set_table() { printf '%s\n%s\n%s\n' "$columns" "$good" "$1" >"$file"; }
+    set_table 12,x,0;                         refused 3 "$where: .*found .x., expected" -- "$@"
+    set_table 12,,0;                          refused 3 "$where: " -- "$@"
+    for number in nan inf -inf 1e999 0x1 1e '1 2' '1.2.3' --1 +-1 '1,5'; do
+        set_table "12,\"$number\",0";         refused 3 "$where: .*found" 'expected' -- "$@"
+    done
+    set_table 12,1;                           refused 3 "$where: .*" -- "$@"
+    set_table 12,1,0,4,5,6;                   refused 3 "$where: .*" -- "$@"
+    set_table -6,1,0;                         refused 3 "$where: .*order.*expected an order of 0 or more; .*positive" -- "$@"
+    set_table "$good";                        refused 3 "/$shown_name:[23]: .*order.*each order once; join the two rows" -- "$@"
+    set_table '12,1,"0';                      refused 3 "/$shown_name:[34]: .*quot" -- "$@"
+    printf '%s\n%s' "${columns%,*}" "${good%,*}" >"$file"; refused 3 "/$shown_name:1: .*phase" 'expected|add|needs' -- "$@"
+    printf 'order,%s\n1,%s\n' "$columns" "$good" >"$file"; refused 3 "/$shown_name:1: .*order.*(twice|once|duplicate)" -- "$@"
+    printf '%s,phase_deg\n%s,0\n' "$columns" "$good" >"$file"; refused 3 "/$shown_name:1: .*phase" -- "$@"
+    printf '%s\n%s\n' "$columns" "$good" | sed 's/phase_rad/phase_V/' >"$file"; refused 3 "/$shown_name:1: .*phase" -- "$@"
+    set_table "12,1,0$(printf '\001')";       refused 3 "$where: " -- "$@"
+    printf '%s\n%s\n12,1\0,0\n' "$columns" "$good" >"$file"; refused 3 "/$shown_name(:3)?: .*(NUL|zero byte|binary|UTF-16)" -- "$@"
+    { printf '\377\376'; printf '%s\n%s\n' "$columns" "$good" | sed 's/./&\n/g' | tr '\n' '\0'; } >"$file"
+    refused 3 "/$shown_name(:1)?: .*UTF-16.*UTF-8" -- "$@"
+    printf '%s\n' "$columns" | head -c 9 >"$file"; refused 3 "/$shown_name:1: " -- "$@"
+    printf '<html><body>not found</body></html>\n' >"$file"; refused 3 "/$shown_name:1: " -- "$@"
+}
+table "$t" t.csv order,amplitude_Nm,phase_rad 6,0.1,0.5
+table "$m/cogging.csv" cogging.csv order,amplitude_Nm,phase_rad 6,0.1,0.5
+table "$m/back_emf.csv" back_emf.csv order,amplitude_V,phase_rad 1,21.93,0
+
+# ---- what only one of the tables refuses
+
+emf() { printf 'order,amplitude_V,phase_rad\n1,21.93,0\n%s\n' "$1" >"$m/back_emf.csv"; }
+emf 2.5,1,0; refused 3 'back_emf.csv:3: .*order.*2.5.*expected a whole electrical order from 1; .*divided by pole pairs'
+emf 0,1,0;   refused 3 'back_emf.csv:3: .*order.*expected a whole electrical order from 1'
+printf 'order,amplitude_A,phase_rad\n1,21.93,0\n' >"$m/back_emf.csv"; refused 3 'back_emf.csv:1: .*amplitude_V'
+printf 'order,amplitude_V,phase_rad\n1,0,0\n' >"$m/back_emf.csv"; refused 3 'back_emf.csv: every amplitude is zero'
+mean() { printf '%s\n%s\n' $header "$1" >"$t"; }
+mean 0,2,1;      refused 3 't.csv:2: .*phase_rad.*1.*expected 0 or 1.5708 .*; order 0 is the mean: its amplitude is signed'
+mean 0,2,3.1416; refused 3 't.csv:2: .*phase_rad'
+weighted() { printf '%s,weight\n0,2,0,1\n6,1,0,%s\n' $header "$1" >"$t"; }
+weighted -1;     refused 3 't.csv:3: .*weight.*-1.*expected.*0'
+weighted nan;    refused 3 't.csv:3: .*weight'
+weighted '';     refused 3 't.csv:3: .*weight'
+printf '%s\n0,2,0\n5.7654321,1,0\n6.1234567,1,0\n7.2718281,1,0\n' $header >"$t"; refused 3 'no common period.*k/pole_pairs'
+
+set_of() { printf 'order,set\n5,neg\n%s\n' "$1" >"$h"; }
+for name in symm positive '' 'pos ition' 1; do
+    set_of "7,$name"; refused 3 'h.csv:3: .*set.*expected .pos., .neg., .sym. or .asym.;' -- --harmonics "$h"
+done
+set_of 9,sym;   refused 3 'h.csv:3: .*set.*sym.*star connection.*divisible by three' -- --harmonics "$h"
+set_of 3,zero;  refused 3 'h.csv:3: .*star' -- --harmonics "$h"
+set_of 2.5,sym; refused 3 'h.csv:3: .*order.*2.5.*whole order with .sym.; use .pos. or .neg.' -- --harmonics "$h"
+set_of -7,pos;  refused 3 'h.csv:3: .*order.*-7.*order of 0 or more; .*other sequence' -- --harmonics "$h"
+set_of x,pos;   refused 3 'h.csv:3: .*order.*found .x.' -- --harmonics "$h"
+set_of 7;       refused 3 'h.csv:3: ' -- --harmonics "$h"
+set_of 7,pos,1; refused 3 'h.csv:3: ' -- --harmonics "$h"
+set_of 1,pos;   refused 3 'pos 1, which is held fixed; leave it out' -- --harmonics "$h" --fundamental 12,0.2
+set_of 1,asym;  refused 3 'asym 1, which is held fixed; leave it out' -- --harmonics "$h" --fundamental 12,0.2
+printf 'order\n5\n' >"$h";            refused 3 'h.csv:1: .*no column .set.; expected the columns order,set' -- --harmonics "$h"
+printf 'harmonic,set\n5,neg\n' >"$h"; refused 3 'h.csv:1: .*order' -- --harmonics "$h"
+printf 'order,set\n5,neg\n5,sym\n' >"$h" # the same component: counted once, and said
+run 1 solve "$m" --target "$t" --harmonics "$h"
+says 'note: neg 5 and sym 5 are the same component and count once'
+fresh
+
+# ---- emit reads currents
+
+mkdir "$work/c"
+for rows in '1,sym,x,0' '1,what,1,0' '-1,pos,1,0' '1,pos,1' '1,pos,nan,0'; do
+    printf 'order,set,amplitude_A,phase_rad\n%s\n' "$rows" >"$work/c/currents.csv"
+    for given in "$work/c" "$work/c/currents.csv"; do
+        run 3 emit "$given" --name t -o "$work/out"
+        nothing_on_stdout
+        says '/c/currents.csv:2: '
+        check "something was written" [ ! -e "$work/out" ]
+    done
+done
+run 3 emit "$work/nowhere" --name t -o "$work/out"
+says '/nowhere: .*(No such file|not exist)'
+run 3 emit "$work/c" --name t --per-torque -o "$work/out"
+says 'no currents_per_Nm.csv: .*not linear'
+check "something was written" [ ! -e "$work/out" ]
+
+# ---- names that need care
+
+for name in 'with blank' 'naïve' '%s%n' "quote'" '-dash'; do
+    mkdir "$work/$name" && cp -R "$m" "$work/$name/m" && echo 'order,what' >"$work/$name/t.csv"
+    run 3 solve "$work/$name/m" --target "$work/$name/t.csv"
+    checks=$((checks + 1))
+    grep -qF "/$name/t.csv" "$work/stderr" || fail "the file is not named: $name"
+    run 0 solve "$work/$name/m" --target "$t" -q -o "$work/$name/out"
+    check "nothing in $name/out" [ -s "$work/$name/out/currents.csv" ]
+done
+run 3 solve "$m" --target "$(awk 'BEGIN { for (k = 0; k < 5000; k++) printf "x" }')"
+run 3 solve "$(awk 'BEGIN { for (k = 0; k < 5000; k++) printf "x" }')" --target "$t"
+check "a long name floods the terminal" [ "$(wc -c <"$work/stderr")" -lt 1200 ]
+
+# ---- other forms of the same tables
+
+fresh
+run 0 solve "$m" --target "$t" -q -o "$work/plain"
+
+same() { # WHAT: the files as they are give the same bytes
+    rm -rf "$work/other"
+    run 0 solve "$m" --target "$t" -q -o "$work/other"
+    check "$1: other results" diff -r "$work/plain" "$work/other"
+    fresh
+}
+
+# each table through a filter
+each() {
+    for file in "$m/machine.csv" "$m/back_emf.csv" "$m/cogging.csv" "$t"; do
+        "$@" <"$file" >"$work/filtered" && mv "$work/filtered" "$file"
+    done
+}
+bom() { printf '\357\273\277'; cat; }
+crlf() { sed "s/\$/$(printf '\r')/"; }
+semicolons() { tr ',.' ';,'; }
+tabs() { tr ',' '\t'; }
+quotes() { sed 's/[^,]*/"&"/g'; }
+comments() { sed 's/^/# before\n/'; echo '# after'; }
+no_newline() { awk '{ printf "%s%s", (NR > 1 ? "\n" : ""), $0 }'; }
+blanks() { sed 's/,/ , /g; s/^/ /; s/$/ /'; }
+capitals() { sed '1s/.*/\U&/'; }
+empty_lines() { sed 's/$/\n/'; }
+for filter in bom crlf semicolons tabs quotes comments no_newline blanks empty_lines; do
+    each $filter
+    same $filter
+done
+each crlf; each comments; each bom; same 'BOM before a comment, CRLF and LF mixed'
+printf 'ORDER,Amplitude_Nm,PHASE_RAD\n0,2,0\n6,0.1,0.5\n' >"$t"; same 'upper case'
+printf 'phase_rad,order,note,amplitude_Nm\n0,0,mean,2\n0.5,6,ripple,0.1\n' >"$t"; same 'other columns in another order'
+printf '%s\n6,0.1,0.5\n0,2,0\n' $header >"$t"; same 'rows in another order'
+printf '%s\n0,2,1.5707963267948966\n6,0.1,0.5\n' $header >"$t"; same 'the mean with phase π/2'
+printf '%s,weight\n0,2,0,1\n6,0.1,0.5,1\n' $header >"$t"; same 'weights of 1'
+printf 'order,amplitude,phase\n1,Nm,rad\n0,2,0\n6,0.1,0.5\n' >"$t"; same 'a row of units'
+printf 'order,amplitude_mNm,phase_rad\n0,2000,0\n6,100,0.5\n' >"$t"; same 'mN·m'
+printf '%s\n0,2e0,0.0\n6.000,+1.0E-1,.5\n' $header >"$t"; same 'numbers in other forms'
+machine 'pole_pairs,2,1,x' 'emf_frequency,0.05,kHz,x' 'connection,star,,x'; same 'kHz'
+machine 'pole_pairs,2,-,x' 'emf_frequency,50,,x'; same 'units left out, star by default'
+printf 'name,value,unit,source\npole_pairs,2,1,"a, ""quoted"" source\nin two lines"\nemf_frequency,50,Hz,x\n' >"$m/machine.csv"; same 'a quoted line break'
+
+# degrees: the same to rounding
+printf 'order,amplitude_Nm,phase_deg\n0,2,0\n6,0.1,28.64788975654116\n' >"$t"
+run 0 solve "$m" --target "$t" -q -o "$work/degrees"
+awk -F, 'FNR == 1 { file++ }
+    FNR > 1 && file == 1 { order[FNR] = $1; sine[FNR] = $4 * sin($5); cosine[FNR] = $4 * cos($5) }
+    FNR > 1 && file == 2 { if ($1 != order[FNR] || (sine[FNR] - $4 * sin($5)) ^ 2 + (cosine[FNR] - $4 * cos($5)) ^ 2 > 1e-24) bad = 1; rows++ }
+    END { exit bad || rows < 5 }' "$work/plain/spectrum.csv" "$work/degrees/spectrum.csv"
+check "degrees: another torque" [ $? -eq 0 ]
+
+finish

@@ -1,0 +1,118 @@
+#!/bin/sh
+# labels: cli
+# What `check` says and writes: verdict, place, evidence, exit codes, JSON; that it changes nothing.
+#   cli_check.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
+. "$1/tests/support/common.sh"
+cd "$source_dir" || exit 1
+
+# ---- nothing wrong
+
+run 0 check data/machine_c
+nothing_on_stdout
+says '^consistent: ' '0\.9964 +1  rated torque over what the rated current makes' 'not checked, for want of' 'a recording of currents, angle and torque: torque_size'
+run 0 check data/fem_c/machine data/fem_c/runs/*.csv -q
+nothing_on_stdout
+nothing_on_stderr
+
+# ---- a slip: the line-to-line back-EMF, √3 × 0.892 = 1.545
+
+cp -R data/fem_c/machine "$work/typed"
+sed 's/^1,0.89205945,/1,1.545092,/' data/fem_c/machine/back_emf.csv >"$work/typed/back_emf.csv"
+cp -R "$work/typed" "$work/before"
+run 1 check "$work/typed" data/fem_c/runs/I0.csv data/fem_c/runs/id0_iq6.csv
+nothing_on_stdout
+says '^1 slip found: the back-EMF is given line to line, not line to star point, more than 99.9 % sure' \
+    'typed/back_emf.csv:2: column amplitude_Nm_per_A: found 1.545092, should be 0.892059' \
+    'evidence: ' '0\.5894 .*torque over 3/2 k_e i_q and the reluctance torque'
+check "check has changed the machine" diff -r "$work/before" "$work/typed"
+
+# ---- two slips of a folder that the loader of machines refuses, and what looks the same
+
+sed 's/^pole_pairs,2,/pole_pairs,4,/' data/fem_c/machine/machine.csv >"$work/typed/machine.csv"
+printf 'order,amplitude_Nm_per_A,phase_rad\n4,0.892,0\n20,0.05,3.1416\n' >"$work/typed/back_emf.csv"
+run 1 check "$work/typed"
+says 'emf_orders_mechanical: the orders of back_emf.csv are per mechanical turn'
+printf 'order,amplitude_Nm_per_A,phase_rad\n1,-0.892,0\n' >"$work/typed/back_emf.csv"
+run 1 check "$work/typed"
+says '^ambiguous: ' 'possible angle_zero_d_axis' 'or instead: emf_sign; would tell: '
+
+# ---- bounds, what leaves no trace, what is only possible, what is nearer
+
+run 0 check data/machine_a
+says '<= 300  flux linkage' '^  cannot be told from these files: poles_for_pole_pairs, emf_rms, '
+printf 'name,value,unit\npole_pairs,4,1\nresistance,0.38,ohm\ninductance_d,1,mH\ninductance_q,1,mH\nrated_current,7.0710678,A\nrated_torque,1.5,Nm\n' \
+    >"$work/typed/machine.csv"
+printf 'order,amplitude_Nm_per_A,phase_rad\n1,0.1,0\n' >"$work/typed/back_emf.csv"
+rm "$work/typed/cogging.csv"
+# drive NAME ID IQ: p = 4, k_e = 0.1, R = 0.2, L = 1 mH at 50 rad/s, as a drive logs it.
+drive() {
+    awk -v d="$2" -v q="$3" 'BEGIN {
+        print "time_s,theta_m_rad,erpm,id_A,iq_A,vd_V,vq_V,torque_Nm,odd"
+        for (k = 0; k < 400; ++k) {
+            t = 0.000314159265 * k
+            printf "%.9g,%.9g,%.9g,%g,%g,%g,%g,%g,0\n", t, 50 * t + 0.3, 200 * 9.54929658551, d, q, 0.2 * d - 0.2 * q, 0.2 * q + 0.2 * d + 5, 0.15 * q
+        }
+    }' >"$work/$1.csv"
+}
+drive load -2 10
+drive back 0 0
+run 1 check "$work/typed" "$work/load.csv" "$work/back.csv"
+says '^hci-solve: note: .*`erpm` is read as.*columns not used: `odd`' '^1 slip found, 1 more possible: rated_current is rms' \
+    'possible resistance_line' ' 1  change of the angle over time against the speed'
+check "the same remark twice" [ "$(grep -c 'note:' "$work/stderr")" -eq 1 ]
+sed -i 's/^resistance,0.38/resistance,0.2/; s/^rated_current,7.0710678/rated_current,10/' "$work/typed/machine.csv"
+printf 'order,amplitude_Nm_per_A,phase_rad\n1,0.1905255888,0\n' >"$work/typed/back_emf.csv"
+run 1 check "$work/typed" "$work/load.csv" "$work/back.csv"
+says '^1 slip found: the back-EMF is given line to line' '^  better as read, but still off'
+sed 's/theta_m_rad/theta/; s/vd_V,vq_V/va_V,vb_V/; s/odd/vc_V/' "$work/load.csv" >"$work/either.csv"
+run 3 check "$work/typed" "$work/either.csv"
+says 'theta.*mechanical or electrical'
+
+cp data/fem_c/machine/back_emf.csv "$work/typed/back_emf.csv"
+for slots in 1e12 4.5 -7; do
+    { cat data/fem_c/machine/machine.csv; echo "slots,$slots,1,typed"; } >"$work/typed/machine.csv"
+    run 3 check "$work/typed"
+    says 'machine.csv:[0-9]+: `slots`: found .*, expected a whole number from 3 to '
+done
+cp data/fem_c/machine/machine.csv "$work/typed/machine.csv"
+
+# ---- a summary for scripts
+
+printf 'order,amplitude_Nm_per_A,phase_rad\n1,-0.892,0\n' >"$work/typed/back_emf.csv"
+run 1 check "$work/typed" data/fem_c/runs/I0.csv --json -o "$work/out"
+nothing_on_stderr
+check "summary.json is not what --json says" cmp -s "$work/stdout" "$work/out/summary.json"
+if command -v python3 >/dev/null 2>&1; then
+    check "the summary lacks what scripts read" python3 - "$work/out/summary.json" <<'PYTHON'
+import json, sys
+s = json.load(open(sys.argv[1]))
+assert s["command"] == "check" and s["verdict"] == "ambiguous" and s["machine"].endswith("typed")
+assert s["runs"] == ["data/fem_c/runs/I0.csv"] and s["remarks"] == []
+assert "poles_for_pole_pairs" in s["untold"] and "angle_zero_d_axis" not in s["untold"]
+for f in s["findings"]:
+    assert {"slip", "file", "line", "column", "found", "should_be", "probability", "words", "alternatives"} <= set(f)
+assert s["findings"][0]["slip"] == "angle_zero_d_axis" and s["findings"][0]["alternatives"] == ["emf_sign"]
+assert s["findings"][0]["line"] == 2 and s["findings"][0]["file"].endswith("back_emf.csv")
+for e in s["evidence"]:
+    assert {"name", "words", "declared", "expected", "at_most", "as_read", "tolerance", "state"} <= set(e)
+assert all({"name", "words", "needs"} <= set(u) for u in s["unchecked"])
+PYTHON
+fi
+run 0 check data/machine_a --json
+check "no verdict" grep -q '"verdict":	"consistent"' "$work/stdout"
+
+# ---- wrong: one line that says what and where
+
+run 2 check
+says 'check: found 0 words, expected 1 or more: MACHINE'
+run 3 check "$work/none"
+says 'none: No such file'
+run 3 check data/machine_a data/machine_a/cogging.csv
+says 'cogging.csv:.*no column `theta_m_rad`.*theta_e_rad'
+printf 'name,value,unit\npole_pairs,2.5,1\n' >"$work/typed/machine.csv"
+run 3 check "$work/typed"
+says 'machine.csv:2: `pole_pairs`: found 2.5'
+: >"$work/file"
+run 5 check data/machine_a -o "$work/file/x"
+
+finish

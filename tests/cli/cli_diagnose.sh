@@ -1,0 +1,187 @@
+#!/bin/sh
+# labels: cli
+# What `diagnose` writes and says: verdicts and exit codes, the corrected machine, all or nothing, wrong lists and recordings.
+#   cli_diagnose.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
+. "$1/tests/support/common.sh"
+cd "$work" || exit 1
+
+# A sinusoidal machine of 0.2 N·m/A and two pole pairs.
+mkdir machine
+printf 'name,value,unit,source\npole_pairs,2,1,test\nconnection,star,,test\n' >machine/machine.csv
+printf '# kept as it is\norder,amplitude_Nm_per_A,phase_rad\n1,0.2,0\n' >machine/back_emf.csv
+
+# recordings OFFSET_A BRAKE_NM FILE:SPEED:CURRENT...: a turn and a half each; the noise is of 12 numbers of Park and Miller.
+recordings() {
+    offset=$1 brake=$2
+    shift 2
+    awk -v offset="$offset" -v brake="$brake" -v points="$*" 'BEGIN {
+        pi = atan2(0, -1)
+        seed = 4711
+        count = split(points, point, " ")
+        for (f = 1; f <= count; f++) {
+            split(point[f], x, ":")
+            print "time_s,theta_m_rad,speed_rad_per_s,ia_A,ib_A,ic_A,torque_Nm" >x[1]
+            for (k = 0; k < 450; k++) {
+                angle = (x[2] < 0 ? -2 : 2) * pi * k / 300
+                torque = -brake
+                for (p = 0; p < 3; p++) {
+                    i[p] = x[3] * sin(2 * angle - 2 * pi * p / 3)
+                    torque += 0.2 * i[p] * sin(2 * angle - 2 * pi * p / 3)
+                }
+                for (n = 0; n < 12; n++) {
+                    seed = 16807 * seed % 2147483647
+                    torque += 0.01 * (seed / 2147483647 - 0.5)
+                }
+                printf "%.9f,%.9f,%g,%.9f,%.9f,%.9f,%.9f\n", angle / x[2], angle, x[2], i[0] + offset, i[1], i[2], torque >x[1]
+            }
+        }
+    }'
+}
+
+# row FILE TEXT: the first row of a table with this text.
+row() {
+    grep -m 1 -e "$2" "$1"
+}
+
+# ---- explained
+
+recordings 0.3 0 slow.csv:60:2 back.csv:-150:7 held.csv:90:4
+printf 'file,role\nslow.csv,fit\nback.csv,fit\nheld.csv,holdout\n' >list.csv
+run 0 diagnose machine --runs list.csv -o deep/out
+nothing_on_stdout
+says '^diagnosed: machine, list.csv: explained$' 'added +current_offset: a = 0\.(29|30)' 'held.csv +holdout'
+check "files: $(ls deep/out | tr '\n' ' ')" [ "$(ls deep/out | tr '\n' ' ')" = \
+    'effects.csv errors.csv machine report.html residual_spectrum.csv summary.json ' ]
+check "effects.csv: $(head -n 2 deep/out/effects.csv)" grep -Eq '^1,current_offset,added,[0-9.]+,0\.9[0-9]+,' deep/out/effects.csv
+check "columns of effects.csv" [ "$(head -n 1 deep/out/effects.csv)" = rank,effect,verdict,delta_bic,residual_share,detail ]
+check "columns of errors.csv" grep -q '^file,role,mean_torque_Nm,rms_before_Nm,rms_after_Nm,noise_floor_Nm' deep/out/errors.csv
+check "errors.csv: $(row deep/out/errors.csv held)" grep -Eq '^held.csv,holdout,1\.(19|20)' deep/out/errors.csv
+check "not one more is added" [ "$(grep -c ',added,' deep/out/effects.csv)" -eq 1 ]
+for table in machine.csv back_emf.csv; do
+    check "$table has changed" cmp -s "machine/$table" "deep/out/machine/$table"
+done
+check "a table that the machine has not" [ ! -e deep/out/machine/cogging.csv ]
+check "effects of the machine: $(row deep/out/machine/effects.csv current)" \
+    grep -Eq '^current_offset,a,0\.(29|30)[0-9]*,A,0\.00' deep/out/machine/effects.csv
+
+# The same bytes again, --json what summary.json is, -q no word, and without --out no file.
+run 0 diagnose machine --runs list.csv -q --json -o again
+nothing_on_stderr
+check "other bytes" diff -r deep/out again
+check "--json is not summary.json" cmp -s stdout again/summary.json
+check "summary.json: $(row again/summary.json verdict)" grep -q '"verdict":.*"explained"' again/summary.json
+mkdir empty && cp -R machine slow.csv back.csv held.csv list.csv empty && cd empty || exit 1
+run 0 diagnose machine --runs list.csv -q
+check "written without --out: $(ls)" [ "$(ls | tr '\n' ' ')" = 'back.csv held.csv list.csv machine slow.csv ' ]
+cd .. || exit 1
+
+# The corrected machine lacks nothing, and predicts as it was said.
+run 0 diagnose deep/out/machine --runs list.csv
+says ': complete$'
+run 0 predict deep/out/machine held.csv
+after=$(awk -F, '$1 == "held.csv" { printf "%.6f", $5 }' deep/out/errors.csv)
+check "predict says other than $after: $(row stderr residual)" \
+    [ "$(awk '/residual/ { printf "%.4f", $2 }' stderr)" = "$(awk "BEGIN { printf \"%.4f\", $after }")" ]
+
+# ---- not told apart
+
+recordings 0 0.05 a.csv:60:1 b.csv:60:4 c.csv:60:8
+printf 'file;role;note\na.csv;fit;\nb.csv;fit;x\nc.csv;fit;\n' >list2.csv
+run 1 diagnose machine --runs list2.csv -o out2
+says ': ambiguous$' 'ambiguous +friction' 'ambiguous +torque_sensor' 'measure next'
+check "an answer that is no is written all the same" [ -s out2/machine/effects.csv ]
+check "ambiguous ones: $(grep -c ambiguous out2/effects.csv)" [ "$(grep -c ',ambiguous,' out2/effects.csv)" -eq 2 ]
+
+# ---- wrong: one line that says what and where, and nothing is written
+
+refused() { # CODE EXPRESSION WORD...
+    code_wanted=$1 expression=$2
+    shift 2
+    run "$code_wanted" diagnose "$@" -q
+    nothing_on_stdout
+    says "^hci-solve: .*$expression"
+    check "more than one line is said" [ "$(wc -l <stderr)" -eq 1 ]
+    check "something was written" [ ! -e refused ]
+}
+
+refused 2 'recordings are missing; add --runs LIST' machine -o refused
+refused 2 'found 0 words, expected 1: MACHINE' --runs list.csv -o refused
+refused 2 'resolution' machine --runs list.csv --resolution -3 -o refused
+refused 2 'resolution' machine --runs list.csv --resolution much -o refused
+refused 2 'unknown|no option|--nosuch' machine --runs list.csv --nosuch
+refused 3 'none.csv: .*No such file' machine --runs none.csv -o refused
+refused 3 'nomachine' nomachine --runs list.csv -o refused
+wrong_list() { # EXPRESSION TEXT
+    printf "$2" >wrong.csv
+    refused 3 "$1" machine --runs wrong.csv -o refused
+}
+wrong_list 'none.csv: .*No such file' 'file,role\nslow.csv,fit\nnone.csv,fit\n'
+wrong_list 'wrong.csv:3: .*`fits`' 'file,role\nslow.csv,fit\nback.csv,fits\n'
+wrong_list 'wrong.csv.*role' 'file\nslow.csv\n'
+wrong_list '`fit`' 'file,role\nslow.csv,holdout\n'
+cut -d, -f1-6 slow.csv >notorque.csv
+wrong_list 'torque_Nm' 'file,role\nnotorque.csv,fit\n'
+cp machine/machine.csv machine.kept # a log without a torque is no free shaft, and its load takes no magnets away
+echo 'inertia,0.001,kgm2,test' >>machine/machine.csv
+wrong_list 'notorque.csv: found no torque_Nm and no free shaft: .*makes 0.6 N·m' 'file,role\nback.csv,fit\nnotorque.csv,fit\n'
+echo 'rated_current,30,A,test' >>machine/machine.csv
+wrong_list 'not believable; run `check`' 'file,role\nnotorque.csv,fit\n'
+mv machine.kept machine/machine.csv
+sed '4s/.*/1,2,3/' slow.csv >short.csv
+wrong_list 'short.csv:4: ' 'file,role\nback.csv,fit\nshort.csv,fit\n'
+sed '7s/,60,/,nan,/' slow.csv >nan.csv
+wrong_list 'nan.csv:7: column 3 `speed_rad_per_s`' 'file,role\nnan.csv,fit\n'
+printf 'effect,parameter,value,unit,std_error\nnosuch,a,1,A,\n' >machine/effects.csv
+refused 3 'effects.csv:2: .*nosuch' machine --runs list.csv -o refused
+rm machine/effects.csv
+
+# ---- not written: older results stay, and nothing of the new ones is seen
+
+snapshot() {
+    (cd "$1" && find . -type f -exec cksum {} + | sort)
+}
+mkdir -p old/machine && echo mine >old/errors.csv && echo mine >old/machine/back_emf.csv && mkdir old/effects.csv
+snapshot old >before
+run 5 diagnose machine --runs list.csv -q -o old
+says '^hci-solve: .*old/effects.csv: .*found a folder of this name'
+snapshot old >after
+check "older files have changed" cmp -s before after
+rmdir old/effects.csv && rm -r old/machine && echo mine >old/machine
+snapshot old >before
+run 5 diagnose machine --runs list.csv -q -o old
+says '^hci-solve: .*old/machine'
+snapshot old >after
+check "older files have changed" cmp -s before after
+run 5 diagnose machine --runs list.csv -q -o list.csv
+
+# A full disk: at each of these sizes of files, in blocks of 512 bytes, another one does not fit.
+fitted=0
+full=0
+for blocks in 0 1 2 4 8 200; do
+    shown="ulimit -f $blocks; hci-solve diagnose"
+    snapshot again >before
+    (
+        ulimit -f $blocks
+        "$hci_solve" diagnose machine --runs list2.csv -q -o again 2>&1
+        echo "exit $?"
+    ) | cat >stderr
+    snapshot again >after
+    if grep -q '^exit 5$' stderr; then
+        full=$((full + 1))
+        check "older files have changed at $blocks blocks" cmp -s before after
+    else
+        fitted=$((fitted + 1))
+        check "at $blocks blocks" diff -r again out2
+    fi
+done
+check "no size was too small, or none large enough: $full, $fitted" [ $((full >= 3 && fitted >= 1)) -eq 1 ]
+
+# ---- the machine that is read would be replaced
+
+snapshot deep/out >before
+run 2 diagnose deep/out/machine --runs list.csv -q -o deep/out
+says 'replaced'
+snapshot deep/out >after
+check "the machine has changed" cmp -s before after
+
+finish

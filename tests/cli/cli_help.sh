@@ -1,0 +1,156 @@
+#!/bin/sh
+# labels: cli
+# Help, version, and what is said to a wrong command line. The examples of the help are run.
+#   cli_help.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
+. "$1/tests/support/common.sh"
+
+# A folder in which the examples find data/ and may write out/.
+mkdir "$work/here" && ln -s "$source_dir/data" "$work/here/data" && cd "$work/here" || exit 1
+
+run 0 --help
+nothing_on_stderr
+cp "$work/stdout" "$work/usage"
+commands=$(sed -n 's/^  \([a-z]*\) .*/\1/p' "$work/usage")
+check "no commands in the help" [ -n "$commands" ]
+# shellcheck disable=SC2086
+commands=$(echo $commands)
+check "not in the order in which one uses them: $commands" \
+    [ "$(echo "$commands" | sed 's/ check / /')" = "init harmonics solve emit simulate predict diagnose" ]
+for words in 'hci-solve init .* -o out/' 'hci-solve COMMAND --help' 'Documentation: man hci-solve'; do
+    check "the help lacks: $words" grep -q -e "$words" "$work/usage"
+done
+for word in -h help; do
+    run 0 "$word"
+    check "$word differs from --help" cmp -s "$work/stdout" "$work/usage"
+done
+
+version=$(sed -n 's/^#define HCI_VERSION_STRING *"\(.*\)"/\1/p' "$source_dir/include/hci/version.h" "$2/include/hci/version.h" 2>/dev/null |
+    head -n 1)
+run 0 --version
+nothing_on_stderr
+check "not a version" grep -Eq '^hci-solve [0-9]+\.[0-9]+\.[0-9]+$' "$work/stdout"
+[ -z "$version" ] || check "not the version of the header" grep -Fqx "hci-solve $version" "$work/stdout"
+
+# ---- each command's help, and its examples as they stand there
+
+examples() {
+    sed -n '/^Example/,/^Exit codes/{/^Example/d;/^Exit codes/d;p;}' "$1" | awk '
+        { sub(/^ +/, ""); line = line $0 }
+        /\\$/ { sub(/\\$/, "", line); next }
+        line != "" { print line }
+        { line = "" }'
+}
+
+for command in $commands; do
+    run 0 "$command" --help
+    nothing_on_stderr
+    cp "$work/stdout" "$work/help"
+    run 0 "$command" no_such_machine -h
+    check "-h differs from --help" cmp -s "$work/stdout" "$work/help"
+    check "help of $command does not name its exit codes" grep -q '^Exit codes: 0' "$work/help"
+    examples "$work/help" >"$work/examples"
+    check "help of $command has no example" grep -q "^hci-solve $command " "$work/examples"
+    while read -r words; do
+        folder=$(echo "$words" | sed -n 's/.* -o \([^ ]*\).*/\1/p')
+        # the words of an example have no blanks or quotes in them
+        # shellcheck disable=SC2086
+        run 0 ${words#hci-solve }
+        [ -z "$folder" ] || check "example wrote nothing into $folder: $words" [ -n "$(ls "$folder" 2>/dev/null)" ]
+    done <"$work/examples"
+    check "help of $command does not say what is written" grep -Eq '^Writes |changes nothing' "$work/help"
+    sed -n '/^Options of every command/,/^$/p' "$work/help" >"$work/common"
+    [ -s "$work/every" ] || cp "$work/common" "$work/every"
+    check "the options of every command are other ones, or in other words, in $command" \
+        eval "sed 's/  */ /g' '$work/common' | tr '\n' ' ' | tr -s ' ' >'$work/a'; sed 's/  */ /g' '$work/every' | tr '\n' ' ' | tr -s ' ' | cmp -s - '$work/a'"
+    COLUMNS=60 "$hci_solve" "$command" --help >"$work/narrow"
+    check "help of $command is wider than 60 columns" \
+        eval "! sed '/^Example/,/^\$/d;1d;/order,amplitude_Nm,phase_rad/d' '$work/narrow' | grep -q '.\{61\}'" # one word
+    # what the help lists is understood: no option of it is unknown
+    for option in $(sed -n '/^Example/q;s/^  [ -][ a-z][ ,] \(--[a-z-]*\) .*/\1/p' "$work/help"); do
+        "$hci_solve" "$command" "$option" >/dev/null 2>"$work/stderr"
+        check "$command does not know $option of its own help" eval "! grep -q 'unknown option' '$work/stderr'"
+    done
+done
+
+# ---- wrong command lines: exit code 2, the word and a remedy on standard error, nothing on standard output
+
+wrong() {
+    expression=$1
+    shift
+    run 2 "$@"
+    nothing_on_stdout
+    says "$expression"
+}
+
+target=data/scenarios/02/target.csv
+set=data/scenarios/02/harmonics.csv
+
+wrong 'COMMAND' # no word at all: the usage
+wrong 'unknown command `sovle`; did you mean `solve`\? ' sovle
+says 'hci-solve COMMAND --help'
+check "a mistyped command is answered with a page" [ "$(wc -l <"$work/stderr")" -eq 1 ]
+wrong 'did you mean `simulate`\?' simulat
+wrong 'unknown command `xyzzy`; hci-solve --help' xyzzy
+wrong 'unknown command `--bogus`' --bogus
+wrong 'found 0 words, expected 1: MACHINE --target FILE; see hci-solve solve --help' solve
+wrong 'found 2 words, expected 1' solve data/machine_a data/machine_b --target $target
+wrong 'unknown option `--bogus`; see hci-solve solve --help' solve data/machine_a --bogus
+wrong 'unknown option `--targe`; did you mean `--target`\? see hci-solve solve --help' solve data/machine_a --targe $target
+wrong 'unknown option `--targets=x`; did you mean `--target`' solve data/machine_a --targets=x
+wrong 'unknown option `--tagret`; did you mean `--target`' solve data/machine_a --tagret $target # neighbours swapped
+wrong 'unknown option `--harm`; did you mean `--harmonics`' solve data/machine_a --harm x        # a beginning
+wrong 'unknown option `--outt=x`; did you mean `--out`' simulate data/machine_a --outt=x
+wrong 'unknown option `-x`' solve data/machine_a -x
+wrong 'unknown option `-qx`' solve data/machine_a --target $target -qx
+wrong '`--target` needs a value: FILE' solve data/machine_a --target
+wrong '`-o` needs a value: FOLDER' solve data/machine_a --target $target -o
+wrong '`--target` is given twice' solve data/machine_a --target $target --target $target
+wrong '`--out=x` is given twice' solve data/machine_a --target $target -o "$work/x" --out=x
+wrong '`--json=yes` takes no value' solve data/machine_a --target $target --json=yes
+wrong 'add --target FILE' solve data/machine_a
+wrong '--method: found `gauss`, expected one of: auto, lu' solve data/machine_a --target $target --method gauss
+wrong '--compare: found `some`, expected one of: all, square' solve data/machine_a --target $target --harmonics $set --compare some
+for number in 0 -1 2 nan inf abc '' 1,5 '1 2' 0x1p-3; do
+    wrong "--tolerance: found \`$number\`, expected a number" solve data/machine_a --target $target --tolerance "$number"
+done
+for number in 0 -3 x 1e9 '' 1.5; do
+    wrong "--auto: found \`$number\`, expected" solve data/machine_a --target $target --auto="$number"
+done
+wrong '--max-loss: found `0.9`' solve data/machine_a --target $target --auto 9 --max-loss 0.9
+for pair in 12 '' , 12, ,0.2 x,0.2 12,x nan,0 12,inf 12,0.2,3 '12;0.2' '12 0.2'; do
+    wrong "--fundamental: found \`$pair\`, expected .* such as 12,0.2" solve data/machine_a --target $target --fundamental "$pair"
+done
+wrong 'leave out --auto' solve data/machine_a --target $target --harmonics $set --auto
+wrong '--harmonics.*pointwise' solve data/machine_a --target $target --harmonics $set --method pointwise
+wrong '--auto.*leave out --method' solve data/machine_a --target $target --auto --method qr
+wrong '--harmonics FILE' solve data/machine_a --target $target --method lu
+wrong '--harmonics FILE' solve data/machine_a --target $target --compare square
+wrong 'pointwise.*cannot hold the fundamental' solve data/machine_a --target $target --method pointwise --fundamental 12,0.2
+wrong 'square system.*--method qr' solve data/machine_a --target $target --harmonics $set --method umfpack
+wrong '--limit-voltage and --speed go together' solve data/machine_a --target $target --limit-voltage 300
+wrong '--limit-voltage and --speed go together' solve data/machine_a --target $target --speed 300
+wrong '--limit-current: found `0`' solve data/machine_a --target $target --limit-current 0
+
+currents=data/example_currents/currents.csv
+wrong 'add --name ID' emit $currents
+for name in 1x 'a b' a-b '' '../x' 'ä'; do
+    wrong "name.*C identifier|C identifier.*name" emit $currents --name "$name" -o "$work/emitted"
+done
+wrong '--points or --max-error, not both' emit $currents --name t --points 9 --max-error 0.1
+for number in 0 -1 1.5 x 1e9; do
+    wrong "--points: found \`$number\`, expected" emit $currents --name t --points "$number"
+done
+wrong '--frame: found `xyz`, expected one of: abc, dq' emit $currents --name t --frame xyz
+wrong 'q15' emit $currents --name t --format q15 -o "$work/emitted"
+wrong '--reference-torque goes with --per-torque' emit $currents --name t --reference-torque 2
+wrong '--per-torque needs the folder' emit $currents --name t --per-torque
+check "a wrong command line has written" [ ! -e "$work/emitted" ] && check "a wrong command line has written" [ ! -e "$work/x" ]
+
+# ---- right ones that look odd
+
+run 0 solve --target=$target --quiet data/machine_a --auto
+run 0 solve -q --auto 13 --tolerance 0.9 --target $target -- data/machine_a
+run 3 solve --target $target -- --help-me
+says '^hci-solve: --help-me: '
+
+finish

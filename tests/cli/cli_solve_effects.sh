@@ -1,0 +1,43 @@
+#!/bin/sh
+# labels: cli
+# `solve` with effects.csv: what a machine that saturates gets, what is left out, and what the temperature does.
+#   cli_solve_effects.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
+. "$1/tests/support/common.sh"
+cd "$source_dir" || exit 1
+
+printf 'order,amplitude_Nm,phase_rad\n0,8,0\n' >"$work/target.csv"
+cell() { awk -F, -v row="$2" -v column="$3" 'NR == row { print $column }' "$1"; }
+
+# ---- machine C as finite elements have it: another current than with the inductance at no load, and no ripple
+
+run 0 solve data/machine_c_saturated --target "$work/target.csv" -q -o "$work/new"
+nothing_on_stdout
+run 0 solve data/machine_c --target "$work/target.csv" -q -o "$work/old"
+awk -F, 'FNR == 1 { next } NR == FNR { a[FNR] = $2; next } FNR in a { d = a[FNR] - $2; if (d * d > most) most = d * d }
+    END { exit !(most > 0.04) }' "$work/new/waveform.csv" "$work/old/waveform.csv"
+check "saturation changes no current by 0.2 A" [ $? -eq 0 ]
+awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) n[$k] = k; next } { d = $n["torque_Nm"] - 8; if (d * d > 1e-8) bad = 1 } END { exit bad }' \
+    "$work/new/waveform.csv"
+check "the torque of waveform.csv is not 8 N·m" [ $? -eq 0 ]
+check "parts of a current that has none" [ ! -e "$work/new/currents_per_Nm.csv" ]
+
+# ---- effects on the bench are left out, and that is said
+
+cp -r data/machine_c_saturated "$work/bench"
+printf 'position_offset,angle,2,deg,\ncurrent_offset,a,0.1,A,\nfriction,coulomb,0.2,Nm,\n' >>"$work/bench/effects.csv"
+run 0 solve "$work/bench" --target "$work/target.csv" -o "$work/with_bench"
+says 'note: effects.csv: left out, since not in the machine: .*position_offset.*true angle'
+check "effects on the bench change the currents" cmp -s "$work/new/currents.csv" "$work/with_bench/currents.csv"
+
+# ---- hot magnets: linear, so the current grows as the back-EMF falls
+
+cp -r data/machine_a "$work/hot"
+rm -f "$work/hot/cogging.csv"
+printf 'effect,parameter,value,unit,std_error\nmagnet_temperature,emf_per_kelvin,-0.001,1/K,\n' >"$work/hot/effects.csv"
+run 0 solve "$work/hot" --target data/scenarios/02/target.csv -q -o "$work/at20"
+run 0 solve "$work/hot" --target data/scenarios/02/target.csv --temperature 120 -q -o "$work/at120"
+check "the current at 120 °C is not that at 20 °C divided by 0.9" awk -v cold="$(cell "$work/at20/currents.csv" 2 3)" \
+    -v hot="$(cell "$work/at120/currents.csv" 2 3)" 'BEGIN { d = 0.9 * hot / cold - 1; exit !(d * d < 1e-18) }'
+check "hot magnets have no linear parts" [ -s "$work/at120/currents_per_Nm.csv" ]
+
+finish

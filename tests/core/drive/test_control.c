@@ -1,0 +1,539 @@
+/* Controllers and the closed loop against closed forms; plant_machine.h has the machines. */
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+#include "hci/drive/control.h"
+#include "hci/machine/frames.h"
+#include "hci/machine/torque.h"
+#include "support/plant_machine.h"
+#include "support/reference.h"
+#include "unity.h"
+
+enum { POINTS = 16384 };
+
+static double rows[12 * (POINTS + 1)];
+static pm_lists lists;
+static hci_drive drive;
+static hci_drive_state state;
+static hci_current_source source;
+
+static const double RESISTANCE_ohm = 1.5;
+
+/* A drive with ideal currents and no limit; tests change what they need. */
+static void use_machine(const pm_machine *m, size_t points)
+{
+    pm_list(m, &lists);
+    memset(&drive, 0, sizeof drive);
+    memset(&state, 0, sizeof state);
+    source = (hci_current_source){.strategy = HCI_STRATEGY_ID0};
+    TEST_ASSERT_EQUAL_INT(
+        HCI_OK, hci_plant_table_fill(&lists.machine, &lists.given, points, rows, &drive.plant.table));
+    drive.plant.resistance_ohm = RESISTANCE_ohm;
+    drive.plant.inertia_kgm2 = 0.01;
+    drive.control.table = &drive.plant.table;
+    drive.control.step_s = 1e-5;
+    drive.control.dc_link_V = 311.0;
+    drive.control.torque_limit_Nm = INFINITY;
+    drive.control.sources = &source;
+    drive.control.source_count = 1;
+    drive.control.id_limit = drive.control.iq_limit = drive.control.peak_limit_A = INFINITY;
+}
+
+void setUp(void)
+{
+}
+
+void tearDown(void)
+{
+}
+
+/* ---- PI ---- */
+
+static void test_pi_ramps_limits_and_comes_back(void)
+{
+    const hci_pi pi = {2.0, 10.0};
+    double integral = 0.0;
+    for (int k = 0; k < 10; ++k)
+        TEST_ASSERT_DOUBLE_WITHIN(1e-14, 2.0 * 0.5 + 10.0 * 0.5 * 0.01 * k,
+                                  hci_pi_step(&pi, &integral, 0.5, 99.0, 0.01));
+    /* Limited for a long time the integral settles at limit: k_p ε − (k_p ε + I − limit) = 0. */
+    for (int k = 0; k < 5000; ++k)
+        TEST_ASSERT_EQUAL_DOUBLE(3.0, hci_pi_step(&pi, &integral, 50.0, 3.0, 0.01));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 3.0, integral);
+    /* so that the first error of the other sign leaves the limit at once */
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 2.0, hci_pi_step(&pi, &integral, -0.5, 3.0, 0.01));
+    for (int k = 0; k < 5000; ++k)
+        TEST_ASSERT_EQUAL_DOUBLE(-3.0, hci_pi_step(&pi, &integral, -50.0, 3.0, 0.01));
+}
+
+static void test_integral_control_alone_does_not_wind_up(void)
+{
+    const hci_pi pi = {0.0, 10.0};
+    double integral = 0.0;
+    for (int k = 0; k < 1000; ++k)
+        hci_pi_step(&pi, &integral, 1.0, 3.0, 0.01);
+    TEST_ASSERT_DOUBLE_WITHIN(0.2, 3.0, integral);
+    for (int k = 0; k < 5; ++k)
+        hci_pi_step(&pi, &integral, -1.0, 3.0, 0.01);
+    TEST_ASSERT_TRUE(integral < 3.0);
+}
+
+/* J dω/dt = T with ideal currents: (ω* − ω)/ω* = e^{−σt}(cos ω_d t − σ/ω_d sin ω_d t), σ = k_p/2J, ω_n² =
+ * k_i/J. */
+static double speed_deviation(double step_s, unsigned every)
+{
+    const double j = 0.01, sigma = 0.2 / (2.0 * j), wd = sqrt(20.0 / j - sigma * sigma);
+    double most = 0.0;
+    use_machine(&PM_SINE, 4096);
+    drive.control.step_s = step_s;
+    drive.control.speed_controlled = 1;
+    drive.control.speed = (hci_pi){0.2, 20.0};
+    drive.control.speed_every = every;
+    for (int k = 0; k < (int)(0.3 / step_s); ++k) {
+        const double t = step_s * k;
+        const double error = 5.0 * exp(-sigma * t) * (cos(wd * t) - sigma / wd * sin(wd * t));
+        most = fmax(most, fabs(state.plant.speed_rad_per_s - (5.0 - error)));
+        hci_drive_step(&drive, &state, 5.0, 0.0);
+    }
+    return most;
+}
+
+/* Sampling delays the torque by half a sample, which is an error of the first order in the sample time. */
+static void test_speed_loop_is_of_second_order(void)
+{
+    const double coarse = speed_deviation(1e-4, 1), fine = speed_deviation(5e-5, 1);
+    TEST_ASSERT_TRUE(fine < 0.02);
+    TEST_ASSERT_DOUBLE_WITHIN(0.1, 2.0, coarse / fine);
+    /* a sample every 8 steps is a slower sample, whatever the step */
+    TEST_ASSERT_DOUBLE_WITHIN(0.1, 4.0, speed_deviation(5e-5, 8) / coarse);
+}
+
+static void test_speed_loop_holds_the_load(void)
+{
+    use_machine(&PM_INTERIOR, 2048);
+    source.strategy = HCI_STRATEGY_MTPA;
+    drive.control.speed_controlled = 1;
+    drive.control.speed = (hci_pi){2.0, 20.0};
+    for (int k = 0; k < 200000; ++k)
+        hci_drive_step(&drive, &state, 8.0, 6.0);
+    /* the current is held while the rotor moves on by 1.6e-4 rad, where the torque of a held current is off
+     * by some 1e-3 */
+    TEST_ASSERT_DOUBLE_WITHIN(2e-4, 8.0, state.plant.speed_rad_per_s);
+    TEST_ASSERT_DOUBLE_WITHIN(5e-4, 6.0, state.control.torque_Nm);
+}
+
+/* ---- PI current control ---- */
+
+/* Fixed speed; (L s + R)/(L s² + (R + k_p)s + k_i) from a unit step to its error, that is
+ * e^{−σt}(cos ω_d t + (R/L − σ)/ω_d sin ω_d t). */
+static double closed_error(double l, double kp, double ki, double t)
+{
+    const double sigma = (RESISTANCE_ohm + kp) / (2.0 * l), wd = sqrt(ki / l - sigma * sigma);
+    return exp(-sigma * t) * (cos(wd * t) + (RESISTANCE_ohm / l - sigma) / wd * sin(wd * t));
+}
+
+/* Largest deviation of i_q from the closed form after a step of 1 N·m, and of i_d from zero. */
+static void current_step(double step_s, double speed, int decoupled, double l_q, double deviation[2])
+{
+    const double kp = 6.0, ki = 6000.0, iq = 1.0 / (1.5 * 0.9);
+    deviation[0] = deviation[1] = 0.0;
+    drive.control.step_s = step_s;
+    drive.control.loop = HCI_CURRENT_PI;
+    drive.control.current = (hci_current_pi){{kp, ki}, decoupled, 0};
+    drive.plant.inertia_kgm2 = INFINITY;
+    state.plant.theta_m_rad = 0.7;
+    state.plant.speed_rad_per_s = speed;
+    for (int k = 0; k < (int)(0.02 / step_s); ++k) {
+        double abc[3];
+        hci_plane_to_abc(state.plant.i, abc);
+        const hci_dq dq = hci_park(hci_clarke(abc), 3.0 * hci_plant_angle_rad(&state.plant));
+        deviation[0] = fmax(deviation[0], fabs(dq.q - iq * (1.0 - closed_error(l_q, kp, ki, step_s * k))));
+        deviation[1] = fmax(deviation[1], fabs(dq.d));
+        hci_drive_step(&drive, &state, 1.0, 0.0);
+    }
+}
+
+static void test_current_loop_at_rest_is_of_second_order(void)
+{
+    double coarse[2], fine[2];
+    use_machine(&PM_SINE, 4096);
+    current_step(2e-5, 0.0, 0, 0.02, coarse);
+    use_machine(&PM_SINE, 4096);
+    current_step(1e-5, 0.0, 0, 0.02, fine);
+    TEST_ASSERT_TRUE(fine[0] < 0.003);
+    TEST_ASSERT_DOUBLE_WITHIN(0.1, 2.0, coarse[0] / fine[0]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.0, fine[1]);
+}
+
+/* Decoupled, a salient machine in motion answers as one at rest, to the first order of the sample; without
+ * it, it does not. */
+static void test_decoupling_removes_motion(void)
+{
+    const hci_plant_inductance salient = {NULL, 0, 0.01, 0.02};
+    double with[2][2], without[2];
+    for (int k = 0; k < 2; ++k) {
+        use_machine(&PM_SINE, 4096);
+        TEST_ASSERT_EQUAL_INT(HCI_OK,
+                              hci_plant_table_fill(&lists.machine, &salient, 4096, rows, &drive.plant.table));
+        current_step(k ? 1e-5 : 2e-5, 60.0, 1, 0.02, with[k]);
+    }
+    TEST_ASSERT_TRUE(with[1][0] < 0.003 && with[1][1] < 0.003);
+    /* Half a sample of delay in the feedback is an error of the first order, and half a sample of phase is
+     * compensated. */
+    TEST_ASSERT_DOUBLE_WITHIN(0.3, 2.0, with[0][0] / with[1][0]);
+    use_machine(&PM_SINE, 4096);
+    TEST_ASSERT_EQUAL_INT(HCI_OK,
+                          hci_plant_table_fill(&lists.machine, &salient, 4096, rows, &drive.plant.table));
+    current_step(1e-5, 60.0, 0, 0.02, without);
+    TEST_ASSERT_TRUE(without[0] > 0.1 && without[1] > 0.1);
+}
+
+/* One sample late, in steps of the sample; and turned ahead by one and a half samples of rotation. */
+static void test_pwm_delay_is_one_sample(void)
+{
+    double undelayed[2][2] = {{0.0, 0.0}, {0.0, 0.0}};
+    const double way = 3.0 * 2.0 * 4e-5;
+    for (int delayed = 0; delayed < 2; ++delayed) {
+        use_machine(&PM_SINE, 256);
+        drive.control.loop = HCI_CURRENT_PI;
+        drive.control.current_every = 4;
+        drive.control.current = (hci_current_pi){{6.0, 0.0}, 0, delayed};
+        hci_measurement m = {{0.0, 0.0, 0.0}, 0.3, 2.0};
+        for (int k = 0; k < 12; ++k) {
+            hci_control_step(&drive.control, &state.control, &m, 1.0 + (k >= 4));
+            const double *v = state.control.v;
+            if (!delayed && k % 4 == 0 && k < 8) memcpy(undelayed[k / 4], v, sizeof undelayed[0]);
+            if (!delayed) continue;
+            if (k < 4) TEST_ASSERT_EQUAL_DOUBLE(0.0, v[0]);
+            if (k < 4) continue;
+            const double *u = undelayed[k / 4 - 1];
+            TEST_ASSERT_DOUBLE_WITHIN(1e-12, cos(way) * u[0] - sin(way) * u[1], v[0]);
+            TEST_ASSERT_DOUBLE_WITHIN(1e-12, sin(way) * u[0] + cos(way) * u[1], v[1]);
+        }
+    }
+}
+
+/* At the hexagon the integrals must not grow: a step that needs more voltage than there is overshoots no more
+ * than a small one. */
+static void test_current_loop_does_not_wind_up(void)
+{
+    double most = 0.0;
+    use_machine(&PM_SINE, 4096);
+    drive.control.dc_link_V = 60.0;
+    drive.control.loop = HCI_CURRENT_PI;
+    drive.control.current =
+        (hci_current_pi){{12.0, 900.0}, 1, 0}; /* k_i/k_p = R/L: first order, no overshoot */
+    drive.plant.inertia_kgm2 = INFINITY;
+    for (int k = 0; k < 20000; ++k) {
+        hci_drive_step(&drive, &state, 27.0, 0.0);
+        most = fmax(most, hypot(state.plant.i[0], state.plant.i[1]) * sqrt(2.0 / 3.0));
+    }
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, 20.0, hypot(state.plant.i[0], state.plant.i[1]) * sqrt(2.0 / 3.0));
+    TEST_ASSERT_TRUE(most < 20.0 * 1.02);
+}
+
+/* ---- hysteresis ---- */
+
+static void test_hold_follows_from_the_frequency(void)
+{
+    TEST_ASSERT_EQUAL_UINT(25, hci_hysteresis_hold(20e3, 1e-6));
+    TEST_ASSERT_EQUAL_UINT(3, hci_hysteresis_hold(20e3, 1e-5));
+    TEST_ASSERT_EQUAL_UINT(0, hci_hysteresis_hold(INFINITY, 1e-6));
+}
+
+static void test_legs_switch_at_the_edges_of_the_band(void)
+{
+    const hci_hysteresis hysteresis = {0.2, 3};
+    hci_hysteresis_state h = {0};
+    const double none[3] = {0.0, 0.0, 0.0}, low[3] = {-0.11, 0.11, -0.09}, high[3] = {0.11, -0.11, 0.09};
+    TEST_ASSERT_EQUAL_UINT(1, hci_hysteresis_step(&hysteresis, &h, none, low));
+    TEST_ASSERT_EQUAL_UINT(1 + 2, hci_hysteresis_step(&hysteresis, &h, none, high)); /* a rests, b was free */
+    TEST_ASSERT_EQUAL_UINT(1 + 2, hci_hysteresis_step(&hysteresis, &h, none, high));
+    TEST_ASSERT_EQUAL_UINT(2, hci_hysteresis_step(&hysteresis, &h, none, high)); /* the third step after */
+    TEST_ASSERT_EQUAL_UINT64(3, h.switchings);
+}
+
+typedef struct {
+    double worst_A;
+    int least_steps; /* between two switchings of a leg */
+    double share_inside;
+} band_result;
+
+/* Runs loaded at constant speed after the transient; errors against the reference of the controller's own
+ * step. */
+static band_result run_hysteresis(double band_A, unsigned hold, int steps)
+{
+    band_result result = {0.0, steps, 0.0};
+    unsigned legs = 0;
+    int since[3] = {0, 0, 0}, inside = 0, seen = 0;
+    use_machine(&PM_INTERIOR, 2048);
+    drive.plant.inertia_kgm2 = INFINITY;
+    state.plant.speed_rad_per_s = 8.0;
+    drive.control.step_s = 1e-6;
+    drive.control.loop = HCI_CURRENT_HYSTERESIS;
+    drive.control.hysteresis = (hci_hysteresis){band_A, hold};
+    for (int k = 0; k < steps; ++k) {
+        hci_drive_step(&drive, &state, 8.0, 0.0);
+        const unsigned now = state.control.hysteresis.legs;
+        double reference[3];
+        hci_plane_to_abc(state.control.reference, reference);
+        for (int s = 0; s < 3; ++s) {
+            ++since[s];
+            if ((now ^ legs) >> s & 1u) {
+                if (k > steps / 10 && since[s] < result.least_steps) result.least_steps = since[s];
+                since[s] = 0;
+            }
+            if (k < steps / 10) continue;
+            const double error = fabs(state.measured.i_abc[s] - reference[s]);
+            result.worst_A = fmax(result.worst_A, error);
+            inside += error <= 0.5 * band_A;
+            ++seen;
+        }
+        legs = now;
+    }
+    result.share_inside = (double)inside / seen;
+    return result;
+}
+
+/* The most that a phase current can move in a step: the largest line voltage's share (2/3 V_dc) and 30 V
+ * of EMF and L'i over the least inductance of the plane, 0.08 H. The error reaches twice half the band at
+ * most, as the star point floats. */
+static void test_hysteresis_keeps_the_band(void)
+{
+    const double slew_A = (2.0 / 3.0 * 311.0 + 30.0) / 0.08 * 1e-6;
+    const band_result free_legs = run_hysteresis(0.03, 0, 400000), held = run_hysteresis(0.03, 25, 400000);
+    TEST_ASSERT_TRUE(free_legs.worst_A <= 0.03 + slew_A);
+    TEST_ASSERT_TRUE(free_legs.share_inside > 0.85);
+    TEST_ASSERT_TRUE(free_legs.least_steps < 25); /* so the limit below has work to do */
+    TEST_ASSERT_TRUE(held.least_steps >= 25);
+    TEST_ASSERT_TRUE(held.worst_A <= 0.03 + 26.0 * slew_A);
+}
+
+/* ---- references ---- */
+
+/* Limits in the frame dq_x as frames.h has it. */
+static void test_current_limits(void)
+{
+    use_machine(&PM_INTERIOR, POINTS);
+    source.strategy = HCI_STRATEGY_CANCEL;
+    drive.control.iq_limit = 5.0;
+    drive.control.id_limit = 0.6;
+    double most_d = 0.0;
+    for (int k = 0; k < 100; ++k) {
+        const double theta_m = 0.031 * k;
+        const hci_measurement m = {{0.0, 0.0, 0.0}, theta_m, 0.0};
+        double e[3], abc[3];
+        hci_control_step(&drive.control, &state.control, &m, k % 2 ? 8.0 : -8.0);
+        hci_waves_at(lists.emf, PM_INTERIOR.emf_count, 2.0 * theta_m, e);
+        hci_plane_to_abc(state.control.reference, abc);
+        const hci_dqx x = hci_dqx_from_abc(hci_dqx_frame_of(e), abc);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-6, k % 2 ? 5.0 : -5.0, x.q);
+        TEST_ASSERT_TRUE(fabs(x.d) <= 0.6 + 1e-6);
+        most_d = fmax(most_d, fabs(x.d));
+    }
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0.6, most_d);
+    TEST_ASSERT_EQUAL_UINT64(100, state.control.limited);
+    drive.control.peak_limit_A = 3.0;
+    for (int k = 0; k < 100; ++k) {
+        const hci_measurement m = {{0.0, 0.0, 0.0}, 0.031 * k, 0.0};
+        hci_control_step(&drive.control, &state.control, &m, 8.0);
+        TEST_ASSERT_DOUBLE_WITHIN(
+            1e-12, 3.0, sqrt(2.0 / 3.0) * hypot(state.control.reference[0], state.control.reference[1]));
+    }
+}
+
+static void test_torque_command_is_limited(void)
+{
+    const hci_measurement m = {{0.0, 0.0, 0.0}, 0.1, 0.0};
+    use_machine(&PM_SINE, 256);
+    drive.control.torque_limit_Nm = 2.0;
+    hci_control_step(&drive.control, &state.control, &m, 5.0);
+    TEST_ASSERT_EQUAL_DOUBLE(2.0, state.control.torque_Nm);
+    hci_control_step(&drive.control, &state.control, &m, -5.0);
+    TEST_ASSERT_EQUAL_DOUBLE(-2.0, state.control.torque_Nm);
+}
+
+/* With ideal currents `cancel` and `mtpa` are ripple-free to the table's error, i_d = 0 is not; the second
+ * source begins with the step at its time. */
+static void test_strategies_change_in_time(void)
+{
+    const hci_current_source sources[3] = {{0.0, HCI_STRATEGY_ID0, NULL, 0, NULL, 0},
+                                           {0.01, HCI_STRATEGY_CANCEL, NULL, 0, NULL, 0},
+                                           {0.02, HCI_STRATEGY_MTPA, NULL, 0, NULL, 0}};
+    double off[3] = {0.0, 0.0, 0.0}, square[3] = {0.0, 0.0, 0.0};
+    use_machine(&PM_INTERIOR, POINTS);
+    drive.control.sources = sources;
+    drive.control.source_count = 3;
+    drive.plant.inertia_kgm2 = INFINITY;
+    state.plant.speed_rad_per_s = 100.0 * REF_PI; /* one electrical turn in 0.01 s */
+    for (int k = 0; k < 3000; ++k) {
+        const int part = k / 1000;
+        hci_drive_step(&drive, &state, 8.0, 0.0);
+        TEST_ASSERT_EQUAL_INT(part, (int)state.control.source);
+        const double *x = state.control.reference;
+        /* the torque of the formulas, not of the plant's table */
+        double abc[3];
+        hci_plane_to_abc(x, abc);
+        const double torque = hci_torque_at(&lists.machine, 2.0 * state.measured.theta_m_rad, abc);
+        off[part] = fmax(off[part], fabs(torque - 8.0));
+        square[part] += x[0] * x[0] + x[1] * x[1];
+    }
+    TEST_ASSERT_TRUE(off[0] > 0.3);
+    TEST_ASSERT_TRUE(off[1] < 1e-6);
+    TEST_ASSERT_TRUE(off[2] < 1e-6);
+    TEST_ASSERT_TRUE(square[2] < square[1]);
+    TEST_ASSERT_EQUAL_UINT64(0, state.control.unreached);
+}
+
+/* No i_d cancels the cogging torque at i_q = 0 where L'_d T_cog > 0. */
+static void test_unreached_samples_are_counted(void)
+{
+    use_machine(&PM_INTERIOR, 2048);
+    source.strategy = HCI_STRATEGY_CANCEL;
+    drive.plant.inertia_kgm2 = INFINITY;
+    state.plant.speed_rad_per_s = 100.0 * REF_PI;
+    for (int k = 0; k < 1000; ++k)
+        hci_drive_step(&drive, &state, 0.0, 0.0);
+    TEST_ASSERT_TRUE(state.control.unreached > 200 && state.control.unreached < 800);
+}
+
+static void test_waves_scale_with_torque(void)
+{
+    const ref_wave per_Nm = {1, 1, 0.7, 0.2}, fixed[2] = {{5, -1, 0.3, 1.0}, {7, 1, 0.2, -0.4}};
+    hci_wave list[3];
+    use_machine(&PM_SINE, 256);
+    list[0] = hci_wave_polar(1, 1, 0.7, 0.2);
+    list[1] = hci_wave_polar(5, -1, 0.3, 1.0);
+    list[2] = hci_wave_polar(7, 1, 0.2, -0.4);
+    source = (hci_current_source){0.0, HCI_STRATEGY_ID0, list, 1, list + 1, 2};
+    for (int k = 0; k < 50; ++k) {
+        const hci_measurement m = {{0.0, 0.0, 0.0}, 0.1 * k, 0.0};
+        double abc[3];
+        hci_control_step(&drive.control, &state.control, &m, 4.0);
+        hci_plane_to_abc(state.control.reference, abc);
+        for (int s = 0; s < 3; ++s)
+            TEST_ASSERT_DOUBLE_WITHIN(
+                1e-12, 4.0 * ref_wave_at(&per_Nm, s, 0.3 * k) + ref_waves_at(fixed, 2, s, 0.3 * k), abc[s]);
+    }
+}
+
+/* Samples over one mechanical turn at constant speed, at angles that are points of the table, have exactly
+ * the spectrum that torque.c predicts in closed form: mutual, reluctance and cogging torque, orders k/2
+ * included. */
+static void test_imposed_currents_have_the_predicted_spectrum(void)
+{
+    enum { COUNT = 1024, ORDERS_MOST = 400 };
+    static double torque[COUNT], orders[ORDERS_MOST];
+    static hci_harmonic predicted[ORDERS_MOST];
+    const hci_harmonic cogging[3] = {hci_harmonic_polar(0.5, 0.05, 0.2), hci_harmonic_polar(12, 0.157, 3.1),
+                                     hci_harmonic_polar(24, 0.122, 3.2)};
+    const hci_wave waves[4] = {hci_wave_polar(1, 1, 6.0, 0.3), hci_wave_polar(11, -1, 0.8, 1.0),
+                               hci_wave_polar(13, 1, 0.5, -2.0), hci_wave_polar(2.5, 1, 0.2, 0.7)};
+    size_t count;
+    use_machine(&PM_INTERIOR, 256);
+    lists.machine.cogging = cogging;
+    lists.machine.cogging_count = 3;
+    TEST_ASSERT_EQUAL_INT(
+        HCI_OK, hci_plant_table_fill(&lists.machine, &lists.given, COUNT, rows, &drive.plant.table));
+    TEST_ASSERT_EQUAL_INT(2, drive.plant.table.turns);
+    source = (hci_current_source){0.0, HCI_STRATEGY_ID0, NULL, 0, waves, 4};
+    drive.plant.inertia_kgm2 = INFINITY;
+    state.plant.speed_rad_per_s = 2.0 * REF_PI / COUNT / 1e-5;
+    for (int k = 0; k < COUNT; ++k) {
+        hci_drive_step(&drive, &state, 0.0, 0.0);
+        torque[k] = state.torque_Nm;
+    }
+    TEST_ASSERT_TRUE(hci_torque_orders_capacity(&lists.machine, 4) <= ORDERS_MOST);
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_torque_orders(&lists.machine, waves, 4, orders, ORDERS_MOST, &count));
+    hci_torque_spectrum(&lists.machine, waves, 4, orders, count, predicted);
+    double square = 0.0, predicted_square = 0.0;
+    for (size_t n = 0; n < count; ++n) {
+        double s = 0.0, c = 0.0;
+        const double scale = orders[n] == 0.0 ? 1.0 / COUNT : 2.0 / COUNT;
+        for (int k = 0; k < COUNT; ++k) {
+            const double x = orders[n] * 2.0 * 2.0 * REF_PI * k / COUNT;
+            s += scale * torque[k] * sin(x);
+            c += scale * torque[k] * cos(x);
+        }
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, predicted[n].sine, s);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, predicted[n].cosine, c);
+        predicted_square += (orders[n] == 0.0 ? 1.0 : 0.5) * (s * s + c * c);
+    }
+    for (int k = 0; k < COUNT; ++k)
+        square += torque[k] * torque[k] / COUNT;
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, square, predicted_square); /* nothing at any other order */
+}
+
+/* ---- closed loop with sensors ---- */
+
+static void test_sensors_stand_between(void)
+{
+    hci_sensor sensors[HCI_SENSE_COUNT] = {{0}};
+    sensors[HCI_SENSE_IA].offset = 0.5;
+    sensors[HCI_SENSE_ANGLE].offset = 0.01;
+    sensors[HCI_SENSE_SPEED].gain_error = 0.1;
+    sensors[HCI_SENSE_TORQUE].offset = -1.0;
+    use_machine(&PM_SINE, 4096);
+    drive.sensors = sensors;
+    state.plant.speed_rad_per_s = 10.0;
+    for (int k = 0; k < HCI_SENSE_COUNT; ++k)
+        hci_sensor_start(&sensors[k], &state.sensors[k], NULL, 1, 0.0);
+    hci_drive_step(&drive, &state, 2.0, 0.0);
+    TEST_ASSERT_EQUAL_DOUBLE(0.5, state.measured.i_abc[0]);
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, state.measured.i_abc[1]);
+    TEST_ASSERT_EQUAL_DOUBLE(0.01, state.measured.theta_m_rad);
+    TEST_ASSERT_EQUAL_DOUBLE(11.0, state.measured.speed_rad_per_s);
+    TEST_ASSERT_EQUAL_DOUBLE(state.torque_Nm - 1.0, state.torque_measured_Nm);
+    /* a current that leads by three times 0.01 rad makes the cosine of it */
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 2.0 * cos(0.03), state.torque_Nm);
+}
+
+static void test_noisy_runs_repeat_to_the_bit(void)
+{
+    static hci_drive_state first;
+    double rings[HCI_SENSE_COUNT][2];
+    hci_sensor sensors[HCI_SENSE_COUNT];
+    for (int k = 0; k < HCI_SENSE_COUNT; ++k)
+        sensors[k] = (hci_sensor){.noise = 1e-3, .quantum = 1e-4, .delay_steps = 2};
+    for (int run = 0; run < 2; ++run) {
+        use_machine(&PM_INTERIOR, 1024);
+        drive.sensors = sensors;
+        drive.control.loop = HCI_CURRENT_HYSTERESIS;
+        drive.control.hysteresis = (hci_hysteresis){0.1, 3};
+        for (int k = 0; k < HCI_SENSE_COUNT; ++k)
+            hci_sensor_start(&sensors[k], &state.sensors[k], rings[k], (uint64_t)k, 0.0);
+        for (int k = 0; k < 20000; ++k)
+            hci_drive_step(&drive, &state, 3.0, 2.0);
+        if (run == 0) first = state;
+    }
+    TEST_ASSERT_EQUAL_MEMORY(&first.plant, &state.plant, sizeof state.plant);
+    TEST_ASSERT_EQUAL_MEMORY(&first.measured, &state.measured, sizeof state.measured);
+    TEST_ASSERT_EQUAL_UINT64(first.control.hysteresis.switchings, state.control.hysteresis.switchings);
+    TEST_ASSERT_TRUE(state.control.hysteresis.switchings > 100);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_pi_ramps_limits_and_comes_back);
+    RUN_TEST(test_integral_control_alone_does_not_wind_up);
+    RUN_TEST(test_speed_loop_is_of_second_order);
+    RUN_TEST(test_speed_loop_holds_the_load);
+    RUN_TEST(test_current_loop_at_rest_is_of_second_order);
+    RUN_TEST(test_decoupling_removes_motion);
+    RUN_TEST(test_pwm_delay_is_one_sample);
+    RUN_TEST(test_current_loop_does_not_wind_up);
+    RUN_TEST(test_hold_follows_from_the_frequency);
+    RUN_TEST(test_legs_switch_at_the_edges_of_the_band);
+    RUN_TEST(test_hysteresis_keeps_the_band);
+    RUN_TEST(test_current_limits);
+    RUN_TEST(test_torque_command_is_limited);
+    RUN_TEST(test_strategies_change_in_time);
+    RUN_TEST(test_unreached_samples_are_counted);
+    RUN_TEST(test_waves_scale_with_torque);
+    RUN_TEST(test_imposed_currents_have_the_predicted_spectrum);
+    RUN_TEST(test_sensors_stand_between);
+    RUN_TEST(test_noisy_runs_repeat_to_the_bit);
+    return UNITY_END();
+}

@@ -1,0 +1,650 @@
+/* Each effect against equations written here, and every derivative against differences. */
+#include "support/effect_list.h"
+#include "unity.h"
+
+static const int P = 3;
+static el_machine m;
+
+void setUp(void)
+{
+    el_machine_make(&m);
+}
+
+void tearDown(void)
+{
+}
+
+enum { DRAWS = 40 };
+
+/* i_d, i_q from the phase currents, as theory defines them: i_a = i_q sin θ − i_d cos θ. */
+static void rotor(const hci_sample *x, double *d, double *q)
+{
+    *d = *q = 0.0;
+    for (int s = 0; s < 3; ++s) {
+        const double angle = P * x->theta_m_rad - 2.0 * EL_PI * s / 3.0;
+        *q += 2.0 / 3.0 * x->i_abc[s] * sin(angle);
+        *d -= 2.0 / 3.0 * x->i_abc[s] * cos(angle);
+    }
+}
+
+/* ---- torque of each room on the machine ---- */
+
+typedef double formula(const hci_sample *x, double theta, double d, double q);
+
+typedef struct {
+    const char *effect, *parameter;
+    double order, value;
+    formula *torque;
+} machine_case;
+
+static double cogging_18(const hci_sample *x, double theta, double d, double q)
+{
+    (void)x;
+    (void)d;
+    (void)q;
+    return 0.02 * sin(18.0 * theta);
+}
+
+static double cogging_third(const hci_sample *x, double theta, double d, double q)
+{
+    (void)theta;
+    (void)d;
+    (void)q;
+    return 0.02 * cos(x->theta_m_rad); /* order 1/3 at three pole pairs, also when the file says 0.333333 */
+}
+
+static double emf_5(const hci_sample *x, double theta, double d, double q)
+{
+    double sum = 0.0;
+    (void)d;
+    (void)q;
+    for (int s = 0; s < 3; ++s)
+        sum += 0.04 * sin(5.0 * (theta - 2.0 * EL_PI * s / 3.0)) * x->i_abc[s];
+    return sum;
+}
+
+static double emf_negative(const hci_sample *x, double theta, double d, double q)
+{
+    (void)d;
+    (void)q;
+    return 0.04 * (cos(theta) * x->i_abc[0] + cos(theta + 2.0 * EL_PI / 3.0) * x->i_abc[1] +
+                   cos(theta - 2.0 * EL_PI / 3.0) * x->i_abc[2]);
+}
+
+static double emf_zero(const hci_sample *x, double theta, double d, double q)
+{
+    (void)d;
+    (void)q;
+    return 0.04 * sin(3.0 * theta) * (x->i_abc[0] + x->i_abc[1] + x->i_abc[2]);
+}
+
+static double imbalance_b(const hci_sample *x, double theta, double d, double q)
+{
+    (void)d;
+    (void)q;
+    return -0.03 * el_emf(1, theta) * x->i_abc[1];
+}
+
+static double saliency(const hci_sample *x, double theta, double d, double q)
+{
+    (void)x;
+    (void)theta;
+    return 1.5 * 3.0 * 2e-3 * d * q; /* 3/2 p (L_d − L_q) i_d i_q */
+}
+
+static double reluctance_q6(const hci_sample *x, double theta, double d, double q)
+{
+    (void)x;
+    return 0.75 * 3.0 * 2e-3 * (-6.0 * sin(6.0 * theta) * q * q - 2.0 * cos(6.0 * theta) * d * q);
+}
+
+static double reluctance_cross(const hci_sample *x, double theta, double d, double q)
+{
+    (void)x;
+    (void)theta;
+    return 1.5 * 3.0 * 2e-3 * (q * q - d * d);
+}
+
+static double droop(const hci_sample *x, double theta, double d, double q)
+{
+    (void)x;
+    (void)theta;
+    return -3.0 * 0.01 * (q * q * q - 2.0 * d * d * q);
+}
+
+static double saturation_q3(const hci_sample *x, double theta, double d, double q)
+{
+    (void)x;
+    return 3.0 * 0.01 * (6.0 * cos(6.0 * theta) * q * q * q - 3.0 * sin(6.0 * theta) * d * q * q);
+}
+
+static double saturation_q4(const hci_sample *x, double theta, double d, double q)
+{
+    (void)x;
+    return 3.0 * 0.001 *
+           (-12.0 * sin(12.0 * theta) * q * q * q * q - 4.0 * cos(12.0 * theta) * d * q * q * q);
+}
+
+static double hot(const hci_sample *x, double theta, double d, double q)
+{
+    double sum = 0.0;
+    (void)d;
+    (void)q;
+    for (int s = 0; s < 3; ++s)
+        sum += el_emf(s, theta) * x->i_abc[s];
+    return -0.001 * (x->temperature_C - 20.0) * sum;
+}
+
+static double turn_constant(const hci_sample *x, double theta, double d, double q)
+{
+    (void)theta;
+    (void)d;
+    (void)q;
+    return 0.03 * sin(x->theta_m_rad);
+}
+
+static double turn_current(const hci_sample *x, double theta, double d, double q)
+{
+    (void)theta;
+    (void)d;
+    return 0.03 * q * cos(2.0 * x->theta_m_rad);
+}
+
+static const machine_case MACHINE[] = {
+    {"cogging", "sine", 18.0, 0.02, cogging_18},
+    {"cogging", "cosine", 0.333333, 0.02, cogging_third},
+    {"back_emf", "sine", 5.0, 0.04, emf_5},
+    {"back_emf", "neg_cosine", 1.0, 0.04, emf_negative},
+    {"back_emf", "zero_sine", 3.0, 0.04, emf_zero},
+    {"phase_imbalance", "b", 0.0, -0.03, imbalance_b},
+    {"reluctance", "dd_cosine", 0.0, 2e-3, saliency},
+    {"reluctance", "qq_cosine", 6.0, 2e-3, reluctance_q6},
+    {"reluctance", "dq_cosine", 0.0, 2e-3, reluctance_cross},
+    {"saturation", "d1q2_cosine", 0.0, -0.01, droop},
+    {"saturation", "d0q3_sine", 6.0, 0.01, saturation_q3},
+    {"saturation", "d0q4_cosine", 12.0, 0.001, saturation_q4},
+    {"magnet_temperature", "emf_per_kelvin", 0.0, -0.001, hot},
+    {"mechanical_order", "sine", 1.0 / 3.0, 0.03, turn_constant},
+    {"mechanical_order", "iq_cosine", 0.666667, 0.03, turn_current},
+};
+
+enum { MACHINE_CASES = sizeof MACHINE / sizeof *MACHINE };
+
+static void test_torque_of_each_effect(void)
+{
+    uint64_t seed = 1;
+    for (size_t k = 0; k < MACHINE_CASES; ++k) {
+        const machine_case *c = &MACHINE[k];
+        el_list l = {0};
+        el_add(&l, c->effect, c->parameter, c->order, c->value);
+        for (int j = 0; j < DRAWS; ++j) {
+            const hci_sample x = el_sample(&seed);
+            double d, q;
+            rotor(&x, &d, &q);
+            /* Rounding of a few terms of size 1 to 10. */
+            TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1e-12, c->torque(&x, P * x.theta_m_rad, d, q),
+                                              hci_effects_torque(&m.machine, &l.list, &x, NULL).torque_Nm,
+                                              c->parameter);
+        }
+    }
+}
+
+static void test_saturation_scales_with_its_reference(void)
+{
+    uint64_t seed = 2;
+    el_list a = {0}, b = {0};
+    el_add(&a, "saturation", "d1q2_cosine", 0.0, 0.01);
+    el_add(&a, "saturation", "d2q2_sine", 6.0, 0.01);
+    el_add(&b, "saturation", "d1q2_cosine", 0.0, 0.01 * 1000.0);
+    el_add(&b, "saturation", "d2q2_sine", 6.0, 0.01 * 10000.0);
+    el_add(&b, "saturation", "reference_current", 0.0, 10.0);
+    for (int j = 0; j < DRAWS; ++j) {
+        const hci_sample x = el_sample(&seed);
+        const double torque = hci_effects_torque(&m.machine, &a.list, &x, NULL).torque_Nm;
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12 * (1.0 + fabs(torque)), torque,
+                                  hci_effects_torque(&m.machine, &b.list, &x, NULL).torque_Nm);
+    }
+}
+
+static void test_unknown_temperature_is_the_reference(void)
+{
+    uint64_t seed = 3;
+    el_list l = {0};
+    double by[2];
+    el_add(&l, "magnet_temperature", "emf_per_kelvin", 0.0, -0.001);
+    el_add(&l, "magnet_temperature", "reference", 0.0, 30.0);
+    hci_sample x = el_sample(&seed);
+    x.temperature_C = NAN;
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, hci_effects_torque(&m.machine, &l.list, &x, by).torque_Nm);
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, by[0]);
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, by[1]);
+}
+
+static void test_friction_brakes(void)
+{
+    el_list l = {0};
+    el_add(&l, "friction", "coulomb", 0.0, 0.1);
+    el_add(&l, "friction", "viscous", 0.0, 0.02);
+    el_add(&l, "friction", "quadratic", 0.0, 0.003);
+    const hci_machine nothing = {3, NULL, 0, NULL, 0, NULL, 0};
+    hci_sample x = {0};
+    x.speed_rad_per_s = 10.0;
+    TEST_ASSERT_DOUBLE_WITHIN(1e-15, -0.6, hci_effects_predict(&nothing, &l.list, &x, NULL));
+    x.speed_rad_per_s = -10.0;
+    TEST_ASSERT_DOUBLE_WITHIN(1e-15, 0.6, hci_effects_predict(&nothing, &l.list, &x, NULL));
+    x.speed_rad_per_s = 0.0;
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, hci_effects_predict(&nothing, &l.list, &x, NULL));
+    x.speed_rad_per_s = 10.0; /* friction is not in the air gap */
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, hci_effects_torque(&nothing, &l.list, &x, NULL).torque_Nm);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-15, 0.1, hci_effects_coulomb_Nm(&l.list));
+}
+
+/* ---- derivatives ---- */
+
+/* Every parameter of every room, with an order where it has one. */
+static void all_effects(el_list *l, uint64_t *seed)
+{
+    const hci_effect_room *room;
+    memset(l, 0, sizeof *l);
+    for (size_t r = 0; (room = hci_effect_room_at(r)) != NULL; ++r) {
+        for (size_t k = 0; k < room->parameter_count; ++k) {
+            const hci_effect_parameter *p = &room->parameter[k];
+            const double order = !p->ordered ? 0.0 : p->whole ? 2.0 : 4.0 / 3.0;
+            const double size = p->standard > 1.0 ? 30.0 : strcmp(p->unit, "s") == 0 ? 1e-3 : 0.02;
+            const double value = size * (1.0 + 0.5 * el_random(seed));
+            el_add(l, room->name, p->name, order, p->least > 1e-9 ? 4.0 : value);
+        }
+    }
+}
+
+/* Fourth-order central difference. */
+typedef double sampled(const void *context, double h);
+
+static double difference(sampled *f, const void *context, double h)
+{
+    return (8.0 * (f(context, h) - f(context, -h)) - (f(context, 2.0 * h) - f(context, -2.0 * h))) /
+           (12.0 * h);
+}
+
+typedef struct {
+    const hci_effects *effects;
+    hci_sample x;
+    double *at; /* what is varied */
+    const hci_sample *read;
+} variation;
+
+static double torque_at(const void *context, double h)
+{
+    const variation *v = context;
+    const double keep = *v->at;
+    *v->at += h;
+    const double torque = hci_effects_torque(&m.machine, v->effects, v->read, NULL).torque_Nm;
+    *v->at = keep;
+    return torque;
+}
+
+static double prediction_at(const void *context, double h)
+{
+    const variation *v = context;
+    const double keep = *v->at;
+    *v->at += h;
+    const double torque = hci_effects_predict(&m.machine, v->effects, v->read, NULL);
+    *v->at = keep;
+    return torque;
+}
+
+/* Error of the difference: h⁴/30 of a fifth derivative, for orders up to 12·p about 1e-8 of the torque. */
+static void check_derivative(double exact, double h, sampled *f, double *at, const hci_effects *effects,
+                             const hci_sample *x, const char *what)
+{
+    variation v = {effects, *x, at, x};
+    const double found = difference(f, &v, h);
+    TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(2e-7 * (1.0 + fabs(found)), found, exact, what);
+}
+
+static void test_derivatives_by_current_and_angle(void)
+{
+    uint64_t seed = 4;
+    for (int j = 0; j < DRAWS; ++j) {
+        for (size_t k = 0; k < MACHINE_CASES; ++k) {
+            el_list l = {0};
+            el_add(&l, MACHINE[k].effect, MACHINE[k].parameter, MACHINE[k].order, MACHINE[k].value);
+            hci_sample x = el_sample(&seed);
+            const hci_effect_torque t = hci_effects_torque(&m.machine, &l.list, &x, NULL);
+            for (int s = 0; s < 3; ++s)
+                check_derivative(t.by_current[s], 1e-3, torque_at, &x.i_abc[s], &l.list, &x,
+                                 MACHINE[k].parameter);
+            check_derivative(t.by_angle, 1e-4, torque_at, &x.theta_m_rad, &l.list, &x, MACHINE[k].parameter);
+        }
+    }
+}
+
+/* All parameters of all rooms at once, so that their products and the chain of sensors count. */
+static void test_derivatives_by_every_parameter(void)
+{
+    uint64_t seed = 5;
+    for (int j = 0; j < DRAWS; ++j) {
+        el_list l;
+        double by[EL_EFFECTS * EL_TERMS];
+        size_t n = 0;
+        all_effects(&l, &seed);
+        const hci_sample x = el_sample(&seed);
+        const double torque = hci_effects_predict(&m.machine, &l.list, &x, by);
+        TEST_ASSERT_EQUAL_DOUBLE(torque, hci_effects_predict(&m.machine, &l.list, &x, NULL));
+        for (size_t k = 0; k < l.list.count; ++k) {
+            for (size_t t = 0; t < l.effect[k].count; ++t) {
+                const hci_effect_parameter *p = &l.effect[k].room->parameter[l.term[k][t].parameter];
+                const double h = strcmp(p->unit, "s") == 0 ? 1e-6 : 1e-4;
+                variation v = {&l.list, x, &l.term[k][t].value, &x};
+                const double found = difference(prediction_at, &v, h);
+                /* rounding: 1e-14 of a torque of 100 over h */
+                TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1e-13 * fabs(torque) / h + 1e-7 * (1.0 + fabs(found)),
+                                                  found, by[n++], p->name);
+            }
+        }
+        TEST_ASSERT_EQUAL_UINT64(hci_effects_terms(&l.list), n);
+    }
+}
+
+/* A regressor times its value is the torque, for those that are linear: the sum over a room is its torque. */
+static void test_regressors_of_linear_rooms(void)
+{
+    uint64_t seed = 6;
+    for (size_t k = 0; k < MACHINE_CASES; ++k) {
+        el_list l = {0};
+        double by[1];
+        el_add(&l, MACHINE[k].effect, MACHINE[k].parameter, MACHINE[k].order, 0.0);
+        const hci_sample x = el_sample(&seed);
+        double d, q;
+        rotor(&x, &d, &q);
+        hci_effects_torque(&m.machine, &l.list, &x, by);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-11, MACHINE[k].torque(&x, P * x.theta_m_rad, d, q) / MACHINE[k].value,
+                                  by[0]);
+    }
+}
+
+/* ---- bench ---- */
+
+/* A drive at constant speed: what each channel shows at an instant, by formulas over time. */
+static const double OMEGA = 80.0, AMPLITUDE = 4.0, PHASE = 0.6, START = 1.3;
+
+static double true_angle(double t)
+{
+    return START + OMEGA * t;
+}
+
+static double true_current(int s, double t)
+{
+    return AMPLITUDE * sin(P * true_angle(t) - 2.0 * EL_PI * s / 3.0 + PHASE);
+}
+
+static hci_sample truth_at(double t)
+{
+    hci_sample x = {0};
+    x.theta_m_rad = true_angle(t);
+    x.speed_rad_per_s = OMEGA;
+    x.temperature_C = 20.0;
+    for (int s = 0; s < 3; ++s)
+        x.i_abc[s] = true_current(s, t);
+    return x;
+}
+
+static void bench(el_list *l)
+{
+    memset(l, 0, sizeof *l);
+    el_add(l, "torque_sensor", "offset", 0.0, 0.25); /* not in the order of the registry */
+    el_add(l, "current_offset", "a", 0.0, 0.2);
+    el_add(l, "current_offset", "c", 0.0, -0.1);
+    el_add(l, "current_gain", "b", 0.0, 0.03);
+    el_add(l, "position_offset", "angle", 0.0, 0.06);
+    el_add(l, "position_eccentricity", "mech_sine", 1.0, 0.02);
+    el_add(l, "position_eccentricity", "mech_cosine", 2.0, 0.01);
+    el_add(l, "channel_delay", "angle", 0.0, 5e-4);
+    el_add(l, "channel_delay", "current", 0.0, 2e-4);
+    el_add(l, "channel_delay", "torque", 0.0, 1e-3);
+}
+
+static void test_readings_of_a_true_state(void)
+{
+    el_list l;
+    bench(&l);
+    for (int k = 0; k < DRAWS; ++k) {
+        const double t = 0.01 * k;
+        const hci_sample torque_truth = truth_at(t - 1e-3);
+        const hci_sample x = hci_effects_sense(&l.list, P, &torque_truth);
+        const double theta = true_angle(t - 5e-4);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, theta + 0.02 * sin(theta) + 0.01 * cos(2.0 * theta) + 0.06 / P,
+                                  x.theta_m_rad);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, true_current(0, t - 2e-4) + 0.2, x.i_abc[0]);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, 1.03 * true_current(1, t - 2e-4), x.i_abc[1]);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, true_current(2, t - 2e-4) - 0.1, x.i_abc[2]);
+    }
+}
+
+static void test_readings_and_back(void)
+{
+    uint64_t seed = 7;
+    el_list l;
+    bench(&l);
+    for (int j = 0; j < DRAWS; ++j) {
+        const hci_sample truth = el_sample(&seed), reading = hci_effects_sense(&l.list, P, &truth);
+        const hci_sample back = hci_effects_undo(&l.list, P, &reading);
+        TEST_ASSERT_TRUE(fabs(reading.theta_m_rad - truth.theta_m_rad) > 1e-4);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-13, truth.theta_m_rad, back.theta_m_rad);
+        for (int s = 0; s < 3; ++s) {
+            TEST_ASSERT_DOUBLE_WITHIN(1e-13, truth.i_abc[s], back.i_abc[s]);
+            TEST_ASSERT_DOUBLE_WITHIN(1e-11, truth.change_A_per_s[s], back.change_A_per_s[s]);
+        }
+    }
+}
+
+/* A harmonic does not turn with the rotor: with its rate of change the error of a delay is of second order.
+ */
+static void test_delay_of_a_harmonic(void)
+{
+    double error[2];
+    for (int k = 0; k < 2; ++k) {
+        const double delay_s = k ? 1e-5 : 2e-5, n = 7.0, w = P * OMEGA;
+        el_list l = {0};
+        hci_sample x = {0};
+        el_add(&l, "channel_delay", "current", 0.0, delay_s);
+        x.theta_m_rad = START;
+        x.speed_rad_per_s = OMEGA;
+        for (int s = 0; s < 3; ++s) {
+            const double angle = n * (P * START - 2.0 * EL_PI * s / 3.0);
+            x.i_abc[s] = sin(angle);
+            x.change_A_per_s[s] =
+                (n - 1.0) * w * cos(angle); /* of order 7, positive sequence, in the rotor frame */
+        }
+        const hci_sample y = hci_effects_undo(&l.list, P, &x);
+        error[k] = y.i_abc[0] - sin(n * (P * START + w * delay_s));
+    }
+    TEST_ASSERT_TRUE(fabs(error[0]) < 1e-3);
+    TEST_ASSERT_DOUBLE_WITHIN(0.2, 4.0, error[0] / error[1]); /* the next order is 7ωτ = 3 % */
+}
+
+/* What is read is predicted from what is read, with every effect there is. */
+static void test_prediction_of_a_reading(void)
+{
+    uint64_t seed = 8;
+    for (int j = 0; j < DRAWS; ++j) {
+        el_list l;
+        bench(&l);
+        el_add(&l, "friction", "viscous", 0.0, 0.002);
+        el_add(&l, "saturation", "d0q3_sine", 6.0, 0.01);
+        el_add(&l, "cogging", "sine", 18.0, 0.02);
+        const hci_sample truth = el_sample(&seed), reading = hci_effects_sense(&l.list, P, &truth);
+        const double theta = P * truth.theta_m_rad;
+        double d, q;
+        rotor(&truth, &d, &q);
+        const double torque = hci_torque_at(&m.machine, theta, truth.i_abc) +
+                              cogging_18(&truth, theta, d, q) + saturation_q3(&truth, theta, d, q) -
+                              0.002 * truth.speed_rad_per_s + 0.25;
+        TEST_ASSERT_DOUBLE_WITHIN(1e-11, torque, hci_effects_predict(&m.machine, &l.list, &reading, NULL));
+    }
+}
+
+/* ---- torque sensor along a run ---- */
+
+enum { RUN = 4000 };
+static double run_time[RUN], run_torque[RUN];
+static const double RUN_STEP = 1e-3;
+
+/* |G| and phase by the trapezoidal rule are those of the continuous filter at (2/h) tan(ωh/2), exactly. */
+static void test_torque_sensor_frequency_response(void)
+{
+    static const double f[] = {2.0, 30.0, 80.0, 200.0};
+    el_list l = {0};
+    el_add(&l, "torque_sensor", "time_constant", 0.0, 2e-3);
+    el_add(&l, "torque_sensor", "natural_frequency", 0.0, 75.0);
+    el_add(&l, "torque_sensor", "damping", 0.0, 0.1);
+    for (size_t k = 0; k < sizeof f / sizeof *f; ++k) {
+        const double w = 2.0 * EL_PI * f[k], wn = 2.0 * EL_PI * 75.0;
+        const double warped = 2.0 / RUN_STEP * tan(0.5 * w * RUN_STEP), u = warped / wn;
+        const double gain = 1.0 / (hypot(1.0 - u * u, 0.2 * u) * hypot(1.0, warped * 2e-3));
+        const double phase = -atan2(0.2 * u, 1.0 - u * u) - atan(warped * 2e-3);
+        for (int j = 0; j < RUN; ++j) {
+            run_time[j] = j * RUN_STEP;
+            run_torque[j] = 3.0 + sin(w * run_time[j]);
+        }
+        hci_effects_filter(&l.list, run_time, RUN, run_torque, NULL);
+        for (int j = RUN - 50; j < RUN; ++j) /* the start has died away by exp(−4·47) */
+            TEST_ASSERT_DOUBLE_WITHIN(1e-9, 3.0 + gain * sin(w * run_time[j] + phase), run_torque[j]);
+    }
+}
+
+static void uneven_run(double *torque, const el_list *l, double *by, size_t n)
+{
+    uint64_t seed = 9;
+    double t = 0.0;
+    for (size_t k = 0; k < n; ++k) {
+        /* one step back: a second run; and a time twice */
+        t += k == n / 2 ? -0.1 : k == n / 3 ? 0.0 : 1e-3 * (1.2 + el_random(&seed));
+        run_time[k] = t;
+        torque[k] = sin(40.0 * t) + 0.3 * el_random(&seed);
+    }
+    hci_effects_filter(&l->list, run_time, n, torque, by);
+}
+
+static void test_torque_sensor_derivatives(void)
+{
+    enum { N = 60, TERMS = 4 };
+    static double torque[N], more[N], less[N], by[N * TERMS], unused[N];
+    el_list l = {0};
+    el_add(&l, "torque_sensor", "time_constant", 0.0, 2e-3);
+    el_add(&l, "torque_sensor", "natural_frequency", 0.0, 75.0);
+    el_add(&l, "torque_sensor", "damping", 0.0, 0.1);
+    el_add(&l, "torque_sensor", "offset", 0.0, 0.0);
+    memset(by, 0, sizeof by);
+    for (int k = 0; k < N; ++k)
+        by[k * TERMS + 3] = 1.0;
+    uneven_run(torque, &l, by, N);
+    uneven_run(unused, &l, NULL, N);
+    TEST_ASSERT_EQUAL_DOUBLE_ARRAY(torque, unused, N);
+    for (size_t j = 0; j < 3; ++j) {
+        const double value = l.term[0][j].value, h = 1e-5 * value;
+        l.term[0][j].value = value + h;
+        uneven_run(more, &l, NULL, N);
+        l.term[0][j].value = value - h;
+        uneven_run(less, &l, NULL, N);
+        l.term[0][j].value = value;
+        for (int k = 0; k < N; ++k) { /* difference: h² = 1e-10, rounding 1e-16/1e-5 */
+            const double found = (more[k] - less[k]) / (2.0 * h);
+            TEST_ASSERT_DOUBLE_WITHIN(1e-7 / value, found, by[k * TERMS + (int)j]);
+        }
+    }
+    for (int k = 0; k < N; ++k)
+        TEST_ASSERT_DOUBLE_WITHIN(1e-14, 1.0, by[k * TERMS + 3]);
+}
+
+/* A lag of 1 ms by hand: settled at the start and after a step back, at rest for a time that comes twice. */
+static void test_torque_sensor_starts_and_repeats(void)
+{
+    const double time[] = {0.0, 1e-3, 1e-3, 2e-3, 1.5e-3, 2.5e-3};
+    double torque[] = {3.0, 6.0, 9.0, 9.0, 1.0, 4.0};
+    static const double answer[] = {3.0,        4.0, 4.0,
+                                    22.0 / 3.0, 1.0, 2.0}; /* y ← (y + u_0 + u_1)/3 with h = τ */
+    el_list l = {0};
+    el_add(&l, "torque_sensor", "time_constant", 0.0, 1e-3);
+    hci_effects_filter(&l.list, time, 6, torque, NULL);
+    for (int k = 0; k < 6; ++k)
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, answer[k], torque[k]);
+}
+
+/* A column of regressors is filtered like the torque. */
+static void test_torque_sensor_filters_regressors(void)
+{
+    enum { N = 50 };
+    static double torque[N], by[2 * N];
+    el_list l = {0};
+    el_add(&l, "cogging", "sine", 6.0, 1.0);
+    el_add(&l, "torque_sensor", "time_constant", 0.0, 5e-3);
+    for (int k = 0; k < N; ++k) {
+        run_time[k] = 1e-3 * k;
+        torque[k] = by[2 * k] = sin(0.3 * k);
+        by[2 * k + 1] = 0.0;
+    }
+    hci_effects_filter(&l.list, run_time, N, torque, by);
+    for (int k = 0; k < N; ++k)
+        TEST_ASSERT_EQUAL_DOUBLE(torque[k], by[2 * k]);
+}
+
+/* ---- registry ---- */
+
+static void test_registry(void)
+{
+    static const char *const NAMES[] = {"cogging",         "back_emf",
+                                        "phase_imbalance", "reluctance",
+                                        "saturation",      "magnet_temperature",
+                                        "current_offset",  "current_gain",
+                                        "position_offset", "position_eccentricity",
+                                        "channel_delay",   "friction",
+                                        "torque_sensor",   "mechanical_order"};
+    const size_t count = sizeof NAMES / sizeof *NAMES;
+    for (size_t k = 0; k < count; ++k) {
+        const hci_effect_room *room = hci_effect_room_find(NAMES[k]);
+        TEST_ASSERT_NOT_NULL_MESSAGE(room, NAMES[k]);
+        TEST_ASSERT_EQUAL_STRING(NAMES[k], room->name);
+        TEST_ASSERT_TRUE(room->equation && room->signature && room->parameter_count > 0);
+        TEST_ASSERT_TRUE(room->torque || room->torque_of_all || room->undo);
+        TEST_ASSERT_TRUE(!room->sense == !room->undo && !room->undo == !room->undo_adjoint);
+    }
+    TEST_ASSERT_NOT_NULL(hci_effect_room_at(count - 1));
+    TEST_ASSERT_NULL(hci_effect_room_at(count));
+    TEST_ASSERT_NULL(hci_effect_room_find("coggin"));
+    TEST_ASSERT_NULL(hci_effect_room_find("coggings"));
+    TEST_ASSERT_NULL(hci_effect_room_find("unknown"));
+}
+
+static void test_no_effects(void)
+{
+    uint64_t seed = 10;
+    const hci_effects none = {NULL, 0};
+    const hci_sample x = el_sample(&seed);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-13, hci_torque_at(&m.machine, P * x.theta_m_rad, x.i_abc),
+                              hci_effects_predict(&m.machine, &none, &x, NULL));
+    TEST_ASSERT_EQUAL_UINT64(0, hci_effects_terms(&none));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_torque_of_each_effect);
+    RUN_TEST(test_saturation_scales_with_its_reference);
+    RUN_TEST(test_unknown_temperature_is_the_reference);
+    RUN_TEST(test_friction_brakes);
+    RUN_TEST(test_derivatives_by_current_and_angle);
+    RUN_TEST(test_derivatives_by_every_parameter);
+    RUN_TEST(test_regressors_of_linear_rooms);
+    RUN_TEST(test_readings_of_a_true_state);
+    RUN_TEST(test_readings_and_back);
+    RUN_TEST(test_delay_of_a_harmonic);
+    RUN_TEST(test_prediction_of_a_reading);
+    RUN_TEST(test_torque_sensor_frequency_response);
+    RUN_TEST(test_torque_sensor_derivatives);
+    RUN_TEST(test_torque_sensor_starts_and_repeats);
+    RUN_TEST(test_torque_sensor_filters_regressors);
+    RUN_TEST(test_registry);
+    RUN_TEST(test_no_effects);
+    return UNITY_END();
+}

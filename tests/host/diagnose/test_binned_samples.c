@@ -1,0 +1,299 @@
+/* What is left of long recordings, against the equations that they were made with. */
+#include "host/diagnose/prepare/binned_samples.h"
+
+#include "host/base/memory.h"
+#include "support/recording.h"
+#include "unity.h"
+
+enum { P = 3 };
+
+static const hci_machine MACHINE = {.pole_pairs = P};
+static const double NOISE_NM = 0.05, TURN = 2.0 * 3.14159265358979323846;
+
+static uint64_t seed;
+static hci_run run;
+static hci_cells cells;
+static double once_Nm; /* what repeats with the mechanical turn only */
+
+void setUp(void)
+{
+    seed = 4;
+    once_Nm = 0.05;
+}
+
+void tearDown(void)
+{
+    hci_memory_fail_after(-1);
+    hci_cells_release(&cells);
+    rec_release(&run);
+}
+
+static void reduce(void)
+{
+    hci_note note = {{0}};
+    hci_cells_release(&cells);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_cells_make(&MACHINE, &run, 1, &cells, &note), note.text);
+}
+
+static double torque_at(double theta_m)
+{
+    return 1.0 + 0.2 * sin(6.0 * P * theta_m) + once_Nm * cos(theta_m) + 0.03 * sin(2.0 * P * theta_m + 1.0);
+}
+
+/* At constant speed, i_d = −1 A, i_q = 3 A. samples: in a turn. */
+static void turn_steadily(double turns, double samples, double speed)
+{
+    rec_release(&run);
+    run = rec_make((size_t)(turns * samples + 0.5));
+    for (size_t k = 0; k < run.count; ++k) {
+        const double theta_m = 0.3 + (speed < 0.0 ? -2.0 : 2.0) * REF_PI * (double)k / samples;
+        run.time_s[k] = 5.0 + (double)k * 2.0 * REF_PI / samples / fabs(speed);
+        run.theta_m_rad[k] = theta_m;
+        run.speed_rad_per_s[k] = speed;
+        rec_phases(-1.0, 3.0, P * theta_m, run.i_A + 3 * k);
+        run.torque_Nm[k] = torque_at(theta_m) + NOISE_NM * rec_normal(&seed);
+    }
+}
+
+/* ---- means over turns ---- */
+
+/* Each cell is the formula at its own angle, with noise that falls with the samples in it; time goes on as
+ * the shaft turns. turn_rad: after which all repeats. width_rad: of a cell, whose mean is off by half the
+ * second derivative times (width/2)² at most. */
+static void is_mean_of_turns(double speed, double turns, double turn_rad, double width_rad)
+{
+    const hci_stretch *s = cells.stretch;
+    const double off = width_rad * width_rad / 8.0;
+    double square = 0.0, samples = 0.0;
+    TEST_ASSERT_EQUAL_UINT64(1, cells.stretch_count);
+    TEST_ASSERT_EQUAL_UINT64(cells.count, s->count);
+    TEST_ASSERT_DOUBLE_WITHIN(1.0 + 0.002 * turns, turns, (double)s->turns);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, turn_rad / fabs(speed), s->period_s);
+    for (size_t k = 0; k < s->count; ++k) {
+        const hci_cell *c = &cells.cell[k];
+        const double theta_m = c->raw.theta_m_rad, error = c->torque_Nm - torque_at(theta_m);
+        double i_abc[3];
+        samples += c->count;
+        square += c->count * error * error;
+        TEST_ASSERT_DOUBLE_WITHIN(5.0 * NOISE_NM / sqrt(c->count) + 70.0 * off, 0.0, error);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, (theta_m - cells.cell[0].raw.theta_m_rad) / speed, c->time_s);
+        rec_phases(-1.0, 3.0, P * theta_m, i_abc);
+        for (int p = 0; p < 3; ++p)
+            TEST_ASSERT_DOUBLE_WITHIN(29.0 * off + 1e-9, i_abc[p], c->raw.i_abc[p]);
+        if (k > 0) TEST_ASSERT_EQUAL(speed > 0.0, theta_m > c[-1].raw.theta_m_rad);
+    }
+    TEST_ASSERT_TRUE(samples >= (1.0 - 1.5 / turns) * (double)run.count);
+    TEST_ASSERT_DOUBLE_WITHIN(0.1, 1.0, sqrt(square / (double)s->count) / NOISE_NM); /* 400 cells: ± 3.5 % */
+}
+
+static void test_turns_become_one_mean(void)
+{
+    for (int direction = -1; direction <= 1; direction += 2) {
+        turn_steadily(200.0, 400.0, 50.0 * direction);
+        reduce();
+        is_mean_of_turns(50.0 * direction, 200.0, TURN, 0.0);
+        TEST_ASSERT_EQUAL_UINT64(400, cells.count);
+        turn_steadily(200.0, 401.618, 50.0 * direction); /* each turn at other angles */
+        reduce();
+        is_mean_of_turns(50.0 * direction, 200.0, TURN, TURN / 4096.0);
+        TEST_ASSERT_EQUAL_UINT64(4096, cells.count);
+    }
+}
+
+/* A wrapped electrical angle: which of the pole pairs it is about is not known, so electrical periods are the
+ * turns. */
+static void test_turns_of_a_wrapped_electrical_angle(void)
+{
+    once_Nm = 0.0;
+    turn_steadily(200.0, 401.618, 50.0);
+    run.turn_known = false;
+    reduce();
+    is_mean_of_turns(50.0, 600.0, TURN / P, TURN / P / 4096.0);
+    turn_steadily(2.5, 2000.0, 50.0); /* seven electrical periods are enough for a mean */
+    run.turn_known = false;
+    reduce();
+    TEST_ASSERT_EQUAL_UINT64(1, cells.stretch_count);
+    TEST_ASSERT_TRUE(cells.stretch[0].turns > 0);
+}
+
+/* What a run may have or not: no time, a temperature that rises, currents that have a sum. */
+static void test_other_columns_of_a_mean(void)
+{
+    turn_steadily(20.0, 400.0, 50.0);
+    free(run.time_s);
+    run.time_s = NULL;
+    run.has_sum = true;
+    run.temperature_C = calloc(run.count, sizeof *run.temperature_C);
+    for (size_t k = 0; k < run.count; ++k) {
+        run.i_A[3 * k] += 0.3;
+        run.temperature_C[k] = 40.0 + 0.02 * (double)(k / 400);
+    }
+    reduce();
+    TEST_ASSERT_EQUAL_UINT64(1, cells.stretch_count);
+    TEST_ASSERT_FALSE(cells.stretch[0].timed);
+    for (size_t k = 0; k < cells.count; ++k) {
+        TEST_ASSERT_EQUAL_DOUBLE(0.0, cells.cell[k].time_s);
+        TEST_ASSERT_EQUAL_DOUBLE(0.0, cells.cell[k].reading.change_A_per_s[0]);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.3, cells.cell[k].sum_A);
+        TEST_ASSERT_DOUBLE_WITHIN(0.02, 40.19, cells.cell[k].reading.temperature_C);
+    }
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 40.19, cells.figures[0].temperature_C);
+}
+
+static void test_figures_of_a_run(void)
+{
+    turn_steadily(200.0, 401.618, -50.0);
+    run.theta_m_rad[5] = run.theta_m_rad[4]; /* a sample twice is no step */
+    reduce();
+    const hci_run_figures *f = cells.figures;
+    TEST_ASSERT_DOUBLE_WITHIN(0.001, 1.0, f->mean_torque_Nm);
+    TEST_ASSERT_DOUBLE_WITHIN(0.001, sqrt(1.0 + 0.5 * (0.04 + 0.0025 + 0.0009) + 0.0025), f->rms_torque_Nm);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, -50.0, f->mean_speed_rad_per_s);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, sqrt(10.0), f->current_A);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-5, -1.0, f->mean_id_A);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-5, 3.0, f->mean_iq_A);
+    TEST_ASSERT_DOUBLE_WITHIN(0.01 * NOISE_NM, NOISE_NM, f->repeat_Nm); /* 80000 samples: ± 0.25 % */
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, TURN / 401.618, f->angle_step_rad);
+    TEST_ASSERT_DOUBLE_WITHIN(0.01, 200.0, f->turns);
+    TEST_ASSERT_TRUE(isnan(f->temperature_C));
+}
+
+/* ---- holding maps: the current that holds the shaft, at rest, one way and the other ---- */
+
+/* Five turns there and five back; friction holds with one sign or the other. */
+static void hold(size_t samples, double friction_A)
+{
+    rec_release(&run);
+    run = rec_make(10 * samples);
+    run.torque_source = HCI_TORQUE_HOLDING;
+    free(run.speed_rad_per_s);
+    free(run.time_s);
+    run.speed_rad_per_s = run.time_s = NULL;
+    for (size_t k = 0; k < run.count; ++k) {
+        const size_t at = k < run.count / 2 ? k : run.count - 1 - k;
+        const double sign = k < run.count / 2 ? 1.0 : -1.0;
+        run.theta_m_rad[k] = 2.0 * REF_PI * (double)at / (double)samples;
+        rec_phases(0.0, 0.5 * sin(12.0 * run.theta_m_rad[k]) + friction_A * sign, P * run.theta_m_rad[k],
+                   run.i_A + 3 * k);
+    }
+}
+
+/* Two means, each of one direction; about the turning point samples may stay as they are, or one in six be of
+ * the other. */
+static void is_held(double friction_A)
+{
+    size_t means = 0;
+    hold(1000, friction_A);
+    reduce();
+    for (size_t k = 0; k < cells.stretch_count; ++k) {
+        const hci_stretch *s = &cells.stretch[k];
+        const double sign = means == 0 ? 1.0 : -1.0;
+        if (s->turns == 0) continue;
+        TEST_ASSERT_DOUBLE_WITHIN(1.0, 5.0, (double)s->turns);
+        TEST_ASSERT_TRUE(s->count >= 1000);
+        for (size_t j = s->first; j < s->first + s->count; ++j) {
+            const hci_sample *x = &cells.cell[j].raw;
+            double d, q;
+            rec_rotor(x->i_abc, P * x->theta_m_rad, &d, &q);
+            TEST_ASSERT_DOUBLE_WITHIN(0.4 * friction_A, 0.5 * sin(12.0 * x->theta_m_rad) + friction_A * sign,
+                                      q);
+            TEST_ASSERT_EQUAL_DOUBLE(0.0, cells.cell[j].torque_Nm);
+            if (j > s->first)
+                TEST_ASSERT_EQUAL(sign > 0.0, x->theta_m_rad > cells.cell[j - 1].raw.theta_m_rad);
+        }
+        ++means;
+    }
+    TEST_ASSERT_EQUAL_UINT64(2, means);
+}
+
+static void test_holding_there_and_back(void)
+{
+    is_held(0.3);
+    is_held(1e-3);
+}
+
+/* ---- samples as they are ---- */
+
+static bool is_sample(const hci_cell *c, size_t k)
+{
+    return c->count == 1.0 && c->raw.theta_m_rad == run.theta_m_rad[k] && c->torque_Nm == run.torque_Nm[k] &&
+           c->raw.i_abc[1] == run.i_A[3 * k + 1] && c->time_s == run.time_s[k];
+}
+
+/* Neither speed nor current change for a moment only: nothing is averaged, and parts of it stand for all. */
+static void test_an_unsteady_run_stays(void)
+{
+    for (int what = 0; what < 2; ++what) {
+        size_t at = 0;
+        turn_steadily(100.0, 800.0, 50.0);
+        for (size_t k = 0; k < run.count; ++k) {
+            const double share = (double)k / (double)run.count;
+            if (what == 0) run.speed_rad_per_s[k] *= 1.0 + 4.0 * share;
+            if (what == 1) rec_phases(-1.0, 3.0 + 12.0 * share, P * run.theta_m_rad[k], run.i_A + 3 * k);
+        }
+        reduce();
+        TEST_ASSERT_TRUE(cells.stretch_count > 1 && cells.count <= run.count);
+        for (size_t s = 0; s < cells.stretch_count; ++s) {
+            TEST_ASSERT_EQUAL_UINT64(0, cells.stretch[s].turns);
+            TEST_ASSERT_TRUE(cells.stretch[s].count <= HCI_MOST_STRETCH);
+            for (size_t j = 0; j < cells.stretch[s].count; ++j, ++at) {
+                const hci_cell *c = &cells.cell[cells.stretch[s].first + j];
+                while (at < run.count && !is_sample(c, at))
+                    ++at;
+                TEST_ASSERT_TRUE(at < run.count);
+            }
+        }
+        TEST_ASSERT_TRUE(at > run.count * 3 / 4); /* to the end of it */
+    }
+}
+
+static void test_short_runs(void)
+{
+    for (size_t n = 0; n < 60; ++n) {
+        turn_steadily((double)n / 400.0, 400.0, 50.0);
+        reduce();
+        TEST_ASSERT_EQUAL_UINT64(n, cells.count);
+        TEST_ASSERT_EQUAL_UINT64(n > 0, cells.stretch_count);
+        for (size_t k = 0; k < n; ++k) {
+            TEST_ASSERT_TRUE(is_sample(&cells.cell[k], k));
+            TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0.0, cells.cell[k].reading.change_A_per_s[0]);
+        }
+    }
+    free(run.torque_Nm);
+    run.torque_Nm = NULL;
+    reduce();
+    TEST_ASSERT_EQUAL_UINT64(0, cells.count);
+    TEST_ASSERT_EQUAL_UINT64(1, cells.run_count);
+}
+
+static void test_memory_is_out(void)
+{
+    hci_note note;
+    hci_status status = HCI_ERROR_MEMORY;
+    long n = 0;
+    turn_steadily(20.0, 1400.0, 50.0); /* enough for a series of the currents */
+    for (; status == HCI_ERROR_MEMORY; ++n) {
+        memset(&note, 0, sizeof note);
+        hci_memory_fail_after(n);
+        status = hci_cells_make(&MACHINE, &run, 1, &cells, &note);
+        hci_memory_fail_after(-1);
+        TEST_ASSERT_EQUAL(status == HCI_OK, note.text[0] == '\0');
+        TEST_ASSERT_EQUAL(status == HCI_OK, cells.cell != NULL);
+    }
+    TEST_ASSERT_EQUAL_INT(HCI_OK, status);
+    TEST_ASSERT_TRUE(n > 5);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_turns_become_one_mean);
+    RUN_TEST(test_turns_of_a_wrapped_electrical_angle);
+    RUN_TEST(test_other_columns_of_a_mean);
+    RUN_TEST(test_figures_of_a_run);
+    RUN_TEST(test_holding_there_and_back);
+    RUN_TEST(test_an_unsteady_run_stays);
+    RUN_TEST(test_short_runs);
+    RUN_TEST(test_memory_is_out);
+    return UNITY_END();
+}

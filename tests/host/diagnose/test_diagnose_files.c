@@ -1,0 +1,133 @@
+/* The corrected machine on disk, the same bytes twice, and what goes wrong: no run to fit, no memory. */
+#define _XOPEN_SOURCE 700
+
+#include "host/base/memory.h"
+
+#include "support/diagnosing.h"
+
+void setUp(void)
+{
+    bench_start();
+}
+
+void tearDown(void)
+{
+    bench_end();
+}
+
+/* ---- no runs ---- */
+
+static void test_no_run_to_fit(void)
+{
+    TEST_ASSERT_EQUAL_INT(HCI_ERROR_INPUT, diagnose(NULL));
+    record(200, &(point){60.0, 1.0, 0.0, 0.0, 0.0});
+    role[0] = HCI_ROLE_HOLDOUT;
+    TEST_ASSERT_EQUAL_INT(HCI_ERROR_INPUT, diagnose(NULL));
+    role[0] = HCI_ROLE_FIT;
+    double *torque_Nm = run[0].torque_Nm;
+    run[0].torque_Nm = NULL;
+    TEST_ASSERT_EQUAL_INT(HCI_ERROR_INPUT, diagnose(NULL));
+    run[0].torque_Nm = torque_Nm;
+    TEST_ASSERT_EQUAL_UINT64(0, diagnosis.findings);
+    TEST_ASSERT_NULL(diagnosis.run);
+}
+
+/* ---- files ---- */
+
+static void write_into(const char *folder)
+{
+    hci_note note = {{0}};
+    const hci_status status = hci_diagnosis_write(&diagnosis, NULL, &runs, root, in_root(folder), &note);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, status, note.text);
+}
+
+/* The corrected machine says what the diagnosis says of it, and lacks nothing. */
+static void test_corrected_machine(void)
+{
+    hci_effects_data effects = {0};
+    hci_machine_data corrected;
+    hci_note note = {{0}};
+    record(600, &(point){60.0, 2.0, 0.3, 0.0, 0.0});
+    record(600, &(point){-150.0, 7.0, 0.3, 0.0, 0.0});
+    for (size_t j = 0; j < 3600; ++j) /* readings that a regression smooths, and a prediction does not */
+        run[j / 1800].i_A[j % 1800] += 0.005 * rec_normal(&seed);
+    diagnose(NULL);
+    write_into("out");
+    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_machine_read(in_root("out/machine"), &corrected, &note),
+                                  note.text);
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_effects_read_machine(in_root("out/machine"), &effects, &note));
+    for (size_t k = 0; k < runs.count; ++k) {
+        double square = 0.0;
+        for (size_t j = 0; j < run[k].count; ++j) {
+            hci_sample x = {
+                run[k].theta_m_rad[j], run[k].speed_rad_per_s[j], {0.0}, {0.0}, {0.0}, (double)NAN};
+            memcpy(x.i_abc, run[k].i_A + 3 * j, sizeof x.i_abc);
+            const double error =
+                run[k].torque_Nm[j] - hci_effects_predict(&corrected.model, &effects.list, &x, NULL);
+            square += error * error / (double)run[k].count;
+        }
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9 * NOISE_NM, sqrt(square), diagnosis.run[k].rms_after_Nm);
+    }
+    TEST_ASSERT_EQUAL_INT(HCI_OK, diagnose(&effects.list));
+    TEST_ASSERT_EQUAL_INT(HCI_DIAGNOSIS_COMPLETE, diagnosis.verdict);
+    TEST_ASSERT_EQUAL_UINT64(1, diagnosis.effects.list.count); /* what it had */
+    hci_machine_release(&corrected);
+    hci_effects_release(&effects);
+}
+
+static void test_same_bytes(void)
+{
+    char command[256];
+    record(300, &(point){60.0, 2.0, 0.3, 0.0, 0.0});
+    record(300, &(point){-60.0, 5.0, 0.3, 0.0, 0.0});
+    for (int k = 0; k < 2; ++k) {
+        diagnose(NULL);
+        write_into(k == 0 ? "first" : "second");
+    }
+    snprintf(command, sizeof command,
+             "cd %s && test -s first/effects.csv -a -s first/errors.csv -a -s first/machine/effects.csv && "
+             "diff -r first second",
+             root);
+    TEST_ASSERT_EQUAL_INT(0, system(command));
+}
+
+/* ---- memory ---- */
+
+static hci_status diagnose_with(long allocations)
+{
+    const hci_effects none = {NULL, 0};
+    hci_note note = {{0}};
+    hci_memory_fail_after(allocations);
+    const hci_status status = hci_diagnose(&machine, &none, &runs, &options, &diagnosis, &note);
+    hci_memory_fail_after(-1);
+    TEST_ASSERT_EQUAL(status > HCI_NOT_REACHED, note.text[0] != '\0');
+    TEST_ASSERT_TRUE(status <= HCI_NOT_REACHED || status == HCI_ERROR_MEMORY);
+    if (status == HCI_ERROR_MEMORY) {
+        TEST_ASSERT_TRUE(!diagnosis.run && !diagnosis.effects.term && diagnosis.findings == 0);
+    }
+    hci_diagnosis_release(&diagnosis);
+    return status;
+}
+
+/* The first and the last allocations fail one by one, those between in larger steps. */
+static void test_memory_is_out(void)
+{
+    long n = 0;
+    record(140, &(point){60.0, 2.0, 0.3, 0.0, 0.0});
+    record(140, &(point){-60.0, 6.0, 0.3, 0.0, 0.0});
+    while (diagnose_with(n) == HCI_ERROR_MEMORY)
+        n += n < 40 ? 1 : n / 15;
+    for (long k = n - n / 15; diagnose_with(k) == HCI_ERROR_MEMORY; ++k)
+        TEST_ASSERT_TRUE(k < n);
+    TEST_ASSERT_TRUE(n > 150);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_no_run_to_fit);
+    RUN_TEST(test_corrected_machine);
+    RUN_TEST(test_same_bytes);
+    RUN_TEST(test_memory_is_out);
+    return UNITY_END();
+}

@@ -1,0 +1,245 @@
+/* Readings that were smoothed, against the motion and the currents before noise and encoder. */
+#include "host/diagnose/prepare/binned_samples.h"
+#include "support/recording.h"
+#include "unity.h"
+
+enum { P = 3, MOST = 4000 };
+
+static const hci_machine MACHINE = {.pole_pairs = P};
+
+static uint64_t seed;
+static hci_run run;
+static hci_cells cells;
+static double truth[MOST]; /* mechanical angle, rad */
+static double once;        /* how much of what is once a turn the currents have */
+
+void setUp(void)
+{
+    seed = 12;
+    once = 1.0;
+}
+
+void tearDown(void)
+{
+    hci_cells_release(&cells);
+    rec_release(&run);
+}
+
+static void reduce(void)
+{
+    hci_note note = {{0}};
+    hci_cells_release(&cells);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_cells_make(&MACHINE, &run, 1, &cells, &note), note.text);
+    TEST_ASSERT_EQUAL_UINT64(1, cells.stretch_count);
+}
+
+/* Constant speed with a ripple of the angle, ripple_rad sin(order·ωt). */
+static void turn(size_t n, double samples, double speed, double order, double ripple_rad)
+{
+    rec_release(&run);
+    run = rec_make(n);
+    for (size_t k = 0; k < n; ++k) {
+        const double t = (double)k * 2.0 * REF_PI / samples / fabs(speed);
+        truth[k] = speed * t + ripple_rad * sin(order * speed * t);
+        run.time_s[k] = t;
+        run.theta_m_rad[k] = truth[k];
+        run.speed_rad_per_s[k] = speed * (1.0 + ripple_rad * order * cos(order * speed * t));
+        rec_phases(0.0, 3.0, P * truth[k], run.i_A + 3 * k);
+    }
+}
+
+/* ---- angle ---- */
+
+static double angle_error(size_t from, size_t to)
+{
+    double square = 0.0;
+    for (size_t k = from; k < to; ++k)
+        square += pow(cells.cell[k].reading.theta_m_rad - truth[k], 2.0);
+    return sqrt(square / (double)(to - from));
+}
+
+/* The error of a step q is q/√12, and that of the value in the middle of a parabola through 2m + 1 = 21 such
+ * points smaller by √(3(3m² + 3m − 1)/((2m − 1)(2m + 1)(2m + 3))) = 0.328. */
+static void test_steps_of_an_encoder(void)
+{
+    const double step = 2.0 * REF_PI / 1024.0;
+    turn(MOST, 390.17, 80.0, 0.0, 0.0);
+    for (size_t k = 0; k < MOST; ++k) { /* at uneven times, so that one error says nothing of the next */
+        run.time_s[k] += ref_uniform(&seed, -0.4, 0.4) * 2.0 * REF_PI / 390.17 / 80.0;
+        truth[k] = 80.0 * run.time_s[k];
+        run.theta_m_rad[k] = step * (floor(truth[k] / step) + 0.5);
+    }
+    reduce();
+    const double error = angle_error(10, MOST - 10) / (step / sqrt(12.0));
+    TEST_ASSERT_DOUBLE_WITHIN(0.15 * 0.328, 0.328,
+                              error); /* 190 values that do not depend on each other: ± 5 % */
+    TEST_ASSERT_EQUAL_DOUBLE(run.theta_m_rad[777], cells.cell[777].raw.theta_m_rad);
+    TEST_ASSERT_TRUE(angle_error(0, 10) < 0.01 && angle_error(MOST - 10, MOST) < 0.01);
+}
+
+static void test_motion_is_not_distorted(void)
+{
+    turn(MOST, 400.0, -80.0, 0.0, 0.0);
+    reduce();
+    TEST_ASSERT_TRUE(angle_error(0, MOST) < 1e-12);
+    /* A ripple x⁴/24 loses 3/35 (m + 1/2)⁴ in the middle of such a parabola. */
+    turn(MOST, 400.0, 80.0, 3.0, 0.01);
+    reduce();
+    const double lost = 0.01 * pow(10.5 * 6.0 * REF_PI / 400.0, 4.0) * 3.0 / 35.0 / 24.0;
+    TEST_ASSERT_DOUBLE_WITHIN(0.05 * lost, lost / sqrt(2.0), angle_error(10, MOST - 10));
+}
+
+/* Turning points, standstill and samples without time stay as they are. */
+static void test_what_is_not_smoothed(void)
+{
+    for (int what = 0; what < 3; ++what) {
+        turn(500, 400.0, 50.0, 2.0, 0.01);
+        for (size_t k = 0; k < 500; ++k) {
+            run.theta_m_rad[k] += 0.01 * rec_normal(&seed);
+            if (what == 0 && k > 250) run.speed_rad_per_s[k] *= -1.0;
+            if (what == 1) run.speed_rad_per_s[k] = 0.0;
+        }
+        if (what == 2) free(run.time_s);
+        if (what == 2) run.time_s = NULL;
+        reduce();
+        for (size_t k = 0; k < 500; ++k)
+            TEST_ASSERT_EQUAL_DOUBLE(run.theta_m_rad[k], cells.cell[k].reading.theta_m_rad);
+    }
+}
+
+/* ---- currents ---- */
+
+/* Fifth and seventh harmonics, which are of order 6 in the rotor frame, one of once a turn, which is order
+ * 1/p, and their derivatives by the mechanical angle. */
+static void current(double theta_m, int derivative, double *d, double *q)
+{
+    const double shift = derivative * REF_PI / 2.0, six = pow(6.0 * P, derivative);
+    *d = 0.3 * six * cos(6.0 * P * theta_m + shift) + 0.1 * once * sin(theta_m + shift) +
+         (derivative == 0 ? -1.0 : 0.0);
+    *q = 0.2 * six * sin(6.0 * P * theta_m + 0.4 + shift) + 0.15 * once * cos(theta_m + shift) +
+         (derivative == 0 ? 3.0 : 0.0);
+}
+
+static void flow(double noise_A)
+{
+    for (size_t k = 0; k < run.count; ++k) {
+        double d, q;
+        current(run.theta_m_rad[k], 0, &d, &q);
+        rec_phases(d, q, P * run.theta_m_rad[k], run.i_A + 3 * k);
+        for (int s = 0; s < 3; ++s)
+            run.i_A[3 * k + (size_t)s] += noise_A * rec_normal(&seed);
+    }
+}
+
+/* Mean square of i_d and i_q less the truth, per axis. */
+static double current_error(bool raw)
+{
+    double square = 0.0;
+    for (size_t k = 0; k < cells.count; ++k) {
+        const hci_cell *c = &cells.cell[k];
+        double d, q, d0, q0;
+        rec_rotor(raw ? c->raw.i_abc : c->reading.i_abc, P * c->raw.theta_m_rad, &d, &q);
+        current(c->raw.theta_m_rad, 0, &d0, &q0);
+        square += 0.5 * ((d - d0) * (d - d0) + (q - q0) * (q - q0)) / (double)cells.count;
+    }
+    return square;
+}
+
+/* 21 orders of the turn, electrical ones to 24 and the mean: 77 coefficients of MOST samples keep that share
+ * of the variance, 2/3 of that of a phase. 49 without a turn. */
+static void test_noise_of_currents(void)
+{
+    for (int turns = 0; turns < 2; ++turns) {
+        const double variance = 0.05 * 0.05 * 2.0 / 3.0, share = (turns ? 77.0 : 49.0) / MOST;
+        double before = 0.0, after = 0.0;
+        once = turns;
+        for (int k = 0; k < 5; ++k) {
+            turn(MOST, 400.0, 50.0, 0.0, 0.0);
+            flow(0.05);
+            run.turn_known = turns;
+            reduce();
+            before += current_error(true) / 5.0;
+            after += current_error(false) / 5.0;
+        }
+        TEST_ASSERT_DOUBLE_WITHIN(0.03 * variance, variance, before);
+        TEST_ASSERT_DOUBLE_WITHIN(0.2 * share * variance, share * variance, after); /* of 490: ± 6 % */
+    }
+}
+
+/* In samples as they are, and in the mean of turns at angles that differ. */
+static void test_currents_are_not_distorted(void)
+{
+    for (int direction = -1; direction <= 1; direction += 2)
+        for (int mean = 0; mean < 2; ++mean) {
+            turn(MOST, 400.0, 50.0 * direction, 0.0, 0.0);
+            if (mean) {
+                rec_release(&run);
+                run = rec_make(40000);
+                for (size_t k = 0; k < run.count; ++k) {
+                    run.time_s[k] = (double)k * 2.0 * REF_PI / 1001.618 / 50.0;
+                    run.theta_m_rad[k] = 50.0 * direction * run.time_s[k];
+                    run.speed_rad_per_s[k] = 50.0 * direction;
+                }
+            }
+            flow(0.0);
+            reduce();
+            TEST_ASSERT_EQUAL(mean, cells.stretch[0].turns > 0);
+            TEST_ASSERT_TRUE(sqrt(current_error(false)) < (mean ? 1e-4 : 1e-9)); /* cells are 2π/2048 wide */
+            for (size_t k = 0; k < cells.count; ++k) {
+                const hci_sample *x = &cells.cell[k].reading;
+                double d, q, dd, dq;
+                rec_rotor(x->change_A_per_s, P * x->theta_m_rad, &d, &q);
+                current(x->theta_m_rad, 1, &dd, &dq);
+                TEST_ASSERT_DOUBLE_WITHIN(mean ? 0.5 : 1e-6, 50.0 * direction * dd, d); /* of 270 A/s */
+                TEST_ASSERT_DOUBLE_WITHIN(mean ? 0.5 : 1e-6, 50.0 * direction * dq, q);
+                rec_rotor(x->curvature_A_per_s2, P * x->theta_m_rad, &d, &q);
+                current(x->theta_m_rad, 2, &dd, &dq);
+                TEST_ASSERT_DOUBLE_WITHIN(mean ? 700.0 : 1e-3, 2500.0 * dd, d); /* of 243000 A/s² */
+                TEST_ASSERT_DOUBLE_WITHIN(mean ? 700.0 : 1e-3, 2500.0 * dq, q);
+                TEST_ASSERT_EQUAL_DOUBLE(x->change_A_per_s[1], cells.cell[k].raw.change_A_per_s[1]);
+            }
+        }
+}
+
+/* Too few samples for a series: the slope over a fortieth of a period, which weakens order 6 by x²/10 with
+ * x = 6·2π/80. */
+static void test_rate_of_change_of_a_short_run(void)
+{
+    for (int direction = -1; direction <= 1; direction += 2) {
+        turn(470, 1180.0, 50.0 * direction, 0.0, 0.0);
+        flow(0.0);
+        reduce();
+        for (size_t k = 10; k < 460; ++k) {
+            const hci_sample *x = &cells.cell[k].reading;
+            double d, q, dd, dq;
+            rec_rotor(x->change_A_per_s, P * x->theta_m_rad, &d, &q);
+            current(x->theta_m_rad, 1, &dd, &dq);
+            TEST_ASSERT_DOUBLE_WITHIN(0.03 * 275.0, 50.0 * direction * dd, d);
+            TEST_ASSERT_DOUBLE_WITHIN(0.03 * 275.0, 50.0 * direction * dq, q);
+        }
+    }
+}
+
+/* A current that grows all along is no series over the angle. */
+static void test_a_ramp_of_current_stays(void)
+{
+    turn(MOST, 400.0, 50.0, 0.0, 0.0);
+    for (size_t k = 0; k < MOST; ++k)
+        rec_phases(0.0, 1.0 + (double)k / MOST, P * truth[k], run.i_A + 3 * k);
+    reduce();
+    for (size_t k = 0; k < MOST; ++k)
+        TEST_ASSERT_EQUAL_DOUBLE(run.i_A[3 * k], cells.cell[k].reading.i_abc[0]);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_steps_of_an_encoder);
+    RUN_TEST(test_motion_is_not_distorted);
+    RUN_TEST(test_what_is_not_smoothed);
+    RUN_TEST(test_noise_of_currents);
+    RUN_TEST(test_currents_are_not_distorted);
+    RUN_TEST(test_rate_of_change_of_a_short_run);
+    RUN_TEST(test_a_ramp_of_current_stays);
+    return UNITY_END();
+}

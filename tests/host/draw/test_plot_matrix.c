@@ -1,0 +1,422 @@
+/* U of a solution against sampled torque, and its picture against U; large systems; the residual by run and
+ * order; mean and extremes over one turn of a simulated drive. */
+#define _XOPEN_SOURCE 700
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "host/base/memory.h"
+#include "host/draw/plot.h"
+#include "host/draw/plot_turn.h"
+#include "support/reference.h"
+#include "unity.h"
+
+enum { MOST_BYTES = 400000, MANY = 300 };
+
+static char folder[64], path[96], picture[MOST_BYTES];
+static hci_machine_data machine;
+static hci_target target;
+static hci_solution solution;
+static hci_note note;
+
+void setUp(void)
+{
+    snprintf(folder, sizeof folder, "/tmp/hci-test-matrix-XXXXXX");
+    TEST_ASSERT_NOT_NULL(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/p.svg", folder);
+}
+
+void tearDown(void)
+{
+    unlink(path);
+    rmdir(folder);
+}
+
+/* ---- solutions ---- */
+
+static void solve_begin(const char *folder_name, const char *target_name)
+{
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_machine_read(folder_name, &machine, &note), note.text);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_target_read(target_name, &target, &note), note.text);
+}
+
+static void solve_end(void)
+{
+    hci_solution_release(&solution);
+    hci_target_release(&target);
+    hci_machine_release(&machine);
+}
+
+static void solve(const char *target_name, const hci_component_set *set, hci_status expected)
+{
+    solve_begin("data/machine_a", target_name);
+    const hci_solve_options options = {.target = &target, .set = set};
+    TEST_ASSERT_EQUAL_MESSAGE(expected, hci_solve(&machine, &options, &solution, &note), note.text);
+}
+
+/* A set that reaches neither order 5 of scenario 7 nor 24, 30, 36, and has two components that nothing is
+ * asked of. */
+static hci_component component[] = {{5.0, -1}, {7.0, 1}, {4.0, 1}, {2.0, -1}};
+static hci_set set_name[] = {HCI_SET_NEG, HCI_SET_POS, HCI_SET_POS, HCI_SET_NEG};
+
+static void solve_poor_set(void)
+{
+    const hci_component_set set = {.component = component, .set = set_name, .count = 4};
+    solve("data/scenarios/07/target.csv", &set, HCI_NOT_REACHED);
+}
+
+/* ---- the picture ---- */
+
+static void draw(void (*put)(hci_output *out))
+{
+    hci_output *out;
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_output_open(folder, &out, &note), note.text);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_output_file(out, "p.svg", &note), note.text);
+    hci_memory_fail_after(0);
+    put(out);
+    hci_memory_fail_after(-1);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_output_commit(out, &note), note.text);
+    FILE *file = fopen(path, "rb");
+    TEST_ASSERT_NOT_NULL(file);
+    const size_t size = fread(picture, 1, sizeof picture - 1, file);
+    fclose(file);
+    picture[size] = '\0';
+    TEST_ASSERT_TRUE(size + 1 < sizeof picture);
+}
+
+static size_t count_of(const char *text)
+{
+    size_t count = 0;
+    for (const char *at = picture; (at = strstr(at, text)); ++at)
+        ++count;
+    return count;
+}
+
+static double number_after(const char *at, const char *key)
+{
+    at = strstr(at, key);
+    TEST_ASSERT_NOT_NULL(at);
+    return strtod(at + strlen(key), NULL);
+}
+
+static void put_system(hci_output *out)
+{
+    hci_plot_system(out, &solution);
+}
+
+/* The square whose middle is there, as its side; 0 where there is none. Those of the legend lie above `top`.
+ */
+static double side_at(const char *style, double x, double y)
+{
+    char key[48];
+    snprintf(key, sizeof key, "<rect class=\"%s\"", style);
+    for (const char *at = picture; (at = strstr(at, key)); ++at) {
+        const double side = number_after(at, " width=\"");
+        if (fabs(number_after(at, " x=\"") + 0.5 * side - x) < 0.02 &&
+            fabs(number_after(at, " y=\"") + 0.5 * side - y) < 0.02)
+            return side;
+    }
+    return 0.0;
+}
+
+/* ---- U against sampled torque ---- */
+
+/* Torque of 1 A of one coordinate of a component: Σ e_s i_s, by its sine formula. */
+static void sampled_column(hci_component c, bool is_cosine, ref_spectrum *spectrum)
+{
+    double torque[REF_SAMPLES];
+    for (size_t j = 0; j < REF_SAMPLES; ++j) {
+        torque[j] = 0.0;
+        for (int s = 0; s < 3; ++s) {
+            const ref_wave current = {c.order, c.sequence, 1.0, is_cosine ? REF_PI / 2.0 : 0.0};
+            double emf = 0.0;
+            for (size_t k = 0; k < machine.model.back_emf_count; ++k) {
+                const hci_wave *e = &machine.model.back_emf[k];
+                const ref_wave wave = {e->order, e->sequence, hypot(e->sine, e->cosine),
+                                       atan2(e->cosine, e->sine)};
+                emf += ref_wave_at(&wave, s, ref_theta(j, 1));
+            }
+            torque[j] += emf * ref_wave_at(&current, s, ref_theta(j, 1));
+        }
+    }
+    ref_transform(torque, spectrum);
+}
+
+static double entry(size_t row, size_t column)
+{
+    const hci_solved_system *u = &solution.system;
+    for (int64_t k = u->column_start[column]; k < u->column_start[column + 1]; ++k)
+        if ((size_t)u->row[k] == row) return u->value[k];
+    return 0.0;
+}
+
+static void check_system(void)
+{
+    for (size_t j = 0; j < 2 * solution.system.set.count; ++j) {
+        ref_spectrum expected;
+        size_t row = 0;
+        sampled_column(solution.system.set.component[j / 2], j % 2 == 1, &expected);
+        for (size_t k = 0; k < solution.order_count; ++k) {
+            const size_t bin = (size_t)lround(solution.order[k].torque_Nm.order);
+            if (bin > 0) TEST_ASSERT_DOUBLE_WITHIN(1e-12, expected.sine[bin], entry(row++, j));
+            TEST_ASSERT_DOUBLE_WITHIN(1e-12, expected.cosine[bin], entry(row++, j));
+        }
+    }
+}
+
+static void test_system_is_that_of_the_torque(void)
+{
+    solve("data/scenarios/02/target.csv", NULL, HCI_OK);
+    TEST_ASSERT_EQUAL_UINT64(solution.unknowns, 2 * solution.system.set.count);
+    check_system();
+    solve_end();
+    solve_poor_set();
+    TEST_ASSERT_EQUAL_UINT64(4 + 1, solution.system.set.count); /* and the fundamental */
+    check_system();
+    solve_end();
+}
+
+/* A method without U has none, and what is left of it can be released. */
+static void test_no_system_angle_by_angle(void)
+{
+    solve_begin("data/machine_a", "data/scenarios/02/target.csv");
+    const hci_solve_options options = {.target = &target, .method = HCI_METHOD_POINTWISE};
+    hci_solve(&machine, &options, &solution, &note);
+    TEST_ASSERT_EQUAL_UINT64(0, solution.system.set.count);
+    TEST_ASSERT_NULL(solution.system.value);
+    solve_end();
+}
+
+/* ---- the picture against U ---- */
+
+/* Each entry is a square of its sign, with an area by its size, at its place; and there is no other. */
+static void test_squares_are_the_entries(void)
+{
+    size_t entries = 0, rows = 0;
+    double largest = 0.0;
+    solve_poor_set();
+    draw(put_system);
+    for (size_t k = 0; k < solution.order_count; ++k)
+        rows += solution.order[k].torque_Nm.order > 0.0 ? 2 : 1;
+    for (size_t i = 0; i < rows; ++i)
+        for (size_t j = 0; j < 2 * solution.system.set.count; ++j)
+            largest = fmax(largest, fabs(entry(i, j)));
+    const double cell = 20.0, left = 64.0, top = 66.0;
+    for (size_t i = 0; i < rows; ++i)
+        for (size_t j = 0; j < 2 * solution.system.set.count; ++j) {
+            const double value = entry(i, j), x = left + cell * ((double)j + 0.5),
+                         y = top + cell * ((double)i + 0.5);
+            const double side = fmax(0.9 * cell * sqrt(fabs(value) / largest), 2.6);
+            const bool is_there = fabs(value) > 1e-6 * largest;
+            TEST_ASSERT_DOUBLE_WITHIN(0.03, is_there && value > 0.0 ? side : 0.0, side_at("plus", x, y));
+            TEST_ASSERT_DOUBLE_WITHIN(0.03, is_there && value < 0.0 ? side : 0.0, side_at("minus", x, y));
+            entries += is_there;
+        }
+    TEST_ASSERT_EQUAL_UINT64(entries + 2,
+                             count_of("class=\"plus\"") + count_of("class=\"minus\"")); /* and the legend */
+    solve_end();
+}
+
+static void test_marks_of_what_takes_no_part(void)
+{
+    solve_poor_set();
+    draw(put_system);
+    TEST_ASSERT_EQUAL_UINT64(4, count_of("class=\"no end\"")); /* 5, 24, 30, 36 */
+    TEST_ASSERT_EQUAL_UINT64(2 * (4 + 1), count_of("class=\"cross\""));
+    TEST_ASSERT_NOT_NULL(strstr(picture, ">5</text>"));
+    TEST_ASSERT_EQUAL_UINT64(2 + 1, count_of("class=\"band\"")); /* 4+ and 2−, and the legend */
+    TEST_ASSERT_NOT_NULL(strstr(picture, ">(4+)</text>"));
+    TEST_ASSERT_NOT_NULL(strstr(picture, ">(2−)</text>"));
+    TEST_ASSERT_NOT_NULL(strstr(picture, ">7+</text>"));
+    solution.order[1].verdict = HCI_ORDER_FREE;
+    draw(put_system);
+    TEST_ASSERT_EQUAL_UINT64(3 + 1, count_of("class=\"band\""));
+    solve_end();
+}
+
+/* ---- more than fits ---- */
+
+static hci_solved_order many_order[MANY];
+static hci_component many_component[MANY];
+static hci_set many_set[MANY];
+static hci_wave many_wave[MANY];
+static int64_t many_start[2 * MANY + 1], many_row[2 * MANY];
+static double many_value[2 * MANY];
+
+/* Column j has one entry, at a row that falls with it. */
+static void make_many(size_t orders, size_t components)
+{
+    for (size_t k = 0; k < orders; ++k)
+        many_order[k] = (hci_solved_order){.torque_Nm = {(double)k, 0.0, 0.0}};
+    for (size_t k = 0; k < components; ++k) {
+        many_component[k] = (hci_component){(double)k + 1.0, 1};
+        many_wave[k] = hci_wave_polar((double)k + 1.0, 1, 1.0, 0.0);
+    }
+    for (size_t j = 0; j < 2 * components; ++j) {
+        many_start[j + 1] = (int64_t)(j + 1);
+        many_row[j] = (int64_t)((2 * orders - 2) * j / (2 * components - 1));
+        many_value[j] = j % 2 ? -0.25 : 1.0;
+    }
+    solution =
+        (hci_solution){.current = {.wave = many_wave, .count = components},
+                       .order = many_order,
+                       .order_count = orders,
+                       .system = {.set = {.component = many_component, .set = many_set, .count = components},
+                                  .column_start = many_start,
+                                  .row = many_row,
+                                  .value = many_value}};
+}
+
+static void test_large_systems_are_binned(void)
+{
+    make_many(MANY, MANY); /* 48 cells at most: 7 items in each, which makes 43 */
+    draw(put_system);
+    TEST_ASSERT_NOT_NULL(strstr(picture, ">a cell holds 7 torque orders by 7 components</text>"));
+    TEST_ASSERT_EQUAL_UINT64(0, count_of("class=\"minus\""));
+    const double cell = (524.0 - 64.0) / 43.0;
+    size_t squares = 1; /* of the legend */
+    for (size_t i = 0; i < 43; ++i)
+        for (size_t j = 0; j < 43; ++j) {
+            double largest = 0.0;
+            for (size_t k = 14 * j; k < 14 * (j + 1) && k < 2 * MANY; ++k)
+                if (((size_t)many_row[k] + 1) / 2 / 7 == i) largest = fmax(largest, fabs(many_value[k]));
+            squares += largest > 0.0;
+            const double side = fmax(0.9 * cell * sqrt(largest), 2.6);
+            TEST_ASSERT_DOUBLE_WITHIN(
+                0.03, largest > 0.0 ? side : 0.0,
+                side_at("plus", 64.0 + cell * ((double)j + 0.5), 66.0 + cell * ((double)i + 0.5)));
+        }
+    TEST_ASSERT_EQUAL_UINT64(squares, count_of("class=\"plus\""));
+    TEST_ASSERT_TRUE(count_of("<text") < 120);
+}
+
+/* Sizes about the limits: no text of a column is nearer to the next one in its row than it is long. */
+static void test_sizes(void)
+{
+    static const size_t SIZE[] = {1, 2, 23, 24, 25, 48, 49, 96, 97, MANY};
+    for (size_t i = 0; i < sizeof SIZE / sizeof *SIZE; ++i)
+        for (size_t j = 0; j < sizeof SIZE / sizeof *SIZE; ++j) {
+            double last[2] = {-1e9, -1e9}, first_y = NAN;
+            make_many(SIZE[i], SIZE[j]);
+            draw(put_system);
+            TEST_ASSERT_NULL(strstr(picture, "nan"));
+            const double height = number_after(strstr(picture, "viewBox=\"0 0 540 "), "540 ");
+            TEST_ASSERT_TRUE(height > 100.0 && height <= 66.0 + 472.0 + 78.0);
+            for (const char *at = picture; (at = strstr(at, "<text class=\"quiet middle\"")); ++at) {
+                const double x = number_after(at, " x=\""), y = number_after(at, " y=\"");
+                const char *text = strchr(at, '>') + 1;
+                const double width = 7.0 * (double)(strchr(text, '<') - text);
+                if (isnan(first_y)) first_y = y;
+                TEST_ASSERT_TRUE(x - width > last[y > first_y + 1.0] - 0.01 * width);
+                last[y > first_y + 1.0] = x;
+                TEST_ASSERT_TRUE(y < height);
+            }
+        }
+}
+
+static void test_nothing_flows(void)
+{
+    make_many(5, 5);
+    solution.current.count = 0;
+    draw(put_system);
+    TEST_ASSERT_EQUAL_UINT64(5 + 1, count_of("class=\"band\""));
+    many_value[0] = many_value[1] = 0.0;
+    make_many(3, 1);
+    memset(many_value, 0, sizeof many_value);
+    draw(put_system);
+    TEST_ASSERT_EQUAL_UINT64(1, count_of("class=\"plus\"")); /* of the legend */
+}
+
+/* ---- residual by run and order ---- */
+
+static hci_plot_map map;
+
+static void put_map(hci_output *out)
+{
+    hci_plot_residuals(out, &map);
+}
+
+/* Sides grow by a quarter for each decade; what is not shown is left out. */
+static void test_map(void)
+{
+    static hci_run run[3] = {{.name = "a.csv"}, {.name = "b<.csv"}, {.name = "c.csv"}};
+    static hci_role role[3] = {HCI_ROLE_FIT, HCI_ROLE_FIT, HCI_ROLE_HOLDOUT};
+    static hci_residual_line line[] = {
+        {.run = 0, .order = 6.0, .before_Nm = 1.0, .after_Nm = 0.01, .noise_Nm = 0.001},
+        {.run = 2, .order = 12.0, .before_Nm = 0.1, .after_Nm = 0.0005, .noise_Nm = 0.001},
+        {.run = 1, .order = 6.0, .before_Nm = 1.0, .after_Nm = 0.5, .noise_Nm = 0.001},
+        {.run = 0, .order = 7.0, .before_Nm = 1.0, .after_Nm = 0.5, .noise_Nm = 0.001}};
+    static const size_t shown[] = {0, 2};
+    static const double order[] = {6.0, 12.0};
+    static hci_runs runs = {.run = run, .role = role, .count = 3};
+    static hci_diagnosis diagnosis = {.line = line, .lines = 4};
+    map = (hci_plot_map){&diagnosis, &runs, shown, order, 2, 2};
+    draw(put_map);
+    const double width = (524.0 - 172.0) / 2.0, y = 66.0 + 17.0 / 2.0;
+    TEST_ASSERT_DOUBLE_WITHIN(0.02, 0.9 * 17.0, side_at("before", 172.0 + 0.5 * width, y));
+    TEST_ASSERT_DOUBLE_WITHIN(0.02, 0.9 * 17.0 * 0.5, side_at("plus", 172.0 + 0.5 * width, y));
+    TEST_ASSERT_DOUBLE_WITHIN(0.02, 0.9 * 17.0 * 0.75, side_at("before", 172.0 + 1.5 * width, y + 17.0));
+    TEST_ASSERT_DOUBLE_WITHIN(0.02, fmax(0.9 * 17.0 * (1.0 + log10(0.0005) / 4.0), 2.6),
+                              side_at("within", 172.0 + 1.5 * width, y + 17.0));
+    TEST_ASSERT_EQUAL_UINT64(2 + 1, count_of("<rect class=\"before\""));
+    TEST_ASSERT_NOT_NULL(strstr(picture, ">c.csv</text>"));
+    TEST_ASSERT_NULL(strstr(picture, "b&#60;.csv"));
+}
+
+/* ---- one turn ---- */
+
+static hci_turn_means turn;
+
+static void put_turn(hci_output *out)
+{
+    hci_plot_turn_torque(out, &turn, NULL);
+    hci_plot_turn_vector(out, &turn, (hci_dq){.q = 3.0});
+}
+
+/* Torque 5 + sin 6θ with a peak in a single sample, current (cos θ, 2): means by the integral over 10
+ * degrees. */
+static void test_turn(void)
+{
+    enum { SAMPLES = 32400 }; /* 90 a step */
+    hci_turn_means_begin(&turn);
+    for (int k = 0; k < SAMPLES; ++k) {
+        const double theta_rad =
+            2.0 * REF_PI * 3.0 * ((double)k + 0.5) / SAMPLES - 13.0 * REF_PI; /* three turns, from anywhere */
+        hci_turn_means_add(&turn, theta_rad, 5.0 + sin(6.0 * theta_rad),
+                           (hci_dq){.d = cos(theta_rad), .q = 2.0});
+    }
+    hci_turn_means_add(&turn, 0.5 * REF_PI / 180.0, 99.0, (hci_dq){.d = 1.0, .q = 2.0});
+    const hci_turn_mean m = hci_turn_mean_of(&turn, 20, 10);
+    const double a = 20.0 * REF_PI / 180.0, b = 30.0 * REF_PI / 180.0;
+    TEST_ASSERT_EQUAL_UINT64(SAMPLES / 36, m.samples);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-4, 5.0 + (cos(6.0 * a) - cos(6.0 * b)) / (6.0 * (b - a)), m.torque_Nm);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-4, (sin(b) - sin(a)) / (b - a), m.current_A.d);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 2.0, m.current_A.q);
+    TEST_ASSERT_EQUAL_DOUBLE(99.0, hci_turn_mean_of(&turn, 0, HCI_TURN_STEPS).torque_range_Nm.high);
+    TEST_ASSERT_EQUAL_DOUBLE(99.0, hci_turn_mean_of(&turn, 0, 1).torque_range_Nm.high);
+    TEST_ASSERT_TRUE(hci_turn_mean_of(&turn, 1, HCI_TURN_STEPS - 1).torque_range_Nm.high < 6.01);
+    draw(put_turn);
+    TEST_ASSERT_NULL(strstr(picture, "nan"));
+    hci_turn_means_begin(&turn);
+    TEST_ASSERT_EQUAL_UINT64(0, hci_turn_mean_of(&turn, 0, HCI_TURN_STEPS).samples);
+    draw(put_turn);
+    TEST_ASSERT_NULL(strstr(picture, "nan"));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_system_is_that_of_the_torque);
+    RUN_TEST(test_no_system_angle_by_angle);
+    RUN_TEST(test_squares_are_the_entries);
+    RUN_TEST(test_marks_of_what_takes_no_part);
+    RUN_TEST(test_large_systems_are_binned);
+    RUN_TEST(test_sizes);
+    RUN_TEST(test_nothing_flows);
+    RUN_TEST(test_map);
+    RUN_TEST(test_turn);
+    return UNITY_END();
+}

@@ -1,0 +1,727 @@
+/* Emitted tables are read back from their C text and judged against waves by their sine formula in double. */
+#define _XOPEN_SOURCE 700
+
+#include <dirent.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "hci/host/emit/emit.h"
+#include "host/base/memory.h"
+#include "support/reference.h"
+#include "unity.h"
+
+static char folder[64];
+
+/* Memory that tearDown frees, also when a test fails half-way. */
+static void *held[64];
+static size_t held_count;
+
+static void *hold(size_t size)
+{
+    TEST_ASSERT_LESS_THAN(sizeof held / sizeof *held, held_count);
+    return held[held_count++] = calloc(size, 1);
+}
+
+static void let_go(void)
+{
+    while (held_count > 0)
+        free(held[--held_count]);
+}
+
+void setUp(void)
+{
+    strcpy(folder, "/tmp/hci-test-emit-XXXXXX");
+    TEST_ASSERT_NOT_NULL(mkdtemp(folder));
+}
+
+static int files_in_folder(bool remove_them)
+{
+    DIR *directory = opendir(folder);
+    int count = 0;
+    for (struct dirent *entry; (entry = readdir(directory)) != NULL;) {
+        char path[512];
+        if (strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0) continue;
+        snprintf(path, sizeof path, "%s/%s", folder, entry->d_name);
+        if (remove_them) unlink(path);
+        count++;
+    }
+    closedir(directory);
+    return count;
+}
+
+void tearDown(void)
+{
+    hci_memory_fail_after(-1);
+    let_go();
+    (void)files_in_folder(true);
+    rmdir(folder);
+}
+
+static void at_most(double limit, double value)
+{
+    char text[80];
+    snprintf(text, sizeof text, "%.9g is not at most %.9g", value, limit);
+    TEST_ASSERT_TRUE_MESSAGE(value <= limit, text);
+}
+
+static void more_than(double limit, double value)
+{
+    char text[80];
+    snprintf(text, sizeof text, "%.9g is not more than %.9g", value, limit);
+    TEST_ASSERT_TRUE_MESSAGE(value > limit, text);
+}
+
+/* ---- currents ---- */
+
+enum { MOST_WAVES = 8 };
+
+/* The shift of a wave is its sequence. */
+typedef struct {
+    ref_wave ref[MOST_WAVES];
+    hci_wave wave[MOST_WAVES];
+    size_t count;
+} currents;
+
+static void add(currents *c, double order, int sequence, double amplitude, double phase)
+{
+    const ref_wave r = {order, sequence, amplitude, phase};
+    const hci_wave w = {order, sequence, amplitude * cos(phase), amplitude * sin(phase)};
+    c->ref[c->count] = r;
+    c->wave[c->count++] = w;
+}
+
+static currents injected(void)
+{
+    currents c = {.count = 0};
+    add(&c, 1, 1, 12.0, 0.2);
+    add(&c, 5, -1, 1.3, 2.9);
+    add(&c, 7, 1, -0.8, 0.1);
+    add(&c, 11, -1, 1.9, -2.2);
+    add(&c, 13, 1, 0.7, 1.0);
+    return c;
+}
+
+static currents cogging_part(void)
+{
+    currents c = {.count = 0};
+    add(&c, 0, 1, 0.3, 0.4);
+    add(&c, 11, -1, 1.1, 1.5);
+    add(&c, 13, 1, 0.9, -0.5);
+    return c;
+}
+
+/* ia, ib, ic, or id, iq by the projections of theory on the rotor axes. */
+static void reference_currents(const currents *c, hci_table_frame frame, double theta, double out[3])
+{
+    double abc[3], d = 0.0, q = 0.0;
+    for (int s = 0; s < 3; ++s) {
+        abc[s] = ref_waves_at(c->ref, c->count, s, theta);
+        q += 2.0 / 3.0 * abc[s] * sin(theta - 2.0 * REF_PI * s / 3.0);
+        d -= 2.0 / 3.0 * abc[s] * cos(theta - 2.0 * REF_PI * s / 3.0);
+    }
+    out[0] = frame == HCI_TABLE_ABC ? abc[0] : d;
+    out[1] = frame == HCI_TABLE_ABC ? abc[1] : q;
+    out[2] = frame == HCI_TABLE_ABC ? abc[2] : 0.0;
+}
+
+static hci_emit_request request_for(const currents *c)
+{
+    hci_emit_request r = {0};
+    r.name = "ripple_free";
+    r.format = "f32";
+    r.currents = c->wave;
+    r.current_count = c->count;
+    return r;
+}
+
+/* ---- reading back ---- */
+
+static char *read_text(const char *file)
+{
+    char path[256];
+    snprintf(path, sizeof path, "%s/%s", folder, file);
+    FILE *stream = fopen(path, "rb");
+    TEST_ASSERT_NOT_NULL_MESSAGE(stream, path);
+    fseek(stream, 0, SEEK_END);
+    const size_t size = (size_t)ftell(stream);
+    rewind(stream);
+    char *text = hold(size + 1);
+    TEST_ASSERT_EQUAL(size, fread(text, 1, size, stream));
+    fclose(stream);
+    return text;
+}
+
+typedef struct {
+    char *text;
+    float *rows;
+    hci_table_f32_probe probes[16];
+    hci_table_f32 table;
+} emitted;
+
+/* A float literal: decimal point, suffix f, no blank inside. */
+static float take_float(const char **text)
+{
+    char *end;
+    const char *start = *text + strcspn(*text, "-0123456789");
+    const float value = strtof(start, &end);
+    TEST_ASSERT_NOT_NULL_MESSAGE(memchr(start, '.', (size_t)(end - start)), "a decimal point");
+    TEST_ASSERT_EQUAL_INT('f', *end);
+    *text = end + 1;
+    return value;
+}
+
+static uint32_t take_uint(const char **text)
+{
+    char *end;
+    const unsigned long value = strtoul(*text + strcspn(*text, "0123456789"), &end, 0);
+    TEST_ASSERT_EQUAL_INT('u', *end);
+    *text = end + 1;
+    return (uint32_t)value;
+}
+
+static const char *after(const char *text, const char *what)
+{
+    const char *found = strstr(text, what);
+    TEST_ASSERT_NOT_NULL_MESSAGE(found, what);
+    return found + strlen(what);
+}
+
+static void take_rows(emitted *e)
+{
+    const char *at = after(e->text, "ripple_free_rows[");
+    const size_t count = strtoul(at, NULL, 10);
+    at = after(at, "{");
+    TEST_ASSERT_EQUAL((e->table.points + 1) * e->table.columns * e->table.parts, count);
+    e->rows = hold(count * sizeof *e->rows);
+    for (size_t k = 0; k < count; ++k)
+        e->rows[k] = take_float(&at);
+    TEST_ASSERT_EQUAL_STRING_LEN(",\n};", at, 4);
+    e->table.rows = e->rows;
+}
+
+static void take_probes(emitted *e)
+{
+    const char *at = after(e->text, "ripple_free_probes[");
+    at = after(at, "{\n");
+    TEST_ASSERT_LESS_OR_EQUAL(16, e->table.probe_count);
+    for (uint32_t k = 0; k < e->table.probe_count; ++k) {
+        e->probes[k].angle = take_uint(&at);
+        e->probes[k].torque_Nm = take_float(&at);
+        for (int s = 0; s < 3; ++s)
+            e->probes[k].expected[s] = take_float(&at);
+    }
+    TEST_ASSERT_EQUAL_STRING_LEN("}},\n};", at, 6);
+    e->table.probes = e->probes;
+}
+
+/* What a compiler would make of ripple_free.c. */
+static void read_back(emitted *e)
+{
+    memset(e, 0, sizeof *e);
+    e->text = read_text("ripple_free.c");
+    const char *at = after(
+        e->text, "const hci_table_f32 ripple_free = {\n    ripple_free_rows,\n    ripple_free_probes,\n");
+    e->table.probe_count = take_uint(&at);
+    e->table.points = take_uint(&at);
+    e->table.columns = take_uint(&at);
+    e->table.parts = take_uint(&at);
+    at = after(at, "HCI_TABLE_");
+    e->table.frame = strncmp(at, "DQ", 2) == 0 ? HCI_TABLE_DQ : HCI_TABLE_ABC;
+    e->table.period_turns = take_uint(&at);
+    e->table.crc32 = take_uint(&at);
+    at = after(at, "\n");
+    e->table.max_error_A = take_float(&at);
+    at = after(at, "\n");
+    e->table.peak_A = take_float(&at);
+    at = after(at, "\n");
+    e->table.reference_torque_Nm = take_float(&at);
+    take_rows(e);
+    take_probes(e);
+}
+
+static hci_emit_result emit_well(const hci_emit_request *r)
+{
+    hci_note note = {{0}};
+    hci_emit_result result = {0};
+    const hci_status status = hci_emit(folder, r, &result, &note);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, status, note.text);
+    TEST_ASSERT_EQUAL_STRING("", note.text);
+    return result;
+}
+
+static hci_emit_result emit_and_read(const hci_emit_request *r, emitted *e)
+{
+    const hci_emit_result result = emit_well(r);
+    read_back(e);
+    TEST_ASSERT_EQUAL(result.points, e->table.points);
+    TEST_ASSERT_EQUAL(result.columns, e->table.columns);
+    TEST_ASSERT_EQUAL(result.parts, e->table.parts);
+    TEST_ASSERT_EQUAL(result.period_turns, e->table.period_turns);
+    TEST_ASSERT_EQUAL_HEX32(result.crc32, e->table.crc32);
+    TEST_ASSERT_EQUAL_DOUBLE(result.max_error_A, (double)e->table.max_error_A);
+    TEST_ASSERT_EQUAL_DOUBLE(result.peak_A, (double)e->table.peak_A);
+    TEST_ASSERT_EQUAL(HCI_TABLE_GOOD, hci_table_f32_check(&e->table));
+    return result;
+}
+
+/* ---- error ---- */
+
+static double random_theta(const emitted *e, uint64_t *seed, uint32_t *angle)
+{
+    *angle = (uint32_t)ref_uniform(seed, 0.0, 4294967296.0);
+    return 2.0 * REF_PI * e->table.period_turns * (double)*angle / 4294967296.0;
+}
+
+/* Largest distance of the runtime from i = T·a + b at random angles, and at random torques up to `torque_Nm`.
+ */
+static double worst_error(const emitted *e, const currents *a, const currents *b, double torque_Nm, int draws)
+{
+    uint64_t seed = 7;
+    double worst = 0.0;
+    for (int k = 0; k < draws; ++k) {
+        const double torque = k % 2 == 0 ? torque_Nm : ref_uniform(&seed, -torque_Nm, torque_Nm);
+        double constant[3], slope[3] = {0.0, 0.0, 0.0};
+        float current[3];
+        uint32_t angle;
+        const double theta = random_theta(e, &seed, &angle);
+        reference_currents(b, e->table.frame, theta, constant);
+        if (a != NULL) reference_currents(a, e->table.frame, theta, slope);
+        hci_table_f32_currents(&e->table, angle, (float)torque, current);
+        for (int s = 0; s < 3; ++s)
+            worst = ref_worse(worst, (double)current[s] - constant[s] - torque * slope[s]);
+    }
+    return worst;
+}
+
+static void check_error(const hci_emit_request *r, const currents *c)
+{
+    emitted e;
+    const hci_emit_result result = emit_and_read(r, &e);
+    const double worst = worst_error(&e, NULL, c, 0.0, 20000);
+    at_most(result.max_error_A, worst);
+    /* and it is the error, not just something larger: 20000 angles come close to the worst one */
+    more_than(0.97 * result.max_error_A, worst);
+}
+
+static void test_stated_error_holds(void)
+{
+    static const size_t points[] = {5, 32, 100, 256, 777};
+    const currents c = injected();
+    for (size_t k = 0; k < sizeof points / sizeof *points; ++k) {
+        hci_emit_request r = request_for(&c);
+        r.points = points[k];
+        check_error(&r, &c);
+        r.frame = HCI_TABLE_DQ;
+        check_error(&r, &c);
+    }
+}
+
+/* Where nothing is left to interpolate the error is that of single precision. */
+static void test_constant_current_needs_one_point(void)
+{
+    currents c = {.count = 0};
+    emitted e;
+    add(&c, 1, 1, 10.0, 0.3);
+    hci_emit_request r = request_for(&c);
+    r.frame = HCI_TABLE_DQ;
+    r.max_error_A = 2e-5;
+    const hci_emit_result result = emit_and_read(&r, &e);
+    TEST_ASSERT_EQUAL(1, result.points);
+    at_most(2e-5, worst_error(&e, NULL, &c, 0.0, 2000));
+}
+
+static double stated_error(hci_emit_request r, size_t points)
+{
+    r.points = points;
+    r.max_error_A = 0.0;
+    return emit_well(&r).max_error_A;
+}
+
+static void check_fewest(hci_emit_request r, const currents *c, double bound_A)
+{
+    emitted e;
+    r.max_error_A = bound_A;
+    const hci_emit_result result = emit_and_read(&r, &e);
+    at_most(bound_A, result.max_error_A);
+    at_most(bound_A, worst_error(&e, NULL, c, 0.0, 5000));
+    TEST_ASSERT_EQUAL_DOUBLE(result.max_error_A, stated_error(r, result.points));
+    for (size_t points = 1; points < result.points; ++points)
+        more_than(bound_A, stated_error(r, points));
+    r.points = result.points - 1;
+    r.max_error_A = 0.0;
+    emit_and_read(&r, &e);
+    /* the stated error is 0.1 % above the true one, so that it holds between the angles that were measured */
+    more_than(0.99 * bound_A, worst_error(&e, NULL, c, 0.0, 20000));
+}
+
+static void test_fewest_points_for_an_error(void)
+{
+    const currents c = injected();
+    hci_emit_request r = request_for(&c);
+    check_fewest(r, &c, 2.0);
+    check_fewest(r, &c, 0.3);
+    r.frame = HCI_TABLE_DQ;
+    check_fewest(r, &c, 0.2);
+}
+
+static void test_peak_is_the_largest_phase_current(void)
+{
+    const currents c = injected();
+    hci_emit_request r = request_for(&c);
+    double peak = 0.0;
+    for (int k = 0; k < 30000; ++k)
+        peak = fmax(peak, fabs(ref_waves_at(c.ref, c.count, k % 3, 2.0 * REF_PI * k / 30000.0)));
+    for (int frame = 0; frame < 2; ++frame) {
+        r.frame = frame == 0 ? HCI_TABLE_ABC : HCI_TABLE_DQ;
+        /* both are the largest of finitely many samples near a flat top */
+        TEST_ASSERT_DOUBLE_WITHIN(1e-3 * peak, peak, emit_well(&r).peak_A);
+    }
+}
+
+/* ---- forms ---- */
+
+static void test_two_parts_add_up(void)
+{
+    currents a = injected();
+    const currents b = cogging_part();
+    for (size_t k = 0; k < a.count; ++k) {
+        a.ref[k].amplitude /= 4.0;
+        a.wave[k].sine /= 4.0;
+        a.wave[k].cosine /= 4.0;
+    }
+    for (int frame = 0; frame < 2; ++frame) {
+        emitted e;
+        hci_emit_request r = request_for(&b);
+        r.frame = frame == 0 ? HCI_TABLE_ABC : HCI_TABLE_DQ;
+        r.per_Nm = a.wave;
+        r.per_Nm_count = a.count;
+        r.reference_torque_Nm = 6.0;
+        r.max_error_A = 0.2;
+        const hci_emit_result result = emit_and_read(&r, &e);
+        TEST_ASSERT_EQUAL(2, result.parts);
+        TEST_ASSERT_EQUAL_DOUBLE(6.0, (double)e.table.reference_torque_Nm);
+        const double worst = worst_error(&e, &a, &b, 6.0, 20000);
+        at_most(result.max_error_A, worst);
+        more_than(0.9 * result.max_error_A, worst);
+        r.points = result.points - 1;
+        r.max_error_A = 0.0;
+        more_than(0.2, emit_well(&r).max_error_A);
+    }
+}
+
+static void test_neutral_conductor_has_three_columns(void)
+{
+    currents c = injected();
+    emitted e;
+    add(&c, 3, 0, 2.0, 0.6);
+    hci_emit_request r = request_for(&c);
+    r.has_neutral = true;
+    const hci_emit_result result = emit_and_read(&r, &e);
+    TEST_ASSERT_EQUAL(3, result.columns);
+    TEST_ASSERT_EQUAL(HCI_EMIT_POINTS, result.points);
+    TEST_ASSERT_EQUAL(257 * 3 * 4, result.bytes);
+    at_most(result.max_error_A, worst_error(&e, NULL, &c, 0.0, 5000));
+}
+
+static void check_period(double first, double second, size_t turns)
+{
+    emitted e;
+    currents c = {.count = 0};
+    add(&c, 1, 1, 5.0, 0.0);
+    add(&c, first, 1, 1.0, 0.7);
+    add(&c, second, -1, 0.5, -1.7);
+    hci_emit_request r = request_for(&c);
+    r.points = 100 * turns;
+    const hci_emit_result result = emit_and_read(&r, &e);
+    TEST_ASSERT_EQUAL(turns, result.period_turns);
+    for (size_t k = 0; k < c.count; ++k) /* as they are meant */
+        c.ref[k].order = floor(c.ref[k].order * (double)turns + 0.5) / (double)turns;
+    at_most(result.max_error_A, worst_error(&e, NULL, &c, 0.0, 5000));
+}
+
+static void test_fractional_orders_lengthen_the_period(void)
+{
+    check_period(5.0, 7.0, 1);
+    check_period(0.5, 7.0, 2);
+    check_period(0.333333, 7.0, 3);
+    check_period(1.0 / 7.0, 2.5, 14);
+    check_period(0.0, 12.25, 4);
+}
+
+/* An order with few decimals is the fraction that it means: no step where the period closes. */
+static void test_rounded_orders_are_made_exact(void)
+{
+    hci_emit_result result[2];
+    for (int k = 0; k < 2; ++k) {
+        currents c = {.count = 0};
+        add(&c, k == 0 ? 0.333333 : 1.0 / 3.0, 1, 1.0, 0.7);
+        add(&c, k == 0 ? 1.666667 : 5.0 / 3.0, -1, 2.0, 0.1);
+        const hci_emit_request r = request_for(&c);
+        result[k] = emit_well(&r);
+    }
+    TEST_ASSERT_EQUAL_HEX32(result[1].crc32, result[0].crc32);
+}
+
+/* ---- text ---- */
+
+/* CRC-32 byte by byte over little-endian bytes, most literally. */
+static uint32_t crc32_of(const float *values, size_t count)
+{
+    uint32_t crc = 0xFFFFFFFFu;
+    for (size_t k = 0; k < count; ++k) {
+        uint32_t bits;
+        memcpy(&bits, &values[k], 4);
+        for (int byte = 0; byte < 4; ++byte) {
+            crc ^= bits >> 8 * byte & 0xFFu;
+            for (int bit = 0; bit < 8; ++bit)
+                crc = (crc & 1u) != 0 ? crc >> 1 ^ 0xEDB88320u : crc >> 1;
+        }
+    }
+    return ~crc;
+}
+
+static void test_crc_is_of_the_rows_and_guards_them(void)
+{
+    const currents c = injected();
+    emitted e;
+    hci_emit_request r = request_for(&c);
+    r.points = 64;
+    emit_and_read(&r, &e);
+    TEST_ASSERT_EQUAL_HEX32(crc32_of(e.rows, 65 * 2), e.table.crc32);
+    TEST_ASSERT_EQUAL_MEMORY(e.rows, e.rows + 64 * 2, 2 * sizeof *e.rows);
+    for (size_t k = 0; k < 65 * 2; ++k) {
+        const float kept = e.rows[k];
+        e.rows[k] = nextafterf(kept, 100.0f);
+        TEST_ASSERT_EQUAL(HCI_TABLE_BAD_CRC, hci_table_f32_check(&e.table));
+        e.rows[k] = kept;
+    }
+}
+
+/* A table of other currents that is sound in itself is caught by the probes. */
+static void test_probes_catch_other_currents(void)
+{
+    currents c = injected();
+    emitted right, wrong;
+    hci_emit_request r = request_for(&c);
+    emit_and_read(&r, &right);
+    c.wave[2].cosine += 0.5;
+    emit_and_read(&r, &wrong);
+    wrong.table.probes = right.table.probes;
+    TEST_ASSERT_EQUAL(HCI_TABLE_BAD_PROBE, hci_table_f32_check(&wrong.table));
+    wrong.table.probes = wrong.probes;
+    wrong.table.frame = HCI_TABLE_DQ;
+    TEST_ASSERT_EQUAL(HCI_TABLE_BAD_PROBE, hci_table_f32_check(&wrong.table));
+}
+
+static void test_same_request_same_bytes(void)
+{
+    static const char *const lines[] = {"machine: A, pole pairs 2", "target: scenario 2"};
+    const currents c = injected();
+    hci_emit_request r = request_for(&c);
+    r.provenance = lines;
+    r.provenance_count = 2;
+    r.input_hash = 0x0123456789abcdefu;
+    (void)emit_well(&r);
+    char *header = read_text("ripple_free.h"), *source = read_text("ripple_free.c");
+    (void)emit_well(&r);
+    char *header_again = read_text("ripple_free.h"), *source_again = read_text("ripple_free.c");
+    TEST_ASSERT_EQUAL_STRING(header, header_again);
+    TEST_ASSERT_EQUAL_STRING(source, source_again);
+    TEST_ASSERT_EQUAL(2, files_in_folder(false));
+    TEST_ASSERT_NULL(strstr(header, folder));
+    TEST_ASSERT_NULL(strstr(source, folder));
+}
+
+static void test_header_says_what_a_reader_must_know(void)
+{
+    static const char *const lines[] = {"machine: A, pole pairs 2"};
+    static const char *const must[] = {"SPDX-License-Identifier: MIT",
+                                       "hci_currents_abc i = hci_table_f32_abc(&ripple_free, angle);",
+                                       "extern const hci_table_f32 ripple_free;",
+                                       "#if HCI_TABLE_VERSION != 1\n#error ",
+                                       "2^32 = 1 electrical turn.",
+                                       "FNV-1a 0123456789abcdef\n",
+                                       "machine: A, pole pairs 2\n",
+                                       "Orders: electrical",
+                                       "ic_A = -ia_A - ib_A",
+                                       "rising zero crossing of the fundamental of phase a's back-EMF"};
+    const currents c = injected();
+    hci_emit_request r = request_for(&c);
+    r.provenance = lines;
+    r.provenance_count = 1;
+    r.input_hash = 0x0123456789abcdefu;
+    (void)emit_well(&r);
+    char *header = read_text("ripple_free.h");
+    for (size_t k = 0; k < sizeof must / sizeof *must; ++k)
+        (void)after(header, must[k]);
+}
+
+/* ---- refusals ---- */
+
+static void refuse(hci_emit_request r, hci_status status, const char *words)
+{
+    hci_note note = {{0}};
+    hci_emit_result result = {.points = 4711};
+    TEST_ASSERT_EQUAL(status, hci_emit(folder, &r, &result, &note));
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(note.text, words), note.text);
+    TEST_ASSERT_EQUAL(4711, result.points);
+    TEST_ASSERT_EQUAL(0, files_in_folder(false));
+}
+
+static void test_names_that_are_no_identifiers_are_refused(void)
+{
+    static const char *const bad[] = {"",
+                                      "1st",
+                                      "a-b",
+                                      "a b",
+                                      "a.b",
+                                      "../a",
+                                      "a/b",
+                                      "static",
+                                      "class",
+                                      "and_eq",
+                                      "int",
+                                      "_a",
+                                      "a__b",
+                                      "uint32_t",
+                                      "hci_x",
+                                      "HCI_X",
+                                      "linux",
+                                      "main",
+                                      "caf\xc3\xa9",
+                                      "typeof",
+                                      "a*/b",
+                                      "a123456789012345678901234567890123456789012345678"};
+    const currents c = injected();
+    hci_emit_request r = request_for(&c);
+    for (size_t k = 0; k < sizeof bad / sizeof *bad; ++k) {
+        r.name = bad[k];
+        refuse(r, HCI_ERROR_ARGUMENT, "table name");
+    }
+    r.name = NULL;
+    refuse(r, HCI_ERROR_ARGUMENT, "table name");
+}
+
+static void test_other_names_are_taken(void)
+{
+    static const char *const good[] = {"a", "Motor_1", "statics", "t", "hci", "x_", "CLASS"};
+    const currents c = injected();
+    hci_emit_request r = request_for(&c);
+    for (size_t k = 0; k < sizeof good / sizeof *good; ++k) {
+        r.name = good[k];
+        (void)emit_well(&r);
+    }
+    TEST_ASSERT_EQUAL(2 * sizeof good / sizeof *good, files_in_folder(false));
+}
+
+static void test_requests_that_cannot_be_met_are_refused(void)
+{
+    static const char *const bad_line[] = {"fine", "ends */ here"};
+    const currents c = injected();
+    hci_emit_request r = request_for(&c);
+    r.format = "q15";
+    refuse(r, HCI_ERROR_ARGUMENT, "`q15`, expected `f32`");
+    r = request_for(&c);
+    r.points = 100;
+    r.max_error_A = 0.1;
+    refuse(r, HCI_ERROR_ARGUMENT, "one of them");
+    r.points = 0;
+    r.max_error_A = -0.1;
+    refuse(r, HCI_ERROR_ARGUMENT, "more than 0");
+    r.max_error_A = (double)NAN;
+    refuse(r, HCI_ERROR_NOT_FINITE, "finite");
+    r.max_error_A = 1e-6;
+    refuse(r, HCI_ERROR_ARGUMENT, "65536 points");
+    r = request_for(&c);
+    r.points = HCI_EMIT_MAX_POINTS + 1;
+    refuse(r, HCI_ERROR_ARGUMENT, "65537");
+    r = request_for(&c);
+    r.provenance = bad_line;
+    r.provenance_count = 2;
+    refuse(r, HCI_ERROR_ARGUMENT, "provenance");
+    r = request_for(&c);
+    r.per_Nm = c.wave;
+    r.per_Nm_count = c.count;
+    refuse(r, HCI_ERROR_ARGUMENT, "reference torque");
+}
+
+static void refuse_wave(double order, int sequence, double amplitude, hci_table_frame frame, bool has_neutral,
+                        hci_status status, const char *words)
+{
+    currents c = injected();
+    const hci_wave w = {order, sequence, amplitude, 0.0};
+    c.wave[c.count++] = w;
+    hci_emit_request r = request_for(&c);
+    r.frame = frame;
+    r.has_neutral = has_neutral;
+    refuse(r, status, words);
+}
+
+static void test_currents_that_cannot_be_emitted_are_refused(void)
+{
+    refuse_wave(3, 0, 1.0, HCI_TABLE_ABC, false, HCI_ERROR_ARGUMENT, "star");
+    refuse_wave(3, 0, 1.0, HCI_TABLE_DQ, true, HCI_ERROR_ARGUMENT, "dq");
+    refuse_wave(-5, 1, 1.0, HCI_TABLE_ABC, false, HCI_ERROR_ARGUMENT, "order -5");
+    refuse_wave(5, 2, 1.0, HCI_TABLE_ABC, false, HCI_ERROR_ARGUMENT, "sequence");
+    refuse_wave(5, 1, (double)NAN, HCI_TABLE_ABC, false, HCI_ERROR_NOT_FINITE, "order 5");
+    refuse_wave((double)INFINITY, 1, 1.0, HCI_TABLE_ABC, false, HCI_ERROR_NOT_FINITE, "finite");
+    refuse_wave(5, 1, 3e38, HCI_TABLE_ABC, false, HCI_ERROR_ARGUMENT, "single precision");
+    refuse_wave(5, 1, 1e300, HCI_TABLE_ABC, false, HCI_ERROR_ARGUMENT, "single precision");
+    refuse_wave(sqrt(2.0), 1, 1.0, HCI_TABLE_ABC, false, HCI_ERROR_ARGUMENT, "repeat");
+    refuse_wave(40000, 1, 1.0, HCI_TABLE_ABC, false, HCI_ERROR_ARGUMENT, "too few");
+    refuse_wave(1e300, 1, 1.0, HCI_TABLE_ABC, false, HCI_ERROR_ARGUMENT, "too few");
+}
+
+static void test_folder_that_cannot_be_written_is_an_output_error(void)
+{
+    const currents c = injected();
+    const hci_emit_request r = request_for(&c);
+    hci_note note = {{0}};
+    TEST_ASSERT_EQUAL(HCI_ERROR_OUTPUT, hci_emit("/dev/null/x", &r, NULL, &note));
+    TEST_ASSERT_NOT_EQUAL(0, note.text[0]);
+}
+
+static void test_every_failing_allocation_is_survived(void)
+{
+    const currents c = injected();
+    const hci_emit_request r = request_for(&c);
+    hci_status status = HCI_ERROR_MEMORY;
+    long succeed = 0;
+    for (; status != HCI_OK && succeed < 100; ++succeed) {
+        hci_memory_fail_after(succeed);
+        status = hci_emit(folder, &r, NULL, NULL);
+        if (status == HCI_OK) break;
+        TEST_ASSERT_EQUAL(HCI_ERROR_MEMORY, status);
+        TEST_ASSERT_EQUAL(0, files_in_folder(false));
+    }
+    TEST_ASSERT_EQUAL(HCI_OK, status);
+    TEST_ASSERT_GREATER_THAN(2, succeed);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_stated_error_holds);
+    RUN_TEST(test_constant_current_needs_one_point);
+    RUN_TEST(test_fewest_points_for_an_error);
+    RUN_TEST(test_peak_is_the_largest_phase_current);
+    RUN_TEST(test_two_parts_add_up);
+    RUN_TEST(test_neutral_conductor_has_three_columns);
+    RUN_TEST(test_fractional_orders_lengthen_the_period);
+    RUN_TEST(test_rounded_orders_are_made_exact);
+    RUN_TEST(test_crc_is_of_the_rows_and_guards_them);
+    RUN_TEST(test_probes_catch_other_currents);
+    RUN_TEST(test_same_request_same_bytes);
+    RUN_TEST(test_header_says_what_a_reader_must_know);
+    RUN_TEST(test_names_that_are_no_identifiers_are_refused);
+    RUN_TEST(test_other_names_are_taken);
+    RUN_TEST(test_requests_that_cannot_be_met_are_refused);
+    RUN_TEST(test_currents_that_cannot_be_emitted_are_refused);
+    RUN_TEST(test_folder_that_cannot_be_written_is_an_output_error);
+    RUN_TEST(test_every_failing_allocation_is_survived);
+    return UNITY_END();
+}

@@ -1,0 +1,814 @@
+/* The pages of report.html: read as XML, by their numbers, by their colours, and by where the pictures put
+ * their marks; with names that try to break out; the same bytes twice; without memory. */
+#define _XOPEN_SOURCE 700
+
+#include "host/report/report.h"
+
+#include <locale.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "hci/host/csv/csv.h"
+#include "host/base/memory.h"
+#include "host/draw/html.h"
+#include "host/draw/plot.h"
+#include "support/reference.h"
+#include "unity.h"
+
+enum { MOST_BYTES = 400000, RUNS = 4, LINES = 6, TERMS = 20 };
+
+#define HOSTILE "a<script>alert(\"1\")</script>&'b.csv"
+
+static char folder[64], path[96], page[MOST_BYTES];
+
+static hci_run run[RUNS];
+static char name[RUNS][64], list[] = "bench/<runs>.csv";
+static hci_role role[RUNS];
+static hci_runs runs;
+static hci_run_errors error[RUNS];
+static hci_residual_line line[LINES];
+static hci_effect effect;
+static hci_effect_term term[TERMS];
+static hci_diagnosis diagnosis;
+
+/* ---- a diagnosis by hand ---- */
+
+static void make_runs(void)
+{
+    static const double BEFORE[RUNS] = {1.0, 0.1, 0.01, 0.5};
+    for (size_t k = 0; k < RUNS; ++k) {
+        snprintf(name[k], sizeof name[k], "runs/%zu.csv", k);
+        run[k].name = name[k];
+        role[k] = k == 3 ? HCI_ROLE_HOLDOUT : HCI_ROLE_FIT;
+        error[k] = (hci_run_errors){.file = name[k],
+                                    .role = role[k],
+                                    .mean_torque_Nm = 1.0 / 3.0 + (double)k,
+                                    .rms_before_Nm = BEFORE[k],
+                                    .rms_after_Nm = 0.004,
+                                    .after_low_Nm = 0.0035,
+                                    .after_high_Nm = 0.0045,
+                                    .noise_floor_Nm = 0.003};
+    }
+    runs = (hci_runs){.run = run, .role = role, .count = RUNS, .list = list};
+}
+
+static void make_terms(void)
+{
+    const hci_effect_room *room = hci_effect_room_find("cogging");
+    effect = (hci_effect){.room = room, .term = term, .count = TERMS};
+    for (size_t k = 0; k < TERMS; ++k)
+        term[k] = (hci_effect_term){.parameter = k % 2,
+                                    .order = (double)(k / 2 + 1),
+                                    .value = 0.01 * (double)(k + 1),
+                                    .std_error = 0.0003};
+}
+
+void setUp(void)
+{
+    snprintf(folder, sizeof folder, "/tmp/hci-test-report-XXXXXX");
+    TEST_ASSERT_NOT_NULL(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/report.html", folder);
+    make_runs();
+    make_terms();
+    for (size_t k = 0; k < LINES; ++k)
+        line[k] = (hci_residual_line){.run = k / 3,
+                                      .order = 6.0 * (double)(k % 3),
+                                      .before_Nm = 0.2 / (double)(k + 1),
+                                      .after_Nm = 0.001,
+                                      .noise_Nm = 0.0005};
+    diagnosis = (hci_diagnosis){0};
+    diagnosis.verdict = HCI_DIAGNOSIS_EXPLAINED;
+    diagnosis.finding[0] = (hci_finding){.effect = "cogging",
+                                         .verdict = HCI_FINDING_ADDED,
+                                         .delta_bic = 12345.678,
+                                         .residual_share = 0.9,
+                                         .detail = "sine_6 = 0.1 Nm"};
+    diagnosis.finding[1] = (hci_finding){
+        .effect = "friction", .verdict = HCI_FINDING_REJECTED, .delta_bic = -2.5, .residual_share = NAN};
+    diagnosis.findings = 2;
+    diagnosis.effects.list = (hci_effects){.effect = &effect, .count = 1};
+    diagnosis.run = error;
+    diagnosis.runs = RUNS;
+    diagnosis.line = line;
+    diagnosis.lines = LINES;
+    diagnosis.rms_before_Nm = 0.6;
+    diagnosis.rms_after_Nm = 0.004;
+    diagnosis.noise_Nm = 0.003;
+    diagnosis.holdout_before_Nm = 0.5;
+    diagnosis.holdout_after_Nm = 0.004;
+    diagnosis.holdout_noise_Nm = 0.003;
+}
+
+void tearDown(void)
+{
+    hci_memory_fail_after(-1);
+    setlocale(LC_ALL, "C");
+    unlink(path);
+    rmdir(folder);
+}
+
+/* ---- writing and reading ---- */
+
+static hci_output *open_page(void)
+{
+    hci_output *out;
+    hci_note note = {{0}};
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_output_open(folder, &out, &note), note.text);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_output_file(out, "report.html", &note), note.text);
+    return out;
+}
+
+static void read_page(hci_output *out)
+{
+    hci_note note = {{0}};
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_output_commit(out, &note), note.text);
+    FILE *file = fopen(path, "rb");
+    TEST_ASSERT_NOT_NULL(file);
+    const size_t size = fread(page, 1, sizeof page - 1, file);
+    fclose(file);
+    page[size] = '\0';
+    TEST_ASSERT_TRUE(size + 1 < sizeof page && size == strlen(page));
+}
+
+static void write_diagnosis(const hci_resolution *resolution)
+{
+    hci_output *out = open_page();
+    hci_note note = {{0}};
+    TEST_ASSERT_EQUAL_MESSAGE(
+        HCI_OK, hci_report_diagnosis(out, &diagnosis, resolution, &runs, "data/<machine>", &note), note.text);
+    read_page(out);
+}
+
+static size_t count_of(const char *text)
+{
+    size_t count = 0;
+    for (const char *at = page; (at = strstr(at, text)); ++at)
+        ++count;
+    return count;
+}
+
+static void check_has(const char *text)
+{
+    TEST_ASSERT_TRUE_MESSAGE(strstr(page, text) != NULL, text);
+}
+
+static void check_lacks(const char *text)
+{
+    TEST_ASSERT_TRUE_MESSAGE(strstr(page, text) == NULL, text);
+}
+
+/* As a program reads it: all digits. */
+static void check_number(double value)
+{
+    char text[64], exact[32];
+    hci_number_text(value, exact);
+    snprintf(text, sizeof text, "<data value=\"%s\">", exact);
+    check_has(text);
+}
+
+/* ---- XML, and what a page must have ---- */
+
+/* One tag from `<` on; returns what follows. */
+static const char *read_tag(const char *at, char open[][16], int *depth)
+{
+    char tag[16] = "";
+    const bool closing = at[1] == '/';
+    at += closing ? 2 : 1;
+    const size_t length = strspn(at, "abcdefghijklmnopqrstuvwxyz0123456789");
+    TEST_ASSERT_TRUE(length > 0 && length < sizeof tag);
+    memcpy(tag, at, length);
+    at += length;
+    while (*at == ' ') {
+        at += 1 + strcspn(at + 1, "=<>\"");
+        TEST_ASSERT_EQUAL_STRING_LEN("=\"", at, 2);
+        at += 2 + strcspn(at + 2, "<\"");
+        TEST_ASSERT_EQUAL_INT('"', *at++);
+    }
+    if (closing) {
+        TEST_ASSERT_TRUE(*depth > 0);
+        TEST_ASSERT_EQUAL_STRING(open[--*depth], tag);
+    } else if (*at == '/') {
+        ++at;
+    } else {
+        TEST_ASSERT_TRUE(*depth < 16);
+        memcpy(open[(*depth)++], tag, sizeof tag);
+    }
+    TEST_ASSERT_EQUAL_INT('>', *at);
+    return at + 1;
+}
+
+static void check_tags(void)
+{
+    char open[16][16];
+    int depth = 0, tags = 0;
+    TEST_ASSERT_EQUAL_STRING_LEN("<!DOCTYPE html>\n<html lang=\"en\">\n", page, 33);
+    for (const char *at = page + 15; *at;) {
+        if (*at == '<') {
+            at = read_tag(at, open, &depth);
+            ++tags;
+        } else if (*at == '&') {
+            TEST_ASSERT_EQUAL_INT('#', at[1]);
+            TEST_ASSERT_EQUAL_INT(';', at[2 + strspn(at + 2, "0123456789")]);
+            ++at;
+        } else {
+            TEST_ASSERT_TRUE_MESSAGE(*at != '>', "a bare >");
+            TEST_ASSERT_TRUE((unsigned char)*at >= 0x20 || *at == '\n');
+            ++at;
+        }
+    }
+    TEST_ASSERT_EQUAL_INT(0, depth);
+    TEST_ASSERT_TRUE(tags > 50);
+}
+
+/* Each picture is named and described by ids that are there once. */
+static void check_pictures(size_t expected)
+{
+    size_t pictures = 0;
+    for (const char *at = page; (at = strstr(at, "<svg ")); ++at, ++pictures) {
+        char id[32], key[80];
+        const char *label = strstr(at, "aria-labelledby=\"");
+        TEST_ASSERT_EQUAL_INT(1, sscanf(label, "aria-labelledby=\"%31[a-z0-9-]", id));
+        TEST_ASSERT_TRUE(strstr(at, "role=\"img\"") < strchr(at, '>'));
+        snprintf(key, sizeof key, "<title id=\"%s\">", id);
+        TEST_ASSERT_EQUAL_UINT64(1, count_of(key));
+        id[strlen(id) - strlen("title")] = '\0';
+        snprintf(key, sizeof key, "<desc id=\"%sdesc\">", id);
+        TEST_ASSERT_EQUAL_UINT64(1, count_of(key));
+        TEST_ASSERT_TRUE(strstr(strstr(at, key) + strlen(key), "</desc>") >
+                         strstr(at, key) + strlen(key) + 20);
+    }
+    TEST_ASSERT_EQUAL_UINT64(expected, pictures);
+}
+
+/* Nothing comes from elsewhere, and nothing runs. */
+static void check_alone(void)
+{
+    static const char *const NONE[] = {"<script", "<link",      "<img",        "<iframe",
+                                       "<object", "src=",       "href=\"http", "url(",
+                                       "@import", "@font-face", "onload",      "javascript:"};
+    for (size_t k = 0; k < sizeof NONE / sizeof *NONE; ++k)
+        check_lacks(NONE[k]);
+    TEST_ASSERT_EQUAL_UINT64_MESSAGE(1, count_of("href="), "a link other than that within the page");
+    check_has("href=\"#evidence\"");
+    TEST_ASSERT_EQUAL_UINT64(1, count_of("id=\"evidence\""));
+    TEST_ASSERT_EQUAL_UINT64(count_of("xmlns=\"http://www.w3.org/2000/svg\""), count_of("://"));
+}
+
+static void check_page(size_t pictures)
+{
+    check_tags();
+    check_pictures(pictures);
+    check_alone();
+    check_has("<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>");
+    check_has("@media screen and (prefers-color-scheme:dark)");
+    check_has("@media print");
+    TEST_ASSERT_EQUAL_UINT64(count_of("<table>"),
+                             count_of("<div class=\"table\" tabindex=\"0\" role=\"region\" "));
+    TEST_ASSERT_EQUAL_UINT64(count_of("<figure>"), count_of(" Numbers: ")); /* the source of each */
+    TEST_ASSERT_EQUAL_UINT64(count_of("<figure>"), count_of(". Made from: "));
+}
+
+/* ---- the diagnosis ---- */
+
+static void test_diagnosis(void)
+{
+    char words[2048];
+    write_diagnosis(NULL);
+    check_page(5);
+    hci_diagnosis_words(&diagnosis, words, sizeof words);
+    check_has(words);
+    check_has("Explained");
+    check_has("Machine: data/&#60;machine&#62;");
+    check_has("List of runs: bench/&#60;runs&#62;.csv");
+    check_has("Made from: data/&#60;machine&#62;, bench/&#60;runs&#62;.csv.");
+    for (size_t k = 0; k < RUNS; ++k) {
+        check_has(name[k]);
+        check_number(error[k].mean_torque_Nm);
+        check_number(error[k].rms_before_Nm);
+    }
+    check_number(error[0].rms_after_Nm);
+    check_number(error[0].noise_floor_Nm);
+    check_number(error[0].after_low_Nm);
+    check_number(error[0].after_high_Nm);
+    check_number(diagnosis.finding[0].delta_bic);
+    check_number(diagnosis.finding[1].delta_bic);
+    check_number(100.0 * diagnosis.finding[0].residual_share);
+    check_number(term[TERMS - 1].value);
+    check_number(term[TERMS - 1].std_error);
+    check_lacks("Index slips");
+    check_lacks("What to measure next");
+}
+
+/* Lines 0 … 2 are run 0's, 3 … 5 run 1's, at orders 0, 6, 12: the larger one stands. */
+static void test_largest_of_each_order(void)
+{
+    line[4].after_Nm = 0.09;
+    line[4].noise_Nm = 0.0007;
+    write_diagnosis(NULL);
+    check_has(
+        "<tr><td><data value=\"6\">6</data></td><td><data value=\"0.1\">0.1</data></td><td class=\"text\">"
+        "runs/0.csv</td><td><data value=\"0.09\">0.09</data></td><td class=\"text\">runs/1.csv</td><td>"
+        "<data value=\"0.0007\">0.0007</data></td></tr>");
+    char *table = strstr(page, "<caption>The largest 3 of 3 orders"), *end = strstr(table, "</table>");
+    *end = '\0';
+    TEST_ASSERT_NULL(strstr(table, "<data value=\"0.04\">")); /* order 6 of run 1 before, the smaller one */
+}
+
+static void test_other_verdicts(void)
+{
+    static const char *const SAID[] = {"Nothing is missing", "Explained", "Ambiguous", "Not explained"};
+    for (int k = 0; k < 4; ++k) {
+        diagnosis.verdict = (hci_diagnosis_verdict)k;
+        diagnosis.lines = k == 0 ? 0 : LINES;
+        diagnosis.effects.list.count = k == 0 ? 0 : 1;
+        write_diagnosis(NULL);
+        check_page(k == 0 ? 2 : 5);
+        check_has(SAID[k]);
+        check_has(k < 2 ? "badge good" : "badge bad");
+    }
+}
+
+static void test_what_is_seldom(void)
+{
+    hci_resolution resolution;
+    memset(&resolution, 0, sizeof resolution);
+    resolution.old_currents.T_ripple_percent = 12.75;
+    resolution.new_currents.T_ripple_percent = NAN;
+    error[1].slip_rad = 2.0 * REF_PI / 3.0;
+    snprintf(diagnosis.advice, sizeof diagnosis.advice, "a run at 3 A & 100 rpm");
+    diagnosis.unexplained[0] = (hci_unexplained){.order = 7.5,
+                                                 .sine_Nm = 0.01,
+                                                 .cosine_Nm = 0.02,
+                                                 .current_exponent = 0.5,
+                                                 .speed_exponent = 1.0,
+                                                 .turns_sign = true,
+                                                 .amplitude_Nm = 0.0625};
+    diagnosis.unexplained_count = 1;
+    diagnosis.holdout_after_Nm = NAN;
+    write_diagnosis(&resolution);
+    check_page(5);
+    check_has("a run at 3 A &#38; 100 rpm");
+    check_has("Index slips");
+    check_has(">120</data>");
+    check_number(0.0625);
+    check_number(12.75);
+    check_lacks("Error on runs held out");
+}
+
+static void test_hostile_names(void)
+{
+    snprintf(name[0], sizeof name[0], "%s", HOSTILE);
+    snprintf(name[1], sizeof name[1],
+             "\xff\x01\xed\xa0\x80Gr\xc3\xb6\xc3\x9f"
+             "e\xc3");
+    write_diagnosis(NULL);
+    check_page(5);
+    check_has("a&#60;script&#62;alert(&#34;1&#34;)&#60;/script&#62;&#38;'b.csv");
+    check_has("Größe");
+    check_lacks("\xff");
+    check_lacks("\x01");
+}
+
+static void test_no_run_and_no_finding(void)
+{
+    diagnosis.runs = diagnosis.lines = diagnosis.findings = 0;
+    write_diagnosis(NULL);
+    check_page(3);
+}
+
+/* 0 and what is not finite have no place on a logarithmic axis. */
+static void test_odd_numbers(void)
+{
+    error[0].rms_after_Nm = error[1].noise_floor_Nm = 0.0;
+    error[2].noise_floor_Nm = NAN;
+    line[0].after_Nm = 0.0;
+    line[1].noise_Nm = NAN;
+    term[0].std_error = NAN;
+    term[1].value = 0.0;
+    diagnosis.finding[0].delta_bic = 1e300;
+    write_diagnosis(NULL);
+    check_page(5);
+    check_lacks("nan");
+    check_lacks("inf\"");
+}
+
+static void test_same_bytes(void)
+{
+    static char first[MOST_BYTES];
+    write_diagnosis(NULL);
+    memcpy(first, page, sizeof first);
+    setlocale(LC_ALL, "de_DE.UTF-8");
+    write_diagnosis(NULL);
+    const char *said = strstr(page, "<h2>"); /* words before it are the diagnosis' own */
+    TEST_ASSERT_EQUAL_STRING(strstr(first, "<h2>"), said);
+}
+
+static void test_no_memory(void)
+{
+    for (long k = 0; k < 2; ++k) {
+        hci_output *out = open_page();
+        hci_note note = {{0}};
+        hci_memory_fail_after(k);
+        TEST_ASSERT_EQUAL(HCI_ERROR_MEMORY,
+                          hci_report_diagnosis(out, &diagnosis, NULL, &runs, "machine", &note));
+        hci_memory_fail_after(-1);
+        TEST_ASSERT_TRUE(note.text[0] != '\0');
+        hci_output_discard(out);
+    }
+}
+
+/* ---- where the marks are ---- */
+
+static double number_after(const char *at, const char *key)
+{
+    at = strstr(at, key);
+    TEST_ASSERT_NOT_NULL(at);
+    return atof(at + strlen(key));
+}
+
+/* Errors of 1, 0.1 and 0.01 N·m lie one decade apart, in rows one below the other. */
+static void test_marks_of_runs(void)
+{
+    double x[3], y[3];
+    hci_output *out = open_page();
+    hci_plot_runs(out, &diagnosis);
+    read_page(out);
+    TEST_ASSERT_EQUAL_UINT64(3 + 1, count_of("<circle class=\"dot\"")); /* and the legend */
+    TEST_ASSERT_EQUAL_UINT64(1 + 1, count_of("<circle class=\"hollow\""));
+    const char *at = strstr(page, ">Fitted<");
+    for (size_t k = 0; k < 3; ++k) {
+        at = strstr(at + 1, "<circle class=\"before\"");
+        x[k] = number_after(at, "cx=\"");
+        y[k] = number_after(at, "cy=\"");
+    }
+    TEST_ASSERT_DOUBLE_WITHIN(0.02, x[0] - x[1], x[1] - x[2]);
+    TEST_ASSERT_TRUE(x[0] - x[1] > 40.0);
+    TEST_ASSERT_DOUBLE_WITHIN(0.02, y[1] - y[0], y[2] - y[1]);
+    TEST_ASSERT_TRUE(y[1] > y[0]);
+    /* 0.004 N·m by the decade */
+    TEST_ASSERT_DOUBLE_WITHIN(0.05, x[2] + (x[0] - x[1]) * log10(0.004 / 0.01),
+                              number_after(strstr(page, ">Fitted<"), "class=\"dot\" cx=\""));
+}
+
+/* The error bar reaches 1.96 standard errors to each side. */
+static void test_error_bars(void)
+{
+    const size_t place[] = {9, 19};
+    hci_output *out = open_page();
+    term[9].std_error = 0.01;
+    hci_plot_terms(out, "terms", "title", &effect, place, 2);
+    read_page(out);
+    const char *first = strstr(page, "<circle class=\"dot\""),
+               *second = strstr(first + 1, "<circle class=\"dot\"");
+    const double x1 = number_after(first, "cx=\""), x2 = number_after(second, "cx=\"");
+    const double low = number_after(page, "<path class=\"after\" d=\"M");
+    TEST_ASSERT_DOUBLE_WITHIN(0.05, 1.96 * 0.01 * (x2 - x1) / 0.1, x1 - low); /* values 0.1 and 0.2 */
+}
+
+static double weight_of(const void *context, size_t k)
+{
+    return ((const double *)context)[k];
+}
+
+static void test_largest(void)
+{
+    uint64_t state = 5;
+    for (int trial = 0; trial < 200; ++trial) {
+        double value[30];
+        size_t place[8], above = 0;
+        const size_t n = 1 + (size_t)ref_uniform(&state, 0.0, 29.0);
+        for (size_t k = 0; k < n; ++k)
+            value[k] = ref_uniform(&state, -0.5, 1.0);
+        const size_t count = hci_plot_largest(weight_of, value, n, 8, place);
+        double least = HUGE_VAL;
+        for (size_t k = 0; k < count; ++k) {
+            TEST_ASSERT_TRUE(k == 0 || place[k] > place[k - 1]);
+            least = fmin(least, value[place[k]]);
+        }
+        for (size_t k = 0; k < n; ++k)
+            above += value[k] > 0.0 && value[k] >= least;
+        size_t positive = 0;
+        for (size_t k = 0; k < n; ++k)
+            positive += value[k] > 0.0;
+        TEST_ASSERT_EQUAL_UINT64(positive < 8 ? positive : 8, count);
+        TEST_ASSERT_EQUAL_UINT64(count, above);
+    }
+}
+
+/* A peak of one sample among a hundred thousand is not lost. */
+static void test_traces_keep_peaks(void)
+{
+    static hci_traces traces;
+    hci_traces_begin(&traces, 1.0, 2.0);
+    for (int k = 0; k <= 150000; ++k) {
+        const double time_s = 0.75 + 1e-5 * k;
+        double value[HCI_TRACES] = {sin(2.0 * REF_PI * time_s), time_s, 0.0, 0.0, 0.0};
+        if (k == 70000) value[0] = 9.0;
+        if (k == 3) value[0] = 99.0; /* before it begins */
+        hci_traces_add(&traces, time_s, 0.0, value);
+    }
+    const hci_svg_range torque = hci_traces_range(&traces, HCI_TRACE_TORQUE_NM, 1.0, 2.0);
+    TEST_ASSERT_EQUAL_DOUBLE(9.0, torque.high);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, -1.0, torque.low);
+    const hci_svg_range half = hci_traces_range(&traces, HCI_TRACE_SPEED_RPM, 1.0, 1.5);
+    TEST_ASSERT_DOUBLE_WITHIN(1.0 / 720.0, 1.0, half.low);
+    TEST_ASSERT_DOUBLE_WITHIN(1.0 / 720.0, 1.5, half.high);
+}
+
+/* ---- numbers ---- */
+
+static void test_digits(void)
+{
+    static const struct {
+        double value;
+        const char *shown;
+    } CASE[] = {
+        {0.0, ">0<"},
+        {1.0 / 3.0, ">0.3333<"},
+        {-2.34567e-9, ">−2.346e−9<"},
+        {123456.0, ">123500<"},
+        {0.00099996, ">0.001<"},
+        {99999.0, ">100000<"},
+        {7.666467083416871e-20, ">7.666e−20<"},
+        {-1.23456e-300, ">−1.235e−300<"},
+        {4.94e-324, ">5e−324<"},
+        {9.87654321e200, ">9.877e200<"},
+        {NAN, "<td>–</td>"},
+        {HUGE_VAL, "<td>–</td>"},
+    };
+    hci_output *out = open_page();
+    for (size_t k = 0; k < sizeof CASE / sizeof *CASE; ++k)
+        hci_html_number(out, CASE[k].value);
+    read_page(out);
+    const char *at = page;
+    for (size_t k = 0; k < sizeof CASE / sizeof *CASE; ++k) {
+        at = strstr(at, CASE[k].shown);
+        TEST_ASSERT_NOT_NULL_MESSAGE(at, CASE[k].shown);
+        ++at;
+    }
+}
+
+/* What is below the least is rounding; the number itself is there for programs. */
+static void test_digits_above(void)
+{
+    hci_output *out = open_page();
+    hci_html_number_above(out, -7.666467083416871e-20, 1e-9);
+    hci_html_number_above(out, 1.00004e-9, 1e-9);
+    hci_html_number_above(out, NAN, 1e-9);
+    hci_html_number_above(out, 0.25, 0.0);
+    read_page(out);
+    check_has("<data value=\"-7.666467083416871e-20\">0</data>");
+    check_has(">1e−9<");
+    check_has("<td>–</td>");
+    check_has(">0.25<");
+}
+
+/* A column of 80.001 … 80.004 tells its values apart; one of 0.2 … 80 has four digits. */
+static void test_digits_in_a_column(void)
+{
+    hci_output *out = open_page();
+    hci_html_number_in(out, 80.001234, 0.003);
+    hci_html_number_in(out, 80.001234, 80.0);
+    hci_html_number_in(out, 0.2000004, 80.0);
+    hci_html_number_in(out, 5.0, 0.0);
+    hci_html_number_in(out, NAN, 1.0);
+    read_page(out);
+    check_has(">80.001234<");
+    check_has(">80<");
+    check_has(">0.2<");
+    check_has(">5<");
+    check_has("<td>–</td>");
+}
+
+/* A fall of 0 of what was rejected was not looked for; a rejected one with a fall, and an added one, have it.
+ */
+static void test_what_was_not_computed(void)
+{
+    diagnosis.finding[1].delta_bic = 0.0;
+    write_diagnosis(NULL);
+    check_has("friction</td><td class=\"text\">rejected</td><td>–</td>");
+    diagnosis.finding[1].verdict = HCI_FINDING_AMBIGUOUS;
+    write_diagnosis(NULL);
+    check_has("friction</td><td class=\"text\">ambiguous</td><td><data value=\"0\">0</data></td>");
+}
+
+/* Of all values of an effect the one that is the largest multiple of its error; none for what was rejected.
+ */
+static void test_clearest_value(void)
+{
+    size_t at = 0;
+    term[7].std_error = 1e-6;
+    term[8].std_error = 0.0;
+    TEST_ASSERT_EQUAL_PTR(&effect, hci_plot_clearest(&diagnosis, &diagnosis.finding[0], &at));
+    TEST_ASSERT_EQUAL_UINT64(7, at);
+    TEST_ASSERT_NULL(hci_plot_clearest(&diagnosis, &diagnosis.finding[1], &at));
+    write_diagnosis(NULL);
+    check_has("sine_4 = 0.08 ± 1.96e−6 "); /* the 8th is the second of order 4 */
+    check_has(">± 0.0025 %<");
+    for (size_t k = 0; k < TERMS; ++k)
+        term[k].std_error = NAN;
+    TEST_ASSERT_NULL(hci_plot_clearest(&diagnosis, &diagnosis.finding[0], &at));
+}
+
+/* ---- colours ---- */
+
+/* Relative luminance of #rrggbb or #rgb, WCAG 2. */
+static double luminance(const char *hex)
+{
+    static const double SHARE[] = {0.2126, 0.7152, 0.0722};
+    const bool is_short = strspn(hex, "0123456789abcdef") == 3;
+    double sum = 0.0;
+    for (size_t k = 0; k < 3; ++k) {
+        const char digits[] = {is_short ? hex[k] : hex[2 * k], is_short ? hex[k] : hex[2 * k + 1], '\0'};
+        const double c = (double)strtol(digits, NULL, 16) / 255.0;
+        sum += SHARE[k] * (c <= 0.03928 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4));
+    }
+    return sum;
+}
+
+static double colour_after(const char *at, const char *key)
+{
+    at = strstr(at, key);
+    TEST_ASSERT_NOT_NULL_MESSAGE(at, key);
+    return luminance(at + strlen(key));
+}
+
+static double contrast(double a, double b)
+{
+    return (fmax(a, b) + 0.05) / (fmin(a, b) + 0.05);
+}
+
+static void test_contrast(void)
+{
+    static const char *const TEXT[] = {"--ink:#",          "--quiet:#",          "--good:#",       "--bad:#",
+                                       ".hci text{fill:#", ".hci .quiet{fill:#", ".hci .no{fill:#"};
+    static const char *const GROUND[] = {"--ground:#", "--panel:#", ".hci .back{fill:#"};
+    write_diagnosis(NULL);
+    for (int dark = 0; dark < 2; ++dark)
+        for (size_t j = 0; j < sizeof TEXT / sizeof *TEXT; ++j)
+            for (size_t k = 0; k < sizeof GROUND / sizeof *GROUND; ++k) {
+                const char *text = page, *ground = page;
+                for (int skip = 0; skip < dark; ++skip) {
+                    text = strstr(text, TEXT[j]) + 1;
+                    ground = strstr(ground, GROUND[k]) + 1;
+                }
+                const double found = contrast(colour_after(text, TEXT[j]), colour_after(ground, GROUND[k]));
+                TEST_ASSERT_TRUE_MESSAGE(found >= 4.5, TEXT[j]);
+            }
+}
+
+/* ---- solution and simulation ---- */
+
+static void test_solution(void)
+{
+    hci_wave back_emf = hci_wave_polar(1.0, 1, 0.14, 0.0);
+    hci_wave wave[] = {hci_wave_polar(1.0, 1, 10.0, 0.4), hci_wave_polar(5.0, -1, 2.0, 1.0)};
+    hci_set set[2] = {0};
+    hci_machine_data machine;
+    hci_solution s;
+    hci_solved_order order[2];
+    const hci_report_sources sources = {.machine = "m", .target = HOSTILE};
+    memset(&machine, 0, sizeof machine);
+    memset(&s, 0, sizeof s);
+    memset(order, 0, sizeof order);
+    machine.model = (hci_machine){.pole_pairs = 2, .back_emf = &back_emf, .back_emf_count = 1};
+    order[0].target_Nm = order[0].torque_Nm = order[0].before_Nm = hci_harmonic_polar(0.0, 2.1, REF_PI / 2.0);
+    order[1].target_Nm = hci_harmonic_polar(6.0, 0.0, 0.0);
+    order[1].torque_Nm = hci_harmonic_polar(6.0, 0.3125, 1.0);
+    order[1].before_Nm = hci_harmonic_polar(6.0, 0.5, 1.0);
+    order[1].error_Nm = 0.3125;
+    order[1].verdict = HCI_ORDER_MISSED;
+    s.current = (hci_currents){.wave = wave, .set = set, .count = 2};
+    s.order = order;
+    s.order_count = 2;
+    s.period_turns = 1;
+    s.worst_error_Nm = 0.3125;
+    s.worst_order = 6.0;
+    s.plain_amplitude_A = 10.0;
+    s.loss_to_plain = s.loss_to_limit = s.peak_line_voltage_V = s.torque_at_limit_Nm = NAN;
+    hci_output *out = open_page();
+    hci_report_solution(out, &machine, &s, HCI_NOT_REACHED, &sources);
+    read_page(out);
+    check_page(4);
+    check_has("Not reached");
+    check_has("Wanted torque: a&#60;script&#62;");
+    check_has(hci_order_verdict_name(HCI_ORDER_MISSED));
+    check_number(hci_amplitude(order[1].torque_Nm.sine, order[1].torque_Nm.cosine));
+    check_number(hci_amplitude(wave[1].sine, wave[1].cosine));
+    check_number(order[1].error_Nm);
+}
+
+static void test_simulation(void)
+{
+    static hci_traces traces;
+    hci_harmonic spectrum[] = {{0.0, 0.0, 2.5}, {1.0, 0.25, 0.0}, {2.0, 0.0, 0.125}};
+    const hci_report_sources sources = {.machine = "m", .scenario = HOSTILE};
+    hci_simulation s;
+    hci_note note = {{0}};
+    memset(&s, 0, sizeof s);
+    s.to_s = 1.0;
+    s.energy_balances = true;
+    s.torque_Nm = (hci_statistics){.mean = 2.5, .rms = 2.51, .most = 2.75, .least = 2.125};
+    s.T_ripple_percent = 25.0;
+    s.F_ripple_percent = 7.0;
+    s.energy_J.electrical = NAN;
+    s.spectrum_Nm = spectrum;
+    hci_traces_begin(&traces, 0.0, 1.0);
+    for (int periods = 0; periods < 2; ++periods) {
+        s.periods = (size_t)periods;
+        s.spectrum_count = periods ? 3 : 0;
+        hci_output *out = open_page();
+        TEST_ASSERT_EQUAL(HCI_OK, hci_report_simulation(out, &s, &traces, &sources, &note));
+        read_page(out);
+        check_page(periods ? 6 : 3);
+        check_number(2.125);
+    }
+    check_number(0.25);
+    check_number(100.0 * 0.125 / 2.5);
+    check_has("Scenario: a&#60;script&#62;");
+}
+
+/* A plain sine with 2.5 + 0.75 cos 2θ + 0.125 sin(θ/2) N·m, over two turns: its mean over a step is that of
+ * the two turns, since sin(θ/2) falls out; its extremes are not. */
+static void test_simulation_with_before(void)
+{
+    static hci_traces traces;
+    hci_harmonic spectrum[] = {{0.0, 0.0, 2.5}, {0.5, 0.0, 0.0}, {1.0, 0.25, 0.0}, {2.0, 0.0, 1e-17}};
+    hci_harmonic plain[] = {{0.0, 0.0, 2.5}, {0.5, 0.125, 0.0}, {2.0, 0.0, 0.75}};
+    const hci_report_sources sources = {.machine = "m", .scenario = "s", .currents = "c"};
+    hci_simulation s;
+    hci_note note = {{0}};
+    memset(&s, 0, sizeof s);
+    s.to_s = 1.0;
+    s.periods = s.plain.period_turns = 2;
+    s.energy_balances = true;
+    s.torque_Nm = (hci_statistics){.mean = 2.5, .rms = 2.51, .most = 2.75, .least = 2.25};
+    s.T_ripple_percent = 20.0;
+    s.F_ripple_percent = 7.0;
+    s.plain_amplitude_A = 3.5;
+    s.spectrum_Nm = spectrum;
+    s.spectrum_count = 4;
+    s.plain.torque_Nm = plain;
+    s.plain.order_count = 3;
+    s.plain.peak_to_peak_Nm = 1.625;
+    s.plain.T_ripple_percent = 65.0;
+    s.plain.F_ripple_percent = 21.5;
+    hci_traces_begin(&traces, 0.0, 1.0);
+    for (int imposed = 0; imposed < 2; ++imposed) {
+        s.imposed = imposed;
+        hci_output *out = open_page();
+        TEST_ASSERT_EQUAL(HCI_OK, hci_report_simulation(out, &s, &traces, &sources, &note));
+        read_page(out);
+        check_page(6);
+        check_has("with a plain sine of the same mean torque by 1.625 N·m");
+        check_has("<b>65 → 20");
+        check_has("<b>21.5 → 7");
+        check_has("Before: the plain sine of 3.5 A in phase with the back-EMF");
+        /* order, before, after: the last is rounding */
+        check_has("<tr><td><data value=\"2\">2</data></td><td><data value=\"0.75\">0.75</data></td><td>"
+                  "<data value=\"1e-17\">0</data></td>");
+        check_has("<tr><td><data value=\"1\">1</data></td><td><data value=\"0\">0</data></td><td>"
+                  "<data value=\"0.25\">0.25</data></td>");
+        TEST_ASSERT_EQUAL_INT(!imposed, strstr(page, "A strategy asks for a constant torque") != NULL);
+        TEST_ASSERT_EQUAL_INT(imposed, strstr(page, "some of these orders may be wanted") != NULL);
+        TEST_ASSERT_EQUAL_UINT64(4, count_of(">before</text>") + count_of(">after</text>"));
+        /* 0° to 9°: the mean by the integral of cos 2θ */
+        const char *row =
+            strstr(strstr(page, "Before: least N·m"), "<data value=\"9\">9</data></td><td>") + 30;
+        const double low = number_after(row, "\""), mean = number_after(strstr(row, "</td><td>"), "\"");
+        const double last_rad = 8.875 * REF_PI / 180.0; /* of four samples in a degree */
+        TEST_ASSERT_DOUBLE_WITHIN(1e-4, 2.5 + 0.75 * sin(0.1 * REF_PI) / (0.1 * REF_PI), mean);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, 2.5 + 0.75 * cos(2.0 * last_rad) - 0.125 * sin(0.5 * last_rad), low);
+    }
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_diagnosis);
+    RUN_TEST(test_largest_of_each_order);
+    RUN_TEST(test_other_verdicts);
+    RUN_TEST(test_what_is_seldom);
+    RUN_TEST(test_hostile_names);
+    RUN_TEST(test_no_run_and_no_finding);
+    RUN_TEST(test_odd_numbers);
+    RUN_TEST(test_same_bytes);
+    RUN_TEST(test_no_memory);
+    RUN_TEST(test_marks_of_runs);
+    RUN_TEST(test_error_bars);
+    RUN_TEST(test_largest);
+    RUN_TEST(test_traces_keep_peaks);
+    RUN_TEST(test_digits);
+    RUN_TEST(test_digits_above);
+    RUN_TEST(test_digits_in_a_column);
+    RUN_TEST(test_what_was_not_computed);
+    RUN_TEST(test_clearest_value);
+    RUN_TEST(test_contrast);
+    RUN_TEST(test_solution);
+    RUN_TEST(test_simulation);
+    RUN_TEST(test_simulation_with_before);
+    return UNITY_END();
+}

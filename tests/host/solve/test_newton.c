@@ -1,0 +1,355 @@
+/* Interior-magnet machines: the harmonic balance by Newton's method and the pointwise strategies, judged by
+ * torque that is sampled here from e·i + ½iᵀL'i + T_cog with cosines of its own. */
+#include <math.h>
+#include <string.h>
+
+#include "hci/host/solve/solve.h"
+#include "support/reference.h"
+#include "unity.h"
+
+enum { SAMPLES = 2048, L_ORDERS = 3, EMF_ORDERS = 3, POLE_PAIRS = 3 };
+
+/* L_s = Σ l cos(m(θ − 2πs/3) + ψ), M_s the same with its own figures; e and cogging likewise with sines. */
+typedef struct {
+    double order, self, self_phase, mutual, mutual_phase;
+} inductance;
+
+typedef struct {
+    ref_wave emf[EMF_ORDERS], cogging[2];
+    inductance l[L_ORDERS];
+    hci_wave back_emf[EMF_ORDERS];
+    hci_harmonic cogging_terms[2];
+    hci_inductance_slope slope[L_ORDERS];
+    hci_machine_data data;
+} machine;
+
+static uint64_t seed;
+
+static void make_slope(const inductance *l, hci_inductance_slope *t)
+{
+    t->order = l->order;
+    for (int s = 0; s < 3; ++s) {
+        /* p d/dθ of l cos(mθ − x) = −p m l sin(mθ − x) = −p m l (cos x sin mθ − sin x cos mθ) */
+        const double x = l->order * 2.0 * REF_PI * s / 3.0 - l->self_phase;
+        const double y = l->order * 2.0 * REF_PI * s / 3.0 - l->mutual_phase;
+        t->sine[s] = -POLE_PAIRS * l->order * l->self * cos(x);
+        t->cosine[s] = POLE_PAIRS * l->order * l->self * sin(x);
+        t->sine[3 + s] = -POLE_PAIRS * l->order * l->mutual * cos(y);
+        t->cosine[3 + s] = POLE_PAIRS * l->order * l->mutual * sin(y);
+    }
+}
+
+/* saliency: size of the inductance ripple in N·m/A² beside e = 1 N·m/A and currents of a few ampere. */
+static void make_machine(machine *m, double saliency)
+{
+    static const double EMF[EMF_ORDERS] = {1, 5, 7}, L[L_ORDERS] = {2, 4, 8}, COGGING[2] = {6, 12};
+    memset(m, 0, sizeof *m);
+    for (int k = 0; k < EMF_ORDERS; ++k) {
+        m->emf[k] =
+            (ref_wave){EMF[k], 0, k == 0 ? 1.0 : ref_uniform(&seed, 0.02, 0.12), ref_uniform(&seed, -3, 3)};
+        if (k == 0) m->emf[k].phase = 0.0;
+        m->back_emf[k] =
+            hci_wave_polar(EMF[k], hci_sequence_of_order(EMF[k]), m->emf[k].amplitude, m->emf[k].phase);
+    }
+    for (int k = 0; k < 2; ++k) {
+        m->cogging[k] = (ref_wave){COGGING[k], 0, ref_uniform(&seed, 0.05, 0.2), ref_uniform(&seed, -3, 3)};
+        m->cogging_terms[k] = hci_harmonic_polar(COGGING[k], m->cogging[k].amplitude, m->cogging[k].phase);
+    }
+    for (int k = 0; k < L_ORDERS; ++k) {
+        const double size = saliency / (POLE_PAIRS * L[k]) * (k == 0 ? 1.0 : 0.2);
+        m->l[k] = (inductance){L[k], -size, k == 0 ? 0.0 : ref_uniform(&seed, -3, 3), -size,
+                               k == 0 ? -4.0 * REF_PI / 3.0 : ref_uniform(&seed, -3, 3)};
+        make_slope(&m->l[k], &m->slope[k]);
+    }
+    m->data.pole_pairs = POLE_PAIRS;
+    m->data.resistance_ohm = m->data.inductance_d_H = m->data.inductance_q_H = NAN;
+    m->data.model =
+        (hci_machine){POLE_PAIRS, m->back_emf, EMF_ORDERS, m->cogging_terms, 2, m->slope, L_ORDERS};
+}
+
+/* Torque at one angle from the formulas above. */
+static double torque_at(const machine *m, double theta, const double i[3])
+{
+    double torque = 0.0;
+    for (int k = 0; k < 2; ++k)
+        torque += m->cogging[k].amplitude * sin(m->cogging[k].order * theta + m->cogging[k].phase);
+    for (int s = 0; s < 3; ++s) {
+        const double shifted = theta - 2.0 * REF_PI * s / 3.0;
+        for (int k = 0; k < EMF_ORDERS; ++k)
+            torque += i[s] * m->emf[k].amplitude * sin(m->emf[k].order * shifted + m->emf[k].phase);
+        for (int k = 0; k < L_ORDERS; ++k) {
+            const inductance *l = &m->l[k];
+            const double p_m = POLE_PAIRS * l->order;
+            torque += -0.5 * p_m * l->self * sin(l->order * shifted + l->self_phase) * i[s] * i[s];
+            torque += -p_m * l->mutual * sin(l->order * shifted + l->mutual_phase) * i[s] * i[(s + 1) % 3];
+        }
+    }
+    return torque;
+}
+
+static void current_at(const hci_solution *s, double theta, double i[3])
+{
+    i[0] = i[1] = i[2] = 0.0;
+    for (size_t k = 0; k < s->current.count; ++k) {
+        const hci_wave *w = &s->current.wave[k];
+        for (int phase = 0; phase < 3; ++phase) {
+            const double x = w->order * theta - w->sequence * 2.0 * REF_PI * phase / 3.0;
+            i[phase] += w->sine * sin(x) + w->cosine * cos(x);
+        }
+    }
+}
+
+/* Largest difference between the promised spectrum and that of the sampled torque, over all orders below
+ * 300. */
+static double worst_promise(const machine *m, const hci_solution *s)
+{
+    static double torque[SAMPLES];
+    double worst = 0.0;
+    for (int j = 0; j < SAMPLES; ++j) {
+        double i[3];
+        current_at(s, 2.0 * REF_PI * j / SAMPLES, i);
+        torque[j] = torque_at(m, 2.0 * REF_PI * j / SAMPLES, i);
+    }
+    for (int n = 0; n < 300; ++n) {
+        double sine = 0.0, cosine = 0.0;
+        for (int j = 0; j < SAMPLES; ++j) {
+            const double x = 2.0 * REF_PI * (double)(n * j % SAMPLES) / SAMPLES;
+            sine += torque[j] * sin(x) * (n ? 2.0 : 1.0) / SAMPLES;
+            cosine += torque[j] * cos(x) * (n ? 2.0 : 1.0) / SAMPLES;
+        }
+        for (size_t k = 0; k < s->order_count; ++k)
+            if (fabs(s->order[k].torque_Nm.order - n) < 1e-9) {
+                sine -= s->order[k].torque_Nm.sine;
+                cosine -= s->order[k].torque_Nm.cosine;
+            }
+        worst = fmax(worst, hypot(sine, cosine));
+    }
+    return worst;
+}
+
+static hci_target_order wanted[2];
+static const hci_target TARGET = {wanted, 2};
+
+static void want(double mean_Nm, double order, double amplitude_Nm)
+{
+    wanted[0] = (hci_target_order){{0.0, 0.0, mean_Nm}, 1.0};
+    wanted[1] = (hci_target_order){{order, amplitude_Nm, 0.0}, 1.0};
+}
+
+static hci_status solve(const machine *m, const hci_solve_options *o, hci_solution *s)
+{
+    hci_note note = {{0}};
+    const hci_status status = hci_solve(&m->data, o, s, &note);
+    TEST_ASSERT_TRUE_MESSAGE(status <= HCI_NOT_REACHED, note.text);
+    return status;
+}
+
+void setUp(void)
+{
+    seed = 20;
+}
+
+void tearDown(void)
+{
+}
+
+/* 1e-9 of the torque: rounding of some hundred products, far below any wrong term. */
+static void test_promised_torque_is_what_the_currents_make(void)
+{
+    static const hci_component SET[] = {{1, 1}, {5, -1}, {7, 1}, {11, -1}, {13, 1}, {2, 1}};
+    static const hci_set NAMES[] = {HCI_SET_POS, HCI_SET_NEG, HCI_SET_POS,
+                                    HCI_SET_NEG, HCI_SET_POS, HCI_SET_POS};
+    hci_component component[6];
+    hci_set name[6];
+    memcpy(component, SET, sizeof SET);
+    memcpy(name, NAMES, sizeof NAMES);
+    const hci_component_set set = {component, name, 6, {{0}}};
+    for (int trial = 0; trial < 12; ++trial) {
+        machine m;
+        hci_solution s;
+        hci_solve_options o = {.target = &TARGET};
+        make_machine(&m, ref_uniform(&seed, 0.02, 0.15));
+        want(ref_uniform(&seed, 1, 5), 6, ref_uniform(&seed, 0, 0.3));
+        if (trial % 4 == 1) o.set = &set;
+        if (trial % 4 == 2) o.choose_at_most = 5;
+        if (trial % 4 == 3) {
+            o.method = HCI_METHOD_POINTWISE;
+            o.strategy = (hci_strategy)(trial / 4);
+        }
+        solve(&m, &o, &s);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9 * wanted[0].torque_Nm.cosine, 0.0, worst_promise(&m, &s));
+        hci_solution_release(&s);
+    }
+}
+
+static void test_auto_reaches_the_target_near_the_least_copper(void)
+{
+    for (int trial = 0; trial < 8; ++trial) {
+        machine m;
+        hci_solution s;
+        const hci_solve_options o = {.target = &TARGET};
+        make_machine(&m, ref_uniform(&seed, 0.02, 0.15));
+        want(ref_uniform(&seed, 1, 5), trial % 2 ? 6 : 1, ref_uniform(&seed, 0, 0.5));
+        TEST_ASSERT_EQUAL(HCI_OK, solve(&m, &o, &s));
+        TEST_ASSERT_TRUE(s.newton_steps > 1 && s.newton_converged && s.newton_change <= 1e-9);
+        TEST_ASSERT_TRUE(s.loss_to_limit > 1.0 - 1e-9 && s.loss_to_limit < 1.02);
+        hci_solution_release(&s);
+    }
+}
+
+/* With L' = 0 in every entry, Newton's method must give the linear solution. */
+static void test_without_reluctance_it_is_the_linear_solution(void)
+{
+    machine m;
+    hci_solution linear, newton;
+    const hci_solve_options o = {.target = &TARGET};
+    make_machine(&m, 0.0);
+    want(3, 6, 0.4);
+    solve(&m, &o, &newton);
+    m.data.model.slope_count = 0;
+    solve(&m, &o, &linear);
+    TEST_ASSERT_EQUAL_UINT(0, linear.newton_steps);
+    TEST_ASSERT_TRUE(newton.newton_steps > 0);
+    TEST_ASSERT_EQUAL_UINT(linear.current.count, newton.current.count);
+    for (size_t k = 0; k < linear.current.count; ++k) {
+        TEST_ASSERT_EQUAL_DOUBLE(linear.current.wave[k].order, newton.current.wave[k].order);
+        /* 1e-12 A of some 2 A: two solves of a well-conditioned system */
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, linear.current.wave[k].sine, newton.current.wave[k].sine);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, linear.current.wave[k].cosine, newton.current.wave[k].cosine);
+    }
+    hci_solution_release(&linear);
+    hci_solution_release(&newton);
+}
+
+/* rms distance of two currents over the turn. */
+static double distance(const hci_solution *a, const hci_solution *b)
+{
+    double sum = 0.0;
+    for (int j = 0; j < SAMPLES; ++j) {
+        double x[3], y[3];
+        current_at(a, 2.0 * REF_PI * j / SAMPLES, x);
+        current_at(b, 2.0 * REF_PI * j / SAMPLES, y);
+        for (int s = 0; s < 3; ++s)
+            sum += (x[s] - y[s]) * (x[s] - y[s]);
+    }
+    return sqrt(sum / SAMPLES);
+}
+
+static void test_harmonic_balance_approaches_the_pointwise_current(void)
+{
+    machine m;
+    hci_solution pointwise, balanced;
+    hci_solve_options o = {.target = &TARGET, .method = HCI_METHOD_POINTWISE};
+    double before = HUGE_VAL;
+    make_machine(&m, 0.1);
+    want(4, 6, 0.0);
+    TEST_ASSERT_EQUAL(HCI_OK, solve(&m, &o, &pointwise));
+    o.method = HCI_METHOD_AUTO;
+    for (size_t count = 3; count <= 11; count += 4) {
+        double now;
+        o.choose_at_most = count;
+        o.loss_allowance = 1.5;
+        solve(&m, &o, &balanced);
+        now = distance(&pointwise, &balanced);
+        printf("  %zu components: %.2e A from the pointwise current, worst order %.2e N·m\n", count, now,
+               balanced.worst_error_Nm);
+        TEST_ASSERT_TRUE(now < before);
+        before = now;
+        hci_solution_release(&balanced);
+    }
+    o.choose_at_most = 0;
+    solve(&m, &o, &balanced);
+    TEST_ASSERT_TRUE(distance(&pointwise, &balanced) < before);
+    hci_solution_release(&balanced);
+    hci_solution_release(&pointwise);
+}
+
+/* Strategy `cancel` has gaps exactly where its discriminant, computed here from sampled L', is negative. */
+static void test_gaps_of_cancel_are_where_no_root_is(void)
+{
+    machine m;
+    hci_solution s;
+    const hci_solve_options o = {
+        .target = &TARGET, .method = HCI_METHOD_POINTWISE, .strategy = HCI_STRATEGY_CANCEL};
+    int missing = 0, inside = 0;
+    make_machine(&m, 0.15);
+    for (int k = 0; k < 2; ++k) {
+        m.cogging[k].amplitude *= 4.0;
+        m.cogging_terms[k] =
+            hci_harmonic_polar(m.cogging[k].order, m.cogging[k].amplitude, m.cogging[k].phase);
+    }
+    want(1.0, 6, 0.0);
+    TEST_ASSERT_EQUAL(HCI_NOT_REACHED, solve(&m, &o, &s));
+    TEST_ASSERT_TRUE(s.gap_count > 0 && s.gap_count <= HCI_MOST_GAPS);
+    for (int j = 0; j < SAMPLES; ++j) {
+        const double theta = 2.0 * REF_PI * j / SAMPLES, zero[3] = {0, 0, 0};
+        double e[2] = {0, 0}, q[3], d[3], both[3], with_q[3], size;
+        for (int k = 0; k < EMF_ORDERS; ++k)
+            for (int phase = 0; phase < 3; ++phase) {
+                const double x = 2.0 * REF_PI * phase / 3.0;
+                const double value = m.emf[k].amplitude * sin(m.emf[k].order * (theta - x) + m.emf[k].phase);
+                e[0] += sqrt(2.0 / 3.0) * cos(x) * value;
+                e[1] += sqrt(2.0 / 3.0) * sin(x) * value;
+            }
+        size = hypot(e[0], e[1]);
+        for (int phase = 0; phase < 3; ++phase) {
+            const double c = sqrt(2.0 / 3.0) * cos(2.0 * REF_PI * phase / 3.0),
+                         n = sqrt(2.0 / 3.0) * sin(2.0 * REF_PI * phase / 3.0);
+            q[phase] = (c * e[0] + n * e[1]) / size;
+            d[phase] = (c * e[1] - n * e[0]) / size;
+            with_q[phase] = q[phase] * wanted[0].torque_Nm.cosine / size;
+            both[phase] = d[phase] + with_q[phase];
+        }
+        /* T(x d + i_q q) is a quadratic in x: its three coefficients from torques at −1, 0 and 1 */
+        const double at_zero = torque_at(&m, theta, with_q) - wanted[0].torque_Nm.cosine;
+        const double plus = torque_at(&m, theta, both) - wanted[0].torque_Nm.cosine;
+        for (int phase = 0; phase < 3; ++phase)
+            both[phase] = with_q[phase] - d[phase];
+        const double minus = torque_at(&m, theta, both) - wanted[0].torque_Nm.cosine;
+        const double a = 0.5 * (plus + minus) - at_zero, b = 0.5 * (plus - minus);
+        int in_gap = 0;
+        (void)zero;
+        for (size_t k = 0; k < s.gap_count; ++k)
+            in_gap |= theta > s.gap[k].from_rad - 1e-9 && theta < s.gap[k].to_rad + 1e-9;
+        TEST_ASSERT_EQUAL_INT_MESSAGE(b * b - 4.0 * a * at_zero < 0.0, in_gap,
+                                      "the gap is where the discriminant is negative");
+        missing += in_gap;
+        inside += !in_gap;
+    }
+    TEST_ASSERT_TRUE(missing > 0 && inside > 0);
+    hci_solution_release(&s);
+}
+
+/* A torque beyond all reach: e·i − ½k|i|² ≤ e²/2k. No result is better than a wrong one. */
+static void test_unreachable_torque_is_said(void)
+{
+    machine m;
+    hci_solution s;
+    hci_note note = {{0}};
+    const hci_solve_options o = {.target = &TARGET, .method = HCI_METHOD_POINTWISE};
+    make_machine(&m, 0.0);
+    for (int k = 0; k < L_ORDERS; ++k)
+        memset(m.slope[k].sine, 0, sizeof m.slope[k].sine);
+    memset(m.slope[0].cosine, 0, sizeof m.slope[0].cosine);
+    m.slope[0].order = 0.0; /* not physical, but definite: the same −0.1 N·m/A² in each phase */
+    for (int s3 = 0; s3 < 3; ++s3)
+        m.slope[0].cosine[s3] = -0.1;
+    want(60.0, 6, 0.0);
+    const hci_status status = hci_solve(&m.data, &o, &s, &note);
+    TEST_ASSERT_EQUAL(HCI_NOT_REACHED, status);
+    TEST_ASSERT_TRUE(s.gap_count > 0);
+    TEST_ASSERT_TRUE(isnan(s.limit_mean_square_A2));
+    hci_solution_release(&s);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_promised_torque_is_what_the_currents_make);
+    RUN_TEST(test_auto_reaches_the_target_near_the_least_copper);
+    RUN_TEST(test_without_reluctance_it_is_the_linear_solution);
+    RUN_TEST(test_harmonic_balance_approaches_the_pointwise_current);
+    RUN_TEST(test_gaps_of_cancel_are_where_no_root_is);
+    RUN_TEST(test_unreachable_torque_is_said);
+    return UNITY_END();
+}

@@ -1,0 +1,95 @@
+#!/bin/sh
+# labels: slow fem
+# `diagnose` on finite-element recordings of three machines whose declared model is back-EMF and cogging alone (data/fem_c/README.md):
+# which effects it adds, and the error of every run in per cent of its mean torque, before and after.
+# C is data/fem_c; A and B, surface magnets, are looked for in ../shared/fem.
+#   run_fem.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
+. "$1/tests/support/common.sh"
+use_plain_build
+
+"$hci_solve" diagnose --help >/dev/null 2>&1 || {
+    echo "skipped: hci-solve has no command diagnose"
+    exit 77
+}
+shared=$source_dir/../shared/fem
+
+# verdict MACHINE EFFECT
+verdict() {
+    awk -F, -v effect="$2" '$2 == effect { print $3 }' "$work/$1/effects.csv"
+}
+
+# The table of errors: role, run, mean, before, after; in % of the run's mean torque, or of the rated one for a run without.
+table() { # MACHINE RATED
+    awk -F, -v machine="$1" -v rated="$2" 'NR == 1 { next } {
+        mean = $3 < 0 ? -$3 : $3; of = mean > 0.01 * rated ? mean : rated; name = $1; sub(/.*\//, "", name); sub(/\.csv$/, "", name)
+        printf "%s %-8s %-10s mean %7.3f N·m  before %7.3f %%  after %6.3f %%\n", machine, $2, name, $3, 100 * $4 / of, 100 * $5 / of
+    }' "$work/$1/errors.csv" | tee "$work/$1/table"
+}
+
+# Worst figure after, of the runs with this role whose name matches.
+worst() { # MACHINE ROLE EXPRESSION
+    awk -v role="$2" -v name="$3" '$2 == role && $3 ~ name && $(NF - 1) > most { most = $(NF - 1) } END { printf "%.4f\n", most }' "$work/$1/table"
+}
+
+at_most() { # WHAT VALUE BAR
+    check "$1: $2 %, at most $3 %" awk -v x="$2" -v bar="$3" 'BEGIN { exit !(x > 0 && x <= bar) }'
+}
+
+diagnose() { # MACHINE FOLDER RATED
+    run 0 diagnose "$2/machine" --runs "$2/runs.csv" -o "$work/$1"
+    check "$1: no errors.csv" [ -s "$work/$1/errors.csv" ]
+    table "$1" "$3"
+    # The bench of a finite-element model has perfect sensors and no friction.
+    for effect in phase_imbalance magnet_temperature current_offset current_gain position_offset position_eccentricity \
+        channel_delay friction torque_sensor mechanical_order unknown; do
+        check "$1: $effect is $(verdict "$1" $effect)" [ "$(verdict "$1" $effect)" = rejected ]
+    done
+}
+
+# The bars are about 1.5 times what was seen. C: interior magnets, saturated; the inductance falls by half at the rated current.
+diagnose C "$source_dir/data/fem_c" 8
+for effect in reluctance saturation; do
+    check "C: $effect is $(verdict C $effect)" [ "$(verdict C $effect)" = added ]
+done
+for effect in cogging back_emf; do
+    check "C: $effect is $(verdict C $effect)" [ "$(verdict C $effect)" = rejected ]
+done
+at_most "C, fitted" "$(worst C fit .)" 0.7
+at_most "C, held out" "$(worst C holdout .)" 0.57
+
+# The corrected machine is one that every command reads: predict gives the error of a held-out run once more.
+run 0 predict "$work/C/machine" "$source_dir/data/fem_c/runs/id-3_iq6.csv" -q -o "$work/predicted.csv"
+predicted=$(awk -F, 'NR > 1 { s += $NF * $NF } END { printf "%.6g\n", sqrt(s / (NR - 1)) }' "$work/predicted.csv")
+diagnosed=$(awk -F, '$1 ~ /id-3_iq6/ { print $5 }' "$work/C/errors.csv")
+check "predict leaves $predicted N·m, diagnose $diagnosed" awk -v a="$predicted" -v b="$diagnosed" \
+    'BEGIN { d = a - b; exit !(d * d < 1e-8 * b * b) }'
+
+if [ ! -d "$shared/A" ] || [ ! -d "$shared/B" ]; then
+    echo "without machines A and B: no $shared"
+    finish
+    exit 0
+fi
+
+# The machines declare cogging up to order 60; the elements have more, at multiples of six.
+diagnose A "$shared/A" 2.46
+diagnose B "$shared/B" 1.66
+for machine in A B; do
+    check "$machine: cogging is $(verdict $machine cogging)" [ "$(verdict $machine cogging)" = added ]
+    for order in 72 84; do
+        check "$machine: no cogging of order $order" grep -q "^cogging,sine_$order," "$work/$machine/machine/effects.csv"
+    done
+    check "$machine: neither reluctance nor saturation" \
+        eval "[ '$(verdict $machine reluctance)' = added ] || [ '$(verdict $machine saturation)' = added ]"
+    check "$machine: back_emf is $(verdict $machine back_emf)" [ "$(verdict $machine back_emf)" = rejected ]
+done
+for order in 66 78; do
+    check "B: no cogging of order $order" grep -q "^cogging,sine_$order," "$work/B/machine/effects.csv"
+done
+at_most "A, fitted" "$(worst A fit .)" 0.30
+at_most "A, held out harmonics" "$(worst A holdout inject2)" 0.20
+# Half as much current again as in any fitted run: a polynomial does not reach there, but it must not go far astray either.
+at_most "A, held out beyond the fitted currents" "$(worst A holdout I18)" 0.56
+at_most "B, fitted" "$(worst B fit .)" 0.09
+at_most "B, held out harmonics" "$(worst B holdout inject2)" 0.26
+at_most "B, held out beyond the fitted currents" "$(worst B holdout I2.4)" 0.37
+finish
