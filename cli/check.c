@@ -2,7 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli.h"
+#include "cli/command/command.h"
 #include "hci/host/base/output.h"
 #include "hci/host/check/check.h"
 

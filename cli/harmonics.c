@@ -2,7 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli.h"
+#include "cli/command/command.h"
 #include "hci/host/csv/csv.h"
 #include "hci/host/waveform/waveform.h"
 #include "hci/math/harmonic.h"

@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli.h"
+#include "cli/command/command.h"
 #include "hci/host/csv/csv.h"
 #include "hci/host/machine/init.h"
 

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli.h"
+#include "cli/command/command.h"
 #include "hci/version.h"
 
 /* In the order in which one uses them. */

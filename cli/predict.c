@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <sys/stat.h>
 
-#include "cli.h"
+#include "cli/command/command.h"
 #include "hci/host/recording/predict.h"
 
 enum { OUT, CLI_COMMON_KEYS };

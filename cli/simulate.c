@@ -5,7 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cli.h"
+#include "cli/command/command.h"
 #include "hci/host/simulate/simulate.h"
 
 enum { CURRENTS, OUT, REPORT, CLI_COMMON_KEYS };

@@ -5,7 +5,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "cli.h"
+#include "cli/command/command.h"
 #include "hci/host/csv/csv.h"
 #include "hci/host/machine/effects.h"
 #include "hci/host/solve/solve.h"

@@ -2,7 +2,7 @@
 #ifndef HCI_CLI_REFERENCE_H
 #define HCI_CLI_REFERENCE_H
 
-#include "cli.h"
+#include "cli/command/command.h"
 
 enum { REFERENCE_MOST_COMMANDS = 32 };
 

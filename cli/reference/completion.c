@@ -2,7 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "reference.h"
+#include "cli/reference/book.h"
 
 /* ---- what may stand where ---- */
 

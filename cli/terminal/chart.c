@@ -3,7 +3,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cli.h"
+#include "cli/command/command.h"
 
 enum { MOST_CELLS = 40, LEAST_CELLS = 8, LEAST_NAME = 12, LINE_SIZE = 1024 };
 

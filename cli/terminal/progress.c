@@ -6,7 +6,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "cli.h"
+#include "cli/command/command.h"
 #include "hci/host/base/output.h"
 
 #define SILENT_s    1.0 /* shorter work shows nothing */

@@ -8,7 +8,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include "cli.h"
+#include "cli/command/command.h"
 
 enum { UNKNOWN_WIDTH = 80, LEAST_WIDTH = 40, WIDEST_TEXT = 96, WORDS_AT = 15, LINE_SIZE = 8192 };
 

@@ -1,6 +1,6 @@
 /* The reference of all commands, from the tables that the parser uses: man page, Markdown pages, completion.
  */
-#include "reference.h"
+#include "cli/reference/book.h"
 
 #include <stdio.h>
 #include <string.h>

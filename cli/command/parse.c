@@ -4,7 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cli.h"
+#include "cli/command/command.h"
 #include "hci/host/csv/csv.h"
 
 /* Index of an option by its long name (up to `length` characters) or its letter; -1 when there is none. */

@@ -2,7 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli.h"
+#include "cli/command/command.h"
 
 /* ---- spectrum ---- */
 
