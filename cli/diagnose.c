@@ -78,7 +78,7 @@ enum { MOST_TERMS = 3 }; /* of an effect that are shown */
 static size_t terms_of(const hci_diagnosis *d, const char *effect)
 {
     for (size_t k = 0; k < d->effects.list.count; ++k)
-        if (strcmp(d->effects.list.effect[k].room->name, effect) == 0) return d->effects.list.effect[k].count;
+        if (strcmp(d->effects.list.effect[k].type->name, effect) == 0) return d->effects.list.effect[k].count;
     return 0;
 }
 

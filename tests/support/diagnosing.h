@@ -135,8 +135,8 @@ static inline const hci_effect_term *term(const char *effect, const char *parame
 {
     for (size_t k = 0; k < diagnosis.effects.list.count; ++k) {
         const hci_effect *e = &diagnosis.effects.list.effect[k];
-        for (size_t j = 0; j < e->count && strcmp(e->room->name, effect) == 0; ++j)
-            if (strcmp(e->room->parameter[e->term[j].parameter].name, parameter) == 0 &&
+        for (size_t j = 0; j < e->count && strcmp(e->type->name, effect) == 0; ++j)
+            if (strcmp(e->type->parameter[e->term[j].parameter].name, parameter) == 0 &&
                 fabs(e->term[j].order - order) < 1e-6)
                 return &e->term[j];
     }
@@ -156,7 +156,7 @@ static inline hci_status diagnose(const hci_effects *declared)
     TEST_ASSERT_EQUAL_MESSAGE(status > HCI_NOT_REACHED, note.text[0] != '\0', note.text);
     for (size_t k = 0; !declared && k < diagnosis.effects.list.count; ++k)
         TEST_ASSERT_NOT_EQUAL(HCI_FINDING_REJECTED,
-                              found(diagnosis.effects.list.effect[k].room->name)->verdict);
+                              found(diagnosis.effects.list.effect[k].type->name)->verdict);
     return status;
 }
 

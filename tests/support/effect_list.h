@@ -18,27 +18,27 @@ typedef struct {
     hci_effects list;
 } el_list;
 
-static inline size_t el_parameter(const hci_effect_room *room, const char *name)
+static inline size_t el_parameter(const hci_effect_type *type, const char *name)
 {
     size_t k = 0;
-    while (k < room->parameter_count && strcmp(room->parameter[k].name, name) != 0)
+    while (k < type->parameter_count && strcmp(type->parameter[k].name, name) != 0)
         ++k;
-    TEST_ASSERT_TRUE_MESSAGE(k < room->parameter_count, name);
+    TEST_ASSERT_TRUE_MESSAGE(k < type->parameter_count, name);
     return k;
 }
 
 static inline void el_add(el_list *l, const char *effect, const char *parameter, double order, double value)
 {
-    const hci_effect_room *room = hci_effect_room_find(effect);
+    const hci_effect_type *type = hci_effect_type_find(effect);
     size_t k = 0;
-    TEST_ASSERT_NOT_NULL_MESSAGE(room, effect);
-    while (k < l->list.count && l->effect[k].room != room)
+    TEST_ASSERT_NOT_NULL_MESSAGE(type, effect);
+    while (k < l->list.count && l->effect[k].type != type)
         ++k;
     if (k == l->list.count) {
-        l->effect[k] = (hci_effect){room, l->term[k], 0};
+        l->effect[k] = (hci_effect){type, l->term[k], 0};
         l->list = (hci_effects){l->effect, k + 1};
     }
-    l->term[k][l->effect[k].count++] = (hci_effect_term){el_parameter(room, parameter), order, value, NAN};
+    l->term[k][l->effect[k].count++] = (hci_effect_term){el_parameter(type, parameter), order, value, NAN};
 }
 
 /* Uniform in −1 … 1, a linear congruential generator. */

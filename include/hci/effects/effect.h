@@ -1,6 +1,6 @@
 /* Physical effects that a machine or a test bench has beyond the declared machine.
  *
- * Each effect is a room: one file with its parameters and pure functions, all of them exact, that simulating,
+ * Each type of effect is one file with its parameters and pure functions, all of them exact, that simulating,
  * predicting and diagnosing share.
  *
  *   on the machine   an additional torque T_x(θ_m, i, ω, ϑ), with ∂T_x/∂i, ∂T_x/∂θ_m and ∂T_x/∂(parameter)
@@ -67,18 +67,18 @@ typedef struct {
 
 /* A value of one parameter. */
 typedef struct {
-    size_t parameter; /* in the room's list */
+    size_t parameter; /* in the type's list */
     double order;     /* of an ordered parameter, else 0 */
     double value;     /* in the parameter's unit */
     double std_error; /* NAN where it is not known */
 } hci_effect_term;
 
 /* What is known of an effect, below. */
-typedef struct hci_effect_room hci_effect_room;
+typedef struct hci_effect_type hci_effect_type;
 
-/* A room with values: one effect of one machine. The terms belong to the caller. */
+/* One effect of one machine: its type and the values of its parameters. The terms belong to the caller. */
 typedef struct {
-    const hci_effect_room *room; /* what is known of it */
+    const hci_effect_type *type; /* what is known of it */
     const hci_effect_term *term; /* its values, in any order */
     size_t count;                /* entries of term */
 } hci_effect;
@@ -89,7 +89,7 @@ typedef struct {
     size_t count;             /* entries of effect */
 } hci_effects;
 
-/* ---- rooms ---- */
+/* ---- types ---- */
 
 /* One link in the chain from the true value of a channel to hci_sensor: called once a step, with eight
  * doubles of its own that are 0 at the start. */
@@ -112,7 +112,7 @@ typedef struct {
 } hci_effect_channel;
 
 /* What is known of an effect. A function that does not concern it is NULL. */
-struct hci_effect_room {
+struct hci_effect_type {
     const char *name;                      /* as in effects.csv */
     const char *equation;                  /* in words and letters, for people */
     const char *signature;                 /* how it shows in a residual */
@@ -160,11 +160,11 @@ struct hci_effect_room {
                    double *by_value, size_t columns, size_t own_column);
 };
 
-/* Room k of the registry; NULL behind the last one. */
-const hci_effect_room *hci_effect_room_at(size_t k);
+/* Type k of the registry; NULL behind the last one. */
+const hci_effect_type *hci_effect_type_at(size_t k);
 
-/* The room of an effect by its name in effects.csv; NULL when there is none. */
-const hci_effect_room *hci_effect_room_find(const char *name);
+/* The type of an effect by its name in effects.csv; NULL when there is none. */
+const hci_effect_type *hci_effect_type_find(const char *name);
 
 /* The value of a parameter that is not ordered, or its standard. */
 double hci_effect_value(const hci_effect *effect, size_t parameter);

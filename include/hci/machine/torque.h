@@ -53,11 +53,11 @@ double hci_torque_at(const hci_machine *machine, double theta_rad, const double 
 void hci_torque_gradient_at(const hci_machine *machine, double theta_rad, const double i_abc[3],
                             double gradient[3]);
 
-/* Room that hci_slope_waves needs for so many current waves. */
+/* Entries that hci_slope_waves needs for so many current waves. */
 size_t hci_slope_waves_capacity(const hci_machine *machine, size_t current_count);
 
 /* L'(θ) i(θ) as waves, for slopes and current waves: what the reluctance adds to the back-EMF in ∂T/∂i. Equal
- * orders and sequences are joined and what is below 1e-15 of the largest is dropped. waves: out, room for
+ * orders and sequences are joined and what is below 1e-15 of the largest is dropped. waves: out, capacity
  * hci_slope_waves_capacity entries; returns how many. O(slopes·currents·log). */
 size_t hci_slope_waves(const hci_machine *machine, const hci_wave *currents, size_t current_count,
                        hci_wave *waves);

@@ -38,7 +38,7 @@ static void torque_of_all(const hci_effect *effect, const hci_machine *machine, 
     }
 }
 
-const hci_effect_room hci_effect_back_emf = {
+const hci_effect_type hci_effect_back_emf = {
     .name = "back_emf",
     .equation = "T = Σ_s i_s Σ [S sin(nθ − σ2πs/3) + C cos(nθ − σ2πs/3)], σ = n mod 3 where none is named",
     .signature =

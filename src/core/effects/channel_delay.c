@@ -93,7 +93,7 @@ static void simulate(const hci_effect *effect, int pole_pairs, hci_sensor *senso
     channels[HCI_SENSE_TORQUE].delay_s += hci_effect_value(effect, TORQUE);
 }
 
-const hci_effect_room hci_effect_channel_delay = {
+const hci_effect_type hci_effect_channel_delay = {
     .name = "channel_delay",
     .equation = "x_read(t) = x(t − τ)",
     .signature = "a phase in proportion to order and speed, unlike an offset",

@@ -22,7 +22,7 @@ static void torque_of_all(const hci_effect *effect, const hci_machine *machine, 
     }
 }
 
-const hci_effect_room hci_effect_cogging = {
+const hci_effect_type hci_effect_cogging = {
     .name = "cogging",
     .equation = "T = Σ S sin nθ + C cos nθ",
     .signature = "independent of current and speed, at any order",

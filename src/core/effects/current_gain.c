@@ -53,7 +53,7 @@ static void simulate(const hci_effect *effect, int pole_pairs, hci_sensor *senso
         sensors[HCI_SENSE_IA + s].gain_error += hci_effect_value(effect, s);
 }
 
-const hci_effect_room hci_effect_current_gain = {
+const hci_effect_type hci_effect_current_gain = {
     .name = "current_gain",
     .equation = "i_s,read = (1 + g_s) i_s",
     .signature = "grows with the current; order 2 and the mean",

@@ -39,7 +39,7 @@ static void simulate(const hci_effect *effect, int pole_pairs, hci_sensor *senso
         sensors[HCI_SENSE_IA + s].offset += hci_effect_value(effect, s);
 }
 
-const hci_effect_room hci_effect_current_offset = {
+const hci_effect_type hci_effect_current_offset = {
     .name = "current_offset",
     .equation = "i_s,read = i_s + o_s",
     .signature = "independent of the load; order 1 and its sidebands with the back-EMF",

@@ -4,15 +4,15 @@
 
 /* ---- registry ---- */
 
-#define ROOM(name) &hci_effect_##name,
-static const hci_effect_room *const ROOMS[] = {HCI_EFFECT_ROOMS(ROOM)};
-#undef ROOM
+#define TYPE(name) &hci_effect_##name,
+static const hci_effect_type *const TYPES[] = {HCI_EFFECT_TYPES(TYPE)};
+#undef TYPE
 
-enum { ROOM_COUNT = sizeof ROOMS / sizeof *ROOMS };
+enum { TYPE_COUNT = sizeof TYPES / sizeof *TYPES };
 
-const hci_effect_room *hci_effect_room_at(size_t k)
+const hci_effect_type *hci_effect_type_at(size_t k)
 {
-    return k < ROOM_COUNT ? ROOMS[k] : NULL;
+    return k < TYPE_COUNT ? TYPES[k] : NULL;
 }
 
 static bool same_text(const char *a, const char *b)
@@ -24,10 +24,10 @@ static bool same_text(const char *a, const char *b)
     return *a == *b;
 }
 
-const hci_effect_room *hci_effect_room_find(const char *name)
+const hci_effect_type *hci_effect_type_find(const char *name)
 {
-    for (size_t k = 0; k < ROOM_COUNT; ++k)
-        if (same_text(ROOMS[k]->name, name)) return ROOMS[k];
+    for (size_t k = 0; k < TYPE_COUNT; ++k)
+        if (same_text(TYPES[k]->name, name)) return TYPES[k];
     return NULL;
 }
 
@@ -35,7 +35,7 @@ double hci_effect_value(const hci_effect *effect, size_t parameter)
 {
     for (size_t k = 0; k < effect->count; ++k)
         if (effect->term[k].parameter == parameter) return effect->term[k].value;
-    return effect->room->parameter[parameter].standard;
+    return effect->type->parameter[parameter].standard;
 }
 
 /* Terms of the effects before one. */
@@ -127,24 +127,24 @@ static void add_declared(const hci_machine *machine, const hci_sample *truth, hc
 static void add_effect(const hci_effect *effect, const hci_machine *machine, const hci_sample *truth,
                        hci_effect_torque *sum, double *by_value)
 {
-    if (effect->room->torque_of_all) {
-        effect->room->torque_of_all(effect, machine, truth, sum, by_value);
+    if (effect->type->torque_of_all) {
+        effect->type->torque_of_all(effect, machine, truth, sum, by_value);
         return;
     }
     for (size_t k = 0; k < effect->count; ++k) {
         const double by =
-            effect->room->torque ? effect->room->torque(effect, &effect->term[k], machine, truth, sum) : 0.0;
+            effect->type->torque ? effect->type->torque(effect, &effect->term[k], machine, truth, sum) : 0.0;
         if (by_value) by_value[k] = by;
     }
 }
 
-/* Adds the torque of all rooms, or of those in the machine. */
+/* Adds the torque of all types, or of those in the machine. */
 static void add_effects(const hci_machine *machine, const hci_effects *effects, const hci_sample *truth,
                         bool outside_too, hci_effect_torque *sum, double *by_value)
 {
     for (size_t j = 0; j < effects->count; ++j) {
         const hci_effect *effect = &effects->effect[j];
-        const bool acts = outside_too || effect->room->in_machine;
+        const bool acts = outside_too || effect->type->in_machine;
         if (acts) add_effect(effect, machine, truth, sum, by_value);
         for (size_t k = 0; k < effect->count && by_value; ++k, ++by_value)
             if (!acts) *by_value = 0.0;
@@ -185,7 +185,7 @@ void hci_effects_apply(const void *context, const hci_plant_state *state, hci_pl
     add_to_point(&x, state->i, point);
     for (size_t k = 0; k < plant->effects->count; ++k) {
         const hci_effect *effect = &plant->effects->effect[k];
-        if (effect->room->drag_Nm) point->shaft_Nm += effect->room->drag_Nm(effect, state->speed_rad_per_s);
+        if (effect->type->drag_Nm) point->shaft_Nm += effect->type->drag_Nm(effect, state->speed_rad_per_s);
     }
 }
 
@@ -194,7 +194,7 @@ double hci_effects_coulomb_Nm(const hci_effects *effects)
     double sum = 0.0;
     for (size_t k = 0; k < effects->count; ++k) {
         const hci_effect *effect = &effects->effect[k];
-        if (effect->room->coulomb_Nm) sum += effect->room->coulomb_Nm(effect);
+        if (effect->type->coulomb_Nm) sum += effect->type->coulomb_Nm(effect);
     }
     return sum;
 }
@@ -204,18 +204,18 @@ double hci_effects_coulomb_Nm(const hci_effects *effects)
 hci_sample hci_effects_sense(const hci_effects *effects, int pole_pairs, const hci_sample *truth)
 {
     hci_sample x = *truth;
-    for (size_t r = 0; r < ROOM_COUNT; ++r)
-        for (size_t k = 0; k < effects->count && ROOMS[r]->sense; ++k)
-            if (effects->effect[k].room == ROOMS[r]) ROOMS[r]->sense(&effects->effect[k], pole_pairs, &x);
+    for (size_t r = 0; r < TYPE_COUNT; ++r)
+        for (size_t k = 0; k < effects->count && TYPES[r]->sense; ++k)
+            if (effects->effect[k].type == TYPES[r]) TYPES[r]->sense(&effects->effect[k], pole_pairs, &x);
     return x;
 }
 
 hci_sample hci_effects_undo(const hci_effects *effects, int pole_pairs, const hci_sample *reading)
 {
     hci_sample x = *reading;
-    for (size_t r = ROOM_COUNT; r-- > 0;)
-        for (size_t k = effects->count; k-- > 0 && ROOMS[r]->undo;)
-            if (effects->effect[k].room == ROOMS[r]) ROOMS[r]->undo(&effects->effect[k], pole_pairs, &x);
+    for (size_t r = TYPE_COUNT; r-- > 0;)
+        for (size_t k = effects->count; k-- > 0 && TYPES[r]->undo;)
+            if (effects->effect[k].type == TYPES[r]) TYPES[r]->undo(&effects->effect[k], pole_pairs, &x);
     return x;
 }
 
@@ -224,12 +224,12 @@ static void add_bench(const hci_effects *effects, int pole_pairs, const hci_samp
                       hci_effect_torque *by, double *by_value)
 {
     hci_sample x = *truth;
-    for (size_t r = 0; r < ROOM_COUNT; ++r) {
-        for (size_t k = 0; k < effects->count && ROOMS[r]->undo_adjoint; ++k) {
+    for (size_t r = 0; r < TYPE_COUNT; ++r) {
+        for (size_t k = 0; k < effects->count && TYPES[r]->undo_adjoint; ++k) {
             const hci_effect *effect = &effects->effect[k];
-            if (effect->room != ROOMS[r]) continue;
-            ROOMS[r]->sense(effect, pole_pairs, &x);
-            ROOMS[r]->undo_adjoint(effect, pole_pairs, &x, by, by_value + first_term(effects, k));
+            if (effect->type != TYPES[r]) continue;
+            TYPES[r]->sense(effect, pole_pairs, &x);
+            TYPES[r]->undo_adjoint(effect, pole_pairs, &x, by, by_value + first_term(effects, k));
         }
     }
 }
@@ -251,7 +251,7 @@ void hci_effects_filter(const hci_effects *effects, const double *time_s, size_t
     const size_t columns = hci_effects_terms(effects);
     for (size_t k = 0; k < effects->count; ++k) {
         const hci_effect *effect = &effects->effect[k];
-        if (effect->room->filter)
-            effect->room->filter(effect, time_s, n, torque_Nm, by_value, columns, first_term(effects, k));
+        if (effect->type->filter)
+            effect->type->filter(effect, time_s, n, torque_Nm, by_value, columns, first_term(effects, k));
     }
 }

@@ -56,7 +56,7 @@ static void simulate(const hci_effect *effect, int pole_pairs, hci_sensor *senso
     hci_effect_link_add(&channels[HCI_SENSE_TORQUE], &link);
 }
 
-const hci_effect_room hci_effect_friction = {
+const hci_effect_type hci_effect_friction = {
     .name = "friction",
     .equation = "T = −(T_c sign ω + B ω + Q ω |ω|)",
     .signature = "mean only; with the sign, the value and the square of the speed",

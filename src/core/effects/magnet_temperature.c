@@ -22,7 +22,7 @@ static double torque(const hci_effect *effect, const hci_effect_term *term, cons
     return -hci_effect_value(effect, PER_KELVIN) * hci_effect_add_emf(&unused, 1.0, e, slope, truth->i_abc);
 }
 
-const hci_effect_room hci_effect_magnet_temperature = {
+const hci_effect_type hci_effect_magnet_temperature = {
     .name = "magnet_temperature",
     .equation = "T = α (ϑ − ϑ_0) e(θ)·i",
     .signature = "grows with the current; mean and all orders together, follows the temperature",

@@ -50,7 +50,7 @@ static void torque_of_all(const hci_effect *effect, const hci_machine *machine, 
     }
 }
 
-const hci_effect_room hci_effect_mechanical_order = {
+const hci_effect_type hci_effect_mechanical_order = {
     .name = "mechanical_order",
     .equation = "T = Σ (S + S_q i_q) sin nθ + (C + C_q i_q) cos nθ, n = k/p",
     .signature = "fractional electrical orders, independent of the current or in proportion to it",

@@ -18,7 +18,7 @@ static double torque(const hci_effect *effect, const hci_effect_term *term, cons
     return hci_effect_add_emf(sum, term->value, e, slope, truth->i_abc);
 }
 
-const hci_effect_room hci_effect_phase_imbalance = {
+const hci_effect_type hci_effect_phase_imbalance = {
     .name = "phase_imbalance",
     .equation = "T = Σ_s g_s e_s(θ) i_s",
     .signature = "grows with the current; mean and order 2 for sinusoidal currents",

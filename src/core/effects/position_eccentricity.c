@@ -79,7 +79,7 @@ static void simulate(const hci_effect *effect, int pole_pairs, hci_sensor *senso
     hci_effect_link_add(&channels[HCI_SENSE_ANGLE], &link);
 }
 
-const hci_effect_room hci_effect_position_eccentricity = {
+const hci_effect_type hci_effect_position_eccentricity = {
     .name = "position_eccentricity",
     .equation = "θ_m,read = θ_m + Σ S sin kθ_m + C cos kθ_m",
     .signature = "mechanical orders 1 and 2 around every order, as ∂T/∂θ modulated",

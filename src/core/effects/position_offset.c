@@ -32,7 +32,7 @@ static void simulate(const hci_effect *effect, int pole_pairs, hci_sensor *senso
     sensors[HCI_SENSE_ANGLE].offset += hci_effect_value(effect, ANGLE) / pole_pairs;
 }
 
-const hci_effect_room hci_effect_position_offset = {
+const hci_effect_type hci_effect_position_offset = {
     .name = "position_offset",
     .equation = "θ_read = θ + δ",
     .signature = "∂T/∂θ times a constant, at every order",

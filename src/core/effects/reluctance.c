@@ -33,7 +33,7 @@ static void torque_of_all(const hci_effect *effect, const hci_machine *machine, 
     hci_coenergy_end(&w, sum);
 }
 
-const hci_effect_room hci_effect_reluctance = {
+const hci_effect_type hci_effect_reluctance = {
     .name = "reluctance",
     .equation = "T = ∂W'/∂θ_m, W' = 3/2 (½ L_dd i_d² + L_dq i_d i_q + ½ L_qq i_q²)",
     .signature = "grows with the square of the current; mean and orders 6k, order 2 with unequal phases",

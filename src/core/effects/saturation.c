@@ -56,7 +56,7 @@ static void torque_of_all(const hci_effect *effect, const hci_machine *machine, 
         if (effect->term[k].parameter == REFERENCE_CURRENT) by_value[k] = by_reference;
 }
 
-const hci_effect_room hci_effect_saturation = {
+const hci_effect_type hci_effect_saturation = {
     .name = "saturation",
     .equation = "T = ∂W'/∂θ_m, W' = Σ (S sin nθ + C cos nθ) (i_d/I_0)^a (i_q/I_0)^b",
     .signature =

@@ -154,7 +154,7 @@ static void simulate(const hci_effect *effect, int pole_pairs, hci_sensor *senso
     hci_effect_link_add(&channels[HCI_SENSE_TORQUE], &link);
 }
 
-const hci_effect_room hci_effect_torque_sensor = {
+const hci_effect_type hci_effect_torque_sensor = {
     .name = "torque_sensor",
     .equation = "T_read = G(s) T + offset, G = 1/(1 + τs) · 1/(1 + 2ζs/ω_n + s²/ω_n²)",
     .signature = "all orders; amplitude and phase follow order × speed",

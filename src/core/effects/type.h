@@ -1,4 +1,4 @@
-/* The registry of effects, and what several rooms share. */
+/* The registry of effect types, and what several of them share. */
 #ifndef HCI_SRC_CORE_EFFECTS_TYPE_H
 #define HCI_SRC_CORE_EFFECTS_TYPE_H
 
@@ -7,9 +7,9 @@
 
 #include "hci/effects/effect.h"
 
-/* One line a room. The order is that in which the bench's effects act on the way from the truth to the
+/* One line for each. The order is that in which the bench's effects act on the way from the truth to the
  * reading. */
-#define HCI_EFFECT_ROOMS(X)                                                                                  \
+#define HCI_EFFECT_TYPES(X)                                                                                  \
     X(cogging)                                                                                               \
     X(back_emf)                                                                                              \
     X(phase_imbalance)                                                                                       \
@@ -25,8 +25,8 @@
     X(current_offset)                                                                                        \
     X(torque_sensor)
 
-#define HCI_EFFECT_DECLARE(name) extern const hci_effect_room hci_effect_##name;
-HCI_EFFECT_ROOMS(HCI_EFFECT_DECLARE)
+#define HCI_EFFECT_DECLARE(name) extern const hci_effect_type hci_effect_##name;
+HCI_EFFECT_TYPES(HCI_EFFECT_DECLARE)
 #undef HCI_EFFECT_DECLARE
 
 /* Parameters: one value; one for each order from the least on; one for each whole order. */
@@ -43,7 +43,7 @@ HCI_EFFECT_ROOMS(HCI_EFFECT_DECLARE)
         name, unit, meaning, 0.0, -DBL_MAX, true, true, least_order                                          \
     }
 
-/* Members of a room. */
+/* Members of hci_effect_type. */
 #define HCI_EFFECT_PARAMETERS(table) .parameter = (table), .parameter_count = sizeof(table) / sizeof *(table)
 
 /* Periods in a mechanical turn of an electrical order, a whole number where it is near one: a file says

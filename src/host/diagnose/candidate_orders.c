@@ -49,17 +49,17 @@ static size_t orders_of(const hci_evidence *e, size_t run, size_t stride)
 
 typedef struct {
     hci_residual_line *line;
-    size_t count, room;
+    size_t count, capacity;
 } list;
 
 static bool line_put(list *l, const hci_residual_line *line)
 {
-    if (l->count == l->room) {
-        const size_t wanted = 2 * l->room + 64;
+    if (l->count == l->capacity) {
+        const size_t wanted = 2 * l->capacity + 64;
         hci_residual_line *grown = hci_memory_resize(l->line, wanted, sizeof *grown);
         if (!grown) return false;
         l->line = grown;
-        l->room = wanted;
+        l->capacity = wanted;
     }
     l->line[l->count++] = *line;
     return true;

@@ -67,17 +67,17 @@ static void advice_of_same(const hci_verdict *v, char *text, size_t size)
     };
     const char *run = "another current, speed and direction";
     for (size_t k = 0; k < sizeof WANTED / sizeof *WANTED; ++k)
-        if (strcmp(v->room->name, WANTED[k].effect) == 0) run = WANTED[k].run;
-    snprintf(text, size, "%s or %s: a run with %s would tell them apart", v->rival_of->name, v->room->name,
+        if (strcmp(v->type->name, WANTED[k].effect) == 0) run = WANTED[k].run;
+    snprintf(text, size, "%s or %s: a run with %s would tell them apart", v->rival_of->name, v->type->name,
              run);
 }
 
-/* What would tell the ambiguous ones apart, one sentence for each that there is room for. */
+/* What would tell the ambiguous ones apart, one sentence for each that fits. */
 static hci_status advice_fill(const hci_evidence *e, const hci_attribution *a, hci_diagnosis *d,
                               hci_note *note)
 {
     hci_status status = HCI_OK;
-    for (size_t r = 0; r < a->rooms && !status; ++r) {
+    for (size_t r = 0; r < a->types && !status; ++r) {
         const hci_verdict *v = &a->verdict[r];
         const size_t used = strlen(d->advice);
         if (v->in || !v->ambiguous || used + LONGEST_ADVICE > sizeof d->advice) continue;
@@ -88,7 +88,7 @@ static hci_status advice_fill(const hci_evidence *e, const hci_attribution *a, h
             continue;
         }
         const hci_advice_request request = {&a->account.suspects, &v->alternative.suspects, v->rival_of->name,
-                                            v->room->name};
+                                            v->type->name};
         status = hci_advise(e, &request, d->advice + from, sizeof d->advice - from, note);
     }
     return status;
@@ -101,7 +101,7 @@ static hci_status fill(hci_bench *b, const hci_runs *runs, hci_attribution *a, h
                        hci_note *note)
 {
     hci_unexplained_fill(b, a, d);
-    hci_suspects_leave(&a->account.suspects, &hci_unknown_room);
+    hci_suspects_leave(&a->account.suspects, &hci_unknown_type);
     hci_status status = effects_fill(&b->evidence, &a->account.suspects, d, note);
     if (!status) status = advice_fill(&b->evidence, a, d, note);
     if (!status) status = hci_run_errors_fill(b, runs, a->account.fit.parameters, d, note);
@@ -146,8 +146,8 @@ static hci_status withdraw(hci_bench *b, const hci_runs *runs, hci_attribution *
                            hci_note *note)
 {
     const double strange_Nm2 = d->rms_before_Nm * d->rms_before_Nm - d->noise_Nm * d->noise_Nm;
-    for (size_t r = 0; r < a->rooms; ++r) {
-        hci_suspects_leave(&a->account.suspects, a->verdict[r].room);
+    for (size_t r = 0; r < a->types; ++r) {
+        hci_suspects_leave(&a->account.suspects, a->verdict[r].type);
         a->verdict[r].in = a->verdict[r].ambiguous = false;
     }
     a->unknown = true;

@@ -12,9 +12,9 @@ enum { LONGEST_TERM = 80 }; /* bytes of one term in words */
 /* ---- in words ---- */
 
 /* "sine_18 = 0.021 ± 0.0008 Nm" */
-static size_t describe_term(const hci_effect_room *room, const hci_effect_term *term, char *text, size_t size)
+static size_t describe_term(const hci_effect_type *type, const hci_effect_term *term, char *text, size_t size)
 {
-    const hci_effect_parameter *p = &room->parameter[term->parameter];
+    const hci_effect_parameter *p = &type->parameter[term->parameter];
     const char *unit = strcmp(p->unit, "1") == 0 ? "" : p->unit;
     char order[32] = "";
     if (p->ordered) snprintf(order, sizeof order, "_%.6g", term->order);
@@ -23,21 +23,21 @@ static size_t describe_term(const hci_effect_room *room, const hci_effect_term *
     return (size_t)length < size ? (size_t)length : size - 1;
 }
 
-/* All terms of a room that are in, as many as there is room for. */
-static void describe(const hci_suspects *suspects, const hci_effect_room *room, char *text, size_t size)
+/* All terms of a type that are in, as many as fit. */
+static void describe(const hci_suspects *suspects, const hci_effect_type *type, char *text, size_t size)
 {
     size_t used = 0;
     text[0] = '\0';
     for (size_t k = 0; k < suspects->count; ++k) {
         const hci_suspect *x = &suspects->suspect[k];
-        for (size_t j = 0; x->in && x->room == room && j < x->count; ++j) {
+        for (size_t j = 0; x->in && x->type == type && j < x->count; ++j) {
             const char *between = used == 0 ? "" : "; ";
             if (used + LONGEST_TERM > size) {
                 snprintf(text + used, size - used, "; …");
                 return;
             }
             used += (size_t)snprintf(text + used, size - used, "%s", between);
-            used += describe_term(room, &x->term[j], text + used, size - used);
+            used += describe_term(type, &x->term[j], text + used, size - used);
         }
     }
 }
@@ -46,16 +46,16 @@ static void describe(const hci_suspects *suspects, const hci_effect_room *room, 
 
 static hci_finding finding_of(const hci_attribution *a, const hci_verdict *v, double whole_Nm2)
 {
-    hci_finding f = {v->room->name, HCI_FINDING_REJECTED, v->gain, NAN, ""};
+    hci_finding f = {v->type->name, HCI_FINDING_REJECTED, v->gain, NAN, ""};
     if (v->ambiguous)
         f.verdict = HCI_FINDING_AMBIGUOUS;
     else if (v->in)
         f.verdict = HCI_FINDING_ADDED;
     if (v->in && whole_Nm2 > 0.0) f.residual_share = fmin(1.0, v->explained_Nm * v->explained_Nm / whole_Nm2);
-    if (v->in) describe(&a->account.suspects, v->room, f.detail, sizeof f.detail);
+    if (v->in) describe(&a->account.suspects, v->type, f.detail, sizeof f.detail);
     if (!v->in && v->ambiguous) {
         const int n = snprintf(f.detail, sizeof f.detail, "in place of %s: ", v->rival_of->name);
-        describe(&v->alternative.suspects, v->room, f.detail + n, sizeof f.detail - (size_t)n);
+        describe(&v->alternative.suspects, v->type, f.detail + n, sizeof f.detail - (size_t)n);
         if (!v->alternative.suspects.suspect)
             snprintf(f.detail, sizeof f.detail, "looks the same as a part of %s in all these runs",
                      v->rival_of->name);
@@ -85,11 +85,11 @@ static void unknown_put(const hci_attribution *a, double whole_Nm2, hci_diagnosi
 {
     hci_finding *f = &d->finding[0];
     size_t at = 0;
-    while (at < d->findings && strcmp(d->finding[at].effect, hci_unknown_room.name) != 0)
+    while (at < d->findings && strcmp(d->finding[at].effect, hci_unknown_type.name) != 0)
         ++at;
     assert(at < d->findings);
     memmove(f + 1, f, at * sizeof *f);
-    *f = (hci_finding){hci_unknown_room.name, HCI_FINDING_ADDED, NAN, NAN, ""};
+    *f = (hci_finding){hci_unknown_type.name, HCI_FINDING_ADDED, NAN, NAN, ""};
     if (whole_Nm2 > 0.0) f->residual_share = a->unexplained_Nm * a->unexplained_Nm / whole_Nm2;
     f->delta_bic = a->before.score - a->account.fit.score;
     snprintf(f->detail, sizeof f->detail, "rms %.3g N·m that grows as no known effect does",
@@ -110,7 +110,7 @@ static hci_diagnosis_verdict verdict_of(const hci_attribution *a, const hci_diag
 void hci_findings_fill(const hci_attribution *a, hci_diagnosis *d)
 {
     const double whole_Nm2 = d->rms_before_Nm * d->rms_before_Nm;
-    for (size_t r = 0; r < a->rooms; ++r) {
+    for (size_t r = 0; r < a->types; ++r) {
         const hci_finding f = finding_of(a, &a->verdict[r], whole_Nm2);
         finding_put(d, &f);
     }
@@ -137,7 +137,7 @@ void hci_unexplained_fill(const hci_bench *b, const hci_attribution *a, hci_diag
     d->wanders = a->unknown && a->wanders;
     for (size_t k = 0; k < a->account.suspects.count && a->unknown; ++k) {
         const hci_suspect *s = &a->account.suspects.suspect[k];
-        if (s->in && s->room == &hci_unknown_room && d->unexplained_count < HCI_MOST_UNEXPLAINED)
+        if (s->in && s->type == &hci_unknown_type && d->unexplained_count < HCI_MOST_UNEXPLAINED)
             d->unexplained[d->unexplained_count++] = unexplained_of(s, &most);
     }
 }

@@ -50,7 +50,7 @@ const hci_effect *hci_plot_clearest(const hci_diagnosis *d, const hci_finding *f
     double most = 0.0;
     for (size_t k = 0; k < d->effects.list.count && f->verdict != HCI_FINDING_REJECTED; ++k) {
         const hci_effect *e = &d->effects.list.effect[k];
-        if (strcmp(e->room->name, f->effect) != 0) continue;
+        if (strcmp(e->type->name, f->effect) != 0) continue;
         for (size_t j = 0; j < e->count; ++j) {
             const double clearness = fabs(e->term[j].value) / e->term[j].std_error;
             if (!(e->term[j].std_error > 0.0) || !(clearness > most)) continue;
@@ -221,7 +221,7 @@ void hci_plot_runs(hci_output *out, const hci_diagnosis *d)
 void hci_plot_term_name(char name[HCI_PLOT_NAME_SIZE], const hci_effect *effect, size_t term)
 {
     const hci_effect_term *t = &effect->term[term];
-    const hci_effect_parameter *p = &effect->room->parameter[t->parameter];
+    const hci_effect_parameter *p = &effect->type->parameter[t->parameter];
     char order[HCI_SVG_NUMBER_SIZE];
     hci_svg_short_text(order, t->order);
     snprintf(name, HCI_PLOT_NAME_SIZE, "%.40s%s%s", p->name, p->ordered ? "_" : "", p->ordered ? order : "");
@@ -250,7 +250,7 @@ void hci_plot_terms(hci_output *out, const char *id, const char *title, const hc
                     const size_t *term, size_t count)
 {
     const hci_svg_box b = box_of(RUNS.left, RUNS.right, count);
-    const char *unit = effect->room->parameter[effect->term[term[0]].parameter].unit;
+    const char *unit = effect->type->parameter[effect->term[term[0]].parameter].unit;
     hci_svg_range r = {0.0, 0.0};
     hci_svg_axis x;
     char foot[64];

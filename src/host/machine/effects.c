@@ -20,9 +20,9 @@ enum { MOST_NAMES = 20 };
 
 /* ---- reading ---- */
 
-/* One row of the file; `room` is a place in the registry. */
+/* One row of the file; `type` is a place in the registry. */
 typedef struct {
-    size_t room;
+    size_t type;
     hci_effect_term term;
     size_t row;
 } effect_row;
@@ -33,39 +33,39 @@ static void append(char list[LIST_SIZE], const char *before, const char *name, c
     snprintf(list + used, LIST_SIZE - used, "%s%s%s", before, name, after);
 }
 
-static hci_status room_error(const hci_csv *csv, size_t row, hci_note *note)
+static hci_status type_error(const hci_csv *csv, size_t row, hci_note *note)
 {
     char list[LIST_SIZE] = "one of";
-    const hci_effect_room *room;
-    for (size_t k = 0; (room = hci_effect_room_at(k)) != NULL; ++k)
-        append(list, k > 0 ? ", " : " ", room->name, "");
+    const hci_effect_type *type;
+    for (size_t k = 0; (type = hci_effect_type_at(k)) != NULL; ++k)
+        append(list, k > 0 ? ", " : " ", type->name, "");
     return hci_csv_error(csv, "effect", row, note, list, "correct the name or delete the row");
 }
 
-static hci_status parameter_error(const hci_csv *csv, size_t row, const hci_effect_room *room, hci_note *note)
+static hci_status parameter_error(const hci_csv *csv, size_t row, const hci_effect_type *type, hci_note *note)
 {
     char list[LIST_SIZE] = "one of";
-    const size_t count = room->parameter_count;
+    const size_t count = type->parameter_count;
     const size_t from = count > MOST_NAMES ? MOST_NAMES / 2 : count, to = count - MOST_NAMES / 2;
     for (size_t k = 0; k < count; ++k) {
         if (k == from) append(list, ", ", "…", "");
         if (k < from || k >= to)
-            append(list, k > 0 ? ", " : " ", room->parameter[k].name,
-                   room->parameter[k].ordered ? "_ORDER" : "");
+            append(list, k > 0 ? ", " : " ", type->parameter[k].name,
+                   type->parameter[k].ordered ? "_ORDER" : "");
     }
     return hci_csv_error(csv, "parameter", row, note, list,
                          "these are the parameters of this effect; an order is a number, as in sine_18");
 }
 
-static hci_status room_read(const hci_csv *csv, effect_row *r, hci_note *note)
+static hci_status type_read(const hci_csv *csv, effect_row *r, hci_note *note)
 {
-    const hci_effect_room *room;
+    const hci_effect_type *type;
     const char *name;
     const hci_status status = hci_csv_text(csv, "effect", r->row, &name, note);
     if (status) return status;
-    for (r->room = 0; (room = hci_effect_room_at(r->room)) != NULL; ++r->room)
-        if (strcmp(room->name, name) == 0) return HCI_OK;
-    return room_error(csv, r->row, note);
+    for (r->type = 0; (type = hci_effect_type_at(r->type)) != NULL; ++r->type)
+        if (strcmp(type->name, name) == 0) return HCI_OK;
+    return type_error(csv, r->row, note);
 }
 
 /* Is `name` the parameter, with its order where it has one? */
@@ -97,16 +97,16 @@ static hci_status order_check(const hci_csv *csv, const effect_row *r, const hci
 
 static hci_status parameter_read(const hci_csv *csv, effect_row *r, hci_note *note)
 {
-    const hci_effect_room *room = hci_effect_room_at(r->room);
+    const hci_effect_type *type = hci_effect_type_at(r->type);
     const char *name;
     const hci_status status = hci_csv_text(csv, "parameter", r->row, &name, note);
     if (status) return status;
-    for (size_t k = 0; k < room->parameter_count; ++k) {
-        if (!is_parameter(&room->parameter[k], name, &r->term.order)) continue;
+    for (size_t k = 0; k < type->parameter_count; ++k) {
+        if (!is_parameter(&type->parameter[k], name, &r->term.order)) continue;
         r->term.parameter = k;
-        return order_check(csv, r, &room->parameter[k], note);
+        return order_check(csv, r, &type->parameter[k], note);
     }
-    return parameter_error(csv, r->row, room, note);
+    return parameter_error(csv, r->row, type, note);
 }
 
 /* The factor to the parameter's unit, which may be one that files have nowhere else. */
@@ -142,7 +142,7 @@ static hci_status std_error_read(const hci_csv *csv, effect_row *r, hci_note *no
 
 static hci_status value_read(const hci_csv *csv, effect_row *r, hci_note *note)
 {
-    const hci_effect_parameter *parameter = &hci_effect_room_at(r->room)->parameter[r->term.parameter];
+    const hci_effect_parameter *parameter = &hci_effect_type_at(r->type)->parameter[r->term.parameter];
     double factor;
     char expected[64];
     hci_status status = hci_csv_number(csv, "value", r->row, &r->term.value, note);
@@ -158,11 +158,11 @@ static hci_status value_read(const hci_csv *csv, effect_row *r, hci_note *note)
     return hci_csv_error(csv, "value", r->row, note, expected, "check the value and its sign");
 }
 
-/* By room, parameter and order; what is the same stays as it stood. */
+/* By type, parameter and order; what is the same stays as it stood. */
 static int by_place(const void *a, const void *b)
 {
     const effect_row *x = a, *y = b;
-    if (x->room != y->room) return x->room < y->room ? -1 : 1;
+    if (x->type != y->type) return x->type < y->type ? -1 : 1;
     if (x->term.parameter != y->term.parameter) return x->term.parameter < y->term.parameter ? -1 : 1;
     if (x->term.order != y->term.order) return x->term.order < y->term.order ? -1 : 1;
     return x->row < y->row ? -1 : 1;
@@ -173,7 +173,7 @@ static hci_status rows_sort(const hci_csv *csv, effect_row *rows, size_t count, 
     if (count > 1) qsort(rows, count, sizeof *rows, by_place);
     for (size_t k = 1; k < count; ++k) {
         const effect_row *x = &rows[k - 1], *y = &rows[k];
-        if (x->room == y->room && x->term.parameter == y->term.parameter &&
+        if (x->type == y->type && x->term.parameter == y->term.parameter &&
             y->term.order - x->term.order <= HCI_ORDER_TOLERANCE)
             return hci_csv_error(csv, "parameter", x->row > y->row ? x->row : y->row, note,
                                  "each parameter of an effect once", "join the two rows into one");
@@ -186,7 +186,7 @@ static hci_status rows_read(const hci_csv *csv, effect_row *rows, size_t count, 
     hci_status status = HCI_OK;
     for (size_t k = 0; k < count && !status; ++k) {
         rows[k].row = k;
-        status = room_read(csv, &rows[k], note);
+        status = type_read(csv, &rows[k], note);
         if (!status) status = parameter_read(csv, &rows[k], note);
         if (!status) status = value_read(csv, &rows[k], note);
     }
@@ -199,8 +199,8 @@ static void group(const effect_row *rows, size_t count, hci_effects_data *effect
     size_t n = 0;
     for (size_t k = 0; k < count; ++k) {
         effects->term[k] = rows[k].term;
-        if (k == 0 || rows[k].room != rows[k - 1].room)
-            effects->effect[n++] = (hci_effect){hci_effect_room_at(rows[k].room), &effects->term[k], 0};
+        if (k == 0 || rows[k].type != rows[k - 1].type)
+            effects->effect[n++] = (hci_effect){hci_effect_type_at(rows[k].type), &effects->term[k], 0};
         ++effects->effect[n - 1].count;
     }
     effects->list = (hci_effects){effects->effect, n};
@@ -256,10 +256,10 @@ void hci_effects_release(hci_effects_data *effects)
 
 /* ---- writing ---- */
 
-static void term_write(hci_output *output, const hci_effect_room *room, const hci_effect_term *term)
+static void term_write(hci_output *output, const hci_effect_type *type, const hci_effect_term *term)
 {
-    const hci_effect_parameter *parameter = &room->parameter[term->parameter];
-    hci_output_text(output, "%s,%s", room->name, parameter->name);
+    const hci_effect_parameter *parameter = &type->parameter[term->parameter];
+    hci_output_text(output, "%s,%s", type->name, parameter->name);
     if (parameter->ordered) {
         char order[32];
         hci_number_text(term->order, order);
@@ -281,7 +281,7 @@ hci_status hci_effects_write(hci_output *output, const hci_effects *effects, hci
     hci_output_text(output, "effect,parameter,value,unit,std_error\n");
     for (size_t k = 0; k < effects->count; ++k)
         for (size_t j = 0; j < effects->effect[k].count; ++j)
-            term_write(output, effects->effect[k].room, &effects->effect[k].term[j]);
+            term_write(output, effects->effect[k].type, &effects->effect[k].term[j]);
     return HCI_OK;
 }
 
@@ -350,15 +350,15 @@ static hci_status delay_set(probe *p, bool wraps, hci_sensor *sensor, hci_note *
     return HCI_OK;
 }
 
-/* Every room's say on the sensors, in the order of the registry. */
-static void rooms_simulate(const hci_effects *effects, int pole_pairs, hci_sensor *sensors,
+/* Every type's say on the sensors, in the order of the registry. */
+static void types_simulate(const hci_effects *effects, int pole_pairs, hci_sensor *sensors,
                            hci_effect_channel *channels)
 {
-    const hci_effect_room *room;
-    for (size_t r = 0; (room = hci_effect_room_at(r)) != NULL; ++r)
-        for (size_t k = 0; k < effects->count && room->simulate; ++k)
-            if (effects->effect[k].room == room)
-                room->simulate(&effects->effect[k], pole_pairs, sensors, channels);
+    const hci_effect_type *type;
+    for (size_t r = 0; (type = hci_effect_type_at(r)) != NULL; ++r)
+        for (size_t k = 0; k < effects->count && type->simulate; ++k)
+            if (effects->effect[k].type == type)
+                type->simulate(&effects->effect[k], pole_pairs, sensors, channels);
 }
 
 static hci_status sensors_set(const hci_effects *effects, int pole_pairs, hci_effects_attachment *a,
@@ -367,7 +367,7 @@ static hci_status sensors_set(const hci_effects *effects, int pole_pairs, hci_ef
     hci_effect_channel channels[HCI_SENSE_COUNT];
     hci_status status = HCI_OK;
     memset(channels, 0, sizeof channels);
-    rooms_simulate(effects, pole_pairs, sensors, channels);
+    types_simulate(effects, pole_pairs, sensors, channels);
     for (int s = 0; s < HCI_SENSE_COUNT && !status; ++s) {
         probe *p = &a->probe[s];
         p->channel = channels[s];

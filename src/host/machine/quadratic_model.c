@@ -231,10 +231,10 @@ static hci_status sort_out(const hci_effects *effects, hci_corrected *c, hci_not
     if (!c->effect) return no_memory(note);
     for (size_t k = 0; k < effects->count; ++k) {
         const hci_effect *effect = &effects->effect[k];
-        if (!effect->room->in_machine)
+        if (!effect->type->in_machine)
             ++c->left_out;
         else
-            c->effect[effect->room->beyond_quadratic ? --beyond : within++] = *effect;
+            c->effect[effect->type->beyond_quadratic ? --beyond : within++] = *effect;
     }
     c->within_list = (hci_effects){c->effect, within};
     c->beyond_list = (hci_effects){c->effect + beyond, effects->count - beyond};

@@ -71,7 +71,7 @@ hci_status hci_predict_readings(const hci_run *run, int pole_pairs, bool with_ch
 static const hci_effect *find_effect(const hci_effects *effects, const char *name)
 {
     for (size_t k = 0; k < effects->count; ++k)
-        if (strcmp(effects->effect[k].room->name, name) == 0) return &effects->effect[k];
+        if (strcmp(effects->effect[k].type->name, name) == 0) return &effects->effect[k];
     return NULL;
 }
 

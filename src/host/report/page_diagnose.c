@@ -69,16 +69,16 @@ static void say_advice(hci_output *out, const hci_diagnosis *d)
 
 static const char *unit_of(const hci_effect *e, size_t term)
 {
-    return e->room->parameter[e->term[term].parameter].unit;
+    return e->type->parameter[e->term[term].parameter].unit;
 }
 
 /* For an effect that is in the game, how it shows itself; parameters have a table of their own. */
 static void cell_of_finding(hci_output *out, const hci_finding *f)
 {
-    const hci_effect_room *room = hci_effect_room_find(f->effect);
+    const hci_effect_type *type = hci_effect_type_find(f->effect);
     char text[HCI_DETAIL_SIZE + 16];
     const bool rival = strncmp(f->detail, "in place of", 11) == 0;
-    snprintf(text, sizeof text, "%s", room && !rival ? room->signature : f->detail);
+    snprintf(text, sizeof text, "%s", type && !rival ? type->signature : f->detail);
     hci_html_cell_words(out, f->verdict == HCI_FINDING_REJECTED ? "" : text);
 }
 
@@ -249,8 +249,8 @@ static hci_status orders_make(const hci_diagnosis *d, const hci_runs *runs, orde
     hci_residual_line *line = hci_memory_new(d->lines + 1, sizeof *line);
     o->order = hci_memory_new(d->lines + 1, sizeof *o->order);
     o->of_run_Nm = hci_memory_new(runs->count + 1, sizeof *o->of_run_Nm);
-    const bool has_room = line && o->order && o->of_run_Nm;
-    if (has_room) {
+    const bool is_allocated = line && o->order && o->of_run_Nm;
+    if (is_allocated) {
         if (d->lines > 0) memcpy(line, d->line, d->lines * sizeof *line);
         qsort(line, d->lines, sizeof *line, by_order);
         for (size_t k = 0; k < d->lines; ++k) {
@@ -260,7 +260,7 @@ static hci_status orders_make(const hci_diagnosis *d, const hci_runs *runs, orde
         }
     }
     hci_memory_free(line);
-    return has_room ? HCI_OK : hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the report");
+    return is_allocated ? HCI_OK : hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the report");
 }
 
 static double order_weight(const void *context, size_t k)
@@ -431,7 +431,7 @@ static void table_of_terms(hci_output *out, const char *caption, const hci_effec
         hci_html_cell(out, name);
         hci_html_number(out, t->value);
         hci_html_number(out, t->std_error);
-        hci_html_cell_words(out, e->room->parameter[t->parameter].meaning);
+        hci_html_cell_words(out, e->type->parameter[t->parameter].meaning);
         hci_html_row_end(out);
     }
     hci_html_table_end(out);
@@ -443,7 +443,7 @@ static void show_group(hci_output *out, const hci_diagnosis *d, const term_group
 {
     size_t term[MOST_TERMS], all = 0, with_error = 0;
     const size_t count = hci_plot_largest(term_weight, g, g->effect->count, MOST_TERMS, term);
-    const char *name = g->effect->room->name;
+    const char *name = g->effect->type->name;
     char caption[200], id[32];
     for (size_t k = 0; k < g->effect->count; ++k)
         all += term_weight(g, k) > 0.0;
@@ -456,7 +456,7 @@ static void show_group(hci_output *out, const hci_diagnosis *d, const term_group
         snprintf(id, sizeof id, "terms-%zu", ++*pictures);
         hci_plot_terms(out, id, caption, g->effect, term, count);
     } else {
-        hci_html_paragraph(out, NULL, g->effect->room->equation);
+        hci_html_paragraph(out, NULL, g->effect->type->equation);
     }
     hci_html_figure_tables(out);
     table_of_terms(out, caption, g->effect, term, count);

@@ -199,9 +199,9 @@ static void remark_left_out(const hci_effects *effects, hci_note *remark)
     char names[256] = "";
     for (size_t k = 0; k < effects->count; ++k) {
         const size_t used = strlen(names);
-        if (effects->effect[k].room->in_machine) continue;
+        if (effects->effect[k].type->in_machine) continue;
         snprintf(names + used, sizeof names - used, "%s%s", used > 0 ? ", " : "",
-                 effects->effect[k].room->name);
+                 effects->effect[k].type->name);
     }
     hci_note_set(
         remark, HCI_OK,

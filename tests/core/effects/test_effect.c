@@ -27,7 +27,7 @@ static void rotor(const hci_sample *x, double *d, double *q)
     }
 }
 
-/* ---- torque of each room on the machine ---- */
+/* ---- torque of each type on the machine ---- */
 
 typedef double formula(const hci_sample *x, double theta, double d, double q);
 
@@ -241,18 +241,18 @@ static void test_friction_brakes(void)
 
 /* ---- derivatives ---- */
 
-/* Every parameter of every room, with an order where it has one. */
+/* Every parameter of every type, with an order where it has one. */
 static void all_effects(el_list *l, uint64_t *seed)
 {
-    const hci_effect_room *room;
+    const hci_effect_type *type;
     memset(l, 0, sizeof *l);
-    for (size_t r = 0; (room = hci_effect_room_at(r)) != NULL; ++r) {
-        for (size_t k = 0; k < room->parameter_count; ++k) {
-            const hci_effect_parameter *p = &room->parameter[k];
+    for (size_t r = 0; (type = hci_effect_type_at(r)) != NULL; ++r) {
+        for (size_t k = 0; k < type->parameter_count; ++k) {
+            const hci_effect_parameter *p = &type->parameter[k];
             const double order = !p->ordered ? 0.0 : p->whole ? 2.0 : 4.0 / 3.0;
             const double size = p->standard > 1.0 ? 30.0 : strcmp(p->unit, "s") == 0 ? 1e-3 : 0.02;
             const double value = size * (1.0 + 0.5 * el_random(seed));
-            el_add(l, room->name, p->name, order, p->least > 1e-9 ? 4.0 : value);
+            el_add(l, type->name, p->name, order, p->least > 1e-9 ? 4.0 : value);
         }
     }
 }
@@ -319,7 +319,7 @@ static void test_derivatives_by_current_and_angle(void)
     }
 }
 
-/* All parameters of all rooms at once, so that their products and the chain of sensors count. */
+/* All parameters of all types at once, so that their products and the chain of sensors count. */
 static void test_derivatives_by_every_parameter(void)
 {
     uint64_t seed = 5;
@@ -333,7 +333,7 @@ static void test_derivatives_by_every_parameter(void)
         TEST_ASSERT_EQUAL_DOUBLE(torque, hci_effects_predict(&m.machine, &l.list, &x, NULL));
         for (size_t k = 0; k < l.list.count; ++k) {
             for (size_t t = 0; t < l.effect[k].count; ++t) {
-                const hci_effect_parameter *p = &l.effect[k].room->parameter[l.term[k][t].parameter];
+                const hci_effect_parameter *p = &l.effect[k].type->parameter[l.term[k][t].parameter];
                 const double h = strcmp(p->unit, "s") == 0 ? 1e-6 : 1e-4;
                 variation v = {&l.list, x, &l.term[k][t].value, &x};
                 const double found = difference(prediction_at, &v, h);
@@ -346,8 +346,8 @@ static void test_derivatives_by_every_parameter(void)
     }
 }
 
-/* A regressor times its value is the torque, for those that are linear: the sum over a room is its torque. */
-static void test_regressors_of_linear_rooms(void)
+/* A regressor times its value is the torque, for those that are linear: the sum over a type is its torque. */
+static void test_regressors_of_linear_types(void)
 {
     uint64_t seed = 6;
     for (size_t k = 0; k < MACHINE_CASES; ++k) {
@@ -602,18 +602,18 @@ static void test_registry(void)
                                         "torque_sensor",   "mechanical_order"};
     const size_t count = sizeof NAMES / sizeof *NAMES;
     for (size_t k = 0; k < count; ++k) {
-        const hci_effect_room *room = hci_effect_room_find(NAMES[k]);
-        TEST_ASSERT_NOT_NULL_MESSAGE(room, NAMES[k]);
-        TEST_ASSERT_EQUAL_STRING(NAMES[k], room->name);
-        TEST_ASSERT_TRUE(room->equation && room->signature && room->parameter_count > 0);
-        TEST_ASSERT_TRUE(room->torque || room->torque_of_all || room->undo);
-        TEST_ASSERT_TRUE(!room->sense == !room->undo && !room->undo == !room->undo_adjoint);
+        const hci_effect_type *type = hci_effect_type_find(NAMES[k]);
+        TEST_ASSERT_NOT_NULL_MESSAGE(type, NAMES[k]);
+        TEST_ASSERT_EQUAL_STRING(NAMES[k], type->name);
+        TEST_ASSERT_TRUE(type->equation && type->signature && type->parameter_count > 0);
+        TEST_ASSERT_TRUE(type->torque || type->torque_of_all || type->undo);
+        TEST_ASSERT_TRUE(!type->sense == !type->undo && !type->undo == !type->undo_adjoint);
     }
-    TEST_ASSERT_NOT_NULL(hci_effect_room_at(count - 1));
-    TEST_ASSERT_NULL(hci_effect_room_at(count));
-    TEST_ASSERT_NULL(hci_effect_room_find("coggin"));
-    TEST_ASSERT_NULL(hci_effect_room_find("coggings"));
-    TEST_ASSERT_NULL(hci_effect_room_find("unknown"));
+    TEST_ASSERT_NOT_NULL(hci_effect_type_at(count - 1));
+    TEST_ASSERT_NULL(hci_effect_type_at(count));
+    TEST_ASSERT_NULL(hci_effect_type_find("coggin"));
+    TEST_ASSERT_NULL(hci_effect_type_find("coggings"));
+    TEST_ASSERT_NULL(hci_effect_type_find("unknown"));
 }
 
 static void test_no_effects(void)
@@ -635,7 +635,7 @@ int main(void)
     RUN_TEST(test_friction_brakes);
     RUN_TEST(test_derivatives_by_current_and_angle);
     RUN_TEST(test_derivatives_by_every_parameter);
-    RUN_TEST(test_regressors_of_linear_rooms);
+    RUN_TEST(test_regressors_of_linear_types);
     RUN_TEST(test_readings_of_a_true_state);
     RUN_TEST(test_readings_and_back);
     RUN_TEST(test_delay_of_a_harmonic);

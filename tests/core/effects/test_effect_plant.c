@@ -19,9 +19,9 @@ typedef struct {
     const char *effect, *parameter;
     double order, value;
     int degree; /* of the co-energy in the current: W_field = (degree − 1) W' */
-} room_case;
+} type_case;
 
-static const room_case ROOMS[] = {
+static const type_case TYPES[] = {
     {"cogging", "cosine", 18.0, 0.3, 0},
     {"cogging", "sine", 1.0 / 3.0, 0.3, 0},
     {"mechanical_order", "sine", 1.0 / 3.0, 0.3, 0},
@@ -40,9 +40,9 @@ static const room_case ROOMS[] = {
     {"saturation", "d2q2_sine", 6.0, 2e-5, 4},
 };
 
-enum { ROOM_CASES = sizeof ROOMS / sizeof *ROOMS };
+enum { TYPE_CASES = sizeof TYPES / sizeof *TYPES };
 
-static void list_of(const room_case *c, el_list *l)
+static void list_of(const type_case *c, el_list *l)
 {
     memset(l, 0, sizeof *l);
     el_add(l, c->effect, c->parameter, c->order, c->value);
@@ -95,14 +95,14 @@ static double loop_energy(const hci_effects *effects, int turns, double *work)
 
 static void test_no_net_work_over_a_closed_cycle(void)
 {
-    for (size_t k = 0; k < ROOM_CASES; ++k) {
+    for (size_t k = 0; k < TYPE_CASES; ++k) {
         el_list l;
-        list_of(&ROOMS[k], &l);
+        list_of(&TYPES[k], &l);
         for (int turns = 0; turns < 2; ++turns) {
             double work;
             const double energy = loop_energy(&l.list, turns, &work);
-            TEST_ASSERT_TRUE_MESSAGE(work > 1e-5, ROOMS[k].parameter);
-            TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1e-12 * work, 0.0, energy, ROOMS[k].parameter);
+            TEST_ASSERT_TRUE_MESSAGE(work > 1e-5, TYPES[k].parameter);
+            TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1e-12 * work, 0.0, energy, TYPES[k].parameter);
         }
     }
 }
@@ -111,10 +111,10 @@ static void test_no_net_work_over_a_closed_cycle(void)
 static void test_no_net_torque_at_constant_phase_current(void)
 {
     enum { N = 720 };
-    for (size_t k = 0; k < ROOM_CASES; ++k) {
+    for (size_t k = 0; k < TYPE_CASES; ++k) {
         el_list l;
         double sum = 0.0, size = 0.0;
-        list_of(&ROOMS[k], &l);
+        list_of(&TYPES[k], &l);
         for (int j = 0; j < N; ++j) {
             hci_plant_state y = {{3.0, -2.0}, 0.0, 2.0 * EL_PI * j / N, 0.0};
             const hci_plant_point p = point_of(&l.list, &y);
@@ -122,16 +122,16 @@ static void test_no_net_torque_at_constant_phase_current(void)
             size += fabs(hci_point_torque_Nm(&p.magnetic, y.i));
         }
         TEST_ASSERT_TRUE(size > 0.0);
-        TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1e-12 * size, 0.0, sum, ROOMS[k].parameter);
+        TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1e-12 * size, 0.0, sum, TYPES[k].parameter);
     }
 }
 
 /* The point's torque is the effect's, and its motional voltage ∂T/∂i. */
 static void test_point_has_the_torque(void)
 {
-    for (size_t k = 0; k < ROOM_CASES; ++k) {
+    for (size_t k = 0; k < TYPE_CASES; ++k) {
         el_list l;
-        list_of(&ROOMS[k], &l);
+        list_of(&TYPES[k], &l);
         hci_plant_state y = {{3.0, -2.0}, 0.0, 0.7, 0.0};
         hci_sample x = {0};
         x.theta_m_rad = 0.7;
@@ -171,7 +171,7 @@ typedef struct {
     hci_plant plant;
 } running;
 
-static void start(running *r, const room_case *c)
+static void start(running *r, const type_case *c)
 {
     memset(r, 0, sizeof *r);
     pm_list(&PM_SINE, &r->lists);
@@ -202,7 +202,7 @@ static double power(const running *r, const hci_plant_state *y, const double v[2
 
 /* Field energy: ½ L i² of the machine (20 mH at all angles) and (degree − 1) W' of the effect, by Euler's
  * theorem; ∂²W'/∂i² gives i·L_x i = degree (degree − 1) W'. */
-static double field(const running *r, const room_case *c, const hci_plant_state *y)
+static double field(const running *r, const type_case *c, const hci_plant_state *y)
 {
     const hci_plant_point p = point_of(&r->effects.list, y);
     const double *l = p.inductance_H, *i = y->i;
@@ -211,7 +211,7 @@ static double field(const running *r, const room_case *c, const hci_plant_state 
 }
 
 /* The field energy of a torque without current is −W' = −∫T dθ_m. */
-static double magnet(const room_case *c, double theta_m)
+static double magnet(const type_case *c, double theta_m)
 {
     const double k = c->order * 3.0;
     if (c->degree > 0) return 0.0;
@@ -220,7 +220,7 @@ static double magnet(const room_case *c, double theta_m)
 
 /* Energy that is missing after 20 ms, with Simpson's rule over pairs of steps. The voltage is held over each
  * pair. */
-static double missing_energy(running *r, const room_case *c, double dt, double *turned_over)
+static double missing_energy(running *r, const type_case *c, double dt, double *turned_over)
 {
     hci_plant_state y = {{0.0, 0.0}, 60.0, 0.1, 0.0};
     double sum = 0.0;
@@ -241,16 +241,16 @@ static double missing_energy(running *r, const room_case *c, double dt, double *
 static void test_power_balance_of_the_running_plant(void)
 {
     static running r;
-    for (size_t k = 0; k < ROOM_CASES; ++k) {
+    for (size_t k = 0; k < TYPE_CASES; ++k) {
         double turned_over;
-        start(&r, &ROOMS[k]);
-        const double coarse = fabs(missing_energy(&r, &ROOMS[k], 5e-5, &turned_over));
-        const double fine = fabs(missing_energy(&r, &ROOMS[k], 2.5e-5, &turned_over));
+        start(&r, &TYPES[k]);
+        const double coarse = fabs(missing_energy(&r, &TYPES[k], 5e-5, &turned_over));
+        const double fine = fabs(missing_energy(&r, &TYPES[k], 2.5e-5, &turned_over));
         TEST_ASSERT_TRUE(turned_over > 0.1);
         /* Table: interpolation of a sine with 4096 points, (2π/4096)⁴/384 ≈ 1e-14. Steps: fourth order,
          * orders up to 18·3·60 rad/s: (0.16)⁴ /100. */
-        TEST_ASSERT_TRUE_MESSAGE(fine < 1e-6 * turned_over, ROOMS[k].parameter);
-        TEST_ASSERT_TRUE_MESSAGE(fine < coarse / 10.0 || fine < 1e-11 * turned_over, ROOMS[k].parameter);
+        TEST_ASSERT_TRUE_MESSAGE(fine < 1e-6 * turned_over, TYPES[k].parameter);
+        TEST_ASSERT_TRUE_MESSAGE(fine < coarse / 10.0 || fine < 1e-11 * turned_over, TYPES[k].parameter);
     }
 }
 

@@ -206,15 +206,15 @@ static void test_sign_of_friction(void)
     }
 }
 
-/* Every room is in the table. */
-static void test_every_room_has_a_signature(void)
+/* Every type is in the table. */
+static void test_every_effect_has_a_signature(void)
 {
-    const hci_effect_room *room;
-    for (size_t k = 0; (room = hci_effect_room_at(k)) != NULL; ++k) {
+    const hci_effect_type *type;
+    for (size_t k = 0; (type = hci_effect_type_at(k)) != NULL; ++k) {
         bool found = false;
         for (size_t j = 0; j < sizeof TABLE / sizeof *TABLE; ++j)
-            found = found || strcmp(TABLE[j].effect, room->name) == 0;
-        TEST_ASSERT_TRUE_MESSAGE(found, room->name);
+            found = found || strcmp(TABLE[j].effect, type->name) == 0;
+        TEST_ASSERT_TRUE_MESSAGE(found, type->name);
     }
 }
 
@@ -225,6 +225,6 @@ int main(void)
     RUN_TEST(test_growth_with_current);
     RUN_TEST(test_growth_with_speed);
     RUN_TEST(test_sign_of_friction);
-    RUN_TEST(test_every_room_has_a_signature);
+    RUN_TEST(test_every_effect_has_a_signature);
     return UNITY_END();
 }

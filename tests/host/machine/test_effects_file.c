@@ -129,13 +129,13 @@ static void test_values_units_and_order_of_rows(void)
                               note.text);
     const hci_effect *e = effects.list.effect;
     TEST_ASSERT_EQUAL_UINT64(3, effects.list.count);
-    TEST_ASSERT_EQUAL_STRING("cogging", e[0].room->name);
+    TEST_ASSERT_EQUAL_STRING("cogging", e[0].type->name);
     TEST_ASSERT_EQUAL_UINT64(2, e[0].count);
     TEST_ASSERT_EQUAL_DOUBLE(6.0, e[0].term[0].order);
     TEST_ASSERT_EQUAL_DOUBLE(3.0, e[0].term[0].value);
     TEST_ASSERT_EQUAL_DOUBLE(12.5e-3, e[0].term[1].value);
     TEST_ASSERT_TRUE(isnan(e[0].term[1].std_error));
-    TEST_ASSERT_EQUAL_STRING("position_offset", e[1].room->name);
+    TEST_ASSERT_EQUAL_STRING("position_offset", e[1].type->name);
     TEST_ASSERT_DOUBLE_WITHIN(1e-15, EL_PI / 2.0, e[1].term[0].value);
     TEST_ASSERT_DOUBLE_WITHIN(1e-15, EL_PI / 180.0, e[1].term[0].std_error);
     TEST_ASSERT_EQUAL_DOUBLE(-0.1, e[2].term[0].value);
@@ -267,13 +267,13 @@ static bool page_has(const char *words)
 
 static void test_the_page_names_every_effect_and_parameter(void)
 {
-    const hci_effect_room *room;
-    for (size_t r = 0; (room = hci_effect_room_at(r)) != NULL; ++r) {
+    const hci_effect_type *type;
+    for (size_t r = 0; (type = hci_effect_type_at(r)) != NULL; ++r) {
         char words[64];
-        snprintf(words, sizeof words, "### %s\n", room->name);
+        snprintf(words, sizeof words, "### %s\n", type->name);
         TEST_ASSERT_TRUE_MESSAGE(page_has(words), words);
-        for (size_t k = 0; k < room->parameter_count; ++k) {
-            const hci_effect_parameter *p = &room->parameter[k];
+        for (size_t k = 0; k < type->parameter_count; ++k) {
+            const hci_effect_parameter *p = &type->parameter[k];
             const bool saturation = p->name[0] == 'd' && p->name[2] == 'q' && p->ordered;
             snprintf(words, sizeof words, p->ordered ? saturation ? "`%.4s`" : "`%s_" : "`%s`", p->name);
             TEST_ASSERT_TRUE_MESSAGE(page_has(words), words);

@@ -57,8 +57,8 @@ static void make_runs(void)
 
 static void make_terms(void)
 {
-    const hci_effect_room *room = hci_effect_room_find("cogging");
-    effect = (hci_effect){.room = room, .term = term, .count = TERMS};
+    const hci_effect_type *type = hci_effect_type_find("cogging");
+    effect = (hci_effect){.type = type, .term = term, .count = TERMS};
     for (size_t k = 0; k < TERMS; ++k)
         term[k] = (hci_effect_term){.parameter = k % 2,
                                     .order = (double)(k / 2 + 1),

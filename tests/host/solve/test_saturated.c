@@ -214,7 +214,7 @@ static double distance_A(const hci_solution *x, const hci_solution *y)
     return sqrt(sum);
 }
 
-/* ---- the room ---- */
+/* ---- the type ---- */
 
 /* Every monomial of degree 3 to 8, its torque and what is derived from it against differences of the
  * co-energy. */

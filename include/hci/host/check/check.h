@@ -11,7 +11,7 @@
 extern "C" {
 #endif
 
-/* How much there is room for. */
+/* Capacities. */
 enum {
     HCI_CHECK_MOST_RUNS = 64,        /* recordings */
     HCI_CHECK_MOST_FINDINGS = 12,    /* slips */

@@ -72,7 +72,7 @@ typedef struct {
     double amplitude_Nm;                     /* at the largest current and speed of the recordings */
 } hci_unexplained;
 
-/* Room for effects, and for orders that none explains. */
+/* Capacities: of effects, and of orders that none explains. */
 enum { HCI_MOST_FINDINGS = 20, HCI_MOST_UNEXPLAINED = 8 };
 
 /* What the recordings say of the model as a whole. */

@@ -8,7 +8,7 @@ enum { HCI_SUSPECT_TERMS = 4 };
 
 /* Terms of one effect that come and go together. */
 typedef struct {
-    const hci_effect_room *room;
+    const hci_effect_type *type;
     hci_effect_term term[HCI_SUSPECT_TERMS]; /* value: where to start from */
     size_t count;
     double price;     /* of having chosen it among its like, in units of χ² */
@@ -42,10 +42,10 @@ hci_status hci_suspects_make(const hci_suspects_source *source, const hci_suspec
                              hci_suspects *suspects, hci_note *note);
 void hci_suspects_release(hci_suspects *suspects);
 
-/* The rooms of suspects: those of the registry, and behind them the one for what is not known; NULL from
- * there on. */
-const hci_effect_room *hci_suspect_room(size_t k);
-size_t hci_suspect_rooms(void); /* how many */
+/* The effect types of suspects: those of the registry, and behind them the one for what is not known; NULL
+ * from there on. */
+const hci_effect_type *hci_suspect_type(size_t k);
+size_t hci_suspect_types(void); /* how many */
 
 /* HCI_ERROR_MEMORY, and then `to` is empty. */
 hci_status hci_suspects_copy(const hci_suspects *from, hci_suspects *to, hci_note *note);
@@ -56,12 +56,12 @@ hci_status hci_suspects_add(hci_suspects *suspects, const hci_suspect *suspect, 
 /* Whether two are the same terms. */
 bool hci_suspect_same(const hci_suspect *a, const hci_suspect *b);
 
-/* Whether a room is in, how many are, and how many terms. */
-bool hci_suspects_have(const hci_suspects *suspects, const hci_effect_room *room);
-size_t hci_suspects_rooms_in(const hci_suspects *suspects);
+/* Whether a type is in, how many are, and how many terms. */
+bool hci_suspects_have(const hci_suspects *suspects, const hci_effect_type *type);
+size_t hci_suspects_types_in(const hci_suspects *suspects);
 size_t hci_suspects_terms_in(const hci_suspects *suspects);
 
-/* Takes a room out of the model; its suspects stay in the list. */
-void hci_suspects_leave(hci_suspects *suspects, const hci_effect_room *room);
+/* Takes a type out of the model; its suspects stay in the list. */
+void hci_suspects_leave(hci_suspects *suspects, const hci_effect_type *type);
 
 #endif

@@ -52,7 +52,7 @@ static double torque(const hci_effect *effect, const hci_effect_term *term, cons
 
 static const hci_effect_parameter PARAMETER[2 * HCI_GROWTHS] = {WAVES_64, WAVES_64};
 
-const hci_effect_room hci_unknown_room = {
+const hci_effect_type hci_unknown_type = {
     .name = "unknown",
     .equation = "T = (S sin nθ + C cos nθ) |i|^a |ω|^b (sign ω)^c",
     .signature = "grows in a way that no known effect does",

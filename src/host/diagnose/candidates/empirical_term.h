@@ -17,7 +17,7 @@ typedef struct {
 
 enum { HCI_GROWTHS = 64 };
 
-extern const hci_effect_room hci_unknown_room; /* parameter 2g is the sine, 2g + 1 the cosine of growth g */
+extern const hci_effect_type hci_unknown_type; /* parameter 2g is the sine, 2g + 1 the cosine of growth g */
 
 hci_growth hci_growth_of(size_t g);
 

@@ -39,49 +39,49 @@ enum {
 
 /* ---- a list that grows ---- */
 
-static size_t parameter_of(const hci_effect_room *room, const char *name)
+static size_t parameter_of(const hci_effect_type *type, const char *name)
 {
     size_t k = 0;
-    while (k < room->parameter_count && strcmp(room->parameter[k].name, name) != 0)
+    while (k < type->parameter_count && strcmp(type->parameter[k].name, name) != 0)
         ++k;
     return k;
 }
 
 typedef struct {
     hci_suspects *list;
-    size_t room;
+    size_t capacity;
     bool failed;
 } builder;
 
 static bool reserve(builder *b)
 {
-    if (b->list->count < b->room) return true;
-    const size_t wanted = 2 * b->room + 64;
+    if (b->list->count < b->capacity) return true;
+    const size_t wanted = 2 * b->capacity + 64;
     hci_suspect *grown = hci_memory_resize(b->list->suspect, wanted, sizeof *grown);
     if (!grown) return false;
     b->list->suspect = grown;
-    b->room = wanted;
+    b->capacity = wanted;
     return true;
 }
 
-/* Terms of one room with these parameters that come in together. */
-static void add(builder *b, const hci_effect_room *room, const char *const *names, size_t count, double order,
+/* Terms of one type with these parameters that come in together. */
+static void add(builder *b, const hci_effect_type *type, const char *const *names, size_t count, double order,
                 double price)
 {
     b->failed = b->failed || !reserve(b);
     if (b->failed) return;
     hci_suspect *s = &b->list->suspect[b->list->count++];
     memset(s, 0, sizeof *s);
-    s->room = room;
+    s->type = type;
     s->count = count;
     s->price = price;
     for (size_t k = 0; k < count; ++k)
-        s->term[k] = (hci_effect_term){parameter_of(room, names[k]), order, 0.0, NAN};
+        s->term[k] = (hci_effect_term){parameter_of(type, names[k]), order, 0.0, NAN};
 }
 
 static void add_one(builder *b, const char *effect, const char *name, double order, double price)
 {
-    add(b, hci_effect_room_find(effect), &name, 1, order, price);
+    add(b, hci_effect_type_find(effect), &name, 1, order, price);
 }
 
 static double price_of(double choices)
@@ -96,15 +96,15 @@ static const char *const IQ_PAIR[] = {"iq_sine", "iq_cosine"};
 
 static void add_lines(builder *b, const hci_line_spectrum *lines, int pole_pairs, bool slots)
 {
-    const hci_effect_room *room = hci_effect_room_find(slots ? "cogging" : "mechanical_order");
+    const hci_effect_type *type = hci_effect_type_find(slots ? "cogging" : "mechanical_order");
     const double price = price_of((double)lines->count);
     double under = INFINITY;
     for (int n = 0; n < (slots ? MOST_COGGING : MOST_MECHANICAL); ++n) {
         const size_t periods = hci_line_spectrum_next(lines, (size_t)pole_pairs, slots, &under);
         const double order = (double)periods / (double)pole_pairs;
         if (periods == 0) break;
-        add(b, room, PAIR, 2, order, price);
-        if (!slots) add(b, room, IQ_PAIR, 2, order, price);
+        add(b, type, PAIR, 2, order, price);
+        if (!slots) add(b, type, IQ_PAIR, 2, order, price);
     }
 }
 
@@ -120,16 +120,16 @@ static void add_back_emf(builder *b, const hci_machine *machine)
 {
     static const char *const POSITIVE[] = {"pos_sine", "pos_cosine"};
     static const char *const NEGATIVE[] = {"neg_sine", "neg_cosine"};
-    const hci_effect_room *room = hci_effect_room_find("back_emf");
+    const hci_effect_type *type = hci_effect_type_find("back_emf");
     const int step = has_even_emf(machine) ? 1 : 2;
     add_one(b, "back_emf", "sine", 1.0, price_of(2.0));
     add_one(b, "back_emf", "cosine", 1.0, price_of(2.0));
     for (int n = 1 + step; n <= MOST_EMF_ORDER; n += step)
-        add(b, room, PAIR, 2, n, price_of(n % 6 == 1 || n % 6 == 5 ? USUAL_EMF : UNUSUAL_EMF));
+        add(b, type, PAIR, 2, n, price_of(n % 6 == 1 || n % 6 == 5 ? USUAL_EMF : UNUSUAL_EMF));
     for (int n = 1; n <= MOST_SEQUENCE_ORDER; n += step) {
         const int sequence = hci_sequence_of_order(n);
-        if (sequence != 1) add(b, room, POSITIVE, 2, n, price_of(UNUSUAL_EMF));
-        if (sequence != -1) add(b, room, NEGATIVE, 2, n, price_of(UNUSUAL_EMF));
+        if (sequence != 1) add(b, type, POSITIVE, 2, n, price_of(UNUSUAL_EMF));
+        if (sequence != -1) add(b, type, NEGATIVE, 2, n, price_of(UNUSUAL_EMF));
     }
 }
 
@@ -139,7 +139,7 @@ static void add_unknown(builder *b, const hci_suspects_source *s, const hci_line
     for (size_t n = 0; n < UNKNOWN_LINES; ++n) {
         taken[n] = hci_line_spectrum_unknown(lines, s->cells, taken, n, &growth);
         if (taken[n] == 0) return;
-        add(b, &hci_unknown_room, PAIR, 2, (double)(taken[n] * lines->stride) / s->machine->pole_pairs,
+        add(b, &hci_unknown_type, PAIR, 2, (double)(taken[n] * lines->stride) / s->machine->pole_pairs,
             price_of((double)lines->count * HCI_GROWTHS));
         if (b->failed) return;
         hci_suspect *x = &b->list->suspect[b->list->count - 1];
@@ -214,10 +214,10 @@ static void add_saturation(builder *b, int richness, const expectation *e)
 
 static void expect(builder *b, const char *effect, const char *parameter, double deviation)
 {
-    const hci_effect_room *room = hci_effect_room_find(effect);
+    const hci_effect_type *type = hci_effect_type_find(effect);
     for (size_t k = 0; k < b->list->count; ++k) {
         hci_suspect *s = &b->list->suspect[k];
-        if (s->room == room && (!parameter || s->term[0].parameter == parameter_of(room, parameter)))
+        if (s->type == type && (!parameter || s->term[0].parameter == parameter_of(type, parameter)))
             s->deviation = deviation;
     }
 }
@@ -243,12 +243,12 @@ static void add_bench(builder *b, bool timed, bool turns)
         add_one(b, "channel_delay", "angle", 0.0, price_of(2.0));
     }
     for (int n = 1; n <= 2 && turns; ++n)
-        add(b, hci_effect_room_find("position_eccentricity"), FIRST, 2, n, price_of(2.0));
+        add(b, hci_effect_type_find("position_eccentricity"), FIRST, 2, n, price_of(2.0));
     add_one(b, "position_offset", "angle", 0.0, 0.0);
     add_phases(b, "current_gain");
     add_phases(b, "current_offset");
     add_one(b, "torque_sensor", "offset", 0.0, 0.0);
-    if (timed) add(b, hci_effect_room_find("torque_sensor"), &lag, 1, 0.0, 0.0);
+    if (timed) add(b, hci_effect_type_find("torque_sensor"), &lag, 1, 0.0, 0.0);
 }
 
 /* How many different speeds the runs have, at most three. */
@@ -270,7 +270,7 @@ static size_t speeds_of(const hci_suspects_source *s)
 static void add_friction(builder *b, const hci_suspects_source *s)
 {
     static const char *const PARTS[] = {"coulomb", "viscous", "quadratic"};
-    add(b, hci_effect_room_find("friction"), PARTS, speeds_of(s), 0.0, 0.0);
+    add(b, hci_effect_type_find("friction"), PARTS, speeds_of(s), 0.0, 0.0);
 }
 
 /* What the recordings are like as a whole. */

@@ -21,7 +21,7 @@ typedef struct {
 
 static bool is_of(const hci_suspect *s, const char *name)
 {
-    return strcmp(s->room->name, name) == 0;
+    return strcmp(s->type->name, name) == 0;
 }
 
 /* ---- what a run can show ---- */
@@ -30,12 +30,12 @@ static bool is_of(const hci_suspect *s, const char *name)
  * rest friction has a sign and no more. */
 static bool needs_free_current(const hci_suspect *s, size_t term)
 {
-    static const char *const ROOMS[] = {"back_emf",   "phase_imbalance",    "reluctance",  "channel_delay",
+    static const char *const TYPES[] = {"back_emf",   "phase_imbalance",    "reluctance",  "channel_delay",
                                         "saturation", "magnet_temperature", "current_gain"};
-    for (size_t k = 0; k < sizeof ROOMS / sizeof *ROOMS; ++k)
-        if (is_of(s, ROOMS[k])) return true;
+    for (size_t k = 0; k < sizeof TYPES / sizeof *TYPES; ++k)
+        if (is_of(s, TYPES[k])) return true;
     if (is_of(s, "friction")) return s->term[term].parameter > 0;
-    return (is_of(s, "mechanical_order") && s->term[term].parameter >= 2) || s->room == &hci_unknown_room;
+    return (is_of(s, "mechanical_order") && s->term[term].parameter >= 2) || s->type == &hci_unknown_type;
 }
 
 /* Whether a run can show a term of an effect at all. */
@@ -79,8 +79,8 @@ static void torque_rows(const filling *f, const hci_stretch *s, const hci_observ
 /* The row of one cell: what the sum of the readings leaves, in units of its noise. */
 static void sum_row(const filling *f, const hci_cell *cell, double deviation_A, double *x, double *y)
 {
-    const hci_effect_room *offset = hci_effect_room_find("current_offset");
-    const hci_effect_room *gain = hci_effect_room_find("current_gain");
+    const hci_effect_type *offset = hci_effect_type_find("current_offset");
+    const hci_effect_type *gain = hci_effect_type_find("current_gain");
     const hci_model *m = f->model;
     const hci_sample truth = hci_effects_undo(&m->list, f->evidence->machine->pole_pairs, &cell->reading);
     const double weight = sqrt(cell->count) / deviation_A;
@@ -91,7 +91,7 @@ static void sum_row(const filling *f, const hci_cell *cell, double deviation_A, 
     for (size_t c = 0; c < m->columns; ++c) {
         const hci_suspect *s = m->column[c].suspect;
         const size_t phase = s->term[0].parameter;
-        x[c] = s->room == offset ? weight : s->room == gain ? weight * truth.i_abc[phase] : 0.0;
+        x[c] = s->type == offset ? weight : s->type == gain ? weight * truth.i_abc[phase] : 0.0;
     }
 }
 
@@ -142,11 +142,11 @@ static void stretch_add(const filling *f, const hci_stretch *s, hci_observation 
 /* ---- columns ---- */
 
 /* The largest square among the columns of one effect. */
-static double largest_of(const hci_model *m, const hci_normal *normal, const hci_effect_room *room)
+static double largest_of(const hci_model *m, const hci_normal *normal, const hci_effect_type *type)
 {
     double most = 0.0;
     for (size_t c = 0; c < m->columns; ++c)
-        if (m->column[c].suspect->room == room) most = fmax(most, normal->gram[c * normal->n + c]);
+        if (m->column[c].suspect->type == type) most = fmax(most, normal->gram[c * normal->n + c]);
     return most;
 }
 
@@ -156,7 +156,7 @@ static void rounding_drop(const hci_model *m, hci_normal *normal)
 {
     const size_t n = normal->n;
     for (size_t c = 0; c < n; ++c) {
-        if (normal->gram[c * n + c] > ROUNDING * largest_of(m, normal, m->column[c].suspect->room)) continue;
+        if (normal->gram[c * n + c] > ROUNDING * largest_of(m, normal, m->column[c].suspect->type)) continue;
         for (size_t i = 0; i < n; ++i)
             normal->gram[c * n + i] = normal->gram[i * n + c] = 0.0;
         normal->moment[c] = 0.0;

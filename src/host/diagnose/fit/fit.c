@@ -41,7 +41,7 @@ static size_t unknowns_of(hci_suspects *suspects, unknown *unknowns)
         hci_suspect *s = &suspects->suspect[k];
         for (size_t j = 0; s->in && j < s->count; ++j, ++count)
             if (unknowns)
-                unknowns[count] = (unknown){&s->term[j], s->room->parameter[s->term[j].parameter].least};
+                unknowns[count] = (unknown){&s->term[j], s->type->parameter[s->term[j].parameter].least};
     }
     return count;
 }

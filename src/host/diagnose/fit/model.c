@@ -10,17 +10,17 @@ static bool same_term(const hci_effect_term *a, const hci_effect_term *b)
     return a->parameter == b->parameter && fabs(a->order - b->order) < HCI_ORDER_TOLERANCE;
 }
 
-static const hci_effect *declared_of(const hci_effects *declared, const hci_effect_room *room)
+static const hci_effect *declared_of(const hci_effects *declared, const hci_effect_type *type)
 {
     for (size_t k = 0; k < declared->count; ++k)
-        if (declared->effect[k].room == room) return &declared->effect[k];
+        if (declared->effect[k].type == type) return &declared->effect[k];
     return NULL;
 }
 
-/* The terms of one room while they are collected: places first … end − 1 of the model's list. */
+/* The terms of one type while they are collected: places first … end − 1 of the model's list. */
 typedef struct {
     hci_model *model;
-    const hci_effect_room *room;
+    const hci_effect_type *type;
     const hci_effect *before; /* what is declared of it, or NULL */
     size_t first, end;
 } collection;
@@ -42,7 +42,7 @@ static bool suspects_put(collection *c)
     bool any = false;
     for (size_t k = 0; k < c->model->columns; ++k) {
         hci_model_column *column = &c->model->column[k];
-        if (column->suspect->room != c->room) continue;
+        if (column->suspect->type != c->type) continue;
         column->place = term_put(c, &column->suspect->term[column->term]);
         any = true;
     }
@@ -53,21 +53,21 @@ static bool suspects_put(collection *c)
 static void reference_put(collection *c, double reference_current_A)
 {
     size_t k = 0;
-    if (c->before || strcmp(c->room->name, "saturation") != 0) return;
-    while (strcmp(c->room->parameter[k].name, "reference_current") != 0)
+    if (c->before || strcmp(c->type->name, "saturation") != 0) return;
+    while (strcmp(c->type->parameter[k].name, "reference_current") != 0)
         ++k;
     c->model->term[c->end++] = (hci_effect_term){k, 0.0, reference_current_A, NAN};
 }
 
-/* Returns the end of the room's terms. */
-static size_t room_put(hci_model *m, const hci_effect_room *room, const hci_effects *declared,
+/* Returns the end of the type's terms. */
+static size_t type_put(hci_model *m, const hci_effect_type *type, const hci_effects *declared,
                        double reference_current_A, size_t first)
 {
-    collection c = {m, room, declared_of(declared, room), first, first};
+    collection c = {m, type, declared_of(declared, type), first, first};
     for (size_t k = 0; c.before && k < c.before->count; ++k)
         m->term[c.end++] = c.before->term[k];
     if (suspects_put(&c)) reference_put(&c, reference_current_A);
-    if (c.end > first) m->effect[m->list.count++] = (hci_effect){room, m->term + first, c.end - first};
+    if (c.end > first) m->effect[m->list.count++] = (hci_effect){type, m->term + first, c.end - first};
     return c.end;
 }
 
@@ -85,11 +85,11 @@ static size_t columns_of(const hci_suspects *suspects, bool all, hci_model_colum
 hci_status hci_model_make(const hci_effects *declared, const hci_suspects *suspects, bool all,
                           hci_model *model, hci_note *note)
 {
-    const size_t rooms = hci_suspect_rooms();
+    const size_t types = hci_suspect_types();
     size_t used = 0;
     memset(model, 0, sizeof *model);
     model->columns = columns_of(suspects, all, NULL);
-    model->effect = hci_memory_new(rooms, sizeof *model->effect);
+    model->effect = hci_memory_new(types, sizeof *model->effect);
     model->term = hci_memory_new(model->columns + hci_effects_terms(declared) + 1, sizeof *model->term);
     model->column = hci_memory_new(model->columns + 1, sizeof *model->column);
     if (!model->effect || !model->term || !model->column) {
@@ -97,8 +97,8 @@ hci_status hci_model_make(const hci_effects *declared, const hci_suspects *suspe
         return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for a model with effects");
     }
     columns_of(suspects, all, model->column);
-    for (size_t r = 0; r < rooms; ++r)
-        used = room_put(model, hci_suspect_room(r), declared, suspects->reference_current_A, used);
+    for (size_t r = 0; r < types; ++r)
+        used = type_put(model, hci_suspect_type(r), declared, suspects->reference_current_A, used);
     model->list.effect = model->effect;
     return HCI_OK;
 }

@@ -6,7 +6,7 @@
 
 static const char *name_of(const hci_effect *effect, size_t term)
 {
-    return effect->room->parameter[effect->term[term].parameter].name;
+    return effect->type->parameter[effect->term[term].parameter].name;
 }
 
 /* A lag or a resonance; a time constant of 0 is none. */
@@ -14,7 +14,7 @@ static bool has_dynamics(const hci_effects *effects)
 {
     for (size_t k = 0; k < effects->count; ++k) {
         const hci_effect *e = &effects->effect[k];
-        for (size_t j = 0; e->room->filter && j < e->count; ++j)
+        for (size_t j = 0; e->type->filter && j < e->count; ++j)
             if (strcmp(name_of(e, j), "offset") != 0 && e->term[j].value > 0.0) return true;
     }
     return false;
@@ -27,7 +27,7 @@ static size_t dormant_lag(const hci_effects *effects)
     for (size_t k = 0; k < effects->count; ++k) {
         const hci_effect *e = &effects->effect[k];
         for (size_t j = 0; j < e->count; ++j, ++place)
-            if (e->room->filter && strcmp(name_of(e, j), "time_constant") == 0 && !(e->term[j].value > 0.0))
+            if (e->type->filter && strcmp(name_of(e, j), "time_constant") == 0 && !(e->term[j].value > 0.0))
                 return place;
     }
     return place;

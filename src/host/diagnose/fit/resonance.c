@@ -56,9 +56,9 @@ static double sensor_square(const listening *l, const hci_effects *sensor)
 
 static double square_with(const listening *l, double frequency_Hz, double damping)
 {
-    const hci_effect_room *room = hci_effect_room_find("torque_sensor");
+    const hci_effect_type *type = hci_effect_type_find("torque_sensor");
     const hci_effect_term term[] = {{1, 0.0, frequency_Hz, NAN}, {2, 0.0, damping, NAN}};
-    const hci_effect effect = {room, term, 2};
+    const hci_effect effect = {type, term, 2};
     const hci_effects sensor = {&effect, 1};
     return sensor_square(l, &sensor);
 }

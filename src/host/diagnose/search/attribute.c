@@ -20,7 +20,7 @@ static hci_status round_run(hci_search *s, hci_account *account, bool *again, hc
 {
     hci_status status = HCI_OK;
     *again = false;
-    if (hci_suspects_rooms_in(&account->suspects) < MOST_EFFECTS)
+    if (hci_suspects_types_in(&account->suspects) < MOST_EFFECTS)
         status = hci_search_forward(s, account, again, note);
     if (!status && *again) status = hci_search_prune(s, account, note);
     for (bool dropped = true; dropped && !status;)
@@ -56,13 +56,13 @@ static hci_status verdict_of(hci_search *s, hci_attribution *a, hci_verdict *v, 
 {
     hci_account without = {0};
     v->in = true;
-    hci_status status = hci_search_without(s, &a->account, v->room, &without, note);
+    hci_status status = hci_search_without(s, &a->account, v->type, &without, note);
     if (status) return status;
     v->gain = without.fit.score - a->account.fit.score;
     status = hci_search_explained(s, &a->account.suspects, &without.suspects, &v->explained_Nm, note);
     hci_account_release(&without);
     if (status || a->unknown) return status; /* nothing that is known stands firm beside what is not */
-    return hci_search_rivals(s, v->room, a, note);
+    return hci_search_rivals(s, v->type, a, note);
 }
 
 /* What those that are not in would be worth. */
@@ -79,20 +79,20 @@ static hci_status verdicts_of_others(hci_search *s, hci_attribution *a, hci_note
 }
 
 /* Where the angle begins is a convention once the phases of a torque are free. */
-static bool is_convention(const hci_effect_room *room, const hci_effect_room *as)
+static bool is_convention(const hci_effect_type *type, const hci_effect_type *as)
 {
-    return room == hci_effect_room_find("position_offset") &&
-           (as == hci_effect_room_find("cogging") || as == hci_effect_room_find("mechanical_order"));
+    return type == hci_effect_type_find("position_offset") &&
+           (as == hci_effect_type_find("cogging") || as == hci_effect_type_find("mechanical_order"));
 }
 
-/* Marks a room that looks the same as a part of another, unless it would explain nothing without that. */
-static void same_mark(hci_attribution *a, size_t room, const hci_effect_room *as)
+/* Marks a type that looks the same as a part of another, unless it would explain nothing without that. */
+static void same_mark(hci_attribution *a, size_t type, const hci_effect_type *as)
 {
-    hci_verdict *v = &a->verdict[room];
+    hci_verdict *v = &a->verdict[type];
     size_t k = 0;
-    while (a->verdict[k].room != as)
+    while (a->verdict[k].type != as)
         ++k;
-    if (v->in || v->ambiguous || !a->plausible[k][room] || is_convention(v->room, as)) return;
+    if (v->in || v->ambiguous || !a->plausible[k][type] || is_convention(v->type, as)) return;
     v->ambiguous = a->verdict[k].ambiguous = true;
     v->rival_of = as;
     v->gain = a->verdict[k].gain;
@@ -101,10 +101,10 @@ static void same_mark(hci_attribution *a, size_t room, const hci_effect_room *as
 /* Effects that look the same as a part of one that is in. */
 static hci_status verdicts_of_same(hci_search *s, hci_attribution *a, hci_note *note)
 {
-    const hci_effect_room *same_as[HCI_MOST_ROOMS];
+    const hci_effect_type *same_as[HCI_MOST_TYPES];
     if (a->unknown) return HCI_OK;
     const hci_status status = hci_trials_same(s, &a->account.suspects, same_as, note);
-    for (size_t r = 0; r < a->rooms && !status; ++r)
+    for (size_t r = 0; r < a->types && !status; ++r)
         if (same_as[r]) same_mark(a, r, same_as[r]);
     return status;
 }
@@ -112,8 +112,8 @@ static hci_status verdicts_of_same(hci_search *s, hci_attribution *a, hci_note *
 static hci_status verdicts(hci_search *s, hci_attribution *a, hci_note *note)
 {
     hci_status status = HCI_OK;
-    for (size_t r = 0; r < a->rooms && !status; ++r)
-        if (hci_suspects_have(&a->account.suspects, a->verdict[r].room))
+    for (size_t r = 0; r < a->types && !status; ++r)
+        if (hci_suspects_have(&a->account.suspects, a->verdict[r].type))
             status = verdict_of(s, a, &a->verdict[r], note);
     if (!status) status = verdicts_of_others(s, a, note);
     return status ? status : verdicts_of_same(s, a, note);
@@ -140,10 +140,10 @@ hci_status hci_attribute(hci_evidence *evidence, const hci_attribute_options *op
     const size_t cells = evidence->cells->count;
     hci_search s = {.evidence = evidence, .options = options, .richness = 1};
     memset(attribution, 0, sizeof *attribution);
-    attribution->rooms = hci_suspect_rooms();
-    assert(attribution->rooms <= HCI_MOST_ROOMS);
-    for (size_t r = 0; r < attribution->rooms; ++r)
-        attribution->verdict[r].room = hci_suspect_room(r);
+    attribution->types = hci_suspect_types();
+    assert(attribution->types <= HCI_MOST_TYPES);
+    for (size_t r = 0; r < attribution->types; ++r)
+        attribution->verdict[r].type = hci_suspect_type(r);
     s.residual_Nm = hci_memory_new(2 * cells + 1, sizeof *s.residual_Nm);
     if (!s.residual_Nm)
         return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the search of effects");
@@ -156,7 +156,7 @@ hci_status hci_attribute(hci_evidence *evidence, const hci_attribute_options *op
 
 void hci_attribution_release(hci_attribution *a)
 {
-    for (size_t r = 0; r < a->rooms; ++r)
+    for (size_t r = 0; r < a->types; ++r)
         hci_account_release(&a->verdict[r].alternative);
     hci_account_release(&a->account);
     memset(a, 0, sizeof *a);

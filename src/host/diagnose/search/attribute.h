@@ -14,16 +14,16 @@ typedef struct {
 
 /* What came of one effect. */
 typedef struct {
-    const hci_effect_room *room;
+    const hci_effect_type *type;
     bool in;                         /* in the model */
     bool ambiguous;                  /* in, but others fit as well; or one of those others */
-    const hci_effect_room *rival_of; /* the one that it could stand for */
+    const hci_effect_type *rival_of; /* the one that it could stand for */
     double gain;                     /* fall of the score by having it: positive speaks for it */
     double explained_Nm;             /* rms of what the model loses without it */
     hci_account alternative;         /* of a rival: the account with it instead */
 } hci_verdict;
 
-enum { HCI_MOST_ROOMS = 16 };
+enum { HCI_MOST_TYPES = 16 };
 
 /* Start with {0}. */
 typedef struct {
@@ -32,10 +32,10 @@ typedef struct {
     bool unknown;          /* something is left that no effect explains, and it is not small */
     bool wanders;          /* what is left does not repeat with the turn */
     double unexplained_Nm; /* rms of what no effect explains */
-    hci_verdict verdict[HCI_MOST_ROOMS];
-    size_t rooms;
-    bool plausible[HCI_MOST_ROOMS]
-                  [HCI_MOST_ROOMS]; /* without the first, the second would explain a part of it */
+    hci_verdict verdict[HCI_MOST_TYPES];
+    size_t types;
+    bool plausible[HCI_MOST_TYPES]
+                  [HCI_MOST_TYPES]; /* without the first, the second would explain a part of it */
 } hci_attribution;
 
 typedef struct {

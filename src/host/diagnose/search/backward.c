@@ -79,12 +79,12 @@ hci_status hci_search_prune(hci_search *s, hci_account *account, hci_note *note)
 
 /* ---- effects ---- */
 
-static hci_status drop_room(hci_search *s, hci_account *account, const hci_effect_room *room, bool *dropped,
+static hci_status drop_type(hci_search *s, hci_account *account, const hci_effect_type *type, bool *dropped,
                             hci_note *note)
 {
     hci_account without = {0};
     bool noticeable = true;
-    hci_status status = hci_search_without(s, account, room, &without, note);
+    hci_status status = hci_search_without(s, account, type, &without, note);
     if (!status) status = hci_search_noticeable(s, &account->suspects, &without.suspects, &noticeable, note);
     *dropped = !status && (without.fit.score < account->fit.score + HCI_DECISIVE || !noticeable);
     if (*dropped) {
@@ -99,8 +99,8 @@ hci_status hci_search_drop(hci_search *s, hci_account *account, bool *dropped, h
 {
     hci_status status = HCI_OK;
     *dropped = false;
-    for (size_t r = 0; r < hci_suspect_rooms() && !status && !*dropped; ++r)
-        if (hci_suspects_have(&account->suspects, hci_suspect_room(r)))
-            status = drop_room(s, account, hci_suspect_room(r), dropped, note);
+    for (size_t r = 0; r < hci_suspect_types() && !status && !*dropped; ++r)
+        if (hci_suspects_have(&account->suspects, hci_suspect_type(r)))
+            status = drop_type(s, account, hci_suspect_type(r), dropped, note);
     return status;
 }

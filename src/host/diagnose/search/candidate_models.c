@@ -31,7 +31,7 @@ static void variance_set(hci_search *s)
 /* A fresh list of suspects for what the model leaves, the model in it. */
 static hci_status suspects_renew(hci_search *s, const hci_suspects *model, hci_suspects *list, hci_note *note)
 {
-    const bool saturates = hci_suspects_have(model, hci_effect_room_find("saturation"));
+    const bool saturates = hci_suspects_have(model, hci_effect_type_find("saturation"));
     const hci_suspects_source source = {s->evidence->machine,
                                         s->evidence->cells,
                                         s->options->runs,
@@ -80,11 +80,11 @@ static void bench_release(bench *b)
     hci_memory_free(b->spare);
 }
 
-static void trial_add(hci_trials *t, bench *b, size_t room_a, size_t room_b)
+static void trial_add(hci_trials *t, bench *b, size_t type_a, size_t type_b)
 {
     hci_trial *x = &t->trial[t->count];
-    *x = (hci_trial){room_a, room_b, 0.0, t->flags + t->count * (t->list.count + 1)};
-    x->gain = hci_choice_grow(&b->choice, hci_suspect_room(room_a), hci_suspect_room(room_b), x->in,
+    *x = (hci_trial){type_a, type_b, 0.0, t->flags + t->count * (t->list.count + 1)};
+    x->gain = hci_choice_grow(&b->choice, hci_suspect_type(type_a), hci_suspect_type(type_b), x->in,
                               &b->sweep, b->spare);
     ++t->count;
 }
@@ -92,14 +92,14 @@ static void trial_add(hci_trials *t, bench *b, size_t room_a, size_t room_b)
 static hci_status trials_fill(hci_search *s, hci_trials *t, const hci_normal *normal, bool pairs,
                               hci_note *note)
 {
-    const size_t rooms = hci_suspect_rooms();
+    const size_t types = hci_suspect_types();
     bench b;
     t->flags = hci_memory_new((t->list.count + 1) * HCI_MOST_TRIALS, sizeof *t->flags);
     const bool made = bench_make(&t->list, normal, &b) && t->flags;
-    for (size_t room_a = 0; made && room_a < rooms; ++room_a) {
+    for (size_t type_a = 0; made && type_a < types; ++type_a) {
         hci_search_tell(s);
-        for (size_t room_b = room_a; room_b < (pairs ? rooms : room_a + 1); ++room_b)
-            trial_add(t, &b, room_a, room_b);
+        for (size_t type_b = type_a; type_b < (pairs ? types : type_a + 1); ++type_b)
+            trial_add(t, &b, type_a, type_b);
     }
     bench_release(&b);
     return made ? HCI_OK : no_memory(note);
@@ -134,42 +134,42 @@ static bool is_within(const bench *b, const hci_sweep *sweep, size_t suspect, do
     return true;
 }
 
-/* The room in the model without which the suspect would stand on its own; NULL: none. */
-static const hci_effect_room *stands_for(bench *b, size_t suspect)
+/* The type in the model without which the suspect would stand on its own; NULL: none. */
+static const hci_effect_type *stands_for(bench *b, size_t suspect)
 {
     const hci_suspects *list = b->choice.list;
-    for (size_t r = 0; r < hci_suspect_rooms(); ++r) {
-        const hci_effect_room *room = hci_suspect_room(r);
-        if (!hci_suspects_have(list, room)) continue;
+    for (size_t r = 0; r < hci_suspect_types(); ++r) {
+        const hci_effect_type *type = hci_suspect_type(r);
+        if (!hci_suspects_have(list, type)) continue;
         hci_sweep_copy(&b->sweep, &b->base);
         for (size_t k = 0; k < list->count; ++k)
-            for (size_t j = 0; j < list->suspect[k].count && list->suspect[k].room == room; ++j)
+            for (size_t j = 0; j < list->suspect[k].count && list->suspect[k].type == type; ++j)
                 hci_sweep_out(&b->sweep, b->column[k] + j);
-        if (!is_within(b, &b->sweep, suspect, OWN)) return room;
+        if (!is_within(b, &b->sweep, suspect, OWN)) return type;
     }
     return NULL;
 }
 
-static void same_find(bench *b, const hci_effect_room *same_as[HCI_MOST_ROOMS])
+static void same_find(bench *b, const hci_effect_type *same_as[HCI_MOST_TYPES])
 {
     const hci_suspects *list = b->choice.list;
     for (size_t k = 0; k < list->count; ++k) {
         size_t r = 0;
-        while (hci_suspect_room(r) != list->suspect[k].room)
+        while (hci_suspect_type(r) != list->suspect[k].type)
             ++r;
-        if (same_as[r] || hci_suspects_have(list, list->suspect[k].room)) continue;
+        if (same_as[r] || hci_suspects_have(list, list->suspect[k].type)) continue;
         if (is_within(b, &b->base, k, SAME)) same_as[r] = stands_for(b, k);
     }
 }
 
 hci_status hci_trials_same(hci_search *s, const hci_suspects *model,
-                           const hci_effect_room *same_as[HCI_MOST_ROOMS], hci_note *note)
+                           const hci_effect_type *same_as[HCI_MOST_TYPES], hci_note *note)
 {
     hci_suspects list = {0};
     hci_normal normal = {0};
     bench b;
     hci_status status = suspects_renew(s, model, &list, note);
-    memset(same_as, 0, HCI_MOST_ROOMS * sizeof *same_as);
+    memset(same_as, 0, HCI_MOST_TYPES * sizeof *same_as);
     if (!status) status = hci_evidence_normal(s->evidence, &list, true, &normal, note);
     if (!status) {
         if (bench_make(&list, &normal, &b))

@@ -49,7 +49,7 @@ static size_t singles_pick(const hci_trials *t, const hci_trial *picked[SINGLES]
     return count;
 }
 
-/* The best pair, of those with a room or (NULL) of all. */
+/* The best pair, of those with one effect type or (NULL) of all. */
 static const hci_trial *best_pair(const hci_trials *t, const hci_trial *with)
 {
     const hci_trial *best = NULL;
@@ -77,11 +77,11 @@ static size_t trials_pick(const hci_trials *t, const hci_trial *picked[SINGLES +
 /* Whether saturation promises more than every other single effect. */
 static bool powers_lead(const hci_trials *t)
 {
-    const hci_effect_room *saturation = hci_effect_room_find("saturation");
+    const hci_effect_type *saturation = hci_effect_type_find("saturation");
     double most = 0.0, powers = 0.0;
     for (size_t k = 0; k < t->count; ++k) {
         if (is_pair(&t->trial[k])) continue;
-        if (hci_suspect_room(t->trial[k].a) == saturation)
+        if (hci_suspect_type(t->trial[k].a) == saturation)
             powers = t->trial[k].gain;
         else
             most = fmax(most, t->trial[k].gain);
@@ -100,7 +100,7 @@ static bool is_much_left(const hci_search *s)
 static hci_status trials_enriched(hci_search *s, const hci_suspects *model, hci_trials *t, hci_note *note)
 {
     const int richness = s->richness;
-    const bool saturates = hci_suspects_have(model, hci_effect_room_find("saturation"));
+    const bool saturates = hci_suspects_have(model, hci_effect_type_find("saturation"));
     hci_status status = hci_search_residual(s, model, note);
     if (status) return status;
     if (richness == RICHEST || !saturates || !is_much_left(s))
@@ -164,11 +164,11 @@ static hci_status resonance_fit(contest *c, const hci_suspect *x, hci_account *c
 /* The effect that no linearised problem finds: a resonance of the torque sensor. */
 static hci_status resonance_enter(contest *c, hci_note *note)
 {
-    const hci_effect_room *room = hci_effect_room_find("torque_sensor");
-    hci_suspect x = {.room = room, .count = 2, .price = RESONANCE_PRICE, .in = true};
+    const hci_effect_type *type = hci_effect_type_find("torque_sensor");
+    hci_suspect x = {.type = type, .count = 2, .price = RESONANCE_PRICE, .in = true};
     hci_account candidate = {0};
     hci_resonance found;
-    if (hci_suspects_have(&c->present->suspects, room)) return HCI_OK;
+    if (hci_suspects_have(&c->present->suspects, type)) return HCI_OK;
     hci_status status = hci_search_residual(c->search, &c->present->suspects, note);
     if (!status) status = hci_resonance_find(c->search->evidence, c->search->residual_Nm, &found, note);
     if (status || found.gain < hci_suspect_cost(&x, c->present->fit.rows) + HCI_DECISIVE) return status;

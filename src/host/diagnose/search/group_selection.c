@@ -14,7 +14,7 @@ enum { MOST_ORDERS = 12, MOST_POWERS = 80 }; /* that come in together; of satura
 
 typedef struct {
     const hci_choice *choice;
-    const hci_effect_room *a, *b;
+    const hci_effect_type *a, *b;
     hci_sweep *sweep;
     bool *in; /* of each suspect */
     double cost;
@@ -37,7 +37,7 @@ static void leave(const growing *g, size_t k)
 static bool is_open(const growing *g, size_t k)
 {
     const hci_suspect *x = &g->choice->list->suspect[k];
-    return !g->in[k] && !x->in && (x->room == g->a || x->room == g->b);
+    return !g->in[k] && !x->in && (x->type == g->a || x->type == g->b);
 }
 
 static double cost_of(const growing *g, size_t k)
@@ -55,7 +55,7 @@ static double gain_of(const growing *g, size_t k)
 static double least_gain(const growing *g, size_t k)
 {
     const hci_suspect *x = &g->choice->list->suspect[k];
-    const bool ordered = x->room->parameter[x->term[0].parameter].ordered;
+    const bool ordered = x->type->parameter[x->term[0].parameter].ordered;
     return ordered ? fmax(WORTH, LITTLE * g->choice->rows) : WORTH;
 }
 
@@ -116,7 +116,7 @@ static void leave_worthless(growing *g)
  */
 static double grow(growing *g)
 {
-    const int steps = g->a == hci_effect_room_find("saturation") ? MOST_POWERS : MOST_ORDERS;
+    const int steps = g->a == hci_effect_type_find("saturation") ? MOST_POWERS : MOST_ORDERS;
     for (int step = 0; step < steps; ++step) {
         if (!take_best(g, step == 0 && g->cost == 0.0)) break;
         leave_worthless(g);
@@ -128,11 +128,11 @@ static double grow(growing *g)
  * worth much alone: all of them first. */
 static bool seed_powers(growing *g)
 {
-    const hci_effect_room *saturation = hci_effect_room_find("saturation");
+    const hci_effect_type *saturation = hci_effect_type_find("saturation");
     bool any = false;
     for (size_t k = 0; k < g->choice->list->count; ++k) {
         const hci_suspect *x = &g->choice->list->suspect[k];
-        if (x->room == saturation && x->term[0].order == 0.0 && is_open(g, k)) any = take(g, k) || any;
+        if (x->type == saturation && x->term[0].order == 0.0 && is_open(g, k)) any = take(g, k) || any;
     }
     if (any) leave_worthless(g);
     return any;
@@ -146,7 +146,7 @@ static void start(growing *g, bool *in)
     hci_sweep_copy(g->sweep, g->choice->base);
 }
 
-double hci_choice_grow(const hci_choice *choice, const hci_effect_room *a, const hci_effect_room *b, bool *in,
+double hci_choice_grow(const hci_choice *choice, const hci_effect_type *a, const hci_effect_type *b, bool *in,
                        hci_sweep *sweep, bool *spare)
 {
     growing g = {choice, a, b, sweep, NULL, 0.0};

@@ -13,10 +13,10 @@ typedef struct {
     double rows;
 } hci_choice;
 
-/* Chooses, among the suspects of rooms a and b that are not in the model, those that are worth their cost.
+/* Chooses, among the suspects of types a and b that are not in the model, those that are worth their cost.
  * in: out, for each suspect whether it was chosen. sweep, spare: work, of the size of base and of the list.
  * Returns by how much the score would fall if the model were linear. O(steps·columns²). */
-double hci_choice_grow(const hci_choice *choice, const hci_effect_room *a, const hci_effect_room *b, bool *in,
+double hci_choice_grow(const hci_choice *choice, const hci_effect_type *a, const hci_effect_type *b, bool *in,
                        hci_sweep *sweep, bool *spare);
 
 /* Sweeps the columns of a suspect in. False when all of them depend on those that are in. */

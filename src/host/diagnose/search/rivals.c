@@ -13,20 +13,20 @@
 typedef struct {
     hci_search *search;
     const hci_account *account;
-    const hci_effect_room *room; /* in whose place */
+    const hci_effect_type *type; /* in whose place */
     hci_account without;
     hci_trials trials;
     size_t next;
 } rivalry;
 
-static hci_status rivalry_start(hci_search *s, const hci_account *account, const hci_effect_room *room,
+static hci_status rivalry_start(hci_search *s, const hci_account *account, const hci_effect_type *type,
                                 rivalry *r, hci_note *note)
 {
     memset(r, 0, sizeof *r);
     r->search = s;
     r->account = account;
-    r->room = room;
-    hci_status status = hci_search_without(s, account, room, &r->without, note);
+    r->type = type;
+    hci_status status = hci_search_without(s, account, type, &r->without, note);
     if (!status) status = hci_trials_make(s, &r->without.suspects, false, &r->trials, note);
     return status;
 }
@@ -39,20 +39,20 @@ static void rivalry_end(rivalry *r)
 
 static bool is_promising(const rivalry *r, const hci_trial *x)
 {
-    const hci_effect_room *other = hci_suspect_room(x->a);
+    const hci_effect_type *other = hci_suspect_type(x->a);
     const double worth = r->without.fit.score - r->account->fit.score;
-    return other != r->room && !hci_suspects_have(&r->account->suspects, other) &&
+    return other != r->type && !hci_suspects_have(&r->account->suspects, other) &&
            !(x->gain < PROMISED_SHARE * worth - PROMISED_LESS);
 }
 
-/* The next promising rival, fitted. with: out, its room in hci_suspect_room's count, or its end. On failure
+/* The next promising rival, fitted. with: out, its type in hci_suspect_type's count, or its end. On failure
  * and at the end *rival is empty. */
 static hci_status rivalry_next(rivalry *r, hci_account *rival, size_t *with, hci_note *note)
 {
     memset(rival, 0, sizeof *rival);
     while (r->next < r->trials.count && !is_promising(r, &r->trials.trial[r->next]))
         ++r->next;
-    *with = hci_suspect_rooms();
+    *with = hci_suspect_types();
     if (r->next == r->trials.count) return HCI_OK;
     const hci_trial *x = &r->trials.trial[r->next++];
     *with = x->a;
@@ -62,21 +62,21 @@ static hci_status rivalry_next(rivalry *r, hci_account *rival, size_t *with, hci
 /* ---- another effect instead ---- */
 
 /* What is not known has to be better, not as good. */
-static double margin_of(size_t room)
+static double margin_of(size_t type)
 {
-    return hci_suspect_room(room) == &hci_unknown_room ? HCI_DECISIVE : HCI_AS_GOOD;
+    return hci_suspect_type(type) == &hci_unknown_type ? HCI_DECISIVE : HCI_AS_GOOD;
 }
 
-static hci_status swap_room(hci_search *s, hci_account *account, const hci_effect_room *room, bool *swapped,
+static hci_status swap_type(hci_search *s, hci_account *account, const hci_effect_type *type, bool *swapped,
                             hci_note *note)
 {
     rivalry r;
     hci_account rival = {0};
     size_t with = 0;
-    hci_status status = rivalry_start(s, account, room, &r, note);
-    while (!status && !*swapped && with < hci_suspect_rooms()) {
+    hci_status status = rivalry_start(s, account, type, &r, note);
+    while (!status && !*swapped && with < hci_suspect_types()) {
         status = rivalry_next(&r, &rival, &with, note);
-        if (status || with == hci_suspect_rooms()) break;
+        if (status || with == hci_suspect_types()) break;
         if (rival.fit.score < account->fit.score - margin_of(with)) {
             hci_account_replace(account, &rival);
             *swapped = true;
@@ -92,18 +92,18 @@ hci_status hci_search_swap(hci_search *s, hci_account *account, bool *swapped, h
 {
     hci_status status = HCI_OK;
     *swapped = false;
-    for (size_t r = 0; r < hci_suspect_rooms() && !status && !*swapped; ++r)
-        if (hci_suspects_have(&account->suspects, hci_suspect_room(r)))
-            status = swap_room(s, account, hci_suspect_room(r), swapped, note);
+    for (size_t r = 0; r < hci_suspect_types() && !status && !*swapped; ++r)
+        if (hci_suspects_have(&account->suspects, hci_suspect_type(r)))
+            status = swap_type(s, account, hci_suspect_type(r), swapped, note);
     return status;
 }
 
 /* ---- effects that cannot be told apart ---- */
 
-static size_t room_index(const hci_effect_room *room)
+static size_t type_index(const hci_effect_type *type)
 {
     size_t k = 0;
-    while (k < hci_suspect_rooms() && hci_suspect_room(k) != room)
+    while (k < hci_suspect_types() && hci_suspect_type(k) != type)
         ++k;
     return k;
 }
@@ -112,9 +112,9 @@ static void rival_mark(const rivalry *r, size_t with, hci_account *rival, hci_at
 {
     hci_verdict *v = &a->verdict[with];
     v->ambiguous = true;
-    v->rival_of = r->room;
+    v->rival_of = r->type;
     v->gain = r->without.fit.score - rival->fit.score;
-    a->verdict[room_index(r->room)].ambiguous = true;
+    a->verdict[type_index(r->type)].ambiguous = true;
     hci_account_replace(&v->alternative, rival);
 }
 
@@ -124,20 +124,20 @@ static void plausible_mark(const rivalry *r, hci_attribution *a)
     const double worth = r->without.fit.score - r->account->fit.score;
     for (size_t k = 0; k < r->trials.count; ++k)
         if (r->trials.trial[k].gain > PART * worth)
-            a->plausible[room_index(r->room)][r->trials.trial[k].a] = true;
+            a->plausible[type_index(r->type)][r->trials.trial[k].a] = true;
 }
 
-hci_status hci_search_rivals(hci_search *s, const hci_effect_room *room, hci_attribution *a, hci_note *note)
+hci_status hci_search_rivals(hci_search *s, const hci_effect_type *type, hci_attribution *a, hci_note *note)
 {
     rivalry r;
     hci_account rival = {0};
     size_t with = 0;
-    hci_status status = rivalry_start(s, &a->account, room, &r, note);
+    hci_status status = rivalry_start(s, &a->account, type, &r, note);
     if (!status) plausible_mark(&r, a);
     while (!status) {
         status = rivalry_next(&r, &rival, &with, note);
-        if (status || with == hci_suspect_rooms()) break;
-        const bool strange = hci_suspect_room(with) == &hci_unknown_room;
+        if (status || with == hci_suspect_types()) break;
+        const bool strange = hci_suspect_type(with) == &hci_unknown_type;
         if (!strange && rival.fit.score < a->account.fit.score + EQUAL) rival_mark(&r, with, &rival, a);
         hci_account_release(&rival);
     }

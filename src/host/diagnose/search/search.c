@@ -50,13 +50,13 @@ void hci_account_release(hci_account *account)
     memset(account, 0, sizeof *account);
 }
 
-hci_status hci_search_without(hci_search *s, const hci_account *account, const hci_effect_room *room,
+hci_status hci_search_without(hci_search *s, const hci_account *account, const hci_effect_type *type,
                               hci_account *without, hci_note *note)
 {
     hci_status status = hci_account_copy(account, without, note);
     if (status) return status;
     hci_search_tell(s);
-    hci_suspects_leave(&without->suspects, room);
+    hci_suspects_leave(&without->suspects, type);
     status = hci_evidence_fit(s->evidence, &without->suspects, &without->fit, note);
     if (status) hci_account_release(without);
     return status;
@@ -138,6 +138,6 @@ hci_status hci_search_noticeable(hci_search *s, const hci_suspects *with, const 
     const hci_status status = hci_search_explained(s, with, without, &explained_Nm, note);
     const double least = fmax(NOTICEABLE * hci_search_noise_rms(s), RESOLVED * s->options->resolution_Nm);
     *noticeable =
-        !status && (explained_Nm > least || hci_suspects_rooms_in(with) == hci_suspects_rooms_in(without));
+        !status && (explained_Nm > least || hci_suspects_types_in(with) == hci_suspects_types_in(without));
     return status;
 }

@@ -28,8 +28,8 @@ hci_status hci_account_copy(const hci_account *from, hci_account *to, hci_note *
 void hci_account_replace(hci_account *old, hci_account *by); /* `by` is empty then */
 void hci_account_release(hci_account *account);
 
-/* An account without a room, fitted again. On failure `without` is empty. HCI_ERROR_MEMORY. */
-hci_status hci_search_without(hci_search *search, const hci_account *account, const hci_effect_room *room,
+/* An account without a type, fitted again. On failure `without` is empty. HCI_ERROR_MEMORY. */
+hci_status hci_search_without(hci_search *search, const hci_account *account, const hci_effect_type *type,
                               hci_account *without, hci_note *note);
 
 /* ---- residual and noise ---- */
@@ -72,7 +72,7 @@ hci_status hci_search_swap(hci_search *search, hci_account *account, bool *swapp
 hci_status hci_search_settle(hci_search *search, hci_attribution *attribution, hci_note *note);
 
 /* Marks the effects that could stand in place of one that is in. HCI_ERROR_MEMORY. */
-hci_status hci_search_rivals(hci_search *search, const hci_effect_room *room, hci_attribution *attribution,
+hci_status hci_search_rivals(hci_search *search, const hci_effect_type *type, hci_attribution *attribution,
                              hci_note *note);
 
 #endif

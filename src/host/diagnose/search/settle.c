@@ -99,14 +99,14 @@ static hci_status residual_judge(hci_search *s, hci_attribution *a, hci_note *no
 
 /* ---- what is understood beside what is not ---- */
 
-/* Adds what a room explains, as rms. Nothing where it is not in. */
-static hci_status explained_add(hci_search *s, const hci_account *account, const hci_effect_room *room,
+/* Adds what a type explains, as rms. Nothing where it is not in. */
+static hci_status explained_add(hci_search *s, const hci_account *account, const hci_effect_type *type,
                                 double *sum_Nm, hci_note *note)
 {
     hci_account without = {0};
     double explained_Nm = 0.0;
-    if (!hci_suspects_have(&account->suspects, room)) return HCI_OK;
-    hci_status status = hci_search_without(s, account, room, &without, note);
+    if (!hci_suspects_have(&account->suspects, type)) return HCI_OK;
+    hci_status status = hci_search_without(s, account, type, &without, note);
     if (!status) status = hci_search_explained(s, &account->suspects, &without.suspects, &explained_Nm, note);
     hci_account_release(&without);
     *sum_Nm = hypot(*sum_Nm, explained_Nm);
@@ -117,25 +117,25 @@ static hci_status known_of(hci_search *s, const hci_account *account, double *kn
 {
     hci_status status = HCI_OK;
     *known_Nm = 0.0;
-    for (size_t r = 0; hci_effect_room_at(r) && !status; ++r)
-        status = explained_add(s, account, hci_effect_room_at(r), known_Nm, note);
+    for (size_t r = 0; hci_effect_type_at(r) && !status; ++r)
+        status = explained_add(s, account, hci_effect_type_at(r), known_Nm, note);
     return status;
 }
 
 /* Known effects beside something larger that is not understood cannot be told from a part of it, and go; a
  * description of a small remainder goes as well. */
-static hci_status rooms_leave(hci_search *s, hci_attribution *a, double strange_Nm, bool *changed,
+static hci_status types_leave(hci_search *s, hci_attribution *a, double strange_Nm, bool *changed,
                               hci_note *note)
 {
     hci_suspects *model = &a->account.suspects;
     hci_status status = HCI_OK;
-    for (size_t r = 0; r < a->rooms && !status; ++r) {
-        const hci_effect_room *room = hci_suspect_room(r);
+    for (size_t r = 0; r < a->types && !status; ++r) {
+        const hci_effect_type *type = hci_suspect_type(r);
         double explained_Nm = 0.0;
-        if (!hci_suspects_have(model, room) || (room == &hci_unknown_room) == a->unknown) continue;
-        if (a->unknown) status = explained_add(s, &a->account, room, &explained_Nm, note);
+        if (!hci_suspects_have(model, type) || (type == &hci_unknown_type) == a->unknown) continue;
+        if (a->unknown) status = explained_add(s, &a->account, type, &explained_Nm, note);
         if (status || explained_Nm > UNTOUCHED * strange_Nm) continue;
-        hci_suspects_leave(model, room);
+        hci_suspects_leave(model, type);
         *changed = true;
     }
     return status;
@@ -147,12 +147,12 @@ hci_status hci_search_settle(hci_search *s, hci_attribution *a, hci_note *note)
     bool changed = false;
     hci_status status = residual_judge(s, a, note);
     double strange_Nm = a->unexplained_Nm;
-    if (!status) status = explained_add(s, &a->account, &hci_unknown_room, &strange_Nm, note);
+    if (!status) status = explained_add(s, &a->account, &hci_unknown_type, &strange_Nm, note);
     if (status || !(strange_Nm > 0.0)) return status;
     status = known_of(s, &a->account, &known_Nm, note);
     if (status) return status;
     a->unknown = strange_Nm > SMALL * known_Nm;
-    status = rooms_leave(s, a, strange_Nm, &changed, note);
+    status = types_leave(s, a, strange_Nm, &changed, note);
     if (!status && changed) status = hci_search_renew(s, &a->account, note);
     if (!status && a->unknown) a->unexplained_Nm = strange_Nm;
     return status;
