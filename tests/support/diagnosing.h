@@ -44,7 +44,7 @@ static inline void write_file(const char *name, const char *text)
     fclose(file);
 }
 
-static inline void bench_start(void)
+static inline void dataset_start(void)
 {
     hci_note note = {{0}};
     seed = 99;
@@ -57,7 +57,7 @@ static inline void bench_start(void)
     memset(&options, 0, sizeof options);
 }
 
-static inline void bench_end(void)
+static inline void dataset_end(void)
 {
     char command[128];
     hci_memory_fail_after(-1);

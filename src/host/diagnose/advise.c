@@ -26,19 +26,19 @@ typedef struct {
     double most_A, least_speed, most_speed, noise_Nm, temperature_C;
 } range;
 
-static double mean_noise_Nm(const hci_evidence *e)
+static double mean_noise_Nm(const hci_regression *e)
 {
     double sum = 0.0, count = 0.0;
-    for (const hci_stretch *s = NULL; (s = hci_evidence_next(e, s)) != NULL; count += 1.0)
-        sum += hci_evidence_noise(e, s)->rms;
+    for (const hci_segment *s = NULL; (s = hci_regression_next(e, s)) != NULL; count += 1.0)
+        sum += hci_regression_noise(e, s)->rms;
     return sum / fmax(1.0, count);
 }
 
-static range range_of(const hci_evidence *e)
+static range range_of(const hci_regression *e)
 {
     range x = {0.0, INFINITY, 0.0, mean_noise_Nm(e), NAN};
-    for (size_t r = 0; r < e->cells->run_count; ++r) {
-        const hci_run_figures *f = &e->cells->figures[r];
+    for (size_t r = 0; r < e->samples->run_count; ++r) {
+        const hci_run_statistics *f = &e->samples->statistics[r];
         const double speed = fabs(f->mean_speed_rad_per_s);
         x.most_A = fmax(x.most_A, f->current_A);
         if (speed > 0.0) x.least_speed = fmin(x.least_speed, speed);
@@ -50,56 +50,56 @@ static range range_of(const hci_evidence *e)
     return x;
 }
 
-/* One turn, as a bench would read it with the sensors of `right`: the reading itself is where both are
+/* One turn, as a dataset would read it with the sensors of `right`: the reading itself is where both are
  * compared. */
-static void turn_fill(const operating_point *at, int pole_pairs, double temperature_C, hci_cell *cell,
-                      size_t n)
+static void turn_fill(const operating_point *at, int pole_pairs, double temperature_C,
+                      hci_binned_sample *sample, size_t n)
 {
     const double turn = at->speed_rad_per_s < 0.0 ? -2.0 * HCI_PI : 2.0 * HCI_PI;
     for (size_t k = 0; k < n; ++k) {
-        hci_sample *x = &cell[k].reading;
-        memset(&cell[k], 0, sizeof cell[k]);
+        hci_sample *x = &sample[k].reading;
+        memset(&sample[k], 0, sizeof sample[k]);
         x->theta_m_rad = turn * (double)k / (double)n;
         x->speed_rad_per_s = at->speed_rad_per_s;
         x->temperature_C = temperature_C;
         const hci_dq i = {-at->current_A * sin(at->angle_rad), at->current_A * cos(at->angle_rad), 0.0};
         hci_clarke_inverse(hci_park_inverse(i, pole_pairs * x->theta_m_rad), x->i_abc);
-        cell[k].time_s = fabs(x->theta_m_rad / at->speed_rad_per_s);
-        cell[k].sum_A = NAN;
-        cell[k].count = 1.0;
-        cell[k].raw = *x;
+        sample[k].time_s = fabs(x->theta_m_rad / at->speed_rad_per_s);
+        sample[k].sum_A = NAN;
+        sample[k].count = 1.0;
+        sample[k].raw = *x;
     }
 }
 
-/* A bench of one run. */
+/* A dataset of one run. */
 typedef struct {
-    hci_cell *cell;
-    hci_stretch stretch;
-    hci_run_figures figures;
+    hci_binned_sample *sample;
+    hci_segment segment;
+    hci_run_statistics statistics;
     hci_run run;
-    hci_cells cells;
+    hci_binned_samples samples;
     hci_noise noise;
     double sum_deviation_A;
     bool use;
-    hci_evidence evidence;
-} trial_bench;
+    hci_regression regression;
+} trial_dataset;
 
-static bool bench_make(const hci_evidence *e, double noise_Nm, trial_bench *b)
+static bool dataset_make(const hci_regression *e, double noise_Nm, trial_dataset *b)
 {
     const size_t wanted = (size_t)(SAMPLES_PER_PERIOD * e->machine->pole_pairs);
     const size_t n = wanted < MOST_SAMPLES ? wanted : MOST_SAMPLES;
     memset(b, 0, sizeof *b);
-    b->cell = hci_memory_new(n, sizeof *b->cell);
-    b->stretch = (hci_stretch){0, 0, n, 1, 1.0, true, true};
+    b->sample = hci_memory_new(n, sizeof *b->sample);
+    b->segment = (hci_segment){0, 0, n, 1, 1.0, true, true};
     b->run.torque_source = HCI_TORQUE_MEASURED;
     b->run.turn_known = true;
-    b->cells = (hci_cells){b->cell, n, &b->stretch, 1, &b->figures, 1};
+    b->samples = (hci_binned_samples){b->sample, n, &b->segment, 1, &b->statistics, 1};
     b->noise = hci_noise_white(noise_Nm);
     b->sum_deviation_A = NAN;
     b->use = true;
-    b->evidence = (hci_evidence){e->machine, e->declared, &b->cells, &b->run,
-                                 &b->use,    false,       &b->noise, &b->sum_deviation_A};
-    return b->cell != NULL;
+    b->regression = (hci_regression){e->machine, e->declared, &b->samples, &b->run,
+                                     &b->use,    false,       &b->noise,   &b->sum_deviation_A};
+    return b->sample != NULL;
 }
 
 /* What is left of |right − wrong|² after a fit of wrong to it with the knowledge `known` of its parameters.
@@ -122,24 +122,24 @@ static double remaining(const hci_normal *difference, const hci_normal *known, d
 
 /* What the points are compared with. */
 typedef struct {
-    const hci_suspects *wrong;
+    const hci_candidates *wrong;
     hci_model right;
     hci_normal known; /* what the recordings know of the parameters of `wrong` */
     range range;
-    trial_bench bench;
+    trial_dataset dataset;
     double *residual_Nm, *work; /* [samples], [n² + n] */
 } comparison;
 
 static hci_status point_score(comparison *c, const operating_point *at, double *score, hci_note *note)
 {
     hci_normal difference;
-    trial_bench *b = &c->bench;
-    turn_fill(at, b->evidence.machine->pole_pairs, c->range.temperature_C, b->cell, b->cells.count);
-    b->stretch.period_s = 2.0 * HCI_PI / fabs(at->speed_rad_per_s);
-    hci_status status = hci_evidence_residual(&b->evidence, &c->right.list, c->residual_Nm, note);
-    for (size_t k = 0; k < b->cells.count && !status; ++k)
-        b->cell[k].torque_Nm = -c->residual_Nm[k];
-    if (!status) status = hci_evidence_normal(&b->evidence, c->wrong, false, &difference, note);
+    trial_dataset *b = &c->dataset;
+    turn_fill(at, b->regression.machine->pole_pairs, c->range.temperature_C, b->sample, b->samples.count);
+    b->segment.period_s = 2.0 * HCI_PI / fabs(at->speed_rad_per_s);
+    hci_status status = hci_regression_residual(&b->regression, &c->right.list, c->residual_Nm, note);
+    for (size_t k = 0; k < b->samples.count && !status; ++k)
+        b->sample[k].torque_Nm = -c->residual_Nm[k];
+    if (!status) status = hci_regression_normal(&b->regression, c->wrong, false, &difference, note);
     if (status) return status;
     *score = remaining(&difference, &c->known, c->work);
     hci_normal_release(&difference);
@@ -193,18 +193,18 @@ static hci_status point_find(comparison *c, operating_point *best, double *most,
     return status;
 }
 
-static hci_status comparison_make(const hci_evidence *e, const hci_advice_request *request, comparison *c,
+static hci_status comparison_make(const hci_regression *e, const hci_advice_request *request, comparison *c,
                                   hci_note *note)
 {
     memset(c, 0, sizeof *c);
     c->wrong = request->wrong;
     c->range = range_of(e);
     hci_status status = hci_model_make(e->declared, request->right, false, &c->right, note);
-    if (!status) status = hci_evidence_normal(e, request->wrong, false, &c->known, note);
+    if (!status) status = hci_regression_normal(e, request->wrong, false, &c->known, note);
     if (status) return status;
     const size_t n = c->known.n;
-    if (bench_make(e, c->range.noise_Nm, &c->bench))
-        c->work = hci_memory_new(n * n + n + c->bench.cells.count + 1, sizeof *c->work);
+    if (dataset_make(e, c->range.noise_Nm, &c->dataset))
+        c->work = hci_memory_new(n * n + n + c->dataset.samples.count + 1, sizeof *c->work);
     if (!c->work) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the advice");
     c->residual_Nm = c->work + n * n + n;
     return HCI_OK;
@@ -212,19 +212,19 @@ static hci_status comparison_make(const hci_evidence *e, const hci_advice_reques
 
 static void comparison_release(comparison *c)
 {
-    hci_memory_free(c->bench.cell);
+    hci_memory_free(c->dataset.sample);
     hci_memory_free(c->work);
     hci_model_release(&c->right);
     hci_normal_release(&c->known);
 }
 
-hci_status hci_advise(const hci_evidence *evidence, const hci_advice_request *request, char *text,
+hci_status hci_advise(const hci_regression *regression, const hci_advice_request *request, char *text,
                       size_t size, hci_note *note)
 {
     comparison c;
     operating_point best;
     double most;
-    hci_status status = comparison_make(evidence, request, &c, note);
+    hci_status status = comparison_make(regression, request, &c, note);
     if (!status) status = point_find(&c, &best, &most, note);
     if (!status) words(&best, most, request->right_name, request->wrong_name, text, size);
     comparison_release(&c);

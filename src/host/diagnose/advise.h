@@ -1,12 +1,12 @@
-/* The smallest further measurement that would tell two explanations apart. */
+/* The smallest further measurement that would tell two models apart. */
 #ifndef HCI_SRC_HOST_DIAGNOSE_ADVISE_H
 #define HCI_SRC_HOST_DIAGNOSE_ADVISE_H
 
 #include "host/diagnose/fit/evidence.h"
 
-/* Two explanations of the same recordings, and what they are called. */
+/* Two models of the same recordings, and what they are called. */
 typedef struct {
-    const hci_suspects *right, *wrong;
+    const hci_candidates *right, *wrong;
     const char *right_name, *wrong_name;
 } hci_advice_request;
 
@@ -15,7 +15,7 @@ typedef struct {
  * which the explanation `right` would contradict `wrong` after `wrong` has been fitted again, with what the
  * recordings know of its parameters. text[size]: out, in words: the run with the least current and speed that
  * is decisive, or the best one. HCI_ERROR_MEMORY. O(points·samples·parameters²). */
-hci_status hci_advise(const hci_evidence *evidence, const hci_advice_request *request, char *text,
+hci_status hci_advise(const hci_regression *regression, const hci_advice_request *request, char *text,
                       size_t size, hci_note *note);
 
 #endif

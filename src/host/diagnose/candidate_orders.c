@@ -11,7 +11,8 @@
 enum { MOST_PERIODS = 800 /* in a mechanical turn */, MOST_ELECTRICAL = 96 };
 
 /* Σ r cos kθ, Σ r sin kθ of the residual before and after: four sums for each order. */
-static void cell_add(double theta_rad, double weight, double before, double after, double *sums, size_t count)
+static void sample_add(double theta_rad, double weight, double before, double after, double *sums,
+                       size_t count)
 {
     const double c = cos(theta_rad), s = sin(theta_rad);
     double x = weight, y = 0.0;
@@ -28,11 +29,11 @@ static void cell_add(double theta_rad, double weight, double before, double afte
 }
 
 /* Samples in a turn: of a mean over turns all of them. */
-static double samples_per_turn(const hci_evidence *e, size_t run)
+static double samples_per_turn(const hci_regression *e, size_t run)
 {
-    const double turns = fmax(e->cells->figures[run].turns, 1.0 / e->machine->pole_pairs);
+    const double turns = fmax(e->samples->statistics[run].turns, 1.0 / e->machine->pole_pairs);
     double count = 0.0, of_mean = 0.0;
-    for (const hci_stretch *s = NULL; (s = hci_cells_next(e->cells, run, s)) != NULL;) {
+    for (const hci_segment *s = NULL; (s = hci_segment_next(e->samples, run, s)) != NULL;) {
         count += (double)s->count;
         if (s->turns > 0) of_mean = (double)s->count;
     }
@@ -40,7 +41,7 @@ static double samples_per_turn(const hci_evidence *e, size_t run)
 }
 
 /* As many orders as those resolve. */
-static size_t orders_of(const hci_evidence *e, size_t run, size_t stride)
+static size_t orders_of(const hci_regression *e, size_t run, size_t stride)
 {
     const double resolved = fmin(RESOLVED * samples_per_turn(e, run), MOST_PERIODS);
     const double most = fmin(resolved, MOST_ELECTRICAL * e->machine->pole_pairs);
@@ -67,22 +68,22 @@ static bool line_put(list *l, const hci_residual_line *line)
 
 /* What the lines are made of. */
 typedef struct {
-    const hci_evidence *evidence;
-    const double *before_Nm, *after_Nm; /* of each cell */
+    const hci_regression *regression;
+    const double *before_Nm, *after_Nm; /* of each sample */
     double *sums;                       /* [orders][4] */
 } material;
 
 /* Fills the sums of a run. Returns its samples. */
 static double sums_fill(const material *m, size_t run, size_t stride, size_t orders)
 {
-    const hci_cells *cells = m->evidence->cells;
+    const hci_binned_samples *samples = m->regression->samples;
     double count = 0.0;
     memset(m->sums, 0, 4 * orders * sizeof *m->sums);
-    for (const hci_stretch *s = NULL; (s = hci_cells_next(cells, run, s)) != NULL;)
+    for (const hci_segment *s = NULL; (s = hci_segment_next(samples, run, s)) != NULL;)
         for (size_t j = s->first; j < s->first + s->count; ++j) {
-            const hci_cell *c = &cells->cell[j];
-            cell_add(c->raw.theta_m_rad * (double)stride, c->count, m->before_Nm[j], m->after_Nm[j], m->sums,
-                     orders);
+            const hci_binned_sample *c = &samples->sample[j];
+            sample_add(c->raw.theta_m_rad * (double)stride, c->count, m->before_Nm[j], m->after_Nm[j],
+                       m->sums, orders);
             count += c->count;
         }
     return count;
@@ -91,9 +92,9 @@ static double sums_fill(const material *m, size_t run, size_t stride, size_t ord
 /* An amplitude 2/n |Σ| of white noise exceeds 2σ √(ln 20 / n) once in twenty times. */
 static bool run_lines(const material *m, size_t run, double noise_Nm, list *l)
 {
-    const double p = m->evidence->machine->pole_pairs;
-    const size_t stride = m->evidence->runs[run].turn_known ? 1 : (size_t)p;
-    const size_t orders = orders_of(m->evidence, run, stride);
+    const double p = m->regression->machine->pole_pairs;
+    const size_t stride = m->regression->runs[run].turn_known ? 1 : (size_t)p;
+    const size_t orders = orders_of(m->regression, run, stride);
     const double count = sums_fill(m, run, stride, orders);
     for (size_t k = 0; k < orders && count > 0.0; ++k) {
         const double scale = (k == 0 ? 1.0 : 2.0) / count, *sum = m->sums + 4 * k;
@@ -105,14 +106,15 @@ static bool run_lines(const material *m, size_t run, double noise_Nm, list *l)
     return true;
 }
 
-hci_status hci_lines_make(const hci_evidence *evidence, const double *before_Nm, const double *after_Nm,
-                          const double *noise_Nm, hci_residual_line **lines, size_t *count, hci_note *note)
+hci_status hci_residual_spectrum_make(const hci_regression *regression, const double *before_Nm,
+                                      const double *after_Nm, const double *noise_Nm,
+                                      hci_residual_line **lines, size_t *count, hci_note *note)
 {
     list l = {NULL, 0, 0};
-    const material m = {evidence, before_Nm, after_Nm,
+    const material m = {regression, before_Nm, after_Nm,
                         hci_memory_new(4 * (MOST_PERIODS + 1), sizeof *m.sums)};
     bool done = m.sums != NULL;
-    for (size_t r = 0; r < evidence->cells->run_count && done; ++r)
+    for (size_t r = 0; r < regression->samples->run_count && done; ++r)
         done = run_lines(&m, r, noise_Nm[r], &l);
     hci_memory_free(m.sums);
     if (!done) hci_memory_free(l.line);

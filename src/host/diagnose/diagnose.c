@@ -41,11 +41,11 @@ const char *hci_diagnosis_verdict_name(hci_diagnosis_verdict verdict)
 
 /* ---- the corrected machine ---- */
 
-static hci_status effects_fill(const hci_evidence *e, const hci_suspects *suspects, hci_diagnosis *d,
+static hci_status effects_fill(const hci_regression *e, const hci_candidates *candidates, hci_diagnosis *d,
                                hci_note *note)
 {
     hci_model model;
-    const hci_status status = hci_model_make(e->declared, suspects, false, &model, note);
+    const hci_status status = hci_model_make(e->declared, candidates, false, &model, note);
     if (status) return status;
     d->effects = (hci_effects_data){model.list, model.effect, model.term};
     hci_memory_free(model.column);
@@ -73,7 +73,7 @@ static void advice_of_same(const hci_verdict *v, char *text, size_t size)
 }
 
 /* What would tell the ambiguous ones apart, one sentence for each that fits. */
-static hci_status advice_fill(const hci_evidence *e, const hci_attribution *a, hci_diagnosis *d,
+static hci_status advice_fill(const hci_regression *e, const hci_attribution *a, hci_diagnosis *d,
                               hci_note *note)
 {
     hci_status status = HCI_OK;
@@ -83,12 +83,12 @@ static hci_status advice_fill(const hci_evidence *e, const hci_attribution *a, h
         if (v->in || !v->ambiguous || used + LONGEST_ADVICE > sizeof d->advice) continue;
         if (used > 0) memcpy(d->advice + used, "; ", 3);
         const size_t from = strlen(d->advice);
-        if (!v->alternative.suspects.suspect) {
+        if (!v->alternative.candidates.candidate) {
             advice_of_same(v, d->advice + from, sizeof d->advice - from);
             continue;
         }
-        const hci_advice_request request = {&a->account.suspects, &v->alternative.suspects, v->rival_of->name,
-                                            v->type->name};
+        const hci_advice_request request = {&a->fitted.candidates, &v->alternative.candidates,
+                                            v->rival_of->name, v->type->name};
         status = hci_advise(e, &request, d->advice + from, sizeof d->advice - from, note);
     }
     return status;
@@ -97,14 +97,14 @@ static hci_status advice_fill(const hci_evidence *e, const hci_attribution *a, h
 /* ---- the whole ---- */
 
 /* What no effect explains is described, and then leaves: it never gets into a machine. */
-static hci_status fill(hci_bench *b, const hci_runs *runs, hci_attribution *a, hci_diagnosis *d,
+static hci_status fill(hci_dataset *b, const hci_runs *runs, hci_attribution *a, hci_diagnosis *d,
                        hci_note *note)
 {
     hci_unexplained_fill(b, a, d);
-    hci_suspects_leave(&a->account.suspects, &hci_unknown_type);
-    hci_status status = effects_fill(&b->evidence, &a->account.suspects, d, note);
-    if (!status) status = advice_fill(&b->evidence, a, d, note);
-    if (!status) status = hci_run_errors_fill(b, runs, a->account.fit.parameters, d, note);
+    hci_candidates_remove_type(&a->fitted.candidates, &hci_empirical_type);
+    hci_status status = effects_fill(&b->regression, &a->fitted.candidates, d, note);
+    if (!status) status = advice_fill(&b->regression, a, d, note);
+    if (!status) status = hci_run_errors_fill(b, runs, a->fitted.fit.parameters, d, note);
     if (!status) hci_findings_fill(a, d);
     return status;
 }
@@ -112,20 +112,20 @@ static hci_status fill(hci_bench *b, const hci_runs *runs, hci_attribution *a, h
 /* ---- the test ---- */
 
 /* Whether a run is within the currents and speeds of those that were fitted. */
-static bool is_within(const hci_run_figures *f, const hci_bench *b)
+static bool is_within(const hci_run_statistics *f, const hci_dataset *b)
 {
     double most_A = 0.0, most_speed = 0.0;
-    for (size_t r = 0; r < b->cells.run_count; ++r) {
+    for (size_t r = 0; r < b->samples.run_count; ++r) {
         if (!b->fit[r]) continue;
-        most_A = fmax(most_A, b->cells.figures[r].current_A);
-        most_speed = fmax(most_speed, fabs(b->cells.figures[r].mean_speed_rad_per_s));
+        most_A = fmax(most_A, b->samples.statistics[r].current_A);
+        most_speed = fmax(most_speed, fabs(b->samples.statistics[r].mean_speed_rad_per_s));
     }
     return f->current_A <= BEYOND * most_A && fabs(f->mean_speed_rad_per_s) <= BEYOND * most_speed;
 }
 
 /* Whether the runs held out speak against the effects: they are not described down to their noise, and hardly
  * better than without. */
-static bool is_contradicted(const hci_bench *b, const hci_runs *runs, const hci_diagnosis *d,
+static bool is_contradicted(const hci_dataset *b, const hci_runs *runs, const hci_diagnosis *d,
                             double resolution_Nm)
 {
     double before = 0.0, after = 0.0, allowed = 0.0;
@@ -133,7 +133,7 @@ static bool is_contradicted(const hci_bench *b, const hci_runs *runs, const hci_
         const hci_run_errors *e = &d->run[run];
         if (e->file != runs->run[k].name) continue;
         ++run;
-        if (e->role == HCI_ROLE_FIT || !is_within(&b->cells.figures[k], b)) continue;
+        if (e->role == HCI_ROLE_FIT || !is_within(&b->samples.statistics[k], b)) continue;
         before += e->rms_before_Nm * e->rms_before_Nm;
         after += e->rms_after_Nm * e->rms_after_Nm;
         allowed += fmax(pow(NOISY * e->noise_floor_Nm, 2.0), pow(COARSE * resolution_Nm, 2.0));
@@ -142,12 +142,12 @@ static bool is_contradicted(const hci_bench *b, const hci_runs *runs, const hci_
 }
 
 /* What the runs held out contradict is not believed. */
-static hci_status withdraw(hci_bench *b, const hci_runs *runs, hci_attribution *a, hci_diagnosis *d,
+static hci_status withdraw(hci_dataset *b, const hci_runs *runs, hci_attribution *a, hci_diagnosis *d,
                            hci_note *note)
 {
     const double strange_Nm2 = d->rms_before_Nm * d->rms_before_Nm - d->noise_Nm * d->noise_Nm;
     for (size_t r = 0; r < a->types; ++r) {
-        hci_suspects_leave(&a->account.suspects, a->verdict[r].type);
+        hci_candidates_remove_type(&a->fitted.candidates, a->verdict[r].type);
         a->verdict[r].in = a->verdict[r].ambiguous = false;
     }
     a->unknown = true;
@@ -177,21 +177,21 @@ static hci_status check_believable(const hci_machine_data *machine, const hci_ef
                         has_free ? ", and see whether a shaft without torque_Nm drives a load" : "");
 }
 
-static hci_status diagnose(hci_bench *b, const hci_machine_data *machine, const hci_runs *runs,
+static hci_status diagnose(hci_dataset *b, const hci_machine_data *machine, const hci_runs *runs,
                            const hci_diagnose_options *options, hci_diagnosis *d, hci_note *note)
 {
     const double resolution = options->resolution > 0.0 ? options->resolution : RESOLUTION;
-    const hci_attribute_options how = {runs->run, resolution * hci_bench_range_of(b).torque_Nm,
+    const hci_attribute_options how = {runs->run, resolution * hci_dataset_range_of(b).torque_Nm,
                                        machine->rated_current_A, options->progress,
                                        options->progress_context};
     hci_attribution a;
-    hci_status status = hci_attribute(&b->evidence, &how, &a, note);
+    hci_status status = hci_attribute(&b->regression, &how, &a, note);
     if (status) return status;
     status = fill(b, runs, &a, d, note);
     if (!status && !a.unknown && d->verdict != HCI_DIAGNOSIS_COMPLETE &&
         is_contradicted(b, runs, d, how.resolution_Nm))
         status = withdraw(b, runs, &a, d, note);
-    if (!status) status = check_believable(machine, b->evidence.declared, runs, d, note);
+    if (!status) status = check_believable(machine, b->regression.declared, runs, d, note);
     hci_attribution_release(&a);
     return status;
 }
@@ -205,7 +205,7 @@ static bool is_usable(const hci_runs *runs, size_t k)
 hci_status hci_diagnose(const hci_machine_data *machine, const hci_effects *declared, const hci_runs *runs,
                         const hci_diagnose_options *options, hci_diagnosis *diagnosis, hci_note *note)
 {
-    hci_bench b;
+    hci_dataset b;
     size_t usable = 0;
     memset(diagnosis, 0, sizeof *diagnosis);
     for (size_t k = 0; k < runs->count; ++k)
@@ -215,10 +215,10 @@ hci_status hci_diagnose(const hci_machine_data *machine, const hci_effects *decl
                             "no run with the role `fit` has an angle and a torque; add torque_Nm (0 for a "
                             "holding test), or `inertia` to machine.csv for a free shaft");
     hci_status status = hci_free_shaft_check(machine, declared, runs->run, runs->count, note);
-    if (!status) status = hci_bench_make(machine, declared, runs, &b, note);
+    if (!status) status = hci_dataset_make(machine, declared, runs, &b, note);
     if (status) return status;
     status = diagnose(&b, machine, runs, options, diagnosis, note);
-    hci_bench_release(&b);
+    hci_dataset_release(&b);
     if (status) {
         hci_diagnosis_release(diagnosis);
         return status;

@@ -24,12 +24,12 @@ static size_t describe_term(const hci_effect_type *type, const hci_effect_term *
 }
 
 /* All terms of a type that are in, as many as fit. */
-static void describe(const hci_suspects *suspects, const hci_effect_type *type, char *text, size_t size)
+static void describe(const hci_candidates *candidates, const hci_effect_type *type, char *text, size_t size)
 {
     size_t used = 0;
     text[0] = '\0';
-    for (size_t k = 0; k < suspects->count; ++k) {
-        const hci_suspect *x = &suspects->suspect[k];
+    for (size_t k = 0; k < candidates->count; ++k) {
+        const hci_candidate *x = &candidates->candidate[k];
         for (size_t j = 0; x->in && x->type == type && j < x->count; ++j) {
             const char *between = used == 0 ? "" : "; ";
             if (used + LONGEST_TERM > size) {
@@ -52,11 +52,11 @@ static hci_finding finding_of(const hci_attribution *a, const hci_verdict *v, do
     else if (v->in)
         f.verdict = HCI_FINDING_ADDED;
     if (v->in && whole_Nm2 > 0.0) f.residual_share = fmin(1.0, v->explained_Nm * v->explained_Nm / whole_Nm2);
-    if (v->in) describe(&a->account.suspects, v->type, f.detail, sizeof f.detail);
+    if (v->in) describe(&a->fitted.candidates, v->type, f.detail, sizeof f.detail);
     if (!v->in && v->ambiguous) {
         const int n = snprintf(f.detail, sizeof f.detail, "in place of %s: ", v->rival_of->name);
-        describe(&v->alternative.suspects, v->type, f.detail + n, sizeof f.detail - (size_t)n);
-        if (!v->alternative.suspects.suspect)
+        describe(&v->alternative.candidates, v->type, f.detail + n, sizeof f.detail - (size_t)n);
+        if (!v->alternative.candidates.candidate)
             snprintf(f.detail, sizeof f.detail, "looks the same as a part of %s in all these runs",
                      v->rival_of->name);
     }
@@ -85,13 +85,13 @@ static void unknown_put(const hci_attribution *a, double whole_Nm2, hci_diagnosi
 {
     hci_finding *f = &d->finding[0];
     size_t at = 0;
-    while (at < d->findings && strcmp(d->finding[at].effect, hci_unknown_type.name) != 0)
+    while (at < d->findings && strcmp(d->finding[at].effect, hci_empirical_type.name) != 0)
         ++at;
     assert(at < d->findings);
     memmove(f + 1, f, at * sizeof *f);
-    *f = (hci_finding){hci_unknown_type.name, HCI_FINDING_ADDED, NAN, NAN, ""};
+    *f = (hci_finding){hci_empirical_type.name, HCI_FINDING_ADDED, NAN, NAN, ""};
     if (whole_Nm2 > 0.0) f->residual_share = a->unexplained_Nm * a->unexplained_Nm / whole_Nm2;
-    f->delta_bic = a->before.score - a->account.fit.score;
+    f->delta_bic = a->before.score - a->fitted.fit.score;
     snprintf(f->detail, sizeof f->detail, "rms %.3g N·m that grows as no known effect does",
              a->unexplained_Nm);
 }
@@ -120,24 +120,24 @@ void hci_findings_fill(const hci_attribution *a, hci_diagnosis *d)
 
 /* ---- what is not explained ---- */
 
-static hci_unexplained unexplained_of(const hci_suspect *s, const hci_bench_range *most)
+static hci_unexplained unexplained_of(const hci_candidate *s, const hci_dataset_range *most)
 {
     const size_t g = s->term[0].parameter / 2;
-    const hci_growth growth = hci_growth_of(g);
+    const hci_growth_law growth = hci_growth_law_of(g);
     const double sine = s->term[0].value, cosine = s->term[1].value;
-    const double grown = fabs(hci_growth_at(g, most->current_A, most->speed_rad_per_s));
+    const double grown = fabs(hci_growth_law_at(g, most->current_A, most->speed_rad_per_s));
     return (hci_unexplained){
         s->term[0].order,           sine, cosine, growth.current, growth.speed, growth.turns_sign,
         hypot(sine, cosine) * grown};
 }
 
-void hci_unexplained_fill(const hci_bench *b, const hci_attribution *a, hci_diagnosis *d)
+void hci_unexplained_fill(const hci_dataset *b, const hci_attribution *a, hci_diagnosis *d)
 {
-    const hci_bench_range most = hci_bench_range_of(b);
+    const hci_dataset_range most = hci_dataset_range_of(b);
     d->wanders = a->unknown && a->wanders;
-    for (size_t k = 0; k < a->account.suspects.count && a->unknown; ++k) {
-        const hci_suspect *s = &a->account.suspects.suspect[k];
-        if (s->in && s->type == &hci_unknown_type && d->unexplained_count < HCI_MOST_UNEXPLAINED)
+    for (size_t k = 0; k < a->fitted.candidates.count && a->unknown; ++k) {
+        const hci_candidate *s = &a->fitted.candidates.candidate[k];
+        if (s->in && s->type == &hci_empirical_type && d->unexplained_count < HCI_MOST_UNEXPLAINED)
             d->unexplained[d->unexplained_count++] = unexplained_of(s, &most);
     }
 }

@@ -10,7 +10,7 @@
 void hci_findings_fill(const hci_attribution *attribution, hci_diagnosis *diagnosis);
 
 /* Fills unexplained and wanders: what the search describes without knowing it. */
-void hci_unexplained_fill(const hci_bench *bench, const hci_attribution *attribution,
+void hci_unexplained_fill(const hci_dataset *dataset, const hci_attribution *attribution,
                           hci_diagnosis *diagnosis);
 
 #endif

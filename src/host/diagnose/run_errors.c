@@ -20,71 +20,71 @@ static hci_status no_memory(hci_note *note)
 
 /* ---- one run ---- */
 
-static double samples_of(const hci_bench *b, size_t run)
+static double samples_of(const hci_dataset *b, size_t run)
 {
     double count = 0.0;
-    for (const hci_stretch *s = NULL; (s = hci_cells_next(&b->cells, run, s)) != NULL;)
+    for (const hci_segment *s = NULL; (s = hci_segment_next(&b->samples, run, s)) != NULL;)
         for (size_t j = s->first; j < s->first + s->count; ++j)
-            count += b->cells.cell[j].count;
+            count += b->samples.sample[j].count;
     return count;
 }
 
-/* Over samples: a mean over turns has the scatter of those that are in it too. NAN without cells. */
-static double rms_of(const hci_bench *b, size_t run, const double *residual)
+/* Over samples: a mean over turns has the scatter of those that are in it too. NAN without samples. */
+static double rms_of(const hci_dataset *b, size_t run, const double *residual)
 {
     double sum = 0.0, count = 0.0;
-    for (const hci_stretch *s = NULL; (s = hci_cells_next(&b->cells, run, s)) != NULL;)
+    for (const hci_segment *s = NULL; (s = hci_segment_next(&b->samples, run, s)) != NULL;)
         for (size_t j = s->first; j < s->first + s->count; ++j) {
-            sum += b->cells.cell[j].count * residual[j] * residual[j] + b->cells.cell[j].scatter_N2m2;
-            count += b->cells.cell[j].count;
+            sum += b->samples.sample[j].count * residual[j] * residual[j] + b->samples.sample[j].scatter_N2m2;
+            count += b->samples.sample[j].count;
         }
     return count > 0.0 ? sqrt(sum / count) : (double)NAN;
 }
 
 /* Of the samples in means over turns; NAN where there are none. */
-static double scatter_of(const hci_bench *b, size_t run)
+static double scatter_of(const hci_dataset *b, size_t run)
 {
     double sum = 0.0, freedom = 0.0;
-    for (const hci_stretch *s = NULL; (s = hci_cells_next(&b->cells, run, s)) != NULL;)
+    for (const hci_segment *s = NULL; (s = hci_segment_next(&b->samples, run, s)) != NULL;)
         for (size_t j = s->first; j < s->first + s->count && s->turns > 0; ++j) {
-            sum += b->cells.cell[j].scatter_N2m2;
-            freedom += b->cells.cell[j].count - 1.0;
+            sum += b->samples.sample[j].scatter_N2m2;
+            freedom += b->samples.sample[j].count - 1.0;
         }
     return freedom > FREEDOM ? sqrt(sum / freedom) : (double)NAN;
 }
 
 /* How far a sample's residual is from the mean of those at about the same angle. */
-static double repeatability(const hci_bench *b, size_t run, const double *residual, double turn_rad)
+static double repeatability(const hci_dataset *b, size_t run, const double *residual, double turn_rad)
 {
     hci_repeat repeat = {0};
     double samples = 0.0;
-    for (const hci_stretch *s = NULL; (s = hci_cells_next(&b->cells, run, s)) != NULL;)
+    for (const hci_segment *s = NULL; (s = hci_segment_next(&b->samples, run, s)) != NULL;)
         samples += (double)s->count;
     const bool few = samples < PER_RANGE * HCI_MOST_RANGES;
     repeat.ranges = few ? (size_t)(samples / PER_RANGE) + 1 : HCI_MOST_RANGES;
-    for (const hci_stretch *s = NULL; (s = hci_cells_next(&b->cells, run, s)) != NULL;)
+    for (const hci_segment *s = NULL; (s = hci_segment_next(&b->samples, run, s)) != NULL;)
         for (size_t j = s->first; j < s->first + s->count; ++j)
-            hci_repeat_add(&repeat, b->cells.cell[j].raw.theta_m_rad / turn_rad, residual[j]);
+            hci_repeat_add(&repeat, b->samples.sample[j].raw.theta_m_rad / turn_rad, residual[j]);
     return hci_repeat_rms(&repeat, FREEDOM);
 }
 
 /* From the turns that a run has; NAN where it has too few. */
-static double noise_of_turns(const hci_bench *b, const hci_run *runs, size_t run, const double *residual)
+static double noise_of_turns(const hci_dataset *b, const hci_run *runs, size_t run, const double *residual)
 {
-    const hci_run_figures *f = &b->cells.figures[run];
-    const double turn_rad = 2.0 * HCI_PI / (runs[run].turn_known ? 1.0 : b->evidence.machine->pole_pairs);
+    const hci_run_statistics *f = &b->samples.statistics[run];
+    const double turn_rad = 2.0 * HCI_PI / (runs[run].turn_known ? 1.0 : b->regression.machine->pole_pairs);
     const double scatter = scatter_of(b, run);
     if (isfinite(scatter)) return scatter;
     if (f->turns * 2.0 * HCI_PI < LEAST_TURNS * turn_rad) return NAN;
     return repeatability(b, run, residual, turn_rad);
 }
 
-/* From the spectrum between the orders; NAN without cells. */
-static double noise_of_spectrum(const hci_bench *b, size_t run)
+/* From the spectrum between the orders; NAN without samples. */
+static double noise_of_spectrum(const hci_dataset *b, size_t run)
 {
     double sum = 0.0, count = 0.0;
-    for (const hci_stretch *s = NULL; (s = hci_cells_next(&b->cells, run, s)) != NULL;) {
-        const double rms = hci_evidence_noise(&b->evidence, s)->rms;
+    for (const hci_segment *s = NULL; (s = hci_segment_next(&b->samples, run, s)) != NULL;) {
+        const double rms = hci_regression_noise(&b->regression, s)->rms;
         sum += (double)s->count * rms * rms;
         count += (double)s->count;
     }
@@ -92,14 +92,14 @@ static double noise_of_spectrum(const hci_bench *b, size_t run)
 }
 
 /* The relative deviation of an rms of n samples is 1/√(2n). */
-static hci_run_errors errors_of(const hci_bench *b, const hci_runs *runs, size_t run, const double *before,
+static hci_run_errors errors_of(const hci_dataset *b, const hci_runs *runs, size_t run, const double *before,
                                 const double *after)
 {
     hci_run_errors e = {
         .file = runs->run[run].name, .role = runs->role[run], .source = runs->run[run].torque_source};
     const double spread = SIGMA_95 / sqrt(2.0 * samples_of(b, run));
-    e.mean_torque_Nm = b->cells.figures[run].mean_torque_Nm;
-    e.slip_rad = b->slip_rad[run];
+    e.mean_torque_Nm = b->samples.statistics[run].mean_torque_Nm;
+    e.slip_rad = b->index_offset_rad[run];
     e.rms_before_Nm = rms_of(b, run, before);
     e.rms_after_Nm = rms_of(b, run, after);
     e.noise_floor_Nm = noise_of_turns(b, runs->run, run, after);
@@ -111,26 +111,26 @@ static hci_run_errors errors_of(const hci_bench *b, const hci_runs *runs, size_t
 
 /* ---- all runs ---- */
 
-static hci_status lines_fill(const hci_bench *b, const double *before, const double *after, hci_diagnosis *d,
-                             hci_note *note)
+static hci_status lines_fill(const hci_dataset *b, const double *before, const double *after,
+                             hci_diagnosis *d, hci_note *note)
 {
-    double *noise_Nm = hci_memory_new(b->cells.run_count + 1, sizeof *noise_Nm);
+    double *noise_Nm = hci_memory_new(b->samples.run_count + 1, sizeof *noise_Nm);
     if (!noise_Nm) return no_memory(note);
-    for (size_t r = 0; r < b->cells.run_count; ++r)
+    for (size_t r = 0; r < b->samples.run_count; ++r)
         noise_Nm[r] = noise_of_spectrum(b, r);
     const hci_status status =
-        hci_lines_make(&b->evidence, before, after, noise_Nm, &d->line, &d->lines, note);
+        hci_residual_spectrum_make(&b->regression, before, after, noise_Nm, &d->line, &d->lines, note);
     hci_memory_free(noise_Nm);
     return status;
 }
 
-static hci_status runs_fill(const hci_bench *b, const hci_runs *runs, const double *before,
+static hci_status runs_fill(const hci_dataset *b, const hci_runs *runs, const double *before,
                             const double *after, hci_diagnosis *d, hci_note *note)
 {
     d->run = hci_memory_new(runs->count + 1, sizeof *d->run);
     if (!d->run) return no_memory(note);
     for (size_t k = 0; k < runs->count; ++k)
-        if (hci_cells_next(&b->cells, k, NULL)) d->run[d->runs++] = errors_of(b, runs, k, before, after);
+        if (hci_segment_next(&b->samples, k, NULL)) d->run[d->runs++] = errors_of(b, runs, k, before, after);
     return HCI_OK;
 }
 
@@ -152,27 +152,27 @@ static void totals_of(const hci_diagnosis *d, hci_role role, double *before_Nm, 
     *noise_Nm = count > 0.0 ? sqrt(noise / count) : (double)NAN;
 }
 
-static hci_status fill(hci_bench *b, const hci_runs *runs, size_t parameters, double *before, double *after,
+static hci_status fill(hci_dataset *b, const hci_runs *runs, size_t parameters, double *before, double *after,
                        hci_diagnosis *d, hci_note *note)
 {
-    hci_status status = hci_evidence_residual(&b->evidence, b->evidence.declared, before, note);
-    if (!status) status = hci_evidence_residual(&b->evidence, &d->effects.list, after, note);
-    if (!status) status = hci_evidence_noise_find(&b->evidence, after, parameters, 0.0, note);
+    hci_status status = hci_regression_residual(&b->regression, b->regression.declared, before, note);
+    if (!status) status = hci_regression_residual(&b->regression, &d->effects.list, after, note);
+    if (!status) status = hci_regression_noise_estimate(&b->regression, after, parameters, 0.0, note);
     if (!status) status = lines_fill(b, before, after, d, note);
     if (!status) status = runs_fill(b, runs, before, after, d, note);
     return status;
 }
 
-hci_status hci_run_errors_fill(hci_bench *b, const hci_runs *runs, size_t parameters, hci_diagnosis *d,
+hci_status hci_run_errors_fill(hci_dataset *b, const hci_runs *runs, size_t parameters, hci_diagnosis *d,
                                hci_note *note)
 {
-    double *before = hci_memory_new(2 * b->cells.count + 1, sizeof *before);
+    double *before = hci_memory_new(2 * b->samples.count + 1, sizeof *before);
     if (!before) return no_memory(note);
-    b->evidence.use = b->any;
-    b->evidence.raw = true;
-    const hci_status status = fill(b, runs, parameters, before, before + b->cells.count, d, note);
-    b->evidence.use = b->fit;
-    b->evidence.raw = false;
+    b->regression.use = b->any;
+    b->regression.raw = true;
+    const hci_status status = fill(b, runs, parameters, before, before + b->samples.count, d, note);
+    b->regression.use = b->fit;
+    b->regression.raw = false;
     hci_memory_free(before);
     if (status) return status;
     totals_of(d, HCI_ROLE_FIT, &d->rms_before_Nm, &d->rms_after_Nm, &d->noise_Nm);

@@ -6,9 +6,9 @@
 #include "host/diagnose/fit/dataset.h"
 
 /* Fills run, line and the totals of a diagnosis whose effects are there already. parameters: that were
- * fitted. The noise of the bench's evidence becomes that of the readings of all runs. HCI_ERROR_MEMORY.
- * O(cells·(terms + orders)). */
-hci_status hci_run_errors_fill(hci_bench *bench, const hci_runs *runs, size_t parameters,
+ * fitted. The noise of the dataset's regression becomes that of the readings of all runs. HCI_ERROR_MEMORY.
+ * O(samples·(terms + orders)). */
+hci_status hci_run_errors_fill(hci_dataset *dataset, const hci_runs *runs, size_t parameters,
                                hci_diagnosis *diagnosis, hci_note *note);
 
 #endif

@@ -12,7 +12,7 @@ static const double NOISE_NM = 0.05, TURN = 2.0 * 3.14159265358979323846;
 
 static uint64_t seed;
 static hci_run run;
-static hci_cells cells;
+static hci_binned_samples binned;
 static double once_Nm; /* what repeats with the mechanical turn only */
 
 void setUp(void)
@@ -24,15 +24,16 @@ void setUp(void)
 void tearDown(void)
 {
     hci_memory_fail_after(-1);
-    hci_cells_release(&cells);
+    hci_binned_samples_release(&binned);
     rec_release(&run);
 }
 
 static void reduce(void)
 {
     hci_note note = {{0}};
-    hci_cells_release(&cells);
-    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_cells_make(&MACHINE, &run, 1, &cells, &note), note.text);
+    hci_binned_samples_release(&binned);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_binned_samples_make(&MACHINE, &run, 1, &binned, &note),
+                                  note.text);
 }
 
 static double torque_at(double theta_m)
@@ -57,33 +58,33 @@ static void turn_steadily(double turns, double samples, double speed)
 
 /* ---- means over turns ---- */
 
-/* Each cell is the formula at its own angle, with noise that falls with the samples in it; time goes on as
- * the shaft turns. turn_rad: after which all repeats. width_rad: of a cell, whose mean is off by half the
+/* Each sample is the formula at its own angle, with noise that falls with the samples in it; time goes on as
+ * the shaft turns. turn_rad: after which all repeats. width_rad: of a sample, whose mean is off by half the
  * second derivative times (width/2)² at most. */
 static void is_mean_of_turns(double speed, double turns, double turn_rad, double width_rad)
 {
-    const hci_stretch *s = cells.stretch;
+    const hci_segment *s = binned.segment;
     const double off = width_rad * width_rad / 8.0;
     double square = 0.0, samples = 0.0;
-    TEST_ASSERT_EQUAL_UINT64(1, cells.stretch_count);
-    TEST_ASSERT_EQUAL_UINT64(cells.count, s->count);
+    TEST_ASSERT_EQUAL_UINT64(1, binned.segment_count);
+    TEST_ASSERT_EQUAL_UINT64(binned.count, s->count);
     TEST_ASSERT_DOUBLE_WITHIN(1.0 + 0.002 * turns, turns, (double)s->turns);
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, turn_rad / fabs(speed), s->period_s);
     for (size_t k = 0; k < s->count; ++k) {
-        const hci_cell *c = &cells.cell[k];
+        const hci_binned_sample *c = &binned.sample[k];
         const double theta_m = c->raw.theta_m_rad, error = c->torque_Nm - torque_at(theta_m);
         double i_abc[3];
         samples += c->count;
         square += c->count * error * error;
         TEST_ASSERT_DOUBLE_WITHIN(5.0 * NOISE_NM / sqrt(c->count) + 70.0 * off, 0.0, error);
-        TEST_ASSERT_DOUBLE_WITHIN(1e-9, (theta_m - cells.cell[0].raw.theta_m_rad) / speed, c->time_s);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, (theta_m - binned.sample[0].raw.theta_m_rad) / speed, c->time_s);
         rec_phases(-1.0, 3.0, P * theta_m, i_abc);
         for (int p = 0; p < 3; ++p)
             TEST_ASSERT_DOUBLE_WITHIN(29.0 * off + 1e-9, i_abc[p], c->raw.i_abc[p]);
         if (k > 0) TEST_ASSERT_EQUAL(speed > 0.0, theta_m > c[-1].raw.theta_m_rad);
     }
     TEST_ASSERT_TRUE(samples >= (1.0 - 1.5 / turns) * (double)run.count);
-    TEST_ASSERT_DOUBLE_WITHIN(0.1, 1.0, sqrt(square / (double)s->count) / NOISE_NM); /* 400 cells: ± 3.5 % */
+    TEST_ASSERT_DOUBLE_WITHIN(0.1, 1.0, sqrt(square / (double)s->count) / NOISE_NM); /* 400 binned: ± 3.5 % */
 }
 
 static void test_turns_become_one_mean(void)
@@ -92,11 +93,11 @@ static void test_turns_become_one_mean(void)
         turn_steadily(200.0, 400.0, 50.0 * direction);
         reduce();
         is_mean_of_turns(50.0 * direction, 200.0, TURN, 0.0);
-        TEST_ASSERT_EQUAL_UINT64(400, cells.count);
+        TEST_ASSERT_EQUAL_UINT64(400, binned.count);
         turn_steadily(200.0, 401.618, 50.0 * direction); /* each turn at other angles */
         reduce();
         is_mean_of_turns(50.0 * direction, 200.0, TURN, TURN / 4096.0);
-        TEST_ASSERT_EQUAL_UINT64(4096, cells.count);
+        TEST_ASSERT_EQUAL_UINT64(4096, binned.count);
     }
 }
 
@@ -112,8 +113,8 @@ static void test_turns_of_a_wrapped_electrical_angle(void)
     turn_steadily(2.5, 2000.0, 50.0); /* seven electrical periods are enough for a mean */
     run.turn_known = false;
     reduce();
-    TEST_ASSERT_EQUAL_UINT64(1, cells.stretch_count);
-    TEST_ASSERT_TRUE(cells.stretch[0].turns > 0);
+    TEST_ASSERT_EQUAL_UINT64(1, binned.segment_count);
+    TEST_ASSERT_TRUE(binned.segment[0].turns > 0);
 }
 
 /* What a run may have or not: no time, a temperature that rises, currents that have a sum. */
@@ -129,15 +130,15 @@ static void test_other_columns_of_a_mean(void)
         run.temperature_C[k] = 40.0 + 0.02 * (double)(k / 400);
     }
     reduce();
-    TEST_ASSERT_EQUAL_UINT64(1, cells.stretch_count);
-    TEST_ASSERT_FALSE(cells.stretch[0].timed);
-    for (size_t k = 0; k < cells.count; ++k) {
-        TEST_ASSERT_EQUAL_DOUBLE(0.0, cells.cell[k].time_s);
-        TEST_ASSERT_EQUAL_DOUBLE(0.0, cells.cell[k].reading.change_A_per_s[0]);
-        TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.3, cells.cell[k].sum_A);
-        TEST_ASSERT_DOUBLE_WITHIN(0.02, 40.19, cells.cell[k].reading.temperature_C);
+    TEST_ASSERT_EQUAL_UINT64(1, binned.segment_count);
+    TEST_ASSERT_FALSE(binned.segment[0].timed);
+    for (size_t k = 0; k < binned.count; ++k) {
+        TEST_ASSERT_EQUAL_DOUBLE(0.0, binned.sample[k].time_s);
+        TEST_ASSERT_EQUAL_DOUBLE(0.0, binned.sample[k].reading.change_A_per_s[0]);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.3, binned.sample[k].sum_A);
+        TEST_ASSERT_DOUBLE_WITHIN(0.02, 40.19, binned.sample[k].reading.temperature_C);
     }
-    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 40.19, cells.figures[0].temperature_C);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 40.19, binned.statistics[0].temperature_C);
 }
 
 static void test_figures_of_a_run(void)
@@ -145,7 +146,7 @@ static void test_figures_of_a_run(void)
     turn_steadily(200.0, 401.618, -50.0);
     run.theta_m_rad[5] = run.theta_m_rad[4]; /* a sample twice is no step */
     reduce();
-    const hci_run_figures *f = cells.figures;
+    const hci_run_statistics *f = binned.statistics;
     TEST_ASSERT_DOUBLE_WITHIN(0.001, 1.0, f->mean_torque_Nm);
     TEST_ASSERT_DOUBLE_WITHIN(0.001, sqrt(1.0 + 0.5 * (0.04 + 0.0025 + 0.0009) + 0.0025), f->rms_torque_Nm);
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, -50.0, f->mean_speed_rad_per_s);
@@ -185,21 +186,21 @@ static void is_held(double friction_A)
     size_t means = 0;
     hold(1000, friction_A);
     reduce();
-    for (size_t k = 0; k < cells.stretch_count; ++k) {
-        const hci_stretch *s = &cells.stretch[k];
+    for (size_t k = 0; k < binned.segment_count; ++k) {
+        const hci_segment *s = &binned.segment[k];
         const double sign = means == 0 ? 1.0 : -1.0;
         if (s->turns == 0) continue;
         TEST_ASSERT_DOUBLE_WITHIN(1.0, 5.0, (double)s->turns);
         TEST_ASSERT_TRUE(s->count >= 1000);
         for (size_t j = s->first; j < s->first + s->count; ++j) {
-            const hci_sample *x = &cells.cell[j].raw;
+            const hci_sample *x = &binned.sample[j].raw;
             double d, q;
             rec_rotor(x->i_abc, P * x->theta_m_rad, &d, &q);
             TEST_ASSERT_DOUBLE_WITHIN(0.4 * friction_A, 0.5 * sin(12.0 * x->theta_m_rad) + friction_A * sign,
                                       q);
-            TEST_ASSERT_EQUAL_DOUBLE(0.0, cells.cell[j].torque_Nm);
+            TEST_ASSERT_EQUAL_DOUBLE(0.0, binned.sample[j].torque_Nm);
             if (j > s->first)
-                TEST_ASSERT_EQUAL(sign > 0.0, x->theta_m_rad > cells.cell[j - 1].raw.theta_m_rad);
+                TEST_ASSERT_EQUAL(sign > 0.0, x->theta_m_rad > binned.sample[j - 1].raw.theta_m_rad);
         }
         ++means;
     }
@@ -214,7 +215,7 @@ static void test_holding_there_and_back(void)
 
 /* ---- samples as they are ---- */
 
-static bool is_sample(const hci_cell *c, size_t k)
+static bool is_sample(const hci_binned_sample *c, size_t k)
 {
     return c->count == 1.0 && c->raw.theta_m_rad == run.theta_m_rad[k] && c->torque_Nm == run.torque_Nm[k] &&
            c->raw.i_abc[1] == run.i_A[3 * k + 1] && c->time_s == run.time_s[k];
@@ -232,12 +233,12 @@ static void test_an_unsteady_run_stays(void)
             if (what == 1) rec_phases(-1.0, 3.0 + 12.0 * share, P * run.theta_m_rad[k], run.i_A + 3 * k);
         }
         reduce();
-        TEST_ASSERT_TRUE(cells.stretch_count > 1 && cells.count <= run.count);
-        for (size_t s = 0; s < cells.stretch_count; ++s) {
-            TEST_ASSERT_EQUAL_UINT64(0, cells.stretch[s].turns);
-            TEST_ASSERT_TRUE(cells.stretch[s].count <= HCI_MOST_STRETCH);
-            for (size_t j = 0; j < cells.stretch[s].count; ++j, ++at) {
-                const hci_cell *c = &cells.cell[cells.stretch[s].first + j];
+        TEST_ASSERT_TRUE(binned.segment_count > 1 && binned.count <= run.count);
+        for (size_t s = 0; s < binned.segment_count; ++s) {
+            TEST_ASSERT_EQUAL_UINT64(0, binned.segment[s].turns);
+            TEST_ASSERT_TRUE(binned.segment[s].count <= HCI_LONGEST_SEGMENT);
+            for (size_t j = 0; j < binned.segment[s].count; ++j, ++at) {
+                const hci_binned_sample *c = &binned.sample[binned.segment[s].first + j];
                 while (at < run.count && !is_sample(c, at))
                     ++at;
                 TEST_ASSERT_TRUE(at < run.count);
@@ -252,18 +253,18 @@ static void test_short_runs(void)
     for (size_t n = 0; n < 60; ++n) {
         turn_steadily((double)n / 400.0, 400.0, 50.0);
         reduce();
-        TEST_ASSERT_EQUAL_UINT64(n, cells.count);
-        TEST_ASSERT_EQUAL_UINT64(n > 0, cells.stretch_count);
+        TEST_ASSERT_EQUAL_UINT64(n, binned.count);
+        TEST_ASSERT_EQUAL_UINT64(n > 0, binned.segment_count);
         for (size_t k = 0; k < n; ++k) {
-            TEST_ASSERT_TRUE(is_sample(&cells.cell[k], k));
-            TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0.0, cells.cell[k].reading.change_A_per_s[0]);
+            TEST_ASSERT_TRUE(is_sample(&binned.sample[k], k));
+            TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0.0, binned.sample[k].reading.change_A_per_s[0]);
         }
     }
     free(run.torque_Nm);
     run.torque_Nm = NULL;
     reduce();
-    TEST_ASSERT_EQUAL_UINT64(0, cells.count);
-    TEST_ASSERT_EQUAL_UINT64(1, cells.run_count);
+    TEST_ASSERT_EQUAL_UINT64(0, binned.count);
+    TEST_ASSERT_EQUAL_UINT64(1, binned.run_count);
 }
 
 static void test_memory_is_out(void)
@@ -275,10 +276,10 @@ static void test_memory_is_out(void)
     for (; status == HCI_ERROR_MEMORY; ++n) {
         memset(&note, 0, sizeof note);
         hci_memory_fail_after(n);
-        status = hci_cells_make(&MACHINE, &run, 1, &cells, &note);
+        status = hci_binned_samples_make(&MACHINE, &run, 1, &binned, &note);
         hci_memory_fail_after(-1);
         TEST_ASSERT_EQUAL(status == HCI_OK, note.text[0] == '\0');
-        TEST_ASSERT_EQUAL(status == HCI_OK, cells.cell != NULL);
+        TEST_ASSERT_EQUAL(status == HCI_OK, binned.sample != NULL);
     }
     TEST_ASSERT_EQUAL_INT(HCI_OK, status);
     TEST_ASSERT_TRUE(n > 5);

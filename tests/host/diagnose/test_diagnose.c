@@ -8,12 +8,12 @@
 
 void setUp(void)
 {
-    bench_start();
+    dataset_start();
 }
 
 void tearDown(void)
 {
-    bench_end();
+    dataset_end();
 }
 
 /* Within three standard errors, and those are what so many samples of so much noise allow, or not much more.

@@ -7,12 +7,12 @@
 
 void setUp(void)
 {
-    bench_start();
+    dataset_start();
 }
 
 void tearDown(void)
 {
-    bench_end();
+    dataset_end();
 }
 
 /* ---- no runs ---- */

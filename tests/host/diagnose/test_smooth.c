@@ -9,7 +9,7 @@ static const hci_machine MACHINE = {.pole_pairs = P};
 
 static uint64_t seed;
 static hci_run run;
-static hci_cells cells;
+static hci_binned_samples binned;
 static double truth[MOST]; /* mechanical angle, rad */
 static double once;        /* how much of what is once a turn the currents have */
 
@@ -21,16 +21,17 @@ void setUp(void)
 
 void tearDown(void)
 {
-    hci_cells_release(&cells);
+    hci_binned_samples_release(&binned);
     rec_release(&run);
 }
 
 static void reduce(void)
 {
     hci_note note = {{0}};
-    hci_cells_release(&cells);
-    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_cells_make(&MACHINE, &run, 1, &cells, &note), note.text);
-    TEST_ASSERT_EQUAL_UINT64(1, cells.stretch_count);
+    hci_binned_samples_release(&binned);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_binned_samples_make(&MACHINE, &run, 1, &binned, &note),
+                                  note.text);
+    TEST_ASSERT_EQUAL_UINT64(1, binned.segment_count);
 }
 
 /* Constant speed with a ripple of the angle, ripple_rad sin(order·ωt). */
@@ -54,7 +55,7 @@ static double angle_error(size_t from, size_t to)
 {
     double square = 0.0;
     for (size_t k = from; k < to; ++k)
-        square += pow(cells.cell[k].reading.theta_m_rad - truth[k], 2.0);
+        square += pow(binned.sample[k].reading.theta_m_rad - truth[k], 2.0);
     return sqrt(square / (double)(to - from));
 }
 
@@ -73,7 +74,7 @@ static void test_steps_of_an_encoder(void)
     const double error = angle_error(10, MOST - 10) / (step / sqrt(12.0));
     TEST_ASSERT_DOUBLE_WITHIN(0.15 * 0.328, 0.328,
                               error); /* 190 values that do not depend on each other: ± 5 % */
-    TEST_ASSERT_EQUAL_DOUBLE(run.theta_m_rad[777], cells.cell[777].raw.theta_m_rad);
+    TEST_ASSERT_EQUAL_DOUBLE(run.theta_m_rad[777], binned.sample[777].raw.theta_m_rad);
     TEST_ASSERT_TRUE(angle_error(0, 10) < 0.01 && angle_error(MOST - 10, MOST) < 0.01);
 }
 
@@ -103,7 +104,7 @@ static void test_what_is_not_smoothed(void)
         if (what == 2) run.time_s = NULL;
         reduce();
         for (size_t k = 0; k < 500; ++k)
-            TEST_ASSERT_EQUAL_DOUBLE(run.theta_m_rad[k], cells.cell[k].reading.theta_m_rad);
+            TEST_ASSERT_EQUAL_DOUBLE(run.theta_m_rad[k], binned.sample[k].reading.theta_m_rad);
     }
 }
 
@@ -135,12 +136,12 @@ static void flow(double noise_A)
 static double current_error(bool raw)
 {
     double square = 0.0;
-    for (size_t k = 0; k < cells.count; ++k) {
-        const hci_cell *c = &cells.cell[k];
+    for (size_t k = 0; k < binned.count; ++k) {
+        const hci_binned_sample *c = &binned.sample[k];
         double d, q, d0, q0;
         rec_rotor(raw ? c->raw.i_abc : c->reading.i_abc, P * c->raw.theta_m_rad, &d, &q);
         current(c->raw.theta_m_rad, 0, &d0, &q0);
-        square += 0.5 * ((d - d0) * (d - d0) + (q - q0) * (q - q0)) / (double)cells.count;
+        square += 0.5 * ((d - d0) * (d - d0) + (q - q0) * (q - q0)) / (double)binned.count;
     }
     return square;
 }
@@ -183,10 +184,10 @@ static void test_currents_are_not_distorted(void)
             }
             flow(0.0);
             reduce();
-            TEST_ASSERT_EQUAL(mean, cells.stretch[0].turns > 0);
-            TEST_ASSERT_TRUE(sqrt(current_error(false)) < (mean ? 1e-4 : 1e-9)); /* cells are 2π/2048 wide */
-            for (size_t k = 0; k < cells.count; ++k) {
-                const hci_sample *x = &cells.cell[k].reading;
+            TEST_ASSERT_EQUAL(mean, binned.segment[0].turns > 0);
+            TEST_ASSERT_TRUE(sqrt(current_error(false)) < (mean ? 1e-4 : 1e-9)); /* binned are 2π/2048 wide */
+            for (size_t k = 0; k < binned.count; ++k) {
+                const hci_sample *x = &binned.sample[k].reading;
                 double d, q, dd, dq;
                 rec_rotor(x->change_A_per_s, P * x->theta_m_rad, &d, &q);
                 current(x->theta_m_rad, 1, &dd, &dq);
@@ -196,7 +197,7 @@ static void test_currents_are_not_distorted(void)
                 current(x->theta_m_rad, 2, &dd, &dq);
                 TEST_ASSERT_DOUBLE_WITHIN(mean ? 700.0 : 1e-3, 2500.0 * dd, d); /* of 243000 A/s² */
                 TEST_ASSERT_DOUBLE_WITHIN(mean ? 700.0 : 1e-3, 2500.0 * dq, q);
-                TEST_ASSERT_EQUAL_DOUBLE(x->change_A_per_s[1], cells.cell[k].raw.change_A_per_s[1]);
+                TEST_ASSERT_EQUAL_DOUBLE(x->change_A_per_s[1], binned.sample[k].raw.change_A_per_s[1]);
             }
         }
 }
@@ -210,7 +211,7 @@ static void test_rate_of_change_of_a_short_run(void)
         flow(0.0);
         reduce();
         for (size_t k = 10; k < 460; ++k) {
-            const hci_sample *x = &cells.cell[k].reading;
+            const hci_sample *x = &binned.sample[k].reading;
             double d, q, dd, dq;
             rec_rotor(x->change_A_per_s, P * x->theta_m_rad, &d, &q);
             current(x->theta_m_rad, 1, &dd, &dq);
@@ -228,7 +229,7 @@ static void test_a_ramp_of_current_stays(void)
         rec_phases(0.0, 1.0 + (double)k / MOST, P * truth[k], run.i_A + 3 * k);
     reduce();
     for (size_t k = 0; k < MOST; ++k)
-        TEST_ASSERT_EQUAL_DOUBLE(run.i_A[3 * k], cells.cell[k].reading.i_abc[0]);
+        TEST_ASSERT_EQUAL_DOUBLE(run.i_A[3 * k], binned.sample[k].reading.i_abc[0]);
 }
 
 int main(void)

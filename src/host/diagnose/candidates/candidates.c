@@ -13,61 +13,61 @@ static hci_status no_memory(hci_note *note)
 
 /* ---- types ---- */
 
-const hci_effect_type *hci_suspect_type(size_t k)
+const hci_effect_type *hci_candidate_type(size_t k)
 {
     const hci_effect_type *type = hci_effect_type_at(k);
-    return type || (k > 0 && !hci_effect_type_at(k - 1)) ? type : &hci_unknown_type;
+    return type || (k > 0 && !hci_effect_type_at(k - 1)) ? type : &hci_empirical_type;
 }
 
-size_t hci_suspect_types(void)
+size_t hci_candidate_types(void)
 {
     size_t k = 0;
-    while (hci_suspect_type(k))
+    while (hci_candidate_type(k))
         ++k;
     return k;
 }
 
-bool hci_suspects_have(const hci_suspects *s, const hci_effect_type *type)
+bool hci_candidates_have(const hci_candidates *s, const hci_effect_type *type)
 {
     for (size_t k = 0; k < s->count; ++k)
-        if (s->suspect[k].in && s->suspect[k].type == type) return true;
+        if (s->candidate[k].in && s->candidate[k].type == type) return true;
     return false;
 }
 
-size_t hci_suspects_types_in(const hci_suspects *s)
+size_t hci_candidates_types_in(const hci_candidates *s)
 {
     size_t sum = 0;
-    for (size_t r = 0; hci_suspect_type(r); ++r)
-        sum += hci_suspects_have(s, hci_suspect_type(r));
+    for (size_t r = 0; hci_candidate_type(r); ++r)
+        sum += hci_candidates_have(s, hci_candidate_type(r));
     return sum;
 }
 
-size_t hci_suspects_terms_in(const hci_suspects *s)
+size_t hci_candidates_terms_in(const hci_candidates *s)
 {
     size_t sum = 0;
     for (size_t k = 0; k < s->count; ++k)
-        if (s->suspect[k].in) sum += s->suspect[k].count;
+        if (s->candidate[k].in) sum += s->candidate[k].count;
     return sum;
 }
 
-void hci_suspects_leave(hci_suspects *s, const hci_effect_type *type)
+void hci_candidates_remove_type(hci_candidates *s, const hci_effect_type *type)
 {
     for (size_t k = 0; k < s->count; ++k)
-        if (s->suspect[k].type == type) s->suspect[k].in = false;
+        if (s->candidate[k].type == type) s->candidate[k].in = false;
 }
 
-hci_status hci_suspects_copy(const hci_suspects *from, hci_suspects *to, hci_note *note)
+hci_status hci_candidates_copy(const hci_candidates *from, hci_candidates *to, hci_note *note)
 {
     memset(to, 0, sizeof *to);
-    hci_suspect *suspect = hci_memory_new(from->count + 1, sizeof *suspect);
-    if (!suspect) return no_memory(note);
-    if (from->count > 0) memcpy(suspect, from->suspect, from->count * sizeof *suspect);
+    hci_candidate *candidate = hci_memory_new(from->count + 1, sizeof *candidate);
+    if (!candidate) return no_memory(note);
+    if (from->count > 0) memcpy(candidate, from->candidate, from->count * sizeof *candidate);
     *to = *from;
-    to->suspect = suspect;
+    to->candidate = candidate;
     return HCI_OK;
 }
 
-bool hci_suspect_same(const hci_suspect *a, const hci_suspect *b)
+bool hci_candidate_same(const hci_candidate *a, const hci_candidate *b)
 {
     if (a->type != b->type || a->count != b->count) return false;
     for (size_t k = 0; k < a->count; ++k)
@@ -77,23 +77,23 @@ bool hci_suspect_same(const hci_suspect *a, const hci_suspect *b)
     return true;
 }
 
-hci_status hci_suspects_add(hci_suspects *suspects, const hci_suspect *suspect, hci_note *note)
+hci_status hci_candidates_add(hci_candidates *candidates, const hci_candidate *candidate, hci_note *note)
 {
-    size_t at = suspects->count;
-    hci_suspect *grown = hci_memory_resize(suspects->suspect, suspects->count + 1, sizeof *grown);
+    size_t at = candidates->count;
+    hci_candidate *grown = hci_memory_resize(candidates->candidate, candidates->count + 1, sizeof *grown);
     if (!grown) return no_memory(note);
-    suspects->suspect = grown;
-    while (at > 0 && grown[at - 1].type != suspect->type)
+    candidates->candidate = grown;
+    while (at > 0 && grown[at - 1].type != candidate->type)
         --at;
-    if (at == 0) at = suspects->count;
-    memmove(grown + at + 1, grown + at, (suspects->count - at) * sizeof *grown);
-    grown[at] = *suspect;
-    ++suspects->count;
+    if (at == 0) at = candidates->count;
+    memmove(grown + at + 1, grown + at, (candidates->count - at) * sizeof *grown);
+    grown[at] = *candidate;
+    ++candidates->count;
     return HCI_OK;
 }
 
-void hci_suspects_release(hci_suspects *suspects)
+void hci_candidates_release(hci_candidates *candidates)
 {
-    hci_memory_free(suspects->suspect);
-    memset(suspects, 0, sizeof *suspects);
+    hci_memory_free(candidates->candidate);
+    memset(candidates, 0, sizeof *candidates);
 }

@@ -8,24 +8,24 @@
 static const double OF_CURRENT[] = {0.0, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0};
 static const double OF_SPEED[] = {0.0, 0.5, 1.0, 2.0};
 
-hci_growth hci_growth_of(size_t g)
+hci_growth_law hci_growth_law_of(size_t g)
 {
     enum { CURRENTS = sizeof OF_CURRENT / sizeof *OF_CURRENT, SPEEDS = sizeof OF_SPEED / sizeof *OF_SPEED };
-    const hci_growth x = {OF_CURRENT[g % CURRENTS], OF_SPEED[g / CURRENTS % SPEEDS],
-                          g / (CURRENTS * SPEEDS) > 0};
+    const hci_growth_law x = {OF_CURRENT[g % CURRENTS], OF_SPEED[g / CURRENTS % SPEEDS],
+                              g / (CURRENTS * SPEEDS) > 0};
     return x;
 }
 
-bool hci_growth_is_known(size_t g, double order)
+bool hci_growth_law_is_known(size_t g, double order)
 {
-    const hci_growth x = hci_growth_of(g);
+    const hci_growth_law x = hci_growth_law_of(g);
     if (order > 0.0) return x.speed == 0.0 && !x.turns_sign && x.current == floor(x.current);
     return !x.turns_sign || (x.current == 0.0 && x.speed != 0.5);
 }
 
-double hci_growth_at(size_t g, double current_A, double speed_rad_per_s)
+double hci_growth_law_at(size_t g, double current_A, double speed_rad_per_s)
 {
-    const hci_growth x = hci_growth_of(g);
+    const hci_growth_law x = hci_growth_law_of(g);
     const double sign = x.turns_sign ? (speed_rad_per_s > 0.0) - (speed_rad_per_s < 0.0) : 1.0;
     return sign * pow(current_A, x.current) * pow(fabs(speed_rad_per_s), x.speed);
 }
@@ -37,7 +37,7 @@ static double torque(const hci_effect *effect, const hci_effect_term *term, cons
     const hci_dq i = hci_park(hci_clarke(truth->i_abc), machine->pole_pairs * truth->theta_m_rad);
     const double angle = term->order * machine->pole_pairs * truth->theta_m_rad;
     const double wave = term->parameter % 2 == 1 ? cos(angle) : sin(angle);
-    const double by = wave * hci_growth_at(term->parameter / 2, hypot(i.d, i.q), truth->speed_rad_per_s);
+    const double by = wave * hci_growth_law_at(term->parameter / 2, hypot(i.d, i.q), truth->speed_rad_per_s);
     sum->torque_Nm += term->value * by;
     return by;
 }
@@ -50,14 +50,14 @@ static double torque(const hci_effect *effect, const hci_effect_term *term, cons
 #define WAVES_16 WAVES_4, WAVES_4, WAVES_4, WAVES_4
 #define WAVES_64 WAVES_16, WAVES_16, WAVES_16, WAVES_16
 
-static const hci_effect_parameter PARAMETER[2 * HCI_GROWTHS] = {WAVES_64, WAVES_64};
+static const hci_effect_parameter PARAMETER[2 * HCI_GROWTH_LAWS] = {WAVES_64, WAVES_64};
 
-const hci_effect_type hci_unknown_type = {
+const hci_effect_type hci_empirical_type = {
     .name = "unknown",
     .equation = "T = (S sin nθ + C cos nθ) |i|^a |ω|^b (sign ω)^c",
     .signature = "grows in a way that no known effect does",
     .parameter = PARAMETER,
-    .parameter_count = 2 * HCI_GROWTHS,
+    .parameter_count = 2 * HCI_GROWTH_LAWS,
     .in_machine = true,
     .torque = torque,
 };

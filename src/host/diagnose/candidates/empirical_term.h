@@ -13,17 +13,17 @@
 typedef struct {
     double current, speed; /* exponents */
     bool turns_sign;       /* with the direction */
-} hci_growth;
+} hci_growth_law;
 
-enum { HCI_GROWTHS = 64 };
+enum { HCI_GROWTH_LAWS = 64 };
 
-extern const hci_effect_type hci_unknown_type; /* parameter 2g is the sine, 2g + 1 the cosine of growth g */
+extern const hci_effect_type hci_empirical_type; /* parameter 2g is the sine, 2g + 1 the cosine of growth g */
 
-hci_growth hci_growth_of(size_t g);
+hci_growth_law hci_growth_law_of(size_t g);
 
 /* Whether known effects grow so: with a whole power of the current, or at order 0 like friction. */
-bool hci_growth_is_known(size_t g, double order);
+bool hci_growth_law_is_known(size_t g, double order);
 
-double hci_growth_at(size_t g, double current_A, double speed_rad_per_s);
+double hci_growth_law_at(size_t g, double current_A, double speed_rad_per_s);
 
 #endif

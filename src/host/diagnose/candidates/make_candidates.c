@@ -19,7 +19,7 @@ enum {
 #define FADING   0.25 /* of what is expected, from one degree to the next */
 #define ALIKE    0.15 /* speeds that differ by less, as a share, are the same */
 
-/* Of how many like it a suspect is chosen: what is usual in a machine is cheaper. */
+/* Of how many like it a candidate is chosen: what is usual in a machine is cheaper. */
 #define USUAL_EMF       8.0 /* 6k ± 1 */
 #define UNUSUAL_EMF     40.0
 #define RELUCTANCE      12.0
@@ -27,7 +27,7 @@ enum {
 #define SATURATION      30.0
 #define UNSYMMETRIC     60.0 /* a rotor that does not look alike both ways round */
 
-/* What may be expected of a bench that somebody has looked at: larger values have to be paid for. */
+/* What may be expected of a dataset that somebody has looked at: larger values have to be paid for. */
 #define EXPECTED_COGGING      0.3  /* of the largest torque */
 #define EXPECTED_IMBALANCE    0.2  /* of the back-EMF */
 #define EXPECTED_ANGLE        0.1  /* rad */
@@ -48,7 +48,7 @@ static size_t parameter_of(const hci_effect_type *type, const char *name)
 }
 
 typedef struct {
-    hci_suspects *list;
+    hci_candidates *list;
     size_t capacity;
     bool failed;
 } builder;
@@ -57,9 +57,9 @@ static bool reserve(builder *b)
 {
     if (b->list->count < b->capacity) return true;
     const size_t wanted = 2 * b->capacity + 64;
-    hci_suspect *grown = hci_memory_resize(b->list->suspect, wanted, sizeof *grown);
+    hci_candidate *grown = hci_memory_resize(b->list->candidate, wanted, sizeof *grown);
     if (!grown) return false;
-    b->list->suspect = grown;
+    b->list->candidate = grown;
     b->capacity = wanted;
     return true;
 }
@@ -70,7 +70,7 @@ static void add(builder *b, const hci_effect_type *type, const char *const *name
 {
     b->failed = b->failed || !reserve(b);
     if (b->failed) return;
-    hci_suspect *s = &b->list->suspect[b->list->count++];
+    hci_candidate *s = &b->list->candidate[b->list->count++];
     memset(s, 0, sizeof *s);
     s->type = type;
     s->count = count;
@@ -94,13 +94,13 @@ static double price_of(double choices)
 static const char *const PAIR[] = {"sine", "cosine"};
 static const char *const IQ_PAIR[] = {"iq_sine", "iq_cosine"};
 
-static void add_lines(builder *b, const hci_line_spectrum *lines, int pole_pairs, bool slots)
+static void add_lines(builder *b, const hci_candidate_orders *lines, int pole_pairs, bool slots)
 {
     const hci_effect_type *type = hci_effect_type_find(slots ? "cogging" : "mechanical_order");
     const double price = price_of((double)lines->count);
     double under = INFINITY;
     for (int n = 0; n < (slots ? MOST_COGGING : MOST_MECHANICAL); ++n) {
-        const size_t periods = hci_line_spectrum_next(lines, (size_t)pole_pairs, slots, &under);
+        const size_t periods = hci_candidate_orders_next(lines, (size_t)pole_pairs, slots, &under);
         const double order = (double)periods / (double)pole_pairs;
         if (periods == 0) break;
         add(b, type, PAIR, 2, order, price);
@@ -133,16 +133,16 @@ static void add_back_emf(builder *b, const hci_machine *machine)
     }
 }
 
-static void add_unknown(builder *b, const hci_suspects_source *s, const hci_line_spectrum *lines)
+static void add_unknown(builder *b, const hci_candidates_source *s, const hci_candidate_orders *lines)
 {
     size_t taken[UNKNOWN_LINES], growth = 0;
     for (size_t n = 0; n < UNKNOWN_LINES; ++n) {
-        taken[n] = hci_line_spectrum_unknown(lines, s->cells, taken, n, &growth);
+        taken[n] = hci_candidate_orders_empirical(lines, s->samples, taken, n, &growth);
         if (taken[n] == 0) return;
-        add(b, &hci_unknown_type, PAIR, 2, (double)(taken[n] * lines->stride) / s->machine->pole_pairs,
-            price_of((double)lines->count * HCI_GROWTHS));
+        add(b, &hci_empirical_type, PAIR, 2, (double)(taken[n] * lines->stride) / s->machine->pole_pairs,
+            price_of((double)lines->count * HCI_GROWTH_LAWS));
         if (b->failed) return;
-        hci_suspect *x = &b->list->suspect[b->list->count - 1];
+        hci_candidate *x = &b->list->candidate[b->list->count - 1];
         x->term[0].parameter = 2 * growth;
         x->term[1].parameter = 2 * growth + 1;
     }
@@ -182,7 +182,7 @@ static void add_power(builder *b, const char *name, int degree, int order, doubl
     const double most = e->torque_Nm * pow(e->reference_share, degree);
     add_one(b, "saturation", name, order, price);
     if (b->failed) return;
-    b->list->suspect[before].deviation =
+    b->list->candidate[before].deviation =
         order == 0 ? most * pow(FADING, degree > 4 ? degree - 4 : 0) / (3.0 * e->pole_pairs)
                    : EXPECTED * most * pow(FADING, degree - 3) / (e->pole_pairs * (double)order);
 }
@@ -216,7 +216,7 @@ static void expect(builder *b, const char *effect, const char *parameter, double
 {
     const hci_effect_type *type = hci_effect_type_find(effect);
     for (size_t k = 0; k < b->list->count; ++k) {
-        hci_suspect *s = &b->list->suspect[k];
+        hci_candidate *s = &b->list->candidate[k];
         if (s->type == type && (!parameter || s->term[0].parameter == parameter_of(type, parameter)))
             s->deviation = deviation;
     }
@@ -252,12 +252,12 @@ static void add_bench(builder *b, bool timed, bool turns)
 }
 
 /* How many different speeds the runs have, at most three. */
-static size_t speeds_of(const hci_suspects_source *s)
+static size_t speeds_of(const hci_candidates_source *s)
 {
     double known[3];
     size_t count = 0;
-    for (size_t r = 0; r < s->cells->run_count && count < 3; ++r) {
-        const double speed = fabs(s->cells->figures[r].mean_speed_rad_per_s);
+    for (size_t r = 0; r < s->samples->run_count && count < 3; ++r) {
+        const double speed = fabs(s->samples->statistics[r].mean_speed_rad_per_s);
         bool is_new = s->use[r] && (speed > 0.0 || count == 0);
         for (size_t k = 0; k < count; ++k)
             is_new = is_new && fabs(speed - known[k]) > ALIKE * fmax(speed, known[k]);
@@ -267,7 +267,7 @@ static size_t speeds_of(const hci_suspects_source *s)
 }
 
 /* All of the law that the speeds can tell: a part left out would go into the others. */
-static void add_friction(builder *b, const hci_suspects_source *s)
+static void add_friction(builder *b, const hci_candidates_source *s)
 {
     static const char *const PARTS[] = {"coulomb", "viscous", "quadratic"};
     add(b, hci_effect_type_find("friction"), PARTS, speeds_of(s), 0.0, 0.0);
@@ -279,11 +279,11 @@ typedef struct {
     double torque_Nm, current_A; /* largest rms of a run */
 } survey;
 
-static survey survey_of(const hci_suspects_source *s)
+static survey survey_of(const hci_candidates_source *s)
 {
     survey x = {false, false, false, false, 0.0, 0.0};
-    for (size_t r = 0; r < s->cells->run_count; ++r) {
-        const hci_run_figures *f = &s->cells->figures[r];
+    for (size_t r = 0; r < s->samples->run_count; ++r) {
+        const hci_run_statistics *f = &s->samples->statistics[r];
         x.timed = x.timed || (s->runs[r].time_s && s->runs[r].speed_rad_per_s);
         x.moving = x.moving || f->mean_speed_rad_per_s != 0.0;
         x.warm = x.warm || isfinite(f->temperature_C);
@@ -294,7 +294,8 @@ static survey survey_of(const hci_suspects_source *s)
     return x;
 }
 
-static void add_all(builder *b, const hci_suspects_source *s, const survey *x, const hci_line_spectrum *lines)
+static void add_all(builder *b, const hci_candidates_source *s, const survey *x,
+                    const hci_candidate_orders *lines)
 {
     const double reference_A = b->list->reference_current_A;
     const expectation e = {x->torque_Nm, x->current_A > 0.0 ? reference_A / x->current_A : 1.0,
@@ -315,38 +316,38 @@ static void add_all(builder *b, const hci_suspects_source *s, const survey *x, c
 /* ---- the list ---- */
 
 /* What is in the model stays in the list, in its place. */
-static hci_status keep_known(const hci_suspects *known, hci_suspects *list, hci_note *note)
+static hci_status keep_known(const hci_candidates *known, hci_candidates *list, hci_note *note)
 {
     hci_status status = HCI_OK;
     for (size_t k = 0; known && k < known->count && !status; ++k) {
-        const hci_suspect *x = &known->suspect[k];
+        const hci_candidate *x = &known->candidate[k];
         size_t at = 0;
         if (!x->in) continue;
-        while (at < list->count && !hci_suspect_same(x, &list->suspect[at]))
+        while (at < list->count && !hci_candidate_same(x, &list->candidate[at]))
             ++at;
         if (at < list->count)
-            list->suspect[at] = *x;
+            list->candidate[at] = *x;
         else
-            status = hci_suspects_add(list, x, note);
+            status = hci_candidates_add(list, x, note);
     }
     return status;
 }
 
-hci_status hci_suspects_make(const hci_suspects_source *source, const hci_suspects *known,
-                             hci_suspects *suspects, hci_note *note)
+hci_status hci_candidates_make(const hci_candidates_source *source, const hci_candidates *known,
+                               hci_candidates *candidates, hci_note *note)
 {
     const survey x = survey_of(source);
-    builder b = {suspects, 0, false};
-    hci_line_spectrum lines;
-    memset(suspects, 0, sizeof *suspects);
-    suspects->reference_current_A =
+    builder b = {candidates, 0, false};
+    hci_candidate_orders lines;
+    memset(candidates, 0, sizeof *candidates);
+    candidates->reference_current_A =
         source->reference_current_A > 0.0 ? source->reference_current_A : x.current_A;
-    b.failed = !hci_line_spectrum_make(source, x.turns ? 1 : (size_t)source->machine->pole_pairs, &lines);
+    b.failed = !hci_candidate_orders_make(source, x.turns ? 1 : (size_t)source->machine->pole_pairs, &lines);
     if (!b.failed) add_all(&b, source, &x, &lines);
-    hci_line_spectrum_release(&lines);
+    hci_candidate_orders_release(&lines);
     const hci_status status =
         b.failed ? hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the list of effects")
-                 : keep_known(known, suspects, note);
-    if (status) hci_suspects_release(suspects);
+                 : keep_known(known, candidates, note);
+    if (status) hci_candidates_release(candidates);
     return status;
 }

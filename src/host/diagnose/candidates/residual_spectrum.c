@@ -14,23 +14,23 @@ enum { MOST_PERIODS = 1200 /* in a mechanical turn */, MOST_ELECTRICAL = 96 };
 /* ---- sums ---- */
 
 /* The finest order that half of the steps of angle resolve. */
-static double range_of(const hci_cells *cells, const hci_stretch *x)
+static double range_of(const hci_binned_samples *samples, const hci_segment *x)
 {
     double least = INFINITY, most = -INFINITY;
     for (size_t k = x->first; k < x->first + x->count; ++k) {
-        least = fmin(least, cells->cell[k].reading.theta_m_rad);
-        most = fmax(most, cells->cell[k].reading.theta_m_rad);
+        least = fmin(least, samples->sample[k].reading.theta_m_rad);
+        most = fmax(most, samples->sample[k].reading.theta_m_rad);
     }
     return most - least;
 }
 
-static size_t most_periods(const hci_suspects_source *s)
+static size_t most_periods(const hci_candidates_source *s)
 {
     double sum = 0.0, turns = 0.0;
-    for (size_t k = 0; k < s->cells->stretch_count; ++k) {
-        const hci_stretch *x = &s->cells->stretch[k];
+    for (size_t k = 0; k < s->samples->segment_count; ++k) {
+        const hci_segment *x = &s->samples->segment[k];
         sum += (double)x->count;
-        turns += range_of(s->cells, x) / (2.0 * HCI_PI);
+        turns += range_of(s->samples, x) / (2.0 * HCI_PI);
     }
     const double resolved = turns > 0.0 ? RESOLVED * sum / turns : 1.0;
     const double wanted = fmin(resolved, MOST_ELECTRICAL * (double)s->machine->pole_pairs);
@@ -38,29 +38,29 @@ static size_t most_periods(const hci_suspects_source *s)
 }
 
 /* Means of the residual of each run, by weight. */
-static void means_of(const hci_suspects_source *s, double *mean, double *weight)
+static void means_of(const hci_candidates_source *s, double *mean, double *weight)
 {
-    for (size_t k = 0; k < s->cells->stretch_count; ++k) {
-        const hci_stretch *x = &s->cells->stretch[k];
+    for (size_t k = 0; k < s->samples->segment_count; ++k) {
+        const hci_segment *x = &s->samples->segment[k];
         for (size_t j = x->first; j < x->first + x->count; ++j) {
             const double w = 1.0 / s->variance[j];
             mean[x->run] += w * s->residual_Nm[j];
             weight[x->run] += w;
         }
     }
-    for (size_t r = 0; r < s->cells->run_count; ++r)
+    for (size_t r = 0; r < s->samples->run_count; ++r)
         if (weight[r] > 0.0) mean[r] /= weight[r];
 }
 
-/* Sums over all cells. */
+/* Sums over all samples. */
 typedef struct {
     double *with_current; /* [count][2]: with i_q; cosine and sine */
     double weight, weight_iq;
 } sums;
 
-/* residual: weighted. of_run: sums of the cell's run. */
-static void cell_add(double angle_rad, double residual, double iq, size_t count, double *with_current,
-                     double *of_run)
+/* residual: weighted. of_run: sums of the sample's run. */
+static void sample_add(double angle_rad, double residual, double iq, size_t count, double *with_current,
+                       double *of_run)
 {
     const double cs = cos(angle_rad), sn = sin(angle_rad);
     double x = 1.0, y = 0.0;
@@ -75,15 +75,15 @@ static void cell_add(double angle_rad, double residual, double iq, size_t count,
     }
 }
 
-static void stretch_add(const hci_suspects_source *s, const hci_stretch *x, double mean,
-                        hci_line_spectrum *lines, sums *sum)
+static void segment_add(const hci_candidates_source *s, const hci_segment *x, double mean,
+                        hci_candidate_orders *lines, sums *sum)
 {
     for (size_t j = x->first; j < x->first + x->count; ++j) {
-        const hci_sample *reading = &s->cells->cell[j].reading;
+        const hci_sample *reading = &s->samples->sample[j].reading;
         const double w = 1.0 / s->variance[j], theta = reading->theta_m_rad;
         const double iq = hci_park(hci_clarke(reading->i_abc), s->machine->pole_pairs * theta).q;
-        cell_add(theta * (double)lines->stride, w * (s->residual_Nm[j] - mean), iq, lines->count,
-                 sum->with_current, lines->of_run + 2 * lines->count * x->run);
+        sample_add(theta * (double)lines->stride, w * (s->residual_Nm[j] - mean), iq, lines->count,
+                   sum->with_current, lines->of_run + 2 * lines->count * x->run);
         lines->weight[x->run] += w;
         sum->weight += w;
         sum->weight_iq += w * iq * iq;
@@ -96,7 +96,7 @@ static double explained(double cosine, double sine, double weight)
     return weight > 0.0 ? 2.0 * (cosine * cosine + sine * sine) / weight : 0.0;
 }
 
-static void lines_fill(const sums *sum, size_t runs, hci_line_spectrum *lines)
+static void lines_fill(const sums *sum, size_t runs, hci_candidate_orders *lines)
 {
     for (size_t k = 0; k < lines->count; ++k) {
         double cosine = 0.0, sine = 0.0;
@@ -111,9 +111,9 @@ static void lines_fill(const sums *sum, size_t runs, hci_line_spectrum *lines)
 }
 
 /* Everything in one block, which begins at `still`. */
-bool hci_line_spectrum_make(const hci_suspects_source *s, size_t stride, hci_line_spectrum *lines)
+bool hci_candidate_orders_make(const hci_candidates_source *s, size_t stride, hci_candidate_orders *lines)
 {
-    const size_t runs = s->cells->run_count, count = most_periods(s) / stride + 1;
+    const size_t runs = s->samples->run_count, count = most_periods(s) / stride + 1;
     memset(lines, 0, sizeof *lines);
     lines->stride = stride;
     lines->count = count;
@@ -125,15 +125,15 @@ bool hci_line_spectrum_make(const hci_suspects_source *s, size_t stride, hci_lin
     double *mean = lines->weight + runs, *of_mean = mean + runs;
     sums sum = {of_mean + runs, 0.0, 0.0};
     means_of(s, mean, of_mean);
-    for (size_t k = 0; k < s->cells->stretch_count; ++k) {
-        const hci_stretch *x = &s->cells->stretch[k];
-        stretch_add(s, x, mean[x->run], lines, &sum);
+    for (size_t k = 0; k < s->samples->segment_count; ++k) {
+        const hci_segment *x = &s->samples->segment[k];
+        segment_add(s, x, mean[x->run], lines, &sum);
     }
     lines_fill(&sum, runs, lines);
     return true;
 }
 
-void hci_line_spectrum_release(hci_line_spectrum *lines)
+void hci_candidate_orders_release(hci_candidate_orders *lines)
 {
     hci_memory_free(lines->still);
     memset(lines, 0, sizeof *lines);
@@ -159,12 +159,13 @@ static bool is_of_slots(size_t periods, size_t pole_pairs)
     return periods > pole_pairs && periods % 3 == 0 && common_divisor(periods, pole_pairs) > 1;
 }
 
-static double strength(const hci_line_spectrum *lines, size_t k, bool slots)
+static double strength(const hci_candidate_orders *lines, size_t k, bool slots)
 {
     return slots ? lines->still[k] : fmax(lines->still[k], lines->with_current[k]);
 }
 
-size_t hci_line_spectrum_next(const hci_line_spectrum *lines, size_t pole_pairs, bool slots, double *under)
+size_t hci_candidate_orders_next(const hci_candidate_orders *lines, size_t pole_pairs, bool slots,
+                                 double *under)
 {
     size_t best = 0;
     double most = HCI_STANDS_OUT;
@@ -181,13 +182,14 @@ size_t hci_line_spectrum_next(const hci_line_spectrum *lines, size_t pole_pairs,
 /* ---- those that grow as nothing known does ---- */
 
 /* What a torque of one order and growth would explain. */
-static double growth_gain(const hci_line_spectrum *lines, const hci_cells *cells, size_t k, size_t g)
+static double growth_gain(const hci_candidate_orders *lines, const hci_binned_samples *samples, size_t k,
+                          size_t g)
 {
     double cosine = 0.0, sine = 0.0, weight = 0.0;
-    for (size_t r = 0; r < cells->run_count; ++r) {
-        const hci_run_figures *f = &cells->figures[r];
+    for (size_t r = 0; r < samples->run_count; ++r) {
+        const hci_run_statistics *f = &samples->statistics[r];
         const double *sum = lines->of_run + 2 * (lines->count * r + k);
-        const double x = hci_growth_at(g, f->current_A, f->mean_speed_rad_per_s);
+        const double x = hci_growth_law_at(g, f->current_A, f->mean_speed_rad_per_s);
         cosine += x * sum[0];
         sine += x * sum[1];
         weight += x * x * lines->weight[r];
@@ -202,16 +204,16 @@ static bool is_among(size_t k, const size_t *list, size_t count)
     return false;
 }
 
-size_t hci_line_spectrum_unknown(const hci_line_spectrum *lines, const hci_cells *cells, const size_t *taken,
-                                 size_t count, size_t *growth)
+size_t hci_candidate_orders_empirical(const hci_candidate_orders *lines, const hci_binned_samples *samples,
+                                      const size_t *taken, size_t count, size_t *growth)
 {
     double most = 2.0 * HCI_STANDS_OUT; /* of many growths one fits by chance */
     size_t best = 0;
     for (size_t k = 1; k < lines->count; ++k) {
         if (is_among(k, taken, count)) continue;
-        for (size_t g = 0; g < HCI_GROWTHS; ++g) {
-            if (hci_growth_is_known(g, (double)k)) continue;
-            const double gain = growth_gain(lines, cells, k, g);
+        for (size_t g = 0; g < HCI_GROWTH_LAWS; ++g) {
+            if (hci_growth_law_is_known(g, (double)k)) continue;
+            const double gain = growth_gain(lines, samples, k, g);
             if (!(gain > most)) continue;
             most = gain;
             best = k;

@@ -27,15 +27,15 @@ static double sum_deviation_A(const hci_run *r)
 }
 
 static hci_status evidence_make(const hci_machine_data *machine, const hci_effects *declared,
-                                const hci_runs *runs, hci_bench *b, hci_note *note)
+                                const hci_runs *runs, hci_dataset *b, hci_note *note)
 {
-    hci_evidence *e = &b->evidence;
+    hci_regression *e = &b->regression;
     b->fit = hci_memory_new(2 * runs->count + 1, sizeof *b->fit);
-    b->slip_rad = hci_memory_new(runs->count + 1, sizeof *b->slip_rad);
-    *e = (hci_evidence){&machine->model, declared, &b->cells, runs->run, b->fit, false, NULL, NULL};
-    e->noise = hci_memory_new(b->cells.stretch_count + 1, sizeof *e->noise);
+    b->index_offset_rad = hci_memory_new(runs->count + 1, sizeof *b->index_offset_rad);
+    *e = (hci_regression){&machine->model, declared, &b->samples, runs->run, b->fit, false, NULL, NULL};
+    e->noise = hci_memory_new(b->samples.segment_count + 1, sizeof *e->noise);
     e->sum_deviation_A = hci_memory_new(runs->count + 1, sizeof *e->sum_deviation_A);
-    if (!b->fit || !b->slip_rad || !e->noise || !e->sum_deviation_A)
+    if (!b->fit || !b->index_offset_rad || !e->noise || !e->sum_deviation_A)
         return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the recordings");
     b->any = b->fit + runs->count;
     for (size_t k = 0; k < runs->count; ++k) {
@@ -46,47 +46,49 @@ static hci_status evidence_make(const hci_machine_data *machine, const hci_effec
     return HCI_OK;
 }
 
-static hci_status slips_undo(const hci_runs *runs, hci_bench *b, hci_note *note)
+static hci_status indices_align(const hci_runs *runs, hci_dataset *b, hci_note *note)
 {
-    double *residual_Nm = hci_memory_new(b->cells.count + 1, sizeof *residual_Nm);
+    double *residual_Nm = hci_memory_new(b->samples.count + 1, sizeof *residual_Nm);
     if (!residual_Nm) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for comparing recordings");
-    b->evidence.use = b->any;
-    hci_status status = hci_evidence_residual(&b->evidence, b->evidence.declared, residual_Nm, note);
-    b->evidence.use = b->fit;
-    if (!status) status = hci_slip_find(&b->cells, runs->run, residual_Nm, b->slip_rad, note);
+    b->regression.use = b->any;
+    hci_status status = hci_regression_residual(&b->regression, b->regression.declared, residual_Nm, note);
+    b->regression.use = b->fit;
+    if (!status)
+        status = hci_index_alignment_find(&b->samples, runs->run, residual_Nm, b->index_offset_rad, note);
     for (size_t k = 0; k < runs->count && !status; ++k)
-        if (b->slip_rad[k] != 0.0)
-            hci_slip_undo(&b->cells, k, b->evidence.machine->pole_pairs, b->slip_rad[k]);
+        if (b->index_offset_rad[k] != 0.0)
+            hci_index_alignment_apply(&b->samples, k, b->regression.machine->pole_pairs,
+                                      b->index_offset_rad[k]);
     hci_memory_free(residual_Nm);
     return status;
 }
 
-hci_status hci_bench_make(const hci_machine_data *machine, const hci_effects *declared, const hci_runs *runs,
-                          hci_bench *b, hci_note *note)
+hci_status hci_dataset_make(const hci_machine_data *machine, const hci_effects *declared,
+                            const hci_runs *runs, hci_dataset *b, hci_note *note)
 {
     memset(b, 0, sizeof *b);
-    hci_status status = hci_cells_make(&machine->model, runs->run, runs->count, &b->cells, note);
+    hci_status status = hci_binned_samples_make(&machine->model, runs->run, runs->count, &b->samples, note);
     if (!status) status = evidence_make(machine, declared, runs, b, note);
-    if (!status) status = slips_undo(runs, b, note);
-    if (status) hci_bench_release(b);
+    if (!status) status = indices_align(runs, b, note);
+    if (status) hci_dataset_release(b);
     return status;
 }
 
-void hci_bench_release(hci_bench *b)
+void hci_dataset_release(hci_dataset *b)
 {
-    hci_memory_free(b->slip_rad);
+    hci_memory_free(b->index_offset_rad);
     hci_memory_free(b->fit);
-    hci_memory_free(b->evidence.noise);
-    hci_memory_free(b->evidence.sum_deviation_A);
-    hci_cells_release(&b->cells);
+    hci_memory_free(b->regression.noise);
+    hci_memory_free(b->regression.sum_deviation_A);
+    hci_binned_samples_release(&b->samples);
     memset(b, 0, sizeof *b);
 }
 
-hci_bench_range hci_bench_range_of(const hci_bench *b)
+hci_dataset_range hci_dataset_range_of(const hci_dataset *b)
 {
-    hci_bench_range x = {0.0, 0.0, 0.0};
-    for (size_t r = 0; r < b->cells.run_count; ++r) {
-        const hci_run_figures *f = &b->cells.figures[r];
+    hci_dataset_range x = {0.0, 0.0, 0.0};
+    for (size_t r = 0; r < b->samples.run_count; ++r) {
+        const hci_run_statistics *f = &b->samples.statistics[r];
         x.torque_Nm = fmax(x.torque_Nm, f->rms_torque_Nm);
         x.current_A = fmax(x.current_A, f->current_A);
         x.speed_rad_per_s = fmax(x.speed_rad_per_s, fabs(f->mean_speed_rad_per_s));

@@ -1,4 +1,4 @@
-/* The recordings of a diagnosis, made ready: cells with their angles put right, and what they are worth. */
+/* The recordings of a diagnosis, made ready: samples with their angles put right, and what they are worth. */
 #ifndef HCI_SRC_HOST_DIAGNOSE_FIT_DATASET_H
 #define HCI_SRC_HOST_DIAGNOSE_FIT_DATASET_H
 
@@ -7,23 +7,23 @@
 
 /* Start with {0}; it must not be moved. */
 typedef struct {
-    hci_cells cells;
-    hci_evidence evidence; /* uses the runs to be fitted */
-    bool *fit, *any;       /* of each run */
-    double *slip_rad;      /* of each run: its angle was ahead by this and has been turned back */
-} hci_bench;
+    hci_binned_samples samples;
+    hci_regression regression; /* uses the runs to be fitted */
+    bool *fit, *any;           /* of each run */
+    double *index_offset_rad;  /* of each run: its angle was ahead by this and has been turned back */
+} hci_dataset;
 
-/* declared: effects of the machine, for the residual in which slipped angles show. On failure *bench is
+/* declared: effects of the machine, for the residual in which misaligned angles show. On failure *dataset is
  * empty. HCI_ERROR_MEMORY. O(samples + runs²). */
-hci_status hci_bench_make(const hci_machine_data *machine, const hci_effects *declared, const hci_runs *runs,
-                          hci_bench *bench, hci_note *note);
-void hci_bench_release(hci_bench *bench);
+hci_status hci_dataset_make(const hci_machine_data *machine, const hci_effects *declared,
+                            const hci_runs *runs, hci_dataset *dataset, hci_note *note);
+void hci_dataset_release(hci_dataset *dataset);
 
 /* The largest rms torque, rms current and mean speed of all runs. */
 typedef struct {
     double torque_Nm, current_A, speed_rad_per_s;
-} hci_bench_range;
+} hci_dataset_range;
 
-hci_bench_range hci_bench_range_of(const hci_bench *bench);
+hci_dataset_range hci_dataset_range_of(const hci_dataset *dataset);
 
 #endif

@@ -13,34 +13,34 @@
 typedef struct {
     const hci_machine *machine;
     const hci_effects *declared; /* those that the machine has already */
-    const hci_cells *cells;
+    const hci_binned_samples *samples;
     const hci_run *runs;
     const bool *use;         /* of each run */
     bool raw;                /* readings as they are, not smoothed */
-    hci_noise *noise;        /* of each stretch */
+    hci_noise *noise;        /* of each segment */
     double *sum_deviation_A; /* of each run: noise of i_a + i_b + i_c; NAN where that says nothing */
-} hci_evidence;
+} hci_regression;
 
-/* The stretch of a run in use that follows `after` (NULL: the first one); NULL behind the last. */
-const hci_stretch *hci_evidence_next(const hci_evidence *evidence, const hci_stretch *after);
-hci_noise *hci_evidence_noise(const hci_evidence *evidence, const hci_stretch *stretch);
+/* The segment of a run in use that follows `after` (NULL: the first one); NULL behind the last. */
+const hci_segment *hci_regression_next(const hci_regression *regression, const hci_segment *after);
+hci_noise *hci_regression_noise(const hci_regression *regression, const hci_segment *segment);
 
-/* Measured less modelled torque of each cell of the runs in use, others 0: residual_Nm[cells].
- * HCI_ERROR_MEMORY. O(cells·terms). */
-hci_status hci_evidence_residual(const hci_evidence *evidence, const hci_effects *effects,
-                                 double *residual_Nm, hci_note *note);
+/* Measured less modelled torque of each sample of the runs in use, others 0: residual_Nm[samples].
+ * HCI_ERROR_MEMORY. O(samples·terms). */
+hci_status hci_regression_residual(const hci_regression *regression, const hci_effects *effects,
+                                   double *residual_Nm, hci_note *note);
 
-/* Sets the noise of each stretch in use from the residual of a model with so many parameters: where a stretch
+/* Sets the noise of each segment in use from the residual of a model with so many parameters: where a segment
  * is long enough from its spectrum between the orders, otherwise from what all short ones leave. floor_Nm:
  * rms of white noise that is added. HCI_ERROR_MEMORY. */
-hci_status hci_evidence_noise_find(const hci_evidence *evidence, const double *residual_Nm, size_t parameters,
-                                   double floor_Nm, hci_note *note);
+hci_status hci_regression_noise_estimate(const hci_regression *regression, const double *residual_Nm,
+                                         size_t parameters, double floor_Nm, hci_note *note);
 
-/* Normal equations with a column for each term of the suspects that are in (or of all of them), at their
+/* Normal equations with a column for each term of the candidates that are in (or of all of them), at their
  * present values: rows are torques and, where they say something, sums of the phase currents. On failure
- * *normal is empty. HCI_ERROR_MEMORY. O(cells·columns²). */
-hci_status hci_evidence_normal(const hci_evidence *evidence, const hci_suspects *suspects, bool all,
-                               hci_normal *normal, hci_note *note);
+ * *normal is empty. HCI_ERROR_MEMORY. O(samples·columns²). */
+hci_status hci_regression_normal(const hci_regression *regression, const hci_candidates *candidates, bool all,
+                                 hci_normal *normal, hci_note *note);
 
 /* What x·y, whose sum is 0 at the solution, scatters over blocks of the recordings. Start with {0}. */
 typedef struct {
@@ -48,8 +48,9 @@ typedef struct {
     size_t blocks;
 } hci_scatter;
 
-/* The same with the scatter, of the suspects that are in. Free scatter->square. On failure both are empty. */
-hci_status hci_evidence_scatter(const hci_evidence *evidence, const hci_suspects *suspects,
-                                hci_normal *normal, hci_scatter *scatter, hci_note *note);
+/* The same with the scatter, of the candidates that are in. Free scatter->square. On failure both are empty.
+ */
+hci_status hci_regression_scatter(const hci_regression *regression, const hci_candidates *candidates,
+                                  hci_normal *normal, hci_scatter *scatter, hci_note *note);
 
 #endif

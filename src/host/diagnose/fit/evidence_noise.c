@@ -9,64 +9,66 @@
 #define FREEDOM   0.25 /* least share of the rows that counts as not used up by parameters */
 #define NO_BETTER 1e-9 /* N·m: the least noise, so that a residual of 0 can be weighted */
 
-/* Whether the angles of a stretch of two cells or more are whole electrical periods, evenly spaced. */
-static bool is_closed(const hci_evidence *e, const hci_stretch *s)
+/* Whether the angles of a segment of two samples or more are whole electrical periods, evenly spaced. */
+static bool is_closed(const hci_regression *e, const hci_segment *s)
 {
-    const hci_cell *cell = e->cells->cell + s->first;
+    const hci_binned_sample *sample = e->samples->sample + s->first;
     const double n = (double)s->count, p = e->machine->pole_pairs;
     if (s->turns > 0) return true;
-    const double span = fabs(cell[s->count - 1].reading.theta_m_rad - cell[0].reading.theta_m_rad);
+    const double span = fabs(sample[s->count - 1].reading.theta_m_rad - sample[0].reading.theta_m_rad);
     const double periods = span * n / (n - 1.0) * p / (2.0 * HCI_PI);
     const double step = span / (n - 1.0);
     for (size_t k = 1; k < s->count; ++k)
-        if (fabs(fabs(cell[k].reading.theta_m_rad - cell[k - 1].reading.theta_m_rad) - step) > EVEN * step)
+        if (fabs(fabs(sample[k].reading.theta_m_rad - sample[k - 1].reading.theta_m_rad) - step) >
+            EVEN * step)
             return false;
     return fabs(periods - floor(periods + 0.5)) < WHOLE / n && periods > 0.5;
 }
 
-static size_t longest_in_use(const hci_evidence *e)
+static size_t longest_in_use(const hci_regression *e)
 {
     size_t most = HCI_NOISE_LEAST;
-    for (const hci_stretch *s = NULL; (s = hci_evidence_next(e, s)) != NULL;)
+    for (const hci_segment *s = NULL; (s = hci_regression_next(e, s)) != NULL;)
         most = s->count > most ? s->count : most;
     return most;
 }
 
 /* Noise of a colour of its own. work: hci_noise_workspace(s->count). */
-static void long_stretch(const hci_evidence *e, const hci_stretch *s, const double *residual, double floor_Nm,
-                         double *work)
+static void long_segment(const hci_regression *e, const hci_segment *s, const double *residual,
+                         double floor_Nm, double *work)
 {
-    hci_noise *noise = hci_evidence_noise(e, s);
+    hci_noise *noise = hci_regression_noise(e, s);
     hci_noise_find(residual + s->first, s->count, is_closed(e, s), floor_Nm, noise, work);
     noise->innovation = fmax(noise->innovation, NO_BETTER);
     noise->rms = fmax(noise->rms, NO_BETTER);
 }
 
-/* Noise that all short stretches share. */
-static void short_stretches(const hci_evidence *e, const double *residual, size_t parameters, double floor_Nm)
+/* Noise that all short segments share. */
+static void short_segments(const hci_regression *e, const double *residual, size_t parameters,
+                           double floor_Nm)
 {
     double square = 0.0, rows = 0.0;
-    for (const hci_stretch *s = NULL; (s = hci_evidence_next(e, s)) != NULL;) {
+    for (const hci_segment *s = NULL; (s = hci_regression_next(e, s)) != NULL;) {
         if (s->count >= HCI_NOISE_LEAST) continue;
         for (size_t j = s->first; j < s->first + s->count; ++j)
             square += residual[j] * residual[j];
         rows += (double)s->count;
     }
     const double freedom = fmax(rows - (double)parameters, FREEDOM * rows);
-    for (const hci_stretch *s = NULL; (s = hci_evidence_next(e, s)) != NULL;)
+    for (const hci_segment *s = NULL; (s = hci_regression_next(e, s)) != NULL;)
         if (s->count < HCI_NOISE_LEAST)
-            *hci_evidence_noise(e, s) =
+            *hci_regression_noise(e, s) =
                 hci_noise_white(fmax(NO_BETTER, hypot(sqrt(square / freedom), floor_Nm)));
 }
 
-hci_status hci_evidence_noise_find(const hci_evidence *e, const double *residual_Nm, size_t parameters,
-                                   double floor_Nm, hci_note *note)
+hci_status hci_regression_noise_estimate(const hci_regression *e, const double *residual_Nm,
+                                         size_t parameters, double floor_Nm, hci_note *note)
 {
     double *work = hci_memory_new(hci_noise_workspace(longest_in_use(e)), sizeof *work);
     if (!work) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the noise of the recordings");
-    for (const hci_stretch *s = NULL; (s = hci_evidence_next(e, s)) != NULL;)
-        if (s->count >= HCI_NOISE_LEAST) long_stretch(e, s, residual_Nm, floor_Nm, work);
-    short_stretches(e, residual_Nm, parameters, floor_Nm);
+    for (const hci_segment *s = NULL; (s = hci_regression_next(e, s)) != NULL;)
+        if (s->count >= HCI_NOISE_LEAST) long_segment(e, s, residual_Nm, floor_Nm, work);
+    short_segments(e, residual_Nm, parameters, floor_Nm);
     hci_memory_free(work);
     return HCI_OK;
 }

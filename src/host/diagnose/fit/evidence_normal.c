@@ -12,14 +12,14 @@ enum { BLOCK = 120 }; /* rows, longer than anything in the noise is correlated *
 
 /* What goes into the normal equations, and rows on their way. */
 typedef struct {
-    const hci_evidence *evidence;
+    const hci_regression *regression;
     const hci_model *model;
     hci_normal *normal;
     hci_scatter *scatter; /* or NULL */
-    double *x, *y;        /* rows of a stretch: [cells][columns] and [cells] */
+    double *x, *y;        /* rows of a segment: [samples][columns] and [samples] */
 } filling;
 
-static bool is_of(const hci_suspect *s, const char *name)
+static bool is_of(const hci_candidate *s, const char *name)
 {
     return strcmp(s->type->name, name) == 0;
 }
@@ -28,29 +28,29 @@ static bool is_of(const hci_suspect *s, const char *name)
 
 /* In a holding test the current answers to the torque: no effect that grows with it can be found there. At
  * rest friction has a sign and no more. */
-static bool needs_free_current(const hci_suspect *s, size_t term)
+static bool needs_free_current(const hci_candidate *s, size_t term)
 {
     static const char *const TYPES[] = {"back_emf",   "phase_imbalance",    "reluctance",  "channel_delay",
                                         "saturation", "magnet_temperature", "current_gain"};
     for (size_t k = 0; k < sizeof TYPES / sizeof *TYPES; ++k)
         if (is_of(s, TYPES[k])) return true;
     if (is_of(s, "friction")) return s->term[term].parameter > 0;
-    return (is_of(s, "mechanical_order") && s->term[term].parameter >= 2) || s->type == &hci_unknown_type;
+    return (is_of(s, "mechanical_order") && s->term[term].parameter >= 2) || s->type == &hci_empirical_type;
 }
 
 /* Whether a run can show a term of an effect at all. */
-static bool can_show(const hci_run *run, const hci_suspect *s, size_t term)
+static bool can_show(const hci_run *run, const hci_candidate *s, size_t term)
 {
     if (run->torque_source == HCI_TORQUE_MEASURED) return true;
     if (is_of(s, "torque_sensor")) return false;
     return run->torque_source != HCI_TORQUE_HOLDING || !needs_free_current(s, term);
 }
 
-static void columns_clear(const filling *f, const hci_stretch *s)
+static void columns_clear(const filling *f, const hci_segment *s)
 {
     const hci_model *m = f->model;
     for (size_t c = 0; c < m->columns; ++c) {
-        if (can_show(&f->evidence->runs[s->run], m->column[c].suspect, m->column[c].term)) continue;
+        if (can_show(&f->regression->runs[s->run], m->column[c].candidate, m->column[c].term)) continue;
         for (size_t j = 0; j < s->count; ++j)
             f->x[j * m->columns + c] = 0.0;
     }
@@ -58,16 +58,16 @@ static void columns_clear(const filling *f, const hci_stretch *s)
 
 /* ---- rows ---- */
 
-/* Rows of a stretch, weighted and whitened. */
-static void torque_rows(const filling *f, const hci_stretch *s, const hci_observation *seen)
+/* Rows of a segment, weighted and whitened. */
+static void torque_rows(const filling *f, const hci_segment *s, const hci_predicted_reading *predicted)
 {
     const hci_model *m = f->model;
-    const hci_cell *cell = f->evidence->cells->cell + s->first;
-    const hci_noise *noise = hci_evidence_noise(f->evidence, s);
+    const hci_binned_sample *sample = f->regression->samples->sample + s->first;
+    const hci_noise *noise = hci_regression_noise(f->regression, s);
     for (size_t k = 0; k < s->count; ++k) {
-        const double *from = seen->by_value + k * seen->terms;
+        const double *from = predicted->by_value + k * predicted->terms;
         double *to = f->x + k * m->columns;
-        f->y[k] = cell[k].torque_Nm - seen->torque_Nm[k];
+        f->y[k] = sample[k].torque_Nm - predicted->torque_Nm[k];
         for (size_t c = 0; c < m->columns; ++c)
             to[c] = from[m->column[c].place];
     }
@@ -76,20 +76,21 @@ static void torque_rows(const filling *f, const hci_stretch *s, const hci_observ
     columns_clear(f, s);
 }
 
-/* The row of one cell: what the sum of the readings leaves, in units of its noise. */
-static void sum_row(const filling *f, const hci_cell *cell, double deviation_A, double *x, double *y)
+/* The row of one sample: what the sum of the readings leaves, in units of its noise. */
+static void sum_row(const filling *f, const hci_binned_sample *sample, double deviation_A, double *x,
+                    double *y)
 {
     const hci_effect_type *offset = hci_effect_type_find("current_offset");
     const hci_effect_type *gain = hci_effect_type_find("current_gain");
     const hci_model *m = f->model;
-    const hci_sample truth = hci_effects_undo(&m->list, f->evidence->machine->pole_pairs, &cell->reading);
-    const double weight = sqrt(cell->count) / deviation_A;
-    *y = cell->sum_A;
+    const hci_sample truth = hci_effects_undo(&m->list, f->regression->machine->pole_pairs, &sample->reading);
+    const double weight = sqrt(sample->count) / deviation_A;
+    *y = sample->sum_A;
     for (int phase = 0; phase < 3; ++phase)
-        *y -= cell->reading.i_abc[phase] - truth.i_abc[phase];
+        *y -= sample->reading.i_abc[phase] - truth.i_abc[phase];
     *y *= weight;
     for (size_t c = 0; c < m->columns; ++c) {
-        const hci_suspect *s = m->column[c].suspect;
+        const hci_candidate *s = m->column[c].candidate;
         const size_t phase = s->term[0].parameter;
         x[c] = s->type == offset ? weight : s->type == gain ? weight * truth.i_abc[phase] : 0.0;
     }
@@ -97,12 +98,12 @@ static void sum_row(const filling *f, const hci_cell *cell, double deviation_A, 
 
 /* The sum of the true currents is 0 where no neutral is connected: rows that gains and offsets must explain.
  * False where there are none. */
-static bool sum_rows(const filling *f, const hci_stretch *s)
+static bool sum_rows(const filling *f, const hci_segment *s)
 {
-    const double deviation_A = f->evidence->sum_deviation_A[s->run];
+    const double deviation_A = f->regression->sum_deviation_A[s->run];
     if (!(deviation_A > 0.0)) return false;
     for (size_t k = 0; k < s->count; ++k)
-        sum_row(f, &f->evidence->cells->cell[s->first + k], deviation_A, f->x + k * f->model->columns,
+        sum_row(f, &f->regression->samples->sample[s->first + k], deviation_A, f->x + k * f->model->columns,
                 f->y + k);
     return true;
 }
@@ -129,10 +130,10 @@ static void rows_add(const filling *f, size_t rows)
 }
 
 /* Sums of currents inform, but the price of a parameter is that of torques: they do not count as rows. */
-static void stretch_add(const filling *f, const hci_stretch *s, hci_observation *seen)
+static void segment_add(const filling *f, const hci_segment *s, hci_predicted_reading *predicted)
 {
-    hci_observe(f->evidence, &f->model->list, s, seen);
-    torque_rows(f, s, seen);
+    hci_predicted_reading_fill(f->regression, &f->model->list, s, predicted);
+    torque_rows(f, s, predicted);
     rows_add(f, s->count);
     const double rows = f->normal->rows;
     if (sum_rows(f, s)) rows_add(f, s->count);
@@ -146,7 +147,7 @@ static double largest_of(const hci_model *m, const hci_normal *normal, const hci
 {
     double most = 0.0;
     for (size_t c = 0; c < m->columns; ++c)
-        if (m->column[c].suspect->type == type) most = fmax(most, normal->gram[c * normal->n + c]);
+        if (m->column[c].candidate->type == type) most = fmax(most, normal->gram[c * normal->n + c]);
     return most;
 }
 
@@ -156,18 +157,19 @@ static void rounding_drop(const hci_model *m, hci_normal *normal)
 {
     const size_t n = normal->n;
     for (size_t c = 0; c < n; ++c) {
-        if (normal->gram[c * n + c] > ROUNDING * largest_of(m, normal, m->column[c].suspect->type)) continue;
+        if (normal->gram[c * n + c] > ROUNDING * largest_of(m, normal, m->column[c].candidate->type))
+            continue;
         for (size_t i = 0; i < n; ++i)
             normal->gram[c * n + i] = normal->gram[i * n + c] = 0.0;
         normal->moment[c] = 0.0;
     }
 }
 
-/* Values are expected around 0 with the suspect's deviation: one more row for each term. */
+/* Values are expected around 0 with the candidate's deviation: one more row for each term. */
 static void expectations_add(const hci_model *m, hci_normal *normal)
 {
     for (size_t c = 0; c < m->columns; ++c) {
-        const hci_suspect *s = m->column[c].suspect;
+        const hci_candidate *s = m->column[c].candidate;
         const double value = s->term[m->column[c].term].value;
         const double weight = s->deviation > 0.0 ? 1.0 / (s->deviation * s->deviation) : 0.0;
         normal->gram[c * normal->n + c] += weight;
@@ -180,33 +182,33 @@ static void expectations_add(const hci_model *m, hci_normal *normal)
 
 static bool fill(filling *f)
 {
-    const hci_evidence *e = f->evidence;
-    const size_t most = hci_cells_longest(e->cells), n = f->model->columns;
-    hci_observation seen;
+    const hci_regression *e = f->regression;
+    const size_t most = hci_segment_longest(e->samples), n = f->model->columns;
+    hci_predicted_reading predicted;
     f->x = hci_memory_new(most * (n + 1), sizeof *f->x);
     if (!f->x) return false;
     f->y = f->x + most * n;
-    const bool made = hci_observation_make(e, &f->model->list, true, &seen);
-    for (const hci_stretch *s = NULL; made && (s = hci_evidence_next(e, s)) != NULL;)
-        stretch_add(f, s, &seen);
+    const bool made = hci_predicted_reading_make(e, &f->model->list, true, &predicted);
+    for (const hci_segment *s = NULL; made && (s = hci_regression_next(e, s)) != NULL;)
+        segment_add(f, s, &predicted);
     if (made) {
         hci_normal_finish(f->normal);
         rounding_drop(f->model, f->normal);
         expectations_add(f->model, f->normal);
-        hci_observation_release(&seen);
+        hci_predicted_reading_release(&predicted);
     }
     hci_memory_free(f->x);
     return made;
 }
 
-static hci_status normal_make(const hci_evidence *e, const hci_suspects *suspects, bool all,
+static hci_status normal_make(const hci_regression *e, const hci_candidates *candidates, bool all,
                               hci_normal *normal, hci_scatter *scatter, hci_note *note)
 {
     hci_model model;
     filling f = {e, &model, normal, scatter, NULL, NULL};
     memset(normal, 0, sizeof *normal);
     if (scatter) memset(scatter, 0, sizeof *scatter);
-    const hci_status status = hci_model_make(e->declared, suspects, all, &model, note);
+    const hci_status status = hci_model_make(e->declared, candidates, all, &model, note);
     if (status) return status;
     const size_t n = model.columns;
     if (scatter) scatter->square = hci_memory_new(n * n + n + 1, sizeof *scatter->square);
@@ -219,14 +221,14 @@ static hci_status normal_make(const hci_evidence *e, const hci_suspects *suspect
     return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for comparing model and recordings");
 }
 
-hci_status hci_evidence_normal(const hci_evidence *evidence, const hci_suspects *suspects, bool all,
-                               hci_normal *normal, hci_note *note)
+hci_status hci_regression_normal(const hci_regression *regression, const hci_candidates *candidates, bool all,
+                                 hci_normal *normal, hci_note *note)
 {
-    return normal_make(evidence, suspects, all, normal, NULL, note);
+    return normal_make(regression, candidates, all, normal, NULL, note);
 }
 
-hci_status hci_evidence_scatter(const hci_evidence *evidence, const hci_suspects *suspects,
-                                hci_normal *normal, hci_scatter *scatter, hci_note *note)
+hci_status hci_regression_scatter(const hci_regression *regression, const hci_candidates *candidates,
+                                  hci_normal *normal, hci_scatter *scatter, hci_note *note)
 {
-    return normal_make(evidence, suspects, false, normal, scatter, note);
+    return normal_make(regression, candidates, false, normal, scatter, note);
 }

@@ -20,9 +20,9 @@ static hci_status no_memory(hci_note *note)
     return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for fitting effects");
 }
 
-double hci_suspect_cost(const hci_suspect *suspect, double rows)
+double hci_candidate_cost(const hci_candidate *candidate, double rows)
 {
-    return suspect->price + (double)suspect->count * log(fmax(2.0, rows));
+    return candidate->price + (double)candidate->count * log(fmax(2.0, rows));
 }
 
 /* ---- values ---- */
@@ -34,11 +34,11 @@ typedef struct {
 } unknown;
 
 /* Those that are in, in the order of the columns. unknowns: out, may be NULL. Returns how many. */
-static size_t unknowns_of(hci_suspects *suspects, unknown *unknowns)
+static size_t unknowns_of(hci_candidates *candidates, unknown *unknowns)
 {
     size_t count = 0;
-    for (size_t k = 0; k < suspects->count; ++k) {
-        hci_suspect *s = &suspects->suspect[k];
+    for (size_t k = 0; k < candidates->count; ++k) {
+        hci_candidate *s = &candidates->candidate[k];
         for (size_t j = 0; s->in && j < s->count; ++j, ++count)
             if (unknowns)
                 unknowns[count] = (unknown){&s->term[j], s->type->parameter[s->term[j].parameter].least};
@@ -46,19 +46,19 @@ static size_t unknowns_of(hci_suspects *suspects, unknown *unknowns)
     return count;
 }
 
-static double score_of(const hci_suspects *suspects, const hci_normal *normal)
+static double score_of(const hci_candidates *candidates, const hci_normal *normal)
 {
     double score = normal->square;
-    for (size_t k = 0; k < suspects->count; ++k)
-        if (suspects->suspect[k].in) score += hci_suspect_cost(&suspects->suspect[k], normal->rows);
+    for (size_t k = 0; k < candidates->count; ++k)
+        if (candidates->candidate[k].in) score += hci_candidate_cost(&candidates->candidate[k], normal->rows);
     return score;
 }
 
 /* ---- steps ---- */
 
 typedef struct {
-    const hci_evidence *evidence;
-    hci_suspects *suspects;
+    const hci_regression *regression;
+    hci_candidates *candidates;
     unknown *unknowns;                             /* [n] */
     hci_normal normal;                             /* at the present values */
     double *matrix;                                /* [n][n] */
@@ -135,7 +135,7 @@ static hci_status step_take(fitting *f, bool *last, hci_note *note)
 {
     hci_normal next;
     values_move(f);
-    const hci_status status = hci_evidence_normal(f->evidence, f->suspects, false, &next, note);
+    const hci_status status = hci_regression_normal(f->regression, f->candidates, false, &next, note);
     if (status) return status;
     const double fall = f->normal.square - next.square;
     if (next.square <= f->normal.square) {
@@ -169,12 +169,13 @@ static hci_status steps_take(fitting *f, hci_note *note)
 
 /* ---- the fit ---- */
 
-static hci_status fitting_make(const hci_evidence *e, hci_suspects *suspects, fitting *f, hci_note *note)
+static hci_status fitting_make(const hci_regression *e, hci_candidates *candidates, fitting *f,
+                               hci_note *note)
 {
-    const size_t n = unknowns_of(suspects, NULL);
+    const size_t n = unknowns_of(candidates, NULL);
     memset(f, 0, sizeof *f);
-    f->evidence = e;
-    f->suspects = suspects;
+    f->regression = e;
+    f->candidates = candidates;
     f->unknowns = hci_memory_new(n + 1, sizeof *f->unknowns);
     f->matrix = hci_memory_new(n * n + 5 * n + 1, sizeof *f->matrix);
     if (!f->unknowns || !f->matrix) return no_memory(note);
@@ -183,7 +184,7 @@ static hci_status fitting_make(const hci_evidence *e, hci_suspects *suspects, fi
     f->step = f->unit + n;
     f->from = f->step + n;
     f->variance = f->from + n;
-    unknowns_of(suspects, f->unknowns);
+    unknowns_of(candidates, f->unknowns);
     return HCI_OK;
 }
 
@@ -194,16 +195,16 @@ static void fitting_release(fitting *f)
     hci_normal_release(&f->normal);
 }
 
-hci_status hci_evidence_fit(const hci_evidence *evidence, hci_suspects *suspects, hci_fit *fit,
-                            hci_note *note)
+hci_status hci_regression_fit(const hci_regression *regression, hci_candidates *candidates, hci_fit *fit,
+                              hci_note *note)
 {
     fitting f;
-    hci_status status = fitting_make(evidence, suspects, &f, note);
-    if (!status) status = hci_evidence_normal(evidence, suspects, false, &f.normal, note);
+    hci_status status = fitting_make(regression, candidates, &f, note);
+    if (!status) status = hci_regression_normal(regression, candidates, false, &f.normal, note);
     if (!status) status = steps_take(&f, note);
     if (!status) {
         errors_set(&f);
-        *fit = (hci_fit){f.normal.square, f.normal.n, score_of(suspects, &f.normal), f.normal.rows};
+        *fit = (hci_fit){f.normal.square, f.normal.n, score_of(candidates, &f.normal), f.normal.rows};
     }
     fitting_release(&f);
     return status;
@@ -240,12 +241,13 @@ static bool sandwich(fitting *f, const double *square)
     return true;
 }
 
-hci_status hci_evidence_errors(const hci_evidence *evidence, hci_suspects *suspects, hci_note *note)
+hci_status hci_regression_standard_errors(const hci_regression *regression, hci_candidates *candidates,
+                                          hci_note *note)
 {
     fitting f;
     hci_scatter scatter = {NULL, 0};
-    hci_status status = fitting_make(evidence, suspects, &f, note);
-    if (!status) status = hci_evidence_scatter(evidence, suspects, &f.normal, &scatter, note);
+    hci_status status = fitting_make(regression, candidates, &f, note);
+    if (!status) status = hci_regression_scatter(regression, candidates, &f.normal, &scatter, note);
     const size_t n = f.normal.n;
     if (!status && n > 0 && scatter.blocks > LEAST_BLOCKS * n && sandwich(&f, scatter.square))
         for (size_t k = 0; k < n; ++k) {

@@ -1,4 +1,4 @@
-/* The values of suspects that describe recordings best, and how well that is. */
+/* The values of candidates that describe recordings best, and how well that is. */
 #ifndef HCI_SRC_HOST_DIAGNOSE_FIT_FIT_H
 #define HCI_SRC_HOST_DIAGNOSE_FIT_FIT_H
 
@@ -11,17 +11,19 @@ typedef struct {
     double rows;
 } hci_fit;
 
-/* Values of the suspects that are in, by Gauss–Newton steps that are shortened where they would not do. Sets
- * their standard errors too. On failure *fit is as it was. HCI_ERROR_MEMORY. O(steps·cells·parameters²). */
-hci_status hci_evidence_fit(const hci_evidence *evidence, hci_suspects *suspects, hci_fit *fit,
-                            hci_note *note);
+/* Values of the candidates that are in, by Gauss–Newton steps that are shortened where they would not do.
+ * Sets their standard errors too. On failure *fit is as it was. HCI_ERROR_MEMORY.
+ * O(steps·samples·parameters²). */
+hci_status hci_regression_fit(const hci_regression *regression, hci_candidates *candidates, hci_fit *fit,
+                              hci_note *note);
 
-/* Raises the standard errors of the suspects that are in where the residual is more correlated than the model
- * of the noise has it: from the scatter of sums over blocks of the recordings. Nothing happens with few
+/* Raises the standard errors of the candidates that are in where the residual is more correlated than the
+ * model of the noise has it: from the scatter of sums over blocks of the recordings. Nothing happens with few
  * recordings. HCI_ERROR_MEMORY. */
-hci_status hci_evidence_errors(const hci_evidence *evidence, hci_suspects *suspects, hci_note *note);
+hci_status hci_regression_standard_errors(const hci_regression *regression, hci_candidates *candidates,
+                                          hci_note *note);
 
-/* The price of a suspect's coming in, in units of χ²: of its parameters and of the choice. */
-double hci_suspect_cost(const hci_suspect *suspect, double rows);
+/* The price of a candidate's coming in, in units of χ²: of its parameters and of the choice. */
+double hci_candidate_cost(const hci_candidate *candidate, double rows);
 
 #endif

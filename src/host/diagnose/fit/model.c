@@ -25,7 +25,7 @@ typedef struct {
     size_t first, end;
 } collection;
 
-/* Adds a term unless the effect has it; then its value is replaced. Returns its place. Suspects are all
+/* Adds a term unless the effect has it; then its value is replaced. Returns its place. Candidates are all
  * different, so that only declared terms have to be looked through. */
 static size_t term_put(collection *c, const hci_effect_term *term)
 {
@@ -37,13 +37,13 @@ static size_t term_put(collection *c, const hci_effect_term *term)
     return at;
 }
 
-static bool suspects_put(collection *c)
+static bool candidates_put(collection *c)
 {
     bool any = false;
     for (size_t k = 0; k < c->model->columns; ++k) {
         hci_model_column *column = &c->model->column[k];
-        if (column->suspect->type != c->type) continue;
-        column->place = term_put(c, &column->suspect->term[column->term]);
+        if (column->candidate->type != c->type) continue;
+        column->place = term_put(c, &column->candidate->term[column->term]);
         any = true;
     }
     return any;
@@ -66,29 +66,29 @@ static size_t type_put(hci_model *m, const hci_effect_type *type, const hci_effe
     collection c = {m, type, declared_of(declared, type), first, first};
     for (size_t k = 0; c.before && k < c.before->count; ++k)
         m->term[c.end++] = c.before->term[k];
-    if (suspects_put(&c)) reference_put(&c, reference_current_A);
+    if (candidates_put(&c)) reference_put(&c, reference_current_A);
     if (c.end > first) m->effect[m->list.count++] = (hci_effect){type, m->term + first, c.end - first};
     return c.end;
 }
 
-static size_t columns_of(const hci_suspects *suspects, bool all, hci_model_column *column)
+static size_t columns_of(const hci_candidates *candidates, bool all, hci_model_column *column)
 {
     size_t count = 0;
-    for (size_t k = 0; k < suspects->count; ++k) {
-        const hci_suspect *s = &suspects->suspect[k];
+    for (size_t k = 0; k < candidates->count; ++k) {
+        const hci_candidate *s = &candidates->candidate[k];
         for (size_t j = 0; (all || s->in) && j < s->count; ++j, ++count)
             if (column) column[count] = (hci_model_column){s, j, 0};
     }
     return count;
 }
 
-hci_status hci_model_make(const hci_effects *declared, const hci_suspects *suspects, bool all,
+hci_status hci_model_make(const hci_effects *declared, const hci_candidates *candidates, bool all,
                           hci_model *model, hci_note *note)
 {
-    const size_t types = hci_suspect_types();
+    const size_t types = hci_candidate_types();
     size_t used = 0;
     memset(model, 0, sizeof *model);
-    model->columns = columns_of(suspects, all, NULL);
+    model->columns = columns_of(candidates, all, NULL);
     model->effect = hci_memory_new(types, sizeof *model->effect);
     model->term = hci_memory_new(model->columns + hci_effects_terms(declared) + 1, sizeof *model->term);
     model->column = hci_memory_new(model->columns + 1, sizeof *model->column);
@@ -96,9 +96,9 @@ hci_status hci_model_make(const hci_effects *declared, const hci_suspects *suspe
         hci_model_release(model);
         return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for a model with effects");
     }
-    columns_of(suspects, all, model->column);
+    columns_of(candidates, all, model->column);
     for (size_t r = 0; r < types; ++r)
-        used = type_put(model, hci_suspect_type(r), declared, suspects->reference_current_A, used);
+        used = type_put(model, hci_candidate_type(r), declared, candidates->reference_current_A, used);
     model->list.effect = model->effect;
     return HCI_OK;
 }

@@ -44,24 +44,24 @@ static void lag_derivative(const double *torque, const double *time_s, size_t n,
     }
 }
 
-bool hci_observation_is_dynamic(const hci_evidence *e, const hci_stretch *s)
+bool hci_predicted_reading_is_dynamic(const hci_regression *e, const hci_segment *s)
 {
     return s->timed && s->smooth && e->runs[s->run].torque_source == HCI_TORQUE_MEASURED;
 }
 
-static size_t longest_in_laps(const hci_evidence *e, bool dynamic)
+static size_t longest_in_laps(const hci_regression *e, bool dynamic)
 {
     size_t most = 1;
-    for (size_t k = 0; k < e->cells->stretch_count; ++k) {
-        const hci_stretch *s = &e->cells->stretch[k];
+    for (size_t k = 0; k < e->samples->segment_count; ++k) {
+        const hci_segment *s = &e->samples->segment[k];
         const size_t n = s->count * (dynamic && s->turns > 0 ? HCI_LAPS : 1);
         most = n > most ? n : most;
     }
     return most;
 }
 
-bool hci_observation_make(const hci_evidence *e, const hci_effects *effects, bool derivatives,
-                          hci_observation *o)
+bool hci_predicted_reading_make(const hci_regression *e, const hci_effects *effects, bool derivatives,
+                                hci_predicted_reading *o)
 {
     const size_t most = longest_in_laps(e, has_dynamics(effects));
     memset(o, 0, sizeof *o);
@@ -69,14 +69,14 @@ bool hci_observation_make(const hci_evidence *e, const hci_effects *effects, boo
     o->torque_Nm = hci_memory_new(2 * most, sizeof *o->torque_Nm);
     if (derivatives) o->by_value = hci_memory_new(most * (o->terms + 1), sizeof *o->by_value);
     if (!o->torque_Nm || (derivatives && !o->by_value)) {
-        hci_observation_release(o);
+        hci_predicted_reading_release(o);
         return false;
     }
     o->time_s = o->torque_Nm + most;
     return true;
 }
 
-void hci_observation_release(hci_observation *o)
+void hci_predicted_reading_release(hci_predicted_reading *o)
 {
     hci_memory_free(o->torque_Nm);
     hci_memory_free(o->by_value);
@@ -84,20 +84,20 @@ void hci_observation_release(hci_observation *o)
 }
 
 /* Without the dynamics of the sensor. */
-static void observe_still(const hci_evidence *e, const hci_effects *effects, const hci_stretch *s,
-                          hci_observation *o)
+static void fill_static(const hci_regression *e, const hci_effects *effects, const hci_segment *s,
+                        hci_predicted_reading *o)
 {
-    const hci_cell *cell = e->cells->cell + s->first;
+    const hci_binned_sample *sample = e->samples->sample + s->first;
     for (size_t k = 0; k < s->count; ++k) {
         double *by_value = o->by_value ? o->by_value + k * o->terms : NULL;
         o->torque_Nm[k] =
-            hci_effects_predict(e->machine, effects, e->raw ? &cell[k].raw : &cell[k].reading, by_value);
-        o->time_s[k] = cell[k].time_s;
+            hci_effects_predict(e->machine, effects, e->raw ? &sample[k].raw : &sample[k].reading, by_value);
+        o->time_s[k] = sample[k].time_s;
     }
 }
 
-/* Writes the first lap n cells long again behind it. */
-static void lap_repeat(hci_observation *o, size_t n, size_t lap, double period_s)
+/* Writes the first lap n samples long again behind it. */
+static void lap_repeat(hci_predicted_reading *o, size_t n, size_t lap, double period_s)
 {
     memcpy(o->torque_Nm + lap * n, o->torque_Nm, n * sizeof *o->torque_Nm);
     if (o->by_value)
@@ -107,18 +107,19 @@ static void lap_repeat(hci_observation *o, size_t n, size_t lap, double period_s
 }
 
 /* Keeps the last lap, in which the sensor has settled. */
-static void lap_keep(hci_observation *o, size_t n, size_t lap)
+static void lap_keep(hci_predicted_reading *o, size_t n, size_t lap)
 {
     memmove(o->torque_Nm, o->torque_Nm + lap * n, n * sizeof *o->torque_Nm);
     if (o->by_value)
         memmove(o->by_value, o->by_value + lap * n * o->terms, n * o->terms * sizeof *o->by_value);
 }
 
-void hci_observe(const hci_evidence *e, const hci_effects *effects, const hci_stretch *s, hci_observation *o)
+void hci_predicted_reading_fill(const hci_regression *e, const hci_effects *effects, const hci_segment *s,
+                                hci_predicted_reading *o)
 {
-    const bool sensor = hci_observation_is_dynamic(e, s), dynamic = sensor && has_dynamics(effects);
+    const bool sensor = hci_predicted_reading_is_dynamic(e, s), dynamic = sensor && has_dynamics(effects);
     const size_t laps = dynamic && s->turns > 0 ? HCI_LAPS : 1, lag = dormant_lag(effects);
-    observe_still(e, effects, s, o);
+    fill_static(e, effects, s, o);
     if (o->by_value && sensor && lag < o->terms)
         lag_derivative(o->torque_Nm, o->time_s, s->count, o->by_value + lag, o->terms);
     if (!dynamic) return;

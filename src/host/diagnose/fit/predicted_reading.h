@@ -1,4 +1,4 @@
-/* The torque that a model has the sensor read along a stretch of a recording. */
+/* The torque that a model has the sensor read along a segment of a recording. */
 #ifndef HCI_SRC_HOST_DIAGNOSE_FIT_PREDICTED_READING_H
 #define HCI_SRC_HOST_DIAGNOSE_FIT_PREDICTED_READING_H
 
@@ -7,24 +7,24 @@
 /* The mean of a steady turn is run through so many times, so that a slow sensor settles. */
 enum { HCI_LAPS = 4 };
 
-/* Room for the longest stretch in laps. Start with {0}. */
+/* Room for the longest segment in laps. Start with {0}. */
 typedef struct {
     double *torque_Nm;
-    double *by_value; /* [cells][terms], derivatives by the values of all terms; NULL: not wanted */
+    double *by_value; /* [samples][terms], derivatives by the values of all terms; NULL: not wanted */
     double *time_s;
     size_t terms;
-} hci_observation;
+} hci_predicted_reading;
 
 /* False when memory is out, and then there is nothing to release. */
-bool hci_observation_make(const hci_evidence *evidence, const hci_effects *effects, bool derivatives,
-                          hci_observation *observation);
-void hci_observation_release(hci_observation *observation);
+bool hci_predicted_reading_make(const hci_regression *regression, const hci_effects *effects,
+                                bool derivatives, hci_predicted_reading *reading_out);
+void hci_predicted_reading_release(hci_predicted_reading *reading_out);
 
-/* Fills torque_Nm and by_value for the cells of a stretch. O(cells·terms). */
-void hci_observe(const hci_evidence *evidence, const hci_effects *effects, const hci_stretch *stretch,
-                 hci_observation *observation);
+/* Fills torque_Nm and by_value for the samples of a segment. O(samples·terms). */
+void hci_predicted_reading_fill(const hci_regression *regression, const hci_effects *effects,
+                                const hci_segment *segment, hci_predicted_reading *reading_out);
 
 /* Whether a torque sensor and a clock stood beside each other, so that its lag shows. */
-bool hci_observation_is_dynamic(const hci_evidence *evidence, const hci_stretch *stretch);
+bool hci_predicted_reading_is_dynamic(const hci_regression *regression, const hci_segment *segment);
 
 #endif

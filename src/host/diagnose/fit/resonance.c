@@ -14,32 +14,32 @@ static const double DAMPING[] = {0.03, 0.1, 0.3};
 
 /* Torque without and with the resonance, in laps of a steady turn. */
 typedef struct {
-    const hci_evidence *evidence;
+    const hci_regression *regression;
     const double *residual_Nm;
     double *torque_Nm, *time_s, *y;
 } listening;
 
 /* The torque in the air gap: what was measured, less what the model leaves. */
-static void laps_fill(const listening *l, const hci_stretch *s, size_t laps)
+static void laps_fill(const listening *l, const hci_segment *s, size_t laps)
 {
-    const hci_cell *cell = l->evidence->cells->cell + s->first;
+    const hci_binned_sample *sample = l->regression->samples->sample + s->first;
     for (size_t lap = 0; lap < laps; ++lap)
         for (size_t k = 0; k < s->count; ++k) {
-            l->torque_Nm[lap * s->count + k] = cell[k].torque_Nm - l->residual_Nm[s->first + k];
-            l->time_s[lap * s->count + k] = cell[k].time_s + (double)lap * s->period_s;
+            l->torque_Nm[lap * s->count + k] = sample[k].torque_Nm - l->residual_Nm[s->first + k];
+            l->time_s[lap * s->count + k] = sample[k].time_s + (double)lap * s->period_s;
         }
 }
 
-static double stretch_square(const listening *l, const hci_effects *sensor, const hci_stretch *s)
+static double segment_square(const listening *l, const hci_effects *sensor, const hci_segment *s)
 {
-    const hci_cell *cell = l->evidence->cells->cell + s->first;
+    const hci_binned_sample *sample = l->regression->samples->sample + s->first;
     const size_t n = s->count, laps = s->turns > 0 ? HCI_LAPS : 1;
     double sum = 0.0;
     laps_fill(l, s, laps);
     if (sensor) hci_effects_filter(sensor, l->time_s, laps * n, l->torque_Nm, NULL);
     for (size_t k = 0; k < n; ++k)
-        l->y[k] = cell[k].torque_Nm - l->torque_Nm[(laps - 1) * n + k];
-    hci_noise_whiten(hci_evidence_noise(l->evidence, s), l->y, n, 1);
+        l->y[k] = sample[k].torque_Nm - l->torque_Nm[(laps - 1) * n + k];
+    hci_noise_whiten(hci_regression_noise(l->regression, s), l->y, n, 1);
     for (size_t k = 0; k < n; ++k)
         sum += l->y[k] * l->y[k];
     return sum;
@@ -49,8 +49,8 @@ static double stretch_square(const listening *l, const hci_effects *sensor, cons
 static double sensor_square(const listening *l, const hci_effects *sensor)
 {
     double sum = 0.0;
-    for (const hci_stretch *s = NULL; (s = hci_evidence_next(l->evidence, s)) != NULL;)
-        if (hci_observation_is_dynamic(l->evidence, s)) sum += stretch_square(l, sensor, s);
+    for (const hci_segment *s = NULL; (s = hci_regression_next(l->regression, s)) != NULL;)
+        if (hci_predicted_reading_is_dynamic(l->regression, s)) sum += segment_square(l, sensor, s);
     return sum;
 }
 
@@ -64,15 +64,15 @@ static double square_with(const listening *l, double frequency_Hz, double dampin
 }
 
 /* From the slowest turn to a third of the sampling rate. */
-static void frequency_range(const hci_evidence *e, double *low_Hz, double *high_Hz)
+static void frequency_range(const hci_regression *e, double *low_Hz, double *high_Hz)
 {
     *low_Hz = INFINITY;
     *high_Hz = 0.0;
-    for (const hci_stretch *s = NULL; (s = hci_evidence_next(e, s)) != NULL;) {
-        const hci_cell *cell = e->cells->cell + s->first;
-        const double length_s = s->turns > 0 ? s->period_s : cell[s->count - 1].time_s - cell[0].time_s;
-        const double speed = fabs(cell[s->count / 2].reading.speed_rad_per_s);
-        if (!hci_observation_is_dynamic(e, s) || !(length_s > 0.0)) continue;
+    for (const hci_segment *s = NULL; (s = hci_regression_next(e, s)) != NULL;) {
+        const hci_binned_sample *sample = e->samples->sample + s->first;
+        const double length_s = s->turns > 0 ? s->period_s : sample[s->count - 1].time_s - sample[0].time_s;
+        const double speed = fabs(sample[s->count / 2].reading.speed_rad_per_s);
+        if (!hci_predicted_reading_is_dynamic(e, s) || !(length_s > 0.0)) continue;
         *high_Hz = fmax(*high_Hz, TOP * (double)s->count / length_s);
         if (speed > 0.0) *low_Hz = fmin(*low_Hz, speed / (2.0 * HCI_PI));
     }
@@ -81,7 +81,7 @@ static void frequency_range(const hci_evidence *e, double *low_Hz, double *high_
 static void grid_search(const listening *l, hci_resonance *best)
 {
     double low_Hz, high_Hz;
-    frequency_range(l->evidence, &low_Hz, &high_Hz);
+    frequency_range(l->regression, &low_Hz, &high_Hz);
     const double before = sensor_square(l, NULL);
     for (int k = 0; k < FREQUENCIES && low_Hz < high_Hz; ++k) {
         const double frequency_Hz = low_Hz * pow(high_Hz / low_Hz, (double)k / (FREQUENCIES - 1));
@@ -92,14 +92,14 @@ static void grid_search(const listening *l, hci_resonance *best)
     }
 }
 
-hci_status hci_resonance_find(const hci_evidence *evidence, const double *residual_Nm,
+hci_status hci_resonance_find(const hci_regression *regression, const double *residual_Nm,
                               hci_resonance *resonance, hci_note *note)
 {
-    const size_t most = hci_cells_longest(evidence->cells);
+    const size_t most = hci_segment_longest(regression->samples);
     double *work = hci_memory_new((2 * HCI_LAPS + 1) * most, sizeof *work);
     *resonance = (hci_resonance){0.0, 0.0, 0.0};
     if (!work) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for resonances of the sensor");
-    const listening l = {evidence, residual_Nm, work, work + HCI_LAPS * most, work + 2 * HCI_LAPS * most};
+    const listening l = {regression, residual_Nm, work, work + HCI_LAPS * most, work + 2 * HCI_LAPS * most};
     grid_search(&l, resonance);
     hci_memory_free(work);
     return HCI_OK;

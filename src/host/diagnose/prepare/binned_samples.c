@@ -10,28 +10,28 @@
 #include "host/diagnose/prepare/smooth.h"
 
 enum {
-    CELLS_PER_TURN = 4096, /* of a mean over turns */
-    LEAST_TURNS = 3,       /* for such a mean */
-    MOST_OPEN = 8          /* stretches of samples as they are, for each run */
+    BINS_PER_TURN = 4096, /* of a mean over turns */
+    LEAST_TURNS = 3,      /* for such a mean */
+    MOST_OPEN = 8         /* segments of samples as they are, for each run */
 };
 
 #define STEADY   0.02 /* change of current and speed within a mean, as a share of their largest */
 #define STEADY_K 1.0  /* and of temperature, in kelvin */
 #define NEARLY   0.02 /* of a turn: turning back by more ends a lap, falling short by less does not count */
 
-/* One run on its way into the cells. */
+/* One run on its way into the samples. */
 typedef struct {
     const hci_run *run;
     size_t index; /* in the list of runs */
     int pole_pairs;
-    const hci_run_figures *figures;
-    hci_cells *cells;
-    size_t *room; /* for so many cells there is memory */
+    const hci_run_statistics *statistics;
+    hci_binned_samples *samples;
+    size_t *room; /* for so many samples there is memory */
 } reduction;
 
 /* ---- samples ---- */
 
-static void sample_of(const hci_run *r, size_t k, hci_cell *c)
+static void sample_of(const hci_run *r, size_t k, hci_binned_sample *c)
 {
     memset(c, 0, sizeof *c);
     c->reading.theta_m_rad = r->theta_m_rad[k];
@@ -44,48 +44,48 @@ static void sample_of(const hci_run *r, size_t k, hci_cell *c)
     c->count = 1.0;
 }
 
-/* Room for so many more cells: where they begin, NULL when memory is out. */
-static hci_cell *reserve(const reduction *x, size_t more)
+/* Room for so many more samples: where they begin, NULL when memory is out. */
+static hci_binned_sample *reserve(const reduction *x, size_t more)
 {
-    hci_cells *cells = x->cells;
-    if (cells->count + more > *x->room) {
-        const size_t wanted = 2 * (cells->count + more);
-        hci_cell *grown = hci_memory_resize(cells->cell, wanted, sizeof *grown);
+    hci_binned_samples *samples = x->samples;
+    if (samples->count + more > *x->room) {
+        const size_t wanted = 2 * (samples->count + more);
+        hci_binned_sample *grown = hci_memory_resize(samples->sample, wanted, sizeof *grown);
         if (!grown) return NULL;
-        cells->cell = grown;
+        samples->sample = grown;
         *x->room = wanted;
     }
-    return cells->cell + cells->count;
+    return samples->sample + samples->count;
 }
 
-static bool stretch_add(hci_cells *cells, const hci_stretch *s)
+static bool segment_add(hci_binned_samples *samples, const hci_segment *s)
 {
-    hci_stretch *grown = hci_memory_resize(cells->stretch, cells->stretch_count + 1, sizeof *grown);
+    hci_segment *grown = hci_memory_resize(samples->segment, samples->segment_count + 1, sizeof *grown);
     if (!grown) return false;
-    cells->stretch = grown;
-    grown[cells->stretch_count++] = *s;
+    samples->segment = grown;
+    grown[samples->segment_count++] = *s;
     return true;
 }
 
 /* Keeps the readings, smooths them, and finds how fast the currents change. */
-static bool stretch_finish(const reduction *x, hci_stretch *s)
+static bool segment_finish(const reduction *x, hci_segment *s)
 {
-    hci_cell *cell = x->cells->cell + s->first;
+    hci_binned_sample *sample = x->samples->sample + s->first;
     bool series = false;
     for (size_t k = 0; k < s->count; ++k)
-        cell[k].raw = cell[k].reading;
+        sample[k].raw = sample[k].reading;
     /* in a holding test the current is what is measured, noise and all */
     if (x->run->torque_source != HCI_TORQUE_HOLDING &&
-        !hci_smooth_stretch(cell, s, x->pole_pairs, x->run->turn_known, &series))
+        !hci_segment_smooth(sample, s, x->pole_pairs, x->run->turn_known, &series))
         return false;
-    if (s->timed && !series) hci_change_set(cell, s->count, x->pole_pairs);
+    if (s->timed && !series) hci_current_rates_set(sample, s->count, x->pole_pairs);
     for (size_t k = 0; k < s->count; ++k) {
-        const hci_sample *from = &cell[k].reading;
-        memcpy(cell[k].raw.change_A_per_s, from->change_A_per_s, sizeof from->change_A_per_s);
-        memcpy(cell[k].raw.curvature_A_per_s2, from->curvature_A_per_s2, sizeof from->curvature_A_per_s2);
+        const hci_sample *from = &sample[k].reading;
+        memcpy(sample[k].raw.change_A_per_s, from->change_A_per_s, sizeof from->change_A_per_s);
+        memcpy(sample[k].raw.curvature_A_per_s2, from->curvature_A_per_s2, sizeof from->curvature_A_per_s2);
     }
     s->smooth = series;
-    return stretch_add(x->cells, s);
+    return segment_add(x->samples, s);
 }
 
 /* ---- laps ---- */
@@ -148,7 +148,7 @@ static lap lap_from(const reduction *x, size_t first)
 /* Whether two laps may go into one mean. */
 static bool alike(const reduction *x, const lap *a, const lap *b)
 {
-    const double most_A = x->figures->current_A, most_speed = fabs(x->figures->mean_speed_rad_per_s);
+    const double most_A = x->statistics->current_A, most_speed = fabs(x->statistics->mean_speed_rad_per_s);
     return a->whole && b->whole && lap_direction(x->run, a) == lap_direction(x->run, b) &&
            hypot(a->d - b->d, a->q - b->q) <= STEADY * most_A + 1e-12 &&
            fabs(a->speed - b->speed) <= STEADY * most_speed + 1e-12 &&
@@ -174,7 +174,7 @@ static bool laps_find(const reduction *x, lap **laps, size_t *count)
 
 /* ---- means over turns ---- */
 
-static void mean_add(hci_cell *c, const hci_cell *x)
+static void mean_add(hci_binned_sample *c, const hci_binned_sample *x)
 {
     const double w = 1.0 / (c->count += 1.0);
     hci_sample *m = &c->reading;
@@ -189,35 +189,35 @@ static void mean_add(hci_cell *c, const hci_cell *x)
     c->sum_A += w * (x->sum_A - c->sum_A);
 }
 
-/* Means of samples first … last over the turns, by angle. cell: [CELLS_PER_TURN]. */
-static void means_take(const reduction *x, size_t first, size_t last, hci_cell *cell)
+/* Means of samples first … last over the turns, by angle. sample: [BINS_PER_TURN]. */
+static void means_take(const reduction *x, size_t first, size_t last, hci_binned_sample *sample)
 {
     const double turn = turn_of(x);
-    memset(cell, 0, CELLS_PER_TURN * sizeof *cell);
+    memset(sample, 0, BINS_PER_TURN * sizeof *sample);
     for (size_t k = first; k <= last; ++k) {
-        hci_cell sample;
-        sample_of(x->run, k, &sample);
-        sample.reading.theta_m_rad -= turn * floor(sample.reading.theta_m_rad / turn);
-        const size_t at = (size_t)(sample.reading.theta_m_rad / turn * CELLS_PER_TURN);
-        mean_add(&cell[at < CELLS_PER_TURN ? at : CELLS_PER_TURN - 1], &sample);
+        hci_binned_sample one;
+        sample_of(x->run, k, &one);
+        one.reading.theta_m_rad -= turn * floor(one.reading.theta_m_rad / turn);
+        const size_t at = (size_t)(one.reading.theta_m_rad / turn * BINS_PER_TURN);
+        mean_add(&sample[at < BINS_PER_TURN ? at : BINS_PER_TURN - 1], &one);
     }
 }
 
-/* Sorts the cells along time: against the angle when it falls; then gives them the time of a steady turn.
+/* Sorts the samples along time: against the angle when it falls; then gives them the time of a steady turn.
  * Returns how many are not empty. */
-static size_t cells_close(hci_cell *cell, double direction, double turn_rad, double period_s)
+static size_t bins_close(hci_binned_sample *sample, double direction, double turn_rad, double period_s)
 {
     size_t kept = 0;
-    for (size_t k = 0; k < CELLS_PER_TURN; ++k)
-        if (cell[k].count > 0.0) cell[kept++] = cell[k];
+    for (size_t k = 0; k < BINS_PER_TURN; ++k)
+        if (sample[k].count > 0.0) sample[kept++] = sample[k];
     for (size_t k = 0; direction < 0.0 && k < kept / 2; ++k) {
-        const hci_cell x = cell[k];
-        cell[k] = cell[kept - 1 - k];
-        cell[kept - 1 - k] = x;
+        const hci_binned_sample x = sample[k];
+        sample[k] = sample[kept - 1 - k];
+        sample[kept - 1 - k] = x;
     }
     for (size_t k = 0; k < kept; ++k)
-        cell[k].time_s =
-            fabs(cell[k].reading.theta_m_rad - cell[0].reading.theta_m_rad) / turn_rad * period_s;
+        sample[k].time_s =
+            fabs(sample[k].reading.theta_m_rad - sample[0].reading.theta_m_rad) / turn_rad * period_s;
     return kept;
 }
 
@@ -229,42 +229,42 @@ static double period_of(const reduction *x, size_t first, size_t last)
     return r->time_s ? (r->time_s[last] - r->time_s[first]) * turn_of(x) / span_rad : 0.0;
 }
 
-/* Adds the mean over some laps as one stretch. */
-static bool mean_stretch(const reduction *x, const lap *laps, size_t count)
+/* Adds the mean over some laps as one segment. */
+static bool mean_segment(const reduction *x, const lap *laps, size_t count)
 {
     const hci_run *r = x->run;
     const size_t first = laps[0].first, last = laps[count - 1].first + laps[count - 1].count - 1;
     const double period_s = period_of(x, first, last);
-    hci_stretch s = {x->index, x->cells->count, 0, count, period_s, r->time_s != NULL, false};
-    hci_cell *cell = reserve(x, CELLS_PER_TURN);
-    if (!cell) return false;
-    means_take(x, first, last, cell);
-    s.count = cells_close(cell, direction_of(r, first, last), turn_of(x), period_s);
-    x->cells->count += s.count;
-    return stretch_finish(x, &s);
+    hci_segment s = {x->index, x->samples->count, 0, count, period_s, r->time_s != NULL, false};
+    hci_binned_sample *sample = reserve(x, BINS_PER_TURN);
+    if (!sample) return false;
+    means_take(x, first, last, sample);
+    s.count = bins_close(sample, direction_of(r, first, last), turn_of(x), period_s);
+    x->samples->count += s.count;
+    return segment_finish(x, &s);
 }
 
 /* ---- samples as they are ---- */
 
-static bool open_stretch(const reduction *x, size_t first, size_t count)
+static bool open_segment(const reduction *x, size_t first, size_t count)
 {
-    hci_stretch s = {x->index, x->cells->count, count, 0, 0.0, x->run->time_s != NULL, false};
-    hci_cell *cell = reserve(x, count);
-    if (!cell) return false;
+    hci_segment s = {x->index, x->samples->count, count, 0, 0.0, x->run->time_s != NULL, false};
+    hci_binned_sample *sample = reserve(x, count);
+    if (!sample) return false;
     for (size_t k = 0; k < count; ++k)
-        sample_of(x->run, first + k, &cell[k]);
-    x->cells->count += count;
-    return stretch_finish(x, &s);
+        sample_of(x->run, first + k, &sample[k]);
+    x->samples->count += count;
+    return segment_finish(x, &s);
 }
 
 /* A recording that is not steady and too long for all of it: parts of it, evenly spread. */
-static bool open_stretches(const reduction *x, size_t first, size_t count)
+static bool open_segments(const reduction *x, size_t first, size_t count)
 {
-    const size_t pieces = (count + HCI_MOST_STRETCH - 1) / HCI_MOST_STRETCH;
+    const size_t pieces = (count + HCI_LONGEST_SEGMENT - 1) / HCI_LONGEST_SEGMENT;
     const size_t kept = pieces < MOST_OPEN ? pieces : MOST_OPEN;
     for (size_t k = 0; k < kept; ++k) {
         const size_t piece = pieces * k / kept, length = count / pieces;
-        if (!open_stretch(x, first + piece * length, length)) return false;
+        if (!open_segment(x, first + piece * length, length)) return false;
     }
     return true;
 }
@@ -279,68 +279,68 @@ static size_t behind(const lap *x)
 /* Steady laps become one mean, what is between them stays as it is; a short rest behind them is left. */
 static bool laps_reduce(const reduction *x, const lap *laps, size_t count)
 {
-    size_t open = 0; /* first sample that is not in a stretch yet */
+    size_t open = 0; /* first sample that is not in a segment yet */
     for (size_t k = 0, next; k < count; k = next) {
         for (next = k + 1; next < count && alike(x, &laps[k], &laps[next]);)
             ++next;
         if (next - k < LEAST_TURNS) continue;
-        if (laps[k].first > open && !open_stretches(x, open, laps[k].first - open)) return false;
-        if (!mean_stretch(x, laps + k, next - k)) return false;
+        if (laps[k].first > open && !open_segments(x, open, laps[k].first - open)) return false;
+        if (!mean_segment(x, laps + k, next - k)) return false;
         open = behind(&laps[next - 1]);
     }
     const size_t rest = x->run->count - open;
-    return (open > 0 && rest <= HCI_MOST_STRETCH) || open_stretches(x, open, rest);
+    return (open > 0 && rest <= HCI_LONGEST_SEGMENT) || open_segments(x, open, rest);
 }
 
 static bool run_reduce(const reduction *x)
 {
     lap *laps = NULL;
     size_t count = 0;
-    if (x->run->count <= HCI_MOST_STRETCH) return open_stretch(x, 0, x->run->count);
+    if (x->run->count <= HCI_LONGEST_SEGMENT) return open_segment(x, 0, x->run->count);
     const bool done = laps_find(x, &laps, &count) && laps_reduce(x, laps, count);
     hci_memory_free(laps);
     return done;
 }
 
-hci_status hci_cells_make(const hci_machine *machine, const hci_run *runs, size_t run_count, hci_cells *cells,
-                          hci_note *note)
+hci_status hci_binned_samples_make(const hci_machine *machine, const hci_run *runs, size_t run_count,
+                                   hci_binned_samples *samples, hci_note *note)
 {
     size_t room = 0;
-    memset(cells, 0, sizeof *cells);
-    cells->run_count = run_count;
-    cells->figures = hci_memory_new(run_count + 1, sizeof *cells->figures);
-    bool done = cells->figures != NULL;
+    memset(samples, 0, sizeof *samples);
+    samples->run_count = run_count;
+    samples->statistics = hci_memory_new(run_count + 1, sizeof *samples->statistics);
+    bool done = samples->statistics != NULL;
     for (size_t k = 0; k < run_count && done; ++k) {
-        const reduction x = {&runs[k], k, machine->pole_pairs, &cells->figures[k], cells, &room};
-        cells->figures[k] = hci_figures_of(&runs[k], machine->pole_pairs);
+        const reduction x = {&runs[k], k, machine->pole_pairs, &samples->statistics[k], samples, &room};
+        samples->statistics[k] = hci_run_statistics_of(&runs[k], machine->pole_pairs);
         if (runs[k].torque_Nm && runs[k].theta_m_rad && runs[k].i_A && runs[k].count > 0)
             done = run_reduce(&x);
     }
     if (done) return HCI_OK;
-    hci_cells_release(cells);
+    hci_binned_samples_release(samples);
     return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the recordings");
 }
 
-void hci_cells_release(hci_cells *cells)
+void hci_binned_samples_release(hci_binned_samples *samples)
 {
-    hci_memory_free(cells->cell);
-    hci_memory_free(cells->stretch);
-    hci_memory_free(cells->figures);
-    memset(cells, 0, sizeof *cells);
+    hci_memory_free(samples->sample);
+    hci_memory_free(samples->segment);
+    hci_memory_free(samples->statistics);
+    memset(samples, 0, sizeof *samples);
 }
 
-size_t hci_cells_longest(const hci_cells *cells)
+size_t hci_segment_longest(const hci_binned_samples *samples)
 {
     size_t most = 1;
-    for (size_t k = 0; k < cells->stretch_count; ++k)
-        most = cells->stretch[k].count > most ? cells->stretch[k].count : most;
+    for (size_t k = 0; k < samples->segment_count; ++k)
+        most = samples->segment[k].count > most ? samples->segment[k].count : most;
     return most;
 }
 
-const hci_stretch *hci_cells_next(const hci_cells *cells, size_t run, const hci_stretch *after)
+const hci_segment *hci_segment_next(const hci_binned_samples *samples, size_t run, const hci_segment *after)
 {
-    const hci_stretch *end = cells->stretch + cells->stretch_count;
-    const hci_stretch *s = after ? after + 1 : cells->stretch;
+    const hci_segment *end = samples->segment + samples->segment_count;
+    const hci_segment *s = after ? after + 1 : samples->segment;
     while (s < end && s->run != run)
         ++s;
     return s < end ? s : NULL;

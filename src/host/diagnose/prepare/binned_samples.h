@@ -12,22 +12,22 @@ typedef struct {
     hci_sample raw;     /* as it was read */
     double torque_Nm;
     double sum_A;        /* i_a + i_b + i_c; NAN where they were not recorded one by one */
-    double time_s;       /* ascending within a stretch; 0 where there is none */
+    double time_s;       /* ascending within a segment; 0 where there is none */
     double count;        /* samples in it */
     double scatter_N2m2; /* sum of the squared departures of their torques from the mean */
-} hci_cell;
+} hci_binned_sample;
 
-enum { HCI_MOST_STRETCH = 4096 }; /* cells of a stretch */
+enum { HCI_LONGEST_SEGMENT = 4096 }; /* samples of a segment */
 
-/* Cells that follow each other in time. */
+/* Samples that follow each other in time. */
 typedef struct {
     size_t run;          /* in the list of runs */
-    size_t first, count; /* its cells */
+    size_t first, count; /* its samples */
     size_t turns;    /* in the mean, electrical periods where the turn is not known; 0: samples as they are */
     double period_s; /* of one turn, when turns > 0 */
     bool timed;
     bool smooth; /* the currents are free of noise */
-} hci_stretch;
+} hci_segment;
 
 /* What a run says of itself before any model. */
 typedef struct {
@@ -38,27 +38,27 @@ typedef struct {
     double angle_step_rad; /* smallest step of the mechanical angle: the encoder's resolution or finer */
     double turns;          /* of the mechanical angle, from the least to the largest */
     double temperature_C;  /* mean; NAN */
-} hci_run_figures;
+} hci_run_statistics;
 
 /* Start with {0}. */
 typedef struct {
-    hci_cell *cell;
+    hci_binned_sample *sample;
     size_t count;
-    hci_stretch *stretch;
-    size_t stretch_count;
-    hci_run_figures *figures; /* one for each run */
+    hci_segment *segment;
+    size_t segment_count;
+    hci_run_statistics *statistics; /* one for each run */
     size_t run_count;
-} hci_cells;
+} hci_binned_samples;
 
-/* Runs without a torque give no cells. HCI_ERROR_MEMORY. O(samples). */
-hci_status hci_cells_make(const hci_machine *machine, const hci_run *runs, size_t run_count, hci_cells *cells,
-                          hci_note *note);
-void hci_cells_release(hci_cells *cells);
+/* Runs without a torque give no samples. HCI_ERROR_MEMORY. O(samples). */
+hci_status hci_binned_samples_make(const hci_machine *machine, const hci_run *runs, size_t run_count,
+                                   hci_binned_samples *samples, hci_note *note);
+void hci_binned_samples_release(hci_binned_samples *samples);
 
-/* Cells of the longest stretch, at least 1. */
-size_t hci_cells_longest(const hci_cells *cells);
+/* Samples of the longest segment, at least 1. */
+size_t hci_segment_longest(const hci_binned_samples *samples);
 
-/* The stretch of a run that follows `after` (NULL: the first one); NULL behind the last. */
-const hci_stretch *hci_cells_next(const hci_cells *cells, size_t run, const hci_stretch *after);
+/* The segment of a run that follows `after` (NULL: the first one); NULL behind the last. */
+const hci_segment *hci_segment_next(const hci_binned_samples *samples, size_t run, const hci_segment *after);
 
 #endif

@@ -8,7 +8,7 @@
     80.0 /* part of an electrical period on each side: smooths the noise and keeps harmonics up to the 12th  \
           */
 
-enum { MOST_REACH = 32, LEAST_REACH = 2 }; /* cells on each side */
+enum { MOST_REACH = 32, LEAST_REACH = 2 }; /* samples on each side */
 
 /* Sums for the slope of i_d and i_q over time. */
 typedef struct {
@@ -28,29 +28,29 @@ static void slope_add(slope_sums *s, double t, const hci_sample *x, int pole_pai
 }
 
 /* Neighbours on one side that are within reach, two of them in any case. */
-static void slope_gather(slope_sums *s, const hci_cell *cell, size_t n, size_t at, bool upwards,
+static void slope_gather(slope_sums *s, const hci_binned_sample *sample, size_t n, size_t at, bool upwards,
                          int pole_pairs)
 {
-    const double reach_rad = 2.0 * HCI_PI / pole_pairs / REACH, theta = cell[at].reading.theta_m_rad;
+    const double reach_rad = 2.0 * HCI_PI / pole_pairs / REACH, theta = sample[at].reading.theta_m_rad;
     const size_t room = upwards ? n - 1 - at : at;
     for (size_t step = 1; step <= room && step <= MOST_REACH; ++step) {
-        const hci_cell *c = upwards ? &cell[at + step] : &cell[at - step];
+        const hci_binned_sample *c = upwards ? &sample[at + step] : &sample[at - step];
         if (fabs(c->reading.theta_m_rad - theta) > reach_rad && step > LEAST_REACH) return;
-        slope_add(s, c->time_s - cell[at].time_s, &c->reading, pole_pairs);
+        slope_add(s, c->time_s - sample[at].time_s, &c->reading, pole_pairs);
     }
 }
 
-void hci_change_set(hci_cell *cell, size_t n, int pole_pairs)
+void hci_current_rates_set(hci_binned_sample *sample, size_t n, int pole_pairs)
 {
     for (size_t k = 0; k < n; ++k) {
         slope_sums s = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-        slope_add(&s, 0.0, &cell[k].reading, pole_pairs);
-        slope_gather(&s, cell, n, k, false, pole_pairs);
-        slope_gather(&s, cell, n, k, true, pole_pairs);
+        slope_add(&s, 0.0, &sample[k].reading, pole_pairs);
+        slope_gather(&s, sample, n, k, false, pole_pairs);
+        slope_gather(&s, sample, n, k, true, pole_pairs);
         const double spread = s.n * s.tt - s.t * s.t;
         if (!(spread > 0.0)) continue;
         const hci_dq slope = {(s.n * s.td - s.t * s.d) / spread, (s.n * s.tq - s.t * s.q) / spread, 0.0};
-        hci_clarke_inverse(hci_park_inverse(slope, pole_pairs * cell[k].reading.theta_m_rad),
-                           cell[k].reading.change_A_per_s);
+        hci_clarke_inverse(hci_park_inverse(slope, pole_pairs * sample[k].reading.theta_m_rad),
+                           sample[k].reading.change_A_per_s);
     }
 }

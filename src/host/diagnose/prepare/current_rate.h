@@ -4,8 +4,8 @@
 
 #include "host/diagnose/prepare/binned_samples.h"
 
-/* Sets reading.change_A_per_s of n cells that follow each other in time; left at 0 where there are too few.
+/* Sets reading.change_A_per_s of n samples that follow each other in time; left at 0 where there are too few.
  * O(n). */
-void hci_change_set(hci_cell *cell, size_t n, int pole_pairs);
+void hci_current_rates_set(hci_binned_sample *sample, size_t n, int pole_pairs);
 
 #endif

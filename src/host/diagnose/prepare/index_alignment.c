@@ -20,9 +20,9 @@ typedef struct {
     bool usable;
 } map;
 
-static bool is_usable(const hci_cells *cells, const hci_run *runs, size_t run, double most_A)
+static bool is_usable(const hci_binned_samples *samples, const hci_run *runs, size_t run, double most_A)
 {
-    const hci_run_figures *f = &cells->figures[run];
+    const hci_run_statistics *f = &samples->statistics[run];
     return runs[run].turn_known && runs[run].torque_source != HCI_TORQUE_NONE && f->turns > MOST_OF_A_TURN &&
            (runs[run].torque_source == HCI_TORQUE_HOLDING || f->current_A <= LITTLE_CURRENT * most_A);
 }
@@ -37,12 +37,12 @@ static void map_add(map *m, double theta_m_rad, double residual)
 }
 
 /* Friction makes a mean that depends on the direction; order 0 is left out. */
-static void map_make(const hci_cells *cells, size_t run, const double *residual, map *m)
+static void map_make(const hci_binned_samples *samples, size_t run, const double *residual, map *m)
 {
     double count = 0.0;
-    for (const hci_stretch *s = NULL; (s = hci_cells_next(cells, run, s)) != NULL;)
+    for (const hci_segment *s = NULL; (s = hci_segment_next(samples, run, s)) != NULL;)
         for (size_t j = s->first; j < s->first + s->count; ++j, count += 1.0)
-            map_add(m, cells->cell[j].reading.theta_m_rad, residual[j]);
+            map_add(m, samples->sample[j].reading.theta_m_rad, residual[j]);
     for (int n = 0; n < ORDERS && count > 0.0; ++n) {
         m->cosine[n] /= count;
         m->sine[n] /= count;
@@ -117,46 +117,48 @@ static size_t reference_of(const map *maps, size_t count)
     return best;
 }
 
-static void maps_make(const hci_cells *cells, const hci_run *runs, const double *residual, map *maps)
+static void maps_make(const hci_binned_samples *samples, const hci_run *runs, const double *residual,
+                      map *maps)
 {
     double most_A = 0.0;
-    for (size_t k = 0; k < cells->run_count; ++k)
-        most_A = fmax(most_A, cells->figures[k].current_A);
-    for (size_t k = 0; k < cells->run_count; ++k) {
-        if (!is_usable(cells, runs, k, most_A)) continue;
-        map_make(cells, k, residual, &maps[k]);
+    for (size_t k = 0; k < samples->run_count; ++k)
+        most_A = fmax(most_A, samples->statistics[k].current_A);
+    for (size_t k = 0; k < samples->run_count; ++k) {
+        if (!is_usable(samples, runs, k, most_A)) continue;
+        map_make(samples, k, residual, &maps[k]);
         maps[k].usable = spread_of(&maps[k]) > SPREAD;
     }
 }
 
-hci_status hci_slip_find(const hci_cells *cells, const hci_run *runs, const double *residual_Nm,
-                         double *slip_rad, hci_note *note)
+hci_status hci_index_alignment_find(const hci_binned_samples *samples, const hci_run *runs,
+                                    const double *residual_Nm, double *index_offset_rad, hci_note *note)
 {
-    const size_t count = cells->run_count;
+    const size_t count = samples->run_count;
     map *maps = hci_memory_new(count + 1, sizeof *maps);
     if (!maps) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for comparing recordings");
-    maps_make(cells, runs, residual_Nm, maps);
+    maps_make(samples, runs, residual_Nm, maps);
     const size_t reference = reference_of(maps, count);
     for (size_t k = 0; k < count; ++k) {
         const bool compared = reference < count && k != reference && maps[k].usable;
-        slip_rad[k] = compared ? turn_between(&maps[reference], &maps[k]) : 0.0;
+        index_offset_rad[k] = compared ? turn_between(&maps[reference], &maps[k]) : 0.0;
     }
     hci_memory_free(maps);
     return HCI_OK;
 }
 
-static void sample_turn(hci_sample *x, int pole_pairs, double slip_rad)
+static void sample_turn(hci_sample *x, int pole_pairs, double index_offset_rad)
 {
-    const hci_dq i = hci_park(hci_clarke(x->i_abc), pole_pairs * slip_rad);
-    x->theta_m_rad -= slip_rad;
+    const hci_dq i = hci_park(hci_clarke(x->i_abc), pole_pairs * index_offset_rad);
+    x->theta_m_rad -= index_offset_rad;
     hci_clarke_inverse(hci_park_inverse(i, 0.0), x->i_abc);
 }
 
-void hci_slip_undo(hci_cells *cells, size_t run, int pole_pairs, double slip_rad)
+void hci_index_alignment_apply(hci_binned_samples *samples, size_t run, int pole_pairs,
+                               double index_offset_rad)
 {
-    for (const hci_stretch *s = NULL; (s = hci_cells_next(cells, run, s)) != NULL;)
+    for (const hci_segment *s = NULL; (s = hci_segment_next(samples, run, s)) != NULL;)
         for (size_t j = s->first; j < s->first + s->count; ++j) {
-            sample_turn(&cells->cell[j].reading, pole_pairs, slip_rad);
-            sample_turn(&cells->cell[j].raw, pole_pairs, slip_rad);
+            sample_turn(&samples->sample[j].reading, pole_pairs, index_offset_rad);
+            sample_turn(&samples->sample[j].raw, pole_pairs, index_offset_rad);
         }
 }

@@ -55,7 +55,7 @@ static double turns_of(const hci_run *r)
     return (most - least) / (2.0 * HCI_PI);
 }
 
-static void sample_add(const hci_run *r, int pole_pairs, size_t k, hci_run_figures *f)
+static void sample_add(const hci_run *r, int pole_pairs, size_t k, hci_run_statistics *f)
 {
     const double n = (double)r->count;
     const hci_dq i = hci_park(hci_clarke(r->i_A + 3 * k), pole_pairs * r->theta_m_rad[k]);
@@ -69,9 +69,9 @@ static void sample_add(const hci_run *r, int pole_pairs, size_t k, hci_run_figur
     if (r->temperature_C) f->temperature_C += r->temperature_C[k] / n;
 }
 
-hci_run_figures hci_figures_of(const hci_run *r, int pole_pairs)
+hci_run_statistics hci_run_statistics_of(const hci_run *r, int pole_pairs)
 {
-    hci_run_figures f = {.repeat_Nm = NAN, .temperature_C = NAN};
+    hci_run_statistics f = {.repeat_Nm = NAN, .temperature_C = NAN};
     if (r->count == 0 || !r->theta_m_rad || !r->i_A) return f;
     if (r->temperature_C) f.temperature_C = 0.0;
     for (size_t k = 0; k < r->count; ++k)

@@ -5,6 +5,6 @@
 #include "host/diagnose/prepare/binned_samples.h"
 
 /* Of a run without an angle all is 0, but for what is not known (NAN). O(samples). */
-hci_run_figures hci_figures_of(const hci_run *run, int pole_pairs);
+hci_run_statistics hci_run_statistics_of(const hci_run *run, int pole_pairs);
 
 #endif

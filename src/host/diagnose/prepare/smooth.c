@@ -16,28 +16,29 @@ enum {
     LEAST_SAMPLES = 20 /* for each coefficient */
 };
 
-#define STEADY  0.05 /* change of current within the stretch, as a share */
+#define STEADY  0.05 /* change of current within the segment, as a share */
 #define TURNING 0.5  /* and of speed, for the angle to be a smooth curve */
 
 /* ---- angle ---- */
 
-static bool is_turning(const hci_cell *cell, size_t n)
+static bool is_turning(const hci_binned_sample *sample, size_t n)
 {
     double least = INFINITY, most = -INFINITY;
     for (size_t k = 0; k < n; ++k) {
-        least = fmin(least, cell[k].reading.speed_rad_per_s);
-        most = fmax(most, cell[k].reading.speed_rad_per_s);
+        least = fmin(least, sample[k].reading.speed_rad_per_s);
+        most = fmax(most, sample[k].reading.speed_rad_per_s);
     }
     return least * most > 0.0 && most - least < TURNING * fmax(fabs(most), fabs(least));
 }
 
 /* The value at `at` of the parabola through the angles around it; x: time from there. */
-static double parabola_at(const hci_cell *cell, size_t from, size_t to, size_t at)
+static double parabola_at(const hci_binned_sample *sample, size_t from, size_t to, size_t at)
 {
     double s[5] = {0.0}, y[3] = {0.0};
-    const double scale = cell[to].time_s - cell[from].time_s, base = cell[at].reading.theta_m_rad;
+    const double scale = sample[to].time_s - sample[from].time_s, base = sample[at].reading.theta_m_rad;
     for (size_t k = from; k <= to; ++k) {
-        const double x = (cell[k].time_s - cell[at].time_s) / scale, v = cell[k].reading.theta_m_rad - base;
+        const double x = (sample[k].time_s - sample[at].time_s) / scale,
+                     v = sample[k].reading.theta_m_rad - base;
         double power = 1.0;
         for (int j = 0; j < 5; ++j, power *= x) {
             s[j] += power;
@@ -51,29 +52,29 @@ static double parabola_at(const hci_cell *cell, size_t from, size_t to, size_t a
     return d > 0.0 ? base + c / d : base;
 }
 
-static bool angle_smooth(hci_cell *cell, size_t n)
+static bool angle_smooth(hci_binned_sample *sample, size_t n)
 {
     double *smooth = hci_memory_new(n, sizeof *smooth);
     if (!smooth) return false;
     for (size_t k = 0; k < n; ++k) {
         const size_t reach = k < REACH ? k : n - 1 - k < REACH ? n - 1 - k : REACH;
-        smooth[k] = reach < 2 ? cell[k].reading.theta_m_rad : parabola_at(cell, k - reach, k + reach, k);
+        smooth[k] = reach < 2 ? sample[k].reading.theta_m_rad : parabola_at(sample, k - reach, k + reach, k);
     }
     for (size_t k = 0; k < n; ++k)
-        cell[k].reading.theta_m_rad = smooth[k];
+        sample[k].reading.theta_m_rad = smooth[k];
     hci_memory_free(smooth);
     return true;
 }
 
 /* ---- currents ---- */
 
-/* Means of the halves of a stretch in the rotor frame are the same. */
-static bool is_steady(const hci_cell *cell, size_t n, int pole_pairs)
+/* Means of the halves of a segment in the rotor frame are the same. */
+static bool is_steady(const hci_binned_sample *sample, size_t n, int pole_pairs)
 {
     double d[2] = {0.0}, q[2] = {0.0}, length = 0.0;
     for (size_t k = 0; k < n; ++k) {
         const hci_dq i =
-            hci_park(hci_clarke(cell[k].reading.i_abc), pole_pairs * cell[k].reading.theta_m_rad);
+            hci_park(hci_clarke(sample[k].reading.i_abc), pole_pairs * sample[k].reading.theta_m_rad);
         d[2 * k >= n] += 2.0 * i.d / (double)n;
         q[2 * k >= n] += 2.0 * i.q / (double)n;
         length += hypot(i.d, i.q) / (double)n;
@@ -168,11 +169,11 @@ static bool coordinate_smooth(series_room *r, size_t n, const size_t *periods, i
 }
 
 /* Rows of the basis and the coordinates of each sample. */
-static void coordinates_read(const hci_cell *cell, size_t n, int pole_pairs, const size_t *periods,
+static void coordinates_read(const hci_binned_sample *sample, size_t n, int pole_pairs, const size_t *periods,
                              size_t count, series_room *r)
 {
     for (size_t k = 0; k < n; ++k) {
-        const hci_sample *x = &cell[k].reading;
+        const hci_sample *x = &sample[k].reading;
         const hci_dq i = hci_park(hci_clarke(x->i_abc), pole_pairs * x->theta_m_rad);
         basis_at(x->theta_m_rad, periods, count, r->rows + k * r->normal.n);
         r->coordinate[0][k] = i.d;
@@ -187,10 +188,10 @@ static void phases_of(double *const axis[3], size_t k, double scale, double thet
     hci_clarke_inverse(hci_park_inverse(x, theta_rad), phases);
 }
 
-static void coordinates_write(const series_room *r, size_t n, int pole_pairs, hci_cell *cell)
+static void coordinates_write(const series_room *r, size_t n, int pole_pairs, hci_binned_sample *sample)
 {
     for (size_t k = 0; k < n; ++k) {
-        hci_sample *x = &cell[k].reading;
+        hci_sample *x = &sample[k].reading;
         const double theta = pole_pairs * x->theta_m_rad, speed = x->speed_rad_per_s;
         phases_of(r->coordinate, k, 1.0, theta, x->i_abc);
         phases_of(r->slope, k, speed, theta, x->change_A_per_s);
@@ -199,15 +200,15 @@ static void coordinates_write(const series_room *r, size_t n, int pole_pairs, hc
 }
 
 /* Replaces the currents by their series; false, and nothing is changed, where one has no solution. */
-static bool currents_smooth(hci_cell *cell, size_t n, int pole_pairs, const size_t *periods, size_t count,
-                            series_room *r)
+static bool currents_smooth(hci_binned_sample *sample, size_t n, int pole_pairs, const size_t *periods,
+                            size_t count, series_room *r)
 {
-    coordinates_read(cell, n, pole_pairs, periods, count, r);
+    coordinates_read(sample, n, pole_pairs, periods, count, r);
     hci_normal_add(&r->normal, r->rows, r->coordinate[0], n);
     hci_normal_finish(&r->normal);
     for (int c = 0; c < 3; ++c)
         if (!coordinate_smooth(r, n, periods, c)) return false;
-    coordinates_write(r, n, pole_pairs, cell);
+    coordinates_write(r, n, pole_pairs, sample);
     return true;
 }
 
@@ -226,20 +227,21 @@ static bool room_make(series_room *r, size_t n, size_t columns)
     return true;
 }
 
-bool hci_smooth_stretch(hci_cell *cell, const hci_stretch *stretch, int pole_pairs, bool turns, bool *series)
+bool hci_segment_smooth(hci_binned_sample *sample, const hci_segment *segment, int pole_pairs, bool turns,
+                        bool *series)
 {
-    const size_t n = stretch->count;
+    const size_t n = segment->count;
     size_t periods[MOST_PERIODS];
     const size_t count = periods_list(pole_pairs, turns, n, periods);
     series_room room;
     bool made;
     *series = false;
-    if (stretch->timed && stretch->turns == 0 && n > 4 * REACH && is_turning(cell, n) &&
-        !angle_smooth(cell, n))
+    if (segment->timed && segment->turns == 0 && n > 4 * REACH && is_turning(sample, n) &&
+        !angle_smooth(sample, n))
         return false;
-    if (count < MOST_ORDER || !is_steady(cell, n, pole_pairs)) return true;
+    if (count < MOST_ORDER || !is_steady(sample, n, pole_pairs)) return true;
     made = room_make(&room, n, 2 * count + 1);
-    if (made) *series = currents_smooth(cell, n, pole_pairs, periods, count, &room);
+    if (made) *series = currents_smooth(sample, n, pole_pairs, periods, count, &room);
     hci_memory_free(room.rows);
     hci_normal_release(&room.normal);
     return made;

@@ -5,9 +5,10 @@
 
 #include "host/diagnose/prepare/binned_samples.h"
 
-/* Smooths the readings of one stretch in place where it is steady; where it is not they stay. turns: orders
+/* Smooths the readings of one segment in place where it is steady; where it is not they stay. turns: orders
  * of the mechanical turn are in it. series: out, whether the currents are a Fourier series over the angle
- * now, with their rate of change from that. False when memory is out. O(cells). */
-bool hci_smooth_stretch(hci_cell *cell, const hci_stretch *stretch, int pole_pairs, bool turns, bool *series);
+ * now, with their rate of change from that. False when memory is out. O(samples). */
+bool hci_segment_smooth(hci_binned_sample *sample, const hci_segment *segment, int pole_pairs, bool turns,
+                        bool *series);
 
 #endif

@@ -16,16 +16,16 @@ enum { MOST_EFFECTS = 6, MOST_ROUNDS = 14 };
 
 /* One more effect, then without those that it makes superfluous; where none comes in, another in place of one
  * that is. again: out, whether anything changed. */
-static hci_status round_run(hci_search *s, hci_account *account, bool *again, hci_note *note)
+static hci_status round_run(hci_search *s, hci_fitted_model *fitted, bool *again, hci_note *note)
 {
     hci_status status = HCI_OK;
     *again = false;
-    if (hci_suspects_types_in(&account->suspects) < MOST_EFFECTS)
-        status = hci_search_forward(s, account, again, note);
-    if (!status && *again) status = hci_search_prune(s, account, note);
+    if (hci_candidates_types_in(&fitted->candidates) < MOST_EFFECTS)
+        status = hci_search_forward(s, fitted, again, note);
+    if (!status && *again) status = hci_search_prune(s, fitted, note);
     for (bool dropped = true; dropped && !status;)
-        status = hci_search_drop(s, account, &dropped, note);
-    if (!status && !*again) status = hci_search_swap(s, account, again, note);
+        status = hci_search_drop(s, fitted, &dropped, note);
+    if (!status && !*again) status = hci_search_swap(s, fitted, again, note);
     return status;
 }
 
@@ -37,14 +37,14 @@ static double share_before(int round)
     return SEARCH_SHARE * pow(1.0 - pow(0.85, round), 1.5);
 }
 
-static hci_status search_run(hci_search *s, hci_account *account, hci_note *note)
+static hci_status search_run(hci_search *s, hci_fitted_model *fitted, hci_note *note)
 {
     hci_search_begin(s, "looking for effects", 0.0, 0.0);
-    hci_status status = hci_search_renew(s, account, note);
+    hci_status status = hci_search_renew(s, fitted, note);
     bool again = true;
     for (int round = 0; again && !status && round < MOST_ROUNDS; ++round) {
         hci_search_begin(s, "looking for effects", share_before(round), share_before(round + 1));
-        status = round_run(s, account, &again, note);
+        status = round_run(s, fitted, &again, note);
     }
     return status;
 }
@@ -54,13 +54,13 @@ static hci_status search_run(hci_search *s, hci_account *account, hci_note *note
 /* What speaks for an effect that is in, and which others could stand in its place. */
 static hci_status verdict_of(hci_search *s, hci_attribution *a, hci_verdict *v, hci_note *note)
 {
-    hci_account without = {0};
+    hci_fitted_model without = {0};
     v->in = true;
-    hci_status status = hci_search_without(s, &a->account, v->type, &without, note);
+    hci_status status = hci_search_without(s, &a->fitted, v->type, &without, note);
     if (status) return status;
-    v->gain = without.fit.score - a->account.fit.score;
-    status = hci_search_explained(s, &a->account.suspects, &without.suspects, &v->explained_Nm, note);
-    hci_account_release(&without);
+    v->gain = without.fit.score - a->fitted.fit.score;
+    status = hci_search_explained(s, &a->fitted.candidates, &without.candidates, &v->explained_Nm, note);
+    hci_fitted_model_release(&without);
     if (status || a->unknown) return status; /* nothing that is known stands firm beside what is not */
     return hci_search_rivals(s, v->type, a, note);
 }
@@ -68,13 +68,13 @@ static hci_status verdict_of(hci_search *s, hci_attribution *a, hci_verdict *v, 
 /* What those that are not in would be worth. */
 static hci_status verdicts_of_others(hci_search *s, hci_attribution *a, hci_note *note)
 {
-    hci_trials t;
-    const hci_status status = hci_trials_make(s, &a->account.suspects, false, &t, note);
+    hci_candidate_models t;
+    const hci_status status = hci_candidate_models_make(s, &a->fitted.candidates, false, &t, note);
     for (size_t k = 0; k < t.count && !status; ++k) {
-        hci_verdict *v = &a->verdict[t.trial[k].a];
-        if (!v->in && !v->ambiguous) v->gain = t.trial[k].gain;
+        hci_verdict *v = &a->verdict[t.model[k].a];
+        if (!v->in && !v->ambiguous) v->gain = t.model[k].gain;
     }
-    hci_trials_release(&t);
+    hci_candidate_models_release(&t);
     return status;
 }
 
@@ -103,7 +103,7 @@ static hci_status verdicts_of_same(hci_search *s, hci_attribution *a, hci_note *
 {
     const hci_effect_type *same_as[HCI_MOST_TYPES];
     if (a->unknown) return HCI_OK;
-    const hci_status status = hci_trials_same(s, &a->account.suspects, same_as, note);
+    const hci_status status = hci_candidate_models_same(s, &a->fitted.candidates, same_as, note);
     for (size_t r = 0; r < a->types && !status; ++r)
         if (same_as[r]) same_mark(a, r, same_as[r]);
     return status;
@@ -113,7 +113,7 @@ static hci_status verdicts(hci_search *s, hci_attribution *a, hci_note *note)
 {
     hci_status status = HCI_OK;
     for (size_t r = 0; r < a->types && !status; ++r)
-        if (hci_suspects_have(&a->account.suspects, a->verdict[r].type))
+        if (hci_candidates_have(&a->fitted.candidates, a->verdict[r].type))
             status = verdict_of(s, a, &a->verdict[r], note);
     if (!status) status = verdicts_of_others(s, a, note);
     return status ? status : verdicts_of_same(s, a, note);
@@ -123,31 +123,31 @@ static hci_status verdicts(hci_search *s, hci_attribution *a, hci_note *note)
 
 static hci_status attribute(hci_search *s, hci_attribution *a, hci_note *note)
 {
-    hci_suspects none = {0};
-    hci_status status = search_run(s, &a->account, note);
+    hci_candidates none = {0};
+    hci_status status = search_run(s, &a->fitted, note);
     if (status) return status;
     hci_search_begin(s, "weighing the evidence", SEARCH_SHARE, 1.0);
     status = hci_search_settle(s, a, note);
     if (!status) status = verdicts(s, a, note);
-    if (!status) status = hci_evidence_errors(s->evidence, &a->account.suspects, note);
-    if (!status) status = hci_evidence_fit(s->evidence, &none, &a->before, note);
+    if (!status) status = hci_regression_standard_errors(s->regression, &a->fitted.candidates, note);
+    if (!status) status = hci_regression_fit(s->regression, &none, &a->before, note);
     return status;
 }
 
-hci_status hci_attribute(hci_evidence *evidence, const hci_attribute_options *options,
+hci_status hci_attribute(hci_regression *regression, const hci_attribute_options *options,
                          hci_attribution *attribution, hci_note *note)
 {
-    const size_t cells = evidence->cells->count;
-    hci_search s = {.evidence = evidence, .options = options, .richness = 1};
+    const size_t samples = regression->samples->count;
+    hci_search s = {.regression = regression, .options = options, .richness = 1};
     memset(attribution, 0, sizeof *attribution);
-    attribution->types = hci_suspect_types();
+    attribution->types = hci_candidate_types();
     assert(attribution->types <= HCI_MOST_TYPES);
     for (size_t r = 0; r < attribution->types; ++r)
-        attribution->verdict[r].type = hci_suspect_type(r);
-    s.residual_Nm = hci_memory_new(2 * cells + 1, sizeof *s.residual_Nm);
+        attribution->verdict[r].type = hci_candidate_type(r);
+    s.residual_Nm = hci_memory_new(2 * samples + 1, sizeof *s.residual_Nm);
     if (!s.residual_Nm)
         return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the search of effects");
-    s.variance = s.residual_Nm + cells;
+    s.variance = s.residual_Nm + samples;
     const hci_status status = attribute(&s, attribution, note);
     hci_memory_free(s.residual_Nm);
     if (status) hci_attribution_release(attribution);
@@ -157,7 +157,7 @@ hci_status hci_attribute(hci_evidence *evidence, const hci_attribute_options *op
 void hci_attribution_release(hci_attribution *a)
 {
     for (size_t r = 0; r < a->types; ++r)
-        hci_account_release(&a->verdict[r].alternative);
-    hci_account_release(&a->account);
+        hci_fitted_model_release(&a->verdict[r].alternative);
+    hci_fitted_model_release(&a->fitted);
     memset(a, 0, sizeof *a);
 }

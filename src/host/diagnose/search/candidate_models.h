@@ -4,35 +4,36 @@
 
 #include "host/diagnose/search/search.h"
 
-enum { HCI_MOST_TRIALS = HCI_MOST_TYPES * (HCI_MOST_TYPES + 1) / 2 };
+enum { HCI_MOST_CANDIDATE_MODELS = HCI_MOST_TYPES * (HCI_MOST_TYPES + 1) / 2 };
 
 /* One or two types that could come in together. */
 typedef struct {
-    size_t a, b; /* as in hci_suspect_type; equal for one */
+    size_t a, b; /* as in hci_candidate_type; equal for one */
     double gain; /* fall of the score */
-    bool *in;    /* of each suspect of the list */
-} hci_trial;
+    bool *in;    /* of each candidate of the list */
+} hci_candidate_model;
 
 typedef struct {
-    hci_trial trial[HCI_MOST_TRIALS];
+    hci_candidate_model model[HCI_MOST_CANDIDATE_MODELS];
     size_t count;
-    hci_suspects list; /* the model and what else the recordings could show */
+    hci_candidates list; /* the model and what else the recordings could show */
     bool *flags;
-} hci_trials;
+} hci_candidate_models;
 
-/* pairs: of two types too. On failure *trials is empty. HCI_ERROR_MEMORY. */
-hci_status hci_trials_make(hci_search *search, const hci_suspects *model, bool pairs, hci_trials *trials,
-                           hci_note *note);
-void hci_trials_release(hci_trials *trials);
+/* pairs: of two types too. On failure *models is empty. HCI_ERROR_MEMORY. */
+hci_status hci_candidate_models_make(hci_search *search, const hci_candidates *model, bool pairs,
+                                     hci_candidate_models *models, hci_note *note);
+void hci_candidate_models_release(hci_candidate_models *models);
 
 /* Rooms that could take over a part of what one in the model explains, since their terms look the same in all
- * these recordings. same_as: out, for each type (as in hci_suspect_type) that other one, or NULL.
+ * these recordings. same_as: out, for each type (as in hci_candidate_type) that other one, or NULL.
  * HCI_ERROR_MEMORY. */
-hci_status hci_trials_same(hci_search *search, const hci_suspects *model,
-                           const hci_effect_type *same_as[HCI_MOST_TYPES], hci_note *note);
+hci_status hci_candidate_models_same(hci_search *search, const hci_candidates *model,
+                                     const hci_effect_type *same_as[HCI_MOST_TYPES], hci_note *note);
 
-/* The model with the suspects of a trial, fitted. On failure *account is empty. HCI_ERROR_MEMORY. */
-hci_status hci_trial_fit(hci_search *search, const hci_trials *trials, const hci_trial *trial,
-                         hci_account *account, hci_note *note);
+/* The model with the candidates of a model, fitted. On failure *fitted is empty. HCI_ERROR_MEMORY. */
+hci_status hci_candidate_model_fit(hci_search *search, const hci_candidate_models *models,
+                                   const hci_candidate_model *model, hci_fitted_model *fitted,
+                                   hci_note *note);
 
 #endif

@@ -17,14 +17,14 @@
 
 enum { SINGLES = 3, RICHEST = 2 }; /* single effects that are fitted; of saturation */
 
-/* ---- which trials are worth a fit ---- */
+/* ---- which models are worth a fit ---- */
 
-static bool is_pair(const hci_trial *x)
+static bool is_pair(const hci_candidate_model *x)
 {
     return x->a != x->b;
 }
 
-static bool is_picked(const hci_trial *x, const hci_trial *const *picked, size_t count)
+static bool is_picked(const hci_candidate_model *x, const hci_candidate_model *const *picked, size_t count)
 {
     for (size_t k = 0; k < count; ++k)
         if (picked[k] == x) return true;
@@ -32,13 +32,13 @@ static bool is_picked(const hci_trial *x, const hci_trial *const *picked, size_t
 }
 
 /* The best single effects. */
-static size_t singles_pick(const hci_trials *t, const hci_trial *picked[SINGLES])
+static size_t singles_pick(const hci_candidate_models *t, const hci_candidate_model *picked[SINGLES])
 {
     size_t count = 0;
     while (count < SINGLES) {
-        const hci_trial *best = NULL;
+        const hci_candidate_model *best = NULL;
         for (size_t k = 0; k < t->count; ++k) {
-            const hci_trial *x = &t->trial[k];
+            const hci_candidate_model *x = &t->model[k];
             if (is_pair(x) || x->gain < PROMISING || is_picked(x, picked, count)) continue;
             if (!best || x->gain > best->gain) best = x;
         }
@@ -50,11 +50,11 @@ static size_t singles_pick(const hci_trials *t, const hci_trial *picked[SINGLES]
 }
 
 /* The best pair, of those with one effect type or (NULL) of all. */
-static const hci_trial *best_pair(const hci_trials *t, const hci_trial *with)
+static const hci_candidate_model *best_pair(const hci_candidate_models *t, const hci_candidate_model *with)
 {
-    const hci_trial *best = NULL;
+    const hci_candidate_model *best = NULL;
     for (size_t k = 0; k < t->count; ++k) {
-        const hci_trial *x = &t->trial[k];
+        const hci_candidate_model *x = &t->model[k];
         if (!is_pair(x) || (with && x->a != with->a && x->b != with->a)) continue;
         if (!best || x->gain > best->gain) best = x;
     }
@@ -62,29 +62,29 @@ static const hci_trial *best_pair(const hci_trials *t, const hci_trial *with)
 }
 
 /* The best single effects, and the best pair where it beats what begins with the best of them. */
-static size_t trials_pick(const hci_trials *t, const hci_trial *picked[SINGLES + 1])
+static size_t models_pick(const hci_candidate_models *t, const hci_candidate_model *picked[SINGLES + 1])
 {
     size_t count = singles_pick(t, picked);
-    const hci_trial *pair = best_pair(t, NULL);
-    const hci_trial *with_first = count > 0 ? best_pair(t, picked[0]) : NULL;
+    const hci_candidate_model *pair = best_pair(t, NULL);
+    const hci_candidate_model *with_first = count > 0 ? best_pair(t, picked[0]) : NULL;
     if (pair && pair->gain > PAIR && (!with_first || pair->gain > with_first->gain + HCI_DECISIVE))
         picked[count++] = pair;
     return count;
 }
 
-/* ---- trials ---- */
+/* ---- models ---- */
 
 /* Whether saturation promises more than every other single effect. */
-static bool powers_lead(const hci_trials *t)
+static bool powers_lead(const hci_candidate_models *t)
 {
     const hci_effect_type *saturation = hci_effect_type_find("saturation");
     double most = 0.0, powers = 0.0;
     for (size_t k = 0; k < t->count; ++k) {
-        if (is_pair(&t->trial[k])) continue;
-        if (hci_suspect_type(t->trial[k].a) == saturation)
-            powers = t->trial[k].gain;
+        if (is_pair(&t->model[k])) continue;
+        if (hci_candidate_type(t->model[k].a) == saturation)
+            powers = t->model[k].gain;
         else
-            most = fmax(most, t->trial[k].gain);
+            most = fmax(most, t->model[k].gain);
     }
     return powers > most;
 }
@@ -97,67 +97,70 @@ static bool is_much_left(const hci_search *s)
 
 /* High powers of the currents fit anything: they are looked into only where much is left, and taken only when
  * nothing else explains more of it. */
-static hci_status trials_enriched(hci_search *s, const hci_suspects *model, hci_trials *t, hci_note *note)
+static hci_status models_enriched(hci_search *s, const hci_candidates *model, hci_candidate_models *t,
+                                  hci_note *note)
 {
     const int richness = s->richness;
-    const bool saturates = hci_suspects_have(model, hci_effect_type_find("saturation"));
+    const bool saturates = hci_candidates_have(model, hci_effect_type_find("saturation"));
     hci_status status = hci_search_residual(s, model, note);
     if (status) return status;
     if (richness == RICHEST || !saturates || !is_much_left(s))
-        return hci_trials_make(s, model, true, t, note);
+        return hci_candidate_models_make(s, model, true, t, note);
     s->richness = RICHEST;
-    status = hci_trials_make(s, model, true, t, note);
+    status = hci_candidate_models_make(s, model, true, t, note);
     if (status || powers_lead(t)) return status;
     s->richness = richness;
-    hci_trials_release(t);
-    return hci_trials_make(s, model, true, t, note);
+    hci_candidate_models_release(t);
+    return hci_candidate_models_make(s, model, true, t, note);
 }
 
 /* ---- one round ---- */
 
-/* The best account so far, and the score that the next one has to be below. */
+/* The best fitted so far, and the score that the next one has to be below. */
 typedef struct {
     hci_search *search;
-    const hci_account *present;
-    hci_account best;
+    const hci_fitted_model *present;
+    hci_fitted_model best;
     double bar;
 } contest;
 
 /* Takes the candidate as the best where it is, else leaves it. */
-static hci_status contest_enter(contest *c, hci_account *candidate, double handicap, hci_note *note)
+static hci_status contest_enter(contest *c, hci_fitted_model *candidate, double handicap, hci_note *note)
 {
     const double score = candidate->fit.score + handicap;
     bool noticeable = false;
     if (!(score < c->bar)) return HCI_OK;
     const hci_status status =
-        hci_search_noticeable(c->search, &candidate->suspects, &c->present->suspects, &noticeable, note);
+        hci_search_noticeable(c->search, &candidate->candidates, &c->present->candidates, &noticeable, note);
     if (!noticeable) return status;
     c->bar = score;
-    hci_account_replace(&c->best, candidate);
+    hci_fitted_model_replace(&c->best, candidate);
     return HCI_OK;
 }
 
-static hci_status trials_enter(contest *c, const hci_trials *t, hci_note *note)
+static hci_status models_enter(contest *c, const hci_candidate_models *t, hci_note *note)
 {
-    const hci_trial *picked[SINGLES + 1];
-    const size_t count = trials_pick(t, picked);
+    const hci_candidate_model *picked[SINGLES + 1];
+    const size_t count = models_pick(t, picked);
     hci_status status = HCI_OK;
     for (size_t k = 0; k < count && !status; ++k) {
-        hci_account candidate = {0};
+        hci_fitted_model candidate = {0};
         const double handicap = is_pair(picked[k]) ? HCI_DECISIVE + PAIR_MARGIN * picked[0]->gain : 0.0;
-        status = hci_trial_fit(c->search, t, picked[k], &candidate, note);
+        status = hci_candidate_model_fit(c->search, t, picked[k], &candidate, note);
         if (!status) status = contest_enter(c, &candidate, handicap, note);
-        hci_account_release(&candidate);
+        hci_fitted_model_release(&candidate);
     }
     return status;
 }
 
 /* The model with a resonance, fitted from the best point of a grid. */
-static hci_status resonance_fit(contest *c, const hci_suspect *x, hci_account *candidate, hci_note *note)
+static hci_status resonance_fit(contest *c, const hci_candidate *x, hci_fitted_model *candidate,
+                                hci_note *note)
 {
-    hci_status status = hci_account_copy(c->present, candidate, note);
-    if (!status) status = hci_suspects_add(&candidate->suspects, x, note);
-    if (!status) status = hci_evidence_fit(c->search->evidence, &candidate->suspects, &candidate->fit, note);
+    hci_status status = hci_fitted_model_copy(c->present, candidate, note);
+    if (!status) status = hci_candidates_add(&candidate->candidates, x, note);
+    if (!status)
+        status = hci_regression_fit(c->search->regression, &candidate->candidates, &candidate->fit, note);
     return status;
 }
 
@@ -165,36 +168,36 @@ static hci_status resonance_fit(contest *c, const hci_suspect *x, hci_account *c
 static hci_status resonance_enter(contest *c, hci_note *note)
 {
     const hci_effect_type *type = hci_effect_type_find("torque_sensor");
-    hci_suspect x = {.type = type, .count = 2, .price = RESONANCE_PRICE, .in = true};
-    hci_account candidate = {0};
+    hci_candidate x = {.type = type, .count = 2, .price = RESONANCE_PRICE, .in = true};
+    hci_fitted_model candidate = {0};
     hci_resonance found;
-    if (hci_suspects_have(&c->present->suspects, type)) return HCI_OK;
-    hci_status status = hci_search_residual(c->search, &c->present->suspects, note);
-    if (!status) status = hci_resonance_find(c->search->evidence, c->search->residual_Nm, &found, note);
-    if (status || found.gain < hci_suspect_cost(&x, c->present->fit.rows) + HCI_DECISIVE) return status;
+    if (hci_candidates_have(&c->present->candidates, type)) return HCI_OK;
+    hci_status status = hci_search_residual(c->search, &c->present->candidates, note);
+    if (!status) status = hci_resonance_find(c->search->regression, c->search->residual_Nm, &found, note);
+    if (status || found.gain < hci_candidate_cost(&x, c->present->fit.rows) + HCI_DECISIVE) return status;
     x.term[0] = (hci_effect_term){1, 0.0, found.natural_frequency_Hz, NAN};
     x.term[1] = (hci_effect_term){2, 0.0, found.damping, NAN};
     status = resonance_fit(c, &x, &candidate, note);
     if (!status) status = contest_enter(c, &candidate, 0.0, note);
-    hci_account_release(&candidate);
+    hci_fitted_model_release(&candidate);
     return status;
 }
 
-hci_status hci_search_forward(hci_search *s, hci_account *account, bool *added, hci_note *note)
+hci_status hci_search_forward(hci_search *s, hci_fitted_model *fitted, bool *added, hci_note *note)
 {
-    contest c = {s, account, {{NULL, 0, 0.0}, {0.0, 0, 0.0, 0.0}}, account->fit.score - HCI_DECISIVE};
-    hci_trials t;
-    hci_status status = trials_enriched(s, &account->suspects, &t, note);
+    contest c = {s, fitted, {{NULL, 0, 0.0}, {0.0, 0, 0.0, 0.0}}, fitted->fit.score - HCI_DECISIVE};
+    hci_candidate_models t;
+    hci_status status = models_enriched(s, &fitted->candidates, &t, note);
     *added = false;
     if (status) return status;
-    status = trials_enter(&c, &t, note);
-    hci_trials_release(&t);
+    status = models_enter(&c, &t, note);
+    hci_candidate_models_release(&t);
     if (!status) status = resonance_enter(&c, note);
-    if (!status && c.best.suspects.suspect) {
-        hci_account_replace(account, &c.best);
+    if (!status && c.best.candidates.candidate) {
+        hci_fitted_model_replace(fitted, &c.best);
         *added = true;
-        status = hci_search_renew(s, account, note);
+        status = hci_search_renew(s, fitted, note);
     }
-    hci_account_release(&c.best);
+    hci_fitted_model_release(&c.best);
     return status;
 }

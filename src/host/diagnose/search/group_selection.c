@@ -13,62 +13,64 @@
 enum { MOST_ORDERS = 12, MOST_POWERS = 80 }; /* that come in together; of saturation */
 
 typedef struct {
-    const hci_choice *choice;
+    const hci_selection *choice;
     const hci_effect_type *a, *b;
     hci_sweep *sweep;
-    bool *in; /* of each suspect */
+    bool *in; /* of each candidate */
     double cost;
-} growing;
+} selecting;
 
-bool hci_choice_enter(const hci_choice *c, hci_sweep *sweep, size_t k)
+bool hci_selection_enter(const hci_selection *c, hci_sweep *sweep, size_t k)
 {
     bool any = false;
-    for (size_t j = 0; j < c->list->suspect[k].count; ++j)
+    for (size_t j = 0; j < c->list->candidate[k].count; ++j)
         any = hci_sweep_in(sweep, c->column[k] + j) || any;
     return any;
 }
 
-static void leave(const growing *g, size_t k)
+static void leave(const selecting *g, size_t k)
 {
-    for (size_t j = 0; j < g->choice->list->suspect[k].count; ++j)
+    for (size_t j = 0; j < g->choice->list->candidate[k].count; ++j)
         hci_sweep_out(g->sweep, g->choice->column[k] + j);
 }
 
-static bool is_open(const growing *g, size_t k)
+static bool is_open(const selecting *g, size_t k)
 {
-    const hci_suspect *x = &g->choice->list->suspect[k];
+    const hci_candidate *x = &g->choice->list->candidate[k];
     return !g->in[k] && !x->in && (x->type == g->a || x->type == g->b);
 }
 
-static double cost_of(const growing *g, size_t k)
+static double cost_of(const selecting *g, size_t k)
 {
-    return hci_suspect_cost(&g->choice->list->suspect[k], g->choice->rows);
+    return hci_candidate_cost(&g->choice->list->candidate[k], g->choice->rows);
 }
 
-/* What a suspect is worth over its cost: by coming in when it is out, by staying when it is in. */
-static double gain_of(const growing *g, size_t k)
+/* What a candidate is worth over its cost: by coming in when it is out, by staying when it is in. */
+static double gain_of(const selecting *g, size_t k)
 {
-    return hci_sweep_worth(g->sweep, g->choice->column[k], g->choice->list->suspect[k].count) - cost_of(g, k);
+    return hci_sweep_worth(g->sweep, g->choice->column[k], g->choice->list->candidate[k].count) -
+           cost_of(g, k);
 }
 
-/* What one more suspect of an effect must bring: of many orders there is always one that brings a little. */
-static double least_gain(const growing *g, size_t k)
+/* What one more candidate of an effect must bring: of many orders there is always one that brings a little.
+ */
+static double least_gain(const selecting *g, size_t k)
 {
-    const hci_suspect *x = &g->choice->list->suspect[k];
+    const hci_candidate *x = &g->choice->list->candidate[k];
     const bool ordered = x->type->parameter[x->term[0].parameter].ordered;
     return ordered ? fmax(WORTH, LITTLE * g->choice->rows) : WORTH;
 }
 
-static bool take(growing *g, size_t k)
+static bool take(selecting *g, size_t k)
 {
-    if (!hci_choice_enter(g->choice, g->sweep, k)) return false;
+    if (!hci_selection_enter(g->choice, g->sweep, k)) return false;
     g->in[k] = true;
     g->cost += cost_of(g, k);
     return true;
 }
 
 /* Takes in the one that is worth most over its cost. */
-static bool take_best(growing *g, bool first)
+static bool take_best(selecting *g, bool first)
 {
     const size_t n = g->choice->list->count;
     size_t best = n;
@@ -84,8 +86,8 @@ static bool take_best(growing *g, bool first)
     return best < n && take(g, best);
 }
 
-/* The one that is worth least, where that is less than its cost; else the number of suspects. */
-static size_t worthless(const growing *g)
+/* The one that is worth least, where that is less than its cost; else the number of candidates. */
+static size_t worthless(const selecting *g)
 {
     const size_t n = g->choice->list->count;
     size_t worst = n;
@@ -102,7 +104,7 @@ static size_t worthless(const growing *g)
 }
 
 /* Takes out those that are no longer worth their cost, the least worthy first. */
-static void leave_worthless(growing *g)
+static void leave_worthless(selecting *g)
 {
     const size_t n = g->choice->list->count;
     for (size_t k = worthless(g); k < n; k = worthless(g)) {
@@ -112,9 +114,9 @@ static void leave_worthless(growing *g)
     }
 }
 
-/* Takes suspects in while they are worth it, and those out that are no more. Returns the fall of the score.
+/* Takes candidates in while they are worth it, and those out that are no more. Returns the fall of the score.
  */
-static double grow(growing *g)
+static double grow(selecting *g)
 {
     const int steps = g->a == hci_effect_type_find("saturation") ? MOST_POWERS : MOST_ORDERS;
     for (int step = 0; step < steps; ++step) {
@@ -126,19 +128,19 @@ static double grow(growing *g)
 
 /* The mean torque of an iron that saturates takes several powers of the currents at once, none of which is
  * worth much alone: all of them first. */
-static bool seed_powers(growing *g)
+static bool seed_powers(selecting *g)
 {
     const hci_effect_type *saturation = hci_effect_type_find("saturation");
     bool any = false;
     for (size_t k = 0; k < g->choice->list->count; ++k) {
-        const hci_suspect *x = &g->choice->list->suspect[k];
+        const hci_candidate *x = &g->choice->list->candidate[k];
         if (x->type == saturation && x->term[0].order == 0.0 && is_open(g, k)) any = take(g, k) || any;
     }
     if (any) leave_worthless(g);
     return any;
 }
 
-static void start(growing *g, bool *in)
+static void start(selecting *g, bool *in)
 {
     g->in = in;
     g->cost = 0.0;
@@ -146,10 +148,10 @@ static void start(growing *g, bool *in)
     hci_sweep_copy(g->sweep, g->choice->base);
 }
 
-double hci_choice_grow(const hci_choice *choice, const hci_effect_type *a, const hci_effect_type *b, bool *in,
-                       hci_sweep *sweep, bool *spare)
+double hci_group_select(const hci_selection *choice, const hci_effect_type *a, const hci_effect_type *b,
+                        bool *in, hci_sweep *sweep, bool *spare)
 {
-    growing g = {choice, a, b, sweep, NULL, 0.0};
+    selecting g = {choice, a, b, sweep, NULL, 0.0};
     start(&g, in);
     const double plain = grow(&g);
     start(&g, spare);

@@ -1,4 +1,4 @@
-/* A choice of suspects that grows on the linearised problem, one or two effects at a time. */
+/* A choice of candidates that grows on the linearised problem, one or two effects at a time. */
 #ifndef HCI_SRC_HOST_DIAGNOSE_SEARCH_GROUP_SELECTION_H
 #define HCI_SRC_HOST_DIAGNOSE_SEARCH_GROUP_SELECTION_H
 
@@ -7,19 +7,19 @@
 
 /* What is chosen from. */
 typedef struct {
-    const hci_suspects *list;
-    const size_t *column;  /* of the normal equations: the first one of each suspect */
+    const hci_candidates *list;
+    const size_t *column;  /* of the normal equations: the first one of each candidate */
     const hci_sweep *base; /* with the model in it */
     double rows;
-} hci_choice;
+} hci_selection;
 
-/* Chooses, among the suspects of types a and b that are not in the model, those that are worth their cost.
- * in: out, for each suspect whether it was chosen. sweep, spare: work, of the size of base and of the list.
+/* Chooses, among the candidates of types a and b that are not in the model, those that are worth their cost.
+ * in: out, for each candidate whether it was chosen. sweep, spare: work, of the size of base and of the list.
  * Returns by how much the score would fall if the model were linear. O(steps·columns²). */
-double hci_choice_grow(const hci_choice *choice, const hci_effect_type *a, const hci_effect_type *b, bool *in,
-                       hci_sweep *sweep, bool *spare);
+double hci_group_select(const hci_selection *choice, const hci_effect_type *a, const hci_effect_type *b,
+                        bool *in, hci_sweep *sweep, bool *spare);
 
-/* Sweeps the columns of a suspect in. False when all of them depend on those that are in. */
-bool hci_choice_enter(const hci_choice *choice, hci_sweep *sweep, size_t suspect);
+/* Sweeps the columns of a candidate in. False when all of them depend on those that are in. */
+bool hci_selection_enter(const hci_selection *choice, hci_sweep *sweep, size_t candidate);
 
 #endif

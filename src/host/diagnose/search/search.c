@@ -29,74 +29,74 @@ void hci_search_tell(hci_search *s)
     tell(s);
 }
 
-/* ---- accounts ---- */
+/* ---- models ---- */
 
-hci_status hci_account_copy(const hci_account *from, hci_account *to, hci_note *note)
+hci_status hci_fitted_model_copy(const hci_fitted_model *from, hci_fitted_model *to, hci_note *note)
 {
     to->fit = from->fit;
-    return hci_suspects_copy(&from->suspects, &to->suspects, note);
+    return hci_candidates_copy(&from->candidates, &to->candidates, note);
 }
 
-void hci_account_replace(hci_account *old, hci_account *by)
+void hci_fitted_model_replace(hci_fitted_model *old, hci_fitted_model *by)
 {
-    hci_account_release(old);
+    hci_fitted_model_release(old);
     *old = *by;
     memset(by, 0, sizeof *by);
 }
 
-void hci_account_release(hci_account *account)
+void hci_fitted_model_release(hci_fitted_model *fitted)
 {
-    hci_suspects_release(&account->suspects);
-    memset(account, 0, sizeof *account);
+    hci_candidates_release(&fitted->candidates);
+    memset(fitted, 0, sizeof *fitted);
 }
 
-hci_status hci_search_without(hci_search *s, const hci_account *account, const hci_effect_type *type,
-                              hci_account *without, hci_note *note)
+hci_status hci_search_without(hci_search *s, const hci_fitted_model *fitted, const hci_effect_type *type,
+                              hci_fitted_model *without, hci_note *note)
 {
-    hci_status status = hci_account_copy(account, without, note);
+    hci_status status = hci_fitted_model_copy(fitted, without, note);
     if (status) return status;
     hci_search_tell(s);
-    hci_suspects_leave(&without->suspects, type);
-    status = hci_evidence_fit(s->evidence, &without->suspects, &without->fit, note);
-    if (status) hci_account_release(without);
+    hci_candidates_remove_type(&without->candidates, type);
+    status = hci_regression_fit(s->regression, &without->candidates, &without->fit, note);
+    if (status) hci_fitted_model_release(without);
     return status;
 }
 
 /* ---- residual and noise ---- */
 
-hci_status hci_search_residual(hci_search *s, const hci_suspects *suspects, hci_note *note)
+hci_status hci_search_residual(hci_search *s, const hci_candidates *candidates, hci_note *note)
 {
     hci_model model;
-    hci_status status = hci_model_make(s->evidence->declared, suspects, false, &model, note);
+    hci_status status = hci_model_make(s->regression->declared, candidates, false, &model, note);
     hci_search_tell(s);
-    if (!status) status = hci_evidence_residual(s->evidence, &model.list, s->residual_Nm, note);
+    if (!status) status = hci_regression_residual(s->regression, &model.list, s->residual_Nm, note);
     hci_model_release(&model);
     return status;
 }
 
 /* Smoothing takes the noise of currents and angle out of the residual, but not out of the few orders that
  * effects are found in. */
-hci_status hci_search_noise(hci_search *s, const hci_suspects *suspects, hci_note *note)
+hci_status hci_search_noise(hci_search *s, const hci_candidates *candidates, hci_note *note)
 {
-    s->evidence->raw = true;
-    const hci_status status = hci_search_residual(s, suspects, note);
-    s->evidence->raw = false;
+    s->regression->raw = true;
+    const hci_status status = hci_search_residual(s, candidates, note);
+    s->regression->raw = false;
     if (status) return status;
-    return hci_evidence_noise_find(s->evidence, s->residual_Nm, hci_suspects_terms_in(suspects),
-                                   s->options->resolution_Nm, note);
+    return hci_regression_noise_estimate(s->regression, s->residual_Nm, hci_candidates_terms_in(candidates),
+                                         s->options->resolution_Nm, note);
 }
 
-hci_status hci_search_renew(hci_search *s, hci_account *account, hci_note *note)
+hci_status hci_search_renew(hci_search *s, hci_fitted_model *fitted, hci_note *note)
 {
-    const hci_status status = hci_search_noise(s, &account->suspects, note);
+    const hci_status status = hci_search_noise(s, &fitted->candidates, note);
     if (status) return status;
-    return hci_evidence_fit(s->evidence, &account->suspects, &account->fit, note);
+    return hci_regression_fit(s->regression, &fitted->candidates, &fitted->fit, note);
 }
 
 double hci_search_residual_rms(const hci_search *s)
 {
     double sum = 0.0, count = 0.0;
-    for (const hci_stretch *x = NULL; (x = hci_evidence_next(s->evidence, x)) != NULL;)
+    for (const hci_segment *x = NULL; (x = hci_regression_next(s->regression, x)) != NULL;)
         for (size_t j = x->first; j < x->first + x->count; ++j) {
             sum += s->residual_Nm[j] * s->residual_Nm[j];
             count += 1.0;
@@ -107,8 +107,8 @@ double hci_search_residual_rms(const hci_search *s)
 double hci_search_noise_rms(const hci_search *s)
 {
     double sum = 0.0, count = 0.0;
-    for (const hci_stretch *x = NULL; (x = hci_evidence_next(s->evidence, x)) != NULL;) {
-        const double rms = hci_evidence_noise(s->evidence, x)->rms;
+    for (const hci_segment *x = NULL; (x = hci_regression_next(s->regression, x)) != NULL;) {
+        const double rms = hci_regression_noise(s->regression, x)->rms;
         sum += rms * rms * (double)x->count;
         count += (double)x->count;
     }
@@ -117,7 +117,7 @@ double hci_search_noise_rms(const hci_search *s)
 
 /* ---- what an effect explains ---- */
 
-hci_status hci_search_explained(hci_search *s, const hci_suspects *with, const hci_suspects *without,
+hci_status hci_search_explained(hci_search *s, const hci_candidates *with, const hci_candidates *without,
                                 double *explained_Nm, hci_note *note)
 {
     hci_status status = hci_search_residual(s, with, note);
@@ -131,13 +131,13 @@ hci_status hci_search_explained(hci_search *s, const hci_suspects *with, const h
     return HCI_OK;
 }
 
-hci_status hci_search_noticeable(hci_search *s, const hci_suspects *with, const hci_suspects *without,
+hci_status hci_search_noticeable(hci_search *s, const hci_candidates *with, const hci_candidates *without,
                                  bool *noticeable, hci_note *note)
 {
     double explained_Nm;
     const hci_status status = hci_search_explained(s, with, without, &explained_Nm, note);
     const double least = fmax(NOTICEABLE * hci_search_noise_rms(s), RESOLVED * s->options->resolution_Nm);
-    *noticeable =
-        !status && (explained_Nm > least || hci_suspects_types_in(with) == hci_suspects_types_in(without));
+    *noticeable = !status &&
+                  (explained_Nm > least || hci_candidates_types_in(with) == hci_candidates_types_in(without));
     return status;
 }

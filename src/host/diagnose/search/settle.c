@@ -19,7 +19,7 @@ enum { BLOCK = 24 }; /* samples */
 
 /* ---- whether what is left is noise ---- */
 
-/* Sums over the stretches that a judgement of the residual needs. */
+/* Sums over the segments that a judgement of the residual needs. */
 typedef struct {
     double square, noise, rows;         /* residual and noise, N²·m² */
     double block, block_square, blocks; /* sums of whitened squares over short blocks */
@@ -68,16 +68,16 @@ static double clumps_of(const goodness *g)
     return (g->block_square / g->blocks - mean * mean) / (mean * mean) * 0.5 * BLOCK;
 }
 
-static hci_status goodness_of(hci_search *s, const hci_suspects *model, goodness *g, hci_note *note)
+static hci_status goodness_of(hci_search *s, const hci_candidates *model, goodness *g, hci_note *note)
 {
-    double *whitened = hci_memory_new(hci_cells_longest(s->evidence->cells), sizeof *whitened);
+    double *whitened = hci_memory_new(hci_segment_longest(s->regression->samples), sizeof *whitened);
     memset(g, 0, sizeof *g);
     if (!whitened) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for judging the residual");
     const hci_status status = hci_search_noise(s, model, note);
-    for (const hci_stretch *x = NULL; !status && (x = hci_evidence_next(s->evidence, x)) != NULL;)
+    for (const hci_segment *x = NULL; !status && (x = hci_regression_next(s->regression, x)) != NULL;)
         if (x->count >= HCI_NOISE_LEAST)
-            goodness_add(hci_evidence_noise(s->evidence, x), s->residual_Nm + x->first, whitened, x->count,
-                         g);
+            goodness_add(hci_regression_noise(s->regression, x), s->residual_Nm + x->first, whitened,
+                         x->count, g);
     hci_memory_free(whitened);
     return status;
 }
@@ -88,7 +88,7 @@ static hci_status residual_judge(hci_search *s, hci_attribution *a, hci_note *no
 {
     const double least_Nm = NOT_SMALL * s->options->resolution_Nm;
     goodness g;
-    const hci_status status = goodness_of(s, &a->account.suspects, &g, note);
+    const hci_status status = goodness_of(s, &a->fitted.candidates, &g, note);
     if (status || !(g.rows > 0.0)) return status;
     const double excess = g.square / g.noise - 1.0, left = g.square / g.rows;
     a->wanders = !(excess < EXCESS && clumps_of(&g) < CLUMPS);
@@ -100,25 +100,26 @@ static hci_status residual_judge(hci_search *s, hci_attribution *a, hci_note *no
 /* ---- what is understood beside what is not ---- */
 
 /* Adds what a type explains, as rms. Nothing where it is not in. */
-static hci_status explained_add(hci_search *s, const hci_account *account, const hci_effect_type *type,
+static hci_status explained_add(hci_search *s, const hci_fitted_model *fitted, const hci_effect_type *type,
                                 double *sum_Nm, hci_note *note)
 {
-    hci_account without = {0};
+    hci_fitted_model without = {0};
     double explained_Nm = 0.0;
-    if (!hci_suspects_have(&account->suspects, type)) return HCI_OK;
-    hci_status status = hci_search_without(s, account, type, &without, note);
-    if (!status) status = hci_search_explained(s, &account->suspects, &without.suspects, &explained_Nm, note);
-    hci_account_release(&without);
+    if (!hci_candidates_have(&fitted->candidates, type)) return HCI_OK;
+    hci_status status = hci_search_without(s, fitted, type, &without, note);
+    if (!status)
+        status = hci_search_explained(s, &fitted->candidates, &without.candidates, &explained_Nm, note);
+    hci_fitted_model_release(&without);
     *sum_Nm = hypot(*sum_Nm, explained_Nm);
     return status;
 }
 
-static hci_status known_of(hci_search *s, const hci_account *account, double *known_Nm, hci_note *note)
+static hci_status known_of(hci_search *s, const hci_fitted_model *fitted, double *known_Nm, hci_note *note)
 {
     hci_status status = HCI_OK;
     *known_Nm = 0.0;
     for (size_t r = 0; hci_effect_type_at(r) && !status; ++r)
-        status = explained_add(s, account, hci_effect_type_at(r), known_Nm, note);
+        status = explained_add(s, fitted, hci_effect_type_at(r), known_Nm, note);
     return status;
 }
 
@@ -127,15 +128,15 @@ static hci_status known_of(hci_search *s, const hci_account *account, double *kn
 static hci_status types_leave(hci_search *s, hci_attribution *a, double strange_Nm, bool *changed,
                               hci_note *note)
 {
-    hci_suspects *model = &a->account.suspects;
+    hci_candidates *model = &a->fitted.candidates;
     hci_status status = HCI_OK;
     for (size_t r = 0; r < a->types && !status; ++r) {
-        const hci_effect_type *type = hci_suspect_type(r);
+        const hci_effect_type *type = hci_candidate_type(r);
         double explained_Nm = 0.0;
-        if (!hci_suspects_have(model, type) || (type == &hci_unknown_type) == a->unknown) continue;
-        if (a->unknown) status = explained_add(s, &a->account, type, &explained_Nm, note);
+        if (!hci_candidates_have(model, type) || (type == &hci_empirical_type) == a->unknown) continue;
+        if (a->unknown) status = explained_add(s, &a->fitted, type, &explained_Nm, note);
         if (status || explained_Nm > UNTOUCHED * strange_Nm) continue;
-        hci_suspects_leave(model, type);
+        hci_candidates_remove_type(model, type);
         *changed = true;
     }
     return status;
@@ -147,13 +148,13 @@ hci_status hci_search_settle(hci_search *s, hci_attribution *a, hci_note *note)
     bool changed = false;
     hci_status status = residual_judge(s, a, note);
     double strange_Nm = a->unexplained_Nm;
-    if (!status) status = explained_add(s, &a->account, &hci_unknown_type, &strange_Nm, note);
+    if (!status) status = explained_add(s, &a->fitted, &hci_empirical_type, &strange_Nm, note);
     if (status || !(strange_Nm > 0.0)) return status;
-    status = known_of(s, &a->account, &known_Nm, note);
+    status = known_of(s, &a->fitted, &known_Nm, note);
     if (status) return status;
     a->unknown = strange_Nm > SMALL * known_Nm;
     status = types_leave(s, a, strange_Nm, &changed, note);
-    if (!status && changed) status = hci_search_renew(s, &a->account, note);
+    if (!status && changed) status = hci_search_renew(s, &a->fitted, note);
     if (!status && a->unknown) a->unexplained_Nm = strange_Nm;
     return status;
 }
