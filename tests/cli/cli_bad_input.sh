@@ -1,5 +1,4 @@
 #!/bin/sh
-# labels: cli
 # Wrong input files: exit code 3, file and line and a remedy on standard error, nothing on standard output and nothing
 # written. And the forms of a table that mean the same: the same bytes.
 #   cli_bad_input.sh SOURCE_DIR BUILD_DIR HCI_SOLVE

@@ -1,5 +1,4 @@
 #!/bin/sh
-# labels: cli
 # What `check` says and writes: verdict, place, evidence, exit codes, JSON; that it changes nothing.
 #   cli_check.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
 . "$1/tests/support/common.sh"

@@ -1,5 +1,4 @@
 #!/bin/sh
-# labels: cli
 # What `diagnose` writes and says: verdicts and exit codes, the corrected machine, all or nothing, wrong lists and recordings.
 #   cli_diagnose.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
 . "$1/tests/support/common.sh"

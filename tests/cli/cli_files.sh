@@ -1,5 +1,5 @@
 #!/bin/sh
-# labels: cli docs
+# labels: docs
 # docs/files.md against the program: the columns of each file that is written, the keys of each summary, and each example read.
 # (The table of foreign names is compared with that of the program in test_csv_foreign.c.)
 #   cli_files.sh SOURCE_DIR BUILD_DIR HCI_SOLVE

@@ -1,5 +1,4 @@
 #!/bin/sh
-# labels: cli
 # Tables as other tools write them: `predict` and `harmonics` make the same of them as of the same samples in this program's own form.
 #   cli_foreign.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
 . "$1/tests/support/common.sh"

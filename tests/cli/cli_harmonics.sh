@@ -1,5 +1,4 @@
 #!/bin/sh
-# labels: cli
 # What `harmonics` writes and says: the chain from `simulate` and back into a machine, options, exit codes, measured data.
 #   cli_harmonics.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
 . "$1/tests/support/common.sh"

@@ -1,5 +1,4 @@
 #!/bin/sh
-# labels: cli
 # Help, version, and what is said to a wrong command line. The examples of the help are run.
 #   cli_help.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
 . "$1/tests/support/common.sh"

@@ -1,5 +1,4 @@
 #!/bin/sh
-# labels: cli
 # What `init` writes and says: readings of data sheets, the folder in other commands, what is refused.
 #   cli_init.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
 . "$1/tests/support/common.sh"

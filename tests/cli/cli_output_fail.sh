@@ -1,5 +1,4 @@
 #!/bin/sh
-# labels: cli
 # What cannot be written: exit code 5, a reason and a remedy on standard error, nothing half written, older results untouched.
 #   cli_output_fail.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
 . "$1/tests/support/common.sh"

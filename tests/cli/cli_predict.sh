@@ -1,5 +1,4 @@
 #!/bin/sh
-# labels: cli
 # What `predict` writes and says: the chain from `simulate`, columns, exit codes, the run it does not replace.
 #   cli_predict.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
 . "$1/tests/support/common.sh"

@@ -1,5 +1,4 @@
 #!/bin/sh
-# labels: cli
 # `reference`: the pages in docs/reference are those of this program; the man page is well formed; completion offers every command, every
 # option and every word that an option accepts, in the shells themselves.
 #   cli_reference.sh SOURCE_DIR BUILD_DIR HCI_SOLVE

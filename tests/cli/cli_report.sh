@@ -1,5 +1,4 @@
 #!/bin/sh
-# labels: cli
 # report.html of `diagnose`, `solve` and `simulate`: there when it is asked for, with the numbers of the tables beside it, alone.
 #   cli_report.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
 . "$1/tests/support/common.sh"

@@ -1,5 +1,4 @@
 #!/bin/sh
-# labels: cli
 # What `simulate` writes: files, headers, figures recomputed from the trajectory, the chain from `solve`, exit codes, wrong scenarios.
 #   cli_simulate.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
 . "$1/tests/support/common.sh"

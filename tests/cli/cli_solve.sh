@@ -1,5 +1,4 @@
 #!/bin/sh
-# labels: cli
 # What `solve` writes: files, headers, numbers, exit codes; the promised torque against a recomputation from the currents.
 #   cli_solve.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
 . "$1/tests/support/common.sh"

@@ -1,5 +1,4 @@
 #!/bin/sh
-# labels: cli
 # `solve` with effects.csv: what a machine that saturates gets, what is left out, and what the temperature does.
 #   cli_solve_effects.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
 . "$1/tests/support/common.sh"

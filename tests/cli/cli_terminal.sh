@@ -1,5 +1,4 @@
 #!/bin/sh
-# labels: cli
 # What is seen on a terminal, and only there: colour, bars, progress; widths; what --quiet and --json leave; Ctrl-C.
 #   cli_terminal.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
 . "$1/tests/support/common.sh"

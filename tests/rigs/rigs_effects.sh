@@ -1,5 +1,5 @@
 #!/bin/sh
-# labels: slow rig
+# labels: slow
 # Two implementations of every effect, the library's and the rig's: with the rig's truth for effects.csv, what `predict` leaves of the
 # held-out runs is the rig's noise.
 

@@ -1,5 +1,5 @@
 #!/bin/sh
-# labels: slow slips
+# labels: slow
 # How often `check` names a slip of convention that was written into correct files, and whether it is quiet on correct ones; see tests/rigs/slips/README.md.
 # HCI_SLIPS replaces the options of the score; HCI_SLIPS='--seed 2 --repeat 5 --correct 500' tells more.
 

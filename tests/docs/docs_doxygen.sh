@@ -1,8 +1,7 @@
 #!/bin/sh
-# labels: docs
 # The API reference is built without a warning: every public function, struct, field, constant and macro has its docstring. An undocumented
-# one is refused. The programs on its main page are run by tests/consumer/run.sh.
-#   run_doxygen.sh SOURCE_DIR
+# one is refused. The programs on its main page are run by tests/consumer/consumer_library.sh.
+#   docs_doxygen.sh SOURCE_DIR
 set -eu
 cd "$1"
 for tool in doxygen python3; do

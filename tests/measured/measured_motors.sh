@@ -1,8 +1,8 @@
 #!/bin/sh
-# labels: slow measured
+# labels: slow
 # `diagnose`, `predict` and `harmonics` on recordings of four real motors, which are looked for in ../shared/measured; the machines that
 # they are compared with are in tests/measured. What is checked is what is known of the motors, or what another run shows.
-#   run_measured.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
+#   measured_motors.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
 . "$1/tests/support/common.sh"
 use_plain_build
 

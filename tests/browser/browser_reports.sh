@@ -1,9 +1,9 @@
 #!/bin/sh
-# labels: report browser
+# labels: report
 # The three reports in a headless Chromium without network: nothing on the console, nothing fetched, readable in the light, in
 # the dark, on a telephone, on paper, by keyboard and without JavaScript. Then copies of a report that are spoilt in one way each:
 # what is wrong is said of each of them.
-#   run_browser.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
+#   browser_reports.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
 # To look at them: python3 tests/browser/check.py chromium EMPTY_FOLDER --pictures FOLDER report.html
 . "$1/tests/support/common.sh"
 use_plain_build

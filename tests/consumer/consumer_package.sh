@@ -1,9 +1,9 @@
 #!/bin/sh
-# labels: package slow
+# labels: slow
 # The packages that cpack makes, as a user has them: unpacked somewhere, with a clean environment and in a folder of their own. Program, man
 # page, completion, libraries, headers, CMake package, pkg-config, documents with their commands, and nothing that names the folder it
 # was built in.
-#   run_package.sh SOURCE_DIR BUILD_DIR      BUILD_DIR/nested/all is built, without sanitizers
+#   consumer_package.sh SOURCE_DIR BUILD_DIR      BUILD_DIR/nested/all is built, without sanitizers
 set -eu
 source_dir=$(cd "$1" && pwd)
 tests=$source_dir/tests
@@ -17,7 +17,7 @@ step() {
 }
 
 fail() {
-    echo "run_package: $*"
+    echo "consumer_package: $*"
     exit 1
 }
 
@@ -135,7 +135,7 @@ use_documents() {
         ln -s "$doc/$name" "$work/used/$name"
     done
     # shellcheck disable=SC2046
-    clean sh "$tests/docs/run_docs.sh" "$work/used" "$build" "$root/bin/hci-solve" README.md $(cd "$doc" && ls docs/tutorial.md)
+    clean sh "$tests/docs/docs_commands.sh" "$work/used" "$build" "$root/bin/hci-solve" README.md $(cd "$doc" && ls docs/tutorial.md)
     for name in copyright CITATION.cff DESIGN.md docs/reference/solve.md; do
         [ -s "$doc/$name" ] || fail "no $name"
     done

@@ -1,8 +1,10 @@
 #!/bin/sh
+# labels: slow
 # What an installed library promises to its users: it can be moved, found by CMake and by pkg-config, used from C and C++
 # with warnings as errors, and a version that does not fit is refused.
-#   run.sh SOURCE_DIR BUILD_DIR CORE_ONLY_BUILD_DIR      both build folders are built, without sanitizers
+#   consumer_library.sh SOURCE_DIR BUILD_DIR      BUILD_DIR/nested/all and nested/core are built, without sanitizers
 set -eu
+all=$2/nested/all core=$2/nested/core
 consumer=$1/tests/consumer
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -64,7 +66,7 @@ pkg_config() {
 }
 
 step install, then move
-cmake --install "$2" --prefix "$work/first"
+cmake --install "$all" --prefix "$work/first"
 mv "$work/first" "$work/moved"
 if grep -rlF -e "$work/first" -e "$1" "$work/moved"; then
     echo "these files name the folder that they were built in or installed to"
@@ -115,7 +117,7 @@ api_program 2 hci-host "$1/data/machine_a" "$1/data/scenarios/02/target.csv"
 [ -s "$work/currents/currents.csv" ]
 
 step core alone
-cmake --install "$3" --prefix "$work/core-only"
+cmake --install "$core" --prefix "$work/core-only"
 use_package "$work/core-only" core
 [ ! -e "$work/core-only/bin" ] && [ ! -e "$work/core-only/include/hci/host" ]
 refused 'has no component host' asks "$work/core-only" "0.1 REQUIRED COMPONENTS host"

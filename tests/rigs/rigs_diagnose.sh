@@ -1,5 +1,5 @@
 #!/bin/sh
-# labels: slow rig
+# labels: slow
 # How often `diagnose` names what the rig has hidden: a case of each kind with a fixed seed, see tests/rigs/bench/README.md.
 # HCI_SCORE_CASES and HCI_SCORE_REQUIRE replace what stands here. More cases tell more: score --cases 10, or --fresh.
 

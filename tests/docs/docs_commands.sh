@@ -1,8 +1,7 @@
 #!/bin/sh
-# labels: docs
 # Runs every command that the documentation shows, page by page and in the order of the page, each page in a fresh copy of the data; compares what
 # the pages show as output; looks for unknown options in command lines in prose, and for names of files and tests that do not exist.
-#   run_docs.sh SOURCE_DIR BUILD_DIR HCI_SOLVE [PAGE...]
+#   docs_commands.sh SOURCE_DIR BUILD_DIR HCI_SOLVE [PAGE...]
 #
 # In a ```sh block, and in an indented block that begins with a command, every line is run:
 #   - it has to answer 0, or what a comment in it says: `# exit code 1`;

@@ -1,9 +1,9 @@
 #!/bin/sh
-# labels: slow fem
+# labels: slow
 # `diagnose` on finite-element recordings of three machines whose declared model is back-EMF and cogging alone (data/fem_c/README.md):
 # which effects it adds, and the error of every run in per cent of its mean torque, before and after.
 # C is data/fem_c; A and B, surface magnets, are looked for in ../shared/fem.
-#   run_fem.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
+#   rigs_finite_elements.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
 . "$1/tests/support/common.sh"
 use_plain_build
 

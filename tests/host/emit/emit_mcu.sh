@@ -1,19 +1,19 @@
 #!/bin/sh
-# labels: mcu slow
+# labels: slow
 # Emitted tables on an emulated Cortex-M4: built from currents of machine A by the project in examples/mcu, compared with the
 # currents themselves, measured, and damaged to see that the start-up check notices.
-#   run_mcu.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
+#   emit_mcu.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
 set -eu
 export LC_ALL=C
 
 source=$1 work=$2/mcu hci_solve=$3
 for tool in arm-none-eabi-gcc qemu-system-arm; do
-    command -v $tool >/dev/null || { echo "run_mcu: skipped, no $tool here"; exit 77; }
+    command -v $tool >/dev/null || { echo "emit_mcu: skipped, no $tool here"; exit 77; }
 done
-echo '#include <stdio.h>' | arm-none-eabi-gcc -E - >/dev/null 2>&1 || { echo "run_mcu: skipped, no newlib here"; exit 77; }
+echo '#include <stdio.h>' | arm-none-eabi-gcc -E - >/dev/null 2>&1 || { echo "emit_mcu: skipped, no newlib here"; exit 77; }
 
 fail() {
-    echo "run_mcu: $*" >&2
+    echo "emit_mcu: $*" >&2
     exit 1
 }
 

@@ -1,13 +1,12 @@
 #!/bin/sh
-# labels: emit
 # Emitted files under every compiler at hand, strictest warnings first: C99, and inside a C++ program that runs them.
-#   run_emitted.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
+#   emit_compilers.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
 set -eu
 export LC_ALL=C
 
 source=$1 work=$2/emitted hci_solve=$3
 fail() {
-    echo "run_emitted: $*" >&2
+    echo "emit_compilers: $*" >&2
     exit 1
 }
 
@@ -55,7 +54,7 @@ compile_cxx() {
 have() {
     command -v "$1" >/dev/null
 }
-have gcc || have clang || { echo "run_emitted: skipped, no compiler of these: gcc clang"; exit 77; }
+have gcc || have clang || { echo "emit_compilers: skipped, no compiler of these: gcc clang"; exit 77; }
 ! have gcc || compile_c gcc "$gcc_c"
 ! have clang || compile_c clang "$clang_c"
 ! have g++ || compile_cxx g++ "$gcc_cxx"
