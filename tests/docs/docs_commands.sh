@@ -15,7 +15,7 @@
 use_plain_build
 shift 3
 docs=$source_dir/tests/docs
-rig=$built/tests/rigs/bench
+rig=$built/tests/rig
 [ -x "$rig" ] || rig=
 mkdir "$work/bin" && ln -s "$hci_solve" "$work/bin/hci-solve" && PATH=$work/bin:$PATH || exit 1
 unset HCI_JSON COLUMNS

@@ -4,7 +4,7 @@
 # held-out runs is the rig's noise.
 
 . "$1/tests/support/common.sh"
-rig=$(cd "$2" && pwd)/tests/rigs/bench
+rig=$(cd "$2" && pwd)/tests/rig
 
 "$hci_solve" predict --help >/dev/null 2>&1 || {
     echo "skipped: hci-solve has no command predict"
