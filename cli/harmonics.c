@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "cli/command/command.h"
-#include "hci/host/csv/csv.h"
+#include "hci/host/base/number.h"
 #include "hci/host/waveform/waveform.h"
 #include "hci/math/harmonic.h"
 

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "cli/command/command.h"
-#include "hci/host/csv/csv.h"
+#include "hci/host/base/number.h"
 #include "hci/host/machine/init.h"
 
 enum {

@@ -6,7 +6,7 @@
 #include <sys/stat.h>
 
 #include "cli/command/command.h"
-#include "hci/host/csv/csv.h"
+#include "hci/host/base/number.h"
 #include "hci/host/machine/effects.h"
 #include "hci/host/solve/solve.h"
 

@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 #include "cli/command/command.h"
-#include "hci/host/csv/csv.h"
+#include "hci/host/base/number.h"
 
 /* Index of an option by its long name (up to `length` characters) or its letter; -1 when there is none. */
 static int find_option(const cli_option *options, const char *name, size_t length)

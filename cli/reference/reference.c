@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "hci/host/base/utf8.h"
 #include "hci/version.h"
 
 /* ---- texts ---- */
@@ -164,24 +165,13 @@ static void markdown_index(const reference_book *book)
 
 /* ---- the man page ---- */
 
-/* A character of UTF-8 at text, and how many bytes it takes; text is our own, and well formed. */
-static unsigned long utf8_at(const char *text, size_t *bytes)
-{
-    const unsigned char first = (unsigned char)text[0];
-    unsigned long code = first;
-    *bytes = first < 0x80 ? 1 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
-    if (*bytes > 1) code = first & (0xFFu >> (*bytes + 1));
-    for (size_t k = 1; k < *bytes; ++k)
-        code = code << 6 | ((unsigned char)text[k] & 0x3Fu);
-    return code;
-}
-
 /* Hyphens as they are typed, and letters beyond ASCII by their number: every formatter reads that alike. */
 static void print_roff(reference_span span)
 {
     if (span.length > 0 && (span.text[0] == '.' || span.text[0] == '\'')) printf("\\&");
-    for (size_t k = 0, bytes; k < span.length; k += bytes) {
-        const unsigned long code = utf8_at(span.text + k, &bytes);
+    for (size_t k = 0, bytes = 1; k < span.length && bytes > 0; k += bytes) {
+        uint32_t code;
+        bytes = hci_utf8_decode(span.text + k, &code);
         if (code == '-')
             printf("\\-");
         else if (code == '\\')
@@ -189,7 +179,7 @@ static void print_roff(reference_span span)
         else if (code < 0x80)
             putchar((int)code);
         else
-            printf("\\[u%04lX]", code);
+            printf("\\[u%04lX]", (unsigned long)code);
     }
 }
 

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include "cli/command/command.h"
+#include "hci/host/base/utf8.h"
 
 enum { MOST_CELLS = 40, LEAST_CELLS = 8, LEAST_NAME = 12, LINE_SIZE = 1024 };
 
@@ -144,7 +145,7 @@ static const char *shortened(const char *text, size_t width, const char **mark)
     for (columns += **mark != '\0'; columns > width; --columns)
         do
             ++text;
-        while (((unsigned char)*text & 0xC0u) == 0x80u);
+        while (!hci_utf8_begins(*text));
     return text;
 }
 

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "cli/command/command.h"
+#include "hci/host/base/utf8.h"
 
 enum { UNKNOWN_WIDTH = 80, LEAST_WIDTH = 40, WIDEST_TEXT = 96, WORDS_AT = 15, LINE_SIZE = 8192 };
 
@@ -98,23 +99,18 @@ bool cli_is_quiet(void)
 
 /* ---- one line ---- */
 
-static bool begins_character(char c)
-{
-    return ((unsigned char)c & 0xC0u) != 0x80u;
-}
-
 size_t cli_text_width(const char *text)
 {
     size_t width = 0;
     for (; *text; ++text)
-        width += (unsigned char)*text >= ' ' && begins_character(*text);
+        width += (unsigned char)*text >= ' ' && hci_utf8_begins(*text);
     return width;
 }
 
 const char *cli_text_end(const char *text, size_t most)
 {
     for (size_t width = cli_text_width(text); width > most; --width)
-        while (!begins_character(*++text))
+        while (!hci_utf8_begins(*++text))
             ;
     return text;
 }
@@ -152,7 +148,7 @@ static void put_text(const char *text, size_t length, FILE *stream)
             fputs(plain, stream);
         else
             fputc((unsigned char)text[k] < ' ' || text[k] == 0x7F ? '?' : text[k], stream);
-        while (plain && k + 1 < length && !begins_character(text[k + 1]))
+        while (plain && k + 1 < length && !hci_utf8_begins(text[k + 1]))
             ++k;
     }
 }
@@ -164,7 +160,7 @@ static size_t fitting(const char *text, size_t width)
     for (columns = k; text[k]; ++k) {
         if (text[k] == ' ' && (columns <= width || best == 0)) best = k;
         if (columns > width && best > 0) return best;
-        columns += (unsigned char)text[k] >= ' ' && begins_character(text[k]);
+        columns += (unsigned char)text[k] >= ' ' && hci_utf8_begins(text[k]);
     }
     return columns > width && best > 0 ? best : k;
 }

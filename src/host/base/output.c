@@ -14,7 +14,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "hci/host/csv/csv.h"
+#include "hci/host/base/number.h"
 #include "host/base/memory.h"
 #include "host/base/quote.h"
 

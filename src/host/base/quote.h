@@ -2,13 +2,6 @@
 #ifndef HCI_SRC_HOST_BASE_QUOTE_H
 #define HCI_SRC_HOST_BASE_QUOTE_H
 
-#include <stdbool.h>
-#include <stddef.h>
-
-/* Length in bytes of the UTF-8 sequence at `text` (1 to 4), or 0 where it is not valid UTF-8. */
-size_t hci_utf8_length(const char *text);
-bool hci_utf8_valid(const char *text);
-
 enum { HCI_QUOTE_SIZE = 96, HCI_QUOTE_PATH_SIZE = 320 };
 
 /* `text` between backticks; control characters and bytes that are not UTF-8 as \xNN; cut with "…" when long.

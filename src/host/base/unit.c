@@ -1,9 +1,10 @@
-#include "host/base/unit.h"
+/* The units that files may use, in every spelling. */
+#include "hci/host/base/unit.h"
 
 #include <string.h>
 
-#include "hci/host/csv/csv.h"
 #include "hci/math/harmonic.h"
+#include "host/base/unit_lookup.h"
 
 enum {
     NONE,

@@ -8,6 +8,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "hci/host/base/unit.h"
 #include "hci/host/machine/init.h"
 #include "hci/machine/frames.h"
 #include "host/base/memory.h"

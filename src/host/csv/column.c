@@ -3,8 +3,12 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "hci/host/base/text.h"
+#include "hci/host/base/utf8.h"
 #include "hci/host/csv/csv.h"
+#include "host/base/number_read.h"
 #include "host/base/quote.h"
+#include "host/base/unit_lookup.h"
 #include "host/csv/alias.h"
 #include "host/csv/table.h"
 

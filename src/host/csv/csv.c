@@ -7,9 +7,12 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "hci/host/base/text.h"
+#include "hci/host/base/utf8.h"
 #include "host/base/memory.h"
+#include "host/base/number_read.h"
 #include "host/base/quote.h"
-#include "host/base/unit.h"
+#include "host/base/unit_lookup.h"
 #include "host/csv/table.h"
 
 enum { COLUMNS_MAX = 4096, FIRST_READ = 1 << 16 };
@@ -255,25 +258,6 @@ char *hci_csv_cell(const hci_csv *csv, size_t record, size_t column)
 size_t hci_csv_record_line(const hci_csv *csv, size_t record)
 {
     return csv->index[record * (csv->columns + 1)];
-}
-
-static char lower(char c)
-{
-    return (char)(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-}
-
-/* Does `text` begin with these `length` bytes, without regard to case? */
-bool hci_text_begins(const char *text, const char *start, size_t length)
-{
-    for (size_t i = 0; i < length; i++) {
-        if (lower(text[i]) != lower(start[i])) return false;
-    }
-    return true;
-}
-
-bool hci_text_is(const char *text, const char *word)
-{
-    return hci_text_begins(text, word, strlen(word) + 1);
 }
 
 bool hci_csv_same_name(const char *a, const char *b)

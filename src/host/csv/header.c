@@ -1,6 +1,7 @@
 /* Finding the table in files of instruments and field solvers, which begin with lines about themselves. */
 #include <string.h>
 
+#include "host/base/number_read.h"
 #include "host/csv/table.h"
 
 enum { LINES_MOST = 64, CELLS_MOST = 256, CELL_SIZE = 64, ROWS_WANTED = 2 };

@@ -5,8 +5,8 @@
 #include <stdint.h>
 
 #include "hci/host/csv/csv.h"
-#include "host/base/number.h"
-#include "host/base/unit.h"
+#include "host/base/number_read.h"
+#include "host/base/unit_lookup.h"
 
 struct hci_csv {
     char *path;
@@ -56,9 +56,6 @@ bool hci_csv_is_known(const char *name);
 /* Tells the columns that were not used, used[columns], in a remark: one under an unknown name would otherwise
  * be missed in silence. */
 void hci_csv_unused(const hci_csv *csv, const bool *used, hci_note *remark);
-
-/* Does `text` begin with these `length` bytes, without regard to case? */
-bool hci_text_begins(const char *text, const char *start, size_t length);
 
 /* "file:line: column N `name`: found …, expected …; remedy". `name` may be NULL. Returns HCI_ERROR_INPUT. */
 hci_status hci_csv_cell_error(const hci_csv *csv, size_t line, size_t column, const char *name,

@@ -5,7 +5,10 @@
 #include <string.h>
 
 #include "hci/host/base/output.h"
+#include "hci/host/base/text.h"
+#include "hci/host/base/utf8.h"
 #include "host/base/memory.h"
+#include "host/base/number_read.h"
 #include "host/base/quote.h"
 #include "host/csv/table.h"
 

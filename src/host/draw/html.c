@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "hci/host/csv/csv.h"
+#include "hci/host/base/number.h"
 #include "hci/version.h"
 #include "host/draw/plot.h"
 #include "host/draw/svg.h"

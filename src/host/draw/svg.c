@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "hci/host/base/utf8.h"
+
 /* ---- numbers as text, without the locale ---- */
 
 void hci_svg_fixed_text(char text[HCI_SVG_NUMBER_SIZE], double value, int decimals)
@@ -143,14 +145,10 @@ static void put_character(hci_output *out, char c)
 /* Bytes of the character that begins here: 0 where it is not UTF-8, or one that XML cannot hold. */
 static size_t character_length(const char *text)
 {
-    const unsigned char *u = (const unsigned char *)text;
-    const size_t length = u[0] < 0x80 ? 1 : u[0] < 0xC2 ? 0 : u[0] < 0xE0 ? 2 : u[0] < 0xF0 ? 3 : 4;
-    const bool surrogate = u[0] == 0xED && u[1] >= 0xA0, last = u[0] == 0xEF && u[1] == 0xBF && u[2] >= 0xBE;
-    const bool overlong = (u[0] == 0xE0 && u[1] < 0xA0) || (u[0] == 0xF0 && u[1] < 0x90);
-    if (u[0] > 0xF4 || (u[0] == 0xF4 && u[1] >= 0x90) || surrogate || last || overlong) return 0;
-    for (size_t k = 1; k < length; ++k)
-        if ((u[k] & 0xC0u) != 0x80u) return 0;
-    return u[0] < 0x20 && !strchr("\t\n\r", *text) ? 0 : length;
+    uint32_t code;
+    const size_t length = hci_utf8_decode(text, &code);
+    if (code == 0xFFFE || code == 0xFFFF) return 0;
+    return code < 0x20 && !strchr("\t\n\r", *text) ? 0 : length;
 }
 
 void hci_svg_text(hci_output *out, const char *text)
@@ -197,7 +195,7 @@ void hci_svg_label(hci_output *out, const char *style, double x, double y, const
 
 static double character_width(const char *c)
 {
-    if (((unsigned char)*c & 0xC0u) == 0x80u) return 0.0; /* within a character */
+    if (!hci_utf8_begins(*c)) return 0.0; /* within a character */
     if (strncmp(c, "·", strlen("·")) == 0) return 3.9;
     if (strncmp(c, "−", strlen("−")) == 0) return 10.1;
     if ((unsigned char)*c >= 0x80) return 12.0;
@@ -221,7 +219,7 @@ void hci_svg_name(hci_output *out, const char *style, double x, double y, const 
     while (hci_svg_text_width(style, text) > room && *text)
         do
             ++text;
-        while (((unsigned char)*text & 0xC0u) == 0x80u);
+        while (!hci_utf8_begins(*text));
     hci_output_text(out, "<text class=\"%s\" x=\"", style);
     put(out, x, "\" y=\"");
     put(out, y, is_whole ? "\">" : "\">…");

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "hci/host/base/utf8.h"
 #include "host/base/memory.h"
 #include "host/base/quote.h"
 #include "host/emit/text.h"

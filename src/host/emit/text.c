@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "hci/host/csv/csv.h"
+#include "hci/host/base/number.h"
 #include "hci/version.h"
 
 /* Nine significant digits, which is enough for a float, with a decimal point in every locale and for every

@@ -9,6 +9,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "hci/host/base/number.h"
+#include "hci/host/base/unit.h"
 #include "hci/host/csv/csv.h"
 #include "host/base/memory.h"
 

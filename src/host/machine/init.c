@@ -7,8 +7,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "hci/host/base/number.h"
 #include "hci/host/base/output.h"
-#include "hci/host/csv/csv.h"
 #include "hci/math/harmonic.h"
 #include "host/base/quote.h"
 

@@ -8,6 +8,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "hci/host/base/text.h"
+#include "hci/host/base/unit.h"
 #include "hci/host/csv/csv.h"
 #include "host/base/memory.h"
 #include "host/machine/folder.h"

@@ -1,6 +1,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "hci/host/base/text.h"
 #include "hci/host/csv/csv.h"
 #include "hci/host/recording/run.h"
 #include "host/base/memory.h"

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "hci/host/base/unit.h"
 #include "hci/host/csv/csv.h"
 #include "hci/host/simulate/simulate.h"
 #include "host/base/quote.h"

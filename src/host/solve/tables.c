@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "hci/host/base/text.h"
 #include "hci/host/csv/csv.h"
 #include "host/base/memory.h"
 #include "host/machine/spectrum_table.h"

@@ -15,7 +15,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "hci/host/csv/csv.h"
 #include "host/base/memory.h"
 #include "unity.h"
 

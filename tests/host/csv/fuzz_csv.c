@@ -12,6 +12,9 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "hci/host/base/number.h"
+#include "hci/host/base/unit.h"
+#include "hci/host/base/utf8.h"
 #include "hci/host/csv/csv.h"
 #include "hci/host/recording/run.h"
 #include "host/base/quote.h"

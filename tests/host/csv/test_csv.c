@@ -14,6 +14,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "hci/host/base/number.h"
+#include "hci/host/base/unit.h"
+#include "hci/host/base/utf8.h"
 #include "host/base/memory.h"
 #include "host/base/quote.h"
 #include "support/reference.h"
@@ -871,33 +874,6 @@ static void test_a_note_is_cut_between_characters(void)
     }
 }
 
-static void test_utf8_is_told_from_other_bytes(void)
-{
-    static const char *const yes[] = {"",
-                                      "a",
-                                      "\xC2\x80",
-                                      "\xDF\xBF",
-                                      "\xE0\xA0\x80",
-                                      "\xEF\xBF\xBF",
-                                      "\xF0\x90\x80\x80",
-                                      "\xF4\x8F\xBF\xBF"};
-    static const char *const no[] = {"\x80",
-                                     "\xC1\xBF",
-                                     "\xC2",
-                                     "\xC2x",
-                                     "\xE0\x9F\xBF",
-                                     "\xED\xA0\x80",
-                                     "\xF0\x8F\xBF\xBF",
-                                     "\xF4\x90\x80\x80",
-                                     "\xF8\x88\x80\x80\x80",
-                                     "\xFF",
-                                     "\xE2\x82"};
-    for (size_t k = 0; k < sizeof yes / sizeof *yes; k++)
-        TEST_ASSERT_TRUE_MESSAGE(hci_utf8_valid(yes[k]), yes[k]);
-    for (size_t k = 0; k < sizeof no / sizeof *no; k++)
-        TEST_ASSERT_FALSE_MESSAGE(hci_utf8_valid(no[k]), no[k]);
-}
-
 static void test_a_long_path_keeps_its_end(void)
 {
     char path[4096], out[HCI_QUOTE_PATH_SIZE];
@@ -983,7 +959,6 @@ int main(void)
     RUN_TEST(test_units_of_other_dimensions_do_not_convert);
     RUN_TEST(test_the_first_error_wins);
     RUN_TEST(test_a_note_is_cut_between_characters);
-    RUN_TEST(test_utf8_is_told_from_other_bytes);
     RUN_TEST(test_a_long_path_keeps_its_end);
     RUN_TEST(test_every_allocation_may_fail);
     RUN_TEST(test_sizes_that_do_not_fit_are_refused);

@@ -8,9 +8,10 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "hci/host/base/unit.h"
 #include "hci/host/csv/csv.h"
 #include "hci/host/recording/run.h"
-#include "host/base/unit.h"
+#include "host/base/unit_lookup.h"
 #include "host/csv/alias.h"
 #include "support/reference.h"
 #include "unity.h"

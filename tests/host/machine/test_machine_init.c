@@ -12,7 +12,6 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "hci/host/csv/csv.h"
 #include "hci/host/machine/machine.h"
 #include "host/base/memory.h"
 #include "unity.h"

@@ -11,7 +11,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "hci/host/csv/csv.h"
+#include "hci/host/base/number.h"
 #include "host/base/memory.h"
 #include "host/draw/html.h"
 #include "host/draw/plot.h"

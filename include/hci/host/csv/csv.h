@@ -75,20 +75,6 @@ hci_status hci_csv_text(const hci_csv *csv, const char *column, size_t row, cons
 hci_status hci_csv_error(const hci_csv *csv, const char *column, size_t row, hci_note *note,
                          const char *expected, const char *remedy);
 
-/* Factor from `unit` to `wanted_unit` ("deg" → "rad"); both spelt as suffixes or as in a row of units ("N·m",
- * "Nm", "rad/s", "rad_per_s"). False when unknown or of another dimension. */
-bool hci_unit_factor(const char *unit, const char *wanted_unit, double *factor);
-
-/* Whether two words are the same but for the case of ASCII letters. */
-bool hci_text_is(const char *text, const char *word);
-
-/* Shortest decimal text that reads back to the same double, with a point for the decimal mark in any locale;
- * buffer of 32 bytes. */
-void hci_number_text(double value, char text[32]);
-
-/* Text to double, without regard to the locale; the whole text must be a finite number. */
-bool hci_number_parse(const char *text, double *value);
-
 #ifdef __cplusplus
 }
 #endif

@@ -1,6 +1,6 @@
-/* The units that files may use, in every spelling. */
-#ifndef HCI_SRC_HOST_BASE_UNIT_H
-#define HCI_SRC_HOST_BASE_UNIT_H
+/* Looking up the unit that a cell or the name of a column spells. */
+#ifndef HCI_SRC_HOST_BASE_UNIT_LOOKUP_H
+#define HCI_SRC_HOST_BASE_UNIT_LOOKUP_H
 
 #include <stdbool.h>
 #include <stddef.h>

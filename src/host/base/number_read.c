@@ -1,13 +1,12 @@
-#include "host/base/number.h"
+#include "host/base/number_read.h"
 
 #include <float.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
-#include "hci/host/csv/csv.h"
+#include "hci/host/base/number.h"
 
 /* A decimal: (−1)^negative · significand · 10^exponent, exact while the significand is below
  * SIGNIFICAND_EXACT: further digits are not in it. */
@@ -188,67 +187,4 @@ bool hci_number_parse(const char *text, double *value)
 {
     char mark;
     return hci_number_read(text, false, value, &mark) == HCI_NUMBER_FINITE;
-}
-
-/* "1e+09" of printf, in any locale, as "1e9". */
-static void tidy(const char *printed, char *text)
-{
-    bool mark = false;
-    for (; *printed != '\0' && *printed != 'e'; printed++) {
-        if (is_digit(*printed) || *printed == '-') {
-            *text++ = *printed;
-        } else if (!mark) {
-            *text++ = '.';
-            mark = true;
-        }
-    }
-    if (*printed == 'e') {
-        *text++ = *printed++;
-        if (*printed == '-') *text++ = '-';
-        while (*printed == '-' || *printed == '+' || *printed == '0')
-            printed++;
-    }
-    memcpy(text, printed, strlen(printed) + 1);
-}
-
-static bool reads_back(const char *text, double value)
-{
-    double back = 0;
-    return hci_number_parse(text, &back) && !(back < value) && !(back > value);
-}
-
-/* Doubles are closer below a power of two than above it. So the nearest 16 digits may fall below too far, and
- * the next ones up be near enough. */
-static bool next_16_digits_read_back(double power_of_two, char *text)
-{
-    char printed[40];
-    snprintf(printed, sizeof printed, "%.15e", power_of_two);
-    char *last = printed + strcspn(printed, "e") - 1;
-    if (*last == '9') return false;
-    ++*last;
-    tidy(printed, text);
-    return reads_back(text, power_of_two);
-}
-
-static bool is_power_of_two(double value)
-{
-    int exponent;
-    const double fraction = fabs(frexp(value, &exponent));
-    return !(fraction > 0.5) && !(fraction < 0.5);
-}
-
-void hci_number_text(double value, char text[32])
-{
-    char printed[40];
-    if (!isfinite(value)) {
-        snprintf(text, 32, "%s", isnan(value) ? "nan" : value > 0 ? "inf" : "-inf");
-        return;
-    }
-    /* 15 digits survive the way through a normal double, so no shorter try can find a shorter text. */
-    for (int precision = fabs(value) < DBL_MIN ? 1 : 15; precision <= 17; precision++) {
-        snprintf(printed, sizeof printed, "%.*g", precision, value);
-        tidy(printed, text);
-        if (reads_back(text, value)) return;
-        if (precision == 16 && is_power_of_two(value) && next_16_digits_read_back(value, text)) return;
-    }
 }

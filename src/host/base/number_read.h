@@ -1,6 +1,6 @@
 /* Reading one decimal number, fast and without regard to the locale. */
-#ifndef HCI_SRC_HOST_BASE_NUMBER_H
-#define HCI_SRC_HOST_BASE_NUMBER_H
+#ifndef HCI_SRC_HOST_BASE_NUMBER_READ_H
+#define HCI_SRC_HOST_BASE_NUMBER_READ_H
 
 #include <stdbool.h>
 
