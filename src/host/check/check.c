@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "host/check/interpretation.h"
+#include "host/check/conclusions.h"
 
 const char *hci_check_verdict_name(hci_check_verdict verdict)
 {
@@ -21,6 +21,7 @@ hci_status hci_check_files(const char *machine, const char *const *run, size_t r
                            hci_note *note)
 {
     check_figures figures;
+    check_posterior posterior = {0};
     hci_status status;
     memset(check, 0, sizeof *check);
     memset(&figures, 0, sizeof figures);
@@ -33,7 +34,9 @@ hci_status hci_check_files(const char *machine, const char *const *run, size_t r
     check->runs = runs;
     status = hci_check_machine_read(machine, &figures, note);
     if (!status) status = hci_check_runs_read(run, runs, &figures, check->remark, note);
-    if (!status) status = hci_check_weigh(&figures, check, note);
+    if (!status) status = hci_check_posterior(&figures, &posterior, note);
+    if (!status) hci_check_conclude(&posterior, check);
+    hci_check_posterior_release(&posterior);
     hci_check_figures_release(&figures);
     if (status) return status;
     return check->verdict == HCI_CHECK_CONSISTENT ? HCI_OK : HCI_NOT_REACHED;

@@ -50,69 +50,14 @@ typedef struct {
     double rated_current_A;
 } check_model;
 
-/* One way to read one thing. */
-typedef struct {
-    const char *slip;
-    int aspect; /* of choices with the same aspect at most one is taken */
-    double prior;
-    size_t field; /* offset in check_view: field = field × times + plus */
-    double times, plus;
-    int where;
-    const char *words;
-    const char *should_be; /* with %s for the number that should stand there */
-    const char *told_by;   /* what would tell this slip from its like */
-} check_choice;
-
-extern const check_choice HCI_CHECK_CHOICES[];
-extern const size_t HCI_CHECK_CHOICE_COUNT;
-
-/* Whether the files have what a choice is about. */
-bool hci_check_choice_applies(const check_choice *choice, const check_figures *f);
-
-double hci_check_choice_prior(const check_choice *choice, const check_figures *f);
-
 check_view hci_check_view_declared(void);
-void hci_check_view_take(check_view *view, const check_choice *choice);
 check_model hci_check_model_of(const check_figures *f, const check_view *view);
 
-/* Where a choice points to, what stands there and what should. */
-void hci_check_choice_locate(const check_choice *choice, const check_figures *f, const check_view *view,
-                             hci_check_finding *finding);
+check_vector hci_check_emf_expected(double speed, const check_model *m);
 
-/* ---- relations */
+/* ---- cogging.csv */
 
-typedef enum {
-    CHECK_RATIO, /* found/expected, by its logarithm */
-    CHECK_LOW,   /* so, below 1 with half as much again: friction, and a cautious sheet */
-    CHECK_HIGH,  /* so, below 1 with half the tolerance: copper is warmer than on the sheet, seldom colder */
-    CHECK_ANGLE, /* radians, modulo a turn */
-    CHECK_SHARE, /* a difference */
-    CHECK_MOST   /* at most the expected, by the logarithm of what is above */
-} check_kind;
-
-/* NAN: the figures do not have it. spread: the tolerance is this many times the least one. */
-typedef struct {
-    double found, spread;
-} check_value;
-
-typedef struct {
-    const char *name, *words;
-    check_kind kind;
-    double expected, tolerance;
-    double cap; /* the most that one relation can say against a reading, in nats */
-    check_value (*of)(const check_figures *f, const check_view *view, const check_model *model);
-    const char *needs;
-    const char *instead; /* relation that says the same where it can be checked; "": none */
-} check_relation;
-
-extern const check_relation HCI_CHECK_RELATIONS[];
-extern const size_t HCI_CHECK_RELATION_COUNT;
-
-/* Deviation in standard deviations, and what it costs in nats. */
-double hci_check_deviation(const check_relation *relation, check_value value);
-double hci_check_loss(const check_relation *relation, check_value value);
-
-/* ---- all readings: fills verdict, findings, evidence and gaps. HCI_ERROR_MEMORY. */
-hci_status hci_check_weigh(const check_figures *f, hci_check *check, hci_note *note);
+double hci_check_cogging_order(const check_figures *f, const check_view *v, const check_model *m, size_t k);
+bool hci_check_is_significant(const check_table *t, size_t k);
 
 #endif

@@ -8,26 +8,25 @@
 
 /* ---- tables */
 
-check_value hci_check_of_emf_order(const check_figures *f, const check_view *v, const check_model *m)
+static check_value emf_order(const check_figures *f, const check_view *v, const check_model *m)
 {
     const double order = f->emf.order[f->emf.largest];
     return hci_check_found(v->emf_mechanical > 0.0 ? order / m->pole_pairs : order);
 }
 
-check_value hci_check_of_emf_phase(const check_figures *f, const check_view *v, const check_model *m)
+static check_value emf_phase(const check_figures *f, const check_view *v, const check_model *m)
 {
     (void)f, (void)v;
     return hci_check_found(m->emf_phase_rad);
 }
 
-check_value hci_check_of_emf_phase_range(const check_figures *f, const check_view *v, const check_model *m)
+static check_value emf_phase_range(const check_figures *f, const check_view *v, const check_model *m)
 {
     (void)m;
     return hci_check_found(f->emf.most_phase_rad * v->phase_unit * v->emf_phase_unit);
 }
 
-check_value hci_check_of_cogging_phase_range(const check_figures *f, const check_view *v,
-                                             const check_model *m)
+static check_value cogging_phase_range(const check_figures *f, const check_view *v, const check_model *m)
 {
     (void)m;
     return f->cogging.count > 0
@@ -36,7 +35,7 @@ check_value hci_check_of_cogging_phase_range(const check_figures *f, const check
 }
 
 /* lcm(slots, 2p)/p is a multiple of 6 for every balanced three-phase winding. */
-check_value hci_check_of_cogging_sixes(const check_figures *f, const check_view *v, const check_model *m)
+static check_value cogging_sixes(const check_figures *f, const check_view *v, const check_model *m)
 {
     double sixes = 0.0, all = 0.0;
     for (size_t k = 0; k < f->cogging.count; ++k) {
@@ -57,7 +56,7 @@ static double slots_per_pole(double order, int pole_pairs)
     return 100.0;
 }
 
-check_value hci_check_of_cogging_slots(const check_figures *f, const check_view *v, const check_model *m)
+static check_value cogging_slots(const check_figures *f, const check_view *v, const check_model *m)
 {
     double least = HUGE_VAL;
     if (f->value[CHECK_slots] >= 3.0) return HCI_CHECK_NONE;
@@ -68,7 +67,7 @@ check_value hci_check_of_cogging_slots(const check_figures *f, const check_view 
 }
 
 /* Uneven magnets and teeth add orders to it, but do not take it away. */
-check_value hci_check_of_cogging_first(const check_figures *f, const check_view *v, const check_model *m)
+static check_value cogging_first(const check_figures *f, const check_view *v, const check_model *m)
 {
     double nearest = NAN;
     if (!(f->value[CHECK_slots] >= 3.0)) return HCI_CHECK_NONE;
@@ -80,8 +79,7 @@ check_value hci_check_of_cogging_first(const check_figures *f, const check_view 
     return hci_check_found(nearest);
 }
 
-check_value hci_check_of_inductance_difference(const check_figures *f, const check_view *v,
-                                               const check_model *m)
+static check_value inductance_difference(const check_figures *f, const check_view *v, const check_model *m)
 {
     const double d = f->value[CHECK_inductance_d_H], q = f->value[CHECK_inductance_q_H];
     (void)v;
@@ -103,7 +101,7 @@ static double most_torque_Nm(const check_model *m, double mutual_Nm)
     return most;
 }
 
-check_value hci_check_of_rated_torque(const check_figures *f, const check_view *v, const check_model *m)
+static check_value rated_torque(const check_figures *f, const check_view *v, const check_model *m)
 {
     const double rated_Nm = f->value[CHECK_rated_torque_Nm], mutual_Nm = 1.5 * m->emf * m->rated_current_A;
     const double most_Nm = most_torque_Nm(m, mutual_Nm);
@@ -115,7 +113,7 @@ check_value hci_check_of_rated_torque(const check_figures *f, const check_view *
 }
 
 /* At rated speed the back-EMF alone, line to line, is below the dc link. */
-check_value hci_check_of_rated_voltage(const check_figures *f, const check_view *v, const check_model *m)
+static check_value rated_voltage(const check_figures *f, const check_view *v, const check_model *m)
 {
     const double speed = f->value[CHECK_rated_speed_rad_per_s];
     (void)v;
@@ -124,17 +122,47 @@ check_value hci_check_of_rated_voltage(const check_figures *f, const check_view 
 }
 
 /* From a watch motor to a wind generator: ψ = k_e/p within a factor of 300 around 30 mWb. */
-check_value hci_check_of_flux_size(const check_figures *f, const check_view *v, const check_model *m)
+static check_value flux_size(const check_figures *f, const check_view *v, const check_model *m)
 {
     (void)f, (void)v;
     return hci_check_found(exp(fabs(log(m->emf / m->pole_pairs / 0.03))));
 }
 
 /* The current that would cancel the magnets, ψ/L_d, over the rated one: within a factor of 30 around 5. */
-check_value hci_check_of_flux_per_current(const check_figures *f, const check_view *v, const check_model *m)
+static check_value flux_per_current(const check_figures *f, const check_view *v, const check_model *m)
 {
     const double l = m->inductance_d_H, i = m->rated_current_A;
     (void)f, (void)v;
     return l > 0.0 && i > 0.0 ? hci_check_found(exp(fabs(log(m->emf / m->pole_pairs / l / i / 5.0))))
                               : HCI_CHECK_NONE;
 }
+
+/* ---- the list */
+
+static const check_relation LIST[] = {
+    {"emf_order", "order of the largest back-EMF in the table", CHECK_RATIO, 1.0, 0.01, 12.0, emf_order, "",
+     ""},
+    {"emf_phase", "phase of the back-EMF's fundamental, rad", CHECK_ANGLE, 0.0, 0.1, 8.0, emf_phase, "", ""},
+    {"emf_phase_range", "largest phase in back_emf.csv, rad", CHECK_MOST, 2.0 * HCI_PI, 0.05, 9.0,
+     emf_phase_range, "", ""},
+    {"cogging_phase_range", "largest phase in cogging.csv, rad", CHECK_MOST, 2.0 * HCI_PI, 0.05, 9.0,
+     cogging_phase_range, "cogging.csv", ""},
+    {"cogging_sixes", "share of the cogging torque at multiples of order 6", CHECK_SHARE, 1.0, 0.4, 4.0,
+     cogging_sixes, "cogging.csv with amplitudes", ""},
+    {"cogging_first", "cogging order nearest to lcm(slots, 2p)/p, over it", CHECK_RATIO, 1.0, 0.2, 5.0,
+     cogging_first, "cogging.csv with amplitudes, and `slots` in machine.csv", ""},
+    {"cogging_slots", "slots per pole that the cogging orders ask for", CHECK_MOST, 12.0, 0.3, 5.0,
+     cogging_slots, "cogging.csv with amplitudes", "cogging_first"},
+    {"inductance_difference", "L_d - L_q of inductance.csv over that of machine.csv", CHECK_RATIO, 1.0, 0.2,
+     6.5, inductance_difference,
+     "inductance.csv, and inductance_d and inductance_q that differ in machine.csv", ""},
+    {"rated_torque", "rated torque over what the rated current makes", CHECK_LOW, 1.0, 0.08, 6.5,
+     rated_torque, "rated_torque and rated_current in machine.csv", ""},
+    {"rated_voltage", "line-to-line back-EMF at rated speed over the dc link", CHECK_MOST, 1.0, 0.15, 5.0,
+     rated_voltage, "rated_speed and dc_link_voltage in machine.csv", ""},
+    {"flux_size", "flux linkage k_e/p: times away from 30 mWb", CHECK_MOST, 300.0, 0.5, 4.0, flux_size, "",
+     ""},
+    {"flux_per_current", "flux linkage over inductance and rated current: times away from 5", CHECK_MOST,
+     30.0, 0.5, 4.0, flux_per_current, "inductance_d, inductance_q and rated_current in machine.csv", ""},
+};
+const check_relation_list HCI_CHECK_TABLE_RELATIONS = {LIST, sizeof LIST / sizeof *LIST};

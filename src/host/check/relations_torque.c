@@ -57,7 +57,7 @@ static double resistance_of(const check_figures *f, const check_view *v, const c
 }
 
 /* T ω_m + 3/2 R i² over v·i */
-check_value hci_check_of_power_balance(const check_figures *f, const check_view *v, const check_model *m)
+static check_value power_balance(const check_figures *f, const check_view *v, const check_model *m)
 {
     const double resistance_ohm = resistance_of(f, v, m);
     check_fit x = {0};
@@ -91,7 +91,7 @@ static void torque_add(check_fit *x, const check_figures *f, const check_run *r,
                           PERCENT(TORQUE_TOLERANCE_PERCENT));
 }
 
-check_value hci_check_of_torque_size(const check_figures *f, const check_view *v, const check_model *m)
+static check_value torque_size(const check_figures *f, const check_view *v, const check_model *m)
 {
     check_fit x = {0};
     for (size_t k = 0; k < f->runs; ++k)
@@ -128,7 +128,7 @@ static bool has_cogging(const check_figures *f)
 
 /* The share of the ripple that is at the orders of the table, whatever its amplitudes; of a noisy reading the
  * share of what the table declares. */
-check_value hci_check_of_cogging_share(const check_figures *f, const check_view *v, const check_model *m)
+static check_value cogging_share(const check_figures *f, const check_view *v, const check_model *m)
 {
     check_run *r = unloaded_torque(f);
     double sum = 0.0, declared = 0.0;
@@ -162,7 +162,7 @@ static bool cogging_pair(const check_figures *f, const check_view *v, const chec
     return true;
 }
 
-check_value hci_check_of_cogging_size(const check_figures *f, const check_view *v, const check_model *m)
+static check_value cogging_size(const check_figures *f, const check_view *v, const check_model *m)
 {
     check_vector found, declared;
     if (!cogging_pair(f, v, m, &found, &declared)) return HCI_CHECK_NONE;
@@ -170,7 +170,7 @@ check_value hci_check_of_cogging_size(const check_figures *f, const check_view *
 }
 
 /* 0.05 electrical radians of the encoder are as many times that as the order says. */
-check_value hci_check_of_cogging_angle(const check_figures *f, const check_view *v, const check_model *m)
+static check_value cogging_angle(const check_figures *f, const check_view *v, const check_model *m)
 {
     check_vector found, declared;
     if (!cogging_pair(f, v, m, &found, &declared)) return HCI_CHECK_NONE;
@@ -179,3 +179,21 @@ check_value hci_check_of_cogging_angle(const check_figures *f, const check_view 
                          hypot(1.0, 0.05 * hci_check_cogging_order(f, v, m, f->cogging.largest) /
                                         PERCENT(COGGING_ANGLE_TOLERANCE_PERCENT))};
 }
+
+/* ---- the list */
+
+static const check_relation LIST[] = {
+    {"power_balance", "torque x speed and copper loss over v.i", CHECK_RATIO, 1.0,
+     PERCENT(POWER_TOLERANCE_PERCENT), 9.0, power_balance,
+     "a recording of voltages, currents, torque and speed", ""},
+    {"torque_size", "torque over 3/2 k_e i_q and the reluctance torque", CHECK_RATIO, 1.0,
+     PERCENT(TORQUE_TOLERANCE_PERCENT), 9.0, torque_size, "a recording of currents, angle and torque", ""},
+    {"cogging_share", "share of the ripple without current at the orders of cogging.csv", CHECK_SHARE, 1.0,
+     0.3, 8.0, cogging_share, "cogging.csv, and a recording of torque and angle without current", ""},
+    {"cogging_size", "ripple without current over cogging.csv, at its largest order", CHECK_RATIO, 1.0, 0.3,
+     7.0, cogging_size, "cogging.csv, and a recording of torque and angle without current", ""},
+    {"cogging_angle", "phase of the ripple without current against cogging.csv, rad", CHECK_ANGLE, 0.0,
+     PERCENT(COGGING_ANGLE_TOLERANCE_PERCENT), 4.0, cogging_angle,
+     "cogging.csv, and a recording of torque and angle without current", ""},
+};
+const check_relation_list HCI_CHECK_TORQUE_RELATIONS = {LIST, sizeof LIST / sizeof *LIST};

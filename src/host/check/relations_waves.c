@@ -27,19 +27,19 @@ static check_value order_against_angle(const check_figures *f, const check_view 
     return hci_check_found(v->swapped > 0.0 ? -order : order);
 }
 
-check_value hci_check_of_current_order(const check_figures *f, const check_view *v, const check_model *m)
+static check_value current_order(const check_figures *f, const check_view *v, const check_model *m)
 {
     return order_against_angle(f, v, m, true);
 }
 
-check_value hci_check_of_voltage_order(const check_figures *f, const check_view *v, const check_model *m)
+static check_value voltage_order(const check_figures *f, const check_view *v, const check_model *m)
 {
     return order_against_angle(f, v, m, false);
 }
 
 /* ---- speed */
 
-check_value hci_check_of_angle_speed(const check_figures *f, const check_view *v, const check_model *m)
+static check_value angle_speed(const check_figures *f, const check_view *v, const check_model *m)
 {
     check_fit x = {0};
     for (size_t k = 0; k < f->runs; ++k) {
@@ -50,7 +50,7 @@ check_value hci_check_of_angle_speed(const check_figures *f, const check_view *v
     return hci_check_fit_value(&x);
 }
 
-check_value hci_check_of_angle_ratio(const check_figures *f, const check_view *v, const check_model *m)
+static check_value angle_ratio(const check_figures *f, const check_view *v, const check_model *m)
 {
     (void)v;
     for (size_t k = 0; k < f->runs; ++k)
@@ -58,7 +58,7 @@ check_value hci_check_of_angle_ratio(const check_figures *f, const check_view *v
     return HCI_CHECK_NONE;
 }
 
-check_value hci_check_of_frequency_speed(const check_figures *f, const check_view *v, const check_model *m)
+static check_value frequency_speed(const check_figures *f, const check_view *v, const check_model *m)
 {
     check_fit x = {0};
     for (size_t k = 0; k < f->runs; ++k) {
@@ -71,12 +71,6 @@ check_value hci_check_of_frequency_speed(const check_figures *f, const check_vie
 }
 
 /* ---- back-EMF */
-
-/* Ê = jω_m k_e e^{jγ} */
-check_vector hci_check_emf_expected(double speed, const check_model *m)
-{
-    return hci_check_turned((check_vector){0.0, speed * m->emf}, m->emf_phase_rad);
-}
 
 /* jω(L_d i_d + jL_q i_q); without inductances 0. */
 static check_vector reactive_drop(const check_loop *x, const check_model *m)
@@ -123,19 +117,19 @@ static check_value emf_fit(const check_figures *f, const check_view *v, const ch
     return x;
 }
 
-check_value hci_check_of_emf_size(const check_figures *f, const check_view *v, const check_model *m)
+static check_value emf_size(const check_figures *f, const check_view *v, const check_model *m)
 {
     return emf_fit(f, v, m, false);
 }
 
-check_value hci_check_of_emf_angle(const check_figures *f, const check_view *v, const check_model *m)
+static check_value emf_angle(const check_figures *f, const check_view *v, const check_model *m)
 {
     return emf_fit(f, v, m, true);
 }
 
 /* The part of v − Ê − jω(L_d i_d + jL_q i_q) along the current, over R i. Inductances that are not known have
  * a drop that is mostly across the current. */
-check_value hci_check_of_resistance_size(const check_figures *f, const check_view *v, const check_model *m)
+static check_value resistance_size(const check_figures *f, const check_view *v, const check_model *m)
 {
     check_fit x = {0};
     for (size_t k = 0; k < f->runs; ++k) {
@@ -159,7 +153,7 @@ check_value hci_check_of_resistance_size(const check_figures *f, const check_vie
 }
 
 /* Without an angle: |v|/ω_e = k_e/p. */
-check_value hci_check_of_emf_per_frequency(const check_figures *f, const check_view *v, const check_model *m)
+static check_value emf_per_frequency(const check_figures *f, const check_view *v, const check_model *m)
 {
     check_fit x = {0};
     for (size_t k = 0; k < f->runs; ++k) {
@@ -174,31 +168,34 @@ check_value hci_check_of_emf_per_frequency(const check_figures *f, const check_v
     return hci_check_fit_value(&x);
 }
 
-/* ---- phases */
+/* ---- the list */
 
-check_value hci_check_of_current_sum(const check_figures *f, const check_view *v, const check_model *m)
-{
-    double worst = NAN;
-    (void)v, (void)m;
-    for (size_t k = 0; k < f->runs && !f->has_neutral; ++k)
-        if (hci_check_has_vector_current(f, &f->run[k])) worst = fmax(worst, f->run[k].current_sum);
-    return hci_check_found(worst);
-}
-
-check_value hci_check_of_current_balance(const check_figures *f, const check_view *v, const check_model *m)
-{
-    double worst = NAN;
-    (void)v, (void)m;
-    for (size_t k = 0; k < f->runs; ++k)
-        if (hci_check_has_vector_current(f, &f->run[k])) worst = fmax(worst, f->run[k].current_balance);
-    return hci_check_found(worst);
-}
-
-check_value hci_check_of_voltage_balance(const check_figures *f, const check_view *v, const check_model *m)
-{
-    double worst = NAN;
-    (void)v, (void)m;
-    for (size_t k = 0; k < f->runs; ++k)
-        worst = fmax(worst, f->run[k].voltage_balance);
-    return hci_check_found(worst);
-}
+static const check_relation LIST[] = {
+    {"current_order", "order and sequence of the currents against the angle", CHECK_RATIO, 1.0, 0.01, 12.0,
+     current_order, "a recording of phase currents that turn with the angle", ""},
+    {"voltage_order", "order and sequence of the voltages against the angle", CHECK_RATIO, 1.0, 0.01, 12.0,
+     voltage_order, "a recording of phase voltages with the angle", ""},
+    {"angle_ratio", "theta_e over pole pairs x theta_m", CHECK_RATIO, 1.0, 0.02, 9.0, angle_ratio,
+     "a recording of both angles", ""},
+    {"angle_speed", "change of the angle over time against the speed", CHECK_RATIO, 1.0, 0.05, 9.0,
+     angle_speed, "a recording of time, angle and speed", ""},
+    {"frequency_speed", "frequency of the voltages over pole pairs x speed", CHECK_RATIO, 1.0, 0.03, 9.0,
+     frequency_speed, "a recording of time, voltages and speed (where there is no angle)", "angle_speed"},
+    {"emf_size", "back-EMF in the recordings over that of the table", CHECK_RATIO, 1.0,
+     PERCENT(EMF_TOLERANCE_PERCENT), 9.0, emf_size,
+     "a recording of voltages, angle and speed without current, or with it and resistance and "
+     "inductances",
+     ""},
+    {"emf_angle", "phase of the back-EMF in the recordings against the table, rad", CHECK_ANGLE, 0.0,
+     PERCENT(EMF_ANGLE_TOLERANCE_PERCENT), 9.0, emf_angle,
+     "a recording of voltages, angle and speed without current, or with it and resistance and "
+     "inductances",
+     ""},
+    {"resistance_size", "voltage along the current, less the back-EMF, over R i", CHECK_HIGH, 1.0,
+     PERCENT(RESISTANCE_TOLERANCE_PERCENT), 7.0, resistance_size,
+     "resistance, inductances, and a recording of voltages, currents and angle at low speed", ""},
+    {"emf_per_frequency", "voltage over its frequency against k_e/p", CHECK_RATIO, 1.0, 0.06, 9.0,
+     emf_per_frequency, "a recording of time and voltages without current (where there is no angle)",
+     "emf_size"},
+};
+const check_relation_list HCI_CHECK_WAVE_RELATIONS = {LIST, sizeof LIST / sizeof *LIST};

@@ -1,7 +1,7 @@
 /* A recording in a view: speed, currents and voltages as a reading has them. */
 #include <math.h>
 
-#include "host/check/relations.h"
+#include "host/check/interpreted_run.h"
 
 #define SQRT3 1.7320508075688772
 

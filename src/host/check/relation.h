@@ -1,0 +1,56 @@
+/* A relation: a number that must have a known value in every correct machine. */
+#ifndef HCI_SRC_HOST_CHECK_RELATION_H
+#define HCI_SRC_HOST_CHECK_RELATION_H
+
+#include "host/check/interpretation.h"
+
+typedef enum {
+    CHECK_RATIO, /* found/expected, by its logarithm */
+    CHECK_LOW,   /* so, below 1 with half as much again: friction, and a cautious sheet */
+    CHECK_HIGH,  /* so, below 1 with half the tolerance: copper is warmer than on the sheet, seldom colder */
+    CHECK_ANGLE, /* radians, modulo a turn */
+    CHECK_SHARE, /* a difference */
+    CHECK_MOST   /* at most the expected, by the logarithm of what is above */
+} check_kind;
+
+/* NAN: the figures do not have it. spread: the tolerance is this many times the least one. */
+typedef struct {
+    double found, spread;
+} check_value;
+
+typedef struct {
+    const char *name, *words;
+    check_kind kind;
+    double expected, tolerance;
+    double cap; /* the most that one relation can say against a reading, in nats */
+    check_value (*of)(const check_figures *f, const check_view *view, const check_model *model);
+    const char *needs;
+    const char *instead; /* relation that says the same where it can be checked; "": none */
+} check_relation;
+
+/* Relations of one kind, in the order in which they are reported. */
+typedef struct {
+    const check_relation *relation;
+    size_t count;
+} check_relation_list;
+
+/* Deviation in standard deviations, and what it costs in nats. */
+double hci_check_deviation(const check_relation *relation, check_value value);
+double hci_check_loss(const check_relation *relation, check_value value);
+
+extern const check_value HCI_CHECK_NONE;
+check_value hci_check_found(double found);
+check_value hci_check_ratio_of(double top, double bottom); /* HCI_CHECK_NONE unless bottom > 0 */
+double hci_check_or_zero(double x);                        /* 0 for NAN */
+
+/* Least squares of `top` over `bottom` through the origin, over the recordings. Starts from {0}. */
+typedef struct {
+    double cross, square, other, unknown;
+} check_fit;
+
+/* unknown: what may be missing in `bottom`, in the measure of its usual tolerance: such a recording counts
+ * less. */
+void hci_check_fit_add(check_fit *x, double top, double bottom, double unknown);
+check_value hci_check_fit_value(const check_fit *x);
+
+#endif

@@ -1,0 +1,43 @@
+/* What must hold among the three phases of a recording. */
+#include <math.h>
+
+#include "host/check/relations.h"
+
+static check_value current_sum(const check_figures *f, const check_view *v, const check_model *m)
+{
+    double worst = NAN;
+    (void)v, (void)m;
+    for (size_t k = 0; k < f->runs && !f->has_neutral; ++k)
+        if (hci_check_has_vector_current(f, &f->run[k])) worst = fmax(worst, f->run[k].current_sum);
+    return hci_check_found(worst);
+}
+
+static check_value current_balance(const check_figures *f, const check_view *v, const check_model *m)
+{
+    double worst = NAN;
+    (void)v, (void)m;
+    for (size_t k = 0; k < f->runs; ++k)
+        if (hci_check_has_vector_current(f, &f->run[k])) worst = fmax(worst, f->run[k].current_balance);
+    return hci_check_found(worst);
+}
+
+static check_value voltage_balance(const check_figures *f, const check_view *v, const check_model *m)
+{
+    double worst = NAN;
+    (void)v, (void)m;
+    for (size_t k = 0; k < f->runs; ++k)
+        worst = fmax(worst, f->run[k].voltage_balance);
+    return hci_check_found(worst);
+}
+
+/* ---- the list */
+
+static const check_relation LIST[] = {
+    {"current_sum", "ia + ib + ic over the currents (rms)", CHECK_SHARE, 0.0, 0.05, 3.0, current_sum,
+     "a recording of three phase currents", ""},
+    {"current_balance", "largest over smallest phase current", CHECK_MOST, 1.1, 0.1, 3.0, current_balance,
+     "a recording of three phase currents", ""},
+    {"voltage_balance", "largest over smallest phase voltage", CHECK_MOST, 1.1, 0.1, 3.0, voltage_balance,
+     "a recording of three phase voltages", ""},
+};
+const check_relation_list HCI_CHECK_PHASE_RELATIONS = {LIST, sizeof LIST / sizeof *LIST};

@@ -1,0 +1,80 @@
+/* Means in the frames that turn with the recorded angle. */
+#include <math.h>
+
+#include "host/check/run_samples.h"
+
+/* What does not turn so far cannot be told from what stands still. The range of the recorded angle counts:
+ * where it was wrapped, other scales than those with a whole number of turns in it are torn. */
+#define LEAST_TURN (1.5 * HCI_PI)
+
+static void frame_take(const check_samples *s, check_frame *f)
+{
+    const double share = 1.0 / (double)s->count;
+    for (size_t k = 0; k < s->count; ++k) {
+        const double angle = f->scale * s->theta[k];
+        for (int way = FORWARD; way <= BACKWARD; ++way) {
+            const check_vector back =
+                hci_check_turned((check_vector){share, 0.0}, way == FORWARD ? -angle : angle);
+            if (s->current)
+                f->current[way] = hci_check_sum(f->current[way], hci_check_product(s->current[k], back));
+            if (s->voltage)
+                f->voltage[way] = hci_check_sum(f->voltage[way], hci_check_product(s->voltage[k], back));
+        }
+    }
+}
+
+/* Scale and sequence at which a vector turns with the recorded angle; NAN where it is coherent with none of
+ * those at which it would have turned at all. */
+static double order_of(const check_run *run, size_t scales, bool of_current, double square)
+{
+    double best = COHERENT * square, order = NAN;
+    for (size_t k = 0; k < scales; ++k)
+        for (int way = FORWARD; way <= BACKWARD; ++way) {
+            const check_frame *f = &run->frame[k];
+            if (f->scale * run->angle_range < LEAST_TURN) continue;
+            const double length = hci_check_length(of_current ? f->current[way] : f->voltage[way]);
+            if (!(length * length > best)) continue;
+            best = length * length;
+            order = way == FORWARD ? f->scale : -f->scale;
+        }
+    return order;
+}
+
+void hci_check_run_frames(const check_figures *f, const check_samples *s, check_run *run)
+{
+    for (size_t k = 0; k < f->scales; ++k) {
+        run->frame[k].scale = f->scale[k];
+        frame_take(s, &run->frame[k]);
+    }
+    run->current_order = s->current ? order_of(run, f->scales, true, run->current_square) : (double)NAN;
+    run->voltage_order = s->voltage ? order_of(run, f->scales, false, run->voltage_square) : (double)NAN;
+}
+
+const check_frame *hci_check_frame_of(const check_run *run, double scale)
+{
+    for (size_t k = 0; run->theta && k < CHECK_SCALES; ++k)
+        if (fabs(run->frame[k].scale / fabs(scale) - 1.0) < 1e-9) return &run->frame[k];
+    return NULL;
+}
+
+static check_vector torque_order(const check_run *run, double order)
+{
+    check_vector sum = {0.0, 0.0};
+    const double share = 2.0 / (double)run->count;
+    for (size_t k = 0; k < run->count; ++k) {
+        const double x = share * (run->ripple[k] - run->ripple_mean);
+        sum.re += x * sin(order * run->theta[k]);
+        sum.im += x * cos(order * run->theta[k]);
+    }
+    return sum;
+}
+
+check_vector hci_check_torque_order(check_run *run, double order)
+{
+    const size_t kept = run->known_count < CHECK_KNOWN_ORDERS ? run->known_count : CHECK_KNOWN_ORDERS;
+    for (size_t k = 0; k < kept; ++k)
+        if (fabs(run->known[k].order - order) <= 1e-12 * fabs(order)) return run->known[k].wave;
+    check_known_order *next = &run->known[run->known_count++ % CHECK_KNOWN_ORDERS];
+    *next = (check_known_order){order, torque_order(run, order)};
+    return next->wave;
+}

@@ -1,0 +1,191 @@
+/* Means of a recording. */
+#include <math.h>
+
+#include "host/check/run_samples.h"
+
+static double mean_of(const double *x, size_t n)
+{
+    double sum = 0.0;
+    for (size_t k = 0; k < n; ++k)
+        sum += x[k];
+    return sum / (double)n;
+}
+
+static double square_about(const double *x, size_t n, double mean)
+{
+    double sum = 0.0;
+    for (size_t k = 0; k < n; ++k)
+        sum += (x[k] - mean) * (x[k] - mean);
+    return sum / (double)n;
+}
+
+static double range_of(const double *x, size_t n)
+{
+    double low = x[0], high = x[0];
+    for (size_t k = 1; k < n; ++k) {
+        low = fmin(low, x[k]);
+        high = fmax(high, x[k]);
+    }
+    return high - low;
+}
+
+/* How far an angle goes over time, in the units of the columns. Steps of more than half the range are where
+ * the angle was wrapped, whatever a turn is in its unit; they are left out. */
+static double slope_of(const double *angle, const double *time, size_t n)
+{
+    double path = 0.0, along = 0.0;
+    if (!angle || !time || n < 3) return NAN;
+    const double most = 0.5 * range_of(angle, n);
+    for (size_t k = 1; k < n; ++k) {
+        if (fabs(angle[k] - angle[k - 1]) > most) continue;
+        path += angle[k] - angle[k - 1];
+        along += time[k] - time[k - 1];
+    }
+    return along > 0.0 ? path / along : (double)NAN;
+}
+
+/* theta_e over theta_m, by the steps at which neither is wrapped. */
+static double ratio_of(const double *e, const double *m, size_t n)
+{
+    const double most_e = 0.5 * range_of(e, n), most_m = 0.5 * range_of(m, n);
+    double top = 0.0, bottom = 0.0;
+    for (size_t k = 1; k < n; ++k) {
+        const double x = m[k] - m[k - 1], y = e[k] - e[k - 1];
+        if (fabs(y) > most_e || fabs(x) > most_m) continue;
+        top += x * y;
+        bottom += x * x;
+    }
+    return bottom > 0.0 ? top / bottom : (double)NAN;
+}
+
+static double mean_square(const check_vector *x, size_t n)
+{
+    double sum = 0.0;
+    for (size_t k = 0; k < n; ++k)
+        sum += x[k].re * x[k].re + x[k].im * x[k].im;
+    return sum / (double)n;
+}
+
+/* How fast a vector turns, by its steps. */
+static double frequency_of(const check_vector *x, const double *time, size_t n)
+{
+    double sum = 0.0;
+    if (!x || !time || n < 3 || !(time[n - 1] > time[0])) return NAN;
+    for (size_t k = 1; k < n; ++k) {
+        const check_vector step = hci_check_product(x[k], hci_check_conjugate(x[k - 1]));
+        sum += atan2(step.im, step.re);
+    }
+    return sum / (time[n - 1] - time[0]);
+}
+
+/* Alternating rms of the largest over that of the smallest phase. */
+static double balance_of(double *const column[3], size_t n)
+{
+    double least = HUGE_VAL, most = 0.0;
+    for (int s = 0; s < 3; ++s) {
+        if (!column[s]) return NAN;
+        const double square = square_about(column[s], n, mean_of(column[s], n));
+        least = fmin(least, square);
+        most = fmax(most, square);
+    }
+    return least > 0.0 ? sqrt(most / least) : (double)NAN;
+}
+
+static double sum_of_phases(double *const column[3], size_t n)
+{
+    double sum = 0.0, square = 0.0;
+    if (!column[0] || !column[1] || !column[2]) return NAN;
+    for (size_t k = 0; k < n; ++k) {
+        const double a = column[0][k], b = column[1][k], c = column[2][k];
+        sum += (a + b + c) * (a + b + c);
+        square += a * a + b * b + c * c;
+    }
+    return square > 0.0 ? sqrt(sum / square) : (double)NAN;
+}
+
+/* 0 throughout: the shaft was held, and the torque is not a reading. */
+static void ripple_take(const check_samples *s, check_run *run)
+{
+    run->has_torque = square_about(s->torque, s->count, 0.0) > 0.0;
+    run->is_held = !run->has_torque && s->q != NULL;
+    for (size_t k = 0; run->is_held && k < s->count; ++k)
+        s->torque[k] = -s->q[k];
+    run->ripple_mean = mean_of(s->torque, s->count);
+    run->ripple_square = square_about(s->torque, s->count, run->ripple_mean);
+}
+
+static check_vector pair_at(const double *d, const double *q, size_t k)
+{
+    return (check_vector){d ? d[k] : 0.0, q ? q[k] : 0.0};
+}
+
+/* A voltage that does not follow the speed, as by a speed without sign, says nothing of it. */
+static void loop_take(const check_samples *s, check_run *run)
+{
+    double weights = 0.0, weight_square = 0.0, square = 0.0;
+    check_loop sum = {0};
+    for (size_t k = 0; k < s->count; ++k) {
+        const double speed = s->speed ? s->speed[k] : 1.0;
+        const check_vector v = pair_at(s->vd, s->vq, k), i = pair_at(s->d, s->q, k);
+        sum.voltage = hci_check_sum(sum.voltage, hci_check_scaled(v, speed));
+        sum.current = hci_check_sum(sum.current, hci_check_scaled(i, speed));
+        sum.turning = hci_check_sum(sum.turning, hci_check_scaled(i, speed * speed));
+        weights += fabs(speed);
+        weight_square += speed * speed;
+        square += v.re * v.re + v.im * v.im;
+        run->power = hci_check_sum(run->power, hci_check_product(v, hci_check_conjugate(i)));
+    }
+    const double length = hci_check_length(sum.voltage), share = weights > 0.0 ? 1.0 / weights : 0.0;
+    run->dq_voltage_is_coherent = length * length > COHERENT * weight_square * square;
+    run->voltage_square = square / (double)s->count;
+    run->power = hci_check_scaled(run->power, 1.0 / (double)s->count);
+    run->loop.voltage = hci_check_scaled(sum.voltage, share);
+    run->loop.current = hci_check_scaled(sum.current, share);
+    run->loop.turning = hci_check_scaled(sum.turning, share);
+    run->loop.speed = weight_square * share;
+}
+
+static double torque_at_speed(const check_samples *s, const check_run *run)
+{
+    double sum = 0.0;
+    if (!s->speed || !(fabs(run->speed) > 0.0)) return run->ripple_mean;
+    for (size_t k = 0; k < s->count; ++k)
+        sum += s->torque[k] * s->speed[k];
+    return sum / (double)s->count / run->speed;
+}
+
+static bool lacks_d_current(const check_samples *s, const check_run *run)
+{
+    return !s->d || square_about(s->d, s->count, 0.0) <= NO_CURRENT * NO_CURRENT * run->current_square;
+}
+
+void hci_check_run_means(const check_samples *s, check_run *run)
+{
+    const size_t n = s->count;
+    run->angle_range = s->theta ? range_of(s->theta, n) : 0.0;
+    run->slope = slope_of(s->theta, s->time, n);
+    run->angle_ratio = s->other ? ratio_of(s->theta, s->other, n) : (double)NAN;
+    run->speed = s->speed ? mean_of(s->speed, n) : (double)NAN;
+    run->has_speed = s->speed != NULL;
+    if (s->torque) ripple_take(s, run);
+    if (s->torque) run->torque_at_speed = torque_at_speed(s, run);
+    if (s->q) {
+        run->dq = (check_vector){s->d ? mean_of(s->d, n) : 0.0, mean_of(s->q, n)};
+        run->current_square = square_about(s->q, n, 0.0) + (s->d ? square_about(s->d, n, 0.0) : 0.0);
+    }
+    run->dq_is_steady =
+        hci_check_length(run->dq) * hci_check_length(run->dq) > COHERENT * run->current_square;
+    if (s->current) run->current_square = mean_square(s->current, n);
+    run->lacks_d_current = lacks_d_current(s, run);
+    if (s->voltage) run->voltage_square = mean_square(s->voltage, n);
+    if (s->vq) loop_take(s, run);
+    run->frequency = frequency_of(s->voltage, s->time, n);
+    run->current_sum = sum_of_phases(s->phase, n);
+    run->current_balance = balance_of(s->phase, n);
+    run->voltage_balance = balance_of(s->volt, n);
+    run->current_order = run->voltage_order = NAN;
+    for (size_t k = 0; s->current && s->voltage && k < n; ++k)
+        run->power = hci_check_sum(
+            run->power, hci_check_scaled(hci_check_product(s->voltage[k], hci_check_conjugate(s->current[k])),
+                                         1.0 / (double)n));
+}

@@ -1,0 +1,34 @@
+/* The samples of one recording. */
+#ifndef HCI_SRC_HOST_CHECK_RUN_SAMPLES_H
+#define HCI_SRC_HOST_CHECK_RUN_SAMPLES_H
+
+#include "host/check/figures.h"
+
+/* A wave is said to turn with the rotor when it has this share of the mean square. */
+#define COHERENT 0.6
+
+/* Less than this share of the rated or of the largest current is no current. */
+#define NO_CURRENT 0.03
+
+/* Samples of one file while its figures are taken; what it does not have is NULL. */
+typedef struct {
+    size_t count;
+    double *time, *theta, *other, *speed, *torque, *d, *q, *vd, *vq;
+    double *phase[3], *volt[3];
+    check_vector *current, *voltage;
+    bool *used;       /* of each column of the file */
+    hci_note *remark; /* how they were read */
+} check_samples;
+
+/* Reads what a check needs of a file whose samples are s->count, and says in s->remark how. What it leaves is
+ * to be released even after a failure. HCI_ERROR_INPUT, HCI_ERROR_MEMORY. */
+hci_status hci_check_samples_read(const hci_csv *csv, check_run *run, check_samples *s, hci_note *note);
+void hci_check_samples_release(check_samples *s);
+
+/* Means over the samples. */
+void hci_check_run_means(const check_samples *s, check_run *run);
+
+/* Means in the frames of f->scale. */
+void hci_check_run_frames(const check_figures *f, const check_samples *s, check_run *run);
+
+#endif
