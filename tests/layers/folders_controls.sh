@@ -54,15 +54,15 @@ compile() {
     echo 'int solve(void); int gone(void) { return solve(); }' | "$cc" -c -x c - -o "$work/objects/src/core/CMakeFiles/any.dir/math/gone.c.o"
 }
 
-# expect NAME REASON: folders.py must say exactly REASON and fail, or say nothing and succeed.
-expect() {
+# compiled NAME REASON: as expect, with the objects.
+compiled() {
     rm -rf "$work/objects"
     compile
-    judge "$1" "$2" "$work/objects/src" "$work/objects/cli"
+    expect "$1" "$2" "$work/objects/src" "$work/objects/cli"
 }
 
-# judge NAME REASON OBJECT_DIR...
-judge() {
+# expect NAME REASON [OBJECT_DIR...]: folders.py must say exactly REASON and fail, or say nothing and succeed.
+expect() {
     name=$1 reason=$2 code=0
     shift 2
     said=$(python3 "$here/folders.py" "$root" "$@") || code=$?
@@ -76,7 +76,7 @@ judge() {
 }
 
 tree
-expect "a tree in order" ""
+compiled "a tree in order" ""
 add src/core/math/lu.c '#include "hci/host/solve/solve.h"'
 expect "core/math includes a public header of host" "order-include: src/core/math/lu.c includes include/hci/host/solve/solve.h"
 tree
@@ -93,16 +93,16 @@ expect "host includes cli" "order-include: src/host/solve/solve.c includes cli/w
 tree
 add src/core/math/lu.c 'int torque(void); int other(void) { return torque(); }'
 sed -i 's/return lu()/return 0/' "$root/src/core/machine/torque.c"
-expect "core/math takes a symbol of core/machine" "order-symbol: core/math/lu takes torque from core/machine/torque"
+compiled "core/math takes a symbol of core/machine" "order-symbol: core/math/lu takes torque from core/machine/torque"
 tree
 add src/host/solve/newton.c 'int solve(void); int again(void) { return solve(); }'
-expect "two objects in a circle" \
+compiled "two objects in a circle" \
     "circle-symbol: host/solve/newton -> host/solve/solve (solve), host/solve/solve -> host/solve/newton (newton)"
 tree
 add src/host/solve/newton.h 'extern const int limit;'
 add src/host/solve/solve.c 'extern const int limit; const int limit = 1;'
 add src/host/solve/newton.c 'int most(void) { return limit; }'
-expect "a constant closes the circle" \
+compiled "a constant closes the circle" \
     "circle-symbol: host/solve/newton -> host/solve/solve (limit), host/solve/solve -> host/solve/newton (newton)"
 tree
 add src/host/solve/limits.h '#include "host/solve/newton.h"'
@@ -128,8 +128,8 @@ add include/hci/table.h '#include "hci/status.h"'
 expect "table.h includes status.h" "table-include: include/hci/table.h includes include/hci/status.h"
 tree
 mkdir "$work/none"
-judge "no objects" "empty: no objects in $work/none" "$work/none"
+expect "no objects" "empty: no objects in $work/none" "$work/none"
 rm -rf "$root/src" "$root/include" "$root/cli"
-judge "no sources" "empty: no sources in $root" "$work/none"
+expect "no sources" "empty: no sources in $root" "$work/none"
 
 exit $failed
