@@ -7,6 +7,9 @@
 #include "hci/machine/frames.h"
 #include "hci/math/dense.h"
 #include "host/base/memory.h"
+#include "host/diagnose/fit/linearise.h"
+#include "host/diagnose/fit/model.h"
+#include "host/numeric/normal_equations.h"
 
 enum { SAMPLES_PER_PERIOD = 96, MOST_SAMPLES = 1024, POINTS = 64 };
 

@@ -1,8 +1,12 @@
-/* The smallest further measurement that would tell two models apart. */
+/* The smallest further measurement that would tell two explanations apart.
+ *
+ * In: two models that describe the recordings equally well. Out: of steady runs within reach, the first for
+ * which the one model, fitted again, contradicts the prediction of the other by more than 20 in χ². */
 #ifndef HCI_SRC_HOST_DIAGNOSE_ADVISE_H
 #define HCI_SRC_HOST_DIAGNOSE_ADVISE_H
 
-#include "host/diagnose/fit/evidence.h"
+#include "host/diagnose/candidates/candidates.h"
+#include "host/diagnose/fit/regression.h"
 
 /* Two models of the same recordings, and what they are called. */
 typedef struct {

@@ -10,6 +10,7 @@
 #include "host/diagnose/candidates/empirical_term.h"
 #include "host/diagnose/findings.h"
 #include "host/diagnose/fit/dataset.h"
+#include "host/diagnose/fit/model.h"
 #include "host/diagnose/run_errors.h"
 #include "host/diagnose/search/attribute.h"
 #include "host/machine/torque_constant.h"
@@ -87,7 +88,7 @@ static hci_status advice_fill(const hci_regression *e, const hci_attribution *a,
             advice_of_same(v, d->advice + from, sizeof d->advice - from);
             continue;
         }
-        const hci_advice_request request = {&a->fitted.candidates, &v->alternative.candidates,
+        const hci_advice_request request = {&a->model.candidates, &v->alternative.candidates,
                                             v->rival_of->name, v->type->name};
         status = hci_advise(e, &request, d->advice + from, sizeof d->advice - from, note);
     }
@@ -101,10 +102,10 @@ static hci_status fill(hci_dataset *b, const hci_runs *runs, hci_attribution *a,
                        hci_note *note)
 {
     hci_unexplained_fill(b, a, d);
-    hci_candidates_remove_type(&a->fitted.candidates, &hci_empirical_type);
-    hci_status status = effects_fill(&b->regression, &a->fitted.candidates, d, note);
+    hci_candidates_remove_type(&a->model.candidates, &hci_empirical_type);
+    hci_status status = effects_fill(&b->regression, &a->model.candidates, d, note);
     if (!status) status = advice_fill(&b->regression, a, d, note);
-    if (!status) status = hci_run_errors_fill(b, runs, a->fitted.fit.parameters, d, note);
+    if (!status) status = hci_run_errors_fill(b, runs, a->model.fit.parameters, d, note);
     if (!status) hci_findings_fill(a, d);
     return status;
 }
@@ -145,13 +146,13 @@ static bool is_contradicted(const hci_dataset *b, const hci_runs *runs, const hc
 static hci_status withdraw(hci_dataset *b, const hci_runs *runs, hci_attribution *a, hci_diagnosis *d,
                            hci_note *note)
 {
-    const double strange_Nm2 = d->rms_before_Nm * d->rms_before_Nm - d->noise_Nm * d->noise_Nm;
+    const double unexplained_Nm2 = d->rms_before_Nm * d->rms_before_Nm - d->noise_Nm * d->noise_Nm;
     for (size_t r = 0; r < a->types; ++r) {
-        hci_candidates_remove_type(&a->fitted.candidates, a->verdict[r].type);
+        hci_candidates_remove_type(&a->model.candidates, a->verdict[r].type);
         a->verdict[r].in = a->verdict[r].ambiguous = false;
     }
     a->unknown = true;
-    a->unexplained_Nm = sqrt(fmax(0.0, strange_Nm2));
+    a->unexplained_Nm = sqrt(fmax(0.0, unexplained_Nm2));
     hci_diagnosis_release(d);
     d->contradicted = true;
     return fill(b, runs, a, d, note);

@@ -52,7 +52,7 @@ static hci_finding finding_of(const hci_attribution *a, const hci_verdict *v, do
     else if (v->in)
         f.verdict = HCI_FINDING_ADDED;
     if (v->in && whole_Nm2 > 0.0) f.residual_share = fmin(1.0, v->explained_Nm * v->explained_Nm / whole_Nm2);
-    if (v->in) describe(&a->fitted.candidates, v->type, f.detail, sizeof f.detail);
+    if (v->in) describe(&a->model.candidates, v->type, f.detail, sizeof f.detail);
     if (!v->in && v->ambiguous) {
         const int n = snprintf(f.detail, sizeof f.detail, "in place of %s: ", v->rival_of->name);
         describe(&v->alternative.candidates, v->type, f.detail + n, sizeof f.detail - (size_t)n);
@@ -91,7 +91,7 @@ static void unknown_put(const hci_attribution *a, double whole_Nm2, hci_diagnosi
     memmove(f + 1, f, at * sizeof *f);
     *f = (hci_finding){hci_empirical_type.name, HCI_FINDING_ADDED, NAN, NAN, ""};
     if (whole_Nm2 > 0.0) f->residual_share = a->unexplained_Nm * a->unexplained_Nm / whole_Nm2;
-    f->delta_bic = a->before.score - a->fitted.fit.score;
+    f->delta_bic = a->before.score - a->model.fit.score;
     snprintf(f->detail, sizeof f->detail, "rms %.3g N·m that grows as no known effect does",
              a->unexplained_Nm);
 }
@@ -135,8 +135,8 @@ void hci_unexplained_fill(const hci_dataset *b, const hci_attribution *a, hci_di
 {
     const hci_dataset_range most = hci_dataset_range_of(b);
     d->wanders = a->unknown && a->wanders;
-    for (size_t k = 0; k < a->fitted.candidates.count && a->unknown; ++k) {
-        const hci_candidate *s = &a->fitted.candidates.candidate[k];
+    for (size_t k = 0; k < a->model.candidates.count && a->unknown; ++k) {
+        const hci_candidate *s = &a->model.candidates.candidate[k];
         if (s->in && s->type == &hci_empirical_type && d->unexplained_count < HCI_MOST_UNEXPLAINED)
             d->unexplained[d->unexplained_count++] = unexplained_of(s, &most);
     }

@@ -1,4 +1,4 @@
-/* What an attribution says, as the findings of a diagnosis. */
+/* What the search has found, as findings of a diagnosis: parameters in words, most important first. */
 #ifndef HCI_SRC_HOST_DIAGNOSE_FINDINGS_H
 #define HCI_SRC_HOST_DIAGNOSE_FINDINGS_H
 

@@ -5,7 +5,8 @@
 
 #include "hci/math/harmonic.h"
 #include "host/base/memory.h"
-#include "host/diagnose/candidate_orders.h"
+#include "host/diagnose/fit/noise_estimate.h"
+#include "host/diagnose/residual_spectrum.h"
 #include "host/numeric/angle_bins.h"
 
 #define SIGMA_95    1.96 /* of a normal distribution, for 95 % */

@@ -1,4 +1,5 @@
-/* The error of each run before and after a correction, and its noise. */
+/* The error of each run before and after the correction, beside its noise, and the totals of fitted and
+ * held-out runs. */
 #ifndef HCI_SRC_HOST_DIAGNOSE_RUN_ERRORS_H
 #define HCI_SRC_HOST_DIAGNOSE_RUN_ERRORS_H
 

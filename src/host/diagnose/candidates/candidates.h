@@ -1,4 +1,8 @@
-/* What the model could lack: the terms of effects that these recordings could show. */
+/* Candidate terms: what the model could lack, and which of that is in the model.
+ *
+ * A candidate is one to four terms of one effect that come and go together, such as the sine and the cosine
+ * of a cogging order. A list of candidates is also how a model is written down: it has the terms that are
+ * `in`. */
 #ifndef HCI_SRC_HOST_DIAGNOSE_CANDIDATES_CANDIDATES_H
 #define HCI_SRC_HOST_DIAGNOSE_CANDIDATES_CANDIDATES_H
 
@@ -11,35 +15,18 @@ typedef struct {
     const hci_effect_type *type;
     hci_effect_term term[HCI_CANDIDATE_TERMS]; /* value: where to start from */
     size_t count;
-    double price;     /* of having chosen it among its like, in units of χ² */
-    double deviation; /* of values that are to be expected, in the terms' unit; 0: any */
+    double price;     /* of having chosen it among so many of its kind: 2 ln(kinds), in units of χ² */
+    double deviation; /* standard deviation of the values to be expected, in the terms' unit; 0: any */
     bool in;          /* in the model */
 } hci_candidate;
 
-/* Those of one effect stand together. Start with {0}. */
+/* Candidates of one effect stand together. Start with {0}. */
 typedef struct {
     hci_candidate *candidate;
     size_t count;
     double reference_current_A; /* of saturation */
 } hci_candidates;
 
-typedef struct {
-    const hci_machine *machine;
-    const hci_binned_samples *samples;
-    const hci_run *runs;
-    const bool *use;            /* of each run */
-    const double *residual_Nm;  /* of each sample */
-    const double *variance;     /* of each sample, N²·m² */
-    double reference_current_A; /* of saturation; NAN: the largest of the runs */
-    int richness; /* of saturation and reluctance: 0 low orders, 1 all orders, 2 to high powers of the
-                     currents */
-} hci_candidates_source;
-
-/* Terms that these recordings could show, at the orders that stand out of the residual. Those that are
- * already `in` an older list (known; or NULL) stay, with their values. On failure *candidates is empty.
- * HCI_ERROR_MEMORY. O(samples·orders). */
-hci_status hci_candidates_make(const hci_candidates_source *source, const hci_candidates *known,
-                               hci_candidates *candidates, hci_note *note);
 void hci_candidates_release(hci_candidates *candidates);
 
 /* The effect types of candidates: those of the registry, and behind them the one for what is not known; NULL
@@ -50,7 +37,7 @@ size_t hci_candidate_types(void); /* how many */
 /* HCI_ERROR_MEMORY, and then `to` is empty. */
 hci_status hci_candidates_copy(const hci_candidates *from, hci_candidates *to, hci_note *note);
 
-/* Adds a candidate behind its like. On failure nothing is changed. HCI_ERROR_MEMORY. */
+/* Adds a candidate behind those of its effect. On failure nothing is changed. HCI_ERROR_MEMORY. */
 hci_status hci_candidates_add(hci_candidates *candidates, const hci_candidate *candidate, hci_note *note);
 
 /* Whether two are the same terms. */

@@ -1,9 +1,9 @@
-/* A torque of one order that grows with current, speed and direction in a way that no known effect does: what
- * an explanation by known effects has to be better than.
+/* A torque of one order that grows with current, speed and direction in a way that no known effect does:
  *
  *     T = (S sin nθ + C cos nθ) |i|^a |ω|^b (sign ω)^c
  *
- * It competes like the other effects but never gets into a machine. */
+ * It is offered like the terms of effects, so that an explanation by known effects has to be better than this
+ * description. It never gets into a machine. */
 #ifndef HCI_SRC_HOST_DIAGNOSE_CANDIDATES_EMPIRICAL_TERM_H
 #define HCI_SRC_HOST_DIAGNOSE_CANDIDATES_EMPIRICAL_TERM_H
 

@@ -1,11 +1,12 @@
+#include "host/diagnose/candidates/make_candidates.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "host/base/memory.h"
-#include "host/diagnose/candidates/candidates.h"
+#include "host/diagnose/candidates/candidate_orders.h"
 #include "host/diagnose/candidates/empirical_term.h"
-#include "host/diagnose/candidates/residual_spectrum.h"
 
 enum {
     MOST_COGGING = 12,   /* orders of cogging that are looked into at a time */

@@ -1,9 +1,12 @@
-/* The recordings of a diagnosis, made ready: samples with their angles put right, and what they are worth. */
+/* The recordings of a diagnosis, made ready for fits.
+ *
+ * In: machine and runs. Out: binned samples with the angles of all runs aligned, which runs are fitted, and
+ * the regression that all later steps work on. */
 #ifndef HCI_SRC_HOST_DIAGNOSE_FIT_DATASET_H
 #define HCI_SRC_HOST_DIAGNOSE_FIT_DATASET_H
 
 #include "hci/host/machine/machine.h"
-#include "host/diagnose/fit/evidence.h"
+#include "host/diagnose/fit/regression.h"
 
 /* Start with {0}; it must not be moved. */
 typedef struct {

@@ -5,6 +5,7 @@
 
 #include "hci/math/dense.h"
 #include "host/base/memory.h"
+#include "host/diagnose/fit/linearise.h"
 
 #define CONVERGED   0.02  /* fall of χ² that a step promises, when it is the last */
 #define REGULAR     1e-10 /* added to a diagonal of 1, so that rounding makes no pivot negative */
@@ -59,10 +60,10 @@ static double score_of(const hci_candidates *candidates, const hci_normal *norma
 typedef struct {
     const hci_regression *regression;
     hci_candidates *candidates;
-    unknown *unknowns;                             /* [n] */
-    hci_normal normal;                             /* at the present values */
-    double *matrix;                                /* [n][n] */
-    double *scale, *unit, *step, *from, *variance; /* [n] */
+    unknown *unknowns;                  /* [n] */
+    hci_normal normal;                  /* at the present values */
+    double *matrix;                     /* [n][n] */
+    double *scale, *unit, *step, *from; /* [n] */
     double damping;
 } fitting;
 
@@ -177,13 +178,12 @@ static hci_status fitting_make(const hci_regression *e, hci_candidates *candidat
     f->regression = e;
     f->candidates = candidates;
     f->unknowns = hci_memory_new(n + 1, sizeof *f->unknowns);
-    f->matrix = hci_memory_new(n * n + 5 * n + 1, sizeof *f->matrix);
+    f->matrix = hci_memory_new(n * n + 4 * n + 1, sizeof *f->matrix);
     if (!f->unknowns || !f->matrix) return no_memory(note);
     f->scale = f->matrix + n * n;
     f->unit = f->scale + n;
     f->step = f->unit + n;
     f->from = f->step + n;
-    f->variance = f->from + n;
     unknowns_of(candidates, f->unknowns);
     return HCI_OK;
 }
@@ -206,55 +206,6 @@ hci_status hci_regression_fit(const hci_regression *regression, hci_candidates *
         errors_set(&f);
         *fit = (hci_fit){f.normal.square, f.normal.n, score_of(candidates, &f.normal), f.normal.rows};
     }
-    fitting_release(&f);
-    return status;
-}
-
-/* ---- standard errors ---- */
-
-enum { LEAST_BLOCKS = 5 }; /* for each parameter */
-
-/* uᵀ M u of the scatter M. */
-static double scatter_along(const double *square, const double *u, size_t n)
-{
-    double sum = 0.0;
-    for (size_t i = 0; i < n; ++i)
-        for (size_t j = 0; j < n; ++j)
-            sum += u[i] * square[i * n + j] * u[j];
-    return sum;
-}
-
-/* Diagonal of G⁻¹ M G⁻¹: what the scatter M does to the values. False where G is singular. */
-static bool sandwich(fitting *f, const double *square)
-{
-    const size_t n = f->normal.n;
-    for (size_t j = 0; j < n; ++j)
-        for (size_t i = 0; i < n; ++i)
-            f->matrix[i + j * n] = f->normal.gram[i + j * n] * (i == j ? 1.0 + REGULAR : 1.0);
-    if (hci_cholesky_factor(n, f->matrix)) return false;
-    for (size_t k = 0; k < n; ++k) {
-        memset(f->unit, 0, n * sizeof *f->unit);
-        f->unit[k] = 1.0;
-        hci_cholesky_solve(n, f->matrix, f->unit);
-        f->variance[k] = scatter_along(square, f->unit, n);
-    }
-    return true;
-}
-
-hci_status hci_regression_standard_errors(const hci_regression *regression, hci_candidates *candidates,
-                                          hci_note *note)
-{
-    fitting f;
-    hci_scatter scatter = {NULL, 0};
-    hci_status status = fitting_make(regression, candidates, &f, note);
-    if (!status) status = hci_regression_scatter(regression, candidates, &f.normal, &scatter, note);
-    const size_t n = f.normal.n;
-    if (!status && n > 0 && scatter.blocks > LEAST_BLOCKS * n && sandwich(&f, scatter.square))
-        for (size_t k = 0; k < n; ++k) {
-            hci_effect_term *term = f.unknowns[k].term;
-            term->std_error = fmax(term->std_error, sqrt(fmax(0.0, f.variance[k])));
-        }
-    hci_memory_free(scatter.square);
     fitting_release(&f);
     return status;
 }

@@ -1,8 +1,16 @@
-/* The values of candidates that describe recordings best, and how well that is. */
+/* The values of candidates that describe recordings best, and how well that is.
+ *
+ * In: the dataset and the candidates that are in, with values to start from. Out: their values where
+ *
+ *     χ² = Σ (measured − predicted)²/σ² + Σ (value/expected deviation)²
+ *
+ * is smallest, by Gauss–Newton steps damped after Levenberg and Marquardt, and standard errors from the
+ * diagonal of G⁻¹, G = XᵀX. */
 #ifndef HCI_SRC_HOST_DIAGNOSE_FIT_FIT_H
 #define HCI_SRC_HOST_DIAGNOSE_FIT_FIT_H
 
-#include "host/diagnose/fit/evidence.h"
+#include "host/diagnose/candidates/candidates.h"
+#include "host/diagnose/fit/regression.h"
 
 typedef struct {
     double square;     /* χ² at the solution */
@@ -16,12 +24,6 @@ typedef struct {
  * O(steps·samples·parameters²). */
 hci_status hci_regression_fit(const hci_regression *regression, hci_candidates *candidates, hci_fit *fit,
                               hci_note *note);
-
-/* Raises the standard errors of the candidates that are in where the residual is more correlated than the
- * model of the noise has it: from the scatter of sums over blocks of the recordings. Nothing happens with few
- * recordings. HCI_ERROR_MEMORY. */
-hci_status hci_regression_standard_errors(const hci_regression *regression, hci_candidates *candidates,
-                                          hci_note *note);
 
 /* The price of a candidate's coming in, in units of χ²: of its parameters and of the choice. */
 double hci_candidate_cost(const hci_candidate *candidate, double rows);

@@ -1,4 +1,7 @@
-/* The effects of a machine with those that are added on top. */
+/* A model written out: the declared effects of a machine with the candidates on top.
+ *
+ * In: declared effects and candidates. Out: one list of effects that predicts torques, and for each column of
+ * the normal equations the place of its term in that list. */
 #ifndef HCI_SRC_HOST_DIAGNOSE_FIT_MODEL_H
 #define HCI_SRC_HOST_DIAGNOSE_FIT_MODEL_H
 

@@ -49,12 +49,12 @@ bool hci_predicted_reading_is_dynamic(const hci_regression *e, const hci_segment
     return s->timed && s->smooth && e->runs[s->run].torque_source == HCI_TORQUE_MEASURED;
 }
 
-static size_t longest_in_laps(const hci_regression *e, bool dynamic)
+static size_t longest_run_through(const hci_regression *e, bool dynamic)
 {
     size_t most = 1;
     for (size_t k = 0; k < e->samples->segment_count; ++k) {
         const hci_segment *s = &e->samples->segment[k];
-        const size_t n = s->count * (dynamic && s->turns > 0 ? HCI_LAPS : 1);
+        const size_t n = s->count * (dynamic && s->turns > 0 ? HCI_SETTLING_TURNS : 1);
         most = n > most ? n : most;
     }
     return most;
@@ -63,7 +63,7 @@ static size_t longest_in_laps(const hci_regression *e, bool dynamic)
 bool hci_predicted_reading_make(const hci_regression *e, const hci_effects *effects, bool derivatives,
                                 hci_predicted_reading *o)
 {
-    const size_t most = longest_in_laps(e, has_dynamics(effects));
+    const size_t most = longest_run_through(e, has_dynamics(effects));
     memset(o, 0, sizeof *o);
     o->terms = hci_effects_terms(effects);
     o->torque_Nm = hci_memory_new(2 * most, sizeof *o->torque_Nm);
@@ -96,35 +96,35 @@ static void fill_static(const hci_regression *e, const hci_effects *effects, con
     }
 }
 
-/* Writes the first lap n samples long again behind it. */
-static void lap_repeat(hci_predicted_reading *o, size_t n, size_t lap, double period_s)
+/* Writes the first turn n samples long again behind it. */
+static void turn_repeat(hci_predicted_reading *o, size_t n, size_t turn, double period_s)
 {
-    memcpy(o->torque_Nm + lap * n, o->torque_Nm, n * sizeof *o->torque_Nm);
+    memcpy(o->torque_Nm + turn * n, o->torque_Nm, n * sizeof *o->torque_Nm);
     if (o->by_value)
-        memcpy(o->by_value + lap * n * o->terms, o->by_value, n * o->terms * sizeof *o->by_value);
+        memcpy(o->by_value + turn * n * o->terms, o->by_value, n * o->terms * sizeof *o->by_value);
     for (size_t k = 0; k < n; ++k)
-        o->time_s[lap * n + k] = o->time_s[k] + (double)lap * period_s;
+        o->time_s[turn * n + k] = o->time_s[k] + (double)turn * period_s;
 }
 
-/* Keeps the last lap, in which the sensor has settled. */
-static void lap_keep(hci_predicted_reading *o, size_t n, size_t lap)
+/* Keeps the last turn, in which the sensor has settled. */
+static void turn_keep(hci_predicted_reading *o, size_t n, size_t turn)
 {
-    memmove(o->torque_Nm, o->torque_Nm + lap * n, n * sizeof *o->torque_Nm);
+    memmove(o->torque_Nm, o->torque_Nm + turn * n, n * sizeof *o->torque_Nm);
     if (o->by_value)
-        memmove(o->by_value, o->by_value + lap * n * o->terms, n * o->terms * sizeof *o->by_value);
+        memmove(o->by_value, o->by_value + turn * n * o->terms, n * o->terms * sizeof *o->by_value);
 }
 
 void hci_predicted_reading_fill(const hci_regression *e, const hci_effects *effects, const hci_segment *s,
                                 hci_predicted_reading *o)
 {
     const bool sensor = hci_predicted_reading_is_dynamic(e, s), dynamic = sensor && has_dynamics(effects);
-    const size_t laps = dynamic && s->turns > 0 ? HCI_LAPS : 1, lag = dormant_lag(effects);
+    const size_t turns = dynamic && s->turns > 0 ? HCI_SETTLING_TURNS : 1, lag = dormant_lag(effects);
     fill_static(e, effects, s, o);
     if (o->by_value && sensor && lag < o->terms)
         lag_derivative(o->torque_Nm, o->time_s, s->count, o->by_value + lag, o->terms);
     if (!dynamic) return;
-    for (size_t lap = 1; lap < laps; ++lap)
-        lap_repeat(o, s->count, lap, s->period_s);
-    hci_effects_filter(effects, o->time_s, laps * s->count, o->torque_Nm, o->by_value);
-    if (laps > 1) lap_keep(o, s->count, laps - 1);
+    for (size_t turn = 1; turn < turns; ++turn)
+        turn_repeat(o, s->count, turn, s->period_s);
+    hci_effects_filter(effects, o->time_s, turns * s->count, o->torque_Nm, o->by_value);
+    if (turns > 1) turn_keep(o, s->count, turns - 1);
 }

@@ -1,13 +1,16 @@
-/* The torque that a model has the sensor read along a segment of a recording. */
+/* The torque that a model has the sensor read along a segment, and its derivatives by the model's values.
+ *
+ * The torque at each sample is that of the effects; a lag or resonance of the sensor then filters it along
+ * time. The mean of a steady turn is run through several times until the sensor has settled. */
 #ifndef HCI_SRC_HOST_DIAGNOSE_FIT_PREDICTED_READING_H
 #define HCI_SRC_HOST_DIAGNOSE_FIT_PREDICTED_READING_H
 
-#include "host/diagnose/fit/evidence.h"
+#include "host/diagnose/fit/regression.h"
 
 /* The mean of a steady turn is run through so many times, so that a slow sensor settles. */
-enum { HCI_LAPS = 4 };
+enum { HCI_SETTLING_TURNS = 4 };
 
-/* Room for the longest segment in laps. Start with {0}. */
+/* Long enough for the longest segment with its repetitions. Start with {0}. */
 typedef struct {
     double *torque_Nm;
     double *by_value; /* [samples][terms], derivatives by the values of all terms; NULL: not wanted */

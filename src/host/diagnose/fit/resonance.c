@@ -12,33 +12,33 @@ static const double DAMPING[] = {0.03, 0.1, 0.3};
 
 #define TOP 0.33 /* highest frequency, as a share of the sampling rate */
 
-/* Torque without and with the resonance, in laps of a steady turn. */
+/* Torque without and with the resonance, in turns of a steady turn. */
 typedef struct {
     const hci_regression *regression;
     const double *residual_Nm;
     double *torque_Nm, *time_s, *y;
-} listening;
+} scan;
 
 /* The torque in the air gap: what was measured, less what the model leaves. */
-static void laps_fill(const listening *l, const hci_segment *s, size_t laps)
+static void turns_fill(const scan *l, const hci_segment *s, size_t turns)
 {
     const hci_binned_sample *sample = l->regression->samples->sample + s->first;
-    for (size_t lap = 0; lap < laps; ++lap)
+    for (size_t turn = 0; turn < turns; ++turn)
         for (size_t k = 0; k < s->count; ++k) {
-            l->torque_Nm[lap * s->count + k] = sample[k].torque_Nm - l->residual_Nm[s->first + k];
-            l->time_s[lap * s->count + k] = sample[k].time_s + (double)lap * s->period_s;
+            l->torque_Nm[turn * s->count + k] = sample[k].torque_Nm - l->residual_Nm[s->first + k];
+            l->time_s[turn * s->count + k] = sample[k].time_s + (double)turn * s->period_s;
         }
 }
 
-static double segment_square(const listening *l, const hci_effects *sensor, const hci_segment *s)
+static double segment_square(const scan *l, const hci_effects *sensor, const hci_segment *s)
 {
     const hci_binned_sample *sample = l->regression->samples->sample + s->first;
-    const size_t n = s->count, laps = s->turns > 0 ? HCI_LAPS : 1;
+    const size_t n = s->count, turns = s->turns > 0 ? HCI_SETTLING_TURNS : 1;
     double sum = 0.0;
-    laps_fill(l, s, laps);
-    if (sensor) hci_effects_filter(sensor, l->time_s, laps * n, l->torque_Nm, NULL);
+    turns_fill(l, s, turns);
+    if (sensor) hci_effects_filter(sensor, l->time_s, turns * n, l->torque_Nm, NULL);
     for (size_t k = 0; k < n; ++k)
-        l->y[k] = sample[k].torque_Nm - l->torque_Nm[(laps - 1) * n + k];
+        l->y[k] = sample[k].torque_Nm - l->torque_Nm[(turns - 1) * n + k];
     hci_noise_whiten(hci_regression_noise(l->regression, s), l->y, n, 1);
     for (size_t k = 0; k < n; ++k)
         sum += l->y[k] * l->y[k];
@@ -46,7 +46,7 @@ static double segment_square(const listening *l, const hci_effects *sensor, cons
 }
 
 /* χ² of all that a sensor's dynamics could show in. sensor: NULL for one without. */
-static double sensor_square(const listening *l, const hci_effects *sensor)
+static double sensor_square(const scan *l, const hci_effects *sensor)
 {
     double sum = 0.0;
     for (const hci_segment *s = NULL; (s = hci_regression_next(l->regression, s)) != NULL;)
@@ -54,7 +54,7 @@ static double sensor_square(const listening *l, const hci_effects *sensor)
     return sum;
 }
 
-static double square_with(const listening *l, double frequency_Hz, double damping)
+static double square_with(const scan *l, double frequency_Hz, double damping)
 {
     const hci_effect_type *type = hci_effect_type_find("torque_sensor");
     const hci_effect_term term[] = {{1, 0.0, frequency_Hz, NAN}, {2, 0.0, damping, NAN}};
@@ -78,7 +78,7 @@ static void frequency_range(const hci_regression *e, double *low_Hz, double *hig
     }
 }
 
-static void grid_search(const listening *l, hci_resonance *best)
+static void grid_search(const scan *l, hci_resonance *best)
 {
     double low_Hz, high_Hz;
     frequency_range(l->regression, &low_Hz, &high_Hz);
@@ -96,10 +96,11 @@ hci_status hci_resonance_find(const hci_regression *regression, const double *re
                               hci_resonance *resonance, hci_note *note)
 {
     const size_t most = hci_segment_longest(regression->samples);
-    double *work = hci_memory_new((2 * HCI_LAPS + 1) * most, sizeof *work);
+    double *work = hci_memory_new((2 * HCI_SETTLING_TURNS + 1) * most, sizeof *work);
     *resonance = (hci_resonance){0.0, 0.0, 0.0};
     if (!work) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for resonances of the sensor");
-    const listening l = {regression, residual_Nm, work, work + HCI_LAPS * most, work + 2 * HCI_LAPS * most};
+    const scan l = {regression, residual_Nm, work, work + HCI_SETTLING_TURNS * most,
+                    work + 2 * HCI_SETTLING_TURNS * most};
     grid_search(&l, resonance);
     hci_memory_free(work);
     return HCI_OK;

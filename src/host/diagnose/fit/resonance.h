@@ -1,8 +1,11 @@
-/* A resonance of the torque sensor, looked for where a fit could not find it from nothing. */
+/* A resonance of the torque sensor, looked for on a grid of frequencies and dampings.
+ *
+ * In: a residual without one. Out: the grid point where χ² falls most. A Gauss–Newton fit that starts without
+ * a resonance cannot find it: its derivative by the frequency is 0 there. */
 #ifndef HCI_SRC_HOST_DIAGNOSE_FIT_RESONANCE_H
 #define HCI_SRC_HOST_DIAGNOSE_FIT_RESONANCE_H
 
-#include "host/diagnose/fit/evidence.h"
+#include "host/diagnose/fit/regression.h"
 
 typedef struct {
     double natural_frequency_Hz, damping;

@@ -8,16 +8,13 @@
 #include "host/diagnose/prepare/current_rate.h"
 #include "host/diagnose/prepare/run_statistics.h"
 #include "host/diagnose/prepare/smooth.h"
+#include "host/diagnose/prepare/turns.h"
 
 enum {
     BINS_PER_TURN = 4096, /* of a mean over turns */
     LEAST_TURNS = 3,      /* for such a mean */
     MOST_OPEN = 8         /* segments of samples as they are, for each run */
 };
-
-#define STEADY   0.02 /* change of current and speed within a mean, as a share of their largest */
-#define STEADY_K 1.0  /* and of temperature, in kelvin */
-#define NEARLY   0.02 /* of a turn: turning back by more ends a lap, falling short by less does not count */
 
 /* One run on its way into the samples. */
 typedef struct {
@@ -26,7 +23,7 @@ typedef struct {
     int pole_pairs;
     const hci_run_statistics *statistics;
     hci_binned_samples *samples;
-    size_t *room; /* for so many samples there is memory */
+    size_t *capacity; /* samples that there is memory for */
 } reduction;
 
 /* ---- samples ---- */
@@ -44,16 +41,16 @@ static void sample_of(const hci_run *r, size_t k, hci_binned_sample *c)
     c->count = 1.0;
 }
 
-/* Room for so many more samples: where they begin, NULL when memory is out. */
+/* Memory for so many more samples: where they begin, NULL when memory is out. */
 static hci_binned_sample *reserve(const reduction *x, size_t more)
 {
     hci_binned_samples *samples = x->samples;
-    if (samples->count + more > *x->room) {
+    if (samples->count + more > *x->capacity) {
         const size_t wanted = 2 * (samples->count + more);
         hci_binned_sample *grown = hci_memory_resize(samples->sample, wanted, sizeof *grown);
         if (!grown) return NULL;
         samples->sample = grown;
-        *x->room = wanted;
+        *x->capacity = wanted;
     }
     return samples->sample + samples->count;
 }
@@ -88,90 +85,6 @@ static bool segment_finish(const reduction *x, hci_segment *s)
     return segment_add(x->samples, s);
 }
 
-/* ---- laps ---- */
-
-/* Samples of one turn, and their means. */
-typedef struct {
-    size_t first, count;
-    double d, q, speed, temperature;
-    bool whole;
-} lap;
-
-/* After which everything repeats. */
-static double turn_of(const reduction *x)
-{
-    return 2.0 * HCI_PI * (x->run->turn_known ? 1.0 : 1.0 / x->pole_pairs);
-}
-
-static double direction_of(const hci_run *r, size_t from, size_t to)
-{
-    return r->theta_m_rad[to] >= r->theta_m_rad[from] ? 1.0 : -1.0;
-}
-
-static double lap_direction(const hci_run *r, const lap *x)
-{
-    return direction_of(r, x->first, x->first + x->count - 1);
-}
-
-static void lap_add(const reduction *x, size_t k, lap *sum)
-{
-    const hci_run *r = x->run;
-    const hci_dq i = hci_park(hci_clarke(r->i_A + 3 * k), x->pole_pairs * r->theta_m_rad[k]);
-    sum->d += i.d;
-    sum->q += i.q;
-    sum->speed += r->speed_rad_per_s ? r->speed_rad_per_s[k] : 0.0;
-    sum->temperature += r->temperature_C ? r->temperature_C[k] : 0.0;
-}
-
-/* The next lap from a sample on: until the angle has gone once round, or turns back. */
-static lap lap_from(const reduction *x, size_t first)
-{
-    const double *theta = x->run->theta_m_rad, turn = turn_of(x);
-    lap sum = {first, 0, 0.0, 0.0, 0.0, 0.0, false};
-    double farthest = 0.0;
-    size_t k = first;
-    for (; k < x->run->count; ++k) {
-        const double gone = fabs(theta[k] - theta[first]);
-        if (gone >= turn || gone < farthest - NEARLY * turn) break;
-        farthest = fmax(farthest, gone);
-        lap_add(x, k, &sum);
-    }
-    sum.count = k - first;
-    sum.whole = k < x->run->count && farthest >= (1.0 - NEARLY) * turn;
-    sum.d /= (double)sum.count;
-    sum.q /= (double)sum.count;
-    sum.speed /= (double)sum.count;
-    sum.temperature /= (double)sum.count;
-    return sum;
-}
-
-/* Whether two laps may go into one mean. */
-static bool alike(const reduction *x, const lap *a, const lap *b)
-{
-    const double most_A = x->statistics->current_A, most_speed = fabs(x->statistics->mean_speed_rad_per_s);
-    return a->whole && b->whole && lap_direction(x->run, a) == lap_direction(x->run, b) &&
-           hypot(a->d - b->d, a->q - b->q) <= STEADY * most_A + 1e-12 &&
-           fabs(a->speed - b->speed) <= STEADY * most_speed + 1e-12 &&
-           fabs(a->temperature - b->temperature) < STEADY_K;
-}
-
-static bool laps_find(const reduction *x, lap **laps, size_t *count)
-{
-    size_t room = 64;
-    *count = 0;
-    *laps = hci_memory_new(room, sizeof **laps);
-    for (size_t at = 0; *laps && at < x->run->count;) {
-        if (*count == room) {
-            lap *grown = hci_memory_resize(*laps, room *= 2, sizeof *grown);
-            if (!grown) return false;
-            *laps = grown;
-        }
-        (*laps)[*count] = lap_from(x, at);
-        at += (*laps)[(*count)++].count;
-    }
-    return *laps != NULL;
-}
-
 /* ---- means over turns ---- */
 
 static void mean_add(hci_binned_sample *c, const hci_binned_sample *x)
@@ -192,7 +105,7 @@ static void mean_add(hci_binned_sample *c, const hci_binned_sample *x)
 /* Means of samples first … last over the turns, by angle. sample: [BINS_PER_TURN]. */
 static void means_take(const reduction *x, size_t first, size_t last, hci_binned_sample *sample)
 {
-    const double turn = turn_of(x);
+    const double turn = hci_turn_rad(x->run, x->pole_pairs);
     memset(sample, 0, BINS_PER_TURN * sizeof *sample);
     for (size_t k = first; k <= last; ++k) {
         hci_binned_sample one;
@@ -226,20 +139,22 @@ static double period_of(const reduction *x, size_t first, size_t last)
 {
     const hci_run *r = x->run;
     const double span_rad = fabs(r->theta_m_rad[last] - r->theta_m_rad[first]);
-    return r->time_s ? (r->time_s[last] - r->time_s[first]) * turn_of(x) / span_rad : 0.0;
+    return r->time_s ? (r->time_s[last] - r->time_s[first]) * hci_turn_rad(x->run, x->pole_pairs) / span_rad
+                     : 0.0;
 }
 
-/* Adds the mean over some laps as one segment. */
-static bool mean_segment(const reduction *x, const lap *laps, size_t count)
+/* Adds the mean over some turns as one segment. */
+static bool mean_segment(const reduction *x, const hci_turn *turns, size_t count)
 {
     const hci_run *r = x->run;
-    const size_t first = laps[0].first, last = laps[count - 1].first + laps[count - 1].count - 1;
+    const size_t first = turns[0].first, last = turns[count - 1].first + turns[count - 1].count - 1;
     const double period_s = period_of(x, first, last);
     hci_segment s = {x->index, x->samples->count, 0, count, period_s, r->time_s != NULL, false};
     hci_binned_sample *sample = reserve(x, BINS_PER_TURN);
     if (!sample) return false;
     means_take(x, first, last, sample);
-    s.count = bins_close(sample, direction_of(r, first, last), turn_of(x), period_s);
+    s.count =
+        bins_close(sample, hci_turn_direction(r, first, last), hci_turn_rad(x->run, x->pole_pairs), period_s);
     x->samples->count += s.count;
     return segment_finish(x, &s);
 }
@@ -271,22 +186,22 @@ static bool open_segments(const reduction *x, size_t first, size_t count)
 
 /* ---- a run ---- */
 
-static size_t behind(const lap *x)
+static size_t behind(const hci_turn *x)
 {
     return x->first + x->count;
 }
 
-/* Steady laps become one mean, what is between them stays as it is; a short rest behind them is left. */
-static bool laps_reduce(const reduction *x, const lap *laps, size_t count)
+/* Steady turns become one mean, what is between them stays as it is; a short rest behind them is left. */
+static bool turns_reduce(const reduction *x, const hci_turn *turns, size_t count)
 {
     size_t open = 0; /* first sample that is not in a segment yet */
     for (size_t k = 0, next; k < count; k = next) {
-        for (next = k + 1; next < count && alike(x, &laps[k], &laps[next]);)
+        for (next = k + 1; next < count && hci_turns_alike(x->run, x->statistics, &turns[k], &turns[next]);)
             ++next;
         if (next - k < LEAST_TURNS) continue;
-        if (laps[k].first > open && !open_segments(x, open, laps[k].first - open)) return false;
-        if (!mean_segment(x, laps + k, next - k)) return false;
-        open = behind(&laps[next - 1]);
+        if (turns[k].first > open && !open_segments(x, open, turns[k].first - open)) return false;
+        if (!mean_segment(x, turns + k, next - k)) return false;
+        open = behind(&turns[next - 1]);
     }
     const size_t rest = x->run->count - open;
     return (open > 0 && rest <= HCI_LONGEST_SEGMENT) || open_segments(x, open, rest);
@@ -294,24 +209,24 @@ static bool laps_reduce(const reduction *x, const lap *laps, size_t count)
 
 static bool run_reduce(const reduction *x)
 {
-    lap *laps = NULL;
+    hci_turn *turns = NULL;
     size_t count = 0;
     if (x->run->count <= HCI_LONGEST_SEGMENT) return open_segment(x, 0, x->run->count);
-    const bool done = laps_find(x, &laps, &count) && laps_reduce(x, laps, count);
-    hci_memory_free(laps);
+    const bool done = hci_turns_find(x->run, x->pole_pairs, &turns, &count) && turns_reduce(x, turns, count);
+    hci_memory_free(turns);
     return done;
 }
 
 hci_status hci_binned_samples_make(const hci_machine *machine, const hci_run *runs, size_t run_count,
                                    hci_binned_samples *samples, hci_note *note)
 {
-    size_t room = 0;
+    size_t capacity = 0;
     memset(samples, 0, sizeof *samples);
     samples->run_count = run_count;
     samples->statistics = hci_memory_new(run_count + 1, sizeof *samples->statistics);
     bool done = samples->statistics != NULL;
     for (size_t k = 0; k < run_count && done; ++k) {
-        const reduction x = {&runs[k], k, machine->pole_pairs, &samples->statistics[k], samples, &room};
+        const reduction x = {&runs[k], k, machine->pole_pairs, &samples->statistics[k], samples, &capacity};
         samples->statistics[k] = hci_run_statistics_of(&runs[k], machine->pole_pairs);
         if (runs[k].torque_Nm && runs[k].theta_m_rad && runs[k].i_A && runs[k].count > 0)
             done = run_reduce(&x);

@@ -1,10 +1,17 @@
-/* Recordings made small: what is left of a long one is the mean over its turns, angle by angle. */
+/* Recordings made small enough for thousands of fits.
+ *
+ * In: runs as they were read, of any length. Out: samples in segments that follow each other in time. Where
+ * the current, the speed and the temperature are steady over three turns or more, a segment is the
+ * synchronous average: the mean of all samples in each of 4096 bins of the turn. Elsewhere the samples stay
+ * as they are, and of a long run evenly spread parts of them. Each sample carries its readings as they were
+ * and smoothed. */
 #ifndef HCI_SRC_HOST_DIAGNOSE_PREPARE_BINNED_SAMPLES_H
 #define HCI_SRC_HOST_DIAGNOSE_PREPARE_BINNED_SAMPLES_H
 
 #include "hci/effects/effect.h"
 #include "hci/host/base/note.h"
 #include "hci/host/recording/run.h"
+#include "host/diagnose/prepare/run_statistics.h"
 
 /* A sample, or the mean of those at about the same angle in several turns. */
 typedef struct {
@@ -28,17 +35,6 @@ typedef struct {
     bool timed;
     bool smooth; /* the currents are free of noise */
 } hci_segment;
-
-/* What a run says of itself before any model. */
-typedef struct {
-    double mean_torque_Nm, rms_torque_Nm;
-    double mean_speed_rad_per_s, current_A; /* root mean square of the current vector's length */
-    double mean_id_A, mean_iq_A;
-    double repeat_Nm; /* rms departure of a sample from the mean over the turns at its angle; NAN: one turn */
-    double angle_step_rad; /* smallest step of the mechanical angle: the encoder's resolution or finer */
-    double turns;          /* of the mechanical angle, from the least to the largest */
-    double temperature_C;  /* mean; NAN */
-} hci_run_statistics;
 
 /* Start with {0}. */
 typedef struct {

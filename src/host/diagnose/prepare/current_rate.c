@@ -32,8 +32,8 @@ static void slope_gather(slope_sums *s, const hci_binned_sample *sample, size_t 
                          int pole_pairs)
 {
     const double reach_rad = 2.0 * HCI_PI / pole_pairs / REACH, theta = sample[at].reading.theta_m_rad;
-    const size_t room = upwards ? n - 1 - at : at;
-    for (size_t step = 1; step <= room && step <= MOST_REACH; ++step) {
+    const size_t most = upwards ? n - 1 - at : at;
+    for (size_t step = 1; step <= most && step <= MOST_REACH; ++step) {
         const hci_binned_sample *c = upwards ? &sample[at + step] : &sample[at - step];
         if (fabs(c->reading.theta_m_rad - theta) > reach_rad && step > LEAST_REACH) return;
         slope_add(s, c->time_s - sample[at].time_s, &c->reading, pole_pairs);

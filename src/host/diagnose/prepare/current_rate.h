@@ -1,4 +1,5 @@
-/* How fast the currents of a recording change in the rotor frame, from neighbouring samples. */
+/* How fast the currents of a segment change in the rotor frame: the slope of a line through the neighbouring
+ * samples within 1/80 of an electrical period on each side. */
 #ifndef HCI_SRC_HOST_DIAGNOSE_PREPARE_CURRENT_RATE_H
 #define HCI_SRC_HOST_DIAGNOSE_PREPARE_CURRENT_RATE_H
 

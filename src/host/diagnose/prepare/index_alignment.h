@@ -1,5 +1,8 @@
-/* Recordings whose angles do not begin at the same place of the turn: an index that was found anew after a
- * reboot, or a magnet that misaligned. */
+/* Runs whose angle does not begin at the same place of the turn: an index that was found anew after a reboot,
+ * or a magnet of the encoder that has moved.
+ *
+ * In: the residual over the angle of each run. Out: the angle by which each run is ahead of the others, where
+ * the correlation of the turned residuals is largest, and the samples turned back by it. */
 #ifndef HCI_SRC_HOST_DIAGNOSE_PREPARE_INDEX_ALIGNMENT_H
 #define HCI_SRC_HOST_DIAGNOSE_PREPARE_INDEX_ALIGNMENT_H
 

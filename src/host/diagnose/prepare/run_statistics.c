@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "hci/machine/frames.h"
+#include "hci/math/harmonic.h"
 #include "host/numeric/angle_bins.h"
 
 #define ROUNDING_RAD 1e-7 /* a step of angle up to this is none */

@@ -1,8 +1,19 @@
-/* What a run says of itself before any model. */
+/* What a run says of itself before any model: means, rms, and how well the torque repeats from turn to turn.
+ */
 #ifndef HCI_SRC_HOST_DIAGNOSE_PREPARE_RUN_STATISTICS_H
 #define HCI_SRC_HOST_DIAGNOSE_PREPARE_RUN_STATISTICS_H
 
-#include "host/diagnose/prepare/binned_samples.h"
+#include "hci/host/recording/run.h"
+
+typedef struct {
+    double mean_torque_Nm, rms_torque_Nm;
+    double mean_speed_rad_per_s, current_A; /* root mean square of the current vector's length */
+    double mean_id_A, mean_iq_A;
+    double repeat_Nm; /* rms departure of a sample from the mean over the turns at its angle; NAN: one turn */
+    double angle_step_rad; /* smallest step of the mechanical angle: the encoder's resolution or finer */
+    double turns;          /* of the mechanical angle, from the least to the largest */
+    double temperature_C;  /* mean; NAN */
+} hci_run_statistics;
 
 /* Of a run without an angle all is 0, but for what is not known (NAN). O(samples). */
 hci_run_statistics hci_run_statistics_of(const hci_run *run, int pole_pairs);

@@ -148,10 +148,10 @@ static void slopes_at(const double *row, const double *coefficients, const size_
 typedef struct {
     double *rows, *coordinate[3], *slope[3], *curvature[3], *factor, *coefficients;
     hci_normal normal;
-} series_room;
+} series_workspace;
 
 /* Replaces one coordinate by its series. */
-static bool coordinate_smooth(series_room *r, size_t n, const size_t *periods, int axis)
+static bool coordinate_smooth(series_workspace *r, size_t n, const size_t *periods, int axis)
 {
     double *coordinate = r->coordinate[axis];
     const size_t columns = r->normal.n;
@@ -170,7 +170,7 @@ static bool coordinate_smooth(series_room *r, size_t n, const size_t *periods, i
 
 /* Rows of the basis and the coordinates of each sample. */
 static void coordinates_read(const hci_binned_sample *sample, size_t n, int pole_pairs, const size_t *periods,
-                             size_t count, series_room *r)
+                             size_t count, series_workspace *r)
 {
     for (size_t k = 0; k < n; ++k) {
         const hci_sample *x = &sample[k].reading;
@@ -188,7 +188,7 @@ static void phases_of(double *const axis[3], size_t k, double scale, double thet
     hci_clarke_inverse(hci_park_inverse(x, theta_rad), phases);
 }
 
-static void coordinates_write(const series_room *r, size_t n, int pole_pairs, hci_binned_sample *sample)
+static void coordinates_write(const series_workspace *r, size_t n, int pole_pairs, hci_binned_sample *sample)
 {
     for (size_t k = 0; k < n; ++k) {
         hci_sample *x = &sample[k].reading;
@@ -201,7 +201,7 @@ static void coordinates_write(const series_room *r, size_t n, int pole_pairs, hc
 
 /* Replaces the currents by their series; false, and nothing is changed, where one has no solution. */
 static bool currents_smooth(hci_binned_sample *sample, size_t n, int pole_pairs, const size_t *periods,
-                            size_t count, series_room *r)
+                            size_t count, series_workspace *r)
 {
     coordinates_read(sample, n, pole_pairs, periods, count, r);
     hci_normal_add(&r->normal, r->rows, r->coordinate[0], n);
@@ -212,7 +212,7 @@ static bool currents_smooth(hci_binned_sample *sample, size_t n, int pole_pairs,
     return true;
 }
 
-static bool room_make(series_room *r, size_t n, size_t columns)
+static bool workspace_make(series_workspace *r, size_t n, size_t columns)
 {
     memset(r, 0, sizeof *r);
     r->rows = hci_memory_new(n * (columns + 9) + columns * (columns + 1), sizeof *r->rows);
@@ -233,16 +233,16 @@ bool hci_segment_smooth(hci_binned_sample *sample, const hci_segment *segment, i
     const size_t n = segment->count;
     size_t periods[MOST_PERIODS];
     const size_t count = periods_list(pole_pairs, turns, n, periods);
-    series_room room;
+    series_workspace workspace;
     bool made;
     *series = false;
     if (segment->timed && segment->turns == 0 && n > 4 * REACH && is_turning(sample, n) &&
         !angle_smooth(sample, n))
         return false;
     if (count < MOST_ORDER || !is_steady(sample, n, pole_pairs)) return true;
-    made = room_make(&room, n, 2 * count + 1);
-    if (made) *series = currents_smooth(sample, n, pole_pairs, periods, count, &room);
-    hci_memory_free(room.rows);
-    hci_normal_release(&room.normal);
+    made = workspace_make(&workspace, n, 2 * count + 1);
+    if (made) *series = currents_smooth(sample, n, pole_pairs, periods, count, &workspace);
+    hci_memory_free(workspace.rows);
+    hci_normal_release(&workspace.normal);
     return made;
 }

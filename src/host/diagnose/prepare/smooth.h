@@ -1,5 +1,9 @@
-/* Readings without their noise: a shaft turns smoothly between the steps of its encoder, and the currents of
- * a steady run repeat with the angle. A regression on noisy readings would explain their noise. */
+/* Readings without their noise, for the regressors of a fit.
+ *
+ * In: a segment as it was read. Out, where it is steady: the angle as a parabola over the 21 samples around
+ * each (a shaft turns smoothly between the steps of its encoder), and i_d, i_q and i_0 as Fourier series over
+ * the mechanical angle, with their rates of change. A regression on noisy readings would explain their noise.
+ */
 #ifndef HCI_SRC_HOST_DIAGNOSE_PREPARE_SMOOTH_H
 #define HCI_SRC_HOST_DIAGNOSE_PREPARE_SMOOTH_H
 

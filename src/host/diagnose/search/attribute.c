@@ -5,8 +5,12 @@
 #include <string.h>
 
 #include "host/base/memory.h"
+#include "host/diagnose/fit/standard_errors.h"
+#include "host/diagnose/search/backward.h"
 #include "host/diagnose/search/candidate_models.h"
-#include "host/diagnose/search/search.h"
+#include "host/diagnose/search/forward.h"
+#include "host/diagnose/search/rivals.h"
+#include "host/diagnose/search/settle.h"
 
 enum { MOST_EFFECTS = 6, MOST_ROUNDS = 14 };
 
@@ -16,16 +20,16 @@ enum { MOST_EFFECTS = 6, MOST_ROUNDS = 14 };
 
 /* One more effect, then without those that it makes superfluous; where none comes in, another in place of one
  * that is. again: out, whether anything changed. */
-static hci_status round_run(hci_search *s, hci_fitted_model *fitted, bool *again, hci_note *note)
+static hci_status round_run(hci_search *s, hci_fitted_model *model, bool *again, hci_note *note)
 {
     hci_status status = HCI_OK;
     *again = false;
-    if (hci_candidates_types_in(&fitted->candidates) < MOST_EFFECTS)
-        status = hci_search_forward(s, fitted, again, note);
-    if (!status && *again) status = hci_search_prune(s, fitted, note);
+    if (hci_candidates_types_in(&model->candidates) < MOST_EFFECTS)
+        status = hci_search_forward(s, model, again, note);
+    if (!status && *again) status = hci_search_prune(s, model, note);
     for (bool dropped = true; dropped && !status;)
-        status = hci_search_drop(s, fitted, &dropped, note);
-    if (!status && !*again) status = hci_search_swap(s, fitted, again, note);
+        status = hci_search_drop(s, model, &dropped, note);
+    if (!status && !*again) status = hci_search_swap(s, model, again, note);
     return status;
 }
 
@@ -37,14 +41,14 @@ static double share_before(int round)
     return SEARCH_SHARE * pow(1.0 - pow(0.85, round), 1.5);
 }
 
-static hci_status search_run(hci_search *s, hci_fitted_model *fitted, hci_note *note)
+static hci_status search_run(hci_search *s, hci_fitted_model *model, hci_note *note)
 {
     hci_search_begin(s, "looking for effects", 0.0, 0.0);
-    hci_status status = hci_search_renew(s, fitted, note);
+    hci_status status = hci_search_renew(s, model, note);
     bool again = true;
     for (int round = 0; again && !status && round < MOST_ROUNDS; ++round) {
         hci_search_begin(s, "looking for effects", share_before(round), share_before(round + 1));
-        status = round_run(s, fitted, &again, note);
+        status = round_run(s, model, &again, note);
     }
     return status;
 }
@@ -56,20 +60,20 @@ static hci_status verdict_of(hci_search *s, hci_attribution *a, hci_verdict *v, 
 {
     hci_fitted_model without = {0};
     v->in = true;
-    hci_status status = hci_search_without(s, &a->fitted, v->type, &without, note);
+    hci_status status = hci_search_without(s, &a->model, v->type, &without, note);
     if (status) return status;
-    v->gain = without.fit.score - a->fitted.fit.score;
-    status = hci_search_explained(s, &a->fitted.candidates, &without.candidates, &v->explained_Nm, note);
+    v->gain = without.fit.score - a->model.fit.score;
+    status = hci_search_explained(s, &a->model.candidates, &without.candidates, &v->explained_Nm, note);
     hci_fitted_model_release(&without);
     if (status || a->unknown) return status; /* nothing that is known stands firm beside what is not */
     return hci_search_rivals(s, v->type, a, note);
 }
 
-/* What those that are not in would be worth. */
+/* By how much those that are not in would lower the score. */
 static hci_status verdicts_of_others(hci_search *s, hci_attribution *a, hci_note *note)
 {
     hci_candidate_models t;
-    const hci_status status = hci_candidate_models_make(s, &a->fitted.candidates, false, &t, note);
+    const hci_status status = hci_candidate_models_make(s, &a->model.candidates, false, &t, note);
     for (size_t k = 0; k < t.count && !status; ++k) {
         hci_verdict *v = &a->verdict[t.model[k].a];
         if (!v->in && !v->ambiguous) v->gain = t.model[k].gain;
@@ -103,7 +107,7 @@ static hci_status verdicts_of_same(hci_search *s, hci_attribution *a, hci_note *
 {
     const hci_effect_type *same_as[HCI_MOST_TYPES];
     if (a->unknown) return HCI_OK;
-    const hci_status status = hci_candidate_models_same(s, &a->fitted.candidates, same_as, note);
+    const hci_status status = hci_candidate_models_same(s, &a->model.candidates, same_as, note);
     for (size_t r = 0; r < a->types && !status; ++r)
         if (same_as[r]) same_mark(a, r, same_as[r]);
     return status;
@@ -113,7 +117,7 @@ static hci_status verdicts(hci_search *s, hci_attribution *a, hci_note *note)
 {
     hci_status status = HCI_OK;
     for (size_t r = 0; r < a->types && !status; ++r)
-        if (hci_candidates_have(&a->fitted.candidates, a->verdict[r].type))
+        if (hci_candidates_have(&a->model.candidates, a->verdict[r].type))
             status = verdict_of(s, a, &a->verdict[r], note);
     if (!status) status = verdicts_of_others(s, a, note);
     return status ? status : verdicts_of_same(s, a, note);
@@ -124,12 +128,12 @@ static hci_status verdicts(hci_search *s, hci_attribution *a, hci_note *note)
 static hci_status attribute(hci_search *s, hci_attribution *a, hci_note *note)
 {
     hci_candidates none = {0};
-    hci_status status = search_run(s, &a->fitted, note);
+    hci_status status = search_run(s, &a->model, note);
     if (status) return status;
     hci_search_begin(s, "weighing the evidence", SEARCH_SHARE, 1.0);
     status = hci_search_settle(s, a, note);
     if (!status) status = verdicts(s, a, note);
-    if (!status) status = hci_regression_standard_errors(s->regression, &a->fitted.candidates, note);
+    if (!status) status = hci_regression_standard_errors(s->regression, &a->model.candidates, note);
     if (!status) status = hci_regression_fit(s->regression, &none, &a->before, note);
     return status;
 }
@@ -158,6 +162,6 @@ void hci_attribution_release(hci_attribution *a)
 {
     for (size_t r = 0; r < a->types; ++r)
         hci_fitted_model_release(&a->verdict[r].alternative);
-    hci_fitted_model_release(&a->fitted);
+    hci_fitted_model_release(&a->model);
     memset(a, 0, sizeof *a);
 }

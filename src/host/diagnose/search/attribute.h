@@ -1,16 +1,17 @@
-/* Which effects the recordings show: one at a time while the regression is decisive. */
+/* Which effects the recordings show.
+ *
+ * In: the dataset. Out: the model with the effects that were found, a verdict on each effect, and what no
+ * effect explains. Effects come in one or two at a time while the score
+ *
+ *     χ² + parameters · ln(samples) + prices of the choice
+ *
+ * falls by more than 10 (forward), leave when it rises by less (backward), and are replaced where another
+ * fits better. Then what is left is judged (settle), and what could stand in place of what (rivals). */
 #ifndef HCI_SRC_HOST_DIAGNOSE_SEARCH_ATTRIBUTE_H
 #define HCI_SRC_HOST_DIAGNOSE_SEARCH_ATTRIBUTE_H
 
 #include "hci/host/solve/solve.h"
-#include "host/diagnose/fit/evidence.h"
-#include "host/diagnose/fit/fit.h"
-
-/* An fitted of the recordings: effects with values, and how well they describe them. Start with {0}. */
-typedef struct {
-    hci_candidates candidates; /* those that are in have values and standard errors */
-    hci_fit fit;
-} hci_fitted_model;
+#include "host/diagnose/search/fitted_model.h"
 
 /* What came of one effect. */
 typedef struct {
@@ -20,18 +21,18 @@ typedef struct {
     const hci_effect_type *rival_of; /* the one that it could stand for */
     double gain;                     /* fall of the score by having it: positive speaks for it */
     double explained_Nm;             /* rms of what the model loses without it */
-    hci_fitted_model alternative;    /* of a rival: the fitted with it instead */
+    hci_fitted_model alternative;    /* of a rival: the model with it instead */
 } hci_verdict;
 
 enum { HCI_MOST_TYPES = 16 };
 
 /* Start with {0}. */
 typedef struct {
-    hci_fitted_model fitted; /* with the noise that was found in the end */
-    hci_fit before;          /* without any effect, with the same noise */
-    bool unknown;            /* something is left that no effect explains, and it is not small */
-    bool wanders;            /* what is left does not repeat with the turn */
-    double unexplained_Nm;   /* rms of what no effect explains */
+    hci_fitted_model model; /* with the noise that was found in the end */
+    hci_fit before;         /* without any effect, with the same noise */
+    bool unknown;           /* something is left that no effect explains, and it is not small */
+    bool wanders;           /* what is left does not repeat with the turn */
+    double unexplained_Nm;  /* rms of what no effect explains */
     hci_verdict verdict[HCI_MOST_TYPES];
     size_t types;
     bool plausible[HCI_MOST_TYPES]

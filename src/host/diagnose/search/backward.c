@@ -1,9 +1,10 @@
-#include "host/diagnose/search/search.h"
+#include "host/diagnose/search/backward.h"
+#include "host/diagnose/fit/linearise.h"
 
 /* ---- single orders ---- */
 
-/* What a candidate whose columns begin at c is worth over its cost. At the solution steps are near 0, so that
- * what leaving costs is that of its value. */
+/* By how much the score would rise without a candidate whose columns begin at c. At the solution steps are
+ * near 0, so that what leaving costs is that of its value. */
 static double stay_gain(const hci_sweep *sweep, const hci_candidate *x, size_t c, double rows)
 {
     double saved[HCI_CANDIDATE_TERMS];
@@ -17,8 +18,8 @@ static double stay_gain(const hci_sweep *sweep, const hci_candidate *x, size_t c
     return gain;
 }
 
-/* The one that is worth least, where that is less than its cost; else the number of candidates. */
-static size_t worthless(const hci_candidates *model, const hci_sweep *sweep, double rows)
+/* The one whose leaving would lower the score most; the number of candidates where none would. */
+static size_t superfluous(const hci_candidates *model, const hci_sweep *sweep, double rows)
 {
     size_t worst = model->count;
     double least = 0.0;
@@ -35,7 +36,7 @@ static size_t worthless(const hci_candidates *model, const hci_sweep *sweep, dou
     return worst;
 }
 
-static hci_status worthless_find(hci_search *s, const hci_candidates *model, size_t *worst, hci_note *note)
+static hci_status superfluous_find(hci_search *s, const hci_candidates *model, size_t *worst, hci_note *note)
 {
     hci_normal normal;
     hci_sweep sweep = {0};
@@ -45,63 +46,63 @@ static hci_status worthless_find(hci_search *s, const hci_candidates *model, siz
         status = hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the search of effects");
     for (size_t c = 0; c < normal.n && !status; ++c)
         hci_sweep_in(&sweep, c);
-    if (!status) *worst = worthless(model, &sweep, normal.rows);
+    if (!status) *worst = superfluous(model, &sweep, normal.rows);
     hci_sweep_release(&sweep);
     hci_normal_release(&normal);
     return status;
 }
 
 /* Leaves one candidate out where a fit is as good without. */
-static hci_status leave_one(hci_search *s, hci_fitted_model *fitted, size_t k, bool *left, hci_note *note)
+static hci_status leave_one(hci_search *s, hci_fitted_model *model, size_t k, bool *left, hci_note *note)
 {
     hci_fitted_model without = {0};
-    hci_status status = hci_fitted_model_copy(fitted, &without, note);
+    hci_status status = hci_fitted_model_copy(model, &without, note);
     if (status) return status;
     without.candidates.candidate[k].in = false;
     status = hci_regression_fit(s->regression, &without.candidates, &without.fit, note);
-    *left = !status && without.fit.score <= fitted->fit.score + HCI_AS_GOOD;
-    if (*left) hci_fitted_model_replace(fitted, &without);
+    *left = !status && without.fit.score <= model->fit.score + HCI_AS_GOOD;
+    if (*left) hci_fitted_model_replace(model, &without);
     hci_fitted_model_release(&without);
     return status;
 }
 
-hci_status hci_search_prune(hci_search *s, hci_fitted_model *fitted, hci_note *note)
+hci_status hci_search_prune(hci_search *s, hci_fitted_model *model, hci_note *note)
 {
     hci_status status = HCI_OK;
     for (bool again = true; again && !status;) {
-        size_t worst = fitted->candidates.count;
+        size_t worst = model->candidates.count;
         again = false;
-        status = worthless_find(s, &fitted->candidates, &worst, note);
-        if (!status && worst < fitted->candidates.count) status = leave_one(s, fitted, worst, &again, note);
+        status = superfluous_find(s, &model->candidates, &worst, note);
+        if (!status && worst < model->candidates.count) status = leave_one(s, model, worst, &again, note);
     }
     return status;
 }
 
 /* ---- effects ---- */
 
-static hci_status drop_type(hci_search *s, hci_fitted_model *fitted, const hci_effect_type *type,
+static hci_status drop_type(hci_search *s, hci_fitted_model *model, const hci_effect_type *type,
                             bool *dropped, hci_note *note)
 {
     hci_fitted_model without = {0};
     bool noticeable = true;
-    hci_status status = hci_search_without(s, fitted, type, &without, note);
+    hci_status status = hci_search_without(s, model, type, &without, note);
     if (!status)
-        status = hci_search_noticeable(s, &fitted->candidates, &without.candidates, &noticeable, note);
-    *dropped = !status && (without.fit.score < fitted->fit.score + HCI_DECISIVE || !noticeable);
+        status = hci_search_noticeable(s, &model->candidates, &without.candidates, &noticeable, note);
+    *dropped = !status && (without.fit.score < model->fit.score + HCI_DECISIVE || !noticeable);
     if (*dropped) {
-        hci_fitted_model_replace(fitted, &without);
-        status = hci_search_renew(s, fitted, note);
+        hci_fitted_model_replace(model, &without);
+        status = hci_search_renew(s, model, note);
     }
     hci_fitted_model_release(&without);
     return status;
 }
 
-hci_status hci_search_drop(hci_search *s, hci_fitted_model *fitted, bool *dropped, hci_note *note)
+hci_status hci_search_drop(hci_search *s, hci_fitted_model *model, bool *dropped, hci_note *note)
 {
     hci_status status = HCI_OK;
     *dropped = false;
     for (size_t r = 0; r < hci_candidate_types() && !status && !*dropped; ++r)
-        if (hci_candidates_have(&fitted->candidates, hci_candidate_type(r)))
-            status = drop_type(s, fitted, hci_candidate_type(r), dropped, note);
+        if (hci_candidates_have(&model->candidates, hci_candidate_type(r)))
+            status = drop_type(s, model, hci_candidate_type(r), dropped, note);
     return status;
 }

@@ -3,6 +3,8 @@
 #include <string.h>
 
 #include "host/base/memory.h"
+#include "host/diagnose/candidates/make_candidates.h"
+#include "host/diagnose/fit/linearise.h"
 #include "host/diagnose/search/group_selection.h"
 
 #define SAME       1e-4  /* share of a column that the model leaves of terms that look the same … */

@@ -1,4 +1,4 @@
-/* What one more effect, or two, would be worth on top of a model, as far as the linearised problem tells. */
+/* All models with one more effect, or two, and by how much each would lower the score if it were linear. */
 #ifndef HCI_SRC_HOST_DIAGNOSE_SEARCH_CANDIDATE_MODELS_H
 #define HCI_SRC_HOST_DIAGNOSE_SEARCH_CANDIDATE_MODELS_H
 
@@ -25,8 +25,8 @@ hci_status hci_candidate_models_make(hci_search *search, const hci_candidates *m
                                      hci_candidate_models *models, hci_note *note);
 void hci_candidate_models_release(hci_candidate_models *models);
 
-/* Rooms that could take over a part of what one in the model explains, since their terms look the same in all
- * these recordings. same_as: out, for each type (as in hci_candidate_type) that other one, or NULL.
+/* Effects that could take over a part of what one in the model explains, since their terms look the same in
+ * all these recordings. same_as: out, for each type (as in hci_candidate_type) that other one, or NULL.
  * HCI_ERROR_MEMORY. */
 hci_status hci_candidate_models_same(hci_search *search, const hci_candidates *model,
                                      const hci_effect_type *same_as[HCI_MOST_TYPES], hci_note *note);

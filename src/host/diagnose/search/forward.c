@@ -1,11 +1,12 @@
+#include "host/diagnose/search/forward.h"
+
 #include <math.h>
 
 #include "host/diagnose/fit/resonance.h"
 #include "host/diagnose/search/candidate_models.h"
-#include "host/diagnose/search/search.h"
 
 /* Promises of the linearised problem, in units of the score. */
-#define PROMISING    (0.5 * HCI_DECISIVE) /* a single effect that is worth a fit */
+#define PROMISING    (0.5 * HCI_DECISIVE) /* a single effect that is fitted in full */
 #define BEHIND_SHARE 0.3  /* how far behind the best promise it may be: this share of it … */
 #define BEHIND       60.0 /* … and so much */
 #define PAIR         (2.0 * HCI_DECISIVE) /* the same of two effects at once */
@@ -13,11 +14,12 @@
 #define PAIR_MARGIN     0.02 /* what two effects at once must explain more than one, as a share */
 #define RESONANCE_PRICE 12.0 /* of having looked at so many frequencies */
 #define MUCH            3.0  /* times the resolution, and … */
-#define STANDS_OUT      1.1  /* … times the noise: a residual that is worth high powers of the currents */
+#define STANDS_OUT      1.1 /* … times the noise: a residual in which high powers of the currents are looked for \
+                             */
 
 enum { SINGLES = 3, RICHEST = 2 }; /* single effects that are fitted; of saturation */
 
-/* ---- which models are worth a fit ---- */
+/* ---- which models are fitted in full ---- */
 
 static bool is_pair(const hci_candidate_model *x)
 {
@@ -116,16 +118,16 @@ static hci_status models_enriched(hci_search *s, const hci_candidates *model, hc
 
 /* ---- one round ---- */
 
-/* The best fitted so far, and the score that the next one has to be below. */
+/* The best model so far, and the score that the next one has to be below. */
 typedef struct {
     hci_search *search;
     const hci_fitted_model *present;
     hci_fitted_model best;
     double bar;
-} contest;
+} comparison;
 
 /* Takes the candidate as the best where it is, else leaves it. */
-static hci_status contest_enter(contest *c, hci_fitted_model *candidate, double handicap, hci_note *note)
+static hci_status contender_enter(comparison *c, hci_fitted_model *candidate, double handicap, hci_note *note)
 {
     const double score = candidate->fit.score + handicap;
     bool noticeable = false;
@@ -138,7 +140,7 @@ static hci_status contest_enter(contest *c, hci_fitted_model *candidate, double 
     return HCI_OK;
 }
 
-static hci_status models_enter(contest *c, const hci_candidate_models *t, hci_note *note)
+static hci_status models_enter(comparison *c, const hci_candidate_models *t, hci_note *note)
 {
     const hci_candidate_model *picked[SINGLES + 1];
     const size_t count = models_pick(t, picked);
@@ -147,14 +149,14 @@ static hci_status models_enter(contest *c, const hci_candidate_models *t, hci_no
         hci_fitted_model candidate = {0};
         const double handicap = is_pair(picked[k]) ? HCI_DECISIVE + PAIR_MARGIN * picked[0]->gain : 0.0;
         status = hci_candidate_model_fit(c->search, t, picked[k], &candidate, note);
-        if (!status) status = contest_enter(c, &candidate, handicap, note);
+        if (!status) status = contender_enter(c, &candidate, handicap, note);
         hci_fitted_model_release(&candidate);
     }
     return status;
 }
 
 /* The model with a resonance, fitted from the best point of a grid. */
-static hci_status resonance_fit(contest *c, const hci_candidate *x, hci_fitted_model *candidate,
+static hci_status resonance_fit(comparison *c, const hci_candidate *x, hci_fitted_model *candidate,
                                 hci_note *note)
 {
     hci_status status = hci_fitted_model_copy(c->present, candidate, note);
@@ -165,7 +167,7 @@ static hci_status resonance_fit(contest *c, const hci_candidate *x, hci_fitted_m
 }
 
 /* The effect that no linearised problem finds: a resonance of the torque sensor. */
-static hci_status resonance_enter(contest *c, hci_note *note)
+static hci_status resonance_enter(comparison *c, hci_note *note)
 {
     const hci_effect_type *type = hci_effect_type_find("torque_sensor");
     hci_candidate x = {.type = type, .count = 2, .price = RESONANCE_PRICE, .in = true};
@@ -178,25 +180,25 @@ static hci_status resonance_enter(contest *c, hci_note *note)
     x.term[0] = (hci_effect_term){1, 0.0, found.natural_frequency_Hz, NAN};
     x.term[1] = (hci_effect_term){2, 0.0, found.damping, NAN};
     status = resonance_fit(c, &x, &candidate, note);
-    if (!status) status = contest_enter(c, &candidate, 0.0, note);
+    if (!status) status = contender_enter(c, &candidate, 0.0, note);
     hci_fitted_model_release(&candidate);
     return status;
 }
 
-hci_status hci_search_forward(hci_search *s, hci_fitted_model *fitted, bool *added, hci_note *note)
+hci_status hci_search_forward(hci_search *s, hci_fitted_model *model, bool *added, hci_note *note)
 {
-    contest c = {s, fitted, {{NULL, 0, 0.0}, {0.0, 0, 0.0, 0.0}}, fitted->fit.score - HCI_DECISIVE};
+    comparison c = {s, model, {{NULL, 0, 0.0}, {0.0, 0, 0.0, 0.0}}, model->fit.score - HCI_DECISIVE};
     hci_candidate_models t;
-    hci_status status = models_enriched(s, &fitted->candidates, &t, note);
+    hci_status status = models_enriched(s, &model->candidates, &t, note);
     *added = false;
     if (status) return status;
     status = models_enter(&c, &t, note);
     hci_candidate_models_release(&t);
     if (!status) status = resonance_enter(&c, note);
     if (!status && c.best.candidates.candidate) {
-        hci_fitted_model_replace(fitted, &c.best);
+        hci_fitted_model_replace(model, &c.best);
         *added = true;
-        status = hci_search_renew(s, fitted, note);
+        status = hci_search_renew(s, model, note);
     }
     hci_fitted_model_release(&c.best);
     return status;

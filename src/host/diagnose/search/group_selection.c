@@ -5,10 +5,11 @@
 
 #include "host/diagnose/fit/fit.h"
 
-#define SEED_MARGIN 10.0 /* what several powers at once must be worth over one by one, and the share */
-#define SEED_SHARE  0.1
-#define WORTH       2.0  /* least fall of the score for one more order of an effect */
-#define LITTLE      1e-3 /* and its least share of what noise is in all samples */
+#define SEED_MARGIN                                                                                          \
+    10.0 /* by how much several powers at once must lower the score more than one by one, and as a share */
+#define SEED_SHARE 0.1
+#define LEAST_GAIN 2.0  /* least fall of the score for one more order of an effect */
+#define LITTLE     1e-3 /* and its least share of what noise is in all samples */
 
 enum { MOST_ORDERS = 12, MOST_POWERS = 80 }; /* that come in together; of saturation */
 
@@ -45,7 +46,7 @@ static double cost_of(const selecting *g, size_t k)
     return hci_candidate_cost(&g->choice->list->candidate[k], g->choice->rows);
 }
 
-/* What a candidate is worth over its cost: by coming in when it is out, by staying when it is in. */
+/* Fall of the score by a candidate: by coming in when it is out, by staying when it is in. */
 static double gain_of(const selecting *g, size_t k)
 {
     return hci_sweep_worth(g->sweep, g->choice->column[k], g->choice->list->candidate[k].count) -
@@ -58,7 +59,7 @@ static double least_gain(const selecting *g, size_t k)
 {
     const hci_candidate *x = &g->choice->list->candidate[k];
     const bool ordered = x->type->parameter[x->term[0].parameter].ordered;
-    return ordered ? fmax(WORTH, LITTLE * g->choice->rows) : WORTH;
+    return ordered ? fmax(LEAST_GAIN, LITTLE * g->choice->rows) : LEAST_GAIN;
 }
 
 static bool take(selecting *g, size_t k)
@@ -69,7 +70,7 @@ static bool take(selecting *g, size_t k)
     return true;
 }
 
-/* Takes in the one that is worth most over its cost. */
+/* Takes in the one that lowers the score most. */
 static bool take_best(selecting *g, bool first)
 {
     const size_t n = g->choice->list->count;
@@ -86,8 +87,8 @@ static bool take_best(selecting *g, bool first)
     return best < n && take(g, best);
 }
 
-/* The one that is worth least, where that is less than its cost; else the number of candidates. */
-static size_t worthless(const selecting *g)
+/* The one whose leaving would lower the score most; the number of candidates where none would. */
+static size_t superfluous(const selecting *g)
 {
     const size_t n = g->choice->list->count;
     size_t worst = n;
@@ -103,31 +104,32 @@ static size_t worthless(const selecting *g)
     return worst;
 }
 
-/* Takes out those that are no longer worth their cost, the least worthy first. */
-static void leave_worthless(selecting *g)
+/* Takes out those without which the score is lower, the most superfluous first. */
+static void leave_superfluous(selecting *g)
 {
     const size_t n = g->choice->list->count;
-    for (size_t k = worthless(g); k < n; k = worthless(g)) {
+    for (size_t k = superfluous(g); k < n; k = superfluous(g)) {
         leave(g, k);
         g->in[k] = false;
         g->cost -= cost_of(g, k);
     }
 }
 
-/* Takes candidates in while they are worth it, and those out that are no more. Returns the fall of the score.
+/* Takes candidates in while the score falls, and those out that have become superfluous. Returns the fall of
+ * the score.
  */
-static double grow(selecting *g)
+static double select_terms(selecting *g)
 {
     const int steps = g->a == hci_effect_type_find("saturation") ? MOST_POWERS : MOST_ORDERS;
     for (int step = 0; step < steps; ++step) {
         if (!take_best(g, step == 0 && g->cost == 0.0)) break;
-        leave_worthless(g);
+        leave_superfluous(g);
     }
     return g->choice->base->square - g->sweep->square - g->cost;
 }
 
 /* The mean torque of an iron that saturates takes several powers of the currents at once, none of which is
- * worth much alone: all of them first. */
+ * lowers the score much alone: all of them first. */
 static bool seed_powers(selecting *g)
 {
     const hci_effect_type *saturation = hci_effect_type_find("saturation");
@@ -136,7 +138,7 @@ static bool seed_powers(selecting *g)
         const hci_candidate *x = &g->choice->list->candidate[k];
         if (x->type == saturation && x->term[0].order == 0.0 && is_open(g, k)) any = take(g, k) || any;
     }
-    if (any) leave_worthless(g);
+    if (any) leave_superfluous(g);
     return any;
 }
 
@@ -153,10 +155,10 @@ double hci_group_select(const hci_selection *choice, const hci_effect_type *a, c
 {
     selecting g = {choice, a, b, sweep, NULL, 0.0};
     start(&g, in);
-    const double plain = grow(&g);
+    const double plain = select_terms(&g);
     start(&g, spare);
     if (!seed_powers(&g)) return plain;
-    const double seeded = grow(&g);
+    const double seeded = select_terms(&g);
     if (seeded <= plain + fmax(SEED_MARGIN, SEED_SHARE * plain)) return plain;
     memcpy(in, spare, choice->list->count * sizeof *in);
     return seeded;

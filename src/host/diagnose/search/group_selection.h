@@ -1,4 +1,8 @@
-/* A choice of candidates that grows on the linearised problem, one or two effects at a time. */
+/* Which terms of one or two effects come in together, on the linearised problem.
+ *
+ * In: normal equations with all candidates as columns, the model swept in. Out: the group of candidates that
+ * lowers χ² by most over the price of its terms. Terms come in one at a time, the best first, and leave again
+ * when others have made them superfluous; one sweep for each. */
 #ifndef HCI_SRC_HOST_DIAGNOSE_SEARCH_GROUP_SELECTION_H
 #define HCI_SRC_HOST_DIAGNOSE_SEARCH_GROUP_SELECTION_H
 
@@ -13,9 +17,9 @@ typedef struct {
     double rows;
 } hci_selection;
 
-/* Chooses, among the candidates of types a and b that are not in the model, those that are worth their cost.
- * in: out, for each candidate whether it was chosen. sweep, spare: work, of the size of base and of the list.
- * Returns by how much the score would fall if the model were linear. O(steps·columns²). */
+/* Chooses, among the candidates of types a and b that are not in the model, those whose gain in χ² exceeds
+ * their cost. in: out, for each candidate whether it was chosen. sweep, spare: work, of the size of base and
+ * of the list. Returns by how much the score would fall if the model were linear. O(steps·columns²). */
 double hci_group_select(const hci_selection *choice, const hci_effect_type *a, const hci_effect_type *b,
                         bool *in, hci_sweep *sweep, bool *spare);
 

@@ -1,32 +1,33 @@
+#include "host/diagnose/search/rivals.h"
+
 #include <string.h>
 
 #include "host/diagnose/candidates/empirical_term.h"
 #include "host/diagnose/search/candidate_models.h"
-#include "host/diagnose/search/search.h"
 
 #define EQUAL          6.0  /* models whose scores differ by less fit as well as each other */
-#define PART           0.3  /* of what an effect is worth that makes another one plausible beside it */
-#define PROMISED_SHARE 0.6  /* what a rival must promise of what the effect is worth … */
+#define PART           0.3  /* of the gain of an effect that makes another one plausible beside it */
+#define PROMISED_SHARE 0.6  /* what a rival must promise of the gain of the effect … */
 #define PROMISED_LESS  20.0 /* … less so much: promises are of a linearised problem */
 
-/* Other effects in place of one that is in the fitted, one after the other. */
+/* Other effects in place of one that is in the model, one after the other. */
 typedef struct {
     hci_search *search;
-    const hci_fitted_model *fitted;
+    const hci_fitted_model *model;
     const hci_effect_type *type; /* in whose place */
     hci_fitted_model without;
     hci_candidate_models models;
     size_t next;
 } rivalry;
 
-static hci_status rivalry_start(hci_search *s, const hci_fitted_model *fitted, const hci_effect_type *type,
+static hci_status rivalry_start(hci_search *s, const hci_fitted_model *model, const hci_effect_type *type,
                                 rivalry *r, hci_note *note)
 {
     memset(r, 0, sizeof *r);
     r->search = s;
-    r->fitted = fitted;
+    r->model = model;
     r->type = type;
-    hci_status status = hci_search_without(s, fitted, type, &r->without, note);
+    hci_status status = hci_search_without(s, model, type, &r->without, note);
     if (!status) status = hci_candidate_models_make(s, &r->without.candidates, false, &r->models, note);
     return status;
 }
@@ -40,9 +41,9 @@ static void rivalry_end(rivalry *r)
 static bool is_promising(const rivalry *r, const hci_candidate_model *x)
 {
     const hci_effect_type *other = hci_candidate_type(x->a);
-    const double worth = r->without.fit.score - r->fitted->fit.score;
-    return other != r->type && !hci_candidates_have(&r->fitted->candidates, other) &&
-           !(x->gain < PROMISED_SHARE * worth - PROMISED_LESS);
+    const double gain = r->without.fit.score - r->model->fit.score;
+    return other != r->type && !hci_candidates_have(&r->model->candidates, other) &&
+           !(x->gain < PROMISED_SHARE * gain - PROMISED_LESS);
 }
 
 /* The next promising rival, fitted. with: out, its type in hci_candidate_type's count, or its end. On failure
@@ -67,20 +68,20 @@ static double margin_of(size_t type)
     return hci_candidate_type(type) == &hci_empirical_type ? HCI_DECISIVE : HCI_AS_GOOD;
 }
 
-static hci_status swap_type(hci_search *s, hci_fitted_model *fitted, const hci_effect_type *type,
+static hci_status swap_type(hci_search *s, hci_fitted_model *model, const hci_effect_type *type,
                             bool *swapped, hci_note *note)
 {
     rivalry r;
     hci_fitted_model rival = {0};
     size_t with = 0;
-    hci_status status = rivalry_start(s, fitted, type, &r, note);
+    hci_status status = rivalry_start(s, model, type, &r, note);
     while (!status && !*swapped && with < hci_candidate_types()) {
         status = rivalry_next(&r, &rival, &with, note);
         if (status || with == hci_candidate_types()) break;
-        if (rival.fit.score < fitted->fit.score - margin_of(with)) {
-            hci_fitted_model_replace(fitted, &rival);
+        if (rival.fit.score < model->fit.score - margin_of(with)) {
+            hci_fitted_model_replace(model, &rival);
             *swapped = true;
-            status = hci_search_renew(s, fitted, note);
+            status = hci_search_renew(s, model, note);
         }
         hci_fitted_model_release(&rival);
     }
@@ -88,13 +89,13 @@ static hci_status swap_type(hci_search *s, hci_fitted_model *fitted, const hci_e
     return status;
 }
 
-hci_status hci_search_swap(hci_search *s, hci_fitted_model *fitted, bool *swapped, hci_note *note)
+hci_status hci_search_swap(hci_search *s, hci_fitted_model *model, bool *swapped, hci_note *note)
 {
     hci_status status = HCI_OK;
     *swapped = false;
     for (size_t r = 0; r < hci_candidate_types() && !status && !*swapped; ++r)
-        if (hci_candidates_have(&fitted->candidates, hci_candidate_type(r)))
-            status = swap_type(s, fitted, hci_candidate_type(r), swapped, note);
+        if (hci_candidates_have(&model->candidates, hci_candidate_type(r)))
+            status = swap_type(s, model, hci_candidate_type(r), swapped, note);
     return status;
 }
 
@@ -118,12 +119,12 @@ static void rival_mark(const rivalry *r, size_t with, hci_fitted_model *rival, h
     hci_fitted_model_replace(&v->alternative, rival);
 }
 
-/* Rooms that would explain a part of what one in the fitted explains, if that were not there. */
+/* Effects that would explain a part of what one in the model explains, if that were not there. */
 static void plausible_mark(const rivalry *r, hci_attribution *a)
 {
-    const double worth = r->without.fit.score - r->fitted->fit.score;
+    const double gain = r->without.fit.score - r->model->fit.score;
     for (size_t k = 0; k < r->models.count; ++k)
-        if (r->models.model[k].gain > PART * worth)
+        if (r->models.model[k].gain > PART * gain)
             a->plausible[type_index(r->type)][r->models.model[k].a] = true;
 }
 
@@ -132,13 +133,13 @@ hci_status hci_search_rivals(hci_search *s, const hci_effect_type *type, hci_att
     rivalry r;
     hci_fitted_model rival = {0};
     size_t with = 0;
-    hci_status status = rivalry_start(s, &a->fitted, type, &r, note);
+    hci_status status = rivalry_start(s, &a->model, type, &r, note);
     if (!status) plausible_mark(&r, a);
     while (!status) {
         status = rivalry_next(&r, &rival, &with, note);
         if (status || with == hci_candidate_types()) break;
-        const bool strange = hci_candidate_type(with) == &hci_empirical_type;
-        if (!strange && rival.fit.score < a->fitted.fit.score + EQUAL) rival_mark(&r, with, &rival, a);
+        const bool is_empirical = hci_candidate_type(with) == &hci_empirical_type;
+        if (!is_empirical && rival.fit.score < a->model.fit.score + EQUAL) rival_mark(&r, with, &rival, a);
         hci_fitted_model_release(&rival);
     }
     rivalry_end(&r);

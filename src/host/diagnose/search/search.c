@@ -1,4 +1,6 @@
 #include "host/diagnose/search/search.h"
+#include "host/diagnose/fit/model.h"
+#include "host/diagnose/fit/noise_estimate.h"
 
 #include <math.h>
 #include <string.h>
@@ -31,29 +33,10 @@ void hci_search_tell(hci_search *s)
 
 /* ---- models ---- */
 
-hci_status hci_fitted_model_copy(const hci_fitted_model *from, hci_fitted_model *to, hci_note *note)
-{
-    to->fit = from->fit;
-    return hci_candidates_copy(&from->candidates, &to->candidates, note);
-}
-
-void hci_fitted_model_replace(hci_fitted_model *old, hci_fitted_model *by)
-{
-    hci_fitted_model_release(old);
-    *old = *by;
-    memset(by, 0, sizeof *by);
-}
-
-void hci_fitted_model_release(hci_fitted_model *fitted)
-{
-    hci_candidates_release(&fitted->candidates);
-    memset(fitted, 0, sizeof *fitted);
-}
-
-hci_status hci_search_without(hci_search *s, const hci_fitted_model *fitted, const hci_effect_type *type,
+hci_status hci_search_without(hci_search *s, const hci_fitted_model *model, const hci_effect_type *type,
                               hci_fitted_model *without, hci_note *note)
 {
-    hci_status status = hci_fitted_model_copy(fitted, without, note);
+    hci_status status = hci_fitted_model_copy(model, without, note);
     if (status) return status;
     hci_search_tell(s);
     hci_candidates_remove_type(&without->candidates, type);
@@ -86,11 +69,11 @@ hci_status hci_search_noise(hci_search *s, const hci_candidates *candidates, hci
                                          s->options->resolution_Nm, note);
 }
 
-hci_status hci_search_renew(hci_search *s, hci_fitted_model *fitted, hci_note *note)
+hci_status hci_search_renew(hci_search *s, hci_fitted_model *model, hci_note *note)
 {
-    const hci_status status = hci_search_noise(s, &fitted->candidates, note);
+    const hci_status status = hci_search_noise(s, &model->candidates, note);
     if (status) return status;
-    return hci_regression_fit(s->regression, &fitted->candidates, &fitted->fit, note);
+    return hci_regression_fit(s->regression, &model->candidates, &model->fit, note);
 }
 
 double hci_search_residual_rms(const hci_search *s)

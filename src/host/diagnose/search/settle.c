@@ -1,9 +1,10 @@
+#include "host/diagnose/search/settle.h"
+
 #include <math.h>
 #include <string.h>
 
 #include "host/base/memory.h"
 #include "host/diagnose/candidates/empirical_term.h"
-#include "host/diagnose/search/search.h"
 
 #define EXCESS       0.1  /* variance over that of the noise that tells of something that does not repeat */
 #define CLUMPS       1.35 /* the same of how uneven the errors are; noise makes 1.0 ± 0.1 */
@@ -88,7 +89,7 @@ static hci_status residual_judge(hci_search *s, hci_attribution *a, hci_note *no
 {
     const double least_Nm = NOT_SMALL * s->options->resolution_Nm;
     goodness g;
-    const hci_status status = goodness_of(s, &a->fitted.candidates, &g, note);
+    const hci_status status = goodness_of(s, &a->model.candidates, &g, note);
     if (status || !(g.rows > 0.0)) return status;
     const double excess = g.square / g.noise - 1.0, left = g.square / g.rows;
     a->wanders = !(excess < EXCESS && clumps_of(&g) < CLUMPS);
@@ -100,42 +101,42 @@ static hci_status residual_judge(hci_search *s, hci_attribution *a, hci_note *no
 /* ---- what is understood beside what is not ---- */
 
 /* Adds what a type explains, as rms. Nothing where it is not in. */
-static hci_status explained_add(hci_search *s, const hci_fitted_model *fitted, const hci_effect_type *type,
+static hci_status explained_add(hci_search *s, const hci_fitted_model *model, const hci_effect_type *type,
                                 double *sum_Nm, hci_note *note)
 {
     hci_fitted_model without = {0};
     double explained_Nm = 0.0;
-    if (!hci_candidates_have(&fitted->candidates, type)) return HCI_OK;
-    hci_status status = hci_search_without(s, fitted, type, &without, note);
+    if (!hci_candidates_have(&model->candidates, type)) return HCI_OK;
+    hci_status status = hci_search_without(s, model, type, &without, note);
     if (!status)
-        status = hci_search_explained(s, &fitted->candidates, &without.candidates, &explained_Nm, note);
+        status = hci_search_explained(s, &model->candidates, &without.candidates, &explained_Nm, note);
     hci_fitted_model_release(&without);
     *sum_Nm = hypot(*sum_Nm, explained_Nm);
     return status;
 }
 
-static hci_status known_of(hci_search *s, const hci_fitted_model *fitted, double *known_Nm, hci_note *note)
+static hci_status known_of(hci_search *s, const hci_fitted_model *model, double *known_Nm, hci_note *note)
 {
     hci_status status = HCI_OK;
     *known_Nm = 0.0;
     for (size_t r = 0; hci_effect_type_at(r) && !status; ++r)
-        status = explained_add(s, fitted, hci_effect_type_at(r), known_Nm, note);
+        status = explained_add(s, model, hci_effect_type_at(r), known_Nm, note);
     return status;
 }
 
 /* Known effects beside something larger that is not understood cannot be told from a part of it, and go; a
  * description of a small remainder goes as well. */
-static hci_status types_leave(hci_search *s, hci_attribution *a, double strange_Nm, bool *changed,
+static hci_status types_leave(hci_search *s, hci_attribution *a, double unexplained_Nm, bool *changed,
                               hci_note *note)
 {
-    hci_candidates *model = &a->fitted.candidates;
+    hci_candidates *model = &a->model.candidates;
     hci_status status = HCI_OK;
     for (size_t r = 0; r < a->types && !status; ++r) {
         const hci_effect_type *type = hci_candidate_type(r);
         double explained_Nm = 0.0;
         if (!hci_candidates_have(model, type) || (type == &hci_empirical_type) == a->unknown) continue;
-        if (a->unknown) status = explained_add(s, &a->fitted, type, &explained_Nm, note);
-        if (status || explained_Nm > UNTOUCHED * strange_Nm) continue;
+        if (a->unknown) status = explained_add(s, &a->model, type, &explained_Nm, note);
+        if (status || explained_Nm > UNTOUCHED * unexplained_Nm) continue;
         hci_candidates_remove_type(model, type);
         *changed = true;
     }
@@ -147,14 +148,14 @@ hci_status hci_search_settle(hci_search *s, hci_attribution *a, hci_note *note)
     double known_Nm = 0.0;
     bool changed = false;
     hci_status status = residual_judge(s, a, note);
-    double strange_Nm = a->unexplained_Nm;
-    if (!status) status = explained_add(s, &a->fitted, &hci_empirical_type, &strange_Nm, note);
-    if (status || !(strange_Nm > 0.0)) return status;
-    status = known_of(s, &a->fitted, &known_Nm, note);
+    double unexplained_Nm = a->unexplained_Nm;
+    if (!status) status = explained_add(s, &a->model, &hci_empirical_type, &unexplained_Nm, note);
+    if (status || !(unexplained_Nm > 0.0)) return status;
+    status = known_of(s, &a->model, &known_Nm, note);
     if (status) return status;
-    a->unknown = strange_Nm > SMALL * known_Nm;
-    status = types_leave(s, a, strange_Nm, &changed, note);
-    if (!status && changed) status = hci_search_renew(s, &a->fitted, note);
-    if (!status && a->unknown) a->unexplained_Nm = strange_Nm;
+    a->unknown = unexplained_Nm > SMALL * known_Nm;
+    status = types_leave(s, a, unexplained_Nm, &changed, note);
+    if (!status && changed) status = hci_search_renew(s, &a->model, note);
+    if (!status && a->unknown) a->unexplained_Nm = unexplained_Nm;
     return status;
 }

@@ -1,4 +1,4 @@
-#include "host/diagnose/candidate_orders.h"
+#include "host/diagnose/residual_spectrum.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-#include "host/diagnose/fit/evidence.h"
+#include "host/diagnose/fit/regression.h"
 
 #include <string.h>
 

@@ -1,8 +1,9 @@
+#include "host/diagnose/fit/noise_estimate.h"
+
 #include <math.h>
 
 #include "hci/math/harmonic.h"
 #include "host/base/memory.h"
-#include "host/diagnose/fit/evidence.h"
 
 #define EVEN      0.02 /* departure of a step of angle from the mean one, as a share */
 #define WHOLE     0.1  /* departure from whole periods, in samples */

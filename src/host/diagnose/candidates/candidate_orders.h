@@ -1,8 +1,15 @@
-/* Orders that stand out of the residual of several runs. */
-#ifndef HCI_SRC_HOST_DIAGNOSE_CANDIDATES_RESIDUAL_SPECTRUM_H
-#define HCI_SRC_HOST_DIAGNOSE_CANDIDATES_RESIDUAL_SPECTRUM_H
+/* At which orders of the turn something is missing.
+ *
+ * In: the residual r of all runs with its variance σ². Out, for each order n: by how much χ² would fall if a
+ * torque S sin nθ + C cos nθ were added,
+ *
+ *     Δχ²(n) = 2 ((Σ w r cos nθ)² + (Σ w r sin nθ)²) / Σ w,     w = 1/σ²
+ *
+ * which for noise alone is χ² with two degrees of freedom; the same for a torque in proportion to i_q. */
+#ifndef HCI_SRC_HOST_DIAGNOSE_CANDIDATES_CANDIDATE_ORDERS_H
+#define HCI_SRC_HOST_DIAGNOSE_CANDIDATES_CANDIDATE_ORDERS_H
 
-#include "host/diagnose/candidates/candidates.h"
+#include "host/diagnose/candidates/make_candidates.h"
 
 /* For each order, in multiples of `stride` periods in a mechanical turn, how much χ² a torque of that order,
  * alone or in proportion to i_q, and in phase in all runs, would explain. Start with {0}. */

@@ -1,4 +1,4 @@
-#include "host/diagnose/candidates/residual_spectrum.h"
+#include "host/diagnose/candidates/candidate_orders.h"
 
 #include <math.h>
 #include <string.h>

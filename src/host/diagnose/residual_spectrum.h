@@ -1,9 +1,12 @@
-/* The residual by order: one line for each order of the mechanical turn that stands out of the noise. */
-#ifndef HCI_SRC_HOST_DIAGNOSE_CANDIDATE_ORDERS_H
-#define HCI_SRC_HOST_DIAGNOSE_CANDIDATE_ORDERS_H
+/* The residual by order, as it is written to residual_spectrum.csv.
+ *
+ * In: measured less modelled torque before and after the correction. Out: one line for each run and order of
+ * the mechanical turn whose amplitude 2/n |Σ r exp(−jkθ)| stands out of what noise alone makes. */
+#ifndef HCI_SRC_HOST_DIAGNOSE_RESIDUAL_SPECTRUM_H
+#define HCI_SRC_HOST_DIAGNOSE_RESIDUAL_SPECTRUM_H
 
 #include "hci/host/diagnose/diagnose.h"
-#include "host/diagnose/fit/evidence.h"
+#include "host/diagnose/fit/regression.h"
 
 /* before_Nm, after_Nm: of each sample. noise_Nm: rms for each run. lines: out, by run and order, to be freed;
  * NULL on failure. HCI_ERROR_MEMORY. O(samples·orders). */

@@ -1,9 +1,10 @@
+#include "host/diagnose/fit/linearise.h"
+
 #include <math.h>
 #include <string.h>
 
 #include "host/base/memory.h"
 #include "host/diagnose/candidates/empirical_term.h"
-#include "host/diagnose/fit/evidence.h"
 #include "host/diagnose/fit/predicted_reading.h"
 
 #define ROUNDING 1e-12 /* square of a column beside the largest of its effect that is rounding */

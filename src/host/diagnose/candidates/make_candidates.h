@@ -1,0 +1,32 @@
+/* Which terms these recordings could show at all.
+ *
+ * In: the machine, what the recordings contain (time, motion, temperature, whole turns) and the residual of
+ * the present model. Out: one candidate for each term that could be missing. Orders of cogging and of the
+ * mechanical turn are offered where they stand out of the residual; back-EMF, reluctance and saturation at
+ * the orders that a machine can have; friction with as many parts as there are speeds; delays only with time,
+ * and so on. */
+#ifndef HCI_SRC_HOST_DIAGNOSE_CANDIDATES_MAKE_CANDIDATES_H
+#define HCI_SRC_HOST_DIAGNOSE_CANDIDATES_MAKE_CANDIDATES_H
+
+#include "host/diagnose/candidates/candidates.h"
+
+/* What the candidates are chosen from. */
+typedef struct {
+    const hci_machine *machine;
+    const hci_binned_samples *samples;
+    const hci_run *runs;
+    const bool *use;            /* of each run */
+    const double *residual_Nm;  /* of each sample */
+    const double *variance;     /* of each sample, N²·m² */
+    double reference_current_A; /* of saturation; NAN: the largest of the runs */
+    int richness; /* of saturation and reluctance: 0 low orders, 1 all orders, 2 to high powers of the
+                     currents */
+} hci_candidates_source;
+
+/* Terms that these recordings could show, at the orders that stand out of the residual. Those that are
+ * already `in` an older list (known; or NULL) stay, with their values. On failure *candidates is empty.
+ * HCI_ERROR_MEMORY. O(samples·orders). */
+hci_status hci_candidates_make(const hci_candidates_source *source, const hci_candidates *known,
+                               hci_candidates *candidates, hci_note *note);
+
+#endif

@@ -1,0 +1,34 @@
+/* Model and recordings side by side: what the search regresses the torque on.
+ *
+ * In: a machine, effects and the samples of the runs in use. Out: the residual, measured less modelled
+ * torque. */
+#ifndef HCI_SRC_HOST_DIAGNOSE_FIT_REGRESSION_H
+#define HCI_SRC_HOST_DIAGNOSE_FIT_REGRESSION_H
+
+#include "host/diagnose/prepare/binned_samples.h"
+#include "host/numeric/noise.h"
+
+/* The recordings, and what is known of them. */
+typedef struct {
+    const hci_machine *machine;
+    const hci_effects *declared; /* those that the machine has already */
+    const hci_binned_samples *samples;
+    const hci_run *runs;
+    const bool *use;         /* of each run */
+    bool raw;                /* readings as they are, not smoothed */
+    hci_noise *noise;        /* of each segment */
+    double *sum_deviation_A; /* of each run: noise of i_a + i_b + i_c; NAN where that says nothing */
+} hci_regression;
+
+/* The segment of a run in use that follows `after` (NULL: the first one); NULL behind the last. */
+const hci_segment *hci_regression_next(const hci_regression *regression, const hci_segment *after);
+
+/* The noise of a segment. */
+hci_noise *hci_regression_noise(const hci_regression *regression, const hci_segment *segment);
+
+/* Measured less modelled torque of each sample of the runs in use, others 0: residual_Nm[samples].
+ * HCI_ERROR_MEMORY. O(samples·terms). */
+hci_status hci_regression_residual(const hci_regression *regression, const hci_effects *effects,
+                                   double *residual_Nm, hci_note *note);
+
+#endif

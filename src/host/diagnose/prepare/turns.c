@@ -1,0 +1,84 @@
+#include "host/diagnose/prepare/turns.h"
+
+#include <math.h>
+
+#include "hci/machine/frames.h"
+#include "hci/math/harmonic.h"
+#include "host/base/memory.h"
+
+#define STEADY   0.02 /* change of current and speed within a mean, as a share of their largest */
+#define STEADY_K 1.0  /* and of temperature, in kelvin */
+#define NEARLY   0.02 /* of a turn: turning back by more ends a turn, falling short by less does not count */
+
+double hci_turn_rad(const hci_run *run, int pole_pairs)
+{
+    return 2.0 * HCI_PI * (run->turn_known ? 1.0 : 1.0 / pole_pairs);
+}
+
+double hci_turn_direction(const hci_run *r, size_t from, size_t to)
+{
+    return r->theta_m_rad[to] >= r->theta_m_rad[from] ? 1.0 : -1.0;
+}
+
+static double direction_of_turn(const hci_run *r, const hci_turn *x)
+{
+    return hci_turn_direction(r, x->first, x->first + x->count - 1);
+}
+
+static void sample_add(const hci_run *r, int pole_pairs, size_t k, hci_turn *sum)
+{
+    const hci_dq i = hci_park(hci_clarke(r->i_A + 3 * k), pole_pairs * r->theta_m_rad[k]);
+    sum->d += i.d;
+    sum->q += i.q;
+    sum->speed += r->speed_rad_per_s ? r->speed_rad_per_s[k] : 0.0;
+    sum->temperature += r->temperature_C ? r->temperature_C[k] : 0.0;
+}
+
+/* The next turn from a sample on: until the angle has gone once round, or turns back. */
+static hci_turn turn_from(const hci_run *run, int pole_pairs, size_t first)
+{
+    const double *theta = run->theta_m_rad, turn = hci_turn_rad(run, pole_pairs);
+    hci_turn sum = {first, 0, 0.0, 0.0, 0.0, 0.0, false};
+    double farthest = 0.0;
+    size_t k = first;
+    for (; k < run->count; ++k) {
+        const double gone = fabs(theta[k] - theta[first]);
+        if (gone >= turn || gone < farthest - NEARLY * turn) break;
+        farthest = fmax(farthest, gone);
+        sample_add(run, pole_pairs, k, &sum);
+    }
+    sum.count = k - first;
+    sum.whole = k < run->count && farthest >= (1.0 - NEARLY) * turn;
+    sum.d /= (double)sum.count;
+    sum.q /= (double)sum.count;
+    sum.speed /= (double)sum.count;
+    sum.temperature /= (double)sum.count;
+    return sum;
+}
+
+bool hci_turns_alike(const hci_run *run, const hci_run_statistics *statistics, const hci_turn *a,
+                     const hci_turn *b)
+{
+    const double most_A = statistics->current_A, most_speed = fabs(statistics->mean_speed_rad_per_s);
+    return a->whole && b->whole && direction_of_turn(run, a) == direction_of_turn(run, b) &&
+           hypot(a->d - b->d, a->q - b->q) <= STEADY * most_A + 1e-12 &&
+           fabs(a->speed - b->speed) <= STEADY * most_speed + 1e-12 &&
+           fabs(a->temperature - b->temperature) < STEADY_K;
+}
+
+bool hci_turns_find(const hci_run *run, int pole_pairs, hci_turn **turns, size_t *count)
+{
+    size_t capacity = 64;
+    *count = 0;
+    *turns = hci_memory_new(capacity, sizeof **turns);
+    for (size_t at = 0; *turns && at < run->count;) {
+        if (*count == capacity) {
+            hci_turn *grown = hci_memory_resize(*turns, capacity *= 2, sizeof *grown);
+            if (!grown) return false;
+            *turns = grown;
+        }
+        (*turns)[*count] = turn_from(run, pole_pairs, at);
+        at += (*turns)[(*count)++].count;
+    }
+    return *turns != NULL;
+}

@@ -1,0 +1,34 @@
+/* A run cut into turns of the shaft, and which of them are alike enough to be averaged.
+ *
+ * In: angles and currents of a run. Out: turns one after the other, each with its mean i_d, i_q, speed and
+ * temperature. Where the mechanical turn is not known, a turn is an electrical period. */
+#ifndef HCI_SRC_HOST_DIAGNOSE_PREPARE_TURNS_H
+#define HCI_SRC_HOST_DIAGNOSE_PREPARE_TURNS_H
+
+#include "host/diagnose/prepare/run_statistics.h"
+
+/* Samples of one turn, and their means. */
+typedef struct {
+    size_t first, count;
+    double d, q;        /* A */
+    double speed;       /* rad/s; 0: not recorded */
+    double temperature; /* °C; 0: not recorded */
+    bool whole;         /* not cut off by the end of the run or by turning back */
+} hci_turn;
+
+/* The mechanical angle after which everything repeats. */
+double hci_turn_rad(const hci_run *run, int pole_pairs);
+
+/* 1 where the angle rises between two samples, −1 where it falls. */
+double hci_turn_direction(const hci_run *run, size_t from, size_t to);
+
+/* All turns of a run, each ended by the next or by the shaft turning back. turns: out, to be freed whatever
+ * is returned. False when memory is out. O(samples). */
+bool hci_turns_find(const hci_run *run, int pole_pairs, hci_turn **turns, size_t *count);
+
+/* Whether two turns may go into one mean: whole, the same way round, and current, speed and temperature
+ * differ by less than 2 % of the run's and 1 K. */
+bool hci_turns_alike(const hci_run *run, const hci_run_statistics *statistics, const hci_turn *a,
+                     const hci_turn *b);
+
+#endif

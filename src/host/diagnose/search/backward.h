@@ -1,0 +1,15 @@
+/* Steps backward: what the model no longer needs leaves it. */
+#ifndef HCI_SRC_HOST_DIAGNOSE_SEARCH_BACKWARD_H
+#define HCI_SRC_HOST_DIAGNOSE_SEARCH_BACKWARD_H
+
+#include "host/diagnose/search/search.h"
+
+/* Lets go of single orders whose part of χ² is less than their price, while a fit without them is as good.
+ * HCI_ERROR_MEMORY. */
+hci_status hci_search_prune(hci_search *search, hci_fitted_model *model, hci_note *note);
+
+/* Lets go of one effect that is no longer decisive, or too small to matter. dropped: out. HCI_ERROR_MEMORY.
+ */
+hci_status hci_search_drop(hci_search *search, hci_fitted_model *model, bool *dropped, hci_note *note);
+
+#endif

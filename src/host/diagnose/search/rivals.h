@@ -1,0 +1,14 @@
+/* Other effects in place of one in the model: better ones replace it, equally good ones make it ambiguous. */
+#ifndef HCI_SRC_HOST_DIAGNOSE_SEARCH_RIVALS_H
+#define HCI_SRC_HOST_DIAGNOSE_SEARCH_RIVALS_H
+
+#include "host/diagnose/search/search.h"
+
+/* Puts one effect in place of another where that fits better. swapped: out. HCI_ERROR_MEMORY. */
+hci_status hci_search_swap(hci_search *search, hci_fitted_model *model, bool *swapped, hci_note *note);
+
+/* Marks the effects that could stand in place of one that is in. HCI_ERROR_MEMORY. */
+hci_status hci_search_rivals(hci_search *search, const hci_effect_type *type, hci_attribution *attribution,
+                             hci_note *note);
+
+#endif

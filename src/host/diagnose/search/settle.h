@@ -1,0 +1,11 @@
+/* Whether what is left is noise, and what that means for the effects that were found. */
+#ifndef HCI_SRC_HOST_DIAGNOSE_SEARCH_SETTLE_H
+#define HCI_SRC_HOST_DIAGNOSE_SEARCH_SETTLE_H
+
+#include "host/diagnose/search/search.h"
+
+/* Judges what is left, and whether known effects stand beside something larger that is not understood: sets
+ * unknown, wanders and unexplained_Nm, and may take effects out. HCI_ERROR_MEMORY. */
+hci_status hci_search_settle(hci_search *search, hci_attribution *attribution, hci_note *note);
+
+#endif
