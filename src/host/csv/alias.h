@@ -1,4 +1,4 @@
-/* Columns as other tools name them. The table in csv_alias.c is all that is known of these tools;
+/* Columns as other tools name them. The table in alias.c is all that is known of these tools;
  * docs/files.md lists it. */
 #ifndef HCI_SRC_HOST_CSV_ALIAS_H
 #define HCI_SRC_HOST_CSV_ALIAS_H

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "host/base/number_read.h"
+#include "host/csv/column_name.h"
 #include "host/csv/table.h"
 
 enum { LINES_MOST = 64, CELLS_MOST = 256, CELL_SIZE = 64, ROWS_WANTED = 2 };
@@ -86,7 +87,7 @@ static size_t cut(line_reader *r)
     }
 }
 
-static void judge_cell(const line_reader *r, size_t k, line_kind *kind)
+static void classify_cell(const line_reader *r, size_t k, line_kind *kind)
 {
     double value;
     char mark;
@@ -100,14 +101,14 @@ static void judge_cell(const line_reader *r, size_t k, line_kind *kind)
         if (hci_csv_same_name(cell, r->cell[other])) kind->is_twice = true;
 }
 
-static line_kind judge(line_reader *r, const char *line, char separator)
+static line_kind classify(line_reader *r, const char *line, char separator)
 {
     line_kind kind = {0};
     r->line = line;
     r->separator = separator;
     kind.count = cut(r);
     for (size_t k = 0; k < kind.count; ++k)
-        judge_cell(r, k, &kind);
+        classify_cell(r, k, &kind);
     return kind;
 }
 
@@ -125,14 +126,14 @@ static bool is_names(const line_kind *kind)
 static bool has_numbers_below(line_reader *r, const char *header, char separator, size_t count)
 {
     const char *line = find_line(next_line(header));
-    line_kind kind = judge(r, line, separator);
+    line_kind kind = classify(r, line, separator);
     if (is_units(&kind) && kind.count <= count && kind.numbers < kind.count) {
         line = find_line(next_line(line));
-        kind = judge(r, line, separator);
+        kind = classify(r, line, separator);
     }
     for (int row = 0; row < ROWS_WANTED; ++row) {
         if (*line == '\0') return row > 0;
-        kind = judge(r, line, separator);
+        kind = classify(r, line, separator);
         if (kind.count != count || kind.numbers != count) return false;
         line = find_line(next_line(line));
     }
@@ -142,17 +143,17 @@ static bool has_numbers_below(line_reader *r, const char *header, char separator
 /* How many of the names of a line are names of columns of recordings, and not units (rpm may be either). */
 static size_t known_names(line_reader *r, const char *line)
 {
-    const line_kind kind = judge(r, line, hci_csv_separator(line));
+    const line_kind kind = classify(r, line, hci_csv_separator(line));
     size_t known = 0;
     for (size_t k = 0; k < kind.count; ++k)
-        known += hci_csv_cell_unit(r->cell[k]) == NULL && hci_csv_is_known(r->cell[k]);
+        known += hci_csv_cell_unit(r->cell[k]) == NULL && hci_column_is_known(r->cell[k]);
     return known;
 }
 
 /* Could a line before the header, which has `count` names, be the header itself? */
 static bool is_rival(line_reader *r, const char *line, const char *header, size_t count)
 {
-    const line_kind kind = judge(r, line, hci_csv_separator(line));
+    const line_kind kind = classify(r, line, hci_csv_separator(line));
     return is_names(&kind) && kind.count == count && known_names(r, line) >= known_names(r, header);
 }
 
@@ -163,7 +164,7 @@ const char *hci_csv_table_start(const char *text, bool *has_foreword)
     *has_foreword = false;
     for (int k = 0; k < LINES_MOST && *line != '\0'; ++k, line = find_line(next_line(line))) {
         const char separator = hci_csv_separator(line);
-        const line_kind kind = judge(&r, line, separator);
+        const line_kind kind = classify(&r, line, separator);
         if (!is_names(&kind) || !has_numbers_below(&r, line, separator, kind.count)) continue;
         for (const char *before = first; before < line; before = find_line(next_line(before)))
             if (is_rival(&r, before, line, kind.count)) return first;

@@ -1,4 +1,4 @@
-/* A CSV file cut into cells: what csv.c makes and csv_column.c reads columns from. */
+/* A CSV file cut into cells: what csv.c makes and column.c and values.c read columns from. */
 #ifndef HCI_SRC_HOST_CSV_TABLE_H
 #define HCI_SRC_HOST_CSV_TABLE_H
 
@@ -18,6 +18,13 @@ struct hci_csv {
     bool has_foreword; /* lines before the header were passed over */
     char separator;
 };
+
+/* Reads the whole of csv->path into csv->text, and makes sure that it is text. HCI_ERROR_INPUT, _MEMORY. */
+hci_status hci_csv_load(hci_csv *csv, hci_note *note);
+
+/* "path: found …; remedy", and "path: not enough memory to read it". */
+hci_status hci_csv_file_error(const char *path, hci_note *note, const char *found, const char *remedy);
+hci_status hci_csv_memory_error(const char *path, hci_note *note);
 
 /* A cell of a record (0: header), and a record's line in the file. */
 char *hci_csv_cell(const hci_csv *csv, size_t record, size_t column);
@@ -50,17 +57,27 @@ bool hci_csv_says_no_unit(const char *cell);
 /* The unit that the row of units names for a column; NULL where it says nothing, or nothing that is known. */
 const hci_unit *hci_csv_row_unit(const hci_csv *csv, size_t column);
 
-/* Is a name one of those that a recording has, here or elsewhere? */
-bool hci_csv_is_known(const char *name);
-
 /* Tells the columns that were not used, used[columns], in a remark: one under an unknown name would otherwise
  * be missed in silence. */
 void hci_csv_unused(const hci_csv *csv, const bool *used, hci_note *remark);
 
-/* "file:line: column N `name`: found …, expected …; remedy". `name` may be NULL. Returns HCI_ERROR_INPUT. */
-hci_status hci_csv_cell_error(const hci_csv *csv, size_t line, size_t column, const char *name,
-                              hci_note *note, const char *found, const char *expected, const char *remedy);
+/* What is wrong with a cell: "file:line: column N `name`: found …, expected …; remedy". */
+typedef struct {
+    size_t line;      /* in the file, from 1 */
+    size_t column;    /* from 0 */
+    const char *name; /* of the column; NULL: it has a number only */
+    const char *found, *expected, *remedy;
+} hci_csv_fault;
+
+/* Puts it into the note. HCI_ERROR_INPUT. */
+hci_status hci_csv_fault_note(const hci_csv *csv, const hci_csv_fault *fault, hci_note *note);
+
+/* The same for a cell that is not UTF-8. */
 hci_status hci_csv_encoding_error(const hci_csv *csv, size_t line, size_t column, const char *cell,
                                   hci_note *note);
+
+/* What is said of a row of units with a cell that is none. */
+#define HCI_CSV_UNIT_EXPECTED "a unit, as in the other cells"
+#define HCI_CSV_UNIT_REMEDY   "in a row of units each cell must be a known unit, 1, - or empty"
 
 #endif

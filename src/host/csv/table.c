@@ -1,0 +1,126 @@
+/* A table that was read: its cells by record and column, its row of units, and errors that point at a cell.
+ */
+#include "host/csv/table.h"
+
+#include <assert.h>
+#include <string.h>
+
+#include "hci/host/base/text.h"
+#include "host/base/memory.h"
+#include "host/base/quote.h"
+
+/* ---- cells ---- */
+
+char *hci_csv_cell(const hci_csv *csv, size_t record, size_t column)
+{
+    return csv->text + csv->index[record * (csv->columns + 1) + 1 + column];
+}
+
+size_t hci_csv_record_line(const hci_csv *csv, size_t record)
+{
+    return csv->index[record * (csv->columns + 1)];
+}
+
+bool hci_csv_same_name(const char *a, const char *b)
+{
+    return strlen(a) == 1 ? strcmp(a, b) == 0 : hci_text_is(a, b);
+}
+
+hci_number_kind hci_csv_kind(const hci_csv *csv, const char *cell)
+{
+    double value;
+    char mark;
+    return hci_number_read(cell, csv->separator == ';', &value, &mark);
+}
+
+void hci_csv_free(hci_csv *csv)
+{
+    if (csv == NULL) return;
+    hci_memory_free(csv->path);
+    hci_memory_free(csv->text);
+    hci_memory_free(csv->index);
+    hci_memory_free(csv);
+}
+
+const char *hci_csv_path(const hci_csv *csv)
+{
+    return csv->path;
+}
+
+size_t hci_csv_first_record(const hci_csv *csv)
+{
+    return csv->has_units ? 2 : 1;
+}
+
+size_t hci_csv_rows(const hci_csv *csv)
+{
+    return csv->records - hci_csv_first_record(csv);
+}
+
+size_t hci_csv_line(const hci_csv *csv, size_t row)
+{
+    assert(row < hci_csv_rows(csv));
+    return hci_csv_record_line(csv, hci_csv_first_record(csv) + row);
+}
+size_t hci_csv_header_line(const hci_csv *csv)
+{
+    return csv->has_foreword ? hci_csv_record_line(csv, 0) : 0;
+}
+
+size_t hci_csv_columns(const hci_csv *csv)
+{
+    return csv->columns;
+}
+
+const char *hci_csv_name(const hci_csv *csv, size_t column)
+{
+    assert(column < csv->columns);
+    return hci_csv_cell(csv, 0, column);
+}
+
+/* ---- row of units ---- */
+
+const hci_unit *hci_csv_cell_unit(const char *cell)
+{
+    const size_t length = strlen(cell);
+    if (length >= 2 &&
+        ((cell[0] == '(' && cell[length - 1] == ')') || (cell[0] == '[' && cell[length - 1] == ']')))
+        return hci_unit_find(cell + 1, length - 2);
+    return hci_unit_find(cell, length);
+}
+
+bool hci_csv_says_no_unit(const char *cell)
+{
+    return *cell == '\0' || strcmp(cell, "1") == 0 || strcmp(cell, "-") == 0;
+}
+
+const hci_unit *hci_csv_row_unit(const hci_csv *csv, size_t column)
+{
+    if (!csv->has_units) return NULL;
+    const char *cell = hci_csv_cell(csv, 1, column);
+    return *cell == '\0' || strcmp(cell, "-") == 0 ? NULL : hci_csv_cell_unit(cell);
+}
+
+/* ---- messages ---- */
+
+hci_status hci_csv_fault_note(const hci_csv *csv, const hci_csv_fault *fault, hci_note *note)
+{
+    char path[HCI_QUOTE_PATH_SIZE], quoted[HCI_QUOTE_SIZE];
+    return hci_note_set(note, HCI_ERROR_INPUT, "%s:%zu: column %zu%s%s: found %s, expected %s; %s",
+                        hci_quote_path(csv->path, path), fault->line, fault->column + 1,
+                        fault->name != NULL ? " " : "",
+                        fault->name != NULL ? hci_quote(fault->name, quoted) : "", fault->found,
+                        fault->expected, fault->remedy);
+}
+
+hci_status hci_csv_encoding_error(const hci_csv *csv, size_t line, size_t column, const char *cell,
+                                  hci_note *note)
+{
+    char found[HCI_QUOTE_SIZE];
+    const hci_csv_fault fault = {.line = line,
+                                 .column = column,
+                                 .found = hci_quote(cell, found),
+                                 .expected = "text in UTF-8",
+                                 .remedy = "save the file as CSV in UTF-8"};
+    return hci_csv_fault_note(csv, &fault, note);
+}
