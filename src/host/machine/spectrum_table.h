@@ -12,4 +12,7 @@
 hci_status hci_spectrum_rows(const hci_csv *csv, const char *amplitude_column, hci_harmonic **terms,
                              size_t **row_of, size_t *count, hci_note *note);
 
+/* The error of an order above HCI_MOST_ORDER, in any table with a column `order`. HCI_ERROR_INPUT. */
+hci_status hci_spectrum_order_error(const hci_csv *csv, size_t row, hci_note *note);
+
 #endif

@@ -10,97 +10,7 @@
 #include "host/base/memory.h"
 #include "host/machine/spectrum_table.h"
 
-/* One row of an order–amplitude–phase table before it is sorted. */
-typedef struct {
-    hci_harmonic term;
-    size_t row;
-} spectrum_row;
-
-static int by_order(const void *a, const void *b)
-{
-    const spectrum_row *x = a, *y = b;
-    if (x->term.order != y->term.order) return x->term.order < y->term.order ? -1 : 1;
-    return x->row < y->row ? -1 : 1;
-}
-
-#define MOST_AMPLITUDE 1e9
-#define MOST_WEIGHT    1e6
-
-static hci_status order_error(const hci_csv *csv, size_t row, hci_note *note)
-{
-    char expected[64];
-    snprintf(expected, sizeof expected, "an order of at most %g", HCI_MOST_ORDER);
-    return hci_csv_error(csv, "order", row, note, expected, "orders are electrical, not frequencies in Hz");
-}
-
-static hci_status spectrum_row_check(const hci_csv *csv, const char *amplitude_column, size_t row,
-                                     double order, double amplitude, double phase_rad, hci_note *note)
-{
-    const bool mean = order < HCI_ORDER_TOLERANCE;
-    if (order < 0.0)
-        return hci_csv_error(csv, "order", row, note, "an order of 0 or more",
-                             "give a negative order as the positive one with phase π − γ");
-    if (order > HCI_MOST_ORDER) return order_error(csv, row, note);
-    if (fabs(amplitude) > MOST_AMPLITUDE)
-        return hci_csv_error(csv, amplitude_column, row, note, "an amplitude of at most 1e9",
-                             "check the value and its unit");
-    if (mean && fabs(phase_rad) > 1e-3 && fabs(phase_rad - HCI_PI / 2) > 1e-3)
-        return hci_csv_error(csv, "phase_rad", row, note, "0 or 1.5708 (π/2)",
-                             "order 0 is the mean: its amplitude is signed and it has no phase");
-    return HCI_OK;
-}
-
-static hci_status spectrum_sort(const hci_csv *csv, spectrum_row *rows, size_t count, hci_note *note)
-{
-    if (count > 1) qsort(rows, count, sizeof *rows, by_order);
-    for (size_t k = 1; k < count; ++k)
-        if (rows[k].term.order - rows[k - 1].term.order <= HCI_ORDER_TOLERANCE)
-            return hci_csv_error(csv, "order", rows[k].row, note, "each order once",
-                                 "join the two rows into one");
-    return HCI_OK;
-}
-
-static hci_status spectrum_parse(const hci_csv *csv, const char *amplitude_column, spectrum_row *rows,
-                                 double *column, size_t count, hci_note *note)
-{
-    double *amplitude = column, *phase = column + count, *order = column + 2 * count;
-    hci_status status = hci_csv_numbers(csv, "order", order, note);
-    if (!status) status = hci_csv_numbers(csv, amplitude_column, amplitude, note);
-    if (!status) status = hci_csv_numbers(csv, "phase_rad", phase, note);
-    for (size_t k = 0; k < count && !status; ++k) {
-        status = spectrum_row_check(csv, amplitude_column, k, order[k], amplitude[k], phase[k], note);
-        rows[k] = (spectrum_row){hci_harmonic_polar(order[k], amplitude[k], phase[k]), k};
-    }
-    return status ? status : spectrum_sort(csv, rows, count, note);
-}
-
-hci_status hci_spectrum_rows(const hci_csv *csv, const char *amplitude_column, hci_harmonic **terms,
-                             size_t **row_of, size_t *count, hci_note *note)
-{
-    const size_t n = hci_csv_rows(csv);
-    spectrum_row *rows = hci_memory_new(n, sizeof *rows);
-    double *column = hci_memory_new(3 * n, sizeof *column);
-    hci_status status = HCI_OK;
-    *terms = hci_memory_new(n, sizeof **terms);
-    *row_of = hci_memory_new(n, sizeof **row_of);
-    if (!rows || !column || !*terms || !*row_of)
-        status = hci_note_set(note, HCI_ERROR_MEMORY, "%s: out of memory for %zu rows", hci_csv_path(csv), n);
-    if (!status) status = spectrum_parse(csv, amplitude_column, rows, column, n, note);
-    for (size_t k = 0; k < n && !status; ++k) {
-        (*terms)[k] = rows[k].term;
-        (*row_of)[k] = rows[k].row;
-    }
-    hci_memory_free(rows);
-    hci_memory_free(column);
-    if (status) {
-        hci_memory_free(*terms);
-        hci_memory_free(*row_of);
-        *terms = NULL;
-        *row_of = NULL;
-    }
-    *count = status ? 0 : n;
-    return status;
-}
+#define MOST_WEIGHT 1e6
 
 /* ---- target ---- */
 
@@ -214,7 +124,7 @@ static hci_status component_read(const hci_csv *csv, size_t row, double order, b
     if (order < 0.0)
         return hci_csv_error(csv, "order", row, note, "an order of 0 or more",
                              "a negative order is the positive one with the other sequence");
-    if (order > HCI_MOST_ORDER) return order_error(csv, row, note);
+    if (order > HCI_MOST_ORDER) return hci_spectrum_order_error(csv, row, note);
     c->order = order;
     return sequence_read(csv, row, order, has_neutral, set, &c->sequence, note);
 }
