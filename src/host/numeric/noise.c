@@ -4,67 +4,24 @@
 #include <string.h>
 
 #include "hci/math/harmonic.h"
+#include "host/numeric/fft.h"
 
 enum { HALF_WINDOW = 20 }; /* frequencies on each side that a level is the median of */
 
 static const double LN_2 = 0.69314718055994530942;
 
-static size_t power_of_two(size_t n)
-{
-    size_t m = 1;
-    while (m < n)
-        m *= 2;
-    return m;
-}
-
 size_t hci_noise_workspace(size_t n)
 {
-    return 4 * power_of_two(n) + 2 * HALF_WINDOW + 2;
+    return 4 * hci_transform_size((double)n) + 2 * HALF_WINDOW + 2;
 }
 
 /* ---- periodogram ---- */
-
-static void reorder(double *re, double *im, size_t n)
-{
-    for (size_t i = 1, j = 0; i < n; ++i) {
-        size_t bit = n >> 1;
-        for (; j & bit; bit >>= 1)
-            j ^= bit;
-        j ^= bit;
-        if (i < j) {
-            const double x = re[i], y = im[i];
-            re[i] = re[j];
-            im[i] = im[j];
-            re[j] = x;
-            im[j] = y;
-        }
-    }
-}
-
-/* Fast Fourier transform in place, n a power of two. */
-static void transform(double *re, double *im, size_t n)
-{
-    reorder(re, im, n);
-    for (size_t half = 1; half < n; half *= 2) {
-        for (size_t k = 0; k < half; ++k) {
-            const double angle = -HCI_PI * (double)k / (double)half, c = cos(angle), s = sin(angle);
-            for (size_t i = k; i < n; i += 2 * half) {
-                const double x = c * re[i + half] - s * im[i + half];
-                const double y = s * re[i + half] + c * im[i + half];
-                re[i + half] = re[i] - x;
-                im[i + half] = im[i] - y;
-                re[i] += x;
-                im[i] += y;
-            }
-        }
-    }
-}
 
 /* Power at `bins` frequencies from 0 to half the sampling rate, scaled so that white noise has its variance
  * in each. A Hann window keeps the lines of an open record narrow. */
 static size_t periodogram_open(const double *x, size_t n, double *power, double *work)
 {
-    const size_t m = power_of_two(n);
+    const size_t m = hci_transform_size((double)n);
     double *re = work, *im = work + m, square = 0.0;
     memset(work, 0, 2 * m * sizeof *work);
     for (size_t k = 0; k < n; ++k) {
@@ -72,7 +29,7 @@ static size_t periodogram_open(const double *x, size_t n, double *power, double 
         re[k] = window * x[k];
         square += window * window;
     }
-    transform(re, im, m);
+    hci_transform(re, im, m, -1);
     for (size_t k = 0; k <= m / 2; ++k)
         power[k] = (re[k] * re[k] + im[k] * im[k]) / square;
     return m / 2 + 1;
@@ -140,7 +97,7 @@ static void predictor(const double r[HCI_NOISE_MEMORY + 1], hci_noise *noise)
 void hci_noise_find(const double *residual, size_t n, bool closed, double floor, hci_noise *noise,
                     double *work)
 {
-    const size_t m = power_of_two(n);
+    const size_t m = hci_transform_size((double)n);
     double *power = work + 2 * m, *level = work + 3 * m + 1, *window = work + 4 * m;
     double r[HCI_NOISE_MEMORY + 1] = {0.0};
     const size_t bins =
