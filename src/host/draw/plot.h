@@ -32,7 +32,7 @@ enum { HCI_PLOT_LINE_SIZE = 512 };
 /* What the picture says in words, and the extremes of its curves. */
 typedef struct {
     char verdict[HCI_PLOT_LINE_SIZE], facts[HCI_PLOT_LINE_SIZE], baseline[HCI_PLOT_LINE_SIZE];
-    hci_svg_range before_Nm, wanted_Nm, after_Nm, phase_A[3], d_A, q_A;
+    hci_range before_Nm, wanted_Nm, after_Nm, phase_A[3], d_A, q_A;
     hci_dq plain_dq_A; /* of the plain sine */
 } hci_plot_facts;
 

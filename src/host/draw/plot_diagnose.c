@@ -117,11 +117,11 @@ void hci_plot_findings(hci_output *out, const hci_diagnosis *d)
     const hci_finding *shown[HCI_MOST_FINDINGS];
     const size_t rows = shown_findings(d, shown);
     const hci_svg_box left = box_of(EFFECTS, 330.0, rows), right = box_of(356.0, 440.0, rows);
-    hci_svg_range most = {1.0, 10.0};
+    hci_range most = {1.0, 10.0};
     hci_svg_axis bic, share = {0.0, 100.0, right.left, right.right, 50.0};
     for (size_t k = 0; k < rows; ++k)
-        hci_svg_include(&most, shown[k]->delta_bic);
-    bic = hci_svg_log_axis((hci_svg_range){1.0, most.high}, left.left, left.right, 12.0);
+        hci_range_include(&most, shown[k]->delta_bic);
+    bic = hci_svg_log_axis((hci_range){1.0, most.high}, left.left, left.right, 12.0);
     begin_rows(out, "findings", "Effects by how much the recordings speak for them", FINDINGS, rows);
     hci_svg_legend(out, LEGEND, 3, WIDTH - 8.0, 18.0);
     hci_svg_label(out, "head", left.left, FIRST_ROW - 12.0, "ΔBIC");
@@ -178,13 +178,13 @@ static size_t draw_runs_of(hci_output *out, const hci_diagnosis *d, const char *
     return row;
 }
 
-static hci_svg_range range_of_runs(const hci_diagnosis *d, const size_t *place, size_t count, hci_svg_range r)
+static hci_range range_of_runs(const hci_diagnosis *d, const size_t *place, size_t count, hci_range r)
 {
     for (size_t k = 0; k < count; ++k) {
         const hci_run_errors *e = &d->run[place[k]];
-        hci_svg_include(&r, e->rms_before_Nm);
-        hci_svg_include(&r, e->rms_after_Nm);
-        if (e->noise_floor_Nm > 0.0) hci_svg_include(&r, e->noise_floor_Nm);
+        hci_range_include(&r, e->rms_before_Nm);
+        hci_range_include(&r, e->rms_after_Nm);
+        if (e->noise_floor_Nm > 0.0) hci_range_include(&r, e->noise_floor_Nm);
     }
     return r;
 }
@@ -206,7 +206,7 @@ void hci_plot_runs(hci_output *out, const hci_diagnosis *d)
                  fits = hci_plot_largest(fit_weight, d, d->runs, HCI_PLOT_MOST_RUNS, fitted),
                  rows = helds + (helds > 0) + fits + (fits > 0);
     const hci_svg_box b = box_of(RUNS.left, RUNS.right, rows);
-    const hci_svg_range r = range_of_runs(d, held, helds, range_of_runs(d, fitted, fits, HCI_SVG_NOTHING));
+    const hci_range r = range_of_runs(d, held, helds, range_of_runs(d, fitted, fits, HCI_RANGE_EMPTY));
     const hci_svg_axis x = hci_svg_log_axis(r, b.left, b.right, 4.0);
     begin_rows(out, "runs", "Error of each run before and after, with its noise", ERRORS, rows);
     hci_svg_legend(out, LEGEND, 4, RUNS.right, 18.0);
@@ -251,13 +251,13 @@ void hci_plot_terms(hci_output *out, const char *id, const char *title, const hc
 {
     const hci_svg_box b = box_of(RUNS.left, RUNS.right, count);
     const char *unit = effect->type->parameter[effect->term[term[0]].parameter].unit;
-    hci_svg_range r = {0.0, 0.0};
+    hci_range r = {0.0, 0.0};
     hci_svg_axis x;
     char foot[64];
     for (size_t k = 0; k < count; ++k) {
         const hci_effect_term *t = &effect->term[term[k]];
-        hci_svg_include(&r, t->value - half_interval(t));
-        hci_svg_include(&r, t->value + half_interval(t));
+        hci_range_include(&r, t->value - half_interval(t));
+        hci_range_include(&r, t->value + half_interval(t));
     }
     x = hci_svg_axis_over(r, b.left, b.right, 5.0);
     begin_rows(

@@ -50,12 +50,12 @@ static double height_of(const order_axes *a, double amplitude_Nm)
 
 static order_axes axes_of(const hci_plot_order *order, size_t count, bool logarithmic)
 {
-    hci_svg_range n = {0.0, 1.0}, amplitude_Nm = HCI_SVG_NOTHING;
+    hci_range n = {0.0, 1.0}, amplitude_Nm = HCI_RANGE_EMPTY;
     for (size_t k = 0; k < count; ++k) {
         const double value[] = {order[k].before_Nm, order[k].after_Nm, order[k].noise_Nm};
-        hci_svg_include(&n, order[k].order);
+        hci_range_include(&n, order[k].order);
         for (size_t j = 0; j < 3; ++j)
-            if (value[j] > 0.0) hci_svg_include(&amplitude_Nm, value[j]);
+            if (value[j] > 0.0) hci_range_include(&amplitude_Nm, value[j]);
     }
     if (!logarithmic) amplitude_Nm.low = 0.0;
     const hci_svg_axis y = logarithmic ? hci_svg_log_axis(amplitude_Nm, ORDERS.bottom, ORDERS.top, 4.0)

@@ -187,21 +187,21 @@ static void fill_curves(curves *c, const hci_machine_data *machine, const hci_so
         c->value[j][VERTICES] = end[j];
 }
 
-static hci_svg_range range_of_values(const double *value)
+static hci_range range_of_values(const double *value)
 {
-    hci_svg_range r = HCI_SVG_NOTHING;
+    hci_range r = HCI_RANGE_EMPTY;
     for (size_t k = 0; k <= VERTICES; ++k)
-        hci_svg_include(&r, value[k]);
+        hci_range_include(&r, value[k]);
     return r;
 }
 
-static hci_svg_range range_of(const curves *c, size_t first, size_t last)
+static hci_range range_of(const curves *c, size_t first, size_t last)
 {
-    hci_svg_range r = HCI_SVG_NOTHING;
+    hci_range r = HCI_RANGE_EMPTY;
     for (size_t j = first; j <= last; ++j) {
-        const hci_svg_range one = range_of_values(c->value[j]);
-        hci_svg_include(&r, one.low);
-        hci_svg_include(&r, one.high);
+        const hci_range one = range_of_values(c->value[j]);
+        hci_range_include(&r, one.low);
+        hci_range_include(&r, one.high);
     }
     return r;
 }
@@ -209,7 +209,7 @@ static hci_svg_range range_of(const curves *c, size_t first, size_t last)
 static void draw_curve(hci_output *out, const char *style, const double *value, const hci_svg_axis *x,
                        const hci_svg_axis *y)
 {
-    const hci_svg_range r = range_of_values(value);
+    const hci_range r = range_of_values(value);
     const size_t step = fabs(hci_svg_at(y, r.high) - hci_svg_at(y, r.low)) < 0.01
                             ? VERTICES
                             : 1; /* a flat one needs its ends only */
@@ -306,14 +306,14 @@ static hci_dq vector_sample(const curves *c, size_t k, size_t count)
 /* Both axes with the same number of amperes a pixel. */
 static void vector_axes(const curves *c, hci_dq plain, const hci_svg_box *b, hci_svg_axis *d, hci_svg_axis *q)
 {
-    hci_svg_range d_A = HCI_SVG_NOTHING, q_A = HCI_SVG_NOTHING;
+    hci_range d_A = HCI_RANGE_EMPTY, q_A = HCI_RANGE_EMPTY;
     for (size_t k = 0, count = vector_count(c); k < count; ++k) {
         const hci_dq i = vector_sample(c, k, count);
-        hci_svg_include(&d_A, i.d);
-        hci_svg_include(&q_A, i.q);
+        hci_range_include(&d_A, i.d);
+        hci_range_include(&q_A, i.q);
     }
-    hci_svg_include(&d_A, plain.d);
-    hci_svg_include(&q_A, plain.q);
+    hci_range_include(&d_A, plain.d);
+    hci_range_include(&q_A, plain.q);
     hci_svg_equal_axes(d_A, q_A, b, d, q);
 }
 
@@ -463,9 +463,9 @@ static void draw_spectrum(hci_output *out, const hci_solution *s, const hci_svg_
     static const hci_svg_entry LEGEND[] = {{HCI_SVG_BAR, "before", "before"},
                                            {HCI_SVG_BAR, "wanted", "wanted"},
                                            {HCI_SVG_BAR, "after", "after"}};
-    const hci_svg_range peaks = {0.0, 1.04 * largest_ripple_Nm(s)};
+    const hci_range peaks = {0.0, 1.04 * largest_ripple_Nm(s)};
     const hci_svg_axis y =
-        hci_svg_axis_over(peaks.high > 0.0 ? peaks : (hci_svg_range){0.0, 1.0}, room->bottom, room->top, 6.0);
+        hci_svg_axis_over(peaks.high > 0.0 ? peaks : (hci_range){0.0, 1.0}, room->bottom, room->top, 6.0);
     const hci_svg_box b = hci_svg_box_beside(*room, &y);
     const ripple r = {s, largest_ripple_Nm(s)};
     size_t group[MOST_GROUPS], eligible = 0;
@@ -533,7 +533,7 @@ static void verdict_line(char line[LINE_SIZE], const hci_solution *s)
 
 static void peak_to_peak_text(char text[HCI_SVG_NUMBER_SIZE], const curves *c, size_t curve)
 {
-    const hci_svg_range r = range_of_values(c->value[curve]);
+    const hci_range r = range_of_values(c->value[curve]);
     hci_svg_quantity_text(text, r.high - r.low, "N·m");
 }
 
@@ -596,11 +596,11 @@ static void draw_words(hci_output *out, const hci_plot_facts *f)
 
 static void fill_vector_ranges(const curves *c, hci_plot_facts *f)
 {
-    f->d_A = f->q_A = HCI_SVG_NOTHING;
+    f->d_A = f->q_A = HCI_RANGE_EMPTY;
     for (size_t k = 0, count = vector_count(c); k < count; ++k) {
         const hci_dq i = vector_sample(c, k, count);
-        hci_svg_include(&f->d_A, i.d);
-        hci_svg_include(&f->q_A, i.q);
+        hci_range_include(&f->d_A, i.d);
+        hci_range_include(&f->q_A, i.q);
     }
 }
 

@@ -12,7 +12,7 @@ void hci_traces_begin(hci_traces *t, double from_s, double to_s)
     hci_turn_means_begin(&t->turn);
     for (size_t j = 0; j < HCI_TRACES; ++j)
         for (size_t k = 0; k < HCI_TRACE_INTERVALS; ++k)
-            t->extremes[j][k] = HCI_SVG_NOTHING;
+            t->extremes[j][k] = HCI_RANGE_EMPTY;
 }
 
 /* The time of an interval's middle, and the interval of a time. */
@@ -27,7 +27,7 @@ void hci_traces_add(hci_traces *t, double time_s, double theta_e_rad, const doub
     if (!(share >= 0.0 && share <= 1.0)) return;
     const size_t k = (size_t)fmin(HCI_TRACE_INTERVALS * share, HCI_TRACE_INTERVALS - 1.0);
     for (size_t j = 0; j < HCI_TRACES; ++j)
-        hci_svg_include(&t->extremes[j][k], value[j]);
+        hci_range_include(&t->extremes[j][k], value[j]);
     hci_turn_means_add(&t->turn, theta_e_rad, value[HCI_TRACE_TORQUE_NM],
                        hci_park(hci_clarke(&value[HCI_TRACE_A_A]), theta_e_rad));
 }
@@ -38,13 +38,13 @@ static bool is_inside(const hci_traces *t, hci_trace j, size_t k, double from_s,
     return at_s >= from_s && at_s <= to_s && t->extremes[j][k].low <= t->extremes[j][k].high;
 }
 
-hci_svg_range hci_traces_range(const hci_traces *t, hci_trace j, double from_s, double to_s)
+hci_range hci_traces_range(const hci_traces *t, hci_trace j, double from_s, double to_s)
 {
-    hci_svg_range r = HCI_SVG_NOTHING;
+    hci_range r = HCI_RANGE_EMPTY;
     for (size_t k = 0; k < HCI_TRACE_INTERVALS; ++k) {
         if (!is_inside(t, j, k, from_s, to_s)) continue;
-        hci_svg_include(&r, t->extremes[j][k].low);
-        hci_svg_include(&r, t->extremes[j][k].high);
+        hci_range_include(&r, t->extremes[j][k].low);
+        hci_range_include(&r, t->extremes[j][k].high);
     }
     return r;
 }
@@ -56,7 +56,7 @@ static void draw_trace(hci_output *out, const hci_traces *t, hci_trace j, const 
     double last = 0.0;
     hci_svg_line_begin(out, style);
     for (size_t k = 0; k < HCI_TRACE_INTERVALS; ++k) {
-        const hci_svg_range e = t->extremes[j][k];
+        const hci_range e = t->extremes[j][k];
         const double at = hci_svg_at(x, 1e3 * middle_s(t, k));
         if (!is_inside(t, j, k, 1e-3 * x->low, 1e-3 * x->high)) continue;
         const bool low_first = fabs(e.low - last) <= fabs(e.high - last);
@@ -73,11 +73,11 @@ void hci_plot_trace(hci_output *out, const hci_traces *t, const hci_svg_picture 
     static const char *const STYLE[] = {"after", "after", "a", "b", "c"};
     static const hci_svg_entry LEGEND[] = {
         {HCI_SVG_LINE, "a", "i_a"}, {HCI_SVG_LINE, "b", "i_b"}, {HCI_SVG_LINE, "c", "i_c"}};
-    hci_svg_range r = HCI_SVG_NOTHING;
+    hci_range r = HCI_RANGE_EMPTY;
     for (size_t j = first; j <= (size_t)last; ++j) {
-        const hci_svg_range one = hci_traces_range(t, (hci_trace)j, from_s, to_s);
-        hci_svg_include(&r, one.low);
-        hci_svg_include(&r, one.high);
+        const hci_range one = hci_traces_range(t, (hci_trace)j, from_s, to_s);
+        hci_range_include(&r, one.low);
+        hci_range_include(&r, one.high);
     }
     const hci_svg_axis y = hci_svg_axis_over(r, BOX.bottom, BOX.top, 6.0);
     const hci_svg_box b = hci_svg_box_beside(BOX, &y);

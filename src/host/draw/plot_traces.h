@@ -20,8 +20,8 @@ enum { HCI_TRACE_INTERVALS = 720 };
 
 typedef struct {
     double from_s, to_s;
-    hci_svg_range extremes[HCI_TRACES][HCI_TRACE_INTERVALS]; /* low > high where there was no sample */
-    hci_turn_means turn;                                     /* of the same time */
+    hci_range extremes[HCI_TRACES][HCI_TRACE_INTERVALS]; /* low > high where there was no sample */
+    hci_turn_means turn;                                 /* of the same time */
 } hci_traces;
 
 void hci_traces_begin(hci_traces *traces, double from_s, double to_s);
@@ -30,7 +30,7 @@ void hci_traces_begin(hci_traces *traces, double from_s, double to_s);
 void hci_traces_add(hci_traces *traces, double time_s, double theta_e_rad, const double value[HCI_TRACES]);
 
 /* The extremes in from_s … to_s; each picture as plot.h says. */
-hci_svg_range hci_traces_range(const hci_traces *traces, hci_trace trace, double from_s, double to_s);
+hci_range hci_traces_range(const hci_traces *traces, hci_trace trace, double from_s, double to_s);
 void hci_plot_trace(hci_output *out, const hci_traces *traces, const hci_svg_picture *words, hci_trace first,
                     hci_trace last, double from_s, double to_s);
 

@@ -12,7 +12,7 @@ void hci_turn_means_begin(hci_turn_means *t)
 {
     memset(t, 0, sizeof *t);
     for (size_t k = 0; k < HCI_TURN_STEPS; ++k)
-        t->torque_range_Nm[k] = HCI_SVG_NOTHING;
+        t->torque_range_Nm[k] = HCI_RANGE_EMPTY;
 }
 
 void hci_turn_means_add(hci_turn_means *t, double theta_e_rad, double torque_Nm, hci_dq current_A)
@@ -24,19 +24,19 @@ void hci_turn_means_add(hci_turn_means *t, double theta_e_rad, double torque_Nm,
     t->torque_Nm[k] += torque_Nm;
     t->current_A[k].d += current_A.d;
     t->current_A[k].q += current_A.q;
-    hci_svg_include(&t->torque_range_Nm[k], torque_Nm);
+    hci_range_include(&t->torque_range_Nm[k], torque_Nm);
 }
 
 hci_turn_mean hci_turn_mean_of(const hci_turn_means *t, size_t step, size_t many)
 {
-    hci_turn_mean m = {.torque_range_Nm = HCI_SVG_NOTHING};
+    hci_turn_mean m = {.torque_range_Nm = HCI_RANGE_EMPTY};
     for (size_t k = step; k < step + many && k < HCI_TURN_STEPS; ++k) {
         m.samples += t->samples[k];
         m.torque_Nm += t->torque_Nm[k];
         m.current_A.d += t->current_A[k].d;
         m.current_A.q += t->current_A[k].q;
-        hci_svg_include(&m.torque_range_Nm, t->torque_range_Nm[k].low);
-        hci_svg_include(&m.torque_range_Nm, t->torque_range_Nm[k].high);
+        hci_range_include(&m.torque_range_Nm, t->torque_range_Nm[k].low);
+        hci_range_include(&m.torque_range_Nm, t->torque_range_Nm[k].high);
     }
     if (m.samples == 0) return m;
     m.torque_Nm /= (double)m.samples;
@@ -57,7 +57,7 @@ static void draw_band(hci_output *out, const hci_turn_means *t, const hci_svg_ax
 {
     hci_svg_line_begin(out, "haze");
     for (size_t k = 0; k < HCI_TURN_STEPS; ++k) {
-        const hci_svg_range r = t->torque_range_Nm[k];
+        const hci_range r = t->torque_range_Nm[k];
         const double at = hci_svg_at(x, angle_deg(k));
         if (t->samples[k] == 0) continue;
         hci_svg_line_point(out, at, hci_svg_at(y, k % 2 ? r.high : r.low));
@@ -88,13 +88,13 @@ static void draw_mean(hci_output *out, const hci_turn_means *t, const char *styl
     hci_svg_line_end(out);
 }
 
-static hci_svg_range range_of_both(const hci_turn_means *t, const hci_turn_means *before)
+static hci_range range_of_both(const hci_turn_means *t, const hci_turn_means *before)
 {
-    hci_svg_range r = hci_turn_mean_of(t, 0, HCI_TURN_STEPS).torque_range_Nm;
-    const hci_svg_range plain =
-        before ? hci_turn_mean_of(before, 0, HCI_TURN_STEPS).torque_range_Nm : HCI_SVG_NOTHING;
-    hci_svg_include(&r, plain.low);
-    hci_svg_include(&r, plain.high);
+    hci_range r = hci_turn_mean_of(t, 0, HCI_TURN_STEPS).torque_range_Nm;
+    const hci_range plain =
+        before ? hci_turn_mean_of(before, 0, HCI_TURN_STEPS).torque_range_Nm : HCI_RANGE_EMPTY;
+    hci_range_include(&r, plain.low);
+    hci_range_include(&r, plain.high);
     return r;
 }
 
@@ -145,13 +145,13 @@ void hci_plot_turn_vector(hci_output *out, const hci_turn_means *t, hci_dq plain
 {
     static const hci_svg_entry LEGEND[] = {{HCI_SVG_DOT, "plain", "plain sine"},
                                            {HCI_SVG_LINE, "path", "mean"}};
-    hci_svg_range d_A = {plain_A.d, plain_A.d}, q_A = {plain_A.q, plain_A.q};
+    hci_range d_A = {plain_A.d, plain_A.d}, q_A = {plain_A.q, plain_A.q};
     hci_svg_axis d, q;
     for (size_t k = 0; k < HCI_TURN_STEPS; ++k) {
         const hci_turn_mean m = hci_turn_mean_of(t, k, 1);
         if (m.samples == 0) continue;
-        hci_svg_include(&d_A, m.current_A.d);
-        hci_svg_include(&q_A, m.current_A.q);
+        hci_range_include(&d_A, m.current_A.d);
+        hci_range_include(&q_A, m.current_A.q);
     }
     hci_svg_equal_axes(d_A, q_A, &BOX, &d, &q);
     const hci_svg_box b = hci_svg_box_beside(BOX, &q);

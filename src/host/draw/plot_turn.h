@@ -15,7 +15,7 @@ typedef struct {
     size_t samples[HCI_TURN_STEPS];
     double torque_Nm[HCI_TURN_STEPS];
     hci_dq current_A[HCI_TURN_STEPS];
-    hci_svg_range torque_range_Nm[HCI_TURN_STEPS];
+    hci_range torque_range_Nm[HCI_TURN_STEPS];
 } hci_turn_means;
 
 void hci_turn_means_begin(hci_turn_means *turn);
@@ -26,7 +26,7 @@ typedef struct {
     size_t samples;
     double torque_Nm;
     hci_dq current_A;
-    hci_svg_range torque_range_Nm;
+    hci_range torque_range_Nm;
 } hci_turn_mean;
 
 hci_turn_mean hci_turn_mean_of(const hci_turn_means *turn, size_t step, size_t many);

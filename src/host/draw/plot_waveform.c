@@ -50,15 +50,15 @@ static double value_at(const hci_waveform *w, bool all, double theta_rad)
 
 typedef struct {
     double value[POINTS + 1];
-    hci_svg_range range;
+    hci_range range;
 } curve;
 
 static void fill(curve *c, const hci_waveform *w, bool all)
 {
-    c->range = HCI_SVG_NOTHING;
+    c->range = HCI_RANGE_EMPTY;
     for (int k = 0; k <= POINTS; ++k) {
         c->value[k] = value_at(w, all, 2.0 * HCI_PI * turns_of(w) * k / POINTS);
-        hci_svg_include(&c->range, c->value[k]);
+        hci_range_include(&c->range, c->value[k]);
     }
 }
 
@@ -112,13 +112,13 @@ static void draw_orders(hci_output *out, const hci_waveform *w)
     static const hci_svg_entry LEGEND[] = {{HCI_SVG_DOT, "before", "left out: noise can make it"},
                                            {HCI_SVG_DOT, "dot", "kept"},
                                            {HCI_SVG_LINE, "noise", "95 % interval"}};
-    hci_svg_range order = {0.0, 1.0}, amplitude = HCI_SVG_NOTHING;
+    hci_range order = {0.0, 1.0}, amplitude = HCI_RANGE_EMPTY;
     char title[96];
     for (size_t k = 0; k < w->count; ++k) {
-        hci_svg_include(&order, w->order[k].order);
+        hci_range_include(&order, w->order[k].order);
         if (!(w->order[k].amplitude > 0.0)) continue;
-        hci_svg_include(&amplitude, ROOM_BELOW * w->order[k].amplitude);
-        hci_svg_include(&amplitude, w->order[k].amplitude);
+        hci_range_include(&amplitude, ROOM_BELOW * w->order[k].amplitude);
+        hci_range_include(&amplitude, w->order[k].amplitude);
     }
     const hci_svg_axis x = hci_svg_axis_over(order, ORDERS.left, ORDERS.right, 16.0);
     const hci_svg_axis y = hci_svg_log_axis(amplitude, ORDERS.bottom, ORDERS.top, 4.0);
@@ -154,7 +154,7 @@ static void write_verdict(char line[LINE_SIZE], const hci_waveform *w)
              w->kept == 1 ? "" : "s", text, largest->order);
 }
 
-static void write_facts(char line[LINE_SIZE], const hci_waveform *w, hci_svg_range r)
+static void write_facts(char line[LINE_SIZE], const hci_waveform *w, hci_range r)
 {
     char swing[HCI_SVG_NUMBER_SIZE], friction[HCI_SVG_NUMBER_SIZE];
     hci_svg_quantity_text(swing, r.high - r.low, unit_of(w));

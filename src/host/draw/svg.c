@@ -277,13 +277,6 @@ void hci_svg_end(hci_output *out)
 #define NUMBER_GAP   8.0  /* between a box and the numbers at its left */
 #define RIGHT_MARGIN 12.0 /* that every picture has at the right of a box */
 
-void hci_svg_include(hci_svg_range *r, double value)
-{
-    if (!isfinite(value)) return;
-    r->low = fmin(r->low, value);
-    r->high = fmax(r->high, value);
-}
-
 double hci_svg_at(const hci_svg_axis *a, double value)
 {
     const double share = (value - a->low) / (a->high - a->low);
@@ -297,19 +290,19 @@ double hci_svg_nice_step(double least)
 }
 
 /* A range that can be drawn: not empty, not a point, with zero when that is near. */
-static hci_svg_range drawable(hci_svg_range r)
+static hci_range drawable(hci_range r)
 {
     const double size = fmax(fabs(r.low), fabs(r.high));
-    if (!(r.low <= r.high) || !(size > 1e-200) || size > 1e200) return (hci_svg_range){-1.0, 1.0};
-    if (r.high - r.low <= 1e-9 * size) return (hci_svg_range){r.low - 0.1 * size, r.high + 0.1 * size};
+    if (!(r.low <= r.high) || !(size > 1e-200) || size > 1e200) return (hci_range){-1.0, 1.0};
+    if (r.high - r.low <= 1e-9 * size) return (hci_range){r.low - 0.1 * size, r.high + 0.1 * size};
     if (r.low > 0.0 && r.low < 0.5 * r.high) r.low = 0.0;
     if (r.high < 0.0 && r.high > 0.5 * r.low) r.high = 0.0;
     return r;
 }
 
-hci_svg_axis hci_svg_axis_over(hci_svg_range r, double from, double to, double most_ticks)
+hci_svg_axis hci_svg_axis_over(hci_range r, double from, double to, double most_ticks)
 {
-    const hci_svg_range shown = drawable(r);
+    const hci_range shown = drawable(r);
     const double margin = 0.05 * (shown.high - shown.low);
     hci_svg_axis a = {shown.low, shown.high, from, to, 0.0};
     if (shown.low != 0.0) a.low -= margin;
@@ -326,13 +319,12 @@ static void widen(hci_svg_axis *a, double span)
     a->high = middle + 0.5 * span;
 }
 
-void hci_svg_equal_axes(hci_svg_range x, hci_svg_range y, const hci_svg_box *b, hci_svg_axis *x_axis,
+void hci_svg_equal_axes(hci_range x, hci_range y, const hci_svg_box *b, hci_svg_axis *x_axis,
                         hci_svg_axis *y_axis)
 {
     const double width = b->right - b->left, height = b->bottom - b->top;
     double scale;
-    if (x.high - x.low <= 1e-6 * (fabs(y.high) + fabs(y.low)))
-        x = (hci_svg_range){x.low - 1e-6, x.high + 1e-6};
+    if (x.high - x.low <= 1e-6 * (fabs(y.high) + fabs(y.low))) x = (hci_range){x.low - 1e-6, x.high + 1e-6};
     *x_axis = hci_svg_axis_over(x, b->left, b->right, 6.0);
     *y_axis = hci_svg_axis_over(y, b->bottom, b->top, 6.0);
     scale = fmax((x_axis->high - x_axis->low) / width, (y_axis->high - y_axis->low) / height);
@@ -432,7 +424,7 @@ static double snapped(double value, bool up)
     return ten + log10(up ? above : below);
 }
 
-hci_svg_axis hci_svg_log_axis(hci_svg_range r, double from, double to, double most_decades)
+hci_svg_axis hci_svg_log_axis(hci_range r, double from, double to, double most_decades)
 {
     hci_svg_axis a = {-1.0, 0.0, from, to, 1.0};
     if (!(r.high > 1e-200) || !(r.high < 1e200)) return a;

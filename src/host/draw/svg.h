@@ -8,6 +8,7 @@
 #include <stddef.h>
 
 #include "hci/host/base/output.h"
+#include "host/numeric/range.h"
 
 /* ---- numbers as text, without the locale ---- */
 
@@ -72,15 +73,6 @@ void hci_svg_end(hci_output *out);
 /* ---- axes ---- */
 
 typedef struct {
-    double low, high;
-} hci_svg_range;
-
-#define HCI_SVG_NOTHING ((hci_svg_range){HUGE_VAL, -HUGE_VAL})
-
-/* Widens the range to hold the value; what is not finite is left out. */
-void hci_svg_include(hci_svg_range *r, double value);
-
-typedef struct {
     double left, top, right, bottom;
 } hci_svg_box;
 
@@ -96,13 +88,13 @@ double hci_svg_at(const hci_svg_axis *a, double value);
 double hci_svg_nice_step(double least);
 
 /* An axis with some room around the range, with zero where that is near; any range will do. */
-hci_svg_axis hci_svg_axis_over(hci_svg_range r, double from, double to, double most_ticks);
+hci_svg_axis hci_svg_axis_over(hci_range r, double from, double to, double most_ticks);
 
 /* 0 to 360·turns degrees over the width of the box. */
 hci_svg_axis hci_svg_axis_of_angle(double turns, const hci_svg_box *b);
 
 /* Two axes that fill the box with the same length of a unit on both. */
-void hci_svg_equal_axes(hci_svg_range x, hci_svg_range y, const hci_svg_box *b, hci_svg_axis *x_axis,
+void hci_svg_equal_axes(hci_range x, hci_range y, const hci_svg_box *b, hci_svg_axis *x_axis,
                         hci_svg_axis *y_axis);
 
 /* Pixels at the left of a box in which the numbers of an upright axis stand. */
@@ -116,7 +108,7 @@ void hci_svg_grid(hci_output *out, const hci_svg_axis *a, const hci_svg_box *b, 
 
 /* Logarithmic, from a 1, 2 or 5 times a power of ten to another, at least one decade. What is too small, or
  * not above 0, lies at its lower end. */
-hci_svg_axis hci_svg_log_axis(hci_svg_range r, double from, double to, double most_decades);
+hci_svg_axis hci_svg_log_axis(hci_range r, double from, double to, double most_decades);
 double hci_svg_log_at(const hci_svg_axis *a, double value);
 void hci_svg_log_grid(hci_output *out, const hci_svg_axis *a, const hci_svg_box *b, bool upwards);
 

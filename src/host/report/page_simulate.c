@@ -114,7 +114,7 @@ static void table_of_slices(hci_output *out, const hci_simulation *s, const hci_
     static const char *const THREE[] = {"From ms",  "to ms",     "Least i_a", "Most i_a", "Least i_b",
                                         "Most i_b", "Least i_c", "Most i_c",  NULL};
     const double slice_s = (s->to_s - s->from_s) / SLICES;
-    const hci_svg_range all = hci_traces_range(t, first, s->from_s, s->to_s);
+    const hci_range all = hci_traces_range(t, first, s->from_s, s->to_s);
     const double span = all.high - all.low;
     hci_html_table(out, "Extremes over the time", first == last ? ONE : THREE);
     for (size_t k = 0; k < SLICES; ++k) {
@@ -123,7 +123,7 @@ static void table_of_slices(hci_output *out, const hci_simulation *s, const hci_
         hci_html_number(out, 1e3 * from_s);
         hci_html_number(out, 1e3 * to_s);
         for (size_t j = first; j <= (size_t)last; ++j) {
-            const hci_svg_range r = hci_traces_range(t, (hci_trace)j, from_s, to_s);
+            const hci_range r = hci_traces_range(t, (hci_trace)j, from_s, to_s);
             hci_html_number_in(out, r.low, span);
             hci_html_number_in(out, r.high, span);
         }

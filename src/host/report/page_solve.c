@@ -36,7 +36,7 @@ static double mean_Nm(const hci_solution *s)
 }
 
 /* "by 3.8 N·m", "by less than 1 pN·m" */
-static void say_swing(char text[HCI_HTML_NUMBER_SIZE + 16], hci_svg_range r)
+static void say_swing(char text[HCI_HTML_NUMBER_SIZE + 16], hci_range r)
 {
     char swing[HCI_HTML_NUMBER_SIZE];
     hci_html_quantity_text(swing, r.high - r.low, "N·m");
@@ -74,7 +74,7 @@ static void say_verdict(const page *p, hci_status verdict)
 static void show_tiles(const page *p)
 {
     const hci_solution *s = p->solution;
-    const hci_svg_range before = p->facts.before_Nm, after = p->facts.after_Nm;
+    const hci_range before = p->facts.before_Nm, after = p->facts.after_Nm;
     char remark[96], number[HCI_HTML_NUMBER_SIZE];
     hci_html_tiles(p->out);
     hci_html_tile_number(p->out, "Mean torque", mean_Nm(s), "N·m", "electromagnetic, of the model");
@@ -140,7 +140,7 @@ static void table_of_vector_over_turn(const page *p)
 }
 
 /* least: what is below it is rounding. */
-static void row_of_range(hci_output *out, const char *name, hci_svg_range r, double least)
+static void row_of_range(hci_output *out, const char *name, hci_range r, double least)
 {
     hci_html_row(out);
     hci_html_cell(out, name);
@@ -190,8 +190,8 @@ static void tables_of_vector(const page *p)
     static const char *const COLUMN[] = {"<Current", "Least A", "Most A", "Swing A", NULL};
     const hci_plot_facts *f = &p->facts;
     hci_html_table(p->out, "Extremes over the period", COLUMN);
-    row_of_range(p->out, "i_d before", (hci_svg_range){f->plain_dq_A.d, f->plain_dq_A.d}, 0.0);
-    row_of_range(p->out, "i_q before", (hci_svg_range){f->plain_dq_A.q, f->plain_dq_A.q}, 0.0);
+    row_of_range(p->out, "i_d before", (hci_range){f->plain_dq_A.d, f->plain_dq_A.d}, 0.0);
+    row_of_range(p->out, "i_q before", (hci_range){f->plain_dq_A.q, f->plain_dq_A.q}, 0.0);
     row_of_range(p->out, "i_d after", f->d_A, 0.0);
     row_of_range(p->out, "i_q after", f->q_A, 0.0);
     hci_html_table_end(p->out);

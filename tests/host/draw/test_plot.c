@@ -521,7 +521,7 @@ static double width_of(const char *text)
 static void test_numbers_of_an_axis(void)
 {
     static const struct {
-        hci_svg_range r;
+        hci_range r;
         const char *is[2], *is_not;
     } CASE[] = {
         {{0.049918, 0.050083}, {">0.05000<", ">0.05005<"}, "e-"},
@@ -651,7 +651,7 @@ static void test_axes_of_any_range(void)
     uint64_t state = 1;
     for (int k = 0; k < 2000; ++k) {
         const double size = pow(10.0, ref_uniform(&state, -150.0, 150.0));
-        hci_svg_range r = {ref_uniform(&state, -size, size), 0.0};
+        hci_range r = {ref_uniform(&state, -size, size), 0.0};
         r.high = r.low + size * pow(10.0, ref_uniform(&state, -6.0, 1.0));
         const hci_svg_axis a = hci_svg_axis_over(r, 300.0, 20.0, 6.0);
         const double numbers = floor(a.high / a.step) - ceil(a.low / a.step) + 1.0;

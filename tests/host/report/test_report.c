@@ -510,10 +510,10 @@ static void test_traces_keep_peaks(void)
         if (k == 3) value[0] = 99.0; /* before it begins */
         hci_traces_add(&traces, time_s, 0.0, value);
     }
-    const hci_svg_range torque = hci_traces_range(&traces, HCI_TRACE_TORQUE_NM, 1.0, 2.0);
+    const hci_range torque = hci_traces_range(&traces, HCI_TRACE_TORQUE_NM, 1.0, 2.0);
     TEST_ASSERT_EQUAL_DOUBLE(9.0, torque.high);
     TEST_ASSERT_DOUBLE_WITHIN(1e-6, -1.0, torque.low);
-    const hci_svg_range half = hci_traces_range(&traces, HCI_TRACE_SPEED_RPM, 1.0, 1.5);
+    const hci_range half = hci_traces_range(&traces, HCI_TRACE_SPEED_RPM, 1.0, 1.5);
     TEST_ASSERT_DOUBLE_WITHIN(1.0 / 720.0, 1.0, half.low);
     TEST_ASSERT_DOUBLE_WITHIN(1.0 / 720.0, 1.5, half.high);
 }
