@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include "cli/command/command.h"
-#include "hci/host/simulate/simulate.h"
+#include "hci/host/report/write.h"
 
 enum { CURRENTS, OUT, REPORT, CLI_COMMON_KEYS };
 
@@ -199,13 +199,16 @@ static hci_status simulate(const cli_arguments *a, const hci_machine_data *machi
                            const hci_effects *effects, const hci_scenario *scenario, hci_note *note)
 {
     cli_work work = {scenario->duration_s, "s simulated"};
-    const hci_simulate_options options = {a->value[OUT], effects, cli_progress, &work};
+    const hci_simulate_options options = {
+        .effects = effects, .progress = cli_progress, .progress_context = &work};
     const hci_report_sources sources = {.machine = a->word[0],
                                         .scenario = a->word[1],
                                         .currents = scenario->currents[0] ? scenario->currents : NULL};
     hci_simulation simulation;
-    hci_status status = hci_simulate_with_report(machine, scenario, &options,
-                                                 a->given[REPORT] ? &sources : NULL, &simulation, note);
+    const hci_simulate_output where = {a->value[OUT], a->given[REPORT] ? &sources : NULL};
+    hci_status status = where.folder
+                            ? hci_simulate_to_folder(machine, scenario, &options, &where, &simulation, note)
+                            : hci_simulate(machine, scenario, &options, &simulation, note);
     cli_progress_end();
     if (!status && cli_is_wordy()) {
         show(&simulation, a);

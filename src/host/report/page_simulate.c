@@ -6,6 +6,7 @@
 #include "host/base/memory.h"
 #include "host/draw/html.h"
 #include "host/draw/plot.h"
+#include "host/draw/plot_drive.h"
 #include "host/report/report.h"
 
 /* SLICES of the evaluated time and STEPS of a turn: rows of the tables. STEPS: as in report_solve.c. */
@@ -136,7 +137,7 @@ static void figure_of(hci_output *out, const hci_simulation *s, const hci_traces
                       hci_trace last, const hci_svg_picture *words, const char *origin)
 {
     hci_html_figure(out);
-    hci_plot_trace(out, t, words, first, last, s->from_s, s->to_s);
+    hci_plot_traces(out, t, &(hci_plot_window){words, first, last, s->from_s, s->to_s});
     hci_html_figure_tables(out);
     hci_html_table(out, "Over the evaluated time", STATISTICS);
     if (first == HCI_TRACE_TORQUE_NM) row_of(out, "torque N·m", &s->torque_Nm, 1.0);

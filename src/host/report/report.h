@@ -7,7 +7,7 @@
 #include "hci/host/report/report.h"
 #include "hci/host/simulate/simulate.h"
 #include "hci/host/solve/solve.h"
-#include "host/draw/plot_traces.h"
+#include "host/simulate/traces.h"
 
 /* The files that are named, in one line, which ends in between where it is too long. */
 enum { HCI_REPORT_ORIGIN_SIZE = 1024 };

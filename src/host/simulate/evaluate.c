@@ -36,7 +36,7 @@ typedef struct {
     double time_s, angle_rad, speed_rad_per_s;
     double i[2], v[2];
     double magnetic_J, speed_squared;
-    hci_counts counts;
+    hci_simulation_counts counts;
 } level;
 
 /* What has been reached at one instant. */
@@ -113,17 +113,17 @@ static double dqx_length(const hci_evaluation *e, double angle_rad, double lengt
     return hypot(p.magnetic.e[0], p.magnetic.e[1]) * length_A;
 }
 
-static void fill(hci_evaluation *e, const hci_record *r)
+static void fill(hci_evaluation *e, const hci_simulation_step *r)
 {
     const hci_plant *plant = &e->setup->drive.plant;
     const double torque = r->torque_Nm - e->reference_Nm, speed = r->speed_rad_per_s;
-    const double length = hypot(r->i[0], r->i[1]) * sqrt(2.0 / 3.0);
+    const double length = hypot(r->i_A[0], r->i_A[1]) * sqrt(2.0 / 3.0);
     double *now = e->now;
     now[TORQUE] = torque;
     now[TORQUE_2] = torque * torque;
     now[LENGTH] = length;
     now[LENGTH_2] = length * length;
-    now[DQX] = dqx_length(e, r->angle_rad, length);
+    now[DQX] = dqx_length(e, r->theta_e_rad, length);
     now[DQX_2] = now[DQX] * now[DQX];
     now[SPEED] = speed;
     now[SPEED_2] = speed * speed;
@@ -132,7 +132,7 @@ static void fill(hci_evaluation *e, const hci_record *r)
     now[LOAD] = r->load_Nm * speed;
     now[FRICTION] =
         (plant->viscous_Nms * speed + r->point.shaft_Nm) * speed + plant->coulomb_Nm * fabs(speed);
-    fill_spectrum(e, r->angle_rad, torque * speed, now + SPECTRUM);
+    fill_spectrum(e, r->theta_e_rad, torque * speed, now + SPECTRUM);
 }
 
 static void note_extreme(reached *x, int what, double value)
@@ -141,10 +141,10 @@ static void note_extreme(reached *x, int what, double value)
     x->least[what] = fmin(x->least[what], value);
 }
 
-static void note_extremes(hci_evaluation *e, const hci_record *r)
+static void note_extremes(hci_evaluation *e, const hci_simulation_step *r)
 {
     double abc[3];
-    hci_plane_to_abc(r->i, abc);
+    hci_plane_to_abc(r->i_A, abc);
     note_extreme(&e->running, MOST_TORQUE, r->torque_Nm);
     note_extreme(&e->running, MOST_LENGTH, e->now[LENGTH]);
     note_extreme(&e->running, MOST_DQX, e->now[DQX]);
@@ -153,14 +153,14 @@ static void note_extremes(hci_evaluation *e, const hci_record *r)
         note_extreme(&e->running, MOST_PHASE, fabs(abc[s]));
 }
 
-static level level_of(const hci_record *r)
+static level level_of(const hci_simulation_step *r)
 {
-    const double *l = r->point.inductance_H, *i = r->i;
+    const double *l = r->point.inductance_H, *i = r->i_A;
     return (level){r->time_s,
-                   r->angle_rad,
+                   r->theta_e_rad,
                    r->speed_rad_per_s,
                    {i[0], i[1]},
-                   {r->v[0], r->v[1]},
+                   {r->v_V[0], r->v_V[1]},
                    0.5 * (l[0] * i[0] * i[0] + 2.0 * l[1] * i[0] * i[1] + l[2] * i[1] * i[1]),
                    r->speed_rad_per_s * r->speed_rad_per_s,
                    r->counts};
@@ -212,7 +212,7 @@ static void find_periods(hci_evaluation *e, const level *from, const level *to)
     }
 }
 
-void hci_evaluation_add(hci_evaluation *e, const hci_record *r)
+void hci_evaluation_add(hci_evaluation *e, const hci_simulation_step *r)
 {
     const level now = level_of(r);
     double *swap = e->before;

@@ -1,4 +1,4 @@
-/* The run: one step after another, each shown to the evaluation and to the trajectory. */
+/* The run: one step after another, each shown to the evaluation and to the observer. */
 #include <math.h>
 #include <string.h>
 
@@ -6,12 +6,9 @@
 #include "host/simulate/simulation.h"
 
 typedef struct {
-    const hci_machine_data *machine;
     hci_setup *setup;
     hci_evaluation *evaluation;
-    hci_trajectory trajectory;
-    hci_output *out;                   /* NULL: nothing is written */
-    const hci_report_sources *sources; /* NULL: no report */
+    const hci_simulation_observer *observer; /* or NULL */
 } run;
 
 static void start_sensors(hci_setup *setup)
@@ -29,29 +26,29 @@ static double load_at(const hci_setup *setup, double time_s)
                                                                               : setup->load_Nm;
 }
 
-static hci_counts counts_of(const hci_control_state *control)
+static hci_simulation_counts counts_of(const hci_control_state *control)
 {
-    return (hci_counts){control->hysteresis.switchings, control->unreached, control->limited};
+    return (hci_simulation_counts){control->hysteresis.switchings, control->unreached, control->limited};
 }
 
 /* What held at the start of the step that has just been made; its counts are there already. */
-static void make_record(const hci_setup *setup, const hci_plant_state *before, double time_s, double load_Nm,
-                        hci_record *record)
+static void fill_step(const hci_setup *setup, const hci_plant_state *before, double time_s, double load_Nm,
+                      hci_simulation_step *step)
 {
     const hci_drive *drive = &setup->drive;
     const bool imposed = drive->control.loop == HCI_CURRENT_IDEAL;
     hci_plant_state at = *before;
     for (int k = 0; k < 2; ++k) {
-        at.i[k] = record->i[k] = imposed ? setup->state.control.reference[k] : before->i[k];
-        record->v[k] = setup->state.control.v[k];
+        at.i[k] = step->i_A[k] = imposed ? setup->state.control.reference[k] : before->i[k];
+        step->v_V[k] = setup->state.control.v[k];
     }
-    record->time_s = time_s;
-    record->angle_rad = drive->plant.table.pole_pairs * hci_plant_angle_rad(before);
-    record->speed_rad_per_s = before->speed_rad_per_s;
-    record->torque_Nm = setup->state.torque_Nm;
-    record->load_Nm = load_Nm;
-    record->point = hci_plant_at(&drive->plant, &at);
-    record->state = &setup->state;
+    step->time_s = time_s;
+    step->theta_e_rad = drive->plant.table.pole_pairs * hci_plant_angle_rad(before);
+    step->speed_rad_per_s = before->speed_rad_per_s;
+    step->torque_Nm = setup->state.torque_Nm;
+    step->load_Nm = load_Nm;
+    step->point = hci_plant_at(&drive->plant, &at);
+    step->state = &setup->state;
 }
 
 static bool is_finite(const hci_plant_state *s)
@@ -59,14 +56,14 @@ static bool is_finite(const hci_plant_state *s)
     return isfinite(s->i[0]) && isfinite(s->i[1]) && isfinite(s->speed_rad_per_s) && isfinite(s->theta_m_rad);
 }
 
-static hci_status make_step(run *r, size_t k, hci_note *note)
+static hci_status make_step(const run *r, size_t k, hci_note *note)
 {
     hci_setup *setup = r->setup;
     const double time_s = (double)k * setup->drive.control.step_s, load_Nm = load_at(setup, time_s);
     const bool evaluated = time_s >= setup->settle_s - 0.5 * setup->drive.control.step_s;
     const hci_plant_state before = setup->state.plant;
-    hci_record record;
-    record.counts = counts_of(&setup->state.control);
+    hci_simulation_step step;
+    step.counts = counts_of(&setup->state.control);
     hci_drive_step(&setup->drive, &setup->state, setup->set_point, load_Nm);
     if (!is_finite(&setup->state.plant))
         return hci_note_set(note, HCI_ERROR_NUMERIC,
@@ -74,14 +71,14 @@ static hci_status make_step(run *r, size_t k, hci_note *note)
                             "`speed_kp` or `current_kp` "
                             "that the step can follow",
                             time_s);
-    if (!evaluated && !r->out) return HCI_OK;
-    make_record(setup, &before, time_s, load_Nm, &record);
-    if (evaluated) hci_evaluation_add(r->evaluation, &record);
-    if (r->out) hci_trajectory_add(&r->trajectory, &record);
+    if (!evaluated && !r->observer) return HCI_OK;
+    fill_step(setup, &before, time_s, load_Nm, &step);
+    if (evaluated) hci_evaluation_add(r->evaluation, &step);
+    if (r->observer) r->observer->step(r->observer->context, &step);
     return HCI_OK;
 }
 
-static hci_status make_steps(run *r, const hci_simulate_options *options, hci_note *note)
+static hci_status make_steps(const run *r, const hci_simulate_options *options, hci_note *note)
 {
     const size_t steps = r->setup->steps, share = steps / 256 + 1;
     hci_status status = HCI_OK;
@@ -95,15 +92,20 @@ static hci_status make_steps(run *r, const hci_simulate_options *options, hci_no
     return status;
 }
 
-/* The report draws what is evaluated. */
-static hci_status begin_traces(run *r, hci_note *note)
+static hci_status begin_observer(const run *r, hci_note *note)
 {
-    if (!r->out || !r->sources) return HCI_OK;
-    r->trajectory.traces = hci_memory_new(1, sizeof *r->trajectory.traces);
-    if (!r->trajectory.traces) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the report");
-    hci_traces_begin(r->trajectory.traces, r->setup->settle_s,
-                     (double)r->setup->steps * r->setup->drive.control.step_s);
-    return HCI_OK;
+    const hci_setup *setup = r->setup;
+    const hci_simulation_plan plan = {.step_s = setup->drive.control.step_s,
+                                      .steps = setup->steps,
+                                      .steps_per_row = setup->every,
+                                      .settle_s = setup->settle_s,
+                                      .temperature_C = setup->temperature_C,
+                                      .pole_pairs = setup->drive.plant.table.pole_pairs,
+                                      .has_voltage = setup->drive.control.loop != HCI_CURRENT_IDEAL,
+                                      .has_command = setup->has_command,
+                                      .has_sensors = setup->drive.sensors != NULL};
+    if (!r->observer || !r->observer->begin) return HCI_OK;
+    return r->observer->begin(r->observer->context, &plan, note);
 }
 
 /* The sine in phase with the back-EMF's fundamental that would make the mean torque with it; false: none. */
@@ -135,56 +137,32 @@ static hci_status judge_plain(const hci_machine_data *machine, const hci_effects
     return HCI_ERROR_MEMORY;
 }
 
-/* Files are opened before the first step, so that a folder that cannot be written to costs no time. */
-static hci_status run_and_write(run *r, const hci_simulate_options *options, hci_simulation *simulation,
-                                hci_note *note)
+static hci_status run_setup(const hci_machine_data *machine, const hci_simulate_options *options,
+                            hci_setup *setup, hci_simulation *simulation, hci_note *note)
 {
-    hci_status status = options->folder ? hci_output_open(options->folder, &r->out, note) : HCI_OK;
-    if (!status && r->out) status = hci_trajectory_begin(&r->trajectory, r->out, r->setup, note);
-    if (!status) status = begin_traces(r, note);
-    if (!status) status = make_steps(r, options, note);
-    if (!status) status = hci_evaluation_finish(r->evaluation, simulation, note);
-    if (!status) status = judge_plain(r->machine, options->effects, simulation, note);
-    if (!status && r->out) {
-        hci_trajectory_end(&r->trajectory);
-        status = hci_simulation_write(r->out, simulation, r->trajectory.traces, r->sources, note);
-    }
-    if (status)
-        hci_output_discard(r->out);
-    else if (r->out)
-        status = hci_output_commit(r->out, note);
-    hci_memory_free(r->trajectory.traces);
+    const run r = {setup, hci_evaluation_new(setup), options->observer};
+    hci_status status = HCI_OK;
+    if (!r.evaluation) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the evaluation");
+    status = begin_observer(&r, note);
+    if (!status) status = make_steps(&r, options, note);
+    if (!status) status = hci_evaluation_finish(r.evaluation, simulation, note);
+    if (!status) status = judge_plain(machine, options->effects, simulation, note);
+    hci_evaluation_free(r.evaluation);
     return status;
 }
 
 hci_status hci_simulate(const hci_machine_data *machine, const hci_scenario *scenario,
                         const hci_simulate_options *options, hci_simulation *simulation, hci_note *note)
 {
-    return hci_simulate_with_report(machine, scenario, options, NULL, simulation, note);
-}
-
-hci_status hci_simulate_with_report(const hci_machine_data *machine, const hci_scenario *scenario,
-                                    const hci_simulate_options *options, const hci_report_sources *sources,
-                                    hci_simulation *simulation, hci_note *note)
-{
     hci_setup *setup = hci_memory_new(1, sizeof *setup);
-    run r = {0};
     hci_status status;
     memset(simulation, 0, sizeof *simulation);
     if (!setup) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory");
-    r.machine = machine;
-    r.setup = setup;
-    r.sources = sources;
     status = hci_setup_make(machine, options->effects, scenario, setup, note);
-    if (!status && !(r.evaluation = hci_evaluation_new(setup)))
-        status = hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the evaluation");
-    if (!status) {
-        simulation->remark = setup->remark;
-        simulation->imposed = scenario->currents[0] != '\0';
-        status = run_and_write(&r, options, simulation, note);
-    }
+    simulation->remark = setup->remark;
+    simulation->imposed = scenario->currents[0] != '\0';
+    if (!status) status = run_setup(machine, options, setup, simulation, note);
     if (status) hci_simulation_release(simulation);
-    hci_evaluation_free(r.evaluation);
     hci_setup_release(setup);
     hci_memory_free(setup);
     return status;

@@ -10,7 +10,7 @@
 
 #include "host/base/memory.h"
 #include "host/draw/plot.h"
-#include "host/draw/plot_turn.h"
+#include "host/draw/plot_drive.h"
 #include "support/reference.h"
 #include "unity.h"
 

@@ -12,7 +12,7 @@
 
 #include "hci/host/csv/csv.h"
 #include "hci/host/report/summary.h"
-#include "hci/host/simulate/simulate.h"
+#include "hci/host/report/write.h"
 #include "host/base/memory.h"
 #include "unity.h"
 
@@ -94,10 +94,13 @@ static hci_scenario scenario_of(const char *rows)
 static hci_simulation simulate_into(const hci_machine_data *machine, const hci_scenario *scenario,
                                     const char *folder)
 {
-    const hci_simulate_options options = {folder, NULL, NULL, NULL};
+    const hci_simulate_options options = {0};
+    const hci_simulate_output where = {folder, NULL};
     hci_simulation s;
     hci_note note = {{0}};
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_simulate(machine, scenario, &options, &s, &note), note.text);
+    const hci_status status = folder ? hci_simulate_to_folder(machine, scenario, &options, &where, &s, &note)
+                                     : hci_simulate(machine, scenario, &options, &s, &note);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, status, note.text);
     return s;
 }
 
@@ -653,9 +656,9 @@ static void test_effects_are_simulated(void)
 {
     const hci_scenario scenario =
         scenario_of("duration,0.8,s\nprescribed_speed,80,rpm\ntorque_reference,8,Nm\n");
-    const hci_simulate_options without = {NULL, NULL, NULL, NULL};
+    const hci_simulate_options without = {0};
     hci_effects_data effects;
-    hci_simulate_options with = {NULL, NULL, NULL, NULL};
+    hci_simulate_options with = {0};
     hci_simulation s;
     hci_note note = {{0}};
     write_text("effects.csv", "effect,parameter,value,unit,std_error\ncogging,sine_5,0.25,Nm,\n");
@@ -699,13 +702,14 @@ static void refused(const hci_machine_data *machine, const char *rows, const cha
     hci_scenario scenario;
     hci_simulation s;
     hci_note note = {{0}};
-    const hci_simulate_options options = {in_root("refused"), NULL, NULL, NULL};
+    const hci_simulate_options options = {0};
+    const hci_simulate_output where = {in_root("refused"), NULL};
     hci_status status;
     snprintf(text, sizeof text, "name,value,unit\n%s", rows);
     write_text("scenario.csv", text);
     status = hci_scenario_read(in_root("scenario.csv"), &scenario, &note);
     if (!status) {
-        status = hci_simulate(machine, &scenario, &options, &s, &note);
+        status = hci_simulate_to_folder(machine, &scenario, &options, &where, &s, &note);
         TEST_ASSERT_NULL(s.spectrum_Nm);
     }
     TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_ERROR_INPUT, status, rows);
@@ -810,10 +814,12 @@ static void test_a_step_that_is_too_large_is_said(void)
 {
     const hci_scenario scenario =
         scenario_of("duration,10,s\ntorque_reference,8,Nm\nviscous_friction,1000,\nstep,1,ms\n");
-    const hci_simulate_options options = {in_root("out"), NULL, NULL, NULL};
+    const hci_simulate_options options = {0};
+    const hci_simulate_output where = {in_root("out"), NULL};
     hci_simulation s;
     hci_note note = {{0}};
-    TEST_ASSERT_EQUAL_INT(HCI_ERROR_NUMERIC, hci_simulate(&machine_c, &scenario, &options, &s, &note));
+    TEST_ASSERT_EQUAL_INT(HCI_ERROR_NUMERIC,
+                          hci_simulate_to_folder(&machine_c, &scenario, &options, &where, &s, &note));
     TEST_ASSERT_NOT_NULL(strstr(note.text, "smaller `step`"));
     TEST_ASSERT_TRUE(entries(in_root("out")) <= 0);
 }
@@ -825,7 +831,8 @@ static void test_every_allocation_may_fail(void)
 {
     hci_solution solution =
         solve(&machine_a, "data/scenarios/02/target.csv", HCI_METHOD_AUTO, HCI_STRATEGY_MTPA);
-    const hci_simulate_options options = {in_root("out"), NULL, NULL, NULL};
+    const hci_simulate_options options = {0};
+    const hci_simulate_output where = {in_root("out"), NULL};
     cJSON_Hooks hooks = {hci_memory_malloc, hci_memory_free};
     hci_scenario scenario =
         scenario_of("duration,0.02,s\nprescribed_speed,1500,rpm\ncurrents,solution,\ntorque_reference,2,Nm\n"
@@ -840,7 +847,7 @@ static void test_every_allocation_may_fail(void)
         memset(&s, 0, sizeof s);
         hci_memory_fail_after(n);
         status = hci_scenario_read(in_root("scenario.csv"), &scenario, &note);
-        if (!status) status = hci_simulate(&machine_a, &scenario, &options, &s, &note);
+        if (!status) status = hci_simulate_to_folder(&machine_a, &scenario, &options, &where, &s, &note);
         hci_memory_fail_after(-1);
         hci_simulation_release(&s);
         if (status == HCI_OK) break;

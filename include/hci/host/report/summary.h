@@ -5,6 +5,7 @@
 #include "hci/host/diagnose/diagnose.h"
 #include "hci/host/emit/emit.h"
 #include "hci/host/machine/init.h"
+#include "hci/host/simulate/simulate.h"
 #include "hci/host/solve/solve.h"
 
 #ifdef __cplusplus
@@ -18,6 +19,9 @@ char *hci_solution_json(const hci_solution *solution, hci_status verdict);
 /* As in summary.json of `diagnose`. resolution: or NULL. To be freed with hci_text_free; NULL when memory is
  * out. */
 char *hci_diagnosis_json(const hci_diagnosis *diagnosis, const hci_resolution *resolution);
+
+/* As in summary.json of `simulate`. To be freed with hci_text_free; NULL when memory is out. */
+char *hci_simulation_json(const hci_simulation *simulation);
 
 /* What `init` has made of a sheet. To be freed with hci_text_free; NULL when memory is out. */
 char *hci_init_json(const hci_sheet *sheet);

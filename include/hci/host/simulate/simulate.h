@@ -1,7 +1,10 @@
-/* The simulated drive from files: a machine folder and a scenario in, a trajectory, its steady spectrum and
- * figures out. */
+/* The simulated drive: a machine and a scenario in, its steady spectrum and figures out, and every step to
+ * whoever wants to watch. */
 #ifndef HCI_HOST_SIMULATE_SIMULATE_H
 #define HCI_HOST_SIMULATE_SIMULATE_H
+
+#include <stdbool.h>
+#include <stdint.h>
 
 #include "hci/drive/control.h"
 #include "hci/host/machine/effects.h"
@@ -165,33 +168,71 @@ typedef struct {
     hci_note remark;           /* what a reader should know, or "" */
 } hci_simulation;
 
+/* ---- watching it ---- */
+
+/* What an observer is told before the first step: of what the steps consist, and how many there are. */
+typedef struct {
+    double step_s;        /* between two steps */
+    size_t steps;         /* that the time has; one more is shown, for the values at its end */
+    size_t steps_per_row; /* as the scenario's trajectory_every, or its default */
+    double settle_s;      /* what is before it is not evaluated */
+    double temperature_C; /* of the magnets; NAN where the scenario does not give it */
+    int pole_pairs;       /* of the machine */
+    bool has_voltage;     /* false: currents are imposed, and there is no voltage */
+    bool has_command;     /* a torque is asked for, by the scenario or by the speed loop */
+    bool has_sensors;     /* what is measured is not what is */
+} hci_simulation_plan;
+
+/* Events since the start of the run. */
+typedef struct {
+    uint64_t switchings;      /* of all legs of the inverter */
+    uint64_t without_current; /* samples at which the strategy had no current for the torque */
+    uint64_t limited;         /* samples at which a current limit held */
+} hci_simulation_counts;
+
+/* What holds at the start of a step. */
+typedef struct {
+    double time_s;                /* from the start of the run */
+    double theta_e_rad;           /* electrical, not wrapped */
+    double speed_rad_per_s;       /* mechanical */
+    double i_A[2], v_V[2];        /* αβ, orthonormal; the voltage holds until the next step */
+    double torque_Nm, load_Nm;    /* of the machine, and on the shaft against positive rotation */
+    hci_plant_point point;        /* the machine at this angle and current, effects included */
+    hci_simulation_counts counts; /* until now */
+    const hci_drive_state
+        *state; /* after the step, for what was measured and commanded in it; until return */
+} hci_simulation_step;
+
+/* Sees every step of a simulation as it is made. */
+typedef struct {
+    hci_status (*begin)(
+        void *context, const hci_simulation_plan *plan,
+        hci_note *note); /* before the first step; an error ends the simulation. May be NULL */
+    void (*step)(void *context, const hci_simulation_step *step); /* once a step, in the order of time */
+    void *context;                                                /* first argument of both */
+} hci_simulation_observer;
+
+/* ---- running it ---- */
+
 /* What a simulation is given besides machine and scenario. */
 typedef struct {
-    const char
-        *folder; /* for trajectory.csv, spectrum.csv, summary.json, all or none; NULL: nothing is written */
     const hci_effects *effects; /* of the machine, on plant and sensors, not known to the controller; NULL
                                    only where it has no effects.csv */
-    hci_progress *progress;     /* may be NULL */
-    void *progress_context;     /* first argument of progress */
+    const hci_simulation_observer *observer; /* may be NULL */
+    hci_progress *progress;                  /* may be NULL */
+    void *progress_context;                  /* first argument of progress */
 } hci_simulate_options;
 
-/* Runs the scenario. HCI_OK, and *simulation is to be given to hci_simulation_release; or an error with a
- * note, and then it is empty: HCI_ERROR_INPUT for what contradicts itself or is missing in machine or
- * scenario, HCI_ERROR_NUMERIC when the state left the finite numbers, HCI_ERROR_MEMORY, HCI_ERROR_OUTPUT.
- * Same input, same result to the bit on one libm. */
+/* Runs the scenario and writes nothing (hci_simulate_to_folder of hci/host/report/write.h does). HCI_OK, and
+ * *simulation is to be given to hci_simulation_release; or an error with a note, and then it is empty:
+ * HCI_ERROR_INPUT for what contradicts itself or is missing in machine or scenario, HCI_ERROR_NUMERIC when
+ * the state left the finite numbers, HCI_ERROR_MEMORY, or what the observer's begin returned. Same input,
+ * same result to the bit on one libm. */
 hci_status hci_simulate(const hci_machine_data *machine, const hci_scenario *scenario,
                         const hci_simulate_options *options, hci_simulation *simulation, hci_note *note);
 
-/* The same, and report.html in the folder; NULL: without. */
-hci_status hci_simulate_with_report(const hci_machine_data *machine, const hci_scenario *scenario,
-                                    const hci_simulate_options *options, const hci_report_sources *sources,
-                                    hci_simulation *simulation, hci_note *note);
-
 /* Frees what a simulation holds and empties it. */
 void hci_simulation_release(hci_simulation *simulation);
-
-/* As in summary.json. To be freed with hci_text_free of summary.h; NULL when memory is out. */
-char *hci_simulation_json(const hci_simulation *simulation);
 
 #ifdef __cplusplus
 }

@@ -1,12 +1,12 @@
 /* Torque and current vector of a simulated drive over one electrical turn: mean and extremes of all turns, in
  * equal steps of the angle. */
-#ifndef HCI_SRC_HOST_DRAW_PLOT_TURN_H
-#define HCI_SRC_HOST_DRAW_PLOT_TURN_H
+#ifndef HCI_SRC_HOST_SIMULATE_TURN_MEANS_H
+#define HCI_SRC_HOST_SIMULATE_TURN_MEANS_H
 
 #include <stddef.h>
 
 #include "hci/machine/frames.h"
-#include "host/draw/svg.h"
+#include "host/numeric/range.h"
 
 enum { HCI_TURN_STEPS = 360 };
 
@@ -19,6 +19,8 @@ typedef struct {
 } hci_turn_means;
 
 void hci_turn_means_begin(hci_turn_means *turn);
+
+/* theta_e_rad: of any size and sign; a sample whose angle is not finite is left out. */
 void hci_turn_means_add(hci_turn_means *turn, double theta_e_rad, double torque_Nm, hci_dq current_A);
 
 /* Of one step, or of `many` steps from there on together. samples 0: there is nothing. */
@@ -30,10 +32,5 @@ typedef struct {
 } hci_turn_mean;
 
 hci_turn_mean hci_turn_mean_of(const hci_turn_means *turn, size_t step, size_t many);
-
-/* Pictures as plot.h says. before, plain_A: torque, or NULL, and vector of what it is compared with, the
- * plain sine with the same mean torque. */
-void hci_plot_turn_torque(hci_output *out, const hci_turn_means *turn, const hci_turn_means *before);
-void hci_plot_turn_vector(hci_output *out, const hci_turn_means *turn, hci_dq plain_A);
 
 #endif
