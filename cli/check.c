@@ -5,6 +5,7 @@
 #include "cli/command/command.h"
 #include "hci/host/base/output.h"
 #include "hci/host/check/check.h"
+#include "hci/host/report/summary.h"
 
 enum { OUT, CLI_COMMON_KEYS };
 

@@ -7,6 +7,8 @@
 
 #include "cli/command/command.h"
 #include "hci/host/diagnose/diagnose.h"
+#include "hci/host/report/summary.h"
+#include "hci/host/report/write.h"
 
 enum { RUNS, OUT, TARGET, RESOLUTION, REPORT, CLI_COMMON_KEYS };
 

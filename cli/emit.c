@@ -8,6 +8,7 @@
 #include "cli/command/command.h"
 #include "hci/host/csv/csv.h"
 #include "hci/host/emit/emit.h"
+#include "hci/host/report/summary.h"
 
 enum { NAME, FORMAT, FRAME, POINTS, MAX_ERROR, PER_TORQUE, REFERENCE, OUT, CLI_COMMON_KEYS };
 

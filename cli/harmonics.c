@@ -4,6 +4,8 @@
 
 #include "cli/command/command.h"
 #include "hci/host/base/number.h"
+#include "hci/host/report/summary.h"
+#include "hci/host/report/write.h"
 #include "hci/host/waveform/waveform.h"
 #include "hci/math/harmonic.h"
 

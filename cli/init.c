@@ -6,6 +6,7 @@
 #include "cli/command/command.h"
 #include "hci/host/base/number.h"
 #include "hci/host/machine/init.h"
+#include "hci/host/report/summary.h"
 
 enum {
     POLE_PAIRS,

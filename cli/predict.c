@@ -6,6 +6,7 @@
 
 #include "cli/command/command.h"
 #include "hci/host/recording/predict.h"
+#include "hci/host/report/summary.h"
 
 enum { OUT, CLI_COMMON_KEYS };
 

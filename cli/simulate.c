@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "cli/command/command.h"
+#include "hci/host/report/summary.h"
 #include "hci/host/report/write.h"
 
 enum { CURRENTS, OUT, REPORT, CLI_COMMON_KEYS };

@@ -8,6 +8,8 @@
 #include "cli/command/command.h"
 #include "hci/host/base/number.h"
 #include "hci/host/machine/effects.h"
+#include "hci/host/report/summary.h"
+#include "hci/host/report/write.h"
 #include "hci/host/solve/solve.h"
 
 enum {

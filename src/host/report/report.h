@@ -2,11 +2,7 @@
 #ifndef HCI_SRC_HOST_REPORT_REPORT_H
 #define HCI_SRC_HOST_REPORT_REPORT_H
 
-#include "hci/host/base/output.h"
-#include "hci/host/diagnose/diagnose.h"
-#include "hci/host/report/report.h"
-#include "hci/host/simulate/simulate.h"
-#include "hci/host/solve/solve.h"
+#include "hci/host/report/write.h"
 #include "host/simulate/traces.h"
 
 /* The files that are named, in one line, which ends in between where it is too long. */

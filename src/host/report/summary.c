@@ -4,11 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "hci/host/check/check.h"
-#include "hci/host/recording/predict.h"
 #include "hci/host/report/summary.h"
-#include "hci/host/simulate/simulate.h"
-#include "hci/host/waveform/waveform.h"
 #include "hci/version.h"
 #include "host/base/memory.h"
 #include "host/report/report.h"

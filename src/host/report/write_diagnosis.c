@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "hci/host/csv/csv.h"
-#include "hci/host/diagnose/diagnose.h"
 #include "hci/host/report/summary.h"
+#include "hci/host/report/write.h"
 #include "host/report/report.h"
 
 enum { PATH_SIZE = 4096 };

@@ -2,8 +2,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "hci/host/base/output.h"
 #include "hci/host/report/summary.h"
+#include "hci/host/report/write.h"
 #include "hci/machine/frames.h"
 #include "host/draw/plot.h"
 #include "host/report/report.h"

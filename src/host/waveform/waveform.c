@@ -10,7 +10,6 @@
 #include "hci/math/fourier.h"
 #include "host/base/memory.h"
 #include "host/base/quote.h"
-#include "host/draw/plot.h"
 #include "host/waveform/parts.h"
 
 /* Of all orders looked at, noise is to make one in so many recordings. */
@@ -439,33 +438,4 @@ void hci_waveform_release(hci_waveform *waveform)
 {
     hci_memory_free(waveform->order);
     memset(waveform, 0, sizeof *waveform);
-}
-
-hci_status hci_waveform_write(const hci_waveform *w, const char *folder, hci_note *note)
-{
-    const bool emf = w->quantity == HCI_WAVEFORM_BACK_EMF;
-    const char *unit = emf ? "Nm_per_A" : "Nm";
-    hci_output *output;
-    hci_status status = hci_output_open(folder, &output, note);
-    if (status == HCI_OK) status = hci_output_file(output, emf ? "back_emf.csv" : "cogging.csv", note);
-    if (status != HCI_OK) {
-        hci_output_discard(output);
-        return status;
-    }
-    hci_output_text(output, "order,amplitude_%s,phase_rad,std_error_%s\n", unit, unit);
-    for (size_t k = 0; k < w->count; ++k) {
-        const hci_waveform_order *o = &w->order[k];
-        if (!o->kept) continue;
-        hci_output_number(output, o->order, ',');
-        hci_output_number(output, o->amplitude, ',');
-        hci_output_number(output, o->phase_rad, ',');
-        hci_output_number(output, o->std_error, '\n');
-    }
-    status = hci_output_file(output, emf ? "back_emf.svg" : "cogging.svg", note);
-    if (status != HCI_OK) {
-        hci_output_discard(output);
-        return status;
-    }
-    hci_plot_waveform(output, w);
-    return hci_output_commit(output, note);
 }

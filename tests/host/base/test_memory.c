@@ -14,6 +14,7 @@
 
 #include "hci/host/emit/emit.h"
 #include "hci/host/report/summary.h"
+#include "hci/host/report/write.h"
 #include "hci/host/solve/solve.h"
 #include "host/base/memory.h"
 #include "host/numeric/sparse.h"

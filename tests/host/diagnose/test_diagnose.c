@@ -2,6 +2,7 @@
  * nothing. */
 #define _XOPEN_SOURCE 700
 
+#include "hci/host/report/write.h"
 #include "host/base/memory.h"
 
 #include "support/diagnosing.h"

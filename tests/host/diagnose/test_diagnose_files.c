@@ -1,6 +1,7 @@
 /* The corrected machine on disk, the same bytes twice, and what goes wrong: no run to fit, no memory. */
 #define _XOPEN_SOURCE 700
 
+#include "hci/host/report/write.h"
 #include "host/base/memory.h"
 
 #include "support/diagnosing.h"

@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "hci/host/base/number.h"
+#include "hci/host/report/write.h"
 #include "host/base/memory.h"
 #include "host/draw/html.h"
 #include "host/draw/plot.h"

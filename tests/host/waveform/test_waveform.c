@@ -2,6 +2,7 @@
  * and measured ones. */
 #define _POSIX_C_SOURCE 200809L
 
+#include "hci/host/report/write.h"
 #include "hci/host/waveform/waveform.h"
 
 #include <math.h>

@@ -109,9 +109,6 @@ const char *hci_check_verdict_name(hci_check_verdict verdict);
 /* "consistent", "mended", "better", "mendable", "not_understood", "worse"; a static string. */
 const char *hci_check_state_name(hci_check_state state);
 
-/* As in summary.json. To be freed with hci_text_free; NULL when memory is out. */
-char *hci_check_json(const hci_check *check);
-
 #ifdef __cplusplus
 }
 #endif

@@ -117,9 +117,6 @@ hci_status hci_diagnose(const hci_machine_data *machine, const hci_effects *decl
 /* Frees what a diagnosis holds and empties it. */
 void hci_diagnosis_release(hci_diagnosis *diagnosis);
 
-/* The verdict as a few plain sentences. size: of text, 2048 will do. */
-void hci_diagnosis_words(const hci_diagnosis *diagnosis, char *text, size_t size);
-
 /* Currents for a target torque before and after the correction. */
 typedef struct {
     hci_solution before, after;               /* for the declared machine and for the corrected one */
@@ -136,13 +133,6 @@ hci_status hci_diagnosis_resolve(const hci_machine_data *machine, const hci_effe
 
 /* Frees what a resolution holds and empties it. */
 void hci_resolution_release(hci_resolution *resolution);
-
-/* Writes effects.csv, errors.csv, residual_spectrum.csv, summary.json, report.html and, where something is
- * not explained, unexplained.csv into `folder`, and the corrected machine into `folder`/machine: the tables
- * of machine_folder as they are, with effects.csv. resolution: for summary and report, or NULL. */
-hci_status hci_diagnosis_write(const hci_diagnosis *diagnosis, const hci_resolution *resolution,
-                               const hci_runs *runs, const char *machine_folder, const char *folder,
-                               hci_note *note);
 
 #ifdef __cplusplus
 }

@@ -43,9 +43,6 @@ typedef struct {
 hci_status hci_predict_file(const char *machine, const char *run, const char *out, hci_prediction *prediction,
                             hci_note *note);
 
-/* As JSON; to be freed with hci_text_free; NULL when memory is out. */
-char *hci_prediction_json(const hci_prediction *prediction);
-
 #ifdef __cplusplus
 }
 #endif

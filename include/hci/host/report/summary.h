@@ -1,32 +1,43 @@
-/* Summaries as JSON text, for scripts. */
+/* Results as JSON text, for scripts. Each text is to be freed with hci_text_free, and NULL when memory is
+ * out. A number that does not exist is null. */
 #ifndef HCI_HOST_REPORT_SUMMARY_H
 #define HCI_HOST_REPORT_SUMMARY_H
 
+#include "hci/host/check/check.h"
 #include "hci/host/diagnose/diagnose.h"
 #include "hci/host/emit/emit.h"
 #include "hci/host/machine/init.h"
+#include "hci/host/recording/predict.h"
 #include "hci/host/simulate/simulate.h"
 #include "hci/host/solve/solve.h"
+#include "hci/host/waveform/waveform.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-/* As in summary.json of `solve`. To be freed with hci_text_free; NULL when memory is out. A number that does
- * not exist is null; so in the others. */
+/* As in summary.json of `solve`. verdict: what hci_solve returned. */
 char *hci_solution_json(const hci_solution *solution, hci_status verdict);
 
-/* As in summary.json of `diagnose`. resolution: or NULL. To be freed with hci_text_free; NULL when memory is
- * out. */
+/* As in summary.json of `diagnose`. resolution: or NULL. */
 char *hci_diagnosis_json(const hci_diagnosis *diagnosis, const hci_resolution *resolution);
 
-/* As in summary.json of `simulate`. To be freed with hci_text_free; NULL when memory is out. */
+/* As in summary.json of `simulate`. */
 char *hci_simulation_json(const hci_simulation *simulation);
 
-/* What `init` has made of a sheet. To be freed with hci_text_free; NULL when memory is out. */
+/* What `check` has found. */
+char *hci_check_json(const hci_check *check);
+
+/* What `harmonics` has measured. */
+char *hci_waveform_json(const hci_waveform *waveform);
+
+/* What `predict` has compared. */
+char *hci_prediction_json(const hci_prediction *prediction);
+
+/* What `init` has made of a sheet. */
 char *hci_init_json(const hci_sheet *sheet);
 
-/* What `emit` has made of a request. To be freed with hci_text_free; NULL when memory is out. */
+/* What `emit` has made of a request. */
 char *hci_emit_json(const hci_emit_request *request, const hci_emit_result *result);
 
 /* Frees a text of this library; NULL is fine. */

@@ -3,12 +3,40 @@
 #ifndef HCI_HOST_REPORT_WRITE_H
 #define HCI_HOST_REPORT_WRITE_H
 
+#include "hci/host/diagnose/diagnose.h"
 #include "hci/host/report/report.h"
 #include "hci/host/simulate/simulate.h"
+#include "hci/host/solve/solve.h"
+#include "hci/host/waveform/waveform.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
+
+/* Writes currents.csv, waveform.csv, spectrum.csv, solution.svg, summary.json and, where currents are linear
+ * in the mean torque, currents_per_Nm.csv and currents_constant.csv into `folder`; all or none. */
+hci_status hci_solution_write(const hci_machine_data *machine, const hci_solution *solution,
+                              hci_status verdict, const char *folder, hci_note *note);
+
+/* The same, and report.html beside them; NULL: without. */
+hci_status hci_solution_write_with_report(const hci_machine_data *machine, const hci_solution *solution,
+                                          hci_status verdict, const hci_report_sources *sources,
+                                          const char *folder, hci_note *note);
+
+/* Writes effects.csv, errors.csv, residual_spectrum.csv, summary.json, report.html and, where something is
+ * not explained, unexplained.csv into `folder`, and the corrected machine into `folder`/machine: the tables
+ * of machine_folder as they are, with effects.csv. resolution: for summary and report, or NULL. */
+hci_status hci_diagnosis_write(const hci_diagnosis *diagnosis, const hci_resolution *resolution,
+                               const hci_runs *runs, const char *machine_folder, const char *folder,
+                               hci_note *note);
+
+/* The verdict as a few plain sentences. size: of text, 2048 will do. */
+void hci_diagnosis_words(const hci_diagnosis *diagnosis, char *text, size_t size);
+
+/* Writes back_emf.csv (order,amplitude_Nm_per_A,phase_rad,std_error_Nm_per_A) or cogging.csv
+ * (order,amplitude_Nm,phase_rad,std_error_Nm) into a folder, and a picture of it, back_emf.svg or
+ * cogging.svg. HCI_ERROR_OUTPUT, _MEMORY. */
+hci_status hci_waveform_write(const hci_waveform *waveform, const char *folder, hci_note *note);
 
 /* Where a simulation is written to. */
 typedef struct {

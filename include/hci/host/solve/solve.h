@@ -4,7 +4,6 @@
 
 #include "hci/effects/effect.h"
 #include "hci/host/machine/machine.h"
-#include "hci/host/report/report.h"
 #include "hci/host/solve/tables.h"
 #include "hci/machine/strategy.h"
 
@@ -170,16 +169,6 @@ hci_status hci_judge_currents(const hci_machine_data *machine, const hci_effects
 
 /* Frees what a judgement holds and empties it. */
 void hci_judgement_release(hci_judgement *judgement);
-
-/* Writes currents.csv, waveform.csv, spectrum.csv, solution.svg, summary.json and, where currents are linear
- * in the mean torque, currents_per_Nm.csv and currents_constant.csv into `folder`; all or none. */
-hci_status hci_solution_write(const hci_machine_data *machine, const hci_solution *solution,
-                              hci_status verdict, const char *folder, hci_note *note);
-
-/* The same, and report.html beside them; NULL: without. */
-hci_status hci_solution_write_with_report(const hci_machine_data *machine, const hci_solution *solution,
-                                          hci_status verdict, const hci_report_sources *sources,
-                                          const char *folder, hci_note *note);
 
 #ifdef __cplusplus
 }

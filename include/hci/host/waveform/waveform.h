@@ -86,14 +86,6 @@ hci_status hci_waveform_find(const hci_run *run, const hci_waveform_options *opt
 /* Frees what a waveform holds and empties it. */
 void hci_waveform_release(hci_waveform *waveform);
 
-/* Writes back_emf.csv (order,amplitude_Nm_per_A,phase_rad,std_error_Nm_per_A) or cogging.csv
- * (order,amplitude_Nm,phase_rad,std_error_Nm) into a folder, and a picture of it, back_emf.svg or
- * cogging.svg. HCI_ERROR_OUTPUT, _MEMORY. */
-hci_status hci_waveform_write(const hci_waveform *waveform, const char *folder, hci_note *note);
-
-/* As JSON; to be freed with hci_text_free; NULL when memory is out. */
-char *hci_waveform_json(const hci_waveform *waveform);
-
 #ifdef __cplusplus
 }
 #endif
