@@ -2,6 +2,7 @@
 #ifndef HCI_HOST_DIAGNOSE_DIAGNOSE_H
 #define HCI_HOST_DIAGNOSE_DIAGNOSE_H
 
+#include "hci/host/base/progress.h"
 #include "hci/host/machine/effects.h"
 #include "hci/host/machine/machine.h"
 #include "hci/host/recording/run.h"

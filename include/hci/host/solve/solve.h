@@ -3,6 +3,7 @@
 #define HCI_HOST_SOLVE_SOLVE_H
 
 #include "hci/effects/effect.h"
+#include "hci/host/base/progress.h"
 #include "hci/host/machine/machine.h"
 #include "hci/host/solve/tables.h"
 #include "hci/machine/strategy.h"
@@ -28,9 +29,6 @@ typedef enum {
 
 /* The name of a method as on the command line; a static string. */
 const char *hci_method_name(hci_method method);
-
-/* Tells of progress on long work: what is done and the share 0 … 1 of it. */
-typedef void hci_progress(void *context, const char *what, double share);
 
 /* What is asked for. Start with {0}; all but target may stay so. */
 typedef struct {
