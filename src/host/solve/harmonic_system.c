@@ -10,18 +10,6 @@ bool hci_task_is_linear(const hci_task *task)
     return task->machine->slope_count == 0 && !task->beyond;
 }
 
-double hci_target_mean_Nm(const hci_target *target)
-{
-    return hci_target_at(target, 0.0).torque_Nm.cosine;
-}
-
-hci_target_order hci_target_at(const hci_target *target, double order)
-{
-    for (size_t k = 0; k < target->count; ++k)
-        if (fabs(target->order[k].torque_Nm.order - order) < HCI_ORDER_TOLERANCE) return target->order[k];
-    return (hci_target_order){{order, 0.0, 0.0}, 1.0};
-}
-
 /* ---- which orders are compared ---- */
 
 static size_t most_orders(const hci_task *t, size_t count)

@@ -62,12 +62,6 @@ hci_status hci_task_find_period(hci_task *task, const hci_component_set *set, co
 /* Whether the torque is linear in the currents. */
 bool hci_task_is_linear(const hci_task *task);
 
-/* The wanted mean torque in N·m. */
-double hci_target_mean_Nm(const hci_target *target);
-
-/* The target at an order; {0} and weight 1 when it is not listed. */
-hci_target_order hci_target_at(const hci_target *target, double order);
-
 hci_status hci_balance_make(const hci_task *task, const hci_component *component, size_t count,
                             hci_compare compare, hci_balance *balance, hci_note *note);
 void hci_balance_release(hci_balance *balance);

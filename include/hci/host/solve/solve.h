@@ -5,7 +5,8 @@
 #include "hci/effects/effect.h"
 #include "hci/host/base/progress.h"
 #include "hci/host/machine/machine.h"
-#include "hci/host/solve/tables.h"
+#include "hci/host/solve/currents.h"
+#include "hci/host/solve/target.h"
 #include "hci/machine/strategy.h"
 
 #ifdef __cplusplus
