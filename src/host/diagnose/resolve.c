@@ -3,14 +3,6 @@
 
 #include "hci/host/diagnose/diagnose.h"
 
-static hci_status judge(const hci_machine_data *machine, const hci_effects *effects,
-                        const hci_solution *solution, const hci_target *target, hci_judgement *judgement,
-                        hci_note *note)
-{
-    return hci_judge_currents(machine, effects, solution->current.wave, solution->current.count, target,
-                              judgement, note);
-}
-
 hci_status hci_diagnosis_resolve(const hci_machine_data *machine, const hci_effects *declared,
                                  const hci_diagnosis *diagnosis, const hci_solve_options *options,
                                  hci_resolution *r, hci_note *note)
@@ -25,8 +17,11 @@ hci_status hci_diagnosis_resolve(const hci_machine_data *machine, const hci_effe
     how.effects = corrected;
     r->after_status = status = hci_solve(machine, &how, &r->after, note);
     if (status <= HCI_NOT_REACHED)
-        status = judge(machine, corrected, &r->before, how.target, &r->old_currents, note);
-    if (!status) status = judge(machine, corrected, &r->after, how.target, &r->new_currents, note);
+        status =
+            hci_evaluate_currents(machine, corrected, &r->before.current, how.target, &r->old_currents, note);
+    if (!status)
+        status =
+            hci_evaluate_currents(machine, corrected, &r->after.current, how.target, &r->new_currents, note);
     if (!status) return r->after_status;
     hci_resolution_release(r);
     return status;
@@ -36,7 +31,7 @@ void hci_resolution_release(hci_resolution *r)
 {
     hci_solution_release(&r->before);
     hci_solution_release(&r->after);
-    hci_judgement_release(&r->old_currents);
-    hci_judgement_release(&r->new_currents);
+    hci_evaluation_release(&r->old_currents);
+    hci_evaluation_release(&r->new_currents);
     memset(r, 0, sizeof *r);
 }

@@ -129,7 +129,7 @@ static hci_wave wave_of(const hci_harmonic h[3], int sequence)
     return w;
 }
 
-static hci_status add_back_emf(const samples *s, hci_corrected *c, hci_note *note)
+static hci_status add_back_emf(const samples *s, hci_quadratic_model *c, hci_note *note)
 {
     hci_machine *m = &c->machine;
     size_t n = m->back_emf_count;
@@ -160,7 +160,7 @@ static double largest_in(const samples *s, size_t r)
     return largest;
 }
 
-static hci_status add_cogging(const samples *s, hci_corrected *c, hci_note *note)
+static hci_status add_cogging(const samples *s, hci_quadratic_model *c, hci_note *note)
 {
     hci_machine *m = &c->machine;
     const double least = HCI_TRANSFORM_FLOOR * largest_in(s, TORQUE);
@@ -193,7 +193,7 @@ static double slope_at(const samples *s, size_t k, hci_inductance_slope *slope)
     return largest;
 }
 
-static hci_status add_slopes(const samples *s, hci_corrected *c, hci_note *note)
+static hci_status add_slopes(const samples *s, hci_quadratic_model *c, hci_note *note)
 {
     hci_machine *m = &c->machine;
     double largest = 0.0;
@@ -210,7 +210,7 @@ static hci_status add_slopes(const samples *s, hci_corrected *c, hci_note *note)
     return HCI_OK;
 }
 
-static hci_status write_within(const hci_effects_plant *within, hci_corrected *c, hci_note *note)
+static hci_status write_within(const hci_effects_plant *within, hci_quadratic_model *c, hci_note *note)
 {
     samples s = {NULL, 0, 1};
     hci_status status = sample_within(within, &s, note);
@@ -224,7 +224,7 @@ static hci_status write_within(const hci_effects_plant *within, hci_corrected *c
 /* ---- all of it ---- */
 
 /* Effects up to the second degree first, those above from the end. */
-static hci_status sort_out(const hci_effects *effects, hci_corrected *c, hci_note *note)
+static hci_status sort_out(const hci_effects *effects, hci_quadratic_model *c, hci_note *note)
 {
     size_t within = 0, beyond = effects->count;
     c->effect = hci_memory_new(effects->count, sizeof *c->effect);
@@ -241,8 +241,8 @@ static hci_status sort_out(const hci_effects *effects, hci_corrected *c, hci_not
     return HCI_OK;
 }
 
-hci_status hci_corrected_make(const hci_machine *declared, const hci_effects *effects, double temperature_C,
-                              hci_corrected *corrected, hci_note *note)
+hci_status hci_quadratic_model_make(const hci_machine *declared, const hci_effects *effects,
+                                    double temperature_C, hci_quadratic_model *corrected, hci_note *note)
 {
     hci_status status;
     memset(corrected, 0, sizeof *corrected);
@@ -258,7 +258,7 @@ hci_status hci_corrected_make(const hci_machine *declared, const hci_effects *ef
     return status;
 }
 
-void hci_corrected_release(hci_corrected *corrected)
+void hci_quadratic_model_release(hci_quadratic_model *corrected)
 {
     hci_memory_free(corrected->effect);
     hci_memory_free(corrected->back_emf);

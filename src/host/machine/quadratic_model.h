@@ -18,14 +18,14 @@ typedef struct {
     hci_harmonic *cogging;       /* the same */
     hci_inductance_slope *slope; /* the same */
     size_t left_out;             /* effects that do not act in the machine */
-} hci_corrected;
+} hci_quadratic_model;
 
 /* effects: or NULL. temperature_C: of the magnets, NAN for the reference. The declared machine and the
  * effects must outlive *corrected, which is to be released in any case. HCI_ERROR_INPUT when orders have no
  * common period, HCI_ERROR_MEMORY. */
-hci_status hci_corrected_make(const hci_machine *declared, const hci_effects *effects, double temperature_C,
-                              hci_corrected *corrected, hci_note *note);
-void hci_corrected_release(hci_corrected *corrected);
+hci_status hci_quadratic_model_make(const hci_machine *declared, const hci_effects *effects,
+                                    double temperature_C, hci_quadratic_model *corrected, hci_note *note);
+void hci_quadratic_model_release(hci_quadratic_model *corrected);
 
 /* Whether all orders of these effects repeat after so many electrical turns. */
 bool hci_effects_repeat(const hci_effects *effects, int pole_pairs, size_t turns);

@@ -101,8 +101,8 @@ static hci_status harmonics(const grid *g, bool second, hci_harmonic **out, size
     return HCI_OK;
 }
 
-hci_status hci_beyond_torque(const hci_effects_plant *beyond, size_t turns, const hci_wave *wave,
-                             size_t count, hci_harmonic **torque, size_t *torque_count, hci_note *note)
+hci_status hci_sampled_torque(const hci_effects_plant *beyond, size_t turns, const hci_wave *wave,
+                              size_t count, hci_harmonic **torque, size_t *torque_count, hci_note *note)
 {
     grid g = {0};
     hci_status status = sample(beyond, turns, wave, count, &g, note);
@@ -114,7 +114,7 @@ hci_status hci_beyond_torque(const hci_effects_plant *beyond, size_t turns, cons
 }
 
 /* Both sequences of each order, as in fill_current. */
-static hci_status waves(const grid *g, hci_beyond_linear *linear, hci_note *note)
+static hci_status waves(const grid *g, hci_sampled_linear *linear, hci_note *note)
 {
     const double scale = 1.0 / (double)g->count;
     size_t n = 0;
@@ -131,8 +131,8 @@ static hci_status waves(const grid *g, hci_beyond_linear *linear, hci_note *note
     return HCI_OK;
 }
 
-hci_status hci_beyond_linearise(const hci_effects_plant *beyond, size_t turns, const hci_wave *wave,
-                                size_t count, hci_beyond_linear *linear, hci_note *note)
+hci_status hci_sampled_torque_linearise(const hci_effects_plant *beyond, size_t turns, const hci_wave *wave,
+                                        size_t count, hci_sampled_linear *linear, hci_note *note)
 {
     grid g = {0};
     hci_status status = sample(beyond, turns, wave, count, &g, note);
@@ -140,11 +140,11 @@ hci_status hci_beyond_linearise(const hci_effects_plant *beyond, size_t turns, c
     if (!status) status = harmonics(&g, true, &linear->offset, &linear->offset_count, note);
     if (!status) status = waves(&g, linear, note);
     hci_memory_free(g.x);
-    if (status) hci_beyond_release(linear);
+    if (status) hci_sampled_linear_release(linear);
     return status;
 }
 
-void hci_beyond_release(hci_beyond_linear *linear)
+void hci_sampled_linear_release(hci_sampled_linear *linear)
 {
     hci_memory_free(linear->gain);
     hci_memory_free(linear->offset);

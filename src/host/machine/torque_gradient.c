@@ -4,8 +4,9 @@
 
 #include "host/base/memory.h"
 
-hci_status hci_gain_waves(const hci_machine *machine, const hci_wave *currents, size_t count, double share,
-                          double relative_floor, hci_wave **waves, size_t *wave_count, hci_note *note)
+hci_status hci_torque_gradient(const hci_machine *machine, const hci_wave *currents, size_t count,
+                               double share, double relative_floor, hci_wave **waves, size_t *wave_count,
+                               hci_note *note)
 {
     const size_t emf_count = machine->back_emf_count;
     size_t n;

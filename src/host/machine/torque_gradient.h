@@ -8,7 +8,8 @@
 
 /* *waves: out, to be freed with hci_memory_free. Waves below relative_floor times the largest are dropped.
  * HCI_ERROR_MEMORY. */
-hci_status hci_gain_waves(const hci_machine *machine, const hci_wave *currents, size_t count, double share,
-                          double relative_floor, hci_wave **waves, size_t *wave_count, hci_note *note);
+hci_status hci_torque_gradient(const hci_machine *machine, const hci_wave *currents, size_t count,
+                               double share, double relative_floor, hci_wave **waves, size_t *wave_count,
+                               hci_note *note);
 
 #endif

@@ -130,8 +130,9 @@ static hci_status judge_plain(const hci_machine_data *machine, const hci_effects
     const hci_target none = {NULL, 0};
     hci_note why = {{0}};
     hci_wave plain;
+    const hci_currents sine = {.wave = &plain, .count = 1};
     if (!plain_sine(machine, s, &plain)) return HCI_OK;
-    if (hci_judge_currents(machine, effects, &plain, 1, &none, &s->plain, &why) != HCI_ERROR_MEMORY)
+    if (hci_evaluate_currents(machine, effects, &sine, &none, &s->plain, &why) != HCI_ERROR_MEMORY)
         return HCI_OK;
     *note = why;
     return HCI_ERROR_MEMORY;
@@ -171,6 +172,6 @@ hci_status hci_simulate(const hci_machine_data *machine, const hci_scenario *sce
 void hci_simulation_release(hci_simulation *simulation)
 {
     hci_memory_free(simulation->spectrum_Nm);
-    hci_judgement_release(&simulation->plain);
+    hci_evaluation_release(&simulation->plain);
     memset(simulation, 0, sizeof *simulation);
 }

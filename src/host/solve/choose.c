@@ -33,7 +33,7 @@ double hci_coordinates_mean_square_A2(const hci_component_set *set, const double
 }
 
 /* r = U x − h for the total of both columns; rows are weighted. */
-static void residual(const hci_balance *b, const double *x, double mean_Nm, double *r)
+static void residual(const hci_harmonic_system *b, const double *x, double mean_Nm, double *r)
 {
     for (size_t i = 0; i < b->rows; ++i)
         r[i] = -(mean_Nm * b->h[i] + b->h[b->rows + i]);
@@ -45,14 +45,14 @@ static void residual(const hci_balance *b, const double *x, double mean_Nm, doub
 }
 
 /* Amplitude of the residual at compared order k. */
-double hci_residual_amplitude_Nm(const hci_balance *b, const double *r, size_t k)
+double hci_residual_amplitude_Nm(const hci_harmonic_system *b, const double *r, size_t k)
 {
     const size_t row = hci_orders_row(b->order, b->order_count, k);
     return b->order[k] < HCI_ORDER_TOLERANCE ? fabs(r[row]) : hypot(r[row], r[row + 1]);
 }
 
 /* Largest weighted error of any compared order; r: workspace of b->rows. */
-double hci_worst_error_Nm(const hci_balance *b, const double *x, double mean_Nm, double *r)
+double hci_worst_error_Nm(const hci_harmonic_system *b, const double *x, double mean_Nm, double *r)
 {
     double worst = 0.0;
     residual(b, x, mean_Nm, r);
@@ -65,7 +65,7 @@ double hci_worst_error_Nm(const hci_balance *b, const double *x, double mean_Nm,
 typedef struct {
     hci_component_set set;
     double *x; /* unknowns × 2 */
-    hci_worth worth;
+    hci_set_cost worth;
 } attempt;
 
 static void attempt_release(attempt *a)
@@ -76,7 +76,7 @@ static void attempt_release(attempt *a)
 }
 
 /* The least-norm solution of a balance of the set that `a` holds, and its worth. a->x: room for it. */
-static hci_status attempt_balance(const hci_task *t, const hci_balance *b, attempt *a, hci_note *note)
+static hci_status attempt_balance(const hci_task *t, const hci_harmonic_system *b, attempt *a, hci_note *note)
 {
     const double mean_Nm = hci_target_mean_Nm(t->target);
     double *r = hci_memory_new(b->rows, sizeof *r), condition;
@@ -94,12 +94,13 @@ static hci_status attempt_balance(const hci_task *t, const hci_balance *b, attem
 /* The same with all orders compared. */
 static hci_status attempt_solve(const hci_task *t, attempt *a, hci_note *note)
 {
-    hci_balance b;
-    hci_status status = hci_balance_make(t, a->set.component, a->set.count, HCI_COMPARE_ALL, &b, note);
+    hci_harmonic_system b;
+    hci_status status =
+        hci_harmonic_system_make(t, a->set.component, a->set.count, HCI_COMPARE_ALL, &b, note);
     if (status) return status;
     a->x = hci_memory_new(2 * b.unknowns, sizeof *a->x);
     status = a->x ? attempt_balance(t, &b, a, note) : no_memory(note);
-    hci_balance_release(&b);
+    hci_harmonic_system_release(&b);
     return status;
 }
 
@@ -120,14 +121,15 @@ static void report(const hci_task *t, double share)
 /* The worst error with all orders compared, for a solution that was found with fewer. */
 static hci_status attempt_check(const hci_task *t, attempt *a, hci_note *note)
 {
-    hci_balance b;
+    hci_harmonic_system b;
     double *r;
-    const hci_status status = hci_balance_make(t, a->set.component, a->set.count, HCI_COMPARE_ALL, &b, note);
+    const hci_status status =
+        hci_harmonic_system_make(t, a->set.component, a->set.count, HCI_COMPARE_ALL, &b, note);
     if (status) return status;
     r = hci_memory_new(b.rows, sizeof *r);
     if (r) a->worth.worst_Nm = hci_worst_error_Nm(&b, a->x, hci_target_mean_Nm(t->target), r);
     hci_memory_free(r);
-    hci_balance_release(&b);
+    hci_harmonic_system_release(&b);
     return r ? HCI_OK : no_memory(note);
 }
 
@@ -242,7 +244,7 @@ enum {
     SOLVES = sizeof SOLVE_PRICE / sizeof SOLVE_PRICE[0]
 };
 
-bool hci_is_better(const hci_preference *p, hci_worth a, hci_worth b)
+bool hci_set_cost_less(const hci_set_preference *p, hci_set_cost a, hci_set_cost b)
 {
     const bool a_allowed = a.mean_square_A2 <= p->allowed_A2, b_allowed = b.mean_square_A2 <= p->allowed_A2;
     if (a_allowed != b_allowed) return a_allowed;
@@ -253,9 +255,9 @@ bool hci_is_better(const hci_preference *p, hci_worth a, hci_worth b)
 }
 
 /* Makes `best` the better of the two and releases the other. */
-static void keep_better(const hci_preference *p, attempt *best, attempt *a)
+static void keep_better(const hci_set_preference *p, attempt *best, attempt *a)
 {
-    if (!best->x || hci_is_better(p, a->worth, best->worth)) {
+    if (!best->x || hci_set_cost_less(p, a->worth, best->worth)) {
         attempt_release(best);
         *best = *a;
     } else {
@@ -284,16 +286,16 @@ static hci_status copy_set(const hci_component_set *from, const size_t *pick, si
 }
 
 /* The set solved for level errors at one price of copper. */
-static hci_status attempt_level(const hci_task *t, const hci_balance *b, const hci_component_set *all,
-                                const size_t *pick, double ridge, const hci_preference *p, attempt *best,
+static hci_status attempt_level(const hci_task *t, const hci_harmonic_system *b, const hci_component_set *all,
+                                const size_t *pick, double ridge, const hci_set_preference *p, attempt *best,
                                 hci_note *note)
 {
     attempt a;
-    double *room = hci_memory_new(hci_level_room(b), sizeof *room);
+    double *room = hci_memory_new(hci_minimax_workspace(b), sizeof *room);
     hci_status status = room ? copy_set(all, pick, b->unknowns / 2, &a, note) : no_memory(note);
     if (!status) {
         const hci_status solved =
-            hci_level_errors(b, &a.set, hci_target_mean_Nm(t->target), ridge, p, room, a.x, &a.worth);
+            hci_minimax_solve(b, &a.set, hci_target_mean_Nm(t->target), ridge, p, room, a.x, &a.worth);
         if (solved == HCI_OK)
             keep_better(p, best, &a);
         else
@@ -303,8 +305,9 @@ static hci_status attempt_level(const hci_task *t, const hci_balance *b, const h
     return status;
 }
 
-static hci_status attempt_exact(const hci_task *t, const hci_balance *b, const hci_component_set *all,
-                                const size_t *pick, const hci_preference *p, attempt *best, hci_note *note)
+static hci_status attempt_exact(const hci_task *t, const hci_harmonic_system *b, const hci_component_set *all,
+                                const size_t *pick, const hci_set_preference *p, attempt *best,
+                                hci_note *note)
 {
     attempt a;
     hci_status status = copy_set(all, pick, b->unknowns / 2, &a, note);
@@ -318,27 +321,27 @@ static hci_status attempt_exact(const hci_task *t, const hci_balance *b, const h
 
 /* Solves one subset at every price and exactly, and keeps the best. */
 static hci_status try_subset(const hci_task *t, const hci_component_set *all, const size_t *pick,
-                             size_t count, double scale, const hci_preference *p, attempt *best,
+                             size_t count, double scale, const hci_set_preference *p, attempt *best,
                              hci_note *note)
 {
-    hci_balance b;
+    hci_harmonic_system b;
     hci_component_set chosen = {hci_memory_new(count, sizeof *chosen.component), NULL, count, {{0}}};
     hci_status status = chosen.component ? HCI_OK : no_memory(note);
     for (size_t k = 0; k < count && !status; ++k)
         chosen.component[k] = all->component[pick[k]];
-    if (!status) status = hci_balance_make(t, chosen.component, count, HCI_COMPARE_ALL, &b, note);
+    if (!status) status = hci_harmonic_system_make(t, chosen.component, count, HCI_COMPARE_ALL, &b, note);
     hci_memory_free(chosen.component);
     if (status) return status;
-    hci_level_tighten_mean(&b);
+    hci_minimax_weight_mean(&b);
     status = attempt_exact(t, &b, all, pick, p, best, note);
     for (size_t k = 0; k < SOLVES && !status; ++k)
         status = attempt_level(t, &b, all, pick, SOLVE_PRICE[k] * scale, p, best, note);
-    hci_balance_release(&b);
+    hci_harmonic_system_release(&b);
     return status;
 }
 
 /* G = UᵀU and b = Uᵀh from sparse columns; returns the largest diagonal of G. column: workspace of rows. */
-static double fill_cost(const hci_balance *b, double mean_Nm, hci_subset_cost *c, double *column)
+static double fill_cost(const hci_harmonic_system *b, double mean_Nm, hci_subset_cost *c, double *column)
 {
     const hci_sparse *u = &b->u;
     double largest = 0.0;
@@ -365,7 +368,7 @@ static double fill_cost(const hci_balance *b, double mean_Nm, hci_subset_cost *c
 
 /* Searches at every price of copper. */
 static hci_status search(const hci_task *t, const hci_component_set *all, size_t most, hci_subset_cost *c,
-                         double scale, hci_subset_room *room, const hci_preference *p, attempt *best,
+                         double scale, hci_subset_workspace *room, const hci_set_preference *p, attempt *best,
                          hci_note *note)
 {
     hci_status status = HCI_OK;
@@ -381,7 +384,8 @@ static hci_status search(const hci_task *t, const hci_component_set *all, size_t
     return status;
 }
 
-static bool reserve(const hci_balance *b, hci_subset_cost *c, hci_subset_room *room, double **column)
+static bool reserve(const hci_harmonic_system *b, hci_subset_cost *c, hci_subset_workspace *room,
+                    double **column)
 {
     const size_t n = b->unknowns;
     c->n = n;
@@ -398,7 +402,7 @@ static bool reserve(const hci_balance *b, hci_subset_cost *c, hci_subset_room *r
            *column;
 }
 
-static void release(hci_subset_cost *c, hci_subset_room *room, double *column)
+static void release(hci_subset_cost *c, hci_subset_workspace *room, double *column)
 {
     hci_memory_free(c->gram);
     hci_memory_free(c->b);
@@ -412,13 +416,13 @@ static void release(hci_subset_cost *c, hci_subset_room *room, double *column)
 }
 
 static hci_status choose_among(const hci_task *t, const hci_component_set *all, size_t most,
-                               const hci_preference *p, attempt *best, hci_note *note)
+                               const hci_set_preference *p, attempt *best, hci_note *note)
 {
-    hci_balance b;
+    hci_harmonic_system b;
     hci_subset_cost cost = {0};
-    hci_subset_room room = {0};
+    hci_subset_workspace room = {0};
     double *column = NULL;
-    hci_status status = hci_balance_make(t, all->component, all->count, HCI_COMPARE_ALL, &b, note);
+    hci_status status = hci_harmonic_system_make(t, all->component, all->count, HCI_COMPARE_ALL, &b, note);
     if (status) return status;
     if (reserve(&b, &cost, &room, &column)) {
         const double scale = fill_cost(&b, hci_target_mean_Nm(t->target), &cost, column);
@@ -427,7 +431,7 @@ static hci_status choose_among(const hci_task *t, const hci_component_set *all, 
         status = no_memory(note);
     }
     release(&cost, &room, column);
-    hci_balance_release(&b);
+    hci_harmonic_system_release(&b);
     return status;
 }
 
@@ -449,8 +453,8 @@ static void tell_pass(void *context, const char *what, double share)
 
 /* Chooses among all candidates up to `top`; `best` is kept where it is better. count: out, how many there
  * are. */
-static hci_status choose_up_to(pass *part, double top, size_t most, const hci_preference *p, attempt *best,
-                               size_t *count, hci_note *note)
+static hci_status choose_up_to(pass *part, double top, size_t most, const hci_set_preference *p,
+                               attempt *best, size_t *count, hci_note *note)
 {
     hci_component_set all;
     hci_status status = hci_candidates(part->whole, top, &all, note);
@@ -464,7 +468,7 @@ static hci_status choose_up_to(pass *part, double top, size_t most, const hci_pr
 
 /* Up to somewhat above the orders that matter, and higher until there was a choice among several times
  * `most`. */
-static hci_status choose_freely(const hci_task *t, size_t most, const hci_preference *p, attempt *best,
+static hci_status choose_freely(const hci_task *t, size_t most, const hci_set_preference *p, attempt *best,
                                 hci_note *note)
 {
     double torque_order, emf_order, top;
@@ -486,7 +490,7 @@ hci_status hci_choose_few(const hci_task *task, const hci_component_set *only, s
                           double tolerance_Nm, double loss_A2, hci_component_set *set, double **x,
                           hci_note *note)
 {
-    const hci_preference p = {tolerance_Nm, loss_A2};
+    const hci_set_preference p = {tolerance_Nm, loss_A2};
     attempt best;
     hci_status status;
     memset(&best, 0, sizeof best);

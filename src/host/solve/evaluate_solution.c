@@ -42,12 +42,12 @@ typedef struct {
 static hci_status act(const hci_task *t, const hci_wave *wave, size_t count, acting *a, hci_note *note)
 {
     hci_status status =
-        hci_gain_waves(t->machine, wave, count, 0.5, NEGLIGIBLE, &a->gain, &a->gain_count, note);
+        hci_torque_gradient(t->machine, wave, count, 0.5, NEGLIGIBLE, &a->gain, &a->gain_count, note);
     a->wave = wave;
     a->count = count;
     if (!status && t->beyond && count > 0)
         status =
-            hci_beyond_torque(t->beyond, t->period_turns, wave, count, &a->beyond, &a->beyond_count, note);
+            hci_sampled_torque(t->beyond, t->period_turns, wave, count, &a->beyond, &a->beyond_count, note);
     return status;
 }
 
@@ -130,8 +130,8 @@ static double distance_Nm(hci_harmonic a, hci_harmonic b)
     return hypot(a.sine - b.sine, a.cosine - b.cosine);
 }
 
-hci_status hci_judge_spectrum(const hci_task *task, const hci_wave *wave, size_t count, hci_harmonic **torque,
-                              size_t *torque_count, hci_note *note)
+hci_status hci_torque_spectrum_evaluate(const hci_task *task, const hci_wave *wave, size_t count,
+                                        hci_harmonic **torque, size_t *torque_count, hci_note *note)
 {
     reach r = {0};
     hci_status status = find_reach(task, wave, count, wave, 0, &r, note);
@@ -146,12 +146,12 @@ hci_status hci_judge_spectrum(const hci_task *task, const hci_wave *wave, size_t
     return status;
 }
 
-hci_status hci_judge_error(const hci_task *task, const hci_wave *wave, size_t count, hci_torque_error *error,
-                           hci_note *note)
+hci_status hci_torque_error_evaluate(const hci_task *task, const hci_wave *wave, size_t count,
+                                     hci_torque_error *error, hci_note *note)
 {
     hci_harmonic *torque;
     size_t orders;
-    const hci_status status = hci_judge_spectrum(task, wave, count, &torque, &orders, note);
+    const hci_status status = hci_torque_spectrum_evaluate(task, wave, count, &torque, &orders, note);
     *error = (hci_torque_error){0.0, 0.0};
     for (size_t k = 0; k < orders; ++k) {
         const hci_target_order wanted = hci_target_at(task->target, torque[k].order);
@@ -274,23 +274,23 @@ static void fill_losses(const hci_task *t, hci_solution *s)
     s->loss_to_limit = ratio(s->mean_square_A2, s->limit_mean_square_A2);
 }
 
-hci_status hci_judge(const hci_task *task, const hci_component_set *set, hci_compare compare,
-                     hci_solution *solution, hci_note *note)
+hci_status hci_solution_evaluate(const hci_task *task, const hci_component_set *set, hci_compare compare,
+                                 hci_solution *solution, hci_note *note)
 {
     const hci_wave plain = plain_fundamental(task);
-    hci_balance b = {0};
+    hci_harmonic_system b = {0};
     reach r = {0};
     double *reached = hci_memory_new(2 * task->gain_count, sizeof *reached);
     hci_status status =
         reached ? find_reach(task, solution->current.wave, solution->current.count, &plain, 1, &r, note)
                 : no_memory(note);
     if (!status && compare == HCI_COMPARE_SQUARE)
-        status = hci_balance_make(task, set->component, set->count, compare, &b, note);
+        status = hci_harmonic_system_make(task, set->component, set->count, compare, &b, note);
     if (!status) {
         const judge j = {task, set, b.order, b.order_count, reached};
         status = fill_orders(&j, &r, solution, note);
     }
-    hci_balance_release(&b);
+    hci_harmonic_system_release(&b);
     hci_memory_free(reached);
     release_reach(&r);
     if (!status) fill_losses(task, solution);

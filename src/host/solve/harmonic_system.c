@@ -73,7 +73,7 @@ static size_t square_orders(const hci_task *t, double *order, size_t n, size_t c
 
 /* ---- right-hand sides ---- */
 
-static void add_at(const hci_balance *b, double factor, hci_harmonic term, hci_harmonic *rest)
+static void add_at(const hci_harmonic_system *b, double factor, hci_harmonic term, hci_harmonic *rest)
 {
     const size_t at = hci_orders_find(b->order, b->order_count, term.order);
     if (at == b->order_count) return;
@@ -81,7 +81,7 @@ static void add_at(const hci_balance *b, double factor, hci_harmonic term, hci_h
     rest[at].cosine += factor * term.cosine;
 }
 
-static void fill_right_sides(const hci_task *t, hci_balance *b, hci_harmonic *rest)
+static void fill_right_sides(const hci_task *t, hci_harmonic_system *b, hci_harmonic *rest)
 {
     const hci_machine *m = t->machine;
     for (size_t k = 0; k < b->order_count; ++k) {
@@ -104,7 +104,7 @@ static void fill_right_sides(const hci_task *t, hci_balance *b, hci_harmonic *re
 /* ---- all of it ---- */
 
 /* Multiplies each row of h and U by the weight of its order. */
-static void apply_weights(const hci_task *t, hci_balance *b)
+static void apply_weights(const hci_task *t, hci_harmonic_system *b)
 {
     size_t i = 0;
     for (size_t k = 0; k < b->order_count; ++k) {
@@ -121,7 +121,7 @@ static void apply_weights(const hci_task *t, hci_balance *b)
         b->u.value[k] *= b->row_weight[b->u.row[k]];
 }
 
-static bool reserve_rows(hci_balance *b, size_t count, size_t gain_count)
+static bool reserve_rows(hci_harmonic_system *b, size_t count, size_t gain_count)
 {
     const size_t entries = hci_system_capacity(gain_count, count);
     b->rows = hci_orders_rows(b->order, b->order_count);
@@ -136,8 +136,8 @@ static bool reserve_rows(hci_balance *b, size_t count, size_t gain_count)
     return b->row_weight && b->h && b->u.column_start && b->u.row && b->u.value;
 }
 
-hci_status hci_balance_make(const hci_task *task, const hci_component *component, size_t count,
-                            hci_compare compare, hci_balance *balance, hci_note *note)
+hci_status hci_harmonic_system_make(const hci_task *task, const hci_component *component, size_t count,
+                                    hci_compare compare, hci_harmonic_system *balance, hci_note *note)
 {
     hci_harmonic *rest = NULL;
     memset(balance, 0, sizeof *balance);
@@ -151,7 +151,7 @@ hci_status hci_balance_make(const hci_task *task, const hci_component *component
     }
     if (!rest || !reserve_rows(balance, count, task->gain_count)) {
         hci_memory_free(rest);
-        hci_balance_release(balance);
+        hci_harmonic_system_release(balance);
         return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for a system of %zu components", count);
     }
     fill_right_sides(task, balance, rest);
@@ -162,7 +162,7 @@ hci_status hci_balance_make(const hci_task *task, const hci_component *component
     return HCI_OK;
 }
 
-void hci_balance_release(hci_balance *balance)
+void hci_harmonic_system_release(hci_harmonic_system *balance)
 {
     hci_memory_free(balance->order);
     hci_memory_free(balance->row_weight);

@@ -38,7 +38,7 @@ typedef struct {
     double *row_weight;
     double *h;    /* rows × 2 */
     hci_sparse u; /* rows × unknowns; owned */
-} hci_balance;
+} hci_harmonic_system;
 
 /* A set with the coordinates of both right-hand sides. */
 typedef struct {
@@ -49,7 +49,7 @@ typedef struct {
 void hci_answer_release(hci_answer *answer);
 
 /* A task for a machine: all but the target zero, the gain of no current. */
-void hci_task_begin(const hci_corrected *corrected, const hci_target *target, hci_task *task);
+void hci_task_begin(const hci_quadratic_model *corrected, const hci_target *target, hci_task *task);
 
 /* Of the magnets; NAN, which is the reference, where none is given. */
 double hci_temperature_C(const hci_solve_options *options);
@@ -62,9 +62,9 @@ hci_status hci_task_find_period(hci_task *task, const hci_component_set *set, co
 /* Whether the torque is linear in the currents. */
 bool hci_task_is_linear(const hci_task *task);
 
-hci_status hci_balance_make(const hci_task *task, const hci_component *component, size_t count,
-                            hci_compare compare, hci_balance *balance, hci_note *note);
-void hci_balance_release(hci_balance *balance);
+hci_status hci_harmonic_system_make(const hci_task *task, const hci_component *component, size_t count,
+                                    hci_compare compare, hci_harmonic_system *balance, hci_note *note);
+void hci_harmonic_system_release(hci_harmonic_system *balance);
 
 /* Choice of components, without a limit to their number: the lowest top order whose exact solution costs
  * at most 1 % more copper than the pointwise limit. x: out, the solution (unknowns × 2), the caller's to
@@ -90,29 +90,29 @@ hci_status hci_linear_answer(const hci_task *task, const hci_solve_options *opti
 typedef struct {
     hci_wave *gain;
     hci_harmonic *offset;
-} hci_newton_room;
+} hci_linearisation;
 
-hci_status hci_newton_answer(hci_task *task, const hci_solve_options *options, hci_newton_room *room,
+hci_status hci_newton_answer(hci_task *task, const hci_solve_options *options, hci_linearisation *room,
                              hci_answer *answer, hci_solution *solution, hci_note *note);
-void hci_newton_release(hci_newton_room *room);
+void hci_newton_release(hci_linearisation *room);
 
 /* Orders, torque and verdicts of the currents of *solution, and their losses. set: whose components could
  * reach an order. */
-hci_status hci_judge(const hci_task *task, const hci_component_set *set, hci_compare compare,
-                     hci_solution *solution, hci_note *note);
+hci_status hci_solution_evaluate(const hci_task *task, const hci_component_set *set, hci_compare compare,
+                                 hci_solution *solution, hci_note *note);
 
 /* True torque of a current at every order at which it has any, that is wanted or that cogging has, and at 0.
  * *torque: out, to be freed with hci_memory_free. */
-hci_status hci_judge_spectrum(const hci_task *task, const hci_wave *wave, size_t count, hci_harmonic **torque,
-                              size_t *torque_count, hci_note *note);
+hci_status hci_torque_spectrum_evaluate(const hci_task *task, const hci_wave *wave, size_t count,
+                                        hci_harmonic **torque, size_t *torque_count, hci_note *note);
 
 /* Weighted error of the true torque of a current: the largest at any order, and the sum of all squares. */
 typedef struct {
     double worst_Nm, square_sum;
 } hci_torque_error;
 
-hci_status hci_judge_error(const hci_task *task, const hci_wave *wave, size_t count, hci_torque_error *error,
-                           hci_note *note);
+hci_status hci_torque_error_evaluate(const hci_task *task, const hci_wave *wave, size_t count,
+                                     hci_torque_error *error, hci_note *note);
 
 /* The pointwise limit i = (T* − T_cog) e⊥/(e⊥·e⊥). mean_square_A2: of the limit, NAN where e⊥ vanishes. */
 double hci_pointwise_mean_square_A2(const hci_task *task);

@@ -49,8 +49,8 @@ static hci_status copy_given_set(const hci_solve_options *o, hci_answer *a, hci_
 }
 
 /* Dense LU of the core with refinement, both right-hand sides. */
-static hci_status dense_lu_in(const hci_balance *b, double *a, double *lu, double *work, size_t *pivot,
-                              double *x, double *condition)
+static hci_status dense_lu_in(const hci_harmonic_system *b, double *a, double *lu, double *work,
+                              size_t *pivot, double *x, double *condition)
 {
     const size_t n = b->rows;
     hci_status status;
@@ -70,7 +70,7 @@ static hci_status dense_lu_in(const hci_balance *b, double *a, double *lu, doubl
     return HCI_OK;
 }
 
-static hci_status dense_lu(const hci_balance *b, double *x, double *condition, hci_note *note)
+static hci_status dense_lu(const hci_harmonic_system *b, double *x, double *condition, hci_note *note)
 {
     const size_t n = b->rows;
     double *room = hci_memory_new(2 * n * n + 2 * n, sizeof *room);
@@ -83,7 +83,7 @@ static hci_status dense_lu(const hci_balance *b, double *x, double *condition, h
     return status;
 }
 
-static hci_status square_solve(const hci_balance *b, hci_method method, double *x, double *condition,
+static hci_status square_solve(const hci_harmonic_system *b, hci_method method, double *x, double *condition,
                                hci_note *note)
 {
     if (method == HCI_METHOD_LU) return dense_lu(b, x, condition, note);
@@ -92,7 +92,7 @@ static hci_status square_solve(const hci_balance *b, hci_method method, double *
 
 /* LU where the system is square and regular, the orthogonal solve elsewhere; a named method is taken at its
  * word. */
-static hci_status solve_balance(const hci_balance *b, hci_method wanted, double *x, hci_solution *s,
+static hci_status solve_balance(const hci_harmonic_system *b, hci_method wanted, double *x, hci_solution *s,
                                 hci_note *note)
 {
     const bool square = b->rows == b->unknowns && b->rows > 0;
@@ -121,9 +121,10 @@ static hci_status solve_balance(const hci_balance *b, hci_method wanted, double 
 /* Size, rank and condition of a chosen set, whose solution is known already. */
 static hci_status describe(const hci_task *t, const hci_answer *a, hci_solution *s, hci_note *note)
 {
-    hci_balance b;
+    hci_harmonic_system b;
     double *x;
-    hci_status status = hci_balance_make(t, a->set.component, a->set.count, HCI_COMPARE_ALL, &b, note);
+    hci_status status =
+        hci_harmonic_system_make(t, a->set.component, a->set.count, HCI_COMPARE_ALL, &b, note);
     if (status) return status;
     x = hci_memory_new(2 * b.unknowns, sizeof *x);
     status = x ? hci_sparse_qr_solve(&b.u, b.h, 2, x, &s->rank, &s->condition, note) : no_memory(note);
@@ -131,21 +132,21 @@ static hci_status describe(const hci_task *t, const hci_answer *a, hci_solution 
     s->unknowns = b.unknowns;
     s->method = HCI_METHOD_QR;
     hci_memory_free(x);
-    hci_balance_release(&b);
+    hci_harmonic_system_release(&b);
     return status;
 }
 
 static hci_status solve_given(const hci_task *t, const hci_solve_options *o, hci_answer *a, hci_solution *s,
                               hci_note *note)
 {
-    hci_balance b;
+    hci_harmonic_system b;
     hci_status status = copy_given_set(o, a, note);
-    if (!status) status = hci_balance_make(t, a->set.component, a->set.count, o->compare, &b, note);
+    if (!status) status = hci_harmonic_system_make(t, a->set.component, a->set.count, o->compare, &b, note);
     if (status) return status;
     s->rows = b.rows;
     s->unknowns = b.unknowns;
     status = solve_balance(&b, o->method, a->x, s, note);
-    hci_balance_release(&b);
+    hci_harmonic_system_release(&b);
     return status;
 }
 

@@ -11,8 +11,8 @@
 enum { LAWSON_STEPS = 60, MEAN_TIGHTER = 10 };
 
 /* Normal equations (Uᵀ W U + ρI) x = Uᵀ W h for both columns of h, solved in place of x. g: unknowns². */
-static hci_status weighted_solve(const hci_balance *b, const double *row_weight, double ridge, double *g,
-                                 double *x)
+static hci_status weighted_solve(const hci_harmonic_system *b, const double *row_weight, double ridge,
+                                 double *g, double *x)
 {
     const size_t n = b->unknowns;
     const hci_sparse *u = &b->u;
@@ -41,7 +41,7 @@ static hci_status weighted_solve(const hci_balance *b, const double *row_weight,
 }
 
 /* Multiplies each order's weight by its share of the largest error and brings the mean weight back to 1. */
-static void lawson_update(const hci_balance *b, const double *r, double worst, double *order_weight)
+static void lawson_update(const hci_harmonic_system *b, const double *r, double worst, double *order_weight)
 {
     double sum = 0.0;
     for (size_t k = 0; k < b->order_count; ++k) {
@@ -52,7 +52,7 @@ static void lawson_update(const hci_balance *b, const double *r, double worst, d
         order_weight[k] *= (double)b->order_count / sum;
 }
 
-static void spread_weights(const hci_balance *b, const double *order_weight, double *row_weight)
+static void spread_weights(const hci_harmonic_system *b, const double *order_weight, double *row_weight)
 {
     for (size_t k = 0; k < b->order_count; ++k) {
         const size_t row = hci_orders_row(b->order, b->order_count, k);
@@ -61,7 +61,7 @@ static void spread_weights(const hci_balance *b, const double *order_weight, dou
     }
 }
 
-void hci_level_tighten_mean(hci_balance *b)
+void hci_minimax_weight_mean(hci_harmonic_system *b)
 {
     if (b->order_count == 0 || b->order[0] >= HCI_ORDER_TOLERANCE) return;
     b->h[0] *= MEAN_TIGHTER;
@@ -70,27 +70,28 @@ void hci_level_tighten_mean(hci_balance *b)
         if (b->u.row[k] == 0) b->u.value[k] *= MEAN_TIGHTER;
 }
 
-size_t hci_level_room(const hci_balance *b)
+size_t hci_minimax_workspace(const hci_harmonic_system *b)
 {
     return b->unknowns * b->unknowns + 2 * b->unknowns + 3 * b->rows + b->order_count;
 }
 
-hci_status hci_level_errors(const hci_balance *b, const hci_component_set *set, double mean_Nm, double ridge,
-                            const hci_preference *preference, double *room, double *best_x, hci_worth *best)
+hci_status hci_minimax_solve(const hci_harmonic_system *b, const hci_component_set *set, double mean_Nm,
+                             double ridge, const hci_set_preference *preference, double *room, double *best_x,
+                             hci_set_cost *best)
 {
     const size_t n = b->unknowns;
     double *g = room, *x = g + n * n, *r = x + 2 * n + b->rows, *row_weight = r + b->rows,
            *order_weight = row_weight + b->rows;
-    *best = (hci_worth){HUGE_VAL, HUGE_VAL};
+    *best = (hci_set_cost){HUGE_VAL, HUGE_VAL};
     for (size_t k = 0; k < b->order_count; ++k)
         order_weight[k] = 1.0;
     for (int step = 0; step < LAWSON_STEPS; ++step) {
-        hci_worth worth;
+        hci_set_cost worth;
         spread_weights(b, order_weight, row_weight);
         if (weighted_solve(b, row_weight, ridge, g, x)) return HCI_ERROR_NUMERIC;
         worth.worst_Nm = hci_worst_error_Nm(b, x, mean_Nm, r);
         worth.mean_square_A2 = hci_coordinates_mean_square_A2(set, x, mean_Nm);
-        if (step == 0 || hci_is_better(preference, worth, *best)) {
+        if (step == 0 || hci_set_cost_less(preference, worth, *best)) {
             *best = worth;
             memcpy(best_x, x, 2 * n * sizeof *x);
         }

@@ -96,7 +96,7 @@ static size_t drop_small(hci_harmonic *torque, size_t count)
 }
 
 /* Appends torque and gain of what is beyond the second degree. */
-static hci_status append_beyond(hci_task *t, const hci_beyond_linear *x, hci_newton_room *room,
+static hci_status append_beyond(hci_task *t, const hci_sampled_linear *x, hci_linearisation *room,
                                 hci_note *note)
 {
     hci_wave *gain = hci_memory_resize(room->gain, t->gain_count + x->gain_count, sizeof *gain);
@@ -111,23 +111,23 @@ static hci_status append_beyond(hci_task *t, const hci_beyond_linear *x, hci_new
     return HCI_OK;
 }
 
-static hci_status linearise_beyond(hci_task *t, const point *p, hci_newton_room *room, hci_note *note)
+static hci_status linearise_beyond(hci_task *t, const point *p, hci_linearisation *room, hci_note *note)
 {
-    hci_beyond_linear x;
-    hci_status status = hci_beyond_linearise(t->beyond, t->period_turns, p->wave, p->count, &x, note);
+    hci_sampled_linear x;
+    hci_status status = hci_sampled_torque_linearise(t->beyond, t->period_turns, p->wave, p->count, &x, note);
     if (status) return status;
     status = append_beyond(t, &x, room, note);
-    hci_beyond_release(&x);
+    hci_sampled_linear_release(&x);
     return status;
 }
 
 /* Makes the task linear at the point. */
-static hci_status linearise(hci_task *t, const point *p, hci_newton_room *room, hci_note *note)
+static hci_status linearise(hci_task *t, const point *p, hci_linearisation *room, hci_note *note)
 {
     hci_status status;
     hci_newton_release(room);
-    status = hci_gain_waves(t->machine, p->wave, p->count, 1.0, NEGLIGIBLE_GAIN, &room->gain, &t->gain_count,
-                            note);
+    status = hci_torque_gradient(t->machine, p->wave, p->count, 1.0, NEGLIGIBLE_GAIN, &room->gain,
+                                 &t->gain_count, note);
     if (!status) status = reluctance(t->machine, p, &room->offset, &t->offset_count, note);
     if (!status && t->beyond) status = linearise_beyond(t, p, room, note);
     if (status) return status;
@@ -137,7 +137,7 @@ static hci_status linearise(hci_task *t, const point *p, hci_newton_room *room, 
     return HCI_OK;
 }
 
-void hci_newton_release(hci_newton_room *room)
+void hci_newton_release(hci_linearisation *room)
 {
     hci_memory_free(room->gain);
     hci_memory_free(room->offset);
@@ -292,14 +292,15 @@ static hci_status descend(const hci_task *t, const hci_component_set *set, const
     const size_t n = 2 * set->count;
     double *from = hci_memory_new(n, sizeof *from);
     hci_torque_error before, now = {0.0, 0.0};
-    hci_status status = from ? hci_judge_error(t, i->p.wave, i->p.count, &before, note) : no_memory(note);
+    hci_status status =
+        from ? hci_torque_error_evaluate(t, i->p.wave, i->p.count, &before, note) : no_memory(note);
     if (!status) memcpy(from, i->x, n * sizeof *from);
     if (!status) mix(&i->mixer, i->x, g);
     for (double share = 2.0; share > 1e-3 && !status; share *= 0.5) { /* 2 stands for the mixture */
         for (size_t k = 0; share < 2.0 && k < n; ++k)
             i->x[k] = from[k] + share * (g[k] - from[k]);
         status = set_point(t, set, i->x, &i->p, note);
-        if (!status) status = hci_judge_error(t, i->p.wave, i->p.count, &now, note);
+        if (!status) status = hci_torque_error_evaluate(t, i->p.wave, i->p.count, &now, note);
         if (now.square_sum <= before.square_sum) break;
     }
     hci_memory_free(from);
@@ -345,7 +346,7 @@ static double top_order(const hci_component_set *set)
 
 /* One step: linearise, solve, see how far the current moved. From the second step on the set of the first is
  * kept. */
-static hci_status step(hci_task *t, const hci_solve_options *o, hci_newton_room *room, hci_answer *a,
+static hci_status step(hci_task *t, const hci_solve_options *o, hci_linearisation *room, hci_answer *a,
                        iteration *i, hci_solution *s, hci_note *note)
 {
     hci_answer next = {{0}, NULL};
@@ -393,7 +394,7 @@ static hci_status worth_of(const hci_task *t, const hci_answer *a, double *worst
     point p = {NULL, 0};
     hci_torque_error error = {0.0, 0.0};
     hci_status status = point_of(t, a, &p, note);
-    if (!status) status = hci_judge_error(t, p.wave, p.count, &error, note);
+    if (!status) status = hci_torque_error_evaluate(t, p.wave, p.count, &error, note);
     *worst_Nm = error.worst_Nm;
     hci_memory_free(p.wave);
     return status;
@@ -421,7 +422,7 @@ static double share_of(const hci_solve_options *o, const hci_solution *s, size_t
 }
 
 /* Steps until the current rests. Where it does not, the answer whose true torque came nearest is kept. */
-static hci_status iterate(hci_task *t, const hci_solve_options *o, hci_newton_room *room, hci_answer *a,
+static hci_status iterate(hci_task *t, const hci_solve_options *o, hci_linearisation *room, hci_answer *a,
                           iteration *i, hci_solution *s, hci_note *note)
 {
     hci_answer best = {{0}, NULL};
@@ -457,7 +458,7 @@ static hci_status iterate(hci_task *t, const hci_solve_options *o, hci_newton_ro
     return HCI_OK;
 }
 
-hci_status hci_newton_answer(hci_task *task, const hci_solve_options *options, hci_newton_room *room,
+hci_status hci_newton_answer(hci_task *task, const hci_solve_options *options, hci_linearisation *room,
                              hci_answer *answer, hci_solution *solution, hci_note *note)
 {
     iteration i;

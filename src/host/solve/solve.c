@@ -66,8 +66,8 @@ static hci_status check_held(const hci_solve_options *o, hci_note *note)
     return HCI_OK;
 }
 
-static hci_status make_task(const hci_machine_data *m, const hci_corrected *c, const hci_solve_options *o,
-                            hci_task *t, hci_note *note)
+static hci_status make_task(const hci_machine_data *m, const hci_quadratic_model *c,
+                            const hci_solve_options *o, hci_task *t, hci_note *note)
 {
     hci_status status;
     hci_task_begin(c, o->target, t);
@@ -185,7 +185,7 @@ static hci_status verdict_of(const hci_solution *s)
     return s->within_limits ? HCI_OK : HCI_NOT_REACHED;
 }
 
-static hci_status find_answer(hci_task *t, const hci_solve_options *o, hci_newton_room *room, hci_answer *a,
+static hci_status find_answer(hci_task *t, const hci_solve_options *o, hci_linearisation *room, hci_answer *a,
                               hci_solution *s, hci_note *note)
 {
     if (o->method == HCI_METHOD_POINTWISE) return hci_pointwise_answer(t, a, s, note);
@@ -210,8 +210,9 @@ static void remark_left_out(const hci_effects *effects, hci_note *remark)
         names);
 }
 
-static hci_status solve(const hci_machine_data *machine, const hci_corrected *c, const hci_solve_options *o,
-                        hci_newton_room *room, hci_answer *a, hci_solution *s, hci_note *note)
+static hci_status solve(const hci_machine_data *machine, const hci_quadratic_model *c,
+                        const hci_solve_options *o, hci_linearisation *room, hci_answer *a, hci_solution *s,
+                        hci_note *note)
 {
     hci_task task;
     hci_status status = make_task(machine, c, o, &task, note);
@@ -222,7 +223,8 @@ static hci_status solve(const hci_machine_data *machine, const hci_corrected *c,
     s->limit_mean_square_A2 = hci_pointwise_mean_square_A2(&task);
     status = find_answer(&task, o, room, a, s, note);
     if (!status) status = fill_currents(a, o, !o->held && hci_task_is_linear(&task), s, note);
-    if (!status) status = hci_judge(&task, &a->set, o->set ? o->compare : HCI_COMPARE_ALL, s, note);
+    if (!status)
+        status = hci_solution_evaluate(&task, &a->set, o->set ? o->compare : HCI_COMPARE_ALL, s, note);
     if (!status && o->method != HCI_METHOD_POINTWISE) status = fill_system(&task, a, s, note);
     if (!status) status = hci_limits_check(machine, o, s, note);
     if (!status && c->left_out > 0) remark_left_out(o->effects, &s->remark);
@@ -233,16 +235,17 @@ hci_status hci_solve(const hci_machine_data *machine, const hci_solve_options *o
                      hci_solution *solution, hci_note *note)
 {
     const double temperature_C = hci_temperature_C(options);
-    hci_newton_room room = {NULL, NULL};
+    hci_linearisation room = {NULL, NULL};
     hci_answer a = {{0}, NULL};
-    hci_corrected c = {0};
+    hci_quadratic_model c = {0};
     hci_status status = check_machine(machine, options, note);
     memset(solution, 0, sizeof *solution);
-    if (!status) status = hci_corrected_make(&machine->model, options->effects, temperature_C, &c, note);
+    if (!status)
+        status = hci_quadratic_model_make(&machine->model, options->effects, temperature_C, &c, note);
     if (!status) status = solve(machine, &c, options, &room, &a, solution, note);
     hci_answer_release(&a);
     hci_newton_release(&room);
-    hci_corrected_release(&c);
+    hci_quadratic_model_release(&c);
     if (!status) return verdict_of(solution);
     hci_solution_release(solution);
     return status;

@@ -87,7 +87,7 @@ static void remove_component(double *p, size_t m, double *x, size_t k, double *v
 }
 
 /* From all candidates down to `most`, each time leaving out the component that costs least. */
-hci_status hci_subset_eliminate(const hci_subset_cost *c, size_t most, hci_subset_room *room)
+hci_status hci_subset_eliminate(const hci_subset_cost *c, size_t most, hci_subset_workspace *room)
 {
     const size_t candidates_left = c->n / 2;
     size_t kept = 0;
@@ -122,7 +122,7 @@ typedef struct {
     double y0, y1, gain;
 } entry;
 
-static entry enter(const hci_subset_cost *c, const hci_subset_room *room, size_t count, size_t j)
+static entry enter(const hci_subset_cost *c, const hci_subset_workspace *room, size_t count, size_t j)
 {
     const size_t m = 2 * count, n = c->n;
     const double *g0 = c->gram + 2 * j * n, *g1 = g0 + n;
@@ -156,7 +156,7 @@ static entry enter(const hci_subset_cost *c, const hci_subset_room *room, size_t
 }
 
 /* What leaving out member i costs once j is in: P and x with j are P_ii + v_i s v_iᵀ and x_i − v_i y. */
-static double removal_cost_after(const hci_subset_room *room, size_t m, const entry *e, size_t i)
+static double removal_cost_after(const hci_subset_workspace *room, size_t m, const entry *e, size_t i)
 {
     const double *v = room->v;
     const double a0 = v[2 * i], a1 = v[2 * i + 1], b0 = v[m + 2 * i], b1 = v[m + 2 * i + 1];
@@ -169,8 +169,8 @@ static double removal_cost_after(const hci_subset_room *room, size_t m, const en
 }
 
 /* The exchange of a member for a candidate that lowers f most; 0 when none does. */
-static double best_exchange(const hci_subset_cost *c, const hci_subset_room *room, size_t count, size_t *out,
-                            size_t *in)
+static double best_exchange(const hci_subset_cost *c, const hci_subset_workspace *room, size_t count,
+                            size_t *out, size_t *in)
 {
     double best = 0.0;
     for (size_t j = 0; j < c->n / 2; ++j) {
@@ -187,7 +187,7 @@ static double best_exchange(const hci_subset_cost *c, const hci_subset_room *roo
     return best;
 }
 
-static double subset_value(const hci_subset_cost *c, const hci_subset_room *room, size_t count)
+static double subset_value(const hci_subset_cost *c, const hci_subset_workspace *room, size_t count)
 {
     double gained = 0.0;
     for (size_t k = 0; k < 2 * count; ++k)
@@ -196,7 +196,7 @@ static double subset_value(const hci_subset_cost *c, const hci_subset_room *room
 }
 
 /* Exchanges until none lowers f by more than rounding; at most 20 per member. */
-hci_status hci_subset_exchange(const hci_subset_cost *c, hci_subset_room *room, size_t count)
+hci_status hci_subset_exchange(const hci_subset_cost *c, hci_subset_workspace *room, size_t count)
 {
     for (size_t round = 0; round < 20 * count; ++round) {
         size_t out = 0, in = 0;

@@ -6,7 +6,7 @@
 
 #define MOST_TURNS 4096
 
-void hci_task_begin(const hci_corrected *c, const hci_target *target, hci_task *t)
+void hci_task_begin(const hci_quadratic_model *c, const hci_target *target, hci_task *t)
 {
     memset(t, 0, sizeof *t);
     t->machine = &c->machine;
