@@ -31,7 +31,7 @@ void hci_resolution_release(hci_resolution *r)
 {
     hci_solution_release(&r->before);
     hci_solution_release(&r->after);
-    hci_evaluation_release(&r->old_currents);
-    hci_evaluation_release(&r->new_currents);
+    hci_torque_evaluation_release(&r->old_currents);
+    hci_torque_evaluation_release(&r->new_currents);
     memset(r, 0, sizeof *r);
 }

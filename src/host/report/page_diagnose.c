@@ -526,7 +526,7 @@ static void row_of_evaluations(hci_output *out, const char *name, double old_val
 static void show_resolution(hci_output *out, const hci_resolution *r)
 {
     static const char *const COLUMN[] = {"<On the corrected machine", "Old currents", "New currents", NULL};
-    const hci_evaluation *a = &r->old_currents, *b = &r->new_currents;
+    const hci_torque_evaluation *a = &r->old_currents, *b = &r->new_currents;
     hci_html_section(out, "Currents for the wanted torque");
     hci_html_paragraph(out, NULL,
                        "Old currents were found for the declared machine, new ones for the corrected one. "

@@ -189,7 +189,7 @@ static void show_traces(hci_output *out, const hci_simulation *s, const hci_trac
 /* ---- over one turn ---- */
 
 /* Torque of the plain sine over all turns of its period, a few samples in each step of the picture. */
-static void fill_before(hci_turn_means *t, const hci_evaluation *plain)
+static void fill_before(hci_turn_means *t, const hci_torque_evaluation *plain)
 {
     const size_t turns = plain->period_turns > 0 ? plain->period_turns : 1;
     const size_t samples = SAMPLES_IN_STEP * HCI_TURN_STEPS * (turns < MOST_TURNS ? turns : MOST_TURNS);

@@ -164,7 +164,7 @@ static bool add_unexplained(cJSON *list, const hci_unexplained *u)
            add_number(item, "amplitude_Nm", u->amplitude_Nm);
 }
 
-static bool add_currents(cJSON *root, const char *name, const hci_evaluation *j, const hci_solution *s)
+static bool add_currents(cJSON *root, const char *name, const hci_torque_evaluation *j, const hci_solution *s)
 {
     cJSON *item = cJSON_AddObjectToObject(root, name);
     return item && add_number(item, "mean_Nm", j->mean_Nm) &&

@@ -172,6 +172,6 @@ hci_status hci_simulate(const hci_machine_data *machine, const hci_scenario *sce
 void hci_simulation_release(hci_simulation *simulation)
 {
     hci_memory_free(simulation->spectrum_Nm);
-    hci_evaluation_release(&simulation->plain);
+    hci_torque_evaluation_release(&simulation->plain);
     memset(simulation, 0, sizeof *simulation);
 }

@@ -27,7 +27,7 @@ static double percent(double value_Nm, double mean_Nm)
     return 100.0 * value_Nm / fabs(mean_Nm);
 }
 
-static void fill_errors(const hci_target *target, hci_evaluation *e)
+static void fill_errors(const hci_target *target, hci_torque_evaluation *e)
 {
     double sum = 0.0, ripple = 0.0;
     for (size_t k = 0; k < e->order_count; ++k) {
@@ -48,7 +48,7 @@ static void fill_errors(const hci_target *target, hci_evaluation *e)
 }
 
 /* The torque over its period from its spectrum. */
-static hci_status fill_peaks(hci_evaluation *e, hci_note *note)
+static hci_status fill_peaks(hci_torque_evaluation *e, hci_note *note)
 {
     const size_t turns = e->period_turns;
     const double top = e->torque_Nm[e->order_count - 1].order;
@@ -74,7 +74,7 @@ static hci_status fill_peaks(hci_evaluation *e, hci_note *note)
 }
 
 static hci_status evaluate(const hci_quadratic_model *c, const hci_currents *currents,
-                           const hci_target *target, hci_evaluation *e, hci_note *note)
+                           const hci_target *target, hci_torque_evaluation *e, hci_note *note)
 {
     hci_task task;
     hci_status status;
@@ -91,18 +91,18 @@ static hci_status evaluate(const hci_quadratic_model *c, const hci_currents *cur
 
 hci_status hci_evaluate_currents(const hci_machine_data *machine, const hci_effects *effects,
                                  const hci_currents *currents, const hci_target *target,
-                                 hci_evaluation *evaluation, hci_note *note)
+                                 hci_torque_evaluation *evaluation, hci_note *note)
 {
     hci_quadratic_model c;
     hci_status status = hci_quadratic_model_make(&machine->model, effects, NAN, &c, note);
     memset(evaluation, 0, sizeof *evaluation);
     if (!status) status = evaluate(&c, currents, target, evaluation, note);
     hci_quadratic_model_release(&c);
-    if (status) hci_evaluation_release(evaluation);
+    if (status) hci_torque_evaluation_release(evaluation);
     return status;
 }
 
-void hci_evaluation_release(hci_evaluation *evaluation)
+void hci_torque_evaluation_release(hci_torque_evaluation *evaluation)
 {
     hci_memory_free(evaluation->torque_Nm);
     memset(evaluation, 0, sizeof *evaluation);

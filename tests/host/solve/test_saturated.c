@@ -719,7 +719,7 @@ static void test_old_currents_are_judged(void)
 {
     hci_solve_options o = options();
     hci_solution old;
-    hci_evaluation j;
+    hci_torque_evaluation j;
     hci_note note = {{0}};
     double most = -HUGE_VAL, least = HUGE_VAL, mean = 0.0, square = 0.0, error = 0.0;
     want(10.0, 6.0, 0.5);
@@ -730,7 +730,7 @@ static void test_old_currents_are_judged(void)
     for (int k = 0; k < 8 * SAMPLES; ++k) {
         const double theta = 2.0 * REF_PI * k / (8 * SAMPLES);
         double i[3];
-        waves_at(&old.current, theta, i);
+        waves_at(old.current.wave, old.current.count, theta, i);
         const double torque = torque_at(theta, i);
         most = fmax(most, torque);
         least = fmin(least, torque);
@@ -744,10 +744,10 @@ static void test_old_currents_are_judged(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-6, 100.0 * sqrt(square - mean * mean) / mean, j.F_ripple_percent);
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, 100.0 * j.peak_to_peak_Nm / mean, j.T_ripple_percent);
     TEST_ASSERT_TRUE(j.rms_error_Nm > 0.1);
-    hci_evaluation_release(&j);
+    hci_torque_evaluation_release(&j);
     TEST_ASSERT_EQUAL_INT(HCI_OK, hci_evaluate_currents(&machine, NULL, &old.current, &TARGET, &j, &note));
     TEST_ASSERT_TRUE(j.rms_error_Nm < 1e-5);
-    hci_evaluation_release(&j);
+    hci_torque_evaluation_release(&j);
     hci_solution_release(&old);
 }
 
@@ -759,7 +759,7 @@ static void test_machine_c_saturated(void)
     hci_effects_data found;
     hci_solve_options o = {0};
     hci_solution old, fresh;
-    hci_evaluation j;
+    hci_torque_evaluation j;
     hci_note note = {{0}};
     o.target = &TARGET;
     want(8.0, 12.0, 0.0);
@@ -773,14 +773,14 @@ static void test_machine_c_saturated(void)
                           hci_evaluate_currents(&saturated, &found.list, &old.current, &TARGET, &j, &note));
     /* finite elements with these currents: 17 to 19 % peak to peak */
     TEST_ASSERT_TRUE(j.T_ripple_percent > 15.0 && j.T_ripple_percent < 22.0);
-    hci_evaluation_release(&j);
+    hci_torque_evaluation_release(&j);
     o.effects = &found.list;
     TEST_ASSERT_EQUAL_INT(HCI_OK, hci_solve(&saturated, &o, &fresh, &note));
     TEST_ASSERT_TRUE(fresh.newton_converged);
     TEST_ASSERT_EQUAL_INT(HCI_OK,
                           hci_evaluate_currents(&saturated, &found.list, &fresh.current, &TARGET, &j, &note));
     TEST_ASSERT_TRUE(j.T_ripple_percent < 1e-3);
-    hci_evaluation_release(&j);
+    hci_torque_evaluation_release(&j);
     hci_solution_release(&old);
     hci_solution_release(&fresh);
     hci_effects_release(&found);
@@ -842,7 +842,7 @@ static void test_memory_that_runs_out_while_evaluating(void)
 {
     const hci_currents sine = {.wave = emf, .count = 1};
     hci_status status = HCI_ERROR_MEMORY;
-    hci_evaluation j;
+    hci_torque_evaluation j;
     long n = 0;
     for (; n < 1000 && status == HCI_ERROR_MEMORY; ++n) {
         hci_note note = {{0}};
@@ -853,7 +853,7 @@ static void test_memory_that_runs_out_while_evaluating(void)
     }
     TEST_ASSERT_EQUAL_INT(HCI_OK, status);
     TEST_ASSERT_TRUE(n > 8);
-    hci_evaluation_release(&j);
+    hci_torque_evaluation_release(&j);
 }
 
 int main(void)

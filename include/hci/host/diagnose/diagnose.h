@@ -120,9 +120,9 @@ void hci_diagnosis_release(hci_diagnosis *diagnosis);
 
 /* Currents for a target torque before and after the correction. */
 typedef struct {
-    hci_solution before, after;                /* for the declared machine and for the corrected one */
-    hci_status before_status, after_status;    /* what solving them answered: HCI_OK or HCI_NOT_REACHED */
-    hci_evaluation old_currents, new_currents; /* both on the corrected machine */
+    hci_solution before, after;             /* for the declared machine and for the corrected one */
+    hci_status before_status, after_status; /* what solving them answered: HCI_OK or HCI_NOT_REACHED */
+    hci_torque_evaluation old_currents, new_currents; /* both on the corrected machine */
 } hci_resolution;
 
 /* Solves for the declared machine and for the corrected one, and tells what both currents do on the corrected

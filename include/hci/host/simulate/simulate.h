@@ -153,9 +153,9 @@ typedef struct {
     double plain_amplitude_A; /* sine in phase with the back-EMF's fundamental that would make the mean torque
                                  with it */
     double loss_to_plain;     /* copper loss over that of the sine; NAN when there is none */
-    hci_evaluation plain;     /* what that sine does where it flows as it should, magnets at the reference
-                                temperature; without orders where there is none to compare with */
-    bool imposed;             /* currents of a file flow, not those of a strategy */
+    hci_torque_evaluation plain; /* what that sine does where it flows as it should, magnets at the reference
+                            temperature; without orders where there is none to compare with */
+    bool imposed;                /* currents of a file flow, not those of a strategy */
     double switching_frequency_Hz;                         /* mean of the legs, NAN without switching */
     size_t without_current;                                /* samples at which the strategy had no current */
     size_t limited;                                        /* samples at which a current limit held */

@@ -156,18 +156,18 @@ typedef struct {
     double peak_to_peak_Nm;             /* max − min over the angle */
     double T_ripple_percent;            /* 100 (max − min)/mean; NAN without a mean */
     double F_ripple_percent;            /* 100 rms(T − mean)/mean; NAN without a mean */
-} hci_evaluation;
+} hci_torque_evaluation;
 
 /* Evaluates currents that were found elsewhere, such as for the declared machine, on a machine with effects
  * (or NULL), magnets at the reference temperature. currents: star waves in A. *evaluation: out; on success to
- * be given to hci_evaluation_release, else empty. HCI_ERROR_INPUT when orders have no common period,
+ * be given to hci_torque_evaluation_release, else empty. HCI_ERROR_INPUT when orders have no common period,
  * HCI_ERROR_MEMORY. */
 hci_status hci_evaluate_currents(const hci_machine_data *machine, const hci_effects *effects,
                                  const hci_currents *currents, const hci_target *target,
-                                 hci_evaluation *evaluation, hci_note *note);
+                                 hci_torque_evaluation *evaluation, hci_note *note);
 
 /* Frees what an evaluation holds and empties it. */
-void hci_evaluation_release(hci_evaluation *evaluation);
+void hci_torque_evaluation_release(hci_torque_evaluation *evaluation);
 
 #ifdef __cplusplus
 }
