@@ -2,7 +2,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/command/command.h"
+#include "cli/commands.h"
+#include "cli/terminal/say.h"
+#include "cli/terminal/terminal.h"
+#include "cli/terminal/text.h"
 #include "hci/host/base/output.h"
 #include "hci/host/check/check.h"
 #include "hci/host/report/summary.h"
@@ -10,7 +13,8 @@
 enum { OUT, CLI_COMMON_KEYS };
 
 static const cli_option OPTIONS[] = {
-    [OUT] = {"out", 'o', CLI_VALUE, "FOLDER", "where summary.json goes; without it nothing is written"},
+    [OUT] = {"out", 'o', CLI_FOLDER, "FOLDER",
+             .help = "where summary.json goes; without it nothing is written"},
     CLI_COMMON_OPTIONS};
 
 /* ---- words ---- */
@@ -191,14 +195,21 @@ static int run(const cli_arguments *a)
 }
 
 const cli_command cli_check = {
-    "check",
-    "MACHINE [RUN...]",
-    "Finds slips of convention in a machine's tables and in recordings: poles, rms, line, sign, angle, "
-    "order.\n"
-    "Says which reading makes the numbers agree, how sure it is, and which line to change; changes nothing.",
-    OPTIONS,
-    1 | CLI_OR_MORE,
-    "  hci-solve check data/machine_c\n"
-    "  hci-solve check data/fem_c/machine data/fem_c/runs/I0.csv data/fem_c/runs/id0_iq6.csv\n"
-    "\nExit codes: 0 consistent; 1 slips found, ambiguous or not understood; " CLI_EXIT_ERRORS,
-    run};
+    .name = "check",
+    .words = "MACHINE [RUN...]",
+    .does =
+        "Finds slips of convention in a machine's tables and in recordings: poles, rms, line, sign, angle, "
+        "order.\n"
+        "Says which reading makes the numbers agree, how sure it is, and which line to change; changes "
+        "nothing.",
+    .options = OPTIONS,
+    .words_needed = 1,
+    .takes_more_words = true,
+    .word_kind = CLI_FILE,
+    .example = "  hci-solve check data/machine_c\n"
+               "  hci-solve check data/fem_c/machine data/fem_c/runs/I0.csv data/fem_c/runs/id0_iq6.csv\n"
+               "\nExit codes: 0 consistent; 1 slips found, ambiguous or not understood; " CLI_EXIT_ERRORS,
+    .source = "cli/check.c",
+    .guide = "check.md",
+    .run = run,
+};

@@ -6,6 +6,14 @@
 #include <sys/stat.h>
 
 #include "cli/command/command.h"
+#include "cli/command/parse.h"
+#include "cli/commands.h"
+#include "cli/terminal/chart.h"
+#include "cli/terminal/progress.h"
+#include "cli/terminal/rows.h"
+#include "cli/terminal/say.h"
+#include "cli/terminal/terminal.h"
+#include "cli/terminal/text.h"
 #include "hci/host/diagnose/diagnose.h"
 #include "hci/host/report/summary.h"
 #include "hci/host/report/write.h"
@@ -13,14 +21,16 @@
 enum { RUNS, OUT, TARGET, RESOLUTION, REPORT, CLI_COMMON_KEYS };
 
 static const cli_option OPTIONS[] = {
-    [RUNS] = {"runs", 0, CLI_VALUE, "LIST", "table file,role: the recordings to fit and those held out"},
-    [OUT] = {"out", 'o', CLI_VALUE, "FOLDER", "where the results go; without it nothing is written"},
-    [TARGET] = {"target", 0, CLI_VALUE, "FILE",
-                "wanted torque: solve the currents again for the corrected machine"},
-    [RESOLUTION] = {"resolution", 0, CLI_VALUE, "PERCENT",
-                    "of the largest torque; what the model need not be better than [0.05]"},
+    [RUNS] = {"runs", 0, CLI_FILE, "LIST",
+              .help = "table file,role: the recordings to fit and those held out"},
+    [OUT] = {"out", 'o', CLI_FOLDER, "FOLDER", .help = "where the results go; without it nothing is written"},
+    [TARGET] = {"target", 0, CLI_FILE, "FILE",
+                .help = "wanted torque: solve the currents again for the corrected machine"},
+    [RESOLUTION] = {"resolution", 0, CLI_NUMBER, "PERCENT",
+                    .help = "of the largest torque; what the model need not be better than [0.05]",
+                    .low = 1e-6, .high = 50.0},
     [REPORT] = {"report", 0, CLI_FLAG, NULL,
-                "report.html is written in any case; taken for the sake of scripts"},
+                .help = "report.html is written in any case; taken for the sake of scripts"},
     CLI_COMMON_OPTIONS};
 
 typedef struct {
@@ -47,14 +57,11 @@ static hci_status keep_apart(const char *machine, const char *folder, hci_note *
 static hci_status read_inputs(const cli_arguments *a, inputs *in, hci_note *note)
 {
     hci_status status = HCI_OK;
-    double percent = 0.0;
     if (!a->value[RUNS])
         return hci_note_set(note, HCI_ERROR_ARGUMENT,
                             "diagnose: the recordings are missing; add --runs LIST");
     status = keep_apart(a->word[0], a->value[OUT], note);
-    if (!status && a->value[RESOLUTION])
-        status = cli_number("resolution", a->value[RESOLUTION], 1e-6, 50.0, &percent, note);
-    in->options.resolution = percent / 100.0;
+    in->options.resolution = cli_number_or(a, RESOLUTION, 0.0) / 100.0;
     in->options.progress = cli_progress;
     if (!status && a->value[TARGET]) status = hci_target_read(a->value[TARGET], &in->target, note);
     if (!status) status = hci_machine_read(a->word[0], &in->machine, note);
@@ -229,15 +236,6 @@ static void show(const hci_diagnosis *d, const hci_resolution *r, const cli_argu
 
 /* ---- the command ---- */
 
-static hci_status print_json(const hci_diagnosis *d, const hci_resolution *r, hci_note *note)
-{
-    char *json = hci_diagnosis_json(d, r);
-    if (!json) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the summary");
-    puts(json);
-    hci_text_free(json);
-    return HCI_OK;
-}
-
 static hci_status write_results(const cli_arguments *a, const inputs *in, const hci_diagnosis *d,
                                 const hci_resolution *r, hci_note *note)
 {
@@ -267,7 +265,7 @@ static int give_results(const cli_arguments *a, const inputs *in, const hci_diag
     if (a->value[OUT]) status = write_results(a, in, d, r, &note);
     if (!status && cli_is_wordy()) show(d, r, a);
     if (!status) show_remarks(in);
-    if (!status && a->given[JSON]) status = print_json(d, r, &note);
+    if (!status && a->given[JSON]) status = cli_print_json(hci_diagnosis_json(d, r), &note);
     return status ? cli_fail(status, &note) : hci_status_exit_code(verdict);
 }
 
@@ -310,13 +308,18 @@ static int run(const cli_arguments *a)
 }
 
 const cli_command cli_diagnose = {
-    "diagnose",
-    "MACHINE --runs LIST",
-    "Finds what the model of the machine lacks to describe recordings, and corrects it.\n"
-    "Writes machine/, effects.csv, errors.csv, residual_spectrum.csv, summary.json and report.html;\n"
-    "unexplained.csv where something is left that no effect explains; with --target, solution/.",
-    OPTIONS,
-    1,
-    "  hci-solve diagnose data/fem_c/machine --runs data/fem_c/runs.csv -o out/diagnosed\n"
-    "\nExit codes: 0 explained, or nothing is missing; 1 ambiguous or not explained; " CLI_EXIT_ERRORS,
-    run};
+    .name = "diagnose",
+    .words = "MACHINE --runs LIST",
+    .does = "Finds what the model of the machine lacks to describe recordings, and corrects it.\n"
+            "Writes machine/, effects.csv, errors.csv, residual_spectrum.csv, summary.json and report.html;\n"
+            "unexplained.csv where something is left that no effect explains; with --target, solution/.",
+    .options = OPTIONS,
+    .words_needed = 1,
+    .word_kind = CLI_FILE,
+    .example =
+        "  hci-solve diagnose data/fem_c/machine --runs data/fem_c/runs.csv -o out/diagnosed\n"
+        "\nExit codes: 0 explained, or nothing is missing; 1 ambiguous or not explained; " CLI_EXIT_ERRORS,
+    .source = "cli/diagnose.c",
+    .guide = "diagnose.md",
+    .run = run,
+};

@@ -6,24 +6,39 @@
 #include <sys/stat.h>
 
 #include "cli/command/command.h"
+#include "cli/command/parse.h"
+#include "cli/commands.h"
+#include "cli/terminal/say.h"
+#include "cli/terminal/terminal.h"
+#include "cli/terminal/text.h"
 #include "hci/host/csv/csv.h"
 #include "hci/host/emit/emit.h"
 #include "hci/host/report/summary.h"
 
 enum { NAME, FORMAT, FRAME, POINTS, MAX_ERROR, PER_TORQUE, REFERENCE, OUT, CLI_COMMON_KEYS };
 
+static const cli_choice FORMATS[] = {{"f32", "f32 (default)"}, {NULL, NULL}};
+static const cli_choice FRAMES[] = {
+    [HCI_TABLE_ABC] = {"abc", "abc (default): phase currents"},
+    [HCI_TABLE_DQ] = {"dq", "; dq: rotor frame"},
+    {NULL, NULL},
+};
+
 static const cli_option OPTIONS[] = {
-    [NAME] = {"name", 0, CLI_VALUE, "ID", "of the table and its files, a C identifier"},
-    [FORMAT] = {"format", 0, CLI_VALUE, "NAME", "f32 (default)"},
-    [FRAME] = {"frame", 0, CLI_VALUE, "NAME", "abc (default): phase currents; dq: rotor frame"},
-    [POINTS] = {"points", 0, CLI_VALUE, "N", "rows of the table (256)"},
-    [MAX_ERROR] = {"max-error", 0, CLI_VALUE, "A",
-                   "instead: the fewest rows that keep every current within it"},
+    [NAME] = {"name", 0, CLI_TEXT, "ID", .help = "of the table and its files, a C identifier"},
+    [FORMAT] = {"format", 0, CLI_CHOICE, "NAME", NULL, .choices = FORMATS},
+    [FRAME] = {"frame", 0, CLI_CHOICE, "NAME", NULL, .choices = FRAMES},
+    [POINTS] = {"points", 0, CLI_WHOLE, "N", .help = "rows of the table (256)", .low = 1.0,
+                .high = HCI_EMIT_MAX_POINTS},
+    [MAX_ERROR] = {"max-error", 0, CLI_NUMBER, "A",
+                   .help = "instead: the fewest rows that keep every current within it", .low = 1e-12,
+                   .high = 1e9},
     [PER_TORQUE] = {"per-torque", 0, CLI_FLAG, NULL,
-                    "two parts, i = T*A + B, for every mean torque T (needs a folder)"},
-    [REFERENCE] = {"reference-torque", 0, CLI_VALUE, "NM",
-                   "with --per-torque: the largest T (default: the one solved for)"},
-    [OUT] = {"out", 'o', CLI_VALUE, "FOLDER", "where ID.h and ID.c go (default: here)"},
+                    .help = "two parts, i = T*A + B, for every mean torque T (needs a folder)"},
+    [REFERENCE] = {"reference-torque", 0, CLI_NUMBER, "NM",
+                   .help = "with --per-torque: the largest T (default: the one solved for)", .low = 1e-9,
+                   .high = 1e9},
+    [OUT] = {"out", 'o', CLI_FOLDER, "FOLDER", .help = "where ID.h and ID.c go (default: here)"},
     CLI_COMMON_OPTIONS};
 
 enum { PATH_SIZE = 4096 };
@@ -95,40 +110,35 @@ static hci_status read_parts(const cli_arguments *a, inputs *in, hci_note *note)
             from);
     status = read_currents(from, "currents_constant.csv", false, &in->current, note);
     if (!status) status = read_currents(from, "currents_per_Nm.csv", true, &in->per_Nm, note);
-    if (!status && a->value[REFERENCE])
-        status = cli_number("reference-torque", a->value[REFERENCE], 1e-9, 1e9,
-                            &in->request.reference_torque_Nm, note);
-    else if (!status)
+    in->request.reference_torque_Nm = cli_number_or(a, REFERENCE, 0.0);
+    if (!status && !a->given[REFERENCE])
         status = read_mean_torque(from, &in->request.reference_torque_Nm, note);
     in->request.per_Nm = in->per_Nm.wave;
     in->request.per_Nm_count = in->per_Nm.count;
     return status;
 }
 
+/* Options that exclude or need each other. */
+static hci_status check_together(const cli_arguments *a, hci_note *note)
+{
+    const char *wrong = NULL;
+    if (!a->value[NAME])
+        wrong = "emit: the table has no name; add --name ID";
+    else if (a->value[POINTS] && a->value[MAX_ERROR])
+        wrong = "emit: give --points or --max-error, not both";
+    else if (a->given[REFERENCE] && !a->given[PER_TORQUE])
+        wrong = "emit: --reference-torque goes with --per-torque";
+    return wrong ? hci_note_set(note, HCI_ERROR_ARGUMENT, "%s", wrong) : HCI_OK;
+}
+
 static hci_status read_options(const cli_arguments *a, hci_emit_request *r, hci_note *note)
 {
-    static const char *const FRAMES[] = {"abc", "dq", NULL};
-    int frame = 0;
-    double points = 0.0;
-    hci_status status = HCI_OK;
     r->name = a->value[NAME];
-    r->format = a->value[FORMAT] ? a->value[FORMAT] : "f32";
-    if (!r->name) return hci_note_set(note, HCI_ERROR_ARGUMENT, "emit: the table has no name; add --name ID");
-    if (a->value[POINTS] && a->value[MAX_ERROR])
-        return hci_note_set(note, HCI_ERROR_ARGUMENT, "emit: give --points or --max-error, not both");
-    if (a->given[REFERENCE] && !a->given[PER_TORQUE])
-        return hci_note_set(note, HCI_ERROR_ARGUMENT, "emit: --reference-torque goes with --per-torque");
-    if (a->value[FRAME]) status = cli_choice("frame", a->value[FRAME], FRAMES, &frame, note);
-    if (!status && a->value[POINTS])
-        status = cli_number("points", a->value[POINTS], 1.0, HCI_EMIT_MAX_POINTS, &points, note);
-    if (!status && points != floor(points))
-        status = hci_note_set(note, HCI_ERROR_ARGUMENT, "--points: found `%s`, expected a whole number",
-                              a->value[POINTS]);
-    if (!status && a->value[MAX_ERROR])
-        status = cli_number("max-error", a->value[MAX_ERROR], 1e-12, 1e9, &r->max_error_A, note);
-    r->frame = frame == 0 ? HCI_TABLE_ABC : HCI_TABLE_DQ;
-    r->points = (size_t)points;
-    return status;
+    r->format = FORMATS[a->choice[FORMAT]].word;
+    r->frame = (hci_table_frame)a->choice[FRAME];
+    r->points = (size_t)cli_number_or(a, POINTS, 0.0);
+    r->max_error_A = cli_number_or(a, MAX_ERROR, 0.0);
+    return check_together(a, note);
 }
 
 static bool has_zero_sequence(const hci_currents *c)
@@ -172,15 +182,6 @@ static void show(const hci_emit_request *r, const hci_emit_result *result, const
     cli_say("\n  runtime      hci/table.h\n");
 }
 
-static hci_status print_json(const hci_emit_request *r, const hci_emit_result *result, hci_note *note)
-{
-    char *json = hci_emit_json(r, result);
-    if (!json) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the summary");
-    puts(json);
-    hci_text_free(json);
-    return HCI_OK;
-}
-
 static int run(const cli_arguments *a)
 {
     const char *folder = a->value[OUT] ? a->value[OUT] : ".";
@@ -192,22 +193,26 @@ static int run(const cli_arguments *a)
     status = read_inputs(a, &in, &note);
     if (!status) status = hci_emit(folder, &in.request, &result, &note);
     if (!status && cli_is_wordy()) show(&in.request, &result, folder);
-    if (!status && a->given[JSON]) status = print_json(&in.request, &result, &note);
+    if (!status && a->given[JSON]) status = cli_print_json(hci_emit_json(&in.request, &result), &note);
     hci_currents_release(&in.current);
     hci_currents_release(&in.per_Nm);
     return status ? cli_fail(status, &note) : 0;
 }
 
 const cli_command cli_emit = {
-    "emit",
-    "CURRENTS_OR_FOLDER --name ID",
-    "Turns currents into C tables for a microcontroller.\n"
-    "Writes ID.h and ID.c, which need the header hci/table.h and nothing else.",
-    OPTIONS,
-    1,
-    "  hci-solve solve data/machine_a --target data/scenarios/02/target.csv --auto -o out/machine_a\n"
-    "  hci-solve emit out/machine_a --name machine_a --frame dq --max-error 0.01 -o out/machine_a\n"
-    "  hci-solve emit out/machine_a --name machine_a_linear --frame dq --points 512 --per-torque -o "
-    "out/machine_a\n"
-    "\nExit codes: 0 done; " CLI_EXIT_ERRORS,
-    run};
+    .name = "emit",
+    .words = "CURRENTS_OR_FOLDER --name ID",
+    .does = "Turns currents into C tables for a microcontroller.\n"
+            "Writes ID.h and ID.c, which need the header hci/table.h and nothing else.",
+    .options = OPTIONS,
+    .words_needed = 1,
+    .word_kind = CLI_FILE,
+    .example =
+        "  hci-solve solve data/machine_a --target data/scenarios/02/target.csv --auto -o out/machine_a\n"
+        "  hci-solve emit out/machine_a --name machine_a --frame dq --max-error 0.01 -o out/machine_a\n"
+        "  hci-solve emit out/machine_a --name machine_a_linear --frame dq --points 512 --per-torque -o "
+        "out/machine_a\n"
+        "\nExit codes: 0 done; " CLI_EXIT_ERRORS,
+    .source = "cli/emit.c",
+    .run = run,
+};

@@ -3,6 +3,12 @@
 #include <string.h>
 
 #include "cli/command/command.h"
+#include "cli/commands.h"
+#include "cli/terminal/chart.h"
+#include "cli/terminal/rows.h"
+#include "cli/terminal/say.h"
+#include "cli/terminal/terminal.h"
+#include "cli/terminal/text.h"
 #include "hci/host/base/number.h"
 #include "hci/host/report/summary.h"
 #include "hci/host/report/write.h"
@@ -11,15 +17,23 @@
 
 enum { QUANTITY, POLE_PAIRS, ORDERS, MAX_ORDER, CONSTANT, OUT, CLI_COMMON_KEYS };
 
+static const cli_choice QUANTITIES[] = {
+    [HCI_WAVEFORM_BACK_EMF] = {"back_emf", NULL},
+    [HCI_WAVEFORM_COGGING] = {"cogging", NULL},
+    {NULL, NULL},
+};
+
 static const cli_option OPTIONS[] = {
-    [QUANTITY] = {"quantity", 0, CLI_VALUE, "NAME", "back_emf or cogging"},
-    [POLE_PAIRS] = {"pole-pairs", 0, CLI_VALUE, "P", "of the machine (half its poles)"},
-    [ORDERS] = {"orders", 0, CLI_VALUE, "LIST",
-                "these electrical orders and no others, such as 1,5,7 or 12/7"},
-    [MAX_ORDER] = {"max-order", 0, CLI_VALUE, "N", "highest electrical order looked at (60)"},
-    [CONSTANT] = {"torque-constant", 0, CLI_VALUE, "NM_PER_A",
-                  "cogging of a run with currents: torque of 1 A of i_q"},
-    [OUT] = {"out", 'o', CLI_VALUE, "FOLDER", "where the table goes; without it nothing is written"},
+    [QUANTITY] = {"quantity", 0, CLI_CHOICE, "NAME", NULL, .choices = QUANTITIES},
+    [POLE_PAIRS] = {"pole-pairs", 0, CLI_WHOLE, "P", .help = "of the machine (half its poles)", .low = 1.0,
+                    .high = 1000.0},
+    [ORDERS] = {"orders", 0, CLI_TEXT, "LIST",
+                .help = "these electrical orders and no others, such as 1,5,7 or 12/7"},
+    [MAX_ORDER] = {"max-order", 0, CLI_NUMBER, "N", .help = "highest electrical order looked at (60)",
+                   .low = 1.0, .high = HCI_MOST_ORDER},
+    [CONSTANT] = {"torque-constant", 0, CLI_NUMBER, "NM_PER_A",
+                  .help = "cogging of a run with currents: torque of 1 A of i_q", .low = 1e-9, .high = 1e6},
+    [OUT] = {"out", 'o', CLI_FOLDER, "FOLDER", .help = "where the table goes; without it nothing is written"},
     CLI_COMMON_OPTIONS};
 
 enum { MOST_ORDERS = 256 };
@@ -59,45 +73,33 @@ static hci_status read_orders(const char *text, double orders[MOST_ORDERS], size
     return hci_note_set(note, HCI_ERROR_ARGUMENT, "--orders: found more than %d orders", (int)MOST_ORDERS);
 }
 
-static hci_status read_pole_pairs(const cli_arguments *a, int *pole_pairs, hci_note *note)
+/* Options that exclude or need each other. */
+static hci_status check_together(const cli_arguments *a, hci_note *note)
 {
-    double value = 0.0;
-    const char *text = a->value[POLE_PAIRS];
-    if (!text) return hci_note_set(note, HCI_ERROR_ARGUMENT, "harmonics: add --pole-pairs P");
-    const hci_status status = cli_number("pole-pairs", text, 1.0, 1000.0, &value, note);
-    if (!status && value != floor(value))
-        return hci_note_set(note, HCI_ERROR_ARGUMENT, "--pole-pairs: found `%s`, expected a whole number",
-                            text);
-    *pole_pairs = (int)value;
-    return status;
+    const char *wrong = NULL;
+    if (!a->value[QUANTITY])
+        wrong = "harmonics: add --quantity back_emf or cogging";
+    else if (!a->value[POLE_PAIRS])
+        wrong = "harmonics: add --pole-pairs P";
+    else if (a->given[ORDERS] && a->given[MAX_ORDER])
+        wrong = "harmonics: give --orders or --max-order, not both";
+    else if (a->given[CONSTANT] && a->choice[QUANTITY] != HCI_WAVEFORM_COGGING)
+        wrong = "--torque-constant goes with --quantity cogging";
+    return wrong ? hci_note_set(note, HCI_ERROR_ARGUMENT, "%s", wrong) : HCI_OK;
 }
 
 static hci_status read_options(const cli_arguments *a, hci_waveform_options *o, double orders[MOST_ORDERS],
                                hci_note *note)
 {
-    static const char *const QUANTITIES[] = {"back_emf", "cogging", NULL};
-    int quantity = 0;
-    hci_status status;
-    if (!a->value[QUANTITY])
-        return hci_note_set(note, HCI_ERROR_ARGUMENT, "harmonics: add --quantity back_emf or cogging");
-    status = cli_choice("quantity", a->value[QUANTITY], QUANTITIES, &quantity, note);
-    o->quantity = (hci_waveform_quantity)quantity;
-    o->max_order = o->torque_constant_Nm_per_A = NAN;
-    if (!status) status = read_pole_pairs(a, &o->pole_pairs, note);
-    if (!status && a->given[ORDERS] && a->given[MAX_ORDER])
-        return hci_note_set(note, HCI_ERROR_ARGUMENT, "harmonics: give --orders or --max-order, not both");
-    if (!status && a->given[CONSTANT] && o->quantity != HCI_WAVEFORM_COGGING)
-        return hci_note_set(note, HCI_ERROR_ARGUMENT, "--torque-constant goes with --quantity cogging");
-    if (!status && a->value[ORDERS]) {
-        status = read_orders(a->value[ORDERS], orders, &o->order_count, note);
-        o->orders = orders;
-    }
-    if (!status && a->value[MAX_ORDER])
-        status = cli_number("max-order", a->value[MAX_ORDER], 1.0, HCI_MOST_ORDER, &o->max_order, note);
-    if (!status && a->value[CONSTANT])
-        status =
-            cli_number("torque-constant", a->value[CONSTANT], 1e-9, 1e6, &o->torque_constant_Nm_per_A, note);
-    return status;
+    const hci_status status = check_together(a, note);
+    if (status) return status;
+    o->quantity = (hci_waveform_quantity)a->choice[QUANTITY];
+    o->pole_pairs = (int)a->number[POLE_PAIRS];
+    o->max_order = a->number[MAX_ORDER];
+    o->torque_constant_Nm_per_A = a->number[CONSTANT];
+    if (!a->value[ORDERS]) return HCI_OK;
+    o->orders = orders;
+    return read_orders(a->value[ORDERS], orders, &o->order_count, note);
 }
 
 /* ---- words ---- */
@@ -207,15 +209,6 @@ static void show(const hci_waveform *w, const cli_arguments *a)
 
 /* ---- the command ---- */
 
-static hci_status print_json(const hci_waveform *w, hci_note *note)
-{
-    char *json = hci_waveform_json(w);
-    if (!json) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the summary");
-    puts(json);
-    hci_text_free(json);
-    return HCI_OK;
-}
-
 static hci_status analyse(const cli_arguments *a, const hci_waveform_options *o, const hci_run *run,
                           hci_note *note)
 {
@@ -228,7 +221,7 @@ static hci_status analyse(const cli_arguments *a, const hci_waveform_options *o,
         cli_remark(&run->remark);
         cli_remark(&waveform.remark);
     }
-    if (!status && a->given[JSON]) status = print_json(&waveform, note);
+    if (!status && a->given[JSON]) status = cli_print_json(hci_waveform_json(&waveform), note);
     hci_waveform_release(&waveform);
     return status;
 }
@@ -249,13 +242,18 @@ static int run(const cli_arguments *a)
 }
 
 const cli_command cli_harmonics = {
-    "harmonics",
-    "RUN --quantity {back_emf,cogging} --pole-pairs P",
-    "Finds the orders of a measured waveform: amplitude, phase and standard errors.\n"
-    "Writes back_emf.csv or cogging.csv, as a machine folder has them, and a picture beside it.",
-    OPTIONS,
-    1,
-    "  hci-solve simulate data/machine_a data/drive/driven.csv -o out/driven\n"
-    "  hci-solve harmonics out/driven/trajectory.csv --quantity cogging --pole-pairs 2 -o out/driven\n"
-    "\nExit codes: 0 done; " CLI_EXIT_ERRORS,
-    run};
+    .name = "harmonics",
+    .words = "RUN --quantity {back_emf,cogging} --pole-pairs P",
+    .does = "Finds the orders of a measured waveform: amplitude, phase and standard errors.\n"
+            "Writes back_emf.csv or cogging.csv, as a machine folder has them, and a picture beside it.",
+    .options = OPTIONS,
+    .words_needed = 1,
+    .word_kind = CLI_FILE,
+    .example =
+        "  hci-solve simulate data/machine_a data/drive/driven.csv -o out/driven\n"
+        "  hci-solve harmonics out/driven/trajectory.csv --quantity cogging --pole-pairs 2 -o out/driven\n"
+        "\nExit codes: 0 done; " CLI_EXIT_ERRORS,
+    .source = "cli/harmonics.c",
+    .guide = "measuring.md",
+    .run = run,
+};

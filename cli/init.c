@@ -4,7 +4,11 @@
 #include <string.h>
 
 #include "cli/command/command.h"
-#include "hci/host/base/number.h"
+#include "cli/command/parse.h"
+#include "cli/commands.h"
+#include "cli/terminal/say.h"
+#include "cli/terminal/terminal.h"
+#include "cli/terminal/text.h"
 #include "hci/host/machine/init.h"
 #include "hci/host/report/summary.h"
 
@@ -35,79 +39,76 @@ enum {
     OPTION_COUNT
 };
 
+/* Words of how a number is meant, the default first. */
+static const cli_choice KVS[] = {{"line-peak", "line-peak (default, hobby motors)"},
+                                 {"line-rms", NULL},
+                                 {"phase-peak", ", phase-peak"},
+                                 {NULL, NULL}};
+static const cli_choice VOLTS[] = {{"line-rms", "line-rms (default, servo motors)"},
+                                   {"line-peak", NULL},
+                                   {"phase-peak", NULL},
+                                   {"phase-rms", ", phase-rms"},
+                                   {NULL, NULL}};
+static const cli_choice TORQUES[] = {
+    {"peak", "peak (default)"}, {"rms", "its rms"}, {"dc", ", or dc: block commutation"}, {NULL, NULL}};
+static const cli_choice RESISTANCES[] = {
+    {"phase", "phase (default)"}, {"line", ", or line: between two terminals"}, {NULL, NULL}};
+static const cli_choice CURRENTS[] = {{"peak", "peak (default)"}, {"rms", NULL}, {NULL, NULL}};
+
+#define GIVE_IN(unit) "give it in " unit ", with a decimal point and without the unit"
+
 static const cli_option OPTIONS[] = {
-    [POLE_PAIRS] = {"pole-pairs", 0, CLI_VALUE, "P", "half the number of magnets around the rotor"},
-    [POLES] = {"poles", 0, CLI_VALUE, "N", "the same as magnets, 2 P"},
-    [KV] = {"kv", 0, CLI_VALUE, "RPM_PER_V", "strength of the magnets as Kv: rpm per volt,"},
-    [KV_OF] = {"kv-of", 0, CLI_VALUE, "NAME",
-               "... of line-peak (default, hobby motors), line-rms, phase-peak"},
-    [VOLT] = {"volt-per-krpm", 0, CLI_VALUE, "V", "or as back-EMF at 1000 rpm,"},
-    [VOLT_OF] = {"volt-of", 0, CLI_VALUE, "NAME",
-                 "... of line-rms (default, servo motors), line-peak, phase-peak, phase-rms"},
-    [TORQUE] = {"torque-constant", 0, CLI_VALUE, "NM_PER_A", "or as torque per ampere,"},
-    [TORQUE_OF] = {"torque-of", 0, CLI_VALUE, "NAME",
-                   "... of a sine's peak (default), its rms, or dc: block commutation"},
-    [FLUX] = {"flux", 0, CLI_VALUE, "WB", "or as flux linkage of a phase, peak (5.2 mWb is 0.0052)"},
-    [SLOTS] = {"slots", 0, CLI_VALUE, "N", "of the stator; gives the orders of the cogging torque"},
-    [RESISTANCE] = {"resistance", 0, CLI_VALUE, "OHM", "of the winding,"},
-    [RESISTANCE_OF] = {"resistance-of", 0, CLI_VALUE, "NAME",
-                       "... of a phase (default), or line: between two terminals"},
-    [INDUCTANCE] = {"inductance", 0, CLI_VALUE, "H", "of a phase: half of that between two terminals"},
-    [INDUCTANCE_D] = {"inductance-d", 0, CLI_VALUE, "H", "instead, with --inductance-q: along the magnets"},
-    [INDUCTANCE_Q] = {"inductance-q", 0, CLI_VALUE, "H", "... across the magnets"},
-    [INERTIA] = {"inertia", 0, CLI_VALUE, "KGM2", "of the rotor (1 g cm2 is 1e-7)"},
-    [CURRENT] = {"rated-current", 0, CLI_VALUE, "A", "of a phase,"},
-    [CURRENT_OF] = {"current-of", 0, CLI_VALUE, "NAME", "... as peak (default) or rms"},
-    [RATED_TORQUE] = {"rated-torque", 0, CLI_VALUE, "NM", "on the shaft"},
-    [RATED_SPEED] = {"rated-speed", 0, CLI_VALUE, "RPM", "mechanical"},
-    [DC_LINK] = {"dc-link", 0, CLI_VALUE, "V", "voltage of the battery or supply"},
-    [OUT] = {"out", 'o', CLI_VALUE, "FOLDER", "where the tables go (default: NAME)"},
+    [POLE_PAIRS] = {"pole-pairs", 0, CLI_WHOLE, "P", .help = "half the number of magnets around the rotor",
+                    .low = 1.0, .high = 1000.0, .remedy = "a machine with N magnets has N/2 pole pairs"},
+    [POLES] = {"poles", 0, CLI_WHOLE, "N", .help = "the same as magnets, 2 P", .low = 2.0, .high = 2000.0,
+               .step = 2, .remedy = "count the magnets around the rotor, or give --pole-pairs"},
+    [KV] = {"kv", 0, CLI_NUMBER, "RPM_PER_V", .help = "strength of the magnets as Kv: rpm per volt,",
+            .low = 1e-3, .high = 1e6, .remedy = GIVE_IN("rpm/V")},
+    [KV_OF] = {"kv-of", 0, CLI_CHOICE, "NAME", .help = "... of", .choices = KVS},
+    [VOLT] = {"volt-per-krpm", 0, CLI_NUMBER, "V", .help = "or as back-EMF at 1000 rpm,", .low = 1e-6,
+              .high = 1e6, .remedy = GIVE_IN("V/krpm")},
+    [VOLT_OF] = {"volt-of", 0, CLI_CHOICE, "NAME", .help = "... of", .choices = VOLTS},
+    [TORQUE] = {"torque-constant", 0, CLI_NUMBER, "NM_PER_A", .help = "or as torque per ampere,", .low = 1e-9,
+                .high = 1e6, .remedy = GIVE_IN("N·m/A")},
+    [TORQUE_OF] = {"torque-of", 0, CLI_CHOICE, "NAME", .help = "... of a sine's", .choices = TORQUES},
+    [FLUX] = {"flux", 0, CLI_NUMBER, "WB", .help = "or as flux linkage of a phase, peak (5.2 mWb is 0.0052)",
+              .low = 1e-9, .high = 1e3, .remedy = GIVE_IN("Wb")},
+    [SLOTS] = {"slots", 0, CLI_WHOLE, "N", .help = "of the stator; gives the orders of the cogging torque",
+               .low = 3.0, .high = HCI_MOST_SLOTS, .step = 3,
+               .remedy = "count the teeth of the stator (not the magnets), or leave it out"},
+    [RESISTANCE] = {"resistance", 0, CLI_NUMBER, "OHM", .help = "of the winding,", .low = 1e-9, .high = 1e6,
+                    .remedy = GIVE_IN("ohm")},
+    [RESISTANCE_OF] = {"resistance-of", 0, CLI_CHOICE, "NAME", .help = "... of a", .choices = RESISTANCES},
+    [INDUCTANCE] = {"inductance", 0, CLI_NUMBER, "H",
+                    .help = "of a phase: half of that between two terminals", .low = 1e-12, .high = 1e3,
+                    .remedy = GIVE_IN("H")},
+    [INDUCTANCE_D] = {"inductance-d", 0, CLI_NUMBER, "H",
+                      .help = "instead, with --inductance-q: along the magnets", .low = 1e-12, .high = 1e3,
+                      .remedy = GIVE_IN("H")},
+    [INDUCTANCE_Q] = {"inductance-q", 0, CLI_NUMBER, "H", .help = "... across the magnets", .low = 1e-12,
+                      .high = 1e3, .remedy = GIVE_IN("H")},
+    [INERTIA] = {"inertia", 0, CLI_NUMBER, "KGM2", .help = "of the rotor (1 g cm2 is 1e-7)", .low = 1e-15,
+                 .high = 1e6, .remedy = GIVE_IN("kg·m²")},
+    [CURRENT] = {"rated-current", 0, CLI_NUMBER, "A", .help = "of a phase,", .low = 1e-9, .high = 1e6,
+                 .remedy = GIVE_IN("A")},
+    [CURRENT_OF] = {"current-of", 0, CLI_CHOICE, "NAME", .help = "... as", .choices = CURRENTS},
+    [RATED_TORQUE] = {"rated-torque", 0, CLI_NUMBER, "NM", .help = "on the shaft", .low = 1e-9, .high = 1e9,
+                      .remedy = GIVE_IN("N·m")},
+    [RATED_SPEED] = {"rated-speed", 0, CLI_NUMBER, "RPM", .help = "mechanical", .low = 1e-3, .high = 1e6,
+                     .remedy = GIVE_IN("rpm")},
+    [DC_LINK] = {"dc-link", 0, CLI_NUMBER, "V", .help = "voltage of the battery or supply", .low = 1e-3,
+                 .high = 1e6, .remedy = GIVE_IN("V")},
+    [OUT] = {"out", 'o', CLI_FOLDER, "FOLDER", .help = "where the tables go (default: NAME)"},
     CLI_COMMON_OPTIONS};
 
 typedef char every_option_has_a_place[(int)OPTION_COUNT <= (int)CLI_MOST_OPTIONS ? 1 : -1];
 
 /* ---- options ---- */
 
-static hci_status number(const cli_arguments *a, int option, double low, double high, const char *unit,
-                         double *value, hci_note *note)
-{
-    const char *text = a->value[option];
-    if (!text) return HCI_OK;
-    if (hci_number_parse(text, value) && *value >= low && *value <= high) return HCI_OK;
-    return hci_note_set(
-        note, HCI_ERROR_ARGUMENT,
-        "--%s: found `%.60s`, expected a number from %g to %g; give it in %s, with a decimal point and "
-        "without the unit",
-        OPTIONS[option].name, text, low, high, unit);
-}
-
-static hci_status whole_number(const cli_arguments *a, int option, int low, int high, int step,
-                               const char *remedy, int *value, hci_note *note)
-{
-    const char *text = a->value[option];
-    double x = 0.0;
-    if (!text) return HCI_OK;
-    if (hci_number_parse(text, &x) && x >= low && x <= high && fmod(x, step) == 0.0) {
-        *value = (int)x;
-        return HCI_OK;
-    }
-    return hci_note_set(note, HCI_ERROR_ARGUMENT, "--%s: found `%.60s`, expected %s from %d to %d; %s",
-                        OPTIONS[option].name, text,
-                        step == 2   ? "an even number"
-                        : step == 3 ? "a multiple of 3"
-                                    : "a whole number",
-                        low, high, remedy);
-}
-
 static hci_status read_poles(const cli_arguments *a, hci_sheet *s, hci_note *note)
 {
-    int poles = 0;
-    hci_status status = whole_number(a, POLE_PAIRS, 1, 1000, 1, "a machine with N magnets has N/2 pole pairs",
-                                     &s->pole_pairs, note);
-    if (!status)
-        status = whole_number(a, POLES, 2, 2000, 2,
-                              "count the magnets around the rotor, or give --pole-pairs", &poles, note);
-    if (status) return status;
+    const int poles = (int)cli_number_or(a, POLES, 0.0);
+    s->pole_pairs = (int)cli_number_or(a, POLE_PAIRS, 0.0);
     if (s->pole_pairs == 0 && poles == 0)
         return hci_note_set(
             note, HCI_ERROR_ARGUMENT,
@@ -121,62 +122,52 @@ static hci_status read_poles(const cli_arguments *a, hci_sheet *s, hci_note *not
     return HCI_OK;
 }
 
-/* The four ways to say how strong the magnets are; the readings of one follow each other, the default first.
- */
-static const struct {
-    int option, of;
-    double low, high;
-    const char *unit;
-    hci_sheet_reading first;
-    const char *choices[5];
-} STRENGTH[] = {
-    {KV, KV_OF, 1e-3, 1e6, "rpm/V", HCI_SHEET_KV_LINE_PEAK, {"line-peak", "line-rms", "phase-peak", NULL}},
-    {VOLT,
-     VOLT_OF,
-     1e-6,
-     1e6,
-     "V/krpm",
-     HCI_SHEET_VOLT_LINE_RMS,
-     {"line-rms", "line-peak", "phase-peak", "phase-rms", NULL}},
-    {TORQUE, TORQUE_OF, 1e-9, 1e6, "N·m/A", HCI_SHEET_TORQUE_PEAK, {"peak", "rms", "dc", NULL}},
-    {FLUX, -1, 1e-9, 1e3, "Wb", HCI_SHEET_FLUX, {NULL}},
-};
-enum { STRENGTHS = sizeof STRENGTH / sizeof *STRENGTH };
-
-static hci_status of_what(const cli_arguments *a, int option, int of, const char *const *choices, int *chosen,
-                          hci_note *note)
+/* What the first of two options says how the second is meant, is of no use without that. */
+static hci_status check_of(const cli_arguments *a, int of, int option, hci_note *note)
 {
-    *chosen = 0;
-    if (of < 0 || !a->given[of]) return HCI_OK;
-    if (!a->given[option])
-        return hci_note_set(note, HCI_ERROR_ARGUMENT,
-                            "--%s: found `%.60s` without --%s; add --%s %s, or leave it out",
-                            OPTIONS[of].name, a->value[of], OPTIONS[option].name, OPTIONS[option].name,
-                            OPTIONS[option].value_name);
-    return cli_choice(OPTIONS[of].name, a->value[of], choices, chosen, note);
+    if (!a->given[of] || a->given[option]) return HCI_OK;
+    return hci_note_set(note, HCI_ERROR_ARGUMENT,
+                        "--%s: found `%.60s` without --%s; add --%s %s, or leave it out", OPTIONS[of].name,
+                        a->value[of], OPTIONS[option].name, OPTIONS[option].name, OPTIONS[option].value_name);
 }
 
+static hci_status check_all_of(const cli_arguments *a, hci_note *note)
+{
+    static const int PAIRS[][2] = {{KV_OF, KV},
+                                   {VOLT_OF, VOLT},
+                                   {TORQUE_OF, TORQUE},
+                                   {RESISTANCE_OF, RESISTANCE},
+                                   {CURRENT_OF, CURRENT}};
+    hci_status status = HCI_OK;
+    for (size_t k = 0; k < sizeof PAIRS / sizeof PAIRS[0] && !status; ++k)
+        status = check_of(a, PAIRS[k][0], PAIRS[k][1], note);
+    return status;
+}
+
+/* One of the four ways to say how strong the magnets are. The readings of each follow `first` as its choices
+ * do. */
 static hci_status read_strength(const cli_arguments *a, hci_sheet *s, hci_note *note)
 {
+    static const struct {
+        int option, of;
+        hci_sheet_reading first;
+    } WAYS[] = {{KV, KV_OF, HCI_SHEET_KV_LINE_PEAK},
+                {VOLT, VOLT_OF, HCI_SHEET_VOLT_LINE_RMS},
+                {TORQUE, TORQUE_OF, HCI_SHEET_TORQUE_PEAK},
+                {FLUX, OUT, HCI_SHEET_FLUX}};
     int given = -1;
-    for (int k = 0; k < STRENGTHS; ++k) {
-        int chosen;
-        hci_status status =
-            of_what(a, STRENGTH[k].option, STRENGTH[k].of, STRENGTH[k].choices, &chosen, note);
-        if (status) return status;
-        if (!a->given[STRENGTH[k].option]) continue;
+    for (size_t k = 0; k < sizeof WAYS / sizeof WAYS[0]; ++k) {
+        const int option = WAYS[k].option;
+        if (!a->given[option]) continue;
         if (given >= 0)
             return hci_note_set(
                 note, HCI_ERROR_ARGUMENT,
                 "--%s: found `%.60s` beside --%s, expected one of them; leave out the less certain, "
                 "the words at the end give it for comparison",
-                OPTIONS[STRENGTH[k].option].name, a->value[STRENGTH[k].option],
-                OPTIONS[STRENGTH[given].option].name);
-        given = k;
-        s->reading = (hci_sheet_reading)((int)STRENGTH[k].first + chosen);
-        status = number(a, STRENGTH[k].option, STRENGTH[k].low, STRENGTH[k].high, STRENGTH[k].unit,
-                        &s->strength, note);
-        if (status) return status;
+                OPTIONS[option].name, a->value[option], OPTIONS[given].name);
+        given = option;
+        s->strength = a->number[option];
+        s->reading = (hci_sheet_reading)((int)WAYS[k].first + a->choice[WAYS[k].of]);
     }
     if (given >= 0) return HCI_OK;
     return hci_note_set(
@@ -188,38 +179,21 @@ static hci_status read_strength(const cli_arguments *a, hci_sheet *s, hci_note *
 static hci_status read_inductance(const cli_arguments *a, hci_sheet *s, hci_note *note)
 {
     const bool d = a->given[INDUCTANCE_D], q = a->given[INDUCTANCE_Q];
-    double both = NAN;
-    hci_status status = number(a, INDUCTANCE, 1e-12, 1e3, "H", &both, note);
-    if (!status && a->given[INDUCTANCE] && (d || q))
+    if (a->given[INDUCTANCE] && (d || q))
         return hci_note_set(
             note, HCI_ERROR_ARGUMENT,
             "--inductance: found `%.60s` beside --inductance-%s, expected one or the other; leave it "
             "out if d and q differ",
             a->value[INDUCTANCE], d ? "d" : "q");
-    if (!status && d != q)
+    if (d != q)
         return hci_note_set(
             note, HCI_ERROR_ARGUMENT,
             "--inductance-%s: found `%.60s` without --inductance-%s; give both, or --inductance H if "
             "they are equal",
             d ? "d" : "q", a->value[d ? INDUCTANCE_D : INDUCTANCE_Q], d ? "q" : "d");
-    s->inductance_d_H = s->inductance_q_H = both;
-    if (!status) status = number(a, INDUCTANCE_D, 1e-12, 1e3, "H", &s->inductance_d_H, note);
-    return status ? status : number(a, INDUCTANCE_Q, 1e-12, 1e3, "H", &s->inductance_q_H, note);
-}
-
-static hci_status read_winding(const cli_arguments *a, hci_sheet *s, hci_note *note)
-{
-    static const char *const RESISTANCES[] = {"phase", "line", NULL}, *const CURRENTS[] = {"peak", "rms",
-                                                                                           NULL};
-    int line = 0, rms = 0;
-    hci_status status = number(a, RESISTANCE, 1e-9, 1e6, "ohm", &s->resistance_ohm, note);
-    if (!status) status = of_what(a, RESISTANCE, RESISTANCE_OF, RESISTANCES, &line, note);
-    if (!status) status = read_inductance(a, s, note);
-    if (!status) status = number(a, CURRENT, 1e-9, 1e6, "A", &s->rated_current_A, note);
-    if (!status) status = of_what(a, CURRENT, CURRENT_OF, CURRENTS, &rms, note);
-    s->resistance_of_line = line == 1;
-    s->rated_current_is_rms = rms == 1;
-    return status;
+    s->inductance_d_H = cli_number_or(a, INDUCTANCE_D, a->number[INDUCTANCE]);
+    s->inductance_q_H = cli_number_or(a, INDUCTANCE_Q, a->number[INDUCTANCE]);
+    return HCI_OK;
 }
 
 /* The last part of a path: tables hold no paths. */
@@ -231,22 +205,24 @@ static const char *last_part(const char *path)
 
 static hci_status read_sheet(const cli_arguments *a, hci_sheet *s, hci_note *note)
 {
-    *s = (hci_sheet){.name = last_part(a->word[0])};
-    s->resistance_ohm = s->inductance_d_H = s->inductance_q_H = s->inertia_kgm2 = s->rated_current_A = NAN;
-    s->rated_torque_Nm = s->rated_speed_rpm = s->dc_link_voltage_V = NAN;
+    hci_status status;
+    *s = (hci_sheet){.name = last_part(a->word[0]),
+                     .slots = (int)cli_number_or(a, SLOTS, 0.0),
+                     .resistance_ohm = a->number[RESISTANCE],
+                     .resistance_of_line = a->choice[RESISTANCE_OF] == 1,
+                     .inertia_kgm2 = a->number[INERTIA],
+                     .rated_current_A = a->number[CURRENT],
+                     .rated_current_is_rms = a->choice[CURRENT_OF] == 1,
+                     .rated_torque_Nm = a->number[RATED_TORQUE],
+                     .rated_speed_rpm = a->number[RATED_SPEED],
+                     .dc_link_voltage_V = a->number[DC_LINK]};
     if (a->word[0][0] == '\0' || (a->given[OUT] && a->value[OUT][0] == '\0'))
         return hci_note_set(note, HCI_ERROR_ARGUMENT,
                             "init: found `` for the folder, expected a name; give one such as my_motor");
-    hci_status status = read_poles(a, s, note);
+    status = check_all_of(a, note);
+    if (!status) status = read_poles(a, s, note);
     if (!status) status = read_strength(a, s, note);
-    if (!status) status = read_winding(a, s, note);
-    if (!status) status = number(a, INERTIA, 1e-15, 1e6, "kg·m²", &s->inertia_kgm2, note);
-    if (!status) status = number(a, RATED_TORQUE, 1e-9, 1e9, "N·m", &s->rated_torque_Nm, note);
-    if (!status) status = number(a, RATED_SPEED, 1e-3, 1e6, "rpm", &s->rated_speed_rpm, note);
-    if (!status) status = number(a, DC_LINK, 1e-3, 1e6, "V", &s->dc_link_voltage_V, note);
-    if (status) return status;
-    return whole_number(a, SLOTS, 3, HCI_MOST_SLOTS, 3,
-                        "count the teeth of the stator (not the magnets), or leave it out", &s->slots, note);
+    return status ? status : read_inductance(a, s, note);
 }
 
 /* ---- words ---- */
@@ -304,26 +280,25 @@ static int run(const cli_arguments *a)
     if (!status) status = hci_init_write(folder, &sheet, &note);
     if (status) return cli_fail(status, &note);
     if (cli_is_wordy()) show(&sheet, folder);
-    if (a->given[JSON]) {
-        char *json = hci_init_json(&sheet);
-        if (!json)
-            return cli_fail(hci_note_set(&note, HCI_ERROR_MEMORY, "out of memory for the summary"), &note);
-        puts(json);
-        hci_text_free(json);
-    }
-    return 0;
+    if (a->given[JSON]) status = cli_print_json(hci_init_json(&sheet), &note);
+    return status ? cli_fail(status, &note) : 0;
 }
 
 const cli_command cli_init = {
-    "init",
-    "NAME",
-    "Writes a first machine folder from the values of a data sheet.\n"
-    "Needs the pole pairs, and one of --kv, --volt-per-krpm, --torque-constant, --flux.",
-    OPTIONS,
-    1,
-    "  hci-solve init mn4004 --poles 24 --kv 300 --slots 18 -o out/mn4004\n"
-    "  hci-solve solve out/mn4004 --target data/scenarios/02/target.csv --auto -o out/mn4004_currents\n"
-    "  hci-solve init servo --pole-pairs 4 --volt-per-krpm 98 --resistance 1.9 --resistance-of line -o "
-    "out/servo\n"
-    "\nExit codes: 0 done; " CLI_EXIT_ERRORS,
-    run};
+    .name = "init",
+    .words = "NAME",
+    .does = "Writes a first machine folder from the values of a data sheet.\n"
+            "Needs the pole pairs, and one of --kv, --volt-per-krpm, --torque-constant, --flux.",
+    .options = OPTIONS,
+    .words_needed = 1,
+    .word_kind = CLI_TEXT,
+    .example =
+        "  hci-solve init mn4004 --poles 24 --kv 300 --slots 18 -o out/mn4004\n"
+        "  hci-solve solve out/mn4004 --target data/scenarios/02/target.csv --auto -o out/mn4004_currents\n"
+        "  hci-solve init servo --pole-pairs 4 --volt-per-krpm 98 --resistance 1.9 --resistance-of line -o "
+        "out/servo\n"
+        "\nExit codes: 0 done; " CLI_EXIT_ERRORS,
+    .source = "cli/init.c",
+    .guide = "init.md",
+    .run = run,
+};

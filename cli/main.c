@@ -6,6 +6,13 @@
 #include <string.h>
 
 #include "cli/command/command.h"
+#include "cli/command/spelling.h"
+#include "cli/commands.h"
+#include "cli/reference/reference.h"
+#include "cli/terminal/say.h"
+#include "cli/terminal/signals.h"
+#include "cli/terminal/terminal.h"
+#include "cli/terminal/text.h"
 #include "hci/version.h"
 
 /* In the order in which one uses them. */
@@ -62,22 +69,6 @@ static int unknown_command(const char *word)
                     &note);
 }
 
-static int run_command(const cli_command *command, int count, char *const *words)
-{
-    cli_arguments arguments;
-    hci_note note = {{0}};
-    hci_status status;
-    for (int k = 0; k < count; ++k)
-        if (strcmp(words[k], "--help") == 0 || strcmp(words[k], "-h") == 0) {
-            cli_print_help(command);
-            if (command == &cli_simulate) cli_print_scenario_names();
-            return 0;
-        }
-    status = cli_parse(command, count, words, &arguments, &note);
-    if (!status) status = cli_terminal_begin(command, &arguments, &note);
-    return status ? cli_fail(status, &note) : command->run(&arguments);
-}
-
 static int run(int argc, char **argv)
 {
     const char *word = argc > 1 ? argv[1] : "";
@@ -85,7 +76,7 @@ static int run(int argc, char **argv)
     if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0 || strcmp(word, "help") == 0)
         return print_usage(stdout);
     for (size_t k = 0; k < COMMAND_COUNT; ++k)
-        if (strcmp(word, COMMANDS[k]->name) == 0) return run_command(COMMANDS[k], argc - 2, argv + 2);
+        if (strcmp(word, COMMANDS[k]->name) == 0) return cli_command_run(COMMANDS[k], argc - 2, argv + 2);
     if (strcmp(word, "reference") == 0) return cli_reference(COMMANDS, COMMAND_COUNT, argc - 2, argv + 2);
     if (argc > 1) return unknown_command(word);
     print_usage(stderr);

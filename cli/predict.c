@@ -5,13 +5,19 @@
 #include <sys/stat.h>
 
 #include "cli/command/command.h"
+#include "cli/commands.h"
+#include "cli/terminal/chart.h"
+#include "cli/terminal/say.h"
+#include "cli/terminal/terminal.h"
+#include "cli/terminal/text.h"
 #include "hci/host/recording/predict.h"
 #include "hci/host/report/summary.h"
 
 enum { OUT, CLI_COMMON_KEYS };
 
 static const cli_option OPTIONS[] = {
-    [OUT] = {"out", 'o', CLI_VALUE, "FILE", "the run with the model's torque; without it nothing is written"},
+    [OUT] = {"out", 'o', CLI_FILE, "FILE",
+             .help = "the run with the model's torque; without it nothing is written"},
     CLI_COMMON_OPTIONS};
 
 /* ---- words ---- */
@@ -66,15 +72,6 @@ static hci_status keep_apart(const char *run, const char *out, hci_note *note)
                         "%.300s would be replaced by its prediction; give another --out", run);
 }
 
-static hci_status print_json(const hci_prediction *p, hci_note *note)
-{
-    char *json = hci_prediction_json(p);
-    if (!json) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the summary");
-    puts(json);
-    hci_text_free(json);
-    return HCI_OK;
-}
-
 static int run(const cli_arguments *a)
 {
     hci_prediction prediction;
@@ -85,18 +82,22 @@ static int run(const cli_arguments *a)
         show(&prediction, a);
         cli_remark(&prediction.remark);
     }
-    if (!status && a->given[JSON]) status = print_json(&prediction, &note);
+    if (!status && a->given[JSON]) status = cli_print_json(hci_prediction_json(&prediction), &note);
     return status ? cli_fail(status, &note) : 0;
 }
 
 const cli_command cli_predict = {
-    "predict",
-    "MACHINE RUN",
-    "Says what the machine's model and its effects make of a run's angle and currents.\n"
-    "Writes the run with torque_model_Nm and residual_Nm (recorded less model) added.",
-    OPTIONS,
-    2,
-    "  hci-solve simulate data/machine_a data/drive/imposed.csv -o out/imposed\n"
-    "  hci-solve predict data/machine_a out/imposed/trajectory.csv -o out/predicted.csv\n"
-    "\nExit codes: 0 done; " CLI_EXIT_ERRORS,
-    run};
+    .name = "predict",
+    .words = "MACHINE RUN",
+    .does = "Says what the machine's model and its effects make of a run's angle and currents.\n"
+            "Writes the run with torque_model_Nm and residual_Nm (recorded less model) added.",
+    .options = OPTIONS,
+    .words_needed = 2,
+    .word_kind = CLI_FILE,
+    .example = "  hci-solve simulate data/machine_a data/drive/imposed.csv -o out/imposed\n"
+               "  hci-solve predict data/machine_a out/imposed/trajectory.csv -o out/predicted.csv\n"
+               "\nExit codes: 0 done; " CLI_EXIT_ERRORS,
+    .source = "cli/predict.c",
+    .guide = "measuring.md",
+    .run = run,
+};

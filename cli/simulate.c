@@ -6,47 +6,68 @@
 #include <unistd.h>
 
 #include "cli/command/command.h"
+#include "cli/commands.h"
+#include "cli/terminal/chart.h"
+#include "cli/terminal/progress.h"
+#include "cli/terminal/rows.h"
+#include "cli/terminal/say.h"
+#include "cli/terminal/terminal.h"
+#include "cli/terminal/text.h"
 #include "hci/host/report/summary.h"
 #include "hci/host/report/write.h"
 
 enum { CURRENTS, OUT, REPORT, CLI_COMMON_KEYS };
 
 static const cli_option OPTIONS[] = {
-    [CURRENTS] = {"currents", 0, CLI_VALUE, "PATH",
-                  "impose these: currents.csv, or a folder that `solve` wrote"},
-    [OUT] = {"out", 'o', CLI_VALUE, "FOLDER", "where the results go; without it nothing is written"},
-    [REPORT] = {"report", 0, CLI_FLAG, NULL, "report.html beside the results, for people"},
+    [CURRENTS] = {"currents", 0, CLI_FILE, "PATH",
+                  .help = "impose these: currents.csv, or a folder that `solve` wrote"},
+    [OUT] = {"out", 'o', CLI_FOLDER, "FOLDER", .help = "where the results go; without it nothing is written"},
+    [REPORT] = {"report", 0, CLI_FLAG, NULL, .help = "report.html beside the results, for people"},
     CLI_COMMON_OPTIONS};
 
 /* ---- help ---- */
 
 enum { MEANING_AT = 41, NARROW_AT = 6 }; /* column of the terminal */
 
-static void print_name(const char *name, const char *unit, const char *fallback, const char *what)
+static void print_name(const char *name, const char *unit, const char *text)
 {
     const int width = cli_width(STDOUT_FILENO);
-    char text[256];
-    if (what[0] == '\0') return;
+    const bool is_narrow = width < 2 * MEANING_AT - 2;
+    const int at = is_narrow ? NARROW_AT : MEANING_AT;
     if (strcmp(unit, "count") == 0 || strcmp(unit, "1") == 0) unit = "";
-    snprintf(text, sizeof text, "%s%s%s%s", what, fallback[0] ? " [" : "", fallback, fallback[0] ? "]" : "");
-    printf("  %-24s %-*s", name, width < 2 * MEANING_AT - 2 ? 0 : MEANING_AT - 27, unit);
-    if (width >= 2 * MEANING_AT - 2) {
-        cli_print_wrapped(stdout, width, MEANING_AT, MEANING_AT, text);
-        return;
-    }
-    printf("\n%*s", NARROW_AT, "");
-    cli_print_wrapped(stdout, width, NARROW_AT, NARROW_AT, text);
+    printf("  %-24s %-*s", name, is_narrow ? 0 : MEANING_AT - 27, unit);
+    if (is_narrow) printf("\n%*s", NARROW_AT, "");
+    cli_print_wrapped(stdout, width, at, at, text);
 }
 
-void cli_print_scenario_names(void)
+/* A number, "what it is [default]"; those that follow from the one before them have no text. */
+static void print_value(const char *name, const char *unit, const char *fallback, const char *what)
+{
+    char text[256];
+    snprintf(text, sizeof text, "%s%s%s%s", what, fallback[0] ? " [" : "", fallback, fallback[0] ? "]" : "");
+    if (what[0]) print_name(name, unit, text);
+}
+
+/* A word, "what it is: a, b, c [default]". */
+static void print_word(const char *name, const char *words, const char *fallback, const char *what)
+{
+    char text[256];
+    snprintf(text, sizeof text, "%s: %s [%s]", what, words, fallback);
+    print_name(name, "", text);
+}
+
+/* After the help: what a scenario may hold. */
+static void print_scenario_names(void)
 {
     putchar('\n');
     cli_print_wrapped(stdout, cli_width(STDOUT_FILENO), 0, 0,
                       "A scenario is a table name,value,unit. Its names, units and [defaults]");
-#define PRINT_WORD(name, choices, fallback, what) print_name(name, "", fallback, what ": " choices);
+#define LISTED(value, word)                     ", " word
+#define PRINT_WORD(name, words, fallback, what) print_word(name, &(words(LISTED))[2], fallback, what);
     HCI_SCENARIO_WORDS(PRINT_WORD)
 #undef PRINT_WORD
-#define PRINT_VALUE(field, name, unit, low, high, fallback, what) print_name(name, unit, fallback, what);
+#undef LISTED
+#define PRINT_VALUE(field, name, unit, low, high, fallback, what) print_value(name, unit, fallback, what);
     HCI_SCENARIO_VALUES(PRINT_VALUE)
 #undef PRINT_VALUE
 }
@@ -187,15 +208,6 @@ static hci_status override_currents(const char *path, hci_scenario *scenario, hc
                         "--currents: expected currents.csv or the folder of a solution");
 }
 
-static hci_status print_json(const hci_simulation *s, hci_note *note)
-{
-    char *json = hci_simulation_json(s);
-    if (!json) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the summary");
-    puts(json);
-    hci_text_free(json);
-    return HCI_OK;
-}
-
 static hci_status simulate(const cli_arguments *a, const hci_machine_data *machine,
                            const hci_effects *effects, const hci_scenario *scenario, hci_note *note)
 {
@@ -216,7 +228,7 @@ static hci_status simulate(const cli_arguments *a, const hci_machine_data *machi
         cli_remark(&machine->remark);
         cli_remark(&simulation.remark);
     }
-    if (!status && a->given[JSON]) status = print_json(&simulation, note);
+    if (!status && a->given[JSON]) status = cli_print_json(hci_simulation_json(&simulation), note);
     hci_simulation_release(&simulation);
     return status;
 }
@@ -243,13 +255,18 @@ static int run(const cli_arguments *a)
 }
 
 const cli_command cli_simulate = {
-    "simulate",
-    "MACHINE SCENARIO",
-    "Runs the drive in time: machine, shaft, current and speed control, sensors.\n"
-    "Writes trajectory.csv, spectrum.csv and summary.json; with --report also report.html.",
-    OPTIONS,
-    2,
-    "  hci-solve simulate data/machine_a data/drive/imposed.csv -o out/imposed\n"
-    "  hci-solve simulate data/machine_c data/drive/filho_strategy_3.csv -o out/strategy_3\n"
-    "\nExit codes: 0 done; " CLI_EXIT_ERRORS,
-    run};
+    .name = "simulate",
+    .words = "MACHINE SCENARIO",
+    .does = "Runs the drive in time: machine, shaft, current and speed control, sensors.\n"
+            "Writes trajectory.csv, spectrum.csv and summary.json; with --report also report.html.",
+    .options = OPTIONS,
+    .words_needed = 2,
+    .word_kind = CLI_FILE,
+    .example = "  hci-solve simulate data/machine_a data/drive/imposed.csv -o out/imposed\n"
+               "  hci-solve simulate data/machine_c data/drive/filho_strategy_3.csv -o out/strategy_3\n"
+               "\nExit codes: 0 done; " CLI_EXIT_ERRORS,
+    .source = "cli/simulate.c",
+    .guide = "simulate.md",
+    .more_help = print_scenario_names,
+    .run = run,
+};

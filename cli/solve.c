@@ -6,6 +6,12 @@
 #include <sys/stat.h>
 
 #include "cli/command/command.h"
+#include "cli/command/parse.h"
+#include "cli/commands.h"
+#include "cli/solve_words.h"
+#include "cli/terminal/progress.h"
+#include "cli/terminal/say.h"
+#include "cli/terminal/terminal.h"
 #include "hci/host/base/number.h"
 #include "hci/host/machine/effects.h"
 #include "hci/host/report/summary.h"
@@ -31,30 +37,49 @@ enum {
     CLI_COMMON_KEYS
 };
 
+static const cli_choice METHODS[] = {HCI_METHOD_NAMES(CLI_CHOICE_OF){NULL, NULL}};
+static const cli_choice STRATEGIES[] = {HCI_STRATEGY_NAMES(CLI_CHOICE_OF){NULL, NULL}};
+static const cli_choice COMPARES[] = {
+    [HCI_COMPARE_ALL] = {"all", "all (default): every order reached"},
+    [HCI_COMPARE_SQUARE] = {"square", "; square: as many as unknowns"},
+    {NULL, NULL},
+};
+
 static const cli_option OPTIONS[] = {
-    [TARGET] = {"target", 0, CLI_VALUE, "FILE", "wanted torque: order,amplitude_Nm,phase_rad[,weight]"},
-    [HARMONICS] = {"harmonics", 0, CLI_VALUE, "FILE", "components to use: order,set (sym, asym, pos, neg)"},
-    [AUTO] = {"auto", 0, CLI_COUNT_OPTIONAL, "K", "choose the components (default), at most K of them"},
-    [FUNDAMENTAL] = {"fundamental", 0, CLI_VALUE, "A,RAD",
-                     "hold the fundamental at peak amplitude and phase"},
-    [METHOD] = {"method", 0, CLI_VALUE, "NAME", "auto, lu, umfpack, qr or pointwise"},
-    [STRATEGY] = {"strategy", 0, CLI_VALUE, "NAME",
-                  "of pointwise: id0, cancel (i_d cancels reluctance and cogging) or mtpa"},
-    [COMPARE] = {"compare", 0, CLI_VALUE, "WHAT",
-                 "all (default): every order reached; square: as many as unknowns"},
-    [TOLERANCE] = {"tolerance", 0, CLI_VALUE, "SHARE",
-                   "of the mean torque; an order within it is reached (1e-6)"},
-    [MAX_LOSS] = {"max-loss", 0, CLI_VALUE, "RATIO", "with --auto K: copper over the pointwise limit (1.10)"},
-    [LIMIT_CURRENT] = {"limit-current", 0, CLI_VALUE, "A",
-                       "largest phase current; exit code 1 when it is exceeded"},
-    [LIMIT_VOLTAGE] = {"limit-voltage", 0, CLI_VALUE, "V",
-                       "dc-link voltage for the line voltages; with --speed"},
-    [SPEED] = {"speed", 0, CLI_VALUE, "RPM", "mechanical speed for --limit-voltage"},
-    [TEMPERATURE] = {"temperature", 0, CLI_VALUE, "C",
-                     "of the magnets, for magnet_temperature in effects.csv"},
-    [OUT] = {"out", 'o', CLI_VALUE, "FOLDER", "where the results go; without it nothing is written"},
-    [REPORT] = {"report", 0, CLI_FLAG, NULL, "report.html beside the results, for people"},
+    [TARGET] = {"target", 0, CLI_FILE, "FILE",
+                .help = "wanted torque: order,amplitude_Nm,phase_rad[,weight]"},
+    [HARMONICS] = {"harmonics", 0, CLI_FILE, "FILE",
+                   .help = "components to use: order,set (sym, asym, pos, neg)"},
+    [AUTO] = {"auto", 0, CLI_COUNT_OPTIONAL, "K",
+              .help = "choose the components (default), at most K of them", .low = 1.0, .high = 1e4},
+    [FUNDAMENTAL] = {"fundamental", 0, CLI_TEXT, "A,RAD",
+                     .help = "hold the fundamental at peak amplitude and phase"},
+    [METHOD] = {"method", 0, CLI_CHOICE, "NAME", NULL, .choices = METHODS},
+    [STRATEGY] = {"strategy", 0, CLI_CHOICE, "NAME",
+                  .help = "of pointwise (cancel: i_d cancels reluctance and cogging):",
+                  .choices = STRATEGIES},
+    [COMPARE] = {"compare", 0, CLI_CHOICE, "WHAT", NULL, .choices = COMPARES},
+    [TOLERANCE] = {"tolerance", 0, CLI_NUMBER, "SHARE",
+                   .help = "of the mean torque; an order within it is reached (1e-6)", .low = 1e-14,
+                   .high = 1.0},
+    [MAX_LOSS] = {"max-loss", 0, CLI_NUMBER, "RATIO",
+                  .help = "with --auto K: copper over the pointwise limit (1.10)", .low = 1.0, .high = 1e6},
+    [LIMIT_CURRENT] = {"limit-current", 0, CLI_NUMBER, "A",
+                       .help = "largest phase current; exit code 1 when it is exceeded", .low = 1e-9,
+                       .high = 1e9},
+    [LIMIT_VOLTAGE] = {"limit-voltage", 0, CLI_NUMBER, "V",
+                       .help = "dc-link voltage for the line voltages; with --speed", .low = 1e-9,
+                       .high = 1e9},
+    [SPEED] = {"speed", 0, CLI_NUMBER, "RPM", .help = "mechanical speed for --limit-voltage", .low = -1e7,
+               .high = 1e7},
+    [TEMPERATURE] = {"temperature", 0, CLI_NUMBER, "C",
+                     .help = "of the magnets, for magnet_temperature in effects.csv", .low = -273.15,
+                     .high = 1e4},
+    [OUT] = {"out", 'o', CLI_FOLDER, "FOLDER", .help = "where the results go; without it nothing is written"},
+    [REPORT] = {"report", 0, CLI_FLAG, NULL, .help = "report.html beside the results, for people"},
     CLI_COMMON_OPTIONS};
+
+/* ---- options ---- */
 
 /* AMPLITUDE_A,PHASE_rad */
 static hci_status read_fundamental(const char *text, hci_wave *held, hci_note *note)
@@ -77,83 +102,48 @@ static hci_status read_fundamental(const char *text, hci_wave *held, hci_note *n
         "--fundamental: found `%s`, expected peak amplitude in A and phase in rad, such as 12,0.2", text);
 }
 
-static hci_status read_choices(const cli_arguments *a, hci_solve_options *o, hci_note *note)
+/* Options that exclude or need each other. */
+static hci_status check_together(const cli_arguments *a, hci_method method, hci_note *note)
 {
-    static const char *const METHODS[] = {"auto", "lu", "umfpack", "qr", "pointwise", NULL};
-    static const char *const STRATEGIES[] = {"mtpa", "id0", "cancel", NULL};
-    static const char *const COMPARES[] = {"all", "square", NULL};
-    int choice = 0;
-    hci_status status = HCI_OK;
-    if (a->value[METHOD]) status = cli_choice("method", a->value[METHOD], METHODS, &choice, note);
-    o->method = (hci_method)choice;
-    choice = 0;
-    if (!status && a->value[STRATEGY])
-        status = cli_choice("strategy", a->value[STRATEGY], STRATEGIES, &choice, note);
-    o->strategy = (hci_strategy)choice;
-    choice = 0;
-    if (!status && a->value[COMPARE])
-        status = cli_choice("compare", a->value[COMPARE], COMPARES, &choice, note);
-    o->compare = (hci_compare)choice;
-    if (status) return status;
-    if (a->given[HARMONICS] && (a->given[AUTO] || o->method == HCI_METHOD_POINTWISE))
-        return hci_note_set(note, HCI_ERROR_ARGUMENT,
-                            "--harmonics names the components; leave out --auto or --method pointwise");
-    if (a->given[AUTO] && o->method != HCI_METHOD_AUTO)
-        return hci_note_set(note, HCI_ERROR_ARGUMENT, "--auto chooses the method too; leave out --method");
-    if (a->given[MAX_LOSS] && !a->value[AUTO])
-        return hci_note_set(note, HCI_ERROR_ARGUMENT, "--max-loss goes with --auto K");
-    if (a->given[STRATEGY] && o->method != HCI_METHOD_POINTWISE)
-        return hci_note_set(note, HCI_ERROR_ARGUMENT,
-                            "--strategy works angle by angle; add --method pointwise");
-    if (!a->given[HARMONICS] &&
-        (a->given[COMPARE] || o->method == HCI_METHOD_LU || o->method == HCI_METHOD_UMFPACK))
-        return hci_note_set(note, HCI_ERROR_ARGUMENT,
-                            "--compare and --method lu or umfpack need a set: --harmonics FILE");
-    return HCI_OK;
+    const char *wrong = NULL;
+    if (a->given[HARMONICS] && (a->given[AUTO] || method == HCI_METHOD_POINTWISE))
+        wrong = "--harmonics names the components; leave out --auto or --method pointwise";
+    else if (a->given[AUTO] && method != HCI_METHOD_AUTO)
+        wrong = "--auto chooses the method too; leave out --method";
+    else if (a->given[MAX_LOSS] && !a->value[AUTO])
+        wrong = "--max-loss goes with --auto K";
+    else if (a->given[STRATEGY] && method != HCI_METHOD_POINTWISE)
+        wrong = "--strategy works angle by angle; add --method pointwise";
+    else if (!a->given[HARMONICS] &&
+             (a->given[COMPARE] || method == HCI_METHOD_LU || method == HCI_METHOD_UMFPACK))
+        wrong = "--compare and --method lu or umfpack need a set: --harmonics FILE";
+    else if (a->given[LIMIT_VOLTAGE] != a->given[SPEED])
+        wrong = "solve: --limit-voltage and --speed go together";
+    else if (!a->value[TARGET])
+        wrong = "solve: the wanted torque is missing; add --target FILE";
+    else if (a->given[REPORT] && !a->given[OUT])
+        wrong = "--report is written into a folder; add --out FOLDER";
+    return wrong ? hci_note_set(note, HCI_ERROR_ARGUMENT, "%s", wrong) : HCI_OK;
 }
 
-static hci_status read_limits(const cli_arguments *a, hci_solve_options *o, hci_note *note)
+static hci_status read_options(const cli_arguments *a, hci_solve_options *o, hci_wave *held, hci_note *note)
 {
-    double speed_rpm = 0.0;
-    hci_status status = HCI_OK;
-    if (a->given[LIMIT_VOLTAGE] != a->given[SPEED])
-        return hci_note_set(note, HCI_ERROR_ARGUMENT, "solve: --limit-voltage and --speed go together");
-    if (a->value[LIMIT_CURRENT])
-        status = cli_number("limit-current", a->value[LIMIT_CURRENT], 1e-9, 1e9, &o->limit_current_A, note);
-    if (!status && a->value[LIMIT_VOLTAGE])
-        status = cli_number("limit-voltage", a->value[LIMIT_VOLTAGE], 1e-9, 1e9, &o->limit_voltage_V, note);
-    if (!status && a->value[SPEED])
-        status = cli_number("speed", a->value[SPEED], -1e7, 1e7, &speed_rpm, note);
-    o->speed_rad_per_s = speed_rpm * HCI_PI / 30.0;
-    return status;
-}
-
-static hci_status read_numbers(const cli_arguments *a, hci_solve_options *o, hci_wave *held, hci_note *note)
-{
-    double count = 0.0;
-    hci_status status = HCI_OK;
-    if (a->value[AUTO]) status = cli_number("auto", a->value[AUTO], 1.0, 1e4, &count, note);
-    if (!status && count != floor(count))
-        status = hci_note_set(note, HCI_ERROR_ARGUMENT, "--auto: found `%s`, expected a whole number",
-                              a->value[AUTO]);
-    if (!status && a->value[TOLERANCE])
-        status = cli_number("tolerance", a->value[TOLERANCE], 1e-14, 1.0, &o->tolerance, note);
-    if (!status && a->value[MAX_LOSS])
-        status = cli_number("max-loss", a->value[MAX_LOSS], 1.0, 1e6, &o->loss_allowance, note);
-    if (!status) status = read_limits(a, o, note);
-    if (!status && a->value[TEMPERATURE]) {
-        status = cli_number("temperature", a->value[TEMPERATURE], -273.15, 1e4, &o->temperature_C, note);
-        o->at_temperature = true;
-    }
-    if (!status && a->value[FUNDAMENTAL]) {
-        status = read_fundamental(a->value[FUNDAMENTAL], held, note);
-        o->held = held;
-    }
-    o->choose_at_most = (size_t)count;
-    if (!status && !a->value[TARGET])
-        status =
-            hci_note_set(note, HCI_ERROR_ARGUMENT, "solve: the wanted torque is missing; add --target FILE");
-    return status;
+    hci_status status;
+    o->method = (hci_method)a->choice[METHOD];
+    o->strategy = (hci_strategy)a->choice[STRATEGY];
+    o->compare = (hci_compare)a->choice[COMPARE];
+    o->choose_at_most = (size_t)cli_number_or(a, AUTO, 0.0);
+    o->tolerance = cli_number_or(a, TOLERANCE, 0.0);
+    o->loss_allowance = cli_number_or(a, MAX_LOSS, 0.0);
+    o->limit_current_A = cli_number_or(a, LIMIT_CURRENT, 0.0);
+    o->limit_voltage_V = cli_number_or(a, LIMIT_VOLTAGE, 0.0);
+    o->speed_rad_per_s = cli_number_or(a, SPEED, 0.0) * HCI_PI / 30.0;
+    o->at_temperature = a->given[TEMPERATURE];
+    o->temperature_C = cli_number_or(a, TEMPERATURE, 0.0);
+    status = check_together(a, o->method, note);
+    if (status || !a->value[FUNDAMENTAL]) return status;
+    o->held = held;
+    return read_fundamental(a->value[FUNDAMENTAL], held, note);
 }
 
 /* Everything that is read, in one place so that it is released in one place. */
@@ -186,12 +176,7 @@ static hci_status keep_apart(const char *input, const char *folder, hci_note *no
 
 static hci_status read_inputs(const cli_arguments *a, inputs *in, hci_note *note)
 {
-    hci_status status = HCI_OK;
-    if (a->given[REPORT] && !a->given[OUT])
-        status =
-            hci_note_set(note, HCI_ERROR_ARGUMENT, "--report is written into a folder; add --out FOLDER");
-    if (!status) status = read_choices(a, &in->options, note);
-    if (!status) status = read_numbers(a, &in->options, &in->held, note);
+    hci_status status = read_options(a, &in->options, &in->held, note);
     if (!status) status = keep_apart(a->value[TARGET], a->value[OUT], note);
     if (!status) status = keep_apart(a->value[HARMONICS], a->value[OUT], note);
     if (!status) status = hci_machine_read(a->word[0], &in->machine, note);
@@ -212,15 +197,6 @@ static void release_inputs(inputs *in)
     hci_effects_release(&in->effects);
     hci_target_release(&in->target);
     hci_component_set_release(&in->set);
-}
-
-static hci_status print_json(const hci_solution *s, hci_status verdict, hci_note *note)
-{
-    char *json = hci_solution_json(s, verdict);
-    if (!json) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the summary");
-    puts(json);
-    hci_text_free(json);
-    return HCI_OK;
 }
 
 static void remark_period(const inputs *in, const hci_solution *s)
@@ -255,7 +231,7 @@ static int give_results(const cli_arguments *a, const inputs *in, const hci_solu
                                                 a->value[OUT], &note);
     if (!status && cli_is_wordy()) cli_show_solution(s, a->word[0], a->value[TARGET]);
     if (!status) show_remarks(in, s);
-    if (!status && a->given[JSON]) status = print_json(s, verdict, &note);
+    if (!status && a->given[JSON]) status = cli_print_json(hci_solution_json(s, verdict), &note);
     return status ? cli_fail(status, &note) : hci_status_exit_code(verdict);
 }
 
@@ -268,31 +244,31 @@ static int run(const cli_arguments *a)
     int exit_code;
     memset(&in, 0, sizeof in);
     status = read_inputs(a, &in, &note);
-    if (!status) {
-        status = hci_solve(&in.machine, &in.options, &solution, &note);
-        if (status <= HCI_NOT_REACHED) {
-            exit_code = give_results(a, &in, &solution, status);
-            hci_solution_release(&solution);
-        } else {
-            exit_code = cli_fail(status, &note);
-        }
-    } else {
+    if (!status) status = hci_solve(&in.machine, &in.options, &solution, &note);
+    if (status > HCI_NOT_REACHED) {
         exit_code = cli_fail(status, &note);
+    } else {
+        exit_code = give_results(a, &in, &solution, status);
+        hci_solution_release(&solution);
     }
     release_inputs(&in);
     return exit_code;
 }
 
 const cli_command cli_solve = {
-    "solve",
-    "MACHINE --target FILE",
-    "Finds the harmonic currents that make the machine produce the wanted torque spectrum.\n"
-    "Writes currents.csv, waveform.csv, spectrum.csv, summary.json and solution.svg;\n"
-    "with --report also report.html.",
-    OPTIONS,
-    1,
-    "  hci-solve solve data/machine_a --target data/scenarios/02/target.csv --auto -o out/machine_a\n"
-    "  hci-solve solve data/machine_a --target data/scenarios/02/target.csv \\\n"
-    "      --harmonics data/scenarios/02/harmonics.csv --fundamental 12,0.2 -o out/published\n"
-    "\nExit codes: 0 reached; 1 not reached, the nearest is given; " CLI_EXIT_ERRORS,
-    run};
+    .name = "solve",
+    .words = "MACHINE --target FILE",
+    .does = "Finds the harmonic currents that make the machine produce the wanted torque spectrum.\n"
+            "Writes currents.csv, waveform.csv, spectrum.csv, summary.json and solution.svg;\n"
+            "with --report also report.html.",
+    .options = OPTIONS,
+    .words_needed = 1,
+    .word_kind = CLI_FILE,
+    .example =
+        "  hci-solve solve data/machine_a --target data/scenarios/02/target.csv --auto -o out/machine_a\n"
+        "  hci-solve solve data/machine_a --target data/scenarios/02/target.csv \\\n"
+        "      --harmonics data/scenarios/02/harmonics.csv --fundamental 12,0.2 -o out/published\n"
+        "\nExit codes: 0 reached; 1 not reached, the nearest is given; " CLI_EXIT_ERRORS,
+    .source = "cli/solve.c",
+    .run = run,
+};

@@ -2,7 +2,11 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/command/command.h"
+#include "cli/solve_words.h"
+#include "cli/terminal/chart.h"
+#include "cli/terminal/rows.h"
+#include "cli/terminal/say.h"
+#include "cli/terminal/text.h"
 
 /* ---- spectrum ---- */
 
@@ -145,7 +149,6 @@ static void show_limits(const hci_solution *s)
 void cli_show_solution(const hci_solution *s, const char *machine, const char *target)
 {
     bool reached = true;
-    cli_progress_end();
     for (size_t k = 0; k < s->order_count; ++k)
         reached = reached && s->order[k].verdict <= HCI_ORDER_FREE;
     cli_say("%s%s" CLI_PLAIN "%s%s: %s, %s\n",

@@ -1,19 +1,13 @@
-#define _POSIX_C_SOURCE 200809L
+#include "cli/command/parse.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
-#include "cli/command/command.h"
+#include "cli/command/spelling.h"
 #include "hci/host/base/number.h"
 
-/* Index of an option by its long name (up to `length` characters) or its letter; -1 when there is none. */
-static int find_option(const cli_option *options, const char *name, size_t length)
-{
-    for (int k = 0; options[k].name; ++k)
-        if (strlen(options[k].name) == length && strncmp(options[k].name, name, length) == 0) return k;
-    return -1;
-}
+/* ---- words ---- */
 
 static int find_letter(const cli_option *options, char letter)
 {
@@ -27,213 +21,166 @@ static bool is_count(const char *text)
     return text && text[0] != '\0' && strspn(text, "0123456789") == strlen(text);
 }
 
-int cli_option_find(const cli_command *command, const char *name)
-{
-    return find_option(command->options, name, strlen(name));
-}
-
-/* ---- what was probably meant ---- */
-
-enum { MOST_LETTERS = 24, FAR = 1000 };
-
-static int least(int a, int b)
-{
-    return a < b ? a : b;
-}
-
-/* Letters to put in, take out, change or swap with their neighbour, to make one word of another. */
-static int distance(const char *a, const char *b)
-{
-    int d[MOST_LETTERS + 1][MOST_LETTERS + 1];
-    const int m = (int)strlen(a), n = (int)strlen(b);
-    if (m > MOST_LETTERS || n > MOST_LETTERS) return FAR;
-    for (int i = 0; i <= m; ++i)
-        d[i][0] = i;
-    for (int j = 0; j <= n; ++j)
-        d[0][j] = j;
-    for (int i = 1; i <= m; ++i)
-        for (int j = 1; j <= n; ++j) {
-            d[i][j] = least(least(d[i - 1][j], d[i][j - 1]) + 1, d[i - 1][j - 1] + (a[i - 1] != b[j - 1]));
-            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-                d[i][j] = least(d[i][j], d[i - 2][j - 2] + 1);
-        }
-    return d[m][n];
-}
-
-const char *cli_nearest(const char *word, const char *const *names)
-{
-    const char *nearest = NULL;
-    int best = 1 + (int)strlen(word) / 3; /* one mistake in three letters */
-    if (strlen(word) < 2) return NULL;
-    for (; *names; ++names) {
-        const bool begins = strlen(word) > 2 && strncmp(*names, word, strlen(word)) == 0;
-        const int far = begins ? 0 : distance(word, *names);
-        if (far >= best) continue;
-        best = far;
-        nearest = *names;
-    }
-    return nearest;
-}
-
 static hci_status unknown_option(const cli_command *command, const char *word, hci_note *note)
 {
     const char *names[CLI_MOST_OPTIONS + 1] = {NULL}, *nearest;
-    char name[MOST_LETTERS + 1] = "";
+    char name[32];
     for (int k = 0; k < CLI_MOST_OPTIONS && command->options[k].name; ++k)
         names[k] = command->options[k].name;
     snprintf(name, sizeof name, "%.*s", (int)strcspn(word + 1, "="), word + (word[1] == '-' ? 2 : 1));
     name[strcspn(name, "=")] = '\0';
     nearest = cli_nearest(name, names);
-    if (nearest)
-        return hci_note_set(note, HCI_ERROR_ARGUMENT,
-                            "%s: unknown option `%s`; did you mean `--%s`? see hci-solve %s --help",
-                            command->name, word, nearest, command->name);
-    return hci_note_set(note, HCI_ERROR_ARGUMENT, "%s: unknown option `%s`; see hci-solve %s --help",
-                        command->name, word, command->name);
+    return hci_note_set(note, HCI_ERROR_ARGUMENT, "%s: unknown option `%s`;%s%s%s see hci-solve %s --help",
+                        command->name, word, nearest ? " did you mean `--" : "", nearest ? nearest : "",
+                        nearest ? "`?" : "", command->name);
 }
 
-/* ---- parsing ---- */
+/* What is read: words[at] of `count`. */
+typedef struct {
+    const cli_command *command;
+    char *const *words;
+    int count, at;
+} reader;
 
-/* One option at words[*at], with its value in the same word after `=` or in the next one. */
-static hci_status take_option(const cli_command *command, int count, char *const *words, int *at,
-                              cli_arguments *a, hci_note *note)
+/* The place of the option that a word begins with; -1: none. */
+static int option_of(const reader *r, const char *word, const char *equals)
 {
-    const char *word = words[*at], *equals = strchr(word, '=');
-    const bool is_long = word[1] == '-';
-    const size_t length = equals ? (size_t)(equals - word) - 2 : strlen(word) - 2;
-    const char *next = *at + 1 < count ? words[*at + 1] : NULL;
-    const int k =
-        is_long ? find_option(command->options, word + 2, length) : find_letter(command->options, word[1]);
-    if (k < 0 || (!is_long && word[2] != '\0')) return unknown_option(command, word, note);
+    const cli_option *options = r->command->options;
+    if (word[1] == '-')
+        return cli_option_find(options, word + 2, equals ? (size_t)(equals - word) - 2 : strlen(word) - 2);
+    return word[2] == '\0' ? find_letter(options, word[1]) : -1;
+}
+
+/* The value of an option, in the same word after `=` or in the next one. */
+static hci_status take_value(reader *r, const cli_option *option, const char **value, hci_note *note)
+{
+    const char *word = r->words[r->at], *equals = word[1] == '-' ? strchr(word, '=') : NULL;
+    const char *next = r->at + 1 < r->count ? r->words[r->at + 1] : NULL;
+    const bool may_go_without = option->kind == CLI_COUNT_OPTIONAL;
+    if (equals && !cli_option_takes_value(option))
+        return hci_note_set(note, HCI_ERROR_ARGUMENT, "%s: `%s` takes no value", r->command->name, word);
+    if (equals) {
+        *value = equals + 1;
+        return HCI_OK;
+    }
+    if (!cli_option_takes_value(option) || (may_go_without && !is_count(next))) return HCI_OK;
+    if (!next)
+        return hci_note_set(note, HCI_ERROR_ARGUMENT, "%s: `%s` needs a value: %s", r->command->name, word,
+                            option->value_name);
+    *value = r->words[++r->at];
+    return HCI_OK;
+}
+
+static hci_status take_option(reader *r, cli_arguments *a, hci_note *note)
+{
+    const char *word = r->words[r->at];
+    const int k = option_of(r, word, strchr(word, '='));
+    if (k < 0) return unknown_option(r->command, word, note);
     if (a->given[k])
-        return hci_note_set(note, HCI_ERROR_ARGUMENT, "%s: `%s` is given twice", command->name, word);
+        return hci_note_set(note, HCI_ERROR_ARGUMENT, "%s: `%s` is given twice", r->command->name, word);
     a->given[k] = true;
-    if (is_long && equals && command->options[k].kind == CLI_FLAG)
-        return hci_note_set(note, HCI_ERROR_ARGUMENT, "%s: `%s` takes no value", command->name, word);
-    if (is_long && equals) {
-        a->value[k] = equals + 1;
-    } else if (command->options[k].kind == CLI_VALUE) {
-        if (!next)
-            return hci_note_set(note, HCI_ERROR_ARGUMENT, "%s: `%s` needs a value: %s", command->name, word,
-                                command->options[k].value_name);
-        a->value[k] = words[++*at];
-    } else if (command->options[k].kind == CLI_COUNT_OPTIONAL && is_count(next)) {
-        a->value[k] = words[++*at];
+    return take_value(r, &r->command->options[k], &a->value[k], note);
+}
+
+static hci_status check_word_count(const cli_command *c, const cli_arguments *a, hci_note *note)
+{
+    if (a->words == c->words_needed || (a->words > c->words_needed && c->takes_more_words)) return HCI_OK;
+    return hci_note_set(note, HCI_ERROR_ARGUMENT,
+                        "%s: found %zu words, expected %zu%s: %s; see hci-solve %s --help", c->name, a->words,
+                        c->words_needed, c->takes_more_words ? " or more" : "", c->words, c->name);
+}
+
+static void clear(cli_arguments *a)
+{
+    memset(a, 0, sizeof *a);
+    for (int k = 0; k < CLI_MOST_OPTIONS; ++k)
+        a->number[k] = NAN;
+}
+
+hci_status cli_parse_words(const cli_command *command, int count, char *const *words,
+                           cli_arguments *arguments, hci_note *note)
+{
+    reader r = {command, words, count, 0};
+    hci_status status = HCI_OK;
+    bool only_words = false;
+    clear(arguments);
+    for (; r.at < count && !status; ++r.at) {
+        const char *word = words[r.at];
+        if (!only_words && strcmp(word, "--") == 0)
+            only_words = true;
+        else if (!only_words && word[0] == '-' && word[1] != '\0')
+            status = take_option(&r, arguments, note);
+        else if (arguments->words < CLI_MOST_WORDS)
+            arguments->word[arguments->words++] = word;
+    }
+    return status ? status : check_word_count(command, arguments, note);
+}
+
+/* ---- values ---- */
+
+static hci_status wrong_number(const cli_option *o, const char *text, hci_note *note)
+{
+    const char *what = o->kind == CLI_NUMBER ? "a number"
+                       : o->step == 2        ? "an even number"
+                       : o->step == 3        ? "a multiple of 3"
+                                             : "a whole number";
+    return hci_note_set(note, HCI_ERROR_ARGUMENT, "--%s: found `%.60s`, expected %s from %g to %g%s%s",
+                        o->name, text, what, o->low, o->high, o->remedy ? "; " : "",
+                        o->remedy ? o->remedy : "");
+}
+
+static hci_status read_number(const cli_option *o, const char *text, double *number, hci_note *note)
+{
+    const bool is_whole = o->kind != CLI_NUMBER;
+    if (!hci_number_parse(text, number) || !(*number >= o->low && *number <= o->high) ||
+        (is_whole && fmod(*number, o->step > 1 ? o->step : 1) != 0.0))
+        return wrong_number(o, text, note);
+    return HCI_OK;
+}
+
+static hci_status read_choice(const cli_option *o, const char *text, int *choice, hci_note *note)
+{
+    char list[128] = "";
+    for (*choice = 0; o->choices[*choice].word; ++*choice) {
+        const char *word = o->choices[*choice].word;
+        const size_t used = strlen(list);
+        if (strcmp(word, text) == 0) return HCI_OK;
+        snprintf(list + used, sizeof list - used, "%s%s", used ? ", " : "", word);
+    }
+    return hci_note_set(note, HCI_ERROR_ARGUMENT, "--%s: found `%s`, expected one of: %s", o->name, text,
+                        list);
+}
+
+hci_status cli_parse_value(const cli_option *options, int option, cli_arguments *a, hci_note *note)
+{
+    const cli_option *o = &options[option];
+    const char *text = a->value[option];
+    if (!text) return HCI_OK;
+    switch (o->kind) {
+    case CLI_COUNT_OPTIONAL:
+    case CLI_NUMBER:
+    case CLI_WHOLE:
+        return read_number(o, text, &a->number[option], note);
+    case CLI_CHOICE:
+        return read_choice(o, text, &a->choice[option], note);
+    case CLI_FLAG:
+    case CLI_FILE:
+    case CLI_FOLDER:
+    case CLI_TEXT:
+        break;
     }
     return HCI_OK;
 }
 
-hci_status cli_parse(const cli_command *command, int count, char *const *words, cli_arguments *arguments,
-                     hci_note *note)
+hci_status cli_parse_values(const cli_option *options, cli_arguments *arguments, hci_note *note)
 {
     hci_status status = HCI_OK;
-    bool only_words = false;
-    memset(arguments, 0, sizeof *arguments);
-    for (int k = 0; k < count && !status; ++k) {
-        if (!only_words && strcmp(words[k], "--") == 0)
-            only_words = true;
-        else if (!only_words && words[k][0] == '-' && words[k][1] != '\0')
-            status = take_option(command, count, words, &k, arguments, note);
-        else if (arguments->words < CLI_MOST_WORDS)
-            arguments->word[arguments->words++] = words[k];
-    }
-    const bool more = (command->words_needed & CLI_OR_MORE) != 0;
-    const size_t needed = command->words_needed & ~(size_t)CLI_OR_MORE;
-    if (!status && (arguments->words < needed || (arguments->words > needed && !more)))
-        status = hci_note_set(
-            note, HCI_ERROR_ARGUMENT, "%s: found %zu words, expected %zu%s: %s; see hci-solve %s --help",
-            command->name, arguments->words, needed, more ? " or more" : "", command->words, command->name);
+    for (int k = 0; options[k].name && !status; ++k)
+        status = cli_parse_value(options, k, arguments, note);
     return status;
 }
 
-hci_status cli_number(const char *option, const char *text, double low, double high, double *value,
-                      hci_note *note)
+double cli_number_or(const cli_arguments *a, int option, double otherwise)
 {
-    if (hci_number_parse(text, value) && *value >= low && *value <= high) return HCI_OK;
-    return hci_note_set(note, HCI_ERROR_ARGUMENT, "--%s: found `%s`, expected a number from %g to %g", option,
-                        text, low, high);
-}
-
-hci_status cli_choice(const char *option, const char *text, const char *const *choices, int *value,
-                      hci_note *note)
-{
-    char list[128] = "";
-    for (*value = 0; choices[*value]; ++*value) {
-        const size_t used = strlen(list);
-        if (strcmp(choices[*value], text) == 0) return HCI_OK;
-        snprintf(list + used, sizeof list - used, "%s%s", used ? ", " : "", choices[*value]);
-    }
-    return hci_note_set(note, HCI_ERROR_ARGUMENT, "--%s: found `%s`, expected one of: %s", option, text,
-                        list);
-}
-
-/* ---- help ---- */
-
-/* Lines that are too long are continued as far in as they begin. */
-static void print_text(const char *text, int width)
-{
-    while (*text) {
-        char line[1024];
-        const size_t length = strcspn(text, "\n");
-        snprintf(line, sizeof line, "%.*s", (int)length, text);
-        if (*line)
-            cli_print_wrapped(stdout, width, 0, (int)strspn(line, " "), line);
-        else
-            putchar('\n');
-        text += length + (text[length] == '\n');
-    }
-}
-
-static void option_text(const cli_option *o, char *text, size_t size)
-{
-    const bool optional = o->kind == CLI_COUNT_OPTIONAL;
-    snprintf(text, size, "%c%c%c --%s%s%s%s%s", o->letter ? '-' : ' ', o->letter ? o->letter : ' ',
-             o->letter ? ',' : ' ', o->name, o->value_name ? " " : "", optional ? "[" : "",
-             o->value_name ? o->value_name : "", optional ? "]" : "");
-}
-
-static bool is_common(const cli_option *o)
-{
-    static const char *const NAMES[] = {"json", "quiet", "color", "help"};
-    for (size_t k = 0; k < sizeof NAMES / sizeof *NAMES; ++k)
-        if (strcmp(o->name, NAMES[k]) == 0) return true;
-    return false;
-}
-
-static int widest_option(const cli_option *o)
-{
-    size_t widest = 0;
-    for (; o->name; ++o) {
-        char left[64];
-        option_text(o, left, sizeof left);
-        if (strlen(left) > widest) widest = strlen(left);
-    }
-    return (int)widest;
-}
-
-static void print_options(const cli_command *command, bool common, const char *title, int width)
-{
-    const int at = widest_option(command->options) + 4;
-    for (const cli_option *o = command->options; o->name; ++o) {
-        char left[64];
-        if (is_common(o) != common) continue;
-        if (title) printf("\n%s\n", title);
-        title = NULL;
-        option_text(o, left, sizeof left);
-        printf("  %-*s", at - 2, left);
-        cli_print_wrapped(stdout, width, at, at, o->help);
-    }
-}
-
-void cli_print_help(const cli_command *command)
-{
-    const int width = cli_width(STDOUT_FILENO);
-    const char *codes = strstr(command->example, "\nExit codes: ");
-    const size_t length = codes ? (size_t)(codes - command->example) : strlen(command->example);
-    printf("hci-solve %s %s [OPTIONS]\n\n", command->name, command->words);
-    print_text(command->does, width);
-    print_options(command, false, "Options", width);
-    print_options(command, true, "Options of every command", width);
-    printf("\nExample\n%.*s", (int)length, command->example);
-    if (codes) print_text(codes, width);
+    return isnan(a->number[option]) ? otherwise : a->number[option];
 }

@@ -1,35 +1,21 @@
+#define _POSIX_C_SOURCE 200809L
+
+#include "cli/terminal/chart.h"
+
 #include <math.h>
-#include <stdlib.h>
+#include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
-#include "cli/command/command.h"
+#include "cli/terminal/bar.h"
+#include "cli/terminal/say.h"
+#include "cli/terminal/terminal.h"
+#include "cli/terminal/text.h"
 #include "hci/host/base/utf8.h"
 
 enum { MOST_CELLS = 40, LEAST_CELLS = 8, LEAST_NAME = 12, LINE_SIZE = 1024 };
 
 #define MOST_DECADES 4.0
-
-/* ---- one bar ---- */
-
-/* What a cell of a bar shows that is filled to so many eighths. */
-static const char *cell_text(int eighths, bool marked)
-{
-    static const char *const BLOCKS[] = {" ", "▏", "▎", "▍", "▌", "▋", "▊", "▉", "█"};
-    if (cli_is_ascii()) return marked ? "|" : eighths >= 4 ? "#" : " ";
-    return marked ? "│" : BLOCKS[eighths];
-}
-
-void cli_bar_text(double share, double mark, int cells, char *text)
-{
-    const int eighths = share > 0.0 ? (int)(8.0 * cells * fmin(share, 1.0) + 0.5) : 0;
-    const int marked = mark >= 0.0 && mark < 1.0 ? (int)(mark * cells) : -1;
-    text[0] = '\0';
-    for (int k = 0; k < cells; ++k) {
-        const int filled = eighths - 8 * k;
-        strcat(text, cell_text(filled < 0 ? 0 : filled > 8 ? 8 : filled, k == marked));
-    }
-}
 
 void cli_number_text(double value, double largest, char *text, size_t size)
 {
@@ -39,40 +25,6 @@ void cli_number_text(double value, double largest, char *text, size_t size)
     else
         snprintf(text, size, "%.*f", digits > 0.0 ? (int)digits : 0, value);
 }
-
-/* ---- which rows ---- */
-
-static int by_place(const void *a, const void *b)
-{
-    const size_t x = *(const size_t *)a, y = *(const size_t *)b;
-    return (x > y) - (x < y);
-}
-
-size_t cli_pick(double (*value)(const void *context, size_t k), const void *context, size_t count,
-                double least, size_t pick[CLI_MOST_ROWS], size_t *left_out)
-{
-    double largest = 0.0;
-    size_t picked = 0, eligible = 0;
-    for (size_t k = 0; k < count; ++k)
-        largest = fmax(largest, value(context, k));
-    for (size_t k = 0; k < count && largest > 0.0; ++k) {
-        const double v = value(context, k);
-        size_t at = picked;
-        if (!(v >= least * largest)) continue;
-        ++eligible;
-        while (at > 0 && value(context, pick[at - 1]) < v)
-            --at;
-        if (at == CLI_MOST_ROWS) continue;
-        if (picked < CLI_MOST_ROWS) ++picked;
-        memmove(pick + at + 1, pick + at, (picked - at - 1) * sizeof *pick);
-        pick[at] = k;
-    }
-    qsort(pick, picked, sizeof *pick, by_place);
-    if (left_out) *left_out = eligible - picked;
-    return picked;
-}
-
-/* ---- the chart ---- */
 
 typedef struct {
     const cli_chart *chart;

@@ -81,6 +81,12 @@ typedef enum {
     HCI_CURRENT_PI          /* in the rotor frame, average voltages */
 } hci_current_loop;
 
+/* Their words in files: X(loop, word). */
+#define HCI_CURRENT_LOOP_NAMES(X)                                                                            \
+    X(HCI_CURRENT_IDEAL, "ideal")                                                                            \
+    X(HCI_CURRENT_HYSTERESIS, "hysteresis")                                                                  \
+    X(HCI_CURRENT_PI, "pi")
+
 /* Where reference currents come from, from a time on: a strategy; or, when there are waves, T·per_Nm(θ) +
  * fixed(θ). */
 typedef struct {

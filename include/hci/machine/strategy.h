@@ -20,6 +20,12 @@ typedef enum {
     HCI_STRATEGY_CANCEL /* the same i_q, and the i_d that makes reluctance plus cogging torque zero */
 } hci_strategy;
 
+/* Their words in files and options: X(strategy, word). */
+#define HCI_STRATEGY_NAMES(X)                                                                                \
+    X(HCI_STRATEGY_MTPA, "mtpa")                                                                             \
+    X(HCI_STRATEGY_ID0, "id0")                                                                               \
+    X(HCI_STRATEGY_CANCEL, "cancel")
+
 /* The machine at one angle, in the orthonormal (power-invariant) αβ plane. */
 typedef struct {
     double e[2];       /* back-EMF, N·m/A; x·x is i_a² + i_b² + i_c² */

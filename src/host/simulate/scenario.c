@@ -87,18 +87,24 @@ static hci_status number_read(const hci_csv *csv, size_t row, const entry *e, hc
 
 enum { CURRENT_CONTROL, STRATEGY, STRATEGY_2, CURRENTS, WORDS };
 
-static const char *const CONTROLS[] = {"ideal", "hysteresis", "pi", NULL};
-static const char *const STRATEGIES[] = {"mtpa", "id0", "cancel", NULL};
+#define WORD_OF(value, word) [value] = word,
+static const char *const CONTROLS[] = {HCI_CURRENT_LOOP_NAMES(WORD_OF) NULL};
+static const char *const STRATEGIES[] = {HCI_STRATEGY_NAMES(WORD_OF) NULL};
+#undef WORD_OF
 
 /* Position of the value among the choices. */
-static hci_status choice_read(const hci_csv *csv, size_t row, const char *const *choices,
-                              const char *expected, int *value, hci_note *note)
+static hci_status choice_read(const hci_csv *csv, size_t row, const char *const *choices, int *value,
+                              hci_note *note)
 {
+    char expected[120] = "one of:";
     const char *text;
     const hci_status status = hci_csv_text(csv, "value", row, &text, note);
     if (status) return status;
-    for (*value = 0; choices[*value]; ++*value)
+    for (*value = 0; choices[*value]; ++*value) {
+        const size_t used = strlen(expected);
         if (strcmp(choices[*value], text) == 0) return HCI_OK;
+        snprintf(expected + used, sizeof expected - used, "%s %s", *value > 0 ? "," : "", choices[*value]);
+    }
     return hci_csv_error(csv, "value", row, note, expected, "see hci-solve simulate --help");
 }
 
@@ -123,10 +129,7 @@ static hci_status word_read(const hci_csv *csv, size_t row, int word, hci_scenar
     int choice = 0;
     hci_status status;
     if (word == CURRENTS) return currents_read(csv, row, s, note);
-    status =
-        choice_read(csv, row, word == CURRENT_CONTROL ? CONTROLS : STRATEGIES,
-                    word == CURRENT_CONTROL ? "one of: ideal, hysteresis, pi" : "one of: mtpa, id0, cancel",
-                    &choice, note);
+    status = choice_read(csv, row, word == CURRENT_CONTROL ? CONTROLS : STRATEGIES, &choice, note);
     if (word == CURRENT_CONTROL) s->current_control = (hci_current_loop)choice;
     if (word == STRATEGY) s->strategy = (hci_strategy)choice;
     if (word == STRATEGY_2) s->strategy_2 = (hci_strategy)choice;

@@ -17,7 +17,9 @@ static hci_status no_memory(hci_note *note)
 
 const char *hci_method_name(hci_method method)
 {
-    static const char *const NAME[] = {"auto", "lu", "umfpack", "qr", "pointwise"};
+#define NAME_OF(value, word) [value] = word,
+    static const char *const NAME[] = {HCI_METHOD_NAMES(NAME_OF)};
+#undef NAME_OF
     return NAME[method];
 }
 

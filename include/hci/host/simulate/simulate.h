@@ -86,12 +86,14 @@ extern "C" {
     X(trajectory_every, "trajectory_every", "count", 1.0, 1e9, "up to 20 000 rows",                          \
       "steps to a row of trajectory.csv")
 
-/* Words of a scenario: X(name, choices or what is wanted, default, what it is). */
+/* Words of a scenario: X(name, the list of what it may be, default, what it is). */
 #define HCI_SCENARIO_WORDS(X)                                                                                \
-    X("current_control", "ideal, hysteresis, pi", "ideal", "how currents follow their references")           \
-    X("strategy", "mtpa, id0, cancel", "mtpa", "torque to currents")                                         \
-    X("strategy_2", "mtpa, id0, cancel", "none", "from strategy_2_from on")                                  \
-    X("currents", "path", "none", "currents.csv, or the folder that `solve` wrote; relative to this file")
+    X("current_control", HCI_CURRENT_LOOP_NAMES, "ideal", "how currents follow their references")            \
+    X("strategy", HCI_STRATEGY_NAMES, "mtpa", "torque to currents")                                          \
+    X("strategy_2", HCI_STRATEGY_NAMES, "none", "from strategy_2_from on")                                   \
+    X("currents", HCI_SCENARIO_PATHS, "none",                                                                \
+      "currents.csv, or the folder that `solve` wrote; relative to this file")
+#define HCI_SCENARIO_PATHS(X) X(0, "path")
 
 /* Bytes of a path. */
 enum { HCI_SCENARIO_PATH_SIZE = 4096 };

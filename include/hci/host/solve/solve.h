@@ -22,6 +22,14 @@ typedef enum {
     HCI_METHOD_POINTWISE /* angle by angle, by a strategy, without U */
 } hci_method;
 
+/* Their words in files and options: X(method, word). */
+#define HCI_METHOD_NAMES(X)                                                                                  \
+    X(HCI_METHOD_AUTO, "auto")                                                                               \
+    X(HCI_METHOD_LU, "lu")                                                                                   \
+    X(HCI_METHOD_UMFPACK, "umfpack")                                                                         \
+    X(HCI_METHOD_QR, "qr")                                                                                   \
+    X(HCI_METHOD_POINTWISE, "pointwise")
+
 /* Which torque orders are rows of U. */
 typedef enum {
     HCI_COMPARE_ALL,   /* every order that the components reach or that is wanted */

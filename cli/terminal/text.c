@@ -1,0 +1,87 @@
+#define _POSIX_C_SOURCE 200809L
+
+#include "cli/terminal/text.h"
+
+#include <string.h>
+#include <unistd.h>
+
+#include "cli/terminal/terminal.h"
+#include "hci/host/base/utf8.h"
+
+size_t cli_text_width(const char *text)
+{
+    size_t width = 0;
+    for (; *text; ++text)
+        width += (unsigned char)*text >= ' ' && hci_utf8_begins(*text);
+    return width;
+}
+
+const char *cli_text_end(const char *text, size_t most)
+{
+    for (size_t width = cli_text_width(text); width > most; --width)
+        while (!hci_utf8_begins(*++text))
+            ;
+    return text;
+}
+
+/* What a terminal of another locale would show as two wrong letters. */
+static const char *ascii_of(const char *text)
+{
+    static const char *const PAIRS[][2] = {
+        {"·", "*"},     {"±", "+-"},    {"×", "x"},     {"–", "-"},  {"−", "-"},    {"…", "..."},
+        {"Δ", "d"},     {"°", "deg"},   {"²", "^2"},    {"³", "^3"}, {"µ", "u"},    {"Ω", "ohm"},
+        {"θ", "theta"}, {"ω", "omega"}, {"γ", "gamma"}, {"π", "pi"}, {"τ", "tau"},  {"χ", "chi"},
+        {"ψ", "psi"},   {"½", "1/2"},   {"≤", "<="},    {"≥", ">="}, {"√", "sqrt"}, {"→", "->"},
+        {"“", "\""},    {"”", "\""},
+    };
+    for (size_t k = 0; k < sizeof PAIRS / sizeof *PAIRS; ++k)
+        if (strncmp(text, PAIRS[k][0], strlen(PAIRS[k][0])) == 0) return PAIRS[k][1];
+    return "?";
+}
+
+static void put_style(char style, FILE *stream)
+{
+    static const char *const CODES[] = {"32;1", "33;1", "31;1", "0"};
+    if (cli_has_color()) fprintf(stream, "\033[%sm", CODES[style - 1]);
+}
+
+/* `length` bytes; what would drive a terminal is no text. */
+static void put_text(const char *text, size_t length, FILE *stream)
+{
+    const bool ascii = isatty(fileno(stream)) && !cli_is_utf8();
+    for (size_t k = 0; k < length; ++k) {
+        const char *plain = ascii && (unsigned char)text[k] >= 0x80 ? ascii_of(text + k) : NULL;
+        if (text[k] >= CLI_GOOD[0] && text[k] <= CLI_PLAIN[0])
+            put_style(text[k], stream);
+        else if (plain)
+            fputs(plain, stream);
+        else
+            fputc((unsigned char)text[k] < ' ' || text[k] == 0x7F ? '?' : text[k], stream);
+        while (plain && k + 1 < length && !hci_utf8_begins(text[k + 1]))
+            ++k;
+    }
+}
+
+/* Bytes of a text up to the last blank within `width` columns; a word that is too long stays whole. */
+static size_t fitting(const char *text, size_t width)
+{
+    size_t columns = 0, best = 0, k = strspn(text, " ");
+    for (columns = k; text[k]; ++k) {
+        if (text[k] == ' ' && (columns <= width || best == 0)) best = k;
+        if (columns > width && best > 0) return best;
+        columns += (unsigned char)text[k] >= ' ' && hci_utf8_begins(text[k]);
+    }
+    return columns > width && best > 0 ? best : k;
+}
+
+void cli_print_wrapped(FILE *stream, int width, int used, int indent, const char *text)
+{
+    while (*text) {
+        const size_t length = fitting(text, width > used ? (size_t)(width - used) : 0);
+        put_text(text, length, stream);
+        fputc('\n', stream);
+        text += length + strspn(text + length, " ");
+        used = indent;
+        if (*text) fprintf(stream, "%*s", indent, "");
+    }
+}
