@@ -1,0 +1,75 @@
+/* The only file that knows cJSON. */
+#include "host/base/json.h"
+
+#include <assert.h>
+#include <cjson/cJSON.h>
+#include <math.h>
+
+void hci_json_begin(hci_json *j)
+{
+    j->open[0] = cJSON_CreateObject();
+    j->depth = 1;
+    j->failed = !j->open[0];
+}
+
+/* Adds an item, which may be NULL for lack of memory. */
+static bool add(hci_json *j, const char *name, cJSON *item)
+{
+    cJSON *into = j->open[j->depth - 1];
+    if (item && (name ? cJSON_AddItemToObject(into, name, item) : cJSON_AddItemToArray(into, item)))
+        return true;
+    cJSON_Delete(item);
+    j->failed = true;
+    return false;
+}
+
+static void open_item(hci_json *j, const char *name, cJSON *item)
+{
+    assert(j->depth < HCI_JSON_MOST_OPEN);
+    if (add(j, name, item)) j->open[j->depth++] = item;
+}
+
+void hci_json_object(hci_json *j, const char *name)
+{
+    if (!j->failed) open_item(j, name, cJSON_CreateObject());
+}
+
+void hci_json_array(hci_json *j, const char *name)
+{
+    if (!j->failed) open_item(j, name, cJSON_CreateArray());
+}
+
+void hci_json_close(hci_json *j)
+{
+    if (j->failed) return;
+    assert(j->depth > 1);
+    --j->depth;
+}
+
+void hci_json_number(hci_json *j, const char *name, double value)
+{
+    if (!j->failed) add(j, name, isfinite(value) ? cJSON_CreateNumber(value) : cJSON_CreateNull());
+}
+
+void hci_json_bool(hci_json *j, const char *name, bool value)
+{
+    if (!j->failed) add(j, name, cJSON_CreateBool(value));
+}
+
+void hci_json_text(hci_json *j, const char *name, const char *value)
+{
+    if (!j->failed) add(j, name, cJSON_CreateString(value));
+}
+
+char *hci_json_end(hci_json *j)
+{
+    assert(j->failed || j->depth == 1);
+    char *text = j->failed ? NULL : cJSON_Print(j->open[0]);
+    cJSON_Delete(j->open[0]);
+    return text;
+}
+
+void hci_json_free(char *text)
+{
+    cJSON_free(text);
+}

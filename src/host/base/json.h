@@ -1,0 +1,35 @@
+/* JSON, written from top to bottom: objects and arrays are opened, filled and closed. A call after a failure
+ * does nothing, so that only the end has to be looked at. */
+#ifndef HCI_SRC_HOST_BASE_JSON_H
+#define HCI_SRC_HOST_BASE_JSON_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+enum { HCI_JSON_MOST_OPEN = 8 }; /* objects and arrays within one another */
+
+typedef struct {
+    void *open[HCI_JSON_MOST_OPEN]; /* the whole first */
+    size_t depth;
+    bool failed; /* memory is out */
+} hci_json;
+
+/* Opens the object that all is in. To be ended with hci_json_end. */
+void hci_json_begin(hci_json *json);
+
+/* name: of a member of the object that is open; NULL for an item of the array that is open. What is opened is
+ * to be closed. */
+void hci_json_object(hci_json *json, const char *name);
+void hci_json_array(hci_json *json, const char *name);
+void hci_json_close(hci_json *json);
+
+/* A value that is not finite is null: JSON has no other word for a number that does not exist. */
+void hci_json_number(hci_json *json, const char *name, double value);
+void hci_json_bool(hci_json *json, const char *name, bool value);
+void hci_json_text(hci_json *json, const char *name, const char *value);
+
+/* All of it as a text, to be freed with hci_json_free; NULL when memory is out. */
+char *hci_json_end(hci_json *json);
+void hci_json_free(char *text);
+
+#endif

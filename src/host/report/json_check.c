@@ -1,0 +1,93 @@
+/* What `check` has found, as JSON. */
+#include "host/report/summary.h"
+
+static void put_texts(hci_json *json, const char *name, const char *const *text, size_t count)
+{
+    hci_json_array(json, name);
+    for (size_t k = 0; k < count; ++k)
+        hci_json_text(json, NULL, text[k]);
+    hci_json_close(json);
+}
+
+static void put_finding(hci_json *json, const hci_check_finding *f)
+{
+    hci_json_object(json, NULL);
+    hci_json_text(json, "slip", f->slip);
+    hci_json_text(json, "file", f->file);
+    hci_json_number(json, "line", (double)f->line);
+    hci_json_text(json, "column", f->column);
+    hci_json_text(json, "found", f->found);
+    hci_json_text(json, "should_be", f->should_be);
+    hci_json_number(json, "probability", f->probability);
+    hci_json_text(json, "words", f->words);
+    hci_json_text(json, "told_by", f->told_by);
+    put_texts(json, "alternatives", f->alternative, f->alternatives);
+    hci_json_close(json);
+}
+
+static void put_evidence(hci_json *json, const hci_check_evidence *e)
+{
+    hci_json_object(json, NULL);
+    hci_json_text(json, "name", e->name);
+    hci_json_text(json, "words", e->words);
+    hci_json_number(json, "declared", e->declared);
+    hci_json_number(json, "expected", e->expected);
+    hci_json_bool(json, "at_most", e->at_most);
+    hci_json_number(json, "as_read", e->as_read);
+    hci_json_number(json, "tolerance", e->tolerance);
+    hci_json_text(json, "state", hci_check_state_name(e->state));
+    hci_json_close(json);
+}
+
+static void put_gap(hci_json *json, const hci_check_gap *g)
+{
+    hci_json_object(json, NULL);
+    hci_json_text(json, "name", g->name);
+    hci_json_text(json, "words", g->words);
+    hci_json_text(json, "needs", g->needs);
+    hci_json_close(json);
+}
+
+static void put_lists(hci_json *json, const hci_check *c)
+{
+    hci_json_array(json, "findings");
+    for (size_t k = 0; k < c->findings; ++k)
+        put_finding(json, &c->finding[k]);
+    hci_json_close(json);
+    hci_json_array(json, "evidence");
+    for (size_t k = 0; k < c->evidences; ++k)
+        put_evidence(json, &c->evidence[k]);
+    hci_json_close(json);
+    hci_json_array(json, "unchecked");
+    for (size_t k = 0; k < c->gaps; ++k)
+        put_gap(json, &c->gap[k]);
+    hci_json_close(json);
+    put_texts(json, "untold", c->untold, c->untolds);
+}
+
+/* One for each recording that has something to say. */
+static void put_remarks(hci_json *json, const hci_check *c)
+{
+    hci_json_array(json, "remarks");
+    for (size_t k = 0; k < c->runs; ++k) {
+        if (!c->remark[k].text[0]) continue;
+        hci_json_object(json, NULL);
+        hci_json_text(json, "run", c->run[k]);
+        hci_json_text(json, "remark", c->remark[k].text);
+        hci_json_close(json);
+    }
+    hci_json_close(json);
+}
+
+char *hci_check_json(const hci_check *check)
+{
+    hci_json json;
+    hci_summary_begin(&json, "check");
+    hci_json_text(&json, "machine", check->machine);
+    put_texts(&json, "runs", check->run, check->runs);
+    put_remarks(&json, check);
+    hci_json_text(&json, "verdict", hci_check_verdict_name(check->verdict));
+    hci_json_number(&json, "probability_as_declared", check->probability_as_declared);
+    put_lists(&json, check);
+    return hci_json_end(&json);
+}

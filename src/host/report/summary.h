@@ -1,0 +1,11 @@
+/* What all summaries begin with. */
+#ifndef HCI_SRC_HOST_REPORT_SUMMARY_H
+#define HCI_SRC_HOST_REPORT_SUMMARY_H
+
+#include "hci/host/report/summary.h"
+#include "host/base/json.h"
+
+/* Begins the text: the command that has made the result, and the version of the program. */
+void hci_summary_begin(hci_json *json, const char *command);
+
+#endif
