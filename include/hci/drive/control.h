@@ -7,6 +7,7 @@
 #ifndef HCI_DRIVE_CONTROL_H
 #define HCI_DRIVE_CONTROL_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -60,9 +61,9 @@ unsigned hci_hysteresis_step(const hci_hysteresis *hysteresis, hci_hysteresis_st
  * Gains in V/A and V/(A·s) are the same in amplitude-invariant and orthonormal axes. The voltage is turned
  * ahead by the rotor's way from the sample to the middle of its use. */
 typedef struct {
-    hci_pi pi;     /* of both axes, V/A and V/(A·s) */
-    int decoupled; /* adds ω (e + L'i) and the rotation of L i, from the table */
-    int delayed;   /* the voltage is used one sample later, as with a PWM unit that is loaded once a period */
+    hci_pi pi;      /* of both axes, V/A and V/(A·s) */
+    bool decoupled; /* adds ω (e + L'i) and the rotation of L i, from the table */
+    bool delayed; /* the voltage is used one sample later, as with a PWM unit that is loaded once a period */
 } hci_current_pi;
 
 /* What a PI current control keeps from sample to sample. */
@@ -104,9 +105,9 @@ typedef struct {
     double step_s;                /* of the plant */
     double dc_link_V;             /* voltage of the dc link, > 0; not used by the ideal loop */
 
-    int speed_controlled; /* the set point is a speed in rad/s, otherwise a torque in N·m */
-    hci_pi speed;         /* N·m·s/rad and N·m/rad */
-    unsigned speed_every; /* steps between its samples; 0 is 1 */
+    bool speed_controlled; /* the set point is a speed in rad/s, otherwise a torque in N·m */
+    hci_pi speed;          /* N·m·s/rad and N·m/rad */
+    unsigned speed_every;  /* steps between its samples; 0 is 1 */
     /* |torque command|, > 0; INFINITY for none. The speed loop winds up against current limits, which it does
      * not see: keep this at or below sqrt(3/2)·iq_limit. */
     double torque_limit_Nm;
@@ -136,7 +137,7 @@ typedef struct {
     double speed_integral_Nm;          /* of the speed loop */
     double torque_Nm;                  /* command */
     double answer[2];                  /* the strategy's current before limits, αβ */
-    int has_answer;                    /* whether answer is one */
+    bool has_answer;                   /* whether answer is one */
     uint64_t unreached;                /* samples at which the strategy had no current for the torque */
     uint64_t limited;                  /* samples at which a current limit was active */
     hci_hysteresis_state hysteresis;   /* of the hysteresis loop */
@@ -158,17 +159,6 @@ void hci_control_step(const hci_control *control, hci_control_state *state, cons
                       double set_point);
 
 /* ---- the closed loop ---- */
-
-/* The sensors of a drive, and their number. */
-enum {
-    HCI_SENSE_IA,     /* current of phase a, A */
-    HCI_SENSE_IB,     /* of phase b, A */
-    HCI_SENSE_IC,     /* of phase c, A */
-    HCI_SENSE_ANGLE,  /* mechanical angle, rad */
-    HCI_SENSE_SPEED,  /* mechanical speed, rad/s */
-    HCI_SENSE_TORQUE, /* torque, N·m; logged, and not used by the controller */
-    HCI_SENSE_COUNT   /* how many */
-};
 
 /* Machine, controller and sensors in a closed loop. */
 typedef struct {

@@ -5,13 +5,14 @@
  *     J dω/dt    = T − T_load − B ω − T_c sign(ω)             |T − T_load| <= T_c keeps a rotor at rest
  *     dθ_m/dt    = ω
  *
- * Voltages and currents are those of the orthonormal αβ plane (strategy.h: hci_plane_to_abc), which is all
+ * Voltages and currents are those of the orthonormal αβ plane (frames.h: hci_plane_to_abc), which is all
  * that a floating star point leaves of three phases; ω is mechanical. e, L and T_cog come from a table over
  * the angle whose cubic interpolant is differentiated for L', so that electrical and mechanical power agree
  * at every angle. */
 #ifndef HCI_DRIVE_PLANT_H
 #define HCI_DRIVE_PLANT_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "hci/machine/strategy.h"
@@ -47,7 +48,7 @@ typedef struct {
     int points;            /* of the whole table */
     int pole_pairs;        /* of the machine */
     int turns;             /* electrical turns that it holds */
-    int salient;           /* 0 when L is the same at all angles: then L' = 0 */
+    bool salient;          /* false when L is the same at all angles: then L' = 0 */
     double points_per_rad; /* mechanical */
 } hci_plant_table;
 

@@ -6,12 +6,24 @@
 #ifndef HCI_DRIVE_SENSOR_H
 #define HCI_DRIVE_SENSOR_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
 #ifdef __cplusplus
 extern "C" {
 #endif
+
+/* The quantities of a drive that have a sensor each, and their number. */
+enum {
+    HCI_SENSE_IA,     /* current of phase a, A */
+    HCI_SENSE_IB,     /* of phase b, A */
+    HCI_SENSE_IC,     /* of phase c, A */
+    HCI_SENSE_ANGLE,  /* mechanical angle, rad */
+    HCI_SENSE_SPEED,  /* mechanical speed, rad/s */
+    HCI_SENSE_TORQUE, /* torque, N·m; logged, and not used by the controller */
+    HCI_SENSE_COUNT   /* how many */
+};
 
 /* What a sensor does to the quantity that it measures. */
 typedef struct {
@@ -30,7 +42,7 @@ typedef struct {
 typedef struct {
     uint64_t random; /* state of the generator */
     double spare;    /* normal deviates come in pairs */
-    int has_spare;   /* whether spare is one */
+    bool has_spare;  /* whether spare is one */
     double *ring;    /* readings that are on their way; the caller's */
     size_t next;     /* place in the ring of the oldest */
 } hci_sensor_state;

@@ -21,7 +21,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "hci/drive/control.h"
+#include "hci/drive/plant.h"
+#include "hci/drive/sensor.h"
 #include "hci/machine/torque.h"
 
 #ifdef __cplusplus

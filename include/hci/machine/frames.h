@@ -34,6 +34,16 @@ hci_dq hci_park(hci_alpha_beta x, double theta_rad);
 /* The inverse: α = −d cos θ + q sin θ, β = −d sin θ − q cos θ; zero stays. May run in an interrupt. */
 hci_alpha_beta hci_park_inverse(hci_dq x, double theta_rad);
 
+/* The orthonormal (power-invariant) αβ plane: x·x is a² + b² + c² for phase quantities of zero sum. */
+
+/* From the plane to phase quantities of zero sum, a = sqrt(2/3) α, b and c = −α/sqrt(6) ± β/sqrt(2). abc:
+ * out. May run in an interrupt. */
+void hci_plane_to_abc(const double x[2], double abc[3]);
+
+/* Phase quantities to the plane, their zero sequence dropped: the transposed matrix. x: out. May run in an
+ * interrupt. */
+void hci_plane_from_abc(const double abc[3], double x[2]);
+
 /* The extended frame dq_x for a back-EMF that is not sinusoidal: at every angle q lies along the back-EMF
  * vector, and the scale a_x makes the mutual torque sqrt(3/2)·i_qx whatever the angle (Oliveira et al. 2005,
  * in the conventions here):

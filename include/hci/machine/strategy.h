@@ -39,12 +39,6 @@ hci_machine_point hci_machine_at(const hci_machine *machine, double theta_rad);
 /* Torque of a current x in the same plane. */
 double hci_point_torque_Nm(const hci_machine_point *point, const double x[2]);
 
-/* Orthonormal αβ to phase currents of zero sum. abc: out. */
-void hci_plane_to_abc(const double x[2], double abc[3]);
-
-/* Phase currents to orthonormal αβ, their zero sequence dropped. x: out. */
-void hci_plane_from_abc(const double abc[3], double x[2]);
-
 /* The current of a strategy for a wanted torque. previous: the answer at a neighbouring angle, or NULL; where
  * both roots of `cancel` are equally long the one nearer to it is taken, so that the current is continuous
  * along θ.

@@ -53,6 +53,20 @@ double hci_torque_at(const hci_machine *machine, double theta_rad, const double 
 void hci_torque_gradient_at(const hci_machine *machine, double theta_rad, const double i_abc[3],
                             double gradient[3]);
 
+/* Back-EMF e in N·m/A at one electrical angle, and its derivative by the mechanical angle in N·m/(A·rad). e,
+ * by_angle: out. O(back-EMF harmonics); may run in an interrupt. */
+void hci_torque_back_emf_at(const hci_machine *machine, double theta_rad, double e[3], double by_angle[3]);
+
+/* The torque and its derivatives. */
+typedef struct {
+    double torque_Nm;     /* T */
+    double by_current[3]; /* ∂T/∂i = e + L'i, N·m/A */
+    double by_angle;      /* ∂T/∂θ_m at constant phase currents, N·m per mechanical radian */
+} hci_torque_slopes;
+
+/* Both at one electrical angle for phase currents in A. Same cost as hci_torque_at. */
+hci_torque_slopes hci_torque_slopes_at(const hci_machine *machine, double theta_rad, const double i_abc[3]);
+
 /* Entries that hci_slope_waves needs for so many current waves. */
 size_t hci_slope_waves_capacity(const hci_machine *machine, size_t current_count);
 

@@ -79,7 +79,7 @@ static bool ask_strategy(const hci_control *control, hci_control_state *state, h
     if (hci_strategy_current(&p.magnetic, strategy, state->torque_Nm, state->has_answer ? previous : NULL,
                              state->answer, NULL) != HCI_OK)
         ++state->unreached;
-    state->has_answer = 1;
+    state->has_answer = true;
     state->reference[0] = state->answer[0];
     state->reference[1] = state->answer[1];
     return limit_dqx(control, p.magnetic.e, state->reference);

@@ -36,7 +36,7 @@ unsigned hci_hysteresis_step(const hci_hysteresis *hysteresis, hci_hysteresis_st
     for (unsigned s = 0; s < 3; ++s) {
         const double error_A = measured_A[s] - reference_A[s];
         const unsigned leg = 1u << s;
-        const int leaves = state->legs & leg ? error_A > half_A : error_A < -half_A;
+        const bool leaves = state->legs & leg ? error_A > half_A : error_A < -half_A;
         if (state->held[s] > 0) --state->held[s];
         if (!leaves || state->held[s] > 0) continue;
         state->legs ^= leg;

@@ -8,7 +8,7 @@
 typedef struct {
     const hci_plant *plant;
     double v[2], load_Nm;
-    int imposed;            /* the current is held instead of the voltage */
+    bool imposed;           /* the current is held instead of the voltage */
     double inverse_inertia; /* 0 at rest under stiction, where nothing accelerates */
     double friction_Nm;     /* T_c with the sign of ω */
 } motion;
@@ -80,7 +80,7 @@ static double runge_kutta(const motion *m, const hci_plant_state *from, double h
 
 /* Sets friction for the motion that follows from a state; returns its direction, 0 for a rotor that stays at
  * rest. */
-static int set_friction(motion *m, const hci_plant_state *state, int may_start)
+static int set_friction(motion *m, const hci_plant_state *state, bool may_start)
 {
     const hci_plant *plant = m->plant;
     double drive = state->speed_rad_per_s;
@@ -134,7 +134,7 @@ static double step_with_friction(motion *m, hci_plant_state *state, double dt_s)
         int direction = set_friction(m, state, rests < RESTS_MOST);
         double start = runge_kutta(m, state, left_s, &next);
         if (state->speed_rad_per_s == 0.0 && direction * next.speed_rad_per_s < 0.0) {
-            direction = set_friction(m, state, 0); /* it would turn back at once */
+            direction = set_friction(m, state, false); /* it would turn back at once */
             start = runge_kutta(m, state, left_s, &next);
         }
         if (rests == 0) torque = start;
@@ -174,14 +174,14 @@ static double step(motion *m, hci_plant_state *state, double dt_s)
 double hci_plant_step(const hci_plant *plant, hci_plant_state *state, const double v[2], double load_Nm,
                       double dt_s)
 {
-    motion m = {plant, {v[0], v[1]}, load_Nm, 0, 1.0 / plant->inertia_kgm2, 0.0};
+    motion m = {plant, {v[0], v[1]}, load_Nm, false, 1.0 / plant->inertia_kgm2, 0.0};
     return step(&m, state, dt_s);
 }
 
 double hci_plant_step_imposed(const hci_plant *plant, hci_plant_state *state, const double i[2],
                               double load_Nm, double dt_s)
 {
-    motion m = {plant, {0.0, 0.0}, load_Nm, 1, 1.0 / plant->inertia_kgm2, 0.0};
+    motion m = {plant, {0.0, 0.0}, load_Nm, true, 1.0 / plant->inertia_kgm2, 0.0};
     state->i[0] = i[0];
     state->i[1] = i[1];
     return step(&m, state, dt_s);

@@ -116,12 +116,12 @@ static hci_status fill_row(const hci_machine *m, const hci_plant_inductance *ind
     return l[0] > 0.0 && l[0] * l[2] > l[1] * l[1] ? HCI_OK : HCI_ERROR_SINGULAR;
 }
 
-static int is_salient(const double *rows, size_t points)
+static bool is_salient(const double *rows, size_t points)
 {
-    int salient = 0;
+    bool salient = false;
     for (size_t k = 0; k < points; ++k)
         for (int l = HCI_ROW_L; l < HCI_ROW_VALUES; ++l)
-            salient |= rows[k * HCI_ROW + HCI_ROW_VALUES + (size_t)l] != 0.0;
+            salient = salient || rows[k * HCI_ROW + HCI_ROW_VALUES + (size_t)l] != 0.0;
     return salient;
 }
 

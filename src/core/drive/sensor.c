@@ -12,7 +12,7 @@ void hci_sensor_start(const hci_sensor *sensor, hci_sensor_state *state, double 
 {
     state->random = seed;
     state->spare = 0.0;
-    state->has_spare = 0;
+    state->has_spare = false;
     state->ring = ring;
     state->next = 0;
     for (size_t k = 0; k < sensor->delay_steps; ++k)
@@ -40,7 +40,7 @@ static double normal(hci_sensor_state *state)
 {
     double x, y, square;
     if (state->has_spare) {
-        state->has_spare = 0;
+        state->has_spare = false;
         return state->spare;
     }
     do {
@@ -50,7 +50,7 @@ static double normal(hci_sensor_state *state)
     } while (square >= 1.0);
     const double scale = sqrt(-2.0 * log(square) / square);
     state->spare = scale * y;
-    state->has_spare = 1;
+    state->has_spare = true;
     return scale * x;
 }
 

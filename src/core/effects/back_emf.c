@@ -28,11 +28,11 @@ static void torque_of_all(const hci_effect *effect, const hci_machine *machine, 
     for (size_t k = 0; k < effect->count; ++k) {
         const hci_effect_term *term = &effect->term[k];
         const bool cosine = term->parameter % 2 == 1;
-        double e[3], slope[3];
+        double e[3] = {0.0}, slope[3] = {0.0};
         hci_effect_turn_to(&turn, term->order, machine->pole_pairs, truth->theta_m_rad);
         const double x = cosine ? turn.c : turn.s, y = cosine ? -turn.s : turn.c;
-        hci_effect_phases(x, y, sequence_of(term), e);
-        hci_effect_phases(turn.k * y, -turn.k * x, sequence_of(term), slope);
+        hci_phases_add(x, y, sequence_of(term), e);
+        hci_phases_add(turn.k * y, -turn.k * x, sequence_of(term), slope);
         const double by = hci_effect_add_emf(sum, term->value, e, slope, truth->i_abc);
         if (by_value) by_value[k] = by;
     }

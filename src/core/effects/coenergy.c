@@ -1,6 +1,6 @@
 #include "core/effects/coenergy.h"
 
-#include "core/math/third.h"
+#include "core/math/phases.h"
 #include "hci/machine/frames.h"
 
 static const double SQRT_2_3 = 0.81649658092772603273;
@@ -96,7 +96,8 @@ double hci_coenergy_add(hci_coenergy *w, int a, int b, bool cosine, double order
 /* ∂i_d/∂i_s = −⅔ cos(θ − 2πs/3), ∂i_q/∂i_s = ⅔ sin(θ − 2πs/3) */
 static void add_gradient(const hci_coenergy *w, hci_effect_torque *sum)
 {
-    const double turn_sine[3] = {0.0, SIN_THIRD, -SIN_THIRD}, turn_cosine[3] = {1.0, COS_THIRD, COS_THIRD};
+    const double turn_sine[3] = {0.0, HCI_SIN_THIRD, -HCI_SIN_THIRD},
+                 turn_cosine[3] = {1.0, HCI_COS_THIRD, HCI_COS_THIRD};
     for (int s = 0; s < 3; ++s) {
         const double sine = w->sine * turn_cosine[s] - w->cosine * turn_sine[s];
         const double cosine = w->cosine * turn_cosine[s] + w->sine * turn_sine[s];

@@ -31,13 +31,6 @@ const hci_effect_type *hci_effect_type_find(const char *name)
     return NULL;
 }
 
-double hci_effect_value(const hci_effect *effect, size_t parameter)
-{
-    for (size_t k = 0; k < effect->count; ++k)
-        if (effect->term[k].parameter == parameter) return effect->term[k].value;
-    return effect->type->parameter[parameter].standard;
-}
-
 /* Terms of the effects before one. */
 static size_t first_term(const hci_effects *effects, size_t at)
 {
@@ -52,76 +45,16 @@ size_t hci_effects_terms(const hci_effects *effects)
     return first_term(effects, effects->count);
 }
 
-/* ---- the declared machine ---- */
-
-void hci_effect_declared_emf(const hci_machine *machine, double theta_m_rad, double e[3], double slope[3])
-{
-    const double p = machine->pole_pairs, theta = p * theta_m_rad;
-    for (int s = 0; s < 3; ++s)
-        e[s] = slope[s] = 0.0;
-    for (size_t k = 0; k < machine->back_emf_count; ++k) {
-        const hci_wave *w = &machine->back_emf[k];
-        const double s = sin(w->order * theta), c = cos(w->order * theta), n = p * w->order;
-        const double x = w->sine * s + w->cosine * c, y = w->sine * c - w->cosine * s;
-        double of_wave[3], of_slope[3];
-        hci_effect_phases(x, y, w->sequence, of_wave);
-        hci_effect_phases(n * y, -n * x, w->sequence, of_slope);
-        for (int phase = 0; phase < 3; ++phase) {
-            e[phase] += of_wave[phase];
-            slope[phase] += of_slope[phase];
-        }
-    }
-}
-
-static void add_cogging(const hci_machine *machine, double theta_rad, hci_effect_torque *sum)
-{
-    const double p = machine->pole_pairs;
-    for (size_t k = 0; k < machine->cogging_count; ++k) {
-        const hci_harmonic *h = &machine->cogging[k];
-        const double s = sin(h->order * theta_rad), c = cos(h->order * theta_rad);
-        sum->torque_Nm += h->sine * s + h->cosine * c;
-        sum->by_angle += p * h->order * (h->sine * c - h->cosine * s);
-    }
-}
-
-/* y = M i of a symmetric phase matrix; returns ½ i·y. */
-static double form(const double m[HCI_PHASE_MATRIX], const double i[3], double y[3])
-{
-    y[0] = m[HCI_AA] * i[0] + m[HCI_AB] * i[1] + m[HCI_CA] * i[2];
-    y[1] = m[HCI_AB] * i[0] + m[HCI_BB] * i[1] + m[HCI_BC] * i[2];
-    y[2] = m[HCI_CA] * i[0] + m[HCI_BC] * i[1] + m[HCI_CC] * i[2];
-    return 0.5 * (i[0] * y[0] + i[1] * y[1] + i[2] * y[2]);
-}
-
-static void add_reluctance(const hci_machine *machine, double theta_rad, const double i[3],
-                           hci_effect_torque *sum)
-{
-    double slope[HCI_PHASE_MATRIX] = {0.0}, turned[HCI_PHASE_MATRIX] = {0.0}, y[3], unused[3];
-    for (size_t k = 0; k < machine->slope_count; ++k) {
-        const hci_inductance_slope *t = &machine->slope[k];
-        const double s = sin(t->order * theta_rad), c = cos(t->order * theta_rad);
-        for (int q = 0; q < HCI_PHASE_MATRIX; ++q) {
-            slope[q] += t->sine[q] * s + t->cosine[q] * c;
-            turned[q] += machine->pole_pairs * t->order * (t->sine[q] * c - t->cosine[q] * s);
-        }
-    }
-    sum->torque_Nm += form(slope, i, y);
-    sum->by_angle += form(turned, i, unused);
-    for (int s = 0; s < 3; ++s)
-        sum->by_current[s] += y[s];
-}
-
-static void add_declared(const hci_machine *machine, const hci_sample *truth, hci_effect_torque *sum)
-{
-    const double theta = machine->pole_pairs * truth->theta_m_rad;
-    double e[3], slope[3];
-    hci_effect_declared_emf(machine, truth->theta_m_rad, e, slope);
-    hci_effect_add_emf(sum, 1.0, e, slope, truth->i_abc);
-    add_cogging(machine, theta, sum);
-    add_reluctance(machine, theta, truth->i_abc, sum);
-}
-
 /* ---- torque ---- */
+
+static hci_effect_torque declared_torque(const hci_machine *machine, const hci_sample *truth)
+{
+    const double theta_rad = machine->pole_pairs * truth->theta_m_rad;
+    const hci_torque_slopes t = hci_torque_slopes_at(machine, theta_rad, truth->i_abc);
+    return (hci_effect_torque){.torque_Nm = t.torque_Nm,
+                               .by_current = {t.by_current[0], t.by_current[1], t.by_current[2]},
+                               .by_angle = t.by_angle};
+}
 
 /* Adds the torque of one effect; by_value: out, its terms' derivatives, or NULL. */
 static void add_effect(const hci_effect *effect, const hci_machine *machine, const hci_sample *truth,
@@ -238,8 +171,7 @@ double hci_effects_predict(const hci_machine *machine, const hci_effects *effect
                            double *by_value)
 {
     const hci_sample truth = hci_effects_undo(effects, machine->pole_pairs, reading);
-    hci_effect_torque sum = {.torque_Nm = 0.0};
-    add_declared(machine, &truth, &sum);
+    hci_effect_torque sum = declared_torque(machine, &truth);
     add_effects(machine, effects, &truth, true, &sum, by_value);
     if (by_value) add_bench(effects, machine->pole_pairs, &truth, &sum, by_value);
     return sum.torque_Nm;

@@ -15,7 +15,7 @@ static double torque(const hci_effect *effect, const hci_effect_term *term, cons
     const double rise = isnan(truth->temperature_C) ? 0.0 : truth->temperature_C - reference;
     hci_effect_torque unused = {0};
     double e[3], slope[3];
-    hci_effect_declared_emf(machine, truth->theta_m_rad, e, slope);
+    hci_torque_back_emf_at(machine, machine->pole_pairs * truth->theta_m_rad, e, slope);
     if (term->parameter == PER_KELVIN)
         return rise * hci_effect_add_emf(sum, rise * term->value, e, slope, truth->i_abc);
     if (isnan(truth->temperature_C)) return 0.0;

@@ -14,8 +14,10 @@ static const hci_effect_parameter PARAMETER[] = {
 static void quadrature(int pole_pairs, double theta_m_rad, double q[3], double slope[3])
 {
     const double s = 2.0 / 3.0 * sin(pole_pairs * theta_m_rad), c = 2.0 / 3.0 * cos(pole_pairs * theta_m_rad);
-    hci_effect_phases(s, c, 1, q);
-    hci_effect_phases(pole_pairs * c, -pole_pairs * s, 1, slope);
+    for (int k = 0; k < 3; ++k)
+        q[k] = slope[k] = 0.0;
+    hci_phases_add(s, c, 1, q);
+    hci_phases_add(pole_pairs * c, -pole_pairs * s, 1, slope);
 }
 
 static double of_current(double value, const hci_effect_oscillation *f, const double q[3],

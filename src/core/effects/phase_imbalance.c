@@ -12,7 +12,7 @@ static double torque(const hci_effect *effect, const hci_effect_term *term, cons
 {
     (void)effect;
     double e[3], slope[3];
-    hci_effect_declared_emf(machine, truth->theta_m_rad, e, slope);
+    hci_torque_back_emf_at(machine, machine->pole_pairs * truth->theta_m_rad, e, slope);
     for (size_t s = 0; s < 3; ++s)
         if (s != term->parameter) e[s] = slope[s] = 0.0;
     return hci_effect_add_emf(sum, term->value, e, slope, truth->i_abc);

@@ -5,6 +5,7 @@
 #include <float.h>
 #include <math.h>
 
+#include "core/math/phases.h"
 #include "hci/effects/effect.h"
 
 /* One line for each. The order is that in which the bench's effects act on the way from the truth to the
@@ -83,15 +84,6 @@ static inline hci_effect_oscillation hci_effect_oscillate(const hci_effect_turn 
     return x;
 }
 
-/* Phase s lags by σ2πs/3: x cos(σ2πs/3) − y sin(σ2πs/3) of a wave x and the one y a quarter ahead of it. */
-static inline void hci_effect_phases(double x, double y, int sequence, double abc[3])
-{
-    const double half = sequence == 0 ? 1.0 : -0.5, side = sequence * 0.86602540378443864676;
-    abc[0] = x;
-    abc[1] = half * x - side * y;
-    abc[2] = half * x + side * y;
-}
-
 /* Adds weight × e·i, with e of the phases in N·m/A and its slope by θ_m; returns e·i. */
 static inline double hci_effect_add_emf(hci_effect_torque *sum, double weight, const double e[3],
                                         const double slope[3], const double i[3])
@@ -105,9 +97,6 @@ static inline double hci_effect_add_emf(hci_effect_torque *sum, double weight, c
     sum->torque_Nm += weight * torque;
     return torque;
 }
-
-/* The declared back-EMF and its slope by θ_m. */
-void hci_effect_declared_emf(const hci_machine *machine, double theta_m_rad, double e[3], double slope[3]);
 
 static inline void hci_effect_link_add(hci_effect_channel *channel, const hci_effect_link *link)
 {

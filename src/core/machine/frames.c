@@ -35,6 +35,28 @@ hci_alpha_beta hci_park_inverse(hci_dq x, double theta_rad)
     return y;
 }
 
+/* ---- the orthonormal plane ---- */
+
+/* Orthonormal αβ: α = sqrt(2/3)(a − b/2 − c/2), β = (b − c)/√2. */
+static const double ALPHA_A = 0.81649658092772603273;  /* sqrt(2/3) */
+static const double ALPHA_B = -0.40824829046386301637; /* −sqrt(1/6), also of c */
+static const double BETA_B = 0.70710678118654752440;   /* sqrt(1/2), −sqrt(1/2) of c */
+
+void hci_plane_to_abc(const double x[2], double abc[3])
+{
+    abc[0] = ALPHA_A * x[0];
+    abc[1] = ALPHA_B * x[0] + BETA_B * x[1];
+    abc[2] = ALPHA_B * x[0] - BETA_B * x[1];
+}
+
+void hci_plane_from_abc(const double abc[3], double x[2])
+{
+    x[0] = ALPHA_A * abc[0] + ALPHA_B * (abc[1] + abc[2]);
+    x[1] = BETA_B * (abc[1] - abc[2]);
+}
+
+/* ---- the extended frame ---- */
+
 static const double sqrt_3_2 = 1.22474487139158904910;
 
 /* The orthonormal αβ vector is sqrt(3/2) times the amplitude-invariant one. */

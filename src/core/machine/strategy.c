@@ -2,25 +2,8 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdbool.h>
 #include <stddef.h>
-
-/* Orthonormal αβ: α = sqrt(2/3)(a − b/2 − c/2), β = (b − c)/√2. */
-static const double ALPHA_A = 0.81649658092772603273;  /* sqrt(2/3) */
-static const double ALPHA_B = -0.40824829046386301637; /* −sqrt(1/6), also of c */
-static const double BETA_B = 0.70710678118654752440;   /* sqrt(1/2), −sqrt(1/2) of c */
-
-void hci_plane_to_abc(const double x[2], double abc[3])
-{
-    abc[0] = ALPHA_A * x[0];
-    abc[1] = ALPHA_B * x[0] + BETA_B * x[1];
-    abc[2] = ALPHA_B * x[0] - BETA_B * x[1];
-}
-
-void hci_plane_from_abc(const double abc[3], double x[2])
-{
-    x[0] = ALPHA_A * abc[0] + ALPHA_B * (abc[1] + abc[2]);
-    x[1] = BETA_B * (abc[1] - abc[2]);
-}
 
 hci_machine_point hci_machine_at(const hci_machine *machine, double theta_rad)
 {
@@ -188,7 +171,7 @@ static double torque_of(const shortest *t, double lambda, const double left[2], 
 /* The unknown is λ itself, or δ = 1 − λh_0 near the pole, where λ has no digits left. */
 typedef struct {
     const shortest *problem;
-    int by_delta;
+    bool by_delta;
 } unknown;
 
 static double lambda_of(const unknown *u, double t, double left[2])
@@ -239,9 +222,9 @@ static void set_current(const shortest *p, const unknown *u, double t, double x[
 
 /* λ with λh_0 <= ½, where φ' <= 8|g|²; limit bounds the search, which starts above 0 even for a back-EMF that
  * is not finite. Zero where φ stays below τ, if only by rounding. */
-static int solve_by_lambda(const shortest *p, double limit, double x[2])
+static bool solve_by_lambda(const shortest *p, double limit, double x[2])
 {
-    const unknown u = {p, 0};
+    const unknown u = {p, false};
     const double square = p->g[0] * p->g[0] + p->g[1] * p->g[1];
     double left[2], slope, high = fmax(p->tau / square, DBL_MIN), low = 0.125 * high;
     for (; high < limit; high *= 2.0) {
@@ -251,9 +234,9 @@ static int solve_by_lambda(const shortest *p, double limit, double x[2])
     }
     high = fmin(high, limit);
     lambda_of(&u, high, left);
-    if (!(torque_of(p, high, left, &slope) >= p->tau)) return 0;
+    if (!(torque_of(p, high, left, &slope) >= p->tau)) return false;
     set_current(p, &u, solve_in(&u, low, high), x);
-    return 1;
+    return true;
 }
 
 /* h_0 > 0 and the root beyond λ = ½/h_0. φ >= g_0²(δ⁻² − 1)/(2h_0) gives the lower end for δ. With g_0 = 0
@@ -261,7 +244,7 @@ static int solve_by_lambda(const shortest *p, double limit, double x[2])
  * eigenvector, of either sign. */
 static void solve_by_delta(const shortest *p, const double *previous, double x[2])
 {
-    const unknown u = {p, 1};
+    const unknown u = {p, true};
     const double low = 1.0 / sqrt(1.0 + 2.0 * p->h[0] * p->tau / (p->g[0] * p->g[0]));
     const double left = p->gap / p->h[0], ratio = left > 0.0 ? p->g[1] / left : 0.0;
     const double at_pole = 0.5 * (1.0 + left) * ratio * ratio / p->h[0];

@@ -2,41 +2,95 @@
 
 #include <math.h>
 
-#include "core/math/third.h"
+#include "core/math/phases.h"
 #include "hci/machine/system.h"
 
 /* Row and column of each stored entry of a phase matrix; entries off the diagonal stand for two. */
 static const unsigned char ROW[HCI_PHASE_MATRIX] = {0, 1, 2, 0, 1, 2};
 static const unsigned char COLUMN[HCI_PHASE_MATRIX] = {0, 1, 2, 1, 2, 0};
 
-static void slope_at(const hci_machine *m, double theta_rad, double slope[HCI_PHASE_MATRIX])
+/* L' of the phase matrix, and its derivative by θ_m. */
+static void slope_at(const hci_machine *m, double theta_rad, double slope[HCI_PHASE_MATRIX],
+                     double by_angle[HCI_PHASE_MATRIX])
 {
     for (size_t q = 0; q < HCI_PHASE_MATRIX; ++q)
-        slope[q] = 0.0;
+        slope[q] = by_angle[q] = 0.0;
     for (size_t k = 0; k < m->slope_count; ++k) {
         const hci_inductance_slope *t = &m->slope[k];
         const double s = sin(t->order * theta_rad), c = cos(t->order * theta_rad);
-        for (size_t q = 0; q < HCI_PHASE_MATRIX; ++q)
+        for (size_t q = 0; q < HCI_PHASE_MATRIX; ++q) {
             slope[q] += t->sine[q] * s + t->cosine[q] * c;
+            by_angle[q] += m->pole_pairs * t->order * (t->sine[q] * c - t->cosine[q] * s);
+        }
     }
 }
 
-/* y = L' i */
-static void slope_times(const double slope[HCI_PHASE_MATRIX], const double i_abc[3], double y[3])
+/* y = M i of a symmetric phase matrix; returns ½ i·y. */
+static double form(const double matrix[HCI_PHASE_MATRIX], const double i[3], double y[3])
 {
-    y[0] = slope[HCI_AA] * i_abc[0] + slope[HCI_AB] * i_abc[1] + slope[HCI_CA] * i_abc[2];
-    y[1] = slope[HCI_AB] * i_abc[0] + slope[HCI_BB] * i_abc[1] + slope[HCI_BC] * i_abc[2];
-    y[2] = slope[HCI_CA] * i_abc[0] + slope[HCI_BC] * i_abc[1] + slope[HCI_CC] * i_abc[2];
+    y[0] = matrix[HCI_AA] * i[0] + matrix[HCI_AB] * i[1] + matrix[HCI_CA] * i[2];
+    y[1] = matrix[HCI_AB] * i[0] + matrix[HCI_BB] * i[1] + matrix[HCI_BC] * i[2];
+    y[2] = matrix[HCI_CA] * i[0] + matrix[HCI_BC] * i[1] + matrix[HCI_CC] * i[2];
+    return 0.5 * (i[0] * y[0] + i[1] * y[1] + i[2] * y[2]);
+}
+
+void hci_torque_back_emf_at(const hci_machine *machine, double theta_rad, double e[3], double by_angle[3])
+{
+    for (size_t s = 0; s < 3; ++s)
+        e[s] = by_angle[s] = 0.0;
+    for (size_t k = 0; k < machine->back_emf_count; ++k) {
+        const hci_wave *w = &machine->back_emf[k];
+        const double n = machine->pole_pairs * w->order;
+        const double s = sin(w->order * theta_rad), c = cos(w->order * theta_rad);
+        const double x = w->sine * s + w->cosine * c, y = w->sine * c - w->cosine * s;
+        hci_phases_add(x, y, w->sequence, e);
+        hci_phases_add(n * y, -n * x, w->sequence, by_angle);
+    }
+}
+
+/* Adds T_cog and its derivative by θ_m. */
+static void cogging_add(const hci_machine *m, double theta_rad, hci_torque_slopes *sum)
+{
+    for (size_t k = 0; k < m->cogging_count; ++k) {
+        const hci_harmonic *h = &m->cogging[k];
+        const double s = sin(h->order * theta_rad), c = cos(h->order * theta_rad);
+        sum->torque_Nm += h->sine * s + h->cosine * c;
+        sum->by_angle += m->pole_pairs * h->order * (h->sine * c - h->cosine * s);
+    }
+}
+
+hci_torque_slopes hci_torque_slopes_at(const hci_machine *machine, double theta_rad, const double i_abc[3])
+{
+    double e[3], e_by_angle[3], slope[HCI_PHASE_MATRIX], slope_by_angle[HCI_PHASE_MATRIX], y[3], unused[3];
+    hci_torque_slopes sum = {.torque_Nm = 0.0};
+    hci_torque_back_emf_at(machine, theta_rad, e, e_by_angle);
+    slope_at(machine, theta_rad, slope, slope_by_angle);
+    const double reluctance_Nm = form(slope, i_abc, y);
+    for (size_t s = 0; s < 3; ++s) {
+        sum.torque_Nm += e[s] * i_abc[s];
+        sum.by_current[s] = e[s] + y[s];
+        sum.by_angle += e_by_angle[s] * i_abc[s];
+    }
+    cogging_add(machine, theta_rad, &sum);
+    sum.torque_Nm += reluctance_Nm;
+    sum.by_angle += form(slope_by_angle, i_abc, unused);
+    return sum;
+}
+
+/* e, and y = L'i. */
+static void parts_at(const hci_machine *m, double theta_rad, const double i_abc[3], double e[3], double y[3])
+{
+    double slope[HCI_PHASE_MATRIX], unused[HCI_PHASE_MATRIX];
+    hci_waves_at(m->back_emf, m->back_emf_count, theta_rad, e);
+    slope_at(m, theta_rad, slope, unused);
+    form(slope, i_abc, y);
 }
 
 double hci_torque_at(const hci_machine *machine, double theta_rad, const double i_abc[3])
 {
-    double e[3], slope[HCI_PHASE_MATRIX], y[3], torque;
-    hci_waves_at(machine->back_emf, machine->back_emf_count, theta_rad, e);
-    slope_at(machine, theta_rad, slope);
-    slope_times(slope, i_abc, y);
-    torque = hci_harmonics_at(machine->cogging, machine->cogging_count, theta_rad);
-    for (int s = 0; s < 3; ++s)
+    double e[3], y[3], torque = hci_harmonics_at(machine->cogging, machine->cogging_count, theta_rad);
+    parts_at(machine, theta_rad, i_abc, e, y);
+    for (size_t s = 0; s < 3; ++s)
         torque += (e[s] + 0.5 * y[s]) * i_abc[s];
     return torque;
 }
@@ -44,12 +98,10 @@ double hci_torque_at(const hci_machine *machine, double theta_rad, const double 
 void hci_torque_gradient_at(const hci_machine *machine, double theta_rad, const double i_abc[3],
                             double gradient[3])
 {
-    double slope[HCI_PHASE_MATRIX], y[3];
-    hci_waves_at(machine->back_emf, machine->back_emf_count, theta_rad, gradient);
-    slope_at(machine, theta_rad, slope);
-    slope_times(slope, i_abc, y);
-    for (int s = 0; s < 3; ++s)
-        gradient[s] += y[s];
+    double e[3], y[3];
+    parts_at(machine, theta_rad, i_abc, e, y);
+    for (size_t s = 0; s < 3; ++s)
+        gradient[s] = e[s] + y[s];
 }
 
 size_t hci_torque_orders_capacity(const hci_machine *machine, size_t current_count)
@@ -111,7 +163,7 @@ static phasor conjugate(phasor a)
 static phasor phase_phasor(const hci_wave *w, unsigned s)
 {
     const phasor p = {w->sine, w->cosine};
-    const phasor turn = {COS_THIRD, s == 1 ? -w->sequence * SIN_THIRD : w->sequence * SIN_THIRD};
+    const phasor turn = {HCI_COS_THIRD, s == 1 ? -w->sequence * HCI_SIN_THIRD : w->sequence * HCI_SIN_THIRD};
     return s == 0 || w->sequence == 0 ? p : times(p, turn);
 }
 
@@ -129,7 +181,8 @@ static void spectrum_add(const double *orders, size_t order_count, hci_harmonic 
 static void add_sequences(double order, const phasor y[3], hci_wave waves[3])
 {
     for (int sequence = -1; sequence <= 1; ++sequence) {
-        const phasor back = {COS_THIRD, sequence * SIN_THIRD}, ahead = {COS_THIRD, -sequence * SIN_THIRD};
+        const phasor back = {HCI_COS_THIRD, sequence * HCI_SIN_THIRD},
+                     ahead = {HCI_COS_THIRD, -sequence * HCI_SIN_THIRD};
         const phasor one = {1.0, 0.0};
         phasor sum = {0.0, 0.0};
         for (unsigned s = 0; s < 3; ++s) {

@@ -3,8 +3,8 @@
 #include <math.h>
 #include <stdbool.h>
 
+#include "core/math/phases.h"
 #include "core/math/sort.h"
-#include "core/math/third.h"
 
 double hci_amplitude(double sine, double cosine)
 {
@@ -46,7 +46,7 @@ double hci_harmonics_at(const hci_harmonic *terms, size_t count, double theta_ra
     return sum;
 }
 
-/* With x = S sin nθ + C cos nθ and y = S cos nθ − C sin nθ, phase s is x cos(σ2πs/3) − y sin(σ2πs/3). */
+/* x = S sin nθ + C cos nθ, and a quarter of a period ahead y = S cos nθ − C sin nθ. */
 void hci_waves_at(const hci_wave *waves, size_t count, double theta_rad, double abc[3])
 {
     abc[0] = abc[1] = abc[2] = 0.0;
@@ -54,11 +54,7 @@ void hci_waves_at(const hci_wave *waves, size_t count, double theta_rad, double 
         const double s = sin(waves[k].order * theta_rad), c = cos(waves[k].order * theta_rad);
         const double x = waves[k].sine * s + waves[k].cosine * c;
         const double y = waves[k].sine * c - waves[k].cosine * s;
-        const double cos_shift = waves[k].sequence == 0 ? 1.0 : COS_THIRD;
-        const double sin_shift = waves[k].sequence * SIN_THIRD;
-        abc[0] += x;
-        abc[1] += cos_shift * x - sin_shift * y;
-        abc[2] += cos_shift * x + sin_shift * y;
+        hci_phases_add(x, y, waves[k].sequence, abc);
     }
 }
 

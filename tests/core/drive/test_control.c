@@ -87,7 +87,7 @@ static double speed_deviation(double step_s, unsigned every)
     double most = 0.0;
     use_machine(&PM_SINE, 4096);
     drive.control.step_s = step_s;
-    drive.control.speed_controlled = 1;
+    drive.control.speed_controlled = true;
     drive.control.speed = (hci_pi){0.2, 20.0};
     drive.control.speed_every = every;
     for (int k = 0; k < (int)(0.3 / step_s); ++k) {
@@ -113,7 +113,7 @@ static void test_speed_loop_holds_the_load(void)
 {
     use_machine(&PM_INTERIOR, 2048);
     source.strategy = HCI_STRATEGY_MTPA;
-    drive.control.speed_controlled = 1;
+    drive.control.speed_controlled = true;
     drive.control.speed = (hci_pi){2.0, 20.0};
     for (int k = 0; k < 200000; ++k)
         hci_drive_step(&drive, &state, 8.0, 6.0);
@@ -134,13 +134,13 @@ static double closed_error(double l, double kp, double ki, double t)
 }
 
 /* Largest deviation of i_q from the closed form after a step of 1 N·m, and of i_d from zero. */
-static void current_step(double step_s, double speed, int decoupled, double l_q, double deviation[2])
+static void current_step(double step_s, double speed, bool decoupled, double l_q, double deviation[2])
 {
     const double kp = 6.0, ki = 6000.0, iq = 1.0 / (1.5 * 0.9);
     deviation[0] = deviation[1] = 0.0;
     drive.control.step_s = step_s;
     drive.control.loop = HCI_CURRENT_PI;
-    drive.control.current = (hci_current_pi){{kp, ki}, decoupled, 0};
+    drive.control.current = (hci_current_pi){{kp, ki}, decoupled, false};
     drive.plant.inertia_kgm2 = INFINITY;
     state.plant.theta_m_rad = 0.7;
     state.plant.speed_rad_per_s = speed;
@@ -223,7 +223,7 @@ static void test_current_loop_does_not_wind_up(void)
     drive.control.dc_link_V = 60.0;
     drive.control.loop = HCI_CURRENT_PI;
     drive.control.current =
-        (hci_current_pi){{12.0, 900.0}, 1, 0}; /* k_i/k_p = R/L: first order, no overshoot */
+        (hci_current_pi){{12.0, 900.0}, true, false}; /* k_i/k_p = R/L: first order, no overshoot */
     drive.plant.inertia_kgm2 = INFINITY;
     for (int k = 0; k < 20000; ++k) {
         hci_drive_step(&drive, &state, 27.0, 0.0);

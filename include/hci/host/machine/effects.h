@@ -2,6 +2,7 @@
 #ifndef HCI_HOST_MACHINE_EFFECTS_H
 #define HCI_HOST_MACHINE_EFFECTS_H
 
+#include "hci/drive/control.h"
 #include "hci/effects/effect.h"
 #include "hci/host/base/note.h"
 #include "hci/host/base/output.h"
