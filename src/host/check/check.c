@@ -1,3 +1,4 @@
+/* The command `check`: reads, weighs, concludes. */
 #include "hci/host/check/check.h"
 
 #include <string.h>
@@ -20,11 +21,11 @@ const char *hci_check_state_name(hci_check_state state)
 hci_status hci_check_files(const char *machine, const char *const *run, size_t runs, hci_check *check,
                            hci_note *note)
 {
-    check_figures figures;
+    check_data data;
     check_posterior posterior = {0};
     hci_status status;
     memset(check, 0, sizeof *check);
-    memset(&figures, 0, sizeof figures);
+    memset(&data, 0, sizeof data);
     if (runs > HCI_CHECK_MOST_RUNS)
         return hci_note_set(note, HCI_ERROR_ARGUMENT,
                             "found %zu recordings, expected at most %d; leave some out", runs,
@@ -32,12 +33,12 @@ hci_status hci_check_files(const char *machine, const char *const *run, size_t r
     check->machine = machine;
     check->run = run;
     check->runs = runs;
-    status = hci_check_machine_read(machine, &figures, note);
-    if (!status) status = hci_check_runs_read(run, runs, &figures, check->remark, note);
-    if (!status) status = hci_check_posterior(&figures, &posterior, note);
+    status = hci_check_machine_read(machine, &data, note);
+    if (!status) status = hci_check_runs_read(run, runs, &data, check->remark, note);
+    if (!status) status = hci_check_posterior(&data, &posterior, note);
     if (!status) hci_check_conclude(&posterior, check);
     hci_check_posterior_release(&posterior);
-    hci_check_figures_release(&figures);
+    hci_check_data_release(&data);
     if (status) return status;
     return check->verdict == HCI_CHECK_CONSISTENT ? HCI_OK : HCI_NOT_REACHED;
 }

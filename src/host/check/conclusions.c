@@ -1,64 +1,67 @@
-/* Names the slips of the probable readings. */
+#include "host/check/conclusions.h"
+
 #include <math.h>
 #include <string.h>
 
-#include "host/check/conclusions.h"
+#include "host/check/error_place.h"
+#include "host/check/relations.h"
 
 /* A relation is met up to so many standard deviations. */
 #define MET 2.5
 
-/* What a reading is to have mended is met as well as this. */
+/* What the best interpretation is to have mended is met as well as this. */
 #define MENDED 1.5
 
 /* A relation that is not met is nearer when less than this of its deviation is left. */
 #define NEARER 0.5
 
-/* A slip leaves a trace where it changes what a relation costs by as much, in nats. */
+/* A convention error leaves a trace where it changes what a relation costs by as much, in nats. */
 #define TRACE 1.0
 
-static bool has_slip(const check_reading *r, const char *slip)
+static bool has_error(const check_error_set *set, const char *name)
 {
-    for (int k = 0; k < CHECK_MOST_SLIPS; ++k)
-        if (r->choice[k] >= 0 && strcmp(HCI_CHECK_CHOICES[r->choice[k]].slip, slip) == 0) return true;
+    for (int k = 0; k < CHECK_MOST_ERRORS; ++k)
+        if (set->error[k] >= 0 && strcmp(HCI_CHECK_ERRORS[set->error[k]].name, name) == 0) return true;
     return false;
 }
 
-/* Of the readings that have `slip`, and have `other` (NULL: whatever) or not. */
-static double probability(const check_posterior *p, const char *slip, const char *other, bool with_other)
+/* Of all combinations that have the error `name`, and have `other` (NULL: whatever) or not. */
+static double probability(const check_posterior *p, const char *name, const char *other, bool with_other)
 {
     double sum = 0.0;
     for (size_t k = 0; k < p->count; ++k)
-        if (has_slip(&p->list[k], slip) && (!other || has_slip(&p->list[k], other) == with_other))
-            sum += p->list[k].weight;
+        if (has_error(&p->list[k], name) && (!other || has_error(&p->list[k], other) == with_other))
+            sum += p->list[k].probability;
     return sum;
 }
 
-/* The most probable reading with a slip, and the choice in it that has it. */
-static const check_reading *best_with(const check_posterior *p, const char *slip, const check_choice **choice)
+/* The most probable combination with an error, and the form of the error in it. */
+static const check_error_set *best_with(const check_posterior *p, const char *name, const check_error **error)
 {
-    const check_reading *best = NULL;
+    const check_error_set *best = NULL;
     for (size_t k = 0; k < p->count; ++k)
-        if (has_slip(&p->list[k], slip) && (!best || p->list[k].weight > best->weight)) best = &p->list[k];
-    for (int k = 0; best && k < CHECK_MOST_SLIPS; ++k)
-        if (best->choice[k] >= 0 && strcmp(HCI_CHECK_CHOICES[best->choice[k]].slip, slip) == 0)
-            *choice = &HCI_CHECK_CHOICES[best->choice[k]];
+        if (has_error(&p->list[k], name) && (!best || p->list[k].probability > best->probability))
+            best = &p->list[k];
+    for (int k = 0; best && k < CHECK_MOST_ERRORS; ++k)
+        if (best->error[k] >= 0 && strcmp(HCI_CHECK_ERRORS[best->error[k]].name, name) == 0)
+            *error = &HCI_CHECK_ERRORS[best->error[k]];
     return best;
 }
 
 static bool is_first_row(size_t k)
 {
     for (size_t j = 0; j < k; ++j)
-        if (strcmp(HCI_CHECK_CHOICES[j].slip, HCI_CHECK_CHOICES[k].slip) == 0) return false;
+        if (strcmp(HCI_CHECK_ERRORS[j].name, HCI_CHECK_ERRORS[k].name) == 0) return false;
     return true;
 }
 
-/* What takes this slip's place in the readings without it: at least a tenth as probable, and seldom beside
- * it. */
+/* What takes the place of this error in the combinations without it: at least a tenth as probable, and seldom
+ * beside it. */
 static void add_alternatives(const check_posterior *p, hci_check_finding *finding)
 {
-    for (size_t k = 0; k < HCI_CHECK_CHOICE_COUNT && finding->alternatives < HCI_CHECK_MOST_ALTERNATIVES;
+    for (size_t k = 0; k < HCI_CHECK_ERROR_COUNT && finding->alternatives < HCI_CHECK_MOST_ALTERNATIVES;
          ++k) {
-        const char *other = HCI_CHECK_CHOICES[k].slip;
+        const char *other = HCI_CHECK_ERRORS[k].name;
         if (!is_first_row(k) || strcmp(other, finding->slip) == 0) continue;
         const double alone = probability(p, other, finding->slip, false);
         const double beside = probability(p, other, finding->slip, true);
@@ -67,15 +70,15 @@ static void add_alternatives(const check_posterior *p, hci_check_finding *findin
     }
 }
 
-static void add_finding(const check_posterior *p, const char *slip, hci_check *check)
+static void add_finding(const check_posterior *p, const char *name, hci_check *check)
 {
-    hci_check_finding finding = {.probability = probability(p, slip, NULL, false)};
-    const check_choice *choice = NULL;
+    hci_check_finding finding = {.probability = probability(p, name, NULL, false)};
+    const check_error *error = NULL;
     size_t at = check->findings;
     if (finding.probability < HCI_CHECK_POSSIBLE || at == HCI_CHECK_MOST_FINDINGS) return;
-    const check_reading *best = best_with(p, slip, &choice);
-    const check_view view = hci_check_view_of(best);
-    hci_check_choice_locate(choice, p->figures, &view, &finding);
+    const check_error_set *best = best_with(p, name, &error);
+    const check_interpretation as = hci_check_interpretation_of(best);
+    hci_check_error_locate(error, p->data, &as, &finding);
     add_alternatives(p, &finding);
     for (; at > 0 && check->finding[at - 1].probability < finding.probability; --at)
         check->finding[at] = check->finding[at - 1];
@@ -101,73 +104,81 @@ static bool is_used(const check_posterior *p, const char *relation)
 
 static bool possible_mends(const check_posterior *p, const hci_check *check, const check_relation *r)
 {
-    const check_choice *choice;
+    const check_error *error;
     for (size_t k = 0; k < check->findings; ++k) {
-        const check_view view = hci_check_view_of(best_with(p, check->finding[k].slip, &choice));
-        if (hci_check_deviation(r, hci_check_relation_value(p->figures, r, &view)) <= MET) return true;
+        const check_interpretation as =
+            hci_check_interpretation_of(best_with(p, check->finding[k].slip, &error));
+        if (hci_check_deviation(r, hci_check_relation_value(p->data, r, &as)) <= MET) return true;
     }
     return false;
 }
 
-static void add_evidence(const check_posterior *p, const check_reading *best, hci_check *check)
+static hci_check_evidence evidence_of(const check_posterior *p, const check_relation *r)
 {
-    const check_view declared = hci_check_view_declared(), view = hci_check_view_of(best);
+    const check_interpretation declared = hci_check_as_declared(),
+                               as = hci_check_interpretation_of(&p->list[p->best]);
+    const check_value before = hci_check_relation_value(p->data, r, &declared),
+                      after = hci_check_relation_value(p->data, r, &as);
+    return (hci_check_evidence){.name = r->name,
+                                .words = r->words,
+                                .declared = before.found,
+                                .expected = r->expected,
+                                .at_most = r->kind == CHECK_MOST,
+                                .as_read = after.found,
+                                .tolerance = r->tolerance * after.spread,
+                                .state =
+                                    state_of(hci_check_deviation(r, before), hci_check_deviation(r, after))};
+}
+
+/* How the relations stand, or what those would need that could not be checked. */
+static void add_evidence(const check_posterior *p, hci_check *check)
+{
     for (size_t k = 0; k < hci_check_relation_count(); ++k) {
         const check_relation *r = hci_check_relation(k);
-        const check_value before = hci_check_relation_value(p->figures, r, &declared);
-        if (!p->used[k] && is_used(p, r->instead)) continue;
-        if (!p->used[k]) {
+        if (!p->used[k] && !is_used(p, r->instead))
             check->gap[check->gaps++] = (hci_check_gap){r->name, r->words, r->needs};
-            continue;
-        }
-        const check_value after = hci_check_relation_value(p->figures, r, &view);
-        hci_check_evidence *e = &check->evidence[check->evidences++];
-        *e = (hci_check_evidence){r->name,
-                                  r->words,
-                                  before.found,
-                                  r->expected,
-                                  r->kind == CHECK_MOST,
-                                  after.found,
-                                  r->tolerance * after.spread,
-                                  state_of(hci_check_deviation(r, before), hci_check_deviation(r, after))};
-        if (e->state == HCI_CHECK_UNMENDED && possible_mends(p, check, r)) e->state = HCI_CHECK_MENDABLE;
+        if (!p->used[k]) continue;
+        hci_check_evidence e = evidence_of(p, r);
+        if (e.state == HCI_CHECK_UNMENDED && possible_mends(p, check, r)) e.state = HCI_CHECK_MENDABLE;
+        check->evidence[check->evidences++] = e;
     }
 }
 
 /* ---- what leaves no trace */
 
-/* The reading with one slip more, or with it in the place of the one about the same thing. */
-static check_view view_with(const check_reading *r, size_t choice)
+/* A combination with one error more, or with it in the place of the one about the same thing. */
+static check_interpretation with_error(const check_error_set *set, size_t error)
 {
-    check_view view = hci_check_view_declared();
-    for (int k = 0; k < CHECK_MOST_SLIPS; ++k)
-        if (r->choice[k] >= 0 && HCI_CHECK_CHOICES[r->choice[k]].aspect != HCI_CHECK_CHOICES[choice].aspect)
-            hci_check_view_take(&view, &HCI_CHECK_CHOICES[r->choice[k]]);
-    hci_check_view_take(&view, &HCI_CHECK_CHOICES[choice]);
-    return view;
+    check_interpretation as = hci_check_as_declared();
+    for (int k = 0; k < CHECK_MOST_ERRORS; ++k)
+        if (set->error[k] >= 0 && HCI_CHECK_ERRORS[set->error[k]].aspect != HCI_CHECK_ERRORS[error].aspect)
+            hci_check_error_apply(&as, &HCI_CHECK_ERRORS[set->error[k]]);
+    hci_check_error_apply(&as, &HCI_CHECK_ERRORS[error]);
+    return as;
 }
 
-static bool leaves_a_trace(const check_posterior *p, const check_reading *in, size_t choice)
+static bool leaves_a_trace(const check_posterior *p, const check_error_set *in, size_t error)
 {
-    const check_view before = hci_check_view_of(in), after = view_with(in, choice);
+    const check_interpretation before = hci_check_interpretation_of(in), after = with_error(in, error);
     for (size_t k = 0; k < hci_check_relation_count(); ++k) {
         const check_relation *r = hci_check_relation(k);
-        if (p->used[k] && fabs(hci_check_loss(r, hci_check_relation_value(p->figures, r, &after)) -
-                               hci_check_loss(r, hci_check_relation_value(p->figures, r, &before))) > TRACE)
+        if (p->used[k] && fabs(hci_check_loss(r, hci_check_relation_value(p->data, r, &after)) -
+                               hci_check_loss(r, hci_check_relation_value(p->data, r, &before))) > TRACE)
             return true;
     }
     return false;
 }
 
-/* A slip that can stand in these files, and in none of its forms changes anything, neither in the files as
- * declared nor in the best reading. */
-static bool is_untold(const check_posterior *p, const check_reading *best, const char *slip)
+/* An error that can stand in these files, and in none of its forms changes anything, neither in the files as
+ * declared nor in the best interpretation. */
+static bool is_untold(const check_posterior *p, const char *name)
 {
+    const check_error_set *best = &p->list[p->best];
     bool applies = false;
-    if (has_slip(best, slip)) return false;
-    for (size_t k = 0; k < HCI_CHECK_CHOICE_COUNT; ++k) {
-        if (strcmp(HCI_CHECK_CHOICES[k].slip, slip) != 0 ||
-            !hci_check_choice_applies(&HCI_CHECK_CHOICES[k], p->figures))
+    if (has_error(best, name)) return false;
+    for (size_t k = 0; k < HCI_CHECK_ERROR_COUNT; ++k) {
+        if (strcmp(HCI_CHECK_ERRORS[k].name, name) != 0 ||
+            !hci_check_error_applies(&HCI_CHECK_ERRORS[k], p->data))
             continue;
         if (leaves_a_trace(p, best, k) || leaves_a_trace(p, &p->list[0], k)) return false;
         applies = true;
@@ -175,11 +186,11 @@ static bool is_untold(const check_posterior *p, const check_reading *best, const
     return applies;
 }
 
-static void add_untold(const check_posterior *p, const check_reading *best, hci_check *check)
+static void add_untold(const check_posterior *p, hci_check *check)
 {
-    for (size_t k = 0; k < HCI_CHECK_CHOICE_COUNT && check->untolds < HCI_CHECK_MOST_UNTOLD; ++k)
-        if (is_first_row(k) && is_untold(p, best, HCI_CHECK_CHOICES[k].slip))
-            check->untold[check->untolds++] = HCI_CHECK_CHOICES[k].slip;
+    for (size_t k = 0; k < HCI_CHECK_ERROR_COUNT && check->untolds < HCI_CHECK_MOST_UNTOLD; ++k)
+        if (is_first_row(k) && is_untold(p, HCI_CHECK_ERRORS[k].name))
+            check->untold[check->untolds++] = HCI_CHECK_ERRORS[k].name;
 }
 
 static hci_check_verdict verdict_of(const hci_check *check)
@@ -194,11 +205,10 @@ static hci_check_verdict verdict_of(const hci_check *check)
 
 void hci_check_conclude(const check_posterior *p, hci_check *check)
 {
-    const check_reading *best = &p->list[p->best];
-    check->probability_as_declared = p->list[0].weight;
-    for (size_t k = 0; k < HCI_CHECK_CHOICE_COUNT; ++k)
-        if (is_first_row(k)) add_finding(p, HCI_CHECK_CHOICES[k].slip, check);
-    add_evidence(p, best, check);
-    add_untold(p, best, check);
+    check->probability_as_declared = p->list[0].probability;
+    for (size_t k = 0; k < HCI_CHECK_ERROR_COUNT; ++k)
+        if (is_first_row(k)) add_finding(p, HCI_CHECK_ERRORS[k].name, check);
+    add_evidence(p, check);
+    add_untold(p, check);
     check->verdict = verdict_of(check);
 }

@@ -1,63 +1,64 @@
-/* Where a slip stands. */
+#include "host/check/error_place.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "host/check/convention_errors.h"
-
 #define SQRT2 1.4142135623730951
 
 /* The first recording with a cell of this kind. */
-static const check_place *run_place(const check_figures *f, int where)
+static const check_place *run_place(const check_data *data, int where)
 {
-    for (size_t k = 0; k < f->runs; ++k) {
-        const check_run *r = &f->run[k];
+    for (size_t k = 0; k < data->runs; ++k) {
+        const check_run *r = &data->run[k];
         const check_place *place = NULL;
-        if (where == AT_THETA || where == (r->is_electrical ? AT_THETA_E : AT_THETA_M))
+        if (where == CHECK_AT_THETA || where == (r->is_electrical ? CHECK_AT_THETA_E : CHECK_AT_THETA_M))
             place = &r->theta_cell;
-        if (where == AT_CURRENT || (where == AT_ABC && r->has_abc) || (where == AT_DQ && r->has_dq))
+        if (where == CHECK_AT_CURRENT || (where == CHECK_AT_ABC && r->has_abc) ||
+            (where == CHECK_AT_DQ && r->has_dq))
             place = &r->current_cell;
-        if (where == AT_DRIVE && r->has_dq && r->has_dq_voltage) place = &r->current_cell;
-        if (where == AT_PHASES && r->theta_cell.path)
+        if (where == CHECK_AT_DRIVE && r->has_dq && r->has_dq_voltage) place = &r->current_cell;
+        if (where == CHECK_AT_PHASES && r->theta_cell.path)
             place = r->has_abc ? &r->current_cell : r->has_phase_voltage ? &r->voltage_cell : NULL;
-        if (where == AT_VOLTAGE || (where == AT_PHASE_VOLTAGE && r->has_phase_voltage))
+        if (where == CHECK_AT_VOLTAGE || (where == CHECK_AT_PHASE_VOLTAGE && r->has_phase_voltage))
             place = &r->voltage_cell;
-        if (where == AT_TORQUE && r->has_torque) place = &r->torque_cell;
-        if (where == AT_SPEED || (where == AT_SPEED_M && !r->speed_is_electrical)) place = &r->speed_cell;
-        if (where == AT_TIME) place = &r->time_cell;
+        if (where == CHECK_AT_TORQUE && r->has_torque) place = &r->torque_cell;
+        if (where == CHECK_AT_SPEED || (where == CHECK_AT_SPEED_M && !r->speed_is_electrical))
+            place = &r->speed_cell;
+        if (where == CHECK_AT_TIME) place = &r->time_cell;
         if (place && place->path) return place;
     }
     return NULL;
 }
 
-static const check_place *place_of(const check_figures *f, int where)
+static const check_place *place_of(const check_data *data, int where)
 {
     switch (where) {
-    case AT_POLES:
-        return &f->cell[CHECK_pole_pairs];
-    case AT_EMF:
-    case AT_EMF_SIGN:
-        return &f->emf.amplitude_cell;
-    case AT_EMF_ORDER:
-        return &f->emf.order_cell;
-    case AT_COGGING_ORDER:
-        return &f->cogging.order_cell;
-    case AT_PHASE:
-        return f->emf.most_phase_rad >= f->cogging.most_phase_rad ? &f->emf.phase_cell
-                                                                  : &f->cogging.phase_cell;
-    case AT_EMF_PHASE:
-    case AT_ZERO:
-        return &f->emf.phase_cell;
-    case AT_COGGING_PHASE:
-        return &f->cogging.phase_cell;
-    case AT_RATED_CURRENT:
-        return &f->cell[CHECK_rated_current_A];
-    case AT_RESISTANCE:
-        return &f->cell[CHECK_resistance_ohm];
-    case AT_SLOPE:
-        return &f->inductance.cell;
+    case CHECK_AT_POLES:
+        return &data->cell[CHECK_pole_pairs];
+    case CHECK_AT_EMF:
+    case CHECK_AT_EMF_SIGN:
+        return &data->emf.amplitude_cell;
+    case CHECK_AT_EMF_ORDER:
+        return &data->emf.order_cell;
+    case CHECK_AT_COGGING_ORDER:
+        return &data->cogging.order_cell;
+    case CHECK_AT_PHASE:
+        return data->emf.most_phase_rad >= data->cogging.most_phase_rad ? &data->emf.phase_cell
+                                                                        : &data->cogging.phase_cell;
+    case CHECK_AT_EMF_PHASE:
+    case CHECK_AT_ZERO:
+        return &data->emf.phase_cell;
+    case CHECK_AT_COGGING_PHASE:
+        return &data->cogging.phase_cell;
+    case CHECK_AT_RATED_CURRENT:
+        return &data->cell[CHECK_rated_current_A];
+    case CHECK_AT_RESISTANCE:
+        return &data->cell[CHECK_resistance_ohm];
+    case CHECK_AT_SLOPE:
+        return &data->inductance.cell;
     default:
-        return run_place(f, where);
+        return run_place(data, where);
     }
 }
 
@@ -68,47 +69,48 @@ static bool is_beyond(const check_table *t)
 
 /* Poles are an even number; a motor with one pole pair has no electrical radians of its own; degrees show by
  * phases above 2π, and read as degrees all others would be near 0. */
-bool hci_check_choice_applies(const check_choice *choice, const check_figures *f)
+bool hci_check_error_applies(const check_error *error, const check_data *data)
 {
-    const double p = f->value[CHECK_pole_pairs];
-    const check_place *place = place_of(f, choice->where);
+    const double p = data->value[CHECK_pole_pairs];
+    const check_place *place = place_of(data, error->where);
     if (!place || !place->path) return false;
-    if (choice->where == AT_POLES) return fmod(p, 2.0) == 0.0;
-    if (choice->where == AT_PHASE)
-        return f->cogging.count > 0 && (is_beyond(&f->emf) || is_beyond(&f->cogging));
-    if (choice->where == AT_EMF_PHASE) return is_beyond(&f->emf);
-    if (choice->where == AT_COGGING_PHASE) return is_beyond(&f->cogging);
-    if (choice->aspect == OF_THETA || choice->aspect == OF_EMF_ORDER || choice->aspect == OF_COGGING_ORDER ||
-        choice->aspect == OF_SLOPE)
+    if (error->where == CHECK_AT_POLES) return fmod(p, 2.0) == 0.0;
+    if (error->where == CHECK_AT_PHASE)
+        return data->cogging.count > 0 && (is_beyond(&data->emf) || is_beyond(&data->cogging));
+    if (error->where == CHECK_AT_EMF_PHASE) return is_beyond(&data->emf);
+    if (error->where == CHECK_AT_COGGING_PHASE) return is_beyond(&data->cogging);
+    if (error->aspect == CHECK_OF_THETA || error->aspect == CHECK_OF_EMF_ORDER ||
+        error->aspect == CHECK_OF_COGGING_ORDER || error->aspect == CHECK_OF_SLOPE)
         return p > 1.0;
     return true;
 }
 
 /* The number that should stand at the place, NAN where there is none to tell. */
-static double right_number(const check_choice *choice, const check_figures *f, const check_view *view)
+static double right_number(const check_error *error, const check_data *data, const check_interpretation *as)
 {
-    const check_view declared = hci_check_view_declared();
-    const check_model as_read = hci_check_model_of(f, view), before = hci_check_model_of(f, &declared);
-    const check_table *e = &f->emf, *c = &f->cogging;
-    switch (choice->where) {
-    case AT_POLES:
+    const check_interpretation declared = hci_check_as_declared();
+    const check_model as_read = hci_check_model_of(data, as), before = hci_check_model_of(data, &declared);
+    const check_table *e = &data->emf, *c = &data->cogging;
+    switch (error->where) {
+    case CHECK_AT_POLES:
         return as_read.pole_pairs;
-    case AT_EMF: {
-        check_view poles = declared;
-        poles.pole_pairs = view->pole_pairs;
-        return e->amplitude[e->largest] * as_read.emf / hci_check_model_of(f, &poles).emf;
+    case CHECK_AT_EMF: {
+        check_interpretation poles = declared;
+        poles.pole_pairs = as->pole_pairs;
+        return e->amplitude[e->largest] * as_read.emf_Nm_per_A /
+               hci_check_model_of(data, &poles).emf_Nm_per_A;
     }
-    case AT_EMF_SIGN:
+    case CHECK_AT_EMF_SIGN:
         return -e->amplitude[e->largest];
-    case AT_EMF_ORDER:
+    case CHECK_AT_EMF_ORDER:
         return e->order[e->largest] / as_read.pole_pairs;
-    case AT_COGGING_ORDER:
+    case CHECK_AT_COGGING_ORDER:
         return c->order[c->largest] / as_read.pole_pairs;
-    case AT_ZERO:
+    case CHECK_AT_ZERO:
         return as_read.emf_phase_rad;
-    case AT_RATED_CURRENT:
-        return f->value[CHECK_rated_current_A] * SQRT2;
-    case AT_RESISTANCE:
+    case CHECK_AT_RATED_CURRENT:
+        return data->value[CHECK_rated_current_A] * SQRT2;
+    case CHECK_AT_RESISTANCE:
         return 0.5 * before.resistance_ohm;
     default:
         return NAN;
@@ -129,16 +131,16 @@ static void fill(char out[HCI_CHECK_TEXT], const char *words, double number)
         snprintf(out, HCI_CHECK_TEXT, "%.*s%s%s", (int)(at - words), words, text, at + 2);
 }
 
-void hci_check_choice_locate(const check_choice *choice, const check_figures *f, const check_view *view,
-                             hci_check_finding *finding)
+void hci_check_error_locate(const check_error *error, const check_data *data, const check_interpretation *as,
+                            hci_check_finding *finding)
 {
-    const check_place *place = place_of(f, choice->where);
-    finding->slip = choice->slip;
-    finding->words = choice->words;
-    finding->told_by = choice->told_by;
+    const check_place *place = place_of(data, error->where);
+    finding->slip = error->name;
+    finding->words = error->words;
+    finding->told_by = error->told_by;
     snprintf(finding->file, sizeof finding->file, "%s", place->path);
     finding->line = place->line;
     memcpy(finding->column, place->column, sizeof finding->column);
     memcpy(finding->found, place->text, sizeof finding->found);
-    fill(finding->should_be, choice->should_be, right_number(choice, f, view));
+    fill(finding->should_be, error->should_be, right_number(error, data, as));
 }

@@ -1,63 +1,74 @@
-/* A reading of the files: one choice for each thing that can be read in several ways, and what it makes of
- * the figures. */
+/* An interpretation: one combination of assumptions on how the numbers of the files are meant (peak or rms,
+ * poles or pole pairs, from which axis the angle counts, ...), and the machine that the tables are with it.
+ * In: the numbers as they stand (data.h). Out: k_e, R, L and so on in SI units, so that the relations are
+ * written once, without regard to conventions. */
 #ifndef HCI_SRC_HOST_CHECK_INTERPRETATION_H
 #define HCI_SRC_HOST_CHECK_INTERPRETATION_H
 
-#include "host/check/figures.h"
+#include "host/check/data.h"
 
 /* What the numbers of back_emf.csv can be. */
 enum {
-    EMF_DECLARED,
-    EMF_RMS,
-    EMF_LINE,
-    EMF_LINE_RMS,
-    EMF_VOLT_PER_KRPM,
-    EMF_VOLT_PER_KRPM_LINE,
-    EMF_VOLT_PER_KRPM_LINE_RMS,
-    EMF_KV,
-    EMF_VOLT_PER_HZ,
-    EMF_FLUX_LINKAGE
+    CHECK_EMF_DECLARED,
+    CHECK_EMF_RMS,
+    CHECK_EMF_LINE,
+    CHECK_EMF_LINE_RMS,
+    CHECK_EMF_VOLT_PER_KRPM,
+    CHECK_EMF_VOLT_PER_KRPM_LINE,
+    CHECK_EMF_VOLT_PER_KRPM_LINE_RMS,
+    CHECK_EMF_KV,
+    CHECK_EMF_VOLT_PER_HZ,
+    CHECK_EMF_FLUX_LINKAGE
 };
 
-/* How to read the figures. All fields are doubles, so that a choice is one field, a factor and a summand. */
+/* Factors are 1 and flags 0 where the files are as they are declared. All fields are doubles, so that a
+ * convention error is one field, a factor and a summand (convention_errors.h). */
 typedef struct {
-    double pole_pairs;
-    double emf_kind; /* EMF_… */
-    double emf_sign;
+    double pole_pairs;                                     /* factor */
+    double emf_kind;                                       /* CHECK_EMF_… */
+    double emf_sign;                                       /* factor */
     double emf_mechanical, cogging_mechanical;             /* 1: orders per mechanical turn */
     double phase_unit, emf_phase_unit, cogging_phase_unit; /* rad per what stands in the column */
     double zero_rad;                                       /* θ = angle of the tables + this */
     double rated_current, resistance;                      /* factors */
     double slope_electrical;                               /* 1: dL per electrical radian */
-    double theta_m_is_electrical, theta_e_is_mechanical;
-    double theta_unit, direction; /* direction −1: the angle is counted backward */
-    double run_zero_rad;          /* θ = angle of the recording + this */
-    double swapped;               /* 1: phases b and c of the recordings */
-    double current, voltage;
-    double dq; /* factor of i_d, i_q and of v_d, v_q */
-    double voltage_is_line;
-    double torque;
-    double speed, speed_electrical;
-    double time;
-} check_view;
+    double theta_m_is_electrical, theta_e_is_mechanical;   /* 1: so */
+    double theta_unit;                                     /* rad per what stands in the column */
+    double direction;                                      /* −1: the angle is counted backward */
+    double run_zero_rad;                                   /* θ = angle of the recording + this */
+    double swapped;                                        /* 1: phases b and c of the recordings */
+    double current, voltage;                               /* factors */
+    double dq;                                             /* factor of i_d, i_q and of v_d, v_q */
+    double voltage_is_line;                                /* 1: va, vb, vc hold v_ab, v_bc, v_ca */
+    double torque, speed;                                  /* factors */
+    double speed_electrical;                               /* 1: so */
+    double time;                                           /* factor */
+} check_interpretation;
 
-/* The machine that a reading makes of the tables. NAN: not known. */
+/* The machine that the tables are in an interpretation. NAN: not known. */
 typedef struct {
     double pole_pairs;
-    double emf, emf_phase_rad; /* k_e in N·m/A and γ of the fundamental, θ as in theory.md */
+    double emf_Nm_per_A, emf_phase_rad; /* k_e and γ of the fundamental, θ as in theory.md */
     double resistance_ohm, inductance_d_H, inductance_q_H;
     double reluctance_Nm_per_A2; /* torque = this × i_d × i_q: 3/2 p (L_d − L_q) */
     double rated_current_A;
 } check_model;
 
-check_view hci_check_view_declared(void);
-check_model hci_check_model_of(const check_figures *f, const check_view *view);
+/* Nothing is meant otherwise than it is declared. */
+check_interpretation hci_check_as_declared(void);
 
-check_vector hci_check_emf_expected(double speed, const check_model *m);
+check_model hci_check_model_of(const check_data *data, const check_interpretation *as);
+
+/* The back-EMF at a mechanical speed as d + jq: jω_m k_e e^{jγ}, in V. */
+check_vector hci_check_emf_expected(double speed_rad_per_s, const check_model *m);
 
 /* ---- cogging.csv */
 
-double hci_check_cogging_order(const check_figures *f, const check_view *v, const check_model *m, size_t k);
+/* The electrical order of row k. */
+double hci_check_cogging_order(const check_data *data, const check_interpretation *as, const check_model *m,
+                               size_t k);
+
+/* Whether row k is large enough to say where the table has its orders. */
 bool hci_check_is_significant(const check_table *t, size_t k);
 
 #endif

@@ -1,5 +1,5 @@
-/* Figures of a machine folder. Tables are read cell by cell and not by the loader, which refuses some of what
- * a slip makes of them. */
+/* The numbers of a machine folder as they stand. Tables are read cell by cell and not by the loader, which
+ * refuses some of what a convention error makes of them. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <errno.h>
@@ -12,7 +12,7 @@
 #include "hci/host/machine/init.h"
 #include "hci/machine/frames.h"
 #include "host/base/memory.h"
-#include "host/check/figures.h"
+#include "host/check/data.h"
 #include "host/machine/folder.h"
 #include "host/machine/inductance.h"
 #include "host/machine/spectrum_table.h"
@@ -46,14 +46,14 @@ static check_place place_of(const hci_csv *csv, const char *path, const char *na
 
 /* ---- machine.csv */
 
-static hci_status scalar_read(const hci_csv *csv, size_t row, size_t k, check_figures *f, hci_note *note)
+static hci_status scalar_read(const hci_csv *csv, size_t row, size_t k, check_data *data, hci_note *note)
 {
     const char *unit = "";
     double factor = 1.0;
     hci_status status;
-    if (f->cell[k].path)
+    if (data->cell[k].path)
         return hci_csv_error(csv, "name", row, note, "each name once", "delete one of the two rows");
-    status = hci_csv_number(csv, "value", row, &f->value[k], note);
+    status = hci_csv_number(csv, "value", row, &data->value[k], note);
     if (!status && hci_csv_has(csv, "unit")) status = hci_csv_text(csv, "unit", row, &unit, note);
     if (status) return status;
     if (unit[0] != '\0' && strcmp(unit, "1") != 0 && strcmp(unit, "-") != 0 &&
@@ -62,55 +62,55 @@ static hci_status scalar_read(const hci_csv *csv, size_t row, size_t k, check_fi
         snprintf(expected, sizeof expected, "a unit that converts to %s", VALUES[k].unit);
         return hci_csv_error(csv, "unit", row, note, expected, "check the unit of this value");
     }
-    f->value[k] *= factor;
-    f->cell[k] = place_of(csv, f->machine_path, "value", row);
+    data->value[k] *= factor;
+    data->cell[k] = place_of(csv, data->machine_path, "value", row);
     return HCI_OK;
 }
 
-static hci_status row_read(const hci_csv *csv, size_t row, check_figures *f, hci_note *note)
+static hci_status row_read(const hci_csv *csv, size_t row, check_data *data, hci_note *note)
 {
     const char *name;
     const hci_status status = hci_csv_text(csv, "name", row, &name, note);
     if (status) return status;
-    if (strcmp(name, "connection") == 0) return hci_machine_connection(csv, row, &f->has_neutral, note);
+    if (strcmp(name, "connection") == 0) return hci_machine_connection(csv, row, &data->has_neutral, note);
     for (size_t k = 0; k < CHECK_VALUE_COUNT; ++k)
-        if (strcmp(name, VALUES[k].name) == 0) return scalar_read(csv, row, k, f, note);
+        if (strcmp(name, VALUES[k].name) == 0) return scalar_read(csv, row, k, data, note);
     return HCI_OK;
 }
 
-static hci_status pole_pairs_check(const check_figures *f, hci_note *note)
+static hci_status pole_pairs_check(const check_data *data, hci_note *note)
 {
-    const double p = f->value[CHECK_pole_pairs];
+    const double p = data->value[CHECK_pole_pairs];
     if (p >= 1.0 && p <= 1000.0 && p == floor(p)) return HCI_OK;
     if (isnan(p))
         return hci_note_set(note, HCI_ERROR_INPUT, "%s: no `pole_pairs`; add a row `pole_pairs,N,1,source`",
-                            f->machine_path);
+                            data->machine_path);
     return hci_note_set(note, HCI_ERROR_INPUT,
                         "%s:%zu: `pole_pairs`: found %g, expected a whole number from 1 to 1000; a machine "
                         "with N poles has N/2 pole pairs",
-                        f->machine_path, f->cell[CHECK_pole_pairs].line, p);
+                        data->machine_path, data->cell[CHECK_pole_pairs].line, p);
 }
 
-static hci_status slots_check(const check_figures *f, hci_note *note)
+static hci_status slots_check(const check_data *data, hci_note *note)
 {
-    const double slots = f->value[CHECK_slots];
+    const double slots = data->value[CHECK_slots];
     if (isnan(slots) || (slots >= 3.0 && slots <= HCI_MOST_SLOTS && slots == floor(slots))) return HCI_OK;
     return hci_note_set(note, HCI_ERROR_INPUT,
                         "%s:%zu: `slots`: found %g, expected a whole number from 3 to %d; count the teeth of "
                         "the stator, or delete the row",
-                        f->machine_path, f->cell[CHECK_slots].line, slots, (int)HCI_MOST_SLOTS);
+                        data->machine_path, data->cell[CHECK_slots].line, slots, (int)HCI_MOST_SLOTS);
 }
 
-static hci_status scalars_read(check_figures *f, hci_note *note)
+static hci_status scalars_read(check_data *data, hci_note *note)
 {
     hci_csv *csv;
-    hci_status status = hci_csv_read(f->machine_path, &csv, note);
+    hci_status status = hci_csv_read(data->machine_path, &csv, note);
     if (status) return status;
     for (size_t row = 0; row < hci_csv_rows(csv) && !status; ++row)
-        status = row_read(csv, row, f, note);
+        status = row_read(csv, row, data, note);
     hci_csv_free(csv);
-    if (!status) status = pole_pairs_check(f, note);
-    return status ? status : slots_check(f, note);
+    if (!status) status = pole_pairs_check(data, note);
+    return status ? status : slots_check(data, note);
 }
 
 /* ---- order, amplitude, phase */
@@ -154,36 +154,36 @@ static hci_status table_check(const hci_csv *csv, const char *amplitude, hci_not
     return status;
 }
 
-static hci_status emf_read(check_figures *f, hci_note *note)
+static hci_status emf_read(check_data *data, hci_note *note)
 {
     hci_csv *csv;
-    hci_status status = hci_csv_read(f->emf.path, &csv, note);
+    hci_status status = hci_csv_read(data->emf.path, &csv, note);
     if (status) return status;
-    f->emf_in_volts = !hci_csv_has(csv, "amplitude_Nm_per_A");
-    const char *amplitude = f->emf_in_volts ? "amplitude_V" : "amplitude_Nm_per_A";
+    data->emf_in_volts = !hci_csv_has(csv, "amplitude_Nm_per_A");
+    const char *amplitude = data->emf_in_volts ? "amplitude_V" : "amplitude_Nm_per_A";
     status = table_check(csv, amplitude, note);
-    if (!status) status = columns_read(csv, amplitude, &f->emf, note);
+    if (!status) status = columns_read(csv, amplitude, &data->emf, note);
     hci_csv_free(csv);
     if (status) return status;
-    if (f->emf.count == 0 || !(fabs(f->emf.amplitude[f->emf.largest]) > 0.0))
+    if (data->emf.count == 0 || !(fabs(data->emf.amplitude[data->emf.largest]) > 0.0))
         return hci_note_set(note, HCI_ERROR_INPUT, "%s: no amplitude above 0, expected at least order 1",
-                            f->emf.path);
-    if (f->emf_in_volts && !(f->value[CHECK_emf_frequency_Hz] > 0.0))
+                            data->emf.path);
+    if (data->emf_in_volts && !(data->value[CHECK_emf_frequency_Hz] > 0.0))
         return hci_note_set(
             note, HCI_ERROR_INPUT,
             "%s: the back-EMF is in volts, but machine.csv has no positive `emf_frequency`; add the "
             "electrical frequency in Hz at which it was measured, or give amplitude_Nm_per_A",
-            f->emf.path);
+            data->emf.path);
     return HCI_OK;
 }
 
-static hci_status cogging_read(check_figures *f, hci_note *note)
+static hci_status cogging_read(check_data *data, hci_note *note)
 {
     hci_csv *csv;
-    hci_status status = hci_csv_read(f->cogging.path, &csv, note);
+    hci_status status = hci_csv_read(data->cogging.path, &csv, note);
     if (status) return status;
     status = table_check(csv, "amplitude_Nm", note);
-    if (!status) status = columns_read(csv, "amplitude_Nm", &f->cogging, note);
+    if (!status) status = columns_read(csv, "amplitude_Nm", &data->cogging, note);
     hci_csv_free(csv);
     return status;
 }
@@ -246,10 +246,10 @@ static hci_status slope_cell_read(check_inductance *l, hci_note *note)
     return HCI_OK;
 }
 
-static hci_status inductance_figures(check_figures *f, hci_note *note)
+static hci_status inductance_read(check_data *data, hci_note *note)
 {
-    check_inductance *l = &f->inductance;
-    const int pole_pairs = (int)f->value[CHECK_pole_pairs];
+    check_inductance *l = &data->inductance;
+    const int pole_pairs = (int)data->value[CHECK_pole_pairs];
     hci_inductance_table table;
     const hci_status status = hci_inductance_read(l->path, pole_pairs, &table, note);
     if (status) return status;
@@ -280,19 +280,19 @@ static hci_status folder_check(const char *folder, hci_note *note)
     return HCI_OK;
 }
 
-hci_status hci_check_machine_read(const char *folder, check_figures *f, hci_note *note)
+hci_status hci_check_machine_read(const char *folder, check_data *data, hci_note *note)
 {
     hci_status status = folder_check(folder, note);
     for (size_t k = 0; k < CHECK_VALUE_COUNT; ++k)
-        f->value[k] = NAN;
-    if (!status) status = hci_machine_path(f->machine_path, HCI_CHECK_PATH, folder, "machine.csv", note);
-    if (!status) status = scalars_read(f, note);
-    if (!status) status = hci_machine_path(f->emf.path, HCI_CHECK_PATH, folder, "back_emf.csv", note);
-    if (!status) status = emf_read(f, note);
-    if (!status) status = hci_machine_path(f->cogging.path, HCI_CHECK_PATH, folder, "cogging.csv", note);
-    if (!status && hci_machine_has(f->cogging.path)) status = cogging_read(f, note);
+        data->value[k] = NAN;
+    if (!status) status = hci_machine_path(data->machine_path, HCI_CHECK_PATH, folder, "machine.csv", note);
+    if (!status) status = scalars_read(data, note);
+    if (!status) status = hci_machine_path(data->emf.path, HCI_CHECK_PATH, folder, "back_emf.csv", note);
+    if (!status) status = emf_read(data, note);
+    if (!status) status = hci_machine_path(data->cogging.path, HCI_CHECK_PATH, folder, "cogging.csv", note);
+    if (!status && hci_machine_has(data->cogging.path)) status = cogging_read(data, note);
     if (!status)
-        status = hci_machine_path(f->inductance.path, HCI_CHECK_PATH, folder, "inductance.csv", note);
-    if (!status && hci_machine_has(f->inductance.path)) status = inductance_figures(f, note);
+        status = hci_machine_path(data->inductance.path, HCI_CHECK_PATH, folder, "inductance.csv", note);
+    if (!status && hci_machine_has(data->inductance.path)) status = inductance_read(data, note);
     return status;
 }

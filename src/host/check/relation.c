@@ -1,5 +1,3 @@
-/* What every relation is made of: its value, a least-squares fit over the recordings, and how far a value
- * deviates. */
 #include "host/check/relation.h"
 
 #include <math.h>
@@ -21,8 +19,6 @@ double hci_check_or_zero(double x)
     return isnan(x) ? 0.0 : x;
 }
 
-/* unknown: what may be missing in `bottom`, in the measure of its usual tolerance: such a recording counts
- * less. */
 void hci_check_fit_add(check_fit *x, double top, double bottom, double unknown)
 {
     const double weight = bottom * bottom / (1.0 + unknown * unknown);
@@ -40,6 +36,13 @@ check_value hci_check_fit_value(const check_fit *x)
 {
     if (!(x->square > 0.0)) return x->other > 0.0 ? hci_check_found(0.0) : HCI_CHECK_NONE;
     return (check_value){x->cross / x->square, sqrt(1.0 + x->unknown / (x->square * x->square))};
+}
+
+check_value hci_check_relation_value(const check_data *data, const check_relation *relation,
+                                     const check_interpretation *as)
+{
+    const check_model model = hci_check_model_of(data, as);
+    return relation->evaluate(data, as, &model);
 }
 
 /* Of a ratio: the tolerance is relative, by the logarithm; what is unknown adds to the denominator, and so

@@ -1,4 +1,6 @@
-/* A relation: a number that must have a known value in every correct machine. */
+/* A relation: a number made of others, such as torque over 3/2 k_e i_q, that has a known value in every
+ * correct machine. Here is what relations are made of: the value, a fit over several recordings, and how far
+ * a value is from what it should be. */
 #ifndef HCI_SRC_HOST_CHECK_RELATION_H
 #define HCI_SRC_HOST_CHECK_RELATION_H
 
@@ -13,7 +15,7 @@ typedef enum {
     CHECK_MOST   /* at most the expected, by the logarithm of what is above */
 } check_kind;
 
-/* NAN: the figures do not have it. spread: the tolerance is this many times the least one. */
+/* found: NAN where the data do not have it. spread: the tolerance is this many times that of the relation. */
 typedef struct {
     double found, spread;
 } check_value;
@@ -22,8 +24,8 @@ typedef struct {
     const char *name, *words;
     check_kind kind;
     double expected, tolerance;
-    double cap; /* the most that one relation can say against a reading, in nats */
-    check_value (*of)(const check_figures *f, const check_view *view, const check_model *model);
+    double cap; /* the most that one relation can say against an interpretation, in nats */
+    check_value (*evaluate)(const check_data *data, const check_interpretation *as, const check_model *model);
     const char *needs;
     const char *instead; /* relation that says the same where it can be checked; "": none */
 } check_relation;
@@ -34,12 +36,21 @@ typedef struct {
     size_t count;
 } check_relation_list;
 
-/* Deviation in standard deviations, and what it costs in nats. */
+/* The value of a relation in an interpretation. */
+check_value hci_check_relation_value(const check_data *data, const check_relation *relation,
+                                     const check_interpretation *as);
+
+/* Distance from the expected value in standard deviations, 0 or more. */
 double hci_check_deviation(const check_relation *relation, check_value value);
+
+/* What a value says against an interpretation: −ln of its likelihood, in nats, at most about relation->cap.
+ */
 double hci_check_loss(const check_relation *relation, check_value value);
 
+/* The data do not have it. */
 extern const check_value HCI_CHECK_NONE;
-check_value hci_check_found(double found);
+
+check_value hci_check_found(double found);                 /* with the usual tolerance */
 check_value hci_check_ratio_of(double top, double bottom); /* HCI_CHECK_NONE unless bottom > 0 */
 double hci_check_or_zero(double x);                        /* 0 for NAN */
 

@@ -1,4 +1,3 @@
-/* All relations, in the order in which they are reported. */
 #include "host/check/relations.h"
 
 static const check_relation_list *const LISTS[] = {&HCI_CHECK_TABLE_RELATIONS, &HCI_CHECK_WAVE_RELATIONS,

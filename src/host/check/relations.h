@@ -1,4 +1,7 @@
-/* The relations of `check`. Each is NAN where the figures do not have what it needs, whatever the view. */
+/* The relations that are checked: physics that ties the numbers of the files together, such as v = R i +
+ * dψ/dt or power in = power out. Each file relations_….c has the functions of one kind and, at its end, a row
+ * for each; relations.c joins the rows. A value is NAN where the data do not have what it needs, and whether
+ * it is does not depend on the interpretation. */
 #ifndef HCI_SRC_HOST_CHECK_RELATIONS_H
 #define HCI_SRC_HOST_CHECK_RELATIONS_H
 
@@ -12,31 +15,28 @@
  * sizes decide little. */
 
 /* Tolerances that are also the measure of what is unknown in one recording. */
-enum {
-    EMF_TOLERANCE_PERCENT = 5,
-    EMF_ANGLE_TOLERANCE_PERCENT = 15,
-    RESISTANCE_TOLERANCE_PERCENT = 20,
-    POWER_TOLERANCE_PERCENT = 8,
-    TORQUE_TOLERANCE_PERCENT = 5,
-    COGGING_ANGLE_TOLERANCE_PERCENT = 30
-};
-#define PERCENT(x) ((x) / 100.0)
+#define CHECK_EMF_TOLERANCE           0.05
+#define CHECK_EMF_ANGLE_TOLERANCE     0.15
+#define CHECK_RESISTANCE_TOLERANCE    0.20
+#define CHECK_POWER_TOLERANCE         0.08
+#define CHECK_TORQUE_TOLERANCE        0.05
+#define CHECK_COGGING_ANGLE_TOLERANCE 0.30
 
 /* Resistance (warm copper) and inductance (saturation) are known to a fifth. */
-#define DROP_UNKNOWN 0.2
+#define CHECK_DROP_UNKNOWN 0.2
 
 /* What a drive logs as v_d, v_q is what it has asked for: dead times and drops of its switches are not in it.
  */
-#define COMMAND_UNKNOWN 0.05
+#define CHECK_COMMAND_UNKNOWN 0.05
 
 /* A machine without inductances is declared to have L_d = L_q; so much of k_e may p (L_d − L_q) i_d be after
  * all. */
-#define SALIENCY_UNKNOWN 0.15
+#define CHECK_SALIENCY_UNKNOWN 0.15
 
 extern const check_relation_list HCI_CHECK_TABLE_RELATIONS, HCI_CHECK_WAVE_RELATIONS,
     HCI_CHECK_TORQUE_RELATIONS, HCI_CHECK_PHASE_RELATIONS;
 
-/* All of them; k from 0. */
+/* All of them, in the order in which they are reported; k from 0. At most HCI_CHECK_MOST_EVIDENCE. */
 size_t hci_check_relation_count(void);
 const check_relation *hci_check_relation(size_t k);
 

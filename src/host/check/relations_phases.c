@@ -3,30 +3,33 @@
 
 #include "host/check/relations.h"
 
-static check_value current_sum(const check_figures *f, const check_view *v, const check_model *m)
+static check_value current_sum(const check_data *data, const check_interpretation *as, const check_model *m)
 {
     double worst = NAN;
-    (void)v, (void)m;
-    for (size_t k = 0; k < f->runs && !f->has_neutral; ++k)
-        if (hci_check_has_vector_current(f, &f->run[k])) worst = fmax(worst, f->run[k].current_sum);
+    (void)as, (void)m;
+    for (size_t k = 0; k < data->runs && !data->has_neutral; ++k)
+        if (hci_check_has_vector_current(data, &data->run[k])) worst = fmax(worst, data->run[k].current_sum);
     return hci_check_found(worst);
 }
 
-static check_value current_balance(const check_figures *f, const check_view *v, const check_model *m)
+static check_value current_balance(const check_data *data, const check_interpretation *as,
+                                   const check_model *m)
 {
     double worst = NAN;
-    (void)v, (void)m;
-    for (size_t k = 0; k < f->runs; ++k)
-        if (hci_check_has_vector_current(f, &f->run[k])) worst = fmax(worst, f->run[k].current_balance);
+    (void)as, (void)m;
+    for (size_t k = 0; k < data->runs; ++k)
+        if (hci_check_has_vector_current(data, &data->run[k]))
+            worst = fmax(worst, data->run[k].current_balance);
     return hci_check_found(worst);
 }
 
-static check_value voltage_balance(const check_figures *f, const check_view *v, const check_model *m)
+static check_value voltage_balance(const check_data *data, const check_interpretation *as,
+                                   const check_model *m)
 {
     double worst = NAN;
-    (void)v, (void)m;
-    for (size_t k = 0; k < f->runs; ++k)
-        worst = fmax(worst, f->run[k].voltage_balance);
+    (void)as, (void)m;
+    for (size_t k = 0; k < data->runs; ++k)
+        worst = fmax(worst, data->run[k].voltage_balance);
     return hci_check_found(worst);
 }
 

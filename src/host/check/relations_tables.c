@@ -8,39 +8,41 @@
 
 /* ---- tables */
 
-static check_value emf_order(const check_figures *f, const check_view *v, const check_model *m)
+static check_value emf_order(const check_data *data, const check_interpretation *as, const check_model *m)
 {
-    const double order = f->emf.order[f->emf.largest];
-    return hci_check_found(v->emf_mechanical > 0.0 ? order / m->pole_pairs : order);
+    const double order = data->emf.order[data->emf.largest];
+    return hci_check_found(as->emf_mechanical > 0.0 ? order / m->pole_pairs : order);
 }
 
-static check_value emf_phase(const check_figures *f, const check_view *v, const check_model *m)
+static check_value emf_phase(const check_data *data, const check_interpretation *as, const check_model *m)
 {
-    (void)f, (void)v;
+    (void)data, (void)as;
     return hci_check_found(m->emf_phase_rad);
 }
 
-static check_value emf_phase_range(const check_figures *f, const check_view *v, const check_model *m)
+static check_value emf_phase_range(const check_data *data, const check_interpretation *as,
+                                   const check_model *m)
 {
     (void)m;
-    return hci_check_found(f->emf.most_phase_rad * v->phase_unit * v->emf_phase_unit);
+    return hci_check_found(data->emf.most_phase_rad * as->phase_unit * as->emf_phase_unit);
 }
 
-static check_value cogging_phase_range(const check_figures *f, const check_view *v, const check_model *m)
+static check_value cogging_phase_range(const check_data *data, const check_interpretation *as,
+                                       const check_model *m)
 {
     (void)m;
-    return f->cogging.count > 0
-               ? hci_check_found(f->cogging.most_phase_rad * v->phase_unit * v->cogging_phase_unit)
+    return data->cogging.count > 0
+               ? hci_check_found(data->cogging.most_phase_rad * as->phase_unit * as->cogging_phase_unit)
                : HCI_CHECK_NONE;
 }
 
 /* lcm(slots, 2p)/p is a multiple of 6 for every balanced three-phase winding. */
-static check_value cogging_sixes(const check_figures *f, const check_view *v, const check_model *m)
+static check_value cogging_sixes(const check_data *data, const check_interpretation *as, const check_model *m)
 {
     double sixes = 0.0, all = 0.0;
-    for (size_t k = 0; k < f->cogging.count; ++k) {
-        const double order = hci_check_cogging_order(f, v, m, k),
-                     square = f->cogging.amplitude[k] * f->cogging.amplitude[k];
+    for (size_t k = 0; k < data->cogging.count; ++k) {
+        const double order = hci_check_cogging_order(data, as, m, k),
+                     square = data->cogging.amplitude[k] * data->cogging.amplitude[k];
         if (fabs(remainder(order, 6.0)) < 1e-3) sixes += square;
         all += square;
     }
@@ -56,34 +58,35 @@ static double slots_per_pole(double order, int pole_pairs)
     return 100.0;
 }
 
-static check_value cogging_slots(const check_figures *f, const check_view *v, const check_model *m)
+static check_value cogging_slots(const check_data *data, const check_interpretation *as, const check_model *m)
 {
     double least = HUGE_VAL;
-    if (f->value[CHECK_slots] >= 3.0) return HCI_CHECK_NONE;
-    for (size_t k = 0; k < f->cogging.count; ++k)
-        if (hci_check_is_significant(&f->cogging, k))
-            least = fmin(least, slots_per_pole(hci_check_cogging_order(f, v, m, k), (int)m->pole_pairs));
+    if (data->value[CHECK_slots] >= 3.0) return HCI_CHECK_NONE;
+    for (size_t k = 0; k < data->cogging.count; ++k)
+        if (hci_check_is_significant(&data->cogging, k))
+            least = fmin(least, slots_per_pole(hci_check_cogging_order(data, as, m, k), (int)m->pole_pairs));
     return least < HUGE_VAL ? hci_check_found(least) : HCI_CHECK_NONE;
 }
 
 /* Uneven magnets and teeth add orders to it, but do not take it away. */
-static check_value cogging_first(const check_figures *f, const check_view *v, const check_model *m)
+static check_value cogging_first(const check_data *data, const check_interpretation *as, const check_model *m)
 {
     double nearest = NAN;
-    if (!(f->value[CHECK_slots] >= 3.0)) return HCI_CHECK_NONE;
-    const double first = hci_cogging_order((int)f->value[CHECK_slots], (int)m->pole_pairs);
-    for (size_t k = 0; k < f->cogging.count; ++k) {
-        const double x = hci_check_cogging_order(f, v, m, k) / first;
-        if (hci_check_is_significant(&f->cogging, k) && !(fabs(log(x)) > fabs(log(nearest)))) nearest = x;
+    if (!(data->value[CHECK_slots] >= 3.0)) return HCI_CHECK_NONE;
+    const double first = hci_cogging_order((int)data->value[CHECK_slots], (int)m->pole_pairs);
+    for (size_t k = 0; k < data->cogging.count; ++k) {
+        const double x = hci_check_cogging_order(data, as, m, k) / first;
+        if (hci_check_is_significant(&data->cogging, k) && !(fabs(log(x)) > fabs(log(nearest)))) nearest = x;
     }
     return hci_check_found(nearest);
 }
 
-static check_value inductance_difference(const check_figures *f, const check_view *v, const check_model *m)
+static check_value inductance_difference(const check_data *data, const check_interpretation *as,
+                                         const check_model *m)
 {
-    const double d = f->value[CHECK_inductance_d_H], q = f->value[CHECK_inductance_q_H];
-    (void)v;
-    if (!f->inductance.given || !(fabs(d - q) > 0.1 * d)) return HCI_CHECK_NONE;
+    const double d = data->value[CHECK_inductance_d_H], q = data->value[CHECK_inductance_q_H];
+    (void)as;
+    if (!data->inductance.given || !(fabs(d - q) > 0.1 * d)) return HCI_CHECK_NONE;
     return hci_check_found(m->reluctance_Nm_per_A2 / (1.5 * m->pole_pairs * (d - q)));
 }
 
@@ -101,11 +104,12 @@ static double most_torque_Nm(const check_model *m, double mutual_Nm)
     return most;
 }
 
-static check_value rated_torque(const check_figures *f, const check_view *v, const check_model *m)
+static check_value rated_torque(const check_data *data, const check_interpretation *as, const check_model *m)
 {
-    const double rated_Nm = f->value[CHECK_rated_torque_Nm], mutual_Nm = 1.5 * m->emf * m->rated_current_A;
+    const double rated_Nm = data->value[CHECK_rated_torque_Nm],
+                 mutual_Nm = 1.5 * m->emf_Nm_per_A * m->rated_current_A;
     const double most_Nm = most_torque_Nm(m, mutual_Nm);
-    (void)v;
+    (void)as;
     if (!(rated_Nm > 0.0) || !(mutual_Nm > 0.0)) return HCI_CHECK_NONE;
     return hci_check_found(rated_Nm < mutual_Nm ? rated_Nm / mutual_Nm
                            : rated_Nm > most_Nm ? rated_Nm / most_Nm
@@ -113,27 +117,29 @@ static check_value rated_torque(const check_figures *f, const check_view *v, con
 }
 
 /* At rated speed the back-EMF alone, line to line, is below the dc link. */
-static check_value rated_voltage(const check_figures *f, const check_view *v, const check_model *m)
+static check_value rated_voltage(const check_data *data, const check_interpretation *as, const check_model *m)
 {
-    const double speed = f->value[CHECK_rated_speed_rad_per_s];
-    (void)v;
-    return speed > 0.0 ? hci_check_ratio_of(SQRT3 * m->emf * speed, f->value[CHECK_dc_link_voltage_V])
-                       : HCI_CHECK_NONE;
+    const double speed = data->value[CHECK_rated_speed_rad_per_s];
+    (void)as;
+    return speed > 0.0
+               ? hci_check_ratio_of(SQRT3 * m->emf_Nm_per_A * speed, data->value[CHECK_dc_link_voltage_V])
+               : HCI_CHECK_NONE;
 }
 
 /* From a watch motor to a wind generator: ψ = k_e/p within a factor of 300 around 30 mWb. */
-static check_value flux_size(const check_figures *f, const check_view *v, const check_model *m)
+static check_value flux_size(const check_data *data, const check_interpretation *as, const check_model *m)
 {
-    (void)f, (void)v;
-    return hci_check_found(exp(fabs(log(m->emf / m->pole_pairs / 0.03))));
+    (void)data, (void)as;
+    return hci_check_found(exp(fabs(log(m->emf_Nm_per_A / m->pole_pairs / 0.03))));
 }
 
 /* The current that would cancel the magnets, ψ/L_d, over the rated one: within a factor of 30 around 5. */
-static check_value flux_per_current(const check_figures *f, const check_view *v, const check_model *m)
+static check_value flux_per_current(const check_data *data, const check_interpretation *as,
+                                    const check_model *m)
 {
     const double l = m->inductance_d_H, i = m->rated_current_A;
-    (void)f, (void)v;
-    return l > 0.0 && i > 0.0 ? hci_check_found(exp(fabs(log(m->emf / m->pole_pairs / l / i / 5.0))))
+    (void)data, (void)as;
+    return l > 0.0 && i > 0.0 ? hci_check_found(exp(fabs(log(m->emf_Nm_per_A / m->pole_pairs / l / i / 5.0))))
                               : HCI_CHECK_NONE;
 }
 

@@ -8,64 +8,67 @@
 /* ---- order and sequence */
 
 /* Of the recording that has most of it. */
-static check_value order_against_angle(const check_figures *f, const check_view *v, const check_model *m,
-                                       bool of_current)
+static check_value order_against_angle(const check_data *data, const check_interpretation *as,
+                                       const check_model *m, bool of_current)
 {
     const check_run *best = NULL;
     double most = 0.0;
-    for (size_t k = 0; k < f->runs; ++k) {
-        const check_run *r = &f->run[k];
+    for (size_t k = 0; k < data->runs; ++k) {
+        const check_run *r = &data->run[k];
         const double square = of_current ? r->current_square : r->voltage_square;
-        if (!hci_check_turns(of_current ? r->current_order : r->voltage_order) || !(square > most)) continue;
-        if (of_current && !hci_check_has_current(f, r)) continue;
+        if (!isfinite(of_current ? r->current_order : r->voltage_order) || !(square > most)) continue;
+        if (of_current && !hci_check_has_current(data, r)) continue;
         most = square;
         best = r;
     }
     if (!best) return HCI_CHECK_NONE;
     const double order =
-        (of_current ? best->current_order : best->voltage_order) / hci_check_scale_of(best, v, m);
-    return hci_check_found(v->swapped > 0.0 ? -order : order);
+        (of_current ? best->current_order : best->voltage_order) / hci_check_scale_of(best, as, m);
+    return hci_check_found(as->swapped > 0.0 ? -order : order);
 }
 
-static check_value current_order(const check_figures *f, const check_view *v, const check_model *m)
+static check_value current_order(const check_data *data, const check_interpretation *as, const check_model *m)
 {
-    return order_against_angle(f, v, m, true);
+    return order_against_angle(data, as, m, true);
 }
 
-static check_value voltage_order(const check_figures *f, const check_view *v, const check_model *m)
+static check_value voltage_order(const check_data *data, const check_interpretation *as, const check_model *m)
 {
-    return order_against_angle(f, v, m, false);
+    return order_against_angle(data, as, m, false);
 }
 
 /* ---- speed */
 
-static check_value angle_speed(const check_figures *f, const check_view *v, const check_model *m)
+static check_value angle_speed(const check_data *data, const check_interpretation *as, const check_model *m)
 {
     check_fit x = {0};
-    for (size_t k = 0; k < f->runs; ++k) {
-        const check_run *r = &f->run[k];
-        if (r->has_speed && isfinite(r->slope) && fabs(r->speed) > 0.0)
-            hci_check_fit_add(&x, hci_check_angle_speed_of(r, v, m), hci_check_column_speed_of(r, v, m), 0.0);
+    for (size_t k = 0; k < data->runs; ++k) {
+        const check_run *r = &data->run[k];
+        if (r->has_speed && isfinite(r->angle_rate) && fabs(r->speed) > 0.0)
+            hci_check_fit_add(&x, hci_check_angle_speed_of(r, as, m), hci_check_column_speed_of(r, as, m),
+                              0.0);
     }
     return hci_check_fit_value(&x);
 }
 
-static check_value angle_ratio(const check_figures *f, const check_view *v, const check_model *m)
+static check_value angle_ratio(const check_data *data, const check_interpretation *as, const check_model *m)
 {
-    (void)v;
-    for (size_t k = 0; k < f->runs; ++k)
-        if (isfinite(f->run[k].angle_ratio)) return hci_check_found(f->run[k].angle_ratio / m->pole_pairs);
+    (void)as;
+    for (size_t k = 0; k < data->runs; ++k)
+        if (isfinite(data->run[k].angle_ratio))
+            return hci_check_found(data->run[k].angle_ratio / m->pole_pairs);
     return HCI_CHECK_NONE;
 }
 
-static check_value frequency_speed(const check_figures *f, const check_view *v, const check_model *m)
+static check_value frequency_speed(const check_data *data, const check_interpretation *as,
+                                   const check_model *m)
 {
     check_fit x = {0};
-    for (size_t k = 0; k < f->runs; ++k) {
-        const check_run *r = &f->run[k];
+    for (size_t k = 0; k < data->runs; ++k) {
+        const check_run *r = &data->run[k];
         if (r->theta || !r->has_speed || !isfinite(r->frequency)) continue;
-        hci_check_fit_add(&x, fabs(r->frequency / v->time),
-                          fabs(m->pole_pairs * hci_check_column_speed_of(r, v, m)), 0.0);
+        hci_check_fit_add(&x, fabs(r->frequency / as->time),
+                          fabs(m->pole_pairs * hci_check_column_speed_of(r, as, m)), 0.0);
     }
     return hci_check_fit_value(&x);
 }
@@ -73,40 +76,43 @@ static check_value frequency_speed(const check_figures *f, const check_view *v, 
 /* ---- back-EMF */
 
 /* jω(L_d i_d + jL_q i_q); without inductances 0. */
-static check_vector reactive_drop(const check_loop *x, const check_model *m)
+static check_vector reactive_drop(const check_voltage_terms *x, const check_model *m)
 {
-    const check_vector flux = {hci_check_or_zero(m->inductance_d_H) * x->turning.re,
-                               hci_check_or_zero(m->inductance_q_H) * x->turning.im};
+    const check_vector flux = {hci_check_or_zero(m->inductance_d_H) * x->speed_current.re,
+                               hci_check_or_zero(m->inductance_q_H) * x->speed_current.im};
     return hci_check_turned(hci_check_scaled(flux, m->pole_pairs), 0.5 * HCI_PI);
 }
 
-static check_vector drop_of(const check_figures *f, const check_run *r, const check_loop *x,
+static check_vector drop_of(const check_data *data, const check_run *r, const check_voltage_terms *x,
                             const check_model *m)
 {
     const check_vector none = {0.0, 0.0};
-    if (!hci_check_has_drop(f, r)) return none;
+    if (!hci_check_has_drop(data, r)) return none;
     return hci_check_sum(hci_check_scaled(x->current, m->resistance_ohm), reactive_drop(x, m));
 }
 
-static double voltage_unknown(const check_run *r, const check_loop *x)
+static double voltage_unknown(const check_run *r, const check_voltage_terms *x)
 {
-    return r->has_dq_voltage ? COMMAND_UNKNOWN * hci_check_length(x->voltage) : 0.0;
+    return r->has_dq_voltage ? CHECK_COMMAND_UNKNOWN * hci_check_length(x->voltage) : 0.0;
 }
 
 /* Σ E Ê* / Σ |Ê|² over the recordings, with E = v − R i − jω(L_d i_d + jL_q i_q). */
-static check_value emf_fit(const check_figures *f, const check_view *v, const check_model *m, bool of_angle)
+static check_value emf_fit(const check_data *data, const check_interpretation *as, const check_model *m,
+                           bool of_angle)
 {
-    const double tolerance = of_angle ? PERCENT(EMF_ANGLE_TOLERANCE_PERCENT) : PERCENT(EMF_TOLERANCE_PERCENT);
+    const double tolerance = of_angle ? CHECK_EMF_ANGLE_TOLERANCE : CHECK_EMF_TOLERANCE;
     check_fit re = {0}, im = {0};
-    for (size_t k = 0; k < f->runs; ++k) {
-        const check_run *r = &f->run[k];
-        if (!hci_check_has_emf(f, r, m)) continue;
-        const check_loop loop = hci_check_loop_of(r, v, m);
-        const check_vector expected = hci_check_emf_expected(loop.speed, m), drop = drop_of(f, r, &loop, m);
-        const check_vector found = hci_check_sum(loop.voltage, hci_check_scaled(drop, -1.0));
+    for (size_t k = 0; k < data->runs; ++k) {
+        const check_run *r = &data->run[k];
+        if (!hci_check_has_emf(data, r, m)) continue;
+        const check_voltage_terms terms = hci_check_voltage_terms_of(r, as, m);
+        const check_vector expected = hci_check_emf_expected(terms.speed, m),
+                           drop = drop_of(data, r, &terms, m);
+        const check_vector found = hci_check_sum(terms.voltage, hci_check_scaled(drop, -1.0));
         const double length = hci_check_length(expected),
-                     unknown = hypot(DROP_UNKNOWN * hci_check_length(drop), voltage_unknown(r, &loop)) /
-                               length / tolerance;
+                     unknown =
+                         hypot(CHECK_DROP_UNKNOWN * hci_check_length(drop), voltage_unknown(r, &terms)) /
+                         length / tolerance;
         const check_vector cross = hci_check_product(found, hci_check_conjugate(expected));
         hci_check_fit_add(&re, cross.re / length, length, unknown);
         hci_check_fit_add(&im, cross.im / length, length, unknown);
@@ -117,53 +123,55 @@ static check_value emf_fit(const check_figures *f, const check_view *v, const ch
     return x;
 }
 
-static check_value emf_size(const check_figures *f, const check_view *v, const check_model *m)
+static check_value emf_size(const check_data *data, const check_interpretation *as, const check_model *m)
 {
-    return emf_fit(f, v, m, false);
+    return emf_fit(data, as, m, false);
 }
 
-static check_value emf_angle(const check_figures *f, const check_view *v, const check_model *m)
+static check_value emf_angle(const check_data *data, const check_interpretation *as, const check_model *m)
 {
-    return emf_fit(f, v, m, true);
+    return emf_fit(data, as, m, true);
 }
 
-/* The part of v − Ê − jω(L_d i_d + jL_q i_q) along the current, over R i. Inductances that are not known have
- * a drop that is mostly across the current. */
-static check_value resistance_size(const check_figures *f, const check_view *v, const check_model *m)
+/* The part of v − Ê − jω(L_d i_d + jL_q i_q) along the current, over R i. Inductances that are not known
+ * have a drop that is mostly across the current. */
+static check_value resistance_size(const check_data *data, const check_interpretation *as,
+                                   const check_model *m)
 {
     check_fit x = {0};
-    for (size_t k = 0; k < f->runs; ++k) {
-        const check_run *r = &f->run[k];
-        if (!hci_check_has_turning_voltage(r) || !hci_check_has_vector_current(f, r) ||
+    for (size_t k = 0; k < data->runs; ++k) {
+        const check_run *r = &data->run[k];
+        if (!hci_check_has_turning_voltage(r) || !hci_check_has_vector_current(data, r) ||
             isnan(m->resistance_ohm))
             continue;
-        const check_loop loop = hci_check_loop_of(r, v, m);
-        const check_vector i = loop.current, e = hci_check_emf_expected(loop.speed, m),
-                           l = reactive_drop(&loop, m);
-        const check_vector rest = hci_check_sum(loop.voltage, hci_check_scaled(hci_check_sum(e, l), -1.0));
+        const check_voltage_terms terms = hci_check_voltage_terms_of(r, as, m);
+        const check_vector i = terms.current, e = hci_check_emf_expected(terms.speed, m),
+                           l = reactive_drop(&terms, m);
+        const check_vector rest = hci_check_sum(terms.voltage, hci_check_scaled(hci_check_sum(e, l), -1.0));
         const double length = hci_check_length(i), drop = m->resistance_ohm * length;
-        const double inductance = isnan(m->inductance_q_H) ? SALIENCY_UNKNOWN * hci_check_length(e)
-                                                           : DROP_UNKNOWN * hci_check_length(l);
-        const double unknown = hypot(PERCENT(EMF_TOLERANCE_PERCENT) * hci_check_length(e) + inductance,
-                                     voltage_unknown(r, &loop));
+        const double inductance = isnan(m->inductance_q_H) ? CHECK_SALIENCY_UNKNOWN * hci_check_length(e)
+                                                           : CHECK_DROP_UNKNOWN * hci_check_length(l);
+        const double unknown =
+            hypot(CHECK_EMF_TOLERANCE * hci_check_length(e) + inductance, voltage_unknown(r, &terms));
         hci_check_fit_add(&x, hci_check_product(rest, hci_check_conjugate(i)).re / length, drop,
-                          unknown / drop / PERCENT(RESISTANCE_TOLERANCE_PERCENT));
+                          unknown / drop / CHECK_RESISTANCE_TOLERANCE);
     }
     return hci_check_fit_value(&x);
 }
 
 /* Without an angle: |v|/ω_e = k_e/p. */
-static check_value emf_per_frequency(const check_figures *f, const check_view *v, const check_model *m)
+static check_value emf_per_frequency(const check_data *data, const check_interpretation *as,
+                                     const check_model *m)
 {
     check_fit x = {0};
-    for (size_t k = 0; k < f->runs; ++k) {
-        const check_run *r = &f->run[k];
-        if (r->theta || !isfinite(r->frequency) || hci_check_has_current(f, r) ||
+    for (size_t k = 0; k < data->runs; ++k) {
+        const check_run *r = &data->run[k];
+        if (r->theta || !isfinite(r->frequency) || hci_check_has_current(data, r) ||
             hci_check_is_unbalanced(r->voltage_balance))
             continue;
-        const double line = v->voltage_is_line > 0.0 ? SQRT3 : 1.0;
+        const double line = as->voltage_is_line > 0.0 ? SQRT3 : 1.0;
         hci_check_fit_add(&x, sqrt(r->voltage_square) / line,
-                          fabs(r->frequency / v->time) * m->emf / m->pole_pairs, 0.0);
+                          fabs(r->frequency / as->time) * m->emf_Nm_per_A / m->pole_pairs, 0.0);
     }
     return hci_check_fit_value(&x);
 }
@@ -181,18 +189,18 @@ static const check_relation LIST[] = {
      angle_speed, "a recording of time, angle and speed", ""},
     {"frequency_speed", "frequency of the voltages over pole pairs x speed", CHECK_RATIO, 1.0, 0.03, 9.0,
      frequency_speed, "a recording of time, voltages and speed (where there is no angle)", "angle_speed"},
-    {"emf_size", "back-EMF in the recordings over that of the table", CHECK_RATIO, 1.0,
-     PERCENT(EMF_TOLERANCE_PERCENT), 9.0, emf_size,
+    {"emf_size", "back-EMF in the recordings over that of the table", CHECK_RATIO, 1.0, CHECK_EMF_TOLERANCE,
+     9.0, emf_size,
      "a recording of voltages, angle and speed without current, or with it and resistance and "
      "inductances",
      ""},
     {"emf_angle", "phase of the back-EMF in the recordings against the table, rad", CHECK_ANGLE, 0.0,
-     PERCENT(EMF_ANGLE_TOLERANCE_PERCENT), 9.0, emf_angle,
+     CHECK_EMF_ANGLE_TOLERANCE, 9.0, emf_angle,
      "a recording of voltages, angle and speed without current, or with it and resistance and "
      "inductances",
      ""},
     {"resistance_size", "voltage along the current, less the back-EMF, over R i", CHECK_HIGH, 1.0,
-     PERCENT(RESISTANCE_TOLERANCE_PERCENT), 7.0, resistance_size,
+     CHECK_RESISTANCE_TOLERANCE, 7.0, resistance_size,
      "resistance, inductances, and a recording of voltages, currents and angle at low speed", ""},
     {"emf_per_frequency", "voltage over its frequency against k_e/p", CHECK_RATIO, 1.0, 0.06, 9.0,
      emf_per_frequency, "a recording of time and voltages without current (where there is no angle)",

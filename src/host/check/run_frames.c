@@ -1,4 +1,3 @@
-/* Means in the frames that turn with the recorded angle. */
 #include <math.h>
 
 #include "host/check/run_samples.h"
@@ -12,9 +11,9 @@ static void frame_take(const check_samples *s, check_frame *f)
     const double share = 1.0 / (double)s->count;
     for (size_t k = 0; k < s->count; ++k) {
         const double angle = f->scale * s->theta[k];
-        for (int way = FORWARD; way <= BACKWARD; ++way) {
+        for (int way = CHECK_FORWARD; way <= CHECK_BACKWARD; ++way) {
             const check_vector back =
-                hci_check_turned((check_vector){share, 0.0}, way == FORWARD ? -angle : angle);
+                hci_check_turned((check_vector){share, 0.0}, way == CHECK_FORWARD ? -angle : angle);
             if (s->current)
                 f->current[way] = hci_check_sum(f->current[way], hci_check_product(s->current[k], back));
             if (s->voltage)
@@ -27,27 +26,27 @@ static void frame_take(const check_samples *s, check_frame *f)
  * those at which it would have turned at all. */
 static double order_of(const check_run *run, size_t scales, bool of_current, double square)
 {
-    double best = COHERENT * square, order = NAN;
+    double best = CHECK_COHERENT * square, order = NAN;
     for (size_t k = 0; k < scales; ++k)
-        for (int way = FORWARD; way <= BACKWARD; ++way) {
+        for (int way = CHECK_FORWARD; way <= CHECK_BACKWARD; ++way) {
             const check_frame *f = &run->frame[k];
             if (f->scale * run->angle_range < LEAST_TURN) continue;
             const double length = hci_check_length(of_current ? f->current[way] : f->voltage[way]);
             if (!(length * length > best)) continue;
             best = length * length;
-            order = way == FORWARD ? f->scale : -f->scale;
+            order = way == CHECK_FORWARD ? f->scale : -f->scale;
         }
     return order;
 }
 
-void hci_check_run_frames(const check_figures *f, const check_samples *s, check_run *run)
+void hci_check_run_frames(const check_data *data, const check_samples *s, check_run *run)
 {
-    for (size_t k = 0; k < f->scales; ++k) {
-        run->frame[k].scale = f->scale[k];
+    for (size_t k = 0; k < data->scales; ++k) {
+        run->frame[k].scale = data->scale[k];
         frame_take(s, &run->frame[k]);
     }
-    run->current_order = s->current ? order_of(run, f->scales, true, run->current_square) : (double)NAN;
-    run->voltage_order = s->voltage ? order_of(run, f->scales, false, run->voltage_square) : (double)NAN;
+    run->current_order = s->current ? order_of(run, data->scales, true, run->current_square) : (double)NAN;
+    run->voltage_order = s->voltage ? order_of(run, data->scales, false, run->voltage_square) : (double)NAN;
 }
 
 const check_frame *hci_check_frame_of(const check_run *run, double scale)
@@ -62,7 +61,7 @@ static check_vector torque_order(const check_run *run, double order)
     check_vector sum = {0.0, 0.0};
     const double share = 2.0 / (double)run->count;
     for (size_t k = 0; k < run->count; ++k) {
-        const double x = share * (run->ripple[k] - run->ripple_mean);
+        const double x = share * (run->torque[k] - run->torque_mean);
         sum.re += x * sin(order * run->theta[k]);
         sum.im += x * cos(order * run->theta[k]);
     }
@@ -71,10 +70,10 @@ static check_vector torque_order(const check_run *run, double order)
 
 check_vector hci_check_torque_order(check_run *run, double order)
 {
-    const size_t kept = run->known_count < CHECK_KNOWN_ORDERS ? run->known_count : CHECK_KNOWN_ORDERS;
+    const size_t kept = run->cached_count < CHECK_CACHED_ORDERS ? run->cached_count : CHECK_CACHED_ORDERS;
     for (size_t k = 0; k < kept; ++k)
-        if (fabs(run->known[k].order - order) <= 1e-12 * fabs(order)) return run->known[k].wave;
-    check_known_order *next = &run->known[run->known_count++ % CHECK_KNOWN_ORDERS];
-    *next = (check_known_order){order, torque_order(run, order)};
+        if (fabs(run->cached[k].order - order) <= 1e-12 * fabs(order)) return run->cached[k].wave;
+    check_cached_order *next = &run->cached[run->cached_count++ % CHECK_CACHED_ORDERS];
+    *next = (check_cached_order){order, torque_order(run, order)};
     return next->wave;
 }

@@ -1,4 +1,3 @@
-/* Means of a recording. */
 #include <math.h>
 
 #include "host/check/run_samples.h"
@@ -31,7 +30,7 @@ static double range_of(const double *x, size_t n)
 
 /* How far an angle goes over time, in the units of the columns. Steps of more than half the range are where
  * the angle was wrapped, whatever a turn is in its unit; they are left out. */
-static double slope_of(const double *angle, const double *time, size_t n)
+static double angle_rate_of(const double *angle, const double *time, size_t n)
 {
     double path = 0.0, along = 0.0;
     if (!angle || !time || n < 3) return NAN;
@@ -104,14 +103,14 @@ static double sum_of_phases(double *const column[3], size_t n)
 }
 
 /* 0 throughout: the shaft was held, and the torque is not a reading. */
-static void ripple_take(const check_samples *s, check_run *run)
+static void torque_take(const check_samples *s, check_run *run)
 {
     run->has_torque = square_about(s->torque, s->count, 0.0) > 0.0;
     run->is_held = !run->has_torque && s->q != NULL;
     for (size_t k = 0; run->is_held && k < s->count; ++k)
         s->torque[k] = -s->q[k];
-    run->ripple_mean = mean_of(s->torque, s->count);
-    run->ripple_square = square_about(s->torque, s->count, run->ripple_mean);
+    run->torque_mean = mean_of(s->torque, s->count);
+    run->torque_variance = square_about(s->torque, s->count, run->torque_mean);
 }
 
 static check_vector pair_at(const double *d, const double *q, size_t k)
@@ -120,35 +119,35 @@ static check_vector pair_at(const double *d, const double *q, size_t k)
 }
 
 /* A voltage that does not follow the speed, as by a speed without sign, says nothing of it. */
-static void loop_take(const check_samples *s, check_run *run)
+static void voltage_terms_take(const check_samples *s, check_run *run)
 {
     double weights = 0.0, weight_square = 0.0, square = 0.0;
-    check_loop sum = {0};
+    check_voltage_terms sum = {0};
     for (size_t k = 0; k < s->count; ++k) {
         const double speed = s->speed ? s->speed[k] : 1.0;
         const check_vector v = pair_at(s->vd, s->vq, k), i = pair_at(s->d, s->q, k);
         sum.voltage = hci_check_sum(sum.voltage, hci_check_scaled(v, speed));
         sum.current = hci_check_sum(sum.current, hci_check_scaled(i, speed));
-        sum.turning = hci_check_sum(sum.turning, hci_check_scaled(i, speed * speed));
+        sum.speed_current = hci_check_sum(sum.speed_current, hci_check_scaled(i, speed * speed));
         weights += fabs(speed);
         weight_square += speed * speed;
         square += v.re * v.re + v.im * v.im;
         run->power = hci_check_sum(run->power, hci_check_product(v, hci_check_conjugate(i)));
     }
     const double length = hci_check_length(sum.voltage), share = weights > 0.0 ? 1.0 / weights : 0.0;
-    run->dq_voltage_is_coherent = length * length > COHERENT * weight_square * square;
+    run->dq_voltage_is_coherent = length * length > CHECK_COHERENT * weight_square * square;
     run->voltage_square = square / (double)s->count;
     run->power = hci_check_scaled(run->power, 1.0 / (double)s->count);
-    run->loop.voltage = hci_check_scaled(sum.voltage, share);
-    run->loop.current = hci_check_scaled(sum.current, share);
-    run->loop.turning = hci_check_scaled(sum.turning, share);
-    run->loop.speed = weight_square * share;
+    run->terms.voltage = hci_check_scaled(sum.voltage, share);
+    run->terms.current = hci_check_scaled(sum.current, share);
+    run->terms.speed_current = hci_check_scaled(sum.speed_current, share);
+    run->terms.speed = weight_square * share;
 }
 
 static double torque_at_speed(const check_samples *s, const check_run *run)
 {
     double sum = 0.0;
-    if (!s->speed || !(fabs(run->speed) > 0.0)) return run->ripple_mean;
+    if (!s->speed || !(fabs(run->speed) > 0.0)) return run->torque_mean;
     for (size_t k = 0; k < s->count; ++k)
         sum += s->torque[k] * s->speed[k];
     return sum / (double)s->count / run->speed;
@@ -156,29 +155,30 @@ static double torque_at_speed(const check_samples *s, const check_run *run)
 
 static bool lacks_d_current(const check_samples *s, const check_run *run)
 {
-    return !s->d || square_about(s->d, s->count, 0.0) <= NO_CURRENT * NO_CURRENT * run->current_square;
+    return !s->d ||
+           square_about(s->d, s->count, 0.0) <= CHECK_NO_CURRENT * CHECK_NO_CURRENT * run->current_square;
 }
 
 void hci_check_run_means(const check_samples *s, check_run *run)
 {
     const size_t n = s->count;
     run->angle_range = s->theta ? range_of(s->theta, n) : 0.0;
-    run->slope = slope_of(s->theta, s->time, n);
+    run->angle_rate = angle_rate_of(s->theta, s->time, n);
     run->angle_ratio = s->other ? ratio_of(s->theta, s->other, n) : (double)NAN;
     run->speed = s->speed ? mean_of(s->speed, n) : (double)NAN;
     run->has_speed = s->speed != NULL;
-    if (s->torque) ripple_take(s, run);
+    if (s->torque) torque_take(s, run);
     if (s->torque) run->torque_at_speed = torque_at_speed(s, run);
     if (s->q) {
         run->dq = (check_vector){s->d ? mean_of(s->d, n) : 0.0, mean_of(s->q, n)};
         run->current_square = square_about(s->q, n, 0.0) + (s->d ? square_about(s->d, n, 0.0) : 0.0);
     }
     run->dq_is_steady =
-        hci_check_length(run->dq) * hci_check_length(run->dq) > COHERENT * run->current_square;
+        hci_check_length(run->dq) * hci_check_length(run->dq) > CHECK_COHERENT * run->current_square;
     if (s->current) run->current_square = mean_square(s->current, n);
     run->lacks_d_current = lacks_d_current(s, run);
     if (s->voltage) run->voltage_square = mean_square(s->voltage, n);
-    if (s->vq) loop_take(s, run);
+    if (s->vq) voltage_terms_take(s, run);
     run->frequency = frequency_of(s->voltage, s->time, n);
     run->current_sum = sum_of_phases(s->phase, n);
     run->current_balance = balance_of(s->phase, n);

@@ -1,4 +1,3 @@
-/* Columns of a recording. */
 #include "host/check/run_samples.h"
 
 #include <stdio.h>

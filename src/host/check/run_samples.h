@@ -1,16 +1,18 @@
-/* The samples of one recording. */
+/* From the samples of one recording to its statistics: samples are read (run_samples.c), their means taken
+ * (run_means.c), also in frames that turn with the recorded angle in each way that an interpretation may ask
+ * for (run_frames.c), and only these are kept (runs.c). */
 #ifndef HCI_SRC_HOST_CHECK_RUN_SAMPLES_H
 #define HCI_SRC_HOST_CHECK_RUN_SAMPLES_H
 
-#include "host/check/figures.h"
+#include "host/check/data.h"
 
 /* A wave is said to turn with the rotor when it has this share of the mean square. */
-#define COHERENT 0.6
+#define CHECK_COHERENT 0.6
 
 /* Less than this share of the rated or of the largest current is no current. */
-#define NO_CURRENT 0.03
+#define CHECK_NO_CURRENT 0.03
 
-/* Samples of one file while its figures are taken; what it does not have is NULL. */
+/* Samples of one file while its statistics are taken; what it does not have is NULL. */
 typedef struct {
     size_t count;
     double *time, *theta, *other, *speed, *torque, *d, *q, *vd, *vq;
@@ -29,6 +31,6 @@ void hci_check_samples_release(check_samples *s);
 void hci_check_run_means(const check_samples *s, check_run *run);
 
 /* Means in the frames of f->scale. */
-void hci_check_run_frames(const check_figures *f, const check_samples *s, check_run *run);
+void hci_check_run_frames(const check_data *data, const check_samples *s, check_run *run);
 
 #endif

@@ -1,4 +1,4 @@
-/* Figures of recordings. */
+/* Recordings: reads each, keeps its statistics, forgets the samples. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -8,10 +8,10 @@
 
 #define DEGREE (HCI_PI / 180.0)
 
-static hci_status run_take(const hci_csv *csv, check_figures *f, check_run *run, hci_note *told,
+static hci_status run_take(const hci_csv *csv, check_data *data, check_run *run, hci_note *remark,
                            hci_note *note)
 {
-    check_samples s = {.count = hci_csv_rows(csv), .remark = told};
+    check_samples s = {.count = hci_csv_rows(csv), .remark = remark};
     hci_status status;
     run->count = s.count;
     if (s.count == 0)
@@ -24,16 +24,17 @@ static hci_status run_take(const hci_csv *csv, check_figures *f, check_run *run,
     status = hci_check_samples_read(csv, run, &s, note);
     if (!status) {
         hci_check_run_means(&s, run);
-        if (s.theta) hci_check_run_frames(f, &s, run);
+        if (s.theta) hci_check_run_frames(data, &s, run);
         run->theta = s.theta;
-        run->ripple = s.torque;
+        run->torque = s.torque;
         s.theta = s.torque = NULL;
     }
     hci_check_samples_release(&s);
     return status;
 }
 
-static hci_status run_read(const char *path, check_figures *f, check_run *run, hci_note *told, hci_note *note)
+static hci_status run_read(const char *path, check_data *data, check_run *run, hci_note *remark,
+                           hci_note *note)
 {
     hci_csv *csv;
     hci_status status;
@@ -42,66 +43,66 @@ static hci_status run_read(const char *path, check_figures *f, check_run *run, h
                             HCI_CHECK_PATH - 1);
     status = hci_csv_read(path, &csv, note);
     if (status) return status;
-    status = run_take(csv, f, run, told, note);
+    status = run_take(csv, data, run, remark, note);
     hci_csv_free(csv);
     return status;
 }
 
-static void add_scale(check_figures *f, double scale)
+static void add_scale(check_data *data, double scale)
 {
-    for (size_t k = 0; k < f->scales; ++k)
-        if (fabs(f->scale[k] / scale - 1.0) < 1e-9) return;
-    f->scale[f->scales++] = scale;
+    for (size_t k = 0; k < data->scales; ++k)
+        if (fabs(data->scale[k] / scale - 1.0) < 1e-9) return;
+    data->scale[data->scales++] = scale;
 }
 
 /* 1, p and p/2 electrical radians for a recorded one, and so for degrees. */
-static void scales_make(check_figures *f)
+static void scales_make(check_data *data)
 {
-    const double p = f->value[CHECK_pole_pairs];
+    const double p = data->value[CHECK_pole_pairs];
     for (int degrees = 0; degrees <= 1; ++degrees) {
         const double unit = degrees ? DEGREE : 1.0;
-        add_scale(f, unit);
-        add_scale(f, unit * p);
-        if (fmod(p, 2.0) == 0.0) add_scale(f, unit * 0.5 * p);
+        add_scale(data, unit);
+        add_scale(data, unit * p);
+        if (fmod(p, 2.0) == 0.0) add_scale(data, unit * 0.5 * p);
     }
 }
 
-static double no_current(const check_figures *f)
+static double no_current(const check_data *data)
 {
-    double most = f->value[CHECK_rated_current_A];
-    for (size_t k = 0; k < f->runs; ++k)
-        most = fmax(most, sqrt(f->run[k].current_square)); /* of NAN and a number the number */
-    return NO_CURRENT * most;
+    double most = data->value[CHECK_rated_current_A];
+    for (size_t k = 0; k < data->runs; ++k)
+        most = fmax(most, sqrt(data->run[k].current_square)); /* of NAN and a number the number */
+    return CHECK_NO_CURRENT * most;
 }
 
-hci_status hci_check_runs_read(const char *const *path, size_t count, check_figures *f, hci_note *told,
+hci_status hci_check_runs_read(const char *const *path, size_t count, check_data *data, hci_note *remark,
                                hci_note *note)
 {
     hci_status status = HCI_OK;
-    scales_make(f);
-    f->run = hci_memory_new(count, sizeof *f->run);
-    if (!f->run) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for %zu runs", count);
+    scales_make(data);
+    data->run = hci_memory_new(count, sizeof *data->run);
+    if (!data->run) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for %zu runs", count);
     for (size_t k = 0; k < count && !status; ++k) {
-        status = run_read(path[k], f, &f->run[k], &told[k], note);
-        ++f->runs;
+        status = run_read(path[k], data, &data->run[k], &remark[k], note);
+        ++data->runs;
     }
-    f->no_current_A = no_current(f);
+    data->no_current_A = no_current(data);
     return status;
 }
 
-void hci_check_figures_release(check_figures *f)
+void hci_check_data_release(check_data *data)
 {
-    for (size_t k = 0; k < f->runs; ++k) {
-        hci_memory_free(f->run[k].theta);
-        hci_memory_free(f->run[k].ripple);
+    for (size_t k = 0; k < data->runs; ++k) {
+        hci_memory_free(data->run[k].theta);
+        hci_memory_free(data->run[k].torque);
     }
-    hci_memory_free(f->run);
-    hci_memory_free(f->emf.order);
-    hci_memory_free(f->cogging.order);
-    memset(f, 0, sizeof *f);
+    hci_memory_free(data->run);
+    hci_memory_free(data->emf.order);
+    hci_memory_free(data->cogging.order);
+    memset(data, 0, sizeof *data);
 }
 
-bool hci_check_has_current(const check_figures *f, const check_run *run)
+bool hci_check_has_current(const check_data *data, const check_run *run)
 {
-    return sqrt(run->current_square) > f->no_current_A && run->current_square > 0.0;
+    return sqrt(run->current_square) > data->no_current_A && run->current_square > 0.0;
 }

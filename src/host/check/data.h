@@ -1,7 +1,8 @@
-/* The numbers of a machine folder and its recordings as they stand in the files, taken once: what the
- * relations of `check` are made of. */
-#ifndef HCI_SRC_HOST_CHECK_FIGURES_H
-#define HCI_SRC_HOST_CHECK_FIGURES_H
+/* What `check` knows of the files: the numbers of a machine folder as they stand, each with its file, line
+ * and column, and the statistics of its recordings. They are taken once; an interpretation (interpretation.h)
+ * then says what they mean, and costs no second look at the samples. */
+#ifndef HCI_SRC_HOST_CHECK_DATA_H
+#define HCI_SRC_HOST_CHECK_DATA_H
 
 #include <stdbool.h>
 
@@ -39,6 +40,7 @@ typedef struct {
     check_place order_cell, amplitude_cell, phase_cell; /* of that row */
 } check_table;
 
+/* inductance.csv, as far as it is compared. */
 typedef struct {
     bool given, are_slopes;
     double reluctance_Nm_per_A2;           /* mean torque at i_d = i_q = 1 A, with the declared pole pairs */
@@ -49,9 +51,9 @@ typedef struct {
 
 /* ---- recordings */
 
-/* The recorded angle is turned into an electrical one by a factor; these are the factors that readings can
- * ask for. */
-enum { CHECK_SCALES = 6, FORWARD = 0, BACKWARD = 1 };
+/* The recorded angle is turned into an electrical one by a factor; so many factors can interpretations ask
+ * for. */
+enum { CHECK_SCALES = 6, CHECK_FORWARD = 0, CHECK_BACKWARD = 1 };
 
 /* Means of x e^{∓jθ}, θ = scale × recorded angle: of waves that turn with the rotor, and against it. */
 typedef struct {
@@ -64,25 +66,26 @@ typedef struct {
  * that varies nor one that changes its sign spoils them. */
 typedef struct {
     check_vector voltage, current;
-    check_vector turning; /* of speed × current */
-    double speed;         /* in the unit of its column */
-} check_loop;
+    check_vector speed_current; /* of speed × current */
+    double speed;               /* in the unit of its column */
+} check_voltage_terms;
 
-/* Readings ask for the same orders of the ripple again and again. */
-enum { CHECK_KNOWN_ORDERS = 256 };
+/* Interpretations ask for the same orders of the torque again and again. */
+enum { CHECK_CACHED_ORDERS = 256 };
 
 typedef struct {
     double order;
     check_vector wave;
-} check_known_order;
+} check_cached_order;
 
+/* The statistics of one recording, in the units of its columns after conversion to SI. */
 typedef struct {
     char path[HCI_CHECK_PATH];
-    size_t count;
-    check_known_order known[CHECK_KNOWN_ORDERS]; /* of the ripple; the oldest gives way */
-    size_t known_count;
+    size_t count;                                   /* samples */
+    check_cached_order cached[CHECK_CACHED_ORDERS]; /* of the torque; the oldest gives way */
+    size_t cached_count;
     double *theta; /* recorded angle; NULL: none */
-    double *ripple; /* torque in N·m; where the shaft was held, −i_q in A: what balances the cogging torque */
+    double *torque; /* torque in N·m; where the shaft was held, −i_q in A: what balances the cogging torque */
     bool is_held;       /* torque 0 throughout, and i_d, i_q */
     bool is_electrical; /* the angle is theta_e */
     bool dq_is_steady;  /* i_d, i_q are more than noise about 0 */
@@ -93,15 +96,15 @@ typedef struct {
     bool speed_is_electrical;               /* its column */
     bool dq_voltage_is_coherent;            /* follows the speed */
     double angle_range;                     /* of the recorded angle */
-    double slope;                           /* of the recorded angle over the recorded time; NAN: unknown */
+    double angle_rate;                      /* of the recorded angle over the recorded time; NAN: unknown */
     double angle_ratio;                     /* theta_e over theta_m where both were recorded, else NAN */
     double speed;                           /* mean of the speed column */
-    double ripple_mean, ripple_square;      /* mean, and mean square about it */
+    double torque_mean, torque_variance;    /* mean, and mean square about it */
     double torque_at_speed;                 /* mean of torque × speed over the mean speed */
     double current_square, voltage_square;  /* mean |x|² */
     check_vector dq;                        /* mean of recorded i_d + j i_q */
     check_vector power;                     /* mean of voltage × conj(current) */
-    check_loop loop;                        /* of v_d, v_q */
+    check_voltage_terms terms;              /* of v_d, v_q */
     double current_order, voltage_order;    /* order and sequence against the recorded angle; NAN: none */
     double frequency;   /* of the voltages over the recorded time, rad per unit of time; NAN: unknown */
     double current_sum; /* rms of ia + ib + ic over the rms of the currents; NAN: not three columns */
@@ -110,6 +113,7 @@ typedef struct {
     check_place theta_cell, time_cell, speed_cell, current_cell, voltage_cell, torque_cell;
 } check_run;
 
+/* Of a machine folder and its recordings. */
 typedef struct {
     char machine_path[HCI_CHECK_PATH];
     double value[CHECK_VALUE_COUNT]; /* canonical units; NAN: not given */
@@ -123,14 +127,15 @@ typedef struct {
     check_run *run;
     size_t runs;
     double no_current_A; /* runs with less are without current */
-} check_figures;
+} check_data;
 
-/* Both start from {0}; what they leave is to be released even after a failure. */
-hci_status hci_check_machine_read(const char *folder, check_figures *f, hci_note *note);
-/* told: [count], how each recording was read. */
-hci_status hci_check_runs_read(const char *const *path, size_t count, check_figures *f, hci_note *told,
+/* *data starts from {0}; what these two leave is to be released even after a failure. HCI_ERROR_INPUT with
+ * file, line and remedy, HCI_ERROR_MEMORY. */
+hci_status hci_check_machine_read(const char *folder, check_data *data, hci_note *note);
+/* After the machine. remark: [count], how each recording was read. */
+hci_status hci_check_runs_read(const char *const *path, size_t count, check_data *data, hci_note *remark,
                                hci_note *note);
-void hci_check_figures_release(check_figures *f);
+void hci_check_data_release(check_data *data);
 
 /* The frame of a scale, whatever its sign; NULL where the run has no angle. */
 const check_frame *hci_check_frame_of(const check_run *run, double scale);
@@ -139,6 +144,7 @@ const check_frame *hci_check_frame_of(const check_run *run, double scale);
  * O(samples) the first time; the run keeps it. */
 check_vector hci_check_torque_order(check_run *run, double order);
 
-bool hci_check_has_current(const check_figures *f, const check_run *run);
+/* Whether more than noise and offsets flows. */
+bool hci_check_has_current(const check_data *data, const check_run *run);
 
 #endif
