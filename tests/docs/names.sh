@@ -34,7 +34,7 @@ links() {
     awk '/^ *```/ { fenced = !fenced } !fenced' "$1" | grep -oE '\]\([^)# ]*(#[^) ]*)?\)' | sed 's/^](//;s/)$//' | grep -vE '^[a-z]+:' | sort -u
 }
 
-for page in README.md CONTRIBUTING.md data/README.md data/*/README.md examples/*/README.md docs/*.md docs/*/*.md; do
+for page in README.md DESIGN.md CONTRIBUTING.md data/README.md data/*/README.md examples/*/README.md docs/*.md docs/*/*.md; do
     [ -f "$page" ] || continue
     for name in $(files_named "$page"); do
         [ -e "$name" ] || fault "$page: there is no $name"
