@@ -44,7 +44,9 @@ static hci_status number_error(const hci_csv *csv, size_t record, size_t column,
                            .column = column,
                            .expected = "a finite number",
                            .remedy = remedy};
-    if (record == 1 && is_broken_unit_row(csv, &fault.column)) {
+    size_t unit = column;
+    if (record == 1 && is_broken_unit_row(csv, &unit)) {
+        fault.column = unit;
         fault.expected = HCI_CSV_UNIT_EXPECTED;
         fault.remedy = HCI_CSV_UNIT_REMEDY;
     }
