@@ -96,20 +96,20 @@ static hci_status sample_within(const hci_effects_plant *within, samples *s, hci
     if (status) return status;
     for (size_t k = 0; k < m->back_emf_count; ++k)
         top = fmax(top, m->back_emf[k].order);
-    s->count = hci_transform_size(2.0 * (top + 4.0) * (double)s->turns);
+    s->count = hci_fft_size(2.0 * (top + 4.0) * (double)s->turns);
     s->row = hci_memory_new(ROWS * s->count, sizeof *s->row);
     if (!s->row) return no_memory(note);
     for (size_t k = 0; k < s->count; ++k)
         sample_at(within, s, k);
     for (size_t r = 0; r < ROWS; r += 2)
-        hci_transform(s->row + r * s->count, s->row + (r + 1) * s->count, s->count, -1);
+        hci_fft(s->row + r * s->count, s->row + (r + 1) * s->count, s->count, -1);
     return HCI_OK;
 }
 
 /* Rows r and r + 1 at k periods. */
 static void bin(const samples *s, size_t r, size_t k, hci_harmonic *a, hci_harmonic *b)
 {
-    hci_transform_bin(s->row + r * s->count, s->row + (r + 1) * s->count, s->count, k, s->turns, a, b);
+    hci_fft_bin(s->row + r * s->count, s->row + (r + 1) * s->count, s->count, k, s->turns, a, b);
 }
 
 /* ---- into the machine ---- */
@@ -144,7 +144,7 @@ static hci_status add_back_emf(const samples *s, hci_quadratic_model *c, hci_not
             c->back_emf[n++] = wave_of(h, sequence);
     }
     m->back_emf = c->back_emf;
-    m->back_emf_count = hci_waves_join(c->back_emf, n, HCI_TRANSFORM_FLOOR);
+    m->back_emf_count = hci_waves_join(c->back_emf, n, HCI_FFT_FLOOR);
     return HCI_OK;
 }
 
@@ -163,7 +163,7 @@ static double largest_in(const samples *s, size_t r)
 static hci_status add_cogging(const samples *s, hci_quadratic_model *c, hci_note *note)
 {
     hci_machine *m = &c->machine;
-    const double least = HCI_TRANSFORM_FLOOR * largest_in(s, TORQUE);
+    const double least = HCI_FFT_FLOOR * largest_in(s, TORQUE);
     c->cogging = hci_memory_new(m->cogging_count + s->count / 2, sizeof *c->cogging);
     if (!c->cogging) return no_memory(note);
     if (m->cogging_count > 0) memcpy(c->cogging, m->cogging, m->cogging_count * sizeof *c->cogging);
@@ -204,7 +204,7 @@ static hci_status add_slopes(const samples *s, hci_quadratic_model *c, hci_note 
     if (m->slope_count > 0) memcpy(c->slope, m->slope, m->slope_count * sizeof *c->slope);
     for (size_t k = 0; k < s->count / 2; ++k) {
         hci_inductance_slope slope;
-        if (slope_at(s, k, &slope) > HCI_TRANSFORM_FLOOR * largest) c->slope[m->slope_count++] = slope;
+        if (slope_at(s, k, &slope) > HCI_FFT_FLOOR * largest) c->slope[m->slope_count++] = slope;
     }
     m->slope = c->slope;
     return HCI_OK;

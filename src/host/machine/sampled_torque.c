@@ -28,7 +28,7 @@ static hci_status grid_new(grid *g, const hci_effects_plant *beyond, size_t turn
      */
     top = fmax(8.0 * top, 4.0 * hci_effects_top_order(beyond->effects));
     g->turns = turns;
-    g->count = hci_transform_size(fmax(LEAST_PER_TURN, top) * (double)turns);
+    g->count = hci_fft_size(fmax(LEAST_PER_TURN, top) * (double)turns);
     g->x = hci_memory_new(6 * g->count, sizeof *g->x);
     if (!g->x)
         return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for %zu samples of the torque", g->count);
@@ -50,7 +50,7 @@ static void fill_current(const grid *g, const hci_wave *wave, size_t count)
         g->x[at] += wave[k].cosine;
         g->y[at] -= wave[k].sequence * wave[k].sine;
     }
-    hci_transform(g->x, g->y, g->count, 1);
+    hci_fft(g->x, g->y, g->count, 1);
 }
 
 static void evaluate(const grid *g, const hci_effects_plant *beyond)
@@ -69,7 +69,7 @@ static void evaluate(const grid *g, const hci_effects_plant *beyond)
         g->torque[k] = t.torque_Nm;
         g->offset[k] = 1.5 * (gain.alpha * i.alpha + gain.beta * i.beta) - t.torque_Nm;
     }
-    hci_transform(g->torque, g->offset, g->count, -1);
+    hci_fft(g->torque, g->offset, g->count, -1);
 }
 
 static hci_status sample(const hci_effects_plant *beyond, size_t turns, const hci_wave *wave, size_t count,
@@ -91,13 +91,12 @@ static hci_status harmonics(const grid *g, bool second, hci_harmonic **out, size
     if (!*out) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the torque's orders");
     for (size_t k = 0; k < g->count / 2; ++k) {
         hci_harmonic unused;
-        hci_transform_bin(g->torque, g->offset, g->count, k, g->turns, second ? &unused : &(*out)[k],
-                          second ? &(*out)[k] : &unused);
+        hci_fft_bin(g->torque, g->offset, g->count, k, g->turns, second ? &unused : &(*out)[k],
+                    second ? &(*out)[k] : &unused);
         largest = fmax(largest, hypot((*out)[k].sine, (*out)[k].cosine));
     }
     for (size_t k = 0; k < g->count / 2; ++k)
-        if (hypot((*out)[k].sine, (*out)[k].cosine) > HCI_TRANSFORM_FLOOR * largest)
-            (*out)[(*count)++] = (*out)[k];
+        if (hypot((*out)[k].sine, (*out)[k].cosine) > HCI_FFT_FLOOR * largest) (*out)[(*count)++] = (*out)[k];
     return HCI_OK;
 }
 
@@ -120,14 +119,14 @@ static hci_status waves(const grid *g, hci_sampled_linear *linear, hci_note *not
     size_t n = 0;
     linear->gain = hci_memory_new(g->count, sizeof *linear->gain);
     if (!linear->gain) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the torque's slopes");
-    hci_transform(g->a, g->b, g->count, -1);
+    hci_fft(g->a, g->b, g->count, -1);
     for (size_t k = 0; k < g->count / 2; ++k) {
         const double order = (double)k / (double)g->turns;
         const size_t mirror = g->count - k;
         linear->gain[n++] = (hci_wave){order, 1, -scale * g->b[k], scale * g->a[k]};
         if (k > 0) linear->gain[n++] = (hci_wave){order, -1, scale * g->b[mirror], scale * g->a[mirror]};
     }
-    linear->gain_count = hci_waves_join(linear->gain, n, HCI_TRANSFORM_FLOOR);
+    linear->gain_count = hci_waves_join(linear->gain, n, HCI_FFT_FLOOR);
     return HCI_OK;
 }
 

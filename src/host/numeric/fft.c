@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-size_t hci_transform_size(double least)
+size_t hci_fft_size(double least)
 {
     size_t n = 2;
     while ((double)n < least)
@@ -48,7 +48,7 @@ static void join_blocks(double *re, double *im, size_t n, size_t half, int sign)
     }
 }
 
-void hci_transform(double *re, double *im, size_t n, int sign)
+void hci_fft(double *re, double *im, size_t n, int sign)
 {
     reorder(re, im, n);
     for (size_t half = 1; half < n; half *= 2)
@@ -56,8 +56,8 @@ void hci_transform(double *re, double *im, size_t n, int sign)
 }
 
 /* A_k = (X_k + X*_{n−k})/2, B_k = (X_k − X*_{n−k})/2i; a harmonic has C = 2 Re A/n, S = −2 Im A/n. */
-void hci_transform_bin(const double *re, const double *im, size_t n, size_t k, size_t turns, hci_harmonic *a,
-                       hci_harmonic *b)
+void hci_fft_bin(const double *re, const double *im, size_t n, size_t k, size_t turns, hci_harmonic *a,
+                 hci_harmonic *b)
 {
     const size_t mirror = k > 0 ? n - k : 0;
     const double order = (double)k / (double)turns, scale = (k > 0 ? 1.0 : 0.5) / (double)n;

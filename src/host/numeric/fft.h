@@ -7,18 +7,18 @@
 #include "hci/math/harmonic.h"
 
 /* The smallest power of two that is not below `least`; at least 2. */
-size_t hci_transform_size(double least);
+size_t hci_fft_size(double least);
 
 /* In place, n a power of two: X_k = Σ x_j e^(sign·2πi jk/n), with sign −1 or +1 and no factor 1/n. O(n log
  * n). */
-void hci_transform(double *re, double *im, size_t n, int sign);
+void hci_fft(double *re, double *im, size_t n, int sign);
 
 /* After a transform with sign −1 of two real signals as real and imaginary part: what each has at k periods,
  * k < n/2. The order is k/turns. */
-void hci_transform_bin(const double *re, const double *im, size_t n, size_t k, size_t turns, hci_harmonic *a,
-                       hci_harmonic *b);
+void hci_fft_bin(const double *re, const double *im, size_t n, size_t k, size_t turns, hci_harmonic *a,
+                 hci_harmonic *b);
 
 /* Amplitude of a harmonic's or wave's coordinates below which it is the rounding of samples. */
-#define HCI_TRANSFORM_FLOOR 1e-13
+#define HCI_FFT_FLOOR 1e-13
 
 #endif

@@ -12,7 +12,7 @@ static const double LN_2 = 0.69314718055994530942;
 
 size_t hci_noise_workspace(size_t n)
 {
-    return 4 * hci_transform_size((double)n) + 2 * HALF_WINDOW + 2;
+    return 4 * hci_fft_size((double)n) + 2 * HALF_WINDOW + 2;
 }
 
 /* ---- periodogram ---- */
@@ -21,7 +21,7 @@ size_t hci_noise_workspace(size_t n)
  * in each. A Hann window keeps the lines of an open record narrow. */
 static size_t periodogram_open(const double *x, size_t n, double *power, double *work)
 {
-    const size_t m = hci_transform_size((double)n);
+    const size_t m = hci_fft_size((double)n);
     double *re = work, *im = work + m, square = 0.0;
     memset(work, 0, 2 * m * sizeof *work);
     for (size_t k = 0; k < n; ++k) {
@@ -29,7 +29,7 @@ static size_t periodogram_open(const double *x, size_t n, double *power, double 
         re[k] = window * x[k];
         square += window * window;
     }
-    hci_transform(re, im, m, -1);
+    hci_fft(re, im, m, -1);
     for (size_t k = 0; k <= m / 2; ++k)
         power[k] = (re[k] * re[k] + im[k] * im[k]) / square;
     return m / 2 + 1;
@@ -97,7 +97,7 @@ static void predictor(const double r[HCI_NOISE_MEMORY + 1], hci_noise *noise)
 void hci_noise_find(const double *residual, size_t n, bool closed, double floor, hci_noise *noise,
                     double *work)
 {
-    const size_t m = hci_transform_size((double)n);
+    const size_t m = hci_fft_size((double)n);
     double *power = work + 2 * m, *level = work + 3 * m + 1, *window = work + 4 * m;
     double r[HCI_NOISE_MEMORY + 1] = {0.0};
     const size_t bins =

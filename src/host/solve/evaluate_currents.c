@@ -52,8 +52,7 @@ static hci_status fill_peaks(hci_torque_evaluation *e, hci_note *note)
 {
     const size_t turns = e->period_turns;
     const double top = e->torque_Nm[e->order_count - 1].order;
-    const size_t n =
-        hci_transform_size(fmax(LEAST_SAMPLES, SAMPLES_PER_PERIOD * (top + 1.0)) * (double)turns);
+    const size_t n = hci_fft_size(fmax(LEAST_SAMPLES, SAMPLES_PER_PERIOD * (top + 1.0)) * (double)turns);
     double *re = hci_memory_new(2 * n, sizeof *re), *im = re + n, most, least;
     if (!re) return no_memory(note);
     for (size_t k = 0; k < e->order_count; ++k) {
@@ -61,7 +60,7 @@ static hci_status fill_peaks(hci_torque_evaluation *e, hci_note *note)
         re[at] += e->torque_Nm[k].cosine; /* the real part of (C − jS) e^(jnθ) */
         im[at] -= e->torque_Nm[k].sine;
     }
-    hci_transform(re, im, n, 1);
+    hci_fft(re, im, n, 1);
     most = least = re[0];
     for (size_t k = 1; k < n; ++k) {
         most = fmax(most, re[k]);
