@@ -1,4 +1,5 @@
-/* How well a quantity repeats: its scatter within narrow ranges of the turn. */
+/* How well a quantity repeats with the angle: a turn is cut into equal bins, and what is scattered within a bin
+ * does not follow the angle. */
 #ifndef HCI_SRC_HOST_NUMERIC_ANGLE_BINS_H
 #define HCI_SRC_HOST_NUMERIC_ANGLE_BINS_H
 
@@ -12,14 +13,14 @@ typedef struct {
     double sum[HCI_MOST_RANGES], square[HCI_MOST_RANGES], count[HCI_MOST_RANGES];
 } hci_repeat;
 
-/* The range that an angle lies in. turns: of any size. */
+/* The bin that an angle lies in. turns: of any size. */
 size_t hci_repeat_at(const hci_repeat *repeat, double turns);
 void hci_repeat_add(hci_repeat *repeat, double turns, double value);
 
-/* Mean of a range; 0 where it is empty. */
+/* Mean of a bin; 0 where it is empty. */
 double hci_repeat_mean(const hci_repeat *repeat, size_t range);
 
-/* rms departure from the mean of the range; NAN for no more than so many degrees of freedom. */
+/* rms departure from the mean of its bin; NAN for no more than so many degrees of freedom (samples less bins, of bins with two samples or more). */
 double hci_repeat_rms(const hci_repeat *repeat, double least_freedom);
 
 #endif

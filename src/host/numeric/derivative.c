@@ -1,3 +1,6 @@
+/* The rate at which a recorded quantity changes, from samples at uneven times with noise and with the steps
+ * of an encoder: the derivative of a parabola that is fitted to a window around each sample. The window is
+ * the same for the whole record, and is chosen from the record itself. */
 #include "host/numeric/derivative.h"
 
 #include <math.h>
@@ -93,7 +96,7 @@ static double determinant(const double a[3], const double b[3], const double c[3
 }
 
 /* Slope at time t of v = c_0 + c_1 u + c_2 u²; a straight line where the samples bear no parabola. */
-static double slope_at(const window_sums *s, double t)
+static double rate_at(const window_sums *s, double t)
 {
     const double *m = s->moment, *v = s->product, u = (t - s->t0) / s->scale_s;
     const double whole = determinant(m, m + 1, m + 2), line = m[0] * m[2] - m[1] * m[1];
@@ -116,28 +119,28 @@ static double way_over(const double *x, size_t n, size_t window)
 }
 
 /* Slopes at some samples spread over the record; returns their mean square. */
-static double probe(window_sums *s, size_t n, size_t window, size_t count, double *slope)
+static double probe(window_sums *s, size_t n, size_t window, size_t count, double *rate)
 {
     double square = 0.0;
     for (size_t p = 0; p < count; ++p) {
         const size_t first = count > 1 ? p * (n - window) / (count - 1) : 0;
         start(s, first, first + window);
-        slope[p] = slope_at(s, s->t[first + window / 2]);
-        square += slope[p] * slope[p] / (double)count;
+        rate[p] = rate_at(s, s->t[first + window / 2]);
+        square += rate[p] * rate[p] / (double)count;
     }
     return square;
 }
 
 /* The next longer windows at the same samples: mean square of how the slopes change. */
 static double change_by(window_sums *s, size_t n, size_t window, size_t next, size_t count,
-                        const double *slope)
+                        const double *rate)
 {
     double square = 0.0, used = 0.0;
     for (size_t p = 0; p < count; ++p) {
         const size_t first = count > 1 ? p * (n - window) / (count - 1) : 0, centre = first + window / 2;
         if (centre < next / 2 || centre - next / 2 + next > n) continue;
         start(s, centre - next / 2, centre - next / 2 + next);
-        const double change = slope_at(s, s->t[centre]) - slope[p];
+        const double change = rate_at(s, s->t[centre]) - rate[p];
         square += change * change;
         used += 1.0;
     }
@@ -148,7 +151,7 @@ static double change_by(window_sums *s, size_t n, size_t window, size_t next, si
  * explains: then a longer one would smooth away what is to be seen (Lepski 1991). */
 static size_t window_of(window_sums *s, size_t n)
 {
-    double slope[PROBES];
+    double rate[PROBES];
     const size_t most = n / 4 > WINDOW_LEAST ? n / 4 : n < WINDOW_LEAST ? n : WINDOW_LEAST;
     const size_t probes = n < PROBES ? n : PROBES;
     const double quantum = quantum_of(s->x, n), step_s = (s->t[n - 1] - s->t[0]) / (double)(n - 1);
@@ -162,15 +165,15 @@ static size_t window_of(window_sums *s, size_t n)
     for (size_t next = window + window / 2; next <= most; window = next, next += next / 2) {
         const double length = (double)window, longer = (double)next;
         const double variance = 12.0 * noise * noise / (length * length * length);
-        const double square = probe(s, n, window, probes, slope) - variance;
+        const double square = probe(s, n, window, probes, rate) - variance;
         if (variance <= NOISE_SHARE * NOISE_SHARE * square) break;
         const double explained = variance * (1.0 - pow(length / longer, 3.0));
-        if (change_by(s, n, window, next, probes, slope) > UNEXPLAINED * explained) break;
+        if (change_by(s, n, window, next, probes, rate) > UNEXPLAINED * explained) break;
     }
     return window;
 }
 
-void hci_slope(const double *time_s, const double *x, size_t n, double *slope)
+void hci_derivative(const double *time_s, const double *x, size_t n, double *rate)
 {
     window_sums sums = {.t = time_s, .x = x};
     const size_t window = window_of(&sums, n), half = window / 2;
@@ -186,6 +189,6 @@ void hci_slope(const double *time_s, const double *x, size_t n, double *slope)
             add(&sums, sums.end++, 1.0);
             add(&sums, sums.first++, -1.0);
         }
-        slope[k] = slope_at(&sums, time_s[k]);
+        rate[k] = rate_at(&sums, time_s[k]);
     }
 }

@@ -30,7 +30,7 @@ static void set_changes(const hci_run *run, int pole_pairs, hci_sample *reading,
         x[2][k] = i.zero;
     }
     for (int c = 0; c < 3; ++c)
-        hci_slope(run->time_s, x[c], n, slope[c]);
+        hci_derivative(run->time_s, x[c], n, slope[c]);
     for (size_t k = 0; k < n; ++k) {
         const hci_dq change = {slope[0][k], slope[1][k], slope[2][k]};
         hci_clarke_inverse(hci_park_inverse(change, pole_pairs * run->theta_m_rad[k]),

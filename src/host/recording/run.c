@@ -128,7 +128,7 @@ static hci_status complete_speed(reader *r, hci_angle_path path)
         return HCI_OK;
     if (!recorded) run->speed_rad_per_s = hci_memory_new(run->count, sizeof(double));
     if (run->speed_rad_per_s == NULL) return memory_error(r);
-    hci_slope(run->time_s, run->theta_m_rad, run->count, run->speed_rad_per_s);
+    hci_derivative(run->time_s, run->theta_m_rad, run->count, run->speed_rad_per_s);
     hci_note_add(&r->run->remark, recorded
                                       ? "the speed is 0 but the angle moves: the slope of the angle is taken"
                                       : "the speed is the slope of the angle");
@@ -339,7 +339,7 @@ static hci_status torque_of_inertia(reader *r, double inertia_kgm2)
         return HCI_OK;
     run->torque_Nm = hci_memory_new(run->count, sizeof(double));
     if (run->torque_Nm == NULL) return memory_error(r);
-    hci_slope(run->time_s, run->speed_rad_per_s, run->count, run->torque_Nm);
+    hci_derivative(run->time_s, run->speed_rad_per_s, run->count, run->torque_Nm);
     for (size_t k = 0; k < run->count; ++k)
         run->torque_Nm[k] *= inertia_kgm2;
     run->torque_source = HCI_TORQUE_INERTIA;
