@@ -57,16 +57,16 @@ static double scatter_of(const hci_dataset *b, size_t run)
 /* How far a sample's residual is from the mean of those at about the same angle. */
 static double repeatability(const hci_dataset *b, size_t run, const double *residual, double turn_rad)
 {
-    hci_repeat repeat = {0};
+    hci_angle_bins bins = {0};
     double samples = 0.0;
     for (const hci_segment *s = NULL; (s = hci_segment_next(&b->samples, run, s)) != NULL;)
         samples += (double)s->count;
-    const bool few = samples < PER_RANGE * HCI_MOST_RANGES;
-    repeat.ranges = few ? (size_t)(samples / PER_RANGE) + 1 : HCI_MOST_RANGES;
+    const bool few = samples < PER_RANGE * HCI_ANGLE_BINS_MOST;
+    bins.bins = few ? (size_t)(samples / PER_RANGE) + 1 : HCI_ANGLE_BINS_MOST;
     for (const hci_segment *s = NULL; (s = hci_segment_next(&b->samples, run, s)) != NULL;)
         for (size_t j = s->first; j < s->first + s->count; ++j)
-            hci_repeat_add(&repeat, b->samples.sample[j].raw.theta_m_rad / turn_rad, residual[j]);
-    return hci_repeat_rms(&repeat, FREEDOM);
+            hci_angle_bins_add(&bins, b->samples.sample[j].raw.theta_m_rad / turn_rad, residual[j]);
+    return hci_angle_bins_rms(&bins, FREEDOM);
 }
 
 /* From the turns that a run has; NAN where it has too few. */

@@ -2,31 +2,31 @@
 
 #include <math.h>
 
-size_t hci_repeat_at(const hci_repeat *r, double turns)
+size_t hci_angle_bins_at(const hci_angle_bins *b, double turns)
 {
-    return (size_t)((turns - floor(turns)) * (double)r->ranges) % r->ranges;
+    return (size_t)((turns - floor(turns)) * (double)b->bins) % b->bins;
 }
 
-void hci_repeat_add(hci_repeat *r, double turns, double value)
+void hci_angle_bins_add(hci_angle_bins *b, double turns, double value)
 {
-    const size_t at = hci_repeat_at(r, turns);
-    r->sum[at] += value;
-    r->square[at] += value * value;
-    r->count[at] += 1.0;
+    const size_t at = hci_angle_bins_at(b, turns);
+    b->sum[at] += value;
+    b->square[at] += value * value;
+    b->count[at] += 1.0;
 }
 
-double hci_repeat_mean(const hci_repeat *r, size_t range)
+double hci_angle_bins_mean(const hci_angle_bins *b, size_t bin)
 {
-    return r->sum[range] / fmax(1.0, r->count[range]);
+    return b->sum[bin] / fmax(1.0, b->count[bin]);
 }
 
-double hci_repeat_rms(const hci_repeat *r, double least_freedom)
+double hci_angle_bins_rms(const hci_angle_bins *b, double least_freedom)
 {
     double total = 0.0, freedom = 0.0;
-    for (size_t c = 0; c < r->ranges; ++c) {
-        if (r->count[c] < 2.0) continue;
-        total += r->square[c] - r->sum[c] * r->sum[c] / r->count[c];
-        freedom += r->count[c] - 1.0;
+    for (size_t c = 0; c < b->bins; ++c) {
+        if (b->count[c] < 2.0) continue;
+        total += b->square[c] - b->sum[c] * b->sum[c] / b->count[c];
+        freedom += b->count[c] - 1.0;
     }
     return freedom > least_freedom ? sqrt(fmax(total, 0.0) / freedom) : (double)NAN;
 }

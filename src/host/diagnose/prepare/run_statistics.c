@@ -24,25 +24,25 @@ static double angle_step(const hci_run *r)
 }
 
 /* How much a range's mean torque rises from end to end, from those beside it. */
-static double rise_at(const hci_repeat *mean, size_t range)
+static double rise_at(const hci_angle_bins *mean, size_t range)
 {
-    const size_t next = (range + 1) % mean->ranges, before = (range + mean->ranges - 1) % mean->ranges;
-    return 0.5 * (hci_repeat_mean(mean, next) - hci_repeat_mean(mean, before));
+    const size_t next = (range + 1) % mean->bins, before = (range + mean->bins - 1) % mean->bins;
+    return 0.5 * (hci_angle_bins_mean(mean, next) - hci_angle_bins_mean(mean, before));
 }
 
 /* How far a sample is from the mean of those at the same angle in other turns. */
 static double repeatability(const hci_run *r, double turns)
 {
-    hci_repeat mean = {.ranges = HCI_MOST_RANGES}, level = {.ranges = HCI_MOST_RANGES};
-    if (!(turns >= LEAST_TURNS) || r->count < LEAST_PER_RANGE * HCI_MOST_RANGES) return NAN;
+    hci_angle_bins mean = {.bins = HCI_ANGLE_BINS_MOST}, level = {.bins = HCI_ANGLE_BINS_MOST};
+    if (!(turns >= LEAST_TURNS) || r->count < LEAST_PER_RANGE * HCI_ANGLE_BINS_MOST) return NAN;
     for (size_t k = 0; k < r->count; ++k)
-        hci_repeat_add(&mean, r->theta_m_rad[k] / (2.0 * HCI_PI), r->torque_Nm[k]);
+        hci_angle_bins_add(&mean, r->theta_m_rad[k] / (2.0 * HCI_PI), r->torque_Nm[k]);
     for (size_t k = 0; k < r->count; ++k) {
-        const double x = r->theta_m_rad[k] / (2.0 * HCI_PI), place = HCI_MOST_RANGES * (x - floor(x));
-        const double rise = rise_at(&mean, hci_repeat_at(&mean, x));
-        hci_repeat_add(&level, x, r->torque_Nm[k] - rise * (place - floor(place) - 0.5));
+        const double x = r->theta_m_rad[k] / (2.0 * HCI_PI), place = HCI_ANGLE_BINS_MOST * (x - floor(x));
+        const double rise = rise_at(&mean, hci_angle_bins_at(&mean, x));
+        hci_angle_bins_add(&level, x, r->torque_Nm[k] - rise * (place - floor(place) - 0.5));
     }
-    return hci_repeat_rms(&level, FREEDOM);
+    return hci_angle_bins_rms(&level, FREEDOM);
 }
 
 /* From the least angle to the largest: a map that goes there and back is one turn. */
