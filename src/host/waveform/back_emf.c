@@ -98,15 +98,15 @@ static hci_status take_samples(const hci_waveform_task *t, emf_work *w)
     return take_clock(t, w);
 }
 
-static hci_status fit_turns(const hci_waveform_task *t, emf_work *w, hci_turns *turns)
+static hci_status fit_turns(const hci_waveform_task *t, emf_work *w, hci_average *average)
 {
-    const hci_turn_samples samples = {w->angle_rad, w->value, w->count, CHANNELS};
+    const hci_average_samples samples = {w->angle_rad, w->value, w->count, CHANNELS};
     for (size_t k = 0; k < w->count; ++k) {
         for (size_t s = 0; s < 3; ++s)
             w->value[CHANNELS * k + s] = w->voltage_V[3 * k + s] / w->speed_rad_per_s[k];
         w->value[CHANNELS * k + INVERSE] = 1.0 / w->speed_rad_per_s[k];
     }
-    const hci_status status = hci_waveform_turns(t, &samples, 1.0, turns);
+    const hci_status status = hci_waveform_turns(t, &samples, 1.0, average);
     if (status == HCI_ERROR_MEMORY) return hci_waveform_memory(t);
     if (status == HCI_ERROR_SINGULAR)
         return hci_waveform_refuse(t, "angles that do not go round an electrical turn",
@@ -117,59 +117,60 @@ static hci_status fit_turns(const hci_waveform_task *t, emf_work *w, hci_turns *
 
 /* ---- waves as complex numbers S + jC = A exp(jγ) ---- */
 
-static hci_turn_wave turned(hci_turn_wave w, double angle_rad)
+static hci_average_harmonic turned(hci_average_harmonic w, double angle_rad)
 {
     const double c = cos(angle_rad), s = sin(angle_rad);
-    return (hci_turn_wave){w.sine * c - w.cosine * s, w.sine * s + w.cosine * c};
+    return (hci_average_harmonic){w.sine * c - w.cosine * s, w.sine * s + w.cosine * c};
 }
 
-static double length_of(hci_turn_wave w)
+static double length_of(hci_average_harmonic w)
 {
     return hypot(w.sine, w.cosine);
 }
 
 /* a/b */
-static hci_turn_wave quotient(hci_turn_wave a, hci_turn_wave b)
+static hci_average_harmonic quotient(hci_average_harmonic a, hci_average_harmonic b)
 {
     const double square = b.sine * b.sine + b.cosine * b.cosine;
-    return (hci_turn_wave){(a.sine * b.sine + a.cosine * b.cosine) / square,
-                           (a.cosine * b.sine - a.sine * b.cosine) / square};
+    return (hci_average_harmonic){(a.sine * b.sine + a.cosine * b.cosine) / square,
+                                  (a.cosine * b.sine - a.sine * b.cosine) / square};
 }
 
 /* Turns order k of phase s onto that of phase a, of which it is the third-of-a-period copy. */
-static hci_turn_wave onto_a(hci_turn_wave w, size_t order, int sequence, size_t phase)
+static hci_average_harmonic onto_a(hci_average_harmonic w, size_t order, int sequence, size_t phase)
 {
     return turned(w, (double)order * sequence * (double)phase * 2.0 * HCI_PI / 3.0);
 }
 
 /* Mean over the channels that count, or over these but one. */
-static hci_turn_wave balanced(const hci_turns *turns, const emf_work *w, size_t pass, size_t order,
-                              size_t except)
+static hci_average_harmonic balanced(const hci_average *average, const emf_work *w, size_t pass, size_t order,
+                                     size_t except)
 {
-    hci_turn_wave sum = {0.0, 0.0};
+    hci_average_harmonic sum = {0.0, 0.0};
     double count = 0.0;
     for (size_t s = 0; s < 3; ++s) {
         if (!w->counts[s] || s == except) continue;
-        const hci_turn_wave z = onto_a(*hci_turns_wave(turns, pass, s, order), order, w->sequence, s);
+        const hci_average_harmonic z =
+            onto_a(*hci_average_at(average, pass, s, order), order, w->sequence, s);
         sum.sine += z.sine;
         sum.cosine += z.cosine;
         count += 1.0;
     }
-    return (hci_turn_wave){sum.sine / count, sum.cosine / count};
+    return (hci_average_harmonic){sum.sine / count, sum.cosine / count};
 }
 
 /* ---- sequence, offset, scale ---- */
 
 /* The size of the positive less that of the negative sequence, each channel as if it had the same scale. */
-static double sequence_of(const hci_turns *turns)
+static double sequence_of(const hci_average *average)
 {
     double difference = 0.0;
-    for (size_t pass = 0; pass < turns->count; ++pass)
+    for (size_t pass = 0; pass < average->count; ++pass)
         for (int sequence = 1; sequence >= -1; sequence -= 2) {
-            hci_turn_wave sum = {0.0, 0.0};
+            hci_average_harmonic sum = {0.0, 0.0};
             for (size_t s = 0; s < 3; ++s) {
-                const hci_turn_wave *z = hci_turns_wave(turns, pass, s, 1);
-                const hci_turn_wave a = onto_a(*z, 1, sequence, s);
+                const hci_average_harmonic *z = hci_average_at(average, pass, s, 1);
+                const hci_average_harmonic a = onto_a(*z, 1, sequence, s);
                 const double length = length_of(a);
                 sum.sine += length > 0.0 ? a.sine / length : 0.0;
                 sum.cosine += length > 0.0 ? a.cosine / length : 0.0;
@@ -193,11 +194,11 @@ static void turn_backward(const hci_waveform_task *t, emf_work *w)
 }
 
 /* Fits, and finds which way round the phases are. Without an angle a-c-b is the machine turned backward. */
-static hci_status fit_in_sequence(const hci_waveform_task *t, emf_work *w, hci_turns *turns)
+static hci_status fit_in_sequence(const hci_waveform_task *t, emf_work *w, hci_average *average)
 {
-    hci_status status = fit_turns(t, w, turns);
+    hci_status status = fit_turns(t, w, average);
     w->sequence = 1;
-    if (status != HCI_OK || sequence_of(turns) >= 0.0) return status;
+    if (status != HCI_OK || sequence_of(average) >= 0.0) return status;
     if (!w->by_clock) {
         w->sequence = -1;
         hci_note_add(&t->result->remark,
@@ -206,22 +207,22 @@ static hci_status fit_in_sequence(const hci_waveform_task *t, emf_work *w, hci_t
         return status;
     }
     turn_backward(t, w);
-    hci_turns_release(turns);
-    return fit_turns(t, w, turns);
+    hci_average_release(average);
+    return fit_turns(t, w, average);
 }
 
 /* An offset o is o/ω in the values: takes it out of every order. What order 0 then holds is o times the mean
  * of 1/ω over all passes, which is returned. */
-static double remove_offsets(const hci_turns *turns)
+static double remove_offsets(const hci_average *average)
 {
-    const double inverse = hci_turns_estimate(turns, INVERSE, 0).mean.cosine;
-    for (size_t pass = 0; pass < turns->count; ++pass) {
-        const hci_turn_wave *speed = hci_turns_wave(turns, pass, INVERSE, 0);
+    const double inverse = hci_average_estimate(average, INVERSE, 0).mean.cosine;
+    for (size_t pass = 0; pass < average->count; ++pass) {
+        const hci_average_harmonic *speed = hci_average_at(average, pass, INVERSE, 0);
         for (size_t s = 0; s < 3; ++s) {
-            hci_turn_wave *z = hci_turns_wave(turns, pass, s, 0);
+            hci_average_harmonic *z = hci_average_at(average, pass, s, 0);
             const double offset_V = z[0].cosine / speed[0].cosine;
             z[0].cosine = offset_V * inverse;
-            for (size_t k = 1; k <= turns->highest; ++k) {
+            for (size_t k = 1; k <= average->highest; ++k) {
                 z[k].sine -= offset_V * speed[k].sine;
                 z[k].cosine -= offset_V * speed[k].cosine;
             }
@@ -231,12 +232,12 @@ static double remove_offsets(const hci_turns *turns)
 }
 
 /* rms over the passes of a channel's fundamental. */
-static double size_of(const hci_turns *turns, size_t channel)
+static double size_of(const hci_average *average, size_t channel)
 {
     double square = 0.0;
-    for (size_t pass = 0; pass < turns->count; ++pass) {
-        const double length = length_of(*hci_turns_wave(turns, pass, channel, 1));
-        square += length * length / (double)turns->count;
+    for (size_t pass = 0; pass < average->count; ++pass) {
+        const double length = length_of(*hci_average_at(average, pass, channel, 1));
+        square += length * length / (double)average->count;
     }
     return sqrt(square);
 }
@@ -247,11 +248,11 @@ static bool within(double a, double b, double ratio)
 }
 
 /* Leaves out the one whose scale is not that of the other two. */
-static void choose_channels(const hci_turns *turns, emf_work *w)
+static void choose_channels(const hci_average *average, emf_work *w)
 {
     double size[3];
     for (size_t s = 0; s < 3; ++s)
-        size[s] = size_of(turns, s);
+        size[s] = size_of(average, s);
     for (size_t s = 0; s < 3; ++s) {
         const double first = size[(s + 1) % 3], second = size[(s + 2) % 3];
         w->counts[s] =
@@ -260,14 +261,14 @@ static void choose_channels(const hci_turns *turns, emf_work *w)
 }
 
 /* Without an angle each turn's zero is its own: the rising zero crossing of phase a's fundamental. */
-static void align(const hci_turns *turns, const emf_work *w)
+static void align(const hci_average *average, const emf_work *w)
 {
-    for (size_t pass = 0; pass < turns->count; ++pass) {
-        const hci_turn_wave z = balanced(turns, w, pass, 1, CHANNELS);
+    for (size_t pass = 0; pass < average->count; ++pass) {
+        const hci_average_harmonic z = balanced(average, w, pass, 1, CHANNELS);
         const double phase = atan2(z.cosine, z.sine);
         for (size_t s = 0; s < 3; ++s)
-            for (size_t k = 1; k <= turns->highest; ++k) {
-                hci_turn_wave *x = hci_turns_wave(turns, pass, s, k);
+            for (size_t k = 1; k <= average->highest; ++k) {
+                hci_average_harmonic *x = hci_average_at(average, pass, s, k);
                 *x = turned(*x, -(double)k * phase);
             }
     }
@@ -276,20 +277,21 @@ static void align(const hci_turns *turns, const emf_work *w)
 /* ---- channels against each other ---- */
 
 /* Each pass's ratio of a channel's fundamental to that of the others, as the only wave of `out`. */
-static void set_ratios(const hci_turns *turns, const emf_work *w, size_t channel, hci_turns *out)
+static void set_ratios(const hci_average *average, const emf_work *w, size_t channel, hci_average *out)
 {
-    for (size_t pass = 0; pass < turns->count; ++pass) {
-        const hci_turn_wave z = onto_a(*hci_turns_wave(turns, pass, channel, 1), 1, w->sequence, channel);
-        *hci_turns_wave(out, pass, 0, 1) = quotient(z, balanced(turns, w, pass, 1, channel));
+    for (size_t pass = 0; pass < average->count; ++pass) {
+        const hci_average_harmonic z =
+            onto_a(*hci_average_at(average, pass, channel, 1), 1, w->sequence, channel);
+        *hci_average_at(out, pass, 0, 1) = quotient(z, balanced(average, w, pass, 1, channel));
     }
 }
 
 /* The error of a ratio where there are too few turns to see it vary. */
-static double ratio_error(const hci_turns *turns, const emf_work *w, size_t channel)
+static double ratio_error(const hci_average *average, const emf_work *w, size_t channel)
 {
     double square = 0.0, own = 0.0, others = 0.0;
     for (size_t s = 0; s < 3; ++s) {
-        const hci_turn_estimate e = hci_turns_estimate(turns, s, 1);
+        const hci_order_estimate e = hci_average_estimate(average, s, 1);
         const double share = e.std_error / length_of(e.mean);
         if (s == channel) own = share * share;
         if (s == channel || !w->counts[s]) continue;
@@ -299,20 +301,21 @@ static double ratio_error(const hci_turns *turns, const emf_work *w, size_t chan
     return sqrt(own + square / (others * others));
 }
 
-static void compare_channel(const hci_turns *turns, const emf_work *w, size_t s, double inverse,
-                            hci_turns *ratios, hci_waveform_channel *c)
+static void compare_channel(const hci_average *average, const emf_work *w, size_t s, double inverse,
+                            hci_average *ratios, hci_waveform_channel *c)
 {
     static const char *const NAME[3] = {"va", "vb", "vc"};
-    const hci_turn_estimate offset = hci_turns_estimate(turns, s, 0);
-    set_ratios(turns, w, s, ratios);
-    const hci_turn_estimate ratio = hci_turns_estimate(ratios, 0, 1);
+    const hci_order_estimate offset = hci_average_estimate(average, s, 0);
+    set_ratios(average, w, s, ratios);
+    const hci_order_estimate ratio = hci_average_estimate(ratios, 0, 1);
     c->name = NAME[s];
     c->left_out = !w->counts[s];
     c->offset_V = offset.mean.cosine / inverse;
     c->offset_error_V = fabs(offset.std_error / inverse);
     c->ratio = length_of(ratio.mean);
     c->phase_error_rad = atan2(ratio.mean.cosine, ratio.mean.sine);
-    c->phase_error = hci_turns_repeat(turns) ? ratio.std_error / c->ratio : ratio_error(turns, w, s);
+    c->phase_error =
+        hci_average_has_repeats(average) ? ratio.std_error / c->ratio : ratio_error(average, w, s);
     c->ratio_error = c->phase_error * c->ratio;
 }
 
@@ -342,18 +345,18 @@ static void remark_channel(const hci_waveform_task *t, const hci_waveform_channe
                      c->phase_error_rad);
 }
 
-static hci_status compare_channels(const hci_waveform_task *t, const hci_turns *turns, const emf_work *w,
+static hci_status compare_channels(const hci_waveform_task *t, const hci_average *average, const emf_work *w,
                                    double inverse)
 {
-    hci_turns ratios = *turns;
+    hci_average ratios = *average;
     double size = 0.0, counted = 0.0;
     ratios.channels = 1;
     ratios.highest = 1;
-    ratios.wave = hci_memory_new(turns->count, 2 * sizeof *ratios.wave);
+    ratios.wave = hci_memory_new(average->count, 2 * sizeof *ratios.wave);
     if (ratios.wave == NULL) return hci_waveform_memory(t);
     for (size_t s = 0; s < 3; ++s) {
-        compare_channel(turns, w, s, inverse, &ratios, &t->result->channel[s]);
-        if (w->counts[s]) size += size_of(turns, s);
+        compare_channel(average, w, s, inverse, &ratios, &t->result->channel[s]);
+        if (w->counts[s]) size += size_of(average, s);
         counted += w->counts[s];
     }
     for (size_t s = 0; s < 3; ++s)
@@ -375,16 +378,16 @@ static void remark_zero(const hci_waveform_task *t, double phase_rad)
                  phase_rad > 0.0 ? "to" : "from");
 }
 
-static hci_status judge_balanced(const hci_waveform_task *t, const hci_turns *turns, const emf_work *w)
+static hci_status judge_balanced(const hci_waveform_task *t, const hci_average *average, const emf_work *w)
 {
-    hci_turns part = *turns;
+    hci_average part = *average;
     part.channels = 1;
-    part.wave = hci_memory_new(turns->count * (turns->highest + 1), sizeof *part.wave);
+    part.wave = hci_memory_new(average->count * (average->highest + 1), sizeof *part.wave);
     if (part.wave == NULL) return hci_waveform_memory(t);
-    for (size_t pass = 0; pass < turns->count; ++pass)
-        for (size_t k = 1; k <= turns->highest; ++k)
-            *hci_turns_wave(&part, pass, 0, k) = balanced(turns, w, pass, k, CHANNELS);
-    const hci_turn_estimate fundamental = hci_turns_estimate(&part, 0, 1);
+    for (size_t pass = 0; pass < average->count; ++pass)
+        for (size_t k = 1; k <= average->highest; ++k)
+            *hci_average_at(&part, pass, 0, k) = balanced(average, w, pass, k, CHANNELS);
+    const hci_order_estimate fundamental = hci_average_estimate(&part, 0, 1);
     const hci_status status = hci_waveform_judge(t, &part, 0, 1.0);
     hci_memory_free(part.wave);
     const double phase = hci_phase_rad(fundamental.mean.sine, fundamental.mean.cosine);
@@ -404,27 +407,27 @@ static void remark_currents(const hci_waveform_task *t)
 
 static hci_status back_emf_of(const hci_waveform_task *t, emf_work *w)
 {
-    hci_turns turns = {.highest = 0};
+    hci_average average = {.highest = 0};
     double sum = 0.0;
     hci_status status = take_samples(t, w);
-    if (status == HCI_OK) status = fit_in_sequence(t, w, &turns);
+    if (status == HCI_OK) status = fit_in_sequence(t, w, &average);
     if (status == HCI_OK) {
         for (size_t k = 0; k < w->count; ++k)
             sum += w->speed_rad_per_s[k];
         t->result->speed_rad_per_s = sum / (double)w->count;
-        const double inverse = remove_offsets(&turns);
-        choose_channels(&turns, w);
+        const double inverse = remove_offsets(&average);
+        choose_channels(&average, w);
         if (w->by_clock) {
-            align(&turns, w);
+            align(&average, w);
             hci_note_add(&t->result->remark,
                          "without an angle a speed that ripples within a turn shows as orders beside "
                          "the fundamental");
         }
-        status = compare_channels(t, &turns, w, inverse);
+        status = compare_channels(t, &average, w, inverse);
     }
-    if (status == HCI_OK) status = judge_balanced(t, &turns, w);
+    if (status == HCI_OK) status = judge_balanced(t, &average, w);
     if (status == HCI_OK) remark_currents(t);
-    hci_turns_release(&turns);
+    hci_average_release(&average);
     return status;
 }
 

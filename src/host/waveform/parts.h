@@ -21,7 +21,7 @@ hci_status hci_waveform_cogging(const hci_waveform_task *t);
 hci_status hci_waveform_back_emf(const hci_waveform_task *t);
 
 /* The orders of one channel into the result. step: electrical order of the turns' order 1. */
-hci_status hci_waveform_judge(const hci_waveform_task *t, const hci_turns *turns, size_t channel,
+hci_status hci_waveform_judge(const hci_waveform_task *t, const hci_average *average, size_t channel,
                               double step);
 
 /* "RUN: found …, expected …; remedy", HCI_ERROR_INPUT. */
@@ -32,9 +32,10 @@ hci_status hci_waveform_memory(const hci_waveform_task *t);
 /* Of the phase currents, A: √((i_a² + i_b² + i_c²)/3) of the mean squares; 1/√2 of the peak of a sine. */
 double hci_waveform_current_rms(const hci_run *run);
 
-/* hci_turns_fit of turns whose orders are `step` electrical ones apart, up to the order that is asked for. */
-hci_status hci_waveform_turns(const hci_waveform_task *t, const hci_turn_samples *samples, double step,
-                              hci_turns *turns);
+/* hci_average_fit of turns whose orders are `step` electrical ones apart, up to the order that is asked for.
+ */
+hci_status hci_waveform_turns(const hci_waveform_task *t, const hci_average_samples *samples, double step,
+                              hci_average *average);
 
 /* Speed and angle of voltages that were recorded without. n samples; v: [n][3]. phase_rad: out, electrical,
  * growing; rate_rad_per_s: out, its rate. */

@@ -24,7 +24,7 @@ enum { CELLS_PER_ORDER = 64, MOST_STEPS = 400 };
 /* ---- passes ---- */
 
 typedef struct {
-    hci_turn_pass *pass;
+    hci_average_pass *pass;
     size_t count, capacity;
 } pass_list;
 
@@ -32,12 +32,12 @@ static hci_status push(pass_list *list, size_t first, size_t end, int direction)
 {
     if (list->count == list->capacity) {
         const size_t capacity = 2 * list->capacity + 16;
-        hci_turn_pass *larger = hci_memory_resize(list->pass, capacity, sizeof *larger);
+        hci_average_pass *larger = hci_memory_resize(list->pass, capacity, sizeof *larger);
         if (larger == NULL) return HCI_ERROR_MEMORY;
         list->pass = larger;
         list->capacity = capacity;
     }
-    list->pass[list->count++] = (hci_turn_pass){first, end - first, direction};
+    list->pass[list->count++] = (hci_average_pass){first, end - first, direction};
     return HCI_OK;
 }
 
@@ -57,7 +57,7 @@ static hci_status push_turns(pass_list *list, const double *angle, size_t first,
 }
 
 /* The path as stretches of one direction: from one extreme to the next. */
-static hci_status find_passes(const hci_turn_samples *x, size_t turns, pass_list *list)
+static hci_status find_passes(const hci_average_samples *x, size_t turns, pass_list *list)
 {
     const double *angle = x->angle_rad;
     hci_status status = HCI_OK;
@@ -108,7 +108,7 @@ static void cells_release(cell_table *c)
 }
 
 /* Means of the samples in each cell; cells without any are passed over. */
-static void gather(const hci_turn_samples *x, const hci_turn_pass *pass, cell_table *c)
+static void gather(const hci_average_samples *x, const hci_average_pass *pass, cell_table *c)
 {
     const size_t channels = x->channels;
     memset(c->angle, 0, c->size * sizeof(double));
@@ -209,7 +209,8 @@ static bool solve(size_t highest, const complex_number *moment, complex_number *
 }
 
 /* Σ w x e^{−ikφ} for k = 0 … count − 1; x NULL: 1. */
-static void transform(const cell_table *c, const double *x, size_t stride, size_t count, complex_number *out)
+static void fourier_sums(const cell_table *c, const double *x, size_t stride, size_t count,
+                         complex_number *out)
 {
     memset(out, 0, count * sizeof *out);
     for (size_t cell = 0; cell < c->used; ++cell) {
@@ -226,18 +227,18 @@ static void transform(const cell_table *c, const double *x, size_t stride, size_
 }
 
 /* Fits one pass; false when its angles cannot tell the orders apart. */
-static bool fit_pass(const cell_table *c, const hci_turns *turns, size_t pass, complex_number *work)
+static bool fit_pass(const cell_table *c, const hci_average *average, size_t pass, complex_number *work)
 {
-    const size_t highest = turns->highest;
+    const size_t highest = average->highest;
     complex_number *moment = work, *z = work + 2 * highest + 1, *rest = z + highest + 1;
-    transform(c, NULL, 0, 2 * highest + 1, moment);
-    for (size_t s = 0; s < turns->channels; ++s) {
-        transform(c, c->value + s, turns->channels, highest + 1, z);
+    fourier_sums(c, NULL, 0, 2 * highest + 1, moment);
+    for (size_t s = 0; s < average->channels; ++s) {
+        fourier_sums(c, c->value + s, average->channels, highest + 1, z);
         if (!solve(highest, moment, z, rest)) return false;
-        hci_turn_wave *wave = hci_turns_wave(turns, pass, s, 0);
-        wave[0] = (hci_turn_wave){0.0, z[0].re};
+        hci_average_harmonic *wave = hci_average_at(average, pass, s, 0);
+        wave[0] = (hci_average_harmonic){0.0, z[0].re};
         for (size_t k = 1; k <= highest; ++k)
-            wave[k] = (hci_turn_wave){-2.0 * z[k].im, 2.0 * z[k].re};
+            wave[k] = (hci_average_harmonic){-2.0 * z[k].im, 2.0 * z[k].re};
     }
     return true;
 }
@@ -256,7 +257,7 @@ static void sort_down(double *x, size_t n)
 }
 
 /* Highest order that half of the passes bear. gaps: work, one a pass. */
-static size_t highest_of(const hci_turn_samples *x, const pass_list *list, cell_table *c, double *gaps)
+static size_t highest_of(const hci_average_samples *x, const pass_list *list, cell_table *c, double *gaps)
 {
     for (size_t k = 0; k < list->count; ++k) {
         gaps[k] = TURN;
@@ -274,93 +275,95 @@ static size_t highest_of(const hci_turn_samples *x, const pass_list *list, cell_
 }
 
 /* The fewest turns a pass that bear enough orders, or those that bear most. */
-static hci_status choose_passes(const hci_turn_samples *x, size_t wanted, size_t enough, cell_table *c,
-                                pass_list *list, hci_turns *turns)
+static hci_status choose_passes(const hci_average_samples *x, size_t wanted, size_t enough, cell_table *c,
+                                pass_list *list, hci_average *average)
 {
     size_t best = 0;
-    turns->highest = 0;
+    average->highest = 0;
     for (size_t each = 1;; each *= 2) {
         hci_status status = find_passes(x, each, list);
         double *gaps = status == HCI_OK ? hci_memory_new(list->count, sizeof *gaps) : NULL;
         if (gaps == NULL) return HCI_ERROR_MEMORY;
         const size_t highest = highest_of(x, list, c, gaps), passes = list->count;
         hci_memory_free(gaps);
-        if (highest > turns->highest) {
-            turns->highest = highest < wanted ? highest : wanted;
+        if (highest > average->highest) {
+            average->highest = highest < wanted ? highest : wanted;
             best = each;
         }
-        if (turns->highest >= enough || passes <= 2 || each > x->count) break;
+        if (average->highest >= enough || passes <= 2 || each > x->count) break;
     }
-    turns->turns_each = best;
+    average->turns_each = best;
     return best > 0 ? find_passes(x, best, list) : HCI_OK;
 }
 
 /* Samples in no order, or strokes that go round together only. */
-static hci_status take_all(const hci_turn_samples *x, size_t wanted, cell_table *c, pass_list *list,
-                           hci_turns *turns)
+static hci_status take_all(const hci_average_samples *x, size_t wanted, cell_table *c, pass_list *list,
+                           hci_average *average)
 {
     double gap;
     list->count = 0;
     const hci_status status = push(list, 0, x->count, 0);
     if (status != HCI_OK) return status;
     const size_t bears = highest_of(x, list, c, &gap);
-    turns->highest = bears < wanted ? bears : wanted;
-    turns->turns_each = 1;
+    average->highest = bears < wanted ? bears : wanted;
+    average->turns_each = 1;
     return HCI_OK;
 }
 
-static hci_status fit_all(const hci_turn_samples *x, const pass_list *list, cell_table *c, hci_turns *turns)
+static hci_status fit_all(const hci_average_samples *x, const pass_list *list, cell_table *c,
+                          hci_average *average)
 {
-    const size_t waves = turns->channels * (turns->highest + 1);
-    turns->pass = hci_memory_new(list->count, sizeof *turns->pass);
-    turns->wave = hci_memory_new(list->count * waves, sizeof *turns->wave);
-    complex_number *work = hci_memory_new(6 * (turns->highest + 1), sizeof *work);
-    if (turns->pass == NULL || turns->wave == NULL || work == NULL) {
+    const size_t waves = average->channels * (average->highest + 1);
+    average->pass = hci_memory_new(list->count, sizeof *average->pass);
+    average->wave = hci_memory_new(list->count * waves, sizeof *average->wave);
+    complex_number *work = hci_memory_new(6 * (average->highest + 1), sizeof *work);
+    if (average->pass == NULL || average->wave == NULL || work == NULL) {
         hci_memory_free(work);
         return HCI_ERROR_MEMORY;
     }
     for (size_t k = 0; k < list->count; ++k) {
         if (list->pass[k].count < 3) continue;
         gather(x, &list->pass[k], c);
-        if (weigh(c) * (double)turns->highest > HCI_PI || !fit_pass(c, turns, turns->count, work)) continue;
-        turns->pass[turns->count++] = list->pass[k];
+        if (weigh(c) * (double)average->highest > HCI_PI || !fit_pass(c, average, average->count, work))
+            continue;
+        average->pass[average->count++] = list->pass[k];
     }
     hci_memory_free(work);
-    return turns->count > 0 ? HCI_OK : HCI_ERROR_SINGULAR;
+    return average->count > 0 ? HCI_OK : HCI_ERROR_SINGULAR;
 }
 
-static hci_status fit(const hci_turn_samples *x, size_t wanted, size_t enough, size_t least, pass_list *list,
-                      cell_table *c, hci_turns *turns)
+static hci_status fit(const hci_average_samples *x, size_t wanted, size_t enough, size_t least,
+                      pass_list *list, cell_table *c, hci_average *average)
 {
     hci_status status = cells_new(c, CELLS_PER_ORDER * (wanted + 1), x->channels);
-    if (status == HCI_OK) status = choose_passes(x, wanted, enough, c, list, turns);
-    if (status == HCI_OK && turns->highest < least) status = take_all(x, wanted, c, list, turns);
-    if (status == HCI_OK && turns->highest < least) status = HCI_ERROR_SINGULAR;
-    return status == HCI_OK ? fit_all(x, list, c, turns) : status;
+    if (status == HCI_OK) status = choose_passes(x, wanted, enough, c, list, average);
+    if (status == HCI_OK && average->highest < least) status = take_all(x, wanted, c, list, average);
+    if (status == HCI_OK && average->highest < least) status = HCI_ERROR_SINGULAR;
+    return status == HCI_OK ? fit_all(x, list, c, average) : status;
 }
 
-hci_status hci_turns_fit(const hci_turn_samples *samples, size_t wanted, size_t enough, size_t least,
-                         hci_turns *turns)
+hci_status hci_average_fit(const hci_average_samples *samples, size_t wanted, size_t enough, size_t least,
+                           hci_average *average)
 {
     pass_list list = {NULL, 0, 0};
     cell_table cells = {.size = 0};
-    memset(turns, 0, sizeof *turns);
-    turns->channels = samples->channels;
-    const hci_status status = fit(samples, wanted, enough, least, &list, &cells, turns);
+    memset(average, 0, sizeof *average);
+    average->channels = samples->channels;
+    const hci_status status = fit(samples, wanted, enough, least, &list, &cells, average);
     cells_release(&cells);
     hci_memory_free(list.pass);
-    if (status != HCI_OK) hci_turns_release(turns);
+    if (status != HCI_OK) hci_average_release(average);
     return status;
 }
 
-void hci_turns_release(hci_turns *turns)
+void hci_average_release(hci_average *average)
 {
-    hci_memory_free(turns->pass);
-    hci_memory_free(turns->wave);
-    memset(turns, 0, sizeof *turns);
+    hci_memory_free(average->pass);
+    hci_memory_free(average->wave);
+    memset(average, 0, sizeof *average);
 }
 
-hci_turn_wave *hci_turns_wave(const hci_turns *turns, size_t pass, size_t channel, size_t order)
+hci_average_harmonic *hci_average_at(const hci_average *average, size_t pass, size_t channel, size_t order)
 {
-    return &turns->wave[(pass * turns->channels + channel) * (turns->highest + 1) + order];
+    return &average->wave[(pass * average->channels + channel) * (average->highest + 1) + order];
 }

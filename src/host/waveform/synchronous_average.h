@@ -13,65 +13,65 @@ typedef struct {
     const double *angle_rad; /* unwrapped, of the turn that is looked at: mechanical or electrical */
     const double *value;
     size_t count, channels;
-} hci_turn_samples;
+} hci_average_samples;
 
 /* A stretch of the path in one direction: one turn, or several where one has too few samples. */
 typedef struct {
     size_t first, count;
     int direction; /* +1, −1; 0: all samples, which are in no order */
-} hci_turn_pass;
+} hci_average_pass;
 
 /* S and C of S sin kφ + C cos kφ; at k = 0 C is the mean. */
 typedef struct {
     double sine, cosine;
-} hci_turn_wave;
+} hci_average_harmonic;
 
 /* Start with {0}. */
 typedef struct {
     size_t highest; /* M: orders 0 … M of the turn */
     size_t channels, count;
-    size_t turns_each;   /* turns of a pass */
-    hci_turn_pass *pass; /* count */
-    hci_turn_wave *wave; /* [count][channels][highest + 1] */
-} hci_turns;
+    size_t turns_each;          /* turns of a pass */
+    hci_average_pass *pass;     /* count */
+    hci_average_harmonic *wave; /* [count][channels][highest + 1] */
+} hci_average;
 
 /* Cuts the path into passes and fits each by weighted least squares (adaptive weights, conjugate gradients on
  * the Toeplitz matrix: Feichtinger, Gröchenig, Strohmer 1995). wanted: highest order; lower where the gaps
  * between samples do not allow it, so that M·gap < 0.8 π. enough: passes are made of several turns until they
  * bear this order. HCI_ERROR_SINGULAR: no pass goes round the turn with orders up to `least`;
  * HCI_ERROR_MEMORY. O(samples·M + passes·M²). */
-hci_status hci_turns_fit(const hci_turn_samples *samples, size_t wanted, size_t enough, size_t least,
-                         hci_turns *turns);
-void hci_turns_release(hci_turns *turns);
+hci_status hci_average_fit(const hci_average_samples *samples, size_t wanted, size_t enough, size_t least,
+                           hci_average *average);
+void hci_average_release(hci_average *average);
 
-hci_turn_wave *hci_turns_wave(const hci_turns *turns, size_t pass, size_t channel, size_t order);
+hci_average_harmonic *hci_average_at(const hci_average *average, size_t pass, size_t channel, size_t order);
 
 /* Passes of a direction. */
-size_t hci_turns_passes(const hci_turns *turns, int direction);
+size_t hci_average_passes(const hci_average *average, int direction);
 
 typedef struct {
-    hci_turn_wave mean;
+    hci_average_harmonic mean;
     double std_error; /* of each coordinate */
     double freedom;   /* degrees of freedom of the standard error */
-} hci_turn_estimate;
+} hci_order_estimate;
 
 /* Whether there are turns enough for the error to come from how they differ; else it is that of the orders
  * around, by the median of their squares. */
-bool hci_turns_repeat(const hci_turns *turns);
+bool hci_average_has_repeats(const hci_average *average);
 
 /* The mean over the passes of each direction, and over the directions. Between turns the error allows for
  * neighbours that resemble each other (a factor from the correlation with the next turn). */
-hci_turn_estimate hci_turns_estimate(const hci_turns *turns, size_t channel, size_t order);
+hci_order_estimate hci_average_estimate(const hci_average *average, size_t channel, size_t order);
 
 /* The chance that noise alone makes an order as large as this: F with 2 and `freedom` degrees. */
-double hci_turn_chance(const hci_turn_estimate *estimate);
+double hci_order_chance(const hci_order_estimate *estimate);
 
 /* The same by what tells more, the noise of the orders around or that between turns: twice the lesser of the
  * two, since there are two to choose from. */
-double hci_turns_chance(const hci_turns *turns, size_t channel, size_t order);
+double hci_average_chance(const hci_average *average, size_t channel, size_t order);
 
 /* Half the difference of the means of the two directions (backward − forward), and its standard error; NAN
  * without both. */
-double hci_turns_half_difference(const hci_turns *turns, size_t channel, double *std_error);
+double hci_average_half_difference(const hci_average *average, size_t channel, double *std_error);
 
 #endif

@@ -43,13 +43,13 @@ hci_status hci_waveform_memory(const hci_waveform_task *t)
 
 /* ---- which orders stand out ---- */
 
-static void set_order(hci_waveform_order *o, double order, const hci_turn_estimate *e)
+static void set_order(hci_waveform_order *o, double order, const hci_order_estimate *e)
 {
     o->order = order;
     o->amplitude = hci_amplitude(e->mean.sine, e->mean.cosine);
     o->phase_rad = hci_phase_rad(e->mean.sine, e->mean.cosine);
     o->std_error = e->std_error;
-    o->chance = hci_turn_chance(e);
+    o->chance = hci_order_chance(e);
 }
 
 static void count_kept(hci_waveform *w)
@@ -72,17 +72,18 @@ static bool stands_out(const hci_waveform_order *o, size_t looked_at, double lar
            o->amplitude > ROUNDING * largest;
 }
 
-static hci_status judge_all(const hci_waveform_task *t, const hci_turns *turns, size_t channel, double step)
+static hci_status judge_all(const hci_waveform_task *t, const hci_average *average, size_t channel,
+                            double step)
 {
     hci_waveform *w = t->result;
     double largest = 0.0;
-    w->count = turns->highest;
+    w->count = average->highest;
     w->order = hci_memory_new(w->count, sizeof *w->order);
     if (w->order == NULL) return hci_waveform_memory(t);
     for (size_t k = 0; k < w->count; ++k) {
-        const hci_turn_estimate e = hci_turns_estimate(turns, channel, k + 1);
+        const hci_order_estimate e = hci_average_estimate(average, channel, k + 1);
         set_order(&w->order[k], (double)(k + 1) * step, &e);
-        w->order[k].chance = hci_turns_chance(turns, channel, k + 1);
+        w->order[k].chance = hci_average_chance(average, channel, k + 1);
         largest = fmax(largest, w->order[k].amplitude);
     }
     for (size_t k = 0; k < w->count; ++k)
@@ -90,7 +91,8 @@ static hci_status judge_all(const hci_waveform_task *t, const hci_turns *turns, 
     return HCI_OK;
 }
 
-static hci_status judge_given(const hci_waveform_task *t, const hci_turns *turns, size_t channel, double step)
+static hci_status judge_given(const hci_waveform_task *t, const hci_average *average, size_t channel,
+                              double step)
 {
     const hci_waveform_options *o = t->options;
     hci_waveform *w = t->result;
@@ -99,36 +101,38 @@ static hci_status judge_given(const hci_waveform_task *t, const hci_turns *turns
     if (w->order == NULL) return hci_waveform_memory(t);
     for (size_t k = 0; k < w->count; ++k) {
         const size_t at = (size_t)(o->orders[k] / step + 0.5);
-        const hci_turn_estimate e = hci_turns_estimate(turns, channel, at);
+        const hci_order_estimate e = hci_average_estimate(average, channel, at);
         set_order(&w->order[k], o->orders[k], &e);
-        w->order[k].chance = hci_turns_chance(turns, channel, at);
+        w->order[k].chance = hci_average_chance(average, channel, at);
         w->order[k].kept = true;
     }
     return HCI_OK;
 }
 
 /* Orders that were asked for and that the samples do not bear. */
-static void remark_limit(const hci_waveform_task *t, const hci_turns *turns, double step)
+static void remark_limit(const hci_waveform_task *t, const hci_average *average, double step)
 {
     const hci_waveform_options *o = t->options;
-    const double reached = (double)turns->highest * step;
+    const double reached = (double)average->highest * step;
     const double wanted = isnan(o->max_order) ? HCI_WAVEFORM_ORDER_MOST : o->max_order;
     if (o->orders != NULL || reached + step > wanted) return;
     hci_note_add(&t->result->remark, "orders above %.6g are not looked at: the samples lie too far apart%s",
                  reached,
-                 isnan(o->max_order) && turns->count > 3 ? "; --max-order N puts turns together" : "");
+                 isnan(o->max_order) && average->count > 3 ? "; --max-order N puts turns together" : "");
 }
 
-hci_status hci_waveform_judge(const hci_waveform_task *t, const hci_turns *turns, size_t channel, double step)
+hci_status hci_waveform_judge(const hci_waveform_task *t, const hci_average *average, size_t channel,
+                              double step)
 {
     hci_waveform *w = t->result;
     w->step = step;
-    w->between_turns = hci_turns_repeat(turns);
-    w->turns_backward = hci_turns_passes(turns, -1) * turns->turns_each;
-    w->turns_forward = (hci_turns_passes(turns, 1) + hci_turns_passes(turns, 0)) * turns->turns_each;
-    remark_limit(t, turns, step);
-    const hci_status status = t->options->orders != NULL ? judge_given(t, turns, channel, step)
-                                                         : judge_all(t, turns, channel, step);
+    w->between_turns = hci_average_has_repeats(average);
+    w->turns_backward = hci_average_passes(average, -1) * average->turns_each;
+    w->turns_forward =
+        (hci_average_passes(average, 1) + hci_average_passes(average, 0)) * average->turns_each;
+    remark_limit(t, average, step);
+    const hci_status status = t->options->orders != NULL ? judge_given(t, average, channel, step)
+                                                         : judge_all(t, average, channel, step);
     if (status == HCI_OK) count_kept(w);
     return status;
 }
@@ -187,8 +191,8 @@ static size_t turn_order(double electrical, double step)
     return order < HIGHEST_MOST ? (size_t)order : HIGHEST_MOST;
 }
 
-hci_status hci_waveform_turns(const hci_waveform_task *t, const hci_turn_samples *samples, double step,
-                              hci_turns *turns)
+hci_status hci_waveform_turns(const hci_waveform_task *t, const hci_average_samples *samples, double step,
+                              hci_average *average)
 {
     const hci_waveform_options *o = t->options;
     const bool given = o->orders != NULL, limited = !isnan(o->max_order);
@@ -198,30 +202,30 @@ hci_status hci_waveform_turns(const hci_waveform_task *t, const hci_turn_samples
     const size_t wanted = turn_order(top, step);
     const size_t enough = given || limited ? wanted : turn_order(HCI_WAVEFORM_ORDER_ENOUGH, step);
     if (given && top / step > HIGHEST_MOST) return HCI_ERROR_SINGULAR;
-    return hci_turns_fit(samples, wanted, enough, given ? wanted : turn_order(1.0, step), turns);
+    return hci_average_fit(samples, wanted, enough, given ? wanted : turn_order(1.0, step), average);
 }
 
 static hci_status fit_turns(const hci_waveform_task *t, const double *value, double *angle, double scale,
-                            double step, hci_turns *turns)
+                            double step, hci_average *average)
 {
     for (size_t k = 0; k < t->run->count; ++k)
         angle[k] = scale * t->run->theta_m_rad[k];
-    const hci_turn_samples samples = {angle, value, t->run->count, 1};
-    return hci_waveform_turns(t, &samples, step, turns);
+    const hci_average_samples samples = {angle, value, t->run->count, 1};
+    return hci_waveform_turns(t, &samples, step, average);
 }
 
 /* By mechanical turns where that is possible, else by electrical ones. */
-static hci_status find_turns(const hci_waveform_task *t, const double *value, double *angle, hci_turns *turns,
-                             double *step)
+static hci_status find_turns(const hci_waveform_task *t, const double *value, double *angle,
+                             hci_average *average, double *step)
 {
     const double p = t->options->pole_pairs;
     hci_status status = HCI_ERROR_SINGULAR;
     *step = 1.0 / p;
     if (t->run->turn_known && orders_fit(t->options, *step))
-        status = fit_turns(t, value, angle, 1.0, *step, turns);
+        status = fit_turns(t, value, angle, 1.0, *step, average);
     if (status != HCI_ERROR_SINGULAR) return status;
     *step = 1.0;
-    return orders_fit(t->options, 1.0) ? fit_turns(t, value, angle, p, *step, turns) : status;
+    return orders_fit(t->options, 1.0) ? fit_turns(t, value, angle, p, *step, average) : status;
 }
 
 /* ---- the given orders and no others: for what does not go round ---- */
@@ -307,9 +311,9 @@ static void set_given(const hci_waveform_task *t, const hci_harmonic *fit, const
     const size_t count = t->options->order_count;
     hci_waveform *w = t->result;
     for (size_t k = 0; k < count; ++k) {
-        const hci_turn_estimate e = {{fit[k + 1].sine, fit[k + 1].cosine},
-                                     error[k],
-                                     fmax((double)t->run->count - 2.0 * (double)count - 1.0, 2.0)};
+        const hci_order_estimate e = {{fit[k + 1].sine, fit[k + 1].cosine},
+                                      error[k],
+                                      fmax((double)t->run->count - 2.0 * (double)count - 1.0, 2.0)};
         set_order(&w->order[k], t->options->orders[k], &e);
         w->order[k].kept = true;
     }
@@ -367,14 +371,14 @@ static void remark_cogging(const hci_waveform_task *t)
 static hci_status cogging_of(const hci_waveform_task *t, double *value, double *angle)
 {
     hci_waveform *w = t->result;
-    hci_turns turns = {.highest = 0};
+    hci_average average = {.highest = 0};
     double step;
     cogging_values(t, value);
-    hci_status status = find_turns(t, value, angle, &turns, &step);
+    hci_status status = find_turns(t, value, angle, &average, &step);
     if (status == HCI_OK) {
-        w->friction_Nm = hci_turns_half_difference(&turns, 0, &w->friction_error_Nm);
-        w->mean_Nm = hci_turns_estimate(&turns, 0, 0).mean.cosine;
-        status = hci_waveform_judge(t, &turns, 0, step);
+        w->friction_Nm = hci_average_half_difference(&average, 0, &w->friction_error_Nm);
+        w->mean_Nm = hci_average_estimate(&average, 0, 0).mean.cosine;
+        status = hci_waveform_judge(t, &average, 0, step);
     } else if (status == HCI_ERROR_SINGULAR && t->options->orders != NULL) {
         status = judge_fit(t, value, angle);
     } else if (status == HCI_ERROR_SINGULAR) {
@@ -382,7 +386,7 @@ static hci_status cogging_of(const hci_waveform_task *t, double *value, double *
                                      "samples all around, without large gaps",
                                      "record more of the turn, or name the orders to fit with --orders");
     }
-    hci_turns_release(&turns);
+    hci_average_release(&average);
     if (status == HCI_ERROR_MEMORY) return hci_waveform_memory(t);
     if (status == HCI_OK) remark_cogging(t);
     return status;
