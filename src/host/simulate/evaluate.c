@@ -300,13 +300,6 @@ static void give_energies(const hci_evaluation *e, const reached *x, double time
     j->residual = j->electrical - j->copper - j->stored - j->mechanical;
 }
 
-/* What a reader must know is added to the remark. */
-static void add_remark(hci_simulation *s, const char *text)
-{
-    const size_t used = strlen(s->remark.text);
-    snprintf(s->remark.text + used, sizeof s->remark.text - used, "%s%s", used > 0 ? "; " : "", text);
-}
-
 /* Largest share of the energies that may be lost to the step. */
 #define LARGEST_IMBALANCE 0.01
 
@@ -316,18 +309,17 @@ static void check_balance(hci_simulation *s)
     const double all = fabs(j->electrical) + fabs(j->copper) + fabs(j->mechanical);
     s->energy_balances = !(fabs(j->residual) > LARGEST_IMBALANCE * all);
     if (!s->energy_balances)
-        add_remark(
-            s, "the energy does not balance within 1 %, so these figures mean nothing; give a smaller step");
+        hci_note_add(
+            &s->remark,
+            "the energy does not balance within 1 %%, so these figures mean nothing; give a smaller step");
 }
 
 static void check_speed(const hci_evaluation *e, hci_simulation *s)
 {
     const double wanted = e->setup->set_point, mean = s->speed_rad_per_s.mean;
-    char text[160];
     if (!e->setup->drive.control.speed_controlled || fabs(mean - wanted) <= 0.01 * fabs(wanted)) return;
-    snprintf(text, sizeof text, "the speed is %.5g rpm on average, not the %.5g rpm asked for",
-             mean * 30.0 / HCI_PI, wanted * 30.0 / HCI_PI);
-    add_remark(s, text);
+    hci_note_add(&s->remark, "the speed is %.5g rpm on average, not the %.5g rpm asked for",
+                 mean * 30.0 / HCI_PI, wanted * 30.0 / HCI_PI);
 }
 
 /* Orders whose period has at least this many steps at the highest speed are in the spectrum. */
@@ -338,14 +330,12 @@ static size_t trusted_orders(const hci_evaluation *e, hci_simulation *s)
     const double speed = fmax(fabs(s->speed_rad_per_s.most), fabs(s->speed_rad_per_s.least));
     const double turn_s = 2.0 * HCI_PI / (e->setup->drive.plant.table.pole_pairs * speed);
     const double most = (double)e->setup->period_turns * turn_s / (STEPS_OF_A_PERIOD * s->step_s);
-    char text[240];
     if (most >= (double)(e->orders - 1)) return e->orders;
-    snprintf(text, sizeof text,
-             "the spectrum ends at order %g, above which a period has fewer than 4 steps; what the torque "
-             "has there folds "
-             "onto the orders below, so give a smaller step",
-             floor(most) / (double)e->setup->period_turns);
-    add_remark(s, text);
+    hci_note_add(
+        &s->remark,
+        "the spectrum ends at order %g, above which a period has fewer than 4 steps; what the torque "
+        "has there folds onto the orders below, so give a smaller step",
+        floor(most) / (double)e->setup->period_turns);
     return (size_t)most + 1;
 }
 

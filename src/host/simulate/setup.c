@@ -42,12 +42,6 @@ static hci_status wrong(const job *b, const char *format, ...)
     return hci_note_set(b->note, HCI_ERROR_INPUT, "%s: %s", hci_quote_path(b->scenario->path, path), text);
 }
 
-static void remark(hci_setup *setup, const char *text)
-{
-    const size_t used = strlen(setup->remark.text);
-    snprintf(setup->remark.text + used, sizeof setup->remark.text - used, "%s%s", used ? "; " : "", text);
-}
-
 /* A value of machine.csv that the plant cannot do without. */
 static hci_status need(const job *b, double value, const char *name, const char *unit, const char *why)
 {
@@ -224,9 +218,10 @@ static hci_status choose_inductance(const job *b, hci_plant_inductance *given)
     given->d_H = or_else(m->inductance_d_H, 1e-3);
     given->q_H = or_else(m->inductance_q_H, 1e-3);
     if (fabs(given->d_H - given->q_H) > 1e-9 * given->q_H)
-        remark(b->setup, "inductance_d and inductance_q differ, and the reluctance torque that follows is in "
-                         "this simulation; "
-                         "`solve` reads inductance.csv only");
+        hci_note_add(&b->setup->remark,
+                     "inductance_d and inductance_q differ, and the reluctance torque that follows is in "
+                     "this simulation; "
+                     "`solve` reads inductance.csv only");
     return HCI_OK;
 }
 

@@ -78,10 +78,8 @@ static size_t find_component(const hci_component *list, size_t count, hci_compon
 
 static void remark_repeat(hci_component_set *set, hci_component c, hci_set first, hci_set second)
 {
-    const size_t used = strlen(set->remark.text);
-    snprintf(set->remark.text + used, sizeof set->remark.text - used,
-             "%s%s %g and %s %g are the same component and count once", used ? "; " : "", hci_set_name(first),
-             c.order, hci_set_name(second), c.order);
+    hci_note_add(&set->remark, "%s %g and %s %g are the same component and count once", hci_set_name(first),
+                 c.order, hci_set_name(second), c.order);
 }
 
 /* Adds the component of a row, unless it is there already. (0, −1) spans the same plane as (0, +1) and is
