@@ -8,11 +8,11 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "hci/host/base/unit.h"
 #include "hci/host/machine/init.h"
 #include "hci/machine/frames.h"
 #include "host/base/memory.h"
 #include "host/check/data.h"
+#include "host/csv/name_values.h"
 #include "host/machine/folder.h"
 #include "host/machine/inductance.h"
 #include "host/machine/spectrum_table.h"
@@ -48,21 +48,10 @@ static check_place place_of(const hci_csv *csv, const char *path, const char *na
 
 static hci_status scalar_read(const hci_csv *csv, size_t row, size_t k, check_data *data, hci_note *note)
 {
-    const char *unit = "";
-    double factor = 1.0;
-    hci_status status;
     if (data->cell[k].path)
         return hci_csv_error(csv, "name", row, note, "each name once", "delete one of the two rows");
-    status = hci_csv_number(csv, "value", row, &data->value[k], note);
-    if (!status && hci_csv_has(csv, "unit")) status = hci_csv_text(csv, "unit", row, &unit, note);
+    const hci_status status = hci_value_read(csv, row, VALUES[k].unit, &data->value[k], note);
     if (status) return status;
-    if (unit[0] != '\0' && strcmp(unit, "1") != 0 && strcmp(unit, "-") != 0 &&
-        !hci_unit_factor(unit, VALUES[k].unit, &factor)) {
-        char expected[64];
-        snprintf(expected, sizeof expected, "a unit that converts to %s", VALUES[k].unit);
-        return hci_csv_error(csv, "unit", row, note, expected, "check the unit of this value");
-    }
-    data->value[k] *= factor;
     data->cell[k] = place_of(csv, data->machine_path, "value", row);
     return HCI_OK;
 }

@@ -10,9 +10,9 @@
 #include <sys/stat.h>
 
 #include "hci/host/base/number.h"
-#include "hci/host/base/unit.h"
 #include "hci/host/csv/csv.h"
 #include "host/base/memory.h"
+#include "host/csv/name_values.h"
 
 #define PATH_SIZE 4096
 #define LIST_SIZE 640
@@ -59,7 +59,7 @@ static hci_status parameter_error(const hci_csv *csv, size_t row, const hci_effe
                          "these are the parameters of this effect; an order is a number, as in sine_18");
 }
 
-static hci_status type_read(const hci_csv *csv, effect_row *r, hci_note *note)
+static hci_status read_type(const hci_csv *csv, effect_row *r, hci_note *note)
 {
     const hci_effect_type *type;
     const char *name;
@@ -80,7 +80,7 @@ static bool is_parameter(const hci_effect_parameter *parameter, const char *name
            hci_number_parse(name + length + 1, order);
 }
 
-static hci_status order_check(const hci_csv *csv, const effect_row *r, const hci_effect_parameter *parameter,
+static hci_status check_order(const hci_csv *csv, const effect_row *r, const hci_effect_parameter *parameter,
                               hci_note *note)
 {
     const double order = r->term.order;
@@ -97,7 +97,7 @@ static hci_status order_check(const hci_csv *csv, const effect_row *r, const hci
     return HCI_OK;
 }
 
-static hci_status parameter_read(const hci_csv *csv, effect_row *r, hci_note *note)
+static hci_status read_parameter(const hci_csv *csv, effect_row *r, hci_note *note)
 {
     const hci_effect_type *type = hci_effect_type_at(r->type);
     const char *name;
@@ -106,29 +106,13 @@ static hci_status parameter_read(const hci_csv *csv, effect_row *r, hci_note *no
     for (size_t k = 0; k < type->parameter_count; ++k) {
         if (!is_parameter(&type->parameter[k], name, &r->term.order)) continue;
         r->term.parameter = k;
-        return order_check(csv, r, &type->parameter[k], note);
+        return check_order(csv, r, &type->parameter[k], note);
     }
     return parameter_error(csv, r->row, type, note);
 }
 
-/* The factor to the parameter's unit, which may be one that files have nowhere else. */
-static hci_status unit_read(const hci_csv *csv, size_t row, const char *wanted, double *factor,
-                            hci_note *note)
-{
-    const char *unit = "";
-    char expected[64];
-    const hci_status status = hci_csv_has(csv, "unit") ? hci_csv_text(csv, "unit", row, &unit, note) : HCI_OK;
-    *factor = 1.0;
-    if (status || unit[0] == '\0' || strcmp(unit, "1") == 0 || strcmp(unit, "-") == 0 ||
-        strcmp(unit, wanted) == 0)
-        return status;
-    if (hci_unit_factor(unit, wanted, factor)) return HCI_OK;
-    snprintf(expected, sizeof expected, "a unit that converts to %s", wanted);
-    return hci_csv_error(csv, "unit", row, note, expected, "check the unit of this value");
-}
-
 /* An empty cell, or no such column, is a standard error that is not known. */
-static hci_status std_error_read(const hci_csv *csv, effect_row *r, hci_note *note)
+static hci_status read_std_error(const hci_csv *csv, effect_row *r, hci_note *note)
 {
     const char *text = "";
     hci_status status = HCI_OK;
@@ -142,14 +126,14 @@ static hci_status std_error_read(const hci_csv *csv, effect_row *r, hci_note *no
     return status;
 }
 
-static hci_status value_read(const hci_csv *csv, effect_row *r, hci_note *note)
+static hci_status read_value(const hci_csv *csv, effect_row *r, hci_note *note)
 {
     const hci_effect_parameter *parameter = &hci_effect_type_at(r->type)->parameter[r->term.parameter];
     double factor;
     char expected[64];
     hci_status status = hci_csv_number(csv, "value", r->row, &r->term.value, note);
-    if (!status) status = unit_read(csv, r->row, parameter->unit, &factor, note);
-    if (!status) status = std_error_read(csv, r, note);
+    if (!status) status = hci_value_factor(csv, r->row, parameter->unit, &factor, note);
+    if (!status) status = read_std_error(csv, r, note);
     if (status) return status;
     r->term.value *= factor;
     r->term.std_error *= factor;
@@ -170,7 +154,7 @@ static int by_place(const void *a, const void *b)
     return x->row < y->row ? -1 : 1;
 }
 
-static hci_status rows_sort(const hci_csv *csv, effect_row *rows, size_t count, hci_note *note)
+static hci_status sort_rows(const hci_csv *csv, effect_row *rows, size_t count, hci_note *note)
 {
     if (count > 1) qsort(rows, count, sizeof *rows, by_place);
     for (size_t k = 1; k < count; ++k) {
@@ -183,16 +167,16 @@ static hci_status rows_sort(const hci_csv *csv, effect_row *rows, size_t count, 
     return HCI_OK;
 }
 
-static hci_status rows_read(const hci_csv *csv, effect_row *rows, size_t count, hci_note *note)
+static hci_status read_rows(const hci_csv *csv, effect_row *rows, size_t count, hci_note *note)
 {
     hci_status status = HCI_OK;
     for (size_t k = 0; k < count && !status; ++k) {
         rows[k].row = k;
-        status = type_read(csv, &rows[k], note);
-        if (!status) status = parameter_read(csv, &rows[k], note);
-        if (!status) status = value_read(csv, &rows[k], note);
+        status = read_type(csv, &rows[k], note);
+        if (!status) status = read_parameter(csv, &rows[k], note);
+        if (!status) status = read_value(csv, &rows[k], note);
     }
-    return status ? status : rows_sort(csv, rows, count, note);
+    return status ? status : sort_rows(csv, rows, count, note);
 }
 
 /* Sorted rows to effects with their terms. */
@@ -218,7 +202,7 @@ static hci_status from_csv(const hci_csv *csv, hci_effects_data *effects, hci_no
     if (!rows || !effects->effect || !effects->term)
         status =
             hci_note_set(note, HCI_ERROR_MEMORY, "%s: out of memory for %zu rows", hci_csv_path(csv), count);
-    if (!status) status = rows_read(csv, rows, count, note);
+    if (!status) status = read_rows(csv, rows, count, note);
     if (!status) group(rows, count, effects);
     hci_memory_free(rows);
     return status;
@@ -265,7 +249,7 @@ const hci_effect *hci_effects_find(const hci_effects *effects, const char *name)
 
 /* ---- writing ---- */
 
-static void term_write(hci_output *output, const hci_effect_type *type, const hci_effect_term *term)
+static void write_term(hci_output *output, const hci_effect_type *type, const hci_effect_term *term)
 {
     const hci_effect_parameter *parameter = &type->parameter[term->parameter];
     hci_output_text(output, "%s,%s", type->name, parameter->name);
@@ -290,7 +274,7 @@ hci_status hci_effects_write(hci_output *output, const hci_effects *effects, hci
     hci_output_text(output, "effect,parameter,value,unit,std_error\n");
     for (size_t k = 0; k < effects->count; ++k)
         for (size_t j = 0; j < effects->effect[k].count; ++j)
-            term_write(output, effects->effect[k].type, &effects->effect[k].term[j]);
+            write_term(output, effects->effect[k].type, &effects->effect[k].term[j]);
     return HCI_OK;
 }
 
@@ -340,7 +324,7 @@ static double delay_by_fraction(const hci_effect *effect, const hci_plant_state 
 
 enum { MOST_STEPS = 1000000 };
 
-static hci_status delay_set(probe *p, bool wraps, hci_sensor *sensor, hci_note *note)
+static hci_status set_delay(probe *p, bool wraps, hci_sensor *sensor, hci_note *note)
 {
     const double steps = p->channel.delay_s / p->step_s, whole = floor(steps + 1e-9);
     if (!(steps >= 0.0 && steps < MOST_STEPS))
@@ -360,7 +344,7 @@ static hci_status delay_set(probe *p, bool wraps, hci_sensor *sensor, hci_note *
 }
 
 /* Every type's say on the sensors, in the order of the registry. */
-static void types_simulate(const hci_effects *effects, int pole_pairs, hci_sensor *sensors,
+static void simulate_types(const hci_effects *effects, int pole_pairs, hci_sensor *sensors,
                            hci_effect_channel *channels)
 {
     const hci_effect_type *type;
@@ -370,18 +354,18 @@ static void types_simulate(const hci_effects *effects, int pole_pairs, hci_senso
                 type->simulate(&effects->effect[k], pole_pairs, sensors, channels);
 }
 
-static hci_status sensors_set(const hci_effects *effects, int pole_pairs, hci_effects_attachment *a,
+static hci_status set_sensors(const hci_effects *effects, int pole_pairs, hci_effects_attachment *a,
                               hci_sensor *sensors, hci_note *note)
 {
     hci_effect_channel channels[HCI_SENSE_COUNT];
     hci_status status = HCI_OK;
     memset(channels, 0, sizeof channels);
-    types_simulate(effects, pole_pairs, sensors, channels);
+    simulate_types(effects, pole_pairs, sensors, channels);
     for (int s = 0; s < HCI_SENSE_COUNT && !status; ++s) {
         probe *p = &a->probe[s];
         p->channel = channels[s];
         p->before = sensors[s];
-        status = delay_set(p, s == HCI_SENSE_ANGLE, &sensors[s], note);
+        status = set_delay(p, s == HCI_SENSE_ANGLE, &sensors[s], note);
         if (!status && p->channel.count > HCI_EFFECT_LINKS)
             status = hci_note_set(note, HCI_ERROR_ARGUMENT,
                                   "more than %d effects act on one sensor; join those of one kind",
@@ -394,7 +378,7 @@ static hci_status sensors_set(const hci_effects *effects, int pole_pairs, hci_ef
     return status;
 }
 
-static hci_status attach_check(const hci_effects *effects, const hci_drive *drive, hci_note *note)
+static hci_status check_attachable(const hci_effects *effects, const hci_drive *drive, hci_note *note)
 {
     if (drive->plant.effect_count > 0 || !(drive->control.step_s > 0.0))
         return hci_note_set(note, HCI_ERROR_ARGUMENT,
@@ -408,7 +392,7 @@ static hci_status attach_check(const hci_effects *effects, const hci_drive *driv
     return HCI_OK;
 }
 
-static void drive_set(const hci_effects *effects, const hci_machine *machine, double temperature_C,
+static void set_drive(const hci_effects *effects, const hci_machine *machine, double temperature_C,
                       hci_effects_attachment *a, hci_drive *drive)
 {
     a->plant = (hci_effects_plant){machine, effects, temperature_C};
@@ -424,7 +408,7 @@ hci_status hci_effects_attach(const hci_effects *effects, const hci_machine *mac
 {
     hci_sensor changed[HCI_SENSE_COUNT];
     hci_effects_attachment *a;
-    hci_status status = attach_check(effects, drive, note);
+    hci_status status = check_attachable(effects, drive, note);
     *attachment = NULL;
     if (status) return status;
     a = hci_memory_new(1, sizeof *a);
@@ -434,13 +418,13 @@ hci_status hci_effects_attach(const hci_effects *effects, const hci_machine *mac
         a->probe[s].step_s = drive->control.step_s;
     }
     memcpy(changed, sensors, sizeof changed);
-    status = sensors_set(effects, machine->pole_pairs, a, changed, note);
+    status = set_sensors(effects, machine->pole_pairs, a, changed, note);
     if (status) {
         hci_memory_free(a);
         return status;
     }
     memcpy(sensors, changed, sizeof changed);
-    drive_set(effects, machine, temperature_C, a, drive);
+    set_drive(effects, machine, temperature_C, a, drive);
     drive->sensors = sensors;
     *attachment = a;
     return HCI_OK;

@@ -9,19 +9,14 @@
 #include <sys/stat.h>
 
 #include "hci/host/base/text.h"
-#include "hci/host/base/unit.h"
 #include "hci/host/csv/csv.h"
 #include "host/base/memory.h"
+#include "host/csv/name_values.h"
 #include "host/machine/folder.h"
 #include "host/machine/inductance.h"
 #include "host/machine/spectrum_table.h"
 
 #define PATH_SIZE 4096
-
-typedef struct {
-    const char *name, *unit;
-    double *value;
-} scalar;
 
 enum {
 #define COUNT_ONE(field, name, unit) +1
@@ -29,10 +24,10 @@ enum {
 #undef COUNT_ONE
 };
 
-static void list_scalars(hci_machine_data *m, scalar list[SCALARS])
+static void list_scalars(hci_machine_data *m, hci_named_value list[SCALARS])
 {
     size_t k = 0;
-#define LIST_ONE(field, text, unit_text) list[k++] = (scalar){text, unit_text, &m->field};
+#define LIST_ONE(field, text, unit_text) list[k++] = (hci_named_value){text, unit_text, &m->field};
     HCI_MACHINE_VALUES(LIST_ONE)
 #undef LIST_ONE
 }
@@ -62,27 +57,6 @@ hci_status hci_machine_connection(const hci_csv *csv, size_t row, bool *has_neut
                          "for a delta winding give the equivalent star's values");
 }
 
-/* The value of one row in the canonical unit; a unit of 1, - or nothing stands for the canonical one. */
-static hci_status scalar_read(const hci_csv *csv, size_t row, const scalar *s, hci_note *note)
-{
-    const char *unit = "";
-    double factor = 1.0;
-    hci_status status;
-    if (!isnan(*s->value))
-        return hci_csv_error(csv, "name", row, note, "each name once", "delete one of the two rows");
-    status = hci_csv_number(csv, "value", row, s->value, note);
-    if (!status && hci_csv_has(csv, "unit")) status = hci_csv_text(csv, "unit", row, &unit, note);
-    if (status) return status;
-    if (unit[0] != '\0' && strcmp(unit, "1") != 0 && strcmp(unit, "-") != 0 &&
-        !hci_unit_factor(unit, s->unit, &factor)) {
-        char expected[64];
-        snprintf(expected, sizeof expected, "a unit that converts to %s", s->unit);
-        return hci_csv_error(csv, "unit", row, note, expected, "check the unit of this value");
-    }
-    *s->value *= factor;
-    return HCI_OK;
-}
-
 static void remark_unknown(hci_machine_data *m, const char *path, const char *name)
 {
     const size_t used = strlen(m->remark.text);
@@ -94,21 +68,23 @@ static void remark_unknown(hci_machine_data *m, const char *path, const char *na
         snprintf(end, left, ", %.60s", name);
 }
 
-static hci_status row_read(const hci_csv *csv, size_t row, hci_machine_data *m, hci_note *note)
+static hci_status read_row(const hci_csv *csv, size_t row, hci_machine_data *m, hci_note *note)
 {
-    scalar list[SCALARS];
+    hci_named_value list[SCALARS];
     const char *name;
-    const hci_status status = hci_csv_text(csv, "name", row, &name, note);
+    size_t k;
+    hci_status status = hci_csv_text(csv, "name", row, &name, note);
     if (status) return status;
     if (strcmp(name, "connection") == 0) return hci_machine_connection(csv, row, &m->has_neutral, note);
     list_scalars(m, list);
-    for (size_t k = 0; k < SCALARS; ++k)
-        if (strcmp(name, list[k].name) == 0) return scalar_read(csv, row, &list[k], note);
+    status = hci_named_value_find(csv, row, list, SCALARS, &k, note);
+    if (status) return status;
+    if (k < SCALARS) return hci_value_read(csv, row, list[k].unit, list[k].value, note);
     remark_unknown(m, hci_csv_path(csv), name);
     return HCI_OK;
 }
 
-static hci_status pole_pairs_check(const char *path, hci_machine_data *m, hci_note *note)
+static hci_status check_pole_pairs(const char *path, hci_machine_data *m, hci_note *note)
 {
     if (isnan(m->pole_pairs))
         return hci_note_set(note, HCI_ERROR_INPUT, "%s: no `pole_pairs`; add a row `pole_pairs,N,1,source`",
@@ -123,9 +99,9 @@ static hci_status pole_pairs_check(const char *path, hci_machine_data *m, hci_no
     return HCI_OK;
 }
 
-static hci_status scalars_read(const char *path, hci_machine_data *m, hci_note *note)
+static hci_status read_scalars(const char *path, hci_machine_data *m, hci_note *note)
 {
-    scalar list[SCALARS];
+    hci_named_value list[SCALARS];
     hci_csv *csv;
     hci_status status = hci_csv_read(path, &csv, note);
     if (status) return status;
@@ -133,9 +109,9 @@ static hci_status scalars_read(const char *path, hci_machine_data *m, hci_note *
     for (size_t k = 0; k < SCALARS; ++k)
         *list[k].value = NAN;
     for (size_t row = 0; row < hci_csv_rows(csv) && !status; ++row)
-        status = row_read(csv, row, m, note);
+        status = read_row(csv, row, m, note);
     hci_csv_free(csv);
-    return status ? status : pole_pairs_check(path, m, note);
+    return status ? status : check_pole_pairs(path, m, note);
 }
 
 /* Volts at the electrical frequency f become V·s/rad by ω_m = 2πf/p. */
@@ -153,7 +129,7 @@ static hci_status emf_scale(const hci_csv *csv, const hci_machine_data *m, doubl
     return HCI_OK;
 }
 
-static hci_status emf_order_check(const hci_csv *csv, const hci_harmonic *h, const size_t *row_of, size_t k,
+static hci_status check_emf_order(const hci_csv *csv, const hci_harmonic *h, const size_t *row_of, size_t k,
                                   hci_note *note)
 {
     if (h[k].order >= 1.0 - HCI_ORDER_TOLERANCE &&
@@ -175,7 +151,7 @@ static double largest_amplitude(const hci_harmonic *h, size_t count)
     return largest;
 }
 
-static hci_status emf_from_csv(const hci_csv *csv, hci_machine_data *m, hci_note *note)
+static hci_status take_emf(const hci_csv *csv, hci_machine_data *m, hci_note *note)
 {
     const bool per_ampere = hci_csv_has(csv, "amplitude_Nm_per_A");
     hci_harmonic *h = NULL;
@@ -186,7 +162,7 @@ static hci_status emf_from_csv(const hci_csv *csv, hci_machine_data *m, hci_note
         status = hci_spectrum_rows(csv, per_ampere ? "amplitude_Nm_per_A" : "amplitude_V", &h, &row_of,
                                    &count, note);
     for (size_t k = 0; k < count && !status; ++k)
-        status = emf_order_check(csv, h, row_of, k, note);
+        status = check_emf_order(csv, h, row_of, k, note);
     if (!status && count == 0)
         status =
             hci_note_set(note, HCI_ERROR_INPUT, "%s: no rows, expected at least order 1", hci_csv_path(csv));
@@ -207,17 +183,17 @@ static hci_status emf_from_csv(const hci_csv *csv, hci_machine_data *m, hci_note
     return status;
 }
 
-static hci_status emf_read(const char *path, hci_machine_data *m, hci_note *note)
+static hci_status read_emf(const char *path, hci_machine_data *m, hci_note *note)
 {
     hci_csv *csv;
     hci_status status = hci_csv_read(path, &csv, note);
     if (status) return status;
-    status = emf_from_csv(csv, m, note);
+    status = take_emf(csv, m, note);
     hci_csv_free(csv);
     return status;
 }
 
-static hci_status cogging_read(const char *path, hci_machine_data *m, hci_note *note)
+static hci_status read_cogging(const char *path, hci_machine_data *m, hci_note *note)
 {
     hci_csv *csv;
     size_t *row_of = NULL;
@@ -230,7 +206,7 @@ static hci_status cogging_read(const char *path, hci_machine_data *m, hci_note *
     return status;
 }
 
-static hci_status inductance_read(const char *path, hci_machine_data *m, hci_note *note)
+static hci_status read_inductance(const char *path, hci_machine_data *m, hci_note *note)
 {
     hci_inductance_table table;
     const hci_status status = hci_inductance_read(path, m->model.pole_pairs, &table, note);
@@ -242,17 +218,17 @@ static hci_status inductance_read(const char *path, hci_machine_data *m, hci_not
     return status;
 }
 
-static hci_status folder_read(const char *folder, hci_machine_data *m, hci_note *note)
+static hci_status read_folder(const char *folder, hci_machine_data *m, hci_note *note)
 {
     char path[PATH_SIZE];
     hci_status status = hci_machine_path(path, PATH_SIZE, folder, "machine.csv", note);
-    if (!status) status = scalars_read(path, m, note);
+    if (!status) status = read_scalars(path, m, note);
     if (!status) status = hci_machine_path(path, PATH_SIZE, folder, "back_emf.csv", note);
-    if (!status) status = emf_read(path, m, note);
+    if (!status) status = read_emf(path, m, note);
     if (!status) status = hci_machine_path(path, PATH_SIZE, folder, "cogging.csv", note);
-    if (!status && hci_machine_has(path)) status = cogging_read(path, m, note);
+    if (!status && hci_machine_has(path)) status = read_cogging(path, m, note);
     if (!status) status = hci_machine_path(path, PATH_SIZE, folder, "inductance.csv", note);
-    if (!status && hci_machine_has(path)) status = inductance_read(path, m, note);
+    if (!status && hci_machine_has(path)) status = read_inductance(path, m, note);
     if (!status) status = hci_machine_path(path, PATH_SIZE, folder, "effects.csv", note);
     m->has_effects = !status && hci_machine_has(path);
     return status;
@@ -271,7 +247,7 @@ hci_status hci_machine_read(const char *path, hci_machine_data *machine, hci_not
         return hci_note_set(
             note, HCI_ERROR_INPUT,
             "%s: found a file, expected the folder of a machine with machine.csv and back_emf.csv", path);
-    status = folder_read(path, machine, note);
+    status = read_folder(path, machine, note);
     if (status) hci_machine_release(machine);
     return status;
 }

@@ -3,16 +3,16 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "hci/host/base/unit.h"
 #include "hci/host/csv/csv.h"
 #include "hci/host/simulate/simulate.h"
 #include "host/base/quote.h"
+#include "host/csv/name_values.h"
 
+/* What numbers a scenario may hold, in the order of HCI_SCENARIO_VALUES. */
 typedef struct {
-    const char *name, *unit, *what;
-    double low, high;
-    double *value;
-} entry;
+    const char *what; /* "" for a name that follows from the one before it */
+    double low, high; /* in the unit of the name */
+} limits;
 
 enum {
 #define COUNT_ONE(field, name, unit, low, high, fallback, what) +1
@@ -20,18 +20,24 @@ enum {
 #undef COUNT_ONE
 };
 
-static void list_entries(hci_scenario *s, entry list[ENTRIES])
+static const limits LIMITS[ENTRIES] = {
+#define LIMITS_OF(field, name, unit, low, high, fallback, what) {what, low, high},
+    HCI_SCENARIO_VALUES(LIMITS_OF)
+#undef LIMITS_OF
+};
+
+static void list_entries(hci_scenario *s, hci_named_value list[ENTRIES])
 {
     size_t k = 0;
-#define LIST_ONE(field, text, unit_text, lowest, highest, fallback, what_text)                               \
-    list[k++] = (entry){text, unit_text, what_text, lowest, highest, &s->field};
+#define LIST_ONE(field, text, unit_text, low, high, fallback, what)                                          \
+    list[k++] = (hci_named_value){text, unit_text, &s->field};
     HCI_SCENARIO_VALUES(LIST_ONE)
 #undef LIST_ONE
 }
 
 void hci_scenario_init(hci_scenario *scenario)
 {
-    entry list[ENTRIES];
+    hci_named_value list[ENTRIES];
     memset(scenario, 0, sizeof *scenario);
     list_entries(scenario, list);
     for (size_t k = 0; k < ENTRIES; ++k)
@@ -42,44 +48,17 @@ void hci_scenario_init(hci_scenario *scenario)
 
 /* ---- numbers ---- */
 
-/* The canonical unit itself, or one that the table of units converts to it. */
-static bool factor_of(const char *unit, const char *wanted, double *factor)
-{
-    *factor = 1.0;
-    if (unit[0] == '\0' || strcmp(unit, "1") == 0 || strcmp(unit, "-") == 0 || strcmp(unit, wanted) == 0)
-        return true;
-    return hci_unit_factor(unit, wanted, factor);
-}
-
-static hci_status convert(const hci_csv *csv, size_t row, const entry *e, hci_note *note)
-{
-    const char *unit = "";
-    char expected[80];
-    double factor;
-    const hci_status status = hci_csv_has(csv, "unit") ? hci_csv_text(csv, "unit", row, &unit, note) : HCI_OK;
-    if (status) return status;
-    if (!factor_of(unit, e->unit, &factor)) {
-        snprintf(expected, sizeof expected, "a unit that converts to %s", e->unit);
-        return hci_csv_error(csv, "unit", row, note, expected, "check the unit of this value");
-    }
-    *e->value *= factor;
-    return HCI_OK;
-}
-
-static hci_status number_read(const hci_csv *csv, size_t row, const entry *e, hci_note *note)
+static hci_status read_number(const hci_csv *csv, size_t row, const hci_named_value *e, const limits *l,
+                              hci_note *note)
 {
     const bool whole = strcmp(e->unit, "count") == 0;
     char expected[120];
-    hci_status status;
-    if (!isnan(*e->value))
-        return hci_csv_error(csv, "name", row, note, "each name once", "delete one of the two rows");
-    status = hci_csv_number(csv, "value", row, e->value, note);
-    if (!status) status = convert(csv, row, e, note);
+    const hci_status status = hci_value_read(csv, row, e->unit, e->value, note);
     if (status) return status;
-    if (*e->value >= e->low && *e->value <= e->high && (!whole || *e->value == floor(*e->value)))
+    if (*e->value >= l->low && *e->value <= l->high && (!whole || *e->value == floor(*e->value)))
         return HCI_OK;
-    snprintf(expected, sizeof expected, "a %snumber from %g to %g%s%s", whole ? "whole " : "", e->low,
-             e->high, whole ? "" : " ", whole ? "" : e->unit);
+    snprintf(expected, sizeof expected, "a %snumber from %g to %g%s%s", whole ? "whole " : "", l->low,
+             l->high, whole ? "" : " ", whole ? "" : e->unit);
     return hci_csv_error(csv, "value", row, note, expected, "see hci-solve simulate --help");
 }
 
@@ -93,7 +72,7 @@ static const char *const STRATEGIES[] = {HCI_STRATEGY_NAMES(WORD_OF) NULL};
 #undef WORD_OF
 
 /* Position of the value among the choices. */
-static hci_status choice_read(const hci_csv *csv, size_t row, const char *const *choices, int *value,
+static hci_status read_choice(const hci_csv *csv, size_t row, const char *const *choices, int *value,
                               hci_note *note)
 {
     char expected[120] = "one of:";
@@ -109,7 +88,7 @@ static hci_status choice_read(const hci_csv *csv, size_t row, const char *const 
 }
 
 /* A path in the file is relative to the file's folder. */
-static hci_status currents_read(const hci_csv *csv, size_t row, hci_scenario *s, hci_note *note)
+static hci_status read_currents(const hci_csv *csv, size_t row, hci_scenario *s, hci_note *note)
 {
     const char *text, *slash = strrchr(s->path, '/');
     const int folder = slash ? (int)(slash - s->path) + 1 : 0;
@@ -124,12 +103,12 @@ static hci_status currents_read(const hci_csv *csv, size_t row, hci_scenario *s,
     return hci_csv_error(csv, "value", row, note, "a shorter path", "move the folder");
 }
 
-static hci_status word_read(const hci_csv *csv, size_t row, int word, hci_scenario *s, hci_note *note)
+static hci_status read_word(const hci_csv *csv, size_t row, int word, hci_scenario *s, hci_note *note)
 {
     int choice = 0;
     hci_status status;
-    if (word == CURRENTS) return currents_read(csv, row, s, note);
-    status = choice_read(csv, row, word == CURRENT_CONTROL ? CONTROLS : STRATEGIES, &choice, note);
+    if (word == CURRENTS) return read_currents(csv, row, s, note);
+    status = read_choice(csv, row, word == CURRENT_CONTROL ? CONTROLS : STRATEGIES, &choice, note);
     if (word == CURRENT_CONTROL) s->current_control = (hci_current_loop)choice;
     if (word == STRATEGY) s->strategy = (hci_strategy)choice;
     if (word == STRATEGY_2) s->strategy_2 = (hci_strategy)choice;
@@ -140,7 +119,7 @@ static hci_status word_read(const hci_csv *csv, size_t row, int word, hci_scenar
 
 /* Names that follow from the one before them (current_offset_b after _a) have no text of their own and are
  * left out. */
-static hci_status unknown_name(const hci_csv *csv, size_t row, const char *name, const entry *list,
+static hci_status unknown_name(const hci_csv *csv, size_t row, const char *name, const hci_named_value *list,
                                hci_note *note)
 {
     char known[HCI_NOTE_SIZE] = "", quoted[HCI_QUOTE_SIZE], path[HCI_QUOTE_PATH_SIZE];
@@ -151,33 +130,35 @@ static hci_status unknown_name(const hci_csv *csv, size_t row, const char *name,
     HCI_SCENARIO_WORDS(APPEND_WORD)
 #undef APPEND_WORD
     for (size_t k = 0; k < ENTRIES && used < sizeof known; ++k)
-        if (list[k].what[0] != '\0') APPEND(list[k].name);
+        if (LIMITS[k].what[0] != '\0') APPEND(list[k].name);
 #undef APPEND
     return hci_note_set(note, HCI_ERROR_INPUT, "%s:%zu: no name %s; known:%s",
                         hci_quote_path(hci_csv_path(csv), path), hci_csv_line(csv, row),
                         hci_quote(name, quoted), known);
 }
 
-static hci_status row_read(const hci_csv *csv, size_t row, hci_scenario *s, bool given[WORDS], hci_note *note)
+static hci_status read_row(const hci_csv *csv, size_t row, hci_scenario *s, bool given[WORDS], hci_note *note)
 {
 #define WORD_NAME(name, choices, fallback, what) name,
     static const char *const word[WORDS] = {HCI_SCENARIO_WORDS(WORD_NAME)};
 #undef WORD_NAME
-    entry list[ENTRIES];
+    hci_named_value list[ENTRIES];
     const char *name;
-    const hci_status status = hci_csv_text(csv, "name", row, &name, note);
+    size_t at;
+    hci_status status = hci_csv_text(csv, "name", row, &name, note);
     if (status) return status;
     for (int k = 0; k < WORDS; ++k) {
         if (strcmp(name, word[k]) != 0) continue;
         if (given[k])
             return hci_csv_error(csv, "name", row, note, "each name once", "delete one of the two rows");
         given[k] = true;
-        return word_read(csv, row, k, s, note);
+        return read_word(csv, row, k, s, note);
     }
     list_entries(s, list);
-    for (size_t k = 0; k < ENTRIES; ++k)
-        if (strcmp(name, list[k].name) == 0) return number_read(csv, row, &list[k], note);
-    return unknown_name(csv, row, name, list, note);
+    status = hci_named_value_find(csv, row, list, ENTRIES, &at, note);
+    if (status) return status;
+    return at < ENTRIES ? read_number(csv, row, &list[at], &LIMITS[at], note)
+                        : unknown_name(csv, row, name, list, note);
 }
 
 /* What one row asks for and another one takes back, as far as no machine is needed to see it. */
@@ -205,7 +186,7 @@ hci_status hci_scenario_read(const char *path, hci_scenario *scenario, hci_note 
     status = hci_csv_read(path, &csv, note);
     if (status) return status;
     for (size_t row = 0; row < hci_csv_rows(csv) && !status; ++row)
-        status = row_read(csv, row, scenario, given, note);
+        status = read_row(csv, row, scenario, given, note);
     hci_csv_free(csv);
     return status ? status : check_words(scenario, given, note);
 }

@@ -1,0 +1,48 @@
+#include "host/csv/name_values.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "hci/host/base/unit.h"
+
+static bool converts(const char *unit, const char *wanted, double *factor)
+{
+    *factor = 1.0;
+    if (*unit == '\0' || strcmp(unit, "1") == 0 || strcmp(unit, "-") == 0 || strcmp(unit, wanted) == 0)
+        return true;
+    return hci_unit_factor(unit, wanted, factor);
+}
+
+hci_status hci_value_factor(const hci_csv *csv, size_t row, const char *wanted, double *factor,
+                            hci_note *note)
+{
+    const char *unit = "";
+    char expected[80];
+    const hci_status status = hci_csv_has(csv, "unit") ? hci_csv_text(csv, "unit", row, &unit, note) : HCI_OK;
+    if (status || converts(unit, wanted, factor)) return status;
+    snprintf(expected, sizeof expected, "a unit that converts to %s", wanted);
+    return hci_csv_error(csv, "unit", row, note, expected, "check the unit of this value");
+}
+
+hci_status hci_value_read(const hci_csv *csv, size_t row, const char *wanted, double *value, hci_note *note)
+{
+    double factor;
+    hci_status status = hci_csv_number(csv, "value", row, value, note);
+    if (!status) status = hci_value_factor(csv, row, wanted, &factor, note);
+    if (!status) *value *= factor;
+    return status;
+}
+
+hci_status hci_named_value_find(const hci_csv *csv, size_t row, const hci_named_value *list, size_t count,
+                                size_t *at, hci_note *note)
+{
+    const char *name;
+    const hci_status status = hci_csv_text(csv, "name", row, &name, note);
+    *at = count;
+    for (size_t k = 0; k < count && !status; ++k)
+        if (strcmp(name, list[k].name) == 0) *at = k;
+    if (*at < count && !isnan(*list[*at].value))
+        return hci_csv_error(csv, "name", row, note, "each name once", "delete one of the two rows");
+    return status;
+}
