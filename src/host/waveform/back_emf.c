@@ -5,7 +5,8 @@
 
 #include "hci/math/harmonic.h"
 #include "host/base/memory.h"
-#include "host/waveform/parts.h"
+#include "host/waveform/clock.h"
+#include "host/waveform/task.h"
 
 /* A channel with another scale than the other two, where these agree. */
 #define SCALE_ODD    1.25
@@ -106,7 +107,7 @@ static hci_status fit_turns(const hci_waveform_task *t, emf_work *w, hci_average
             w->value[CHANNELS * k + s] = w->voltage_V[3 * k + s] / w->speed_rad_per_s[k];
         w->value[CHANNELS * k + INVERSE] = 1.0 / w->speed_rad_per_s[k];
     }
-    const hci_status status = hci_waveform_turns(t, &samples, 1.0, average);
+    const hci_status status = hci_waveform_average(t, &samples, 1.0, average);
     if (status == HCI_ERROR_MEMORY) return hci_waveform_memory(t);
     if (status == HCI_ERROR_SINGULAR)
         return hci_waveform_refuse(t, "angles that do not go round an electrical turn",
@@ -378,7 +379,7 @@ static void remark_zero(const hci_waveform_task *t, double phase_rad)
                  phase_rad > 0.0 ? "to" : "from");
 }
 
-static hci_status judge_balanced(const hci_waveform_task *t, const hci_average *average, const emf_work *w)
+static hci_status take_balanced(const hci_waveform_task *t, const hci_average *average, const emf_work *w)
 {
     hci_average part = *average;
     part.channels = 1;
@@ -388,7 +389,7 @@ static hci_status judge_balanced(const hci_waveform_task *t, const hci_average *
         for (size_t k = 1; k <= average->highest; ++k)
             *hci_average_at(&part, pass, 0, k) = balanced(average, w, pass, k, CHANNELS);
     const hci_order_estimate fundamental = hci_average_estimate(&part, 0, 1);
-    const hci_status status = hci_waveform_judge(t, &part, 0, 1.0);
+    const hci_status status = hci_waveform_take_orders(t, &part, 0, 1.0);
     hci_memory_free(part.wave);
     const double phase = hci_phase_rad(fundamental.mean.sine, fundamental.mean.cosine);
     const double error = fundamental.std_error / length_of(fundamental.mean);
@@ -425,7 +426,7 @@ static hci_status back_emf_of(const hci_waveform_task *t, emf_work *w)
         }
         status = compare_channels(t, &average, w, inverse);
     }
-    if (status == HCI_OK) status = judge_balanced(t, &average, w);
+    if (status == HCI_OK) status = take_balanced(t, &average, w);
     if (status == HCI_OK) remark_currents(t);
     hci_average_release(&average);
     return status;

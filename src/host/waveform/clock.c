@@ -1,5 +1,4 @@
-/* The electrical angle of voltages that were recorded without one: frequency and its drift by nonlinear least
- * squares. */
+/* Frequency and drift by nonlinear least squares, from a first guess by zero crossings. */
 #include <math.h>
 #include <stdbool.h>
 #include <string.h>
@@ -7,7 +6,7 @@
 #include "hci/math/dense.h"
 #include "hci/math/harmonic.h"
 #include "host/base/memory.h"
-#include "host/waveform/parts.h"
+#include "host/waveform/clock.h"
 
 enum {
     CROSSINGS_LEAST = 3,

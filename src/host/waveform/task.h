@@ -1,6 +1,6 @@
 /* What the files of the waveform analysis share. */
-#ifndef HCI_SRC_HOST_WAVEFORM_PARTS_H
-#define HCI_SRC_HOST_WAVEFORM_PARTS_H
+#ifndef HCI_SRC_HOST_WAVEFORM_TASK_H
+#define HCI_SRC_HOST_WAVEFORM_TASK_H
 
 #include "hci/host/waveform/waveform.h"
 #include "host/waveform/synchronous_average.h"
@@ -21,8 +21,8 @@ hci_status hci_waveform_cogging(const hci_waveform_task *t);
 hci_status hci_waveform_back_emf(const hci_waveform_task *t);
 
 /* The orders of one channel into the result. step: electrical order of the turns' order 1. */
-hci_status hci_waveform_judge(const hci_waveform_task *t, const hci_average *average, size_t channel,
-                              double step);
+hci_status hci_waveform_take_orders(const hci_waveform_task *t, const hci_average *average, size_t channel,
+                                    double step);
 
 /* "RUN: found …, expected …; remedy", HCI_ERROR_INPUT. */
 hci_status hci_waveform_refuse(const hci_waveform_task *t, const char *found, const char *expected,
@@ -34,17 +34,16 @@ double hci_waveform_current_rms(const hci_run *run);
 
 /* hci_average_fit of turns whose orders are `step` electrical ones apart, up to the order that is asked for.
  */
-hci_status hci_waveform_turns(const hci_waveform_task *t, const hci_average_samples *samples, double step,
-                              hci_average *average);
+hci_status hci_waveform_average(const hci_waveform_task *t, const hci_average_samples *samples, double step,
+                                hci_average *average);
 
-/* Speed and angle of voltages that were recorded without. n samples; v: [n][3]. phase_rad: out, electrical,
- * growing; rate_rad_per_s: out, its rate. */
-typedef struct {
-    double frequency_Hz, drift_Hz_per_s; /* at the middle of the record */
-} hci_voltage_clock;
+/* Order, amplitude, phase and chance of an estimate. */
+void hci_waveform_set_order(hci_waveform_order *order, double electrical_order,
+                            const hci_order_estimate *estimate);
 
-/* HCI_ERROR_SINGULAR: less than two periods, or no period at all. */
-hci_status hci_voltage_clock_find(const double *time_s, const double *v, size_t n, double *phase_rad,
-                                  double *rate_rad_per_s, hci_voltage_clock *clock);
+/* The orders of the options and no others, by least squares over all samples, into the result. value: of each
+ * sample; angle_rad: room for as many. HCI_ERROR_INPUT where the angles cannot tell the orders apart,
+ * HCI_ERROR_MEMORY. */
+hci_status hci_waveform_fit_given(const hci_waveform_task *t, const double *value, double *angle_rad);
 
 #endif

@@ -1,0 +1,53 @@
+/* What every waveform needs: why a recording is refused, the rms of its currents, and the average over its
+ * turns up to the order that is asked for. */
+#include "host/waveform/task.h"
+
+#include <math.h>
+
+#include "host/base/quote.h"
+
+/* Highest order of the turn; its polynomial costs the square. */
+enum { HIGHEST_MOST = 2000 };
+
+hci_status hci_waveform_refuse(const hci_waveform_task *t, const char *found, const char *expected,
+                               const char *remedy)
+{
+    char path[HCI_QUOTE_PATH_SIZE];
+    return hci_note_set(t->note, HCI_ERROR_INPUT, "%s: found %s, expected %s; %s",
+                        hci_quote_path(t->run->name, path), found, expected, remedy);
+}
+
+hci_status hci_waveform_memory(const hci_waveform_task *t)
+{
+    char path[HCI_QUOTE_PATH_SIZE];
+    return hci_note_set(t->note, HCI_ERROR_MEMORY, "%s: not enough memory for the analysis",
+                        hci_quote_path(t->run->name, path));
+}
+
+double hci_waveform_current_rms(const hci_run *run)
+{
+    double square_A2 = 0.0;
+    for (size_t k = 0; k < 3 * run->count; ++k)
+        square_A2 += run->i_A[k] * run->i_A[k];
+    return sqrt(square_A2 / (3.0 * (double)run->count));
+}
+
+static size_t turn_order(double electrical, double step)
+{
+    const double order = electrical / step + 0.5;
+    return order < HIGHEST_MOST ? (size_t)order : HIGHEST_MOST;
+}
+
+hci_status hci_waveform_average(const hci_waveform_task *t, const hci_average_samples *samples, double step,
+                                hci_average *average)
+{
+    const hci_waveform_options *o = t->options;
+    const bool given = o->orders != NULL, limited = !isnan(o->max_order);
+    const double top = given     ? o->orders[o->order_count - 1]
+                       : limited ? o->max_order
+                                 : HCI_WAVEFORM_ORDER_MOST;
+    const size_t wanted = turn_order(top, step);
+    const size_t enough = given || limited ? wanted : turn_order(HCI_WAVEFORM_ORDER_ENOUGH, step);
+    if (given && top / step > HIGHEST_MOST) return HCI_ERROR_SINGULAR;
+    return hci_average_fit(samples, wanted, enough, given ? wanted : turn_order(1.0, step), average);
+}
