@@ -1,3 +1,7 @@
+/* A machine with its effects as a quadratic model. In: the declared machine and effects; out: e, L' and T_cog
+ * of their own that hold everything up to the second degree in the currents, and the list of effects above
+ * it. The torque at no current, its gradient there and the change of the gradient with 1 A in each phase are
+ * sampled over the period and transformed. */
 #include "host/machine/quadratic_model.h"
 
 #include <math.h>
@@ -67,20 +71,20 @@ typedef struct {
     size_t count, turns;
 } samples;
 
-static void sample_at(const hci_effects_plant *within, const samples *s, size_t k)
+static void sample_at(const hci_effects_plant *lower, const samples *s, size_t k)
 {
     static const int AT[3][3] = {
         {HCI_AA, HCI_AB, HCI_CA}, {HCI_AB, HCI_BB, HCI_BC}, {HCI_CA, HCI_BC, HCI_CC}};
     const double turn = (double)k * (double)s->turns / (double)s->count;
     hci_sample x = {0};
-    x.theta_m_rad = 2.0 * HCI_PI * turn / within->machine->pole_pairs;
-    x.temperature_C = within->temperature_C;
-    const hci_effect_torque none = hci_effects_torque(within->machine, within->effects, &x, NULL);
+    x.theta_m_rad = 2.0 * HCI_PI * turn / lower->machine->pole_pairs;
+    x.temperature_C = lower->temperature_C;
+    const hci_effect_torque none = hci_effects_torque(lower->machine, lower->effects, &x, NULL);
     s->row[TORQUE * s->count + k] = none.torque_Nm;
     for (size_t phase = 0; phase < 3; ++phase) {
         s->row[(EMF_A + phase) * s->count + k] = none.by_current[phase];
         x.i_abc[phase] = 1.0;
-        const hci_effect_torque one = hci_effects_torque(within->machine, within->effects, &x, NULL);
+        const hci_effect_torque one = hci_effects_torque(lower->machine, lower->effects, &x, NULL);
         x.i_abc[phase] = 0.0;
         for (size_t other = 0; other < 3; ++other)
             s->row[(size_t)(SLOPE + AT[phase][other]) * s->count + k] =
@@ -88,11 +92,11 @@ static void sample_at(const hci_effects_plant *within, const samples *s, size_t 
     }
 }
 
-static hci_status sample_within(const hci_effects_plant *within, samples *s, hci_note *note)
+static hci_status sample_lower(const hci_effects_plant *lower, samples *s, hci_note *note)
 {
-    const hci_machine *m = within->machine;
-    double top = hci_effects_top_order(within->effects);
-    const hci_status status = find_turns(within->effects, m->pole_pairs, &s->turns, note);
+    const hci_machine *m = lower->machine;
+    double top = hci_effects_top_order(lower->effects);
+    const hci_status status = find_turns(lower->effects, m->pole_pairs, &s->turns, note);
     if (status) return status;
     for (size_t k = 0; k < m->back_emf_count; ++k)
         top = fmax(top, m->back_emf[k].order);
@@ -100,7 +104,7 @@ static hci_status sample_within(const hci_effects_plant *within, samples *s, hci
     s->row = hci_memory_new(ROWS * s->count, sizeof *s->row);
     if (!s->row) return no_memory(note);
     for (size_t k = 0; k < s->count; ++k)
-        sample_at(within, s, k);
+        sample_at(lower, s, k);
     for (size_t r = 0; r < ROWS; r += 2)
         hci_fft(s->row + r * s->count, s->row + (r + 1) * s->count, s->count, -1);
     return HCI_OK;
@@ -129,22 +133,22 @@ static hci_wave wave_of(const hci_harmonic h[3], int sequence)
     return w;
 }
 
-static hci_status add_back_emf(const samples *s, hci_quadratic_model *c, hci_note *note)
+static hci_status add_back_emf(const samples *s, hci_quadratic_model *to, hci_note *note)
 {
-    hci_machine *m = &c->machine;
+    hci_machine *m = &to->machine;
     size_t n = m->back_emf_count;
-    c->back_emf = hci_memory_new(n + 3 * s->count / 2, sizeof *c->back_emf);
-    if (!c->back_emf) return no_memory(note);
-    if (n > 0) memcpy(c->back_emf, m->back_emf, n * sizeof *c->back_emf);
+    to->back_emf = hci_memory_new(n + 3 * s->count / 2, sizeof *to->back_emf);
+    if (!to->back_emf) return no_memory(note);
+    if (n > 0) memcpy(to->back_emf, m->back_emf, n * sizeof *to->back_emf);
     for (size_t k = 0; k < s->count / 2; ++k) {
         hci_harmonic h[3], unused;
         bin(s, EMF_A, k, &h[0], &h[1]);
         bin(s, EMF_C, k, &h[2], &unused);
         for (int sequence = -1; sequence <= 1; ++sequence)
-            c->back_emf[n++] = wave_of(h, sequence);
+            to->back_emf[n++] = wave_of(h, sequence);
     }
-    m->back_emf = c->back_emf;
-    m->back_emf_count = hci_waves_join(c->back_emf, n, HCI_FFT_FLOOR);
+    m->back_emf = to->back_emf;
+    m->back_emf_count = hci_waves_join(to->back_emf, n, HCI_FFT_FLOOR);
     return HCI_OK;
 }
 
@@ -155,24 +159,24 @@ static double largest_in(const samples *s, size_t r)
     for (size_t k = 0; k < s->count / 2; ++k) {
         hci_harmonic a, b;
         bin(s, r, k, &a, &b);
-        largest = fmax(largest, fmax(hypot(a.sine, a.cosine), hypot(b.sine, b.cosine)));
+        largest = fmax(largest, fmax(hci_amplitude(a.sine, a.cosine), hci_amplitude(b.sine, b.cosine)));
     }
     return largest;
 }
 
-static hci_status add_cogging(const samples *s, hci_quadratic_model *c, hci_note *note)
+static hci_status add_cogging(const samples *s, hci_quadratic_model *to, hci_note *note)
 {
-    hci_machine *m = &c->machine;
+    hci_machine *m = &to->machine;
     const double least = HCI_FFT_FLOOR * largest_in(s, TORQUE);
-    c->cogging = hci_memory_new(m->cogging_count + s->count / 2, sizeof *c->cogging);
-    if (!c->cogging) return no_memory(note);
-    if (m->cogging_count > 0) memcpy(c->cogging, m->cogging, m->cogging_count * sizeof *c->cogging);
+    to->cogging = hci_memory_new(m->cogging_count + s->count / 2, sizeof *to->cogging);
+    if (!to->cogging) return no_memory(note);
+    if (m->cogging_count > 0) memcpy(to->cogging, m->cogging, m->cogging_count * sizeof *to->cogging);
     for (size_t k = 0; k < s->count / 2; ++k) {
         hci_harmonic a, unused;
         bin(s, TORQUE, k, &a, &unused);
-        if (hypot(a.sine, a.cosine) > least) c->cogging[m->cogging_count++] = a;
+        if (hci_amplitude(a.sine, a.cosine) > least) to->cogging[m->cogging_count++] = a;
     }
-    m->cogging = c->cogging;
+    m->cogging = to->cogging;
     return HCI_OK;
 }
 
@@ -187,36 +191,36 @@ static double slope_at(const samples *s, size_t k, hci_inductance_slope *slope)
             slope->order = h[j].order;
             slope->sine[q + j] = h[j].sine;
             slope->cosine[q + j] = h[j].cosine;
-            largest = fmax(largest, hypot(h[j].sine, h[j].cosine));
+            largest = fmax(largest, hci_amplitude(h[j].sine, h[j].cosine));
         }
     }
     return largest;
 }
 
-static hci_status add_slopes(const samples *s, hci_quadratic_model *c, hci_note *note)
+static hci_status add_slopes(const samples *s, hci_quadratic_model *to, hci_note *note)
 {
-    hci_machine *m = &c->machine;
+    hci_machine *m = &to->machine;
     double largest = 0.0;
     for (size_t q = 0; q < HCI_PHASE_MATRIX; q += 2)
         largest = fmax(largest, largest_in(s, SLOPE + q));
-    c->slope = hci_memory_new(m->slope_count + s->count / 2, sizeof *c->slope);
-    if (!c->slope) return no_memory(note);
-    if (m->slope_count > 0) memcpy(c->slope, m->slope, m->slope_count * sizeof *c->slope);
+    to->slope = hci_memory_new(m->slope_count + s->count / 2, sizeof *to->slope);
+    if (!to->slope) return no_memory(note);
+    if (m->slope_count > 0) memcpy(to->slope, m->slope, m->slope_count * sizeof *to->slope);
     for (size_t k = 0; k < s->count / 2; ++k) {
         hci_inductance_slope slope;
-        if (slope_at(s, k, &slope) > HCI_FFT_FLOOR * largest) c->slope[m->slope_count++] = slope;
+        if (slope_at(s, k, &slope) > HCI_FFT_FLOOR * largest) to->slope[m->slope_count++] = slope;
     }
-    m->slope = c->slope;
+    m->slope = to->slope;
     return HCI_OK;
 }
 
-static hci_status write_within(const hci_effects_plant *within, hci_quadratic_model *c, hci_note *note)
+static hci_status write_lower(const hci_effects_plant *lower, hci_quadratic_model *to, hci_note *note)
 {
     samples s = {NULL, 0, 1};
-    hci_status status = sample_within(within, &s, note);
-    if (!status) status = add_back_emf(&s, c, note);
-    if (!status) status = add_cogging(&s, c, note);
-    if (!status) status = add_slopes(&s, c, note);
+    hci_status status = sample_lower(lower, &s, note);
+    if (!status) status = add_back_emf(&s, to, note);
+    if (!status) status = add_cogging(&s, to, note);
+    if (!status) status = add_slopes(&s, to, note);
     hci_memory_free(s.row);
     return status;
 }
@@ -224,45 +228,45 @@ static hci_status write_within(const hci_effects_plant *within, hci_quadratic_mo
 /* ---- all of it ---- */
 
 /* Effects up to the second degree first, those above from the end. */
-static hci_status sort_out(const hci_effects *effects, hci_quadratic_model *c, hci_note *note)
+static hci_status sort_out(const hci_effects *effects, hci_quadratic_model *to, hci_note *note)
 {
-    size_t within = 0, beyond = effects->count;
-    c->effect = hci_memory_new(effects->count, sizeof *c->effect);
-    if (!c->effect) return no_memory(note);
+    size_t lower = 0, higher = effects->count;
+    to->effect = hci_memory_new(effects->count, sizeof *to->effect);
+    if (!to->effect) return no_memory(note);
     for (size_t k = 0; k < effects->count; ++k) {
         const hci_effect *effect = &effects->effect[k];
         if (!effect->type->in_machine)
-            ++c->left_out;
+            ++to->left_out;
         else
-            c->effect[effect->type->beyond_quadratic ? --beyond : within++] = *effect;
+            to->effect[effect->type->beyond_quadratic ? --higher : lower++] = *effect;
     }
-    c->within_list = (hci_effects){c->effect, within};
-    c->beyond_list = (hci_effects){c->effect + beyond, effects->count - beyond};
+    to->lower_list = (hci_effects){to->effect, lower};
+    to->higher_list = (hci_effects){to->effect + higher, effects->count - higher};
     return HCI_OK;
 }
 
 hci_status hci_quadratic_model_make(const hci_machine *declared, const hci_effects *effects,
-                                    double temperature_C, hci_quadratic_model *corrected, hci_note *note)
+                                    double temperature_C, hci_quadratic_model *model, hci_note *note)
 {
     hci_status status;
-    memset(corrected, 0, sizeof *corrected);
-    corrected->machine = *declared;
+    memset(model, 0, sizeof *model);
+    model->machine = *declared;
     if (!effects) return HCI_OK;
-    status = sort_out(effects, corrected, note);
-    if (!status && corrected->beyond_list.count > 0)
-        corrected->beyond = (hci_effects_plant){declared, &corrected->beyond_list, temperature_C};
-    if (!status && corrected->within_list.count > 0) {
-        const hci_effects_plant within = {declared, &corrected->within_list, temperature_C};
-        status = write_within(&within, corrected, note);
+    status = sort_out(effects, model, note);
+    if (!status && model->higher_list.count > 0)
+        model->higher = (hci_effects_plant){declared, &model->higher_list, temperature_C};
+    if (!status && model->lower_list.count > 0) {
+        const hci_effects_plant lower = {declared, &model->lower_list, temperature_C};
+        status = write_lower(&lower, model, note);
     }
     return status;
 }
 
-void hci_quadratic_model_release(hci_quadratic_model *corrected)
+void hci_quadratic_model_release(hci_quadratic_model *model)
 {
-    hci_memory_free(corrected->effect);
-    hci_memory_free(corrected->back_emf);
-    hci_memory_free(corrected->cogging);
-    hci_memory_free(corrected->slope);
-    memset(corrected, 0, sizeof *corrected);
+    hci_memory_free(model->effect);
+    hci_memory_free(model->back_emf);
+    hci_memory_free(model->cogging);
+    hci_memory_free(model->slope);
+    memset(model, 0, sizeof *model);
 }

@@ -11,8 +11,8 @@
 
 typedef struct {
     hci_machine machine;      /* up to the second degree */
-    hci_effects_plant beyond; /* above it; effects NULL when there is nothing */
-    hci_effects within_list, beyond_list;
+    hci_effects_plant higher; /* above it; effects NULL when there is nothing */
+    hci_effects lower_list, higher_list;
     hci_effect *effect;          /* of both lists */
     hci_wave *back_emf;          /* owned, of `machine`; NULL where it is as declared */
     hci_harmonic *cogging;       /* the same */
@@ -21,11 +21,11 @@ typedef struct {
 } hci_quadratic_model;
 
 /* effects: or NULL. temperature_C: of the magnets, NAN for the reference. The declared machine and the
- * effects must outlive *corrected, which is to be released in any case. HCI_ERROR_INPUT when orders have no
+ * effects must outlive *model, which is to be released in any case. HCI_ERROR_INPUT when orders have no
  * common period, HCI_ERROR_MEMORY. */
 hci_status hci_quadratic_model_make(const hci_machine *declared, const hci_effects *effects,
-                                    double temperature_C, hci_quadratic_model *corrected, hci_note *note);
-void hci_quadratic_model_release(hci_quadratic_model *corrected);
+                                    double temperature_C, hci_quadratic_model *model, hci_note *note);
+void hci_quadratic_model_release(hci_quadratic_model *model);
 
 /* Whether all orders of these effects repeat after so many electrical turns. */
 bool hci_effects_repeat(const hci_effects *effects, int pole_pairs, size_t turns);

@@ -1,25 +1,26 @@
-/* Torque of higher than second degree in the current, sampled along a current. */
+/* Torque of a higher than the second degree in the current, such as saturation makes, sampled along a current
+ * over the period: it has no closed form in waves. */
 #ifndef HCI_SRC_HOST_MACHINE_SAMPLED_TORQUE_H
 #define HCI_SRC_HOST_MACHINE_SAMPLED_TORQUE_H
 
 #include "hci/effects/effect.h"
-#include "hci/host/base/note.h"
+#include "host/machine/torque_gradient.h"
 
-/* The torque of star currents over `turns` electrical turns, which must be a period of all: the orders at
- * which there is any. *torque: out, to be freed with hci_memory_free. */
-hci_status hci_sampled_torque(const hci_effects_plant *beyond, size_t turns, const hci_wave *wave,
-                              size_t count, hci_harmonic **torque, size_t *torque_count, hci_note *note);
-
-/* The same made linear: ∂T/∂i as waves, and the torque ∂T/∂i·i − T that it has too much at these currents. */
+/* Where it is sampled: effects of a machine, and star currents that repeat after so many electrical turns. */
 typedef struct {
-    hci_wave *gain;
-    size_t gain_count;
-    hci_harmonic *offset;
-    size_t offset_count;
-} hci_sampled_linear;
+    const hci_effects_plant *higher;
+    size_t turns;
+    const hci_wave *wave;
+    size_t count;
+} hci_torque_path;
 
-hci_status hci_sampled_torque_linearise(const hci_effects_plant *beyond, size_t turns, const hci_wave *wave,
-                                        size_t count, hci_sampled_linear *linear, hci_note *note);
-void hci_sampled_linear_release(hci_sampled_linear *linear);
+/* The orders at which there is any torque. *torque: out; HCI_ERROR_MEMORY, and then it is empty. O(n log n)
+ * in the samples, at least 1024 a turn. */
+hci_status hci_sampled_torque(const hci_torque_path *path, hci_harmonic_list *torque, hci_note *note);
+
+/* The same made linear at the currents. *linear: out, to be released; HCI_ERROR_MEMORY, and then it is empty.
+ */
+hci_status hci_sampled_torque_linearise(const hci_torque_path *path, hci_linear_torque *linear,
+                                        hci_note *note);
 
 #endif

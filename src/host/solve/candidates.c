@@ -1,10 +1,11 @@
-/* Candidates for the currents: every component up to a top order that the balance connects, through the
- * back-EMF, with an order that is wanted or disturbed. */
+/* Candidates for the currents. In: a task and a top order; out: every component up to it that U connects,
+ * through the back-EMF, with an order that is wanted or disturbed (theory.md, section 5). */
+#include "host/solve/candidates.h"
+
 #include <math.h>
 #include <string.h>
 
 #include "host/base/memory.h"
-#include "host/solve/choose.h"
 
 static bool touches(const double *order, size_t order_count, const double *wanted, size_t wanted_count)
 {
@@ -22,7 +23,7 @@ static size_t connect(const hci_task *t, const hci_component *all, size_t count,
         size_t n = orders;
         grown = false;
         for (size_t k = 0; k < count; ++k) {
-            const size_t reached = hci_component_orders(t->gain, t->gain_count, all[k], order + n);
+            const size_t reached = hci_component_orders(t->gradient, t->gradient_count, all[k], order + n);
             if (used[k] || !touches(order + n, reached, order, orders)) continue;
             used[k] = grown = true;
             n += reached;
@@ -77,7 +78,7 @@ static void keep_used(hci_component_set *set, size_t count, const bool *used)
 hci_status hci_candidates(const hci_task *t, double top_order, hci_component_set *set, hci_note *note)
 {
     const size_t most = 3 * ((size_t)(top_order * (double)t->period_turns) + 2);
-    const size_t reach = 2 * t->gain_count;
+    const size_t reach = 2 * t->gradient_count;
     bool *used = hci_memory_new(most, sizeof *used);
     double *order = hci_memory_new(1 + t->target->count + t->machine->cogging_count + t->offset_count +
                                        reach * (most + 1),

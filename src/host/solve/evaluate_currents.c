@@ -1,10 +1,11 @@
-/* What currents that were found elsewhere do on a machine. */
+/* What currents that were found elsewhere do on a machine. In: machine, effects, star waves, target; out: the
+ * spectrum of the torque, its errors and its ripple. */
 #include <math.h>
 #include <string.h>
 
 #include "host/base/memory.h"
 #include "host/numeric/fft.h"
-#include "host/solve/harmonic_system.h"
+#include "host/solve/torque_spectrum.h"
 
 /* Samples in the period of the highest order: peaks between them are off by less than 1 − cos(π/16) of that
  * order. */
@@ -39,8 +40,8 @@ static void fill_errors(const hci_target *target, hci_torque_evaluation *e)
         if (h.order >= HCI_ORDER_TOLERANCE) ripple += mean_square(h);
         if (wanted.weight <= 0.0) continue;
         sum += mean_square(error);
-        if (hypot(error.sine, error.cosine) <= e->worst_error_Nm) continue;
-        e->worst_error_Nm = hypot(error.sine, error.cosine);
+        if (hci_amplitude(error.sine, error.cosine) <= e->worst_error_Nm) continue;
+        e->worst_error_Nm = hci_amplitude(error.sine, error.cosine);
         e->worst_order = h.order;
     }
     e->rms_error_Nm = sqrt(sum);
@@ -72,18 +73,19 @@ static hci_status fill_peaks(hci_torque_evaluation *e, hci_note *note)
     return HCI_OK;
 }
 
-static hci_status evaluate(const hci_quadratic_model *c, const hci_currents *currents,
+static hci_status evaluate(const hci_quadratic_model *model, const hci_currents *currents,
                            const hci_target *target, hci_torque_evaluation *e, hci_note *note)
 {
     hci_task task;
+    hci_harmonic_list torque = {NULL, 0};
     hci_status status;
-    hci_task_begin(c, target, &task);
+    hci_task_begin(model, target, &task);
     status = hci_task_find_period(&task, NULL, currents->wave, currents->count, note);
     e->period_turns = task.period_turns;
-    if (!status)
-        status = hci_torque_spectrum_evaluate(&task, currents->wave, currents->count, &e->torque_Nm,
-                                              &e->order_count, note);
+    if (!status) status = hci_torque_spectrum_evaluate(&task, currents->wave, currents->count, &torque, note);
     if (status) return status;
+    e->torque_Nm = torque.harmonic;
+    e->order_count = torque.count;
     fill_errors(target, e);
     return fill_peaks(e, note);
 }
@@ -92,11 +94,11 @@ hci_status hci_evaluate_currents(const hci_machine_data *machine, const hci_effe
                                  const hci_currents *currents, const hci_target *target,
                                  hci_torque_evaluation *evaluation, hci_note *note)
 {
-    hci_quadratic_model c;
-    hci_status status = hci_quadratic_model_make(&machine->model, effects, NAN, &c, note);
+    hci_quadratic_model model;
+    hci_status status = hci_quadratic_model_make(&machine->model, effects, NAN, &model, note);
     memset(evaluation, 0, sizeof *evaluation);
-    if (!status) status = evaluate(&c, currents, target, evaluation, note);
-    hci_quadratic_model_release(&c);
+    if (!status) status = evaluate(&model, currents, target, evaluation, note);
+    hci_quadratic_model_release(&model);
     if (status) hci_torque_evaluation_release(evaluation);
     return status;
 }

@@ -1,16 +1,23 @@
-/* What the currents of a solution do: torque and verdict of every order, and the copper loss. */
+/* What the currents of a solution do. In: a solution whose currents are filled; out: torque and verdict of
+ * every order with a remedy where there is one, and the copper loss beside those of the plain fundamental and
+ * of the pointwise limit. */
+#include "host/solve/evaluate_solution.h"
+
 #include <math.h>
 
 #include "host/base/memory.h"
-#include "host/machine/sampled_torque.h"
-#include "host/machine/torque_gradient.h"
 #include "host/solve/harmonic_system.h"
-
-#define NEGLIGIBLE 1e-12 /* waves of e + ½L'i below this share of the largest make no torque worth a line */
+#include "host/solve/torque_spectrum.h"
 
 static hci_status no_memory(hci_note *note)
 {
     return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the torque spectrum");
+}
+
+const char *hci_order_verdict_name(hci_order_verdict verdict)
+{
+    static const char *const NAME[] = {"reached", "free", "missed", "parasitic", "unreachable"};
+    return NAME[verdict];
 }
 
 /* The plain fundamental: the one that is held, or the least sine whose mutual torque has the wanted mean. */
@@ -29,145 +36,17 @@ static hci_wave plain_fundamental(const hci_task *t)
     return (hci_wave){1.0, 1, 0.0, 0.0};
 }
 
-/* A current, e + ½L'i, whose product with it is the mutual and reluctance torque, and the torque beyond. */
-typedef struct {
-    const hci_wave *wave;
-    size_t count;
-    hci_wave *gain;
-    size_t gain_count;
-    hci_harmonic *beyond;
-    size_t beyond_count;
-} acting;
-
-static hci_status act(const hci_task *t, const hci_wave *wave, size_t count, acting *a, hci_note *note)
+/* The component that makes torque order m with one wave of the gradient; the lower of the two possible
+ * orders. */
+static hci_component component_for(const hci_wave *e, double m)
 {
-    hci_status status =
-        hci_torque_gradient(t->machine, wave, count, 0.5, NEGLIGIBLE, &a->gain, &a->gain_count, note);
-    a->wave = wave;
-    a->count = count;
-    if (!status && t->beyond && count > 0)
-        status =
-            hci_sampled_torque(t->beyond, t->period_turns, wave, count, &a->beyond, &a->beyond_count, note);
-    return status;
+    return m > e->order ? (hci_component){m - e->order, -e->sequence}
+                        : (hci_component){m + e->order, e->sequence};
 }
 
-static void release_acting(acting *a)
+static bool is_held(const hci_task *t, hci_component c)
 {
-    hci_memory_free(a->gain);
-    hci_memory_free(a->beyond);
-}
-
-static size_t orders_of(const acting *c, double *order)
-{
-    size_t n = 0;
-    for (size_t k = 0; k < c->count; ++k)
-        n += hci_component_orders(c->gain, c->gain_count,
-                                  (hci_component){c->wave[k].order, c->wave[k].sequence}, order + n);
-    for (size_t k = 0; k < c->beyond_count; ++k)
-        order[n++] = c->beyond[k].order;
-    return n;
-}
-
-/* Every order that two currents make torque at (the second may have no waves), that is wanted, or that
- * cogging has. */
-typedef struct {
-    double *order;
-    size_t count;
-    acting first, second;
-} reach;
-
-static hci_status find_reach(const hci_task *t, const hci_wave *first, size_t first_count,
-                             const hci_wave *second, size_t second_count, reach *r, hci_note *note)
-{
-    const hci_machine *m = t->machine;
-    hci_status status = act(t, first, first_count, &r->first, note);
-    if (!status) status = act(t, second, second_count, &r->second, note);
-    if (status) return status;
-    r->order = hci_memory_new(
-        1 + m->cogging_count + t->target->count + 2 * r->first.gain_count * first_count +
-            2 * r->second.gain_count * second_count + r->first.beyond_count + r->second.beyond_count,
-        sizeof *r->order);
-    if (!r->order) return no_memory(note);
-    r->order[r->count++] = 0.0;
-    for (size_t k = 0; k < m->cogging_count; ++k)
-        r->order[r->count++] = m->cogging[k].order;
-    for (size_t k = 0; k < t->target->count; ++k)
-        r->order[r->count++] = t->target->order[k].torque_Nm.order;
-    r->count += orders_of(&r->first, r->order + r->count);
-    r->count += orders_of(&r->second, r->order + r->count);
-    r->count = hci_orders_sort(r->order, r->count);
-    return HCI_OK;
-}
-
-static void release_reach(reach *r)
-{
-    hci_memory_free(r->order);
-    release_acting(&r->first);
-    release_acting(&r->second);
-}
-
-static void add_to_reach(const reach *r, hci_harmonic term, hci_harmonic *torque)
-{
-    const size_t at = hci_orders_find(r->order, r->count, term.order);
-    torque[at].sine += term.sine;
-    torque[at].cosine += term.cosine;
-}
-
-/* Torque of a current at every order of the reach: (e + ½L'i)·i + T_cog, and what is beyond. */
-static void torque_of(const hci_task *t, const reach *r, const acting *c, hci_harmonic *torque)
-{
-    for (size_t k = 0; k < r->count; ++k)
-        torque[k] = (hci_harmonic){r->order[k], 0.0, 0.0};
-    for (size_t k = 0; k < t->machine->cogging_count; ++k)
-        add_to_reach(r, t->machine->cogging[k], torque);
-    for (size_t k = 0; k < c->beyond_count; ++k)
-        add_to_reach(r, c->beyond[k], torque);
-    hci_system_add_torque(c->gain, c->gain_count, c->wave, c->count, r->order, r->count, torque);
-}
-
-static double distance_Nm(hci_harmonic a, hci_harmonic b)
-{
-    return hypot(a.sine - b.sine, a.cosine - b.cosine);
-}
-
-hci_status hci_torque_spectrum_evaluate(const hci_task *task, const hci_wave *wave, size_t count,
-                                        hci_harmonic **torque, size_t *torque_count, hci_note *note)
-{
-    reach r = {0};
-    hci_status status = find_reach(task, wave, count, wave, 0, &r, note);
-    *torque = NULL;
-    *torque_count = 0;
-    if (!status && !(*torque = hci_memory_new(r.count, sizeof **torque))) status = no_memory(note);
-    if (!status) {
-        torque_of(task, &r, &r.first, *torque);
-        *torque_count = r.count;
-    }
-    release_reach(&r);
-    return status;
-}
-
-hci_status hci_torque_error_evaluate(const hci_task *task, const hci_wave *wave, size_t count,
-                                     hci_torque_error *error, hci_note *note)
-{
-    hci_harmonic *torque;
-    size_t orders;
-    const hci_status status = hci_torque_spectrum_evaluate(task, wave, count, &torque, &orders, note);
-    *error = (hci_torque_error){0.0, 0.0};
-    for (size_t k = 0; k < orders; ++k) {
-        const hci_target_order wanted = hci_target_at(task->target, torque[k].order);
-        const double amplitude = wanted.weight * distance_Nm(torque[k], wanted.torque_Nm);
-        error->worst_Nm = fmax(error->worst_Nm, amplitude);
-        error->square_sum += amplitude * amplitude;
-    }
-    hci_memory_free(torque);
-    return status;
-}
-
-/* The component that makes torque order m with one wave of the gain; the lower of the two possible orders. */
-static hci_component component_for(const hci_wave *gain, double m)
-{
-    return m > gain->order ? (hci_component){m - gain->order, -gain->sequence}
-                           : (hci_component){m + gain->order, gain->sequence};
+    return t->held && c.sequence == t->held->sequence && fabs(c.order - t->held->order) < HCI_ORDER_TOLERANCE;
 }
 
 /* The one that needs the least current, of those that may flow and are not held already. */
@@ -175,13 +54,12 @@ static hci_component remedy_for(const hci_task *t, double m)
 {
     hci_component best = {0.0, 0};
     double strongest = 0.0;
-    for (size_t k = 0; k < t->gain_count; ++k) {
-        const hci_wave *gain = &t->gain[k];
-        const hci_component c = component_for(gain, m);
-        const double strength = hci_amplitude(gain->sine, gain->cosine);
-        const bool is_held = t->held && m >= HCI_ORDER_TOLERANCE && c.sequence == t->held->sequence &&
-                             fabs(c.order - t->held->order) < HCI_ORDER_TOLERANCE;
-        if (strength <= strongest || is_held || (gain->sequence == 0 && !t->has_neutral)) continue;
+    for (size_t k = 0; k < t->gradient_count; ++k) {
+        const hci_wave *e = &t->gradient[k];
+        const hci_component c = component_for(e, m);
+        const double strength = hci_amplitude(e->sine, e->cosine);
+        if (strength <= strongest || (e->sequence == 0 && !t->has_neutral)) continue;
+        if (m >= HCI_ORDER_TOLERANCE && is_held(t, c)) continue;
         strongest = strength;
         best = c;
     }
@@ -198,45 +76,50 @@ bool hci_remedy_exists(const hci_solved_order *order)
 static bool is_touched(const hci_task *t, const hci_component_set *set, double order, double *reached)
 {
     for (size_t k = 0; k < set->count; ++k) {
-        const size_t n = hci_component_orders(t->gain, t->gain_count, set->component[k], reached);
+        const size_t n = hci_component_orders(t->gradient, t->gradient_count, set->component[k], reached);
         for (size_t j = 0; j < n; ++j)
             if (fabs(reached[j] - order) < HCI_ORDER_TOLERANCE) return true;
     }
     return false;
 }
 
+/* What the verdicts need to know. */
 typedef struct {
     const hci_task *task;
-    const hci_component_set *set;
-    const double *compared; /* NULL: all orders are compared */
+    const hci_component_set *set; /* whose components could reach an order */
+    const double *compared;       /* NULL: all orders are compared */
     size_t compared_count;
-    double *reached; /* room for the orders of one component */
-} judge;
+    double *reached; /* workspace for the orders of one component */
+} criteria;
 
-static hci_order_verdict judge_order(const judge *j, const hci_solved_order *o, double tolerance_Nm)
+static hci_order_verdict verdict_of(const criteria *c, const hci_solved_order *o, double tolerance_Nm)
 {
     const double order = o->torque_Nm.order;
-    if (hci_target_at(j->task->target, order).weight <= 0.0) return HCI_ORDER_FREE;
+    if (hci_target_at(c->task->target, order).weight <= 0.0) return HCI_ORDER_FREE;
     if (o->error_Nm <= tolerance_Nm) return HCI_ORDER_REACHED;
-    if (!is_touched(j->task, j->set, order, j->reached)) return HCI_ORDER_UNREACHABLE;
-    if (j->compared && hci_orders_find(j->compared, j->compared_count, order) == j->compared_count)
+    if (!is_touched(c->task, c->set, order, c->reached)) return HCI_ORDER_UNREACHABLE;
+    if (c->compared && hci_orders_find(c->compared, c->compared_count, order) == c->compared_count)
         return HCI_ORDER_PARASITIC;
     return HCI_ORDER_MISSED;
 }
 
-/* Target, torque and error of every order, and the worst of those cared for. */
-static void judge_orders(const judge *j, const hci_harmonic *torque, const hci_harmonic *before,
-                         hci_solution *s)
+static hci_solved_order evaluate_order(const criteria *c, hci_harmonic torque_Nm, hci_harmonic before_Nm,
+                                       double tolerance_Nm)
+{
+    hci_solved_order o = {.torque_Nm = torque_Nm, .before_Nm = before_Nm};
+    o.target_Nm = hci_target_at(c->task->target, torque_Nm.order).torque_Nm;
+    o.error_Nm = hci_torque_distance_Nm(torque_Nm, o.target_Nm);
+    o.verdict = verdict_of(c, &o, tolerance_Nm);
+    if (o.verdict == HCI_ORDER_UNREACHABLE) o.remedy = remedy_for(c->task, torque_Nm.order);
+    return o;
+}
+
+/* The worst order of those cared for. */
+static void find_worst(hci_solution *s)
 {
     s->worst_error_Nm = -1.0;
     for (size_t k = 0; k < s->order_count; ++k) {
-        hci_solved_order *o = &s->order[k];
-        o->target_Nm = hci_target_at(j->task->target, torque[k].order).torque_Nm;
-        o->torque_Nm = torque[k];
-        o->before_Nm = before[k];
-        o->error_Nm = distance_Nm(torque[k], o->target_Nm);
-        o->verdict = judge_order(j, o, s->tolerance_Nm);
-        if (o->verdict == HCI_ORDER_UNREACHABLE) o->remedy = remedy_for(j->task, o->torque_Nm.order);
+        const hci_solved_order *o = &s->order[k];
         if (o->verdict == HCI_ORDER_FREE || o->error_Nm <= s->worst_error_Nm) continue;
         s->worst_error_Nm = o->error_Nm;
         s->worst_order = o->torque_Nm.order;
@@ -244,18 +127,15 @@ static void judge_orders(const judge *j, const hci_harmonic *torque, const hci_h
     if (s->worst_error_Nm < 0.0) s->worst_error_Nm = 0.0;
 }
 
-static hci_status fill_orders(const judge *j, const reach *r, hci_solution *s, hci_note *note)
+static hci_status fill_orders(const criteria *c, const hci_torque_spectra *t, hci_solution *s, hci_note *note)
 {
-    hci_harmonic *torque = hci_memory_new(2 * r->count, sizeof *torque);
-    s->order = hci_memory_new(r->count, sizeof *s->order);
-    s->order_count = s->order ? r->count : 0;
-    if (torque && s->order) {
-        torque_of(j->task, r, &r->first, torque);
-        torque_of(j->task, r, &r->second, torque + r->count);
-        judge_orders(j, torque, torque + r->count, s);
-    }
-    hci_memory_free(torque);
-    return torque && s->order ? HCI_OK : no_memory(note);
+    s->order = hci_memory_new(t->count, sizeof *s->order);
+    if (!s->order) return no_memory(note);
+    s->order_count = t->count;
+    for (size_t k = 0; k < t->count; ++k)
+        s->order[k] = evaluate_order(c, t->first[k], t->second[k], s->tolerance_Nm);
+    find_worst(s);
+    return HCI_OK;
 }
 
 /* NAN where there is nothing to compare with. */
@@ -274,25 +154,33 @@ static void fill_losses(const hci_task *t, hci_solution *s)
     s->loss_to_limit = ratio(s->mean_square_A2, s->limit_mean_square_A2);
 }
 
+/* The orders that the square system compares; none named where all are. */
+static hci_status find_compared(const hci_task *t, const hci_component_set *set, hci_compare compare,
+                                hci_harmonic_system *system, hci_note *note)
+{
+    *system = (hci_harmonic_system){0};
+    if (compare != HCI_COMPARE_SQUARE) return HCI_OK;
+    return hci_harmonic_system_make(t, set->component, set->count, compare, system, note);
+}
+
 hci_status hci_solution_evaluate(const hci_task *task, const hci_component_set *set, hci_compare compare,
                                  hci_solution *solution, hci_note *note)
 {
     const hci_wave plain = plain_fundamental(task);
-    hci_harmonic_system b = {0};
-    reach r = {0};
-    double *reached = hci_memory_new(2 * task->gain_count, sizeof *reached);
+    const hci_wave_view current = {solution->current.wave, solution->current.count}, before = {&plain, 1};
+    hci_harmonic_system system = {0};
+    hci_torque_spectra torque = {0};
+    double *reached = hci_memory_new(2 * task->gradient_count, sizeof *reached);
     hci_status status =
-        reached ? find_reach(task, solution->current.wave, solution->current.count, &plain, 1, &r, note)
-                : no_memory(note);
-    if (!status && compare == HCI_COMPARE_SQUARE)
-        status = hci_harmonic_system_make(task, set->component, set->count, compare, &b, note);
+        reached ? hci_torque_spectra_make(task, current, before, &torque, note) : no_memory(note);
+    if (!status) status = find_compared(task, set, compare, &system, note);
     if (!status) {
-        const judge j = {task, set, b.order, b.order_count, reached};
-        status = fill_orders(&j, &r, solution, note);
+        const criteria c = {task, set, system.order, system.order_count, reached};
+        status = fill_orders(&c, &torque, solution, note);
     }
-    hci_harmonic_system_release(&b);
+    hci_harmonic_system_release(&system);
+    hci_torque_spectra_release(&torque);
     hci_memory_free(reached);
-    release_reach(&r);
     if (!status) fill_losses(task, solution);
     return status;
 }

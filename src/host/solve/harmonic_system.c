@@ -1,3 +1,5 @@
+/* The harmonic system U x = h. In: a task and components; out: which torque orders are compared, U and h with
+ * the weights of the target. The entries of U are those of theory.md, section 4. */
 #include "host/solve/harmonic_system.h"
 
 #include <math.h>
@@ -5,17 +7,12 @@
 
 #include "host/base/memory.h"
 
-bool hci_task_is_linear(const hci_task *task)
-{
-    return task->machine->slope_count == 0 && !task->beyond;
-}
-
 /* ---- which orders are compared ---- */
 
 static size_t most_orders(const hci_task *t, size_t count)
 {
     return 1 + t->target->count + t->machine->cogging_count + t->offset_count +
-           2 * t->gain_count * (count + 1);
+           2 * t->gradient_count * (count + 1);
 }
 
 /* Orders that matter whatever the components: mean, target, cogging, torque of what is held. */
@@ -31,8 +28,8 @@ static size_t given_orders(const hci_task *t, double *order)
     for (size_t k = 0; k < t->offset_count; ++k)
         order[n++] = t->offset[k].order;
     if (t->held)
-        n += hci_component_orders(t->gain, t->gain_count, (hci_component){t->held->order, t->held->sequence},
-                                  order + n);
+        n += hci_component_orders(t->gradient, t->gradient_count,
+                                  (hci_component){t->held->order, t->held->sequence}, order + n);
     return hci_orders_sort(order, n);
 }
 
@@ -50,7 +47,7 @@ static size_t all_orders(const hci_task *t, const hci_component *component, size
 {
     size_t n = given_orders(t, order);
     for (size_t k = 0; k < count; ++k)
-        n += hci_component_orders(t->gain, t->gain_count, component[k], order + n);
+        n += hci_component_orders(t->gradient, t->gradient_count, component[k], order + n);
     return drop_free_orders(t, order, hci_orders_sort(order, n));
 }
 
@@ -95,7 +92,7 @@ static void fill_right_sides(const hci_task *t, hci_harmonic_system *b, hci_harm
         add_at(b, 1.0, t->offset[k], rest);
     if (t->held) {
         const hci_wave against = {t->held->order, t->held->sequence, -t->held->sine, -t->held->cosine};
-        hci_system_add_torque(t->gain, t->gain_count, &against, 1, b->order, b->order_count, rest);
+        hci_system_add_torque(t->gradient, t->gradient_count, &against, 1, b->order, b->order_count, rest);
     }
     if (b->order_count > 0 && b->order[0] < HCI_ORDER_TOLERANCE) b->h[0] = 1.0;
     hci_spectrum_to_rows(rest, b->order_count, b->h + b->rows);
@@ -121,9 +118,9 @@ static void apply_weights(const hci_task *t, hci_harmonic_system *b)
         b->u.value[k] *= b->row_weight[b->u.row[k]];
 }
 
-static bool reserve_rows(hci_harmonic_system *b, size_t count, size_t gain_count)
+static bool reserve_rows(hci_harmonic_system *b, size_t count, size_t gradient_count)
 {
-    const size_t entries = hci_system_capacity(gain_count, count);
+    const size_t entries = hci_system_capacity(gradient_count, count);
     b->rows = hci_orders_rows(b->order, b->order_count);
     b->unknowns = 2 * count;
     b->row_weight = hci_memory_new(b->rows, sizeof *b->row_weight);
@@ -137,38 +134,38 @@ static bool reserve_rows(hci_harmonic_system *b, size_t count, size_t gain_count
 }
 
 hci_status hci_harmonic_system_make(const hci_task *task, const hci_component *component, size_t count,
-                                    hci_compare compare, hci_harmonic_system *balance, hci_note *note)
+                                    hci_compare compare, hci_harmonic_system *system, hci_note *note)
 {
     hci_harmonic *rest = NULL;
-    memset(balance, 0, sizeof *balance);
-    balance->order = hci_memory_new(2 * most_orders(task, count), sizeof *balance->order);
-    if (balance->order) {
-        balance->order_count = all_orders(task, component, count, balance->order);
+    memset(system, 0, sizeof *system);
+    system->order = hci_memory_new(2 * most_orders(task, count), sizeof *system->order);
+    if (system->order) {
+        system->order_count = all_orders(task, component, count, system->order);
         if (compare == HCI_COMPARE_SQUARE)
-            balance->order_count = square_orders(task, balance->order, balance->order_count, count,
-                                                 balance->order + most_orders(task, count));
-        rest = hci_memory_new(balance->order_count, sizeof *rest);
+            system->order_count = square_orders(task, system->order, system->order_count, count,
+                                                system->order + most_orders(task, count));
+        rest = hci_memory_new(system->order_count, sizeof *rest);
     }
-    if (!rest || !reserve_rows(balance, count, task->gain_count)) {
+    if (!rest || !reserve_rows(system, count, task->gradient_count)) {
         hci_memory_free(rest);
-        hci_harmonic_system_release(balance);
+        hci_harmonic_system_release(system);
         return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for a system of %zu components", count);
     }
-    fill_right_sides(task, balance, rest);
-    hci_system_sparse(task->gain, task->gain_count, component, count, balance->order, balance->order_count,
-                      balance->u.column_start, balance->u.row, balance->u.value);
-    apply_weights(task, balance);
+    fill_right_sides(task, system, rest);
+    hci_system_sparse(task->gradient, task->gradient_count, component, count, system->order,
+                      system->order_count, system->u.column_start, system->u.row, system->u.value);
+    apply_weights(task, system);
     hci_memory_free(rest);
     return HCI_OK;
 }
 
-void hci_harmonic_system_release(hci_harmonic_system *balance)
+void hci_harmonic_system_release(hci_harmonic_system *system)
 {
-    hci_memory_free(balance->order);
-    hci_memory_free(balance->row_weight);
-    hci_memory_free(balance->h);
-    hci_memory_free(balance->u.column_start);
-    hci_memory_free(balance->u.row);
-    hci_memory_free(balance->u.value);
-    memset(balance, 0, sizeof *balance);
+    hci_memory_free(system->order);
+    hci_memory_free(system->row_weight);
+    hci_memory_free(system->h);
+    hci_memory_free(system->u.column_start);
+    hci_memory_free(system->u.row);
+    hci_memory_free(system->u.value);
+    memset(system, 0, sizeof *system);
 }

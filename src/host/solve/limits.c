@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "hci/machine/strategy.h"
-#include "host/solve/harmonic_system.h"
+#include "host/solve/task.h"
 
 /* Angles at which peaks are looked for: 16 in the shortest period. */
 static size_t angles(const hci_solution *s, double top)
@@ -66,7 +66,7 @@ static void add_effects(const hci_machine_data *m, const hci_solve_options *o, d
     hci_sample truth = {0};
     double slope[2], flux[2], induced[3];
     truth.theta_m_rad = theta_rad / m->pole_pairs;
-    truth.temperature_C = hci_temperature_C(o);
+    truth.temperature_C = hci_magnet_temperature_C(o);
     for (int phase = 0; phase < 3; ++phase)
         truth.i_abc[phase] = i[phase];
     const hci_effect_torque x = hci_effects_torque(&m->model, o->effects, &truth, NULL);

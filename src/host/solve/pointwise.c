@@ -1,14 +1,21 @@
-/* Currents found angle by angle. The shortest that make the wanted torque are, without reluctance torque,
- *     i(θ) = (T*(θ) − T_cog(θ)) e⊥ / (e⊥·e⊥)        e⊥ = e − mean(e) in a star connection,
- * which is linear in the torque; all else is left to hci_strategy_current. */
+/* Currents found angle by angle. In: a task; out: the currents of a strategy as waves, and the copper of the
+ * shortest, by which every other solution is measured. The shortest that make the wanted torque are, without
+ * reluctance torque, i(θ) = (T*(θ) − T_cog(θ)) e⊥ / (e⊥·e⊥)        e⊥ = e − mean(e) in a star connection,
+ * which is linear in the torque (theory.md, section 6); all else is left to hci_strategy_current (section 8).
+ */
+#include "host/solve/pointwise.h"
+
 #include <math.h>
+#include <string.h>
 
 #include "hci/machine/frames.h"
 #include "hci/math/fourier.h"
 #include "host/base/memory.h"
-#include "host/solve/harmonic_system.h"
 
 enum { SAMPLES_PER_TURN = 2048, TOP_ORDER = 512 };
+
+#define VANISHING 1e-6 /* share of the square of the largest harmonic, below which e⊥·e⊥ is called zero */
+#define SHORTER   1e-6 /* share by which a current has to be shorter to be taken instead */
 
 /* The ripple that is wanted beside the mean. */
 static double wanted_ripple_Nm(const hci_task *t, double theta_rad)
@@ -34,13 +41,13 @@ static double wanted_at(const hci_task *t, double theta_rad, double e[3], double
     return e[0] * e[0] + e[1] * e[1] + e[2] * e[2];
 }
 
-/* e⊥·e⊥ is called zero below this, a share of the largest harmonic's. */
+/* e⊥·e⊥ is called zero below this, in (N·m/A)². */
 static double vanishing(const hci_task *t)
 {
     double largest = 0.0;
     for (size_t k = 0; k < t->machine->back_emf_count; ++k)
         largest = fmax(largest, hci_amplitude(t->machine->back_emf[k].sine, t->machine->back_emf[k].cosine));
-    return 1e-6 * largest * largest;
+    return VANISHING * largest * largest;
 }
 
 static double angle_rad(size_t k)
@@ -67,10 +74,10 @@ static double linear_mean_square_A2(const hci_task *t, size_t count)
     return sum / (double)count;
 }
 
-/* The torque at one angle, and what of it is beyond the second degree. */
+/* The torque at one angle, and what of it is above the second degree. */
 typedef struct {
     hci_machine_point point;
-    const hci_effects_plant *beyond;
+    const hci_effects_plant *higher;
     double theta_rad;
 } angle;
 
@@ -79,10 +86,10 @@ static double smooth_torque(const void *context, const double x[2], double gradi
     const angle *a = context;
     const double *h = a->point.slope;
     hci_sample s = {0};
-    s.theta_m_rad = a->theta_rad / a->beyond->machine->pole_pairs;
-    s.temperature_C = a->beyond->temperature_C;
+    s.theta_m_rad = a->theta_rad / a->higher->machine->pole_pairs;
+    s.temperature_C = a->higher->temperature_C;
     hci_plane_to_abc(x, s.i_abc);
-    const hci_effect_torque t = hci_effects_torque(a->beyond->machine, a->beyond->effects, &s, NULL);
+    const hci_effect_torque t = hci_effects_torque(a->higher->machine, a->higher->effects, &s, NULL);
     hci_plane_from_abc(t.by_current, gradient);
     gradient[0] += a->point.e[0] + h[0] * x[0] + h[1] * x[1];
     gradient[1] += a->point.e[1] + h[1] * x[0] + h[2] * x[1];
@@ -103,7 +110,8 @@ static hci_status shortest_smooth(const hci_smooth_torque *torque, const hci_mac
     if (k > 0) status = hci_strategy_smooth_current(torque, point, HCI_STRATEGY_MTPA, wanted_Nm, before, x);
     if (!status && k % (SAMPLES_PER_TURN / SEARCHES_PER_TURN) != 0) return HCI_OK;
     searched = hci_strategy_smooth_current(torque, point, HCI_STRATEGY_MTPA, wanted_Nm, NULL, found);
-    if (k == 0 || (!searched && (status || hypot(found[0], found[1]) < (1.0 - 1e-6) * hypot(x[0], x[1])))) {
+    if (k == 0 ||
+        (!searched && (status || hypot(found[0], found[1]) < (1.0 - SHORTER) * hypot(x[0], x[1])))) {
         x[0] = found[0];
         x[1] = found[1];
     }
@@ -115,10 +123,10 @@ static hci_status shortest_smooth(const hci_smooth_torque *torque, const hci_mac
 static hci_status current_at(const hci_task *t, hci_strategy strategy, size_t k, double wanted_Nm,
                              double x[2], double *least_iq_A)
 {
-    const angle a = {hci_machine_at(t->machine, angle_rad(k)), t->beyond, angle_rad(k)};
+    const angle a = {hci_machine_at(t->machine, angle_rad(k)), t->higher, angle_rad(k)};
     const hci_smooth_torque torque = {smooth_torque, &a};
     const double before[2] = {x[0], x[1]};
-    if (!t->beyond)
+    if (!t->higher)
         return hci_strategy_current(&a.point, strategy, wanted_Nm, k > 0 ? before : NULL, x, least_iq_A);
     if (least_iq_A) *least_iq_A = 0.0;
     if (least_iq_A && strategy == HCI_STRATEGY_CANCEL) *least_iq_A = NAN;
@@ -205,30 +213,56 @@ static void sequences(const hci_harmonic a, const hci_harmonic b, const hci_harm
     x[2][1] = zero.cosine;
 }
 
-/* The three components of one order go to positions 3k, 3k+1, 3k+2. */
-static hci_status analyse(const hci_task *t, size_t count, const double *row, size_t k, size_t total,
-                          hci_component_set *set, double *x)
+/* Samples of α, β, zero of both parts, and where their waves go. */
+typedef struct {
+    const hci_task *task;
+    size_t count, orders; /* samples of a row, orders that are taken */
+    double *row;          /* six rows of `count` */
+    hci_answer *answer;   /* three components for each order */
+} analysis;
+
+/* Coordinates of the three sequences of one part at the k-th order. */
+static hci_status analyse_part(const analysis *a, size_t part, size_t k, double coordinate[3][2])
 {
-    const double order = (double)k / (double)t->period_turns;
+    const size_t turns = a->task->period_turns;
+    const double order = (double)k / (double)turns;
+    hci_harmonic h[3];
+    hci_status status = HCI_OK;
+    for (size_t q = 0; q < 3 && !status; ++q)
+        status = hci_fourier_uniform(a->row + (3 * part + q) * a->count, a->count, turns, order, &h[q]);
+    if (!status) sequences(h[0], h[1], h[2], coordinate);
+    return status;
+}
+
+/* The three components of one order go to positions 3k, 3k+1, 3k+2. */
+static hci_status analyse(const analysis *a, size_t k)
+{
     static const hci_set NAME[3] = {HCI_SET_POS, HCI_SET_NEG, HCI_SET_ZERO};
     static const int SEQUENCE[3] = {1, -1, 0};
+    const double order = (double)k / (double)a->task->period_turns;
     for (size_t part = 0; part < 2; ++part) {
-        hci_harmonic h[3];
-        double coordinate[3][2];
-        for (size_t q = 0; q < 3; ++q) {
-            const hci_status status =
-                hci_fourier_uniform(row + (3 * part + q) * count, count, t->period_turns, order, &h[q]);
-            if (status) return status;
-        }
-        sequences(h[0], h[1], h[2], coordinate);
-        for (size_t q = 0; q < 3; ++q) {
-            set->component[3 * k + q] = (hci_component){order, SEQUENCE[q]};
-            set->set[3 * k + q] = NAME[q];
-            x[2 * total * part + 2 * (3 * k + q)] = coordinate[q][0];
-            x[2 * total * part + 2 * (3 * k + q) + 1] = coordinate[q][1];
-        }
+        double coordinate[3][2], *x = a->answer->x + 6 * a->orders * part + 6 * k;
+        const hci_status status = analyse_part(a, part, k, coordinate);
+        if (status) return status;
+        memcpy(x, coordinate, sizeof coordinate);
+    }
+    for (size_t q = 0; q < 3; ++q) {
+        a->answer->set.component[3 * k + q] = (hci_component){order, SEQUENCE[q]};
+        a->answer->set.set[3 * k + q] = NAME[q];
     }
     return HCI_OK;
+}
+
+static hci_status analyse_all(const analysis *a)
+{
+    const hci_task *t = a->task;
+    hci_status status = HCI_OK;
+    for (size_t k = 0; k < a->orders && !status; ++k) {
+        status = analyse(a, k);
+        if (t->progress)
+            t->progress(t->progress_context, "Fourier analysis", (double)(k + 1) / (double)a->orders);
+    }
+    return status;
 }
 
 static hci_status sample(const hci_task *t, size_t count, double *row, hci_solution *s, hci_note *note)
@@ -247,24 +281,19 @@ static hci_status sample(const hci_task *t, size_t count, double *row, hci_solut
 hci_status hci_pointwise_answer(const hci_task *task, hci_answer *answer, hci_solution *solution,
                                 hci_note *note)
 {
-    const size_t count = SAMPLES_PER_TURN * task->period_turns, orders = TOP_ORDER * task->period_turns + 1;
-    double *row = hci_memory_new(6 * count, sizeof *row);
-    hci_component_set *set = &answer->set;
-    hci_status status = HCI_OK;
-    answer->x = hci_memory_new(12 * orders, sizeof *answer->x);
-    set->component = hci_memory_new(3 * orders, sizeof *set->component);
-    set->set = hci_memory_new(3 * orders, sizeof *set->set);
-    if (!row || !answer->x || !set->component || !set->set)
-        status = hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for %zu samples", count);
-    if (!status) status = sample(task, count, row, solution, note);
-    for (size_t k = 0; k < orders && !status; ++k) {
-        status = analyse(task, count, row, k, 3 * orders, set, answer->x);
-        if (task->progress)
-            task->progress(task->progress_context, "Fourier analysis", (double)(k + 1) / (double)orders);
-    }
-    set->count = status ? 0 : 3 * orders;
+    analysis a = {.task = task,
+                  .count = SAMPLES_PER_TURN * task->period_turns,
+                  .orders = TOP_ORDER * task->period_turns + 1,
+                  .answer = answer};
+    hci_status status = hci_answer_reserve(3 * a.orders, answer);
+    a.row = hci_memory_new(6 * a.count, sizeof *a.row);
+    if (status || !a.row)
+        status = hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for %zu samples", a.count);
+    if (!status) status = sample(task, a.count, a.row, solution, note);
+    if (!status) status = analyse_all(&a);
+    if (status) answer->set.count = 0;
     solution->method = HCI_METHOD_POINTWISE;
     solution->condition = NAN;
-    hci_memory_free(row);
+    hci_memory_free(a.row);
     return status;
 }

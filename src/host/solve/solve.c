@@ -1,3 +1,6 @@
+/* From a wanted torque to currents. In: a machine, its effects, and what is asked for; out: a solution, with
+ * what the currents do and cost. This file sets the task, lets one of linear.c, newton.c and pointwise.c
+ * answer it, and puts the answer into the solution. */
 #include "hci/host/solve/solve.h"
 
 #include <math.h>
@@ -5,28 +8,17 @@
 #include <string.h>
 
 #include "host/base/memory.h"
-#include "host/solve/harmonic_system.h"
+#include "host/solve/evaluate_solution.h"
 #include "host/solve/limits.h"
+#include "host/solve/linear.h"
+#include "host/solve/newton.h"
+#include "host/solve/pointwise.h"
 
 #define DEFAULT_TOLERANCE 1e-6
 
 static hci_status no_memory(hci_note *note)
 {
     return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory while solving");
-}
-
-const char *hci_method_name(hci_method method)
-{
-#define NAME_OF(value, word) [value] = word,
-    static const char *const NAME[] = {HCI_METHOD_NAMES(NAME_OF)};
-#undef NAME_OF
-    return NAME[method];
-}
-
-const char *hci_order_verdict_name(hci_order_verdict verdict)
-{
-    static const char *const NAME[] = {"reached", "free", "missed", "parasitic", "unreachable"};
-    return NAME[verdict];
 }
 
 /* ---- the task ---- */
@@ -142,7 +134,7 @@ static hci_status fill_currents(const hci_answer *a, const hci_solve_options *o,
 /* Takes the set from the answer. */
 static hci_status fill_system(const hci_task *t, hci_answer *a, hci_solution *s, hci_note *note)
 {
-    const size_t entries = hci_system_capacity(t->gain_count, a->set.count);
+    const size_t entries = hci_system_capacity(t->gradient_count, a->set.count);
     hci_solved_system *u = &s->system;
     double *order = hci_memory_new(s->order_count, sizeof *order);
     bool has_room;
@@ -153,8 +145,8 @@ static hci_status fill_system(const hci_task *t, hci_answer *a, hci_solution *s,
     if (has_room) {
         for (size_t k = 0; k < s->order_count; ++k)
             order[k] = s->order[k].torque_Nm.order;
-        hci_system_sparse(t->gain, t->gain_count, a->set.component, a->set.count, order, s->order_count,
-                          u->column_start, u->row, u->value);
+        hci_system_sparse(t->gradient, t->gradient_count, a->set.component, a->set.count, order,
+                          s->order_count, u->column_start, u->row, u->value);
         u->set = a->set;
         a->set = (hci_component_set){0};
     }
@@ -187,11 +179,11 @@ static hci_status verdict_of(const hci_solution *s)
     return s->within_limits ? HCI_OK : HCI_NOT_REACHED;
 }
 
-static hci_status find_answer(hci_task *t, const hci_solve_options *o, hci_linearisation *room, hci_answer *a,
+static hci_status find_answer(hci_task *t, const hci_solve_options *o, hci_linear_torque *at, hci_answer *a,
                               hci_solution *s, hci_note *note)
 {
     if (o->method == HCI_METHOD_POINTWISE) return hci_pointwise_answer(t, a, s, note);
-    if (!hci_task_is_linear(t)) return hci_newton_answer(t, o, room, a, s, note);
+    if (!hci_task_is_linear(t)) return hci_newton_answer(t, o, at, a, s, note);
     return hci_linear_answer(t, o, NULL, a, s, note);
 }
 
@@ -213,7 +205,7 @@ static void remark_left_out(const hci_effects *effects, hci_note *remark)
 }
 
 static hci_status solve(const hci_machine_data *machine, const hci_quadratic_model *c,
-                        const hci_solve_options *o, hci_linearisation *room, hci_answer *a, hci_solution *s,
+                        const hci_solve_options *o, hci_linear_torque *at, hci_answer *a, hci_solution *s,
                         hci_note *note)
 {
     hci_task task;
@@ -223,7 +215,7 @@ static hci_status solve(const hci_machine_data *machine, const hci_quadratic_mod
     s->period_turns = task.period_turns;
     s->tolerance_Nm = (o->tolerance > 0.0 ? o->tolerance : DEFAULT_TOLERANCE) * torque_scale_Nm(&task);
     s->limit_mean_square_A2 = hci_pointwise_mean_square_A2(&task);
-    status = find_answer(&task, o, room, a, s, note);
+    status = find_answer(&task, o, at, a, s, note);
     if (!status) status = fill_currents(a, o, !o->held && hci_task_is_linear(&task), s, note);
     if (!status)
         status = hci_solution_evaluate(&task, &a->set, o->set ? o->compare : HCI_COMPARE_ALL, s, note);
@@ -236,17 +228,17 @@ static hci_status solve(const hci_machine_data *machine, const hci_quadratic_mod
 hci_status hci_solve(const hci_machine_data *machine, const hci_solve_options *options,
                      hci_solution *solution, hci_note *note)
 {
-    const double temperature_C = hci_temperature_C(options);
-    hci_linearisation room = {NULL, NULL};
+    const double temperature_C = hci_magnet_temperature_C(options);
+    hci_linear_torque at = {{NULL, 0}, {NULL, 0}};
     hci_answer a = {{0}, NULL};
     hci_quadratic_model c = {0};
     hci_status status = check_machine(machine, options, note);
     memset(solution, 0, sizeof *solution);
     if (!status)
         status = hci_quadratic_model_make(&machine->model, options->effects, temperature_C, &c, note);
-    if (!status) status = solve(machine, &c, options, &room, &a, solution, note);
+    if (!status) status = solve(machine, &c, options, &at, &a, solution, note);
     hci_answer_release(&a);
-    hci_newton_release(&room);
+    hci_linear_torque_release(&at);
     hci_quadratic_model_release(&c);
     if (!status) return verdict_of(solution);
     hci_solution_release(solution);

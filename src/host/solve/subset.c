@@ -1,10 +1,18 @@
-/* The best subset of candidates by least squares: f(S) = ‖U_S x − h‖² + ρ‖x‖² with G = UᵀU, b = Uᵀh. Backward
- * elimination by exact costs, then exchanges. Each component is a 2×2 block of G. */
+/* The best subset of candidates by least squares: f(S) = ‖U_S x − h‖² + ρ‖x‖² with G = UᵀU, b = Uᵀh. In: a
+ * harmonic system of all candidates and a price of copper ρ; out: the members of a subset of a given size.
+ * Backward elimination by exact costs, then exchanges; both update the inverse P of G_S + ρI rather than
+ * solve anew. Each component is a 2×2 block of G. */
+#include "host/solve/subset.h"
+
 #include <math.h>
 #include <string.h>
 
 #include "hci/math/dense.h"
-#include "host/solve/choose.h"
+#include "host/base/memory.h"
+
+enum { MOST_ROUNDS = 20 }; /* exchanges for each member */
+
+#define ROUNDING 1e-10 /* share of the cost; an exchange that brings less is rounding */
 
 typedef struct {
     double xx, xy, yy; /* symmetric [xx xy; xy yy] */
@@ -38,21 +46,20 @@ static hci_status spd_inverse(size_t n, double *a, double *inverse)
     return HCI_OK;
 }
 
-/* The inverse P of G_S + ρI and x = P b_S for the subset S = active[0 … count). p: 2count × 2count; work as
- * large. */
-static hci_status subset_inverse(const hci_subset_cost *c, const size_t *active, size_t count, double *p,
-                                 double *x, double *work)
+/* The inverse P of G_S + ρI and x = P b_S for the members S. */
+static hci_status subset_inverse(hci_subset_search *s)
 {
-    const size_t m = 2 * count;
+    const size_t m = 2 * s->count;
     for (size_t j = 0; j < m; ++j)
         for (size_t i = 0; i < m; ++i)
-            work[i + j * m] = c->gram[2 * active[i / 2] + i % 2 + (2 * active[j / 2] + j % 2) * c->n] +
-                              (i == j ? c->ridge : 0.0);
-    if (spd_inverse(m, work, p) != HCI_OK) return HCI_ERROR_SINGULAR;
+            s->work[i + j * m] =
+                s->gram[2 * s->member[i / 2] + i % 2 + (2 * s->member[j / 2] + j % 2) * s->n] +
+                (i == j ? s->ridge : 0.0);
+    if (spd_inverse(m, s->work, s->p)) return HCI_ERROR_NUMERIC;
     for (size_t i = 0; i < m; ++i) {
-        x[i] = 0.0;
+        s->x[i] = 0.0;
         for (size_t j = 0; j < m; ++j)
-            x[i] += p[i + j * m] * c->b[2 * active[j / 2] + j % 2];
+            s->x[i] += s->p[i + j * m] * s->b[2 * s->member[j / 2] + j % 2];
     }
     return HCI_OK;
 }
@@ -86,32 +93,38 @@ static void remove_component(double *p, size_t m, double *x, size_t k, double *v
     }
 }
 
-/* From all candidates down to `most`, each time leaving out the component that costs least. */
-hci_status hci_subset_eliminate(const hci_subset_cost *c, size_t most, hci_subset_workspace *room)
+/* The candidate that is in and costs least to leave out; P and x are those of all candidates. */
+static size_t cheapest(const hci_subset_search *s)
 {
-    const size_t candidates_left = c->n / 2;
-    size_t kept = 0;
-    for (size_t k = 0; k < candidates_left; ++k) {
-        room->active[k] = k;
-        room->in[k] = true;
-    }
-    if (subset_inverse(c, room->active, candidates_left, room->p, room->x, room->work))
-        return HCI_ERROR_NUMERIC;
-    for (size_t left = candidates_left; left > most; --left) {
-        double least = INFINITY;
-        size_t victim = 0;
-        for (size_t k = 0; k < candidates_left; ++k) {
-            const double cost = room->in[k] ? removal_cost(room->p, c->n, room->x, k) : HUGE_VAL;
-            if (cost < least) {
-                least = cost;
-                victim = k;
-            }
+    double least = INFINITY;
+    size_t found = 0;
+    for (size_t k = 0; k < s->n / 2; ++k) {
+        const double cost = s->is_in[k] ? removal_cost(s->p, s->n, s->x, k) : HUGE_VAL;
+        if (cost < least) {
+            least = cost;
+            found = k;
         }
-        remove_component(room->p, c->n, room->x, victim, room->v);
-        room->in[victim] = false;
     }
-    for (size_t k = 0; k < candidates_left; ++k)
-        if (room->in[k]) room->active[kept++] = k;
+    return found;
+}
+
+hci_status hci_subset_eliminate(hci_subset_search *s, size_t most)
+{
+    const size_t candidates = s->n / 2;
+    s->count = candidates;
+    for (size_t k = 0; k < candidates; ++k) {
+        s->member[k] = k;
+        s->is_in[k] = true;
+    }
+    if (subset_inverse(s)) return HCI_ERROR_NUMERIC;
+    for (size_t left = candidates; left > most; --left) {
+        const size_t out = cheapest(s);
+        remove_component(s->p, s->n, s->x, out, s->v);
+        s->is_in[out] = false;
+    }
+    s->count = 0;
+    for (size_t k = 0; k < candidates; ++k)
+        if (s->is_in[k]) s->member[s->count++] = k;
     return HCI_OK;
 }
 
@@ -119,65 +132,73 @@ hci_status hci_subset_eliminate(const hci_subset_cost *c, size_t most, hci_subse
  * s⁻¹ y. */
 typedef struct {
     block s;
-    double y0, y1, gain;
+    double y0, y1;
+    double fall; /* of f */
 } entry;
 
-static entry enter(const hci_subset_cost *c, const hci_subset_workspace *room, size_t count, size_t j)
+/* v = P G_Sj, two columns of 2·count. Most of G_Sj is zero. */
+static void entry_direction(const hci_subset_search *s, const double *g0, const double *g1)
 {
-    const size_t m = 2 * count, n = c->n;
-    const double *g0 = c->gram + 2 * j * n, *g1 = g0 + n;
-    double *v = room->v;
-    block schur = {g0[2 * j] + c->ridge, g0[2 * j + 1], g1[2 * j + 1] + c->ridge};
-    double r0 = c->b[2 * j], r1 = c->b[2 * j + 1];
-    entry e;
+    const size_t m = 2 * s->count;
+    double *v = s->v;
     for (size_t i = 0; i < 2 * m; ++i)
         v[i] = 0.0;
     for (size_t k = 0; k < m; ++k) {
-        const size_t row = 2 * room->active[k / 2] + k % 2;
+        const size_t row = 2 * s->member[k / 2] + k % 2;
         if (g0[row] == 0.0 && g1[row] == 0.0) continue;
         for (size_t i = 0; i < m; ++i)
-            v[i] += room->p[i + k * m] * g0[row];
+            v[i] += s->p[i + k * m] * g0[row];
         for (size_t i = 0; i < m; ++i)
-            v[m + i] += room->p[i + k * m] * g1[row];
+            v[m + i] += s->p[i + k * m] * g1[row];
     }
+}
+
+static entry enter(const hci_subset_search *s, size_t j)
+{
+    const size_t m = 2 * s->count;
+    const double *g0 = s->gram + 2 * j * s->n, *g1 = g0 + s->n, *v = s->v;
+    block schur = {g0[2 * j] + s->ridge, g0[2 * j + 1], g1[2 * j + 1] + s->ridge};
+    double r0 = s->b[2 * j], r1 = s->b[2 * j + 1];
+    entry e;
+    entry_direction(s, g0, g1);
     for (size_t k = 0; k < m; ++k) {
-        const size_t row = 2 * room->active[k / 2] + k % 2;
+        const size_t row = 2 * s->member[k / 2] + k % 2;
         schur.xx -= g0[row] * v[k];
         schur.xy -= g0[row] * v[m + k];
         schur.yy -= g1[row] * v[m + k];
-        r0 -= g0[row] * room->x[k];
-        r1 -= g1[row] * room->x[k];
+        r0 -= g0[row] * s->x[k];
+        r1 -= g1[row] * s->x[k];
     }
     e.s = block_inverse(schur);
     e.y0 = e.s.xx * r0 + e.s.xy * r1;
     e.y1 = e.s.xy * r0 + e.s.yy * r1;
-    e.gain = r0 * e.y0 + r1 * e.y1;
+    e.fall = r0 * e.y0 + r1 * e.y1;
     return e;
 }
 
 /* What leaving out member i costs once j is in: P and x with j are P_ii + v_i s v_iᵀ and x_i − v_i y. */
-static double removal_cost_after(const hci_subset_workspace *room, size_t m, const entry *e, size_t i)
+static double removal_cost_after(const hci_subset_search *search, const entry *e, size_t i)
 {
-    const double *v = room->v;
+    const size_t m = 2 * search->count;
+    const double *v = search->v, *x = search->x;
     const double a0 = v[2 * i], a1 = v[2 * i + 1], b0 = v[m + 2 * i], b1 = v[m + 2 * i + 1];
-    block p = block_of(room->p, m, i);
+    block p = block_of(search->p, m, i);
     p.xx += e->s.xx * a0 * a0 + 2.0 * e->s.xy * a0 * b0 + e->s.yy * b0 * b0;
     p.xy += e->s.xx * a0 * a1 + e->s.xy * (a0 * b1 + a1 * b0) + e->s.yy * b0 * b1;
     p.yy += e->s.xx * a1 * a1 + 2.0 * e->s.xy * a1 * b1 + e->s.yy * b1 * b1;
-    return block_form(block_inverse(p), room->x[2 * i] - a0 * e->y0 - b0 * e->y1,
-                      room->x[2 * i + 1] - a1 * e->y0 - b1 * e->y1);
+    return block_form(block_inverse(p), x[2 * i] - a0 * e->y0 - b0 * e->y1,
+                      x[2 * i + 1] - a1 * e->y0 - b1 * e->y1);
 }
 
-/* The exchange of a member for a candidate that lowers f most; 0 when none does. */
-static double best_exchange(const hci_subset_cost *c, const hci_subset_workspace *room, size_t count,
-                            size_t *out, size_t *in)
+/* The exchange of a member for a candidate that lowers f most; returns the change, 0 when none does. */
+static double best_exchange(const hci_subset_search *s, size_t *out, size_t *in)
 {
     double best = 0.0;
-    for (size_t j = 0; j < c->n / 2; ++j) {
-        if (room->in[j]) continue;
-        const entry e = enter(c, room, count, j);
-        for (size_t i = 0; i < count; ++i) {
-            const double change = removal_cost_after(room, 2 * count, &e, i) - e.gain;
+    for (size_t j = 0; j < s->n / 2; ++j) {
+        if (s->is_in[j]) continue;
+        const entry e = enter(s, j);
+        for (size_t i = 0; i < s->count; ++i) {
+            const double change = removal_cost_after(s, &e, i) - e.fall;
             if (change >= best) continue;
             best = change;
             *out = i;
@@ -187,24 +208,88 @@ static double best_exchange(const hci_subset_cost *c, const hci_subset_workspace
     return best;
 }
 
-static double subset_value(const hci_subset_cost *c, const hci_subset_workspace *room, size_t count)
+/* bᵀx: by how much f is less than with no component at all. */
+static double explained(const hci_subset_search *s)
 {
-    double gained = 0.0;
-    for (size_t k = 0; k < 2 * count; ++k)
-        gained += c->b[2 * room->active[k / 2] + k % 2] * room->x[k];
-    return gained;
+    double sum = 0.0;
+    for (size_t k = 0; k < 2 * s->count; ++k)
+        sum += s->b[2 * s->member[k / 2] + k % 2] * s->x[k];
+    return sum;
 }
 
-/* Exchanges until none lowers f by more than rounding; at most 20 per member. */
-hci_status hci_subset_exchange(const hci_subset_cost *c, hci_subset_workspace *room, size_t count)
+hci_status hci_subset_exchange(hci_subset_search *s)
 {
-    for (size_t round = 0; round < 20 * count; ++round) {
+    for (size_t round = 0; round < MOST_ROUNDS * s->count; ++round) {
         size_t out = 0, in = 0;
-        if (subset_inverse(c, room->active, count, room->p, room->x, room->work)) return HCI_ERROR_NUMERIC;
-        if (best_exchange(c, room, count, &out, &in) >= -1e-10 * subset_value(c, room, count)) break;
-        room->in[room->active[out]] = false;
-        room->in[in] = true;
-        room->active[out] = in;
+        if (subset_inverse(s)) return HCI_ERROR_NUMERIC;
+        if (best_exchange(s, &out, &in) >= -ROUNDING * explained(s)) break;
+        s->is_in[s->member[out]] = false;
+        s->is_in[in] = true;
+        s->member[out] = in;
     }
     return HCI_OK;
+}
+
+/* ---- G and b ---- */
+
+/* Column j of G and entry j of b from sparse columns. column: rows zeros, the same after. */
+static void fill_column(const hci_harmonic_system *system, double mean_Nm, size_t j, hci_subset_search *s,
+                        double *column)
+{
+    const hci_sparse *u = &system->u;
+    s->b[j] = 0.0;
+    for (int64_t k = u->column_start[j]; k < u->column_start[j + 1]; ++k) {
+        const size_t row = (size_t)u->row[k];
+        column[row] = u->value[k];
+        s->b[j] += u->value[k] * (mean_Nm * system->h[row] + system->h[system->rows + row]);
+    }
+    for (size_t i = 0; i < s->n; ++i) {
+        double sum = 0.0;
+        for (int64_t k = u->column_start[i]; k < u->column_start[i + 1]; ++k)
+            sum += u->value[k] * column[u->row[k]];
+        s->gram[i + j * s->n] = sum;
+    }
+    s->scale = fmax(s->scale, s->gram[j + j * s->n]);
+    for (int64_t k = u->column_start[j]; k < u->column_start[j + 1]; ++k)
+        column[u->row[k]] = 0.0;
+}
+
+static bool reserve(size_t n, hci_subset_search *s)
+{
+    memset(s, 0, sizeof *s);
+    s->n = n;
+    s->gram = hci_memory_new(n * n, sizeof *s->gram);
+    s->b = hci_memory_new(n, sizeof *s->b);
+    s->p = hci_memory_new(n * n, sizeof *s->p);
+    s->work = hci_memory_new(n * n, sizeof *s->work);
+    s->x = hci_memory_new(n, sizeof *s->x);
+    s->v = hci_memory_new(2 * n, sizeof *s->v);
+    s->member = hci_memory_new(n, sizeof *s->member);
+    s->is_in = hci_memory_new(n, sizeof *s->is_in);
+    return s->gram && s->b && s->p && s->work && s->x && s->v && s->member && s->is_in;
+}
+
+hci_status hci_subset_search_make(const hci_harmonic_system *system, double mean_Nm,
+                                  hci_subset_search *search, hci_note *note)
+{
+    double *column = hci_memory_new(system->rows, sizeof *column);
+    const bool has_memory = reserve(system->unknowns, search) && column;
+    for (size_t j = 0; j < search->n && has_memory; ++j)
+        fill_column(system, mean_Nm, j, search, column);
+    hci_memory_free(column);
+    return has_memory ? HCI_OK
+                      : hci_note_set(note, HCI_ERROR_MEMORY, "out of memory while choosing harmonics");
+}
+
+void hci_subset_search_release(hci_subset_search *s)
+{
+    hci_memory_free(s->gram);
+    hci_memory_free(s->b);
+    hci_memory_free(s->p);
+    hci_memory_free(s->work);
+    hci_memory_free(s->x);
+    hci_memory_free(s->v);
+    hci_memory_free(s->member);
+    hci_memory_free(s->is_in);
+    memset(s, 0, sizeof *s);
 }

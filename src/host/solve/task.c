@@ -2,24 +2,29 @@
 #include <math.h>
 #include <string.h>
 
-#include "host/solve/harmonic_system.h"
+#include "host/solve/task.h"
 
 #define MOST_TURNS 4096
 
-void hci_task_begin(const hci_quadratic_model *c, const hci_target *target, hci_task *t)
+void hci_task_begin(const hci_quadratic_model *model, const hci_target *target, hci_task *t)
 {
     memset(t, 0, sizeof *t);
-    t->machine = &c->machine;
-    t->beyond = c->beyond.effects ? &c->beyond : NULL;
+    t->machine = &model->machine;
+    t->higher = model->higher.effects ? &model->higher : NULL;
     t->target = target;
-    t->gain = c->machine.back_emf;
-    t->gain_count = c->machine.back_emf_count;
+    t->gradient = model->machine.back_emf;
+    t->gradient_count = model->machine.back_emf_count;
 }
 
-double hci_temperature_C(const hci_solve_options *o)
+double hci_magnet_temperature_C(const hci_solve_options *o)
 {
     if (!o->at_temperature) return NAN;
     return o->temperature_C;
+}
+
+bool hci_task_is_linear(const hci_task *task)
+{
+    return task->machine->slope_count == 0 && !task->higher;
 }
 
 static bool is_whole(double order, size_t turns)
@@ -31,7 +36,7 @@ static bool is_whole(double order, size_t turns)
 static bool machine_repeats(const hci_task *t, size_t turns)
 {
     const hci_machine *m = t->machine;
-    bool whole = !t->beyond || hci_effects_repeat(t->beyond->effects, m->pole_pairs, turns);
+    bool whole = !t->higher || hci_effects_repeat(t->higher->effects, m->pole_pairs, turns);
     for (size_t k = 0; k < m->back_emf_count; ++k)
         whole = whole && is_whole(m->back_emf[k].order, turns);
     for (size_t k = 0; k < m->cogging_count; ++k)

@@ -1,0 +1,19 @@
+/* Currents found angle by angle. */
+#ifndef HCI_SRC_HOST_SOLVE_POINTWISE_H
+#define HCI_SRC_HOST_SOLVE_POINTWISE_H
+
+#include "host/solve/answer.h"
+#include "host/solve/task.h"
+
+/* Mean of i_a² + i_b² + i_c² in A² of the shortest currents, the pointwise limit; NAN where there are none at
+ * some angle. No set of harmonics that makes the same torque has less (theory.md, section 6). */
+double hci_pointwise_mean_square_A2(const hci_task *task);
+
+/* The currents of task->strategy as waves in two columns, per N·m of mean torque and the rest (everything is
+ * in the rest where currents are not linear in the torque). Angles without an answer are noted in *solution;
+ * there the nearest current is taken. *answer is to be released in any case. HCI_ERROR_NUMERIC when e⊥
+ * vanishes at an angle, _MEMORY. */
+hci_status hci_pointwise_answer(const hci_task *task, hci_answer *answer, hci_solution *solution,
+                                hci_note *note);
+
+#endif
