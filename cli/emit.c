@@ -1,9 +1,6 @@
-#define _POSIX_C_SOURCE 200809L
-
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "cli/command/command.h"
 #include "cli/command/parse.h"
@@ -11,9 +8,9 @@
 #include "cli/terminal/say.h"
 #include "cli/terminal/terminal.h"
 #include "cli/terminal/text.h"
-#include "hci/host/csv/csv.h"
 #include "hci/host/emit/emit.h"
 #include "hci/host/report/summary.h"
+#include "hci/host/solve/solution_folder.h"
 
 enum { NAME, FORMAT, FRAME, POINTS, MAX_ERROR, PER_TORQUE, REFERENCE, OUT, CLI_COMMON_KEYS };
 
@@ -41,8 +38,6 @@ static const cli_option OPTIONS[] = {
     [OUT] = {"out", 'o', CLI_FOLDER, "FOLDER", .help = "where ID.h and ID.c go (default: here)"},
     CLI_COMMON_OPTIONS};
 
-enum { PATH_SIZE = 4096 };
-
 typedef struct {
     hci_currents current, per_Nm;
     char provenance[2][160];
@@ -50,69 +45,25 @@ typedef struct {
     hci_emit_request request;
 } inputs;
 
-static bool is_folder(const char *path)
-{
-    struct stat info;
-    return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
-}
-
-static hci_status read_currents(const char *folder, const char *file, bool per_Nm, hci_currents *currents,
-                                hci_note *note)
-{
-    char path[PATH_SIZE];
-    const int length =
-        file ? snprintf(path, sizeof path, "%s/%s", folder, file) : snprintf(path, sizeof path, "%s", folder);
-    if (length < 0 || length >= PATH_SIZE)
-        return hci_note_set(note, HCI_ERROR_INPUT, "%.200s…: the path is too long", folder);
-    return hci_currents_read(path, per_Nm, currents, note);
-}
-
-/* The mean torque that the folder's currents were solved for: order 0 of spectrum.csv. */
-static hci_status read_mean_torque(const char *folder, double *torque_Nm, hci_note *note)
-{
-    char path[PATH_SIZE];
-    hci_csv *csv;
-    double order = 1.0;
-    hci_status status;
-    snprintf(path, sizeof path, "%s/spectrum.csv", folder);
-    status = hci_csv_read(path, &csv, note);
-    if (status) return status;
-    if (hci_csv_rows(csv) > 0) status = hci_csv_number(csv, "order", 0, &order, note);
-    if (!status && order == 0.0) status = hci_csv_number(csv, "target_Nm", 0, torque_Nm, note);
-    hci_csv_free(csv);
-    if (!status && (order != 0.0 || *torque_Nm == 0.0))
-        return hci_note_set(note, HCI_ERROR_INPUT, "%s: no mean torque in it; give --reference-torque NM",
-                            path);
-    *torque_Nm = fabs(*torque_Nm);
-    return status;
-}
-
-static bool has_parts(const char *folder)
-{
-    char path[PATH_SIZE];
-    struct stat info;
-    snprintf(path, sizeof path, "%s/currents_per_Nm.csv", folder);
-    return stat(path, &info) == 0;
-}
-
 static hci_status read_parts(const cli_arguments *a, inputs *in, hci_note *note)
 {
     const char *from = a->word[0];
     hci_status status;
-    if (!is_folder(from))
+    if (!hci_solution_is_folder(from))
         return hci_note_set(note, HCI_ERROR_ARGUMENT,
                             "--per-torque needs the folder that `solve` wrote, not one file: %s", from);
-    if (!has_parts(from))
+    if (!hci_solution_has_parts(from))
         return hci_note_set(
             note, HCI_ERROR_INPUT,
             "%s: no currents_per_Nm.csv: these currents are not linear in the mean torque (a held "
             "fundamental, or reluctance torque); leave out --per-torque",
             from);
-    status = read_currents(from, "currents_constant.csv", false, &in->current, note);
-    if (!status) status = read_currents(from, "currents_per_Nm.csv", true, &in->per_Nm, note);
+    status = hci_solution_read_currents(from, HCI_SOLUTION_CURRENTS_CONSTANT, &in->current, note);
+    if (!status) status = hci_solution_read_currents(from, HCI_SOLUTION_CURRENTS_PER_NM, &in->per_Nm, note);
     in->request.reference_torque_Nm = cli_number_or(a, REFERENCE, 0.0);
     if (!status && !a->given[REFERENCE])
-        status = read_mean_torque(from, &in->request.reference_torque_Nm, note);
+        status = hci_solution_read_mean_torque(from, &in->request.reference_torque_Nm, note);
+    in->request.reference_torque_Nm = fabs(in->request.reference_torque_Nm);
     in->request.per_Nm = in->per_Nm.wave;
     in->request.per_Nm_count = in->per_Nm.count;
     return status;
@@ -154,8 +105,7 @@ static hci_status read_inputs(const cli_arguments *a, inputs *in, hci_note *note
     if (!status && a->given[PER_TORQUE])
         status = read_parts(a, in, note);
     else if (!status)
-        status = read_currents(a->word[0], is_folder(a->word[0]) ? "currents.csv" : NULL, false, &in->current,
-                               note);
+        status = hci_solution_read_currents(a->word[0], HCI_SOLUTION_CURRENTS, &in->current, note);
     if (status) return status;
     in->request.currents = in->current.wave;
     in->request.current_count = in->current.count;

@@ -16,6 +16,7 @@
 #include "hci/host/machine/effects.h"
 #include "hci/host/report/summary.h"
 #include "hci/host/report/write.h"
+#include "hci/host/solve/solution_folder.h"
 #include "hci/host/solve/solve.h"
 
 enum {
@@ -159,13 +160,11 @@ typedef struct {
 /* An input that stands in the output folder under the name of a result would be replaced by it. */
 static hci_status keep_apart(const char *input, const char *folder, hci_note *note)
 {
-    static const char *const RESULTS[] = {"currents.csv", "currents_per_Nm.csv", "currents_constant.csv",
-                                          "spectrum.csv", "waveform.csv"};
     struct stat from, to;
     char path[4096];
     if (!input || !folder || stat(input, &from) != 0) return HCI_OK;
-    for (size_t k = 0; k < sizeof RESULTS / sizeof RESULTS[0]; ++k) {
-        snprintf(path, sizeof path, "%s/%s", folder, RESULTS[k]);
+    for (int k = 0; k < HCI_SOLUTION_FILES; ++k) {
+        snprintf(path, sizeof path, "%s/%s", folder, hci_solution_file_name((hci_solution_file)k));
         if (stat(path, &to) == 0 && to.st_dev == from.st_dev && to.st_ino == from.st_ino)
             return hci_note_set(note, HCI_ERROR_ARGUMENT,
                                 "%s would be replaced by a result of the same name; give another --out",

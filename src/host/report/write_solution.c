@@ -4,6 +4,7 @@
 
 #include "hci/host/report/summary.h"
 #include "hci/host/report/write.h"
+#include "hci/host/solve/solution_folder.h"
 #include "hci/machine/frames.h"
 #include "host/draw/plot.h"
 #include "host/report/report.h"
@@ -94,11 +95,17 @@ static hci_status write_summary(hci_output *out, const hci_solution *s, hci_stat
     return HCI_OK;
 }
 
-/* A file of one part of the currents, or none where they have no parts. */
-static hci_status write_part(hci_output *out, const char *name, const hci_solution *s, const hci_wave *wave,
-                             const char *amplitude_column, hci_note *note)
+static hci_status begin_file(hci_output *out, hci_solution_file file, hci_note *note)
 {
-    const hci_status status = wave ? hci_output_file(out, name, note) : hci_output_without(out, name, note);
+    return hci_output_file(out, hci_solution_file_name(file), note);
+}
+
+/* A file of one part of the currents, or none where they have no parts. */
+static hci_status write_part(hci_output *out, hci_solution_file file, const hci_solution *s,
+                             const hci_wave *wave, const char *amplitude_column, hci_note *note)
+{
+    const hci_status status =
+        wave ? begin_file(out, file, note) : hci_output_without(out, hci_solution_file_name(file), note);
     if (!status && wave) write_currents(out, &s->current, wave, amplitude_column);
     return status;
 }
@@ -106,16 +113,18 @@ static hci_status write_part(hci_output *out, const char *name, const hci_soluti
 static hci_status write_files(hci_output *out, const hci_machine_data *m, const hci_solution *s,
                               hci_status verdict, hci_note *note)
 {
-    hci_status status = write_part(out, "currents.csv", s, s->current.wave, "amplitude_A", note);
-    if (!status) status = write_part(out, "currents_per_Nm.csv", s, s->per_Nm, "amplitude_A_per_Nm", note);
-    if (!status) status = write_part(out, "currents_constant.csv", s, s->constant, "amplitude_A", note);
-    if (!status) status = hci_output_file(out, "spectrum.csv", note);
+    hci_status status = write_part(out, HCI_SOLUTION_CURRENTS, s, s->current.wave, "amplitude_A", note);
+    if (!status)
+        status = write_part(out, HCI_SOLUTION_CURRENTS_PER_NM, s, s->per_Nm, "amplitude_A_per_Nm", note);
+    if (!status)
+        status = write_part(out, HCI_SOLUTION_CURRENTS_CONSTANT, s, s->constant, "amplitude_A", note);
+    if (!status) status = begin_file(out, HCI_SOLUTION_SPECTRUM, note);
     if (!status) write_spectrum(out, s);
-    if (!status) status = hci_output_file(out, "waveform.csv", note);
+    if (!status) status = begin_file(out, HCI_SOLUTION_WAVEFORM, note);
     if (!status) write_waveform(out, m, s);
-    if (!status) status = hci_output_file(out, "solution.svg", note);
+    if (!status) status = begin_file(out, HCI_SOLUTION_PICTURE, note);
     if (!status) hci_plot_solution(out, m, s);
-    if (!status) status = hci_output_file(out, "summary.json", note);
+    if (!status) status = begin_file(out, HCI_SOLUTION_SUMMARY, note);
     return status ? status : write_summary(out, s, verdict, note);
 }
 
@@ -123,7 +132,8 @@ static hci_status write_report(hci_output *out, const hci_machine_data *m, const
                                hci_status verdict, const hci_report_sources *sources, hci_note *note)
 {
     const hci_status status =
-        sources ? hci_output_file(out, "report.html", note) : hci_output_without(out, "report.html", note);
+        sources ? begin_file(out, HCI_SOLUTION_REPORT, note)
+                : hci_output_without(out, hci_solution_file_name(HCI_SOLUTION_REPORT), note);
     if (!status && sources) hci_report_solution(out, m, s, verdict, sources);
     return status;
 }

@@ -6,8 +6,8 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 
+#include "hci/host/solve/solution_folder.h"
 #include "host/base/memory.h"
 #include "host/base/quote.h"
 #include "host/simulate/simulation.h"
@@ -307,13 +307,6 @@ static hci_status set_plant(const job *b)
 
 /* ---- where currents come from ---- */
 
-static hci_status read_part(const job *b, const char *file, bool per_Nm, hci_currents *currents)
-{
-    char path[HCI_SCENARIO_PATH_SIZE + 64];
-    snprintf(path, sizeof path, "%s%s%s", b->scenario->currents, file ? "/" : "", file ? file : "");
-    return hci_currents_read(path, per_Nm, currents, b->note);
-}
-
 static hci_status check_waves(const job *b, const hci_currents *currents)
 {
     const int pole_pairs = b->machine->model.pole_pairs;
@@ -337,39 +330,22 @@ static hci_status check_waves(const job *b, const hci_currents *currents)
     return HCI_OK;
 }
 
-static bool is_folder(const char *path)
-{
-    struct stat info;
-    return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
-}
-
-/* Whether a folder of `solve` has the currents in parts that a torque scales. */
-static bool has_parts(const char *folder)
-{
-    char path[HCI_SCENARIO_PATH_SIZE + 32];
-    struct stat info;
-    snprintf(path, sizeof path, "%s/currents_per_Nm.csv", folder);
-    return stat(path, &info) == 0;
-}
-
 static hci_status read_waves(const job *b)
 {
     hci_setup *p = b->setup;
-    const bool folder = is_folder(b->scenario->currents);
+    const char *path = b->scenario->currents;
     hci_status status;
-    if (p->has_command && !folder)
+    if (p->has_command && !hci_solution_is_folder(path))
         return wrong(b, "`currents` is one file, which a torque cannot scale; give the folder that `solve` "
                         "wrote, or delete the set "
                         "point");
-    if (p->has_command && !has_parts(b->scenario->currents))
+    if (p->has_command && !hci_solution_has_parts(path))
         return wrong(b, "`currents`: this solution has no currents_per_Nm.csv: it is for one torque (a held "
                         "fundamental, or reluctance torque); use `strategy`, or delete the set point");
-    status = read_part(b,
-                       !folder          ? NULL
-                       : p->has_command ? "currents_constant.csv"
-                                        : "currents.csv",
-                       false, &p->fixed);
-    if (!status && p->has_command) status = read_part(b, "currents_per_Nm.csv", true, &p->per_Nm);
+    status = hci_solution_read_currents(
+        path, p->has_command ? HCI_SOLUTION_CURRENTS_CONSTANT : HCI_SOLUTION_CURRENTS, &p->fixed, b->note);
+    if (!status && p->has_command)
+        status = hci_solution_read_currents(path, HCI_SOLUTION_CURRENTS_PER_NM, &p->per_Nm, b->note);
     if (!status) status = check_waves(b, &p->fixed);
     if (!status) status = check_waves(b, &p->per_Nm);
     if (!status && p->fixed.count + p->per_Nm.count == 0)

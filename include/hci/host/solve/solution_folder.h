@@ -1,0 +1,49 @@
+/* The folder of a solution: which files it has, and how their currents are read again. */
+#ifndef HCI_HOST_SOLVE_SOLUTION_FOLDER_H
+#define HCI_HOST_SOLVE_SOLUTION_FOLDER_H
+
+#include <stdbool.h>
+
+#include "hci/host/solve/currents.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* The files. Those of the two parts are there only where the currents are linear in the mean torque, the
+ * report only where it was asked for. */
+typedef enum {
+    HCI_SOLUTION_CURRENTS,          /* currents.csv: what flows, in A */
+    HCI_SOLUTION_CURRENTS_PER_NM,   /* currents_per_Nm.csv: for each N·m of mean torque, in A/(N·m) */
+    HCI_SOLUTION_CURRENTS_CONSTANT, /* currents_constant.csv: the rest, in A */
+    HCI_SOLUTION_SPECTRUM,          /* spectrum.csv: torque order by order */
+    HCI_SOLUTION_WAVEFORM,          /* waveform.csv: currents and torque over the angle */
+    HCI_SOLUTION_PICTURE,           /* solution.svg */
+    HCI_SOLUTION_SUMMARY,           /* summary.json */
+    HCI_SOLUTION_REPORT,            /* report.html */
+    HCI_SOLUTION_FILES              /* how many there are */
+} hci_solution_file;
+
+/* The name of a file in the folder; a static string. */
+const char *hci_solution_file_name(hci_solution_file file);
+
+/* Whether a path that names currents is a folder; else it is one file of them. */
+bool hci_solution_is_folder(const char *path);
+
+/* Whether the folder has the currents in the two parts that a torque scales. */
+bool hci_solution_has_parts(const char *folder);
+
+/* Reads one of the three files of currents. path: the folder, or with HCI_SOLUTION_CURRENTS also one file.
+ * HCI_ERROR_INPUT, _MEMORY. */
+hci_status hci_solution_read_currents(const char *path, hci_solution_file part, hci_currents *currents,
+                                      hci_note *note);
+
+/* The mean torque in N·m that the folder's currents were solved for. HCI_ERROR_INPUT when it has none,
+ * _MEMORY. */
+hci_status hci_solution_read_mean_torque(const char *folder, double *torque_Nm, hci_note *note);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
