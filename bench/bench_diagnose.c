@@ -23,6 +23,7 @@
 
 #include "hci/host/diagnose/diagnose.h"
 #include "hci/machine/frames.h"
+#include "support/draws.h"
 #include "timing.h"
 
 enum { POLE_PAIRS = 2, EMF_COUNT = 3, COLUMNS = 7, REPEATS = 3, ROWS = 1000000, LEVELS = 5 };
@@ -42,13 +43,6 @@ typedef struct {
 /* ---- the recording ---- */
 
 static uint64_t seed = 1;
-
-/* Uniform in [-1, 1). */
-static double draw(void)
-{
-    seed = seed * 6364136223846793005u + 1442695040888963407u;
-    return (double)(seed >> 11) * 0x1p-52 - 1.0;
-}
 
 static void back_emf(hci_wave emf[EMF_COUNT])
 {
@@ -81,8 +75,9 @@ static void write_recording(FILE *file, size_t rows)
                                  cogging_at(&COGGING[0], theta_rad) + cogging_at(&COGGING[1], theta_rad) -
                                  (forward ? FRICTION_Nm : -FRICTION_Nm);
         fprintf(file, "%.9g,%.9g,%.9g,%.6g,%.6g,%.6g,%.6g\n", time_s, theta_m_rad, speed_rad_per_s,
-                i_A[0] + 0.01 * draw(), i_A[1] + 0.01 * draw(), i_A[2] + 0.01 * draw(),
-                torque_Nm + 0.005 * draw());
+                i_A[0] + 0.01 * ref_uniform(&seed, -1.0, 1.0), i_A[1] + 0.01 * ref_uniform(&seed, -1.0, 1.0),
+                i_A[2] + 0.01 * ref_uniform(&seed, -1.0, 1.0),
+                torque_Nm + 0.005 * ref_uniform(&seed, -1.0, 1.0));
     }
 }
 

@@ -4,8 +4,8 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "../tests/support/plant_machine.h"
 #include "hci/drive/control.h"
+#include "support/plant_machine.h"
 #include "timing.h"
 
 /* Runs are short, so that the median is one without interruption. */

@@ -22,6 +22,7 @@
 #include "hci/machine/system.h"
 #include "hci/math/dense.h"
 #include "host/numeric/sparse.h"
+#include "support/draws.h"
 #include "timing.h"
 
 enum { EMF_COUNT = 5, DENSE_COMPONENTS_MAX = 1536 };
@@ -49,13 +50,6 @@ typedef struct {
 
 static uint64_t seed = 1;
 
-/* Uniform in [0, 1). */
-static double draw(void)
-{
-    seed = seed * 6364136223846793005u + 1442695040888963407u;
-    return (double)(seed >> 11) * 0x1p-53;
-}
-
 static void *allocate(size_t count, size_t size)
 {
     void *p = malloc(count * size);
@@ -78,7 +72,7 @@ static void make_machine(problem *p)
     const double omega_m = 2.0 * HCI_PI * 50.0 / 2.0;
     for (size_t k = 0; k < EMF_COUNT; k++)
         p->emf[k] = hci_wave_polar(order[k], hci_sequence_of_order(order[k]), amplitude_V[k] / omega_m,
-                                   2.0 * HCI_PI * draw());
+                                   2.0 * HCI_PI * ref_uniform(&seed, 0.0, 1.0));
 }
 
 static void make_components(problem *p)
@@ -89,7 +83,9 @@ static void make_components(problem *p)
         const double m = (double)(k + 1);
         const hci_component pos = {m + 1.0, 1}, neg = {m - 1.0, -1};
         p->orders[k] = m;
-        p->component[k] = k > 0 && draw() < 0.5 ? neg : pos; /* order 0 would be one unknown, not two */
+        p->component[k] = k > 0 && ref_uniform(&seed, 0.0, 1.0) < 0.5
+                              ? neg
+                              : pos; /* order 0 would be one unknown, not two */
     }
 }
 
@@ -113,7 +109,7 @@ static void make_right_side(problem *p)
     for (size_t i = 0; i < p->unknowns; i++)
         p->h[i] = 0.0;
     for (size_t j = 0; j < p->unknowns; j++) {
-        p->wanted[j] = 2.0 * draw() - 1.0;
+        p->wanted[j] = 2.0 * ref_uniform(&seed, 0.0, 1.0) - 1.0;
         for (int64_t k = u->column_start[j]; k < u->column_start[j + 1]; k++)
             p->h[u->row[k]] += u->value[k] * p->wanted[j];
     }

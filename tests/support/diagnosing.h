@@ -1,14 +1,12 @@
 /* A machine with a sinusoidal back-EMF of 0.2 N·m/A and three pole pairs in a folder, recordings of it whose
- * equations are written here, and their diagnosis. Include once in a test, after `#define _XOPEN_SOURCE 700`.
+ * equations are written here, and their diagnosis. Include once in a test.
  */
 #ifndef DIAGNOSING_H
 #define DIAGNOSING_H
 
-#include <stdio.h>
-#include <unistd.h>
-
 #include "hci/host/diagnose/diagnose.h"
 #include "host/base/memory.h"
+#include "support/files.h"
 #include "support/recording.h"
 #include "unity.h"
 
@@ -16,7 +14,6 @@ enum { P = 3, MOST_RUNS = 8 };
 
 static const double K_NM_PER_A = 0.2, NOISE_NM = 0.01;
 
-static char root[64];
 static hci_machine_data machine;
 static hci_run run[MOST_RUNS];
 static hci_role role[MOST_RUNS];
@@ -27,46 +24,27 @@ static uint64_t seed;
 
 /* ---- files ---- */
 
-static inline const char *in_root(const char *name)
-{
-    static char path[4][256];
-    static int next;
-    next = (next + 1) % 4;
-    snprintf(path[next], sizeof path[next], "%s/%s", root, name);
-    return path[next];
-}
-
-static inline void write_file(const char *name, const char *text)
-{
-    FILE *file = fopen(in_root(name), "w");
-    TEST_ASSERT_NOT_NULL(file);
-    fputs(text, file);
-    fclose(file);
-}
-
 static inline void dataset_start(void)
 {
     hci_note note = {{0}};
     seed = 99;
-    snprintf(root, sizeof root, "/tmp/hci-test-diagnose-XXXXXX");
-    TEST_ASSERT_NOT_NULL(mkdtemp(root));
-    write_file("machine.csv", "name,value,unit,source\npole_pairs,3,1,test\nconnection,star,,test\n");
-    write_file("back_emf.csv", "order,amplitude_Nm_per_A,phase_rad\n1,0.2,0\n");
-    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_machine_read(root, &machine, &note), note.text);
+    files_begin();
+    files_write(files_path("machine.csv"),
+                "name,value,unit,source\npole_pairs,3,1,test\nconnection,star,,test\n");
+    files_write(files_path("back_emf.csv"), "order,amplitude_Nm_per_A,phase_rad\n1,0.2,0\n");
+    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_machine_read(files_root, &machine, &note), note.text);
     runs = (hci_runs){.run = run, .role = role};
     memset(&options, 0, sizeof options);
 }
 
 static inline void dataset_end(void)
 {
-    char command[128];
     hci_memory_fail_after(-1);
     hci_diagnosis_release(&diagnosis);
     for (size_t k = 0; k < MOST_RUNS; ++k)
         rec_release(&run[k]);
     hci_machine_release(&machine);
-    snprintf(command, sizeof command, "rm -rf %s", root);
-    TEST_ASSERT_EQUAL_INT(0, system(command));
+    files_end();
 }
 
 /* ---- recordings ---- */
@@ -101,7 +79,7 @@ static inline void record(size_t n, const point *x)
                 K_NM_PER_A * sin(P * theta_m - 2.0 * REF_PI * s / 3.0) * r->i_A[3 * k + (size_t)s];
         r->i_A[3 * k] += x->offset_A;
         r->torque_Nm[k] += x->drift_Nm * sin(0.37 * theta_m + 5.0 * sin(0.211 * theta_m) + phase);
-        r->torque_Nm[k] += NOISE_NM * rec_normal(&seed) - x->brake_Nm;
+        r->torque_Nm[k] += NOISE_NM * ref_normal(&seed) - x->brake_Nm;
     }
 }
 

@@ -4,10 +4,10 @@
 #define EFFECT_LIST_H
 
 #include <math.h>
-#include <stdint.h>
 #include <string.h>
 
 #include "hci/effects/effect.h"
+#include "support/draws.h"
 #include "unity.h"
 
 enum { EL_EFFECTS = 16, EL_TERMS = 96 };
@@ -41,20 +41,11 @@ static inline void el_add(el_list *l, const char *effect, const char *parameter,
     l->term[k][l->effect[k].count++] = (hci_effect_term){el_parameter(type, parameter), order, value, NAN};
 }
 
-/* Uniform in −1 … 1, a linear congruential generator. */
-static inline double el_random(uint64_t *state)
-{
-    *state = *state * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
-    return (double)(int64_t)*state / 9223372036854775808.0;
-}
-
 /* ---- a machine, p = 3 ---- */
-
-static const double EL_PI = 3.14159265358979323846;
 
 static inline double el_emf(int s, double theta)
 {
-    const double x = theta - 2.0 * EL_PI * s / 3.0;
+    const double x = theta - 2.0 * REF_PI * s / 3.0;
     return 0.8 * sin(x + 0.1) + 0.06 * sin(5.0 * x - 0.4) + 0.03 * sin(7.0 * x + 1.1);
 }
 
@@ -83,13 +74,13 @@ static inline void el_machine_make(el_machine *m)
 static inline hci_sample el_sample(uint64_t *seed)
 {
     hci_sample x;
-    x.theta_m_rad = EL_PI * (1.0 + el_random(seed));
-    x.speed_rad_per_s = 100.0 * el_random(seed);
+    x.theta_m_rad = ref_uniform(seed, 0.0, 2.0 * REF_PI);
+    x.speed_rad_per_s = ref_uniform(seed, -100.0, 100.0);
     for (int s = 0; s < 3; ++s) {
-        x.i_abc[s] = 5.0 * el_random(seed);
-        x.change_A_per_s[s] = 500.0 * el_random(seed);
+        x.i_abc[s] = ref_uniform(seed, -5.0, 5.0);
+        x.change_A_per_s[s] = ref_uniform(seed, -500.0, 500.0);
     }
-    x.temperature_C = 60.0 + 40.0 * el_random(seed);
+    x.temperature_C = ref_uniform(seed, 20.0, 100.0);
     return x;
 }
 

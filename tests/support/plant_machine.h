@@ -11,10 +11,9 @@
 #include <stddef.h>
 
 #include "hci/drive/plant.h"
+#include "support/draws.h"
 
 enum { PM_MOST = 12 };
-
-static const double PM_PI = 3.14159265358979323846;
 
 typedef struct {
     double order, amplitude, phase;
@@ -74,7 +73,8 @@ static inline double pm_emf(const pm_machine *m, int s, double theta)
 {
     double sum = 0.0;
     for (size_t k = 0; k < m->emf_count; ++k)
-        sum += m->emf[k].amplitude * sin(m->emf[k].order * (theta - 2.0 * PM_PI * s / 3.0) + m->emf[k].phase);
+        sum +=
+            m->emf[k].amplitude * sin(m->emf[k].order * (theta - 2.0 * REF_PI * s / 3.0) + m->emf[k].phase);
     return sum;
 }
 
@@ -90,7 +90,7 @@ static inline double pm_cogging(const pm_machine *m, double theta)
 static inline double pm_inductance(const pm_machine *m, int r, int t, double theta)
 {
     const double *amplitude = r == t ? m->self : m->mutual;
-    const double x = theta - 2.0 * PM_PI * (r == t ? r : 3 - r - t) / 3.0;
+    const double x = theta - 2.0 * REF_PI * (r == t ? r : 3 - r - t) / 3.0;
     double sum = 0.0;
     for (size_t k = 0; k < m->inductance_count; ++k)
         sum += amplitude[k] * cos(m->order[k] * x);
@@ -100,7 +100,7 @@ static inline double pm_inductance(const pm_machine *m, int r, int t, double the
 static inline double pm_inductance_slope(const pm_machine *m, int r, int t, double theta)
 {
     const double *amplitude = r == t ? m->self : m->mutual;
-    const double x = theta - 2.0 * PM_PI * (r == t ? r : 3 - r - t) / 3.0;
+    const double x = theta - 2.0 * REF_PI * (r == t ? r : 3 - r - t) / 3.0;
     double sum = 0.0;
     for (size_t k = 0; k < m->inductance_count; ++k)
         sum -= m->order[k] * amplitude[k] * sin(m->order[k] * x);
@@ -123,7 +123,7 @@ static inline void pm_inductance_term(const pm_machine *m, size_t k, hci_inducta
     static const int mutual_of[3] = {HCI_BC, HCI_CA, HCI_AB};
     term->order = m->order[k];
     for (int s = 0; s < 3; ++s) {
-        const double shift = m->order[k] * 2.0 * PM_PI * s / 3.0;
+        const double shift = m->order[k] * 2.0 * REF_PI * s / 3.0;
         term->cosine[HCI_AA + s] = m->self[k] * cos(shift);
         term->sine[HCI_AA + s] = m->self[k] * sin(shift);
         term->cosine[mutual_of[s]] = m->mutual[k] * cos(shift);

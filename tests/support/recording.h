@@ -9,13 +9,6 @@
 #include "hci/host/recording/run.h"
 #include "support/reference.h"
 
-/* N(0, 1) */
-static inline double rec_normal(uint64_t *state)
-{
-    const double radius = sqrt(-2.0 * log(1.0 - ref_uniform(state, 0.0, 1.0)));
-    return radius * cos(ref_uniform(state, 0.0, 2.0 * REF_PI));
-}
-
 /* An empty run with time, angle, speed, currents and torque, and a known turn. */
 static inline hci_run rec_make(size_t count)
 {

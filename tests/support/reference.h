@@ -5,14 +5,12 @@
 
 #include <math.h>
 #include <stddef.h>
-#include <stdint.h>
 
 #include "hci/math/harmonic.h"
+#include "support/draws.h"
 
 #define REF_SAMPLES 256 /* a multiple of 4 */
 #define REF_BAND    (REF_SAMPLES / 2)
-
-static const double REF_PI = 3.14159265358979323846;
 
 /* A sin(nθ − shift·2πs/3 + γ): shift is the order for a waveform that is alike in each phase, else the
  * sequence σ. */
@@ -24,19 +22,6 @@ typedef struct {
 typedef struct {
     double sine[REF_BAND], cosine[REF_BAND];
 } ref_spectrum;
-
-/* 53 good bits of a 64-bit linear congruential generator. */
-static inline double ref_uniform(uint64_t *state, double low, double high)
-{
-    *state = *state * 6364136223846793005u + 1442695040888963407u;
-    return low + (high - low) * ((double)(*state >> 11) / 9007199254740992.0);
-}
-
-/* A whole number in low … high, both included. */
-static inline int ref_integer(uint64_t *state, int low, int high)
-{
-    return (int)floor(ref_uniform(state, low, high + 1.0));
-}
 
 static inline double ref_wave_at(const ref_wave *w, int s, double theta)
 {

@@ -1,63 +1,26 @@
 /* Drives that are simulated in a test: machines A and C, scenarios from rows of text, what `solve` promised
- * against what the plant does. Include once in a test, after `#define _XOPEN_SOURCE 700`. */
+ * against what the plant does. Include once in a test. */
 #ifndef SIMULATING_H
 #define SIMULATING_H
 
-#include <dirent.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "hci/host/csv/csv.h"
 #include "hci/host/report/write.h"
 #include "host/base/memory.h"
+#include "support/draws.h"
+#include "support/files.h"
 #include "unity.h"
 
-static char root[64];
 static hci_machine_data machine_a, machine_c;
-
-/* ---- tools ---- */
-
-static const char *in_root(const char *name)
-{
-    static char text[4][160];
-    static unsigned next;
-    char *out = text[next++ % 4];
-    snprintf(out, sizeof text[0], "%s/%s", root, name);
-    return out;
-}
-
-static void remove_files(const char *folder)
-{
-    DIR *list = opendir(folder);
-    for (const struct dirent *entry; list != NULL && (entry = readdir(list)) != NULL;) {
-        char name[512];
-        snprintf(name, sizeof name, "%s/%s", folder, entry->d_name);
-        if (entry->d_name[0] == '.') continue;
-        if (remove(name) != 0) remove_files(name);
-    }
-    if (list != NULL) closedir(list);
-    rmdir(folder);
-}
-
-static inline int entries(const char *folder)
-{
-    int count = -2;
-    DIR *list = opendir(folder);
-    if (list == NULL) return -1;
-    while (readdir(list) != NULL)
-        ++count;
-    closedir(list);
-    return count;
-}
 
 static inline void drives_start(void)
 {
     hci_note note = {{0}};
-    snprintf(root, sizeof root, "/tmp/hci-test-simulate-XXXXXX");
-    TEST_ASSERT_NOT_NULL(mkdtemp(root));
+    files_begin();
     TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_machine_read("data/machine_a", &machine_a, &note), note.text);
     TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_machine_read("data/machine_c", &machine_c, &note), note.text);
 }
@@ -67,15 +30,7 @@ static inline void drives_end(void)
     hci_memory_fail_after(-1);
     hci_machine_release(&machine_a);
     hci_machine_release(&machine_c);
-    remove_files(root);
-}
-
-static inline void write_text(const char *name, const char *text)
-{
-    FILE *file = fopen(in_root(name), "w");
-    TEST_ASSERT_NOT_NULL(file);
-    fputs(text, file);
-    fclose(file);
+    files_end();
 }
 
 /* A scenario of rows under the header. */
@@ -85,8 +40,8 @@ static inline hci_scenario scenario_of(const char *rows)
     hci_note note = {{0}};
     char text[2048];
     snprintf(text, sizeof text, "name,value,unit\n%s", rows);
-    write_text("scenario.csv", text);
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_scenario_read(in_root("scenario.csv"), &s, &note), note.text);
+    files_write(files_path("scenario.csv"), text);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_scenario_read(files_path("scenario.csv"), &s, &note), note.text);
     return s;
 }
 
@@ -115,27 +70,12 @@ static inline double *column(const char *file, const char *name, size_t *rows)
     hci_csv *csv;
     hci_note note = {{0}};
     double *values;
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_csv_read(in_root(file), &csv, &note), note.text);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_csv_read(files_path(file), &csv, &note), note.text);
     *rows = hci_csv_rows(csv);
     values = malloc((*rows + 1) * sizeof *values);
     TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_csv_numbers(csv, name, values, &note), note.text);
     hci_csv_free(csv);
     return values;
-}
-
-static inline char *bytes_of(const char *file)
-{
-    char *text = NULL;
-    size_t length = 0;
-    FILE *in = fopen(in_root(file), "rb");
-    TEST_ASSERT_NOT_NULL_MESSAGE(in, file);
-    for (size_t got = 1; got > 0; length += got) {
-        text = realloc(text, length + 65537);
-        got = fread(text + length, 1, 65536, in);
-    }
-    text[length] = '\0';
-    fclose(in);
-    return text;
 }
 
 /* ---- promised and simulated torque ---- */
@@ -156,7 +96,7 @@ static inline hci_solution solve(const hci_machine_data *machine, const char *ta
     status = hci_solve(machine, &options, &solution, &note);
     TEST_ASSERT_TRUE_MESSAGE(status <= HCI_NOT_REACHED, note.text);
     hci_target_release(&target);
-    TEST_ASSERT_EQUAL(HCI_OK, hci_solution_write(machine, &solution, status, in_root("solution"), &note));
+    TEST_ASSERT_EQUAL(HCI_OK, hci_solution_write(machine, &solution, status, files_path("solution"), &note));
     return solution;
 }
 
@@ -206,11 +146,11 @@ static inline void refused(const hci_machine_data *machine, const char *rows, co
     hci_simulation s;
     hci_note note = {{0}};
     const hci_simulate_options options = {0};
-    const hci_simulate_output where = {in_root("refused"), NULL};
+    const hci_simulate_output where = {files_path("refused"), NULL};
     hci_status status;
     snprintf(text, sizeof text, "name,value,unit\n%s", rows);
-    write_text("scenario.csv", text);
-    status = hci_scenario_read(in_root("scenario.csv"), &scenario, &note);
+    files_write(files_path("scenario.csv"), text);
+    status = hci_scenario_read(files_path("scenario.csv"), &scenario, &note);
     if (!status) {
         status = hci_simulate_to_folder(machine, &scenario, &options, &where, &s, &note);
         TEST_ASSERT_NULL(s.spectrum_Nm);
@@ -218,7 +158,7 @@ static inline void refused(const hci_machine_data *machine, const char *rows, co
     TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_ERROR_INPUT, status, rows);
     if (!strstr(note.text, words)) printf("%s\n    lacks %s\n", note.text, words);
     TEST_ASSERT_NOT_NULL(strstr(note.text, words));
-    TEST_ASSERT_EQUAL_INT(-1, entries(in_root("refused")));
+    TEST_ASSERT_EQUAL_INT(-1, files_count(files_path("refused")));
 }
 
 #endif

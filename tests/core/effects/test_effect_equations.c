@@ -21,7 +21,7 @@ static void rotor(const hci_sample *x, double *d, double *q)
 {
     *d = *q = 0.0;
     for (int s = 0; s < 3; ++s) {
-        const double angle = P * x->theta_m_rad - 2.0 * EL_PI * s / 3.0;
+        const double angle = P * x->theta_m_rad - 2.0 * REF_PI * s / 3.0;
         *q += 2.0 / 3.0 * x->i_abc[s] * sin(angle);
         *d -= 2.0 / 3.0 * x->i_abc[s] * cos(angle);
     }
@@ -59,7 +59,7 @@ static double emf_5(const hci_sample *x, double theta, double d, double q)
     (void)d;
     (void)q;
     for (int s = 0; s < 3; ++s)
-        sum += 0.04 * sin(5.0 * (theta - 2.0 * EL_PI * s / 3.0)) * x->i_abc[s];
+        sum += 0.04 * sin(5.0 * (theta - 2.0 * REF_PI * s / 3.0)) * x->i_abc[s];
     return sum;
 }
 
@@ -67,8 +67,8 @@ static double emf_negative(const hci_sample *x, double theta, double d, double q
 {
     (void)d;
     (void)q;
-    return 0.04 * (cos(theta) * x->i_abc[0] + cos(theta + 2.0 * EL_PI / 3.0) * x->i_abc[1] +
-                   cos(theta - 2.0 * EL_PI / 3.0) * x->i_abc[2]);
+    return 0.04 * (cos(theta) * x->i_abc[0] + cos(theta + 2.0 * REF_PI / 3.0) * x->i_abc[1] +
+                   cos(theta - 2.0 * REF_PI / 3.0) * x->i_abc[2]);
 }
 
 static double emf_zero(const hci_sample *x, double theta, double d, double q)
@@ -251,7 +251,7 @@ static void all_effects(el_list *l, uint64_t *seed)
             const hci_effect_parameter *p = &type->parameter[k];
             const double order = !p->ordered ? 0.0 : p->whole ? 2.0 : 4.0 / 3.0;
             const double size = p->standard > 1.0 ? 30.0 : strcmp(p->unit, "s") == 0 ? 1e-3 : 0.02;
-            const double value = size * (1.0 + 0.5 * el_random(seed));
+            const double value = size * ref_uniform(seed, 0.5, 1.5);
             el_add(l, type->name, p->name, order, p->least > 1e-9 ? 4.0 : value);
         }
     }
@@ -375,7 +375,7 @@ static double true_angle(double t)
 
 static double true_current(int s, double t)
 {
-    return AMPLITUDE * sin(P * true_angle(t) - 2.0 * EL_PI * s / 3.0 + PHASE);
+    return AMPLITUDE * sin(P * true_angle(t) - 2.0 * REF_PI * s / 3.0 + PHASE);
 }
 
 static hci_sample truth_at(double t)
@@ -451,7 +451,7 @@ static void test_delay_of_a_harmonic(void)
         x.theta_m_rad = START;
         x.speed_rad_per_s = OMEGA;
         for (int s = 0; s < 3; ++s) {
-            const double angle = n * (P * START - 2.0 * EL_PI * s / 3.0);
+            const double angle = n * (P * START - 2.0 * REF_PI * s / 3.0);
             x.i_abc[s] = sin(angle);
             x.change_A_per_s[s] =
                 (n - 1.0) * w * cos(angle); /* of order 7, positive sequence, in the rotor frame */
@@ -499,7 +499,7 @@ static void test_torque_sensor_frequency_response(void)
     el_add(&l, "torque_sensor", "natural_frequency", 0.0, 75.0);
     el_add(&l, "torque_sensor", "damping", 0.0, 0.1);
     for (size_t k = 0; k < sizeof f / sizeof *f; ++k) {
-        const double w = 2.0 * EL_PI * f[k], wn = 2.0 * EL_PI * 75.0;
+        const double w = 2.0 * REF_PI * f[k], wn = 2.0 * REF_PI * 75.0;
         const double warped = 2.0 / RUN_STEP * tan(0.5 * w * RUN_STEP), u = warped / wn;
         const double gain = 1.0 / (hypot(1.0 - u * u, 0.2 * u) * hypot(1.0, warped * 2e-3));
         const double phase = -atan2(0.2 * u, 1.0 - u * u) - atan(warped * 2e-3);
@@ -519,9 +519,9 @@ static void uneven_run(double *torque, const el_list *l, double *by, size_t n)
     double t = 0.0;
     for (size_t k = 0; k < n; ++k) {
         /* one step back: a second run; and a time twice */
-        t += k == n / 2 ? -0.1 : k == n / 3 ? 0.0 : 1e-3 * (1.2 + el_random(&seed));
+        t += k == n / 2 ? -0.1 : k == n / 3 ? 0.0 : 1e-3 * ref_uniform(&seed, 0.2, 2.2);
         run_time[k] = t;
-        torque[k] = sin(40.0 * t) + 0.3 * el_random(&seed);
+        torque[k] = sin(40.0 * t) + ref_uniform(&seed, -0.3, 0.3);
     }
     hci_effects_filter(&l->list, run_time, n, torque, by);
 }

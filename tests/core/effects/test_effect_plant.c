@@ -62,7 +62,7 @@ static hci_plant_point point_of(const hci_effects *effects, const hci_plant_stat
  * a mean, or, with turns = 0, a loop around an angle. */
 static void cycle(double u, int turns, double *theta, double *by_u, double i[2], double di[2])
 {
-    const double w = 2.0 * EL_PI;
+    const double w = 2.0 * REF_PI;
     *theta = 0.4 + turns * w * u + 0.3 * sin(w * u);
     *by_u = turns * w + 0.3 * w * cos(w * u);
     i[0] = 3.0 + 4.0 * cos(w * u) + sin(2.0 * w * u);
@@ -116,7 +116,7 @@ static void test_no_net_torque_at_constant_phase_current(void)
         double sum = 0.0, size = 0.0;
         list_of(&TYPES[k], &l);
         for (int j = 0; j < N; ++j) {
-            hci_plant_state y = {{3.0, -2.0}, 0.0, 2.0 * EL_PI * j / N, 0.0};
+            hci_plant_state y = {{3.0, -2.0}, 0.0, 2.0 * REF_PI * j / N, 0.0};
             const hci_plant_point p = point_of(&l.list, &y);
             sum += hci_point_torque_Nm(&p.magnetic, y.i);
             size += fabs(hci_point_torque_Nm(&p.magnetic, y.i));

@@ -90,11 +90,11 @@ static void declare(declared *d, machine_kind kind)
 static hci_sample truth_at(double current, double speed, int k)
 {
     hci_sample x = {0};
-    x.theta_m_rad = 2.0 * EL_PI * k / N;
+    x.theta_m_rad = 2.0 * REF_PI * k / N;
     x.speed_rad_per_s = speed;
     x.temperature_C = 70.0;
     for (int s = 0; s < 3; ++s)
-        x.i_abc[s] = current * sin(P * x.theta_m_rad - 2.0 * EL_PI * s / 3.0 + 0.5);
+        x.i_abc[s] = current * sin(P * x.theta_m_rad - 2.0 * REF_PI * s / 3.0 + 0.5);
     return x;
 }
 
@@ -110,7 +110,7 @@ static void residual(const signature *g, double current, double speed, double r[
     el_add(&l, g->effect, g->parameter, g->order, g->value);
     for (int k = 0; k < 3 * N; ++k) { /* three turns: a filter has settled in the last */
         const hci_sample truth = truth_at(current, speed, k), reading = hci_effects_sense(&l.list, P, &truth);
-        time[k] = 2.0 * EL_PI * k / (N * speed);
+        time[k] = 2.0 * REF_PI * k / (N * speed);
         measured[k] = hci_effects_predict(&d.machine, &l.list, &reading, NULL);
     }
     hci_effects_filter(&l.list, time, 3 * N, measured, NULL);
@@ -126,8 +126,8 @@ static void spectrum(const double r[N], double amplitude[MOST + 1])
     for (int n = 0; n <= MOST; ++n) {
         double s = 0.0, c = 0.0;
         for (int k = 0; k < N; ++k) {
-            s += r[k] * sin(2.0 * EL_PI * n * k / N);
-            c += r[k] * cos(2.0 * EL_PI * n * k / N);
+            s += r[k] * sin(2.0 * REF_PI * n * k / N);
+            c += r[k] * cos(2.0 * REF_PI * n * k / N);
         }
         amplitude[n] = hypot(s, c) * (n > 0 ? 2.0 : 1.0) / N;
     }

@@ -2,11 +2,10 @@
 #include "hci/machine/frames.h"
 
 #include <math.h>
-#include <stdint.h>
 
+#include "support/draws.h"
 #include "unity.h"
 
-static const double pi = 3.14159265358979323846;
 static const double tolerance = 1e-14; /* some ulp of values up to 10 */
 
 static uint64_t seed;
@@ -20,11 +19,9 @@ void tearDown(void)
 {
 }
 
-/* Uniform in [−10, 10). */
 static double draw(void)
 {
-    seed = seed * 6364136223846793005u + 1442695040888963407u;
-    return ((double)(seed >> 11) * 0x1p-52 - 1.0) * 10.0;
+    return ref_uniform(&seed, -10.0, 10.0);
 }
 
 static void draw_abc(double abc[3])
@@ -63,7 +60,7 @@ static void test_phase_currents_of_a_dq_current(void)
         double abc[3];
         hci_clarke_inverse(hci_park_inverse(i, theta_rad), abc);
         for (int s = 0; s < 3; s++) {
-            const double angle_rad = theta_rad - 2.0 * pi * s / 3.0;
+            const double angle_rad = theta_rad - 2.0 * REF_PI * s / 3.0;
             const double expected = i.q * sin(angle_rad) - i.d * cos(angle_rad) + i.zero;
             TEST_ASSERT_DOUBLE_WITHIN(1e-13, expected, abc[s]); /* 14 A turned by some ulp of 14 rad */
         }
@@ -91,9 +88,9 @@ static void test_power(void)
 static void test_amplitude_invariance_and_direction(void)
 {
     for (int k = 0; k < 24; k++) {
-        const double angle_rad = pi * k / 12.0;
-        const double abc[3] = {7.0 * cos(angle_rad), 7.0 * cos(angle_rad - 2.0 * pi / 3.0),
-                               7.0 * cos(angle_rad + 2.0 * pi / 3.0)};
+        const double angle_rad = REF_PI * k / 12.0;
+        const double abc[3] = {7.0 * cos(angle_rad), 7.0 * cos(angle_rad - 2.0 * REF_PI / 3.0),
+                               7.0 * cos(angle_rad + 2.0 * REF_PI / 3.0)};
         const hci_alpha_beta x = hci_clarke(abc);
         TEST_ASSERT_DOUBLE_WITHIN(tolerance, 7.0 * cos(angle_rad), x.alpha);
         TEST_ASSERT_DOUBLE_WITHIN(tolerance, 7.0 * sin(angle_rad), x.beta);
@@ -111,11 +108,11 @@ static void test_amplitude_invariance_and_direction(void)
 static void test_back_emf_is_q_and_magnets_are_d(void)
 {
     for (int k = 0; k < 24; k++) {
-        const double theta_rad = pi * k / 12.0;
+        const double theta_rad = REF_PI * k / 12.0;
         double e[3], flux[3];
         for (int s = 0; s < 3; s++) {
-            e[s] = 5.0 * sin(theta_rad - 2.0 * pi * s / 3.0);
-            flux[s] = -5.0 * cos(theta_rad - 2.0 * pi * s / 3.0);
+            e[s] = 5.0 * sin(theta_rad - 2.0 * REF_PI * s / 3.0);
+            flux[s] = -5.0 * cos(theta_rad - 2.0 * REF_PI * s / 3.0);
         }
         const hci_dq on_q = to_dq(e, theta_rad), on_d = to_dq(flux, theta_rad);
         TEST_ASSERT_DOUBLE_WITHIN(tolerance, 5.0, on_q.q);

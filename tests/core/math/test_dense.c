@@ -5,10 +5,10 @@
 #include <float.h>
 #include <math.h>
 #include <stdbool.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "support/draws.h"
 #include "unity.h"
 
 static uint64_t seed;
@@ -22,11 +22,9 @@ void tearDown(void)
 {
 }
 
-/* Uniform in [−1, 1): the upper 53 bits of a 64-bit linear congruence. */
 static double draw(void)
 {
-    seed = seed * 6364136223846793005u + 1442695040888963407u;
-    return (double)(seed >> 11) * 0x1p-52 - 1.0;
+    return ref_uniform(&seed, -1.0, 1.0);
 }
 
 /* Blocks of exactly the stated length, so that the address sanitizer sees one step too far. */

@@ -4,9 +4,9 @@
 
 #include <float.h>
 #include <math.h>
-#include <stdint.h>
 #include <stdlib.h>
 
+#include "support/draws.h"
 #include "unity.h"
 
 static const long double two_pi = 6.28318530717958647692528676655900577L;
@@ -22,11 +22,9 @@ void tearDown(void)
 {
 }
 
-/* Uniform in [−1, 1): the upper 53 bits of a 64-bit linear congruence. */
 static double draw(void)
 {
-    seed = seed * 6364136223846793005u + 1442695040888963407u;
-    return (double)(seed >> 11) * 0x1p-52 - 1.0;
+    return ref_uniform(&seed, -1.0, 1.0);
 }
 
 static double *doubles(size_t count)

@@ -1,10 +1,7 @@
 /* Every host path with an allocator that fails after n allocations, for n = 0, 1, 2, … until the path
  * succeeds. Under -fsanitize=address the same run shows that nothing leaks. SuiteSparse and cJSON allocate
  * through the same door. */
-#define _XOPEN_SOURCE 700
-
 #include <cjson/cJSON.h>
-#include <dirent.h>
 #include <dlfcn.h>
 #include <math.h>
 #include <stdio.h>
@@ -18,9 +15,9 @@
 #include "hci/host/solve/solve.h"
 #include "host/base/memory.h"
 #include "host/numeric/sparse.h"
+#include "support/files.h"
 #include "unity.h"
 
-static char root[64];
 static hci_machine_data machine;
 static hci_target target;
 static hci_component_set set;
@@ -105,52 +102,18 @@ static hci_status noted(hci_status status, const hci_note *note)
     return status;
 }
 
-static int entries(const char *folder)
-{
-    int count = -2;
-    DIR *list = opendir(folder);
-    if (list == NULL) return -1;
-    while (readdir(list) != NULL)
-        ++count;
-    closedir(list);
-    return count;
-}
-
-static void remove_files(const char *folder)
-{
-    DIR *list = opendir(folder);
-    for (const struct dirent *entry; list != NULL && (entry = readdir(list)) != NULL;) {
-        char name[512];
-        snprintf(name, sizeof name, "%s/%s", folder, entry->d_name);
-        if (entry->d_name[0] != '.') remove(name);
-    }
-    if (list != NULL) closedir(list);
-    rmdir(folder);
-}
-
-static const char *in_root(const char *name)
-{
-    static char text[128];
-    snprintf(text, sizeof text, "%s/%s", root, name);
-    return text;
-}
-
 /* ---- fixtures
  * --------------------------------------------------------------------------------------------------- */
 
 void setUp(void)
 {
     hci_note note = {{0}};
-    FILE *file;
     const cJSON_Hooks hooks = {hci_memory_malloc, hci_memory_free};
     cJSON_Hooks copy = hooks;
     cJSON_InitHooks(&copy);
-    snprintf(root, sizeof root, "/tmp/hci-test-memory-XXXXXX");
-    TEST_ASSERT_NOT_NULL(mkdtemp(root));
-    file = fopen(in_root("target.csv"), "w");
-    TEST_ASSERT_NOT_NULL(file);
-    fputs("order,amplitude_Nm,phase_rad,weight\n0,2.5,1.5707963267948966,1\n6,0.1,0.3,0.5\n12,0,0,0\n", file);
-    fclose(file);
+    files_begin();
+    files_write(files_path("target.csv"),
+                "order,amplitude_Nm,phase_rad,weight\n0,2.5,1.5707963267948966,1\n6,0.1,0.3,0.5\n12,0,0,0\n");
     TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_machine_read("data/machine_a", &machine, &note), note.text);
     TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_target_read("data/scenarios/02/target.csv", &target, &note),
                               note.text);
@@ -165,7 +128,7 @@ void tearDown(void)
     hci_machine_release(&machine);
     hci_target_release(&target);
     hci_component_set_release(&set);
-    remove_files(root);
+    files_end();
     cJSON_InitHooks(NULL);
 }
 
@@ -206,7 +169,7 @@ static hci_status read_target(double *figure)
 {
     hci_target t;
     hci_note note = {{0}};
-    const hci_status status = hci_target_read(in_root("target.csv"), &t, &note);
+    const hci_status status = hci_target_read(files_path("target.csv"), &t, &note);
     if (status == HCI_OK) {
         *figure = t.order[1].torque_Nm.sine + t.order[1].weight;
     } else {
@@ -396,12 +359,12 @@ static hci_solution solution;
 static hci_status write_solution(double *figure)
 {
     hci_note note = {{0}};
-    const hci_status status = hci_solution_write(&machine, &solution, HCI_OK, in_root("out"), &note);
-    *figure = (double)entries(in_root("out"));
+    const hci_status status = hci_solution_write(&machine, &solution, HCI_OK, files_path("out"), &note);
+    *figure = (double)files_count(files_path("out"));
     if (status != HCI_OK) {
-        TEST_ASSERT_EQUAL_INT(-1, entries(in_root("out")));
+        TEST_ASSERT_EQUAL_INT(-1, files_count(files_path("out")));
     }
-    remove_files(in_root("out"));
+    files_remove(files_path("out"));
     return noted(status, &note);
 }
 
@@ -439,12 +402,12 @@ static hci_status emit(double *figure)
     request.current_count = request.per_Nm_count = solution.current.count;
     request.reference_torque_Nm = 3.0;
     request.points = 32;
-    status = hci_emit(in_root("out"), &request, &result, &note);
+    status = hci_emit(files_path("out"), &request, &result, &note);
     *figure = result.max_error_A + (double)result.crc32;
     if (status != HCI_OK) {
-        TEST_ASSERT_EQUAL_INT(-1, entries(in_root("out")));
+        TEST_ASSERT_EQUAL_INT(-1, files_count(files_path("out")));
     }
-    remove_files(in_root("out"));
+    files_remove(files_path("out"));
     return noted(status, &note);
 }
 

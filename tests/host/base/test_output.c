@@ -1,9 +1,6 @@
 /* Sets of output files: whole or not at all, whatever goes wrong on the way. */
-#define _XOPEN_SOURCE 700
-
 #include "hci/host/base/output.h"
 
-#include <dirent.h>
 #include <float.h>
 #include <math.h>
 #include <signal.h>
@@ -16,84 +13,27 @@
 #include <unistd.h>
 
 #include "host/base/memory.h"
+#include "support/files.h"
 #include "unity.h"
 
-static char root[64];
 static int first_free;
-
-/* The descriptor that the next file will have; it stays the same unless a file is left open. */
-static int next_descriptor(void)
-{
-    const int descriptor = dup(0);
-    close(descriptor);
-    return descriptor;
-}
-
-/* A path below the test's own folder. Four may be in use at a time. */
-static const char *in_root(const char *path)
-{
-    static char paths[4][256];
-    static unsigned next;
-    char *out = paths[next++ % 4];
-    snprintf(out, sizeof paths[0], "%s/%s", root, path);
-    return out;
-}
 
 void setUp(void)
 {
-    first_free = next_descriptor();
-    snprintf(root, sizeof root, "/tmp/hci-test-output-XXXXXX");
-    TEST_ASSERT_NOT_NULL(mkdtemp(root));
-}
-
-static void remove_tree(const char *path)
-{
-    DIR *folder = opendir(path);
-    for (const struct dirent *entry; folder != NULL && (entry = readdir(folder)) != NULL;) {
-        char below[512];
-        if (strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0) continue;
-        snprintf(below, sizeof below, "%s/%s", path, entry->d_name);
-        remove_tree(below);
-    }
-    if (folder != NULL) closedir(folder);
-    remove(path);
+    first_free = files_next_descriptor();
+    files_begin();
 }
 
 void tearDown(void)
 {
     hci_memory_fail_after(-1);
-    remove_tree(root);
-    TEST_ASSERT_EQUAL_MESSAGE(first_free, next_descriptor(), "a file is left open");
-}
-
-/* Entries of a folder, hidden ones too; −1 when there is no such folder. */
-static int entries(const char *path)
-{
-    int count = -2;
-    DIR *folder = opendir(path);
-    if (folder == NULL) return -1;
-    while (readdir(folder) != NULL)
-        count++;
-    closedir(folder);
-    return count;
-}
-
-static void put(const char *path, const char *text)
-{
-    FILE *stream = fopen(path, "w");
-    TEST_ASSERT_NOT_NULL(stream);
-    fputs(text, stream);
-    fclose(stream);
+    files_end();
+    TEST_ASSERT_EQUAL_MESSAGE(first_free, files_next_descriptor(), "a file is left open");
 }
 
 static void assert_holds(const char *path, const char *text)
 {
-    char content[256] = "";
-    FILE *stream = fopen(path, "r");
-    TEST_ASSERT_NOT_NULL_MESSAGE(stream, path);
-    content[fread(content, 1, sizeof content - 1, stream)] = '\0';
-    fclose(stream);
-    TEST_ASSERT_EQUAL_STRING(text, content);
+    TEST_ASSERT_EQUAL_STRING(text, files_read(path));
 }
 
 static hci_output *open_set(const char *folder)
@@ -125,23 +65,23 @@ static hci_output *two_files(const char *folder)
 static void test_a_set_appears_at_the_commit(void)
 {
     hci_note note = {0};
-    hci_output *output = two_files(in_root("out"));
-    TEST_ASSERT_EQUAL(-1, access(in_root("out/a.csv"), F_OK));
+    hci_output *output = two_files(files_path("out"));
+    TEST_ASSERT_EQUAL(-1, access(files_path("out/a.csv"), F_OK));
     TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_output_commit(output, &note), note.text);
     TEST_ASSERT_EQUAL_STRING("", note.text);
-    assert_holds(in_root("out/a.csv"), "new a\n");
-    assert_holds(in_root("out/b.csv"), "new b\n");
-    TEST_ASSERT_EQUAL(2, entries(in_root("out")));
+    assert_holds(files_path("out/a.csv"), "new a\n");
+    assert_holds(files_path("out/b.csv"), "new b\n");
+    TEST_ASSERT_EQUAL(2, files_count(files_path("out")));
 }
 
 static void test_older_files_are_replaced(void)
 {
-    put(in_root("a.csv"), "a much longer old text\n");
-    put(in_root("c.csv"), "other\n");
-    TEST_ASSERT_EQUAL(HCI_OK, hci_output_commit(two_files(root), NULL));
-    assert_holds(in_root("a.csv"), "new a\n");
-    assert_holds(in_root("c.csv"), "other\n");
-    TEST_ASSERT_EQUAL(3, entries(root));
+    files_write(files_path("a.csv"), "a much longer old text\n");
+    files_write(files_path("c.csv"), "other\n");
+    TEST_ASSERT_EQUAL(HCI_OK, hci_output_commit(two_files(files_root), NULL));
+    assert_holds(files_path("a.csv"), "new a\n");
+    assert_holds(files_path("c.csv"), "other\n");
+    TEST_ASSERT_EQUAL(3, files_count(files_root));
 }
 
 static void test_folders_are_made_with_their_parents(void)
@@ -149,8 +89,8 @@ static void test_folders_are_made_with_their_parents(void)
     static const char *const spelling[] = {"p/q/r", "p2/q/", "p3//q///r//", "./p4/../p5/q"};
     for (size_t k = 0; k < sizeof spelling / sizeof *spelling; k++) {
         char file[256];
-        TEST_ASSERT_EQUAL(HCI_OK, hci_output_commit(two_files(in_root(spelling[k])), NULL));
-        snprintf(file, sizeof file, "%s/a.csv", in_root(spelling[k]));
+        TEST_ASSERT_EQUAL(HCI_OK, hci_output_commit(two_files(files_path(spelling[k])), NULL));
+        snprintf(file, sizeof file, "%s/a.csv", files_path(spelling[k]));
         assert_holds(file, "new a\n");
     }
 }
@@ -159,44 +99,44 @@ static void test_a_relative_folder_is_below_the_current_one(void)
 {
     char before[1024];
     TEST_ASSERT_NOT_NULL(getcwd(before, sizeof before));
-    TEST_ASSERT_EQUAL(0, chdir(root));
+    TEST_ASSERT_EQUAL(0, chdir(files_root));
     const hci_status here = hci_output_commit(two_files("."), NULL);
     const hci_status below = hci_output_commit(two_files("x/y"), NULL);
     TEST_ASSERT_EQUAL(0, chdir(before));
     TEST_ASSERT_EQUAL(HCI_OK, here);
     TEST_ASSERT_EQUAL(HCI_OK, below);
-    assert_holds(in_root("b.csv"), "new b\n");
-    assert_holds(in_root("x/y/b.csv"), "new b\n");
+    assert_holds(files_path("b.csv"), "new b\n");
+    assert_holds(files_path("x/y/b.csv"), "new b\n");
 }
 
 static void test_files_have_the_mode_of_ordinary_files(void)
 {
     struct stat status;
     const mode_t old = umask(027);
-    hci_output *output = two_files(root);
+    hci_output *output = two_files(files_root);
     umask(old);
     TEST_ASSERT_EQUAL(HCI_OK, hci_output_commit(output, NULL));
-    TEST_ASSERT_EQUAL(0, stat(in_root("a.csv"), &status));
+    TEST_ASSERT_EQUAL(0, stat(files_path("a.csv"), &status));
     TEST_ASSERT_EQUAL_HEX(0640, status.st_mode & 0777);
 }
 
 static void test_numbers_come_with_their_separator(void)
 {
-    hci_output *output = open_set(root);
+    hci_output *output = open_set(files_root);
     start(output, "n.csv", "order,amplitude_V\n");
     hci_output_number(output, 1, ',');
     hci_output_number(output, 0.1 + 0.2, '\n');
     hci_output_number(output, -DBL_MAX, ',');
     hci_output_number(output, 1e-7, '\n');
     TEST_ASSERT_EQUAL(HCI_OK, hci_output_commit(output, NULL));
-    assert_holds(in_root("n.csv"),
+    assert_holds(files_path("n.csv"),
                  "order,amplitude_V\n1,0.30000000000000004\n-1.7976931348623157e308,1e-7\n");
 }
 
 static void test_an_empty_set_leaves_its_folder(void)
 {
-    TEST_ASSERT_EQUAL(HCI_OK, hci_output_commit(open_set(in_root("out")), NULL));
-    TEST_ASSERT_EQUAL(0, entries(in_root("out")));
+    TEST_ASSERT_EQUAL(HCI_OK, hci_output_commit(open_set(files_path("out")), NULL));
+    TEST_ASSERT_EQUAL(0, files_count(files_path("out")));
 }
 
 /* ---- what is taken back ---- */
@@ -204,24 +144,24 @@ static void test_an_empty_set_leaves_its_folder(void)
 static void test_a_discarded_set_leaves_nothing(void)
 {
     hci_output_discard(NULL);
-    hci_output_discard(two_files(in_root("p/q/r")));
-    TEST_ASSERT_EQUAL(0, entries(root));
-    put(in_root("a.csv"), "old a\n");
-    hci_output_discard(two_files(root));
-    assert_holds(in_root("a.csv"), "old a\n");
-    TEST_ASSERT_EQUAL(1, entries(root));
+    hci_output_discard(two_files(files_path("p/q/r")));
+    TEST_ASSERT_EQUAL(0, files_count(files_root));
+    files_write(files_path("a.csv"), "old a\n");
+    hci_output_discard(two_files(files_root));
+    assert_holds(files_path("a.csv"), "old a\n");
+    TEST_ASSERT_EQUAL(1, files_count(files_root));
 }
 
 static void test_only_own_and_empty_folders_are_removed(void)
 {
-    TEST_ASSERT_EQUAL(0, mkdir(in_root("p"), 0777));
-    hci_output *output = two_files(in_root("p/q/r"));
-    put(in_root("p/q/theirs"), "");
+    TEST_ASSERT_EQUAL(0, mkdir(files_path("p"), 0777));
+    hci_output *output = two_files(files_path("p/q/r"));
+    files_write(files_path("p/q/theirs"), "");
     hci_output_discard(output);
-    TEST_ASSERT_EQUAL(1, entries(in_root("p")));
-    TEST_ASSERT_EQUAL(1, entries(in_root("p/q")));
-    hci_output_discard(two_files(in_root("p/s")));
-    TEST_ASSERT_EQUAL(1, entries(in_root("p")));
+    TEST_ASSERT_EQUAL(1, files_count(files_path("p")));
+    TEST_ASSERT_EQUAL(1, files_count(files_path("p/q")));
+    hci_output_discard(two_files(files_path("p/s")));
+    TEST_ASSERT_EQUAL(1, files_count(files_path("p")));
 }
 
 /* The second rename of the commit fails: the first is undone, be its target old or new. */
@@ -230,16 +170,17 @@ static void test_a_failed_rename_undoes_those_before(void)
     for (int old = 0; old < 2; old++) {
         char expected[256];
         hci_note note = {0};
-        if (old) put(in_root("a.csv"), "old a\n");
-        hci_output *output = two_files(root);
-        TEST_ASSERT_EQUAL(0, mkdir(in_root("b.csv"), 0777));
+        if (old) files_write(files_path("a.csv"), "old a\n");
+        hci_output *output = two_files(files_root);
+        TEST_ASSERT_EQUAL(0, mkdir(files_path("b.csv"), 0777));
         TEST_ASSERT_EQUAL(HCI_ERROR_OUTPUT, hci_output_commit(output, &note));
         snprintf(expected, sizeof expected,
-                 "%s: cannot be written: found a folder of this name; remove or rename it", in_root("b.csv"));
+                 "%s: cannot be written: found a folder of this name; remove or rename it",
+                 files_path("b.csv"));
         TEST_ASSERT_EQUAL_STRING(expected, note.text);
-        if (old) assert_holds(in_root("a.csv"), "old a\n");
-        TEST_ASSERT_EQUAL(1 + old, entries(root));
-        TEST_ASSERT_EQUAL(0, rmdir(in_root("b.csv")));
+        if (old) assert_holds(files_path("a.csv"), "old a\n");
+        TEST_ASSERT_EQUAL(1 + old, files_count(files_root));
+        TEST_ASSERT_EQUAL(0, rmdir(files_path("b.csv")));
     }
 }
 
@@ -247,35 +188,35 @@ static void test_a_failed_rename_undoes_those_before(void)
  */
 static void test_a_rename_that_fails_by_itself_keeps_the_older_file(void)
 {
-    put(in_root("a.csv"), "old a\n");
-    put(in_root("b.csv"), "old b\n");
+    files_write(files_path("a.csv"), "old a\n");
+    files_write(files_path("b.csv"), "old b\n");
     char temporary[256];
     hci_note note = {0};
-    hci_output *output = two_files(root);
-    snprintf(temporary, sizeof temporary, "%s/.hci-%ld-1.tmp", root, (long)getpid());
+    hci_output *output = two_files(files_root);
+    snprintf(temporary, sizeof temporary, "%s/.hci-%ld-1.tmp", files_root, (long)getpid());
     TEST_ASSERT_EQUAL(0, unlink(temporary));
     TEST_ASSERT_EQUAL(HCI_ERROR_OUTPUT, hci_output_commit(output, &note));
     TEST_ASSERT_NOT_NULL(strstr(note.text, "b.csv: cannot be written: No such file or directory"));
-    assert_holds(in_root("a.csv"), "old a\n");
-    assert_holds(in_root("b.csv"), "old b\n");
-    TEST_ASSERT_EQUAL(2, entries(root));
+    assert_holds(files_path("a.csv"), "old a\n");
+    assert_holds(files_path("b.csv"), "old b\n");
+    TEST_ASSERT_EQUAL(2, files_count(files_root));
 }
 
 /* What a crashed run has left is neither used nor lost. */
 static void test_left_over_temporary_files_are_not_touched(void)
 {
     char temporary[256], backup[256];
-    put(in_root("a.csv"), "old a\n");
-    snprintf(temporary, sizeof temporary, "%s/.hci-%ld-0.tmp", root, (long)getpid());
-    snprintf(backup, sizeof backup, "%s/.hci-%ld-1.old", root, (long)getpid());
-    put(temporary, "left over\n");
-    put(backup, "precious\n");
-    hci_output *output = open_set(root);
+    files_write(files_path("a.csv"), "old a\n");
+    snprintf(temporary, sizeof temporary, "%s/.hci-%ld-0.tmp", files_root, (long)getpid());
+    snprintf(backup, sizeof backup, "%s/.hci-%ld-1.old", files_root, (long)getpid());
+    files_write(temporary, "left over\n");
+    files_write(backup, "precious\n");
+    hci_output *output = open_set(files_root);
     start(output, "a.csv", "new a\n");
     TEST_ASSERT_EQUAL(HCI_ERROR_OUTPUT, hci_output_commit(output, NULL));
     assert_holds(temporary, "left over\n");
     assert_holds(backup, "precious\n");
-    assert_holds(in_root("a.csv"), "old a\n");
+    assert_holds(files_path("a.csv"), "old a\n");
 }
 
 /* ---- what is refused ---- */
@@ -294,60 +235,61 @@ static void assert_refused(const char *folder, const char *name, hci_status expe
 
 static void test_folders_that_cannot_be_are_refused(void)
 {
-    put(in_root("file"), "old\n");
-    TEST_ASSERT_EQUAL(0, symlink("nowhere", in_root("dangling")));
-    assert_refused(in_root("file"), "a", HCI_ERROR_OUTPUT, "File exists; give a folder that can be made");
-    assert_refused(in_root("file/x/y"), "a", HCI_ERROR_OUTPUT, "cannot be written");
-    assert_refused(in_root("dangling"), "a", HCI_ERROR_OUTPUT, "cannot be written");
-    assert_refused(in_root("new/../file/x"), "a", HCI_ERROR_OUTPUT, "cannot be written");
+    files_write(files_path("file"), "old\n");
+    TEST_ASSERT_EQUAL(0, symlink("nowhere", files_path("dangling")));
+    assert_refused(files_path("file"), "a", HCI_ERROR_OUTPUT, "File exists; give a folder that can be made");
+    assert_refused(files_path("file/x/y"), "a", HCI_ERROR_OUTPUT, "cannot be written");
+    assert_refused(files_path("dangling"), "a", HCI_ERROR_OUTPUT, "cannot be written");
+    assert_refused(files_path("new/../file/x"), "a", HCI_ERROR_OUTPUT, "cannot be written");
     assert_refused("", "a", HCI_ERROR_OUTPUT, "the folder has no name; name one, or . for this one");
-    assert_holds(in_root("file"), "old\n");
-    TEST_ASSERT_EQUAL(2, entries(root));
+    assert_holds(files_path("file"), "old\n");
+    TEST_ASSERT_EQUAL(2, files_count(files_root));
 }
 
 static void test_only_plain_files_are_replaced(void)
 {
-    TEST_ASSERT_EQUAL(0, mkdir(in_root("folder"), 0777));
-    TEST_ASSERT_EQUAL(0, mkfifo(in_root("pipe"), 0666));
-    TEST_ASSERT_EQUAL(0, symlink("/dev/null", in_root("link")));
-    assert_refused(root, "folder", HCI_ERROR_OUTPUT, "found a folder of this name; remove or rename it");
-    assert_refused(root, "pipe", HCI_ERROR_OUTPUT, "found something that is not a plain file");
-    assert_refused(root, "link", HCI_ERROR_OUTPUT, "found something that is not a plain file");
-    TEST_ASSERT_EQUAL(3, entries(root));
+    TEST_ASSERT_EQUAL(0, mkdir(files_path("folder"), 0777));
+    TEST_ASSERT_EQUAL(0, mkfifo(files_path("pipe"), 0666));
+    TEST_ASSERT_EQUAL(0, symlink("/dev/null", files_path("link")));
+    assert_refused(files_root, "folder", HCI_ERROR_OUTPUT,
+                   "found a folder of this name; remove or rename it");
+    assert_refused(files_root, "pipe", HCI_ERROR_OUTPUT, "found something that is not a plain file");
+    assert_refused(files_root, "link", HCI_ERROR_OUTPUT, "found something that is not a plain file");
+    TEST_ASSERT_EQUAL(3, files_count(files_root));
 }
 
 static void test_names_have_no_folder_part(void)
 {
     static const char *const names[] = {"", ".", "..", "a/b", "/etc/a", "../a", "a/"};
     for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
-        assert_refused(root, names[k], HCI_ERROR_ARGUMENT,
+        assert_refused(files_root, names[k], HCI_ERROR_ARGUMENT,
                        "expected the name of a new output file without a folder");
     }
-    hci_output *output = two_files(root);
+    hci_output *output = two_files(files_root);
     TEST_ASSERT_EQUAL(HCI_ERROR_ARGUMENT, hci_output_file(output, "a.csv", NULL));
     hci_output_discard(output);
-    TEST_ASSERT_EQUAL(0, entries(root));
+    TEST_ASSERT_EQUAL(0, files_count(files_root));
 }
 
 /* The super-user may write everywhere, so the test steps down for a moment. */
 static void test_write_protection_is_respected(void)
 {
     const bool super = geteuid() == 0;
-    put(in_root("a.csv"), "old a\n");
-    TEST_ASSERT_EQUAL(0, chmod(in_root("a.csv"), 0444));
-    TEST_ASSERT_EQUAL(0, chmod(root, 0777));
+    files_write(files_path("a.csv"), "old a\n");
+    TEST_ASSERT_EQUAL(0, chmod(files_path("a.csv"), 0444));
+    TEST_ASSERT_EQUAL(0, chmod(files_root, 0777));
     if (super) TEST_ASSERT_EQUAL(0, seteuid(65534));
-    assert_refused(root, "a.csv", HCI_ERROR_OUTPUT, "Permission denied; make the file writable");
+    assert_refused(files_root, "a.csv", HCI_ERROR_OUTPUT, "Permission denied; make the file writable");
     if (super) TEST_ASSERT_EQUAL(0, seteuid(0));
-    TEST_ASSERT_EQUAL(0, chmod(root, 0555));
+    TEST_ASSERT_EQUAL(0, chmod(files_root, 0555));
     if (super) TEST_ASSERT_EQUAL(0, seteuid(65534));
-    assert_refused(root, "b.csv", HCI_ERROR_OUTPUT, "Permission denied; check the folder");
-    assert_refused(in_root("below"), "b.csv", HCI_ERROR_OUTPUT,
+    assert_refused(files_root, "b.csv", HCI_ERROR_OUTPUT, "Permission denied; check the folder");
+    assert_refused(files_path("below"), "b.csv", HCI_ERROR_OUTPUT,
                    "Permission denied; give a folder that can be made");
     if (super) TEST_ASSERT_EQUAL(0, seteuid(0));
-    TEST_ASSERT_EQUAL(0, chmod(root, 0777));
-    assert_holds(in_root("a.csv"), "old a\n");
-    TEST_ASSERT_EQUAL(1, entries(root));
+    TEST_ASSERT_EQUAL(0, chmod(files_root, 0777));
+    assert_holds(files_path("a.csv"), "old a\n");
+    TEST_ASSERT_EQUAL(1, files_count(files_root));
 }
 
 static void test_a_number_that_is_not_finite_is_not_written(void)
@@ -355,12 +297,12 @@ static void test_a_number_that_is_not_finite_is_not_written(void)
     const double values[] = {(double)NAN, (double)INFINITY, -(double)INFINITY};
     for (size_t k = 0; k < 3; k++) {
         hci_note note = {0};
-        hci_output *output = two_files(in_root("out"));
+        hci_output *output = two_files(files_path("out"));
         hci_output_number(output, values[k], '\n');
         TEST_ASSERT_EQUAL(HCI_ERROR_NOT_FINITE, hci_output_commit(output, &note));
         TEST_ASSERT_NOT_NULL(
             strstr(note.text, "out/b.csv: not written: a result is infinite or not a number"));
-        TEST_ASSERT_EQUAL(0, entries(root));
+        TEST_ASSERT_EQUAL(0, files_count(files_root));
     }
 }
 
@@ -381,8 +323,8 @@ static void test_a_full_disk_leaves_nothing(void)
     signal(SIGXFSZ, SIG_IGN);
     for (size_t k = 0; k < 6; k++) {
         hci_note note = {0};
-        put(in_root("a.csv"), "old a\n");
-        hci_output *output = open_set(root);
+        files_write(files_path("a.csv"), "old a\n");
+        hci_output *output = open_set(files_root);
         start(output, "a.csv", "new a\n");
         set_size_limit(16);
         for (size_t n = 0; n < lines[k / 2]; n++)
@@ -395,15 +337,15 @@ static void test_a_full_disk_leaves_nothing(void)
             strstr(note.text,
                    "a.csv: cannot be written: File too large; free some space or name another folder"),
             note.text);
-        assert_holds(in_root("a.csv"), "old a\n");
-        TEST_ASSERT_EQUAL(1, entries(root));
+        assert_holds(files_path("a.csv"), "old a\n");
+        TEST_ASSERT_EQUAL(1, files_count(files_root));
     }
 }
 
 static hci_status write_set(hci_note *note)
 {
     hci_output *output;
-    hci_status status = hci_output_open(in_root("p/q"), &output, note);
+    hci_status status = hci_output_open(files_path("p/q"), &output, note);
     if (status == HCI_OK) status = hci_output_file(output, "a.csv", note);
     if (status == HCI_OK) hci_output_text(output, "new a\n");
     if (status == HCI_OK) status = hci_output_file(output, "b.csv", note);
@@ -423,9 +365,9 @@ static void test_every_allocation_may_fail(void)
         hci_memory_fail_after(-1);
         TEST_ASSERT_TRUE(status == HCI_OK || status == HCI_ERROR_MEMORY);
         TEST_ASSERT_TRUE(status == HCI_OK || strstr(note.text, "not enough memory") != NULL);
-        TEST_ASSERT_EQUAL(status == HCI_OK ? 1 : 0, entries(root));
+        TEST_ASSERT_EQUAL(status == HCI_OK ? 1 : 0, files_count(files_root));
     }
-    assert_holds(in_root("p/q/a.csv"), "new a\n");
+    assert_holds(files_path("p/q/a.csv"), "new a\n");
     TEST_ASSERT_TRUE(failures > 8);
 }
 
@@ -443,18 +385,19 @@ static void assert_no_signal_waits(void)
 static void test_abandoned_sets_leave_nothing(void)
 {
     hci_note note = {0};
-    put(in_root("a.csv"), "old\n");
-    hci_output *done = two_files(in_root("done"));
+    files_write(files_path("a.csv"), "old\n");
+    hci_output *done = two_files(files_path("done"));
     TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_output_commit(done, &note), note.text);
-    hci_output *here = two_files(root), *outer = two_files(in_root("made/for/it"));
-    hci_output *gone = two_files(in_root("made/gone")), *inner = two_files(in_root("made/for/it/machine"));
+    hci_output *here = two_files(files_root), *outer = two_files(files_path("made/for/it"));
+    hci_output *gone = two_files(files_path("made/gone")),
+               *inner = two_files(files_path("made/for/it/machine"));
     hci_output_discard(gone);
     assert_no_signal_waits();
     hci_output_abandon();
-    TEST_ASSERT_EQUAL(-1, entries(in_root("made")));
-    TEST_ASSERT_EQUAL(2, entries(in_root("done")));
-    TEST_ASSERT_EQUAL(2, entries(root)); /* a.csv and done */
-    assert_holds(in_root("a.csv"), "old\n");
+    TEST_ASSERT_EQUAL(-1, files_count(files_path("made")));
+    TEST_ASSERT_EQUAL(2, files_count(files_path("done")));
+    TEST_ASSERT_EQUAL(2, files_count(files_root)); /* a.csv and done */
+    assert_holds(files_path("a.csv"), "old\n");
     hci_output_discard(inner);
     hci_output_discard(here);
     hci_output_discard(outer);

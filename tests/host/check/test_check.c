@@ -1,8 +1,6 @@
 /* The convention doctor, on recordings of four electrical turns that are written here sample by sample from
  * sines: a motor with 4 pole pairs, k_e = 0.1 V·s/rad, R = 0.2 ohm, L = 1 mH, i_q = 10 A, i_d = -2 A at 50
  * rad/s, and the same driven without current. */
-#define _POSIX_C_SOURCE 200809L
-
 #include "hci/host/check/check.h"
 
 #include <math.h>
@@ -14,13 +12,13 @@
 
 #include "hci/host/report/summary.h"
 #include "host/base/memory.h"
+#include "support/draws.h"
+#include "support/files.h"
 #include "unity.h"
-
-#define PI 3.14159265358979323846
 
 enum { SAMPLES = 400, FILES = 8 };
 
-static char folder[64], path[FILES][128];
+static char path[FILES][128];
 static size_t paths;
 static hci_check check;
 static hci_note note;
@@ -29,18 +27,13 @@ static hci_note note;
 
 static void write_file(const char *name, const char *text)
 {
-    char *p = path[paths++];
-    snprintf(p, sizeof path[0], "%s/%s", folder, name);
-    FILE *file = fopen(p, "w");
-    TEST_ASSERT_NOT_NULL(file);
-    fputs(text, file);
-    fclose(file);
+    snprintf(path[paths], sizeof path[0], "%s", files_path(name));
+    files_write(path[paths++], text);
 }
 
 void setUp(void)
 {
-    snprintf(folder, sizeof folder, "/tmp/hci-test-check-XXXXXX");
-    TEST_ASSERT_NOT_NULL(mkdtemp(folder));
+    files_begin();
     paths = 0;
     memset(&note, 0, sizeof note);
 }
@@ -55,7 +48,8 @@ void tearDown(void)
 {
     hci_memory_fail_after(-1);
     remove_files();
-    TEST_ASSERT_EQUAL_MESSAGE(0, rmdir(folder), "a file is left");
+    TEST_ASSERT_EQUAL_MESSAGE(0, files_count(files_root), "a file is left");
+    files_end();
 }
 
 static const char MACHINE[] =
@@ -82,10 +76,10 @@ typedef struct {
 static sample sample_at(int k, double i_d, double i_q)
 {
     const double p = 4.0, k_e = 0.1, R = 0.2, L = 1e-3, speed = 50.0,
-                 time_s = 2.0 * PI / (p * speed) * k / 100.0;
+                 time_s = 2.0 * REF_PI / (p * speed) * k / 100.0;
     sample x = {time_s, speed * time_s + 0.3, speed, {0}, {0}, 1.5 * k_e * i_q};
     for (int s = 0; s < 3; ++s) {
-        const double a = p * x.theta - 2.0 * PI * s / 3.0;
+        const double a = p * x.theta - 2.0 * REF_PI * s / 3.0;
         x.i[s] = i_q * sin(a) - i_d * cos(a);
         x.v[s] = R * x.i[s] + L * p * speed * (i_q * cos(a) + i_d * sin(a)) + k_e * speed * sin(a);
     }
@@ -123,12 +117,12 @@ static hci_status check_runs(const char *header, mistake *wrong, bool unloaded)
     run[1] = path[paths + 1];
     write_run("load.csv", header, -2.0, 10.0, wrong);
     if (unloaded) write_run("back.csv", header, 0.0, 0.0, wrong);
-    return hci_check_files(folder, run, unloaded ? 2 : 1, &check, &note);
+    return hci_check_files(files_root, run, unloaded ? 2 : 1, &check, &note);
 }
 
 static hci_status check_machine(void)
 {
-    return hci_check_files(folder, NULL, 0, &check, &note);
+    return hci_check_files(files_root, NULL, 0, &check, &note);
 }
 
 /* ---- what is expected */
@@ -201,7 +195,7 @@ static void write_holding(void)
     size_t used = (size_t)snprintf(text, sizeof text, "theta_m_rad,iq_A,torque_Nm\n");
     for (int k = 0; k < 2 * SAMPLES; ++k) {
         const int direction = k < SAMPLES ? 1 : -1;
-        const double theta_m = 2.0 * PI / SAMPLES * (direction > 0 ? k : 2 * SAMPLES - 1 - k);
+        const double theta_m = 2.0 * REF_PI / SAMPLES * (direction > 0 ? k : 2 * SAMPLES - 1 - k);
         const double cogging = 0.05 * sin(24.0 * theta_m + 0.7);
         used += (size_t)snprintf(text + used, sizeof text - used, "%.9g,%.9g,0\n", theta_m,
                                  (0.01 * direction - cogging) / (1.5 * 0.1));
@@ -215,7 +209,7 @@ static void test_a_holding_map_knows_the_cogging_torque(void)
     write_holding();
     write_machine("name,value,unit,source\npole_pairs,4,1,\n", "amplitude_Nm_per_A", 0.1, 0.0);
     write_file("cogging.csv", "order,amplitude_Nm,phase_rad\n6,0.05,0.7\n");
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_check_files(folder, run, 1, &check, &note), note.text);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_check_files(files_root, run, 1, &check, &note), note.text);
     TEST_ASSERT_DOUBLE_WITHIN(1e-6, 1.0, evidence("cogging_size"));
     TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0.0, evidence("cogging_angle"));
     TEST_ASSERT_DOUBLE_WITHIN(1e-6, 1.0, evidence("cogging_share"));
@@ -223,7 +217,7 @@ static void test_a_holding_map_knows_the_cogging_torque(void)
     write_holding();
     write_machine("name,value,unit,source\npole_pairs,8,1,\n", "amplitude_Nm_per_A", 0.1, 0.0);
     write_file("cogging.csv", "order,amplitude_Nm,phase_rad\n6,0.05,0.7\n");
-    TEST_ASSERT_EQUAL(HCI_NOT_REACHED, hci_check_files(folder, run, 1, &check, &note));
+    TEST_ASSERT_EQUAL(HCI_NOT_REACHED, hci_check_files(files_root, run, 1, &check, &note));
     TEST_ASSERT_TRUE(check.findings > 0);
     TEST_ASSERT_EQUAL_STRING("poles_for_pole_pairs", check.finding[0].slip);
 }
@@ -307,7 +301,7 @@ static void test_slips_of_machine_csv(void)
 /* e_a = −sin θ: the magnet axis at 0, or the sign. No recording tells them apart. */
 static void test_zero_on_the_d_axis_looks_like_a_sign(void)
 {
-    write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, PI);
+    write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, REF_PI);
     TEST_ASSERT_EQUAL(HCI_NOT_REACHED, check_machine());
     TEST_ASSERT_EQUAL(HCI_CHECK_AMBIGUOUS, check.verdict);
     TEST_ASSERT_EQUAL(2, check.findings);
@@ -321,7 +315,7 @@ static void test_zero_on_the_d_axis_looks_like_a_sign(void)
 static void test_zero_on_the_q_axis(void)
 {
     for (int sign = -1; sign <= 1; sign += 2) {
-        write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, sign * 0.5 * PI);
+        write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, sign * 0.5 * REF_PI);
         TEST_ASSERT_EQUAL(HCI_NOT_REACHED, check_machine());
         expect_only("angle_zero_q_axis");
         TEST_ASSERT_NOT_NULL(strstr(check.finding[0].words, sign > 0 ? "crest" : "trough"));
@@ -356,7 +350,7 @@ static void write_slopes(double per_mechanical)
                                    "theta_e_rad,dLa_H_per_rad,dLb_H_per_rad,dLc_H_per_rad,"
                                    "dMab_H_per_rad,dMbc_H_per_rad,dMca_H_per_rad\n");
     for (int k = 0; k < 36; ++k) {
-        const double t = 2.0 * PI * k / 36.0, third = 2.0 * PI / 3.0;
+        const double t = 2.0 * REF_PI * k / 36.0, third = 2.0 * REF_PI / 3.0;
         const double lag[6] = {0.0, 2.0 * third, 4.0 * third, third, 3.0 * third, 5.0 * third};
         used += (size_t)snprintf(text + used, sizeof text - used, "%.9g", t);
         for (int q = 0; q < 6; ++q)
@@ -414,9 +408,9 @@ static void voltages_to_lines(sample *x)
 
 MISTAKE(electrical_angle, x->theta *= 4.0)
 MISTAKE(degrees, x->theta *= 57.29577951308232)
-MISTAKE(from_d_axis, x->theta += PI / 4.0)       /* e_a = −sin θ' with θ' = θ + π */
-MISTAKE(from_crest, x->theta -= 0.5 * PI / 4.0)  /* e_a = cos θ' with θ' = θ − π/2 */
-MISTAKE(from_trough, x->theta += 0.5 * PI / 4.0) /* e_a = −cos θ' with θ' = θ + π/2 */
+MISTAKE(from_d_axis, x->theta += REF_PI / 4.0)       /* e_a = −sin θ' with θ' = θ + π */
+MISTAKE(from_crest, x->theta -= 0.5 * REF_PI / 4.0)  /* e_a = cos θ' with θ' = θ − π/2 */
+MISTAKE(from_trough, x->theta += 0.5 * REF_PI / 4.0) /* e_a = −cos θ' with θ' = θ + π/2 */
 MISTAKE(angle_backward, x->theta = -x->theta)
 MISTAKE(currents_out, times(x->i, -1.0))
 MISTAKE(currents_rms, times(x->i, 0.70710678118))
@@ -562,7 +556,7 @@ static void test_slips_in_the_log_of_a_drive(void)
 /* From 50 to −20 rad/s, driving with 10 A forward and 6 A backward. */
 static void turn_round(sample *x)
 {
-    const double whole_s = 2.0 * PI / 200.0 * 4.0, share = x->time_s / whole_s;
+    const double whole_s = 2.0 * REF_PI / 200.0 * 4.0, share = x->time_s / whole_s;
     const double speed = 50.0 - 70.0 * share, i_q = speed > 0.0 ? 10.0 : -6.0;
     x->theta = 0.3 + whole_s * (50.0 * share - 35.0 * share * share);
     x->speed = speed;
@@ -654,9 +648,10 @@ static void test_measured_data(void)
     if (access(RUNS[0], R_OK) != 0) TEST_IGNORE_MESSAGE("no ../shared/measured");
     write_machine("name,value,unit\npole_pairs,12,1\nresistance,0.7,ohm\n", "amplitude_Nm_per_A", 0.01857,
                   0.0);
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_check_files(folder, RUNS, 3, &check, &note), note.text);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_check_files(files_root, RUNS, 3, &check, &note), note.text);
     TEST_ASSERT_DOUBLE_WITHIN(0.03, 1.0, evidence("angle_speed"));
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_NOT_REACHED, hci_check_files(folder, &PROBE, 1, &check, &note), note.text);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_NOT_REACHED, hci_check_files(files_root, &PROBE, 1, &check, &note),
+                              note.text);
     TEST_ASSERT_EQUAL(HCI_CHECK_NOT_UNDERSTOOD, check.verdict);
     TEST_ASSERT_TRUE(evidence("voltage_balance") > 9.0); /* a ×10 probe on vc */
 }
@@ -781,7 +776,7 @@ static void test_out_of_memory(void)
     for (long count = 0; status == HCI_ERROR_MEMORY && count < 500; ++count) {
         memset(&note, 0, sizeof note);
         hci_memory_fail_after(count);
-        status = hci_check_files(folder, run, 1, &check, &note);
+        status = hci_check_files(files_root, run, 1, &check, &note);
     }
     hci_memory_fail_after(-1);
     TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, status, note.text);

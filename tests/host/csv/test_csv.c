@@ -1,7 +1,5 @@
 /* Reading CSV: the files of tests/files/csv with what they hold or what is said of them, a round trip of
  * random tables, numbers and units against other ways to compute them, and memory that runs out. */
-#define _POSIX_C_SOURCE 200809L
-
 #include "hci/host/csv/csv.h"
 
 #include <float.h>
@@ -19,6 +17,7 @@
 #include "hci/host/base/utf8.h"
 #include "host/base/memory.h"
 #include "host/base/quote.h"
+#include "support/files.h"
 #include "support/reference.h"
 #include "unity.h"
 
@@ -28,28 +27,18 @@
 static char scratch[64];
 static int first_free;
 
-/* The descriptor that the next file will have; it stays the same unless a file is left open. */
-static int next_descriptor(void)
-{
-    const int descriptor = dup(0);
-    close(descriptor);
-    return descriptor;
-}
-
 void setUp(void)
 {
-    first_free = next_descriptor();
-    snprintf(scratch, sizeof scratch, "/tmp/hci-test-csv-XXXXXX");
-    const int descriptor = mkstemp(scratch);
-    TEST_ASSERT_TRUE(descriptor >= 0);
-    close(descriptor);
+    first_free = files_next_descriptor();
+    files_begin();
+    snprintf(scratch, sizeof scratch, "%s", files_path("scratch.csv"));
 }
 
 void tearDown(void)
 {
     hci_memory_fail_after(-1);
-    unlink(scratch);
-    TEST_ASSERT_EQUAL_MESSAGE(first_free, next_descriptor(), "a file is left open");
+    files_end();
+    TEST_ASSERT_EQUAL_MESSAGE(first_free, files_next_descriptor(), "a file is left open");
 }
 
 static const char *file_path(const char *name)
@@ -439,7 +428,9 @@ static void test_what_cannot_be_opened_is_said_with_its_reason(void)
     assert_unreadable("tests/files/csv/there_is_no_such_file.csv", "No such file or directory");
     assert_unreadable("tests/files", "Is a directory");
     assert_unreadable("", "No such file or directory");
+    files_write(scratch, "");
     TEST_ASSERT_EQUAL(0, chmod(scratch, 0));
+    TEST_ASSERT_EQUAL(0, chmod(files_root, 0755));
     if (root) TEST_ASSERT_EQUAL(0, seteuid(65534));
     assert_unreadable(scratch, "Permission denied");
     if (root) TEST_ASSERT_EQUAL(0, seteuid(0));

@@ -1,7 +1,5 @@
 /* Tables of other tools: every name of docs/files.md is read as the page says, and the page lists every name
  * that the program knows; lines before the header; units in names and rows. */
-#define _POSIX_C_SOURCE 200809L
-
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,32 +11,29 @@
 #include "hci/host/recording/run.h"
 #include "host/base/unit_lookup.h"
 #include "host/csv/alias.h"
+#include "support/files.h"
 #include "support/reference.h"
+#include "support/texts.h"
 #include "unity.h"
 
 static char path[64];
 
 void setUp(void)
 {
-    snprintf(path, sizeof path, "/tmp/hci-test-foreign-XXXXXX");
-    const int descriptor = mkstemp(path);
-    TEST_ASSERT_TRUE(descriptor >= 0);
-    close(descriptor);
+    files_begin();
+    snprintf(path, sizeof path, "%s", files_path("table.csv"));
 }
 
 void tearDown(void)
 {
-    unlink(path);
+    files_end();
 }
 
 static hci_csv *read_text(const char *text)
 {
     hci_note note = {{0}};
     hci_csv *csv;
-    FILE *file = fopen(path, "wb");
-    TEST_ASSERT_NOT_NULL(file);
-    fputs(text, file);
-    TEST_ASSERT_EQUAL(0, fclose(file));
+    files_write(path, text);
     TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_csv_read(path, &csv, &note), note.text);
     return csv;
 }
@@ -50,11 +45,6 @@ static double first_number(const hci_csv *csv, const char *column)
     TEST_ASSERT_LESS_THAN(16, (int)hci_csv_rows(csv));
     TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_csv_numbers(csv, column, values, &note), note.text);
     return values[0];
-}
-
-static void has_text(const char *part, const char *whole)
-{
-    if (strstr(whole, part) == NULL) TEST_FAIL_MESSAGE(whole);
 }
 
 /* ---- the names ---- */
@@ -93,7 +83,7 @@ static void test_every_name_is_read_in_its_unit(void)
         hci_note told = {{0}};
         TEST_ASSERT_EQUAL_MESSAGE(alias->meaning != NULL, hci_csv_told(csv, alias->column, &told),
                                   alias->name);
-        if (alias->meaning != NULL) has_text(alias->meaning, told.text);
+        if (alias->meaning != NULL) text_has(alias->meaning, told.text);
         hci_csv_free(csv);
     }
 }
@@ -111,7 +101,7 @@ static void test_names_that_say_too_little_are_not_read(void)
             TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_csv_check_clear(csv, &note), note.text);
         } else {
             TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, hci_csv_check_clear(csv, &note));
-            has_text("expected theta_m or theta_e; rename the column", note.text);
+            text_has("expected theta_m or theta_e; rename the column", note.text);
             TEST_ASSERT_FALSE(hci_csv_has(csv, "theta_m_rad"));
             TEST_ASSERT_FALSE(hci_csv_has(csv, "theta_e_rad"));
         }
@@ -167,7 +157,7 @@ static void test_an_own_name_comes_first(void)
     csv = read_text("i_sq,q_current\n1,2\n");
     double value;
     TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, hci_csv_numbers(csv, "iq_A", &value, &told));
-    has_text("found `iq_A` a second time, expected one column for it; remove or rename one", told.text);
+    text_has("found `iq_A` a second time, expected one column for it; remove or rename one", told.text);
     hci_csv_free(csv);
 }
 
@@ -346,9 +336,7 @@ static void test_the_header_is_found(void)
     for (size_t k = 0; k < sizeof beginnings / sizeof *beginnings; ++k) {
         hci_note note = {{0}};
         hci_csv *csv = NULL;
-        FILE *file = fopen(path, "wb");
-        fputs(beginnings[k].text, file);
-        fclose(file);
+        files_write(path, beginnings[k].text);
         if (hci_csv_read(path, &csv, &note) != HCI_OK) { /* then of what the first line is */
             TEST_ASSERT_EQUAL_MESSAGE(0, beginnings[k].line, beginnings[k].text);
             continue;
@@ -369,7 +357,7 @@ static void test_lines_are_those_of_the_file(void)
     TEST_ASSERT_EQUAL(7, hci_csv_line(csv, 0));
     TEST_ASSERT_EQUAL(9, hci_csv_line(csv, 1));
     TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, hci_csv_numbers(csv, "torque_Nm", values, &note));
-    has_text(":10: column 2 `torque`: found `x`", note.text);
+    text_has(":10: column 2 `torque`: found `x`", note.text);
     hci_csv_free(csv);
 }
 
@@ -420,7 +408,7 @@ static void test_unknown_units_matter_only_where_they_are_asked_for(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-14, 2 * REF_PI, first_number(csv, "speed_rad_per_s"));
     TEST_ASSERT_EQUAL_DOUBLE(2, first_number(csv, "iq_A"));
     TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, hci_csv_numbers(csv, "torque_Nm", &value, &note));
-    has_text(
+    text_has(
         ":2: column 1 `torque`: found `furlong`, expected a unit, as in the other cells; in a row of units",
         note.text);
     hci_csv_free(csv);
@@ -454,12 +442,12 @@ static void test_a_run_tells_what_was_supposed(void)
     TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_run_read(path, 10, NAN, &run, &note), note.text);
     TEST_ASSERT_DOUBLE_WITHIN(1e-14, 2 * REF_PI, run.speed_rad_per_s[1]); /* 60 rpm */
     TEST_ASSERT_DOUBLE_WITHIN(1e-14, REF_PI / 15, run.theta_m_rad[2]);
-    has_text("line 2 is the header, what stands before it is not read; `erpm` is read as", run.remark.text);
-    has_text("`encoder_position` is read as the mechanical angle of an encoder", run.remark.text);
+    text_has("line 2 is the header, what stands before it is not read; `erpm` is read as", run.remark.text);
+    text_has("`encoder_position` is read as the mechanical angle of an encoder", run.remark.text);
     hci_run_release(&run);
     hci_csv_free(read_text("theta,iq\n1,2\n"));
     TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, hci_run_read(path, 10, NAN, &run, &note));
-    has_text(":1: column 1 `theta`: found an angle that may be mechanical or electrical", note.text);
+    text_has(":1: column 1 `theta`: found an angle that may be mechanical or electrical", note.text);
 }
 
 /* "; ≤" is five bytes: behind one to five others the end falls into the letter one way or another. */

@@ -8,7 +8,7 @@
 enum { P = 3 };
 
 static const hci_machine MACHINE = {.pole_pairs = P};
-static const double NOISE_NM = 0.05, TURN = 2.0 * 3.14159265358979323846;
+static const double NOISE_NM = 0.05, TURN = 2.0 * REF_PI;
 
 static uint64_t seed;
 static hci_run run;
@@ -52,7 +52,7 @@ static void turn_steadily(double turns, double samples, double speed)
         run.theta_m_rad[k] = theta_m;
         run.speed_rad_per_s[k] = speed;
         rec_phases(-1.0, 3.0, P * theta_m, run.i_A + 3 * k);
-        run.torque_Nm[k] = torque_at(theta_m) + NOISE_NM * rec_normal(&seed);
+        run.torque_Nm[k] = torque_at(theta_m) + NOISE_NM * ref_normal(&seed);
     }
 }
 

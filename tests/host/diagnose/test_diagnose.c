@@ -1,7 +1,5 @@
 /* What is found in recordings in which one thing is hidden that the tables of the machine do not say, or
  * nothing. */
-#define _XOPEN_SOURCE 700
-
 #include "hci/host/report/write.h"
 #include "host/base/memory.h"
 
@@ -80,7 +78,7 @@ static void test_noise_of_currents_is_no_sensor(void)
     for (int k = 0; k < 2; ++k) {
         record(600, &(point){k == 0 ? 60.0 : -150.0, 2.0 + 5.0 * k, 0.0, 0.0, 0.0});
         for (size_t j = 0; j < 1800; ++j)
-            run[k].i_A[j] += 0.02 * rec_normal(&seed);
+            run[k].i_A[j] += 0.02 * ref_normal(&seed);
     }
     TEST_ASSERT_EQUAL_INT(HCI_OK, diagnose(NULL));
     TEST_ASSERT_EQUAL_INT(HCI_DIAGNOSIS_COMPLETE, diagnosis.verdict);
@@ -102,7 +100,7 @@ static void hold(double coulomb_Nm, double cogging_Nm, double irregular_Nm)
         r->time_s[k] = 0.02 * (double)k;
         r->theta_m_rad[k] = theta_m;
         r->speed_rad_per_s[k] = (back ? -2.0 : 2.0) * REF_PI / 600.0 / 0.02;
-        rec_phases(0.0, torque / (1.5 * K_NM_PER_A) + 0.01 * rec_normal(&seed), P * theta_m, r->i_A + 3 * k);
+        rec_phases(0.0, torque / (1.5 * K_NM_PER_A) + 0.01 * ref_normal(&seed), P * theta_m, r->i_A + 3 * k);
     }
 }
 
@@ -187,7 +185,7 @@ static void record_loaded(void)
         record(450, &(point){k == 0 ? 60.0 : 90.0, 2.0 + k, 0.0, 0.0, 0.0});
         run[k].torque_source = HCI_TORQUE_INERTIA;
         for (size_t j = 0; j < 450; ++j)
-            run[k].torque_Nm[j] = 1e-6 * rec_normal(&seed);
+            run[k].torque_Nm[j] = 1e-6 * ref_normal(&seed);
     }
 }
 
@@ -238,7 +236,7 @@ static void test_words_tell_a_torque_of_inertia(void)
     for (size_t k = 0; k < 3000; ++k) {
         const double iq = sin(0.011 * (double)k);
         rec_phases(0.0, iq, P * run[0].theta_m_rad[k], run[0].i_A + 3 * k);
-        run[0].torque_Nm[k] = TORQUE_Nm * iq - FRICTION_Nm + 0.01 * rec_normal(&seed);
+        run[0].torque_Nm[k] = TORQUE_Nm * iq - FRICTION_Nm + 0.01 * ref_normal(&seed);
     }
     TEST_ASSERT_TRUE(diagnose(NULL) <= HCI_NOT_REACHED);
     hci_diagnosis_words(&diagnosis, words, sizeof words);

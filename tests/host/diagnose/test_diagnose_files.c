@@ -1,6 +1,4 @@
 /* The corrected machine on disk, the same bytes twice, and what goes wrong: no run to fit, no memory. */
-#define _XOPEN_SOURCE 700
-
 #include "hci/host/report/write.h"
 #include "host/base/memory.h"
 
@@ -38,7 +36,8 @@ static void test_no_run_to_fit(void)
 static void write_into(const char *folder)
 {
     hci_note note = {{0}};
-    const hci_status status = hci_diagnosis_write(&diagnosis, NULL, &runs, root, in_root(folder), &note);
+    const hci_status status =
+        hci_diagnosis_write(&diagnosis, NULL, &runs, files_root, files_path(folder), &note);
     TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, status, note.text);
 }
 
@@ -51,12 +50,12 @@ static void test_corrected_machine(void)
     record(600, &(point){60.0, 2.0, 0.3, 0.0, 0.0});
     record(600, &(point){-150.0, 7.0, 0.3, 0.0, 0.0});
     for (size_t j = 0; j < 3600; ++j) /* readings that a regression smooths, and a prediction does not */
-        run[j / 1800].i_A[j % 1800] += 0.005 * rec_normal(&seed);
+        run[j / 1800].i_A[j % 1800] += 0.005 * ref_normal(&seed);
     diagnose(NULL);
     write_into("out");
-    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_machine_read(in_root("out/machine"), &corrected, &note),
+    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_machine_read(files_path("out/machine"), &corrected, &note),
                                   note.text);
-    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_effects_read_machine(in_root("out/machine"), &effects, &note));
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_effects_read_machine(files_path("out/machine"), &effects, &note));
     for (size_t k = 0; k < runs.count; ++k) {
         double square = 0.0;
         for (size_t j = 0; j < run[k].count; ++j) {
@@ -88,7 +87,7 @@ static void test_same_bytes(void)
     snprintf(command, sizeof command,
              "cd %s && test -s first/effects.csv -a -s first/errors.csv -a -s first/machine/effects.csv && "
              "diff -r first second",
-             root);
+             files_root);
     TEST_ASSERT_EQUAL_INT(0, system(command));
 }
 

@@ -96,7 +96,7 @@ static void test_what_is_not_smoothed(void)
     for (int what = 0; what < 3; ++what) {
         turn(500, 400.0, 50.0, 2.0, 0.01);
         for (size_t k = 0; k < 500; ++k) {
-            run.theta_m_rad[k] += 0.01 * rec_normal(&seed);
+            run.theta_m_rad[k] += 0.01 * ref_normal(&seed);
             if (what == 0 && k > 250) run.speed_rad_per_s[k] *= -1.0;
             if (what == 1) run.speed_rad_per_s[k] = 0.0;
         }
@@ -128,7 +128,7 @@ static void flow(double noise_A)
         current(run.theta_m_rad[k], 0, &d, &q);
         rec_phases(d, q, P * run.theta_m_rad[k], run.i_A + 3 * k);
         for (int s = 0; s < 3; ++s)
-            run.i_A[3 * k + (size_t)s] += noise_A * rec_normal(&seed);
+            run.i_A[3 * k + (size_t)s] += noise_A * ref_normal(&seed);
     }
 }
 

@@ -1,8 +1,6 @@
 /* The picture of a solution, read as a reader does: its axes from the numbers beside them, and the curves,
  * bars and points by these axes against the formulas; its text as XML; inputs at the ends of what there can
  * be. */
-#define _XOPEN_SOURCE 700
-
 #include "host/draw/plot.h"
 
 #include <locale.h>
@@ -11,11 +9,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "host/base/memory.h"
 #include "host/draw/svg.h"
 #include "support/reference.h"
+#include "support/texts.h"
+#include "support/written.h"
 #include "unity.h"
 
 enum { MOST_BYTES = 150000, VERTICES = 720, MOST_WAVES = 400 };
@@ -23,7 +22,7 @@ enum { MOST_BYTES = 150000, VERTICES = 720, MOST_WAVES = 400 };
 /* Coordinates are rounded to 0.01 pixel, those of the two ticks that make the scale too. */
 #define PIXELS 0.03
 
-static char folder[64], path[96], picture[2 * MOST_BYTES];
+static const char *picture;
 
 static hci_wave back_emf[2], wave[MOST_WAVES];
 static hci_set set[MOST_WAVES];
@@ -47,9 +46,7 @@ static hci_solved_order solved(double n, double before_Nm, double wanted_Nm, dou
 
 void setUp(void)
 {
-    snprintf(folder, sizeof folder, "/tmp/hci-test-plot-XXXXXX");
-    TEST_ASSERT_NOT_NULL(mkdtemp(folder));
-    snprintf(path, sizeof path, "%s/p.svg", folder);
+    files_begin();
     back_emf[0] = hci_wave_polar(1.0, 1, 0.14, 0.0);
     machine = (hci_machine_data){0};
     machine.model = (hci_machine){2, back_emf, 1, NULL, 0, NULL, 0};
@@ -76,68 +73,28 @@ void tearDown(void)
 {
     hci_memory_fail_after(-1);
     setlocale(LC_ALL, "C");
-    unlink(path);
-    rmdir(folder);
+    files_end();
 }
 
 static void draw(void)
 {
-    hci_output *out;
-    hci_note note = {{0}};
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_output_open(folder, &out, &note), note.text);
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_output_file(out, "p.svg", &note), note.text);
+    hci_output *out = written_begin("p.svg");
     hci_plot_solution(out, &machine, &solution);
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_output_commit(out, &note), note.text);
-    FILE *file = fopen(path, "rb");
-    TEST_ASSERT_NOT_NULL(file);
-    const size_t size = fread(picture, 1, sizeof picture - 1, file);
-    fclose(file);
-    picture[size] = '\0';
-    TEST_ASSERT_TRUE(size < MOST_BYTES);
-    TEST_ASSERT_TRUE(size == strlen(picture));
+    picture = written_end(out, "p.svg");
+    TEST_ASSERT_TRUE(strlen(picture) < MOST_BYTES);
 }
 
 /* ---- XML ---- */
 
-/* One tag from `<` on: name, attributes name="value", `>` or `/>`. Returns what follows; depth goes up, down
- * or stays. */
-static const char *read_tag(const char *at, char open[][16], int *depth)
-{
-    char name[16] = "";
-    const bool closing = at[1] == '/';
-    at += closing ? 2 : 1;
-    const size_t length = strspn(at, "abcdefghijklmnopqrstuvwxyz");
-    TEST_ASSERT_TRUE(length > 0 && length < sizeof name);
-    memcpy(name, at, length);
-    at += length;
-    while (*at == ' ') {
-        at += 1 + strcspn(at + 1, "=<>\"");
-        TEST_ASSERT_EQUAL_STRING_LEN("=\"", at, 2);
-        at += 2 + strcspn(at + 2, "<>\"&");
-        TEST_ASSERT_EQUAL_INT('"', *at++);
-    }
-    if (closing) {
-        TEST_ASSERT_TRUE(*depth > 0);
-        TEST_ASSERT_EQUAL_STRING(open[--*depth], name);
-    } else if (*at == '/') {
-        ++at;
-    } else {
-        TEST_ASSERT_TRUE(*depth < 8);
-        memcpy(open[(*depth)++], name, sizeof name);
-    }
-    TEST_ASSERT_EQUAL_INT('>', *at);
-    return at + 1;
-}
-
 static void check_well_formed(void)
 {
-    char open[8][16];
+    char open[8][TEXT_TAG];
     int depth = 0, tags = 0;
     TEST_ASSERT_EQUAL_STRING_LEN("<svg xmlns=\"http://www.w3.org/2000/svg\" ", picture, 40);
     for (const char *at = picture; *at;) {
         if (*at == '<') {
             TEST_ASSERT_TRUE_MESSAGE(depth > 0 || tags == 0, "a second root");
-            at = read_tag(at, open, &depth);
+            at = text_tag(at, open, 8, &depth);
             ++tags;
         } else if (*at == '&') {
             TEST_ASSERT_EQUAL_STRING_LEN("&#", at, 2);
@@ -243,14 +200,6 @@ static const char *find(const char *what, int nth)
         at = strstr(at + 1, what);
     TEST_ASSERT_NOT_NULL_MESSAGE(at, what);
     return at + strlen(what);
-}
-
-static int count_of(const char *what)
-{
-    int count = 0;
-    for (const char *at = strstr(picture, what); at; at = strstr(at + 1, what))
-        ++count;
-    return count;
 }
 
 static double attribute(const char *element, const char *name)
@@ -403,7 +352,7 @@ static void test_spectrum_is_read_back(void)
         }
     TEST_ASSERT_NOT_NULL(strstr(picture, ">6</text>"));
     TEST_ASSERT_NOT_NULL(strstr(picture, ">12</text>"));
-    TEST_ASSERT_EQUAL_INT(0, count_of("class=\"cross\"") + count_of("class=\"ring\""));
+    TEST_ASSERT_EQUAL_INT(0, text_count("class=\"cross\"", picture) + text_count("class=\"ring\"", picture));
 }
 
 static void test_marks_and_words_of_what_is_missed(void)
@@ -415,9 +364,10 @@ static void test_marks_and_words_of_what_is_missed(void)
     draw();
     check_picture();
     TEST_ASSERT_EQUAL_INT(
-        4, count_of("class=\"cross\"")); /* two strokes: one cross in the panel, one in the legend */
-    TEST_ASSERT_EQUAL_INT(2, count_of("class=\"ring\""));
-    TEST_ASSERT_EQUAL_INT(2, count_of("class=\"no middle\""));
+        4,
+        text_count("class=\"cross\"", picture)); /* two strokes: one cross in the panel, one in the legend */
+    TEST_ASSERT_EQUAL_INT(2, text_count("class=\"ring\"", picture));
+    TEST_ASSERT_EQUAL_INT(2, text_count("class=\"no middle\"", picture));
     TEST_ASSERT_NOT_NULL(
         strstr(picture, ">Not reached: order 12 is off by 0.4 N·m, 1 more order missed</title>"));
     TEST_ASSERT_NULL_MESSAGE(strstr(picture, "least possible"), "the least loss is that of the whole torque");
@@ -457,15 +407,14 @@ static void test_nothing_from_outside(void)
         snprintf(key, sizeof key, strcmp(WORDS[k], "on") == 0 ? " %sload=" : "%s", WORDS[k]);
         TEST_ASSERT_NULL_MESSAGE(strstr(picture, key), key);
     }
-    TEST_ASSERT_EQUAL_INT_MESSAGE(1, count_of("http"), "the namespace is the only address");
+    TEST_ASSERT_EQUAL_INT_MESSAGE(1, text_count("http", picture), "the namespace is the only address");
 }
 
 static void test_same_input_same_bytes_in_any_locale(void)
 {
-    static char first[2 * MOST_BYTES];
     static const char *const LOCALES[] = {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8", "C"};
     draw();
-    memcpy(first, picture, sizeof first);
+    const char *const first = picture; /* files_read keeps it */
     for (size_t k = 0; k < 4; ++k) {
         setlocale(LC_ALL, LOCALES[k]);
         draw();
@@ -477,7 +426,7 @@ static void test_nothing_is_allocated(void)
 {
     hci_output *out;
     hci_note note = {{0}};
-    TEST_ASSERT_EQUAL(HCI_OK, hci_output_open(folder, &out, &note));
+    TEST_ASSERT_EQUAL(HCI_OK, hci_output_open(files_root, &out, &note));
     TEST_ASSERT_EQUAL(HCI_OK, hci_output_file(out, "p.svg", &note));
     hci_memory_fail_after(0);
     hci_plot_solution(out, &machine, &solution);
@@ -487,20 +436,12 @@ static void test_nothing_is_allocated(void)
 
 static hci_output *begin_part(void)
 {
-    hci_output *out;
-    hci_note note = {{0}};
-    TEST_ASSERT_EQUAL(HCI_OK, hci_output_open(folder, &out, &note));
-    TEST_ASSERT_EQUAL(HCI_OK, hci_output_file(out, "p.svg", &note));
-    return out;
+    return written_begin("p.svg");
 }
 
 static void end_part(hci_output *out)
 {
-    hci_note note = {{0}};
-    TEST_ASSERT_EQUAL(HCI_OK, hci_output_commit(out, &note));
-    FILE *file = fopen(path, "rb");
-    picture[fread(picture, 1, sizeof picture - 1, file)] = '\0';
-    fclose(file);
+    picture = written_end(out, "p.svg");
 }
 
 /* Of digits, a point and a minus sign at 12 px in DejaVu Sans, by the advances in its metrics. */

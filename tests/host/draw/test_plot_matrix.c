@@ -1,22 +1,21 @@
 /* U of a solution against sampled torque, and its picture against U; large systems; the residual by run and
  * order; mean and extremes over one turn of a simulated drive. */
-#define _XOPEN_SOURCE 700
-
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "host/base/memory.h"
 #include "host/draw/plot.h"
 #include "host/draw/plot_drive.h"
 #include "support/reference.h"
+#include "support/texts.h"
+#include "support/written.h"
 #include "unity.h"
 
 enum { MOST_BYTES = 400000, MANY = 300 };
 
-static char folder[64], path[96], picture[MOST_BYTES];
+static const char *picture;
 static hci_machine_data machine;
 static hci_target target;
 static hci_solution solution;
@@ -24,15 +23,12 @@ static hci_note note;
 
 void setUp(void)
 {
-    snprintf(folder, sizeof folder, "/tmp/hci-test-matrix-XXXXXX");
-    TEST_ASSERT_NOT_NULL(mkdtemp(folder));
-    snprintf(path, sizeof path, "%s/p.svg", folder);
+    files_begin();
 }
 
 void tearDown(void)
 {
-    unlink(path);
-    rmdir(folder);
+    files_end();
 }
 
 /* ---- solutions ---- */
@@ -72,27 +68,12 @@ static void solve_poor_set(void)
 
 static void draw(void (*put)(hci_output *out))
 {
-    hci_output *out;
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_output_open(folder, &out, &note), note.text);
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_output_file(out, "p.svg", &note), note.text);
+    hci_output *out = written_begin("p.svg");
     hci_memory_fail_after(0);
     put(out);
     hci_memory_fail_after(-1);
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_output_commit(out, &note), note.text);
-    FILE *file = fopen(path, "rb");
-    TEST_ASSERT_NOT_NULL(file);
-    const size_t size = fread(picture, 1, sizeof picture - 1, file);
-    fclose(file);
-    picture[size] = '\0';
-    TEST_ASSERT_TRUE(size + 1 < sizeof picture);
-}
-
-static size_t count_of(const char *text)
-{
-    size_t count = 0;
-    for (const char *at = picture; (at = strstr(at, text)); ++at)
-        ++count;
-    return count;
+    picture = written_end(out, "p.svg");
+    TEST_ASSERT_TRUE(strlen(picture) < MOST_BYTES);
 }
 
 static double number_after(const char *at, const char *key)
@@ -215,8 +196,8 @@ static void test_squares_are_the_entries(void)
             TEST_ASSERT_DOUBLE_WITHIN(0.03, is_there && value < 0.0 ? side : 0.0, side_at("minus", x, y));
             entries += is_there;
         }
-    TEST_ASSERT_EQUAL_UINT64(entries + 2,
-                             count_of("class=\"plus\"") + count_of("class=\"minus\"")); /* and the legend */
+    TEST_ASSERT_EQUAL_UINT64(entries + 2, text_count("class=\"plus\"", picture) +
+                                              text_count("class=\"minus\"", picture)); /* and the legend */
     solve_end();
 }
 
@@ -224,16 +205,16 @@ static void test_marks_of_what_takes_no_part(void)
 {
     solve_poor_set();
     draw(put_system);
-    TEST_ASSERT_EQUAL_UINT64(4, count_of("class=\"no end\"")); /* 5, 24, 30, 36 */
-    TEST_ASSERT_EQUAL_UINT64(2 * (4 + 1), count_of("class=\"cross\""));
+    TEST_ASSERT_EQUAL_UINT64(4, text_count("class=\"no end\"", picture)); /* 5, 24, 30, 36 */
+    TEST_ASSERT_EQUAL_UINT64(2 * (4 + 1), text_count("class=\"cross\"", picture));
     TEST_ASSERT_NOT_NULL(strstr(picture, ">5</text>"));
-    TEST_ASSERT_EQUAL_UINT64(2 + 1, count_of("class=\"band\"")); /* 4+ and 2−, and the legend */
+    TEST_ASSERT_EQUAL_UINT64(2 + 1, text_count("class=\"band\"", picture)); /* 4+ and 2−, and the legend */
     TEST_ASSERT_NOT_NULL(strstr(picture, ">(4+)</text>"));
     TEST_ASSERT_NOT_NULL(strstr(picture, ">(2−)</text>"));
     TEST_ASSERT_NOT_NULL(strstr(picture, ">7+</text>"));
     solution.order[1].verdict = HCI_ORDER_FREE;
     draw(put_system);
-    TEST_ASSERT_EQUAL_UINT64(3 + 1, count_of("class=\"band\""));
+    TEST_ASSERT_EQUAL_UINT64(3 + 1, text_count("class=\"band\"", picture));
     solve_end();
 }
 
@@ -275,7 +256,7 @@ static void test_large_systems_are_binned(void)
     make_many(MANY, MANY); /* 48 cells at most: 7 items in each, which makes 43 */
     draw(put_system);
     TEST_ASSERT_NOT_NULL(strstr(picture, ">a cell holds 7 torque orders by 7 components</text>"));
-    TEST_ASSERT_EQUAL_UINT64(0, count_of("class=\"minus\""));
+    TEST_ASSERT_EQUAL_UINT64(0, text_count("class=\"minus\"", picture));
     const double cell = (524.0 - 64.0) / 43.0;
     size_t squares = 1; /* of the legend */
     for (size_t i = 0; i < 43; ++i)
@@ -289,8 +270,8 @@ static void test_large_systems_are_binned(void)
                 0.03, largest > 0.0 ? side : 0.0,
                 side_at("plus", 64.0 + cell * ((double)j + 0.5), 66.0 + cell * ((double)i + 0.5)));
         }
-    TEST_ASSERT_EQUAL_UINT64(squares, count_of("class=\"plus\""));
-    TEST_ASSERT_TRUE(count_of("<text") < 120);
+    TEST_ASSERT_EQUAL_UINT64(squares, text_count("class=\"plus\"", picture));
+    TEST_ASSERT_TRUE(text_count("<text", picture) < 120);
 }
 
 /* Sizes about the limits: no text of a column is nearer to the next one in its row than it is long. */
@@ -322,12 +303,12 @@ static void test_nothing_flows(void)
     make_many(5, 5);
     solution.current.count = 0;
     draw(put_system);
-    TEST_ASSERT_EQUAL_UINT64(5 + 1, count_of("class=\"band\""));
+    TEST_ASSERT_EQUAL_UINT64(5 + 1, text_count("class=\"band\"", picture));
     many_value[0] = many_value[1] = 0.0;
     make_many(3, 1);
     memset(many_value, 0, sizeof many_value);
     draw(put_system);
-    TEST_ASSERT_EQUAL_UINT64(1, count_of("class=\"plus\"")); /* of the legend */
+    TEST_ASSERT_EQUAL_UINT64(1, text_count("class=\"plus\"", picture)); /* of the legend */
 }
 
 /* ---- residual by run and order ---- */
@@ -361,7 +342,7 @@ static void test_map(void)
     TEST_ASSERT_DOUBLE_WITHIN(0.02, 0.9 * 17.0 * 0.75, side_at("before", 172.0 + 1.5 * width, y + 17.0));
     TEST_ASSERT_DOUBLE_WITHIN(0.02, fmax(0.9 * 17.0 * (1.0 + log10(0.0005) / 4.0), 2.6),
                               side_at("within", 172.0 + 1.5 * width, y + 17.0));
-    TEST_ASSERT_EQUAL_UINT64(2 + 1, count_of("<rect class=\"before\""));
+    TEST_ASSERT_EQUAL_UINT64(2 + 1, text_count("<rect class=\"before\"", picture));
     TEST_ASSERT_NOT_NULL(strstr(picture, ">c.csv</text>"));
     TEST_ASSERT_NULL(strstr(picture, "b&#60;.csv"));
 }

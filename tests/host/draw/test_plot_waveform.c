@@ -1,14 +1,13 @@
 /* The picture of a measured waveform, read as a reader does: values by the numbers beside the axes against
  * the sines that were put in, and marks that are counted. */
-#define _XOPEN_SOURCE 700
-
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "host/draw/plot.h"
+#include "support/texts.h"
+#include "support/written.h"
 #include "unity.h"
 
 enum { MOST_BYTES = 400000 };
@@ -16,43 +15,24 @@ enum { MOST_BYTES = 400000 };
 /* Coordinates are rounded to 0.01 pixel, those of the two ticks that make the scale too. */
 #define PIXELS 0.03
 
-static char folder[64], path[96], picture[MOST_BYTES];
+static const char *picture;
 
 void setUp(void)
 {
-    snprintf(folder, sizeof folder, "/tmp/hci-test-waveform-XXXXXX");
-    TEST_ASSERT_NOT_NULL(mkdtemp(folder));
-    snprintf(path, sizeof path, "%s/p.svg", folder);
+    files_begin();
 }
 
 void tearDown(void)
 {
-    unlink(path);
-    rmdir(folder);
+    files_end();
 }
 
 static void draw(const hci_waveform *w)
 {
-    hci_output *out;
-    hci_note note = {{0}};
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_output_open(folder, &out, &note), note.text);
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_output_file(out, "p.svg", &note), note.text);
+    hci_output *out = written_begin("p.svg");
     hci_plot_waveform(out, w);
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_output_commit(out, &note), note.text);
-    FILE *file = fopen(path, "rb");
-    TEST_ASSERT_NOT_NULL(file);
-    const size_t size = fread(picture, 1, sizeof picture - 1, file);
-    fclose(file);
-    picture[size] = '\0';
-    TEST_ASSERT_TRUE(size < MOST_BYTES - 1);
-}
-
-static int count_of(const char *text)
-{
-    int count = 0;
-    for (const char *at = picture; (at = strstr(at, text)) != NULL; at += strlen(text))
-        ++count;
-    return count;
+    picture = written_end(out, "p.svg");
+    TEST_ASSERT_TRUE(strlen(picture) < MOST_BYTES);
 }
 
 /* A minus sign of typography is a minus. */
@@ -123,11 +103,11 @@ static void test_curves_and_marks(void)
         TEST_ASSERT_DOUBLE_WITHIN(resolution, kept + 0.05 * sin(5.0 * theta_m_rad + 2.0),
                                   curve_at("before", k));
     }
-    TEST_ASSERT_EQUAL_INT(2 + 1, count_of("<circle class=\"dot\""));    /* and one in the legend */
-    TEST_ASSERT_EQUAL_INT(1 + 1, count_of("<circle class=\"before\"")); /* and one in the legend */
-    TEST_ASSERT_EQUAL_INT(2,
-                          count_of("2 orders, the largest 1 N·m at electrical order 6")); /* title and text */
-    TEST_ASSERT_EQUAL_INT(1, count_of(">mechanical angle in degrees<"));
+    TEST_ASSERT_EQUAL_INT(2 + 1, text_count("<circle class=\"dot\"", picture));    /* and one in the legend */
+    TEST_ASSERT_EQUAL_INT(1 + 1, text_count("<circle class=\"before\"", picture)); /* and one in the legend */
+    TEST_ASSERT_EQUAL_INT(
+        2, text_count("2 orders, the largest 1 N·m at electrical order 6", picture)); /* title and text */
+    TEST_ASSERT_EQUAL_INT(1, text_count(">mechanical angle in degrees<", picture));
 }
 
 /* Nothing found, and nothing looked at. */
@@ -137,12 +117,12 @@ static void test_empty(void)
     hci_waveform w = {
         .quantity = HCI_WAVEFORM_BACK_EMF, .order = order, .count = 1, .step = 1.0, .friction_Nm = NAN};
     draw(&w);
-    TEST_ASSERT_EQUAL_INT(2, count_of("no order stands out of the noise"));
-    TEST_ASSERT_EQUAL_INT(0, count_of("nan"));
+    TEST_ASSERT_EQUAL_INT(2, text_count("no order stands out of the noise", picture));
+    TEST_ASSERT_EQUAL_INT(0, text_count("nan", picture));
     w.count = 0;
     w.step = 0.0;
     draw(&w);
-    TEST_ASSERT_EQUAL_INT(0, count_of("nan") + count_of("inf"));
+    TEST_ASSERT_EQUAL_INT(0, text_count("nan", picture) + text_count("inf", picture));
 }
 
 int main(void)

@@ -1,20 +1,15 @@
 /* Emitted tables are read back from their C text and judged against waves by their sine formula in double. */
-#define _XOPEN_SOURCE 700
-
-#include <dirent.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include "hci/host/emit/emit.h"
 #include "host/base/memory.h"
+#include "support/files.h"
 #include "support/reference.h"
 #include "unity.h"
-
-static char folder[64];
 
 /* Memory that tearDown frees, also when a test fails half-way. */
 static void *held[64];
@@ -34,31 +29,14 @@ static void let_go(void)
 
 void setUp(void)
 {
-    strcpy(folder, "/tmp/hci-test-emit-XXXXXX");
-    TEST_ASSERT_NOT_NULL(mkdtemp(folder));
-}
-
-static int files_in_folder(bool remove_them)
-{
-    DIR *directory = opendir(folder);
-    int count = 0;
-    for (struct dirent *entry; (entry = readdir(directory)) != NULL;) {
-        char path[512];
-        if (strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0) continue;
-        snprintf(path, sizeof path, "%s/%s", folder, entry->d_name);
-        if (remove_them) unlink(path);
-        count++;
-    }
-    closedir(directory);
-    return count;
+    files_begin();
 }
 
 void tearDown(void)
 {
     hci_memory_fail_after(-1);
     let_go();
-    (void)files_in_folder(true);
-    rmdir(folder);
+    files_end();
 }
 
 static void at_most(double limit, double value)
@@ -142,17 +120,8 @@ static hci_emit_request request_for(const currents *c)
 
 static char *read_text(const char *file)
 {
-    char path[256];
-    snprintf(path, sizeof path, "%s/%s", folder, file);
-    FILE *stream = fopen(path, "rb");
-    TEST_ASSERT_NOT_NULL_MESSAGE(stream, path);
-    fseek(stream, 0, SEEK_END);
-    const size_t size = (size_t)ftell(stream);
-    rewind(stream);
-    char *text = hold(size + 1);
-    TEST_ASSERT_EQUAL(size, fread(text, 1, size, stream));
-    fclose(stream);
-    return text;
+    const char *kept = files_read(files_path(file));
+    return strcpy(hold(strlen(kept) + 1), kept);
 }
 
 typedef struct {
@@ -247,7 +216,7 @@ static hci_emit_result emit_well(const hci_emit_request *r)
 {
     hci_note note = {{0}};
     hci_emit_result result = {0};
-    const hci_status status = hci_emit(folder, r, &result, &note);
+    const hci_status status = hci_emit(files_root, r, &result, &note);
     TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, status, note.text);
     TEST_ASSERT_EQUAL_STRING("", note.text);
     return result;
@@ -531,9 +500,9 @@ static void test_same_request_same_bytes(void)
     char *header_again = read_text("ripple_free.h"), *source_again = read_text("ripple_free.c");
     TEST_ASSERT_EQUAL_STRING(header, header_again);
     TEST_ASSERT_EQUAL_STRING(source, source_again);
-    TEST_ASSERT_EQUAL(2, files_in_folder(false));
-    TEST_ASSERT_NULL(strstr(header, folder));
-    TEST_ASSERT_NULL(strstr(source, folder));
+    TEST_ASSERT_EQUAL(2, files_count(files_root));
+    TEST_ASSERT_NULL(strstr(header, files_root));
+    TEST_ASSERT_NULL(strstr(source, files_root));
 }
 
 static void test_header_says_what_a_reader_must_know(void)
@@ -566,10 +535,10 @@ static void refuse(hci_emit_request r, hci_status status, const char *words)
 {
     hci_note note = {{0}};
     hci_emit_result result = {.points = 4711};
-    TEST_ASSERT_EQUAL(status, hci_emit(folder, &r, &result, &note));
+    TEST_ASSERT_EQUAL(status, hci_emit(files_root, &r, &result, &note));
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(note.text, words), note.text);
     TEST_ASSERT_EQUAL(4711, result.points);
-    TEST_ASSERT_EQUAL(0, files_in_folder(false));
+    TEST_ASSERT_EQUAL(0, files_count(files_root));
 }
 
 static void test_names_that_are_no_identifiers_are_refused(void)
@@ -615,7 +584,7 @@ static void test_other_names_are_taken(void)
         r.name = good[k];
         (void)emit_well(&r);
     }
-    TEST_ASSERT_EQUAL(2 * sizeof good / sizeof *good, files_in_folder(false));
+    TEST_ASSERT_EQUAL(2 * sizeof good / sizeof *good, files_count(files_root));
 }
 
 static void test_requests_that_cannot_be_met_are_refused(void)
@@ -693,10 +662,10 @@ static void test_every_failing_allocation_is_survived(void)
     long succeed = 0;
     for (; status != HCI_OK && succeed < 100; ++succeed) {
         hci_memory_fail_after(succeed);
-        status = hci_emit(folder, &r, NULL, NULL);
+        status = hci_emit(files_root, &r, NULL, NULL);
         if (status == HCI_OK) break;
         TEST_ASSERT_EQUAL(HCI_ERROR_MEMORY, status);
-        TEST_ASSERT_EQUAL(0, files_in_folder(false));
+        TEST_ASSERT_EQUAL(0, files_count(files_root));
     }
     TEST_ASSERT_EQUAL(HCI_OK, status);
     TEST_ASSERT_GREATER_THAN(2, succeed);

@@ -1,6 +1,4 @@
 /* effects.csv, and effects on a simulated drive. */
-#define _XOPEN_SOURCE 700
-
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,58 +9,32 @@
 #include "hci/host/machine/effects.h"
 #include "host/base/memory.h"
 #include "support/effect_list.h"
+#include "support/files.h"
 #include "support/plant_machine.h"
 #include "unity.h"
 
-static char root[64];
-
 void setUp(void)
 {
-    snprintf(root, sizeof root, "/tmp/hci-test-effects-XXXXXX");
-    TEST_ASSERT_NOT_NULL(mkdtemp(root));
-}
-
-static const char *path_of(const char *name)
-{
-    static char path[128];
-    snprintf(path, sizeof path, "%s/%s", root, name);
-    return path;
+    files_begin();
 }
 
 void tearDown(void)
 {
     hci_memory_fail_after(-1);
-    remove(path_of("effects.csv"));
-    remove(root);
-}
-
-static void write_file(const char *text)
-{
-    FILE *file = fopen(path_of("effects.csv"), "wb");
-    TEST_ASSERT_NOT_NULL(file);
-    fputs(text, file);
-    fclose(file);
-}
-
-static void read_file(char text[8192])
-{
-    FILE *file = fopen(path_of("effects.csv"), "rb");
-    TEST_ASSERT_NOT_NULL(file);
-    text[fread(text, 1, 8191, file)] = '\0';
-    fclose(file);
+    files_end();
 }
 
 static hci_status read_text(const char *text, hci_effects_data *effects, hci_note *note)
 {
-    write_file(text);
+    files_write(files_path("effects.csv"), text);
     note->text[0] = '\0';
-    return hci_effects_read(path_of("effects.csv"), effects, note);
+    return hci_effects_read(files_path("effects.csv"), effects, note);
 }
 
 static hci_status write_effects(const hci_effects *effects, hci_note *note)
 {
     hci_output *output;
-    hci_status status = hci_output_open(root, &output, note);
+    hci_status status = hci_output_open(files_root, &output, note);
     if (status) return status;
     status = hci_effects_write(output, effects, note);
     if (!status) return hci_output_commit(output, note);
@@ -102,13 +74,11 @@ static void test_round_trip_to_the_byte(void)
 {
     hci_effects_data effects;
     hci_note note = {{0}};
-    char text[8192];
     TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, read_text(EVERYTHING, &effects, &note), note.text);
     TEST_ASSERT_EQUAL_UINT64(14, effects.list.count);
     TEST_ASSERT_EQUAL_UINT64(24, hci_effects_terms(&effects.list));
     TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, write_effects(&effects.list, &note), note.text);
-    read_file(text);
-    TEST_ASSERT_EQUAL_STRING(EVERYTHING, text);
+    TEST_ASSERT_EQUAL_STRING(EVERYTHING, files_read(files_path("effects.csv")));
     hci_effects_release(&effects);
     TEST_ASSERT_NULL(effects.term);
 }
@@ -136,8 +106,8 @@ static void test_values_units_and_order_of_rows(void)
     TEST_ASSERT_EQUAL_DOUBLE(12.5e-3, e[0].term[1].value);
     TEST_ASSERT_TRUE(isnan(e[0].term[1].std_error));
     TEST_ASSERT_EQUAL_STRING("position_offset", e[1].type->name);
-    TEST_ASSERT_DOUBLE_WITHIN(1e-15, EL_PI / 2.0, e[1].term[0].value);
-    TEST_ASSERT_DOUBLE_WITHIN(1e-15, EL_PI / 180.0, e[1].term[0].std_error);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-15, REF_PI / 2.0, e[1].term[0].value);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-15, REF_PI / 180.0, e[1].term[0].std_error);
     TEST_ASSERT_EQUAL_DOUBLE(-0.1, e[2].term[0].value);
     TEST_ASSERT_EQUAL_DOUBLE(0.05, e[2].term[1].value);
     TEST_ASSERT_EQUAL_DOUBLE(0.002, e[2].term[1].std_error);
@@ -255,14 +225,7 @@ static void test_examples_of_the_page_can_be_read(void)
 
 static bool page_has(const char *words)
 {
-    char line[512];
-    bool found = false;
-    FILE *page = fopen("docs/effects.md", "r");
-    TEST_ASSERT_NOT_NULL(page);
-    while (!found && fgets(line, sizeof line, page))
-        found = strstr(line, words) != NULL;
-    fclose(page);
-    return found;
+    return strstr(files_read("docs/effects.md"), words) != NULL;
 }
 
 static void test_the_page_names_every_effect_and_parameter(void)
@@ -285,27 +248,25 @@ static void test_machine_folder(void)
 {
     hci_effects_data effects;
     hci_note note = {{0}};
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_effects_read_machine(root, &effects, &note), note.text);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_effects_read_machine(files_root, &effects, &note), note.text);
     TEST_ASSERT_EQUAL_UINT64(0, effects.list.count);
     hci_effects_release(&effects);
-    write_file(EVERYTHING);
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_effects_read_machine(root, &effects, &note), note.text);
+    files_write(files_path("effects.csv"), EVERYTHING);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_effects_read_machine(files_root, &effects, &note), note.text);
     TEST_ASSERT_EQUAL_UINT64(14, effects.list.count);
     hci_effects_release(&effects);
-    write_file("nonsense\n1\n");
-    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, hci_effects_read_machine(root, &effects, &note));
+    files_write(files_path("effects.csv"), "nonsense\n1\n");
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, hci_effects_read_machine(files_root, &effects, &note));
 }
 
 static void test_a_value_that_is_not_finite_is_not_written(void)
 {
     el_list l = {0};
     hci_note note = {{0}};
-    write_file("before");
+    files_write(files_path("effects.csv"), "before");
     el_add(&l, "cogging", "sine", 6.0, INFINITY);
     TEST_ASSERT_EQUAL(HCI_ERROR_NOT_FINITE, write_effects(&l.list, &note));
-    char text[8192];
-    read_file(text);
-    TEST_ASSERT_EQUAL_STRING("before", text);
+    TEST_ASSERT_EQUAL_STRING("before", files_read(files_path("effects.csv")));
 }
 
 /* ---- a simulated drive ---- */
@@ -359,7 +320,7 @@ static double angle_at(double t)
 
 static double current_at(int s, double t)
 {
-    return 6.0 * sin(3.0 * angle_at(t) - 2.0 * EL_PI * s / 3.0 + 0.4);
+    return 6.0 * sin(3.0 * angle_at(t) - 2.0 * REF_PI * s / 3.0 + 0.4);
 }
 
 /* One step with a sine of current in the true frame; what the sensors read at its start. */
@@ -403,7 +364,7 @@ static void all_on_the_bench(el_list *l)
 
 static double folded(double angle)
 {
-    return angle - 2.0 * EL_PI * floor(angle / (2.0 * EL_PI) + 0.5);
+    return angle - 2.0 * REF_PI * floor(angle / (2.0 * REF_PI) + 0.5);
 }
 
 /* Between two steps a sensor interpolates: (3·70·20e-6)²/8 of 6 A is 1.3e-5 A. */
@@ -538,7 +499,7 @@ static hci_status do_read(void)
 {
     hci_effects_data effects;
     hci_note note = {{0}};
-    const hci_status status = hci_effects_read(path_of("effects.csv"), &effects, &note);
+    const hci_status status = hci_effects_read(files_path("effects.csv"), &effects, &note);
     TEST_ASSERT_EQUAL(status == HCI_OK, note.text[0] == '\0');
     TEST_ASSERT_EQUAL(status == HCI_OK, effects.term != NULL);
     hci_effects_release(&effects);
@@ -582,7 +543,7 @@ static long sweep(path *run)
 
 static void test_memory(void)
 {
-    write_file(EVERYTHING);
+    files_write(files_path("effects.csv"), EVERYTHING);
     TEST_ASSERT_TRUE(sweep(do_read) >= 4);
     TEST_ASSERT_TRUE(sweep(do_write) >= 2);
     TEST_ASSERT_TRUE(sweep(do_attach) >= 1);

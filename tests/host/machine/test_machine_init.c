@@ -1,11 +1,8 @@
 /* Machine folders from data sheets: readings against sampled waveforms and the power balance, real motors,
  * files. */
-#define _POSIX_C_SOURCE 200809L
-
 #include "hci/host/machine/init.h"
 #include "hci/host/report/summary.h"
 
-#include <dirent.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,38 +11,16 @@
 
 #include "hci/host/machine/machine.h"
 #include "host/base/memory.h"
+#include "support/files.h"
 #include "unity.h"
 
 #define RAD_PER_S_AT_1000_RPM 104.71975511965977
 
 enum { SAMPLES = 720, READINGS = HCI_SHEET_FLUX + 1 };
 
-static char root[64];
-
 void setUp(void)
 {
-    strcpy(root, "/tmp/hci_init_XXXXXX");
-    TEST_ASSERT_NOT_NULL(mkdtemp(root));
-}
-
-static int entries(const char *path)
-{
-    int count = -2;
-    DIR *folder = opendir(path);
-    if (folder == NULL) return -1;
-    while (readdir(folder) != NULL)
-        count++;
-    closedir(folder);
-    return count;
-}
-
-static const char *in_root(const char *name)
-{
-    static char path[2][256];
-    static int turn;
-    turn = 1 - turn;
-    snprintf(path[turn], sizeof path[turn], "%s/%s", root, name);
-    return path[turn];
+    files_begin();
 }
 
 void tearDown(void)
@@ -54,8 +29,9 @@ void tearDown(void)
                                         "m/effects.csv", "m/inductance.csv", "m"};
     hci_memory_fail_after(-1);
     for (size_t k = 0; k < sizeof NAMES / sizeof *NAMES; ++k)
-        remove(in_root(NAMES[k]));
-    TEST_ASSERT_EQUAL_MESSAGE(0, rmdir(root), "something else is left in the folder");
+        remove(files_path(NAMES[k]));
+    TEST_ASSERT_EQUAL_MESSAGE(0, files_count(files_root), "something else is left in the folder");
+    files_end();
 }
 
 static hci_sheet sheet_of(hci_sheet_reading reading, double strength, int pole_pairs)
@@ -219,14 +195,14 @@ static void test_remarks(void)
 static void write_good(const hci_sheet *sheet)
 {
     hci_note note = {{0}};
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_init_write(in_root("m"), sheet, &note), note.text);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_init_write(files_path("m"), sheet, &note), note.text);
     TEST_ASSERT_EQUAL_STRING("", note.text);
 }
 
 static void read_back(hci_machine_data *m)
 {
     hci_note note = {{0}};
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_machine_read(in_root("m"), m, &note), note.text);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_machine_read(files_path("m"), m, &note), note.text);
     TEST_ASSERT_EQUAL_STRING_MESSAGE("", m->remark.text, "every name is known");
 }
 
@@ -235,7 +211,7 @@ static void test_the_least_reads_back(void)
     hci_machine_data m;
     const hci_sheet s = sheet_of(HCI_SHEET_KV_LINE_PEAK, 300.0, 12);
     write_good(&s);
-    TEST_ASSERT_EQUAL_INT(2, entries(in_root("m")));
+    TEST_ASSERT_EQUAL_INT(2, files_count(files_path("m")));
     read_back(&m);
     TEST_ASSERT_EQUAL_INT(12, m.model.pole_pairs);
     TEST_ASSERT_EQUAL_INT(1, m.model.back_emf_count);
@@ -264,7 +240,7 @@ static void test_everything_reads_back(void)
     s.rated_speed_rpm = 3000.0;
     s.dc_link_voltage_V = 560.0;
     write_good(&s);
-    TEST_ASSERT_EQUAL_INT(3, entries(in_root("m")));
+    TEST_ASSERT_EQUAL_INT(3, files_count(files_path("m")));
     read_back(&m);
     TEST_ASSERT_EQUAL_DOUBLE(0.95, m.resistance_ohm);
     TEST_ASSERT_EQUAL_DOUBLE(4e-3, m.inductance_d_H);
@@ -304,30 +280,22 @@ static void test_orders_stay_readable(void)
     hci_machine_release(&m);
 }
 
-static void put(const char *path, const char *text)
-{
-    FILE *stream = fopen(path, "w");
-    TEST_ASSERT_NOT_NULL(stream);
-    fputs(text, stream);
-    fclose(stream);
-}
-
 static void test_nothing_is_overwritten(void)
 {
     static const char *const NAMES[] = {"m/machine.csv", "m/back_emf.csv", "m/cogging.csv",
                                         "m/inductance.csv", "m/effects.csv"};
     const hci_sheet s = sheet_of(HCI_SHEET_FLUX, 0.01, 4);
     write_good(&s);
-    remove(in_root("m/machine.csv"));
-    remove(in_root("m/back_emf.csv"));
+    remove(files_path("m/machine.csv"));
+    remove(files_path("m/back_emf.csv"));
     for (size_t k = 0; k < sizeof NAMES / sizeof *NAMES; ++k) {
         hci_note note = {{0}};
-        put(in_root(NAMES[k]), "mine");
-        TEST_ASSERT_EQUAL(HCI_ERROR_OUTPUT, hci_init_write(in_root("m"), &s, &note));
+        files_write(files_path(NAMES[k]), "mine");
+        TEST_ASSERT_EQUAL(HCI_ERROR_OUTPUT, hci_init_write(files_path("m"), &s, &note));
         TEST_ASSERT_NOT_NULL_MESSAGE(strstr(note.text, NAMES[k]), note.text);
         TEST_ASSERT_NOT_NULL_MESSAGE(strstr(note.text, "another folder"), note.text);
-        TEST_ASSERT_EQUAL_INT(1, entries(in_root("m")));
-        remove(in_root(NAMES[k]));
+        TEST_ASSERT_EQUAL_INT(1, files_count(files_path("m")));
+        remove(files_path(NAMES[k]));
     }
 }
 
@@ -346,10 +314,10 @@ static void test_wrong_values_are_refused(void)
     bad[7].dc_link_voltage_V = INFINITY;
     for (int k = 0; k < 8; ++k) {
         hci_note note = {{0}};
-        TEST_ASSERT_EQUAL_MESSAGE(HCI_ERROR_ARGUMENT, hci_init_write(in_root("m"), &bad[k], &note),
+        TEST_ASSERT_EQUAL_MESSAGE(HCI_ERROR_ARGUMENT, hci_init_write(files_path("m"), &bad[k], &note),
                                   note.text);
         TEST_ASSERT_TRUE(note.text[0] != '\0');
-        TEST_ASSERT_EQUAL_INT(-1, entries(in_root("m")));
+        TEST_ASSERT_EQUAL_INT(-1, files_count(files_path("m")));
     }
 }
 
@@ -362,11 +330,11 @@ static void test_memory_that_is_out_leaves_nothing(void)
     for (; status != HCI_OK && count < 1000; ++count) {
         hci_note note = {{0}};
         hci_memory_fail_after(count);
-        status = hci_init_write(in_root("m"), &s, &note);
+        status = hci_init_write(files_path("m"), &s, &note);
         hci_memory_fail_after(-1);
         if (status == HCI_OK) break;
         TEST_ASSERT_EQUAL_MESSAGE(HCI_ERROR_MEMORY, status, note.text);
-        TEST_ASSERT_TRUE_MESSAGE(entries(in_root("m")) <= 0, "a part of the tables is left");
+        TEST_ASSERT_TRUE_MESSAGE(files_count(files_path("m")) <= 0, "a part of the tables is left");
     }
     TEST_ASSERT_TRUE(count > 2 && count < 1000);
 }

@@ -25,12 +25,6 @@ void tearDown(void)
 
 /* ---- processes ---- */
 
-static double normal(void)
-{
-    const double radius = sqrt(-2.0 * log(1.0 - ref_uniform(&seed, 0.0, 1.0)));
-    return radius * cos(ref_uniform(&seed, 0.0, 2.0 * REF_PI));
-}
-
 /* x_k = a x_{k−1} + b x_{k−2} + innovation·N(0, 1), settled. */
 typedef struct {
     double a, b, innovation;
@@ -40,7 +34,7 @@ static void draw(const process *p, size_t n)
 {
     double one = 0.0, two = 0.0;
     for (size_t k = 0; k < n + 500; ++k) {
-        const double next = p->a * one + p->b * two + p->innovation * normal();
+        const double next = p->a * one + p->b * two + p->innovation * ref_normal(&seed);
         two = one;
         one = next;
         if (k >= 500) x[k - 500] = next;
@@ -195,7 +189,7 @@ static void test_whitening_of_columns(void)
     double in[3][20], out[20 * 3];
     for (size_t n = 0; n <= 20; ++n) {
         for (size_t k = 0; k < 3 * n; ++k)
-            out[k] = in[k % 3][k / 3] = normal();
+            out[k] = in[k % 3][k / 3] = ref_normal(&seed);
         hci_noise_whiten(&noise, out, n, 3);
         for (size_t k = 0; k < 3 * n; ++k) {
             const double *column = in[k % 3] + k / 3;

@@ -1,6 +1,4 @@
 /* The model's torque for a run, against the torque formula written out, and the run written again. */
-#define _POSIX_C_SOURCE 200809L
-
 #include "hci/host/recording/predict.h"
 
 #include <math.h>
@@ -13,37 +11,24 @@
 #include "hci/host/machine/effects.h"
 #include "hci/host/report/summary.h"
 #include "host/base/memory.h"
+#include "support/draws.h"
+#include "support/files.h"
+#include "support/texts.h"
 #include "unity.h"
 
-#define PI 3.14159265358979323846
-
-static char folder[64], machine[96], run_path[96], out[96], effects_path[128];
+static char run_path[96], out[96], effects_path[128];
 static hci_note note;
 static hci_prediction prediction;
 
-static void write_file(const char *path, const char *text)
-{
-    FILE *file = fopen(path, "w");
-    TEST_ASSERT_NOT_NULL(file);
-    fputs(text, file);
-    fclose(file);
-}
-
 void setUp(void)
 {
-    char path[128];
-    snprintf(folder, sizeof folder, "/tmp/hci-test-predict-XXXXXX");
-    TEST_ASSERT_NOT_NULL(mkdtemp(folder));
-    snprintf(machine, sizeof machine, "%s", folder);
-    snprintf(run_path, sizeof run_path, "%s/run.csv", folder);
-    snprintf(out, sizeof out, "%s/out.csv", folder);
-    snprintf(effects_path, sizeof effects_path, "%s/effects.csv", folder);
-    snprintf(path, sizeof path, "%s/machine.csv", folder);
-    write_file(path, "name,value,unit,source\npole_pairs,3,1,\ninertia,0.01,kgm2,\n");
-    snprintf(path, sizeof path, "%s/back_emf.csv", folder);
-    write_file(path, "order,amplitude_Nm_per_A,phase_rad\n1,0.5,0\n5,0.02,0.4\n");
-    snprintf(path, sizeof path, "%s/cogging.csv", folder);
-    write_file(path, "order,amplitude_Nm,phase_rad\n6,0.1,1\n");
+    files_begin();
+    snprintf(run_path, sizeof run_path, "%s", files_path("run.csv"));
+    snprintf(out, sizeof out, "%s", files_path("out.csv"));
+    snprintf(effects_path, sizeof effects_path, "%s", files_path("effects.csv"));
+    files_write(files_path("machine.csv"), "name,value,unit,source\npole_pairs,3,1,\ninertia,0.01,kgm2,\n");
+    files_write(files_path("back_emf.csv"), "order,amplitude_Nm_per_A,phase_rad\n1,0.5,0\n5,0.02,0.4\n");
+    files_write(files_path("cogging.csv"), "order,amplitude_Nm,phase_rad\n6,0.1,1\n");
     memset(&note, 0, sizeof note);
 }
 
@@ -52,12 +37,10 @@ void tearDown(void)
     static const char *const names[] = {"machine.csv", "back_emf.csv", "cogging.csv",
                                         "effects.csv", "run.csv",      "out.csv"};
     hci_memory_fail_after(-1);
-    for (size_t k = 0; k < sizeof names / sizeof *names; ++k) {
-        char path[128];
-        snprintf(path, sizeof path, "%s/%s", folder, names[k]);
-        unlink(path);
-    }
-    TEST_ASSERT_EQUAL_MESSAGE(0, rmdir(folder), "a file is left");
+    for (size_t k = 0; k < sizeof names / sizeof *names; ++k)
+        unlink(files_path(names[k]));
+    TEST_ASSERT_EQUAL_MESSAGE(0, files_count(files_root), "a file is left");
+    files_end();
 }
 
 /* The machine above. */
@@ -66,7 +49,7 @@ static double torque_at(double theta_m, double id, double iq)
     const double theta = 3.0 * theta_m;
     double sum = 0.1 * sin(6.0 * theta + 1.0);
     for (int s = 0; s < 3; ++s) {
-        const double turned = theta - 2.0 * PI * s / 3.0;
+        const double turned = theta - 2.0 * REF_PI * s / 3.0;
         sum += (0.5 * sin(turned) + 0.02 * sin(5.0 * turned + 0.4)) * (iq * sin(turned) - id * cos(turned));
     }
     return sum;
@@ -74,7 +57,7 @@ static double torque_at(double theta_m, double id, double iq)
 
 static void predict(void)
 {
-    const hci_status status = hci_predict_file(machine, run_path, out, &prediction, &note);
+    const hci_status status = hci_predict_file(files_root, run_path, out, &prediction, &note);
     TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, status, note.text);
 }
 
@@ -83,14 +66,6 @@ static hci_csv *read_out(void)
     hci_csv *csv;
     TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_csv_read(out, &csv, &note), note.text);
     return csv;
-}
-
-static void has_text(const char *part, const char *whole)
-{
-    if (strstr(whole, part) != NULL) return;
-    char message[1400];
-    snprintf(message, sizeof message, "`%s` is not in `%s`", part, whole);
-    TEST_FAIL_MESSAGE(message);
 }
 
 enum { SAMPLES = 400 };
@@ -135,8 +110,8 @@ static void test_effects_act(void)
     record(200.0, 3e-4, 0.25);
     predict();
     TEST_ASSERT_TRUE(prediction.rms_residual_Nm > 0.255);
-    write_file(effects_path, "effect,parameter,value,unit,std_error\nchannel_delay,torque,300,us,\n"
-                             "torque_sensor,offset,0.25,Nm,\n");
+    files_write(effects_path, "effect,parameter,value,unit,std_error\nchannel_delay,torque,300,us,\n"
+                              "torque_sensor,offset,0.25,Nm,\n");
     predict();
     TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0.0, prediction.rms_residual_Nm);
 }
@@ -150,7 +125,7 @@ static void test_the_sensor_lags_along_time(void)
     for (int k = 0; k < 2000; ++k)
         fprintf(file, "%.12g,0.3,%.12g,0\n", 1e-4 * k, 10.0 * 1e-4 * k);
     fclose(file);
-    write_file(effects_path, "effect,parameter,value,unit,std_error\ntorque_sensor,time_constant,5,ms,\n");
+    files_write(effects_path, "effect,parameter,value,unit,std_error\ntorque_sensor,time_constant,5,ms,\n");
     predict();
     double model[2000];
     hci_csv *csv = read_out();
@@ -205,7 +180,7 @@ static void test_a_shaft_with_a_load_has_no_torque(void)
     TEST_ASSERT_EQUAL(HCI_TORQUE_NONE, prediction.source);
     TEST_ASSERT_TRUE(isnan(prediction.rms_residual_Nm));
     TEST_ASSERT_DOUBLE_WITHIN(0.02, 1.5, prediction.mean_model_Nm);
-    has_text("the current makes 1.5 N·m on average, but inertia x acceleration is 0 N·m",
+    text_has("the current makes 1.5 N·m on average, but inertia x acceleration is 0 N·m",
              prediction.remark.text);
     hci_csv *csv = read_out();
     TEST_ASSERT_TRUE(hci_csv_has(csv, "torque_model_Nm"));
@@ -222,7 +197,7 @@ static void test_a_shaft_with_a_load_has_no_torque(void)
 static void test_a_drag_of_its_own_is_allowed(void)
 {
     static const char *const MACHINE = "name,value,unit,source\npole_pairs,3,1,\ninertia,0.01,kgm2,\n";
-    char path[128], text[200];
+    char text[160];
     record_shaft(75.0, 2.0); /* 0.75 of 1.5 N·m accelerate */
     predict();
     TEST_ASSERT_EQUAL(HCI_TORQUE_INERTIA, prediction.source);
@@ -230,17 +205,16 @@ static void test_a_drag_of_its_own_is_allowed(void)
     predict();
     TEST_ASSERT_EQUAL(HCI_TORQUE_INERTIA, prediction.source);
     record_shaft(0.0, 2.0);
-    write_file(effects_path, "effect,parameter,value,unit,std_error\nfriction,coulomb,1.4,Nm,\n");
+    files_write(effects_path, "effect,parameter,value,unit,std_error\nfriction,coulomb,1.4,Nm,\n");
     predict();
     TEST_ASSERT_EQUAL(HCI_TORQUE_INERTIA, prediction.source);
     unlink(effects_path);
-    snprintf(path, sizeof path, "%s/machine.csv", folder);
     snprintf(text, sizeof text, "%srated_current,21,A,\n", MACHINE);
-    write_file(path, text);
+    files_write(files_path("machine.csv"), text);
     predict();
     TEST_ASSERT_EQUAL(HCI_TORQUE_INERTIA, prediction.source);
     snprintf(text, sizeof text, "%srated_current,19,A,\n", MACHINE);
-    write_file(path, text);
+    files_write(files_path("machine.csv"), text);
     predict();
     TEST_ASSERT_EQUAL(HCI_TORQUE_NONE, prediction.source);
 }
@@ -257,36 +231,25 @@ static void test_measured_free_shafts_stay_free(void)
             HCI_OK, hci_predict_file("tests/measured/laas_mn4004", path, NULL, &prediction, &note),
             note.text);
         TEST_ASSERT_EQUAL(HCI_TORQUE_INERTIA, prediction.source);
-        has_text("as of a free shaft it is inertia x acceleration", prediction.remark.text);
+        text_has("as of a free shaft it is inertia x acceleration", prediction.remark.text);
     }
-}
-
-static void assert_file(const char *path, const char *expected)
-{
-    char found[2000];
-    FILE *file = fopen(path, "r");
-    TEST_ASSERT_NOT_NULL(file);
-    found[fread(found, 1, sizeof found - 1, file)] = '\0';
-    fclose(file);
-    TEST_ASSERT_EQUAL_STRING(expected, found);
 }
 
 /* No cogging at θ = −1/6, no other torque without current. */
 static void test_columns_pass_through(void)
 {
-    char path[128];
-    snprintf(path, sizeof path, "%s/cogging.csv", folder);
-    unlink(path);
-    write_file(run_path, "\xEF\xBB\xBF# a comment\r\n"
-                         "Theta_M;Torque;note;residual_Nm;x,y\r\n"
-                         "deg;mNm;-;-;-\r\n"
-                         "1,50;-12,5;\"say \"\"so\"\"; or, not\";9;\r\n"
-                         "2,0;1e3;#2;9;a\tb\r\n");
+    unlink(files_path("cogging.csv"));
+    files_write(run_path, "\xEF\xBB\xBF# a comment\r\n"
+                          "Theta_M;Torque;note;residual_Nm;x,y\r\n"
+                          "deg;mNm;-;-;-\r\n"
+                          "1,50;-12,5;\"say \"\"so\"\"; or, not\";9;\r\n"
+                          "2,0;1e3;#2;9;a\tb\r\n");
     predict();
-    assert_file(out, "Theta_M,Torque,note,\"x,y\",torque_model_Nm,residual_Nm\n"
-                     "deg,mNm,-,-,Nm,Nm\n"
-                     "1.50,-12.5,\"say \"\"so\"\"; or, not\",,0,-0.0125\n"
-                     "2.0,1e3,#2,\"a\tb\",0,1\n");
+    TEST_ASSERT_EQUAL_STRING("Theta_M,Torque,note,\"x,y\",torque_model_Nm,residual_Nm\n"
+                             "deg,mNm,-,-,Nm,Nm\n"
+                             "1.50,-12.5,\"say \"\"so\"\"; or, not\",,0,-0.0125\n"
+                             "2.0,1e3,#2,\"a\tb\",0,1\n",
+                             files_read(out));
     hci_csv *csv = read_out();
     const char *text;
     TEST_ASSERT_EQUAL(HCI_OK, hci_csv_text(csv, "note", 0, &text, &note));
@@ -296,7 +259,7 @@ static void test_columns_pass_through(void)
 
 static void test_a_run_without_torque_has_no_residual(void)
 {
-    write_file(run_path, "theta_m_rad,iq_A\n0,1\n1,1\n");
+    files_write(run_path, "theta_m_rad,iq_A\n0,1\n1,1\n");
     predict();
     TEST_ASSERT_TRUE(isnan(prediction.rms_residual_Nm));
     hci_csv *csv = read_out();
@@ -304,46 +267,46 @@ static void test_a_run_without_torque_has_no_residual(void)
     TEST_ASSERT_TRUE(hci_csv_has(csv, "torque_model_Nm"));
     hci_csv_free(csv);
     char *json = hci_prediction_json(&prediction);
-    has_text("\"rms_Nm\":\tnull", json);
-    has_text("\"torque_source\":\t\"none\"", json);
+    text_has("\"rms_Nm\":\tnull", json);
+    text_has("\"torque_source\":\t\"none\"", json);
     hci_text_free(json);
 }
 
 static void test_what_an_effect_lacks_is_told(void)
 {
-    write_file(run_path, "theta_e_rad,torque_Nm\n0,1\n1,1\n");
-    write_file(effects_path,
-               "effect,parameter,value,unit,std_error\nfriction,coulomb,0.1,Nm,\n"
-               "torque_sensor,time_constant,5,ms,\nmagnet_temperature,emf_per_kelvin,-0.001,1/K,\n"
-               "mechanical_order,sine_0.333333333,0.1,Nm,\n");
+    files_write(run_path, "theta_e_rad,torque_Nm\n0,1\n1,1\n");
+    files_write(effects_path,
+                "effect,parameter,value,unit,std_error\nfriction,coulomb,0.1,Nm,\n"
+                "torque_sensor,time_constant,5,ms,\nmagnet_temperature,emf_per_kelvin,-0.001,1/K,\n"
+                "mechanical_order,sine_0.333333333,0.1,Nm,\n");
     predict();
-    has_text("without time", prediction.remark.text);
-    has_text("without a speed", prediction.remark.text);
-    has_text("without a temperature", prediction.remark.text);
-    has_text("orders k/p", prediction.remark.text);
+    text_has("without time", prediction.remark.text);
+    text_has("without a speed", prediction.remark.text);
+    text_has("without a temperature", prediction.remark.text);
+    text_has("orders k/p", prediction.remark.text);
 }
 
 static void test_refused(void)
 {
-    write_file(run_path, "time_s,va_V,vb_V,vc_V\n0,1,1,1\n");
-    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, hci_predict_file(machine, run_path, out, &prediction, &note));
-    has_text("found no angle", note.text);
+    files_write(run_path, "time_s,va_V,vb_V,vc_V\n0,1,1,1\n");
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, hci_predict_file(files_root, run_path, out, &prediction, &note));
+    text_has("found no angle", note.text);
     TEST_ASSERT_TRUE(access(out, F_OK) != 0);
 }
 
 static void test_memory_runs_out_everywhere(void)
 {
     record(50.0, 0.0, 0.0);
-    write_file(effects_path, "effect,parameter,value,unit,std_error\nchannel_delay,torque,300,us,\n");
+    files_write(effects_path, "effect,parameter,value,unit,std_error\nchannel_delay,torque,300,us,\n");
     hci_status status = HCI_ERROR_MEMORY;
     long allowed = 0;
     for (; status == HCI_ERROR_MEMORY; ++allowed) {
         hci_note said = {{0}};
         hci_memory_fail_after(allowed);
-        status = hci_predict_file(machine, run_path, out, &prediction, &said);
+        status = hci_predict_file(files_root, run_path, out, &prediction, &said);
         hci_memory_fail_after(-1);
         if (status == HCI_ERROR_MEMORY) {
-            has_text("memory", said.text);
+            text_has("memory", said.text);
             TEST_ASSERT_TRUE(access(out, F_OK) != 0);
         }
     }

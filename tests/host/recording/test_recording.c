@@ -1,6 +1,4 @@
 /* Reading runs: what each column becomes, against the motion that the files were written from. */
-#define _POSIX_C_SOURCE 200809L
-
 #include "hci/host/recording/run.h"
 
 #include <math.h>
@@ -13,9 +11,11 @@
 #include <unistd.h>
 
 #include "host/base/memory.h"
+#include "support/draws.h"
+#include "support/files.h"
+#include "support/texts.h"
 #include "unity.h"
 
-#define PI       3.14159265358979323846
 #define MEASURED "../shared/measured/"
 
 /* Files are written with 9 decimals. */
@@ -23,15 +23,14 @@
 
 enum { MOST = 20000 };
 
-static char folder[64], path[96];
+static char path[96];
 static hci_run run;
 static hci_note note;
 
 void setUp(void)
 {
-    snprintf(folder, sizeof folder, "/tmp/hci-test-run-XXXXXX");
-    TEST_ASSERT_NOT_NULL(mkdtemp(folder));
-    snprintf(path, sizeof path, "%s/run.csv", folder);
+    files_begin();
+    snprintf(path, sizeof path, "%s", files_path("run.csv"));
     memset(&run, 0, sizeof run);
     memset(&note, 0, sizeof note);
 }
@@ -41,7 +40,8 @@ void tearDown(void)
     hci_memory_fail_after(-1);
     hci_run_release(&run);
     unlink(path);
-    TEST_ASSERT_EQUAL(0, rmdir(folder));
+    TEST_ASSERT_EQUAL_MESSAGE(0, files_count(files_root), "a file is left");
+    files_end();
 }
 
 /* ---- files ---- */
@@ -64,14 +64,6 @@ static void row(FILE *file, int count, ...)
     va_end(values);
 }
 
-static void text(const char *content)
-{
-    FILE *file = fopen(path, "w");
-    TEST_ASSERT_NOT_NULL(file);
-    fputs(content, file);
-    fclose(file);
-}
-
 static void read_run(int pole_pairs, double inertia_kgm2)
 {
     TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_run_read(path, pole_pairs, inertia_kgm2, &run, &note), note.text);
@@ -79,26 +71,17 @@ static void read_run(int pole_pairs, double inertia_kgm2)
 
 static void read_text(const char *content, int pole_pairs)
 {
-    text(content);
+    files_write(path, content);
     read_run(pole_pairs, NAN);
-}
-
-static void has_text(const char *part, const char *whole)
-{
-    if (strstr(whole, part) == NULL) {
-        char message[1400];
-        snprintf(message, sizeof message, "`%s` is not in `%s`", part, whole);
-        TEST_FAIL_MESSAGE(message);
-    }
 }
 
 static void refused(const char *content, const char *why)
 {
     hci_note said = {{0}};
-    text(content);
+    files_write(path, content);
     TEST_ASSERT_EQUAL_MESSAGE(HCI_ERROR_INPUT, hci_run_read(path, 4, NAN, &run, &said), content);
-    has_text(why, said.text);
-    has_text("run.csv", said.text);
+    text_has(why, said.text);
+    text_has("run.csv", said.text);
     TEST_ASSERT_EQUAL(0, run.count);
     TEST_ASSERT_NULL(run.name);
 }
@@ -128,7 +111,7 @@ static double time_at(int k)
 
 static double wrapped(double angle, double from)
 {
-    return angle - 2.0 * PI * floor((angle - from) / (2.0 * PI));
+    return angle - 2.0 * REF_PI * floor((angle - from) / (2.0 * REF_PI));
 }
 
 /* Angles of the run less those of the motion, which may differ by one constant, a multiple of `turn`. */
@@ -155,17 +138,17 @@ static void write_angle(const char *header, int n, double factor, double unit, d
 
 static void test_wraps_of_every_kind_are_taken_out(void)
 {
-    const double from[] = {0.0, -PI, -PI / 2.0};
+    const double from[] = {0.0, -REF_PI, -REF_PI / 2.0};
     for (int k = 0; k < 3; ++k) {
         write_angle("time_s,theta_m_rad", 2000, 1.0, 1.0, from[k], true);
         read_run(4, NAN);
         TEST_ASSERT_TRUE(run.turn_known);
-        assert_motion(2000, 2.0 * PI);
+        assert_motion(2000, 2.0 * REF_PI);
         hci_run_release(&run);
-        write_angle("time_s,theta_e_deg", 2000, 4.0, PI / 180.0, from[k], true);
+        write_angle("time_s,theta_e_deg", 2000, 4.0, REF_PI / 180.0, from[k], true);
         read_run(4, NAN);
         TEST_ASSERT_FALSE(run.turn_known);
-        assert_motion(2000, 2.0 * PI / 4.0);
+        assert_motion(2000, 2.0 * REF_PI / 4.0);
         hci_run_release(&run);
     }
 }
@@ -176,7 +159,7 @@ static void test_unwrapped_angles_stay(void)
     read_run(4, NAN);
     TEST_ASSERT_TRUE(run.turn_known);
     TEST_ASSERT_DOUBLE_WITHIN(TEXT, angle_at(time_at(0)), run.theta_m_rad[0]);
-    assert_motion(2000, 2.0 * PI);
+    assert_motion(2000, 2.0 * REF_PI);
     hci_run_release(&run);
     write_angle("time_s,theta_e_rad", 2000, 4.0, 1.0, 0.0, false);
     read_run(4, NAN);
@@ -202,7 +185,7 @@ static void test_wrap_at_several_turns(void)
     fclose(file);
     read_run(4, NAN);
     TEST_ASSERT_TRUE(run.turn_known);
-    assert_motion(2000, 2.0 * PI);
+    assert_motion(2000, 2.0 * REF_PI);
 }
 
 static void test_unwrapped_coarse_samples_keep_their_turns(void)
@@ -221,10 +204,10 @@ static void test_a_gap_forward_is_no_wrap(void)
 {
     FILE *file = begin("theta_e_rad,torque_Nm");
     for (int k = 0; k < 1000; ++k)
-        row(file, 2, 0.02 * k + (k < 500 ? 0.0 : 4.0 * PI), 1.0);
+        row(file, 2, 0.02 * k + (k < 500 ? 0.0 : 4.0 * REF_PI), 1.0);
     fclose(file);
     read_run(4, NAN);
-    TEST_ASSERT_DOUBLE_WITHIN(TEXT, (0.02 * 999 + 4.0 * PI) / 4.0, run.theta_m_rad[999]);
+    TEST_ASSERT_DOUBLE_WITHIN(TEXT, (0.02 * 999 + 4.0 * REF_PI) / 4.0, run.theta_m_rad[999]);
 }
 
 /* 0.8 turns from sample to sample look like −0.2. */
@@ -232,12 +215,13 @@ static void test_speed_tells_the_turns_of_coarse_samples(void)
 {
     FILE *file = begin("time_s,theta_e_rad,speed_rad_per_s");
     for (int k = 0; k < 500; ++k)
-        row(file, 3, 1e-3 * k, wrapped(1.6 * PI * k, 0.0), 1.6 * PI / 4.0 * 1e3 * (1.0 + 0.05 * sin(k)));
+        row(file, 3, 1e-3 * k, wrapped(1.6 * REF_PI * k, 0.0),
+            1.6 * REF_PI / 4.0 * 1e3 * (1.0 + 0.05 * sin(k)));
     fclose(file);
     read_run(4, NAN);
     for (int k = 0; k < 500; ++k)
-        TEST_ASSERT_DOUBLE_WITHIN(1e-7, 1.6 * PI * k / 4.0, run.theta_m_rad[k] - run.theta_m_rad[0]);
-    has_text("499 steps are taken from the speed", run.remark.text);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-7, 1.6 * REF_PI * k / 4.0, run.theta_m_rad[k] - run.theta_m_rad[0]);
+    text_has("499 steps are taken from the speed", run.remark.text);
 }
 
 static void test_coarse_samples_without_a_speed_are_refused(void)
@@ -245,7 +229,7 @@ static void test_coarse_samples_without_a_speed_are_refused(void)
     char content[4000];
     size_t used = (size_t)sprintf(content, "time_s,theta_e_rad\n");
     for (int k = 0; k < 100; ++k)
-        used += (size_t)sprintf(content + used, "%d,%.6f\n", k, wrapped(0.9 * PI * k, 0.0));
+        used += (size_t)sprintf(content + used, "%d,%.6f\n", k, wrapped(0.9 * REF_PI * k, 0.0));
     refused(content, "sample faster, add a speed column");
 }
 
@@ -257,14 +241,14 @@ static void test_scattered_points_get_no_turns(void)
     FILE *file = begin("theta_e_rad,torque_Nm");
     for (int k = 0; k < 300; ++k) {
         seed = seed * 1664525u + 1013904223u;
-        angle[k] = 2.0 * PI * (seed >> 8) / 16777216.0;
+        angle[k] = 2.0 * REF_PI * (seed >> 8) / 16777216.0;
         row(file, 2, angle[k], 1.0);
     }
     fclose(file);
     read_run(3, NAN);
     for (int k = 0; k < 300; ++k)
         TEST_ASSERT_DOUBLE_WITHIN(TEXT, angle[k] / 3.0, run.theta_m_rad[k]);
-    has_text("without order", run.remark.text);
+    text_has("without order", run.remark.text);
     TEST_ASSERT_NULL(run.speed_rad_per_s);
 }
 
@@ -297,11 +281,11 @@ static void test_both_angles_give_phase_and_turns(void)
     TEST_ASSERT_TRUE(run.turn_known);
     for (int k = 0; k < 2000; ++k)
         TEST_ASSERT_DOUBLE_WITHIN(TEXT, angle_at(time_at(k)) + 0.25, run.theta_m_rad[k]);
-    has_text("theta_e is ahead of pole pairs x theta_m by 1 rad", run.remark.text);
+    text_has("theta_e is ahead of pole pairs x theta_m by 1 rad", run.remark.text);
     hci_run_release(&run);
     read_run(8, NAN);
     TEST_ASSERT_FALSE(run.turn_known);
-    has_text("does not follow theta_e with 8 pole pairs", run.remark.text);
+    text_has("does not follow theta_e with 8 pole pairs", run.remark.text);
     for (int k = 0; k < 2000; ++k)
         TEST_ASSERT_DOUBLE_WITHIN(TEXT, (angle_at(time_at(k)) - angle_at(time_at(0))) * 4.0 / 8.0,
                                   run.theta_m_rad[k] - run.theta_m_rad[0]);
@@ -312,7 +296,7 @@ static void test_both_angles_give_phase_and_turns(void)
 static void test_recorded_speed_is_kept_and_converted(void)
 {
     read_text("time_s,theta_m_rad,speed_rpm\n0,0,60\n1,6.2,60\n2,12.4,90\n", 2);
-    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 3.0 * PI, run.speed_rad_per_s[2]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 3.0 * REF_PI, run.speed_rad_per_s[2]);
 }
 
 static void test_speed_is_the_slope_of_the_angle(void)
@@ -327,7 +311,7 @@ static void test_speed_is_the_slope_of_the_angle(void)
  * worth nothing. */
 static void test_slope_survives_an_encoder(void)
 {
-    const double count = 2.0 * PI / 512.0;
+    const double count = 2.0 * REF_PI / 512.0;
     FILE *file = begin("time_s,theta_m_rad");
     for (int k = 0; k < 5000; ++k)
         row(file, 2, 1e-3 * k, count * floor((2.0 * 1e-3 * k + 0.3 * sin(2e-3 * k)) / count));
@@ -346,7 +330,7 @@ static void test_a_speed_of_0_while_the_angle_moves_is_replaced(void)
     read_run(4, NAN);
     TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0.1, run.speed_rad_per_s[100]);
     TEST_ASSERT_DOUBLE_WITHIN(1e-6, -0.1, run.speed_rad_per_s[300]);
-    has_text("the speed is 0 but the angle moves", run.remark.text);
+    text_has("the speed is 0 but the angle moves", run.remark.text);
     hci_run_release(&run);
     read_text("time_s,theta_m_rad,speed_rad_per_s\n0,0.001,0\n1,0.002,0\n2,0.001,0\n", 2);
     TEST_ASSERT_TRUE(run.speed_rad_per_s[0] == 0.0 && run.speed_rad_per_s[1] == 0.0);
@@ -386,7 +370,7 @@ static void test_dq_currents_turn_with_the_angle(void)
     read_run(3, NAN);
     for (int k = 0; k < 100; ++k)
         for (int s = 0; s < 3; ++s) {
-            const double theta = 3.0 * 0.1 * k - 2.0 * PI * s / 3.0;
+            const double theta = 3.0 * 0.1 * k - 2.0 * REF_PI * s / 3.0;
             TEST_ASSERT_DOUBLE_WITHIN(TEXT, 2.0 * sin(theta) - (-1.0 + 0.1 * k) * cos(theta),
                                       run.i_A[3 * k + s]);
         }
@@ -399,7 +383,7 @@ static void test_dq_voltages_turn_with_the_angle(void)
 {
     read_text("theta_e_rad,ud_V,uq_V\n0.5,-1,2\n", 3);
     for (int s = 0; s < 3; ++s) {
-        const double theta = 0.5 - 2.0 * PI * s / 3.0;
+        const double theta = 0.5 - 2.0 * REF_PI * s / 3.0;
         TEST_ASSERT_DOUBLE_WITHIN(1e-12, 2.0 * sin(theta) + cos(theta), run.v_V[s]);
     }
     hci_run_release(&run);
@@ -417,7 +401,7 @@ static void test_iq_alone_and_no_current(void)
     hci_run_release(&run);
     read_text("theta_e_rad,torque_Nm\n0.5,2\n", 3);
     TEST_ASSERT_TRUE(run.i_A[0] == 0.0 && run.i_A[1] == 0.0 && run.i_A[2] == 0.0);
-    has_text("no currents: taken as 0", run.remark.text);
+    text_has("no currents: taken as 0", run.remark.text);
 }
 
 static void test_voltages(void)
@@ -431,7 +415,7 @@ static void test_voltages(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, 3.0, run.v_V[0]);
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, -1.0, run.v_V[1]);
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, -2.0, run.v_V[2]);
-    has_text("divisible by three", run.remark.text);
+    text_has("divisible by three", run.remark.text);
 }
 
 /* ---- torque ---- */
@@ -459,7 +443,7 @@ static void test_torque_of_inertia(void)
     fclose(file);
     read_run(4, 0.02);
     TEST_ASSERT_EQUAL(HCI_TORQUE_INERTIA, run.torque_source);
-    has_text("as of a free shaft it is inertia x acceleration", run.remark.text);
+    text_has("as of a free shaft it is inertia x acceleration", run.remark.text);
     for (int k = 0; k < 3000; ++k)
         TEST_ASSERT_DOUBLE_WITHIN(0.02 * 0.05, 0.02 * acceleration_at(time_at(k)), run.torque_Nm[k]);
 }
@@ -483,14 +467,14 @@ static void test_refused_runs(void)
     refused("theta_m_rad,torque_Nm\n", "a header and no samples");
     refused("theta_m_rad,torque_Nm\n1,x\n", "found `x`");
     TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, hci_run_read("no/such/file", 4, NAN, &run, NULL));
-    text("theta_m_rad,torque_Nm\n1,1\n");
+    files_write(path, "theta_m_rad,torque_Nm\n1,1\n");
     TEST_ASSERT_EQUAL(HCI_ERROR_ARGUMENT, hci_run_read(path, 0, NAN, &run, NULL));
 }
 
 static void test_unused_columns_are_named(void)
 {
     read_text("theta_m_rad,torqe_Nm,iq_A,va_V\n0,1,1,1\n", 2);
-    has_text("columns not used: `torqe_Nm`, `va_V`", run.remark.text);
+    text_has("columns not used: `torqe_Nm`, `va_V`", run.remark.text);
 }
 
 static void test_memory_runs_out_everywhere(void)
@@ -506,7 +490,7 @@ static void test_memory_runs_out_everywhere(void)
         hci_memory_fail_after(allowed);
         status = hci_run_read(path, 2, 0.1, &run, &note);
         if (status == HCI_ERROR_MEMORY) {
-            has_text("memory", note.text);
+            text_has("memory", note.text);
             TEST_ASSERT_EQUAL(0, run.count);
         }
     }
@@ -525,21 +509,13 @@ static void count_progress(void *context, const char *what, double share)
     ++*(int *)context;
 }
 
-static void write_list(const char *content)
-{
-    FILE *file = fopen(list_path, "w");
-    TEST_ASSERT_NOT_NULL(file);
-    fputs(content, file);
-    fclose(file);
-}
-
 static void refused_list(const char *content, const char *why)
 {
     hci_runs runs;
     hci_note said = {{0}};
-    write_list(content);
+    files_write(list_path, content);
     TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, hci_runs_read(list_path, 2, NAN, &runs, NULL, NULL, &said));
-    has_text(why, said.text);
+    text_has(why, said.text);
     TEST_ASSERT_NULL(runs.run);
 }
 
@@ -547,13 +523,13 @@ static void test_lists_are_relative_to_themselves(void)
 {
     hci_runs runs;
     int calls = 0;
-    snprintf(sub, sizeof sub, "%s/sub", folder);
-    snprintf(list_path, sizeof list_path, "%s/sub/list.csv", folder);
+    snprintf(sub, sizeof sub, "%s", files_path("sub"));
+    snprintf(list_path, sizeof list_path, "%s", files_path("sub/list.csv"));
     TEST_ASSERT_EQUAL(0, mkdir(sub, 0700));
-    text("theta_m_rad,torque_Nm\n0,1\n");
+    files_write(path, "theta_m_rad,torque_Nm\n0,1\n");
     char again[200];
     snprintf(again, sizeof again, "file,role,note\n../run.csv,Fit,x\n%s,holdout,\n", path);
-    write_list(again);
+    files_write(list_path, again);
     TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_runs_read(list_path, 2, NAN, &runs, count_progress, &calls, &note),
                               note.text);
     TEST_ASSERT_EQUAL(2, (int)runs.count);

@@ -1,6 +1,4 @@
 /* trajectory.csv: figures recomputed from it, what a logger reads of sensors, the same bytes every time. */
-#define _XOPEN_SOURCE 700
-
 #include "hci/host/simulate/simulate.h"
 #include "support/simulating.h"
 
@@ -22,7 +20,7 @@ static void test_figures_are_those_of_the_trajectory(void)
     const hci_scenario scenario = scenario_of("duration,0.15,s\nprescribed_speed,240,rpm\ntorque_reference,5,"
                                               "Nm\nstrategy,id0,\ncurrent_control,pi,\n"
                                               "trajectory_every,1,\nsettle,0.02,s\n");
-    hci_simulation s = simulate_into(&machine_c, &scenario, in_root("out"));
+    hci_simulation s = simulate_into(&machine_c, &scenario, files_path("out"));
     size_t rows;
     double *t = column("out/trajectory.csv", "time_s", &rows),
            *torque = column("out/trajectory.csv", "torque_Nm", &rows);
@@ -71,7 +69,7 @@ static void test_strategy_2_takes_over_at_its_time(void)
     const hci_scenario scenario =
         scenario_of("duration,0.6,s\nprescribed_speed,80,rpm\ntorque_reference,8,Nm\nstrategy,"
                     "id0,\nstrategy_2,cancel,\nstrategy_2_from,0.2,s\n");
-    hci_simulation s = simulate_into(&machine_c, &scenario, in_root("out"));
+    hci_simulation s = simulate_into(&machine_c, &scenario, files_path("out"));
     size_t rows;
     double *t = column("out/trajectory.csv", "time_s", &rows),
            *torque = column("out/trajectory.csv", "torque_Nm", &rows), before = 0.0;
@@ -117,7 +115,7 @@ static void test_the_trajectory_is_what_a_logger_reads(void)
                  "current_offset_a,0.3,A\ncurrent_gain_b,0.05,\nangle_offset,0.2,rad\ntorque_delay,0,s\n%s",
                  CONTROL[k]);
         scenario = scenario_of(rows);
-        s = simulate_into(&machine_c, &scenario, in_root("out"));
+        s = simulate_into(&machine_c, &scenario, files_path("out"));
         compare_columns("ia_A", "ia_true_A", 1.0, 0.3, 1e-12);
         compare_columns("ib_A", "ib_true_A", 1.05, 0.0, 1e-12);
         compare_columns("ic_A", "ic_true_A", 1.0, 0.0, 1e-12);
@@ -130,13 +128,13 @@ static void test_the_trajectory_is_what_a_logger_reads(void)
 static void test_readings_are_coarse_and_late(void)
 {
     const hci_scenario scenario = scenario_of(LOGGED "step,10,us\nencoder_counts,256,\ntorque_delay,30,us\n");
-    hci_simulation s = simulate_into(&machine_c, &scenario, in_root("out"));
+    hci_simulation s = simulate_into(&machine_c, &scenario, files_path("out"));
     size_t rows;
     double *angle = column("out/trajectory.csv", "theta_m_rad", &rows),
            *late = column("out/trajectory.csv", "torque_Nm", &rows),
            *truth = column("out/trajectory.csv", "torque_true_Nm", &rows);
     for (size_t k = 3; k < rows; ++k) {
-        const double counts = angle[k] * 256.0 / (2.0 * 3.14159265358979323846);
+        const double counts = angle[k] * 256.0 / (2.0 * REF_PI);
         TEST_ASSERT_DOUBLE_WITHIN(1e-9, floor(counts + 0.5), counts);
         TEST_ASSERT_EQUAL_DOUBLE(truth[k - 3], late[k]);
     }
@@ -161,18 +159,17 @@ static void test_same_input_same_bytes(void)
                  "current_noise,0.02,A\nseed,%d,\n",
                  run == 2 ? 8 : 7);
         scenario = scenario_of(rows);
-        s = simulate_into(&machine_c, &scenario, in_root("out"));
-        TEST_ASSERT_EQUAL_INT(3, entries(in_root("out")));
+        s = simulate_into(&machine_c, &scenario, files_path("out"));
+        TEST_ASSERT_EQUAL_INT(3, files_count(files_path("out")));
         for (int k = 0; k < 3; ++k) {
             char name[64], *text;
             snprintf(name, sizeof name, "out/%s", FILES[k]);
-            text = bytes_of(name);
+            text = files_read(files_path(name));
             if (run == 0) {
-                first[k] = text;
+                strcpy(first[k] = malloc(strlen(text) + 1), text);
                 continue;
             }
             TEST_ASSERT_EQUAL_INT_MESSAGE(run == 1, strcmp(text, first[k]) == 0, FILES[k]);
-            free(text);
         }
         hci_simulation_release(&s);
     }

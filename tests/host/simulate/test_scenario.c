@@ -1,6 +1,4 @@
 /* Scenarios: units, paths, wrong rows, contradictions, and what of the machine must be known for them. */
-#define _XOPEN_SOURCE 700
-
 #include "hci/host/simulate/simulate.h"
 #include "support/simulating.h"
 
@@ -20,12 +18,12 @@ static void test_units_and_relative_paths(void)
         scenario_of("duration,250,ms\nspeed_reference,60,rpm\nspeed_ki,200,Nm/rad\ninitial_angle,90,deg\n"
                     "hysteresis_band,100,mA\ncurrents,folder/x.csv,\nseed,3,-\n");
     TEST_ASSERT_EQUAL_DOUBLE(0.25, s.duration_s);
-    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 2.0 * 3.14159265358979323846, s.speed_reference_rad_per_s);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 2.0 * REF_PI, s.speed_reference_rad_per_s);
     TEST_ASSERT_EQUAL_DOUBLE(200.0, s.speed_ki_Nm_per_rad);
-    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.5 * 3.14159265358979323846, s.initial_angle_rad);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.5 * REF_PI, s.initial_angle_rad);
     TEST_ASSERT_DOUBLE_WITHIN(1e-15, 0.1, s.hysteresis_band_A);
     TEST_ASSERT_EQUAL_DOUBLE(3.0, s.seed);
-    TEST_ASSERT_EQUAL_STRING(in_root("folder/x.csv"), s.currents);
+    TEST_ASSERT_EQUAL_STRING(files_path("folder/x.csv"), s.currents);
     TEST_ASSERT_TRUE(isnan(s.step_s));
 }
 
@@ -64,12 +62,12 @@ static void test_contradictions_are_refused(void)
             "`current_sample_time`: found 1.5e-05 s");
     refused(&machine_c, RUNS "torque_reference,8,Nm\nstep,10,us\nangle_delay,5,us\n", "`angle_delay`");
     refused(&machine_c, RUNS "currents,none.csv,\n", "none.csv");
-    write_text("waves.csv", "order,set,amplitude_A,phase_rad\n1,pos,6,0\n");
+    files_write(files_path("waves.csv"), "order,set,amplitude_A,phase_rad\n1,pos,6,0\n");
     refused(&machine_c, RUNS "currents,waves.csv,\ntorque_reference,8,Nm\n",
             "give the folder that `solve` wrote");
-    write_text("waves.csv", "order,set,amplitude_A,phase_rad\n1.25,pos,6,0\n");
+    files_write(files_path("waves.csv"), "order,set,amplitude_A,phase_rad\n1.25,pos,6,0\n");
     refused(&machine_c, RUNS "currents,waves.csv,\n", "no multiple of 1/2");
-    write_text("waves.csv", "order,set,amplitude_A,phase_rad\n3,sym,6,0\n");
+    files_write(files_path("waves.csv"), "order,set,amplitude_A,phase_rad\n3,sym,6,0\n");
     refused(&machine_c, RUNS "currents,waves.csv,\n", "zero-sequence");
 }
 
@@ -126,13 +124,13 @@ static void test_a_step_that_is_too_large_is_said(void)
     const hci_scenario scenario =
         scenario_of("duration,10,s\ntorque_reference,8,Nm\nviscous_friction,1000,\nstep,1,ms\n");
     const hci_simulate_options options = {0};
-    const hci_simulate_output where = {in_root("out"), NULL};
+    const hci_simulate_output where = {files_path("out"), NULL};
     hci_simulation s;
     hci_note note = {{0}};
     TEST_ASSERT_EQUAL_INT(HCI_ERROR_NUMERIC,
                           hci_simulate_to_folder(&machine_c, &scenario, &options, &where, &s, &note));
     TEST_ASSERT_NOT_NULL(strstr(note.text, "smaller `step`"));
-    TEST_ASSERT_TRUE(entries(in_root("out")) <= 0);
+    TEST_ASSERT_TRUE(files_count(files_path("out")) <= 0);
 }
 
 int main(void)

@@ -1,7 +1,5 @@
 /* The simulated drive: what `solve` promised against what the plant does, energy, control, limits, effects,
  * failing memory. */
-#define _XOPEN_SOURCE 700
-
 #include <cjson/cJSON.h>
 
 #include "hci/host/simulate/simulate.h"
@@ -34,9 +32,9 @@ static void test_imposed_currents_keep_the_promise_of_machine_a(void)
 static void test_imposed_currents_keep_the_promise_of_machine_c(void)
 {
     static const hci_method METHOD[] = {HCI_METHOD_AUTO, HCI_METHOD_POINTWISE};
-    write_text("target.csv", "order,amplitude_Nm,phase_rad\n0,8,0\n");
+    files_write(files_path("target.csv"), "order,amplitude_Nm,phase_rad\n0,8,0\n");
     for (size_t k = 0; k < 2; ++k) {
-        hci_solution solution = solve(&machine_c, in_root("target.csv"), METHOD[k], HCI_STRATEGY_MTPA);
+        hci_solution solution = solve(&machine_c, files_path("target.csv"), METHOD[k], HCI_STRATEGY_MTPA);
         assert_promise_is_kept(&machine_c, "duration,0.8,s\nprescribed_speed,80,rpm\nstep,147.3,us\n" TURNED,
                                &solution);
     }
@@ -65,7 +63,7 @@ static void test_spectrum_is_over_the_angle(void)
     hci_harmonic predicted[4096];
     size_t count;
     hci_simulation s;
-    write_text("sine.csv", "order,set,amplitude_A,phase_rad\n1,pos,6,0\n");
+    files_write(files_path("sine.csv"), "order,set,amplitude_A,phase_rad\n1,pos,6,0\n");
     TEST_ASSERT_EQUAL(HCI_OK, hci_torque_orders(&machine_c.model, &sine, 1, orders, 4096, &count));
     hci_torque_spectrum(&machine_c.model, &sine, 1, orders, count, predicted);
     s = simulate(
@@ -88,7 +86,7 @@ static void test_spectrum_is_over_the_angle(void)
 static void test_turning_backwards_gives_the_same_spectrum(void)
 {
     hci_simulation forward, backward;
-    write_text("sine.csv", "order,set,amplitude_A,phase_rad\n1,pos,6,0.3\n");
+    files_write(files_path("sine.csv"), "order,set,amplitude_A,phase_rad\n1,pos,6,0.3\n");
     forward = simulate(&machine_c, "duration,0.8,s\ncurrents,sine.csv,\nprescribed_speed,80,rpm\n");
     backward = simulate(&machine_c, "duration,0.8,s\ncurrents,sine.csv,\nprescribed_speed,-80,rpm\n");
     TEST_ASSERT_EQUAL_UINT64(forward.periods, backward.periods);
@@ -220,8 +218,10 @@ static void test_effects_are_simulated(void)
     hci_simulate_options with = {0};
     hci_simulation s;
     hci_note note = {{0}};
-    write_text("effects.csv", "effect,parameter,value,unit,std_error\ncogging,sine_5,0.25,Nm,\n");
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_effects_read(in_root("effects.csv"), &effects, &note), note.text);
+    files_write(files_path("effects.csv"),
+                "effect,parameter,value,unit,std_error\ncogging,sine_5,0.25,Nm,\n");
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_effects_read(files_path("effects.csv"), &effects, &note),
+                              note.text);
     with.effects = &effects.list;
     machine_c.has_effects = true;
     TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, hci_simulate(&machine_c, &scenario, &without, &s, &note));
@@ -246,7 +246,7 @@ static void test_every_allocation_may_fail(void)
     hci_solution solution =
         solve(&machine_a, "data/scenarios/02/target.csv", HCI_METHOD_AUTO, HCI_STRATEGY_MTPA);
     const hci_simulate_options options = {0};
-    const hci_simulate_output where = {in_root("out"), NULL};
+    const hci_simulate_output where = {files_path("out"), NULL};
     cJSON_Hooks hooks = {hci_memory_malloc, hci_memory_free};
     hci_scenario scenario =
         scenario_of("duration,0.02,s\nprescribed_speed,1500,rpm\ncurrents,solution,\ntorque_reference,2,Nm\n"
@@ -260,17 +260,17 @@ static void test_every_allocation_may_fail(void)
         hci_note note = {{0}};
         memset(&s, 0, sizeof s);
         hci_memory_fail_after(n);
-        status = hci_scenario_read(in_root("scenario.csv"), &scenario, &note);
+        status = hci_scenario_read(files_path("scenario.csv"), &scenario, &note);
         if (!status) status = hci_simulate_to_folder(&machine_a, &scenario, &options, &where, &s, &note);
         hci_memory_fail_after(-1);
         hci_simulation_release(&s);
         if (status == HCI_OK) break;
         TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_ERROR_MEMORY, status, note.text);
         TEST_ASSERT_TRUE(note.text[0] != '\0');
-        TEST_ASSERT_TRUE(entries(in_root("out")) <= 0);
+        TEST_ASSERT_TRUE(files_count(files_path("out")) <= 0);
     }
     TEST_ASSERT_EQUAL_INT(HCI_OK, status);
-    TEST_ASSERT_EQUAL_INT(3, entries(in_root("out")));
+    TEST_ASSERT_EQUAL_INT(3, files_count(files_path("out")));
     TEST_ASSERT_TRUE(n > 60);
     cJSON_InitHooks(NULL);
 }

@@ -1,8 +1,6 @@
 /* The second paper's experiment, and currents of every strategy imposed on its machine. */
 /* labels: slow */
 /* The speed loop needs most of a second to settle, in hysteresis steps of 2 us. */
-#define _XOPEN_SOURCE 700
-
 #include "hci/host/simulate/simulate.h"
 #include "support/simulating.h"
 
@@ -60,7 +58,7 @@ static hci_simulation experiment(int strategy)
     print_row(strategy, &s);
     TEST_ASSERT_TRUE(s.periods >= 1);
     TEST_ASSERT_DOUBLE_WITHIN(0.01, 8.0, s.torque_Nm.mean); /* the load, in the steady state */
-    TEST_ASSERT_DOUBLE_WITHIN(0.05, 80.0, s.speed_rad_per_s.mean * 30.0 / 3.14159265358979);
+    TEST_ASSERT_DOUBLE_WITHIN(0.05, 80.0, s.speed_rad_per_s.mean * 30.0 / REF_PI);
     TEST_ASSERT_EQUAL_UINT64(0, s.without_current);
     TEST_ASSERT_TRUE(s.switching_frequency_Hz > 1000.0 && s.switching_frequency_Hz <= 20000.0);
     return s;
@@ -143,9 +141,10 @@ static void test_the_rest_of_strategy_3_is_the_band(void)
 static void test_imposed_currents_keep_the_promise_of_every_strategy(void)
 {
     static const hci_strategy STRATEGY[] = {HCI_STRATEGY_MTPA, HCI_STRATEGY_CANCEL, HCI_STRATEGY_ID0};
-    write_text("target.csv", "order,amplitude_Nm,phase_rad\n0,8,0\n");
+    files_write(files_path("target.csv"), "order,amplitude_Nm,phase_rad\n0,8,0\n");
     for (size_t k = 0; k < 3; ++k) {
-        hci_solution solution = solve(&machine_c, in_root("target.csv"), HCI_METHOD_POINTWISE, STRATEGY[k]);
+        hci_solution solution =
+            solve(&machine_c, files_path("target.csv"), HCI_METHOD_POINTWISE, STRATEGY[k]);
         assert_promise_is_kept(&machine_c, "duration,0.8,s\nprescribed_speed,80,rpm\nstep,71.3,us\n" TURNED,
                                &solution);
     }

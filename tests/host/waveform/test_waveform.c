@@ -1,7 +1,5 @@
 /* Orders of recorded waveforms: recordings written by their sine formulas, with noise whose size is known,
  * and measured ones. */
-#define _POSIX_C_SOURCE 200809L
-
 #include "hci/host/report/write.h"
 #include "hci/host/waveform/waveform.h"
 
@@ -15,7 +13,9 @@
 #include "hci/host/machine/machine.h"
 #include "hci/host/report/summary.h"
 #include "host/base/memory.h"
+#include "support/files.h"
 #include "support/reference.h"
+#include "support/texts.h"
 #include "unity.h"
 
 #define MEASURED "../shared/measured/"
@@ -57,14 +57,6 @@ static double gauss(void)
     return sqrt(-2.0 * log(u)) * cos(ref_uniform(&seed, 0.0, TURN));
 }
 
-static void has_text(const char *part, const char *whole)
-{
-    if (strstr(whole, part) != NULL) return;
-    char message[1400];
-    snprintf(message, sizeof message, "`%s` is not in `%s`", part, whole);
-    TEST_FAIL_MESSAGE(message);
-}
-
 static void find(void)
 {
     hci_waveform_release(&w);
@@ -77,7 +69,7 @@ static void refused(hci_status status, const char *why)
     hci_waveform none;
     hci_note said = {{0}};
     TEST_ASSERT_EQUAL(status, hci_waveform_find(&run, &options, &none, &said));
-    has_text(why, said.text);
+    text_has(why, said.text);
     TEST_ASSERT_NULL(none.order);
 }
 
@@ -278,7 +270,7 @@ static void test_one_direction_knows_no_friction(void)
     find();
     TEST_ASSERT_TRUE(isnan(w.friction_Nm));
     TEST_ASSERT_DOUBLE_WITHIN(1e-3, -0.03, w.mean_Nm);
-    has_text("one direction only", w.remark.text);
+    text_has("one direction only", w.remark.text);
 }
 
 /* The angle of an encoder that flickers by a count does not turn round at each sample. */
@@ -325,7 +317,7 @@ static void test_torque_of_a_current_is_taken_away(void)
         torque[k] += 0.08 * (3.0 + sin(theta_m[k]));
     }
     find();
-    has_text("currents of 2.18 A rms flow", w.remark.text); /* √((9 + 1/2)/2) */
+    text_has("currents of 2.18 A rms flow", w.remark.text); /* √((9 + 1/2)/2) */
     TEST_ASSERT_DOUBLE_WITHIN(1e-3, 0.08, order_at(1.0 / 3.0)->amplitude);
     options.torque_constant_Nm_per_A = 0.08;
     find();
@@ -343,7 +335,7 @@ static void test_a_wrapped_electrical_angle_has_whole_orders_only(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, 1.0, w.step);
     TEST_ASSERT_TRUE(kept(2.0) && kept(6.0));
     TEST_ASSERT_DOUBLE_WITHIN(1e-3, 0.05, order_at(6.0)->amplitude);
-    has_text("only whole electrical orders", w.remark.text);
+    text_has("only whole electrical orders", w.remark.text);
 }
 
 /* 25 samples a turn bear 10 mechanical orders; over many turns they lie between each other. */
@@ -364,7 +356,7 @@ static void test_turns_with_few_samples_are_put_together(void)
         theta_m[k] = TURN * k / 51.0; /* the same angles in each turn */
     find();
     TEST_ASSERT_EQUAL(20, (int)w.count);
-    has_text("orders above 6.66667 are not looked at", w.remark.text);
+    text_has("orders above 6.66667 are not looked at", w.remark.text);
 }
 
 /* Ten times as many samples in one half of the turn, and an order above those that are looked at: each part
@@ -407,7 +399,7 @@ static void test_a_part_of_a_turn_needs_orders(void)
     find();
     for (int k = 0; k < 3; ++k)
         TEST_ASSERT_DOUBLE_WITHIN(0.002, COGGING[k].amplitude, order_at(orders[k])->amplitude);
-    has_text("do not go round", w.remark.text);
+    text_has("do not go round", w.remark.text);
     record_cogging(800, 0.0001, 0.0, 0.0);
     refused(HCI_ERROR_INPUT, "cannot tell these orders apart");
 }
@@ -570,7 +562,7 @@ static void test_back_emf_of_a_run_down(void)
     assert_emf(1e-4);
     TEST_ASSERT_DOUBLE_WITHIN(5.0 * w.channel[0].offset_error_V + 1e-3, 5.0, w.channel[0].offset_V);
     TEST_ASSERT_DOUBLE_WITHIN(5.0 * w.channel[1].offset_error_V + 1e-3, -3.0, w.channel[1].offset_V);
-    has_text("channel va has an offset of 5 V", w.remark.text);
+    text_has("channel va has an offset of 5 V", w.remark.text);
 }
 
 static void test_turned_backward_with_an_angle(void)
@@ -595,10 +587,10 @@ static void test_channels_that_differ(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-3, 1.03, w.channel[2].ratio);
     TEST_ASSERT_DOUBLE_WITHIN(1e-3, -0.05, w.channel[2].phase_error_rad);
     TEST_ASSERT_DOUBLE_WITHIN(0.1015 * 1e-3, 0.1015, order_at(1.0)->amplitude);
-    has_text("channel vb reads 9.46 times the others: a x10 probe?", w.remark.text);
-    has_text("channel vc reads 1.03 times the others", w.remark.text);
-    has_text("channel vc has an offset of 1 V", w.remark.text);
-    has_text("rad off its third of a turn", w.remark.text);
+    text_has("channel vb reads 9.46 times the others: a x10 probe?", w.remark.text);
+    text_has("channel vc reads 1.03 times the others", w.remark.text);
+    text_has("channel vc has an offset of 1 V", w.remark.text);
+    text_has("rad off its third of a turn", w.remark.text);
 }
 
 static void test_an_angle_with_another_zero_is_told(void)
@@ -608,7 +600,7 @@ static void test_an_angle_with_another_zero_is_told(void)
     with_angle();
     find();
     TEST_ASSERT_DOUBLE_WITHIN(1e-6, -0.3, order_at(1.0)->phase_rad);
-    has_text("at -0.3 rad of phase a's fundamental", w.remark.text);
+    text_has("at -0.3 rad of phase a's fundamental", w.remark.text);
 }
 
 /* Does with the angle what the remark says. */
@@ -655,7 +647,7 @@ static void test_currents_are_told_as_rms_of_a_phase(void)
     for (size_t k = 0; k < run.count; ++k)
         set_iq(k, 2.0);
     find();
-    has_text("currents of 1.41 A rms flow", w.remark.text);
+    text_has("currents of 1.41 A rms flow", w.remark.text);
 }
 
 static void test_swapped_phases_are_told(void)
@@ -666,7 +658,7 @@ static void test_swapped_phases_are_told(void)
     with_angle();
     find();
     assert_emf(1e-5);
-    has_text("two phases are swapped", w.remark.text);
+    text_has("two phases are swapped", w.remark.text);
 }
 
 /* 60 periods; to a thousandth of a period at the ends. */
@@ -703,7 +695,7 @@ static void test_backward_without_an_angle(void)
     assert_emf(1e-5);
     TEST_ASSERT_DOUBLE_WITHIN(1e-4, -300.0 / TURN, w.frequency_Hz);
     TEST_ASSERT_DOUBLE_WITHIN(1e-3, -100.0, w.speed_rad_per_s);
-    has_text("taken as turned backward", w.remark.text);
+    text_has("taken as turned backward", w.remark.text);
 }
 
 static void test_voltages_without_a_period(void)
@@ -745,21 +737,17 @@ static void test_back_emf_orders_are_whole(void)
 
 static void test_what_is_written_is_a_machine_table(void)
 {
-    char folder[] = "/tmp/hci-test-waveform-XXXXXX", path[96], machine[96];
     hci_machine_data data;
-    TEST_ASSERT_NOT_NULL(mkdtemp(folder));
-    snprintf(machine, sizeof machine, "%s/machine.csv", folder);
-    FILE *file = fopen(machine, "w");
-    fputs("name,value,unit,source\npole_pairs,3,1,\n", file);
-    fclose(file);
+    files_begin();
+    files_write(files_path("machine.csv"), "name,value,unit,source\npole_pairs,3,1,\n");
     record_cogging(1500, 1.0, 0.0, 0.0);
     find();
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_waveform_write(&w, folder, &note), note.text);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_waveform_write(&w, files_root, &note), note.text);
     record_drive(20000, 1.0, 100.0, 0.0, &EVEN);
     with_angle();
     find();
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_waveform_write(&w, folder, &note), note.text);
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_machine_read(folder, &data, &note), note.text);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_waveform_write(&w, files_root, &note), note.text);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_machine_read(files_root, &data, &note), note.text);
     TEST_ASSERT_EQUAL(COGGING_COUNT, (int)data.model.cogging_count);
     TEST_ASSERT_EQUAL(EMF_COUNT, (int)data.model.back_emf_count);
     double e[3];
@@ -768,14 +756,10 @@ static void test_what_is_written_is_a_machine_table(void)
         TEST_ASSERT_DOUBLE_WITHIN(1e-5, ref_waves_at(EMF, EMF_COUNT, s, 1.234), e[s]);
     hci_machine_release(&data);
     char *json = hci_waveform_json(&w);
-    has_text("\"errors_from\":\t\"turns\"", json);
+    text_has("\"errors_from\":\t\"turns\"", json);
     hci_text_free(json);
-    const char *const names[] = {"machine.csv", "cogging.csv", "back_emf.csv"};
-    for (int k = 0; k < 3; ++k) {
-        snprintf(path, sizeof path, "%s/%s", folder, names[k]);
-        TEST_ASSERT_EQUAL(0, unlink(path));
-    }
-    rmdir(folder);
+    TEST_ASSERT_EQUAL_INT(5, files_count(files_root)); /* machine.csv, two tables, two pictures */
+    files_end();
 }
 
 static void memory_runs_out(void)
@@ -786,7 +770,7 @@ static void memory_runs_out(void)
         hci_note said = {{0}};
         hci_memory_fail_after(allowed);
         status = hci_waveform_find(&run, &options, &w, &said);
-        if (status == HCI_ERROR_MEMORY) has_text("memory", said.text);
+        if (status == HCI_ERROR_MEMORY) text_has("memory", said.text);
     }
     hci_memory_fail_after(-1);
     TEST_ASSERT_EQUAL(HCI_OK, status);
@@ -881,10 +865,10 @@ static void test_measured_back_emf(void)
         TEST_ASSERT_TRUE(w.channel[2].left_out && !w.channel[0].left_out && !w.channel[1].left_out);
         TEST_ASSERT_DOUBLE_WITHIN(0.001, 0.1, w.channel[2].ratio);
         TEST_ASSERT_TRUE(w.channel[1].offset_V < -0.1);
-        has_text("channel vc reads 0.0",
+        text_has("channel vc reads 0.0",
                  strstr(w.remark.text, "reads 0.1 ") ? "channel vc reads 0.0" : w.remark.text);
-        has_text("a x10 probe?", w.remark.text);
-        has_text("channel vb has an offset", w.remark.text);
+        text_has("a x10 probe?", w.remark.text);
+        text_has("channel vb has an offset", w.remark.text);
         hci_run_release(&recording);
     }
 }
