@@ -305,7 +305,7 @@ static void add_all(builder *b, const hci_candidates_source *s, const survey *x,
     add_back_emf(b, s->machine);
     add_phases(b, "phase_imbalance");
     add_reluctance(b, s->richness);
-    add_saturation(b, s->richness, &e);
+    if (reference_A > 0.0) add_saturation(b, s->richness, &e); /* a series in currents relative to it */
     if (x->warm) add_one(b, "magnet_temperature", "emf_per_kelvin", 0.0, 0.0);
     add_lines(b, lines, s->machine->pole_pairs, false);
     if (x->moving || x->timed) add_friction(b, s);
