@@ -1,0 +1,289 @@
+/* Which terms come in together: normal equations with a known answer, chance, and all subsets of small cases.
+ */
+#include "host/diagnose/search/group_selection.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "host/diagnose/fit/fit.h"
+#include "support/recording.h"
+#include "unity.h"
+
+enum { MOST = 12 };
+
+static const double ROWS = 200.0;
+
+static uint64_t seed;
+static hci_candidate item[MOST];
+static hci_candidates list;
+static size_t column[MOST];
+static hci_normal normal;
+static hci_sweep base, sweep;
+static bool in[MOST], spare[MOST];
+
+void setUp(void)
+{
+    seed = 4711;
+    memset(item, 0, sizeof item);
+    list = (hci_candidates){item, 0, 1.0};
+}
+
+static void problem_release(void)
+{
+    hci_normal_release(&normal);
+    hci_sweep_release(&base);
+    hci_sweep_release(&sweep);
+}
+
+void tearDown(void)
+{
+    problem_release();
+}
+
+/* ---- problems ---- */
+
+static void offer(const char *effect, size_t terms, double order, double price)
+{
+    hci_candidate *x = &item[list.count++];
+    *x = (hci_candidate){.type = hci_effect_type_find(effect), .count = terms, .price = price};
+    for (size_t k = 0; k < terms; ++k)
+        x->term[k] = (hci_effect_term){k, order, 0.0, NAN};
+}
+
+/* G = rows·I and moments of 0, to be filled in. */
+static void problem_start(void)
+{
+    size_t columns = 0;
+    problem_release();
+    for (size_t k = 0; k < list.count; ++k) {
+        column[k] = columns;
+        columns += list.candidate[k].count;
+    }
+    TEST_ASSERT_TRUE(hci_normal_start(&normal, columns));
+    normal.rows = normal.square = ROWS;
+    for (size_t c = 0; c < columns; ++c)
+        normal.gram[c * columns + c] = ROWS;
+}
+
+static void couple(size_t i, size_t j, double correlation)
+{
+    normal.gram[i * normal.n + j] = normal.gram[j * normal.n + i] = ROWS * correlation;
+}
+
+/* Chooses among two effects; the model is what is `in`. */
+static double choose_of(const char *a, const char *b)
+{
+    const hci_selection problem = {&list, column, &base, normal.rows};
+    hci_sweep_release(&base);
+    hci_sweep_release(&sweep);
+    TEST_ASSERT_TRUE(hci_sweep_start(&base, &normal) && hci_sweep_start(&sweep, &normal));
+    for (size_t k = 0; k < list.count; ++k)
+        if (item[k].in) hci_selection_enter(&problem, &base, k);
+    return hci_group_select(&problem, hci_effect_type_find(a), hci_effect_type_find(b), in, &sweep, spare);
+}
+
+static size_t chosen(void)
+{
+    size_t count = 0;
+    for (size_t k = 0; k < list.count; ++k)
+        count += in[k];
+    return count;
+}
+
+/* ---- a known answer ---- */
+
+/* Columns at right angles: χ² falls by b²/G for each, and each costs its price and ln(rows) a term. */
+static void test_the_true_terms_come_in(void)
+{
+    for (int n = 1; n <= 5; ++n)
+        offer("cogging", 2, 6.0 * n, 3.0);
+    problem_start();
+    normal.moment[2] = 90.0;
+    normal.moment[3] = -40.0;
+    normal.moment[9] = 100.0;
+    const double gain = choose_of("cogging", "cogging");
+    TEST_ASSERT_TRUE(in[1] && in[4]);
+    TEST_ASSERT_EQUAL_UINT64(2, chosen());
+    const double fall = (90.0 * 90.0 + 40.0 * 40.0 + 100.0 * 100.0) / ROWS;
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, fall - 2.0 * (3.0 + 2.0 * log(ROWS)), gain);
+}
+
+static void test_other_effects_and_the_model_stay(void)
+{
+    offer("cogging", 1, 6.0, 0.0);
+    offer("friction", 1, 0.0, 0.0);
+    offer("position_offset", 1, 0.0, 0.0);
+    offer("cogging", 1, 12.0, 0.0);
+    item[3].in = true;
+    problem_start();
+    for (size_t c = 0; c < 4; ++c)
+        normal.moment[c] = 100.0;
+    choose_of("cogging", "friction");
+    TEST_ASSERT_TRUE(in[0] && in[1] && !in[2] && !in[3]);
+    choose_of("position_offset", "position_offset");
+    TEST_ASSERT_TRUE(!in[0] && !in[1] && in[2] && !in[3]);
+}
+
+/* y = a + b, and a third column that is nearly a + b: it is the best alone, and superfluous in the end. */
+static void test_what_becomes_superfluous_leaves(void)
+{
+    for (int n = 1; n <= 3; ++n)
+        offer("cogging", 1, 6.0 * n, 0.0);
+    problem_start();
+    normal.square = 1000.0 * ROWS;
+    couple(0, 2, 0.66);
+    couple(1, 2, 0.66);
+    normal.moment[0] = normal.moment[1] = 10.0 * ROWS;
+    normal.moment[2] = 13.2 * ROWS;
+    choose_of("cogging", "cogging");
+    TEST_ASSERT_TRUE(in[0] && in[1] && !in[2]);
+}
+
+/* A column that is another one once more brings nothing, and is refused. */
+static void test_a_column_twice(void)
+{
+    offer("cogging", 1, 6.0, 0.0);
+    offer("cogging", 1, 12.0, 0.0);
+    problem_start();
+    couple(0, 1, 1.0);
+    normal.moment[0] = normal.moment[1] = 100.0;
+    choose_of("cogging", "cogging");
+    TEST_ASSERT_EQUAL_UINT64(1, chosen());
+    const hci_selection problem = {&list, column, &base, normal.rows};
+    TEST_ASSERT_TRUE(hci_selection_enter(&problem, &base, 0));
+    TEST_ASSERT_FALSE(hci_selection_enter(&problem, &base, 1));
+}
+
+/* Powers at order 0 whose difference explains much and each of which next to nothing: all at once, and only
+ * saturation does that. */
+static void test_powers_that_help_together_only(void)
+{
+    for (int what = 0; what < 2; ++what) {
+        const char *const effect = what == 0 ? "saturation" : "reluctance";
+        const double correlation = 0.999, moment = 4.0;
+        list.count = 0;
+        offer(effect, 1, 0.0, 0.0);
+        offer(effect, 1, 0.0, 0.0);
+        item[1].term[0].parameter = 1;
+        problem_start();
+        couple(0, 1, correlation);
+        normal.moment[0] = moment;
+        normal.moment[1] = -moment;
+        const double gain = choose_of(effect, effect);
+        TEST_ASSERT_EQUAL_UINT64(what == 0 ? 2 : 0, chosen());
+        const double fall = 2.0 * moment * moment / ROWS / (1.0 - correlation);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-6, what == 0 ? fall - 2.0 * log(ROWS) : 0.0, gain);
+    }
+}
+
+/* ---- chance ---- */
+
+/* Noise makes moments N(0, rows). A pair of columns lowers χ² by more than 2 ln M + 2 ln(rows) once in M·rows
+ * times, so that one of M pairs comes in once in `rows` times. */
+static void test_noise_comes_in_at_the_rate_of_its_price(void)
+{
+    enum { PAIRS = 6, DRAWS = 8000 };
+    const double rate = 1.0 - pow(1.0 - 1.0 / (PAIRS * ROWS), PAIRS);
+    double alarms = 0.0;
+    for (int n = 1; n <= PAIRS; ++n)
+        offer("cogging", 2, 6.0 * n, 2.0 * log(PAIRS));
+    problem_start();
+    for (int k = 0; k < DRAWS; ++k) {
+        for (size_t c = 0; c < normal.n; ++c)
+            normal.moment[c] = sqrt(ROWS) * rec_normal(&seed);
+        const double gain = choose_of("cogging", "cogging");
+        TEST_ASSERT_TRUE((chosen() > 0) == (gain > 0.0));
+        alarms += chosen() > 0;
+    }
+    const double deviation = sqrt(rate * DRAWS); /* 6.3 of 40 */
+    TEST_ASSERT_DOUBLE_WITHIN(3.0 * deviation, rate * DRAWS, alarms);
+}
+
+/* ---- all subsets ---- */
+
+/* χ² that the columns of a subset leave, by Gaussian elimination on the bordered matrix; its cost on top. */
+static double score_of(unsigned subset)
+{
+    double a[MOST + 1][MOST + 1], cost = 0.0;
+    size_t n = 0, at[MOST];
+    for (size_t k = 0; k < list.count; ++k)
+        if (subset >> k & 1u) {
+            at[n++] = k;
+            cost += hci_candidate_cost(&item[k], normal.rows);
+        }
+    for (size_t i = 0; i <= n; ++i)
+        for (size_t j = 0; j <= n; ++j)
+            a[i][j] = i < n && j < n ? normal.gram[at[i] * normal.n + at[j]]
+                      : i < n        ? normal.moment[at[i]]
+                      : j < n        ? normal.moment[at[j]]
+                                     : normal.square;
+    for (size_t k = 0; k < n; ++k)
+        for (size_t i = k + 1; i <= n; ++i) {
+            const double factor = a[i][k] / a[k][k];
+            for (size_t j = k; j <= n; ++j)
+                a[i][j] -= factor * a[k][j];
+        }
+    return a[n][n] + cost;
+}
+
+/* Columns of random rows, some alike, and a random truth of two of them. */
+static void draw(size_t count)
+{
+    double x[200][MOST], y[200];
+    problem_start();
+    memset(normal.gram, 0, count * count * sizeof *normal.gram);
+    normal.square = 0.0;
+    for (size_t k = 0; k < 200; ++k) {
+        y[k] = rec_normal(&seed);
+        for (size_t c = 0; c < count; ++c)
+            x[k][c] = rec_normal(&seed) + (c > 0 && c % 2 == 0 ? x[k][c - 1] : 0.0);
+        y[k] += 0.4 * x[k][1] - 0.3 * x[k][4];
+        normal.square += y[k] * y[k];
+    }
+    for (size_t i = 0; i < count; ++i)
+        for (size_t k = 0; k < 200; ++k) {
+            normal.moment[i] += x[k][i] * y[k];
+            for (size_t j = 0; j < count; ++j)
+                normal.gram[i * count + j] += x[k][i] * x[k][j];
+        }
+}
+
+/* The gain is that of the subset; no single term out or in (by its least gain of 2) would be better; and it
+ * is nearly always the best of all subsets. */
+static void test_against_all_subsets(void)
+{
+    enum { COUNT = 7, DRAWS = 60 };
+    int best = 0;
+    for (int n = 1; n <= COUNT; ++n)
+        offer("cogging", 1, 6.0 * n, 1.0);
+    for (int draws = 0; draws < DRAWS; ++draws) {
+        unsigned subset = 0;
+        double least = INFINITY;
+        draw(COUNT);
+        const double gain = choose_of("cogging", "cogging");
+        for (unsigned k = 0; k < COUNT; ++k)
+            subset |= (unsigned)in[k] << k;
+        const double score = score_of(subset);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9 * ROWS, score_of(0) - score, gain);
+        for (unsigned k = 0; k < COUNT; ++k)
+            TEST_ASSERT_TRUE(score_of(subset ^ 1u << k) > score - (in[k] ? 1e-9 : 2.0));
+        for (unsigned other = 0; other < 1u << COUNT; ++other)
+            least = fmin(least, score_of(other));
+        TEST_ASSERT_TRUE(score > least - 1e-9);
+        best += score < least + 2.0;
+    }
+    TEST_ASSERT_TRUE(best >= DRAWS * 9 / 10);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_the_true_terms_come_in);
+    RUN_TEST(test_other_effects_and_the_model_stay);
+    RUN_TEST(test_what_becomes_superfluous_leaves);
+    RUN_TEST(test_a_column_twice);
+    RUN_TEST(test_powers_that_help_together_only);
+    RUN_TEST(test_noise_comes_in_at_the_rate_of_its_price);
+    RUN_TEST(test_against_all_subsets);
+    return UNITY_END();
+}

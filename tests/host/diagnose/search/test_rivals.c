@@ -1,0 +1,140 @@
+/* Effects in place of others: what the recordings cannot tell apart is ambiguous, what they can is not. */
+#define _XOPEN_SOURCE 700
+
+#include "host/diagnose/search/rivals.h"
+
+#include "host/diagnose/search/candidate_models.h"
+#include "support/searching.h"
+
+enum { SAMPLES = 300 }; /* of a run: a mechanical turn */
+
+static hci_attribution attribution;
+
+void setUp(void)
+{
+    dataset_start();
+    memset(&attribution, 0, sizeof attribution);
+}
+
+void tearDown(void)
+{
+    hci_attribution_release(&attribution);
+    search_end();
+    dataset_end();
+}
+
+/* Friction at one speed, in four runs of which the last ones turn back. current_A: of every second one. */
+static void record_friction(int back, double current_A)
+{
+    for (int k = 0; k < 4; ++k) {
+        const double direction = k + back < 4 ? 1.0 : -1.0;
+        record(SAMPLES,
+               &(point){60.0 * direction, k % 2 ? current_A : 0.2 * current_A, 0.0, 0.05 * direction, 0.0});
+    }
+    search_start();
+}
+
+static size_t index_of(const char *effect)
+{
+    size_t k = 0;
+    while (hci_candidate_type(k) != hci_effect_type_find(effect))
+        ++k;
+    return k;
+}
+
+/* The verdicts on the effects that could stand in place of one. */
+static void rivals_of(const char *effect)
+{
+    attribution.types = hci_candidate_types();
+    for (size_t r = 0; r < attribution.types; ++r)
+        attribution.verdict[r].type = hci_candidate_type(r);
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_fitted_model_copy(&model, &attribution.model, &note));
+    TEST_ASSERT_EQUAL_INT(HCI_OK,
+                          hci_search_rivals(&search, hci_effect_type_find(effect), &attribution, &note));
+}
+
+static size_t count_ambiguous(void)
+{
+    size_t count = 0;
+    for (size_t r = 0; r < attribution.types; ++r)
+        count += attribution.verdict[r].ambiguous;
+    return count;
+}
+
+/* One speed and direction: a constant torque, which a wrong zero of the torque sensor is, too. */
+static void test_what_looks_the_same_is_ambiguous(void)
+{
+    record_friction(0, 9.0);
+    model_add("friction", "coulomb", NULL, 0.0);
+    model_fit();
+    rivals_of("friction");
+    const hci_verdict *zero = &attribution.verdict[index_of("torque_sensor")];
+    TEST_ASSERT_TRUE(zero->ambiguous && attribution.verdict[index_of("friction")].ambiguous);
+    TEST_ASSERT_EQUAL_UINT64(2, count_ambiguous());
+    TEST_ASSERT_TRUE(zero->rival_of == hci_effect_type_find("friction"));
+    const hci_effect_term *offset = term_in(&zero->alternative.candidates, "torque_sensor", "offset", 0.0);
+    TEST_ASSERT_DOUBLE_WITHIN(3.0 * offset->std_error, -0.05, offset->value);
+    TEST_ASSERT_DOUBLE_WITHIN(0.5, model.fit.score, zero->alternative.fit.score);
+}
+
+static void test_what_can_be_told_apart_is_not(void)
+{
+    record_friction(2, 9.0);
+    model_add("friction", "coulomb", NULL, 0.0);
+    model_fit();
+    rivals_of("friction");
+    TEST_ASSERT_EQUAL_UINT64(0, count_ambiguous());
+}
+
+/* Two effects in the model that are one and the same in the recordings: each could take over from the other.
+ */
+static void test_columns_that_are_the_same(void)
+{
+    for (int both = 0; both < 2; ++both) {
+        const hci_effect_type *same_as[HCI_MOST_TYPES];
+        record_friction(2 * both, 9.0);
+        model_add("friction", "coulomb", NULL, 0.0);
+        model_fit();
+        TEST_ASSERT_EQUAL_INT(HCI_OK, hci_candidate_models_same(&search, &model.candidates, same_as, &note));
+        TEST_ASSERT_TRUE(same_as[index_of("torque_sensor")] ==
+                         (both ? NULL : hci_effect_type_find("friction")));
+        TEST_ASSERT_NULL(same_as[index_of("current_offset")]);
+        tearDown();
+        setUp();
+    }
+}
+
+/* ---- another effect instead ---- */
+
+/* A wrong zero describes a part of a friction that has one sign in three runs and the other in one.
+ * Without current: with it powers of the current would do as well. */
+static void test_a_better_effect_takes_the_place(void)
+{
+    bool swapped = false;
+    record_friction(1, 0.0);
+    model_add("torque_sensor", "offset", NULL, 0.0);
+    model_fit();
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_swap(&search, &model, &swapped, &note));
+    TEST_ASSERT_TRUE(swapped && model_has("friction") && !model_has("torque_sensor"));
+}
+
+static void test_the_right_effect_stays(void)
+{
+    bool swapped = true;
+    record_friction(1, 0.0);
+    model_add("friction", "coulomb", NULL, 0.0);
+    model_fit();
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_swap(&search, &model, &swapped, &note));
+    TEST_ASSERT_TRUE(!swapped && model_has("friction"));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_what_looks_the_same_is_ambiguous);
+    RUN_TEST(test_what_can_be_told_apart_is_not);
+    RUN_TEST(test_columns_that_are_the_same);
+    RUN_TEST(test_a_better_effect_takes_the_place);
+    RUN_TEST(test_the_right_effect_stays);
+    return UNITY_END();
+}
