@@ -1,0 +1,220 @@
+/* At which orders something is missing: what each would explain against least squares, the rate of chance,
+ * and which orders are of slots, of the turn, or grow as nothing known does. */
+#include "host/diagnose/candidates/candidate_orders.h"
+
+#include <string.h>
+
+#include "host/diagnose/candidates/empirical_term.h"
+#include "support/recording.h"
+#include "unity.h"
+
+enum { P = 3, RUNS = 4, SAMPLES = 200, COUNT = RUNS * SAMPLES };
+
+static const double NOISE_NM = 0.01;
+static const hci_machine MACHINE = {.pole_pairs = P};
+
+static uint64_t seed;
+static hci_binned_sample sample[COUNT];
+static hci_segment segment[RUNS];
+static hci_run_statistics statistics[RUNS];
+static hci_run run[RUNS];
+static bool use[RUNS];
+static double residual_Nm[COUNT], variance[COUNT];
+static hci_binned_samples samples;
+static hci_candidates_source source;
+static hci_candidate_orders orders;
+
+/* One turn each, of different currents. */
+void setUp(void)
+{
+    seed = 31;
+    memset(sample, 0, sizeof sample);
+    memset(statistics, 0, sizeof statistics);
+    for (size_t r = 0; r < RUNS; ++r) {
+        const double iq = 0.5 * (double)(r * r);
+        segment[r] = (hci_segment){r, r * SAMPLES, SAMPLES, 0, 0.0, false, false};
+        statistics[r].current_A = iq;
+        for (size_t k = r * SAMPLES; k < (r + 1) * SAMPLES; ++k) {
+            sample[k].reading.theta_m_rad = 2.0 * REF_PI * (double)(k % SAMPLES) / SAMPLES;
+            rec_phases(0.0, iq, P * sample[k].reading.theta_m_rad, sample[k].reading.i_abc);
+            residual_Nm[k] = NOISE_NM * rec_normal(&seed);
+            variance[k] = NOISE_NM * NOISE_NM;
+        }
+        use[r] = true;
+    }
+    samples = (hci_binned_samples){sample, COUNT, segment, RUNS, statistics, RUNS};
+    source = (hci_candidates_source){&MACHINE, &samples, run, use, residual_Nm, variance, NAN, 0};
+}
+
+void tearDown(void)
+{
+    hci_candidate_orders_release(&orders);
+}
+
+static void find(size_t stride)
+{
+    hci_candidate_orders_release(&orders);
+    TEST_ASSERT_TRUE(hci_candidate_orders_make(&source, stride, &orders));
+}
+
+/* A wave with so many periods in a turn, with the size of some law of the current. */
+static void hide(size_t periods, double amplitude_Nm, double exponent)
+{
+    for (size_t k = 0; k < COUNT; ++k)
+        residual_Nm[k] += amplitude_Nm * pow(statistics[k / SAMPLES].current_A, exponent) *
+                          sin((double)periods * sample[k].reading.theta_m_rad + 0.7);
+}
+
+/* ---- what an order explains ---- */
+
+/* χ² less χ² beside a sine and a cosine whose values solve the 2×2 normal equations, times i_q or not; of
+ * residuals whose means run by run are taken away. */
+static double fall(size_t periods, bool with_current)
+{
+    double g[3] = {0.0}, m[2] = {0.0}, mean[RUNS] = {0.0};
+    for (size_t k = 0; k < COUNT; ++k)
+        mean[k / SAMPLES] += residual_Nm[k] / SAMPLES;
+    for (size_t k = 0; k < COUNT; ++k) {
+        const double size = with_current ? statistics[k / SAMPLES].current_A : 1.0;
+        const double angle = (double)periods * sample[k].reading.theta_m_rad;
+        const double s = size * sin(angle) / NOISE_NM, c = size * cos(angle) / NOISE_NM;
+        const double y = (residual_Nm[k] - mean[k / SAMPLES]) / NOISE_NM;
+        g[0] += s * s;
+        g[1] += s * c;
+        g[2] += c * c;
+        m[0] += s * y;
+        m[1] += c * y;
+    }
+    const double d = g[0] * g[2] - g[1] * g[1];
+    return (m[0] * (g[2] * m[0] - g[1] * m[1]) + m[1] * (g[0] * m[1] - g[1] * m[0])) / d;
+}
+
+static void test_what_an_order_explains(void)
+{
+    hide(18, 0.004, 0.0);
+    hide(7, 0.002, 1.0);
+    find(1);
+    for (size_t n = 1; n < orders.count && n < 90; ++n) {
+        TEST_ASSERT_DOUBLE_WITHIN(1e-6 * fall(n, false) + 1e-9, fall(n, false), orders.still[n]);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-6 * fall(n, true) + 1e-9, fall(n, true), orders.with_current[n]);
+    }
+    TEST_ASSERT_DOUBLE_WITHIN(0.3 * 64.0, 0.5 * 0.004 * 0.004 / (NOISE_NM * NOISE_NM) * COUNT,
+                              orders.still[18]);
+}
+
+/* Noise gives χ² of two degrees of freedom: above x once in exp(x/2) times, above the limit once in 403. */
+static void test_noise_stands_out_at_the_rate_of_the_limit(void)
+{
+    const double rate = exp(-0.5 * HCI_STANDS_OUT);
+    double tries = 0.0, alarms = 0.0, above_2 = 0.0;
+    for (int draw = 0; draw < 60; ++draw) {
+        for (size_t k = 0; k < COUNT; ++k)
+            residual_Nm[k] = NOISE_NM * rec_normal(&seed);
+        find(1);
+        for (size_t n = 1; n < 90; ++n, tries += 1.0) {
+            alarms += orders.still[n] > HCI_STANDS_OUT;
+            above_2 += orders.still[n] > 2.0;
+        }
+    }
+    TEST_ASSERT_DOUBLE_WITHIN(3.0 * sqrt(rate * tries), rate * tries, alarms); /* 13 ± 3.6 */
+    TEST_ASSERT_DOUBLE_WITHIN(3.0 * sqrt(0.23 * tries), exp(-1.0) * tries, above_2);
+}
+
+/* Orders that half the samples of a turn do not resolve are none. */
+static void test_orders_end_below_half_the_samples(void)
+{
+    double under = INFINITY;
+    hide(SAMPLES - 18, 0.1, 0.0); /* looks like order 18 */
+    find(1);
+    TEST_ASSERT_TRUE(orders.count <= SAMPLES / 2);
+    TEST_ASSERT_EQUAL_UINT64(18, hci_candidate_orders_next(&orders, P, true, &under));
+    for (size_t k = 0; k < COUNT; ++k)
+        variance[k] = 1.0;
+    find(P);
+    TEST_ASSERT_TRUE(orders.stride == P && orders.count * P <= SAMPLES / 2 + P);
+}
+
+/* ---- which orders ---- */
+
+/* Whole electrical orders are of slots and poles, the rest is of the turn; the strongest comes first. */
+static void test_slots_and_the_turn(void)
+{
+    double under = INFINITY;
+    hide(18, 0.02, 0.0);
+    hide(36, 0.05, 0.0);
+    hide(1, 0.03, 0.0);
+    hide(7, 0.01, 1.0);
+    find(1);
+    TEST_ASSERT_EQUAL_UINT64(36, hci_candidate_orders_next(&orders, P, true, &under));
+    TEST_ASSERT_EQUAL_UINT64(18, hci_candidate_orders_next(&orders, P, true, &under));
+    under = INFINITY;
+    const size_t first = hci_candidate_orders_next(&orders, P, false, &under);
+    const size_t second = hci_candidate_orders_next(&orders, P, false, &under);
+    TEST_ASSERT_TRUE((first == 1 && second == 7) || (first == 7 && second == 1));
+}
+
+/* Two thirds of a pole pair's orders are shared by groups of poles and slots: of 6 pole pairs order 9. */
+static void test_groups_of_slots(void)
+{
+    double under = INFINITY;
+    hide(9, 0.05, 0.0);
+    find(1);
+    TEST_ASSERT_EQUAL_UINT64(9, hci_candidate_orders_next(&orders, 6, true, &under));
+    under = INFINITY;
+    TEST_ASSERT_NOT_EQUAL(9, hci_candidate_orders_next(&orders, 6, false, &under));
+    under = INFINITY;
+    TEST_ASSERT_EQUAL_UINT64(9, hci_candidate_orders_next(&orders, 7, false, &under));
+}
+
+/* ---- laws of growth ---- */
+
+/* Growth with the root of the current is nothing that an effect does; growth in proportion is. */
+static void test_growth_that_no_effect_has(void)
+{
+    size_t law = 0, none[1] = {0};
+    hide(18, 0.05, 0.5);
+    find(1);
+    TEST_ASSERT_EQUAL_UINT64(18, hci_candidate_orders_empirical(&orders, &samples, none, 0, &law));
+    const hci_growth_law found = hci_growth_law_of(law);
+    TEST_ASSERT_EQUAL_DOUBLE(0.5, found.current);
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, found.speed);
+    hide(18, -0.05, 0.5);
+    hide(18, 0.05, 1.0); /* the best law that is left is another one */
+    find(1);
+    TEST_ASSERT_EQUAL_UINT64(18, hci_candidate_orders_empirical(&orders, &samples, none, 0, &law));
+    TEST_ASSERT_FALSE(hci_growth_law_is_known(law, 18.0));
+    none[0] = 18;
+    TEST_ASSERT_NOT_EQUAL(18, hci_candidate_orders_empirical(&orders, &samples, none, 1, &law));
+}
+
+static void test_laws_of_growth(void)
+{
+    bool seen[3] = {false};
+    for (size_t g = 0; g < HCI_GROWTH_LAWS; ++g) {
+        const hci_growth_law x = hci_growth_law_of(g);
+        const double expected = pow(3.0, x.current) * pow(50.0, x.speed);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9 * expected, expected, hci_growth_law_at(g, 3.0, 50.0));
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9 * expected, x.turns_sign ? -expected : expected,
+                                  hci_growth_law_at(g, 3.0, -50.0));
+        seen[0] = seen[0] ||
+                  (x.current == 1.0 && x.speed == 0.0 && !x.turns_sign && hci_growth_law_is_known(g, 6.0));
+        seen[1] = seen[1] ||
+                  (x.current == 0.5 && x.speed == 0.0 && !x.turns_sign && !hci_growth_law_is_known(g, 6.0));
+        seen[2] = seen[2] || (x.current == 0.0 && x.speed == 1.0 && x.turns_sign &&
+                              hci_growth_law_is_known(g, 0.0) && !hci_growth_law_is_known(g, 6.0));
+    }
+    TEST_ASSERT_TRUE(seen[0] && seen[1] && seen[2]);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_what_an_order_explains);
+    RUN_TEST(test_noise_stands_out_at_the_rate_of_the_limit);
+    RUN_TEST(test_orders_end_below_half_the_samples);
+    RUN_TEST(test_slots_and_the_turn);
+    RUN_TEST(test_groups_of_slots);
+    RUN_TEST(test_growth_that_no_effect_has);
+    RUN_TEST(test_laws_of_growth);
+    return UNITY_END();
+}

@@ -1,0 +1,313 @@
+/* Which terms are offered for which recordings. */
+#include "host/diagnose/candidates/make_candidates.h"
+
+#include <string.h>
+
+#include "host/base/memory.h"
+#include "support/recording.h"
+#include "unity.h"
+
+enum { P = 3, RUNS = 3, SAMPLES = 180 };
+
+static const double NOISE_NM = 0.01;
+
+static uint64_t seed;
+static hci_wave back_emf[2];
+static hci_machine machine;
+static hci_run run[RUNS];
+static bool use[RUNS];
+static double residual_Nm[RUNS * SAMPLES], variance[RUNS * SAMPLES];
+static hci_binned_samples samples;
+static hci_candidates list;
+static int richness;
+
+/* One turn each at three speeds and currents, with noise for a residual. */
+void setUp(void)
+{
+    seed = 77;
+    richness = 0;
+    back_emf[0] = (hci_wave){1.0, 1, 0.2, 0.0};
+    back_emf[1] = (hci_wave){2.0, -1, 0.001, 0.0};
+    machine = (hci_machine){.pole_pairs = P, .back_emf = back_emf, .back_emf_count = 1};
+    for (size_t r = 0; r < RUNS; ++r) {
+        run[r] = rec_make(SAMPLES);
+        use[r] = true;
+        for (size_t k = 0; k < SAMPLES; ++k) {
+            run[r].theta_m_rad[k] = 2.0 * REF_PI * (double)k / SAMPLES;
+            run[r].speed_rad_per_s[k] = 20.0 * (double)(r + 1);
+            run[r].time_s[k] = run[r].theta_m_rad[k] / run[r].speed_rad_per_s[k];
+            rec_phases(0.0, (double)r, P * run[r].theta_m_rad[k], run[r].i_A + 3 * k);
+            residual_Nm[r * SAMPLES + k] = NOISE_NM * rec_normal(&seed);
+            variance[r * SAMPLES + k] = NOISE_NM * NOISE_NM;
+        }
+    }
+}
+
+void tearDown(void)
+{
+    hci_memory_fail_after(-1);
+    hci_candidates_release(&list);
+    hci_binned_samples_release(&samples);
+    for (size_t r = 0; r < RUNS; ++r)
+        rec_release(&run[r]);
+}
+
+static void hide(double periods, double amplitude_Nm)
+{
+    for (size_t k = 0; k < RUNS * SAMPLES; ++k)
+        residual_Nm[k] += amplitude_Nm * cos(periods * run[0].theta_m_rad[k % SAMPLES]);
+}
+
+static hci_status make_from(const hci_candidates *known)
+{
+    const hci_candidates_source source = {&machine, &samples, run, use, residual_Nm, variance, NAN, richness};
+    hci_note note = {{0}};
+    hci_candidates_release(&list);
+    return hci_candidates_make(&source, known, &list, &note);
+}
+
+static void make(void)
+{
+    hci_note note = {{0}};
+    hci_binned_samples_release(&samples);
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_binned_samples_make(&machine, run, RUNS, &samples, &note));
+    TEST_ASSERT_EQUAL_INT(HCI_OK, make_from(NULL));
+}
+
+static void free_column(double **column)
+{
+    free(*column);
+    *column = NULL;
+}
+
+/* The terms of an effect whose names begin so, and the largest order among them. */
+static size_t terms_of(const char *effect, const char *name, double *most_order)
+{
+    size_t count = 0;
+    if (most_order) *most_order = 0.0;
+    for (size_t k = 0; k < list.count; ++k)
+        for (size_t j = 0; j < list.candidate[k].count; ++j) {
+            const hci_candidate *x = &list.candidate[k];
+            if (strcmp(x->type->name, effect) != 0 ||
+                strncmp(x->type->parameter[x->term[j].parameter].name, name, strlen(name)) != 0)
+                continue;
+            ++count;
+            if (most_order) *most_order = fmax(*most_order, x->term[j].order);
+        }
+    return count;
+}
+
+static bool is_offered(const char *effect, const char *name, double order)
+{
+    for (size_t k = 0; k < list.count; ++k)
+        for (size_t j = 0; j < list.candidate[k].count; ++j) {
+            const hci_candidate *x = &list.candidate[k];
+            if (strcmp(x->type->name, effect) == 0 &&
+                strcmp(x->type->parameter[x->term[j].parameter].name, name) == 0 &&
+                fabs(x->term[j].order - order) < 1e-9)
+                return true;
+        }
+    return false;
+}
+
+/* ---- what the recordings contain ---- */
+
+/* All candidates of an effect stand together, out of the model and with nothing to start from. */
+static void test_the_list_is_in_order(void)
+{
+    make();
+    for (size_t k = 1; k < list.count; ++k) {
+        const hci_effect_type *before = list.candidate[k - 1].type;
+        for (size_t j = k + 1; j < list.count && list.candidate[k].type != before; ++j)
+            TEST_ASSERT_FALSE(list.candidate[j].type == before);
+    }
+    for (size_t k = 0; k < list.count; ++k) {
+        TEST_ASSERT_FALSE(list.candidate[k].in);
+        TEST_ASSERT_TRUE(list.candidate[k].price >= 0.0 && list.candidate[k].deviation >= 0.0);
+        for (size_t j = 0; j < list.candidate[k].count; ++j)
+            TEST_ASSERT_EQUAL_DOUBLE(0.0, list.candidate[k].term[j].value);
+    }
+}
+
+static void test_without_time_no_delay_and_no_lag(void)
+{
+    make();
+    TEST_ASSERT_EQUAL_UINT64(2, terms_of("channel_delay", "", NULL));
+    TEST_ASSERT_EQUAL_UINT64(1, terms_of("torque_sensor", "time_constant", NULL));
+    for (size_t r = 0; r < RUNS; ++r)
+        free_column(&run[r].time_s);
+    make();
+    TEST_ASSERT_EQUAL_UINT64(0, terms_of("channel_delay", "", NULL));
+    TEST_ASSERT_EQUAL_UINT64(0, terms_of("torque_sensor", "time_constant", NULL));
+    TEST_ASSERT_EQUAL_UINT64(1, terms_of("torque_sensor", "offset", NULL));
+}
+
+/* As many parts of the law of friction as speeds that differ, of runs in use. */
+static void test_friction_has_as_many_parts_as_speeds(void)
+{
+    make();
+    TEST_ASSERT_EQUAL_UINT64(3, terms_of("friction", "", NULL));
+    use[2] = false;
+    make();
+    TEST_ASSERT_EQUAL_UINT64(2, terms_of("friction", "", NULL));
+    for (size_t k = 0; k < SAMPLES; ++k)
+        run[1].speed_rad_per_s[k] = -20.5; /* the same but for the direction */
+    make();
+    TEST_ASSERT_EQUAL_UINT64(1, terms_of("friction", "coulomb", NULL));
+    TEST_ASSERT_EQUAL_UINT64(1, terms_of("friction", "", NULL));
+    for (size_t r = 0; r < RUNS; ++r) {
+        free_column(&run[r].speed_rad_per_s);
+        free_column(&run[r].time_s);
+    }
+    make();
+    TEST_ASSERT_EQUAL_UINT64(0, terms_of("friction", "", NULL));
+}
+
+static void test_the_magnets_need_a_temperature(void)
+{
+    make();
+    TEST_ASSERT_EQUAL_UINT64(0, terms_of("magnet_temperature", "", NULL));
+    run[1].temperature_C = calloc(SAMPLES, sizeof *run[1].temperature_C);
+    make();
+    TEST_ASSERT_EQUAL_UINT64(1, terms_of("magnet_temperature", "", NULL));
+}
+
+/* Nothing is relative to a current of 0. */
+static void test_without_current_no_saturation(void)
+{
+    make();
+    TEST_ASSERT_TRUE(terms_of("saturation", "", NULL) > 0);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 2.0, list.reference_current_A);
+    for (size_t r = 0; r < RUNS; ++r)
+        memset(run[r].i_A, 0, 3 * SAMPLES * sizeof *run[r].i_A);
+    make();
+    TEST_ASSERT_EQUAL_UINT64(0, terms_of("saturation", "", NULL));
+    for (size_t k = 0; k < list.count; ++k)
+        TEST_ASSERT_TRUE(isfinite(list.candidate[k].deviation));
+}
+
+/* An even harmonic takes poles that differ, which the declared back-EMF would show. */
+static void test_even_harmonics_only_beside_even_ones(void)
+{
+    make();
+    TEST_ASSERT_TRUE(is_offered("back_emf", "sine", 5.0) && !is_offered("back_emf", "sine", 4.0));
+    machine.back_emf_count = 2;
+    make();
+    TEST_ASSERT_TRUE(is_offered("back_emf", "sine", 5.0) && is_offered("back_emf", "sine", 4.0));
+}
+
+/* ---- orders ---- */
+
+/* Orders of cogging and of the turn are those that stand out: of pure noise next to none. */
+static void test_orders_stand_out_of_the_residual(void)
+{
+    make();
+    TEST_ASSERT_TRUE(terms_of("cogging", "", NULL) + terms_of("mechanical_order", "", NULL) <= 4);
+    hide(6.0 * P, 0.02);
+    hide(7.0, 0.02);
+    make();
+    TEST_ASSERT_TRUE(is_offered("cogging", "sine", 6.0) && is_offered("cogging", "cosine", 6.0));
+    TEST_ASSERT_TRUE(is_offered("mechanical_order", "sine", 7.0 / P));
+    TEST_ASSERT_TRUE(is_offered("mechanical_order", "iq_cosine", 7.0 / P));
+    TEST_ASSERT_FALSE(is_offered("cogging", "sine", 7.0 / P));
+    TEST_ASSERT_FALSE(is_offered("mechanical_order", "sine", 6.0));
+}
+
+/* 180 samples in a turn tell orders up to 90 periods: 30 electrical ones. */
+static void test_orders_above_half_the_samples_are_none(void)
+{
+    double most;
+    hide(180.0 - 48.0, 0.05);
+    make();
+    TEST_ASSERT_TRUE(terms_of("cogging", "", &most) > 0 && most < 30.0);
+    TEST_ASSERT_TRUE(is_offered("cogging", "sine", 16.0)); /* what it looks like */
+}
+
+/* A wrapped electrical angle does not tell which pole pair it is. */
+static void test_without_a_known_turn_no_orders_of_the_turn(void)
+{
+    hide(7.0, 0.02);
+    hide(6.0 * P, 0.02);
+    for (size_t r = 0; r < RUNS; ++r)
+        run[r].turn_known = false;
+    make();
+    TEST_ASSERT_EQUAL_UINT64(0, terms_of("mechanical_order", "", NULL));
+    TEST_ASSERT_EQUAL_UINT64(0, terms_of("position_eccentricity", "", NULL));
+    TEST_ASSERT_TRUE(is_offered("cogging", "sine", 6.0));
+}
+
+/* ---- high powers, and what is known ---- */
+
+static void test_more_is_offered_where_the_iron_saturates(void)
+{
+    size_t powers[3], reluctance[3];
+    double order[3];
+    for (richness = 0; richness < 3; ++richness) {
+        make();
+        powers[richness] = terms_of("saturation", "", &order[richness]);
+        reluctance[richness] = terms_of("reluctance", "", NULL);
+    }
+    TEST_ASSERT_TRUE(order[0] == 12.0 && order[1] == 60.0 && order[2] == 60.0);
+    TEST_ASSERT_TRUE(powers[2] > powers[1] && reluctance[1] > reluctance[0] &&
+                     reluctance[2] == reluctance[1]);
+    TEST_ASSERT_TRUE(is_offered("saturation", "d0q6_cosine", 0.0));
+    richness = 1;
+    make();
+    TEST_ASSERT_FALSE(is_offered("saturation", "d0q6_cosine", 0.0));
+}
+
+/* What is in the model stays with its value, also where it would not be offered anew. */
+static void test_the_model_stays_in_the_list(void)
+{
+    hci_candidate in[2] = {{.type = hci_effect_type_find("position_offset"), .count = 1, .in = true},
+                           {.type = hci_effect_type_find("cogging"), .count = 2, .in = true}};
+    const hci_candidates known = {in, 2, 1.0};
+    size_t offered = 0;
+    in[0].term[0] = (hci_effect_term){0, 0.0, 0.05, 0.001};
+    in[1].term[0] = (hci_effect_term){0, 4.0, 0.5, 0.001};
+    in[1].term[1] = (hci_effect_term){1, 4.0, 0.25, 0.001};
+    make();
+    offered = list.count;
+    TEST_ASSERT_EQUAL_INT(HCI_OK, make_from(&known));
+    TEST_ASSERT_EQUAL_UINT64(offered + 1, list.count);
+    TEST_ASSERT_EQUAL_UINT64(2, hci_candidates_types_in(&list));
+    TEST_ASSERT_EQUAL_UINT64(3, hci_candidates_terms_in(&list));
+    for (size_t k = 0; k < list.count; ++k)
+        TEST_ASSERT_EQUAL_DOUBLE(list.candidate[k].in && list.candidate[k].type == in[0].type   ? 0.05
+                                 : list.candidate[k].in && list.candidate[k].type == in[1].type ? 0.5
+                                                                                                : 0.0,
+                                 list.candidate[k].term[0].value);
+    in[1].in = false;
+    TEST_ASSERT_EQUAL_INT(HCI_OK, make_from(&known));
+    TEST_ASSERT_EQUAL_UINT64(1, hci_candidates_terms_in(&list));
+}
+
+static void test_memory_is_out(void)
+{
+    make();
+    for (long n = 0; n < 3; ++n) {
+        hci_memory_fail_after(n);
+        const hci_status status = make_from(NULL);
+        hci_memory_fail_after(-1);
+        TEST_ASSERT_EQUAL_INT(HCI_ERROR_MEMORY, status);
+        TEST_ASSERT_NULL(list.candidate);
+    }
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_the_list_is_in_order);
+    RUN_TEST(test_without_time_no_delay_and_no_lag);
+    RUN_TEST(test_friction_has_as_many_parts_as_speeds);
+    RUN_TEST(test_the_magnets_need_a_temperature);
+    RUN_TEST(test_without_current_no_saturation);
+    RUN_TEST(test_even_harmonics_only_beside_even_ones);
+    RUN_TEST(test_orders_stand_out_of_the_residual);
+    RUN_TEST(test_orders_above_half_the_samples_are_none);
+    RUN_TEST(test_without_a_known_turn_no_orders_of_the_turn);
+    RUN_TEST(test_more_is_offered_where_the_iron_saturates);
+    RUN_TEST(test_the_model_stays_in_the_list);
+    RUN_TEST(test_memory_is_out);
+    return UNITY_END();
+}
