@@ -37,7 +37,7 @@ void setUp(void)
         for (size_t k = r * SAMPLES; k < (r + 1) * SAMPLES; ++k) {
             sample[k].reading.theta_m_rad = 2.0 * REF_PI * (double)(k % SAMPLES) / SAMPLES;
             rec_phases(0.0, iq, P * sample[k].reading.theta_m_rad, sample[k].reading.i_abc);
-            residual_Nm[k] = NOISE_NM * rec_normal(&seed);
+            residual_Nm[k] = NOISE_NM * ref_normal(&seed);
             variance[k] = NOISE_NM * NOISE_NM;
         }
         use[r] = true;
@@ -109,7 +109,7 @@ static void test_noise_stands_out_at_the_rate_of_the_limit(void)
     double tries = 0.0, alarms = 0.0, above_2 = 0.0;
     for (int draw = 0; draw < 60; ++draw) {
         for (size_t k = 0; k < COUNT; ++k)
-            residual_Nm[k] = NOISE_NM * rec_normal(&seed);
+            residual_Nm[k] = NOISE_NM * ref_normal(&seed);
         find(1);
         for (size_t n = 1; n < 90; ++n, tries += 1.0) {
             alarms += orders.still[n] > HCI_STANDS_OUT;

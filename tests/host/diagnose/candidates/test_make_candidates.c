@@ -37,7 +37,7 @@ void setUp(void)
             run[r].speed_rad_per_s[k] = 20.0 * (double)(r + 1);
             run[r].time_s[k] = run[r].theta_m_rad[k] / run[r].speed_rad_per_s[k];
             rec_phases(0.0, (double)r, P * run[r].theta_m_rad[k], run[r].i_A + 3 * k);
-            residual_Nm[r * SAMPLES + k] = NOISE_NM * rec_normal(&seed);
+            residual_Nm[r * SAMPLES + k] = NOISE_NM * ref_normal(&seed);
             variance[r * SAMPLES + k] = NOISE_NM * NOISE_NM;
         }
     }

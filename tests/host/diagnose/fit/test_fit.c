@@ -33,7 +33,7 @@ static void record_two(size_t n, double angle_rad, double cogging_Nm, double col
         record(n, &(point){r == 0 ? 60.0 : -150.0, iq, 0.0, 0.0, 0.0});
         for (size_t k = 0; k < n; ++k) {
             rec_phases(ID_A[r], iq, P * run[r].theta_m_rad[k], run[r].i_A + 3 * k);
-            noise = colour * noise + (colour > 0.0 ? NOISE_NM * rec_normal(&seed) : 0.0);
+            noise = colour * noise + (colour > 0.0 ? NOISE_NM * ref_normal(&seed) : 0.0);
             run[r].torque_Nm[k] += cogging_Nm * sin(6.0 * P * run[r].theta_m_rad[k]) + noise;
         }
         for (size_t k = 0; k < n; ++k)

@@ -30,7 +30,7 @@ static void record_two(void)
         record(N, &(point){r == 0 ? 60.0 : -150.0, r == 0 ? 3.0 : 9.0, 0.2, 0.03, 0.0});
         run[r].has_sum = true;
         for (size_t k = 0; k < 3 * N; ++k)
-            run[r].i_A[k] += 0.01 * rec_normal(&seed);
+            run[r].i_A[k] += 0.01 * ref_normal(&seed);
     }
     search_start();
     hci_search_noise(&search, &model.candidates, &note);
@@ -130,8 +130,8 @@ static void test_the_sum_of_the_currents_tells_offsets(void)
         record(N, &(point){60.0, 0.0, 0.0, 0.0, 0.0});
         run[0].has_sum = has_sum;
         for (size_t k = 0; k < N; ++k) {
-            run[0].i_A[3 * k + 2] += 0.5 + 0.02 * rec_normal(&seed);
-            run[0].torque_Nm[k] = NOISE_NM * rec_normal(&seed);
+            run[0].i_A[3 * k + 2] += 0.5 + 0.02 * ref_normal(&seed);
+            run[0].torque_Nm[k] = NOISE_NM * ref_normal(&seed);
         }
         machine.model.back_emf_count = 0;
         search_start();

@@ -83,7 +83,7 @@ static hci_resonance find(double natural_Hz, double damping)
     for (size_t k = 0; k < dataset.samples.count; ++k) {
         hci_binned_sample *x = &dataset.samples.sample[k];
         double air_gap_Nm = 0.0;
-        x->torque_Nm = NOISE_NM * rec_normal(&seed);
+        x->torque_Nm = NOISE_NM * ref_normal(&seed);
         for (int n = 1; n <= 40; ++n) {
             const double complex h = response_at(n * SPEED / (2.0 * REF_PI), 0.0, natural_Hz, damping);
             x->torque_Nm += wave(x->reading.theta_m_rad, n, h);

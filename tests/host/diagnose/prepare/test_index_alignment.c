@@ -52,7 +52,7 @@ static void fill(size_t r, double ahead_rad, int orders, double noise_Nm)
 {
     for (size_t k = 0; k < SAMPLES; ++k) {
         const double theta_m = sample[r * SAMPLES + k].reading.theta_m_rad;
-        residual_Nm[r * SAMPLES + k] = map_at(theta_m - ahead_rad, orders) + noise_Nm * rec_normal(&seed);
+        residual_Nm[r * SAMPLES + k] = map_at(theta_m - ahead_rad, orders) + noise_Nm * ref_normal(&seed);
     }
 }
 
@@ -105,7 +105,7 @@ static void test_what_does_not_tell(void)
     TEST_ASSERT_EQUAL_INT(HCI_OK, find());
     TEST_ASSERT_EQUAL_DOUBLE(0.0, offset_rad[2]);
     for (size_t k = 0; k < RUNS * SAMPLES; ++k)
-        residual_Nm[k] = 0.02 * rec_normal(&seed);
+        residual_Nm[k] = 0.02 * ref_normal(&seed);
     TEST_ASSERT_EQUAL_INT(HCI_OK, find());
     for (size_t r = 0; r < RUNS; ++r)
         TEST_ASSERT_EQUAL_DOUBLE(0.0, offset_rad[r]);

@@ -190,7 +190,7 @@ static void test_noise_comes_in_at_the_rate_of_its_price(void)
     problem_start();
     for (int k = 0; k < DRAWS; ++k) {
         for (size_t c = 0; c < normal.n; ++c)
-            normal.moment[c] = sqrt(ROWS) * rec_normal(&seed);
+            normal.moment[c] = sqrt(ROWS) * ref_normal(&seed);
         const double gain = choose_of("cogging", "cogging");
         TEST_ASSERT_TRUE((chosen() > 0) == (gain > 0.0));
         alarms += chosen() > 0;
@@ -234,9 +234,9 @@ static void draw(size_t count)
     memset(normal.gram, 0, count * count * sizeof *normal.gram);
     normal.square = 0.0;
     for (size_t k = 0; k < 200; ++k) {
-        y[k] = rec_normal(&seed);
+        y[k] = ref_normal(&seed);
         for (size_t c = 0; c < count; ++c)
-            x[k][c] = rec_normal(&seed) + (c > 0 && c % 2 == 0 ? x[k][c - 1] : 0.0);
+            x[k][c] = ref_normal(&seed) + (c > 0 && c % 2 == 0 ? x[k][c - 1] : 0.0);
         y[k] += 0.4 * x[k][1] - 0.3 * x[k][4];
         normal.square += y[k] * y[k];
     }
