@@ -186,8 +186,8 @@ static check_value cogging_angle(const check_data *data, const check_interpretat
 /* ---- the list */
 
 static const check_relation LIST[] = {
-    {"power_balance", "torque x speed and copper loss over v.i", CHECK_RATIO, 1.0, CHECK_POWER_TOLERANCE,
-     9.0, power_balance, "a recording of voltages, currents, torque and speed", ""},
+    {"power_balance", "torque x speed and copper loss over v.i", CHECK_RATIO, 1.0, CHECK_POWER_TOLERANCE, 9.0,
+     power_balance, "a recording of voltages, currents, torque and speed", ""},
     {"torque_size", "torque over 3/2 k_e i_q and the reluctance torque", CHECK_RATIO, 1.0,
      CHECK_TORQUE_TOLERANCE, 9.0, torque_size, "a recording of currents, angle and torque", ""},
     {"cogging_share", "share of the ripple without current at the orders of cogging.csv", CHECK_SHARE, 1.0,
