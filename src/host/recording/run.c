@@ -10,9 +10,9 @@
 #include "hci/math/harmonic.h"
 #include "host/base/memory.h"
 #include "host/base/quote.h"
-#include "host/csv/table.h"
 #include "host/numeric/derivative.h"
 #include "host/numeric/unwrap.h"
+#include "host/recording/run_columns.h"
 
 /* Less movement than this is a shaft at rest, whose angle only flickers. */
 #define MOVED_RAD (2.0 * HCI_PI / 100.0)
@@ -21,10 +21,9 @@
 #define STEADY 0.9
 
 typedef struct {
-    const hci_csv *csv;
+    hci_run_columns columns;
     hci_run *run;
     hci_note *note;
-    bool *used; /* of each column of the file */
     int pole_pairs;
 } reader;
 
@@ -34,52 +33,39 @@ static hci_status memory_error(const reader *r)
 {
     char path[HCI_QUOTE_PATH_SIZE];
     return hci_note_set(r->note, HCI_ERROR_MEMORY, "%s: not enough memory for %zu samples",
-                        hci_quote_path(hci_csv_path(r->csv), path), r->run->count);
+                        hci_quote_path(hci_csv_path(r->columns.csv), path), r->run->count);
 }
 
-static bool has(const reader *r, const char *name)
+static bool has(const reader *r, hci_run_column which)
 {
-    size_t column;
-    return hci_csv_find(r->csv, name, &column);
-}
-
-/* A column that says again what others say. */
-static void leave(reader *r, const char *name)
-{
-    size_t column;
-    if (hci_csv_find(r->csv, name, &column)) r->used[column] = true;
+    return r->columns.has[which];
 }
 
 /* The column if the file has it; *values stays NULL where not. */
-static hci_status read_column(reader *r, const char *name, double **values)
+static hci_status read_column(reader *r, hci_run_column which, double **values)
 {
-    size_t column;
-    hci_note told = {{0}};
-    if (!hci_csv_find(r->csv, name, &column)) return HCI_OK;
-    if (hci_csv_told(r->csv, name, &told)) hci_note_add(&r->run->remark, "%s", told.text);
-    r->used[column] = true;
-    *values = hci_memory_new(r->run->count, sizeof **values);
-    if (*values == NULL) return memory_error(r);
-    return hci_csv_numbers(r->csv, name, *values, r->note);
+    const hci_status status = hci_run_column_read(&r->columns, which);
+    if (status == HCI_OK) *values = hci_run_column_take(&r->columns, which);
+    return status;
 }
 
 static hci_status missing(const reader *r, const char *found, const char *expected, const char *remedy)
 {
     char path[HCI_QUOTE_PATH_SIZE];
     return hci_note_set(r->note, HCI_ERROR_INPUT, "%s: found %s, expected %s; %s",
-                        hci_quote_path(hci_csv_path(r->csv), path), found, expected, remedy);
+                        hci_quote_path(hci_csv_path(r->columns.csv), path), found, expected, remedy);
 }
 
 /* ---- time and speed ---- */
 
 static hci_status read_time(reader *r)
 {
-    const hci_status status = read_column(r, "time_s", &r->run->time_s);
+    const hci_status status = read_column(r, HCI_RUN_TIME, &r->run->time_s);
     const double *time_s = r->run->time_s;
     for (size_t k = 1; status == HCI_OK && time_s != NULL && k < r->run->count; ++k) {
         if (time_s[k] > time_s[k - 1]) continue;
         const bool equal = !(time_s[k] < time_s[k - 1]);
-        return hci_csv_error(r->csv, "time_s", k, r->note,
+        return hci_csv_error(r->columns.csv, "time_s", k, r->note,
                              equal ? "a later time than on the line before (they are equal)"
                                    : "a later time than on the line before",
                              equal ? "write the time with more digits, or remove one of the two samples"
@@ -92,9 +78,9 @@ static hci_status read_time(reader *r)
 static hci_status read_speed(reader *r)
 {
     double **speed = &r->run->speed_rad_per_s;
-    hci_status status = read_column(r, "speed_rad_per_s", speed);
+    hci_status status = read_column(r, HCI_RUN_SPEED, speed);
     if (status != HCI_OK || *speed != NULL) return status;
-    status = read_column(r, "speed_e_rad_per_s", speed);
+    status = read_column(r, HCI_RUN_SPEED_E, speed);
     for (size_t k = 0; status == HCI_OK && *speed != NULL && k < r->run->count; ++k)
         (*speed)[k] /= r->pole_pairs;
     return status;
@@ -151,10 +137,12 @@ static hci_status unclear_error(const reader *r, bool has_speed)
 }
 
 /* Reads and unwraps one angle, whose speed is `factor` times the mechanical one. */
-static hci_status read_angle(reader *r, const char *name, double factor, double **angle, hci_unwrapping *how)
+static hci_status read_angle(reader *r, hci_run_column which, double factor, double **angle,
+                             hci_unwrapping *how)
 {
     const size_t n = r->run->count;
-    hci_status status = read_column(r, name, angle);
+    const char *name = which == HCI_RUN_THETA_E ? "theta_e_rad" : "theta_m_rad";
+    hci_status status = read_column(r, which, angle);
     if (status != HCI_OK || *angle == NULL) return status;
     double *rate = NULL;
     if (r->run->speed_rad_per_s != NULL) {
@@ -211,8 +199,8 @@ static hci_status read_angles(reader *r, hci_angle_path *path)
     hci_run *run = r->run;
     hci_unwrapping mechanical = {.path = HCI_ANGLE_WITHIN}, electrical = mechanical;
     double *theta_e = NULL;
-    hci_status status = read_angle(r, "theta_m_rad", 1.0, &run->theta_m_rad, &mechanical);
-    if (status == HCI_OK) status = read_angle(r, "theta_e_rad", r->pole_pairs, &theta_e, &electrical);
+    hci_status status = read_angle(r, HCI_RUN_THETA_M, 1.0, &run->theta_m_rad, &mechanical);
+    if (status == HCI_OK) status = read_angle(r, HCI_RUN_THETA_E, r->pole_pairs, &theta_e, &electrical);
     run->turn_known = run->theta_m_rad != NULL;
     *path = mechanical.path;
     if (status == HCI_OK && theta_e != NULL) {
@@ -233,33 +221,18 @@ static hci_status read_angles(reader *r, hci_angle_path *path)
 
 /* ---- three phases ---- */
 
-/* Puts columns of three phases side by side; of two, the third makes the sum 0. */
-static hci_status read_phases(reader *r, const char *const name[3], double **out)
+/* Puts columns of three phases side by side, by the first of them. out: [count][3]. */
+static hci_status read_phases(reader *r, hci_run_column first, double **out)
 {
-    double *column[3] = {0};
-    const size_t n = r->run->count;
-    hci_status status = HCI_OK;
-    int absent = -1;
-    for (int s = 0; s < 3 && status == HCI_OK; ++s) {
-        status = read_column(r, name[s], &column[s]);
-        if (column[s] == NULL) absent = s;
-    }
-    if (status == HCI_OK) *out = hci_memory_new(n, 3 * sizeof **out);
-    if (status == HCI_OK && *out == NULL) status = memory_error(r);
-    for (size_t k = 0; k < n && status == HCI_OK; ++k) {
-        double *x = *out + 3 * k;
-        for (int s = 0; s < 3; ++s)
-            x[s] = column[s] != NULL ? column[s][k] : 0.0;
-        if (absent >= 0) x[absent] = -(x[0] + x[1] + x[2]);
-    }
-    for (int s = 0; s < 3; ++s)
-        hci_memory_free(column[s]);
-    return status;
-}
-
-static int count_of(const reader *r, const char *const name[3])
-{
-    return has(r, name[0]) + has(r, name[1]) + has(r, name[2]);
+    const hci_status status = hci_run_phases_read(&r->columns, first);
+    if (status != HCI_OK) return status;
+    *out = hci_memory_new(r->run->count, 3 * sizeof **out);
+    if (*out == NULL) return memory_error(r);
+    for (size_t k = 0; k < r->run->count; ++k)
+        hci_run_phases_at(&r->columns, first, k, *out + 3 * k);
+    for (unsigned s = 0; s < 3; ++s)
+        hci_run_column_drop(&r->columns, first + s);
+    return HCI_OK;
 }
 
 static hci_status turn_dq(const reader *r, const double *d, const double *q, double *phases)
@@ -277,56 +250,51 @@ static hci_status turn_dq(const reader *r, const double *d, const double *q, dou
 }
 
 /* Phase quantities of those along d and q; d is 0 without its column. phases: [count][3], 0 without q. */
-static hci_status read_dq(reader *r, const char *d_name, const char *q_name, double **phases)
+static hci_status read_dq(reader *r, hci_run_column d, hci_run_column q, double **phases)
 {
-    double *d = NULL, *q = NULL;
-    hci_status status = read_column(r, q_name, &q);
-    if (status == HCI_OK) status = read_column(r, d_name, &d);
-    if (status == HCI_OK) *phases = hci_memory_new(r->run->count, 3 * sizeof(double));
-    if (status == HCI_OK && *phases == NULL) status = memory_error(r);
-    if (status == HCI_OK && q != NULL) status = turn_dq(r, d, q, *phases);
-    hci_memory_free(d);
-    hci_memory_free(q);
+    hci_status status = hci_run_column_read(&r->columns, q);
+    if (status == HCI_OK) status = hci_run_column_read(&r->columns, d);
+    if (status != HCI_OK) return status;
+    *phases = hci_memory_new(r->run->count, 3 * sizeof(double));
+    if (*phases == NULL) return memory_error(r);
+    if (has(r, q)) status = turn_dq(r, r->columns.value[d], r->columns.value[q], *phases);
+    hci_run_column_drop(&r->columns, d);
+    hci_run_column_drop(&r->columns, q);
     return status;
 }
 
 static hci_status read_currents(reader *r)
 {
-    static const char *const PHASE[3] = {"ia_A", "ib_A", "ic_A"};
-    const int phases = count_of(r, PHASE);
-    if (phases == 1 && !has(r, "iq_A"))
+    const int phases = hci_run_phase_count(&r->columns, HCI_RUN_IA);
+    if (phases == 1 && !has(r, HCI_RUN_IQ))
         return missing(r, "one phase current", "two or three of ia_A, ib_A, ic_A", "add another column");
     if (phases >= 2) {
-        leave(r, "id_A");
-        leave(r, "iq_A");
+        hci_run_column_leave(&r->columns, HCI_RUN_ID);
+        hci_run_column_leave(&r->columns, HCI_RUN_IQ);
         r->run->has_sum = phases == 3;
-        return read_phases(r, PHASE, &r->run->i_A);
+        return read_phases(r, HCI_RUN_IA, &r->run->i_A);
     }
-    if (has(r, "id_A") && !has(r, "iq_A"))
+    if (has(r, HCI_RUN_ID) && !has(r, HCI_RUN_IQ))
         return missing(r, "id_A without iq_A", "both, or iq_A alone", "add the column iq_A");
-    if (!has(r, "iq_A") && r->run->theta_m_rad != NULL)
+    if (!has(r, HCI_RUN_IQ) && r->run->theta_m_rad != NULL)
         hci_note_add(&r->run->remark, "no currents: taken as 0");
-    return read_dq(r, "id_A", "iq_A", &r->run->i_A);
+    return read_dq(r, HCI_RUN_ID, HCI_RUN_IQ, &r->run->i_A);
+}
+
+static hci_status read_dq_voltages(reader *r)
+{
+    const bool given = hci_run_phase_count(&r->columns, HCI_RUN_VA) == 0 && has(r, HCI_RUN_VQ);
+    return given && r->run->theta_m_rad != NULL ? read_dq(r, HCI_RUN_VD, HCI_RUN_VQ, &r->run->v_V) : HCI_OK;
 }
 
 static hci_status read_voltages(reader *r)
 {
-    static const char *const PHASE[3] = {"va_V", "vb_V", "vc_V"}, *const LINE[3] = {"vab_V", "vbc_V",
-                                                                                    "vca_V"};
-    if (count_of(r, PHASE) == 3) return read_phases(r, PHASE, &r->run->v_V);
-    if (count_of(r, PHASE) == 0 && count_of(r, LINE) < 2 && has(r, "vq_V") && r->run->theta_m_rad != NULL)
-        return read_dq(r, "vd_V", "vq_V", &r->run->v_V);
-    if (count_of(r, PHASE) > 0 || count_of(r, LINE) < 2) return HCI_OK;
-    const hci_status status = read_phases(r, LINE, &r->run->v_V);
-    for (size_t k = 0; status == HCI_OK && k < r->run->count; ++k) {
-        double *v = r->run->v_V + 3 * k;
-        const double ab = v[0], bc = v[1], ca = v[2];
-        v[0] = (ab - ca) / 3.0;
-        v[1] = (bc - ab) / 3.0;
-        v[2] = (ca - bc) / 3.0;
-    }
-    hci_note_add(&r->run->remark,
-                 "phase voltages from line voltages: orders divisible by three are not in them");
+    hci_run_column first;
+    if (!hci_run_voltages(&r->columns, &first)) return read_dq_voltages(r);
+    const hci_status status = read_phases(r, first, &r->run->v_V);
+    if (first == HCI_RUN_VAB)
+        hci_note_add(&r->run->remark,
+                     "phase voltages from line voltages: orders divisible by three are not in them");
     return status;
 }
 
@@ -350,7 +318,7 @@ static hci_status torque_of_inertia(reader *r, double inertia_kgm2)
 static hci_status read_torque(reader *r, double inertia_kgm2)
 {
     hci_run *run = r->run;
-    const hci_status status = read_column(r, "torque_Nm", &run->torque_Nm);
+    const hci_status status = read_column(r, HCI_RUN_TORQUE, &run->torque_Nm);
     if (status != HCI_OK) return status;
     if (run->torque_Nm == NULL) return torque_of_inertia(r, inertia_kgm2);
     run->torque_source = is_zero(run->torque_Nm, run->count) ? HCI_TORQUE_HOLDING : HCI_TORQUE_MEASURED;
@@ -359,62 +327,44 @@ static hci_status read_torque(reader *r, double inertia_kgm2)
 
 /* ---- the run ---- */
 
-/* Neither angle nor voltages: most likely a column under another name. Where voltages would do without an
- * angle, one that may be either is refused all the same, and not passed over. */
-static hci_status check_columns(const reader *r)
-{
-    hci_note told = {{0}};
-    double unused;
-    if (has(r, "theta_m_rad") || has(r, "theta_e_rad")) return HCI_OK;
-    hci_status status = hci_csv_check_clear(r->csv, r->note);
-    if (status != HCI_OK || has(r, "va_V") || has(r, "vab_V")) return status;
-    status = hci_csv_number(r->csv, "theta_m_rad", 0, &unused, &told);
-    return status == HCI_OK ? status
-                            : hci_note_set(r->note, status, "%s; theta_e_rad will do as well", told.text);
-}
-
 static hci_status read_all(reader *r, double inertia_kgm2)
 {
     hci_run *run = r->run;
     hci_angle_path path = HCI_ANGLE_WITHIN;
-    hci_status status = check_columns(r);
-    if (status == HCI_OK && hci_csv_header_line(r->csv) > 0)
-        hci_note_add(&r->run->remark, "line %zu is the header, what stands before it is not read",
-                     hci_csv_header_line(r->csv));
-    if (status == HCI_OK) status = read_time(r);
+    hci_status status = read_time(r);
     if (status == HCI_OK) status = read_speed(r);
     if (status == HCI_OK) status = read_angles(r, &path);
     if (status == HCI_OK) status = complete_speed(r, path);
     if (status == HCI_OK) status = read_currents(r);
     if (status == HCI_OK) status = read_voltages(r);
-    if (status == HCI_OK) status = read_column(r, "temperature_C", &run->temperature_C);
+    if (status == HCI_OK) status = read_column(r, HCI_RUN_TEMPERATURE, &run->temperature_C);
     if (status == HCI_OK) status = read_torque(r, inertia_kgm2);
-    if (status == HCI_OK) hci_csv_unused(r->csv, r->used, &r->run->remark);
+    if (status == HCI_OK) hci_run_columns_tell_unused(&r->columns);
     return status;
 }
 
-static hci_status take(reader *r, double inertia_kgm2)
+static hci_status take(reader *r, const hci_csv *csv, double inertia_kgm2)
 {
-    const char *path = hci_csv_path(r->csv);
-    r->run->count = hci_csv_rows(r->csv);
-    if (r->run->count == 0)
-        return missing(r, "a header and no samples", "a row for each sample", "record the run again");
-    r->run->name = hci_memory_malloc(strlen(path) + 1);
-    r->used = hci_memory_new(hci_csv_columns(r->csv), sizeof *r->used);
-    if (r->run->name == NULL || r->used == NULL) return memory_error(r);
-    memcpy(r->run->name, path, strlen(path) + 1);
+    const char *path = hci_csv_path(csv);
+    hci_run *run = r->run;
+    hci_status status = hci_run_columns_find(csv, &r->columns, &run->remark, r->note);
+    if (status != HCI_OK) return status;
+    run->count = r->columns.count;
+    run->name = hci_memory_malloc(strlen(path) + 1);
+    if (run->name == NULL) return memory_error(r);
+    memcpy(run->name, path, strlen(path) + 1);
     return read_all(r, inertia_kgm2);
 }
 
 hci_status hci_run_of_csv(const hci_csv *csv, int pole_pairs, double inertia_kgm2, hci_run *run,
                           hci_note *note)
 {
-    reader r = {.csv = csv, .run = run, .note = note, .pole_pairs = pole_pairs};
+    reader r = {.run = run, .note = note, .pole_pairs = pole_pairs};
     memset(run, 0, sizeof *run);
     if (pole_pairs < 1)
         return hci_note_set(note, HCI_ERROR_ARGUMENT, "found %d pole pairs, expected 1 or more", pole_pairs);
-    const hci_status status = take(&r, inertia_kgm2);
-    hci_memory_free(r.used);
+    const hci_status status = take(&r, csv, inertia_kgm2);
+    hci_run_columns_release(&r.columns);
     if (status != HCI_OK) hci_run_release(run);
     return status;
 }

@@ -1,0 +1,146 @@
+#include "host/recording/run_columns.h"
+
+#include <string.h>
+
+#include "host/base/memory.h"
+#include "host/base/quote.h"
+#include "host/csv/table.h"
+
+static const char *const NAME[HCI_RUN_COLUMN_COUNT] = {
+#define NAME_ONE(name, text) text,
+    HCI_RUN_COLUMNS(NAME_ONE)
+#undef NAME_ONE
+};
+
+static hci_status memory_error(const hci_run_columns *c)
+{
+    char path[HCI_QUOTE_PATH_SIZE];
+    return hci_note_set(c->note, HCI_ERROR_MEMORY, "%s: not enough memory for %zu samples",
+                        hci_quote_path(hci_csv_path(c->csv), path), c->count);
+}
+
+static hci_status no_samples(const hci_run_columns *c)
+{
+    char path[HCI_QUOTE_PATH_SIZE];
+    return hci_note_set(
+        c->note, HCI_ERROR_INPUT,
+        "%s: found a header and no samples, expected a row for each sample; record the run again",
+        hci_quote_path(hci_csv_path(c->csv), path));
+}
+
+/* Neither angle nor voltages: most likely a column under another name. Where voltages would do without an
+ * angle, one that may be either is refused all the same, and not passed over. */
+static hci_status check_angle(const hci_run_columns *c)
+{
+    hci_note missing = {{0}};
+    double unused;
+    if (c->has[HCI_RUN_THETA_M] || c->has[HCI_RUN_THETA_E]) return HCI_OK;
+    hci_status status = hci_csv_check_clear(c->csv, c->note);
+    if (status || c->has[HCI_RUN_VA] || c->has[HCI_RUN_VAB]) return status;
+    status = hci_csv_number(c->csv, NAME[HCI_RUN_THETA_M], 0, &unused, &missing);
+    return hci_note_set(c->note, status, "%s; `%s` will do as well", missing.text, NAME[HCI_RUN_THETA_E]);
+}
+
+hci_status hci_run_columns_find(const hci_csv *csv, hci_run_columns *c, hci_note *remark, hci_note *note)
+{
+    *c = (hci_run_columns){.csv = csv, .count = hci_csv_rows(csv), .remark = remark, .note = note};
+    if (c->count == 0) return no_samples(c);
+    c->used = hci_memory_new(hci_csv_columns(csv), sizeof *c->used);
+    if (!c->used) return memory_error(c);
+    for (int k = 0; k < HCI_RUN_COLUMN_COUNT; ++k)
+        c->has[k] = hci_csv_find(csv, NAME[k], &c->at[k]);
+    const hci_status status = check_angle(c);
+    if (!status && hci_csv_header_line(csv) > 0)
+        hci_note_add(remark, "line %zu is the header, what stands before it is not read",
+                     hci_csv_header_line(csv));
+    return status;
+}
+
+void hci_run_columns_release(hci_run_columns *c)
+{
+    for (int k = 0; k < HCI_RUN_COLUMN_COUNT; ++k)
+        hci_memory_free(c->value[k]);
+    hci_memory_free(c->used);
+    memset(c, 0, sizeof *c);
+}
+
+hci_status hci_run_column_read(hci_run_columns *c, hci_run_column which)
+{
+    hci_note told = {{0}};
+    if (!c->has[which] || c->value[which]) return HCI_OK;
+    if (hci_csv_told(c->csv, NAME[which], &told)) hci_note_add(c->remark, "%s", told.text);
+    c->used[c->at[which]] = true;
+    c->value[which] = hci_memory_new(c->count, sizeof(double));
+    if (!c->value[which]) return memory_error(c);
+    return hci_csv_numbers(c->csv, NAME[which], c->value[which], c->note);
+}
+
+double *hci_run_column_take(hci_run_columns *c, hci_run_column which)
+{
+    double *value = c->value[which];
+    c->value[which] = NULL;
+    return value;
+}
+
+void hci_run_column_drop(hci_run_columns *c, hci_run_column which)
+{
+    hci_memory_free(hci_run_column_take(c, which));
+}
+
+void hci_run_column_leave(hci_run_columns *c, hci_run_column which)
+{
+    if (c->has[which]) c->used[c->at[which]] = true;
+}
+
+const char *hci_run_column_header(const hci_run_columns *c, hci_run_column which, size_t *line)
+{
+    if (!c->has[which]) return NULL;
+    *line = hci_csv_record_line(c->csv, 0);
+    return hci_csv_name(c->csv, c->at[which]);
+}
+
+void hci_run_columns_tell_unused(const hci_run_columns *c)
+{
+    hci_csv_unused(c->csv, c->used, c->remark);
+}
+
+/* ---- three phases */
+
+int hci_run_phase_count(const hci_run_columns *c, hci_run_column first)
+{
+    return c->has[first] + c->has[first + 1] + c->has[first + 2];
+}
+
+bool hci_run_voltages(const hci_run_columns *c, hci_run_column *first)
+{
+    *first = hci_run_phase_count(c, HCI_RUN_VA) == 3 ? HCI_RUN_VA : HCI_RUN_VAB;
+    return hci_run_phase_count(c, *first) >= 2;
+}
+
+hci_status hci_run_phases_read(hci_run_columns *c, hci_run_column first)
+{
+    hci_status status = HCI_OK;
+    for (unsigned s = 0; s < 3 && !status; ++s)
+        status = hci_run_column_read(c, first + s);
+    return status;
+}
+
+static void lines_to_phases(double v[3])
+{
+    const double ab = v[0], bc = v[1], ca = v[2];
+    v[0] = (ab - ca) / 3.0;
+    v[1] = (bc - ab) / 3.0;
+    v[2] = (ca - bc) / 3.0;
+}
+
+void hci_run_phases_at(const hci_run_columns *c, hci_run_column first, size_t sample, double x[3])
+{
+    int absent = -1;
+    for (unsigned s = 0; s < 3; ++s) {
+        const double *value = c->value[first + s];
+        if (!value) absent = (int)s;
+        x[s] = value ? value[sample] : 0.0;
+    }
+    if (absent >= 0) x[absent] = -(x[0] + x[1] + x[2]);
+    if (first == HCI_RUN_VAB) lines_to_phases(x);
+}

@@ -1,0 +1,90 @@
+/* The columns of a recording, read once for all who need them: which quantities a file has, under which name
+ * and in what unit, what was supposed of a name that could mean something else, and the values in SI units.
+ * In: a file that has been cut into cells (csv.h, which knows names and units of other tools). Out: values as
+ * they were recorded: an angle is not unwrapped, a speed not divided by the pole pairs, i_d and i_q are not
+ * turned. A new quantity is one line in HCI_RUN_COLUMNS. */
+#ifndef HCI_SRC_HOST_RECORDING_RUN_COLUMNS_H
+#define HCI_SRC_HOST_RECORDING_RUN_COLUMNS_H
+
+#include "hci/host/csv/csv.h"
+
+/* Phases of one kind follow each other. */
+#define HCI_RUN_COLUMNS(X)                                                                                   \
+    X(TIME, "time_s")                                                                                        \
+    X(THETA_M, "theta_m_rad")                                                                                \
+    X(THETA_E, "theta_e_rad")                                                                                \
+    X(SPEED, "speed_rad_per_s")                                                                              \
+    X(SPEED_E, "speed_e_rad_per_s")                                                                          \
+    X(IA, "ia_A")                                                                                            \
+    X(IB, "ib_A")                                                                                            \
+    X(IC, "ic_A")                                                                                            \
+    X(ID, "id_A")                                                                                            \
+    X(IQ, "iq_A")                                                                                            \
+    X(VA, "va_V")                                                                                            \
+    X(VB, "vb_V")                                                                                            \
+    X(VC, "vc_V")                                                                                            \
+    X(VAB, "vab_V")                                                                                          \
+    X(VBC, "vbc_V")                                                                                          \
+    X(VCA, "vca_V")                                                                                          \
+    X(VD, "vd_V")                                                                                            \
+    X(VQ, "vq_V")                                                                                            \
+    X(TORQUE, "torque_Nm")                                                                                   \
+    X(TEMPERATURE, "temperature_C")
+
+typedef enum {
+#define HCI_RUN_ONE(name, text) HCI_RUN_##name,
+    HCI_RUN_COLUMNS(HCI_RUN_ONE)
+#undef HCI_RUN_ONE
+        HCI_RUN_COLUMN_COUNT
+} hci_run_column;
+
+typedef struct {
+    const hci_csv *csv; /* the caller's */
+    size_t count;       /* samples, at least one */
+    bool has[HCI_RUN_COLUMN_COUNT];
+    size_t at[HCI_RUN_COLUMN_COUNT];     /* column of the file, where it has one */
+    double *value[HCI_RUN_COLUMN_COUNT]; /* [count], in the unit of the name; NULL: absent, or not yet read */
+    bool *used;                          /* of each column of the file */
+    hci_note *remark, *note;             /* the caller's: what was supposed; the error */
+} hci_run_columns;
+
+/* Finds the columns and reads none. remark: out, what was supposed on reading, now and later; starts with
+ * {0}. *c is to be released even after a failure. HCI_ERROR_INPUT for a file without samples, without angle
+ * or voltages, or with an angle that may be mechanical or electrical; HCI_ERROR_MEMORY. */
+hci_status hci_run_columns_find(const hci_csv *csv, hci_run_columns *c, hci_note *remark, hci_note *note);
+void hci_run_columns_release(hci_run_columns *c);
+
+/* Reads a column into c->value, if the file has it. HCI_ERROR_INPUT with line and column, HCI_ERROR_MEMORY.
+ */
+hci_status hci_run_column_read(hci_run_columns *c, hci_run_column which);
+
+/* The values, which are then the caller's to free; NULL where there are none. */
+double *hci_run_column_take(hci_run_columns *c, hci_run_column which);
+
+/* Frees the values. */
+void hci_run_column_drop(hci_run_columns *c, hci_run_column which);
+
+/* A column that says again what others say, or that the caller has no use for: it is not told as unused. */
+void hci_run_column_leave(hci_run_columns *c, hci_run_column which);
+
+/* As the header spells it, and the line of the header in the file; NULL: the file does not have it. */
+const char *hci_run_column_header(const hci_run_columns *c, hci_run_column which, size_t *line);
+
+/* Tells the columns of the file that nobody has read, in the remark. */
+void hci_run_columns_tell_unused(const hci_run_columns *c);
+
+/* ---- three phases, by the first of them: HCI_RUN_IA, HCI_RUN_VA or HCI_RUN_VAB */
+
+/* How many of the three the file has. */
+int hci_run_phase_count(const hci_run_columns *c, hci_run_column first);
+
+/* Which voltages to take: all three phases, else line voltages, of which two will do. False: neither. */
+bool hci_run_voltages(const hci_run_columns *c, hci_run_column *first);
+
+hci_status hci_run_phases_read(hci_run_columns *c, hci_run_column first);
+
+/* Phase quantities of one sample; of two columns, the third makes the sum 0. Of line voltages the phases have
+ * the sum 0, too: orders divisible by three are not in them. */
+void hci_run_phases_at(const hci_run_columns *c, hci_run_column first, size_t sample, double x[3]);
+
+#endif

@@ -1,0 +1,246 @@
+/* The columns of a recording: what is found under which name, in which unit, and what is said of it. */
+#define _POSIX_C_SOURCE 200809L
+
+#include "host/recording/run_columns.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "hci/host/recording/run.h"
+#include "host/base/memory.h"
+#include "unity.h"
+
+#define PI 3.14159265358979323846
+
+static char path[64];
+static hci_csv *csv;
+static hci_run_columns columns;
+static hci_note remark, note;
+
+void setUp(void)
+{
+    memset(&columns, 0, sizeof columns);
+    memset(&remark, 0, sizeof remark);
+    memset(&note, 0, sizeof note);
+    csv = NULL;
+    path[0] = '\0';
+}
+
+void tearDown(void)
+{
+    hci_run_columns_release(&columns);
+    hci_csv_free(csv);
+    if (path[0] != '\0') unlink(path);
+}
+
+static hci_status find(const char *text)
+{
+    snprintf(path, sizeof path, "/tmp/hci-test-columns-XXXXXX");
+    const int handle = mkstemp(path);
+    TEST_ASSERT_TRUE(handle >= 0);
+    TEST_ASSERT_EQUAL((int)strlen(text), (int)write(handle, text, strlen(text)));
+    close(handle);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_csv_read(path, &csv, &note), note.text);
+    return hci_run_columns_find(csv, &columns, &remark, &note);
+}
+
+static double first_value(hci_run_column which)
+{
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_run_column_read(&columns, which), note.text);
+    TEST_ASSERT_NOT_NULL(columns.value[which]);
+    return columns.value[which][0];
+}
+
+/* ---- names and units */
+
+static void test_values_come_in_si_units(void)
+{
+    TEST_ASSERT_EQUAL(HCI_OK, find("Log of a bench\nmade by hand\n"
+                                   "time,theta_e (deg),speed_rpm,ia,torque\nms,,,mA,\n"
+                                   "2,90,60,500,1.5\n3,91,60,600,1.5\n"));
+    TEST_ASSERT_EQUAL(2, columns.count);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-15, 2e-3, first_value(HCI_RUN_TIME));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.5 * PI, first_value(HCI_RUN_THETA_E));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 2.0 * PI, first_value(HCI_RUN_SPEED));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.5, first_value(HCI_RUN_IA));
+    TEST_ASSERT_FALSE(columns.has[HCI_RUN_THETA_M] || columns.has[HCI_RUN_IB]);
+    TEST_ASSERT_NOT_NULL(strstr(remark.text, "line 3 is the header"));
+}
+
+static void test_the_header_says_where_a_column_stands(void)
+{
+    size_t line = 0;
+    find("made by hand\nLog of a bench\ntime,theta_e (deg),torque\n0,0,0\n1,1,0\n2,2,0\n");
+    TEST_ASSERT_EQUAL_STRING("theta_e (deg)", hci_run_column_header(&columns, HCI_RUN_THETA_E, &line));
+    TEST_ASSERT_EQUAL(3, (int)line);
+    TEST_ASSERT_NULL(hci_run_column_header(&columns, HCI_RUN_IQ, &line));
+}
+
+/* What is supposed of another tool's name is said when the column is read, and not before. */
+static void test_names_of_other_tools(void)
+{
+    find("time_s,theta_m_rad,erpm,q_axis_current\n0,0.1,60,7\n");
+    TEST_ASSERT_EQUAL_STRING("", remark.text);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 2.0 * PI, first_value(HCI_RUN_SPEED_E));
+    TEST_ASSERT_NOT_NULL(strstr(remark.text, "`erpm` is read as the electrical speed"));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 7.0, first_value(HCI_RUN_IQ));
+    remark.text[0] = '\0';
+    first_value(HCI_RUN_SPEED_E);
+    TEST_ASSERT_EQUAL_STRING("", remark.text);
+}
+
+static void test_a_cell_that_is_no_number_is_refused(void)
+{
+    find("theta_m_rad,torque_Nm\n0,1\n0.1,x\n");
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, hci_run_column_read(&columns, HCI_RUN_TORQUE));
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(note.text, ":3: column 2 `torque_Nm`: found `x`"), note.text);
+}
+
+static void test_what_nobody_read_is_told(void)
+{
+    find("time_s,theta_m_rad,iq_A,id_A,lamp\n0,0,1,2,3\n");
+    first_value(HCI_RUN_THETA_M);
+    first_value(HCI_RUN_IQ);
+    hci_run_column_leave(&columns, HCI_RUN_ID);
+    hci_run_columns_tell_unused(&columns);
+    TEST_ASSERT_EQUAL_STRING("columns not used: `time_s`, `lamp`", remark.text);
+}
+
+static void test_taken_values_are_the_callers(void)
+{
+    find("theta_m_rad,iq_A\n0.5,1\n");
+    first_value(HCI_RUN_THETA_M);
+    double *theta = hci_run_column_take(&columns, HCI_RUN_THETA_M);
+    TEST_ASSERT_NULL(columns.value[HCI_RUN_THETA_M]);
+    hci_run_columns_release(&columns);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-15, 0.5, theta[0]);
+    hci_memory_free(theta);
+}
+
+/* ---- files that are no recording */
+
+static void expect_refused(const char *text, const char *words)
+{
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, find(text));
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(note.text, words), note.text);
+    tearDown();
+    setUp();
+}
+
+static void test_without_angle_or_voltages_it_is_refused(void)
+{
+    expect_refused("time_s,torque_Nm\n0,1\n", "no column `theta_m_rad`");
+    expect_refused("time_s,theta,va_V,vb_V,vc_V\n0,1,1,1,1\n", "may be mechanical or electrical");
+    expect_refused("theta_m_rad,torque_Nm\n", "a header and no samples");
+    TEST_ASSERT_EQUAL(HCI_OK, find("time_s,va_V,vb_V,vc_V\n0,1,1,1\n"));
+}
+
+/* ---- three phases */
+
+/* Of a star without neutral: the third current makes the sum 0. */
+static void test_the_third_phase_makes_the_sum_zero(void)
+{
+    double x[3];
+    find("theta_m_rad,ia_A,ic_A\n0,1,2\n0,5,-1\n");
+    TEST_ASSERT_EQUAL(2, hci_run_phase_count(&columns, HCI_RUN_IA));
+    TEST_ASSERT_EQUAL(HCI_OK, hci_run_phases_read(&columns, HCI_RUN_IA));
+    hci_run_phases_at(&columns, HCI_RUN_IA, 1, x);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-15, 5.0, x[0]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-15, -4.0, x[1]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-15, -1.0, x[2]);
+}
+
+/* v = (3, −1, −2) V has v_ab = 4, v_bc = 1, v_ca = −5 V. */
+static void test_phases_of_line_voltages(void)
+{
+    static const char *const FILES[] = {"theta_m_rad,vab_V,vbc_V,vca_V\n0,4,1,-5\n",
+                                        "theta_m_rad,vab_V,vbc_V\n0,4,1\n"};
+    for (size_t k = 0; k < 2; ++k) {
+        hci_run_column first;
+        double v[3];
+        find(FILES[k]);
+        TEST_ASSERT_TRUE(hci_run_voltages(&columns, &first));
+        TEST_ASSERT_EQUAL(HCI_RUN_VAB, first);
+        hci_run_phases_read(&columns, first);
+        hci_run_phases_at(&columns, first, 0, v);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, 3.0, v[0]);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, -1.0, v[1]);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, -2.0, v[2]);
+        tearDown();
+        setUp();
+    }
+}
+
+/* Two phases to the star point do not tell the third. */
+static void test_which_voltages_are_taken(void)
+{
+    static const struct {
+        const char *header;
+        bool found;
+        hci_run_column first;
+    } CASES[] = {{"va_V,vb_V,vc_V", true, HCI_RUN_VA},
+                 {"va_V,vb_V,time_s", false, HCI_RUN_VAB},
+                 {"vab_V,time_s,torque", false, HCI_RUN_VAB},
+                 {"va_V,vab_V,vca_V", true, HCI_RUN_VAB},
+                 {"vb_V,vab_V,vca_V", true, HCI_RUN_VAB}};
+    for (size_t k = 0; k < sizeof CASES / sizeof *CASES; ++k) {
+        hci_run_column first;
+        char text[100];
+        snprintf(text, sizeof text, "theta_m_rad,%s\n0,1,2,3\n", CASES[k].header);
+        find(text);
+        TEST_ASSERT_EQUAL_MESSAGE(CASES[k].found, hci_run_voltages(&columns, &first), CASES[k].header);
+        if (CASES[k].found) TEST_ASSERT_EQUAL_MESSAGE(CASES[k].first, first, CASES[k].header);
+        tearDown();
+        setUp();
+    }
+}
+
+/* ---- the readers above it */
+
+/* Phase currents of i_d = −2 A, i_q = 10 A are those columns turned by the angle: i_a = i_q sin θ − i_d cos θ
+ * (theory.md), here at 90 degrees. */
+static void test_a_run_is_made_of_these_columns(void)
+{
+    hci_run run;
+    find("theta_e (deg),Id_measured,Iq_measured\n90,-2,10\n90,-2,10\n");
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_run_of_csv(csv, 1, NAN, &run, &note), note.text);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 10.0, run.i_A[0]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.5 * PI, run.theta_m_rad[0]);
+    hci_run_release(&run);
+}
+
+static void test_out_of_memory(void)
+{
+    hci_status status = HCI_ERROR_MEMORY;
+    find("theta_m_rad,iq_A\n0,1\n");
+    for (long count = 0; status == HCI_ERROR_MEMORY && count < 20; ++count) {
+        hci_run_columns_release(&columns);
+        memset(&note, 0, sizeof note);
+        hci_memory_fail_after(count);
+        status = hci_run_columns_find(csv, &columns, &remark, &note);
+        if (!status) status = hci_run_column_read(&columns, HCI_RUN_IQ);
+    }
+    hci_memory_fail_after(-1);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, status, note.text);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_values_come_in_si_units);
+    RUN_TEST(test_the_header_says_where_a_column_stands);
+    RUN_TEST(test_names_of_other_tools);
+    RUN_TEST(test_a_cell_that_is_no_number_is_refused);
+    RUN_TEST(test_what_nobody_read_is_told);
+    RUN_TEST(test_taken_values_are_the_callers);
+    RUN_TEST(test_without_angle_or_voltages_it_is_refused);
+    RUN_TEST(test_the_third_phase_makes_the_sum_zero);
+    RUN_TEST(test_phases_of_line_voltages);
+    RUN_TEST(test_which_voltages_are_taken);
+    RUN_TEST(test_a_run_is_made_of_these_columns);
+    RUN_TEST(test_out_of_memory);
+    return UNITY_END();
+}
