@@ -91,6 +91,7 @@ typedef struct {
     bool dq_is_steady;  /* i_d, i_q are more than noise about 0 */
     bool has_abc, has_dq, has_voltage, has_speed, has_torque;
     bool has_phase_voltage, has_dq_voltage; /* one of them where has_voltage */
+    bool has_line_voltage;                  /* those of the phases are made of it */
     bool lacks_d_voltage;                   /* v_q alone: what v_d is nobody knows */
     bool lacks_d_current;                   /* i_d was not recorded, or is none */
     bool speed_is_electrical;               /* its column */

@@ -78,7 +78,7 @@ static double frequency_of(const check_vector *x, const double *time, size_t n)
 }
 
 /* Alternating rms of the largest over that of the smallest phase. */
-static double balance_of(double *const column[3], size_t n)
+static double balance_of(const double *const *column, size_t n)
 {
     double least = HUGE_VAL, most = 0.0;
     for (int s = 0; s < 3; ++s) {
@@ -90,7 +90,7 @@ static double balance_of(double *const column[3], size_t n)
     return least > 0.0 ? sqrt(most / least) : (double)NAN;
 }
 
-static double sum_of_phases(double *const column[3], size_t n)
+static double sum_of_phases(const double *const *column, size_t n)
 {
     double sum = 0.0, square = 0.0;
     if (!column[0] || !column[1] || !column[2]) return NAN;

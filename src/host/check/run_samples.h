@@ -5,6 +5,7 @@
 #define HCI_SRC_HOST_CHECK_RUN_SAMPLES_H
 
 #include "host/check/data.h"
+#include "host/recording/run_columns.h"
 
 /* A wave is said to turn with the rotor when it has this share of the mean square. */
 #define CHECK_COHERENT 0.6
@@ -12,19 +13,22 @@
 /* Less than this share of the rated or of the largest current is no current. */
 #define CHECK_NO_CURRENT 0.03
 
-/* Samples of one file while its statistics are taken; what it does not have is NULL. */
+/* Samples of one file while its statistics are taken; what it does not have, or what is not compared, is
+ * NULL. */
 typedef struct {
+    hci_run_columns columns; /* owns what follows, but for the vectors */
     size_t count;
-    double *time, *theta, *other, *speed, *torque, *d, *q, *vd, *vq;
-    double *phase[3], *volt[3];
-    check_vector *current, *voltage;
-    bool *used;       /* of each column of the file */
-    hci_note *remark; /* how they were read */
+    const double *time, *theta, *other, *speed, *d, *q, *vd, *vq; /* theta_m beside theta_e is the other */
+    double *torque;
+    const double *const *phase, *const *volt; /* three columns each, as recorded */
+    check_vector *current, *voltage;          /* of three phases */
 } check_samples;
 
-/* Reads what a check needs of a file whose samples are s->count, and says in s->remark how. What it leaves is
- * to be released even after a failure. HCI_ERROR_INPUT, HCI_ERROR_MEMORY. */
-hci_status hci_check_samples_read(const hci_csv *csv, check_run *run, check_samples *s, hci_note *note);
+/* Reads what a check needs of a file, and says in the remark how. run: out, which columns it has and where
+ * they stand. *s starts from {0}; what it leaves is to be released even after a failure. HCI_ERROR_INPUT,
+ * HCI_ERROR_MEMORY. */
+hci_status hci_check_samples_read(const hci_csv *csv, check_run *run, check_samples *s, hci_note *remark,
+                                  hci_note *note);
 void hci_check_samples_release(check_samples *s);
 
 /* Means over the samples. */

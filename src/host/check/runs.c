@@ -11,23 +11,14 @@
 static hci_status run_take(const hci_csv *csv, check_data *data, check_run *run, hci_note *remark,
                            hci_note *note)
 {
-    check_samples s = {.count = hci_csv_rows(csv), .remark = remark};
-    hci_status status;
+    check_samples s = {0};
+    const hci_status status = hci_check_samples_read(csv, run, &s, remark, note);
     run->count = s.count;
-    if (s.count == 0)
-        return hci_note_set(note, HCI_ERROR_INPUT,
-                            "%s: found a header and no samples, expected a row for each sample; record the "
-                            "run again",
-                            run->path);
-    s.used = hci_memory_new(hci_csv_columns(csv), sizeof *s.used);
-    if (!s.used) return hci_note_set(note, HCI_ERROR_MEMORY, "%s: out of memory", run->path);
-    status = hci_check_samples_read(csv, run, &s, note);
     if (!status) {
         hci_check_run_means(&s, run);
         if (s.theta) hci_check_run_frames(data, &s, run);
-        run->theta = s.theta;
-        run->torque = s.torque;
-        s.theta = s.torque = NULL;
+        run->theta = hci_run_column_take(&s.columns, run->is_electrical ? HCI_RUN_THETA_E : HCI_RUN_THETA_M);
+        run->torque = hci_run_column_take(&s.columns, HCI_RUN_TORQUE);
     }
     hci_check_samples_release(&s);
     return status;
