@@ -1,3 +1,6 @@
+/* Rows of a table and how far off it is. In: waves over a period, and points or an allowed error; out: the
+ * rows in single precision, a bound of the error that holds at every angle, and the peak. The table is read
+ * with the very code that runs on the device. */
 #include "host/emit/tabulate.h"
 
 #include <math.h>
@@ -73,7 +76,7 @@ void hci_tabulation_exact(const hci_tabulation *t, uint32_t angle, double torque
     for (size_t s = 0; s < 3; ++s)
         abc[s] += torque_Nm * slope[s];
     to_frame(t, abc, theta_rad, current);
-    if (phase_A != NULL) *phase_A = fmax(fabs(abc[0]), fmax(fabs(abc[1]), fabs(abc[2])));
+    if (phase_A) *phase_A = fmax(fabs(abc[0]), fmax(fabs(abc[1]), fabs(abc[2])));
 }
 
 double hci_tabulation_clean(double current)

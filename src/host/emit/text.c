@@ -1,3 +1,6 @@
+/* The text of an emitted table. In: rows, probes, figures; out: a header that says how to use them, and a
+ * source with the waves in a comment, the rows, the probes and the table. Same input, same bytes: no dates,
+ * no paths, no locale. */
 #include "host/emit/text.h"
 
 #include <inttypes.h>
