@@ -19,13 +19,12 @@ extern const char hci_plot_style[];
 
 /* Torque, its spectrum, phase currents and current vector as one picture under a verdict.
  * O(samples·(orders + components)), at most 23040 samples; so are the next two. */
-void hci_plot_solution(hci_output *out, const hci_machine_data *machine, const hci_solution *solution);
+void hci_plot_solution(hci_output *out, const hci_solution *solution);
 
 /* One of the four panels as a picture. */
 typedef enum { HCI_PANEL_TORQUE, HCI_PANEL_SPECTRUM, HCI_PANEL_CURRENT, HCI_PANEL_VECTOR } hci_plot_panel;
 
-void hci_plot_solution_panel(hci_output *out, const hci_machine_data *machine, const hci_solution *solution,
-                             hci_plot_panel panel);
+void hci_plot_solution_panel(hci_output *out, const hci_solution *solution, hci_plot_panel panel);
 
 enum { HCI_PLOT_LINE_SIZE = 512 };
 
@@ -36,8 +35,7 @@ typedef struct {
     hci_dq plain_dq_A; /* of the plain sine */
 } hci_plot_facts;
 
-void hci_plot_solution_facts(const hci_machine_data *machine, const hci_solution *solution,
-                             hci_plot_facts *facts);
+void hci_plot_solution_facts(const hci_solution *solution, hci_plot_facts *facts);
 
 /* What the curves are at one electrical angle. */
 typedef struct {
@@ -47,8 +45,7 @@ typedef struct {
     hci_dq dq_A;
 } hci_plot_point;
 
-void hci_plot_solution_point(const hci_machine_data *machine, const hci_solution *solution, double theta_rad,
-                             hci_plot_point *point);
+void hci_plot_solution_point(const hci_solution *solution, double theta_rad, hci_plot_point *point);
 
 /* ---- plot_waveform.c ---- */
 

@@ -62,7 +62,6 @@ enum { COLUMNS = 360, VERTICES = 2 * COLUMNS, MOST_FINE = 64 };
 
 typedef struct {
     const hci_solution *solution;
-    hci_wave plain;
     double top_order; /* highest one that can be seen */
     double turns;     /* electrical turns drawn */
     size_t fine;      /* samples of a column */
@@ -109,20 +108,6 @@ static double mean_Nm(const hci_solution *s, bool wanted)
     return wanted ? s->order[0].target_Nm.cosine : s->order[0].torque_Nm.cosine;
 }
 
-/* The fundamental that before_Nm refers to: the one that is held, or the one in phase with the back-EMF. */
-static hci_wave plain_fundamental(const hci_machine_data *machine, const hci_solution *s)
-{
-    const double sign = mean_Nm(s, true) < 0.0 ? -1.0 : 1.0;
-    double phase_rad = 0.0;
-    if (!s->per_Nm && s->current.count > 0) return s->current.wave[0];
-    for (size_t k = 0; k < machine->model.back_emf_count; ++k) {
-        const hci_wave *e = &machine->model.back_emf[k];
-        if (fabs(e->order - 1.0) < HCI_ORDER_TOLERANCE)
-            phase_rad = hci_phase_rad(sign * e->sine, sign * e->cosine);
-    }
-    return hci_wave_polar(1.0, 1, s->plain_amplitude_A, phase_rad);
-}
-
 static void sample(const curves *c, double theta_rad, double value[CURVES])
 {
     const hci_solution *s = c->solution;
@@ -137,7 +122,7 @@ static void sample(const curves *c, double theta_rad, double value[CURVES])
         value[AFTER] += o->torque_Nm.sine * sine + o->torque_Nm.cosine * cosine;
     }
     hci_waves_at(s->current.wave, s->current.count, theta_rad, &value[PHASE_A]);
-    hci_waves_at(&c->plain, 1, theta_rad, plain);
+    hci_waves_at(&c->solution->plain, 1, theta_rad, plain);
     value[PLAIN_A] = plain[0];
 }
 
@@ -171,12 +156,11 @@ static void fill_column(curves *c, size_t column)
     }
 }
 
-static void fill_curves(curves *c, const hci_machine_data *machine, const hci_solution *s)
+static void fill_curves(curves *c, const hci_solution *s)
 {
     const double most = (double)COLUMNS * MOST_FINE;
     double end[CURVES];
     c->solution = s;
-    c->plain = plain_fundamental(machine, s);
     c->top_order = visible_top_order(s);
     c->turns = fmax(1.0, fmin((double)s->period_turns, floor(most / (8.0 * c->top_order))));
     c->fine = (size_t)fmax(2.0, fmin(MOST_FINE, ceil(8.0 * c->top_order * c->turns / COLUMNS)));
@@ -345,7 +329,7 @@ static void draw_vector(hci_output *out, const curves *c, const hci_svg_box *roo
 {
     static const hci_svg_entry LEGEND[] = {
         {HCI_SVG_DOT, "plain", "before"}, {HCI_SVG_LINE, "path", "after"}, {HCI_SVG_DOT, "start", "at 0°"}};
-    const hci_dq plain = vector_at(&c->plain, 1, 0.0), start = vector_sample(c, 0, 1);
+    const hci_dq plain = vector_at(&c->solution->plain, 1, 0.0), start = vector_sample(c, 0, 1);
     hci_svg_axis d, q;
     vector_axes(c, plain, room, &d, &q);
     const hci_svg_box b = hci_svg_box_beside(*room, &q);
@@ -563,7 +547,7 @@ static void baseline_line(char line[LINE_SIZE], const curves *c)
     if (!(s->plain_amplitude_A > 0.0))
         snprintf(line, LINE_SIZE,
                  "Before: no current, since no mean torque is wanted; what is left is cogging.");
-    else if (!s->per_Nm)
+    else if (s->plain_is_held)
         snprintf(
             line, LINE_SIZE,
             "Before: the held fundamental of %s alone. Copper loss is relative to that of this fundamental",
@@ -614,24 +598,23 @@ static void fill_facts(const curves *c, hci_plot_facts *f)
     f->after_Nm = range_of_values(c->value[AFTER]);
     for (size_t k = 0; k < 3; ++k)
         f->phase_A[k] = range_of_values(c->value[PHASE_A + k]);
-    f->plain_dq_A = vector_at(&c->plain, 1, 0.0);
+    f->plain_dq_A = vector_at(&c->solution->plain, 1, 0.0);
     fill_vector_ranges(c, f);
 }
 
-void hci_plot_solution_facts(const hci_machine_data *machine, const hci_solution *solution,
-                             hci_plot_facts *facts)
+void hci_plot_solution_facts(const hci_solution *solution, hci_plot_facts *facts)
 {
     curves c;
-    fill_curves(&c, machine, solution);
+    fill_curves(&c, solution);
     fill_facts(&c, facts);
 }
 
-void hci_plot_solution(hci_output *out, const hci_machine_data *machine, const hci_solution *solution)
+void hci_plot_solution(hci_output *out, const hci_solution *solution)
 {
     char description[2 * LINE_SIZE + 200];
     hci_plot_facts f;
     curves c;
-    fill_curves(&c, machine, solution);
+    fill_curves(&c, solution);
     fill_facts(&c, &f);
     snprintf(description, sizeof description,
              "%s. Four panels: torque over the electrical angle, torque ripple by electrical order, phase "
@@ -646,8 +629,7 @@ void hci_plot_solution(hci_output *out, const hci_machine_data *machine, const h
     hci_svg_end(out);
 }
 
-void hci_plot_solution_panel(hci_output *out, const hci_machine_data *machine, const hci_solution *solution,
-                             hci_plot_panel panel)
+void hci_plot_solution_panel(hci_output *out, const hci_solution *solution, hci_plot_panel panel)
 {
     static const char *const ID[] = {"torque", "spectrum", "current", "vector"};
     static const char *const TITLE[] = {"Torque over the electrical angle: before, wanted, after",
@@ -664,7 +646,7 @@ void hci_plot_solution_panel(hci_output *out, const hci_machine_data *machine, c
         "angle 0. The table beside it has the extremes."};
     static const hci_svg_box BOX = {76, 36, 540, 278};
     curves c;
-    fill_curves(&c, machine, solution);
+    fill_curves(&c, solution);
     hci_svg_begin(out, &(hci_svg_picture){ID[panel], TITLE[panel], DESCRIPTION[panel], 12, 0, 552, 322});
     if (panel == HCI_PANEL_TORQUE) draw_torque(out, &c, &BOX);
     if (panel == HCI_PANEL_SPECTRUM) draw_spectrum(out, solution, &BOX);
@@ -673,10 +655,9 @@ void hci_plot_solution_panel(hci_output *out, const hci_machine_data *machine, c
     hci_svg_end(out);
 }
 
-void hci_plot_solution_point(const hci_machine_data *machine, const hci_solution *solution, double theta_rad,
-                             hci_plot_point *point)
+void hci_plot_solution_point(const hci_solution *solution, double theta_rad, hci_plot_point *point)
 {
-    const curves c = {.solution = solution, .plain = plain_fundamental(machine, solution)};
+    const curves c = {.solution = solution};
     double value[CURVES];
     sample(&c, theta_rad, value);
     point->before_Nm = value[BEFORE];

@@ -16,7 +16,6 @@ enum { MOST_ORDERS = 32, STEPS = 32, MOST_REACHED = 12, MOST_COMPONENTS = 60 };
 
 typedef struct {
     hci_output *out;
-    const hci_machine_data *machine;
     const hci_solution *solution;
     hci_plot_facts facts;
     hci_plot_point point[STEPS + 1]; /* over the first electrical turn */
@@ -261,7 +260,7 @@ static void show_panel(const page *p, hci_plot_panel panel, void (*tables)(const
                        const char *caption, const char *numbers)
 {
     hci_html_figure(p->out);
-    hci_plot_solution_panel(p->out, p->machine, p->solution, panel);
+    hci_plot_solution_panel(p->out, p->solution, panel);
     hci_html_figure_tables(p->out);
     tables(p);
     hci_html_figure_end(p->out, caption, numbers, p->origin);
@@ -482,14 +481,14 @@ static void show_cost(const page *p)
 
 /* ---- the page ---- */
 
-void hci_report_solution(hci_output *out, const hci_machine_data *machine, const hci_solution *s,
-                         hci_status verdict, const hci_report_sources *sources)
+void hci_report_solution(hci_output *out, const hci_solution *s, hci_status verdict,
+                         const hci_report_sources *sources)
 {
-    page p = {.out = out, .machine = machine, .solution = s};
-    hci_plot_solution_facts(machine, s, &p.facts);
+    page p = {.out = out, .solution = s};
+    hci_plot_solution_facts(s, &p.facts);
     hci_report_origin(p.origin, sources);
     for (size_t k = 0; k <= STEPS; ++k)
-        hci_plot_solution_point(machine, s, angle_deg(k) * HCI_PI / 180.0, &p.point[k]);
+        hci_plot_solution_point(s, angle_deg(k) * HCI_PI / 180.0, &p.point[k]);
     hci_html_begin(out, "Currents for a wanted torque", verdict == HCI_OK ? "Reached" : "Not reached",
                    verdict == HCI_OK);
     say_verdict(&p, verdict);

@@ -22,8 +22,8 @@ hci_status hci_report_diagnosis(hci_output *out, const hci_diagnosis *diagnosis,
 double hci_report_delta_bic(const hci_finding *finding);
 
 /* verdict: what hci_solve returned. */
-void hci_report_solution(hci_output *out, const hci_machine_data *machine, const hci_solution *solution,
-                         hci_status verdict, const hci_report_sources *sources);
+void hci_report_solution(hci_output *out, const hci_solution *solution, hci_status verdict,
+                         const hci_report_sources *sources);
 
 /* HCI_ERROR_MEMORY. */
 hci_status hci_report_simulation(hci_output *out, const hci_simulation *simulation, const hci_traces *traces,

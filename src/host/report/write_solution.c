@@ -123,18 +123,18 @@ static hci_status write_files(hci_output *out, const hci_machine_data *m, const 
     if (!status) status = begin_file(out, HCI_SOLUTION_WAVEFORM, note);
     if (!status) write_waveform(out, m, s);
     if (!status) status = begin_file(out, HCI_SOLUTION_PICTURE, note);
-    if (!status) hci_plot_solution(out, m, s);
+    if (!status) hci_plot_solution(out, s);
     if (!status) status = begin_file(out, HCI_SOLUTION_SUMMARY, note);
     return status ? status : write_summary(out, s, verdict, note);
 }
 
-static hci_status write_report(hci_output *out, const hci_machine_data *m, const hci_solution *s,
-                               hci_status verdict, const hci_report_sources *sources, hci_note *note)
+static hci_status write_report(hci_output *out, const hci_solution *s, hci_status verdict,
+                               const hci_report_sources *sources, hci_note *note)
 {
     const hci_status status =
         sources ? begin_file(out, HCI_SOLUTION_REPORT, note)
                 : hci_output_without(out, hci_solution_file_name(HCI_SOLUTION_REPORT), note);
-    if (!status && sources) hci_report_solution(out, m, s, verdict, sources);
+    if (!status && sources) hci_report_solution(out, s, verdict, sources);
     return status;
 }
 
@@ -152,7 +152,7 @@ hci_status hci_solution_write_with_report(const hci_machine_data *machine, const
     hci_status status = hci_output_open(folder, &out, note);
     if (status) return status;
     status = write_files(out, machine, solution, verdict, note);
-    if (!status) status = write_report(out, machine, solution, verdict, sources, note);
+    if (!status) status = write_report(out, solution, verdict, sources, note);
     if (!status) return hci_output_commit(out, note);
     hci_output_discard(out);
     return status;

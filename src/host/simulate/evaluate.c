@@ -10,6 +10,7 @@
 
 #include "host/base/memory.h"
 #include "host/simulate/simulation.h"
+#include "host/solve/plain_sine.h"
 
 /* What is integrated, before the spectrum's pairs. Torque is taken from its first value, so that a small
  * ripple keeps its digits. */
@@ -259,8 +260,8 @@ static void give_statistics(const hci_evaluation *e, const reached *x, double ti
 
 static void give_losses(const hci_evaluation *e, hci_simulation *s)
 {
-    const double square = s->current_A.rms * s->current_A.rms,
-                 plain = fabs(s->torque_Nm.mean) / (1.5 * e->setup->fundamental_Nm_per_A);
+    const hci_wave sine = hci_plain_sine(e->setup->machine, s->torque_Nm.mean);
+    const double square = s->current_A.rms * s->current_A.rms, plain = hci_amplitude(sine.sine, sine.cosine);
     s->copper_W = 1.5 * e->setup->drive.plant.resistance_ohm * square;
     s->plain_amplitude_A = plain;
     s->loss_to_plain = isfinite(s->T_ripple_percent) && plain > 0.0 ? square / (plain * plain) : (double)NAN;

@@ -290,16 +290,13 @@ static hci_status set_resistance(const job *b)
 
 static hci_status set_plant(const job *b)
 {
-    const hci_machine *m = &b->machine->model;
     hci_status status = HCI_OK;
+    b->setup->machine = &b->machine->model;
     if (b->machine->has_neutral)
         status = hci_note_set(b->note, HCI_ERROR_INPUT,
                               "machine.csv: connection `star-neutral`, but only a star without neutral "
                               "conductor can be simulated; set "
                               "it to `star` to do without the neutral");
-    for (size_t k = 0; k < m->back_emf_count; ++k)
-        if (fabs(m->back_emf[k].order - 1.0) < HCI_ORDER_TOLERANCE)
-            b->setup->fundamental_Nm_per_A = hci_amplitude(m->back_emf[k].sine, m->back_emf[k].cosine);
     if (!status) status = fill_table(b);
     if (!status) status = set_resistance(b);
     return status ? status : set_shaft(b);

@@ -4,6 +4,7 @@
 
 #include "host/base/memory.h"
 #include "host/simulate/simulation.h"
+#include "host/solve/plain_sine.h"
 
 typedef struct {
     hci_setup *setup;
@@ -108,30 +109,15 @@ static hci_status begin_observer(const run *r, hci_note *note)
     return r->observer->begin(r->observer->context, &plan, note);
 }
 
-/* The sine in phase with the back-EMF's fundamental that would make the mean torque with it; false: none. */
-static bool plain_sine(const hci_machine_data *machine, const hci_simulation *s, hci_wave *plain)
-{
-    if (!(s->plain_amplitude_A > 0.0) || !isfinite(s->T_ripple_percent)) return false;
-    for (size_t k = 0; k < machine->model.back_emf_count; ++k) {
-        const hci_wave e = machine->model.back_emf[k];
-        const double size = hypot(e.sine, e.cosine);
-        if (fabs(e.order - 1.0) > HCI_ORDER_TOLERANCE || e.sequence != 1 || !(size > 0.0)) continue;
-        const double a = (s->torque_Nm.mean < 0.0 ? -1.0 : 1.0) * s->plain_amplitude_A / size;
-        *plain = (hci_wave){1.0, 1, a * e.sine, a * e.cosine};
-        return true;
-    }
-    return false;
-}
-
 /* What the ripple is compared with. A machine whose orders have no common period has nothing of the kind. */
 static hci_status judge_plain(const hci_machine_data *machine, const hci_effects *effects, hci_simulation *s,
                               hci_note *note)
 {
     const hci_target none = {NULL, 0};
     hci_note why = {{0}};
-    hci_wave plain;
+    hci_wave plain = hci_plain_sine(&machine->model, s->torque_Nm.mean);
     const hci_currents sine = {.wave = &plain, .count = 1};
-    if (!plain_sine(machine, s, &plain)) return HCI_OK;
+    if (!(s->plain_amplitude_A > 0.0) || !isfinite(s->T_ripple_percent)) return HCI_OK;
     if (hci_evaluate_currents(machine, effects, &sine, &none, &s->plain, &why) != HCI_ERROR_MEMORY)
         return HCI_OK;
     *note = why;

@@ -24,8 +24,8 @@ typedef struct {
     double settle_s;
     size_t steps, every; /* steps to a row of the trajectory */
     size_t period_turns, highest_order;
-    double fundamental_Nm_per_A; /* of the back-EMF */
-    double temperature_C;        /* of the magnets, NAN where it is not given */
+    const hci_machine *machine; /* as declared */
+    double temperature_C;       /* of the magnets, NAN where it is not given */
     bool has_inductance; /* else the table holds a placeholder, which an ideal current source does not feel */
     bool prescribed;     /* speed */
     bool has_command;    /* a torque is asked for */

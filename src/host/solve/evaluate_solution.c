@@ -7,6 +7,7 @@
 
 #include "host/base/memory.h"
 #include "host/solve/harmonic_system.h"
+#include "host/solve/plain_sine.h"
 #include "host/solve/torque_spectrum.h"
 
 static hci_status no_memory(hci_note *note)
@@ -18,22 +19,6 @@ const char *hci_order_verdict_name(hci_order_verdict verdict)
 {
     static const char *const NAME[] = {"reached", "free", "missed", "parasitic", "unreachable"};
     return NAME[verdict];
-}
-
-/* The plain fundamental: the one that is held, or the least sine whose mutual torque has the wanted mean. */
-static hci_wave plain_fundamental(const hci_task *t)
-{
-    const double mean_Nm = hci_target_mean_Nm(t->target);
-    if (t->held) return *t->held;
-    for (size_t k = 0; k < t->machine->back_emf_count; ++k) {
-        const hci_wave *e = &t->machine->back_emf[k];
-        const double square = e->sine * e->sine + e->cosine * e->cosine;
-        if (fabs(e->order - 1.0) < HCI_ORDER_TOLERANCE && e->sequence == 1 && square > 0.0) {
-            const double scale = mean_Nm / (1.5 * square);
-            return (hci_wave){1.0, 1, scale * e->sine, scale * e->cosine};
-        }
-    }
-    return (hci_wave){1.0, 1, 0.0, 0.0};
 }
 
 /* The component that makes torque order m with one wave of the gradient; the lower of the two possible
@@ -145,11 +130,17 @@ static double ratio(double value, double reference)
     return value / reference;
 }
 
-static void fill_losses(const hci_task *t, hci_solution *s)
+/* What the currents are compared with. */
+static void fill_plain(const hci_task *t, hci_solution *s)
 {
-    const hci_wave plain = plain_fundamental(t);
+    s->plain_is_held = t->held != NULL;
+    s->plain = t->held ? *t->held : hci_plain_sine(t->machine, hci_target_mean_Nm(t->target));
+    s->plain_amplitude_A = hci_amplitude(s->plain.sine, s->plain.cosine);
+}
+
+static void fill_losses(hci_solution *s)
+{
     s->mean_square_A2 = hci_waves_mean_square(s->current.wave, s->current.count);
-    s->plain_amplitude_A = hci_amplitude(plain.sine, plain.cosine);
     s->loss_to_plain = ratio(s->mean_square_A2, 1.5 * s->plain_amplitude_A * s->plain_amplitude_A);
     s->loss_to_limit = ratio(s->mean_square_A2, s->limit_mean_square_A2);
 }
@@ -166,13 +157,14 @@ static hci_status find_compared(const hci_task *t, const hci_component_set *set,
 hci_status hci_solution_evaluate(const hci_task *task, const hci_component_set *set, hci_compare compare,
                                  hci_solution *solution, hci_note *note)
 {
-    const hci_wave plain = plain_fundamental(task);
-    const hci_wave_view current = {solution->current.wave, solution->current.count}, before = {&plain, 1};
+    const hci_wave_view current = {solution->current.wave, solution->current.count},
+                        before = {&solution->plain, 1};
     hci_harmonic_system system = {0};
     hci_torque_spectra torque = {0};
     double *reached = hci_memory_new(2 * task->gradient_count, sizeof *reached);
-    hci_status status =
-        reached ? hci_torque_spectra_make(task, current, before, &torque, note) : no_memory(note);
+    hci_status status = reached ? HCI_OK : no_memory(note);
+    fill_plain(task, solution);
+    if (!status) status = hci_torque_spectra_make(task, current, before, &torque, note);
     if (!status) status = find_compared(task, set, compare, &system, note);
     if (!status) {
         const criteria c = {task, set, system.order, system.order_count, reached};
@@ -181,6 +173,6 @@ hci_status hci_solution_evaluate(const hci_task *task, const hci_component_set *
     hci_harmonic_system_release(&system);
     hci_torque_spectra_release(&torque);
     hci_memory_free(reached);
-    if (!status) fill_losses(task, solution);
+    if (!status) fill_losses(solution);
     return status;
 }

@@ -606,17 +606,13 @@ static void test_contrast(void)
 
 static void test_solution(void)
 {
-    hci_wave back_emf = hci_wave_polar(1.0, 1, 0.14, 0.0);
     hci_wave wave[] = {hci_wave_polar(1.0, 1, 10.0, 0.4), hci_wave_polar(5.0, -1, 2.0, 1.0)};
     hci_set set[2] = {0};
-    hci_machine_data machine;
     hci_solution s;
     hci_solved_order order[2];
     const hci_report_sources sources = {.machine = "m", .target = HOSTILE};
-    memset(&machine, 0, sizeof machine);
     memset(&s, 0, sizeof s);
     memset(order, 0, sizeof order);
-    machine.model = (hci_machine){.pole_pairs = 2, .back_emf = &back_emf, .back_emf_count = 1};
     order[0].target_Nm = order[0].torque_Nm = order[0].before_Nm = hci_harmonic_polar(0.0, 2.1, REF_PI / 2.0);
     order[1].target_Nm = hci_harmonic_polar(6.0, 0.0, 0.0);
     order[1].torque_Nm = hci_harmonic_polar(6.0, 0.3125, 1.0);
@@ -629,10 +625,11 @@ static void test_solution(void)
     s.period_turns = 1;
     s.worst_error_Nm = 0.3125;
     s.worst_order = 6.0;
+    s.plain = hci_wave_polar(1.0, 1, 10.0, 0.0);
     s.plain_amplitude_A = 10.0;
     s.loss_to_plain = s.loss_to_limit = s.peak_line_voltage_V = s.torque_at_limit_Nm = NAN;
     hci_output *out = open_page();
-    hci_report_solution(out, &machine, &s, HCI_NOT_REACHED, &sources);
+    hci_report_solution(out, &s, HCI_NOT_REACHED, &sources);
     read_page(out);
     check_page(4);
     text_has("Not reached", page);

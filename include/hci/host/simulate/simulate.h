@@ -153,7 +153,7 @@ typedef struct {
                                                 * when T_mean is 0, or less than 1 % of T_max − T_min */
     double copper_W;                           /* NAN without a resistance */
     double plain_amplitude_A; /* sine in phase with the back-EMF's fundamental that would make the mean torque
-                                 with it */
+                                 with it; 0 without one */
     double loss_to_plain;     /* copper loss over that of the sine; NAN when there is none */
     hci_torque_evaluation plain; /* what that sine does where it flows as it should, magnets at the reference
                             temperature; without orders where there is none to compare with */

@@ -129,7 +129,10 @@ typedef struct {
                         * NAN where not known (saturation) */
 
     double mean_square_A2;    /* what it costs: mean of i_a² + i_b² + i_c² */
-    double plain_amplitude_A; /* of the plain fundamental with the same mean torque; 0 without one */
+    hci_wave plain;           /* compared with: the fundamental that is held, or the least sine whose mutual
+                               * torque has the wanted mean; before_Nm is of it */
+    bool plain_is_held;       /* which of the two */
+    double plain_amplitude_A; /* of it; 0 without one */
     double loss_to_plain;     /* copper loss over that of the plain fundamental; NAN without one */
     double limit_mean_square_A2, loss_to_limit; /* of the pointwise limit, and copper loss over that; NAN when
                                                  * e⊥ vanishes at an angle */
