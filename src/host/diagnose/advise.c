@@ -4,12 +4,12 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "hci/machine/frames.h"
 #include "hci/math/dense.h"
 #include "host/base/memory.h"
 #include "host/diagnose/fit/linearise.h"
 #include "host/diagnose/fit/model.h"
 #include "host/numeric/normal_equations.h"
+#include "host/recording/rotor_frame.h"
 
 enum { SAMPLES_PER_PERIOD = 96, MOST_SAMPLES = 1024, POINTS = 64 };
 
@@ -66,7 +66,7 @@ static void turn_fill(const operating_point *at, int pole_pairs, double temperat
         x->speed_rad_per_s = at->speed_rad_per_s;
         x->temperature_C = temperature_C;
         const hci_dq i = {-at->current_A * sin(at->angle_rad), at->current_A * cos(at->angle_rad), 0.0};
-        hci_clarke_inverse(hci_park_inverse(i, pole_pairs * x->theta_m_rad), x->i_abc);
+        hci_phases_of_dq(i, pole_pairs * x->theta_m_rad, x->i_abc);
         sample[k].time_s = fabs(x->theta_m_rad / at->speed_rad_per_s);
         sample[k].sum_A = NAN;
         sample[k].count = 1.0;

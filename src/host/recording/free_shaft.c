@@ -2,10 +2,10 @@
 
 #include <math.h>
 
-#include "hci/machine/frames.h"
 #include "host/base/memory.h"
 #include "host/base/quote.h"
 #include "host/machine/torque_constant.h"
+#include "host/recording/rotor_frame.h"
 
 #define OF_RATED 0.1  /* what bearings, iron and air take of a machine's rated torque at most */
 #define OF_RMS   0.75 /* of the rms torque of i_q: a drag that is more leaves it hardly any variation */
@@ -41,8 +41,7 @@ static hci_status figures_of(const hci_machine_data *machine, const hci_effects 
         f->plain.accelerating += share * run->torque_Nm[k];
         f->with_speed.made += share * sign * model_Nm[k];
         f->with_speed.accelerating += share * sign * run->torque_Nm[k];
-        const double theta = machine->model.pole_pairs * run->theta_m_rad[k];
-        const double made = constant * hci_park(hci_clarke(run->i_A + 3 * k), theta).q;
+        const double made = constant * hci_run_dq(run, machine->model.pole_pairs, k).q;
         square += share * made * made;
     }
     f->rms_Nm = sqrt(square);

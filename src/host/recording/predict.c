@@ -4,10 +4,10 @@
 #include <string.h>
 
 #include "hci/host/machine/effects.h"
-#include "hci/machine/frames.h"
 #include "host/base/memory.h"
 #include "host/base/quote.h"
 #include "host/numeric/derivative.h"
+#include "host/recording/rotor_frame.h"
 
 /* ---- readings ---- */
 
@@ -24,7 +24,7 @@ static void set_changes(const hci_run *run, int pole_pairs, hci_sample *reading,
     const size_t n = run->count;
     double *x[3] = {work, work + n, work + 2 * n}, *slope[3] = {work + 3 * n, work + 4 * n, work + 5 * n};
     for (size_t k = 0; k < n; ++k) {
-        const hci_dq i = hci_park(hci_clarke(run->i_A + 3 * k), pole_pairs * run->theta_m_rad[k]);
+        const hci_dq i = hci_run_dq(run, pole_pairs, k);
         x[0][k] = i.d;
         x[1][k] = i.q;
         x[2][k] = i.zero;
@@ -33,8 +33,7 @@ static void set_changes(const hci_run *run, int pole_pairs, hci_sample *reading,
         hci_derivative(run->time_s, x[c], n, slope[c]);
     for (size_t k = 0; k < n; ++k) {
         const hci_dq change = {slope[0][k], slope[1][k], slope[2][k]};
-        hci_clarke_inverse(hci_park_inverse(change, pole_pairs * run->theta_m_rad[k]),
-                           reading[k].change_A_per_s);
+        hci_phases_of_dq(change, pole_pairs * run->theta_m_rad[k], reading[k].change_A_per_s);
     }
 }
 

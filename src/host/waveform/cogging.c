@@ -1,9 +1,9 @@
 /* Cogging torque: the recorded torque less what the current makes, over the turns of both directions. */
 #include <math.h>
 
-#include "hci/machine/frames.h"
 #include "hci/math/harmonic.h"
 #include "host/base/memory.h"
+#include "host/recording/rotor_frame.h"
 #include "host/waveform/task.h"
 
 /* What is left of the torque when that of the current is taken away. */
@@ -13,9 +13,7 @@ static void cogging_values(const hci_waveform_task *t, double *value)
     const double constant =
         isnan(t->options->torque_constant_Nm_per_A) ? 0.0 : t->options->torque_constant_Nm_per_A;
     for (size_t k = 0; k < run->count; ++k) {
-        const double theta = t->options->pole_pairs * run->theta_m_rad[k];
-        const hci_dq i = hci_park(hci_clarke(run->i_A + 3 * k), theta);
-        value[k] = run->torque_Nm[k] - constant * i.q;
+        value[k] = run->torque_Nm[k] - constant * hci_run_dq(run, t->options->pole_pairs, k).q;
     }
 }
 

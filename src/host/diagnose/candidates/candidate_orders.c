@@ -3,9 +3,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "hci/machine/frames.h"
 #include "host/base/memory.h"
 #include "host/diagnose/candidates/empirical_term.h"
+#include "host/recording/rotor_frame.h"
 
 #define RESOLVED 0.48 /* orders for each sample of a turn */
 
@@ -81,7 +81,7 @@ static void segment_add(const hci_candidates_source *s, const hci_segment *x, do
     for (size_t j = x->first; j < x->first + x->count; ++j) {
         const hci_sample *reading = &s->samples->sample[j].reading;
         const double w = 1.0 / s->variance[j], theta = reading->theta_m_rad;
-        const double iq = hci_park(hci_clarke(reading->i_abc), s->machine->pole_pairs * theta).q;
+        const double iq = hci_sample_dq(reading, s->machine->pole_pairs).q;
         sample_add(theta * (double)lines->stride, w * (s->residual_Nm[j] - mean), iq, lines->count,
                    sum->with_current, lines->of_run + 2 * lines->count * x->run);
         lines->weight[x->run] += w;

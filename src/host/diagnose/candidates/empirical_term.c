@@ -3,7 +3,7 @@
 #include <float.h>
 #include <math.h>
 
-#include "hci/machine/frames.h"
+#include "host/recording/rotor_frame.h"
 
 static const double OF_CURRENT[] = {0.0, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0};
 static const double OF_SPEED[] = {0.0, 0.5, 1.0, 2.0};
@@ -34,7 +34,7 @@ static double torque(const hci_effect *effect, const hci_effect_term *term, cons
                      const hci_sample *truth, hci_effect_torque *sum)
 {
     (void)effect;
-    const hci_dq i = hci_park(hci_clarke(truth->i_abc), machine->pole_pairs * truth->theta_m_rad);
+    const hci_dq i = hci_sample_dq(truth, machine->pole_pairs);
     const double angle = term->order * machine->pole_pairs * truth->theta_m_rad;
     const double wave = term->parameter % 2 == 1 ? cos(angle) : sin(angle);
     const double by = wave * hci_growth_law_at(term->parameter / 2, hypot(i.d, i.q), truth->speed_rad_per_s);

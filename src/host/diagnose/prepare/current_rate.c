@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "hci/machine/frames.h"
+#include "host/recording/rotor_frame.h"
 
 #define REACH                                                                                                \
     80.0 /* part of an electrical period on each side: smooths the noise and keeps harmonics up to the 12th  \
@@ -17,7 +17,7 @@ typedef struct {
 
 static void slope_add(slope_sums *s, double t, const hci_sample *x, int pole_pairs)
 {
-    const hci_dq i = hci_park(hci_clarke(x->i_abc), pole_pairs * x->theta_m_rad);
+    const hci_dq i = hci_sample_dq(x, pole_pairs);
     s->n += 1.0;
     s->t += t;
     s->tt += t * t;
@@ -50,7 +50,6 @@ void hci_current_rates_set(hci_binned_sample *sample, size_t n, int pole_pairs)
         const double spread = s.n * s.tt - s.t * s.t;
         if (!(spread > 0.0)) continue;
         const hci_dq slope = {(s.n * s.td - s.t * s.d) / spread, (s.n * s.tq - s.t * s.q) / spread, 0.0};
-        hci_clarke_inverse(hci_park_inverse(slope, pole_pairs * sample[k].reading.theta_m_rad),
-                           sample[k].reading.change_A_per_s);
+        hci_phases_of_dq(slope, pole_pairs * sample[k].reading.theta_m_rad, sample[k].reading.change_A_per_s);
     }
 }

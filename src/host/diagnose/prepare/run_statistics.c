@@ -2,9 +2,9 @@
 
 #include <math.h>
 
-#include "hci/machine/frames.h"
 #include "hci/math/harmonic.h"
 #include "host/numeric/angle_bins.h"
+#include "host/recording/rotor_frame.h"
 
 #define ROUNDING_RAD 1e-7 /* a step of angle up to this is none */
 #define FREEDOM      100.0
@@ -59,7 +59,7 @@ static double turns_of(const hci_run *r)
 static void sample_add(const hci_run *r, int pole_pairs, size_t k, hci_run_statistics *f)
 {
     const double n = (double)r->count;
-    const hci_dq i = hci_park(hci_clarke(r->i_A + 3 * k), pole_pairs * r->theta_m_rad[k]);
+    const hci_dq i = hci_run_dq(r, pole_pairs, k);
     const double torque = r->torque_Nm ? r->torque_Nm[k] : 0.0;
     f->mean_torque_Nm += torque / n;
     f->rms_torque_Nm += torque * torque / n;

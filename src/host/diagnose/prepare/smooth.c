@@ -3,10 +3,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "hci/machine/frames.h"
 #include "hci/math/dense.h"
 #include "host/base/memory.h"
 #include "host/numeric/normal_equations.h"
+#include "host/recording/rotor_frame.h"
 
 enum {
     REACH = 10,      /* neighbours on each side for the angle */
@@ -73,8 +73,7 @@ static bool is_steady(const hci_binned_sample *sample, size_t n, int pole_pairs)
 {
     double d[2] = {0.0}, q[2] = {0.0}, length = 0.0;
     for (size_t k = 0; k < n; ++k) {
-        const hci_dq i =
-            hci_park(hci_clarke(sample[k].reading.i_abc), pole_pairs * sample[k].reading.theta_m_rad);
+        const hci_dq i = hci_sample_dq(&sample[k].reading, pole_pairs);
         d[2 * k >= n] += 2.0 * i.d / (double)n;
         q[2 * k >= n] += 2.0 * i.q / (double)n;
         length += hypot(i.d, i.q) / (double)n;
@@ -174,7 +173,7 @@ static void coordinates_read(const hci_binned_sample *sample, size_t n, int pole
 {
     for (size_t k = 0; k < n; ++k) {
         const hci_sample *x = &sample[k].reading;
-        const hci_dq i = hci_park(hci_clarke(x->i_abc), pole_pairs * x->theta_m_rad);
+        const hci_dq i = hci_sample_dq(x, pole_pairs);
         basis_at(x->theta_m_rad, periods, count, r->rows + k * r->normal.n);
         r->coordinate[0][k] = i.d;
         r->coordinate[1][k] = i.q;
@@ -185,7 +184,7 @@ static void coordinates_read(const hci_binned_sample *sample, size_t n, int pole
 static void phases_of(double *const axis[3], size_t k, double scale, double theta_rad, double *phases)
 {
     const hci_dq x = {scale * axis[0][k], scale * axis[1][k], scale * axis[2][k]};
-    hci_clarke_inverse(hci_park_inverse(x, theta_rad), phases);
+    hci_phases_of_dq(x, theta_rad, phases);
 }
 
 static void coordinates_write(const series_workspace *r, size_t n, int pole_pairs, hci_binned_sample *sample)

@@ -2,9 +2,9 @@
 
 #include <math.h>
 
-#include "hci/machine/frames.h"
 #include "hci/math/harmonic.h"
 #include "host/base/memory.h"
+#include "host/recording/rotor_frame.h"
 
 #define STEADY   0.02 /* change of current and speed within a mean, as a share of their largest */
 #define STEADY_K 1.0  /* and of temperature, in kelvin */
@@ -27,7 +27,7 @@ static double direction_of_turn(const hci_run *r, const hci_turn *x)
 
 static void sample_add(const hci_run *r, int pole_pairs, size_t k, hci_turn *sum)
 {
-    const hci_dq i = hci_park(hci_clarke(r->i_A + 3 * k), pole_pairs * r->theta_m_rad[k]);
+    const hci_dq i = hci_run_dq(r, pole_pairs, k);
     sum->d += i.d;
     sum->q += i.q;
     sum->speed += r->speed_rad_per_s ? r->speed_rad_per_s[k] : 0.0;

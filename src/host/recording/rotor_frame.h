@@ -1,0 +1,19 @@
+/* The phase currents of a recording in the rotor frame, and rates found there as phase quantities: what
+ * prediction, diagnosis and the analysis of waveforms all ask of a run. */
+#ifndef HCI_SRC_HOST_RECORDING_ROTOR_FRAME_H
+#define HCI_SRC_HOST_RECORDING_ROTOR_FRAME_H
+
+#include "hci/effects/effect.h"
+#include "hci/host/recording/run.h"
+#include "host/recording/rotor_frame.h"
+
+/* i_d, i_q and the zero sequence of sample k, in A. run: with currents and an angle. */
+hci_dq hci_run_dq(const hci_run *run, int pole_pairs, size_t k);
+
+/* The same of one sample on its own. */
+hci_dq hci_sample_dq(const hci_sample *sample, int pole_pairs);
+
+/* Phase quantities of a vector in the rotor frame at an electrical angle. */
+void hci_phases_of_dq(hci_dq x, double theta_e_rad, double abc[3]);
+
+#endif
