@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include "hci/host/base/number.h"
+#include "host/base/folder.h"
 #include "host/base/memory.h"
 #include "host/base/quote.h"
 
@@ -88,74 +89,6 @@ static hci_status memory_error(const char *path, hci_note *note)
 
 /* ---- the folder ---- */
 
-static bool is_folder(const char *path)
-{
-    struct stat status;
-    return stat(path, &status) == 0 && S_ISDIR(status.st_mode);
-}
-
-/* Length of the parent part of the first `length` bytes of a path, 0 for none: "a/b//" → "a". */
-static size_t parent_length(const char *path, size_t length)
-{
-    while (length > 0 && path[length - 1] == '/')
-        length--;
-    while (length > 0 && path[length - 1] != '/')
-        length--;
-    while (length > 1 && path[length - 1] == '/')
-        length--;
-    return length;
-}
-
-/* Does something at the first `length` bytes of the path, which is restored. */
-static int at_prefix(char *path, size_t length, int (*action)(const char *))
-{
-    const char cut = path[length];
-    path[length] = '\0';
-    const int result = action(path);
-    path[length] = cut;
-    return result;
-}
-
-static int make_folder(const char *path)
-{
-    return mkdir(path, 0777) == 0 || (errno == EEXIST && is_folder(path)) ? 0 : -1;
-}
-
-static int test_folder(const char *path)
-{
-    return is_folder(path) ? 0 : -1;
-}
-
-/* Removes what this set has made of the folder and its parents; rmdir leaves what is not empty. */
-static void remove_folders(hci_output *output)
-{
-    size_t length = strlen(output->folder);
-    for (; length > output->existing; length = parent_length(output->folder, length)) {
-        (void)at_prefix(output->folder, length, rmdir);
-    }
-}
-
-static hci_status make_folders(hci_output *output, hci_note *note)
-{
-    char *folder = output->folder;
-    const size_t whole = strlen(folder);
-    size_t length = whole;
-    while (length > 0 && at_prefix(folder, length, test_folder) != 0)
-        length = parent_length(folder, length);
-    output->existing = length;
-    while (length < whole) {
-        length += strspn(folder + length, "/");
-        length += strcspn(folder + length, "/");
-        if (at_prefix(folder, length, make_folder) != 0) {
-            const hci_status status =
-                output_error(folder, note, strerror(errno), "give a folder that can be made");
-            remove_folders(output);
-            return status;
-        }
-    }
-    return HCI_OK;
-}
-
 static hci_status open_set(const char *folder, hci_output **output, hci_note *note)
 {
     if (*folder == '\0')
@@ -167,13 +100,14 @@ static hci_status open_set(const char *folder, hci_output **output, hci_note *no
         return memory_error(folder, note);
     }
     memcpy(set->folder, folder, strlen(folder) + 1);
-    const hci_status status = make_folders(set, note);
-    if (status == HCI_OK) {
+    if (hci_folder_make(set->folder, &set->existing)) {
         enter(set);
         *output = set;
-    } else {
-        hci_output_discard(set);
+        return HCI_OK;
     }
+    const hci_status status = output_error(folder, note, strerror(errno), "give a folder that can be made");
+    hci_memory_free(set->folder);
+    hci_memory_free(set);
     return status;
 }
 
@@ -432,7 +366,7 @@ void hci_output_discard(hci_output *output)
         if (!output->files[i].renamed) unlink(output->files[i].temporary);
         forget(&output->files[i]);
     }
-    remove_folders(output);
+    hci_folder_remove(output->folder, output->existing);
     hci_memory_free(output->files);
     hci_memory_free(output->folder);
     hci_memory_free(output);
@@ -444,6 +378,6 @@ void hci_output_abandon(void)
     for (hci_output *output = newest; output != NULL; output = output->older) {
         for (size_t i = 0; i < output->count; i++)
             unlink(output->files[i].temporary);
-        remove_folders(output);
+        hci_folder_remove(output->folder, output->existing);
     }
 }
