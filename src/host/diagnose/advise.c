@@ -107,7 +107,8 @@ static bool dataset_make(const hci_regression *e, double noise_Nm, trial_dataset
 
 /* What is left of |right − wrong|² after a fit of wrong to it with the knowledge `known` of its parameters.
  */
-static double remaining(const hci_normal *difference, const hci_normal *known, double *work)
+static double remaining(const hci_normal_equations *difference, const hci_normal_equations *known,
+                        double *work)
 {
     const size_t n = known->n;
     double *step = work + n * n, fall = 0.0;
@@ -127,7 +128,7 @@ static double remaining(const hci_normal *difference, const hci_normal *known, d
 typedef struct {
     const hci_candidates *wrong;
     hci_model right;
-    hci_normal known; /* what the recordings know of the parameters of `wrong` */
+    hci_normal_equations known; /* what the recordings know of the parameters of `wrong` */
     range range;
     trial_dataset dataset;
     double *residual_Nm, *work; /* [samples], [n² + n] */
@@ -135,7 +136,7 @@ typedef struct {
 
 static hci_status point_score(comparison *c, const operating_point *at, double *score, hci_note *note)
 {
-    hci_normal difference;
+    hci_normal_equations difference;
     trial_dataset *b = &c->dataset;
     turn_fill(at, b->regression.machine->pole_pairs, c->range.temperature_C, b->sample, b->samples.count);
     b->segment.period_s = 2.0 * HCI_PI / fabs(at->speed_rad_per_s);
@@ -145,7 +146,7 @@ static hci_status point_score(comparison *c, const operating_point *at, double *
     if (!status) status = hci_regression_normal(&b->regression, c->wrong, false, &difference, note);
     if (status) return status;
     *score = remaining(&difference, &c->known, c->work);
-    hci_normal_release(&difference);
+    hci_normal_equations_release(&difference);
     return HCI_OK;
 }
 
@@ -218,7 +219,7 @@ static void comparison_release(comparison *c)
     hci_memory_free(c->dataset.sample);
     hci_memory_free(c->work);
     hci_model_release(&c->right);
-    hci_normal_release(&c->known);
+    hci_normal_equations_release(&c->known);
 }
 
 hci_status hci_advise(const hci_regression *regression, const hci_advice_request *request, char *text,

@@ -10,18 +10,18 @@
 
 enum { MOST_GROUP = 8 };
 
-bool hci_normal_start(hci_normal *normal, size_t n)
+bool hci_normal_equations_start(hci_normal_equations *normal, size_t n)
 {
     memset(normal, 0, sizeof *normal);
     normal->n = n;
     normal->gram = hci_memory_new(n * n + 1, sizeof *normal->gram);
     normal->moment = hci_memory_new(n + 1, sizeof *normal->moment);
     if (normal->gram && normal->moment) return true;
-    hci_normal_release(normal);
+    hci_normal_equations_release(normal);
     return false;
 }
 
-void hci_normal_release(hci_normal *normal)
+void hci_normal_equations_release(hci_normal_equations *normal)
 {
     hci_memory_free(normal->gram);
     hci_memory_free(normal->moment);
@@ -29,7 +29,7 @@ void hci_normal_release(hci_normal *normal)
 }
 
 /* Four rows at a time: the inner loop runs over columns, which lets the compiler do several at once. */
-static void add_four(hci_normal *normal, const double *x, const double *y)
+static void add_four(hci_normal_equations *normal, const double *x, const double *y)
 {
     const size_t n = normal->n;
     const double *x1 = x + n, *x2 = x1 + n, *x3 = x2 + n;
@@ -44,7 +44,7 @@ static void add_four(hci_normal *normal, const double *x, const double *y)
         normal->square += y[k] * y[k];
 }
 
-static void add_one(hci_normal *normal, const double *x, double y)
+static void add_one(hci_normal_equations *normal, const double *x, double y)
 {
     const size_t n = normal->n;
     for (size_t i = 0; i < n; ++i) {
@@ -55,7 +55,7 @@ static void add_one(hci_normal *normal, const double *x, double y)
     normal->square += y * y;
 }
 
-void hci_normal_add(hci_normal *normal, const double *x, const double *y, size_t rows)
+void hci_normal_equations_add(hci_normal_equations *normal, const double *x, const double *y, size_t rows)
 {
     size_t k = 0;
     for (; k + 4 <= rows; k += 4)
@@ -65,7 +65,7 @@ void hci_normal_add(hci_normal *normal, const double *x, const double *y, size_t
     normal->rows += (double)rows;
 }
 
-void hci_normal_finish(hci_normal *normal)
+void hci_normal_equations_finish(hci_normal_equations *normal)
 {
     const size_t n = normal->n;
     for (size_t i = 0; i < n; ++i)
@@ -75,7 +75,7 @@ void hci_normal_finish(hci_normal *normal)
 
 /* ---- sweeping ---- */
 
-bool hci_sweep_start(hci_sweep *sweep, const hci_normal *normal)
+bool hci_sweep_start(hci_sweep *sweep, const hci_normal_equations *normal)
 {
     const size_t n = normal->n;
     memset(sweep, 0, sizeof *sweep);

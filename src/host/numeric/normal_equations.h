@@ -12,15 +12,15 @@ typedef struct {
     double *moment; /* n */
     double square;  /* yᵀy */
     double rows;
-} hci_normal;
+} hci_normal_equations;
 
 /* Zeros. False when memory is out, and then *normal is empty. */
-bool hci_normal_start(hci_normal *normal, size_t n);
-void hci_normal_release(hci_normal *normal);
+bool hci_normal_equations_start(hci_normal_equations *normal, size_t n);
+void hci_normal_equations_release(hci_normal_equations *normal);
 
-/* Adds rows: x[row·n + column], y[rows]. Call hci_normal_finish after the last. O(rows·n²/2). */
-void hci_normal_add(hci_normal *normal, const double *x, const double *y, size_t rows);
-void hci_normal_finish(hci_normal *normal);
+/* Adds rows: x[row·n + column], y[rows]. Call hci_normal_equations_finish after the last. O(rows·n²/2). */
+void hci_normal_equations_add(hci_normal_equations *normal, const double *x, const double *y, size_t rows);
+void hci_normal_equations_finish(hci_normal_equations *normal);
 
 /* A copy in which some columns are solved for. */
 typedef struct {
@@ -33,7 +33,7 @@ typedef struct {
 } hci_sweep;
 
 /* False when memory is out, and then *sweep is empty. O(n²). */
-bool hci_sweep_start(hci_sweep *sweep, const hci_normal *normal);
+bool hci_sweep_start(hci_sweep *sweep, const hci_normal_equations *normal);
 void hci_sweep_copy(hci_sweep *to, const hci_sweep *from); /* of the same size */
 void hci_sweep_release(hci_sweep *sweep);
 

@@ -15,7 +15,7 @@ enum { MOST_ROWS = 60, MOST_COLUMNS = 24 };
 static uint64_t seed;
 static size_t rows, columns;
 static double x[MOST_ROWS * MOST_COLUMNS], y[MOST_ROWS];
-static hci_normal normal;
+static hci_normal_equations normal;
 static hci_sweep sweep;
 
 void setUp(void)
@@ -27,7 +27,7 @@ void tearDown(void)
 {
     hci_memory_fail_after(-1);
     hci_sweep_release(&sweep);
-    hci_normal_release(&normal);
+    hci_normal_equations_release(&normal);
 }
 
 /* ---- problems ---- */
@@ -56,10 +56,10 @@ static void copy_column(size_t from, size_t to, double factor, double own)
 static void start(void)
 {
     hci_sweep_release(&sweep);
-    hci_normal_release(&normal);
-    TEST_ASSERT_TRUE(hci_normal_start(&normal, columns));
-    hci_normal_add(&normal, x, y, rows);
-    hci_normal_finish(&normal);
+    hci_normal_equations_release(&normal);
+    TEST_ASSERT_TRUE(hci_normal_equations_start(&normal, columns));
+    hci_normal_equations_add(&normal, x, y, rows);
+    hci_normal_equations_finish(&normal);
     TEST_ASSERT_TRUE(hci_sweep_start(&sweep, &normal));
 }
 
@@ -110,11 +110,11 @@ static void test_sums_of_any_number_of_rows(void)
         for (size_t n = 1; n <= 9; n += 4) {
             const size_t part = count / 3;
             draw(count, n);
-            hci_normal_release(&normal);
-            TEST_ASSERT_TRUE(hci_normal_start(&normal, n));
-            hci_normal_add(&normal, x, y, part);
-            hci_normal_add(&normal, x + part * n, y + part, count - part);
-            hci_normal_finish(&normal);
+            hci_normal_equations_release(&normal);
+            TEST_ASSERT_TRUE(hci_normal_equations_start(&normal, n));
+            hci_normal_equations_add(&normal, x, y, part);
+            hci_normal_equations_add(&normal, x + part * n, y + part, count - part);
+            hci_normal_equations_finish(&normal);
             TEST_ASSERT_EQUAL_DOUBLE((double)count, normal.rows);
             is_dot(y, 1, y, 1, normal.square);
             for (size_t i = 0; i < n; ++i) {
@@ -272,7 +272,7 @@ static void test_memory_is_out(void)
     draw(4, 3);
     for (long n = 0; n < 2; ++n) {
         hci_memory_fail_after(n);
-        TEST_ASSERT_FALSE(hci_normal_start(&normal, columns));
+        TEST_ASSERT_FALSE(hci_normal_equations_start(&normal, columns));
         TEST_ASSERT_NULL(normal.gram);
     }
     hci_memory_fail_after(-1);

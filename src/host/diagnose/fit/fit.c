@@ -47,7 +47,7 @@ static size_t unknowns_of(hci_candidates *candidates, unknown *unknowns)
     return count;
 }
 
-static double score_of(const hci_candidates *candidates, const hci_normal *normal)
+static double score_of(const hci_candidates *candidates, const hci_normal_equations *normal)
 {
     double score = normal->square;
     for (size_t k = 0; k < candidates->count; ++k)
@@ -61,7 +61,7 @@ typedef struct {
     const hci_regression *regression;
     hci_candidates *candidates;
     unknown *unknowns;                  /* [n] */
-    hci_normal normal;                  /* at the present values */
+    hci_normal_equations normal;        /* at the present values */
     double *matrix;                     /* [n][n] */
     double *scale, *unit, *step, *from; /* [n] */
     double damping;
@@ -134,20 +134,20 @@ static double promise(const fitting *f)
 /* Takes a step, or takes it back when χ² rises and damps the next one. */
 static hci_status step_take(fitting *f, bool *last, hci_note *note)
 {
-    hci_normal next;
+    hci_normal_equations next;
     values_move(f);
     const hci_status status = hci_regression_normal(f->regression, f->candidates, false, &next, note);
     if (status) return status;
     const double fall = f->normal.square - next.square;
     if (next.square <= f->normal.square) {
-        hci_normal_release(&f->normal);
+        hci_normal_equations_release(&f->normal);
         f->normal = next;
         f->damping *= EASIER;
         *last = fall < CONVERGED;
         return HCI_OK;
     }
     values_restore(f);
-    hci_normal_release(&next);
+    hci_normal_equations_release(&next);
     f->damping = fmax(WHERE_WORSE, HARDER * f->damping);
     return HCI_OK;
 }
@@ -192,7 +192,7 @@ static void fitting_release(fitting *f)
 {
     hci_memory_free(f->unknowns);
     hci_memory_free(f->matrix);
-    hci_normal_release(&f->normal);
+    hci_normal_equations_release(&f->normal);
 }
 
 hci_status hci_regression_fit(const hci_regression *regression, hci_candidates *candidates, hci_fit *fit,

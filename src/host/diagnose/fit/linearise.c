@@ -15,7 +15,7 @@ enum { BLOCK = 120 }; /* rows, longer than anything in the noise is correlated *
 typedef struct {
     const hci_regression *regression;
     const hci_model *model;
-    hci_normal *normal;
+    hci_normal_equations *normal;
     hci_scatter *scatter; /* or NULL */
     double *x, *y;        /* rows of a segment: [samples][columns] and [samples] */
 } filling;
@@ -126,7 +126,7 @@ static void scatter_add(const filling *f, size_t rows)
 
 static void rows_add(const filling *f, size_t rows)
 {
-    hci_normal_add(f->normal, f->x, f->y, rows);
+    hci_normal_equations_add(f->normal, f->x, f->y, rows);
     if (f->scatter) scatter_add(f, rows);
 }
 
@@ -144,7 +144,7 @@ static void segment_add(const filling *f, const hci_segment *s, hci_predicted_re
 /* ---- columns ---- */
 
 /* The largest square among the columns of one effect. */
-static double largest_of(const hci_model *m, const hci_normal *normal, const hci_effect_type *type)
+static double largest_of(const hci_model *m, const hci_normal_equations *normal, const hci_effect_type *type)
 {
     double most = 0.0;
     for (size_t c = 0; c < m->columns; ++c)
@@ -154,7 +154,7 @@ static double largest_of(const hci_model *m, const hci_normal *normal, const hci
 
 /* Columns that are nothing but rounding beside the others of their effect, such as back-EMF harmonics that
  * these currents make no torque with, are emptied. */
-static void rounding_drop(const hci_model *m, hci_normal *normal)
+static void rounding_drop(const hci_model *m, hci_normal_equations *normal)
 {
     const size_t n = normal->n;
     for (size_t c = 0; c < n; ++c) {
@@ -167,7 +167,7 @@ static void rounding_drop(const hci_model *m, hci_normal *normal)
 }
 
 /* Values are expected around 0 with the candidate's deviation: one more row for each term. */
-static void expectations_add(const hci_model *m, hci_normal *normal)
+static void expectations_add(const hci_model *m, hci_normal_equations *normal)
 {
     for (size_t c = 0; c < m->columns; ++c) {
         const hci_candidate *s = m->column[c].candidate;
@@ -193,7 +193,7 @@ static bool fill(filling *f)
     for (const hci_segment *s = NULL; made && (s = hci_regression_next(e, s)) != NULL;)
         segment_add(f, s, &predicted);
     if (made) {
-        hci_normal_finish(f->normal);
+        hci_normal_equations_finish(f->normal);
         rounding_drop(f->model, f->normal);
         expectations_add(f->model, f->normal);
         hci_predicted_reading_release(&predicted);
@@ -203,7 +203,7 @@ static bool fill(filling *f)
 }
 
 static hci_status normal_make(const hci_regression *e, const hci_candidates *candidates, bool all,
-                              hci_normal *normal, hci_scatter *scatter, hci_note *note)
+                              hci_normal_equations *normal, hci_scatter *scatter, hci_note *note)
 {
     hci_model model;
     filling f = {e, &model, normal, scatter, NULL, NULL};
@@ -213,23 +213,23 @@ static hci_status normal_make(const hci_regression *e, const hci_candidates *can
     if (status) return status;
     const size_t n = model.columns;
     if (scatter) scatter->square = hci_memory_new(n * n + n + 1, sizeof *scatter->square);
-    const bool made = (!scatter || scatter->square) && hci_normal_start(normal, n) && fill(&f);
+    const bool made = (!scatter || scatter->square) && hci_normal_equations_start(normal, n) && fill(&f);
     hci_model_release(&model);
     if (made) return HCI_OK;
-    hci_normal_release(normal);
+    hci_normal_equations_release(normal);
     if (scatter) hci_memory_free(scatter->square);
     if (scatter) memset(scatter, 0, sizeof *scatter);
     return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for comparing model and recordings");
 }
 
 hci_status hci_regression_normal(const hci_regression *regression, const hci_candidates *candidates, bool all,
-                                 hci_normal *normal, hci_note *note)
+                                 hci_normal_equations *normal, hci_note *note)
 {
     return normal_make(regression, candidates, all, normal, NULL, note);
 }
 
 hci_status hci_regression_scatter(const hci_regression *regression, const hci_candidates *candidates,
-                                  hci_normal *normal, hci_scatter *scatter, hci_note *note)
+                                  hci_normal_equations *normal, hci_scatter *scatter, hci_note *note)
 {
     return normal_make(regression, candidates, false, normal, scatter, note);
 }

@@ -16,7 +16,7 @@
  * present values: rows are torques and, where they say something, sums of the phase currents. On failure
  * *normal is empty. HCI_ERROR_MEMORY. O(samples·columns²). */
 hci_status hci_regression_normal(const hci_regression *regression, const hci_candidates *candidates, bool all,
-                                 hci_normal *normal, hci_note *note);
+                                 hci_normal_equations *normal, hci_note *note);
 
 /* What x·y, whose sum is 0 at the solution, scatters over blocks of the recordings. Start with {0}. */
 typedef struct {
@@ -27,6 +27,6 @@ typedef struct {
 /* The same with the scatter, of the candidates that are in. Free scatter->square. On failure both are empty.
  */
 hci_status hci_regression_scatter(const hci_regression *regression, const hci_candidates *candidates,
-                                  hci_normal *normal, hci_scatter *scatter, hci_note *note);
+                                  hci_normal_equations *normal, hci_scatter *scatter, hci_note *note);
 
 #endif

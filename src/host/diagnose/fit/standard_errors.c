@@ -24,7 +24,8 @@ static double scatter_along(const double *square, const double *u, size_t n)
 }
 
 /* variance[n]: the diagonal of G⁻¹ M G⁻¹. work: n² + n. False where G is singular. */
-static bool sandwich(const hci_normal *normal, const hci_scatter *scatter, double *work, double *variance)
+static bool sandwich(const hci_normal_equations *normal, const hci_scatter *scatter, double *work,
+                     double *variance)
 {
     const size_t n = normal->n;
     double *unit = work + n * n;
@@ -56,7 +57,7 @@ hci_status hci_regression_standard_errors(const hci_regression *regression, hci_
                                           hci_note *note)
 {
     const size_t n = hci_candidates_terms_in(candidates);
-    hci_normal normal = {0};
+    hci_normal_equations normal = {0};
     hci_scatter scatter = {NULL, 0};
     double *work = hci_memory_new(n * n + 2 * n + 1, sizeof *work);
     if (!work) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for standard errors");
@@ -66,6 +67,6 @@ hci_status hci_regression_standard_errors(const hci_regression *regression, hci_
         errors_raise(candidates, work + n * n + n);
     hci_memory_free(work);
     hci_memory_free(scatter.square);
-    hci_normal_release(&normal);
+    hci_normal_equations_release(&normal);
     return status;
 }

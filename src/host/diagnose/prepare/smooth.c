@@ -121,7 +121,7 @@ static double series_at(const double *row, const double *coefficients, size_t n)
 
 /* Coefficients of one coordinate by least squares; the angles of steady turns are spread evenly enough for
  * normal equations. False where they are not. */
-static bool series_fit(const hci_normal *normal, double *factor, double *coefficients)
+static bool series_fit(const hci_normal_equations *normal, double *factor, double *coefficients)
 {
     memcpy(factor, normal->gram, normal->n * normal->n * sizeof *factor);
     memcpy(coefficients, normal->moment, normal->n * sizeof *coefficients);
@@ -146,7 +146,7 @@ static void slopes_at(const double *row, const double *coefficients, const size_
  * angle. */
 typedef struct {
     double *rows, *coordinate[3], *slope[3], *curvature[3], *factor, *coefficients;
-    hci_normal normal;
+    hci_normal_equations normal;
 } series_workspace;
 
 /* Replaces one coordinate by its series. */
@@ -203,8 +203,8 @@ static bool currents_smooth(hci_binned_sample *sample, size_t n, int pole_pairs,
                             size_t count, series_workspace *r)
 {
     coordinates_read(sample, n, pole_pairs, periods, count, r);
-    hci_normal_add(&r->normal, r->rows, r->coordinate[0], n);
-    hci_normal_finish(&r->normal);
+    hci_normal_equations_add(&r->normal, r->rows, r->coordinate[0], n);
+    hci_normal_equations_finish(&r->normal);
     for (int c = 0; c < 3; ++c)
         if (!coordinate_smooth(r, n, periods, c)) return false;
     coordinates_write(r, n, pole_pairs, sample);
@@ -215,7 +215,7 @@ static bool workspace_make(series_workspace *r, size_t n, size_t columns)
 {
     memset(r, 0, sizeof *r);
     r->rows = hci_memory_new(n * (columns + 9) + columns * (columns + 1), sizeof *r->rows);
-    if (!r->rows || !hci_normal_start(&r->normal, columns)) return false;
+    if (!r->rows || !hci_normal_equations_start(&r->normal, columns)) return false;
     for (size_t c = 0; c < 3; ++c) {
         r->coordinate[c] = r->rows + n * (columns + c);
         r->slope[c] = r->rows + n * (columns + 3 + c);
@@ -242,6 +242,6 @@ bool hci_segment_smooth(hci_binned_sample *sample, const hci_segment *segment, i
     made = workspace_make(&workspace, n, 2 * count + 1);
     if (made) *series = currents_smooth(sample, n, pole_pairs, periods, count, &workspace);
     hci_memory_free(workspace.rows);
-    hci_normal_release(&workspace.normal);
+    hci_normal_equations_release(&workspace.normal);
     return made;
 }

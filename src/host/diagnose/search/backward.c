@@ -38,7 +38,7 @@ static size_t superfluous(const hci_candidates *model, const hci_sweep *sweep, d
 
 static hci_status superfluous_find(hci_search *s, const hci_candidates *model, size_t *worst, hci_note *note)
 {
-    hci_normal normal;
+    hci_normal_equations normal;
     hci_sweep sweep = {0};
     hci_status status = hci_regression_normal(s->regression, model, false, &normal, note);
     if (status) return status;
@@ -48,7 +48,7 @@ static hci_status superfluous_find(hci_search *s, const hci_candidates *model, s
         hci_sweep_in(&sweep, c);
     if (!status) *worst = superfluous(model, &sweep, normal.rows);
     hci_sweep_release(&sweep);
-    hci_normal_release(&normal);
+    hci_normal_equations_release(&normal);
     return status;
 }
 

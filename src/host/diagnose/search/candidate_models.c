@@ -59,7 +59,7 @@ typedef struct {
     bool *spare;
 } dataset;
 
-static bool dataset_make(const hci_candidates *list, const hci_normal *normal, dataset *b)
+static bool dataset_make(const hci_candidates *list, const hci_normal_equations *normal, dataset *b)
 {
     memset(b, 0, sizeof *b);
     b->column = hci_memory_new(list->count + 1, sizeof *b->column);
@@ -92,8 +92,8 @@ static void model_add(hci_candidate_models *t, dataset *b, size_t type_a, size_t
     ++t->count;
 }
 
-static hci_status models_fill(hci_search *s, hci_candidate_models *t, const hci_normal *normal, bool pairs,
-                              hci_note *note)
+static hci_status models_fill(hci_search *s, hci_candidate_models *t, const hci_normal_equations *normal,
+                              bool pairs, hci_note *note)
 {
     const size_t types = hci_candidate_types();
     dataset b;
@@ -111,13 +111,13 @@ static hci_status models_fill(hci_search *s, hci_candidate_models *t, const hci_
 hci_status hci_candidate_models_make(hci_search *s, const hci_candidates *model, bool pairs,
                                      hci_candidate_models *t, hci_note *note)
 {
-    hci_normal normal;
+    hci_normal_equations normal;
     memset(t, 0, sizeof *t);
     hci_status status = candidates_renew(s, model, &t->list, note);
     if (status) return status;
     status = hci_regression_normal(s->regression, &t->list, true, &normal, note);
     if (!status) status = models_fill(s, t, &normal, pairs, note);
-    hci_normal_release(&normal);
+    hci_normal_equations_release(&normal);
     if (status) hci_candidate_models_release(t);
     return status;
 }
@@ -169,7 +169,7 @@ hci_status hci_candidate_models_same(hci_search *s, const hci_candidates *model,
                                      const hci_effect_type *same_as[HCI_MOST_TYPES], hci_note *note)
 {
     hci_candidates list = {0};
-    hci_normal normal = {0};
+    hci_normal_equations normal = {0};
     dataset b;
     hci_status status = candidates_renew(s, model, &list, note);
     memset(same_as, 0, HCI_MOST_TYPES * sizeof *same_as);
@@ -181,7 +181,7 @@ hci_status hci_candidate_models_same(hci_search *s, const hci_candidates *model,
             status = no_memory(note);
         bench_release(&b);
     }
-    hci_normal_release(&normal);
+    hci_normal_equations_release(&normal);
     hci_candidates_release(&list);
     return status;
 }
