@@ -151,7 +151,7 @@ void hci_sweep_out(hci_sweep *s, size_t k)
 }
 
 /* Row i of the Cholesky factor L of the block of neighbouring columns; what depends has a diagonal of 0. */
-static void worth_row(const hci_sweep *s, size_t first, size_t i, double l[MOST_GROUP][MOST_GROUP])
+static void factor_row(const hci_sweep *s, size_t first, size_t i, double l[MOST_GROUP][MOST_GROUP])
 {
     const size_t row = first + i;
     const double whole = s->in[row] ? s->a[row * s->n + row] : s->diagonal[row];
@@ -167,12 +167,12 @@ static void worth_row(const hci_sweep *s, size_t first, size_t i, double l[MOST_
 }
 
 /* vᵀ M⁻¹ v = |z|² of L z = v. */
-double hci_sweep_worth(const hci_sweep *s, size_t first, size_t count)
+double hci_sweep_reduction(const hci_sweep *s, size_t first, size_t count)
 {
     double l[MOST_GROUP][MOST_GROUP], z[MOST_GROUP], sum = 0.0;
     assert(count <= MOST_GROUP);
     for (size_t i = 0; i < count; ++i) {
-        worth_row(s, first, i, l);
+        factor_row(s, first, i, l);
         z[i] = s->b[first + i];
         for (size_t k = 0; k < i; ++k)
             z[i] -= l[i][k] * z[k];

@@ -46,6 +46,6 @@ void hci_sweep_out(hci_sweep *sweep, size_t column);
 
 /* By how much the sum of squares would fall if `count` neighbouring columns that are out came in, or rise if
  * those that are in left; all of them in or all out, at most 8. Dependent columns add nothing. O(count³). */
-double hci_sweep_worth(const hci_sweep *sweep, size_t first, size_t count);
+double hci_sweep_reduction(const hci_sweep *sweep, size_t first, size_t count);
 
 #endif

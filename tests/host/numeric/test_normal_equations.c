@@ -210,10 +210,10 @@ static void test_worth_is_the_fall_of_the_sum_of_squares(void)
             for (size_t c = first; c < first + count; ++c)
                 in[c] = true;
             const double fall = before - left_by(in);
-            TEST_ASSERT_DOUBLE_WITHIN(1e-10 * normal.square, fall, hci_sweep_worth(&sweep, first, count));
+            TEST_ASSERT_DOUBLE_WITHIN(1e-10 * normal.square, fall, hci_sweep_reduction(&sweep, first, count));
             for (size_t c = first; c < first + count; ++c)
                 hci_sweep_in(&sweep, c);
-            TEST_ASSERT_DOUBLE_WITHIN(1e-10 * normal.square, fall, hci_sweep_worth(&sweep, first, count));
+            TEST_ASSERT_DOUBLE_WITHIN(1e-10 * normal.square, fall, hci_sweep_reduction(&sweep, first, count));
         }
     }
 }
@@ -229,11 +229,12 @@ static void test_dependent_columns_add_nothing(void)
         copy_column(1, 4, -2.5, OWN[twin]);
         copy_column(1, 6, 0.0, 0.0);
         start();
-        TEST_ASSERT_EQUAL_DOUBLE(0.0, hci_sweep_worth(&sweep, 6, 1));
+        TEST_ASSERT_EQUAL_DOUBLE(0.0, hci_sweep_reduction(&sweep, 6, 1));
         TEST_ASSERT_TRUE(hci_sweep_in(&sweep, 1));
-        const double with = hci_sweep_worth(&sweep, 3, 1), square = sweep.square;
-        TEST_ASSERT_DOUBLE_WITHIN(1e-12, with, hci_sweep_worth(&sweep, 3, 2));
-        TEST_ASSERT_DOUBLE_WITHIN(1e-12, hci_sweep_worth(&sweep, 5, 1), hci_sweep_worth(&sweep, 5, 2));
+        const double with = hci_sweep_reduction(&sweep, 3, 1), square = sweep.square;
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, with, hci_sweep_reduction(&sweep, 3, 2));
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, hci_sweep_reduction(&sweep, 5, 1),
+                                  hci_sweep_reduction(&sweep, 5, 2));
         memcpy(before, sweep.a, columns * columns * sizeof *before);
         TEST_ASSERT_FALSE(hci_sweep_in(&sweep, 4));
         TEST_ASSERT_FALSE(hci_sweep_in(&sweep, 6));
@@ -242,7 +243,8 @@ static void test_dependent_columns_add_nothing(void)
         TEST_ASSERT_EQUAL_DOUBLE(square, sweep.square);
         copy_column(1, 3, 3.0, OWN[twin]); /* twins in one group that is out */
         start();
-        TEST_ASSERT_DOUBLE_WITHIN(1e-12, hci_sweep_worth(&sweep, 3, 1), hci_sweep_worth(&sweep, 3, 2));
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, hci_sweep_reduction(&sweep, 3, 1),
+                                  hci_sweep_reduction(&sweep, 3, 2));
     }
     copy_column(1, 4, 1.0, 2e-4); /* 1e-8 of its square are its own: enough */
     start();

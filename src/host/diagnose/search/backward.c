@@ -12,7 +12,7 @@ static double stay_gain(const hci_sweep *sweep, const hci_candidate *x, size_t c
         saved[j] = sweep->b[c + j];
         sweep->b[c + j] += x->term[j].value;
     }
-    const double gain = hci_sweep_worth(sweep, c, x->count) - hci_candidate_cost(x, rows);
+    const double gain = hci_sweep_reduction(sweep, c, x->count) - hci_candidate_cost(x, rows);
     for (size_t j = 0; j < x->count; ++j)
         sweep->b[c + j] = saved[j];
     return gain;

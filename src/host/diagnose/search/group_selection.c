@@ -49,7 +49,7 @@ static double cost_of(const selecting *g, size_t k)
 /* Fall of the score by a candidate: by coming in when it is out, by staying when it is in. */
 static double gain_of(const selecting *g, size_t k)
 {
-    return hci_sweep_worth(g->sweep, g->choice->column[k], g->choice->list->candidate[k].count) -
+    return hci_sweep_reduction(g->sweep, g->choice->column[k], g->choice->list->candidate[k].count) -
            cost_of(g, k);
 }
 
