@@ -175,7 +175,7 @@ static hci_status give_summary(const hci_check *c, const cli_arguments *a, hci_n
     char *json;
     if (!a->given[JSON] && !a->value[OUT]) return HCI_OK;
     json = hci_check_json(c);
-    if (!json) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the summary");
+    if (!json) return hci_note_memory(note, NULL, "the summary");
     if (a->value[OUT]) status = write_summary(a->value[OUT], json, note);
     if (!status && a->given[JSON]) puts(json);
     hci_text_free(json);

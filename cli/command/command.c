@@ -45,7 +45,7 @@ int cli_command_run(const cli_command *command, int count, char *const *words)
 
 hci_status cli_print_json(char *json, hci_note *note)
 {
-    if (!json) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the summary");
+    if (!json) return hci_note_memory(note, NULL, "the summary");
     puts(json);
     hci_text_free(json);
     return HCI_OK;

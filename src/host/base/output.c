@@ -80,13 +80,6 @@ static hci_status output_error(const char *path, hci_note *note, const char *fou
                         found, remedy);
 }
 
-static hci_status memory_error(const char *path, hci_note *note)
-{
-    char shown[HCI_QUOTE_PATH_SIZE];
-    return hci_note_set(note, HCI_ERROR_MEMORY, "%s: not enough memory to write it",
-                        hci_quote_path(path, shown));
-}
-
 /* ---- the folder ---- */
 
 static hci_status open_set(const char *folder, hci_output **output, hci_note *note)
@@ -97,7 +90,7 @@ static hci_status open_set(const char *folder, hci_output **output, hci_note *no
     if (set != NULL) set->folder = hci_memory_malloc(strlen(folder) + 1);
     if (set == NULL || set->folder == NULL) {
         hci_memory_free(set);
-        return memory_error(folder, note);
+        return hci_note_memory(note, folder, "writing it");
     }
     memcpy(set->folder, folder, strlen(folder) + 1);
     if (hci_folder_make(set->folder, &set->existing)) {
@@ -154,7 +147,8 @@ static hci_status name_file(const char *folder, const char *name, file *f, hci_n
     f->target = hci_memory_malloc(length + strlen(name) + 1);
     f->temporary = hci_memory_malloc(length + TEMPORARY_SIZE);
     f->backup = hci_memory_malloc(length + TEMPORARY_SIZE);
-    if (f->target == NULL || f->temporary == NULL || f->backup == NULL) return memory_error(name, note);
+    if (f->target == NULL || f->temporary == NULL || f->backup == NULL)
+        return hci_note_memory(note, name, "writing it");
     snprintf(f->target, length + strlen(name) + 1, "%s/%s", folder, name);
     return check_target(f->target, note);
 }
@@ -214,7 +208,7 @@ static hci_status add_file(hci_output *output, const char *name, hci_note *note)
 {
     hci_status status;
     file *files = hci_memory_resize(output->files, output->count + 1, sizeof *files);
-    if (files == NULL) return memory_error(name, note);
+    if (files == NULL) return hci_note_memory(note, name, "writing it");
     output->files = files;
     file *f = &files[output->count];
     *f = (file){0};

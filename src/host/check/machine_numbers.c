@@ -117,7 +117,7 @@ static hci_status columns_read(const hci_csv *csv, const char *amplitude, check_
     const size_t n = hci_csv_rows(csv);
     hci_status status;
     t->order = hci_memory_new(3 * n, sizeof *t->order);
-    if (!t->order) return hci_note_set(note, HCI_ERROR_MEMORY, "%s: out of memory", t->path);
+    if (!t->order) return hci_note_memory(note, t->path, "its rows");
     t->amplitude = t->order + n;
     t->phase_rad = t->order + 2 * n;
     status = hci_csv_numbers(csv, "order", t->order, note);

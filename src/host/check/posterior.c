@@ -121,8 +121,7 @@ hci_status hci_check_posterior(const check_data *data, check_posterior *p, hci_n
 {
     p->data = data;
     find_used(p);
-    if (!weigh_all(p))
-        return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for %zu interpretations", p->count);
+    if (!weigh_all(p)) return hci_note_memory(note, NULL, "%zu interpretations", p->count);
     normalise(p);
     return HCI_OK;
 }

@@ -61,8 +61,7 @@ static hci_status read_phases(check_samples *s, hci_run_column first, check_vect
     const hci_status status = hci_run_phases_read(&s->columns, first);
     if (status) return status;
     *vectors = hci_memory_new(s->count, sizeof **vectors);
-    if (!*vectors)
-        return hci_note_set(note, HCI_ERROR_MEMORY, "%s: out of memory", hci_csv_path(s->columns.csv));
+    if (!*vectors) return hci_note_memory(note, hci_csv_path(s->columns.csv), "its rows");
     for (size_t k = 0; k < s->count; ++k) {
         double x[3];
         hci_run_phases_at(&s->columns, first, k, x);

@@ -72,7 +72,7 @@ hci_status hci_check_runs_read(const char *const *path, size_t count, check_data
     hci_status status = HCI_OK;
     scales_make(data);
     data->run = hci_memory_new(count, sizeof *data->run);
-    if (!data->run) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for %zu runs", count);
+    if (!data->run) return hci_note_memory(note, NULL, "%zu runs", count);
     for (size_t k = 0; k < count && !status; ++k) {
         status = run_read(path[k], data, &data->run[k], &remark[k], note);
         ++data->runs;

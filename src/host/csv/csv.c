@@ -131,7 +131,7 @@ static hci_status push(reader *r, uint32_t value)
     if (r->used == r->capacity) {
         const size_t capacity = 2 * r->capacity + 64;
         uint32_t *larger = hci_memory_resize(r->csv->index, capacity, sizeof *larger);
-        if (larger == NULL) return hci_csv_memory_error(r->csv->path, r->note);
+        if (larger == NULL) return hci_note_memory(r->note, r->csv->path, "reading it");
         r->csv->index = larger;
         r->capacity = capacity;
     }
@@ -350,11 +350,11 @@ hci_status hci_csv_read(const char *path, hci_csv **csv, hci_note *note)
 {
     *csv = NULL;
     hci_csv *table = hci_memory_new(1, sizeof *table);
-    if (table == NULL) return hci_csv_memory_error(path, note);
+    if (table == NULL) return hci_note_memory(note, path, "reading it");
     table->path = hci_memory_malloc(strlen(path) + 1);
     hci_status status = HCI_ERROR_MEMORY;
     if (table->path == NULL) {
-        hci_csv_memory_error(path, note);
+        hci_note_memory(note, path, "reading it");
     } else {
         memcpy(table->path, path, strlen(path) + 1);
         status = read_table(table, note);

@@ -25,13 +25,6 @@ static hci_status system_error(const char *path, hci_note *note, int error)
     return hci_csv_file_error(path, note, found, "give the path of a CSV file that you may read");
 }
 
-hci_status hci_csv_memory_error(const char *path, hci_note *note)
-{
-    char shown[HCI_QUOTE_PATH_SIZE];
-    return hci_note_set(note, HCI_ERROR_MEMORY, "%s: not enough memory to read it",
-                        hci_quote_path(path, shown));
-}
-
 static char *read_stream(FILE *stream, size_t *size)
 {
     size_t capacity = FIRST_READ;
@@ -57,7 +50,7 @@ static hci_status read_file(hci_csv *csv, size_t *size, hci_note *note)
     csv->text = read_stream(stream, size);
     const int failure = ferror(stream) ? errno : 0;
     fclose(stream);
-    if (csv->text == NULL) return hci_csv_memory_error(csv->path, note);
+    if (csv->text == NULL) return hci_note_memory(note, csv->path, "reading it");
     if (failure != 0) return system_error(csv->path, note, failure);
     return HCI_OK;
 }

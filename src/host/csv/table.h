@@ -22,9 +22,8 @@ struct hci_csv {
 /* Reads the whole of csv->path into csv->text, and makes sure that it is text. HCI_ERROR_INPUT, _MEMORY. */
 hci_status hci_csv_load(hci_csv *csv, hci_note *note);
 
-/* "path: found …; remedy", and "path: not enough memory to read it". */
+/* "path: found …; remedy". */
 hci_status hci_csv_file_error(const char *path, hci_note *note, const char *found, const char *remedy);
-hci_status hci_csv_memory_error(const char *path, hci_note *note);
 
 /* A cell of a record (0: header), and a record's line in the file. */
 char *hci_csv_cell(const hci_csv *csv, size_t record, size_t column);

@@ -89,7 +89,7 @@ static hci_status open_output(const char *path, hci_output **output, hci_note *n
     const char *slash = strrchr(path, '/');
     const size_t length = slash == NULL ? 1 : slash == path ? 1 : (size_t)(slash - path);
     char *folder = hci_memory_malloc(length + 1);
-    if (folder == NULL) return hci_note_set(note, HCI_ERROR_MEMORY, "not enough memory for the output");
+    if (folder == NULL) return hci_note_memory(note, NULL, "the output");
     memcpy(folder, slash == NULL ? "." : path, length);
     folder[length] = '\0';
     hci_status status = hci_output_open(folder, output, note);

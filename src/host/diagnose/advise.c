@@ -209,7 +209,7 @@ static hci_status comparison_make(const hci_regression *e, const hci_advice_requ
     const size_t n = c->known.n;
     if (dataset_make(e, c->range.noise_Nm, &c->dataset))
         c->work = hci_memory_new(n * n + n + c->dataset.samples.count + 1, sizeof *c->work);
-    if (!c->work) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the advice");
+    if (!c->work) return hci_note_memory(note, NULL, "the advice");
     c->residual_Nm = c->work + n * n + n;
     return HCI_OK;
 }

@@ -120,5 +120,5 @@ hci_status hci_residual_spectrum_make(const hci_regression *regression, const do
     if (!done) hci_memory_free(l.line);
     *lines = done ? l.line : NULL;
     *count = done ? l.count : 0;
-    return done ? HCI_OK : hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the residual by order");
+    return done ? HCI_OK : hci_note_memory(note, NULL, "the residual by order");
 }

@@ -14,11 +14,6 @@
 #define LEAST_TURNS 3.0
 #define FREEDOM     50.0
 
-static hci_status no_memory(hci_note *note)
-{
-    return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the errors of the recordings");
-}
-
 /* ---- one run ---- */
 
 static double samples_of(const hci_dataset *b, size_t run)
@@ -116,7 +111,7 @@ static hci_status lines_fill(const hci_dataset *b, const double *before, const d
                              hci_diagnosis *d, hci_note *note)
 {
     double *noise_Nm = hci_memory_new(b->samples.run_count + 1, sizeof *noise_Nm);
-    if (!noise_Nm) return no_memory(note);
+    if (!noise_Nm) return hci_note_memory(note, NULL, "the errors of the recordings");
     for (size_t r = 0; r < b->samples.run_count; ++r)
         noise_Nm[r] = noise_of_spectrum(b, r);
     const hci_status status =
@@ -129,7 +124,7 @@ static hci_status runs_fill(const hci_dataset *b, const hci_runs *runs, const do
                             const double *after, hci_diagnosis *d, hci_note *note)
 {
     d->run = hci_memory_new(runs->count + 1, sizeof *d->run);
-    if (!d->run) return no_memory(note);
+    if (!d->run) return hci_note_memory(note, NULL, "the errors of the recordings");
     for (size_t k = 0; k < runs->count; ++k)
         if (hci_segment_next(&b->samples, k, NULL)) d->run[d->runs++] = errors_of(b, runs, k, before, after);
     return HCI_OK;
@@ -168,7 +163,7 @@ hci_status hci_run_errors_fill(hci_dataset *b, const hci_runs *runs, size_t para
                                hci_note *note)
 {
     double *before = hci_memory_new(2 * b->samples.count + 1, sizeof *before);
-    if (!before) return no_memory(note);
+    if (!before) return hci_note_memory(note, NULL, "the errors of the recordings");
     b->regression.use = b->any;
     b->regression.raw = true;
     const hci_status status = fill(b, runs, parameters, before, before + b->samples.count, d, note);

@@ -67,7 +67,7 @@ static hci_status take_waves(hci_emission *e, hci_note *note)
     const size_t count = r->current_count + (r->per_Nm ? r->per_Nm_count : 0);
     size_t turns;
     e->waves = hci_memory_new(count, sizeof *e->waves);
-    if (!e->waves) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory");
+    if (!e->waves) return hci_note_memory(note, NULL, "the table");
     for (size_t k = 0; k < count; ++k)
         e->waves[k] = k < r->current_count ? r->currents[k] : r->per_Nm[k - r->current_count];
     turns = find_period(e->waves, count);
@@ -108,7 +108,7 @@ static hci_status fill_table(hci_emission *e, hci_note *note)
     const size_t points = r->points > 0 ? r->points : HCI_EMIT_POINTS;
     e->rows = hci_memory_new(((search ? HCI_EMIT_MAX_POINTS : points) + 1) * t->columns * t->parts,
                              sizeof *e->rows);
-    if (!e->rows) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory");
+    if (!e->rows) return hci_note_memory(note, NULL, "the table");
     if (!search) {
         hci_tabulate(t, points, e->rows, &e->table);
     } else if (!hci_tabulate_within(t, r->max_error_A, e->rows, &e->table)) {

@@ -200,8 +200,7 @@ static hci_status from_csv(const hci_csv *csv, hci_effects_data *effects, hci_no
     effects->effect = hci_memory_new(count, sizeof *effects->effect);
     effects->term = hci_memory_new(count, sizeof *effects->term);
     if (!rows || !effects->effect || !effects->term)
-        status =
-            hci_note_set(note, HCI_ERROR_MEMORY, "%s: out of memory for %zu rows", hci_csv_path(csv), count);
+        status = hci_note_memory(note, hci_csv_path(csv), "%zu rows", count);
     if (!status) status = read_rows(csv, rows, count, note);
     if (!status) group(rows, count, effects);
     hci_memory_free(rows);

@@ -137,7 +137,7 @@ hci_status hci_effects_attach(const hci_effects *effects, const hci_machine *mac
     *attachment = NULL;
     if (status) return status;
     a = hci_memory_new(1, sizeof *a);
-    if (!a) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the effects of the machine");
+    if (!a) return hci_note_memory(note, NULL, "the effects of the machine");
     for (int s = 0; s < HCI_SENSE_COUNT; ++s) {
         a->probe[s].state = state;
         a->probe[s].step_s = drive->control.step_s;

@@ -170,8 +170,7 @@ static hci_status from_csv(const hci_csv *csv, int pole_pairs, hci_inductance_ta
     t->inductance = hci_memory_new(rows, sizeof *t->inductance);
     t->slope = hci_memory_new(rows, sizeof *t->slope);
     if (!theta_rad || !column || !terms || !t->inductance || !t->slope)
-        status =
-            hci_note_set(note, HCI_ERROR_MEMORY, "%s: out of memory for %zu rows", hci_csv_path(csv), rows);
+        status = hci_note_memory(note, hci_csv_path(csv), "%zu rows", rows);
     if (!status) status = analyse(csv, pole_pairs, theta_rad, column, terms, t, note);
     hci_memory_free(theta_rad);
     hci_memory_free(column);

@@ -172,7 +172,7 @@ static hci_status take_emf(const hci_csv *csv, hci_machine_data *m, hci_note *no
                          "%s: every amplitude is zero or below 1e-12 N·m/A; check the values and their unit",
                          hci_csv_path(csv));
     if (!status && !(m->back_emf = hci_memory_new(count, sizeof *m->back_emf)))
-        status = hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for %zu back-EMF orders", count);
+        status = hci_note_memory(note, NULL, "%zu back-EMF orders", count);
     for (size_t k = 0; k < count && !status; ++k)
         m->back_emf[k] =
             (hci_wave){h[k].order, hci_sequence_of_order(h[k].order), scale * h[k].sine, scale * h[k].cosine};

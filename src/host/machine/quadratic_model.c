@@ -12,11 +12,6 @@
 
 enum { MOST_TURNS = 4096 };
 
-static hci_status no_memory(hci_note *note)
-{
-    return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the effects of the machine");
-}
-
 /* ---- orders ---- */
 
 static bool is_whole(double x, double tolerance)
@@ -102,7 +97,7 @@ static hci_status sample_lower(const hci_effects_plant *lower, samples *s, hci_n
         top = fmax(top, m->back_emf[k].order);
     s->count = hci_fft_size(2.0 * (top + 4.0) * (double)s->turns);
     s->row = hci_memory_new(ROWS * s->count, sizeof *s->row);
-    if (!s->row) return no_memory(note);
+    if (!s->row) return hci_note_memory(note, NULL, "the effects of the machine");
     for (size_t k = 0; k < s->count; ++k)
         sample_at(lower, s, k);
     for (size_t r = 0; r < ROWS; r += 2)
@@ -138,7 +133,7 @@ static hci_status add_back_emf(const samples *s, hci_quadratic_model *to, hci_no
     hci_machine *m = &to->machine;
     size_t n = m->back_emf_count;
     to->back_emf = hci_memory_new(n + 3 * s->count / 2, sizeof *to->back_emf);
-    if (!to->back_emf) return no_memory(note);
+    if (!to->back_emf) return hci_note_memory(note, NULL, "the effects of the machine");
     if (n > 0) memcpy(to->back_emf, m->back_emf, n * sizeof *to->back_emf);
     for (size_t k = 0; k < s->count / 2; ++k) {
         hci_harmonic h[3], unused;
@@ -169,7 +164,7 @@ static hci_status add_cogging(const samples *s, hci_quadratic_model *to, hci_not
     hci_machine *m = &to->machine;
     const double least = HCI_FFT_FLOOR * largest_in(s, TORQUE);
     to->cogging = hci_memory_new(m->cogging_count + s->count / 2, sizeof *to->cogging);
-    if (!to->cogging) return no_memory(note);
+    if (!to->cogging) return hci_note_memory(note, NULL, "the effects of the machine");
     if (m->cogging_count > 0) memcpy(to->cogging, m->cogging, m->cogging_count * sizeof *to->cogging);
     for (size_t k = 0; k < s->count / 2; ++k) {
         hci_harmonic a, unused;
@@ -204,7 +199,7 @@ static hci_status add_slopes(const samples *s, hci_quadratic_model *to, hci_note
     for (size_t q = 0; q < HCI_PHASE_MATRIX; q += 2)
         largest = fmax(largest, largest_in(s, SLOPE + q));
     to->slope = hci_memory_new(m->slope_count + s->count / 2, sizeof *to->slope);
-    if (!to->slope) return no_memory(note);
+    if (!to->slope) return hci_note_memory(note, NULL, "the effects of the machine");
     if (m->slope_count > 0) memcpy(to->slope, m->slope, m->slope_count * sizeof *to->slope);
     for (size_t k = 0; k < s->count / 2; ++k) {
         hci_inductance_slope slope;
@@ -232,7 +227,7 @@ static hci_status sort_out(const hci_effects *effects, hci_quadratic_model *to, 
 {
     size_t lower = 0, higher = effects->count;
     to->effect = hci_memory_new(effects->count, sizeof *to->effect);
-    if (!to->effect) return no_memory(note);
+    if (!to->effect) return hci_note_memory(note, NULL, "the effects of the machine");
     for (size_t k = 0; k < effects->count; ++k) {
         const hci_effect *effect = &effects->effect[k];
         if (!effect->type->in_machine)

@@ -36,8 +36,7 @@ static hci_status samples_new(const hci_torque_path *p, samples *s, hci_note *no
     s->turns = p->turns;
     s->count = hci_fft_size(samples_per_turn(p) * (double)p->turns);
     s->alpha = hci_memory_new(6 * s->count, sizeof *s->alpha);
-    if (!s->alpha)
-        return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for %zu samples of the torque", s->count);
+    if (!s->alpha) return hci_note_memory(note, NULL, "%zu samples of the torque", s->count);
     s->beta = s->alpha + s->count;
     s->gradient_alpha = s->beta + s->count;
     s->gradient_beta = s->gradient_alpha + s->count;
@@ -98,11 +97,11 @@ static hci_status harmonics(const samples *s, row which, hci_harmonic_list *out,
     double largest = 0.0;
     out->count = 0;
     out->harmonic = hci_memory_new(s->count / 2, sizeof *out->harmonic);
-    if (!out->harmonic) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the torque's orders");
+    if (!out->harmonic) return hci_note_memory(note, NULL, "the torque's orders");
     for (size_t k = 0; k < s->count / 2; ++k) {
         hci_harmonic *h = &out->harmonic[k], unused;
         hci_fft_bin(s->torque, s->offset, s->count, k, s->turns, which == TORQUE ? h : &unused,
-                          which == TORQUE ? &unused : h);
+                    which == TORQUE ? &unused : h);
         largest = fmax(largest, hci_amplitude(h->sine, h->cosine));
     }
     for (size_t k = 0; k < s->count / 2; ++k) {
@@ -128,7 +127,7 @@ static hci_status gradient_waves(const samples *s, hci_wave_list *out, hci_note 
     const double scale = 1.0 / (double)s->count, *a = s->gradient_alpha, *b = s->gradient_beta;
     size_t n = 0;
     out->wave = hci_memory_new(s->count, sizeof *out->wave);
-    if (!out->wave) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the torque's slopes");
+    if (!out->wave) return hci_note_memory(note, NULL, "the torque's slopes");
     hci_fft(s->gradient_alpha, s->gradient_beta, s->count, -1);
     for (size_t k = 0; k < s->count / 2; ++k) {
         const double order = (double)k / (double)s->turns;

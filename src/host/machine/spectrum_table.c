@@ -86,7 +86,7 @@ hci_status hci_spectrum_rows(const hci_csv *csv, const char *amplitude_column, h
     *terms = hci_memory_new(n, sizeof **terms);
     *row_of = hci_memory_new(n, sizeof **row_of);
     if (!rows || !column || !*terms || !*row_of)
-        status = hci_note_set(note, HCI_ERROR_MEMORY, "%s: out of memory for %zu rows", hci_csv_path(csv), n);
+        status = hci_note_memory(note, hci_csv_path(csv), "%zu rows", n);
     if (!status) {
         const spectrum_columns t = {csv, amplitude_column, column, column + n, column + 2 * n};
         status = read_rows(&t, rows, n, note);

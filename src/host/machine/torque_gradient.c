@@ -20,8 +20,7 @@ static hci_status emf_and_slope(const hci_machine *machine, currents i, double s
     waves->count = 0;
     waves->wave = hci_memory_new(emf_count + hci_slope_waves_capacity(machine, i.count), sizeof *waves->wave);
     if (!waves->wave)
-        return hci_note_set(note, HCI_ERROR_MEMORY,
-                            "out of memory for the reluctance torque of %zu current components", i.count);
+        return hci_note_memory(note, NULL, "the reluctance torque of %zu current components", i.count);
     n = hci_slope_waves(machine, i.wave, i.count, waves->wave);
     for (size_t k = 0; k < n; ++k) {
         waves->wave[k].sine *= share;

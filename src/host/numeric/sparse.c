@@ -42,8 +42,7 @@ static hci_status umfpack_status(SuiteSparse_long code, hci_note *note)
 {
     if (code == UMFPACK_OK) return HCI_OK;
     if (code == UMFPACK_WARNING_singular_matrix) return HCI_ERROR_SINGULAR;
-    if (code == UMFPACK_ERROR_out_of_memory)
-        return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory in the sparse LU");
+    if (code == UMFPACK_ERROR_out_of_memory) return hci_note_memory(note, NULL, "the sparse LU");
     return hci_note_set(note, HCI_ERROR_NUMERIC, "UMFPACK failed with status %ld", (long)code);
 }
 
@@ -114,7 +113,7 @@ static hci_status umfpack_examine(const hci_sparse *a, void *numeric, double *co
 {
     double *work = hci_memory_new(2 * a->columns, sizeof *work);
     const hci_status status = work ? umfpack_condition(a, numeric, work, work + a->columns, condition, note)
-                                   : hci_note_set(note, HCI_ERROR_MEMORY, "out of memory in the sparse LU");
+                                   : hci_note_memory(note, NULL, "the sparse LU");
     hci_memory_free(work);
     return status;
 }
@@ -241,8 +240,7 @@ static void unpermute(const cholmod_dense *y, const SuiteSparse_long *permutatio
 
 static hci_status qr_status(const cholmod_common *cc, hci_note *note)
 {
-    if (cc->status == CHOLMOD_OUT_OF_MEMORY)
-        return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory in the sparse QR");
+    if (cc->status == CHOLMOD_OUT_OF_MEMORY) return hci_note_memory(note, NULL, "the sparse QR");
     return hci_note_set(note, HCI_ERROR_NUMERIC, "SPQR failed with status %d", cc->status);
 }
 
@@ -283,7 +281,7 @@ hci_status hci_sparse_qr_solve(const hci_sparse *a, const double *b, size_t righ
     *condition = NAN;
     if (a->rows == 0 || a->columns == 0) return HCI_OK;
     copy = hci_memory_new(a->rows * right_sides, sizeof *copy);
-    if (!copy) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for %zu rows", a->rows);
+    if (!copy) return hci_note_memory(note, NULL, "%zu rows", a->rows);
     cholmod_l_start(&cc);
     cc.print = 0;
     right = as_dense(b, a->rows, right_sides, copy);

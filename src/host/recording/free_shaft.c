@@ -32,7 +32,7 @@ static hci_status figures_of(const hci_machine_data *machine, const hci_effects 
     const double share = 1.0 / (double)run->count;
     const double constant = hci_torque_constant(&machine->model, effects);
     double *model_Nm = hci_memory_new(run->count, sizeof *model_Nm), square = 0.0;
-    if (model_Nm == NULL) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for a free shaft");
+    if (model_Nm == NULL) return hci_note_memory(note, NULL, "a free shaft");
     const hci_status status = hci_predict(machine, effects, run, model_Nm, note);
     *f = (figures){.rms_Nm = 0.0};
     for (size_t k = 0; k < run->count && status == HCI_OK; ++k) {
@@ -79,7 +79,7 @@ hci_status hci_free_shaft_check(const hci_machine_data *machine, const hci_effec
     figures *f = hci_memory_new(count + 1, sizeof *f);
     hci_status status = HCI_OK;
     double most_Nm = OF_RATED * rated_torque_of(machine, effects);
-    if (f == NULL) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for a free shaft");
+    if (f == NULL) return hci_note_memory(note, NULL, "a free shaft");
     for (size_t k = 0; k < count && status == HCI_OK; ++k) {
         if (!is_free(&runs[k])) continue;
         status = figures_of(machine, effects, &runs[k], &f[k], note);

@@ -11,13 +11,6 @@
 
 /* ---- readings ---- */
 
-static hci_status memory_error(const hci_run *run, hci_note *note)
-{
-    char path[HCI_QUOTE_PATH_SIZE];
-    return hci_note_set(note, HCI_ERROR_MEMORY, "%s: not enough memory for a prediction of %zu samples",
-                        hci_quote_path(run->name, path), run->count);
-}
-
 /* The slopes of i_d, i_q and the zero sequence over time, as phase quantities. work: 6 count. */
 static void set_changes(const hci_run *run, int pole_pairs, hci_sample *reading, double *work)
 {
@@ -56,7 +49,7 @@ hci_status hci_predict_readings(const hci_run *run, int pole_pairs, bool with_ch
     }
     if (!with_change || run->time_s == NULL || run->count < 2) return HCI_OK;
     double *work = hci_memory_new(run->count, 6 * sizeof *work);
-    if (work == NULL) return memory_error(run, note);
+    if (work == NULL) return hci_note_memory(note, run->name, "a prediction of %zu samples", run->count);
     set_changes(run, pole_pairs, reading, work);
     hci_memory_free(work);
     return HCI_OK;
@@ -68,7 +61,7 @@ hci_status hci_predict(const hci_machine_data *machine, const hci_effects *effec
                        double *torque_Nm, hci_note *note)
 {
     hci_sample *reading = hci_memory_new(run->count, sizeof *reading);
-    if (reading == NULL) return memory_error(run, note);
+    if (reading == NULL) return hci_note_memory(note, run->name, "a prediction of %zu samples", run->count);
     const bool with_change = hci_effects_find(effects, "channel_delay") != NULL;
     const hci_status status =
         hci_predict_readings(run, machine->model.pole_pairs, with_change, reading, note);

@@ -110,7 +110,7 @@ static hci_status predict_task(task *t, hci_note *note)
     t->model = hci_memory_new(n, sizeof(double));
     if (t->run.torque_Nm != NULL) t->residual = hci_memory_new(n, sizeof(double));
     if (t->model == NULL || (t->run.torque_Nm != NULL && t->residual == NULL))
-        return hci_note_set(note, HCI_ERROR_MEMORY, "%s: not enough memory for a prediction", t->run.name);
+        return hci_note_memory(note, t->run.name, "a prediction");
     const hci_status status = hci_predict(&t->machine, &t->effects.list, &t->run, t->model, note);
     for (size_t k = 0; k < n && status == HCI_OK && t->residual != NULL; ++k)
         t->residual[k] = t->run.torque_Nm[k] - t->model[k];

@@ -31,9 +31,7 @@ typedef struct {
 
 static hci_status memory_error(const reader *r)
 {
-    char path[HCI_QUOTE_PATH_SIZE];
-    return hci_note_set(r->note, HCI_ERROR_MEMORY, "%s: not enough memory for %zu samples",
-                        hci_quote_path(hci_csv_path(r->columns.csv), path), r->run->count);
+    return hci_note_memory(r->note, hci_csv_path(r->columns.csv), "%zu samples", r->run->count);
 }
 
 static bool has(const reader *r, hci_run_column which)

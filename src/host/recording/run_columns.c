@@ -14,9 +14,7 @@ static const char *const NAME[HCI_RUN_COLUMN_COUNT] = {
 
 static hci_status memory_error(const hci_run_columns *c)
 {
-    char path[HCI_QUOTE_PATH_SIZE];
-    return hci_note_set(c->note, HCI_ERROR_MEMORY, "%s: not enough memory for %zu samples",
-                        hci_quote_path(hci_csv_path(c->csv), path), c->count);
+    return hci_note_memory(c->note, hci_csv_path(c->csv), "%zu samples", c->count);
 }
 
 static hci_status no_samples(const hci_run_columns *c)

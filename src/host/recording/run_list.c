@@ -17,9 +17,7 @@ typedef struct {
 
 static hci_status memory_error(const list_reader *l)
 {
-    char path[HCI_QUOTE_PATH_SIZE];
-    return hci_note_set(l->note, HCI_ERROR_MEMORY, "%s: not enough memory for its runs",
-                        hci_quote_path(hci_csv_path(l->csv), path));
+    return hci_note_memory(l->note, hci_csv_path(l->csv), "its runs");
 }
 
 static hci_status read_role(const list_reader *l, size_t row, hci_role *role)

@@ -260,7 +260,7 @@ static hci_status orders_make(const hci_diagnosis *d, const hci_runs *runs, orde
         }
     }
     hci_memory_free(line);
-    return is_allocated ? HCI_OK : hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the report");
+    return is_allocated ? HCI_OK : hci_note_memory(note, NULL, "the report");
 }
 
 static double order_weight(const void *context, size_t k)

@@ -445,7 +445,7 @@ hci_status hci_report_simulation(hci_output *out, const hci_simulation *s, const
     char origin[HCI_REPORT_ORIGIN_SIZE];
     if (!before) {
         hci_memory_free(order);
-        return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the report");
+        return hci_note_memory(note, NULL, "the report");
     }
     if (has_before(s)) fill_before(before, &s->plain);
     for (size_t k = 1; k < s->spectrum_count; ++k) {

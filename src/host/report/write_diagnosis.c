@@ -113,7 +113,7 @@ static hci_status summary_write(hci_output *out, const hci_diagnosis *d, const h
 {
     char *json = hci_diagnosis_json(d, resolution);
     hci_status status;
-    if (!json) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the summary");
+    if (!json) return hci_note_memory(note, NULL, "the summary");
     status = hci_output_file(out, "summary.json", note);
     if (!status) hci_output_text(out, "%s\n", json);
     hci_text_free(json);

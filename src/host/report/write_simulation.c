@@ -23,7 +23,7 @@ static hci_status begin_traces(writer *w, const hci_simulation_plan *plan, hci_n
 {
     if (!w->where->sources) return HCI_OK;
     w->traces = hci_memory_new(1, sizeof *w->traces);
-    if (!w->traces) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the report");
+    if (!w->traces) return hci_note_memory(note, NULL, "the report");
     hci_traces_begin(w->traces, plan->settle_s, (double)plan->steps * plan->step_s);
     return HCI_OK;
 }
@@ -78,7 +78,7 @@ static hci_status write_summary(hci_output *out, const hci_simulation *s, hci_no
 {
     char *json = hci_simulation_json(s);
     hci_status status;
-    if (!json) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the summary");
+    if (!json) return hci_note_memory(note, NULL, "the summary");
     status = hci_output_file(out, "summary.json", note);
     if (!status) hci_output_text(out, "%s\n", json);
     hci_text_free(json);

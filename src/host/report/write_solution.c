@@ -89,7 +89,7 @@ static void write_waveform(hci_output *out, const hci_machine_data *m, const hci
 static hci_status write_summary(hci_output *out, const hci_solution *s, hci_status verdict, hci_note *note)
 {
     char *json = hci_solution_json(s, verdict);
-    if (!json) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the summary");
+    if (!json) return hci_note_memory(note, NULL, "the summary");
     hci_output_text(out, "%s\n", json);
     hci_text_free(json);
     return HCI_OK;

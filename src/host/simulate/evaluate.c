@@ -373,8 +373,7 @@ hci_status hci_evaluation_finish(hci_evaluation *e, hci_simulation *s, hci_note 
     check_speed(e, s);
     if (e->periods == 0) return HCI_OK;
     s->spectrum_Nm = hci_memory_new(e->orders, sizeof *s->spectrum_Nm);
-    if (!s->spectrum_Nm)
-        return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for %zu orders", e->orders);
+    if (!s->spectrum_Nm) return hci_note_memory(note, NULL, "%zu orders", e->orders);
     give_spectrum(e, s);
     return HCI_OK;
 }

@@ -173,9 +173,7 @@ static hci_status integrate_slopes(const job *b, hci_plant_inductance *given)
     const hci_machine *m = &b->machine->model;
     hci_inductance *terms = hci_memory_new(m->slope_count + 1, sizeof *terms);
     double sum = 0.0;
-    if (!terms)
-        return hci_note_set(b->note, HCI_ERROR_MEMORY, "out of memory for %zu inductance orders",
-                            m->slope_count);
+    if (!terms) return hci_note_memory(b->note, NULL, "%zu inductance orders", m->slope_count);
     for (size_t k = 0; k < m->slope_count; ++k) {
         const double scale = m->pole_pairs * m->slope[k].order;
         terms[k + 1].order = m->slope[k].order;
@@ -242,8 +240,7 @@ static hci_status fill_table(const job *b)
     points = (size_t)turns * POINTS_PER_TURN;
     p->period_turns = (size_t)turns;
     p->rows = hci_memory_new(hci_plant_table_size(points), sizeof *p->rows);
-    if (!p->rows)
-        return hci_note_set(b->note, HCI_ERROR_MEMORY, "out of memory for a table of %zu angles", points);
+    if (!p->rows) return hci_note_memory(b->note, NULL, "a table of %zu angles", points);
     status = hci_plant_table_fill(&b->machine->model, &given, points, p->rows, &p->drive.plant.table);
     p->drive.control.table = &p->drive.plant.table;
     if (status == HCI_ERROR_SINGULAR)
@@ -509,8 +506,7 @@ static hci_status give_rings(const job *b)
     for (int k = 0; k < HCI_SENSE_COUNT; ++k) {
         const size_t size = hci_sensor_workspace(&p->sensor[k]);
         p->ring[k] = size > 0 ? hci_memory_new(size, sizeof *p->ring[k]) : NULL;
-        if (size > 0 && !p->ring[k])
-            return hci_note_set(b->note, HCI_ERROR_MEMORY, "out of memory for a delay of %zu steps", size);
+        if (size > 0 && !p->ring[k]) return hci_note_memory(b->note, NULL, "a delay of %zu steps", size);
     }
     return HCI_OK;
 }

@@ -129,7 +129,7 @@ static hci_status run_setup(const hci_machine_data *machine, const hci_simulate_
 {
     const run r = {setup, hci_evaluation_new(setup), options->observer};
     hci_status status = HCI_OK;
-    if (!r.evaluation) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the evaluation");
+    if (!r.evaluation) return hci_note_memory(note, NULL, "the evaluation");
     status = begin_observer(&r, note);
     if (!status) status = make_steps(&r, options, note);
     if (!status) status = hci_evaluation_finish(r.evaluation, simulation, note);
@@ -144,7 +144,7 @@ hci_status hci_simulate(const hci_machine_data *machine, const hci_scenario *sce
     hci_setup *setup = hci_memory_new(1, sizeof *setup);
     hci_status status;
     memset(simulation, 0, sizeof *simulation);
-    if (!setup) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory");
+    if (!setup) return hci_note_memory(note, NULL, "the simulation");
     status = hci_setup_make(machine, options->effects, scenario, setup, note);
     simulation->remark = setup->remark;
     simulation->imposed = scenario->currents[0] != '\0';

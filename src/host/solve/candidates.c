@@ -92,8 +92,7 @@ hci_status hci_candidates(const hci_task *t, double top_order, hci_component_set
         connect(t, set->component, count, used, order, starting_orders(t, order));
         keep_used(set, count, used);
     } else {
-        status =
-            hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for candidates up to order %g", top_order);
+        status = hci_note_memory(note, NULL, "candidates up to order %g", top_order);
     }
     hci_memory_free(used);
     hci_memory_free(order);

@@ -25,11 +25,6 @@ typedef struct {
     hci_choice best;
 } search;
 
-static hci_status no_memory(hci_note *note)
-{
-    return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory while choosing harmonics");
-}
-
 static void tell(const hci_task *t, double share)
 {
     if (t->progress) t->progress(t->progress_context, "choosing harmonics", share);
@@ -44,8 +39,8 @@ static hci_status solve_set(const hci_task *t, hci_choice *c, hci_note *note)
         hci_harmonic_system_make(t, set->component, set->count, HCI_COMPARE_ALL, &system, note);
     if (status) return status;
     c->answer.x = hci_memory_new(2 * system.unknowns, sizeof *c->answer.x);
-    status =
-        c->answer.x ? hci_choice_solve(&system, hci_target_mean_Nm(t->target), c, note) : no_memory(note);
+    status = c->answer.x ? hci_choice_solve(&system, hci_target_mean_Nm(t->target), c, note)
+                         : hci_note_memory(note, NULL, "choosing harmonics");
     hci_harmonic_system_release(&system);
     return status;
 }
@@ -63,7 +58,7 @@ static hci_status check_all_orders(const hci_task *t, hci_choice *c, hci_note *n
     if (r) c->cost.worst_Nm = hci_worst_residual_Nm(&system, c->answer.x, hci_target_mean_Nm(t->target), r);
     hci_memory_free(r);
     hci_harmonic_system_release(&system);
-    return r ? HCI_OK : no_memory(note);
+    return r ? HCI_OK : hci_note_memory(note, NULL, "choosing harmonics");
 }
 
 /* Solves with all candidates up to top_order. The back-EMF of a surface-magnet machine ends at some order,

@@ -42,11 +42,6 @@ typedef struct {
     hci_harmonic_system system;
 } subset;
 
-static hci_status no_memory(hci_note *note)
-{
-    return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory while choosing harmonics");
-}
-
 static void tell(const hci_task *t, double share)
 {
     if (t->progress) t->progress(t->progress_context, "choosing harmonics", share);
@@ -74,7 +69,7 @@ static hci_status take_members(const subset *of, hci_answer *a, hci_note *note)
 {
     if (hci_answer_reserve(of->count, a)) {
         hci_answer_release(a);
-        return no_memory(note);
+        return hci_note_memory(note, NULL, "choosing harmonics");
     }
     for (size_t k = 0; k < of->count; ++k) {
         a->set.component[k] = of->all->component[of->member[k]];
@@ -90,7 +85,8 @@ static hci_status try_minimax(selection *s, const subset *of, double ridge, hci_
     hci_choice c = {{{0}, NULL}, {0.0, 0.0}};
     const hci_minimax problem = {&of->system, &c.answer.set, mean_Nm(s), ridge, s->preference};
     double *workspace = hci_memory_new(hci_minimax_workspace(&of->system), sizeof *workspace);
-    const hci_status status = workspace ? take_members(of, &c.answer, note) : no_memory(note);
+    const hci_status status =
+        workspace ? take_members(of, &c.answer, note) : hci_note_memory(note, NULL, "choosing harmonics");
     if (!status) {
         if (!hci_minimax_solve(&problem, workspace, c.answer.x, &c.cost))
             keep_better(s, &c);
@@ -118,7 +114,7 @@ static hci_status make_system(const selection *s, subset *of, hci_note *note)
 {
     hci_component *component = hci_memory_new(of->count, sizeof *component);
     hci_status status;
-    if (!component) return no_memory(note);
+    if (!component) return hci_note_memory(note, NULL, "choosing harmonics");
     for (size_t k = 0; k < of->count; ++k)
         component[k] = of->all->component[of->member[k]];
     status = hci_harmonic_system_make(&s->task, component, of->count, HCI_COMPARE_ALL, &of->system, note);

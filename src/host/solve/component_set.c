@@ -109,8 +109,7 @@ static hci_status set_from_csv(const hci_csv *csv, bool has_neutral, hci_compone
     hci_status status = HCI_OK;
     set->component = hci_memory_new(rows, sizeof *set->component);
     set->set = hci_memory_new(rows, sizeof *set->set);
-    if (!order || !set->component || !set->set)
-        status = hci_note_set(note, HCI_ERROR_MEMORY, "%s: out of memory", hci_csv_path(csv));
+    if (!order || !set->component || !set->set) status = hci_note_memory(note, hci_csv_path(csv), "its rows");
     if (!status) status = hci_csv_numbers(csv, "order", order, note);
     if (!status && !hci_csv_has(csv, "set"))
         status = hci_note_set(note, HCI_ERROR_INPUT, "%s:1: no column `set`; expected the columns order,set",

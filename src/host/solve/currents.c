@@ -55,8 +55,7 @@ hci_status hci_currents_read(const char *path, bool per_Nm, hci_currents *curren
     column = hci_memory_new(3 * hci_csv_rows(csv), sizeof *column);
     currents->wave = hci_memory_new(hci_csv_rows(csv), sizeof *currents->wave);
     currents->set = hci_memory_new(hci_csv_rows(csv), sizeof *currents->set);
-    if (!column || !currents->wave || !currents->set)
-        status = hci_note_set(note, HCI_ERROR_MEMORY, "%s: out of memory", path);
+    if (!column || !currents->wave || !currents->set) status = hci_note_memory(note, path, "its rows");
     if (!status) status = currents_parse(csv, per_Nm, currents, column, note);
     if (!status) currents_hash(currents);
     hci_memory_free(column);

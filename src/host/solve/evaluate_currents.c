@@ -11,11 +11,6 @@
  * order. */
 enum { SAMPLES_PER_PERIOD = 16, LEAST_SAMPLES = 1024 };
 
-static hci_status no_memory(hci_note *note)
-{
-    return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory while evaluating currents");
-}
-
 static double mean_square(hci_harmonic h)
 {
     const double square = h.sine * h.sine + h.cosine * h.cosine;
@@ -55,7 +50,7 @@ static hci_status fill_peaks(hci_torque_evaluation *e, hci_note *note)
     const double top = e->torque_Nm[e->order_count - 1].order;
     const size_t n = hci_fft_size(fmax(LEAST_SAMPLES, SAMPLES_PER_PERIOD * (top + 1.0)) * (double)turns);
     double *re = hci_memory_new(2 * n, sizeof *re), *im = re + n, most, least;
-    if (!re) return no_memory(note);
+    if (!re) return hci_note_memory(note, NULL, "evaluating currents");
     for (size_t k = 0; k < e->order_count; ++k) {
         const size_t at = (size_t)floor(e->torque_Nm[k].order * (double)turns + 0.5);
         re[at] += e->torque_Nm[k].cosine; /* the real part of (C − jS) e^(jnθ) */

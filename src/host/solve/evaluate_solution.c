@@ -10,11 +10,6 @@
 #include "host/solve/plain_sine.h"
 #include "host/solve/torque_spectrum.h"
 
-static hci_status no_memory(hci_note *note)
-{
-    return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the torque spectrum");
-}
-
 const char *hci_order_verdict_name(hci_order_verdict verdict)
 {
     static const char *const NAME[] = {"reached", "free", "missed", "parasitic", "unreachable"};
@@ -115,7 +110,7 @@ static void find_worst(hci_solution *s)
 static hci_status fill_orders(const criteria *c, const hci_torque_spectra *t, hci_solution *s, hci_note *note)
 {
     s->order = hci_memory_new(t->count, sizeof *s->order);
-    if (!s->order) return no_memory(note);
+    if (!s->order) return hci_note_memory(note, NULL, "the torque spectrum");
     s->order_count = t->count;
     for (size_t k = 0; k < t->count; ++k)
         s->order[k] = evaluate_order(c, t->first[k], t->second[k], s->tolerance_Nm);
@@ -162,7 +157,7 @@ hci_status hci_solution_evaluate(const hci_task *task, const hci_component_set *
     hci_harmonic_system system = {0};
     hci_torque_spectra torque = {0};
     double *reached = hci_memory_new(2 * task->gradient_count, sizeof *reached);
-    hci_status status = reached ? HCI_OK : no_memory(note);
+    hci_status status = reached ? HCI_OK : hci_note_memory(note, NULL, "the torque spectrum");
     fill_plain(task, solution);
     if (!status) status = hci_torque_spectra_make(task, current, before, &torque, note);
     if (!status) status = find_compared(task, set, compare, &system, note);

@@ -149,7 +149,7 @@ hci_status hci_harmonic_system_make(const hci_task *task, const hci_component *c
     if (!rest || !reserve_rows(system, count, task->gradient_count)) {
         hci_memory_free(rest);
         hci_harmonic_system_release(system);
-        return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for a system of %zu components", count);
+        return hci_note_memory(note, NULL, "a system of %zu components", count);
     }
     fill_right_sides(task, system, rest);
     hci_system_sparse(task->gradient, task->gradient_count, component, count, system->order,

@@ -15,11 +15,6 @@
 #define DEFAULT_LOSS_ALLOWANCE 1.10
 #define WORST_CONDITION        1e12 /* above it a square system is solved by QR instead */
 
-static hci_status no_memory(hci_note *note)
-{
-    return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory while solving");
-}
-
 const char *hci_method_name(hci_method method)
 {
     static const char *const NAME[] = {"auto", "lu", "umfpack", "qr", "pointwise"};
@@ -38,7 +33,7 @@ static hci_status copy_given_set(const hci_solve_options *o, hci_answer *a, hci_
     size_t n = 0;
     for (size_t k = 0; k < o->set->count; ++k)
         add = add && !is_fundamental(o->set->component[k]);
-    if (hci_answer_reserve(o->set->count + (add ? 1 : 0), a)) return no_memory(note);
+    if (hci_answer_reserve(o->set->count + (add ? 1 : 0), a)) return hci_note_memory(note, NULL, "solving");
     if (add) {
         a->set.component[n] = (hci_component){1.0, 1};
         a->set.set[n++] = HCI_SET_POS;
@@ -84,7 +79,7 @@ static hci_status dense_lu(const hci_harmonic_system *s, double *x, double *cond
     const size_t n = s->rows;
     double *block = hci_memory_new(2 * n * n + 2 * n, sizeof *block);
     size_t *pivot = hci_memory_new(n, sizeof *pivot);
-    hci_status status = block && pivot ? HCI_OK : no_memory(note);
+    hci_status status = block && pivot ? HCI_OK : hci_note_memory(note, NULL, "solving");
     if (!status) {
         const dense d = {block, block + n * n, block + 2 * n * n, pivot};
         status = dense_lu_in(s, &d, x, condition);
@@ -153,8 +148,8 @@ static hci_status describe(const hci_task *t, const hci_answer *a, hci_solution 
         hci_harmonic_system_make(t, a->set.component, a->set.count, HCI_COMPARE_ALL, &system, note);
     if (status) return status;
     x = hci_memory_new(2 * system.unknowns, sizeof *x);
-    status =
-        x ? hci_sparse_qr_solve(&system.u, system.h, 2, x, &s->rank, &s->condition, note) : no_memory(note);
+    status = x ? hci_sparse_qr_solve(&system.u, system.h, 2, x, &s->rank, &s->condition, note)
+               : hci_note_memory(note, NULL, "solving");
     s->rows = system.rows;
     s->unknowns = system.unknowns;
     s->method = HCI_METHOD_QR;

@@ -17,11 +17,6 @@
 #define NEGLIGIBLE_TORQUE                                                                                    \
     1e-13 /* share of the largest order: rounding, which would only blow up the system */
 
-static hci_status no_memory(hci_note *note)
-{
-    return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory in Newton's method");
-}
-
 /* Orders that the currents have with the waves L'i. order: out, to be freed; NULL when memory is out. */
 static double *reluctance_orders(const hci_wave_list *slope, const hci_wave *i, size_t count, size_t *orders)
 {
@@ -52,7 +47,7 @@ static hci_status half_product(const hci_wave_list *slope, const hci_wave *i, si
         torque->harmonic[k].cosine *= 0.5;
     }
     hci_memory_free(order);
-    return torque->harmonic ? HCI_OK : no_memory(note);
+    return torque->harmonic ? HCI_OK : hci_note_memory(note, NULL, "Newton's method");
 }
 
 static hci_status reluctance_torque(const hci_machine *m, const hci_wave *i, size_t count,
@@ -60,7 +55,7 @@ static hci_status reluctance_torque(const hci_machine *m, const hci_wave *i, siz
 {
     hci_wave_list slope = {hci_memory_new(hci_slope_waves_capacity(m, count), sizeof *slope.wave), 0};
     hci_status status;
-    if (!slope.wave) return no_memory(note);
+    if (!slope.wave) return hci_note_memory(note, NULL, "Newton's method");
     slope.count = hci_slope_waves(m, i, count, slope.wave);
     status = half_product(&slope, i, count, torque, note);
     hci_memory_free(slope.wave);
@@ -89,7 +84,7 @@ static hci_status append(const hci_linear_torque *x, hci_linear_torque *to, hci_
     if (wave) g->wave = wave;
     hci_harmonic *harmonic = hci_memory_resize(o->harmonic, o->count + x->offset.count, sizeof *harmonic);
     if (harmonic) o->harmonic = harmonic;
-    if (!wave || !harmonic) return no_memory(note);
+    if (!wave || !harmonic) return hci_note_memory(note, NULL, "Newton's method");
     memcpy(wave + g->count, x->gradient.wave, x->gradient.count * sizeof *wave);
     memcpy(harmonic + o->count, x->offset.harmonic, x->offset.count * sizeof *harmonic);
     g->count = hci_waves_join(wave, g->count + x->gradient.count, NEGLIGIBLE_GRADIENT);

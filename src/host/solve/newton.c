@@ -45,11 +45,6 @@ typedef struct {
     hci_answer answer; /* of the last step */
 } newton;
 
-static hci_status no_memory(hci_note *note)
-{
-    return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory in Newton's method");
-}
-
 /* ---- currents ---- */
 
 /* Waves of a set at coordinates x (2·count), and in front what is held. */
@@ -57,7 +52,7 @@ static hci_status waves_of(const hci_task *t, const hci_component_set *set, cons
                            hci_note *note)
 {
     hci_wave *wave = hci_memory_new(set->count + 1, sizeof *wave);
-    if (!wave) return no_memory(note);
+    if (!wave) return hci_note_memory(note, NULL, "Newton's method");
     hci_memory_free(i->wave);
     i->wave = wave;
     i->count = 0;
@@ -83,7 +78,8 @@ static double *coordinates(const hci_task *t, const hci_answer *a)
 static hci_status current_of(const hci_task *t, const hci_answer *a, hci_wave_list *i, hci_note *note)
 {
     double *x = coordinates(t, a);
-    const hci_status status = x ? waves_of(t, &a->set, x, i, note) : no_memory(note);
+    const hci_status status =
+        x ? waves_of(t, &a->set, x, i, note) : hci_note_memory(note, NULL, "Newton's method");
     if (!status) i->count = hci_waves_join(i->wave, i->count, NEGLIGIBLE);
     hci_memory_free(x);
     return status;
@@ -176,7 +172,7 @@ static hci_status descend(newton *n, const hci_component_set *set, const double 
     hci_torque_error before = {0.0, 0.0};
     hci_status status =
         from ? hci_torque_error_evaluate(n->task, n->current.wave, n->current.count, &before, note)
-             : no_memory(note);
+             : hci_note_memory(note, NULL, "Newton's method");
     if (!status) {
         memcpy(from, n->x, size);
         hci_anderson_step(&n->mixing, n->x, g);
@@ -205,11 +201,12 @@ static hci_status move_on(newton *n, const hci_answer *next, hci_note *note)
     double *g = coordinates(n->task, next);
     hci_status status = HCI_OK;
     n->solution->newton_change = 1.0;
-    if (!g) return no_memory(note);
+    if (!g) return hci_note_memory(note, NULL, "Newton's method");
     if (is_new) {
         hci_memory_free(n->x);
         n->x = g;
-        if (hci_anderson_reset(&n->mixing, 2 * next->set.count)) status = no_memory(note);
+        if (hci_anderson_reset(&n->mixing, 2 * next->set.count))
+            status = hci_note_memory(note, NULL, "Newton's method");
     } else {
         status = follow(n, &next->set, g, note);
         hci_memory_free(g);
@@ -276,7 +273,8 @@ static hci_status keep_nearest(const newton *n, nearest *best, hci_note *note)
     if (status || !(worst_Nm < (1.0 - NEARER) * best->worst_Nm)) return status;
     best->worst_Nm = worst_Nm;
     best->steps_since = 0;
-    return hci_answer_copy(&n->answer, &best->answer) ? no_memory(note) : HCI_OK;
+    return hci_answer_copy(&n->answer, &best->answer) ? hci_note_memory(note, NULL, "Newton's method")
+                                                      : HCI_OK;
 }
 
 static size_t patience(const newton *n)

@@ -287,8 +287,7 @@ hci_status hci_pointwise_answer(const hci_task *task, hci_answer *answer, hci_so
                   .answer = answer};
     hci_status status = hci_answer_reserve(3 * a.orders, answer);
     a.row = hci_memory_new(6 * a.count, sizeof *a.row);
-    if (status || !a.row)
-        status = hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for %zu samples", a.count);
+    if (status || !a.row) status = hci_note_memory(note, NULL, "%zu samples", a.count);
     if (!status) status = sample(task, a.count, a.row, solution, note);
     if (!status) status = analyse_all(&a);
     if (status) answer->set.count = 0;

@@ -71,7 +71,7 @@ hci_status hci_choice_solve(const hci_harmonic_system *system, double mean_Nm, h
     size_t rank;
     const hci_status status =
         r ? hci_sparse_qr_solve(&system->u, system->h, 2, c->answer.x, &rank, &condition, note)
-          : hci_note_set(note, HCI_ERROR_MEMORY, "out of memory while choosing harmonics");
+          : hci_note_memory(note, NULL, "choosing harmonics");
     if (!status) c->cost = hci_set_cost_of(system, &c->answer.set, c->answer.x, mean_Nm, r);
     hci_memory_free(r);
     return status;

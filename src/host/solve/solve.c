@@ -16,11 +16,6 @@
 
 #define DEFAULT_TOLERANCE 1e-6
 
-static hci_status no_memory(hci_note *note)
-{
-    return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory while solving");
-}
-
 /* ---- the task ---- */
 
 static hci_status check_machine(const hci_machine_data *m, const hci_solve_options *o, hci_note *note)
@@ -109,7 +104,7 @@ static hci_status fill_currents(const hci_answer *a, const hci_solve_options *o,
     s->per_Nm = is_linear ? hci_memory_new(most, sizeof *s->per_Nm) : NULL;
     s->constant = is_linear ? hci_memory_new(most, sizeof *s->constant) : NULL;
     if (!s->current.wave || !s->current.set || (is_linear && (!s->per_Nm || !s->constant)))
-        return no_memory(note);
+        return hci_note_memory(note, NULL, "solving");
     if (o->held) {
         s->current.set[out] = HCI_SET_POS;
         s->current.wave[out++] = *o->held;
@@ -151,7 +146,7 @@ static hci_status fill_system(const hci_task *t, hci_answer *a, hci_solution *s,
         a->set = (hci_component_set){0};
     }
     hci_memory_free(order);
-    return has_room ? HCI_OK : no_memory(note);
+    return has_room ? HCI_OK : hci_note_memory(note, NULL, "solving");
 }
 
 /* ---- all of it ---- */

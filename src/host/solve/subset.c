@@ -277,8 +277,7 @@ hci_status hci_subset_search_make(const hci_harmonic_system *system, double mean
     for (size_t j = 0; j < search->n && has_memory; ++j)
         fill_column(system, mean_Nm, j, search, column);
     hci_memory_free(column);
-    return has_memory ? HCI_OK
-                      : hci_note_set(note, HCI_ERROR_MEMORY, "out of memory while choosing harmonics");
+    return has_memory ? HCI_OK : hci_note_memory(note, NULL, "choosing harmonics");
 }
 
 void hci_subset_search_release(hci_subset_search *s)

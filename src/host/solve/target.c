@@ -30,7 +30,7 @@ static hci_status weights_read(const hci_csv *csv, const size_t *row_of, hci_tar
         target->order[k].weight = 1.0;
     if (!hci_csv_has(csv, "weight")) return HCI_OK;
     weight = hci_memory_new(target->count, sizeof *weight);
-    if (!weight) return hci_note_set(note, HCI_ERROR_MEMORY, "%s: out of memory", hci_csv_path(csv));
+    if (!weight) return hci_note_memory(note, hci_csv_path(csv), "its rows");
     status = hci_csv_numbers(csv, "weight", weight, note);
     for (size_t k = 0; k < target->count && !status; ++k) {
         target->order[k].weight = weight[row_of[k]];
@@ -49,7 +49,7 @@ static hci_status target_from_csv(const hci_csv *csv, hci_target *target, hci_no
         status = hci_note_set(note, HCI_ERROR_INPUT,
                               "%s: no rows, expected at least the mean torque (order 0)", hci_csv_path(csv));
     if (!status && !(target->order = hci_memory_new(target->count, sizeof *target->order)))
-        status = hci_note_set(note, HCI_ERROR_MEMORY, "%s: out of memory", hci_csv_path(csv));
+        status = hci_note_memory(note, hci_csv_path(csv), "its rows");
     for (size_t k = 0; k < target->count && !status; ++k)
         target->order[k].torque_Nm = terms[k];
     if (!status) status = weights_read(csv, row_of, target, note);

@@ -11,11 +11,6 @@
 
 #define NEGLIGIBLE 1e-12 /* waves of e + ½L'i below this share of the largest make no torque that matters */
 
-static hci_status no_memory(hci_note *note)
-{
-    return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the torque spectrum");
-}
-
 /* A current with e + ½L'i, whose product with it is the mutual and reluctance torque, and the torque of a
  * higher degree. */
 typedef struct {
@@ -66,7 +61,7 @@ static hci_status find_orders(const hci_task *t, const acting *first, const acti
     const hci_machine *m = t->machine;
     s->order = hci_memory_new(
         1 + m->cogging_count + t->target->count + most_orders(first) + most_orders(second), sizeof *s->order);
-    if (!s->order) return no_memory(note);
+    if (!s->order) return hci_note_memory(note, NULL, "the torque spectrum");
     s->order[s->count++] = 0.0;
     for (size_t k = 0; k < m->cogging_count; ++k)
         s->order[s->count++] = m->cogging[k].order;
@@ -119,7 +114,7 @@ hci_status hci_torque_spectra_make(const hci_task *task, hci_wave_view first, hc
     if (!status) status = find_orders(task, &a, &b, s, note);
     if (!status &&
         (!make_torque(task, s, &a, &s->first) || (second.count > 0 && !make_torque(task, s, &b, &s->second))))
-        status = no_memory(note);
+        status = hci_note_memory(note, NULL, "the torque spectrum");
     release_acting(&a);
     release_acting(&b);
     return status;

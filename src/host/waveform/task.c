@@ -19,9 +19,7 @@ hci_status hci_waveform_refuse(const hci_waveform_task *t, const char *found, co
 
 hci_status hci_waveform_memory(const hci_waveform_task *t)
 {
-    char path[HCI_QUOTE_PATH_SIZE];
-    return hci_note_set(t->note, HCI_ERROR_MEMORY, "%s: not enough memory for the analysis",
-                        hci_quote_path(t->run->name, path));
+    return hci_note_memory(t->note, t->run->name, "the analysis");
 }
 
 double hci_waveform_current_rms(const hci_run *run)

@@ -901,7 +901,7 @@ static void test_every_allocation_may_fail(void)
         hci_memory_fail_after(-1);
         TEST_ASSERT_TRUE(status == HCI_OK || status == HCI_ERROR_MEMORY);
         TEST_ASSERT_TRUE((status == HCI_OK) == (csv != NULL));
-        TEST_ASSERT_TRUE(status == HCI_OK || strstr(note.text, "not enough memory") != NULL);
+        TEST_ASSERT_TRUE(status == HCI_OK || strstr(note.text, "out of memory") != NULL);
         hci_csv_free(csv);
     }
     for (int row = 0; row < 20000; row++)

@@ -30,6 +30,10 @@ typedef struct {
  * the end. */
 hci_status hci_note_set(hci_note *note, hci_status status, const char *format, ...) HCI_PRINTF(3, 4);
 
+/* HCI_ERROR_MEMORY with "PATH: out of memory for WHAT"; path: the file that is read or written, or NULL;
+ * what: as of printf. */
+hci_status hci_note_memory(hci_note *note, const char *path, const char *what, ...) HCI_PRINTF(3, 4);
+
 /* Appends to a remark, behind "; " where it already says something. Long texts are cut at the end. */
 void hci_note_add(hci_note *remark, const char *format, ...) HCI_PRINTF(2, 3);
 

@@ -6,11 +6,6 @@
 #include "host/base/memory.h"
 #include "host/diagnose/candidates/empirical_term.h"
 
-static hci_status no_memory(hci_note *note)
-{
-    return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the list of effects");
-}
-
 /* ---- types ---- */
 
 const hci_effect_type *hci_candidate_type(size_t k)
@@ -60,7 +55,7 @@ hci_status hci_candidates_copy(const hci_candidates *from, hci_candidates *to, h
 {
     memset(to, 0, sizeof *to);
     hci_candidate *candidate = hci_memory_new(from->count + 1, sizeof *candidate);
-    if (!candidate) return no_memory(note);
+    if (!candidate) return hci_note_memory(note, NULL, "the list of effects");
     if (from->count > 0) memcpy(candidate, from->candidate, from->count * sizeof *candidate);
     *to = *from;
     to->candidate = candidate;
@@ -81,7 +76,7 @@ hci_status hci_candidates_add(hci_candidates *candidates, const hci_candidate *c
 {
     size_t at = candidates->count;
     hci_candidate *grown = hci_memory_resize(candidates->candidate, candidates->count + 1, sizeof *grown);
-    if (!grown) return no_memory(note);
+    if (!grown) return hci_note_memory(note, NULL, "the list of effects");
     candidates->candidate = grown;
     while (at > 0 && grown[at - 1].type != candidate->type)
         --at;

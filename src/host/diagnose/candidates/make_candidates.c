@@ -347,8 +347,7 @@ hci_status hci_candidates_make(const hci_candidates_source *source, const hci_ca
     if (!b.failed) add_all(&b, source, &x, &lines);
     hci_candidate_orders_release(&lines);
     const hci_status status =
-        b.failed ? hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the list of effects")
-                 : keep_known(known, candidates, note);
+        b.failed ? hci_note_memory(note, NULL, "the list of effects") : keep_known(known, candidates, note);
     if (status) hci_candidates_release(candidates);
     return status;
 }

@@ -36,7 +36,7 @@ static hci_status evidence_make(const hci_machine_data *machine, const hci_effec
     e->noise = hci_memory_new(b->samples.segment_count + 1, sizeof *e->noise);
     e->sum_deviation_A = hci_memory_new(runs->count + 1, sizeof *e->sum_deviation_A);
     if (!b->fit || !b->index_offset_rad || !e->noise || !e->sum_deviation_A)
-        return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the recordings");
+        return hci_note_memory(note, NULL, "the recordings");
     b->any = b->fit + runs->count;
     for (size_t k = 0; k < runs->count; ++k) {
         b->any[k] = true;
@@ -49,7 +49,7 @@ static hci_status evidence_make(const hci_machine_data *machine, const hci_effec
 static hci_status indices_align(const hci_runs *runs, hci_dataset *b, hci_note *note)
 {
     double *residual_Nm = hci_memory_new(b->samples.count + 1, sizeof *residual_Nm);
-    if (!residual_Nm) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for comparing recordings");
+    if (!residual_Nm) return hci_note_memory(note, NULL, "comparing recordings");
     b->regression.use = b->any;
     hci_status status = hci_regression_residual(&b->regression, b->regression.declared, residual_Nm, note);
     b->regression.use = b->fit;

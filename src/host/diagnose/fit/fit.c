@@ -16,11 +16,6 @@
 
 enum { MOST_STEPS = 25 };
 
-static hci_status no_memory(hci_note *note)
-{
-    return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for fitting effects");
-}
-
 double hci_candidate_cost(const hci_candidate *candidate, double rows)
 {
     return candidate->price + (double)candidate->count * log(fmax(2.0, rows));
@@ -179,7 +174,7 @@ static hci_status fitting_make(const hci_regression *e, hci_candidates *candidat
     f->candidates = candidates;
     f->unknowns = hci_memory_new(n + 1, sizeof *f->unknowns);
     f->matrix = hci_memory_new(n * n + 4 * n + 1, sizeof *f->matrix);
-    if (!f->unknowns || !f->matrix) return no_memory(note);
+    if (!f->unknowns || !f->matrix) return hci_note_memory(note, NULL, "fitting effects");
     f->scale = f->matrix + n * n;
     f->unit = f->scale + n;
     f->step = f->unit + n;

@@ -219,7 +219,7 @@ static hci_status normal_make(const hci_regression *e, const hci_candidates *can
     hci_normal_equations_release(normal);
     if (scatter) hci_memory_free(scatter->square);
     if (scatter) memset(scatter, 0, sizeof *scatter);
-    return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for comparing model and recordings");
+    return hci_note_memory(note, NULL, "comparing model and recordings");
 }
 
 hci_status hci_regression_normal(const hci_regression *regression, const hci_candidates *candidates, bool all,

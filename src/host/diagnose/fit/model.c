@@ -94,7 +94,7 @@ hci_status hci_model_make(const hci_effects *declared, const hci_candidates *can
     model->column = hci_memory_new(model->columns + 1, sizeof *model->column);
     if (!model->effect || !model->term || !model->column) {
         hci_model_release(model);
-        return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for a model with effects");
+        return hci_note_memory(note, NULL, "a model with effects");
     }
     columns_of(candidates, all, model->column);
     for (size_t r = 0; r < types; ++r)

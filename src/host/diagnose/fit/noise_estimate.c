@@ -66,7 +66,7 @@ hci_status hci_regression_noise_estimate(const hci_regression *e, const double *
                                          size_t parameters, double floor_Nm, hci_note *note)
 {
     double *work = hci_memory_new(hci_noise_workspace(longest_in_use(e)), sizeof *work);
-    if (!work) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the noise of the recordings");
+    if (!work) return hci_note_memory(note, NULL, "the noise of the recordings");
     for (const hci_segment *s = NULL; (s = hci_regression_next(e, s)) != NULL;)
         if (s->count >= HCI_NOISE_LEAST) long_segment(e, s, residual_Nm, floor_Nm, work);
     short_segments(e, residual_Nm, parameters, floor_Nm);

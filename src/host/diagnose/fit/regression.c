@@ -23,7 +23,7 @@ hci_status hci_regression_residual(const hci_regression *e, const hci_effects *e
 {
     hci_predicted_reading predicted;
     if (!hci_predicted_reading_make(e, effects, false, &predicted))
-        return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for comparing model and recordings");
+        return hci_note_memory(note, NULL, "comparing model and recordings");
     memset(residual_Nm, 0, e->samples->count * sizeof *residual_Nm);
     for (const hci_segment *s = NULL; (s = hci_regression_next(e, s)) != NULL;) {
         hci_predicted_reading_fill(e, effects, s, &predicted);

@@ -98,7 +98,7 @@ hci_status hci_resonance_find(const hci_regression *regression, const double *re
     const size_t most = hci_segment_longest(regression->samples);
     double *work = hci_memory_new((2 * HCI_SETTLING_TURNS + 1) * most, sizeof *work);
     *resonance = (hci_resonance){0.0, 0.0, 0.0};
-    if (!work) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for resonances of the sensor");
+    if (!work) return hci_note_memory(note, NULL, "resonances of the sensor");
     const scan l = {regression, residual_Nm, work, work + HCI_SETTLING_TURNS * most,
                     work + 2 * HCI_SETTLING_TURNS * most};
     grid_search(&l, resonance);

@@ -60,7 +60,7 @@ hci_status hci_regression_standard_errors(const hci_regression *regression, hci_
     hci_normal_equations normal = {0};
     hci_scatter scatter = {NULL, 0};
     double *work = hci_memory_new(n * n + 2 * n + 1, sizeof *work);
-    if (!work) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for standard errors");
+    if (!work) return hci_note_memory(note, NULL, "standard errors");
     const hci_status status = hci_regression_scatter(regression, candidates, &normal, &scatter, note);
     if (!status && n > 0 && scatter.blocks > LEAST_BLOCKS * n &&
         sandwich(&normal, &scatter, work, work + n * n + n))

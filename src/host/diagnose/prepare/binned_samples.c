@@ -233,7 +233,7 @@ hci_status hci_binned_samples_make(const hci_machine *machine, const hci_run *ru
     }
     if (done) return HCI_OK;
     hci_binned_samples_release(samples);
-    return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the recordings");
+    return hci_note_memory(note, NULL, "the recordings");
 }
 
 void hci_binned_samples_release(hci_binned_samples *samples)

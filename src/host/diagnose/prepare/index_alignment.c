@@ -135,7 +135,7 @@ hci_status hci_index_alignment_find(const hci_binned_samples *samples, const hci
 {
     const size_t count = samples->run_count;
     map *maps = hci_memory_new(count + 1, sizeof *maps);
-    if (!maps) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for comparing recordings");
+    if (!maps) return hci_note_memory(note, NULL, "comparing recordings");
     maps_make(samples, runs, residual_Nm, maps);
     const size_t reference = reference_of(maps, count);
     for (size_t k = 0; k < count; ++k) {

@@ -149,8 +149,7 @@ hci_status hci_attribute(hci_regression *regression, const hci_attribute_options
     for (size_t r = 0; r < attribution->types; ++r)
         attribution->verdict[r].type = hci_candidate_type(r);
     s.residual_Nm = hci_memory_new(2 * samples + 1, sizeof *s.residual_Nm);
-    if (!s.residual_Nm)
-        return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the search of effects");
+    if (!s.residual_Nm) return hci_note_memory(note, NULL, "the search of effects");
     s.variance = s.residual_Nm + samples;
     const hci_status status = attribute(&s, attribution, note);
     hci_memory_free(s.residual_Nm);

@@ -42,8 +42,7 @@ static hci_status superfluous_find(hci_search *s, const hci_candidates *model, s
     hci_sweep sweep = {0};
     hci_status status = hci_regression_normal(s->regression, model, false, &normal, note);
     if (status) return status;
-    if (!hci_sweep_start(&sweep, &normal))
-        status = hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the search of effects");
+    if (!hci_sweep_start(&sweep, &normal)) status = hci_note_memory(note, NULL, "the search of effects");
     for (size_t c = 0; c < normal.n && !status; ++c)
         hci_sweep_in(&sweep, c);
     if (!status) *worst = superfluous(model, &sweep, normal.rows);

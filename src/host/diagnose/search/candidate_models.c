@@ -11,11 +11,6 @@
 #define OWN        1e-2  /* … and of those that do not */
 #define NOT_IN_USE 1e300 /* variance of samples that say nothing */
 
-static hci_status no_memory(hci_note *note)
-{
-    return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for the search of effects");
-}
-
 /* ---- candidates ---- */
 
 static void variance_set(hci_search *s)
@@ -105,7 +100,7 @@ static hci_status models_fill(hci_search *s, hci_candidate_models *t, const hci_
             model_add(t, &b, type_a, type_b);
     }
     bench_release(&b);
-    return made ? HCI_OK : no_memory(note);
+    return made ? HCI_OK : hci_note_memory(note, NULL, "the search of effects");
 }
 
 hci_status hci_candidate_models_make(hci_search *s, const hci_candidates *model, bool pairs,
@@ -178,7 +173,7 @@ hci_status hci_candidate_models_same(hci_search *s, const hci_candidates *model,
         if (dataset_make(&list, &normal, &b))
             same_find(&b, same_as);
         else
-            status = no_memory(note);
+            status = hci_note_memory(note, NULL, "the search of effects");
         bench_release(&b);
     }
     hci_normal_equations_release(&normal);

@@ -73,7 +73,7 @@ static hci_status goodness_of(hci_search *s, const hci_candidates *model, goodne
 {
     double *whitened = hci_memory_new(hci_segment_longest(s->regression->samples), sizeof *whitened);
     memset(g, 0, sizeof *g);
-    if (!whitened) return hci_note_set(note, HCI_ERROR_MEMORY, "out of memory for judging the residual");
+    if (!whitened) return hci_note_memory(note, NULL, "judging the residual");
     const hci_status status = hci_search_noise(s, model, note);
     for (const hci_segment *x = NULL; !status && (x = hci_regression_next(s->regression, x)) != NULL;)
         if (x->count >= HCI_NOISE_LEAST)
