@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "support/recording.h"
+#include "support/reference.h"
 #include "unity.h"
 
 void setUp(void)
@@ -68,7 +68,7 @@ static void test_noise_is_told_from_a_wave(void)
     uint64_t seed = 3;
     for (size_t k = 0; k < 20000; ++k) {
         const double turns = 0.0137 * (double)k;
-        hci_angle_bins_add(&b, turns, 4.0 * sin(2.0 * REF_PI * turns) + 0.1 * rec_normal(&seed));
+        hci_angle_bins_add(&b, turns, 4.0 * sin(2.0 * REF_PI * turns) + 0.1 * ref_normal(&seed));
     }
     TEST_ASSERT_DOUBLE_WITHIN(0.005, 0.1, hci_angle_bins_rms(&b, 100.0));
 }

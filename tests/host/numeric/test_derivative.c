@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "support/recording.h"
+#include "support/reference.h"
 #include "unity.h"
 
 enum { MOST = 4000 };
@@ -78,7 +78,7 @@ static void test_noise_is_smoothed_and_the_shape_is_kept(void)
 {
     make_times(MOST, 1e-3);
     for (size_t k = 0; k < MOST; ++k)
-        x[k] = sin(10.0 * t[k]) + 3e-3 * rec_normal(&seed);
+        x[k] = sin(10.0 * t[k]) + 3e-3 * ref_normal(&seed);
     hci_derivative(t, x, MOST, rate);
     TEST_ASSERT_DOUBLE_WITHIN(0.04 * 10.0 / sqrt(2.0), 0.0, rms_error(MOST, sine_rate));
 }
@@ -94,7 +94,7 @@ static void test_a_window_ends_before_the_shape_does(void)
 {
     make_times(MOST, 1e-3);
     for (size_t k = 0; k < MOST; ++k)
-        x[k] = sin(60.0 * t[k]) + 0.3 * rec_normal(&seed);
+        x[k] = sin(60.0 * t[k]) + 0.3 * ref_normal(&seed);
     hci_derivative(t, x, MOST, rate);
     TEST_ASSERT_DOUBLE_WITHIN(0.3 * 60.0 / sqrt(2.0), 0.0, rms_error(MOST, fast_rate));
 }
@@ -133,7 +133,7 @@ static void test_the_origin_and_unit_of_time_do_not_matter(void)
     static double other[MOST], again[MOST];
     make_times(500, 1e-3);
     for (size_t k = 0; k < 500; ++k) {
-        x[k] = sin(20.0 * t[k]) + 1e-3 * rec_normal(&seed);
+        x[k] = sin(20.0 * t[k]) + 1e-3 * ref_normal(&seed);
         other[k] = 1024.0 * t[k] + 8192.0;
     }
     hci_derivative(t, x, 500, rate);

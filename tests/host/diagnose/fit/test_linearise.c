@@ -8,7 +8,7 @@
 
 enum { N = 1000 };
 
-static hci_normal here, side;
+static hci_normal_equations here, side;
 
 void setUp(void)
 {
@@ -17,8 +17,8 @@ void setUp(void)
 
 void tearDown(void)
 {
-    hci_normal_release(&here);
-    hci_normal_release(&side);
+    hci_normal_equations_release(&here);
+    hci_normal_equations_release(&side);
     search_end();
     dataset_end();
 }
@@ -36,7 +36,7 @@ static void record_two(void)
     hci_search_noise(&search, &model.candidates, &note);
 }
 
-static double linearise(hci_normal *normal)
+static double linearise(hci_normal_equations *normal)
 {
     TEST_ASSERT_EQUAL_INT(
         HCI_OK, hci_regression_normal(&dataset.regression, &model.candidates, false, normal, &note));
@@ -90,7 +90,7 @@ static void test_moments_are_the_slope(void)
         for (int s = 0; s < 2; ++s) {
             t->value = value + (s == 0 ? -TERM[k].step : TERM[k].step);
             square[s] = linearise(&side);
-            hci_normal_release(&side);
+            hci_normal_equations_release(&side);
         }
         t->value = value;
         const double slope = 0.25 * (square[0] - square[1]) / TERM[k].step; /* −½ dχ²/dv */

@@ -17,7 +17,7 @@ static uint64_t seed;
 static hci_candidate item[MOST];
 static hci_candidates list;
 static size_t column[MOST];
-static hci_normal normal;
+static hci_normal_equations normal;
 static hci_sweep base, sweep;
 static bool in[MOST], spare[MOST];
 
@@ -30,7 +30,7 @@ void setUp(void)
 
 static void problem_release(void)
 {
-    hci_normal_release(&normal);
+    hci_normal_equations_release(&normal);
     hci_sweep_release(&base);
     hci_sweep_release(&sweep);
 }
@@ -59,7 +59,7 @@ static void problem_start(void)
         column[k] = columns;
         columns += list.candidate[k].count;
     }
-    TEST_ASSERT_TRUE(hci_normal_start(&normal, columns));
+    TEST_ASSERT_TRUE(hci_normal_equations_start(&normal, columns));
     normal.rows = normal.square = ROWS;
     for (size_t c = 0; c < columns; ++c)
         normal.gram[c * columns + c] = ROWS;
