@@ -90,6 +90,27 @@ static inline void record_map(double offset_A, double drift_Nm)
         record(450, &(point){k < 2 ? 60.0 : -150.0, k % 2 ? 9.0 : 2.0, offset_A, 0.0, drift_Nm});
 }
 
+/* The current that holds a shaft against a torque, turned slowly there and back twice round; none is
+ * measured. */
+static inline void record_holding(size_t n, double coulomb_Nm, double cogging_Nm, double irregular_Nm)
+{
+    hci_run *r = add_run(n);
+    const double turn = 0.25 * (double)n; /* samples */
+    r->torque_source = HCI_TORQUE_HOLDING;
+    for (size_t k = 0; k < r->count; ++k) {
+        const bool back = k >= r->count / 2;
+        const double x = (double)(back ? n - 1 - k : k) / turn, theta_m = 2.0 * REF_PI * x;
+        const double turns = (double)k / turn; /* there and back */
+        const double torque = (back ? -coulomb_Nm : coulomb_Nm) - cogging_Nm * sin(6.0 * P * theta_m) -
+                              0.5 * cogging_Nm * cos(2.0 * P * theta_m) +
+                              irregular_Nm * sin(1.2 * turns + 9.0 * sin(0.42 * turns));
+        r->time_s[k] = 0.02 * (double)k;
+        r->theta_m_rad[k] = theta_m;
+        r->speed_rad_per_s[k] = (back ? -2.0 : 2.0) * REF_PI / turn / 0.02;
+        rec_phases(0.0, torque / (1.5 * K_NM_PER_A) + 0.01 * ref_normal(&seed), P * theta_m, r->i_A + 3 * k);
+    }
+}
+
 /* ---- diagnosing ---- */
 
 static inline const hci_finding *found(const char *effect)
@@ -135,6 +156,23 @@ static inline hci_status diagnose(const hci_effects *declared)
     for (size_t k = 0; !declared && k < diagnosis.effects.list.count; ++k)
         TEST_ASSERT_NOT_EQUAL(HCI_FINDING_REJECTED,
                               found(diagnosis.effects.list.effect[k].type->name)->verdict);
+    return status;
+}
+
+/* The same when so many allocations succeed: whatever fails, nothing is left and the note says why. */
+static inline hci_status diagnose_with(long allocations)
+{
+    const hci_effects none = {NULL, 0};
+    hci_note note = {{0}};
+    hci_memory_fail_after(allocations);
+    const hci_status status = hci_diagnose(&machine, &none, &runs, &options, &diagnosis, &note);
+    hci_memory_fail_after(-1);
+    TEST_ASSERT_EQUAL(status > HCI_NOT_REACHED, note.text[0] != '\0');
+    TEST_ASSERT_TRUE(status <= HCI_NOT_REACHED || status == HCI_ERROR_MEMORY);
+    if (status == HCI_ERROR_MEMORY) {
+        TEST_ASSERT_TRUE(!diagnosis.run && !diagnosis.effects.term && diagnosis.findings == 0);
+    }
+    hci_diagnosis_release(&diagnosis);
     return status;
 }
 
