@@ -1,21 +1,16 @@
 /* The columns of a recording: what is found under which name, in which unit, and what is said of it. */
-#define _POSIX_C_SOURCE 200809L
-
 #include "host/recording/run_columns.h"
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "hci/host/recording/run.h"
 #include "host/base/memory.h"
+#include "support/draws.h"
+#include "support/files.h"
 #include "unity.h"
 
-#define PI 3.14159265358979323846
-
-static char path[64];
 static hci_csv *csv;
 static hci_run_columns columns;
 static hci_note remark, note;
@@ -26,23 +21,20 @@ void setUp(void)
     memset(&remark, 0, sizeof remark);
     memset(&note, 0, sizeof note);
     csv = NULL;
-    path[0] = '\0';
+    files_begin();
 }
 
 void tearDown(void)
 {
     hci_run_columns_release(&columns);
     hci_csv_free(csv);
-    if (path[0] != '\0') unlink(path);
+    files_end();
 }
 
 static hci_status find(const char *text)
 {
-    snprintf(path, sizeof path, "/tmp/hci-test-columns-XXXXXX");
-    const int handle = mkstemp(path);
-    TEST_ASSERT_TRUE(handle >= 0);
-    TEST_ASSERT_EQUAL((int)strlen(text), (int)write(handle, text, strlen(text)));
-    close(handle);
+    const char *path = files_path("run.csv");
+    files_write(path, text);
     TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_csv_read(path, &csv, &note), note.text);
     return hci_run_columns_find(csv, &columns, &remark, &note);
 }
@@ -63,8 +55,8 @@ static void test_values_come_in_si_units(void)
                                    "2,90,60,500,1.5\n3,91,60,600,1.5\n"));
     TEST_ASSERT_EQUAL(2, columns.count);
     TEST_ASSERT_DOUBLE_WITHIN(1e-15, 2e-3, first_value(HCI_RUN_TIME));
-    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.5 * PI, first_value(HCI_RUN_THETA_E));
-    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 2.0 * PI, first_value(HCI_RUN_SPEED));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.5 * REF_PI, first_value(HCI_RUN_THETA_E));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 2.0 * REF_PI, first_value(HCI_RUN_SPEED));
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.5, first_value(HCI_RUN_IA));
     TEST_ASSERT_FALSE(columns.has[HCI_RUN_THETA_M] || columns.has[HCI_RUN_IB]);
     TEST_ASSERT_NOT_NULL(strstr(remark.text, "line 3 is the header"));
@@ -84,7 +76,7 @@ static void test_names_of_other_tools(void)
 {
     find("time_s,theta_m_rad,erpm,q_axis_current\n0,0.1,60,7\n");
     TEST_ASSERT_EQUAL_STRING("", remark.text);
-    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 2.0 * PI, first_value(HCI_RUN_SPEED_E));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 2.0 * REF_PI, first_value(HCI_RUN_SPEED_E));
     TEST_ASSERT_NOT_NULL(strstr(remark.text, "`erpm` is read as the electrical speed"));
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, 7.0, first_value(HCI_RUN_IQ));
     remark.text[0] = '\0';
@@ -208,7 +200,7 @@ static void test_a_run_is_made_of_these_columns(void)
     find("theta_e (deg),Id_measured,Iq_measured\n90,-2,10\n90,-2,10\n");
     TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_run_of_csv(csv, 1, NAN, &run, &note), note.text);
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, 10.0, run.i_A[0]);
-    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.5 * PI, run.theta_m_rad[0]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.5 * REF_PI, run.theta_m_rad[0]);
     hci_run_release(&run);
 }
 
