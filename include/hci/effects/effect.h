@@ -54,6 +54,19 @@ typedef struct {
 
 /* ---- effects ---- */
 
+/* What is particular about a parameter; any of them together. */
+enum {
+    HCI_PARAMETER_LINEAR = 1,       /* torques are linear in it: its regressor does not depend on its value */
+    HCI_PARAMETER_WITH_CURRENT = 2, /* acts with the current: not to be seen in a holding test, where the
+                                     * current answers to the torque */
+    HCI_PARAMETER_WITH_SPEED = 4,   /* acts with the speed: not to be seen in a holding test either */
+    HCI_PARAMETER_OF_TRANSDUCER = 8,     /* of a torque sensor: to be seen in a measured torque only */
+    HCI_PARAMETER_ALONG_TIME = 16,       /* makes `filter` act when it is above 0 */
+    HCI_PARAMETER_LAG = 32,              /* a time constant of `filter`: at 0 its regressor is −dT/dt */
+    HCI_PARAMETER_REFERENCE_CURRENT = 64 /* the current at which the other values hold: not fitted, a
+                                          * diagnosis sets it to the largest that was measured */
+};
+
 /* One kind of number that an effect has. */
 typedef struct {
     const char *name;    /* in effects.csv; with `ordered`, what stands before "_ORDER" */
@@ -64,6 +77,7 @@ typedef struct {
     bool ordered;        /* once for each order, otherwise once */
     bool whole;          /* orders are whole numbers */
     double least_order;  /* smallest order that it may have */
+    unsigned traits;     /* of those above */
 } hci_effect_parameter;
 
 /* A value of one parameter. */
@@ -110,17 +124,78 @@ typedef struct {
     hci_effect_link link[HCI_EFFECT_LINKS]; /* in the order in which they act */
     size_t count;                           /* links in use */
     double delay_s;                         /* of the reading */
+    const hci_effect_type *delayed_by;      /* whose delay it is, or NULL */
 } hci_effect_channel;
 
-/* What is known of an effect. A function that does not concern it is NULL. */
+/* ---- what a diagnosis has to know ---- */
+
+/* What recordings are like as a whole, for an effect to say which of its terms could be found in them. */
+typedef struct {
+    const hci_machine *machine; /* declared */
+    bool timed;                 /* a run has time and speed */
+    bool moving;                /* the shaft turned */
+    bool has_temperature;       /* of the magnets */
+    bool has_turn;              /* the angle tells where in the mechanical turn the rotor was */
+    size_t speeds;              /* how many different ones, at most 3 */
+    double torque_Nm;           /* largest rms of a run */
+    double current_A;           /* largest rms length of a run's current vector */
+    double reference_current_A; /* for HCI_PARAMETER_REFERENCE_CURRENT */
+    int richness;               /* of series in the currents: 0 low orders, 1 all orders, 2 high powers too */
+    const double *slot_order;   /* electrical orders of the residual that stand out, whole ones: slots and
+                                 * poles; the strongest first */
+    size_t slot_orders;         /* entries of slot_order */
+    const double *turn_order;   /* and those that repeat with the mechanical turn only */
+    size_t turn_orders;         /* entries of turn_order */
+    double orders;              /* how many orders they were chosen from */
+} hci_effect_survey;
+
+/* Terms that a diagnosis takes into a model together or not at all. */
+typedef struct {
+    size_t parameter, count; /* the first one in the type's list, and how many that follow each other */
+    double order;            /* of ordered parameters, else 0 */
+    double alternatives;     /* from how many like it this one is chosen, >= 1: what is usual in a machine has
+                              * few, and every choice has to be paid for with 2 ln(alternatives) of χ² */
+    double expected;         /* standard deviation of the values of machines and benches that somebody has
+                              * looked at, in the parameters' unit; 0: any */
+} hci_effect_candidate;
+
+/* Takes candidates. */
+typedef struct {
+    void (*add)(void *context, const hci_effect_candidate *candidate);
+    void *context; /* first argument of add */
+} hci_effect_proposals;
+
+/* What a run must have for an effect to act in a model. */
+enum {
+    HCI_EFFECT_NEEDS_TIME = 1,        /* time_s */
+    HCI_EFFECT_NEEDS_SPEED = 2,       /* speed_rad_per_s, given or from time and angle */
+    HCI_EFFECT_NEEDS_TEMPERATURE = 4, /* temperature_C */
+    HCI_EFFECT_NEEDS_TURN = 8,        /* an angle that tells where in the mechanical turn the rotor was */
+    HCI_EFFECT_NEEDS_RATE = 16        /* how fast the currents change: change_A_per_s */
+};
+
+/* What is known of an effect: all of it, so that a new one is one file and one line in the registry. A member
+ * that does not concern it is 0 or NULL. */
 struct hci_effect_type {
     const char *name;                      /* as in effects.csv */
     const char *equation;                  /* in words and letters, for people */
     const char *signature;                 /* how it shows in a residual */
     const hci_effect_parameter *parameter; /* the kinds of numbers that it has */
     size_t parameter_count;                /* entries of parameter */
-    bool in_machine;       /* `torque` acts in the air gap, else only between it and the reading */
-    bool beyond_quadratic; /* the torque is of higher than second degree in the currents */
+    unsigned needs;                        /* of HCI_EFFECT_NEEDS_TIME … */
+    const char *without;     /* what a prediction says where a run lacks what the effect needs */
+    const char *told_by;     /* a run with this tells it from what looks the same; NULL: any other run */
+    bool in_machine;         /* `torque` acts in the air gap, else only between it and the reading */
+    bool beyond_quadratic;   /* the torque is of higher than second degree in the currents */
+    bool is_series;          /* of many terms of which single ones are worth little: a diagnosis looks at more
+                              * of them (richness) as more is left, and takes all of order 0 in at once */
+    bool is_angle_zero;      /* turns the zero of the angle */
+    bool any_phase;          /* a torque of any order and phase without current: a turned angle is one, too */
+    const size_t *resonance; /* two parameters, natural frequency in Hz and damping ratio, that a diagnosis
+                              * looks for on a grid, since no small step from nothing finds them */
+
+    /* Names the terms that such recordings could show. */
+    void (*propose)(const hci_effect_survey *survey, const hci_effect_proposals *to);
 
     /* Adds what one term contributes to the torque at a true sample. Returns ∂T/∂value, the regressor of a
      * linear parameter. */
@@ -150,6 +225,10 @@ struct hci_effect_type {
     void (*undo_adjoint)(const hci_effect *effect, int pole_pairs, const hci_sample *before,
                          hci_effect_torque *by, double *by_value);
 
+    /* The derivative of the sum of the three currents that are read by the term's value; the sum of the true
+     * ones is 0 in a star. */
+    double (*sum_by_value)(const hci_effect_term *term, const hci_sample *truth);
+
     /* The sensors of a simulated drive, HCI_SENSE_COUNT channels: gain and offset go into hci_sensor, all
      * else into the channels. */
     void (*simulate)(const hci_effect *effect, int pole_pairs, hci_sensor *sensors,
@@ -166,6 +245,9 @@ const hci_effect_type *hci_effect_type_at(size_t k);
 
 /* The type of an effect by its name in effects.csv; NULL when there is none. */
 const hci_effect_type *hci_effect_type_find(const char *name);
+
+/* What all effects together need of a run, HCI_EFFECT_NEEDS_TIME … */
+unsigned hci_effects_needs(const hci_effects *effects);
 
 /* The value of a parameter that is not ordered, or its standard. */
 double hci_effect_value(const hci_effect *effect, size_t parameter);

@@ -2,17 +2,25 @@
 #include "core/effects/type.h"
 
 /* Sine and cosine in turn. */
-enum { POSITIVE = 2, NEGATIVE = 4, ZERO = 6 };
+enum { SINE, COSINE, POSITIVE = 2, NEGATIVE = 4, ZERO = 6 };
 
 static const hci_effect_parameter PARAMETER[] = {
-    HCI_WHOLE("sine", "Nm_per_A", "the same in each phase, of sin nθ", 1.0),
-    HCI_WHOLE("cosine", "Nm_per_A", "the same in each phase, of cos nθ", 1.0),
-    HCI_ORDERED("pos_sine", "Nm_per_A", "positive sequence, of sin nθ", 1e-6),
-    HCI_ORDERED("pos_cosine", "Nm_per_A", "positive sequence, of cos nθ", 1e-6),
-    HCI_ORDERED("neg_sine", "Nm_per_A", "negative sequence, of sin nθ", 1e-6),
-    HCI_ORDERED("neg_cosine", "Nm_per_A", "negative sequence, of cos nθ", 1e-6),
-    HCI_ORDERED("zero_sine", "Nm_per_A", "zero sequence, of sin nθ", 1e-6),
-    HCI_ORDERED("zero_cosine", "Nm_per_A", "zero sequence, of cos nθ", 1e-6),
+    HCI_WHOLE("sine", "Nm_per_A", "the same in each phase, of sin nθ", 1.0,
+              HCI_PARAMETER_LINEAR | HCI_PARAMETER_WITH_CURRENT),
+    HCI_WHOLE("cosine", "Nm_per_A", "the same in each phase, of cos nθ", 1.0,
+              HCI_PARAMETER_LINEAR | HCI_PARAMETER_WITH_CURRENT),
+    HCI_ORDERED("pos_sine", "Nm_per_A", "positive sequence, of sin nθ", 1e-6,
+                HCI_PARAMETER_LINEAR | HCI_PARAMETER_WITH_CURRENT),
+    HCI_ORDERED("pos_cosine", "Nm_per_A", "positive sequence, of cos nθ", 1e-6,
+                HCI_PARAMETER_LINEAR | HCI_PARAMETER_WITH_CURRENT),
+    HCI_ORDERED("neg_sine", "Nm_per_A", "negative sequence, of sin nθ", 1e-6,
+                HCI_PARAMETER_LINEAR | HCI_PARAMETER_WITH_CURRENT),
+    HCI_ORDERED("neg_cosine", "Nm_per_A", "negative sequence, of cos nθ", 1e-6,
+                HCI_PARAMETER_LINEAR | HCI_PARAMETER_WITH_CURRENT),
+    HCI_ORDERED("zero_sine", "Nm_per_A", "zero sequence, of sin nθ", 1e-6,
+                HCI_PARAMETER_LINEAR | HCI_PARAMETER_WITH_CURRENT),
+    HCI_ORDERED("zero_cosine", "Nm_per_A", "zero sequence, of cos nθ", 1e-6,
+                HCI_PARAMETER_LINEAR | HCI_PARAMETER_WITH_CURRENT),
 };
 
 static int sequence_of(const hci_effect_term *term)
@@ -38,12 +46,41 @@ static void torque_of_all(const hci_effect *effect, const hci_machine *machine, 
     }
 }
 
+enum { MOST_ORDER = 25, MOST_UNBALANCED = 7 /* of sequences that a balanced machine does not have */ };
+
+/* From how many harmonics one is chosen: those of order 6k ± 1 are usual. */
+#define USUAL   8.0
+#define UNUSUAL 40.0
+
+/* Even harmonics take poles that are not alike, which the declared back-EMF would show already. */
+static bool has_even(const hci_machine *machine)
+{
+    for (size_t k = 0; k < machine->back_emf_count; ++k)
+        if (fabs(fmod(machine->back_emf[k].order, 2.0)) < HCI_ORDER_TOLERANCE) return true;
+    return false;
+}
+
+static void propose(const hci_effect_survey *survey, const hci_effect_proposals *to)
+{
+    const int step = has_even(survey->machine) ? 1 : 2;
+    hci_effect_propose(to, SINE, 1, 1.0, 2.0, 0.0);
+    hci_effect_propose(to, COSINE, 1, 1.0, 2.0, 0.0);
+    for (int n = 1 + step; n <= MOST_ORDER; n += step)
+        hci_effect_propose(to, SINE, 2, n, n % 6 == 1 || n % 6 == 5 ? USUAL : UNUSUAL, 0.0);
+    for (int n = 1; n <= MOST_UNBALANCED; n += step) {
+        const int sequence = hci_sequence_of_order(n);
+        if (sequence != 1) hci_effect_propose(to, POSITIVE, 2, n, UNUSUAL, 0.0);
+        if (sequence != -1) hci_effect_propose(to, NEGATIVE, 2, n, UNUSUAL, 0.0);
+    }
+}
+
 const hci_effect_type hci_effect_back_emf = {
     .name = "back_emf",
     .equation = "T = Σ_s i_s Σ [S sin(nθ − σ2πs/3) + C cos(nθ − σ2πs/3)], σ = n mod 3 where none is named",
     .signature =
         "grows with the current; at n ± the orders of the currents, n of another sequence at DC and order 2",
     HCI_EFFECT_PARAMETERS(PARAMETER),
+    .propose = propose,
     .in_machine = true,
     .torque_of_all = torque_of_all,
 };

@@ -7,9 +7,9 @@
 enum { CURRENT, ANGLE, TORQUE };
 
 static const hci_effect_parameter PARAMETER[] = {
-    HCI_PLAIN("current", "s", "delay of the phase currents", 0.0, -DBL_MAX),
-    HCI_PLAIN("angle", "s", "delay of the position", 0.0, -DBL_MAX),
-    HCI_PLAIN("torque", "s", "delay of the torque", 0.0, -DBL_MAX),
+    HCI_PLAIN("current", "s", "delay of the phase currents", 0.0, -DBL_MAX, HCI_PARAMETER_WITH_SPEED),
+    HCI_PLAIN("angle", "s", "delay of the position", 0.0, -DBL_MAX, HCI_PARAMETER_WITH_SPEED),
+    HCI_PLAIN("torque", "s", "delay of the torque", 0.0, -DBL_MAX, HCI_PARAMETER_WITH_SPEED),
 };
 
 /* x_abc turned with the rotor by an electrical angle; a zero sequence stays. */
@@ -82,15 +82,31 @@ static void undo_adjoint(const hci_effect *effect, int pole_pairs, const hci_sam
         by->by_change[k] += lead_s * by->by_current[k];
 }
 
+static void delay_add(const hci_effect *effect, size_t parameter, hci_effect_channel *channel)
+{
+    channel->delay_s += hci_effect_value(effect, parameter);
+    channel->delayed_by = effect->type;
+}
+
 static void simulate(const hci_effect *effect, int pole_pairs, hci_sensor *sensors,
                      hci_effect_channel *channels)
 {
     (void)pole_pairs;
     (void)sensors;
     for (int s = HCI_SENSE_IA; s <= HCI_SENSE_IC; ++s)
-        channels[s].delay_s += hci_effect_value(effect, CURRENT);
-    channels[HCI_SENSE_ANGLE].delay_s += hci_effect_value(effect, ANGLE);
-    channels[HCI_SENSE_TORQUE].delay_s += hci_effect_value(effect, TORQUE);
+        delay_add(effect, CURRENT, &channels[s]);
+    delay_add(effect, ANGLE, &channels[HCI_SENSE_ANGLE]);
+    delay_add(effect, TORQUE, &channels[HCI_SENSE_TORQUE]);
+}
+
+#define EXPECTED_S 1e-3
+
+/* Of the three only two differences show. */
+static void propose(const hci_effect_survey *survey, const hci_effect_proposals *to)
+{
+    if (!survey->timed) return;
+    hci_effect_propose(to, CURRENT, 1, 0.0, 2.0, EXPECTED_S);
+    hci_effect_propose(to, ANGLE, 1, 0.0, 2.0, EXPECTED_S);
 }
 
 const hci_effect_type hci_effect_channel_delay = {
@@ -98,6 +114,10 @@ const hci_effect_type hci_effect_channel_delay = {
     .equation = "x_read(t) = x(t − τ)",
     .signature = "a phase in proportion to order and speed, unlike an offset",
     HCI_EFFECT_PARAMETERS(PARAMETER),
+    .needs = HCI_EFFECT_NEEDS_SPEED | HCI_EFFECT_NEEDS_RATE,
+    .without = "without a speed friction and delays are left out",
+    .told_by = "another speed, at least four times as fast",
+    .propose = propose,
     .sense = sense,
     .undo = undo,
     .undo_adjoint = undo_adjoint,

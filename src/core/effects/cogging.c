@@ -4,8 +4,8 @@
 enum { SINE, COSINE };
 
 static const hci_effect_parameter PARAMETER[] = {
-    HCI_ORDERED("sine", "Nm", "of sin nθ", 1e-6),
-    HCI_ORDERED("cosine", "Nm", "of cos nθ", 1e-6),
+    HCI_ORDERED("sine", "Nm", "of sin nθ", 1e-6, HCI_PARAMETER_LINEAR),
+    HCI_ORDERED("cosine", "Nm", "of cos nθ", 1e-6, HCI_PARAMETER_LINEAR),
 };
 
 static void torque_of_all(const hci_effect *effect, const hci_machine *machine, const hci_sample *truth,
@@ -22,11 +22,21 @@ static void torque_of_all(const hci_effect *effect, const hci_machine *machine, 
     }
 }
 
+#define EXPECTED 0.3 /* of the largest torque */
+
+static void propose(const hci_effect_survey *survey, const hci_effect_proposals *to)
+{
+    for (size_t k = 0; k < survey->slot_orders; ++k)
+        hci_effect_propose(to, SINE, 2, survey->slot_order[k], survey->orders, EXPECTED * survey->torque_Nm);
+}
+
 const hci_effect_type hci_effect_cogging = {
     .name = "cogging",
     .equation = "T = Σ S sin nθ + C cos nθ",
     .signature = "independent of current and speed, at any order",
     HCI_EFFECT_PARAMETERS(PARAMETER),
+    .any_phase = true,
+    .propose = propose,
     .in_machine = true,
     .torque_of_all = torque_of_all,
 };

@@ -2,9 +2,9 @@
 #include "core/effects/type.h"
 
 static const hci_effect_parameter PARAMETER[] = {
-    HCI_PLAIN("a", "1", "relative error of phase a", 0.0, -0.999),
-    HCI_PLAIN("b", "1", "relative error of phase b", 0.0, -0.999),
-    HCI_PLAIN("c", "1", "relative error of phase c", 0.0, -0.999),
+    HCI_PLAIN("a", "1", "relative error of phase a", 0.0, -0.999, HCI_PARAMETER_WITH_CURRENT),
+    HCI_PLAIN("b", "1", "relative error of phase b", 0.0, -0.999, HCI_PARAMETER_WITH_CURRENT),
+    HCI_PLAIN("c", "1", "relative error of phase c", 0.0, -0.999, HCI_PARAMETER_WITH_CURRENT),
 };
 
 static void sense(const hci_effect *effect, int pole_pairs, hci_sample *x)
@@ -53,11 +53,26 @@ static void simulate(const hci_effect *effect, int pole_pairs, hci_sensor *senso
         sensors[HCI_SENSE_IA + s].gain_error += hci_effect_value(effect, s);
 }
 
+static double sum_by_value(const hci_effect_term *term, const hci_sample *truth)
+{
+    return truth->i_abc[term->parameter];
+}
+
+#define EXPECTED 0.1
+
+static void propose(const hci_effect_survey *survey, const hci_effect_proposals *to)
+{
+    (void)survey;
+    hci_effect_propose_phases(to, EXPECTED);
+}
+
 const hci_effect_type hci_effect_current_gain = {
     .name = "current_gain",
     .equation = "i_s,read = (1 + g_s) i_s",
     .signature = "grows with the current; order 2 and the mean",
     HCI_EFFECT_PARAMETERS(PARAMETER),
+    .sum_by_value = sum_by_value,
+    .propose = propose,
     .sense = sense,
     .undo = undo,
     .undo_adjoint = undo_adjoint,

@@ -2,9 +2,9 @@
 #include "core/effects/type.h"
 
 static const hci_effect_parameter PARAMETER[] = {
-    HCI_PLAIN("a", "A", "read too much in phase a", 0.0, -DBL_MAX),
-    HCI_PLAIN("b", "A", "read too much in phase b", 0.0, -DBL_MAX),
-    HCI_PLAIN("c", "A", "read too much in phase c", 0.0, -DBL_MAX),
+    HCI_PLAIN("a", "A", "read too much in phase a", 0.0, -DBL_MAX, 0),
+    HCI_PLAIN("b", "A", "read too much in phase b", 0.0, -DBL_MAX, 0),
+    HCI_PLAIN("c", "A", "read too much in phase c", 0.0, -DBL_MAX, 0),
 };
 
 static void sense(const hci_effect *effect, int pole_pairs, hci_sample *x)
@@ -39,11 +39,28 @@ static void simulate(const hci_effect *effect, int pole_pairs, hci_sensor *senso
         sensors[HCI_SENSE_IA + s].offset += hci_effect_value(effect, s);
 }
 
+static double sum_by_value(const hci_effect_term *term, const hci_sample *truth)
+{
+    (void)term;
+    (void)truth;
+    return 1.0;
+}
+
+#define EXPECTED 0.05 /* of the largest current */
+
+static void propose(const hci_effect_survey *survey, const hci_effect_proposals *to)
+{
+    hci_effect_propose_phases(to, EXPECTED * survey->current_A);
+}
+
 const hci_effect_type hci_effect_current_offset = {
     .name = "current_offset",
     .equation = "i_s,read = i_s + o_s",
     .signature = "independent of the load; order 1 and its sidebands with the back-EMF",
     HCI_EFFECT_PARAMETERS(PARAMETER),
+    .told_by = "a torque transducer and currents of their own",
+    .sum_by_value = sum_by_value,
+    .propose = propose,
     .sense = sense,
     .undo = undo,
     .undo_adjoint = undo_adjoint,

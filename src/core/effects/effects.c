@@ -40,6 +40,14 @@ static size_t first_term(const hci_effects *effects, size_t at)
     return sum;
 }
 
+unsigned hci_effects_needs(const hci_effects *effects)
+{
+    unsigned needs = 0;
+    for (size_t k = 0; k < effects->count; ++k)
+        needs |= effects->effect[k].type->needs;
+    return needs;
+}
+
 size_t hci_effects_terms(const hci_effects *effects)
 {
     return first_term(effects, effects->count);

@@ -4,9 +4,11 @@
 enum { COULOMB, VISCOUS, QUADRATIC };
 
 static const hci_effect_parameter PARAMETER[] = {
-    HCI_PLAIN("coulomb", "Nm", "with the sign of the speed", 0.0, -DBL_MAX),
-    HCI_PLAIN("viscous", "Nms_per_rad", "in proportion to the speed", 0.0, -DBL_MAX),
-    HCI_PLAIN("quadratic", "Nms2_per_rad2", "with the square of the speed", 0.0, -DBL_MAX),
+    HCI_PLAIN("coulomb", "Nm", "with the sign of the speed", 0.0, -DBL_MAX, HCI_PARAMETER_LINEAR),
+    HCI_PLAIN("viscous", "Nms_per_rad", "in proportion to the speed", 0.0, -DBL_MAX,
+              HCI_PARAMETER_LINEAR | HCI_PARAMETER_WITH_SPEED),
+    HCI_PLAIN("quadratic", "Nms2_per_rad2", "with the square of the speed", 0.0, -DBL_MAX,
+              HCI_PARAMETER_LINEAR | HCI_PARAMETER_WITH_SPEED),
 };
 
 static double law(size_t parameter, double speed)
@@ -56,11 +58,21 @@ static void simulate(const hci_effect *effect, int pole_pairs, hci_sensor *senso
     hci_effect_link_add(&channels[HCI_SENSE_TORQUE], &link);
 }
 
+/* All of the law that the speeds can tell: a part left out would go into the others. */
+static void propose(const hci_effect_survey *survey, const hci_effect_proposals *to)
+{
+    if (survey->moving || survey->timed) hci_effect_propose(to, COULOMB, survey->speeds, 0.0, 1.0, 0.0);
+}
+
 const hci_effect_type hci_effect_friction = {
     .name = "friction",
     .equation = "T = −(T_c sign ω + B ω + Q ω |ω|)",
     .signature = "mean only; with the sign, the value and the square of the speed",
     HCI_EFFECT_PARAMETERS(PARAMETER),
+    .needs = HCI_EFFECT_NEEDS_SPEED,
+    .without = "without a speed friction and delays are left out",
+    .told_by = "the other direction of rotation, or three speeds",
+    .propose = propose,
     .torque = torque,
     .drag_Nm = drag_Nm,
     .coulomb_Nm = coulomb_Nm,

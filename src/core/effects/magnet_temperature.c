@@ -4,8 +4,10 @@
 enum { PER_KELVIN, REFERENCE };
 
 static const hci_effect_parameter PARAMETER[] = {
-    HCI_PLAIN("emf_per_kelvin", "1/K", "relative change of the back-EMF, below 0 for magnets", 0.0, -DBL_MAX),
-    HCI_PLAIN("reference", "C", "temperature of the declared back-EMF", 20.0, -DBL_MAX),
+    HCI_PLAIN("emf_per_kelvin", "1/K", "relative change of the back-EMF, below 0 for magnets", 0.0, -DBL_MAX,
+              HCI_PARAMETER_LINEAR | HCI_PARAMETER_WITH_CURRENT),
+    HCI_PLAIN("reference", "C", "temperature of the declared back-EMF", 20.0, -DBL_MAX,
+              HCI_PARAMETER_WITH_CURRENT),
 };
 
 static double torque(const hci_effect *effect, const hci_effect_term *term, const hci_machine *machine,
@@ -22,11 +24,19 @@ static double torque(const hci_effect *effect, const hci_effect_term *term, cons
     return -hci_effect_value(effect, PER_KELVIN) * hci_effect_add_emf(&unused, 1.0, e, slope, truth->i_abc);
 }
 
+static void propose(const hci_effect_survey *survey, const hci_effect_proposals *to)
+{
+    if (survey->has_temperature) hci_effect_propose(to, PER_KELVIN, 1, 0.0, 1.0, 0.0);
+}
+
 const hci_effect_type hci_effect_magnet_temperature = {
     .name = "magnet_temperature",
     .equation = "T = α (ϑ − ϑ_0) e(θ)·i",
     .signature = "grows with the current; mean and all orders together, follows the temperature",
     HCI_EFFECT_PARAMETERS(PARAMETER),
+    .needs = HCI_EFFECT_NEEDS_TEMPERATURE,
+    .without = "without a temperature the magnets are at the reference",
+    .propose = propose,
     .in_machine = true,
     .torque = torque,
 };

@@ -1,13 +1,15 @@
 /* What repeats with the mechanical turn: an eccentric rotor, uneven magnets, gear mesh. */
 #include "core/effects/type.h"
 
-enum { IQ_SINE = 2 }; /* sine and cosine in turn */
+enum { SINE, IQ_SINE = 2 }; /* sine and cosine in turn */
 
 static const hci_effect_parameter PARAMETER[] = {
-    HCI_ORDERED("sine", "Nm", "of sin nθ", 1e-6),
-    HCI_ORDERED("cosine", "Nm", "of cos nθ", 1e-6),
-    HCI_ORDERED("iq_sine", "Nm_per_A", "of i_q sin nθ", 1e-6),
-    HCI_ORDERED("iq_cosine", "Nm_per_A", "of i_q cos nθ", 1e-6),
+    HCI_ORDERED("sine", "Nm", "of sin nθ", 1e-6, HCI_PARAMETER_LINEAR),
+    HCI_ORDERED("cosine", "Nm", "of cos nθ", 1e-6, HCI_PARAMETER_LINEAR),
+    HCI_ORDERED("iq_sine", "Nm_per_A", "of i_q sin nθ", 1e-6,
+                HCI_PARAMETER_LINEAR | HCI_PARAMETER_WITH_CURRENT),
+    HCI_ORDERED("iq_cosine", "Nm_per_A", "of i_q cos nθ", 1e-6,
+                HCI_PARAMETER_LINEAR | HCI_PARAMETER_WITH_CURRENT),
 };
 
 /* i_q as a back-EMF: ∂i_q/∂i_s = ⅔ sin(θ − 2πs/3), and its derivative by θ_m. */
@@ -52,11 +54,24 @@ static void torque_of_all(const hci_effect *effect, const hci_machine *machine, 
     }
 }
 
+static void propose(const hci_effect_survey *survey, const hci_effect_proposals *to)
+{
+    for (size_t k = 0; k < survey->turn_orders; ++k) {
+        hci_effect_propose(to, SINE, 2, survey->turn_order[k], survey->orders, 0.0);
+        hci_effect_propose(to, IQ_SINE, 2, survey->turn_order[k], survey->orders, 0.0);
+    }
+}
+
 const hci_effect_type hci_effect_mechanical_order = {
     .name = "mechanical_order",
     .equation = "T = Σ (S + S_q i_q) sin nθ + (C + C_q i_q) cos nθ, n = k/p",
     .signature = "fractional electrical orders, independent of the current or in proportion to it",
     HCI_EFFECT_PARAMETERS(PARAMETER),
+    .any_phase = true,
+    .needs = HCI_EFFECT_NEEDS_TURN,
+    .without =
+        "the angle does not tell where in the mechanical turn the rotor was: orders k/p have any phase",
+    .propose = propose,
     .in_machine = true,
     .torque_of_all = torque_of_all,
 };

@@ -2,9 +2,12 @@
 #include "core/effects/type.h"
 
 static const hci_effect_parameter PARAMETER[] = {
-    HCI_PLAIN("a", "1", "back-EMF of phase a, relative change", 0.0, -DBL_MAX),
-    HCI_PLAIN("b", "1", "back-EMF of phase b, relative change", 0.0, -DBL_MAX),
-    HCI_PLAIN("c", "1", "back-EMF of phase c, relative change", 0.0, -DBL_MAX),
+    HCI_PLAIN("a", "1", "back-EMF of phase a, relative change", 0.0, -DBL_MAX,
+              HCI_PARAMETER_LINEAR | HCI_PARAMETER_WITH_CURRENT),
+    HCI_PLAIN("b", "1", "back-EMF of phase b, relative change", 0.0, -DBL_MAX,
+              HCI_PARAMETER_LINEAR | HCI_PARAMETER_WITH_CURRENT),
+    HCI_PLAIN("c", "1", "back-EMF of phase c, relative change", 0.0, -DBL_MAX,
+              HCI_PARAMETER_LINEAR | HCI_PARAMETER_WITH_CURRENT),
 };
 
 static double torque(const hci_effect *effect, const hci_effect_term *term, const hci_machine *machine,
@@ -18,11 +21,20 @@ static double torque(const hci_effect *effect, const hci_effect_term *term, cons
     return hci_effect_add_emf(sum, term->value, e, slope, truth->i_abc);
 }
 
+#define EXPECTED 0.2 /* of the back-EMF */
+
+static void propose(const hci_effect_survey *survey, const hci_effect_proposals *to)
+{
+    (void)survey;
+    hci_effect_propose_phases(to, EXPECTED);
+}
+
 const hci_effect_type hci_effect_phase_imbalance = {
     .name = "phase_imbalance",
     .equation = "T = Σ_s g_s e_s(θ) i_s",
     .signature = "grows with the current; mean and order 2 for sinusoidal currents",
     HCI_EFFECT_PARAMETERS(PARAMETER),
+    .propose = propose,
     .in_machine = true,
     .torque = torque,
 };

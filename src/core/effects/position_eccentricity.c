@@ -5,8 +5,8 @@
 enum { SINE, COSINE };
 
 static const hci_effect_parameter PARAMETER[] = {
-    HCI_WHOLE("mech_sine", "rad", "mechanical angle, of sin kθ_m", 1.0),
-    HCI_WHOLE("mech_cosine", "rad", "mechanical angle, of cos kθ_m", 1.0),
+    HCI_WHOLE("mech_sine", "rad", "mechanical angle, of sin kθ_m", 1.0, 0),
+    HCI_WHOLE("mech_cosine", "rad", "mechanical angle, of cos kθ_m", 1.0, 0),
 };
 
 /* E(θ_m) = Σ S sin kθ_m + C cos kθ_m */
@@ -79,11 +79,22 @@ static void simulate(const hci_effect *effect, int pole_pairs, hci_sensor *senso
     hci_effect_link_add(&channels[HCI_SENSE_ANGLE], &link);
 }
 
+enum { ORDERS = 2 }; /* out of centre, and a ring that is no circle */
+
+#define EXPECTED_RAD 0.03
+
+static void propose(const hci_effect_survey *survey, const hci_effect_proposals *to)
+{
+    for (int n = 1; n <= ORDERS && survey->has_turn; ++n)
+        hci_effect_propose(to, SINE, 2, n, ORDERS, EXPECTED_RAD);
+}
+
 const hci_effect_type hci_effect_position_eccentricity = {
     .name = "position_eccentricity",
     .equation = "θ_m,read = θ_m + Σ S sin kθ_m + C cos kθ_m",
     .signature = "mechanical orders 1 and 2 around every order, as ∂T/∂θ modulated",
     HCI_EFFECT_PARAMETERS(PARAMETER),
+    .propose = propose,
     .sense = sense,
     .undo = undo,
     .undo_adjoint = undo_adjoint,

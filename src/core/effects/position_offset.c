@@ -4,7 +4,7 @@
 enum { ANGLE };
 
 static const hci_effect_parameter PARAMETER[] = {
-    HCI_PLAIN("angle", "rad", "electrical angle that is read too much", 0.0, -DBL_MAX),
+    HCI_PLAIN("angle", "rad", "electrical angle that is read too much", 0.0, -DBL_MAX, 0),
 };
 
 static void sense(const hci_effect *effect, int pole_pairs, hci_sample *x)
@@ -32,11 +32,21 @@ static void simulate(const hci_effect *effect, int pole_pairs, hci_sensor *senso
     sensors[HCI_SENSE_ANGLE].offset += hci_effect_value(effect, ANGLE) / pole_pairs;
 }
 
+#define EXPECTED_RAD 0.1
+
+static void propose(const hci_effect_survey *survey, const hci_effect_proposals *to)
+{
+    (void)survey;
+    hci_effect_propose(to, ANGLE, 1, 0.0, 1.0, EXPECTED_RAD);
+}
+
 const hci_effect_type hci_effect_position_offset = {
     .name = "position_offset",
     .equation = "θ_read = θ + δ",
     .signature = "∂T/∂θ times a constant, at every order",
     HCI_EFFECT_PARAMETERS(PARAMETER),
+    .is_angle_zero = true,
+    .propose = propose,
     .sense = sense,
     .undo = undo,
     .undo_adjoint = undo_adjoint,

@@ -8,13 +8,16 @@
  * difference of dd and qq makes torque. */
 #include "core/effects/coenergy.h"
 
+/* Sine and cosine in turn. */
+enum { DD = 0, DQ = 2, QQ = 4 };
+
 static const hci_effect_parameter PARAMETER[] = {
-    HCI_ORDERED("dd_sine", "H", "of L_dd, sin nθ", 1e-6),
-    HCI_ORDERED("dd_cosine", "H", "of L_dd, cos nθ", 0.0),
-    HCI_ORDERED("dq_sine", "H", "of L_dq, sin nθ", 1e-6),
-    HCI_ORDERED("dq_cosine", "H", "of L_dq, cos nθ", 0.0),
-    HCI_ORDERED("qq_sine", "H", "of L_qq, sin nθ", 1e-6),
-    HCI_ORDERED("qq_cosine", "H", "of L_qq, cos nθ", 0.0),
+    HCI_ORDERED("dd_sine", "H", "of L_dd, sin nθ", 1e-6, HCI_PARAMETER_LINEAR | HCI_PARAMETER_WITH_CURRENT),
+    HCI_ORDERED("dd_cosine", "H", "of L_dd, cos nθ", 0.0, HCI_PARAMETER_LINEAR | HCI_PARAMETER_WITH_CURRENT),
+    HCI_ORDERED("dq_sine", "H", "of L_dq, sin nθ", 1e-6, HCI_PARAMETER_LINEAR | HCI_PARAMETER_WITH_CURRENT),
+    HCI_ORDERED("dq_cosine", "H", "of L_dq, cos nθ", 0.0, HCI_PARAMETER_LINEAR | HCI_PARAMETER_WITH_CURRENT),
+    HCI_ORDERED("qq_sine", "H", "of L_qq, sin nθ", 1e-6, HCI_PARAMETER_LINEAR | HCI_PARAMETER_WITH_CURRENT),
+    HCI_ORDERED("qq_cosine", "H", "of L_qq, cos nθ", 0.0, HCI_PARAMETER_LINEAR | HCI_PARAMETER_WITH_CURRENT),
 };
 
 static void torque_of_all(const hci_effect *effect, const hci_machine *machine, const hci_sample *truth,
@@ -33,11 +36,33 @@ static void torque_of_all(const hci_effect *effect, const hci_machine *machine, 
     hci_coenergy_end(&w, sum);
 }
 
+enum { MOST_ORDER = 60, MOST_LOW_ORDER = 24 };
+
+/* From how many terms one is chosen. */
+#define USUAL       12.0
+#define UNSYMMETRIC 60.0 /* of a rotor that does not look alike both ways round, or of unequal phases */
+
+/* Saliency and cross-coupling of the mean; a rotor that looks alike both ways round has cos for dd and qq and
+ * sin for dq. */
+static void propose(const hci_effect_survey *survey, const hci_effect_proposals *to)
+{
+    static const size_t EVEN[] = {DD + 1, QQ + 1, DQ}, ODD[] = {DD, QQ, DQ + 1};
+    const int most = survey->richness > 0 ? MOST_ORDER : MOST_LOW_ORDER;
+    hci_effect_propose(to, DD + 1, 1, 0.0, 1.0, 0.0);
+    hci_effect_propose(to, DQ + 1, 1, 0.0, 4.0, 0.0);
+    for (int n = 2; n <= most; n += n == 2 ? 4 : 6)
+        for (int k = 0; k < 3; ++k) {
+            hci_effect_propose(to, EVEN[k], 1, n, n == 2 ? UNSYMMETRIC : USUAL, 0.0);
+            hci_effect_propose(to, ODD[k], 1, n, UNSYMMETRIC, 0.0);
+        }
+}
+
 const hci_effect_type hci_effect_reluctance = {
     .name = "reluctance",
     .equation = "T = ∂W'/∂θ_m, W' = 3/2 (½ L_dd i_d² + L_dq i_d i_q + ½ L_qq i_q²)",
     .signature = "grows with the square of the current; mean and orders 6k, order 2 with unequal phases",
     HCI_EFFECT_PARAMETERS(PARAMETER),
+    .propose = propose,
     .in_machine = true,
     .torque_of_all = torque_of_all,
 };

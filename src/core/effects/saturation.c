@@ -19,8 +19,10 @@
 #define MONOMIALS(X) DEGREE_3(X) DEGREE_4(X) DEGREE_5(X) DEGREE_6(X) DEGREE_7(X) DEGREE_8(X)
 
 #define PAIR(a, b)                                                                                           \
-    HCI_ORDERED("d" #a "q" #b "_sine", "Nm", "co-energy with i_d^" #a " i_q^" #b ", of sin nθ", 1e-6),       \
-        HCI_ORDERED("d" #a "q" #b "_cosine", "Nm", "co-energy with i_d^" #a " i_q^" #b ", of cos nθ", 0.0),
+    HCI_ORDERED("d" #a "q" #b "_sine", "Nm", "co-energy with i_d^" #a " i_q^" #b ", of sin nθ", 1e-6,        \
+                HCI_PARAMETER_LINEAR | HCI_PARAMETER_WITH_CURRENT),                                          \
+        HCI_ORDERED("d" #a "q" #b "_cosine", "Nm", "co-energy with i_d^" #a " i_q^" #b ", of cos nθ", 0.0,   \
+                    HCI_PARAMETER_LINEAR | HCI_PARAMETER_WITH_CURRENT),
 
 #define POWERS(a, b) {a, b},
 
@@ -29,8 +31,8 @@ static const struct {
 } MONOMIAL[] = {MONOMIALS(POWERS)};
 
 static const hci_effect_parameter PARAMETER[] = {
-    MONOMIALS(PAIR)
-        HCI_PLAIN("reference_current", "A", "current I_0 at which the coefficients are meant", 1.0, 1e-6),
+    MONOMIALS(PAIR) HCI_PLAIN("reference_current", "A", "current I_0 at which the coefficients are meant",
+                              1.0, 1e-6, HCI_PARAMETER_REFERENCE_CURRENT | HCI_PARAMETER_WITH_CURRENT),
 };
 
 enum { REFERENCE_CURRENT = sizeof PARAMETER / sizeof *PARAMETER - 1 };
@@ -56,12 +58,58 @@ static void torque_of_all(const hci_effect *effect, const hci_machine *machine, 
         if (effect->term[k].parameter == REFERENCE_CURRENT) by_value[k] = by_reference;
 }
 
+/* From how many powers one is chosen. */
+#define USUAL_MEAN  6.0
+#define USUAL       30.0
+#define UNSYMMETRIC 60.0 /* of a rotor that does not look alike both ways round */
+
+#define EXPECTED 0.2  /* ripple of one power of the currents, as a share of the largest torque … */
+#define FADING   0.25 /* … and of that from one degree to the next */
+
+/* High powers of the currents resemble each other: without an expectation they would grow against each other.
+ */
+static double expected_Nm(const hci_effect_survey *survey, int degree, int order)
+{
+    const double share = survey->current_A > 0.0 ? survey->reference_current_A / survey->current_A : 1.0;
+    const double most = survey->torque_Nm * pow(share, degree);
+    if (order == 0)
+        return most * pow(FADING, degree > 4 ? degree - 4 : 0) / (3.0 * survey->machine->pole_pairs);
+    return EXPECTED * most * pow(FADING, degree - 3) / (survey->machine->pole_pairs * (double)order);
+}
+
+/* One order of the power d^a q^b. A rotor that looks alike both ways round has cos for even and sin for odd
+ * powers of i_q; the others are looked into at low orders only. The mean has no sine. */
+static void propose_order(const hci_effect_survey *survey, const hci_effect_proposals *to, size_t monomial,
+                          int order)
+{
+    const int degree = MONOMIAL[monomial].a + MONOMIAL[monomial].b;
+    const size_t usual = MONOMIAL[monomial].b % 2 == 0; /* 1: cosine */
+    for (size_t k = 0; k < (survey->richness == 0 ? 2 : 1); ++k) {
+        const size_t wave = k == 0 ? usual : 1 - usual;
+        const double alternatives = k == 1 ? UNSYMMETRIC : order == 0 ? USUAL_MEAN : USUAL;
+        if (order == 0 && wave == 0) continue;
+        hci_effect_propose(to, 2 * monomial + wave, 1, order, alternatives,
+                           expected_Nm(survey, degree, order));
+    }
+}
+
+static void propose(const hci_effect_survey *survey, const hci_effect_proposals *to)
+{
+    const int degrees = survey->richness > 1 ? 6 : 4, orders = survey->richness > 0 ? 60 : 12;
+    if (!(survey->reference_current_A > 0.0)) return; /* a series in currents relative to it */
+    for (size_t k = 0; MONOMIAL[k].a + MONOMIAL[k].b <= degrees; ++k)
+        for (int order = 0; order <= orders; order += 6)
+            propose_order(survey, to, k, order);
+}
+
 const hci_effect_type hci_effect_saturation = {
     .name = "saturation",
     .equation = "T = ∂W'/∂θ_m, W' = Σ (S sin nθ + C cos nθ) (i_d/I_0)^a (i_q/I_0)^b",
     .signature =
         "grows with the third or a higher power of the current; mean torque lost with load, orders 6k",
     HCI_EFFECT_PARAMETERS(PARAMETER),
+    .is_series = true,
+    .propose = propose,
     .in_machine = true,
     .beyond_quadratic = true,
     .torque_of_all = torque_of_all,

@@ -9,10 +9,14 @@
 enum { TIME_CONSTANT, NATURAL_FREQUENCY, DAMPING, OFFSET };
 
 static const hci_effect_parameter PARAMETER[] = {
-    HCI_PLAIN("time_constant", "s", "of a first-order lag; 0: none", 0.0, 0.0),
-    HCI_PLAIN("natural_frequency", "Hz", "of the resonance; 0: none", 0.0, 0.0),
-    HCI_PLAIN("damping", "1", "damping ratio of the resonance", 0.05, 0.0),
-    HCI_PLAIN("offset", "Nm", "read too much", 0.0, -DBL_MAX),
+    HCI_PLAIN("time_constant", "s", "of a first-order lag; 0: none", 0.0, 0.0,
+              HCI_PARAMETER_OF_TRANSDUCER | HCI_PARAMETER_ALONG_TIME | HCI_PARAMETER_LAG),
+    HCI_PLAIN("natural_frequency", "Hz", "of the resonance; 0: none", 0.0, 0.0,
+              HCI_PARAMETER_OF_TRANSDUCER | HCI_PARAMETER_ALONG_TIME),
+    HCI_PLAIN("damping", "1", "damping ratio of the resonance", 0.05, 0.0,
+              HCI_PARAMETER_OF_TRANSDUCER | HCI_PARAMETER_ALONG_TIME),
+    HCI_PLAIN("offset", "Nm", "read too much", 0.0, -DBL_MAX,
+              HCI_PARAMETER_OF_TRANSDUCER | HCI_PARAMETER_LINEAR),
 };
 
 static double torque(const hci_effect *effect, const hci_effect_term *term, const hci_machine *machine,
@@ -154,11 +158,26 @@ static void simulate(const hci_effect *effect, int pole_pairs, hci_sensor *senso
     hci_effect_link_add(&channels[HCI_SENSE_TORQUE], &link);
 }
 
+static const size_t RESONANCE[] = {NATURAL_FREQUENCY, DAMPING};
+
+#define EXPECTED 0.1 /* offset, of the largest torque */
+
+static void propose(const hci_effect_survey *survey, const hci_effect_proposals *to)
+{
+    hci_effect_propose(to, OFFSET, 1, 0.0, 1.0, EXPECTED * survey->torque_Nm);
+    if (survey->timed) hci_effect_propose(to, TIME_CONSTANT, 1, 0.0, 1.0, 0.0);
+}
+
 const hci_effect_type hci_effect_torque_sensor = {
     .name = "torque_sensor",
     .equation = "T_read = G(s) T + offset, G = 1/(1 + τs) · 1/(1 + 2ζs/ω_n + s²/ω_n²)",
     .signature = "all orders; amplitude and phase follow order × speed",
     HCI_EFFECT_PARAMETERS(PARAMETER),
+    .needs = HCI_EFFECT_NEEDS_TIME,
+    .without = "without time the torque sensor's lag is left out",
+    .told_by = "the other direction of rotation",
+    .resonance = RESONANCE,
+    .propose = propose,
     .torque = torque,
     .simulate = simulate,
     .filter = filter,

@@ -31,17 +31,17 @@ HCI_EFFECT_TYPES(HCI_EFFECT_DECLARE)
 #undef HCI_EFFECT_DECLARE
 
 /* Parameters: one value; one for each order from the least on; one for each whole order. */
-#define HCI_PLAIN(name, unit, meaning, standard, least)                                                      \
+#define HCI_PLAIN(name, unit, meaning, standard, least, traits)                                              \
     {                                                                                                        \
-        name, unit, meaning, standard, least, false, false, 0.0                                              \
+        name, unit, meaning, standard, least, false, false, 0.0, traits                                      \
     }
-#define HCI_ORDERED(name, unit, meaning, least_order)                                                        \
+#define HCI_ORDERED(name, unit, meaning, least_order, traits)                                                \
     {                                                                                                        \
-        name, unit, meaning, 0.0, -DBL_MAX, true, false, least_order                                         \
+        name, unit, meaning, 0.0, -DBL_MAX, true, false, least_order, traits                                 \
     }
-#define HCI_WHOLE(name, unit, meaning, least_order)                                                          \
+#define HCI_WHOLE(name, unit, meaning, least_order, traits)                                                  \
     {                                                                                                        \
-        name, unit, meaning, 0.0, -DBL_MAX, true, true, least_order                                          \
+        name, unit, meaning, 0.0, -DBL_MAX, true, true, least_order, traits                                  \
     }
 
 /* Members of hci_effect_type. */
@@ -96,6 +96,21 @@ static inline double hci_effect_add_emf(hci_effect_torque *sum, double weight, c
     }
     sum->torque_Nm += weight * torque;
     return torque;
+}
+
+/* Proposes a candidate of `count` parameters from one on. */
+static inline void hci_effect_propose(const hci_effect_proposals *to, size_t parameter, size_t count,
+                                      double order, double alternatives, double expected)
+{
+    const hci_effect_candidate x = {parameter, count, order, alternatives, expected};
+    to->add(to->context, &x);
+}
+
+/* Each of the three phases by itself. */
+static inline void hci_effect_propose_phases(const hci_effect_proposals *to, double expected)
+{
+    for (size_t s = 0; s < 3; ++s)
+        hci_effect_propose(to, s, 1, 0.0, 3.0, expected);
 }
 
 static inline void hci_effect_link_add(hci_effect_channel *channel, const hci_effect_link *link)

@@ -58,17 +58,7 @@ static hci_status effects_fill(const hci_regression *e, const hci_candidates *ca
 /* For terms that are the same in all runs it takes a run of another kind. */
 static void advice_of_same(const hci_verdict *v, char *text, size_t size)
 {
-    static const struct {
-        const char *effect, *run;
-    } WANTED[] = {
-        {"friction", "the other direction of rotation, or three speeds"},
-        {"torque_sensor", "the other direction of rotation"},
-        {"channel_delay", "another speed, at least four times as fast"},
-        {"current_offset", "a torque transducer and currents of their own"},
-    };
-    const char *run = "another current, speed and direction";
-    for (size_t k = 0; k < sizeof WANTED / sizeof *WANTED; ++k)
-        if (strcmp(v->type->name, WANTED[k].effect) == 0) run = WANTED[k].run;
+    const char *run = v->type->told_by ? v->type->told_by : "another current, speed and direction";
     snprintf(text, size, "%s or %s: a run with %s would tell them apart", v->rival_of->name, v->type->name,
              run);
 }

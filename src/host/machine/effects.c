@@ -239,13 +239,6 @@ void hci_effects_release(hci_effects_data *effects)
     memset(effects, 0, sizeof *effects);
 }
 
-const hci_effect *hci_effects_find(const hci_effects *effects, const char *name)
-{
-    for (size_t k = 0; k < effects->count; ++k)
-        if (strcmp(effects->effect[k].type->name, name) == 0) return &effects->effect[k];
-    return NULL;
-}
-
 /* ---- writing ---- */
 
 static void write_term(hci_output *output, const hci_effect_type *type, const hci_effect_term *term)

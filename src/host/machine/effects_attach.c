@@ -53,11 +53,10 @@ static hci_status set_delay(probe *p, bool wraps, hci_sensor *sensor, hci_note *
 {
     const double steps = p->channel.delay_s / p->step_s, whole = floor(steps + 1e-9);
     if (!(steps >= 0.0 && steps < MOST_STEPS))
-        return hci_note_set(
-            note, HCI_ERROR_ARGUMENT,
-            "channel_delay: found %g s, expected 0 or more and less than %d steps of the simulation; "
-            "delay the other channels instead of one by less than 0",
-            p->channel.delay_s, MOST_STEPS);
+        return hci_note_set(note, HCI_ERROR_ARGUMENT,
+                            "%s: found %g s, expected 0 or more and less than %d steps of the simulation; "
+                            "delay the other channels instead of one by less than 0",
+                            p->channel.delayed_by->name, p->channel.delay_s, MOST_STEPS);
     sensor->delay_steps += (size_t)whole;
     if (steps - whole > 1e-9) {
         const hci_effect_link link = {
@@ -103,18 +102,27 @@ static hci_status set_sensors(const hci_effects *effects, int pole_pairs, hci_ef
     return status;
 }
 
+/* Friction of the effects and of the plant may not drive the shaft. */
+static hci_status check_coulomb(const hci_effects *effects, double plant_Nm, hci_note *note)
+{
+    const double sum_Nm = plant_Nm + hci_effects_coulomb_Nm(effects);
+    size_t k = 0;
+    if (!(sum_Nm < 0.0)) return HCI_OK;
+    while (k < effects->count && !effects->effect[k].type->coulomb_Nm)
+        ++k;
+    return hci_note_set(
+        note, HCI_ERROR_ARGUMENT,
+        "%s: Coulomb friction is %g N·m in sum, expected 0 or more; a simulated shaft cannot be "
+        "driven by its bearings",
+        k < effects->count ? effects->effect[k].type->name : "machine", sum_Nm);
+}
+
 static hci_status check_attachable(const hci_effects *effects, const hci_drive *drive, hci_note *note)
 {
     if (drive->plant.effect_count > 0 || !(drive->control.step_s > 0.0))
         return hci_note_set(note, HCI_ERROR_ARGUMENT,
                             "effects belong on a drive that has a step and no effects yet");
-    if (drive->plant.coulomb_Nm + hci_effects_coulomb_Nm(effects) < 0.0)
-        return hci_note_set(
-            note, HCI_ERROR_ARGUMENT,
-            "friction: Coulomb friction is %g N·m in sum, expected 0 or more; a simulated shaft cannot "
-            "be driven by its bearings",
-            drive->plant.coulomb_Nm + hci_effects_coulomb_Nm(effects));
-    return HCI_OK;
+    return check_coulomb(effects, drive->plant.coulomb_Nm, note);
 }
 
 static void set_drive(const hci_effects *effects, const hci_machine *machine, double temperature_C,

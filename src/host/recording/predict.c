@@ -62,7 +62,7 @@ hci_status hci_predict(const hci_machine_data *machine, const hci_effects *effec
 {
     hci_sample *reading = hci_memory_new(run->count, sizeof *reading);
     if (reading == NULL) return hci_note_memory(note, run->name, "a prediction of %zu samples", run->count);
-    const bool with_change = hci_effects_find(effects, "channel_delay") != NULL;
+    const bool with_change = (hci_effects_needs(effects) & HCI_EFFECT_NEEDS_RATE) != 0;
     const hci_status status =
         hci_predict_readings(run, machine->model.pole_pairs, with_change, reading, note);
     for (size_t k = 0; k < run->count && status == HCI_OK; ++k)

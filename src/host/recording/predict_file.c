@@ -53,20 +53,35 @@ static void add_remark(hci_note *remark, const char *text)
     if (*text != '\0') hci_note_add(remark, "%s", text);
 }
 
-/* Effects that act along time or speed need them. */
+/* What effects need and a run lacks. */
+static unsigned lacking(const hci_run *run)
+{
+    unsigned lacks = 0;
+    if (run->time_s == NULL) lacks |= HCI_EFFECT_NEEDS_TIME;
+    if (run->speed_rad_per_s == NULL) lacks |= HCI_EFFECT_NEEDS_SPEED;
+    if (run->temperature_C == NULL) lacks |= HCI_EFFECT_NEEDS_TEMPERATURE;
+    if (!run->turn_known) lacks |= HCI_EFFECT_NEEDS_TURN;
+    return lacks;
+}
+
+/* Whether an effect before this one says the same. */
+static bool is_said(const hci_effects *effects, size_t at, unsigned lacks)
+{
+    for (size_t k = 0; k < at; ++k)
+        if ((effects->effect[k].type->needs & lacks) &&
+            strcmp(effects->effect[k].type->without, effects->effect[at].type->without) == 0)
+            return true;
+    return false;
+}
+
+/* What is left out of the prediction since the run lacks it. */
 static void remark_missing(const hci_run *run, const hci_effects *effects, hci_note *remark)
 {
-    if (run->time_s == NULL && hci_effects_find(effects, "torque_sensor") != NULL)
-        add_remark(remark, "without time the torque sensor's lag is left out");
-    if (run->speed_rad_per_s == NULL &&
-        (hci_effects_find(effects, "friction") != NULL || hci_effects_find(effects, "channel_delay") != NULL))
-        add_remark(remark, "without a speed friction and delays are left out");
-    if (run->temperature_C == NULL && hci_effects_find(effects, "magnet_temperature") != NULL)
-        add_remark(remark, "without a temperature the magnets are at the reference");
-    if (!run->turn_known && hci_effects_find(effects, "mechanical_order") != NULL)
-        add_remark(remark,
-                   "the angle does not tell where in the mechanical turn the rotor was: orders k/p have "
-                   "any phase");
+    const unsigned lacks = lacking(run);
+    for (size_t k = 0; k < effects->count; ++k) {
+        const hci_effect_type *type = effects->effect[k].type;
+        if ((type->needs & lacks) && !is_said(effects, k, lacks)) hci_note_add(remark, "%s", type->without);
+    }
 }
 
 /* ---- files ---- */

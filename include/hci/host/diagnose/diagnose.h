@@ -74,7 +74,7 @@ typedef struct {
 } hci_unexplained;
 
 /* Capacities: of effects, and of orders that none explains. */
-enum { HCI_MOST_FINDINGS = 20, HCI_MOST_UNEXPLAINED = 8 };
+enum { HCI_MOST_FINDINGS = 32, HCI_MOST_UNEXPLAINED = 8 };
 
 /* What the recordings say of the model as a whole. */
 typedef enum {

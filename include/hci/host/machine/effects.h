@@ -30,9 +30,6 @@ hci_status hci_effects_read_machine(const char *folder, hci_effects_data *effect
 /* Frees what effects hold and empties them. */
 void hci_effects_release(hci_effects_data *effects);
 
-/* The first effect of this name, as in effects.csv, or NULL. */
-const hci_effect *hci_effects_find(const hci_effects *effects, const char *name);
-
 /* Writes effects.csv as the next file of a set, in the order given; what hci_effects_read makes of it is
  * written with the same bytes. HCI_ERROR_OUTPUT, _MEMORY; discard the set then. */
 hci_status hci_effects_write(hci_output *output, const hci_effects *effects, hci_note *note);

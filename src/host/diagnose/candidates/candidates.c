@@ -29,6 +29,13 @@ bool hci_candidates_have(const hci_candidates *s, const hci_effect_type *type)
     return false;
 }
 
+bool hci_candidates_have_series(const hci_candidates *s)
+{
+    for (size_t k = 0; k < s->count; ++k)
+        if (s->candidate[k].in && s->candidate[k].type->is_series) return true;
+    return false;
+}
+
 size_t hci_candidates_types_in(const hci_candidates *s)
 {
     size_t sum = 0;

@@ -24,7 +24,7 @@ typedef struct {
 typedef struct {
     hci_candidate *candidate;
     size_t count;
-    double reference_current_A; /* of saturation */
+    double reference_current_A; /* of a series in the currents */
 } hci_candidates;
 
 void hci_candidates_release(hci_candidates *candidates);
@@ -43,8 +43,9 @@ hci_status hci_candidates_add(hci_candidates *candidates, const hci_candidate *c
 /* Whether two are the same terms. */
 bool hci_candidate_same(const hci_candidate *a, const hci_candidate *b);
 
-/* Whether a type is in, how many are, and how many terms. */
+/* Whether a type is in, or a series of many terms; how many types are, and how many terms. */
 bool hci_candidates_have(const hci_candidates *candidates, const hci_effect_type *type);
+bool hci_candidates_have_series(const hci_candidates *candidates);
 size_t hci_candidates_types_in(const hci_candidates *candidates);
 size_t hci_candidates_terms_in(const hci_candidates *candidates);
 

@@ -1,10 +1,8 @@
 /* Which terms these recordings could show at all.
  *
  * In: the machine, what the recordings contain (time, motion, temperature, whole turns) and the residual of
- * the present model. Out: one candidate for each term that could be missing. Orders of cogging and of the
- * mechanical turn are offered where they stand out of the residual; back-EMF, reluctance and saturation at
- * the orders that a machine can have; friction with as many parts as there are speeds; delays only with time,
- * and so on. */
+ * the present model. Out: one candidate for each term that could be missing. Each effect
+ * names its own (hci_effect_type.propose), from what the recordings are like as a whole. */
 #ifndef HCI_SRC_HOST_DIAGNOSE_CANDIDATES_MAKE_CANDIDATES_H
 #define HCI_SRC_HOST_DIAGNOSE_CANDIDATES_MAKE_CANDIDATES_H
 
@@ -18,8 +16,8 @@ typedef struct {
     const bool *use;            /* of each run */
     const double *residual_Nm;  /* of each sample */
     const double *variance;     /* of each sample, N²·m² */
-    double reference_current_A; /* of saturation; NAN: the largest of the runs */
-    int richness; /* of saturation and reluctance: 0 low orders, 1 all orders, 2 to high powers of the
+    double reference_current_A; /* of a series in the currents; NAN: the largest of the runs */
+    int richness; /* as in hci_effect_survey: 0 low orders, 1 all orders, 2 to high powers of the
                      currents */
 } hci_candidates_source;
 

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "host/base/memory.h"
-#include "host/diagnose/candidates/empirical_term.h"
 #include "host/diagnose/fit/predicted_reading.h"
 
 #define ROUNDING 1e-12 /* square of a column beside the largest of its effect that is rounding */
@@ -20,31 +19,16 @@ typedef struct {
     double *x, *y;        /* rows of a segment: [samples][columns] and [samples] */
 } filling;
 
-static bool is_of(const hci_candidate *s, const char *name)
-{
-    return strcmp(s->type->name, name) == 0;
-}
-
 /* ---- what a run can show ---- */
-
-/* In a holding test the current answers to the torque: no effect that grows with it can be found there. At
- * rest friction has a sign and no more. */
-static bool needs_free_current(const hci_candidate *s, size_t term)
-{
-    static const char *const TYPES[] = {"back_emf",   "phase_imbalance",    "reluctance",  "channel_delay",
-                                        "saturation", "magnet_temperature", "current_gain"};
-    for (size_t k = 0; k < sizeof TYPES / sizeof *TYPES; ++k)
-        if (is_of(s, TYPES[k])) return true;
-    if (is_of(s, "friction")) return s->term[term].parameter > 0;
-    return (is_of(s, "mechanical_order") && s->term[term].parameter >= 2) || s->type == &hci_empirical_type;
-}
 
 /* Whether a run can show a term of an effect at all. */
 static bool can_show(const hci_run *run, const hci_candidate *s, size_t term)
 {
+    const unsigned traits = s->type->parameter[s->term[term].parameter].traits;
     if (run->torque_source == HCI_TORQUE_MEASURED) return true;
-    if (is_of(s, "torque_sensor")) return false;
-    return run->torque_source != HCI_TORQUE_HOLDING || !needs_free_current(s, term);
+    if (traits & HCI_PARAMETER_OF_TRANSDUCER) return false;
+    return run->torque_source != HCI_TORQUE_HOLDING ||
+           !(traits & (HCI_PARAMETER_WITH_CURRENT | HCI_PARAMETER_WITH_SPEED));
 }
 
 static void columns_clear(const filling *f, const hci_segment *s)
@@ -81,8 +65,6 @@ static void torque_rows(const filling *f, const hci_segment *s, const hci_predic
 static void sum_row(const filling *f, const hci_binned_sample *sample, double deviation_A, double *x,
                     double *y)
 {
-    const hci_effect_type *offset = hci_effect_type_find("current_offset");
-    const hci_effect_type *gain = hci_effect_type_find("current_gain");
     const hci_model *m = f->model;
     const hci_sample truth = hci_effects_undo(&m->list, f->regression->machine->pole_pairs, &sample->reading);
     const double weight = sqrt(sample->count) / deviation_A;
@@ -92,8 +74,8 @@ static void sum_row(const filling *f, const hci_binned_sample *sample, double de
     *y *= weight;
     for (size_t c = 0; c < m->columns; ++c) {
         const hci_candidate *s = m->column[c].candidate;
-        const size_t phase = s->term[0].parameter;
-        x[c] = s->type == offset ? weight : s->type == gain ? weight * truth.i_abc[phase] : 0.0;
+        x[c] =
+            s->type->sum_by_value ? weight * s->type->sum_by_value(&s->term[m->column[c].term], &truth) : 0.0;
     }
 }
 

@@ -49,14 +49,12 @@ static bool candidates_put(collection *c)
     return any;
 }
 
-/* Saturation is a series in currents relative to one that belongs to it. */
+/* The current at which the values of the effect hold, where it has one that is not declared. */
 static void reference_put(collection *c, double reference_current_A)
 {
-    size_t k = 0;
-    if (c->before || strcmp(c->type->name, "saturation") != 0) return;
-    while (strcmp(c->type->parameter[k].name, "reference_current") != 0)
-        ++k;
-    c->model->term[c->end++] = (hci_effect_term){k, 0.0, reference_current_A, NAN};
+    for (size_t k = 0; k < c->type->parameter_count && !c->before; ++k)
+        if (c->type->parameter[k].traits & HCI_PARAMETER_REFERENCE_CURRENT)
+            c->model->term[c->end++] = (hci_effect_term){k, 0.0, reference_current_A, NAN};
 }
 
 /* Returns the end of the type's terms. */

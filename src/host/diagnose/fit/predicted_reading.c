@@ -4,9 +4,9 @@
 
 #include "host/base/memory.h"
 
-static const char *name_of(const hci_effect *effect, size_t term)
+static unsigned traits_of(const hci_effect *effect, size_t term)
 {
-    return effect->type->parameter[effect->term[term].parameter].name;
+    return effect->type->parameter[effect->term[term].parameter].traits;
 }
 
 /* A lag or a resonance; a time constant of 0 is none. */
@@ -14,8 +14,8 @@ static bool has_dynamics(const hci_effects *effects)
 {
     for (size_t k = 0; k < effects->count; ++k) {
         const hci_effect *e = &effects->effect[k];
-        for (size_t j = 0; e->type->filter && j < e->count; ++j)
-            if (strcmp(name_of(e, j), "offset") != 0 && e->term[j].value > 0.0) return true;
+        for (size_t j = 0; j < e->count; ++j)
+            if ((traits_of(e, j) & HCI_PARAMETER_ALONG_TIME) && e->term[j].value > 0.0) return true;
     }
     return false;
 }
@@ -27,8 +27,7 @@ static size_t dormant_lag(const hci_effects *effects)
     for (size_t k = 0; k < effects->count; ++k) {
         const hci_effect *e = &effects->effect[k];
         for (size_t j = 0; j < e->count; ++j, ++place)
-            if (e->type->filter && strcmp(name_of(e, j), "time_constant") == 0 && !(e->term[j].value > 0.0))
-                return place;
+            if ((traits_of(e, j) & HCI_PARAMETER_LAG) && !(e->term[j].value > 0.0)) return place;
     }
     return place;
 }

@@ -15,6 +15,7 @@ static const double DAMPING[] = {0.03, 0.1, 0.3};
 /* Torque without and with the resonance, in turns of a steady turn. */
 typedef struct {
     const hci_regression *regression;
+    const hci_effect_type *type; /* whose resonance it is */
     const double *residual_Nm;
     double *torque_Nm, *time_s, *y;
 } scan;
@@ -56,9 +57,10 @@ static double sensor_square(const scan *l, const hci_effects *sensor)
 
 static double square_with(const scan *l, double frequency_Hz, double damping)
 {
-    const hci_effect_type *type = hci_effect_type_find("torque_sensor");
-    const hci_effect_term term[] = {{1, 0.0, frequency_Hz, NAN}, {2, 0.0, damping, NAN}};
-    const hci_effect effect = {type, term, 2};
+    const size_t *parameter = l->type->resonance;
+    const hci_effect_term term[] = {{parameter[0], 0.0, frequency_Hz, NAN},
+                                    {parameter[1], 0.0, damping, NAN}};
+    const hci_effect effect = {l->type, term, 2};
     const hci_effects sensor = {&effect, 1};
     return sensor_square(l, &sensor);
 }
@@ -92,14 +94,18 @@ static void grid_search(const scan *l, hci_resonance *best)
     }
 }
 
-hci_status hci_resonance_find(const hci_regression *regression, const double *residual_Nm,
-                              hci_resonance *resonance, hci_note *note)
+hci_status hci_resonance_find(const hci_regression *regression, const hci_effect_type *type,
+                              const double *residual_Nm, hci_resonance *resonance, hci_note *note)
 {
     const size_t most = hci_segment_longest(regression->samples);
     double *work = hci_memory_new((2 * HCI_SETTLING_TURNS + 1) * most, sizeof *work);
     *resonance = (hci_resonance){0.0, 0.0, 0.0};
     if (!work) return hci_note_memory(note, NULL, "resonances of the sensor");
-    const scan l = {regression, residual_Nm, work, work + HCI_SETTLING_TURNS * most,
+    const scan l = {regression,
+                    type,
+                    residual_Nm,
+                    work,
+                    work + HCI_SETTLING_TURNS * most,
                     work + 2 * HCI_SETTLING_TURNS * most};
     grid_search(&l, resonance);
     hci_memory_free(work);

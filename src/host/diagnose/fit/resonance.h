@@ -13,8 +13,9 @@ typedef struct {
 } hci_resonance;
 
 /* The point of a grid of frequencies and dampings where χ² falls most; all 0 where no point helps.
- * residual_Nm: of the model without one. HCI_ERROR_MEMORY. O(samples) for each of some hundred points. */
-hci_status hci_resonance_find(const hci_regression *regression, const double *residual_Nm,
-                              hci_resonance *resonance, hci_note *note);
+ * type: has a resonance; residual_Nm: of the model without one. HCI_ERROR_MEMORY. O(samples) for each of some
+ * hundred points. */
+hci_status hci_resonance_find(const hci_regression *regression, const hci_effect_type *type,
+                              const double *residual_Nm, hci_resonance *resonance, hci_note *note);
 
 #endif

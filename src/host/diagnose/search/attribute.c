@@ -85,8 +85,7 @@ static hci_status verdicts_of_others(hci_search *s, hci_attribution *a, hci_note
 /* Where the angle begins is a convention once the phases of a torque are free. */
 static bool is_convention(const hci_effect_type *type, const hci_effect_type *as)
 {
-    return type == hci_effect_type_find("position_offset") &&
-           (as == hci_effect_type_find("cogging") || as == hci_effect_type_find("mechanical_order"));
+    return type->is_angle_zero && as->any_phase;
 }
 
 /* Marks a type that looks the same as a part of another, unless it would explain nothing without that. */

@@ -24,7 +24,7 @@ typedef struct {
     hci_fitted_model alternative;    /* of a rival: the model with it instead */
 } hci_verdict;
 
-enum { HCI_MOST_TYPES = 16 };
+enum { HCI_MOST_TYPES = 32 };
 
 /* Start with {0}. */
 typedef struct {
@@ -42,7 +42,7 @@ typedef struct {
 typedef struct {
     const hci_run *runs;
     double resolution_Nm;       /* what the model is not asked to be better than */
-    double reference_current_A; /* of saturation; NAN: the largest of the runs */
+    double reference_current_A; /* of a series in the currents; NAN: the largest of the runs */
     hci_progress *progress;     /* may be NULL */
     void *context;
 } hci_attribute_options;

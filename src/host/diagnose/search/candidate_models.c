@@ -29,7 +29,7 @@ static void variance_set(hci_search *s)
 static hci_status candidates_renew(hci_search *s, const hci_candidates *model, hci_candidates *list,
                                    hci_note *note)
 {
-    const bool saturates = hci_candidates_have(model, hci_effect_type_find("saturation"));
+    const bool saturates = hci_candidates_have_series(model);
     const hci_candidates_source source = {s->regression->machine,
                                           s->regression->samples,
                                           s->options->runs,

@@ -14,8 +14,9 @@
 #define PAIR_MARGIN     0.02 /* what two effects at once must explain more than one, as a share */
 #define RESONANCE_PRICE 12.0 /* of having looked at so many frequencies */
 #define MUCH            3.0  /* times the resolution, and … */
-#define STANDS_OUT      1.1 /* … times the noise: a residual in which high powers of the currents are looked for \
-                             */
+#define STANDS_OUT                                                                                           \
+    1.1 /* … times the noise: a residual in which high powers of the currents are looked for               \
+         */
 
 enum { SINGLES = 3, RICHEST = 2 }; /* single effects that are fitted; of saturation */
 
@@ -76,15 +77,14 @@ static size_t models_pick(const hci_candidate_models *t, const hci_candidate_mod
 
 /* ---- models ---- */
 
-/* Whether saturation promises more than every other single effect. */
+/* Whether a series in the currents promises more than every other single effect. */
 static bool powers_lead(const hci_candidate_models *t)
 {
-    const hci_effect_type *saturation = hci_effect_type_find("saturation");
     double most = 0.0, powers = 0.0;
     for (size_t k = 0; k < t->count; ++k) {
         if (is_pair(&t->model[k])) continue;
-        if (hci_candidate_type(t->model[k].a) == saturation)
-            powers = t->model[k].gain;
+        if (hci_candidate_type(t->model[k].a)->is_series)
+            powers = fmax(powers, t->model[k].gain);
         else
             most = fmax(most, t->model[k].gain);
     }
@@ -103,7 +103,7 @@ static hci_status models_enriched(hci_search *s, const hci_candidates *model, hc
                                   hci_note *note)
 {
     const int richness = s->richness;
-    const bool saturates = hci_candidates_have(model, hci_effect_type_find("saturation"));
+    const bool saturates = hci_candidates_have_series(model);
     hci_status status = hci_search_residual(s, model, note);
     if (status) return status;
     if (richness == RICHEST || !saturates || !is_much_left(s))
@@ -166,19 +166,19 @@ static hci_status resonance_fit(comparison *c, const hci_candidate *x, hci_fitte
     return status;
 }
 
-/* The effect that no linearised problem finds: a resonance of the torque sensor. */
-static hci_status resonance_enter(comparison *c, hci_note *note)
+/* What no linearised problem finds: a resonance. */
+static hci_status resonance_enter(comparison *c, const hci_effect_type *type, hci_note *note)
 {
-    const hci_effect_type *type = hci_effect_type_find("torque_sensor");
     hci_candidate x = {.type = type, .count = 2, .price = RESONANCE_PRICE, .in = true};
     hci_fitted_model candidate = {0};
     hci_resonance found;
     if (hci_candidates_have(&c->present->candidates, type)) return HCI_OK;
     hci_status status = hci_search_residual(c->search, &c->present->candidates, note);
-    if (!status) status = hci_resonance_find(c->search->regression, c->search->residual_Nm, &found, note);
+    if (!status)
+        status = hci_resonance_find(c->search->regression, type, c->search->residual_Nm, &found, note);
     if (status || found.gain < hci_candidate_cost(&x, c->present->fit.rows) + HCI_DECISIVE) return status;
-    x.term[0] = (hci_effect_term){1, 0.0, found.natural_frequency_Hz, NAN};
-    x.term[1] = (hci_effect_term){2, 0.0, found.damping, NAN};
+    x.term[0] = (hci_effect_term){type->resonance[0], 0.0, found.natural_frequency_Hz, NAN};
+    x.term[1] = (hci_effect_term){type->resonance[1], 0.0, found.damping, NAN};
     status = resonance_fit(c, &x, &candidate, note);
     if (!status) status = contender_enter(c, &candidate, 0.0, note);
     hci_fitted_model_release(&candidate);
@@ -194,7 +194,8 @@ hci_status hci_search_forward(hci_search *s, hci_fitted_model *model, bool *adde
     if (status) return status;
     status = models_enter(&c, &t, note);
     hci_candidate_models_release(&t);
-    if (!status) status = resonance_enter(&c, note);
+    for (size_t r = 0; hci_effect_type_at(r) && !status; ++r)
+        if (hci_effect_type_at(r)->resonance) status = resonance_enter(&c, hci_effect_type_at(r), note);
     if (!status && c.best.candidates.candidate) {
         hci_fitted_model_replace(model, &c.best);
         *added = true;

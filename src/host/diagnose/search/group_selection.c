@@ -120,7 +120,7 @@ static void leave_superfluous(selecting *g)
  */
 static double select_terms(selecting *g)
 {
-    const int steps = g->a == hci_effect_type_find("saturation") ? MOST_POWERS : MOST_ORDERS;
+    const int steps = g->a->is_series ? MOST_POWERS : MOST_ORDERS;
     for (int step = 0; step < steps; ++step) {
         if (!take_best(g, step == 0 && g->cost == 0.0)) break;
         leave_superfluous(g);
@@ -132,11 +132,10 @@ static double select_terms(selecting *g)
  * lowers the score much alone: all of them first. */
 static bool seed_powers(selecting *g)
 {
-    const hci_effect_type *saturation = hci_effect_type_find("saturation");
     bool any = false;
     for (size_t k = 0; k < g->choice->list->count; ++k) {
         const hci_candidate *x = &g->choice->list->candidate[k];
-        if (x->type == saturation && x->term[0].order == 0.0 && is_open(g, k)) any = take(g, k) || any;
+        if (x->type->is_series && x->term[0].order == 0.0 && is_open(g, k)) any = take(g, k) || any;
     }
     if (any) leave_superfluous(g);
     return any;

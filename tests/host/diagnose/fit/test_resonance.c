@@ -91,7 +91,9 @@ static hci_resonance find(double natural_Hz, double damping)
         }
         search.residual_Nm[k] = x->torque_Nm - air_gap_Nm;
     }
-    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_resonance_find(&dataset.regression, search.residual_Nm, &found, &note));
+    TEST_ASSERT_EQUAL_INT(HCI_OK,
+                          hci_resonance_find(&dataset.regression, hci_effect_type_find("torque_sensor"),
+                                             search.residual_Nm, &found, &note));
     return found;
 }
 
