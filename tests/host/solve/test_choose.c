@@ -1,7 +1,7 @@
 /* The choice of at most K components against a search over all subsets, on problems with few candidates. The
  * search has its own system (sampled unit currents), its own candidates and its own solver; it shares only
  * the criterion: copper within the allowance first, then the smallest worst order with the mean counted
- * tenfold, or less copper where both are exact. */
+ * tenfold, or less copper where both are exact. test_choose_at_length has more problems. */
 #include "hci/host/solve/solve.h"
 
 #include <string.h>
@@ -18,7 +18,11 @@ enum {
     MOST = 12,
     MOST_K = 4,
     ROWS = 2 * BINS,
+#ifdef AT_LENGTH
     PROBLEMS = 24,
+#else
+    PROBLEMS = 2,
+#endif
     LAWSON = 60,
     TERMS = 4
 };
@@ -369,9 +373,9 @@ static worth choose(const problem *p, const hci_wave *held, size_t most, double 
     return w;
 }
 
-/* 24 problems for each K. When written the choice was within 10 % of the best of all subsets in 24, 23, 24
- * and 24 of them (1 % in 24, 22, 21, 22), 1.26 times the best at worst; it is a search by elimination and
- * exchange and may miss. */
+/* At length 24 problems for each K. When written the choice was within 10 % of the best of all subsets in 24,
+ * 23, 24 and 24 of them (1 % in 24, 22, 21, 22), 1.26 times the best at worst; it is a search by elimination
+ * and exchange and may miss. */
 static void test_against_all_subsets(void)
 {
     static candidates c;
@@ -396,7 +400,7 @@ static void test_against_all_subsets(void)
         }
     }
     for (size_t most = 1; most <= MOST_K; ++most)
-        TEST_ASSERT_TRUE(within[most] >= PROBLEMS - 2);
+        TEST_ASSERT_TRUE(within[most] >= PROBLEMS - PROBLEMS / 12);
 }
 
 /* One more component is never worse, beyond being exact. Also where K is more than there are. */

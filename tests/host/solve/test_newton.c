@@ -9,6 +9,13 @@
 
 enum { SAMPLES = 2048, L_ORDERS = 3, EMF_ORDERS = 3, POLE_PAIRS = 3 };
 
+/* test_newton_at_length has more machines. */
+#ifdef AT_LENGTH
+enum { PROMISES = 12, CHOICES = 8, MOST_COMPONENTS = 11 };
+#else
+enum { PROMISES = 4, CHOICES = 2, MOST_COMPONENTS = 7 };
+#endif
+
 /* L_s = Σ l cos(m(θ − 2πs/3) + ψ), M_s the same with its own figures; e and cogging likewise with sines. */
 typedef struct {
     double order, self, self_phase, mutual, mutual_phase;
@@ -164,7 +171,7 @@ static void test_promised_torque_is_what_the_currents_make(void)
     memcpy(component, SET, sizeof SET);
     memcpy(name, NAMES, sizeof NAMES);
     const hci_component_set set = {component, name, 6, {{0}}};
-    for (int trial = 0; trial < 12; ++trial) {
+    for (int trial = 0; trial < PROMISES; ++trial) {
         machine m;
         hci_solution s;
         hci_solve_options o = {.target = &TARGET};
@@ -184,7 +191,7 @@ static void test_promised_torque_is_what_the_currents_make(void)
 
 static void test_auto_reaches_the_target_near_the_least_copper(void)
 {
-    for (int trial = 0; trial < 8; ++trial) {
+    for (int trial = 0; trial < CHOICES; ++trial) {
         machine m;
         hci_solution s;
         const hci_solve_options o = {.target = &TARGET};
@@ -245,7 +252,7 @@ static void test_harmonic_balance_approaches_the_pointwise_current(void)
     want(4, 6, 0.0);
     TEST_ASSERT_EQUAL(HCI_OK, solve(&m, &o, &pointwise));
     o.method = HCI_METHOD_AUTO;
-    for (size_t count = 3; count <= 11; count += 4) {
+    for (size_t count = 3; count <= MOST_COMPONENTS; count += 4) {
         double now;
         o.choose_at_most = count;
         o.loss_allowance = 1.5;
