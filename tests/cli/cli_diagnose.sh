@@ -20,8 +20,8 @@ recordings() {
         for (f = 1; f <= count; f++) {
             split(point[f], x, ":")
             print "time_s,theta_m_rad,speed_rad_per_s,ia_A,ib_A,ic_A,torque_Nm" >x[1]
-            for (k = 0; k < 450; k++) {
-                angle = (x[2] < 0 ? -2 : 2) * pi * k / 300
+            for (k = 0; k < 225; k++) {
+                angle = (x[2] < 0 ? -2 : 2) * pi * k / 150
                 torque = -brake
                 for (p = 0; p < 3; p++) {
                     i[p] = x[3] * sin(2 * angle - 2 * pi * p / 3)
@@ -156,7 +156,7 @@ run 5 diagnose machine --runs list.csv -q -o list.csv
 # A full disk: at each of these sizes of files, in blocks of 512 bytes, another one does not fit.
 fitted=0
 full=0
-for blocks in 0 1 2 4 8 200; do
+for blocks in 0 2 4 200; do
     shown="ulimit -f $blocks; hci-solve diagnose"
     snapshot again >before
     (

@@ -152,7 +152,7 @@ for name in slow fast held_out; do
     case $name in slow) figures='400 2' ;; fast) figures='900 1' ;; *) figures='700 1.5' ;; esac
     # shellcheck disable=SC2086
     set -- $figures
-    printf 'name,value,unit\nduration,1,s\nprescribed_speed,%s,rpm\ntorque_reference,%s,Nm\ntrajectory_every,40,\ntorque_noise,2,mNm\nseed,%s,\n' "$1" "$2" "$1" >"$work/$name.csv"
+    printf 'name,value,unit\nduration,0.4,s\nprescribed_speed,%s,rpm\ntorque_reference,%s,Nm\ntrajectory_every,40,\ntorque_noise,2,mNm\nseed,%s,\n' "$1" "$2" "$1" >"$work/$name.csv"
     run 0 simulate "$m" "$work/$name.csv" -q -o "$work/plant"
     cp "$work/plant/trajectory.csv" "$work/runs/$name.csv"
 done

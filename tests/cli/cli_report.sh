@@ -37,7 +37,7 @@ printf 'name,value,unit,source\npole_pairs,2,1,test\n' >machine/machine.csv
 printf 'order,amplitude_Nm_per_A,phase_rad\n1,0.2,0\n' >machine/back_emf.csv
 measure() { # FILE CURRENT SPEED
     awk -v i="$2" -v w="$3" 'BEGIN { srand(7); print "time_s,theta_m_rad,speed_rad_per_s,id_A,iq_A,torque_Nm"; p = 6.283185307179586
-        for (k = 0; k < 1500; ++k) { a = p * k * 7 / 1500
+        for (k = 0; k < 500; ++k) { a = p * k * 3 / 500
             n = 0.004 * sqrt(-2 * log(1 - rand())) * cos(p * rand())
             printf "%.12g,%.12g,%g,0,%g,%.12g\n", a / w, a, w, i, 1.5 * 0.2 * i + 0.05 * sin(12 * a + 0.3) + n } }' >"$1"
 }
