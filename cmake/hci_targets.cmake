@@ -28,12 +28,16 @@ function(hci_add_library name)
     hci_target_defaults(hci_${name})
 endfunction()
 
-# A program <name> of one source, which may use private headers: linked with hci::host if it includes a header of host,
-# with hci::core otherwise. HCI_LAYER is set to the layer; no program is made where that layer is not built.
+# A program <name> of one source, which may use private headers: linked with hci::cli if it includes a header of cli, with
+# hci::host if one of host, with hci::core otherwise. HCI_LAYER is set to the layer; no program is made where that layer is
+# not built.
 function(hci_add_program name source)
     file(STRINGS ${source} host_includes REGEX "^#include \".*host/")
+    file(STRINGS ${source} cli_includes REGEX "^#include \"cli/")
     set(layer core)
-    if(host_includes)
+    if(cli_includes)
+        set(layer cli)
+    elseif(host_includes)
         set(layer host)
     endif()
     set(HCI_LAYER ${layer} PARENT_SCOPE)
