@@ -8,6 +8,8 @@
 #include "cli/terminal/terminal.h"
 #include "hci/host/base/utf8.h"
 
+enum { LONGEST_TEXT = 8192 };
+
 size_t cli_text_width(const char *text)
 {
     size_t width = 0;
@@ -45,21 +47,27 @@ static void put_style(char style, FILE *stream)
     if (cli_has_color()) fprintf(stream, "\033[%sm", CODES[style - 1]);
 }
 
+/* A text in ASCII; what does not fit into `size` bytes is left out. */
+static const char *in_ascii(const char *text, char *plain, size_t size)
+{
+    size_t used = 0;
+    for (; *text; ++text) {
+        const char letter[] = {*text, '\0'};
+        const char *part = (unsigned char)*text < 0x80 ? letter : ascii_of(text);
+        if (hci_utf8_begins(*text) && used + strlen(part) < size) used += strlen(strcpy(plain + used, part));
+    }
+    plain[used] = '\0';
+    return plain;
+}
+
 /* `length` bytes; what would drive a terminal is no text. */
 static void put_text(const char *text, size_t length, FILE *stream)
 {
-    const bool ascii = isatty(fileno(stream)) && !cli_is_utf8();
-    for (size_t k = 0; k < length; ++k) {
-        const char *plain = ascii && (unsigned char)text[k] >= 0x80 ? ascii_of(text + k) : NULL;
+    for (size_t k = 0; k < length; ++k)
         if (text[k] >= CLI_GOOD[0] && text[k] <= CLI_PLAIN[0])
             put_style(text[k], stream);
-        else if (plain)
-            fputs(plain, stream);
         else
             fputc((unsigned char)text[k] < ' ' || text[k] == 0x7F ? '?' : text[k], stream);
-        while (plain && k + 1 < length && !hci_utf8_begins(text[k + 1]))
-            ++k;
-    }
 }
 
 /* Bytes of a text up to the last blank within `width` columns; a word that is too long stays whole. */
@@ -76,6 +84,8 @@ static size_t fitting(const char *text, size_t width)
 
 void cli_print_wrapped(FILE *stream, int width, int used, int indent, const char *text)
 {
+    char plain[LONGEST_TEXT] = "";
+    if (isatty(fileno(stream)) && !cli_is_utf8()) text = in_ascii(text, plain, sizeof plain);
     while (*text) {
         const size_t length = fitting(text, width > used ? (size_t)(width - used) : 0);
         put_text(text, length, stream);

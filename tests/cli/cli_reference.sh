@@ -25,7 +25,8 @@ done
 
 # the options of a command by its --help, which is printed by other code
 options() {
-    "$hci_solve" "$1" --help | sed -n '/^Example/,$d;s/^  [ -][ a-zA-Z][ ,] \(--[a-z-]*\).*/\1/p' | sort
+    [ -s "$work/help.$1" ] || "$hci_solve" "$1" --help >"$work/help.$1"
+    sed -n '/^Example/,$d;s/^  [ -][ a-zA-Z][ ,] \(--[a-z-]*\).*/\1/p' "$work/help.$1" | sort
 }
 
 for command in $commands; do
@@ -71,26 +72,34 @@ run 0 reference bash
 cp "$work/stdout" "$work/hci-solve.bash"
 check "bash does not read it" bash -n "$work/hci-solve.bash"
 
-# offered WORD...: what is offered in place of the last word
-offered() {
-    bash --norc -c 'source "$1" || exit; shift; COMP_WORDS=("$@") COMP_CWORD=$(($# - 1)); _hci_solve
-        [[ ${#COMPREPLY[@]} -eq 0 ]] || printf "%s\n" "${COMPREPLY[@]}"' bash "$work/hci-solve.bash" hci-solve "$@" | sort
-}
-
-# is_offered WORDS... -- WORD...
+# is_offered WORDS... -- WORD...: what is offered in place of the last word. One shell is asked for all of them, by answers_are_right.
+: >"$work/asked"
+: >"$work/expected"
 is_offered() {
-    expected=
+    words=
     while [ "$1" != -- ]; do
-        expected="$expected$1
+        words="$words$1
 "
         shift
     done
     shift
-    shown="completion of: hci-solve $*"
-    printf '%s' "$expected" | sort >"$work/expected"
-    offered "$@" >"$work/offered"
+    echo "== hci-solve $*" >>"$work/expected"
+    printf '%s' "$words" | sort >>"$work/expected"
+    { printf '%s\037' "$@"; echo; } >>"$work/asked"
+}
+answers_are_right() {
+    bash --norc -c 'source "$1" || exit
+        while IFS= read -r line; do
+            IFS=$(printf "\037") read -r -d "" -a words <<<"$line$(printf "\037")"
+            unset "words[-1]" "words[-1]"
+            COMP_WORDS=(hci-solve "${words[@]}") COMP_CWORD=${#words[@]}
+            _hci_solve
+            echo "== ${COMP_WORDS[*]}"
+            [[ ${#COMPREPLY[@]} -eq 0 ]] || printf "%s\n" "${COMPREPLY[@]}" | sort
+        done' bash "$work/hci-solve.bash" <"$work/asked" >"$work/offered"
     check "not offered" diff "$work/expected" "$work/offered"
-    shown=
+    : >"$work/asked"
+    : >"$work/expected"
 }
 
 # Every option of every command; and the words that the program names when it refuses one, no others.
@@ -107,30 +116,19 @@ is_offered solve simulate -- s # both begin with s
 is_offered --method --max-loss -- solve data/machine_a --m
 is_offered -- solve --bogus
 
-# refusal COMMAND OPTION: the words after "expected one of", or "expected `WORD`", of the program that is given a wrong one
+# refusal COMMAND OPTION: the words after "expected one of" of the program that is given a wrong one
 refusal() {
     case $1 in
-    solve) set -- "$1" "$2" data/machine_a --target data/scenarios/02/target.csv ;;
-    emit) set -- "$1" "$2" data/example_currents/currents.csv --name t -o "$work/never" ;;
-    init) set -- "$1" "$2" x --pole-pairs 2 --resistance 1 --rated-current 1 -o "$work/never" ;;
-    harmonics) set -- "$1" "$2" x --pole-pairs 2 ;;
-    simulate | predict) set -- "$1" "$2" x x ;;
-    *) set -- "$1" "$2" x ;;
+    simulate | predict) set -- "$1" "$2" @ x x ;;
+    *) set -- "$1" "$2" @ x ;;
     esac
-    command=$1 option=$2
-    shift 2
-    for more in '' '--kv 1' '--volt-per-krpm 1' '--torque-constant 1'; do
-        [ -z "$more" ] || [ "$command" = init ] || continue
-        # shellcheck disable=SC2086
-        "$hci_solve" "$command" "$@" $more "$option" @ 2>&1 >/dev/null |
-            sed -n "s/^hci-solve: .*found .@., expected \(one of: \([a-z0-9_, -]*\)\|.\([a-z0-9_]*\).; this version\).*/\2\3/p" | sed 's/,//g'
-    done | sed -n '1p'
+    "$hci_solve" "$@" 2>&1 >/dev/null | sed -n 's/^hci-solve: .*found .@., expected one of: \([a-z0-9_, -]*\)/\1/p' | sed 's/,//g'
 }
 
 cd "$source_dir" || exit 1
 with_words=0
 for command in $commands; do
-    for option in $("$hci_solve" "$command" --help | sed -n '/^Example/,$d;s/^  [ -][ a-zA-Z][ ,] \(--[a-z-]*\) \(NAME\|WHAT\|WHEN\) .*/\1/p'); do
+    for option in $(sed -n '/^Example/,$d;s/^  [ -][ a-zA-Z][ ,] \(--[a-z-]*\) \(NAME\|WHAT\|WHEN\) .*/\1/p' "$work/help.$command"); do
         words=$(refusal "$command" "$option")
         check "$command $option: the program names no words" [ -n "$words" ]
         # shellcheck disable=SC2086
@@ -144,6 +142,7 @@ check "only $with_words options with words" [ "$with_words" -ge 10 ]
 is_offered man bash zsh markdown --help -- reference ''
 # shellcheck disable=SC2086
 is_offered $commands -- reference markdown ''
+answers_are_right
 
 mkdir "$work/here" "$work/here/a folder" && touch "$work/here/a file.csv" && cd "$work/here" || exit 1
 is_offered 'a file.csv' 'a folder' -- solve ''
@@ -155,6 +154,7 @@ is_offered 'a folder' -- solve x --out =
 is_offered 'a file.csv' 'a folder' -- diagnose x --runs ''
 is_offered -- harmonics x --orders ''
 is_offered -- solve x --speed ''
+answers_are_right
 
 # ---- in the shells themselves
 
@@ -162,33 +162,34 @@ mkdir "$work/functions"
 run 0 reference zsh
 cp "$work/stdout" "$work/functions/_hci-solve"
 
-# typed SHELL LINE COMPLETED
-typed() {
-    case $1 in
-    bash) setup="bind 'set enable-bracketed-paste off'; source '$work/hci-solve.bash'" words='bash --norc --noprofile -i' ;;
-    zsh) setup="fpath=('$work/functions' \$fpath); autoload -Uz compinit && compinit -D -u; unsetopt auto_remove_slash; bindkey -e" words='zsh -f -i' ;;
-    esac
-    shown="$1: $2"
-    # shellcheck disable=SC2086
-    found=$(python3 "$tests/complete.py" "$setup" "$2" $words)
-    check "completed to: $found" [ "$found" = "$3" ]
-    shown=
-}
+# Lines that are typed, and what they are completed to.
+cat >"$work/lines" <<'LINES'
+hci-solve diag|hci-solve diagnose
+hci-solve solve --limit-c|hci-solve solve --limit-current
+hci-solve solve x --method poi|hci-solve solve x --method pointwise
+hci-solve init x --kv-of phase|hci-solve init x --kv-of phase-peak
+hci-solve solve --target a\ fi|hci-solve solve --target a file.csv
+hci-solve solve --out a|hci-solve solve --out a folder/
+hci-solve reference markdown diag|hci-solve reference markdown diagnose
+LINES
 
 python3 -c 'import pty; pty.openpty()' 2>/dev/null || { echo "the shells are left out: no pseudo-terminal here"; finish; exit 0; }
 
 for shell in bash zsh; do
-    if ! command -v $shell >/dev/null || ! command -v python3 >/dev/null; then
+    if ! command -v $shell >/dev/null; then
         echo "skipped: completion in $shell, not here"
         continue
     fi
-    typed $shell 'hci-solve diag' 'hci-solve diagnose'
-    typed $shell 'hci-solve solve --limit-c' 'hci-solve solve --limit-current'
-    typed $shell 'hci-solve solve x --method poi' 'hci-solve solve x --method pointwise'
-    typed $shell 'hci-solve init x --kv-of phase' 'hci-solve init x --kv-of phase-peak'
-    typed $shell 'hci-solve solve --target a\ fi' 'hci-solve solve --target a file.csv'
-    typed $shell 'hci-solve solve --out a' 'hci-solve solve --out a folder/'
-    typed $shell 'hci-solve reference markdown diag' 'hci-solve reference markdown diagnose'
+    case $shell in
+    bash) setup="bind 'set enable-bracketed-paste off'; source '$work/hci-solve.bash'" words='bash --norc --noprofile -i' ;;
+    zsh) setup="fpath=('$work/functions' \$fpath); autoload -Uz compinit && compinit -D -u; unsetopt auto_remove_slash; bindkey -e" words='zsh -f -i' ;;
+    esac
+    shown="$shell, with the lines of this script"
+    # shellcheck disable=SC2086
+    cut -d '|' -f 1 "$work/lines" | python3 "$tests/complete.py" "$setup" $words >"$work/completed"
+    cut -d '|' -f 2 "$work/lines" >"$work/expected"
+    check "completed otherwise" diff "$work/expected" "$work/completed"
+    shown=
 done
 ! command -v zsh >/dev/null || check "zsh does not read it" zsh -n "$work/functions/_hci-solve"
 

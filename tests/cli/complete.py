@@ -1,6 +1,6 @@
-"""A line typed into an interactive shell, the tabulator key pressed, and what then stands there.
+"""Lines typed into an interactive shell, the tabulator key pressed, and what then stands there.
 
-    complete.py SETUP LINE SHELL [WORD...]       SETUP: a command that the shell gets first; prints the completed line
+    complete.py SETUP SHELL [WORD...] <LINES       SETUP: a command that the shell gets first; prints the completed lines
 """
 import os
 import pty
@@ -9,7 +9,7 @@ import sys
 import time
 
 PATIENCE_S = 60.0
-READY, RESULT = b"<ready>", b"<result>"
+READY, RESULT, END = b"<ready>", b"<result>", b"<end>"
 
 
 def read_until(master, mark):
@@ -23,7 +23,8 @@ def read_until(master, mark):
 
 
 def main():
-    setup, line, shell = sys.argv[1], sys.argv[2], sys.argv[3:]
+    setup, shell = sys.argv[1], sys.argv[2:]
+    lines = sys.stdin.read().splitlines()
     pid, master = pty.fork()
     if pid == 0:
         os.environ.update(TERM="dumb", PS1="$ ", HISTFILE="/dev/null")
@@ -31,10 +32,11 @@ def main():
     # The marks are put together by the shell, so that the echo of what is typed is none of them.
     os.write(master, setup.encode() + b"; echo '<re''ady>'\n")
     read_until(master, READY)
-    os.write(master, line.encode() + b"\t")
-    os.write(master, b"\x01echo '<res''ult>' \x05 '<e''nd>'\n")
-    seen = read_until(master, b"<end>")
-    print(seen.split(RESULT)[1].split(b"<end>")[0].decode().strip())
+    for line in lines:
+        os.write(master, line.encode() + b"\t")
+        os.write(master, b"\x01echo '<res''ult>' \x05 '<e''nd>'\n")
+        seen = read_until(master, END)
+        print(seen.split(RESULT)[1].split(END)[0].decode().strip())
     os.close(master)
     os.waitpid(pid, 0)
 

@@ -1,0 +1,47 @@
+#!/bin/sh
+# Progress, and Ctrl-C as soon as there is some: a clear line, no files, no folders that were made for them; older results as they were.
+# Without a terminal the same, and no progress.
+#   cli_interrupt.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
+. "$1/tests/support/common.sh"
+. "$1/tests/cli/on_terminal.sh"
+cd "$source_dir" || exit 1
+
+printf 'name,value,unit\nduration,300,s\nprescribed_speed,80,rpm\ntorque_reference,8,Nm\ncurrent_control,hysteresis,\n' \
+    >"$work/endless.csv"
+endless="simulate data/machine_c $work/endless.csv"
+mkdir "$work/older"
+echo older >"$work/older/summary.json"
+keys='simulating.*s simulated/s>\x03'
+# shellcheck disable=SC2086
+{
+    plan made 80 -- $endless -o "$work/made/for/it"
+    plan older 80 LC_ALL=C -- $endless --json --report -o "$work/older"
+}
+keys=
+perform
+interrupted() {
+    check "the line is not cleared" grep -q "$(printf '\r')$escape\[K\(^C\)*\$" "$screen"
+}
+seen 130 made
+interrupted
+check "no progress with bar, share, time and rate" grep -Eq 'simulating [█▏▎▍▌▋▊▉ ]* *[0-9]+ %  [0-9]+:[0-9][0-9].*  [0-9.]+ s simulated/s' "$screen"
+check "left behind: $(ls -A "$work/made" 2>/dev/null)" [ ! -e "$work/made" ]
+seen 130 older
+interrupted
+check "no progress with --json, in ASCII" grep -Eq 'simulating #* +[0-9]+ %' "$screen"
+check "older results have changed: $(ls -A "$work/older")" [ "$(ls -A "$work/older") $(cat "$work/older/summary.json")" = "summary.json older" ]
+
+shown="hci-solve simulate, and kill"
+# shellcheck disable=SC2086
+"$hci_solve" $endless -o "$work/killed" 2>"$work/stderr" &
+job=$!
+while [ -z "$(ls -A "$work/killed" 2>/dev/null)" ] && kill -0 $job 2>/dev/null; do sleep 0.1; done
+check "nothing to kill" [ -n "$(ls -A "$work/killed" 2>/dev/null)" ]
+kill -TERM $job
+wait $job 2>/dev/null
+code=$?
+check "exit code $code of a program that was ended" [ $code -eq 143 ]
+check "left behind: $(ls -A "$work/killed" 2>/dev/null)" [ ! -e "$work/killed" ]
+nothing_on_stderr
+
+finish
