@@ -8,7 +8,7 @@ target=data/scenarios/02/target.csv
 
 # Everything below a folder, hidden files included, with its content.
 snapshot() {
-    (cd "$1" && find . -exec sh -c 'for file; do [ -f "$file" ] && cksum "$file" || echo "$file"; done' sh {} + | sort)
+    (cd "$1" && { find . -type f -exec cksum {} +; find . ! -type f; } | sort)
 }
 
 # not_written OUT EXPRESSION... : solve into OUT fails and $work/old is as it was.
