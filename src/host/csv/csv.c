@@ -218,6 +218,16 @@ static void pass_foreword(reader *r)
     }
 }
 
+static hci_status wide_header(const reader *r)
+{
+    const hci_csv_fault fault = {.line = r->csv->index[0],
+                                 .column = COLUMNS_MAX,
+                                 .found = "another column",
+                                 .expected = "4096 columns at most",
+                                 .remedy = "remove those that are not needed"};
+    return hci_csv_fault_note(r->csv, &fault, r->note);
+}
+
 static hci_status read_header(reader *r)
 {
     hci_csv *csv = r->csv;
@@ -235,14 +245,7 @@ static hci_status read_header(reader *r)
         const hci_status status = read_record(r, COLUMNS_MAX, &count, &filled);
         if (status != HCI_OK) return status;
     }
-    if (filled > COLUMNS_MAX) {
-        const hci_csv_fault fault = {.line = csv->index[0],
-                                     .column = COLUMNS_MAX,
-                                     .found = "another column",
-                                     .expected = "4096 columns at most",
-                                     .remedy = "remove those that are not needed"};
-        return hci_csv_fault_note(csv, &fault, r->note);
-    }
+    if (filled > COLUMNS_MAX) return wide_header(r);
     csv->columns = filled;
     csv->records = 1;
     r->used = 1 + filled;

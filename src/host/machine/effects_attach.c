@@ -125,23 +125,21 @@ static hci_status check_attachable(const hci_effects *effects, const hci_drive *
     return check_coulomb(effects, drive->plant.coulomb_Nm, note);
 }
 
-static void set_drive(const hci_effects *effects, const hci_machine *machine, double temperature_C,
-                      hci_effects_attachment *a, hci_drive *drive)
+static void set_drive(const hci_effects_plant *plant, hci_effects_attachment *a, hci_drive *drive)
 {
-    a->plant = (hci_effects_plant){machine, effects, temperature_C};
+    a->plant = *plant;
     a->effect = (hci_plant_effect){hci_effects_apply, &a->plant};
     drive->plant.effects = &a->effect;
-    drive->plant.effect_count = effects->count > 0 ? 1 : 0;
-    drive->plant.coulomb_Nm += hci_effects_coulomb_Nm(effects);
+    drive->plant.effect_count = plant->effects->count > 0 ? 1 : 0;
+    drive->plant.coulomb_Nm += hci_effects_coulomb_Nm(plant->effects);
 }
 
-hci_status hci_effects_attach(const hci_effects *effects, const hci_machine *machine, double temperature_C,
-                              const hci_plant_state *state, hci_drive *drive, hci_sensor *sensors,
-                              hci_effects_attachment **attachment, hci_note *note)
+hci_status hci_effects_attach(const hci_effects_plant *plant, const hci_plant_state *state, hci_drive *drive,
+                              hci_sensor *sensors, hci_effects_attachment **attachment, hci_note *note)
 {
     hci_sensor changed[HCI_SENSE_COUNT];
     hci_effects_attachment *a;
-    hci_status status = check_attachable(effects, drive, note);
+    hci_status status = check_attachable(plant->effects, drive, note);
     *attachment = NULL;
     if (status) return status;
     a = hci_memory_new(1, sizeof *a);
@@ -151,13 +149,13 @@ hci_status hci_effects_attach(const hci_effects *effects, const hci_machine *mac
         a->probe[s].step_s = drive->control.step_s;
     }
     memcpy(changed, sensors, sizeof changed);
-    status = set_sensors(effects, machine->pole_pairs, a, changed, note);
+    status = set_sensors(plant->effects, plant->machine->pole_pairs, a, changed, note);
     if (status) {
         hci_memory_free(a);
         return status;
     }
     memcpy(sensors, changed, sizeof changed);
-    set_drive(effects, machine, temperature_C, a, drive);
+    set_drive(plant, a, drive);
     drive->sensors = sensors;
     *attachment = a;
     return HCI_OK;

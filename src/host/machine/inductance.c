@@ -134,47 +134,54 @@ static void keep_orders(const hci_inductance *terms, size_t count, bool are_slop
     }
 }
 
-static hci_status read_columns(const hci_csv *csv, bool are_slopes, double *theta_rad, double *column,
-                               hci_note *note)
+/* The columns of the file, and all orders of them. */
+typedef struct {
+    const hci_csv *csv;
+    bool are_slopes;
+    double *theta_rad;     /* of each row */
+    double *column;        /* [HCI_PHASE_MATRIX][rows] */
+    hci_inductance *terms; /* of each order */
+} analysis;
+
+static hci_status read_columns(const analysis *a, hci_note *note)
 {
-    const size_t rows = hci_csv_rows(csv);
-    hci_status status = hci_csv_numbers(csv, "theta_e_rad", theta_rad, note);
+    const size_t rows = hci_csv_rows(a->csv);
+    hci_status status = hci_csv_numbers(a->csv, "theta_e_rad", a->theta_rad, note);
     for (size_t q = 0; q < HCI_PHASE_MATRIX && !status; ++q)
-        status = hci_csv_numbers(csv, are_slopes ? SLOPE[q] : VALUE[q], column + q * rows, note);
+        status = hci_csv_numbers(a->csv, a->are_slopes ? SLOPE[q] : VALUE[q], a->column + q * rows, note);
     return status;
 }
 
-static hci_status analyse(const hci_csv *csv, int pole_pairs, double *theta_rad, double *column,
-                          hci_inductance *terms, hci_inductance_table *t, hci_note *note)
+static hci_status analyse(const analysis *a, int pole_pairs, hci_inductance_table *t, hci_note *note)
 {
-    const size_t rows = hci_csv_rows(csv);
-    const bool are_slopes = !hci_csv_has(csv, VALUE[0]) && hci_csv_has(csv, SLOPE[0]);
+    const size_t rows = hci_csv_rows(a->csv);
     size_t count = 0, orders;
-    hci_status status = read_columns(csv, are_slopes, theta_rad, column, note);
-    if (!status) status = check_angles(csv, theta_rad, rows, &count, note);
+    hci_status status = read_columns(a, note);
+    if (!status) status = check_angles(a->csv, a->theta_rad, rows, &count, note);
     orders = (count + 1) / 2;
     for (size_t m = 0; m < orders && !status; ++m)
-        status = analyse_order(column, rows, count, theta_rad[0], m, &terms[m]);
-    if (!status) balance(terms, orders);
-    if (!status) keep_orders(terms, orders, are_slopes, pole_pairs, t);
+        status = analyse_order(a->column, rows, count, a->theta_rad[0], m, &a->terms[m]);
+    if (!status) balance(a->terms, orders);
+    if (!status) keep_orders(a->terms, orders, a->are_slopes, pole_pairs, t);
     return status;
 }
 
 static hci_status from_csv(const hci_csv *csv, int pole_pairs, hci_inductance_table *t, hci_note *note)
 {
     const size_t rows = hci_csv_rows(csv);
-    double *theta_rad = hci_memory_new(rows, sizeof *theta_rad);
-    double *column = hci_memory_new(HCI_PHASE_MATRIX * rows, sizeof *column);
-    hci_inductance *terms = hci_memory_new(rows, sizeof *terms);
+    analysis a = {.csv = csv, .are_slopes = !hci_csv_has(csv, VALUE[0]) && hci_csv_has(csv, SLOPE[0])};
     hci_status status = HCI_OK;
+    a.theta_rad = hci_memory_new(rows, sizeof *a.theta_rad);
+    a.column = hci_memory_new(HCI_PHASE_MATRIX * rows, sizeof *a.column);
+    a.terms = hci_memory_new(rows, sizeof *a.terms);
     t->inductance = hci_memory_new(rows, sizeof *t->inductance);
     t->slope = hci_memory_new(rows, sizeof *t->slope);
-    if (!theta_rad || !column || !terms || !t->inductance || !t->slope)
+    if (!a.theta_rad || !a.column || !a.terms || !t->inductance || !t->slope)
         status = hci_note_memory(note, hci_csv_path(csv), "%zu rows", rows);
-    if (!status) status = analyse(csv, pole_pairs, theta_rad, column, terms, t, note);
-    hci_memory_free(theta_rad);
-    hci_memory_free(column);
-    hci_memory_free(terms);
+    if (!status) status = analyse(&a, pole_pairs, t, note);
+    hci_memory_free(a.theta_rad);
+    hci_memory_free(a.column);
+    hci_memory_free(a.terms);
     return status;
 }
 

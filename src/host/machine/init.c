@@ -25,75 +25,89 @@ static double emf(const hci_sheet *s)
 /* ---- tables ---- */
 
 /* A text in a cell or a comment: control characters and bytes that are not UTF-8 would break the table. */
-static void name_write(hci_output *out, const char *name)
+static void write_name(hci_output *out, const char *name)
 {
     char shown[HCI_QUOTE_SIZE];
     hci_output_text(out, "%s", hci_quote(name, shown));
 }
 
-/* The value of the table, and where it comes from: the sheet's value, its unit and its reading. */
-static void row(hci_output *out, const char *name, double value, const char *unit, double sheet,
-                const char *sheet_unit, const char *reading)
-{
-    char text[32];
-    hci_output_text(out, "%s,", name);
-    hci_output_number(out, value, ',');
-    hci_number_text(sheet, text);
-    hci_output_text(out, "%s,\"data sheet: %s%s%s%s\"\n", unit, text, sheet_unit[0] ? " " : "", sheet_unit,
-                    reading);
-}
+/* A row of machine.csv, and where its value comes from. */
+typedef struct {
+    const char *name, *unit;
+    double value;        /* of the table; NAN: the sheet does not say */
+    double sheet;        /* as the sheet says it, in the same unit */
+    const char *reading; /* what the sheet's value is of */
+    const char *how;     /* to come to a value that is missing */
+} sheet_row;
 
 /* A row, or the comment that tells how to come to one. */
-static void row_or(hci_output *out, const char *name, double value, const char *unit, double sheet,
-                   const char *reading, const char *missing)
+static void write_row(hci_output *out, const sheet_row *row)
 {
-    if (isnan(value))
-        hci_output_text(out, "# %s,,%s,  %s\n", name, unit, missing);
-    else
-        row(out, name, value, unit, sheet, unit, reading);
+    char text[32];
+    if (isnan(row->value)) {
+        hci_output_text(out, "# %s,,%s,  %s\n", row->name, row->unit, row->how);
+        return;
+    }
+    hci_output_text(out, "%s,", row->name);
+    hci_output_number(out, row->value, ',');
+    hci_number_text(row->sheet, text);
+    hci_output_text(out, "%s,\"data sheet: %s %s%s\"\n", row->unit, text, row->unit, row->reading);
 }
 
-static void winding_write(hci_output *out, const hci_sheet *s)
+static void write_rows(hci_output *out, const sheet_row *rows, size_t count)
 {
-    const double R = hci_sheet_resistance_ohm(s);
+    for (size_t k = 0; k < count; ++k)
+        write_row(out, &rows[k]);
+}
+
+static void write_winding(hci_output *out, const hci_sheet *s)
+{
+    const sheet_row rows[] = {
+        {"resistance", "ohm", hci_sheet_resistance_ohm(s), s->resistance_ohm,
+         s->resistance_of_line ? " between two terminals; halved" : " of a phase",
+         "send a dc current through two terminals: half of volt / ampere"},
+        {"inductance_d", "H", s->inductance_d_H, s->inductance_d_H, " of a phase",
+         "LCR meter on two terminals at 1 kHz at many rotor angles: half the smallest reading"},
+        {"inductance_q", "H", s->inductance_q_H, s->inductance_q_H, " of a phase",
+         "the same: half the largest reading; equal to inductance_d with surface magnets"},
+    };
     hci_output_text(
         out, "#\n# Winding, of one phase to the star point. For copper loss, voltage and `simulate`.\n");
-    row_or(out, "resistance", R, "ohm", s->resistance_ohm,
-           s->resistance_of_line ? " between two terminals; halved" : " of a phase",
-           "send a dc current through two terminals: half of volt / ampere");
-    row_or(out, "inductance_d", s->inductance_d_H, "H", s->inductance_d_H, " of a phase",
-           "LCR meter on two terminals at 1 kHz at many rotor angles: half the smallest reading");
-    row_or(out, "inductance_q", s->inductance_q_H, "H", s->inductance_q_H, " of a phase",
-           "the same: half the largest reading; equal to inductance_d with surface magnets");
+    write_rows(out, rows, sizeof rows / sizeof *rows);
 }
 
-static void ratings_write(hci_output *out, const hci_sheet *s)
+static void write_ratings(hci_output *out, const hci_sheet *s)
 {
+    const sheet_row rows[] = {
+        {"rated_current", "A", hci_sheet_current_A(s), s->rated_current_A,
+         s->rated_current_is_rms ? " rms; times sqrt(2)" : " peak",
+         "peak of the current that it stands for long; sheets often give rms: times sqrt(2)"},
+        {"rated_torque", "Nm", s->rated_torque_Nm, s->rated_torque_Nm, "", "on the shaft"},
+        {"rated_speed", "rpm", s->rated_speed_rpm, s->rated_speed_rpm, "", "mechanical"},
+        {"dc_link_voltage", "V", s->dc_link_voltage_V, s->dc_link_voltage_V, "",
+         "battery or supply of the inverter"},
+    };
     hci_output_text(out, "#\n# Ratings. rated_current is the peak of the phase current.\n");
-    row_or(out, "rated_current", hci_sheet_current_A(s), "A", s->rated_current_A,
-           s->rated_current_is_rms ? " rms; times sqrt(2)" : " peak",
-           "peak of the current that it stands for long; sheets often give rms: times sqrt(2)");
-    row_or(out, "rated_torque", s->rated_torque_Nm, "Nm", s->rated_torque_Nm, "", "on the shaft");
-    row_or(out, "rated_speed", s->rated_speed_rpm, "rpm", s->rated_speed_rpm, "", "mechanical");
-    row_or(out, "dc_link_voltage", s->dc_link_voltage_V, "V", s->dc_link_voltage_V, "",
-           "battery or supply of the inverter");
+    write_rows(out, rows, sizeof rows / sizeof *rows);
 }
 
-static void shaft_write(hci_output *out, const hci_sheet *s)
+static void write_shaft(hci_output *out, const hci_sheet *s)
 {
+    const sheet_row inertia = {
+        "inertia",       "kgm2", s->inertia_kgm2,
+        s->inertia_kgm2, "",     "with a known torque: torque / acceleration; 1 g cm2 is 1e-7 kgm2"};
     hci_output_text(out, "#\n# Shaft, for `simulate`.\n");
-    row_or(out, "inertia", s->inertia_kgm2, "kgm2", s->inertia_kgm2, "",
-           "with a known torque: torque / acceleration; 1 g cm2 is 1e-7 kgm2");
+    write_row(out, &inertia);
     hci_output_text(out, "# viscous_friction,,Nms_per_rad,  slope of the torque without load over the speed\n"
                          "# coulomb_friction,,Nm,  its value at very low speed\n");
 }
 
-static hci_status machine_write(hci_output *out, const hci_sheet *s, hci_note *note)
+static hci_status write_machine(hci_output *out, const hci_sheet *s, hci_note *note)
 {
     const hci_status status = hci_output_file(out, "machine.csv", note);
     if (status) return status;
     hci_output_text(out, "# Machine ");
-    name_write(out, s->name);
+    write_name(out, s->name);
     hci_output_text(
         out,
         ", from its data sheet. A line that begins with # is not read: to give a value that is\n"
@@ -109,20 +123,20 @@ static hci_status machine_write(hci_output *out, const hci_sheet *s, hci_note *n
         hci_output_text(out, "slots,%d,1,\"data sheet: teeth of the stator\"\n", s->slots);
     else
         hci_output_text(out, "# slots,,1,  teeth of the stator; `check` asks the cogging orders for them\n");
-    winding_write(out, s);
-    ratings_write(out, s);
-    shaft_write(out, s);
+    write_winding(out, s);
+    write_ratings(out, s);
+    write_shaft(out, s);
     return HCI_OK;
 }
 
-static hci_status emf_write(hci_output *out, const hci_sheet *s, hci_note *note)
+static hci_status write_emf(hci_output *out, const hci_sheet *s, hci_note *note)
 {
     const hci_status status = hci_output_file(out, "back_emf.csv", note);
     char text[32];
     if (status) return status;
     hci_number_text(s->strength, text);
     hci_output_text(out, "# Back-EMF of machine ");
-    name_write(out, s->name);
+    write_name(out, s->name);
     hci_output_text(
         out,
         ": peak of a phase to the star point, divided by the mechanical\n"
@@ -139,13 +153,13 @@ static hci_status emf_write(hci_output *out, const hci_sheet *s, hci_note *note)
     return HCI_OK;
 }
 
-static hci_status cogging_write(hci_output *out, const hci_sheet *s, hci_note *note)
+static hci_status write_cogging(hci_output *out, const hci_sheet *s, hci_note *note)
 {
     const int first = hci_cogging_order(s->slots, s->pole_pairs);
     const hci_status status = hci_output_file(out, "cogging.csv", note);
     if (status) return status;
     hci_output_text(out, "# Cogging torque of machine ");
-    name_write(out, s->name);
+    write_name(out, s->name);
     hci_output_text(
         out,
         ": the orders are known from %d slots and %d poles, the amplitudes are not.\n"
@@ -170,7 +184,7 @@ static bool not_below(double value, double least)
     return isnan(value) || (isfinite(value) && value >= least);
 }
 
-static hci_status sheet_check(const hci_sheet *s, hci_note *note)
+static hci_status check_sheet(const hci_sheet *s, hci_note *note)
 {
     const double values[] = {s->resistance_ohm,  s->inductance_d_H,   s->inductance_q_H,
                              s->inertia_kgm2,    s->rated_current_A,  s->rated_torque_Nm,
@@ -214,12 +228,12 @@ static hci_status nothing_there(const char *folder, hci_note *note)
 hci_status hci_init_write(const char *folder, const hci_sheet *sheet, hci_note *note)
 {
     hci_output *out = NULL;
-    hci_status status = sheet_check(sheet, note);
+    hci_status status = check_sheet(sheet, note);
     if (!status) status = nothing_there(folder, note);
     if (!status) status = hci_output_open(folder, &out, note);
-    if (!status) status = machine_write(out, sheet, note);
-    if (!status) status = emf_write(out, sheet, note);
-    if (!status && sheet->slots > 0) status = cogging_write(out, sheet, note);
+    if (!status) status = write_machine(out, sheet, note);
+    if (!status) status = write_emf(out, sheet, note);
+    if (!status && sheet->slots > 0) status = write_cogging(out, sheet, note);
     if (!status) return hci_output_commit(out, note);
     hci_output_discard(out);
     return status;

@@ -151,16 +151,11 @@ static double largest_amplitude(const hci_harmonic *h, size_t count)
     return largest;
 }
 
-static hci_status take_emf(const hci_csv *csv, hci_machine_data *m, hci_note *note)
+/* What has been read: whole orders, one at least, and not all zero. */
+static hci_status check_emf(const hci_csv *csv, const hci_harmonic *h, const size_t *row_of, size_t count,
+                            double scale, hci_note *note)
 {
-    const bool per_ampere = hci_csv_has(csv, "amplitude_Nm_per_A");
-    hci_harmonic *h = NULL;
-    size_t count = 0, *row_of = NULL;
-    double scale;
-    hci_status status = emf_scale(csv, m, &scale, note);
-    if (!status)
-        status = hci_spectrum_rows(csv, per_ampere ? "amplitude_Nm_per_A" : "amplitude_V", &h, &row_of,
-                                   &count, note);
+    hci_status status = HCI_OK;
     for (size_t k = 0; k < count && !status; ++k)
         status = check_emf_order(csv, h, row_of, k, note);
     if (!status && count == 0)
@@ -171,6 +166,18 @@ static hci_status take_emf(const hci_csv *csv, hci_machine_data *m, hci_note *no
             hci_note_set(note, HCI_ERROR_INPUT,
                          "%s: every amplitude is zero or below 1e-12 N·m/A; check the values and their unit",
                          hci_csv_path(csv));
+    return status;
+}
+
+static hci_status take_emf(const hci_csv *csv, hci_machine_data *m, hci_note *note)
+{
+    const char *amplitude = hci_csv_has(csv, "amplitude_Nm_per_A") ? "amplitude_Nm_per_A" : "amplitude_V";
+    hci_harmonic *h = NULL;
+    size_t count = 0, *row_of = NULL;
+    double scale;
+    hci_status status = emf_scale(csv, m, &scale, note);
+    if (!status) status = hci_spectrum_rows(csv, amplitude, &h, &row_of, &count, note);
+    if (!status) status = check_emf(csv, h, row_of, count, scale, note);
     if (!status && !(m->back_emf = hci_memory_new(count, sizeof *m->back_emf)))
         status = hci_note_memory(note, NULL, "%zu back-EMF orders", count);
     for (size_t k = 0; k < count && !status; ++k)

@@ -108,7 +108,8 @@ static hci_status sample_lower(const hci_effects_plant *lower, samples *s, hci_n
 /* Rows r and r + 1 at k periods. */
 static void bin(const samples *s, size_t r, size_t k, hci_harmonic *a, hci_harmonic *b)
 {
-    hci_fft_bin(s->row + r * s->count, s->row + (r + 1) * s->count, s->count, k, s->turns, a, b);
+    const hci_fft_pair pair = {s->row + r * s->count, s->row + (r + 1) * s->count, s->count, s->turns};
+    hci_fft_bin(&pair, k, a, b);
 }
 
 /* ---- into the machine ---- */

@@ -94,14 +94,14 @@ typedef enum { TORQUE, OFFSET } row;
 /* One of the two real signals, without what is rounding. */
 static hci_status harmonics(const samples *s, row which, hci_harmonic_list *out, hci_note *note)
 {
+    const hci_fft_pair pair = {s->torque, s->offset, s->count, s->turns};
     double largest = 0.0;
     out->count = 0;
     out->harmonic = hci_memory_new(s->count / 2, sizeof *out->harmonic);
     if (!out->harmonic) return hci_note_memory(note, NULL, "the torque's orders");
     for (size_t k = 0; k < s->count / 2; ++k) {
         hci_harmonic *h = &out->harmonic[k], unused;
-        hci_fft_bin(s->torque, s->offset, s->count, k, s->turns, which == TORQUE ? h : &unused,
-                    which == TORQUE ? &unused : h);
+        hci_fft_bin(&pair, k, which == TORQUE ? h : &unused, which == TORQUE ? &unused : h);
         largest = fmax(largest, hci_amplitude(h->sine, h->cosine));
     }
     for (size_t k = 0; k < s->count / 2; ++k) {

@@ -56,11 +56,11 @@ void hci_fft(double *re, double *im, size_t n, int sign)
 }
 
 /* A_k = (X_k + X*_{n−k})/2, B_k = (X_k − X*_{n−k})/2i; a harmonic has C = 2 Re A/n, S = −2 Im A/n. */
-void hci_fft_bin(const double *re, const double *im, size_t n, size_t k, size_t turns, hci_harmonic *a,
-                 hci_harmonic *b)
+void hci_fft_bin(const hci_fft_pair *x, size_t k, hci_harmonic *a, hci_harmonic *b)
 {
-    const size_t mirror = k > 0 ? n - k : 0;
-    const double order = (double)k / (double)turns, scale = (k > 0 ? 1.0 : 0.5) / (double)n;
+    const double *re = x->re, *im = x->im;
+    const size_t n = x->n, mirror = k > 0 ? n - k : 0;
+    const double order = (double)k / (double)x->turns, scale = (k > 0 ? 1.0 : 0.5) / (double)n;
     *a = (hci_harmonic){order, k > 0 ? -scale * (im[k] - im[mirror]) : 0.0, scale * (re[k] + re[mirror])};
     *b = (hci_harmonic){order, k > 0 ? scale * (re[k] - re[mirror]) : 0.0, scale * (im[k] + im[mirror])};
 }

@@ -13,10 +13,14 @@ size_t hci_fft_size(double least);
  * n). */
 void hci_fft(double *re, double *im, size_t n, int sign);
 
-/* After a transform with sign −1 of two real signals as real and imaginary part: what each has at k periods,
- * k < n/2. The order is k/turns. */
-void hci_fft_bin(const double *re, const double *im, size_t n, size_t k, size_t turns, hci_harmonic *a,
-                 hci_harmonic *b);
+/* Two real signals over `turns` turns, transformed as real and imaginary part with sign −1. */
+typedef struct {
+    const double *re, *im;
+    size_t n, turns;
+} hci_fft_pair;
+
+/* What each has at k periods, k < n/2; the order is k/turns. */
+void hci_fft_bin(const hci_fft_pair *x, size_t k, hci_harmonic *a, hci_harmonic *b);
 
 /* Amplitude of a harmonic's or wave's coordinates below which it is the rounding of samples. */
 #define HCI_FFT_FLOOR 1e-13

@@ -245,20 +245,20 @@ static hci_status qr_status(const cholmod_common *cc, hci_note *note)
 }
 
 /* A E = Q R with C = Qᵀ B, R cut to `rank` rows; then the least-norm y of R y = C and x = E y. */
-static hci_status qr_solve(const hci_sparse *a, cholmod_dense *b, double *x, size_t *rank, double *condition,
+static hci_status qr_solve(const hci_sparse *a, cholmod_dense *b, double *x, hci_sparse_rank *found,
                            cholmod_common *cc, hci_note *note)
 {
     cholmod_sparse matrix = as_cholmod(a), *r = NULL;
     cholmod_dense *c = NULL, *y = NULL;
     SuiteSparse_long *permutation = NULL;
-    const SuiteSparse_long found = SuiteSparseQR_C(SPQR_ORDERING_DEFAULT, SPQR_DEFAULT_TOL, 0, 0, &matrix,
-                                                   NULL, b, NULL, &c, &r, &permutation, NULL, NULL, NULL, cc);
+    const SuiteSparse_long rank = SuiteSparseQR_C(SPQR_ORDERING_DEFAULT, SPQR_DEFAULT_TOL, 0, 0, &matrix,
+                                                  NULL, b, NULL, &c, &r, &permutation, NULL, NULL, NULL, cc);
     hci_status status = HCI_OK;
-    if (found > 0) {
-        *rank = (size_t)found;
-        y = least_norm(r, c, condition, cc);
+    if (rank > 0) {
+        found->rank = (size_t)rank;
+        y = least_norm(r, c, &found->condition, cc);
     }
-    if (found < 0 || (found > 0 && !y))
+    if (rank < 0 || (rank > 0 && !y))
         status = qr_status(cc, note);
     else if (y)
         unpermute(y, permutation, a->columns, x);
@@ -270,22 +270,21 @@ static hci_status qr_solve(const hci_sparse *a, cholmod_dense *b, double *x, siz
 }
 
 hci_status hci_sparse_qr_solve(const hci_sparse *a, const double *b, size_t right_sides, double *x,
-                               size_t *rank, double *condition, hci_note *note)
+                               hci_sparse_rank *found, hci_note *note)
 {
     cholmod_common cc;
     cholmod_dense right;
     double *copy;
     hci_status status;
     memset(x, 0, a->columns * right_sides * sizeof *x);
-    *rank = 0;
-    *condition = NAN;
+    *found = (hci_sparse_rank){0, NAN};
     if (a->rows == 0 || a->columns == 0) return HCI_OK;
     copy = hci_memory_new(a->rows * right_sides, sizeof *copy);
     if (!copy) return hci_note_memory(note, NULL, "%zu rows", a->rows);
     cholmod_l_start(&cc);
     cc.print = 0;
     right = as_dense(b, a->rows, right_sides, copy);
-    status = qr_solve(a, &right, x, rank, condition, &cc, note);
+    status = qr_solve(a, &right, x, found, &cc, note);
     cholmod_l_finish(&cc);
     hci_memory_free(copy);
     return status;

@@ -20,10 +20,15 @@ typedef struct {
 hci_status hci_sparse_lu_solve(const hci_sparse *a, const double *b, size_t right_sides, double *x,
                                double *condition, hci_note *note);
 
-/* The least-squares solution of least norm for any shape and rank, by two SPQR factorisations. rank: out.
- * condition: out, estimate of the ratio of the largest to the smallest non-zero singular value; NAN for rank
- * 0. */
+/* What the orthogonal factors say of a matrix. */
+typedef struct {
+    size_t rank;
+    double condition; /* estimate of the ratio of the largest to the smallest non-zero singular value; NAN:
+                         rank 0 */
+} hci_sparse_rank;
+
+/* The least-squares solution of least norm for any shape and rank, by two SPQR factorisations. found: out. */
 hci_status hci_sparse_qr_solve(const hci_sparse *a, const double *b, size_t right_sides, double *x,
-                               size_t *rank, double *condition, hci_note *note);
+                               hci_sparse_rank *found, hci_note *note);
 
 #endif

@@ -496,8 +496,8 @@ static hci_status add_effects(const job *b)
                             "effects.csv: the machine has effects, and without them it is another one");
     if (!b->effects || b->effects->count == 0) return HCI_OK;
     p->period_turns = (size_t)b->machine->model.pole_pairs;
-    return hci_effects_attach(b->effects, &b->machine->model, p->temperature_C, &p->state.plant, &p->drive,
-                              p->sensor, &p->attachment, b->note);
+    const hci_effects_plant plant = {&b->machine->model, b->effects, p->temperature_C};
+    return hci_effects_attach(&plant, &p->state.plant, &p->drive, p->sensor, &p->attachment, b->note);
 }
 
 static hci_status give_rings(const job *b)

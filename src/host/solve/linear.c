@@ -124,6 +124,16 @@ static hci_status try_square(const hci_harmonic_system *system, hci_method wante
     return status;
 }
 
+static hci_status orthogonal_solve(const hci_harmonic_system *system, double *x, hci_solution *s,
+                                   hci_note *note)
+{
+    hci_sparse_rank found;
+    const hci_status status = hci_sparse_qr_solve(&system->u, system->h, 2, x, &found, note);
+    s->rank = found.rank;
+    s->condition = found.condition;
+    return status;
+}
+
 /* LU where the system is square and regular, the orthogonal solve elsewhere; a named method is taken at its
  * word. */
 static hci_status solve_system(const hci_harmonic_system *system, hci_method wanted, double *x,
@@ -136,7 +146,7 @@ static hci_status solve_system(const hci_harmonic_system *system, hci_method wan
     if (is_square && wanted != HCI_METHOD_QR) status = try_square(system, wanted, x, s, &is_done, note);
     if (is_done) return status;
     s->method = HCI_METHOD_QR;
-    return hci_sparse_qr_solve(&system->u, system->h, 2, x, &s->rank, &s->condition, note);
+    return orthogonal_solve(system, x, s, note);
 }
 
 /* Size, rank and condition of a chosen set, whose solution is known already. */
@@ -148,8 +158,7 @@ static hci_status describe(const hci_task *t, const hci_answer *a, hci_solution 
         hci_harmonic_system_make(t, a->set.component, a->set.count, HCI_COMPARE_ALL, &system, note);
     if (status) return status;
     x = hci_memory_new(2 * system.unknowns, sizeof *x);
-    status = x ? hci_sparse_qr_solve(&system.u, system.h, 2, x, &s->rank, &s->condition, note)
-               : hci_note_memory(note, NULL, "solving");
+    status = x ? orthogonal_solve(&system, x, s, note) : hci_note_memory(note, NULL, "solving");
     s->rows = system.rows;
     s->unknowns = system.unknowns;
     s->method = HCI_METHOD_QR;

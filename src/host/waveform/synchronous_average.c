@@ -275,7 +275,7 @@ static size_t highest_of(const hci_average_samples *x, const pass_list *list, ce
 }
 
 /* The fewest turns a pass that bear enough orders, or those that bear most. */
-static hci_status choose_passes(const hci_average_samples *x, size_t wanted, size_t enough, cell_table *c,
+static hci_status choose_passes(const hci_average_samples *x, const hci_average_orders *o, cell_table *c,
                                 pass_list *list, hci_average *average)
 {
     size_t best = 0;
@@ -287,10 +287,10 @@ static hci_status choose_passes(const hci_average_samples *x, size_t wanted, siz
         const size_t highest = highest_of(x, list, c, gaps), passes = list->count;
         hci_memory_free(gaps);
         if (highest > average->highest) {
-            average->highest = highest < wanted ? highest : wanted;
+            average->highest = highest < o->wanted ? highest : o->wanted;
             best = each;
         }
-        if (average->highest >= enough || passes <= 2 || each > x->count) break;
+        if (average->highest >= o->enough || passes <= 2 || each > x->count) break;
     }
     average->turns_each = best;
     return best > 0 ? find_passes(x, best, list) : HCI_OK;
@@ -332,24 +332,24 @@ static hci_status fit_all(const hci_average_samples *x, const pass_list *list, c
     return average->count > 0 ? HCI_OK : HCI_ERROR_SINGULAR;
 }
 
-static hci_status fit(const hci_average_samples *x, size_t wanted, size_t enough, size_t least,
-                      pass_list *list, cell_table *c, hci_average *average)
+static hci_status fit(const hci_average_samples *x, const hci_average_orders *o, pass_list *list,
+                      cell_table *c, hci_average *average)
 {
-    hci_status status = cells_new(c, CELLS_PER_ORDER * (wanted + 1), x->channels);
-    if (status == HCI_OK) status = choose_passes(x, wanted, enough, c, list, average);
-    if (status == HCI_OK && average->highest < least) status = take_all(x, wanted, c, list, average);
-    if (status == HCI_OK && average->highest < least) status = HCI_ERROR_SINGULAR;
+    hci_status status = cells_new(c, CELLS_PER_ORDER * (o->wanted + 1), x->channels);
+    if (status == HCI_OK) status = choose_passes(x, o, c, list, average);
+    if (status == HCI_OK && average->highest < o->least) status = take_all(x, o->wanted, c, list, average);
+    if (status == HCI_OK && average->highest < o->least) status = HCI_ERROR_SINGULAR;
     return status == HCI_OK ? fit_all(x, list, c, average) : status;
 }
 
-hci_status hci_average_fit(const hci_average_samples *samples, size_t wanted, size_t enough, size_t least,
+hci_status hci_average_fit(const hci_average_samples *samples, const hci_average_orders *orders,
                            hci_average *average)
 {
     pass_list list = {NULL, 0, 0};
     cell_table cells = {.size = 0};
     memset(average, 0, sizeof *average);
     average->channels = samples->channels;
-    const hci_status status = fit(samples, wanted, enough, least, &list, &cells, average);
+    const hci_status status = fit(samples, orders, &list, &cells, average);
     cells_release(&cells);
     hci_memory_free(list.pass);
     if (status != HCI_OK) hci_average_release(average);

@@ -35,12 +35,18 @@ typedef struct {
     hci_average_harmonic *wave; /* [count][channels][highest + 1] */
 } hci_average;
 
+/* Orders of the turn that are asked for. */
+typedef struct {
+    size_t wanted; /* highest; lower ones where the gaps between samples do not allow it, so that M·gap < 0.8
+                      π */
+    size_t enough; /* passes are made of several turns until they bear this order */
+    size_t least;  /* without it there is no average */
+} hci_average_orders;
+
 /* Cuts the path into passes and fits each by weighted least squares (adaptive weights, conjugate gradients on
- * the Toeplitz matrix: Feichtinger, Gröchenig, Strohmer 1995). wanted: highest order; lower where the gaps
- * between samples do not allow it, so that M·gap < 0.8 π. enough: passes are made of several turns until they
- * bear this order. HCI_ERROR_SINGULAR: no pass goes round the turn with orders up to `least`;
- * HCI_ERROR_MEMORY. O(samples·M + passes·M²). */
-hci_status hci_average_fit(const hci_average_samples *samples, size_t wanted, size_t enough, size_t least,
+ * the Toeplitz matrix: Feichtinger, Gröchenig, Strohmer 1995). HCI_ERROR_SINGULAR: no pass goes round the
+ * turn with the least of the orders; HCI_ERROR_MEMORY. O(samples·M + passes·M²). */
+hci_status hci_average_fit(const hci_average_samples *samples, const hci_average_orders *orders,
                            hci_average *average);
 void hci_average_release(hci_average *average);
 

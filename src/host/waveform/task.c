@@ -45,7 +45,11 @@ hci_status hci_waveform_average(const hci_waveform_task *t, const hci_average_sa
                        : limited ? o->max_order
                                  : HCI_WAVEFORM_ORDER_MOST;
     const size_t wanted = turn_order(top, step);
-    const size_t enough = given || limited ? wanted : turn_order(HCI_WAVEFORM_ORDER_ENOUGH, step);
+    const hci_average_orders orders = {
+        .wanted = wanted,
+        .enough = given || limited ? wanted : turn_order(HCI_WAVEFORM_ORDER_ENOUGH, step),
+        .least = given ? wanted : turn_order(1.0, step),
+    };
     if (given && top / step > HIGHEST_MOST) return HCI_ERROR_SINGULAR;
-    return hci_average_fit(samples, wanted, enough, given ? wanted : turn_order(1.0, step), average);
+    return hci_average_fit(samples, &orders, average);
 }

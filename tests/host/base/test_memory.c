@@ -240,11 +240,11 @@ static hci_status by_spqr(double *figure)
 {
     const double b[3] = {1.0, 2.0, 3.0};
     const hci_sparse a = matrix();
-    double x[3] = {0.0}, condition = 0.0;
-    size_t rank = 0;
+    double x[3] = {0.0};
+    hci_sparse_rank found = {0};
     hci_note note = {{0}};
-    const hci_status status = hci_sparse_qr_solve(&a, b, 1, x, &rank, &condition, &note);
-    *figure = x[0] + condition + (double)rank;
+    const hci_status status = hci_sparse_qr_solve(&a, b, 1, x, &found, &note);
+    *figure = x[0] + found.condition + (double)found.rank;
     return noted(status, &note);
 }
 

@@ -304,8 +304,9 @@ static void bench_make(bench *b)
 
 static hci_status attach(bench *b, hci_note *note)
 {
-    const hci_status status = hci_effects_attach(&b->effects.list, &b->lists.machine, 90.0, &b->plant,
-                                                 &b->drive, b->sensors, &b->attachment, note);
+    const hci_effects_plant plant = {&b->lists.machine, &b->effects.list, 90.0};
+    const hci_status status =
+        hci_effects_attach(&plant, &b->plant, &b->drive, b->sensors, &b->attachment, note);
     for (int s = 0; s < HCI_SENSE_COUNT && !status; ++s) {
         TEST_ASSERT_TRUE(hci_sensor_workspace(&b->sensors[s]) <= MOST_DELAY);
         hci_sensor_start(&b->sensors[s], &b->sensed[s], rings[s], 1, 0.0);

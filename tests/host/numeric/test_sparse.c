@@ -92,20 +92,19 @@ static double largest_difference(const double *x, const double *y, size_t n)
  * the largest would leave the rank open; the draws have none (asserted). */
 static void check_qr(matrix *a, uint64_t *seed)
 {
-    double b[SIDES * MOST], x[SIDES * MOST], expected[SIDES * MOST], condition = -1.0;
+    double b[SIDES * MOST], x[SIDES * MOST], expected[SIDES * MOST];
     const hci_sparse s = compress(a);
-    size_t rank = 99;
+    hci_sparse_rank found = {99, -1.0};
     hci_note note = {{0}};
     jacobi_values truth;
     draw_sides(seed, a->rows, b);
     truth = jacobi_solve(a->rows, a->columns, a->dense, 1e-11, SIDES, b, expected);
     TEST_ASSERT_TRUE(truth.dropped <= 1e-13 * truth.largest && truth.smallest >= 1e-9 * truth.largest);
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_sparse_qr_solve(&s, b, SIDES, x, &rank, &condition, &note),
-                              note.text);
-    TEST_ASSERT_EQUAL_UINT64(truth.rank, rank);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_sparse_qr_solve(&s, b, SIDES, x, &found, &note), note.text);
+    TEST_ASSERT_EQUAL_UINT64(truth.rank, found.rank);
     if (truth.rank == 0) {
         TEST_ASSERT_EQUAL_DOUBLE(0.0, largest_of(x, SIDES * a->columns));
-        TEST_ASSERT_TRUE(isnan(condition));
+        TEST_ASSERT_TRUE(isnan(found.condition));
         return;
     }
     const double ratio = truth.largest / truth.smallest;
@@ -115,7 +114,7 @@ static void check_qr(matrix *a, uint64_t *seed)
         100.0 * 2.2e-16 * ratio *
         (ratio * largest_of(b, SIDES * a->rows) / truth.largest + largest_of(expected, SIDES * a->columns));
     TEST_ASSERT_DOUBLE_WITHIN(bound, 0.0, largest_difference(x, expected, SIDES * a->columns));
-    TEST_ASSERT_TRUE(condition >= 0.5 * ratio && condition <= 2.0 * ratio);
+    TEST_ASSERT_TRUE(found.condition >= 0.5 * ratio && found.condition <= 2.0 * ratio);
 }
 
 static void test_qr_of_every_shape_and_fill(void)

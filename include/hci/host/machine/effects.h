@@ -39,14 +39,13 @@ typedef struct hci_effects_attachment hci_effects_attachment;
 
 /* Puts effects on a drive whose plant, control.step_s and sensors are set up: plant.effects (which must be
  * empty) gets one entry, plant.coulomb_Nm grows, and the sensors become `sensors`, HCI_SENSE_COUNT of them,
- * changed and kept. Do this before hci_sensor_workspace and hci_sensor_start. machine, effects: kept.
- * temperature_C: of the magnets; NAN: the reference. state: whose speed the friction before the torque sensor
- * has, kept; NULL: the sensor does not see that friction. *attachment: out, to be given to
- * hci_effects_detach; NULL on failure. HCI_ERROR_ARGUMENT for a delay below 0 or of a million steps, or
- * Coulomb friction below 0 in sum; HCI_ERROR_MEMORY. The drive is then untouched. */
-hci_status hci_effects_attach(const hci_effects *effects, const hci_machine *machine, double temperature_C,
-                              const hci_plant_state *state, hci_drive *drive, hci_sensor *sensors,
-                              hci_effects_attachment **attachment, hci_note *note);
+ * changed and kept. Do this before hci_sensor_workspace and hci_sensor_start. plant: the machine, its effects
+ * and the temperature of its magnets (NAN: the reference); what it points to is kept. state: whose speed the
+ * friction before the torque sensor has, kept; NULL: the sensor does not see that friction. *attachment: out,
+ * to be given to hci_effects_detach; NULL on failure. HCI_ERROR_ARGUMENT for a delay below 0 or of a million
+ * steps, or Coulomb friction below 0 in sum; HCI_ERROR_MEMORY. The drive is then untouched. */
+hci_status hci_effects_attach(const hci_effects_plant *plant, const hci_plant_state *state, hci_drive *drive,
+                              hci_sensor *sensors, hci_effects_attachment **attachment, hci_note *note);
 
 /* Frees an attachment; the drive must not be used any more. NULL is fine. */
 void hci_effects_detach(hci_effects_attachment *attachment);
