@@ -1,9 +1,8 @@
 /* Reading CSV: the files of tests/files/csv with what they hold or what is said of them, a round trip of
- * random tables, numbers and units against other ways to compute them, and memory that runs out. */
+ * random tables, and memory that runs out. */
 #include "hci/host/csv/csv.h"
 
 #include <float.h>
-#include <locale.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -12,8 +11,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "hci/host/base/number.h"
-#include "hci/host/base/unit.h"
 #include "hci/host/base/utf8.h"
 #include "host/base/memory.h"
 #include "host/base/quote.h"
@@ -622,259 +619,6 @@ static void test_long_and_odd_numbers_are_rounded_once(void)
     hci_csv_free(csv);
 }
 
-/* glibc's strtod rounds correctly whatever the length, and the tests run in the C locale. */
-static void test_parsing_agrees_with_strtod_to_the_last_bit(void)
-{
-    uint64_t seed = 11;
-    for (int trial = 0; trial < 200000; trial++) {
-        char text[64] = "";
-        size_t used = 0;
-        const size_t digits = 1 + below(&seed, 24), point = below(&seed, 26);
-        if (often(&seed)) text[used++] = '-';
-        for (size_t k = 0; k < digits; k++) {
-            if (k == point) text[used++] = '.';
-            text[used++] = (char)('0' + below(&seed, 10));
-        }
-        if (often(&seed)) snprintf(text + used, sizeof text - used, "e%d", (int)below(&seed, 80) - 40);
-        double value = 0;
-        const double reference = strtod(text, NULL);
-        TEST_ASSERT_TRUE_MESSAGE(hci_number_parse(text, &value), text);
-        TEST_ASSERT_EQUAL_MEMORY_MESSAGE(&reference, &value, sizeof value, text);
-    }
-}
-
-/* Middles between two doubles, a unit in the last digit above and below, and what has 16 to 19 digits: where
- * a rounding of a rounding goes wrong. */
-static void test_numbers_near_the_middle_between_two_doubles_are_rounded_once(void)
-{
-    uint64_t seed = 12;
-    for (int trial = 0; trial < 300000; trial++) {
-        char text[64];
-        const double value = ldexp(ref_uniform(&seed, 1, 2), (int)below(&seed, 280) - 140);
-        const double middle_digits[] = {16, 17, 18, 19, 40};
-        const double digits = middle_digits[below(&seed, 5)];
-        const long double middle = (long double)value + ((long double)nextafter(value, 1e300) - value) / 2;
-        snprintf(text, sizeof text, "%.*Le", (int)digits - 1, middle);
-        double read = 0;
-        const double reference = strtod(text, NULL);
-        TEST_ASSERT_TRUE_MESSAGE(hci_number_parse(text, &read), text);
-        TEST_ASSERT_EQUAL_MEMORY_MESSAGE(&reference, &read, sizeof read, text);
-    }
-}
-
-static void test_texts_that_are_no_numbers_are_refused(void)
-{
-    static const char *const no[] = {"",    " ",    "-",      "+",      ".",
-                                     "e5",  "1e",   "1e+",    "1 ",     " 1",
-                                     "1,5", "0x1",  "1f",     "1..2",   "--1",
-                                     "+-1", "nan",  "inf",    "1e309",  "1d5",
-                                     "1_0", "1e5.", "-1e999", "NaN(1)", "1e99999999999999999999"};
-    for (size_t k = 0; k < sizeof no / sizeof *no; k++) {
-        double value = 7;
-        TEST_ASSERT_FALSE_MESSAGE(hci_number_parse(no[k], &value), no[k]);
-        TEST_ASSERT_EQUAL_DOUBLE(7, value);
-    }
-}
-
-static void test_numbers_are_written_as_short_as_they_can_be(void)
-{
-    static const struct {
-        double value;
-        const char *text;
-    } known[] = {
-        {0.0, "0"},
-        {-0.0, "-0"},
-        {1.0, "1"},
-        {0.1, "0.1"},
-        {-2.5, "-2.5"},
-        {100000, "100000"},
-        {1e22, "1e22"},
-        {1e-7, "1e-7"},
-        {1.0 / 3, "0.3333333333333333"},
-        {0.1 + 0.2, "0.30000000000000004"},
-        {21.93, "21.93"},
-        {0x1p-1074, "5e-324"},
-        {0x1p-24, "5.960464477539063e-8"},
-        {0x1p-791, "7.678447687145631e-239"},
-        {DBL_MAX, "1.7976931348623157e308"},
-        {DBL_MIN, "2.2250738585072014e-308"},
-        {9007199254740993.0, "9007199254740992"},
-        {-1.2345678901234568e-300, "-1.2345678901234568e-300"},
-    };
-    char text[32];
-    for (size_t k = 0; k < sizeof known / sizeof *known; k++) {
-        hci_number_text(known[k].value, text);
-        TEST_ASSERT_EQUAL_STRING(known[k].text, text);
-    }
-}
-
-static double from_bits(uint64_t bits)
-{
-    double value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
-
-static void test_what_is_written_reads_back_to_the_same_bits(void)
-{
-    uint64_t seed = 3;
-    for (int trial = 0; trial < 100000; trial++) {
-        const uint64_t high = (uint64_t)ref_uniform(&seed, 0, 4294967296.0);
-        const double value = from_bits(high << 32 | (uint64_t)ref_uniform(&seed, 0, 4294967296.0));
-        double back = 0;
-        char text[32];
-        if (!isfinite(value)) continue;
-        hci_number_text(value, text);
-        TEST_ASSERT_TRUE_MESSAGE(hci_number_parse(text, &back), text);
-        TEST_ASSERT_EQUAL_MEMORY_MESSAGE(&value, &back, sizeof value, text);
-        back = strtod(text, NULL);
-        TEST_ASSERT_EQUAL_MEMORY_MESSAGE(&value, &back, sizeof value, text);
-    }
-}
-
-static void test_a_locale_with_a_decimal_comma_changes_nothing(void)
-{
-    static const char *const names[] = {"de_DE.UTF-8", "de_DE.utf8", "de_DE", "fr_FR.UTF-8", "it_IT.UTF-8"};
-    const char *set = NULL;
-    for (size_t k = 0; k < sizeof names / sizeof *names && set == NULL; k++)
-        set = setlocale(LC_ALL, names[k]);
-    if (set == NULL) TEST_IGNORE_MESSAGE("no locale with a decimal comma here");
-    char text[32], printed[8];
-    double value = 0;
-    snprintf(printed, sizeof printed, "%.1f", 0.5);
-    hci_number_text(0.1 + 0.2, text);
-    const bool parsed = hci_number_parse("0.30000000000000004", &value);
-    setlocale(LC_ALL, "C");
-    TEST_ASSERT_EQUAL_STRING("0,5", printed);
-    TEST_ASSERT_EQUAL_STRING("0.30000000000000004", text);
-    TEST_ASSERT_TRUE(parsed);
-    TEST_ASSERT_TRUE(value == 0.1 + 0.2);
-}
-
-/* ---- units ---- */
-
-static void test_units_convert_by_their_definition(void)
-{
-    static const struct {
-        const char *from, *to;
-        double factor;
-    } known[] = {
-        {"deg", "rad", REF_PI / 180},
-        {"rad", "deg", 180 / REF_PI},
-        {"\xC2\xB0", "rad", REF_PI / 180},
-        {"rev", "deg", 360},
-        {"rpm", "rad/s", REF_PI / 30},
-        {"1/min", "rpm", 1},
-        {"rad_per_s", "rpm", 30 / REF_PI},
-        {"RPM", "rad/s", REF_PI / 30},
-        {"rad/s", "rad_per_s", 1},
-        {"rad_s", "rad/s", 1},
-        {"rev/s", "rpm", 60},
-        {"mA", "A", 1e-3},
-        {"A", "mA", 1e3},
-        {"mV", "kV", 1e-6},
-        {"ms", "us", 1e3},
-        {"\xC2\xB5s", "s", 1e-6},
-        {"\xCE\xBCs", "s", 1e-6},
-        {"mNm", "Nm", 1e-3},
-        {"N\xC2\xB7m", "Nm", 1},
-        {"N*m", "N m", 1},
-        {"N-m", "N.m", 1},
-        {"N_m", "N\xE2\x8B\x85m", 1},
-        {"Nm_per_A", "V\xC2\xB7s/rad", 1},
-        {"Vs/rad", "Nm/A", 1},
-        {"V_s_per_rad", "N\xC2\xB7m/A", 1},
-        {"V*s/rad", "mNm/A", 1e3},
-        {"mH", "H", 1e-3},
-        {"uH", "mH", 1e-3},
-        {"\xC2\xB5H", "H", 1e-6},
-        {"H/rad", "H_per_rad", 1},
-        {"\xCE\xA9", "ohm", 1},
-        {"\xE2\x84\xA6", "mohm", 1e3},
-        {"m\xCE\xA9", "ohm", 1e-3},
-        {"Ohm", "ohm", 1},
-        {"kg\xC2\xB7m\xC2\xB2", "kgm2", 1},
-        {"kg*m^2", "kg_m2", 1},
-        {"kg m2", "kg\xC2\xB7m\xC2\xB2", 1},
-        {"Nms_per_rad", "N\xC2\xB7m\xC2\xB7s/rad", 1},
-        {"Nm\xC2\xB7s/rad", "Nms/rad", 1},
-        {"N_m_s_per_rad", "N m s / rad", 1},
-        {"degC", "C", 1},
-        {"\xC2\xB0"
-         "C",
-         "degC", 1},
-        {"kHz", "Hz", 1e3},
-        {"kW", "W", 1e3},
-        {"%", "1", 0.01},
-        {"", "1", 1},
-        {"-", "1", 1},
-    };
-    for (size_t k = 0; k < sizeof known / sizeof *known; k++) {
-        double factor = 0;
-        TEST_ASSERT_TRUE_MESSAGE(hci_unit_factor(known[k].from, known[k].to, &factor), known[k].from);
-        TEST_ASSERT_DOUBLE_WITHIN(CONVERSION * known[k].factor, known[k].factor, factor);
-    }
-}
-
-static void test_units_of_other_dimensions_do_not_convert(void)
-{
-    static const char *const pairs[][2] = {
-        {"A", "V"},
-        {"rad", "rad/s"},
-        {"Hz", "rad/s"},
-        {"Nm", "Nm/A"},
-        {"H", "H/rad"},
-        {"1", "rad"},
-        {"MA", "A"},
-        {"m", "1"},
-        {"m_rad", "rad"},
-        {"furlong", "furlong"},
-        {"rad", ""},
-        {"Nm ", "A"},
-        {"kilogram times metre squared", "kgm2"},
-    };
-    for (size_t k = 0; k < sizeof pairs / sizeof *pairs; k++) {
-        double factor = 7;
-        TEST_ASSERT_FALSE_MESSAGE(hci_unit_factor(pairs[k][0], pairs[k][1], &factor), pairs[k][0]);
-        TEST_ASSERT_EQUAL_DOUBLE(7, factor);
-    }
-}
-
-/* ---- notes ---- */
-
-static void test_the_first_error_wins(void)
-{
-    hci_note note = {0};
-    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, hci_note_set(&note, HCI_ERROR_INPUT, "%s", "first"));
-    TEST_ASSERT_EQUAL(HCI_ERROR_MEMORY, hci_note_set(&note, HCI_ERROR_MEMORY, "second"));
-    TEST_ASSERT_EQUAL_STRING("first", note.text);
-    TEST_ASSERT_EQUAL(HCI_ERROR_OUTPUT, hci_note_set(NULL, HCI_ERROR_OUTPUT, "nowhere"));
-}
-
-/* The cut may fall on any byte of "é", and half a character must not be left. */
-static void test_a_note_is_cut_between_characters(void)
-{
-    static char text[2 * HCI_NOTE_SIZE + 1];
-    for (size_t k = 0; k < HCI_NOTE_SIZE; k++)
-        memcpy(text + 2 * k, "\xC3\xA9", 2);
-    for (size_t shift = 0; shift < 2; shift++) {
-        hci_note note = {0};
-        hci_note_set(&note, HCI_ERROR_INPUT, "%.*s%s", (int)shift, "x", text);
-        TEST_ASSERT_TRUE(hci_utf8_valid(note.text));
-        TEST_ASSERT_EQUAL(shift + (HCI_NOTE_SIZE - 1 - shift) / 2 * 2, strlen(note.text));
-    }
-}
-
-static void test_a_long_path_keeps_its_end(void)
-{
-    char path[4096], out[HCI_QUOTE_PATH_SIZE];
-    memset(path, 'a', sizeof path);
-    memcpy(path + sizeof path - 9, "/run.csv", 9);
-    hci_quote_path(path, out);
-    TEST_ASSERT_EQUAL_STRING("/run.csv", out + strlen(out) - 8);
-    TEST_ASSERT_EQUAL_STRING_LEN("\xE2\x80\xA6", out, 3);
-}
-
 /* ---- memory ---- */
 
 static void write_long_file(void)
@@ -940,17 +684,6 @@ int main(void)
     RUN_TEST(test_a_table_comes_back_however_it_is_written);
     RUN_TEST(test_columns_are_listed_and_found_by_any_name);
     RUN_TEST(test_long_and_odd_numbers_are_rounded_once);
-    RUN_TEST(test_parsing_agrees_with_strtod_to_the_last_bit);
-    RUN_TEST(test_numbers_near_the_middle_between_two_doubles_are_rounded_once);
-    RUN_TEST(test_texts_that_are_no_numbers_are_refused);
-    RUN_TEST(test_numbers_are_written_as_short_as_they_can_be);
-    RUN_TEST(test_what_is_written_reads_back_to_the_same_bits);
-    RUN_TEST(test_a_locale_with_a_decimal_comma_changes_nothing);
-    RUN_TEST(test_units_convert_by_their_definition);
-    RUN_TEST(test_units_of_other_dimensions_do_not_convert);
-    RUN_TEST(test_the_first_error_wins);
-    RUN_TEST(test_a_note_is_cut_between_characters);
-    RUN_TEST(test_a_long_path_keeps_its_end);
     RUN_TEST(test_every_allocation_may_fail);
     RUN_TEST(test_sizes_that_do_not_fit_are_refused);
     return UNITY_END();

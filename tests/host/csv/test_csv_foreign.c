@@ -450,21 +450,6 @@ static void test_a_run_tells_what_was_supposed(void)
     text_has(":1: column 1 `theta`: found an angle that may be mechanical or electrical", note.text);
 }
 
-/* "; ≤" is five bytes: behind one to five others the end falls into the letter one way or another. */
-static void test_a_full_remark_ends_with_a_whole_letter(void)
-{
-    for (int shift = 1; shift <= 5; ++shift) {
-        hci_note remark = {{0}};
-        hci_note_add(&remark, "%.*s", shift, "abcde");
-        for (int k = 0; k < 400; ++k)
-            hci_note_add(&remark, "≤");
-        const size_t length = strlen(remark.text);
-        TEST_ASSERT_TRUE(length > HCI_NOTE_SIZE - 8 && length < HCI_NOTE_SIZE);
-        const char *last = remark.text + length - 1;
-        TEST_ASSERT_TRUE(*last == ' ' || *last == ';' || strcmp(remark.text + length - 3, "≤") == 0);
-    }
-}
-
 int main(void)
 {
     UNITY_BEGIN();
@@ -482,6 +467,5 @@ int main(void)
     RUN_TEST(test_unknown_units_matter_only_where_they_are_asked_for);
     RUN_TEST(test_units_stand_behind_names_in_several_ways);
     RUN_TEST(test_a_run_tells_what_was_supposed);
-    RUN_TEST(test_a_full_remark_ends_with_a_whole_letter);
     return UNITY_END();
 }
