@@ -36,7 +36,7 @@ hci_status hci_setup_make(const hci_machine_data *machine, const hci_effects *ef
                           const hci_scenario *scenario, hci_setup *setup, hci_note *note);
 void hci_setup_release(hci_setup *setup);
 
-/* ---- evaluate.c: statistics, spectrum and energies of the steady part ---- */
+/* ---- integrals.c, figures.c: statistics, spectrum and energies of the steady part ---- */
 
 typedef struct hci_evaluation hci_evaluation;
 

@@ -1,0 +1,94 @@
+/* Speed control, current control and their sample times. */
+#include <math.h>
+
+#include "host/simulate/setup_task.h"
+
+static hci_status count_sample(const hci_setup_task *b, const char *name, double value_s, double fallback_s,
+                               unsigned *steps)
+{
+    *steps = (unsigned)fmax(floor(fallback_s / b->setup->drive.control.step_s + 0.5), 1.0);
+    return isnan(value_s) ? HCI_OK : hci_setup_count_steps(b, name, value_s, 1, steps);
+}
+
+static hci_status set_sample_times(const hci_setup_task *b)
+{
+    const hci_scenario *s = b->scenario;
+    hci_control *control = &b->setup->drive.control;
+    hci_status status =
+        count_sample(b, "speed_sample_time", s->speed_sample_time_s, 1e-4, &control->speed_every);
+    if (!status)
+        status = count_sample(b, "current_sample_time", s->current_sample_time_s,
+                              s->current_control == HCI_CURRENT_PI ? 1e-4 : 0.0, &control->current_every);
+    return status;
+}
+
+/* Bandwidth 0.2 of a sample's rate, in rad: the 1.5 samples of delay then take 0.3 rad of the phase. */
+static void set_current_pi(const hci_setup_task *b)
+{
+    const hci_scenario *s = b->scenario;
+    hci_control *control = &b->setup->drive.control;
+    const double bandwidth_per_s = 0.2 / (control->step_s * control->current_every);
+    double mean_H = 0.0;
+    for (int k = 0; k < 360; ++k) {
+        const hci_plant_point p = hci_plant_table_at(control->table, 2.0 * HCI_PI * k / 360.0);
+        mean_H += 0.5 * (p.inductance_H[0] + p.inductance_H[2]) / 360.0;
+    }
+    control->current.pi.proportional = hci_value_or(s->current_kp_ohm, bandwidth_per_s * mean_H);
+    control->current.pi.integral_per_s =
+        hci_value_or(s->current_ki_V_per_As, bandwidth_per_s * b->machine->resistance_ohm);
+    control->current.delayed = hci_value_or(s->pwm_delay, 1.0) > 0.5;
+    control->current.decoupled = hci_value_or(s->decoupling, 1.0) > 0.5;
+}
+
+static hci_status set_hysteresis(const hci_setup_task *b)
+{
+    const hci_scenario *s = b->scenario;
+    hci_control *control = &b->setup->drive.control;
+    control->hysteresis.band_A = hci_value_or(s->hysteresis_band_A, 0.02 * b->machine->rated_current_A);
+    control->hysteresis.hold_steps =
+        hci_hysteresis_hold(hci_value_or(s->switching_frequency_max_Hz, 20e3), control->step_s);
+    if (control->hysteresis.band_A > 0.0) return HCI_OK;
+    return hci_setup_wrong(
+        b, "no `hysteresis_band`, and machine.csv has no `rated_current` to take it from; add a row "
+           "`hysteresis_band,VALUE,A`");
+}
+
+static hci_status set_current_control(const hci_setup_task *b)
+{
+    hci_control *control = &b->setup->drive.control;
+    control->loop = b->scenario->current_control;
+    if (control->loop == HCI_CURRENT_IDEAL) return HCI_OK;
+    control->dc_link_V = hci_value_or(b->scenario->dc_link_voltage_V, b->machine->dc_link_voltage_V);
+    if (control->dc_link_V <= 0.0)
+        return hci_note_set(b->note, HCI_ERROR_INPUT, "machine.csv: expected `dc_link_voltage` above zero");
+    if (control->loop == HCI_CURRENT_PI) set_current_pi(b);
+    if (control->loop == HCI_CURRENT_HYSTERESIS && set_hysteresis(b)) return HCI_ERROR_INPUT;
+    return hci_setup_need(b, control->dc_link_V, "dc_link_voltage", "V",
+                          "an inverter needs (or give it in the scenario)");
+}
+
+/* Default: bandwidth 30 rad/s, and a double-pole-like integral part at a quarter of it. */
+static void set_speed_control(const hci_setup_task *b)
+{
+    const hci_scenario *s = b->scenario;
+    hci_control *control = &b->setup->drive.control;
+    const double limit_Nm =
+        control->speed_controlled ? hci_value_or(2.0 * b->machine->rated_torque_Nm, HUGE_VAL) : HUGE_VAL;
+    control->torque_limit_Nm = hci_value_or(s->torque_limit_Nm, limit_Nm);
+    if (!control->speed_controlled) return;
+    control->speed.proportional =
+        hci_value_or(s->speed_kp_Nms_per_rad, 30.0 * b->setup->drive.plant.inertia_kgm2);
+    control->speed.integral_per_s = hci_value_or(s->speed_ki_Nm_per_rad, 7.5 * control->speed.proportional);
+}
+
+hci_status hci_setup_control(const hci_setup_task *b)
+{
+    const hci_scenario *s = b->scenario;
+    hci_control *control = &b->setup->drive.control;
+    hci_status status = set_sample_times(b);
+    control->id_limit = hci_value_or(s->id_limit_A, HUGE_VAL);
+    control->iq_limit = hci_value_or(s->iq_limit_A, HUGE_VAL);
+    control->peak_limit_A = hci_value_or(s->current_limit_A, HUGE_VAL);
+    set_speed_control(b);
+    return status ? status : set_current_control(b);
+}
