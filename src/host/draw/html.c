@@ -9,7 +9,6 @@
 
 #include "hci/host/base/number.h"
 #include "hci/version.h"
-#include "host/draw/plot.h"
 #include "host/draw/svg.h"
 
 enum { LONGEST_WORD = 24 };
@@ -74,7 +73,7 @@ void hci_html_begin(hci_output *out, const char *heading, const char *verdict, b
     hci_output_text(out,
                     "</title>\n<style>%s\n%s</style>\n</head>\n<body>\n<a class=\"skip\" href=\"#evidence\">"
                     "Skip to the evidence</a>\n<main>\n<h1>",
-                    STYLE, hci_plot_style);
+                    STYLE, hci_svg_style);
     hci_svg_text(out, heading);
     hci_output_text(out, "</h1>\n<p><span class=\"badge %s\">", good ? "good" : "bad");
     hci_svg_text(out, verdict);

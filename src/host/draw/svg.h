@@ -10,6 +10,9 @@
 #include "hci/host/base/output.h"
 #include "host/numeric/range.h"
 
+/* The style sheet: part of a page, or brought along by a picture that stands alone. */
+extern const char hci_svg_style[];
+
 /* ---- numbers as text, without the locale ---- */
 
 enum { HCI_SVG_NUMBER_SIZE = 48 };
@@ -22,6 +25,10 @@ void hci_svg_short_text(char text[HCI_SVG_NUMBER_SIZE], double value);
 
 /* The same with the unit and its prefix: 12 A, 25 mN·m. */
 void hci_svg_quantity_text(char text[HCI_SVG_NUMBER_SIZE], double value, const char *unit);
+
+/* A multiple of `step` with the decimals that the step has. largest: of the values on the axis, which share
+ * one notation; a power of ten where they are small or large, and not only near to one another. */
+void hci_svg_tick_text(char text[HCI_SVG_NUMBER_SIZE], double value, double step, double largest);
 
 /* ---- elements ---- */
 
@@ -45,6 +52,9 @@ void hci_svg_text(hci_output *out, const char *text);
 
 /* Pixels that a text takes at most in one of the common fonts; it is bold in the styles "head" and "no". */
 double hci_svg_text_width(const char *style, const char *text);
+
+/* Pixels that stay free between two labels in a row. */
+#define HCI_SVG_GAP 4.0
 
 /* A name as it stands, of which as much of the end is shown as there is room for, in pixels. */
 void hci_svg_name(hci_output *out, const char *style, double x, double y, const char *text, double room);

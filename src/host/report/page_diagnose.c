@@ -6,7 +6,7 @@
 
 #include "host/base/memory.h"
 #include "host/draw/html.h"
-#include "host/draw/plot.h"
+#include "host/plot/plot.h"
 #include "host/report/report.h"
 
 enum { WORDS_SIZE = 2048, MOST_ORDERS = 24, MOST_LINES = 40, MOST_TERMS = 16 };

@@ -5,8 +5,8 @@
 
 #include "host/base/memory.h"
 #include "host/draw/html.h"
-#include "host/draw/plot.h"
-#include "host/draw/plot_drive.h"
+#include "host/plot/plot.h"
+#include "host/plot/plot_drive.h"
 #include "host/report/report.h"
 
 /* SLICES of the evaluated time and STEPS of a turn: rows of the tables. STEPS: as in report_solve.c. */

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "host/draw/html.h"
-#include "host/draw/plot.h"
+#include "host/plot/plot.h"
 #include "host/report/report.h"
 
 /* STEPS: rows of the tables over one turn, not at the same phase of each sixth of it, where the ripple

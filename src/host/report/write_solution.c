@@ -6,7 +6,7 @@
 #include "hci/host/report/write.h"
 #include "hci/host/solve/solution_folder.h"
 #include "hci/machine/frames.h"
-#include "host/draw/plot.h"
+#include "host/plot/plot.h"
 #include "host/report/report.h"
 
 static void write_currents(hci_output *out, const hci_currents *currents, const hci_wave *wave,

@@ -1,6 +1,6 @@
 /* The files that a measured waveform is written to. */
 #include "hci/host/report/write.h"
-#include "host/draw/plot.h"
+#include "host/plot/plot.h"
 
 static void write_orders(hci_output *out, const hci_waveform *w, const char *unit)
 {

@@ -5,7 +5,7 @@
 
 #include "hci/host/simulate/simulate.h"
 #include "hci/host/solve/solve.h"
-#include "host/draw/plot.h"
+#include "host/plot/plot.h"
 #include "support/reference.h"
 #include "unity.h"
 

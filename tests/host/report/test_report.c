@@ -12,7 +12,7 @@
 #include "hci/host/report/write.h"
 #include "host/base/memory.h"
 #include "host/draw/html.h"
-#include "host/draw/plot.h"
+#include "host/plot/plot.h"
 #include "support/reference.h"
 #include "support/texts.h"
 #include "support/written.h"

@@ -1,28 +1,14 @@
-/* Numbers in rows and columns, as squares whose size tells theirs: U, and the residual by run and order. */
+/* U: which current component makes which torque order. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "host/draw/plot.h"
+#include "host/plot/plot.h"
+#include "host/plot/raster.h"
 
-enum { CANVAS = 540, LEFT = 64, RIGHT = 524, TOP = 66, LABEL = 13 };
+enum { LABEL = 13 }; /* pixels of a name in height */
 
-#define ROUNDING   1e-12 /* currents below this share of the largest do not flow */
-#define LEAST_SIDE 2.6   /* pixels; every number that is not 0 is seen */
-
-typedef struct {
-    double left, top, width, height; /* of a cell */
-} raster;
-
-/* A square about the middle of a cell; share: of the side, 0 … 1. */
-static void draw_square(hci_output *out, const raster *r, const char *style, size_t row, size_t column,
-                        double share)
-{
-    const double side = fmax(0.9 * fmin(r->width, r->height) * share, LEAST_SIDE);
-    const double x = r->left + r->width * ((double)column + 0.5),
-                 y = r->top + r->height * ((double)row + 0.5);
-    hci_svg_rectangle(out, style, x - 0.5 * side, y - 0.5 * side, x + 0.5 * side, y + 0.5 * side);
-}
+#define ROUNDING 1e-12 /* currents below this share of the largest do not flow */
 
 /* ---- one side of U ---- */
 
@@ -66,7 +52,7 @@ static size_t end_cell(const side *s, size_t item)
 typedef struct {
     const hci_solution *solution;
     side rows, columns;
-    raster raster;
+    hci_raster raster;
     double value[MOST_CELLS][MOST_CELLS]; /* of the largest size in each cell */
     double largest;
 } picture;
@@ -130,8 +116,8 @@ static void draw_values(hci_output *out, const picture *p)
         for (size_t j = 0; j < p->columns.cells; ++j) {
             const double value = p->value[i][j];
             if (fabs(value) > HCI_PLOT_ZERO * p->largest)
-                draw_square(out, &p->raster, value > 0.0 || !has_sign ? "plus" : "minus", i, j,
-                            sqrt(fabs(value) / p->largest));
+                hci_raster_square(out, &p->raster, value > 0.0 || !has_sign ? "plus" : "minus", i, j,
+                                  sqrt(fabs(value) / p->largest));
         }
 }
 
@@ -152,7 +138,7 @@ static size_t step_of(const side *s)
 
 static bool draw_bands(hci_output *out, const picture *p, const hci_svg_box *b)
 {
-    const raster *r = &p->raster;
+    const hci_raster *r = &p->raster;
     bool any = false;
     for (size_t k = 0; k < p->rows.items; k += step_of(&p->rows)) {
         if (!all_of_cell(p, &p->rows, k, is_row_left_out)) continue;
@@ -178,7 +164,7 @@ static void name_item(char text[HCI_SVG_NUMBER_SIZE + 2], const char *name, bool
 /* Lines between the items, and the names of as many as there is room for. */
 static void draw_rows(hci_output *out, const picture *p, const hci_svg_box *b)
 {
-    const raster *r = &p->raster;
+    const hci_raster *r = &p->raster;
     const double pitch = r->height * (double)(p->rows.items_a_cell > 0 ? 1 : 2);
     const size_t apart = step_of(&p->rows) * (size_t)ceil(LABEL / pitch);
     for (size_t k = 0; k < p->rows.items; k += step_of(&p->rows)) {
@@ -219,7 +205,7 @@ static size_t longest_component(const hci_solution *s)
 
 static void draw_columns(hci_output *out, const picture *p, const hci_svg_box *b)
 {
-    const raster *r = &p->raster;
+    const hci_raster *r = &p->raster;
     const hci_solved_system *u = &p->solution->system;
     const double pitch = r->width * (double)(p->columns.items_a_cell > 0 ? 1 : 2);
     const double room = 8.2 * (double)longest_component(p->solution) + 8.0;
@@ -238,14 +224,6 @@ static void draw_columns(hci_output *out, const picture *p, const hci_svg_box *b
     }
 }
 
-static void draw_frame(hci_output *out, const hci_svg_box *b)
-{
-    hci_svg_segment(out, "axis", b->left, b->top, b->right, b->top);
-    hci_svg_segment(out, "axis", b->left, b->bottom, b->right, b->bottom);
-    hci_svg_segment(out, "axis", b->left, b->top, b->left, b->bottom);
-    hci_svg_segment(out, "axis", b->right, b->top, b->right, b->bottom);
-}
-
 static void draw_legend(hci_output *out, const picture *p, bool has_band)
 {
     hci_svg_entry entry[4] = {{HCI_SVG_BAR, "plus", "above 0"}, {HCI_SVG_BAR, "minus", "below 0"}};
@@ -257,20 +235,20 @@ static void draw_legend(hci_output *out, const picture *p, bool has_band)
         has_cross = has_cross || all_of_cell(p, &p->rows, k, is_unreachable);
     if (has_band) entry[count++] = (hci_svg_entry){HCI_SVG_BAR, "band", "left out"};
     if (has_cross) entry[count++] = (hci_svg_entry){HCI_SVG_CROSS, "", "reached by none"};
-    hci_svg_legend(out, entry, count, RIGHT, 46.0);
+    hci_svg_legend(out, entry, count, HCI_RASTER_RIGHT, 46.0);
 }
 
 static void draw_feet(hci_output *out, const picture *p, const hci_svg_box *b)
 {
     char text[160];
-    hci_svg_label(out, "quiet", LEFT, b->bottom + 50.0,
+    hci_svg_label(out, "quiet", HCI_RASTER_LEFT, b->bottom + 50.0,
                   "current component: order, and its sequence as + or −");
     if (p->rows.items_a_cell == 0 && p->columns.items_a_cell == 0)
         snprintf(text, sizeof text, "each has a sine and a cosine, except torque order 0");
     else
         snprintf(text, sizeof text, "a cell holds %zu torque order%s by %zu component%s", step_of(&p->rows),
                  step_of(&p->rows) > 1 ? "s" : "", step_of(&p->columns), step_of(&p->columns) > 1 ? "s" : "");
-    hci_svg_label(out, "quiet", LEFT, b->bottom + 67.0, text);
+    hci_svg_label(out, "quiet", HCI_RASTER_LEFT, b->bottom + 67.0, text);
 }
 
 void hci_plot_system(hci_output *out, const hci_solution *s)
@@ -278,110 +256,26 @@ void hci_plot_system(hci_output *out, const hci_solution *s)
     picture p = {.solution = s,
                  .rows = side_of(s->order_count, has_mean(s)),
                  .columns = side_of(s->system.set.count, false)};
-    const double size = fmin(
-        20.0, (RIGHT - LEFT) / (double)(p.columns.cells > p.rows.cells ? p.columns.cells : p.rows.cells));
-    const hci_svg_box b = {LEFT, TOP, LEFT + size * (double)p.columns.cells,
-                           TOP + size * (double)p.rows.cells};
-    p.raster = (raster){b.left, b.top, size, size};
+    const double size =
+        fmin(20.0, (HCI_RASTER_RIGHT - HCI_RASTER_LEFT) /
+                       (double)(p.columns.cells > p.rows.cells ? p.columns.cells : p.rows.cells));
+    const hci_svg_box b = {HCI_RASTER_LEFT, HCI_RASTER_TOP, HCI_RASTER_LEFT + size * (double)p.columns.cells,
+                           HCI_RASTER_TOP + size * (double)p.rows.cells};
+    p.raster = (hci_raster){b.left, b.top, size, size};
     fill_values(&p);
     hci_svg_begin(
         out, &(hci_svg_picture){"system", "The system U: which current component makes which torque order",
                                 "A square for each entry of U that is not 0, its area by its size in "
                                 "N·m/A. Rows are torque orders, columns current components. The tables "
                                 "beside it say what each component reaches.",
-                                0, 0, CANVAS, (int)ceil(b.bottom) + 76});
+                                0, 0, HCI_RASTER_CANVAS, (int)ceil(b.bottom) + 76});
     hci_svg_label(out, "head", 16.0, 22.0, "U in N·m/A: torque order down, current component across");
     const bool has_band = draw_bands(out, &p, &b);
     draw_rows(out, &p, &b);
     draw_columns(out, &p, &b);
-    draw_frame(out, &b);
+    hci_raster_frame(out, &b);
     draw_values(out, &p);
     draw_legend(out, &p, has_band);
     draw_feet(out, &p, &b);
-    hci_svg_end(out);
-}
-
-/* ---- residual by run and order ---- */
-
-enum { NAMES = 172, MAP_DECADES = 4 };
-
-static size_t place_of_order(const hci_plot_map *m, double order)
-{
-    size_t k = 0;
-    while (k < m->orders_shown && fabs(m->order[k] - order) >= HCI_ORDER_TOLERANCE)
-        ++k;
-    return k;
-}
-
-static size_t place_of_run(const hci_plot_map *m, size_t run)
-{
-    size_t k = 0;
-    while (k < m->runs_shown && m->run[k] != run)
-        ++k;
-    return k;
-}
-
-static double largest_residual_Nm(const hci_plot_map *m)
-{
-    double largest = 0.0;
-    for (size_t k = 0; k < m->diagnosis->lines; ++k)
-        largest = fmax(largest, fmax(m->diagnosis->line[k].before_Nm, m->diagnosis->line[k].after_Nm));
-    return largest;
-}
-
-/* By the decades above the lowest one that is told apart. */
-static void draw_amplitude(hci_output *out, const raster *r, const char *style, size_t row, size_t column,
-                           double share)
-{
-    if (share > 0.0) draw_square(out, r, style, row, column, fmax(1.0 + log10(share) / MAP_DECADES, 0.0));
-}
-
-static void draw_line_of(hci_output *out, const hci_plot_map *m, const raster *r, const hci_residual_line *x,
-                         double largest_Nm)
-{
-    const size_t row = place_of_run(m, x->run), column = place_of_order(m, x->order);
-    const char *after = x->after_Nm > x->noise_Nm ? "plus" : "within";
-    if (row == m->runs_shown || column == m->orders_shown) return;
-    if (x->before_Nm >= x->after_Nm) draw_amplitude(out, r, "before", row, column, x->before_Nm / largest_Nm);
-    draw_amplitude(out, r, after, row, column, x->after_Nm / largest_Nm);
-}
-
-static void draw_map_names(hci_output *out, const hci_plot_map *m, const raster *r, const hci_svg_box *b)
-{
-    hci_svg_tag tag[HCI_PLOT_MOST_CELLS];
-    for (size_t k = 0; k < m->runs_shown; ++k) {
-        const double y = r->top + r->height * ((double)k + 0.5);
-        hci_svg_name(out, m->runs->role[m->run[k]] == HCI_ROLE_HOLDOUT ? "head end" : "quiet end",
-                     b->left - 6.0, y + 4.0, m->runs->run[m->run[k]].name, b->left - 10.0);
-        hci_svg_segment(out, "grid", b->left, y + 0.5 * r->height, b->right, y + 0.5 * r->height);
-    }
-    for (size_t k = 0; k < m->orders_shown; ++k) {
-        tag[k].x = r->left + r->width * ((double)k + 0.5);
-        tag[k].style = "quiet middle";
-        hci_svg_short_text(tag[k].text, m->order[k]);
-    }
-    hci_svg_tags(out, tag, m->orders_shown, b->bottom);
-}
-
-void hci_plot_residuals(hci_output *out, const hci_plot_map *m)
-{
-    static const hci_svg_entry LEGEND[] = {{HCI_SVG_BAR, "before", "before"},
-                                           {HCI_SVG_BAR, "plus", "after"},
-                                           {HCI_SVG_BAR, "within", "after, within noise"}};
-    const double largest_Nm = largest_residual_Nm(m);
-    const raster r = {NAMES, TOP, (RIGHT - NAMES) / (double)m->orders_shown, 17.0};
-    const hci_svg_box b = {NAMES, TOP, RIGHT, TOP + 17.0 * (double)m->runs_shown};
-    hci_svg_begin(
-        out, &(hci_svg_picture){"map", "Residual by run and electrical order, before and after",
-                                "A square for each run and order: its side grows with the logarithm of the "
-                                "amplitude in N·m, over four decades. The table beside it has the largest.",
-                                0, 0, CANVAS, (int)ceil(b.bottom) + 48});
-    hci_svg_label(out, "head", 16.0, 22.0, "Residual: run down, electrical order across");
-    hci_svg_legend(out, LEGEND, 3, RIGHT, 46.0);
-    draw_map_names(out, m, &r, &b);
-    draw_frame(out, &b);
-    for (size_t k = 0; k < m->diagnosis->lines; ++k)
-        draw_line_of(out, m, &r, &m->diagnosis->line[k], largest_Nm);
-    hci_svg_label(out, "quiet middle", 0.5 * (b.left + b.right), b.bottom + 39.0, "electrical order");
     hci_svg_end(out);
 }

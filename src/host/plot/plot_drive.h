@@ -1,6 +1,6 @@
 /* Pictures of a simulated drive, each as plot.h says. */
-#ifndef HCI_SRC_HOST_DRAW_PLOT_DRIVE_H
-#define HCI_SRC_HOST_DRAW_PLOT_DRIVE_H
+#ifndef HCI_SRC_HOST_PLOT_PLOT_DRIVE_H
+#define HCI_SRC_HOST_PLOT_PLOT_DRIVE_H
 
 #include "hci/host/base/output.h"
 #include "host/draw/svg.h"

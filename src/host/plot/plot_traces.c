@@ -1,7 +1,7 @@
 /* Torque, speed and currents of a simulated drive over time. */
 #include <math.h>
 
-#include "host/draw/plot_drive.h"
+#include "host/plot/plot_drive.h"
 
 static const hci_svg_box BOX = {64, 40, 462, 220};
 

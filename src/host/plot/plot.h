@@ -1,8 +1,8 @@
 /* What is drawn. Each function appends one <svg> element to the current file of `out`: a file of its own, or
  * part of an HTML page. No script, font or other reference; same input, same bytes. They allocate nothing and
  * cannot fail: write errors are kept by `out`. */
-#ifndef HCI_SRC_HOST_DRAW_PLOT_H
-#define HCI_SRC_HOST_DRAW_PLOT_H
+#ifndef HCI_SRC_HOST_PLOT_PLOT_H
+#define HCI_SRC_HOST_PLOT_PLOT_H
 
 #include "hci/host/base/output.h"
 #include "hci/host/diagnose/diagnose.h"
@@ -11,11 +11,7 @@
 #include "hci/machine/frames.h"
 #include "host/draw/svg.h"
 
-/* The style sheet of all of them. hci_plot_solution brings it along; for the others it is part of the page.
- */
-extern const char hci_plot_style[];
-
-/* ---- plot.c: a solution ---- */
+/* ---- plot_solution.c: a solution ---- */
 
 /* Torque, its spectrum, phase currents and current vector as one picture under a verdict.
  * O(samples·(orders + components)), at most 23040 samples; so are the next two. */
@@ -53,7 +49,8 @@ void hci_plot_solution_point(const hci_solution *solution, double theta_rad, hci
  * O(points·orders). */
 void hci_plot_waveform(hci_output *out, const hci_waveform *waveform);
 
-/* ---- plot_matrix.c: numbers in rows and columns, as squares whose size tells theirs ---- */
+/* ---- plot_system.c, plot_residuals.c: numbers in rows and columns, as squares whose size tells theirs ----
+ */
 
 /* U: torque orders down, current components to the right. Where they are more than fit, a square is the
  * largest of several. What solves nothing is marked. O(entries). */
@@ -79,7 +76,7 @@ typedef struct {
 
 void hci_plot_residuals(hci_output *out, const hci_plot_map *map);
 
-/* ---- plot_parts.c: pieces of the following ---- */
+/* ---- largest.c, plot_orders.c ---- */
 
 /* The `most` places k < count of the largest weights above 0, ascending; returns how many. O(count·most). */
 size_t hci_plot_largest(double (*weight)(const void *context, size_t k), const void *context, size_t count,
@@ -97,7 +94,7 @@ typedef struct {
 void hci_plot_orders(hci_output *out, const hci_svg_picture *words, const hci_plot_order *order, size_t count,
                      const char *noise, bool logarithmic);
 
-/* ---- plot_diagnose.c ---- */
+/* ---- plot_findings.c, plot_runs.c, plot_terms.c ---- */
 
 /* Of a finding that is in the game, the effect of the corrected machine and the term whose value is the
  * largest multiple of its standard error; NULL where none has one. */

@@ -1,5 +1,5 @@
 /* Path of the mean current vector of a simulated drive over one electrical turn. */
-#include "host/draw/plot_drive.h"
+#include "host/plot/plot_drive.h"
 
 static const hci_svg_box BOX = {64, 40, 462, 240};
 

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/draw/plot.h"
+#include "host/plot/plot.h"
 #include "support/texts.h"
 #include "support/written.h"
 #include "unity.h"

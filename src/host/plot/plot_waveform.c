@@ -3,7 +3,7 @@
 #include <stdio.h>
 
 #include "hci/math/harmonic.h"
-#include "host/draw/plot.h"
+#include "host/plot/plot.h"
 
 enum { WIDTH = 1000, HEIGHT = 680, POINTS = 2880 };
 
@@ -176,7 +176,7 @@ void hci_plot_waveform(hci_output *out, const hci_waveform *w)
              "%s. Two panels: the waveform over the %s, and amplitudes by order on a logarithmic axis.",
              facts, angle_of(w));
     hci_svg_begin(out, &(hci_svg_picture){"hci", verdict, description, 0, 0, WIDTH, HEIGHT});
-    hci_output_text(out, "<style>%s</style>\n", hci_plot_style);
+    hci_output_text(out, "<style>%s</style>\n", hci_svg_style);
     hci_svg_rectangle(out, "back", 0, 0, WIDTH, HEIGHT);
     hci_svg_label(out, "verdict", 24, 34, verdict);
     hci_svg_label(out, "facts quiet", 24, 58, facts);

@@ -1,6 +1,6 @@
 /* Torque of a simulated drive over one electrical turn: the mean of all turns, and a band of their extremes.
  */
-#include "host/draw/plot_drive.h"
+#include "host/plot/plot_drive.h"
 
 static const hci_svg_box BOX = {64, 40, 462, 240};
 

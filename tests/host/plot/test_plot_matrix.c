@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "host/base/memory.h"
-#include "host/draw/plot.h"
-#include "host/draw/plot_drive.h"
+#include "host/plot/plot.h"
+#include "host/plot/plot_drive.h"
 #include "support/reference.h"
 #include "support/texts.h"
 #include "support/written.h"

@@ -1,7 +1,7 @@
 /* The picture of a solution, read as a reader does: its axes from the numbers beside them, and the curves,
  * bars and points by these axes against the formulas; its text as XML; inputs at the ends of what there can
  * be. */
-#include "host/draw/plot.h"
+#include "host/plot/plot.h"
 
 #include <locale.h>
 #include <math.h>

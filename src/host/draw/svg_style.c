@@ -1,0 +1,41 @@
+/* The style sheet of all pictures. */
+#include "host/draw/svg.h"
+
+/* Okabe and Ito's palette, told apart by colour-blind readers and by lightness in a grey print; darker in the
+ * light, where marks need a contrast of 3 to the ground. Grid and rails are below that: nothing is read from
+ * them alone. */
+const char hci_svg_style[] =
+    ".hci{font:12px system-ui,'Helvetica Neue',Arial,sans-serif}.hci text{fill:#1c1f23}"
+    ".hci .back{fill:#fff}.hci .verdict{font-size:18px;font-weight:600}.hci .facts{font-size:13px}"
+    ".hci .head{font-size:13px;font-weight:600}.hci .quiet{fill:#5a6068}.hci .small{font-size:11px}"
+    ".hci .sub{font-size:70%}.hci .no{fill:#c04a00;font-weight:700}.hci .middle{text-anchor:middle}"
+    ".hci .end{text-anchor:end}"
+    ".hci path,.hci polyline{fill:none;stroke-linejoin:round;stroke-linecap:round}"
+    ".hci .grid{stroke:#e4e6ea}.hci .axis{stroke:#8b9099}.hci .before{stroke:#767c86;stroke-width:1.1}"
+    ".hci rect.before{fill:#8b9099;stroke:none}"
+    ".hci .wanted{stroke:#b87a00;stroke-width:2.4;stroke-linecap:butt;stroke-dasharray:6 4}"
+    ".hci rect.wanted{fill:none;stroke-width:1.2;stroke-dasharray:none}"
+    ".hci .after{stroke:#0072b2;stroke-width:1.6}.hci rect.after{fill:#0072b2;stroke:none}"
+    ".hci .a{stroke:#0072b2;stroke-width:1.8}.hci .b{stroke:#b87a00;stroke-width:1.5}"
+    ".hci .c{stroke:#009e73;stroke-width:1.5}.hci .path{stroke:#0072b2;stroke-width:1.2}"
+    ".hci .start{fill:#0072b2}.hci .plain{fill:none;stroke:#5a6068;stroke-width:1.8}"
+    ".hci .cross,.hci .ring{fill:none;stroke:#c04a00;stroke-width:1.8}"
+    ".hci .noise{stroke:#c04a00;stroke-width:1.6}.hci "
+    ".spread{stroke:#0072b2;stroke-width:3;stroke-opacity:.8}"
+    ".hci circle.dot{fill:#0072b2}.hci circle.hollow{fill:#fff;stroke:#0072b2;stroke-width:1.8}"
+    ".hci circle.before{fill:#8b9099;stroke:none}.hci .maybe{fill:#b87a00}.hci .rail{stroke:#c3c7cd}"
+    ".hci .plus{fill:#0072b2}.hci .within{fill:none;stroke:#0072b2;stroke-width:1.2}.hci "
+    ".minus{fill:#fff;stroke:#c04a00;stroke-width:1.2}.hci .band{fill:#eceef1}"
+    ".hci .haze{stroke:#e1e4e8;stroke-width:1.6}.hci .edge{stroke:#767c86;stroke-width:.8}"
+    ".hci .limit{stroke:#c04a00;stroke-width:1.4;stroke-dasharray:5 3}"
+    "@media screen and (prefers-color-scheme:dark){.hci text{fill:#eceff2}.hci .back{fill:#16191d}"
+    ".hci .quiet{fill:#a6adb6}.hci .no{fill:#ff8c50}.hci .grid{stroke:#2b3037}.hci .axis{stroke:#737a84}"
+    ".hci .before{stroke:#858c96}.hci rect.before{fill:#6c737d}.hci .wanted{stroke:#e69f00}"
+    ".hci .after,.hci .a,.hci .path{stroke:#56b4e9}.hci rect.after,.hci .start{fill:#56b4e9}"
+    ".hci .b{stroke:#e69f00}.hci .maybe{fill:#e69f00}.hci .c{stroke:#2fc79a}.hci .plain{stroke:#a6adb6}.hci "
+    ".cross,.hci .ring{stroke:#ff8c50}"
+    ".hci .noise{stroke:#ff8c50}.hci .spread{stroke:#56b4e9}.hci circle.dot{fill:#56b4e9}"
+    ".hci circle.hollow{fill:#16191d;stroke:#56b4e9}.hci .rail{stroke:#4a515a}"
+    ".hci .plus{fill:#56b4e9}.hci .within{stroke:#56b4e9}.hci .minus{fill:#16191d;stroke:#ff8c50}.hci "
+    ".band{fill:#262b32}"
+    ".hci .haze{stroke:#2b3037}.hci .edge{stroke:#858c96}.hci .limit{stroke:#ff8c50}}";

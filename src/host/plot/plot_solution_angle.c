@@ -1,0 +1,94 @@
+/* Torque, and phase currents, over the electrical angle. */
+#include <math.h>
+#include <stdio.h>
+
+#include "host/plot/solution_curves.h"
+
+static hci_range range_of(const hci_solution_curves *c, size_t first, size_t last)
+{
+    hci_range r = HCI_RANGE_EMPTY;
+    for (size_t j = first; j <= last; ++j) {
+        const hci_range one = hci_curve_range(c->value[j]);
+        hci_range_include(&r, one.low);
+        hci_range_include(&r, one.high);
+    }
+    return r;
+}
+
+static void draw_curve(hci_output *out, const char *style, const double *value, const hci_svg_axis *x,
+                       const hci_svg_axis *y)
+{
+    const hci_range r = hci_curve_range(value);
+    const size_t step = fabs(hci_svg_at(y, r.high) - hci_svg_at(y, r.low)) < 0.01
+                            ? HCI_CURVE_VERTICES
+                            : 1; /* a flat one needs its ends only */
+    hci_svg_line_begin(out, style);
+    for (size_t k = 0; k <= HCI_CURVE_VERTICES; k += step)
+        hci_svg_line_point(out, x->from + (x->to - x->from) * (double)k / HCI_CURVE_VERTICES,
+                           hci_svg_at(y, value[k]));
+    hci_svg_line_end(out);
+}
+
+static void draw_angle(hci_output *out, const hci_solution_curves *c, const hci_svg_axis *x,
+                       const hci_svg_box *b)
+{
+    char text[HCI_SVG_NUMBER_SIZE + 80];
+    hci_svg_grid(out, x, b, false);
+    if (c->turns < (double)c->solution->period_turns)
+        snprintf(text, sizeof text, "electrical angle in degrees; %.0f of the %zu turns of the period",
+                 c->turns, c->solution->period_turns);
+    else
+        snprintf(text, sizeof text, "electrical angle in degrees");
+    hci_svg_label(out, "quiet middle", 0.5 * (b->left + b->right), b->bottom + 35.0, text);
+}
+
+void hci_panel_torque(hci_output *out, const hci_solution_curves *c, const hci_svg_box *box)
+{
+    static const hci_svg_entry LEGEND[] = {{HCI_SVG_LINE, "before", "before"},
+                                           {HCI_SVG_LINE, "wanted", "wanted"},
+                                           {HCI_SVG_LINE, "after", "after"}};
+    const hci_svg_axis y =
+        hci_svg_axis_over(range_of(c, HCI_CURVE_BEFORE, HCI_CURVE_AFTER), box->bottom, box->top, 6.0);
+    const hci_svg_box b = hci_svg_box_beside(*box, &y);
+    const hci_svg_axis x = hci_svg_axis_of_angle(c->turns, &b);
+    hci_svg_head(out, &b, "Torque in N·m", LEGEND, 3);
+    draw_angle(out, c, &x, &b);
+    hci_svg_grid(out, &y, &b, true);
+    draw_curve(out, "before", c->value[HCI_CURVE_BEFORE], &x, &y);
+    draw_curve(out, "after", c->value[HCI_CURVE_AFTER], &x, &y);
+    draw_curve(out, "wanted", c->value[HCI_CURVE_WANTED], &x,
+               &y); /* dashed, so that what lies under it is seen */
+}
+
+/* The letter of a phase over its peak. */
+static void draw_phase_letter(hci_output *out, const double *value, const char *letter, const hci_svg_axis *y,
+                              const hci_svg_box *b)
+{
+    size_t peak = 0;
+    for (size_t k = 1; k < HCI_CURVE_VERTICES; ++k)
+        if (value[k] > value[peak]) peak = k;
+    hci_svg_label(out, "head middle", b->left + (b->right - b->left) * (double)peak / HCI_CURVE_VERTICES,
+                  hci_svg_at(y, value[peak]) - 5.0, letter);
+}
+
+void hci_panel_currents(hci_output *out, const hci_solution_curves *c, const hci_svg_box *box)
+{
+    static const hci_svg_entry LEGEND[] = {{HCI_SVG_LINE, "before", "i_a before"},
+                                           {HCI_SVG_LINE, "a", "i_a"},
+                                           {HCI_SVG_LINE, "b", "i_b"},
+                                           {HCI_SVG_LINE, "c", "i_c"}};
+    const hci_svg_axis y =
+        hci_svg_axis_over(range_of(c, HCI_CURVE_PHASE_A, HCI_CURVE_PLAIN_A), box->bottom, box->top, 6.0);
+    const hci_svg_box b = hci_svg_box_beside(*box, &y);
+    const hci_svg_axis x = hci_svg_axis_of_angle(c->turns, &b);
+    hci_svg_head(out, &b, "Phase currents in A", LEGEND, 4);
+    draw_angle(out, c, &x, &b);
+    hci_svg_grid(out, &y, &b, true);
+    draw_curve(out, "before", c->value[HCI_CURVE_PLAIN_A], &x, &y);
+    draw_curve(out, "c", c->value[HCI_CURVE_PHASE_C], &x, &y);
+    draw_curve(out, "b", c->value[HCI_CURVE_PHASE_B], &x, &y);
+    draw_curve(out, "a", c->value[HCI_CURVE_PHASE_A], &x, &y);
+    draw_phase_letter(out, c->value[HCI_CURVE_PHASE_A], "a", &y, &b);
+    draw_phase_letter(out, c->value[HCI_CURVE_PHASE_B], "b", &y, &b);
+    draw_phase_letter(out, c->value[HCI_CURVE_PHASE_C], "c", &y, &b);
+}

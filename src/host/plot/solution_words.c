@@ -1,0 +1,121 @@
+/* What the picture of a solution says in words: verdict, facts, and what before is. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "host/plot/solution_curves.h"
+
+enum { LINE_SIZE = HCI_PLOT_LINE_SIZE };
+
+/* Order 0 comes first where it is there at all. */
+static double mean_torque_Nm(const hci_solution *s)
+{
+    if (s->order_count == 0 || hci_order_number(&s->order[0]) >= HCI_ORDER_TOLERANCE) return 0.0;
+    return s->order[0].torque_Nm.cosine;
+}
+
+static size_t missed_count(const hci_solution *s)
+{
+    size_t missed = 0;
+    for (size_t k = 0; k < s->order_count; ++k)
+        missed += hci_order_is_missed(&s->order[k]);
+    return missed;
+}
+
+static void missed_line(char line[LINE_SIZE], const hci_solution *s, size_t missed)
+{
+    char order[HCI_SVG_NUMBER_SIZE], error[HCI_SVG_NUMBER_SIZE], more[HCI_SVG_NUMBER_SIZE] = "";
+    hci_svg_short_text(order, s->worst_order);
+    hci_svg_quantity_text(error, s->worst_error_Nm, "N·m");
+    if (missed > 1)
+        snprintf(more, sizeof more, ", %zu more order%s missed", missed - 1, missed > 2 ? "s" : "");
+    snprintf(line, LINE_SIZE, "Not reached: order %s is off by %s%s", order, error, more);
+}
+
+static void limit_line(char line[LINE_SIZE], const hci_solution *s)
+{
+    char current[HCI_SVG_NUMBER_SIZE], voltage[HCI_SVG_NUMBER_SIZE];
+    hci_svg_quantity_text(current, s->peak_phase_current_A, "A");
+    hci_svg_quantity_text(voltage, s->peak_line_voltage_V, "V");
+    snprintf(line, LINE_SIZE, "Over a limit: the wanted torque takes a peak phase current of %s", current);
+    if (isfinite(s->peak_line_voltage_V))
+        snprintf(line + strlen(line), LINE_SIZE - strlen(line), " and line voltage of %s", voltage);
+}
+
+static void verdict_line(char line[LINE_SIZE], const hci_solution *s)
+{
+    const size_t missed = missed_count(s);
+    char tolerance[HCI_SVG_NUMBER_SIZE];
+    hci_svg_quantity_text(tolerance, s->tolerance_Nm, "N·m");
+    if (missed > 0)
+        missed_line(line, s, missed);
+    else if (!s->within_limits)
+        limit_line(line, s);
+    else
+        snprintf(line, LINE_SIZE, "Reached: every torque order is within %s of what is wanted", tolerance);
+}
+
+static void peak_to_peak_text(char text[HCI_SVG_NUMBER_SIZE], const hci_solution_curves *c, size_t curve)
+{
+    const hci_range r = hci_curve_range(c->value[curve]);
+    hci_svg_quantity_text(text, r.high - r.low, "N·m");
+}
+
+static void facts_line(char line[LINE_SIZE], const hci_solution_curves *c)
+{
+    const hci_solution *s = c->solution;
+    char mean[HCI_SVG_NUMBER_SIZE], error[HCI_SVG_NUMBER_SIZE], order[HCI_SVG_NUMBER_SIZE],
+        before[HCI_SVG_NUMBER_SIZE], after[HCI_SVG_NUMBER_SIZE], loss[HCI_SVG_NUMBER_SIZE];
+    hci_svg_quantity_text(mean, mean_torque_Nm(s), "N·m");
+    hci_svg_quantity_text(error, s->worst_error_Nm, "N·m");
+    hci_svg_short_text(order, s->worst_order);
+    peak_to_peak_text(before, c, HCI_CURVE_BEFORE);
+    peak_to_peak_text(after, c, HCI_CURVE_AFTER);
+    snprintf(line, LINE_SIZE,
+             "mean torque %s · worst error %s at order %s · peak to peak %s before, %s after", mean, error,
+             order, before, after);
+    if (!isfinite(s->loss_to_plain)) return;
+    hci_svg_short_text(loss, s->loss_to_plain);
+    snprintf(line + strlen(line), LINE_SIZE - strlen(line), " · copper loss × %s", loss);
+}
+
+static void baseline_line(char line[LINE_SIZE], const hci_solution_curves *c)
+{
+    const hci_solution *s = c->solution;
+    char plain[HCI_SVG_NUMBER_SIZE], limit[HCI_SVG_NUMBER_SIZE];
+    hci_svg_quantity_text(plain, s->plain_amplitude_A, "A");
+    if (!(s->plain_amplitude_A > 0.0))
+        snprintf(line, LINE_SIZE,
+                 "Before: no current, since no mean torque is wanted; what is left is cogging.");
+    else if (s->plain_is_held)
+        snprintf(
+            line, LINE_SIZE,
+            "Before: the held fundamental of %s alone. Copper loss is relative to that of this fundamental",
+            plain);
+    else
+        snprintf(
+            line, LINE_SIZE,
+            "Before: a plain sine of %s with the wanted mean torque. Copper loss is relative to that of this "
+            "sine",
+            plain);
+    if (!(s->plain_amplitude_A > 0.0)) return;
+    if (isfinite(s->loss_to_limit) && missed_count(s) == 0) {
+        hci_svg_fixed_text(limit, fmin(s->loss_to_limit, 1e6), 3);
+        snprintf(line + strlen(line), LINE_SIZE - strlen(line), ", and is %s × the least possible", limit);
+    }
+    snprintf(line + strlen(line), LINE_SIZE - strlen(line), ".");
+}
+
+void hci_solution_words(const hci_solution_curves *c, hci_plot_facts *f)
+{
+    verdict_line(f->verdict, c->solution);
+    facts_line(f->facts, c);
+    baseline_line(f->baseline, c);
+    f->before_Nm = hci_curve_range(c->value[HCI_CURVE_BEFORE]);
+    f->wanted_Nm = hci_curve_range(c->value[HCI_CURVE_WANTED]);
+    f->after_Nm = hci_curve_range(c->value[HCI_CURVE_AFTER]);
+    for (size_t k = 0; k < 3; ++k)
+        f->phase_A[k] = hci_curve_range(c->value[HCI_CURVE_PHASE_A + k]);
+    f->plain_dq_A = hci_curve_vector(&c->solution->plain, 1, 0.0);
+    hci_curve_vector_ranges(c, f);
+}
