@@ -1,0 +1,12 @@
+/* What `diagnose` says of its results. Uses the folder terminal. */
+#ifndef HCI_CLI_DIAGNOSE_WORDS_H
+#define HCI_CLI_DIAGNOSE_WORDS_H
+
+#include "hci/host/diagnose/diagnose.h"
+
+/* Verdict, effects that were found, what to measure next, old and new currents, and drawings, on standard
+ * error. r: or NULL; machine, runs: their paths. */
+void cli_show_diagnosis(const hci_diagnosis *d, const hci_resolution *r, const char *machine,
+                        const char *runs);
+
+#endif

@@ -1,0 +1,11 @@
+/* What `harmonics` says of its results. Uses the folder terminal. */
+#ifndef HCI_CLI_HARMONICS_WORDS_H
+#define HCI_CLI_HARMONICS_WORDS_H
+
+#include "hci/host/waveform/waveform.h"
+
+/* How many orders there are, where they are from, how sure they are, and a drawing, on standard error. run:
+ * its path. */
+void cli_show_waveform(const hci_waveform *w, const char *run);
+
+#endif
