@@ -9,7 +9,7 @@
 #include "host/solve/candidates.h"
 #include "host/solve/choose.h"
 
-#define LOSS_MARGIN 1.01  /* copper over the pointwise limit at which no further orders are worth it */
+#define LOSS_MARGIN 1.01  /* copper over the pointwise limit at which no further orders are looked for */
 #define EXACT       0.1   /* share of the tolerance: the rest is for what the solution does elsewhere */
 #define UNUSED      1e-13 /* share of the largest coordinate, below which a component carries nothing */
 #define DOUBLINGS   5

@@ -52,7 +52,7 @@ bool hci_remedy_exists(const hci_solved_order *order)
     return order->verdict == HCI_ORDER_UNREACHABLE && !is_none;
 }
 
-/* Whether any component of the set reaches the order. reached: room for the orders of one component. */
+/* Whether any component of the set reaches the order. reached: workspace for the orders of one component. */
 static bool is_touched(const hci_task *t, const hci_component_set *set, double order, double *reached)
 {
     for (size_t k = 0; k < set->count; ++k) {

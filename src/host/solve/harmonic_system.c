@@ -53,7 +53,7 @@ static size_t all_orders(const hci_task *t, const hci_component *component, size
 
 /* The paper's square system: as many orders as components. The given ones come first, then the lowest others.
  * With a held fundamental the mean is left out and U is square; without one the mean is compared, which
- * leaves one unknown free. spare: room for as many orders again. */
+ * leaves one unknown free. spare: workspace for as many orders again. */
 static size_t square_orders(const hci_task *t, double *order, size_t n, size_t count, double *spare)
 {
     const size_t given = drop_free_orders(t, spare, given_orders(t, spare));

@@ -55,11 +55,11 @@ static hci_status check_held(const hci_solve_options *o, hci_note *note)
     return HCI_OK;
 }
 
-static hci_status make_task(const hci_machine_data *m, const hci_quadratic_model *c,
+static hci_status make_task(const hci_machine_data *m, const hci_quadratic_model *model,
                             const hci_solve_options *o, hci_task *t, hci_note *note)
 {
     hci_status status;
-    hci_task_begin(c, o->target, t);
+    hci_task_begin(model, o->target, t);
     t->has_neutral = m->has_neutral;
     t->held = o->held;
     t->strategy = o->strategy;
@@ -91,38 +91,46 @@ static double largest_current(const hci_answer *a, double mean_Nm)
     return largest;
 }
 
+static hci_status reserve_currents(size_t most, bool has_parts, hci_solution *s, hci_note *note)
+{
+    bool has_memory;
+    s->current.wave = hci_memory_new(most, sizeof *s->current.wave);
+    s->current.set = hci_memory_new(most, sizeof *s->current.set);
+    s->per_Nm = has_parts ? hci_memory_new(most, sizeof *s->per_Nm) : NULL;
+    s->constant = has_parts ? hci_memory_new(most, sizeof *s->constant) : NULL;
+    has_memory = s->current.wave && s->current.set && (!has_parts || (s->per_Nm && s->constant));
+    return has_memory ? HCI_OK : hci_note_memory(note, NULL, "solving");
+}
+
+/* Component k of the answer: the total, and where there are such the parts. */
+static void add_component(const hci_answer *a, size_t k, double mean_Nm, hci_solution *s)
+{
+    const hci_component c = a->set.component[k];
+    const double *x = a->x + 2 * k, *rest = x + 2 * a->set.count;
+    const size_t out = s->current.count++;
+    s->current.set[out] = a->set.set[k];
+    s->current.wave[out] =
+        (hci_wave){c.order, c.sequence, mean_Nm * x[0] + rest[0], mean_Nm * x[1] + rest[1]};
+    if (!s->per_Nm) return;
+    s->per_Nm[out] = (hci_wave){c.order, c.sequence, x[0], x[1]};
+    s->constant[out] = (hci_wave){c.order, c.sequence, rest[0], rest[1]};
+}
+
 /* Waves of the total, of the part per N·m and of the constant part. A given set keeps all its components, a
  * chosen or pointwise one only those that carry current. */
-static hci_status fill_currents(const hci_answer *a, const hci_solve_options *o, bool is_linear,
+static hci_status fill_currents(const hci_answer *a, const hci_solve_options *o, bool has_parts,
                                 hci_solution *s, hci_note *note)
 {
     const double mean_Nm = hci_target_mean_Nm(o->target), largest = largest_current(a, mean_Nm);
-    const size_t n = a->set.count, most = n + 1;
-    size_t out = 0;
-    s->current.wave = hci_memory_new(most, sizeof *s->current.wave);
-    s->current.set = hci_memory_new(most, sizeof *s->current.set);
-    s->per_Nm = is_linear ? hci_memory_new(most, sizeof *s->per_Nm) : NULL;
-    s->constant = is_linear ? hci_memory_new(most, sizeof *s->constant) : NULL;
-    if (!s->current.wave || !s->current.set || (is_linear && (!s->per_Nm || !s->constant)))
-        return hci_note_memory(note, NULL, "solving");
+    const hci_status status = reserve_currents(a->set.count + 1, has_parts, s, note);
+    if (status) return status;
     if (o->held) {
-        s->current.set[out] = HCI_SET_POS;
-        s->current.wave[out++] = *o->held;
+        s->current.set[0] = HCI_SET_POS;
+        s->current.wave[0] = *o->held;
+        s->current.count = 1;
     }
-    for (size_t k = 0; k < n; ++k) {
-        const hci_component c = a->set.component[k];
-        const double *x = a->x + 2 * k, *rest = x + 2 * n;
-        if (!o->set && is_negligible(a, mean_Nm, k, largest)) continue;
-        s->current.set[out] = a->set.set[k];
-        s->current.wave[out] =
-            (hci_wave){c.order, c.sequence, mean_Nm * x[0] + rest[0], mean_Nm * x[1] + rest[1]};
-        if (is_linear) {
-            s->per_Nm[out] = (hci_wave){c.order, c.sequence, x[0], x[1]};
-            s->constant[out] = (hci_wave){c.order, c.sequence, rest[0], rest[1]};
-        }
-        ++out;
-    }
-    s->current.count = out;
+    for (size_t k = 0; k < a->set.count; ++k)
+        if (o->set || !is_negligible(a, mean_Nm, k, largest)) add_component(a, k, mean_Nm, s);
     return HCI_OK;
 }
 
@@ -132,12 +140,12 @@ static hci_status fill_system(const hci_task *t, hci_answer *a, hci_solution *s,
     const size_t entries = hci_system_capacity(t->gradient_count, a->set.count);
     hci_solved_system *u = &s->system;
     double *order = hci_memory_new(s->order_count, sizeof *order);
-    bool has_room;
+    bool has_memory;
     u->column_start = hci_memory_new(2 * a->set.count + 1, sizeof *u->column_start);
     u->row = hci_memory_new(entries, sizeof *u->row);
     u->value = hci_memory_new(entries, sizeof *u->value);
-    has_room = order && u->column_start && u->row && u->value;
-    if (has_room) {
+    has_memory = order && u->column_start && u->row && u->value;
+    if (has_memory) {
         for (size_t k = 0; k < s->order_count; ++k)
             order[k] = s->order[k].torque_Nm.order;
         hci_system_sparse(t->gradient, t->gradient_count, a->set.component, a->set.count, order,
@@ -146,7 +154,7 @@ static hci_status fill_system(const hci_task *t, hci_answer *a, hci_solution *s,
         a->set = (hci_component_set){0};
     }
     hci_memory_free(order);
-    return has_room ? HCI_OK : hci_note_memory(note, NULL, "solving");
+    return has_memory ? HCI_OK : hci_note_memory(note, NULL, "solving");
 }
 
 /* ---- all of it ---- */
@@ -199,42 +207,46 @@ static void remark_left_out(const hci_effects *effects, hci_note *remark)
         names);
 }
 
-static hci_status solve(const hci_machine_data *machine, const hci_quadratic_model *c,
-                        const hci_solve_options *o, hci_linear_torque *at, hci_answer *a, hci_solution *s,
-                        hci_note *note)
-{
+/* Everything that is freed when a solution is made. */
+typedef struct {
+    hci_quadratic_model model;
     hci_task task;
-    hci_status status = make_task(machine, c, o, &task, note);
-    if (status) return status;
+    hci_linear_torque at; /* where the task was made linear last */
+    hci_answer answer;
+} work;
+
+static hci_status solve_task(const hci_machine_data *machine, const hci_solve_options *o, work *w,
+                             hci_solution *s, hci_note *note)
+{
+    hci_task *t = &w->task;
+    hci_status status;
     s->with_effects = o->effects && o->effects->count > 0;
-    s->period_turns = task.period_turns;
-    s->tolerance_Nm = (o->tolerance > 0.0 ? o->tolerance : DEFAULT_TOLERANCE) * torque_scale_Nm(&task);
-    s->limit_mean_square_A2 = hci_pointwise_mean_square_A2(&task);
-    status = find_answer(&task, o, at, a, s, note);
-    if (!status) status = fill_currents(a, o, !o->held && hci_task_is_linear(&task), s, note);
+    s->period_turns = t->period_turns;
+    s->tolerance_Nm = (o->tolerance > 0.0 ? o->tolerance : DEFAULT_TOLERANCE) * torque_scale_Nm(t);
+    s->limit_mean_square_A2 = hci_pointwise_mean_square_A2(t);
+    status = find_answer(t, o, &w->at, &w->answer, s, note);
+    if (!status) status = fill_currents(&w->answer, o, !o->held && hci_task_is_linear(t), s, note);
     if (!status)
-        status = hci_solution_evaluate(&task, &a->set, o->set ? o->compare : HCI_COMPARE_ALL, s, note);
-    if (!status && o->method != HCI_METHOD_POINTWISE) status = fill_system(&task, a, s, note);
-    if (!status) status = hci_limits_check(machine, o, s, note);
-    if (!status && c->left_out > 0) remark_left_out(o->effects, &s->remark);
-    return status;
+        status = hci_solution_evaluate(t, &w->answer.set, o->set ? o->compare : HCI_COMPARE_ALL, s, note);
+    if (!status && o->method != HCI_METHOD_POINTWISE) status = fill_system(t, &w->answer, s, note);
+    return status ? status : hci_limits_check(machine, o, s, note);
 }
 
 hci_status hci_solve(const hci_machine_data *machine, const hci_solve_options *options,
                      hci_solution *solution, hci_note *note)
 {
     const double temperature_C = hci_magnet_temperature_C(options);
-    hci_linear_torque at = {{NULL, 0}, {NULL, 0}};
-    hci_answer a = {{0}, NULL};
-    hci_quadratic_model c = {0};
+    work w = {0};
     hci_status status = check_machine(machine, options, note);
     memset(solution, 0, sizeof *solution);
     if (!status)
-        status = hci_quadratic_model_make(&machine->model, options->effects, temperature_C, &c, note);
-    if (!status) status = solve(machine, &c, options, &at, &a, solution, note);
-    hci_answer_release(&a);
-    hci_linear_torque_release(&at);
-    hci_quadratic_model_release(&c);
+        status = hci_quadratic_model_make(&machine->model, options->effects, temperature_C, &w.model, note);
+    if (!status) status = make_task(machine, &w.model, options, &w.task, note);
+    if (!status) status = solve_task(machine, options, &w, solution, note);
+    if (!status && w.model.left_out > 0) remark_left_out(options->effects, &solution->remark);
+    hci_answer_release(&w.answer);
+    hci_linear_torque_release(&w.at);
+    hci_quadratic_model_release(&w.model);
     if (!status) return verdict_of(solution);
     hci_solution_release(solution);
     return status;
