@@ -25,6 +25,9 @@ double hci_report_delta_bic(const hci_finding *finding);
 void hci_report_solution(hci_output *out, const hci_solution *solution, hci_status verdict,
                          const hci_report_sources *sources);
 
+/* Its section about the system that was solved; origin: as of hci_report_origin. */
+void hci_report_solution_system(hci_output *out, const hci_solution *solution, const char *origin);
+
 /* HCI_ERROR_MEMORY. */
 hci_status hci_report_simulation(hci_output *out, const hci_simulation *simulation, const hci_traces *traces,
                                  const hci_report_sources *sources, hci_note *note);

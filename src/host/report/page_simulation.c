@@ -9,7 +9,7 @@
 #include "host/plot/plot_drive.h"
 #include "host/report/report.h"
 
-/* SLICES of the evaluated time and STEPS of a turn: rows of the tables. STEPS: as in report_solve.c. */
+/* SLICES of the evaluated time and STEPS of a turn: rows of the tables. STEPS: as in page_solution.c. */
 enum { MOST_ORDERS = 24, SLICES = 20, STEPS = 40, LEAST_FOR_FLOOR = 8 };
 
 enum { SAMPLES_IN_STEP = 4, MOST_TURNS = 64, BASELINE_SIZE = 256 };
