@@ -69,8 +69,8 @@ static bool line_put(list *l, const hci_residual_line *line)
 /* What the lines are made of. */
 typedef struct {
     const hci_regression *regression;
-    const double *before_Nm, *after_Nm; /* of each sample */
-    double *sums;                       /* [orders][4] */
+    const hci_residuals *residuals;
+    double *sums; /* [orders][4] */
 } material;
 
 /* Fills the sums of a run. Returns its samples. */
@@ -82,15 +82,15 @@ static double sums_fill(const material *m, size_t run, size_t stride, size_t ord
     for (const hci_segment *s = NULL; (s = hci_segment_next(samples, run, s)) != NULL;)
         for (size_t j = s->first; j < s->first + s->count; ++j) {
             const hci_binned_sample *c = &samples->sample[j];
-            sample_add(c->raw.theta_m_rad * (double)stride, c->count, m->before_Nm[j], m->after_Nm[j],
-                       m->sums, orders);
+            sample_add(c->raw.theta_m_rad * (double)stride, c->count, m->residuals->before_Nm[j],
+                       m->residuals->after_Nm[j], m->sums, orders);
             count += c->count;
         }
     return count;
 }
 
 /* An amplitude 2/n |Σ| of white noise exceeds 2σ √(ln 20 / n) once in twenty times. */
-static bool run_lines(const material *m, size_t run, double noise_Nm, list *l)
+static bool run_lines(const material *m, size_t run, list *l)
 {
     const double p = m->regression->machine->pole_pairs;
     const size_t stride = m->regression->runs[run].turn_known ? 1 : (size_t)p;
@@ -100,22 +100,20 @@ static bool run_lines(const material *m, size_t run, double noise_Nm, list *l)
         const double scale = (k == 0 ? 1.0 : 2.0) / count, *sum = m->sums + 4 * k;
         const hci_residual_line line = {run, (double)(k * stride) / p, scale * hypot(sum[0], sum[1]),
                                         scale * hypot(sum[2], sum[3]),
-                                        2.0 * noise_Nm * sqrt(log(CHANCE) / count)};
+                                        2.0 * m->residuals->noise_Nm[run] * sqrt(log(CHANCE) / count)};
         if (fmax(line.before_Nm, line.after_Nm) > line.noise_Nm && !line_put(l, &line)) return false;
     }
     return true;
 }
 
-hci_status hci_residual_spectrum_make(const hci_regression *regression, const double *before_Nm,
-                                      const double *after_Nm, const double *noise_Nm,
+hci_status hci_residual_spectrum_make(const hci_regression *regression, const hci_residuals *residuals,
                                       hci_residual_line **lines, size_t *count, hci_note *note)
 {
     list l = {NULL, 0, 0};
-    const material m = {regression, before_Nm, after_Nm,
-                        hci_memory_new(4 * (MOST_PERIODS + 1), sizeof *m.sums)};
+    const material m = {regression, residuals, hci_memory_new(4 * (MOST_PERIODS + 1), sizeof *m.sums)};
     bool done = m.sums != NULL;
     for (size_t r = 0; r < regression->samples->run_count && done; ++r)
-        done = run_lines(&m, r, noise_Nm[r], &l);
+        done = run_lines(&m, r, &l);
     hci_memory_free(m.sums);
     if (!done) hci_memory_free(l.line);
     *lines = done ? l.line : NULL;

@@ -8,10 +8,14 @@
 #include "hci/host/diagnose/diagnose.h"
 #include "host/diagnose/fit/regression.h"
 
-/* before_Nm, after_Nm: of each sample. noise_Nm: rms for each run. lines: out, by run and order, to be freed;
- * NULL on failure. HCI_ERROR_MEMORY. O(samples·orders). */
-hci_status hci_residual_spectrum_make(const hci_regression *regression, const double *before_Nm,
-                                      const double *after_Nm, const double *noise_Nm,
+/* What is transformed. */
+typedef struct {
+    const double *before_Nm, *after_Nm; /* residual of each sample, without and with the correction */
+    const double *noise_Nm;             /* rms for each run */
+} hci_residuals;
+
+/* lines: out, by run and order, to be freed; NULL on failure. HCI_ERROR_MEMORY. O(samples·orders). */
+hci_status hci_residual_spectrum_make(const hci_regression *regression, const hci_residuals *residuals,
                                       hci_residual_line **lines, size_t *count, hci_note *note);
 
 #endif

@@ -114,8 +114,9 @@ static hci_status lines_fill(const hci_dataset *b, const double *before, const d
     if (!noise_Nm) return hci_note_memory(note, NULL, "the errors of the recordings");
     for (size_t r = 0; r < b->samples.run_count; ++r)
         noise_Nm[r] = noise_of_spectrum(b, r);
+    const hci_residuals residuals = {before, after, noise_Nm};
     const hci_status status =
-        hci_residual_spectrum_make(&b->regression, before, after, noise_Nm, &d->line, &d->lines, note);
+        hci_residual_spectrum_make(&b->regression, &residuals, &d->line, &d->lines, note);
     hci_memory_free(noise_Nm);
     return status;
 }
@@ -148,9 +149,11 @@ static void totals_of(const hci_diagnosis *d, hci_role role, double *before_Nm, 
     *noise_Nm = count > 0.0 ? sqrt(noise / count) : (double)NAN;
 }
 
-static hci_status fill(hci_dataset *b, const hci_runs *runs, size_t parameters, double *before, double *after,
+/* before: [2·samples], the residual without and behind it the one with the correction. */
+static hci_status fill(hci_dataset *b, const hci_runs *runs, size_t parameters, double *before,
                        hci_diagnosis *d, hci_note *note)
 {
+    double *after = before + b->samples.count;
     hci_status status = hci_regression_residual(&b->regression, b->regression.declared, before, note);
     if (!status) status = hci_regression_residual(&b->regression, &d->effects.list, after, note);
     if (!status) status = hci_regression_noise_estimate(&b->regression, after, parameters, 0.0, note);
@@ -166,7 +169,7 @@ hci_status hci_run_errors_fill(hci_dataset *b, const hci_runs *runs, size_t para
     if (!before) return hci_note_memory(note, NULL, "the errors of the recordings");
     b->regression.use = b->any;
     b->regression.raw = true;
-    const hci_status status = fill(b, runs, parameters, before, before + b->samples.count, d, note);
+    const hci_status status = fill(b, runs, parameters, before, d, note);
     b->regression.use = b->fit;
     b->regression.raw = false;
     hci_memory_free(before);

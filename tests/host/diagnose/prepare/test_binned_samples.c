@@ -141,24 +141,6 @@ static void test_other_columns_of_a_mean(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, 40.19, binned.statistics[0].temperature_C);
 }
 
-static void test_figures_of_a_run(void)
-{
-    turn_steadily(200.0, 401.618, -50.0);
-    run.theta_m_rad[5] = run.theta_m_rad[4]; /* a sample twice is no step */
-    reduce();
-    const hci_run_statistics *f = binned.statistics;
-    TEST_ASSERT_DOUBLE_WITHIN(0.001, 1.0, f->mean_torque_Nm);
-    TEST_ASSERT_DOUBLE_WITHIN(0.001, sqrt(1.0 + 0.5 * (0.04 + 0.0025 + 0.0009) + 0.0025), f->rms_torque_Nm);
-    TEST_ASSERT_DOUBLE_WITHIN(1e-9, -50.0, f->mean_speed_rad_per_s);
-    TEST_ASSERT_DOUBLE_WITHIN(1e-9, sqrt(10.0), f->current_A);
-    TEST_ASSERT_DOUBLE_WITHIN(1e-5, -1.0, f->mean_id_A);
-    TEST_ASSERT_DOUBLE_WITHIN(1e-5, 3.0, f->mean_iq_A);
-    TEST_ASSERT_DOUBLE_WITHIN(0.01 * NOISE_NM, NOISE_NM, f->repeat_Nm); /* 80000 samples: ± 0.25 % */
-    TEST_ASSERT_DOUBLE_WITHIN(1e-9, TURN / 401.618, f->angle_step_rad);
-    TEST_ASSERT_DOUBLE_WITHIN(0.01, 200.0, f->turns);
-    TEST_ASSERT_TRUE(isnan(f->temperature_C));
-}
-
 /* ---- holding maps: the current that holds the shaft, at rest, one way and the other ---- */
 
 /* Five turns there and five back; friction holds with one sign or the other. */
@@ -291,7 +273,6 @@ int main(void)
     RUN_TEST(test_turns_become_one_mean);
     RUN_TEST(test_turns_of_a_wrapped_electrical_angle);
     RUN_TEST(test_other_columns_of_a_mean);
-    RUN_TEST(test_figures_of_a_run);
     RUN_TEST(test_holding_there_and_back);
     RUN_TEST(test_an_unsteady_run_stays);
     RUN_TEST(test_short_runs);

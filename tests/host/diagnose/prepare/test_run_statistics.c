@@ -1,0 +1,88 @@
+/* What a run says of itself before any model, against closed forms of its waves. */
+#include "host/diagnose/prepare/run_statistics.h"
+
+#include "support/recording.h"
+#include "unity.h"
+
+enum { P = 3, PER_TURN = 600, TURNS = 40, N = TURNS * PER_TURN };
+
+static const double NOISE_NM = 0.05, RIPPLE_NM = 0.5;
+
+static uint64_t seed;
+static hci_run run;
+
+/* Steady currents and a ripple of order 12 of the turn, backwards. */
+void setUp(void)
+{
+    seed = 8;
+    run = rec_make(N);
+    for (size_t k = 0; k < N; ++k) {
+        run.theta_m_rad[k] = -2.0 * REF_PI * (double)k / PER_TURN;
+        run.time_s[k] = -run.theta_m_rad[k] / 50.0;
+        run.speed_rad_per_s[k] = -50.0;
+        rec_phases(-1.0, 3.0, P * run.theta_m_rad[k], run.i_A + 3 * k);
+        run.torque_Nm[k] = 1.0 + RIPPLE_NM * sin(12.0 * run.theta_m_rad[k]) + NOISE_NM * ref_normal(&seed);
+    }
+}
+
+void tearDown(void)
+{
+    rec_release(&run);
+}
+
+static void test_means(void)
+{
+    const hci_run_statistics x = hci_run_statistics_of(&run, P);
+    const double rms = sqrt(1.0 + 0.5 * RIPPLE_NM * RIPPLE_NM + NOISE_NM * NOISE_NM);
+    TEST_ASSERT_DOUBLE_WITHIN(3.0 * NOISE_NM / sqrt(N), 1.0, x.mean_torque_Nm);
+    TEST_ASSERT_DOUBLE_WITHIN(3.0 * NOISE_NM / sqrt(N), rms, x.rms_torque_Nm);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, -50.0, x.mean_speed_rad_per_s);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, sqrt(10.0), x.current_A);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, -1.0, x.mean_id_A);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 3.0, x.mean_iq_A);
+    TEST_ASSERT_TRUE(isnan(x.temperature_C));
+    run.temperature_C = calloc(N, sizeof *run.temperature_C);
+    for (size_t k = 0; k < N; ++k)
+        run.temperature_C[k] = 40.0 + (k % 2 ? 1.0 : -1.0);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 40.0, hci_run_statistics_of(&run, P).temperature_C);
+}
+
+/* A sample that stands still is no step; the way there and back is counted once. */
+static void test_angle(void)
+{
+    run.theta_m_rad[5] = run.theta_m_rad[4];
+    hci_run_statistics x = hci_run_statistics_of(&run, P);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 2.0 * REF_PI / PER_TURN, x.angle_step_rad);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, TURNS - 1.0 / PER_TURN, x.turns);
+    for (size_t k = N / 2; k < N; ++k)
+        run.theta_m_rad[k] = run.theta_m_rad[N - 1 - k];
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.5 * TURNS - 1.0 / PER_TURN, hci_run_statistics_of(&run, P).turns);
+}
+
+/* How well the torque repeats is its noise, not its ripple; two turns do not tell. */
+static void test_repeatability(void)
+{
+    const double spread = NOISE_NM / sqrt(2.0 * N); /* of a deviation that is found from N samples */
+    TEST_ASSERT_DOUBLE_WITHIN(4.0 * spread, NOISE_NM, hci_run_statistics_of(&run, P).repeat_Nm);
+    for (size_t k = 0; k < N; ++k)
+        run.theta_m_rad[k] *= 2.0 / TURNS;
+    TEST_ASSERT_TRUE(isnan(hci_run_statistics_of(&run, P).repeat_Nm));
+}
+
+/* Without angle or samples nothing is known. */
+static void test_nothing_is_there(void)
+{
+    run.count = 0;
+    const hci_run_statistics x = hci_run_statistics_of(&run, P);
+    TEST_ASSERT_TRUE(x.turns == 0.0 && x.current_A == 0.0 && isnan(x.repeat_Nm) && isnan(x.temperature_C));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_means);
+    RUN_TEST(test_angle);
+    RUN_TEST(test_repeatability);
+    RUN_TEST(test_nothing_is_there);
+    return UNITY_END();
+}
