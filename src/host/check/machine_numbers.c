@@ -1,31 +1,17 @@
 /* The numbers of a machine folder as they stand. Tables are read cell by cell and not by the loader, which
  * refuses some of what a convention error makes of them. */
-#define _POSIX_C_SOURCE 200809L
-
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "hci/host/machine/init.h"
 #include "hci/machine/frames.h"
 #include "host/base/memory.h"
 #include "host/check/data.h"
-#include "host/csv/name_values.h"
 #include "host/machine/folder.h"
 #include "host/machine/inductance.h"
+#include "host/machine/machine_values.h"
 #include "host/machine/spectrum_table.h"
-
-typedef struct {
-    const char *name, *unit;
-} value_name;
-
-static const value_name VALUES[] = {
-#define LIST_ONE(field, name, unit) {name, unit},
-    HCI_MACHINE_VALUES(LIST_ONE)
-#undef LIST_ONE
-};
 
 static void keep_text(char out[HCI_CHECK_TEXT], const char *text)
 {
@@ -46,40 +32,6 @@ static check_place place_of(const hci_csv *csv, const char *path, const char *na
 
 /* ---- machine.csv */
 
-static hci_status scalar_read(const hci_csv *csv, size_t row, size_t k, check_data *data, hci_note *note)
-{
-    if (data->cell[k].path)
-        return hci_csv_error(csv, "name", row, note, "each name once", "delete one of the two rows");
-    const hci_status status = hci_value_read(csv, row, VALUES[k].unit, &data->value[k], note);
-    if (status) return status;
-    data->cell[k] = place_of(csv, data->machine_path, "value", row);
-    return HCI_OK;
-}
-
-static hci_status row_read(const hci_csv *csv, size_t row, check_data *data, hci_note *note)
-{
-    const char *name;
-    const hci_status status = hci_csv_text(csv, "name", row, &name, note);
-    if (status) return status;
-    if (strcmp(name, "connection") == 0) return hci_machine_connection(csv, row, &data->has_neutral, note);
-    for (size_t k = 0; k < CHECK_VALUE_COUNT; ++k)
-        if (strcmp(name, VALUES[k].name) == 0) return scalar_read(csv, row, k, data, note);
-    return HCI_OK;
-}
-
-static hci_status pole_pairs_check(const check_data *data, hci_note *note)
-{
-    const double p = data->value[CHECK_pole_pairs];
-    if (p >= 1.0 && p <= 1000.0 && p == floor(p)) return HCI_OK;
-    if (isnan(p))
-        return hci_note_set(note, HCI_ERROR_INPUT, "%s: no `pole_pairs`; add a row `pole_pairs,N,1,source`",
-                            data->machine_path);
-    return hci_note_set(note, HCI_ERROR_INPUT,
-                        "%s:%zu: `pole_pairs`: found %g, expected a whole number from 1 to 1000; a machine "
-                        "with N poles has N/2 pole pairs",
-                        data->machine_path, data->cell[CHECK_pole_pairs].line, p);
-}
-
 static hci_status slots_check(const check_data *data, hci_note *note)
 {
     const double slots = data->value[CHECK_slots];
@@ -90,15 +42,16 @@ static hci_status slots_check(const check_data *data, hci_note *note)
                         data->machine_path, data->cell[CHECK_slots].line, slots, (int)HCI_MOST_SLOTS);
 }
 
-static hci_status scalars_read(check_data *data, hci_note *note)
+static hci_status values_read(check_data *data, hci_note *note)
 {
-    hci_csv *csv;
-    hci_status status = hci_csv_read(data->machine_path, &csv, note);
-    if (status) return status;
-    for (size_t row = 0; row < hci_csv_rows(csv) && !status; ++row)
-        status = row_read(csv, row, data, note);
-    hci_csv_free(csv);
-    if (!status) status = pole_pairs_check(data, note);
+    hci_machine_values v;
+    const hci_status status = hci_machine_values_read(data->machine_path, &v, note);
+    for (size_t k = 0; k < CHECK_VALUE_COUNT && !status; ++k) {
+        data->value[k] = v.value[k];
+        if (!isnan(v.value[k])) data->cell[k] = place_of(v.csv, data->machine_path, "value", v.row[k]);
+    }
+    data->has_neutral = v.has_neutral;
+    hci_machine_values_release(&v);
     return status ? status : slots_check(data, note);
 }
 
@@ -254,28 +207,13 @@ static hci_status inductance_read(check_data *data, hci_note *note)
 
 /* ---- the folder */
 
-static hci_status folder_check(const char *folder, hci_note *note)
-{
-    struct stat info;
-    if (stat(folder, &info) != 0)
-        return hci_note_set(note, HCI_ERROR_INPUT,
-                            "%.300s: %s; expected the folder of a machine with machine.csv and back_emf.csv",
-                            folder, strerror(errno));
-    if (!S_ISDIR(info.st_mode))
-        return hci_note_set(
-            note, HCI_ERROR_INPUT,
-            "%.300s: found a file, expected the folder of a machine with machine.csv and back_emf.csv",
-            folder);
-    return HCI_OK;
-}
-
 hci_status hci_check_machine_read(const char *folder, check_data *data, hci_note *note)
 {
-    hci_status status = folder_check(folder, note);
+    hci_status status = hci_machine_check_folder(folder, note);
     for (size_t k = 0; k < CHECK_VALUE_COUNT; ++k)
         data->value[k] = NAN;
     if (!status) status = hci_machine_path(data->machine_path, HCI_CHECK_PATH, folder, "machine.csv", note);
-    if (!status) status = scalars_read(data, note);
+    if (!status) status = values_read(data, note);
     if (!status) status = hci_machine_path(data->emf.path, HCI_CHECK_PATH, folder, "back_emf.csv", note);
     if (!status) status = emf_read(data, note);
     if (!status) status = hci_machine_path(data->cogging.path, HCI_CHECK_PATH, folder, "cogging.csv", note);

@@ -8,29 +8,14 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "hci/host/base/text.h"
 #include "hci/host/csv/csv.h"
 #include "host/base/memory.h"
-#include "host/csv/name_values.h"
 #include "host/machine/folder.h"
 #include "host/machine/inductance.h"
+#include "host/machine/machine_values.h"
 #include "host/machine/spectrum_table.h"
 
 #define PATH_SIZE 4096
-
-enum {
-#define COUNT_ONE(field, name, unit) +1
-    SCALARS = 0 HCI_MACHINE_VALUES(COUNT_ONE)
-#undef COUNT_ONE
-};
-
-static void list_scalars(hci_machine_data *m, hci_named_value list[SCALARS])
-{
-    size_t k = 0;
-#define LIST_ONE(field, text, unit_text) list[k++] = (hci_named_value){text, unit_text, &m->field};
-    HCI_MACHINE_VALUES(LIST_ONE)
-#undef LIST_ONE
-}
 
 bool hci_machine_has(const char *path)
 {
@@ -46,72 +31,32 @@ hci_status hci_machine_path(char *path, size_t size, const char *folder, const c
                         size - 1);
 }
 
-hci_status hci_machine_connection(const hci_csv *csv, size_t row, bool *has_neutral, hci_note *note)
+hci_status hci_machine_check_folder(const char *folder, hci_note *note)
 {
-    const char *text;
-    const hci_status status = hci_csv_text(csv, "value", row, &text, note);
-    if (status) return status;
-    *has_neutral = hci_text_is(text, "star-neutral");
-    if (*has_neutral || hci_text_is(text, "star")) return HCI_OK;
-    return hci_csv_error(csv, "value", row, note, "`star` or `star-neutral`",
-                         "for a delta winding give the equivalent star's values");
+    struct stat info;
+    if (stat(folder, &info) != 0)
+        return hci_note_set(note, HCI_ERROR_INPUT,
+                            "%.300s: %s; expected the folder of a machine with machine.csv and back_emf.csv",
+                            folder, strerror(errno));
+    if (S_ISDIR(info.st_mode)) return HCI_OK;
+    return hci_note_set(
+        note, HCI_ERROR_INPUT,
+        "%.300s: found a file, expected the folder of a machine with machine.csv and back_emf.csv", folder);
 }
 
-static void remark_unknown(hci_machine_data *m, const char *path, const char *name)
+static hci_status read_values(const char *path, hci_machine_data *m, hci_note *note)
 {
-    const size_t used = strlen(m->remark.text);
-    char *end = m->remark.text + used;
-    const size_t left = sizeof m->remark.text - used;
-    if (used == 0)
-        snprintf(end, left, "%.300s: not used: %.60s", path, name);
-    else
-        snprintf(end, left, ", %.60s", name);
-}
-
-static hci_status read_row(const hci_csv *csv, size_t row, hci_machine_data *m, hci_note *note)
-{
-    hci_named_value list[SCALARS];
-    const char *name;
-    size_t k;
-    hci_status status = hci_csv_text(csv, "name", row, &name, note);
-    if (status) return status;
-    if (strcmp(name, "connection") == 0) return hci_machine_connection(csv, row, &m->has_neutral, note);
-    list_scalars(m, list);
-    status = hci_named_value_find(csv, row, list, SCALARS, &k, note);
-    if (status) return status;
-    if (k < SCALARS) return hci_value_read(csv, row, list[k].unit, list[k].value, note);
-    remark_unknown(m, hci_csv_path(csv), name);
-    return HCI_OK;
-}
-
-static hci_status check_pole_pairs(const char *path, hci_machine_data *m, hci_note *note)
-{
-    if (isnan(m->pole_pairs))
-        return hci_note_set(note, HCI_ERROR_INPUT, "%s: no `pole_pairs`; add a row `pole_pairs,N,1,source`",
-                            path);
-    if (m->pole_pairs < 1.0 || m->pole_pairs > 1000.0 || m->pole_pairs != floor(m->pole_pairs))
-        return hci_note_set(
-            note, HCI_ERROR_INPUT,
-            "%s: `pole_pairs`: found %g, expected a whole number from 1 to 1000; a machine with N poles "
-            "has N/2 pole pairs",
-            path, m->pole_pairs);
-    m->model.pole_pairs = (int)m->pole_pairs;
-    return HCI_OK;
-}
-
-static hci_status read_scalars(const char *path, hci_machine_data *m, hci_note *note)
-{
-    hci_named_value list[SCALARS];
-    hci_csv *csv;
-    hci_status status = hci_csv_read(path, &csv, note);
-    if (status) return status;
-    list_scalars(m, list);
-    for (size_t k = 0; k < SCALARS; ++k)
-        *list[k].value = NAN;
-    for (size_t row = 0; row < hci_csv_rows(csv) && !status; ++row)
-        status = read_row(csv, row, m, note);
-    hci_csv_free(csv);
-    return status ? status : check_pole_pairs(path, m, note);
+    hci_machine_values v;
+    const hci_status status = hci_machine_values_read(path, &v, note);
+    const double *value = v.value;
+#define TAKE_ONE(field, name, unit) m->field = *value++;
+    HCI_MACHINE_VALUES(TAKE_ONE)
+#undef TAKE_ONE
+    m->has_neutral = v.has_neutral;
+    m->remark = v.remark;
+    m->model.pole_pairs = status ? 0 : (int)m->pole_pairs;
+    hci_machine_values_release(&v);
+    return status;
 }
 
 /* Volts at the electrical frequency f become V·s/rad by ω_m = 2πf/p. */
@@ -229,7 +174,7 @@ static hci_status read_folder(const char *folder, hci_machine_data *m, hci_note 
 {
     char path[PATH_SIZE];
     hci_status status = hci_machine_path(path, PATH_SIZE, folder, "machine.csv", note);
-    if (!status) status = read_scalars(path, m, note);
+    if (!status) status = read_values(path, m, note);
     if (!status) status = hci_machine_path(path, PATH_SIZE, folder, "back_emf.csv", note);
     if (!status) status = read_emf(path, m, note);
     if (!status) status = hci_machine_path(path, PATH_SIZE, folder, "cogging.csv", note);
@@ -243,18 +188,9 @@ static hci_status read_folder(const char *folder, hci_machine_data *m, hci_note 
 
 hci_status hci_machine_read(const char *path, hci_machine_data *machine, hci_note *note)
 {
-    struct stat info;
-    hci_status status;
     memset(machine, 0, sizeof *machine);
-    if (stat(path, &info) != 0)
-        return hci_note_set(note, HCI_ERROR_INPUT,
-                            "%s: %s; expected the folder of a machine with machine.csv and back_emf.csv",
-                            path, strerror(errno));
-    if (!S_ISDIR(info.st_mode))
-        return hci_note_set(
-            note, HCI_ERROR_INPUT,
-            "%s: found a file, expected the folder of a machine with machine.csv and back_emf.csv", path);
-    status = read_folder(path, machine, note);
+    hci_status status = hci_machine_check_folder(path, note);
+    if (!status) status = read_folder(path, machine, note);
     if (status) hci_machine_release(machine);
     return status;
 }
