@@ -1,5 +1,5 @@
 #!/bin/sh
-# labels: report
+# labels: report slow
 # The three reports in a headless Chromium without network: nothing on the console, nothing fetched, readable in the light, in
 # the dark, on a telephone, on paper, by keyboard and without JavaScript. Then copies of a report that are spoilt in one way each:
 # what is wrong is said of each of them.

@@ -1,4 +1,5 @@
 #!/bin/sh
+# labels: slow
 # Runs every command that the documentation shows, page by page and in the order of the page, each page in a fresh copy of the data; compares what
 # the pages show as output; looks for unknown options in command lines in prose, and for names of files and tests that do not exist.
 #   docs_commands.sh SOURCE_DIR BUILD_DIR HCI_SOLVE [PAGE...]

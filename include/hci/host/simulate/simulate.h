@@ -93,6 +93,7 @@ extern "C" {
     X("strategy_2", HCI_STRATEGY_NAMES, "none", "from strategy_2_from on")                                   \
     X("currents", HCI_SCENARIO_PATHS, "none",                                                                \
       "currents.csv, or the folder that `solve` wrote; relative to this file")
+/* What `currents` may be: any path. */
 #define HCI_SCENARIO_PATHS(X) X(0, "path")
 
 /* Bytes of a path. */
