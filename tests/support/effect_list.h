@@ -10,7 +10,7 @@
 #include "support/draws.h"
 #include "unity.h"
 
-enum { EL_EFFECTS = 16, EL_TERMS = 96 };
+enum { EL_EFFECTS = 32, EL_TERMS = 96 };
 
 typedef struct {
     hci_effect effect[EL_EFFECTS];
@@ -73,13 +73,15 @@ static inline void el_machine_make(el_machine *m)
 
 static inline hci_sample el_sample(uint64_t *seed)
 {
-    hci_sample x;
+    hci_sample x = {0};
     x.theta_m_rad = ref_uniform(seed, 0.0, 2.0 * REF_PI);
     x.speed_rad_per_s = ref_uniform(seed, -100.0, 100.0);
     for (int s = 0; s < 3; ++s) {
         x.i_abc[s] = ref_uniform(seed, -5.0, 5.0);
         x.change_A_per_s[s] = ref_uniform(seed, -500.0, 500.0);
     }
+    for (int s = 0; s < 3; ++s)
+        x.curvature_A_per_s2[s] = 100.0 * x.change_A_per_s[(s + 1) % 3];
     x.temperature_C = ref_uniform(seed, 20.0, 100.0);
     return x;
 }

@@ -61,7 +61,7 @@ enum {
                                      * current answers to the torque */
     HCI_PARAMETER_WITH_SPEED = 4,   /* acts with the speed: not to be seen in a holding test either */
     HCI_PARAMETER_OF_TRANSDUCER = 8,     /* of a torque sensor: to be seen in a measured torque only */
-    HCI_PARAMETER_ALONG_TIME = 16,       /* makes `filter` act when it is above 0 */
+    HCI_PARAMETER_ALONG_TIME = 16,       /* makes `filter` act unless it is 0 */
     HCI_PARAMETER_LAG = 32,              /* a time constant of `filter`: at 0 its regressor is −dT/dt */
     HCI_PARAMETER_REFERENCE_CURRENT = 64 /* the current at which the other values hold: not fitted, a
                                           * diagnosis sets it to the largest that was measured */
@@ -134,6 +134,7 @@ typedef struct {
     const hci_machine *machine; /* declared */
     bool timed;                 /* a run has time and speed */
     bool moving;                /* the shaft turned */
+    bool both_directions;       /* in one run forward, in one backward */
     bool has_temperature;       /* of the magnets */
     bool has_turn;              /* the angle tells where in the mechanical turn the rotor was */
     size_t speeds;              /* how many different ones, at most 3 */
@@ -164,6 +165,16 @@ typedef struct {
     void (*add)(void *context, const hci_effect_candidate *candidate);
     void *context; /* first argument of add */
 } hci_effect_proposals;
+
+/* A run whose torque is modelled. */
+typedef struct {
+    const double *time_s; /* ascending; a step back starts anew */
+    size_t count;         /* samples */
+    double *torque_Nm;    /* [count], in/out */
+    double *by_value;     /* [count][columns], in/out: derivatives by the values of all effects; or NULL */
+    size_t columns;       /* of by_value */
+    size_t own_column;    /* the first one of the effect's terms */
+} hci_effect_run;
 
 /* What a run must have for an effect to act in a model. */
 enum {
@@ -207,8 +218,8 @@ struct hci_effect_type {
     void (*torque_of_all)(const hci_effect *effect, const hci_machine *machine, const hci_sample *truth,
                           hci_effect_torque *sum, double *by_value);
 
-    /* What brakes the shaft of a simulated drive: the smooth part at a speed. */
-    double (*drag_Nm)(const hci_effect *effect, double speed_rad_per_s);
+    /* What brakes the shaft of a simulated drive: the smooth part in a state. */
+    double (*drag_Nm)(const hci_effect *effect, const hci_plant_state *state);
 
     /* And the Coulomb part. */
     double (*coulomb_Nm)(const hci_effect *effect);
@@ -234,10 +245,8 @@ struct hci_effect_type {
     void (*simulate)(const hci_effect *effect, int pole_pairs, hci_sensor *sensors,
                      hci_effect_channel *channels);
 
-    /* The dynamics of the torque sensor along a run, in place: torque_Nm[n], and by_value[n][columns], of
-     * which those from own_column on are the effect's terms; NULL: not wanted. */
-    void (*filter)(const hci_effect *effect, const double *time_s, size_t n, double *torque_Nm,
-                   double *by_value, size_t columns, size_t own_column);
+    /* What happens to the reading of the torque along a run, in place. */
+    void (*filter)(const hci_effect *effect, const hci_effect_run *run);
 };
 
 /* Type k of the registry; NULL behind the last one. */

@@ -126,7 +126,7 @@ void hci_effects_apply(const void *context, const hci_plant_state *state, hci_pl
     add_to_point(&x, state->i, point);
     for (size_t k = 0; k < plant->effects->count; ++k) {
         const hci_effect *effect = &plant->effects->effect[k];
-        if (effect->type->drag_Nm) point->shaft_Nm += effect->type->drag_Nm(effect, state->speed_rad_per_s);
+        if (effect->type->drag_Nm) point->shaft_Nm += effect->type->drag_Nm(effect, state);
     }
 }
 
@@ -191,7 +191,7 @@ void hci_effects_filter(const hci_effects *effects, const double *time_s, size_t
     const size_t columns = hci_effects_terms(effects);
     for (size_t k = 0; k < effects->count; ++k) {
         const hci_effect *effect = &effects->effect[k];
-        if (effect->type->filter)
-            effect->type->filter(effect, time_s, n, torque_Nm, by_value, columns, first_term(effects, k));
+        const hci_effect_run run = {time_s, n, torque_Nm, by_value, columns, first_term(effects, k)};
+        if (effect->type->filter) effect->type->filter(effect, &run);
     }
 }

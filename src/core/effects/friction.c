@@ -32,8 +32,9 @@ static double coulomb_Nm(const hci_effect *effect)
     return hci_effect_value(effect, COULOMB);
 }
 
-static double drag_Nm(const hci_effect *effect, double speed)
+static double drag_Nm(const hci_effect *effect, const hci_plant_state *state)
 {
+    const double speed = state->speed_rad_per_s;
     return hci_effect_value(effect, VISCOUS) * law(VISCOUS, speed) +
            hci_effect_value(effect, QUADRATIC) * law(QUADRATIC, speed);
 }
@@ -46,7 +47,7 @@ static double modify(const hci_effect *effect, const hci_plant_state *plant, dou
     (void)theta_m_rad;
     if (!plant) return value;
     const double speed = plant->speed_rad_per_s;
-    return value - coulomb_Nm(effect) * law(COULOMB, speed) - drag_Nm(effect, speed);
+    return value - coulomb_Nm(effect) * law(COULOMB, speed) - drag_Nm(effect, plant);
 }
 
 static void simulate(const hci_effect *effect, int pole_pairs, hci_sensor *sensors,

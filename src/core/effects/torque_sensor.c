@@ -101,27 +101,26 @@ static void filter_column(const stage *s, const double *time_s, size_t n, double
         answer(s, time_s, k, &m, &column[k * stride]);
 }
 
-static void filter_stage(const hci_effect *effect, const stage *s, const double *time_s, size_t n,
-                         double *torque_Nm, double *by_value, size_t columns, size_t own)
+static void filter_stage(const hci_effect *effect, const stage *s, const hci_effect_run *run)
 {
     stage_state m = {0.0, 0.0, 0.0};
-    for (size_t k = 0; k < n; ++k) {
-        answer(s, time_s, k, &m, &torque_Nm[k]);
-        for (size_t j = 0; by_value && j < effect->count; ++j)
-            by_value[k * columns + own + j] += input_for(s, &m, effect->term[j].parameter);
+    for (size_t k = 0; k < run->count; ++k) {
+        answer(s, run->time_s, k, &m, &run->torque_Nm[k]);
+        for (size_t j = 0; run->by_value && j < effect->count; ++j)
+            run->by_value[k * run->columns + run->own_column + j] +=
+                input_for(s, &m, effect->term[j].parameter);
     }
-    for (size_t c = 0; by_value && c < columns; ++c)
-        filter_column(s, time_s, n, by_value + c, columns);
+    for (size_t c = 0; run->by_value && c < run->columns; ++c)
+        filter_column(s, run->time_s, run->count, run->by_value + c, run->columns);
 }
 
 /* The offset comes behind the lag, but a constant passes both unchanged. */
-static void filter(const hci_effect *effect, const double *time_s, size_t n, double *torque_Nm,
-                   double *by_value, size_t columns, size_t own_column)
+static void filter(const hci_effect *effect, const hci_effect_run *run)
 {
     stage stages[2];
     const size_t count = stages_of(effect, stages);
     for (size_t k = 0; k < count; ++k)
-        filter_stage(effect, &stages[k], time_s, n, torque_Nm, by_value, columns, own_column);
+        filter_stage(effect, &stages[k], run);
 }
 
 /* ---- on a simulated drive ---- */

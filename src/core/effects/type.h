@@ -18,13 +18,19 @@
     X(saturation)                                                                                            \
     X(magnet_temperature)                                                                                    \
     X(mechanical_order)                                                                                      \
+    X(unequal_magnets)                                                                                       \
     X(friction)                                                                                              \
+    X(stribeck_friction)                                                                                     \
+    X(iron_drag)                                                                                             \
     X(channel_delay)                                                                                         \
+    X(current_filter)                                                                                        \
     X(position_eccentricity)                                                                                 \
+    X(position_harmonics)                                                                                    \
     X(position_offset)                                                                                       \
     X(current_gain)                                                                                          \
     X(current_offset)                                                                                        \
-    X(torque_sensor)
+    X(torque_sensor)                                                                                         \
+    X(torque_drift)
 
 #define HCI_EFFECT_DECLARE(name) extern const hci_effect_type hci_effect_##name;
 HCI_EFFECT_TYPES(HCI_EFFECT_DECLARE)

@@ -111,6 +111,8 @@ void hci_findings_fill(const hci_attribution *a, hci_diagnosis *d)
 {
     const double whole_Nm2 = d->rms_before_Nm * d->rms_before_Nm;
     for (size_t r = 0; r < a->types; ++r) {
+        const hci_effect_type *type = a->verdict[r].type;
+        if (!a->verdict[r].in && !type->propose && type != &hci_empirical_type) continue; /* not looked for */
         const hci_finding f = finding_of(a, &a->verdict[r], whole_Nm2);
         finding_put(d, &f);
     }

@@ -150,6 +150,16 @@ static double turn_current(const hci_sample *x, double theta, double d, double q
     return 0.03 * q * cos(2.0 * x->theta_m_rad);
 }
 
+static double unequal_third(const hci_sample *x, double theta, double d, double q)
+{
+    double sum = 2.0 * 0.05 * sin(12.0 * theta + 0.3);
+    (void)d;
+    (void)q;
+    for (int s = 0; s < 3; ++s)
+        sum += el_emf(s, theta) * x->i_abc[s];
+    return 0.03 * sin(x->theta_m_rad) * sum;
+}
+
 static const machine_case MACHINE[] = {
     {"cogging", "sine", 18.0, 0.02, cogging_18},
     {"cogging", "cosine", 0.333333, 0.02, cogging_third},
@@ -166,6 +176,7 @@ static const machine_case MACHINE[] = {
     {"magnet_temperature", "emf_per_kelvin", 0.0, -0.001, hot},
     {"mechanical_order", "sine", 1.0 / 3.0, 0.03, turn_constant},
     {"mechanical_order", "iq_cosine", 0.666667, 0.03, turn_current},
+    {"unequal_magnets", "sine", 0.333333, 0.03, unequal_third},
 };
 
 enum { MACHINE_CASES = sizeof MACHINE / sizeof *MACHINE };
@@ -237,6 +248,69 @@ static void test_friction_brakes(void)
     x.speed_rad_per_s = 10.0; /* friction is not in the air gap */
     TEST_ASSERT_EQUAL_DOUBLE(0.0, hci_effects_torque(&nothing, &l.list, &x, NULL).torque_Nm);
     TEST_ASSERT_DOUBLE_WITHIN(1e-15, 0.1, hci_effects_coulomb_Nm(&l.list));
+}
+
+/* At the Stribeck speed 1/e of the excess is left; the plant's two parts add up to the torque at any speed.
+ */
+static void test_stribeck_friction_fades(void)
+{
+    static const double SPEED[] = {-30.0, -5.0, -0.1, 0.1, 2.0, 5.0, 30.0};
+    const hci_machine nothing = {3, NULL, 0, NULL, 0, NULL, 0};
+    el_list l = {0};
+    double by[2];
+    el_add(&l, "stribeck_friction", "excess", 0.0, 0.2);
+    el_add(&l, "stribeck_friction", "speed", 0.0, 5.0);
+    for (size_t k = 0; k < sizeof SPEED / sizeof *SPEED; ++k) {
+        const hci_sample x = {.speed_rad_per_s = SPEED[k]};
+        const hci_plant_state y = {.speed_rad_per_s = SPEED[k]};
+        const double sign = SPEED[k] < 0.0 ? -1.0 : 1.0, h = 1e-4;
+        const double torque = hci_effects_predict(&nothing, &l.list, &x, by);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-15, -sign * 0.2 * exp(-SPEED[k] * SPEED[k] / 25.0), torque);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-14, torque,
+                                  -sign * hci_effects_coulomb_Nm(&l.list) -
+                                      l.effect[0].type->drag_Nm(&l.effect[0], &y));
+        TEST_ASSERT_DOUBLE_WITHIN(1e-14, torque / 0.2, by[0]);
+        l.term[0][1].value = 5.0 + h;
+        const double more = hci_effects_predict(&nothing, &l.list, &x, NULL);
+        l.term[0][1].value = 5.0 - h;
+        const double less = hci_effects_predict(&nothing, &l.list, &x, NULL);
+        l.term[0][1].value = 5.0;
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, (more - less) / (2.0 * h), by[1]); /* h² = 1e-8, times 0.02 */
+    }
+}
+
+/* i_d² + i_q² whatever the angle, and a zero sequence has no part in it; derivatives against differences. */
+static void test_iron_drag_grows_with_load(void)
+{
+    uint64_t seed = 11;
+    const hci_machine nothing = {3, NULL, 0, NULL, 0, NULL, 0};
+    for (int j = 0; j < DRAWS; ++j) {
+        el_list l = {0};
+        el_add(&l, "iron_drag", "hysteresis", 0.0, 0.003);
+        el_add(&l, "iron_drag", "eddy", 0.0, 2e-5);
+        hci_sample x = el_sample(&seed);
+        double d, q;
+        rotor(&x, &d, &q);
+        const double sign = x.speed_rad_per_s < 0.0 ? -1.0 : 1.0;
+        const double torque = -(0.003 * sign + 2e-5 * x.speed_rad_per_s) * (d * d + q * q);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-14, torque, hci_effects_predict(&nothing, &l.list, &x, NULL));
+        TEST_ASSERT_EQUAL_DOUBLE(0.0, hci_effects_torque(&nothing, &l.list, &x, NULL).torque_Nm);
+        hci_effect_torque t = {0};
+        for (size_t k = 0; k < 2; ++k)
+            l.effect[0].type->torque(&l.effect[0], &l.term[0][k], &nothing, &x, &t);
+        for (int s = 0; s < 3; ++s) { /* quadratic: a difference of any width */
+            hci_sample more = x, less = x;
+            more.i_abc[s] += 0.5;
+            less.i_abc[s] -= 0.5;
+            TEST_ASSERT_DOUBLE_WITHIN(1e-13,
+                                      hci_effects_predict(&nothing, &l.list, &more, NULL) -
+                                          hci_effects_predict(&nothing, &l.list, &less, NULL),
+                                      t.by_current[s]);
+        }
+        hci_plant_state y = {.speed_rad_per_s = x.speed_rad_per_s};
+        hci_plane_from_abc(x.i_abc, y.i);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-14, -torque, l.effect[0].type->drag_Nm(&l.effect[0], &y));
+    }
 }
 
 /* ---- derivatives ---- */
@@ -363,6 +437,32 @@ static void test_regressors_of_linear_types(void)
     }
 }
 
+/* What is called linear has a regressor that does not depend on its value, by itself and at once; what is
+ * not, has none. */
+static void test_linear_parameters(void)
+{
+    const hci_effect_type *type;
+    uint64_t seed = 13;
+    const hci_sample x = el_sample(&seed);
+    for (size_t r = 0; (type = hci_effect_type_at(r)) != NULL; ++r) {
+        for (size_t k = 0; k < type->parameter_count; ++k) {
+            const hci_effect_parameter *p = &type->parameter[k];
+            double by[2];
+            if (!(p->traits & HCI_PARAMETER_LINEAR)) continue;
+            for (int j = 0; j < 2; ++j) {
+                el_list l = {0};
+                el_add(&l, type->name, p->name,
+                       !p->ordered ? 0.0
+                       : p->whole  ? 2.0
+                                   : 4.0 / 3.0,
+                       0.01 + 3.0 * j);
+                hci_effects_predict(&m.machine, &l.list, &x, &by[j]);
+            }
+            TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1e-12 * fabs(by[0]), by[0], by[1], p->name);
+        }
+    }
+}
+
 /* ---- bench ---- */
 
 /* A drive at constant speed: what each channel shows at an instant, by formulas over time. */
@@ -435,6 +535,61 @@ static void test_readings_and_back(void)
             TEST_ASSERT_DOUBLE_WITHIN(1e-13, truth.i_abc[s], back.i_abc[s]);
             TEST_ASSERT_DOUBLE_WITHIN(1e-11, truth.change_A_per_s[s], back.change_A_per_s[s]);
         }
+    }
+}
+
+/* Every effect of a sensor at once, each with several terms. */
+static void test_all_readings_and_back(void)
+{
+    uint64_t seed = 12;
+    el_list l;
+    bench(&l);
+    el_add(&l, "position_harmonics", "sine", 1.0, 0.02);
+    el_add(&l, "position_harmonics", "cosine", 4.0, 0.01);
+    el_add(&l, "current_filter", "time_constant", 0.0, 4e-4);
+    for (int j = 0; j < DRAWS; ++j) {
+        const hci_sample truth = el_sample(&seed), reading = hci_effects_sense(&l.list, P, &truth);
+        const hci_sample back = hci_effects_undo(&l.list, P, &reading);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-13, truth.theta_m_rad, back.theta_m_rad);
+        for (int s = 0; s < 3; ++s) {
+            TEST_ASSERT_DOUBLE_WITHIN(1e-12, truth.i_abc[s], back.i_abc[s]);
+            TEST_ASSERT_DOUBLE_WITHIN(1e-10, truth.change_A_per_s[s], back.change_A_per_s[s]);
+            TEST_ASSERT_DOUBLE_WITHIN(1e-8, truth.curvature_A_per_s2[s], back.curvature_A_per_s2[s]);
+        }
+    }
+}
+
+/* Offsets and unequal amplitudes of a resolver's sine, read by the arctangent: to first order the harmonics
+ * that position_harmonics has. */
+static void test_harmonics_of_a_resolver(void)
+{
+    const double offset = 1e-4, unequal = 1e-4;
+    el_list l = {0};
+    el_add(&l, "position_harmonics", "cosine", 1.0, offset);
+    el_add(&l, "position_harmonics", "sine", 2.0, 0.5 * unequal);
+    for (int k = 0; k < 24; ++k) {
+        const double theta = 0.01 + k * REF_PI / 12.0 - REF_PI;
+        const double read = atan2((1.0 + unequal) * sin(theta) + offset, cos(theta));
+        const hci_sample x = {.theta_m_rad = theta / P};
+        TEST_ASSERT_DOUBLE_WITHIN(5e-8, read, P * hci_effects_sense(&l.list, P, &x).theta_m_rad);
+    }
+}
+
+/* A sine behind the low pass: smaller by 1/sqrt(1 + (ωτ)²), later by atan ωτ. */
+static void test_current_filter_of_a_sine(void)
+{
+    const double tau = 2e-3, w = P * OMEGA;
+    el_list l = {0};
+    el_add(&l, "current_filter", "time_constant", 0.0, tau);
+    for (int k = 0; k < 10; ++k) {
+        const double t = 0.003 * k;
+        const hci_sample truth = truth_at(t), reading = hci_effects_sense(&l.list, P, &truth);
+        for (int s = 0; s < 3; ++s)
+            TEST_ASSERT_DOUBLE_WITHIN(
+                1e-12,
+                AMPLITUDE / hypot(1.0, w * tau) *
+                    sin(P * true_angle(t) - 2.0 * REF_PI * s / 3.0 + PHASE - atan(w * tau)),
+                reading.i_abc[s]);
     }
 }
 
@@ -571,6 +726,20 @@ static void test_torque_sensor_starts_and_repeats(void)
         TEST_ASSERT_DOUBLE_WITHIN(1e-12, answer[k], torque[k]);
 }
 
+/* Straight in time from the start of each run; a step back is another run. */
+static void test_torque_drift_follows_the_time(void)
+{
+    const double time[] = {2.0, 3.0, 5.0, 1.0, 4.0}, since[] = {0.0, 1.0, 3.0, 0.0, 3.0};
+    double torque[] = {1.0, 1.0, 1.0, 1.0, 1.0}, by[5] = {0.0};
+    el_list l = {0};
+    el_add(&l, "torque_drift", "rate", 0.0, 0.5);
+    hci_effects_filter(&l.list, time, 5, torque, by);
+    for (int k = 0; k < 5; ++k) {
+        TEST_ASSERT_EQUAL_DOUBLE(1.0 + 0.5 * since[k], torque[k]);
+        TEST_ASSERT_EQUAL_DOUBLE(since[k], by[k]);
+    }
+}
+
 /* A column of regressors is filtered like the torque. */
 static void test_torque_sensor_filters_regressors(void)
 {
@@ -593,20 +762,34 @@ static void test_torque_sensor_filters_regressors(void)
 
 static void test_registry(void)
 {
-    static const char *const NAMES[] = {"cogging",         "back_emf",
-                                        "phase_imbalance", "reluctance",
-                                        "saturation",      "magnet_temperature",
-                                        "current_offset",  "current_gain",
-                                        "position_offset", "position_eccentricity",
-                                        "channel_delay",   "friction",
-                                        "torque_sensor",   "mechanical_order"};
+    static const char *const NAMES[] = {"cogging",
+                                        "back_emf",
+                                        "phase_imbalance",
+                                        "reluctance",
+                                        "saturation",
+                                        "magnet_temperature",
+                                        "current_offset",
+                                        "current_gain",
+                                        "position_offset",
+                                        "position_eccentricity",
+                                        "channel_delay",
+                                        "friction",
+                                        "torque_sensor",
+                                        "mechanical_order",
+                                        "unequal_magnets",
+                                        "stribeck_friction",
+                                        "iron_drag",
+                                        "current_filter",
+                                        "position_harmonics",
+                                        "torque_drift"};
     const size_t count = sizeof NAMES / sizeof *NAMES;
     for (size_t k = 0; k < count; ++k) {
         const hci_effect_type *type = hci_effect_type_find(NAMES[k]);
         TEST_ASSERT_NOT_NULL_MESSAGE(type, NAMES[k]);
         TEST_ASSERT_EQUAL_STRING(NAMES[k], type->name);
         TEST_ASSERT_TRUE(type->equation && type->signature && type->parameter_count > 0);
-        TEST_ASSERT_TRUE(type->torque || type->torque_of_all || type->undo);
+        TEST_ASSERT_TRUE(type->torque || type->torque_of_all || type->undo || type->filter);
+        TEST_ASSERT_TRUE(!type->needs || type->without || type->needs == HCI_EFFECT_NEEDS_RATE);
         TEST_ASSERT_TRUE(!type->sense == !type->undo && !type->undo == !type->undo_adjoint);
     }
     TEST_ASSERT_NOT_NULL(hci_effect_type_at(count - 1));
@@ -633,6 +816,13 @@ int main(void)
     RUN_TEST(test_saturation_scales_with_its_reference);
     RUN_TEST(test_unknown_temperature_is_the_reference);
     RUN_TEST(test_friction_brakes);
+    RUN_TEST(test_stribeck_friction_fades);
+    RUN_TEST(test_iron_drag_grows_with_load);
+    RUN_TEST(test_all_readings_and_back);
+    RUN_TEST(test_harmonics_of_a_resolver);
+    RUN_TEST(test_current_filter_of_a_sine);
+    RUN_TEST(test_torque_drift_follows_the_time);
+    RUN_TEST(test_linear_parameters);
     RUN_TEST(test_derivatives_by_current_and_angle);
     RUN_TEST(test_derivatives_by_every_parameter);
     RUN_TEST(test_regressors_of_linear_types);

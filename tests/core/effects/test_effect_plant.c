@@ -107,6 +107,20 @@ static void test_no_net_work_over_a_closed_cycle(void)
     }
 }
 
+/* Of degree 1 and 0 at once: the back-EMF and the cogging of the machine. */
+static void test_no_net_work_of_unequal_magnets(void)
+{
+    el_list l = {0};
+    el_add(&l, "unequal_magnets", "sine", 1.0 / 3.0, 0.1);
+    el_add(&l, "unequal_magnets", "cosine", 2.0 / 3.0, 0.05);
+    for (int turns = 0; turns < 2; ++turns) {
+        double work;
+        const double energy = loop_energy(&l.list, turns, &work);
+        TEST_ASSERT_TRUE(work > 1e-2);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12 * work, 0.0, energy);
+    }
+}
+
 /* At constant phase currents a torque that comes from a co-energy does no work over a turn. */
 static void test_no_net_torque_at_constant_phase_current(void)
 {
@@ -272,6 +286,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_no_net_work_over_a_closed_cycle);
+    RUN_TEST(test_no_net_work_of_unequal_magnets);
     RUN_TEST(test_no_net_torque_at_constant_phase_current);
     RUN_TEST(test_point_has_the_torque);
     RUN_TEST(test_inductance_of_saliency);

@@ -28,8 +28,8 @@ typedef struct {
     double order, value;
     machine_kind machine;
     double by_current, by_speed; /* exponents */
-    size_t count;
-    double orders[ORDERS]; /* electrical; all that there are */
+    size_t count;                /* of orders; 0: they are not looked at */
+    double orders[ORDERS];       /* electrical; all that there are */
 } signature;
 
 static const signature TABLE[] = {
@@ -66,6 +66,16 @@ static const signature TABLE[] = {
     {"torque_sensor", "time_constant", 0.0, 1e-6, COGGING, 0, 1, 1, {12}},
     {"mechanical_order", "sine", 0.5, 0.01, SINE, 0, 0, 1, {0.5}},
     {"mechanical_order", "iq_sine", 1.5, 0.01, SINE, 1, 0, 1, {1.5}},
+    {"unequal_magnets", "sine", 0.5, 0.01, SINE, 1, 0, 1, {0.5}},
+    {"unequal_magnets", "cosine", 0.5, 0.01, COGGING, ANY, 0, 3, {0.5, 11.5, 12.5}},
+    {"stribeck_friction", "excess", 0.0, 0.01, SINE, 0, 0, 1, {0}}, /* with a Stribeck speed far above */
+    {"iron_drag", "hysteresis", 0.0, 1e-3, SINE, 2, 0, 1, {0}},
+    {"iron_drag", "eddy", 0.0, 1e-5, SINE, 2, 1, 1, {0}},
+    {"current_filter", "time_constant", 0.0, 1e-7, FIFTH, 1, 1, 2, {0, 6}},
+    {"position_harmonics", "sine", 1.0, 1e-4, SINE, 1, 0, 1, {1}},
+    {"position_harmonics", "cosine", 2.0, 1e-5, FIFTH, 1, 0, 3, {2, 4, 8}},
+    {"position_harmonics", "sine", 4.0, 1e-6, COGGING, ANY, 0, 3, {4, 8, 16}},
+    {"torque_drift", "rate", 0.0, 0.1, SINE, 0, -1, 0, {0}}, /* a ramp: the time of a turn falls with speed */
 };
 
 /* ---- residual ---- */
@@ -108,6 +118,7 @@ static void residual(const signature *g, double current, double speed, double r[
     const hci_effects none = {NULL, 0};
     declare(&d, g->machine);
     el_add(&l, g->effect, g->parameter, g->order, g->value);
+    if (strcmp(g->effect, "stribeck_friction") == 0) el_add(&l, g->effect, "speed", 0.0, 1e6);
     for (int k = 0; k < 3 * N; ++k) { /* three turns: a filter has settled in the last */
         const hci_sample truth = truth_at(current, speed, k), reading = hci_effects_sense(&l.list, P, &truth);
         time[k] = 2.0 * REF_PI * k / (N * speed);
@@ -164,7 +175,7 @@ static void test_orders(void)
         for (int n = 0; n <= MOST; ++n)
             largest = fmax(largest, amplitude[n]);
         TEST_ASSERT_TRUE_MESSAGE(largest > 1e-9, name);
-        for (int n = 0; n <= MOST; ++n)
+        for (int n = 0; n <= MOST && TABLE[j].count > 0; ++n)
             TEST_ASSERT_TRUE_MESSAGE(expected[n] == (amplitude[n] > 2e-3 * largest), name);
     }
 }

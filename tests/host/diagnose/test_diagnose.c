@@ -96,6 +96,50 @@ static void test_holding_map(void)
     TEST_ASSERT_EQUAL_UINT64(2, diagnosis.effects.list.count);
 }
 
+/* A drag with the square of the current, there and back. */
+static void test_iron_drag(void)
+{
+    for (int k = 0; k < 6; ++k) {
+        const double speed = k < 3 ? 60.0 : -150.0, iq = 1.0 + 4.0 * (k % 3);
+        record(450, &(point){speed, iq, 0.0, (speed < 0.0 ? -1.0 : 1.0) * 8e-4 * iq * iq, 0.0});
+    }
+    TEST_ASSERT_EQUAL_INT(HCI_OK, diagnose(NULL));
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_ADDED, found("iron_drag")->verdict);
+    TEST_ASSERT_EQUAL_UINT64(1, count_of(HCI_FINDING_ADDED));
+    const hci_effect_term *t = term("iron_drag", "hysteresis", 0.0);
+    TEST_ASSERT_DOUBLE_WITHIN(3.0 * t->std_error, 8e-4, t->value);
+    TEST_ASSERT_TRUE(t->std_error < 0.05 * 8e-4);
+}
+
+/* In one direction it could be reluctance or saturation: it is no candidate. */
+static void test_iron_drag_takes_both_directions(void)
+{
+    for (int k = 0; k < 3; ++k)
+        record(450, &(point){60.0, 1.0 + 4.0 * k, 0.0, 0.0, 0.0});
+    TEST_ASSERT_EQUAL_INT(HCI_OK, diagnose(NULL));
+    TEST_ASSERT_TRUE(found("iron_drag")->delta_bic <= 0.0);
+}
+
+/* A resolver whose sine and cosine are not of one size: its angle is wrong twice in an electrical period. */
+static void test_position_harmonics(void)
+{
+    for (int k = 0; k < 4; ++k) {
+        record(450, &(point){k < 2 ? 60.0 : -150.0, k % 2 ? 9.0 : 2.0, 0.0, 0.0, 0.0});
+        for (size_t j = 0; j < run[k].count; ++j) {
+            const double theta_m = run[k].theta_m_rad[j];
+            rec_phases(6.0, k % 2 ? 9.0 : 2.0, P * theta_m,
+                       run[k].i_A + 3 * j); /* i_d makes no torque here */
+            run[k].theta_m_rad[j] += 0.04 * sin(2.0 * P * theta_m) / P;
+        }
+    }
+    TEST_ASSERT_EQUAL_INT(HCI_OK, diagnose(NULL));
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_ADDED, found("position_harmonics")->verdict);
+    TEST_ASSERT_EQUAL_UINT64(1, count_of(HCI_FINDING_ADDED));
+    const hci_effect_term *t = term("position_harmonics", "sine", 2.0);
+    TEST_ASSERT_DOUBLE_WITHIN(3.0 * t->std_error, 0.04, t->value);
+    TEST_ASSERT_TRUE(t->std_error < 0.05 * 0.04);
+}
+
 /* At one speed and in one direction friction and a wrong zero of the torque sensor are one and the same. */
 static void test_friction_or_zero_of_the_sensor(void)
 {
@@ -159,6 +203,9 @@ int main(void)
     RUN_TEST(test_current_offset);
     RUN_TEST(test_noise_of_currents_is_no_sensor);
     RUN_TEST(test_holding_map);
+    RUN_TEST(test_iron_drag);
+    RUN_TEST(test_iron_drag_takes_both_directions);
+    RUN_TEST(test_position_harmonics);
     RUN_TEST(test_friction_or_zero_of_the_sensor);
     RUN_TEST(test_what_does_not_repeat);
     RUN_TEST(test_a_shaft_with_a_load_is_not_free);

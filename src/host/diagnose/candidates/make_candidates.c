@@ -92,15 +92,19 @@ static size_t speeds_of(const hci_candidates_source *s)
 static hci_effect_survey survey_of(const hci_candidates_source *s)
 {
     hci_effect_survey x = {.machine = s->machine, .richness = s->richness, .speeds = speeds_of(s)};
+    bool ahead = false, back = false;
     for (size_t r = 0; r < s->samples->run_count; ++r) {
         const hci_run_statistics *f = &s->samples->statistics[r];
         x.timed = x.timed || (s->runs[r].time_s && s->runs[r].speed_rad_per_s);
         x.moving = x.moving || f->mean_speed_rad_per_s != 0.0;
+        ahead = ahead || (s->use[r] && f->mean_speed_rad_per_s > 0.0);
+        back = back || (s->use[r] && f->mean_speed_rad_per_s < 0.0);
         x.has_temperature = x.has_temperature || isfinite(f->temperature_C);
         x.has_turn = x.has_turn || s->runs[r].turn_known;
         x.torque_Nm = fmax(x.torque_Nm, f->rms_torque_Nm);
         x.current_A = fmax(x.current_A, f->current_A);
     }
+    x.both_directions = ahead && back;
     x.reference_current_A = s->reference_current_A > 0.0 ? s->reference_current_A : x.current_A;
     return x;
 }

@@ -15,7 +15,7 @@ static bool has_dynamics(const hci_effects *effects)
     for (size_t k = 0; k < effects->count; ++k) {
         const hci_effect *e = &effects->effect[k];
         for (size_t j = 0; j < e->count; ++j)
-            if ((traits_of(e, j) & HCI_PARAMETER_ALONG_TIME) && e->term[j].value > 0.0) return true;
+            if ((traits_of(e, j) & HCI_PARAMETER_ALONG_TIME) && e->term[j].value != 0.0) return true;
     }
     return false;
 }
