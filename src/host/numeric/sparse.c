@@ -74,27 +74,32 @@ static void multiply(const hci_sparse *a, bool transposed, const double *x, doub
                 y[a->row[k]] += a->value[k] * x[j];
 }
 
-/* Ratio of the largest to the smallest singular value of a square A by power iterations on AᵀA and (AᵀA)⁻¹,
- * since the pivots alone can be wrong by orders of magnitude. x, y: workspace of n. */
-static hci_status umfpack_condition(const hci_sparse *a, void *numeric, double *x, double *y,
-                                    double *condition, hci_note *note)
+/* Largest singular value of A, squared, by power iteration on AᵀA. x, y: workspace of n. */
+static double umfpack_largest(const hci_sparse *a, double *x, double *y)
 {
-    const size_t n = a->columns;
-    double control[UMFPACK_CONTROL], largest = 0.0, growth = 0.0, before = -1.0;
-    hci_status status = HCI_OK;
-    umfpack_dl_defaults(control);
-    control[UMFPACK_IRSTEP] = 0.0;
-    start_values(x, n);
+    double largest = 0.0, before = -1.0;
+    start_values(x, a->columns);
     for (int step = 0; step < POWER_STEPS && !is_settled(before, largest); ++step) {
         before = largest;
         multiply(a, false, x, y);
         multiply(a, true, y, x);
-        largest = normalise(x, n);
+        largest = normalise(x, a->columns);
     }
-    start_values(x, n);
-    before = -1.0;
-    for (int step = 0; step < POWER_STEPS && !status && !is_settled(before, growth); ++step) {
-        before = growth;
+    return largest;
+}
+
+/* That of A⁻¹, by the factors. growth: out. */
+static hci_status umfpack_growth(const hci_sparse *a, void *numeric, double *work, double *growth,
+                                 hci_note *note)
+{
+    double control[UMFPACK_CONTROL], before = -1.0, *x = work, *y = work + a->columns;
+    hci_status status = HCI_OK;
+    *growth = 0.0;
+    umfpack_dl_defaults(control);
+    control[UMFPACK_IRSTEP] = 0.0;
+    start_values(x, a->columns);
+    for (int step = 0; step < POWER_STEPS && !status && !is_settled(before, *growth); ++step) {
+        before = *growth;
         status = umfpack_status(
             umfpack_dl_solve(UMFPACK_At, a->column_start, a->row, a->value, y, x, numeric, control, NULL),
             note);
@@ -102,17 +107,27 @@ static hci_status umfpack_condition(const hci_sparse *a, void *numeric, double *
             status = umfpack_status(
                 umfpack_dl_solve(UMFPACK_A, a->column_start, a->row, a->value, x, y, numeric, control, NULL),
                 note);
-        growth = normalise(x, n);
+        *growth = normalise(x, a->columns);
     }
-    *condition = sqrt(largest) * sqrt(growth);
-    if (!status && !(*condition * (double)n * DBL_EPSILON < 1.0)) status = HCI_ERROR_SINGULAR;
     return status;
+}
+
+/* Ratio of the largest to the smallest singular value of a square A by power iterations on AᵀA and (AᵀA)⁻¹,
+ * since the pivots alone can be wrong by orders of magnitude. work: of 2n. */
+static hci_status umfpack_condition(const hci_sparse *a, void *numeric, double *work, double *condition,
+                                    hci_note *note)
+{
+    const double largest = umfpack_largest(a, work, work + a->columns);
+    double growth;
+    const hci_status status = umfpack_growth(a, numeric, work, &growth, note);
+    *condition = sqrt(largest) * sqrt(growth);
+    return status || *condition * (double)a->columns * DBL_EPSILON < 1.0 ? status : HCI_ERROR_SINGULAR;
 }
 
 static hci_status umfpack_examine(const hci_sparse *a, void *numeric, double *condition, hci_note *note)
 {
     double *work = hci_memory_new(2 * a->columns, sizeof *work);
-    const hci_status status = work ? umfpack_condition(a, numeric, work, work + a->columns, condition, note)
+    const hci_status status = work ? umfpack_condition(a, numeric, work, condition, note)
                                    : hci_note_memory(note, NULL, "the sparse LU");
     hci_memory_free(work);
     return status;
