@@ -63,10 +63,10 @@ static hci_status read_inputs(const cli_arguments *a, inputs *in, hci_note *note
     if (!status && a->value[TARGET]) status = hci_target_read(a->value[TARGET], &in->target, note);
     if (!status) status = hci_machine_read(a->word[0], &in->machine, note);
     if (!status) status = hci_effects_read_machine(a->word[0], &in->declared, note);
-    if (!status)
-        status = hci_runs_read(a->value[RUNS], in->machine.model.pole_pairs, in->machine.inertia_kgm2,
-                               &in->runs, in->options.progress, NULL, note);
-    return status;
+    if (status) return status;
+    const hci_runs_options reading = {in->machine.model.pole_pairs, in->machine.inertia_kgm2,
+                                      in->options.progress, NULL};
+    return hci_runs_read(a->value[RUNS], &reading, &in->runs, note);
 }
 
 static void release_inputs(inputs *in)

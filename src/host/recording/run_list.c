@@ -9,8 +9,7 @@
 
 typedef struct {
     const hci_csv *csv;
-    int pole_pairs;
-    double inertia_kgm2;
+    const hci_runs_options *options;
     hci_runs *runs;
     hci_note *note;
 } list_reader;
@@ -64,7 +63,8 @@ static hci_status read_one(const list_reader *l, size_t row, const char *file, h
 {
     char *path = path_of(hci_csv_path(l->csv), file);
     if (path == NULL) return memory_error(l);
-    const hci_status status = hci_run_read(path, l->pole_pairs, l->inertia_kgm2, run, l->note);
+    const hci_status status =
+        hci_run_read(path, l->options->pole_pairs, l->options->inertia_kgm2, run, l->note);
     hci_memory_free(path);
     if (status != HCI_OK) return status;
     l->runs->count = row + 1;
@@ -85,8 +85,7 @@ static hci_status read_row(const list_reader *l, size_t row)
     return status == HCI_OK ? read_one(l, row, file, &l->runs->run[row]) : status;
 }
 
-static hci_status read_rows(const list_reader *l,
-                            void (*progress)(void *context, const char *what, double share), void *context)
+static hci_status read_rows(const list_reader *l)
 {
     const size_t rows = hci_csv_rows(l->csv);
     hci_status status = HCI_OK;
@@ -100,22 +99,21 @@ static hci_status read_rows(const list_reader *l,
     l->runs->list = copy_of(hci_csv_path(l->csv));
     if (l->runs->run == NULL || l->runs->role == NULL || l->runs->list == NULL) return memory_error(l);
     for (size_t row = 0; row < rows && status == HCI_OK; ++row) {
-        if (progress != NULL) progress(context, "reading runs", (double)row / (double)rows);
+        if (l->options->progress != NULL)
+            l->options->progress(l->options->context, "reading runs", (double)row / (double)rows);
         status = read_row(l, row);
     }
     return status;
 }
 
-hci_status hci_runs_read(const char *path, int pole_pairs, double inertia_kgm2, hci_runs *runs,
-                         void (*progress)(void *context, const char *what, double share), void *context,
-                         hci_note *note)
+hci_status hci_runs_read(const char *path, const hci_runs_options *options, hci_runs *runs, hci_note *note)
 {
     hci_csv *csv;
     memset(runs, 0, sizeof *runs);
     hci_status status = hci_csv_read(path, &csv, note);
     if (status != HCI_OK) return status;
-    const list_reader l = {csv, pole_pairs, inertia_kgm2, runs, note};
-    status = read_rows(&l, progress, context);
+    const list_reader l = {csv, options, runs, note};
+    status = read_rows(&l);
     hci_csv_free(csv);
     if (status != HCI_OK) hci_runs_release(runs);
     return status;

@@ -513,8 +513,9 @@ static void refused_list(const char *content, const char *why)
 {
     hci_runs runs;
     hci_note said = {{0}};
+    const hci_runs_options reading = {2, NAN, NULL, NULL};
     files_write(list_path, content);
-    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, hci_runs_read(list_path, 2, NAN, &runs, NULL, NULL, &said));
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, hci_runs_read(list_path, &reading, &runs, &said));
     text_has(why, said.text);
     TEST_ASSERT_NULL(runs.run);
 }
@@ -523,6 +524,7 @@ static void test_lists_are_relative_to_themselves(void)
 {
     hci_runs runs;
     int calls = 0;
+    const hci_runs_options reading = {2, NAN, count_progress, &calls};
     snprintf(sub, sizeof sub, "%s", files_path("sub"));
     snprintf(list_path, sizeof list_path, "%s", files_path("sub/list.csv"));
     TEST_ASSERT_EQUAL(0, mkdir(sub, 0700));
@@ -530,8 +532,7 @@ static void test_lists_are_relative_to_themselves(void)
     char again[200];
     snprintf(again, sizeof again, "file,role,note\n../run.csv,Fit,x\n%s,holdout,\n", path);
     files_write(list_path, again);
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_runs_read(list_path, 2, NAN, &runs, count_progress, &calls, &note),
-                              note.text);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_runs_read(list_path, &reading, &runs, &note), note.text);
     TEST_ASSERT_EQUAL(2, (int)runs.count);
     TEST_ASSERT_EQUAL(2, calls);
     TEST_ASSERT_EQUAL(HCI_ROLE_FIT, runs.role[0]);

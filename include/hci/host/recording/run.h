@@ -6,6 +6,7 @@
 #include <stddef.h>
 
 #include "hci/host/base/note.h"
+#include "hci/host/base/progress.h"
 #include "hci/host/csv/csv.h"
 
 #ifdef __cplusplus
@@ -77,11 +78,16 @@ typedef struct {
     char *list;     /* the file that names them, as it was given; NULL where there is none */
 } hci_runs;
 
-/* Reads a list and its runs, whose paths are relative to it. progress: called with the share of files read;
- * may be NULL. HCI_ERROR_INPUT, _MEMORY. */
-hci_status hci_runs_read(const char *path, int pole_pairs, double inertia_kgm2, hci_runs *runs,
-                         void (*progress)(void *context, const char *what, double share), void *context,
-                         hci_note *note);
+/* What reading them asks for. */
+typedef struct {
+    int pole_pairs;         /* as of hci_run_read */
+    double inertia_kgm2;    /* the same */
+    hci_progress *progress; /* called with the share of files read; may be NULL */
+    void *context;          /* of progress */
+} hci_runs_options;
+
+/* Reads a list and its runs, whose paths are relative to it. HCI_ERROR_INPUT, _MEMORY. */
+hci_status hci_runs_read(const char *path, const hci_runs_options *options, hci_runs *runs, hci_note *note);
 
 /* Frees what a list holds, its runs included, and empties it. */
 void hci_runs_release(hci_runs *runs);
