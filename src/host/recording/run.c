@@ -6,12 +6,12 @@
 #include <string.h>
 
 #include "hci/host/csv/csv.h"
-#include "hci/machine/frames.h"
 #include "hci/math/harmonic.h"
 #include "host/base/memory.h"
 #include "host/base/quote.h"
 #include "host/numeric/derivative.h"
 #include "host/numeric/unwrap.h"
+#include "host/recording/rotor_frame.h"
 #include "host/recording/run_columns.h"
 
 /* Less movement than this is a shaft at rest, whose angle only flickers. */
@@ -242,7 +242,7 @@ static hci_status turn_dq(const reader *r, const double *d, const double *q, dou
                        "add the angle or give phase currents");
     for (size_t k = 0; k < run->count; ++k) {
         const hci_dq x = {.d = d != NULL ? d[k] : 0.0, .q = q[k]};
-        hci_clarke_inverse(hci_park_inverse(x, r->pole_pairs * run->theta_m_rad[k]), phases + 3 * k);
+        hci_phases_of_dq(x, r->pole_pairs * run->theta_m_rad[k], phases + 3 * k);
     }
     return HCI_OK;
 }
