@@ -213,12 +213,12 @@ static hci_status add_file(hci_output *output, const char *name, hci_note *note)
     file *f = &files[output->count];
     *f = (file){0};
     status = name_file(output->folder, name, f, note);
-    if (status == HCI_OK) {
+    if (!status) {
         output->stream = open_temporary(output->folder, f);
         if (output->stream == NULL)
             status = output_error(f->target, note, strerror(errno), "check the folder");
     }
-    if (status == HCI_OK) {
+    if (!status) {
         output->count++;
     } else {
         forget(f);
@@ -230,7 +230,7 @@ hci_status hci_output_file(hci_output *output, const char *name, hci_note *note)
 {
     sigset_t signals;
     hci_status status = check_name(output, name, note);
-    if (status != HCI_OK) return status;
+    if (status) return status;
     close_stream(output);
     hold_signals(&signals);
     status = add_file(output, name, note);
@@ -241,7 +241,7 @@ hci_status hci_output_file(hci_output *output, const char *name, hci_note *note)
 hci_status hci_output_without(hci_output *output, const char *name, hci_note *note)
 {
     const hci_status status = hci_output_file(output, name, note);
-    if (status == HCI_OK) output->files[output->count - 1].absent = true;
+    if (!status) output->files[output->count - 1].absent = true;
     return status;
 }
 
@@ -295,7 +295,7 @@ static bool take_away(const file *f)
 static hci_status publish(file *f, hci_note *note)
 {
     const hci_status status = check_target(f->target, note);
-    if (status != HCI_OK) return status;
+    if (status) return status;
     if (!make_backup(f) || !(f->absent ? take_away(f) : rename(f->temporary, f->target) == 0)) {
         return output_error(f->target, note, strerror(errno), "check the folder");
     }
@@ -317,9 +317,9 @@ hci_status hci_output_check(hci_output *output, hci_note *note)
 {
     hci_status status = HCI_OK;
     close_stream(output);
-    for (size_t i = 0; i < output->count && status == HCI_OK; i++)
+    for (size_t i = 0; i < output->count && !status; i++)
         status = check_written(&output->files[i], note);
-    for (size_t i = 0; i < output->count && status == HCI_OK; i++)
+    for (size_t i = 0; i < output->count && !status; i++)
         status = check_target(output->files[i].target, note);
     return status;
 }
@@ -327,12 +327,12 @@ hci_status hci_output_check(hci_output *output, hci_note *note)
 static hci_status publish_all(hci_output *output, hci_note *note)
 {
     hci_status status = hci_output_check(output, note);
-    for (size_t i = 0; i < output->count && status == HCI_OK; i++)
+    for (size_t i = 0; i < output->count && !status; i++)
         status = publish(&output->files[i], note);
     for (size_t i = output->count; i-- > 0;) {
         file *f = &output->files[i];
-        if (status != HCI_OK) withdraw(f);
-        if (status == HCI_OK && f->has_backup) unlink(f->backup);
+        if (status) withdraw(f);
+        if (!status && f->has_backup) unlink(f->backup);
     }
     return status;
 }
@@ -343,7 +343,7 @@ hci_status hci_output_commit(hci_output *output, hci_note *note)
     close_stream(output);
     hold_signals(&signals);
     const hci_status status = publish_all(output, note);
-    if (status == HCI_OK) output->existing = strlen(output->folder);
+    if (!status) output->existing = strlen(output->folder);
     hci_output_discard(output);
     release_signals(&signals);
     return status;

@@ -146,9 +146,9 @@ static hci_status read_record(reader *r, size_t columns, size_t *count, size_t *
     hci_status status = push(r, r->line);
     char *cell = NULL, stop = r->csv->separator;
     *filled = 0;
-    for (*count = 0; status == HCI_OK && stop == r->csv->separator; ++*count) {
+    for (*count = 0; !status && stop == r->csv->separator; ++*count) {
         status = read_cell(r, *count, &cell, &stop);
-        if (status != HCI_OK) return status;
+        if (status) return status;
         if (*cell != '\0') *filled = *count + 1;
         if (*filled > columns) {
             r->surplus = cell;
@@ -193,7 +193,7 @@ static hci_status check_header(const hci_csv *csv, hci_note *note)
     size_t numbers = 0;
     for (size_t column = 0; column < csv->columns; column++) {
         const hci_status status = check_name(csv, column, note);
-        if (status != HCI_OK) return status;
+        if (status) return status;
         numbers += *hci_csv_cell(csv, 0, column) == '\0' ||
                    hci_csv_kind(csv, hci_csv_cell(csv, 0, column)) != HCI_NUMBER_NONE;
     }
@@ -243,7 +243,7 @@ static hci_status read_header(reader *r)
         }
         set_separator(r);
         const hci_status status = read_record(r, COLUMNS_MAX, &count, &filled);
-        if (status != HCI_OK) return status;
+        if (status) return status;
     }
     if (filled > COLUMNS_MAX) return wide_header(r);
     csv->columns = filled;
@@ -290,7 +290,7 @@ static hci_status read_rows(reader *r)
         const size_t start = r->used, line = r->line;
         size_t count, filled;
         const hci_status status = read_record(r, csv->columns, &count, &filled);
-        if (status != HCI_OK) return status;
+        if (status) return status;
         if (filled == 0) {
             r->used = start; /* spreadsheets end tables with rows of bare separators */
         } else if (filled > csv->columns) {
@@ -340,12 +340,12 @@ static hci_status read_table(hci_csv *csv, hci_note *note)
 {
     reader r = {.csv = csv, .note = note, .line = 1};
     hci_status status = hci_csv_load(csv, note);
-    if (status != HCI_OK) return status;
+    if (status) return status;
     r.next = csv->text + (strncmp(csv->text, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0);
     pass_foreword(&r);
     status = read_header(&r);
-    if (status == HCI_OK) status = read_rows(&r);
-    if (status == HCI_OK) csv->has_units = find_units(csv);
+    if (!status) status = read_rows(&r);
+    if (!status) csv->has_units = find_units(csv);
     return status;
 }
 
@@ -362,7 +362,7 @@ hci_status hci_csv_read(const char *path, hci_csv **csv, hci_note *note)
         memcpy(table->path, path, strlen(path) + 1);
         status = read_table(table, note);
     }
-    if (status == HCI_OK) {
+    if (!status) {
         *csv = table;
     } else {
         hci_csv_free(table);

@@ -81,5 +81,5 @@ hci_status hci_csv_load(hci_csv *csv, hci_note *note)
 {
     size_t size = 0;
     const hci_status status = read_file(csv, &size, note);
-    return status == HCI_OK ? check_encoding(csv, size, note) : status;
+    return status ? status : check_encoding(csv, size, note);
 }

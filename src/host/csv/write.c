@@ -73,7 +73,7 @@ static hci_status write_record(const writer *w, size_t record)
 {
     const hci_status status = write_own(w, record);
     const size_t first = hci_csv_first_record(w->csv);
-    for (size_t k = 0; k < w->added_count && status == HCI_OK; ++k) {
+    for (size_t k = 0; k < w->added_count && !status; ++k) {
         const char end = k + 1 < w->added_count ? ',' : '\n';
         if (record >= first)
             hci_output_number(w->output, w->added[k].value[record - first], end);
@@ -94,7 +94,7 @@ static hci_status open_output(const char *path, hci_output **output, hci_note *n
     folder[length] = '\0';
     hci_status status = hci_output_open(folder, output, note);
     hci_memory_free(folder);
-    if (status == HCI_OK) status = hci_output_file(*output, slash == NULL ? path : slash + 1, note);
+    if (!status) status = hci_output_file(*output, slash == NULL ? path : slash + 1, note);
     return status;
 }
 
@@ -104,9 +104,9 @@ hci_status hci_csv_write_with(const hci_csv *csv, const hci_csv_added *added, si
     writer w = {csv, added, count, NULL, note};
     assert(count > 0);
     hci_status status = open_output(path, &w.output, note);
-    for (size_t record = 0; record < csv->records && status == HCI_OK; ++record)
+    for (size_t record = 0; record < csv->records && !status; ++record)
         status = write_record(&w, record);
-    if (status == HCI_OK) return hci_output_commit(w.output, note);
+    if (!status) return hci_output_commit(w.output, note);
     hci_output_discard(w.output);
     return status;
 }

@@ -35,7 +35,7 @@ static hci_status figures_of(const hci_machine_data *machine, const hci_effects 
     if (model_Nm == NULL) return hci_note_memory(note, NULL, "a free shaft");
     const hci_status status = hci_predict(machine, effects, run, model_Nm, note);
     *f = (figures){.rms_Nm = 0.0};
-    for (size_t k = 0; k < run->count && status == HCI_OK; ++k) {
+    for (size_t k = 0; k < run->count && !status; ++k) {
         const double speed = run->speed_rad_per_s[k], sign = (speed > 0.0) - (speed < 0.0);
         f->plain.made += share * model_Nm[k];
         f->plain.accelerating += share * run->torque_Nm[k];
@@ -80,12 +80,12 @@ hci_status hci_free_shaft_check(const hci_machine_data *machine, const hci_effec
     hci_status status = HCI_OK;
     double most_Nm = OF_RATED * rated_torque_of(machine, effects);
     if (f == NULL) return hci_note_memory(note, NULL, "a free shaft");
-    for (size_t k = 0; k < count && status == HCI_OK; ++k) {
+    for (size_t k = 0; k < count && !status; ++k) {
         if (!is_free(&runs[k])) continue;
         status = figures_of(machine, effects, &runs[k], &f[k], note);
         most_Nm = fmax(most_Nm, OF_RMS * f[k].rms_Nm);
     }
-    for (size_t k = 0; k < count && status == HCI_OK; ++k) {
+    for (size_t k = 0; k < count && !status; ++k) {
         if (!is_free(&runs[k])) continue;
         const bool turns = drag_of(&f[k].with_speed) > drag_of(&f[k].plain);
         const balance *b = turns ? &f[k].with_speed : &f[k].plain;

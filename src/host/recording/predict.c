@@ -65,10 +65,9 @@ hci_status hci_predict(const hci_machine_data *machine, const hci_effects *effec
     const bool with_change = (hci_effects_needs(effects) & HCI_EFFECT_NEEDS_RATE) != 0;
     const hci_status status =
         hci_predict_readings(run, machine->model.pole_pairs, with_change, reading, note);
-    for (size_t k = 0; k < run->count && status == HCI_OK; ++k)
+    for (size_t k = 0; k < run->count && !status; ++k)
         torque_Nm[k] = hci_effects_predict(&machine->model, effects, &reading[k], NULL);
-    if (status == HCI_OK && run->time_s != NULL)
-        hci_effects_filter(effects, run->time_s, run->count, torque_Nm, NULL);
+    if (!status && run->time_s != NULL) hci_effects_filter(effects, run->time_s, run->count, torque_Nm, NULL);
     hci_memory_free(reading);
     return status;
 }

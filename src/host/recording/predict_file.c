@@ -100,8 +100,7 @@ static hci_status keep_free(task *t, hci_note *note)
 {
     hci_run *run = &t->run;
     const hci_status status = hci_free_shaft_check(&t->machine, &t->effects.list, run, 1, &t->loaded);
-    if (status != HCI_ERROR_INPUT)
-        return status == HCI_OK ? status : hci_note_set(note, status, "%s", t->loaded.text);
+    if (status != HCI_ERROR_INPUT) return status ? hci_note_set(note, status, "%s", t->loaded.text) : status;
     hci_memory_free(run->torque_Nm);
     run->torque_Nm = NULL;
     run->torque_source = HCI_TORQUE_NONE;
@@ -111,11 +110,11 @@ static hci_status keep_free(task *t, hci_note *note)
 static hci_status read_task(task *t, const char *machine, const char *run, hci_note *note)
 {
     hci_status status = hci_machine_read(machine, &t->machine, note);
-    if (status == HCI_OK) status = hci_effects_read_machine(machine, &t->effects, note);
-    if (status == HCI_OK) status = hci_csv_read(run, &t->csv, note);
-    if (status == HCI_OK)
+    if (!status) status = hci_effects_read_machine(machine, &t->effects, note);
+    if (!status) status = hci_csv_read(run, &t->csv, note);
+    if (!status)
         status = hci_run_of_csv(t->csv, t->machine.model.pole_pairs, t->machine.inertia_kgm2, &t->run, note);
-    if (status == HCI_OK) status = keep_free(t, note);
+    if (!status) status = keep_free(t, note);
     return status;
 }
 
@@ -127,7 +126,7 @@ static hci_status predict_task(task *t, hci_note *note)
     if (t->model == NULL || (t->run.torque_Nm != NULL && t->residual == NULL))
         return hci_note_memory(note, t->run.name, "a prediction");
     const hci_status status = hci_predict(&t->machine, &t->effects.list, &t->run, t->model, note);
-    for (size_t k = 0; k < n && status == HCI_OK && t->residual != NULL; ++k)
+    for (size_t k = 0; k < n && !status && t->residual != NULL; ++k)
         t->residual[k] = t->run.torque_Nm[k] - t->model[k];
     return status;
 }
@@ -159,9 +158,9 @@ hci_status hci_predict_file(const char *machine, const char *run, const char *ou
     memset(&t, 0, sizeof t);
     memset(prediction, 0, sizeof *prediction);
     hci_status status = read_task(&t, machine, run, note);
-    if (status == HCI_OK) status = predict_task(&t, note);
-    if (status == HCI_OK && out != NULL) status = write_task(&t, out, note);
-    if (status == HCI_OK) {
+    if (!status) status = predict_task(&t, note);
+    if (!status && out != NULL) status = write_task(&t, out, note);
+    if (!status) {
         sum_up(&t.run, t.model, t.residual, prediction);
         add_remark(&prediction->remark, t.machine.remark.text);
         add_remark(&prediction->remark, t.run.remark.text);

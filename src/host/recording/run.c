@@ -43,7 +43,7 @@ static bool has(const reader *r, hci_run_column which)
 static hci_status read_column(reader *r, hci_run_column which, double **values)
 {
     const hci_status status = hci_run_column_read(&r->columns, which);
-    if (status == HCI_OK) *values = hci_run_column_take(&r->columns, which);
+    if (!status) *values = hci_run_column_take(&r->columns, which);
     return status;
 }
 
@@ -60,7 +60,7 @@ static hci_status read_time(reader *r)
 {
     const hci_status status = read_column(r, HCI_RUN_TIME, &r->run->time_s);
     const double *time_s = r->run->time_s;
-    for (size_t k = 1; status == HCI_OK && time_s != NULL && k < r->run->count; ++k) {
+    for (size_t k = 1; !status && time_s != NULL && k < r->run->count; ++k) {
         if (time_s[k] > time_s[k - 1]) continue;
         const bool equal = !(time_s[k] < time_s[k - 1]);
         return hci_csv_error(r->columns.csv, "time_s", k, r->note,
@@ -77,9 +77,9 @@ static hci_status read_speed(reader *r)
 {
     double **speed = &r->run->speed_rad_per_s;
     hci_status status = read_column(r, HCI_RUN_SPEED, speed);
-    if (status != HCI_OK || *speed != NULL) return status;
+    if (status || *speed != NULL) return status;
     status = read_column(r, HCI_RUN_SPEED_E, speed);
-    for (size_t k = 0; status == HCI_OK && *speed != NULL && k < r->run->count; ++k)
+    for (size_t k = 0; !status && *speed != NULL && k < r->run->count; ++k)
         (*speed)[k] /= r->pole_pairs;
     return status;
 }
@@ -141,7 +141,7 @@ static hci_status read_angle(reader *r, hci_run_column which, double factor, dou
     const size_t n = r->run->count;
     const char *name = which == HCI_RUN_THETA_E ? "theta_e_rad" : "theta_m_rad";
     hci_status status = read_column(r, which, angle);
-    if (status != HCI_OK || *angle == NULL) return status;
+    if (status || *angle == NULL) return status;
     double *rate = NULL;
     if (r->run->speed_rad_per_s != NULL) {
         rate = hci_memory_new(n, sizeof *rate);
@@ -198,10 +198,10 @@ static hci_status read_angles(reader *r, hci_angle_path *path)
     hci_unwrapping mechanical = {.path = HCI_ANGLE_WITHIN}, electrical = mechanical;
     double *theta_e = NULL;
     hci_status status = read_angle(r, HCI_RUN_THETA_M, 1.0, &run->theta_m_rad, &mechanical);
-    if (status == HCI_OK) status = read_angle(r, HCI_RUN_THETA_E, r->pole_pairs, &theta_e, &electrical);
+    if (!status) status = read_angle(r, HCI_RUN_THETA_E, r->pole_pairs, &theta_e, &electrical);
     run->turn_known = run->theta_m_rad != NULL;
     *path = mechanical.path;
-    if (status == HCI_OK && theta_e != NULL) {
+    if (!status && theta_e != NULL) {
         if (run->theta_m_rad != NULL) {
             join_angles(r, theta_e);
         } else {
@@ -223,7 +223,7 @@ static hci_status read_angles(reader *r, hci_angle_path *path)
 static hci_status read_phases(reader *r, hci_run_column first, double **out)
 {
     const hci_status status = hci_run_phases_read(&r->columns, first);
-    if (status != HCI_OK) return status;
+    if (status) return status;
     *out = hci_memory_new(r->run->count, 3 * sizeof **out);
     if (*out == NULL) return memory_error(r);
     for (size_t k = 0; k < r->run->count; ++k)
@@ -251,8 +251,8 @@ static hci_status turn_dq(const reader *r, const double *d, const double *q, dou
 static hci_status read_dq(reader *r, hci_run_column d, hci_run_column q, double **phases)
 {
     hci_status status = hci_run_column_read(&r->columns, q);
-    if (status == HCI_OK) status = hci_run_column_read(&r->columns, d);
-    if (status != HCI_OK) return status;
+    if (!status) status = hci_run_column_read(&r->columns, d);
+    if (status) return status;
     *phases = hci_memory_new(r->run->count, 3 * sizeof(double));
     if (*phases == NULL) return memory_error(r);
     if (has(r, q)) status = turn_dq(r, r->columns.value[d], r->columns.value[q], *phases);
@@ -317,7 +317,7 @@ static hci_status read_torque(reader *r, double inertia_kgm2)
 {
     hci_run *run = r->run;
     const hci_status status = read_column(r, HCI_RUN_TORQUE, &run->torque_Nm);
-    if (status != HCI_OK) return status;
+    if (status) return status;
     if (run->torque_Nm == NULL) return torque_of_inertia(r, inertia_kgm2);
     run->torque_source = is_zero(run->torque_Nm, run->count) ? HCI_TORQUE_HOLDING : HCI_TORQUE_MEASURED;
     return HCI_OK;
@@ -330,14 +330,14 @@ static hci_status read_all(reader *r, double inertia_kgm2)
     hci_run *run = r->run;
     hci_angle_path path = HCI_ANGLE_WITHIN;
     hci_status status = read_time(r);
-    if (status == HCI_OK) status = read_speed(r);
-    if (status == HCI_OK) status = read_angles(r, &path);
-    if (status == HCI_OK) status = complete_speed(r, path);
-    if (status == HCI_OK) status = read_currents(r);
-    if (status == HCI_OK) status = read_voltages(r);
-    if (status == HCI_OK) status = read_column(r, HCI_RUN_TEMPERATURE, &run->temperature_C);
-    if (status == HCI_OK) status = read_torque(r, inertia_kgm2);
-    if (status == HCI_OK) hci_run_columns_tell_unused(&r->columns);
+    if (!status) status = read_speed(r);
+    if (!status) status = read_angles(r, &path);
+    if (!status) status = complete_speed(r, path);
+    if (!status) status = read_currents(r);
+    if (!status) status = read_voltages(r);
+    if (!status) status = read_column(r, HCI_RUN_TEMPERATURE, &run->temperature_C);
+    if (!status) status = read_torque(r, inertia_kgm2);
+    if (!status) hci_run_columns_tell_unused(&r->columns);
     return status;
 }
 
@@ -346,7 +346,7 @@ static hci_status take(reader *r, const hci_csv *csv, double inertia_kgm2)
     const char *path = hci_csv_path(csv);
     hci_run *run = r->run;
     hci_status status = hci_run_columns_find(csv, &r->columns, &run->remark, r->note);
-    if (status != HCI_OK) return status;
+    if (status) return status;
     run->count = r->columns.count;
     run->name = hci_memory_malloc(strlen(path) + 1);
     if (run->name == NULL) return memory_error(r);
@@ -363,7 +363,7 @@ hci_status hci_run_of_csv(const hci_csv *csv, int pole_pairs, double inertia_kgm
         return hci_note_set(note, HCI_ERROR_ARGUMENT, "found %d pole pairs, expected 1 or more", pole_pairs);
     const hci_status status = take(&r, csv, inertia_kgm2);
     hci_run_columns_release(&r.columns);
-    if (status != HCI_OK) hci_run_release(run);
+    if (status) hci_run_release(run);
     return status;
 }
 
@@ -372,7 +372,7 @@ hci_status hci_run_read(const char *path, int pole_pairs, double inertia_kgm2, h
     hci_csv *csv;
     memset(run, 0, sizeof *run);
     hci_status status = hci_csv_read(path, &csv, note);
-    if (status != HCI_OK) return status;
+    if (status) return status;
     status = hci_run_of_csv(csv, pole_pairs, inertia_kgm2, run, note);
     hci_csv_free(csv);
     return status;

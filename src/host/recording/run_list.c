@@ -23,7 +23,7 @@ static hci_status read_role(const list_reader *l, size_t row, hci_role *role)
 {
     const char *text;
     const hci_status status = hci_csv_text(l->csv, "role", row, &text, l->note);
-    if (status != HCI_OK) return status;
+    if (status) return status;
     *role = hci_text_is(text, "holdout") ? HCI_ROLE_HOLDOUT : HCI_ROLE_FIT;
     if (*role == HCI_ROLE_HOLDOUT || hci_text_is(text, "fit")) return HCI_OK;
     return hci_csv_error(l->csv, "role", row, l->note, "`fit` or `holdout`",
@@ -66,7 +66,7 @@ static hci_status read_one(const list_reader *l, size_t row, const char *file, h
     const hci_status status =
         hci_run_read(path, l->options->pole_pairs, l->options->inertia_kgm2, run, l->note);
     hci_memory_free(path);
-    if (status != HCI_OK) return status;
+    if (status) return status;
     l->runs->count = row + 1;
     hci_memory_free(run->name);
     run->name = copy_of(file);
@@ -77,12 +77,12 @@ static hci_status read_row(const list_reader *l, size_t row)
 {
     const char *file;
     hci_status status = hci_csv_text(l->csv, "file", row, &file, l->note);
-    if (status == HCI_OK) status = read_role(l, row, &l->runs->role[row]);
-    if (status == HCI_OK && *file == '\0')
+    if (!status) status = read_role(l, row, &l->runs->role[row]);
+    if (!status && *file == '\0')
         status =
             hci_csv_error(l->csv, "file", row, l->note, "the path of a run", "fill it or remove the row");
-    if (status == HCI_OK) status = check_once(l, row, file);
-    return status == HCI_OK ? read_one(l, row, file, &l->runs->run[row]) : status;
+    if (!status) status = check_once(l, row, file);
+    return status ? status : read_one(l, row, file, &l->runs->run[row]);
 }
 
 static hci_status read_rows(const list_reader *l)
@@ -98,7 +98,7 @@ static hci_status read_rows(const list_reader *l)
     l->runs->role = hci_memory_new(rows, sizeof *l->runs->role);
     l->runs->list = copy_of(hci_csv_path(l->csv));
     if (l->runs->run == NULL || l->runs->role == NULL || l->runs->list == NULL) return memory_error(l);
-    for (size_t row = 0; row < rows && status == HCI_OK; ++row) {
+    for (size_t row = 0; row < rows && !status; ++row) {
         if (l->options->progress != NULL)
             l->options->progress(l->options->context, "reading runs", (double)row / (double)rows);
         status = read_row(l, row);
@@ -111,11 +111,11 @@ hci_status hci_runs_read(const char *path, const hci_runs_options *options, hci_
     hci_csv *csv;
     memset(runs, 0, sizeof *runs);
     hci_status status = hci_csv_read(path, &csv, note);
-    if (status != HCI_OK) return status;
+    if (status) return status;
     const list_reader l = {csv, options, runs, note};
     status = read_rows(&l);
     hci_csv_free(csv);
-    if (status != HCI_OK) hci_runs_release(runs);
+    if (status) hci_runs_release(runs);
     return status;
 }
 

@@ -143,7 +143,7 @@ static hci_status fit_in_sequence(const hci_waveform_task *t, emf_work *w, hci_a
 {
     hci_status status = fit_turns(t, w, average);
     w->phases.sequence = 1;
-    if (status != HCI_OK || sequence_of(average) >= 0.0) return status;
+    if (status || sequence_of(average) >= 0.0) return status;
     if (!w->by_clock) {
         w->phases.sequence = -1;
         hci_note_add(&t->result->remark,
@@ -218,7 +218,7 @@ static hci_status take_balanced(const hci_waveform_task *t, const hci_average *a
     hci_memory_free(part.wave);
     const double phase = hci_phase_rad(fundamental.mean.sine, fundamental.mean.cosine);
     const double error = fundamental.std_error / hci_emf_length(fundamental.mean);
-    if (status == HCI_OK && !w->by_clock && fabs(phase) > fmax(0.01, HCI_EMF_TIMES_ERROR * error))
+    if (!status && !w->by_clock && fabs(phase) > fmax(0.01, HCI_EMF_TIMES_ERROR * error))
         remark_zero(t, phase);
     return status;
 }
@@ -236,8 +236,8 @@ static hci_status back_emf_of(const hci_waveform_task *t, emf_work *w)
     hci_average average = {.highest = 0};
     double sum = 0.0;
     hci_status status = take_samples(t, w);
-    if (status == HCI_OK) status = fit_in_sequence(t, w, &average);
-    if (status == HCI_OK) {
+    if (!status) status = fit_in_sequence(t, w, &average);
+    if (!status) {
         for (size_t k = 0; k < w->count; ++k)
             sum += w->speed_rad_per_s[k];
         t->result->speed_rad_per_s = sum / (double)w->count;
@@ -251,8 +251,8 @@ static hci_status back_emf_of(const hci_waveform_task *t, emf_work *w)
         }
         status = hci_emf_compare_channels(t, &average, &w->phases, inverse);
     }
-    if (status == HCI_OK) status = take_balanced(t, &average, w);
-    if (status == HCI_OK) remark_currents(t);
+    if (!status) status = take_balanced(t, &average, w);
+    if (!status) remark_currents(t);
     hci_average_release(&average);
     return status;
 }
@@ -266,7 +266,7 @@ hci_status hci_waveform_back_emf(const hci_waveform_task *t)
                                 "order %g: the back-EMF has whole electrical orders only",
                                 t->options->orders[k]);
     hci_status status = allocate(t, &w);
-    if (status == HCI_OK) status = back_emf_of(t, &w);
+    if (!status) status = back_emf_of(t, &w);
     release(&w);
     return status;
 }

@@ -80,7 +80,7 @@ static bool fit_crossings(const crossing_sums *s, double half_s, clock_guess *gu
         for (size_t j = 0; j < terms; ++j)
             a[i + j * terms] = s->moment[i + j];
     }
-    if (hci_cholesky_factor(terms, a) != HCI_OK) return false;
+    if (hci_cholesky_factor(terms, a)) return false;
     hci_cholesky_solve(terms, a, x);
     double square = s->square;
     for (size_t i = 0; i < terms; ++i)
@@ -174,7 +174,7 @@ static hci_status fit_linear(clock_fit *c)
         }
     }
     const hci_status status = hci_cholesky_factor(c->columns, c->gram);
-    for (int s = 0; s < 3 && status == HCI_OK; ++s)
+    for (int s = 0; s < 3 && !status; ++s)
         hci_cholesky_solve(c->columns, c->gram, c->coefficient[s]);
     return status;
 }
@@ -244,7 +244,7 @@ static hci_status fit_clock(clock_fit *c)
     double moved = 1.0;
     for (int step = 0; step < STEPS_MOST && moved > 1e-10; ++step) {
         const hci_status status = fit_linear(c);
-        if (status != HCI_OK) return HCI_ERROR_SINGULAR;
+        if (status) return HCI_ERROR_SINGULAR;
         moved = improve(c);
         if (!(moved < 10.0) || !(c->frequency_Hz > 0.0)) return HCI_ERROR_SINGULAR;
     }
@@ -274,7 +274,7 @@ hci_status hci_voltage_clock_find(const double *time_s, const double *v, size_t 
     c.harmonics = harmonics_of(n, 2.0 * c.half_s * c.frequency_Hz);
     c.columns = 1 + 2 * c.harmonics;
     const hci_status status = fit_clock(&c);
-    if (status != HCI_OK) return status;
+    if (status) return status;
     for (size_t k = 0; k < n; ++k) {
         const double tau = time_s[k] - c.middle_s;
         phase_rad[k] = 2.0 * HCI_PI * (c.frequency_Hz + 0.5 * c.drift_Hz_per_s * tau) * tau;

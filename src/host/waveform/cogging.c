@@ -94,7 +94,7 @@ static hci_status cogging_of(const hci_waveform_task *t, double *value, double *
     double step;
     cogging_values(t, value);
     hci_status status = find_turns(t, value, angle, &average, &step);
-    if (status == HCI_OK) {
+    if (!status) {
         w->friction_Nm = hci_average_half_difference(&average, 0, &w->friction_error_Nm);
         w->mean_Nm = hci_average_estimate(&average, 0, 0).mean.cosine;
         status = hci_waveform_take_orders(t, &average, 0, step);
@@ -107,14 +107,14 @@ static hci_status cogging_of(const hci_waveform_task *t, double *value, double *
     }
     hci_average_release(&average);
     if (status == HCI_ERROR_MEMORY) return hci_waveform_memory(t);
-    if (status == HCI_OK) remark_cogging(t);
+    if (!status) remark_cogging(t);
     return status;
 }
 
 hci_status hci_waveform_cogging(const hci_waveform_task *t)
 {
     hci_status status = check_cogging(t);
-    if (status != HCI_OK) return status;
+    if (status) return status;
     double *value = hci_memory_new(t->run->count, sizeof *value);
     double *angle = hci_memory_new(t->run->count, sizeof *angle);
     status = value != NULL && angle != NULL ? cogging_of(t, value, angle) : hci_waveform_memory(t);

@@ -40,16 +40,16 @@ static hci_status errors_of_given(const hci_waveform_task *t, const double *thet
     double *normal = hci_memory_new(columns * columns, sizeof *normal);
     double *x = hci_memory_new(columns, sizeof *x), square = 0.0;
     hci_status status = normal != NULL && x != NULL ? HCI_OK : HCI_ERROR_MEMORY;
-    for (size_t k = 0; k < n && status == HCI_OK; ++k) {
+    for (size_t k = 0; k < n && !status; ++k) {
         columns_at(t->options, theta_rad[k], x);
         square += residual[k] * residual[k];
         for (size_t j = 0; j < columns; ++j)
             for (size_t i = j; i < columns; ++i)
                 normal[i + j * columns] += x[i] * x[j];
     }
-    if (status == HCI_OK) status = hci_cholesky_factor(columns, normal);
+    if (!status) status = hci_cholesky_factor(columns, normal);
     const double variance = square / fmax((double)n - (double)columns, 1.0) * correlation_factor(residual, n);
-    for (size_t k = 0; k < t->options->order_count && status == HCI_OK; ++k) {
+    for (size_t k = 0; k < t->options->order_count && !status; ++k) {
         error[k] = 0.0;
         for (size_t column = 1 + 2 * k; column < 3 + 2 * k; ++column) {
             memset(x, 0, columns * sizeof *x);
@@ -72,13 +72,13 @@ static hci_status fit_given(const hci_waveform_task *t, const double *value, dou
     double *orders = hci_memory_new(count, sizeof *orders), *residual = hci_memory_new(n, sizeof *residual);
     double *work = hci_memory_new(hci_fourier_fit_workspace(count), sizeof *work);
     hci_status status = orders != NULL && work != NULL && residual != NULL ? HCI_OK : HCI_ERROR_MEMORY;
-    if (status == HCI_OK) {
+    if (!status) {
         memcpy(orders + 1, t->options->orders, (count - 1) * sizeof *orders);
         status = hci_fourier_fit(theta_rad, value, n, orders, count, fit, work);
     }
-    for (size_t k = 0; k < n && status == HCI_OK; ++k)
+    for (size_t k = 0; k < n && !status; ++k)
         residual[k] = value[k] - hci_harmonics_at(fit, count, theta_rad[k]);
-    if (status == HCI_OK) status = errors_of_given(t, theta_rad, residual, error);
+    if (!status) status = errors_of_given(t, theta_rad, residual, error);
     hci_memory_free(orders);
     hci_memory_free(residual);
     hci_memory_free(work);
@@ -112,13 +112,13 @@ hci_status hci_waveform_fit_given(const hci_waveform_task *t, const double *valu
             angle[k] = t->options->pole_pairs * t->run->theta_m_rad[k];
         status = fit_given(t, value, angle, fit, error);
     }
-    if (status == HCI_OK) set_given(t, fit, error);
+    if (!status) set_given(t, fit, error);
     hci_memory_free(fit);
     hci_memory_free(error);
     if (status == HCI_ERROR_SINGULAR)
         return hci_waveform_refuse(t, "angles that cannot tell these orders apart", "samples all around",
                                    "give fewer orders, or measure over more of the turn");
-    if (status == HCI_OK)
+    if (!status)
         hci_note_add(&t->result->remark,
                      "the samples do not go round a turn: only the orders given were fitted, and any "
                      "other one is in them");

@@ -104,6 +104,6 @@ hci_status hci_waveform_take_orders(const hci_waveform_task *t, const hci_averag
     remark_limit(t, average, step);
     const hci_status status = t->options->orders != NULL ? take_given_orders(t, average, channel, step)
                                                          : take_all_orders(t, average, channel, step);
-    if (status == HCI_OK) count_kept(w);
+    if (!status) count_kept(w);
     return status;
 }

@@ -48,12 +48,12 @@ static hci_status push_turns(pass_list *list, const double *angle, size_t first,
     const double length = TURN * (double)turns;
     hci_status status = HCI_OK;
     size_t start = first;
-    for (size_t k = first; k < end && status == HCI_OK; ++k) {
+    for (size_t k = first; k < end && !status; ++k) {
         if (direction * (angle[k] - angle[start]) < length) continue;
         status = push(list, start, k, direction);
         start = k;
     }
-    return status == HCI_OK && start < end ? push(list, start, end, direction) : status;
+    return !status && start < end ? push(list, start, end, direction) : status;
 }
 
 /* The path as stretches of one direction: from one extreme to the next. */
@@ -64,7 +64,7 @@ static hci_status find_passes(const hci_average_samples *x, size_t turns, pass_l
     size_t start = 0, extreme = 0;
     int direction = 0;
     list->count = 0;
-    for (size_t k = 1; k < x->count && status == HCI_OK; ++k) {
+    for (size_t k = 1; k < x->count && !status; ++k) {
         const double way = angle[k] - angle[extreme];
         if (direction * way > 0.0) {
             extreme = k;
@@ -75,8 +75,7 @@ static hci_status find_passes(const hci_average_samples *x, size_t turns, pass_l
             extreme = k;
         }
     }
-    if (status == HCI_OK && direction != 0)
-        status = push_turns(list, angle, start, x->count, direction, turns);
+    if (!status && direction != 0) status = push_turns(list, angle, start, x->count, direction, turns);
     return status;
 }
 
@@ -282,7 +281,7 @@ static hci_status choose_passes(const hci_average_samples *x, const hci_average_
     average->highest = 0;
     for (size_t each = 1;; each *= 2) {
         hci_status status = find_passes(x, each, list);
-        double *gaps = status == HCI_OK ? hci_memory_new(list->count, sizeof *gaps) : NULL;
+        double *gaps = status ? NULL : hci_memory_new(list->count, sizeof *gaps);
         if (gaps == NULL) return HCI_ERROR_MEMORY;
         const size_t highest = highest_of(x, list, c, gaps), passes = list->count;
         hci_memory_free(gaps);
@@ -303,7 +302,7 @@ static hci_status take_all(const hci_average_samples *x, size_t wanted, cell_tab
     double gap;
     list->count = 0;
     const hci_status status = push(list, 0, x->count, 0);
-    if (status != HCI_OK) return status;
+    if (status) return status;
     const size_t bears = highest_of(x, list, c, &gap);
     average->highest = bears < wanted ? bears : wanted;
     average->turns_each = 1;
@@ -336,10 +335,10 @@ static hci_status fit(const hci_average_samples *x, const hci_average_orders *o,
                       cell_table *c, hci_average *average)
 {
     hci_status status = cells_new(c, CELLS_PER_ORDER * (o->wanted + 1), x->channels);
-    if (status == HCI_OK) status = choose_passes(x, o, c, list, average);
-    if (status == HCI_OK && average->highest < o->least) status = take_all(x, o->wanted, c, list, average);
-    if (status == HCI_OK && average->highest < o->least) status = HCI_ERROR_SINGULAR;
-    return status == HCI_OK ? fit_all(x, list, c, average) : status;
+    if (!status) status = choose_passes(x, o, c, list, average);
+    if (!status && average->highest < o->least) status = take_all(x, o->wanted, c, list, average);
+    if (!status && average->highest < o->least) status = HCI_ERROR_SINGULAR;
+    return status ? status : fit_all(x, list, c, average);
 }
 
 hci_status hci_average_fit(const hci_average_samples *samples, const hci_average_orders *orders,
@@ -352,7 +351,7 @@ hci_status hci_average_fit(const hci_average_samples *samples, const hci_average
     const hci_status status = fit(samples, orders, &list, &cells, average);
     cells_release(&cells);
     hci_memory_free(list.pass);
-    if (status != HCI_OK) hci_average_release(average);
+    if (status) hci_average_release(average);
     return status;
 }
 

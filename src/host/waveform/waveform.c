@@ -32,10 +32,10 @@ hci_status hci_waveform_find(const hci_run *run, const hci_waveform_options *opt
     waveform->mean_Nm = waveform->friction_Nm = waveform->friction_error_Nm = NAN;
     waveform->frequency_Hz = waveform->drift_Hz_per_s = waveform->speed_rad_per_s = NAN;
     hci_status status = check_options(options, note);
-    if (status == HCI_OK)
+    if (!status)
         status =
             options->quantity == HCI_WAVEFORM_COGGING ? hci_waveform_cogging(&t) : hci_waveform_back_emf(&t);
-    if (status != HCI_OK) hci_waveform_release(waveform);
+    if (status) hci_waveform_release(waveform);
     return status;
 }
 
