@@ -1,32 +1,7 @@
 #include <math.h>
 
 #include "host/check/run_samples.h"
-
-static double mean_of(const double *x, size_t n)
-{
-    double sum = 0.0;
-    for (size_t k = 0; k < n; ++k)
-        sum += x[k];
-    return sum / (double)n;
-}
-
-static double square_about(const double *x, size_t n, double mean)
-{
-    double sum = 0.0;
-    for (size_t k = 0; k < n; ++k)
-        sum += (x[k] - mean) * (x[k] - mean);
-    return sum / (double)n;
-}
-
-static double range_of(const double *x, size_t n)
-{
-    double low = x[0], high = x[0];
-    for (size_t k = 1; k < n; ++k) {
-        low = fmin(low, x[k]);
-        high = fmax(high, x[k]);
-    }
-    return high - low;
-}
+#include "host/numeric/statistics.h"
 
 /* How far an angle goes over time, in the units of the columns. Steps of more than half the range are where
  * the angle was wrapped, whatever a turn is in its unit; they are left out. */
@@ -34,7 +9,7 @@ static double angle_rate_of(const double *angle, const double *time, size_t n)
 {
     double path = 0.0, along = 0.0;
     if (!angle || !time || n < 3) return NAN;
-    const double most = 0.5 * range_of(angle, n);
+    const double most = 0.5 * hci_peak_to_peak(angle, n);
     for (size_t k = 1; k < n; ++k) {
         if (fabs(angle[k] - angle[k - 1]) > most) continue;
         path += angle[k] - angle[k - 1];
@@ -46,7 +21,7 @@ static double angle_rate_of(const double *angle, const double *time, size_t n)
 /* theta_e over theta_m, by the steps at which neither is wrapped. */
 static double ratio_of(const double *e, const double *m, size_t n)
 {
-    const double most_e = 0.5 * range_of(e, n), most_m = 0.5 * range_of(m, n);
+    const double most_e = 0.5 * hci_peak_to_peak(e, n), most_m = 0.5 * hci_peak_to_peak(m, n);
     double top = 0.0, bottom = 0.0;
     for (size_t k = 1; k < n; ++k) {
         const double x = m[k] - m[k - 1], y = e[k] - e[k - 1];
@@ -83,7 +58,7 @@ static double balance_of(const double *const *column, size_t n)
     double least = HUGE_VAL, most = 0.0;
     for (int s = 0; s < 3; ++s) {
         if (!column[s]) return NAN;
-        const double square = square_about(column[s], n, mean_of(column[s], n));
+        const double square = hci_mean_square_about(column[s], n, hci_mean(column[s], n));
         least = fmin(least, square);
         most = fmax(most, square);
     }
@@ -105,12 +80,12 @@ static double sum_of_phases(const double *const *column, size_t n)
 /* 0 throughout: the shaft was held, and the torque is not a reading. */
 static void torque_take(const check_samples *s, check_run *run)
 {
-    run->has_torque = square_about(s->torque, s->count, 0.0) > 0.0;
+    run->has_torque = hci_mean_square_about(s->torque, s->count, 0.0) > 0.0;
     run->is_held = !run->has_torque && s->q != NULL;
     for (size_t k = 0; run->is_held && k < s->count; ++k)
         s->torque[k] = -s->q[k];
-    run->torque_mean = mean_of(s->torque, s->count);
-    run->torque_variance = square_about(s->torque, s->count, run->torque_mean);
+    run->torque_mean = hci_mean(s->torque, s->count);
+    run->torque_variance = hci_mean_square_about(s->torque, s->count, run->torque_mean);
 }
 
 static check_vector pair_at(const double *d, const double *q, size_t k)
@@ -155,23 +130,24 @@ static double torque_at_speed(const check_samples *s, const check_run *run)
 
 static bool lacks_d_current(const check_samples *s, const check_run *run)
 {
-    return !s->d ||
-           square_about(s->d, s->count, 0.0) <= CHECK_NO_CURRENT * CHECK_NO_CURRENT * run->current_square;
+    return !s->d || hci_mean_square_about(s->d, s->count, 0.0) <=
+                        CHECK_NO_CURRENT * CHECK_NO_CURRENT * run->current_square;
 }
 
 void hci_check_run_means(const check_samples *s, check_run *run)
 {
     const size_t n = s->count;
-    run->angle_range = s->theta ? range_of(s->theta, n) : 0.0;
+    run->angle_range = s->theta ? hci_peak_to_peak(s->theta, n) : 0.0;
     run->angle_rate = angle_rate_of(s->theta, s->time, n);
     run->angle_ratio = s->other ? ratio_of(s->theta, s->other, n) : (double)NAN;
-    run->speed = s->speed ? mean_of(s->speed, n) : (double)NAN;
+    run->speed = s->speed ? hci_mean(s->speed, n) : (double)NAN;
     run->has_speed = s->speed != NULL;
     if (s->torque) torque_take(s, run);
     if (s->torque) run->torque_at_speed = torque_at_speed(s, run);
     if (s->q) {
-        run->dq = (check_vector){s->d ? mean_of(s->d, n) : 0.0, mean_of(s->q, n)};
-        run->current_square = square_about(s->q, n, 0.0) + (s->d ? square_about(s->d, n, 0.0) : 0.0);
+        run->dq = (check_vector){s->d ? hci_mean(s->d, n) : 0.0, hci_mean(s->q, n)};
+        run->current_square =
+            hci_mean_square_about(s->q, n, 0.0) + (s->d ? hci_mean_square_about(s->d, n, 0.0) : 0.0);
     }
     run->dq_is_steady =
         hci_check_length(run->dq) * hci_check_length(run->dq) > CHECK_COHERENT * run->current_square;

@@ -4,6 +4,7 @@
 #include <stdbool.h>
 
 #include "hci/math/harmonic.h"
+#include "host/numeric/statistics.h"
 
 #define TURN (2.0 * HCI_PI)
 
@@ -27,16 +28,6 @@ static bool is_still(const double *rate, size_t n)
     for (size_t k = 0; k < n; ++k)
         if (fabs(rate[k]) > 0.0) return false;
     return true;
-}
-
-static double range_of(const double *x, size_t n)
-{
-    double low = x[0], high = x[0];
-    for (size_t k = 1; k < n; ++k) {
-        low = fmin(low, x[k]);
-        high = fmax(high, x[k]);
-    }
-    return high - low;
 }
 
 /* What the speed says of the step to sample k. */
@@ -104,7 +95,7 @@ static hci_angle_path path_of(const unwrapper *u, size_t n, bool within, bool se
 
 hci_unwrapping hci_unwrap(double *angle_rad, size_t n, const double *time_s, const double *rate_rad_per_s)
 {
-    const bool within = range_of(angle_rad, n) <= TURN * (1.0 + 1e-6);
+    const bool within = hci_peak_to_peak(angle_rad, n) <= TURN * (1.0 + 1e-6);
     const bool still = rate_rad_per_s != NULL && is_still(rate_rad_per_s, n);
     const bool has_rate = time_s != NULL && rate_rad_per_s != NULL && !still;
     unwrapper u = {.time_s = time_s, .rate_rad_per_s = has_rate ? rate_rad_per_s : NULL};

@@ -6,40 +6,25 @@
 #include "hci/host/recording/predict.h"
 #include "host/base/memory.h"
 #include "host/csv/write.h"
+#include "host/numeric/statistics.h"
 #include "host/recording/free_shaft.h"
 
 /* ---- in sum ---- */
-
-static double mean_of(const double *x, size_t n)
-{
-    double sum = 0.0;
-    for (size_t k = 0; k < n; ++k)
-        sum += x[k];
-    return sum / (double)n;
-}
-
-static double rms_about(const double *x, size_t n, double centre)
-{
-    double sum = 0.0;
-    for (size_t k = 0; k < n; ++k)
-        sum += (x[k] - centre) * (x[k] - centre);
-    return sqrt(sum / (double)n);
-}
 
 static void sum_up(const hci_run *run, const double *model, const double *residual, hci_prediction *p)
 {
     const size_t n = run->count;
     p->count = n;
     p->source = run->torque_source;
-    p->mean_model_Nm = mean_of(model, n);
-    p->ripple_model_Nm = rms_about(model, n, p->mean_model_Nm);
+    p->mean_model_Nm = hci_mean(model, n);
+    p->ripple_model_Nm = sqrt(hci_mean_square_about(model, n, p->mean_model_Nm));
     p->mean_torque_Nm = p->ripple_torque_Nm = p->mean_residual_Nm = p->rms_residual_Nm = NAN;
     p->worst_residual_Nm = NAN;
     if (residual == NULL) return;
-    p->mean_torque_Nm = mean_of(run->torque_Nm, n);
-    p->ripple_torque_Nm = rms_about(run->torque_Nm, n, p->mean_torque_Nm);
-    p->mean_residual_Nm = mean_of(residual, n);
-    p->rms_residual_Nm = rms_about(residual, n, 0.0);
+    p->mean_torque_Nm = hci_mean(run->torque_Nm, n);
+    p->ripple_torque_Nm = sqrt(hci_mean_square_about(run->torque_Nm, n, p->mean_torque_Nm));
+    p->mean_residual_Nm = hci_mean(residual, n);
+    p->rms_residual_Nm = sqrt(hci_mean_square_about(residual, n, 0.0));
     p->worst_residual_Nm = 0.0;
     for (size_t k = 0; k < n; ++k) {
         if (!(fabs(residual[k]) > p->worst_residual_Nm)) continue;

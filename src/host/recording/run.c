@@ -10,6 +10,7 @@
 #include "host/base/memory.h"
 #include "host/base/quote.h"
 #include "host/numeric/derivative.h"
+#include "host/numeric/statistics.h"
 #include "host/numeric/unwrap.h"
 #include "host/recording/rotor_frame.h"
 #include "host/recording/run_columns.h"
@@ -91,16 +92,6 @@ static bool is_zero(const double *values, size_t count)
     return true;
 }
 
-static bool has_moved(const double *angle_rad, size_t count)
-{
-    double low = angle_rad[0], high = angle_rad[0];
-    for (size_t k = 1; k < count; ++k) {
-        low = fmin(low, angle_rad[k]);
-        high = fmax(high, angle_rad[k]);
-    }
-    return high - low > MOVED_RAD;
-}
-
 /* The slope of the angle where no speed was recorded, or one of 0 while the shaft moved. */
 static hci_status complete_speed(reader *r, hci_angle_path path)
 {
@@ -108,7 +99,8 @@ static hci_status complete_speed(reader *r, hci_angle_path path)
     const bool recorded = run->speed_rad_per_s != NULL;
     if (run->theta_m_rad == NULL || run->time_s == NULL || run->count < 2) return HCI_OK;
     if (path == HCI_ANGLE_SCATTERED || path == HCI_ANGLE_UNCLEAR) return HCI_OK;
-    if (recorded && (!is_zero(run->speed_rad_per_s, run->count) || !has_moved(run->theta_m_rad, run->count)))
+    if (recorded && (!is_zero(run->speed_rad_per_s, run->count) ||
+                     hci_peak_to_peak(run->theta_m_rad, run->count) <= MOVED_RAD))
         return HCI_OK;
     if (!recorded) run->speed_rad_per_s = hci_memory_new(run->count, sizeof(double));
     if (run->speed_rad_per_s == NULL) return memory_error(r);

@@ -1,0 +1,16 @@
+/* Mean, mean square and peak-to-peak of samples. */
+#ifndef HCI_SRC_HOST_NUMERIC_STATISTICS_H
+#define HCI_SRC_HOST_NUMERIC_STATISTICS_H
+
+#include <stddef.h>
+
+/* Of n samples, n from 1. O(n). */
+double hci_mean(const double *x, size_t n);
+
+/* Mean of the squares of x − centre. */
+double hci_mean_square_about(const double *x, size_t n, double centre);
+
+/* Largest less smallest. */
+double hci_peak_to_peak(const double *x, size_t n);
+
+#endif
