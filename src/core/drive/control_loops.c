@@ -74,39 +74,46 @@ static void feed_forward(const hci_plant_table *table, const hci_measurement *me
     v[1] = w * (e[1] + h[1] * i[0] + h[2] * i[1]) + w_e * (l[2] * i[0] - l[1] * i[1]);
 }
 
-/* v: out, plane, ahead of the sample's angle by `ahead_rad`. */
-static void pi_in_rotor_frame(const hci_control *control, hci_current_pi_state *state, const double error[2],
-                              const double feed[2], double theta_rad, double ahead_rad, double sample_s,
+/* One sample of the loop, in the plane. */
+typedef struct {
+    double error[2], feed[2];    /* A, V */
+    double theta_rad, ahead_rad; /* of the sample, and from there to the middle of the voltage's use */
+    double sample_s;
+} pi_sample;
+
+/* v: out, plane. */
+static void pi_in_rotor_frame(const hci_control *control, hci_current_pi_state *state, const pi_sample *x,
                               double v[2])
 {
     const hci_pi *pi = &control->current.pi;
-    double s = sin(theta_rad), c = cos(theta_rad), error_dq[2], raw[2];
-    to_rotor(error, s, c, error_dq);
-    to_rotor(feed, s, c, raw);
+    double s = sin(x->theta_rad), c = cos(x->theta_rad), error_dq[2], raw[2];
+    to_rotor(x->error, s, c, error_dq);
+    to_rotor(x->feed, s, c, raw);
     for (int k = 0; k < 2; ++k)
         raw[k] += pi->proportional * error_dq[k] + state->integral[k];
-    if (ahead_rad != 0.0) {
-        s = sin(theta_rad + ahead_rad);
-        c = cos(theta_rad + ahead_rad);
+    if (x->ahead_rad != 0.0) {
+        s = sin(x->theta_rad + x->ahead_rad);
+        c = cos(x->theta_rad + x->ahead_rad);
     }
     from_rotor(raw, s, c, v);
     const double factor = hci_inverter_average(control->dc_link_V, v);
     for (int k = 0; k < 2; ++k)
         state->integral[k] =
-            integrate(pi, state->integral[k], error_dq[k], raw[k], factor * raw[k], sample_s);
+            integrate(pi, state->integral[k], error_dq[k], raw[k], factor * raw[k], x->sample_s);
 }
 
 void hci_current_pi_sample(const hci_control *control, hci_current_pi_state *state, const double reference[2],
                            const double current[2], const hci_measurement *measured)
 {
     const double sample_s = control->step_s * (control->current_every > 0 ? control->current_every : 1u);
-    const double theta_rad = control->table->pole_pairs * measured->theta_m_rad;
     const double way_rad = control->table->pole_pairs * measured->speed_rad_per_s * sample_s;
-    const double error[2] = {reference[0] - current[0], reference[1] - current[1]};
-    double feed[2] = {0.0, 0.0}, v[2];
-    if (control->current.decoupled) feed_forward(control->table, measured, current, feed);
-    pi_in_rotor_frame(control, state, error, feed, theta_rad,
-                      way_rad * (control->current.delayed ? 1.5 : 0.5), sample_s, v);
+    pi_sample x = {.error = {reference[0] - current[0], reference[1] - current[1]},
+                   .theta_rad = control->table->pole_pairs * measured->theta_m_rad,
+                   .ahead_rad = way_rad * (control->current.delayed ? 1.5 : 0.5),
+                   .sample_s = sample_s};
+    double v[2];
+    if (control->current.decoupled) feed_forward(control->table, measured, current, x.feed);
+    pi_in_rotor_frame(control, state, &x, v);
     for (int k = 0; k < 2; ++k) {
         state->v[k] = control->current.delayed ? state->pending[k] : v[k];
         state->pending[k] = v[k];
