@@ -1,7 +1,5 @@
 /* Progress with a clock of its own: the rate and the time that is left, what the line says, and when a
  * terminal gets it. */
-#define _XOPEN_SOURCE 700
-
 #include <fcntl.h>
 #include <math.h>
 #include <stdbool.h>

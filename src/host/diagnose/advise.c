@@ -8,6 +8,7 @@
 #include "host/base/memory.h"
 #include "host/diagnose/fit/linearise.h"
 #include "host/diagnose/fit/model.h"
+#include "host/diagnose/fit/predicted_reading.h"
 #include "host/numeric/normal_equations.h"
 #include "host/recording/rotor_frame.h"
 

@@ -4,7 +4,7 @@
 
 #include "hci/host/diagnose/diagnose.h"
 #include "host/diagnose/fit/dataset.h"
-#include "host/diagnose/search/attribute.h"
+#include "host/diagnose/search/attribution.h"
 
 /* Fills finding, most important first, and the verdict. rms_before_Nm of the diagnosis is there already. */
 void hci_findings_fill(const hci_attribution *attribution, hci_diagnosis *diagnosis);

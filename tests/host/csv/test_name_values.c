@@ -1,6 +1,4 @@
 /* The reader of name, value, unit: conversion, what stands for the wanted unit, and what is refused. */
-#define _POSIX_C_SOURCE 200809L
-
 #include "host/csv/name_values.h"
 
 #include <math.h>

@@ -9,7 +9,7 @@
 #ifndef HCI_SRC_HOST_DIAGNOSE_CANDIDATES_CANDIDATE_ORDERS_H
 #define HCI_SRC_HOST_DIAGNOSE_CANDIDATES_CANDIDATE_ORDERS_H
 
-#include "host/diagnose/candidates/make_candidates.h"
+#include "host/diagnose/candidates/candidates.h"
 
 /* For each order, in multiples of `stride` periods in a mechanical turn, how much χ² a torque of that order,
  * alone or in proportion to i_q, and in phase in all runs, would explain. Start with {0}. */

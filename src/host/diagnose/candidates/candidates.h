@@ -52,4 +52,17 @@ size_t hci_candidates_terms_in(const hci_candidates *candidates);
 /* Takes a type out of the model; its candidates stay in the list. */
 void hci_candidates_remove_type(hci_candidates *candidates, const hci_effect_type *type);
 
+/* What the candidates are chosen from. */
+typedef struct {
+    const hci_machine *machine;
+    const hci_binned_samples *samples;
+    const hci_run *runs;
+    const bool *use;            /* of each run */
+    const double *residual_Nm;  /* of each sample */
+    const double *variance;     /* of each sample, N²·m² */
+    double reference_current_A; /* of a series in the currents; NAN: the largest of the runs */
+    int richness; /* as in hci_effect_survey: 0 low orders, 1 all orders, 2 to high powers of the
+                     currents */
+} hci_candidates_source;
+
 #endif

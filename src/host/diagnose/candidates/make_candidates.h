@@ -8,19 +8,6 @@
 
 #include "host/diagnose/candidates/candidates.h"
 
-/* What the candidates are chosen from. */
-typedef struct {
-    const hci_machine *machine;
-    const hci_binned_samples *samples;
-    const hci_run *runs;
-    const bool *use;            /* of each run */
-    const double *residual_Nm;  /* of each sample */
-    const double *variance;     /* of each sample, N²·m² */
-    double reference_current_A; /* of a series in the currents; NAN: the largest of the runs */
-    int richness; /* as in hci_effect_survey: 0 low orders, 1 all orders, 2 to high powers of the
-                     currents */
-} hci_candidates_source;
-
 /* Terms that these recordings could show, at the orders that stand out of the residual. Those that are
  * already `in` an older list (known; or NULL) stay, with their values. On failure *candidates is empty.
  * HCI_ERROR_MEMORY. O(samples·orders). */

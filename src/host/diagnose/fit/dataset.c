@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "host/base/memory.h"
+#include "host/diagnose/fit/predicted_reading.h"
 #include "host/diagnose/prepare/index_alignment.h"
 
 #define ROUNDING 1e-6 /* noise of a sum of currents, as a share of them, that was not measured */

@@ -127,3 +127,19 @@ void hci_predicted_reading_fill(const hci_regression *e, const hci_effects *effe
     hci_effects_filter(effects, o->time_s, turns * s->count, o->torque_Nm, o->by_value);
     if (turns > 1) turn_keep(o, s->count, turns - 1);
 }
+
+hci_status hci_regression_residual(const hci_regression *e, const hci_effects *effects, double *residual_Nm,
+                                   hci_note *note)
+{
+    hci_predicted_reading predicted;
+    if (!hci_predicted_reading_make(e, effects, false, &predicted))
+        return hci_note_memory(note, NULL, "comparing model and recordings");
+    memset(residual_Nm, 0, e->samples->count * sizeof *residual_Nm);
+    for (const hci_segment *s = NULL; (s = hci_regression_next(e, s)) != NULL;) {
+        hci_predicted_reading_fill(e, effects, s, &predicted);
+        for (size_t j = 0; j < s->count; ++j)
+            residual_Nm[s->first + j] = e->samples->sample[s->first + j].torque_Nm - predicted.torque_Nm[j];
+    }
+    hci_predicted_reading_release(&predicted);
+    return HCI_OK;
+}

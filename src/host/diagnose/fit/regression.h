@@ -1,7 +1,4 @@
-/* Model and recordings side by side: what the search regresses the torque on.
- *
- * In: a machine, effects and the samples of the runs in use. Out: the residual, measured less modelled
- * torque. */
+/* What the search regresses the torque on: a machine, and the samples of the runs in use with their noise. */
 #ifndef HCI_SRC_HOST_DIAGNOSE_FIT_REGRESSION_H
 #define HCI_SRC_HOST_DIAGNOSE_FIT_REGRESSION_H
 
@@ -25,10 +22,5 @@ const hci_segment *hci_regression_next(const hci_regression *regression, const h
 
 /* The noise of a segment. */
 hci_noise *hci_regression_noise(const hci_regression *regression, const hci_segment *segment);
-
-/* Measured less modelled torque of each sample of the runs in use, others 0: residual_Nm[samples].
- * HCI_ERROR_MEMORY. O(samples·terms). */
-hci_status hci_regression_residual(const hci_regression *regression, const hci_effects *effects,
-                                   double *residual_Nm, hci_note *note);
 
 #endif

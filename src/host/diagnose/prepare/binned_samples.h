@@ -8,33 +8,10 @@
 #ifndef HCI_SRC_HOST_DIAGNOSE_PREPARE_BINNED_SAMPLES_H
 #define HCI_SRC_HOST_DIAGNOSE_PREPARE_BINNED_SAMPLES_H
 
-#include "hci/effects/effect.h"
 #include "hci/host/base/note.h"
 #include "hci/host/recording/run.h"
 #include "host/diagnose/prepare/run_statistics.h"
-
-/* A sample, or the mean of those at about the same angle in several turns. */
-typedef struct {
-    hci_sample reading; /* smoothed, for regressions */
-    hci_sample raw;     /* as it was read */
-    double torque_Nm;
-    double sum_A;        /* i_a + i_b + i_c; NAN where they were not recorded one by one */
-    double time_s;       /* ascending within a segment; 0 where there is none */
-    double count;        /* samples in it */
-    double scatter_N2m2; /* sum of the squared departures of their torques from the mean */
-} hci_binned_sample;
-
-enum { HCI_LONGEST_SEGMENT = 4096 }; /* samples of a segment */
-
-/* Samples that follow each other in time. */
-typedef struct {
-    size_t run;          /* in the list of runs */
-    size_t first, count; /* its samples */
-    size_t turns;    /* in the mean, electrical periods where the turn is not known; 0: samples as they are */
-    double period_s; /* of one turn, when turns > 0 */
-    bool timed;
-    bool smooth; /* the currents are free of noise */
-} hci_segment;
+#include "host/diagnose/prepare/segment.h"
 
 /* Start with {0}. */
 typedef struct {

@@ -3,7 +3,7 @@
 #ifndef HCI_SRC_HOST_DIAGNOSE_PREPARE_CURRENT_RATE_H
 #define HCI_SRC_HOST_DIAGNOSE_PREPARE_CURRENT_RATE_H
 
-#include "host/diagnose/prepare/binned_samples.h"
+#include "host/diagnose/prepare/segment.h"
 
 /* Sets reading.change_A_per_s of n samples that follow each other in time; left at 0 where there are too few.
  * O(n). */

@@ -7,7 +7,7 @@
 #ifndef HCI_SRC_HOST_DIAGNOSE_PREPARE_SMOOTH_H
 #define HCI_SRC_HOST_DIAGNOSE_PREPARE_SMOOTH_H
 
-#include "host/diagnose/prepare/binned_samples.h"
+#include "host/diagnose/prepare/segment.h"
 
 /* Smooths the readings of one segment in place where it is steady; where it is not they stay. turns: orders
  * of the mechanical turn are in it. series: out, whether the currents are a Fourier series over the angle

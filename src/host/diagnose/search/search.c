@@ -1,6 +1,7 @@
 #include "host/diagnose/search/search.h"
 #include "host/diagnose/fit/model.h"
 #include "host/diagnose/fit/noise_estimate.h"
+#include "host/diagnose/fit/predicted_reading.h"
 
 #include <math.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #ifndef HCI_SRC_HOST_DIAGNOSE_SEARCH_SEARCH_H
 #define HCI_SRC_HOST_DIAGNOSE_SEARCH_SEARCH_H
 
-#include "host/diagnose/search/attribute.h"
+#include "host/diagnose/search/attribution.h"
 #include "host/diagnose/search/fitted_model.h"
 
 #define HCI_DECISIVE 10.0 /* fall of the score that makes an effect believed: odds of 150 to 1 */

@@ -1,7 +1,5 @@
 /* The Gauss–Newton fit: closed forms of linear terms, a known parameter that is not linear, and standard
  * errors against the scatter of the values over draws of the noise. */
-#define _XOPEN_SOURCE 700
-
 #include "host/diagnose/fit/fit.h"
 
 #include "host/diagnose/fit/standard_errors.h"

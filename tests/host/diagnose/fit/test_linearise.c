@@ -1,7 +1,5 @@
 /* Normal equations: their moments are half the slope of −χ², whatever the effect, and what a run cannot show
  * has none. */
-#define _XOPEN_SOURCE 700
-
 #include "host/diagnose/fit/linearise.h"
 
 #include "support/searching.h"

@@ -1,7 +1,5 @@
 /* The torque sensor: what a model predicts that it reads against the closed form of its response, and the
  * grid that looks for its resonance. */
-#define _XOPEN_SOURCE 700
-
 #include "host/diagnose/fit/resonance.h"
 
 #include <complex.h>

@@ -1,6 +1,4 @@
 /* What leaves a model: terms and effects that the recordings do not need, and no others. */
-#define _XOPEN_SOURCE 700
-
 #include "host/diagnose/search/backward.h"
 
 #include "support/searching.h"

@@ -1,6 +1,4 @@
 /* One step forward: what comes into the model, and that nothing does on noise. */
-#define _XOPEN_SOURCE 700
-
 #include "host/diagnose/search/forward.h"
 
 #include "support/searching.h"

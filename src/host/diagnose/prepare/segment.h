@@ -1,0 +1,30 @@
+/* A sample of a recording, or the mean of several, and samples that follow each other in time. */
+#ifndef HCI_SRC_HOST_DIAGNOSE_PREPARE_SEGMENT_H
+#define HCI_SRC_HOST_DIAGNOSE_PREPARE_SEGMENT_H
+
+#include "hci/effects/effect.h"
+
+/* A sample, or the mean of those at about the same angle in several turns. */
+typedef struct {
+    hci_sample reading; /* smoothed, for regressions */
+    hci_sample raw;     /* as it was read */
+    double torque_Nm;
+    double sum_A;        /* i_a + i_b + i_c; NAN where they were not recorded one by one */
+    double time_s;       /* ascending within a segment; 0 where there is none */
+    double count;        /* samples in it */
+    double scatter_N2m2; /* sum of the squared departures of their torques from the mean */
+} hci_binned_sample;
+
+enum { HCI_LONGEST_SEGMENT = 4096 }; /* samples of a segment */
+
+/* Samples that follow each other in time. */
+typedef struct {
+    size_t run;          /* in the list of runs */
+    size_t first, count; /* its samples */
+    size_t turns;    /* in the mean, electrical periods where the turn is not known; 0: samples as they are */
+    double period_s; /* of one turn, when turns > 0 */
+    bool timed;
+    bool smooth; /* the currents are free of noise */
+} hci_segment;
+
+#endif

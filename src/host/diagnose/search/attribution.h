@@ -1,0 +1,42 @@
+/* What is asked of the search for effects, and what comes of it. */
+#ifndef HCI_SRC_HOST_DIAGNOSE_SEARCH_ATTRIBUTION_H
+#define HCI_SRC_HOST_DIAGNOSE_SEARCH_ATTRIBUTION_H
+
+#include "hci/host/base/progress.h"
+#include "host/diagnose/search/fitted_model.h"
+
+/* What came of one effect. */
+typedef struct {
+    const hci_effect_type *type;
+    bool in;                         /* in the model */
+    bool ambiguous;                  /* in, but others fit as well; or one of those others */
+    const hci_effect_type *rival_of; /* the one that it could stand for */
+    double gain;                     /* fall of the score by having it: positive speaks for it */
+    double explained_Nm;             /* rms of what the model loses without it */
+    hci_fitted_model alternative;    /* of a rival: the model with it instead */
+} hci_verdict;
+
+enum { HCI_MOST_TYPES = 32 };
+
+/* Start with {0}. */
+typedef struct {
+    hci_fitted_model model; /* with the noise that was found in the end */
+    hci_fit before;         /* without any effect, with the same noise */
+    bool unknown;           /* something is left that no effect explains, and it is not small */
+    bool wanders;           /* what is left does not repeat with the turn */
+    double unexplained_Nm;  /* rms of what no effect explains */
+    hci_verdict verdict[HCI_MOST_TYPES];
+    size_t types;
+    bool plausible[HCI_MOST_TYPES]
+                  [HCI_MOST_TYPES]; /* without the first, the second would explain a part of it */
+} hci_attribution;
+
+typedef struct {
+    const hci_run *runs;
+    double resolution_Nm;       /* what the model is not asked to be better than */
+    double reference_current_A; /* of a series in the currents; NAN: the largest of the runs */
+    hci_progress *progress;     /* may be NULL */
+    void *context;
+} hci_attribute_options;
+
+#endif
