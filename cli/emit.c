@@ -8,9 +8,9 @@
 #include "cli/terminal/say.h"
 #include "cli/terminal/terminal.h"
 #include "cli/terminal/text.h"
+#include "hci/host/currents/solution_folder.h"
 #include "hci/host/emit/emit.h"
 #include "hci/host/report/summary.h"
-#include "hci/host/solve/solution_folder.h"
 
 enum { NAME, FORMAT, FRAME, POINTS, MAX_ERROR, PER_TORQUE, REFERENCE, OUT, CLI_COMMON_KEYS };
 

@@ -13,10 +13,10 @@
 #include "cli/terminal/say.h"
 #include "cli/terminal/terminal.h"
 #include "hci/host/base/number.h"
+#include "hci/host/currents/solution_folder.h"
 #include "hci/host/machine/effects.h"
 #include "hci/host/report/summary.h"
 #include "hci/host/report/write.h"
-#include "hci/host/solve/solution_folder.h"
 #include "hci/host/solve/solve.h"
 
 enum {

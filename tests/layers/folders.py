@@ -25,6 +25,8 @@ import subprocess
 import sys
 
 MOST_FILES = 20
+MOST_FILES_OF_A_LIST = 32  # where one file is one entry of a list, and none knows another
+LISTS = {"core/effects"}
 FREE = {"hci/status.h", "hci/version.h", "hci/table.h"}  # at the root of include/hci: for everybody
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*["<]([^">]+)[">]', re.MULTILINE)
@@ -141,8 +143,9 @@ def check_folders(root, order, files):
             yield f"folder-unknown: there is no {folder}, which tests/layers/order names"
     for folder, paths in sorted(found.items()):
         count = sum(path.endswith(".c") for path in paths)
-        if count > MOST_FILES:
-            yield f"folder-size: {folder} has {count} .c files, at most {MOST_FILES}"
+        most = MOST_FILES_OF_A_LIST if folder in LISTS else MOST_FILES
+        if count > most:
+            yield f"folder-size: {folder} has {count} .c files, at most {most}"
     with open(os.path.join(root, "DESIGN.md"), encoding="utf-8") as file:
         named = set(re.findall(r"`([^`\n]+)`", file.read()))
     for folder in order:

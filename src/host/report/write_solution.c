@@ -2,9 +2,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "hci/host/currents/solution_folder.h"
 #include "hci/host/report/summary.h"
 #include "hci/host/report/write.h"
-#include "hci/host/solve/solution_folder.h"
 #include "hci/machine/frames.h"
 #include "host/plot/plot.h"
 #include "host/report/report.h"

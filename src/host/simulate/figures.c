@@ -4,8 +4,8 @@
 #include <stdio.h>
 
 #include "host/base/memory.h"
+#include "host/currents/plain_sine.h"
 #include "host/simulate/evaluation.h"
-#include "host/solve/plain_sine.h"
 
 static hci_statistics statistics(double mean, double mean_square, const hci_integrals *x, int extreme)
 {

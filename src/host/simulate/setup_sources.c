@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "hci/host/solve/solution_folder.h"
+#include "hci/host/currents/solution_folder.h"
 #include "host/simulate/setup_task.h"
 
 static hci_status check_waves(const hci_setup_task *b, const hci_currents *currents)

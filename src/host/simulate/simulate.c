@@ -3,8 +3,8 @@
 #include <string.h>
 
 #include "host/base/memory.h"
+#include "host/currents/plain_sine.h"
 #include "host/simulate/simulation.h"
-#include "host/solve/plain_sine.h"
 
 typedef struct {
     hci_setup *setup;

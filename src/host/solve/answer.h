@@ -2,7 +2,7 @@
 #ifndef HCI_SRC_HOST_SOLVE_ANSWER_H
 #define HCI_SRC_HOST_SOLVE_ANSWER_H
 
-#include "hci/host/solve/component_set.h"
+#include "hci/host/currents/component_set.h"
 
 /* Two columns of coordinates, S and C of each component in turn: the first in A/(N·m) for each N·m of mean
  * torque, the second in A for the rest. The current is mean × first + second. Start with {0}. */

@@ -6,8 +6,8 @@
 #include <math.h>
 
 #include "host/base/memory.h"
+#include "host/currents/plain_sine.h"
 #include "host/solve/harmonic_system.h"
-#include "host/solve/plain_sine.h"
 #include "host/solve/torque_spectrum.h"
 
 const char *hci_order_verdict_name(hci_order_verdict verdict)

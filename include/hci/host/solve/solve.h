@@ -4,9 +4,9 @@
 
 #include "hci/effects/effect.h"
 #include "hci/host/base/progress.h"
+#include "hci/host/currents/currents.h"
+#include "hci/host/currents/target.h"
 #include "hci/host/machine/machine.h"
-#include "hci/host/solve/currents.h"
-#include "hci/host/solve/target.h"
 #include "hci/machine/strategy.h"
 
 #ifdef __cplusplus

@@ -1,9 +1,9 @@
 /* One current component as a row of a file names it. */
-#ifndef HCI_SRC_HOST_SOLVE_COMPONENT_ROW_H
-#define HCI_SRC_HOST_SOLVE_COMPONENT_ROW_H
+#ifndef HCI_SRC_HOST_CURRENTS_COMPONENT_ROW_H
+#define HCI_SRC_HOST_CURRENTS_COMPONENT_ROW_H
 
 #include "hci/host/csv/csv.h"
-#include "hci/host/solve/component_set.h"
+#include "hci/host/currents/component_set.h"
 
 /* A component and the name under which the file has it. */
 typedef struct {

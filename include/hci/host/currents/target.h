@@ -1,6 +1,6 @@
 /* The wanted torque: target.csv. */
-#ifndef HCI_HOST_SOLVE_TARGET_H
-#define HCI_HOST_SOLVE_TARGET_H
+#ifndef HCI_HOST_CURRENTS_TARGET_H
+#define HCI_HOST_CURRENTS_TARGET_H
 
 #include "hci/host/base/note.h"
 #include "hci/math/harmonic.h"

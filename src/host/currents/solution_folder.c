@@ -1,6 +1,6 @@
 #define _POSIX_C_SOURCE 200809L
 
-#include "hci/host/solve/solution_folder.h"
+#include "hci/host/currents/solution_folder.h"
 
 #include <stdio.h>
 #include <sys/stat.h>

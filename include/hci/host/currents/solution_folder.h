@@ -1,10 +1,10 @@
 /* The folder of a solution: which files it has, and how their currents are read again. */
-#ifndef HCI_HOST_SOLVE_SOLUTION_FOLDER_H
-#define HCI_HOST_SOLVE_SOLUTION_FOLDER_H
+#ifndef HCI_HOST_CURRENTS_SOLUTION_FOLDER_H
+#define HCI_HOST_CURRENTS_SOLUTION_FOLDER_H
 
 #include <stdbool.h>
 
-#include "hci/host/solve/currents.h"
+#include "hci/host/currents/currents.h"
 
 #ifdef __cplusplus
 extern "C" {

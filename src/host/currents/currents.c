@@ -1,11 +1,11 @@
 /* Currents as waves. In: currents.csv (order, set, amplitude, phase); out: each row's wave in linear
  * coordinates, and a hash of them all by which an emitted table names what it was made of. */
-#include "hci/host/solve/currents.h"
+#include "hci/host/currents/currents.h"
 
 #include <string.h>
 
 #include "host/base/memory.h"
-#include "host/solve/component_row.h"
+#include "host/currents/component_row.h"
 
 /* FNV-1a, 64 bits. */
 static void hash_bytes(uint64_t *hash, const void *data, size_t size)

@@ -1,4 +1,4 @@
-#include "host/solve/plain_sine.h"
+#include "host/currents/plain_sine.h"
 
 #include <math.h>
 

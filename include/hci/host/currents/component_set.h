@@ -1,6 +1,6 @@
 /* Which current components may be used: harmonics.csv. */
-#ifndef HCI_HOST_SOLVE_COMPONENT_SET_H
-#define HCI_HOST_SOLVE_COMPONENT_SET_H
+#ifndef HCI_HOST_CURRENTS_COMPONENT_SET_H
+#define HCI_HOST_CURRENTS_COMPONENT_SET_H
 
 #include <stdbool.h>
 

@@ -1,6 +1,6 @@
 /* The sine that currents are compared with. */
-#ifndef HCI_SRC_HOST_SOLVE_PLAIN_SINE_H
-#define HCI_SRC_HOST_SOLVE_PLAIN_SINE_H
+#ifndef HCI_SRC_HOST_CURRENTS_PLAIN_SINE_H
+#define HCI_SRC_HOST_CURRENTS_PLAIN_SINE_H
 
 #include "hci/machine/torque.h"
 

@@ -1,5 +1,5 @@
 /* The wanted torque. In: target.csv (order, amplitude, phase, weight); out: one entry for each order. */
-#include "hci/host/solve/target.h"
+#include "hci/host/currents/target.h"
 
 #include <math.h>
 #include <string.h>

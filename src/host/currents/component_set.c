@@ -1,5 +1,5 @@
 /* Sets of current components. In: harmonics.csv (order, set); out: each component once. */
-#include "hci/host/solve/component_set.h"
+#include "hci/host/currents/component_set.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -7,8 +7,8 @@
 
 #include "hci/host/base/text.h"
 #include "host/base/memory.h"
+#include "host/currents/component_row.h"
 #include "host/machine/spectrum_table.h"
-#include "host/solve/component_row.h"
 
 static const char *const SET_NAME[] = {"pos", "neg", "sym", "asym", "zero"};
 enum { SETS = sizeof SET_NAME / sizeof SET_NAME[0] };

@@ -1,10 +1,10 @@
 /* Currents as waves: currents.csv. */
-#ifndef HCI_HOST_SOLVE_CURRENTS_H
-#define HCI_HOST_SOLVE_CURRENTS_H
+#ifndef HCI_HOST_CURRENTS_CURRENTS_H
+#define HCI_HOST_CURRENTS_CURRENTS_H
 
 #include <stdint.h>
 
-#include "hci/host/solve/component_set.h"
+#include "hci/host/currents/component_set.h"
 
 #ifdef __cplusplus
 extern "C" {
