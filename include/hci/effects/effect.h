@@ -160,10 +160,13 @@ typedef struct {
                               * looked at, in the parameters' unit; 0: any */
 } hci_effect_candidate;
 
+/* Takes one candidate. */
+typedef void hci_effect_candidate_taker(void *context, const hci_effect_candidate *candidate);
+
 /* Takes candidates. */
 typedef struct {
-    void (*add)(void *context, const hci_effect_candidate *candidate);
-    void *context; /* first argument of add */
+    hci_effect_candidate_taker *add; /* called once for each candidate */
+    void *context;                   /* its first argument */
 } hci_effect_proposals;
 
 /* A run whose torque is modelled. */

@@ -73,7 +73,7 @@ typedef hci_status path(double *figure);
 
 /* So many first allocations fail one by one, later ones in steps of this part of their number. With the word
  * `every` on the command line it is every one of most paths. */
-static long one_by_one = 24, part = 6;
+static long one_by_one = 12, part = 3;
 
 /* A path as it is when memory is there; then with n allocations for n = 0, 1, 2, …. What does not fail must
  * give the same figure. Returns how many allocations it took (the callers ask for a third of what it was when
@@ -341,7 +341,7 @@ static void test_newton(void)
     machine.model.back_emf_count = machine.model.slope_count = 1;
     machine.model.cogging_count = 0;
     const long usual_one_by_one = one_by_one, usual_part = part;
-    one_by_one = part = part > 6 ? 8 : 1;
+    one_by_one = part = part > 3 ? 8 : 1;
     wish(NULL, NULL, HCI_METHOD_AUTO);
     TEST_ASSERT_TRUE(sweep(run_solve) > 100);
     options.choose_at_most = 2;
