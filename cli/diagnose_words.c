@@ -9,7 +9,7 @@
 #include "cli/terminal/say.h"
 #include "cli/terminal/terminal.h"
 #include "cli/terminal/text.h"
-#include "hci/host/report/write.h"
+#include "hci/host/diagnose/diagnose.h"
 
 enum { MOST_TERMS = 3 }; /* of an effect that are shown */
 

@@ -120,6 +120,11 @@ void hci_findings_fill(const hci_attribution *a, hci_diagnosis *d)
     d->verdict = verdict_of(a, d);
 }
 
+double hci_finding_delta_bic(const hci_finding *f)
+{
+    return f->verdict == HCI_FINDING_REJECTED && f->delta_bic == 0.0 ? (double)NAN : f->delta_bic;
+}
+
 /* ---- what is not explained ---- */
 
 static hci_unexplained unexplained_of(const hci_candidate *s, const hci_dataset_range *most)

@@ -9,6 +9,10 @@
 /* Fills finding, most important first, and the verdict. rms_before_Nm of the diagnosis is there already. */
 void hci_findings_fill(const hci_attribution *attribution, hci_diagnosis *diagnosis);
 
+/* Its fall of the BIC; NAN where it is not known: the search looks no further at an effect of which no part
+ * by itself lets the criterion fall. */
+double hci_finding_delta_bic(const hci_finding *finding);
+
 /* Fills unexplained and wanders: what the search describes without knowing it. */
 void hci_unexplained_fill(const hci_dataset *dataset, const hci_attribution *attribution,
                           hci_diagnosis *diagnosis);

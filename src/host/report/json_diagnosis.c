@@ -1,6 +1,5 @@
 /* summary.json of `diagnose`. */
-#include "hci/host/report/write.h"
-#include "host/report/report.h"
+#include "host/diagnose/findings.h"
 #include "host/report/summary.h"
 
 enum { WORDS_SIZE = 2048 };
@@ -10,7 +9,7 @@ static void put_finding(hci_json *json, const hci_finding *f)
     hci_json_object(json, NULL);
     hci_json_text(json, "effect", f->effect);
     hci_json_text(json, "verdict", hci_finding_verdict_name(f->verdict));
-    hci_json_number(json, "delta_bic", hci_report_delta_bic(f));
+    hci_json_number(json, "delta_bic", hci_finding_delta_bic(f));
     hci_json_number(json, "residual_share", f->residual_share);
     hci_json_text(json, "detail", f->detail);
     hci_json_close(json);

@@ -8,7 +8,8 @@
 #include "hci/host/csv/csv.h"
 #include "hci/host/report/summary.h"
 #include "hci/host/report/write.h"
-#include "host/report/report.h"
+#include "host/diagnose/findings.h"
+#include "host/report/page/page.h"
 
 enum { PATH_SIZE = 4096 };
 
@@ -31,7 +32,7 @@ static hci_status findings_write(hci_output *out, const hci_diagnosis *d, hci_no
     for (size_t k = 0; k < d->findings; ++k) {
         const hci_finding *f = &d->finding[k];
         hci_output_text(out, "%zu,%s,%s,", k + 1, f->effect, hci_finding_verdict_name(f->verdict));
-        cell(out, hci_report_delta_bic(f), ',');
+        cell(out, hci_finding_delta_bic(f), ',');
         cell(out, f->residual_share, ',');
         hci_output_text(out, "\"%s\"\n", f->detail);
     }
@@ -124,7 +125,7 @@ static hci_status report_write(hci_output *out, const hci_diagnosis *d, const hc
                                const hci_runs *runs, const char *machine_folder, hci_note *note)
 {
     const hci_status status = hci_output_file(out, "report.html", note);
-    return status ? status : hci_report_diagnosis(out, d, resolution, runs, machine_folder, note);
+    return status ? status : hci_page_diagnosis(out, d, resolution, runs, machine_folder, note);
 }
 
 /* ---- the corrected machine ---- */

@@ -5,7 +5,7 @@
 #include "hci/host/report/write.h"
 #include "hci/machine/frames.h"
 #include "host/base/memory.h"
-#include "host/report/report.h"
+#include "host/report/page/page.h"
 #include "host/report/trajectory.h"
 
 /* ---- what is kept of the steps ---- */
@@ -90,7 +90,7 @@ static hci_status write_report(const writer *w, const hci_simulation *s, hci_not
     const hci_report_sources *sources = w->where->sources;
     if (!sources) return hci_output_without(w->out, "report.html", note);
     const hci_status status = hci_output_file(w->out, "report.html", note);
-    return status ? status : hci_report_simulation(w->out, s, w->traces, sources, note);
+    return status ? status : hci_page_simulation(w->out, s, w->traces, sources, note);
 }
 
 static hci_status write_rest(writer *w, const hci_simulation *s, hci_note *note)

@@ -7,7 +7,7 @@
 #include "hci/host/report/write.h"
 #include "hci/machine/frames.h"
 #include "host/plot/plot.h"
-#include "host/report/report.h"
+#include "host/report/page/page.h"
 
 static void write_currents(hci_output *out, const hci_currents *currents, const hci_wave *wave,
                            const char *amplitude_column)
@@ -134,7 +134,7 @@ static hci_status write_report(hci_output *out, const hci_solution *s, hci_statu
     const hci_status status =
         sources ? begin_file(out, HCI_SOLUTION_REPORT, note)
                 : hci_output_without(out, hci_solution_file_name(HCI_SOLUTION_REPORT), note);
-    if (!status && sources) hci_report_solution(out, s, verdict, sources);
+    if (!status && sources) hci_page_solution(out, s, verdict, sources);
     return status;
 }
 

@@ -1,7 +1,7 @@
 /* labels: slow */
 /* What is found in recordings of thousands of samples, and every allocation failing: half a second each,
  * which sanitizers make ten. test_diagnose has the same in small. */
-#include "hci/host/report/write.h"
+#include "hci/host/diagnose/diagnose.h"
 
 #include "support/diagnosing.h"
 

@@ -115,6 +115,9 @@ typedef struct {
 hci_status hci_diagnose(const hci_machine_data *machine, const hci_effects *declared, const hci_runs *runs,
                         const hci_diagnose_options *options, hci_diagnosis *diagnosis, hci_note *note);
 
+/* The verdict as a few plain sentences. size: of text, 2048 will do. */
+void hci_diagnosis_words(const hci_diagnosis *diagnosis, char *text, size_t size);
+
 /* Frees what a diagnosis holds and empties it. */
 void hci_diagnosis_release(hci_diagnosis *diagnosis);
 

@@ -4,7 +4,7 @@
 #define HCI_HOST_REPORT_WRITE_H
 
 #include "hci/host/diagnose/diagnose.h"
-#include "hci/host/report/report.h"
+#include "hci/host/report/page/sources.h"
 #include "hci/host/simulate/simulate.h"
 #include "hci/host/solve/solve.h"
 #include "hci/host/waveform/waveform.h"
@@ -29,9 +29,6 @@ hci_status hci_solution_write_with_report(const hci_machine_data *machine, const
 hci_status hci_diagnosis_write(const hci_diagnosis *diagnosis, const hci_resolution *resolution,
                                const hci_runs *runs, const char *machine_folder, const char *folder,
                                hci_note *note);
-
-/* The verdict as a few plain sentences. size: of text, 2048 will do. */
-void hci_diagnosis_words(const hci_diagnosis *diagnosis, char *text, size_t size);
 
 /* Writes back_emf.csv (order,amplitude_Nm_per_A,phase_rad,std_error_Nm_per_A) or cogging.csv
  * (order,amplitude_Nm,phase_rad,std_error_Nm) into a folder, and a picture of it, back_emf.svg or

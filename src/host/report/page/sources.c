@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "host/draw/html.h"
-#include "host/report/report.h"
+#include "host/report/page/page.h"
 
 enum { SOURCES = 6 };
 
@@ -19,19 +19,19 @@ static void list_sources(const hci_report_sources *s, source list[SOURCES])
     memcpy(list, all, sizeof all);
 }
 
-void hci_report_origin(char text[HCI_REPORT_ORIGIN_SIZE], const hci_report_sources *sources)
+void hci_page_origin(char text[HCI_PAGE_ORIGIN_SIZE], const hci_report_sources *sources)
 {
     source list[SOURCES];
     list_sources(sources, list);
     text[0] = '\0';
     for (size_t k = 0; k < SOURCES; ++k) {
         const size_t used = strlen(text);
-        if (list[k].file && used + 5 < HCI_REPORT_ORIGIN_SIZE)
-            snprintf(text + used, HCI_REPORT_ORIGIN_SIZE - used, "%s%s", used > 0 ? ", " : "", list[k].file);
+        if (list[k].file && used + 5 < HCI_PAGE_ORIGIN_SIZE)
+            snprintf(text + used, HCI_PAGE_ORIGIN_SIZE - used, "%s%s", used > 0 ? ", " : "", list[k].file);
     }
 }
 
-void hci_report_show_sources(hci_output *out, const hci_report_sources *sources)
+void hci_page_show_sources(hci_output *out, const hci_report_sources *sources)
 {
     source list[SOURCES];
     list_sources(sources, list);

@@ -4,7 +4,7 @@
 
 #include "host/draw/html.h"
 #include "host/plot/plot.h"
-#include "host/report/report.h"
+#include "host/report/page/page.h"
 
 enum { MOST_REACHED = 12, MOST_COMPONENTS = 60 }; /* that a table lists */
 
@@ -136,7 +136,7 @@ static void table_of_system(hci_output *out, const hci_solution *s, double least
     hci_html_table_end(out);
 }
 
-void hci_report_solution_system(hci_output *out, const hci_solution *s, const char *origin)
+void hci_page_solution_system(hci_output *out, const hci_solution *s, const char *origin)
 {
     const bool has_picture = s->system.set.count > 0 && s->order_count > 0;
     hci_html_section(out, "The system that was solved");

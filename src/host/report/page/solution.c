@@ -5,7 +5,7 @@
 
 #include "host/draw/html.h"
 #include "host/plot/plot.h"
-#include "host/report/report.h"
+#include "host/report/page/page.h"
 
 /* STEPS: rows of the tables over one turn, not at the same phase of each sixth of it, where the ripple
  * repeats. */
@@ -19,7 +19,7 @@ typedef struct {
     const hci_solution *solution;
     hci_plot_facts facts;
     hci_plot_point point[STEPS + 1]; /* over the first electrical turn */
-    char origin[HCI_REPORT_ORIGIN_SIZE];
+    char origin[HCI_PAGE_ORIGIN_SIZE];
 } page;
 
 /* ---- verdict ---- */
@@ -325,12 +325,12 @@ static void show_cost(const page *p)
 
 /* ---- the page ---- */
 
-void hci_report_solution(hci_output *out, const hci_solution *s, hci_status verdict,
-                         const hci_report_sources *sources)
+void hci_page_solution(hci_output *out, const hci_solution *s, hci_status verdict,
+                       const hci_report_sources *sources)
 {
     page p = {.out = out, .solution = s};
     hci_plot_solution_facts(s, &p.facts);
-    hci_report_origin(p.origin, sources);
+    hci_page_origin(p.origin, sources);
     for (size_t k = 0; k <= STEPS; ++k)
         hci_plot_solution_point(s, angle_deg(k) * HCI_PI / 180.0, &p.point[k]);
     hci_html_begin(out, "Currents for a wanted torque", verdict == HCI_OK ? "Reached" : "Not reached",
@@ -339,8 +339,8 @@ void hci_report_solution(hci_output *out, const hci_solution *s, hci_status verd
     show_tiles(&p);
     show_torque(&p);
     show_currents(&p);
-    hci_report_solution_system(out, s, p.origin);
+    hci_page_solution_system(out, s, p.origin);
     show_cost(&p);
-    hci_report_show_sources(out, sources);
+    hci_page_show_sources(out, sources);
     hci_html_end(out);
 }

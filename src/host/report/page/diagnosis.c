@@ -7,7 +7,7 @@
 #include "host/base/memory.h"
 #include "host/draw/html.h"
 #include "host/plot/plot.h"
-#include "host/report/report.h"
+#include "host/report/page/page.h"
 
 enum { WORDS_SIZE = 2048, MOST_ORDERS = 24, MOST_LINES = 40, MOST_TERMS = 16 };
 
@@ -98,11 +98,6 @@ static void cell_of_certainty(hci_output *out, const hci_diagnosis *d, const hci
     hci_html_cell_words(out, text);
 }
 
-double hci_report_delta_bic(const hci_finding *f)
-{
-    return f->verdict == HCI_FINDING_REJECTED && f->delta_bic == 0.0 ? (double)NAN : f->delta_bic;
-}
-
 static void table_of_findings(hci_output *out, const hci_diagnosis *d)
 {
     static const char *const COLUMN[] = {
@@ -115,7 +110,7 @@ static void table_of_findings(hci_output *out, const hci_diagnosis *d)
         hci_html_number(out, (double)(k + 1));
         hci_html_cell(out, f->effect);
         hci_html_cell(out, hci_finding_verdict_name(f->verdict));
-        hci_html_number(out, hci_report_delta_bic(f));
+        hci_html_number(out, hci_finding_delta_bic(f));
         hci_html_number(out, 100.0 * f->residual_share);
         cell_of_certainty(out, d, f);
         cell_of_finding(out, f);
@@ -548,14 +543,14 @@ static void show_resolution(hci_output *out, const hci_resolution *r)
 
 /* ---- the page ---- */
 
-hci_status hci_report_diagnosis(hci_output *out, const hci_diagnosis *d, const hci_resolution *resolution,
-                                const hci_runs *runs, const char *machine_folder, hci_note *note)
+hci_status hci_page_diagnosis(hci_output *out, const hci_diagnosis *d, const hci_resolution *resolution,
+                              const hci_runs *runs, const char *machine_folder, hci_note *note)
 {
     const hci_report_sources sources = {.machine = machine_folder, .runs = runs->list};
-    char origin[HCI_REPORT_ORIGIN_SIZE];
+    char origin[HCI_PAGE_ORIGIN_SIZE];
     orders o = {NULL, 0, NULL};
     const hci_status status = orders_make(d, runs, &o, note);
-    hci_report_origin(origin, &sources);
+    hci_page_origin(origin, &sources);
     if (!status) {
         say_verdict(out, d);
         show_tiles(out, d);
@@ -566,7 +561,7 @@ hci_status hci_report_diagnosis(hci_output *out, const hci_diagnosis *d, const h
         show_orders(out, d, &o, runs, origin);
         show_parameters(out, d, origin);
         show_unexplained(out, d);
-        hci_report_show_sources(out, &sources);
+        hci_page_show_sources(out, &sources);
         hci_html_end(out);
     }
     hci_memory_free(o.order);

@@ -1,7 +1,7 @@
 /* report.html: results as one page for people, with pictures and the tables behind them. It stands on its
  * own: no script, font or picture from elsewhere. */
-#ifndef HCI_HOST_REPORT_REPORT_H
-#define HCI_HOST_REPORT_REPORT_H
+#ifndef HCI_HOST_REPORT_PAGE_SOURCES_H
+#define HCI_HOST_REPORT_PAGE_SOURCES_H
 
 #ifdef __cplusplus
 extern "C" {

@@ -1,6 +1,6 @@
 /* The pages of report.html: read as XML, by their numbers, by their colours, and by where the pictures put
  * their marks; with names that try to break out; the same bytes twice; without memory. */
-#include "host/report/report.h"
+#include "host/report/page/page.h"
 
 #include <locale.h>
 #include <math.h>
@@ -9,7 +9,6 @@
 #include <string.h>
 
 #include "hci/host/base/number.h"
-#include "hci/host/report/write.h"
 #include "host/base/memory.h"
 #include "host/draw/html.h"
 #include "host/plot/plot.h"
@@ -125,7 +124,7 @@ static void write_diagnosis(const hci_resolution *resolution)
     hci_output *out = open_page();
     hci_note note = {{0}};
     TEST_ASSERT_EQUAL_MESSAGE(
-        HCI_OK, hci_report_diagnosis(out, &diagnosis, resolution, &runs, "data/<machine>", &note), note.text);
+        HCI_OK, hci_page_diagnosis(out, &diagnosis, resolution, &runs, "data/<machine>", &note), note.text);
     read_page(out);
 }
 
@@ -355,7 +354,7 @@ static void test_no_memory(void)
         hci_note note = {{0}};
         hci_memory_fail_after(k);
         TEST_ASSERT_EQUAL(HCI_ERROR_MEMORY,
-                          hci_report_diagnosis(out, &diagnosis, NULL, &runs, "machine", &note));
+                          hci_page_diagnosis(out, &diagnosis, NULL, &runs, "machine", &note));
         hci_memory_fail_after(-1);
         TEST_ASSERT_TRUE(note.text[0] != '\0');
         hci_output_discard(out);
@@ -629,7 +628,7 @@ static void test_solution(void)
     s.plain_amplitude_A = 10.0;
     s.loss_to_plain = s.loss_to_limit = s.peak_line_voltage_V = s.torque_at_limit_Nm = NAN;
     hci_output *out = open_page();
-    hci_report_solution(out, &s, HCI_NOT_REACHED, &sources);
+    hci_page_solution(out, &s, HCI_NOT_REACHED, &sources);
     read_page(out);
     check_page(4);
     text_has("Not reached", page);
@@ -660,7 +659,7 @@ static void test_simulation(void)
         s.periods = (size_t)periods;
         s.spectrum_count = periods ? 3 : 0;
         hci_output *out = open_page();
-        TEST_ASSERT_EQUAL(HCI_OK, hci_report_simulation(out, &s, &traces, &sources, &note));
+        TEST_ASSERT_EQUAL(HCI_OK, hci_page_simulation(out, &s, &traces, &sources, &note));
         read_page(out);
         check_page(periods ? 6 : 3);
         check_number(2.125);
@@ -699,7 +698,7 @@ static void test_simulation_with_before(void)
     for (int imposed = 0; imposed < 2; ++imposed) {
         s.imposed = imposed;
         hci_output *out = open_page();
-        TEST_ASSERT_EQUAL(HCI_OK, hci_report_simulation(out, &s, &traces, &sources, &note));
+        TEST_ASSERT_EQUAL(HCI_OK, hci_page_simulation(out, &s, &traces, &sources, &note));
         read_page(out);
         check_page(6);
         text_has("with a plain sine of the same mean torque by 1.625 N·m", page);

@@ -7,7 +7,7 @@
 #include "host/draw/html.h"
 #include "host/plot/plot.h"
 #include "host/plot/plot_drive.h"
-#include "host/report/report.h"
+#include "host/report/page/page.h"
 
 /* SLICES of the evaluated time and STEPS of a turn: rows of the tables. STEPS: as in page_solution.c. */
 enum { MOST_ORDERS = 24, SLICES = 20, STEPS = 40, LEAST_FOR_FLOOR = 8 };
@@ -437,12 +437,12 @@ static void show_drive(hci_output *out, const hci_simulation *s)
     hci_html_section_end(out);
 }
 
-hci_status hci_report_simulation(hci_output *out, const hci_simulation *s, const hci_traces *traces,
-                                 const hci_report_sources *sources, hci_note *note)
+hci_status hci_page_simulation(hci_output *out, const hci_simulation *s, const hci_traces *traces,
+                               const hci_report_sources *sources, hci_note *note)
 {
     hci_plot_order *order = hci_memory_new(s->spectrum_count + 1, sizeof *order);
     hci_turn_means *before = order ? hci_memory_new(1, sizeof *before) : NULL;
-    char origin[HCI_REPORT_ORIGIN_SIZE];
+    char origin[HCI_PAGE_ORIGIN_SIZE];
     if (!before) {
         hci_memory_free(order);
         return hci_note_memory(note, NULL, "the report");
@@ -456,13 +456,13 @@ hci_status hci_report_simulation(hci_output *out, const hci_simulation *s, const
                                         .noise_Nm = NAN};
     }
     if (s->spectrum_count > 0) set_floor(order, s->spectrum_count - 1);
-    hci_report_origin(origin, sources);
+    hci_page_origin(origin, sources);
     say_verdict(out, s);
     show_turn(out, s, &traces->turn, has_before(s) ? before : NULL, origin);
     show_spectrum(out, s, order, origin);
     show_traces(out, s, traces, origin);
     show_drive(out, s);
-    hci_report_show_sources(out, sources);
+    hci_page_show_sources(out, sources);
     hci_html_end(out);
     hci_memory_free(before);
     hci_memory_free(order);

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "hci/host/report/write.h"
+#include "hci/host/diagnose/diagnose.h"
 
 typedef struct {
     char *text;
