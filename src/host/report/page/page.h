@@ -24,9 +24,6 @@ hci_status hci_page_diagnosis(hci_output *out, const hci_diagnosis *diagnosis,
 void hci_page_solution(hci_output *out, const hci_solution *solution, hci_status verdict,
                        const hci_report_sources *sources);
 
-/* Its section about the system that was solved; origin: as of hci_page_origin. */
-void hci_page_solution_system(hci_output *out, const hci_solution *solution, const char *origin);
-
 /* HCI_ERROR_MEMORY. */
 hci_status hci_page_simulation(hci_output *out, const hci_simulation *simulation, const hci_traces *traces,
                                const hci_report_sources *sources, hci_note *note);

@@ -3,15 +3,9 @@
 #include <stdio.h>
 
 #include "host/draw/html.h"
-#include "host/plot/plot.h"
-#include "host/report/page/page.h"
+#include "host/report/page/solution_sections.h"
 
 enum { MOST_REACHED = 12, MOST_COMPONENTS = 60 }; /* that a table lists */
-
-static bool has_mean(const hci_solution *s)
-{
-    return s->order_count > 0 && s->order[0].torque_Nm.order < HCI_ORDER_TOLERANCE;
-}
 
 /* Of one component: how many torque orders it reaches, the first of them, and its largest entry. */
 typedef struct {
@@ -21,7 +15,7 @@ typedef struct {
 
 static double order_of_row(const hci_solution *s, size_t row)
 {
-    return s->order[(row + has_mean(s)) / 2].torque_Nm.order;
+    return s->order[(row + hci_page_has_mean(s)) / 2].torque_Nm.order;
 }
 
 static double largest_entry(const hci_solved_system *u)
@@ -118,7 +112,7 @@ static void table_of_system(hci_output *out, const hci_solution *s, double least
 {
     static const char *const COLUMN[] = {"<Quantity", "Value", NULL};
     const hci_solved_system *u = &s->system;
-    const size_t rows = 2 * s->order_count - has_mean(s), columns = 2 * u->set.count;
+    const size_t rows = 2 * s->order_count - hci_page_has_mean(s), columns = 2 * u->set.count;
     size_t filled = 0;
     for (int64_t k = 0; k < u->column_start[columns]; ++k)
         filled += fabs(u->value[k]) > least;
@@ -136,8 +130,10 @@ static void table_of_system(hci_output *out, const hci_solution *s, double least
     hci_html_table_end(out);
 }
 
-void hci_page_solution_system(hci_output *out, const hci_solution *s, const char *origin)
+void hci_page_system(const hci_solution_page *p)
 {
+    hci_output *out = p->out;
+    const hci_solution *s = p->solution;
     const bool has_picture = s->system.set.count > 0 && s->order_count > 0;
     hci_html_section(out, "The system that was solved");
     hci_html_paragraph(out, NULL,
@@ -160,7 +156,7 @@ void hci_page_solution_system(hci_output *out, const hci_solution *s, const char
             "Grey, and in parentheses, is what took no part: orders that are not cared for or not compared, "
             "components without current. Where the torque is not linear in the currents, U is that of the "
             "last step, and its highest rows may be no equations: they fall off by themselves.",
-            "of this page; size, rank and condition also in summary.json", origin);
+            "of this page; size, rank and condition also in summary.json", p->origin);
     }
     hci_html_section_end(out);
 }

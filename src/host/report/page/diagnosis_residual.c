@@ -1,0 +1,206 @@
+/* The section of a diagnosis about what is left: by order, and by run and order. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "host/base/memory.h"
+#include "host/draw/html.h"
+#include "host/plot/plot.h"
+#include "host/report/page/diagnosis_sections.h"
+
+enum { MOST_ORDERS = 24, MOST_LINES = 40 }; /* that a table lists */
+
+/* ---- by order ---- */
+
+typedef struct {
+    hci_plot_order *order;
+    size_t count;
+    double *of_run_Nm; /* the largest amplitude after of each run */
+} orders;
+
+static int by_order(const void *a, const void *b)
+{
+    const hci_residual_line *x = a, *y = b;
+    const int order = (x->order > y->order) - (x->order < y->order);
+    return order ? order : (x->run > y->run) - (x->run < y->run);
+}
+
+/* Of each order the largest amplitude of any run; the noise is that of the run in which it is largest after.
+ */
+static void take_line(orders *o, const hci_residual_line *x)
+{
+    if (o->count == 0 || x->order > o->order[o->count - 1].order)
+        o->order[o->count++] =
+            (hci_plot_order){x->order, x->before_Nm, x->after_Nm, x->noise_Nm, x->run, x->run};
+    hci_plot_order *p = &o->order[o->count - 1];
+    if (x->before_Nm > p->before_Nm) {
+        p->before_Nm = x->before_Nm;
+        p->before_run = x->run;
+    }
+    if (x->after_Nm > p->after_Nm) {
+        p->after_Nm = x->after_Nm;
+        p->noise_Nm = x->noise_Nm;
+        p->after_run = x->run;
+    }
+}
+
+static hci_status orders_make(const hci_diagnosis *d, const hci_runs *runs, orders *o, hci_note *note)
+{
+    hci_residual_line *line = hci_memory_new(d->lines + 1, sizeof *line);
+    o->order = hci_memory_new(d->lines + 1, sizeof *o->order);
+    o->of_run_Nm = hci_memory_new(runs->count + 1, sizeof *o->of_run_Nm);
+    const bool is_allocated = line && o->order && o->of_run_Nm;
+    if (is_allocated) {
+        if (d->lines > 0) memcpy(line, d->line, d->lines * sizeof *line);
+        qsort(line, d->lines, sizeof *line, by_order);
+        for (size_t k = 0; k < d->lines; ++k) {
+            double *largest_Nm = &o->of_run_Nm[line[k].run];
+            take_line(o, &line[k]);
+            *largest_Nm = fmax(*largest_Nm, line[k].after_Nm);
+        }
+    }
+    hci_memory_free(line);
+    return is_allocated ? HCI_OK : hci_note_memory(note, NULL, "the report");
+}
+
+static double order_weight(const void *context, size_t k)
+{
+    const hci_plot_order *o = &((const orders *)context)->order[k];
+    return fmax(o->before_Nm, o->after_Nm);
+}
+
+static void table_of_orders(hci_output *out, const orders *o, const hci_runs *runs)
+{
+    static const char *const COLUMN[] = {"Order",   "Before N·m", "<in run", "After N·m",
+                                         "<in run", "Noise N·m",  NULL};
+    size_t place[MOST_ORDERS];
+    const size_t count = hci_plot_largest(order_weight, o, o->count, MOST_ORDERS, place);
+    char caption[120];
+    snprintf(caption, sizeof caption, "The largest %zu of %zu orders, peak amplitude", count, o->count);
+    hci_html_table(out, caption, COLUMN);
+    for (size_t k = 0; k < count; ++k) {
+        const hci_plot_order *x = &o->order[place[k]];
+        hci_html_row(out);
+        hci_html_number(out, x->order);
+        hci_html_number(out, x->before_Nm);
+        hci_html_cell(out, runs->run[x->before_run].name);
+        hci_html_number(out, x->after_Nm);
+        hci_html_cell(out, runs->run[x->after_run].name);
+        hci_html_number(out, x->noise_Nm);
+        hci_html_row_end(out);
+    }
+    hci_html_table_end(out);
+}
+
+static void show_orders(hci_output *out, const orders *o, const hci_runs *runs, const char *origin)
+{
+    static const hci_svg_picture WORDS = {
+        "orders",
+        "Residual by electrical order, before and after, with the noise",
+        "A stem for each order on a logarithmic axis: the largest amplitude in N·m that any run has there, "
+        "before and after the correction; a dash for the noise of that run. The table beside it has the "
+        "largest.",
+        0,
+        0,
+        480,
+        304};
+    hci_html_figure(out);
+    hci_plot_orders(out, &WORDS, o->order, o->count, "noise", true);
+    hci_html_figure_tables(out);
+    table_of_orders(out, o, runs);
+    hci_html_figure_end(out,
+                        "Before: the declared machine. After: the corrected one. Four decades are drawn; "
+                        "what is less lies below them.",
+                        "residual_spectrum.csv", origin);
+}
+
+/* ---- by run and order ---- */
+
+typedef struct {
+    const hci_diagnosis *diagnosis;
+    const double *after_Nm; /* the largest of each run */
+} run_sizes;
+
+static double run_weight(const void *context, size_t k)
+{
+    return ((const run_sizes *)context)->after_Nm[k];
+}
+
+static double line_weight(const void *context, size_t k)
+{
+    return ((const hci_diagnosis *)context)->line[k].after_Nm;
+}
+
+static void table_of_lines(hci_output *out, const hci_diagnosis *d, const hci_runs *runs)
+{
+    static const char *const COLUMN[] = {"<Run", "Order", "Before N·m", "After N·m", "Noise N·m", NULL};
+    size_t place[MOST_LINES];
+    const size_t count = hci_plot_largest(line_weight, d, d->lines, MOST_LINES, place);
+    char caption[120];
+    snprintf(caption, sizeof caption, "The largest %zu of %zu amplitudes that are left", count, d->lines);
+    hci_html_table(out, caption, COLUMN);
+    for (size_t k = 0; k < count; ++k) {
+        const hci_residual_line *x = &d->line[place[k]];
+        hci_html_row(out);
+        hci_html_cell(out, runs->run[x->run].name);
+        hci_html_number(out, x->order);
+        hci_html_number(out, x->before_Nm);
+        hci_html_number(out, x->after_Nm);
+        hci_html_number(out, x->noise_Nm);
+        hci_html_row_end(out);
+    }
+    hci_html_table_end(out);
+}
+
+static void draw_map(hci_output *out, const hci_diagnosis *d, const orders *o, const hci_runs *runs)
+{
+    size_t place[HCI_PLOT_MOST_CELLS], run[HCI_PLOT_MOST_CELLS];
+    double order[HCI_PLOT_MOST_CELLS];
+    const run_sizes sizes = {d, o->of_run_Nm};
+    hci_plot_map map = {d, runs, run, order, 0, 0};
+    map.runs_shown = hci_plot_largest(run_weight, &sizes, runs->count, HCI_PLOT_MOST_CELLS, run);
+    map.orders_shown = hci_plot_largest(order_weight, o, o->count, HCI_PLOT_MOST_CELLS, place);
+    for (size_t k = 0; k < map.orders_shown; ++k)
+        order[k] = o->order[place[k]].order;
+    hci_plot_residuals(out, &map);
+}
+
+static void show_map(hci_output *out, const hci_diagnosis *d, const orders *o, const hci_runs *runs,
+                     const char *origin)
+{
+    hci_html_figure(out);
+    draw_map(out, d, o, runs);
+    hci_html_figure_tables(out);
+    table_of_lines(out, d, runs);
+    hci_html_figure_end(
+        out,
+        "Before: the declared machine. After: the corrected one. Names in bold are runs held out. Of more "
+        "than 24 runs or orders the picture has those with the largest amplitude. The side of a square "
+        "grows with the logarithm of the amplitude over four decades.",
+        "residual_spectrum.csv", origin);
+}
+
+/* ---- the section ---- */
+
+hci_status hci_page_residual(hci_output *out, const hci_diagnosis *d, const hci_runs *runs,
+                             const char *origin, hci_note *note)
+{
+    orders o = {NULL, 0, NULL};
+    const hci_status status = orders_make(d, runs, &o, note);
+    if (!status) {
+        hci_html_section(out, "What is left, by order");
+        hci_html_paragraph(
+            out, NULL,
+            o.count > 0 ? "The residual is measured less modelled torque. Of each order the run with the "
+                          "largest amplitude is shown; order 0 is the mean. The noise is what chance alone "
+                          "exceeds once in twenty times."
+                        : "No order of the residual stands out of the noise, before or after.");
+        if (o.count > 0) show_orders(out, &o, runs, origin);
+        if (o.count > 0) show_map(out, d, &o, runs, origin);
+        hci_html_section_end(out);
+    }
+    hci_memory_free(o.order);
+    hci_memory_free(o.of_run_Nm);
+    return status;
+}
