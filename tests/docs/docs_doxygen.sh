@@ -1,4 +1,5 @@
 #!/bin/sh
+# labels: slow
 # The API reference is built without a warning: every public function, struct, field, constant and macro has its docstring. An undocumented
 # one is refused. The programs on its main page are run by tests/consumer/consumer_library.sh.
 #   docs_doxygen.sh SOURCE_DIR
