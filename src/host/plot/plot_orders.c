@@ -32,21 +32,28 @@ static order_axes axes_of(const hci_plot_order *order, size_t count, bool logari
     return (order_axes){b, hci_svg_axis_over(n, b.left, b.right, 10.0), y, logarithmic};
 }
 
+/* Styles of a stem and of the dot on it. */
+typedef struct {
+    const char *line, *dot;
+    double radius;
+} stem_style;
+
 /* What lies below the axis is left out. */
-static void draw_stem(hci_output *out, const order_axes *a, const char *line, const char *dot, double order,
-                      double amplitude_Nm, double radius)
+static void draw_stem(hci_output *out, const order_axes *a, const stem_style *style, double order,
+                      double amplitude_Nm)
 {
     const double x = hci_svg_at(&a->x, order), y = height_of(a, amplitude_Nm);
     if (!(amplitude_Nm > 0.0) || y >= a->y.from) return;
-    hci_svg_segment(out, line, x, a->y.from, x, y);
-    hci_svg_circle(out, dot, x, y, radius);
+    hci_svg_segment(out, style->line, x, a->y.from, x, y);
+    hci_svg_circle(out, style->dot, x, y, style->radius);
 }
 
 static void draw_order(hci_output *out, const order_axes *a, const hci_plot_order *o)
 {
+    static const stem_style BEFORE = {"before", "before", 3.6}, AFTER = {"after", "dot", 2.4};
     const double x = hci_svg_at(&a->x, o->order), y = height_of(a, o->noise_Nm);
-    draw_stem(out, a, "before", "before", o->order, o->before_Nm, 3.6);
-    draw_stem(out, a, "after", "dot", o->order, o->after_Nm, 2.4);
+    draw_stem(out, a, &BEFORE, o->order, o->before_Nm);
+    draw_stem(out, a, &AFTER, o->order, o->after_Nm);
     if (o->noise_Nm > 0.0 && y < a->y.from) hci_svg_segment(out, "noise", x - 3.0, y, x + 3.0, y);
 }
 

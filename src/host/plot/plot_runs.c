@@ -32,21 +32,31 @@ static void draw_run(hci_output *out, const hci_run_errors *e, double y, const h
     if (noise > x->from) hci_svg_segment(out, "noise", noise, y - 7.0, noise, y + 7.0);
 }
 
-/* A heading takes a row of its own. Returns the next free row. */
-static size_t draw_runs_of(hci_output *out, const hci_diagnosis *d, const char *heading, const size_t *place,
-                           size_t count, size_t row, const hci_svg_axis *x)
+/* The runs of one role that are shown, in rows under a heading, which takes a row of its own. */
+typedef struct {
+    const char *heading;
+    size_t place[HCI_PLOT_MOST_RUNS], count;
+} run_group;
+
+static size_t rows_of(const run_group *g)
 {
-    if (count == 0) return row;
-    hci_svg_label(out, "head", 4.0, hci_rows_middle(row++) + 5.0, heading);
-    for (size_t k = 0; k < count; ++k)
-        draw_run(out, &d->run[place[k]], hci_rows_middle(row++), x);
-    return row;
+    return g->count > 0 ? g->count + 1 : 0;
 }
 
-static hci_range range_of_runs(const hci_diagnosis *d, const size_t *place, size_t count, hci_range r)
+/* row: of the heading. */
+static void draw_group(hci_output *out, const hci_diagnosis *d, const run_group *g, size_t row,
+                       const hci_svg_axis *x)
 {
-    for (size_t k = 0; k < count; ++k) {
-        const hci_run_errors *e = &d->run[place[k]];
+    if (g->count == 0) return;
+    hci_svg_label(out, "head", 4.0, hci_rows_middle(row) + 5.0, g->heading);
+    for (size_t k = 0; k < g->count; ++k)
+        draw_run(out, &d->run[g->place[k]], hci_rows_middle(row + 1 + k), x);
+}
+
+static hci_range range_with(const hci_diagnosis *d, const run_group *g, hci_range r)
+{
+    for (size_t k = 0; k < g->count; ++k) {
+        const hci_run_errors *e = &d->run[g->place[k]];
         hci_range_include(&r, e->rms_before_Nm);
         hci_range_include(&r, e->rms_after_Nm);
         if (e->noise_floor_Nm > 0.0) hci_range_include(&r, e->noise_floor_Nm);
@@ -66,17 +76,18 @@ void hci_plot_runs(hci_output *out, const hci_diagnosis *d)
                                            {HCI_SVG_DOT, "hollow", "after (held out)"},
                                            {HCI_SVG_DOT, "dot", "after (fitted)"},
                                            {HCI_SVG_LINE, "noise", "noise"}};
-    size_t held[HCI_PLOT_MOST_RUNS], fitted[HCI_PLOT_MOST_RUNS];
-    const size_t helds = hci_plot_largest(holdout_weight, d, d->runs, HCI_PLOT_MOST_RUNS, held),
-                 fits = hci_plot_largest(fit_weight, d, d->runs, HCI_PLOT_MOST_RUNS, fitted),
-                 rows = helds + (helds > 0) + fits + (fits > 0);
+    run_group held = {.heading = "Held out"}, fitted = {.heading = "Fitted"};
+    held.count = hci_plot_largest(holdout_weight, d, d->runs, HCI_PLOT_MOST_RUNS, held.place);
+    fitted.count = hci_plot_largest(fit_weight, d, d->runs, HCI_PLOT_MOST_RUNS, fitted.place);
+    const size_t rows = rows_of(&held) + rows_of(&fitted);
     const hci_svg_box b = hci_rows_box(NAMES_END, RIGHT, rows);
-    const hci_range r = range_of_runs(d, held, helds, range_of_runs(d, fitted, fits, HCI_RANGE_EMPTY));
+    const hci_range r = range_with(d, &held, range_with(d, &fitted, HCI_RANGE_EMPTY));
     const hci_svg_axis x = hci_svg_log_axis(r, b.left, b.right, 4.0);
     hci_rows_begin(out, "runs", "Error of each run before and after, with its noise", ERRORS, rows);
     hci_svg_legend(out, LEGEND, 4, RIGHT, 18.0);
     hci_svg_log_grid(out, &x, &b, false);
-    draw_runs_of(out, d, "Fitted", fitted, fits, draw_runs_of(out, d, "Held out", held, helds, 0, &x), &x);
+    draw_group(out, d, &held, 0, &x);
+    draw_group(out, d, &fitted, rows_of(&held), &x);
     hci_rows_foot(out, &b, "rms of the torque error in N·m, logarithmic");
     hci_svg_end(out);
 }

@@ -34,6 +34,12 @@ typedef struct {
     double largest_Nm;
 } ripple;
 
+/* The orders that have a group of bars, `width` pixels each, from `left` on. */
+typedef struct {
+    size_t order[MOST_GROUPS], count;
+    double left, width;
+} groups;
+
 /* 0 for what is not worth a group of bars. */
 static double group_weight(const void *context, size_t k)
 {
@@ -41,6 +47,16 @@ static double group_weight(const void *context, size_t k)
     const hci_solved_order *o = &r->solution->order[k];
     const double worth = worth_of(o, r->largest_Nm);
     return is_ripple(o) && worth > WORTHWHILE * r->largest_Nm ? worth : 0.0;
+}
+
+/* The largest, in the middle of the box. */
+static groups groups_in(const hci_svg_box *b, const ripple *r)
+{
+    groups g;
+    g.count = hci_plot_largest(group_weight, r, r->solution->order_count, MOST_GROUPS, g.order);
+    g.width = fmin((b->right - b->left) / (double)(g.count > 0 ? g.count : 1), 60.0);
+    g.left = 0.5 * (b->left + b->right - g.width * (double)g.count);
+    return g;
 }
 
 /* A height of nothing still shows as a line. */
@@ -62,19 +78,18 @@ static void draw_group(hci_output *out, const hci_solved_order *o, double middle
         hci_svg_circle(out, "ring", middle, top, 4.0);
 }
 
-/* Those of the groups with their orders below; `width` pixels each, from `left` on. */
-static void draw_groups(hci_output *out, const hci_solution *s, const size_t *group, size_t count,
-                        double left, double width, const hci_svg_axis *y)
+/* Bars, and the orders below. */
+static void draw_groups(hci_output *out, const hci_solution *s, const groups *g, const hci_svg_axis *y)
 {
     hci_svg_tag tag[MOST_GROUPS];
-    for (size_t k = 0; k < count; ++k) {
-        const hci_solved_order *o = &s->order[group[k]];
-        tag[k].x = left + width * ((double)k + 0.5);
+    for (size_t k = 0; k < g->count; ++k) {
+        const hci_solved_order *o = &s->order[g->order[k]];
+        tag[k].x = g->left + g->width * ((double)k + 0.5);
         tag[k].style = hci_order_is_missed(o) ? "no middle" : "quiet middle";
         hci_svg_short_text(tag[k].text, hci_order_number(o));
-        draw_group(out, o, tag[k].x, width, y);
+        draw_group(out, o, tag[k].x, g->width, y);
     }
-    hci_svg_tags(out, tag, count, y->from);
+    hci_svg_tags(out, tag, g->count, y->from);
 }
 
 static void draw_spectrum_foot(hci_output *out, const hci_solution *s, const hci_svg_box *b, size_t shown,
@@ -108,20 +123,18 @@ void hci_panel_spectrum(hci_output *out, const hci_solution *s, const hci_svg_bo
         hci_svg_axis_over(peaks.high > 0.0 ? peaks : (hci_range){0.0, 1.0}, box->bottom, box->top, 6.0);
     const hci_svg_box b = hci_svg_box_beside(*box, &y);
     const ripple r = {s, largest_ripple_Nm(s)};
-    size_t group[MOST_GROUPS], eligible = 0;
-    const size_t count = hci_plot_largest(group_weight, &r, s->order_count, MOST_GROUPS, group);
-    const double width = fmin((b.right - b.left) / (double)(count > 0 ? count : 1), 60.0);
-    const double left = 0.5 * (b.left + b.right - width * (double)count);
+    const groups g = groups_in(&b, &r);
+    size_t eligible = 0;
     for (size_t k = 0; k < s->order_count; ++k)
         eligible += group_weight(&r, k) > 0.0;
     hci_svg_head(out, &b, "Ripple in N·m (peak)", LEGEND, 3);
     hci_svg_grid(out, &y, &b, true);
-    draw_groups(out, s, group, count, left, width, &y);
-    if (y.from - hci_svg_at(&y, s->tolerance_Nm) > 1.5 && count > 0)
+    draw_groups(out, s, &g, &y);
+    if (y.from - hci_svg_at(&y, s->tolerance_Nm) > 1.5 && g.count > 0)
         hci_svg_segment(out, "limit", b.left, hci_svg_at(&y, s->tolerance_Nm), b.right,
                         hci_svg_at(&y, s->tolerance_Nm));
-    if (count == 0)
+    if (g.count == 0)
         hci_svg_label(out, "quiet middle", 0.5 * (b.left + b.right), 0.5 * (b.top + b.bottom),
                       "no torque ripple");
-    draw_spectrum_foot(out, s, &b, count, eligible);
+    draw_spectrum_foot(out, s, &b, g.count, eligible);
 }

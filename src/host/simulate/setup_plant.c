@@ -30,28 +30,14 @@ static hci_status integrate_slopes(const hci_setup_task *b, hci_plant_inductance
     return HCI_OK;
 }
 
-static hci_status choose_inductance(const hci_setup_task *b, hci_plant_inductance *given)
+/* L_d and L_q of machine.csv; where imposed currents do without them, placeholders. */
+static hci_status take_d_and_q(const hci_setup_task *b, bool is_imposed, hci_plant_inductance *given)
 {
+    static const char WHO[] = "the change of currents needs";
     const hci_machine_data *m = b->machine;
-    const bool imposed = b->scenario->current_control == HCI_CURRENT_IDEAL;
-    hci_status status = HCI_OK;
-    b->setup->has_inductance = true;
-    *given = (hci_plant_inductance){m->inductance, m->inductance_count, 0.0, 0.0};
-    if (m->inductance_count > 0) return HCI_OK;
-    if (m->model.slope_count > 0 && !imposed)
-        return hci_note_set(b->note, HCI_ERROR_INPUT,
-                            "inductance.csv: slopes only, but currents that a voltage drives need the "
-                            "inductances; give the columns "
-                            "La_H … Mca_H, or `current_control,ideal` in the scenario");
-    if (m->model.slope_count > 0) {
-        b->setup->has_inductance = false;
-        return integrate_slopes(b, given);
-    }
-    if (!imposed || isnan(m->inductance_d_H) != isnan(m->inductance_q_H)) {
-        status = hci_setup_need(b, m->inductance_d_H, "inductance_d", "H", "the change of currents needs");
-        if (!status)
-            status =
-                hci_setup_need(b, m->inductance_q_H, "inductance_q", "H", "the change of currents needs");
+    if (!is_imposed || isnan(m->inductance_d_H) != isnan(m->inductance_q_H)) {
+        hci_status status = hci_setup_need(b, m->inductance_d_H, "inductance_d", "H", WHO);
+        if (!status) status = hci_setup_need(b, m->inductance_q_H, "inductance_q", "H", WHO);
         if (status) return status;
     }
     b->setup->has_inductance = !isnan(m->inductance_d_H);
@@ -60,9 +46,25 @@ static hci_status choose_inductance(const hci_setup_task *b, hci_plant_inductanc
     if (fabs(given->d_H - given->q_H) > 1e-9 * given->q_H)
         hci_note_add(&b->setup->remark,
                      "inductance_d and inductance_q differ, and the reluctance torque that follows is in "
-                     "this simulation; "
-                     "`solve` reads inductance.csv only");
+                     "this simulation; `solve` reads inductance.csv only");
     return HCI_OK;
+}
+
+static hci_status choose_inductance(const hci_setup_task *b, hci_plant_inductance *given)
+{
+    const hci_machine_data *m = b->machine;
+    const bool is_imposed = b->scenario->current_control == HCI_CURRENT_IDEAL;
+    b->setup->has_inductance = true;
+    *given = (hci_plant_inductance){m->inductance, m->inductance_count, 0.0, 0.0};
+    if (m->inductance_count > 0) return HCI_OK;
+    if (m->model.slope_count > 0 && !is_imposed)
+        return hci_note_set(b->note, HCI_ERROR_INPUT,
+                            "inductance.csv: slopes only, but currents that a voltage drives need the "
+                            "inductances; give the columns "
+                            "La_H … Mca_H, or `current_control,ideal` in the scenario");
+    if (m->model.slope_count == 0) return take_d_and_q(b, is_imposed, given);
+    b->setup->has_inductance = false;
+    return integrate_slopes(b, given);
 }
 
 static hci_status fill_table(const hci_setup_task *b)
