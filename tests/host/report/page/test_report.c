@@ -671,14 +671,11 @@ static void test_simulation(void)
 
 /* A plain sine with 2.5 + 0.75 cos 2θ + 0.125 sin(θ/2) N·m, over two turns: its mean over a step is that of
  * the two turns, since sin(θ/2) falls out; its extremes are not. */
-static void test_simulation_with_before(void)
+static hci_simulation simulation_with_before(void)
 {
-    static hci_traces traces;
-    hci_harmonic spectrum[] = {{0.0, 0.0, 2.5}, {0.5, 0.0, 0.0}, {1.0, 0.25, 0.0}, {2.0, 0.0, 1e-17}};
-    hci_harmonic plain[] = {{0.0, 0.0, 2.5}, {0.5, 0.125, 0.0}, {2.0, 0.0, 0.75}};
-    const hci_report_sources sources = {.machine = "m", .scenario = "s", .currents = "c"};
+    static hci_harmonic spectrum[] = {{0.0, 0.0, 2.5}, {0.5, 0.0, 0.0}, {1.0, 0.25, 0.0}, {2.0, 0.0, 1e-17}};
+    static hci_harmonic plain[] = {{0.0, 0.0, 2.5}, {0.5, 0.125, 0.0}, {2.0, 0.0, 0.75}};
     hci_simulation s;
-    hci_note note = {{0}};
     memset(&s, 0, sizeof s);
     s.to_s = 1.0;
     s.periods = s.plain.period_turns = 2;
@@ -694,6 +691,36 @@ static void test_simulation_with_before(void)
     s.plain.peak_to_peak_Nm = 1.625;
     s.plain.T_ripple_percent = 65.0;
     s.plain.F_ripple_percent = 21.5;
+    return s;
+}
+
+/* The row from 0° to 9°: the mean by the integral of cos 2θ. */
+static void check_turn_before(void)
+{
+    const char *row = strstr(strstr(page, "Before: least N·m"), "<data value=\"9\">9</data></td><td>") + 30;
+    const double low = number_after(row, "\""), mean = number_after(strstr(row, "</td><td>"), "\"");
+    const double last_rad = 8.875 * REF_PI / 180.0; /* of four samples in a degree */
+    TEST_ASSERT_DOUBLE_WITHIN(1e-4, 2.5 + 0.75 * sin(0.1 * REF_PI) / (0.1 * REF_PI), mean);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 2.5 + 0.75 * cos(2.0 * last_rad) - 0.125 * sin(0.5 * last_rad), low);
+}
+
+/* Order, before, after: the first is rounding. */
+static void check_orders_before(void)
+{
+    text_has("<tr><td><data value=\"2\">2</data></td><td><data value=\"0.75\">0.75</data></td><td>"
+             "<data value=\"1e-17\">0</data></td>",
+             page);
+    text_has("<tr><td><data value=\"1\">1</data></td><td><data value=\"0\">0</data></td><td>"
+             "<data value=\"0.25\">0.25</data></td>",
+             page);
+}
+
+static void test_simulation_with_before(void)
+{
+    static hci_traces traces;
+    const hci_report_sources sources = {.machine = "m", .scenario = "s", .currents = "c"};
+    hci_simulation s = simulation_with_before();
+    hci_note note = {{0}};
     hci_traces_begin(&traces, 0.0, 1.0);
     for (int imposed = 0; imposed < 2; ++imposed) {
         s.imposed = imposed;
@@ -705,23 +732,11 @@ static void test_simulation_with_before(void)
         text_has("<b>65 → 20", page);
         text_has("<b>21.5 → 7", page);
         text_has("Before: the plain sine of 3.5 A in phase with the back-EMF", page);
-        /* order, before, after: the last is rounding */
-        text_has("<tr><td><data value=\"2\">2</data></td><td><data value=\"0.75\">0.75</data></td><td>"
-                 "<data value=\"1e-17\">0</data></td>",
-                 page);
-        text_has("<tr><td><data value=\"1\">1</data></td><td><data value=\"0\">0</data></td><td>"
-                 "<data value=\"0.25\">0.25</data></td>",
-                 page);
+        check_orders_before();
         TEST_ASSERT_EQUAL_INT(!imposed, strstr(page, "A strategy asks for a constant torque") != NULL);
         TEST_ASSERT_EQUAL_INT(imposed, strstr(page, "some of these orders may be wanted") != NULL);
         TEST_ASSERT_EQUAL_UINT64(4, text_count(">before</text>", page) + text_count(">after</text>", page));
-        /* 0° to 9°: the mean by the integral of cos 2θ */
-        const char *row =
-            strstr(strstr(page, "Before: least N·m"), "<data value=\"9\">9</data></td><td>") + 30;
-        const double low = number_after(row, "\""), mean = number_after(strstr(row, "</td><td>"), "\"");
-        const double last_rad = 8.875 * REF_PI / 180.0; /* of four samples in a degree */
-        TEST_ASSERT_DOUBLE_WITHIN(1e-4, 2.5 + 0.75 * sin(0.1 * REF_PI) / (0.1 * REF_PI), mean);
-        TEST_ASSERT_DOUBLE_WITHIN(1e-9, 2.5 + 0.75 * cos(2.0 * last_rad) - 0.125 * sin(0.5 * last_rad), low);
+        check_turn_before();
     }
 }
 
