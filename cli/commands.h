@@ -1,5 +1,5 @@
-/* The commands, one file each with its table of options and its `run`. What a command says of its results is
- * in <command>_words.c where that is long. Below them are the folders terminal and command, above them
+/* The commands, one file each with its table of options and its `run`. What a command reports on the terminal
+ * is in <command>_words.c where that is long. Below them are the folders terminal and command, above them
  * reference and main.c. */
 #ifndef HCI_CLI_COMMANDS_H
 #define HCI_CLI_COMMANDS_H

@@ -1,4 +1,4 @@
-/* What `diagnose` says of its results. Uses the folder terminal. */
+/* The report of `diagnose` on the terminal. Uses the folder terminal. */
 #ifndef HCI_CLI_DIAGNOSE_WORDS_H
 #define HCI_CLI_DIAGNOSE_WORDS_H
 

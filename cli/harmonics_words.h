@@ -1,4 +1,4 @@
-/* What `harmonics` says of its results. Uses the folder terminal. */
+/* The report of `harmonics` on the terminal. Uses the folder terminal. */
 #ifndef HCI_CLI_HARMONICS_WORDS_H
 #define HCI_CLI_HARMONICS_WORDS_H
 

@@ -1,4 +1,4 @@
-/* What `init` says of its results. Uses the folder terminal. */
+/* The report of `init` on the terminal. Uses the folder terminal. */
 #ifndef HCI_CLI_INIT_WORDS_H
 #define HCI_CLI_INIT_WORDS_H
 

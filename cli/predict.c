@@ -89,7 +89,7 @@ static int run(const cli_arguments *a)
 const cli_command cli_predict = {
     .name = "predict",
     .words = "MACHINE RUN",
-    .does = "Says what the machine's model and its effects make of a run's angle and currents.\n"
+    .does = "Computes the torque of the machine's model and its effects for a run's angle and currents.\n"
             "Writes the run with torque_model_Nm and residual_Nm (recorded less model) added.",
     .options = OPTIONS,
     .words_needed = 2,

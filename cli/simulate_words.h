@@ -1,4 +1,4 @@
-/* What `simulate` says of its results. Uses the folder terminal. */
+/* The report of `simulate` on the terminal. Uses the folder terminal. */
 #ifndef HCI_CLI_SIMULATE_WORDS_H
 #define HCI_CLI_SIMULATE_WORDS_H
 

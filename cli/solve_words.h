@@ -1,4 +1,4 @@
-/* What `solve` says of its results. Uses the folder terminal. */
+/* The report of `solve` on the terminal. Uses the folder terminal. */
 #ifndef HCI_CLI_SOLVE_WORDS_H
 #define HCI_CLI_SOLVE_WORDS_H
 

@@ -4,7 +4,7 @@
 
 #define SETTLING_s   1.5  /* time constant of the smoothing … */
 #define GOOD_NEWS_s  0.5  /* … and where the end comes nearer */
-#define LEAST_SHARE  0.02 /* from which a share says something … */
+#define LEAST_SHARE  0.02 /* from which a share is used … */
 #define LEAST_TIME_s 0.5  /* … and the time it must have taken */
 
 void cli_estimate_begin(cli_estimate *e, double now_s, double share)

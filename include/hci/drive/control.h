@@ -101,7 +101,7 @@ typedef struct {
 
 /* The controller of a drive. */
 typedef struct {
-    const hci_plant_table *table; /* what the controller knows of the machine */
+    const hci_plant_table *table; /* the machine as the controller models it */
     double step_s;                /* of the plant */
     double dc_link_V;             /* voltage of the dc link, > 0; not used by the ideal loop */
 

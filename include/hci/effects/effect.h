@@ -155,7 +155,7 @@ typedef struct {
     size_t parameter, count; /* the first one in the type's list, and how many that follow each other */
     double order;            /* of ordered parameters, else 0 */
     double alternatives;     /* from how many like it this one is chosen, >= 1: what is usual in a machine has
-                              * few, and every choice has to be paid for with 2 ln(alternatives) of χ² */
+                              * few; a choice must lower χ² by 2 ln(alternatives) more */
     double expected;         /* standard deviation of the values of machines and benches that somebody has
                               * looked at, in the parameters' unit; 0: any */
 } hci_effect_candidate;
@@ -197,14 +197,14 @@ struct hci_effect_type {
     const hci_effect_parameter *parameter; /* the kinds of numbers that it has */
     size_t parameter_count;                /* entries of parameter */
     unsigned needs;                        /* of HCI_EFFECT_NEEDS_TIME … */
-    const char *without;     /* what a prediction says where a run lacks what the effect needs */
-    const char *told_by;     /* a run with this tells it from what looks the same; NULL: any other run */
-    bool in_machine;         /* `torque` acts in the air gap, else only between it and the reading */
-    bool beyond_quadratic;   /* the torque is of higher than second degree in the currents */
-    bool is_series;          /* of many terms of which single ones are worth little: a diagnosis looks at more
-                              * of them (richness) as more is left, and takes all of order 0 in at once */
-    bool is_angle_zero;      /* turns the zero of the angle */
-    bool any_phase;          /* a torque of any order and phase without current: a turned angle is one, too */
+    const char *without;   /* what a prediction says where a run lacks what the effect needs */
+    const char *told_by;   /* a run with this tells it from what looks the same; NULL: any other run */
+    bool in_machine;       /* `torque` acts in the air gap, else only between it and the reading */
+    bool beyond_quadratic; /* the torque is of higher than second degree in the currents */
+    bool is_series;     /* of many terms, each of which explains little by itself: a diagnosis looks at more
+                         * of them (richness) as more is left, and takes all of order 0 in at once */
+    bool is_angle_zero; /* turns the zero of the angle */
+    bool any_phase;     /* a torque of any order and phase without current: a turned angle is one, too */
     const size_t *resonance; /* two parameters, natural frequency in Hz and damping ratio, that a diagnosis
                               * looks for on a grid, since no small step from nothing finds them */
 

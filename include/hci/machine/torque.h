@@ -35,7 +35,7 @@ typedef struct {
 /* One order of L(θ) itself, in H: the same layout. L' follows from it: S' = −p m C, C' = p m S. */
 typedef hci_inductance_slope hci_inductance;
 
-/* What the torque model knows of a machine. The arrays belong to the caller; any may be NULL with count 0. */
+/* A machine as the torque model takes it. The arrays belong to the caller; any may be NULL with count 0. */
 typedef struct {
     int pole_pairs;                    /* p >= 1; θ = p·θ_m */
     const hci_wave *back_emf;          /* e_s(θ), N·m/A */

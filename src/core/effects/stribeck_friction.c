@@ -4,7 +4,7 @@
  *
  *     T = −T_s e^{−(ω/ω_s)²} sign ω
  *
- * on top of the constant and the viscous part, which are those of friction. A simulated shaft knows constant
+ * on top of the constant and the viscous part, which are those of friction. A simulated shaft has constant
  * Coulomb friction and smooth drag: T_s is the former, −T_s (1 − e^{−(ω/ω_s)²}) sign ω the latter. */
 #include "core/effects/type.h"
 

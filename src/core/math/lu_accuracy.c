@@ -1,4 +1,4 @@
-/* How far the solution of a square system can be trusted, and its refinement. */
+/* Condition and backward error of the solution of a square system, and its refinement. */
 #include <float.h>
 
 #include "core/math/vector.h"

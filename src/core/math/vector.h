@@ -1,7 +1,7 @@
 /* The level-1 kernels under the dense and Fourier modules: contiguous, without a heap, vectorised by the
  * compiler.
  *
- * A fixed number of lanes is what lets gcc -O2 vectorise: its cost model wants a trip count it knows, and a
+ * A fixed number of lanes is what lets gcc -O2 vectorise: its cost model needs a known trip count, and a
  * sum may be reordered only by whoever wrote it down in lanes. */
 #ifndef HCI_SRC_CORE_MATH_VECTOR_H
 #define HCI_SRC_CORE_MATH_VECTOR_H

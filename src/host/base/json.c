@@ -1,4 +1,4 @@
-/* The only file that knows cJSON. */
+/* JSON text by cJSON, which no other file includes. */
 #include "host/base/json.h"
 
 #include <assert.h>

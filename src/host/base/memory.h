@@ -1,4 +1,4 @@
-/* The one door to the heap for host code, with a trap door for tests. */
+/* Allocation for host code: the only file that uses the heap. A limit lets tests make allocations fail. */
 #ifndef HCI_SRC_HOST_BASE_MEMORY_H
 #define HCI_SRC_HOST_BASE_MEMORY_H
 
@@ -15,7 +15,7 @@ void *hci_memory_malloc(size_t size);
 void *hci_memory_realloc(void *block, size_t size);
 
 /* For tests: let `count` more allocations succeed and every later one fail; a negative count switches this
- * off. SuiteSparse and cJSON are routed through the same door. */
+ * off. SuiteSparse and cJSON allocate through these functions too. */
 void hci_memory_fail_after(long count);
 
 #endif

@@ -1,6 +1,6 @@
-/* What a check says in the end. In: the probabilities of all combinations of convention errors. Out: the
- * errors that are found or possible, how each relation stands before and after, what could not be checked,
- * and which errors would change nothing in these files. */
+/* The result of a check. In: the probabilities of all combinations of convention errors. Out: the errors that
+ * are found or possible, how each relation stands before and after, what could not be checked, and which
+ * errors would change nothing in these files. */
 #ifndef HCI_SRC_HOST_CHECK_CONCLUSIONS_H
 #define HCI_SRC_HOST_CHECK_CONCLUSIONS_H
 

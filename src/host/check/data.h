@@ -1,4 +1,4 @@
-/* What `check` knows of the files: the numbers of a machine folder as they stand, each with its file, line
+/* What `check` reads from the files: the numbers of a machine folder as they stand, each with its file, line
  * and column, and the statistics of its recordings. They are taken once; an interpretation (interpretation.h)
  * then says what they mean, and costs no second look at the samples. */
 #ifndef HCI_SRC_HOST_CHECK_DATA_H
@@ -92,7 +92,7 @@ typedef struct {
     bool has_abc, has_dq, has_voltage, has_speed, has_torque;
     bool has_phase_voltage, has_dq_voltage; /* one of them where has_voltage */
     bool has_line_voltage;                  /* those of the phases are made of it */
-    bool lacks_d_voltage;                   /* v_q alone: what v_d is nobody knows */
+    bool lacks_d_voltage;                   /* v_q alone: v_d is not known */
     bool lacks_d_current;                   /* i_d was not recorded, or is none */
     bool speed_is_electrical;               /* its column */
     bool dq_voltage_is_coherent;            /* follows the speed */

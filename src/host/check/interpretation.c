@@ -68,7 +68,7 @@ static double emf_phase_of(const check_data *data, const check_interpretation *a
     return remainder(phase - as->zero_rad + (negative ? HCI_PI : 0.0), 2.0 * HCI_PI);
 }
 
-/* Turning d and q by δ turns what L_d − L_q makes by 2δ; interpretations know quarter turns only. */
+/* Turning d and q by δ turns what L_d − L_q makes by 2δ; interpretations have quarter turns only. */
 static double turned_difference(const check_interpretation *as)
 {
     return cos(2.0 * as->zero_rad) < 0.0 ? -1.0 : 1.0;

@@ -24,10 +24,10 @@ typedef struct {
     const char *name, *words;
     check_kind kind;
     double expected, tolerance;
-    double cap; /* the most that one relation can say against an interpretation, in nats */
+    double cap; /* the most that one relation can count against an interpretation, in nats */
     check_value (*evaluate)(const check_data *data, const check_interpretation *as, const check_model *model);
     const char *needs;
-    const char *instead; /* relation that says the same where it can be checked; "": none */
+    const char *instead; /* relation that tests the same where it can be checked; "": none */
 } check_relation;
 
 /* Relations of one kind, in the order in which they are reported. */
@@ -43,7 +43,8 @@ check_value hci_check_relation_value(const check_data *data, const check_relatio
 /* Distance from the expected value in standard deviations, 0 or more. */
 double hci_check_deviation(const check_relation *relation, check_value value);
 
-/* What a value says against an interpretation: −ln of its likelihood, in nats, at most about relation->cap.
+/* How much a value counts against an interpretation: −ln of its likelihood, in nats, at most about
+ * relation->cap.
  */
 double hci_check_loss(const check_relation *relation, check_value value);
 

@@ -56,7 +56,7 @@ bool hci_csv_says_no_unit(const char *cell);
 /* The unit that the row of units names for a column; NULL where it says nothing, or nothing that is known. */
 const hci_unit *hci_csv_row_unit(const hci_csv *csv, size_t column);
 
-/* Tells the columns that were not used, used[columns], in a remark: one under an unknown name would otherwise
+/* Names the columns that were not used, used[columns], in a remark: one under an unknown name would otherwise
  * be missed in silence. */
 void hci_csv_unused(const hci_csv *csv, const bool *used, hci_note *remark);
 
@@ -75,7 +75,7 @@ hci_status hci_csv_fault_note(const hci_csv *csv, const hci_csv_fault *fault, hc
 hci_status hci_csv_encoding_error(const hci_csv *csv, size_t line, size_t column, const char *cell,
                                   hci_note *note);
 
-/* What is said of a row of units with a cell that is none. */
+/* The remark on a row of units with a cell that is none. */
 #define HCI_CSV_UNIT_EXPECTED "a unit, as in the other cells"
 #define HCI_CSV_UNIT_REMEDY   "in a row of units each cell must be a known unit, 1, - or empty"
 

@@ -106,7 +106,8 @@ static bool dataset_make(const hci_regression *e, double noise_Nm, trial_dataset
     return b->sample != NULL;
 }
 
-/* What is left of |right − wrong|² after a fit of wrong to it with the knowledge `known` of its parameters.
+/* What is left of |right − wrong|² after a fit of wrong to it with the prior information `known` on its
+ * parameters.
  */
 static double remaining(const hci_normal_equations *difference, const hci_normal_equations *known,
                         double *work)
@@ -129,7 +130,7 @@ static double remaining(const hci_normal_equations *difference, const hci_normal
 typedef struct {
     const hci_candidates *wrong;
     hci_model right;
-    hci_normal_equations known; /* what the recordings know of the parameters of `wrong` */
+    hci_normal_equations known; /* the recordings' normal equations in the parameters of `wrong` */
     range range;
     trial_dataset dataset;
     double *residual_Nm, *work; /* [samples], [n² + n] */

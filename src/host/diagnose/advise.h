@@ -17,7 +17,7 @@ typedef struct {
 /* Looks through steady runs of one mechanical turn over currents, current angles, speeds and directions
  * within the range of the recordings, and four times the speed where they have one only. For each, χ² by
  * which the explanation `right` would contradict `wrong` after `wrong` has been fitted again, with what the
- * recordings know of its parameters. text[size]: out, in words: the run with the least current and speed that
+ * recordings tell of its parameters. text[size]: out, in words: the run with the least current and speed that
  * is decisive, or the best one. HCI_ERROR_MEMORY. O(points·samples·parameters²). */
 hci_status hci_advise(const hci_regression *regression, const hci_advice_request *request, char *text,
                       size_t size, hci_note *note);

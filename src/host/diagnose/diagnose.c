@@ -132,7 +132,7 @@ static bool is_contradicted(const hci_dataset *b, const hci_runs *runs, const hc
     return after > allowed && after > HARDLY_BETTER * HARDLY_BETTER * before;
 }
 
-/* What the runs held out contradict is not believed. */
+/* Takes the effects out again where the runs held out contradict them. */
 static hci_status withdraw(hci_dataset *b, const hci_runs *runs, hci_attribution *a, hci_diagnosis *d,
                            hci_note *note)
 {
@@ -148,7 +148,8 @@ static hci_status withdraw(hci_dataset *b, const hci_runs *runs, hci_attribution
     return fill(b, runs, a, d, note);
 }
 
-/* A correction that takes the magnets away has been fitted to something that is meant otherwise. */
+/* A correction that leaves hardly any torque per ampere has been fitted to recordings in another
+ * convention. */
 static hci_status check_believable(const hci_machine_data *machine, const hci_effects *declared,
                                    const hci_runs *runs, const hci_diagnosis *d, hci_note *note)
 {

@@ -1,4 +1,5 @@
-/* The loop closed: currents for the corrected machine. */
+/* Currents for a target torque, solved for the declared and for the corrected machine and compared on the
+ * latter. */
 #include <string.h>
 
 #include "hci/host/diagnose/diagnose.h"

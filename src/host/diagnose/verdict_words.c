@@ -79,7 +79,7 @@ static void say_unknown(words *w, const hci_diagnosis *d)
     }
 }
 
-/* A torque that no sensor read stands or falls with a shaft that drives nothing. */
+/* A torque that no sensor has read is right only where the shaft drives nothing. */
 static void say_free_shafts(words *w, const hci_diagnosis *d)
 {
     size_t count = 0;

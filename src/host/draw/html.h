@@ -46,7 +46,8 @@ void hci_html_figure_end(hci_output *out, const char *caption, const char *numbe
 
 /* ---- tables ---- */
 
-/* column: names with units, NULL at the end; those that begin with '<' are text and lean to the left. */
+/* column: names with units, NULL at the end; those that begin with '<' hold text and are aligned to the
+ * left. */
 void hci_html_table(hci_output *out, const char *caption, const char *const *column);
 void hci_html_table_end(hci_output *out);
 void hci_html_row(hci_output *out);

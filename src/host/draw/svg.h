@@ -56,7 +56,7 @@ double hci_svg_text_width(const char *style, const char *text);
 /* Pixels that stay free between two labels in a row. */
 #define HCI_SVG_GAP 4.0
 
-/* A name as it stands, of which as much of the end is shown as there is room for, in pixels. */
+/* A name without subscripts, of which as much of the end is shown as fits in `room` pixels. */
 void hci_svg_name(hci_output *out, const char *style, double x, double y, const char *text, double room);
 
 /* Labels under an axis at y, ascending from left to right by their middle x: in one row where they fit side

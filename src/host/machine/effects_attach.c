@@ -67,7 +67,7 @@ static hci_status set_delay(probe *p, bool wraps, hci_sensor *sensor, hci_note *
     return HCI_OK;
 }
 
-/* Every type's say on the sensors, in the order of the registry. */
+/* What each type of effect does to the sensors, in the order of the registry. */
 static void simulate_types(const hci_effects *effects, int pole_pairs, hci_sensor *sensors,
                            hci_effect_channel *channels)
 {

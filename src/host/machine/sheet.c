@@ -112,7 +112,7 @@ double hci_sheet_resistance_ohm(const hci_sheet *s)
 #define LEAST_RATIO 0.8
 #define MOST_RATIO  1.2
 
-/* The slip whose factor is nearest to the ratio, within 8 %; "" if there is none. */
+/* The convention error whose factor is nearest to the ratio, within 8 %, in words; "" if there is none. */
 static const char *slip_of(double ratio, bool from_flux)
 {
     static const struct {

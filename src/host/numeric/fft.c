@@ -32,7 +32,8 @@ static void reorder(double *re, double *im, size_t n)
     }
 }
 
-/* One stage: blocks of 2·half; every turn by its own sine and cosine, which a recurrence would wear out. */
+/* One stage: blocks of 2·half; every turn by its own sine and cosine, since a recurrence would lose
+ * digits. */
 static void join_blocks(double *re, double *im, size_t n, size_t half, int sign)
 {
     for (size_t j = 0; j < half; ++j) {

@@ -1,4 +1,4 @@
-/* Sparse solves. sparse.c is the only file that knows SuiteSparse. */
+/* Sparse solves. sparse.c is the only file that includes SuiteSparse. */
 #ifndef HCI_SRC_HOST_NUMERIC_SPARSE_H
 #define HCI_SRC_HOST_NUMERIC_SPARSE_H
 
@@ -20,7 +20,7 @@ typedef struct {
 hci_status hci_sparse_lu_solve(const hci_sparse *a, const double *b, size_t right_sides, double *x,
                                double *condition, hci_note *note);
 
-/* What the orthogonal factors say of a matrix. */
+/* Rank and condition of a matrix, from its orthogonal factors. */
 typedef struct {
     size_t rank;
     double condition; /* estimate of the ratio of the largest to the smallest non-zero singular value; NAN:

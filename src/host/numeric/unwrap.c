@@ -30,7 +30,7 @@ static bool is_still(const double *rate, size_t n)
     return true;
 }
 
-/* What the speed says of the step to sample k. */
+/* The step to sample k by the speed. */
 static double expected_step(const unwrapper *u, size_t k)
 {
     return 0.5 * (u->rate_rad_per_s[k - 1] + u->rate_rad_per_s[k]) * (u->time_s[k] - u->time_s[k - 1]);

@@ -24,7 +24,7 @@ void hci_plot_solution_panel(hci_output *out, const hci_solution *solution, hci_
 
 enum { HCI_PLOT_LINE_SIZE = 512 };
 
-/* What the picture says in words, and the extremes of its curves. */
+/* The words of the picture, and the extremes of its curves. */
 typedef struct {
     char verdict[HCI_PLOT_LINE_SIZE], facts[HCI_PLOT_LINE_SIZE], baseline[HCI_PLOT_LINE_SIZE];
     hci_range before_Nm, wanted_Nm, after_Nm, phase_A[3], d_A, q_A;
@@ -59,7 +59,7 @@ void hci_plot_system(hci_output *out, const hci_solution *solution);
 /* Whether a component of U carries current in the solution. */
 bool hci_plot_is_used(const hci_solution *solution, hci_component component);
 
-/* Entries below this share of the largest are not worth a mark. */
+/* Entries below this share of the largest get no mark. */
 #define HCI_PLOT_ZERO 1e-6
 
 /* Residual after by run and order, before it behind. run, order: what is shown, ascending; at most
@@ -96,8 +96,8 @@ void hci_plot_orders(hci_output *out, const hci_svg_picture *words, const hci_pl
 
 /* ---- plot_findings.c, plot_runs.c, plot_terms.c ---- */
 
-/* Of a finding that is in the game, the effect of the corrected machine and the term whose value is the
- * largest multiple of its standard error; NULL where none has one. */
+/* Of a finding that is added or ambiguous, the effect of the corrected machine and the term whose value is
+ * the largest multiple of its standard error; NULL where none has one. */
 const hci_effect *hci_plot_clearest(const hci_diagnosis *diagnosis, const hci_finding *finding, size_t *term);
 
 /* Effects by the fall of the BIC, the share of the residual that is each one's alone, and the 95 % interval

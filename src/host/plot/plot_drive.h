@@ -1,4 +1,4 @@
-/* Pictures of a simulated drive, each as plot.h says. */
+/* Pictures of a simulated drive, each written as plot.h describes. */
 #ifndef HCI_SRC_HOST_PLOT_PLOT_DRIVE_H
 #define HCI_SRC_HOST_PLOT_PLOT_DRIVE_H
 

@@ -6,11 +6,11 @@
 
 enum { MOST_GROUPS = 16 };
 
-/* Bars below this share of the largest are a pixel high. */
-#define WORTHWHILE 5e-3
+/* Bars below this share of the largest would be less than a pixel high. */
+#define LEAST_SHOWN 5e-3
 
-/* What an order is worth showing: its size, but a missed one never less than some of the largest. */
-static double worth_of(const hci_solved_order *o, double largest_Nm)
+/* By what orders are chosen for display: their size; a missed one counts at least a share of the largest. */
+static double display_size_Nm(const hci_solved_order *o, double largest_Nm)
 {
     const double size_Nm = fmax(hci_order_largest_Nm(o), o->error_Nm);
     return hci_order_is_missed(o) ? fmax(size_Nm, 0.02 * largest_Nm + o->error_Nm) : size_Nm;
@@ -40,13 +40,13 @@ typedef struct {
     double left, width;
 } groups;
 
-/* 0 for what is not worth a group of bars. */
+/* 0 for an order that gets no group of bars. */
 static double group_weight(const void *context, size_t k)
 {
     const ripple *r = context;
     const hci_solved_order *o = &r->solution->order[k];
-    const double worth = worth_of(o, r->largest_Nm);
-    return is_ripple(o) && worth > WORTHWHILE * r->largest_Nm ? worth : 0.0;
+    const double size_Nm = display_size_Nm(o, r->largest_Nm);
+    return is_ripple(o) && size_Nm > LEAST_SHOWN * r->largest_Nm ? size_Nm : 0.0;
 }
 
 /* The largest, in the middle of the box. */

@@ -1,4 +1,4 @@
-/* What the picture of a solution says in words: verdict, facts, and what before is. */
+/* The words in the picture of a solution: verdict, facts, and what before is. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

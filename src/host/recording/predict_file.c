@@ -49,7 +49,7 @@ static unsigned lacking(const hci_run *run)
     return lacks;
 }
 
-/* Whether an effect before this one says the same. */
+/* Whether an effect before this one has the same text. */
 static bool is_said(const hci_effects *effects, size_t at, unsigned lacks)
 {
     for (size_t k = 0; k < at; ++k)

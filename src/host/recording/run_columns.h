@@ -1,8 +1,8 @@
 /* The columns of a recording, read once for all who need them: which quantities a file has, under which name
  * and in what unit, what was supposed of a name that could mean something else, and the values in SI units.
- * In: a file that has been cut into cells (csv.h, which knows names and units of other tools). Out: values as
- * they were recorded: an angle is not unwrapped, a speed not divided by the pole pairs, i_d and i_q are not
- * turned. A new quantity is one line in HCI_RUN_COLUMNS. */
+ * In: a file that has been cut into cells (csv.h, which translates names and units of other tools). Out:
+ * values as they were recorded: an angle is not unwrapped, a speed not divided by the pole pairs, i_d and i_q
+ * are not turned. A new quantity is one line in HCI_RUN_COLUMNS. */
 #ifndef HCI_SRC_HOST_RECORDING_RUN_COLUMNS_H
 #define HCI_SRC_HOST_RECORDING_RUN_COLUMNS_H
 
@@ -64,13 +64,14 @@ double *hci_run_column_take(hci_run_columns *c, hci_run_column which);
 /* Frees the values. */
 void hci_run_column_drop(hci_run_columns *c, hci_run_column which);
 
-/* A column that says again what others say, or that the caller has no use for: it is not told as unused. */
+/* A column that says again what others say, or that the caller has no use for: it is not reported as
+ * unused. */
 void hci_run_column_leave(hci_run_columns *c, hci_run_column which);
 
 /* As the header spells it, and the line of the header in the file; NULL: the file does not have it. */
 const char *hci_run_column_header(const hci_run_columns *c, hci_run_column which, size_t *line);
 
-/* Tells the columns of the file that nobody has read, in the remark. */
+/* Names the columns of the file that were not read, in the remark. */
 void hci_run_columns_tell_unused(const hci_run_columns *c);
 
 /* ---- three phases, by the first of them: HCI_RUN_IA, HCI_RUN_VA or HCI_RUN_VAB */

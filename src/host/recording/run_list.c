@@ -30,7 +30,7 @@ static hci_status read_role(const list_reader *l, size_t row, hci_role *role)
                          "say whether the model may learn from this run or is judged by it");
 }
 
-/* A run that is both learnt from and judged by would flatter the model. */
+/* A run that is fitted and held out too would make the model look better than it is. */
 static hci_status check_once(const list_reader *l, size_t row, const char *file)
 {
     for (size_t other = 0; other < row; ++other)

@@ -57,7 +57,7 @@ static void fill_spectrum(const hci_evaluation *e, double angle_rad, double weig
     }
 }
 
-/* sqrt(i_dx² + i_qx²) = |e| |i| / sqrt(3/2), with the back-EMF that the controller knows. */
+/* sqrt(i_dx² + i_qx²) = |e| |i| / sqrt(3/2), with the back-EMF by which the controller computes. */
 static double dqx_length(const hci_evaluation *e, double angle_rad, double length_A)
 {
     const hci_plant_point p =

@@ -1,4 +1,4 @@
-/* A scenario on its way: set up, run, evaluated. */
+/* The three stages of a simulation: set up, run, evaluated. */
 #ifndef HCI_SRC_HOST_SIMULATE_SIMULATION_H
 #define HCI_SRC_HOST_SIMULATE_SIMULATION_H
 
@@ -26,9 +26,10 @@ typedef struct {
     size_t period_turns, highest_order;
     const hci_machine *machine; /* as declared */
     double temperature_C;       /* of the magnets, NAN where it is not given */
-    bool has_inductance; /* else the table holds a placeholder, which an ideal current source does not feel */
-    bool prescribed;     /* speed */
-    bool has_command;    /* a torque is asked for */
+    bool has_inductance;        /* else the table holds a placeholder, which ideal currents do not need
+                                 */
+    bool prescribed;            /* speed */
+    bool has_command;           /* a torque is asked for */
     hci_note remark;
 } hci_setup;
 

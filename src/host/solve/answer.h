@@ -11,8 +11,8 @@ typedef struct {
     double *x; /* 2·count × 2 */
 } hci_answer;
 
-/* Room for `count` components; set.count is set, nothing else filled. HCI_ERROR_MEMORY, without a note: the
- * caller knows what it was for. To be released in any case. */
+/* Room for `count` components; set.count is set, nothing else filled. HCI_ERROR_MEMORY, without a note, which
+ * the caller can word better. To be released in any case. */
 hci_status hci_answer_reserve(size_t count, hci_answer *answer);
 
 /* Replaces *to by a copy of *from. HCI_ERROR_MEMORY, without a note. */

@@ -11,7 +11,7 @@
 hci_status hci_choose_all(const hci_task *task, double tolerance_Nm, double limit_mean_square_A2,
                           hci_answer *answer, hci_note *note);
 
-/* At most `most` components: the set that hci_set_cost_less likes best of those that are searched. only: the
+/* At most `most` components: the best set by hci_set_cost_less of those that are searched. only: the
  * candidates, or NULL for all that there are. *answer: out, to be released in any case. HCI_ERROR_MEMORY,
  * HCI_ERROR_NUMERIC when no set could be solved. */
 hci_status hci_choose_few(const hci_task *task, const hci_component_set *only, size_t most,

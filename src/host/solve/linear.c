@@ -134,8 +134,8 @@ static hci_status orthogonal_solve(const hci_harmonic_system *system, double *x,
     return status;
 }
 
-/* LU where the system is square and regular, the orthogonal solve elsewhere; a named method is taken at its
- * word. */
+/* LU where the system is square and regular, the orthogonal solve elsewhere; a method that the user names is
+ * used as it is. */
 static hci_status solve_system(const hci_harmonic_system *system, hci_method wanted, double *x,
                                hci_solution *s, hci_note *note)
 {

@@ -1,4 +1,4 @@
-/* Means over turns and how sure they are. */
+/* Means over turns and their standard errors. */
 #include <math.h>
 
 #include "hci/math/harmonic.h"
@@ -108,8 +108,8 @@ static double correlation_of(const hci_average *average, size_t channel, size_t 
     return raw + (1.0 + 3.0 * raw) / (double)average->count;
 }
 
-/* Of few turns one order alone says little, so the orders around are asked; unless it is clearly a drift of
- * its own. */
+/* Over few turns the correlation of one order is uncertain: the mean with the orders around it is taken,
+ * unless that of the order itself is clearly larger, as by a drift. */
 static double resemblance(const hci_average *average, size_t channel, size_t order)
 {
     const double own = correlation_of(average, channel, order);

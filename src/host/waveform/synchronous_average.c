@@ -56,7 +56,7 @@ static hci_status push_turns(pass_list *list, const double *angle, size_t first,
     return !status && start < end ? push(list, start, end, direction) : status;
 }
 
-/* The path as stretches of one direction: from one extreme to the next. */
+/* Cuts the path where its direction changes, from one extreme to the next, and those parts into passes. */
 static hci_status find_passes(const hci_average_samples *x, size_t turns, pass_list *list)
 {
     const double *angle = x->angle_rad;
@@ -265,7 +265,7 @@ static size_t highest_of(const hci_average_samples *x, const pass_list *list, ce
         gaps[k] = weigh(c);
     }
     sort_down(gaps, list->count);
-    /* The last pass of a stretch is a part of a turn. */
+    /* The last pass before a change of direction may be a part of a turn only. */
     size_t whole = 0;
     while (whole < list->count && gaps[whole] >= HCI_PI)
         whole++;
@@ -295,7 +295,7 @@ static hci_status choose_passes(const hci_average_samples *x, const hci_average_
     return best > 0 ? find_passes(x, best, list) : HCI_OK;
 }
 
-/* Samples in no order, or strokes that go round together only. */
+/* All samples as one pass: samples in no order, or movements to and fro that cover the turn only together. */
 static hci_status take_all(const hci_average_samples *x, size_t wanted, cell_table *c, pass_list *list,
                            hci_average *average)
 {

@@ -15,7 +15,7 @@ typedef struct {
     size_t count, channels;
 } hci_average_samples;
 
-/* A stretch of the path in one direction: one turn, or several where one has too few samples. */
+/* A part of the path in one direction: one turn, or several where one has too few samples. */
 typedef struct {
     size_t first, count;
     int direction; /* +1, −1; 0: all samples, which are in no order */

@@ -25,16 +25,16 @@ typedef struct {
 #define HCI_PRINTF(format_index, first)
 #endif
 
-/* Writes the note (unless it already says something; note may be NULL) and returns `status`, so that a
- * failing function can end with `return hci_note_set(note, HCI_ERROR_INPUT, "...")`. Long texts are cut at
- * the end. */
+/* Writes the note (unless it has a text already; note may be NULL) and returns `status`, so that a failing
+ * function can end with `return hci_note_set(note, HCI_ERROR_INPUT, "...")`. Long texts are cut at the
+ * end. */
 hci_status hci_note_set(hci_note *note, hci_status status, const char *format, ...) HCI_PRINTF(3, 4);
 
 /* HCI_ERROR_MEMORY with "PATH: out of memory for WHAT"; path: the file that is read or written, or NULL;
  * what: as of printf. */
 hci_status hci_note_memory(hci_note *note, const char *path, const char *what, ...) HCI_PRINTF(3, 4);
 
-/* Appends to a remark, behind "; " where it already says something. Long texts are cut at the end. */
+/* Appends to a remark, behind "; " where it has a text already. Long texts are cut at the end. */
 void hci_note_add(hci_note *remark, const char *format, ...) HCI_PRINTF(2, 3);
 
 #ifdef __cplusplus

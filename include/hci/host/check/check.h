@@ -1,4 +1,5 @@
-/* The convention doctor: which reading of a machine's tables and recordings makes them agree. */
+/* Broken conventions in a machine's tables and recordings: which interpretation of the numbers makes them
+ * agree. Files and reports call an interpretation a reading, and a broken convention a slip. */
 #ifndef HCI_HOST_CHECK_CHECK_H
 #define HCI_HOST_CHECK_CHECK_H
 
@@ -97,7 +98,7 @@ typedef struct {
 } hci_check;
 
 /* Reads the folder `machine` and `runs` recordings (at most HCI_CHECK_MOST_RUNS, which must have the same
- * conventions), tries every reading of them with up to three slips, and says which one makes the numbers
+ * conventions), tries every reading of them with up to three slips, and finds the one that makes the numbers
  * agree (docs/check.md). Nothing is written. machine and run must outlive *check. HCI_OK; HCI_NOT_REACHED for
  * every verdict but consistent; HCI_ERROR_INPUT, _MEMORY, _ARGUMENT; *check is then undefined. O(samples). */
 hci_status hci_check_files(const char *machine, const char *const *run, size_t runs, hci_check *check,

@@ -20,7 +20,7 @@ typedef struct {
     void *progress_context; /* first argument of progress */
 } hci_diagnose_options;
 
-/* What the recordings say of one effect. */
+/* Whether the recordings show an effect. */
 typedef enum {
     HCI_FINDING_ADDED,     /* the recordings show it */
     HCI_FINDING_AMBIGUOUS, /* it, or another one that is listed, fits as well */
@@ -76,7 +76,7 @@ typedef struct {
 /* Capacities: of effects, and of orders that none explains. */
 enum { HCI_MOST_FINDINGS = 32, HCI_MOST_UNEXPLAINED = 8 };
 
-/* What the recordings say of the model as a whole. */
+/* How well the model as a whole describes the recordings. */
 typedef enum {
     HCI_DIAGNOSIS_COMPLETE,  /* nothing is missing */
     HCI_DIAGNOSIS_EXPLAINED, /* the effects added explain the residual */

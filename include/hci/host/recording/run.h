@@ -67,7 +67,7 @@ void hci_run_release(hci_run *run);
 /* What a run is for. */
 typedef enum {
     HCI_ROLE_FIT,    /* the model is fitted to it */
-    HCI_ROLE_HOLDOUT /* the model is judged by it */
+    HCI_ROLE_HOLDOUT /* the model is tested on it */
 } hci_role;
 
 /* A list of runs: columns file, role, optionally note. Start with {0}. */

@@ -1,4 +1,4 @@
-/* What a run says of itself before any model: means, rms, and how well the torque repeats from turn to turn.
+/* Statistics of a run, without any model: means, rms, and how well the torque repeats from turn to turn.
  */
 #ifndef HCI_SRC_HOST_DIAGNOSE_PREPARE_RUN_STATISTICS_H
 #define HCI_SRC_HOST_DIAGNOSE_PREPARE_RUN_STATISTICS_H

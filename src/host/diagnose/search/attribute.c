@@ -33,7 +33,7 @@ static hci_status round_run(hci_search *s, hci_fitted_model *model, bool *again,
     return status;
 }
 
-/* Of the whole work that is done before a round. Nobody knows how many rounds come; the later ones take
+/* Of the whole work that is done before a round. How many rounds follow is not known; the later ones take
  * longer.
  */
 static double share_before(int round)
@@ -65,7 +65,7 @@ static hci_status verdict_of(hci_search *s, hci_attribution *a, hci_verdict *v, 
     v->gain = without.fit.score - a->model.fit.score;
     status = hci_search_explained(s, &a->model.candidates, &without.candidates, &v->explained_Nm, note);
     hci_fitted_model_release(&without);
-    if (status || a->unknown) return status; /* nothing that is known stands firm beside what is not */
+    if (status || a->unknown) return status; /* beside an empirical term known effects may be a part of it */
     return hci_search_rivals(s, v->type, a, note);
 }
 

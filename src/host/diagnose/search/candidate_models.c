@@ -9,7 +9,7 @@
 
 #define SAME       1e-4  /* share of a column that the model leaves of terms that look the same … */
 #define OWN        1e-2  /* … and of those that do not */
-#define NOT_IN_USE 1e300 /* variance of samples that say nothing */
+#define NOT_IN_USE 1e300 /* variance of samples that carry no information */
 
 /* ---- candidates ---- */
 

@@ -62,7 +62,7 @@ static hci_status rivalry_next(rivalry *r, hci_fitted_model *rival, size_t *with
 
 /* ---- another effect instead ---- */
 
-/* What is not known has to be better, not as good. */
+/* The empirical term, which is no physical effect, has to fit decisively better; an effect as well. */
 static double margin_of(size_t type)
 {
     return hci_candidate_type(type) == &hci_empirical_type ? HCI_DECISIVE : HCI_AS_GOOD;

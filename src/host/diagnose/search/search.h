@@ -6,7 +6,7 @@
 #include "host/diagnose/search/attribution.h"
 #include "host/diagnose/search/fitted_model.h"
 
-#define HCI_DECISIVE 10.0 /* fall of the score that makes an effect believed: odds of 150 to 1 */
+#define HCI_DECISIVE 10.0 /* fall of the score by which an effect is accepted: odds of 150 to 1 */
 #define HCI_AS_GOOD  0.5  /* scores that differ by less are the same */
 
 typedef struct {

@@ -20,7 +20,7 @@ enum { BLOCK = 24 }; /* samples */
 
 /* ---- whether what is left is noise ---- */
 
-/* Sums over the segments that a judgement of the residual needs. */
+/* Sums over the segments by which the residual is compared with the noise. */
 typedef struct {
     double square, noise, rows;         /* residual and noise, N²·m² */
     double block, block_square, blocks; /* sums of whitened squares over short blocks */

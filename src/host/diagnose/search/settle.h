@@ -4,8 +4,8 @@
 
 #include "host/diagnose/search/search.h"
 
-/* Judges what is left, and whether known effects stand beside something larger that is not understood: sets
- * unknown, wanders and unexplained_Nm, and may take effects out. HCI_ERROR_MEMORY. */
+/* Compares what is left with the noise, and finds whether known effects stand beside something larger that is
+ * not understood: sets unknown, wanders and unexplained_Nm, and may take effects out. HCI_ERROR_MEMORY. */
 hci_status hci_search_settle(hci_search *search, hci_attribution *attribution, hci_note *note);
 
 #endif

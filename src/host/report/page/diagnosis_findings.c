@@ -8,7 +8,8 @@
 #include "host/plot/plot.h"
 #include "host/report/page/diagnosis_sections.h"
 
-/* For an effect that is in the game, how it shows itself; parameters have a table of their own. */
+/* For an effect that is added or ambiguous, how it shows in a residual; parameters have a table of their
+ * own. */
 static void cell_of_finding(hci_output *out, const hci_finding *f)
 {
     const hci_effect_type *type = hci_effect_type_find(f->effect);

@@ -6,7 +6,7 @@
 #include "host/report/page/page.h"
 #include "host/report/page/simulation_sections.h"
 
-/* What a reader wants to know who will not read on. */
+/* The main results, at the top of the page. */
 static void say_facts(hci_output *out, const hci_simulation *s)
 {
     char mean[HCI_HTML_NUMBER_SIZE], speed[HCI_HTML_NUMBER_SIZE], swing[HCI_HTML_NUMBER_SIZE],

@@ -21,7 +21,7 @@ static void say_swing(char text[HCI_HTML_NUMBER_SIZE + 16], hci_range r)
              swing + (swing[0] == '<'));
 }
 
-/* What a reader wants to know who will not read on. */
+/* The main results, at the top of the page. */
 static void say_verdict(const hci_solution_page *p, hci_status verdict)
 {
     const hci_solution *s = p->solution;
