@@ -80,7 +80,7 @@ check_includes() {
         $1 ~ /^include/ && $2 ~ /^</ { header = substr($2, 2, length($2) - 2)
                     if (!index(allowed, " " header " ")) print "host-include: public " $1 " includes " $2 }'
 
-    # One file knows each outside thing, that is, whatever neither C, nor the operating system, nor this project provides.
+    # One file includes each outside library, that is, whatever neither C, nor the operating system, nor this project provides.
     includes_of src | awk -v allowed="$standard$posix" '
         { header = substr($2, 2, length($2) - 2) }
         $2 ~ /^"/ && header !~ /(umfpack|SuiteSparseQR_C|cholmod|cJSON)\.h$/ { next }

@@ -1,5 +1,5 @@
-/* Effects in the plant: energy. The plant knows an effect by e, L, T_cog and shaft torque at a point; here
- * what they take in electrically and give mechanically is added up. */
+/* Effects in the plant: energy. In the plant an effect is e, L, T_cog and shaft torque at a point; here what
+ * they take in electrically and give mechanically is added up. */
 #include "support/effect_list.h"
 #include "support/plant_machine.h"
 #include "unity.h"

@@ -108,7 +108,7 @@ static hci_sample truth_at(double current, double speed, int k)
     return x;
 }
 
-/* The bench reads what the effect makes of the truth; the model knows the readings and the declared machine.
+/* The sensors read what the effect makes of the truth; the model has the readings and the declared machine.
  */
 static void residual(const signature *g, double current, double speed, double r[N])
 {

@@ -1,6 +1,6 @@
 /* Every host path with an allocator that fails after n allocations, for n = 0, 1, 2, … until the path
  * succeeds. Under -fsanitize=address the same run shows that nothing leaks. SuiteSparse and cJSON allocate
- * through the same door. */
+ * through the same functions. */
 #include <cjson/cJSON.h>
 #include <dlfcn.h>
 #include <math.h>
@@ -35,8 +35,8 @@ typedef struct {
     void (*free_func)(void *);
 } suitesparse_memory;
 
-static const suitesparse_memory DOOR = {hci_memory_malloc, hci_memory_new, hci_memory_realloc,
-                                        hci_memory_free};
+static const suitesparse_memory HOOKS = {hci_memory_malloc, hci_memory_new, hci_memory_realloc,
+                                         hci_memory_free};
 
 static void set_by_function(void *program, const char *name, const void *function)
 {
@@ -54,12 +54,12 @@ static void route_suitesparse(void)
     void *program = dlopen(NULL, RTLD_NOW);
     suitesparse_memory *variable = dlsym(program, "SuiteSparse_config");
     if (variable != NULL) {
-        *variable = DOOR;
+        *variable = HOOKS;
     } else {
-        set_by_function(program, "SuiteSparse_config_malloc_func_set", &DOOR.malloc_func);
-        set_by_function(program, "SuiteSparse_config_calloc_func_set", &DOOR.calloc_func);
-        set_by_function(program, "SuiteSparse_config_realloc_func_set", &DOOR.realloc_func);
-        set_by_function(program, "SuiteSparse_config_free_func_set", &DOOR.free_func);
+        set_by_function(program, "SuiteSparse_config_malloc_func_set", &HOOKS.malloc_func);
+        set_by_function(program, "SuiteSparse_config_calloc_func_set", &HOOKS.calloc_func);
+        set_by_function(program, "SuiteSparse_config_realloc_func_set", &HOOKS.realloc_func);
+        set_by_function(program, "SuiteSparse_config_free_func_set", &HOOKS.free_func);
     }
     dlclose(program);
 }
@@ -77,7 +77,7 @@ static long one_by_one = 12, part = 3;
 
 /* A path as it is when memory is there; then with n allocations for n = 0, 1, 2, …. What does not fail must
  * give the same figure. Returns how many allocations it took (the callers ask for a third of what it was when
- * written, so that a door that is not used is noticed). */
+ * written, so that hooks that are not used are noticed). */
 static long sweep(path *run)
 {
     double expected = 0.0, figure = 0.0;

@@ -1,6 +1,6 @@
-/* The convention doctor, on recordings of four electrical turns that are written here sample by sample from
- * sines: a motor with 4 pole pairs, k_e = 0.1 V·s/rad, R = 0.2 ohm, L = 1 mH, i_q = 10 A, i_d = -2 A at 50
- * rad/s, and the same driven without current. */
+/* `check` on recordings of four electrical turns that are written here sample by sample from sines: a motor
+ * with 4 pole pairs, k_e = 0.1 V·s/rad, R = 0.2 ohm, L = 1 mH, i_q = 10 A, i_d = -2 A at 50 rad/s, and the
+ * same driven without current. */
 #include "hci/host/check/check.h"
 
 #include <math.h>

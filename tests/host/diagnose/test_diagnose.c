@@ -167,7 +167,7 @@ static void test_what_does_not_repeat(void)
     TEST_ASSERT_EQUAL_DOUBLE(diagnosis.rms_before_Nm, diagnosis.rms_after_Nm);
 }
 
-/* ---- what is not believed ---- */
+/* ---- what is not accepted ---- */
 
 static void refused(const char *why)
 {

@@ -39,7 +39,7 @@ static void test_machine_and_findings_agree(void)
     diagnose(NULL);
 }
 
-/* ---- what is not believed ---- */
+/* ---- what is not accepted ---- */
 
 static void refused(const char *why)
 {

@@ -1,4 +1,4 @@
-/* Emitted tables are read back from their C text and judged against waves by their sine formula in double. */
+/* Emitted tables are read back from their C text and compared with waves by their sine formula in double. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

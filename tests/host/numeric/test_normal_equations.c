@@ -191,10 +191,10 @@ static void test_out_again_restores_what_was(void)
     }
 }
 
-/* ---- worth ---- */
+/* ---- reduction of the sum of squares ---- */
 
 /* Groups of 1 … 8 columns on top of others that are in: the fall and the rise of the sum of squares. */
-static void test_worth_is_the_fall_of_the_sum_of_squares(void)
+static void test_reduction_is_the_fall_of_the_sum_of_squares(void)
 {
     for (size_t count = 1; count <= 8; ++count) {
         for (int round = 0; round < 12; ++round) {
@@ -293,7 +293,7 @@ int main(void)
     RUN_TEST(test_sums_of_any_number_of_rows);
     RUN_TEST(test_any_path_gives_the_direct_solution);
     RUN_TEST(test_out_again_restores_what_was);
-    RUN_TEST(test_worth_is_the_fall_of_the_sum_of_squares);
+    RUN_TEST(test_reduction_is_the_fall_of_the_sum_of_squares);
     RUN_TEST(test_dependent_columns_add_nothing);
     RUN_TEST(test_a_copy_goes_its_own_way);
     RUN_TEST(test_memory_is_out);

@@ -307,8 +307,8 @@ static void test_speed_is_the_slope_of_the_angle(void)
         TEST_ASSERT_DOUBLE_WITHIN(2e-3, speed_at(time_at(k)), run.speed_rad_per_s[k]);
 }
 
-/* An encoder of 512 counts: one count a sample is 12 rad/s, so that a difference of two samples would be
- * worth nothing. */
+/* An encoder of 512 counts: one count a sample is 12 rad/s, so that the noise of a difference of two samples
+ * would hide the speed. */
 static void test_slope_survives_an_encoder(void)
 {
     const double count = 2.0 * REF_PI / 512.0;

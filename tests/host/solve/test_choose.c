@@ -50,7 +50,7 @@ typedef struct {
 
 typedef struct {
     double worst_Nm, copper_A2;
-} worth;
+} set_cost;
 
 static sampled samples;
 
@@ -211,10 +211,10 @@ static double amplitude_at(const candidates *c, const double *r, size_t b)
     return b == 0 ? fabs(r[c->first[0]]) : hypot(r[c->first[b]], r[c->first[b] + 1]);
 }
 
-/* r = U x − h over the subset; the worth of x. */
-static worth judge(const candidates *c, const size_t *pick, size_t count, const double *x, double *r)
+/* r = U x − h over the subset; the cost of x. */
+static set_cost cost_of(const candidates *c, const size_t *pick, size_t count, const double *x, double *r)
 {
-    worth w = {0.0, 0.0};
+    set_cost w = {0.0, 0.0};
     for (size_t i = 0; i < c->rows; ++i)
         r[i] = -c->h[i];
     for (size_t j = 0; j < 2 * count; ++j) {
@@ -259,7 +259,7 @@ static void weighted(const candidates *c, const size_t *pick, size_t count, cons
     }
 }
 
-static bool is_better(worth a, worth b, double tolerance_Nm, double allowed_A2)
+static bool is_better(set_cost a, set_cost b, double tolerance_Nm, double allowed_A2)
 {
     if ((a.copper_A2 <= allowed_A2) != (b.copper_A2 <= allowed_A2)) return a.copper_A2 <= allowed_A2;
     if (a.copper_A2 > allowed_A2) return a.copper_A2 < b.copper_A2;
@@ -269,11 +269,11 @@ static bool is_better(worth a, worth b, double tolerance_Nm, double allowed_A2)
 
 /* Weights move to where the error is largest. Gives up where even the least squares cannot beat `best`: the
  * worst of B orders is at least ‖r‖/√B. */
-static worth level(const candidates *c, const size_t *pick, size_t count, double ridge, double tolerance_Nm,
-                   double allowed_A2)
+static set_cost smallest_worst_order(const candidates *c, const size_t *pick, size_t count, double ridge,
+                                     double tolerance_Nm, double allowed_A2)
 {
     double weight[ROWS], order_weight[BINS], x[2 * MOST_K], r[ROWS];
-    worth best = {HUGE_VAL, HUGE_VAL};
+    set_cost best = {HUGE_VAL, HUGE_VAL};
     for (size_t b = 0; b < BINS; ++b)
         order_weight[b] = 1.0;
     for (int step = 0; step < LAWSON; ++step) {
@@ -283,7 +283,7 @@ static worth level(const candidates *c, const size_t *pick, size_t count, double
             for (size_t i = 0; c->used[b] && i < (b == 0 ? 1 : 2); ++i)
                 weight[c->first[b] + i] = order_weight[b];
         weighted(c, pick, count, weight, ridge, x);
-        const worth w = judge(c, pick, count, x, r);
+        const set_cost w = cost_of(c, pick, count, x, r);
         if (is_better(w, best, tolerance_Nm, allowed_A2)) best = w;
         if (w.worst_Nm <= 0.0) break;
         for (size_t b = 0; b < BINS; ++b) {
@@ -298,13 +298,13 @@ static worth level(const candidates *c, const size_t *pick, size_t count, double
     return best;
 }
 
-static worth least_squares(const candidates *c, const size_t *pick, size_t count, double *bound_Nm)
+static set_cost least_squares(const candidates *c, const size_t *pick, size_t count, double *bound_Nm)
 {
     double u[ROWS * 2 * MOST_K], x[2 * MOST_K] = {0.0}, r[ROWS], square = 0.0, orders = 0.0;
     for (size_t j = 0; j < 2 * count; ++j)
         memcpy(u + j * c->rows, c->u[2 * pick[j / 2] + j % 2], c->rows * sizeof *u);
     jacobi_solve(c->rows, 2 * count, u, 1e-11, 1, c->h, x);
-    const worth w = judge(c, pick, count, x, r);
+    const set_cost w = cost_of(c, pick, count, x, r);
     for (size_t i = 0; i < c->rows; ++i)
         square += r[i] * r[i];
     for (size_t b = 0; b < BINS; ++b)
@@ -328,18 +328,19 @@ static bool next_subset(size_t *pick, size_t count, size_t all)
     return false;
 }
 
-static worth search_all(const candidates *c, size_t count, double tolerance_Nm, double allowed_A2)
+static set_cost search_all(const candidates *c, size_t count, double tolerance_Nm, double allowed_A2)
 {
     static const double PRICE[] = {3e-2, 1e-2, 3e-3, 1e-3, 1e-4, 1e-6};
     size_t pick[MOST_K] = {0, 1, 2, 3};
-    worth best = {HUGE_VAL, HUGE_VAL};
+    set_cost best = {HUGE_VAL, HUGE_VAL};
     do {
         double bound_Nm;
-        const worth exact = least_squares(c, pick, count, &bound_Nm);
+        const set_cost exact = least_squares(c, pick, count, &bound_Nm);
         if (is_better(exact, best, tolerance_Nm, allowed_A2)) best = exact;
         if (bound_Nm > fmax(best.worst_Nm, tolerance_Nm) && best.copper_A2 <= allowed_A2) continue;
         for (size_t k = 0; k < sizeof PRICE / sizeof PRICE[0]; ++k) {
-            const worth w = level(c, pick, count, PRICE[k] * c->diagonal / 100.0, tolerance_Nm, allowed_A2);
+            const set_cost w = smallest_worst_order(c, pick, count, PRICE[k] * c->diagonal / 100.0,
+                                                    tolerance_Nm, allowed_A2);
             if (is_better(w, best, tolerance_Nm, allowed_A2)) best = w;
         }
     } while (next_subset(pick, count, c->count));
@@ -349,11 +350,11 @@ static worth search_all(const candidates *c, size_t count, double tolerance_Nm, 
 /* ---- the library's choice
  * --------------------------------------------------------------------------------------- */
 
-static worth choose(const problem *p, const hci_wave *held, size_t most, double allowance, hci_solution *s)
+static set_cost choose(const problem *p, const hci_wave *held, size_t most, double allowance, hci_solution *s)
 {
     hci_note note = {{0}};
     hci_solve_options options = {0};
-    worth w = {0.0, 0.0};
+    set_cost w = {0.0, 0.0};
     options.target = &p->target;
     options.held = held;
     options.choose_at_most = most;
@@ -388,8 +389,8 @@ static void test_against_all_subsets(void)
         const double tolerance_Nm = 1e-6 * c.mean_Nm, allowed_A2 = 1.1 * c.limit_A2;
         for (size_t most = 1; most <= MOST_K; ++most) {
             hci_solution s;
-            const worth ours = choose(&p, NULL, most, 0.0, &s);
-            const worth best = search_all(&c, most, tolerance_Nm, allowed_A2);
+            const set_cost ours = choose(&p, NULL, most, 0.0, &s);
+            const set_cost best = search_all(&c, most, tolerance_Nm, allowed_A2);
             const double ratio = ours.worst_Nm / fmax(best.worst_Nm, tolerance_Nm);
             within[most] += ratio <= 1.1;
             TEST_ASSERT_TRUE(ratio <= 1.5);
@@ -415,7 +416,7 @@ static void test_more_components_are_not_worse(void)
         make_candidates(&p, &c);
         for (size_t most = 1; most <= c.count + 3; ++most) {
             hci_solution s;
-            const worth w = choose(&p, NULL, most, 0.0, &s);
+            const set_cost w = choose(&p, NULL, most, 0.0, &s);
             TEST_ASSERT_TRUE(s.current.count <= most);
             TEST_ASSERT_TRUE(w.worst_Nm <= fmax(1e-6 * c.mean_Nm, before_Nm * (1.0 + 1e-6)));
             before_Nm = w.worst_Nm;
@@ -439,7 +440,7 @@ static void test_allowance_and_mean(void)
         for (size_t most = 1; most <= MOST_K; ++most)
             for (size_t q = 0; q < 3; ++q) {
                 hci_solution s;
-                const worth w = choose(&p, NULL, most, ALLOWANCE[q], &s);
+                const set_cost w = choose(&p, NULL, most, ALLOWANCE[q], &s);
                 TEST_ASSERT_DOUBLE_WITHIN(1e-9, w.copper_A2 / c.limit_A2, s.loss_to_limit);
                 TEST_ASSERT_TRUE(w.copper_A2 <=
                                  fmax(ALLOWANCE[q], most > 2 ? 0.0 : 1.12) * c.limit_A2 * (1.0 + 1e-9));
@@ -458,7 +459,7 @@ static void test_beside_a_held_fundamental(void)
     for (int k = 0; k < PROBLEMS; ++k) {
         hci_solution s;
         hci_wave held;
-        worth plain, w;
+        set_cost plain, w;
         draw(&seed, &p);
         make_candidates(&p, &c);
         held = hci_wave_polar(1.0, 1, c.mean_Nm / (1.5 * 0.5), p.emf[0].phase);

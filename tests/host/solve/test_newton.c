@@ -1,5 +1,5 @@
-/* Interior-magnet machines: the harmonic balance by Newton's method and the pointwise strategies, judged by
- * torque that is sampled here from e·i + ½iᵀL'i + T_cog with cosines of its own. */
+/* Interior-magnet machines: the harmonic balance by Newton's method and the pointwise strategies, compared
+ * with torque that is sampled here from e·i + ½iᵀL'i + T_cog with cosines of its own. */
 #include <math.h>
 #include <string.h>
 

@@ -1,4 +1,4 @@
-/* `solve` for machines with effects, saturation above all. The torque is judged by formulas that stand here
+/* `solve` for machines with effects, saturation above all. The torque is tested by formulas that stand here
  * once more: Park's transform, the co-energy's polynomials, cosines. */
 #include <math.h>
 #include <stdio.h>

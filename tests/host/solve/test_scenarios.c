@@ -12,7 +12,7 @@
 /* 4096 samples of one electrical turn: orders up to 2047, far above any current order (asserted) plus 13. */
 enum { SCENARIOS = 12, SAMPLES = 4096, BINS = 160, PLAIN_COPPER_A2 = 216 /* 1.5·12² */ };
 
-/* The scenarios for which a choice of few components is judged, and in how many of them it has to be within 1
+/* The scenarios for which a choice of few components is tested, and in how many of them it has to be within 1
  * % of the mean; test_scenarios_at_length has all. */
 #ifdef AT_LENGTH
 enum { FIRST = 1, STRIDE = 1, WITHIN = 9 };
@@ -117,14 +117,14 @@ static hci_status solve(const hci_component_set *set, const hci_wave *held, size
     return status;
 }
 
-/* ---- judged by samples
+/* ---- evaluated by samples
  * ----------------------------------------------------------------------------------------- */
 
 /* Worst |torque − target| of any order as a share of the mean torque, and copper over that of the 12 A sine.
  */
 typedef struct {
     double worst, worst_target, copper, top_order;
-} judgement;
+} sampled_result;
 
 static bool is_wanted(size_t bin)
 {
@@ -134,9 +134,9 @@ static bool is_wanted(size_t bin)
 }
 
 /* bins: how many orders are looked at one by one; what is above must be within `worst` by its energy. */
-static judgement judge(const hci_solution *s)
+static sampled_result evaluate_by_samples(const hci_solution *s)
 {
-    judgement j = {0.0, 0.0, 0.0, 0.0};
+    sampled_result j = {0.0, 0.0, 0.0, 0.0};
     double energy = 0.0;
     for (size_t k = 0; k < s->current.count; ++k)
         j.top_order = fmax(j.top_order, s->current.wave[k].order);
@@ -173,7 +173,7 @@ static void test_published_sets(void)
         hci_solution s;
         load(k);
         solve(&published, &fundamental, 0, &s);
-        const judgement j = judge(&s);
+        const sampled_result j = evaluate_by_samples(&s);
         TEST_ASSERT_EQUAL_UINT64(2 * published.count, s.unknowns);
         TEST_ASSERT_DOUBLE_WITHIN(1e-9, j.worst, s.worst_error_Nm / mean_Nm);
         TEST_ASSERT_DOUBLE_WITHIN(1e-12, j.copper, s.loss_to_plain); /* the 12 A sine is what is held */
@@ -267,7 +267,7 @@ static void test_auto(void)
         load(k);
         const double least = limit();
         TEST_ASSERT_EQUAL_INT(HCI_OK, solve(NULL, NULL, 0, &s));
-        const judgement j = judge(&s);
+        const sampled_result j = evaluate_by_samples(&s);
         TEST_ASSERT_TRUE(j.worst <= 1e-6);
         TEST_ASSERT_TRUE(j.copper <= 1.05 * least && j.copper >= (1.0 - 1e-4) * least);
         TEST_ASSERT_DOUBLE_WITHIN(1e-9, least, s.limit_mean_square_A2 / PLAIN_COPPER_A2);
@@ -292,7 +292,7 @@ static void test_auto_at_most(void)
         const size_t most = published_rows + 1;
         solve(&published, &fundamental, 0, &paper);
         solve(NULL, NULL, most, &ours);
-        const judgement p = judge(&paper), o = judge(&ours);
+        const sampled_result p = evaluate_by_samples(&paper), o = evaluate_by_samples(&ours);
         printf("%8d %2zu %20.4f %% %8.4f %% %15.3f %8.3f %6.3f\n", k, most, 100.0 * p.worst, 100.0 * o.worst,
                p.copper, o.copper, least);
         within += o.worst <= 0.01;

@@ -182,8 +182,8 @@ static void test_standard_errors_respect_serial_correlation(void)
     TEST_ASSERT_DOUBLE_WITHIN(0.22, 1.0, calibration(40, 8000, 12.0, 0.01, 0.97));
 }
 
-/* A torque ripple that drifts from turn to turn: neighbours resemble each other, so that 30 turns are
- * worth 8. */
+/* A torque ripple that drifts from turn to turn: neighbours resemble each other, so that 30 turns tell as
+ * much as 8 independent ones. */
 static void test_standard_errors_respect_drift_between_turns(void)
 {
     double sum = 0.0;

@@ -1,4 +1,4 @@
-/* What a run says of itself before any model, against closed forms of its waves. */
+/* Statistics of a run without any model, against closed forms of its waves. */
 #include "host/diagnose/prepare/run_statistics.h"
 
 #include "support/recording.h"
