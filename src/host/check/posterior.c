@@ -45,12 +45,12 @@ static double log_prior(const check_posterior *p, const check_error_set *set, co
 /* The next of the list; NULL: out of memory. */
 static check_error_set *next_of(check_posterior *p)
 {
-    if (p->count < p->room) return &p->list[p->count++];
-    const size_t room = 2 * p->room + 64;
-    check_error_set *list = hci_memory_resize(p->list, room, sizeof *list);
+    if (p->count < p->capacity) return &p->list[p->count++];
+    const size_t capacity = 2 * p->capacity + 64;
+    check_error_set *list = hci_memory_resize(p->list, capacity, sizeof *list);
     if (!list) return NULL;
     p->list = list;
-    p->room = room;
+    p->capacity = capacity;
     return &p->list[p->count++];
 }
 

@@ -21,7 +21,7 @@ typedef struct {
     const check_data *data;
     bool used[HCI_CHECK_MOST_EVIDENCE]; /* of each relation: the data have what it needs */
     check_error_set *list;              /* [count]; [0] has no error */
-    size_t count, room;
+    size_t count, capacity;
     size_t best; /* the most probable */
 } check_posterior;
 

@@ -27,7 +27,7 @@ static hci_status read_role(const list_reader *l, size_t row, hci_role *role)
     *role = hci_text_is(text, "holdout") ? HCI_ROLE_HOLDOUT : HCI_ROLE_FIT;
     if (*role == HCI_ROLE_HOLDOUT || hci_text_is(text, "fit")) return HCI_OK;
     return hci_csv_error(l->csv, "role", row, l->note, "`fit` or `holdout`",
-                         "say whether the model may learn from this run or is judged by it");
+                         "say whether the model is fitted to this run or tested on it");
 }
 
 /* A run that is fitted and held out too would make the model look better than it is. */

@@ -23,7 +23,7 @@ static hci_target target;
 static hci_component_set set;
 static hci_wave fundamental;
 
-/* ---- the door of SuiteSparse
+/* ---- the hooks of SuiteSparse
  * ------------------------------------------------------------------------------------ */
 
 /* The first members of SuiteSparse_config up to version 5, where it is a variable; later versions have

@@ -6,7 +6,8 @@
  *     χ² + parameters · ln(samples) + prices of the choice
  *
  * falls by more than 10 (forward), leave when it rises by less (backward), and are replaced where another
- * fits better. Then what is left is judged (settle), and what could stand in place of what (rivals). */
+ * fits better. Then what is left is compared with the noise (settle), and what could stand in place of what
+ * (rivals). */
 #ifndef HCI_SRC_HOST_DIAGNOSE_SEARCH_ATTRIBUTE_H
 #define HCI_SRC_HOST_DIAGNOSE_SEARCH_ATTRIBUTE_H
 
