@@ -4,6 +4,7 @@
 #include <cjson/cJSON.h>
 #include <dlfcn.h>
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -72,7 +73,8 @@ static void route_suitesparse(void)
 typedef hci_status path(double *figure);
 
 /* So many first allocations fail one by one, later ones in steps of this part of their number. With the word
- * `every` on the command line it is every one of most paths. */
+ * `every` on the command line it is every one of most paths, and the paths that take long are tried, too. */
+static bool every;
 static long one_by_one = 12, part = 3;
 
 /* A path as it is when memory is there; then with n allocations for n = 0, 1, 2, …. What does not fail must
@@ -324,32 +326,49 @@ static void test_pointwise(void)
     wish(NULL, NULL, HCI_METHOD_POINTWISE);
     options.strategy = HCI_STRATEGY_MTPA;
     TEST_ASSERT_TRUE(sweep(run_solve) > 5);
+}
+
+static void test_pointwise_without_i_d(void)
+{
+    wish(NULL, NULL, HCI_METHOD_POINTWISE);
     options.strategy = HCI_STRATEGY_ID0;
     TEST_ASSERT_TRUE(sweep(run_solve) > 5);
 }
 
-/* Newton's method on machine C cut down to its largest orders: a free choice, few components, a given set. A
- * run takes a tenth of a second, so fewer of the allocations fail. */
+/* Newton's method on machine C cut down to its largest orders. A run takes a tenth of a second, so fewer of
+ * the allocations fail. */
+static void interior(const hci_component_set *of, size_t choose_at_most)
+{
+    hci_note note = {{0}};
+    const long usual_one_by_one = one_by_one, usual_part = part;
+    hci_machine_release(&machine);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_machine_read("data/machine_c", &machine, &note), note.text);
+    machine.model.back_emf_count = machine.model.slope_count = 1;
+    machine.model.cogging_count = 0;
+    wish(of, NULL, HCI_METHOD_AUTO);
+    options.choose_at_most = choose_at_most;
+    one_by_one = part = every ? 8 : 1;
+    TEST_ASSERT_TRUE(sweep(run_solve) > 100);
+    one_by_one = usual_one_by_one;
+    part = usual_part;
+}
+
 static void test_newton(void)
 {
     hci_component component[2] = {{1.0, 1}, {5.0, -1}};
     hci_set name[2] = {HCI_SET_POS, HCI_SET_NEG};
     const hci_component_set two = {component, name, 2, {{0}}};
-    hci_note note = {{0}};
-    hci_machine_release(&machine);
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_machine_read("data/machine_c", &machine, &note), note.text);
-    machine.model.back_emf_count = machine.model.slope_count = 1;
-    machine.model.cogging_count = 0;
-    const long usual_one_by_one = one_by_one, usual_part = part;
-    one_by_one = part = part > 3 ? 8 : 1;
-    wish(NULL, NULL, HCI_METHOD_AUTO);
-    TEST_ASSERT_TRUE(sweep(run_solve) > 100);
-    options.choose_at_most = 2;
-    TEST_ASSERT_TRUE(sweep(run_solve) > 100);
-    wish(&two, NULL, HCI_METHOD_AUTO);
-    TEST_ASSERT_TRUE(sweep(run_solve) > 100);
-    one_by_one = usual_one_by_one;
-    part = usual_part;
+    interior(&two, 0);
+}
+
+static void test_newton_with_all_components(void)
+{
+    interior(NULL, 0);
+}
+
+static void test_newton_with_few_components(void)
+{
+    interior(NULL, 2);
 }
 
 /* ---- writing
@@ -426,7 +445,8 @@ static void test_writing(void)
 
 int main(int argc, char **argv)
 {
-    if (argc > 1 && strcmp(argv[1], "every") == 0) {
+    every = argc > 1 && strcmp(argv[1], "every") == 0;
+    if (every) {
         one_by_one = 1000;
         part = 50;
     }
@@ -440,5 +460,10 @@ int main(int argc, char **argv)
     RUN_TEST(test_pointwise);
     RUN_TEST(test_newton);
     RUN_TEST(test_writing);
+    if (every) {
+        RUN_TEST(test_pointwise_without_i_d);
+        RUN_TEST(test_newton_with_all_components);
+        RUN_TEST(test_newton_with_few_components);
+    }
     return UNITY_END();
 }
