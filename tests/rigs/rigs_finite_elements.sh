@@ -35,8 +35,8 @@ at_most() { # WHAT VALUE BAR
     check "$1: $2 %, at most $3 %" awk -v x="$2" -v bar="$3" 'BEGIN { exit !(x > 0 && x <= bar) }'
 }
 
-diagnose() { # MACHINE FOLDER RATED
-    run 0 diagnose "$2/machine" --runs "$2/runs.csv" -o "$work/$1"
+diagnose() { # MACHINE FOLDER RATED [LIST]
+    run 0 diagnose "$2/machine" --runs "$2/${4:-runs.csv}" -o "$work/$1"
     check "$1: no errors.csv" [ -s "$work/$1/errors.csv" ]
     table "$1" "$3"
     # The bench of a finite-element model has perfect sensors and no friction.
@@ -46,16 +46,16 @@ diagnose() { # MACHINE FOLDER RATED
     done
 }
 
-# The bars are about 1.5 times what was seen. C: interior magnets, saturated; the inductance falls by half at the rated current.
+# C: interior magnets, saturated; the inductance falls by half at the rated current. The torque per ampere of i_q that the elements
+# give, 1.3477 N·m/A at 1.5 A, 1.3554 at 3 A and 1.3660 at 6 A, does not meet the declared 1.3381 of the voltages at no current
+# by any smooth law, so half a per cent of back-EMF is taken for wrong.
 diagnose C "$source_dir/data/fem_c" 8
-for effect in reluctance saturation; do
+for effect in reluctance saturation back_emf; do
     check "C: $effect is $(verdict C $effect)" [ "$(verdict C $effect)" = added ]
 done
-for effect in cogging back_emf; do
-    check "C: $effect is $(verdict C $effect)" [ "$(verdict C $effect)" = rejected ]
-done
+check "C: cogging is $(verdict C cogging)" [ "$(verdict C cogging)" = rejected ]
 at_most "C, fitted" "$(worst C fit .)" 0.7
-at_most "C, held out" "$(worst C holdout .)" 0.57
+at_most "C, held out" "$(worst C holdout .)" 0.3
 
 # The corrected machine is one that every command reads: predict gives the error of a held-out run once more.
 run 0 predict "$work/C/machine" "$source_dir/data/fem_c/runs/id-3_iq6.csv" -q -o "$work/predicted.csv"
@@ -86,10 +86,21 @@ for order in 66 78; do
     check "B: no cogging of order $order" grep -q "^cogging,sine_$order," "$work/B/machine/effects.csv"
 done
 at_most "A, fitted" "$(worst A fit .)" 0.30
-at_most "A, held out harmonics" "$(worst A holdout inject2)" 0.20
-# Half as much current again as in any fitted run: a polynomial does not reach there, but it must not go far astray either.
-at_most "A, held out beyond the fitted currents" "$(worst A holdout I18)" 0.56
 at_most "B, fitted" "$(worst B fit .)" 0.09
-at_most "B, held out harmonics" "$(worst B holdout inject2)" 0.26
-at_most "B, held out beyond the fitted currents" "$(worst B holdout I2.4)" 0.37
+# What the elements themselves are exact to, and three times that at half as much current again as in any fitted run.
+for machine in A B; do
+    at_most "$machine, held out harmonics" "$(worst $machine holdout inject2)" 0.1
+    at_most "$machine, held out beyond the fitted currents" "$(worst $machine holdout 'I18|I2.4')" 0.3
+done
+
+# One recording more, at currents that were solved for the corrected machine, names the same effects.
+added() {
+    awk -F, '$3 == "added" { print $2 }' "$work/$1/effects.csv" | sort | tr '\n' ' '
+}
+for machine in A B C; do
+    case $machine in A) rated=2.46 ;; B) rated=1.66 ;; *) rated=8 ;; esac
+    diagnose "$machine-solved" "$shared/$machine" $rated runs_solved.csv
+    check "$machine: with one run more $(added $machine-solved), before $(added $machine)" [ "$(added $machine-solved)" = "$(added $machine)" ]
+    at_most "$machine, one run more, held out" "$(worst $machine-solved holdout .)" 0.3
+done
 finish

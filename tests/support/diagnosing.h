@@ -10,7 +10,7 @@
 #include "support/recording.h"
 #include "unity.h"
 
-enum { P = 3, MOST_RUNS = 8 };
+enum { P = 3, MOST_RUNS = 12 };
 
 static const double K_NM_PER_A = 0.2, NOISE_NM = 0.01;
 

@@ -158,10 +158,23 @@ typedef struct {
                               * few; a choice must lower χ² by 2 ln(alternatives) more */
     double expected;         /* standard deviation of the values of machines and benches that somebody has
                               * looked at, in the parameters' unit; 0: any */
+    int power;               /* of the currents in the co-energy, where the candidate is a term of that */
 } hci_effect_candidate;
 
 /* Takes one candidate. */
 typedef void hci_effect_candidate_taker(void *context, const hci_effect_candidate *candidate);
+
+/* How far the series of the co-energy goes,
+ *
+ *     W'(θ, i_d, i_q) = Σ c cos nθ (i_d/I_0)^a (i_q/I_0)^b (b even) + Σ c sin nθ … (b odd)    n = 0, 6, 12, …
+ *
+ * of a rotor that looks alike both ways round. Power a + b = 0 is cogging torque, 1 back-EMF, 2 reluctance, 3
+ * and more saturation; the torque is p ∂W'/∂θ at constant phase currents, so mean and ripple are one. */
+typedef struct {
+    int pole_pairs;             /* p */
+    int power, order;           /* highest, of the currents and of the electrical angle */
+    double reference_current_A; /* I_0 */
+} hci_effect_coenergy_series;
 
 /* Takes candidates. */
 typedef struct {
@@ -210,6 +223,10 @@ struct hci_effect_type {
 
     /* Names the terms that such recordings could show. */
     void (*propose)(const hci_effect_survey *survey, const hci_effect_proposals *to);
+
+    /* Names its terms of the co-energy, each expected as if the coefficients of power 2 and order 0 had a
+     * standard deviation of 1 N·m; those of higher powers and orders are smaller, since iron is smooth. */
+    void (*propose_coenergy)(const hci_effect_coenergy_series *series, const hci_effect_proposals *to);
 
     /* Adds what one term contributes to the torque at a true sample. Returns ∂T/∂value, the regressor of a
      * linear parameter. */

@@ -74,6 +74,14 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
     }
 }
 
+/* W' = 3/2 E i/(p n) of a back-EMF E of order n; a balanced machine has 6k ± 1. */
+static void propose_coenergy(const hci_effect_coenergy_series *series, const hci_effect_proposals *to)
+{
+    const double unit = series->pole_pairs / (1.5 * series->reference_current_A);
+    for (int n = 1; n <= series->order; n += n % 6 == 1 ? 4 : 2)
+        hci_effect_propose_coenergy(to, SINE, 1, n, n * unit);
+}
+
 const hci_effect_type hci_effect_back_emf = {
     .name = "back_emf",
     .equation = "T = Σ_s i_s Σ [S sin(nθ − σ2πs/3) + C cos(nθ − σ2πs/3)], σ = n mod 3 where none is named",
@@ -81,6 +89,7 @@ const hci_effect_type hci_effect_back_emf = {
         "grows with the current; at n ± the orders of the currents, n of another sequence at DC and order 2",
     HCI_EFFECT_PARAMETERS(PARAMETER),
     .propose = propose,
+    .propose_coenergy = propose_coenergy,
     .in_machine = true,
     .torque_of_all = torque_of_all,
 };

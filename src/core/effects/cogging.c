@@ -30,6 +30,13 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
         hci_effect_propose(to, SINE, 2, survey->slot_order[k], survey->orders, EXPECTED * survey->torque_Nm);
 }
 
+/* T = p n c sin nθ of W' = −c cos nθ */
+static void propose_coenergy(const hci_effect_coenergy_series *series, const hci_effect_proposals *to)
+{
+    for (int n = 6; n <= series->order; n += 6)
+        hci_effect_propose_coenergy(to, SINE, 0, n, series->pole_pairs * n);
+}
+
 const hci_effect_type hci_effect_cogging = {
     .name = "cogging",
     .equation = "T = Σ S sin nθ + C cos nθ",
@@ -37,6 +44,7 @@ const hci_effect_type hci_effect_cogging = {
     HCI_EFFECT_PARAMETERS(PARAMETER),
     .any_phase = true,
     .propose = propose,
+    .propose_coenergy = propose_coenergy,
     .in_machine = true,
     .torque_of_all = torque_of_all,
 };

@@ -57,12 +57,25 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
         }
 }
 
+/* W' = 3/4 L i², and 3/2 for the product. The mean tells only the difference of L_dd and L_qq. */
+static void propose_coenergy(const hci_effect_coenergy_series *series, const hci_effect_proposals *to)
+{
+    const double unit = 1.0 / (0.75 * series->reference_current_A * series->reference_current_A);
+    for (int n = 0; n <= series->order; n += 6) {
+        hci_effect_propose_coenergy(to, DD + 1, 2, n, unit);
+        if (n == 0) continue;
+        hci_effect_propose_coenergy(to, DQ, 2, n, 0.5 * unit);
+        hci_effect_propose_coenergy(to, QQ + 1, 2, n, unit);
+    }
+}
+
 const hci_effect_type hci_effect_reluctance = {
     .name = "reluctance",
     .equation = "T = ∂W'/∂θ_m, W' = 3/2 (½ L_dd i_d² + L_dq i_d i_q + ½ L_qq i_q²)",
     .signature = "grows with the square of the current; mean and orders 6k, order 2 with unequal phases",
     HCI_EFFECT_PARAMETERS(PARAMETER),
     .propose = propose,
+    .propose_coenergy = propose_coenergy,
     .in_machine = true,
     .torque_of_all = torque_of_all,
 };

@@ -102,6 +102,16 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
             propose_order(survey, to, k, order);
 }
 
+static void propose_coenergy(const hci_effect_coenergy_series *series, const hci_effect_proposals *to)
+{
+    for (size_t k = 0; k < sizeof MONOMIAL / sizeof *MONOMIAL; ++k) {
+        const int power = MONOMIAL[k].a + MONOMIAL[k].b;
+        const size_t cosine = MONOMIAL[k].b % 2 == 0;
+        for (int n = cosine ? 0 : 6; n <= series->order && power <= series->power; n += 6)
+            hci_effect_propose_coenergy(to, 2 * k + cosine, power, n, 1.0);
+    }
+}
+
 const hci_effect_type hci_effect_saturation = {
     .name = "saturation",
     .equation = "T = ∂W'/∂θ_m, W' = Σ (S sin nθ + C cos nθ) (i_d/I_0)^a (i_q/I_0)^b",
@@ -110,6 +120,7 @@ const hci_effect_type hci_effect_saturation = {
     HCI_EFFECT_PARAMETERS(PARAMETER),
     .is_series = true,
     .propose = propose,
+    .propose_coenergy = propose_coenergy,
     .in_machine = true,
     .beyond_quadratic = true,
     .torque_of_all = torque_of_all,

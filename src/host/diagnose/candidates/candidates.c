@@ -79,6 +79,14 @@ bool hci_candidate_same(const hci_candidate *a, const hci_candidate *b)
     return true;
 }
 
+const hci_candidate *hci_candidates_find_in(const hci_candidates *candidates, const hci_candidate *candidate)
+{
+    for (size_t k = 0; k < candidates->count; ++k)
+        if (candidates->candidate[k].in && hci_candidate_same(&candidates->candidate[k], candidate))
+            return &candidates->candidate[k];
+    return NULL;
+}
+
 hci_status hci_candidates_add(hci_candidates *candidates, const hci_candidate *candidate, hci_note *note)
 {
     size_t at = candidates->count;

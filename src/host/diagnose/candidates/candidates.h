@@ -15,9 +15,12 @@ typedef struct {
     const hci_effect_type *type;
     hci_effect_term term[HCI_CANDIDATE_TERMS]; /* value: where to start from */
     size_t count;
-    double price;     /* of having chosen it among so many of its kind: 2 ln(kinds), in units of χ² */
-    double deviation; /* standard deviation of the values to be expected, in the terms' unit; 0: any */
-    bool in;          /* in the model */
+    double price;         /* of having chosen it among so many of its kind: 2 ln(kinds), in units of χ² */
+    double deviation;     /* standard deviation of the values to be expected, in the terms' unit; 0: any */
+    double coenergy_unit; /* of a term of the co-energy: the deviation to be expected of it where coefficients
+                           * of power 2 and order 0 deviate by 1 N·m; else 0 */
+    int power;            /* of the currents, there */
+    bool in;              /* in the model */
 } hci_candidate;
 
 /* Candidates of one effect stand together. Start with {0}. */
@@ -42,6 +45,9 @@ hci_status hci_candidates_add(hci_candidates *candidates, const hci_candidate *c
 
 /* Whether two are the same terms. */
 bool hci_candidate_same(const hci_candidate *a, const hci_candidate *b);
+
+/* The one with the same terms that is in; NULL where there is none. */
+const hci_candidate *hci_candidates_find_in(const hci_candidates *candidates, const hci_candidate *candidate);
 
 /* Whether a type is in, or a series of many terms; how many types are, and how many terms. */
 bool hci_candidates_have(const hci_candidates *candidates, const hci_effect_type *type);

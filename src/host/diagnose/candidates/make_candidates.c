@@ -68,7 +68,7 @@ static void add_unknown(builder *b, const hci_candidates_source *s, const hci_ca
         taken[n] = hci_candidate_orders_empirical(lines, s->samples, taken, n, &growth);
         if (taken[n] == 0) return;
         const double order = (double)(taken[n] * lines->stride) / s->machine->pole_pairs;
-        add(b, &(hci_effect_candidate){2 * growth, 2, order, (double)lines->count * HCI_GROWTH_LAWS, 0.0});
+        add(b, &(hci_effect_candidate){2 * growth, 2, order, (double)lines->count * HCI_GROWTH_LAWS, 0.0, 0});
     }
 }
 

@@ -21,6 +21,20 @@ double hci_candidate_cost(const hci_candidate *candidate, double rows)
     return candidate->price + (double)candidate->count * log(fmax(2.0, rows));
 }
 
+double hci_fit_effective_score(const hci_fit *fit, const hci_candidates *candidates)
+{
+    double score = fit->square;
+    for (size_t k = 0; k < candidates->count; ++k) {
+        const hci_candidate *s = &candidates->candidate[k];
+        if (s->in) score += s->price;
+        for (size_t j = 0; s->in && j < s->count; ++j) {
+            const double share = s->deviation > 0.0 ? s->term[j].std_error / s->deviation : 0.0;
+            score += fmax(0.0, 1.0 - share * share) * log(fmax(2.0, fit->rows));
+        }
+    }
+    return score;
+}
+
 /* ---- values ---- */
 
 /* A term that is in, and the smallest value that it may have. */

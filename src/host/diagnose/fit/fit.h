@@ -25,6 +25,10 @@ typedef struct {
 hci_status hci_regression_fit(const hci_regression *regression, hci_candidates *candidates, hci_fit *fit,
                               hci_note *note);
 
+/* The score of a fit in which a term counts as a parameter only as far as the recordings and not its
+ * expectation determine it: 1 − (standard error/deviation)². For many terms with expectations. */
+double hci_fit_effective_score(const hci_fit *fit, const hci_candidates *candidates);
+
 /* The price of a candidate's coming in, in units of χ²: of its parameters and of the choice. */
 double hci_candidate_cost(const hci_candidate *candidate, double rows);
 

@@ -8,6 +8,7 @@
 #include "host/diagnose/fit/standard_errors.h"
 #include "host/diagnose/search/backward.h"
 #include "host/diagnose/search/candidate_models.h"
+#include "host/diagnose/search/coenergy.h"
 #include "host/diagnose/search/forward.h"
 #include "host/diagnose/search/rivals.h"
 #include "host/diagnose/search/settle.h"
@@ -55,6 +56,13 @@ static hci_status search_run(hci_search *s, hci_fitted_model *model, hci_note *n
 
 /* ---- verdicts ---- */
 
+/* Terms of the whole co-energy stand for each other, and single ones of other effects for some of them: what
+ * was asked of them is how well they describe runs left out together. */
+static bool is_of_whole(const hci_search *s, const hci_effect_type *type)
+{
+    return s->whole_coenergy && type->propose_coenergy;
+}
+
 /* What speaks for an effect that is in, and which others could stand in its place. */
 static hci_status verdict_of(hci_search *s, hci_attribution *a, hci_verdict *v, hci_note *note)
 {
@@ -62,10 +70,13 @@ static hci_status verdict_of(hci_search *s, hci_attribution *a, hci_verdict *v, 
     v->in = true;
     hci_status status = hci_search_without(s, &a->model, v->type, &without, note);
     if (status) return status;
-    v->gain = without.fit.score - a->model.fit.score;
+    v->gain = s->whole_coenergy ? hci_fit_effective_score(&without.fit, &without.candidates) -
+                                      hci_fit_effective_score(&a->model.fit, &a->model.candidates)
+                                : without.fit.score - a->model.fit.score;
     status = hci_search_explained(s, &a->model.candidates, &without.candidates, &v->explained_Nm, note);
     hci_fitted_model_release(&without);
-    if (status || a->unknown) return status; /* beside an empirical term known effects may be a part of it */
+    /* Beside an empirical term known effects may be a part of it. */
+    if (status || a->unknown || is_of_whole(s, v->type)) return status;
     return hci_search_rivals(s, v->type, a, note);
 }
 
@@ -108,7 +119,7 @@ static hci_status verdicts_of_same(hci_search *s, hci_attribution *a, hci_note *
     if (a->unknown) return HCI_OK;
     const hci_status status = hci_candidate_models_same(s, &a->model.candidates, same_as, note);
     for (size_t r = 0; r < a->types && !status; ++r)
-        if (same_as[r]) same_mark(a, r, same_as[r]);
+        if (same_as[r] && !is_of_whole(s, same_as[r])) same_mark(a, r, same_as[r]);
     return status;
 }
 
@@ -130,7 +141,10 @@ static hci_status attribute(hci_search *s, hci_attribution *a, hci_note *note)
     hci_status status = search_run(s, &a->model, note);
     if (status) return status;
     hci_search_begin(s, "weighing the evidence", SEARCH_SHARE, 1.0);
-    status = hci_search_settle(s, a, note);
+    status = hci_search_coenergy(s, &a->model, note);
+    for (bool dropped = s->whole_coenergy; dropped && !status;)
+        status = hci_search_drop(s, &a->model, &dropped, note);
+    if (!status) status = hci_search_settle(s, a, note);
     if (!status) status = verdicts(s, a, note);
     if (!status) status = hci_regression_standard_errors(s->regression, &a->model.candidates, note);
     if (!status) status = hci_regression_fit(s->regression, &none, &a->before, note);

@@ -96,12 +96,18 @@ static hci_status drop_type(hci_search *s, hci_fitted_model *model, const hci_ef
     return status;
 }
 
+/* The effects of the whole co-energy stand or fall together. */
+static bool may_leave(const hci_search *s, const hci_fitted_model *model, const hci_effect_type *type)
+{
+    return hci_candidates_have(&model->candidates, type) && !(s->whole_coenergy && type->propose_coenergy);
+}
+
 hci_status hci_search_drop(hci_search *s, hci_fitted_model *model, bool *dropped, hci_note *note)
 {
     hci_status status = HCI_OK;
     *dropped = false;
     for (size_t r = 0; r < hci_candidate_types() && !status && !*dropped; ++r)
-        if (hci_candidates_have(&model->candidates, hci_candidate_type(r)))
+        if (may_leave(s, model, hci_candidate_type(r)))
             status = drop_type(s, model, hci_candidate_type(r), dropped, note);
     return status;
 }

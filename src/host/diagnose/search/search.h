@@ -14,6 +14,7 @@ typedef struct {
     const hci_attribute_options *options;
     double *residual_Nm, *variance; /* of each sample, of the model looked at last */
     int richness;                   /* of saturation */
+    bool whole_coenergy;            /* all terms of the co-energy are in, each with an expectation */
     const char *doing;
     double share, until; /* of all work: done so far, and when the step at hand is done */
 } hci_search;

@@ -1,0 +1,367 @@
+#include "host/diagnose/search/coenergy.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "hci/math/harmonic.h"
+#include "host/base/memory.h"
+#include "host/diagnose/candidates/coenergy_terms.h"
+#include "host/diagnose/candidates/empirical_term.h"
+#include "host/diagnose/fit/linearise.h"
+#include "host/numeric/left_out.h"
+
+enum {
+    LEAST_RUNS = 5,
+    LOW_POWER = 4,
+    HIGH_POWER = 6,
+    MOST_ORDER = 60,
+    SINGLE_POWERS = 3,
+    PARTS = SINGLE_POWERS + HCI_MOST_TYPES
+};
+
+/* Widths of the expectation that are tried, in units of the noise. */
+static const double WIDTHS[] = {1.0, 3.0, 10.0, 30.0, 100.0};
+
+/* The model that the search has found was selected with the runs that are left out here, which flatters it:
+ * the mean logarithm may rise by this much, a factor of two in the rms. */
+#define SELECTED 1.4
+#define LEAST    0.15 /* of the resolution: a torque that is large enough for a name */
+#define NO_WORSE 0.01 /* of the mean logarithm of the squares */
+#define FLOOR    0.05 /* mean square of a run, in units of its noise, below which it is as good as can be */
+
+#define BLUNT                                                                                                \
+    10.0 /* noise over the resolution, above which single terms say all that the recordings can tell */
+#define WHOLE_TURN 0.9 /* electrical, of a run that tells orders by its samples */
+
+/* One choice of what to fit. */
+typedef struct {
+    int power;           /* highest, of the currents */
+    double width;        /* of the expectation, in units of the noise; 0: the model as it was */
+    bool without[PARTS]; /* below */
+} choice;
+
+/* Whether terms of a type describe what the co-energy describes: its own effects, and the description of what
+ * no effect explains. */
+static bool is_of_iron(const hci_candidate *x)
+{
+    return x->type->propose_coenergy || x->type == &hci_empirical_type;
+}
+
+/* Parts that a choice may leave out: first cogging, back-EMF and reluctance of the series, then for each type
+ * the terms that are not of the series and that the search has found, such as a cogging order above it. -1:
+ * none. */
+static int part_of(const hci_candidate *x)
+{
+    size_t r = 0;
+    if (x->coenergy_unit > 0.0) return x->power < SINGLE_POWERS ? x->power : -1;
+    if (!is_of_iron(x)) return -1;
+    while (hci_candidate_type(r) != x->type)
+        ++r;
+    return SINGLE_POWERS + (int)r;
+}
+
+typedef struct {
+    hci_search *search;
+    const hci_fitted_model *known;
+    hci_candidates all;
+    double noise_Nm; /* rms */
+    hci_groups runs;
+    hci_normal_equations *run;
+    double *precision, *square; /* of each column, of each run */
+} comparison;
+
+/* ---- recordings, one by one ---- */
+
+static size_t runs_in_use(const hci_regression *e)
+{
+    size_t count = 0;
+    for (size_t r = 0; r < e->samples->run_count; ++r)
+        count += e->use[r];
+    return count;
+}
+
+/* Terms of the co-energy count from 0, others from where they are, and nothing is expected of them yet. */
+static void start_from_zero(hci_candidates *all)
+{
+    for (size_t k = 0; k < all->count; ++k) {
+        hci_candidate *x = &all->candidate[k];
+        x->deviation = 0.0;
+        for (size_t j = 0; is_of_iron(x) && j < x->count; ++j)
+            x->term[j].value = 0.0;
+    }
+}
+
+/* White, and the same in all runs: what the model lacks is not noise, and to weight by it would take the
+ * part of a run that it fails in for the part that does not count. */
+static void noise_even(hci_regression *e, double rms_Nm)
+{
+    for (const hci_segment *x = NULL; (x = hci_regression_next(e, x)) != NULL;)
+        *hci_regression_noise(e, x) = hci_noise_white(rms_Nm);
+}
+
+static hci_status runs_linearise(comparison *c, hci_note *note)
+{
+    hci_regression *e = c->search->regression;
+    const bool *use = e->use;
+    bool *one = hci_memory_new(e->samples->run_count, sizeof *one);
+    hci_status status = one ? HCI_OK : hci_note_memory(note, NULL, "leaving runs out");
+    for (size_t r = 0; r < e->samples->run_count && !status; ++r) {
+        if (!use[r]) continue;
+        one[r] = true;
+        e->use = one;
+        status = hci_regression_normal(e, &c->all, false, &c->run[c->runs.count], note);
+        c->runs.count += !status;
+        one[r] = false;
+    }
+    e->use = use;
+    hci_memory_free(one);
+    return status;
+}
+
+/* ---- choices ---- */
+
+/* One over the variance that is expected; INFINITY for what is not in a choice. */
+static double precision_of(const comparison *c, const hci_candidate *x, const choice *how)
+{
+    const hci_candidate *before = hci_candidates_find_in(&c->known->candidates, x);
+    const double known = before && before->deviation > 0.0 ? before->deviation : 0.0;
+    if (how->width <= 0.0) return !before ? (double)INFINITY : known > 0.0 ? 1.0 / (known * known) : 0.0;
+    const int part = part_of(x);
+    if (part >= 0 && how->without[part]) return (double)INFINITY;
+    if (!(x->coenergy_unit > 0.0)) return known > 0.0 ? 1.0 / (known * known) : 0.0;
+    if (x->power > how->power || (x->power < SINGLE_POWERS && how->without[x->power]))
+        return (double)INFINITY;
+    double wide = how->width * c->noise_Nm * x->coenergy_unit;
+    if (before && x->power < 2) wide = fmax(wide, known > 0.0 ? known : (double)INFINITY);
+    return 1.0 / (wide * wide);
+}
+
+static void precision_set(const comparison *c, const choice *how)
+{
+    size_t column = 0;
+    for (size_t k = 0; k < c->all.count; ++k) {
+        const double precision = precision_of(c, &c->all.candidate[k], how);
+        for (size_t j = 0; j < c->all.candidate[k].count; ++j)
+            c->precision[column++] = precision;
+    }
+}
+
+/* The mean logarithm, so that no run rules because it lies outside of all others. */
+static hci_status misfit_of(const comparison *c, const choice *how, double *misfit, hci_note *note)
+{
+    precision_set(c, how);
+    hci_search_tell(c->search);
+    if (!hci_left_out_squares(&c->runs, c->precision, c->square))
+        return hci_note_memory(note, NULL, "leaving runs out");
+    *misfit = 0.0;
+    for (size_t r = 0; r < c->runs.count; ++r)
+        *misfit += log(c->square[r] / fmax(1.0, c->runs.group[r].rows) + FLOOR) / (double)c->runs.count;
+    return HCI_OK;
+}
+
+static hci_status try(const comparison *c, const choice *how, choice *best, double *least, hci_note *note)
+{
+    double misfit;
+    const hci_status status = misfit_of(c, how, &misfit, note);
+    if (!status && misfit < *least) {
+        *least = misfit;
+        *best = *how;
+    }
+    return status;
+}
+
+/* The width and power that describe left-out runs best, of the parts of a choice. */
+static hci_status choose(const comparison *c, choice *best, double *least, hci_note *note)
+{
+    choice how = *best;
+    hci_status status = HCI_OK;
+    *least = INFINITY;
+    for (how.power = LOW_POWER; how.power <= HIGH_POWER && !status; how.power += HIGH_POWER - LOW_POWER)
+        for (size_t w = 0; w < sizeof WIDTHS / sizeof *WIDTHS && !status; ++w) {
+            how.width = WIDTHS[w];
+            status = try(c, &how, best, least, note);
+        }
+    return status;
+}
+
+static double sum_of(const comparison *c)
+{
+    double sum = 0.0;
+    for (size_t r = 0; r < c->runs.count; ++r)
+        sum += c->square[r];
+    return sum;
+}
+
+/* rms torque that a fit to all runs loses without one part; 0 when memory is out. */
+static double explained_by(const comparison *c, const choice *how, int part)
+{
+    choice less = *how;
+    double with = 0.0, without = 0.0, rows = 0.0;
+    less.without[part] = true;
+    precision_set(c, how);
+    bool made = hci_all_in_square(&c->runs, c->precision, &with);
+    precision_set(c, &less);
+    made = made && hci_all_in_square(&c->runs, c->precision, &without);
+    for (size_t r = 0; r < c->runs.count; ++r)
+        rows += c->runs.group[r].rows;
+    return made && rows > 0.0 ? c->noise_Nm * sqrt(fmax(0.0, without - with) / rows) : 0.0;
+}
+
+/* How well left-out runs are described. */
+typedef struct {
+    double misfit; /* mean logarithm */
+    double square; /* sum over all */
+} left_out;
+
+static hci_status leave_out(const comparison *c, const choice *how, left_out *x, hci_note *note)
+{
+    const hci_status status = misfit_of(c, how, &x->misfit, note);
+    x->square = sum_of(c);
+    return status;
+}
+
+/* Cogging and back-EMF are in the declared tables, iron can saturate without reluctance, and what is not of
+ * the series is unusual. Such a part has to be large enough for a name, and left-out runs have to miss it: as
+ * a whole, which tells of small effects in long recordings, or on the average, where a run that lies outside
+ * of the others counts no more than they do. */
+static hci_status settle_part(const comparison *c, choice *how, int part, hci_note *note)
+{
+    left_out in, out;
+    how->without[part] = true;
+    hci_status status = leave_out(c, how, &out, note);
+    how->without[part] = false;
+    if (!status) status = leave_out(c, how, &in, note);
+    const bool missed = in.misfit + NO_WORSE < out.misfit || in.square + HCI_DECISIVE < out.square;
+    how->without[part] = !missed || explained_by(c, how, part) < LEAST * c->search->options->resolution_Nm;
+    return status;
+}
+
+/* changed: out, whether a part came in or went. */
+static hci_status settle_parts(const comparison *c, choice *how, bool *changed, hci_note *note)
+{
+    bool settled[PARTS] = {false};
+    hci_status status = HCI_OK;
+    *changed = false;
+    for (size_t k = 0; k < c->all.count && !status; ++k) {
+        const int part = part_of(&c->all.candidate[k]);
+        if (part < 0 || settled[part]) continue;
+        const bool before = how->without[part];
+        settled[part] = true;
+        status = settle_part(c, how, part, note);
+        *changed = *changed || how->without[part] != before;
+    }
+    return status;
+}
+
+/* The series without what is declared and what the search has found beside it; then with what left-out runs
+ * miss, for which the width is chosen again. Width 0, the model as it was, where that describes left-out runs
+ * much better. */
+static hci_status choose_all(const comparison *c, choice *best, hci_note *note)
+{
+    const choice as_it_was = {0};
+    double known = 0.0, least = INFINITY;
+    bool changed = false;
+    for (int part = 0; part < PARTS; ++part)
+        best->without[part] = true;
+    hci_status status = misfit_of(c, &as_it_was, &known, note);
+    if (!status) status = choose(c, best, &least, note);
+    if (!status) status = settle_parts(c, best, &changed, note);
+    if (!status && changed) status = choose(c, best, &least, note);
+    if (!status && changed) status = settle_parts(c, best, &changed, note);
+    if (!status && least > known + SELECTED) best->width = 0.0;
+    return status;
+}
+
+/* ---- the model ---- */
+
+static void apply(comparison *c, const choice *how)
+{
+    size_t kept = 0;
+    for (size_t k = 0; k < c->all.count; ++k) {
+        const double precision = precision_of(c, &c->all.candidate[k], how);
+        if (!isfinite(precision)) continue;
+        c->all.candidate[kept] = c->all.candidate[k];
+        c->all.candidate[kept++].deviation = precision > 0.0 ? 1.0 / sqrt(precision) : 0.0;
+    }
+    c->all.count = kept;
+}
+
+/* The highest order that the samples of every run in use tell, MOST_ORDER at the most. */
+static int highest_order(const hci_regression *e)
+{
+    double order = MOST_ORDER;
+    for (const hci_segment *x = NULL; (x = hci_regression_next(e, x)) != NULL;) {
+        const hci_binned_sample *first = e->samples->sample + x->first, *last = first + x->count - 1;
+        const double span = fabs(last->reading.theta_m_rad - first->reading.theta_m_rad);
+        const double turns = span * e->machine->pole_pairs / (2.0 * HCI_PI);
+        if (turns > WHOLE_TURN) order = fmin(order, 0.5 * (double)x->count / turns);
+    }
+    return (int)order;
+}
+
+static hci_status comparison_make(comparison *c, hci_note *note)
+{
+    const hci_regression *e = c->search->regression;
+    const hci_effect_coenergy_series series = {e->machine->pole_pairs, HIGH_POWER, highest_order(e),
+                                               c->known->candidates.reference_current_A};
+    hci_status status = hci_coenergy_terms(&c->known->candidates, &series, &c->all, note);
+    if (status) return status;
+    start_from_zero(&c->all);
+    c->run = hci_memory_new(e->samples->run_count, sizeof *c->run);
+    c->precision =
+        hci_memory_new(hci_candidates_terms_in(&c->all) + e->samples->run_count, sizeof *c->precision);
+    if (!c->run || !c->precision) return hci_note_memory(note, NULL, "leaving runs out");
+    c->square = c->precision + hci_candidates_terms_in(&c->all);
+    c->runs.group = c->run;
+    return runs_linearise(c, note);
+}
+
+static void comparison_release(comparison *c)
+{
+    for (size_t r = 0; r < c->runs.count; ++r)
+        hci_normal_equations_release(&c->run[r]);
+    hci_memory_free(c->run);
+    hci_memory_free(c->precision);
+    hci_candidates_release(&c->all);
+}
+
+/* With the noise found anew the expectations keep their size beside it. */
+static hci_status refit(hci_search *s, hci_fitted_model *model, double rms_Nm, hci_note *note)
+{
+    hci_status status = hci_regression_fit(s->regression, &model->candidates, &model->fit, note);
+    if (!status) status = hci_search_noise(s, &model->candidates, note);
+    if (status) return status;
+    const double change = hci_search_noise_rms(s) / rms_Nm;
+    for (size_t k = 0; k < model->candidates.count; ++k)
+        if (model->candidates.candidate[k].coenergy_unit > 0.0)
+            model->candidates.candidate[k].deviation *= change;
+    return hci_regression_fit(s->regression, &model->candidates, &model->fit, note);
+}
+
+static bool saturates(const hci_candidates *candidates)
+{
+    for (size_t k = 0; k < candidates->count; ++k)
+        if (candidates->candidate[k].in && candidates->candidate[k].type->beyond_quadratic) return true;
+    return false;
+}
+
+hci_status hci_search_coenergy(hci_search *s, hci_fitted_model *model, hci_note *note)
+{
+    comparison c = {.search = s, .known = model};
+    choice best = {0};
+    if (!saturates(&model->candidates) || runs_in_use(s->regression) < LEAST_RUNS) return HCI_OK;
+    c.noise_Nm = hci_search_noise_rms(s);
+    if (c.noise_Nm > BLUNT * s->options->resolution_Nm) return HCI_OK;
+    noise_even(s->regression, c.noise_Nm);
+    hci_status status = comparison_make(&c, note);
+    if (!status) status = choose_all(&c, &best, note);
+    if (!status && best.width > 0.0) {
+        apply(&c, &best);
+        hci_candidates_release(&model->candidates);
+        model->candidates = c.all;
+        c.all = (hci_candidates){0};
+        s->whole_coenergy = true;
+    }
+    comparison_release(&c);
+    return status || !(best.width > 0.0) ? status : refit(s, model, c.noise_Nm, note);
+}

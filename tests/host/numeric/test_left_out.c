@@ -1,0 +1,168 @@
+/* Errors of groups left out, against the mean of the others and against an orthogonal solution of the rows
+ * themselves. */
+#include "host/numeric/left_out.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+#include "hci/math/dense.h"
+#include "host/base/memory.h"
+#include "support/reference.h"
+#include "unity.h"
+
+enum { GROUPS = 5, ROWS = 7, COLUMNS = 4, ALL = GROUPS * ROWS };
+
+static uint64_t seed;
+static double x[ALL * COLUMNS], y[ALL];
+static hci_normal_equations group[GROUPS];
+
+void setUp(void)
+{
+    seed = 7;
+}
+
+void tearDown(void)
+{
+    hci_memory_fail_after(-1);
+    for (int g = 0; g < GROUPS; ++g)
+        hci_normal_equations_release(&group[g]);
+}
+
+static hci_groups groups_of(size_t columns)
+{
+    for (size_t g = 0; g < GROUPS; ++g) {
+        TEST_ASSERT_TRUE(hci_normal_equations_start(&group[g], columns));
+        hci_normal_equations_add(&group[g], x + g * ROWS * columns, y + g * ROWS, ROWS);
+        hci_normal_equations_finish(&group[g]);
+    }
+    return (hci_groups){group, GROUPS};
+}
+
+static void draw(size_t columns)
+{
+    for (size_t k = 0; k < ALL * columns; ++k)
+        x[k] = ref_uniform(&seed, -1.0, 1.0);
+    for (size_t k = 0; k < ALL; ++k)
+        y[k] = ref_uniform(&seed, -1.0, 1.0);
+}
+
+/* Rows of the other groups over rows √precision, solved by an orthogonal decomposition. */
+static double square_by_rows(size_t out, const double *precision)
+{
+    enum { M = ALL - ROWS + COLUMNS };
+    double a[M * COLUMNS] = {0.0}, b[M] = {0.0}, solution[COLUMNS], work[COLUMNS], sum = 0.0;
+    double factor[4 * (M + COLUMNS)];
+    size_t column[COLUMNS], rank, row = 0;
+    for (size_t k = 0; k < ALL; ++k) {
+        if (k / ROWS == out) continue;
+        for (size_t c = 0; c < COLUMNS; ++c)
+            a[row + c * M] = x[k * COLUMNS + c];
+        b[row++] = y[k];
+    }
+    for (size_t c = 0; c < COLUMNS; ++c)
+        a[row + c + c * M] = sqrt(precision[c]);
+    TEST_ASSERT_TRUE(hci_orthogonal_workspace(M, COLUMNS) <= sizeof factor / sizeof *factor);
+    TEST_ASSERT_EQUAL(HCI_OK, hci_orthogonal_factor(M, COLUMNS, a, 0.0, column, factor, &rank, NULL));
+    hci_orthogonal_solve(M, COLUMNS, a, column, factor, rank, b, solution, work);
+    for (size_t k = out * ROWS; k < (out + 1) * ROWS; ++k) {
+        double left = y[k];
+        for (size_t c = 0; c < COLUMNS; ++c)
+            left -= x[k * COLUMNS + c] * solution[c];
+        sum += left * left;
+    }
+    return sum;
+}
+
+static void test_one_constant_is_the_mean_of_the_others(void)
+{
+    const double none = 0.0;
+    double square[GROUPS];
+    for (size_t k = 0; k < ALL; ++k) {
+        x[k] = 1.0;
+        y[k] = (double)(k / ROWS); /* group g is g all along; the mean of the others is (10 − g)/4 */
+    }
+    const hci_groups groups = groups_of(1);
+    TEST_ASSERT_TRUE(hci_left_out_squares(&groups, &none, square));
+    for (int g = 0; g < GROUPS; ++g)
+        TEST_ASSERT_DOUBLE_WITHIN(1e-10, ROWS * pow(g - (10.0 - g) / 4.0, 2.0), square[g]);
+}
+
+static void test_squares_are_those_of_the_rows(void)
+{
+    const double precision[COLUMNS] = {0.0, 0.3, 20.0, 1e-3};
+    double square[GROUPS];
+    draw(COLUMNS);
+    const hci_groups groups = groups_of(COLUMNS);
+    TEST_ASSERT_TRUE(hci_left_out_squares(&groups, precision, square));
+    for (size_t g = 0; g < GROUPS; ++g)
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, square_by_rows(g, precision), square[g]);
+}
+
+/* One constant for all is their mean. */
+static void test_all_in_is_the_fit_of_all(void)
+{
+    const double none = 0.0;
+    double square, wanted = 0.0;
+    for (size_t k = 0; k < ALL; ++k) {
+        x[k] = 1.0;
+        y[k] = (double)(k / ROWS);
+        wanted += pow(y[k] - 2.0, 2.0);
+    }
+    const hci_groups groups = groups_of(1);
+    TEST_ASSERT_TRUE(hci_all_in_square(&groups, &none, &square));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, wanted, square);
+}
+
+/* What is held at 0 leaves the rows as they are. */
+static void test_infinite_precision_takes_an_unknown_out(void)
+{
+    const double all_out[COLUMNS] = {INFINITY, INFINITY, INFINITY, INFINITY};
+    double square[GROUPS];
+    draw(COLUMNS);
+    const hci_groups groups = groups_of(COLUMNS);
+    TEST_ASSERT_TRUE(hci_left_out_squares(&groups, all_out, square));
+    for (size_t g = 0; g < GROUPS; ++g)
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, group[g].square, square[g]);
+}
+
+/* Columns that have nothing to do with y make the error of the fit fall and that of what is left out rise. */
+static void test_columns_of_noise_cost(void)
+{
+    const double free_of_charge[COLUMNS] = {0.0}, held[COLUMNS] = {INFINITY, INFINITY, INFINITY, INFINITY};
+    double with = 0.0, without = 0.0, square[GROUPS];
+    for (int n = 0; n < 40; ++n) {
+        draw(COLUMNS);
+        const hci_groups groups = groups_of(COLUMNS);
+        TEST_ASSERT_TRUE(hci_left_out_squares(&groups, free_of_charge, square));
+        for (int g = 0; g < GROUPS; ++g)
+            with += square[g];
+        TEST_ASSERT_TRUE(hci_left_out_squares(&groups, held, square));
+        for (int g = 0; g < GROUPS; ++g)
+            without += square[g];
+        tearDown();
+    }
+    TEST_ASSERT_TRUE(with > 1.05 * without);
+}
+
+static void test_memory_runs_out(void)
+{
+    const double precision[COLUMNS] = {0.0};
+    double square[GROUPS];
+    draw(COLUMNS);
+    const hci_groups groups = groups_of(COLUMNS);
+    hci_memory_fail_after(0);
+    TEST_ASSERT_FALSE(hci_left_out_squares(&groups, precision, square));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_one_constant_is_the_mean_of_the_others);
+    RUN_TEST(test_squares_are_those_of_the_rows);
+    RUN_TEST(test_all_in_is_the_fit_of_all);
+    RUN_TEST(test_infinite_precision_takes_an_unknown_out);
+    RUN_TEST(test_columns_of_noise_cost);
+    RUN_TEST(test_memory_runs_out);
+    return UNITY_END();
+}
