@@ -10,11 +10,12 @@
 #include "hci/host/check/check.h"
 #include "hci/host/report/summary.h"
 
-enum { OUT, CLI_COMMON_KEYS };
+enum { OUT, CLI_READING_KEYS, CLI_COMMON_KEYS };
 
 static const cli_option OPTIONS[] = {
     [OUT] = {"out", 'o', CLI_FOLDER, "FOLDER",
              .help = "where summary.json goes; without it nothing is written"},
+    CLI_READING_OPTIONS,
     CLI_COMMON_OPTIONS};
 
 /* ---- words ---- */
@@ -186,7 +187,8 @@ static int run(const cli_arguments *a)
 {
     static hci_check check;
     hci_note note = {{0}};
-    const hci_status status = hci_check_files(a->word[0], a->word + 1, a->words - 1, &check, &note);
+    const hci_run_options reading = {.strict = a->given[STRICT]};
+    const hci_status status = hci_check_files(a->word[0], a->word + 1, a->words - 1, &reading, &check, &note);
     if (status && status != HCI_NOT_REACHED) return cli_fail(status, &note);
     show_remarks(&check);
     if (cli_is_wordy()) show(&check);

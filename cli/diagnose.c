@@ -15,7 +15,7 @@
 #include "hci/host/report/summary.h"
 #include "hci/host/report/write.h"
 
-enum { RUNS, OUT, TARGET, RESOLUTION, REPORT, CLI_COMMON_KEYS };
+enum { RUNS, OUT, TARGET, RESOLUTION, REPORT, CLI_READING_KEYS, CLI_COMMON_KEYS };
 
 static const cli_option OPTIONS[] = {
     [RUNS] = {"runs", 0, CLI_FILE, "LIST",
@@ -28,6 +28,7 @@ static const cli_option OPTIONS[] = {
                     .low = 1e-6, .high = 50.0},
     [REPORT] = {"report", 0, CLI_FLAG, NULL,
                 .help = "report.html is written in any case; taken for the sake of scripts"},
+    CLI_READING_OPTIONS,
     CLI_COMMON_OPTIONS};
 
 typedef struct {
@@ -64,8 +65,8 @@ static hci_status read_inputs(const cli_arguments *a, inputs *in, hci_note *note
     if (!status) status = hci_machine_read(a->word[0], &in->machine, note);
     if (!status) status = hci_effects_read_machine(a->word[0], &in->declared, note);
     if (status) return status;
-    const hci_runs_options reading = {in->machine.model.pole_pairs, in->machine.inertia_kgm2,
-                                      in->options.progress, NULL};
+    const hci_run_options each = {in->machine.model.pole_pairs, in->machine.inertia_kgm2, a->given[STRICT]};
+    const hci_runs_options reading = {each, in->options.progress, NULL};
     return hci_runs_read(a->value[RUNS], &reading, &in->runs, note);
 }
 

@@ -13,7 +13,7 @@
 #include "hci/host/waveform/waveform.h"
 #include "hci/math/harmonic.h"
 
-enum { QUANTITY, POLE_PAIRS, ORDERS, MAX_ORDER, CONSTANT, OUT, CLI_COMMON_KEYS };
+enum { QUANTITY, POLE_PAIRS, ORDERS, MAX_ORDER, CONSTANT, OUT, CLI_READING_KEYS, CLI_COMMON_KEYS };
 
 static const cli_choice QUANTITIES[] = {
     [HCI_WAVEFORM_BACK_EMF] = {"back_emf", NULL},
@@ -32,6 +32,7 @@ static const cli_option OPTIONS[] = {
     [CONSTANT] = {"torque-constant", 0, CLI_NUMBER, "NM_PER_A",
                   .help = "cogging of a run with currents: torque of 1 A of i_q", .low = 1e-9, .high = 1e6},
     [OUT] = {"out", 'o', CLI_FOLDER, "FOLDER", .help = "where the table goes; without it nothing is written"},
+    CLI_READING_OPTIONS,
     CLI_COMMON_OPTIONS};
 
 enum { MOST_ORDERS = 256 };
@@ -128,7 +129,8 @@ static int run(const cli_arguments *a)
     memset(&options, 0, sizeof options);
     memset(&recording, 0, sizeof recording);
     hci_status status = read_options(a, &options, orders, &note);
-    if (!status) status = hci_run_read(a->word[0], options.pole_pairs, NAN, &recording, &note);
+    const hci_run_options reading = {options.pole_pairs, NAN, a->given[STRICT]};
+    if (!status) status = hci_run_read(a->word[0], &reading, &recording, &note);
     if (!status) status = analyse(a, &options, &recording, &note);
     hci_run_release(&recording);
     return status ? cli_fail(status, &note) : 0;

@@ -13,11 +13,12 @@
 #include "hci/host/recording/predict.h"
 #include "hci/host/report/summary.h"
 
-enum { OUT, CLI_COMMON_KEYS };
+enum { OUT, CLI_READING_KEYS, CLI_COMMON_KEYS };
 
 static const cli_option OPTIONS[] = {
     [OUT] = {"out", 'o', CLI_FILE, "FILE",
              .help = "the run with the model's torque; without it nothing is written"},
+    CLI_READING_OPTIONS,
     CLI_COMMON_OPTIONS};
 
 /* ---- words ---- */
@@ -76,8 +77,10 @@ static int run(const cli_arguments *a)
 {
     hci_prediction prediction;
     hci_note note = {{0}};
+    const hci_run_options reading = {.strict = a->given[STRICT]};
     hci_status status = keep_apart(a->word[1], a->value[OUT], &note);
-    if (!status) status = hci_predict_file(a->word[0], a->word[1], a->value[OUT], &prediction, &note);
+    if (!status)
+        status = hci_predict_file(a->word[0], a->word[1], &reading, a->value[OUT], &prediction, &note);
     if (!status && cli_is_wordy()) {
         show(&prediction, a);
         cli_remark(&prediction.remark);

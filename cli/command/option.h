@@ -98,6 +98,12 @@ typedef struct {
     [COLOR] = {"color", 0, CLI_CHOICE, "WHEN", .is_common = true, .choices = cli_color_choices},             \
     [HELP] = CLI_HELP_OPTION, CLI_END_OF_OPTIONS
 
+/* What every command that reads recordings has, before CLI_COMMON_KEYS and CLI_COMMON_OPTIONS. */
+#define CLI_READING_KEYS STRICT
+#define CLI_READING_OPTIONS                                                                                  \
+    [STRICT] = {"strict", 0, CLI_FLAG, NULL,                                                                 \
+                .help = "refuse a recording with holes; without it such rows are left out and counted"}
+
 #define CLI_EXIT_ERRORS "2 command line; 3 input; 4 numerical; 5 output\n"
 
 /* Words of --color, in the order of cli_color. */

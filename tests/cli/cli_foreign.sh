@@ -110,7 +110,9 @@ write jmag_torque.csv "$foreword"' NR == 1 { print "Time(s),Torque(Nm)" } { prin
 run 3 harmonics "$work/jmag_torque.csv" --quantity cogging --pole-pairs 2
 says 'jmag_torque.csv:8: found no column `theta_m_rad` but `Time\(s\)`, `Torque\(Nm\)`'
 sed '12s/.*/0.06,x,1,1,1,1/' "$work/jmag.csv" >"$work/jmag_broken.csv"
-run 3 predict data/machine_a "$work/jmag_broken.csv"
+run 0 predict data/machine_a "$work/jmag_broken.csv"
+says '1 of 400 rows have a hole and are left out, first line 12, column 2 `theta_m\(deg\)`: found `x`'
+run 3 predict data/machine_a "$work/jmag_broken.csv" --strict
 says 'jmag_broken.csv:12: column 2 `theta_m\(deg\)`: found `x`'
 
 # ---- Ansys Maxwell

@@ -18,8 +18,8 @@ const char *hci_check_state_name(hci_check_state state)
     return NAME[state];
 }
 
-hci_status hci_check_files(const char *machine, const char *const *run, size_t runs, hci_check *check,
-                           hci_note *note)
+hci_status hci_check_files(const char *machine, const char *const *run, size_t runs,
+                           const hci_run_options *reading, hci_check *check, hci_note *note)
 {
     check_data data;
     check_posterior posterior = {0};
@@ -34,7 +34,7 @@ hci_status hci_check_files(const char *machine, const char *const *run, size_t r
     check->run = run;
     check->runs = runs;
     status = hci_check_machine_read(machine, &data, note);
-    if (!status) status = hci_check_runs_read(run, runs, &data, check->remark, note);
+    if (!status) status = hci_check_runs_read(run, runs, reading, &data, check->remark, note);
     if (!status) status = hci_check_posterior(&data, &posterior, note);
     if (!status) hci_check_conclude(&posterior, check);
     hci_check_posterior_release(&posterior);

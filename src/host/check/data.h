@@ -134,8 +134,8 @@ typedef struct {
  * file, line and remedy, HCI_ERROR_MEMORY. */
 hci_status hci_check_machine_read(const char *folder, check_data *data, hci_note *note);
 /* After the machine. remark: [count], how each recording was read. */
-hci_status hci_check_runs_read(const char *const *path, size_t count, check_data *data, hci_note *remark,
-                               hci_note *note);
+hci_status hci_check_runs_read(const char *const *path, size_t count, const hci_run_options *reading,
+                               check_data *data, hci_note *remark, hci_note *note);
 void hci_check_data_release(check_data *data);
 
 /* The frame of a scale, whatever its sign; NULL where the run has no angle. */

@@ -4,6 +4,7 @@
 
 #include "hci/machine/frames.h"
 #include "host/base/memory.h"
+#include "host/recording/holes.h"
 
 /* ---- where the columns stand */
 
@@ -130,7 +131,7 @@ hci_status hci_check_samples_read(const hci_csv *csv, check_run *run, check_samp
                                   hci_note *note)
 {
     hci_run_column first = HCI_RUN_VA;
-    hci_status status = hci_run_columns_find(csv, &s->columns, remark, note);
+    hci_status status = hci_run_columns_open(csv, &s->columns, remark, note);
     s->count = s->columns.count;
     find_voltages(run, s, &first);
     if (!status) status = read_angles(run, s);

@@ -24,15 +24,15 @@ static hci_status run_take(const hci_csv *csv, check_data *data, check_run *run,
     return status;
 }
 
-static hci_status run_read(const char *path, check_data *data, check_run *run, hci_note *remark,
-                           hci_note *note)
+static hci_status run_read(const char *path, const hci_run_options *reading, check_data *data, check_run *run,
+                           hci_note *remark, hci_note *note)
 {
     hci_csv *csv;
     hci_status status;
     if (snprintf(run->path, sizeof run->path, "%s", path) >= (int)sizeof run->path)
         return hci_note_set(note, HCI_ERROR_INPUT, "%.200s…: the path is longer than %d bytes", path,
                             HCI_CHECK_PATH - 1);
-    status = hci_csv_read(path, &csv, note);
+    status = hci_run_csv(path, reading, &csv, note);
     if (status) return status;
     status = run_take(csv, data, run, remark, note);
     hci_csv_free(csv);
@@ -66,15 +66,15 @@ static double no_current(const check_data *data)
     return CHECK_NO_CURRENT * most;
 }
 
-hci_status hci_check_runs_read(const char *const *path, size_t count, check_data *data, hci_note *remark,
-                               hci_note *note)
+hci_status hci_check_runs_read(const char *const *path, size_t count, const hci_run_options *reading,
+                               check_data *data, hci_note *remark, hci_note *note)
 {
     hci_status status = HCI_OK;
     scales_make(data);
     data->run = hci_memory_new(count, sizeof *data->run);
     if (!data->run) return hci_note_memory(note, NULL, "%zu runs", count);
     for (size_t k = 0; k < count && !status; ++k) {
-        status = run_read(path[k], data, &data->run[k], &remark[k], note);
+        status = run_read(path[k], reading, data, &data->run[k], &remark[k], note);
         ++data->runs;
     }
     data->no_current_A = no_current(data);

@@ -146,14 +146,13 @@ static hci_status read_record(reader *r, size_t columns, size_t *count, size_t *
     hci_status status = push(r, r->line);
     char *cell = NULL, stop = r->csv->separator;
     *filled = 0;
+    r->surplus = NULL;
     for (*count = 0; !status && stop == r->csv->separator; ++*count) {
         status = read_cell(r, *count, &cell, &stop);
         if (status) return status;
         if (*cell != '\0') *filled = *count + 1;
-        if (*filled > columns) {
-            r->surplus = cell;
-            return HCI_OK;
-        }
+        if (*filled > columns && r->surplus == NULL) r->surplus = cell;
+        if (r->surplus != NULL && !r->csv->leaves_holes) return HCI_OK;
         if (*count < columns) status = push(r, (uint32_t)(cell - r->csv->text));
         if (stop == r->csv->separator) r->next++;
     }
@@ -254,7 +253,7 @@ static hci_status read_header(reader *r)
 
 /* ---- rows ---- */
 
-static hci_status short_row(const reader *r, size_t line, size_t count)
+static hci_status short_row(const reader *r, size_t line, size_t count, hci_note *note)
 {
     char expected[96];
     snprintf(expected, sizeof expected, "%zu fields as in the header (line %zu)", r->csv->columns,
@@ -265,11 +264,11 @@ static hci_status short_row(const reader *r, size_t line, size_t count)
                                  .found = "the end of the line",
                                  .expected = expected,
                                  .remedy = "complete the line or remove it"};
-    return hci_csv_fault_note(r->csv, &fault, r->note);
+    return hci_csv_fault_note(r->csv, &fault, note);
 }
 
 /* A decimal comma among commas cuts a number in two, and the row becomes too long. */
-static hci_status long_row(const reader *r, size_t line, const char *cell)
+static hci_status long_row(const reader *r, size_t line, const char *cell, hci_note *note)
 {
     char expected[96], found[HCI_QUOTE_SIZE];
     const size_t columns = r->csv->columns;
@@ -280,28 +279,54 @@ static hci_status long_row(const reader *r, size_t line, const char *cell)
     fault.remedy = "remove what is too much, or quote a text that holds the separator";
     if (r->csv->separator == ',')
         fault.remedy = "if the comma is the decimal mark, write a decimal point or separate the columns by ;";
-    return hci_csv_fault_note(r->csv, &fault, r->note);
+    return hci_csv_fault_note(r->csv, &fault, note);
+}
+
+/* A row with `count` cells, or more than there are columns: refused, or left out. */
+static hci_status torn_row(reader *r, size_t line, size_t count)
+{
+    hci_csv *csv = r->csv;
+    hci_csv_hole *hole = &csv->hole;
+    const bool is_short = count < csv->columns;
+    if (!csv->leaves_holes)
+        return is_short ? short_row(r, line, count, r->note) : long_row(r, line, r->surplus, r->note);
+    if (csv->torn++ > 0) return HCI_OK;
+    hole->line = line;
+    hole->column = is_short ? count : csv->columns;
+    if (is_short) {
+        snprintf(hole->found, sizeof hole->found, "the end of the line");
+        short_row(r, line, count, &hole->error);
+    } else {
+        hci_quote(r->surplus, hole->found);
+        long_row(r, line, r->surplus, &hole->error);
+    }
+    return HCI_OK;
+}
+
+static hci_status read_row(reader *r)
+{
+    hci_csv *csv = r->csv;
+    const size_t start = r->used, line = r->line;
+    size_t count, filled;
+    const hci_status status = read_record(r, csv->columns, &count, &filled);
+    if (status) return status;
+    if (filled > 0 && filled <= csv->columns && count >= csv->columns) {
+        csv->records++;
+        return HCI_OK;
+    }
+    r->used = start; /* spreadsheets end tables with rows of bare separators */
+    return filled == 0 ? HCI_OK : torn_row(r, line, filled > csv->columns ? csv->columns + 1 : count);
 }
 
 static hci_status read_rows(reader *r)
 {
     hci_csv *csv = r->csv;
-    while (find_record(r)) {
-        const size_t start = r->used, line = r->line;
-        size_t count, filled;
-        const hci_status status = read_record(r, csv->columns, &count, &filled);
-        if (status) return status;
-        if (filled == 0) {
-            r->used = start; /* spreadsheets end tables with rows of bare separators */
-        } else if (filled > csv->columns) {
-            return long_row(r, line, r->surplus);
-        } else if (count < csv->columns) {
-            return short_row(r, line, count);
-        } else {
-            csv->records++;
-        }
-    }
-    return HCI_OK;
+    hci_status status = HCI_OK;
+    while (!status && find_record(r))
+        status = read_row(r);
+    if (!status && csv->torn > csv->records - 1)
+        return hci_note_set(r->note, HCI_ERROR_INPUT, "%s", csv->hole.error.text);
+    return status;
 }
 
 /* ---- row of units ---- */
@@ -349,11 +374,12 @@ static hci_status read_table(hci_csv *csv, hci_note *note)
     return status;
 }
 
-hci_status hci_csv_read(const char *path, hci_csv **csv, hci_note *note)
+static hci_status read_path(const char *path, bool leaves_holes, hci_csv **csv, hci_note *note)
 {
     *csv = NULL;
     hci_csv *table = hci_memory_new(1, sizeof *table);
     if (table == NULL) return hci_note_memory(note, path, "reading it");
+    table->leaves_holes = leaves_holes;
     table->path = hci_memory_malloc(strlen(path) + 1);
     hci_status status = HCI_ERROR_MEMORY;
     if (table->path == NULL) {
@@ -368,4 +394,14 @@ hci_status hci_csv_read(const char *path, hci_csv **csv, hci_note *note)
         hci_csv_free(table);
     }
     return status;
+}
+
+hci_status hci_csv_read(const char *path, hci_csv **csv, hci_note *note)
+{
+    return read_path(path, false, csv, note);
+}
+
+hci_status hci_csv_read_recording(const char *path, hci_csv **csv, hci_note *note)
+{
+    return read_path(path, true, csv, note);
 }

@@ -67,6 +67,14 @@ static hci_status nul_error(const hci_csv *csv, hci_note *note)
                         hci_quote_path(csv->path, path), line);
 }
 
+/* NUL bytes to the end of the file: what was not written any more. */
+static bool ends_in_nul(const hci_csv *csv, size_t size)
+{
+    for (size_t k = strlen(csv->text); k < size; ++k)
+        if (csv->text[k] != '\0') return false;
+    return true;
+}
+
 static hci_status check_encoding(const hci_csv *csv, size_t size, hci_note *note)
 {
     if (size == SIZE_LIMIT)
@@ -74,6 +82,7 @@ static hci_status check_encoding(const hci_csv *csv, size_t size, hci_note *note
     if (size >= 2 && (memcmp(csv->text, "\xFF\xFE", 2) == 0 || memcmp(csv->text, "\xFE\xFF", 2) == 0)) {
         return hci_csv_file_error(csv->path, note, "found UTF-16, expected UTF-8", "save it as CSV in UTF-8");
     }
+    if (csv->leaves_holes && ends_in_nul(csv, size)) return HCI_OK;
     return strlen(csv->text) < size ? nul_error(csv, note) : HCI_OK;
 }
 

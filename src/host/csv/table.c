@@ -21,6 +21,13 @@ size_t hci_csv_record_line(const hci_csv *csv, size_t record)
     return csv->index[record * (csv->columns + 1)];
 }
 
+bool hci_csv_same_record(const hci_csv *csv, size_t a, size_t b)
+{
+    for (size_t column = 0; column < csv->columns; ++column)
+        if (strcmp(hci_csv_cell(csv, a, column), hci_csv_cell(csv, b, column)) != 0) return false;
+    return true;
+}
+
 bool hci_csv_same_name(const char *a, const char *b)
 {
     return strlen(a) == 1 ? strcmp(a, b) == 0 : hci_text_is(a, b);

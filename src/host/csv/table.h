@@ -6,7 +6,15 @@
 
 #include "hci/host/csv/csv.h"
 #include "host/base/number_read.h"
+#include "host/base/quote.h"
 #include "host/base/unit_lookup.h"
+
+/* A cell that holds no number, or a row that is too short or too long. */
+typedef struct {
+    size_t line, column;        /* in the file, from 1; from 0 */
+    char found[HCI_QUOTE_SIZE]; /* in words or in quotes */
+    hci_note error;             /* what is said where the file is refused for it */
+} hci_csv_hole;
 
 struct hci_csv {
     char *path;
@@ -17,6 +25,9 @@ struct hci_csv {
     bool has_units;    /* record 1 is the row of units */
     bool has_foreword; /* lines before the header were passed over */
     char separator;
+    bool leaves_holes; /* rows that are too short or too long are left out, and counted */
+    size_t torn;       /* rows left out so */
+    hci_csv_hole hole; /* the first of them */
 };
 
 /* Reads the whole of csv->path into csv->text, and makes sure that it is text. HCI_ERROR_INPUT, _MEMORY. */
@@ -38,6 +49,15 @@ hci_number_kind hci_csv_kind(const hci_csv *csv, const char *cell);
 
 /* The record of data row 0. */
 size_t hci_csv_first_record(const hci_csv *csv);
+
+/* Are two records the same in every cell? */
+bool hci_csv_same_record(const hci_csv *csv, size_t a, size_t b);
+
+/* The numbers of a column like hci_csv_numbers, NAN where a cell holds none. first: the first such cell, set
+ * only where its line is 0 or later in the file; it keeps what it has otherwise. A text in the first row is
+ * an error all the same, since it is likely to be a unit. */
+hci_status hci_csv_numbers_or_nan(const hci_csv *csv, const char *column, double *values, hci_csv_hole *first,
+                                  hci_note *note);
 
 /* The most frequent separator of a line, outside quotes. */
 char hci_csv_separator(const char *line);

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "hci/host/base/text.h"
 #include "hci/host/base/utf8.h"
 #include "host/base/number_read.h"
 #include "host/base/quote.h"
@@ -69,19 +70,38 @@ static hci_status mark_error(const hci_csv *csv, size_t record, size_t column, h
     return hci_csv_fault_note(csv, &fault, note);
 }
 
+/* A column that is read cell by cell, with the decimal mark that it has shown so far. */
+typedef struct {
+    const hci_csv *csv;
+    hci_column_match found;
+    char mark;
+} column_reader;
+
+/* kind, value: out. HCI_ERROR_INPUT for a second decimal mark. */
+static hci_status read_cell(column_reader *r, size_t record, hci_number_kind *kind, double *value,
+                            hci_note *note)
+{
+    char mark = 0;
+    const char *cell = hci_csv_cell(r->csv, record, r->found.column);
+    *kind = hci_number_read(cell, r->csv->separator == ';', value, &mark);
+    if (*kind != HCI_NUMBER_FINITE) return HCI_OK;
+    if (!isfinite(*value *= r->found.factor)) *kind = HCI_NUMBER_NOT_FINITE;
+    if (mark != 0 && r->mark != 0 && mark != r->mark)
+        return mark_error(r->csv, record, r->found.column, note);
+    if (mark != 0) r->mark = mark;
+    return HCI_OK;
+}
+
 static hci_status read_cells(const hci_csv *csv, hci_column_match found, size_t first, size_t count,
                              double *values, hci_note *note)
 {
-    const bool comma = csv->separator == ';';
-    char column_mark = 0, mark;
+    column_reader r = {.csv = csv, .found = found};
     for (size_t record = first; record < first + count; record++) {
         double value;
-        hci_number_kind kind = hci_number_read(hci_csv_cell(csv, record, found.column), comma, &value, &mark);
-        if (kind == HCI_NUMBER_FINITE && !isfinite(value *= found.factor)) kind = HCI_NUMBER_NOT_FINITE;
+        hci_number_kind kind;
+        const hci_status status = read_cell(&r, record, &kind, &value, note);
         if (kind != HCI_NUMBER_FINITE) return number_error(csv, record, found.column, kind, note);
-        if (mark != 0 && column_mark != 0 && mark != column_mark)
-            return mark_error(csv, record, found.column, note);
-        if (mark != 0) column_mark = mark;
+        if (status) return status;
         values[record - first] = value;
     }
     return HCI_OK;
@@ -93,6 +113,53 @@ hci_status hci_csv_numbers(const hci_csv *csv, const char *column, double *value
     if (found.kind != HCI_COLUMN_ONE) return hci_column_error(csv, column, &found, note);
     return read_cells(csv, found, hci_csv_first_record(csv), hci_csv_rows(csv), values, note);
 }
+
+/* ---- cells without a number ---- */
+
+/* A text in the first row may be a unit that is not known. */
+static bool is_hole(const hci_csv *csv, size_t record, const char *cell, hci_number_kind kind)
+{
+    static const char *const MISSING[] = {"NA", "N/A", "#N/A", "null", "none"};
+    if (record > hci_csv_first_record(csv) || *cell == '\0' || kind != HCI_NUMBER_NONE) return true;
+    for (size_t k = 0; k < sizeof MISSING / sizeof *MISSING; ++k)
+        if (hci_text_is(cell, MISSING[k])) return true;
+    return false;
+}
+
+static void note_hole(const hci_csv *csv, size_t record, size_t column, hci_number_kind kind,
+                      hci_csv_hole *first)
+{
+    char quoted[HCI_QUOTE_SIZE];
+    const size_t line = hci_csv_record_line(csv, record);
+    if (first->line != 0 && first->line <= line) return;
+    memset(first, 0, sizeof *first);
+    first->line = line;
+    first->column = column;
+    snprintf(first->found, sizeof first->found, "%s", quote_cell(hci_csv_cell(csv, record, column), quoted));
+    number_error(csv, record, column, kind, &first->error);
+}
+
+hci_status hci_csv_numbers_or_nan(const hci_csv *csv, const char *column, double *values, hci_csv_hole *first,
+                                  hci_note *note)
+{
+    column_reader r = {.csv = csv, .found = hci_column_find(csv, column)};
+    const size_t from = hci_csv_first_record(csv), at = r.found.column;
+    if (r.found.kind != HCI_COLUMN_ONE) return hci_column_error(csv, column, &r.found, note);
+    for (size_t record = from; record < csv->records; record++) {
+        double *value = &values[record - from];
+        hci_number_kind kind;
+        const hci_status status = read_cell(&r, record, &kind, value, note);
+        if (status) return status;
+        if (kind == HCI_NUMBER_FINITE) continue;
+        if (!is_hole(csv, record, hci_csv_cell(csv, record, at), kind))
+            return number_error(csv, record, at, kind, note);
+        note_hole(csv, record, at, kind, first);
+        *value = NAN;
+    }
+    return HCI_OK;
+}
+
+/* ---- one cell ---- */
 
 hci_status hci_csv_number(const hci_csv *csv, const char *column, size_t row, double *value, hci_note *note)
 {

@@ -1,6 +1,7 @@
 #include "host/csv/write.h"
 
 #include <assert.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -75,8 +76,11 @@ static hci_status write_record(const writer *w, size_t record)
     const size_t first = hci_csv_first_record(w->csv);
     for (size_t k = 0; k < w->added_count && !status; ++k) {
         const char end = k + 1 < w->added_count ? ',' : '\n';
-        if (record >= first)
-            hci_output_number(w->output, w->added[k].value[record - first], end);
+        const double value = record >= first ? w->added[k].value[record - first] : 0.0;
+        if (isnan(value) && w->csv->leaves_holes)
+            hci_output_text(w->output, "%c", end);
+        else if (record >= first)
+            hci_output_number(w->output, value, end);
         else
             hci_output_text(w->output, "%s%c", record == 0 ? w->added[k].name : w->added[k].unit, end);
     }

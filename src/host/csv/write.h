@@ -6,7 +6,7 @@
 
 typedef struct {
     const char *name, *unit; /* unit: for a file that has a row of units */
-    const double *value;     /* hci_csv_rows of them */
+    const double *value;     /* hci_csv_rows of them; NAN in a recording: an empty cell */
 } hci_csv_added;
 
 /* Writes the columns of `csv` as they stand, but with comma and decimal point, and then those added; columns

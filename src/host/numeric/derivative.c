@@ -12,7 +12,29 @@
 /* Slopes may change by so many times what noise explains (mean squares, of few independent samples). */
 #define UNEXPLAINED 2.0
 
+/* Samples that are so many usual steps apart are no neighbours. */
+#define GAP 20.0
+
 enum { WINDOW_LEAST = 5, STEPS_LEAST = 20, STILL_SHARE = 5, PROBES = 512 };
+
+/* ---- steps in time ---- */
+
+/* The mean of the steps but for those that are more than `most` times as long. */
+static double usual_step(const double *t, size_t n, double most)
+{
+    double usual = (t[n - 1] - t[0]) / (double)(n - 1), before;
+    do {
+        double sum = 0.0, count = 0.0;
+        before = usual;
+        for (size_t k = 1; k < n; ++k) {
+            if (t[k] - t[k - 1] > most * before) continue;
+            sum += t[k] - t[k - 1];
+            count += 1.0;
+        }
+        usual = sum / count;
+    } while (usual < before);
+    return usual;
+}
 
 /* ---- noise ---- */
 
@@ -31,14 +53,17 @@ static double interpolation_residual(const double *t, const double *x, size_t k)
     return residual / sqrt(variance);
 }
 
-static double noise_rms(const double *t, const double *x, size_t n)
+/* step_s: the usual one; what stands beside a gap says nothing of noise. */
+static double noise_rms(const double *t, const double *x, size_t n, double step_s)
 {
-    double sum = 0.0;
+    double sum = 0.0, count = 0.0;
     for (size_t k = 2; k + 2 < n; ++k) {
+        if (t[k + 2] - t[k - 2] > 4.0 * GAP * step_s) continue;
         const double residual = interpolation_residual(t, x, k);
         sum += residual * residual;
+        count += 1.0;
     }
-    return n > 4 ? sqrt(sum / (double)(n - 4)) : 0.0;
+    return count > 0.0 ? sqrt(sum / count) : 0.0;
 }
 
 /* The step of an encoder that is slow against the sampling; 0 where x does not stand still between steps. */
@@ -154,14 +179,14 @@ static size_t window_of(window_sums *s, size_t n)
     double rate[PROBES];
     const size_t most = n / 4 > WINDOW_LEAST ? n / 4 : n < WINDOW_LEAST ? n : WINDOW_LEAST;
     const size_t probes = n < PROBES ? n : PROBES;
-    const double quantum = quantum_of(s->x, n), step_s = (s->t[n - 1] - s->t[0]) / (double)(n - 1);
+    const double quantum = quantum_of(s->x, n), step_s = usual_step(s->t, n, GAP);
     size_t window = most < WINDOW_LEAST ? most : WINDOW_LEAST;
     while (window < most && way_over(s->x, n, window) < STEPS_LEAST * quantum)
         window += window / 2;
     if (window >= most) return most;
     /* Quantum after quantum is noise that lasts for as many samples as a quantum does. */
     const double lasting = quantum > 0.0 ? (double)window * quantum / way_over(s->x, n, window) : 0.0;
-    const double noise = fmax(noise_rms(s->t, s->x, n), quantum * sqrt(lasting / 12.0)) / step_s;
+    const double noise = fmax(noise_rms(s->t, s->x, n, step_s), quantum * sqrt(lasting / 12.0)) / step_s;
     for (size_t next = window + window / 2; next <= most; window = next, next += next / 2) {
         const double length = (double)window, longer = (double)next;
         const double variance = 12.0 * noise * noise / (length * length * length);
@@ -173,22 +198,51 @@ static size_t window_of(window_sums *s, size_t n)
     return window;
 }
 
+/* ---- pieces without a gap ---- */
+
+/* Behind the last sample of the piece that begins with `first`. */
+static size_t end_of_piece(const double *t, size_t n, size_t first, double most_s)
+{
+    size_t end = first + 1;
+    while (end < n && t[end] - t[end - 1] <= most_s)
+        ++end;
+    return end;
+}
+
+/* Slopes at the samples from … end − 1 by windows between low and high. */
+typedef struct {
+    size_t from, end, low, high;
+} range_of_slopes;
+
+static void find_slopes(window_sums *s, range_of_slopes r, size_t window, double *rate)
+{
+    if (window > r.high - r.low) window = r.high - r.low;
+    const size_t half = window / 2;
+    size_t since_start = window;
+    for (size_t k = r.from; k < r.end; ++k, ++since_start) {
+        const size_t centred = k > r.low + half ? k - half : r.low;
+        const size_t first = centred + window < r.high ? centred : r.high - window;
+        if (since_start >= window) {
+            start(s, first, first + window);
+            since_start = 0;
+        }
+        if (first > s->first) {
+            add(s, s->end++, 1.0);
+            add(s, s->first++, -1.0);
+        }
+        rate[k] = rate_at(s, s->t[k]);
+    }
+}
+
 void hci_derivative(const double *time_s, const double *x, size_t n, double *rate)
 {
     window_sums sums = {.t = time_s, .x = x};
-    const size_t window = window_of(&sums, n), half = window / 2;
-    size_t since_start = window;
-    for (size_t k = 0; k < n; ++k, ++since_start) {
-        const size_t centred = k > half ? k - half : 0;
-        const size_t first = centred + window < n ? centred : n - window;
-        if (since_start >= window) {
-            start(&sums, first, first + window);
-            since_start = 0;
-        }
-        if (first > sums.first) {
-            add(&sums, sums.end++, 1.0);
-            add(&sums, sums.first++, -1.0);
-        }
-        rate[k] = rate_at(&sums, time_s[k]);
+    const size_t window = window_of(&sums, n);
+    const double gap = fmax((double)window, GAP), gap_s = gap * usual_step(time_s, n, gap);
+    for (size_t first = 0, end; first < n; first = end) {
+        end = end_of_piece(time_s, n, first, gap_s);
+        const bool is_long = end - first >= WINDOW_LEAST;
+        find_slopes(&sums, (range_of_slopes){first, end, is_long ? first : 0, is_long ? end : n}, window,
+                    rate);
     }
 }

@@ -6,8 +6,9 @@
 
 /* dx/dt at each of n >= 2 samples: the slope of a local parabola by least squares. Its window has 5 samples
  * or more, a quarter of the record at most, so many that it bridges the steps of an encoder, and grows as
- * long as noise is more than 2 % of the slope and the slopes change by no more than noise explains. time_s:
- * ascending. rate: out, n. O(n). */
+ * long as noise is more than 2 % of the slope and the slopes change by no more than noise explains. It does
+ * not reach across a gap that is as long as the window usually is, and as 20 usual steps, unless fewer than 5
+ * samples stand between two gaps. time_s: ascending. rate: out, n. O(n). */
 void hci_derivative(const double *time_s, const double *x, size_t n, double *rate);
 
 #endif

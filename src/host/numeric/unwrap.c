@@ -11,6 +11,9 @@
 /* A path may have one step in twenty that is longer than a third of a turn. */
 enum { ODD_SHARE = 20 };
 
+/* A step in time that is so many times the one before it is a gap. */
+#define GAP 1.5
+
 typedef struct {
     const double *time_s, *rate_rad_per_s;
     size_t odd, jumps;
@@ -36,11 +39,28 @@ static double expected_step(const unwrapper *u, size_t k)
     return 0.5 * (u->rate_rad_per_s[k - 1] + u->rate_rad_per_s[k]) * (u->time_s[k] - u->time_s[k - 1]);
 }
 
+/* Are samples missing before this one, as many as make the step uncertain? */
+static bool is_gap(const unwrapper *u, size_t k)
+{
+    return u->time_s != NULL && k > 1 &&
+           u->time_s[k] - u->time_s[k - 1] > GAP * (u->time_s[k - 1] - u->time_s[k - 2]);
+}
+
+/* The step across missing samples at the speed before them; step: the one before. */
+static double step_over_gap(const unwrapper *u, size_t k, double step)
+{
+    return step * (u->time_s[k] - u->time_s[k - 1]) / (u->time_s[k - 1] - u->time_s[k - 2]);
+}
+
 /* The step to sample k of an angle that is kept within a turn: the shortest, or for a long one that which the
  * speed tells. */
-static double step_within_turn(unwrapper *u, size_t k, double recorded)
+static double step_within_turn(unwrapper *u, size_t k, double recorded, double before)
 {
     const double shortest = shortest_of(recorded);
+    if (u->rate_rad_per_s == NULL && is_gap(u, k)) {
+        const double expected = step_over_gap(u, k, before);
+        return fabs(expected) > TURN / 4.0 ? recorded + TURN * round((expected - recorded) / TURN) : shortest;
+    }
     if (u->rate_rad_per_s == NULL) {
         u->odd += fabs(shortest) > TURN / 3.0;
         return shortest;
@@ -63,11 +83,12 @@ static double step_beyond_turn(const unwrapper *u, size_t k, double recorded, do
     return back && fabs(shortest - expected) < 0.1 * TURN ? shortest : recorded;
 }
 
-static void note_jump(unwrapper *u, double taken_out)
+static void note_jump(unwrapper *u, double taken_out, bool gap)
 {
     const double turns = fabs(taken_out) / TURN;
     if (turns < 0.5) return;
-    if (u->jumps++ == 0) u->result.turns = (size_t)(turns + 0.5);
+    u->jumps++;
+    if (u->result.turns == 0 && !gap) u->result.turns = (size_t)(turns + 0.5);
 }
 
 /* Takes the turns out, or with write = false only counts. */
@@ -77,11 +98,11 @@ static void walk(unwrapper *u, double *angle, size_t n, bool within, bool write)
     for (size_t k = 1; k < n; ++k) {
         const double recorded = angle[k] - last;
         const double step =
-            within ? step_within_turn(u, k, recorded) : step_beyond_turn(u, k, recorded, before);
-        note_jump(u, step - recorded);
+            within ? step_within_turn(u, k, recorded, before) : step_beyond_turn(u, k, recorded, before);
+        note_jump(u, step - recorded, is_gap(u, k));
         turns += round((step - recorded) / TURN);
         last = angle[k];
-        if (fabs(step) > 0.0) before = step;
+        if (fabs(step) > 0.0 && !(within && is_gap(u, k))) before = step;
         if (write) angle[k] += TURN * turns;
     }
 }

@@ -19,6 +19,7 @@ typedef struct {
 } hci_unwrapping;
 
 /* Unwraps angle_rad[n] in place. time_s: ascending, or NULL: samples without order in time may be scattered.
+ * Across a gap in time the angle goes on as fast as before it.
  * rate_rad_per_s: a speed of this angle, or NULL. A rate of 0 throughout says nothing but that each sample
  * stands for itself. */
 hci_unwrapping hci_unwrap(double *angle_rad, size_t n, const double *time_s, const double *rate_rad_per_s);

@@ -92,13 +92,15 @@ static hci_status keep_free(task *t, hci_note *note)
     return HCI_OK;
 }
 
-static hci_status read_task(task *t, const char *machine, const char *run, hci_note *note)
+static hci_status read_task(task *t, const char *machine, const char *run, hci_run_options reading,
+                            hci_note *note)
 {
     hci_status status = hci_machine_read(machine, &t->machine, note);
     if (!status) status = hci_effects_read_machine(machine, &t->effects, note);
-    if (!status) status = hci_csv_read(run, &t->csv, note);
-    if (!status)
-        status = hci_run_of_csv(t->csv, t->machine.model.pole_pairs, t->machine.inertia_kgm2, &t->run, note);
+    reading.pole_pairs = t->machine.model.pole_pairs;
+    reading.inertia_kgm2 = t->machine.inertia_kgm2;
+    if (!status) status = hci_run_csv(run, &reading, &t->csv, note);
+    if (!status) status = hci_run_of_csv(t->csv, &reading, &t->run, note);
     if (!status) status = keep_free(t, note);
     return status;
 }
@@ -116,14 +118,35 @@ static hci_status predict_task(task *t, hci_note *note)
     return status;
 }
 
+/* Values of samples to their rows of the file; NAN where a row was left out. Returns the end of the rows. */
+static double *spread(const task *t, const double *value, double *by_row)
+{
+    const size_t rows = hci_csv_rows(t->csv);
+    for (size_t row = 0; row < rows; ++row)
+        by_row[row] = NAN;
+    for (size_t k = 0; k < t->run.count; ++k)
+        by_row[t->run.row != NULL ? t->run.row[k] : k] = value[k];
+    return by_row + rows;
+}
+
 static hci_status write_task(const task *t, const char *out, hci_note *note)
 {
-    hci_csv_added added[3] = {{"torque_model_Nm", "Nm", t->model}};
+    double *room = hci_memory_new(hci_csv_rows(t->csv), 3 * sizeof *room), *next = room;
+    hci_csv_added added[3] = {{"torque_model_Nm", "Nm", room}};
     size_t count = 1;
-    if (t->run.torque_source == HCI_TORQUE_INERTIA)
-        added[count++] = (hci_csv_added){"torque_inertia_Nm", "Nm", t->run.torque_Nm};
-    if (t->residual != NULL) added[count++] = (hci_csv_added){"residual_Nm", "Nm", t->residual};
-    return hci_csv_write_with(t->csv, added, count, out, note);
+    if (room == NULL) return hci_note_memory(note, t->run.name, "a prediction");
+    next = spread(t, t->model, next);
+    if (t->run.torque_source == HCI_TORQUE_INERTIA) {
+        added[count++] = (hci_csv_added){"torque_inertia_Nm", "Nm", next};
+        next = spread(t, t->run.torque_Nm, next);
+    }
+    if (t->residual != NULL) {
+        added[count++] = (hci_csv_added){"residual_Nm", "Nm", next};
+        spread(t, t->residual, next);
+    }
+    const hci_status status = hci_csv_write_with(t->csv, added, count, out, note);
+    hci_memory_free(room);
+    return status;
 }
 
 static void release_task(task *t)
@@ -136,13 +159,13 @@ static void release_task(task *t)
     hci_machine_release(&t->machine);
 }
 
-hci_status hci_predict_file(const char *machine, const char *run, const char *out, hci_prediction *prediction,
-                            hci_note *note)
+hci_status hci_predict_file(const char *machine, const char *run, const hci_run_options *reading,
+                            const char *out, hci_prediction *prediction, hci_note *note)
 {
     task t;
     memset(&t, 0, sizeof t);
     memset(prediction, 0, sizeof *prediction);
-    hci_status status = read_task(&t, machine, run, note);
+    hci_status status = read_task(&t, machine, run, *reading, note);
     if (!status) status = predict_task(&t, note);
     if (!status && out != NULL) status = write_task(&t, out, note);
     if (!status) {

@@ -12,6 +12,7 @@
 #include "host/numeric/derivative.h"
 #include "host/numeric/statistics.h"
 #include "host/numeric/unwrap.h"
+#include "host/recording/holes.h"
 #include "host/recording/rotor_frame.h"
 #include "host/recording/run_columns.h"
 
@@ -25,6 +26,7 @@ typedef struct {
     hci_run_columns columns;
     hci_run *run;
     hci_note *note;
+    const hci_run_options *options;
     int pole_pairs;
 } reader;
 
@@ -64,7 +66,7 @@ static hci_status read_time(reader *r)
     for (size_t k = 1; !status && time_s != NULL && k < r->run->count; ++k) {
         if (time_s[k] > time_s[k - 1]) continue;
         const bool equal = !(time_s[k] < time_s[k - 1]);
-        return hci_csv_error(r->columns.csv, "time_s", k, r->note,
+        return hci_csv_error(r->columns.csv, "time_s", r->run->row ? r->run->row[k] : k, r->note,
                              equal ? "a later time than on the line before (they are equal)"
                                    : "a later time than on the line before",
                              equal ? "write the time with more digits, or remove one of the two samples"
@@ -290,8 +292,9 @@ static hci_status read_voltages(reader *r)
 
 /* ---- torque ---- */
 
-static hci_status torque_of_inertia(reader *r, double inertia_kgm2)
+static hci_status torque_of_inertia(reader *r)
 {
+    const double inertia_kgm2 = r->options->inertia_kgm2;
     hci_run *run = r->run;
     if (!(inertia_kgm2 > 0.0) || run->time_s == NULL || run->speed_rad_per_s == NULL || run->count < 3)
         return HCI_OK;
@@ -305,19 +308,19 @@ static hci_status torque_of_inertia(reader *r, double inertia_kgm2)
     return HCI_OK;
 }
 
-static hci_status read_torque(reader *r, double inertia_kgm2)
+static hci_status read_torque(reader *r)
 {
     hci_run *run = r->run;
     const hci_status status = read_column(r, HCI_RUN_TORQUE, &run->torque_Nm);
     if (status) return status;
-    if (run->torque_Nm == NULL) return torque_of_inertia(r, inertia_kgm2);
+    if (run->torque_Nm == NULL) return torque_of_inertia(r);
     run->torque_source = is_zero(run->torque_Nm, run->count) ? HCI_TORQUE_HOLDING : HCI_TORQUE_MEASURED;
     return HCI_OK;
 }
 
 /* ---- the run ---- */
 
-static hci_status read_all(reader *r, double inertia_kgm2)
+static hci_status read_all(reader *r)
 {
     hci_run *run = r->run;
     hci_angle_path path = HCI_ANGLE_WITHIN;
@@ -328,44 +331,51 @@ static hci_status read_all(reader *r, double inertia_kgm2)
     if (!status) status = read_currents(r);
     if (!status) status = read_voltages(r);
     if (!status) status = read_column(r, HCI_RUN_TEMPERATURE, &run->temperature_C);
-    if (!status) status = read_torque(r, inertia_kgm2);
+    if (!status) status = read_torque(r);
     if (!status) hci_run_columns_tell_unused(&r->columns);
     return status;
 }
 
-static hci_status take(reader *r, const hci_csv *csv, double inertia_kgm2)
+static hci_status take(reader *r, const hci_csv *csv)
 {
     const char *path = hci_csv_path(csv);
     hci_run *run = r->run;
-    hci_status status = hci_run_columns_find(csv, &r->columns, &run->remark, r->note);
+    hci_status status = hci_run_columns_open(csv, &r->columns, &run->remark, r->note);
     if (status) return status;
     run->count = r->columns.count;
+    run->row = r->columns.row;
+    r->columns.row = NULL;
     run->name = hci_memory_malloc(strlen(path) + 1);
     if (run->name == NULL) return memory_error(r);
     memcpy(run->name, path, strlen(path) + 1);
-    return read_all(r, inertia_kgm2);
+    return read_all(r);
 }
 
-hci_status hci_run_of_csv(const hci_csv *csv, int pole_pairs, double inertia_kgm2, hci_run *run,
-                          hci_note *note)
+hci_status hci_run_of_csv(const hci_csv *csv, const hci_run_options *options, hci_run *run, hci_note *note)
 {
-    reader r = {.run = run, .note = note, .pole_pairs = pole_pairs};
+    reader r = {.run = run, .note = note, .options = options, .pole_pairs = options->pole_pairs};
     memset(run, 0, sizeof *run);
-    if (pole_pairs < 1)
-        return hci_note_set(note, HCI_ERROR_ARGUMENT, "found %d pole pairs, expected 1 or more", pole_pairs);
-    const hci_status status = take(&r, csv, inertia_kgm2);
+    if (options->pole_pairs < 1)
+        return hci_note_set(note, HCI_ERROR_ARGUMENT, "found %d pole pairs, expected 1 or more",
+                            options->pole_pairs);
+    const hci_status status = take(&r, csv);
     hci_run_columns_release(&r.columns);
     if (status) hci_run_release(run);
     return status;
 }
 
-hci_status hci_run_read(const char *path, int pole_pairs, double inertia_kgm2, hci_run *run, hci_note *note)
+hci_status hci_run_csv(const char *path, const hci_run_options *options, hci_csv **csv, hci_note *note)
+{
+    return options->strict ? hci_csv_read(path, csv, note) : hci_csv_read_recording(path, csv, note);
+}
+
+hci_status hci_run_read(const char *path, const hci_run_options *options, hci_run *run, hci_note *note)
 {
     hci_csv *csv;
     memset(run, 0, sizeof *run);
-    hci_status status = hci_csv_read(path, &csv, note);
+    hci_status status = hci_run_csv(path, options, &csv, note);
     if (status) return status;
-    status = hci_run_of_csv(csv, pole_pairs, inertia_kgm2, run, note);
+    status = hci_run_of_csv(csv, options, run, note);
     hci_csv_free(csv);
     return status;
 }
@@ -380,5 +390,6 @@ void hci_run_release(hci_run *run)
     hci_memory_free(run->torque_Nm);
     hci_memory_free(run->temperature_C);
     hci_memory_free(run->v_V);
+    hci_memory_free(run->row);
     memset(run, 0, sizeof *run);
 }

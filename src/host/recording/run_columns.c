@@ -56,10 +56,18 @@ hci_status hci_run_columns_find(const hci_csv *csv, hci_run_columns *c, hci_note
 
 void hci_run_columns_release(hci_run_columns *c)
 {
-    for (int k = 0; k < HCI_RUN_COLUMN_COUNT; ++k)
+    for (int k = 0; k < HCI_RUN_COLUMN_COUNT; ++k) {
         hci_memory_free(c->value[k]);
+        hci_memory_free(c->ready[k]);
+    }
+    hci_memory_free(c->row);
     hci_memory_free(c->used);
     memset(c, 0, sizeof *c);
+}
+
+const char *hci_run_column_name(hci_run_column which)
+{
+    return NAME[which];
 }
 
 hci_status hci_run_column_read(hci_run_columns *c, hci_run_column which)
@@ -68,6 +76,9 @@ hci_status hci_run_column_read(hci_run_columns *c, hci_run_column which)
     if (!c->has[which] || c->value[which]) return HCI_OK;
     if (hci_csv_told(c->csv, NAME[which], &told)) hci_note_add(c->remark, "%s", told.text);
     c->used[c->at[which]] = true;
+    c->value[which] = c->ready[which];
+    c->ready[which] = NULL;
+    if (c->value[which]) return HCI_OK;
     c->value[which] = hci_memory_new(c->count, sizeof(double));
     if (!c->value[which]) return memory_error(c);
     return hci_csv_numbers(c->csv, NAME[which], c->value[which], c->note);

@@ -41,9 +41,11 @@ typedef enum {
 typedef struct {
     const hci_csv *csv; /* the caller's */
     size_t count;       /* samples, at least one */
+    size_t *row;        /* [count], of the file, from 0; NULL: each row is a sample */
     bool has[HCI_RUN_COLUMN_COUNT];
     size_t at[HCI_RUN_COLUMN_COUNT];     /* column of the file, where it has one */
     double *value[HCI_RUN_COLUMN_COUNT]; /* [count], in the unit of the name; NULL: absent, or not yet read */
+    double *ready[HCI_RUN_COLUMN_COUNT]; /* [count], read while looking for holes, and not asked for yet */
     bool *used;                          /* of each column of the file */
     hci_note *remark, *note;             /* the caller's: what was supposed; the error */
 } hci_run_columns;
@@ -67,6 +69,9 @@ void hci_run_column_drop(hci_run_columns *c, hci_run_column which);
 /* A column that says again what others say, or that the caller has no use for: it is not reported as
  * unused. */
 void hci_run_column_leave(hci_run_columns *c, hci_run_column which);
+
+/* The canonical name, with its unit. */
+const char *hci_run_column_name(hci_run_column which);
 
 /* As the header spells it, and the line of the header in the file; NULL: the file does not have it. */
 const char *hci_run_column_header(const hci_run_columns *c, hci_run_column which, size_t *line);

@@ -63,8 +63,7 @@ static hci_status read_one(const list_reader *l, size_t row, const char *file, h
 {
     char *path = path_of(hci_csv_path(l->csv), file);
     if (path == NULL) return memory_error(l);
-    const hci_status status =
-        hci_run_read(path, l->options->pole_pairs, l->options->inertia_kgm2, run, l->note);
+    const hci_status status = hci_run_read(path, &l->options->run, run, l->note);
     hci_memory_free(path);
     if (status) return status;
     l->runs->count = row + 1;

@@ -117,12 +117,12 @@ static hci_status check_runs(const char *header, mistake *wrong, bool unloaded)
     run[1] = path[paths + 1];
     write_run("load.csv", header, -2.0, 10.0, wrong);
     if (unloaded) write_run("back.csv", header, 0.0, 0.0, wrong);
-    return hci_check_files(files_root, run, unloaded ? 2 : 1, &check, &note);
+    return hci_check_files(files_root, run, unloaded ? 2 : 1, &(hci_run_options){0}, &check, &note);
 }
 
 static hci_status check_machine(void)
 {
-    return hci_check_files(files_root, NULL, 0, &check, &note);
+    return hci_check_files(files_root, NULL, 0, &(hci_run_options){0}, &check, &note);
 }
 
 /* ---- what is expected */
@@ -209,7 +209,8 @@ static void test_a_holding_map_knows_the_cogging_torque(void)
     write_holding();
     write_machine("name,value,unit,source\npole_pairs,4,1,\n", "amplitude_Nm_per_A", 0.1, 0.0);
     write_file("cogging.csv", "order,amplitude_Nm,phase_rad\n6,0.05,0.7\n");
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_check_files(files_root, run, 1, &check, &note), note.text);
+    TEST_ASSERT_EQUAL_MESSAGE(
+        HCI_OK, hci_check_files(files_root, run, 1, &(hci_run_options){0}, &check, &note), note.text);
     TEST_ASSERT_DOUBLE_WITHIN(1e-6, 1.0, evidence("cogging_size"));
     TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0.0, evidence("cogging_angle"));
     TEST_ASSERT_DOUBLE_WITHIN(1e-6, 1.0, evidence("cogging_share"));
@@ -217,7 +218,8 @@ static void test_a_holding_map_knows_the_cogging_torque(void)
     write_holding();
     write_machine("name,value,unit,source\npole_pairs,8,1,\n", "amplitude_Nm_per_A", 0.1, 0.0);
     write_file("cogging.csv", "order,amplitude_Nm,phase_rad\n6,0.05,0.7\n");
-    TEST_ASSERT_EQUAL(HCI_NOT_REACHED, hci_check_files(files_root, run, 1, &check, &note));
+    TEST_ASSERT_EQUAL(HCI_NOT_REACHED,
+                      hci_check_files(files_root, run, 1, &(hci_run_options){0}, &check, &note));
     TEST_ASSERT_TRUE(check.findings > 0);
     TEST_ASSERT_EQUAL_STRING("poles_for_pole_pairs", check.finding[0].slip);
 }
@@ -633,8 +635,10 @@ static void test_data_of_the_project_are_consistent(void)
                                        "data/fem_c/runs/id-6_iq6.csv", "data/fem_c/runs/neg.csv",
                                        "data/fem_c/runs/inject1.csv"};
     for (size_t k = 0; k < 4; ++k)
-        TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_check_files(MACHINES[k], NULL, 0, &check, &note), MACHINES[k]);
-    TEST_ASSERT_EQUAL(HCI_OK, hci_check_files("data/fem_c/machine", RUNS, 5, &check, &note));
+        TEST_ASSERT_EQUAL_MESSAGE(
+            HCI_OK, hci_check_files(MACHINES[k], NULL, 0, &(hci_run_options){0}, &check, &note), MACHINES[k]);
+    TEST_ASSERT_EQUAL(HCI_OK,
+                      hci_check_files("data/fem_c/machine", RUNS, 5, &(hci_run_options){0}, &check, &note));
     TEST_ASSERT_EQUAL(0, check.findings);
 }
 
@@ -648,9 +652,11 @@ static void test_measured_data(void)
     if (access(RUNS[0], R_OK) != 0) TEST_IGNORE_MESSAGE("no ../shared/measured");
     write_machine("name,value,unit\npole_pairs,12,1\nresistance,0.7,ohm\n", "amplitude_Nm_per_A", 0.01857,
                   0.0);
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_check_files(files_root, RUNS, 3, &check, &note), note.text);
+    TEST_ASSERT_EQUAL_MESSAGE(
+        HCI_OK, hci_check_files(files_root, RUNS, 3, &(hci_run_options){0}, &check, &note), note.text);
     TEST_ASSERT_DOUBLE_WITHIN(0.03, 1.0, evidence("angle_speed"));
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_NOT_REACHED, hci_check_files(files_root, &PROBE, 1, &check, &note),
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_NOT_REACHED,
+                              hci_check_files(files_root, &PROBE, 1, &(hci_run_options){0}, &check, &note),
                               note.text);
     TEST_ASSERT_EQUAL(HCI_CHECK_NOT_UNDERSTOOD, check.verdict);
     TEST_ASSERT_TRUE(evidence("voltage_balance") > 9.0); /* a ×10 probe on vc */
@@ -776,7 +782,7 @@ static void test_out_of_memory(void)
     for (long count = 0; status == HCI_ERROR_MEMORY && count < 500; ++count) {
         memset(&note, 0, sizeof note);
         hci_memory_fail_after(count);
-        status = hci_check_files(files_root, run, 1, &check, &note);
+        status = hci_check_files(files_root, run, 1, &(hci_run_options){0}, &check, &note);
     }
     hci_memory_fail_after(-1);
     TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, status, note.text);

@@ -55,6 +55,24 @@ static void test_a_parabola_has_its_rate(void)
         TEST_ASSERT_DOUBLE_WITHIN(1e-9, parabola_rate(t[k]), rate[k]);
 }
 
+/* A step of the rate in a gap of the record: on both sides it is what it is there. */
+static double bent_rate(double s)
+{
+    return s < 1.0 ? 2.0 : -7.0;
+}
+
+static void test_a_gap_is_not_bridged(void)
+{
+    double at = 0.0;
+    for (size_t k = 0; k < 400; ++k, at += k == 200 ? 1.5 : 1e-3) {
+        t[k] = at;
+        x[k] = at < 1.0 ? 2.0 * at : 9.0 - 7.0 * at;
+    }
+    hci_derivative(t, x, 400, rate);
+    for (size_t k = 0; k < 400; ++k)
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, bent_rate(t[k]), rate[k]);
+}
+
 static void test_few_samples_are_enough(void)
 {
     for (size_t n = 2; n <= 6; ++n) {
@@ -146,6 +164,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_a_parabola_has_its_rate);
+    RUN_TEST(test_a_gap_is_not_bridged);
     RUN_TEST(test_few_samples_are_enough);
     RUN_TEST(test_noise_is_smoothed_and_the_shape_is_kept);
     RUN_TEST(test_a_window_ends_before_the_shape_does);

@@ -124,6 +124,20 @@ static void test_points_at_rest_are_scattered(void)
     TEST_ASSERT_EQUAL_INT(HCI_ANGLE_SCATTERED, hci_unwrap(angle, N, time_s, rate).path);
 }
 
+/* 2 rad a sample, of which one is missing: the shortest way would be back. */
+static void test_a_missing_sample_does_not_turn_the_path_back(void)
+{
+
+    for (int k = 0; k < 20; ++k) {
+        const int at = k < 9 ? k : k + 1;
+        time_s[k] = at;
+        angle[k] = 2.0 * at - 2.0 * REF_PI * floor(2.0 * at / (2.0 * REF_PI));
+    }
+    TEST_ASSERT_EQUAL(HCI_ANGLE_UNWRAPPED, hci_unwrap(angle, 20, time_s, NULL).path);
+    for (int k = 0; k < 20; ++k)
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, 2.0 * time_s[k], angle[k]);
+}
+
 static void test_one_sample_is_a_path(void)
 {
     angle[0] = 5.0;
@@ -141,6 +155,7 @@ int main(void)
     RUN_TEST(test_the_speed_tells_steps_beyond_half_a_turn);
     RUN_TEST(test_steps_beyond_a_third_of_a_turn_are_unclear);
     RUN_TEST(test_points_at_rest_are_scattered);
+    RUN_TEST(test_a_missing_sample_does_not_turn_the_path_back);
     RUN_TEST(test_one_sample_is_a_path);
     return UNITY_END();
 }

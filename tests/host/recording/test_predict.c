@@ -57,7 +57,8 @@ static double torque_at(double theta_m, double id, double iq)
 
 static void predict(void)
 {
-    const hci_status status = hci_predict_file(files_root, run_path, out, &prediction, &note);
+    const hci_status status =
+        hci_predict_file(files_root, run_path, &(hci_run_options){0}, out, &prediction, &note);
     TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, status, note.text);
 }
 
@@ -227,9 +228,10 @@ static void test_measured_free_shafts_stay_free(void)
         char path[128];
         snprintf(path, sizeof path, "../shared/measured/laas_mn4004/%s", FILES[k]);
         if (access(path, R_OK) != 0) TEST_IGNORE_MESSAGE("no recordings in ../shared/measured");
-        TEST_ASSERT_EQUAL_MESSAGE(
-            HCI_OK, hci_predict_file("tests/measured/laas_mn4004", path, NULL, &prediction, &note),
-            note.text);
+        TEST_ASSERT_EQUAL_MESSAGE(HCI_OK,
+                                  hci_predict_file("tests/measured/laas_mn4004", path, &(hci_run_options){0},
+                                                   NULL, &prediction, &note),
+                                  note.text);
         TEST_ASSERT_EQUAL(HCI_TORQUE_INERTIA, prediction.source);
         text_has("as of a free shaft it is inertia x acceleration", prediction.remark.text);
     }
@@ -289,7 +291,8 @@ static void test_what_an_effect_lacks_is_told(void)
 static void test_refused(void)
 {
     files_write(run_path, "time_s,va_V,vb_V,vc_V\n0,1,1,1\n");
-    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, hci_predict_file(files_root, run_path, out, &prediction, &note));
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT,
+                      hci_predict_file(files_root, run_path, &(hci_run_options){0}, out, &prediction, &note));
     text_has("found no angle", note.text);
     TEST_ASSERT_TRUE(access(out, F_OK) != 0);
 }
@@ -303,7 +306,7 @@ static void test_memory_runs_out_everywhere(void)
     for (; status == HCI_ERROR_MEMORY; ++allowed) {
         hci_note said = {{0}};
         hci_memory_fail_after(allowed);
-        status = hci_predict_file(files_root, run_path, out, &prediction, &said);
+        status = hci_predict_file(files_root, run_path, &(hci_run_options){0}, out, &prediction, &said);
         hci_memory_fail_after(-1);
         if (status == HCI_ERROR_MEMORY) {
             text_has("memory", said.text);

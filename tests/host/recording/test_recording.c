@@ -66,7 +66,9 @@ static void row(FILE *file, int count, ...)
 
 static void read_run(int pole_pairs, double inertia_kgm2)
 {
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_run_read(path, pole_pairs, inertia_kgm2, &run, &note), note.text);
+    TEST_ASSERT_EQUAL_MESSAGE(
+        HCI_OK, hci_run_read(path, &(hci_run_options){pole_pairs, inertia_kgm2, false}, &run, &note),
+        note.text);
 }
 
 static void read_text(const char *content, int pole_pairs)
@@ -79,7 +81,8 @@ static void refused(const char *content, const char *why)
 {
     hci_note said = {{0}};
     files_write(path, content);
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_ERROR_INPUT, hci_run_read(path, 4, NAN, &run, &said), content);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_ERROR_INPUT,
+                              hci_run_read(path, &(hci_run_options){4, NAN, false}, &run, &said), content);
     text_has(why, said.text);
     text_has("run.csv", said.text);
     TEST_ASSERT_EQUAL(0, run.count);
@@ -453,7 +456,7 @@ static void test_torque_of_inertia(void)
 static void test_refused_runs(void)
 {
     refused("time_s,theta_m_rad\n0,1\n2,1\n1,1\n", "run.csv:4: column 1 `time_s`: found `1`");
-    refused("time_s,theta_m_rad\n0,1\n2,1\n2,1\n", "they are equal");
+    refused("time_s,theta_m_rad\n0,1\n2,1\n2,1.5\n", "they are equal");
     refused("theta_m_rad,ia_A\n0,1\n", "two or three of ia_A, ib_A, ic_A");
     refused("theta_m_rad,id_A\n0,1\n", "add the column iq_A");
     refused("time_s,va_V,vb_V,vc_V,iq_A\n0,1,1,1,1\n", "theta_e_rad or theta_m_rad");
@@ -466,9 +469,10 @@ static void test_refused_runs(void)
     refused("time_s,theta,vab_V,vbc_V\n0,1,1,1\n", "run.csv:1: column 2");
     refused("theta_m_rad,torque_Nm\n", "a header and no samples");
     refused("theta_m_rad,torque_Nm\n1,x\n", "found `x`");
-    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, hci_run_read("no/such/file", 4, NAN, &run, NULL));
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT,
+                      hci_run_read("no/such/file", &(hci_run_options){4, NAN, false}, &run, NULL));
     files_write(path, "theta_m_rad,torque_Nm\n1,1\n");
-    TEST_ASSERT_EQUAL(HCI_ERROR_ARGUMENT, hci_run_read(path, 0, NAN, &run, NULL));
+    TEST_ASSERT_EQUAL(HCI_ERROR_ARGUMENT, hci_run_read(path, &(hci_run_options){0, NAN, false}, &run, NULL));
 }
 
 static void test_unused_columns_are_named(void)
@@ -488,7 +492,7 @@ static void test_memory_runs_out_everywhere(void)
     for (; status == HCI_ERROR_MEMORY; ++allowed) {
         memset(&note, 0, sizeof note);
         hci_memory_fail_after(allowed);
-        status = hci_run_read(path, 2, 0.1, &run, &note);
+        status = hci_run_read(path, &(hci_run_options){2, 0.1, false}, &run, &note);
         if (status == HCI_ERROR_MEMORY) {
             text_has("memory", note.text);
             TEST_ASSERT_EQUAL(0, run.count);
@@ -513,7 +517,7 @@ static void refused_list(const char *content, const char *why)
 {
     hci_runs runs;
     hci_note said = {{0}};
-    const hci_runs_options reading = {2, NAN, NULL, NULL};
+    const hci_runs_options reading = {{2, NAN, false}, NULL, NULL};
     files_write(list_path, content);
     TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, hci_runs_read(list_path, &reading, &runs, &said));
     text_has(why, said.text);
@@ -524,7 +528,7 @@ static void test_lists_are_relative_to_themselves(void)
 {
     hci_runs runs;
     int calls = 0;
-    const hci_runs_options reading = {2, NAN, count_progress, &calls};
+    const hci_runs_options reading = {{2, NAN, false}, count_progress, &calls};
     snprintf(sub, sizeof sub, "%s", files_path("sub"));
     snprintf(list_path, sizeof list_path, "%s", files_path("sub/list.csv"));
     TEST_ASSERT_EQUAL(0, mkdir(sub, 0700));
@@ -560,7 +564,9 @@ static bool measured(const char *file)
 static void read_measured(const char *file, int pole_pairs, double inertia_kgm2)
 {
     if (!measured(file)) TEST_IGNORE_MESSAGE("no " MEASURED);
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_run_read(sub, pole_pairs, inertia_kgm2, &run, &note), note.text);
+    TEST_ASSERT_EQUAL_MESSAGE(
+        HCI_OK, hci_run_read(sub, &(hci_run_options){pole_pairs, inertia_kgm2, false}, &run, &note),
+        note.text);
 }
 
 /* One turn forward, then back: the recorded speed is 0. */

@@ -7,6 +7,7 @@
 #include <stddef.h>
 
 #include "hci/host/base/note.h"
+#include "hci/host/recording/run.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -99,10 +100,11 @@ typedef struct {
 
 /* Reads the folder `machine` and `runs` recordings (at most HCI_CHECK_MOST_RUNS, which must have the same
  * conventions), tries every reading of them with up to three slips, and finds the one that makes the numbers
- * agree (docs/check.md). Nothing is written. machine and run must outlive *check. HCI_OK; HCI_NOT_REACHED for
+ * agree (docs/check.md). Nothing is written. reading: of the recordings; pole pairs and inertia are not
+ * used. machine and run must outlive *check. HCI_OK; HCI_NOT_REACHED for
  * every verdict but consistent; HCI_ERROR_INPUT, _MEMORY, _ARGUMENT; *check is then undefined. O(samples). */
-hci_status hci_check_files(const char *machine, const char *const *run, size_t runs, hci_check *check,
-                           hci_note *note);
+hci_status hci_check_files(const char *machine, const char *const *run, size_t runs,
+                           const hci_run_options *reading, hci_check *check, hci_note *note);
 
 /* "consistent", "slips", "ambiguous", "not_understood"; a static string. */
 const char *hci_check_verdict_name(hci_check_verdict verdict);

@@ -20,6 +20,10 @@ typedef struct hci_csv hci_csv;
  * HCI_ERROR_MEMORY. */
 hci_status hci_csv_read(const char *path, hci_csv **csv, hci_note *note);
 
+/* The same of a recording: rows that are too short or too long are left out, and so are NUL bytes at the end,
+ * which a power failure leaves. HCI_ERROR_INPUT where that would be more than half of the rows. */
+hci_status hci_csv_read_recording(const char *path, hci_csv **csv, hci_note *note);
+
 /* Frees a table; NULL is fine. */
 void hci_csv_free(hci_csv *csv);
 

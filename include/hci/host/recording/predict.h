@@ -38,10 +38,11 @@ typedef struct {
 /* Predicts a run file by a machine folder with its effects, and writes the run's own columns with
  * torque_model_Nm and, where the run has a torque, residual_Nm; of a free shaft also torque_inertia_Nm.
  * A run without a torque column whose current makes much more than inertia times acceleration is no free
- * shaft: it has no torque, and the remark says so. Columns of these names are replaced. out: path of the
+ * shaft: it has no torque, and the remark says so. Columns of these names are replaced, and are empty in rows
+ * that were left out on reading. reading: pole pairs and inertia are those of the machine. out: path of the
  * file, or NULL: nothing is written. *prediction: out. HCI_ERROR_INPUT, _MEMORY, _OUTPUT, _NOT_FINITE. */
-hci_status hci_predict_file(const char *machine, const char *run, const char *out, hci_prediction *prediction,
-                            hci_note *note);
+hci_status hci_predict_file(const char *machine, const char *run, const hci_run_options *reading,
+                            const char *out, hci_prediction *prediction, hci_note *note);
 
 #ifdef __cplusplus
 }

@@ -37,8 +37,16 @@ typedef struct {
     bool turn_known; /* the angle is mechanical, or an electrical one that is not wrapped: orders k/p are in
                         it */
     bool has_sum;    /* all three currents were recorded, so that their sum says something */
+    size_t *row;     /* [count], of the file, from 0; NULL: each row is a sample */
     hci_note remark; /* what was supposed on reading, or "" */
 } hci_run;
+
+/* What reading a run asks for beside its file. */
+typedef struct {
+    int pole_pairs;      /* to turn electrical angles into mechanical ones */
+    double inertia_kgm2; /* for a run without torque_Nm; NAN or 0: not known, the torque is then missing */
+    bool strict;         /* a hole refuses the file */
+} hci_run_options;
 
 /* Reads a run: an angle or voltages, and what else there is of time_s, theta_m_rad, theta_e_rad,
  * speed_rad_per_s (or speed_e_rad_per_s, of the electrical angle), ia_A, ib_A, ic_A (of two the third makes
@@ -52,14 +60,19 @@ typedef struct {
  * one before are points without order, and keep the angles that they have. With time that is an error, unless
  * the speed tells how far the shaft has turned. Of both angles the electrical one gives the phase.
  *
- * pole_pairs: to turn electrical angles into mechanical ones. inertia_kgm2: for a run without torque_Nm; NAN:
- * not known, the torque is then missing. On failure *run is empty. HCI_ERROR_INPUT, _MEMORY, _ARGUMENT for
- * less than one pole pair. O(samples). */
-hci_status hci_run_read(const char *path, int pole_pairs, double inertia_kgm2, hci_run *run, hci_note *note);
+ * Rows with a hole (a cell that is empty, not finite or no number; too few or too many cells) and rows that
+ * repeat the one before them, time included, are left out, and the remark counts them; more than half of the
+ * rows is an error, and so is each of them where options->strict. A column of holes alone is as if it were
+ * not there; temperatures that are missing are interpolated.
+ *
+ * On failure *run is empty. HCI_ERROR_INPUT, _MEMORY, _ARGUMENT for less than one pole pair. O(samples). */
+hci_status hci_run_read(const char *path, const hci_run_options *options, hci_run *run, hci_note *note);
 
-/* The same of a file that has been read. */
-hci_status hci_run_of_csv(const hci_csv *csv, int pole_pairs, double inertia_kgm2, hci_run *run,
-                          hci_note *note);
+/* The same of a file that has been read, by hci_csv_read_recording where holes may be left out. */
+hci_status hci_run_of_csv(const hci_csv *csv, const hci_run_options *options, hci_run *run, hci_note *note);
+
+/* Reads a recording as hci_run_read does, strictly or not. */
+hci_status hci_run_csv(const char *path, const hci_run_options *options, hci_csv **csv, hci_note *note);
 
 /* Frees what a run holds and empties it. */
 void hci_run_release(hci_run *run);
@@ -80,8 +93,7 @@ typedef struct {
 
 /* What reading them asks for. */
 typedef struct {
-    int pole_pairs;         /* as of hci_run_read */
-    double inertia_kgm2;    /* the same */
+    hci_run_options run;    /* of each */
     hci_progress *progress; /* called with the share of files read; may be NULL */
     void *context;          /* of progress */
 } hci_runs_options;

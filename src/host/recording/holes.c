@@ -1,0 +1,219 @@
+#include "host/recording/holes.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "host/base/memory.h"
+#include "host/base/quote.h"
+#include "host/csv/column.h"
+#include "host/csv/table.h"
+
+typedef struct {
+    hci_run_columns *c;
+    size_t rows;         /* of the file */
+    bool *is_left;       /* of each row: it is used */
+    hci_csv_hole first;  /* the first hole */
+    size_t holes, twice; /* rows without a number somewhere; rows that are there a second time */
+    size_t first_twice;  /* line of the first of them */
+} rows_task;
+
+static hci_status memory_error(const rows_task *t)
+{
+    return hci_note_memory(t->c->note, hci_csv_path(t->c->csv), "%zu rows", t->rows);
+}
+
+/* ---- columns ---- */
+
+/* A column that others make needless: its holes do not matter. */
+static bool is_needless(const hci_run_columns *c, hci_run_column which)
+{
+    const bool phases = hci_run_phase_count(c, HCI_RUN_IA) >= 2;
+    const bool voltages = hci_run_phase_count(c, HCI_RUN_VA) == 3;
+    const bool lines = hci_run_phase_count(c, HCI_RUN_VAB) >= 2;
+    if (which == HCI_RUN_SPEED_E) return c->has[HCI_RUN_SPEED];
+    if (which >= HCI_RUN_VAB && which <= HCI_RUN_VCA) return voltages;
+    if (which == HCI_RUN_VD || which == HCI_RUN_VQ) return voltages || lines;
+    return (which == HCI_RUN_ID || which == HCI_RUN_IQ) && phases && !c->has[HCI_RUN_VQ];
+}
+
+static size_t missing_in(const double *value, size_t rows)
+{
+    size_t count = 0;
+    for (size_t k = 0; k < rows; ++k)
+        if (isnan(value[k])) ++count;
+    return count;
+}
+
+/* Between the rows beside it; the first and the last value go on. At least one is a number. */
+static void interpolate(double *value, size_t rows)
+{
+    size_t before = rows;
+    for (size_t k = 0; k < rows; ++k) {
+        if (isnan(value[k])) continue;
+        for (size_t j = before == rows ? 0 : before + 1; j < k; ++j) {
+            const double share = before == rows ? 1.0 : (double)(j - before) / (double)(k - before);
+            value[j] = share * value[k] + (before == rows ? 0.0 : (1.0 - share) * value[before]);
+        }
+        before = k;
+    }
+    for (size_t j = before + 1; j < rows; ++j)
+        value[j] = value[before];
+}
+
+static void say_column(const hci_run_columns *c, hci_run_column which, size_t missing, const char *what)
+{
+    char quoted[HCI_QUOTE_SIZE];
+    hci_note_add(c->remark, "%s: %zu of %zu cells have no number%s",
+                 hci_quote(hci_csv_name(c->csv, c->at[which]), quoted), missing, hci_csv_rows(c->csv), what);
+}
+
+/* Marks the rows without a number in a column, or does without the column. */
+static void take_column(rows_task *t, hci_run_column which, const hci_csv_hole *hole)
+{
+    hci_run_columns *c = t->c;
+    double *value = c->ready[which];
+    const size_t missing = missing_in(value, t->rows);
+    if (missing == 0) return;
+    if (missing == t->rows) {
+        say_column(c, which, missing, ", it is not used");
+        c->has[which] = false;
+        c->used[c->at[which]] = true;
+        hci_memory_free(value);
+        c->ready[which] = NULL;
+    } else if (which == HCI_RUN_TEMPERATURE) {
+        interpolate(value, t->rows);
+        say_column(c, which, missing, " and are interpolated");
+    } else {
+        if (t->first.line == 0 || hole->line < t->first.line) t->first = *hole;
+        for (size_t k = 0; k < t->rows; ++k)
+            t->is_left[k] = t->is_left[k] && !isnan(value[k]);
+    }
+}
+
+static hci_status read_columns(rows_task *t)
+{
+    hci_run_columns *c = t->c;
+    for (unsigned which = 0; which < HCI_RUN_COLUMN_COUNT; ++which) {
+        hci_csv_hole hole = {0};
+        if (!c->has[which] || is_needless(c, which)) continue;
+        if (hci_column_find(c->csv, hci_run_column_name(which)).kind != HCI_COLUMN_ONE) continue;
+        c->ready[which] = hci_memory_new(t->rows, sizeof(double));
+        if (c->ready[which] == NULL) return memory_error(t);
+        const hci_status status =
+            hci_csv_numbers_or_nan(c->csv, hci_run_column_name(which), c->ready[which], &hole, c->note);
+        if (status) return status;
+        take_column(t, which, &hole);
+    }
+    for (size_t k = 0; k < t->rows; ++k)
+        t->holes += !t->is_left[k];
+    return HCI_OK;
+}
+
+/* ---- rows that are there twice ---- */
+
+/* Where only equal rows have equal times; a coarse clock repeats its stamps with other values beside them. */
+static void leave_twice_out(rows_task *t)
+{
+    const double *time_s = t->c->ready[HCI_RUN_TIME];
+    const size_t from = hci_csv_first_record(t->c->csv);
+    size_t last = t->rows;
+    for (int pass = 0; pass < 2 && time_s != NULL; ++pass, last = t->rows) {
+        for (size_t k = 0; k < t->rows; ++k) {
+            if (!t->is_left[k]) continue;
+            const bool equal = last < t->rows && !(fabs(time_s[k] - time_s[last]) > 0.0);
+            if (equal && pass == 0 && !hci_csv_same_record(t->c->csv, from + k, from + last)) return;
+            if (equal && pass == 1) {
+                t->is_left[k] = false;
+                if (t->twice++ == 0) t->first_twice = hci_csv_line(t->c->csv, k);
+            } else {
+                last = k;
+            }
+        }
+    }
+}
+
+/* ---- what is left ---- */
+
+static hci_status too_many(const rows_task *t, size_t holes, size_t rows)
+{
+    return hci_note_set(t->c->note, HCI_ERROR_INPUT,
+                        "%s (%zu of %zu rows have such holes, more than half; remove a column that is not "
+                        "needed, or record again)",
+                        t->first.error.text, holes, rows);
+}
+
+/* Keeps the rows that are used, in every column. */
+static hci_status compact(rows_task *t)
+{
+    hci_run_columns *c = t->c;
+    c->row = hci_memory_new(t->rows, sizeof *c->row);
+    if (c->row == NULL) return memory_error(t);
+    c->count = 0;
+    for (size_t k = 0; k < t->rows; ++k)
+        if (t->is_left[k]) c->row[c->count++] = k;
+    for (unsigned which = 0; which < HCI_RUN_COLUMN_COUNT; ++which)
+        for (size_t k = 0; k < c->count && c->ready[which] != NULL; ++k)
+            c->ready[which][k] = c->ready[which][c->row[k]];
+    return HCI_OK;
+}
+
+static hci_status conclude(rows_task *t)
+{
+    hci_run_columns *c = t->c;
+    const hci_csv *csv = c->csv;
+    const size_t holes = t->holes + csv->torn, rows = t->rows + csv->torn;
+    char quoted[HCI_QUOTE_SIZE];
+    if (csv->torn > 0 && (t->first.line == 0 || csv->hole.line < t->first.line)) t->first = csv->hole;
+    if (2 * holes > rows) return too_many(t, holes, rows);
+    if (holes > 0) {
+        const char *name = t->first.column < csv->columns ? hci_csv_name(csv, t->first.column) : "";
+        hci_note_add(c->remark,
+                     "%zu of %zu rows have a hole and are left out, first line %zu, column %zu%s%s: "
+                     "found %s",
+                     holes, rows, t->first.line, t->first.column + 1, *name != '\0' ? " " : "",
+                     *name != '\0' ? hci_quote(name, quoted) : "", t->first.found);
+    }
+    if (t->twice > 0)
+        hci_note_add(c->remark,
+                     "%zu rows are the same as those before them, time included, and are left "
+                     "out, first line %zu",
+                     t->twice, t->first_twice);
+    return t->holes + t->twice > 0 ? compact(t) : HCI_OK;
+}
+
+/* A column of angles without one number. */
+static hci_status check_angle_left(const hci_run_columns *c)
+{
+    char path[HCI_QUOTE_PATH_SIZE];
+    for (unsigned which = HCI_RUN_THETA_M; which <= HCI_RUN_VBC; ++which)
+        if (c->has[which] && (which <= HCI_RUN_THETA_E || which == HCI_RUN_VA || which == HCI_RUN_VAB))
+            return HCI_OK;
+    return hci_note_set(
+        c->note, HCI_ERROR_INPUT,
+        "%s: found no number in the column of the angle, expected one in each row; record the "
+        "run again or remove the column",
+        hci_quote_path(hci_csv_path(c->csv), path));
+}
+
+static hci_status leave_holes_out(hci_run_columns *c)
+{
+    rows_task t = {.c = c, .rows = c->count};
+    t.is_left = hci_memory_new(t.rows, sizeof *t.is_left);
+    if (t.is_left == NULL) return memory_error(&t);
+    for (size_t k = 0; k < t.rows; ++k)
+        t.is_left[k] = true;
+    hci_status status = read_columns(&t);
+    if (!status) leave_twice_out(&t);
+    if (!status) status = conclude(&t);
+    hci_memory_free(t.is_left);
+    return status;
+}
+
+hci_status hci_run_columns_open(const hci_csv *csv, hci_run_columns *c, hci_note *remark, hci_note *note)
+{
+    hci_status status = hci_run_columns_find(csv, c, remark, note);
+    if (!status && csv->leaves_holes) status = leave_holes_out(c);
+    return status ? status : check_angle_left(c);
+}
