@@ -8,9 +8,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/math/vector.h"
 #include "hci/machine/frames.h"
-#include "hci/math/fourier.h"
 #include "host/base/memory.h"
+#include "host/numeric/fft.h"
 
 enum { SAMPLES_PER_TURN = 2048, TOP_ORDER = 512 };
 
@@ -50,9 +51,16 @@ static double vanishing(const hci_task *t)
     return VANISHING * largest * largest;
 }
 
-static double angle_rad(size_t k)
+/* Angles at which a period is looked at: at least SAMPLES_PER_TURN a turn, and a power of two. */
+static size_t samples_of(const hci_task *t)
 {
-    return 2.0 * HCI_PI * (double)k / SAMPLES_PER_TURN;
+    return hci_fft_size((double)(SAMPLES_PER_TURN * t->period_turns));
+}
+
+/* Sample k of a period. */
+static double angle_rad(const hci_task *t, size_t k)
+{
+    return 2.0 * HCI_PI * (double)t->period_turns * (double)k / (double)samples_of(t);
 }
 
 /* Whether the currents are (T* − T_cog) e⊥/(e⊥·e⊥), which is linear in the torque. */
@@ -61,13 +69,14 @@ static bool is_linear(const hci_task *t)
     return hci_task_is_linear(t) && t->strategy == HCI_STRATEGY_MTPA;
 }
 
-static double linear_mean_square_A2(const hci_task *t, size_t count)
+static double linear_mean_square_A2(const hci_task *t)
 {
+    const size_t count = samples_of(t);
     const double mean_Nm = hci_target_mean_Nm(t->target), floor_value = vanishing(t);
     double sum = 0.0;
     for (size_t k = 0; k < count; ++k) {
         double e[3], rest_Nm;
-        const double square = wanted_at(t, angle_rad(k), e, &rest_Nm);
+        const double square = wanted_at(t, angle_rad(t, k), e, &rest_Nm);
         if (square <= floor_value) return NAN;
         sum += (mean_Nm + rest_Nm) * (mean_Nm + rest_Nm) / square;
     }
@@ -123,7 +132,7 @@ static hci_status shortest_smooth(const hci_smooth_torque *torque, const hci_mac
 static hci_status current_at(const hci_task *t, hci_strategy strategy, size_t k, double wanted_Nm,
                              double x[2], double *least_iq_A)
 {
-    const angle a = {hci_machine_at(t->machine, angle_rad(k)), t->higher, angle_rad(k)};
+    const angle a = {hci_machine_at(t->machine, angle_rad(t, k)), t->higher, angle_rad(t, k)};
     const hci_smooth_torque torque = {smooth_torque, &a};
     const double before[2] = {x[0], x[1]};
     if (!t->higher)
@@ -136,12 +145,12 @@ static hci_status current_at(const hci_task *t, hci_strategy strategy, size_t k,
 
 double hci_pointwise_mean_square_A2(const hci_task *task)
 {
-    const size_t count = SAMPLES_PER_TURN * task->period_turns;
+    const size_t count = samples_of(task);
     const double mean_Nm = hci_target_mean_Nm(task->target);
     double sum = 0.0, x[2] = {0.0, 0.0};
-    if (hci_task_is_linear(task)) return linear_mean_square_A2(task, count);
+    if (hci_task_is_linear(task)) return linear_mean_square_A2(task);
     for (size_t k = 0; k < count; ++k) {
-        const double wanted_Nm = mean_Nm + wanted_ripple_Nm(task, angle_rad(k));
+        const double wanted_Nm = mean_Nm + wanted_ripple_Nm(task, angle_rad(task, k));
         if (current_at(task, HCI_STRATEGY_MTPA, k, wanted_Nm, x, NULL)) return NAN;
         sum += x[0] * x[0] + x[1] * x[1];
     }
@@ -162,7 +171,7 @@ static bool sample_linear(const hci_task *t, size_t count, double *row)
     const double floor_value = vanishing(t);
     for (size_t k = 0; k < count; ++k) {
         double e[3], rest_Nm;
-        const double square = wanted_at(t, angle_rad(k), e, &rest_Nm);
+        const double square = wanted_at(t, angle_rad(t, k), e, &rest_Nm);
         if (square <= floor_value) return false;
         store(row, count, k, 0, 1.0 / square, e);
         store(row, count, k, 1, rest_Nm / square, e);
@@ -170,12 +179,12 @@ static bool sample_linear(const hci_task *t, size_t count, double *row)
     return true;
 }
 
-/* Angle k has no answer: it lengthens the last gap or, after an angle that has one, opens a new one. */
-static void note_gap(hci_solution *s, size_t k, bool is_new)
+/* An angle has no answer: it lengthens the last gap or, after an angle that has one, opens a new one. */
+static void note_gap(hci_solution *s, double theta_rad, bool is_new)
 {
-    if (is_new && s->gap_count < HCI_MOST_GAPS) s->gap[s->gap_count].from_rad = angle_rad(k);
+    if (is_new && s->gap_count < HCI_MOST_GAPS) s->gap[s->gap_count].from_rad = theta_rad;
     if (is_new) ++s->gap_count;
-    if (s->gap_count <= HCI_MOST_GAPS) s->gap[s->gap_count - 1].to_rad = angle_rad(k);
+    if (s->gap_count <= HCI_MOST_GAPS) s->gap[s->gap_count - 1].to_rad = theta_rad;
 }
 
 /* The same for any strategy and machine; everything is in the second part. */
@@ -186,16 +195,18 @@ static void sample_strategy(const hci_task *t, size_t count, double *row, hci_so
     double x[2] = {0.0, 0.0};
     bool in_gap = false;
     for (size_t k = 0; k < count; ++k) {
-        const double wanted_Nm = mean_Nm + wanted_ripple_Nm(t, angle_rad(k));
+        const double wanted_Nm = mean_Nm + wanted_ripple_Nm(t, angle_rad(t, k));
         double abc[3], least_iq_A;
         const bool is_missing = current_at(t, t->strategy, k, wanted_Nm, x, &least_iq_A) != HCI_OK;
-        if (is_missing) note_gap(s, k, !in_gap);
+        if (is_missing) note_gap(s, angle_rad(t, k), !in_gap);
         in_gap = is_missing;
         s->least_iq_A = fmax(s->least_iq_A, to_amplitude * least_iq_A);
         if (isnan(least_iq_A)) s->least_iq_A = least_iq_A;
         hci_plane_to_abc(x, abc);
         store(row, count, k, 0, 0.0, nothing);
         store(row, count, k, 1, 1.0, abc);
+        if (t->progress)
+            t->progress(t->progress_context, "currents at each angle", (double)(k + 1) / (double)count);
     }
 }
 
@@ -221,48 +232,45 @@ typedef struct {
     hci_answer *answer;   /* three components for each order */
 } analysis;
 
-/* Coordinates of the three sequences of one part at the k-th order. */
-static hci_status analyse_part(const analysis *a, size_t part, size_t k, double coordinate[3][2])
+/* The rows that are transformed together: α and β of either part, zero of both. */
+static const size_t PAIR[3][2] = {{0, 1}, {3, 4}, {2, 5}};
+
+static void transform(const analysis *a)
 {
-    const size_t turns = a->task->period_turns;
-    const double order = (double)k / (double)turns;
-    hci_harmonic h[3];
-    hci_status status = HCI_OK;
-    for (size_t q = 0; q < 3 && !status; ++q)
-        status = hci_fourier_uniform(a->row + (3 * part + q) * a->count, a->count, turns, order, &h[q]);
-    if (!status) sequences(h[0], h[1], h[2], coordinate);
-    return status;
+    for (size_t q = 0; q < 3; ++q)
+        hci_fft(a->row + PAIR[q][0] * a->count, a->row + PAIR[q][1] * a->count, a->count, -1);
 }
 
-/* The three components of one order go to positions 3k, 3k+1, 3k+2. */
-static hci_status analyse(const analysis *a, size_t k)
+/* The three components of one order go to positions 3k, 3k+1, 3k+2. Expects rows that are transformed. */
+static void analyse(const analysis *a, size_t k)
 {
     static const hci_set NAME[3] = {HCI_SET_POS, HCI_SET_NEG, HCI_SET_ZERO};
     static const int SEQUENCE[3] = {1, -1, 0};
-    const double order = (double)k / (double)a->task->period_turns;
+    const size_t turns = a->task->period_turns;
+    hci_harmonic h[6];
+    for (size_t q = 0; q < 3; ++q) {
+        const hci_fft_pair pair = {a->row + PAIR[q][0] * a->count, a->row + PAIR[q][1] * a->count, a->count,
+                                   turns};
+        hci_fft_bin(&pair, k, &h[PAIR[q][0]], &h[PAIR[q][1]]);
+    }
     for (size_t part = 0; part < 2; ++part) {
         double coordinate[3][2], *x = a->answer->x + 6 * a->orders * part + 6 * k;
-        const hci_status status = analyse_part(a, part, k, coordinate);
-        if (status) return status;
+        sequences(h[3 * part], h[3 * part + 1], h[3 * part + 2], coordinate);
         memcpy(x, coordinate, sizeof coordinate);
     }
     for (size_t q = 0; q < 3; ++q) {
-        a->answer->set.component[3 * k + q] = (hci_component){order, SEQUENCE[q]};
+        a->answer->set.component[3 * k + q] = (hci_component){(double)k / (double)turns, SEQUENCE[q]};
         a->answer->set.set[3 * k + q] = NAME[q];
     }
-    return HCI_OK;
 }
 
+/* A sample that is not finite makes each order not finite. */
 static hci_status analyse_all(const analysis *a)
 {
-    const hci_task *t = a->task;
-    hci_status status = HCI_OK;
-    for (size_t k = 0; k < a->orders && !status; ++k) {
-        status = analyse(a, k);
-        if (t->progress)
-            t->progress(t->progress_context, "Fourier analysis", (double)(k + 1) / (double)a->orders);
-    }
-    return status;
+    transform(a);
+    for (size_t k = 0; k < a->orders; ++k)
+        analyse(a, k);
+    return hci_vector_finite(12 * a->orders, a->answer->x) ? HCI_OK : HCI_ERROR_NOT_FINITE;
 }
 
 static hci_status sample(const hci_task *t, size_t count, double *row, hci_solution *s, hci_note *note)
@@ -282,7 +290,7 @@ hci_status hci_pointwise_answer(const hci_task *task, hci_answer *answer, hci_so
                                 hci_note *note)
 {
     analysis a = {.task = task,
-                  .count = SAMPLES_PER_TURN * task->period_turns,
+                  .count = samples_of(task),
                   .orders = TOP_ORDER * task->period_turns + 1,
                   .answer = answer};
     hci_status status = hci_answer_reserve(3 * a.orders, answer);
