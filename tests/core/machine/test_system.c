@@ -26,7 +26,7 @@ typedef struct {
     hci_component component[MAX_COMPONENTS];
     double x[2 * MAX_COMPONENTS]; /* I cos γ, I sin γ */
     double scale;                 /* Σ|E|·Σ|I|·3 */
-    ref_spectrum torque;
+    ref_spectrum torque; /* by transform_torque */
 } trial;
 
 typedef enum { BALANCED_STAR, BALANCED_NEUTRAL, UNBALANCED } trial_kind;
@@ -97,7 +97,6 @@ static void draw(trial *t, uint64_t *seed)
         draw_component(t, k, kind, seed);
     t->scale = 3.0 * ref_amplitude_sum(t->emf_formula, t->emf_count) *
                ref_amplitude_sum(t->current_formula, t->component_count);
-    transform_torque(t);
 }
 
 static size_t reached_orders(const trial *t, double orders[MAX_ORDERS])
@@ -180,6 +179,7 @@ static void compare_with_transform(torque_method *method, uint64_t seed)
         hci_harmonic spectrum[MAX_ORDERS];
         unsigned char skip[REF_BAND] = {0};
         draw(&t, &seed);
+        transform_torque(&t);
         size_t count = reached_orders(&t, orders);
         if (k % 3 == 2) count = leave_out(orders, count, t.turns, skip, &seed);
         method(&t, orders, count, spectrum);

@@ -169,7 +169,7 @@ static void test_standard_errors_are_what_they_say(void)
 {
     options.max_order = 12.0;
     TEST_ASSERT_DOUBLE_WITHIN(0.22, 1.0, calibration(40, 2000, 1.0, 0.01, 0.0));
-    TEST_ASSERT_DOUBLE_WITHIN(0.22, 1.0, calibration(40, 8000, 12.0, 0.01, 0.0));
+    TEST_ASSERT_DOUBLE_WITHIN(0.22, 1.0, calibration(40, 4000, 12.0, 0.01, 0.0));
 }
 
 /* Noise that hardly changes from sample to sample is larger at low orders; taken for white it would be sure
@@ -179,7 +179,7 @@ static void test_standard_errors_respect_serial_correlation(void)
     options.max_order = 12.0;
     TEST_ASSERT_DOUBLE_WITHIN(0.22, 1.0, calibration(40, 2000, 1.0, 0.01, 0.97));
     TEST_ASSERT_DOUBLE_WITHIN(0.3, 1.0, calibration(40, 2000, 1.0, 0.01, 0.995));
-    TEST_ASSERT_DOUBLE_WITHIN(0.22, 1.0, calibration(40, 8000, 12.0, 0.01, 0.97));
+    TEST_ASSERT_DOUBLE_WITHIN(0.22, 1.0, calibration(40, 4000, 12.0, 0.01, 0.97));
 }
 
 /* A torque ripple that drifts from turn to turn: neighbours resemble each other, so that 30 turns tell as
@@ -190,9 +190,9 @@ static void test_standard_errors_respect_drift_between_turns(void)
     options.max_order = 12.0;
     for (int trial = 0; trial < 60; ++trial) {
         double drift = 0.004 * gauss();
-        record_cogging(9000, 30.0, 0.001, 0.0);
-        for (int k = 0; k < 9000; ++k) {
-            if (k % 300 == 0) drift = 0.6 * drift + 0.8 * 0.004 * gauss();
+        record_cogging(4500, 30.0, 0.001, 0.0);
+        for (int k = 0; k < 4500; ++k) {
+            if (k % 150 == 0) drift = 0.6 * drift + 0.8 * 0.004 * gauss();
             torque[k] += drift * sin(18.0 * theta_m[k]);
         }
         find();
@@ -596,7 +596,7 @@ static void test_channels_that_differ(void)
 static void test_an_angle_with_another_zero_is_told(void)
 {
     const channels c = {.gain = {1.0, 1.0, 1.0}, .lag_rad = {0.3, 0.3, 0.3}};
-    record_drive(20000, 1.0, 100.0, 0.0, &c);
+    record_drive(5000, 0.25, 100.0, 0.0, &c);
     with_angle();
     find();
     TEST_ASSERT_DOUBLE_WITHIN(1e-6, -0.3, order_at(1.0)->phase_rad);
@@ -628,7 +628,7 @@ static void test_the_advice_on_the_angle_mends_it(void)
     static const double LAG_rad[] = {0.3, -0.3, 1.7, -2.9};
     for (int k = 0; k < 4; ++k) {
         const channels c = {.gain = {1.0, 1.0, 1.0}, .lag_rad = {LAG_rad[k], LAG_rad[k], LAG_rad[k]}};
-        record_drive(20000, 1.0, 100.0, 0.0, &c);
+        record_drive(5000, 0.25, 100.0, 0.0, &c);
         with_angle();
         find();
         TEST_ASSERT_DOUBLE_WITHIN(1e-6, -LAG_rad[k], order_at(1.0)->phase_rad);
@@ -642,7 +642,7 @@ static void test_the_advice_on_the_angle_mends_it(void)
 /* 2 A peak of a sine. */
 static void test_currents_are_told_as_rms_of_a_phase(void)
 {
-    record_drive(20000, 1.0, 100.0, 0.0, &EVEN);
+    record_drive(5000, 0.25, 100.0, 0.0, &EVEN);
     with_angle();
     for (size_t k = 0; k < run.count; ++k)
         set_iq(k, 2.0);
@@ -715,7 +715,7 @@ static void test_voltages_without_a_period(void)
 static void test_one_dead_channel(void)
 {
     const channels c = {.gain = {1.0, 0.0, 1.0}};
-    record_drive(20000, 1.0, 100.0, 0.0, &c);
+    record_drive(5000, 0.25, 100.0, 0.0, &c);
     with_angle();
     find();
     TEST_ASSERT_TRUE(w.channel[1].left_out);
@@ -726,7 +726,7 @@ static void test_one_dead_channel(void)
 static void test_back_emf_orders_are_whole(void)
 {
     const double orders[] = {1.0, 2.5};
-    record_drive(20000, 1.0, 100.0, 0.0, &EVEN);
+    record_drive(5000, 0.25, 100.0, 0.0, &EVEN);
     with_angle();
     options.orders = orders;
     options.order_count = 2;
@@ -743,7 +743,7 @@ static void test_what_is_written_is_a_machine_table(void)
     record_cogging(1500, 1.0, 0.0, 0.0);
     find();
     TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_waveform_write(&w, files_root, &note), note.text);
-    record_drive(20000, 1.0, 100.0, 0.0, &EVEN);
+    record_drive(5000, 0.25, 100.0, 0.0, &EVEN);
     with_angle();
     find();
     TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_waveform_write(&w, files_root, &note), note.text);
