@@ -5,7 +5,7 @@ header=order,amplitude_Nm,phase_rad
 
 # A right machine, target and set to spoil.
 fresh() {
-    rm -rf "$m" "$t" "$h"
+    rm -rf "$m" "$t" "$h" "$work/out"
     mkdir "$m"
     printf 'name,value,unit,source\npole_pairs,2,1,test\nemf_frequency,50,Hz,test\nconnection,star,,test\n' >"$m/machine.csv"
     printf 'order,amplitude_V,phase_rad\n1,21.93,0\n5,-5.02,0\n7,4.80,0.1\n' >"$m/back_emf.csv"

@@ -58,6 +58,16 @@ says() {
     done
 }
 
+# One line is said on standard error, and it begins with the program's name.
+one_line_is_said() {
+    checks=$((checks + 1))
+    { IFS= read -r said_line && ! IFS= read -r said_more && [ -z "$said_more" ]; } <"$work/stderr" || fail "not one line is said"
+    case $said_line in
+        'hci-solve: '*) ;;
+        *) fail "what is said does not begin with hci-solve:" ;;
+    esac
+}
+
 nothing_on_stdout() {
     check "standard output is not empty" [ ! -s "$work/stdout" ]
 }
