@@ -20,8 +20,8 @@ recordings() {
         for (f = 1; f <= count; f++) {
             split(point[f], x, ":")
             print "time_s,theta_m_rad,speed_rad_per_s,ia_A,ib_A,ic_A,torque_Nm" >x[1]
-            for (k = 0; k < 225; k++) {
-                angle = (x[2] < 0 ? -2 : 2) * pi * k / 150
+            for (k = 0; k < 150; k++) {
+                angle = (x[2] < 0 ? -2 : 2) * pi * k / 100
                 torque = -brake
                 for (p = 0; p < 3; p++) {
                     i[p] = x[3] * sin(2 * angle - 2 * pi * p / 3)

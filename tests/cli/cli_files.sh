@@ -121,7 +121,8 @@ named "$work/by_set/summary.json" 'summary.json of solve' # with orders that are
 
 # ---- simulate: with and without voltages, sensors, a set point
 
-run 0 simulate data/machine_a data/drive/driven.csv -q -o "$work/driven"
+sed 's/^duration,0.4,/duration,0.12,/' data/drive/driven.csv >"$work/driven.csv"
+run 0 simulate data/machine_a "$work/driven.csv" -q -o "$work/driven"
 for folder in simulated imposed scaled driven; do
     written "$work/$folder/trajectory.csv" '`trajectory.csv`'
     written "$work/$folder/spectrum.csv" '`spectrum.csv` of simulate'
@@ -152,7 +153,7 @@ for name in slow fast held_out; do
     case $name in slow) figures='400 2' ;; fast) figures='900 1' ;; *) figures='700 1.5' ;; esac
     # shellcheck disable=SC2086
     set -- $figures
-    printf 'name,value,unit\nduration,0.4,s\nprescribed_speed,%s,rpm\ntorque_reference,%s,Nm\ntrajectory_every,40,\ntorque_noise,2,mNm\nseed,%s,\n' "$1" "$2" "$1" >"$work/$name.csv"
+    printf 'name,value,unit\nduration,0.2,s\nprescribed_speed,%s,rpm\ntorque_reference,%s,Nm\ntrajectory_every,20,\ntorque_noise,2,mNm\nseed,%s,\n' "$1" "$2" "$1" >"$work/$name.csv"
     run 0 simulate "$m" "$work/$name.csv" -q -o "$work/plant"
     cp "$work/plant/trajectory.csv" "$work/runs/$name.csv"
 done

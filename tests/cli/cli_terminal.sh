@@ -20,7 +20,7 @@ mkdir -p "$work/bench/machine"
 printf 'name,value,unit\npole_pairs,2,1\n' >"$work/bench/machine/machine.csv"
 printf 'order,amplitude_Nm_per_A,phase_rad\n1,0.2,0\n' >"$work/bench/machine/back_emf.csv"
 awk 'BEGIN { srand(7); print "time_s,theta_m_rad,speed_rad_per_s,id_A,iq_A,torque_Nm"; p = 6.283185307179586
-    for (k = 0; k < 300; ++k) { a = p * k * 3 / 300
+    for (k = 0; k < 150; ++k) { a = p * k * 3 / 150
         printf "%.12g,%.12g,20,0,1,%.12g\n", a / 20, a, 0.3 + 0.05 * sin(12 * a + 0.3) + 0.004 * sqrt(-2 * log(1 - rand())) * cos(p * rand()) } }' \
     >"$work/bench/run.csv"
 printf 'file,role\nrun.csv,fit\n' >"$work/bench/runs.csv"
