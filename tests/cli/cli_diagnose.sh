@@ -110,9 +110,10 @@ refused 2 'resolution' machine --runs list.csv --resolution much -o refused
 refused 2 'unknown|no option|--nosuch' machine --runs list.csv --nosuch
 refused 3 'none.csv: .*No such file' machine --runs none.csv -o refused
 refused 3 'nomachine' nomachine --runs list.csv -o refused
-wrong_list() { # EXPRESSION TEXT
+wrong_list() { # EXPRESSION TEXT [OPTION]
     printf "$2" >wrong.csv
-    refused 3 "$1" machine --runs wrong.csv -o refused
+    # shellcheck disable=SC2086
+    refused 3 "$1" machine --runs wrong.csv ${3-} -o refused
 }
 wrong_list 'none.csv: .*No such file' 'file,role\nslow.csv,fit\nnone.csv,fit\n'
 wrong_list 'wrong.csv:3: .*`fits`' 'file,role\nslow.csv,fit\nback.csv,fits\n'
@@ -127,9 +128,9 @@ echo 'rated_current,30,A,test' >>machine/machine.csv
 wrong_list 'not believable; run `check`' 'file,role\nnotorque.csv,fit\n'
 mv machine.kept machine/machine.csv
 sed '4s/.*/1,2,3/' slow.csv >short.csv
-wrong_list 'short.csv:4: ' 'file,role\nback.csv,fit\nshort.csv,fit\n'
+wrong_list 'short.csv:4: ' 'file,role\nback.csv,fit\nshort.csv,fit\n' --strict
 sed '7s/,60,/,nan,/' slow.csv >nan.csv
-wrong_list 'nan.csv:7: column 3 `speed_rad_per_s`' 'file,role\nnan.csv,fit\n'
+wrong_list 'nan.csv:7: column 3 `speed_rad_per_s`' 'file,role\nnan.csv,fit\n' --strict
 printf 'effect,parameter,value,unit,std_error\nnosuch,a,1,A,\n' >machine/effects.csv
 refused 3 'effects.csv:2: .*nosuch' machine --runs list.csv -o refused
 rm machine/effects.csv
