@@ -206,7 +206,7 @@ hci_status hci_diagnose(const hci_machine_data *machine, const hci_effects *decl
         return hci_note_set(note, HCI_ERROR_INPUT,
                             "no run with the role `fit` has an angle and a torque; add torque_Nm (0 for a "
                             "holding test), or `inertia` to machine.csv for a free shaft");
-    hci_status status = hci_free_shaft_check(machine, declared, runs->run, runs->count, note);
+    hci_status status = hci_free_shafts_find(machine, declared, runs->run, runs->count, note);
     if (!status) status = hci_dataset_make(machine, declared, runs, &b, note);
     if (status) return status;
     status = diagnose(&b, machine, runs, options, diagnosis, note);

@@ -3,7 +3,6 @@
 #include <math.h>
 
 #include "host/base/memory.h"
-#include "host/base/quote.h"
 #include "host/machine/torque_constant.h"
 #include "host/recording/rotor_frame.h"
 
@@ -61,20 +60,46 @@ static double rated_torque_of(const hci_machine_data *machine, const hci_effects
     return fabs(hci_torque_constant(&machine->model, effects)) * machine->rated_current_A;
 }
 
-static hci_status refuse(const hci_run *run, const balance *b, double most_Nm, hci_note *note)
+/* The balance in which the drag is larger. */
+static const balance *balance_of(const figures *f)
 {
-    char path[HCI_QUOTE_PATH_SIZE];
-    return hci_note_set(
-        note, HCI_ERROR_INPUT,
-        "%s: found no torque_Nm and no free shaft: by the model the current makes %.3g N·m on average, but "
-        "inertia x acceleration is %.3g N·m; expected a drag of at most %.3g N·m (a tenth of the rated "
-        "torque, or 3/4 of the rms torque of i_q); add torque_Nm, leave the run out, declare the "
-        "shaft's own friction in effects.csv, or rated_current in machine.csv",
-        hci_quote_path(run->name, path), b->made, b->accelerating, most_Nm);
+    return drag_of(&f->with_speed) > drag_of(&f->plain) ? &f->with_speed : &f->plain;
 }
 
-hci_status hci_free_shaft_check(const hci_machine_data *machine, const hci_effects *effects,
-                                const hci_run *runs, size_t count, hci_note *note)
+static void set_load(hci_run *run, const balance *b, double most_Nm)
+{
+    run->mean_is_unknown = true;
+    hci_note_add(&run->remark,
+                 "no free shaft: by the model the current makes %.3g N·m on average, but inertia x "
+                 "acceleration is %.3g N·m, and a drag of its own is at most %.3g N·m (a tenth of the rated "
+                 "torque, or 3/4 of the rms torque of i_q); its load is not known, so that only what varies "
+                 "is used",
+                 b->made, b->accelerating, most_Nm);
+}
+
+static void set_load_beside(hci_run *run)
+{
+    run->mean_is_unknown = true;
+    hci_note_add(&run->remark, "another run drives a load that is not known, and this one hardly "
+                               "accelerates: only what varies is used");
+}
+
+/* A shaft that drives something in one run does so in others too, unless they accelerate. */
+static void set_loads(hci_run *runs, const figures *f, size_t count, double most_Nm)
+{
+    bool any = false;
+    for (size_t k = 0; k < count; ++k) {
+        if (!is_free(&runs[k]) || runs[k].mean_is_unknown) continue;
+        if (drag_of(balance_of(&f[k])) > most_Nm) set_load(&runs[k], balance_of(&f[k]), most_Nm);
+        any = any || runs[k].mean_is_unknown;
+    }
+    for (size_t k = 0; k < count && any; ++k)
+        if (is_free(&runs[k]) && !runs[k].mean_is_unknown && drag_of(balance_of(&f[k])) > 0.0)
+            set_load_beside(&runs[k]);
+}
+
+hci_status hci_free_shafts_find(const hci_machine_data *machine, const hci_effects *effects, hci_run *runs,
+                                size_t count, hci_note *note)
 {
     figures *f = hci_memory_new(count + 1, sizeof *f);
     hci_status status = HCI_OK;
@@ -85,12 +110,7 @@ hci_status hci_free_shaft_check(const hci_machine_data *machine, const hci_effec
         status = figures_of(machine, effects, &runs[k], &f[k], note);
         most_Nm = fmax(most_Nm, OF_RMS * f[k].rms_Nm);
     }
-    for (size_t k = 0; k < count && !status; ++k) {
-        if (!is_free(&runs[k])) continue;
-        const bool turns = drag_of(&f[k].with_speed) > drag_of(&f[k].plain);
-        const balance *b = turns ? &f[k].with_speed : &f[k].plain;
-        if (drag_of(b) > most_Nm) status = refuse(&runs[k], b, most_Nm, note);
-    }
+    if (!status) set_loads(runs, f, count, most_Nm);
     hci_memory_free(f);
     return status;
 }

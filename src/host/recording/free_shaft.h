@@ -7,10 +7,11 @@
 /* Of a free shaft what the model makes is inertia × acceleration and a drag of its own. The drag is the
  * difference of their means, with the sign of the speed or without, where the model makes more than twice
  * what accelerates. It may be a tenth of the machine's rated torque, or 3/4 of the largest rms torque that
- * i_q makes in these runs: a torque that neither accelerates nor varies drives something. HCI_ERROR_INPUT
- * with a note for the first run that does; runs with another source of torque are not looked at.
+ * i_q makes in these runs: a torque that neither accelerates nor varies drives something. Of a run that does,
+ * mean_is_unknown is set, and its remark says so, and then also of the others that hardly accelerate; runs
+ * with another source of torque are not looked at. HCI_ERROR_INPUT for a run without an angle,
  * HCI_ERROR_MEMORY. O(samples·(terms + harmonics)). */
-hci_status hci_free_shaft_check(const hci_machine_data *machine, const hci_effects *effects,
-                                const hci_run *runs, size_t count, hci_note *note);
+hci_status hci_free_shafts_find(const hci_machine_data *machine, const hci_effects *effects, hci_run *runs,
+                                size_t count, hci_note *note);
 
 #endif

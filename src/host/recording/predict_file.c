@@ -76,7 +76,6 @@ typedef struct {
     hci_effects_data effects;
     hci_csv *csv;
     hci_run run;
-    hci_note loaded;          /* why a shaft without a torque column is not free, or "" */
     double *model, *residual; /* residual: NULL where the run has no torque */
 } task;
 
@@ -84,8 +83,8 @@ typedef struct {
 static hci_status keep_free(task *t, hci_note *note)
 {
     hci_run *run = &t->run;
-    const hci_status status = hci_free_shaft_check(&t->machine, &t->effects.list, run, 1, &t->loaded);
-    if (status != HCI_ERROR_INPUT) return status ? hci_note_set(note, status, "%s", t->loaded.text) : status;
+    const hci_status status = hci_free_shafts_find(&t->machine, &t->effects.list, run, 1, note);
+    if (status || !run->mean_is_unknown) return status;
     hci_memory_free(run->torque_Nm);
     run->torque_Nm = NULL;
     run->torque_source = HCI_TORQUE_NONE;
@@ -172,7 +171,6 @@ hci_status hci_predict_file(const char *machine, const char *run, const hci_run_
         sum_up(&t.run, t.model, t.residual, prediction);
         add_remark(&prediction->remark, t.machine.remark.text);
         add_remark(&prediction->remark, t.run.remark.text);
-        add_remark(&prediction->remark, t.loaded.text);
         remark_missing(&t.run, &t.effects.list, &prediction->remark);
     }
     release_task(&t);

@@ -167,34 +167,41 @@ static void test_what_does_not_repeat(void)
     TEST_ASSERT_EQUAL_DOUBLE(diagnosis.rms_before_Nm, diagnosis.rms_after_Nm);
 }
 
-/* ---- what is not accepted ---- */
+/* ---- a load that nobody knows ---- */
 
-static void refused(const char *why)
+/* Logs at constant speed: the load was not recorded, and inertia × acceleration is what cogging torque makes
+ * of the speed, and noise. */
+static void record_loaded(double cogging_Nm)
 {
-    const hci_effects none = {NULL, 0};
-    hci_note said = {{0}};
-    hci_diagnosis_release(&diagnosis);
-    TEST_ASSERT_EQUAL_INT(HCI_ERROR_INPUT, hci_diagnose(&machine, &none, &runs, &options, &diagnosis, &said));
-    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(said.text, why), said.text);
-    TEST_ASSERT_EQUAL_UINT64(0, diagnosis.effects.list.count);
-    TEST_ASSERT_NULL(diagnosis.run);
-}
-
-/* A log at constant speed: the load was not recorded, and inertia × acceleration is next to nothing. */
-static void record_loaded(void)
-{
-    for (int k = 0; k < 2; ++k) {
-        record(450, &(point){k == 0 ? 60.0 : 90.0, 2.0 + k, 0.0, 0.0, 0.0});
+    for (int k = 0; k < 4; ++k) {
+        record(900, &(point){k < 2 ? 60.0 : -90.0, 2.0 + k, 0.0, 0.0, 0.0});
         run[k].torque_source = HCI_TORQUE_INERTIA;
-        for (size_t j = 0; j < 450; ++j)
-            run[k].torque_Nm[j] = 1e-6 * ref_normal(&seed);
+        for (size_t j = 0; j < 900; ++j)
+            run[k].torque_Nm[j] =
+                cogging_Nm * sin(6.0 * P * run[k].theta_m_rad[j] + 0.4) + NOISE_NM * ref_normal(&seed);
     }
 }
 
-static void test_a_shaft_with_a_load_is_not_free(void)
+static void test_the_mean_of_a_shaft_with_a_load_is_not_used(void)
 {
-    record_loaded();
-    refused("run_1.csv: found no torque_Nm and no free shaft: by the model the current makes 0.9 N·m");
+    record_loaded(0.0);
+    TEST_ASSERT_EQUAL_INT(HCI_OK, diagnose(NULL));
+    TEST_ASSERT_EQUAL_INT(HCI_DIAGNOSIS_COMPLETE, diagnosis.verdict);
+    for (int k = 0; k < 4; ++k)
+        TEST_ASSERT_TRUE(run[k].mean_is_unknown);
+    TEST_ASSERT_NOT_NULL(strstr(run[3].remark.text, "the current makes 1.5 N·m on average"));
+    TEST_ASSERT_NOT_NULL(strstr(run[0].remark.text, "another run drives a load"));
+    TEST_ASSERT_DOUBLE_WITHIN(0.06 * NOISE_NM, NOISE_NM, diagnosis.rms_before_Nm);
+}
+
+static void test_the_ripple_of_a_shaft_with_a_load_is_used(void)
+{
+    record_loaded(0.05);
+    TEST_ASSERT_EQUAL_INT(HCI_OK, diagnose(NULL));
+    TEST_ASSERT_EQUAL_INT(HCI_DIAGNOSIS_EXPLAINED, diagnosis.verdict);
+    TEST_ASSERT_EQUAL_UINT64(1, count_of(HCI_FINDING_ADDED));
+    is_value(0.05 * cos(0.4), NOISE_NM / sqrt(3600.0 / 2.0), term("cogging", "sine", 6.0));
+    TEST_ASSERT_DOUBLE_WITHIN(0.06 * NOISE_NM, NOISE_NM, diagnosis.rms_after_Nm);
 }
 
 int main(void)
@@ -210,6 +217,7 @@ int main(void)
     RUN_TEST(test_position_harmonics);
     RUN_TEST(test_friction_or_zero_of_the_sensor);
     RUN_TEST(test_what_does_not_repeat);
-    RUN_TEST(test_a_shaft_with_a_load_is_not_free);
+    RUN_TEST(test_the_mean_of_a_shaft_with_a_load_is_not_used);
+    RUN_TEST(test_the_ripple_of_a_shaft_with_a_load_is_used);
     return UNITY_END();
 }

@@ -36,9 +36,10 @@ typedef struct {
     hci_torque_source torque_source; /* where torque_Nm is from */
     bool turn_known; /* the angle is mechanical, or an electrical one that is not wrapped: orders k/p are in
                         it */
-    bool has_sum;    /* all three currents were recorded, so that their sum says something */
-    size_t *row;     /* [count], of the file, from 0; NULL: each row is a sample */
-    hci_note remark; /* what was supposed on reading, or "" */
+    bool mean_is_unknown; /* a constant load stands in torque_Nm too: only what varies says something */
+    bool has_sum;         /* all three currents were recorded, so that their sum says something */
+    size_t *row;          /* [count], of the file, from 0; NULL: each row is a sample */
+    hci_note remark;      /* what was supposed on reading, or "" */
 } hci_run;
 
 /* What reading a run asks for beside its file. */

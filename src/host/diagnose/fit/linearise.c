@@ -17,6 +17,7 @@ typedef struct {
     hci_normal_equations *normal;
     hci_scatter *scatter; /* or NULL */
     double *x, *y;        /* rows of a segment: [samples][columns] and [samples] */
+    double *constant;     /* [samples], of the same rows: what a constant torque leaves in them */
 } filling;
 
 /* ---- what a run can show ---- */
@@ -43,6 +44,30 @@ static void columns_clear(const filling *f, const hci_segment *s)
 
 /* ---- rows ---- */
 
+/* Takes out of the values v[k·stride] what is along the constant c[k], whose square is given. */
+static void take_constant_out(const double *c, double square, double *v, size_t rows, size_t stride)
+{
+    double along = 0.0;
+    for (size_t k = 0; k < rows; ++k)
+        along += c[k] * v[k * stride];
+    for (size_t k = 0; k < rows; ++k)
+        v[k * stride] -= c[k] * along / square;
+}
+
+/* A load that is not known is a constant of each segment, at its best value whatever the model. */
+static void constants_free(const filling *f, const hci_segment *s, const hci_noise *noise)
+{
+    double square = 0.0;
+    for (size_t k = 0; k < s->count; ++k)
+        f->constant[k] = 1.0;
+    hci_noise_whiten(noise, f->constant, s->count, 1);
+    for (size_t k = 0; k < s->count; ++k)
+        square += f->constant[k] * f->constant[k];
+    take_constant_out(f->constant, square, f->y, s->count, 1);
+    for (size_t c = 0; c < f->model->columns; ++c)
+        take_constant_out(f->constant, square, f->x + c, s->count, f->model->columns);
+}
+
 /* Rows of a segment, weighted and whitened. */
 static void torque_rows(const filling *f, const hci_segment *s, const hci_predicted_reading *predicted)
 {
@@ -59,6 +84,7 @@ static void torque_rows(const filling *f, const hci_segment *s, const hci_predic
     hci_noise_whiten(noise, f->y, s->count, 1);
     hci_noise_whiten(noise, f->x, s->count, m->columns);
     columns_clear(f, s);
+    if (f->regression->runs[s->run].mean_is_unknown) constants_free(f, s, noise);
 }
 
 /* The row of one sample: what the sum of the readings leaves, in units of its noise. */
@@ -168,9 +194,10 @@ static bool fill(filling *f)
     const hci_regression *e = f->regression;
     const size_t most = hci_segment_longest(e->samples), n = f->model->columns;
     hci_predicted_reading predicted;
-    f->x = hci_memory_new(most * (n + 1), sizeof *f->x);
+    f->x = hci_memory_new(most * (n + 2), sizeof *f->x);
     if (!f->x) return false;
     f->y = f->x + most * n;
+    f->constant = f->y + most;
     const bool made = hci_predicted_reading_make(e, &f->model->list, true, &predicted);
     for (const hci_segment *s = NULL; made && (s = hci_regression_next(e, s)) != NULL;)
         segment_add(f, s, &predicted);
@@ -188,7 +215,7 @@ static hci_status normal_make(const hci_regression *e, const hci_candidates *can
                               hci_normal_equations *normal, hci_scatter *scatter, hci_note *note)
 {
     hci_model model;
-    filling f = {e, &model, normal, scatter, NULL, NULL};
+    filling f = {e, &model, normal, scatter, NULL, NULL, NULL};
     memset(normal, 0, sizeof *normal);
     if (scatter) memset(scatter, 0, sizeof *scatter);
     const hci_status status = hci_model_make(e->declared, candidates, all, &model, note);

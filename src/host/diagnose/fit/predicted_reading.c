@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "host/base/memory.h"
+#include "host/numeric/statistics.h"
 
 static unsigned traits_of(const hci_effect *effect, size_t term)
 {
@@ -128,6 +129,14 @@ void hci_predicted_reading_fill(const hci_regression *e, const hci_effects *effe
     if (turns > 1) turn_keep(o, s->count, turns - 1);
 }
 
+/* Of a load that is not known only what varies is left. */
+static void take_mean_out(double *residual_Nm, size_t count)
+{
+    const double mean_Nm = hci_mean(residual_Nm, count);
+    for (size_t j = 0; j < count; ++j)
+        residual_Nm[j] -= mean_Nm;
+}
+
 hci_status hci_regression_residual(const hci_regression *e, const hci_effects *effects, double *residual_Nm,
                                    hci_note *note)
 {
@@ -139,6 +148,7 @@ hci_status hci_regression_residual(const hci_regression *e, const hci_effects *e
         hci_predicted_reading_fill(e, effects, s, &predicted);
         for (size_t j = 0; j < s->count; ++j)
             residual_Nm[s->first + j] = e->samples->sample[s->first + j].torque_Nm - predicted.torque_Nm[j];
+        if (e->runs[s->run].mean_is_unknown) take_mean_out(residual_Nm + s->first, s->count);
     }
     hci_predicted_reading_release(&predicted);
     return HCI_OK;

@@ -31,6 +31,7 @@ void hci_predicted_reading_fill(const hci_regression *regression, const hci_effe
 bool hci_predicted_reading_is_dynamic(const hci_regression *regression, const hci_segment *segment);
 
 /* Measured less modelled torque of each sample of the runs in use, others 0: residual_Nm[samples].
+ * Without its mean in each segment of a run whose mean is not known.
  * HCI_ERROR_MEMORY. O(samples·terms). */
 hci_status hci_regression_residual(const hci_regression *regression, const hci_effects *effects,
                                    double *residual_Nm, hci_note *note);
