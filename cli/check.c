@@ -6,9 +6,9 @@
 #include "cli/terminal/say.h"
 #include "cli/terminal/terminal.h"
 #include "cli/terminal/text.h"
-#include "hci/host/base/output.h"
 #include "hci/host/check/check.h"
 #include "hci/host/report/summary.h"
+#include "hci/host/report/write.h"
 
 enum { OUT, CLI_READING_KEYS, CLI_COMMON_KEYS };
 
@@ -156,31 +156,16 @@ static void show_remarks(const hci_check *c)
 
 /* ---- the command ---- */
 
-static hci_status write_summary(const char *folder, const char *json, hci_note *note)
-{
-    hci_output *output;
-    hci_status status = hci_output_open(folder, &output, note);
-    if (status) return status;
-    status = hci_output_file(output, "summary.json", note);
-    if (status) {
-        hci_output_discard(output);
-        return status;
-    }
-    hci_output_text(output, "%s\n", json);
-    return hci_output_commit(output, note);
-}
-
 static hci_status give_summary(const hci_check *c, const cli_arguments *a, hci_note *note)
 {
-    hci_status status = HCI_OK;
+    const hci_status status = a->value[OUT] ? hci_check_write(c, a->value[OUT], note) : HCI_OK;
     char *json;
-    if (!a->given[JSON] && !a->value[OUT]) return HCI_OK;
+    if (status || !a->given[JSON]) return status;
     json = hci_check_json(c);
     if (!json) return hci_note_memory(note, NULL, "the summary");
-    if (a->value[OUT]) status = write_summary(a->value[OUT], json, note);
-    if (!status && a->given[JSON]) puts(json);
+    puts(json);
     hci_text_free(json);
-    return status;
+    return HCI_OK;
 }
 
 static int run(const cli_arguments *a)

@@ -113,13 +113,13 @@ double hci_sheet_resistance_ohm(const hci_sheet *s)
 #define MOST_RATIO  1.2
 
 /* The convention error whose factor is nearest to the ratio, within 8 %, in words; "" if there is none. */
-static const char *slip_of(double ratio, bool from_flux)
+static const char *convention_error_of(double ratio, bool from_flux)
 {
     static const struct {
         double factor;
         bool flux_only;
         const char *words;
-    } SLIP[] = {
+    } ERRORS[] = {
         {SQRT2, false, ": about sqrt(2); is one of them rms and taken as peak?"},
         {1.0 / SQRT2, false, ": about 1/sqrt(2); is one of them peak and taken as rms?"},
         {SQRT3, false, ": about sqrt(3); is a line-to-line value taken as of a phase?"},
@@ -127,9 +127,9 @@ static const char *slip_of(double ratio, bool from_flux)
         {2.0, true, ": about 2; are poles and pole pairs mixed up?"},
         {0.5, true, ": about 1/2; are poles and pole pairs mixed up?"},
     };
-    for (size_t k = 0; k < sizeof SLIP / sizeof *SLIP; ++k)
-        if (fabs(ratio / SLIP[k].factor - 1.0) < 0.08 && (from_flux || !SLIP[k].flux_only))
-            return SLIP[k].words;
+    for (size_t k = 0; k < sizeof ERRORS / sizeof *ERRORS; ++k)
+        if (fabs(ratio / ERRORS[k].factor - 1.0) < 0.08 && (from_flux || !ERRORS[k].flux_only))
+            return ERRORS[k].words;
     return "";
 }
 
@@ -141,7 +141,8 @@ void hci_sheet_remark(const hci_sheet *s, hci_note *remark)
     if (isfinite(ratio) && (ratio < LEAST_RATIO || ratio > MOST_RATIO))
         hci_note_set(remark, HCI_OK,
                      "rated torque %.4g N·m, but rated current and magnets make %.4g N·m: %.3g times%s",
-                     s->rated_torque_Nm, torque_Nm, ratio, slip_of(ratio, s->reading == HCI_SHEET_FLUX));
+                     s->rated_torque_Nm, torque_Nm, ratio,
+                     convention_error_of(ratio, s->reading == HCI_SHEET_FLUX));
     else if (line_V > s->dc_link_voltage_V)
         hci_note_set(
             remark, HCI_OK,

@@ -290,7 +290,7 @@ def any_phase(rng):
 
 def draw_form(motor, rng):
     """What the engineer happened to write down."""
-    # Without L_d and L_q nothing tells of reluctance torque, and the torque of such a motor could not be judged.
+    # Without L_d and L_q nothing tells of reluctance torque, and the torque of such a motor could not be checked.
     bare = motor.saliency == "none" and rng.random() < 0.1
     motor.emf_in_volts = rng.random() < 0.5
     rated_Hz = motor.pole_pairs * motor.rated_speed_rpm / 60

@@ -76,7 +76,7 @@ def by_own_names(case, answer):
     return set(case.truths) <= sure
 
 
-def judge(case, answer):
+def compare(case, answer):
     """One of OUTCOMES."""
     allowed = set(case.truths).union(*[truth.alike for truth in case.truths.values()])
     if any(f["probability"] >= 0.5 and f["slip"] not in allowed for f in answer.findings):
@@ -103,7 +103,7 @@ def pointing(case, answer):
 
 
 def examine(task):
-    """Makes a case, asks, judges: (name, slips, outcome, words, faults, by their own names). Runs in a process of its own."""
+    """Makes a case, runs `check`, compares: (name, slips, outcome, words, faults, by their own names). Runs in a process of its own."""
     make, arguments, options = task
     case = make(*arguments)
     folder = os.path.join(options.work, case.name)
@@ -125,7 +125,7 @@ def verdict(case, answer):
     if not case.truths:
         return ("false" if answer.verdict != "consistent" or answer.findings else "quiet"), words, [], False
     alike = "; ".join("%s looks like %s" % (name, " ".join(sorted(truth.alike))) for name, truth in case.truths.items() if truth.alike)
-    return judge(case, answer), words + (" [%s]" % alike if alike else ""), pointing(case, answer), by_own_names(case, answer)
+    return compare(case, answer), words + (" [%s]" % alike if alike else ""), pointing(case, answer), by_own_names(case, answer)
 
 
 def arguments():

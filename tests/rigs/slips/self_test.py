@@ -178,8 +178,8 @@ def check_correct(count):
     return ["correct.%d: %s" % (seed, x) for seed in range(1, count + 1) for x in relations.off(slips.correct(seed).files)]
 
 
-def check_judge():
-    """The judge on answers made by hand: truths with what looks the same, (slip, probability, alternatives) found, outcome."""
+def check_comparison():
+    """The comparison of answers made by hand with the truth: truths with what looks the same, (slip, probability, alternatives) found, outcome."""
     failures = []
     for truths, found, outcome in [
         ({"emf_rms": []}, [("emf_rms", 0.9, [])], "named"),
@@ -196,9 +196,9 @@ def check_judge():
         case = slips.Case.__new__(slips.Case)
         case.truths = {name: slips.Truth([], None, alike) for name, alike in truths.items()}
         findings = [{"slip": name, "probability": p, "alternatives": alike} for name, p, alike in found]
-        judged = score.judge(case, score.Answer(1, {"findings": findings}, ""))
-        if judged != outcome:
-            failures.append("judge says %s, not %s, of %s for %s" % (judged, outcome, found, truths))
+        said = score.compare(case, score.Answer(1, {"findings": findings}, ""))
+        if said != outcome:
+            failures.append("compare says %s, not %s, of %s for %s" % (said, outcome, found, truths))
     return failures
 
 
@@ -211,7 +211,7 @@ def check_repeats(count):
 def main():
     count = int(sys.argv[1]) if len(sys.argv) > 1 else 20
     failures = check_laws(count) + check_controls() + check_recordings(count) + check_slips(1) + check_correct(5 * count)
-    failures += check_judge() + check_repeats(5)
+    failures += check_comparison() + check_repeats(5)
     for line in failures:
         print("FAILED: " + line)
     print("%d motors, 5 controls, %d slips and pairs: %d failures" % (count, len(slips.seeded(1)), len(failures)))

@@ -3,6 +3,7 @@
 #ifndef HCI_HOST_REPORT_WRITE_H
 #define HCI_HOST_REPORT_WRITE_H
 
+#include "hci/host/check/check.h"
 #include "hci/host/diagnose/diagnose.h"
 #include "hci/host/report/page/sources.h"
 #include "hci/host/simulate/simulate.h"
@@ -34,6 +35,9 @@ hci_status hci_diagnosis_write(const hci_diagnosis *diagnosis, const hci_resolut
  * (order,amplitude_Nm,phase_rad,std_error_Nm) into a folder, and a picture of it, back_emf.svg or
  * cogging.svg. HCI_ERROR_OUTPUT, _MEMORY. */
 hci_status hci_waveform_write(const hci_waveform *waveform, const char *folder, hci_note *note);
+
+/* Writes summary.json of a check into `folder`. HCI_ERROR_OUTPUT, _MEMORY. */
+hci_status hci_check_write(const hci_check *check, const char *folder, hci_note *note);
 
 /* Where a simulation is written to. */
 typedef struct {
