@@ -101,8 +101,8 @@ static bool dataset_make(const hci_regression *e, double noise_Nm, trial_dataset
     b->noise = hci_noise_white(noise_Nm);
     b->sum_deviation_A = NAN;
     b->use = true;
-    b->regression = (hci_regression){e->machine, e->declared, &b->samples, &b->run,
-                                     &b->use,    false,       &b->noise,   &b->sum_deviation_A};
+    b->regression = (hci_regression){e->machine, e->declared, &b->samples,         &b->run, &b->use,
+                                     false,      &b->noise,   &b->sum_deviation_A, NULL};
     return b->sample != NULL;
 }
 

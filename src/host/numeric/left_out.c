@@ -8,19 +8,20 @@
 
 #define REGULAR 1e-12 /* added to a diagonal of 1, so that rounding makes no pivot negative */
 
-/* Normal equations of all groups, and what is solved. */
+/* Normal equations of all groups, and what is solved: the unknowns that are not held at 0. */
 typedef struct {
     size_t n;
     double *gram, *moment;      /* of all groups */
-    double *matrix, *scale, *x; /* of one solution */
+    size_t *open, count;        /* unknowns that are not held */
+    double *matrix, *scale, *x; /* [count] of one solution */
 } workspace;
 
-static bool workspace_make(workspace *w, const hci_groups *groups)
+static bool workspace_make(workspace *w, const hci_groups *groups, const double *precision)
 {
     const size_t n = groups->count > 0 ? groups->group[0].n : 0;
     double *all = hci_memory_new(2 * n * n + 3 * n + 1, sizeof *all);
-    *w = (workspace){n, all, NULL, NULL, NULL, NULL};
-    if (!all) return false;
+    *w = (workspace){.n = n, .gram = all, .open = hci_memory_new(n + 1, sizeof *w->open)};
+    if (!all || !w->open) return false;
     w->matrix = w->gram + n * n;
     w->moment = w->matrix + n * n;
     w->scale = w->moment + n;
@@ -31,38 +32,47 @@ static bool workspace_make(workspace *w, const hci_groups *groups)
         for (size_t k = 0; k < n; ++k)
             w->moment[k] += groups->group[g].moment[k];
     }
+    for (size_t k = 0; k < n; ++k)
+        if (isfinite(precision[k])) w->open[w->count++] = k;
     return true;
 }
 
-/* An element of what a group has that is left out; NULL: none is. */
-static double gram_of(const hci_normal_equations *out, size_t k)
+static void workspace_release(workspace *w)
 {
-    return out ? out->gram[k] : 0.0;
+    hci_memory_free(w->gram);
+    hci_memory_free(w->open);
+}
+
+/* An element of what the groups have together but for the one that is left out; NULL: none is. */
+static double gram_at(const workspace *w, const hci_normal_equations *out, size_t k, size_t j)
+{
+    const size_t at = w->open[k] * w->n + w->open[j];
+    return w->gram[at] - (out ? out->gram[at] : 0.0);
 }
 
 /* Σ over all groups but one plus the precision, scaled to a diagonal of 1. */
 static void matrix_set(const workspace *w, const hci_normal_equations *out, const double *precision)
 {
-    const size_t n = w->n;
+    const size_t n = w->count;
     for (size_t k = 0; k < n; ++k) {
-        const double d = w->gram[k * n + k] - gram_of(out, k * n + k) + precision[k];
-        w->scale[k] = isfinite(d) && d > 0.0 ? 1.0 / sqrt(d) : 0.0;
+        const double d = gram_at(w, out, k, k) + precision[w->open[k]];
+        w->scale[k] = d > 0.0 ? 1.0 / sqrt(d) : 0.0;
     }
     for (size_t j = 0; j < n; ++j)
         for (size_t i = j; i < n; ++i)
-            w->matrix[i + j * n] =
-                i == j ? 1.0 + REGULAR
-                       : (w->gram[i + j * n] - gram_of(out, i + j * n)) * w->scale[i] * w->scale[j];
+            w->matrix[i + j * n] = i == j ? 1.0 + REGULAR : gram_at(w, out, j, i) * w->scale[i] * w->scale[j];
 }
 
 static bool solve_without(const workspace *w, const hci_normal_equations *out, const double *precision)
 {
     matrix_set(w, out, precision);
-    if (hci_cholesky_factor(w->n, w->matrix)) return false;
-    for (size_t k = 0; k < w->n; ++k)
-        w->x[k] = (w->moment[k] - (out ? out->moment[k] : 0.0)) * w->scale[k];
-    hci_cholesky_solve(w->n, w->matrix, w->x);
-    for (size_t k = 0; k < w->n; ++k)
+    if (hci_cholesky_factor(w->count, w->matrix)) return false;
+    for (size_t k = 0; k < w->count; ++k) {
+        const size_t at = w->open[k];
+        w->x[k] = (w->moment[at] - (out ? out->moment[at] : 0.0)) * w->scale[k];
+    }
+    hci_cholesky_solve(w->count, w->matrix, w->x);
+    for (size_t k = 0; k < w->count; ++k)
         w->x[k] *= w->scale[k];
     return true;
 }
@@ -71,11 +81,12 @@ static bool solve_without(const workspace *w, const hci_normal_equations *out, c
 static double square_of(const workspace *w, const hci_normal_equations *group)
 {
     double sum = group->square;
-    for (size_t i = 0; i < w->n; ++i) {
+    for (size_t i = 0; i < w->count; ++i) {
+        const double *gram = group->gram + w->open[i] * w->n;
         double row = 0.0;
-        for (size_t j = 0; j < w->n; ++j)
-            row += group->gram[i * w->n + j] * w->x[j];
-        sum += w->x[i] * (row - 2.0 * group->moment[i]);
+        for (size_t j = 0; j < w->count; ++j)
+            row += gram[w->open[j]] * w->x[j];
+        sum += w->x[i] * (row - 2.0 * group->moment[w->open[i]]);
     }
     return fmax(0.0, sum);
 }
@@ -83,22 +94,28 @@ static double square_of(const workspace *w, const hci_normal_equations *group)
 bool hci_left_out_squares(const hci_groups *groups, const double *precision, double *square)
 {
     workspace w;
-    if (!workspace_make(&w, groups)) return false;
+    if (!workspace_make(&w, groups, precision)) {
+        workspace_release(&w);
+        return false;
+    }
     for (size_t g = 0; g < groups->count; ++g)
         square[g] = solve_without(&w, &groups->group[g], precision) ? square_of(&w, &groups->group[g])
                                                                     : (double)INFINITY;
-    hci_memory_free(w.gram);
+    workspace_release(&w);
     return true;
 }
 
 bool hci_all_in_square(const hci_groups *groups, const double *precision, double *square)
 {
     workspace w;
-    if (!workspace_make(&w, groups)) return false;
+    if (!workspace_make(&w, groups, precision)) {
+        workspace_release(&w);
+        return false;
+    }
     const bool solved = solve_without(&w, NULL, precision);
     *square = solved ? 0.0 : (double)INFINITY;
     for (size_t g = 0; g < groups->count && solved; ++g)
         *square += square_of(&w, &groups->group[g]);
-    hci_memory_free(w.gram);
+    workspace_release(&w);
     return true;
 }

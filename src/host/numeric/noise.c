@@ -5,6 +5,7 @@
 
 #include "hci/math/harmonic.h"
 #include "host/numeric/fft.h"
+#include "host/numeric/wide.h"
 
 enum { HALF_WINDOW = 20 }; /* frequencies on each side that a level is the median of */
 
@@ -118,7 +119,7 @@ hci_noise hci_noise_white(double rms)
     return noise;
 }
 
-void hci_noise_whiten(const hci_noise *noise, double *x, size_t n, size_t columns)
+HCI_WIDE void hci_noise_whiten(const hci_noise *noise, double *x, size_t n, size_t columns)
 {
     for (size_t k = n; k-- > 0;) {
         double *restrict row = x + k * columns;

@@ -44,7 +44,8 @@ static double torque(const hci_effect *effect, const hci_effect_term *term, cons
 
 #define WAVE                                                                                                 \
     {                                                                                                        \
-        "wave", "Nm", "of one growth", 0.0, -DBL_MAX, true, false, 0.0, HCI_PARAMETER_WITH_CURRENT           \
+        "wave", "Nm", "of one growth", 0.0, -DBL_MAX, true, false, 0.0,                                      \
+            HCI_PARAMETER_LINEAR | HCI_PARAMETER_WITH_CURRENT                                                \
     }
 #define WAVES_4  WAVE, WAVE, WAVE, WAVE
 #define WAVES_16 WAVES_4, WAVES_4, WAVES_4, WAVES_4

@@ -33,7 +33,8 @@ static hci_status evidence_make(const hci_machine_data *machine, const hci_effec
     hci_regression *e = &b->regression;
     b->fit = hci_memory_new(2 * runs->count + 1, sizeof *b->fit);
     b->index_offset_rad = hci_memory_new(runs->count + 1, sizeof *b->index_offset_rad);
-    *e = (hci_regression){&machine->model, declared, &b->samples, runs->run, b->fit, false, NULL, NULL};
+    *e = (hci_regression){&machine->model, declared, &b->samples, runs->run, b->fit,
+                          false,           NULL,     NULL,        &b->known};
     e->noise = hci_memory_new(b->samples.segment_count + 1, sizeof *e->noise);
     e->sum_deviation_A = hci_memory_new(runs->count + 1, sizeof *e->sum_deviation_A);
     if (!b->fit || !b->index_offset_rad || !e->noise || !e->sum_deviation_A)
@@ -77,6 +78,7 @@ hci_status hci_dataset_make(const hci_machine_data *machine, const hci_effects *
 
 void hci_dataset_release(hci_dataset *b)
 {
+    hci_known_equations_release(&b->known);
     hci_memory_free(b->index_offset_rad);
     hci_memory_free(b->fit);
     hci_memory_free(b->regression.noise);

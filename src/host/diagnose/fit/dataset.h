@@ -6,14 +6,16 @@
 #define HCI_SRC_HOST_DIAGNOSE_FIT_DATASET_H
 
 #include "hci/host/machine/machine.h"
+#include "host/diagnose/fit/known_equations.h"
 #include "host/diagnose/fit/regression.h"
 
 /* Start with {0}; it must not be moved. */
 typedef struct {
     hci_binned_samples samples;
     hci_regression regression; /* uses the runs to be fitted */
-    bool *fit, *any;           /* of each run */
-    double *index_offset_rad;  /* of each run: its angle was ahead by this and has been turned back */
+    hci_known_equations known;
+    bool *fit, *any;          /* of each run */
+    double *index_offset_rad; /* of each run: its angle was ahead by this and has been turned back */
 } hci_dataset;
 
 /* declared: effects of the machine, for the residual in which misaligned angles show. On failure *dataset is

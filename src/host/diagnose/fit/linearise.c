@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "host/base/memory.h"
+#include "host/diagnose/fit/known_equations.h"
 #include "host/diagnose/fit/predicted_reading.h"
 
 #define ROUNDING 1e-12 /* square of a column beside the largest of its effect that is rounding */
@@ -189,7 +190,8 @@ static void expectations_add(const hci_model *m, hci_normal_equations *normal)
 
 /* ---- all of it ---- */
 
-static bool fill(filling *f)
+/* Sums over all samples. False when memory is out. */
+static bool rows_fill(filling *f)
 {
     const hci_regression *e = f->regression;
     const size_t most = hci_segment_longest(e->samples), n = f->model->columns;
@@ -203,12 +205,39 @@ static bool fill(filling *f)
         segment_add(f, s, &predicted);
     if (made) {
         hci_normal_equations_finish(f->normal);
-        rounding_drop(f->model, f->normal);
-        expectations_add(f->model, f->normal);
         hci_predicted_reading_release(&predicted);
     }
     hci_memory_free(f->x);
     return made;
+}
+
+/* Whether every run in use shows a column. */
+static bool is_shown(const filling *f, size_t column)
+{
+    const hci_model_column *x = &f->model->column[column];
+    for (const hci_segment *s = NULL; (s = hci_regression_next(f->regression, s)) != NULL;)
+        if (!can_show(&f->regression->runs[s->run], x->candidate, x->term)) return false;
+    return true;
+}
+
+static bool rows_keep(const filling *f)
+{
+    const size_t n = f->model->columns;
+    bool *shown = hci_memory_new(n + 1, sizeof *shown);
+    for (size_t c = 0; shown && c < n; ++c)
+        shown[c] = is_shown(f, c);
+    const bool kept =
+        shown && hci_known_equations_keep(f->regression->known, f->regression, f->model, shown, f->normal);
+    hci_memory_free(shown);
+    return kept;
+}
+
+/* A scatter takes the rows themselves. */
+static bool fill(filling *f)
+{
+    if (!f->scatter && hci_known_equations_find(f->regression->known, f->regression, f->model, f->normal))
+        return true;
+    return rows_fill(f) && rows_keep(f);
 }
 
 static hci_status normal_make(const hci_regression *e, const hci_candidates *candidates, bool all,
@@ -223,6 +252,10 @@ static hci_status normal_make(const hci_regression *e, const hci_candidates *can
     const size_t n = model.columns;
     if (scatter) scatter->square = hci_memory_new(n * n + n + 1, sizeof *scatter->square);
     const bool made = (!scatter || scatter->square) && hci_normal_equations_start(normal, n) && fill(&f);
+    if (made) {
+        rounding_drop(&model, normal);
+        expectations_add(&model, normal);
+    }
     hci_model_release(&model);
     if (made) return HCI_OK;
     hci_normal_equations_release(normal);

@@ -5,16 +5,19 @@
 #include "host/diagnose/prepare/binned_samples.h"
 #include "host/numeric/noise.h"
 
+typedef struct hci_known_equations hci_known_equations;
+
 /* The recordings, and what is known of them. */
 typedef struct {
     const hci_machine *machine;
     const hci_effects *declared; /* those that the machine has already */
     const hci_binned_samples *samples;
     const hci_run *runs;
-    const bool *use;         /* of each run */
-    bool raw;                /* readings as they are, not smoothed */
-    hci_noise *noise;        /* of each segment */
-    double *sum_deviation_A; /* of each run: noise of i_a + i_b + i_c; NAN where that says nothing */
+    const bool *use;            /* of each run */
+    bool raw;                   /* readings as they are, not smoothed */
+    hci_noise *noise;           /* of each segment */
+    double *sum_deviation_A;    /* of each run: noise of i_a + i_b + i_c; NAN where that says nothing */
+    hci_known_equations *known; /* of models linearised before; NULL: none are kept */
 } hci_regression;
 
 /* The segment of a run in use that follows `after` (NULL: the first one); NULL behind the last. */

@@ -1,0 +1,19 @@
+/* Loops over many numbers, compiled twice: for every processor of the kind, and for one with vectors of four
+ * doubles. Which of the two is taken is decided when the program starts. Each number is computed by the same
+ * operations in the same order in both, so results do not depend on the processor.
+ *
+ * HCI_WIDE stands before a function. Elsewhere than with GCC on x86-64 and glibc, and under a sanitizer, it
+ * is nothing. */
+#ifndef HCI_SRC_HOST_NUMERIC_WIDE_H
+#define HCI_SRC_HOST_NUMERIC_WIDE_H
+
+#include <limits.h> /* says __GLIBC__ */
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__GLIBC__) &&                 \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define HCI_WIDE __attribute__((target_clones("avx2", "default")))
+#else
+#define HCI_WIDE
+#endif
+
+#endif
