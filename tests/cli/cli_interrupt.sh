@@ -1,6 +1,8 @@
 #!/bin/sh
+# labels: slow
 # Progress, and Ctrl-C as soon as there is some: a clear line, no files, no folders that were made for them; older results as they were.
 # Without a terminal the same, and no progress.
+# Slow because progress is shown from the first second on only, and two simulations have to run so long.
 #   cli_interrupt.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
 . "$1/tests/support/common.sh"
 . "$1/tests/cli/on_terminal.sh"

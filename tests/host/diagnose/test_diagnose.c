@@ -156,17 +156,6 @@ static void test_friction_or_zero_of_the_sensor(void)
     TEST_ASSERT_DOUBLE_WITHIN(0.06 * NOISE_NM, NOISE_NM, diagnosis.rms_after_Nm);
 }
 
-static void test_what_does_not_repeat(void)
-{
-    for (int k = 0; k < 2; ++k)
-        record(900, &(point){k == 1 ? -150.0 : 60.0, 4.0 * k, 0.0, 0.0, 0.2});
-    TEST_ASSERT_EQUAL_INT(HCI_NOT_REACHED, diagnose(NULL));
-    TEST_ASSERT_EQUAL_INT(HCI_DIAGNOSIS_UNKNOWN, diagnosis.verdict);
-    TEST_ASSERT_EQUAL_STRING("unknown", diagnosis.finding[0].effect);
-    TEST_ASSERT_EQUAL_UINT64(0, diagnosis.effects.list.count);
-    TEST_ASSERT_EQUAL_DOUBLE(diagnosis.rms_before_Nm, diagnosis.rms_after_Nm);
-}
-
 /* ---- a load that nobody knows ---- */
 
 /* Logs at constant speed: the load was not recorded, and inertia × acceleration is what cogging torque makes
@@ -216,7 +205,6 @@ int main(void)
     RUN_TEST(test_iron_drag_takes_both_directions);
     RUN_TEST(test_position_harmonics);
     RUN_TEST(test_friction_or_zero_of_the_sensor);
-    RUN_TEST(test_what_does_not_repeat);
     RUN_TEST(test_the_mean_of_a_shaft_with_a_load_is_not_used);
     RUN_TEST(test_the_ripple_of_a_shaft_with_a_load_is_used);
     return UNITY_END();

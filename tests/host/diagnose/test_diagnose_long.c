@@ -39,6 +39,17 @@ static void test_machine_and_findings_agree(void)
     diagnose(NULL);
 }
 
+static void test_what_does_not_repeat(void)
+{
+    for (int k = 0; k < 2; ++k)
+        record(900, &(point){k == 1 ? -150.0 : 60.0, 4.0 * k, 0.0, 0.0, 0.2});
+    TEST_ASSERT_EQUAL_INT(HCI_NOT_REACHED, diagnose(NULL));
+    TEST_ASSERT_EQUAL_INT(HCI_DIAGNOSIS_UNKNOWN, diagnosis.verdict);
+    TEST_ASSERT_EQUAL_STRING("unknown", diagnosis.finding[0].effect);
+    TEST_ASSERT_EQUAL_UINT64(0, diagnosis.effects.list.count);
+    TEST_ASSERT_EQUAL_DOUBLE(diagnosis.rms_before_Nm, diagnosis.rms_after_Nm);
+}
+
 /* ---- what is not accepted ---- */
 
 static void refused(const char *why)
@@ -131,6 +142,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_holding_map_says_nothing_of_the_angle);
     RUN_TEST(test_machine_and_findings_agree);
+    RUN_TEST(test_what_does_not_repeat);
     RUN_TEST(test_magnets_are_not_cancelled);
     RUN_TEST(test_a_tenth_of_the_magnets_is_not_believed);
     RUN_TEST(test_weak_magnets_are_believed);
