@@ -59,6 +59,10 @@ run 0 predict "$source_dir/data/machine_a" "$work/run.csv" -q -o here.csv
 check "a name without a folder" [ "$(ls -A)" = here.csv ]
 cd "$source_dir" || exit 1
 
+printf 'time_s,theta_e_deg,iq_A\n0,1,1\n0,2,1\n' >"$work/still.csv"
+run 0 predict data/machine_a "$work/still.csv"
+says 'note: the time does not go on: it is not used'
+
 # ---- wrong: one line that says what and where, and nothing is written
 
 refused() { # CODE EXPRESSION WORD...
@@ -73,8 +77,8 @@ refused() { # CODE EXPRESSION WORD...
 refused 2 'found 1 words, expected 2: MACHINE RUN' data/machine_a
 refused 3 'none.csv: .*No such file' data/machine_a "$work/none.csv" -o "$work/refused/x.csv"
 refused 2 'run.csv would be replaced by its prediction' data/machine_a "$work/run.csv" -o "$work/./run.csv"
-printf 'time_s,theta_e_deg,iq_A\n0,1,1\n0,2,1\n' >"$work/wrong.csv"
-refused 3 'wrong.csv:3: column 1 `time_s`: .*they are equal' data/machine_a "$work/wrong.csv" -o "$work/refused/x.csv"
+printf 'time_s,theta_e_deg,iq_A\n0,1,1\n1,,1\n' >"$work/wrong.csv"
+refused 3 'wrong.csv:3: column 2 `theta_e_deg`: found an empty cell' data/machine_a "$work/wrong.csv" --strict -o "$work/refused/x.csv"
 printf 'time_s,angle,iq_A\n0,1,1\n' >"$work/wrong.csv"
 refused 3 'found no column `theta_m_rad` but `time_s`, `angle`' data/machine_a "$work/wrong.csv" -o "$work/refused/x.csv"
 check "something was written" [ ! -e "$work/refused" ]

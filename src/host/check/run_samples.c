@@ -4,6 +4,7 @@
 
 #include "hci/machine/frames.h"
 #include "host/base/memory.h"
+#include "host/recording/clock.h"
 #include "host/recording/holes.h"
 
 /* ---- where the columns stand */
@@ -47,6 +48,14 @@ static hci_status read_angles(check_run *run, check_samples *s)
     if (!run->is_electrical) return read_column(s, HCI_RUN_THETA_M, &s->theta);
     const hci_status status = read_column(s, HCI_RUN_THETA_E, &s->theta);
     return status ? status : read_column(s, HCI_RUN_THETA_M, &s->other);
+}
+
+static hci_status read_time(check_samples *s)
+{
+    const hci_status status = read_column(s, HCI_RUN_TIME, &s->time);
+    const hci_stamps stamps = {s->columns.value[HCI_RUN_TIME], s->columns.row, s->count};
+    if (!status && s->time && !hci_clock_mend(stamps, s->columns.remark)) s->time = NULL;
+    return status;
 }
 
 static hci_status read_speed(check_run *run, check_samples *s)
@@ -135,7 +144,7 @@ hci_status hci_check_samples_read(const hci_csv *csv, check_run *run, check_samp
     s->count = s->columns.count;
     find_voltages(run, s, &first);
     if (!status) status = read_angles(run, s);
-    if (!status) status = read_column(s, HCI_RUN_TIME, &s->time);
+    if (!status) status = read_time(s);
     if (!status) status = read_speed(run, s);
     if (!status) status = read_torque(s);
     if (!status) status = read_currents(run, s, note);

@@ -27,3 +27,35 @@ double hci_peak_to_peak(const double *x, size_t n)
     }
     return high - low;
 }
+
+static void swap(double *a, double *b)
+{
+    const double kept = *a;
+    *a = *b;
+    *b = kept;
+}
+
+/* Hoare's selection: halves that the place wanted is not in are left as they are. */
+double hci_median(double *x, size_t n)
+{
+    const size_t wanted = n / 2;
+    size_t low = 0, high = n - 1;
+    while (low < high) {
+        const double pivot = x[low + (high - low) / 2];
+        size_t i = low, j = high;
+        for (;;) {
+            while (x[i] < pivot)
+                ++i;
+            while (x[j] > pivot)
+                --j;
+            if (i >= j) break;
+            swap(&x[i++], &x[j--]);
+        }
+        if (i == j && wanted == i) break;
+        if (wanted <= j)
+            high = j;
+        else
+            low = j + 1;
+    }
+    return x[wanted];
+}

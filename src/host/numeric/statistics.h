@@ -1,4 +1,4 @@
-/* Mean, mean square and peak-to-peak of samples. */
+/* Mean, mean square, peak-to-peak and median of samples. */
 #ifndef HCI_SRC_HOST_NUMERIC_STATISTICS_H
 #define HCI_SRC_HOST_NUMERIC_STATISTICS_H
 
@@ -12,5 +12,9 @@ double hci_mean_square_about(const double *x, size_t n, double centre);
 
 /* Largest less smallest. */
 double hci_peak_to_peak(const double *x, size_t n);
+
+/* The one with as many below as above, of an even number the upper one; changes their order. O(n) as a rule.
+ */
+double hci_median(double *x, size_t n);
 
 #endif

@@ -12,6 +12,7 @@
 #include "host/numeric/derivative.h"
 #include "host/numeric/statistics.h"
 #include "host/numeric/unwrap.h"
+#include "host/recording/clock.h"
 #include "host/recording/holes.h"
 #include "host/recording/rotor_frame.h"
 #include "host/recording/run_columns.h"
@@ -28,6 +29,7 @@ typedef struct {
     hci_note *note;
     const hci_run_options *options;
     int pole_pairs;
+    size_t predicted; /* steps of the angle whose whole turns are from the speed */
 } reader;
 
 /* ---- columns ---- */
@@ -59,20 +61,50 @@ static hci_status missing(const reader *r, const char *found, const char *expect
 
 /* ---- time and speed ---- */
 
+static hci_stamps stamps_of(const hci_run *run)
+{
+    return (hci_stamps){run->time_s, run->row, run->count};
+}
+
+static void drop_time(hci_run *run)
+{
+    hci_memory_free(run->time_s);
+    run->time_s = NULL;
+}
+
 static hci_status read_time(reader *r)
 {
-    const hci_status status = read_column(r, HCI_RUN_TIME, &r->run->time_s);
-    const double *time_s = r->run->time_s;
-    for (size_t k = 1; !status && time_s != NULL && k < r->run->count; ++k) {
-        if (time_s[k] > time_s[k - 1]) continue;
-        const bool equal = !(time_s[k] < time_s[k - 1]);
-        return hci_csv_error(r->columns.csv, "time_s", r->run->row ? r->run->row[k] : k, r->note,
-                             equal ? "a later time than on the line before (they are equal)"
-                                   : "a later time than on the line before",
-                             equal ? "write the time with more digits, or remove one of the two samples"
-                                   : "sort the samples by time, or remove the column if they have no order");
+    hci_run *run = r->run;
+    const hci_status status = read_column(r, HCI_RUN_TIME, &run->time_s);
+    if (status || run->time_s == NULL) return status;
+    if (!hci_clock_mend(stamps_of(run), &run->remark)) drop_time(run);
+    return HCI_OK;
+}
+
+/* A clock that does not belong to the angle: smoothed, or left out where the speed and the torque do not need
+ * it. */
+static hci_status mend_clock(reader *r, hci_angle_path path)
+{
+    hci_run *run = r->run;
+    const bool spare = run->speed_rad_per_s != NULL && has(r, HCI_RUN_TORQUE);
+    if (run->time_s == NULL || run->theta_m_rad == NULL) return HCI_OK;
+    if (path == HCI_ANGLE_SCATTERED) return HCI_OK;
+    if (spare && 2 * r->predicted > run->count) {
+        hci_note_add(
+            &run->remark,
+            "samples are more than half a turn apart: each is taken by itself, the time is not used");
+        drop_time(run);
+        return HCI_OK;
     }
-    return status;
+    double *work = hci_memory_new(run->count, sizeof *work);
+    if (work == NULL) return memory_error(r);
+    const hci_clock_kind kind = hci_clock_judge(stamps_of(run), run->theta_m_rad, r->pole_pairs, work);
+    if (kind == HCI_CLOCK_JITTERS) hci_clock_smooth(stamps_of(run), work, &run->remark);
+    hci_memory_free(work);
+    if (kind != HCI_CLOCK_FOREIGN || !spare) return HCI_OK;
+    hci_note_add(&run->remark, "angle and time were not taken at the same instants: the time is not used");
+    drop_time(run);
+    return HCI_OK;
 }
 
 /* The mechanical speed, or the electrical one by the pole pairs. */
@@ -100,7 +132,7 @@ static hci_status complete_speed(reader *r, hci_angle_path path)
     hci_run *run = r->run;
     const bool recorded = run->speed_rad_per_s != NULL;
     if (run->theta_m_rad == NULL || run->time_s == NULL || run->count < 2) return HCI_OK;
-    if (path == HCI_ANGLE_SCATTERED || path == HCI_ANGLE_UNCLEAR) return HCI_OK;
+    if (path == HCI_ANGLE_SCATTERED) return HCI_OK;
     if (recorded && (!is_zero(run->speed_rad_per_s, run->count) ||
                      hci_peak_to_peak(run->theta_m_rad, run->count) <= MOVED_RAD))
         return HCI_OK;
@@ -115,17 +147,15 @@ static hci_status complete_speed(reader *r, hci_angle_path path)
 
 /* ---- angle ---- */
 
-static hci_status unclear_error(const reader *r, bool has_speed)
+/* An angle that the time does not order: each sample is a measurement of its own. */
+static void leave_unordered(reader *r, const char *name)
 {
-    return missing(r,
-                   has_speed ? "an angle and a speed that do not belong together"
-                             : "an angle that moves a third of a turn or more from sample to sample",
-                   has_speed ? "the slope of the angle to be the speed, from sample to sample"
-                             : "at least four samples a turn of a wrapped angle",
-                   has_speed
-                       ? "check pole pairs, units and time; or give the angle unwrapped"
-                       : "sample faster, add a speed column or give the angle unwrapped; if each sample "
-                         "is a measurement of its own, remove the time column");
+    hci_note_add(&r->run->remark, "%s %s: samples without order, the time is not used", name,
+                 r->run->speed_rad_per_s != NULL
+                     ? "and the speed do not belong together (check pole pairs, units and time)"
+                     : "moves a third of a turn or more from sample to sample (sample faster, add a speed "
+                       "column or give the angle unwrapped)");
+    drop_time(r->run);
 }
 
 /* Reads and unwraps one angle, whose speed is `factor` times the mechanical one. */
@@ -145,9 +175,12 @@ static hci_status read_angle(reader *r, hci_run_column which, double factor, dou
     }
     *how = hci_unwrap(*angle, n, r->run->time_s, rate);
     hci_memory_free(rate);
-    if (how->path == HCI_ANGLE_UNCLEAR) return unclear_error(r, r->run->speed_rad_per_s != NULL);
-    if (how->path == HCI_ANGLE_SCATTERED)
+    if (how->path == HCI_ANGLE_UNCLEAR) {
+        leave_unordered(r, name);
+        how->path = HCI_ANGLE_SCATTERED;
+    } else if (how->path == HCI_ANGLE_SCATTERED)
         hci_note_add(&r->run->remark, "%s: samples without order in the angle, taken as they stand", name);
+    if (how->predicted > r->predicted) r->predicted = how->predicted;
     if (how->predicted > 0)
         hci_note_add(&r->run->remark, "%s: whole turns of %zu steps are taken from the speed", name,
                      how->predicted);
@@ -327,6 +360,7 @@ static hci_status read_all(reader *r)
     hci_status status = read_time(r);
     if (!status) status = read_speed(r);
     if (!status) status = read_angles(r, &path);
+    if (!status) status = mend_clock(r, path);
     if (!status) status = complete_speed(r, path);
     if (!status) status = read_currents(r);
     if (!status) status = read_voltages(r);

@@ -1,0 +1,299 @@
+#include "host/recording/clock.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "host/numeric/statistics.h"
+
+#define GAP         20.0 /* steps so many times the usual one are gaps */
+#define ROUNDED     1.25 /* range of the residual of a rounded clock, over its step */
+#define JITTER      3.0  /* steps back of so many usual ones are no new piece */
+#define ROUGHER     3.0  /* the angle over the stamps than over the rows */
+#define SMALL       0.01 /* rad of the electrical angle that does not count */
+#define FOREIGN     0.02 /* rad of the mechanical angle */
+#define LEAST_STEP  1e-6 /* rad; less is rounding of the numbers … */
+#define LEAST_SHARE 1e-4 /* … and so are such shares of a step in time */
+
+enum { RESTARTS = 20, LEAST = 8, HALF_WINDOW = 20 };
+
+static double row_of(const hci_stamps *s, size_t k)
+{
+    return (double)(s->row != NULL ? s->row[k] : k);
+}
+
+/* ---- steps ---- */
+
+typedef struct {
+    double stamp_s;  /* mean step forward */
+    double sample_s; /* mean step of all, those of 0 included */
+} mean_steps;
+
+/* Without gaps and steps back. 0 where nothing steps forward. */
+static mean_steps mean_steps_of(const hci_stamps *s)
+{
+    mean_steps mean = {INFINITY, 0.0};
+    double before;
+    do {
+        double sum = 0.0, count = 0.0, still = 0.0;
+        before = mean.stamp_s;
+        for (size_t k = 1; k < s->n; ++k) {
+            const double step = s->time_s[k] - s->time_s[k - 1];
+            if (step < 0.0 || step > GAP * before) continue;
+            sum += step;
+            count += step > 0.0;
+            still += !(step > 0.0);
+        }
+        mean.stamp_s = count > 0.0 ? sum / count : 0.0;
+        mean.sample_s = count > 0.0 ? sum / (count + still) : 0.0;
+    } while (mean.stamp_s < before && mean.stamp_s > 0.0);
+    return mean;
+}
+
+/* What values are whole multiples of, where they were rounded: their second differences are too, and the
+ * smallest of those that are more than `rounding` is taken; `rounding` where there is none. */
+static double quantum_of(const double *x, size_t n, double rounding)
+{
+    double least = INFINITY;
+    for (size_t k = 2; k < n; ++k) {
+        const double bend = fabs(x[k] - 2.0 * x[k - 1] + x[k - 2]);
+        if (bend > rounding) least = fmin(least, bend);
+    }
+    return isfinite(least) ? least : rounding;
+}
+
+static bool ascends(const double *time_s, size_t n)
+{
+    for (size_t k = 1; k < n; ++k)
+        if (!(time_s[k] > time_s[k - 1])) return false;
+    return true;
+}
+
+/* ---- steps back ---- */
+
+/* After which a clock of the day or a counter begins again, s. */
+static const double PERIODS[] = {60.0,          3600.0,        43200.0,       86400.0,
+                                 0x1p16 * 1e-6, 0x1p16 * 1e-3, 0x1p31 * 1e-6, 0x1p32 * 1e-6,
+                                 0x1p32 * 1e-3, 0x1p32 * 1e-9, 0x1p31 * 1e-3};
+
+/* The period that makes a step back one forward that is no gap; 0: none. */
+static double period_of(double step, double stamp_s)
+{
+    for (size_t k = 0; k < sizeof PERIODS / sizeof *PERIODS; ++k)
+        if (step + PERIODS[k] > 0.0 && step + PERIODS[k] <= GAP * stamp_s) return PERIODS[k];
+    return 0.0;
+}
+
+typedef struct {
+    size_t wraps, pieces, early; /* whole periods; new pieces; stamps a little earlier than the one before */
+    double period;               /* of the first wrap */
+} steps_back;
+
+/* Takes the steps back out; those of jitter become steps of 0. */
+static steps_back go_forward(const hci_stamps *s, mean_steps mean)
+{
+    steps_back found = {0};
+    double shift = 0.0;
+    for (size_t k = 1; k < s->n; ++k) {
+        const double step = s->time_s[k] + shift - s->time_s[k - 1];
+        const double period = step < 0.0 ? period_of(step, mean.stamp_s) : 0.0;
+        if (step < 0.0 && step >= -JITTER * mean.stamp_s) {
+            ++found.early;
+            s->time_s[k] = s->time_s[k - 1];
+            continue;
+        }
+        if (period > 0.0) {
+            if (found.wraps++ == 0) found.period = period;
+            shift += period;
+        } else if (step < 0.0) {
+            ++found.pieces;
+            shift += mean.sample_s * (double)s->n - step;
+        }
+        s->time_s[k] += shift;
+    }
+    return found;
+}
+
+static void say_back(const steps_back *b, hci_note *remark)
+{
+    if (b->wraps > 0)
+        hci_note_add(remark, "the time begins again after %.10g s (%zu time%s): it goes on", b->period,
+                     b->wraps, b->wraps == 1 ? "" : "s");
+    if (b->pieces > 0)
+        hci_note_add(remark, "the time steps back %zu time%s: what follows is a piece of its own", b->pieces,
+                     b->pieces == 1 ? "" : "s");
+}
+
+/* ---- stamps that repeat ---- */
+
+/* Behind the last sample of a piece without a gap. */
+static size_t end_of_piece(const hci_stamps *s, size_t first, double most_s)
+{
+    size_t end = first + 1;
+    while (end < s->n && s->time_s[end] - s->time_s[end - 1] <= most_s)
+        ++end;
+    return end;
+}
+
+typedef struct {
+    double row, time_s, slope; /* at the middle */
+    double low, high;          /* of the residual */
+} line;
+
+static line line_of(const hci_stamps *s, size_t first, size_t end)
+{
+    const double share = 1.0 / (double)(end - first);
+    line l = {.low = INFINITY, .high = -INFINITY};
+    double square = 0.0, product = 0.0;
+    for (size_t k = first; k < end; ++k) {
+        l.row += share * (row_of(s, k) - row_of(s, first));
+        l.time_s += share * (s->time_s[k] - s->time_s[first]);
+    }
+    l.row += row_of(s, first);
+    l.time_s += s->time_s[first];
+    for (size_t k = first; k < end; ++k) {
+        square += (row_of(s, k) - l.row) * (row_of(s, k) - l.row);
+        product += (row_of(s, k) - l.row) * (s->time_s[k] - l.time_s);
+    }
+    l.slope = square > 0.0 ? product / square : 0.0;
+    for (size_t k = first; k < end; ++k) {
+        const double residual = s->time_s[k] - l.time_s - l.slope * (row_of(s, k) - l.row);
+        l.low = fmin(l.low, residual);
+        l.high = fmax(l.high, residual);
+    }
+    return l;
+}
+
+/* Whether each piece is a uniform clock rounded to steps of quantum_s; with write it becomes one. step_s:
+ * out, of the longest piece. */
+static bool is_uniform(const hci_stamps *s, double quantum_s, double most_s, bool write, double *step_s)
+{
+    size_t longest = 0;
+    for (size_t first = 0, end; first < s->n; first = end) {
+        end = end_of_piece(s, first, most_s);
+        if (end - first < LEAST) return false;
+        const line l = line_of(s, first, end);
+        if (!(l.slope > 0.0) || l.high - l.low > ROUNDED * quantum_s) return false;
+        if (end - first > longest) *step_s = l.slope;
+        longest = end - first > longest ? end - first : longest;
+        for (size_t k = first; k < end && write; ++k)
+            s->time_s[k] = l.time_s + l.slope * (row_of(s, k) - l.row);
+    }
+    return true;
+}
+
+/* A uniform clock where the stamps are one rounded. */
+static bool make_uniform(const hci_stamps *s, hci_note *remark)
+{
+    const double stamp_s = mean_steps_of(s).stamp_s, most_s = GAP * stamp_s;
+    const double quantum_s = quantum_of(s->time_s, s->n, LEAST_SHARE * stamp_s);
+    double step_s = 0.0;
+    if (!is_uniform(s, quantum_s, most_s, false, &step_s)) return false;
+    is_uniform(s, quantum_s, most_s, true, &step_s);
+    hci_note_add(remark, "the time is a uniform clock of %.4g s rounded to %.4g s: the uniform one is taken",
+                 step_s, quantum_s);
+    return ascends(s->time_s, s->n);
+}
+
+/* Samples of one stamp, evenly to the next stamp, but over no gap. Returns how many there were. */
+static size_t spread(const hci_stamps *s, mean_steps mean)
+{
+    size_t repeated = 0;
+    double step_s = mean.sample_s;
+    for (size_t first = 0, end; first < s->n; first = end) {
+        const double from = s->time_s[first];
+        for (end = first + 1; end < s->n && !(s->time_s[end] > from);)
+            ++end;
+        const double count = (double)(end - first);
+        const double to = end < s->n ? s->time_s[end] : from + step_s * count;
+        if (to - from <= GAP * mean.stamp_s) step_s = (to - from) / count;
+        for (size_t k = first; k < end; ++k)
+            s->time_s[k] = from + step_s * (double)(k - first);
+        repeated += end - first - 1;
+    }
+    return repeated;
+}
+
+bool hci_clock_mend(hci_stamps stamps, hci_note *remark)
+{
+    const hci_stamps *s = &stamps;
+    if (ascends(s->time_s, s->n)) return true;
+    const mean_steps mean = mean_steps_of(s);
+    const steps_back back = mean.stamp_s > 0.0 ? go_forward(s, mean) : (steps_back){0};
+    if (!(mean.stamp_s > 0.0) || (back.pieces + back.wraps) * RESTARTS > s->n) {
+        hci_note_add(remark, "the time does not go on: it is not used");
+        return false;
+    }
+    say_back(&back, remark);
+    if (ascends(s->time_s, s->n)) return true;
+    if (make_uniform(s, remark)) return true;
+    const size_t repeated = spread(s, mean);
+    hci_note_add(remark, "%zu stamps are not later than the one before: their samples are spread evenly",
+                 repeated);
+    return ascends(s->time_s, s->n);
+}
+
+/* ---- beside the angle ---- */
+
+static double place_of(const hci_stamps *s, bool by_row, size_t k)
+{
+    return by_row ? row_of(s, k) : s->time_s[k];
+}
+
+/* x[k] less the cubic through its four neighbours, over the standard deviation that has for unit noise. */
+static double departure(const hci_stamps *s, bool by_row, const double *x, size_t k)
+{
+    const size_t at[4] = {k - 2, k - 1, k + 1, k + 2};
+    double residual = x[k] - x[k - 1], variance = 1.0;
+    for (int i = 0; i < 4; ++i) {
+        double weight = 1.0;
+        for (int j = 0; j < 4; ++j)
+            if (j != i)
+                weight *= (place_of(s, by_row, k) - place_of(s, by_row, at[j])) /
+                          (place_of(s, by_row, at[i]) - place_of(s, by_row, at[j]));
+        residual -= weight * (x[at[i]] - x[k - 1]);
+        variance += weight * weight;
+    }
+    return fabs(residual) / sqrt(variance);
+}
+
+/* How rough an angle is over its stamps or rows: the median, so that a jerk does not count. */
+static double roughness(const hci_stamps *s, bool by_row, const double *angle, double *work)
+{
+    for (size_t k = 2; k + 2 < s->n; ++k)
+        work[k - 2] = departure(s, by_row, angle, k);
+    return hci_median(work, s->n - 4) / 0.6745;
+}
+
+hci_clock_kind hci_clock_judge(hci_stamps stamps, const double *theta_m_rad, int pole_pairs, double *work)
+{
+    if (stamps.n < 2 * LEAST) return HCI_CLOCK_AGREES;
+    const double quantum = quantum_of(theta_m_rad, stamps.n, LEAST_STEP);
+    const double by_time = roughness(&stamps, false, theta_m_rad, work);
+    if (!(by_time > fmax(SMALL / pole_pairs, 2.0 * quantum))) return HCI_CLOCK_AGREES;
+    if (by_time > ROUGHER * roughness(&stamps, true, theta_m_rad, work)) return HCI_CLOCK_JITTERS;
+    return by_time > fmax(FOREIGN, 4.0 * quantum) ? HCI_CLOCK_FOREIGN : HCI_CLOCK_AGREES;
+}
+
+/* The mean of the neighbours on both sides, which are as many. */
+static double mean_around(const hci_stamps *s, size_t k)
+{
+    size_t half = k < s->n - 1 - k ? k : s->n - 1 - k;
+    half = half < HALF_WINDOW ? half : HALF_WINDOW;
+    const double *from = s->time_s + k - half, *end = s->time_s + k + half;
+    const double rows = row_of(s, k + half) - row_of(s, k - half);
+    const double slope = rows > 0.0 ? (*end - *from) / rows : 0.0;
+    double sum = 0.0;
+    for (size_t j = k - half; j <= k + half; ++j)
+        sum += s->time_s[j] - *from - slope * (row_of(s, j) - row_of(s, k));
+    return *from + sum / (double)(2 * half + 1);
+}
+
+void hci_clock_smooth(hci_stamps stamps, double *work, hci_note *remark)
+{
+    if (make_uniform(&stamps, remark)) return;
+    for (size_t k = 0; k < stamps.n; ++k)
+        work[k] = mean_around(&stamps, k);
+    if (!ascends(work, stamps.n)) return;
+    memcpy(stamps.time_s, work, stamps.n * sizeof *work);
+    hci_note_add(remark, "the angle is smooth over the rows and not over the time: the time is smoothed");
+}

@@ -1,0 +1,40 @@
+/* The clock of a recording: stamps that were rounded, repeated, begin again, or do not belong to the angle
+ * beside them. */
+#ifndef HCI_SRC_HOST_RECORDING_CLOCK_H
+#define HCI_SRC_HOST_RECORDING_CLOCK_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "hci/host/base/note.h"
+
+/* Stamps of n samples. */
+typedef struct {
+    double *time_s;    /* changed in place */
+    const size_t *row; /* of each sample in the file, ascending; NULL: they follow each other */
+    size_t n;
+} hci_stamps;
+
+/* Makes stamps ascend, and says in the remark how:
+ *   a step back by a whole day, or by the range of a counter, goes on as if there were none;
+ *   another step back begins a piece of its own, behind a gap as long as the record;
+ *   stamps that are a uniform clock rounded to whole steps become that clock;
+ *   other stamps that repeat, or are a little earlier than the one before, are spread evenly to the next.
+ * False: they say nothing (all equal, descending, or a step back for every 20 samples). O(n). */
+bool hci_clock_mend(hci_stamps stamps, hci_note *remark);
+
+typedef enum {
+    HCI_CLOCK_AGREES,  /* the angle is a smooth function of the stamps, or rough in any case */
+    HCI_CLOCK_JITTERS, /* it is one of the rows, and not of the stamps */
+    HCI_CLOCK_FOREIGN  /* angle and stamp were not taken at the same instant */
+} hci_clock_kind;
+
+/* Holds the stamps against an unwrapped mechanical angle. What is less than 0.01 rad of the electrical angle,
+ * or two steps of the encoder, does not count; a foreign clock is 0.02 rad of the mechanical angle off and
+ * four steps. work: n. O(n log n). */
+hci_clock_kind hci_clock_judge(hci_stamps stamps, const double *theta_m_rad, int pole_pairs, double *work);
+
+/* Stamps that jitter: a uniform clock where they are one rounded, else means of 41 neighbours. work: n. */
+void hci_clock_smooth(hci_stamps stamps, double *work, hci_note *remark);
+
+#endif
