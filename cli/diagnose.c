@@ -10,6 +10,7 @@
 #include "cli/diagnose_words.h"
 #include "cli/terminal/progress.h"
 #include "cli/terminal/say.h"
+#include "cli/terminal/signals.h"
 #include "cli/terminal/terminal.h"
 #include "hci/host/diagnose/diagnose.h"
 #include "hci/host/report/summary.h"
@@ -130,6 +131,17 @@ static int solve_and_give(const cli_arguments *a, const inputs *in, const hci_di
     return exit_code;
 }
 
+/* Ctrl-C ends the search with what it has, and the program when that has been written. */
+static hci_status search(inputs *in, hci_diagnosis *d, hci_note *note)
+{
+    in->options.stop = cli_signals_deferred;
+    cli_signals_defer();
+    const hci_status status =
+        hci_diagnose(&in->machine, &in->declared.list, &in->runs, &in->options, d, note);
+    cli_signals_catch();
+    return status;
+}
+
 static int run(const cli_arguments *a)
 {
     inputs in;
@@ -139,8 +151,7 @@ static int run(const cli_arguments *a)
     int exit_code;
     memset(&in, 0, sizeof in);
     status = read_inputs(a, &in, &note);
-    if (!status)
-        status = hci_diagnose(&in.machine, &in.declared.list, &in.runs, &in.options, &diagnosis, &note);
+    if (!status) status = search(&in, &diagnosis, &note);
     if (status <= HCI_NOT_REACHED) {
         exit_code = solve_and_give(a, &in, &diagnosis, status);
         hci_diagnosis_release(&diagnosis);
@@ -148,6 +159,8 @@ static int run(const cli_arguments *a)
         exit_code = cli_fail(status, &note);
     }
     release_inputs(&in);
+    fflush(stdout);
+    cli_signals_obey();
     return exit_code;
 }
 

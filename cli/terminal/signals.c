@@ -17,16 +17,50 @@ static void leave(int number)
     raise(number);
 }
 
+/* From now on `handler` gets a signal once, unless the program was told to ignore it. */
+static void handle(int number, void (*handler)(int))
+{
+    struct sigaction action, before;
+    memset(&action, 0, sizeof action);
+    action.sa_handler = handler;
+    action.sa_flags = (int)SA_RESETHAND;
+    sigfillset(&action.sa_mask);
+    if (sigaction(number, NULL, &before) == 0 && before.sa_handler != SIG_IGN)
+        sigaction(number, &action, NULL);
+}
+
 void cli_signals_catch(void)
 {
-    static const int NUMBERS[] = {SIGINT, SIGTERM, SIGHUP};
-    for (size_t k = 0; k < sizeof NUMBERS / sizeof *NUMBERS; ++k) {
-        struct sigaction action, before;
-        memset(&action, 0, sizeof action);
-        action.sa_handler = leave;
-        action.sa_flags = (int)SA_RESETHAND;
-        sigfillset(&action.sa_mask);
-        if (sigaction(NUMBERS[k], NULL, &before) == 0 && before.sa_handler != SIG_IGN)
-            sigaction(NUMBERS[k], &action, NULL);
-    }
+    handle(SIGINT, leave);
+    handle(SIGTERM, leave);
+    handle(SIGHUP, leave);
+}
+
+/* ---- later ---- */
+
+static volatile sig_atomic_t is_deferred;
+
+static void defer(int number)
+{
+    is_deferred = 1;
+    handle(number, leave);
+}
+
+void cli_signals_defer(void)
+{
+    is_deferred = 0;
+    handle(SIGINT, defer);
+}
+
+bool cli_signals_deferred(void *context)
+{
+    (void)context;
+    return is_deferred != 0;
+}
+
+void cli_signals_obey(void)
+{
+    if (!is_deferred) return;
+    handle(SIGINT, SIG_DFL);
+    raise(SIGINT);
 }

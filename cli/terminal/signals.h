@@ -2,8 +2,20 @@
 #ifndef HCI_CLI_SIGNALS_H
 #define HCI_CLI_SIGNALS_H
 
+#include <stdbool.h>
+
 /* From now on a signal that ends the program erases the line of progress and the files that are half
  * written, and then ends it as it would have. */
 void cli_signals_catch(void);
+
+/* From now on the first Ctrl-C is only remembered, until cli_signals_catch; the second one ends the program.
+ * A Ctrl-C that the program was told to ignore stays ignored. */
+void cli_signals_defer(void);
+
+/* Whether there was a Ctrl-C that is remembered; an hci_stop. context: not used. */
+bool cli_signals_deferred(void *context);
+
+/* Ends the program as that Ctrl-C would have; nothing happens where there was none. */
+void cli_signals_obey(void);
 
 #endif

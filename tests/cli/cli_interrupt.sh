@@ -19,6 +19,8 @@ keys='simulating.*s simulated/s>\x03'
     plan made 80 -- $endless -o "$work/made/for/it"
     plan older 80 LC_ALL=C -- $endless --json --report -o "$work/older"
 }
+keys='looking for effects>\x03'
+plan early 80 -- diagnose data/fem_c/machine --runs data/fem_c/runs.csv -o "$work/early"
 keys=
 perform
 interrupted() {
@@ -32,6 +34,13 @@ seen 130 older
 interrupted
 check "no progress with --json, in ASCII" grep -Eq 'simulating #* +[0-9]+ %' "$screen"
 check "older results have changed: $(ls -A "$work/older")" [ "$(ls -A "$work/older") $(cat "$work/older/summary.json")" = "summary.json older" ]
+
+# A search that Ctrl-C ends writes what it has, and says so.
+seen 130 early
+check "files: $(ls "$work/early")" [ "$(ls "$work/early" | tr '\n' ' ')" = "effects.csv errors.csv machine report.html residual_spectrum.csv summary.json " ]
+check "summary.json does not say that it was interrupted" grep -q '"search":[[:space:]]*"interrupted"' "$work/early/summary.json"
+check "the words do not say it" grep -q 'The search was interrupted' "$work/early/summary.json"
+check "the report does not say it" grep -q 'The search was interrupted' "$work/early/report.html"
 
 shown="hci-solve simulate, and kill"
 # shellcheck disable=SC2086

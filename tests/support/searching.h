@@ -19,7 +19,7 @@ static inline void search_start(void)
     static const hci_effects none = {NULL, 0};
     memset(&note, 0, sizeof note);
     TEST_ASSERT_EQUAL_INT(HCI_OK, hci_dataset_make(&machine, &none, &runs, &dataset, &note));
-    how = (hci_attribute_options){runs.run, 5e-4, NAN, NULL, NULL};
+    how = (hci_attribute_options){.runs = runs.run, .resolution_Nm = 5e-4, .reference_current_A = NAN};
     search = (hci_search){.regression = &dataset.regression, .options = &how, .richness = 1};
     search.residual_Nm = calloc(2 * dataset.samples.count + 1, sizeof *search.residual_Nm);
     search.variance = search.residual_Nm + dataset.samples.count;

@@ -102,7 +102,7 @@ static bool dataset_make(const hci_regression *e, double noise_Nm, trial_dataset
     b->sum_deviation_A = NAN;
     b->use = true;
     b->regression = (hci_regression){e->machine, e->declared, &b->samples,         &b->run, &b->use,
-                                     false,      &b->noise,   &b->sum_deviation_A, NULL};
+                                     false,      &b->noise,   &b->sum_deviation_A, NULL,    NULL};
     return b->sample != NULL;
 }
 

@@ -40,6 +40,12 @@ const char *hci_diagnosis_verdict_name(hci_diagnosis_verdict verdict)
     return NAMES[verdict];
 }
 
+const char *hci_diagnosis_search_name(hci_work_end end)
+{
+    static const char *const NAMES[] = {"complete", "interrupted", "limited"};
+    return NAMES[end];
+}
+
 /* ---- the corrected machine ---- */
 
 static hci_status effects_fill(const hci_regression *e, const hci_candidates *candidates, hci_diagnosis *d,
@@ -91,6 +97,7 @@ static hci_status advice_fill(const hci_regression *e, const hci_attribution *a,
 static hci_status fill(hci_dataset *b, const hci_runs *runs, hci_attribution *a, hci_diagnosis *d,
                        hci_note *note)
 {
+    d->search = a->ended;
     hci_unexplained_fill(b, a, d);
     hci_candidates_remove_type(&a->model.candidates, &hci_empirical_type);
     hci_status status = effects_fill(&b->regression, &a->model.candidates, d, note);
@@ -173,9 +180,13 @@ static hci_status diagnose(hci_dataset *b, const hci_machine_data *machine, cons
                            const hci_diagnose_options *options, hci_diagnosis *d, hci_note *note)
 {
     const double resolution = options->resolution > 0.0 ? options->resolution : RESOLUTION;
-    const hci_attribute_options how = {runs->run, resolution * hci_dataset_range_of(b).torque_Nm,
-                                       machine->rated_current_A, options->progress,
-                                       options->progress_context};
+    const hci_attribute_options how = {runs->run,
+                                       resolution * hci_dataset_range_of(b).torque_Nm,
+                                       machine->rated_current_A,
+                                       options->progress,
+                                       options->progress_context,
+                                       options->stop,
+                                       options->stop_context};
     hci_attribution a;
     hci_status status = hci_attribute(&b->regression, &how, &a, note);
     if (status) return status;
@@ -215,7 +226,9 @@ hci_status hci_diagnose(const hci_machine_data *machine, const hci_effects *decl
         hci_diagnosis_release(diagnosis);
         return status;
     }
-    return diagnosis->verdict >= HCI_DIAGNOSIS_AMBIGUOUS ? HCI_NOT_REACHED : HCI_OK;
+    return diagnosis->verdict >= HCI_DIAGNOSIS_AMBIGUOUS || diagnosis->search != HCI_WORK_COMPLETE
+               ? HCI_NOT_REACHED
+               : HCI_OK;
 }
 
 void hci_diagnosis_release(hci_diagnosis *d)

@@ -90,6 +90,14 @@ static void say_free_shafts(words *w, const hci_diagnosis *d)
             d->runs);
 }
 
+static void say_search(words *w, const hci_diagnosis *d)
+{
+    if (d->search == HCI_WORK_COMPLETE) return;
+    say(w, "%s: this is the best model that it had found; others have not been compared with it. ",
+        d->search == HCI_WORK_INTERRUPTED ? "The search was interrupted"
+                                          : "The search reached the limit of its work");
+}
+
 static void say_verdict(words *w, const hci_diagnosis *d)
 {
     switch (d->verdict) {
@@ -128,6 +136,7 @@ void hci_diagnosis_words(const hci_diagnosis *d, char *text, size_t size)
 {
     words w = {text, 0, size};
     text[0] = '\0';
+    say_search(&w, d);
     say_verdict(&w, d);
     say_free_shafts(&w, d);
 }

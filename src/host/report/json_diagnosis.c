@@ -88,6 +88,7 @@ char *hci_diagnosis_json(const hci_diagnosis *d, const hci_resolution *r)
     hci_diagnosis_words(d, words, sizeof words);
     hci_summary_begin(&json, "diagnose");
     hci_json_text(&json, "verdict", hci_diagnosis_verdict_name(d->verdict));
+    hci_json_text(&json, "search", hci_diagnosis_search_name(d->search));
     hci_json_text(&json, "words", words);
     hci_json_text(&json, "measure_next", d->advice);
     put_errors(&json, d);

@@ -18,6 +18,8 @@ typedef struct {
                         * of a run; 0: 5e-4 */
     hci_progress *progress; /* may be NULL */
     void *progress_context; /* first argument of progress */
+    hci_stop *stop;         /* asked during the search for effects; may be NULL */
+    void *stop_context;     /* first argument of stop */
 } hci_diagnose_options;
 
 /* Whether the recordings show an effect. */
@@ -87,9 +89,13 @@ typedef enum {
 /* The verdict in a word: complete, explained, ambiguous, unknown; a static string. */
 const char *hci_diagnosis_verdict_name(hci_diagnosis_verdict verdict);
 
+/* How the search ended in a word: complete, interrupted, limited; a static string. */
+const char *hci_diagnosis_search_name(hci_work_end end);
+
 /* What was found. Start with {0}. */
 typedef struct {
     hci_diagnosis_verdict verdict;          /* in a word */
+    hci_work_end search;                    /* unless complete, of the best model that it had found */
     hci_finding finding[HCI_MOST_FINDINGS]; /* most important first */
     size_t findings;                        /* entries of finding in use */
     hci_effects_data effects;               /* of the corrected machine: declared ones and added ones */
@@ -107,11 +113,11 @@ typedef struct {
     bool wanders;      /* something is left that does not repeat with the turn */
 } hci_diagnosis;
 
-/* Finds what is missing. HCI_OK; HCI_NOT_REACHED when the verdict is ambiguous or unknown; or an error with a
- * note, and then *diagnosis is empty. HCI_ERROR_INPUT when no run to be fitted has a torque, when a run
- * without a torque column is no free shaft, and when the effects take more than half of the declared torque
- * per ampere away, which nobody would believe. runs: kept as
- * long as the diagnosis. */
+/* Finds what is missing. HCI_OK; HCI_NOT_REACHED when the verdict is ambiguous or unknown, or the search did
+ * not come to its end; or an error with a note, and then *diagnosis is empty. HCI_ERROR_INPUT when no run to
+ * be fitted has a torque, when a run without a torque column is no free shaft, and when the effects take more
+ * than half of the declared torque per ampere away, which nobody would believe. runs: kept as long as the
+ * diagnosis. */
 hci_status hci_diagnose(const hci_machine_data *machine, const hci_effects *declared, const hci_runs *runs,
                         const hci_diagnose_options *options, hci_diagnosis *diagnosis, hci_note *note);
 

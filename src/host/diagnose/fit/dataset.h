@@ -14,6 +14,7 @@ typedef struct {
     hci_binned_samples samples;
     hci_regression regression; /* uses the runs to be fitted */
     hci_known_equations known;
+    double work;              /* as hci_regression.work */
     bool *fit, *any;          /* of each run */
     double *index_offset_rad; /* of each run: its angle was ahead by this and has been turned back */
 } hci_dataset;

@@ -143,6 +143,7 @@ static void rows_add(const filling *f, size_t rows)
 static void segment_add(const filling *f, const hci_segment *s, hci_predicted_reading *predicted)
 {
     hci_predicted_reading_fill(f->regression, &f->model->list, s, predicted);
+    hci_regression_count(f->regression, s->count, predicted->terms, f->model->columns);
     torque_rows(f, s, predicted);
     rows_add(f, s->count);
     const double rows = f->normal->rows;

@@ -146,6 +146,7 @@ hci_status hci_regression_residual(const hci_regression *e, const hci_effects *e
     memset(residual_Nm, 0, e->samples->count * sizeof *residual_Nm);
     for (const hci_segment *s = NULL; (s = hci_regression_next(e, s)) != NULL;) {
         hci_predicted_reading_fill(e, effects, s, &predicted);
+        hci_regression_count(e, s->count, predicted.terms, 0);
         for (size_t j = 0; j < s->count; ++j)
             residual_Nm[s->first + j] = e->samples->sample[s->first + j].torque_Nm - predicted.torque_Nm[j];
         if (e->runs[s->run].mean_is_unknown) take_mean_out(residual_Nm + s->first, s->count);

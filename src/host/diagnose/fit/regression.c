@@ -13,3 +13,13 @@ hci_noise *hci_regression_noise(const hci_regression *e, const hci_segment *segm
 {
     return &e->noise[segment - e->samples->segment];
 }
+
+/* A prediction takes that many for each term and derivative, and for all that is common to the terms. */
+#define OF_TERM   60.0
+#define OF_SAMPLE 1000.0
+
+void hci_regression_count(const hci_regression *e, size_t samples, size_t terms, size_t columns)
+{
+    const double n = (double)columns;
+    if (e->work) *e->work += (double)samples * (OF_SAMPLE + OF_TERM * (double)terms + 0.5 * n * n);
+}

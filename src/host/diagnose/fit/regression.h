@@ -18,10 +18,15 @@ typedef struct {
     hci_noise *noise;           /* of each segment */
     double *sum_deviation_A;    /* of each run: noise of i_a + i_b + i_c; NAN where that says nothing */
     hci_known_equations *known; /* of models linearised before; NULL: none are kept */
+    double *work;               /* multiplications so far, about; NULL: not counted */
 } hci_regression;
 
 /* The segment of a run in use that follows `after` (NULL: the first one); NULL behind the last. */
 const hci_segment *hci_regression_next(const hci_regression *regression, const hci_segment *after);
+
+/* Adds the multiplications of predicting so many samples of a model, about. columns: whose products are
+ * summed up. */
+void hci_regression_count(const hci_regression *regression, size_t samples, size_t terms, size_t columns);
 
 /* The noise of a segment. */
 hci_noise *hci_regression_noise(const hci_regression *regression, const hci_segment *segment);

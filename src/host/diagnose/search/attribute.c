@@ -28,9 +28,9 @@ static hci_status round_run(hci_search *s, hci_fitted_model *model, bool *again,
     if (hci_candidates_types_in(&model->candidates) < MOST_EFFECTS)
         status = hci_search_forward(s, model, again, note);
     if (!status && *again) status = hci_search_prune(s, model, note);
-    for (bool dropped = true; dropped && !status;)
+    for (bool dropped = true; dropped && !status && !hci_search_is_over(s);)
         status = hci_search_drop(s, model, &dropped, note);
-    if (!status && !*again) status = hci_search_swap(s, model, again, note);
+    if (!status && !*again && !hci_search_is_over(s)) status = hci_search_swap(s, model, again, note);
     return status;
 }
 
@@ -47,7 +47,7 @@ static hci_status search_run(hci_search *s, hci_fitted_model *model, hci_note *n
     hci_search_begin(s, "looking for effects", 0.0, 0.0);
     hci_status status = hci_search_renew(s, model, note);
     bool again = true;
-    for (int round = 0; again && !status && round < MOST_ROUNDS; ++round) {
+    for (int round = 0; again && !status && round < MOST_ROUNDS && !hci_search_is_over(s); ++round) {
         hci_search_begin(s, "looking for effects", share_before(round), share_before(round + 1));
         status = round_run(s, model, &again, note);
     }
@@ -76,7 +76,7 @@ static hci_status verdict_of(hci_search *s, hci_attribution *a, hci_verdict *v, 
     status = hci_search_explained(s, &a->model.candidates, &without.candidates, &v->explained_Nm, note);
     hci_fitted_model_release(&without);
     /* Beside an empirical term known effects may be a part of it. */
-    if (status || a->unknown || is_of_whole(s, v->type)) return status;
+    if (status || a->unknown || is_of_whole(s, v->type) || hci_search_is_over(s)) return status;
     return hci_search_rivals(s, v->type, a, note);
 }
 
@@ -129,8 +129,8 @@ static hci_status verdicts(hci_search *s, hci_attribution *a, hci_note *note)
     for (size_t r = 0; r < a->types && !status; ++r)
         if (hci_candidates_have(&a->model.candidates, a->verdict[r].type))
             status = verdict_of(s, a, &a->verdict[r], note);
-    if (!status) status = verdicts_of_others(s, a, note);
-    return status ? status : verdicts_of_same(s, a, note);
+    if (!status && !hci_search_is_over(s)) status = verdicts_of_others(s, a, note);
+    return status || hci_search_is_over(s) ? status : verdicts_of_same(s, a, note);
 }
 
 /* ---- the whole ---- */
@@ -141,13 +141,14 @@ static hci_status attribute(hci_search *s, hci_attribution *a, hci_note *note)
     hci_status status = search_run(s, &a->model, note);
     if (status) return status;
     hci_search_begin(s, "weighing the evidence", SEARCH_SHARE, 1.0);
-    status = hci_search_coenergy(s, &a->model, note);
+    if (!hci_search_is_over(s)) status = hci_search_coenergy(s, &a->model, note);
     for (bool dropped = s->whole_coenergy; dropped && !status;)
         status = hci_search_drop(s, &a->model, &dropped, note);
     if (!status) status = hci_search_settle(s, a, note);
     if (!status) status = verdicts(s, a, note);
     if (!status) status = hci_regression_standard_errors(s->regression, &a->model.candidates, note);
     if (!status) status = hci_regression_fit(s->regression, &none, &a->before, note);
+    a->ended = s->ended;
     return status;
 }
 

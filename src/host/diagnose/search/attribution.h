@@ -22,6 +22,7 @@ enum { HCI_MOST_TYPES = 32 };
 typedef struct {
     hci_fitted_model model; /* with the noise that was found in the end */
     hci_fit before;         /* without any effect, with the same noise */
+    hci_work_end ended;     /* how */
     bool unknown;           /* something is left that no effect explains, and it is not small */
     bool wanders;           /* what is left does not repeat with the turn */
     double unexplained_Nm;  /* rms of what no effect explains */
@@ -37,6 +38,8 @@ typedef struct {
     double reference_current_A; /* of a series in the currents; NAN: the largest of the runs */
     hci_progress *progress;     /* may be NULL */
     void *context;
+    hci_stop *stop; /* may be NULL */
+    void *stop_context;
 } hci_attribute_options;
 
 #endif

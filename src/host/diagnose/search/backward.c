@@ -68,7 +68,7 @@ static hci_status leave_one(hci_search *s, hci_fitted_model *model, size_t k, bo
 hci_status hci_search_prune(hci_search *s, hci_fitted_model *model, hci_note *note)
 {
     hci_status status = HCI_OK;
-    for (bool again = true; again && !status;) {
+    for (bool again = true; again && !status && !hci_search_is_over(s);) {
         size_t worst = model->candidates.count;
         again = false;
         status = superfluous_find(s, &model->candidates, &worst, note);
@@ -106,7 +106,7 @@ hci_status hci_search_drop(hci_search *s, hci_fitted_model *model, bool *dropped
 {
     hci_status status = HCI_OK;
     *dropped = false;
-    for (size_t r = 0; r < hci_candidate_types() && !status && !*dropped; ++r)
+    for (size_t r = 0; r < hci_candidate_types() && !status && !*dropped && !hci_search_is_over(s); ++r)
         if (may_leave(s, model, hci_candidate_type(r)))
             status = drop_type(s, model, hci_candidate_type(r), dropped, note);
     return status;

@@ -145,7 +145,7 @@ static hci_status models_enter(comparison *c, const hci_candidate_models *t, hci
     const hci_candidate_model *picked[SINGLES + 1];
     const size_t count = models_pick(t, picked);
     hci_status status = HCI_OK;
-    for (size_t k = 0; k < count && !status; ++k) {
+    for (size_t k = 0; k < count && !status && !hci_search_is_over(c->search); ++k) {
         hci_fitted_model candidate = {0};
         const double handicap = is_pair(picked[k]) ? HCI_DECISIVE + PAIR_MARGIN * picked[0]->gain : 0.0;
         status = hci_candidate_model_fit(c->search, t, picked[k], &candidate, note);
@@ -194,7 +194,7 @@ hci_status hci_search_forward(hci_search *s, hci_fitted_model *model, bool *adde
     if (status) return status;
     status = models_enter(&c, &t, note);
     hci_candidate_models_release(&t);
-    for (size_t r = 0; hci_effect_type_at(r) && !status; ++r)
+    for (size_t r = 0; hci_effect_type_at(r) && !status && !hci_search_is_over(s); ++r)
         if (hci_effect_type_at(r)->resonance) status = resonance_enter(&c, hci_effect_type_at(r), note);
     if (!status && c.best.candidates.candidate) {
         hci_fitted_model_replace(model, &c.best);

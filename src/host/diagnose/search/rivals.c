@@ -75,7 +75,7 @@ static hci_status swap_type(hci_search *s, hci_fitted_model *model, const hci_ef
     hci_fitted_model rival = {0};
     size_t with = 0;
     hci_status status = rivalry_start(s, model, type, &r, note);
-    while (!status && !*swapped && with < hci_candidate_types()) {
+    while (!status && !*swapped && with < hci_candidate_types() && !hci_search_is_over(s)) {
         status = rivalry_next(&r, &rival, &with, note);
         if (status || with == hci_candidate_types()) break;
         if (rival.fit.score < model->fit.score - margin_of(with)) {
@@ -93,7 +93,7 @@ hci_status hci_search_swap(hci_search *s, hci_fitted_model *model, bool *swapped
 {
     hci_status status = HCI_OK;
     *swapped = false;
-    for (size_t r = 0; r < hci_candidate_types() && !status && !*swapped; ++r)
+    for (size_t r = 0; r < hci_candidate_types() && !status && !*swapped && !hci_search_is_over(s); ++r)
         if (hci_candidates_have(&model->candidates, hci_candidate_type(r)))
             status = swap_type(s, model, hci_candidate_type(r), swapped, note);
     return status;
@@ -135,7 +135,7 @@ hci_status hci_search_rivals(hci_search *s, const hci_effect_type *type, hci_att
     size_t with = 0;
     hci_status status = rivalry_start(s, &a->model, type, &r, note);
     if (!status) plausible_mark(&r, a);
-    while (!status) {
+    while (!status && !hci_search_is_over(s)) {
         status = rivalry_next(&r, &rival, &with, note);
         if (status || with == hci_candidate_types()) break;
         const bool is_empirical = hci_candidate_type(with) == &hci_empirical_type;

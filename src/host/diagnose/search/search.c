@@ -11,6 +11,21 @@
 
 #define PART 0.02 /* of what is left of a step that a fit or a residual takes */
 
+#define MOST_WORK 2.5e10 /* as hci_regression.work counts it, that a search may take */
+
+/* ---- the end ---- */
+
+bool hci_search_is_over(hci_search *s)
+{
+    const double *work = s->regression->work;
+    if (s->ended != HCI_WORK_COMPLETE) return true;
+    if (s->options->stop && s->options->stop(s->options->stop_context))
+        s->ended = HCI_WORK_INTERRUPTED;
+    else if (work && *work > MOST_WORK)
+        s->ended = HCI_WORK_LIMITED;
+    return s->ended != HCI_WORK_COMPLETE;
+}
+
 /* ---- progress ---- */
 
 static void tell(const hci_search *s)

@@ -17,7 +17,12 @@ typedef struct {
     bool whole_coenergy;            /* all terms of the co-energy are in, each with an expectation */
     const char *doing;
     double share, until; /* of all work: done so far, and when the step at hand is done */
+    hci_work_end ended;  /* HCI_WORK_COMPLETE until something makes it end early */
 } hci_search;
+
+/* Whether to end with the best model so far: the user wants it, or the work is as much as it may be. Once it
+ * is over it stays so. */
+bool hci_search_is_over(hci_search *search);
 
 /* Tells of a step that takes the work from one share of the whole to another. */
 void hci_search_begin(hci_search *search, const char *doing, double from, double until);
