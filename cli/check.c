@@ -103,6 +103,22 @@ static void show_evidence_of(const hci_check *c, hci_check_state state, const ch
     }
 }
 
+/* What is within its tolerance, and would be with a slip: its number says nothing by itself. */
+static void show_unjudged(const hci_check *c)
+{
+    size_t shown = 0;
+    for (size_t k = 0; k < c->evidences; ++k)
+        shown += c->evidence[k].state == HCI_CHECK_UNJUDGED;
+    if (shown > 0)
+        cli_say("\n  not judged, %zu: what is unknown in the recordings is too large\n    %10s %10s %9s\n",
+                shown, "declared", "expected", "+-");
+    for (size_t k = 0; k < c->evidences; ++k) {
+        const hci_check_evidence *e = &c->evidence[k];
+        if (e->state == HCI_CHECK_UNJUDGED)
+            cli_say("    %10.4g %10.4g %9.2g  %s\n", e->declared, e->expected, e->tolerance, e->words);
+    }
+}
+
 /* Relations by what they want: once each, where it stands first. */
 static void show_gaps(const hci_check *c)
 {
@@ -139,6 +155,7 @@ static void show(const hci_check *c)
     show_evidence_of(c, HCI_CHECK_WORSE, "speaks against it: agrees as declared, and not as read");
     show_evidence_of(c, HCI_CHECK_UNMENDED, "not understood: agrees in no reading");
     show_evidence_of(c, HCI_CHECK_AGREES, "checked and consistent");
+    show_unjudged(c);
     show_gaps(c);
     show_untold(c);
 }

@@ -60,7 +60,7 @@ says '^hci-solve: note: .*`erpm` is read as.*columns not used: `odd`' '^1 slip f
     'possible resistance_line' ' 1  change of the angle over time against the speed'
 check "the same remark twice" [ "$(grep -c 'note:' "$work/stderr")" -eq 1 ]
 sed -i 's/^resistance,0.38/resistance,0.2/; s/^rated_current,7.0710678/rated_current,10/' "$work/typed/machine.csv"
-printf 'order,amplitude_Nm_per_A,phase_rad\n1,0.1905255888,0\n' >"$work/typed/back_emf.csv"
+printf 'order,amplitude_Nm_per_A,phase_rad\n1,0.2,0\n' >"$work/typed/back_emf.csv"
 run 1 check "$work/typed" "$work/load.csv" "$work/back.csv"
 says '^1 slip found: the back-EMF is given line to line' '^  better as read, but still off'
 sed 's/theta_m_rad/theta/; s/vd_V,vq_V/va_V,vb_V/; s/odd/vc_V/' "$work/load.csv" >"$work/either.csv"

@@ -8,8 +8,8 @@
 #include <string.h>
 
 #include "hci/machine/frames.h"
-#include "host/check/data.h"
-#include "host/check/run_samples.h"
+#include "host/check/data/data.h"
+#include "host/check/data/run_samples.h"
 #include "support/draws.h"
 
 enum { MOTOR_SAMPLES = 400 };
@@ -114,6 +114,7 @@ static inline void motor_record(check_data *data, double i_d, double i_q, bool w
     if (with_angle) hci_check_run_frames(data, &samples, run);
     run->theta = with_angle ? angle[data->runs] : NULL;
     run->torque = torque[data->runs];
+    hci_check_run_ripple(run);
     data->no_current_A = 0.3;
     ++data->runs;
 }

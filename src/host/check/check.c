@@ -13,8 +13,8 @@ const char *hci_check_verdict_name(hci_check_verdict verdict)
 
 const char *hci_check_state_name(hci_check_state state)
 {
-    static const char *const NAME[] = {"consistent", "mended",         "better",
-                                       "mendable",   "not_understood", "worse"};
+    static const char *const NAME[] = {"consistent",     "mended", "better",  "mendable",
+                                       "not_understood", "worse",  "unjudged"};
     return NAME[state];
 }
 

@@ -12,6 +12,11 @@
 /* What the best interpretation is to have mended is met as well as this. */
 #define MENDED 1.5
 
+/* A relation whose tolerance has grown to more than this, by what is unknown in the recordings, is met by
+ * slips as well. */
+#define TOO_WIDE 0.25
+#define GROWN    1.5
+
 /* A relation that is not met is nearer when less than this of its deviation is left. */
 #define NEARER 0.5
 
@@ -95,6 +100,13 @@ static hci_check_state state_of(double declared, double as_read)
     return as_read < fmax(MET, NEARER * declared) ? HCI_CHECK_BETTER : HCI_CHECK_UNMENDED;
 }
 
+/* Both values agree, and would agree with a slip. */
+static bool is_too_wide(const check_relation *r, check_value declared, check_value as_read)
+{
+    const double spread = fmax(declared.spread, as_read.spread);
+    return spread > GROWN && r->tolerance * spread > TOO_WIDE;
+}
+
 static bool is_used(const check_posterior *p, const char *relation)
 {
     for (size_t k = 0; k < hci_check_relation_count(); ++k)
@@ -119,6 +131,8 @@ static hci_check_evidence evidence_of(const check_posterior *p, const check_rela
                                as = hci_check_interpretation_of(&p->list[p->best]);
     const check_value before = hci_check_relation_value(p->data, r, &declared),
                       after = hci_check_relation_value(p->data, r, &as);
+    hci_check_state state = state_of(hci_check_deviation(r, before), hci_check_deviation(r, after));
+    if (state == HCI_CHECK_AGREES && is_too_wide(r, before, after)) state = HCI_CHECK_UNJUDGED;
     return (hci_check_evidence){.name = r->name,
                                 .words = r->words,
                                 .declared = before.found,
@@ -126,8 +140,7 @@ static hci_check_evidence evidence_of(const check_posterior *p, const check_rela
                                 .at_most = r->kind == CHECK_MOST,
                                 .as_read = after.found,
                                 .tolerance = r->tolerance * after.spread,
-                                .state =
-                                    state_of(hci_check_deviation(r, before), hci_check_deviation(r, after))};
+                                .state = state};
 }
 
 /* How the relations stand, or what those would need that could not be checked. */

@@ -4,6 +4,7 @@
 #ifndef HCI_SRC_HOST_CHECK_CONCLUSIONS_H
 #define HCI_SRC_HOST_CHECK_CONCLUSIONS_H
 
+#include "hci/host/check/check.h"
 #include "host/check/posterior.h"
 
 /* Fills verdict, probability_as_declared, findings, evidence, gaps and untold. */

@@ -4,6 +4,10 @@
 #include <stdio.h>
 #include <string.h>
 
+/* Their texts are copied. */
+typedef char
+    same_texts[(int)CHECK_TEXT == (int)HCI_CHECK_TEXT && (int)CHECK_PATH == (int)HCI_CHECK_PATH ? 1 : -1];
+
 #define SQRT2 1.4142135623730951
 
 /* The first recording with a cell of this kind. */

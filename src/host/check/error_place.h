@@ -3,6 +3,7 @@
 #ifndef HCI_SRC_HOST_CHECK_ERROR_PLACE_H
 #define HCI_SRC_HOST_CHECK_ERROR_PLACE_H
 
+#include "hci/host/check/check.h"
 #include "host/check/convention_errors.h"
 
 /* Whether the files have what an error is about, so that it can stand in them at all. */

@@ -5,7 +5,7 @@
 #ifndef HCI_SRC_HOST_CHECK_INTERPRETATION_H
 #define HCI_SRC_HOST_CHECK_INTERPRETATION_H
 
-#include "host/check/data.h"
+#include "host/check/data/data.h"
 
 /* What the numbers of back_emf.csv can be. */
 enum {

@@ -33,6 +33,11 @@ double hci_check_column_speed_of(const check_run *r, const check_interpretation 
     return r->speed * column_speed(r, as, m);
 }
 
+double hci_check_speed_over_time_of(const check_run *r, const check_interpretation *as, const check_model *m)
+{
+    return r->speed_over_time * column_speed(r, as, m);
+}
+
 double hci_check_speed_of(const check_run *r, const check_interpretation *as, const check_model *m)
 {
     return r->has_speed ? hci_check_column_speed_of(r, as, m) : hci_check_angle_speed_of(r, as, m);

@@ -16,6 +16,9 @@ double hci_check_angle_speed_of(const check_run *r, const check_interpretation *
 double hci_check_column_speed_of(const check_run *r, const check_interpretation *as, const check_model *m);
 double hci_check_speed_of(const check_run *r, const check_interpretation *as, const check_model *m);
 
+/* The column's mean over the time in which the angle was followed. */
+double hci_check_speed_over_time_of(const check_run *r, const check_interpretation *as, const check_model *m);
+
 /* Mean current i_d + j i_q in A; 0 where none was recorded. */
 check_vector hci_check_current_of(const check_run *r, const check_interpretation *as, const check_model *m);
 

@@ -17,15 +17,38 @@ check_interpretation hci_check_interpretation_of(const check_error_set *set)
     return as;
 }
 
+static bool is_of_flux(size_t k)
+{
+    return hci_check_relation(k)->kind == CHECK_FLUX;
+}
+
+/* What the relations cost if the magnets have this share of the flux in the tables. */
+static double loss_of(const check_posterior *p, const check_value *value, double share)
+{
+    double sum = hci_check_magnets_loss(share);
+    for (size_t k = 0; k < hci_check_relation_count() && isfinite(sum); ++k) {
+        const check_relation *r = hci_check_relation(k);
+        if (p->used[k])
+            sum += is_of_flux(k) ? hci_check_loss_beside_magnets(r, value[k], share)
+                                 : hci_check_loss(r, value[k]);
+    }
+    return sum;
+}
+
+/* Weak magnets are one cause of several deviations, and count once: of the shares that would mend one of
+ * them, and of those between that and 1, the best is taken. */
 static double log_likelihood(const check_posterior *p, const check_interpretation *as)
 {
     const check_model model = hci_check_model_of(p->data, as);
-    double sum = 0.0;
+    check_value value[HCI_CHECK_MOST_EVIDENCE];
     for (size_t k = 0; k < hci_check_relation_count(); ++k)
-        if (p->used[k])
-            sum -=
-                hci_check_loss(hci_check_relation(k), hci_check_relation(k)->evaluate(p->data, as, &model));
-    return sum;
+        if (p->used[k]) value[k] = hci_check_relation(k)->evaluate(p->data, as, &model);
+    double least = loss_of(p, value, 1.0);
+    for (size_t k = 0; k < hci_check_relation_count(); ++k)
+        if (p->used[k] && is_of_flux(k) && value[k].found > 0.0)
+            least =
+                fmin(least, fmin(loss_of(p, value, value[k].found), loss_of(p, value, sqrt(value[k].found))));
+    return -least;
 }
 
 static double log_prior(const check_posterior *p, const check_error_set *set, const check_interpretation *as)

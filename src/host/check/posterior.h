@@ -6,6 +6,7 @@
 #ifndef HCI_SRC_HOST_CHECK_POSTERIOR_H
 #define HCI_SRC_HOST_CHECK_POSTERIOR_H
 
+#include "hci/host/check/check.h"
 #include "host/check/convention_errors.h"
 #include "host/check/relation.h"
 

@@ -1,6 +1,17 @@
 #include "host/check/relation.h"
 
 #include <math.h>
+#include <string.h>
+
+#include "hci/math/dense.h"
+
+/* Magnets of another day are within 3.5 %, which is half of the variance of 5 %; warm ferrite, a batch of
+ * weak ones or some that have lost flux are a fifth weaker, cold ones an eighth stronger: once in fifty
+ * machines, wherever in this range. */
+#define MAGNETS_USUAL   0.035
+#define MAGNETS_WEAK    0.72
+#define MAGNETS_STRONG  1.15
+#define MAGNETS_UNUSUAL 4.0
 
 const check_value HCI_CHECK_NONE = {NAN, 1.0};
 
@@ -36,6 +47,63 @@ check_value hci_check_fit_value(const check_fit *x)
 {
     if (!(x->square > 0.0)) return x->other > 0.0 ? hci_check_found(0.0) : HCI_CHECK_NONE;
     return (check_value){x->cross / x->square, sqrt(1.0 + x->unknown / (x->square * x->square))};
+}
+
+void hci_check_effects_add(check_effects_fit *fit, double y, double x, const double z[], double sigma)
+{
+    double row[CHECK_UNKNOWNS] = {x};
+    const double weight = 1.0 / (sigma * sigma);
+    for (int k = 1; k < CHECK_UNKNOWNS; ++k)
+        row[k] = z[k - 1];
+    for (int k = 0; k < CHECK_UNKNOWNS; ++k) {
+        for (int j = 0; j < CHECK_UNKNOWNS; ++j)
+            fit->matrix[k * CHECK_UNKNOWNS + j] += weight * row[k] * row[j];
+        fit->right[k] += weight * row[k] * y;
+    }
+    ++fit->recordings;
+}
+
+/* A + 1, the 1 for the effects alone; an effect that is left out has no other. */
+static void matrix_of(const check_effects_fit *fit, const bool left_out[], double *matrix)
+{
+    for (int k = 0; k < CHECK_UNKNOWNS; ++k)
+        for (int j = 0; j < CHECK_UNKNOWNS; ++j)
+            matrix[k * CHECK_UNKNOWNS + j] =
+                (left_out[k] || left_out[j] ? 0.0 : fit->matrix[k * CHECK_UNKNOWNS + j]) + (k == j && k > 0);
+}
+
+/* Of the standard deviation of an effect. */
+#define ROUNDING 1e-6
+
+/* Which of the one-sided effects would have to be negative for the factor to be 1. */
+static void leave_out(const check_effects_fit *fit, bool left_out[])
+{
+    const bool factor_alone[CHECK_UNKNOWNS] = {true};
+    double matrix[CHECK_UNKNOWNS * CHECK_UNKNOWNS], b[CHECK_UNKNOWNS] = {0.0};
+    matrix_of(fit, factor_alone, matrix);
+    matrix[0] = 1.0;
+    for (int k = 1; k < CHECK_UNKNOWNS; ++k)
+        b[k] = fit->right[k] - fit->matrix[k * CHECK_UNKNOWNS];
+    if (hci_cholesky_factor(CHECK_UNKNOWNS, matrix)) return;
+    hci_cholesky_solve(CHECK_UNKNOWNS, matrix, b);
+    for (int k = 1; k <= CHECK_ONE_SIDED; ++k)
+        left_out[k] = b[k] < -ROUNDING;
+}
+
+/* (A + 1)⁻¹ b by Cholesky; the variance of the factor stands at the first place of the inverse. */
+check_value hci_check_effects_value(const check_effects_fit *fit, double tolerance)
+{
+    double matrix[CHECK_UNKNOWNS * CHECK_UNKNOWNS], x[CHECK_UNKNOWNS], unit[CHECK_UNKNOWNS] = {1.0};
+    bool left_out[CHECK_UNKNOWNS] = {false};
+    if (fit->recordings == 0) return HCI_CHECK_NONE;
+    leave_out(fit, left_out);
+    matrix_of(fit, left_out, matrix);
+    for (int k = 0; k < CHECK_UNKNOWNS; ++k)
+        x[k] = left_out[k] ? 0.0 : fit->right[k];
+    if (!(matrix[0] > 0.0) || hci_cholesky_factor(CHECK_UNKNOWNS, matrix)) return hci_check_found(0.0);
+    hci_cholesky_solve(CHECK_UNKNOWNS, matrix, x);
+    hci_cholesky_solve(CHECK_UNKNOWNS, matrix, unit);
+    return (check_value){x[0], hypot(1.0, sqrt(unit[0]) / tolerance)};
 }
 
 check_value hci_check_relation_value(const check_data *data, const check_relation *relation,
@@ -80,4 +148,23 @@ double hci_check_loss(const check_relation *r, check_value x)
 {
     const double z = hci_check_deviation(r, x);
     return -log(exp(-0.5 * z * z) / x.spread + exp(-r->cap));
+}
+
+/* What is left of the tolerance of 5 %. */
+#define BESIDE_MAGNETS 0.7
+
+double hci_check_loss_beside_magnets(const check_relation *r, check_value x, double share)
+{
+    check_relation beside = *r;
+    beside.tolerance *= BESIDE_MAGNETS;
+    return hci_check_loss(
+        &beside, (check_value){x.found / share,
+                               hypot(1.0, sqrt(fmax(0.0, x.spread * x.spread - 1.0)) / BESIDE_MAGNETS)});
+}
+
+double hci_check_magnets_loss(double share)
+{
+    const double z = log(share) / MAGNETS_USUAL;
+    const bool is_possible = share > MAGNETS_WEAK && share < MAGNETS_STRONG;
+    return is_possible ? fmin(0.5 * z * z, MAGNETS_UNUSUAL) : HUGE_VAL;
 }

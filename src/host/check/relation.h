@@ -8,6 +8,7 @@
 
 typedef enum {
     CHECK_RATIO, /* found/expected, by its logarithm */
+    CHECK_FLUX,  /* so, and proportional to the flux of the magnets */
     CHECK_LOW,   /* so, below 1 with half as much again: friction, and a cautious sheet */
     CHECK_HIGH,  /* so, below 1 with half the tolerance: copper is warmer than on the sheet, seldom colder */
     CHECK_ANGLE, /* radians, modulo a turn */
@@ -48,6 +49,12 @@ double hci_check_deviation(const check_relation *relation, check_value value);
  */
 double hci_check_loss(const check_relation *relation, check_value value);
 
+/* What it costs to suppose that the magnets have this share of the flux in the tables. */
+double hci_check_magnets_loss(double share);
+
+/* hci_check_loss of a CHECK_FLUX, where they have it. */
+double hci_check_loss_beside_magnets(const check_relation *relation, check_value value, double share);
+
 /* The data do not have it. */
 extern const check_value HCI_CHECK_NONE;
 
@@ -64,5 +71,25 @@ typedef struct {
  * less. */
 void hci_check_fit_add(check_fit *x, double top, double bottom, double unknown);
 check_value hci_check_fit_value(const check_fit *x);
+
+/* ---- with effects that the machine folder may lack */
+
+/* Over the recordings, y = x (factor + deviation) + Σ b_j z_j: what was measured, what the tables make of it,
+ * and what reluctance, friction and their like could add, each b_j being normal with variance 1. So an effect
+ * that would do in the place of a wrong factor widens the tolerance of that factor, and one that acts
+ * otherwise in another recording does not. Friction only takes torque away: the first effects are never
+ * negative. Starts from {0}. */
+enum { CHECK_ONE_SIDED = 4, CHECK_MOST_EFFECTS = 6, CHECK_UNKNOWNS = 1 + CHECK_MOST_EFFECTS };
+
+typedef struct {
+    double matrix[CHECK_UNKNOWNS * CHECK_UNKNOWNS], right[CHECK_UNKNOWNS];
+    size_t recordings;
+} check_effects_fit;
+
+/* z: [CHECK_MOST_EFFECTS], in the unit of y. sigma: above 0, of this recording alone. */
+void hci_check_effects_add(check_effects_fit *fit, double y, double x, const double z[], double sigma);
+
+/* The factor; HCI_CHECK_NONE without recordings. tolerance: of the relation. */
+check_value hci_check_effects_value(const check_effects_fit *fit, double tolerance);
 
 #endif

@@ -34,7 +34,7 @@
 #define CHECK_SALIENCY_UNKNOWN 0.15
 
 extern const check_relation_list HCI_CHECK_TABLE_RELATIONS, HCI_CHECK_WAVE_RELATIONS,
-    HCI_CHECK_TORQUE_RELATIONS, HCI_CHECK_PHASE_RELATIONS;
+    HCI_CHECK_TORQUE_RELATIONS, HCI_CHECK_COGGING_RELATIONS, HCI_CHECK_PHASE_RELATIONS;
 
 /* All of them, in the order in which they are reported; k from 0. At most HCI_CHECK_MOST_EVIDENCE. */
 size_t hci_check_relation_count(void);

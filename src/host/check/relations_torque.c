@@ -1,11 +1,39 @@
-/* What must hold for the torque of the recordings, with current and without. */
+/* What must hold for power and torque of the recordings under load. */
 #include <math.h>
 
 #include "host/check/relations.h"
 
 #define SQRT3 1.7320508075688772
 
-/* ---- power and torque */
+/* ---- effects that a machine folder may lack, one standard deviation each */
+
+/* K i_d i_q where L_d and L_q are not declared: as much as the magnets make and half as much again, at i_d of
+ * the largest current; where they are, saturation makes a quarter of it uncertain. */
+#define RELUCTANCE_UNKNOWN 1.5
+#define RELUCTANCE_KNOWN   0.25
+
+/* Friction, iron and windage by the torque that the rated current makes; without a rating by the most that is
+ * recorded, which may be little. */
+#define FRICTION_OF_RATED    0.03
+#define FRICTION_OF_RECORDED 0.08
+
+/* The iron yields with the square of the current: at the rated one, or at the most that is recorded. */
+#define SATURATION_AT_RATED 0.025
+#define SATURATION_AT_MOST  0.05
+
+/* The zero of a torque sensor. */
+#define ZERO_OF_RATED 0.01
+
+/* What an inertia takes while the speed changes by itself. */
+#define ACCELERATION 0.6
+
+/* What is each recording's own. */
+#define OWN 0.02
+
+/* Copper gets warm, and leads and switches are in its circuit. */
+#define COPPER_UNKNOWN 0.3
+
+/* ---- */
 
 /* Coulomb and viscous friction, where machine.csv has them. */
 static double friction_Nm(const check_data *data, double speed)
@@ -13,6 +41,35 @@ static double friction_Nm(const check_data *data, double speed)
     return hci_check_or_zero(data->value[CHECK_coulomb_friction_Nm]) +
            hci_check_or_zero(data->value[CHECK_viscous_friction_Nms_per_rad]) *
                fabs(hci_check_or_zero(speed));
+}
+
+/* The machine folder has a rated current, or not: then the largest of the recordings, in A. */
+typedef struct {
+    bool is_rated;
+    double current_A, torque_Nm;
+} check_reference;
+
+static double length_A(const check_run *r, const check_interpretation *as)
+{
+    return sqrt(r->current_square) * fabs(as->current) * (r->has_dq ? as->dq : 1.0);
+}
+
+static check_reference reference_of(const check_data *data, const check_interpretation *as,
+                                    const check_model *m)
+{
+    check_reference x = {.is_rated = m->rated_current_A > 0.0};
+    for (size_t k = 0; k < data->runs && !x.is_rated; ++k)
+        x.current_A = fmax(x.current_A, length_A(&data->run[k], as));
+    if (x.is_rated) x.current_A = m->rated_current_A;
+    x.torque_Nm = 1.5 * m->emf_Nm_per_A * x.current_A;
+    return x;
+}
+
+/* Loss of torque by friction and by inertia, in N·m: what stands against the motion. */
+static double friction_unknown_Nm(const check_data *data, const check_reference *x, double speed)
+{
+    const double usual = (x->is_rated ? FRICTION_OF_RATED : FRICTION_OF_RECORDED) * x->torque_Nm;
+    return hypot(usual, friction_Nm(data, speed));
 }
 
 /* Of v_q alone it is whole where no i_d flows. */
@@ -58,129 +115,70 @@ static double resistance_of(const check_data *data, const check_interpretation *
     return square > 0.0 && isfinite(square) ? fmin(most, fmax(0.0, cross / square)) : 0.0;
 }
 
+/* The effects that take power between v·i and the shaft. */
+static void power_add(check_effects_fit *x, const check_data *data, const check_run *r,
+                      const check_interpretation *as, const check_model *m)
+{
+    const check_reference reference = reference_of(data, as, m);
+    const double power = hci_check_power_of(r, as, m), speed = hci_check_speed_of(r, as, m),
+                 copper = resistance_of(data, as, m) * square_A2(r, as), shaft = shaft_power_W(r, as, m);
+    const double z[CHECK_MOST_EFFECTS] = {
+        -friction_unknown_Nm(data, &reference, speed) * fabs(speed),
+        -ACCELERATION * r->speed_change * fabs(power),
+        -COPPER_UNKNOWN * copper,
+        [CHECK_ONE_SIDED] = r->has_dq_voltage ? CHECK_COMMAND_UNKNOWN * power + COPPER_UNKNOWN * copper : 0.0,
+    };
+    hci_check_effects_add(x, shaft + copper, power, z, OWN * hypot(power, 0.3 * reference.torque_Nm * speed));
+}
+
 /* T ω_m + 3/2 R i² over v·i */
 static check_value power_balance(const check_data *data, const check_interpretation *as, const check_model *m)
 {
-    const double resistance_ohm = resistance_of(data, as, m);
-    check_fit x = {0};
-    for (size_t k = 0; k < data->runs; ++k) {
-        const check_run *r = &data->run[k];
-        if (!has_power(data, r)) continue;
-        const double power = hci_check_power_of(r, as, m), copper = resistance_ohm * square_A2(r, as);
-        const double speed = hci_check_speed_of(r, as, m), friction = friction_Nm(data, speed) * fabs(speed);
-        const double command = r->has_dq_voltage ? CHECK_COMMAND_UNKNOWN * fabs(power) : 0.0;
-        hci_check_fit_add(&x, shaft_power_W(r, as, m) + copper, power,
-                          hypot(CHECK_DROP_UNKNOWN * copper + friction, command) / fabs(power) /
-                              CHECK_POWER_TOLERANCE);
-    }
-    return hci_check_fit_value(&x);
+    check_effects_fit x = {0};
+    for (size_t k = 0; k < data->runs; ++k)
+        if (has_power(data, &data->run[k])) power_add(&x, data, &data->run[k], as, m);
+    return hci_check_effects_value(&x, CHECK_POWER_TOLERANCE);
 }
 
-/* 3/2 Re(e* i) + K i_d i_q. Where K is not known, a third of i_d may count as i_q; where it is, K to a third.
- */
-static void torque_add(check_fit *x, const check_data *data, const check_run *r,
+/* K i_d i_q, 0 where K is not known. */
+static double reluctance_Nm(const check_run *r, const check_interpretation *as, const check_model *m,
+                            check_vector i)
+{
+    const double product =
+        r->has_dq ? r->product_dq * as->current * as->current * as->dq * as->dq : i.re * i.im;
+    return hci_check_or_zero(m->reluctance_Nm_per_A2) * product;
+}
+
+/* T = 3/2 Re(e* i) + K i_d i_q, and what may come to it. */
+static void torque_add(check_effects_fit *x, const check_data *data, const check_run *r,
                        const check_interpretation *as, const check_model *m)
 {
-    const bool known = !isnan(m->reluctance_Nm_per_A2);
+    const bool is_known = !isnan(m->reluctance_Nm_per_A2);
+    const check_reference reference = reference_of(data, as, m);
     const check_vector i = hci_check_current_of(r, as, m), e = hci_check_emf_expected(1.0, m);
-    const double mutual = 1.5 * hci_check_product(i, hci_check_conjugate(e)).re;
-    const double reluctance = known ? m->reluctance_Nm_per_A2 * i.re * i.im : 0.0;
-    const double unknown = known ? CHECK_DROP_UNKNOWN * fabs(reluctance)
-                                 : CHECK_SALIENCY_UNKNOWN * 1.5 * m->emf_Nm_per_A * fabs(i.re);
-    const double model = mutual + reluctance;
-    hci_check_fit_add(x, r->torque_mean * as->torque, model,
-                      (unknown + friction_Nm(data, hci_check_speed_of(r, as, m))) / fabs(model) /
-                          CHECK_TORQUE_TOLERANCE);
+    const double mutual = 1.5 * hci_check_product(i, hci_check_conjugate(e)).re,
+                 reluctance = reluctance_Nm(r, as, m, i), share = length_A(r, as) / reference.current_A;
+    const double speed = hci_check_or_zero(hci_check_speed_of(r, as, m)), way = (speed > 0.0) - (speed < 0.0),
+                 model = mutual + reluctance;
+    const double z[CHECK_MOST_EFFECTS] = {
+        is_known ? 0.0 : -RELUCTANCE_UNKNOWN * mutual * i.re / reference.current_A,
+        -way * friction_unknown_Nm(data, &reference, speed),
+        -model * share * share * (reference.is_rated ? SATURATION_AT_RATED : SATURATION_AT_MOST),
+        -ACCELERATION * r->speed_change * way * fabs(model),
+        [CHECK_ONE_SIDED] = ZERO_OF_RATED * reference.torque_Nm,
+        is_known ? RELUCTANCE_KNOWN * reluctance : 0.0,
+    };
+    hci_check_effects_add(x, r->torque_mean * as->torque, model, z,
+                          OWN * hypot(model, 0.3 * reference.torque_Nm));
 }
 
 static check_value torque_size(const check_data *data, const check_interpretation *as, const check_model *m)
 {
-    check_fit x = {0};
+    check_effects_fit x = {0};
     for (size_t k = 0; k < data->runs; ++k)
         if (data->run[k].has_torque && hci_check_has_vector_current(data, &data->run[k]))
             torque_add(&x, data, &data->run[k], as, m);
-    return hci_check_fit_value(&x);
-}
-
-/* ---- torque without current */
-
-/* Nothing but the cogging torque: without current, or balanced by it while the shaft was held. */
-static check_run *unloaded_torque(const check_data *data)
-{
-    check_run *best = NULL;
-    for (size_t k = 0; k < data->runs; ++k) {
-        check_run *r = &data->run[k];
-        const bool unloaded = r->is_held || (r->has_torque && !hci_check_has_current(data, r));
-        if (!unloaded || !r->theta || !(r->torque_variance > 0.0)) continue;
-        if (!best || r->count > best->count) best = r;
-    }
-    return best;
-}
-
-/* N·m per what the ripple is in. */
-static double torque_unit(const check_run *r, const check_interpretation *as, const check_model *m)
-{
-    return r->is_held ? 1.5 * m->emf_Nm_per_A * as->current : as->torque;
-}
-
-static bool has_cogging(const check_data *data)
-{
-    return data->cogging.count > 0 && fabs(data->cogging.amplitude[data->cogging.largest]) > 0.0;
-}
-
-/* The share of the ripple that is at the orders of the table, whatever its amplitudes; of a noisy reading the
- * share of what the table declares. */
-static check_value cogging_share(const check_data *data, const check_interpretation *as, const check_model *m)
-{
-    check_run *r = unloaded_torque(data);
-    double sum = 0.0, declared = 0.0;
-    if (!r || !has_cogging(data)) return HCI_CHECK_NONE;
-    const double unit = r->is_held ? fabs(torque_unit(r, as, m)) : 1.0;
-    for (size_t k = 0; k < data->cogging.count; ++k) {
-        const double order = hci_check_cogging_order(data, as, m, k) * hci_check_scale_of(r, as, m);
-        if (!hci_check_is_significant(&data->cogging, k)) continue;
-        const double length = unit * hci_check_length(hci_check_torque_order(r, order));
-        sum += 0.5 * length * length;
-        declared += 0.5 * data->cogging.amplitude[k] * data->cogging.amplitude[k];
-    }
-    return hci_check_found(fmin(1.0, sum / fmin(declared, unit * unit * r->torque_variance)));
-}
-
-/* Measured over declared at the largest order of the table: S + jC of both, the table's turned by its zero.
- */
-static bool cogging_pair(const check_data *data, const check_interpretation *as, const check_model *m,
-                         check_vector *found, check_vector *declared)
-{
-    check_run *r = unloaded_torque(data);
-    const size_t k = data->cogging.largest;
-    if (!r || !has_cogging(data)) return false;
-    const double order = hci_check_cogging_order(data, as, m, k);
-    const double phase = data->cogging.phase_rad[k] * as->phase_unit * as->cogging_phase_unit;
-    const check_vector amplitude = {data->cogging.amplitude[k], 0.0};
-    *declared = hci_check_turned(amplitude, phase - order * as->zero_rad);
-    *found =
-        hci_check_turned(hci_check_scaled(hci_check_torque_order(r, order * hci_check_scale_of(r, as, m)),
-                                          torque_unit(r, as, m)),
-                         -order * as->run_zero_rad);
-    return true;
-}
-
-static check_value cogging_size(const check_data *data, const check_interpretation *as, const check_model *m)
-{
-    check_vector found, declared;
-    if (!cogging_pair(data, as, m, &found, &declared)) return HCI_CHECK_NONE;
-    return hci_check_found(hci_check_length(found) / hci_check_length(declared));
-}
-
-/* 0.05 electrical radians of the encoder are as many times that as the order says. */
-static check_value cogging_angle(const check_data *data, const check_interpretation *as, const check_model *m)
-{
-    check_vector found, declared;
-    if (!cogging_pair(data, as, m, &found, &declared)) return HCI_CHECK_NONE;
-    const check_vector turned = hci_check_product(found, hci_check_conjugate(declared));
-    return (check_value){atan2(turned.im, turned.re),
-                         hypot(1.0, 0.05 * hci_check_cogging_order(data, as, m, data->cogging.largest) /
-                                        CHECK_COGGING_ANGLE_TOLERANCE)};
+    return hci_check_effects_value(&x, CHECK_TORQUE_TOLERANCE);
 }
 
 /* ---- the list */
@@ -188,14 +186,7 @@ static check_value cogging_angle(const check_data *data, const check_interpretat
 static const check_relation LIST[] = {
     {"power_balance", "torque x speed and copper loss over v.i", CHECK_RATIO, 1.0, CHECK_POWER_TOLERANCE, 9.0,
      power_balance, "a recording of voltages, currents, torque and speed", ""},
-    {"torque_size", "torque over 3/2 k_e i_q and the reluctance torque", CHECK_RATIO, 1.0,
+    {"torque_size", "torque over 3/2 k_e i_q and the reluctance torque", CHECK_FLUX, 1.0,
      CHECK_TORQUE_TOLERANCE, 9.0, torque_size, "a recording of currents, angle and torque", ""},
-    {"cogging_share", "share of the ripple without current at the orders of cogging.csv", CHECK_SHARE, 1.0,
-     0.3, 8.0, cogging_share, "cogging.csv, and a recording of torque and angle without current", ""},
-    {"cogging_size", "ripple without current over cogging.csv, at its largest order", CHECK_RATIO, 1.0, 0.3,
-     7.0, cogging_size, "cogging.csv, and a recording of torque and angle without current", ""},
-    {"cogging_angle", "phase of the ripple without current against cogging.csv, rad", CHECK_ANGLE, 0.0,
-     CHECK_COGGING_ANGLE_TOLERANCE, 4.0, cogging_angle,
-     "cogging.csv, and a recording of torque and angle without current", ""},
 };
 const check_relation_list HCI_CHECK_TORQUE_RELATIONS = {LIST, sizeof LIST / sizeof *LIST};

@@ -44,8 +44,8 @@ static check_value angle_speed(const check_data *data, const check_interpretatio
     check_fit x = {0};
     for (size_t k = 0; k < data->runs; ++k) {
         const check_run *r = &data->run[k];
-        if (r->has_speed && isfinite(r->angle_rate) && fabs(r->speed) > 0.0)
-            hci_check_fit_add(&x, hci_check_angle_speed_of(r, as, m), hci_check_column_speed_of(r, as, m),
+        if (isfinite(r->speed_over_time) && fabs(r->speed) > 0.0)
+            hci_check_fit_add(&x, hci_check_angle_speed_of(r, as, m), hci_check_speed_over_time_of(r, as, m),
                               0.0);
     }
     return hci_check_fit_value(&x);
@@ -189,7 +189,7 @@ static const check_relation LIST[] = {
      angle_speed, "a recording of time, angle and speed", ""},
     {"frequency_speed", "frequency of the voltages over pole pairs x speed", CHECK_RATIO, 1.0, 0.03, 9.0,
      frequency_speed, "a recording of time, voltages and speed (where there is no angle)", "angle_speed"},
-    {"emf_size", "back-EMF in the recordings over that of the table", CHECK_RATIO, 1.0, CHECK_EMF_TOLERANCE,
+    {"emf_size", "back-EMF in the recordings over that of the table", CHECK_FLUX, 1.0, CHECK_EMF_TOLERANCE,
      9.0, emf_size,
      "a recording of voltages, angle and speed without current, or with it and resistance and "
      "inductances",
@@ -202,7 +202,7 @@ static const check_relation LIST[] = {
     {"resistance_size", "voltage along the current, less the back-EMF, over R i", CHECK_HIGH, 1.0,
      CHECK_RESISTANCE_TOLERANCE, 7.0, resistance_size,
      "resistance, inductances, and a recording of voltages, currents and angle at low speed", ""},
-    {"emf_per_frequency", "voltage over its frequency against k_e/p", CHECK_RATIO, 1.0, 0.06, 9.0,
+    {"emf_per_frequency", "voltage over its frequency against k_e/p", CHECK_FLUX, 1.0, 0.06, 9.0,
      emf_per_frequency, "a recording of time and voltages without current (where there is no angle)",
      "emf_size"},
 };

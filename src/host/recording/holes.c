@@ -217,3 +217,9 @@ hci_status hci_run_columns_open(const hci_csv *csv, hci_run_columns *c, hci_note
     if (!status && csv->leaves_holes) status = leave_holes_out(c);
     return status ? status : check_angle_left(c);
 }
+
+hci_status hci_run_columns_open_any(const hci_csv *csv, hci_run_columns *c, hci_note *remark, hci_note *note)
+{
+    const hci_status status = hci_run_columns_find_any(csv, c, remark, note);
+    return !status && csv->leaves_holes ? leave_holes_out(c) : status;
+}

@@ -13,4 +13,7 @@
  * than half of the rows would be, or for a column that cannot be read; HCI_ERROR_MEMORY. */
 hci_status hci_run_columns_open(const hci_csv *csv, hci_run_columns *c, hci_note *remark, hci_note *note);
 
+/* So, for who can do without angle and voltages. */
+hci_status hci_run_columns_open_any(const hci_csv *csv, hci_run_columns *c, hci_note *remark, hci_note *note);
+
 #endif

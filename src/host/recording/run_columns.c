@@ -26,20 +26,29 @@ static hci_status no_samples(const hci_run_columns *c)
         hci_quote_path(hci_csv_path(c->csv), path));
 }
 
+static bool has_any(const hci_run_columns *c)
+{
+    bool any = false;
+    for (int k = 0; k < HCI_RUN_COLUMN_COUNT; ++k)
+        any = any || c->has[k];
+    return any;
+}
+
 /* Neither angle nor voltages: most likely a column under another name. Where voltages would do without an
  * angle, one that may be either is refused all the same, and not passed over. */
-static hci_status check_angle(const hci_run_columns *c)
+static hci_status check_angle(const hci_run_columns *c, bool is_needed)
 {
     hci_note missing = {{0}};
     double unused;
     if (c->has[HCI_RUN_THETA_M] || c->has[HCI_RUN_THETA_E]) return HCI_OK;
     hci_status status = hci_csv_check_clear(c->csv, c->note);
-    if (status || c->has[HCI_RUN_VA] || c->has[HCI_RUN_VAB]) return status;
+    if (status || (!is_needed && has_any(c)) || c->has[HCI_RUN_VA] || c->has[HCI_RUN_VAB]) return status;
     status = hci_csv_number(c->csv, NAME[HCI_RUN_THETA_M], 0, &unused, &missing);
     return hci_note_set(c->note, status, "%s; `%s` will do as well", missing.text, NAME[HCI_RUN_THETA_E]);
 }
 
-hci_status hci_run_columns_find(const hci_csv *csv, hci_run_columns *c, hci_note *remark, hci_note *note)
+static hci_status find(const hci_csv *csv, bool needs_angle, hci_run_columns *c, hci_note *remark,
+                       hci_note *note)
 {
     *c = (hci_run_columns){.csv = csv, .count = hci_csv_rows(csv), .remark = remark, .note = note};
     if (c->count == 0) return no_samples(c);
@@ -47,11 +56,21 @@ hci_status hci_run_columns_find(const hci_csv *csv, hci_run_columns *c, hci_note
     if (!c->used) return memory_error(c);
     for (int k = 0; k < HCI_RUN_COLUMN_COUNT; ++k)
         c->has[k] = hci_csv_find(csv, NAME[k], &c->at[k]);
-    const hci_status status = check_angle(c);
+    const hci_status status = check_angle(c, needs_angle);
     if (!status && hci_csv_header_line(csv) > 0)
         hci_note_add(remark, "line %zu is the header, what stands before it is not read",
                      hci_csv_header_line(csv));
     return status;
+}
+
+hci_status hci_run_columns_find(const hci_csv *csv, hci_run_columns *c, hci_note *remark, hci_note *note)
+{
+    return find(csv, true, c, remark, note);
+}
+
+hci_status hci_run_columns_find_any(const hci_csv *csv, hci_run_columns *c, hci_note *remark, hci_note *note)
+{
+    return find(csv, false, c, remark, note);
 }
 
 void hci_run_columns_release(hci_run_columns *c)

@@ -54,6 +54,9 @@ typedef struct {
  * {0}. *c is to be released even after a failure. HCI_ERROR_INPUT for a file without samples, without angle
  * or voltages, or with an angle that may be mechanical or electrical; HCI_ERROR_MEMORY. */
 hci_status hci_run_columns_find(const hci_csv *csv, hci_run_columns *c, hci_note *remark, hci_note *note);
+
+/* So, for who can do without angle and voltages: any column that is known will do. */
+hci_status hci_run_columns_find_any(const hci_csv *csv, hci_run_columns *c, hci_note *remark, hci_note *note);
 void hci_run_columns_release(hci_run_columns *c);
 
 /* Reads a column into c->value, if the file has it. HCI_ERROR_INPUT with line and column, HCI_ERROR_MEMORY.

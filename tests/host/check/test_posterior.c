@@ -6,6 +6,7 @@
 
 #include "host/base/memory.h"
 #include "host/check/error_place.h"
+#include "host/check/relations.h"
 #include "support/made_up_motor.h"
 #include "unity.h"
 
@@ -64,6 +65,14 @@ static double share_of(const char *name)
     for (size_t k = 0; k < p.count; ++k)
         if (has(&p.list[k], name)) sum += p.list[k].probability;
     return sum;
+}
+
+static const check_relation *relation_of(const char *name)
+{
+    for (size_t k = 0; k < hci_check_relation_count(); ++k)
+        if (strcmp(hci_check_relation(k)->name, name) == 0) return hci_check_relation(k);
+    TEST_FAIL_MESSAGE(name);
+    return NULL;
 }
 
 /* ---- laws */
@@ -133,8 +142,14 @@ static void test_errors_that_look_alike_share_the_probability(void)
                  of_torque = probability_of("torque_sign", "");
     TEST_ASSERT_DOUBLE_WITHIN(1e-9 * of_torque, of_torque, of_current);
     TEST_ASSERT_DOUBLE_WITHIN(0.05, share_of("torque_sign"), share_of("current_sign"));
-    /* One relation, torque_size, is missed by far: e^−9 is its cap. */
-    const double odds = exp(-9.0) / (1.0 + exp(-9.0)) / 0.01;
+    /* One relation, torque_size, is missed by far: e^−9 is its cap; and met by the other, however wide it is.
+     */
+    const check_relation *r = relation_of("torque_size");
+    check_interpretation generator = hci_check_as_declared();
+    generator.torque = -1.0;
+    const check_value met = hci_check_relation_value(&data, r, &generator);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 1.0, met.found);
+    const double odds = exp(-9.0) / exp(-hci_check_loss_beside_magnets(r, met, 1.0)) / 0.01;
     TEST_ASSERT_DOUBLE_WITHIN(1e-6 * odds, odds, probability_of("", "") / of_torque);
 }
 

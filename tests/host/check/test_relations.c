@@ -1,6 +1,7 @@
 /* Every relation on a made-up motor, against a closed form: what it is where the files are right, and by
  * which factor a convention error moves it. The error is supposed in correct files here, so that a number
  * that is too small by √2 in a file becomes too large by √2 in the interpretation. */
+#include "hci/host/check/check.h"
 #include "host/check/relations.h"
 
 #include <math.h>

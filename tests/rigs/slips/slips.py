@@ -276,6 +276,11 @@ def surface(**wishes):
     return dict(SURFACE, **wishes)
 
 
+def known(**wishes):
+    """Without inductances a reluctance torque may be there, and without ratings friction may be anything: torque alone tells no factor."""
+    return dict(wishes, shows_inductance=True, shows_ratings=True)
+
+
 def none_of(*values):
     return lambda x: x not in values
 
@@ -329,9 +334,9 @@ SETTINGS = {
                        (wish(), ["load", "brake"], ABC, ["direction_reversed"])],
     "direction_reversed": [(wish(), ["back"], RADIANS, []), (wish(), ["load", "back"], ABC, [])],
     "current_sign": [(wish(), ["load", "back"], ABC, ["torque_sign"]), (wish(), ["load"], DQ_NO_V, ["torque_sign"])],
-    "current_rms": [(wish(), ["back", "load"], ABC_NO_V, []), (surface(), ["load", "brake"], ABC, [])],
-    "current_power_invariant": [(wish(), ["back", "load"], DQ_NO_V, []), (surface(), ["load", "brake"], DQ, [])],
-    "current_dq_rms": [(wish(), ["back", "load"], DQ_NO_V, ["current_rms"]), (surface(), ["load", "brake"], DQ, ["current_rms"])],
+    "current_rms": [(known(), ["back", "load", "brake"], ABC_NO_V, []), (surface(), ["load", "brake"], ABC, [])],
+    "current_power_invariant": [(known(), ["back", "load", "brake"], DQ_NO_V, []), (surface(), ["load", "brake"], DQ, [])],
+    "current_dq_rms": [(known(), ["back", "load", "brake"], DQ_NO_V, ["current_rms"]), (surface(), ["load", "brake"], DQ, ["current_rms"])],
     "voltage_line": [(wish(), ["back"], RADIANS, []), (wish(), ["back", "load"], ABC, [])],
     "voltage_sign": [(wish(), ["back"], RADIANS, ["run_angle_zero_d_axis"]), (wish(), ["load", "back"], ABC, [])],
     "torque_sign": [(wish(), ["load", "back"], ABC, ["current_sign"]),

@@ -60,7 +60,8 @@ typedef enum {
     HCI_CHECK_BETTER,   /* is nearer in the best reading, but not met */
     HCI_CHECK_MENDABLE, /* not by the best reading, but by one with a possible slip */
     HCI_CHECK_UNMENDED, /* by no reading */
-    HCI_CHECK_WORSE     /* agreed as declared, and does not in the best reading */
+    HCI_CHECK_WORSE,    /* agreed as declared, and does not in the best reading */
+    HCI_CHECK_UNJUDGED  /* is within its tolerance, but that is so wide that a slip would be, too */
 } hci_check_state;
 
 /* One relation that must hold between numbers of the files. */
@@ -109,7 +110,7 @@ hci_status hci_check_files(const char *machine, const char *const *run, size_t r
 /* "consistent", "slips", "ambiguous", "not_understood"; a static string. */
 const char *hci_check_verdict_name(hci_check_verdict verdict);
 
-/* "consistent", "mended", "better", "mendable", "not_understood", "worse"; a static string. */
+/* "consistent", "mended", "better", "mendable", "not_understood", "worse", "unjudged"; a static string. */
 const char *hci_check_state_name(hci_check_state state);
 
 #ifdef __cplusplus

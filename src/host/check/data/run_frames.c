@@ -1,6 +1,6 @@
 #include <math.h>
 
-#include "host/check/run_samples.h"
+#include "host/check/data/run_samples.h"
 
 /* What does not turn so far cannot be told from what stands still. The range of the recorded angle counts:
  * where it was wrapped, other scales than those with a whole number of turns in it are torn. */

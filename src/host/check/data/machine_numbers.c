@@ -7,15 +7,15 @@
 #include "hci/host/machine/init.h"
 #include "hci/machine/frames.h"
 #include "host/base/memory.h"
-#include "host/check/data.h"
+#include "host/check/data/data.h"
 #include "host/machine/folder.h"
 #include "host/machine/inductance.h"
 #include "host/machine/machine_values.h"
 #include "host/machine/spectrum_table.h"
 
-static void keep_text(char out[HCI_CHECK_TEXT], const char *text)
+static void keep_text(char out[CHECK_TEXT], const char *text)
 {
-    snprintf(out, HCI_CHECK_TEXT, "%s", text);
+    snprintf(out, CHECK_TEXT, "%s", text);
 }
 
 /* The place of a cell of data row `row` in the column that the file has for `name`. */
@@ -212,14 +212,13 @@ hci_status hci_check_machine_read(const char *folder, check_data *data, hci_note
     hci_status status = hci_machine_check_folder(folder, note);
     for (size_t k = 0; k < CHECK_VALUE_COUNT; ++k)
         data->value[k] = NAN;
-    if (!status) status = hci_machine_path(data->machine_path, HCI_CHECK_PATH, folder, "machine.csv", note);
+    if (!status) status = hci_machine_path(data->machine_path, CHECK_PATH, folder, "machine.csv", note);
     if (!status) status = values_read(data, note);
-    if (!status) status = hci_machine_path(data->emf.path, HCI_CHECK_PATH, folder, "back_emf.csv", note);
+    if (!status) status = hci_machine_path(data->emf.path, CHECK_PATH, folder, "back_emf.csv", note);
     if (!status) status = emf_read(data, note);
-    if (!status) status = hci_machine_path(data->cogging.path, HCI_CHECK_PATH, folder, "cogging.csv", note);
+    if (!status) status = hci_machine_path(data->cogging.path, CHECK_PATH, folder, "cogging.csv", note);
     if (!status && hci_machine_has(data->cogging.path)) status = cogging_read(data, note);
-    if (!status)
-        status = hci_machine_path(data->inductance.path, HCI_CHECK_PATH, folder, "inductance.csv", note);
+    if (!status) status = hci_machine_path(data->inductance.path, CHECK_PATH, folder, "inductance.csv", note);
     if (!status && hci_machine_has(data->inductance.path)) status = inductance_read(data, note);
     return status;
 }

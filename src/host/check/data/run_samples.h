@@ -4,7 +4,7 @@
 #ifndef HCI_SRC_HOST_CHECK_RUN_SAMPLES_H
 #define HCI_SRC_HOST_CHECK_RUN_SAMPLES_H
 
-#include "host/check/data.h"
+#include "host/check/data/data.h"
 #include "host/recording/run_columns.h"
 
 /* A wave is said to turn with the rotor when it has this share of the mean square. */
@@ -19,9 +19,12 @@ typedef struct {
     hci_run_columns columns; /* owns what follows, but for the vectors */
     size_t count;
     const double *time, *theta, *other, *speed, *d, *q, *vd, *vq; /* theta_m beside theta_e is the other */
-    double *torque;
+    const double *torque;
     const double *const *phase, *const *volt; /* three columns each, as recorded */
     check_vector *current, *voltage;          /* of three phases */
+    bool *follows;  /* of each: the sample before it is the one before it in the file; NULL: all */
+    double *memory; /* of a part of the samples (run_parts.h), as are the next two */
+    const double *of_phase[3], *of_volt[3];
 } check_samples;
 
 /* Reads what a check needs of a file, and says in the remark how. run: out, which columns it has and where
@@ -31,8 +34,14 @@ hci_status hci_check_samples_read(const hci_csv *csv, check_run *run, check_samp
                                   hci_note *note);
 void hci_check_samples_release(check_samples *s);
 
+/* Whether the torque is i_q times a number: a drive has computed it, and nobody has measured it. */
+bool hci_check_torque_is_computed(const check_samples *s);
+
 /* Means over the samples. */
 void hci_check_run_means(const check_samples *s, check_run *run);
+
+/* Mean and mean square of run->torque. */
+void hci_check_run_ripple(check_run *run);
 
 /* Means in the frames of f->scale. */
 void hci_check_run_frames(const check_data *data, const check_samples *s, check_run *run);

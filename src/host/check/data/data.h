@@ -6,18 +6,22 @@
 
 #include <stdbool.h>
 
-#include "hci/host/check/check.h"
+#include "hci/host/base/note.h"
 #include "hci/host/csv/csv.h"
 #include "hci/host/machine/machine.h"
-#include "host/check/plane_vector.h"
+#include "hci/host/recording/run.h"
+#include "host/check/data/plane_vector.h"
+
+/* Bytes of a text and of a path, as in check.h. */
+enum { CHECK_TEXT = 128, CHECK_PATH = 512 };
 
 /* ---- where a number stands */
 
 typedef struct {
-    const char *path;            /* NULL: the file does not have it */
-    size_t line;                 /* from 1 */
-    char column[HCI_CHECK_TEXT]; /* as the header spells it */
-    char text[HCI_CHECK_TEXT];   /* the cell */
+    const char *path;        /* NULL: the file does not have it */
+    size_t line;             /* from 1 */
+    char column[CHECK_TEXT]; /* as the header spells it */
+    char text[CHECK_TEXT];   /* the cell */
 } check_place;
 
 /* ---- machine folder */
@@ -32,7 +36,7 @@ enum {
 
 /* order, amplitude, phase as they stand; phases in radians where the column says so. */
 typedef struct {
-    char path[HCI_CHECK_PATH];
+    char path[CHECK_PATH];
     size_t count; /* 0: no such table, or an empty one */
     double *order, *amplitude, *phase_rad;
     size_t largest;                                     /* row of the largest amplitude */
@@ -45,7 +49,7 @@ typedef struct {
     bool given, are_slopes;
     double reluctance_Nm_per_A2;           /* mean torque at i_d = i_q = 1 A, with the declared pole pairs */
     double inductance_d_H, inductance_q_H; /* mean over the turn; NAN for slopes */
-    char path[HCI_CHECK_PATH];
+    char path[CHECK_PATH];
     check_place cell;
 } check_inductance;
 
@@ -78,17 +82,20 @@ typedef struct {
     check_vector wave;
 } check_cached_order;
 
-/* The statistics of one recording, in the units of its columns after conversion to SI. */
+/* The statistics of one recording, or of one direction of it (run_parts.h), in the units of its columns after
+ * conversion to SI. */
 typedef struct {
-    char path[HCI_CHECK_PATH];
+    const char *path;                               /* the caller's */
     size_t count;                                   /* samples */
     check_cached_order cached[CHECK_CACHED_ORDERS]; /* of the torque; the oldest gives way */
     size_t cached_count;
     double *theta; /* recorded angle; NULL: none */
     double *torque; /* torque in N·m; where the shaft was held, −i_q in A: what balances the cogging torque */
-    bool is_held;       /* torque 0 throughout, and i_d, i_q */
-    bool is_electrical; /* the angle is theta_e */
-    bool dq_is_steady;  /* i_d, i_q are more than noise about 0 */
+    bool is_held;        /* torque 0 throughout, and i_d, i_q */
+    bool turns_steadily; /* held by no one, but i_q turns the shaft steadily: it knows the orders of the
+                            cogging torque, and its size as far as the speed was held */
+    bool is_electrical;  /* the angle is theta_e */
+    bool dq_is_steady;   /* i_d, i_q are more than noise about 0 */
     bool has_abc, has_dq, has_voltage, has_speed, has_torque;
     bool has_phase_voltage, has_dq_voltage; /* one of them where has_voltage */
     bool has_line_voltage;                  /* those of the phases are made of it */
@@ -100,13 +107,16 @@ typedef struct {
     double angle_rate;                      /* of the recorded angle over the recorded time; NAN: unknown */
     double angle_ratio;                     /* theta_e over theta_m where both were recorded, else NAN */
     double speed;                           /* mean of the speed column */
-    double torque_mean, torque_variance;    /* mean, and mean square about it */
-    double torque_at_speed;                 /* mean of torque × speed over the mean speed */
-    double current_square, voltage_square;  /* mean |x|² */
-    check_vector dq;                        /* mean of recorded i_d + j i_q */
-    check_vector power;                     /* mean of voltage × conj(current) */
-    check_voltage_terms terms;              /* of v_d, v_q */
-    double current_order, voltage_order;    /* order and sequence against the recorded angle; NAN: none */
+    double speed_over_time;                /* of the speed column over the time of angle_rate; NAN: unknown */
+    double speed_change;                   /* from the first to the last fifth, over the mean */
+    double torque_mean, torque_variance;   /* mean, and mean square about it */
+    double torque_at_speed;                /* mean of torque × speed over the mean speed */
+    double current_square, voltage_square; /* mean |x|² */
+    check_vector dq;                       /* mean of recorded i_d + j i_q */
+    double product_dq;                     /* mean of i_d i_q as recorded */
+    check_vector power;                    /* mean of voltage × conj(current) */
+    check_voltage_terms terms;             /* of v_d, v_q */
+    double current_order, voltage_order;   /* order and sequence against the recorded angle; NAN: none */
     double frequency;   /* of the voltages over the recorded time, rad per unit of time; NAN: unknown */
     double current_sum; /* rms of ia + ib + ic over the rms of the currents; NAN: not three columns */
     double current_balance, voltage_balance; /* largest over smallest alternating rms of the phases */
@@ -114,9 +124,9 @@ typedef struct {
     check_place theta_cell, time_cell, speed_cell, current_cell, voltage_cell, torque_cell;
 } check_run;
 
-/* Of a machine folder and its recordings. */
+/* Of a machine folder and its recordings. run: a recording has as many as it has parts. */
 typedef struct {
-    char machine_path[HCI_CHECK_PATH];
+    char machine_path[CHECK_PATH];
     double value[CHECK_VALUE_COUNT]; /* canonical units; NAN: not given */
     check_place cell[CHECK_VALUE_COUNT];
     bool has_neutral;

@@ -1,4 +1,4 @@
-#include "host/check/run_samples.h"
+#include "host/check/data/run_samples.h"
 
 #include <stdio.h>
 
@@ -131,16 +131,14 @@ static hci_status read_voltages(check_run *run, check_samples *s, hci_run_column
 
 static hci_status read_torque(check_samples *s)
 {
-    const hci_status status = hci_run_column_read(&s->columns, HCI_RUN_TORQUE);
-    s->torque = s->columns.value[HCI_RUN_TORQUE];
-    return status;
+    return read_column(s, HCI_RUN_TORQUE, &s->torque);
 }
 
 hci_status hci_check_samples_read(const hci_csv *csv, check_run *run, check_samples *s, hci_note *remark,
                                   hci_note *note)
 {
     hci_run_column first = HCI_RUN_VA;
-    hci_status status = hci_run_columns_open(csv, &s->columns, remark, note);
+    hci_status status = hci_run_columns_open_any(csv, &s->columns, remark, note);
     s->count = s->columns.count;
     find_voltages(run, s, &first);
     if (!status) status = read_angles(run, s);

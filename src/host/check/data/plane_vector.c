@@ -1,5 +1,5 @@
 /* Vectors of the plane. */
-#include "host/check/plane_vector.h"
+#include "host/check/data/plane_vector.h"
 
 #include <math.h>
 

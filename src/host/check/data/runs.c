@@ -1,0 +1,139 @@
+/* Recordings: reads each, keeps its statistics, forgets the samples. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "host/base/memory.h"
+#include "host/check/data/run_parts.h"
+#include "host/numeric/statistics.h"
+
+#define DEGREE (HCI_PI / 180.0)
+
+/* What is looked at again for each interpretation: the angle, and the torque, or in its place the current
+ * that balances it. */
+static bool keep_samples(const check_samples *s, check_run *run)
+{
+    const double *ripple = run->is_held || run->turns_steadily ? s->q : s->torque;
+    run->theta = s->theta ? hci_memory_new(s->count, sizeof *run->theta) : NULL;
+    run->torque = ripple ? hci_memory_new(s->count, sizeof *run->torque) : NULL;
+    if ((s->theta && !run->theta) || (ripple && !run->torque)) return false;
+    if (s->theta) memcpy(run->theta, s->theta, s->count * sizeof *run->theta);
+    for (size_t k = 0; ripple && k < s->count; ++k)
+        run->torque[k] = ripple == s->torque ? ripple[k] : -ripple[k];
+    if (ripple) hci_check_run_ripple(run);
+    return true;
+}
+
+static bool part_take(const check_samples *s, check_data *data, check_run *run)
+{
+    run->count = s->count;
+    hci_check_run_means(s, run);
+    if (s->theta) hci_check_run_frames(data, s, run);
+    return keep_samples(s, run);
+}
+
+/* Each part of the recording is a run of its own; *file is what they have in common. */
+static bool parts_take(const check_samples *s, const check_run *file, check_data *data)
+{
+    signed char *part = hci_memory_new(s->count, sizeof *part);
+    const bool is_held = s->torque && s->q && !(hci_mean_square_about(s->torque, s->count, 0.0) > 0.0);
+    const int parts = part ? hci_check_parts_find(s, is_held, part) : 0;
+    bool good = parts > 0;
+    for (int k = 0; k < parts && good; ++k) {
+        check_samples one;
+        check_run *run = &data->run[data->runs++];
+        *run = *file;
+        good = hci_check_part_take(s, part, k, &one) && part_take(&one, data, run);
+        hci_check_part_release(&one);
+    }
+    hci_memory_free(part);
+    return good;
+}
+
+static hci_status run_take(const hci_csv *csv, check_data *data, check_run *file, hci_note *remark,
+                           hci_note *note)
+{
+    check_samples s = {0};
+    hci_status status = hci_check_samples_read(csv, file, &s, remark, note);
+    if (!status && hci_check_torque_is_computed(&s)) {
+        hci_note_add(remark,
+                     "the torque is i_q times a number: the drive has computed it, and it is not compared");
+        s.torque = NULL;
+    }
+    if (!status && !parts_take(&s, file, data)) status = hci_note_memory(note, file->path, "its samples");
+    hci_check_samples_release(&s);
+    return status;
+}
+
+static hci_status run_read(const char *path, const hci_run_options *reading, check_data *data,
+                           hci_note *remark, hci_note *note)
+{
+    hci_csv *csv;
+    hci_status status;
+    check_run file = {.path = path};
+    if (strlen(path) >= CHECK_PATH)
+        return hci_note_set(note, HCI_ERROR_INPUT, "%.200s…: the path is longer than %d bytes", path,
+                            CHECK_PATH - 1);
+    status = hci_run_csv(path, reading, &csv, note);
+    if (status) return status;
+    status = run_take(csv, data, &file, remark, note);
+    hci_csv_free(csv);
+    return status;
+}
+
+static void add_scale(check_data *data, double scale)
+{
+    for (size_t k = 0; k < data->scales; ++k)
+        if (fabs(data->scale[k] / scale - 1.0) < 1e-9) return;
+    data->scale[data->scales++] = scale;
+}
+
+/* 1, p and p/2 electrical radians for a recorded one, and so for degrees. */
+static void scales_make(check_data *data)
+{
+    const double p = data->value[CHECK_pole_pairs];
+    for (int degrees = 0; degrees <= 1; ++degrees) {
+        const double unit = degrees ? DEGREE : 1.0;
+        add_scale(data, unit);
+        add_scale(data, unit * p);
+        if (fmod(p, 2.0) == 0.0) add_scale(data, unit * 0.5 * p);
+    }
+}
+
+static double no_current(const check_data *data)
+{
+    double most = data->value[CHECK_rated_current_A];
+    for (size_t k = 0; k < data->runs; ++k)
+        most = fmax(most, sqrt(data->run[k].current_square)); /* of NAN and a number the number */
+    return CHECK_NO_CURRENT * most;
+}
+
+hci_status hci_check_runs_read(const char *const *path, size_t count, const hci_run_options *reading,
+                               check_data *data, hci_note *remark, hci_note *note)
+{
+    hci_status status = HCI_OK;
+    scales_make(data);
+    data->run = hci_memory_new(CHECK_MOST_PARTS * count, sizeof *data->run);
+    if (!data->run) return hci_note_memory(note, NULL, "%zu runs", count);
+    for (size_t k = 0; k < count && !status; ++k)
+        status = run_read(path[k], reading, data, &remark[k], note);
+    data->no_current_A = no_current(data);
+    return status;
+}
+
+void hci_check_data_release(check_data *data)
+{
+    for (size_t k = 0; k < data->runs; ++k) {
+        hci_memory_free(data->run[k].theta);
+        hci_memory_free(data->run[k].torque);
+    }
+    hci_memory_free(data->run);
+    hci_memory_free(data->emf.order);
+    hci_memory_free(data->cogging.order);
+    memset(data, 0, sizeof *data);
+}
+
+bool hci_check_has_current(const check_data *data, const check_run *run)
+{
+    return sqrt(run->current_square) > data->no_current_A && run->current_square > 0.0;
+}
