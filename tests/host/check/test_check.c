@@ -130,7 +130,7 @@ static hci_status check_load_and_brake(const char *header, mistake *wrong)
     write_run("load.csv", header, -2.0, 10.0, wrong);
     write_run("brake.csv", header, -2.0, -10.0, wrong);
     write_run("half.csv", header, -2.0, 4.0, wrong);
-    return hci_check_files(files_root, run, 3, NULL, &check, &note);
+    return hci_check_files(files_root, run, 3, &(hci_run_options){0}, &check, &note);
 }
 
 static hci_status check_machine(void)

@@ -119,6 +119,7 @@ int hci_check_parts_find(const check_samples *s, bool is_held, signed char *part
 {
     const size_t n = s->count;
     memset(part, 0, n);
+    if (is_held) return 1;
     if (s->theta && !hci_check_angle_is_torn(s->theta, n)) {
         double *path = hci_memory_new(n, sizeof *path);
         if (!path) return 0;
@@ -128,7 +129,7 @@ int hci_check_parts_find(const check_samples *s, bool is_held, signed char *part
     } else if (s->speed) {
         follow_speed(s->speed, n, part);
     }
-    const bool of_current = !is_held && s->q && has_two_signs(s->q, n, s->theta != NULL);
+    const bool of_current = s->q && has_two_signs(s->q, n, s->theta != NULL);
     for (size_t k = 0; of_current && k < n; ++k)
         part[k] = (signed char)(part[k] + (s->q[k] < 0.0 ? 2 : 0));
     return count_parts(part, n);

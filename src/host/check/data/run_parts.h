@@ -10,8 +10,9 @@
 /* Forward or backward, and each with i_q of either sign. */
 enum { CHECK_MOST_PARTS = 4 };
 
-/* part: out, [count], to which part each sample belongs; -1: to one that is too short to be one. Returns how
- * many parts there are, 1 to CHECK_MOST_PARTS, or 0: out of memory. O(count). */
+/* part: out, [count], to which part each sample belongs; -1: to one that is too short to be one. A shaft that
+ * is held has one part, in which friction there and back has the mean 0. Returns how many parts there are, 1
+ * to CHECK_MOST_PARTS, or 0: out of memory. O(count). */
 int hci_check_parts_find(const check_samples *s, bool is_held, signed char *part);
 
 /* The samples of a part, in memory of their own, to be released. False: out of memory. */
