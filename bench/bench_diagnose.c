@@ -135,7 +135,7 @@ static cost use_hci(const char *path)
     cost c = {0};
 
     double start_s = bench_now_s();
-    if (hci_run_read(path, &(hci_run_options){POLE_PAIRS, NAN, false}, &run, &note)) {
+    if (hci_run_read(path, &(hci_run_options){.pole_pairs = POLE_PAIRS, .inertia_kgm2 = NAN}, &run, &note)) {
         c.failed = 1;
         return c;
     }

@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cli/command/reading.h"
 #include "cli/commands.h"
 #include "cli/terminal/say.h"
 #include "cli/terminal/terminal.h"
@@ -189,8 +190,10 @@ static int run(const cli_arguments *a)
 {
     static hci_check check;
     hci_note note = {{0}};
-    const hci_run_options reading = {.strict = a->given[STRICT]};
-    const hci_status status = hci_check_files(a->word[0], a->word + 1, a->words - 1, &reading, &check, &note);
+    cli_reading reading;
+    hci_status status = cli_reading_take(a, a->given[STRICT], &reading, &note);
+    if (!status) status = hci_check_files(a->word[0], a->word + 1, a->words - 1, &reading.run, &check, &note);
+    cli_reading_release(&reading);
     if (status && status != HCI_NOT_REACHED) return cli_fail(status, &note);
     show_remarks(&check);
     if (cli_is_wordy()) show(&check);

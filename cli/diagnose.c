@@ -6,6 +6,7 @@
 
 #include "cli/command/command.h"
 #include "cli/command/parse.h"
+#include "cli/command/reading.h"
 #include "cli/commands.h"
 #include "cli/diagnose_words.h"
 #include "cli/terminal/progress.h"
@@ -37,6 +38,7 @@ typedef struct {
     hci_effects_data declared;
     hci_runs runs;
     hci_target target;
+    cli_reading reading;
     hci_diagnose_options options;
 } inputs;
 
@@ -59,15 +61,17 @@ static hci_status read_inputs(const cli_arguments *a, inputs *in, hci_note *note
     if (!a->value[RUNS])
         return hci_note_set(note, HCI_ERROR_ARGUMENT,
                             "diagnose: the recordings are missing; add --runs LIST");
-    status = keep_apart(a->word[0], a->value[OUT], note);
+    status = cli_reading_take(a, a->given[STRICT], &in->reading, note);
+    if (!status) status = keep_apart(a->word[0], a->value[OUT], note);
     in->options.resolution = cli_number_or(a, RESOLUTION, 0.0) / 100.0;
     in->options.progress = cli_progress;
     if (!status && a->value[TARGET]) status = hci_target_read(a->value[TARGET], &in->target, note);
     if (!status) status = hci_machine_read(a->word[0], &in->machine, note);
     if (!status) status = hci_effects_read_machine(a->word[0], &in->declared, note);
     if (status) return status;
-    const hci_run_options each = {in->machine.model.pole_pairs, in->machine.inertia_kgm2, a->given[STRICT]};
-    const hci_runs_options reading = {each, in->options.progress, NULL};
+    in->reading.run.pole_pairs = in->machine.model.pole_pairs;
+    in->reading.run.inertia_kgm2 = in->machine.inertia_kgm2;
+    const hci_runs_options reading = {in->reading.run, in->options.progress, NULL};
     return hci_runs_read(a->value[RUNS], &reading, &in->runs, note);
 }
 
@@ -76,6 +80,7 @@ static void release_inputs(inputs *in)
     hci_machine_release(&in->machine);
     hci_effects_release(&in->declared);
     hci_runs_release(&in->runs);
+    cli_reading_release(&in->reading);
     hci_target_release(&in->target);
 }
 

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "cli/command/command.h"
+#include "cli/command/reading.h"
 #include "cli/commands.h"
 #include "cli/harmonics_words.h"
 #include "cli/terminal/say.h"
@@ -126,13 +127,16 @@ static int run(const cli_arguments *a)
     hci_waveform_options options;
     hci_note note = {{0}};
     hci_run recording;
+    cli_reading reading;
     memset(&options, 0, sizeof options);
     memset(&recording, 0, sizeof recording);
-    hci_status status = read_options(a, &options, orders, &note);
-    const hci_run_options reading = {options.pole_pairs, NAN, a->given[STRICT]};
-    if (!status) status = hci_run_read(a->word[0], &reading, &recording, &note);
+    hci_status status = cli_reading_take(a, a->given[STRICT], &reading, &note);
+    if (!status) status = read_options(a, &options, orders, &note);
+    reading.run.pole_pairs = options.pole_pairs;
+    if (!status) status = hci_run_read(a->word[0], &reading.run, &recording, &note);
     if (!status) status = analyse(a, &options, &recording, &note);
     hci_run_release(&recording);
+    cli_reading_release(&reading);
     return status ? cli_fail(status, &note) : 0;
 }
 

@@ -6,13 +6,13 @@
 #include <string.h>
 
 #include "cli/command/command.h"
-#include "cli/command/spelling.h"
 #include "cli/commands.h"
 #include "cli/reference/reference.h"
 #include "cli/terminal/say.h"
 #include "cli/terminal/signals.h"
 #include "cli/terminal/terminal.h"
 #include "cli/terminal/text.h"
+#include "hci/host/base/spelling.h"
 #include "hci/version.h"
 
 /* In the order in which one uses them. */
@@ -60,7 +60,7 @@ static int unknown_command(const char *word)
     hci_note note = {{0}};
     for (size_t k = 0; k < COMMAND_COUNT; ++k)
         names[k] = COMMANDS[k]->name;
-    nearest = cli_nearest(word, names);
+    nearest = hci_nearest(word, names);
     return cli_fail(hci_note_set(&note, HCI_ERROR_ARGUMENT,
                                  "unknown command `%s`%s%s%s hci-solve --help lists the commands, hci-solve "
                                  "COMMAND --help tells of one",

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 
 #include "cli/command/command.h"
+#include "cli/command/reading.h"
 #include "cli/commands.h"
 #include "cli/terminal/chart.h"
 #include "cli/terminal/say.h"
@@ -77,10 +78,12 @@ static int run(const cli_arguments *a)
 {
     hci_prediction prediction;
     hci_note note = {{0}};
-    const hci_run_options reading = {.strict = a->given[STRICT]};
-    hci_status status = keep_apart(a->word[1], a->value[OUT], &note);
+    cli_reading reading;
+    hci_status status = cli_reading_take(a, a->given[STRICT], &reading, &note);
+    if (!status) status = keep_apart(a->word[1], a->value[OUT], &note);
     if (!status)
-        status = hci_predict_file(a->word[0], a->word[1], &reading, a->value[OUT], &prediction, &note);
+        status = hci_predict_file(a->word[0], a->word[1], &reading.run, a->value[OUT], &prediction, &note);
+    cli_reading_release(&reading);
     if (!status && cli_is_wordy()) {
         show(&prediction, a);
         cli_remark(&prediction.remark);

@@ -3,7 +3,7 @@
  *
  * Order in this folder; a file uses only those before it and the folder terminal:
  *   option    what an option and a command are, and their texts
- *   spelling  which name was probably meant
+ *   reading   how recordings are read
  *   parse     words of a command line to arguments
  *   help      the text of --help
  *   command   from the words to the exit code */
@@ -46,6 +46,7 @@ typedef struct {
     int step;                  /* CLI_WHOLE: a multiple of it; 0 is 1 */
     const char *remedy;        /* what to do about a wrong number, or NULL */
     bool is_common;            /* every command has it */
+    bool repeats;              /* may be given more than once; at most one of a table */
 } cli_option;
 
 enum { CLI_MOST_OPTIONS = 32, CLI_MOST_WORDS = 72, CLI_HELP_SIZE = 512 };
@@ -53,10 +54,12 @@ enum { CLI_MOST_OPTIONS = 32, CLI_MOST_WORDS = 72, CLI_HELP_SIZE = 512 };
 /* What stands on a command line, by the places of the options in the table. */
 typedef struct {
     bool given[CLI_MOST_OPTIONS];
-    const char *value[CLI_MOST_OPTIONS]; /* NULL for a flag or a count that was left out */
-    double number[CLI_MOST_OPTIONS];     /* NAN where no number is given */
-    int choice[CLI_MOST_OPTIONS];        /* place in choices; 0 where none is given */
-    const char *word[CLI_MOST_WORDS];    /* what is no option */
+    const char *value[CLI_MOST_OPTIONS];  /* NULL for a flag or a count that was left out */
+    double number[CLI_MOST_OPTIONS];      /* NAN where no number is given */
+    int choice[CLI_MOST_OPTIONS];         /* place in choices; 0 where none is given */
+    const char *repeated[CLI_MOST_WORDS]; /* the values of an option that repeats, in their order */
+    size_t repeats;
+    const char *word[CLI_MOST_WORDS]; /* what is no option */
     size_t words;
 } cli_arguments;
 
@@ -99,8 +102,16 @@ typedef struct {
     [HELP] = CLI_HELP_OPTION, CLI_END_OF_OPTIONS
 
 /* What every command that reads recordings has, before CLI_COMMON_KEYS and CLI_COMMON_OPTIONS. */
-#define CLI_READING_KEYS STRICT
+#define CLI_READING_KEYS COLUMN, STRICT
 #define CLI_READING_OPTIONS                                                                                  \
+    [COLUMN] = {"column",                                                                                    \
+                0,                                                                                           \
+                CLI_TEXT,                                                                                    \
+                "NAME=COLUMN",                                                                               \
+                .help =                                                                                      \
+                    "which column of a recording is this quantity, such as torque_mNm=AI3; may be given "    \
+                    "for several",                                                                           \
+                .repeats = true},                                                                            \
     [STRICT] = {"strict", 0, CLI_FLAG, NULL,                                                                 \
                 .help = "refuse a recording with holes; without it such rows are left out and counted"}
 

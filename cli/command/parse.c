@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/command/spelling.h"
 #include "hci/host/base/number.h"
+#include "hci/host/base/spelling.h"
 
 /* ---- words ---- */
 
@@ -29,7 +29,7 @@ static hci_status unknown_option(const cli_command *command, const char *word, h
         names[k] = command->options[k].name;
     snprintf(name, sizeof name, "%.*s", (int)strcspn(word + 1, "="), word + (word[1] == '-' ? 2 : 1));
     name[strcspn(name, "=")] = '\0';
-    nearest = cli_nearest(name, names);
+    nearest = hci_nearest(name, names);
     return hci_note_set(note, HCI_ERROR_ARGUMENT, "%s: unknown option `%s`;%s%s%s see hci-solve %s --help",
                         command->name, word, nearest ? " did you mean `--" : "", nearest ? nearest : "",
                         nearest ? "`?" : "", command->name);
@@ -76,10 +76,13 @@ static hci_status take_option(reader *r, cli_arguments *a, hci_note *note)
     const char *word = r->words[r->at];
     const int k = option_of(r, word, strchr(word, '='));
     if (k < 0) return unknown_option(r->command, word, note);
-    if (a->given[k])
+    if (a->given[k] && !r->command->options[k].repeats)
         return hci_note_set(note, HCI_ERROR_ARGUMENT, "%s: `%s` is given twice", r->command->name, word);
     a->given[k] = true;
-    return take_value(r, &r->command->options[k], &a->value[k], note);
+    const hci_status status = take_value(r, &r->command->options[k], &a->value[k], note);
+    if (!status && r->command->options[k].repeats && a->repeats < CLI_MOST_WORDS)
+        a->repeated[a->repeats++] = a->value[k];
+    return status;
 }
 
 static hci_status check_word_count(const cli_command *c, const cli_arguments *a, hci_note *note)

@@ -1,4 +1,4 @@
-/* Words of a command line to arguments, by the table of a command. Uses option and spelling. */
+/* Words of a command line to arguments, by the table of a command. Uses option. */
 #ifndef HCI_CLI_PARSE_H
 #define HCI_CLI_PARSE_H
 

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "host/base/memory.h"
 #include "host/base/quote.h"
 #include "host/csv/column_name.h"
 #include "host/csv/table.h"
@@ -55,6 +56,55 @@ static hci_column_match match_alias(const hci_csv *csv, size_t column, const hci
     return result;
 }
 
+/* ---- columns that the user names ---- */
+
+static bool is_given(const hci_csv *csv, size_t column)
+{
+    for (size_t k = 0; k < csv->given_count; ++k)
+        if (csv->given[k].column == column) return true;
+    return false;
+}
+
+/* The unit at the end of a header under any name, such as "AI3 (mV)"; NULL: none. */
+static const hci_unit *unit_of_header(const char *header)
+{
+    const hci_unit *unit = NULL;
+    for (size_t at = 1; header[at] != '\0' && unit == NULL; ++at)
+        unit = hci_column_unit_of_tail(header + at);
+    return unit;
+}
+
+/* In the unit that the header says, or the row of units, or the user, or in the canonical one. */
+static hci_column_match find_given(const hci_csv *csv, const hci_wanted_column *want)
+{
+    const hci_unit *said;
+    for (size_t k = csv->given_count; k-- > 0;) {
+        const size_t column = csv->given[k].column;
+        if (!hci_column_split(csv->given[k].name, want, &said)) continue;
+        if (said != NULL && said->dimension != want->unit->dimension) continue;
+        hci_column_match result = {.kind = HCI_COLUMN_ONE, .column = column, .factor = 1, .has_unit = true};
+        const hci_unit *of_header = unit_of_header(hci_csv_cell(csv, 0, column));
+        const hci_unit *of_row = hci_csv_row_unit(csv, column);
+        const hci_unit *unit = of_header != NULL ? of_header : of_row != NULL ? of_row : said;
+        if (unit == NULL) unit = want->unit;
+        result.factor = unit->factor / want->unit->factor;
+        if (unit->dimension != want->unit->dimension) result.kind = HCI_COLUMN_GIVEN_UNIT;
+        return result;
+    }
+    return (hci_column_match){.kind = HCI_COLUMN_NONE, .factor = 1};
+}
+
+hci_status hci_csv_give(hci_csv *csv, const char *name, size_t column, hci_note *note)
+{
+    hci_csv_given *larger = hci_memory_resize(csv->given, csv->given_count + 1, sizeof *larger);
+    if (larger == NULL) return hci_note_memory(note, csv->path, "its columns");
+    csv->given = larger;
+    hci_csv_given *given = &csv->given[csv->given_count++];
+    snprintf(given->name, sizeof given->name, "%s", name);
+    given->column = column;
+    return HCI_OK;
+}
+
 /* ---- all columns ---- */
 
 /* Is the column's name one that means something else beside another column of this file? */
@@ -96,7 +146,8 @@ static hci_column_match find_own(const hci_csv *csv, const char *name, const hci
     hci_column_match result = {.kind = HCI_COLUMN_NONE};
     for (size_t column = 0; column < csv->columns; column++) {
         const hci_column_match next = match_column(csv, column, want);
-        if (next.kind == HCI_COLUMN_NONE || means_another(csv, column, name)) continue;
+        if (next.kind == HCI_COLUMN_NONE || is_given(csv, column) || means_another(csv, column, name))
+            continue;
         if (!add_match(&result, next)) break;
     }
     return result;
@@ -114,7 +165,9 @@ static hci_column_match find_foreign(const hci_csv *csv, const char *name, const
         if (beside && !has_beside(csv, alias)) continue;
         for (size_t column = 0; column < csv->columns; column++) {
             const hci_column_match next = match_alias(csv, column, want, alias);
-            if (next.kind == HCI_COLUMN_NONE || (!beside && means_another(csv, column, name))) continue;
+            if (next.kind == HCI_COLUMN_NONE || is_given(csv, column) ||
+                (!beside && means_another(csv, column, name)))
+                continue;
             if (!add_match(&result, next)) return result;
         }
     }
@@ -124,7 +177,8 @@ static hci_column_match find_foreign(const hci_csv *csv, const char *name, const
 hci_column_match hci_column_find(const hci_csv *csv, const char *name)
 {
     const hci_wanted_column want = hci_wanted_column_of(name);
-    hci_column_match result = find_foreign(csv, name, &want, true);
+    hci_column_match result = find_given(csv, &want);
+    if (result.kind == HCI_COLUMN_NONE) result = find_foreign(csv, name, &want, true);
     if (result.kind == HCI_COLUMN_NONE) result = find_own(csv, name, &want);
     if (result.kind == HCI_COLUMN_NONE) result = find_foreign(csv, name, &want, false);
     return result;
@@ -176,6 +230,11 @@ static hci_status match_error(const hci_csv *csv, const char *name, const hci_co
     fault.expected = found->kind == HCI_COLUMN_CONFLICT ? "the unit in the column's name"
                                                         : "a unit of the quantity asked for";
     fault.remedy = "correct the unit";
+    if (found->kind == HCI_COLUMN_GIVEN_UNIT) {
+        snprintf(text, sizeof text, "a unit that is none of %s", hci_quote(name, quoted));
+        fault.line = hci_csv_record_line(csv, 0);
+        fault.remedy = "name another column, or correct the unit in the file";
+    }
     if (found->kind == HCI_COLUMN_UNKNOWN_UNIT) {
         fault.expected = HCI_CSV_UNIT_EXPECTED;
         fault.remedy = HCI_CSV_UNIT_REMEDY;
@@ -221,7 +280,8 @@ static hci_status unclear_error(const hci_csv *csv, size_t column, hci_note *not
                                  .name = hci_csv_cell(csv, 0, column),
                                  .found = "an angle that may be mechanical or electrical",
                                  .expected = "theta_m or theta_e",
-                                 .remedy = "rename the column to the one it is"};
+                                 .remedy =
+                                     "rename the column to the one it is, or say --column theta_m=COLUMN"};
     return hci_csv_fault_note(csv, &fault, note);
 }
 
@@ -230,7 +290,7 @@ hci_status hci_csv_check_clear(const hci_csv *csv, hci_note *note)
     const hci_unit *unit;
     for (size_t column = 0; column < csv->columns; column++) {
         const char *name = hci_csv_cell(csv, 0, column);
-        for (size_t k = 0; k < hci_alias_count; k++)
+        for (size_t k = 0; k < hci_alias_count && !is_given(csv, column); k++)
             if (hci_aliases[k].column == NULL && hci_column_split_alias(name, &hci_aliases[k], &unit))
                 return unclear_error(csv, column, note);
     }

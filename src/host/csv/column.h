@@ -12,6 +12,7 @@ typedef enum {
     HCI_COLUMN_ONE,         /* one does, in a unit of the quantity */
     HCI_COLUMN_TWICE,       /* several do */
     HCI_COLUMN_OTHER_UNIT,  /* one does, in a unit of another quantity */
+    HCI_COLUMN_GIVEN_UNIT,  /* the user names one in a unit of another quantity */
     HCI_COLUMN_CONFLICT,    /* its name and the row of units say different units */
     HCI_COLUMN_UNKNOWN_UNIT /* the row of units says one that is not known */
 } hci_column_kind;

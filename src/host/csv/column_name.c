@@ -14,8 +14,7 @@ hci_wanted_column hci_wanted_column_of(const char *name)
     return want;
 }
 
-/* The unit that the end of a name gives: "_deg", " (deg)", "[deg]", " / deg", ", deg"; NULL: none. */
-static const hci_unit *unit_of_tail(const char *tail)
+const hci_unit *hci_column_unit_of_tail(const char *tail)
 {
     if (*tail == '_') return hci_unit_of_suffix(tail + 1);
     tail += strspn(tail, " \t");
@@ -29,7 +28,7 @@ bool hci_column_split(const char *name, const hci_wanted_column *want, const hci
     const char *rest = name + want->base_length;
     *unit = NULL;
     if (rest[strspn(rest, " \t")] == '\0') return true;
-    *unit = unit_of_tail(rest);
+    *unit = hci_column_unit_of_tail(rest);
     return *unit != NULL;
 }
 
@@ -40,7 +39,7 @@ bool hci_column_split_alias(const char *name, const hci_alias *alias, const hci_
     if (hci_alias_is_name(alias, name, length)) return true;
     for (size_t end = 1; end < length; ++end) {
         if (strchr("_([/, ", name[end]) == NULL || !hci_alias_is_name(alias, name, end)) continue;
-        *unit = unit_of_tail(name + end);
+        *unit = hci_column_unit_of_tail(name + end);
         if (*unit != NULL) return true;
     }
     return false;

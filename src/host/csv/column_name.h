@@ -22,6 +22,9 @@ hci_wanted_column hci_wanted_column_of(const char *name);
 bool hci_column_split(const char *name, const hci_wanted_column *want, const hci_unit **unit);
 bool hci_column_split_alias(const char *name, const hci_alias *alias, const hci_unit **unit);
 
+/* The unit that the end of a name gives: "_deg", " (deg)", "[deg]", " / deg", ", deg"; NULL: none. */
+const hci_unit *hci_column_unit_of_tail(const char *tail);
+
 /* Is a name one of those that a recording has, here or elsewhere? */
 bool hci_column_is_known(const char *name);
 

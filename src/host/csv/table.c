@@ -46,6 +46,7 @@ void hci_csv_free(hci_csv *csv)
     hci_memory_free(csv->path);
     hci_memory_free(csv->text);
     hci_memory_free(csv->index);
+    hci_memory_free(csv->given);
     hci_memory_free(csv);
 }
 

@@ -16,6 +16,12 @@ typedef struct {
     hci_note error;             /* what is said where the file is refused for it */
 } hci_csv_hole;
 
+/* A column that is what the user says. */
+typedef struct {
+    char name[32]; /* canonical, with its unit or without */
+    size_t column;
+} hci_csv_given;
+
 struct hci_csv {
     char *path;
     char *text;      /* the whole file, each cell cut out in place and ended by a NUL */
@@ -26,6 +32,8 @@ struct hci_csv {
     bool has_foreword; /* lines before the header were passed over */
     char separator;
     bool leaves_holes; /* rows that are too short or too long are left out, and counted */
+    hci_csv_given *given;
+    size_t given_count;
     size_t torn;       /* rows left out so */
     hci_csv_hole hole; /* the first of them */
 };

@@ -398,9 +398,28 @@ hci_status hci_run_of_csv(const hci_csv *csv, const hci_run_options *options, hc
     return status;
 }
 
+/* The names that stand beside the file, and then those of the options. */
+static hci_status name_columns(const char *path, const hci_run_options *options, hci_csv *csv, hci_note *note)
+{
+    hci_column_names beside = {0};
+    hci_status status = hci_column_names_beside(&beside, path, note);
+    if (!status) status = hci_column_names_apply(options->list_columns, true, csv, note);
+    if (!status) status = hci_column_names_apply(&beside, true, csv, note);
+    if (!status) status = hci_column_names_apply(options->columns, false, csv, note);
+    hci_column_names_release(&beside);
+    return status;
+}
+
 hci_status hci_run_csv(const char *path, const hci_run_options *options, hci_csv **csv, hci_note *note)
 {
-    return options->strict ? hci_csv_read(path, csv, note) : hci_csv_read_recording(path, csv, note);
+    hci_status status =
+        options->strict ? hci_csv_read(path, csv, note) : hci_csv_read_recording(path, csv, note);
+    if (status) return status;
+    status = name_columns(path, options, *csv, note);
+    if (!status) return status;
+    hci_csv_free(*csv);
+    *csv = NULL;
+    return status;
 }
 
 hci_status hci_run_read(const char *path, const hci_run_options *options, hci_run *run, hci_note *note)

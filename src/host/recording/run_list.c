@@ -10,6 +10,7 @@
 typedef struct {
     const hci_csv *csv;
     const hci_runs_options *options;
+    hci_run_options run; /* of each */
     hci_runs *runs;
     hci_note *note;
 } list_reader;
@@ -63,7 +64,7 @@ static hci_status read_one(const list_reader *l, size_t row, const char *file, h
 {
     char *path = path_of(hci_csv_path(l->csv), file);
     if (path == NULL) return memory_error(l);
-    const hci_status status = hci_run_read(path, &l->options->run, run, l->note);
+    const hci_status status = hci_run_read(path, &l->run, run, l->note);
     hci_memory_free(path);
     if (status) return status;
     l->runs->count = row + 1;
@@ -111,8 +112,12 @@ hci_status hci_runs_read(const char *path, const hci_runs_options *options, hci_
     memset(runs, 0, sizeof *runs);
     hci_status status = hci_csv_read(path, &csv, note);
     if (status) return status;
-    const list_reader l = {csv, options, runs, note};
-    status = read_rows(&l);
+    hci_column_names columns = {0};
+    list_reader l = {csv, options, options->run, runs, note};
+    l.run.list_columns = &columns;
+    status = hci_column_names_beside(&columns, path, note);
+    if (!status) status = read_rows(&l);
+    hci_column_names_release(&columns);
     hci_csv_free(csv);
     if (status) hci_runs_release(runs);
     return status;

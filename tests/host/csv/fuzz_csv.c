@@ -90,7 +90,8 @@ static void check_run(const hci_csv *csv)
 {
     hci_run run;
     hci_note note = {0};
-    check_note(hci_run_of_csv(csv, &(hci_run_options){3, 1e-3, false}, &run, &note), &note);
+    check_note(hci_run_of_csv(csv, &(hci_run_options){.pole_pairs = 3, .inertia_kgm2 = 1e-3}, &run, &note),
+               &note);
     check_text_shown(run.remark.text);
     for (size_t k = 0; run.theta_m_rad != NULL && k < run.count; k++)
         require(isfinite(run.theta_m_rad[k]), "finite angles");

@@ -439,15 +439,18 @@ static void test_a_run_tells_what_was_supposed(void)
     hci_note note = {{0}};
     hci_csv_free(read_text("Log\nms_today;erpm;encoder_position;q_axis_current;\n1000;600;0;1;\n1010;600;6;1;"
                            "\n1020;600;12;1;\n"));
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_run_read(path, &(hci_run_options){10, NAN, false}, &run, &note),
-                              note.text);
+    TEST_ASSERT_EQUAL_MESSAGE(
+        HCI_OK, hci_run_read(path, &(hci_run_options){.pole_pairs = 10, .inertia_kgm2 = NAN}, &run, &note),
+        note.text);
     TEST_ASSERT_DOUBLE_WITHIN(1e-14, 2 * REF_PI, run.speed_rad_per_s[1]); /* 60 rpm */
     TEST_ASSERT_DOUBLE_WITHIN(1e-14, REF_PI / 15, run.theta_m_rad[2]);
     text_has("line 2 is the header, what stands before it is not read; `erpm` is read as", run.remark.text);
     text_has("`encoder_position` is read as the mechanical angle of an encoder", run.remark.text);
     hci_run_release(&run);
     hci_csv_free(read_text("theta,iq\n1,2\n"));
-    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, hci_run_read(path, &(hci_run_options){10, NAN, false}, &run, &note));
+    TEST_ASSERT_EQUAL(
+        HCI_ERROR_INPUT,
+        hci_run_read(path, &(hci_run_options){.pole_pairs = 10, .inertia_kgm2 = NAN}, &run, &note));
     text_has(":1: column 1 `theta`: found an angle that may be mechanical or electrical", note.text);
 }
 

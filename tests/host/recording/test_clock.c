@@ -233,8 +233,9 @@ static void read_motion(double dt, double late, const char *header, hci_run *run
         fprintf(file, "%.4f,%.9f,90,0\n", dt * floor(at / dt + 1e-9), fmod(90.0 * read, 2.0 * REF_PI));
     }
     fclose(file);
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_run_read(path, &(hci_run_options){4, 1e-3, false}, run, &note),
-                              note.text);
+    TEST_ASSERT_EQUAL_MESSAGE(
+        HCI_OK, hci_run_read(path, &(hci_run_options){.pole_pairs = 4, .inertia_kgm2 = 1e-3}, run, &note),
+        note.text);
 }
 
 static void test_a_run_with_a_coarse_clock_is_read(void)
@@ -278,8 +279,9 @@ static void test_samples_turns_apart_stand_for_themselves(void)
     for (int k = 0; k < 100; ++k)
         fprintf(file, "%d,%.6f,70,1\n", k, fmod(70.0 * k, 2.0 * REF_PI));
     fclose(file);
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_run_read(path, &(hci_run_options){4, NAN, false}, &run, &note),
-                              note.text);
+    TEST_ASSERT_EQUAL_MESSAGE(
+        HCI_OK, hci_run_read(path, &(hci_run_options){.pole_pairs = 4, .inertia_kgm2 = NAN}, &run, &note),
+        note.text);
     TEST_ASSERT_NULL(run.time_s);
     text_has("more than half a turn apart: each is taken by itself", run.remark.text);
     hci_run_release(&run);

@@ -11,7 +11,8 @@
 #include "support/texts.h"
 #include "unity.h"
 
-static const hci_run_options PLAIN = {2, NAN, false}, STRICT = {2, NAN, true};
+static const hci_run_options PLAIN = {.pole_pairs = 2, .inertia_kgm2 = NAN},
+                             STRICT = {.pole_pairs = 2, .inertia_kgm2 = NAN, .strict = true};
 
 static char path[96];
 static hci_run run;

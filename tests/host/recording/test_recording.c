@@ -67,7 +67,9 @@ static void row(FILE *file, int count, ...)
 static void read_run(int pole_pairs, double inertia_kgm2)
 {
     TEST_ASSERT_EQUAL_MESSAGE(
-        HCI_OK, hci_run_read(path, &(hci_run_options){pole_pairs, inertia_kgm2, false}, &run, &note),
+        HCI_OK,
+        hci_run_read(path, &(hci_run_options){.pole_pairs = pole_pairs, .inertia_kgm2 = inertia_kgm2}, &run,
+                     &note),
         note.text);
 }
 
@@ -81,8 +83,9 @@ static void refused(const char *content, const char *why)
 {
     hci_note said = {{0}};
     files_write(path, content);
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_ERROR_INPUT,
-                              hci_run_read(path, &(hci_run_options){4, NAN, false}, &run, &said), content);
+    TEST_ASSERT_EQUAL_MESSAGE(
+        HCI_ERROR_INPUT,
+        hci_run_read(path, &(hci_run_options){.pole_pairs = 4, .inertia_kgm2 = NAN}, &run, &said), content);
     text_has(why, said.text);
     text_has("run.csv", said.text);
     TEST_ASSERT_EQUAL(0, run.count);
@@ -472,10 +475,13 @@ static void test_refused_runs(void)
     refused("time_s,theta,vab_V,vbc_V\n0,1,1,1\n", "run.csv:1: column 2");
     refused("theta_m_rad,torque_Nm\n", "a header and no samples");
     refused("theta_m_rad,torque_Nm\n1,x\n", "found `x`");
-    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT,
-                      hci_run_read("no/such/file", &(hci_run_options){4, NAN, false}, &run, NULL));
+    TEST_ASSERT_EQUAL(
+        HCI_ERROR_INPUT,
+        hci_run_read("no/such/file", &(hci_run_options){.pole_pairs = 4, .inertia_kgm2 = NAN}, &run, NULL));
     files_write(path, "theta_m_rad,torque_Nm\n1,1\n");
-    TEST_ASSERT_EQUAL(HCI_ERROR_ARGUMENT, hci_run_read(path, &(hci_run_options){0, NAN, false}, &run, NULL));
+    TEST_ASSERT_EQUAL(
+        HCI_ERROR_ARGUMENT,
+        hci_run_read(path, &(hci_run_options){.pole_pairs = 0, .inertia_kgm2 = NAN}, &run, NULL));
 }
 
 static void test_unused_columns_are_named(void)
@@ -495,7 +501,7 @@ static void test_memory_runs_out_everywhere(void)
     for (; status == HCI_ERROR_MEMORY; ++allowed) {
         memset(&note, 0, sizeof note);
         hci_memory_fail_after(allowed);
-        status = hci_run_read(path, &(hci_run_options){2, 0.1, false}, &run, &note);
+        status = hci_run_read(path, &(hci_run_options){.pole_pairs = 2, .inertia_kgm2 = 0.1}, &run, &note);
         if (status == HCI_ERROR_MEMORY) {
             text_has("memory", note.text);
             TEST_ASSERT_EQUAL(0, run.count);
@@ -520,7 +526,7 @@ static void refused_list(const char *content, const char *why)
 {
     hci_runs runs;
     hci_note said = {{0}};
-    const hci_runs_options reading = {{2, NAN, false}, NULL, NULL};
+    const hci_runs_options reading = {{.pole_pairs = 2, .inertia_kgm2 = NAN}, NULL, NULL};
     files_write(list_path, content);
     TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, hci_runs_read(list_path, &reading, &runs, &said));
     text_has(why, said.text);
@@ -531,7 +537,7 @@ static void test_lists_are_relative_to_themselves(void)
 {
     hci_runs runs;
     int calls = 0;
-    const hci_runs_options reading = {{2, NAN, false}, count_progress, &calls};
+    const hci_runs_options reading = {{.pole_pairs = 2, .inertia_kgm2 = NAN}, count_progress, &calls};
     snprintf(sub, sizeof sub, "%s", files_path("sub"));
     snprintf(list_path, sizeof list_path, "%s", files_path("sub/list.csv"));
     TEST_ASSERT_EQUAL(0, mkdir(sub, 0700));
@@ -568,7 +574,9 @@ static void read_measured(const char *file, int pole_pairs, double inertia_kgm2)
 {
     if (!measured(file)) TEST_IGNORE_MESSAGE("no " MEASURED);
     TEST_ASSERT_EQUAL_MESSAGE(
-        HCI_OK, hci_run_read(sub, &(hci_run_options){pole_pairs, inertia_kgm2, false}, &run, &note),
+        HCI_OK,
+        hci_run_read(sub, &(hci_run_options){.pole_pairs = pole_pairs, .inertia_kgm2 = inertia_kgm2}, &run,
+                     &note),
         note.text);
 }
 

@@ -198,8 +198,9 @@ static void test_a_run_is_made_of_these_columns(void)
 {
     hci_run run;
     find("theta_e (deg),Id_measured,Iq_measured\n90,-2,10\n90,-2,10\n");
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_run_of_csv(csv, &(hci_run_options){1, NAN, false}, &run, &note),
-                              note.text);
+    TEST_ASSERT_EQUAL_MESSAGE(
+        HCI_OK, hci_run_of_csv(csv, &(hci_run_options){.pole_pairs = 1, .inertia_kgm2 = NAN}, &run, &note),
+        note.text);
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, 10.0, run.i_A[0]);
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.5 * REF_PI, run.theta_m_rad[0]);
     hci_run_release(&run);

@@ -809,8 +809,11 @@ static bool measured(const char *file, int pole_pairs)
     struct stat info;
     snprintf(path, sizeof path, MEASURED "%s", file);
     if (stat(path, &info) != 0) return false;
-    TEST_ASSERT_EQUAL_MESSAGE(
-        HCI_OK, hci_run_read(path, &(hci_run_options){pole_pairs, NAN, false}, &recording, &note), note.text);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK,
+                              hci_run_read(path,
+                                           &(hci_run_options){.pole_pairs = pole_pairs, .inertia_kgm2 = NAN},
+                                           &recording, &note),
+                              note.text);
     run = recording;
     options.pole_pairs = pole_pairs;
     return true;

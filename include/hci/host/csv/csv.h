@@ -42,6 +42,11 @@ size_t hci_csv_line(const hci_csv *csv, size_t row);
  * for. */
 bool hci_csv_has(const hci_csv *csv, const char *column);
 
+/* Says which column a canonical name stands for, whatever the header says; the last word counts. name:
+ * shorter than 32 bytes; its unit, where it has one, is that of the column, unless the file says one.
+ * HCI_ERROR_MEMORY. */
+hci_status hci_csv_give(hci_csv *csv, const char *name, size_t column, hci_note *note);
+
 /* How many columns the file has. */
 size_t hci_csv_columns(const hci_csv *csv);
 

@@ -8,6 +8,7 @@
 #include "hci/host/base/note.h"
 #include "hci/host/base/progress.h"
 #include "hci/host/csv/csv.h"
+#include "hci/host/recording/column_names.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -47,6 +48,8 @@ typedef struct {
     int pole_pairs;      /* to turn electrical angles into mechanical ones */
     double inertia_kgm2; /* for a run without torque_Nm; NAN or 0: not known, the torque is then missing */
     bool strict;         /* a hole refuses the file */
+    const hci_column_names *columns;      /* which column is what, before all names; NULL: names say it */
+    const hci_column_names *list_columns; /* the same for all runs of a list, which counts least; or NULL */
 } hci_run_options;
 
 /* Reads a run: an angle or voltages, and what else there is of time_s, theta_m_rad, theta_e_rad,
@@ -72,7 +75,8 @@ hci_status hci_run_read(const char *path, const hci_run_options *options, hci_ru
 /* The same of a file that has been read, by hci_csv_read_recording where holes may be left out. */
 hci_status hci_run_of_csv(const hci_csv *csv, const hci_run_options *options, hci_run *run, hci_note *note);
 
-/* Reads a recording as hci_run_read does, strictly or not. */
+/* Reads a recording as hci_run_read does, strictly or not, with the columns that options->columns and
+ * `columns.csv` beside the file name. */
 hci_status hci_run_csv(const char *path, const hci_run_options *options, hci_csv **csv, hci_note *note);
 
 /* Frees what a run holds and empties it. */
@@ -99,7 +103,8 @@ typedef struct {
     void *context;          /* of progress */
 } hci_runs_options;
 
-/* Reads a list and its runs, whose paths are relative to it. HCI_ERROR_INPUT, _MEMORY. */
+/* Reads a list and its runs, whose paths are relative to it. `columns.csv` beside the list names columns of
+ * all of them, before that beside a run. HCI_ERROR_INPUT, _MEMORY. */
 hci_status hci_runs_read(const char *path, const hci_runs_options *options, hci_runs *runs, hci_note *note);
 
 /* Frees what a list holds, its runs included, and empties it. */

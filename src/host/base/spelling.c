@@ -1,4 +1,4 @@
-#include "cli/command/spelling.h"
+#include "hci/host/base/spelling.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -30,7 +30,7 @@ static int distance(const char *a, const char *b)
     return d[m][n];
 }
 
-const char *cli_nearest(const char *word, const char *const *names)
+const char *hci_nearest(const char *word, const char *const *names)
 {
     const char *nearest = NULL;
     int best = 1 + (int)strlen(word) / 3; /* one mistake in three letters */

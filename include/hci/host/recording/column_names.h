@@ -1,0 +1,48 @@
+/* Which column of a recording is which quantity, where its name does not say. */
+#ifndef HCI_HOST_RECORDING_COLUMN_NAMES_H
+#define HCI_HOST_RECORDING_COLUMN_NAMES_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "hci/host/csv/csv.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* One quantity. */
+typedef struct {
+    char *name;   /* as in docs/files.md; its unit, of its own or none ("torque_mNm", "torque"), is that of a
+                   column   that says none */
+    char *column; /* as the header of the recording spells it */
+    char *from;   /* who says so: "path:line", or "--column NAME=COLUMN" */
+} hci_column_name;
+
+/* Start with {0}. */
+typedef struct {
+    hci_column_name *item;
+    size_t count;
+} hci_column_names;
+
+/* Adds "NAME=COLUMN". HCI_ERROR_ARGUMENT for another text or a name that is no quantity of a recording,
+ * HCI_ERROR_MEMORY. */
+hci_status hci_column_names_add(hci_column_names *names, const char *text, hci_note *note);
+
+/* Adds the rows of a table with the columns name and column. HCI_ERROR_INPUT, _MEMORY. */
+hci_status hci_column_names_read(hci_column_names *names, const char *path, hci_note *note);
+
+/* Adds `columns.csv` of the folder that a file is in, if there is one. */
+hci_status hci_column_names_beside(hci_column_names *names, const char *file, hci_note *note);
+
+void hci_column_names_release(hci_column_names *names);
+
+/* Has the file read so. HCI_ERROR_INPUT for a column that it does not have; where `optional`, only if it does
+ * not have the quantity under a name of its own either. */
+hci_status hci_column_names_apply(const hci_column_names *names, bool optional, hci_csv *csv, hci_note *note);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

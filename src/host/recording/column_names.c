@@ -1,0 +1,203 @@
+#include "hci/host/recording/column_names.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "hci/host/base/spelling.h"
+#include "host/base/memory.h"
+#include "host/base/quote.h"
+#include "host/csv/column_name.h"
+#include "host/csv/table.h"
+#include "host/recording/run_columns.h"
+
+#define FILE_NAME "columns.csv"
+
+static char *copy_of(const char *text, size_t length)
+{
+    char *copy = hci_memory_malloc(length + 1);
+    if (copy == NULL) return NULL;
+    memcpy(copy, text, length);
+    copy[length] = '\0';
+    return copy;
+}
+
+/* ---- quantities ---- */
+
+static bool is_quantity(const char *name)
+{
+    const hci_unit *unit;
+    for (unsigned k = 0; k < HCI_RUN_COLUMN_COUNT; ++k) {
+        const hci_wanted_column want = hci_wanted_column_of(hci_run_column_name(k));
+        if (!hci_column_split(name, &want, &unit)) continue;
+        if (unit == NULL || unit->dimension == want.unit->dimension) return strlen(name) < 32;
+    }
+    return false;
+}
+
+/* "; did you mean `torque_Nm`?", or all that there is. */
+static void suggest_quantity(const char *name, char *text, size_t size)
+{
+    const char *names[HCI_RUN_COLUMN_COUNT + 1] = {NULL};
+    size_t used = 0;
+    for (unsigned k = 0; k < HCI_RUN_COLUMN_COUNT; ++k)
+        names[k] = hci_run_column_name(k);
+    const char *nearest = hci_nearest(name, names);
+    if (nearest != NULL) {
+        snprintf(text, size, "did you mean `%s`?", nearest);
+        return;
+    }
+    for (unsigned k = 0; k < HCI_RUN_COLUMN_COUNT && used < size; ++k)
+        used += (size_t)snprintf(text + used, size - used, "%s%s", k > 0 ? ", " : "write one of ", names[k]);
+}
+
+static hci_status unknown_name(const char *from, const char *name, hci_status status, hci_note *note)
+{
+    char quoted[HCI_QUOTE_SIZE], remedy[400];
+    suggest_quantity(name, remedy, sizeof remedy);
+    return hci_note_set(note, status, "%.300s: found %s, expected a quantity of a recording; %s", from,
+                        hci_quote(name, quoted), remedy);
+}
+
+/* ---- the list ---- */
+
+/* Takes the three texts, whatever is returned. */
+static hci_status add(hci_column_names *names, hci_column_name item, hci_note *note)
+{
+    hci_column_name *larger = hci_memory_resize(names->item, names->count + 1, sizeof *larger);
+    if (larger != NULL) names->item = larger;
+    if (larger != NULL && item.name != NULL && item.column != NULL && item.from != NULL) {
+        names->item[names->count++] = item;
+        return HCI_OK;
+    }
+    hci_memory_free(item.name);
+    hci_memory_free(item.column);
+    hci_memory_free(item.from);
+    return hci_note_memory(note, NULL, "names of columns");
+}
+
+hci_status hci_column_names_add(hci_column_names *names, const char *text, hci_note *note)
+{
+    char from[400];
+    const char *equals = strchr(text, '=');
+    snprintf(from, sizeof from, "--column %s", text);
+    if (equals == NULL || equals == text || equals[1] == '\0')
+        return hci_note_set(note, HCI_ERROR_ARGUMENT,
+                            "--column: found `%.200s`, expected NAME=COLUMN such as torque_Nm=AI3", text);
+    const hci_column_name item = {copy_of(text, (size_t)(equals - text)),
+                                  copy_of(equals + 1, strlen(equals + 1)), copy_of(from, strlen(from))};
+    if (item.name != NULL && !is_quantity(item.name)) {
+        unknown_name(from, item.name, HCI_ERROR_ARGUMENT, note);
+        hci_memory_free(item.name);
+        hci_memory_free(item.column);
+        hci_memory_free(item.from);
+        return HCI_ERROR_ARGUMENT;
+    }
+    return add(names, item, note);
+}
+
+static hci_status read_row(hci_column_names *names, const hci_csv *csv, size_t row, hci_note *note)
+{
+    const char *name, *column;
+    char from[HCI_QUOTE_PATH_SIZE + 32], path[HCI_QUOTE_PATH_SIZE];
+    hci_status status = hci_csv_text(csv, "name", row, &name, note);
+    if (!status) status = hci_csv_text(csv, "column", row, &column, note);
+    if (status) return status;
+    snprintf(from, sizeof from, "%s:%zu", hci_quote_path(hci_csv_path(csv), path), hci_csv_line(csv, row));
+    if (!is_quantity(name)) return unknown_name(from, name, HCI_ERROR_INPUT, note);
+    const hci_column_name item = {copy_of(name, strlen(name)), copy_of(column, strlen(column)),
+                                  copy_of(from, strlen(from))};
+    return add(names, item, note);
+}
+
+hci_status hci_column_names_read(hci_column_names *names, const char *path, hci_note *note)
+{
+    hci_csv *csv;
+    hci_status status = hci_csv_read(path, &csv, note);
+    if (status) return status;
+    for (size_t row = 0; row < hci_csv_rows(csv) && !status; ++row)
+        status = read_row(names, csv, row, note);
+    hci_csv_free(csv);
+    return status;
+}
+
+hci_status hci_column_names_beside(hci_column_names *names, const char *file, hci_note *note)
+{
+    const char *slash = strrchr(file, '/');
+    const size_t folder = slash != NULL ? (size_t)(slash - file) + 1 : 0;
+    char *path = hci_memory_malloc(folder + sizeof FILE_NAME);
+    if (path == NULL) return hci_note_memory(note, NULL, "names of columns");
+    memcpy(path, file, folder);
+    memcpy(path + folder, FILE_NAME, sizeof FILE_NAME);
+    FILE *there = fopen(path, "rb");
+    if (there != NULL) fclose(there);
+    const hci_status status = there != NULL ? hci_column_names_read(names, path, note) : HCI_OK;
+    hci_memory_free(path);
+    return status;
+}
+
+void hci_column_names_release(hci_column_names *names)
+{
+    for (size_t k = 0; k < names->count; ++k) {
+        hci_memory_free(names->item[k].name);
+        hci_memory_free(names->item[k].column);
+        hci_memory_free(names->item[k].from);
+    }
+    hci_memory_free(names->item);
+    memset(names, 0, sizeof *names);
+}
+
+/* ---- in a file ---- */
+
+/* A column by its header, as it stands or without regard to case. */
+static bool find_header(const hci_csv *csv, const char *header, size_t *column)
+{
+    for (int pass = 0; pass < 2; ++pass)
+        for (*column = 0; *column < hci_csv_columns(csv); ++*column) {
+            const char *name = hci_csv_name(csv, *column);
+            if (pass == 0 ? strcmp(name, header) == 0 : hci_csv_same_name(name, header)) return true;
+        }
+    return false;
+}
+
+static hci_status no_such_column(const hci_csv *csv, const hci_column_name *item, hci_note *note)
+{
+    enum { MOST = 64 };
+    const char *names[MOST + 1] = {NULL};
+    char path[HCI_QUOTE_PATH_SIZE], quoted[HCI_QUOTE_SIZE], other[HCI_QUOTE_SIZE], list[300] = "";
+    size_t used = 0;
+    for (size_t k = 0; k < hci_csv_columns(csv) && k < MOST; ++k)
+        names[k] = hci_csv_name(csv, k);
+    const char *nearest = hci_nearest(item->column, names);
+    for (size_t k = 0; names[k] != NULL && used < sizeof list && nearest == NULL; ++k)
+        used += (size_t)snprintf(list + used, sizeof list - used, "%s%s", k > 0 ? ", " : "; it has ",
+                                 hci_quote(names[k], other));
+    return hci_note_set(note, HCI_ERROR_INPUT, "%.300s: found no column %s in %s%s%s%s%s", item->from,
+                        hci_quote(item->column, quoted), hci_quote_path(hci_csv_path(csv), path),
+                        nearest != NULL ? "; did you mean " : "",
+                        nearest != NULL ? hci_quote(nearest, other) : "", nearest != NULL ? "?" : "", list);
+}
+
+/* Whether the file has the quantity under a name of its own. */
+static bool has_quantity(const hci_csv *csv, const char *name)
+{
+    const hci_unit *unit;
+    for (unsigned k = 0; k < HCI_RUN_COLUMN_COUNT; ++k) {
+        const hci_wanted_column want = hci_wanted_column_of(hci_run_column_name(k));
+        if (hci_column_split(name, &want, &unit) && hci_csv_has(csv, hci_run_column_name(k))) return true;
+    }
+    return false;
+}
+
+hci_status hci_column_names_apply(const hci_column_names *names, bool optional, hci_csv *csv, hci_note *note)
+{
+    hci_status status = HCI_OK;
+    for (size_t k = 0; names != NULL && k < names->count && !status; ++k) {
+        const hci_column_name *item = &names->item[k];
+        size_t column;
+        if (find_header(csv, item->column, &column))
+            status = hci_csv_give(csv, item->name, column, note);
+        else if (!optional || !has_quantity(csv, item->name))
+            status = no_such_column(csv, item, note);
+    }
+    return status;
+}

@@ -1,0 +1,196 @@
+/* Columns of a recording that the user names: options, a table beside the files, and what is said of names
+ * that are not there. */
+#include "hci/host/recording/column_names.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "hci/host/recording/run.h"
+#include "host/base/memory.h"
+#include "support/draws.h"
+#include "support/files.h"
+#include "support/texts.h"
+#include "unity.h"
+
+static char path[96];
+static hci_run run;
+static hci_note note;
+static hci_column_names names;
+
+void setUp(void)
+{
+    files_begin();
+    snprintf(path, sizeof path, "%s", files_path("run.csv"));
+    memset(&run, 0, sizeof run);
+    memset(&note, 0, sizeof note);
+    memset(&names, 0, sizeof names);
+}
+
+void tearDown(void)
+{
+    hci_memory_fail_after(-1);
+    hci_run_release(&run);
+    hci_column_names_release(&names);
+    files_end();
+}
+
+static hci_status read_run(void)
+{
+    const hci_run_options options = {.pole_pairs = 2, .inertia_kgm2 = NAN, .columns = &names};
+    hci_run_release(&run);
+    memset(&note, 0, sizeof note);
+    return hci_run_read(path, &options, &run, &note);
+}
+
+static void add(const char *text)
+{
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_column_names_add(&names, text, &note), note.text);
+}
+
+#define CHANNELS "AI1,AI2 (mV),AI3,spare\n0,0,1,9\n0.1,1,2,9\n0.2,2,3,9\n"
+
+/* ---- what they do */
+
+static void test_columns_without_a_name(void)
+{
+    files_write(path, "AI1,AI2,AI3,spare\n0,0,1000,9\n90,1,2000,9\n180,2,3000,9\n");
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, read_run());
+    add("theta_e_deg=AI1");
+    add("iq=AI2");
+    add("torque_mNm=ai3");
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, read_run(), note.text);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.25 * REF_PI, run.theta_m_rad[1]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 2.0, run.torque_Nm[1]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 1.0, run.i_A[3]);
+    text_has("columns not used: `spare`", run.remark.text);
+}
+
+/* The unit of the header, or of the row of units, comes before that of the option. */
+static void test_units_of_the_file(void)
+{
+    files_write(path, "ch a,ch b [mNm],c\ndeg,,A\n0,1000,1\n180,2000,1\n");
+    add("theta_m=ch a");
+    add("torque_Nm=ch b [mNm]");
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, read_run(), note.text);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, REF_PI, run.theta_m_rad[1]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 2.0, run.torque_Nm[1]);
+}
+
+/* What is said comes before all names, and a column is not two things. */
+static void test_what_is_said_comes_first(void)
+{
+    files_write(path, "theta,theta_m_rad,torque_Nm,torque\n0.5,7,1,2\n0.6,8,1,3\n");
+    add("theta_m_rad=theta");
+    add("torque_Nm=torque");
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, read_run(), note.text);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.6, run.theta_m_rad[1]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 3.0, run.torque_Nm[1]);
+    hci_column_names_release(&names);
+    add("theta_m_rad=theta");
+    add("iq_A=torque_Nm");
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, read_run());
+    text_has("a unit that is none of `iq_A`", note.text);
+    hci_column_names_release(&names);
+    add("theta_m_rad=theta");
+    add("iq_A=torque");
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, read_run(), note.text);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 1.0, run.torque_Nm[1]);
+}
+
+/* ---- tables beside the files */
+
+static void test_a_table_beside_the_recording_and_one_beside_the_list(void)
+{
+    const hci_runs_options options = {.run = {.pole_pairs = 2, .inertia_kgm2 = NAN}};
+    hci_runs runs;
+    files_write(files_path("list.csv"), "file,role\nrun.csv,fit\n");
+    files_write(files_path("columns.csv"), "name,column\ntheta_m_rad,AI1\ntorque_Nm,AI3\n");
+    files_write(path, CHANNELS);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, read_run(), note.text);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 3.0, run.torque_Nm[2]);
+    add("torque_Nm=AI1"); /* the command line counts most */
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, read_run(), note.text);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.2, run.torque_Nm[2]);
+    TEST_ASSERT_EQUAL(0, mkdir(files_path("sub"), 0777));
+    files_write(files_path("sub/run.csv"), CHANNELS);
+    files_write(files_path("sub/columns.csv"), "name,column\ntorque_Nm,spare\n");
+    files_write(files_path("list.csv"), "file,role\nsub/run.csv,fit\n");
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_runs_read(files_path("list.csv"), &options, &runs, &note),
+                              note.text);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.2, runs.run[0].theta_m_rad[2]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 9.0, runs.run[0].torque_Nm[2]);
+    hci_runs_release(&runs);
+}
+
+/* A table is for several recordings, which may have names of their own. */
+static void test_a_table_need_not_fit_where_names_do(void)
+{
+    files_write(files_path("columns.csv"), "name,column\ntheta_m_rad,AI1\n");
+    files_write(path, "theta_m_rad,iq_A\n0.5,1\n");
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, read_run(), note.text);
+    files_write(path, "angle,iq_A\n0.5,1\n");
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, read_run());
+    text_has("columns.csv:2: found no column `AI1` in", note.text);
+    text_has("it has `angle`, `iq_A`", note.text);
+}
+
+/* ---- wrong ones */
+
+static void wrong(const char *text, const char *words)
+{
+    hci_note said = {{0}};
+    TEST_ASSERT_EQUAL(HCI_ERROR_ARGUMENT, hci_column_names_add(&names, text, &said));
+    text_has(words, said.text);
+}
+
+static void test_wrong_names_get_a_suggestion(void)
+{
+    wrong("torqe_Nm=AI3", "--column torqe_Nm=AI3: found `torqe_Nm`, expected a quantity of a recording; did "
+                          "you mean `torque_Nm`?");
+    wrong("torque_A=AI3", "expected a quantity of a recording");
+    wrong("lamp=AI3", "write one of time_s, theta_m_rad");
+    wrong("torque_Nm", "expected NAME=COLUMN");
+    wrong("=AI3", "expected NAME=COLUMN");
+    wrong("torque_Nm=", "expected NAME=COLUMN");
+    files_write(path, CHANNELS);
+    add("theta_m_rad=AI1");
+    add("torque_Nm=sparre");
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, read_run());
+    text_has("--column torque_Nm=sparre: found no column `sparre` in", note.text);
+    text_has("did you mean `spare`?", note.text);
+    hci_column_names_release(&names);
+    files_write(files_path("columns.csv"), "name,column\ntorqe_Nm,AI1\n");
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, read_run());
+    text_has("columns.csv:2: found `torqe_Nm`", note.text);
+}
+
+static void test_memory_runs_out_everywhere(void)
+{
+    hci_status status = HCI_ERROR_MEMORY;
+    files_write(files_path("columns.csv"), "name,column\ntheta_m_rad,AI1\n");
+    files_write(path, CHANNELS);
+    for (long allowed = 0; status == HCI_ERROR_MEMORY; ++allowed) {
+        hci_column_names_release(&names);
+        memset(&note, 0, sizeof note);
+        hci_memory_fail_after(allowed);
+        status = hci_column_names_add(&names, "torque_Nm=AI3", &note);
+        if (!status) status = read_run();
+    }
+    hci_memory_fail_after(-1);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, status, note.text);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_columns_without_a_name);
+    RUN_TEST(test_units_of_the_file);
+    RUN_TEST(test_what_is_said_comes_first);
+    RUN_TEST(test_a_table_beside_the_recording_and_one_beside_the_list);
+    RUN_TEST(test_a_table_need_not_fit_where_names_do);
+    RUN_TEST(test_wrong_names_get_a_suggestion);
+    RUN_TEST(test_memory_runs_out_everywhere);
+    return UNITY_END();
+}
