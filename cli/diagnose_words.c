@@ -149,7 +149,7 @@ static void draw_runs(const hci_diagnosis *d)
 void cli_show_diagnosis(const hci_diagnosis *d, const hci_resolution *r, const char *machine,
                         const char *runs)
 {
-    static const char *const TONES[] = {CLI_GOOD, CLI_GOOD, CLI_WARN, CLI_BAD};
+    static const char *const TONES[] = {CLI_GOOD, CLI_GOOD, CLI_WARN, CLI_WARN, CLI_BAD};
     char words[2048];
     hci_diagnosis_words(d, words, sizeof words);
     cli_say("diagnosed: %s, %s: %s%s" CLI_PLAIN "\n", machine, runs, TONES[d->verdict],

@@ -52,7 +52,7 @@ says '^diagnosed: machine, list.csv: explained$' 'added +current_offset: a = 0\.
 check "files: $(ls deep/out | tr '\n' ' ')" [ "$(ls deep/out | tr '\n' ' ')" = \
     'effects.csv errors.csv machine report.html residual_spectrum.csv summary.json ' ]
 check "effects.csv: $(head -n 2 deep/out/effects.csv)" grep -Eq '^1,current_offset,added,[0-9.]+,0\.9[0-9]+,' deep/out/effects.csv
-check "columns of effects.csv" [ "$(head -n 1 deep/out/effects.csv)" = rank,effect,verdict,delta_bic,residual_share,detail ]
+check "columns of effects.csv" [ "$(head -n 1 deep/out/effects.csv)" = rank,effect,verdict,delta_bic,residual_share,detail,stays,left_out ]
 check "columns of errors.csv" grep -q '^file,role,mean_torque_Nm,rms_before_Nm,rms_after_Nm,noise_floor_Nm' deep/out/errors.csv
 check "errors.csv: $(row deep/out/errors.csv held)" grep -Eq '^held.csv,holdout,1\.(19|20)' deep/out/errors.csv
 check "not one more is added" [ "$(grep -c ',added,' deep/out/effects.csv)" -eq 1 ]
@@ -127,7 +127,20 @@ printf 'file,role\nback.csv,fit\nnotorque.csv,fit\n' >loaded.csv
 run 0 diagnose machine --runs loaded.csv
 says 'no free shaft: by the model the current makes 0.6 N·m on average' 'its load is not known, so that only what varies is used' 'notorque.csv +fit'
 echo 'rated_current,30,A,test' >>machine/machine.csv
-wrong_list 'not believable; run `check`' 'file,role\nnotorque.csv,fit\n'
+printf 'file,role\nnotorque.csv,fit\n' >load.csv
+run 1 diagnose machine --runs load.csv -o loaded # a load could be friction, magnets or iron; no answer is refused
+says 'load.csv: ambiguous$' 'added +current_offset' '^  ambiguous +friction'
+
+# A torque with the wrong sign is described best by a machine that brakes: nobody would believe that.
+for f in slow back held; do
+    awk -F, -v OFS=, 'NR > 1 { $7 = -$7 } 1' "$f.csv" >"turned_$f.csv"
+done
+printf 'file,role\nturned_slow.csv,fit\nturned_back.csv,fit\nturned_held.csv,holdout\n' >turned.csv
+run 1 diagnose machine --runs turned.csv -o turned
+says 'turned.csv: unknown$' 'but with values that' 'was left out: see with'
+check "written all the same" [ -s turned/report.html ]
+check "only what is unknown is added" [ "$(grep ',added,' turned/effects.csv | cut -d, -f2)" = unknown ]
+check "what was left out" grep -q '"left_out":.*"back_emf"' turned/summary.json
 mv machine.kept machine/machine.csv
 sed '4s/.*/1,2,3/' slow.csv >short.csv
 wrong_list 'short.csv:4: ' 'file,role\nback.csv,fit\nshort.csv,fit\n' --strict

@@ -115,7 +115,7 @@ static inline void record_holding(size_t n, double coulomb_Nm, double cogging_Nm
 
 static inline const hci_finding *found(const char *effect)
 {
-    static const hci_finding none = {"", HCI_FINDING_REJECTED, 0.0, 0.0, ""};
+    static const hci_finding none = {.effect = "", .verdict = HCI_FINDING_REJECTED};
     for (size_t k = 0; k < diagnosis.findings; ++k)
         if (strcmp(diagnosis.finding[k].effect, effect) == 0) return &diagnosis.finding[k];
     return &none;

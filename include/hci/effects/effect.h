@@ -216,6 +216,8 @@ struct hci_effect_type {
     bool beyond_quadratic; /* the torque is of higher than second degree in the currents */
     bool is_series;     /* of many terms, each of which explains little by itself: a diagnosis looks at more
                          * of them (richness) as more is left, and takes all of order 0 in at once */
+    bool is_small;      /* a defect of a sensor or of one phase: three times what is expected of it would have
+                         * been noticed, and looks like an effect that nobody knows */
     bool is_angle_zero; /* turns the zero of the angle */
     bool any_phase;     /* a torque of any order and phase without current: a turned angle is one, too */
     const size_t *resonance; /* two parameters, natural frequency in Hz and damping ratio, that a diagnosis

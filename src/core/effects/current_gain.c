@@ -71,6 +71,7 @@ const hci_effect_type hci_effect_current_gain = {
     .equation = "i_s,read = (1 + g_s) i_s",
     .signature = "grows with the current; order 2 and the mean",
     HCI_EFFECT_PARAMETERS(PARAMETER),
+    .is_small = true,
     .sum_by_value = sum_by_value,
     .propose = propose,
     .sense = sense,

@@ -58,6 +58,7 @@ const hci_effect_type hci_effect_current_offset = {
     .equation = "i_s,read = i_s + o_s",
     .signature = "independent of the load; order 1 and its sidebands with the back-EMF",
     HCI_EFFECT_PARAMETERS(PARAMETER),
+    .is_small = true,
     .told_by = "a torque transducer and currents of their own",
     .sum_by_value = sum_by_value,
     .propose = propose,

@@ -34,6 +34,7 @@ const hci_effect_type hci_effect_phase_imbalance = {
     .equation = "T = Σ_s g_s e_s(θ) i_s",
     .signature = "grows with the current; mean and order 2 for sinusoidal currents",
     HCI_EFFECT_PARAMETERS(PARAMETER),
+    .is_small = true,
     .propose = propose,
     .in_machine = true,
     .torque = torque,

@@ -61,6 +61,7 @@ const hci_effect_type hci_effect_position_eccentricity = {
     .equation = "θ_m,read = θ_m + Σ S sin kθ_m + C cos kθ_m",
     .signature = "mechanical orders 1 and 2 around every order, as ∂T/∂θ modulated",
     HCI_EFFECT_PARAMETERS(PARAMETER),
+    .is_small = true,
     .propose = propose,
     .sense = sense,
     .undo = undo,

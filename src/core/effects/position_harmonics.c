@@ -66,6 +66,7 @@ const hci_effect_type hci_effect_position_harmonics = {
     .equation = "θ_read = θ + Σ S sin nθ + C cos nθ",
     .signature = "electrical orders 1, 2 and 4 around every order, as ∂T/∂θ modulated",
     HCI_EFFECT_PARAMETERS(PARAMETER),
+    .is_small = true,
     .propose = propose,
     .sense = sense,
     .undo = undo,

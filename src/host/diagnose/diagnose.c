@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "host/base/memory.h"
-#include "host/base/quote.h"
 #include "host/diagnose/advise.h"
 #include "host/diagnose/candidates/empirical_term.h"
 #include "host/diagnose/findings.h"
@@ -13,7 +12,6 @@
 #include "host/diagnose/fit/model.h"
 #include "host/diagnose/run_errors.h"
 #include "host/diagnose/search/attribute.h"
-#include "host/machine/torque_constant.h"
 #include "host/recording/free_shaft.h"
 
 #define RESOLUTION 5e-4 /* of the largest rms torque */
@@ -22,9 +20,8 @@
 #define NOISY         1.5  /* error of a run held out, over its noise … */
 #define COARSE        4.0  /* … or over the resolution, that speaks against the effects … */
 #define HARDLY_BETTER 0.5  /* … unless it is less than this share of the error without them */
-
-#define ROUNDING   1e-6
-#define BELIEVABLE 0.5 /* of the torque per ampere that is declared: a correction leaves no less */
+#define NEARLY_ALL    0.1  /* share of an error that is next to nothing beside what it was */
+#define STAYS         0.95 /* share of an error that has not fallen */
 
 enum { LONGEST_ADVICE = 200 }; /* bytes of a sentence */
 
@@ -36,7 +33,7 @@ const char *hci_finding_verdict_name(hci_finding_verdict verdict)
 
 const char *hci_diagnosis_verdict_name(hci_diagnosis_verdict verdict)
 {
-    static const char *const NAMES[] = {"complete", "explained", "ambiguous", "unknown"};
+    static const char *const NAMES[] = {"complete", "explained", "ambiguous", "partly explained", "unknown"};
     return NAMES[verdict];
 }
 
@@ -98,6 +95,8 @@ static hci_status fill(hci_dataset *b, const hci_runs *runs, hci_attribution *a,
                        hci_note *note)
 {
     d->search = a->ended;
+    d->disbelieved = a->disbelieved && a->unknown ? a->disbelieved->name : NULL;
+    d->disbelieved_share = a->disbelieved_share;
     hci_unexplained_fill(b, a, d);
     hci_candidates_remove_type(&a->model.candidates, &hci_empirical_type);
     hci_status status = effects_fill(&b->regression, &a->model.candidates, d, note);
@@ -121,22 +120,50 @@ static bool is_within(const hci_run_statistics *f, const hci_dataset *b)
     return f->current_A <= BEYOND * most_A && fabs(f->mean_speed_rad_per_s) <= BEYOND * most_speed;
 }
 
-/* Whether the runs held out speak against the effects: they are not described down to their noise, and hardly
- * better than without. */
-static bool is_contradicted(const hci_dataset *b, const hci_runs *runs, const hci_diagnosis *d,
-                            double resolution_Nm)
+/* Errors of the runs held out that a fit could describe, as mean squares over runs. */
+typedef struct {
+    double before, after;
+    double allowed; /* what noise and resolution may leave */
+} test_errors;
+
+static test_errors test_errors_of(const hci_dataset *b, const hci_runs *runs, const hci_diagnosis *d,
+                                  double resolution_Nm)
 {
-    double before = 0.0, after = 0.0, allowed = 0.0;
+    test_errors x = {0};
     for (size_t k = 0, run = 0; k < runs->count && run < d->runs; ++k) {
         const hci_run_errors *e = &d->run[run];
         if (e->file != runs->run[k].name) continue;
         ++run;
         if (e->role == HCI_ROLE_FIT || !is_within(&b->samples.statistics[k], b)) continue;
-        before += e->rms_before_Nm * e->rms_before_Nm;
-        after += e->rms_after_Nm * e->rms_after_Nm;
-        allowed += fmax(pow(NOISY * e->noise_floor_Nm, 2.0), pow(COARSE * resolution_Nm, 2.0));
+        x.before += e->rms_before_Nm * e->rms_before_Nm;
+        x.after += e->rms_after_Nm * e->rms_after_Nm;
+        x.allowed += fmax(pow(NOISY * e->noise_floor_Nm, 2.0), pow(COARSE * resolution_Nm, 2.0));
     }
-    return after > allowed && after > HARDLY_BETTER * HARDLY_BETTER * before;
+    return x;
+}
+
+/* Down to the noise, or nearly. */
+static bool is_described(const test_errors *x)
+{
+    return !(x->after > x->allowed) || x->after < NEARLY_ALL * NEARLY_ALL * x->before;
+}
+
+/* Whether the runs held out speak against the effects: they are not described down to their noise, and hardly
+ * better than without. */
+static bool is_contradicted(const test_errors *x)
+{
+    return !is_described(x) && x->after > HARDLY_BETTER * HARDLY_BETTER * x->before;
+}
+
+/* Whether something is left that the effects do not explain: the error held out is above the noise, or that
+ * of currents and speeds beyond those that were fitted does not fall. */
+static bool is_partial(const test_errors *x, const hci_diagnosis *d, double resolution_Nm)
+{
+    const double allowed_Nm = fmax(NOISY * d->holdout_noise_Nm, COARSE * resolution_Nm);
+    const bool rises = d->holdout_after_Nm > allowed_Nm && !(d->holdout_after_Nm < d->holdout_before_Nm);
+    const bool ripples = d->holdout_ripple_after_Nm > allowed_Nm &&
+                         !(d->holdout_ripple_after_Nm < STAYS * d->holdout_ripple_before_Nm);
+    return !is_described(x) || rises || ripples;
 }
 
 /* Takes the effects out again where the runs held out contradict them. */
@@ -155,25 +182,14 @@ static hci_status withdraw(hci_dataset *b, const hci_runs *runs, hci_attribution
     return fill(b, runs, a, d, note);
 }
 
-/* A correction that leaves hardly any torque per ampere has been fitted to recordings in another
- * convention. */
-static hci_status check_believable(const hci_machine_data *machine, const hci_effects *declared,
-                                   const hci_runs *runs, const hci_diagnosis *d, hci_note *note)
+/* What the runs held out say of the effects. */
+static hci_status test(hci_dataset *b, const hci_runs *runs, hci_attribution *a, hci_diagnosis *d,
+                       double resolution_Nm, hci_note *note)
 {
-    char path[HCI_QUOTE_PATH_SIZE];
-    const double before = hci_torque_constant(&machine->model, declared);
-    const double left = hci_torque_constant(&machine->model, &d->effects.list);
-    const double after = fabs(left) < ROUNDING * before ? 0.0 : left;
-    bool has_free = false;
-    if (!(before > 0.0) || after >= BELIEVABLE * before) return HCI_OK;
-    for (size_t k = 0; k < runs->count; ++k)
-        has_free = has_free || runs->run[k].torque_source == HCI_TORQUE_INERTIA;
-    return hci_note_set(note, HCI_ERROR_INPUT,
-                        "%s: found recordings of %.3g N·m per ampere of i_q, expected about %.3g, as "
-                        "back_emf.csv has it: a correction that takes more than half of it away is not "
-                        "believable; run `check` with these recordings: units, signs, angle and back-EMF%s",
-                        runs->list != NULL ? hci_quote_path(runs->list, path) : "the runs", after, before,
-                        has_free ? ", and see whether a shaft without torque_Nm drives a load" : "");
+    const test_errors x = test_errors_of(b, runs, d, resolution_Nm);
+    if (is_contradicted(&x)) return withdraw(b, runs, a, d, note);
+    if (is_partial(&x, d, resolution_Nm)) d->verdict = HCI_DIAGNOSIS_PARTLY;
+    return HCI_OK;
 }
 
 static hci_status diagnose(hci_dataset *b, const hci_machine_data *machine, const hci_runs *runs,
@@ -191,10 +207,8 @@ static hci_status diagnose(hci_dataset *b, const hci_machine_data *machine, cons
     hci_status status = hci_attribute(&b->regression, &how, &a, note);
     if (status) return status;
     status = fill(b, runs, &a, d, note);
-    if (!status && !a.unknown && d->verdict != HCI_DIAGNOSIS_COMPLETE &&
-        is_contradicted(b, runs, d, how.resolution_Nm))
-        status = withdraw(b, runs, &a, d, note);
-    if (!status) status = check_believable(machine, b->regression.declared, runs, d, note);
+    if (!status && !a.unknown && d->verdict != HCI_DIAGNOSIS_COMPLETE)
+        status = test(b, runs, &a, d, how.resolution_Nm, note);
     hci_attribution_release(&a);
     return status;
 }

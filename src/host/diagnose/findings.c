@@ -46,7 +46,7 @@ static void describe(const hci_candidates *candidates, const hci_effect_type *ty
 
 static hci_finding finding_of(const hci_attribution *a, const hci_verdict *v, double whole_Nm2)
 {
-    hci_finding f = {v->type->name, HCI_FINDING_REJECTED, v->gain, NAN, ""};
+    hci_finding f = {v->type->name, HCI_FINDING_REJECTED, v->gain, v->stays, v->left_out, NAN, ""};
     if (v->ambiguous)
         f.verdict = HCI_FINDING_AMBIGUOUS;
     else if (v->in)
@@ -89,17 +89,25 @@ static void unknown_put(const hci_attribution *a, double whole_Nm2, hci_diagnosi
         ++at;
     assert(at < d->findings);
     memmove(f + 1, f, at * sizeof *f);
-    *f = (hci_finding){hci_empirical_type.name, HCI_FINDING_ADDED, NAN, NAN, ""};
+    *f = (hci_finding){hci_empirical_type.name, HCI_FINDING_ADDED, NAN, f->stays, f->left_out, NAN, ""};
     if (whole_Nm2 > 0.0) f->residual_share = a->unexplained_Nm * a->unexplained_Nm / whole_Nm2;
     f->delta_bic = a->before.score - a->model.fit.score;
     snprintf(f->detail, sizeof f->detail, "rms %.3g N·m that grows as no known effect does",
              a->unexplained_Nm);
 }
 
+/* Whether an effect with a name is in the model. */
+static bool has_known(const hci_attribution *a)
+{
+    for (size_t r = 0; r < a->types; ++r)
+        if (a->verdict[r].in && a->verdict[r].type != &hci_empirical_type) return true;
+    return false;
+}
+
 static hci_diagnosis_verdict verdict_of(const hci_attribution *a, const hci_diagnosis *d)
 {
     hci_diagnosis_verdict verdict = HCI_DIAGNOSIS_COMPLETE;
-    if (a->unknown) return HCI_DIAGNOSIS_UNKNOWN;
+    if (a->unknown) return has_known(a) ? HCI_DIAGNOSIS_PARTLY : HCI_DIAGNOSIS_UNKNOWN;
     for (size_t k = 0; k < d->findings; ++k) {
         if (d->finding[k].verdict == HCI_FINDING_AMBIGUOUS) return HCI_DIAGNOSIS_AMBIGUOUS;
         if (d->finding[k].verdict == HCI_FINDING_ADDED) verdict = HCI_DIAGNOSIS_EXPLAINED;

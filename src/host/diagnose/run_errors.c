@@ -1,6 +1,7 @@
 #include "host/diagnose/run_errors.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <string.h>
 
 #include "hci/math/harmonic.h"
@@ -36,6 +37,22 @@ static double rms_of(const hci_dataset *b, size_t run, const double *residual)
             count += b->samples.sample[j].count;
         }
     return count > 0.0 ? sqrt(sum / count) : (double)NAN;
+}
+
+static double mean_of(const hci_dataset *b, size_t run, const double *residual)
+{
+    double sum = 0.0, count = 0.0;
+    for (const hci_segment *s = NULL; (s = hci_segment_next(&b->samples, run, s)) != NULL;)
+        for (size_t j = s->first; j < s->first + s->count; ++j) {
+            sum += b->samples.sample[j].count * residual[j];
+            count += b->samples.sample[j].count;
+        }
+    return count > 0.0 ? sum / count : (double)NAN;
+}
+
+static double beside_mean(double rms, double mean)
+{
+    return sqrt(fmax(0.0, rms * rms - mean * mean));
 }
 
 /* Of the samples in means over turns; NAN where there are none. */
@@ -99,6 +116,10 @@ static hci_run_errors errors_of(const hci_dataset *b, const hci_runs *runs, size
     e.slip_rad = b->index_offset_rad[run];
     e.rms_before_Nm = rms_of(b, run, before);
     e.rms_after_Nm = rms_of(b, run, after);
+    e.error_mean_before_Nm = mean_of(b, run, before);
+    e.error_mean_after_Nm = mean_of(b, run, after);
+    e.ripple_before_Nm = beside_mean(e.rms_before_Nm, e.error_mean_before_Nm);
+    e.ripple_after_Nm = beside_mean(e.rms_after_Nm, e.error_mean_after_Nm);
     e.noise_floor_Nm = noise_of_turns(b, runs->run, run, after);
     if (!isfinite(e.noise_floor_Nm)) e.noise_floor_Nm = noise_of_spectrum(b, run);
     e.after_low_Nm = e.rms_after_Nm * fmax(0.0, 1.0 - spread);
@@ -132,22 +153,32 @@ static hci_status runs_fill(const hci_dataset *b, const hci_runs *runs, const do
     return HCI_OK;
 }
 
-/* Root mean squares over the runs of one role; NAN where there is none. */
-static void totals_of(const hci_diagnosis *d, hci_role role, double *before_Nm, double *after_Nm,
-                      double *noise_Nm)
+/* Root mean square over the runs of one role of one of their errors; NAN where there is none. */
+static double total_of(const hci_diagnosis *d, hci_role role, size_t member)
 {
-    double before = 0.0, after = 0.0, noise = 0.0, count = 0.0;
+    double sum = 0.0, count = 0.0;
     for (size_t k = 0; k < d->runs; ++k) {
-        const hci_run_errors *e = &d->run[k];
-        if (e->role != role) continue;
-        before += e->rms_before_Nm * e->rms_before_Nm;
-        after += e->rms_after_Nm * e->rms_after_Nm;
-        noise += e->noise_floor_Nm * e->noise_floor_Nm;
+        const double *x = (const double *)(const void *)((const char *)&d->run[k] + member);
+        if (d->run[k].role != role) continue;
+        sum += *x * *x;
         count += 1.0;
     }
-    *before_Nm = count > 0.0 ? sqrt(before / count) : (double)NAN;
-    *after_Nm = count > 0.0 ? sqrt(after / count) : (double)NAN;
-    *noise_Nm = count > 0.0 ? sqrt(noise / count) : (double)NAN;
+    return count > 0.0 ? sqrt(sum / count) : (double)NAN;
+}
+
+static void totals_fill(hci_diagnosis *d)
+{
+    const hci_role fit = HCI_ROLE_FIT, test = HCI_ROLE_HOLDOUT;
+    d->rms_before_Nm = total_of(d, fit, offsetof(hci_run_errors, rms_before_Nm));
+    d->rms_after_Nm = total_of(d, fit, offsetof(hci_run_errors, rms_after_Nm));
+    d->noise_Nm = total_of(d, fit, offsetof(hci_run_errors, noise_floor_Nm));
+    d->holdout_before_Nm = total_of(d, test, offsetof(hci_run_errors, rms_before_Nm));
+    d->holdout_after_Nm = total_of(d, test, offsetof(hci_run_errors, rms_after_Nm));
+    d->holdout_noise_Nm = total_of(d, test, offsetof(hci_run_errors, noise_floor_Nm));
+    d->holdout_mean_before_Nm = total_of(d, test, offsetof(hci_run_errors, error_mean_before_Nm));
+    d->holdout_mean_after_Nm = total_of(d, test, offsetof(hci_run_errors, error_mean_after_Nm));
+    d->holdout_ripple_before_Nm = total_of(d, test, offsetof(hci_run_errors, ripple_before_Nm));
+    d->holdout_ripple_after_Nm = total_of(d, test, offsetof(hci_run_errors, ripple_after_Nm));
 }
 
 /* before: [2·samples], the residual without and behind it the one with the correction. */
@@ -175,7 +206,6 @@ hci_status hci_run_errors_fill(hci_dataset *b, const hci_runs *runs, size_t para
     b->regression.raw = false;
     hci_memory_free(before);
     if (status) return status;
-    totals_of(d, HCI_ROLE_FIT, &d->rms_before_Nm, &d->rms_after_Nm, &d->noise_Nm);
-    totals_of(d, HCI_ROLE_HOLDOUT, &d->holdout_before_Nm, &d->holdout_after_Nm, &d->holdout_noise_Nm);
+    totals_fill(d);
     return HCI_OK;
 }

@@ -6,6 +6,10 @@
 
 #include "hci/host/diagnose/diagnose.h"
 
+#define SAME       0.02 /* change of an error, as a share, that is none */
+#define NEAR_NOISE 1.5  /* times the noise: an error below it is not looked at in parts */
+#define BELIEVABLE 0.5  /* of the declared torque per ampere */
+
 typedef struct {
     char *text;
     size_t used, size;
@@ -42,25 +46,72 @@ static bool any(const hci_diagnosis *d, hci_finding_verdict verdict)
     return false;
 }
 
+/* What became of an error. */
+static void say_change(words *w, double before_Nm, double after_Nm)
+{
+    if (fabs(after_Nm - before_Nm) <= SAME * before_Nm)
+        say(w, "stays at %.3g N·m", after_Nm);
+    else
+        say(w, "%s from %.3g to %.3g N·m", after_Nm < before_Nm ? "falls" : "rises", before_Nm, after_Nm);
+}
+
+/* Mean and ripple apart, where one of them is most of what is left or only one of them falls. */
+static void say_parts(words *w, const hci_diagnosis *d)
+{
+    const double mean_Nm = d->holdout_mean_after_Nm, ripple_Nm = d->holdout_ripple_after_Nm;
+    if (!(d->holdout_after_Nm > NEAR_NOISE * d->holdout_noise_Nm)) return;
+    say(w, " Of it the mean of each run ");
+    say_change(w, d->holdout_mean_before_Nm, mean_Nm);
+    say(w, ", the ripple about it ");
+    say_change(w, d->holdout_ripple_before_Nm, ripple_Nm);
+    say(w, ".");
+}
+
 static void say_errors(words *w, const hci_diagnosis *d)
 {
-    if (isfinite(d->holdout_after_Nm))
-        say(w,
-            " On the runs that were held out the error (rms of measured less modelled torque) falls from "
-            "%.3g to "
-            "%.3g N·m; their noise is %.3g N·m.",
-            d->holdout_before_Nm, d->holdout_after_Nm, d->holdout_noise_Nm);
+    const bool tested = isfinite(d->holdout_after_Nm);
+    say(w, " On the runs that were %s the error (rms of measured less modelled torque) ",
+        tested ? "held out" : "fitted");
+    say_change(w, tested ? d->holdout_before_Nm : d->rms_before_Nm,
+               tested ? d->holdout_after_Nm : d->rms_after_Nm);
+    say(w, "; their noise is %.3g N·m.", tested ? d->holdout_noise_Nm : d->noise_Nm);
+    if (tested)
+        say_parts(w, d);
     else
-        say(w,
-            " On the runs that were fitted the error (rms of measured less modelled torque) falls from %.3g "
-            "to "
-            "%.3g N·m; their noise is %.3g N·m. No run was held out, so this is not a test.",
-            d->rms_before_Nm, d->rms_after_Nm, d->noise_Nm);
+        say(w, " No run was held out, so this is not a test.");
+}
+
+/* An explanation that was left out, and what it may come from. */
+static void say_disbelieved(words *w, const hci_diagnosis *d)
+{
+    if (!d->disbelieved) return;
+    say(w, " The recordings would fit %s, but with values that nobody would believe", d->disbelieved);
+    if (d->disbelieved_share < BELIEVABLE)
+        say(w, " (it would leave %.2g of the declared torque per ampere of i_q)", d->disbelieved_share);
+    say(w, ", so it was left out: see with `check` whether signs, units, angle and motor are those of the "
+           "machine folder.");
+}
+
+/* Effects that hang on one run. */
+static void say_unstable(words *w, const hci_diagnosis *d)
+{
+    for (size_t k = 0; k < d->findings; ++k) {
+        const hci_finding *f = &d->finding[k];
+        if (f->verdict == HCI_FINDING_REJECTED || f->stays == f->left_out) continue;
+        say(w, " With one run left out %s is found in %zu of %zu cases.", f->effect, f->stays, f->left_out);
+    }
 }
 
 static void say_unknown(words *w, const hci_diagnosis *d)
 {
-    say(w, "No known effect explains what the model lacks.");
+    if (d->verdict == HCI_DIAGNOSIS_UNKNOWN) say(w, "No known effect explains what the model lacks.");
+    if (d->verdict == HCI_DIAGNOSIS_PARTLY) {
+        say(w, "Partly explained: the model lacked ");
+        say_names(w, d, HCI_FINDING_ADDED, " and ");
+        if (!any(d, HCI_FINDING_ADDED)) say_names(w, d, HCI_FINDING_AMBIGUOUS, " or ");
+        say(w, "; what else it lacks is not known.");
+    }
+    say_disbelieved(w, d);
     if (d->contradicted)
         say(w, " Effects that describe the runs that were fitted do not describe those that were held out, "
                "and were "
@@ -71,11 +122,6 @@ static void say_unknown(words *w, const hci_diagnosis *d)
         say(w, " Order %.6g (up to %.3g N·m) grows as |i|^%.3g |ω|^%.3g%s.", u->order, u->amplitude_Nm,
             u->current_exponent, u->speed_exponent,
             u->turns_sign ? " and turns its sign with the direction" : "");
-    }
-    if (any(d, HCI_FINDING_ADDED)) {
-        say(w, " Beside it: ");
-        say_names(w, d, HCI_FINDING_ADDED, " and ");
-        say(w, ".");
     }
 }
 
@@ -125,11 +171,15 @@ static void say_verdict(words *w, const hci_diagnosis *d)
         say_names(w, d, HCI_FINDING_AMBIGUOUS, " and ");
         say(w, " apart: each explains them equally well.");
         break;
+    case HCI_DIAGNOSIS_PARTLY:
+        say_unknown(w, d);
+        break;
     case HCI_DIAGNOSIS_UNKNOWN:
         say_unknown(w, d);
         return;
     }
     say_errors(w, d);
+    say_unstable(w, d);
 }
 
 void hci_diagnosis_words(const hci_diagnosis *d, char *text, size_t size)

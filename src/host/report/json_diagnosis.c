@@ -1,4 +1,6 @@
 /* summary.json of `diagnose`. */
+#include <math.h>
+
 #include "host/diagnose/findings.h"
 #include "host/report/summary.h"
 
@@ -12,6 +14,8 @@ static void put_finding(hci_json *json, const hci_finding *f)
     hci_json_number(json, "delta_bic", hci_finding_delta_bic(f));
     hci_json_number(json, "residual_share", f->residual_share);
     hci_json_text(json, "detail", f->detail);
+    hci_json_number(json, "stays", f->left_out > 0 ? (double)f->stays : (double)NAN);
+    hci_json_number(json, "left_out", f->left_out > 0 ? (double)f->left_out : (double)NAN);
     hci_json_close(json);
 }
 
@@ -26,6 +30,10 @@ static void put_run(hci_json *json, const hci_run_errors *e)
     hci_json_number(json, "rms_after_low_Nm", e->after_low_Nm);
     hci_json_number(json, "rms_after_high_Nm", e->after_high_Nm);
     hci_json_number(json, "noise_floor_Nm", e->noise_floor_Nm);
+    hci_json_number(json, "error_mean_before_Nm", e->error_mean_before_Nm);
+    hci_json_number(json, "error_mean_after_Nm", e->error_mean_after_Nm);
+    hci_json_number(json, "ripple_before_Nm", e->ripple_before_Nm);
+    hci_json_number(json, "ripple_after_Nm", e->ripple_after_Nm);
     hci_json_number(json, "index_slip_rad", e->slip_rad);
     hci_json_close(json);
 }
@@ -79,6 +87,10 @@ static void put_errors(hci_json *json, const hci_diagnosis *d)
     hci_json_number(json, "holdout_rms_before_Nm", d->holdout_before_Nm);
     hci_json_number(json, "holdout_rms_after_Nm", d->holdout_after_Nm);
     hci_json_number(json, "holdout_noise_Nm", d->holdout_noise_Nm);
+    hci_json_number(json, "holdout_error_mean_before_Nm", d->holdout_mean_before_Nm);
+    hci_json_number(json, "holdout_error_mean_after_Nm", d->holdout_mean_after_Nm);
+    hci_json_number(json, "holdout_ripple_before_Nm", d->holdout_ripple_before_Nm);
+    hci_json_number(json, "holdout_ripple_after_Nm", d->holdout_ripple_after_Nm);
 }
 
 char *hci_diagnosis_json(const hci_diagnosis *d, const hci_resolution *r)
@@ -94,6 +106,7 @@ char *hci_diagnosis_json(const hci_diagnosis *d, const hci_resolution *r)
     put_errors(&json, d);
     hci_json_bool(&json, "contradicted_by_holdout", d->contradicted);
     hci_json_bool(&json, "does_not_repeat", d->wanders);
+    hci_json_text(&json, "left_out", d->disbelieved ? d->disbelieved : "");
     put_lists(&json, d);
     if (r) put_currents(&json, "old_currents", &r->old_currents, &r->before);
     if (r) put_currents(&json, "new_currents", &r->new_currents, &r->after);

@@ -28,13 +28,15 @@ static hci_status findings_write(hci_output *out, const hci_diagnosis *d, hci_no
 {
     const hci_status status = hci_output_file(out, "effects.csv", note);
     if (status) return status;
-    hci_output_text(out, "rank,effect,verdict,delta_bic,residual_share,detail\n");
+    hci_output_text(out, "rank,effect,verdict,delta_bic,residual_share,detail,stays,left_out\n");
     for (size_t k = 0; k < d->findings; ++k) {
         const hci_finding *f = &d->finding[k];
         hci_output_text(out, "%zu,%s,%s,", k + 1, f->effect, hci_finding_verdict_name(f->verdict));
         cell(out, hci_finding_delta_bic(f), ',');
         cell(out, f->residual_share, ',');
-        hci_output_text(out, "\"%s\"\n", f->detail);
+        hci_output_text(out, "\"%s\",", f->detail);
+        if (f->left_out > 0) hci_output_text(out, "%zu,%zu", f->stays, f->left_out);
+        hci_output_text(out, f->left_out > 0 ? "\n" : ",\n");
     }
     return HCI_OK;
 }
@@ -58,7 +60,8 @@ static hci_status errors_write(hci_output *out, const hci_diagnosis *d, hci_note
     if (status) return status;
     hci_output_text(out,
                     "file,role,mean_torque_Nm,rms_before_Nm,rms_after_Nm,noise_floor_Nm,rms_after_low_Nm,"
-                    "rms_after_high_Nm\n");
+                    "rms_after_high_Nm,error_mean_before_Nm,error_mean_after_Nm,ripple_before_Nm,"
+                    "ripple_after_Nm\n");
     for (size_t k = 0; k < d->runs; ++k) {
         const hci_run_errors *e = &d->run[k];
         name_write(out, e->file);
@@ -68,7 +71,11 @@ static hci_status errors_write(hci_output *out, const hci_diagnosis *d, hci_note
         cell(out, e->rms_after_Nm, ',');
         cell(out, e->noise_floor_Nm, ',');
         cell(out, e->after_low_Nm, ',');
-        cell(out, e->after_high_Nm, '\n');
+        cell(out, e->after_high_Nm, ',');
+        cell(out, e->error_mean_before_Nm, ',');
+        cell(out, e->error_mean_after_Nm, ',');
+        cell(out, e->ripple_before_Nm, ',');
+        cell(out, e->ripple_after_Nm, '\n');
     }
     return HCI_OK;
 }

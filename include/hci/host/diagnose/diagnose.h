@@ -40,7 +40,9 @@ typedef struct {
     const char *effect;          /* as in effects.csv; `unknown` for what no effect explains */
     hci_finding_verdict verdict; /* what the recordings say of it */
     double delta_bic; /* fall of the Bayesian information criterion by having it: positive speaks for it */
-    double residual_share;        /* of the mean square of the residual before, that it explains; NAN: none */
+    size_t stays, left_out; /* with how many of the fitted runs that were left out in turn it is found all the
+                             * same; 0 of 0: fewer than three runs */
+    double residual_share;  /* of the mean square of the residual before, that it explains; NAN: none */
     char detail[HCI_DETAIL_SIZE]; /* its parameters with standard errors, or why not; in words */
 } hci_finding;
 
@@ -51,8 +53,10 @@ typedef struct {
     hci_torque_source source;           /* where its torque is from */
     double mean_torque_Nm;              /* of the recording */
     double rms_before_Nm, rms_after_Nm; /* of measured less modelled torque: declared and corrected machine */
-    double after_low_Nm, after_high_Nm; /* 95 % confidence interval of rms_after_Nm */
-    double noise_floor_Nm;              /* rms that noise alone would leave */
+    double error_mean_before_Nm, error_mean_after_Nm; /* its mean, signed */
+    double ripple_before_Nm, ripple_after_Nm;         /* rms of what is left beside the mean */
+    double after_low_Nm, after_high_Nm;               /* 95 % confidence interval of rms_after_Nm */
+    double noise_floor_Nm;                            /* rms that noise alone would leave */
     double
         slip_rad; /* the run's mechanical angle is ahead of that of the others by this; it was turned back */
 } hci_run_errors;
@@ -83,10 +87,12 @@ typedef enum {
     HCI_DIAGNOSIS_COMPLETE,  /* nothing is missing */
     HCI_DIAGNOSIS_EXPLAINED, /* the effects added explain the residual */
     HCI_DIAGNOSIS_AMBIGUOUS, /* several explain it equally well */
+    HCI_DIAGNOSIS_PARTLY,    /* the effects added explain a part, and what is left is not known */
     HCI_DIAGNOSIS_UNKNOWN    /* none does */
 } hci_diagnosis_verdict;
 
-/* The verdict in a word: complete, explained, ambiguous, unknown; a static string. */
+/* The verdict in a word: complete, explained, ambiguous, partly explained, unknown; a static
+ * string. */
 const char *hci_diagnosis_verdict_name(hci_diagnosis_verdict verdict);
 
 /* How the search ended in a word: complete, interrupted, limited; a static string. */
@@ -107,17 +113,21 @@ typedef struct {
     size_t unexplained_count;                                     /* entries of unexplained in use */
     double rms_before_Nm, rms_after_Nm, noise_Nm;                 /* of the runs that were fitted */
     double holdout_before_Nm, holdout_after_Nm, holdout_noise_Nm; /* NAN without such runs */
-    char advice[3 * HCI_DETAIL_SIZE];                             /* what to measure next, or "" */
+    double holdout_mean_before_Nm, holdout_mean_after_Nm;         /* rms of the mean errors of these runs */
+    double holdout_ripple_before_Nm, holdout_ripple_after_Nm;     /* and of what is left beside the means */
+    const char *disbelieved;  /* effect that describes the recordings best, with values that nobody would
+                                 believe,  and was left out; NULL: none */
+    double disbelieved_share; /* of the declared torque per ampere of i_q, that it would leave */
+    char advice[3 * HCI_DETAIL_SIZE]; /* what to measure next, or "" */
     bool contradicted; /* effects described the runs that were fitted, but not those held out, and were
                           dropped */
     bool wanders;      /* something is left that does not repeat with the turn */
 } hci_diagnosis;
 
-/* Finds what is missing. HCI_OK; HCI_NOT_REACHED when the verdict is ambiguous or unknown, or the search did
- * not come to its end; or an error with a note, and then *diagnosis is empty. HCI_ERROR_INPUT when no run to
- * be fitted has a torque, when a run without a torque column is no free shaft, and when the effects take more
- * than half of the declared torque per ampere away, which nobody would believe. runs: kept as long as the
- * diagnosis. */
+/* Finds what is missing. HCI_OK; HCI_NOT_REACHED when the verdict is ambiguous, partly explained or unknown,
+ * or the search did not come to its end; or an error with a note, and then *diagnosis is empty.
+ * HCI_ERROR_INPUT when no run to be fitted has a torque, and when a run without a torque column is no free
+ * shaft. runs: kept as long as the diagnosis. */
 hci_status hci_diagnose(const hci_machine_data *machine, const hci_effects *declared, const hci_runs *runs,
                         const hci_diagnose_options *options, hci_diagnosis *diagnosis, hci_note *note);
 

@@ -22,7 +22,7 @@ typedef struct {
     hci_candidates *list;
     const hci_effect_type *type; /* of what is added */
     size_t capacity;
-    bool failed;
+    bool no_current, failed; /* no_current: of no run */
 } builder;
 
 static bool reserve(builder *b)
@@ -41,10 +41,18 @@ static double price_of(double alternatives)
     return 2.0 * log(fmax(1.0, alternatives));
 }
 
+/* Whether a term cannot be seen without current. */
+static bool needs_current(const hci_effect_type *type, size_t parameter)
+{
+    return type->sum_by_value || (parameter < type->parameter_count &&
+                                  (type->parameter[parameter].traits & HCI_PARAMETER_WITH_CURRENT));
+}
+
 /* For hci_effect_proposals: context is a builder. */
 static void add(void *context, const hci_effect_candidate *x)
 {
     builder *b = context;
+    if (b->no_current && needs_current(b->type, x->parameter)) return;
     b->failed = b->failed || !reserve(b);
     if (b->failed) return;
     hci_candidate *s = &b->list->candidate[b->list->count++];
@@ -162,7 +170,7 @@ hci_status hci_candidates_make(const hci_candidates_source *source, const hci_ca
                                hci_candidates *candidates, hci_note *note)
 {
     hci_effect_survey x = survey_of(source);
-    builder b = {candidates, NULL, 0, false};
+    builder b = {candidates, NULL, 0, !(x.current_A > 0.0), false};
     hci_candidate_orders lines;
     memset(candidates, 0, sizeof *candidates);
     candidates->reference_current_A = x.reference_current_A;

@@ -24,9 +24,10 @@ typedef struct {
 /* ---- what a run can show ---- */
 
 /* Whether a run can show a term of an effect at all. */
-static bool can_show(const hci_run *run, const hci_candidate *s, size_t term)
+static bool can_show(const hci_run *run, bool no_current, const hci_candidate *s, size_t term)
 {
     const unsigned traits = s->type->parameter[s->term[term].parameter].traits;
+    if (no_current && ((traits & HCI_PARAMETER_WITH_CURRENT) || s->type->sum_by_value)) return false;
     if (run->torque_source == HCI_TORQUE_MEASURED) return true;
     if (traits & HCI_PARAMETER_OF_TRANSDUCER) return false;
     return run->torque_source != HCI_TORQUE_HOLDING ||
@@ -36,8 +37,10 @@ static bool can_show(const hci_run *run, const hci_candidate *s, size_t term)
 static void columns_clear(const filling *f, const hci_segment *s)
 {
     const hci_model *m = f->model;
+    const bool no_current = f->regression->samples->statistics[s->run].no_current;
     for (size_t c = 0; c < m->columns; ++c) {
-        if (can_show(&f->regression->runs[s->run], m->column[c].candidate, m->column[c].term)) continue;
+        if (can_show(&f->regression->runs[s->run], no_current, m->column[c].candidate, m->column[c].term))
+            continue;
         for (size_t j = 0; j < s->count; ++j)
             f->x[j * m->columns + c] = 0.0;
     }
@@ -217,7 +220,9 @@ static bool is_shown(const filling *f, size_t column)
 {
     const hci_model_column *x = &f->model->column[column];
     for (const hci_segment *s = NULL; (s = hci_regression_next(f->regression, s)) != NULL;)
-        if (!can_show(&f->regression->runs[s->run], x->candidate, x->term)) return false;
+        if (!can_show(&f->regression->runs[s->run], f->regression->samples->statistics[s->run].no_current,
+                      x->candidate, x->term))
+            return false;
     return true;
 }
 

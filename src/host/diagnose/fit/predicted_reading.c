@@ -1,9 +1,13 @@
 #include "host/diagnose/fit/predicted_reading.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "host/base/memory.h"
+#include "host/machine/torque_constant.h"
 #include "host/numeric/statistics.h"
+
+#define LARGEST_SCALE 1e3 /* of a torque per ampere that has vanished */
 
 static unsigned traits_of(const hci_effect *effect, size_t term)
 {
@@ -60,12 +64,26 @@ static size_t longest_run_through(const hci_regression *e, bool dynamic)
     return most;
 }
 
+/* Declared over modelled torque per ampere; 1 where there is no holding test. */
+static double holding_scale(const hci_regression *e, const hci_effects *effects)
+{
+    bool holds = false;
+    for (size_t r = 0; r < e->samples->run_count; ++r)
+        holds = holds || (e->use[r] && e->runs[r].torque_source == HCI_TORQUE_HOLDING);
+    if (!holds) return 1.0;
+    const double declared = fabs(hci_torque_constant(e->machine, e->declared));
+    const double modelled = fabs(hci_torque_constant(e->machine, effects));
+    if (!(declared > 0.0)) return 1.0;
+    return modelled * LARGEST_SCALE > declared ? declared / modelled : LARGEST_SCALE;
+}
+
 bool hci_predicted_reading_make(const hci_regression *e, const hci_effects *effects, bool derivatives,
                                 hci_predicted_reading *o)
 {
     const size_t most = longest_run_through(e, has_dynamics(effects));
     memset(o, 0, sizeof *o);
     o->terms = hci_effects_terms(effects);
+    o->holding_scale = holding_scale(e, effects);
     o->torque_Nm = hci_memory_new(2 * most, sizeof *o->torque_Nm);
     if (derivatives) o->by_value = hci_memory_new(most * (o->terms + 1), sizeof *o->by_value);
     if (!o->torque_Nm || (derivatives && !o->by_value)) {
@@ -88,11 +106,15 @@ static void fill_static(const hci_regression *e, const hci_effects *effects, con
                         hci_predicted_reading *o)
 {
     const hci_binned_sample *sample = e->samples->sample + s->first;
+    const bool holds = e->runs[s->run].torque_source == HCI_TORQUE_HOLDING;
     for (size_t k = 0; k < s->count; ++k) {
         double *by_value = o->by_value ? o->by_value + k * o->terms : NULL;
         o->torque_Nm[k] =
             hci_effects_predict(e->machine, effects, e->raw ? &sample[k].raw : &sample[k].reading, by_value);
         o->time_s[k] = sample[k].time_s;
+        if (holds) o->torque_Nm[k] *= o->holding_scale;
+        for (size_t c = 0; holds && by_value && c < o->terms; ++c)
+            by_value[c] *= o->holding_scale;
     }
 }
 

@@ -1,7 +1,11 @@
 /* The torque that a model has the sensor read along a segment, and its derivatives by the model's values.
  *
  * The torque at each sample is that of the effects; a lag or resonance of the sensor then filters it along
- * time. The mean of a steady turn is run through several times until the sensor has settled. */
+ * time. The mean of a steady turn is run through several times until the sensor has settled.
+ *
+ * In a holding test the current is what was measured, and the torque that the model leaves stands for the
+ * current that would make it: it is given in units of the declared torque per ampere, so that a model which
+ * makes no torque at all does not describe every holding test. */
 #ifndef HCI_SRC_HOST_DIAGNOSE_FIT_PREDICTED_READING_H
 #define HCI_SRC_HOST_DIAGNOSE_FIT_PREDICTED_READING_H
 
@@ -16,6 +20,7 @@ typedef struct {
     double *by_value; /* [samples][terms], derivatives by the values of all terms; NULL: not wanted */
     double *time_s;
     size_t terms;
+    double holding_scale; /* of torques in a holding test: declared over modelled torque per ampere */
 } hci_predicted_reading;
 
 /* False when memory is out, and then there is nothing to release. */

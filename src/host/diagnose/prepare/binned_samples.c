@@ -64,11 +64,19 @@ static bool segment_add(hci_binned_samples *samples, const hci_segment *s)
     return true;
 }
 
+/* No current flowed where only noise was read. */
+static void currents_clear(hci_binned_sample *sample, size_t count)
+{
+    for (size_t k = 0; k < count; ++k)
+        memset(sample[k].reading.i_abc, 0, sizeof sample[k].reading.i_abc);
+}
+
 /* Keeps the readings, smooths them, and finds how fast the currents change. */
 static bool segment_finish(const reduction *x, hci_segment *s)
 {
     hci_binned_sample *sample = x->samples->sample + s->first;
     bool series = false;
+    if (x->statistics->no_current) currents_clear(sample, s->count);
     for (size_t k = 0; k < s->count; ++k)
         sample[k].raw = sample[k].reading;
     /* in a holding test the current is what is measured, noise and all */

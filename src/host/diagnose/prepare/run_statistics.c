@@ -8,8 +8,10 @@
 
 #define ROUNDING_RAD 1e-7 /* a step of angle up to this is none */
 #define FREEDOM      100.0
+#define COMMON       0.02 /* share of the mean square that neighbours have in common, of a current that flows … */
+#define CHANCE       3.0 /* … beyond what they have by chance, in standard deviations */
 
-enum { LEAST_TURNS = 3, LEAST_PER_RANGE = 4, MOST_STEPS = 20000 };
+enum { LEAST_SAMPLES = 64, LEAST_TURNS = 3, LEAST_PER_RANGE = 4, MOST_STEPS = 20000 };
 
 /* The smallest step between neighbours that is not rounding. */
 static double angle_step(const hci_run *r)
@@ -70,6 +72,21 @@ static void sample_add(const hci_run *r, int pole_pairs, size_t k, hci_run_stati
     if (r->temperature_C) f->temperature_C += r->temperature_C[k] / n;
 }
 
+/* Whether the current is nothing but noise: white, so that neighbours have nothing in common, while a current
+ * that flows is much the same from one sample to the next. In a holding test the current is what was
+ * measured. */
+static bool is_noise(const hci_run *r, int pole_pairs, double current_A)
+{
+    const double n = (double)r->count, square = current_A * current_A;
+    double common = 0.0;
+    if (r->count < LEAST_SAMPLES || r->torque_source == HCI_TORQUE_HOLDING) return false;
+    for (size_t k = 1; k < r->count; ++k) {
+        const hci_dq a = hci_run_dq(r, pole_pairs, k - 1), b = hci_run_dq(r, pole_pairs, k);
+        common += (a.d * b.d + a.q * b.q) / (n - 1.0);
+    }
+    return common < (COMMON + CHANCE / sqrt(2.0 * n)) * square;
+}
+
 hci_run_statistics hci_run_statistics_of(const hci_run *r, int pole_pairs)
 {
     hci_run_statistics f = {.repeat_Nm = NAN, .temperature_C = NAN};
@@ -79,6 +96,8 @@ hci_run_statistics hci_run_statistics_of(const hci_run *r, int pole_pairs)
         sample_add(r, pole_pairs, k, &f);
     f.rms_torque_Nm = sqrt(f.rms_torque_Nm);
     f.current_A = sqrt(f.current_A);
+    f.no_current = is_noise(r, pole_pairs, f.current_A);
+    if (f.no_current) f.current_A = f.mean_id_A = f.mean_iq_A = 0.0;
     f.angle_step_rad = angle_step(r);
     f.turns = turns_of(r);
     if (r->torque_Nm) f.repeat_Nm = repeatability(r, f.turns);

@@ -9,6 +9,7 @@ typedef struct {
     double mean_torque_Nm, rms_torque_Nm;
     double mean_speed_rad_per_s, current_A; /* root mean square of the current vector's length */
     double mean_id_A, mean_iq_A;
+    bool no_current;  /* what was read as current is the noise of its sensors, and current_A is 0 */
     double repeat_Nm; /* rms departure of a sample from the mean over the turns at its angle; NAN: one turn */
     double angle_step_rad; /* smallest step of the mechanical angle: the encoder's resolution or finer */
     double turns;          /* of the mechanical angle, from the least to the largest */

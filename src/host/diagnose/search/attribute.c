@@ -12,6 +12,7 @@
 #include "host/diagnose/search/forward.h"
 #include "host/diagnose/search/rivals.h"
 #include "host/diagnose/search/settle.h"
+#include "host/diagnose/search/stability.h"
 
 enum { MOST_EFFECTS = 6, MOST_ROUNDS = 14 };
 
@@ -141,11 +142,14 @@ static hci_status attribute(hci_search *s, hci_attribution *a, hci_note *note)
     hci_status status = search_run(s, &a->model, note);
     if (status) return status;
     hci_search_begin(s, "weighing the evidence", SEARCH_SHARE, 1.0);
-    if (!hci_search_is_over(s)) status = hci_search_coenergy(s, &a->model, note);
+    if (!hci_search_is_over(s)) status = hci_search_keep_predictive(s, &a->model, note);
+    if (!status && !hci_search_is_over(s)) status = hci_search_coenergy(s, &a->model, note);
     for (bool dropped = s->whole_coenergy; dropped && !status;)
         status = hci_search_drop(s, &a->model, &dropped, note);
+    if (s->whole_coenergy && !status) status = hci_search_keep_predictive(s, &a->model, note);
     if (!status) status = hci_search_settle(s, a, note);
     if (!status) status = verdicts(s, a, note);
+    if (!status) status = hci_search_stability(s, a, note);
     if (!status) status = hci_regression_standard_errors(s->regression, &a->model.candidates, note);
     if (!status) status = hci_regression_fit(s->regression, &none, &a->before, note);
     a->ended = s->ended;
@@ -167,6 +171,7 @@ hci_status hci_attribute(hci_regression *regression, const hci_attribute_options
     s.variance = s.residual_Nm + samples;
     const hci_status status = attribute(&s, attribution, note);
     hci_memory_free(s.residual_Nm);
+    hci_fitted_model_release(&s.disbelieved.model);
     if (status) hci_attribution_release(attribution);
     return status;
 }

@@ -13,19 +13,24 @@ typedef struct {
     const hci_effect_type *rival_of; /* the one that it could stand for */
     double gain;                     /* fall of the score by having it: positive speaks for it */
     double explained_Nm;             /* rms of what the model loses without it */
-    hci_fitted_model alternative;    /* of a rival: the model with it instead */
+    size_t stays,
+        left_out; /* with how many of the runs that were left out in turn it is found all the same */
+    hci_fitted_model alternative; /* of a rival: the model with it instead */
 } hci_verdict;
 
 enum { HCI_MOST_TYPES = 32 };
 
 /* Start with {0}. */
 typedef struct {
-    hci_fitted_model model; /* with the noise that was found in the end */
-    hci_fit before;         /* without any effect, with the same noise */
-    hci_work_end ended;     /* how */
-    bool unknown;           /* something is left that no effect explains, and it is not small */
-    bool wanders;           /* what is left does not repeat with the turn */
-    double unexplained_Nm;  /* rms of what no effect explains */
+    hci_fitted_model model;             /* with the noise that was found in the end */
+    hci_fit before;                     /* without any effect, with the same noise */
+    hci_work_end ended;                 /* how */
+    bool unknown;                       /* something is left that no effect explains, and it is not small */
+    const hci_effect_type *disbelieved; /* describes the recordings best, with values that nobody would
+                                         * believe; NULL: none */
+    double disbelieved_share;           /* of the declared torque per ampere, that it leaves */
+    bool wanders;                       /* what is left does not repeat with the turn */
+    double unexplained_Nm;              /* rms of what no effect explains */
     hci_verdict verdict[HCI_MOST_TYPES];
     size_t types;
     bool plausible[HCI_MOST_TYPES]

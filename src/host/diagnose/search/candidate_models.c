@@ -5,6 +5,7 @@
 #include "host/base/memory.h"
 #include "host/diagnose/candidates/make_candidates.h"
 #include "host/diagnose/fit/linearise.h"
+#include "host/diagnose/search/belief.h"
 #include "host/diagnose/search/group_selection.h"
 
 #define SAME       1e-4  /* share of a column that the model leaves of terms that look the same … */
@@ -195,7 +196,7 @@ hci_status hci_candidate_model_fit(hci_search *s, const hci_candidate_models *t,
     hci_status status = hci_candidates_copy(&t->list, &fitted->candidates, note);
     for (size_t k = 0; k < fitted->candidates.count && !status; ++k)
         fitted->candidates.candidate[k].in = fitted->candidates.candidate[k].in || x->in[k];
-    if (!status) status = hci_regression_fit(s->regression, &fitted->candidates, &fitted->fit, note);
+    if (!status) status = hci_search_fit(s, fitted, note);
     if (status) hci_fitted_model_release(fitted);
     return status;
 }

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "host/diagnose/fit/resonance.h"
+#include "host/diagnose/search/belief.h"
 #include "host/diagnose/search/candidate_models.h"
 
 /* Promises of the linearised problem, in units of the score. */
@@ -161,8 +162,7 @@ static hci_status resonance_fit(comparison *c, const hci_candidate *x, hci_fitte
 {
     hci_status status = hci_fitted_model_copy(c->present, candidate, note);
     if (!status) status = hci_candidates_add(&candidate->candidates, x, note);
-    if (!status)
-        status = hci_regression_fit(c->search->regression, &candidate->candidates, &candidate->fit, note);
+    if (!status) status = hci_search_fit(c->search, candidate, note);
     return status;
 }
 

@@ -4,6 +4,7 @@
 
 #include "host/diagnose/candidates/empirical_term.h"
 #include "host/diagnose/search/candidate_models.h"
+#include "host/diagnose/search/stability.h"
 
 #define EQUAL          6.0  /* models whose scores differ by less fit as well as each other */
 #define PART           0.3  /* of the gain of an effect that makes another one plausible beside it */
@@ -68,6 +69,21 @@ static double margin_of(size_t type)
     return hci_candidate_type(type) == &hci_empirical_type ? HCI_DECISIVE : HCI_AS_GOOD;
 }
 
+/* Whether a rival is to take the place of the effect: it fits decisively better, or as well and describes
+ * runs left out decisively better. */
+static hci_status is_better(const rivalry *r, const hci_fitted_model *rival, size_t with, bool *better,
+                            hci_note *note)
+{
+    const double fall = r->model->fit.score - rival->fit.score;
+    double misfit = 0.0, rival_misfit = 0.0;
+    *better = fall > margin_of(with);
+    if (*better || fall < -EQUAL || hci_candidate_type(with) == &hci_empirical_type) return HCI_OK;
+    hci_status status = hci_search_left_out(r->search, &r->model->candidates, &misfit, note);
+    if (!status) status = hci_search_left_out(r->search, &rival->candidates, &rival_misfit, note);
+    *better = rival_misfit < misfit - HCI_DECISIVE;
+    return status;
+}
+
 static hci_status swap_type(hci_search *s, hci_fitted_model *model, const hci_effect_type *type,
                             bool *swapped, hci_note *note)
 {
@@ -78,9 +94,9 @@ static hci_status swap_type(hci_search *s, hci_fitted_model *model, const hci_ef
     while (!status && !*swapped && with < hci_candidate_types() && !hci_search_is_over(s)) {
         status = rivalry_next(&r, &rival, &with, note);
         if (status || with == hci_candidate_types()) break;
-        if (rival.fit.score < model->fit.score - margin_of(with)) {
+        status = is_better(&r, &rival, with, swapped, note);
+        if (!status && *swapped) {
             hci_fitted_model_replace(model, &rival);
-            *swapped = true;
             status = hci_search_renew(s, model, note);
         }
         hci_fitted_model_release(&rival);
@@ -128,6 +144,16 @@ static void plausible_mark(const rivalry *r, hci_attribution *a)
             a->plausible[type_index(r->type)][r->models.model[k].a] = true;
 }
 
+/* Whether a rival describes runs that are left out about as well. */
+static hci_status is_as_good(const rivalry *r, const hci_fitted_model *rival, bool *good, hci_note *note)
+{
+    double misfit = 0.0, rival_misfit = 0.0;
+    hci_status status = hci_search_left_out(r->search, &r->model->candidates, &misfit, note);
+    if (!status) status = hci_search_left_out(r->search, &rival->candidates, &rival_misfit, note);
+    *good = rival_misfit < misfit + HCI_DECISIVE;
+    return status;
+}
+
 hci_status hci_search_rivals(hci_search *s, const hci_effect_type *type, hci_attribution *a, hci_note *note)
 {
     rivalry r;
@@ -139,7 +165,9 @@ hci_status hci_search_rivals(hci_search *s, const hci_effect_type *type, hci_att
         status = rivalry_next(&r, &rival, &with, note);
         if (status || with == hci_candidate_types()) break;
         const bool is_empirical = hci_candidate_type(with) == &hci_empirical_type;
-        if (!is_empirical && rival.fit.score < a->model.fit.score + EQUAL) rival_mark(&r, with, &rival, a);
+        bool equal = !is_empirical && rival.fit.score < a->model.fit.score + EQUAL;
+        if (equal) status = is_as_good(&r, &rival, &equal, note);
+        if (!status && equal) rival_mark(&r, with, &rival, a);
         hci_fitted_model_release(&rival);
     }
     rivalry_end(&r);

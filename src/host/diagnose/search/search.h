@@ -9,11 +9,20 @@
 #define HCI_DECISIVE 10.0 /* fall of the score by which an effect is accepted: odds of 150 to 1 */
 #define HCI_AS_GOOD  0.5  /* scores that differ by less are the same */
 
+/* The model that describes the recordings best of those that cannot be believed. type: NULL where there was
+ * none. */
+typedef struct {
+    const hci_effect_type *type; /* that makes it unbelievable */
+    double constant_share;       /* of the declared torque per ampere, that it leaves */
+    hci_fitted_model model;
+} hci_disbelieved;
+
 typedef struct {
     hci_regression *regression;
     const hci_attribute_options *options;
     double *residual_Nm, *variance; /* of each sample, of the model looked at last */
     int richness;                   /* of saturation */
+    hci_disbelieved disbelieved;    /* to be released */
     bool whole_coenergy;            /* all terms of the co-energy are in, each with an expectation */
     const char *doing;
     double share, until; /* of all work: done so far, and when the step at hand is done */

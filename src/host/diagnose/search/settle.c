@@ -5,6 +5,7 @@
 
 #include "host/base/memory.h"
 #include "host/diagnose/candidates/empirical_term.h"
+#include "host/diagnose/search/belief.h"
 
 #define EXCESS       0.1  /* variance over that of the noise that tells of something that does not repeat */
 #define CLUMPS       1.35 /* the same of how uneven the errors are; noise makes 1.0 ± 0.1 */
@@ -143,17 +144,31 @@ static hci_status types_leave(hci_search *s, hci_attribution *a, double unexplai
     return status;
 }
 
+/* Where a model that is not believed is better, something is behind the recordings that is not known, and
+ * all that is left may belong to it. */
+static void disbelieved_set(const hci_search *s, hci_yield yield, hci_attribution *a)
+{
+    a->disbelieved = s->disbelieved.type;
+    a->disbelieved_share = s->disbelieved.constant_share;
+    if (yield != HCI_YIELD_BETTER) return;
+    a->unknown = true;
+    a->unexplained_Nm = hci_search_residual_rms(s);
+}
+
 hci_status hci_search_settle(hci_search *s, hci_attribution *a, hci_note *note)
 {
     double known_Nm = 0.0;
     bool changed = false;
-    hci_status status = residual_judge(s, a, note);
+    hci_yield yield = HCI_YIELD_NOTHING;
+    hci_status status = hci_search_yield(s, &a->model, &yield, note);
+    if (!status) status = residual_judge(s, a, note);
+    if (yield) disbelieved_set(s, yield, a);
     double unexplained_Nm = a->unexplained_Nm;
     if (!status) status = explained_add(s, &a->model, &hci_empirical_type, &unexplained_Nm, note);
     if (status || !(unexplained_Nm > 0.0)) return status;
     status = known_of(s, &a->model, &known_Nm, note);
     if (status) return status;
-    a->unknown = unexplained_Nm > SMALL * known_Nm;
+    a->unknown = yield == HCI_YIELD_BETTER || unexplained_Nm > SMALL * known_Nm;
     status = types_leave(s, a, unexplained_Nm, &changed, note);
     if (!status && changed) status = hci_search_renew(s, &a->model, note);
     if (!status && a->unknown) a->unexplained_Nm = unexplained_Nm;

@@ -12,7 +12,8 @@ enum { WORDS_SIZE = 2048 };
 static void say_verdict(hci_output *out, const hci_diagnosis *d)
 {
     static const char *const BADGE[] = {"Nothing is missing", "Explained",
-                                        "Ambiguous: more than one explanation fits", "Not explained"};
+                                        "Ambiguous: more than one explanation fits", "Partly explained",
+                                        "Not explained"};
     char words[WORDS_SIZE];
     hci_diagnosis_words(d, words, sizeof words);
     hci_html_begin(out, "Diagnosis of the machine model", BADGE[d->verdict],

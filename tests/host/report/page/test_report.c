@@ -261,8 +261,9 @@ static void test_largest_of_each_order(void)
 
 static void test_other_verdicts(void)
 {
-    static const char *const SAID[] = {"Nothing is missing", "Explained", "Ambiguous", "Not explained"};
-    for (int k = 0; k < 4; ++k) {
+    static const char *const SAID[] = {"Nothing is missing", "Explained", "Ambiguous", "Partly explained",
+                                       "Not explained"};
+    for (int k = 0; k < 5; ++k) {
         diagnosis.verdict = (hci_diagnosis_verdict)k;
         diagnosis.lines = k == 0 ? 0 : LINES;
         diagnosis.effects.list.count = k == 0 ? 0 : 1;

@@ -1,0 +1,25 @@
+/* The normal equations of a model, run by run, in the values of its terms.
+ *
+ * In: a regression and a fitted model. Out: for each run in use XᵀX, Xᵀy and yᵀy of its rows, linearised
+ * where the model stands and counted from values of 0, so that runs can be left out by subtraction. */
+#ifndef HCI_SRC_HOST_DIAGNOSE_FIT_RUN_EQUATIONS_H
+#define HCI_SRC_HOST_DIAGNOSE_FIT_RUN_EQUATIONS_H
+
+#include "host/diagnose/candidates/candidates.h"
+#include "host/diagnose/fit/regression.h"
+#include "host/numeric/left_out.h"
+
+/* Start with {0}. */
+typedef struct {
+    hci_groups groups;         /* [count] of the runs in use, in their order */
+    hci_normal_equations *run; /* what groups stands for */
+    double *precision; /* of each column: one over the variance that is expected of its value; 0: any */
+} hci_run_equations;
+
+/* candidates: those that are in are the columns; what is expected of their values is in `precision` only. On
+ * failure *equations is empty. HCI_ERROR_MEMORY. O(samples·columns²). */
+hci_status hci_run_equations_make(hci_regression *regression, const hci_candidates *candidates,
+                                  hci_run_equations *equations, hci_note *note);
+void hci_run_equations_release(hci_run_equations *equations);
+
+#endif

@@ -1,0 +1,132 @@
+#include "host/diagnose/search/belief.h"
+
+#include <math.h>
+
+#include "host/diagnose/fit/model.h"
+#include "host/machine/torque_constant.h"
+
+#define LEAST_CONSTANT 0.5  /* of the torque per ampere that is declared: a correction leaves no less */
+#define LARGEST_DEFECT 3.0  /* of a sensor, in units of what is expected of such a defect */
+#define NEARLY         0.9  /* of what a model explains: another one that explains as much is as good */
+#define ROUNDING       1e-6 /* of the torque per ampere, that is none */
+
+/* A defect of a sensor or of one phase that nobody would have left unnoticed; NULL: none. */
+static const hci_effect_type *large_defect(const hci_candidates *candidates)
+{
+    for (size_t k = 0; k < candidates->count; ++k) {
+        const hci_candidate *x = &candidates->candidate[k];
+        if (!x->in || !x->type->is_small || !(x->deviation > 0.0)) continue;
+        for (size_t j = 0; j < x->count; ++j)
+            if (fabs(x->term[j].value) > LARGEST_DEFECT * x->deviation) return x->type;
+    }
+    return NULL;
+}
+
+/* What the model leaves of the declared torque per ampere, as a share; 1 where none is declared. */
+static hci_status constant_share(const hci_search *s, const hci_candidates *candidates, double *share,
+                                 hci_note *note)
+{
+    const hci_regression *e = s->regression;
+    const double declared = hci_torque_constant(e->machine, e->declared);
+    hci_model model;
+    *share = 1.0;
+    if (!(declared > 0.0)) return HCI_OK;
+    const hci_status status = hci_model_make(e->declared, candidates, false, &model, note);
+    if (status) return status;
+    *share = hci_torque_constant(e->machine, &model.list) / declared;
+    if (fabs(*share) < ROUNDING) *share = 0.0;
+    hci_model_release(&model);
+    return HCI_OK;
+}
+
+/* The type in the model that takes the torque away: the one without which most is left. */
+static hci_status culprit_find(const hci_search *s, const hci_candidates *candidates,
+                               const hci_effect_type **culprit, hci_note *note)
+{
+    double most = -INFINITY;
+    hci_status status = HCI_OK;
+    for (size_t r = 0; r < hci_candidate_types() && !status; ++r) {
+        const hci_effect_type *type = hci_candidate_type(r);
+        hci_candidates without = {0};
+        double share = 0.0;
+        if (!hci_candidates_have(candidates, type)) continue;
+        status = hci_candidates_copy(candidates, &without, note);
+        if (!status) hci_candidates_remove_type(&without, type);
+        if (!status) status = constant_share(s, &without, &share, note);
+        hci_candidates_release(&without);
+        if (status || share <= most) continue;
+        most = share;
+        *culprit = type;
+    }
+    return status;
+}
+
+static hci_status disbelieved_set(hci_search *s, const hci_fitted_model *model,
+                                  const hci_effect_type *culprit, double share, hci_note *note)
+{
+    hci_fitted_model copy = {0};
+    const hci_status status = hci_fitted_model_copy(model, &copy, note);
+    if (status) return status;
+    s->disbelieved.type = culprit;
+    s->disbelieved.constant_share = share;
+    hci_fitted_model_replace(&s->disbelieved.model, &copy);
+    return HCI_OK;
+}
+
+hci_status hci_search_fit(hci_search *s, hci_fitted_model *model, hci_note *note)
+{
+    const hci_effect_type *culprit = NULL;
+    double share = 1.0;
+    hci_status status = hci_regression_fit(s->regression, &model->candidates, &model->fit, note);
+    if (!status) status = constant_share(s, &model->candidates, &share, note);
+    if (status) return status;
+    culprit = large_defect(&model->candidates);
+    if (share < LEAST_CONSTANT) status = culprit_find(s, &model->candidates, &culprit, note);
+    if (status || !culprit) return status;
+    if (!s->disbelieved.type || model->fit.score < s->disbelieved.model.fit.score)
+        status = disbelieved_set(s, model, culprit, share, note);
+    model->fit.score = INFINITY;
+    return status;
+}
+
+/* ---- what it means for the model that is believed ---- */
+
+/* Takes out what is in the model and not, or as the culprit, in the one that is not believed. */
+static bool others_remove(const hci_disbelieved *better, hci_candidates *model)
+{
+    bool changed = false;
+    for (size_t r = 0; r < hci_candidate_types(); ++r) {
+        const hci_effect_type *type = hci_candidate_type(r);
+        const bool in_both = type != better->type && hci_candidates_have(&better->model.candidates, type);
+        if (in_both || !hci_candidates_have(model, type)) continue;
+        hci_candidates_remove_type(model, type);
+        changed = true;
+    }
+    return changed;
+}
+
+/* By how much a model lowers the score of the one without any effect, with the noise of now. */
+static hci_status gain_of(hci_search *s, hci_fitted_model *model, double *gain, hci_note *note)
+{
+    hci_candidates none = {0};
+    hci_fit without;
+    hci_status status = hci_regression_fit(s->regression, &none, &without, note);
+    if (!status) status = hci_regression_fit(s->regression, &model->candidates, &model->fit, note);
+    *gain = status ? 0.0 : without.score - model->fit.score;
+    return status;
+}
+
+hci_status hci_search_yield(hci_search *s, hci_fitted_model *model, hci_yield *yield, hci_note *note)
+{
+    hci_disbelieved *x = &s->disbelieved;
+    double gain = 0.0, believed = 0.0;
+    *yield = HCI_YIELD_NOTHING;
+    if (!x->type) return HCI_OK;
+    hci_status status = gain_of(s, &x->model, &gain, note);
+    if (!status) status = gain_of(s, model, &believed, note);
+    if (status) return status;
+    if (gain > HCI_DECISIVE && gain > NEARLY * believed) *yield = HCI_YIELD_RIVAL;
+    if (!(gain > believed + HCI_DECISIVE)) return HCI_OK;
+    *yield = HCI_YIELD_BETTER;
+    return others_remove(x, &model->candidates) ? hci_search_renew(s, model, note) : HCI_OK;
+}

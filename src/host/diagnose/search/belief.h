@@ -1,0 +1,27 @@
+/* Which fitted models nobody would believe, however well they describe the recordings.
+ *
+ * In: a machine with the effects of a model. Out: whether it keeps a torque per ampere, and whether its
+ * sensors are as good as sensors are. Recordings that were meant otherwise (another sign, unit or motor) are
+ * described best by a machine that hardly makes torque, and an effect that is missing in the catalogue by
+ * sensors with large errors. */
+#ifndef HCI_SRC_HOST_DIAGNOSE_SEARCH_BELIEF_H
+#define HCI_SRC_HOST_DIAGNOSE_SEARCH_BELIEF_H
+
+#include "host/diagnose/search/search.h"
+
+/* Fits a model. One that cannot be believed gets the score INFINITY, so that nothing is worse; the best of
+ * those is kept in search->disbelieved. HCI_ERROR_MEMORY. */
+hci_status hci_search_fit(hci_search *search, hci_fitted_model *model, hci_note *note);
+
+/* How well the best model that is not believed describes the recordings, beside the one that is. */
+typedef enum {
+    HCI_YIELD_NOTHING, /* worse, or there is none */
+    HCI_YIELD_RIVAL,   /* nearly as well or better */
+    HCI_YIELD_BETTER   /* decisively better */
+} hci_yield;
+
+/* Where the model that is not believed is better, something unknown is behind both, and only what both have
+ * in common stays. HCI_ERROR_MEMORY. */
+hci_status hci_search_yield(hci_search *search, hci_fitted_model *model, hci_yield *yield, hci_note *note);
+
+#endif

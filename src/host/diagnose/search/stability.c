@@ -1,0 +1,201 @@
+#include "host/diagnose/search/stability.h"
+
+#include <math.h>
+
+#include "host/base/memory.h"
+#include "host/diagnose/candidates/empirical_term.h"
+#include "host/diagnose/fit/run_equations.h"
+
+enum { LEAST_RUNS = 3 };
+
+#define FLOOR 0.05 /* mean square of a run, in units of its noise, below which it is as good as can be */
+
+/* The model's equations, run by run, and room for what is asked of them. */
+typedef struct {
+    const hci_candidates *model;
+    hci_run_equations equations;
+    double *precision;      /* [columns], with a type held at 0 */
+    double *with, *without; /* [runs], squares of the runs left out */
+} leaving;
+
+static void leaving_end(leaving *l)
+{
+    hci_run_equations_release(&l->equations);
+    hci_memory_free(l->precision);
+}
+
+static hci_status leaving_start(hci_search *s, const hci_candidates *model, leaving *l, hci_note *note)
+{
+    const size_t columns = hci_candidates_terms_in(model), runs = s->regression->samples->run_count;
+    *l = (leaving){.model = model};
+    const hci_status status = hci_run_equations_make(s->regression, model, &l->equations, note);
+    if (status) return status;
+    l->precision = hci_memory_new(columns + 2 * runs + 1, sizeof *l->precision);
+    if (!l->precision) {
+        leaving_end(l);
+        return hci_note_memory(note, NULL, "leaving runs out");
+    }
+    l->with = l->precision + columns;
+    l->without = l->with + runs;
+    return HCI_OK;
+}
+
+/* Holds the terms of a type at 0. */
+static void hold(leaving *l, const hci_effect_type *type)
+{
+    size_t column = 0;
+    for (size_t k = 0; k < l->model->count; ++k) {
+        const hci_candidate *x = &l->model->candidate[k];
+        for (size_t j = 0; x->in && j < x->count; ++j, ++column)
+            l->precision[column] = x->type == type ? (double)INFINITY : l->equations.precision[column];
+    }
+}
+
+/* ---- what stays ---- */
+
+static double price_of(const leaving *l, const hci_effect_type *type, double rows)
+{
+    double price = 0.0;
+    for (size_t k = 0; k < l->model->count; ++k)
+        if (l->model->candidate[k].in && l->model->candidate[k].type == type)
+            price += hci_candidate_cost(&l->model->candidate[k], rows);
+    return price;
+}
+
+/* Whether a type would be found without one run: the others fit decisively better with it. */
+static hci_status stays_without(leaving *l, const hci_effect_type *type, size_t run, bool *stays,
+                                hci_note *note)
+{
+    const hci_groups all = l->equations.groups;
+    hci_normal_equations *left = hci_memory_new(all.count, sizeof *left);
+    double with = 0.0, without = 0.0, rows = 0.0;
+    size_t count = 0;
+    if (!left) return hci_note_memory(note, NULL, "leaving runs out");
+    for (size_t r = 0; r < all.count; ++r) {
+        if (r == run) continue;
+        left[count++] = all.group[r];
+        rows += all.group[r].rows;
+    }
+    const hci_groups others = {left, count};
+    const bool made = hci_all_in_square(&others, l->equations.precision, &with) &&
+                      hci_all_in_square(&others, l->precision, &without);
+    hci_memory_free(left);
+    *stays = without - with > price_of(l, type, rows);
+    return made ? HCI_OK : hci_note_memory(note, NULL, "leaving runs out");
+}
+
+static hci_status stays_count(leaving *l, hci_verdict *v, hci_note *note)
+{
+    hci_status status = HCI_OK;
+    hold(l, v->type);
+    v->left_out = l->equations.groups.count;
+    for (size_t run = 0; run < v->left_out && !status; ++run) {
+        bool stays = false;
+        status = stays_without(l, v->type, run, &stays, note);
+        v->stays += stays;
+    }
+    return status;
+}
+
+/* ---- what predicts ---- */
+
+/* By how much runs left out are described better with a type than without: as a whole, which tells of small
+ * effects in long recordings, or on the average, where a run that lies outside of the others counts no more
+ * than they do. Both in units in which 0 is no better. */
+static hci_status worth_of(leaving *l, const hci_effect_type *type, double *worth, hci_note *note)
+{
+    double sum = 0.0, mean_log = 0.0;
+    hold(l, type);
+    if (!hci_left_out_squares(&l->equations.groups, l->equations.precision, l->with) ||
+        !hci_left_out_squares(&l->equations.groups, l->precision, l->without))
+        return hci_note_memory(note, NULL, "leaving runs out");
+    for (size_t r = 0; r < l->equations.groups.count; ++r) {
+        const double rows = fmax(1.0, l->equations.groups.group[r].rows);
+        sum += l->without[r] - l->with[r];
+        mean_log += rows * log((l->without[r] / rows + FLOOR) / (l->with[r] / rows + FLOOR));
+    }
+    *worth = fmax(sum, mean_log);
+    return HCI_OK;
+}
+
+hci_status hci_search_left_out(hci_search *s, const hci_candidates *model, double *misfit, hci_note *note)
+{
+    leaving l;
+    hci_status status = leaving_start(s, model, &l, note);
+    *misfit = 0.0;
+    if (status) return status;
+    const hci_groups *groups = &l.equations.groups;
+    if (groups->count >= LEAST_RUNS && !hci_left_out_squares(groups, l.equations.precision, l.with))
+        status = hci_note_memory(note, NULL, "leaving runs out");
+    for (size_t r = 0; r < groups->count && groups->count >= LEAST_RUNS && !status; ++r) {
+        const double rows = fmax(1.0, groups->group[r].rows);
+        *misfit += rows * log(l.with[r] / rows + FLOOR);
+    }
+    leaving_end(&l);
+    return status;
+}
+
+/* Whether a type may be asked at all: the terms of a whole co-energy were chosen by runs left out already. */
+static bool is_asked(const hci_search *s, const hci_candidates *model, const hci_effect_type *type)
+{
+    return hci_candidates_have(model, type) && type != &hci_empirical_type &&
+           !(s->whole_coenergy && type->propose_coenergy);
+}
+
+/* Whether a type is found in too few of the cases with one run left out. */
+static hci_status is_fickle(leaving *l, const hci_effect_type *type, bool *fickle, hci_note *note)
+{
+    hci_verdict v = {.type = type};
+    const hci_status status = stays_count(l, &v, note);
+    *fickle = 3 * v.stays < 2 * v.left_out;
+    return status;
+}
+
+/* The type that is worth least, or not found when other runs are left out; NULL where all predict. */
+static hci_status useless_find(hci_search *s, const hci_candidates *model, const hci_effect_type **useless,
+                               hci_note *note)
+{
+    leaving l;
+    double least = 0.0;
+    *useless = NULL;
+    hci_status status = leaving_start(s, model, &l, note);
+    if (status) return status;
+    for (size_t r = 0; r < hci_candidate_types() && l.equations.groups.count >= LEAST_RUNS && !status; ++r) {
+        double worth = 0.0;
+        bool fickle = false;
+        if (!is_asked(s, model, hci_candidate_type(r))) continue;
+        status = worth_of(&l, hci_candidate_type(r), &worth, note);
+        if (!status) status = is_fickle(&l, hci_candidate_type(r), &fickle, note);
+        if (fickle) worth = fmin(worth, 0.0) - 1.0;
+        if (status || !(worth < least)) continue;
+        least = worth;
+        *useless = hci_candidate_type(r);
+    }
+    leaving_end(&l);
+    return status;
+}
+
+hci_status hci_search_keep_predictive(hci_search *s, hci_fitted_model *model, hci_note *note)
+{
+    const hci_effect_type *useless = NULL;
+    hci_status status = HCI_OK;
+    do {
+        hci_search_tell(s);
+        status = useless_find(s, &model->candidates, &useless, note);
+        if (status || !useless) break;
+        hci_candidates_remove_type(&model->candidates, useless);
+        status = hci_search_renew(s, model, note);
+    } while (!status);
+    return status;
+}
+
+hci_status hci_search_stability(hci_search *s, hci_attribution *a, hci_note *note)
+{
+    leaving l;
+    hci_status status = leaving_start(s, &a->model.candidates, &l, note);
+    if (status) return status;
+    for (size_t r = 0; r < a->types && l.equations.groups.count >= LEAST_RUNS && !status; ++r)
+        if (hci_candidates_have(l.model, a->verdict[r].type)) status = stays_count(&l, &a->verdict[r], note);
+    leaving_end(&l);
+    return status;
+}

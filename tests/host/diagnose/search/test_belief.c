@@ -1,0 +1,98 @@
+/* What nobody would believe: it loses against everything, is remembered, and takes with it what only imitates
+ * it. */
+#include "host/diagnose/search/belief.h"
+
+#include "support/searching.h"
+
+enum { SAMPLES = 100 };
+
+void setUp(void)
+{
+    dataset_start();
+}
+
+void tearDown(void)
+{
+    hci_fitted_model_release(&search.disbelieved.model);
+    search_end();
+    dataset_end();
+}
+
+/* Two currents in each direction; the torque is a share of what it should be. */
+static void record_share(double share, double brake_Nm)
+{
+    for (int k = 0; k < 4; ++k) {
+        const double speed = k < 2 ? 60.0 : -150.0;
+        record(SAMPLES, &(point){speed, k % 2 ? 9.0 : 2.0, 0.0, 0.0, 0.0});
+        for (size_t j = 0; j < SAMPLES; ++j)
+            run[k].torque_Nm[j] = share * run[k].torque_Nm[j] - (k < 2 ? brake_Nm : -brake_Nm);
+    }
+    search_start();
+}
+
+static void fit(void)
+{
+    hci_search_noise(&search, &model.candidates, &note);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_search_fit(&search, &model, &note), note.text);
+}
+
+/* Half of the torque per ampere is the border. */
+static void test_weak_magnets_are_believed(void)
+{
+    record_share(0.7, 0.0);
+    model_add("back_emf", "sine", NULL, 1.0);
+    fit();
+    TEST_ASSERT_TRUE(isfinite(model.fit.score));
+    TEST_ASSERT_NULL(search.disbelieved.type);
+}
+
+static void test_a_tenth_of_the_magnets_is_not(void)
+{
+    record_share(0.1, 0.05);
+    model_add("friction", "coulomb", NULL, 0.0);
+    model_add("back_emf", "sine", NULL, 1.0);
+    fit();
+    TEST_ASSERT_TRUE(model.fit.score == (double)INFINITY);
+    TEST_ASSERT_EQUAL_STRING("back_emf", search.disbelieved.type->name);
+    TEST_ASSERT_DOUBLE_WITHIN(0.01, 0.1, search.disbelieved.constant_share);
+}
+
+/* Three times what is expected of a sensor's gain, 0.1, is the border. */
+static void test_a_sensor_with_half_its_gain_is_not(void)
+{
+    record_share(0.5, 0.0);
+    for (int s = 0; s < 3; ++s) {
+        hci_candidate x = candidate_of("current_gain", s == 0 ? "a" : s == 1 ? "b" : "c", NULL, 0.0);
+        x.deviation = 0.1;
+        TEST_ASSERT_EQUAL_INT(HCI_OK, hci_candidates_add(&model.candidates, &x, &note));
+    }
+    fit();
+    TEST_ASSERT_EQUAL_STRING("current_gain", search.disbelieved.type->name);
+}
+
+/* Friction is in both, cogging only in the one that is believed. */
+static void test_what_both_have_in_common_stays(void)
+{
+    hci_yield yield = HCI_YIELD_NOTHING;
+    record_share(0.1, 0.05);
+    model_add("friction", "coulomb", NULL, 0.0);
+    model_add("back_emf", "sine", NULL, 1.0);
+    fit();
+    hci_candidates_remove_type(&model.candidates, hci_effect_type_find("back_emf"));
+    model_add("cogging", "sine", "cosine", 6.0);
+    fit();
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_yield(&search, &model, &yield, &note));
+    TEST_ASSERT_EQUAL_INT(HCI_YIELD_BETTER, yield);
+    TEST_ASSERT_TRUE(model_has("friction"));
+    TEST_ASSERT_FALSE(model_has("cogging"));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_weak_magnets_are_believed);
+    RUN_TEST(test_a_tenth_of_the_magnets_is_not);
+    RUN_TEST(test_a_sensor_with_half_its_gain_is_not);
+    RUN_TEST(test_what_both_have_in_common_stays);
+    return UNITY_END();
+}

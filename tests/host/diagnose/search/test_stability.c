@@ -1,0 +1,107 @@
+/* Runs that are left out in turn: what predicts them stays, what one run alone asks for does not. */
+#include "host/diagnose/search/stability.h"
+
+#include "support/searching.h"
+
+enum { SAMPLES = 100, RUNS = 6 };
+
+void setUp(void)
+{
+    dataset_start();
+}
+
+void tearDown(void)
+{
+    search_end();
+    dataset_end();
+}
+
+/* Friction in all runs; cogging in the first one, and the reverse of it in the second. */
+static void record_runs(size_t count, double brake_Nm, double cogging_Nm)
+{
+    for (size_t k = 0; k < count; ++k) {
+        const double sign = k % 2 ? -1.0 : 1.0;
+        record(SAMPLES,
+               &(point){sign * (60.0 + 10.0 * (double)k), k % 3 ? 9.0 : 2.0, 0.0, sign * brake_Nm, 0.0});
+        for (size_t j = 0; j < SAMPLES && k < 2; ++j)
+            run[k].torque_Nm[j] += (k == 0 ? 1.0 : -0.4) * cogging_Nm * sin(6.0 * P * run[k].theta_m_rad[j]);
+    }
+    search_start();
+    model_add("friction", "coulomb", NULL, 0.0);
+}
+
+static void keep(void)
+{
+    model_fit();
+    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_search_keep_predictive(&search, &model, &note), note.text);
+}
+
+static void test_what_all_runs_show_stays(void)
+{
+    record_runs(RUNS, 0.05, 0.0);
+    keep();
+    TEST_ASSERT_TRUE(model_has("friction"));
+}
+
+static void test_what_one_run_asks_for_leaves(void)
+{
+    record_runs(RUNS, 0.05, 0.05);
+    model_add("cogging", "sine", "cosine", 6.0);
+    keep();
+    TEST_ASSERT_TRUE(model_has("friction"));
+    TEST_ASSERT_FALSE(model_has("cogging"));
+}
+
+/* Two runs cannot be left out in turn. */
+static void test_two_runs_say_nothing(void)
+{
+    record_runs(2, 0.05, 0.05);
+    model_add("cogging", "sine", "cosine", 6.0);
+    keep();
+    TEST_ASSERT_TRUE(model_has("cogging"));
+}
+
+/* The true model describes runs left out better than one without the effect; by hand: the mean square with
+ * the other runs' mean friction is the noise's. */
+static void test_misfit_of_runs_left_out(void)
+{
+    double with = 0.0, without = 0.0;
+    record_runs(RUNS, 0.05, 0.0);
+    model_fit();
+    model_fit(); /* with the noise that is left */
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_left_out(&search, &model.candidates, &with, &note));
+    hci_candidates none = {0};
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_left_out(&search, &none, &without, &note));
+    const double rows = SAMPLES * RUNS;
+    TEST_ASSERT_DOUBLE_WITHIN(0.15 * rows, rows * log(1.0 + 0.05), with);
+    TEST_ASSERT_DOUBLE_WITHIN(0.2 * rows, rows * log(1.0 + 25.0 + 0.05), without);
+}
+
+static void test_stays_are_counted(void)
+{
+    hci_attribution a;
+    memset(&a, 0, sizeof a);
+    record_runs(RUNS, 0.05, 0.0);
+    model_fit();
+    a.model = model;
+    a.types = hci_candidate_types();
+    for (size_t r = 0; r < a.types; ++r)
+        a.verdict[r].type = hci_candidate_type(r);
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_stability(&search, &a, &note));
+    for (size_t r = 0; r < a.types; ++r) {
+        const bool in = strcmp(a.verdict[r].type->name, "friction") == 0;
+        TEST_ASSERT_EQUAL_UINT64(in ? RUNS : 0, a.verdict[r].stays);
+        TEST_ASSERT_EQUAL_UINT64(in ? RUNS : 0, a.verdict[r].left_out);
+    }
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_what_all_runs_show_stays);
+    RUN_TEST(test_what_one_run_asks_for_leaves);
+    RUN_TEST(test_two_runs_say_nothing);
+    RUN_TEST(test_misfit_of_runs_left_out);
+    RUN_TEST(test_stays_are_counted);
+    return UNITY_END();
+}
