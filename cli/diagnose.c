@@ -71,6 +71,7 @@ static hci_status read_inputs(const cli_arguments *a, inputs *in, hci_note *note
     if (status) return status;
     in->reading.run.pole_pairs = in->machine.model.pole_pairs;
     in->reading.run.inertia_kgm2 = in->machine.inertia_kgm2;
+    in->reading.run.torque_constant_Nm_per_A = hci_machine_torque_constant(&in->machine);
     const hci_runs_options reading = {in->reading.run, in->options.progress, NULL};
     return hci_runs_read(a->value[RUNS], &reading, &in->runs, note);
 }

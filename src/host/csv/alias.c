@@ -5,7 +5,7 @@
 #define MECHANICAL "the mechanical angle"
 #define SR_AXES                                                                                              \
     "i_d as it stands; SyR-e's 'SR' axes have the magnet on -q: then i_d = -Iq and i_q = Id, rename them"
-#define OWN_ESTIMATE "the torque, which the drive has computed from its current and not measured"
+#define OWN_ESTIMATE "a torque that the drive has computed from its current, not measured"
 
 #define FIRST_OF_THREE(quantity) "the " quantity " of phase a, and those after it as b and c"
 
@@ -105,9 +105,18 @@ const hci_alias hci_aliases[] = {
     TOLD("Coil-U", "ia_A", "A", "JMAG", FIRST_OF_THREE("current")),
     PLAIN("Coil-V", "ib_A", "A", "JMAG"),
     PLAIN("Coil-W", "ic_A", "A", "JMAG"),
-    BESIDE("q_current", "torque", "torque_Nm", "N*m", "moteus", OWN_ESTIMATE),
-    TOLD("torque_estimate", "torque_Nm", "N*m", "ODrive", OWN_ESTIMATE),
-    TOLD(".torque_estimate", "torque_Nm", "N*m", "ODrive", OWN_ESTIMATE),
+    BESIDE("q_current", "torque", "torque_computed_Nm", "N*m", "moteus", OWN_ESTIMATE),
+    TOLD("torque_estimate", "torque_computed_Nm", "N*m", "ODrive", OWN_ESTIMATE),
+    TOLD(".torque_estimate", "torque_computed_Nm", "N*m", "ODrive", OWN_ESTIMATE),
+    TOLD("torque_actual_value", "torque_computed_Nm", "N*m", "CiA 402", OWN_ESTIMATE),
+    TOLD("estimated_torque", "torque_computed_Nm", "N*m", "many", OWN_ESTIMATE),
+    TOLD("torque_estimated", "torque_computed_Nm", "N*m", "many", OWN_ESTIMATE),
+    TOLD("torque_est", "torque_computed_Nm", "N*m", "many", OWN_ESTIMATE),
+    TOLD("calculated_torque", "torque_computed_Nm", "N*m", "many", OWN_ESTIMATE),
+    TOLD("torque_calculated", "torque_computed_Nm", "N*m", "many", OWN_ESTIMATE),
+    TOLD("calc_torque", "torque_computed_Nm", "N*m", "many", OWN_ESTIMATE),
+    TOLD("torque_calc", "torque_computed_Nm", "N*m", "many", OWN_ESTIMATE),
+    TOLD("computed_torque", "torque_computed_Nm", "N*m", "many", OWN_ESTIMATE),
     PLAIN("T", "temperature_C", NULL, "many"),
     TOLD("T", "torque_Nm", "N*m", "SyR-e", "the torque"),
     PLAIN("T_e", "torque_Nm", "N*m", "Simulink"),

@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "hci/host/machine/machine.h"
 #include "hci/machine/frames.h"
 
 #define SMALL_A 1e-6 /* for which no machine saturates */
@@ -27,4 +28,10 @@ double hci_torque_constant(const hci_machine *machine, const hci_effects *effect
         difference_Nm -= torque_at(machine, effects, theta_m_rad, -SMALL_A);
     }
     return difference_Nm / (2.0 * SMALL_A * samples);
+}
+
+double hci_machine_torque_constant(const hci_machine_data *machine)
+{
+    const hci_effects none = {NULL, 0};
+    return hci_torque_constant(&machine->model, &none);
 }

@@ -59,3 +59,13 @@ double hci_median(double *x, size_t n)
     }
     return x[wanted];
 }
+
+double hci_quantum(const double *x, size_t n, double rounding)
+{
+    double least = INFINITY;
+    for (size_t k = 2; k < n; ++k) {
+        const double bend = fabs(x[k] - 2.0 * x[k - 1] + x[k - 2]);
+        if (bend > rounding) least = fmin(least, bend);
+    }
+    return isfinite(least) ? least : rounding;
+}

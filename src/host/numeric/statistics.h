@@ -1,4 +1,4 @@
-/* Mean, mean square, peak-to-peak and median of samples. */
+/* Mean, mean square, peak-to-peak, median and step of samples. */
 #ifndef HCI_SRC_HOST_NUMERIC_STATISTICS_H
 #define HCI_SRC_HOST_NUMERIC_STATISTICS_H
 
@@ -16,5 +16,9 @@ double hci_peak_to_peak(const double *x, size_t n);
 /* The one with as many below as above, of an even number the upper one; changes their order. O(n) as a rule.
  */
 double hci_median(double *x, size_t n);
+
+/* What values are whole multiples of, where they were rounded: their second differences are too, and the
+ * smallest of those that are more than `rounding` is taken; `rounding` where there is none. */
+double hci_quantum(const double *x, size_t n, double rounding);
 
 #endif

@@ -49,18 +49,6 @@ static mean_steps mean_steps_of(const hci_stamps *s)
     return mean;
 }
 
-/* What values are whole multiples of, where they were rounded: their second differences are too, and the
- * smallest of those that are more than `rounding` is taken; `rounding` where there is none. */
-static double quantum_of(const double *x, size_t n, double rounding)
-{
-    double least = INFINITY;
-    for (size_t k = 2; k < n; ++k) {
-        const double bend = fabs(x[k] - 2.0 * x[k - 1] + x[k - 2]);
-        if (bend > rounding) least = fmin(least, bend);
-    }
-    return isfinite(least) ? least : rounding;
-}
-
 static bool ascends(const double *time_s, size_t n)
 {
     for (size_t k = 1; k < n; ++k)
@@ -185,7 +173,7 @@ static bool is_uniform(const hci_stamps *s, double quantum_s, double most_s, boo
 static bool make_uniform(const hci_stamps *s, hci_note *remark)
 {
     const double stamp_s = mean_steps_of(s).stamp_s, most_s = GAP * stamp_s;
-    const double quantum_s = quantum_of(s->time_s, s->n, LEAST_SHARE * stamp_s);
+    const double quantum_s = hci_quantum(s->time_s, s->n, LEAST_SHARE * stamp_s);
     double step_s = 0.0;
     if (!is_uniform(s, quantum_s, most_s, false, &step_s)) return false;
     is_uniform(s, quantum_s, most_s, true, &step_s);
@@ -267,7 +255,7 @@ static double roughness(const hci_stamps *s, bool by_row, const double *angle, d
 hci_clock_kind hci_clock_judge(hci_stamps stamps, const double *theta_m_rad, int pole_pairs, double *work)
 {
     if (stamps.n < 2 * LEAST) return HCI_CLOCK_AGREES;
-    const double quantum = quantum_of(theta_m_rad, stamps.n, LEAST_STEP);
+    const double quantum = hci_quantum(theta_m_rad, stamps.n, LEAST_STEP);
     const double by_time = roughness(&stamps, false, theta_m_rad, work);
     if (!(by_time > fmax(SMALL / pole_pairs, 2.0 * quantum))) return HCI_CLOCK_AGREES;
     if (by_time > ROUGHER * roughness(&stamps, true, theta_m_rad, work)) return HCI_CLOCK_JITTERS;

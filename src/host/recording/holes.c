@@ -32,6 +32,7 @@ static bool is_needless(const hci_run_columns *c, hci_run_column which)
     const bool phases = hci_run_phase_count(c, HCI_RUN_IA) >= 2;
     const bool voltages = hci_run_phase_count(c, HCI_RUN_VA) == 3;
     const bool lines = hci_run_phase_count(c, HCI_RUN_VAB) >= 2;
+    if (which == HCI_RUN_TORQUE_COMPUTED) return phases || c->has[HCI_RUN_IQ];
     if (which == HCI_RUN_SPEED_E) return c->has[HCI_RUN_SPEED];
     if (which >= HCI_RUN_VAB && which <= HCI_RUN_VCA) return voltages;
     if (which == HCI_RUN_VD || which == HCI_RUN_VQ) return voltages || lines;

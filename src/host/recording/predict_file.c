@@ -98,6 +98,7 @@ static hci_status read_task(task *t, const char *machine, const char *run, hci_r
     if (!status) status = hci_effects_read_machine(machine, &t->effects, note);
     reading.pole_pairs = t->machine.model.pole_pairs;
     reading.inertia_kgm2 = t->machine.inertia_kgm2;
+    reading.torque_constant_Nm_per_A = hci_machine_torque_constant(&t->machine);
     if (!status) status = hci_run_csv(run, &reading, &t->csv, note);
     if (!status) status = hci_run_of_csv(t->csv, &reading, &t->run, note);
     if (!status) status = keep_free(t, note);

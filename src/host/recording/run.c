@@ -13,6 +13,7 @@
 #include "host/numeric/statistics.h"
 #include "host/numeric/unwrap.h"
 #include "host/recording/clock.h"
+#include "host/recording/computed_torque.h"
 #include "host/recording/holes.h"
 #include "host/recording/rotor_frame.h"
 #include "host/recording/run_columns.h"
@@ -288,6 +289,24 @@ static hci_status read_dq(reader *r, hci_run_column d, hci_run_column q, double 
     return status;
 }
 
+/* i_q of a torque that the drive has computed, where it logs no current. */
+static hci_status read_current_of_torque(reader *r)
+{
+    const double constant = r->options->torque_constant_Nm_per_A;
+    hci_status status = hci_run_column_read(&r->columns, HCI_RUN_TORQUE_COMPUTED);
+    if (status) return status;
+    double *iq_A = r->columns.value[HCI_RUN_TORQUE_COMPUTED];
+    for (size_t k = 0; k < r->run->count; ++k)
+        iq_A[k] /= constant;
+    hci_note_add(&r->run->remark, "no currents: i_q is that torque over %.4g N·m/A, as back_emf.csv has it",
+                 constant);
+    r->run->i_A = hci_memory_new(r->run->count, 3 * sizeof(double));
+    if (r->run->i_A == NULL) return memory_error(r);
+    status = turn_dq(r, NULL, iq_A, r->run->i_A);
+    hci_run_column_drop(&r->columns, HCI_RUN_TORQUE_COMPUTED);
+    return status;
+}
+
 static hci_status read_currents(reader *r)
 {
     const int phases = hci_run_phase_count(&r->columns, HCI_RUN_IA);
@@ -301,6 +320,8 @@ static hci_status read_currents(reader *r)
     }
     if (has(r, HCI_RUN_ID) && !has(r, HCI_RUN_IQ))
         return missing(r, "id_A without iq_A", "both, or iq_A alone", "add the column iq_A");
+    if (!has(r, HCI_RUN_IQ) && has(r, HCI_RUN_TORQUE_COMPUTED) && r->options->torque_constant_Nm_per_A > 0.0)
+        return read_current_of_torque(r);
     if (!has(r, HCI_RUN_IQ) && r->run->theta_m_rad != NULL)
         hci_note_add(&r->run->remark, "no currents: taken as 0");
     return read_dq(r, HCI_RUN_ID, HCI_RUN_IQ, &r->run->i_A);
@@ -341,11 +362,35 @@ static hci_status torque_of_inertia(reader *r)
     return HCI_OK;
 }
 
+/* Frees a torque that is nothing but the current. */
+static hci_status drop_computed(reader *r)
+{
+    hci_run *run = r->run;
+    double constant, *iq_A;
+    if (run->torque_Nm == NULL || run->theta_m_rad == NULL || !has(r, HCI_RUN_IQ)) return HCI_OK;
+    iq_A = hci_memory_new(run->count, sizeof *iq_A);
+    if (iq_A == NULL) return memory_error(r);
+    for (size_t k = 0; k < run->count; ++k)
+        iq_A[k] = hci_run_dq(run, r->pole_pairs, k).q;
+    const bool computed = hci_torque_is_of_current(run->torque_Nm, iq_A, run->count, &constant);
+    hci_memory_free(iq_A);
+    if (!computed) return HCI_OK;
+    hci_note_add(&run->remark,
+                 "the torque is %.4g N·m/A times i_q in every row: computed from the current and not "
+                 "measured, it is not used",
+                 constant);
+    hci_memory_free(run->torque_Nm);
+    run->torque_Nm = NULL;
+    return HCI_OK;
+}
+
 static hci_status read_torque(reader *r)
 {
     hci_run *run = r->run;
-    const hci_status status = read_column(r, HCI_RUN_TORQUE, &run->torque_Nm);
+    hci_status status = read_column(r, HCI_RUN_TORQUE, &run->torque_Nm);
+    if (!status) status = drop_computed(r);
     if (status) return status;
+    hci_run_computed_torque_leave(&r->columns);
     if (run->torque_Nm == NULL) return torque_of_inertia(r);
     run->torque_source = is_zero(run->torque_Nm, run->count) ? HCI_TORQUE_HOLDING : HCI_TORQUE_MEASURED;
     return HCI_OK;

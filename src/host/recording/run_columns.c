@@ -120,6 +120,15 @@ void hci_run_column_leave(hci_run_columns *c, hci_run_column which)
     if (c->has[which]) c->used[c->at[which]] = true;
 }
 
+void hci_run_computed_torque_leave(hci_run_columns *c)
+{
+    char quoted[HCI_QUOTE_SIZE];
+    if (!c->has[HCI_RUN_TORQUE_COMPUTED] || c->used[c->at[HCI_RUN_TORQUE_COMPUTED]]) return;
+    hci_run_column_leave(c, HCI_RUN_TORQUE_COMPUTED);
+    hci_note_add(c->remark, "%s is a torque that the drive has computed from its current: it is not used",
+                 hci_quote(hci_csv_name(c->csv, c->at[HCI_RUN_TORQUE_COMPUTED]), quoted));
+}
+
 const char *hci_run_column_header(const hci_run_columns *c, hci_run_column which, size_t *line)
 {
     if (!c->has[which]) return NULL;

@@ -29,6 +29,7 @@
     X(VD, "vd_V")                                                                                            \
     X(VQ, "vq_V")                                                                                            \
     X(TORQUE, "torque_Nm")                                                                                   \
+    X(TORQUE_COMPUTED, "torque_computed_Nm")                                                                 \
     X(TEMPERATURE, "temperature_C")
 
 typedef enum {
@@ -75,6 +76,9 @@ void hci_run_column_leave(hci_run_columns *c, hci_run_column which);
 
 /* The canonical name, with its unit. */
 const char *hci_run_column_name(hci_run_column which);
+
+/* Says of a torque that a drive has computed that it is not used. */
+void hci_run_computed_torque_leave(hci_run_columns *c);
 
 /* As the header spells it, and the line of the header in the file; NULL: the file does not have it. */
 const char *hci_run_column_header(const hci_run_columns *c, hci_run_column which, size_t *line);

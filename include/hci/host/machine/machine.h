@@ -47,6 +47,9 @@ typedef struct {
  * and the note says why. HCI_ERROR_INPUT, HCI_ERROR_MEMORY. */
 hci_status hci_machine_read(const char *path, hci_machine_data *machine, hci_note *note);
 
+/* N·m per ampere of i_q by its back-EMF: 3/2 of the fundamental, as peak values. O(harmonics). */
+double hci_machine_torque_constant(const hci_machine_data *machine);
+
 /* Frees what a machine holds and empties it. */
 void hci_machine_release(hci_machine_data *machine);
 

@@ -47,7 +47,8 @@ typedef struct {
 typedef struct {
     int pole_pairs;      /* to turn electrical angles into mechanical ones */
     double inertia_kgm2; /* for a run without torque_Nm; NAN or 0: not known, the torque is then missing */
-    bool strict;         /* a hole refuses the file */
+    double torque_constant_Nm_per_A;      /* of i_q, for a torque that a drive computed; 0: not known */
+    bool strict;                          /* a hole refuses the file */
     const hci_column_names *columns;      /* which column is what, before all names; NULL: names say it */
     const hci_column_names *list_columns; /* the same for all runs of a list, which counts least; or NULL */
 } hci_run_options;

@@ -149,6 +149,7 @@ hci_status hci_check_samples_read(const hci_csv *csv, check_run *run, check_samp
     if (!status) status = read_voltages(run, s, first, note);
     if (status) return status;
     hci_run_column_leave(&s->columns, HCI_RUN_TEMPERATURE);
+    hci_run_computed_torque_leave(&s->columns);
     hci_run_columns_tell_unused(&s->columns);
     places(s, run);
     return HCI_OK;

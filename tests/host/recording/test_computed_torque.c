@@ -1,0 +1,148 @@
+/* A torque that a drive computed is never taken as measured: by its name, or since it is k_t·i_q in every
+ * row. */
+#include "host/recording/computed_torque.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "hci/host/recording/run.h"
+#include "support/draws.h"
+#include "support/files.h"
+#include "support/texts.h"
+#include "unity.h"
+
+enum { N = 400 };
+
+static double iq[N], torque[N], constant;
+static char path[96];
+static hci_run run;
+static hci_note note;
+static uint64_t seed;
+
+void setUp(void)
+{
+    seed = 5;
+    files_begin();
+    snprintf(path, sizeof path, "%s", files_path("run.csv"));
+    memset(&run, 0, sizeof run);
+    memset(&note, 0, sizeof note);
+    for (size_t k = 0; k < N; ++k)
+        iq[k] = 3.0 + sin(0.3 * (double)k);
+}
+
+void tearDown(void)
+{
+    hci_run_release(&run);
+    files_end();
+}
+
+/* ---- in every row the same constant */
+
+static void test_rounding_is_let_pass(void)
+{
+    for (size_t k = 0; k < N; ++k) {
+        iq[k] = 0.01 * floor(iq[k] / 0.01 + 0.5);
+        torque[k] = 1e-3 * floor(0.0512 * iq[k] / 1e-3 + 0.5);
+    }
+    TEST_ASSERT_TRUE(hci_torque_is_of_current(torque, iq, N, &constant));
+    TEST_ASSERT_DOUBLE_WITHIN(2e-5, 0.0512, constant);
+}
+
+/* A measured torque: with noise or cogging of a thousandth, with a zero of its own, or in another sample. */
+static void test_a_measured_torque_is_none(void)
+{
+    for (size_t k = 0; k < N; ++k)
+        torque[k] = 0.05 * iq[k] * (1.0 + 1e-3 * ref_normal(&seed));
+    TEST_ASSERT_FALSE(hci_torque_is_of_current(torque, iq, N, &constant));
+    for (size_t k = 0; k < N; ++k)
+        torque[k] = 0.05 * iq[k] + 2e-4 * sin(1.1 * (double)k);
+    TEST_ASSERT_FALSE(hci_torque_is_of_current(torque, iq, N, &constant));
+    for (size_t k = 0; k < N; ++k)
+        torque[k] = 0.05 * iq[k] + 1e-3;
+    TEST_ASSERT_FALSE(hci_torque_is_of_current(torque, iq, N, &constant));
+    for (size_t k = 0; k < N; ++k)
+        torque[k] = 0.05 * iq[k > 0 ? k - 1 : 0];
+    TEST_ASSERT_FALSE(hci_torque_is_of_current(torque, iq, N, &constant));
+}
+
+/* A table of one current says nothing, and neither do few rows. */
+static void test_it_takes_currents_that_vary(void)
+{
+    for (size_t k = 0; k < N; ++k)
+        torque[k] = 0.05 * (iq[k] = 3.0);
+    TEST_ASSERT_FALSE(hci_torque_is_of_current(torque, iq, N, &constant));
+    for (size_t k = 0; k < N; ++k)
+        torque[k] = 0.05 * (iq[k] = (double)k);
+    TEST_ASSERT_FALSE(hci_torque_is_of_current(torque, iq, 15, &constant));
+    TEST_ASSERT_TRUE(hci_torque_is_of_current(torque, iq, 16, &constant));
+    memset(torque, 0, sizeof torque);
+    TEST_ASSERT_FALSE(hci_torque_is_of_current(torque, iq, N, &constant));
+}
+
+/* ---- in a run */
+
+static void read_log(const char *header, double inertia_kgm2, double torque_constant)
+{
+    const hci_run_options options = {
+        .pole_pairs = 7, .inertia_kgm2 = inertia_kgm2, .torque_constant_Nm_per_A = torque_constant};
+    FILE *file = fopen(path, "w");
+    TEST_ASSERT_NOT_NULL(file);
+    fprintf(file, "time_s,theta_m_rad,%s\n", header);
+    for (size_t k = 0; k < N; ++k)
+        fprintf(file, "%.4f,%.6f,%.6f,%.6f\n", 1e-3 * (double)k, 0.02 * (double)k, 0.05 * iq[k], iq[k]);
+    fclose(file);
+    hci_run_release(&run);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_run_read(path, &options, &run, &note), note.text);
+}
+
+static void test_by_its_name(void)
+{
+    static const char *const NAMES[] = {"torque_estimate", "axis0.motor.torque_estimate", "Torque est (N*m)",
+                                        "torque_calc", "torque_computed_Nm"};
+    for (size_t k = 0; k < sizeof NAMES / sizeof *NAMES; ++k) {
+        char header[64];
+        snprintf(header, sizeof header, "%s,lamp", NAMES[k]);
+        read_log(header, NAN, 0.0);
+        TEST_ASSERT_EQUAL_MESSAGE(HCI_TORQUE_NONE, run.torque_source, NAMES[k]);
+        TEST_ASSERT_NULL(run.torque_Nm);
+        text_has("is a torque that the drive has computed from its current: it is not used", run.remark.text);
+    }
+    read_log("torque,q_current", NAN, 0.0);
+    TEST_ASSERT_NULL(run.torque_Nm);
+}
+
+static void test_by_its_values(void)
+{
+    read_log("torque_Nm,iq_A", NAN, 0.0);
+    TEST_ASSERT_EQUAL(HCI_TORQUE_NONE, run.torque_source);
+    TEST_ASSERT_NULL(run.torque_Nm);
+    text_has("the torque is 0.05 N·m/A times i_q in every row", run.remark.text);
+    read_log("torque_Nm,iq_A", 1e-3, 0.0); /* what is left is a free shaft */
+    TEST_ASSERT_EQUAL(HCI_TORQUE_INERTIA, run.torque_source);
+}
+
+static void test_without_a_current_it_is_one(void)
+{
+    read_log("torque_estimate,lamp", NAN, 0.1);
+    TEST_ASSERT_NULL(run.torque_Nm);
+    for (size_t k = 0; k < N; ++k) {
+        const double theta = 7.0 * 0.02 * (double)k;
+        TEST_ASSERT_DOUBLE_WITHIN(1e-4, 0.5 * iq[k] * sin(theta), run.i_A[3 * k]);
+    }
+    text_has("i_q is that torque over 0.1 N·m/A", run.remark.text);
+    read_log("torque_estimate,iq_A", NAN, 0.1);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-4, iq[10] * sin(1.4), run.i_A[30]);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_rounding_is_let_pass);
+    RUN_TEST(test_a_measured_torque_is_none);
+    RUN_TEST(test_it_takes_currents_that_vary);
+    RUN_TEST(test_by_its_name);
+    RUN_TEST(test_by_its_values);
+    RUN_TEST(test_without_a_current_it_is_one);
+    return UNITY_END();
+}
