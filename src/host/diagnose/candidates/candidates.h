@@ -14,9 +14,11 @@ enum { HCI_CANDIDATE_TERMS = 4 };
 typedef struct {
     const hci_effect_type *type;
     hci_effect_term term[HCI_CANDIDATE_TERMS]; /* value: where to start from */
+    double declared[HCI_CANDIDATE_TERMS];      /* their values in the machine as it is declared */
     size_t count;
-    double price;         /* of having chosen it among so many of its kind: 2 ln(kinds), in units of χ² */
-    double deviation;     /* standard deviation of the values to be expected, in the terms' unit; 0: any */
+    double price;     /* of having chosen it among so many of its kind: 2 ln(kinds), in units of χ² */
+    double deviation; /* standard deviation about the declared values to be expected, in the terms' unit; 0:
+                       * any */
     double coenergy_unit; /* of a term of the co-energy: the deviation to be expected of it where coefficients
                            * of power 2 and order 0 deviate by 1 N·m; else 0 */
     int power;            /* of the currents, there */
@@ -61,6 +63,7 @@ void hci_candidates_remove_type(hci_candidates *candidates, const hci_effect_typ
 /* What the candidates are chosen from. */
 typedef struct {
     const hci_machine *machine;
+    const hci_effects *declared; /* those that the machine has already */
     const hci_binned_samples *samples;
     const hci_run *runs;
     const bool *use;            /* of each run */

@@ -21,6 +21,7 @@ enum {
 typedef struct {
     hci_candidates *list;
     const hci_effect_type *type; /* of what is added */
+    const hci_effects *declared;
     size_t capacity;
     bool no_current, failed; /* no_current: of no run */
 } builder;
@@ -39,6 +40,18 @@ static bool reserve(builder *b)
 static double price_of(double alternatives)
 {
     return 2.0 * log(fmax(1.0, alternatives));
+}
+
+/* The value that the machine has declared of a term; 0 where it has none. */
+static double declared_value(const builder *b, size_t parameter, double order)
+{
+    for (size_t k = 0; k < b->declared->count; ++k) {
+        const hci_effect *e = &b->declared->effect[k];
+        for (size_t j = 0; e->type == b->type && j < e->count; ++j)
+            if (e->term[j].parameter == parameter && fabs(e->term[j].order - order) < HCI_ORDER_TOLERANCE)
+                return e->term[j].value;
+    }
+    return 0.0;
 }
 
 /* Whether a term cannot be seen without current. */
@@ -62,8 +75,10 @@ static void add(void *context, const hci_effect_candidate *x)
     s->count = x->count;
     s->price = price_of(x->alternatives);
     s->deviation = x->expected;
-    for (size_t k = 0; k < x->count; ++k)
-        s->term[k] = (hci_effect_term){x->parameter + k, x->order, 0.0, NAN};
+    for (size_t k = 0; k < x->count; ++k) {
+        s->declared[k] = declared_value(b, x->parameter + k, x->order);
+        s->term[k] = (hci_effect_term){x->parameter + k, x->order, s->declared[k], NAN};
+    }
 }
 
 /* ---- what no effect explains ---- */
@@ -170,7 +185,7 @@ hci_status hci_candidates_make(const hci_candidates_source *source, const hci_ca
                                hci_candidates *candidates, hci_note *note)
 {
     hci_effect_survey x = survey_of(source);
-    builder b = {candidates, NULL, 0, !(x.current_A > 0.0), false};
+    builder b = {candidates, NULL, source->declared, 0, !(x.current_A > 0.0), false};
     hci_candidate_orders lines;
     memset(candidates, 0, sizeof *candidates);
     candidates->reference_current_A = x.reference_current_A;

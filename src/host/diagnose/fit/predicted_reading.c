@@ -7,7 +7,8 @@
 #include "host/machine/torque_constant.h"
 #include "host/numeric/statistics.h"
 
-#define LARGEST_SCALE 1e3 /* of a torque per ampere that has vanished */
+#define SAME_SCALE    1e-6 /* departure of a torque per ampere that is rounding */
+#define LARGEST_SCALE 1e3  /* of a torque per ampere that has vanished */
 
 static unsigned traits_of(const hci_effect *effect, size_t term)
 {
@@ -73,7 +74,7 @@ static double holding_scale(const hci_regression *e, const hci_effects *effects)
     if (!holds) return 1.0;
     const double declared = fabs(hci_torque_constant(e->machine, e->declared));
     const double modelled = fabs(hci_torque_constant(e->machine, effects));
-    if (!(declared > 0.0)) return 1.0;
+    if (!(declared > 0.0) || fabs(modelled - declared) < SAME_SCALE * declared) return 1.0;
     return modelled * LARGEST_SCALE > declared ? declared / modelled : LARGEST_SCALE;
 }
 

@@ -1,7 +1,8 @@
 /* The normal equations of a model, run by run, in the values of its terms.
  *
  * In: a regression and a fitted model. Out: for each run in use XᵀX, Xᵀy and yᵀy of its rows, linearised
- * where the model stands and counted from values of 0, so that runs can be left out by subtraction. */
+ * where the model stands and counted from the values of
+ * the declared machine, so that runs can be left out by subtraction. */
 #ifndef HCI_SRC_HOST_DIAGNOSE_FIT_RUN_EQUATIONS_H
 #define HCI_SRC_HOST_DIAGNOSE_FIT_RUN_EQUATIONS_H
 

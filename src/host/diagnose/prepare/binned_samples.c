@@ -9,6 +9,8 @@
 #include "host/diagnose/prepare/run_statistics.h"
 #include "host/diagnose/prepare/smooth.h"
 #include "host/diagnose/prepare/turns.h"
+#include "host/machine/torque_constant.h"
+#include "host/recording/rotor_frame.h"
 
 enum {
     BINS_PER_TURN = 4096, /* of a mean over turns */
@@ -21,6 +23,8 @@ typedef struct {
     const hci_run *run;
     size_t index; /* in the list of runs */
     int pole_pairs;
+    double holding_Nm_per_A; /* in a holding test, where the current of the q axis is what was measured; else
+                                0 */
     const hci_run_statistics *statistics;
     hci_binned_samples *samples;
     size_t *capacity; /* samples that there is memory for */
@@ -95,18 +99,25 @@ static bool segment_finish(const reduction *x, hci_segment *s)
 
 /* ---- means over turns ---- */
 
-static void mean_add(hci_binned_sample *c, const hci_binned_sample *x)
+/* What was measured: the torque, or in a holding test the current that held against it. */
+static double measured_Nm(const reduction *r, const hci_binned_sample *x)
+{
+    if (r->holding_Nm_per_A == 0.0) return x->torque_Nm;
+    return -r->holding_Nm_per_A * hci_sample_dq(&x->reading, r->pole_pairs).q;
+}
+
+static void mean_add(const reduction *r, hci_binned_sample *c, const hci_binned_sample *x)
 {
     const double w = 1.0 / (c->count += 1.0);
     hci_sample *m = &c->reading;
+    const double departure = measured_Nm(r, x) - measured_Nm(r, c);
     m->theta_m_rad += w * (x->reading.theta_m_rad - m->theta_m_rad);
     m->speed_rad_per_s += w * (x->reading.speed_rad_per_s - m->speed_rad_per_s);
     for (int s = 0; s < 3; ++s)
         m->i_abc[s] += w * (x->reading.i_abc[s] - m->i_abc[s]);
     m->temperature_C += w * (x->reading.temperature_C - m->temperature_C);
-    const double departure = x->torque_Nm - c->torque_Nm;
-    c->torque_Nm += w * departure;
-    c->scatter_N2m2 += departure * (x->torque_Nm - c->torque_Nm);
+    c->torque_Nm += w * (x->torque_Nm - c->torque_Nm);
+    c->scatter_N2m2 += departure * (measured_Nm(r, x) - measured_Nm(r, c));
     c->sum_A += w * (x->sum_A - c->sum_A);
 }
 
@@ -120,7 +131,7 @@ static void means_take(const reduction *x, size_t first, size_t last, hci_binned
         sample_of(x->run, k, &one);
         one.reading.theta_m_rad -= turn * floor(one.reading.theta_m_rad / turn);
         const size_t at = (size_t)(one.reading.theta_m_rad / turn * BINS_PER_TURN);
-        mean_add(&sample[at < BINS_PER_TURN ? at : BINS_PER_TURN - 1], &one);
+        mean_add(x, &sample[at < BINS_PER_TURN ? at : BINS_PER_TURN - 1], &one);
     }
 }
 
@@ -228,13 +239,18 @@ static bool run_reduce(const reduction *x)
 hci_status hci_binned_samples_make(const hci_machine *machine, const hci_run *runs, size_t run_count,
                                    hci_binned_samples *samples, hci_note *note)
 {
+    static const hci_effects none = {NULL, 0};
+    const double constant_Nm_per_A = hci_torque_constant(machine, &none);
     size_t capacity = 0;
     memset(samples, 0, sizeof *samples);
     samples->run_count = run_count;
     samples->statistics = hci_memory_new(run_count + 1, sizeof *samples->statistics);
     bool done = samples->statistics != NULL;
     for (size_t k = 0; k < run_count && done; ++k) {
-        const reduction x = {&runs[k], k, machine->pole_pairs, &samples->statistics[k], samples, &capacity};
+        const bool holds = runs[k].torque_source == HCI_TORQUE_HOLDING;
+        const reduction x = {
+            &runs[k], k,        machine->pole_pairs, holds ? constant_Nm_per_A : 0.0, &samples->statistics[k],
+            samples,  &capacity};
         samples->statistics[k] = hci_run_statistics_of(&runs[k], machine->pole_pairs);
         if (runs[k].torque_Nm && runs[k].theta_m_rad && runs[k].i_A && runs[k].count > 0)
             done = run_reduce(&x);

@@ -4,13 +4,13 @@
 /* ---- single orders ---- */
 
 /* By how much the score would rise without a candidate whose columns begin at c. At the solution steps are
- * near 0, so that what leaving costs is that of its value. */
+ * near 0, so that what leaving costs is what its value is away from the declared one. */
 static double stay_gain(const hci_sweep *sweep, const hci_candidate *x, size_t c, double rows)
 {
     double saved[HCI_CANDIDATE_TERMS];
     for (size_t j = 0; j < x->count; ++j) {
         saved[j] = sweep->b[c + j];
-        sweep->b[c + j] += x->term[j].value;
+        sweep->b[c + j] += x->term[j].value - x->declared[j];
     }
     const double gain = hci_sweep_reduction(sweep, c, x->count) - hci_candidate_cost(x, rows);
     for (size_t j = 0; j < x->count; ++j)

@@ -17,7 +17,7 @@ static const hci_effect_type *large_defect(const hci_candidates *candidates)
         const hci_candidate *x = &candidates->candidate[k];
         if (!x->in || !x->type->is_small || !(x->deviation > 0.0)) continue;
         for (size_t j = 0; j < x->count; ++j)
-            if (fabs(x->term[j].value) > LARGEST_DEFECT * x->deviation) return x->type;
+            if (fabs(x->term[j].value - x->declared[j]) > LARGEST_DEFECT * x->deviation) return x->type;
     }
     return NULL;
 }

@@ -32,6 +32,7 @@ static hci_status candidates_renew(hci_search *s, const hci_candidates *model, h
 {
     const bool saturates = hci_candidates_have_series(model);
     const hci_candidates_source source = {s->regression->machine,
+                                          s->regression->declared,
                                           s->regression->samples,
                                           s->options->runs,
                                           s->regression->use,

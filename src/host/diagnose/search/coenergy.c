@@ -87,7 +87,7 @@ static void start_from_zero(hci_candidates *all)
         hci_candidate *x = &all->candidate[k];
         x->deviation = 0.0;
         for (size_t j = 0; is_of_iron(x) && j < x->count; ++j)
-            x->term[j].value = 0.0;
+            x->term[j].value = x->declared[j] = 0.0;
     }
 }
 

@@ -12,6 +12,7 @@ enum { P = 3, RUNS = 4, SAMPLES = 200, COUNT = RUNS * SAMPLES };
 
 static const double NOISE_NM = 0.01;
 static const hci_machine MACHINE = {.pole_pairs = P};
+static const hci_effects NO_EFFECTS = {NULL, 0};
 
 static uint64_t seed;
 static hci_binned_sample sample[COUNT];
@@ -43,7 +44,8 @@ void setUp(void)
         use[r] = true;
     }
     samples = (hci_binned_samples){sample, COUNT, segment, RUNS, statistics, RUNS};
-    source = (hci_candidates_source){&MACHINE, &samples, run, use, residual_Nm, variance, NAN, 0};
+    source =
+        (hci_candidates_source){&MACHINE, &NO_EFFECTS, &samples, run, use, residual_Nm, variance, NAN, 0};
 }
 
 void tearDown(void)

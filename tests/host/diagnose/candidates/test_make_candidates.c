@@ -14,6 +14,8 @@ static const double NOISE_NM = 0.01;
 static uint64_t seed;
 static hci_wave back_emf[2];
 static hci_machine machine;
+static const hci_effects NO_EFFECTS = {NULL, 0};
+static hci_effects declared; /* of the machine */
 static hci_run run[RUNS];
 static bool use[RUNS];
 static double residual_Nm[RUNS * SAMPLES], variance[RUNS * SAMPLES];
@@ -25,6 +27,7 @@ static int richness;
 void setUp(void)
 {
     seed = 77;
+    declared = NO_EFFECTS;
     richness = 0;
     back_emf[0] = (hci_wave){1.0, 1, 0.2, 0.0};
     back_emf[1] = (hci_wave){2.0, -1, 0.001, 0.0};
@@ -60,7 +63,8 @@ static void hide(double periods, double amplitude_Nm)
 
 static hci_status make_from(const hci_candidates *known)
 {
-    const hci_candidates_source source = {&machine, &samples, run, use, residual_Nm, variance, NAN, richness};
+    const hci_candidates_source source = {&machine,    &declared, &samples, run,     use,
+                                          residual_Nm, variance,  NAN,      richness};
     hci_note note = {{0}};
     hci_candidates_release(&list);
     return hci_candidates_make(&source, known, &list, &note);
@@ -127,6 +131,51 @@ static void test_the_list_is_in_order(void)
         for (size_t j = 0; j < list.candidate[k].count; ++j)
             TEST_ASSERT_EQUAL_DOUBLE(0.0, list.candidate[k].term[j].value);
     }
+}
+
+/* What the machine has declared is where a candidate begins, or the declared value would count as missing. */
+static void test_declared_values_are_where_to_begin(void)
+{
+    const hci_effect_type *type = hci_effect_type_find("friction");
+    const hci_effect_term term = {0, 0.0, 0.03, NAN};
+    const hci_effect effect = {type, &term, 1};
+    declared = (hci_effects){&effect, 1};
+    make();
+    for (size_t k = 0; k < list.count; ++k)
+        for (size_t j = 0; j < list.candidate[k].count; ++j) {
+            const bool is_declared =
+                list.candidate[k].type == type && list.candidate[k].term[j].parameter == 0;
+            TEST_ASSERT_EQUAL_DOUBLE(is_declared ? 0.03 : 0.0, list.candidate[k].term[j].value);
+            TEST_ASSERT_EQUAL_DOUBLE(is_declared ? 0.03 : 0.0, list.candidate[k].declared[j]);
+        }
+}
+
+/* Currents that are nothing but the noise of their sensors. */
+static void test_noise_is_no_current(void)
+{
+    for (size_t r = 0; r < RUNS; ++r)
+        for (size_t k = 0; k < 3 * SAMPLES; ++k)
+            run[r].i_A[k] = 0.3 * ref_normal(&seed);
+    make();
+    for (size_t r = 0; r < RUNS; ++r)
+        TEST_ASSERT_TRUE(samples.statistics[r].no_current && samples.statistics[r].current_A == 0.0);
+    TEST_ASSERT_EQUAL_UINT64(0, terms_of("current_gain", "", NULL));
+    TEST_ASSERT_EQUAL_UINT64(0, terms_of("current_offset", "", NULL));
+    TEST_ASSERT_EQUAL_UINT64(0, terms_of("back_emf", "", NULL));
+    TEST_ASSERT_EQUAL_UINT64(0, terms_of("saturation", "", NULL));
+    TEST_ASSERT_TRUE(terms_of("friction", "", NULL) > 0);
+}
+
+/* A current is one in spite of noise; where none flows it is none. */
+static void test_a_small_current_is_one(void)
+{
+    for (size_t r = 0; r < RUNS; ++r)
+        for (size_t k = 0; k < 3 * SAMPLES; ++k)
+            run[r].i_A[k] += 0.3 * ref_normal(&seed);
+    make();
+    TEST_ASSERT_TRUE(samples.statistics[0].no_current);
+    TEST_ASSERT_FALSE(samples.statistics[1].no_current || samples.statistics[2].no_current);
+    TEST_ASSERT_TRUE(terms_of("back_emf", "", NULL) > 0);
 }
 
 static void test_without_time_no_delay_and_no_lag(void)
@@ -298,6 +347,9 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_the_list_is_in_order);
+    RUN_TEST(test_declared_values_are_where_to_begin);
+    RUN_TEST(test_noise_is_no_current);
+    RUN_TEST(test_a_small_current_is_one);
     RUN_TEST(test_without_time_no_delay_and_no_lag);
     RUN_TEST(test_friction_has_as_many_parts_as_speeds);
     RUN_TEST(test_the_magnets_need_a_temperature);
