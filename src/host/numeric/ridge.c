@@ -1,0 +1,169 @@
+#include "host/numeric/ridge.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "hci/math/dense.h"
+#include "host/base/memory.h"
+
+#define REGULAR 1e-12 /* added to a diagonal of 1, so that rounding makes no pivot negative */
+#define ALONE   1e-8  /* the same of I − K, where a group alone tells of an unknown */
+
+static void matrix_fill(const hci_condensed *rows, const hci_expectation *expected, hci_ridge *p)
+{
+    const size_t n = p->n;
+    for (size_t k = 0; k < n; ++k) {
+        const double d = rows->gram[k * n + k] + expected->precision[k];
+        p->scale[k] = isfinite(d) && d > 0.0 ? 1.0 / sqrt(d) : 0.0;
+    }
+    for (size_t j = 0; j < n; ++j)
+        for (size_t i = j; i < n; ++i)
+            p->factor[i + j * n] = i == j ? 1.0 + REGULAR : rows->gram[i * n + j] * p->scale[i] * p->scale[j];
+}
+
+static void mean_fill(const hci_condensed *rows, const hci_expectation *expected, hci_ridge *p)
+{
+    for (size_t k = 0; k < p->n; ++k)
+        p->mean[k] = (rows->moment[k] + expected->precision[k] * expected->centre[k]) * p->scale[k];
+    hci_cholesky_solve(p->n, p->factor, p->mean);
+    for (size_t k = 0; k < p->n; ++k)
+        p->mean[k] *= p->scale[k];
+}
+
+bool hci_ridge_make(const hci_condensed *rows, const hci_expectation *expected, hci_ridge *p)
+{
+    const size_t n = rows->n;
+    memset(p, 0, sizeof *p);
+    p->n = n;
+    p->factor = hci_memory_new(n * n + 2 * n + 1, sizeof *p->factor);
+    if (!p->factor) return false;
+    p->scale = p->factor + n * n;
+    p->mean = p->scale + n;
+    matrix_fill(rows, expected, p);
+    if (hci_cholesky_factor(n, p->factor)) {
+        hci_ridge_release(p);
+        return false;
+    }
+    mean_fill(rows, expected, p);
+    return true;
+}
+
+void hci_ridge_release(hci_ridge *p)
+{
+    hci_memory_free(p->factor);
+    memset(p, 0, sizeof *p);
+}
+
+/* ---- leaving out ---- */
+
+/* One group on its way: v[n][rank] = L⁻¹ D F; then K = vᵀv, I − K factored, u and e. */
+typedef struct {
+    const hci_ridge *ridge;
+    const hci_condensed_group *group;
+    double *v, *k, *m, *u, *e;
+} leaving;
+
+/* v ← L⁻¹ D F, all columns at once. */
+static void whiten(const leaving *w)
+{
+    const size_t n = w->ridge->n, rank = w->group->rank;
+    for (size_t i = 0; i < n * rank; ++i)
+        w->v[i] = w->group->factor[i] * w->ridge->scale[i / rank];
+    for (size_t j = 0; j < n; ++j) {
+        const double *l = w->ridge->factor + j * n, *restrict row = w->v + j * rank;
+        for (size_t c = 0; c < rank; ++c)
+            w->v[j * rank + c] /= l[j];
+        for (size_t i = j + 1; i < n; ++i) {
+            double *restrict x = w->v + i * rank;
+            for (size_t c = 0; c < rank; ++c)
+                x[c] -= l[i] * row[c];
+        }
+    }
+}
+
+static void products_fill(const leaving *w)
+{
+    const size_t n = w->ridge->n, rank = w->group->rank;
+    memset(w->k, 0, rank * rank * sizeof *w->k);
+    memcpy(w->u, w->group->moment, rank * sizeof *w->u);
+    for (size_t i = 0; i < n; ++i) {
+        const double *v = w->v + i * rank, *f = w->group->factor + i * rank;
+        for (size_t a = 0; a < rank; ++a) {
+            w->u[a] -= f[a] * w->ridge->mean[i];
+            for (size_t b = 0; b <= a; ++b)
+                w->k[a + b * rank] += v[a] * v[b];
+        }
+    }
+    for (size_t a = 0; a < rank; ++a)
+        for (size_t b = 0; b < a; ++b)
+            w->k[b + a * rank] = w->k[a + b * rank];
+}
+
+/* e = (I − K)⁻¹ u. False where I − K is singular beyond ALONE. */
+static bool errors_find(const leaving *w)
+{
+    const size_t rank = w->group->rank;
+    for (size_t j = 0; j < rank; ++j)
+        for (size_t i = 0; i < rank; ++i)
+            w->m[i + j * rank] = (i == j ? 1.0 + ALONE : 0.0) - w->k[i + j * rank];
+    memcpy(w->e, w->u, rank * sizeof *w->e);
+    if (hci_cholesky_factor(rank, w->m)) return false;
+    hci_cholesky_solve(rank, w->m, w->e);
+    return true;
+}
+
+static hci_left_out_group judge(const leaving *w)
+{
+    const size_t rank = w->group->rank;
+    double square = w->group->rest, sum = 0.0, trace = 0.0;
+    for (size_t i = 0; i < rank; ++i) {
+        square += w->e[i] * w->e[i];
+        trace += w->k[i + i * rank];
+        for (size_t j = 0; j < rank; ++j)
+            sum += w->u[i] * w->k[i + j * rank] * w->e[j];
+    }
+    return (hci_left_out_group){square, trace > 0.0 ? sum / trace : (double)NAN};
+}
+
+static bool leave_one(const hci_ridge *p, const hci_condensed_group *group, hci_left_out_group *out)
+{
+    const size_t rank = group->rank, n = p->n;
+    leaving w = {.ridge = p, .group = group};
+    w.v = hci_memory_new((n + 2 * rank + 2) * rank + 1, sizeof *w.v);
+    if (!w.v) return false;
+    w.k = w.v + n * rank;
+    w.m = w.k + rank * rank;
+    w.u = w.m + rank * rank;
+    w.e = w.u + rank;
+    whiten(&w);
+    products_fill(&w);
+    *out = errors_find(&w) ? judge(&w) : (hci_left_out_group){INFINITY, NAN};
+    hci_memory_free(w.v);
+    return true;
+}
+
+bool hci_ridge_leave_out(const hci_ridge *ridge, const hci_condensed *rows, hci_left_out_group *out)
+{
+    for (size_t g = 0; g < rows->count; ++g)
+        if (!leave_one(ridge, &rows->group[g], &out[g])) return false;
+    return true;
+}
+
+/* ---- draws ---- */
+
+/* mean + s D L⁻ᵀ z */
+void hci_ridge_draw(const hci_ridge *p, double s, hci_draws *draws, double *x)
+{
+    const size_t n = p->n;
+    for (size_t k = 0; k < n; ++k)
+        x[k] = hci_draws_normal(draws);
+    for (size_t k = n; k-- > 0;) {
+        const double *column = p->factor + k * n;
+        double sum = x[k];
+        for (size_t i = k + 1; i < n; ++i)
+            sum -= column[i] * x[i];
+        x[k] = sum / column[k];
+    }
+    for (size_t k = 0; k < n; ++k)
+        x[k] = p->mean[k] + s * p->scale[k] * x[k];
+}

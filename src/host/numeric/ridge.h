@@ -1,0 +1,51 @@
+/* What rows y = X x + noise and an expectation say of the unknowns x, and how far that is to be trusted.
+ *
+ *     A = Σ XᵀX + diag(precision)      mean = A⁻¹ (Σ Xᵀy + precision·centre)      covariance = s² A⁻¹
+ *
+ * s, the size of the noise and of the expectations in the units that the rows were weighted to, comes from
+ * groups of rows that are left out in turn: with K = Fᵀ A⁻¹ F and u = g − Fᵀ mean of a group (condensed.h)
+ *
+ *     e = (I − K)⁻¹ u            what the mean from all other groups leaves in it
+ *     cov e = s² (I − K)⁻¹       what was to be expected
+ *     s² ≈ uᵀ K (I − K)⁻¹ u / tr K
+ *
+ * each direction weighted by what the group tells of the unknowns in it, so that noise between them has no
+ * say. */
+#ifndef HCI_SRC_HOST_NUMERIC_RIDGE_H
+#define HCI_SRC_HOST_NUMERIC_RIDGE_H
+
+#include "host/numeric/condensed.h"
+#include "host/numeric/draws.h"
+
+/* Expected of each unknown. */
+typedef struct {
+    const double *precision; /* [n]: one over the variance; 0: nothing is expected */
+    const double *centre;    /* [n] */
+} hci_expectation;
+
+/* Start with {0}. */
+typedef struct {
+    size_t n;
+    double *factor; /* [n][n], column-major: L of A = D⁻¹ L Lᵀ D⁻¹ */
+    double *scale;  /* [n]: D */
+    double *mean;   /* [n] */
+} hci_ridge;
+
+/* False when memory is out or A is singular to working precision, and then *ridge is empty. An unknown of
+ * which neither rows nor expectation say anything is taken for 0 without an error. O(n³/3). */
+bool hci_ridge_make(const hci_condensed *rows, const hci_expectation *expected, hci_ridge *ridge);
+void hci_ridge_release(hci_ridge *ridge);
+
+/* What leaving each group out tells. */
+typedef struct {
+    double square; /* Σ (y − X x)² with the mean from all others */
+    double misfit; /* s² of this group; NAN where it tells of no unknown */
+} hci_left_out_group;
+
+/* out[rows->count]. False when memory is out. O(n² Σ rank). */
+bool hci_ridge_leave_out(const hci_ridge *ridge, const hci_condensed *rows, hci_left_out_group *out);
+
+/* x[n]: one draw of mean + s A^(−1/2) z. O(n²). */
+void hci_ridge_draw(const hci_ridge *ridge, double s, hci_draws *draws, double *x);
+
+#endif
