@@ -50,11 +50,15 @@ static void show_slips(const hci_diagnosis *d)
 
 static void show_resolution(const hci_resolution *r)
 {
+    char words[1024];
     cli_say("  old currents mean %.4g N·m, rms error %.3g N·m, T_ripple %.3g %% on the corrected machine\n",
             r->old_currents.mean_Nm, r->old_currents.rms_error_Nm, r->old_currents.T_ripple_percent);
     cli_say("  new currents mean %.4g N·m, rms error %.3g N·m, T_ripple %.3g %%, copper %.3f × the old\n",
             r->new_currents.mean_Nm, r->new_currents.rms_error_Nm, r->new_currents.T_ripple_percent,
             r->after.mean_square_A2 / r->before.mean_square_A2);
+    hci_expected_ripple_words(&r->after.expected, words, sizeof words);
+    cli_say("  new currents on the real machine\n");
+    cli_say_paragraph(4, words);
 }
 
 /* ---- bars ---- */

@@ -46,6 +46,14 @@ static void show_ripple(const hci_prediction *p)
                           .unit = "N·m"});
 }
 
+static void show_expected(const hci_expected_ripple *e)
+{
+    char words[1024];
+    hci_expected_ripple_words(e, words, sizeof words);
+    cli_say("  expected     with these currents, of the machine without its bench\n");
+    cli_say_paragraph(4, words);
+}
+
 static void show(const hci_prediction *p, const cli_arguments *a)
 {
     static const char *const SOURCE[] = {"no torque in the run", "torque as measured",
@@ -60,6 +68,7 @@ static void show(const hci_prediction *p, const cli_arguments *a)
     if (isfinite(p->rms_residual_Nm))
         cli_say("  residual     %.4g N·m rms, mean %.4g N·m, at most %.4g N·m (sample %zu)\n",
                 p->rms_residual_Nm, p->mean_residual_Nm, p->worst_residual_Nm, p->worst_sample + 1);
+    if (p->expected.state == HCI_RIPPLE_KNOWN) show_expected(&p->expected);
     if (a->value[OUT]) cli_say("  written      %s\n", a->value[OUT]);
     if (isfinite(p->rms_residual_Nm)) show_ripple(p);
 }

@@ -151,6 +151,7 @@ static hci_status read_options(const cli_arguments *a, hci_solve_options *o, hci
 typedef struct {
     hci_machine_data machine;
     hci_effects_data effects;
+    hci_uncertainty uncertainty;
     hci_target target;
     hci_component_set set;
     hci_wave held;
@@ -180,11 +181,13 @@ static hci_status read_inputs(const cli_arguments *a, inputs *in, hci_note *note
     if (!status) status = keep_apart(a->value[HARMONICS], a->value[OUT], note);
     if (!status) status = hci_machine_read(a->word[0], &in->machine, note);
     if (!status) status = hci_effects_read_machine(a->word[0], &in->effects, note);
+    if (!status) status = hci_uncertainty_read_machine(a->word[0], &in->uncertainty, note);
     if (!status) status = hci_target_read(a->value[TARGET], &in->target, note);
     if (!status && a->value[HARMONICS])
         status = hci_component_set_read(a->value[HARMONICS], in->machine.has_neutral, &in->set, note);
     in->options.target = &in->target;
     in->options.effects = &in->effects.list;
+    in->options.uncertainty = &in->uncertainty;
     in->options.set = a->value[HARMONICS] ? &in->set : NULL;
     in->options.progress = cli_progress;
     return status;
@@ -194,6 +197,7 @@ static void release_inputs(inputs *in)
 {
     hci_machine_release(&in->machine);
     hci_effects_release(&in->effects);
+    hci_uncertainty_release(&in->uncertainty);
     hci_target_release(&in->target);
     hci_component_set_release(&in->set);
 }

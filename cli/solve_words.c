@@ -135,6 +135,14 @@ static void show_current(const hci_solution *s)
     cli_say("\n");
 }
 
+static void show_expected(const hci_expected_ripple *e)
+{
+    char words[1024];
+    hci_expected_ripple_words(e, words, sizeof words);
+    cli_say("  on the real machine\n");
+    cli_say_paragraph(4, words);
+}
+
 static void show_limits(const hci_solution *s)
 {
     if (isfinite(s->peak_line_voltage_V))
@@ -160,6 +168,7 @@ void cli_show_solution(const hci_solution *s, const char *machine, const char *t
     cli_say("  torque       mean %.6g N·m; worst error %.3g N·m at order %g (tolerance %.3g N·m)\n",
             s->order_count ? s->order[0].torque_Nm.cosine : 0.0, s->worst_error_Nm, s->worst_order,
             s->tolerance_Nm);
+    show_expected(&s->expected);
     show_current(s);
     show_limits(s);
     show_system(s);

@@ -172,7 +172,7 @@ run 5 diagnose machine --runs list.csv -q -o list.csv
 # A full disk: at each of these sizes of files, in blocks of 512 bytes, another one does not fit.
 fitted=0
 full=0
-for blocks in 0 2 4 200; do
+for blocks in 0 2 4 200 4000; do
     shown="ulimit -f $blocks; hci-solve diagnose"
     snapshot again >before
     (

@@ -40,4 +40,26 @@ check "the current at 120 °C is not that at 20 °C divided by 0.9" awk -v cold=
     -v hot="$(cell "$work/at120/currents.csv" 2 3)" 'BEGIN { d = 0.9 * hot / cold - 1; exit !(d * d < 1e-18) }'
 check "hot magnets have no linear parts" [ -s "$work/at120/currents_per_Nm.csv" ]
 
+# ---- what the real machine will do: not known, known from what recordings leave open, and of another machine
+
+run 0 solve data/machine_a --target data/scenarios/02/target.csv -o "$work/declared"
+says 'not known: no recordings'
+grep -q '"T_ripple_percent_95":[[:space:]]*null' "$work/declared/summary.json" && grep -q '"known":[[:space:]]*false' "$work/declared/summary.json"
+check "a figure without recordings" [ $? -eq 0 ]
+cp -r data/machine_a "$work/left_open"
+printf 'effect,parameter,value,unit,departures\ncogging,sine_6,0,Nm,0.01 -0.03 0.02\n' >"$work/left_open/uncertainty.csv"
+printf 'file,id_least_A,id_most_A,iq_least_A,iq_most_A,speed_least_rad_per_s,speed_most_rad_per_s,misfit\na.csv,-1,1,0,2,,,1\n' \
+    >"$work/left_open/measured.csv"
+run 0 solve "$work/left_open" --target data/scenarios/02/target.csv -o "$work/expected" --report
+says 'Ripple at most 2.4 % of the mean torque \(95 %\)' 'Worst order' 'outside of' 'further outside than'
+check "the currents are others" cmp -s "$work/expected/currents.csv" "$work/declared/currents.csv"
+grep -q 'On the real machine: Ripple at most 2.4 %' "$work/expected/report.html"
+check "the page does not say what to expect" [ $? -eq 0 ]
+printf 'effect,parameter,value,unit,std_error\ncogging,sine_6,0.1,Nm,\n' >"$work/left_open/effects.csv"
+run 0 solve "$work/left_open" --target data/scenarios/02/target.csv
+says 'effects.csv is not the one'
+printf 'effect,parameter,value,unit,departures\ncogging,sine_6,0,Nm,0.01 much\n' >"$work/left_open/uncertainty.csv"
+run 3 solve "$work/left_open" --target data/scenarios/02/target.csv
+says 'uncertainty.csv:2: column 5 `departures`: found `0.01 much`'
+
 finish

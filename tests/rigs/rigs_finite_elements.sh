@@ -93,6 +93,24 @@ for machine in A B; do
     at_most "$machine, held out beyond the fitted currents" "$(worst $machine holdout 'I18|I2.4')" 0.3
 done
 
+# What the elements make of currents that were solved for an earlier correction, and that no fit has seen, lies within the bound that
+# this correction states for them; and the bound on its error is no more than three times the error.
+number() { # NAME
+    sed -n "s/^[[:space:]]*\"$1\":[[:space:]]*\([-0-9.e+]*\),*\$/\1/p" "$work/stdout" | head -n 1
+}
+
+within() { # WHAT VALUE BOUND MOST
+    check "$1: $2 N·m, bound $3 N·m, at most $4 times that" awk -v x="$2" -v bound="$3" -v most="$4" 'BEGIN { exit !(x > 0 && x <= bound && bound <= most * x) }'
+    echo "$1 $2 N·m, bound $3 N·m"
+}
+
+for machine in A B C; do
+    run 0 predict "$work/$machine/machine" "$shared/$machine/runs/solved.csv" -q --json -o "$work/solved.csv"
+    error=$(awk -F, 'NR > 1 { if (NR == 2 || $NF > most) most = $NF; if (NR == 2 || $NF < least) least = $NF } END { printf "%.6g\n", most - least }' "$work/solved.csv")
+    within "$machine, ripple of solved currents" "$(number peak_to_peak_Nm)" "$(number peak_to_peak_Nm_95)" 3
+    within "$machine, error at solved currents" "$error" "$(number error_peak_to_peak_Nm_95)" 3
+done
+
 # One recording more, at currents that were solved for the corrected machine, names the same effects.
 added() {
     awk -F, '$3 == "added" { print $2 }' "$work/$1/effects.csv" | sort | tr '\n' ' '

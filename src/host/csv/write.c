@@ -5,7 +5,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "hci/host/base/output.h"
 #include "hci/host/base/text.h"
 #include "hci/host/base/utf8.h"
 #include "host/base/memory.h"
@@ -33,17 +32,16 @@ static bool needs_quotes(const char *cell, bool first)
     return strpbrk(cell, ",;\t\"\r\n") != NULL || (first && *cell == '#');
 }
 
-/* A cell and the comma after it. */
-static void write_cell(const writer *w, const char *cell, bool first)
+void hci_csv_write_cell(hci_output *output, const char *cell, bool first)
 {
     if (!needs_quotes(cell, first)) {
-        hci_output_text(w->output, "%s,", cell);
+        hci_output_text(output, "%s,", cell);
         return;
     }
-    hci_output_text(w->output, "\"");
+    hci_output_text(output, "\"");
     for (; *cell != '\0'; ++cell)
-        hci_output_text(w->output, "%s%c", *cell == '"' ? "\"" : "", *cell);
-    hci_output_text(w->output, "\",");
+        hci_output_text(output, "%s%c", *cell == '"' ? "\"" : "", *cell);
+    hci_output_text(output, "\",");
 }
 
 /* A number with a decimal comma gets a point, and keeps its digits. */
@@ -64,7 +62,7 @@ static hci_status write_own(const writer *w, size_t record)
         if (comma != NULL && hci_csv_kind(w->csv, cell) == HCI_NUMBER_FINITE)
             write_number(w, cell, comma);
         else
-            write_cell(w, cell, first);
+            hci_csv_write_cell(w->output, cell, first);
         first = false;
     }
     return HCI_OK;

@@ -2,6 +2,7 @@
 #ifndef HCI_SRC_HOST_CSV_WRITE_H
 #define HCI_SRC_HOST_CSV_WRITE_H
 
+#include "hci/host/base/output.h"
 #include "hci/host/csv/csv.h"
 
 typedef struct {
@@ -14,5 +15,9 @@ typedef struct {
  * _OUTPUT, _NOT_FINITE, _MEMORY. */
 hci_status hci_csv_write_with(const hci_csv *csv, const hci_csv_added *added, size_t count, const char *path,
                               hci_note *note);
+
+/* Writes one cell, in quotes where CSV needs them, and the comma after it. first: of its row, where # would
+ * begin a comment. */
+void hci_csv_write_cell(hci_output *output, const char *cell, bool first);
 
 #endif

@@ -12,6 +12,7 @@
 #include "host/diagnose/fit/model.h"
 #include "host/diagnose/run_errors.h"
 #include "host/diagnose/search/attribute.h"
+#include "host/diagnose/uncertainty.h"
 #include "host/recording/free_shaft.h"
 
 #define RESOLUTION 5e-4 /* of the largest rms torque */
@@ -100,6 +101,8 @@ static hci_status fill(hci_dataset *b, const hci_runs *runs, hci_attribution *a,
     hci_unexplained_fill(b, a, d);
     hci_candidates_remove_type(&a->model.candidates, &hci_empirical_type);
     hci_status status = effects_fill(&b->regression, &a->model.candidates, d, note);
+    if (!status && !a->unknown)
+        status = hci_uncertainty_find(&b->regression, &a->model.candidates, &d->uncertainty, note);
     if (!status) status = advice_fill(&b->regression, a, d, note);
     if (!status) status = hci_run_errors_fill(b, runs, a->model.fit.parameters, d, note);
     if (!status) hci_findings_fill(a, d);
@@ -188,7 +191,9 @@ static hci_status test(hci_dataset *b, const hci_runs *runs, hci_attribution *a,
 {
     const test_errors x = test_errors_of(b, runs, d, resolution_Nm);
     if (is_contradicted(&x)) return withdraw(b, runs, a, d, note);
-    if (is_partial(&x, d, resolution_Nm)) d->verdict = HCI_DIAGNOSIS_PARTLY;
+    if (!is_partial(&x, d, resolution_Nm)) return HCI_OK;
+    d->verdict = HCI_DIAGNOSIS_PARTLY;
+    hci_uncertainty_release(&d->uncertainty);
     return HCI_OK;
 }
 
@@ -248,6 +253,7 @@ hci_status hci_diagnose(const hci_machine_data *machine, const hci_effects *decl
 void hci_diagnosis_release(hci_diagnosis *d)
 {
     hci_effects_release(&d->effects);
+    hci_uncertainty_release(&d->uncertainty);
     hci_memory_free(d->run);
     hci_memory_free(d->line);
     memset(d, 0, sizeof *d);

@@ -16,6 +16,7 @@ hci_status hci_diagnosis_resolve(const hci_machine_data *machine, const hci_effe
     r->before_status = status = hci_solve(machine, &how, &r->before, note);
     if (status > HCI_NOT_REACHED) return status;
     how.effects = corrected;
+    how.uncertainty = &diagnosis->uncertainty;
     r->after_status = status = hci_solve(machine, &how, &r->after, note);
     if (status <= HCI_NOT_REACHED)
         status =

@@ -13,6 +13,7 @@
 #include "hci/host/csv/csv.h"
 #include "host/base/memory.h"
 #include "host/csv/name_values.h"
+#include "host/machine/effect_rows.h"
 
 #define PATH_SIZE 4096
 #define LIST_SIZE 640
@@ -192,18 +193,22 @@ static void group(const effect_row *rows, size_t count, hci_effects_data *effect
     effects->list = (hci_effects){effects->effect, n};
 }
 
-static hci_status from_csv(const hci_csv *csv, hci_effects_data *effects, hci_note *note)
+hci_status hci_effects_of_csv(const hci_csv *csv, hci_effects_data *effects, size_t *row_of, hci_note *note)
 {
     const size_t count = hci_csv_rows(csv);
     effect_row *rows = hci_memory_new(count, sizeof *rows);
     hci_status status = HCI_OK;
+    memset(effects, 0, sizeof *effects);
     effects->effect = hci_memory_new(count, sizeof *effects->effect);
     effects->term = hci_memory_new(count, sizeof *effects->term);
     if (!rows || !effects->effect || !effects->term)
         status = hci_note_memory(note, hci_csv_path(csv), "%zu rows", count);
     if (!status) status = read_rows(csv, rows, count, note);
     if (!status) group(rows, count, effects);
+    for (size_t k = 0; k < count && row_of && !status; ++k)
+        row_of[k] = rows[k].row;
     hci_memory_free(rows);
+    if (status) hci_effects_release(effects);
     return status;
 }
 
@@ -213,9 +218,8 @@ hci_status hci_effects_read(const char *path, hci_effects_data *effects, hci_not
     hci_status status = hci_csv_read(path, &csv, note);
     memset(effects, 0, sizeof *effects);
     if (status) return status;
-    status = from_csv(csv, effects, note);
+    status = hci_effects_of_csv(csv, effects, NULL, note);
     hci_csv_free(csv);
-    if (status) hci_effects_release(effects);
     return status;
 }
 
@@ -241,7 +245,7 @@ void hci_effects_release(hci_effects_data *effects)
 
 /* ---- writing ---- */
 
-static void write_term(hci_output *output, const hci_effect_type *type, const hci_effect_term *term)
+void hci_effect_term_write(hci_output *output, const hci_effect_type *type, const hci_effect_term *term)
 {
     const hci_effect_parameter *parameter = &type->parameter[term->parameter];
     hci_output_text(output, "%s,%s", type->name, parameter->name);
@@ -253,6 +257,11 @@ static void write_term(hci_output *output, const hci_effect_type *type, const hc
     hci_output_text(output, ",");
     hci_output_number(output, term->value, ',');
     hci_output_text(output, "%s,", parameter->unit);
+}
+
+static void write_term(hci_output *output, const hci_effect_type *type, const hci_effect_term *term)
+{
+    hci_effect_term_write(output, type, term);
     if (isnan(term->std_error))
         hci_output_text(output, "\n");
     else

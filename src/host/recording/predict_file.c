@@ -7,6 +7,7 @@
 #include "host/base/memory.h"
 #include "host/csv/write.h"
 #include "host/numeric/statistics.h"
+#include "host/recording/expect_run.h"
 #include "host/recording/free_shaft.h"
 
 /* ---- in sum ---- */
@@ -19,10 +20,11 @@ static void sum_up(const hci_run *run, const double *model, const double *residu
     p->mean_model_Nm = hci_mean(model, n);
     p->ripple_model_Nm = sqrt(hci_mean_square_about(model, n, p->mean_model_Nm));
     p->mean_torque_Nm = p->ripple_torque_Nm = p->mean_residual_Nm = p->rms_residual_Nm = NAN;
-    p->worst_residual_Nm = NAN;
+    p->worst_residual_Nm = p->peak_to_peak_Nm = NAN;
     if (residual == NULL) return;
     p->mean_torque_Nm = hci_mean(run->torque_Nm, n);
     p->ripple_torque_Nm = sqrt(hci_mean_square_about(run->torque_Nm, n, p->mean_torque_Nm));
+    p->peak_to_peak_Nm = hci_peak_to_peak(run->torque_Nm, n);
     p->mean_residual_Nm = hci_mean(residual, n);
     p->rms_residual_Nm = sqrt(hci_mean_square_about(residual, n, 0.0));
     p->worst_residual_Nm = 0.0;
@@ -74,6 +76,7 @@ static void remark_missing(const hci_run *run, const hci_effects *effects, hci_n
 typedef struct {
     hci_machine_data machine;
     hci_effects_data effects;
+    hci_uncertainty uncertainty;
     hci_csv *csv;
     hci_run run;
     double *model, *residual; /* residual: NULL where the run has no torque */
@@ -96,6 +99,7 @@ static hci_status read_task(task *t, const char *machine, const char *run, hci_r
 {
     hci_status status = hci_machine_read(machine, &t->machine, note);
     if (!status) status = hci_effects_read_machine(machine, &t->effects, note);
+    if (!status) status = hci_uncertainty_read_machine(machine, &t->uncertainty, note);
     reading.pole_pairs = t->machine.model.pole_pairs;
     reading.inertia_kgm2 = t->machine.inertia_kgm2;
     reading.torque_constant_Nm_per_A = hci_machine_torque_constant(&t->machine);
@@ -156,6 +160,7 @@ static void release_task(task *t)
     hci_run_release(&t->run);
     hci_csv_free(t->csv);
     hci_effects_release(&t->effects);
+    hci_uncertainty_release(&t->uncertainty);
     hci_machine_release(&t->machine);
 }
 
@@ -167,6 +172,9 @@ hci_status hci_predict_file(const char *machine, const char *run, const hci_run_
     memset(prediction, 0, sizeof *prediction);
     hci_status status = read_task(&t, machine, run, *reading, note);
     if (!status) status = predict_task(&t, note);
+    if (!status)
+        status =
+            hci_expect_run(&t.machine, &t.effects.list, &t.uncertainty, &t.run, &prediction->expected, note);
     if (!status && out != NULL) status = write_task(&t, out, note);
     if (!status) {
         sum_up(&t.run, t.model, t.residual, prediction);

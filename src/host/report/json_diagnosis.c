@@ -110,5 +110,6 @@ char *hci_diagnosis_json(const hci_diagnosis *d, const hci_resolution *r)
     put_lists(&json, d);
     if (r) put_currents(&json, "old_currents", &r->old_currents, &r->before);
     if (r) put_currents(&json, "new_currents", &r->new_currents, &r->after);
+    if (r) hci_summary_expected(&json, &r->after.expected);
     return hci_json_end(&json);
 }

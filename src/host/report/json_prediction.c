@@ -29,6 +29,8 @@ char *hci_prediction_json(const hci_prediction *p)
     hci_json_number(&json, "worst_Nm", p->worst_residual_Nm);
     hci_json_number(&json, "worst_sample", (double)p->worst_sample);
     hci_json_close(&json);
+    hci_json_number(&json, "peak_to_peak_Nm", p->peak_to_peak_Nm);
+    hci_summary_expected(&json, &p->expected);
     hci_json_text(&json, "remark", p->remark.text);
     return hci_json_end(&json);
 }

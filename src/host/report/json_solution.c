@@ -111,5 +111,6 @@ char *hci_solution_json(const hci_solution *solution, hci_status verdict)
     put_gaps(&json, solution);
     put_torque(&json, solution);
     put_current(&json, solution);
+    hci_summary_expected(&json, &solution->expected);
     return hci_json_end(&json);
 }

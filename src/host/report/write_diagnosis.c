@@ -8,6 +8,7 @@
 #include "hci/host/csv/csv.h"
 #include "hci/host/report/summary.h"
 #include "hci/host/report/write.h"
+#include "host/csv/write.h"
 #include "host/diagnose/findings.h"
 #include "host/report/page/page.h"
 
@@ -41,19 +42,6 @@ static hci_status findings_write(hci_output *out, const hci_diagnosis *d, hci_no
     return HCI_OK;
 }
 
-/* A name with what CSV needs quoted. */
-static void name_write(hci_output *out, const char *name)
-{
-    if (!strpbrk(name, ",\"\n")) {
-        hci_output_text(out, "%s,", name);
-        return;
-    }
-    hci_output_text(out, "\"");
-    for (; *name; ++name)
-        hci_output_text(out, *name == '"' ? "\"\"" : "%c", *name);
-    hci_output_text(out, "\",");
-}
-
 static hci_status errors_write(hci_output *out, const hci_diagnosis *d, hci_note *note)
 {
     const hci_status status = hci_output_file(out, "errors.csv", note);
@@ -64,7 +52,7 @@ static hci_status errors_write(hci_output *out, const hci_diagnosis *d, hci_note
                     "ripple_after_Nm\n");
     for (size_t k = 0; k < d->runs; ++k) {
         const hci_run_errors *e = &d->run[k];
-        name_write(out, e->file);
+        hci_csv_write_cell(out, e->file, true);
         hci_output_text(out, "%s,", e->role == HCI_ROLE_FIT ? "fit" : "holdout");
         cell(out, e->mean_torque_Nm, ',');
         cell(out, e->rms_before_Nm, ',');
@@ -88,7 +76,7 @@ static hci_status spectrum_write(hci_output *out, const hci_diagnosis *d, const 
     hci_output_text(out, "file,order,before_Nm,after_Nm,noise_Nm\n");
     for (size_t k = 0; k < d->lines; ++k) {
         const hci_residual_line *x = &d->line[k];
-        name_write(out, runs->run[x->run].name);
+        hci_csv_write_cell(out, runs->run[x->run].name, true);
         cell(out, x->order, ',');
         cell(out, x->before_Nm, ',');
         cell(out, x->after_Nm, ',');
@@ -168,6 +156,7 @@ static hci_status machine_write(const hci_diagnosis *d, const char *machine_fold
     status = hci_output_open(path, out, note);
     for (size_t k = 0; k < sizeof TABLES / sizeof *TABLES && !status; ++k)
         status = table_copy(*out, machine_folder, TABLES[k], note);
+    if (!status) status = hci_uncertainty_write(*out, &d->uncertainty, note);
     if (status) return status;
     if (d->effects.list.count > 0) return hci_effects_write(*out, &d->effects.list, note);
     return hci_output_without(*out, "effects.csv", note);

@@ -9,6 +9,7 @@
 
 #include "host/base/memory.h"
 #include "host/solve/evaluate_solution.h"
+#include "host/solve/expect.h"
 #include "host/solve/limits.h"
 #include "host/solve/linear.h"
 #include "host/solve/newton.h"
@@ -229,6 +230,7 @@ static hci_status solve_task(const hci_machine_data *machine, const hci_solve_op
     if (!status)
         status = hci_solution_evaluate(t, &w->answer.set, o->set ? o->compare : HCI_COMPARE_ALL, s, note);
     if (!status && o->method != HCI_METHOD_POINTWISE) status = fill_system(t, &w->answer, s, note);
+    if (!status) status = hci_solution_expect(&machine->model, o, s, note);
     return status ? status : hci_limits_check(machine, o, s, note);
 }
 

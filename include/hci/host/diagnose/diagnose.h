@@ -5,6 +5,7 @@
 #include "hci/host/base/progress.h"
 #include "hci/host/machine/effects.h"
 #include "hci/host/machine/machine.h"
+#include "hci/host/machine/uncertainty.h"
 #include "hci/host/recording/run.h"
 #include "hci/host/solve/solve.h"
 
@@ -105,6 +106,7 @@ typedef struct {
     hci_finding finding[HCI_MOST_FINDINGS]; /* most important first */
     size_t findings;                        /* entries of finding in use */
     hci_effects_data effects;               /* of the corrected machine: declared ones and added ones */
+    hci_uncertainty uncertainty;            /* of the corrected machine; empty where a part is unknown */
     hci_run_errors *run;                    /* of each run with a torque */
     size_t runs;                            /* entries of run */
     hci_residual_line *line;                /* orders that stand out of the noise, run by run */

@@ -3,6 +3,7 @@
 #define HCI_HOST_RECORDING_PREDICT_H
 
 #include "hci/effects/effect.h"
+#include "hci/host/machine/expected_ripple.h"
 #include "hci/host/machine/machine.h"
 #include "hci/host/recording/run.h"
 
@@ -32,6 +33,8 @@ typedef struct {
     double mean_residual_Nm, rms_residual_Nm; /* residual: torque of the run − model */
     double worst_residual_Nm;                 /* largest absolute value */
     size_t worst_sample;                      /* where, from 0 */
+    double peak_to_peak_Nm;                   /* largest less smallest torque of the run */
+    hci_expected_ripple expected;             /* of the real machine with these currents */
     hci_note remark;                          /* of reading and predicting, or "" */
 } hci_prediction;
 

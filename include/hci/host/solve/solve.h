@@ -6,6 +6,7 @@
 #include "hci/host/base/progress.h"
 #include "hci/host/currents/currents.h"
 #include "hci/host/currents/target.h"
+#include "hci/host/machine/expected_ripple.h"
 #include "hci/host/machine/machine.h"
 #include "hci/machine/strategy.h"
 
@@ -54,10 +55,11 @@ typedef struct {
     double limit_voltage_V; /* dc-link voltage that the line voltages must stay below; 0: none */
     double speed_rad_per_s; /* mechanical, for the voltage; 0 with no limit_voltage_V */
     const hci_effects *effects; /* beside the declared machine, or NULL; needed where it has_effects */
-    bool at_temperature;        /* magnets are at temperature_C, else at the reference of their effect */
-    double temperature_C;       /* of the magnets */
-    hci_progress *progress;     /* may be NULL */
-    void *progress_context;     /* first argument of progress */
+    const hci_uncertainty *uncertainty; /* what recordings of the machine leave open, or NULL */
+    bool at_temperature;    /* magnets are at temperature_C, else at the reference of their effect */
+    double temperature_C;   /* of the magnets */
+    hci_progress *progress; /* may be NULL */
+    void *progress_context; /* first argument of progress */
 } hci_solve_options;
 
 /* Why an order is as it is. */
@@ -142,6 +144,8 @@ typedef struct {
     double peak_line_voltage_V;  /* largest |line voltage| at the speed asked for; NAN without one */
     double torque_at_limit_Nm;   /* the largest mean torque with the same ripple that keeps the current limit;
                                   * NAN when   not known or none does */
+
+    hci_expected_ripple expected; /* of the real machine, where recordings tell of it */
 
     bool with_effects; /* torque and voltage are those of the machine with its effects */
     hci_note remark;   /* what the user should know of them, or "" */

@@ -15,6 +15,7 @@ void hci_page_resolution(hci_output *out, const hci_resolution *r)
 {
     static const char *const COLUMN[] = {"<On the corrected machine", "Old currents", "New currents", NULL};
     const hci_torque_evaluation *a = &r->old_currents, *b = &r->new_currents;
+    char expected[1024];
     hci_html_section(out, "Currents for the wanted torque");
     hci_html_paragraph(out, NULL,
                        "Old currents were found for the declared machine, new ones for the corrected one. "
@@ -30,6 +31,8 @@ void hci_page_resolution(hci_output *out, const hci_resolution *r)
     row_of_evaluations(out, "mean of i_a² + i_b² + i_c² in A²", r->before.mean_square_A2,
                        r->after.mean_square_A2);
     hci_html_table_end(out);
+    hci_expected_ripple_words(&r->after.expected, expected, sizeof expected);
+    hci_html_say(out, NULL, "The new currents on the real machine: %s", expected);
     hci_html_paragraph(out, "quiet", "Numbers: summary.json.");
     hci_html_section_end(out);
 }

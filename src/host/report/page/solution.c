@@ -27,7 +27,7 @@ static void say_verdict(const hci_solution_page *p, hci_status verdict)
     const hci_solution *s = p->solution;
     const bool is_smooth = p->facts.wanted_Nm.high - p->facts.wanted_Nm.low <= s->tolerance_Nm;
     char mean[HCI_HTML_NUMBER_SIZE], before[HCI_HTML_NUMBER_SIZE + 16], after[HCI_HTML_NUMBER_SIZE + 16],
-        loss[128] = "";
+        loss[128] = "", expected[1024];
     hci_html_quantity_text(mean, mean_Nm(s), "N·m");
     say_swing(before, p->facts.before_Nm);
     say_swing(after, p->facts.after_Nm);
@@ -46,6 +46,8 @@ static void say_verdict(const hci_solution_page *p, hci_status verdict)
                           : " and the ripple that was asked for",
         after, before, loss);
     hci_html_paragraph(p->out, NULL, p->facts.verdict);
+    hci_expected_ripple_words(&s->expected, expected, sizeof expected);
+    hci_html_say(p->out, NULL, "On the real machine: %s", expected);
 }
 
 static void show_tiles(const hci_solution_page *p)

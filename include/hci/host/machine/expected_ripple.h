@@ -1,0 +1,44 @@
+/* What the torque of the real machine is expected to do, from what its recordings leave open. */
+#ifndef HCI_HOST_MACHINE_EXPECTED_RIPPLE_H
+#define HCI_HOST_MACHINE_EXPECTED_RIPPLE_H
+
+#include "hci/host/machine/uncertainty.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Whether it can be told. */
+typedef enum {
+    HCI_RIPPLE_KNOWN,
+    HCI_RIPPLE_NO_RECORDINGS, /* the machine has no uncertainty.csv */
+    HCI_RIPPLE_OTHER_EFFECTS  /* effects.csv is not the one that uncertainty.csv was found for */
+} hci_ripple_state;
+
+/* Why it is not known in words, "" where it is; a static string. */
+const char *hci_ripple_state_words(hci_ripple_state state);
+
+/* Ripple of the torque. Of twenty machines that the recordings allow, one exceeds each figure. */
+typedef struct {
+    hci_ripple_state state;             /* where not known, all numbers are NAN */
+    double peak_to_peak_Nm;             /* max − min over the angle */
+    double T_ripple_percent;            /* 100 (max − min)/|mean|; NAN without a mean */
+    double middle_percent;              /* the same that half of the machines exceed */
+    double error_peak_to_peak_Nm;       /* max − min of the torque less that of the model */
+    double worst_order, worst_order_Nm; /* the order that differs most from what is wanted, and that
+                                         * amplitude; NAN where the samples are no whole turns */
+    hci_measured_range id_A, iq_A;      /* that flow */
+    hci_measured_range measured_id_A, measured_iq_A, measured_speed_rad_per_s; /* that were recorded */
+    double outside_share; /* of the angle, where i_d or i_q is outside of what was recorded: 0 to 1 */
+    double outside_A;     /* how far at most */
+    bool speed_outside;   /* the speed is; false where it is not known */
+} hci_expected_ripple;
+
+/* What to expect in a few plain sentences. size: of text, 1024 will do. */
+void hci_expected_ripple_words(const hci_expected_ripple *expected, char *text, size_t size);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,149 @@
+#include "host/diagnose/allowed_terms.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "host/base/memory.h"
+#include "host/diagnose/candidates/coenergy_terms.h"
+
+/* How far the series of the co-energy goes: the powers of a machine in which saturation was found and of one
+ * without, the orders of recordings that tell all terms of it and of those that tell single ones. */
+enum { MOST_POWER = 8, PLAIN_POWER = 4, MOST_ORDER = 96, PLAIN_ORDER = 48 };
+
+#define WHOLE_TURN 0.9  /* electrical, of a run that tells orders by its samples */
+#define HALF       1e-6 /* of an order: half as many orders as samples is one too many */
+
+/* ---- how far ---- */
+
+/* The highest order that the samples of a segment tell; two samples a period always read 0 of some phase. */
+static double order_told(const hci_regression *e, const hci_segment *s)
+{
+    const hci_binned_sample *first = e->samples->sample + s->first, *last = first + s->count - 1;
+    const double span = fabs(last->reading.theta_m_rad - first->reading.theta_m_rad);
+    const double turns = span * e->machine->pole_pairs / (2.0 * HCI_PI);
+    if (!(turns > WHOLE_TURN)) return INFINITY;
+    return ceil(0.5 * (double)(s->count - 1) / turns - HALF) - 1.0;
+}
+
+static double current_of(const hci_regression *e)
+{
+    double current_A = 0.0;
+    for (size_t r = 0; r < e->samples->run_count; ++r)
+        if (e->use[r]) current_A = fmax(current_A, e->samples->statistics[r].current_A);
+    return current_A;
+}
+
+static bool has_whole_coenergy(const hci_candidates *fitted)
+{
+    for (size_t k = 0; k < fitted->count; ++k)
+        if (fitted->candidate[k].in && fitted->candidate[k].coenergy_unit > 0.0) return true;
+    return false;
+}
+
+static bool saturates(const hci_candidates *fitted)
+{
+    for (size_t k = 0; k < fitted->count; ++k)
+        if (fitted->candidate[k].in && fitted->candidate[k].type->beyond_quadratic) return true;
+    return false;
+}
+
+static hci_effect_coenergy_series series_of(const hci_regression *e, const hci_candidates *fitted)
+{
+    const bool whole = has_whole_coenergy(fitted);
+    double order = whole ? MOST_ORDER : PLAIN_ORDER, reference_A = fitted->reference_current_A;
+    for (const hci_segment *s = NULL; (s = hci_regression_next(e, s)) != NULL;)
+        order = fmin(order, order_told(e, s));
+    if (!(reference_A > 0.0)) reference_A = current_of(e);
+    if (!(reference_A > 0.0)) reference_A = 1.0;
+    return (hci_effect_coenergy_series){e->machine->pole_pairs, saturates(fitted) ? MOST_POWER : PLAIN_POWER,
+                                        (int)fmax(0.0, order), reference_A};
+}
+
+/* ---- terms ---- */
+
+/* A value that the machine has declared, and that no candidate of the model replaces. */
+static double declared_value(const hci_regression *e, const hci_effect_type *type,
+                             const hci_effect_term *term)
+{
+    for (size_t k = 0; k < e->declared->count; ++k)
+        for (size_t j = 0; e->declared->effect[k].type == type && j < e->declared->effect[k].count; ++j) {
+            const hci_effect_term *x = &e->declared->effect[k].term[j];
+            if (x->parameter == term->parameter && fabs(x->order - term->order) <= HCI_ORDER_TOLERANCE)
+                return x->value;
+        }
+    return 0.0;
+}
+
+static double noise_rms(const hci_regression *e)
+{
+    double sum = 0.0, count = 0.0;
+    for (const hci_segment *s = NULL; (s = hci_regression_next(e, s)) != NULL;) {
+        const double rms = hci_regression_noise(e, s)->rms;
+        sum += rms * rms * (double)s->count;
+        count += (double)s->count;
+    }
+    return count > 0.0 ? sqrt(sum / count) : 0.0;
+}
+
+/* Whether a term is expected by the width: those that the model does not have, those that it has from a
+ * series with such expectations, and where iron saturates all that iron does: a law that is no polynomial has
+ * every power, and the ones that were found are those that stood out. */
+static bool is_by_width(const hci_candidates *fitted, const hci_candidate *known, const hci_candidate *x)
+{
+    if (!known || (known->coenergy_unit > 0.0 && known->deviation > 0.0)) return true;
+    return saturates(fitted) && x->coenergy_unit > 0.0 && x->power >= 2;
+}
+
+/* One term of a candidate: a term of the model keeps what was expected of it, unless that is by the width;
+ * all others are expected where they are. */
+static void term_fill(const hci_regression *e, const hci_candidates *fitted, hci_candidate *x, size_t j,
+                      hci_allowed_terms *t)
+{
+    const hci_candidate *known = hci_candidates_find_in(fitted, x);
+    const double deviation = known ? known->deviation : 0.0;
+    const bool by_width = is_by_width(fitted, known, x);
+    const double unit = x->coenergy_unit > 0.0 ? x->coenergy_unit * noise_rms(e) : deviation;
+    const size_t at = t->count++;
+    if (!known) x->term[j].value = declared_value(e, x->type, &x->term[j]);
+    t->unit[at] = unit > 0.0 ? unit : 1.0;
+    t->fixed[at] = by_width ? (double)NAN : deviation > 0.0 ? 1.0 / (deviation * deviation) : 0.0;
+    t->centre[at] = known ? -x->term[j].value : 0.0;
+}
+
+hci_status hci_allowed_terms_make(const hci_regression *regression, const hci_candidates *fitted,
+                                  hci_allowed_terms *t, hci_note *note)
+{
+    const hci_effect_coenergy_series series = series_of(regression, fitted);
+    memset(t, 0, sizeof *t);
+    const hci_status status = hci_coenergy_terms(fitted, &series, &t->candidates, note);
+    if (status) return status;
+    t->candidates.reference_current_A = series.reference_current_A;
+    const size_t terms = hci_candidates_terms_in(&t->candidates);
+    t->unit = hci_memory_new(3 * terms + 1, sizeof *t->unit);
+    if (!t->unit) {
+        hci_allowed_terms_release(t);
+        return hci_note_memory(note, NULL, "what recordings leave open");
+    }
+    t->fixed = t->unit + terms;
+    t->centre = t->fixed + terms;
+    for (size_t k = 0; k < t->candidates.count; ++k) {
+        hci_candidate *x = &t->candidates.candidate[k];
+        for (size_t j = 0; j < x->count; ++j)
+            term_fill(regression, fitted, x, j, t);
+        x->deviation = 0.0;
+    }
+    return HCI_OK;
+}
+
+void hci_allowed_terms_release(hci_allowed_terms *t)
+{
+    hci_candidates_release(&t->candidates);
+    hci_memory_free(t->unit);
+    memset(t, 0, sizeof *t);
+}
+
+void hci_allowed_terms_precision(const hci_allowed_terms *t, double width, double *precision)
+{
+    for (size_t k = 0; k < t->count; ++k)
+        precision[k] = isnan(t->fixed[k]) ? 1.0 / (width * width * t->unit[k] * t->unit[k]) : t->fixed[k];
+}

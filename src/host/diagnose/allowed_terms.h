@@ -1,0 +1,25 @@
+/* The terms in which a machine may differ from the one that was fitted, and what is expected of them. */
+#ifndef HCI_SRC_HOST_DIAGNOSE_ALLOWED_TERMS_H
+#define HCI_SRC_HOST_DIAGNOSE_ALLOWED_TERMS_H
+
+#include "host/diagnose/candidates/candidates.h"
+#include "host/diagnose/fit/regression.h"
+
+/* Start with {0}. */
+typedef struct {
+    hci_candidates candidates; /* all are in, at the values of the fitted machine; without expectations */
+    size_t count;              /* terms: columns of the normal equations */
+    double *unit;              /* [count]: deviation to be expected where the width is 1 */
+    double *fixed; /* [count]: one over the variance that is expected whatever the width; NAN: by the width */
+    double *centre; /* [count]: expected value less the value of the fitted machine */
+} hci_allowed_terms;
+
+/* fitted: those that are in are the model. On failure *terms is empty. HCI_ERROR_MEMORY. O(terms²). */
+hci_status hci_allowed_terms_make(const hci_regression *regression, const hci_candidates *fitted,
+                                  hci_allowed_terms *terms, hci_note *note);
+void hci_allowed_terms_release(hci_allowed_terms *terms);
+
+/* precision[count]: one over the variance that is expected with a width, in units of the noise. */
+void hci_allowed_terms_precision(const hci_allowed_terms *terms, double width, double *precision);
+
+#endif

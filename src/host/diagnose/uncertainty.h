@@ -1,0 +1,20 @@
+/* What recordings leave open about a machine that was fitted to them.
+ *
+ * In: the fitted model. Out: machines that the recordings allow as well (theory.md, section 14). They may
+ * differ from the fitted one in its own terms, and in terms that it does not have: those of the co-energy to
+ * higher powers of the currents and higher orders, each expected to be as small as iron has it. How wide that
+ * expectation is and how large the errors are, is told by runs that are left out in turn. */
+#ifndef HCI_SRC_HOST_DIAGNOSE_UNCERTAINTY_H
+#define HCI_SRC_HOST_DIAGNOSE_UNCERTAINTY_H
+
+#include "hci/host/machine/uncertainty.h"
+#include "host/diagnose/candidates/candidates.h"
+#include "host/diagnose/fit/regression.h"
+
+/* fitted: the terms of the model that are in, with their values; regression: with the noise that the model
+ * leaves. uncertainty: out; empty where fewer than three runs tell something. HCI_ERROR_MEMORY, and then it
+ * is empty too. O(terms³/3 + runs·samples·terms²). */
+hci_status hci_uncertainty_find(hci_regression *regression, const hci_candidates *fitted,
+                                hci_uncertainty *uncertainty, hci_note *note);
+
+#endif

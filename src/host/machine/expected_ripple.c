@@ -1,0 +1,214 @@
+#include "host/machine/expected_ripple.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "hci/machine/frames.h"
+#include "host/base/memory.h"
+#include "host/numeric/fft.h"
+#include "host/numeric/statistics.h"
+
+#define EXCEEDED 0.05 /* share of the machines above a figure */
+#define ROUNDING 1e-9 /* of a range of currents, by which one is not outside yet */
+
+const char *hci_ripple_state_words(hci_ripple_state state)
+{
+    static const char *const WORDS[] = {
+        "",
+        "Ripple not known: no recordings that tell it (diagnose writes uncertainty.csv from three or more "
+        "that it has explained)",
+        "Ripple not known: effects.csv is not the one that uncertainty.csv was found for; run diagnose "
+        "again"};
+    return WORDS[state];
+}
+
+/* ---- torque of every machine ---- */
+
+/* torque[machines][count]; by_value[terms] and value[machines]: of work. */
+typedef struct {
+    const hci_ripple_path *path;
+    const hci_uncertainty *uncertainty;
+    double *torque_Nm, *by_value, *value;
+} machines;
+
+static hci_status machines_make(const hci_ripple_path *path, const hci_uncertainty *u, machines *m,
+                                hci_note *note)
+{
+    const size_t terms = hci_effects_terms(&u->effects.list), all = u->machines * path->count;
+    *m = (machines){path, u, hci_memory_new(all + terms + u->machines, sizeof(double)), NULL, NULL};
+    if (!m->torque_Nm) return hci_note_memory(note, NULL, "what to expect of the machine");
+    m->by_value = m->torque_Nm + all;
+    m->value = m->by_value + terms;
+    return HCI_OK;
+}
+
+/* T + Σ ∂T/∂value · departure at one sample, of each machine. */
+static void sample_fill(const machines *m, size_t at)
+{
+    const hci_ripple_path *path = m->path;
+    const size_t terms = hci_effects_terms(&m->uncertainty->effects.list), count = m->uncertainty->machines;
+    hci_effects_torque(path->machine, &m->uncertainty->effects.list, &path->sample[at], m->by_value);
+    for (size_t k = 0; k < count; ++k)
+        m->value[k] = path->torque_Nm[at];
+    for (size_t t = 0; t < terms; ++t) {
+        const double by = m->by_value[t], *departure = m->uncertainty->departure + t * count;
+        for (size_t k = 0; k < count && by != 0.0; ++k)
+            m->value[k] += by * departure[k];
+    }
+    for (size_t k = 0; k < count; ++k)
+        m->torque_Nm[k * path->count + at] = m->value[k];
+}
+
+/* ---- figures ---- */
+
+static int by_size(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* The value that a share of all exceeds: the k-th of n with k = (1 − share)(n + 1), rounded up. Sorts them.
+ */
+static double exceeded_by(double *value, size_t n, double share)
+{
+    const double place = ceil((1.0 - share) * (double)(n + 1) - 1e-9);
+    qsort(value, n, sizeof *value, by_size);
+    return value[(size_t)fmax(0.0, fmin((double)n, place) - 1.0)];
+}
+
+static double peak_to_peak_of(const machines *m, size_t k)
+{
+    return hci_peak_to_peak(m->torque_Nm + k * m->path->count, m->path->count);
+}
+
+/* Of the torque less that of the model. */
+static double error_peak_to_peak_of(const machines *m, size_t k)
+{
+    const double *torque_Nm = m->torque_Nm + k * m->path->count;
+    double low = INFINITY, high = -INFINITY;
+    for (size_t j = 0; j < m->path->count; ++j) {
+        low = fmin(low, torque_Nm[j] - m->path->torque_Nm[j]);
+        high = fmax(high, torque_Nm[j] - m->path->torque_Nm[j]);
+    }
+    return high - low;
+}
+
+static void fill_peaks(const machines *m, hci_expected_ripple *e)
+{
+    const size_t n = m->uncertainty->machines, count = m->path->count;
+    for (size_t k = 0; k < n; ++k)
+        m->value[k] = error_peak_to_peak_of(m, k);
+    e->error_peak_to_peak_Nm = exceeded_by(m->value, n, EXCEEDED);
+    for (size_t k = 0; k < n; ++k)
+        m->value[k] = peak_to_peak_of(m, k);
+    e->peak_to_peak_Nm = exceeded_by(m->value, n, EXCEEDED);
+    for (size_t k = 0; k < n; ++k)
+        m->value[k] = 100.0 * peak_to_peak_of(m, k) / fabs(hci_mean(m->torque_Nm + k * count, count));
+    const double percent = exceeded_by(m->value, n, EXCEEDED);
+    if (!isfinite(percent)) return;
+    e->T_ripple_percent = percent;
+    e->middle_percent = exceeded_by(m->value, n, 0.5);
+}
+
+/* In place: torque less what is wanted, to peak amplitudes of orders k/turns. */
+static void to_amplitudes(const machines *m, size_t k, double *work)
+{
+    const hci_ripple_path *path = m->path;
+    double *x = m->torque_Nm + k * path->count;
+    memset(work, 0, path->count * sizeof *work);
+    for (size_t j = 0; path->wanted_Nm && j < path->count; ++j)
+        x[j] -= path->wanted_Nm[j];
+    hci_fft(x, work, path->count, -1);
+    for (size_t j = 0; j < path->count; ++j)
+        x[j] = 2.0 * hypot(x[j], work[j]) / (double)path->count;
+}
+
+/* The order whose amplitude, exceeded by the share, is the largest; the mean left out. Spoils the torques. */
+static hci_status fill_worst(const machines *m, hci_expected_ripple *e, hci_note *note)
+{
+    const size_t n = m->uncertainty->machines, count = m->path->count;
+    if (m->path->turns == 0) return HCI_OK;
+    double *work = hci_memory_new(count, sizeof *work);
+    if (!work) return hci_note_memory(note, NULL, "what to expect of the machine");
+    for (size_t k = 0; k < n; ++k)
+        to_amplitudes(m, k, work);
+    hci_memory_free(work);
+    e->worst_order_Nm = -1.0;
+    for (size_t j = 1; j < count / 2; ++j) {
+        for (size_t k = 0; k < n; ++k)
+            m->value[k] = m->torque_Nm[k * count + j];
+        const double amplitude_Nm = exceeded_by(m->value, n, EXCEEDED);
+        if (!(amplitude_Nm > e->worst_order_Nm)) continue;
+        e->worst_order_Nm = amplitude_Nm;
+        e->worst_order = (double)j / (double)m->path->turns;
+    }
+    return HCI_OK;
+}
+
+/* ---- what was measured ---- */
+
+static void range_add(hci_measured_range *range, double value)
+{
+    range->least = fmin(range->least, value);
+    range->most = fmax(range->most, value);
+}
+
+/* How far a value is outside of a range; 0 inside. */
+static double beyond(hci_measured_range range, double value)
+{
+    const double distance = fmax(range.least - value, value - range.most);
+    const double size = fmax(fabs(range.least), fabs(range.most));
+    return distance > ROUNDING * size ? distance : 0.0;
+}
+
+static void fill_currents(const hci_ripple_path *path, const hci_uncertainty *u, hci_expected_ripple *e)
+{
+    const hci_measured_run all = hci_uncertainty_measured(u);
+    size_t outside = 0;
+    e->measured_id_A = all.id_A;
+    e->measured_iq_A = all.iq_A;
+    e->measured_speed_rad_per_s = all.speed_rad_per_s;
+    e->outside_A = 0.0;
+    for (size_t k = 0; k < path->count; ++k) {
+        const double theta_rad = path->machine->pole_pairs * path->sample[k].theta_m_rad;
+        const hci_dq i = hci_park(hci_clarke(path->sample[k].i_abc), theta_rad);
+        const double distance_A = hypot(beyond(all.id_A, i.d), beyond(all.iq_A, i.q));
+        range_add(&e->id_A, i.d);
+        range_add(&e->iq_A, i.q);
+        outside += distance_A > 0.0;
+        e->outside_A = fmax(e->outside_A, distance_A);
+    }
+    e->outside_share = (double)outside / (double)path->count;
+    e->speed_outside = beyond(all.speed_rad_per_s, path->speed_rad_per_s) > 0.0;
+}
+
+/* ---- all of it ---- */
+
+static hci_expected_ripple nothing(hci_ripple_state state)
+{
+    const hci_measured_range none = {NAN, NAN};
+    return (hci_expected_ripple){state, NAN,  NAN,  NAN,  NAN, NAN, NAN,  none,
+                                 none,  none, none, none, NAN, NAN, false};
+}
+
+hci_status hci_expected_ripple_find(const hci_ripple_path *path, const hci_uncertainty *u,
+                                    hci_expected_ripple *expected, hci_note *note)
+{
+    machines m;
+    *expected = nothing(HCI_RIPPLE_NO_RECORDINGS);
+    if (!u || u->machines == 0 || path->count == 0) return HCI_OK;
+    expected->state = HCI_RIPPLE_OTHER_EFFECTS;
+    if (!hci_uncertainty_is_of(u, path->effects)) return HCI_OK;
+    expected->state = HCI_RIPPLE_KNOWN;
+    hci_status status = machines_make(path, u, &m, note);
+    for (size_t k = 0; k < path->count && !status; ++k)
+        sample_fill(&m, k);
+    if (!status) {
+        fill_peaks(&m, expected);
+        fill_currents(path, u, expected);
+        status = fill_worst(&m, expected, note);
+    }
+    hci_memory_free(m.torque_Nm);
+    return status;
+}

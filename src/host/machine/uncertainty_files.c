@@ -1,0 +1,220 @@
+/* uncertainty.csv and measured.csv. */
+#define _POSIX_C_SOURCE 200809L
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "hci/host/base/number.h"
+#include "hci/host/machine/machine.h"
+#include "hci/host/machine/uncertainty.h"
+#include "host/base/memory.h"
+#include "host/csv/write.h"
+#include "host/machine/effect_rows.h"
+#include "host/machine/folder.h"
+
+enum { PATH_SIZE = 4096 };
+
+#define UNCERTAINTY "uncertainty.csv"
+#define MEASURED    "measured.csv"
+#define DEPARTURES  "departures"
+
+/* ---- reading uncertainty.csv ---- */
+
+static hci_status departures_error(const hci_csv *csv, size_t row, hci_note *note)
+{
+    return hci_csv_error(csv, DEPARTURES, row, note, "numbers divided by blanks, as many in each row",
+                         "let diagnose write the file again");
+}
+
+static size_t words_in(const char *text)
+{
+    size_t count = 0;
+    for (text += strspn(text, " "); *text; text += strspn(text, " "), ++count)
+        text += strcspn(text, " ");
+    return count;
+}
+
+/* Takes the next word of a text as a number. */
+static bool word_take(const char **text, double *value)
+{
+    char word[64];
+    *text += strspn(*text, " ");
+    const size_t length = strcspn(*text, " ");
+    if (length == 0 || length >= sizeof word) return false;
+    memcpy(word, *text, length);
+    word[length] = '\0';
+    *text += length;
+    return hci_number_parse(word, value) && isfinite(*value);
+}
+
+static hci_status row_read(const hci_csv *csv, size_t row, size_t machines, double *departure, hci_note *note)
+{
+    const char *text;
+    const hci_status status = hci_csv_text(csv, DEPARTURES, row, &text, note);
+    if (status) return status;
+    if (words_in(text) != machines) return departures_error(csv, row, note);
+    for (size_t k = 0; k < machines; ++k)
+        if (!word_take(&text, &departure[k])) return departures_error(csv, row, note);
+    return HCI_OK;
+}
+
+/* Terms and departures; row_of: [rows] of work. */
+static hci_status uncertainty_of_csv(const hci_csv *csv, size_t runs, size_t *row_of, hci_uncertainty *u,
+                                     hci_note *note)
+{
+    const char *text = "";
+    const size_t rows = hci_csv_rows(csv);
+    hci_status status = hci_effects_of_csv(csv, &u->effects, row_of, note);
+    if (!status && rows == 0)
+        status = hci_note_set(note, HCI_ERROR_INPUT, "%s: found no rows, expected one for each term",
+                              hci_csv_path(csv));
+    if (!status) status = hci_csv_text(csv, DEPARTURES, 0, &text, note);
+    const size_t machines = words_in(text);
+    if (!status && machines == 0) status = departures_error(csv, 0, note);
+    if (!status) status = hci_uncertainty_reserve(u, runs, machines, note);
+    for (size_t k = 0; k < rows && !status; ++k)
+        status = row_read(csv, row_of[k], machines, u->departure + k * machines, note);
+    return status;
+}
+
+/* ---- reading measured.csv ---- */
+
+/* An empty cell is a number that is not known. */
+static hci_status cell_read(const hci_csv *csv, const char *column, size_t row, double *value, hci_note *note)
+{
+    const char *text;
+    const hci_status status = hci_csv_text(csv, column, row, &text, note);
+    *value = NAN;
+    if (status || *text == '\0') return status;
+    return hci_csv_number(csv, column, row, value, note);
+}
+
+static hci_status run_read(const hci_csv *csv, size_t row, hci_measured_run *run, hci_note *note)
+{
+    static const char *const COLUMN[] = {
+        "id_least_A",           "id_most_A", "iq_least_A", "iq_most_A", "speed_least_rad_per_s",
+        "speed_most_rad_per_s", "misfit"};
+    double *const value[] = {&run->id_A.least,
+                             &run->id_A.most,
+                             &run->iq_A.least,
+                             &run->iq_A.most,
+                             &run->speed_rad_per_s.least,
+                             &run->speed_rad_per_s.most,
+                             &run->misfit};
+    const char *file;
+    hci_status status = hci_csv_text(csv, "file", row, &file, note);
+    if (status) return status;
+    run->file = hci_memory_new(strlen(file) + 1, 1);
+    if (!run->file) return hci_note_memory(note, hci_csv_path(csv), "%zu rows", hci_csv_rows(csv));
+    memcpy(run->file, file, strlen(file) + 1);
+    for (size_t k = 0; k < sizeof value / sizeof *value && !status; ++k)
+        status = cell_read(csv, COLUMN[k], row, value[k], note);
+    return status;
+}
+
+/* ---- both ---- */
+
+static hci_status from_csv(const hci_csv *uncertainty, const hci_csv *measured, hci_uncertainty *u,
+                           hci_note *note)
+{
+    const size_t runs = hci_csv_rows(measured);
+    size_t *row_of = hci_memory_new(hci_csv_rows(uncertainty), sizeof *row_of);
+    if (!row_of) return hci_note_memory(note, hci_csv_path(uncertainty), "its rows");
+    hci_status status = uncertainty_of_csv(uncertainty, runs, row_of, u, note);
+    for (size_t k = 0; k < runs && !status; ++k)
+        status = run_read(measured, k, &u->run[k], note);
+    hci_memory_free(row_of);
+    return status;
+}
+
+static hci_status both_read(const char *uncertainty, const char *measured, hci_uncertainty *u, hci_note *note)
+{
+    hci_csv *first = NULL, *second = NULL;
+    hci_status status = hci_csv_read(uncertainty, &first, note);
+    if (!status) status = hci_csv_read(measured, &second, note);
+    if (!status) status = from_csv(first, second, u, note);
+    hci_csv_free(first);
+    hci_csv_free(second);
+    if (status) hci_uncertainty_release(u);
+    return status;
+}
+
+hci_status hci_uncertainty_read_machine(const char *folder, hci_uncertainty *u, hci_note *note)
+{
+    char uncertainty[PATH_SIZE], measured[PATH_SIZE];
+    memset(u, 0, sizeof *u);
+    hci_status status = hci_machine_path(uncertainty, sizeof uncertainty, folder, UNCERTAINTY, note);
+    if (!status) status = hci_machine_path(measured, sizeof measured, folder, MEASURED, note);
+    if (status || (!hci_machine_has(uncertainty) && !hci_machine_has(measured))) return status;
+    return both_read(uncertainty, measured, u, note);
+}
+
+/* ---- writing ---- */
+
+/* Four digits: more would be no more true. */
+static double rounded(double value)
+{
+    char text[32];
+    snprintf(text, sizeof text, "%.3e", value);
+    return strtod(text, NULL);
+}
+
+static void departures_write(hci_output *out, const double *departure, size_t machines)
+{
+    for (size_t k = 0; k < machines; ++k)
+        hci_output_number(out, rounded(departure[k]), k + 1 < machines ? ' ' : '\n');
+}
+
+static hci_status terms_write(hci_output *out, const hci_uncertainty *u, hci_note *note)
+{
+    const hci_status status = hci_output_file(out, UNCERTAINTY, note);
+    const double *departure = u->departure;
+    if (status) return status;
+    hci_output_text(out, "effect,parameter,value,unit," DEPARTURES "\n");
+    for (size_t k = 0; k < u->effects.list.count; ++k)
+        for (size_t j = 0; j < u->effects.list.effect[k].count; ++j, departure += u->machines) {
+            const hci_effect *effect = &u->effects.list.effect[k];
+            hci_effect_term_write(out, effect->type, &effect->term[j]);
+            departures_write(out, departure, u->machines);
+        }
+    return HCI_OK;
+}
+
+static void cell_write(hci_output *out, double value, char end)
+{
+    if (isfinite(value))
+        hci_output_number(out, rounded(value), end);
+    else
+        hci_output_text(out, "%c", end);
+}
+
+static hci_status runs_write(hci_output *out, const hci_uncertainty *u, hci_note *note)
+{
+    const hci_status status = hci_output_file(out, MEASURED, note);
+    if (status) return status;
+    hci_output_text(out, "file,id_least_A,id_most_A,iq_least_A,iq_most_A,speed_least_rad_per_s,"
+                         "speed_most_rad_per_s,misfit\n");
+    for (size_t k = 0; k < u->runs; ++k) {
+        const hci_measured_run *r = &u->run[k];
+        const double value[] = {
+            r->id_A.least,          r->id_A.most, r->iq_A.least, r->iq_A.most, r->speed_rad_per_s.least,
+            r->speed_rad_per_s.most};
+        hci_csv_write_cell(out, r->file, true);
+        for (size_t j = 0; j < sizeof value / sizeof *value; ++j)
+            cell_write(out, value[j], ',');
+        cell_write(out, r->misfit, '\n');
+    }
+    return HCI_OK;
+}
+
+hci_status hci_uncertainty_write(hci_output *out, const hci_uncertainty *u, hci_note *note)
+{
+    if (u->machines == 0) {
+        const hci_status status = hci_output_without(out, UNCERTAINTY, note);
+        return status ? status : hci_output_without(out, MEASURED, note);
+    }
+    const hci_status status = terms_write(out, u, note);
+    return status ? status : runs_write(out, u, note);
+}

@@ -1,0 +1,32 @@
+/* What the real machine is expected to do: a part of several summaries. */
+#include "host/report/summary.h"
+
+static void put_range(hci_json *json, const char *name, hci_measured_range range)
+{
+    hci_json_array(json, name);
+    hci_json_number(json, NULL, range.least);
+    hci_json_number(json, NULL, range.most);
+    hci_json_close(json);
+}
+
+void hci_summary_expected(hci_json *json, const hci_expected_ripple *e)
+{
+    hci_json_object(json, "expected");
+    hci_json_bool(json, "known", e->state == HCI_RIPPLE_KNOWN);
+    hci_json_text(json, "remark", hci_ripple_state_words(e->state));
+    hci_json_number(json, "T_ripple_percent_95", e->T_ripple_percent);
+    hci_json_number(json, "T_ripple_percent_50", e->middle_percent);
+    hci_json_number(json, "peak_to_peak_Nm_95", e->peak_to_peak_Nm);
+    hci_json_number(json, "error_peak_to_peak_Nm_95", e->error_peak_to_peak_Nm);
+    hci_json_number(json, "worst_order", e->worst_order);
+    hci_json_number(json, "worst_order_Nm_95", e->worst_order_Nm);
+    put_range(json, "id_A", e->id_A);
+    put_range(json, "iq_A", e->iq_A);
+    put_range(json, "measured_id_A", e->measured_id_A);
+    put_range(json, "measured_iq_A", e->measured_iq_A);
+    put_range(json, "measured_speed_rad_per_s", e->measured_speed_rad_per_s);
+    hci_json_number(json, "outside_share", e->outside_share);
+    hci_json_number(json, "outside_A", e->outside_A);
+    hci_json_bool(json, "speed_outside", e->speed_outside);
+    hci_json_close(json);
+}

@@ -1,0 +1,362 @@
+/* uncertainty.csv and measured.csv, and the ripple that is expected of them, which has a closed form where
+ * one order is uncertain: 2√(S² + C²) from peak to peak, and for S and C with the standard deviation σ an
+ * amplitude of σ√(−2 ln 0.05) that one in twenty exceeds. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "hci/host/machine/machine.h"
+#include "hci/host/machine/uncertainty.h"
+#include "hci/machine/frames.h"
+#include "host/base/memory.h"
+#include "host/machine/expected_ripple.h"
+#include "support/files.h"
+#include "support/reference.h"
+#include "unity.h"
+
+enum { POLE_PAIRS = 2, SAMPLES = 256, MACHINES = 199 };
+
+#define MEAN_NM 3.0
+
+static const hci_wave EMF = {1.0, 1, 0.2, 0.0};
+static const hci_machine MACHINE = {.pole_pairs = POLE_PAIRS, .back_emf = &EMF, .back_emf_count = 1};
+
+static hci_uncertainty uncertainty;
+static hci_sample sample[SAMPLES];
+static double torque_Nm[SAMPLES];
+static hci_note note;
+
+void setUp(void)
+{
+    files_begin();
+    note.text[0] = '\0';
+}
+
+void tearDown(void)
+{
+    hci_memory_fail_after(-1);
+    hci_uncertainty_release(&uncertainty);
+    files_end();
+}
+
+/* ---- files ---- */
+
+static const char TERMS[] = "effect,parameter,value,unit,departures\n"
+                            "cogging,sine_18,0.02,Nm,0.001 -0.0002 0\n"
+                            "saturation,d1q2_cosine_0,0,Nm,1e-7 0 -0.5\n"
+                            "saturation,reference_current,12,A,0 0 0\n";
+
+static const char RUNS[] =
+    "file,id_least_A,id_most_A,iq_least_A,iq_most_A,speed_least_rad_per_s,speed_most_rad_per_s,"
+    "misfit\n"
+    "\"runs/a,b.csv\",-3,0,0,6,10,12,1.25\n"
+    "runs/c.csv,0,2.5,-1,1,,,\n";
+
+static hci_status read_texts(const char *terms, const char *measured)
+{
+    note.text[0] = '\0';
+    files_write(files_path("uncertainty.csv"), terms);
+    files_write(files_path("measured.csv"), measured);
+    return hci_uncertainty_read_machine(files_root, &uncertainty, &note);
+}
+
+static void write_all(void)
+{
+    hci_output *output;
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_output_open(files_root, &output, &note));
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_uncertainty_write(output, &uncertainty, &note));
+    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_output_commit(output, &note), note.text);
+}
+
+static void check_file(const char *name, const char *text)
+{
+    char *found = files_read(files_path(name));
+    TEST_ASSERT_EQUAL_STRING(text, found);
+    free(found);
+}
+
+static void test_what_is_read_is_written_again(void)
+{
+    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, read_texts(TERMS, RUNS), note.text);
+    TEST_ASSERT_EQUAL_UINT(3, uncertainty.machines);
+    TEST_ASSERT_EQUAL_UINT(2, uncertainty.runs);
+    TEST_ASSERT_EQUAL_STRING("runs/a,b.csv", uncertainty.run[0].file);
+    TEST_ASSERT_TRUE(isnan(uncertainty.run[1].misfit));
+    files_remove(files_path("uncertainty.csv"));
+    files_remove(files_path("measured.csv"));
+    write_all();
+    check_file("uncertainty.csv", TERMS);
+    check_file("measured.csv", RUNS);
+}
+
+/* Rows may stand in any order; departures stay with their term. */
+static void test_rows_in_any_order(void)
+{
+    TEST_ASSERT_EQUAL_INT(HCI_OK, read_texts("effect,parameter,value,unit,departures\n"
+                                             "cogging,sine_24,0.5,Nm,7 8\n"
+                                             "cogging,sine_18,0.25,Nm,5 6\n",
+                                             RUNS));
+    TEST_ASSERT_EQUAL_DOUBLE(0.25, uncertainty.effects.term[0].value);
+    TEST_ASSERT_EQUAL_DOUBLE(6.0, uncertainty.departure[1]);
+    TEST_ASSERT_EQUAL_DOUBLE(7.0, uncertainty.departure[2]);
+}
+
+static void test_all_recordings_together(void)
+{
+    TEST_ASSERT_EQUAL_INT(HCI_OK, read_texts(TERMS, RUNS));
+    const hci_measured_run all = hci_uncertainty_measured(&uncertainty);
+    TEST_ASSERT_EQUAL_DOUBLE(-3.0, all.id_A.least);
+    TEST_ASSERT_EQUAL_DOUBLE(2.5, all.id_A.most);
+    TEST_ASSERT_EQUAL_DOUBLE(-1.0, all.iq_A.least);
+    TEST_ASSERT_EQUAL_DOUBLE(6.0, all.iq_A.most);
+    TEST_ASSERT_EQUAL_DOUBLE(12.0, all.speed_rad_per_s.most);
+}
+
+static void test_no_files_are_no_knowledge(void)
+{
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_uncertainty_read_machine(files_root, &uncertainty, &note));
+    TEST_ASSERT_EQUAL_UINT(0, uncertainty.machines);
+    read_texts(TERMS, RUNS);
+    hci_uncertainty_release(&uncertainty);
+    write_all();
+    TEST_ASSERT_EQUAL_INT(0, files_count(files_root));
+}
+
+static void check_refused(const char *terms, const char *measured, const char *words)
+{
+    TEST_ASSERT_EQUAL_INT(HCI_ERROR_INPUT, read_texts(terms, measured));
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(note.text, words), note.text);
+    TEST_ASSERT_NULL(uncertainty.departure);
+}
+
+static void test_files_that_are_wrong(void)
+{
+    check_refused("effect,parameter,value,unit,departures\ncogging,sine_18,0.02,Nm,0.1 x\n", RUNS,
+                  "uncertainty.csv:2: column 5 `departures`");
+    check_refused(
+        "effect,parameter,value,unit,departures\ncogging,sine_18,0.02,Nm,1 2\ncogging,sine_6,0,Nm,1\n", RUNS,
+        "uncertainty.csv:3: column 5 `departures`");
+    check_refused("effect,parameter,value,unit,departures\ncogging,sine_18,0.02,Nm,\n", RUNS, "departures");
+    check_refused("effect,parameter,value,unit,departures\n", RUNS, "no rows");
+    check_refused("effect,parameter,value,unit\ncogging,sine_18,0.02,Nm\n", RUNS, "departures");
+    check_refused("effect,parameter,value,unit,departures\ngremlin,sine_18,0.02,Nm,1\n", RUNS, "gremlin");
+    check_refused(TERMS, "file,id_least_A\nruns/a.csv,1\n", "id_most_A");
+    files_remove(files_path("measured.csv"));
+    TEST_ASSERT_EQUAL_INT(HCI_ERROR_INPUT, hci_uncertainty_read_machine(files_root, &uncertainty, &note));
+}
+
+/* ---- whose it is ---- */
+
+static hci_effect_term terms_of_18[] = {{0, 18.0, 0.02, NAN}, {0, 24.0, 0.0, NAN}};
+
+static hci_effects cogging_of(double value, size_t count)
+{
+    static hci_effect effect;
+    terms_of_18[0].value = value;
+    effect = (hci_effect){hci_effect_type_find("cogging"), terms_of_18, count};
+    return (hci_effects){&effect, 1};
+}
+
+static void test_belongs_to_one_list_of_effects(void)
+{
+    const hci_effects none = {NULL, 0};
+    TEST_ASSERT_EQUAL_INT(HCI_OK, read_texts(TERMS, RUNS));
+    hci_effects same = cogging_of(0.02, 1);
+    TEST_ASSERT_TRUE(hci_uncertainty_is_of(&uncertainty, &same));
+    same = cogging_of(0.0201, 1);
+    TEST_ASSERT_FALSE(hci_uncertainty_is_of(&uncertainty, &same));
+    same = cogging_of(0.02, 2);
+    terms_of_18[1].value = 1e-9;
+    TEST_ASSERT_FALSE(hci_uncertainty_is_of(&uncertainty, &same));
+    terms_of_18[1].value = 0.0;
+    TEST_ASSERT_FALSE(hci_uncertainty_is_of(&uncertainty, &none));
+}
+
+/* ---- ripple ---- */
+
+/* Machines with cogging torque of order 12 whose amplitudes are those that 1/200, 2/200 … of all fall below
+ * where sine and cosine have the standard deviation σ. */
+static void allow_cogging(double sigma_Nm)
+{
+    char text[8192] = "effect,parameter,value,unit,departures\ncogging,sine_12,0,Nm,";
+    for (int of_cosine = 0; of_cosine < 2; ++of_cosine) {
+        for (int m = 1; m <= MACHINES; ++m) {
+            const double amplitude = sigma_Nm * sqrt(-2.0 * log(1.0 - m / (MACHINES + 1.0)));
+            const size_t used = strlen(text);
+            snprintf(text + used, sizeof text - used, " %.9g",
+                     amplitude * (of_cosine ? cos(2.0 * m) : sin(2.0 * m)));
+        }
+        strcat(text, of_cosine ? "\n" : "\ncogging,cosine_12,0,Nm,");
+    }
+    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, read_texts(text, RUNS), note.text);
+}
+
+/* A constant current in the rotor frame over one turn, and the mean torque alone. */
+static hci_ripple_path path_of(double d, double q)
+{
+    static const hci_effects NONE = {NULL, 0};
+    for (size_t k = 0; k < SAMPLES; ++k) {
+        const double theta = 2.0 * REF_PI * (double)k / SAMPLES;
+        sample[k] = (hci_sample){.theta_m_rad = theta / POLE_PAIRS};
+        hci_clarke_inverse(hci_park_inverse((hci_dq){d, q, 0.0}, theta), sample[k].i_abc);
+        torque_Nm[k] = MEAN_NM;
+    }
+    return (hci_ripple_path){.machine = &MACHINE,
+                             .effects = &NONE,
+                             .sample = sample,
+                             .torque_Nm = torque_Nm,
+                             .count = SAMPLES,
+                             .turns = 1,
+                             .speed_rad_per_s = NAN};
+}
+
+static hci_expected_ripple expect(const hci_ripple_path *path)
+{
+    hci_expected_ripple e;
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_expected_ripple_find(path, &uncertainty, &e, &note));
+    return e;
+}
+
+static void test_one_uncertain_order(void)
+{
+    const double sigma_Nm = 0.01, amplitude_Nm = sigma_Nm * sqrt(-2.0 * log(0.05));
+    const hci_ripple_path path = path_of(0.0, 1.0);
+    allow_cogging(sigma_Nm);
+    const hci_expected_ripple e = expect(&path);
+    TEST_ASSERT_EQUAL_INT(HCI_RIPPLE_KNOWN, e.state);
+    /* 21 samples in a period: less than 1 − cos(π/21) is between them */
+    TEST_ASSERT_DOUBLE_WITHIN(0.012 * 2.0 * amplitude_Nm, 2.0 * amplitude_Nm, e.peak_to_peak_Nm);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, e.peak_to_peak_Nm, e.error_peak_to_peak_Nm);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 100.0 * e.peak_to_peak_Nm / MEAN_NM, e.T_ripple_percent);
+    TEST_ASSERT_DOUBLE_WITHIN(0.02 * e.T_ripple_percent, e.T_ripple_percent * sqrt(log(0.5) / log(0.05)),
+                              e.middle_percent);
+    TEST_ASSERT_EQUAL_DOUBLE(12.0, e.worst_order);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, amplitude_Nm, e.worst_order_Nm);
+}
+
+/* Ripple of the model is part of the torque's, and none of the error's; what is wanted is no error of an
+ * order. */
+static void test_ripple_of_the_model(void)
+{
+    hci_ripple_path path = path_of(0.0, 1.0);
+    allow_cogging(1e-6);
+    for (size_t k = 0; k < SAMPLES; ++k)
+        torque_Nm[k] += 0.3 * sin(6.0 * 2.0 * REF_PI * (double)k / SAMPLES);
+    hci_expected_ripple e = expect(&path);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-3, 0.6, e.peak_to_peak_Nm);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-5, 0.0, e.error_peak_to_peak_Nm);
+    TEST_ASSERT_EQUAL_DOUBLE(6.0, e.worst_order);
+    path.wanted_Nm = torque_Nm;
+    e = expect(&path);
+    TEST_ASSERT_EQUAL_DOUBLE(12.0, e.worst_order);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-3, 0.6, e.peak_to_peak_Nm);
+}
+
+/* RUNS: i_d −3 … 2.5 A, i_q −1 … 6 A. */
+static void test_currents_outside(void)
+{
+    hci_ripple_path path = path_of(-3.0, 6.0);
+    allow_cogging(0.01);
+    hci_expected_ripple e = expect(&path);
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, e.outside_share);
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, e.outside_A);
+    TEST_ASSERT_FALSE(e.speed_outside);
+    path = path_of(-6.0, 10.0);
+    path.speed_rad_per_s = 13.0;
+    e = expect(&path);
+    TEST_ASSERT_EQUAL_DOUBLE(1.0, e.outside_share);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 5.0, e.outside_A);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, -6.0, e.id_A.least);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 10.0, e.iq_A.most);
+    TEST_ASSERT_TRUE(e.speed_outside);
+}
+
+/* A power of the current that is uncertain: the third grows 2³ times from one current to twice that. */
+static void test_grows_with_the_current(void)
+{
+    TEST_ASSERT_EQUAL_INT(HCI_OK, read_texts("effect,parameter,value,unit,departures\n"
+                                             "saturation,d0q3_sine_6,0,Nm,0.001 -0.002 0.0005\n"
+                                             "saturation,reference_current,1,A,0 0 0\n",
+                                             RUNS));
+    hci_ripple_path path = path_of(0.0, 1.0);
+    const double once = expect(&path).error_peak_to_peak_Nm;
+    path = path_of(0.0, 2.0);
+    TEST_ASSERT_TRUE(once > 0.0);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 8.0 * once, expect(&path).error_peak_to_peak_Nm);
+}
+
+static void test_not_known(void)
+{
+    const hci_effects other = cogging_of(0.5, 1);
+    char words[1024];
+    hci_ripple_path path = path_of(0.0, 1.0);
+    hci_expected_ripple e = expect(&path);
+    TEST_ASSERT_EQUAL_INT(HCI_RIPPLE_NO_RECORDINGS, e.state);
+    TEST_ASSERT_TRUE(isnan(e.T_ripple_percent) && isnan(e.peak_to_peak_Nm) && isnan(e.outside_A));
+    hci_expected_ripple_words(&e, words, sizeof words);
+    TEST_ASSERT_NOT_NULL(strstr(words, "not known: no recordings"));
+    TEST_ASSERT_NULL(strpbrk(words, "0123456789"));
+    allow_cogging(0.01);
+    path.effects = &other;
+    e = expect(&path);
+    TEST_ASSERT_EQUAL_INT(HCI_RIPPLE_OTHER_EFFECTS, e.state);
+    TEST_ASSERT_TRUE(isnan(e.T_ripple_percent));
+}
+
+static void test_words(void)
+{
+    char words[1024];
+    hci_ripple_path path = path_of(0.0, 1.0);
+    allow_cogging(0.01);
+    hci_expected_ripple e = expect(&path);
+    hci_expected_ripple_words(&e, words, sizeof words);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(words, "at most 1.6 % of the mean torque (95 %)"), words);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(words, "lie within what was recorded (i_d -3 … 2.5 A"), words);
+    path = path_of(0.0, 10.0);
+    e = expect(&path);
+    hci_expected_ripple_words(&e, words, sizeof words);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(words, "At 100 % of the angle"), words);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(words, "by up to 4 A"), words);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(words, "further outside than such a bound has been checked"), words);
+}
+
+static void test_memory(void)
+{
+    hci_expected_ripple e;
+    const hci_ripple_path path = path_of(0.0, 1.0);
+    files_write(files_path("uncertainty.csv"), TERMS);
+    files_write(files_path("measured.csv"), RUNS);
+    hci_status status = HCI_ERROR_MEMORY;
+    for (long count = 0; status == HCI_ERROR_MEMORY; ++count) {
+        hci_memory_fail_after(count);
+        status = hci_uncertainty_read_machine(files_root, &uncertainty, &note);
+        TEST_ASSERT_TRUE(!status || !uncertainty.departure);
+    }
+    hci_memory_fail_after(-1);
+    TEST_ASSERT_EQUAL_INT(HCI_OK, status);
+    hci_uncertainty_release(&uncertainty);
+    allow_cogging(0.01);
+    hci_memory_fail_after(0);
+    TEST_ASSERT_EQUAL_INT(HCI_ERROR_MEMORY, hci_expected_ripple_find(&path, &uncertainty, &e, &note));
+    hci_memory_fail_after(1);
+    TEST_ASSERT_EQUAL_INT(HCI_ERROR_MEMORY, hci_expected_ripple_find(&path, &uncertainty, &e, &note));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_what_is_read_is_written_again);
+    RUN_TEST(test_rows_in_any_order);
+    RUN_TEST(test_all_recordings_together);
+    RUN_TEST(test_no_files_are_no_knowledge);
+    RUN_TEST(test_files_that_are_wrong);
+    RUN_TEST(test_belongs_to_one_list_of_effects);
+    RUN_TEST(test_one_uncertain_order);
+    RUN_TEST(test_ripple_of_the_model);
+    RUN_TEST(test_currents_outside);
+    RUN_TEST(test_grows_with_the_current);
+    RUN_TEST(test_not_known);
+    RUN_TEST(test_words);
+    RUN_TEST(test_memory);
+    return UNITY_END();
+}
