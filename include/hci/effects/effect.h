@@ -41,6 +41,8 @@ typedef struct {
                                * currents that turn with the rotor. Only delays use it */
     double curvature_A_per_s2[3]; /* the same of that rate; where it is not known, 0 */
     double temperature_C; /* of the magnets; NAN where it is not known, which stands for the reference */
+    int computed_phase;   /* 1, 2, 3: no sensor reads this phase's current, it is minus the sum of the other two
+                           * as they are read; 0: each has its own, or it is not known */
 } hci_sample;
 
 /* A torque and its derivatives at a true sample; zeros to begin with. */

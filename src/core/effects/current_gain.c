@@ -7,6 +7,13 @@ static const hci_effect_parameter PARAMETER[] = {
     HCI_PLAIN("c", "1", "relative error of phase c", 0.0, -0.999, HCI_PARAMETER_WITH_CURRENT),
 };
 
+/* A current without a sensor has the errors of the other two. */
+static void phase_compute(hci_sample *x)
+{
+    hci_effect_compute_phase(x->computed_phase, x->i_abc);
+    hci_effect_compute_phase(x->computed_phase, x->change_A_per_s);
+}
+
 static void sense(const hci_effect *effect, int pole_pairs, hci_sample *x)
 {
     (void)pole_pairs;
@@ -15,6 +22,7 @@ static void sense(const hci_effect *effect, int pole_pairs, hci_sample *x)
         x->i_abc[s] *= factor;
         x->change_A_per_s[s] *= factor;
     }
+    phase_compute(x);
 }
 
 static void undo(const hci_effect *effect, int pole_pairs, hci_sample *x)
@@ -25,6 +33,7 @@ static void undo(const hci_effect *effect, int pole_pairs, hci_sample *x)
         x->i_abc[s] /= factor;
         x->change_A_per_s[s] /= factor;
     }
+    phase_compute(x);
 }
 
 /* ∂i/∂g = −i_read/(1 + g)², and so the rate of change. */
@@ -32,6 +41,8 @@ static void undo_adjoint(const hci_effect *effect, int pole_pairs, const hci_sam
                          hci_effect_torque *by, double *by_value)
 {
     (void)pole_pairs;
+    hci_effect_compute_phase_adjoint(before->computed_phase, by->by_current);
+    hci_effect_compute_phase_adjoint(before->computed_phase, by->by_change);
     for (size_t s = 0; s < 3; ++s) {
         by->by_current[s] /= 1.0 + hci_effect_value(effect, s);
         by->by_change[s] /= 1.0 + hci_effect_value(effect, s);

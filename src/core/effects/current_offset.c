@@ -12,6 +12,7 @@ static void sense(const hci_effect *effect, int pole_pairs, hci_sample *x)
     (void)pole_pairs;
     for (size_t s = 0; s < 3; ++s)
         x->i_abc[s] += hci_effect_value(effect, s);
+    hci_effect_compute_phase(x->computed_phase, x->i_abc);
 }
 
 static void undo(const hci_effect *effect, int pole_pairs, hci_sample *x)
@@ -19,13 +20,14 @@ static void undo(const hci_effect *effect, int pole_pairs, hci_sample *x)
     (void)pole_pairs;
     for (size_t s = 0; s < 3; ++s)
         x->i_abc[s] -= hci_effect_value(effect, s);
+    hci_effect_compute_phase(x->computed_phase, x->i_abc);
 }
 
 static void undo_adjoint(const hci_effect *effect, int pole_pairs, const hci_sample *before,
                          hci_effect_torque *by, double *by_value)
 {
     (void)pole_pairs;
-    (void)before;
+    hci_effect_compute_phase_adjoint(before->computed_phase, by->by_current);
     for (size_t k = 0; k < effect->count; ++k)
         by_value[k] = -by->by_current[effect->term[k].parameter];
 }

@@ -138,6 +138,23 @@ static inline void hci_effect_propose_phases(const hci_effect_proposals *to, dou
         hci_effect_propose(to, s, 1, 0.0, 3.0, expected);
 }
 
+/* Makes the current of a phase without a sensor minus the sum of the other two. */
+static inline void hci_effect_compute_phase(int computed_phase, double i[3])
+{
+    const int s = computed_phase - 1;
+    if (computed_phase > 0) i[s] = -i[(s + 1) % 3] - i[(s + 2) % 3];
+}
+
+/* The adjoint: derivatives by three currents to those by the two that are read. */
+static inline void hci_effect_compute_phase_adjoint(int computed_phase, double by[3])
+{
+    const int s = computed_phase - 1;
+    if (computed_phase <= 0) return;
+    by[(s + 1) % 3] -= by[s];
+    by[(s + 2) % 3] -= by[s];
+    by[s] = 0.0;
+}
+
 static inline void hci_effect_link_add(hci_effect_channel *channel, const hci_effect_link *link)
 {
     if (channel->count < HCI_EFFECT_LINKS) channel->link[channel->count] = *link;

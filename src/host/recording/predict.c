@@ -41,7 +41,7 @@ hci_status hci_predict_readings(const hci_run *run, int pole_pairs, bool with_ch
     }
     for (size_t k = 0; k < run->count; ++k) {
         hci_sample *x = &reading[k];
-        *x = (hci_sample){.theta_m_rad = run->theta_m_rad[k]};
+        *x = (hci_sample){.theta_m_rad = run->theta_m_rad[k], .computed_phase = run->computed_phase};
         x->speed_rad_per_s = run->speed_rad_per_s != NULL ? run->speed_rad_per_s[k] : 0.0;
         x->temperature_C = run->temperature_C != NULL ? run->temperature_C[k] : (double)NAN;
         for (int s = 0; s < 3; ++s)

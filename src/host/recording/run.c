@@ -307,6 +307,14 @@ static hci_status read_current_of_torque(reader *r)
     return status;
 }
 
+/* 1, 2 or 3 of three columns, the one that is not there; 0: all are. */
+static int phase_missing(const reader *r, hci_run_column first)
+{
+    for (int s = 0; s < 3; ++s)
+        if (!has(r, (hci_run_column)((int)first + s))) return s + 1;
+    return 0;
+}
+
 static hci_status read_currents(reader *r)
 {
     const int phases = hci_run_phase_count(&r->columns, HCI_RUN_IA);
@@ -316,6 +324,7 @@ static hci_status read_currents(reader *r)
         hci_run_column_leave(&r->columns, HCI_RUN_ID);
         hci_run_column_leave(&r->columns, HCI_RUN_IQ);
         r->run->has_sum = phases == 3;
+        r->run->computed_phase = phase_missing(r, HCI_RUN_IA);
         return read_phases(r, HCI_RUN_IA, &r->run->i_A);
     }
     if (has(r, HCI_RUN_ID) && !has(r, HCI_RUN_IQ))

@@ -539,6 +539,41 @@ static void test_readings_and_back(void)
     }
 }
 
+/* A phase without a sensor is minus the sum of what the other two read, errors and all; undoing them gives it
+ * back, and the derivatives by the errors are those of the whole. */
+static void test_a_phase_without_a_sensor(void)
+{
+    static const double STEP = 1e-6, GAIN = 0.03, OFFSET_A = 0.2;
+    uint64_t seed = 17;
+    for (int j = 0; j < 3 * DRAWS; ++j) {
+        const int c = j % 3, a = (c + 1) % 3, b = (c + 2) % 3;
+        static const char *const NAME[] = {"a", "b", "c"};
+        double by_value[2], torque[4];
+        hci_sample truth = el_sample(&seed);
+        truth.i_abc[c] = -truth.i_abc[a] - truth.i_abc[b];
+        truth.computed_phase = c + 1;
+        el_list l = {0};
+        el_add(&l, "current_gain", NAME[a], 0.0, GAIN);
+        el_add(&l, "current_offset", NAME[b], 0.0, OFFSET_A);
+        const hci_sample reading = hci_effects_sense(&l.list, P, &truth);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, (1.0 + GAIN) * truth.i_abc[a], reading.i_abc[a]);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, truth.i_abc[b] + OFFSET_A, reading.i_abc[b]);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, -reading.i_abc[a] - reading.i_abc[b], reading.i_abc[c]);
+        const hci_sample back = hci_effects_undo(&l.list, P, &reading);
+        for (int s = 0; s < 3; ++s)
+            TEST_ASSERT_DOUBLE_WITHIN(1e-12, truth.i_abc[s], back.i_abc[s]);
+        hci_effects_predict(&m.machine, &l.list, &reading, by_value);
+        for (int k = 0; k < 4; ++k) {
+            el_list moved = {0};
+            el_add(&moved, "current_gain", NAME[a], 0.0, GAIN + (k < 2 ? (k ? STEP : -STEP) : 0.0));
+            el_add(&moved, "current_offset", NAME[b], 0.0, OFFSET_A + (k < 2 ? 0.0 : k == 3 ? STEP : -STEP));
+            torque[k] = hci_effects_predict(&m.machine, &moved.list, &reading, NULL);
+        }
+        TEST_ASSERT_DOUBLE_WITHIN(1e-6, (torque[1] - torque[0]) / (2.0 * STEP), by_value[0]);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-6, (torque[3] - torque[2]) / (2.0 * STEP), by_value[1]);
+    }
+}
+
 /* Every effect of a sensor at once, each with several terms. */
 static void test_all_readings_and_back(void)
 {
@@ -819,6 +854,7 @@ int main(void)
     RUN_TEST(test_friction_brakes);
     RUN_TEST(test_stribeck_friction_fades);
     RUN_TEST(test_iron_drag_grows_with_load);
+    RUN_TEST(test_a_phase_without_a_sensor);
     RUN_TEST(test_all_readings_and_back);
     RUN_TEST(test_harmonics_of_a_resolver);
     RUN_TEST(test_current_filter_of_a_sine);

@@ -39,6 +39,7 @@ typedef struct {
                         it */
     bool mean_is_unknown; /* a constant load stands in torque_Nm too: only what varies says something */
     bool has_sum;         /* all three currents were recorded, so that their sum says something */
+    int computed_phase;   /* 1, 2, 3: of two phase currents the third was made, so that the sum is 0; 0: not */
     size_t *row;          /* [count], of the file, from 0; NULL: each row is a sample */
     hci_note remark;      /* what was supposed on reading, or "" */
 } hci_run;
