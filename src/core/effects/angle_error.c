@@ -6,6 +6,7 @@ hci_effect_oscillation hci_angle_error_at(const hci_effect *effect, int periods,
     hci_effect_turn turn = {HCI_EFFECT_NO_TURN, 0.0, 0.0};
     for (size_t j = 0; j < effect->count; ++j) {
         const hci_effect_term *t = &effect->term[j];
+        if (t->value == 0.0) continue;
         hci_effect_turn_to(&turn, t->order, periods, theta_m_rad);
         const hci_effect_oscillation f = hci_effect_oscillate(&turn, t->parameter % 2 == 1);
         sum.value += t->value * f.value / periods;

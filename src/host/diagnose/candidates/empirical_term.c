@@ -23,23 +23,38 @@ bool hci_growth_law_is_known(size_t g, double order)
     return !x.turns_sign || (x.current == 0.0 && x.speed != 0.5);
 }
 
+/* x^exponent of a whole number of quarters, x >= 0, from the fourth root: no exponent here is large. */
+static double power(double x, double exponent)
+{
+    const int quarters = (int)(4.0 * exponent + 0.5);
+    const double root = quarters % 2 == 1 ? sqrt(sqrt(x)) : quarters % 4 == 2 ? sqrt(x) : x;
+    const int times = quarters % 2 == 1 ? quarters : quarters % 4 == 2 ? quarters / 2 : quarters / 4;
+    double product = 1.0;
+    for (int k = 0; k < times; ++k)
+        product *= root;
+    return product;
+}
+
 double hci_growth_law_at(size_t g, double current_A, double speed_rad_per_s)
 {
     const hci_growth_law x = hci_growth_law_of(g);
     const double sign = x.turns_sign ? (speed_rad_per_s > 0.0) - (speed_rad_per_s < 0.0) : 1.0;
-    return sign * pow(current_A, x.current) * pow(fabs(speed_rad_per_s), x.speed);
+    return sign * power(current_A, x.current) * power(fabs(speed_rad_per_s), x.speed);
 }
 
-static double torque(const hci_effect *effect, const hci_effect_term *term, const hci_machine *machine,
-                     const hci_sample *truth, hci_effect_torque *sum)
+static void torque_of_all(const hci_effect *effect, const hci_machine *machine, const hci_sample *truth,
+                          hci_effect_torque *sum, double *by_value)
 {
-    (void)effect;
     const hci_dq i = hci_sample_dq(truth, machine->pole_pairs);
-    const double angle = term->order * machine->pole_pairs * truth->theta_m_rad;
-    const double wave = term->parameter % 2 == 1 ? cos(angle) : sin(angle);
-    const double by = wave * hci_growth_law_at(term->parameter / 2, hypot(i.d, i.q), truth->speed_rad_per_s);
-    sum->torque_Nm += term->value * by;
-    return by;
+    const double current_A = sqrt(i.d * i.d + i.q * i.q);
+    for (size_t k = 0; k < effect->count; ++k) {
+        const hci_effect_term *term = &effect->term[k];
+        const double angle = term->order * machine->pole_pairs * truth->theta_m_rad;
+        const double wave = term->parameter % 2 == 1 ? cos(angle) : sin(angle);
+        const double by = wave * hci_growth_law_at(term->parameter / 2, current_A, truth->speed_rad_per_s);
+        sum->torque_Nm += term->value * by;
+        if (by_value) by_value[k] = by;
+    }
 }
 
 #define WAVE                                                                                                 \
@@ -60,5 +75,5 @@ const hci_effect_type hci_empirical_type = {
     .parameter = PARAMETER,
     .parameter_count = 2 * HCI_GROWTH_LAWS,
     .in_machine = true,
-    .torque = torque,
+    .torque_of_all = torque_of_all,
 };

@@ -20,13 +20,22 @@ static bool is_linear(const hci_known_term *x)
     return (traits & HCI_PARAMETER_LINEAR) && !(traits & HCI_PARAMETER_ALONG_TIME) && !x->type->undo;
 }
 
-static const hci_known_term *term_find(const hci_known_model *of, const hci_effect_type *type,
-                                       const hci_effect_term *term)
+static bool is_term(const hci_known_term *x, const hci_effect_type *type, const hci_effect_term *term)
 {
-    for (size_t k = 0; k < of->terms; ++k)
-        if (of->term[k].type == type && of->term[k].parameter == term->parameter &&
-            of->term[k].order == term->order)
-            return &of->term[k];
+    return x->type == type && x->parameter == term->parameter && x->order == term->order;
+}
+
+/* last: the one that was found last; models have their terms in much the same order, so that the next one is
+ * near. */
+static const hci_known_term *term_find(const hci_known_model *of, const hci_effect_type *type,
+                                       const hci_effect_term *term, size_t *last)
+{
+    for (size_t k = 0; k < of->terms; ++k) {
+        const size_t at = (*last + k) % of->terms;
+        if (!is_term(&of->term[at], type, term)) continue;
+        *last = at;
+        return &of->term[at];
+    }
     return NULL;
 }
 
@@ -84,11 +93,12 @@ static bool value_compare(comparison *c, const hci_known_term *x, double value)
 /* Terms of the model: each is known, or is nothing. */
 static bool model_compare(comparison *c, const hci_model *model)
 {
+    size_t last = 0;
     for (size_t k = 0; k < model->list.count; ++k) {
         const hci_effect *effect = &model->list.effect[k];
         for (size_t j = 0; j < effect->count; ++j) {
             const hci_effect_term *term = &effect->term[j];
-            const hci_known_term *x = term_find(c->from, effect->type, term);
+            const hci_known_term *x = term_find(c->from, effect->type, term, &last);
             if (!x && !is_nothing(effect->type, term->parameter, term->value)) return false;
             if (x && !value_compare(c, x, term->value)) return false;
             if (x) c->met[x - c->from->term] = true;
@@ -111,10 +121,11 @@ static bool rest_compare(comparison *c)
 /* Columns of the model: each is known, and linear where any value has changed. */
 static bool columns_find(comparison *c, const hci_model *model)
 {
+    size_t last = 0;
     for (size_t k = 0; k < model->columns; ++k) {
         const hci_model_column *column = &model->column[k];
         const hci_known_term *x =
-            term_find(c->from, column->candidate->type, &column->candidate->term[column->term]);
+            term_find(c->from, column->candidate->type, &column->candidate->term[column->term], &last);
         if (!x || x->column == SIZE_MAX || (c->changed && !is_linear(x))) return false;
         c->column[k] = x->column;
     }

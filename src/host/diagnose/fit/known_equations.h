@@ -14,7 +14,7 @@
 #include "host/diagnose/fit/regression.h"
 #include "host/numeric/normal_equations.h"
 
-enum { HCI_KNOWN_EQUATIONS = 4 }; /* that are kept, the last ones used */
+enum { HCI_KNOWN_EQUATIONS = 64 }; /* that are kept, the last ones used */
 
 /* A term of a model that was linearised. */
 typedef struct {
