@@ -60,7 +60,7 @@ static void test_corrected_machine(void)
         double square = 0.0;
         for (size_t j = 0; j < run[k].count; ++j) {
             hci_sample x = {
-                run[k].theta_m_rad[j], run[k].speed_rad_per_s[j], {0.0}, {0.0}, {0.0}, (double)NAN};
+                run[k].theta_m_rad[j], run[k].speed_rad_per_s[j], {0.0}, {0.0}, {0.0}, (double)NAN, 0};
             memcpy(x.i_abc, run[k].i_A + 3 * j, sizeof x.i_abc);
             const double error =
                 run[k].torque_Nm[j] - hci_effects_predict(&corrected.model, &effects.list, &x, NULL);
