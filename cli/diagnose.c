@@ -17,7 +17,7 @@
 #include "hci/host/report/summary.h"
 #include "hci/host/report/write.h"
 
-enum { RUNS, OUT, TARGET, RESOLUTION, REPORT, CLI_READING_KEYS, CLI_COMMON_KEYS };
+enum { RUNS, OUT, TARGET, RESOLUTION, REPORT, HOLDING, CLI_READING_KEYS, CLI_COMMON_KEYS };
 
 static const cli_option OPTIONS[] = {
     [RUNS] = {"runs", 0, CLI_FILE, "LIST",
@@ -30,6 +30,7 @@ static const cli_option OPTIONS[] = {
                     .low = 1e-6, .high = 50.0},
     [REPORT] = {"report", 0, CLI_FLAG, NULL,
                 .help = "report.html is written in any case; taken for the sake of scripts"},
+    [HOLDING] = CLI_HOLDING_OPTION,
     CLI_READING_OPTIONS,
     CLI_COMMON_OPTIONS};
 
@@ -70,6 +71,7 @@ static hci_status read_inputs(const cli_arguments *a, inputs *in, hci_note *note
     if (!status) status = hci_effects_read_machine(a->word[0], &in->declared, note);
     if (status) return status;
     in->reading.run.pole_pairs = in->machine.model.pole_pairs;
+    in->reading.run.holding = a->given[HOLDING];
     in->reading.run.inertia_kgm2 = in->machine.inertia_kgm2;
     in->reading.run.torque_constant_Nm_per_A = hci_machine_torque_constant(&in->machine);
     const hci_runs_options reading = {in->reading.run, in->options.progress, NULL};

@@ -14,7 +14,7 @@
 #include "hci/host/waveform/waveform.h"
 #include "hci/math/harmonic.h"
 
-enum { QUANTITY, POLE_PAIRS, ORDERS, MAX_ORDER, CONSTANT, OUT, CLI_READING_KEYS, CLI_COMMON_KEYS };
+enum { QUANTITY, POLE_PAIRS, ORDERS, MAX_ORDER, CONSTANT, OUT, HOLDING, CLI_READING_KEYS, CLI_COMMON_KEYS };
 
 static const cli_choice QUANTITIES[] = {
     [HCI_WAVEFORM_BACK_EMF] = {"back_emf", NULL},
@@ -33,6 +33,7 @@ static const cli_option OPTIONS[] = {
     [CONSTANT] = {"torque-constant", 0, CLI_NUMBER, "NM_PER_A",
                   .help = "cogging of a run with currents: torque of 1 A of i_q", .low = 1e-9, .high = 1e6},
     [OUT] = {"out", 'o', CLI_FOLDER, "FOLDER", .help = "where the table goes; without it nothing is written"},
+    [HOLDING] = CLI_HOLDING_OPTION,
     CLI_READING_OPTIONS,
     CLI_COMMON_OPTIONS};
 
@@ -133,6 +134,7 @@ static int run(const cli_arguments *a)
     hci_status status = cli_reading_take(a, a->given[STRICT], &reading, &note);
     if (!status) status = read_options(a, &options, orders, &note);
     reading.run.pole_pairs = options.pole_pairs;
+    reading.run.holding = a->given[HOLDING];
     if (!status) status = hci_run_read(a->word[0], &reading.run, &recording, &note);
     if (!status) status = analyse(a, &options, &recording, &note);
     hci_run_release(&recording);

@@ -115,6 +115,14 @@ typedef struct {
     [STRICT] = {"strict", 0, CLI_FLAG, NULL,                                                                 \
                 .help = "refuse a recording with holes; without it such rows are left out and counted"}
 
+/* The same where the torque of a recording is used. */
+#define CLI_HOLDING_OPTION                                                                                   \
+    {                                                                                                        \
+        "holding", 0, CLI_FLAG, NULL,                                                                        \
+            .help = "a recording without torque_Nm is of a shaft that control turns slowly: its current "    \
+                    "answers cogging and friction"                                                           \
+    }
+
 #define CLI_EXIT_ERRORS "2 command line; 3 input; 4 numerical; 5 output\n"
 
 /* Words of --color, in the order of cli_color. */

@@ -17,6 +17,7 @@
 #include "host/recording/holes.h"
 #include "host/recording/rotor_frame.h"
 #include "host/recording/run_columns.h"
+#include "host/recording/slow_turn.h"
 
 /* Less movement than this is a shaft at rest, whose angle only flickers. */
 #define MOVED_RAD (2.0 * HCI_PI / 100.0)
@@ -355,17 +356,36 @@ static hci_status read_voltages(reader *r)
 
 /* ---- torque ---- */
 
+/* The shaft turns so slowly that nothing accelerates: the current is the reading. */
+static hci_status hold(hci_run *run, const char *why)
+{
+    for (size_t k = 0; k < run->count; ++k)
+        run->torque_Nm[k] = 0.0;
+    run->torque_source = HCI_TORQUE_HOLDING;
+    hci_note_add(&run->remark, "no torque_Nm: %s, read as a holding test", why);
+    return HCI_OK;
+}
+
+static bool can_accelerate(const reader *r)
+{
+    const hci_run *run = r->run;
+    return r->options->inertia_kgm2 > 0.0 && run->time_s != NULL && run->speed_rad_per_s != NULL &&
+           run->count >= 3;
+}
+
 static hci_status torque_of_inertia(reader *r)
 {
-    const double inertia_kgm2 = r->options->inertia_kgm2;
     hci_run *run = r->run;
-    if (!(inertia_kgm2 > 0.0) || run->time_s == NULL || run->speed_rad_per_s == NULL || run->count < 3)
-        return HCI_OK;
+    const double inertia_kgm2 = r->options->inertia_kgm2;
+    if (!can_accelerate(r) && !r->options->holding) return HCI_OK;
     run->torque_Nm = hci_memory_new(run->count, sizeof(double));
     if (run->torque_Nm == NULL) return memory_error(r);
+    if (r->options->holding) return hold(run, "turned slowly, as --holding says");
     hci_derivative(run->time_s, run->speed_rad_per_s, run->count, run->torque_Nm);
     for (size_t k = 0; k < run->count; ++k)
         run->torque_Nm[k] *= inertia_kgm2;
+    if (hci_is_slow_turn(run, r->pole_pairs, inertia_kgm2, r->options->torque_constant_Nm_per_A))
+        return hold(run, "the shaft turns so slowly that its current answers cogging and friction");
     run->torque_source = HCI_TORQUE_INERTIA;
     hci_note_add(&r->run->remark, "no torque_Nm: as of a free shaft it is inertia x acceleration");
     return HCI_OK;

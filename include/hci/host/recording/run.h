@@ -48,8 +48,9 @@ typedef struct {
 typedef struct {
     int pole_pairs;      /* to turn electrical angles into mechanical ones */
     double inertia_kgm2; /* for a run without torque_Nm; NAN or 0: not known, the torque is then missing */
-    double torque_constant_Nm_per_A;      /* of i_q, for a torque that a drive computed; 0: not known */
-    bool strict;                          /* a hole refuses the file */
+    double torque_constant_Nm_per_A; /* of i_q, for a torque that a drive computed; 0: not known */
+    bool holding; /* without a torque column the shaft is turned slowly, and its torque is 0 */
+    bool strict;  /* a hole refuses the file */
     const hci_column_names *columns;      /* which column is what, before all names; NULL: names say it */
     const hci_column_names *list_columns; /* the same for all runs of a list, which counts least; or NULL */
 } hci_run_options;
@@ -70,6 +71,10 @@ typedef struct {
  * repeat the one before them, time included, are left out, and the remark counts them; more than half of the
  * rows is an error, and so is each of them where options->strict. A column of holes alone is as if it were
  * not there; temperatures that are missing are interpolated.
+ *
+ * A run without torque_Nm has inertia × acceleration, or a torque of 0 where options->holding, or where it is
+ * a slow turn under control: its current varies by more than five times what accelerates, and its kinetic
+ * energy is less than the work of that over one electrical radian.
  *
  * On failure *run is empty. HCI_ERROR_INPUT, _MEMORY, _ARGUMENT for less than one pole pair. O(samples). */
 hci_status hci_run_read(const char *path, const hci_run_options *options, hci_run *run, hci_note *note);

@@ -1,0 +1,119 @@
+/* Slow turns under position or speed control, without a torque column: a holding test, told or found. */
+#include "host/recording/slow_turn.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "hci/host/recording/run.h"
+#include "support/draws.h"
+#include "support/files.h"
+#include "support/texts.h"
+#include "unity.h"
+
+enum { N = 2000, P = 7 };
+
+#define STEP_S     0.004
+#define INERTIA    2e-5
+#define CONSTANT   0.05
+#define COGGING_Nm 0.01
+
+static char path[96];
+static hci_run run;
+static hci_note note;
+
+void setUp(void)
+{
+    files_begin();
+    snprintf(path, sizeof path, "%s", files_path("run.csv"));
+    memset(&run, 0, sizeof run);
+    memset(&note, 0, sizeof note);
+}
+
+void tearDown(void)
+{
+    hci_run_release(&run);
+    files_end();
+}
+
+/* A shaft at a steady speed whose current answers 12 events a turn and a load; wobble_rad: what the events
+ * leave of them in the angle. */
+static void read_turn(double speed, double load_Nm, double wobble_rad, const hci_run_options *options,
+                      const char *last)
+{
+    FILE *file = fopen(path, "w");
+    TEST_ASSERT_NOT_NULL(file);
+    fprintf(file, "time_s,theta_m_rad,speed_rad_per_s,iq_A,%s\n", last);
+    for (size_t k = 0; k < N; ++k) {
+        const double t = STEP_S * (double)k, turn = speed * t;
+        const double wobble = wobble_rad * sin(12.0 * turn),
+                     rate = 12.0 * speed * wobble_rad * cos(12.0 * turn);
+        fprintf(file, "%.4f,%.9f,%.9f,%.9f,0.01\n", t, turn + wobble, speed + rate,
+                (load_Nm + COGGING_Nm * sin(12.0 * turn)) / CONSTANT);
+    }
+    fclose(file);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_run_read(path, options, &run, &note), note.text);
+}
+
+static const hci_run_options KNOWN = {
+    .pole_pairs = P, .inertia_kgm2 = INERTIA, .torque_constant_Nm_per_A = CONSTANT};
+
+static void test_a_slow_turn_is_found(void)
+{
+    read_turn(0.6, 0.02, 0.0, &KNOWN, "lamp");
+    TEST_ASSERT_EQUAL(HCI_TORQUE_HOLDING, run.torque_source);
+    for (size_t k = 0; k < N; ++k)
+        TEST_ASSERT_EQUAL_DOUBLE(0.0, run.torque_Nm[k]);
+    text_has("so slowly that its current answers cogging and friction, read as a holding test",
+             run.remark.text);
+}
+
+/* J ω²/2 = 0.2 J against 0.007 N·m / 7: the rotor goes on whatever the current does. */
+static void test_a_fast_shaft_under_load_is_none(void)
+{
+    read_turn(140.0, 0.02, 0.0, &KNOWN, "lamp");
+    TEST_ASSERT_EQUAL(HCI_TORQUE_INERTIA, run.torque_source);
+}
+
+/* J (12 ω)² × 0.1 rad = 3.7e-3 N·m beside 1e-2: a part of the current accelerates. */
+static void test_a_shaft_that_is_accelerated_is_none(void)
+{
+    read_turn(0.6 * 6.0, 0.0, 0.1, &KNOWN, "lamp");
+    TEST_ASSERT_EQUAL(HCI_TORQUE_INERTIA, run.torque_source);
+    hci_run_release(&run);
+    read_turn(0.6 * 6.0, 0.0, 0.01, &KNOWN, "lamp");
+    TEST_ASSERT_EQUAL(HCI_TORQUE_HOLDING, run.torque_source);
+}
+
+static void test_it_takes_inertia_and_torque_constant(void)
+{
+    read_turn(0.6, 0.02, 0.0, &(hci_run_options){.pole_pairs = P, .inertia_kgm2 = INERTIA}, "lamp");
+    TEST_ASSERT_EQUAL(HCI_TORQUE_INERTIA, run.torque_source);
+    hci_run_release(&run);
+    read_turn(0.6, 0.02, 0.0, &(hci_run_options){.pole_pairs = P, .inertia_kgm2 = NAN}, "lamp");
+    TEST_ASSERT_EQUAL(HCI_TORQUE_NONE, run.torque_source);
+}
+
+/* Whatever is known of the machine; but a torque that was measured stays. */
+static void test_it_can_be_said(void)
+{
+    const hci_run_options said = {.pole_pairs = P, .inertia_kgm2 = NAN, .holding = true};
+    read_turn(140.0, 0.02, 0.0, &said, "lamp");
+    TEST_ASSERT_EQUAL(HCI_TORQUE_HOLDING, run.torque_source);
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, run.torque_Nm[7]);
+    text_has("turned slowly, as --holding says, read as a holding test", run.remark.text);
+    hci_run_release(&run);
+    read_turn(0.6, 0.02, 0.0, &said, "torque_Nm");
+    TEST_ASSERT_EQUAL(HCI_TORQUE_MEASURED, run.torque_source);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_a_slow_turn_is_found);
+    RUN_TEST(test_a_fast_shaft_under_load_is_none);
+    RUN_TEST(test_a_shaft_that_is_accelerated_is_none);
+    RUN_TEST(test_it_takes_inertia_and_torque_constant);
+    RUN_TEST(test_it_can_be_said);
+    return UNITY_END();
+}
