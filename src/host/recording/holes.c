@@ -188,9 +188,7 @@ static hci_status conclude(rows_task *t)
 static hci_status check_angle_left(const hci_run_columns *c)
 {
     char path[HCI_QUOTE_PATH_SIZE];
-    for (unsigned which = HCI_RUN_THETA_M; which <= HCI_RUN_VBC; ++which)
-        if (c->has[which] && (which <= HCI_RUN_THETA_E || which == HCI_RUN_VA || which == HCI_RUN_VAB))
-            return HCI_OK;
+    if (hci_run_columns_suffice(c)) return HCI_OK;
     return hci_note_set(
         c->note, HCI_ERROR_INPUT,
         "%s: found no number in the column of the angle, expected one in each row; record the "

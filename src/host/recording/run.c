@@ -246,6 +246,38 @@ static hci_status read_angles(reader *r, hci_angle_path *path)
     return status;
 }
 
+/* θ = ∫ω dt from 0, where only a speed was recorded. */
+static hci_status integrate_speed(reader *r)
+{
+    hci_run *run = r->run;
+    run->theta_m_rad = hci_memory_new(run->count, sizeof(double));
+    if (run->theta_m_rad == NULL) return memory_error(r);
+    for (size_t k = 1; k < run->count; ++k)
+        run->theta_m_rad[k] =
+            run->theta_m_rad[k - 1] + 0.5 * (run->speed_rad_per_s[k - 1] + run->speed_rad_per_s[k]) *
+                                          (run->time_s[k] - run->time_s[k - 1]);
+    run->turn_known = run->zero_is_unknown = true;
+    hci_note_add(&run->remark, "no angle: it is speed x time, and its zero is not known");
+    return HCI_OK;
+}
+
+/* What does without an angle. */
+static hci_status replace_angle(reader *r)
+{
+    hci_run *run = r->run;
+    const bool voltages = has(r, HCI_RUN_VA) || has(r, HCI_RUN_VAB);
+    const bool phases = hci_run_phase_count(&r->columns, HCI_RUN_IA) >= 2;
+    if (run->theta_m_rad != NULL || voltages) return HCI_OK;
+    if (run->time_s != NULL && run->speed_rad_per_s != NULL && !phases) return integrate_speed(r);
+    run->only_mean = has(r, HCI_RUN_TORQUE) && has(r, HCI_RUN_IQ) && !phases;
+    if (run->only_mean)
+        hci_note_add(&run->remark, "no angle: torques over i_d and i_q, taken as means over a turn");
+    else
+        return missing(r, "no angle beside phase currents", "theta_m_rad or theta_e_rad",
+                       "add the angle or give id_A and iq_A");
+    return HCI_OK;
+}
+
 /* ---- three phases ---- */
 
 /* Puts columns of three phases side by side, by the first of them. out: [count][3]. */
@@ -265,13 +297,14 @@ static hci_status read_phases(reader *r, hci_run_column first, double **out)
 static hci_status turn_dq(const reader *r, const double *d, const double *q, double *phases)
 {
     const hci_run *run = r->run;
-    if (run->theta_m_rad == NULL)
+    if (run->theta_m_rad == NULL && !run->only_mean)
         return missing(r, "iq_A without an angle",
                        "theta_e_rad or theta_m_rad to turn it into phase currents",
                        "add the angle or give phase currents");
     for (size_t k = 0; k < run->count; ++k) {
         const hci_dq x = {.d = d != NULL ? d[k] : 0.0, .q = q[k]};
-        hci_phases_of_dq(x, r->pole_pairs * run->theta_m_rad[k], phases + 3 * k);
+        const double theta_m_rad = run->theta_m_rad != NULL ? run->theta_m_rad[k] : 0.0;
+        hci_phases_of_dq(x, r->pole_pairs * theta_m_rad, phases + 3 * k);
     }
     return HCI_OK;
 }
@@ -339,7 +372,7 @@ static hci_status read_currents(reader *r)
 
 static hci_status read_dq_voltages(reader *r)
 {
-    const bool given = hci_run_phase_count(&r->columns, HCI_RUN_VA) == 0 && has(r, HCI_RUN_VQ);
+    const bool given = hci_run_phase_count(&r->columns, HCI_RUN_VA) < 2 && has(r, HCI_RUN_VQ);
     return given && r->run->theta_m_rad != NULL ? read_dq(r, HCI_RUN_VD, HCI_RUN_VQ, &r->run->v_V) : HCI_OK;
 }
 
@@ -351,6 +384,9 @@ static hci_status read_voltages(reader *r)
     if (first == HCI_RUN_VAB)
         hci_note_add(&r->run->remark,
                      "phase voltages from line voltages: orders divisible by three are not in them");
+    else if (hci_run_phase_count(&r->columns, first) == 2)
+        hci_note_add(&r->run->remark, "two phase voltages: the third makes the sum 0, as in a star without "
+                                      "neutral; orders divisible by three are wrong in it");
     return status;
 }
 
@@ -434,6 +470,7 @@ static hci_status read_all(reader *r)
     hci_status status = read_time(r);
     if (!status) status = read_speed(r);
     if (!status) status = read_angles(r, &path);
+    if (!status) status = replace_angle(r);
     if (!status) status = mend_clock(r, path);
     if (!status) status = complete_speed(r, path);
     if (!status) status = read_currents(r);

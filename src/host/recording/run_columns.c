@@ -34,6 +34,13 @@ static bool has_any(const hci_run_columns *c)
     return any;
 }
 
+bool hci_run_columns_suffice(const hci_run_columns *c)
+{
+    const bool speed = c->has[HCI_RUN_SPEED] || c->has[HCI_RUN_SPEED_E];
+    return c->has[HCI_RUN_THETA_M] || c->has[HCI_RUN_THETA_E] || c->has[HCI_RUN_VA] || c->has[HCI_RUN_VAB] ||
+           (c->has[HCI_RUN_TIME] && speed) || (c->has[HCI_RUN_TORQUE] && c->has[HCI_RUN_IQ]);
+}
+
 /* Neither angle nor voltages: most likely a column under another name. Where voltages would do without an
  * angle, one that may be either is refused all the same, and not passed over. */
 static hci_status check_angle(const hci_run_columns *c, bool is_needed)
@@ -42,7 +49,7 @@ static hci_status check_angle(const hci_run_columns *c, bool is_needed)
     double unused;
     if (c->has[HCI_RUN_THETA_M] || c->has[HCI_RUN_THETA_E]) return HCI_OK;
     hci_status status = hci_csv_check_clear(c->csv, c->note);
-    if (status || (!is_needed && has_any(c)) || c->has[HCI_RUN_VA] || c->has[HCI_RUN_VAB]) return status;
+    if (status || (!is_needed && has_any(c)) || hci_run_columns_suffice(c)) return status;
     status = hci_csv_number(c->csv, NAME[HCI_RUN_THETA_M], 0, &unused, &missing);
     return hci_note_set(c->note, status, "%s; `%s` will do as well", missing.text, NAME[HCI_RUN_THETA_E]);
 }
@@ -150,7 +157,8 @@ int hci_run_phase_count(const hci_run_columns *c, hci_run_column first)
 
 bool hci_run_voltages(const hci_run_columns *c, hci_run_column *first)
 {
-    *first = hci_run_phase_count(c, HCI_RUN_VA) == 3 ? HCI_RUN_VA : HCI_RUN_VAB;
+    const int phases = hci_run_phase_count(c, HCI_RUN_VA), lines = hci_run_phase_count(c, HCI_RUN_VAB);
+    *first = phases == 3 || (phases == 2 && lines < 2) ? HCI_RUN_VA : HCI_RUN_VAB;
     return hci_run_phase_count(c, *first) >= 2;
 }
 

@@ -74,6 +74,9 @@ void hci_run_column_drop(hci_run_columns *c, hci_run_column which);
  * unused. */
 void hci_run_column_leave(hci_run_columns *c, hci_run_column which);
 
+/* Whether there is an angle, or what does without one: voltages, a speed over time, or torque and i_q. */
+bool hci_run_columns_suffice(const hci_run_columns *c);
+
 /* The canonical name, with its unit. */
 const char *hci_run_column_name(hci_run_column which);
 
@@ -91,7 +94,8 @@ void hci_run_columns_tell_unused(const hci_run_columns *c);
 /* How many of the three the file has. */
 int hci_run_phase_count(const hci_run_columns *c, hci_run_column first);
 
-/* Which voltages to take: all three phases, else line voltages, of which two will do. False: neither. */
+/* Which voltages to take: all three phases, else line voltages, of which two will do, else two phases, whose
+ * third makes the sum 0, as in a star without neutral. False: none of these. */
 bool hci_run_voltages(const hci_run_columns *c, hci_run_column *first);
 
 hci_status hci_run_phases_read(hci_run_columns *c, hci_run_column first);

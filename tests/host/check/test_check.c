@@ -701,11 +701,11 @@ static void expect_in_json(const char *text)
 static void test_how_a_recording_was_read_is_said(void)
 {
     write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
-    check_runs("time_s,theta_m_rad,speed_rad_per_s,Coil-U(A),Coil-V(A),Coil-W(A),va_V,vb_V,odd,torque_Nm",
+    check_runs("time_s,theta_m_rad,speed_rad_per_s,Coil-U(A),Coil-V(A),Coil-W(A),va_V,even,odd,torque_Nm",
                none, true);
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(check.remark[0].text, "`Coil-U(A)` is read as"),
                                  check.remark[0].text);
-    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(check.remark[1].text, "columns not used: `va_V`, `vb_V`, `odd`"),
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(check.remark[1].text, "columns not used: `va_V`, `even`, `odd`"),
                                  check.remark[1].text);
     expect_in_json("\"remark\":\t\"`Coil-U(A)` is read as");
     remove_files();

@@ -427,6 +427,38 @@ static void test_voltages(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, -1.0, run.v_V[1]);
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, -2.0, run.v_V[2]);
     text_has("divisible by three", run.remark.text);
+    hci_run_release(&run);
+    read_text("time_s,va_V,vc_V\n0,3,-2\n", 3);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, -1.0, run.v_V[1]);
+    text_has("two phase voltages: the third makes the sum 0", run.remark.text);
+}
+
+/* ---- without an angle ---- */
+
+/* A torque over time at a known speed: the angle is speed × time. */
+static void test_a_speed_over_time_is_an_angle(void)
+{
+    FILE *file = begin("time_s,speed_rad_per_s,torque_Nm,iq_A");
+    for (int k = 0; k < 2000; ++k)
+        row(file, 4, time_at(k), speed_at(time_at(k)), 0.1, 2.0);
+    fclose(file);
+    read_run(4, NAN);
+    TEST_ASSERT_TRUE(run.zero_is_unknown && run.turn_known);
+    for (int k = 0; k < 2000; ++k)
+        TEST_ASSERT_DOUBLE_WITHIN(2e-4, angle_at(time_at(k)) - angle_at(time_at(0)), run.theta_m_rad[k]);
+    text_has("no angle: it is speed x time, and its zero is not known", run.remark.text);
+}
+
+static void test_a_torque_map_knows_the_mean_only(void)
+{
+    read_text("speed_rpm;id_A;iq_A;torque_Nm\n600;0;1;0,1\n600;-1;2;0,2\n", 3);
+    TEST_ASSERT_TRUE(run.only_mean);
+    TEST_ASSERT_NULL(run.theta_m_rad);
+    TEST_ASSERT_EQUAL(HCI_TORQUE_MEASURED, run.torque_source);
+    /* i_a = −i_d at angle 0, i_b = i_q sin(−120°) − i_d cos(−120°) */
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 1.0, run.i_A[3]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, -sqrt(3.0) - 0.5, run.i_A[4]);
+    text_has("torques over i_d and i_q, taken as means over a turn", run.remark.text);
 }
 
 /* ---- torque ---- */
@@ -465,6 +497,7 @@ static void test_refused_runs(void)
 {
     refused("theta_m_rad,ia_A\n0,1\n", "two or three of ia_A, ib_A, ic_A");
     refused("theta_m_rad,id_A\n0,1\n", "add the column iq_A");
+    refused("time_s,speed_rad_per_s,ia_A,ib_A,torque_Nm\n0,1,1,1,1\n", "no angle beside phase currents");
     refused("time_s,va_V,vb_V,vc_V,iq_A\n0,1,1,1,1\n", "theta_e_rad or theta_m_rad");
     refused("time_s,torque_Nm\n0,1\n", "found no column `theta_m_rad` but `time_s`, `torque_Nm`");
     refused("time_s,torque_Nm\n0,1\n", "`theta_e_rad` will do as well");
@@ -638,6 +671,8 @@ int main(void)
     RUN_TEST(test_dq_voltages_turn_with_the_angle);
     RUN_TEST(test_iq_alone_and_no_current);
     RUN_TEST(test_voltages);
+    RUN_TEST(test_a_speed_over_time_is_an_angle);
+    RUN_TEST(test_a_torque_map_knows_the_mean_only);
     RUN_TEST(test_torque_sources);
     RUN_TEST(test_torque_of_inertia);
     RUN_TEST(test_refused_runs);

@@ -37,11 +37,13 @@ typedef struct {
     hci_torque_source torque_source; /* where torque_Nm is from */
     bool turn_known; /* the angle is mechanical, or an electrical one that is not wrapped: orders k/p are in
                         it */
+    bool zero_is_unknown; /* the angle is the integral of the speed, from 0 */
+    bool only_mean;       /* no angle, but torques over i_d and i_q: means over a turn. i_A is of angle 0 */
     bool mean_is_unknown; /* a constant load stands in torque_Nm too: only what varies says something */
     bool has_sum;         /* all three currents were recorded, so that their sum says something */
-    int computed_phase;   /* 1, 2, 3: of two phase currents the third was made, so that the sum is 0; 0: not */
-    size_t *row;          /* [count], of the file, from 0; NULL: each row is a sample */
-    hci_note remark;      /* what was supposed on reading, or "" */
+    int computed_phase; /* 1, 2, 3: of two phase currents the third was made, so that the sum is 0; 0: not */
+    size_t *row;        /* [count], of the file, from 0; NULL: each row is a sample */
+    hci_note remark;    /* what was supposed on reading, or "" */
 } hci_run;
 
 /* What reading a run asks for beside its file. */
@@ -71,6 +73,9 @@ typedef struct {
  * repeat the one before them, time included, are left out, and the remark counts them; more than half of the
  * rows is an error, and so is each of them where options->strict. A column of holes alone is as if it were
  * not there; temperatures that are missing are interpolated.
+ *
+ * Without an angle a speed over time gives one from an unknown zero (phase currents are then not of it, and
+ * refused); torque_Nm and iq_A without either are taken as means over a turn.
  *
  * A run without torque_Nm has inertia × acceleration, or a torque of 0 where options->holding, or where it is
  * a slow turn under control: its current varies by more than five times what accelerates, and its kinetic
