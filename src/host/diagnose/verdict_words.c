@@ -98,7 +98,7 @@ static void say_unstable(words *w, const hci_diagnosis *d)
     for (size_t k = 0; k < d->findings; ++k) {
         const hci_finding *f = &d->finding[k];
         if (f->verdict == HCI_FINDING_REJECTED || f->stays == f->left_out) continue;
-        say(w, " With one run left out %s is found in %zu of %zu cases.", f->effect, f->stays, f->left_out);
+        say(w, " With one run, or part of one, left out %s is found in %zu of %zu cases.", f->effect, f->stays, f->left_out);
     }
 }
 

@@ -42,7 +42,7 @@ typedef struct {
     hci_finding_verdict verdict; /* what the recordings say of it */
     double delta_bic; /* fall of the Bayesian information criterion by having it: positive speaks for it */
     size_t stays, left_out; /* with how many of the fitted runs that were left out in turn it is found all the
-                             * same; 0 of 0: fewer than three runs */
+                             * same; of parts of them, where there are fewer than three */
     double residual_share;  /* of the mean square of the residual before, that it explains; NAN: none */
     char detail[HCI_DETAIL_SIZE]; /* its parameters with standard errors, or why not; in words */
 } hci_finding;

@@ -7,6 +7,7 @@
 #include "host/diagnose/fit/predicted_reading.h"
 #include "host/diagnose/prepare/index_alignment.h"
 
+#define WORSE    1.02 /* of the residual with smoothed readings, beside that with readings as they are */
 #define ROUNDING 1e-6 /* noise of a sum of currents, as a share of them, that was not measured */
 
 enum { LEAST_SAMPLES = 16 }; /* for the noise of that sum */
@@ -65,6 +66,52 @@ static hci_status indices_align(const hci_runs *runs, hci_dataset *b, hci_note *
     return status;
 }
 
+/* Mean square of a run's residual. */
+static double square_of(const hci_binned_samples *samples, size_t run, const double *residual_Nm)
+{
+    double sum = 0.0, count = 0.0;
+    for (const hci_segment *s = NULL; (s = hci_segment_next(samples, run, s)) != NULL;)
+        for (size_t j = s->first; j < s->first + s->count; ++j, count += 1.0)
+            sum += residual_Nm[j] * residual_Nm[j];
+    return count > 0.0 ? sum / count : 0.0;
+}
+
+/* Readings as they are in place of smoothed ones. */
+static void readings_restore(hci_binned_samples *samples, size_t run)
+{
+    for (const hci_segment *s = NULL; (s = hci_segment_next(samples, run, s)) != NULL;)
+        for (size_t j = s->first; j < s->first + s->count; ++j)
+            samples->sample[j].reading = samples->sample[j].raw;
+}
+
+/* Smoothing takes noise away, and with it what the series of a run cannot hold, such as current ripple of
+ * high orders: where the residual of the declared machine is larger for it, the readings stay as they are.
+ * residual_Nm: [2 samples]. */
+static hci_status smoothing_check(hci_dataset *b, double *residual_Nm, hci_note *note)
+{
+    hci_regression *e = &b->regression;
+    double *of_raw_Nm = residual_Nm + b->samples.count;
+    hci_status status = hci_regression_residual(e, e->declared, residual_Nm, note);
+    e->raw = true;
+    if (!status) status = hci_regression_residual(e, e->declared, of_raw_Nm, note);
+    e->raw = false;
+    for (size_t k = 0; k < b->samples.run_count && !status; ++k)
+        if (square_of(&b->samples, k, residual_Nm) > WORSE * WORSE * square_of(&b->samples, k, of_raw_Nm))
+            readings_restore(&b->samples, k);
+    return status;
+}
+
+static hci_status smoothing_settle(hci_dataset *b, hci_note *note)
+{
+    double *residual_Nm = hci_memory_new(2 * b->samples.count + 1, sizeof *residual_Nm);
+    if (!residual_Nm) return hci_note_memory(note, NULL, "comparing recordings");
+    b->regression.use = b->any;
+    const hci_status status = smoothing_check(b, residual_Nm, note);
+    b->regression.use = b->fit;
+    hci_memory_free(residual_Nm);
+    return status;
+}
+
 hci_status hci_dataset_make(const hci_machine_data *machine, const hci_effects *declared,
                             const hci_runs *runs, hci_dataset *b, hci_note *note)
 {
@@ -72,6 +119,7 @@ hci_status hci_dataset_make(const hci_machine_data *machine, const hci_effects *
     hci_status status = hci_binned_samples_make(&machine->model, runs->run, runs->count, &b->samples, note);
     if (!status) status = evidence_make(machine, declared, runs, b, note);
     if (!status) status = indices_align(runs, b, note);
+    if (!status) status = smoothing_settle(b, note);
     if (status) hci_dataset_release(b);
     return status;
 }

@@ -23,13 +23,15 @@ typedef struct {
 
 /* ---- what a run can show ---- */
 
-/* Whether a run can show a term of an effect at all. */
+/* Whether a run can show a term of an effect at all. An acceleration is a slope over several samples and has
+ * a delay of its own: it does not tell that of a channel. */
 static bool can_show(const hci_run *run, bool no_current, const hci_candidate *s, size_t term)
 {
     const unsigned traits = s->type->parameter[s->term[term].parameter].traits;
     if (no_current && ((traits & HCI_PARAMETER_WITH_CURRENT) || s->type->sum_by_value)) return false;
     if (run->torque_source == HCI_TORQUE_MEASURED) return true;
     if (traits & HCI_PARAMETER_OF_TRANSDUCER) return false;
+    if (run->torque_source == HCI_TORQUE_INERTIA && (s->type->needs & HCI_EFFECT_NEEDS_RATE)) return false;
     return run->torque_source != HCI_TORQUE_HOLDING ||
            !(traits & (HCI_PARAMETER_WITH_CURRENT | HCI_PARAMETER_WITH_SPEED));
 }

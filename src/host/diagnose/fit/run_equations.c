@@ -31,42 +31,87 @@ static void count_from_zero(const hci_candidates *list, hci_normal_equations *x)
         }
 }
 
-static hci_status runs_linearise(hci_regression *e, const hci_candidates *list, bool *one,
-                                 hci_run_equations *x, hci_note *note)
+/* ---- groups of samples ---- */
+
+static size_t runs_in_use(const hci_regression *e)
 {
-    const bool *use = e->use;
-    hci_status status = HCI_OK;
-    for (size_t r = 0; r < e->samples->run_count && !status; ++r) {
-        if (!use[r]) continue;
-        one[r] = true;
-        e->use = one;
-        status = hci_regression_normal(e, list, false, &x->run[x->groups.count], note);
-        if (!status) count_from_zero(list, &x->run[x->groups.count++]);
-        one[r] = false;
+    size_t count = 0;
+    for (size_t r = 0; r < e->samples->run_count; ++r)
+        count += e->use[r];
+    return count;
+}
+
+/* Where the samples of one run are: each of its segments cut to one of so many parts, all others empty. */
+static void segments_cut(const hci_binned_samples *samples, size_t run, size_t part, size_t parts,
+                         hci_segment *segment)
+{
+    for (size_t k = 0; k < samples->segment_count; ++k) {
+        const hci_segment *s = &samples->segment[k];
+        const size_t from = s->count * part / parts, until = s->count * (part + 1) / parts;
+        segment[k] = *s;
+        segment[k].first += from;
+        segment[k].count = s->run == run ? until - from : 0;
+        if (parts > 1) segment[k].turns = 0;
     }
-    e->use = use;
+}
+
+/* What is linearised, one group at a time. */
+typedef struct {
+    hci_binned_samples samples; /* with segments of its own */
+    hci_regression regression;
+    const hci_candidates *list;
+} grouping;
+
+static hci_status group_add(const grouping *g, hci_run_equations *x, hci_note *note)
+{
+    hci_normal_equations *normal = &x->run[x->groups.count];
+    const hci_status status = hci_regression_normal(&g->regression, g->list, false, normal, note);
+    if (status) return status;
+    count_from_zero(g->list, normal);
+    ++x->groups.count;
+    return HCI_OK;
+}
+
+static hci_status groups_fill(const hci_regression *e, grouping *g, hci_run_equations *x, hci_note *note)
+{
+    hci_status status = HCI_OK;
+    for (size_t r = 0; r < e->samples->run_count; ++r)
+        for (size_t part = 0; e->use[r] && part < x->parts && !status; ++part) {
+            segments_cut(e->samples, r, part, x->parts, g->samples.segment);
+            status = group_add(g, x, note);
+        }
     return status;
 }
 
-hci_status hci_run_equations_make(hci_regression *e, const hci_candidates *candidates, hci_run_equations *x,
-                                  hci_note *note)
+static hci_status groups_make(const hci_regression *e, const hci_candidates *list, hci_run_equations *x,
+                              hci_note *note)
 {
+    grouping g = {*e->samples, *e, list};
+    g.samples.segment = hci_memory_new(e->samples->segment_count + 1, sizeof *g.samples.segment);
+    if (!g.samples.segment) return hci_note_memory(note, NULL, "leaving runs out");
+    g.regression.samples = &g.samples;
+    g.regression.known = NULL; /* those are of whole runs */
+    const hci_status status = groups_fill(e, &g, x, note);
+    hci_memory_free(g.samples.segment);
+    return status;
+}
+
+hci_status hci_run_equations_make(const hci_regression *e, const hci_candidates *candidates,
+                                  hci_run_equations *x, hci_note *note)
+{
+    const size_t runs = runs_in_use(e);
     hci_candidates list = {0};
     memset(x, 0, sizeof *x);
-    bool *one = hci_memory_new(e->samples->run_count + 1, sizeof *one);
+    x->parts = runs > 0 && runs < HCI_LEAST_GROUPS ? (HCI_LEAST_GROUPS + runs) / runs : 1;
     hci_status status = hci_candidates_copy(candidates, &list, note);
-    if (!status) {
-        x->run = hci_memory_new(e->samples->run_count + 1, sizeof *x->run);
-        x->precision = hci_memory_new(hci_candidates_terms_in(&list) + 1, sizeof *x->precision);
-        if (!x->run || !x->precision || !one) status = hci_note_memory(note, NULL, "leaving runs out");
-    }
-    if (!status) {
-        x->groups.group = x->run;
-        precision_take(&list, x->precision);
-        status = runs_linearise(e, &list, one, x, note);
-    }
+    if (status) return status;
+    x->run = hci_memory_new(runs * x->parts + 1, sizeof *x->run);
+    x->precision = hci_memory_new(hci_candidates_terms_in(&list) + 1, sizeof *x->precision);
+    if (!x->run || !x->precision) status = hci_note_memory(note, NULL, "leaving runs out");
+    x->groups.group = x->run;
+    if (!status) precision_take(&list, x->precision);
+    if (!status) status = groups_make(e, &list, x, note);
     hci_candidates_release(&list);
-    hci_memory_free(one);
     if (status) hci_run_equations_release(x);
     return status;
 }

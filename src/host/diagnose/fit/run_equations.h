@@ -10,16 +10,20 @@
 #include "host/diagnose/fit/regression.h"
 #include "host/numeric/left_out.h"
 
+/* Fewer runs than this are cut into parts, each of which is a group. */
+enum { HCI_LEAST_GROUPS = 3 };
+
 /* Start with {0}. */
 typedef struct {
-    hci_groups groups;         /* [count] of the runs in use, in their order */
+    hci_groups groups;         /* the runs in use in their order, or parts of them */
+    size_t parts;              /* of each run */
     hci_normal_equations *run; /* what groups stands for */
     double *precision; /* of each column: one over the variance that is expected of its value; 0: any */
 } hci_run_equations;
 
 /* candidates: those that are in are the columns; what is expected of their values is in `precision` only. On
  * failure *equations is empty. HCI_ERROR_MEMORY. O(samples·columns²). */
-hci_status hci_run_equations_make(hci_regression *regression, const hci_candidates *candidates,
+hci_status hci_run_equations_make(const hci_regression *regression, const hci_candidates *candidates,
                                   hci_run_equations *equations, hci_note *note);
 void hci_run_equations_release(hci_run_equations *equations);
 

@@ -1,6 +1,7 @@
 #include "host/diagnose/prepare/index_alignment.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "hci/machine/frames.h"
 #include "host/base/memory.h"
@@ -9,6 +10,7 @@ enum { ORDERS = 48, ANGLES = 720 }; /* of a map; that are tried before the best 
 
 #define LITTLE_CURRENT 0.05 /* share of the largest that counts as none */
 #define ALIKE          0.9  /* correlation of turned residuals that are the same map */
+#define REPEATED       0.7  /* correlation of two halves of a run that show a map */
 #define SPREAD         1.6  /* orders that share the power of a map: one alone fits itself at many angles */
 #define BETTER         0.25 /* by so much more than unturned ones */
 #define MOST_OF_A_TURN 0.95 /* that a run must have gone through */
@@ -36,13 +38,32 @@ static void map_add(map *m, double theta_m_rad, double residual)
     }
 }
 
-/* Friction makes a mean that depends on the direction; order 0 is left out. */
-static void map_make(const hci_binned_samples *samples, size_t run, const double *residual, map *m)
+/* Samples of a run from one share of it to another. */
+typedef struct {
+    size_t run;
+    double from, until;
+} part;
+
+static size_t samples_of(const hci_binned_samples *samples, size_t run)
 {
-    double count = 0.0;
+    size_t count = 0;
     for (const hci_segment *s = NULL; (s = hci_segment_next(samples, run, s)) != NULL;)
-        for (size_t j = s->first; j < s->first + s->count; ++j, count += 1.0)
+        count += s->count;
+    return count;
+}
+
+/* Friction makes a mean that depends on the direction; order 0 is left out. */
+static void map_make(const hci_binned_samples *samples, const part *p, const double *residual, map *m)
+{
+    const double all = (double)samples_of(samples, p->run);
+    double count = 0.0, at = 0.0;
+    memset(m, 0, sizeof *m);
+    for (const hci_segment *s = NULL; (s = hci_segment_next(samples, p->run, s)) != NULL;)
+        for (size_t j = s->first; j < s->first + s->count; ++j, at += 1.0) {
+            if (at < p->from * all || at >= p->until * all) continue;
             map_add(m, samples->sample[j].reading.theta_m_rad, residual[j]);
+            count += 1.0;
+        }
     for (int n = 0; n < ORDERS && count > 0.0; ++n) {
         m->cosine[n] /= count;
         m->sine[n] /= count;
@@ -92,6 +113,17 @@ static double best_turn(const map *a, const map *b)
     return best;
 }
 
+/* Whether both halves of a run show the same map, where each has a turn: what does not repeat is none. */
+static bool repeats(const hci_binned_samples *samples, size_t run, const double *residual)
+{
+    const part half[] = {{run, 0.0, 0.5}, {run, 0.5, 1.0}};
+    map first, second;
+    if (samples->statistics[run].turns < 2.0 * MOST_OF_A_TURN) return true;
+    map_make(samples, &half[0], residual, &first);
+    map_make(samples, &half[1], residual, &second);
+    return likeness(&first, &second, 0.0) > REPEATED;
+}
+
 /* That angle within ± half a turn; 0 unless b resembles a much better there than as it is. */
 static double turn_between(const map *a, const map *b)
 {
@@ -125,8 +157,8 @@ static void maps_make(const hci_binned_samples *samples, const hci_run *runs, co
         most_A = fmax(most_A, samples->statistics[k].current_A);
     for (size_t k = 0; k < samples->run_count; ++k) {
         if (!is_usable(samples, runs, k, most_A)) continue;
-        map_make(samples, k, residual, &maps[k]);
-        maps[k].usable = spread_of(&maps[k]) > SPREAD;
+        map_make(samples, &(part){k, 0.0, 1.0}, residual, &maps[k]);
+        maps[k].usable = spread_of(&maps[k]) > SPREAD && repeats(samples, k, residual);
     }
 }
 

@@ -49,7 +49,8 @@ static void outliers_drop(double *whitened, double *residual, size_t n)
         if (fabs(whitened[j]) > OUTLYING) whitened[j] = residual[j] = 0.0;
 }
 
-static void goodness_add(const hci_noise *noise, double *residual, double *whitened, size_t n, goodness *g)
+static void goodness_add(const hci_noise *noise, double *residual, double *whitened, size_t n, bool is_even,
+                         goodness *g)
 {
     memcpy(whitened, residual, n * sizeof *whitened);
     hci_noise_whiten(noise, whitened, n, 1);
@@ -58,7 +59,7 @@ static void goodness_add(const hci_noise *noise, double *residual, double *white
         g->square += residual[j] * residual[j];
     g->noise += (double)n * noise->rms * noise->rms;
     g->rows += (double)n;
-    blocks_add(whitened, n, g);
+    if (is_even) blocks_add(whitened, n, g);
 }
 
 /* How much the size of the errors varies along a run, over what noise does: the variance of a block's sum
@@ -70,6 +71,13 @@ static double clumps_of(const goodness *g)
     return (g->block_square / g->blocks - mean * mean) / (mean * mean) * 0.5 * BLOCK;
 }
 
+/* Whether noise has the same size all along a run: that of an acceleration, a slope of readings, has not,
+ * where the speed changes. */
+static bool has_even_noise(const hci_search *s, const hci_segment *x)
+{
+    return s->regression->runs[x->run].torque_source != HCI_TORQUE_INERTIA;
+}
+
 static hci_status goodness_of(hci_search *s, const hci_candidates *model, goodness *g, hci_note *note)
 {
     double *whitened = hci_memory_new(hci_segment_longest(s->regression->samples), sizeof *whitened);
@@ -79,7 +87,7 @@ static hci_status goodness_of(hci_search *s, const hci_candidates *model, goodne
     for (const hci_segment *x = NULL; !status && (x = hci_regression_next(s->regression, x)) != NULL;)
         if (x->count >= HCI_NOISE_LEAST)
             goodness_add(hci_regression_noise(s->regression, x), s->residual_Nm + x->first, whitened,
-                         x->count, g);
+                         x->count, has_even_noise(s, x), g);
     hci_memory_free(whitened);
     return status;
 }
@@ -127,8 +135,7 @@ static hci_status known_of(hci_search *s, const hci_fitted_model *model, double 
 
 /* Known effects beside something larger that is not understood cannot be told from a part of it, and go; a
  * description of a small remainder goes as well. */
-static hci_status types_leave(hci_search *s, hci_attribution *a, double unexplained_Nm, bool *changed,
-                              hci_note *note)
+static hci_status types_leave(hci_search *s, hci_attribution *a, double unexplained_Nm, hci_note *note)
 {
     hci_candidates *model = &a->model.candidates;
     hci_status status = HCI_OK;
@@ -139,7 +146,6 @@ static hci_status types_leave(hci_search *s, hci_attribution *a, double unexplai
         if (a->unknown) status = explained_add(s, &a->model, type, &explained_Nm, note);
         if (status || explained_Nm > UNTOUCHED * unexplained_Nm) continue;
         hci_candidates_remove_type(model, type);
-        *changed = true;
     }
     return status;
 }
@@ -155,10 +161,9 @@ static void disbelieved_set(const hci_search *s, hci_yield yield, hci_attributio
     a->unexplained_Nm = hci_search_residual_rms(s);
 }
 
-hci_status hci_search_settle(hci_search *s, hci_attribution *a, hci_note *note)
+static hci_status settle(hci_search *s, hci_attribution *a, hci_note *note)
 {
     double known_Nm = 0.0;
-    bool changed = false;
     hci_yield yield = HCI_YIELD_NOTHING;
     hci_status status = hci_search_yield(s, &a->model, &yield, note);
     if (!status) status = residual_judge(s, a, note);
@@ -169,8 +174,14 @@ hci_status hci_search_settle(hci_search *s, hci_attribution *a, hci_note *note)
     status = known_of(s, &a->model, &known_Nm, note);
     if (status) return status;
     a->unknown = yield == HCI_YIELD_BETTER || unexplained_Nm > SMALL * known_Nm;
-    status = types_leave(s, a, unexplained_Nm, &changed, note);
-    if (!status && changed) status = hci_search_renew(s, &a->model, note);
+    status = types_leave(s, a, unexplained_Nm, note);
     if (!status && a->unknown) a->unexplained_Nm = unexplained_Nm;
     return status;
+}
+
+/* Judging finds the noise anew, and scores are comparable with the same noise only. */
+hci_status hci_search_settle(hci_search *s, hci_attribution *a, hci_note *note)
+{
+    const hci_status status = settle(s, a, note);
+    return status ? status : hci_search_renew(s, &a->model, note);
 }

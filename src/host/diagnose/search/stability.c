@@ -6,8 +6,6 @@
 #include "host/diagnose/candidates/empirical_term.h"
 #include "host/diagnose/fit/run_equations.h"
 
-enum { LEAST_RUNS = 3 };
-
 #define FLOOR 0.05 /* mean square of a run, in units of its noise, below which it is as good as can be */
 
 /* The model's equations, run by run, and room for what is asked of them. */
@@ -26,17 +24,18 @@ static void leaving_end(leaving *l)
 
 static hci_status leaving_start(hci_search *s, const hci_candidates *model, leaving *l, hci_note *note)
 {
-    const size_t columns = hci_candidates_terms_in(model), runs = s->regression->samples->run_count;
+    const size_t columns = hci_candidates_terms_in(model);
     *l = (leaving){.model = model};
     const hci_status status = hci_run_equations_make(s->regression, model, &l->equations, note);
     if (status) return status;
-    l->precision = hci_memory_new(columns + 2 * runs + 1, sizeof *l->precision);
+    const size_t groups = l->equations.groups.count;
+    l->precision = hci_memory_new(columns + 2 * groups + 1, sizeof *l->precision);
     if (!l->precision) {
         leaving_end(l);
         return hci_note_memory(note, NULL, "leaving runs out");
     }
     l->with = l->precision + columns;
-    l->without = l->with + runs;
+    l->without = l->with + groups;
     return HCI_OK;
 }
 
@@ -125,9 +124,9 @@ hci_status hci_search_left_out(hci_search *s, const hci_candidates *model, doubl
     *misfit = 0.0;
     if (status) return status;
     const hci_groups *groups = &l.equations.groups;
-    if (groups->count >= LEAST_RUNS && !hci_left_out_squares(groups, l.equations.precision, l.with))
+    if (groups->count >= HCI_LEAST_GROUPS && !hci_left_out_squares(groups, l.equations.precision, l.with))
         status = hci_note_memory(note, NULL, "leaving runs out");
-    for (size_t r = 0; r < groups->count && groups->count >= LEAST_RUNS && !status; ++r) {
+    for (size_t r = 0; r < groups->count && groups->count >= HCI_LEAST_GROUPS && !status; ++r) {
         const double rows = fmax(1.0, groups->group[r].rows);
         *misfit += rows * log(l.with[r] / rows + FLOOR);
     }
@@ -160,7 +159,8 @@ static hci_status useless_find(hci_search *s, const hci_candidates *model, const
     *useless = NULL;
     hci_status status = leaving_start(s, model, &l, note);
     if (status) return status;
-    for (size_t r = 0; r < hci_candidate_types() && l.equations.groups.count >= LEAST_RUNS && !status; ++r) {
+    for (size_t r = 0; r < hci_candidate_types() && l.equations.groups.count >= HCI_LEAST_GROUPS && !status;
+         ++r) {
         double worth = 0.0;
         bool fickle = false;
         if (!is_asked(s, model, hci_candidate_type(r))) continue;
@@ -194,7 +194,7 @@ hci_status hci_search_stability(hci_search *s, hci_attribution *a, hci_note *not
     leaving l;
     hci_status status = leaving_start(s, &a->model.candidates, &l, note);
     if (status) return status;
-    for (size_t r = 0; r < a->types && l.equations.groups.count >= LEAST_RUNS && !status; ++r)
+    for (size_t r = 0; r < a->types && l.equations.groups.count >= HCI_LEAST_GROUPS && !status; ++r)
         if (hci_candidates_have(l.model, a->verdict[r].type)) status = stays_count(&l, &a->verdict[r], note);
     leaving_end(&l);
     return status;

@@ -10,13 +10,12 @@
 #include "host/diagnose/search/search.h"
 
 /* Takes out, one by one and the worst first, the effects whose presence does not lower the error of runs left
- * out in turn. Nothing is done with fewer than three runs. HCI_ERROR_MEMORY. O(samples·terms² +
+ * out in turn. Fewer than three runs are cut into parts, which stand for runs. HCI_ERROR_MEMORY. O(samples·terms² +
  * effects·runs·terms³). */
 hci_status hci_search_keep_predictive(hci_search *search, hci_fitted_model *model, hci_note *note);
 
 /* How badly a model describes runs left out in turn, in units of χ² where it describes them to their noise,
- * and less where it fails: samples × logarithm of the mean square, summed over the runs. 0 with fewer than
- * three runs. HCI_ERROR_MEMORY. */
+ * and less where it fails: samples × logarithm of the mean square, summed over the runs. HCI_ERROR_MEMORY. */
 hci_status hci_search_left_out(hci_search *search, const hci_candidates *model, double *misfit,
                                hci_note *note);
 
