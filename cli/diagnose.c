@@ -177,7 +177,8 @@ const cli_command cli_diagnose = {
     .words = "MACHINE --runs LIST",
     .does = "Finds what the model of the machine lacks to describe recordings, and corrects it.\n"
             "Writes machine/, effects.csv, errors.csv, residual_spectrum.csv, summary.json and report.html;\n"
-            "unexplained.csv where something is left that no effect explains; with --target, solution/.",
+            "unexplained.csv where something is left that no effect explains, measure_next.csv where more\n"
+            "recordings would tell; with --target, solution/.",
     .options = OPTIONS,
     .words_needed = 1,
     .word_kind = CLI_FILE,

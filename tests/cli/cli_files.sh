@@ -103,7 +103,7 @@ run 0 emit "$work/solution" --name page -q -o "$work/emitted"
 run 0 emit "$work/solution" --name page --per-torque -q -o "$work/emitted"
 run 0 predict "$m" "$work/solution/trajectory.csv"
 run 0 predict "$m" "$work/solution/waveform.csv"
-for heading in '`spectrum.csv` of solve' '`spectrum.csv` of simulate' '`effects.csv` of diagnose' '`errors.csv`' '`residual_spectrum.csv`' '`unexplained.csv`'; do
+for heading in '`spectrum.csv` of solve' '`spectrum.csv` of simulate' '`effects.csv` of diagnose' '`errors.csv`' '`residual_spectrum.csv`' '`unexplained.csv`' '`measure_next.csv`'; do
     example "$heading" >"$work/example.csv"
     check "the example of $heading has other columns: $(header "$work/example.csv")" fits "$(header "$work/example.csv")" "$heading"
 done
@@ -167,6 +167,7 @@ written "$work/diagnosed/errors.csv" '`errors.csv`'
 written "$work/diagnosed/residual_spectrum.csv" '`residual_spectrum.csv`'
 written "$work/diagnosed/machine/machine.csv" '`machine.csv`'
 written "$work/diagnosed/machine/effects.csv" '`effects.csv` of a machine'
+[ ! -e "$work/diagnosed/measure_next.csv" ] || written "$work/diagnosed/measure_next.csv" '`measure_next.csv`'
 [ ! -e "$work/diagnosed/unexplained.csv" ] || written "$work/diagnosed/unexplained.csv" '`unexplained.csv`'
 named "$work/diagnosed/summary.json" 'summary.json of diagnose'
 

@@ -5,11 +5,11 @@
 #include <string.h>
 
 #include "host/base/memory.h"
-#include "host/diagnose/advise.h"
 #include "host/diagnose/candidates/empirical_term.h"
 #include "host/diagnose/findings.h"
 #include "host/diagnose/fit/dataset.h"
 #include "host/diagnose/fit/model.h"
+#include "host/diagnose/next_points.h"
 #include "host/diagnose/run_errors.h"
 #include "host/diagnose/search/attribute.h"
 #include "host/diagnose/uncertainty.h"
@@ -23,8 +23,6 @@
 #define HARDLY_BETTER 0.5  /* … unless it is less than this share of the error without them */
 #define NEARLY_ALL    0.1  /* share of an error that is next to nothing beside what it was */
 #define STAYS         0.95 /* share of an error that has not fallen */
-
-enum { LONGEST_ADVICE = 200 }; /* bytes of a sentence */
 
 const char *hci_finding_verdict_name(hci_finding_verdict verdict)
 {
@@ -57,38 +55,6 @@ static hci_status effects_fill(const hci_regression *e, const hci_candidates *ca
     return HCI_OK;
 }
 
-/* ---- advice ---- */
-
-/* For terms that are the same in all runs it takes a run of another kind. */
-static void advice_of_same(const hci_verdict *v, char *text, size_t size)
-{
-    const char *run = v->type->told_by ? v->type->told_by : "another current, speed and direction";
-    snprintf(text, size, "%s or %s: a run with %s would tell them apart", v->rival_of->name, v->type->name,
-             run);
-}
-
-/* What would tell the ambiguous ones apart, one sentence for each that fits. */
-static hci_status advice_fill(const hci_regression *e, const hci_attribution *a, hci_diagnosis *d,
-                              hci_note *note)
-{
-    hci_status status = HCI_OK;
-    for (size_t r = 0; r < a->types && !status; ++r) {
-        const hci_verdict *v = &a->verdict[r];
-        const size_t used = strlen(d->advice);
-        if (v->in || !v->ambiguous || used + LONGEST_ADVICE > sizeof d->advice) continue;
-        if (used > 0) memcpy(d->advice + used, "; ", 3);
-        const size_t from = strlen(d->advice);
-        if (!v->alternative.candidates.candidate) {
-            advice_of_same(v, d->advice + from, sizeof d->advice - from);
-            continue;
-        }
-        const hci_advice_request request = {&a->model.candidates, &v->alternative.candidates,
-                                            v->rival_of->name, v->type->name};
-        status = hci_advise(e, &request, d->advice + from, sizeof d->advice - from, note);
-    }
-    return status;
-}
-
 /* ---- the whole ---- */
 
 /* What no effect explains is described, and then leaves: it never gets into a machine. */
@@ -103,7 +69,6 @@ static hci_status fill(hci_dataset *b, const hci_runs *runs, hci_attribution *a,
     hci_status status = effects_fill(&b->regression, &a->model.candidates, d, note);
     if (!status && !a->unknown)
         status = hci_uncertainty_find(&b->regression, &a->model.candidates, &d->uncertainty, note);
-    if (!status) status = advice_fill(&b->regression, a, d, note);
     if (!status) status = hci_run_errors_fill(b, runs, a->model.fit.parameters, d, note);
     if (!status) hci_findings_fill(a, d);
     return status;
@@ -211,9 +176,11 @@ static hci_status diagnose(hci_dataset *b, const hci_machine_data *machine, cons
     hci_attribution a;
     hci_status status = hci_attribute(&b->regression, &how, &a, note);
     if (status) return status;
-    status = fill(b, runs, &a, d, note);
+    status = hci_next_points_tell_apart(&b->regression, machine, &a, d, note);
+    if (!status) status = fill(b, runs, &a, d, note);
     if (!status && !a.unknown && d->verdict != HCI_DIAGNOSIS_COMPLETE)
         status = test(b, runs, &a, d, how.resolution_Nm, note);
+    if (!status) status = hci_next_points_unknown(&b->regression, machine, d, note);
     hci_attribution_release(&a);
     return status;
 }

@@ -51,6 +51,19 @@ static void put_unexplained(hci_json *json, const hci_unexplained *u)
     hci_json_close(json);
 }
 
+static void put_next_point(hci_json *json, const hci_next_point *p)
+{
+    hci_json_object(json, NULL);
+    hci_json_number(json, "id_A", p->id_A);
+    hci_json_number(json, "iq_A", p->iq_A);
+    hci_json_number(json, "speed_rad_per_s", p->speed_rad_per_s);
+    hci_json_number(json, "turns", p->turns);
+    hci_json_text(json, "why", p->why);
+    hci_json_text(json, "test", hci_next_test_name(p->source));
+    hci_json_number(json, "chi_square", p->chi_square > 0.0 ? p->chi_square : (double)NAN);
+    hci_json_close(json);
+}
+
 static void put_currents(hci_json *json, const char *name, const hci_torque_evaluation *j,
                          const hci_solution *s)
 {
@@ -76,6 +89,10 @@ static void put_lists(hci_json *json, const hci_diagnosis *d)
     hci_json_array(json, "unexplained");
     for (size_t k = 0; k < d->unexplained_count; ++k)
         put_unexplained(json, &d->unexplained[k]);
+    hci_json_close(json);
+    hci_json_array(json, "measure_next_points");
+    for (size_t k = 0; k < d->next_points; ++k)
+        put_next_point(json, &d->next[k]);
     hci_json_close(json);
 }
 

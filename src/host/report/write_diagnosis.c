@@ -11,6 +11,7 @@
 #include "host/csv/write.h"
 #include "host/diagnose/findings.h"
 #include "host/report/page/page.h"
+#include "host/report/write_next.h"
 
 enum { PATH_SIZE = 4096 };
 
@@ -171,6 +172,7 @@ hci_status hci_diagnosis_write(const hci_diagnosis *d, const hci_resolution *res
     if (!status) status = errors_write(out, d, note);
     if (!status) status = spectrum_write(out, d, runs, note);
     if (!status) status = unexplained_write(out, d, note);
+    if (!status) status = hci_next_points_write(out, d, note);
     if (!status) status = summary_write(out, d, resolution, note);
     if (!status) status = report_write(out, d, resolution, runs, machine_folder, note);
     if (!status) status = machine_write(d, machine_folder, folder, &machine, note);

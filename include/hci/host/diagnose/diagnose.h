@@ -80,8 +80,25 @@ typedef struct {
     double amplitude_Nm;                     /* at the largest current and speed of the recordings */
 } hci_unexplained;
 
-/* Capacities: of effects, and of orders that none explains. */
-enum { HCI_MOST_FINDINGS = 32, HCI_MOST_UNEXPLAINED = 8 };
+/* Bytes of a reason. */
+enum { HCI_WHY_SIZE = 256 };
+
+/* A steady run to record next, within what the machine is rated for or what was recorded. */
+typedef struct {
+    double id_A;
+    double iq_A;              /* NAN: the current answers to what holds or brakes the shaft */
+    double speed_rad_per_s;   /* mechanical, signed */
+    double turns;             /* how long at least */
+    hci_torque_source source; /* of its torque: a sensor, or without one a shaft that is held or free */
+    double chi_square;        /* how much it tells; 0: not known */
+    char why[HCI_WHY_SIZE];   /* what it is for, in words */
+} hci_next_point;
+
+/* How such a run is recorded in a word: dyno (with a torque sensor), holding, free; a static string. */
+const char *hci_next_test_name(hci_torque_source source);
+
+/* Capacities: of effects, and of orders that none explains, of runs to record next. */
+enum { HCI_MOST_FINDINGS = 32, HCI_MOST_UNEXPLAINED = 8, HCI_MOST_NEXT_POINTS = 8 };
 
 /* How well the model as a whole describes the recordings. */
 typedef enum {
@@ -120,7 +137,9 @@ typedef struct {
     const char *disbelieved;  /* effect that describes the recordings best, with values that nobody would
                                  believe,  and was left out; NULL: none */
     double disbelieved_share; /* of the declared torque per ampere of i_q, that it would leave */
-    char advice[3 * HCI_DETAIL_SIZE]; /* what to measure next, or "" */
+    hci_next_point next[HCI_MOST_NEXT_POINTS]; /* what to record next, most telling first */
+    size_t next_points;                        /* entries of next in use; 0: nothing is left open */
+    char advice[3 * HCI_DETAIL_SIZE];          /* the same in a few sentences, or "" */
     bool contradicted; /* effects described the runs that were fitted, but not those held out, and were
                           dropped */
     bool wanders;      /* something is left that does not repeat with the turn */

@@ -54,11 +54,32 @@ static void show_tiles(hci_output *out, const hci_diagnosis *d)
     hci_html_tiles_end(out);
 }
 
+static void table_of_points(hci_output *out, const hci_diagnosis *d)
+{
+    static const char *const COLUMN[] = {"i_d in A", "i_q in A", "Speed in rad/s", "Turns", "<How",
+                                         "<Why",     NULL};
+    if (d->next_points == 0) return;
+    hci_html_table(out, "Operating points, most telling first (measure_next.csv)", COLUMN);
+    for (size_t k = 0; k < d->next_points; ++k) {
+        const hci_next_point *p = &d->next[k];
+        hci_html_row(out);
+        hci_html_number(out, p->id_A);
+        hci_html_number(out, p->iq_A);
+        hci_html_number(out, p->speed_rad_per_s);
+        hci_html_number(out, p->turns);
+        hci_html_cell(out, hci_next_test_name(p->source));
+        hci_html_cell_words(out, p->why);
+        hci_html_row_end(out);
+    }
+    hci_html_table_end(out);
+}
+
 static void say_advice(hci_output *out, const hci_diagnosis *d)
 {
     if (d->advice[0] == '\0') return;
     hci_html_section(out, "What to measure next");
     hci_html_paragraph(out, NULL, d->advice);
+    table_of_points(out, d);
     hci_html_section_end(out);
 }
 

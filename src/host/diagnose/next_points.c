@@ -1,0 +1,345 @@
+#include "host/diagnose/next_points.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "host/base/memory.h"
+#include "host/diagnose/fit/fit.h"
+#include "host/diagnose/fit/predicted_reading.h"
+#include "host/diagnose/next/tell_apart.h"
+#include "host/diagnose/next/unknown_points.h"
+
+enum {
+    MOST_PAIRS = 16,
+    EACH_TWICE = 2,   /* points for a pair, so that no answer hangs on one run */
+    MOST_UNKNOWN = 4, /* points for what is not known */
+    LONGEST_ADVICE = 240
+};
+
+#define ENOUGH (5.0 * HCI_TELLS) /* more is no better: less effort is */
+
+const char *hci_next_test_name(hci_torque_source source)
+{
+    return source == HCI_TORQUE_HOLDING ? "holding" : source == HCI_TORQUE_INERTIA ? "free" : "dyno";
+}
+
+/* ---- words ---- */
+
+static void append(char *text, size_t size, const char *format, ...)
+{
+    const size_t used = strlen(text);
+    va_list arguments;
+    va_start(arguments, format);
+    if (used + 1 < size) vsnprintf(text + used, size - used, format, arguments);
+    va_end(arguments);
+}
+
+/* Begins a sentence of the advice; false where there is no more room for one. */
+static bool advice_begin(hci_diagnosis *d)
+{
+    if (strlen(d->advice) + LONGEST_ADVICE > sizeof d->advice) return false;
+    if (d->advice[0]) append(d->advice, sizeof d->advice, "; ");
+    return true;
+}
+
+static void advice_of_point(hci_diagnosis *d, const hci_next_point *p)
+{
+    append(d->advice, sizeof d->advice, "%.4g turns%s at i_d %.3g A, ", p->turns,
+           p->source == HCI_TORQUE_HOLDING ? " of holding" : "", p->id_A);
+    if (isfinite(p->iq_A))
+        append(d->advice, sizeof d->advice, "i_q %.3g A, ", p->iq_A);
+    else
+        append(d->advice, sizeof d->advice, "i_q as it comes, ");
+    append(d->advice, sizeof d->advice, "%.4g rad/s (mechanical)", p->speed_rad_per_s);
+}
+
+/* ---- points ---- */
+
+static bool is_at(const hci_next_point *p, const hci_operating_point *x)
+{
+    const bool same_q = p->iq_A == x->iq_A || (isnan(p->iq_A) && isnan(x->iq_A));
+    return p->id_A == x->id_A && same_q && p->speed_rad_per_s == x->speed_rad_per_s;
+}
+
+/* The row of an operating point; a new one where there is none. NULL: no room. */
+static hci_next_point *row_of(hci_diagnosis *d, const hci_playable *playable, const hci_operating_point *x)
+{
+    for (size_t k = 0; k < d->next_points; ++k)
+        if (is_at(&d->next[k], x)) return &d->next[k];
+    if (d->next_points == HCI_MOST_NEXT_POINTS) return NULL;
+    hci_next_point *p = &d->next[d->next_points++];
+    *p = (hci_next_point){x->id_A, x->iq_A, x->speed_rad_per_s, HCI_LEAST_TURNS, playable->source, 0.0, ""};
+    return p;
+}
+
+/* ---- two explanations ---- */
+
+typedef struct {
+    const hci_verdict *verdict;
+    hci_fitted_model without;   /* of an effect that hangs on one run: the model without it; else empty */
+    double *chi_square, *turns; /* [points] */
+    size_t wanted;              /* points that are still to be found */
+} pair;
+
+typedef struct {
+    hci_playable playable;
+    hci_operating_point point[HCI_OPERATING_POINTS];
+    size_t points, pairs;
+    pair pair[MOST_PAIRS];
+} comparison;
+
+/* With fewer than all runs it is not found. */
+static bool is_unstable(const hci_verdict *v)
+{
+    return v->in && !v->ambiguous && v->stays < v->left_out;
+}
+
+static hci_status pair_add(const hci_regression *e, const hci_attribution *a, const hci_verdict *v,
+                           comparison *c, hci_note *note)
+{
+    pair *p = &c->pair[c->pairs++];
+    hci_explanations x = {&a->model.candidates, &v->alternative.candidates};
+    hci_status status = HCI_OK;
+    *p = (pair){.verdict = v, .wanted = EACH_TWICE};
+    p->chi_square = hci_memory_new(2 * HCI_OPERATING_POINTS, sizeof *p->chi_square);
+    if (!p->chi_square) return hci_note_memory(note, NULL, "what to measure next");
+    p->turns = p->chi_square + HCI_OPERATING_POINTS;
+    if (v->in) {
+        x.wrong = &p->without.candidates;
+        status = hci_fitted_model_copy(&a->model, &p->without, note);
+        if (status) return status;
+        hci_candidates_remove_type(&p->without.candidates, v->type);
+        status = hci_regression_fit(e, &p->without.candidates, &p->without.fit, note);
+    }
+    if (status) return status;
+    return hci_tell_apart(e, &c->playable, &x, c->point, c->points, p->chi_square, p->turns, note);
+}
+
+static hci_status pairs_add(const hci_regression *e, const hci_attribution *a, comparison *c, hci_note *note)
+{
+    hci_status status = HCI_OK;
+    for (size_t r = 0; r < a->types && !status && c->pairs < MOST_PAIRS; ++r) {
+        const hci_verdict *v = &a->verdict[r];
+        const bool rival = !v->in && v->ambiguous && v->alternative.candidates.candidate;
+        if (rival || is_unstable(v)) status = pair_add(e, a, v, c, note);
+    }
+    return status;
+}
+
+static void comparison_release(comparison *c)
+{
+    for (size_t k = 0; k < c->pairs; ++k) {
+        hci_memory_free(c->pair[k].chi_square);
+        hci_fitted_model_release(&c->pair[k].without);
+    }
+}
+
+/* ---- the choice ---- */
+
+/* What a point tells of the pairs that want one, in least turns. */
+static double told_at(const comparison *c, size_t k)
+{
+    double sum = 0.0;
+    for (size_t j = 0; j < c->pairs; ++j) {
+        const pair *p = &c->pair[j];
+        if (p->wanted > 0 && p->chi_square[k] > HCI_NOTHING)
+            sum += fmin(ENOUGH, p->chi_square[k]) * HCI_LEAST_TURNS / p->turns[k];
+    }
+    return sum;
+}
+
+static void pair_words(const pair *p, size_t k, bool first, hci_next_point *to)
+{
+    const hci_verdict *v = p->verdict;
+    if (!first) append(to->why, sizeof to->why, "; ");
+    if (v->in)
+        append(to->why, sizeof to->why, "shows whether there is %s (χ² %.3g)", v->type->name,
+               p->chi_square[k]);
+    else
+        append(to->why, sizeof to->why, "tells %s from %s (χ² %.3g)", v->rival_of->name, v->type->name,
+               p->chi_square[k]);
+}
+
+/* Takes a point: every pair that it tells apart wants one less. */
+static void point_take(comparison *c, size_t k, hci_diagnosis *d)
+{
+    hci_next_point *to = row_of(d, &c->playable, &c->point[k]);
+    bool first = true;
+    for (size_t j = 0; j < c->pairs && to; ++j) {
+        pair *p = &c->pair[j];
+        if (p->wanted == 0 || !(p->chi_square[k] > HCI_NOTHING)) continue;
+        to->turns = fmax(to->turns, p->turns[k]);
+        to->chi_square += p->chi_square[k];
+        pair_words(p, k, first, to);
+        first = false;
+        --p->wanted;
+    }
+}
+
+static void points_choose(comparison *c, hci_diagnosis *d)
+{
+    bool taken[HCI_OPERATING_POINTS] = {false};
+    while (d->next_points < HCI_MOST_NEXT_POINTS) {
+        double most = 0.0;
+        size_t best = 0;
+        for (size_t k = 0; k < c->points; ++k) {
+            const double told = taken[k] ? 0.0 : told_at(c, k);
+            if (told <= most * (1.0 + 1e-9)) continue;
+            most = told;
+            best = k;
+        }
+        if (!(most > 0.0)) return;
+        taken[best] = true;
+        point_take(c, best, d);
+    }
+}
+
+/* ---- advice of pairs ---- */
+
+/* The row that tells most of a pair; NULL: none. */
+static const hci_next_point *best_row(const comparison *c, const pair *p, const hci_diagnosis *d,
+                                      double *chi_square)
+{
+    const hci_next_point *best = NULL;
+    *chi_square = HCI_NOTHING;
+    for (size_t r = 0; r < d->next_points; ++r)
+        for (size_t k = 0; k < c->points; ++k)
+            if (is_at(&d->next[r], &c->point[k]) && p->chi_square[k] > *chi_square) {
+                best = &d->next[r];
+                *chi_square = p->chi_square[k];
+            }
+    return best;
+}
+
+static void advice_of_pair(const comparison *c, const pair *p, hci_diagnosis *d)
+{
+    double chi_square;
+    const hci_verdict *v = p->verdict;
+    const hci_next_point *row = best_row(c, p, d, &chi_square);
+    char names[128];
+    snprintf(names, sizeof names, v->in ? "%s%s" : "%s or %s", v->in ? v->type->name : v->rival_of->name,
+             v->in ? "" : v->type->name);
+    if (!advice_begin(d)) return;
+    if (!row) {
+        append(d->advice, sizeof d->advice,
+               "%s: no steady run within these currents and speeds tells; it takes another kind of "
+               "measurement",
+               names);
+        return;
+    }
+    append(d->advice, sizeof d->advice, "%s: ", names);
+    advice_of_point(d, row);
+    append(d->advice, sizeof d->advice,
+           v->in ? " would show it (χ² %.3g)" : " would tell them apart (χ² %.3g)", chi_square);
+}
+
+/* For terms that are the same in all runs, where the one is a part of the other. */
+static void advice_of_same(const hci_attribution *a, hci_diagnosis *d)
+{
+    for (size_t r = 0; r < a->types; ++r) {
+        const hci_verdict *v = &a->verdict[r];
+        if (v->in || !v->ambiguous || v->alternative.candidates.candidate || !advice_begin(d)) continue;
+        append(d->advice, sizeof d->advice, "%s or %s: a run with %s would tell them apart",
+               v->rival_of->name, v->type->name,
+               v->type->told_by ? v->type->told_by : "another current, speed and direction");
+    }
+}
+
+hci_status hci_next_points_tell_apart(const hci_regression *e, const hci_machine_data *machine,
+                                      const hci_attribution *a, hci_diagnosis *d, hci_note *note)
+{
+    comparison *c = hci_memory_new(1, sizeof *c);
+    if (!c) return hci_note_memory(note, NULL, "what to measure next");
+    c->playable = hci_playable_of(e, machine);
+    c->points = hci_operating_points(&c->playable, c->point);
+    const hci_status status = pairs_add(e, a, c, note);
+    if (!status) points_choose(c, d);
+    for (size_t k = 0; k < c->pairs && !status; ++k)
+        advice_of_pair(c, &c->pair[k], d);
+    if (!status) advice_of_same(a, d);
+    comparison_release(c);
+    hci_memory_free(c);
+    return status;
+}
+
+/* ---- what is not known ---- */
+
+/* Orders that no effect explains. Returns how many. */
+static size_t orders_of(const hci_diagnosis *d, double order[HCI_MOST_UNEXPLAINED])
+{
+    for (size_t k = 0; k < d->unexplained_count; ++k)
+        order[k] = d->unexplained[k].order;
+    return d->unexplained_count;
+}
+
+/* What is new about a point that no recording is near. */
+static void words_of_new(const hci_regression *e, const hci_operating_point *x, hci_next_point *to)
+{
+    bool current = false, without = false, way = false;
+    for (size_t r = 0; r < e->samples->run_count; ++r) {
+        const hci_run_statistics *f = &e->samples->statistics[r];
+        if (!hci_segment_next(e->samples, r, NULL)) continue;
+        current = current || f->current_A > 0.0;
+        without = without || !(f->current_A > 0.0);
+        way = way || f->mean_speed_rad_per_s * x->speed_rad_per_s > 0.0;
+    }
+    const bool none = x->id_A == 0.0 && x->iq_A == 0.0;
+    append(to->why, sizeof to->why, "%s",
+           none && !without    ? "no recording without current so far"
+           : !none && !current ? "no recording with current so far"
+           : !way              ? "no recording in this direction so far"
+                               : "furthest from all recordings so far");
+}
+
+static void points_add(const hci_regression *e, const hci_playable *playable, const hci_point_choice *choice,
+                       size_t found, hci_diagnosis *d)
+{
+    for (size_t k = 0; k < found; ++k) {
+        const hci_telling_point *t = &choice->chosen[k];
+        hci_next_point *to = row_of(d, playable, &choice->point[t->point]);
+        if (!to) return;
+        if (to->why[0]) append(to->why, sizeof to->why, "; ");
+        if (isnan(t->order)) {
+            words_of_new(e, &choice->point[t->point], to);
+            continue;
+        }
+        to->chi_square += t->chi_square;
+        append(to->why, sizeof to->why,
+               "laws of growth that describe order %.6g as well differ by %.2g N·m here (χ² %.3g)", t->order,
+               t->spread_Nm, t->chi_square);
+    }
+}
+
+static void advice_of_unknown(hci_diagnosis *d, size_t before)
+{
+    if (d->next_points == before || !advice_begin(d)) return;
+    append(d->advice, sizeof d->advice, "what is not known: ");
+    advice_of_point(d, &d->next[before]);
+    append(d->advice, sizeof d->advice, " would say most (%s)", d->next[before].why);
+}
+
+hci_status hci_next_points_unknown(const hci_regression *e, const hci_machine_data *machine, hci_diagnosis *d,
+                                   hci_note *note)
+{
+    hci_operating_point point[HCI_OPERATING_POINTS];
+    hci_telling_point chosen[MOST_UNKNOWN];
+    double order[HCI_MOST_UNEXPLAINED];
+    size_t found = 0;
+    const size_t before = d->next_points, orders = orders_of(d, order);
+    if (d->verdict != HCI_DIAGNOSIS_PARTLY && d->verdict != HCI_DIAGNOSIS_UNKNOWN) return HCI_OK;
+    const hci_playable playable = hci_playable_of(e, machine);
+    const hci_point_choice choice = {point, hci_operating_points(&playable, point), MOST_UNKNOWN, chosen};
+    double *residual_Nm = hci_memory_new(e->samples->count + 1, sizeof *residual_Nm);
+    if (!residual_Nm) return hci_note_memory(note, NULL, "what to measure next");
+    hci_status status = hci_regression_residual(e, &d->effects.list, residual_Nm, note);
+    if (!status && orders > 0)
+        status = hci_points_of_growth(e, residual_Nm, order, orders, &playable, &choice, &found, note);
+    if (!status && found == 0) found = hci_points_not_recorded(e, &playable, &choice);
+    hci_memory_free(residual_Nm);
+    if (status) return status;
+    points_add(e, &playable, &choice, found, d);
+    advice_of_unknown(d, before);
+    return HCI_OK;
+}
