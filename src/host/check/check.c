@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "host/check/conclusions.h"
+#include "host/check/pole_pairs.h"
 
 const char *hci_check_verdict_name(hci_check_verdict verdict)
 {
@@ -35,6 +36,8 @@ hci_status hci_check_files(const char *machine, const char *const *run, size_t r
     check->runs = runs;
     status = hci_check_machine_read(machine, &data, note);
     if (!status) status = hci_check_runs_read(run, runs, reading, &data, check->remark, note);
+    if (!status && !hci_check_pole_pairs_count(&data))
+        status = hci_note_memory(note, NULL, "the orders of a turn");
     if (!status) status = hci_check_posterior(&data, &posterior, note);
     if (!status) hci_check_conclude(&posterior, check);
     hci_check_posterior_release(&posterior);

@@ -71,6 +71,13 @@ static bool is_beyond(const check_table *t)
     return t->most_phase_rad > 2.0 * HCI_PI;
 }
 
+/* Half of them would be another error. */
+static bool is_counted_otherwise(const check_data *data)
+{
+    const double p = data->value[CHECK_pole_pairs], counted = data->counted_pole_pairs;
+    return counted > 0.0 && fabs(counted - p) > 0.5 && fabs(counted - 0.5 * p) > 0.5;
+}
+
 /* Poles are an even number; a motor with one pole pair has no electrical radians of its own; degrees show by
  * phases above 2π, and read as degrees all others would be near 0. */
 bool hci_check_error_applies(const check_error *error, const check_data *data)
@@ -78,7 +85,8 @@ bool hci_check_error_applies(const check_error *error, const check_data *data)
     const double p = data->value[CHECK_pole_pairs];
     const check_place *place = place_of(data, error->where);
     if (!place || !place->path) return false;
-    if (error->where == CHECK_AT_POLES) return fmod(p, 2.0) == 0.0;
+    if (error->where == CHECK_AT_POLES)
+        return error->plus > 0.0 ? is_counted_otherwise(data) : fmod(p, 2.0) == 0.0;
     if (error->where == CHECK_AT_PHASE)
         return data->cogging.count > 0 && (is_beyond(&data->emf) || is_beyond(&data->cogging));
     if (error->where == CHECK_AT_EMF_PHASE) return is_beyond(&data->emf);
@@ -101,6 +109,7 @@ static double right_number(const check_error *error, const check_data *data, con
     case CHECK_AT_EMF: {
         check_interpretation poles = declared;
         poles.pole_pairs = as->pole_pairs;
+        poles.pole_pairs_counted = as->pole_pairs_counted;
         return e->amplitude[e->largest] * as_read.emf_Nm_per_A /
                hci_check_model_of(data, &poles).emf_Nm_per_A;
     }

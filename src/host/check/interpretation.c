@@ -89,7 +89,7 @@ static void inductances_of(const check_data *data, const check_interpretation *a
     if (!l->given) return;
     m->reluctance_Nm_per_A2 = l->reluctance_Nm_per_A2 * turned_difference(as);
     if (!l->are_slopes)
-        m->reluctance_Nm_per_A2 *= as->pole_pairs;
+        m->reluctance_Nm_per_A2 *= m->pole_pairs / data->value[CHECK_pole_pairs];
     else if (as->slope_electrical > 0.0)
         m->reluctance_Nm_per_A2 *= m->pole_pairs;
 }
@@ -97,6 +97,8 @@ static void inductances_of(const check_data *data, const check_interpretation *a
 check_model hci_check_model_of(const check_data *data, const check_interpretation *as)
 {
     check_model m = {.pole_pairs = data->value[CHECK_pole_pairs] * as->pole_pairs};
+    if (as->pole_pairs_counted > 0.0 && data->counted_pole_pairs > 0.0)
+        m.pole_pairs = data->counted_pole_pairs;
     m.emf_Nm_per_A = emf_of(data, as, m.pole_pairs);
     m.emf_phase_rad = emf_phase_of(data, as);
     m.resistance_ohm = data->value[CHECK_resistance_ohm] * as->resistance;

@@ -25,6 +25,7 @@ enum {
  * convention error is one field, a factor and a summand (convention_errors.h). */
 typedef struct {
     double pole_pairs;                                     /* factor */
+    double pole_pairs_counted;                             /* 1: as the recordings count them */
     double emf_kind;                                       /* CHECK_EMF_… */
     double emf_sign;                                       /* factor */
     double emf_mechanical, cogging_mechanical;             /* 1: orders per mechanical turn */

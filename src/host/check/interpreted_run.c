@@ -112,7 +112,8 @@ double hci_check_power_of(const check_run *r, const check_interpretation *as, co
 bool hci_check_has_vector_current(const check_data *data, const check_run *r)
 {
     return hci_check_has_current(data, r) &&
-           ((r->has_dq && r->dq_is_steady) || (r->has_abc && isfinite(r->current_order)));
+           ((r->has_dq && r->dq_is_steady) ||
+            (r->has_abc && isfinite(r->current_order) && r->current_is_steady));
 }
 
 bool hci_check_is_unbalanced(double balance)

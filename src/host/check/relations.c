@@ -1,8 +1,8 @@
 #include "host/check/relations.h"
 
-static const check_relation_list *const LISTS[] = {&HCI_CHECK_TABLE_RELATIONS, &HCI_CHECK_WAVE_RELATIONS,
+static const check_relation_list *const LISTS[] = {&HCI_CHECK_TABLE_RELATIONS,  &HCI_CHECK_WAVE_RELATIONS,
                                                    &HCI_CHECK_TORQUE_RELATIONS, &HCI_CHECK_COGGING_RELATIONS,
-                                                   &HCI_CHECK_PHASE_RELATIONS};
+                                                   &HCI_CHECK_PHASE_RELATIONS,  &HCI_CHECK_POLE_RELATIONS};
 enum { LIST_COUNT = sizeof LISTS / sizeof *LISTS };
 
 size_t hci_check_relation_count(void)

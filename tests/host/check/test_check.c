@@ -237,6 +237,66 @@ static void test_a_holding_map_knows_the_cogging_torque(void)
     TEST_ASSERT_EQUAL_STRING("poles_for_pole_pairs", check.finding[0].slip);
 }
 
+/* A motor of 12 slots and 14 poles, held: cogging 84 times a turn, 12 and 36 times by unlike magnets, 14 and
+ * 28 times by unlike teeth, 7 and 21 times by the zero of a current sensor. */
+static void write_uneven_holding(bool with_phases)
+{
+    static char text[4 * SAMPLES * 80];
+    static const int ORDER[] = {84, 12, 36, 28, 14, 7, 21};
+    size_t used = (size_t)snprintf(text, sizeof text, "theta_m_rad,%s,torque_Nm\n",
+                                   with_phases ? "ia_A,ib_A,ic_A" : "iq_A");
+    for (int k = 0; k < 4 * SAMPLES; ++k) {
+        const double theta_m = 2.0 * REF_PI * k / (4 * SAMPLES);
+        double q = 0.05;
+        for (int n = 0; n < 7; ++n)
+            q += 0.1 * sin(ORDER[n] * theta_m + n);
+        used += (size_t)snprintf(text + used, sizeof text - used, "%.9g", theta_m);
+        if (!with_phases) used += (size_t)snprintf(text + used, sizeof text - used, ",%.6g", q);
+        for (int phase = 0; phase < 3 && with_phases; ++phase)
+            used += (size_t)snprintf(text + used, sizeof text - used, ",%.6g",
+                                     q * sin(7.0 * theta_m - 2.0 * REF_PI * phase / 3.0));
+        used += (size_t)snprintf(text + used, sizeof text - used, ",0\n");
+    }
+    write_file("hold.csv", text);
+}
+
+static void check_uneven_holding(int pole_pairs, bool with_phases)
+{
+    static const char *run[1];
+    char machine[80];
+    snprintf(machine, sizeof machine, "name,value,unit\npole_pairs,%d,1\nslots,12,1\n", pole_pairs);
+    run[0] = path[0];
+    write_uneven_holding(with_phases);
+    write_machine(machine, "amplitude_Nm_per_A", 0.1, 0.0);
+    hci_check_files(files_root, run, 1, &(hci_run_options){0}, &check, &note);
+}
+
+static void test_a_holding_map_knows_the_pole_pairs(void)
+{
+    static const int WRONG[] = {4, 6, 14};
+    check_uneven_holding(7, false);
+    TEST_ASSERT_EQUAL_MESSAGE(0, (int)check.findings, check.findings > 0 ? check.finding[0].slip : "");
+    TEST_ASSERT_EQUAL(HCI_CHECK_CONSISTENT, check.verdict);
+    for (int k = 0; k < 3; ++k) {
+        remove_files();
+        check_uneven_holding(WRONG[k], false);
+        expect_only(WRONG[k] == 14 ? "poles_for_pole_pairs" : "pole_pairs_miscounted");
+        TEST_ASSERT_EQUAL_STRING("7", check.finding[0].should_be);
+    }
+}
+
+/* Currents that hold a shaft have either sign, and commutate with the poles all the same. */
+static void test_holding_currents_commutate(void)
+{
+    check_uneven_holding(7, true);
+    TEST_ASSERT_EQUAL(HCI_CHECK_CONSISTENT, check.verdict);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, 1.0, evidence("current_order"));
+    remove_files();
+    check_uneven_holding(6, true);
+    expect_only("pole_pairs_miscounted");
+    TEST_ASSERT_EQUAL_STRING("7", check.finding[0].should_be);
+}
+
 /* ---- slips of the tables, in numbers worked out by hand for k_e = 0.1 V·s/rad and 4 pole pairs */
 
 static void test_slips_of_the_emf(void)
@@ -817,6 +877,8 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_correct_files_are_consistent);
     RUN_TEST(test_a_holding_map_knows_the_cogging_torque);
+    RUN_TEST(test_a_holding_map_knows_the_pole_pairs);
+    RUN_TEST(test_holding_currents_commutate);
     RUN_TEST(test_slips_of_the_emf);
     RUN_TEST(test_an_emf_in_volts);
     RUN_TEST(test_slips_of_machine_csv);

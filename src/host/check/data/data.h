@@ -74,6 +74,10 @@ typedef struct {
     double speed;               /* in the unit of its column */
 } check_voltage_terms;
 
+/* Of a mechanical turn: orders below this, and so many lines of a ripple at most; pole pairs that are
+ * counted. */
+enum { CHECK_MOST_ORDER = 600, CHECK_MOST_LINES = 16, CHECK_MOST_PAIRS = 60 };
+
 /* Interpretations ask for the same orders of the torque again and again. */
 enum { CHECK_CACHED_ORDERS = 256 };
 
@@ -117,10 +121,12 @@ typedef struct {
     check_vector power;                    /* mean of voltage × conj(current) */
     check_voltage_terms terms;             /* of v_d, v_q */
     double current_order, voltage_order;   /* order and sequence against the recorded angle; NAN: none */
+    bool current_is_steady;                /* with one sign all the time */
     double frequency;   /* of the voltages over the recorded time, rad per unit of time; NAN: unknown */
     double current_sum; /* rms of ia + ib + ic over the rms of the currents; NAN: not three columns */
     double current_balance, voltage_balance; /* largest over smallest alternating rms of the phases */
-    check_frame frame[CHECK_SCALES];
+    int line[CHECK_MOST_LINES], lines;       /* orders per turn with which the torque repeats */
+    check_frame frame[CHECK_SCALES + 1];     /* the last: at the order that the recording itself has */
     check_place theta_cell, time_cell, speed_cell, current_cell, voltage_cell, torque_cell;
 } check_run;
 
@@ -137,7 +143,9 @@ typedef struct {
     size_t scales;
     check_run *run;
     size_t runs;
-    double no_current_A; /* runs with less are without current */
+    double no_current_A;       /* runs with less are without current */
+    int pole_pairs_of_ripple;  /* that the orders of the ripple without load fit best; 0: no such recording */
+    double counted_pole_pairs; /* by the recordings; 0: not counted */
 } check_data;
 
 /* *data starts from {0}; what these two leave is to be released even after a failure. HCI_ERROR_INPUT with
@@ -154,6 +162,9 @@ const check_frame *hci_check_frame_of(const check_run *run, double scale);
 /* S + jC of the torque of a run at an order of the recorded angle, by its sums with sine and cosine.
  * O(samples) the first time; the run keeps it. */
 check_vector hci_check_torque_order(check_run *run, double order);
+
+/* The lines of run->torque over a mechanical turn: run->line. False: out of memory. O(samples + orders²). */
+bool hci_check_run_orders(check_run *run);
 
 /* Whether more than noise and offsets flows. */
 bool hci_check_has_current(const check_data *data, const check_run *run);

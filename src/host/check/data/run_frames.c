@@ -1,4 +1,5 @@
 #include <math.h>
+#include <stdlib.h>
 
 #include "host/check/data/run_samples.h"
 
@@ -39,6 +40,52 @@ static double order_of(const check_run *run, size_t scales, bool of_current, dou
     return order;
 }
 
+/* ---- orders that no interpretation asks for */
+
+/* Share of the square of a vector that turns with the mechanical angle n times as fast, or against it:
+ * whatever its sign, as its square turns twice as fast. */
+static double coherence(const check_samples *s, const check_vector *x, double scale)
+{
+    check_vector sum = {0.0, 0.0};
+    double square = 0.0;
+    for (size_t k = 0; k < s->count; ++k) {
+        const check_vector y = hci_check_product(x[k], x[k]);
+        sum = hci_check_sum(sum, hci_check_turned(y, -2.0 * scale * s->theta[k]));
+        square += x[k].re * x[k].re + x[k].im * x[k].im;
+    }
+    return square > 0.0 ? hci_check_length(sum) / square : 0.0;
+}
+
+/* The order, negative against the angle; NAN: none. */
+static double scan(const check_samples *s, const check_run *run, const check_vector *x)
+{
+    double best = CHECK_COHERENT, order = NAN;
+    for (int n = -CHECK_MOST_PAIRS; x && n <= CHECK_MOST_PAIRS; ++n) {
+        if (n == 0 || abs(n) * run->angle_range < LEAST_TURN) continue;
+        const double share = coherence(s, x, n);
+        if (share > best) order = n;
+        best = fmax(best, share);
+    }
+    return order;
+}
+
+/* A mechanical angle counts the electrical turns in it. */
+static void count_turns(const check_samples *s, check_run *run)
+{
+    check_frame *own = &run->frame[CHECK_SCALES];
+    run->current_is_steady = isfinite(run->current_order);
+    if (run->is_electrical || isfinite(run->voltage_order)) return;
+    if (!run->current_is_steady) run->current_order = scan(s, run, s->current);
+    run->voltage_order = scan(s, run, s->voltage);
+    const double order = isfinite(run->current_order) ? run->current_order : run->voltage_order;
+    if (!isfinite(order)) return;
+    own->scale = fabs(order);
+    frame_take(s, own);
+    const double length = hci_check_length(own->current[order < 0.0 ? CHECK_BACKWARD : CHECK_FORWARD]);
+    if (!run->current_is_steady)
+        run->current_is_steady = length * length > CHECK_COHERENT * run->current_square;
+}
+
 void hci_check_run_frames(const check_data *data, const check_samples *s, check_run *run)
 {
     for (size_t k = 0; k < data->scales; ++k) {
@@ -47,11 +94,12 @@ void hci_check_run_frames(const check_data *data, const check_samples *s, check_
     }
     run->current_order = s->current ? order_of(run, data->scales, true, run->current_square) : (double)NAN;
     run->voltage_order = s->voltage ? order_of(run, data->scales, false, run->voltage_square) : (double)NAN;
+    count_turns(s, run);
 }
 
 const check_frame *hci_check_frame_of(const check_run *run, double scale)
 {
-    for (size_t k = 0; run->theta && k < CHECK_SCALES; ++k)
+    for (size_t k = 0; run->theta && k <= CHECK_SCALES; ++k)
         if (fabs(run->frame[k].scale / fabs(scale) - 1.0) < 1e-9) return &run->frame[k];
     return NULL;
 }

@@ -1,0 +1,30 @@
+#include "host/check/pole_pairs.h"
+
+#include <math.h>
+
+/* So near is a count to a whole number. */
+#define WHOLE 0.02
+
+static double whole(double x)
+{
+    const double n = floor(fabs(x) + 0.5);
+    return n > 1.0 && n <= CHECK_MOST_PAIRS && fabs(fabs(x) - n) < WHOLE * n ? n : 0.0;
+}
+
+/* Waves of a recording over its mechanical angle, in radians; or its electrical angle over that. */
+static double of_run(const check_run *r)
+{
+    const double of_wave = isfinite(r->current_order) ? r->current_order : r->voltage_order;
+    if (isfinite(r->angle_ratio)) return whole(r->angle_ratio);
+    return !r->is_electrical && isfinite(of_wave) ? whole(of_wave) : 0.0;
+}
+
+bool hci_check_pole_pairs_count(check_data *data)
+{
+    double counted = 0.0;
+    for (size_t k = 0; k < data->runs && !(counted > 0.0); ++k)
+        counted = of_run(&data->run[k]);
+    if (!hci_check_pole_pairs_of_ripple(data)) return false;
+    data->counted_pole_pairs = counted > 0.0 ? counted : whole(data->pole_pairs_of_ripple);
+    return true;
+}
