@@ -17,6 +17,9 @@
 #define TOO_WIDE 0.25
 #define GROWN    1.5
 
+/* A ratio that is off by this factor is nothing that agrees. */
+#define FAR 1.5
+
 /* A relation that is not met is nearer when less than this of its deviation is left. */
 #define NEARER 0.5
 
@@ -100,11 +103,13 @@ static hci_check_state state_of(double declared, double as_read)
     return as_read < fmax(MET, NEARER * declared) ? HCI_CHECK_BETTER : HCI_CHECK_UNMENDED;
 }
 
-/* Both values agree, and would agree with a slip. */
+/* Both values agree, and would agree with a slip; or the tolerance has let one pass that is far off. */
 static bool is_too_wide(const check_relation *r, check_value declared, check_value as_read)
 {
-    const double spread = fmax(declared.spread, as_read.spread);
-    return spread > GROWN && r->tolerance * spread > TOO_WIDE;
+    const double spread = fmax(declared.spread, as_read.spread), ratio = declared.found / r->expected;
+    const bool is_ratio = r->kind != CHECK_ANGLE && r->kind != CHECK_SHARE && r->kind != CHECK_MOST;
+    return (spread > GROWN && r->tolerance * spread > TOO_WIDE) ||
+           (is_ratio && !(ratio > 1.0 / FAR && ratio < FAR));
 }
 
 static bool is_used(const check_posterior *p, const char *relation)

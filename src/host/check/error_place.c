@@ -27,7 +27,8 @@ static const check_place *run_place(const check_data *data, int where)
         if (where == CHECK_AT_VOLTAGE || (where == CHECK_AT_PHASE_VOLTAGE && r->has_phase_voltage))
             place = &r->voltage_cell;
         if (where == CHECK_AT_TORQUE && r->has_torque) place = &r->torque_cell;
-        if (where == CHECK_AT_SPEED || (where == CHECK_AT_SPEED_M && !r->speed_is_electrical))
+        if (where == CHECK_AT_SPEED || where == CHECK_AT_SPEED_SIGN ||
+            (where == CHECK_AT_SPEED_M && !r->speed_is_electrical))
             place = &r->speed_cell;
         if (where == CHECK_AT_TIME) place = &r->time_cell;
         if (place && place->path) return place;
@@ -78,6 +79,18 @@ static bool is_counted_otherwise(const check_data *data)
     return counted > 0.0 && fabs(counted - p) > 0.5 && fabs(counted - 0.5 * p) > 0.5;
 }
 
+/* The angle goes backward in some recording, and the speed nowhere. */
+static bool may_be_unsigned(const check_data *data)
+{
+    bool goes_back = false;
+    for (size_t k = 0; k < data->runs; ++k) {
+        const check_run *r = &data->run[k];
+        if (r->has_speed && r->speed < 0.0) return false;
+        goes_back = goes_back || (r->has_speed && r->angle_rate < 0.0);
+    }
+    return goes_back;
+}
+
 /* Poles are an even number; a motor with one pole pair has no electrical radians of its own; degrees show by
  * phases above 2π, and read as degrees all others would be near 0. */
 bool hci_check_error_applies(const check_error *error, const check_data *data)
@@ -87,6 +100,7 @@ bool hci_check_error_applies(const check_error *error, const check_data *data)
     if (!place || !place->path) return false;
     if (error->where == CHECK_AT_POLES)
         return error->plus > 0.0 ? is_counted_otherwise(data) : fmod(p, 2.0) == 0.0;
+    if (error->where == CHECK_AT_SPEED_SIGN) return may_be_unsigned(data);
     if (error->where == CHECK_AT_PHASE)
         return data->cogging.count > 0 && (is_beyond(&data->emf) || is_beyond(&data->cogging));
     if (error->where == CHECK_AT_EMF_PHASE) return is_beyond(&data->emf);

@@ -120,7 +120,7 @@ static double ratio_deviation(const check_relation *r, double found, double spre
     const double unknown = r->tolerance * sqrt(fmax(0.0, spread * spread - 1.0));
     double distance = found > 0.0 ? fabs(log(found)) : HUGE_VAL;
     if (found < 1.0 && r->kind == CHECK_LOW) distance /= 1.5;
-    if (found < 1.0 && r->kind == CHECK_HIGH) distance *= 2.0;
+    if (r->kind == CHECK_HIGH) distance *= found < 1.0 ? 2.0 : 1.0 / 3.0;
     const double known = distance / r->tolerance, beside = fabs(found - 1.0) / unknown;
     if (!(unknown > 0.0) || !(known > 0.0)) return known;
     return isinf(known) ? beside : known * beside / hypot(known, beside);

@@ -10,7 +10,8 @@ typedef enum {
     CHECK_RATIO, /* found/expected, by its logarithm */
     CHECK_FLUX,  /* so, and proportional to the flux of the magnets */
     CHECK_LOW,   /* so, below 1 with half as much again: friction, and a cautious sheet */
-    CHECK_HIGH,  /* so, below 1 with half the tolerance: copper is warmer than on the sheet, seldom colder */
+    CHECK_HIGH,  /* so, below 1 with half the tolerance and above with thrice: copper is warmer than on the
+                    sheet, seldom  colder, and leads, switches and dead time come to it */
     CHECK_ANGLE, /* radians, modulo a turn */
     CHECK_SHARE, /* a difference */
     CHECK_MOST   /* at most the expected, by the logarithm of what is above */

@@ -29,6 +29,9 @@
  */
 #define CHECK_COMMAND_UNKNOWN 0.05
 
+/* By resistance: leads, switches and dead time of a drive. */
+#define CHECK_SWITCHES_UNKNOWN 1.0
+
 /* A machine without inductances is declared to have L_d = L_q; so much of k_e may p (L_d − L_q) i_d be after
  * all. */
 #define CHECK_SALIENCY_UNKNOWN 0.15

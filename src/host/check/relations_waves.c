@@ -96,6 +96,14 @@ static double voltage_unknown(const check_run *r, const check_voltage_terms *x)
     return r->has_dq_voltage ? CHECK_COMMAND_UNKNOWN * hci_check_length(x->voltage) : 0.0;
 }
 
+/* Leads, switches and, where the voltage is what a drive has asked for, its dead time: all of them along the
+ * current, and together easily as much as the copper. */
+static double along_current_unknown(const check_run *r, const check_voltage_terms *x, const check_model *m)
+{
+    const double drop = hci_check_or_zero(m->resistance_ohm) * hci_check_length(x->current);
+    return r->has_dq_voltage ? CHECK_SWITCHES_UNKNOWN * drop : CHECK_DROP_UNKNOWN * drop;
+}
+
 /* Σ E Ê* / Σ |Ê|² over the recordings, with E = v − R i − jω(L_d i_d + jL_q i_q). */
 static check_value emf_fit(const check_data *data, const check_interpretation *as, const check_model *m,
                            bool of_angle)
@@ -110,9 +118,9 @@ static check_value emf_fit(const check_data *data, const check_interpretation *a
                            drop = drop_of(data, r, &terms, m);
         const check_vector found = hci_check_sum(terms.voltage, hci_check_scaled(drop, -1.0));
         const double length = hci_check_length(expected),
-                     unknown =
-                         hypot(CHECK_DROP_UNKNOWN * hci_check_length(drop), voltage_unknown(r, &terms)) /
-                         length / tolerance;
+                     unknown = hypot(CHECK_DROP_UNKNOWN * hci_check_length(drop),
+                                     hypot(along_current_unknown(r, &terms, m), voltage_unknown(r, &terms))) /
+                               length / tolerance;
         const check_vector cross = hci_check_product(found, hci_check_conjugate(expected));
         hci_check_fit_add(&re, cross.re / length, length, unknown);
         hci_check_fit_add(&im, cross.im / length, length, unknown);

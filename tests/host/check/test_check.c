@@ -596,6 +596,19 @@ MISTAKE(drive_rms, put_drive(x, is_loaded(x) ? -2.0 : 0.0, is_loaded(x) ? 10.0 :
 MISTAKE(drive_slowly, x->speed *= 0.1; x->time_s *= 10.0; drive(x))
 MISTAKE(drive_voltages_out, drive(x); times(x->v, -1.0))
 
+/* Phases under the third and the two last columns. */
+static void put_phases(sample *x, double factor)
+{
+    const double a = x->i[0], b = x->i[1], c = x->i[2];
+    put_drive(x, -2.0, 10.0, factor);
+    x->i[2] = a;
+    x->v[2] = b;
+    x->torque_Nm = c;
+}
+
+MISTAKE(beside_phases, put_phases(x, 1.0))
+MISTAKE(invariant_beside_phases, put_phases(x, 1.2247448714))
+
 static const char DRIVE[] = "time_s,theta_m_rad,speed_e_rad_per_s,id_A,iq_A,,vd_V,vq_V,,torque_Nm";
 
 static void test_the_log_of_a_drive(void)
@@ -649,6 +662,119 @@ static void test_a_speed_that_changes_its_sign(void)
     TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, check_runs(DRIVE, turn_round, false), note.text);
     TEST_ASSERT_DOUBLE_WITHIN(1e-6, 1.0, evidence("emf_size"));
     TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0.0, evidence("emf_angle"));
+}
+
+static hci_check_state state(const char *name)
+{
+    for (size_t k = 0; k < check.evidences; ++k)
+        if (strcmp(check.evidence[k].name, name) == 0) return check.evidence[k].state;
+    TEST_FAIL_MESSAGE(name);
+    return HCI_CHECK_AGREES;
+}
+
+/* Two turns forward and two back: the mean speed is 0, and so are those of current and torque. */
+static void there_and_back(sample *x)
+{
+    const double half_s = 2.0 * REF_PI / 200.0 * 2.0;
+    if (x->time_s < half_s - 1e-9) return;
+    const double back_s = x->time_s - half_s;
+    sample mirrored = sample_at(0, 2.0, -10.0);
+    mirrored.theta = 0.3 + 50.0 * (half_s - back_s);
+    for (int s = 0; s < 3; ++s) {
+        const double a = 4.0 * mirrored.theta - 2.0 * REF_PI * s / 3.0;
+        mirrored.i[s] = -10.0 * sin(a) + 2.0 * cos(a);
+        mirrored.v[s] = 0.2 * mirrored.i[s] - 0.2 * (-10.0 * cos(a) - 2.0 * sin(a)) - 5.0 * sin(a);
+    }
+    mirrored.time_s = x->time_s;
+    mirrored.speed = -50.0;
+    mirrored.torque_Nm = -1.5;
+    *x = mirrored;
+}
+
+MISTAKE(there_and_back_out, there_and_back(x); times(x->i, -1.0))
+
+static void test_forward_and_back(void)
+{
+    static const char *const SIZES[] = {"angle_speed", "emf_size",        "power_balance",
+                                        "torque_size", "resistance_size", "current_order"};
+    write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, check_runs(HEADER, there_and_back, false), note.text);
+    for (size_t k = 0; k < sizeof SIZES / sizeof *SIZES; ++k)
+        TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(0.02, 1.0, evidence(SIZES[k]), SIZES[k]);
+    remove_files();
+    write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
+    check_runs(HEADER, there_and_back_out, false);
+    expect_only("current_sign");
+}
+
+/* Interior magnets of which only the back-EMF is declared: half as much torque again, or twice as much, may
+ * be that of a reluctance, and is no rms value. */
+static const char EMF_ALONE[] = "name,value,unit,source\npole_pairs,4,1,\n";
+MISTAKE(reluctance, dq(x); x->i[0] *= 4.0; x->torque_Nm *= 1.414)
+
+static void test_reluctance_is_no_unit(void)
+{
+    static const char DQ[] = "time_s,theta_m_rad,speed_rad_per_s,id_A,iq_A,unused,u1,u2,u3,torque_Nm";
+    write_machine(EMF_ALONE, "amplitude_Nm_per_A", 0.1, 0.0);
+    check_runs(DQ, reluctance, false);
+    TEST_ASSERT_EQUAL_MESSAGE(0, (int)check.findings, check.findings > 0 ? check.finding[0].slip : "");
+    TEST_ASSERT_EQUAL(HCI_CHECK_UNJUDGED, state("torque_size"));
+}
+
+MISTAKE(warm, x->torque_Nm *= 0.83; times(x->v, 0.83))
+
+/* A sixth less torque and voltage: weak magnets once, and not two accusations of a factor. */
+static void test_weak_magnets_are_no_unit(void)
+{
+    write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
+    check_runs(HEADER, warm, true);
+    for (size_t k = 0; k < check.findings; ++k)
+        TEST_ASSERT_TRUE_MESSAGE(check.finding[k].probability < 0.5, check.finding[k].slip);
+    TEST_ASSERT_EQUAL(HCI_CHECK_NOT_UNDERSTOOD, check.verdict);
+}
+
+/* Leads and dead time at low speed: one and a half times R i beside it. */
+MISTAKE(dead_time, drive_slowly(x); x->v[0] += 0.3 * x->i[0]; x->v[1] += 0.3 * x->i[1])
+
+static void test_dead_time_is_no_unit(void)
+{
+    write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
+    check_runs(DRIVE, dead_time, true);
+    for (size_t k = 0; k < check.findings; ++k)
+        TEST_ASSERT_TRUE_MESSAGE(check.finding[k].probability < 0.5, check.finding[k].slip);
+    TEST_ASSERT_EQUAL(HCI_CHECK_UNJUDGED, state("resistance_size"));
+}
+
+/* Backward with a speed that is positive all the same. */
+static void backward_unsigned(sample *x)
+{
+    for (int s = 0; s < 3; ++s)
+        x->i[s] = x->v[s] = 0.0;
+    x->theta = -x->theta;
+    for (int s = 0; s < 3; ++s)
+        x->v[s] = -5.0 * sin(4.0 * x->theta - 2.0 * REF_PI * s / 3.0);
+    x->torque_Nm = 0.0;
+}
+
+static void test_a_speed_without_sign(void)
+{
+    write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
+    check_runs(HEADER, backward_unsigned, false);
+    expect_only("speed_unsigned");
+}
+
+/* i_d, i_q, v_d, v_q and no torque: the phase currents tell how large i_d and i_q should be. */
+static void test_phase_currents_beside_dq(void)
+{
+    static const char ALL[] = "time_s,theta_m_rad,speed_e_rad_per_s,id_A,iq_A,ia_A,vd_V,vq_V,ib_A,ic_A";
+    write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, check_runs(ALL, beside_phases, false), note.text);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-3, 1.0, evidence("phase_ratio"));
+    TEST_ASSERT_NOT_NULL(strstr(check.remark[0].text, "phase currents beside i_d and i_q"));
+    remove_files();
+    write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
+    check_runs(ALL, invariant_beside_phases, false);
+    expect_only("current_power_invariant");
 }
 
 /* v_d that nobody recorded is not 0: only 3/2 v_q i_q is left, and it is the power where no i_d flows. */
@@ -825,14 +951,6 @@ static void test_a_relation_that_another_replaces_is_no_gap(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, 1.0, evidence("cogging_first"));
 }
 
-static hci_check_state state(const char *name)
-{
-    for (size_t k = 0; k < check.evidences; ++k)
-        if (strcmp(check.evidence[k].name, name) == 0) return check.evidence[k].state;
-    TEST_FAIL_MESSAGE(name);
-    return HCI_CHECK_AGREES;
-}
-
 /* 0.19 = 1.1·√3·0.1, line to line of magnets that are a tenth stronger than they measure: two standard
  * deviations. Of 0.1·√3 nothing is left. */
 static void test_what_is_nearer_is_not_called_mended(void)
@@ -892,6 +1010,12 @@ int main(void)
     RUN_TEST(test_the_log_of_a_drive);
     RUN_TEST(test_slips_in_the_log_of_a_drive);
     RUN_TEST(test_a_speed_that_changes_its_sign);
+    RUN_TEST(test_forward_and_back);
+    RUN_TEST(test_reluctance_is_no_unit);
+    RUN_TEST(test_weak_magnets_are_no_unit);
+    RUN_TEST(test_dead_time_is_no_unit);
+    RUN_TEST(test_a_speed_without_sign);
+    RUN_TEST(test_phase_currents_beside_dq);
     RUN_TEST(test_v_q_alone);
     RUN_TEST(test_signs_that_look_alike_are_all_named);
     RUN_TEST(test_two_slips_at_once);

@@ -254,16 +254,6 @@ def log_there_and_back(rng):
 
 
 @case
-def unsigned_speed(rng):
-    """A tachometer has no sign; the shaft turns backward."""
-    m = Machine(rng)
-    files = with_runs(m, Columns(rng, m), {"back": (bench.steady(m, -0.5 * m.speed, 0, 0), BACK), "load": (bench.steady(m, -0.5 * m.speed, 0, -0.6 * m.I), DYNO)})
-    for table in (files["runs/back.csv"], files["runs/load.csv"]):
-        table["speed_rad_per_s"] = [abs(x) for x in table["speed_rad_per_s"]]
-    return correct(files)
-
-
-@case
 def free_shaft(rng):
     """2 Hz current on a free shaft; no torque sensor."""
     m = Machine(rng, kind="gimbal", cogging=0.02)
@@ -656,6 +646,15 @@ def dq_rms_beside_phases(rng):
     return files
 
 
+@slip("current_power_invariant", ("current_rms",))
+def invariant_beside_phases(rng):
+    """No torque is recorded: the phase currents alone tell."""
+    m = Machine(rng)
+    files = with_runs(m, Columns(rng, m), {"log": (bench.steady(m, 0.5 * m.speed, -0.1 * m.I, 0.7 * m.I), LOG + " abc")}, ratings=False)
+    column(files, "id_A iq_A vd_V vq_V", math.sqrt(1.5))
+    return files
+
+
 @slip("current_dq_rms", ("current_rms", "current_power_invariant"))
 def dq_rms_log(rng):
     m = Machine(rng, kind="ipm")
@@ -803,4 +802,14 @@ def scope_lines(rng):
     table = files["runs/scope.csv"]
     a, b, c = table["va_V"], table["vb_V"], table["vc_V"]
     table["va_V"], table["vb_V"], table["vc_V"] = ([x - y for x, y in zip(*pair)] for pair in ((a, b), (b, c), (c, a)))
+    return files
+
+
+@slip("speed_unsigned")
+def unsigned_speed(rng):
+    """A tachometer has no sign; the shaft turns backward."""
+    m = Machine(rng)
+    files = with_runs(m, Columns(rng, m), {"back": (bench.steady(m, -0.5 * m.speed, 0, 0), BACK), "load": (bench.steady(m, -0.5 * m.speed, 0, -0.6 * m.I), DYNO)})
+    for table in (files["runs/back.csv"], files["runs/load.csv"]):
+        table["speed_rad_per_s"] = [abs(x) for x in table["speed_rad_per_s"]]
     return files

@@ -123,6 +123,7 @@ typedef struct {
     double current_order, voltage_order;   /* order and sequence against the recorded angle; NAN: none */
     bool current_is_steady;                /* with one sign all the time */
     double frequency;   /* of the voltages over the recorded time, rad per unit of time; NAN: unknown */
+    double phase_ratio; /* length of the vector of phase currents over that of i_d, i_q; NAN: not both */
     double current_sum; /* rms of ia + ib + ic over the rms of the currents; NAN: not three columns */
     double current_balance, voltage_balance; /* largest over smallest alternating rms of the phases */
     int line[CHECK_MOST_LINES], lines;       /* orders per turn with which the torque repeats */

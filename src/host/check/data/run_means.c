@@ -3,9 +3,6 @@
 #include "host/check/data/run_parts.h"
 #include "host/numeric/statistics.h"
 
-/* i_q times a number leaves no more than this share of what a torque varies by. */
-#define COMPUTED 1e-5
-
 /* A speed that varies by more than this share of its mean is not steady, and at one above this, in rad/s, the
  * load varies as well as the cogging torque. */
 #define STEADY 0.2
@@ -127,21 +124,6 @@ static bool turns_steadily(const check_samples *s, const check_run *run)
 }
 
 /* ---- torque */
-
-bool hci_check_torque_is_computed(const check_samples *s)
-{
-    const size_t n = s->count;
-    double both = 0.0;
-    if (!s->torque || !s->q || !s->time) return false;
-    const double torque = hci_mean(s->torque, n), q = hci_mean(s->q, n);
-    const double of_torque = hci_mean_square_about(s->torque, n, torque),
-                 of_q = hci_mean_square_about(s->q, n, q);
-    for (size_t k = 0; k < n; ++k)
-        both += (s->torque[k] - torque) * (s->q[k] - q) / (double)n;
-    if (!(of_torque > 0.0) || !(of_q > 0.0) || both * both < (1.0 - COMPUTED) * of_torque * of_q)
-        return false;
-    return fabs(torque - both / of_q * q) < 0.01 * sqrt(of_torque + torque * torque);
-}
 
 static double torque_at_speed(const check_samples *s, const check_run *run)
 {

@@ -1,5 +1,6 @@
 #include "host/check/data/run_samples.h"
 
+#include <math.h>
 #include <stdio.h>
 
 #include "hci/machine/frames.h"
@@ -81,20 +82,39 @@ static hci_status read_phases(check_samples *s, hci_run_column first, check_vect
     return HCI_OK;
 }
 
+/* Phase currents that stand beside i_d and i_q tell how large these should be: their vector is as long. */
+static hci_status compare_phases(check_run *run, check_samples *s, hci_note *note)
+{
+    check_vector *phases = NULL;
+    double of_phases = 0.0, of_dq = 0.0;
+    const hci_status status = read_phases(s, HCI_RUN_IA, &phases, note);
+    for (size_t k = 0; !status && k < s->count; ++k) {
+        of_phases += phases[k].re * phases[k].re + phases[k].im * phases[k].im;
+        of_dq += s->q[k] * s->q[k] + (s->d ? s->d[k] * s->d[k] : 0.0);
+    }
+    run->phase_ratio = of_dq > 0.0 && of_phases > 0.0 ? sqrt(of_phases / of_dq) : (double)NAN;
+    hci_memory_free(phases);
+    return status;
+}
+
 /* i_d, i_q that were recorded beside v_d, v_q belong together; else phase currents need no angle of the
  * drive. */
 static hci_status read_currents(check_run *run, check_samples *s, hci_note *note)
 {
     const int phases = hci_run_phase_count(&s->columns, HCI_RUN_IA);
     run->has_dq = s->columns.has[HCI_RUN_IQ] && (phases < 2 || run->has_dq_voltage);
+    run->phase_ratio = NAN;
     run->has_abc = phases >= 2 && !run->has_dq;
     for (hci_run_column which = HCI_RUN_IA; which <= HCI_RUN_IQ; ++which)
         hci_run_column_leave(&s->columns, which);
     s->phase = (const double *const *)&s->columns.value[HCI_RUN_IA];
     if (run->has_abc) return read_phases(s, HCI_RUN_IA, &s->current, note);
     if (!run->has_dq) return HCI_OK;
-    const hci_status status = read_column(s, HCI_RUN_IQ, &s->q);
-    return status ? status : read_column(s, HCI_RUN_ID, &s->d);
+    hci_status status = read_column(s, HCI_RUN_IQ, &s->q);
+    if (!status) status = read_column(s, HCI_RUN_ID, &s->d);
+    if (status || phases < 2) return status;
+    hci_note_add(s->columns.remark, "phase currents beside i_d and i_q: their size is compared, and no more");
+    return compare_phases(run, s, note);
 }
 
 /* Beside phase currents alone v_d, v_q would need the drive's angle. */

@@ -34,9 +34,6 @@ hci_status hci_check_samples_read(const hci_csv *csv, check_run *run, check_samp
                                   hci_note *note);
 void hci_check_samples_release(check_samples *s);
 
-/* Whether the torque is i_q times a number: a drive has computed it, and nobody has measured it. */
-bool hci_check_torque_is_computed(const check_samples *s);
-
 /* Means over the samples. */
 void hci_check_run_means(const check_samples *s, check_run *run);
 

@@ -55,11 +55,6 @@ static hci_status run_take(const hci_csv *csv, check_data *data, check_run *file
 {
     check_samples s = {0};
     hci_status status = hci_check_samples_read(csv, file, &s, remark, note);
-    if (!status && hci_check_torque_is_computed(&s)) {
-        hci_note_add(remark,
-                     "the torque is i_q times a number: the drive has computed it, and it is not compared");
-        s.torque = NULL;
-    }
     if (!status && !parts_take(&s, file, data)) status = hci_note_memory(note, file->path, "its samples");
     hci_check_samples_release(&s);
     return status;
