@@ -745,6 +745,24 @@ static void test_dead_time_is_no_unit(void)
     TEST_ASSERT_EQUAL(HCI_CHECK_UNJUDGED, state("resistance_size"));
 }
 
+/* The drive takes 0.6 of the torque constant, and a load that swings. */
+static void computed(sample *x)
+{
+    x->i[1] = 6.0 + 3.0 * sin(50.0 * x->time_s);
+    x->torque_Nm = 0.6 * 0.15 * x->i[1];
+    x->i[0] = 0.0;
+}
+
+static void test_a_computed_torque_is_not_compared(void)
+{
+    static const char DQ[] = "time_s,theta_m_rad,speed_rad_per_s,id_A,iq_A,unused,u1,u2,u3,torque_Nm";
+    write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, check_runs(DQ, computed, false), note.text);
+    TEST_ASSERT_TRUE(is_gap("torque_size"));
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(check.remark[0].text, "the drive has computed it"),
+                                 check.remark[0].text);
+}
+
 /* Backward with a speed that is positive all the same. */
 static void backward_unsigned(sample *x)
 {
@@ -1014,6 +1032,7 @@ int main(void)
     RUN_TEST(test_reluctance_is_no_unit);
     RUN_TEST(test_weak_magnets_are_no_unit);
     RUN_TEST(test_dead_time_is_no_unit);
+    RUN_TEST(test_a_computed_torque_is_not_compared);
     RUN_TEST(test_a_speed_without_sign);
     RUN_TEST(test_phase_currents_beside_dq);
     RUN_TEST(test_v_q_alone);

@@ -6,6 +6,7 @@
 #include "host/base/memory.h"
 #include "host/check/data/run_parts.h"
 #include "host/numeric/statistics.h"
+#include "host/recording/computed_torque.h"
 
 #define DEGREE (HCI_PI / 180.0)
 
@@ -50,11 +51,23 @@ static bool parts_take(const check_samples *s, const check_run *file, check_data
     return good;
 }
 
+/* A torque that follows i_q in time to the last digit is none that was measured. */
+static bool has_computed_torque(const check_samples *s)
+{
+    double constant;
+    return s->time && s->q && s->torque && hci_torque_is_of_current(s->torque, s->q, s->count, &constant);
+}
+
 static hci_status run_take(const hci_csv *csv, check_data *data, check_run *file, hci_note *remark,
                            hci_note *note)
 {
     check_samples s = {0};
     hci_status status = hci_check_samples_read(csv, file, &s, remark, note);
+    if (!status && has_computed_torque(&s)) {
+        hci_note_add(remark,
+                     "the torque is i_q times a number: the drive has computed it, and it is not compared");
+        s.torque = NULL;
+    }
     if (!status && !parts_take(&s, file, data)) status = hci_note_memory(note, file->path, "its samples");
     hci_check_samples_release(&s);
     return status;
