@@ -125,8 +125,8 @@ static void power_add(check_effects_fit *x, const check_data *data, const check_
     const double z[CHECK_MOST_EFFECTS] = {
         -friction_unknown_Nm(data, &reference, speed) * fabs(speed),
         -ACCELERATION * r->speed_change * fabs(power),
-        -COPPER_UNKNOWN * copper,
-        [CHECK_ONE_SIDED] = r->has_dq_voltage ? CHECK_COMMAND_UNKNOWN * power + COPPER_UNKNOWN * copper : 0.0,
+        -(r->has_dq_voltage ? CHECK_SWITCHES_UNKNOWN : COPPER_UNKNOWN) * copper,
+        [CHECK_ONE_SIDED] = r->has_dq_voltage ? CHECK_COMMAND_UNKNOWN * power : 0.0,
     };
     hci_check_effects_add(x, shaft + copper, power, z, OWN * hypot(power, 0.3 * reference.torque_Nm * speed));
 }
