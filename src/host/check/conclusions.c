@@ -14,8 +14,9 @@
 
 /* A relation whose tolerance has grown to more than this, by what is unknown in the recordings, is met by
  * slips as well. */
-#define TOO_WIDE 0.25
-#define GROWN    1.5
+#define TOO_WIDE     0.25
+#define TOO_WIDE_RAD 1.0
+#define GROWN        1.5
 
 /* A ratio that is off by this factor is nothing that agrees. */
 #define FAR 1.5
@@ -108,7 +109,8 @@ static bool is_too_wide(const check_relation *r, check_value declared, check_val
 {
     const double spread = fmax(declared.spread, as_read.spread), ratio = declared.found / r->expected;
     const bool is_ratio = r->kind != CHECK_ANGLE && r->kind != CHECK_SHARE && r->kind != CHECK_MOST;
-    return (spread > GROWN && r->tolerance * spread > TOO_WIDE) ||
+    const double too_wide = r->kind == CHECK_ANGLE ? TOO_WIDE_RAD : TOO_WIDE;
+    return (spread > GROWN && r->tolerance * spread > too_wide) ||
            (is_ratio && !(ratio > 1.0 / FAR && ratio < FAR));
 }
 
