@@ -120,7 +120,11 @@ wrong_list 'wrong.csv:3: .*`fits`' 'file,role\nslow.csv,fit\nback.csv,fits\n'
 wrong_list 'wrong.csv.*role' 'file\nslow.csv\n'
 wrong_list '`fit`' 'file,role\nslow.csv,holdout\n'
 cut -d, -f1-6 slow.csv >notorque.csv
-wrong_list 'torque_Nm' 'file,role\nnotorque.csv,fit\n'
+printf 'file,role\nnotorque.csv,fit\n' >notorque_list.csv
+run 1 diagnose machine --runs notorque_list.csv -o notorque # nothing can be said, and that is written
+says 'notorque_list.csv: unknown$' 'Nothing can be said: no run' 'torque_Nm'
+check "the machine as it is declared" cmp -s machine/back_emf.csv notorque/machine/back_emf.csv
+check "a report" [ -s notorque/report.html ]
 cp machine/machine.csv machine.kept # a log without a torque is no free shaft, and its load takes no magnets away
 echo 'inertia,0.001,kgm2,test' >>machine/machine.csv
 printf 'file,role\nback.csv,fit\nnotorque.csv,fit\n' >loaded.csv

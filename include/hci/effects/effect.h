@@ -41,8 +41,8 @@ typedef struct {
                                * currents that turn with the rotor. Only delays use it */
     double curvature_A_per_s2[3]; /* the same of that rate; where it is not known, 0 */
     double temperature_C; /* of the magnets; NAN where it is not known, which stands for the reference */
-    int computed_phase;   /* 1, 2, 3: no sensor reads this phase's current, it is minus the sum of the other two
-                           * as they are read; 0: each has its own, or it is not known */
+    int computed_phase; /* 1, 2, 3: no sensor reads this phase's current, it is minus the sum of the other two
+                         * as they are read; 0: each has its own, or it is not known */
 } hci_sample;
 
 /* A torque and its derivatives at a true sample; zeros to begin with. */
@@ -216,12 +216,13 @@ struct hci_effect_type {
     const char *told_by;   /* a run with this tells it from what looks the same; NULL: any other run */
     bool in_machine;       /* `torque` acts in the air gap, else only between it and the reading */
     bool beyond_quadratic; /* the torque is of higher than second degree in the currents */
-    bool is_series;     /* of many terms, each of which explains little by itself: a diagnosis looks at more
-                         * of them (richness) as more is left, and takes all of order 0 in at once */
-    bool is_small;      /* a defect of a sensor or of one phase: three times what is expected of it would have
-                         * been noticed, and looks like an effect that nobody knows */
-    bool is_angle_zero; /* turns the zero of the angle */
-    bool any_phase;     /* a torque of any order and phase without current: a turned angle is one, too */
+    bool is_series; /* of many terms, each of which explains little by itself: a diagnosis looks at more
+                     * of them (richness) as more is left, and takes all of order 0 in at once */
+    bool is_small;  /* a defect of a sensor or of one phase: three times what is expected of it would have
+                     * been noticed, and looks like an effect that nobody knows */
+    const hci_effect_type *when_equal; /* of three values, one a phase: what equal ones look like; or NULL */
+    bool is_angle_zero;                /* turns the zero of the angle */
+    bool any_phase;          /* a torque of any order and phase without current: a turned angle is one, too */
     const size_t *resonance; /* two parameters, natural frequency in Hz and damping ratio, that a diagnosis
                               * looks for on a grid, since no small step from nothing finds them */
 

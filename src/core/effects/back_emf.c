@@ -60,17 +60,28 @@ static bool has_even(const hci_machine *machine)
     return false;
 }
 
+#define EXPECTED 0.3 /* of the largest wave that is declared */
+
+static double largest_of(const hci_machine *machine)
+{
+    double most = 0.0;
+    for (size_t k = 0; k < machine->back_emf_count; ++k)
+        most = fmax(most, hypot(machine->back_emf[k].sine, machine->back_emf[k].cosine));
+    return most;
+}
+
 static void propose(const hci_effect_survey *survey, const hci_effect_proposals *to)
 {
     const int step = has_even(survey->machine) ? 1 : 2;
-    hci_effect_propose(to, SINE, 1, 1.0, 2.0, 0.0);
-    hci_effect_propose(to, COSINE, 1, 1.0, 2.0, 0.0);
+    const double expected = EXPECTED * largest_of(survey->machine);
+    hci_effect_propose(to, SINE, 1, 1.0, 2.0, expected);
+    hci_effect_propose(to, COSINE, 1, 1.0, 2.0, expected);
     for (int n = 1 + step; n <= MOST_ORDER; n += step)
-        hci_effect_propose(to, SINE, 2, n, n % 6 == 1 || n % 6 == 5 ? USUAL : UNUSUAL, 0.0);
+        hci_effect_propose(to, SINE, 2, n, n % 6 == 1 || n % 6 == 5 ? USUAL : UNUSUAL, expected);
     for (int n = 1; n <= MOST_UNBALANCED; n += step) {
         const int sequence = hci_sequence_of_order(n);
-        if (sequence != 1) hci_effect_propose(to, POSITIVE, 2, n, UNUSUAL, 0.0);
-        if (sequence != -1) hci_effect_propose(to, NEGATIVE, 2, n, UNUSUAL, 0.0);
+        if (sequence != 1) hci_effect_propose(to, POSITIVE, 2, n, UNUSUAL, expected);
+        if (sequence != -1) hci_effect_propose(to, NEGATIVE, 2, n, UNUSUAL, expected);
     }
 }
 
@@ -88,6 +99,7 @@ const hci_effect_type hci_effect_back_emf = {
     .signature =
         "grows with the current; at n ± the orders of the currents, n of another sequence at DC and order 2",
     HCI_EFFECT_PARAMETERS(PARAMETER),
+    .is_small = true,
     .propose = propose,
     .propose_coenergy = propose_coenergy,
     .in_machine = true,

@@ -83,6 +83,7 @@ const hci_effect_type hci_effect_current_gain = {
     .signature = "grows with the current; order 2 and the mean",
     HCI_EFFECT_PARAMETERS(PARAMETER),
     .is_small = true,
+    .when_equal = &hci_effect_back_emf,
     .sum_by_value = sum_by_value,
     .propose = propose,
     .sense = sense,

@@ -35,6 +35,7 @@ const hci_effect_type hci_effect_phase_imbalance = {
     .signature = "grows with the current; mean and order 2 for sinusoidal currents",
     HCI_EFFECT_PARAMETERS(PARAMETER),
     .is_small = true,
+    .when_equal = &hci_effect_back_emf,
     .propose = propose,
     .in_machine = true,
     .torque = torque,

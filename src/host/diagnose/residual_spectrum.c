@@ -113,7 +113,7 @@ hci_status hci_residual_spectrum_make(const hci_regression *regression, const hc
     const material m = {regression, residuals, hci_memory_new(4 * (MOST_PERIODS + 1), sizeof *m.sums)};
     bool done = m.sums != NULL;
     for (size_t r = 0; r < regression->samples->run_count && done; ++r)
-        done = run_lines(&m, r, &l);
+        done = regression->runs[r].only_mean || run_lines(&m, r, &l);
     hci_memory_free(m.sums);
     if (!done) hci_memory_free(l.line);
     *lines = done ? l.line : NULL;

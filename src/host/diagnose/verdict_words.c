@@ -98,7 +98,8 @@ static void say_unstable(words *w, const hci_diagnosis *d)
     for (size_t k = 0; k < d->findings; ++k) {
         const hci_finding *f = &d->finding[k];
         if (f->verdict == HCI_FINDING_REJECTED || f->stays == f->left_out) continue;
-        say(w, " With one run, or part of one, left out %s is found in %zu of %zu cases.", f->effect, f->stays, f->left_out);
+        say(w, " With one run, or part of one, left out %s is found in %zu of %zu cases.", f->effect,
+            f->stays, f->left_out);
     }
 }
 
@@ -113,8 +114,7 @@ static void say_unknown(words *w, const hci_diagnosis *d)
     }
     say_disbelieved(w, d);
     if (d->contradicted)
-        say(w, " Effects that describe the runs that were fitted do not describe those that were held out, "
-               "and were "
+        say(w, " Effects that describe the runs that were fitted and not those that were held out were "
                "dropped.");
     if (d->wanders) say(w, " Something in it does not repeat with the turn of the rotor.");
     for (size_t k = 0; k < d->unexplained_count; ++k) {
@@ -146,6 +146,14 @@ static void say_search(words *w, const hci_diagnosis *d)
 
 static void say_verdict(words *w, const hci_diagnosis *d)
 {
+    if (d->nothing_measured) {
+        say(w, "Nothing can be said: no run with the role `fit` has an angle and a torque. Add torque_Nm (0 "
+               "for a "
+               "holding test), or `inertia` to machine.csv for a free shaft; a torque that a drive has "
+               "computed from "
+               "its current is none.");
+        return;
+    }
     switch (d->verdict) {
     case HCI_DIAGNOSIS_COMPLETE:
         say(w,

@@ -2,7 +2,8 @@
 
 hci_dq hci_run_dq(const hci_run *run, int pole_pairs, size_t k)
 {
-    return hci_park(hci_clarke(run->i_A + 3 * k), pole_pairs * run->theta_m_rad[k]);
+    const double theta_m_rad = run->theta_m_rad ? run->theta_m_rad[k] : 0.0;
+    return hci_park(hci_clarke(run->i_A + 3 * k), pole_pairs * theta_m_rad);
 }
 
 hci_dq hci_sample_dq(const hci_sample *sample, int pole_pairs)

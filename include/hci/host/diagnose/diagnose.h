@@ -143,12 +143,12 @@ typedef struct {
     bool contradicted; /* effects described the runs that were fitted, but not those held out, and were
                           dropped */
     bool wanders;      /* something is left that does not repeat with the turn */
+    bool nothing_measured; /* no run to be fitted has an angle and a torque: nothing can be said */
 } hci_diagnosis;
 
-/* Finds what is missing. HCI_OK; HCI_NOT_REACHED when the verdict is ambiguous, partly explained or unknown,
- * or the search did not come to its end; or an error with a note, and then *diagnosis is empty.
- * HCI_ERROR_INPUT when no run to be fitted has a torque, and when a run without a torque column is no free
- * shaft. runs: kept as long as the diagnosis. */
+/* Finds what is missing. HCI_OK; HCI_NOT_REACHED when the verdict is ambiguous, partly explained or unknown
+ * (which it is where no run tells a torque), or the search did not come to its end; or an error with a note,
+ * and then *diagnosis is empty. runs: kept as long as the diagnosis. */
 hci_status hci_diagnose(const hci_machine_data *machine, const hci_effects *declared, const hci_runs *runs,
                         const hci_diagnose_options *options, hci_diagnosis *diagnosis, hci_note *note);
 

@@ -78,6 +78,7 @@ static void sample_add(double angle_rad, double residual, double iq, size_t coun
 static void segment_add(const hci_candidates_source *s, const hci_segment *x, double mean,
                         hci_candidate_orders *lines, sums *sum)
 {
+    if (s->runs[x->run].only_mean) return; /* it has no angle */
     for (size_t j = x->first; j < x->first + x->count; ++j) {
         const hci_sample *reading = &s->samples->sample[j].reading;
         const double w = 1.0 / s->variance[j], theta = reading->theta_m_rad;

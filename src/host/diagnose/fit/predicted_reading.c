@@ -6,9 +6,13 @@
 #include "host/base/memory.h"
 #include "host/machine/torque_constant.h"
 #include "host/numeric/statistics.h"
+#include "host/recording/rotor_frame.h"
 
-#define SAME_SCALE    1e-6 /* departure of a torque per ampere that is rounding */
-#define LARGEST_SCALE 1e3  /* of a torque per ampere that has vanished */
+#define ROUNDING_OF_MEAN 1e-9 /* of the mean size of a derivative, that a mean of 0 has */
+#define SAME_SCALE       1e-6 /* departure of a torque per ampere that is rounding */
+#define LARGEST_SCALE    1e3  /* of a torque per ampere that has vanished */
+
+enum { ANGLES_OF_MEAN = 97 /* a prime: evenly spread over the electrical and the mechanical turn */ };
 
 static unsigned traits_of(const hci_effect *effect, size_t term)
 {
@@ -85,13 +89,14 @@ bool hci_predicted_reading_make(const hci_regression *e, const hci_effects *effe
     memset(o, 0, sizeof *o);
     o->terms = hci_effects_terms(effects);
     o->holding_scale = holding_scale(e, effects);
-    o->torque_Nm = hci_memory_new(2 * most, sizeof *o->torque_Nm);
+    o->torque_Nm = hci_memory_new(2 * most + 2 * o->terms, sizeof *o->torque_Nm);
     if (derivatives) o->by_value = hci_memory_new(most * (o->terms + 1), sizeof *o->by_value);
     if (!o->torque_Nm || (derivatives && !o->by_value)) {
         hci_predicted_reading_release(o);
         return false;
     }
     o->time_s = o->torque_Nm + most;
+    o->sum = o->time_s + most;
     return true;
 }
 
@@ -102,6 +107,29 @@ void hci_predicted_reading_release(hci_predicted_reading *o)
     memset(o, 0, sizeof *o);
 }
 
+/* The mean over a turn at constant currents in the rotor frame, of a run that tells means only. The reading
+ * is that at angle 0. What is nothing but the rounding of such a mean is 0. */
+static double mean_over_turn(const hci_regression *e, const hci_effects *effects, const hci_sample *reading,
+                             hci_predicted_reading *o, double *by_value)
+{
+    const hci_dq i = hci_sample_dq(reading, e->machine->pole_pairs);
+    double mean_Nm = 0.0;
+    memset(o->sum, 0, 2 * o->terms * sizeof *o->sum);
+    for (int k = 0; k < ANGLES_OF_MEAN; ++k) {
+        hci_sample x = *reading;
+        x.theta_m_rad = 2.0 * HCI_PI * k / ANGLES_OF_MEAN;
+        hci_phases_of_dq(i, e->machine->pole_pairs * x.theta_m_rad, x.i_abc);
+        mean_Nm += hci_effects_predict(e->machine, effects, &x, by_value) / ANGLES_OF_MEAN;
+        for (size_t c = 0; by_value && c < o->terms; ++c) {
+            o->sum[c] += by_value[c] / ANGLES_OF_MEAN;
+            o->sum[o->terms + c] += fabs(by_value[c]) / ANGLES_OF_MEAN;
+        }
+    }
+    for (size_t c = 0; by_value && c < o->terms; ++c)
+        by_value[c] = fabs(o->sum[c]) > ROUNDING_OF_MEAN * o->sum[o->terms + c] ? o->sum[c] : 0.0;
+    return mean_Nm;
+}
+
 /* Without the dynamics of the sensor. */
 static void fill_static(const hci_regression *e, const hci_effects *effects, const hci_segment *s,
                         hci_predicted_reading *o)
@@ -110,8 +138,10 @@ static void fill_static(const hci_regression *e, const hci_effects *effects, con
     const bool holds = e->runs[s->run].torque_source == HCI_TORQUE_HOLDING;
     for (size_t k = 0; k < s->count; ++k) {
         double *by_value = o->by_value ? o->by_value + k * o->terms : NULL;
-        o->torque_Nm[k] =
-            hci_effects_predict(e->machine, effects, e->raw ? &sample[k].raw : &sample[k].reading, by_value);
+        const hci_sample *reading = e->raw ? &sample[k].raw : &sample[k].reading;
+        o->torque_Nm[k] = e->runs[s->run].only_mean
+                              ? mean_over_turn(e, effects, reading, o, by_value)
+                              : hci_effects_predict(e->machine, effects, reading, by_value);
         o->time_s[k] = sample[k].time_s;
         if (holds) o->torque_Nm[k] *= o->holding_scale;
         for (size_t c = 0; holds && by_value && c < o->terms; ++c)

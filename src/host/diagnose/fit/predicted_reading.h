@@ -19,6 +19,7 @@ typedef struct {
     double *torque_Nm;
     double *by_value; /* [samples][terms], derivatives by the values of all terms; NULL: not wanted */
     double *time_s;
+    double *sum; /* [2 terms], for means */
     size_t terms;
     double holding_scale; /* of torques in a holding test: declared over modelled torque per ampere */
 } hci_predicted_reading;

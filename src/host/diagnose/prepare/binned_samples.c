@@ -35,7 +35,7 @@ typedef struct {
 static void sample_of(const hci_run *r, size_t k, hci_binned_sample *c)
 {
     memset(c, 0, sizeof *c);
-    c->reading.theta_m_rad = r->theta_m_rad[k];
+    c->reading.theta_m_rad = r->theta_m_rad ? r->theta_m_rad[k] : 0.0;
     c->reading.speed_rad_per_s = r->speed_rad_per_s ? r->speed_rad_per_s[k] : 0.0;
     memcpy(c->reading.i_abc, r->i_A + 3 * k, sizeof c->reading.i_abc);
     c->reading.computed_phase = r->computed_phase;
@@ -232,7 +232,7 @@ static bool run_reduce(const reduction *x)
 {
     hci_turn *turns = NULL;
     size_t count = 0;
-    if (x->run->count <= HCI_LONGEST_SEGMENT) return open_segment(x, 0, x->run->count);
+    if (x->run->count <= HCI_LONGEST_SEGMENT || x->run->only_mean) return open_segment(x, 0, x->run->count);
     const bool done = hci_turns_find(x->run, x->pole_pairs, &turns, &count) && turns_reduce(x, turns, count);
     hci_memory_free(turns);
     return done;
@@ -254,7 +254,8 @@ hci_status hci_binned_samples_make(const hci_machine *machine, const hci_run *ru
             &runs[k], k,        machine->pole_pairs, holds ? constant_Nm_per_A : 0.0, &samples->statistics[k],
             samples,  &capacity};
         samples->statistics[k] = hci_run_statistics_of(&runs[k], machine->pole_pairs);
-        if (runs[k].torque_Nm && runs[k].theta_m_rad && runs[k].i_A && runs[k].count > 0)
+        if (runs[k].torque_Nm && (runs[k].theta_m_rad || runs[k].only_mean) && runs[k].i_A &&
+            runs[k].count > 0)
             done = run_reduce(&x);
     }
     if (done) return HCI_OK;

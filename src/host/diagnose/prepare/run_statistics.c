@@ -79,7 +79,7 @@ static bool is_noise(const hci_run *r, int pole_pairs, double current_A)
 {
     const double n = (double)r->count, square = current_A * current_A;
     double common = 0.0;
-    if (r->count < LEAST_SAMPLES || r->torque_source == HCI_TORQUE_HOLDING) return false;
+    if (r->count < LEAST_SAMPLES || r->torque_source == HCI_TORQUE_HOLDING || !r->time_s) return false;
     for (size_t k = 1; k < r->count; ++k) {
         const hci_dq a = hci_run_dq(r, pole_pairs, k - 1), b = hci_run_dq(r, pole_pairs, k);
         common += (a.d * b.d + a.q * b.q) / (n - 1.0);
@@ -90,7 +90,7 @@ static bool is_noise(const hci_run *r, int pole_pairs, double current_A)
 hci_run_statistics hci_run_statistics_of(const hci_run *r, int pole_pairs)
 {
     hci_run_statistics f = {.repeat_Nm = NAN, .temperature_C = NAN};
-    if (r->count == 0 || !r->theta_m_rad || !r->i_A) return f;
+    if (r->count == 0 || !(r->theta_m_rad || r->only_mean) || !r->i_A) return f;
     if (r->temperature_C) f.temperature_C = 0.0;
     for (size_t k = 0; k < r->count; ++k)
         sample_add(r, pole_pairs, k, &f);
@@ -98,6 +98,7 @@ hci_run_statistics hci_run_statistics_of(const hci_run *r, int pole_pairs)
     f.current_A = sqrt(f.current_A);
     f.no_current = is_noise(r, pole_pairs, f.current_A);
     if (f.no_current) f.current_A = f.mean_id_A = f.mean_iq_A = 0.0;
+    if (r->only_mean) return f;
     f.angle_step_rad = angle_step(r);
     f.turns = turns_of(r);
     if (r->torque_Nm) f.repeat_Nm = repeatability(r, f.turns);

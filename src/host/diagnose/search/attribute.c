@@ -16,6 +16,8 @@
 
 enum { MOST_EFFECTS = 6, MOST_ROUNDS = 14 };
 
+#define SERIES_ERROR 0.002
+#define EQUAL_SHARE  0.2 /* of their mean, by which values of three phases may differ and are equal */
 #define SEARCH_SHARE 0.7 /* of the whole work */
 
 /* ---- the search ---- */
@@ -124,14 +126,79 @@ static hci_status verdicts_of_same(hci_search *s, hci_attribution *a, hci_note *
     return status;
 }
 
+/* Whether three values, one a phase, are the same within a share of their mean. */
+static bool are_equal(const hci_candidates *model, const hci_effect_type *type)
+{
+    double sum = 0.0, least = INFINITY, most = -INFINITY;
+    size_t count = 0;
+    for (size_t k = 0; k < model->count; ++k) {
+        const hci_candidate *x = &model->candidate[k];
+        for (size_t j = 0; x->in && x->type == type && j < x->count; ++j, ++count) {
+            sum += x->term[j].value;
+            least = fmin(least, x->term[j].value);
+            most = fmax(most, x->term[j].value);
+        }
+    }
+    return count == 3 && most - least < EQUAL_SHARE * fabs(sum / 3.0);
+}
+
+/* Equal gains of all phases are a back-EMF of another size, and sensors that are wrong alike are rare. */
+static void verdicts_of_equal(hci_attribution *a)
+{
+    for (size_t r = 0; r < a->types; ++r) {
+        hci_verdict *v = &a->verdict[r];
+        const hci_effect_type *other = v->type->when_equal;
+        size_t k = 0;
+        if (!v->in || !other || !are_equal(&a->model.candidates, v->type)) continue;
+        while (a->verdict[k].type != other)
+            ++k;
+        v->ambiguous = true;
+        a->verdict[k].ambiguous = true;
+        if (!a->verdict[k].in) a->verdict[k].rival_of = v->type;
+    }
+}
+
+/* A series in the currents is not what iron does to the last digit: its fall of the score, and the share of
+ * it that another effect of the iron must reach to be more than a part of that error. */
+static double series_gain(const hci_attribution *a)
+{
+    double most = 0.0;
+    for (size_t r = 0; r < a->types; ++r)
+        if (a->verdict[r].in && a->verdict[r].type->beyond_quadratic) most = fmax(most, a->verdict[r].gain);
+    return most;
+}
+
+/* Back-EMF, reluctance and cogging beside saturation that the recordings do not ask for. */
+static hci_status companions_leave(hci_search *s, hci_attribution *a, bool *left, hci_note *note)
+{
+    const double series = series_gain(a), least = fmax(HCI_DECISIVE, SERIES_ERROR * series);
+    hci_status status = HCI_OK;
+    *left = false;
+    for (size_t r = 0; r < a->types && series > 0.0 && !status && !*left; ++r) {
+        hci_verdict *v = &a->verdict[r];
+        if (!v->in || !v->type->propose_coenergy || v->type->beyond_quadratic || !(v->gain < least)) continue;
+        hci_candidates_remove_type(&a->model.candidates, v->type);
+        v->in = false;
+        *left = true;
+        status = hci_search_renew(s, &a->model, note);
+    }
+    return status;
+}
+
 static hci_status verdicts(hci_search *s, hci_attribution *a, hci_note *note)
 {
     hci_status status = HCI_OK;
-    for (size_t r = 0; r < a->types && !status; ++r)
-        if (hci_candidates_have(&a->model.candidates, a->verdict[r].type))
-            status = verdict_of(s, a, &a->verdict[r], note);
+    bool left = true;
+    while (left && !status) {
+        for (size_t r = 0; r < a->types && !status; ++r)
+            if (hci_candidates_have(&a->model.candidates, a->verdict[r].type))
+                status = verdict_of(s, a, &a->verdict[r], note);
+        if (!status) status = companions_leave(s, a, &left, note);
+    }
     if (!status && !hci_search_is_over(s)) status = verdicts_of_others(s, a, note);
-    return status || hci_search_is_over(s) ? status : verdicts_of_same(s, a, note);
+    if (!status && !hci_search_is_over(s)) status = verdicts_of_same(s, a, note);
+    if (!status && !a->unknown) verdicts_of_equal(a);
+    return status;
 }
 
 /* ---- the whole ---- */
@@ -142,7 +209,7 @@ static hci_status attribute(hci_search *s, hci_attribution *a, hci_note *note)
     hci_status status = search_run(s, &a->model, note);
     if (status) return status;
     hci_search_begin(s, "weighing the evidence", SEARCH_SHARE, 1.0);
-    if (!hci_search_is_over(s)) status = hci_search_keep_predictive(s, &a->model, note);
+    status = hci_search_keep_predictive(s, &a->model, note);
     if (!status && !hci_search_is_over(s)) status = hci_search_coenergy(s, &a->model, note);
     for (bool dropped = s->whole_coenergy; dropped && !status;)
         status = hci_search_drop(s, &a->model, &dropped, note);

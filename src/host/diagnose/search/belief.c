@@ -10,16 +10,33 @@
 #define NEARLY         0.9  /* of what a model explains: another one that explains as much is as good */
 #define ROUNDING       1e-6 /* of the torque per ampere, that is none */
 
-/* A defect of a sensor or of one phase that nobody would have left unnoticed; NULL: none. */
-static const hci_effect_type *large_defect(const hci_candidates *candidates)
+/* A defect that nobody would have left unnoticed; their number: none. */
+static size_t large_defect(const hci_candidates *candidates)
 {
     for (size_t k = 0; k < candidates->count; ++k) {
         const hci_candidate *x = &candidates->candidate[k];
         if (!x->in || !x->type->is_small || !(x->deviation > 0.0)) continue;
         for (size_t j = 0; j < x->count; ++j)
-            if (fabs(x->term[j].value - x->declared[j]) > LARGEST_DEFECT * x->deviation) return x->type;
+            if (fabs(x->term[j].value - x->declared[j]) > LARGEST_DEFECT * x->deviation) return k;
     }
-    return NULL;
+    return candidates->count;
+}
+
+/* Tries the model without its large defects, one by one: an order that the recordings hardly show may have
+ * any value, and is not needed. The model is replaced where it is as good without. */
+static hci_status defects_leave(hci_search *s, hci_fitted_model *model, hci_note *note)
+{
+    hci_fitted_model less = {0};
+    hci_status status = hci_fitted_model_copy(model, &less, note);
+    size_t k = large_defect(&less.candidates);
+    while (!status && k < less.candidates.count) {
+        less.candidates.candidate[k].in = false;
+        status = hci_regression_fit(s->regression, &less.candidates, &less.fit, note);
+        k = large_defect(&less.candidates);
+    }
+    if (!status && less.fit.score < model->fit.score + HCI_DECISIVE) hci_fitted_model_replace(model, &less);
+    hci_fitted_model_release(&less);
+    return status;
 }
 
 /* What the model leaves of the declared torque per ampere, as a share; 1 where none is declared. */
@@ -78,9 +95,12 @@ hci_status hci_search_fit(hci_search *s, hci_fitted_model *model, hci_note *note
     const hci_effect_type *culprit = NULL;
     double share = 1.0;
     hci_status status = hci_regression_fit(s->regression, &model->candidates, &model->fit, note);
+    if (!status && large_defect(&model->candidates) < model->candidates.count)
+        status = defects_leave(s, model, note);
     if (!status) status = constant_share(s, &model->candidates, &share, note);
     if (status) return status;
-    culprit = large_defect(&model->candidates);
+    const size_t defect = large_defect(&model->candidates);
+    if (defect < model->candidates.count) culprit = model->candidates.candidate[defect].type;
     if (share < LEAST_CONSTANT) status = culprit_find(s, &model->candidates, &culprit, note);
     if (status || !culprit) return status;
     if (!s->disbelieved.type || model->fit.score < s->disbelieved.model.fit.score)

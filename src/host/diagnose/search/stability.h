@@ -10,8 +10,8 @@
 #include "host/diagnose/search/search.h"
 
 /* Takes out, one by one and the worst first, the effects whose presence does not lower the error of runs left
- * out in turn. Fewer than three runs are cut into parts, which stand for runs. HCI_ERROR_MEMORY. O(samples·terms² +
- * effects·runs·terms³). */
+ * out in turn. Fewer than three runs are cut into parts, which stand for runs. HCI_ERROR_MEMORY.
+ * O(samples·terms² + effects·runs·terms³). */
 hci_status hci_search_keep_predictive(hci_search *search, hci_fitted_model *model, hci_note *note);
 
 /* How badly a model describes runs left out in turn, in units of χ² where it describes them to their noise,

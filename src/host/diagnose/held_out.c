@@ -1,0 +1,148 @@
+#include "host/diagnose/held_out.h"
+
+#include <math.h>
+
+#include "host/base/memory.h"
+#include "host/diagnose/fit/model.h"
+#include "host/diagnose/fit/predicted_reading.h"
+
+#define BEYOND        1.05 /* of the largest current and speed fitted: beyond it a run is no test */
+#define NOISY         1.5  /* error of a run held out, over its noise … */
+#define COARSE        4.0  /* … or over the resolution, that speaks against the effects … */
+#define HARDLY_BETTER 0.5  /* … unless it is less than this share of the error without them */
+#define NEARLY_ALL    0.1  /* share of an error that is next to nothing beside what it was */
+#define MEAN_LEFT     0.5  /* of the noise of a sample, that the mean of a run may be off */
+#define HELPS         1.05 /* of the error held out, without an effect that lowers it */
+#define STAYS         0.95 /* share of an error that has not fallen */
+
+/* Whether a run is within the currents and speeds of those that were fitted. */
+static bool is_within(const hci_run_statistics *f, const hci_dataset *b)
+{
+    double most_A = 0.0, most_speed = 0.0;
+    for (size_t r = 0; r < b->samples.run_count; ++r) {
+        if (!b->fit[r]) continue;
+        most_A = fmax(most_A, b->samples.statistics[r].current_A);
+        most_speed = fmax(most_speed, fabs(b->samples.statistics[r].mean_speed_rad_per_s));
+    }
+    return f->current_A <= BEYOND * most_A && fabs(f->mean_speed_rad_per_s) <= BEYOND * most_speed;
+}
+
+/* Errors of the runs held out that a fit could describe, as mean squares over runs. */
+typedef struct {
+    double before, after;
+    double allowed; /* what noise and resolution may leave */
+} test_errors;
+
+static test_errors test_errors_of(const hci_dataset *b, const hci_runs *runs, const hci_diagnosis *d,
+                                  double resolution_Nm)
+{
+    test_errors x = {0};
+    for (size_t k = 0, run = 0; k < runs->count && run < d->runs; ++k) {
+        const hci_run_errors *e = &d->run[run];
+        if (e->file != runs->run[k].name) continue;
+        ++run;
+        if (e->role == HCI_ROLE_FIT || !is_within(&b->samples.statistics[k], b)) continue;
+        x.before += e->rms_before_Nm * e->rms_before_Nm;
+        x.after += e->rms_after_Nm * e->rms_after_Nm;
+        x.allowed += fmax(pow(NOISY * e->noise_floor_Nm, 2.0), pow(COARSE * resolution_Nm, 2.0));
+    }
+    return x;
+}
+
+/* Down to the noise, or nearly. */
+static bool is_described(const test_errors *x)
+{
+    return !(x->after > x->allowed) || x->after < NEARLY_ALL * NEARLY_ALL * x->before;
+}
+
+/* Whether the runs held out speak against the effects: they are not described down to their noise, and hardly
+ * better than without. */
+static bool is_contradicted(const test_errors *x)
+{
+    return !is_described(x) && x->after > HARDLY_BETTER * HARDLY_BETTER * x->before;
+}
+
+/* Whether the mean error of a run stands beside its noise: a mean is known much better than a sample. */
+static bool leaves_means(const hci_diagnosis *d, double resolution_Nm)
+{
+    for (size_t k = 0; k < d->runs; ++k) {
+        const hci_run_errors *e = &d->run[k];
+        if (fabs(e->error_mean_after_Nm) > fmax(MEAN_LEFT * e->noise_floor_Nm, COARSE * resolution_Nm))
+            return true;
+    }
+    return false;
+}
+
+/* Whether something is left that the effects do not explain: the error held out is above the noise, or that
+ * of currents and speeds beyond those that were fitted does not fall. */
+static bool is_partial(const test_errors *x, const hci_diagnosis *d, double resolution_Nm)
+{
+    const double allowed_Nm = fmax(NOISY * d->holdout_noise_Nm, COARSE * resolution_Nm);
+    const bool rises = d->holdout_after_Nm > allowed_Nm && !(d->holdout_after_Nm < d->holdout_before_Nm);
+    const bool ripples = d->holdout_ripple_after_Nm > allowed_Nm &&
+                         !(d->holdout_ripple_after_Nm < STAYS * d->holdout_ripple_before_Nm);
+    return !is_described(x) || rises || ripples || leaves_means(d, resolution_Nm);
+}
+
+hci_held_out_result hci_held_out_judge(const hci_dataset *b, const hci_runs *runs, const hci_diagnosis *d,
+                                       double resolution_Nm)
+{
+    const test_errors x = test_errors_of(b, runs, d, resolution_Nm);
+    if (is_contradicted(&x)) return HCI_HELD_OUT_CONTRADICTED;
+    return is_partial(&x, d, resolution_Nm) ? HCI_HELD_OUT_PARTLY : HCI_HELD_OUT_DESCRIBED;
+}
+
+/* ---- which effects help ---- */
+
+/* Mean square over the runs held out within what was fitted, of the residual of a model, N²·m². residual_Nm:
+ * [samples]. */
+static hci_status square_of(hci_dataset *b, const hci_runs *runs, const hci_candidates *candidates,
+                            double *residual_Nm, double *square, hci_note *note)
+{
+    hci_model model;
+    double sum = 0.0, count = 0.0;
+    hci_status status = hci_model_make(b->regression.declared, candidates, false, &model, note);
+    if (status) return status;
+    b->regression.use = b->any;
+    status = hci_regression_residual(&b->regression, &model.list, residual_Nm, note);
+    b->regression.use = b->fit;
+    for (size_t k = 0; k < b->samples.segment_count && !status; ++k) {
+        const hci_segment *s = &b->samples.segment[k];
+        if (runs->role[s->run] == HCI_ROLE_FIT || !is_within(&b->samples.statistics[s->run], b)) continue;
+        for (size_t j = s->first; j < s->first + s->count; ++j, count += 1.0)
+            sum += residual_Nm[j] * residual_Nm[j];
+    }
+    *square = count > 0.0 ? sum / count : 0.0;
+    hci_model_release(&model);
+    return status;
+}
+
+/* Without one type the runs held out are described worse. */
+static hci_status helps(hci_dataset *b, const hci_runs *runs, const hci_candidates *all,
+                        const hci_effect_type *type, double *residual_Nm, bool *better, hci_note *note)
+{
+    hci_candidates without = {0};
+    double with_Nm2 = 0.0, without_Nm2 = 0.0;
+    hci_status status = hci_candidates_copy(all, &without, note);
+    if (status) return status;
+    hci_candidates_remove_type(&without, type);
+    status = square_of(b, runs, all, residual_Nm, &with_Nm2, note);
+    if (!status) status = square_of(b, runs, &without, residual_Nm, &without_Nm2, note);
+    *better = without_Nm2 > HELPS * HELPS * with_Nm2;
+    hci_candidates_release(&without);
+    return status;
+}
+
+hci_status hci_held_out_keep(hci_dataset *b, const hci_runs *runs, hci_candidates *model, hci_note *note)
+{
+    bool keep[HCI_MOST_TYPES] = {false};
+    double *residual_Nm = hci_memory_new(b->samples.count + 1, sizeof *residual_Nm);
+    hci_status status = residual_Nm ? HCI_OK : hci_note_memory(note, NULL, "the runs held out");
+    for (size_t r = 0; r < hci_candidate_types() && !status; ++r)
+        if (hci_candidates_have(model, hci_candidate_type(r)))
+            status = helps(b, runs, model, hci_candidate_type(r), residual_Nm, &keep[r], note);
+    for (size_t r = 0; r < hci_candidate_types() && !status; ++r)
+        if (!keep[r]) hci_candidates_remove_type(model, hci_candidate_type(r));
+    hci_memory_free(residual_Nm);
+    return status;
+}

@@ -1,0 +1,28 @@
+/* What the runs that were held out say of the effects that were found.
+ *
+ * In: a diagnosis with the errors of its runs. Out: whether these runs are described, and which effects
+ * describe them better than they would be without. */
+#ifndef HCI_SRC_HOST_DIAGNOSE_HELD_OUT_H
+#define HCI_SRC_HOST_DIAGNOSE_HELD_OUT_H
+
+#include "hci/host/diagnose/diagnose.h"
+#include "host/diagnose/fit/dataset.h"
+#include "host/diagnose/search/attribution.h"
+
+typedef enum {
+    HCI_HELD_OUT_DESCRIBED,   /* down to the noise, or nearly */
+    HCI_HELD_OUT_PARTLY,      /* something is left in them, or in the mean of a run that was fitted */
+    HCI_HELD_OUT_CONTRADICTED /* hardly better than without the effects */
+} hci_held_out_result;
+
+/* Mean square errors of runs within the currents and speeds that were fitted; beyond them an error may not
+ * rise. */
+hci_held_out_result hci_held_out_judge(const hci_dataset *dataset, const hci_runs *runs,
+                                       const hci_diagnosis *diagnosis, double resolution_Nm);
+
+/* Takes the effects out of a fitted model without which these runs are described as well. HCI_ERROR_MEMORY.
+ */
+hci_status hci_held_out_keep(hci_dataset *dataset, const hci_runs *runs, hci_candidates *model,
+                             hci_note *note);
+
+#endif
