@@ -67,8 +67,8 @@ static bool leaves_means(const hci_diagnosis *d, double resolution_Nm)
 {
     for (size_t k = 0; k < d->runs; ++k) {
         const hci_run_errors *e = &d->run[k];
-        if (fabs(e->error_mean_after_Nm) > fmax(MEAN_LEFT * e->noise_floor_Nm, COARSE * resolution_Nm))
-            return true;
+        const double noise_Nm = fmax(MEAN_LEFT * e->noise_floor_Nm, COARSE * resolution_Nm);
+        if (fabs(e->error_mean_after_Nm) > fmax(noise_Nm, NEARLY_ALL * e->rms_before_Nm)) return true;
     }
     return false;
 }

@@ -25,8 +25,10 @@ static void test_no_run_to_fit(void)
     role[0] = HCI_ROLE_FIT;
     double *torque_Nm = run[0].torque_Nm;
     run[0].torque_Nm = NULL;
-    TEST_ASSERT_EQUAL_INT(HCI_ERROR_INPUT, diagnose(NULL));
+    const hci_status without_torque = diagnose(NULL); /* an answer, which says that nothing can be said */
     run[0].torque_Nm = torque_Nm;
+    TEST_ASSERT_EQUAL_INT(HCI_NOT_REACHED, without_torque);
+    TEST_ASSERT_TRUE(diagnosis.nothing_measured && diagnosis.verdict == HCI_DIAGNOSIS_UNKNOWN);
     TEST_ASSERT_EQUAL_UINT64(0, diagnosis.findings);
     TEST_ASSERT_NULL(diagnosis.run);
 }

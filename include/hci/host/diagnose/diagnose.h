@@ -140,9 +140,9 @@ typedef struct {
     hci_next_point next[HCI_MOST_NEXT_POINTS]; /* what to record next, most telling first */
     size_t next_points;                        /* entries of next in use; 0: nothing is left open */
     char advice[3 * HCI_DETAIL_SIZE];          /* the same in a few sentences, or "" */
-    bool contradicted; /* effects described the runs that were fitted, but not those held out, and were
-                          dropped */
-    bool wanders;      /* something is left that does not repeat with the turn */
+    bool contradicted;     /* effects described the runs that were fitted, but not those held out, and were
+                              dropped */
+    bool wanders;          /* something is left that does not repeat with the turn */
     bool nothing_measured; /* no run to be fitted has an angle and a torque: nothing can be said */
 } hci_diagnosis;
 
