@@ -13,15 +13,18 @@
 #include "cli/terminal/say.h"
 #include "cli/terminal/signals.h"
 #include "cli/terminal/terminal.h"
-#include "hci/host/diagnose/diagnose.h"
+#include "hci/host/diagnose/again.h"
 #include "hci/host/report/summary.h"
 #include "hci/host/report/write.h"
 
-enum { RUNS, OUT, TARGET, RESOLUTION, REPORT, HOLDING, CLI_READING_KEYS, CLI_COMMON_KEYS };
+enum { RUNS, AGAIN, OUT, TARGET, RESOLUTION, REPORT, HOLDING, CLI_READING_KEYS, CLI_COMMON_KEYS };
 
 static const cli_option OPTIONS[] = {
     [RUNS] = {"runs", 0, CLI_FILE, "LIST",
               .help = "table file,role: the recordings to fit and those held out"},
+    [AGAIN] = {"again", 0, CLI_FOLDER, "LAST",
+               .help =
+                   "--out of the last diagnosis: its machine and recordings, and those of LIST as new ones"},
     [OUT] = {"out", 'o', CLI_FOLDER, "FOLDER", .help = "where the results go; without it nothing is written"},
     [TARGET] = {"target", 0, CLI_FILE, "FILE",
                 .help = "wanted torque: solve the currents again for the corrected machine"},
@@ -34,6 +37,8 @@ static const cli_option OPTIONS[] = {
     CLI_READING_OPTIONS,
     CLI_COMMON_OPTIONS};
 
+enum { PATH_SIZE = 4096 };
+
 typedef struct {
     hci_machine_data machine;
     hci_effects_data declared;
@@ -41,19 +46,61 @@ typedef struct {
     hci_target target;
     cli_reading reading;
     hci_diagnose_options options;
+    char folder[PATH_SIZE];   /* of the machine */
+    size_t recordings_before; /* of the last diagnosis */
 } inputs;
 
-/* The machine that is read would be replaced by the corrected one. */
-static hci_status keep_apart(const char *machine, const char *folder, hci_note *note)
+/* The machine that is read would be replaced by a folder of that name within the results. */
+static hci_status keep_apart(const char *machine, const char *folder, const char *name, hci_note *note)
 {
     struct stat from, to;
-    char path[4096];
-    if (!folder || snprintf(path, sizeof path, "%s/machine", folder) >= (int)sizeof path) return HCI_OK;
+    char path[PATH_SIZE];
+    if (!folder || snprintf(path, sizeof path, "%s/%s", folder, name) >= PATH_SIZE) return HCI_OK;
     if (stat(machine, &from) != 0 || stat(path, &to) != 0 || from.st_dev != to.st_dev ||
         from.st_ino != to.st_ino)
         return HCI_OK;
     return hci_note_set(note, HCI_ERROR_ARGUMENT,
                         "%s would be replaced by a result of the same name; give another --out", machine);
+}
+
+/* The machine of the command line, or that which the last diagnosis started from. */
+static hci_status find_machine(const cli_arguments *a, inputs *in, hci_note *note)
+{
+    const size_t wanted = a->value[AGAIN] ? 0 : 1;
+    char table[PATH_SIZE + 16];
+    struct stat there;
+    if (a->words != wanted)
+        return hci_note_set(note, HCI_ERROR_ARGUMENT,
+                            "diagnose: found %zu words, expected %zu: %s; see hci-solve diagnose --help",
+                            a->words, wanted, wanted ? "MACHINE --runs LIST" : "--again LAST --runs LIST");
+    if (snprintf(in->folder, PATH_SIZE, "%s%s", wanted ? a->word[0] : a->value[AGAIN],
+                 wanted ? "" : "/declared") >= PATH_SIZE)
+        return hci_note_set(note, HCI_ERROR_ARGUMENT, "--again: the path is too long");
+    snprintf(table, sizeof table, "%s/machine.csv", in->folder);
+    if (!wanted && stat(table, &there) != 0)
+        return hci_note_set(note, HCI_ERROR_INPUT,
+                            "%.300s: found no such file, expected the --out of a diagnosis; run hci-solve "
+                            "diagnose MACHINE --runs LIST --out %.200s first",
+                            table, a->value[AGAIN]);
+    const hci_status status = keep_apart(in->folder, a->value[OUT], "declared", note);
+    return status ? status : keep_apart(in->folder, a->value[OUT], "machine", note);
+}
+
+/* The recordings of the last diagnosis, if there was one, and the new ones behind them. */
+static hci_status read_runs(const cli_arguments *a, inputs *in, hci_note *note)
+{
+    const hci_runs_options reading = {in->reading.run, in->options.progress, NULL};
+    char list[PATH_SIZE];
+    hci_runs more = {0};
+    if (!a->value[AGAIN]) return hci_runs_read(a->value[RUNS], &reading, &in->runs, note);
+    if (snprintf(list, sizeof list, "%s/declared/runs.csv", a->value[AGAIN]) >= PATH_SIZE)
+        return hci_note_set(note, HCI_ERROR_ARGUMENT, "--again: the path is too long");
+    hci_status status = hci_runs_read(list, &reading, &in->runs, note);
+    in->recordings_before = in->runs.count;
+    if (!status) status = hci_runs_read(a->value[RUNS], &reading, &more, note);
+    if (!status) status = hci_runs_join(&in->runs, &more, note);
+    hci_runs_release(&more);
+    return status;
 }
 
 static hci_status read_inputs(const cli_arguments *a, inputs *in, hci_note *note)
@@ -63,19 +110,18 @@ static hci_status read_inputs(const cli_arguments *a, inputs *in, hci_note *note
         return hci_note_set(note, HCI_ERROR_ARGUMENT,
                             "diagnose: the recordings are missing; add --runs LIST");
     status = cli_reading_take(a, a->given[STRICT], &in->reading, note);
-    if (!status) status = keep_apart(a->word[0], a->value[OUT], note);
+    if (!status) status = find_machine(a, in, note);
     in->options.resolution = cli_number_or(a, RESOLUTION, 0.0) / 100.0;
     in->options.progress = cli_progress;
     if (!status && a->value[TARGET]) status = hci_target_read(a->value[TARGET], &in->target, note);
-    if (!status) status = hci_machine_read(a->word[0], &in->machine, note);
-    if (!status) status = hci_effects_read_machine(a->word[0], &in->declared, note);
+    if (!status) status = hci_machine_read(in->folder, &in->machine, note);
+    if (!status) status = hci_effects_read_machine(in->folder, &in->declared, note);
     if (status) return status;
     in->reading.run.pole_pairs = in->machine.model.pole_pairs;
     in->reading.run.holding = a->given[HOLDING];
     in->reading.run.inertia_kgm2 = in->machine.inertia_kgm2;
     in->reading.run.torque_constant_Nm_per_A = hci_machine_torque_constant(&in->machine);
-    const hci_runs_options reading = {in->reading.run, in->options.progress, NULL};
-    return hci_runs_read(a->value[RUNS], &reading, &in->runs, note);
+    return read_runs(a, in, note);
 }
 
 static void release_inputs(inputs *in)
@@ -93,13 +139,13 @@ static hci_status write_results(const cli_arguments *a, const inputs *in, const 
                                 const hci_resolution *r, hci_note *note)
 {
     char folder[4096];
-    hci_status status = hci_diagnosis_write(d, r, &in->runs, a->word[0], a->value[OUT], note);
+    hci_status status = hci_diagnosis_write(d, r, &in->runs, in->folder, a->value[OUT], note);
     if (status || !r) return status;
     if (snprintf(folder, sizeof folder, "%s/solution", a->value[OUT]) >= (int)sizeof folder)
         return hci_note_set(note, HCI_ERROR_OUTPUT, "%.200s…: the path is too long", a->value[OUT]);
     return hci_solution_write_with_report(
         &in->machine, &r->after, r->after_status,
-        &(hci_report_sources){.machine = a->word[0], .target = a->value[TARGET]}, folder, note);
+        &(hci_report_sources){.machine = in->folder, .target = a->value[TARGET]}, folder, note);
 }
 
 static void show_remarks(const inputs *in)
@@ -116,7 +162,7 @@ static int give_results(const cli_arguments *a, const inputs *in, const hci_diag
     hci_status status = HCI_OK;
     cli_progress_end();
     if (a->value[OUT]) status = write_results(a, in, d, r, &note);
-    if (!status && cli_is_wordy()) cli_show_diagnosis(d, r, a->word[0], a->value[RUNS]);
+    if (!status && cli_is_wordy()) cli_show_diagnosis(d, r, in->folder, a->value[RUNS]);
     if (!status) show_remarks(in);
     if (!status && a->given[JSON]) status = cli_print_json(hci_diagnosis_json(d, r), &note);
     return status ? cli_fail(status, &note) : hci_status_exit_code(verdict);
@@ -150,22 +196,37 @@ static hci_status search(inputs *in, hci_diagnosis *d, hci_note *note)
     return status;
 }
 
+/* What the new recordings say of the last diagnosis. Returns the status of the search, or an error. */
+static hci_status compare(const cli_arguments *a, const inputs *in, hci_status searched, hci_diagnosis *d,
+                          hci_again *again, hci_note *note)
+{
+    const hci_again_question question = {&in->machine, &in->declared.list, &in->runs, in->recordings_before,
+                                         a->value[AGAIN]};
+    if (!a->value[AGAIN]) return searched;
+    const hci_status status = hci_again_find(&question, d, again, note);
+    if (status) hci_diagnosis_release(d);
+    return status ? status : searched;
+}
+
 static int run(const cli_arguments *a)
 {
     inputs in;
     hci_diagnosis diagnosis;
+    hci_again again = {0};
     hci_note note = {{0}};
     hci_status status;
     int exit_code;
     memset(&in, 0, sizeof in);
     status = read_inputs(a, &in, &note);
     if (!status) status = search(&in, &diagnosis, &note);
+    if (status <= HCI_NOT_REACHED) status = compare(a, &in, status, &diagnosis, &again, &note);
     if (status <= HCI_NOT_REACHED) {
         exit_code = solve_and_give(a, &in, &diagnosis, status);
         hci_diagnosis_release(&diagnosis);
     } else {
         exit_code = cli_fail(status, &note);
     }
+    hci_again_release(&again);
     release_inputs(&in);
     fflush(stdout);
     cli_signals_obey();
@@ -174,13 +235,13 @@ static int run(const cli_arguments *a)
 
 const cli_command cli_diagnose = {
     .name = "diagnose",
-    .words = "MACHINE --runs LIST",
+    .words = "{MACHINE | --again LAST} --runs LIST",
     .does = "Finds what the model of the machine lacks to describe recordings, and corrects it.\n"
             "Writes machine/, effects.csv, errors.csv, residual_spectrum.csv, summary.json and report.html;\n"
             "unexplained.csv where something is left that no effect explains, measure_next.csv where more\n"
             "recordings would tell; with --target, solution/.",
     .options = OPTIONS,
-    .words_needed = 1,
+    .takes_more_words = true, /* one, or none with --again */
     .word_kind = CLI_FILE,
     .example =
         "  hci-solve diagnose data/fem_c/machine --runs data/fem_c/runs.csv -o out/diagnosed\n"

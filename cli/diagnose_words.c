@@ -9,7 +9,7 @@
 #include "cli/terminal/say.h"
 #include "cli/terminal/terminal.h"
 #include "cli/terminal/text.h"
-#include "hci/host/diagnose/diagnose.h"
+#include "hci/host/diagnose/again.h"
 
 enum { MOST_TERMS = 3 }; /* of an effect that are shown */
 
@@ -46,6 +46,14 @@ static void show_slips(const hci_diagnosis *d)
             cli_say("  index slip   %s: its mechanical angle is %.4g° ahead of that of the others; turned "
                     "back here\n",
                     d->run[k].file, d->run[k].slip_rad * 180.0 / HCI_PI);
+}
+
+static void show_again(const hci_again *a)
+{
+    char words[2048];
+    hci_again_words(a, words, sizeof words);
+    cli_say("  again\n");
+    cli_say_paragraph(4, words);
 }
 
 static void show_resolution(const hci_resolution *r)
@@ -162,6 +170,7 @@ void cli_show_diagnosis(const hci_diagnosis *d, const hci_resolution *r, const c
     for (size_t k = 0; k < d->findings; ++k)
         if (is_shown(&d->finding[k])) show_finding(d, &d->finding[k]);
     show_slips(d);
+    if (d->again) show_again(d->again);
     if (d->advice[0]) cli_say("  measure next %s\n", d->advice);
     if (r) show_resolution(r);
     draw_findings(d);

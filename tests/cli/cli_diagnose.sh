@@ -50,7 +50,7 @@ run 0 diagnose machine --runs list.csv -o deep/out
 nothing_on_stdout
 says '^diagnosed: machine, list.csv: explained$' 'added +current_offset: a = 0\.(29|30)' 'held.csv +holdout'
 check "files: $(ls deep/out | tr '\n' ' ')" [ "$(ls deep/out | tr '\n' ' ')" = \
-    'effects.csv errors.csv machine report.html residual_spectrum.csv summary.json ' ]
+    'declared effects.csv errors.csv machine report.html residual_spectrum.csv summary.json ' ]
 check "effects.csv: $(head -n 2 deep/out/effects.csv)" grep -Eq '^1,current_offset,added,[0-9.]+,0\.9[0-9]+,' deep/out/effects.csv
 check "columns of effects.csv" [ "$(head -n 1 deep/out/effects.csv)" = rank,effect,verdict,delta_bic,residual_share,detail,stays,left_out ]
 check "columns of errors.csv" grep -q '^file,role,mean_torque_Nm,rms_before_Nm,rms_after_Nm,noise_floor_Nm' deep/out/errors.csv
@@ -66,7 +66,7 @@ check "effects of the machine: $(row deep/out/machine/effects.csv current)" \
 # The same bytes again, --json what summary.json is, -q no word, and without --out no file.
 run 0 diagnose machine --runs list.csv -q --json -o again
 nothing_on_stderr
-check "other bytes" diff -r deep/out again
+check "other bytes" diff -r -x runs.csv deep/out again # paths from the folder
 check "--json is not summary.json" cmp -s stdout again/summary.json
 check "summary.json: $(row again/summary.json verdict)" grep -q '"verdict":.*"explained"' again/summary.json
 mkdir empty && cp -R machine slow.csv back.csv held.csv list.csv empty && cd empty || exit 1
@@ -91,6 +91,43 @@ says ': ambiguous$' 'ambiguous +friction' 'ambiguous +torque_sensor' 'measure ne
 check "an answer that is no is written all the same" [ -s out2/machine/effects.csv ]
 check "ambiguous ones: $(grep -c ambiguous out2/effects.csv)" [ "$(grep -c ',ambiguous,' out2/effects.csv)" -eq 2 ]
 
+# ---- again, with what was to be measured next
+
+check "measure_next.csv: $(head -n 1 out2/measure_next.csv)" \
+    [ "$(head -n 1 out2/measure_next.csv)" = id_A,iq_A,speed_rad_per_s,turns,why,test ]
+next=$(sed -n '2s/^0,0,\(-[0-9.]*\),10,.*,dyno$/\1/p' out2/measure_next.csv)
+check "where it tells: $(sed -n 2p out2/measure_next.csv)" [ -n "$next" ]
+mkdir later
+recordings 0 -0.05 "later/back.csv:${next:--15}:0" later/held.csv:-40:3
+printf 'file,role\nback.csv,fit\nheld.csv,holdout\n' >later/list.csv
+run 0 diagnose --again out2 --runs later/list.csv -o round2
+says ': explained$' 'added +friction' 'the promise was kept' 'torque_sensor was ambiguous and is now rejected'
+check "measure_next.csv of something certain" [ ! -e round2/measure_next.csv ]
+check "the list: $(tr '\n' ' ' <round2/declared/runs.csv)" [ "$(cut -d, -f1,2 round2/declared/runs.csv | tr '\n' ' ')" = \
+    'file,role ../../a.csv,fit ../../b.csv,fit ../../c.csv,fit ../../later/back.csv,fit ../../later/held.csv,holdout ' ]
+check "again in summary.json" grep -q '"within_bound":.*2' round2/summary.json
+check "again in report.html" grep -q 'What the new recordings say of the last diagnosis' round2/report.html
+recordings 0 0.05 third.csv:-60:6 # where friction was, a zero of the sensor is
+printf 'file,role\nthird.csv,fit\n' >third_list.csv
+run 1 diagnose --again round2 --runs third_list.csv -o round3
+says 'the promise was not kept'
+mkdir moved && cp -R round2 a.csv b.csv c.csv later third.csv third_list.csv moved # the files belong together, not to a place
+(cd moved && "$hci_solve" diagnose --again round2 --runs third_list.csv -q -o round3) >stdout 2>stderr
+check "moved: $(cat stderr)" cmp -s round3/summary.json moved/round3/summary.json
+
+# How the recordings were read goes along, and only for them.
+for f in a b c; do
+    sed '1s/torque_Nm/AI3/' "$f.csv" >"channel_$f.csv"
+done
+printf 'file,role\nchannel_a.csv,fit\nchannel_b.csv,fit\nchannel_c.csv,fit\n' >channel.csv
+run 1 diagnose machine --runs channel.csv --column torque_Nm=AI3 -q -o channel
+check "columns: $(sed -n 2p channel/declared/runs.csv)" [ "$(sed -n 2p channel/declared/runs.csv)" = '../../channel_a.csv,fit,torque_Nm=AI3,' ]
+run 0 diagnose --again channel --runs later/list.csv -q -o channel2
+check "other answers than by the name" cmp -s channel2/machine/effects.csv round2/machine/effects.csv
+printf 'file,role,columns\nchannel_a.csv,fit,torque_Nm\n' >cell.csv
+run 3 diagnose machine --runs cell.csv
+says 'cell.csv:2: column `columns`: found `torque_Nm`, expected NAME=COLUMN'
+
 # ---- wrong: one line that says what and where, and nothing is written
 
 refused() { # CODE EXPRESSION WORD...
@@ -105,6 +142,9 @@ refused() { # CODE EXPRESSION WORD...
 
 refused 2 'recordings are missing; add --runs LIST' machine -o refused
 refused 2 'found 0 words, expected 1: MACHINE' --runs list.csv -o refused
+refused 2 'found 1 words, expected 0: --again' machine --again out2 --runs list.csv -o refused
+refused 3 'later/declared/machine.csv: found no such file, expected the --out of a diagnosis' --again later --runs list.csv -o refused
+refused 3 'found .a.csv., expected new recordings only' --again out2 --runs list2.csv -o refused
 refused 2 'resolution' machine --runs list.csv --resolution -3 -o refused
 refused 2 'resolution' machine --runs list.csv --resolution much -o refused
 refused 2 'unknown|no option|--nosuch' machine --runs list.csv --nosuch

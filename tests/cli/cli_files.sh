@@ -170,6 +170,13 @@ written "$work/diagnosed/machine/effects.csv" '`effects.csv` of a machine'
 [ ! -e "$work/diagnosed/measure_next.csv" ] || written "$work/diagnosed/measure_next.csv" '`measure_next.csv`'
 [ ! -e "$work/diagnosed/unexplained.csv" ] || written "$work/diagnosed/unexplained.csv" '`unexplained.csv`'
 named "$work/diagnosed/summary.json" 'summary.json of diagnose'
+written "$work/diagnosed/declared/runs.csv" '`runs.csv`'
+sed '/held_out/d' "$work/runs.csv" >"$work/first.csv"
+sed '1p;/held_out/!d' "$work/runs.csv" >"$work/later.csv"
+"$hci_solve" diagnose "$work/declared" --runs "$work/first.csv" -q -o "$work/round1" >"$work/stdout" 2>"$work/stderr"
+"$hci_solve" diagnose --again "$work/round1" --runs "$work/later.csv" -q -o "$work/round2" >"$work/stdout" 2>"$work/stderr"
+check "diagnose --again: exit code $?" [ $? -le 1 ]
+named "$work/round2/summary.json" 'summary.json of diagnose'
 
 # ---- check
 

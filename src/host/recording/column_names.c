@@ -95,6 +95,61 @@ hci_status hci_column_names_add(hci_column_names *names, const char *text, hci_n
     return add(names, item, note);
 }
 
+hci_status hci_column_names_add_text(hci_column_names *names, const char *text, const char *from,
+                                     hci_note *note)
+{
+    hci_status status = HCI_OK;
+    for (const char *part = text; *part != '\0' && !status; part += *part == ';') {
+        const size_t length = strcspn(part, ";"), name = strcspn(part, "=;");
+        if (name == 0 || name + 1 >= length)
+            return hci_note_set(note, HCI_ERROR_INPUT,
+                                "%.300s: found `%.200s`, expected NAME=COLUMN;NAME=COLUMN such as "
+                                "torque_Nm=AI3",
+                                from, part);
+        const hci_column_name item = {copy_of(part, name), copy_of(part + name + 1, length - name - 1),
+                                      copy_of(from, strlen(from))};
+        const bool known = item.name == NULL || is_quantity(item.name);
+        if (!known) status = unknown_name(from, item.name, HCI_ERROR_INPUT, note);
+        const hci_status added = add(names, item, note);
+        if (!status) status = added;
+        part += length;
+    }
+    return status;
+}
+
+static size_t text_append(char *text, size_t used, const char *part, char end)
+{
+    const size_t length = strlen(part);
+    if (text != NULL) memcpy(text + used, part, length);
+    if (text != NULL) text[used + length] = end;
+    return used + length + 1;
+}
+
+/* Into text, or only its length with the 0 at the end. */
+static size_t text_make(const hci_column_names *const *names, size_t count, char *text)
+{
+    size_t used = 0;
+    for (size_t j = 0; j < count; ++j)
+        for (size_t k = 0; names[j] != NULL && k < names[j]->count; ++k) {
+            used = text_append(text, used, names[j]->item[k].name, '=');
+            used = text_append(text, used, names[j]->item[k].column, ';');
+        }
+    if (text != NULL) text[used > 0 ? used - 1 : 0] = '\0';
+    return used + 1;
+}
+
+char *hci_column_names_text(const hci_column_names *const *names, size_t count)
+{
+    char *text = hci_memory_malloc(text_make(names, count, NULL));
+    if (text != NULL) text_make(names, count, text);
+    return text;
+}
+
+void hci_column_names_text_free(char *text)
+{
+    hci_memory_free(text);
+}
+
 static hci_status read_row(hci_column_names *names, const hci_csv *csv, size_t row, hci_note *note)
 {
     const char *name, *column;

@@ -5,12 +5,13 @@
 #include "hci/host/csv/csv.h"
 #include "hci/host/recording/run.h"
 #include "host/base/memory.h"
+#include "host/base/path.h"
 #include "host/base/quote.h"
 
 typedef struct {
     const hci_csv *csv;
     const hci_runs_options *options;
-    hci_run_options run; /* of each */
+    hci_run_options run; /* of each, but for the cells of its row */
     hci_runs *runs;
     hci_note *note;
 } list_reader;
@@ -60,17 +61,60 @@ static char *path_of(const char *list, const char *file)
     return path;
 }
 
-static hci_status read_one(const list_reader *l, size_t row, const char *file, hci_run *run)
+/* A cell of a column that a list may have; "" where it has none. */
+static hci_status optional_cell(const list_reader *l, const char *column, size_t row, const char **text)
 {
-    char *path = path_of(hci_csv_path(l->csv), file);
-    if (path == NULL) return memory_error(l);
-    const hci_status status = hci_run_read(path, &l->run, run, l->note);
-    hci_memory_free(path);
+    *text = "";
+    return hci_csv_has(l->csv, column) ? hci_csv_text(l->csv, column, row, text, l->note) : HCI_OK;
+}
+
+/* How the run of a row is read. columns: released by the caller. */
+static hci_status row_options(const list_reader *l, size_t row, hci_run_options *options,
+                              hci_column_names *columns)
+{
+    const char *test, *names;
+    char from[HCI_QUOTE_PATH_SIZE + 64], path[HCI_QUOTE_PATH_SIZE];
+    hci_status status = optional_cell(l, "test", row, &test);
+    if (!status) status = optional_cell(l, "columns", row, &names);
     if (status) return status;
+    options->holding = options->holding || hci_text_is(test, "holding");
+    if (*names == '\0') return HCI_OK;
+    options->list_columns = columns;
+    snprintf(from, sizeof from, "%s:%zu: column `columns`", hci_quote_path(hci_csv_path(l->csv), path),
+             hci_csv_line(l->csv, row));
+    return hci_column_names_add_text(columns, names, from, l->note);
+}
+
+static hci_status read_named(const list_reader *l, size_t row, const hci_run_options *options,
+                             const char *file, char *path)
+{
+    const hci_column_names *const names[] = {options->list_columns, options->columns};
+    hci_run *run = &l->runs->run[row];
+    const hci_status status = hci_run_read(path, options, run, l->note);
+    if (status) {
+        hci_memory_free(path);
+        return status;
+    }
     l->runs->count = row + 1;
+    l->runs->origin[row] = (hci_run_origin){path, hci_column_names_text(names, 2)};
     hci_memory_free(run->name);
     run->name = copy_of(file);
-    return run->name != NULL ? HCI_OK : memory_error(l);
+    return run->name != NULL && l->runs->origin[row].columns != NULL ? HCI_OK : memory_error(l);
+}
+
+static hci_status read_one(const list_reader *l, size_t row, const char *file)
+{
+    hci_run_options options = l->run;
+    hci_column_names columns = {0};
+    char *path = path_of(hci_csv_path(l->csv), file);
+    if (path == NULL) return memory_error(l);
+    hci_status status = row_options(l, row, &options, &columns);
+    if (status)
+        hci_memory_free(path);
+    else
+        status = read_named(l, row, &options, file, path);
+    hci_column_names_release(&columns);
+    return status;
 }
 
 static hci_status read_row(const list_reader *l, size_t row)
@@ -82,7 +126,7 @@ static hci_status read_row(const list_reader *l, size_t row)
         status =
             hci_csv_error(l->csv, "file", row, l->note, "the path of a run", "fill it or remove the row");
     if (!status) status = check_once(l, row, file);
-    return status ? status : read_one(l, row, file, &l->runs->run[row]);
+    return status ? status : read_one(l, row, file);
 }
 
 static hci_status read_rows(const list_reader *l)
@@ -96,8 +140,10 @@ static hci_status read_rows(const list_reader *l)
     }
     l->runs->run = hci_memory_new(rows, sizeof *l->runs->run);
     l->runs->role = hci_memory_new(rows, sizeof *l->runs->role);
+    l->runs->origin = hci_memory_new(rows, sizeof *l->runs->origin);
     l->runs->list = copy_of(hci_csv_path(l->csv));
-    if (l->runs->run == NULL || l->runs->role == NULL || l->runs->list == NULL) return memory_error(l);
+    if (l->runs->run == NULL || l->runs->role == NULL || l->runs->origin == NULL || l->runs->list == NULL)
+        return memory_error(l);
     for (size_t row = 0; row < rows && !status; ++row) {
         if (l->options->progress != NULL)
             l->options->progress(l->options->context, "reading runs", (double)row / (double)rows);
@@ -123,10 +169,60 @@ hci_status hci_runs_read(const char *path, const hci_runs_options *options, hci_
     return status;
 }
 
+/* ---- two lists ---- */
+
+static hci_status files_differ(const hci_runs *a, const hci_runs *b, hci_note *note)
+{
+    for (size_t j = 0; j < a->count; ++j)
+        for (size_t k = 0; k < b->count; ++k)
+            if (hci_path_is_same(a->origin[j].path, b->origin[k].path))
+                return hci_note_set(note, HCI_ERROR_INPUT,
+                                    "%.200s: found `%.200s`, expected new recordings only; it is among those "
+                                    "of last time, remove its row",
+                                    b->list, b->run[k].name);
+    return HCI_OK;
+}
+
+/* False when memory is out; nothing is lost then. */
+static bool append(void **to, size_t count, const void *from, size_t more, size_t size)
+{
+    char *larger = hci_memory_resize(*to, count + more, size);
+    if (larger == NULL) return false;
+    memcpy(larger + count * size, from, more * size);
+    *to = larger;
+    return true;
+}
+
+hci_status hci_runs_join(hci_runs *runs, hci_runs *more, hci_note *note)
+{
+    void *run = runs->run, *role = runs->role, *origin = runs->origin;
+    const hci_status status = files_differ(runs, more, note);
+    if (status) return status;
+    const bool done = append(&run, runs->count, more->run, more->count, sizeof *more->run) &&
+                      append(&role, runs->count, more->role, more->count, sizeof *more->role) &&
+                      append(&origin, runs->count, more->origin, more->count, sizeof *more->origin);
+    runs->run = run;
+    runs->role = role;
+    runs->origin = origin;
+    if (!done) return hci_note_memory(note, NULL, "both lists of recordings");
+    runs->count += more->count;
+    more->count = 0;
+    hci_memory_free(runs->list);
+    runs->list = more->list;
+    more->list = NULL;
+    hci_runs_release(more);
+    return HCI_OK;
+}
+
 void hci_runs_release(hci_runs *runs)
 {
     for (size_t k = 0; k < runs->count; ++k)
         hci_run_release(&runs->run[k]);
+    for (size_t k = 0; k < runs->count && runs->origin != NULL; ++k) {
+        hci_memory_free(runs->origin[k].path);
+        hci_column_names_text_free(runs->origin[k].columns);
+    }
+    hci_memory_free(runs->origin);
     hci_memory_free(runs->run);
     hci_memory_free(runs->role);
     hci_memory_free(runs->list);

@@ -1,7 +1,9 @@
 /* summary.json of `diagnose`. */
 #include <math.h>
 
+#include "hci/host/diagnose/again.h"
 #include "host/diagnose/findings.h"
+#include "host/report/json_again.h"
 #include "host/report/summary.h"
 
 enum { WORDS_SIZE = 2048 };
@@ -125,6 +127,7 @@ char *hci_diagnosis_json(const hci_diagnosis *d, const hci_resolution *r)
     hci_json_bool(&json, "does_not_repeat", d->wanders);
     hci_json_text(&json, "left_out", d->disbelieved ? d->disbelieved : "");
     put_lists(&json, d);
+    if (d->again) hci_again_put(&json, d->again);
     if (r) put_currents(&json, "old_currents", &r->old_currents, &r->before);
     if (r) put_currents(&json, "new_currents", &r->new_currents, &r->after);
     if (r) hci_summary_expected(&json, &r->after.expected);

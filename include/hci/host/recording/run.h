@@ -100,12 +100,19 @@ typedef enum {
     HCI_ROLE_HOLDOUT /* the model is tested on it */
 } hci_role;
 
-/* A list of runs: columns file, role, optionally note. Start with {0}. */
+/* Where a run is from, so that it can be read again. */
 typedef struct {
-    hci_run *run;   /* in the order of the list */
-    hci_role *role; /* of each */
-    size_t count;   /* entries of run and of role */
-    char *list;     /* the file that names them, as it was given; NULL where there is none */
+    char *path;    /* of the file, from where the program runs */
+    char *columns; /* that options or the list name, "NAME=COLUMN;NAME=COLUMN"; or "" */
+} hci_run_origin;
+
+/* A list of runs: columns file, role, optionally note, test, columns. Start with {0}. */
+typedef struct {
+    hci_run *run;           /* in the order of the list */
+    hci_role *role;         /* of each */
+    hci_run_origin *origin; /* of each; NULL: not known */
+    size_t count;           /* entries of run, role and origin */
+    char *list;             /* the file that names them, as it was given; NULL where there is none */
 } hci_runs;
 
 /* What reading them asks for. */
@@ -116,8 +123,15 @@ typedef struct {
 } hci_runs_options;
 
 /* Reads a list and its runs, whose paths are relative to it. `columns.csv` beside the list names columns of
- * all of them, before that beside a run. HCI_ERROR_INPUT, _MEMORY. */
+ * all of them, before that beside a run; a cell `columns` of the list does so of one run
+ * instead. A cell `test` that
+ * is `holding` stands for hci_run_options.holding. HCI_ERROR_INPUT, _MEMORY. */
 hci_status hci_runs_read(const char *path, const hci_runs_options *options, hci_runs *runs, hci_note *note);
+
+/* Puts the runs of `more`, which is empty then, behind those of `runs`; both were read from lists. `list`
+ * becomes that of `more`. HCI_ERROR_INPUT where a file is in both; HCI_ERROR_MEMORY; both are as they were
+ * then. */
+hci_status hci_runs_join(hci_runs *runs, hci_runs *more, hci_note *note);
 
 /* Frees what a list holds, its runs included, and empties it. */
 void hci_runs_release(hci_runs *runs);

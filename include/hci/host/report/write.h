@@ -27,7 +27,9 @@ hci_status hci_solution_write_with_report(const hci_machine_data *machine, const
 /* Writes effects.csv, errors.csv, residual_spectrum.csv, summary.json, report.html, where something is
  * not explained unexplained.csv, and where something is left open measure_next.csv into `folder`, and the
  * corrected machine into `folder`/machine: the tables of machine_folder as they are, with effects.csv.
- * resolution: for summary and report, or NULL. */
+ * resolution: for summary and report, or NULL.
+ * `folder`/declared gets what the diagnosis started from: the machine, and runs.csv where the runs are from
+ * files. */
 hci_status hci_diagnosis_write(const hci_diagnosis *diagnosis, const hci_resolution *resolution,
                                const hci_runs *runs, const char *machine_folder, const char *folder,
                                hci_note *note);

@@ -91,6 +91,7 @@ hci_status hci_page_diagnosis(hci_output *out, const hci_diagnosis *d, const hci
     hci_page_origin(origin, &sources);
     say_verdict(out, d);
     show_tiles(out, d);
+    if (d->again) hci_page_again(out, d->again);
     say_advice(out, d);
     if (resolution) hci_page_resolution(out, resolution);
     hci_page_findings(out, d, origin);

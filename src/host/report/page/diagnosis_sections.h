@@ -21,6 +21,9 @@ void hci_page_parameters(hci_output *out, const hci_diagnosis *diagnosis, const 
 /* Orders that no effect explains; nothing where there are none. */
 void hci_page_unexplained(hci_output *out, const hci_diagnosis *diagnosis);
 
+/* What new recordings say of the last diagnosis. */
+void hci_page_again(hci_output *out, const hci_again *again);
+
 /* What the currents of the declared machine and those of the corrected one do on the corrected one. */
 void hci_page_resolution(hci_output *out, const hci_resolution *resolution);
 
