@@ -33,7 +33,7 @@ static void say_prediction(words *w, const hci_again *a)
 {
     say(w,
         "On %zu new recording%s the machine of last time was off by %.3g N·m rms before any "
-        "fit to that; the declared machine is off by %.3g N·m there, and %.3g N·m are noise.",
+        "fit to them; the declared machine is off by %.3g N·m there, and %.3g N·m are noise.",
         a->runs, a->runs == 1 ? "" : "s", a->last_Nm, a->declared_Nm, a->noise_Nm);
     if (a->bounded == 0)
         say(w, " No bound was stated last time, so there was no promise to keep.");

@@ -1,5 +1,6 @@
+/* labels: slow */
 /* A diagnosis that goes on from the last one: what had been promised of new recordings, what they contradict,
- * and what several rounds come to. */
+ * and what several rounds come to. Slow: some twelve searches. */
 #include "hci/host/diagnose/again.h"
 
 #include <math.h>
