@@ -22,23 +22,6 @@ static size_t large_defect(const hci_candidates *candidates)
     return candidates->count;
 }
 
-/* Tries the model without its large defects, one by one: an order that the recordings hardly show may have
- * any value, and is not needed. The model is replaced where it is as good without. */
-static hci_status defects_leave(hci_search *s, hci_fitted_model *model, hci_note *note)
-{
-    hci_fitted_model less = {0};
-    hci_status status = hci_fitted_model_copy(model, &less, note);
-    size_t k = large_defect(&less.candidates);
-    while (!status && k < less.candidates.count) {
-        less.candidates.candidate[k].in = false;
-        status = hci_regression_fit(s->regression, &less.candidates, &less.fit, note);
-        k = large_defect(&less.candidates);
-    }
-    if (!status && less.fit.score < model->fit.score + HCI_DECISIVE) hci_fitted_model_replace(model, &less);
-    hci_fitted_model_release(&less);
-    return status;
-}
-
 /* What the model leaves of the declared torque per ampere, as a share; 1 where none is declared. */
 static hci_status constant_share(const hci_search *s, const hci_candidates *candidates, double *share,
                                  hci_note *note)
@@ -90,22 +73,45 @@ static hci_status disbelieved_set(hci_search *s, const hci_fitted_model *model,
     return HCI_OK;
 }
 
+/* Keeps the best of those that are not believed. */
+static hci_status disbelieve(hci_search *s, const hci_fitted_model *model, const hci_effect_type *culprit,
+                             double share, hci_note *note)
+{
+    if (s->disbelieved.type && !(model->fit.score < s->disbelieved.model.fit.score)) return HCI_OK;
+    return disbelieved_set(s, model, culprit, share, note);
+}
+
+/* Without its large defects, one by one, a model may still compete: an order that the recordings hardly show
+ * takes any value that suits. Where that takes the whole effect out, it does not. */
+static hci_status defects_leave(hci_search *s, hci_fitted_model *model, hci_note *note)
+{
+    const size_t types = hci_candidates_types_in(&model->candidates);
+    hci_status status = HCI_OK;
+    size_t k = large_defect(&model->candidates);
+    while (!status && k < model->candidates.count) {
+        model->candidates.candidate[k].in = false;
+        status = hci_regression_fit(s->regression, &model->candidates, &model->fit, note);
+        k = large_defect(&model->candidates);
+    }
+    if (hci_candidates_types_in(&model->candidates) < types) model->fit.score = INFINITY;
+    return status;
+}
+
 hci_status hci_search_fit(hci_search *s, hci_fitted_model *model, hci_note *note)
 {
     const hci_effect_type *culprit = NULL;
     double share = 1.0;
     hci_status status = hci_regression_fit(s->regression, &model->candidates, &model->fit, note);
-    if (!status && large_defect(&model->candidates) < model->candidates.count)
-        status = defects_leave(s, model, note);
-    if (!status) status = constant_share(s, &model->candidates, &share, note);
-    if (status) return status;
     const size_t defect = large_defect(&model->candidates);
-    if (defect < model->candidates.count) culprit = model->candidates.candidate[defect].type;
-    if (share < LEAST_CONSTANT) status = culprit_find(s, &model->candidates, &culprit, note);
-    if (status || !culprit) return status;
-    if (!s->disbelieved.type || model->fit.score < s->disbelieved.model.fit.score)
-        status = disbelieved_set(s, model, culprit, share, note);
-    model->fit.score = INFINITY;
+    if (!status && defect < model->candidates.count) {
+        status = disbelieve(s, model, model->candidates.candidate[defect].type, share, note);
+        if (!status) status = defects_leave(s, model, note);
+    }
+    if (!status) status = constant_share(s, &model->candidates, &share, note);
+    if (status || share >= LEAST_CONSTANT) return status;
+    status = culprit_find(s, &model->candidates, &culprit, note);
+    if (!status && culprit) status = disbelieve(s, model, culprit, share, note);
+    if (culprit) model->fit.score = INFINITY;
     return status;
 }
 
