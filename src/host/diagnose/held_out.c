@@ -56,10 +56,11 @@ static bool is_described(const test_errors *x)
 }
 
 /* Whether the runs held out speak against the effects: they are not described down to their noise, and hardly
- * better than without. */
-static bool is_contradicted(const test_errors *x)
+ * better than without; of what was kept of them because it helps, no better at all. */
+static bool is_contradicted(const test_errors *x, bool kept)
 {
-    return !is_described(x) && x->after > HARDLY_BETTER * HARDLY_BETTER * x->before;
+    const double share = kept ? STAYS : HARDLY_BETTER;
+    return !is_described(x) && x->after > share * share * x->before;
 }
 
 /* Whether the mean error of a run stands beside its noise: a mean is known much better than a sample. */
@@ -88,7 +89,7 @@ hci_held_out_result hci_held_out_judge(const hci_dataset *b, const hci_runs *run
                                        double resolution_Nm)
 {
     const test_errors x = test_errors_of(b, runs, d, resolution_Nm);
-    if (is_contradicted(&x)) return HCI_HELD_OUT_CONTRADICTED;
+    if (is_contradicted(&x, d->contradicted)) return HCI_HELD_OUT_CONTRADICTED;
     return is_partial(&x, d, resolution_Nm) ? HCI_HELD_OUT_PARTLY : HCI_HELD_OUT_DESCRIBED;
 }
 

@@ -1,0 +1,131 @@
+/* What may be said of recordings: what runs held out and means of runs contradict is not explained, what is
+ * certain is kept, and what looks alike is not told apart. */
+#include "host/diagnose/held_out.h"
+
+#include "host/machine/torque_constant.h"
+#include "support/diagnosing.h"
+
+enum { SAMPLES = 450 };
+
+void setUp(void)
+{
+    dataset_start();
+}
+
+void tearDown(void)
+{
+    dataset_end();
+}
+
+/* Runs there and back at three currents; friction in all of them. */
+static void record_with_friction(size_t count, double brake_Nm)
+{
+    for (size_t k = 0; k < count; ++k) {
+        const double sign = k % 2 ? -1.0 : 1.0;
+        record(SAMPLES, &(point){sign * (60.0 + 15.0 * (double)k), 2.0 + 3.0 * (double)(k % 3), 0.0,
+                                 sign * brake_Nm, 0.0});
+    }
+}
+
+static void add_cogging(size_t r, double amplitude_Nm)
+{
+    for (size_t j = 0; j < SAMPLES; ++j)
+        run[r].torque_Nm[j] += amplitude_Nm * sin(6.0 * P * run[r].theta_m_rad[j]);
+}
+
+/* Cogging that the run held out does not show, and friction that it does. */
+static void test_what_is_certain_is_kept(void)
+{
+    record_with_friction(8, 0.03);
+    role[2] = role[3] = HCI_ROLE_HOLDOUT;
+    for (size_t k = 0; k < 8; ++k)
+        add_cogging(k, role[k] == HCI_ROLE_FIT ? 0.06 : -0.06);
+    TEST_ASSERT_EQUAL_INT(HCI_NOT_REACHED, diagnose(NULL));
+    TEST_ASSERT_EQUAL_INT(HCI_DIAGNOSIS_PARTLY, diagnosis.verdict);
+    TEST_ASSERT_TRUE(diagnosis.contradicted);
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_ADDED, found("friction")->verdict);
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_REJECTED, found("cogging")->verdict);
+    TEST_ASSERT_DOUBLE_WITHIN(0.003, 0.03, term("friction", "coulomb", 0.0)->value);
+}
+
+/* The mean error of a run is known better than a sample: half of the noise of one is not noise. */
+static void test_means_of_runs_are_judged(void)
+{
+    hci_run_errors error = {.role = HCI_ROLE_FIT, .rms_before_Nm = 0.2, .noise_floor_Nm = 0.02};
+    const hci_diagnosis of_one = {
+        .run = &error, .runs = 1, .holdout_after_Nm = NAN, .holdout_ripple_after_Nm = NAN};
+    const hci_dataset none = {0};
+    error.error_mean_after_Nm = -0.009;
+    TEST_ASSERT_EQUAL_INT(HCI_HELD_OUT_DESCRIBED, hci_held_out_judge(&none, &runs, &of_one, 1e-4));
+    error.error_mean_after_Nm = -0.021;
+    TEST_ASSERT_EQUAL_INT(HCI_HELD_OUT_PARTLY, hci_held_out_judge(&none, &runs, &of_one, 1e-4));
+    error.rms_before_Nm = 0.5; /* next to nothing beside what it was */
+    TEST_ASSERT_EQUAL_INT(HCI_HELD_OUT_DESCRIBED, hci_held_out_judge(&none, &runs, &of_one, 1e-4));
+}
+
+/* All three sensors wrong alike, or magnets that are weaker: not told apart. */
+static void test_equal_gains_are_not_told_from_magnets(void)
+{
+    record_with_friction(6, 0.0);
+    for (size_t r = 0; r < 6; ++r)
+        for (size_t j = 0; j < 3 * SAMPLES; ++j)
+            run[r].i_A[j] *= 1.1;
+    diagnose(NULL);
+    TEST_ASSERT_FALSE(found("current_gain")->verdict == HCI_FINDING_ADDED);
+    TEST_ASSERT_FALSE(found("phase_imbalance")->verdict == HCI_FINDING_ADDED);
+    TEST_ASSERT_FALSE(found("back_emf")->verdict == HCI_FINDING_REJECTED);
+}
+
+/* Torques over i_d and i_q without an angle: 3/2 p (L_d − L_q) i_d i_q more than the magnets make. */
+static void test_a_torque_map_tells_reluctance(void)
+{
+    static const double SALIENCY_H = -2e-3;
+    enum { ROWS = 49 };
+    hci_run *r = add_run(ROWS);
+    free(r->theta_m_rad);
+    free(r->time_s);
+    r->theta_m_rad = r->time_s = NULL;
+    r->only_mean = true;
+    for (size_t k = 0; k < ROWS; ++k) {
+        const double id = -6.0 + 2.0 * (double)(k % 7), iq = -6.0 + 2.0 * (double)(k / 7);
+        rec_phases(id, iq, 0.0, r->i_A + 3 * k);
+        r->speed_rad_per_s[k] = 50.0;
+        r->torque_Nm[k] =
+            1.5 * K_NM_PER_A * iq + 1.5 * P * SALIENCY_H * id * iq + NOISE_NM * ref_normal(&seed);
+    }
+    TEST_ASSERT_EQUAL_INT(HCI_OK, diagnose(NULL));
+    TEST_ASSERT_EQUAL_UINT64(1, count_of(HCI_FINDING_ADDED));
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_ADDED, found("reluctance")->verdict);
+    TEST_ASSERT_DOUBLE_WITHIN(0.06 * NOISE_NM + 2e-3, NOISE_NM, diagnosis.rms_after_Nm);
+    TEST_ASSERT_EQUAL_UINT64(0, diagnosis.lines); /* orders are not in it */
+}
+
+/* Current ripple of an order that smoothing cannot hold: known to the model as it was read, it is no unknown
+ * torque. */
+static void test_ripple_of_high_orders_is_no_torque(void)
+{
+    for (size_t k = 0; k < 4; ++k) {
+        record(1800, &(point){k % 2 ? -60.0 : 60.0, 4.0, 0.0, 0.0, 0.0});
+        for (size_t j = 0; j < 1800; ++j) {
+            double more[3];
+            const double theta = P * run[k].theta_m_rad[j];
+            rec_phases(0.0, 1.5 * sin(37.0 * theta), theta, more);
+            for (size_t s = 0; s < 3; ++s)
+                run[k].i_A[3 * j + s] += more[s];
+            run[k].torque_Nm[j] += 1.5 * K_NM_PER_A * 1.5 * sin(37.0 * theta);
+        }
+    }
+    TEST_ASSERT_EQUAL_INT(HCI_OK, diagnose(NULL));
+    TEST_ASSERT_EQUAL_INT(HCI_DIAGNOSIS_COMPLETE, diagnosis.verdict);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_what_is_certain_is_kept);
+    RUN_TEST(test_means_of_runs_are_judged);
+    RUN_TEST(test_equal_gains_are_not_told_from_magnets);
+    RUN_TEST(test_a_torque_map_tells_reluctance);
+    RUN_TEST(test_ripple_of_high_orders_is_no_torque);
+    return UNITY_END();
+}
