@@ -37,7 +37,7 @@ check "older results have changed: $(ls -A "$work/older")" [ "$(ls -A "$work/old
 
 # A search that Ctrl-C ends writes what it has, and says so.
 seen 130 early
-check "files: $(ls "$work/early")" [ "$(ls "$work/early" | tr '\n' ' ')" = "effects.csv errors.csv machine report.html residual_spectrum.csv summary.json " ]
+check "files: $(ls "$work/early")" [ "$(ls "$work/early" | tr '\n' ' ')" = "declared effects.csv errors.csv machine measure_next.csv report.html residual_spectrum.csv summary.json " ]
 check "summary.json does not say that it was interrupted" grep -q '"search":[[:space:]]*"interrupted"' "$work/early/summary.json"
 check "the words do not say it" grep -q 'The search was interrupted' "$work/early/summary.json"
 check "the report does not say it" grep -q 'The search was interrupted' "$work/early/report.html"

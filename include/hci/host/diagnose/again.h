@@ -11,8 +11,8 @@ extern "C" {
 
 /* A new recording: rms of measured less modelled torque. */
 typedef struct {
-    const char *file; /* belongs to the runs */
-    hci_role role;
+    const char *file;      /* belongs to the runs */
+    hci_role role;         /* fitted, or held out */
     double declared_Nm;    /* by the machine as it is declared */
     double last_Nm;        /* by the machine of last time, which has never seen it */
     double last_mean_Nm;   /* its mean, signed … */
@@ -37,8 +37,8 @@ const char *hci_again_change_name(hci_again_change change);
 
 /* An effect of the last diagnosis or of this one. */
 typedef struct {
-    const char *effect;
-    hci_again_change change;
+    const char *effect;               /* its name */
+    hci_again_change change;          /* in a word */
     bool was_ambiguous, is_ambiguous; /* with another one: last time, now */
     double deviations;               /* largest change of a value, in standard errors; NAN: none is in both */
     char words[HCI_DETAIL_SIZE / 2]; /* that value, then and now; or "" */
@@ -58,10 +58,10 @@ struct hci_again {
 /* What new recordings say of the last diagnosis. */
 typedef struct {
     const hci_machine_data *machine; /* both as the last diagnosis started from them */
-    const hci_effects *declared;
-    const hci_runs *runs; /* all, as hci_diagnose has left them: those of last time first */
-    size_t recordings_before;
-    const char *folder; /* of the last diagnosis: machine/ and effects.csv are read there */
+    const hci_effects *declared;     /* effects of that machine */
+    const hci_runs *runs;            /* all, as hci_diagnose has left them: those of last time first */
+    size_t recordings_before;        /* how many of them are those */
+    const char *folder;              /* of the last diagnosis: machine/ and effects.csv are read there */
 } hci_again_question;
 
 /* Compares a diagnosis of all recordings with the last one. Sets diagnosis->again to *again, which has to

@@ -85,7 +85,7 @@ enum { HCI_WHY_SIZE = 256 };
 
 /* A steady run to record next, within what the machine is rated for or what was recorded. */
 typedef struct {
-    double id_A;
+    double id_A;              /* of the rotor frame */
     double iq_A;              /* NAN: the current answers to what holds or brakes the shaft */
     double speed_rad_per_s;   /* mechanical, signed */
     double turns;             /* how long at least */

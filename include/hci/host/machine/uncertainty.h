@@ -10,7 +10,8 @@ extern "C" {
 
 /* Least and most of a quantity; NAN: not known. */
 typedef struct {
-    double least, most;
+    double least; /* in the quantity's unit */
+    double most;  /* likewise */
 } hci_measured_range;
 
 /* A recording that the machine was fitted to. */

@@ -21,8 +21,8 @@ typedef struct {
 
 /* Start with {0}. */
 typedef struct {
-    hci_column_name *item;
-    size_t count;
+    hci_column_name *item; /* each says what one column is */
+    size_t count;          /* entries of item */
 } hci_column_names;
 
 /* Adds "NAME=COLUMN". HCI_ERROR_ARGUMENT for another text or a name that is no quantity of a recording,
@@ -43,8 +43,10 @@ hci_status hci_column_names_add_text(hci_column_names *names, const char *text, 
 /* Of several (of each: or NULL) such a text, to be freed with hci_column_names_text_free; NULL when memory is
  * out. */
 char *hci_column_names_text(const hci_column_names *const *names, size_t count);
+/* Frees it; NULL is nothing. */
 void hci_column_names_text_free(char *text);
 
+/* Frees what the names hold and empties them. */
 void hci_column_names_release(hci_column_names *names);
 
 /* Has the file read so. HCI_ERROR_INPUT for a column that it does not have; where `optional`, only if it does
