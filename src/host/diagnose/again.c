@@ -156,18 +156,23 @@ static hci_again_run run_of(const hci_run_errors *last, const hci_run_errors *no
 }
 
 /* then: a diagnosis that has nothing but the effects and errors of the last machine on all recordings. */
+/* A diagnosis, and the errors of the machine of last time on the same runs. */
+typedef struct {
+    const hci_diagnosis *then, *now;
+} both_diagnoses;
+
 static hci_status runs_fill(const hci_again_question *q, const hci_dataset *b, const last_diagnosis *last,
-                            const hci_diagnosis *then, const hci_diagnosis *d, hci_again *a, hci_note *note)
+                            const both_diagnoses *d, hci_again *a, hci_note *note)
 {
     hci_status status = HCI_OK;
     a->run = hci_memory_new(q->runs->count + 1, sizeof *a->run);
     if (!a->run) return hci_note_memory(note, NULL, "the new recordings");
     for (size_t k = q->recordings_before; k < q->runs->count && !status; ++k) {
-        const hci_run_errors *e = errors_of(then, q->runs->run[k].name);
+        const hci_run_errors *e = errors_of(d->then, q->runs->run[k].name);
         double open_Nm;
         if (!e) continue;
         status = open_of(b, &last->uncertainty, k, &open_Nm, note);
-        if (!status) a->run[a->runs++] = run_of(e, errors_of(d, e->file), open_Nm);
+        if (!status) a->run[a->runs++] = run_of(e, errors_of(d->now, e->file), open_Nm);
     }
     return status;
 }
@@ -203,7 +208,7 @@ static hci_status new_runs_fill(const hci_again_question *q, const last_diagnosi
     hci_status status = hci_dataset_make(q->machine, q->declared, q->runs, &b, note);
     if (status) return status;
     status = hci_run_errors_fill(&b, q->runs, 0, &then, note);
-    if (!status) status = runs_fill(q, &b, last, &then, d, a, note);
+    if (!status) status = runs_fill(q, &b, last, &(both_diagnoses){&then, d}, a, note);
     then.effects = (hci_effects_data){0};
     hci_diagnosis_release(&then);
     hci_dataset_release(&b);

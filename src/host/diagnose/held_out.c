@@ -63,11 +63,13 @@ static bool is_contradicted(const test_errors *x, bool kept)
     return !is_described(x) && x->after > share * share * x->before;
 }
 
-/* Whether the mean error of a run stands beside its noise: a mean is known much better than a sample. */
+/* Whether the mean error of a run that was fitted stands beside its noise: a mean is known much better than a
+ * sample. */
 static bool leaves_means(const hci_diagnosis *d, double resolution_Nm)
 {
     for (size_t k = 0; k < d->runs; ++k) {
         const hci_run_errors *e = &d->run[k];
+        if (e->role != HCI_ROLE_FIT) continue;
         const double noise_Nm = fmax(MEAN_LEFT * e->noise_floor_Nm, COARSE * resolution_Nm);
         if (fabs(e->error_mean_after_Nm) > fmax(noise_Nm, NEARLY_ALL * e->rms_before_Nm)) return true;
     }
@@ -118,32 +120,30 @@ static hci_status square_of(hci_dataset *b, const hci_runs *runs, const hci_cand
     return status;
 }
 
-/* Without one type the runs held out are described worse. */
-static hci_status helps(hci_dataset *b, const hci_runs *runs, const hci_candidates *all,
-                        const hci_effect_type *type, double *residual_Nm, bool *better, hci_note *note)
+/* The mean square over the runs held out without one type; NULL: with all. */
+static hci_status square_without(hci_dataset *b, const hci_runs *runs, const hci_effect_type *type,
+                                 hci_candidates *model, double *square, hci_note *note)
 {
     hci_candidates without = {0};
-    double with_Nm2 = 0.0, without_Nm2 = 0.0;
-    hci_status status = hci_candidates_copy(all, &without, note);
-    if (status) return status;
-    hci_candidates_remove_type(&without, type);
-    status = square_of(b, runs, all, residual_Nm, &with_Nm2, note);
-    if (!status) status = square_of(b, runs, &without, residual_Nm, &without_Nm2, note);
-    *better = without_Nm2 > HELPS * HELPS * with_Nm2;
+    double *residual_Nm = hci_memory_new(b->samples.count + 1, sizeof *residual_Nm);
+    hci_status status = residual_Nm ? hci_candidates_copy(model, &without, note)
+                                    : hci_note_memory(note, NULL, "the runs held out");
+    if (!status && type) hci_candidates_remove_type(&without, type);
+    if (!status) status = square_of(b, runs, &without, residual_Nm, square, note);
     hci_candidates_release(&without);
+    hci_memory_free(residual_Nm);
     return status;
 }
 
 hci_status hci_held_out_keep(hci_dataset *b, const hci_runs *runs, hci_candidates *model, hci_note *note)
 {
-    bool keep[HCI_MOST_TYPES] = {false};
-    double *residual_Nm = hci_memory_new(b->samples.count + 1, sizeof *residual_Nm);
-    hci_status status = residual_Nm ? HCI_OK : hci_note_memory(note, NULL, "the runs held out");
+    double with_Nm2 = 0.0, without_Nm2[HCI_MOST_TYPES] = {0.0};
+    hci_status status = square_without(b, runs, NULL, model, &with_Nm2, note);
     for (size_t r = 0; r < hci_candidate_types() && !status; ++r)
         if (hci_candidates_have(model, hci_candidate_type(r)))
-            status = helps(b, runs, model, hci_candidate_type(r), residual_Nm, &keep[r], note);
+            status = square_without(b, runs, hci_candidate_type(r), model, &without_Nm2[r], note);
     for (size_t r = 0; r < hci_candidate_types() && !status; ++r)
-        if (!keep[r]) hci_candidates_remove_type(model, hci_candidate_type(r));
-    hci_memory_free(residual_Nm);
+        if (!(without_Nm2[r] > HELPS * HELPS * with_Nm2))
+            hci_candidates_remove_type(model, hci_candidate_type(r));
     return status;
 }

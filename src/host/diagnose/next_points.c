@@ -114,7 +114,8 @@ static hci_status pair_add(const hci_regression *e, const hci_attribution *a, co
         status = hci_regression_fit(e, &p->without.candidates, &p->without.fit, note);
     }
     if (status) return status;
-    return hci_tell_apart(e, &c->playable, &x, c->point, c->points, p->chi_square, p->turns, note);
+    const hci_point_scores scores = {c->point, c->points, p->chi_square, p->turns};
+    return hci_tell_apart(e, &c->playable, &x, &scores, note);
 }
 
 static hci_status pairs_add(const hci_regression *e, const hci_attribution *a, comparison *c, hci_note *note)
@@ -335,7 +336,8 @@ hci_status hci_next_points_unknown(const hci_regression *e, const hci_machine_da
     if (!residual_Nm) return hci_note_memory(note, NULL, "what to measure next");
     hci_status status = hci_regression_residual(e, &d->effects.list, residual_Nm, note);
     if (!status && orders > 0)
-        status = hci_points_of_growth(e, residual_Nm, order, orders, &playable, &choice, &found, note);
+        status = hci_points_of_growth(e, &(hci_open_orders){residual_Nm, order, orders}, &playable, &choice,
+                                      &found, note);
     if (!status && found == 0) found = hci_points_not_recorded(e, &playable, &choice);
     hci_memory_free(residual_Nm);
     if (status) return status;

@@ -80,13 +80,13 @@ static void comparison_release(comparison *c)
 }
 
 hci_status hci_tell_apart(const hci_regression *regression, const hci_playable *playable,
-                          const hci_explanations *explanations, const hci_operating_point *point,
-                          size_t count, double *chi_square, double *turns, hci_note *note)
+                          const hci_explanations *explanations, const hci_point_scores *scores,
+                          hci_note *note)
 {
     comparison c;
     hci_status status = comparison_make(regression, playable, explanations, &c, note);
-    for (size_t k = 0; k < count && !status; ++k)
-        status = point_score(&c, &point[k], &chi_square[k], &turns[k], note);
+    for (size_t k = 0; k < scores->count && !status; ++k)
+        status = point_score(&c, &scores->point[k], &scores->chi_square[k], &scores->turns[k], note);
     comparison_release(&c);
     return status;
 }

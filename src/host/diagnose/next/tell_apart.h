@@ -20,10 +20,17 @@ typedef struct {
     const hci_candidates *right, *wrong;
 } hci_explanations;
 
-/* turns[count]: 10, 20 or 50, the least with which χ² is decisive, or 50; chi_square[count]: of so many.
- * HCI_ERROR_MEMORY. O(points·samples·parameters²). */
+/* Operating points and what they tell. */
+typedef struct {
+    const hci_operating_point *point;
+    size_t count;       /* entries of each */
+    double *chi_square; /* out: of so many turns */
+    double *turns;      /* out: 10, 20 or 50, the least with which χ² is decisive, or 50 */
+} hci_point_scores;
+
+/* HCI_ERROR_MEMORY. O(points·samples·parameters²). */
 hci_status hci_tell_apart(const hci_regression *regression, const hci_playable *playable,
-                          const hci_explanations *explanations, const hci_operating_point *point,
-                          size_t count, double *chi_square, double *turns, hci_note *note);
+                          const hci_explanations *explanations, const hci_point_scores *scores,
+                          hci_note *note);
 
 #endif

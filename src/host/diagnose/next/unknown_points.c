@@ -127,10 +127,11 @@ static double square_per_Nm2(const hci_regression *e, const hci_playable *x, dou
     return samples / (x->noise_Nm * x->noise_Nm) * (order > 0.0 ? 0.5 : 1.0);
 }
 
-static hci_status spread_fill(const hci_regression *e, const double *residual_Nm, const double *order,
+static hci_status spread_fill(const hci_regression *e, const hci_open_orders *open,
                               const hci_playable *playable, const hci_point_choice *choice, spread *s,
                               hci_note *note)
 {
+    const double *order = open->order;
     const size_t runs = e->samples->run_count, part = 2 * HCI_GROWTH_LAWS;
     amplitude *a = hci_memory_new(runs + 1, sizeof *a);
     growth laws;
@@ -140,7 +141,7 @@ static hci_status spread_fill(const hci_regression *e, const double *residual_Nm
         for (size_t r = 0; r < runs; ++r)
             if (e->use[r] && hci_segment_next(e->samples, r, NULL) &&
                 (order[n] == 0.0 || has_angle(&e->runs[r])))
-                a[used++] = amplitude_of(e, r, residual_Nm, order[n]);
+                a[used++] = amplitude_of(e, r, open->residual_Nm, order[n]);
         laws_weigh(a, used, &laws);
         const double unit = sqrt(square_per_Nm2(e, playable, order[n]));
         for (size_t k = 0; k < choice->count; ++k)
@@ -192,21 +193,21 @@ static void worst_order(const spread *s, const hci_regression *e, const hci_play
     }
 }
 
-hci_status hci_points_of_growth(const hci_regression *e, const double *residual_Nm, const double *order,
-                                size_t orders, const hci_playable *playable, const hci_point_choice *choice,
-                                size_t *found, hci_note *note)
+hci_status hci_points_of_growth(const hci_regression *e, const hci_open_orders *open,
+                                const hci_playable *playable, const hci_point_choice *choice, size_t *found,
+                                hci_note *note)
 {
-    spread s = {NULL, orders, orders * 2 * HCI_GROWTH_LAWS};
+    spread s = {NULL, open->orders, open->orders * 2 * HCI_GROWTH_LAWS};
     *found = 0;
     if (!(playable->noise_Nm > 0.0)) return HCI_OK;
     s.departure = hci_memory_new(choice->count * s.length + 1, sizeof *s.departure);
     if (!s.departure) return hci_note_memory(note, NULL, "what to measure next");
-    const hci_status status = spread_fill(e, residual_Nm, order, playable, choice, &s, note);
+    const hci_status status = spread_fill(e, open, playable, choice, &s, note);
     while (!status && *found < choice->most) {
         hci_telling_point t = {0, 0.0, NAN, 0.0};
         t.point = largest(&s, choice->count, &t.chi_square);
         if (!(t.chi_square > HCI_NOTHING)) break;
-        worst_order(&s, e, playable, order, &t);
+        worst_order(&s, e, playable, open->order, &t);
         choice->chosen[(*found)++] = t;
         known_take(&s, choice->count, t.point);
     }

@@ -24,11 +24,17 @@ typedef struct {
     hci_telling_point *chosen;
 } hci_point_choice;
 
-/* residual_Nm: of each sample of the dataset. order[orders]: electrical, that the laws are to describe.
- * *found: how many were chosen. HCI_ERROR_MEMORY. O(orders·(samples + laws·points·most)). */
-hci_status hci_points_of_growth(const hci_regression *regression, const double *residual_Nm,
-                                const double *order, size_t orders, const hci_playable *playable,
-                                const hci_point_choice *choice, size_t *found, hci_note *note);
+/* What the model leaves. */
+typedef struct {
+    const double *residual_Nm; /* of each sample of the dataset */
+    const double *order;       /* [orders], electrical, that the laws are to describe */
+    size_t orders;
+} hci_open_orders;
+
+/* *found: how many were chosen. HCI_ERROR_MEMORY. O(orders·(samples + laws·points·most)). */
+hci_status hci_points_of_growth(const hci_regression *regression, const hci_open_orders *open,
+                                const hci_playable *playable, const hci_point_choice *choice, size_t *found,
+                                hci_note *note);
 
 /* Those that are furthest from all recordings in currents, speed and direction. Returns how many. */
 size_t hci_points_not_recorded(const hci_regression *regression, const hci_playable *playable,

@@ -11,7 +11,7 @@
 
 #define PART 0.02 /* of what is left of a step that a fit or a residual takes */
 
-#define MOST_WORK 4e10 /* as hci_regression.work counts it, that a search may take */
+#define MOST_WORK 6e10 /* as hci_regression.work counts it, that a search may take */
 
 /* ---- the end ---- */
 
