@@ -11,6 +11,7 @@
 #define COARSE        4.0  /* … or over the resolution, that speaks against the effects … */
 #define HARDLY_BETTER 0.5  /* … unless it is less than this share of the error without them */
 #define NEARLY_ALL    0.1  /* share of an error that is next to nothing beside what it was */
+#define RIPPLE        2.0  /* over the noise, which of slopes is known by half: a ripple that is there */
 #define MEAN_LEFT     0.5  /* of the noise of a sample, that the mean of a run may be off */
 #define HELPS         1.05 /* of the error held out, without an effect that lowers it */
 #define STAYS         0.95 /* share of an error that has not fallen */
@@ -82,7 +83,7 @@ static bool is_partial(const test_errors *x, const hci_diagnosis *d, double reso
 {
     const double allowed_Nm = fmax(NOISY * d->holdout_noise_Nm, COARSE * resolution_Nm);
     const bool rises = d->holdout_after_Nm > allowed_Nm && !(d->holdout_after_Nm < d->holdout_before_Nm);
-    const bool ripples = d->holdout_ripple_after_Nm > allowed_Nm &&
+    const bool ripples = d->holdout_ripple_after_Nm > fmax(allowed_Nm, RIPPLE * d->holdout_noise_Nm) &&
                          !(d->holdout_ripple_after_Nm < STAYS * d->holdout_ripple_before_Nm);
     return !is_described(x) || rises || ripples || leaves_means(d, resolution_Nm);
 }
