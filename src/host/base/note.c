@@ -2,29 +2,17 @@
 
 #include <stdarg.h>
 #include <stdio.h>
-#include <string.h>
 
-#include "hci/host/base/utf8.h"
 #include "host/base/quote.h"
-
-/* Drops a UTF-8 sequence that vsnprintf has cut in two. */
-static void mend_end(char *text)
-{
-    size_t lead = strlen(text);
-    while (lead > 0 && !hci_utf8_begins(text[lead - 1]))
-        lead--;
-    if (lead > 0 && hci_utf8_length(text + lead - 1) == 0) text[lead - 1] = '\0';
-}
+#include "host/base/words.h"
 
 hci_status hci_note_set(hci_note *note, hci_status status, const char *format, ...)
 {
     if (note == NULL || note->text[0] != '\0') return status;
     va_list arguments;
     va_start(arguments, format);
-    const int length = vsnprintf(note->text, sizeof note->text, format, arguments);
+    hci_words_say_list(&(hci_words){note->text, sizeof note->text}, format, arguments);
     va_end(arguments);
-    if (length < 0) note->text[0] = '\0';
-    if (length >= (int)sizeof note->text) mend_end(note->text);
     return status;
 }
 
@@ -41,12 +29,10 @@ hci_status hci_note_memory(hci_note *note, const char *path, const char *what, .
 
 void hci_note_add(hci_note *remark, const char *format, ...)
 {
-    char *text = remark->text;
-    const size_t used = strlen(text), size = sizeof remark->text;
+    const hci_words words = {remark->text, sizeof remark->text};
     va_list arguments;
     va_start(arguments, format);
-    const size_t start = used + (size_t)snprintf(text + used, size - used, "%s", used > 0 ? "; " : "");
-    if (start < size) vsnprintf(text + start, size - start, format, arguments);
+    if (remark->text[0] != '\0') hci_words_say(&words, "; ");
+    hci_words_say_list(&words, format, arguments);
     va_end(arguments);
-    mend_end(text);
 }

@@ -1,27 +1,11 @@
 /* What new recordings say of the last diagnosis, for people. */
 #include <math.h>
-#include <stdarg.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "hci/host/diagnose/again.h"
+#include "host/base/words.h"
 
 #define SAME 0.02 /* change of an error, as a share, that is none */
-
-typedef struct {
-    char *text;
-    size_t used, size;
-} words;
-
-static void say(words *w, const char *format, ...)
-{
-    va_list arguments;
-    if (w->used + 1 >= w->size) return;
-    va_start(arguments, format);
-    const int n = vsnprintf(w->text + w->used, w->size - w->used, format, arguments);
-    va_end(arguments);
-    if (n > 0) w->used = w->used + (size_t)n < w->size ? w->used + (size_t)n : w->size - 1;
-}
 
 const char *hci_again_change_name(hci_again_change change)
 {
@@ -29,46 +13,47 @@ const char *hci_again_change_name(hci_again_change change)
     return NAMES[change];
 }
 
-static void say_prediction(words *w, const hci_again *a)
+static void say_prediction(const hci_words *w, const hci_again *a)
 {
-    say(w,
-        "On %zu new recording%s the machine of last time was off by %.3g N·m rms before any "
-        "fit to them; the declared machine is off by %.3g N·m there, and %.3g N·m are noise.",
-        a->runs, a->runs == 1 ? "" : "s", a->last_Nm, a->declared_Nm, a->noise_Nm);
+    hci_words_say(w,
+                  "On %zu new recording%s the machine of last time was off by %.3g N·m rms before any "
+                  "fit to them; the declared machine is off by %.3g N·m there, and %.3g N·m are noise.",
+                  a->runs, a->runs == 1 ? "" : "s", a->last_Nm, a->declared_Nm, a->noise_Nm);
     if (a->bounded == 0)
-        say(w, " No bound was stated last time, so there was no promise to keep.");
+        hci_words_say(w, " No bound was stated last time, so there was no promise to keep.");
     else
-        say(w, " It was within what had been stated (%.3g N·m, 95 %%) in %zu of %zu: the promise was %s.",
+        hci_words_say(
+            w, " It was within what had been stated (%.3g N·m, 95 %%) in %zu of %zu: the promise was %s.",
             a->bound_Nm, a->kept, a->bounded, a->kept == a->bounded ? "kept" : "not kept");
 }
 
-static void say_now(words *w, const hci_again *a)
+static void say_now(const hci_words *w, const hci_again *a)
 {
     const bool same = fabs(a->now_Nm - a->last_Nm) <= SAME * a->last_Nm;
-    say(w, " Fitted to all recordings, the machine is off by %.3g N·m there: %s.", a->now_Nm,
-        same                     ? "no change"
-        : a->now_Nm < a->last_Nm ? "better"
-                                 : "worse");
+    hci_words_say(w, " Fitted to all recordings, the machine is off by %.3g N·m there: %s.", a->now_Nm,
+                  same                     ? "no change"
+                  : a->now_Nm < a->last_Nm ? "better"
+                                           : "worse");
 }
 
-static void say_effect(words *w, const hci_again_effect *e)
+static void say_effect(const hci_words *w, const hci_again_effect *e)
 {
     if (e->was_ambiguous && !e->is_ambiguous)
-        say(w, " %s was ambiguous and is now %s.", e->effect,
-            e->change == HCI_AGAIN_LEFT ? "rejected" : "added");
+        hci_words_say(w, " %s was ambiguous and is now %s.", e->effect,
+                      e->change == HCI_AGAIN_LEFT ? "rejected" : "added");
     else if (!e->was_ambiguous && e->is_ambiguous)
-        say(w, " %s is ambiguous now.", e->effect);
+        hci_words_say(w, " %s is ambiguous now.", e->effect);
     else if (e->change == HCI_AGAIN_LEFT && !e->is_ambiguous)
-        say(w, " %s is contradicted and left.", e->effect);
+        hci_words_say(w, " %s is contradicted and left.", e->effect);
     else if (e->change == HCI_AGAIN_CAME)
-        say(w, " %s came.", e->effect);
+        hci_words_say(w, " %s came.", e->effect);
     if (e->change == HCI_AGAIN_CHANGED)
-        say(w, " %s has changed by %.3g standard errors: %s.", e->effect, e->deviations, e->words);
+        hci_words_say(w, " %s has changed by %.3g standard errors: %s.", e->effect, e->deviations, e->words);
 }
 
 void hci_again_words(const hci_again *a, char *text, size_t size)
 {
-    words w = {text, 0, size};
+    const hci_words w = {text, size};
     size_t stay = 0;
     text[0] = '\0';
     if (a->runs > 0) {
@@ -80,6 +65,6 @@ void hci_again_words(const hci_again *a, char *text, size_t size)
         stay += a->effect[k].change == HCI_AGAIN_STAYS && !a->effect[k].was_ambiguous;
     }
     if (stay > 0)
-        say(&w, " %zu effect%s within %s error%s.", stay, stay == 1 ? " stays" : "s stay",
-            stay == 1 ? "its" : "their", stay == 1 ? "" : "s");
+        hci_words_say(&w, " %zu effect%s within %s error%s.", stay, stay == 1 ? " stays" : "s stay",
+                      stay == 1 ? "its" : "their", stay == 1 ? "" : "s");
 }

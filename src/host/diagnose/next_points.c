@@ -1,11 +1,11 @@
 #include "host/diagnose/next_points.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "host/base/memory.h"
+#include "host/base/words.h"
 #include "host/diagnose/fit/fit.h"
 #include "host/diagnose/fit/predicted_reading.h"
 #include "host/diagnose/next/tell_apart.h"
@@ -27,32 +27,23 @@ const char *hci_next_test_name(hci_torque_source source)
 
 /* ---- words ---- */
 
-static void append(char *text, size_t size, const char *format, ...)
-{
-    const size_t used = strlen(text);
-    va_list arguments;
-    va_start(arguments, format);
-    if (used + 1 < size) vsnprintf(text + used, size - used, format, arguments);
-    va_end(arguments);
-}
-
 /* Begins a sentence of the advice; false where there is no more room for one. */
 static bool advice_begin(hci_diagnosis *d)
 {
     if (strlen(d->advice) + LONGEST_ADVICE > sizeof d->advice) return false;
-    if (d->advice[0]) append(d->advice, sizeof d->advice, "; ");
+    if (d->advice[0]) hci_words_say(&(hci_words){d->advice, sizeof d->advice}, "; ");
     return true;
 }
 
 static void advice_of_point(hci_diagnosis *d, const hci_next_point *p)
 {
-    append(d->advice, sizeof d->advice, "%.4g turns%s at i_d %.3g A, ", p->turns,
-           p->source == HCI_TORQUE_HOLDING ? " of holding" : "", p->id_A);
+    hci_words_say(&(hci_words){d->advice, sizeof d->advice}, "%.4g turns%s at i_d %.3g A, ", p->turns,
+                  p->source == HCI_TORQUE_HOLDING ? " of holding" : "", p->id_A);
     if (isfinite(p->iq_A))
-        append(d->advice, sizeof d->advice, "i_q %.3g A, ", p->iq_A);
+        hci_words_say(&(hci_words){d->advice, sizeof d->advice}, "i_q %.3g A, ", p->iq_A);
     else
-        append(d->advice, sizeof d->advice, "i_q as it comes, ");
-    append(d->advice, sizeof d->advice, "%.4g rad/s (mechanical)", p->speed_rad_per_s);
+        hci_words_say(&(hci_words){d->advice, sizeof d->advice}, "i_q as it comes, ");
+    hci_words_say(&(hci_words){d->advice, sizeof d->advice}, "%.4g rad/s (mechanical)", p->speed_rad_per_s);
 }
 
 /* ---- points ---- */
@@ -154,13 +145,13 @@ static double told_at(const comparison *c, size_t k)
 static void pair_words(const pair *p, size_t k, bool first, hci_next_point *to)
 {
     const hci_verdict *v = p->verdict;
-    if (!first) append(to->why, sizeof to->why, "; ");
+    if (!first) hci_words_say(&(hci_words){to->why, sizeof to->why}, "; ");
     if (v->in)
-        append(to->why, sizeof to->why, "shows whether there is %s (χ² %.3g)", v->type->name,
-               p->chi_square[k]);
+        hci_words_say(&(hci_words){to->why, sizeof to->why}, "shows whether there is %s (χ² %.3g)",
+                      v->type->name, p->chi_square[k]);
     else
-        append(to->why, sizeof to->why, "tells %s from %s (χ² %.3g)", v->rival_of->name, v->type->name,
-               p->chi_square[k]);
+        hci_words_say(&(hci_words){to->why, sizeof to->why}, "tells %s from %s (χ² %.3g)", v->rival_of->name,
+                      v->type->name, p->chi_square[k]);
 }
 
 /* Takes a point: every pair that it tells apart wants one less. */
@@ -224,16 +215,16 @@ static void advice_of_pair(const comparison *c, const pair *p, hci_diagnosis *d)
              v->in ? "" : v->type->name);
     if (!advice_begin(d)) return;
     if (!row) {
-        append(d->advice, sizeof d->advice,
-               "%s: no steady run within these currents and speeds tells; it takes another kind of "
-               "measurement",
-               names);
+        hci_words_say(&(hci_words){d->advice, sizeof d->advice},
+                      "%s: no steady run within these currents and speeds tells; it takes another kind of "
+                      "measurement",
+                      names);
         return;
     }
-    append(d->advice, sizeof d->advice, "%s: ", names);
+    hci_words_say(&(hci_words){d->advice, sizeof d->advice}, "%s: ", names);
     advice_of_point(d, row);
-    append(d->advice, sizeof d->advice,
-           v->in ? " would show it (χ² %.3g)" : " would tell them apart (χ² %.3g)", chi_square);
+    hci_words_say(&(hci_words){d->advice, sizeof d->advice},
+                  v->in ? " would show it (χ² %.3g)" : " would tell them apart (χ² %.3g)", chi_square);
 }
 
 /* For terms that are the same in all runs, where the one is a part of the other. */
@@ -242,9 +233,9 @@ static void advice_of_same(const hci_attribution *a, hci_diagnosis *d)
     for (size_t r = 0; r < a->types; ++r) {
         const hci_verdict *v = &a->verdict[r];
         if (v->in || !v->ambiguous || v->alternative.candidates.candidate || !advice_begin(d)) continue;
-        append(d->advice, sizeof d->advice, "%s or %s: a run with %s would tell them apart",
-               v->rival_of->name, v->type->name,
-               v->type->told_by ? v->type->told_by : "another current, speed and direction");
+        hci_words_say(&(hci_words){d->advice, sizeof d->advice},
+                      "%s or %s: a run with %s would tell them apart", v->rival_of->name, v->type->name,
+                      v->type->told_by ? v->type->told_by : "another current, speed and direction");
     }
 }
 
@@ -287,11 +278,11 @@ static void words_of_new(const hci_regression *e, const hci_operating_point *x, 
         way = way || f->mean_speed_rad_per_s * x->speed_rad_per_s > 0.0;
     }
     const bool none = x->id_A == 0.0 && x->iq_A == 0.0;
-    append(to->why, sizeof to->why, "%s",
-           none && !without    ? "no recording without current so far"
-           : !none && !current ? "no recording with current so far"
-           : !way              ? "no recording in this direction so far"
-                               : "furthest from all recordings so far");
+    hci_words_say(&(hci_words){to->why, sizeof to->why}, "%s",
+                  none && !without    ? "no recording without current so far"
+                  : !none && !current ? "no recording with current so far"
+                  : !way              ? "no recording in this direction so far"
+                                      : "furthest from all recordings so far");
 }
 
 static void points_add(const hci_regression *e, const hci_playable *playable, const hci_point_choice *choice,
@@ -301,24 +292,24 @@ static void points_add(const hci_regression *e, const hci_playable *playable, co
         const hci_telling_point *t = &choice->chosen[k];
         hci_next_point *to = row_of(d, playable, &choice->point[t->point]);
         if (!to) return;
-        if (to->why[0]) append(to->why, sizeof to->why, "; ");
+        if (to->why[0]) hci_words_say(&(hci_words){to->why, sizeof to->why}, "; ");
         if (isnan(t->order)) {
             words_of_new(e, &choice->point[t->point], to);
             continue;
         }
         to->chi_square += t->chi_square;
-        append(to->why, sizeof to->why,
-               "laws of growth that describe order %.6g as well differ by %.2g N·m here (χ² %.3g)", t->order,
-               t->spread_Nm, t->chi_square);
+        hci_words_say(&(hci_words){to->why, sizeof to->why},
+                      "laws of growth that describe order %.6g as well differ by %.2g N·m here (χ² %.3g)",
+                      t->order, t->spread_Nm, t->chi_square);
     }
 }
 
 static void advice_of_unknown(hci_diagnosis *d, size_t before)
 {
     if (d->next_points == before || !advice_begin(d)) return;
-    append(d->advice, sizeof d->advice, "what is not known: ");
+    hci_words_say(&(hci_words){d->advice, sizeof d->advice}, "what is not known: ");
     advice_of_point(d, &d->next[before]);
-    append(d->advice, sizeof d->advice, " would say most (%s)", d->next[before].why);
+    hci_words_say(&(hci_words){d->advice, sizeof d->advice}, " would say most (%s)", d->next[before].why);
 }
 
 hci_status hci_next_points_unknown(const hci_regression *e, const hci_machine_data *machine, hci_diagnosis *d,

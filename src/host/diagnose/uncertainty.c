@@ -33,8 +33,9 @@ typedef struct {
 
 /* ---- recordings, one by one ---- */
 
-static hci_status run_add(finding *f, size_t run, hci_note *note)
+static hci_status run_add(void *context, size_t run, hci_note *note)
 {
+    finding *f = context;
     hci_normal_equations normal;
     const hci_status status = hci_regression_normal(f->regression, &f->terms.candidates, true, &normal, note);
     if (status) return status;
@@ -44,24 +45,6 @@ static hci_status run_add(finding *f, size_t run, hci_note *note)
     if (!made) return hci_note_memory(note, NULL, "what recordings leave open");
     if (told) f->run[f->runs.count - 1] = run;
     return HCI_OK;
-}
-
-static hci_status runs_add(finding *f, hci_note *note)
-{
-    hci_regression *e = f->regression;
-    const bool *use = e->use;
-    bool *one = hci_memory_new(e->samples->run_count + 1, sizeof *one);
-    hci_status status = one ? HCI_OK : hci_note_memory(note, NULL, "leaving runs out");
-    for (size_t r = 0; r < e->samples->run_count && !status; ++r) {
-        if (!use[r]) continue;
-        one[r] = true;
-        e->use = one;
-        status = run_add(f, r, note);
-        one[r] = false;
-    }
-    e->use = use;
-    hci_memory_free(one);
-    return status;
 }
 
 /* ---- how wide ---- */
@@ -220,7 +203,7 @@ static hci_status finding_make(finding *f, const hci_candidates *fitted, hci_not
     f->precision = hci_memory_new(f->terms.count + 1, sizeof *f->precision);
     if (!f->run || !f->left || !f->precision || !hci_condensed_start(&f->runs, f->terms.count, runs))
         return hci_note_memory(note, NULL, "what recordings leave open");
-    return runs_add(f, note);
+    return hci_regression_each_run(f->regression, run_add, f, note);
 }
 
 static void finding_release(finding *f)

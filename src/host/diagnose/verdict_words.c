@@ -1,32 +1,17 @@
 /* The verdict of a diagnosis for people. */
 #include <math.h>
-#include <stdarg.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "hci/host/diagnose/diagnose.h"
+#include "host/base/words.h"
 
 #define SAME       0.02 /* change of an error, as a share, that is none */
 #define NEAR_NOISE 1.5  /* times the noise: an error below it is not looked at in parts */
 #define BELIEVABLE 0.5  /* of the declared torque per ampere */
 
-typedef struct {
-    char *text;
-    size_t used, size;
-} words;
-
-static void say(words *w, const char *format, ...)
-{
-    va_list arguments;
-    if (w->used + 1 >= w->size) return;
-    va_start(arguments, format);
-    const int n = vsnprintf(w->text + w->used, w->size - w->used, format, arguments);
-    va_end(arguments);
-    if (n > 0) w->used = w->used + (size_t)n < w->size ? w->used + (size_t)n : w->size - 1;
-}
-
 /* Names of the findings of one verdict: "cogging, friction and reluctance". */
-static void say_names(words *w, const hci_diagnosis *d, hci_finding_verdict verdict, const char *last)
+static void say_names(const hci_words *w, const hci_diagnosis *d, hci_finding_verdict verdict,
+                      const char *last)
 {
     size_t count = 0, said = 0;
     for (size_t k = 0; k < d->findings; ++k)
@@ -34,7 +19,7 @@ static void say_names(words *w, const hci_diagnosis *d, hci_finding_verdict verd
     for (size_t k = 0; k < d->findings; ++k) {
         const hci_finding *f = &d->finding[k];
         if (f->verdict != verdict || strcmp(f->effect, "unknown") == 0) continue;
-        say(w, "%s%s", said == 0 ? "" : said + 1 == count ? last : ", ", f->effect);
+        hci_words_say(w, "%s%s", said == 0 ? "" : said + 1 == count ? last : ", ", f->effect);
         ++said;
     }
 }
@@ -47,144 +32,164 @@ static bool any(const hci_diagnosis *d, hci_finding_verdict verdict)
 }
 
 /* What became of an error. */
-static void say_change(words *w, double before_Nm, double after_Nm)
+static void say_change(const hci_words *w, double before_Nm, double after_Nm)
 {
     if (fabs(after_Nm - before_Nm) <= SAME * before_Nm)
-        say(w, "stays at %.3g N·m", after_Nm);
+        hci_words_say(w, "stays at %.3g N·m", after_Nm);
     else
-        say(w, "%s from %.3g to %.3g N·m", after_Nm < before_Nm ? "falls" : "rises", before_Nm, after_Nm);
+        hci_words_say(w, "%s from %.3g to %.3g N·m", after_Nm < before_Nm ? "falls" : "rises", before_Nm,
+                      after_Nm);
 }
 
 /* Mean and ripple apart, where one of them is most of what is left or only one of them falls. */
-static void say_parts(words *w, const hci_diagnosis *d)
+static void say_parts(const hci_words *w, const hci_diagnosis *d)
 {
     const double mean_Nm = d->holdout_mean_after_Nm, ripple_Nm = d->holdout_ripple_after_Nm;
     if (!(d->holdout_after_Nm > NEAR_NOISE * d->holdout_noise_Nm)) return;
-    say(w, " Of it the mean of each run ");
+    hci_words_say(w, " Of it the mean of each run ");
     say_change(w, d->holdout_mean_before_Nm, mean_Nm);
-    say(w, ", the ripple about it ");
+    hci_words_say(w, ", the ripple about it ");
     say_change(w, d->holdout_ripple_before_Nm, ripple_Nm);
-    say(w, ".");
+    hci_words_say(w, ".");
 }
 
-static void say_errors(words *w, const hci_diagnosis *d)
+static void say_errors(const hci_words *w, const hci_diagnosis *d)
 {
     const bool tested = isfinite(d->holdout_after_Nm);
-    say(w, " On the runs that were %s the error (rms of measured less modelled torque) ",
-        tested ? "held out" : "fitted");
+    hci_words_say(w, " On the runs that were %s the error (rms of measured less modelled torque) ",
+                  tested ? "held out" : "fitted");
     say_change(w, tested ? d->holdout_before_Nm : d->rms_before_Nm,
                tested ? d->holdout_after_Nm : d->rms_after_Nm);
-    say(w, "; their noise is %.3g N·m.", tested ? d->holdout_noise_Nm : d->noise_Nm);
+    hci_words_say(w, "; their noise is %.3g N·m.", tested ? d->holdout_noise_Nm : d->noise_Nm);
     if (tested)
         say_parts(w, d);
     else
-        say(w, " No run was held out, so this is not a test.");
+        hci_words_say(w, " No run was held out, so this is not a test.");
 }
 
 /* An explanation that was left out, and what it may come from. */
-static void say_disbelieved(words *w, const hci_diagnosis *d)
+static void say_disbelieved(const hci_words *w, const hci_diagnosis *d)
 {
     if (!d->disbelieved) return;
-    say(w, " The recordings would fit %s, but with values that nobody would believe", d->disbelieved);
+    hci_words_say(w, " The recordings would fit %s, but with values that nobody would believe",
+                  d->disbelieved);
     if (d->disbelieved_share < BELIEVABLE)
-        say(w, " (it would leave %.2g of the declared torque per ampere of i_q)", d->disbelieved_share);
-    say(w, ", so it was left out: see with `check` whether signs, units, angle and motor are those of the "
+        hci_words_say(w, " (it would leave %.2g of the declared torque per ampere of i_q)",
+                      d->disbelieved_share);
+    hci_words_say(
+        w, ", so it was left out: see with `check` whether signs, units, angle and motor are those of the "
            "machine folder.");
 }
 
 /* Effects that hang on one run. */
-static void say_unstable(words *w, const hci_diagnosis *d)
+static void say_unstable(const hci_words *w, const hci_diagnosis *d)
 {
     for (size_t k = 0; k < d->findings; ++k) {
         const hci_finding *f = &d->finding[k];
         if (f->verdict == HCI_FINDING_REJECTED || f->stays == f->left_out) continue;
-        say(w, " With one run, or part of one, left out %s is found in %zu of %zu cases.", f->effect,
-            f->stays, f->left_out);
+        hci_words_say(w, " With one run, or part of one, left out %s is found in %zu of %zu cases.",
+                      f->effect, f->stays, f->left_out);
     }
 }
 
-static void say_unknown(words *w, const hci_diagnosis *d)
+static void say_unknown(const hci_words *w, const hci_diagnosis *d)
 {
-    if (d->verdict == HCI_DIAGNOSIS_UNKNOWN) say(w, "No known effect explains what the model lacks.");
+    if (d->verdict == HCI_DIAGNOSIS_UNKNOWN)
+        hci_words_say(w, "No known effect explains what the model lacks.");
     if (d->verdict == HCI_DIAGNOSIS_PARTLY) {
-        say(w, "Partly explained: the model lacked ");
+        hci_words_say(w, "Partly explained: the model lacked ");
         say_names(w, d, HCI_FINDING_ADDED, " and ");
         if (!any(d, HCI_FINDING_ADDED)) say_names(w, d, HCI_FINDING_AMBIGUOUS, " or ");
-        say(w, "; what else it lacks is not known.");
+        hci_words_say(w, "; what else it lacks is not known.");
     }
     say_disbelieved(w, d);
     if (d->contradicted)
-        say(w, " Effects that describe the runs that were fitted and not those that were held out were "
+        hci_words_say(
+            w, " Effects that describe the runs that were fitted and not those that were held out were "
                "dropped.");
-    if (d->wanders) say(w, " Something in it does not repeat with the turn of the rotor.");
+    if (d->wanders) hci_words_say(w, " Something in it does not repeat with the turn of the rotor.");
     for (size_t k = 0; k < d->unexplained_count; ++k) {
         const hci_unexplained *u = &d->unexplained[k];
-        say(w, " Order %.6g (up to %.3g N·m) grows as |i|^%.3g |ω|^%.3g%s.", u->order, u->amplitude_Nm,
-            u->current_exponent, u->speed_exponent,
-            u->turns_sign ? " and turns its sign with the direction" : "");
+        hci_words_say(w, " Order %.6g (up to %.3g N·m) grows as |i|^%.3g |ω|^%.3g%s.", u->order,
+                      u->amplitude_Nm, u->current_exponent, u->speed_exponent,
+                      u->turns_sign ? " and turns its sign with the direction" : "");
     }
 }
 
 /* A torque that no sensor has read is right only where the shaft drives nothing. */
-static void say_free_shafts(words *w, const hci_diagnosis *d)
+static void say_free_shafts(const hci_words *w, const hci_diagnosis *d)
 {
     size_t count = 0;
     for (size_t k = 0; k < d->runs; ++k)
         count += d->run[k].source == HCI_TORQUE_INERTIA;
     if (count > 0)
-        say(w, " The torque of %zu of %zu runs is inertia x acceleration, as of a free shaft.", count,
-            d->runs);
+        hci_words_say(w, " The torque of %zu of %zu runs is inertia x acceleration, as of a free shaft.",
+                      count, d->runs);
 }
 
-static void say_search(words *w, const hci_diagnosis *d)
+static void say_search(const hci_words *w, const hci_diagnosis *d)
 {
     if (d->search == HCI_WORK_COMPLETE) return;
-    say(w, "%s: this is the best model that it had found; others have not been compared with it. ",
-        d->search == HCI_WORK_INTERRUPTED ? "The search was interrupted"
-                                          : "The search reached the limit of its work");
+    hci_words_say(w, "%s: this is the best model that it had found; others have not been compared with it. ",
+                  d->search == HCI_WORK_INTERRUPTED ? "The search was interrupted"
+                                                    : "The search reached the limit of its work");
 }
 
-static void say_verdict(words *w, const hci_diagnosis *d)
+static void say_nothing_measured(const hci_words *w)
 {
-    if (d->nothing_measured) {
-        say(w, "Nothing can be said: no run with the role `fit` has an angle and a torque. Add torque_Nm (0 "
-               "for a "
-               "holding test), or `inertia` to machine.csv for a free shaft; a torque that a drive has "
-               "computed from "
-               "its current is none.");
-        return;
-    }
+    hci_words_say(
+        w,
+        "Nothing can be said: no run with the role `fit` has an angle and a torque. Add torque_Nm (0 for a "
+        "holding test), or `inertia` to machine.csv for a free shaft; a torque that a drive has computed "
+        "from "
+        "its current is none.");
+}
+
+static void say_complete(const hci_words *w, const hci_diagnosis *d)
+{
+    hci_words_say(
+        w,
+        "Nothing is missing: what the model leaves, %.3g N·m rms, is the noise of the recordings (%.3g N·m).",
+        d->rms_after_Nm, d->noise_Nm);
+    if (d->holdout_after_Nm > NEAR_NOISE * d->holdout_noise_Nm)
+        hci_words_say(w, " But on the runs that were held out it is %.3g N·m, and their noise is %.3g N·m.",
+                      d->holdout_after_Nm, d->holdout_noise_Nm);
+}
+
+static void say_added(const hci_words *w, const hci_diagnosis *d)
+{
+    if (!any(d, HCI_FINDING_ADDED)) return;
+    hci_words_say(w, "The model lacked ");
+    say_names(w, d, HCI_FINDING_ADDED, " and ");
+    hci_words_say(w, ".");
+}
+
+static void say_ambiguous(const hci_words *w, const hci_diagnosis *d)
+{
+    say_added(w, d);
+    hci_words_say(w, "%sThese recordings do not tell ", any(d, HCI_FINDING_ADDED) ? " " : "");
+    say_names(w, d, HCI_FINDING_AMBIGUOUS, " and ");
+    hci_words_say(w, " apart: each explains them equally well.");
+}
+
+static void say_verdict(const hci_words *w, const hci_diagnosis *d)
+{
     switch (d->verdict) {
     case HCI_DIAGNOSIS_COMPLETE:
-        say(w,
-            "Nothing is missing: what the model leaves, %.3g N·m rms, is the noise of the recordings (%.3g "
-            "N·m).",
-            d->rms_after_Nm, d->noise_Nm);
-        if (d->holdout_after_Nm > 1.5 * d->holdout_noise_Nm)
-            say(w, " But on the runs that were held out it is %.3g N·m, and their noise is %.3g N·m.",
-                d->holdout_after_Nm, d->holdout_noise_Nm);
+        say_complete(w, d);
         return;
-    case HCI_DIAGNOSIS_EXPLAINED:
-        say(w, "The model lacked ");
-        say_names(w, d, HCI_FINDING_ADDED, " and ");
-        say(w, ".");
-        break;
-    case HCI_DIAGNOSIS_AMBIGUOUS:
-        if (any(d, HCI_FINDING_ADDED)) {
-            say(w, "The model lacked ");
-            say_names(w, d, HCI_FINDING_ADDED, " and ");
-            say(w, ". ");
-        }
-        say(w, "These recordings do not tell ");
-        say_names(w, d, HCI_FINDING_AMBIGUOUS, " and ");
-        say(w, " apart: each explains them equally well.");
-        break;
-    case HCI_DIAGNOSIS_PARTLY:
-        say_unknown(w, d);
-        break;
     case HCI_DIAGNOSIS_UNKNOWN:
         say_unknown(w, d);
         return;
+    case HCI_DIAGNOSIS_PARTLY:
+        say_unknown(w, d);
+        break;
+    case HCI_DIAGNOSIS_EXPLAINED:
+        say_added(w, d);
+        break;
+    case HCI_DIAGNOSIS_AMBIGUOUS:
+        say_ambiguous(w, d);
+        break;
     }
     say_errors(w, d);
     say_unstable(w, d);
@@ -192,9 +197,12 @@ static void say_verdict(words *w, const hci_diagnosis *d)
 
 void hci_diagnosis_words(const hci_diagnosis *d, char *text, size_t size)
 {
-    words w = {text, 0, size};
+    const hci_words w = {text, size};
     text[0] = '\0';
     say_search(&w, d);
-    say_verdict(&w, d);
+    if (d->nothing_measured)
+        say_nothing_measured(&w);
+    else
+        say_verdict(&w, d);
     say_free_shafts(&w, d);
 }

@@ -1,47 +1,31 @@
 /* What the real machine is expected to do, in words. */
 #include <math.h>
-#include <stdarg.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "hci/host/machine/expected_ripple.h"
 #include "hci/math/harmonic.h"
+#include "host/base/words.h"
 
 #define CHECKED 0.5 /* of the largest current recorded: how far outside the bound has been checked */
 
-typedef struct {
-    char *text;
-    size_t size;
-} words;
-
-static void say(const words *w, const char *format, ...) HCI_PRINTF(2, 3);
-
-static void say(const words *w, const char *format, ...)
-{
-    const size_t used = strlen(w->text);
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(w->text + used, w->size - used, format, arguments);
-    va_end(arguments);
-}
-
-static void say_ripple(const words *w, const hci_expected_ripple *e)
+static void say_ripple(const hci_words *w, const hci_expected_ripple *e)
 {
     if (isfinite(e->T_ripple_percent))
-        say(w,
+        hci_words_say(
+            w,
             "Ripple at most %.2g %% of the mean torque (95 %%), %.2g N·m from peak to peak; half of the "
             "machines that the recordings allow stay below %.2g %%.",
             e->T_ripple_percent, e->peak_to_peak_Nm, e->middle_percent);
     else
-        say(w, "Ripple at most %.2g N·m from peak to peak (95 %%).", e->peak_to_peak_Nm);
+        hci_words_say(w, "Ripple at most %.2g N·m from peak to peak (95 %%).", e->peak_to_peak_Nm);
     if (isfinite(e->worst_order_Nm))
-        say(w, " Worst order %.4g, at most %.2g N·m off.", e->worst_order, e->worst_order_Nm);
+        hci_words_say(w, " Worst order %.4g, at most %.2g N·m off.", e->worst_order, e->worst_order_Nm);
 }
 
-static void say_measured(const words *w, const hci_expected_ripple *e)
+static void say_measured(const hci_words *w, const hci_expected_ripple *e)
 {
-    say(w, " (i_d %.3g … %.3g A, i_q %.3g … %.3g A)", e->measured_id_A.least, e->measured_id_A.most,
-        e->measured_iq_A.least, e->measured_iq_A.most);
+    hci_words_say(w, " (i_d %.3g … %.3g A, i_q %.3g … %.3g A)", e->measured_id_A.least, e->measured_id_A.most,
+                  e->measured_iq_A.least, e->measured_iq_A.most);
 }
 
 /* The largest i_d or i_q that was recorded. */
@@ -51,37 +35,38 @@ static double largest_measured_A(const hci_expected_ripple *e)
     return fmax(d, fmax(fabs(e->measured_iq_A.least), fabs(e->measured_iq_A.most)));
 }
 
-static void say_currents(const words *w, const hci_expected_ripple *e)
+static void say_currents(const hci_words *w, const hci_expected_ripple *e)
 {
     if (e->outside_share > 0.0) {
-        say(w, " At %.3g %% of the angle the currents lie outside of what was recorded",
-            100.0 * e->outside_share);
+        hci_words_say(w, " At %.3g %% of the angle the currents lie outside of what was recorded",
+                      100.0 * e->outside_share);
         say_measured(w, e);
-        say(w, ", by up to %.2g A: what the machine does there was not seen, and the bound is wider for it.",
+        hci_words_say(
+            w, ", by up to %.2g A: what the machine does there was not seen, and the bound is wider for it.",
             e->outside_A);
         if (e->outside_A > CHECKED * largest_measured_A(e))
-            say(w, " That is further outside than such a bound has been checked for: record it.");
+            hci_words_say(w, " That is further outside than such a bound has been checked for: record it.");
         return;
     }
-    say(w, " The currents lie within what was recorded");
+    hci_words_say(w, " The currents lie within what was recorded");
     say_measured(w, e);
-    say(w, ".");
+    hci_words_say(w, ".");
 }
 
-static void say_speed(const words *w, const hci_expected_ripple *e)
+static void say_speed(const hci_words *w, const hci_expected_ripple *e)
 {
     const double rpm = 30.0 / HCI_PI;
     if (e->speed_outside)
-        say(w, " The speed lies outside of what was recorded (%.4g … %.4g rpm).",
-            rpm * e->measured_speed_rad_per_s.least, rpm * e->measured_speed_rad_per_s.most);
+        hci_words_say(w, " The speed lies outside of what was recorded (%.4g … %.4g rpm).",
+                      rpm * e->measured_speed_rad_per_s.least, rpm * e->measured_speed_rad_per_s.most);
 }
 
 void hci_expected_ripple_words(const hci_expected_ripple *e, char *text, size_t size)
 {
-    const words w = {text, size};
+    const hci_words w = {text, size};
     text[0] = '\0';
     if (e->state != HCI_RIPPLE_KNOWN) {
-        say(&w, "%s.", hci_ripple_state_words(e->state));
+        hci_words_say(&w, "%s.", hci_ripple_state_words(e->state));
         return;
     }
     say_ripple(&w, e);

@@ -1,5 +1,7 @@
 #include "host/diagnose/fit/regression.h"
 
+#include "host/base/memory.h"
+
 const hci_segment *hci_regression_next(const hci_regression *e, const hci_segment *after)
 {
     const hci_segment *end = e->samples->segment + e->samples->segment_count;
@@ -12,6 +14,33 @@ const hci_segment *hci_regression_next(const hci_regression *e, const hci_segmen
 hci_noise *hci_regression_noise(const hci_regression *e, const hci_segment *segment)
 {
     return &e->noise[segment - e->samples->segment];
+}
+
+size_t hci_regression_runs_in_use(const hci_regression *e)
+{
+    size_t count = 0;
+    for (size_t r = 0; r < e->samples->run_count; ++r)
+        count += e->use[r];
+    return count;
+}
+
+hci_status hci_regression_each_run(hci_regression *e,
+                                   hci_status (*visit)(void *context, size_t run, hci_note *note),
+                                   void *context, hci_note *note)
+{
+    const bool *use = e->use;
+    bool *one = hci_memory_new(e->samples->run_count + 1, sizeof *one);
+    hci_status status = one ? HCI_OK : hci_note_memory(note, NULL, "one run at a time");
+    e->use = one;
+    for (size_t r = 0; r < e->samples->run_count && !status; ++r) {
+        if (!use[r]) continue;
+        one[r] = true;
+        status = visit(context, r, note);
+        one[r] = false;
+    }
+    e->use = use;
+    hci_memory_free(one);
+    return status;
 }
 
 /* A prediction takes that many for each term and derivative, and for all that is common to the terms. */

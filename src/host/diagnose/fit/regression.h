@@ -24,6 +24,15 @@ typedef struct {
 /* The segment of a run in use that follows `after` (NULL: the first one); NULL behind the last. */
 const hci_segment *hci_regression_next(const hci_regression *regression, const hci_segment *after);
 
+/* How many runs are in use. */
+size_t hci_regression_runs_in_use(const hci_regression *regression);
+
+/* Calls `visit` once for each run in use, with that run alone in use, until it returns a status other than
+ * HCI_OK. HCI_ERROR_MEMORY, and what `visit` returns. */
+hci_status hci_regression_each_run(hci_regression *regression,
+                                   hci_status (*visit)(void *context, size_t run, hci_note *note),
+                                   void *context, hci_note *note);
+
 /* Adds the multiplications of predicting so many samples of a model, about. columns: whose products are
  * summed up. */
 void hci_regression_count(const hci_regression *regression, size_t samples, size_t terms, size_t columns);

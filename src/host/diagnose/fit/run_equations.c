@@ -33,14 +33,6 @@ static void count_from_zero(const hci_candidates *list, hci_normal_equations *x)
 
 /* ---- groups of samples ---- */
 
-static size_t runs_in_use(const hci_regression *e)
-{
-    size_t count = 0;
-    for (size_t r = 0; r < e->samples->run_count; ++r)
-        count += e->use[r];
-    return count;
-}
-
 /* Where the samples of one run are: each of its segments cut to one of so many parts, all others empty. */
 static void segments_cut(const hci_binned_samples *samples, size_t run, size_t part, size_t parts,
                          hci_segment *segment)
@@ -99,7 +91,7 @@ static hci_status groups_make(const hci_regression *e, const hci_candidates *lis
 hci_status hci_run_equations_make(const hci_regression *e, const hci_candidates *candidates,
                                   hci_run_equations *x, hci_note *note)
 {
-    const size_t runs = runs_in_use(e);
+    const size_t runs = hci_regression_runs_in_use(e);
     hci_candidates list = {0};
     memset(x, 0, sizeof *x);
     x->parts = runs > 0 && runs < HCI_LEAST_GROUPS ? (HCI_LEAST_GROUPS + runs) / runs : 1;

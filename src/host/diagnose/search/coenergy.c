@@ -72,14 +72,6 @@ typedef struct {
 
 /* ---- recordings, one by one ---- */
 
-static size_t runs_in_use(const hci_regression *e)
-{
-    size_t count = 0;
-    for (size_t r = 0; r < e->samples->run_count; ++r)
-        count += e->use[r];
-    return count;
-}
-
 /* Terms of the co-energy count from 0, others from where they are, and nothing is expected of them yet. */
 static void start_from_zero(hci_candidates *all)
 {
@@ -99,22 +91,13 @@ static void noise_even(hci_regression *e, double rms_Nm)
         *hci_regression_noise(e, x) = hci_noise_white(rms_Nm);
 }
 
-static hci_status runs_linearise(comparison *c, hci_note *note)
+static hci_status run_linearise(void *context, size_t run, hci_note *note)
 {
-    hci_regression *e = c->search->regression;
-    const bool *use = e->use;
-    bool *one = hci_memory_new(e->samples->run_count, sizeof *one);
-    hci_status status = one ? HCI_OK : hci_note_memory(note, NULL, "leaving runs out");
-    for (size_t r = 0; r < e->samples->run_count && !status; ++r) {
-        if (!use[r]) continue;
-        one[r] = true;
-        e->use = one;
-        status = hci_regression_normal(e, &c->all, false, &c->run[c->runs.count], note);
-        c->runs.count += !status;
-        one[r] = false;
-    }
-    e->use = use;
-    hci_memory_free(one);
+    comparison *c = context;
+    (void)run;
+    const hci_status status =
+        hci_regression_normal(c->search->regression, &c->all, false, &c->run[c->runs.count], note);
+    c->runs.count += !status;
     return status;
 }
 
@@ -301,7 +284,7 @@ static int highest_order(const hci_regression *e)
 
 static hci_status comparison_make(comparison *c, hci_note *note)
 {
-    const hci_regression *e = c->search->regression;
+    hci_regression *e = c->search->regression;
     const hci_effect_coenergy_series series = {e->machine->pole_pairs, HIGH_POWER, highest_order(e),
                                                c->known->candidates.reference_current_A};
     hci_status status = hci_coenergy_terms(&c->known->candidates, &series, &c->all, note);
@@ -313,7 +296,7 @@ static hci_status comparison_make(comparison *c, hci_note *note)
     if (!c->run || !c->precision) return hci_note_memory(note, NULL, "leaving runs out");
     c->square = c->precision + hci_candidates_terms_in(&c->all);
     c->runs.group = c->run;
-    return runs_linearise(c, note);
+    return hci_regression_each_run(e, run_linearise, c, note);
 }
 
 static void comparison_release(comparison *c)
@@ -349,7 +332,8 @@ hci_status hci_search_coenergy(hci_search *s, hci_fitted_model *model, hci_note 
 {
     comparison c = {.search = s, .known = model};
     choice best = {0};
-    if (!saturates(&model->candidates) || runs_in_use(s->regression) < LEAST_RUNS) return HCI_OK;
+    if (!saturates(&model->candidates) || hci_regression_runs_in_use(s->regression) < LEAST_RUNS)
+        return HCI_OK;
     c.noise_Nm = hci_search_noise_rms(s);
     if (c.noise_Nm > BLUNT * s->options->resolution_Nm) return HCI_OK;
     noise_even(s->regression, c.noise_Nm);
