@@ -10,30 +10,23 @@
 #include "hci/host/recording/run.h"
 #include "host/base/memory.h"
 #include "support/draws.h"
-#include "support/files.h"
+#include "support/run_file.h"
 #include "support/texts.h"
 #include "unity.h"
 
-static char path[96];
-static hci_run run;
-static hci_note note;
 static hci_column_names names;
 
 void setUp(void)
 {
-    files_begin();
-    snprintf(path, sizeof path, "%s", files_path("run.csv"));
-    memset(&run, 0, sizeof run);
-    memset(&note, 0, sizeof note);
+    run_file_begin();
     memset(&names, 0, sizeof names);
 }
 
 void tearDown(void)
 {
     hci_memory_fail_after(-1);
-    hci_run_release(&run);
     hci_column_names_release(&names);
-    files_end();
+    run_file_end();
 }
 
 static hci_status read_run(void)

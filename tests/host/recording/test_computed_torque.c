@@ -8,33 +8,26 @@
 
 #include "hci/host/recording/run.h"
 #include "support/draws.h"
-#include "support/files.h"
+#include "support/run_file.h"
 #include "support/texts.h"
 #include "unity.h"
 
 enum { N = 400 };
 
 static double iq[N], torque[N], constant;
-static char path[96];
-static hci_run run;
-static hci_note note;
 static uint64_t seed;
 
 void setUp(void)
 {
     seed = 5;
-    files_begin();
-    snprintf(path, sizeof path, "%s", files_path("run.csv"));
-    memset(&run, 0, sizeof run);
-    memset(&note, 0, sizeof note);
+    run_file_begin();
     for (size_t k = 0; k < N; ++k)
         iq[k] = 3.0 + sin(0.3 * (double)k);
 }
 
 void tearDown(void)
 {
-    hci_run_release(&run);
-    files_end();
+    run_file_end();
 }
 
 /* ---- in every row the same constant */

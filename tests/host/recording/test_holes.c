@@ -7,30 +7,22 @@
 #include "hci/host/recording/run.h"
 #include "host/base/memory.h"
 #include "support/draws.h"
-#include "support/files.h"
+#include "support/run_file.h"
 #include "support/texts.h"
 #include "unity.h"
 
 static const hci_run_options PLAIN = {.pole_pairs = 2, .inertia_kgm2 = NAN},
                              STRICT = {.pole_pairs = 2, .inertia_kgm2 = NAN, .strict = true};
 
-static char path[96];
-static hci_run run;
-static hci_note note;
-
 void setUp(void)
 {
-    files_begin();
-    snprintf(path, sizeof path, "%s", files_path("run.csv"));
-    memset(&run, 0, sizeof run);
-    memset(&note, 0, sizeof note);
+    run_file_begin();
 }
 
 void tearDown(void)
 {
     hci_memory_fail_after(-1);
-    hci_run_release(&run);
-    files_end();
+    run_file_end();
 }
 
 static void read_text(const char *text)

@@ -12,7 +12,7 @@
 
 #include "host/base/memory.h"
 #include "support/draws.h"
-#include "support/files.h"
+#include "support/run_file.h"
 #include "support/texts.h"
 #include "unity.h"
 
@@ -23,25 +23,17 @@
 
 enum { MOST = 20000 };
 
-static char path[96];
-static hci_run run;
-static hci_note note;
-
 void setUp(void)
 {
-    files_begin();
-    snprintf(path, sizeof path, "%s", files_path("run.csv"));
-    memset(&run, 0, sizeof run);
-    memset(&note, 0, sizeof note);
+    run_file_begin();
 }
 
 void tearDown(void)
 {
     hci_memory_fail_after(-1);
-    hci_run_release(&run);
     unlink(path);
     TEST_ASSERT_EQUAL_MESSAGE(0, files_count(files_root), "a file is left");
-    files_end();
+    run_file_end();
 }
 
 /* ---- files ---- */

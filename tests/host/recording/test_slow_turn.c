@@ -7,7 +7,7 @@
 
 #include "hci/host/recording/run.h"
 #include "support/draws.h"
-#include "support/files.h"
+#include "support/run_file.h"
 #include "support/texts.h"
 #include "unity.h"
 
@@ -18,22 +18,14 @@ enum { N = 2000, P = 7 };
 #define CONSTANT   0.05
 #define COGGING_Nm 0.01
 
-static char path[96];
-static hci_run run;
-static hci_note note;
-
 void setUp(void)
 {
-    files_begin();
-    snprintf(path, sizeof path, "%s", files_path("run.csv"));
-    memset(&run, 0, sizeof run);
-    memset(&note, 0, sizeof note);
+    run_file_begin();
 }
 
 void tearDown(void)
 {
-    hci_run_release(&run);
-    files_end();
+    run_file_end();
 }
 
 /* A shaft at a steady speed whose current answers 12 events a turn and a load; wobble_rad: what the events
