@@ -41,6 +41,7 @@ typedef struct {
                                * currents that turn with the rotor. Only delays use it */
     double curvature_A_per_s2[3]; /* the same of that rate; where it is not known, 0 */
     double temperature_C; /* of the magnets; NAN where it is not known, which stands for the reference */
+    double elapsed_s;     /* since the start of the recording; 0 where there is no time */
     int computed_phase; /* 1, 2, 3: no sensor reads this phase's current, it is minus the sum of the other two
                          * as they are read; 0: each has its own, or it is not known */
 } hci_sample;
@@ -65,8 +66,9 @@ enum {
     HCI_PARAMETER_OF_TRANSDUCER = 8,     /* of a torque sensor: to be seen in a measured torque only */
     HCI_PARAMETER_ALONG_TIME = 16,       /* makes `filter` act unless it is 0 */
     HCI_PARAMETER_LAG = 32,              /* a time constant of `filter`: at 0 its regressor is −dT/dt */
-    HCI_PARAMETER_REFERENCE_CURRENT = 64 /* the current at which the other values hold: not fitted, a
-                                          * diagnosis sets it to the largest that was measured */
+    HCI_PARAMETER_REFERENCE_CURRENT = 64, /* the current at which the other values hold: not fitted, a
+                                           * diagnosis sets it to the largest that was measured */
+    HCI_PARAMETER_SCALE = 128 /* how far the other values of the effect reach; says nothing while those are 0 */
 };
 
 /* One kind of number that an effect has. */
@@ -131,6 +133,12 @@ typedef struct {
 
 /* ---- what a diagnosis has to know ---- */
 
+/* What a model leaves on the average at about one speed, with its direction. */
+typedef struct {
+    double speed_rad_per_s, residual_Nm; /* means */
+    double weight;                       /* one over the variance of the residual, 1/(N²·m²) */
+} hci_effect_speed_mean;
+
 /* What recordings are like as a whole, for an effect to say which of its terms could be found in them. */
 typedef struct {
     const hci_machine *machine; /* declared */
@@ -139,6 +147,8 @@ typedef struct {
     bool both_directions;       /* in one run forward, in one backward */
     bool has_temperature;       /* of the magnets */
     bool has_turn;              /* the angle tells where in the mechanical turn the rotor was */
+    bool creeps;                /* in a run the mean torque of a turn rises or falls from turn to turn */
+    double duration_s;          /* of the longest run with time */
     size_t speeds;              /* how many different ones, at most 3 */
     double torque_Nm;           /* largest rms of a run */
     double current_A;           /* largest rms length of a run's current vector */
@@ -150,6 +160,8 @@ typedef struct {
     const double *turn_order;   /* and those that repeat with the mechanical turn only */
     size_t turn_orders;         /* entries of turn_order */
     double orders;              /* how many orders they were chosen from */
+    const hci_effect_speed_mean *of_speed; /* measured torques by the speed, each direction by itself */
+    size_t of_speeds;                      /* entries of of_speed */
 } hci_effect_survey;
 
 /* Terms that a diagnosis takes into a model together or not at all. */
@@ -161,6 +173,7 @@ typedef struct {
     double expected;         /* standard deviation of the values of machines and benches that somebody has
                               * looked at, in the parameters' unit; 0: any */
     int power;               /* of the currents in the co-energy, where the candidate is a term of that */
+    const double *start;     /* count values for a fit to begin with; NULL: those that are declared */
 } hci_effect_candidate;
 
 /* Takes one candidate. */

@@ -9,20 +9,16 @@ enum { RATE };
 
 static const hci_effect_parameter PARAMETER[] = {
     HCI_PLAIN("rate", "Nm_per_s", "read more with every second of a run", 0.0, -DBL_MAX,
-              HCI_PARAMETER_LINEAR | HCI_PARAMETER_OF_TRANSDUCER | HCI_PARAMETER_ALONG_TIME),
+              HCI_PARAMETER_LINEAR | HCI_PARAMETER_OF_TRANSDUCER),
 };
 
-/* A step back in time is the start of another run. */
-static void filter(const hci_effect *effect, const hci_effect_run *run)
+static double torque(const hci_effect *effect, const hci_effect_term *term, const hci_machine *machine,
+                     const hci_sample *truth, hci_effect_torque *sum)
 {
-    const double rate = hci_effect_value(effect, RATE);
-    double start_s = 0.0;
-    for (size_t k = 0; k < run->count; ++k) {
-        if (k == 0 || run->time_s[k] < run->time_s[k - 1]) start_s = run->time_s[k];
-        run->torque_Nm[k] += rate * (run->time_s[k] - start_s);
-        for (size_t j = 0; run->by_value && j < effect->count; ++j)
-            run->by_value[k * run->columns + run->own_column + j] += run->time_s[k] - start_s;
-    }
+    (void)effect;
+    (void)machine;
+    sum->torque_Nm += term->value * truth->elapsed_s;
+    return truth->elapsed_s;
 }
 
 /* memory: time since the start. */
@@ -45,6 +41,15 @@ static void simulate(const hci_effect *effect, int pole_pairs, hci_sensor *senso
     hci_effect_link_add(&channels[HCI_SENSE_TORQUE], &link);
 }
 
+#define EXPECTED 0.05 /* of the largest torque, in the longest run */
+
+/* A mean over turns does not tell a drift from an offset: it takes a run whose turns differ along time. */
+static void propose(const hci_effect_survey *survey, const hci_effect_proposals *to)
+{
+    if (!survey->creeps || !(survey->duration_s > 0.0)) return;
+    hci_effect_propose(to, RATE, 1, 0.0, 1.0, EXPECTED * survey->torque_Nm / survey->duration_s);
+}
+
 const hci_effect_type hci_effect_torque_drift = {
     .name = "torque_drift",
     .equation = "T_read = T + D (t − t_0)",
@@ -52,7 +57,9 @@ const hci_effect_type hci_effect_torque_drift = {
     HCI_EFFECT_PARAMETERS(PARAMETER),
     .needs = HCI_EFFECT_NEEDS_TIME,
     .without = "without time the drift of the torque sensor's zero is left out",
-    .told_by = "the same point again at its end as at its beginning",
+    .told_by = "a longer run at the same point",
+    .is_small = true,
+    .propose = propose,
+    .torque = torque,
     .simulate = simulate,
-    .filter = filter,
 };

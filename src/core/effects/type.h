@@ -108,7 +108,7 @@ static inline double hci_effect_add_emf(hci_effect_torque *sum, double weight, c
 static inline void hci_effect_propose(const hci_effect_proposals *to, size_t parameter, size_t count,
                                       double order, double alternatives, double expected)
 {
-    const hci_effect_candidate x = {parameter, count, order, alternatives, expected, 0};
+    const hci_effect_candidate x = {parameter, count, order, alternatives, expected, 0, NULL};
     to->add(to->context, &x);
 }
 
@@ -127,7 +127,7 @@ static inline void hci_effect_propose_coenergy(const hci_effect_proposals *to, s
     const double steps = floor((order + 1.0) / 6.0); /* of a back-EMF, the multiple of six beside its order */
     const double of_order = pow(power == 0 ? HCI_COENERGY_FADING_TEETH : HCI_COENERGY_FADING_ORDER, steps);
     const double of_power = pow(HCI_COENERGY_FADING_POWER, power > 2 ? power - 2 : 0);
-    const hci_effect_candidate x = {parameter, 1, order, 1.0, fabs(unit) * of_order * of_power, power};
+    const hci_effect_candidate x = {parameter, 1, order, 1.0, fabs(unit) * of_order * of_power, power, NULL};
     to->add(to->context, &x);
 }
 

@@ -44,6 +44,7 @@ hci_status hci_predict_readings(const hci_run *run, int pole_pairs, bool with_ch
         *x = (hci_sample){.theta_m_rad = run->theta_m_rad[k], .computed_phase = run->computed_phase};
         x->speed_rad_per_s = run->speed_rad_per_s != NULL ? run->speed_rad_per_s[k] : 0.0;
         x->temperature_C = run->temperature_C != NULL ? run->temperature_C[k] : (double)NAN;
+        x->elapsed_s = run->time_s != NULL ? run->time_s[k] - run->time_s[0] : 0.0;
         for (int s = 0; s < 3; ++s)
             x->i_abc[s] = run->i_A[3 * k + (size_t)s];
     }

@@ -102,6 +102,7 @@ static hci_sample truth_at(double current, double speed, int k)
     hci_sample x = {0};
     x.theta_m_rad = 2.0 * REF_PI * k / N;
     x.speed_rad_per_s = speed;
+    x.elapsed_s = x.theta_m_rad / speed;
     x.temperature_C = 70.0;
     for (int s = 0; s < 3; ++s)
         x.i_abc[s] = current * sin(P * x.theta_m_rad - 2.0 * REF_PI * s / 3.0 + 0.5);

@@ -61,8 +61,9 @@ static void test_corrected_machine(void)
     for (size_t k = 0; k < runs.count; ++k) {
         double square = 0.0;
         for (size_t j = 0; j < run[k].count; ++j) {
-            hci_sample x = {
-                run[k].theta_m_rad[j], run[k].speed_rad_per_s[j], {0.0}, {0.0}, {0.0}, (double)NAN, 0};
+            hci_sample x = {.theta_m_rad = run[k].theta_m_rad[j],
+                            .speed_rad_per_s = run[k].speed_rad_per_s[j],
+                            .temperature_C = (double)NAN};
             memcpy(x.i_abc, run[k].i_A + 3 * j, sizeof x.i_abc);
             const double error =
                 run[k].torque_Nm[j] - hci_effects_predict(&corrected.model, &effects.list, &x, NULL);

@@ -69,6 +69,12 @@ hci_status hci_candidates_copy(const hci_candidates *from, hci_candidates *to, h
     return HCI_OK;
 }
 
+double hci_candidate_departure(const hci_candidate *x, size_t k)
+{
+    const hci_effect_parameter *parameter = &x->type->parameter[x->term[k].parameter];
+    return parameter->traits & HCI_PARAMETER_SCALE ? 0.0 : x->term[k].value - x->declared[k];
+}
+
 bool hci_candidate_same(const hci_candidate *a, const hci_candidate *b)
 {
     if (a->type != b->type || a->count != b->count) return false;

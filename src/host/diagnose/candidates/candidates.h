@@ -45,6 +45,9 @@ hci_status hci_candidates_copy(const hci_candidates *from, hci_candidates *to, h
 /* Adds a candidate behind those of its effect. On failure nothing is changed. HCI_ERROR_MEMORY. */
 hci_status hci_candidates_add(hci_candidates *candidates, const hci_candidate *candidate, hci_note *note);
 
+/* By how much the value of term k is away from the declared one; 0 of a scale, which is nothing by itself. */
+double hci_candidate_departure(const hci_candidate *candidate, size_t k);
+
 /* Whether two are the same terms. */
 bool hci_candidate_same(const hci_candidate *a, const hci_candidate *b);
 

@@ -7,6 +7,7 @@
 #include "host/base/memory.h"
 #include "host/diagnose/candidates/candidate_orders.h"
 #include "host/diagnose/candidates/empirical_term.h"
+#include "host/diagnose/candidates/residual_by_speed.h"
 
 enum {
     MOST_SLOT_ORDERS = 12, /* orders of slots and poles that are looked into at a time */
@@ -77,7 +78,8 @@ static void add(void *context, const hci_effect_candidate *x)
     s->deviation = x->expected;
     for (size_t k = 0; k < x->count; ++k) {
         s->declared[k] = declared_value(b, x->parameter + k, x->order);
-        s->term[k] = (hci_effect_term){x->parameter + k, x->order, s->declared[k], NAN};
+        const double start = x->start && s->declared[k] == 0.0 ? x->start[k] : s->declared[k];
+        s->term[k] = (hci_effect_term){x->parameter + k, x->order, start, NAN};
     }
 }
 
@@ -91,7 +93,10 @@ static void add_unknown(builder *b, const hci_candidates_source *s, const hci_ca
         taken[n] = hci_candidate_orders_empirical(lines, s->samples, taken, n, &growth);
         if (taken[n] == 0) return;
         const double order = (double)(taken[n] * lines->stride) / s->machine->pole_pairs;
-        add(b, &(hci_effect_candidate){2 * growth, 2, order, (double)lines->count * HCI_GROWTH_LAWS, 0.0, 0});
+        add(b, &(hci_effect_candidate){.parameter = 2 * growth,
+                                       .count = 2,
+                                       .order = order,
+                                       .alternatives = (double)lines->count * HCI_GROWTH_LAWS});
     }
 }
 
@@ -124,6 +129,9 @@ static hci_effect_survey survey_of(const hci_candidates_source *s)
         back = back || (s->use[r] && f->mean_speed_rad_per_s < 0.0);
         x.has_temperature = x.has_temperature || isfinite(f->temperature_C);
         x.has_turn = x.has_turn || s->runs[r].turn_known;
+        x.creeps = x.creeps || (s->use[r] && f->creeps && s->runs[r].torque_source == HCI_TORQUE_MEASURED);
+        if (s->runs[r].time_s && s->runs[r].count > 0)
+            x.duration_s = fmax(x.duration_s, s->runs[r].time_s[s->runs[r].count - 1] - s->runs[r].time_s[0]);
         x.torque_Nm = fmax(x.torque_Nm, f->rms_torque_Nm);
         x.current_A = fmax(x.current_A, f->current_A);
     }
@@ -149,6 +157,7 @@ static void add_all(builder *b, const hci_candidates_source *s, hci_effect_surve
                     const hci_candidate_orders *lines)
 {
     double slot[MOST_SLOT_ORDERS], turn[MOST_TURN_ORDERS];
+    hci_effect_speed_mean of_speed[HCI_SPEED_MEANS];
     const hci_effect_proposals to = {add, b};
     x->has_turn = lines->stride == 1;
     x->orders = (double)lines->count;
@@ -156,6 +165,8 @@ static void add_all(builder *b, const hci_candidates_source *s, hci_effect_surve
     x->slot_orders = orders_of(lines, s->machine->pole_pairs, true, MOST_SLOT_ORDERS, slot);
     x->turn_order = turn;
     x->turn_orders = orders_of(lines, s->machine->pole_pairs, false, MOST_TURN_ORDERS, turn);
+    x->of_speed = of_speed;
+    x->of_speeds = hci_residual_by_speed(s, of_speed);
     for (size_t r = 0; (b->type = hci_effect_type_at(r)) != NULL; ++r)
         if (b->type->propose) b->type->propose(x, &to);
     add_unknown(b, s, lines);

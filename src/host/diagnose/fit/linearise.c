@@ -186,7 +186,7 @@ static void expectations_add(const hci_model *m, hci_normal_equations *normal)
 {
     for (size_t c = 0; c < m->columns; ++c) {
         const hci_candidate *s = m->column[c].candidate;
-        const double value = s->term[m->column[c].term].value - s->declared[m->column[c].term];
+        const double value = hci_candidate_departure(s, m->column[c].term);
         const double weight = s->deviation > 0.0 ? 1.0 / (s->deviation * s->deviation) : 0.0;
         normal->gram[c * normal->n + c] += weight;
         normal->moment[c] -= weight * value;

@@ -24,7 +24,7 @@ static void count_from_zero(const hci_candidates *list, hci_normal_equations *x)
     size_t column = 0;
     for (size_t k = 0; k < list->count; ++k)
         for (size_t j = 0; list->candidate[k].in && j < list->candidate[k].count; ++j, ++column) {
-            const double value = list->candidate[k].term[j].value - list->candidate[k].declared[j];
+            const double value = hci_candidate_departure(&list->candidate[k], j);
             x->square += value * (2.0 * x->moment[column] + value * x->gram[column * x->n + column]);
             for (size_t i = 0; i < x->n; ++i)
                 x->moment[i] += value * x->gram[column * x->n + i];

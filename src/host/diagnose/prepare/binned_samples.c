@@ -15,7 +15,8 @@
 enum {
     BINS_PER_TURN = 4096, /* of a mean over turns */
     LEAST_TURNS = 3,      /* for such a mean */
-    MOST_OPEN = 8         /* segments of samples as they are, for each run */
+    MOST_OPEN = 8,        /* segments of samples as they are, for each run */
+    CREEPING_PIECES = 4   /* means of one steady run whose torque creeps */
 };
 
 /* One run on its way into the samples. */
@@ -43,6 +44,7 @@ static void sample_of(const hci_run *r, size_t k, hci_binned_sample *c)
     c->torque_Nm = r->torque_Nm[k];
     c->sum_A = r->has_sum ? r->i_A[3 * k] + r->i_A[3 * k + 1] + r->i_A[3 * k + 2] : (double)NAN;
     c->time_s = r->time_s ? r->time_s[k] : 0.0;
+    c->reading.elapsed_s = r->time_s ? r->time_s[k] - r->time_s[0] : 0.0;
     c->count = 1.0;
 }
 
@@ -118,6 +120,7 @@ static void mean_add(const reduction *r, hci_binned_sample *c, const hci_binned_
     for (int s = 0; s < 3; ++s)
         m->i_abc[s] += w * (x->reading.i_abc[s] - m->i_abc[s]);
     m->temperature_C += w * (x->reading.temperature_C - m->temperature_C);
+    m->elapsed_s += w * (x->reading.elapsed_s - m->elapsed_s);
     c->torque_Nm += w * (x->torque_Nm - c->torque_Nm);
     c->scatter_N2m2 += departure * (measured_Nm(r, x) - measured_Nm(r, c));
     c->sum_A += w * (x->sum_A - c->sum_A);
@@ -212,28 +215,63 @@ static size_t behind(const hci_turn *x)
     return x->first + x->count;
 }
 
-/* Steady turns become one mean, what is between them stays as it is; a short rest behind them is left. */
+/* Behind the last turn that is like turn k and those after it. */
+static size_t alike_end(const reduction *x, const hci_turn *turns, size_t count, size_t k)
+{
+    size_t next = k + 1;
+    while (next < count && hci_turns_alike(x->run, x->statistics, &turns[k], &turns[next]))
+        ++next;
+    return next;
+}
+
+/* Turns that are alike: one mean, or where the torque creeps along them several, since a mean has no time. */
+static bool alike_segments(const reduction *x, const hci_turn *turns, size_t count)
+{
+    const bool creeps = hci_turns_creep(x->statistics, turns, count);
+    size_t pieces = creeps ? count / LEAST_TURNS : 1;
+    if (pieces > CREEPING_PIECES) pieces = CREEPING_PIECES;
+    for (size_t k = 0; k < pieces; ++k) {
+        const size_t from = count * k / pieces, until = count * (k + 1) / pieces;
+        if (!mean_segment(x, turns + from, until - from)) return false;
+    }
+    return true;
+}
+
+/* Steady turns become a mean, what is between them stays as it is; a short rest behind them is left. */
 static bool turns_reduce(const reduction *x, const hci_turn *turns, size_t count)
 {
     size_t open = 0; /* first sample that is not in a segment yet */
     for (size_t k = 0, next; k < count; k = next) {
-        for (next = k + 1; next < count && hci_turns_alike(x->run, x->statistics, &turns[k], &turns[next]);)
-            ++next;
+        next = alike_end(x, turns, count, k);
         if (next - k < LEAST_TURNS) continue;
         if (turns[k].first > open && !open_segments(x, open, turns[k].first - open)) return false;
-        if (!mean_segment(x, turns + k, next - k)) return false;
+        if (!alike_segments(x, turns + k, next - k)) return false;
         open = behind(&turns[next - 1]);
     }
     const size_t rest = x->run->count - open;
     return (open > 0 && rest <= HCI_LONGEST_SEGMENT) || open_segments(x, open, rest);
 }
 
+static bool any_creeps(const reduction *x, const hci_turn *turns, size_t count)
+{
+    for (size_t k = 0, next; k < count; k = next) {
+        next = alike_end(x, turns, count, k);
+        if (hci_turns_creep(x->statistics, turns + k, next - k)) return true;
+    }
+    return false;
+}
+
 static bool run_reduce(const reduction *x)
 {
     hci_turn *turns = NULL;
     size_t count = 0;
-    if (x->run->count <= HCI_LONGEST_SEGMENT || x->run->only_mean) return open_segment(x, 0, x->run->count);
-    const bool done = hci_turns_find(x->run, x->pole_pairs, &turns, &count) && turns_reduce(x, turns, count);
+    if (x->run->only_mean) return open_segment(x, 0, x->run->count);
+    bool done = hci_turns_find(x->run, x->pole_pairs, &turns, &count);
+    if (done) x->samples->statistics[x->index].creeps = any_creeps(x, turns, count);
+    if (done && x->run->count <= HCI_LONGEST_SEGMENT)
+        done = open_segment(x, 0, x->run->count);
+    else
+        done = done && turns_reduce(x, turns, count);
     hci_memory_free(turns);
     return done;
 }

@@ -12,6 +12,7 @@ typedef struct {
     bool no_current;  /* what was read as current is the noise of its sensors, and current_A is 0 */
     double repeat_Nm; /* rms departure of a sample from the mean over the turns at its angle; NAN: one turn */
     double angle_step_rad; /* smallest step of the mechanical angle: the encoder's resolution or finer */
+    bool creeps;           /* the mean torque of a turn rises or falls from turn to turn */
     double turns;          /* of the mechanical angle, from the least to the largest */
     double temperature_C;  /* mean; NAN */
 } hci_run_statistics;

@@ -8,7 +8,11 @@
 
 #define STEADY   0.02 /* change of current and speed within a mean, as a share of their largest */
 #define STEADY_K 1.0  /* and of temperature, in kelvin */
+#define STEEP    6.0  /* standard errors of a line along the turns, and … */
+#define LIFT     0.2  /* … share of the scatter by which it rises or falls, that are no noise */
 #define NEARLY   0.02 /* of a turn: turning back by more ends a turn, falling short by less does not count */
+
+enum { LEAST_OF_LINE = 6 }; /* turns */
 
 double hci_turn_rad(const hci_run *run, int pole_pairs)
 {
@@ -32,13 +36,14 @@ static void sample_add(const hci_run *r, int pole_pairs, size_t k, hci_turn *sum
     sum->q += i.q;
     sum->speed += r->speed_rad_per_s ? r->speed_rad_per_s[k] : 0.0;
     sum->temperature += r->temperature_C ? r->temperature_C[k] : 0.0;
+    sum->torque += r->torque_Nm ? r->torque_Nm[k] : 0.0;
 }
 
 /* The next turn from a sample on: until the angle has gone once round, or turns back. */
 static hci_turn turn_from(const hci_run *run, int pole_pairs, size_t first)
 {
     const double *theta = run->theta_m_rad, turn = hci_turn_rad(run, pole_pairs);
-    hci_turn sum = {first, 0, 0.0, 0.0, 0.0, 0.0, false};
+    hci_turn sum = {.first = first};
     double farthest = 0.0;
     size_t k = first;
     for (; k < run->count; ++k) {
@@ -53,6 +58,7 @@ static hci_turn turn_from(const hci_run *run, int pole_pairs, size_t first)
     sum.q /= (double)sum.count;
     sum.speed /= (double)sum.count;
     sum.temperature /= (double)sum.count;
+    sum.torque /= (double)sum.count;
     return sum;
 }
 
@@ -64,6 +70,22 @@ bool hci_turns_alike(const hci_run *run, const hci_run_statistics *statistics, c
            hypot(a->d - b->d, a->q - b->q) <= STEADY * most_A + 1e-12 &&
            fabs(a->speed - b->speed) <= STEADY * most_speed + 1e-12 &&
            fabs(a->temperature - b->temperature) < STEADY_K;
+}
+
+bool hci_turns_creep(const hci_run_statistics *statistics, const hci_turn *turns, size_t count)
+{
+    const double n = (double)count, middle = 0.5 * (n - 1.0), about = n * (n * n - 1.0) / 12.0;
+    double mean = 0.0, slope = 0.0, square = 0.0;
+    if (count < LEAST_OF_LINE) return false;
+    for (size_t k = 0; k < count; ++k)
+        mean += turns[k].torque / n;
+    for (size_t k = 0; k < count; ++k) {
+        slope += ((double)k - middle) * turns[k].torque / about;
+        square += (turns[k].torque - mean) * (turns[k].torque - mean);
+    }
+    const double rest = fmax(0.0, square - slope * slope * about) / (n - 2.0);
+    return slope * slope * about > STEEP * STEEP * rest &&
+           fabs(slope) * (n - 1.0) > LIFT * statistics->repeat_Nm;
 }
 
 bool hci_turns_find(const hci_run *run, int pole_pairs, hci_turn **turns, size_t *count)

@@ -13,6 +13,7 @@ typedef struct {
     double d, q;        /* A */
     double speed;       /* rad/s; 0: not recorded */
     double temperature; /* °C; 0: not recorded */
+    double torque;      /* N·m; 0: not recorded */
     bool whole;         /* not cut off by the end of the run or by turning back */
 } hci_turn;
 
@@ -30,5 +31,10 @@ bool hci_turns_find(const hci_run *run, int pole_pairs, hci_turn **turns, size_t
  * differ by less than 2 % of the run's and 1 K. */
 bool hci_turns_alike(const hci_run *run, const hci_run_statistics *statistics, const hci_turn *a,
                      const hci_turn *b);
+
+/* Whether the mean torque of turns that are alike rises or falls from the first to the last: by a line that
+ * is six of its standard errors steep, and by a fifth of how much single samples scatter. Less than six turns
+ * do not tell. O(count). */
+bool hci_turns_creep(const hci_run_statistics *statistics, const hci_turn *turns, size_t count);
 
 #endif

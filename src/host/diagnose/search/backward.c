@@ -10,7 +10,7 @@ static double stay_gain(const hci_sweep *sweep, const hci_candidate *x, size_t c
     double saved[HCI_CANDIDATE_TERMS];
     for (size_t j = 0; j < x->count; ++j) {
         saved[j] = sweep->b[c + j];
-        sweep->b[c + j] += x->term[j].value - x->declared[j];
+        sweep->b[c + j] += hci_candidate_departure(x, j);
     }
     const double gain = hci_sweep_reduction(sweep, c, x->count) - hci_candidate_cost(x, rows);
     for (size_t j = 0; j < x->count; ++j)

@@ -17,7 +17,7 @@ static size_t large_defect(const hci_candidates *candidates)
         const hci_candidate *x = &candidates->candidate[k];
         if (!x->in || !x->type->is_small || !(x->deviation > 0.0)) continue;
         for (size_t j = 0; j < x->count; ++j)
-            if (fabs(x->term[j].value - x->declared[j]) > LARGEST_DEFECT * x->deviation) return k;
+            if (fabs(hci_candidate_departure(x, j)) > LARGEST_DEFECT * x->deviation) return k;
     }
     return candidates->count;
 }
