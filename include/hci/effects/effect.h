@@ -234,10 +234,14 @@ struct hci_effect_type {
     bool is_small;  /* a defect of a sensor or of one phase: three times what is expected of it would have
                      * been noticed, and looks like an effect that nobody knows */
     const hci_effect_type *when_equal; /* of three values, one a phase: what equal ones look like; or NULL */
+    const hci_effect_type *seen_as;    /* what recordings show of it where it is small, and what it is called
+                                        * unless it explains decisively more; or NULL */
     bool is_angle_zero;                /* turns the zero of the angle */
     bool any_phase;          /* a torque of any order and phase without current: a turned angle is one, too */
     const size_t *resonance; /* two parameters, natural frequency in Hz and damping ratio, that a diagnosis
                               * looks for on a grid, since no small step from nothing finds them */
+    const size_t *lag;       /* one parameter, a time constant in s, that a diagnosis looks for on a grid too:
+                              * a long one is far from what small steps from nothing promise */
 
     /* Names the terms that such recordings could show. */
     void (*propose)(const hci_effect_survey *survey, const hci_effect_proposals *to);

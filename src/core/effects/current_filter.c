@@ -112,6 +112,15 @@ static void simulate(const hci_effect *effect, int pole_pairs, hci_sensor *senso
         hci_effect_link_add(&channels[s], &link);
 }
 
+#define EXPECTED_S 1e-3
+
+/* At one speed it is a position offset and gains. */
+static void propose(const hci_effect_survey *survey, const hci_effect_proposals *to)
+{
+    if (survey->timed && survey->speeds > 1)
+        hci_effect_propose(to, TIME_CONSTANT, 1, 0.0, 2.0, EXPECTED_S);
+}
+
 const hci_effect_type hci_effect_current_filter = {
     .name = "current_filter",
     .equation = "τ di_read/dt + i_read = i",
@@ -120,6 +129,8 @@ const hci_effect_type hci_effect_current_filter = {
     .needs = HCI_EFFECT_NEEDS_SPEED | HCI_EFFECT_NEEDS_RATE,
     .without = "without a speed friction and delays are left out",
     .told_by = "a speed at which the delay is an eighth of an electrical period or more",
+    .seen_as = &hci_effect_channel_delay,
+    .propose = propose,
     .sense = sense,
     .undo = undo,
     .undo_adjoint = undo_adjoint,

@@ -157,7 +157,7 @@ static void simulate(const hci_effect *effect, int pole_pairs, hci_sensor *senso
     hci_effect_link_add(&channels[HCI_SENSE_TORQUE], &link);
 }
 
-static const size_t RESONANCE[] = {NATURAL_FREQUENCY, DAMPING};
+static const size_t RESONANCE[] = {NATURAL_FREQUENCY, DAMPING}, LAG[] = {TIME_CONSTANT};
 
 #define EXPECTED 0.1 /* offset, of the largest torque */
 
@@ -176,6 +176,7 @@ const hci_effect_type hci_effect_torque_sensor = {
     .without = "without time the torque sensor's lag is left out",
     .told_by = "the other direction of rotation",
     .resonance = RESONANCE,
+    .lag = LAG,
     .propose = propose,
     .torque = torque,
     .simulate = simulate,

@@ -105,6 +105,96 @@ static void test_what_stands_still_does_not_drift(void)
     TEST_ASSERT_EQUAL_UINT64(1, count_of(HCI_FINDING_ADDED));
 }
 
+/* ---- a low pass ---- */
+
+/* Six runs at three speeds, with i_d too; what is read of the currents is the answer of a low pass to a sine. */
+static void record_filtered(double tau_s)
+{
+    static const double SPEED[] = {40.0, -80.0, 150.0};
+    for (int k = 0; k < 6; ++k) {
+        const double speed = SPEED[k / 2], phi = atan(P * speed * tau_s), gain = cos(phi);
+        const double d = k % 2 ? -6.0 : 5.0, q = k % 2 ? 8.0 : 3.0;
+        record(450, &(point){speed, q, 0.0, 0.0, 0.0});
+        for (size_t j = 0; j < 450; ++j) /* i_d makes no torque here */
+            rec_phases(gain * (d * cos(phi) + q * sin(phi)), gain * (q * cos(phi) - d * sin(phi)),
+                       P * run[k].theta_m_rad[j], run[k].i_A + 3 * j);
+    }
+}
+
+static void test_filter_of_the_currents(void)
+{
+    record_filtered(1.5e-3);
+    TEST_ASSERT_EQUAL_INT(HCI_OK, diagnose(NULL));
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_ADDED, found("current_filter")->verdict);
+    TEST_ASSERT_EQUAL_UINT64(1, count_of(HCI_FINDING_ADDED));
+    TEST_ASSERT_EQUAL_UINT64(0, count_of(HCI_FINDING_AMBIGUOUS));
+    is_value(1.5e-3, 0.01, term("current_filter", "time_constant", 0.0));
+}
+
+/* A short one is a delay for all that the recordings show, and is called so. */
+static void test_a_short_filter_is_a_delay(void)
+{
+    record_filtered(3e-5);
+    TEST_ASSERT_EQUAL_INT(HCI_OK, diagnose(NULL));
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_ADDED, found("channel_delay")->verdict);
+    TEST_ASSERT_EQUAL_UINT64(1, count_of(HCI_FINDING_ADDED));
+    TEST_ASSERT_EQUAL_UINT64(0, count_of(HCI_FINDING_AMBIGUOUS));
+    TEST_ASSERT_DOUBLE_WITHIN(3e-6, 3e-5, term("channel_delay", "current", 0.0)->value);
+}
+
+/* ---- a torque sensor that is slow ---- */
+
+/* The torque of a sine current of another order in the rotor frame answers with its amplitude and phase: at
+ * each speed another one, up to 60 degrees late. samples: of a turn. */
+static void record_slow_sensor(double tau_s, double samples)
+{
+    static const double SPEED[] = {8.0, -16.0, 30.0, -40.0};
+    for (int k = 0; k < 4; ++k) {
+        const double w = 12.0 * P * SPEED[k], phi = atan(w * tau_s), gain = cos(phi);
+        record(2000, &(point){SPEED[k], 4.0, 0.0, 0.0, 0.0});
+        for (size_t j = 0; j < 2000; ++j) {
+            const double theta_m = sign_of(SPEED[k]) * 2.0 * REF_PI * (double)j / samples;
+            run[k].torque_Nm[j] = 1.5 * K_NM_PER_A * 4.0 + NOISE_NM * ref_normal(&seed) +
+                                  0.1 * gain * sin(12.0 * P * theta_m - phi);
+            run[k].theta_m_rad[j] = theta_m;
+            run[k].time_s[j] = theta_m / SPEED[k];
+            rec_phases(0.0, 4.0 + 0.02 * ref_normal(&seed), P * theta_m, run[k].i_A + 3 * j);
+        }
+    }
+}
+
+static void declare_cogging(void)
+{
+    hci_note note = {{0}};
+    files_write(files_path("cogging.csv"), "order,amplitude_Nm,phase_rad\n12,0.1,0\n");
+    hci_machine_release(&machine);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_machine_read(files_root, &machine, &note), note.text);
+}
+
+static void is_slow(double tau_s)
+{
+    TEST_ASSERT_EQUAL_INT(HCI_OK, diagnose(NULL));
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_ADDED, found("torque_sensor")->verdict);
+    TEST_ASSERT_EQUAL_UINT64(1, count_of(HCI_FINDING_ADDED));
+    TEST_ASSERT_EQUAL_UINT64(0, count_of(HCI_FINDING_AMBIGUOUS));
+    is_value(tau_s, 0.05, term("torque_sensor", "time_constant", 0.0));
+}
+
+static void test_a_long_lag_is_no_delay(void)
+{
+    declare_cogging();
+    record_slow_sensor(3e-3, 1200.0);
+    is_slow(3e-3);
+}
+
+/* Two thirds of a turn, in which the currents are no series of orders of the turn. */
+static void test_a_lag_within_an_arc(void)
+{
+    declare_cogging();
+    record_slow_sensor(3e-3, 3000.0);
+    is_slow(3e-3);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -113,5 +203,9 @@ int main(void)
     RUN_TEST(test_drift_of_the_torque_sensor);
     RUN_TEST(test_drift_in_long_runs);
     RUN_TEST(test_what_stands_still_does_not_drift);
+    RUN_TEST(test_filter_of_the_currents);
+    RUN_TEST(test_a_short_filter_is_a_delay);
+    RUN_TEST(test_a_long_lag_is_no_delay);
+    RUN_TEST(test_a_lag_within_an_arc);
     return UNITY_END();
 }

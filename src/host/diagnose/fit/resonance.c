@@ -6,7 +6,7 @@
 #include "host/base/memory.h"
 #include "host/diagnose/fit/predicted_reading.h"
 
-enum { FREQUENCIES = 48 };
+enum { FREQUENCIES = 48, LAGS = 20 };
 
 static const double DAMPING[] = {0.03, 0.1, 0.3};
 
@@ -19,6 +19,17 @@ typedef struct {
     const double *residual_Nm;
     double *torque_Nm, *time_s, *y;
 } scan;
+
+/* Everything in one block, which begins at torque_Nm. False when memory is out. */
+static bool scan_make(scan *l)
+{
+    const size_t most = hci_segment_longest(l->regression->samples);
+    l->torque_Nm = hci_memory_new((2 * HCI_SETTLING_TURNS + 1) * most, sizeof *l->torque_Nm);
+    if (!l->torque_Nm) return false;
+    l->time_s = l->torque_Nm + HCI_SETTLING_TURNS * most;
+    l->y = l->time_s + HCI_SETTLING_TURNS * most;
+    return true;
+}
 
 /* The torque in the air gap: what was measured, less what the model leaves. */
 static void turns_fill(const scan *l, const hci_segment *s, size_t turns)
@@ -53,6 +64,14 @@ static double sensor_square(const scan *l, const hci_effects *sensor)
     for (const hci_segment *s = NULL; (s = hci_regression_next(l->regression, s)) != NULL;)
         if (hci_predicted_reading_is_dynamic(l->regression, s)) sum += segment_square(l, sensor, s);
     return sum;
+}
+
+static double square_with_lag(const scan *l, double time_constant_s)
+{
+    const hci_effect_term term[] = {{l->type->lag[0], 0.0, time_constant_s, NAN}};
+    const hci_effect effect = {l->type, term, 1};
+    const hci_effects sensor = {&effect, 1};
+    return sensor_square(l, &sensor);
 }
 
 static double square_with(const scan *l, double frequency_Hz, double damping)
@@ -94,20 +113,38 @@ static void grid_search(const scan *l, hci_resonance *best)
     }
 }
 
+static void lag_search(const scan *l, double *time_constant_s, double *gain)
+{
+    double low_Hz, high_Hz;
+    frequency_range(l->regression, &low_Hz, &high_Hz);
+    const double before = sensor_square(l, NULL);
+    for (int k = 0; k < LAGS && low_Hz < high_Hz; ++k) {
+        const double corner_Hz = low_Hz * pow(high_Hz / low_Hz, (double)k / (LAGS - 1));
+        const double tau_s = 1.0 / (2.0 * HCI_PI * corner_Hz), fall = before - square_with_lag(l, tau_s);
+        if (!(fall > *gain)) continue;
+        *gain = fall;
+        *time_constant_s = tau_s;
+    }
+}
+
 hci_status hci_resonance_find(const hci_regression *regression, const hci_effect_type *type,
                               const double *residual_Nm, hci_resonance *resonance, hci_note *note)
 {
-    const size_t most = hci_segment_longest(regression->samples);
-    double *work = hci_memory_new((2 * HCI_SETTLING_TURNS + 1) * most, sizeof *work);
+    scan l = {.regression = regression, .type = type, .residual_Nm = residual_Nm};
     *resonance = (hci_resonance){0.0, 0.0, 0.0};
-    if (!work) return hci_note_memory(note, NULL, "resonances of the sensor");
-    const scan l = {regression,
-                    type,
-                    residual_Nm,
-                    work,
-                    work + HCI_SETTLING_TURNS * most,
-                    work + 2 * HCI_SETTLING_TURNS * most};
+    if (!scan_make(&l)) return hci_note_memory(note, NULL, "resonances of the sensor");
     grid_search(&l, resonance);
-    hci_memory_free(work);
+    hci_memory_free(l.torque_Nm);
+    return HCI_OK;
+}
+
+hci_status hci_lag_find(const hci_regression *regression, const hci_effect_type *type,
+                        const double *residual_Nm, double *time_constant_s, double *gain, hci_note *note)
+{
+    scan l = {.regression = regression, .type = type, .residual_Nm = residual_Nm};
+    *time_constant_s = *gain = 0.0;
+    if (!scan_make(&l)) return hci_note_memory(note, NULL, "lags of the sensor");
+    lag_search(&l, time_constant_s, gain);
+    hci_memory_free(l.torque_Nm);
     return HCI_OK;
 }

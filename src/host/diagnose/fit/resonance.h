@@ -1,4 +1,4 @@
-/* A resonance of the torque sensor, looked for on a grid of frequencies and dampings.
+/* A resonance or a lag of the torque sensor, looked for on a grid of frequencies and dampings.
  *
  * In: a residual without one. Out: the grid point where χ² falls most. A Gauss–Newton fit that starts without
  * a resonance cannot find it: its derivative by the frequency is 0 there. */
@@ -17,5 +17,10 @@ typedef struct {
  * hundred points. */
 hci_status hci_resonance_find(const hci_regression *regression, const hci_effect_type *type,
                               const double *residual_Nm, hci_resonance *resonance, hci_note *note);
+
+/* The same of a lag: the time constant where χ² falls most, and by how much; 0 where none helps.
+ * type: has a lag. */
+hci_status hci_lag_find(const hci_regression *regression, const hci_effect_type *type,
+                        const double *residual_Nm, double *time_constant_s, double *gain, hci_note *note);
 
 #endif

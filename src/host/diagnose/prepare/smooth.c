@@ -226,22 +226,31 @@ static bool workspace_make(series_workspace *r, size_t n, size_t columns)
     return true;
 }
 
-bool hci_segment_smooth(hci_binned_sample *sample, const hci_segment *segment, int pole_pairs, bool turns,
-                        bool *series)
+/* The currents as a series of the orders of the turn, or of the electrical period. series: out, whether there
+ * is one. */
+static bool series_make(hci_binned_sample *sample, size_t n, int pole_pairs, bool turns, bool *series)
 {
-    const size_t n = segment->count;
     size_t periods[MOST_PERIODS];
     const size_t count = periods_list(pole_pairs, turns, n, periods);
     series_workspace workspace;
-    bool made;
-    *series = false;
-    if (segment->timed && segment->turns == 0 && n > 4 * REACH && is_turning(sample, n) &&
-        !angle_smooth(sample, n))
-        return false;
-    if (count < MOST_ORDER || !is_steady(sample, n, pole_pairs)) return true;
-    made = workspace_make(&workspace, n, 2 * count + 1);
+    if (count < MOST_ORDER) return true;
+    const bool made = workspace_make(&workspace, n, 2 * count + 1);
     if (made) *series = currents_smooth(sample, n, pole_pairs, periods, count, &workspace);
     hci_memory_free(workspace.rows);
     hci_normal_equations_release(&workspace.normal);
     return made;
+}
+
+bool hci_segment_smooth(hci_binned_sample *sample, const hci_segment *segment, int pole_pairs, bool turns,
+                        bool *series)
+{
+    const size_t n = segment->count;
+    *series = false;
+    if (segment->timed && segment->turns == 0 && n > 4 * REACH && is_turning(sample, n) &&
+        !angle_smooth(sample, n))
+        return false;
+    if (!is_steady(sample, n, pole_pairs)) return true;
+    if (!series_make(sample, n, pole_pairs, turns, series)) return false;
+    if (*series || !turns || segment->turns > 0) return true;
+    return series_make(sample, n, pole_pairs, false, series); /* an arc tells no orders of the turn */
 }

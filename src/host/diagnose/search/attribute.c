@@ -110,6 +110,7 @@ static void same_mark(hci_attribution *a, size_t type, const hci_effect_type *as
     while (a->verdict[k].type != as)
         ++k;
     if (v->in || v->ambiguous || !a->plausible[k][type] || is_convention(v->type, as)) return;
+    if (v->type->seen_as || as->seen_as == v->type) return;
     v->ambiguous = a->verdict[k].ambiguous = true;
     v->rival_of = as;
     v->gain = a->verdict[k].gain;

@@ -14,6 +14,7 @@
 
 #define PAIR_MARGIN     0.02 /* what two effects at once must explain more than one, as a share */
 #define RESONANCE_PRICE 12.0 /* of having looked at so many frequencies */
+#define LAG_PRICE       6.0  /* and at so many time constants */
 #define MUCH            3.0  /* times the resolution, and … */
 #define STANDS_OUT                                                                                           \
     1.1 /* … times the noise: a residual in which high powers of the currents are looked for               \
@@ -141,6 +142,15 @@ static hci_status contender_enter(comparison *c, hci_fitted_model *candidate, do
     return HCI_OK;
 }
 
+/* What a model must be better by than its score: two effects at once, and one that is called another unless it
+ * is decisively better. */
+static double handicap_of(const hci_candidate_model *x, const hci_candidate_model *best)
+{
+    const hci_effect_type *a = hci_candidate_type(x->a), *b = hci_candidate_type(x->b);
+    const double pair = is_pair(x) ? HCI_DECISIVE + PAIR_MARGIN * best->gain : 0.0;
+    return pair + (a->seen_as || b->seen_as ? HCI_DECISIVE : 0.0);
+}
+
 static hci_status models_enter(comparison *c, const hci_candidate_models *t, hci_note *note)
 {
     const hci_candidate_model *picked[SINGLES + 1];
@@ -148,7 +158,7 @@ static hci_status models_enter(comparison *c, const hci_candidate_models *t, hci
     hci_status status = HCI_OK;
     for (size_t k = 0; k < count && !status && !hci_search_is_over(c->search); ++k) {
         hci_fitted_model candidate = {0};
-        const double handicap = is_pair(picked[k]) ? HCI_DECISIVE + PAIR_MARGIN * picked[0]->gain : 0.0;
+        const double handicap = handicap_of(picked[k], picked[0]);
         status = hci_candidate_model_fit(c->search, t, picked[k], &candidate, note);
         if (!status) status = contender_enter(c, &candidate, handicap, note);
         hci_fitted_model_release(&candidate);
@@ -185,6 +195,26 @@ static hci_status resonance_enter(comparison *c, const hci_effect_type *type, hc
     return status;
 }
 
+/* And a lag that is so long that the linearised problem does not promise it. */
+static hci_status lag_enter(comparison *c, const hci_effect_type *type, hci_note *note)
+{
+    hci_candidate x = {.type = type, .count = 1, .price = LAG_PRICE, .in = true};
+    hci_fitted_model candidate = {0};
+    double time_constant_s = 0.0, gain = 0.0;
+    x.term[0] = (hci_effect_term){type->lag[0], 0.0, 0.0, NAN};
+    if (hci_candidates_find_in(&c->present->candidates, &x)) return HCI_OK;
+    hci_status status = hci_search_residual(c->search, &c->present->candidates, note);
+    if (!status)
+        status = hci_lag_find(c->search->regression, type, c->search->residual_Nm, &time_constant_s, &gain,
+                              note);
+    if (status || gain < hci_candidate_cost(&x, c->present->fit.rows) + HCI_DECISIVE) return status;
+    x.term[0].value = time_constant_s;
+    status = resonance_fit(c, &x, &candidate, note);
+    if (!status) status = contender_enter(c, &candidate, 0.0, note);
+    hci_fitted_model_release(&candidate);
+    return status;
+}
+
 hci_status hci_search_forward(hci_search *s, hci_fitted_model *model, bool *added, hci_note *note)
 {
     comparison c = {s, model, {{NULL, 0, 0.0}, {0.0, 0, 0.0, 0.0}}, model->fit.score - HCI_DECISIVE};
@@ -196,6 +226,8 @@ hci_status hci_search_forward(hci_search *s, hci_fitted_model *model, bool *adde
     hci_candidate_models_release(&t);
     for (size_t r = 0; hci_effect_type_at(r) && !status && !hci_search_is_over(s); ++r)
         if (hci_effect_type_at(r)->resonance) status = resonance_enter(&c, hci_effect_type_at(r), note);
+    for (size_t r = 0; hci_effect_type_at(r) && !status && !hci_search_is_over(s); ++r)
+        if (hci_effect_type_at(r)->lag) status = lag_enter(&c, hci_effect_type_at(r), note);
     if (!status && c.best.candidates.candidate) {
         hci_fitted_model_replace(model, &c.best);
         *added = true;

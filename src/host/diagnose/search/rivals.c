@@ -63,10 +63,18 @@ static hci_status rivalry_next(rivalry *r, hci_fitted_model *rival, size_t *with
 
 /* ---- another effect instead ---- */
 
-/* The empirical term, which is no physical effect, has to fit decisively better; an effect as well. */
-static double margin_of(size_t type)
+/* Whether one is what the other is called unless it explains decisively more. */
+static bool is_called(const hci_effect_type *a, const hci_effect_type *b)
 {
-    return hci_candidate_type(type) == &hci_empirical_type ? HCI_DECISIVE : HCI_AS_GOOD;
+    return a->seen_as == b || b->seen_as == a;
+}
+
+/* By how much a rival has to fit better. The empirical term, which is no physical effect, decisively so, and
+ * an effect that is called another one besides; that one takes its place where it is not decisively worse. */
+static double margin_of(const hci_effect_type *in_place, const hci_effect_type *rival)
+{
+    if (in_place->seen_as == rival) return -HCI_DECISIVE;
+    return rival == &hci_empirical_type || rival->seen_as ? HCI_DECISIVE : HCI_AS_GOOD;
 }
 
 /* Whether a rival is to take the place of the effect: it fits decisively better, or as well and describes
@@ -76,8 +84,9 @@ static hci_status is_better(const rivalry *r, const hci_fitted_model *rival, siz
 {
     const double fall = r->model->fit.score - rival->fit.score;
     double misfit = 0.0, rival_misfit = 0.0;
-    *better = fall > margin_of(with);
+    *better = fall > margin_of(r->type, hci_candidate_type(with));
     if (*better || fall < -EQUAL || hci_candidate_type(with) == &hci_empirical_type) return HCI_OK;
+    if (is_called(r->type, hci_candidate_type(with))) return HCI_OK;
     hci_status status = hci_search_left_out(r->search, &r->model->candidates, &misfit, note);
     if (!status) status = hci_search_left_out(r->search, &rival->candidates, &rival_misfit, note);
     *better = rival_misfit < misfit - HCI_DECISIVE;
@@ -165,7 +174,8 @@ hci_status hci_search_rivals(hci_search *s, const hci_effect_type *type, hci_att
         status = rivalry_next(&r, &rival, &with, note);
         if (status || with == hci_candidate_types()) break;
         const bool is_empirical = hci_candidate_type(with) == &hci_empirical_type;
-        bool equal = !is_empirical && rival.fit.score < a->model.fit.score + EQUAL;
+        bool equal = !is_empirical && !hci_candidate_type(with)->seen_as &&
+                     !is_called(type, hci_candidate_type(with)) && rival.fit.score < a->model.fit.score + EQUAL;
         if (equal) status = is_as_good(&r, &rival, &equal, note);
         if (!status && equal) rival_mark(&r, with, &rival, a);
         hci_fitted_model_release(&rival);

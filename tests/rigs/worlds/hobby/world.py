@@ -517,7 +517,8 @@ def bench_runs(m, b, rng, plan, rate, turns, sig, tsig, abc, currents=None, temp
             x, yy = b.true_current(m.p * thr, idr, iqr)
             s = em_torque(m, th, x, yy) + cogging(m, th) - (drag(m, w) if fric else 0)
             if lag:
-                y = s if y is None else y + (s - y) * (1 - math.exp(-1 / (rate * sub * lag)))
+                y = s if y is None else y + ((s + s0) / 2 - y) * (1 - math.exp(-1 / (rate * sub * lag)))
+                s0 = s
             if i % sub == 0:
                 rows.append((t, th, w, idr, iqr, x, yy, s)); tq.append(quant((y if lag else s) + rng.gauss(0, tsig), m.tr * 1e-4))
         if lag: cut = int(8 * lag * rate) + 1; rows, tq = rows[cut:], tq[cut:]
