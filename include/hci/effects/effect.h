@@ -287,6 +287,12 @@ struct hci_effect_type {
     void (*simulate)(const hci_effect *effect, int pole_pairs, hci_sensor *sensors,
                      hci_effect_channel *channels);
 
+    /* In place: the torque that reaches a sensor to what that makes of it at once, before its zero. by_value:
+     * in/out, derivatives by the values of all effects, so many columns; or NULL. own_column: the first one
+     * of the effect's terms. */
+    void (*read_torque)(const hci_effect *effect, double *torque_Nm, double *by_value, size_t columns,
+                        size_t own_column);
+
     /* What happens to the reading of the torque along a run, in place. */
     void (*filter)(const hci_effect *effect, const hci_effect_run *run);
 };

@@ -79,24 +79,41 @@ static void add_effect(const hci_effect *effect, const hci_machine *machine, con
     }
 }
 
-/* Adds the torque of all types, or of those in the machine. */
+/* Where a torque is added: in the machine, in front of the torque sensor, as a zero of its reading. */
+typedef enum { IN_MACHINE, IN_FRONT, IN_READING } place;
+
+static place place_of(const hci_effect_type *type)
+{
+    if (type->parameter[0].traits & HCI_PARAMETER_OF_TRANSDUCER) return IN_READING;
+    return type->in_machine ? IN_MACHINE : IN_FRONT;
+}
+
+/* Adds the torque of all types from one place to another; by_value: of the others nothing is changed. */
 static void add_effects(const hci_machine *machine, const hci_effects *effects, const hci_sample *truth,
-                        bool outside_too, hci_effect_torque *sum, double *by_value)
+                        place from, place to, hci_effect_torque *sum, double *by_value)
 {
     for (size_t j = 0; j < effects->count; ++j) {
         const hci_effect *effect = &effects->effect[j];
-        const bool acts = outside_too || effect->type->in_machine;
-        if (acts) add_effect(effect, machine, truth, sum, by_value);
-        for (size_t k = 0; k < effect->count && by_value; ++k, ++by_value)
-            if (!acts) *by_value = 0.0;
+        const place at = place_of(effect->type);
+        if (at >= from && at <= to && !effect->type->read_torque)
+            add_effect(effect, machine, truth, sum, by_value);
+        if (by_value) by_value += effect->count;
     }
+}
+
+static void values_clear(const hci_effects *effects, double *by_value)
+{
+    const size_t terms = by_value ? hci_effects_terms(effects) : 0;
+    for (size_t k = 0; k < terms; ++k)
+        by_value[k] = 0.0;
 }
 
 hci_effect_torque hci_effects_torque(const hci_machine *machine, const hci_effects *effects,
                                      const hci_sample *truth, double *by_value)
 {
     hci_effect_torque sum = {.torque_Nm = 0.0};
-    add_effects(machine, effects, truth, false, &sum, by_value);
+    values_clear(effects, by_value);
+    add_effects(machine, effects, truth, IN_MACHINE, IN_MACHINE, &sum, by_value);
     return sum;
 }
 
@@ -175,13 +192,27 @@ static void add_bench(const hci_effects *effects, int pole_pairs, const hci_samp
     }
 }
 
+/* What the sensor makes of the torque at once. */
+static void read_torques(const hci_effects *effects, hci_effect_torque *sum, double *by_value)
+{
+    for (size_t k = 0; k < effects->count; ++k) {
+        const hci_effect *effect = &effects->effect[k];
+        if (effect->type->read_torque)
+            effect->type->read_torque(effect, &sum->torque_Nm, by_value, hci_effects_terms(effects),
+                                      first_term(effects, k));
+    }
+}
+
 double hci_effects_predict(const hci_machine *machine, const hci_effects *effects, const hci_sample *reading,
                            double *by_value)
 {
     const hci_sample truth = hci_effects_undo(effects, machine->pole_pairs, reading);
     hci_effect_torque sum = declared_torque(machine, &truth);
-    add_effects(machine, effects, &truth, true, &sum, by_value);
+    values_clear(effects, by_value);
+    add_effects(machine, effects, &truth, IN_MACHINE, IN_FRONT, &sum, by_value);
     if (by_value) add_bench(effects, machine->pole_pairs, &truth, &sum, by_value);
+    read_torques(effects, &sum, by_value);
+    add_effects(machine, effects, &truth, IN_READING, IN_READING, &sum, by_value);
     return sum.torque_Nm;
 }
 

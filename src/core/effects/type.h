@@ -29,6 +29,7 @@
     X(position_offset)                                                                                       \
     X(current_gain)                                                                                          \
     X(current_offset)                                                                                        \
+    X(torque_gain)                                                                                           \
     X(torque_sensor)                                                                                         \
     X(torque_drift)
 

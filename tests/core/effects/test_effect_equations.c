@@ -675,6 +675,33 @@ static void test_prediction_of_a_reading(void)
     }
 }
 
+/* A wrong calibration is before the zero of the sensor and behind all else; each derivative is the slope. */
+static void test_a_gain_is_of_all_but_the_zero(void)
+{
+    enum { TERMS = 4 };
+    uint64_t seed = 9;
+    el_list l = {0}, plain = {0};
+    double by[TERMS];
+    el_add(&l, "friction", "viscous", 0.0, 0.002);
+    el_add(&l, "torque_gain", "gain", 0.0, 0.08);
+    el_add(&l, "position_offset", "angle", 0.0, 0.1);
+    el_add(&l, "torque_sensor", "offset", 0.0, 0.25);
+    el_add(&plain, "friction", "viscous", 0.0, 0.002);
+    el_add(&plain, "position_offset", "angle", 0.0, 0.1);
+    const hci_sample x = el_sample(&seed);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-11, 1.08 * hci_effects_predict(&m.machine, &plain.list, &x, NULL) + 0.25,
+                              hci_effects_predict(&m.machine, &l.list, &x, by));
+    for (size_t k = 0; k < TERMS; ++k) {
+        const double step = 1e-5, value = l.term[k][0].value;
+        l.term[k][0].value = value + step;
+        const double above = hci_effects_predict(&m.machine, &l.list, &x, NULL);
+        l.term[k][0].value = value - step;
+        const double below = hci_effects_predict(&m.machine, &l.list, &x, NULL);
+        l.term[k][0].value = value;
+        TEST_ASSERT_DOUBLE_WITHIN(1e-6 * (1.0 + fabs(by[k])), (above - below) / (2.0 * step), by[k]);
+    }
+}
+
 /* ---- torque sensor along a run ---- */
 
 enum { RUN = 4000 };
@@ -820,6 +847,7 @@ static void test_registry(void)
                                         "iron_drag",
                                         "current_filter",
                                         "position_harmonics",
+                                        "torque_gain",
                                         "torque_drift"};
     const size_t count = sizeof NAMES / sizeof *NAMES;
     for (size_t k = 0; k < count; ++k) {
@@ -827,7 +855,8 @@ static void test_registry(void)
         TEST_ASSERT_NOT_NULL_MESSAGE(type, NAMES[k]);
         TEST_ASSERT_EQUAL_STRING(NAMES[k], type->name);
         TEST_ASSERT_TRUE(type->equation && type->signature && type->parameter_count > 0);
-        TEST_ASSERT_TRUE(type->torque || type->torque_of_all || type->undo || type->filter);
+        TEST_ASSERT_TRUE(type->torque || type->torque_of_all || type->undo || type->filter ||
+                         type->read_torque);
         TEST_ASSERT_TRUE(!type->needs || type->without || type->needs == HCI_EFFECT_NEEDS_RATE);
         TEST_ASSERT_TRUE(!type->sense == !type->undo && !type->undo == !type->undo_adjoint);
     }
@@ -870,6 +899,7 @@ int main(void)
     RUN_TEST(test_readings_and_back);
     RUN_TEST(test_delay_of_a_harmonic);
     RUN_TEST(test_prediction_of_a_reading);
+    RUN_TEST(test_a_gain_is_of_all_but_the_zero);
     RUN_TEST(test_torque_sensor_frequency_response);
     RUN_TEST(test_torque_sensor_derivatives);
     RUN_TEST(test_torque_sensor_starts_and_repeats);

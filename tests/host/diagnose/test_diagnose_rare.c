@@ -142,6 +142,38 @@ static void test_a_short_filter_is_a_delay(void)
     TEST_ASSERT_DOUBLE_WITHIN(3e-6, 3e-5, term("channel_delay", "current", 0.0)->value);
 }
 
+/* ---- a torque sensor that is calibrated wrong ---- */
+
+static void declare_cogging(void)
+{
+    hci_note note = {{0}};
+    files_write(files_path("cogging.csv"), "order,amplitude_Nm,phase_rad\n12,0.1,0\n");
+    hci_machine_release(&machine);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_machine_read(files_root, &machine, &note), note.text);
+}
+
+/* Four runs; the torque of the currents and the cogging torque are read by factors of their own. */
+static void record_gains(double of_current, double of_cogging)
+{
+    declare_cogging();
+    for (int k = 0; k < 4; ++k) {
+        record(450, &(point){k < 2 ? 60.0 : -150.0, k % 2 ? 9.0 : 2.0, 0.0, 0.0, 0.0});
+        for (size_t j = 0; j < 450; ++j)
+            run[k].torque_Nm[j] += (of_current - 1.0) * 1.5 * K_NM_PER_A * (k % 2 ? 9.0 : 2.0) +
+                                   of_cogging * 0.1 * sin(12.0 * P * run[k].theta_m_rad[j]);
+    }
+    TEST_ASSERT_EQUAL_INT(HCI_OK, diagnose(NULL));
+    TEST_ASSERT_EQUAL_UINT64(1, count_of(HCI_FINDING_ADDED));
+    TEST_ASSERT_EQUAL_UINT64(0, count_of(HCI_FINDING_AMBIGUOUS));
+}
+
+static void test_a_wrong_calibration(void)
+{
+    record_gains(0.9, 0.9);
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_ADDED, found("torque_gain")->verdict);
+    is_value(-0.1, 0.02, term("torque_gain", "gain", 0.0));
+}
+
 /* ---- a torque sensor that is slow ---- */
 
 /* The torque of a sine current of another order in the rotor frame answers with its amplitude and phase: at
@@ -161,14 +193,6 @@ static void record_slow_sensor(double tau_s, double samples)
             rec_phases(0.0, 4.0 + 0.02 * ref_normal(&seed), P * theta_m, run[k].i_A + 3 * j);
         }
     }
-}
-
-static void declare_cogging(void)
-{
-    hci_note note = {{0}};
-    files_write(files_path("cogging.csv"), "order,amplitude_Nm,phase_rad\n12,0.1,0\n");
-    hci_machine_release(&machine);
-    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_machine_read(files_root, &machine, &note), note.text);
 }
 
 static void is_slow(double tau_s)
@@ -205,6 +229,7 @@ int main(void)
     RUN_TEST(test_what_stands_still_does_not_drift);
     RUN_TEST(test_filter_of_the_currents);
     RUN_TEST(test_a_short_filter_is_a_delay);
+    RUN_TEST(test_a_wrong_calibration);
     RUN_TEST(test_a_long_lag_is_no_delay);
     RUN_TEST(test_a_lag_within_an_arc);
     return UNITY_END();

@@ -17,7 +17,8 @@ static const hci_effect_parameter *parameter_of(const hci_known_term *x)
 static bool is_linear(const hci_known_term *x)
 {
     const unsigned traits = parameter_of(x)->traits;
-    return (traits & HCI_PARAMETER_LINEAR) && !(traits & HCI_PARAMETER_ALONG_TIME) && !x->type->undo;
+    return (traits & HCI_PARAMETER_LINEAR) && !(traits & HCI_PARAMETER_ALONG_TIME) && !x->type->undo &&
+           !x->type->read_torque;
 }
 
 static bool is_term(const hci_known_term *x, const hci_effect_type *type, const hci_effect_term *term)

@@ -479,7 +479,7 @@ def shunt_cal(rng):
     n = min(c.true.cog); c.true.cog[n] = c.decl.cog[n] = (.06 * c.Tr, c.true.cog[n][1])
     c.b.tgain = rng.choice([.9, 1.08, 1.12]); c.b.noise_t *= .6
     rest = ['cogging'] + (['reluctance'] if c.decl.Lq else [])
-    c.truth.update(outside=True, also_right=[[x] + rest for x in ('back_emf', 'magnet_temperature', 'current_gain')]); return c
+    c.truth.update(outside=True, also_right=[['torque_gain']] + [[x] + rest for x in ('back_emf', 'magnet_temperature', 'current_gain')]); return c
 @kind
 def thermal_log(rng):
     """heat run: one line a second for twenty minutes, angle wrapped and hence by chance; two short runs beside it"""
