@@ -10,9 +10,23 @@
 #include "cli/terminal/text.h"
 #include "hci/host/currents/solution_folder.h"
 #include "hci/host/emit/emit.h"
+#include "hci/host/emit/emit_loop.h"
 #include "hci/host/report/summary.h"
 
-enum { NAME, FORMAT, FRAME, POINTS, MAX_ERROR, PER_TORQUE, REFERENCE, OUT, CLI_COMMON_KEYS };
+enum {
+    NAME,
+    FORMAT,
+    FRAME,
+    POINTS,
+    MAX_ERROR,
+    PER_TORQUE,
+    REFERENCE,
+    MACHINE,
+    DRIVE,
+    SPEED,
+    OUT,
+    CLI_COMMON_KEYS
+};
 
 static const cli_choice FORMATS[] = {{"f32", "f32 (default)"}, {NULL, NULL}};
 static const cli_choice FRAMES[] = {
@@ -35,6 +49,16 @@ static const cli_option OPTIONS[] = {
     [REFERENCE] = {"reference-torque", 0, CLI_NUMBER, "NM",
                    .help = "with --per-torque: the largest T (default: the one solved for)", .low = 1e-9,
                    .high = 1e9},
+    [MACHINE] = {"machine", 0, CLI_FOLDER, "FOLDER", .help = "with --drive: the machine of the currents"},
+    [DRIVE] =
+        {"drive", 0, CLI_FILE, "FILE",
+         .help = "drive.csv: orders of current and voltage for hci/loop.h, which a current loop can follow; "
+                 "several folders are levels of torque"},
+    [SPEED] =
+        {"speed", 0, CLI_NUMBER, "RPM",
+         .help = "with --drive: up to which orders are used (default: as far as the voltage and the sampling "
+                 "do)",
+         .low = 1e-3, .high = 1e6},
     [OUT] = {"out", 'o', CLI_FOLDER, "FOLDER", .help = "where ID.h and ID.c go (default: here)"},
     CLI_COMMON_OPTIONS};
 
@@ -75,6 +99,17 @@ static hci_status check_together(const cli_arguments *a, hci_note *note)
     const char *wrong = NULL;
     if (!a->value[NAME])
         wrong = "emit: the table has no name; add --name ID";
+    else if (a->given[DRIVE] != a->given[MACHINE])
+        wrong = "emit: --drive FILE and --machine FOLDER go together";
+    else if (a->given[SPEED] && !a->given[DRIVE])
+        wrong = "emit: --speed goes with --drive";
+    else if (a->words > 1 && !a->given[DRIVE])
+        wrong = "emit: several folders are levels of torque, which need --drive and --machine";
+    else if (a->given[DRIVE] && (a->given[POINTS] || a->given[REFERENCE]))
+        wrong = "emit: --drive makes its tables in RAM; give --max-error in place of --points, and no "
+                "--reference-torque";
+    else if (a->given[DRIVE] && a->given[FRAME] && a->choice[FRAME] != HCI_TABLE_DQ)
+        wrong = "emit: --drive is in the rotor frame; give --frame dq, or none";
     else if (a->value[POINTS] && a->value[MAX_ERROR])
         wrong = "emit: give --points or --max-error, not both";
     else if (a->given[REFERENCE] && !a->given[PER_TORQUE])
@@ -132,8 +167,78 @@ static void show(const hci_emit_request *r, const hci_emit_result *result, const
     cli_say("\n  runtime      hci/table.h\n");
 }
 
+/* ---- for a drive ---- */
+
+typedef struct {
+    hci_machine_data machine;
+    hci_drive_data drive;
+    hci_loop_levels levels;
+    hci_emit_loop_request request;
+} drive_inputs;
+
+static hci_status read_drive_inputs(const cli_arguments *a, drive_inputs *in, hci_note *note)
+{
+    hci_status status = check_together(a, note);
+    if (!status) status = hci_machine_read(a->value[MACHINE], &in->machine, note);
+    if (!status) status = hci_drive_read(a->value[DRIVE], &in->drive, note);
+    if (!status) status = hci_loop_levels_read(a->word, a->words, a->given[PER_TORQUE], &in->levels, note);
+    in->request = (hci_emit_loop_request){.name = a->value[NAME],
+                                          .machine = &in->machine,
+                                          .drive = &in->drive,
+                                          .levels = in->levels.level,
+                                          .level_count = in->levels.count,
+                                          .max_error_A = cli_number_or(a, MAX_ERROR, 0.0),
+                                          .speed_rad_per_s = cli_number_or(a, SPEED, 0.0) * HCI_PI / 30.0,
+                                          .input_hash = in->levels.hash};
+    return status;
+}
+
+static void show_speed(const char *what, double speed_rad_per_s)
+{
+    if (isfinite(speed_rad_per_s))
+        cli_say("  %s all orders up to %.4g rpm\n", what, speed_rad_per_s * 30.0 / HCI_PI);
+}
+
+static void show_loop(const hci_emit_loop_request *r, const hci_emit_loop_result *result, const char *folder)
+{
+    cli_say(CLI_GOOD "emitted" CLI_PLAIN ": %s/%s.h and %s.c\n", folder, r->name, r->name);
+    cli_say(
+        "  orders       %zu up to %.4g, %zu level%s of torque from %.4g to %.4g N·m, %zu bytes of flash\n",
+        result->orders, result->highest_order, result->levels, result->levels == 1 ? "" : "s",
+        result->torque_low_Nm, result->torque_high_Nm, result->flash_bytes);
+    cli_say("  table        %zu points, %zu times in %zu electrical turn%s; %zu bytes of RAM, %zu with "
+            "feedforward\n",
+            result->points, result->repeats, result->period_turns, result->period_turns == 1 ? "" : "s",
+            result->ram_bytes, result->feedforward_ram_bytes);
+    cli_say("  error        at most %.3g A of a current vector of %.4g A\n", result->max_error_A,
+            result->peak_A);
+    cli_say("  lead         %.4g us\n", 1e6 * result->lead_s);
+    show_speed("voltage     ", result->voltage_rad_per_s);
+    show_speed("sampling    ", result->sampled_rad_per_s);
+    cli_say("  runtime      hci/loop.h and hci/table.h\n");
+}
+
+static int run_for_drive(const cli_arguments *a)
+{
+    const char *folder = a->value[OUT] ? a->value[OUT] : ".";
+    hci_emit_loop_result result;
+    hci_note note = {{0}};
+    drive_inputs in;
+    memset(&in, 0, sizeof in);
+    hci_drive_init(&in.drive);
+    hci_status status = read_drive_inputs(a, &in, &note);
+    if (!status) status = hci_emit_loop(folder, &in.request, &result, &note);
+    if (!status && cli_is_wordy()) show_loop(&in.request, &result, folder);
+    if (!status && a->given[JSON]) status = cli_print_json(hci_emit_loop_json(&in.request, &result), &note);
+    hci_loop_levels_release(&in.levels);
+    hci_drive_release(&in.drive);
+    hci_machine_release(&in.machine);
+    return status ? cli_fail(status, &note) : 0;
+}
+
 static int run(const cli_arguments *a)
 {
+    if (a->given[DRIVE]) return run_for_drive(a);
     const char *folder = a->value[OUT] ? a->value[OUT] : ".";
     hci_emit_result result;
     hci_note note = {{0}};
@@ -151,18 +256,24 @@ static int run(const cli_arguments *a)
 
 const cli_command cli_emit = {
     .name = "emit",
-    .words = "CURRENTS_OR_FOLDER --name ID",
-    .does = "Turns currents into C tables for a microcontroller.\n"
-            "Writes ID.h and ID.c, which need the header hci/table.h and nothing else.",
+    .words = "CURRENTS_OR_FOLDER... --name ID",
+    .does =
+        "Turns currents into C tables for a microcontroller.\n"
+        "Writes ID.h and ID.c, which need the header hci/table.h and nothing else; with --drive the header\n"
+        "hci/loop.h too.",
     .options = OPTIONS,
     .words_needed = 1,
+    .takes_more_words = true,
     .word_kind = CLI_FILE,
     .example =
         "  hci-solve solve data/machine_a --target data/scenarios/02/target.csv --auto -o out/machine_a\n"
         "  hci-solve emit out/machine_a --name machine_a --frame dq --max-error 0.01 -o out/machine_a\n"
         "  hci-solve emit out/machine_a --name machine_a_linear --frame dq --points 512 --per-torque -o "
         "out/machine_a\n"
+        "  hci-solve emit out/machine_a --name machine_a_drive --machine data/machine_a --drive "
+        "data/drive/machine_a_10kHz.csv -o out/machine_a\n"
         "\nExit codes: 0 done; " CLI_EXIT_ERRORS,
     .source = "cli/emit.c",
+    .guide = "drive.md",
     .run = run,
 };

@@ -5,7 +5,9 @@
 #include <unistd.h>
 
 #include "cli/command/command.h"
+#include "cli/command/parse.h"
 #include "cli/commands.h"
+#include "cli/simulate_speeds.h"
 #include "cli/simulate_words.h"
 #include "cli/terminal/progress.h"
 #include "cli/terminal/say.h"
@@ -14,11 +16,25 @@
 #include "hci/host/report/summary.h"
 #include "hci/host/report/write.h"
 
-enum { CURRENTS, OUT, REPORT, CLI_COMMON_KEYS };
+enum { CURRENTS, TABLE, DRIVE, SPEEDS, TORQUE, MODEL_ERROR, OUT, REPORT, CLI_COMMON_KEYS };
 
 static const cli_option OPTIONS[] = {
     [CURRENTS] = {"currents", 0, CLI_FILE, "PATH",
                   .help = "impose these: currents.csv, or a folder that `solve` wrote"},
+    [TABLE] = {"table", 0, CLI_FOLDER, "FOLDER",
+               .help =
+                   "in place of a scenario: torque ripple over the speed of the tables that `emit --drive` "
+                   "makes of this folder of `solve`; may be given for several levels of torque",
+               .repeats = true},
+    [DRIVE] = {"drive", 0, CLI_FILE, "FILE", .help = "with --table: drive.csv"},
+    [SPEEDS] = {"speeds", 0, CLI_TEXT, "RPM,...", .help = "with --table: mechanical, ascending"},
+    [TORQUE] = {"torque", 0, CLI_NUMBER, "NM",
+                .help = "with --table: what is asked for (default: the highest level)", .low = -1e9,
+                .high = 1e9},
+    [MODEL_ERROR] = {"model-error", 0, CLI_NUMBER, "PERCENT",
+                     .help =
+                         "with --table: also machines whose resistance, inductance and flux are so much off",
+                     .low = 0.0, .high = 90.0},
     [OUT] = {"out", 'o', CLI_FOLDER, "FOLDER", .help = "where the results go; without it nothing is written"},
     [REPORT] = {"report", 0, CLI_FLAG, NULL, .help = "report.html beside the results, for people"},
     CLI_COMMON_OPTIONS};
@@ -107,17 +123,52 @@ static hci_status simulate(const cli_arguments *a, const hci_machine_data *machi
     return status;
 }
 
+/* Options and words that exclude or need each other. */
+static hci_status check_together(const cli_arguments *a, hci_note *note)
+{
+    const bool table = a->repeats > 0;
+    const char *wrong = NULL;
+    if (a->given[REPORT] && !a->given[OUT])
+        wrong = "--report is written into a folder; add --out FOLDER";
+    else if (table && a->words != 1)
+        wrong = "simulate: --table takes the place of a scenario; delete one of the two";
+    else if (!table && a->words != 2)
+        wrong = "simulate: expected MACHINE SCENARIO, or MACHINE with --table, --drive and --speeds";
+    else if (table && (!a->given[DRIVE] || !a->given[SPEEDS]))
+        wrong = "simulate: --table needs --drive FILE and --speeds RPM,...";
+    else if (table && a->given[CURRENTS])
+        wrong = "simulate: --table and --currents both say what flows; delete one of them";
+    else if (!table && (a->given[DRIVE] || a->given[SPEEDS] || a->given[TORQUE] || a->given[MODEL_ERROR]))
+        wrong = "simulate: --drive, --speeds, --torque and --model-error go with --table FOLDER";
+    return wrong ? hci_note_set(note, HCI_ERROR_ARGUMENT, "%s", wrong) : HCI_OK;
+}
+
+static int run_speeds(const cli_arguments *a)
+{
+    const cli_speeds_words words = {.machine = a->word[0],
+                                    .drive = a->value[DRIVE],
+                                    .table = a->repeated,
+                                    .table_count = a->repeats,
+                                    .speeds = a->value[SPEEDS],
+                                    .torque_Nm = a->number[TORQUE],
+                                    .error_percent = cli_number_or(a, MODEL_ERROR, 0.0),
+                                    .out = a->value[OUT],
+                                    .report = a->given[REPORT],
+                                    .json = a->given[JSON]};
+    hci_note note = {{0}};
+    const hci_status status = cli_simulate_speeds(&words, &note);
+    return status ? cli_fail(status, &note) : 0;
+}
+
 static int run(const cli_arguments *a)
 {
     hci_machine_data machine;
     hci_effects_data effects = {{NULL, 0}, NULL, NULL};
     hci_scenario scenario;
     hci_note note = {{0}};
-    hci_status status = HCI_OK;
+    hci_status status = check_together(a, &note);
+    if (!status && a->repeats > 0) return run_speeds(a);
     memset(&machine, 0, sizeof machine);
-    if (a->given[REPORT] && !a->given[OUT])
-        status =
-            hci_note_set(&note, HCI_ERROR_ARGUMENT, "--report is written into a folder; add --out FOLDER");
     if (!status) status = hci_machine_read(a->word[0], &machine, &note);
     if (!status) status = hci_effects_read_machine(a->word[0], &effects, &note);
     if (!status) status = hci_scenario_read(a->word[1], &scenario, &note);
@@ -130,15 +181,22 @@ static int run(const cli_arguments *a)
 
 const cli_command cli_simulate = {
     .name = "simulate",
-    .words = "MACHINE SCENARIO",
-    .does = "Runs the drive in time: machine, shaft, current and speed control, sensors.\n"
-            "Writes trajectory.csv, spectrum.csv and summary.json; with --report also report.html.",
+    .words = "MACHINE SCENARIO | MACHINE --table FOLDER --drive FILE --speeds RPM,...",
+    .does =
+        "Runs the drive in time: machine, shaft, current and speed control, sensors.\n"
+        "Writes trajectory.csv, spectrum.csv and summary.json; with --report also report.html.\n"
+        "With --table: torque ripple through the current loop at several speeds, by what is done about it;\n"
+        "writes speeds.csv, speeds.svg and summary.json.",
     .options = OPTIONS,
-    .words_needed = 2,
+    .words_needed = 1,
+    .takes_more_words = true,
     .word_kind = CLI_FILE,
-    .example = "  hci-solve simulate data/machine_a data/drive/imposed.csv -o out/imposed\n"
-               "  hci-solve simulate data/machine_c data/drive/filho_strategy_3.csv -o out/strategy_3\n"
-               "\nExit codes: 0 done; " CLI_EXIT_ERRORS,
+    .example =
+        "  hci-solve simulate data/machine_a data/drive/imposed.csv -o out/imposed\n"
+        "  hci-solve simulate data/machine_c data/drive/filho_strategy_3.csv -o out/strategy_3\n"
+        "  hci-solve simulate data/machine_a --table out/machine_a --drive data/drive/machine_a_10kHz.csv "
+        "--speeds 100,300,1000 -o out/speeds\n"
+        "\nExit codes: 0 done; " CLI_EXIT_ERRORS,
     .source = "cli/simulate.c",
     .guide = "simulate.md",
     .more_help = print_scenario_names,

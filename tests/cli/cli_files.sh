@@ -101,6 +101,11 @@ run 0 simulate "$m" "$work/imposed.csv" --currents "$work/solution/currents.csv"
 run 0 simulate "$m" "$work/scaled.csv" --currents "$work/solution" -q -o "$work/scaled"
 run 0 emit "$work/solution" --name page -q -o "$work/emitted"
 run 0 emit "$work/solution" --name page --per-torque -q -o "$work/emitted"
+example '`drive.csv`' >"$work/drive.csv"
+example '`loop.csv`' >"$work/loop.csv"
+sed '/^current_kp\|^current_ki/d; $a response,loop.csv,' "$work/drive.csv" >"$work/measured.csv"
+run 0 emit "$work/solution" --name drive --machine "$m" --drive "$work/measured.csv" --per-torque -q -o "$work/for_drive"
+check "loop.csv is not in what is emitted" grep -q 'drive_responses\[5\]' "$work/for_drive/drive.c"
 run 0 predict "$m" "$work/solution/trajectory.csv"
 run 0 predict "$m" "$work/solution/waveform.csv"
 for heading in '`spectrum.csv` of solve' '`spectrum.csv` of simulate' '`effects.csv` of diagnose' '`errors.csv`' '`residual_spectrum.csv`' '`unexplained.csv`' '`measure_next.csv`'; do
@@ -128,6 +133,12 @@ for folder in simulated imposed scaled driven; do
     written "$work/$folder/spectrum.csv" '`spectrum.csv` of simulate'
     named "$work/$folder/summary.json" 'summary.json of simulate'
 done
+
+example '`speeds.csv`' >"$work/example.csv"
+check "the example of speeds.csv has other columns" fits "$(header "$work/example.csv")" '`speeds.csv`'
+run 0 simulate data/machine_a --table "$work/solve" --drive data/drive/machine_a_10kHz.csv --speeds 300,600 -q -o "$work/speeds"
+written "$work/speeds/speeds.csv" '`speeds.csv`'
+named "$work/speeds/summary.json" 'summary.json of simulate --table'
 
 # ---- harmonics and predict
 
@@ -188,6 +199,8 @@ named "$work/checked/summary.json" 'summary.json of check'
 
 run 0 emit "$work/solve" --name page --json -q -o "$work/emitted"
 named "$work/stdout" 'summary.json of emit'
+run 0 emit "$work/solve" --name page --machine data/machine_a --drive data/drive/machine_a_10kHz.csv --json -q -o "$work/emitted"
+named "$work/stdout" 'summary.json of emit --drive'
 run 0 init "$work/first" --pole-pairs 7 --kv 400 --slots 12 --json -q
 named "$work/stdout" 'summary.json of init'
 for file in machine.csv back_emf.csv; do
@@ -196,7 +209,7 @@ done
 
 # ---- no file is written that the page does not name
 
-for file in $(cd "$work" && find solve driven diagnosed first emitted -type f | sed 's#.*/##' | sort -u); do
+for file in $(cd "$work" && find solve driven speeds diagnosed first emitted -type f | sed 's#.*/##' | sort -u); do
     case $file in
         page.h | page.c) file=ID.${file#page.} ;;
     esac

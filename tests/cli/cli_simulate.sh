@@ -98,7 +98,7 @@ refused() { # CODE EXPRESSION WORD...
     check "something was written" [ ! -e "$work/refused" ]
 }
 
-refused 2 'found 1 words, expected 2: MACHINE SCENARIO' data/machine_c
+refused 2 'expected MACHINE SCENARIO, or MACHINE with --table' data/machine_c
 refused 3 'none.csv: .*No such file' data/machine_c "$work/none.csv"
 rows duratoin,1,s; refused 3 'scenario.csv:2: no name `duratoin`; known: .* duration ' data/machine_c "$scenario"
 rows duration,1,A; refused 3 'scenario.csv:2: .*a unit that converts to s' data/machine_c "$scenario"

@@ -1,7 +1,8 @@
 /* Control of the simulated drive: a speed loop, torque to currents, current control; and the closed loop of
  * all.
  *
- *     speed ─▶ PI ─▶ torque ─▶ strategy or current waves ─▶ limits ─▶ hysteresis │ PI │ ideal ─▶ inverter
+ *     speed ─▶ PI ─▶ torque ─▶ strategy, current waves or code ─▶ limits ─▶ hysteresis │ PI │ ideal ─▶
+ * inverter
  *
  * Everything runs once a step of the plant; slower samples are every n-th step. */
 #ifndef HCI_DRIVE_CONTROL_H
@@ -63,7 +64,11 @@ unsigned hci_hysteresis_step(const hci_hysteresis *hysteresis, hci_hysteresis_st
 typedef struct {
     hci_pi pi;      /* of both axes, V/A and V/(A·s) */
     bool decoupled; /* adds ω (e + L'i) and the rotation of L i, from the table */
-    bool delayed; /* the voltage is used one sample later, as with a PWM unit that is loaded once a period */
+    /* Steps from a sample to the use of its voltage, at most those of a sample: all of them where a PWM unit
+     * is loaded once a period. */
+    unsigned delay_steps;
+    bool sinusoidal;         /* no zero sequence: |phase voltage| <= dc link/2, in place of the hexagon */
+    hci_dead_time dead_time; /* what it adds against the inverter's, by the measured current; 0: nothing */
 } hci_current_pi;
 
 /* What a PI current control keeps from sample to sample. */
@@ -71,6 +76,8 @@ typedef struct {
     double integral[2]; /* d, q, V */
     double v[2];        /* in use, αβ */
     double pending[2];  /* from the last sample */
+    unsigned wait;      /* steps until that is used; 0: it is */
+    uint64_t limited;   /* samples whose voltage the inverter could not give */
 } hci_current_pi_state;
 
 /* ---- the controller ---- */
@@ -88,15 +95,37 @@ typedef enum {
     X(HCI_CURRENT_HYSTERESIS, "hysteresis")                                                                  \
     X(HCI_CURRENT_PI, "pi")
 
-/* Where reference currents come from, from a time on: a strategy; or, when there are waves, T·per_Nm(θ) +
- * fixed(θ). */
+/* What a controller reads. */
 typedef struct {
-    double from_s;          /* time from which on it holds */
-    hci_strategy strategy;  /* used when there are no waves */
-    const hci_wave *per_Nm; /* A/(N·m); NULL with count 0 */
-    size_t per_Nm_count;    /* entries of per_Nm */
-    const hci_wave *fixed;  /* A; NULL with count 0 */
-    size_t fixed_count;     /* entries of fixed */
+    double i_abc[3];        /* phase currents, A */
+    double theta_m_rad;     /* mechanical angle */
+    double speed_rad_per_s; /* mechanical speed */
+} hci_measurement;
+
+/* What somebody else's code asks for at a sample, in the rotor frame of the measured angle,
+ * amplitude-invariant. */
+typedef struct {
+    double i_A[2]; /* reference current, d and q */
+    double v_V[2]; /* added to the voltage of a PI loop: d, q */
+} hci_reference_dq;
+
+/* Code that gives the references, such as a table that runs on a target. Called once a sample. */
+typedef struct {
+    /* context: of this struct. torque_Nm: commanded. reference: out. */
+    void (*at)(void *context, const hci_measurement *measured, double torque_Nm, hci_reference_dq *reference);
+    void *context; /* first argument of at */
+} hci_reference_code;
+
+/* Where reference currents come from, from a time on: code; or a strategy; or, when there are waves,
+ * T·per_Nm(θ) + fixed(θ). */
+typedef struct {
+    double from_s;                  /* time from which on it holds */
+    hci_strategy strategy;          /* used when there are no waves */
+    const hci_wave *per_Nm;         /* A/(N·m); NULL with count 0 */
+    size_t per_Nm_count;            /* entries of per_Nm */
+    const hci_wave *fixed;          /* A; NULL with count 0 */
+    size_t fixed_count;             /* entries of fixed */
+    const hci_reference_code *code; /* NULL: none */
 } hci_current_source;
 
 /* The controller of a drive. */
@@ -143,15 +172,9 @@ typedef struct {
     hci_hysteresis_state hysteresis;   /* of the hysteresis loop */
     hci_current_pi_state current;      /* of the PI loop */
     double reference[2];               /* A, αβ */
+    double feed[2];                    /* V, αβ of the measured angle: what code adds to the PI loop */
     double v[2];                       /* V, αβ; not used by the ideal loop */
 } hci_control_state;
-
-/* What a controller reads. */
-typedef struct {
-    double i_abc[3];        /* phase currents, A */
-    double theta_m_rad;     /* mechanical angle */
-    double speed_rad_per_s; /* mechanical speed */
-} hci_measurement;
 
 /* One step: state->v (state->reference with the ideal loop) is what the plant gets until the next one.
  * O(1) with a strategy, O(waves) at the samples with waves; may run in an interrupt. */
@@ -163,6 +186,7 @@ void hci_control_step(const hci_control *control, hci_control_state *state, cons
 /* Machine, controller and sensors in a closed loop. */
 typedef struct {
     hci_plant plant;           /* machine and shaft */
+    hci_dead_time dead_time;   /* of the inverter, with the PI loop; zeros: none */
     hci_control control;       /* and what drives them */
     const hci_sensor *sensors; /* HCI_SENSE_COUNT of them, or NULL: all ideal */
 } hci_drive;
@@ -173,6 +197,7 @@ typedef struct {
     hci_control_state control;                 /* of the controller */
     hci_sensor_state sensors[HCI_SENSE_COUNT]; /* started by the caller, when there are sensors */
     hci_measurement measured;                  /* at the start of the last step */
+    double v[2];                               /* V, αβ, at the machine in the last step */
     double torque_Nm;                          /* true torque there */
     double torque_measured_Nm;                 /* and its reading */
 } hci_drive_state;

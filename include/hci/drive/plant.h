@@ -138,6 +138,21 @@ void hci_inverter_switched(double dc_link_V, unsigned legs, double v[2]);
  * Returns the factor, 1 inside. */
 double hci_inverter_average(double dc_link_V, double v[2]);
 
+/* The same where the modulation adds no zero sequence: the largest |phase voltage| is half the dc link. */
+double hci_inverter_sinusoidal(double dc_link_V, double v[2]);
+
+/* Dead time: while both switches of a leg are open the current chooses the rail that is against it. Over a
+ * period of the PWM this is on average −voltage_V·sat(i/crossing_A) for each phase, sat(x) = x limited to
+ * −1 … 1. */
+typedef struct {
+    double voltage_V;  /* dc link voltage · dead time / period; 0: none */
+    double crossing_A; /* |i| below which the current changes its sign within a period; 0: none does */
+} hci_dead_time;
+
+/* Adds factor·voltage_V·sat(i/crossing_A) of each phase to v. i: A, v: in/out, V, αβ; factor: −1 is what the
+ * inverter does, +1 what compensates it. */
+void hci_inverter_dead_time(const hci_dead_time *dead_time, const double i[2], double factor, double v[2]);
+
 #ifdef __cplusplus
 }
 #endif

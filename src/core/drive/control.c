@@ -95,11 +95,34 @@ static void add_waves(const hci_current_source *source, double torque_Nm, double
     hci_plane_from_abc(abc, x);
 }
 
-static void sample_reference(const hci_control *control, hci_control_state *state, double theta_m_rad)
+/* Rotor frame, amplitude-invariant, to the plane. */
+static void from_dq(const double dq[2], double theta_rad, double x[2])
+{
+    const double scale = sqrt(1.5), s = sin(theta_rad), c = cos(theta_rad);
+    x[0] = scale * (s * dq[1] - c * dq[0]);
+    x[1] = scale * (-s * dq[0] - c * dq[1]);
+}
+
+static void ask_code(const hci_control *control, const hci_reference_code *code, hci_control_state *state,
+                     const hci_measurement *measured)
+{
+    const double theta_rad = control->table->pole_pairs * measured->theta_m_rad;
+    hci_reference_dq reference = {{0.0, 0.0}, {0.0, 0.0}};
+    code->at(code->context, measured, state->torque_Nm, &reference);
+    from_dq(reference.i_A, theta_rad, state->reference);
+    from_dq(reference.v_V, theta_rad, state->feed);
+}
+
+static void sample_reference(const hci_control *control, hci_control_state *state,
+                             const hci_measurement *measured)
 {
     const hci_current_source *source = source_now(control, state);
+    const double theta_m_rad = measured->theta_m_rad;
     bool limited = false;
-    if (source->per_Nm_count + source->fixed_count > 0)
+    state->feed[0] = state->feed[1] = 0.0;
+    if (source->code)
+        ask_code(control, source->code, state, measured);
+    else if (source->per_Nm_count + source->fixed_count > 0)
         add_waves(source, state->torque_Nm, control->table->pole_pairs * theta_m_rad, state->reference);
     else
         limited = ask_strategy(control, state, source->strategy, theta_m_rad);
@@ -123,9 +146,16 @@ static void sample_voltage(const hci_control *control, hci_control_state *state,
 {
     double current[2];
     hci_plane_from_abc(measured->i_abc, current);
-    hci_current_pi_sample(control, &state->current, state->reference, current, measured);
-    state->v[0] = state->current.v[0];
-    state->v[1] = state->current.v[1];
+    hci_current_pi_sample(control, state, current, measured);
+}
+
+/* The voltage of a sample is used some steps later. */
+static void load_voltage(hci_control_state *state)
+{
+    hci_current_pi_state *pi = &state->current;
+    if (pi->wait > 0 && --pi->wait > 0) return;
+    for (int k = 0; k < 2; ++k)
+        state->v[k] = pi->v[k] = pi->pending[k];
 }
 
 void hci_control_step(const hci_control *control, hci_control_state *state, const hci_measurement *measured,
@@ -134,8 +164,11 @@ void hci_control_step(const hci_control *control, hci_control_state *state, cons
     if (is_due(&state->speed_wait, control->speed_every))
         sample_speed(control, state, measured->speed_rad_per_s, set_point);
     const bool due = is_due(&state->current_wait, control->current_every);
-    if (due) sample_reference(control, state, measured->theta_m_rad);
+    if (due) sample_reference(control, state, measured);
     if (control->loop == HCI_CURRENT_HYSTERESIS) switch_legs(control, state, measured->i_abc);
-    if (control->loop == HCI_CURRENT_PI && due) sample_voltage(control, state, measured);
+    if (control->loop == HCI_CURRENT_PI) {
+        load_voltage(state);
+        if (due) sample_voltage(control, state, measured);
+    }
     ++state->step;
 }

@@ -77,16 +77,31 @@ static void feed_forward(const hci_plant_table *table, const hci_measurement *me
 /* One sample of the loop, in the plane. */
 typedef struct {
     double error[2], feed[2];    /* A, V */
+    double current[2];           /* A, at the sample */
     double theta_rad, ahead_rad; /* of the sample, and from there to the middle of the voltage's use */
     double sample_s;
 } pi_sample;
 
-/* v: out, plane. */
-static void pi_in_rotor_frame(const hci_control *control, hci_current_pi_state *state, const pi_sample *x,
-                              double v[2])
+/* Turned by an angle in the direction of rotation. */
+static void turned(const double x[2], double angle_rad, double y[2])
+{
+    const double s = sin(angle_rad), c = cos(angle_rad);
+    y[0] = c * x[0] - s * x[1];
+    y[1] = s * x[0] + c * x[1];
+}
+
+/* As much of the voltage as the modulation can give. Returns the factor. */
+static double limit_voltage(const hci_control *control, double v[2])
+{
+    return control->current.sinusoidal ? hci_inverter_sinusoidal(control->dc_link_V, v)
+                                       : hci_inverter_average(control->dc_link_V, v);
+}
+
+/* state->pending: out. */
+static void pi_in_rotor_frame(const hci_control *control, hci_current_pi_state *state, const pi_sample *x)
 {
     const hci_pi *pi = &control->current.pi;
-    double s = sin(x->theta_rad), c = cos(x->theta_rad), error_dq[2], raw[2];
+    double s = sin(x->theta_rad), c = cos(x->theta_rad), error_dq[2], raw[2], ahead[2];
     to_rotor(x->error, s, c, error_dq);
     to_rotor(x->feed, s, c, raw);
     for (int k = 0; k < 2; ++k)
@@ -95,27 +110,34 @@ static void pi_in_rotor_frame(const hci_control *control, hci_current_pi_state *
         s = sin(x->theta_rad + x->ahead_rad);
         c = cos(x->theta_rad + x->ahead_rad);
     }
-    from_rotor(raw, s, c, v);
-    const double factor = hci_inverter_average(control->dc_link_V, v);
+    from_rotor(raw, s, c, state->pending);
+    turned(x->current, x->ahead_rad, ahead);
+    hci_inverter_dead_time(&control->current.dead_time, ahead, 1.0, state->pending);
+    const double factor = limit_voltage(control, state->pending);
+    state->limited += factor < 1.0;
     for (int k = 0; k < 2; ++k)
         state->integral[k] =
             integrate(pi, state->integral[k], error_dq[k], raw[k], factor * raw[k], x->sample_s);
 }
 
-void hci_current_pi_sample(const hci_control *control, hci_current_pi_state *state, const double reference[2],
-                           const double current[2], const hci_measurement *measured)
+void hci_current_pi_sample(const hci_control *control, hci_control_state *state, const double current[2],
+                           const hci_measurement *measured)
 {
+    const hci_current_pi *pi = &control->current;
     const double sample_s = control->step_s * (control->current_every > 0 ? control->current_every : 1u);
-    const double way_rad = control->table->pole_pairs * measured->speed_rad_per_s * sample_s;
+    const double delay_s = control->step_s * pi->delay_steps + 0.5 * sample_s;
+    const double *reference = state->reference;
     pi_sample x = {.error = {reference[0] - current[0], reference[1] - current[1]},
+                   .current = {current[0], current[1]},
                    .theta_rad = control->table->pole_pairs * measured->theta_m_rad,
-                   .ahead_rad = way_rad * (control->current.delayed ? 1.5 : 0.5),
+                   .ahead_rad = control->table->pole_pairs * measured->speed_rad_per_s * delay_s,
                    .sample_s = sample_s};
-    double v[2];
-    if (control->current.decoupled) feed_forward(control->table, measured, current, x.feed);
-    pi_in_rotor_frame(control, state, &x, v);
-    for (int k = 0; k < 2; ++k) {
-        state->v[k] = control->current.delayed ? state->pending[k] : v[k];
-        state->pending[k] = v[k];
-    }
+    if (pi->decoupled) feed_forward(control->table, measured, current, x.feed);
+    for (int k = 0; k < 2; ++k)
+        x.feed[k] += state->feed[k];
+    pi_in_rotor_frame(control, &state->current, &x);
+    state->current.wait = pi->delay_steps;
+    if (pi->delay_steps > 0) return;
+    for (int k = 0; k < 2; ++k)
+        state->v[k] = state->current.v[k] = state->current.pending[k];
 }

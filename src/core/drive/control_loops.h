@@ -4,9 +4,9 @@
 
 #include "hci/drive/control.h"
 
-/* One sample: from reference and measured current (A, αβ) at the angle and speed of `measured` to state->v.
- */
-void hci_current_pi_sample(const hci_control *control, hci_current_pi_state *state, const double reference[2],
-                           const double current[2], const hci_measurement *measured);
+/* One sample: from state->reference, state->feed and the measured current (A, αβ) at the angle and speed of
+ * `measured` to state->current.pending, and without a delay to state->v. */
+void hci_current_pi_sample(const hci_control *control, hci_control_state *state, const double current[2],
+                           const hci_measurement *measured);
 
 #endif

@@ -21,3 +21,34 @@ double hci_inverter_average(double dc_link_V, double v[2])
     v[1] *= factor;
     return factor;
 }
+
+double hci_inverter_sinusoidal(double dc_link_V, double v[2])
+{
+    double abc[3];
+    hci_plane_to_abc(v, abc);
+    const double most_V = fmax(fabs(abc[0]), fmax(fabs(abc[1]), fabs(abc[2])));
+    if (!(most_V > 0.5 * dc_link_V)) return 1.0;
+    const double factor = 0.5 * dc_link_V / most_V;
+    v[0] *= factor;
+    v[1] *= factor;
+    return factor;
+}
+
+/* sat(i/crossing), with the sign of i where nothing is between. */
+static double saturated(double i_A, double crossing_A)
+{
+    if (fabs(i_A) < crossing_A) return i_A / crossing_A;
+    return (double)(i_A > 0.0) - (double)(i_A < 0.0);
+}
+
+void hci_inverter_dead_time(const hci_dead_time *dead_time, const double i[2], double factor, double v[2])
+{
+    double abc[3], plane[2];
+    if (dead_time->voltage_V == 0.0) return;
+    hci_plane_to_abc(i, abc);
+    for (int s = 0; s < 3; ++s)
+        abc[s] = factor * dead_time->voltage_V * saturated(abc[s], dead_time->crossing_A);
+    hci_plane_from_abc(abc, plane);
+    v[0] += plane[0];
+    v[1] += plane[1];
+}

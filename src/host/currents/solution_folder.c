@@ -48,19 +48,29 @@ hci_status hci_solution_read_currents(const char *path, hci_solution_file part, 
     return status ? status : hci_currents_read(file, part == HCI_SOLUTION_CURRENTS_PER_NM, currents, note);
 }
 
-hci_status hci_solution_read_mean_torque(const char *folder, double *torque_Nm, hci_note *note)
+hci_status hci_solution_read_wanted_torque(const char *folder, double *torque_Nm, hci_note *note)
 {
     char path[PATH_SIZE];
     hci_csv *csv;
-    double order = 1.0, mean_Nm = 0.0;
+    double order = 1.0;
     hci_status status = path_of(folder, HCI_SOLUTION_SPECTRUM, path, note);
+    *torque_Nm = 0.0;
     if (!status) status = hci_csv_read(path, &csv, note);
     if (status) return status;
     if (hci_csv_rows(csv) > 0) status = hci_csv_number(csv, "order", 0, &order, note);
-    if (!status && order == 0.0) status = hci_csv_number(csv, "target_Nm", 0, &mean_Nm, note);
+    if (!status && order == 0.0) status = hci_csv_number(csv, "target_Nm", 0, torque_Nm, note);
     hci_csv_free(csv);
+    return status;
+}
+
+hci_status hci_solution_read_mean_torque(const char *folder, double *torque_Nm, hci_note *note)
+{
+    char path[PATH_SIZE];
+    double mean_Nm;
+    hci_status status = hci_solution_read_wanted_torque(folder, &mean_Nm, note);
+    if (!status) status = path_of(folder, HCI_SOLUTION_SPECTRUM, path, note);
     if (status) return status;
-    if (order != 0.0 || mean_Nm == 0.0)
+    if (mean_Nm == 0.0)
         return hci_note_set(note, HCI_ERROR_INPUT, "%s: no mean torque in it; give --reference-torque NM",
                             path);
     *torque_Nm = mean_Nm;

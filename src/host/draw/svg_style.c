@@ -17,7 +17,7 @@ const char hci_svg_style[] =
     ".hci rect.wanted{fill:none;stroke-width:1.2;stroke-dasharray:none}"
     ".hci .after{stroke:#0072b2;stroke-width:1.6}.hci rect.after{fill:#0072b2;stroke:none}"
     ".hci .a{stroke:#0072b2;stroke-width:1.8}.hci .b{stroke:#b87a00;stroke-width:1.5}"
-    ".hci .c{stroke:#009e73;stroke-width:1.5}.hci .path{stroke:#0072b2;stroke-width:1.2}"
+    ".hci .c{stroke:#009e73;stroke-width:1.5}.hci circle.c{fill:none}.hci .path{stroke:#0072b2;stroke-width:1.2}"
     ".hci .start{fill:#0072b2}.hci .plain{fill:none;stroke:#5a6068;stroke-width:1.8}"
     ".hci .cross,.hci .ring{fill:none;stroke:#c04a00;stroke-width:1.8}"
     ".hci .noise{stroke:#c04a00;stroke-width:1.6}.hci "

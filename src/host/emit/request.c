@@ -82,7 +82,7 @@ static bool is_taken(const char *name)
            (length > 2 && strcmp(name + length - 2, "_t") == 0);
 }
 
-static hci_status check_name(const char *name, hci_note *note)
+hci_status hci_emit_check_name(const char *name, hci_note *note)
 {
     char shown[HCI_QUOTE_SIZE];
     const char *expected = NULL;
@@ -183,7 +183,7 @@ static hci_status check_waves(const hci_emit_request *r, const hci_wave *waves, 
 
 hci_status hci_emit_request_check(const hci_emit_request *r, hci_note *note)
 {
-    hci_status status = check_name(r->name, note);
+    hci_status status = hci_emit_check_name(r->name, note);
     if (!status) status = check_format(r->format, note);
     if (!status) status = check_size(r, note);
     if (!status) status = check_provenance(r, note);

@@ -13,7 +13,7 @@
 
 /* Nine significant digits, which is enough for a float, with a decimal point in every locale and for every
  * value, so that C takes it for a floating constant. */
-static const char *number(double value, char text[32])
+const char *hci_emission_number(double value, char text[32])
 {
     char digits[32], exponent[8];
     size_t mantissa;
@@ -26,10 +26,10 @@ static const char *number(double value, char text[32])
     return text;
 }
 
-static void write_float(hci_output *out, float value, const char *end)
+void hci_emission_float(hci_output *out, float value, const char *end)
 {
     char text[32];
-    hci_output_text(out, "%sf%s", number((double)value, text), end);
+    hci_output_text(out, "%sf%s", hci_emission_number((double)value, text), end);
 }
 
 static const char *plural(size_t count)
@@ -94,12 +94,14 @@ static void write_figures(const hci_emission *e, hci_output *out)
     hci_output_text(out, " * Size:   %" PRIu32 " points and a guard row, %zu values each, %zu bytes.\n",
                     t->points, values, (t->points + 1) * values * 4);
     hci_output_text(out, " * Error:  at most %s A in any current at any angle",
-                    number((double)t->max_error_A, text));
+                    hci_emission_number((double)t->max_error_A, text));
     if (t->parts == 2)
-        hci_output_text(out, ", |torque| <= %s N*m", number((double)t->reference_torque_Nm, text));
-    hci_output_text(out, ".\n * Peak:   %s A phase current", number((double)t->peak_A, text));
+        hci_output_text(out, ", |torque| <= %s N*m",
+                        hci_emission_number((double)t->reference_torque_Nm, text));
+    hci_output_text(out, ".\n * Peak:   %s A phase current", hci_emission_number((double)t->peak_A, text));
     if (t->parts == 2)
-        hci_output_text(out, ", |torque| <= %s N*m", number((double)t->reference_torque_Nm, text));
+        hci_output_text(out, ", |torque| <= %s N*m",
+                        hci_emission_number((double)t->reference_torque_Nm, text));
     hci_output_text(out, ".\n * CRC-32: %08" PRIx32 " (IEEE 802.3) of the rows.\n", t->crc32);
 }
 
@@ -138,9 +140,9 @@ static void write_waves(hci_output *out, const char *title, const hci_wave *wave
     hci_output_text(out, " * %12s %8s %16s %16s\n", "order", "sequence", "amplitude", "phase_rad");
     for (size_t k = 0; k < count; ++k) {
         const hci_wave *w = &waves[k];
-        hci_output_text(out, " * %12s %8d %16s %16s\n", number(w->order, order), w->sequence,
-                        number(hci_amplitude(w->sine, w->cosine), amplitude),
-                        number(hci_phase_rad(w->sine, w->cosine), phase));
+        hci_output_text(out, " * %12s %8d %16s %16s\n", hci_emission_number(w->order, order), w->sequence,
+                        hci_emission_number(hci_amplitude(w->sine, w->cosine), amplitude),
+                        hci_emission_number(hci_phase_rad(w->sine, w->cosine), phase));
     }
 }
 
@@ -151,7 +153,7 @@ static void write_rows(const hci_emission *e, hci_output *out)
     for (size_t k = 0; k < rows; ++k) {
         hci_output_text(out, "    ");
         for (size_t j = 0; j < values; ++j)
-            write_float(out, e->rows[k * values + j], j + 1 < values ? ", " : ",\n");
+            hci_emission_float(out, e->rows[k * values + j], j + 1 < values ? ", " : ",\n");
     }
     hci_output_text(out, "};\n\n");
 }
@@ -166,10 +168,10 @@ static void write_probes(const hci_emission *e, hci_output *out)
     for (size_t k = 0; k < HCI_EMIT_PROBES; ++k) {
         const hci_table_f32_probe *p = &e->probes[k];
         hci_output_text(out, "    {%" PRIu32 "u, ", p->angle);
-        write_float(out, p->torque_Nm, ", {");
-        write_float(out, p->expected[0], ", ");
-        write_float(out, p->expected[1], ", ");
-        write_float(out, p->expected[2], "}},\n");
+        hci_emission_float(out, p->torque_Nm, ", {");
+        hci_emission_float(out, p->expected[0], ", ");
+        hci_emission_float(out, p->expected[1], ", ");
+        hci_emission_float(out, p->expected[2], "}},\n");
     }
     hci_output_text(out, "};\n\n");
 }
@@ -186,9 +188,9 @@ static void write_table(const hci_emission *e, hci_output *out)
     hci_output_text(out, "    %s,\n", t->frame == HCI_TABLE_ABC ? "HCI_TABLE_ABC" : "HCI_TABLE_DQ");
     hci_output_text(out, "    %" PRIu32 "u, /* period_turns */\n    0x%08" PRIX32 "u, /* crc32 */\n    ",
                     t->period_turns, t->crc32);
-    write_float(out, t->max_error_A, ", /* max_error_A */\n    ");
-    write_float(out, t->peak_A, ", /* peak_A */\n    ");
-    write_float(out, t->reference_torque_Nm, " /* reference_torque_Nm */\n};\n");
+    hci_emission_float(out, t->max_error_A, ", /* max_error_A */\n    ");
+    hci_emission_float(out, t->peak_A, ", /* peak_A */\n    ");
+    hci_emission_float(out, t->reference_torque_Nm, " /* reference_torque_Nm */\n};\n");
 }
 
 void hci_emission_write_source(const hci_emission *e, hci_output *out)

@@ -18,6 +18,12 @@ typedef struct {
     hci_table_f32 table;
 } hci_emission;
 
+/* A number of nine significant digits as C takes it for a floating constant. */
+const char *hci_emission_number(double value, char text[32]);
+
+/* The same as a constant of single precision, and what follows it. */
+void hci_emission_float(hci_output *output, float value, const char *end);
+
 /* What goes into NAME.h and NAME.c. */
 void hci_emission_write_header(const hci_emission *e, hci_output *output);
 void hci_emission_write_source(const hci_emission *e, hci_output *output);

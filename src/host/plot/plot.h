@@ -6,6 +6,7 @@
 
 #include "hci/host/base/output.h"
 #include "hci/host/diagnose/diagnose.h"
+#include "hci/host/simulate/speeds.h"
 #include "hci/host/solve/solve.h"
 #include "hci/host/waveform/waveform.h"
 #include "hci/machine/frames.h"
@@ -48,6 +49,12 @@ void hci_plot_solution_point(const hci_solution *solution, double theta_rad, hci
 /* A measured waveform as a picture with a style sheet of its own: over a turn, and by order.
  * O(points·orders). */
 void hci_plot_waveform(hci_output *out, const hci_waveform *waveform);
+
+/* ---- plot_speeds.c ---- */
+
+/* Torque ripple and voltage over the speed, with a style sheet of its own where it stands alone. O(speeds).
+ */
+void hci_plot_speeds(hci_output *out, const hci_speeds *speeds, bool stands_alone);
 
 /* ---- plot_system.c, plot_residuals.c: numbers in rows and columns, as squares whose size tells theirs ----
  */

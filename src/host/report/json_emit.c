@@ -1,4 +1,4 @@
-/* What `emit` has made, as JSON. */
+/* What `emit` has made, as JSON: a table, and orders for a drive. */
 #include "host/report/summary.h"
 
 char *hci_emit_json(const hci_emit_request *request, const hci_emit_result *result)
@@ -16,5 +16,30 @@ char *hci_emit_json(const hci_emit_request *request, const hci_emit_result *resu
     hci_json_number(&json, "max_error_A", result->max_error_A);
     hci_json_number(&json, "peak_A", result->peak_A);
     hci_json_number(&json, "crc32", result->crc32);
+    return hci_json_end(&json);
+}
+
+char *hci_emit_loop_json(const hci_emit_loop_request *request, const hci_emit_loop_result *r)
+{
+    hci_json json;
+    hci_summary_begin(&json, "emit");
+    hci_json_text(&json, "name", request->name);
+    hci_json_number(&json, "orders", (double)r->orders);
+    hci_json_number(&json, "highest_order", r->highest_order);
+    hci_json_number(&json, "levels", (double)r->levels);
+    hci_json_number(&json, "torque_low_Nm", r->torque_low_Nm);
+    hci_json_number(&json, "torque_high_Nm", r->torque_high_Nm);
+    hci_json_number(&json, "points", (double)r->points);
+    hci_json_number(&json, "repeats", (double)r->repeats);
+    hci_json_number(&json, "period_electrical_turns", (double)r->period_turns);
+    hci_json_number(&json, "flash_bytes", (double)r->flash_bytes);
+    hci_json_number(&json, "ram_bytes", (double)r->ram_bytes);
+    hci_json_number(&json, "feedforward_ram_bytes", (double)r->feedforward_ram_bytes);
+    hci_json_number(&json, "max_error_A", r->max_error_A);
+    hci_json_number(&json, "peak_A", r->peak_A);
+    hci_json_number(&json, "lead_s", r->lead_s);
+    hci_json_number(&json, "voltage_rpm", r->voltage_rad_per_s * 30.0 / HCI_PI);
+    hci_json_number(&json, "sampled_rpm", r->sampled_rad_per_s * 30.0 / HCI_PI);
+    hci_json_number(&json, "crc32", r->crc32);
     return hci_json_end(&json);
 }

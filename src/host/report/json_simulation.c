@@ -1,4 +1,4 @@
-/* summary.json of `simulate`. */
+/* summary.json of `simulate`: of a scenario, and of speeds. */
 #include <stdio.h>
 
 #include "host/report/summary.h"
@@ -82,5 +82,60 @@ char *hci_simulation_json(const hci_simulation *simulation)
     put_torque_and_current(&json, simulation);
     put_control(&json, simulation);
     put_energy(&json, simulation);
+    return hci_json_end(&json);
+}
+
+/* ---- speeds ---- */
+
+static double rpm(double speed_rad_per_s)
+{
+    return speed_rad_per_s * 30.0 / HCI_PI;
+}
+
+static void put_result(hci_json *json, hci_remedy remedy, const hci_speed_result *x)
+{
+    hci_json_object(json, NULL);
+    hci_json_text(json, "remedy", hci_remedy_name(remedy));
+    hci_json_number(json, "mean_Nm", x->mean_Nm);
+    hci_json_number(json, "T_ripple", x->T_ripple_percent);
+    hci_json_number(json, "F_ripple", x->F_ripple_percent);
+    hci_json_number(json, "worst_T_ripple", x->worst_T_ripple_percent);
+    hci_json_number(json, "peak_phase_A", x->peak_A);
+    hci_json_number(json, "peak_line_V", x->line_V);
+    hci_json_number(json, "limited_share", x->limited_share);
+    hci_json_close(json);
+}
+
+static void put_row(hci_json *json, const hci_speed_row *row)
+{
+    hci_json_object(json, NULL);
+    hci_json_number(json, "speed_rpm", rpm(row->speed_rad_per_s));
+    hci_json_number(json, "needed_dc_link_V", row->needed_V);
+    hci_json_number(json, "orders_short", (double)row->orders_short);
+    hci_json_array(json, "remedies");
+    for (int k = 0; k < HCI_REMEDIES; ++k)
+        put_result(json, (hci_remedy)k, &row->remedy[k]);
+    hci_json_close(json);
+    hci_json_close(json);
+}
+
+char *hci_speeds_json(const hci_speeds *s)
+{
+    hci_json json;
+    hci_summary_begin(&json, "simulate");
+    hci_json_number(&json, "torque_Nm", s->torque_Nm);
+    hci_json_number(&json, "dc_link_V", s->dc_link_V);
+    hci_json_number(&json, "lead_s", s->lead_s);
+    hci_json_number(&json, "model_error_percent", 100.0 * s->model_error);
+    hci_json_number(&json, "voltage_rpm", rpm(s->voltage_rad_per_s));
+    hci_json_number(&json, "sampled_rpm", rpm(s->sampled_rad_per_s));
+    hci_json_object(&json, "harmful_from_rpm");
+    for (int k = HCI_REMEDY_TABLE; k < HCI_REMEDIES; ++k)
+        hci_json_number(&json, hci_remedy_name((hci_remedy)k), rpm(s->harmful_rad_per_s[k]));
+    hci_json_close(&json);
+    hci_json_array(&json, "speeds");
+    for (size_t k = 0; k < s->count; ++k)
+        put_row(&json, &s->row[k]);
+    hci_json_close(&json);
     return hci_json_end(&json);
 }

@@ -53,6 +53,7 @@ static void give_control(const hci_evaluation *e, const hci_integrals *x, double
             : (double)NAN;
     s->samples = (size_t)(time_s / sample_s + 0.5);
     s->without_current = (size_t)(x->at.counts.without_current - e->first.counts.without_current);
+    s->voltage_limited = (size_t)(x->at.counts.voltage_limited - e->first.counts.voltage_limited);
     s->limited = (size_t)(x->at.counts.limited - e->first.counts.limited);
     s->without_current_from_start = (size_t)e->running.at.counts.without_current;
     s->limited_from_start = (size_t)e->running.at.counts.limited;

@@ -116,10 +116,10 @@ static hci_status add_effects(const hci_setup_task *b)
     return hci_effects_attach(&plant, &p->state.plant, &p->drive, p->sensor, &p->attachment, b->note);
 }
 
-hci_status hci_setup_make(const hci_machine_data *machine, const hci_effects *effects,
+hci_status hci_setup_make(const hci_machine_data *machine, const hci_simulate_options *options,
                           const hci_scenario *scenario, hci_setup *setup, hci_note *note)
 {
-    const hci_setup_task b = {machine, effects, scenario, setup, note};
+    const hci_setup_task b = {machine, options->effects, options->loop, scenario, setup, note};
     hci_status status;
     memset(setup, 0, sizeof *setup);
     status = check_set_points(&b);

@@ -22,6 +22,31 @@ static hci_status set_sample_times(const hci_setup_task *b)
     return status;
 }
 
+/* Dead time of the inverter, and what the control does about it. */
+static void set_dead_time(const hci_setup_task *b)
+{
+    const hci_scenario *s = b->scenario;
+    hci_drive *drive = &b->setup->drive;
+    const double sample_s = drive->control.step_s * drive->control.current_every;
+    drive->dead_time.voltage_V = drive->control.dc_link_V * hci_value_or(s->dead_time_s, 0.0) / sample_s;
+    drive->dead_time.crossing_A = hci_value_or(s->dead_time_crossing_A, 0.0);
+    if (hci_value_or(s->dead_time_compensation, 0.0) > 0.5)
+        drive->control.current.dead_time = drive->dead_time;
+}
+
+static hci_status set_delay(const hci_setup_task *b)
+{
+    const hci_scenario *s = b->scenario;
+    hci_control *control = &b->setup->drive.control;
+    control->current.delay_steps = hci_value_or(s->pwm_delay, 1.0) > 0.5 ? control->current_every : 0;
+    if (isnan(s->computing_delay_s)) return HCI_OK;
+    const hci_status status =
+        hci_setup_count_steps(b, "computing_delay", s->computing_delay_s, 0, &control->current.delay_steps);
+    if (status || control->current.delay_steps <= control->current_every) return status;
+    return hci_setup_wrong(b, "`computing_delay` is %g s, expected at most `current_sample_time`",
+                           s->computing_delay_s);
+}
+
 /* Bandwidth 0.2 of a sample's rate, in rad: the 1.5 samples of delay then take 0.3 rad of the phase. */
 static void set_current_pi(const hci_setup_task *b)
 {
@@ -36,8 +61,10 @@ static void set_current_pi(const hci_setup_task *b)
     control->current.pi.proportional = hci_value_or(s->current_kp_ohm, bandwidth_per_s * mean_H);
     control->current.pi.integral_per_s =
         hci_value_or(s->current_ki_V_per_As, bandwidth_per_s * b->machine->resistance_ohm);
-    control->current.delayed = hci_value_or(s->pwm_delay, 1.0) > 0.5;
     control->current.decoupled = hci_value_or(s->decoupling, 1.0) > 0.5;
+    control->current.sinusoidal = b->loop && b->loop->sinusoidal;
+    if (b->loop && b->loop->known) control->table = b->loop->known;
+    set_dead_time(b);
 }
 
 static hci_status set_hysteresis(const hci_setup_task *b)
@@ -62,6 +89,7 @@ static hci_status set_current_control(const hci_setup_task *b)
     if (control->dc_link_V <= 0.0)
         return hci_note_set(b->note, HCI_ERROR_INPUT, "machine.csv: expected `dc_link_voltage` above zero");
     if (control->loop == HCI_CURRENT_PI) set_current_pi(b);
+    if (control->loop == HCI_CURRENT_PI && set_delay(b)) return HCI_ERROR_INPUT;
     if (control->loop == HCI_CURRENT_HYSTERESIS && set_hysteresis(b)) return HCI_ERROR_INPUT;
     return hci_setup_need(b, control->dc_link_V, "dc_link_voltage", "V",
                           "an inverter needs (or give it in the scenario)");

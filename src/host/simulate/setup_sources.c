@@ -66,6 +66,7 @@ hci_status hci_setup_sources(const hci_setup_task *b)
     p->source[0].strategy = s->strategy;
     p->source[1].strategy = s->strategy_2;
     p->source[1].from_s = s->strategy_2_from_s;
+    if (b->loop) p->source[0].code = &b->loop->code;
     p->drive.control.sources = p->source;
     p->drive.control.source_count = isnan(s->strategy_2_from_s) ? 1 : 2;
     return s->currents[0] != '\0' ? read_waves(b) : HCI_OK;

@@ -7,7 +7,8 @@
 
 typedef struct {
     const hci_machine_data *machine;
-    const hci_effects *effects; /* or NULL */
+    const hci_effects *effects;    /* or NULL */
+    const hci_simulate_loop *loop; /* or NULL */
     const hci_scenario *scenario;
     hci_setup *setup; /* is filled */
     hci_note *note;

@@ -29,7 +29,8 @@ static double load_at(const hci_setup *setup, double time_s)
 
 static hci_simulation_counts counts_of(const hci_control_state *control)
 {
-    return (hci_simulation_counts){control->hysteresis.switchings, control->unreached, control->limited};
+    return (hci_simulation_counts){control->hysteresis.switchings, control->unreached, control->limited,
+                                   control->current.limited};
 }
 
 /* What held at the start of the step that has just been made; its counts are there already. */
@@ -41,7 +42,7 @@ static void fill_step(const hci_setup *setup, const hci_plant_state *before, dou
     hci_plant_state at = *before;
     for (int k = 0; k < 2; ++k) {
         at.i[k] = step->i_A[k] = imposed ? setup->state.control.reference[k] : before->i[k];
-        step->v_V[k] = setup->state.control.v[k];
+        step->v_V[k] = imposed ? setup->state.control.v[k] : setup->state.v[k];
     }
     step->time_s = time_s;
     step->theta_e_rad = drive->plant.table.pole_pairs * hci_plant_angle_rad(before);
@@ -145,7 +146,7 @@ hci_status hci_simulate(const hci_machine_data *machine, const hci_scenario *sce
     hci_status status;
     memset(simulation, 0, sizeof *simulation);
     if (!setup) return hci_note_memory(note, NULL, "the simulation");
-    status = hci_setup_make(machine, options->effects, scenario, setup, note);
+    status = hci_setup_make(machine, options, scenario, setup, note);
     simulation->remark = setup->remark;
     simulation->imposed = scenario->currents[0] != '\0';
     if (!status) status = run_setup(machine, options, setup, simulation, note);

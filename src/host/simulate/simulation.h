@@ -33,7 +33,7 @@ typedef struct {
     hci_note remark;
 } hci_setup;
 
-hci_status hci_setup_make(const hci_machine_data *machine, const hci_effects *effects,
+hci_status hci_setup_make(const hci_machine_data *machine, const hci_simulate_options *options,
                           const hci_scenario *scenario, hci_setup *setup, hci_note *note);
 void hci_setup_release(hci_setup *setup);
 

@@ -140,7 +140,7 @@ static void current_step(double step_s, double speed, bool decoupled, double l_q
     deviation[0] = deviation[1] = 0.0;
     drive.control.step_s = step_s;
     drive.control.loop = HCI_CURRENT_PI;
-    drive.control.current = (hci_current_pi){{kp, ki}, decoupled, false};
+    drive.control.current = (hci_current_pi){.pi = {kp, ki}, .decoupled = decoupled};
     drive.plant.inertia_kgm2 = INFINITY;
     state.plant.theta_m_rad = 0.7;
     state.plant.speed_rad_per_s = speed;
@@ -198,7 +198,7 @@ static void test_pwm_delay_is_one_sample(void)
         use_machine(&PM_SINE, 256);
         drive.control.loop = HCI_CURRENT_PI;
         drive.control.current_every = 4;
-        drive.control.current = (hci_current_pi){{6.0, 0.0}, 0, delayed};
+        drive.control.current = (hci_current_pi){.pi = {6.0, 0.0}, .delay_steps = delayed ? 4 : 0};
         hci_measurement m = {{0.0, 0.0, 0.0}, 0.3, 2.0};
         for (int k = 0; k < 12; ++k) {
             hci_control_step(&drive.control, &state.control, &m, 1.0 + (k >= 4));
@@ -214,6 +214,116 @@ static void test_pwm_delay_is_one_sample(void)
     }
 }
 
+/* A delay of a part of a sample: the voltage changes so many steps after its sample. */
+static void test_delay_in_steps(void)
+{
+    use_machine(&PM_SINE, 256);
+    drive.control.loop = HCI_CURRENT_PI;
+    drive.control.current_every = 4;
+    drive.control.current = (hci_current_pi){.pi = {6.0, 0.0}, .delay_steps = 3};
+    const hci_measurement m = {{0.0, 0.0, 0.0}, 0.3, 0.0};
+    double last = 0.0;
+    for (int k = 0; k < 16; ++k) {
+        hci_control_step(&drive.control, &state.control, &m, 1.0 + k / 4);
+        const double v = hypot(state.control.v[0], state.control.v[1]);
+        TEST_ASSERT_EQUAL_INT(k % 4 == 3, v != last);
+        last = v;
+    }
+}
+
+/* ---- dead time ---- */
+
+/* Each phase loses U t/T against its current: a third of the dc link's share in the sum of a long current. */
+static void test_dead_time_is_against_each_phase_current(void)
+{
+    const hci_dead_time dead = {.voltage_V = 3.0, .crossing_A = 0.5};
+    for (double theta = 0.0; theta < 6.3; theta += 0.01) {
+        const double abc[3] = {2.0 * sin(theta), 2.0 * sin(theta - 2.0 * REF_PI / 3.0),
+                               2.0 * sin(theta + 2.0 * REF_PI / 3.0)};
+        double i[2], v[2] = {0.0, 0.0}, found[3], expected[3], mean = 0.0;
+        hci_plane_from_abc(abc, i);
+        hci_inverter_dead_time(&dead, i, -1.0, v);
+        hci_plane_to_abc(v, found);
+        for (int s = 0; s < 3; ++s) {
+            expected[s] = fabs(abc[s]) < 0.5 ? -6.0 * abc[s] : abc[s] > 0.0 ? -3.0 : 3.0;
+            mean += expected[s] / 3.0;
+        }
+        for (int s = 0; s < 3; ++s)
+            TEST_ASSERT_DOUBLE_WITHIN(1e-12, expected[s] - mean, found[s]);
+    }
+}
+
+/* With the current that flows known, the compensation leaves nothing of it. */
+static void test_dead_time_is_compensated(void)
+{
+    double error[3] = {0.0, 0.0, 0.0};
+    for (int how = 0; how < 3; ++how) { /* without dead time, with it, compensated */
+        double clean = 0.0;
+        use_machine(&PM_SINE, 4096);
+        drive.plant.inertia_kgm2 = INFINITY;
+        drive.control.loop = HCI_CURRENT_PI;
+        drive.control.current_every = 10;
+        drive.control.current = (hci_current_pi){.pi = {40.0, 3000.0}, .decoupled = true, .delay_steps = 10};
+        if (how > 0) drive.dead_time = (hci_dead_time){6.0, 0.05};
+        if (how > 1) drive.control.current.dead_time = drive.dead_time;
+        state.plant.speed_rad_per_s = 5.0;
+        for (int k = 0; k < 120000; ++k) {
+            hci_drive_step(&drive, &state, 2.7, 0.0);
+            if (k > 60000) clean = fmax(clean, fabs(state.torque_Nm - 2.7));
+        }
+        error[how] = clean;
+    }
+    TEST_ASSERT_TRUE(error[0] < 1e-5);
+    TEST_ASSERT_TRUE(error[1] > 0.01);
+    TEST_ASSERT_TRUE(error[2] < 0.01 * error[1]);
+}
+
+static void test_sinusoidal_modulation_ends_at_half_the_link(void)
+{
+    for (double theta = 0.0; theta < 6.3; theta += 0.05) {
+        double v[2] = {100.0 * cos(theta), 100.0 * sin(theta)}, abc[3];
+        const double factor = hci_inverter_sinusoidal(120.0, v);
+        hci_plane_to_abc(v, abc);
+        const double most = fmax(fabs(abc[0]), fmax(fabs(abc[1]), fabs(abc[2])));
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, 60.0, most);
+        TEST_ASSERT_TRUE(factor < 1.0);
+    }
+}
+
+/* ---- code ---- */
+
+static void ask_for(void *context, const hci_measurement *measured, double torque_Nm, hci_reference_dq *r)
+{
+    const double *wanted = context;
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.3, measured->theta_m_rad);
+    r->i_A[0] = wanted[0];
+    r->i_A[1] = wanted[1] * torque_Nm;
+    r->v_V[0] = wanted[2];
+}
+
+/* What code asks for is in the rotor frame; its voltage goes on top of the controller's. */
+static void test_code_gives_current_and_voltage(void)
+{
+    double wanted[3] = {1.0, 2.0, 5.0};
+    const hci_reference_code code = {ask_for, wanted};
+    const hci_measurement m = {{0.0, 0.0, 0.0}, 0.3, 0.0};
+    const double theta = 3 * 0.3;
+    double abc[3];
+    use_machine(&PM_SINE, 256);
+    source.code = &code;
+    drive.control.loop = HCI_CURRENT_PI;
+    drive.control.current.pi = (hci_pi){6.0, 0.0};
+    hci_control_step(&drive.control, &state.control, &m, 0.5);
+    hci_plane_to_abc(state.control.reference, abc);
+    const hci_dq i = hci_park(hci_clarke(abc), theta);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 1.0, i.d);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 1.0, i.q);
+    hci_plane_to_abc(state.control.v, abc);
+    const hci_dq v = hci_park(hci_clarke(abc), theta);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 6.0 * 1.0 + 5.0, v.d);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 6.0 * 1.0, v.q);
+}
+
 /* At the hexagon the integrals must not grow: a step that needs more voltage than there is overshoots no more
  * than a small one. */
 static void test_current_loop_does_not_wind_up(void)
@@ -222,8 +332,8 @@ static void test_current_loop_does_not_wind_up(void)
     use_machine(&PM_SINE, 4096);
     drive.control.dc_link_V = 60.0;
     drive.control.loop = HCI_CURRENT_PI;
-    drive.control.current =
-        (hci_current_pi){{12.0, 900.0}, true, false}; /* k_i/k_p = R/L: first order, no overshoot */
+    drive.control.current = (hci_current_pi){
+        .pi = {12.0, 900.0}, .decoupled = true}; /* k_i/k_p = R/L: first order, no overshoot */
     drive.plant.inertia_kgm2 = INFINITY;
     for (int k = 0; k < 20000; ++k) {
         hci_drive_step(&drive, &state, 27.0, 0.0);
@@ -358,9 +468,9 @@ static void test_torque_command_is_limited(void)
  * source begins with the step at its time. */
 static void test_strategies_change_in_time(void)
 {
-    const hci_current_source sources[3] = {{0.0, HCI_STRATEGY_ID0, NULL, 0, NULL, 0},
-                                           {0.01, HCI_STRATEGY_CANCEL, NULL, 0, NULL, 0},
-                                           {0.02, HCI_STRATEGY_MTPA, NULL, 0, NULL, 0}};
+    const hci_current_source sources[3] = {{0.0, HCI_STRATEGY_ID0, NULL, 0, NULL, 0, NULL},
+                                           {0.01, HCI_STRATEGY_CANCEL, NULL, 0, NULL, 0, NULL},
+                                           {0.02, HCI_STRATEGY_MTPA, NULL, 0, NULL, 0, NULL}};
     double off[3] = {0.0, 0.0, 0.0}, square[3] = {0.0, 0.0, 0.0};
     use_machine(&PM_INTERIOR, POINTS);
     drive.control.sources = sources;
@@ -406,7 +516,7 @@ static void test_waves_scale_with_torque(void)
     list[0] = hci_wave_polar(1, 1, 0.7, 0.2);
     list[1] = hci_wave_polar(5, -1, 0.3, 1.0);
     list[2] = hci_wave_polar(7, 1, 0.2, -0.4);
-    source = (hci_current_source){0.0, HCI_STRATEGY_ID0, list, 1, list + 1, 2};
+    source = (hci_current_source){0.0, HCI_STRATEGY_ID0, list, 1, list + 1, 2, NULL};
     for (int k = 0; k < 50; ++k) {
         const hci_measurement m = {{0.0, 0.0, 0.0}, 0.1 * k, 0.0};
         double abc[3];
@@ -437,7 +547,7 @@ static void test_imposed_currents_have_the_predicted_spectrum(void)
     TEST_ASSERT_EQUAL_INT(
         HCI_OK, hci_plant_table_fill(&lists.machine, &lists.given, COUNT, rows, &drive.plant.table));
     TEST_ASSERT_EQUAL_INT(2, drive.plant.table.turns);
-    source = (hci_current_source){0.0, HCI_STRATEGY_ID0, NULL, 0, waves, 4};
+    source = (hci_current_source){0.0, HCI_STRATEGY_ID0, NULL, 0, waves, 4, NULL};
     drive.plant.inertia_kgm2 = INFINITY;
     state.plant.speed_rad_per_s = 2.0 * REF_PI / COUNT / 1e-5;
     for (int k = 0; k < COUNT; ++k) {
@@ -523,6 +633,11 @@ int main(void)
     RUN_TEST(test_current_loop_at_rest_is_of_second_order);
     RUN_TEST(test_decoupling_removes_motion);
     RUN_TEST(test_pwm_delay_is_one_sample);
+    RUN_TEST(test_delay_in_steps);
+    RUN_TEST(test_dead_time_is_against_each_phase_current);
+    RUN_TEST(test_dead_time_is_compensated);
+    RUN_TEST(test_sinusoidal_modulation_ends_at_half_the_link);
+    RUN_TEST(test_code_gives_current_and_voltage);
     RUN_TEST(test_current_loop_does_not_wind_up);
     RUN_TEST(test_hold_follows_from_the_frequency);
     RUN_TEST(test_legs_switch_at_the_edges_of_the_band);

@@ -42,6 +42,9 @@ hci_status hci_solution_read_currents(const char *path, hci_solution_file part, 
  * _MEMORY. */
 hci_status hci_solution_read_mean_torque(const char *folder, double *torque_Nm, hci_note *note);
 
+/* The same, 0 where it was solved without a mean torque. */
+hci_status hci_solution_read_wanted_torque(const char *folder, double *torque_Nm, hci_note *note);
+
 #ifdef __cplusplus
 }
 #endif

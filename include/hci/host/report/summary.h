@@ -6,9 +6,11 @@
 #include "hci/host/check/check.h"
 #include "hci/host/diagnose/diagnose.h"
 #include "hci/host/emit/emit.h"
+#include "hci/host/emit/emit_loop.h"
 #include "hci/host/machine/init.h"
 #include "hci/host/recording/predict.h"
 #include "hci/host/simulate/simulate.h"
+#include "hci/host/simulate/speeds.h"
 #include "hci/host/solve/solve.h"
 #include "hci/host/waveform/waveform.h"
 
@@ -24,6 +26,12 @@ char *hci_diagnosis_json(const hci_diagnosis *diagnosis, const hci_resolution *r
 
 /* As in summary.json of `simulate`. */
 char *hci_simulation_json(const hci_simulation *simulation);
+
+/* As in summary.json of `simulate --table`. */
+char *hci_speeds_json(const hci_speeds *speeds);
+
+/* What `emit --drive` has made of a request. */
+char *hci_emit_loop_json(const hci_emit_loop_request *request, const hci_emit_loop_result *result);
 
 /* What `check` has found. */
 char *hci_check_json(const hci_check *check);

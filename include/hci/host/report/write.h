@@ -7,6 +7,7 @@
 #include "hci/host/diagnose/diagnose.h"
 #include "hci/host/report/page/sources.h"
 #include "hci/host/simulate/simulate.h"
+#include "hci/host/simulate/speeds.h"
 #include "hci/host/solve/solve.h"
 #include "hci/host/waveform/waveform.h"
 
@@ -41,6 +42,11 @@ hci_status hci_waveform_write(const hci_waveform *waveform, const char *folder, 
 
 /* Writes summary.json of a check into `folder`. HCI_ERROR_OUTPUT, _MEMORY. */
 hci_status hci_check_write(const hci_check *check, const char *folder, hci_note *note);
+
+/* Writes speeds.csv, speeds.svg, summary.json and, with sources, report.html into `folder`; all or none.
+ * HCI_ERROR_OUTPUT, _MEMORY. */
+hci_status hci_speeds_write(const hci_speeds *speeds, const hci_report_sources *sources, const char *folder,
+                            hci_note *note);
 
 /* Where a simulation is written to. */
 typedef struct {

@@ -60,6 +60,13 @@ extern "C" {
       "of the pi loop")                                                                                      \
     X(pwm_delay, "pwm_delay", "count", 0.0, 1.0, "1", "1: the pi loop's voltage is used one sample later")   \
     X(decoupling, "decoupling", "count", 0.0, 1.0, "1", "1: the pi loop adds the motional voltages")         \
+    X(computing_delay_s, "computing_delay", "s", 0.0, 1.0, "current_sample_time where pwm_delay is 1",       \
+      "from a sample to the use of the pi loop's voltage")                                                   \
+    X(dead_time_s, "dead_time", "s", 0.0, 0.01, "0", "of a leg in each sample of the pi loop")               \
+    X(dead_time_crossing_A, "dead_time_crossing", "A", 0.0, 1e6, "0",                                        \
+      "current below which dead time acts in part")                                                          \
+    X(dead_time_compensation, "dead_time_compensation", "count", 0.0, 1.0, "0",                              \
+      "1: the pi loop adds what the dead time takes")                                                        \
     X(current_noise_A, "current_noise", "A", 0.0, 1e6, "0", "standard deviation")                            \
     X(current_offset_a_A, "current_offset_a", "A", -1e6, 1e6, "0", "reads so much more; also _b, _c")        \
     X(current_offset_b_A, "current_offset_b", "A", -1e6, 1e6, "0", "")                                       \
@@ -159,10 +166,11 @@ typedef struct {
     hci_torque_evaluation plain; /* what that sine does where it flows as it should, magnets at the reference
                             temperature; without orders where there is none to compare with */
     bool imposed;                /* currents of a file flow, not those of a strategy */
-    double switching_frequency_Hz;                         /* mean of the legs, NAN without switching */
-    size_t without_current;                                /* samples at which the strategy had no current */
-    size_t limited;                                        /* samples at which a current limit held */
-    size_t samples;                                        /* of the reference currents */
+    double switching_frequency_Hz; /* mean of the legs, NAN without switching */
+    size_t without_current;        /* samples at which the strategy had no current */
+    size_t limited;                /* samples at which a current limit held */
+    size_t voltage_limited;        /* samples at which a pi loop asked for more voltage than there is */
+    size_t samples;                /* of the reference currents */
     size_t without_current_from_start, limited_from_start; /* the same from the start on */
     hci_energies energy_J;                                 /* where it went */
     bool energy_balances;                                  /* within 1 %, or not known */
@@ -191,6 +199,7 @@ typedef struct {
     uint64_t switchings;      /* of all legs of the inverter */
     uint64_t without_current; /* samples at which the strategy had no current for the torque */
     uint64_t limited;         /* samples at which a current limit held */
+    uint64_t voltage_limited; /* samples at which a pi loop asked for more voltage than there is */
 } hci_simulation_counts;
 
 /* What holds at the start of a step. */
@@ -217,10 +226,18 @@ typedef struct {
 
 /* ---- running it ---- */
 
+/* A control that is not of the scenario: code that gives the references of the loop. */
+typedef struct {
+    hci_reference_code code;      /* in place of strategy and currents */
+    const hci_plant_table *known; /* the machine as the decoupling knows it; NULL: as it is declared */
+    bool sinusoidal;              /* modulation without zero sequence */
+} hci_simulate_loop;
+
 /* What a simulation is given besides machine and scenario. */
 typedef struct {
-    const hci_effects *effects; /* of the machine, on plant and sensors, not known to the controller; NULL
-                                   only where it has no effects.csv */
+    const hci_effects *effects;    /* of the machine, on plant and sensors, not known to the controller; NULL
+                                      only where it has no effects.csv */
+    const hci_simulate_loop *loop; /* in place of strategy and currents; NULL: the scenario's */
     const hci_simulation_observer *observer; /* may be NULL */
     hci_progress *progress;                  /* may be NULL */
     void *progress_context;                  /* first argument of progress */

@@ -5,6 +5,7 @@
 #include "hci/host/diagnose/diagnose.h"
 #include "hci/host/report/page/sources.h"
 #include "hci/host/simulate/simulate.h"
+#include "hci/host/simulate/speeds.h"
 #include "hci/host/solve/solve.h"
 #include "host/simulate/traces.h"
 
@@ -23,6 +24,8 @@ hci_status hci_page_diagnosis(hci_output *out, const hci_diagnosis *diagnosis,
 /* verdict: what hci_solve returned. */
 void hci_page_solution(hci_output *out, const hci_solution *solution, hci_status verdict,
                        const hci_report_sources *sources);
+
+void hci_page_speeds(hci_output *out, const hci_speeds *speeds, const hci_report_sources *sources);
 
 /* HCI_ERROR_MEMORY. */
 hci_status hci_page_simulation(hci_output *out, const hci_simulation *simulation, const hci_traces *traces,

@@ -5,7 +5,7 @@
 #include "host/draw/html.h"
 #include "host/report/page/page.h"
 
-enum { SOURCES = 6 };
+enum { SOURCES = 7 };
 
 typedef struct {
     const char *what, *file;
@@ -15,7 +15,8 @@ static void list_sources(const hci_report_sources *s, source list[SOURCES])
 {
     const source all[SOURCES] = {
         {"Machine", s->machine},   {"Wanted torque", s->target},      {"Harmonics to use", s->harmonics},
-        {"Scenario", s->scenario}, {"Imposed currents", s->currents}, {"List of runs", s->runs}};
+        {"Scenario", s->scenario}, {"Imposed currents", s->currents}, {"List of runs", s->runs},
+        {"Drive", s->drive}};
     memcpy(list, all, sizeof all);
 }
 

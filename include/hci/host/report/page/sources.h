@@ -14,6 +14,7 @@ typedef struct {
     const char *target, *harmonics;  /* of a solution */
     const char *scenario, *currents; /* of a simulation */
     const char *runs;                /* of a diagnosis */
+    const char *drive;               /* drive.csv */
 } hci_report_sources;
 
 #ifdef __cplusplus

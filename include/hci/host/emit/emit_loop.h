@@ -1,0 +1,52 @@
+/* Currents for a drive to C: a header and a source file with the orders of current and voltage that a
+ * microcontroller reads through hci/loop.h. */
+#ifndef HCI_HOST_EMIT_EMIT_LOOP_H
+#define HCI_HOST_EMIT_EMIT_LOOP_H
+
+#include <stdint.h>
+
+#include "hci/host/drive/drive.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* What is asked for. Start with {0}. */
+typedef struct {
+    const char *name;                /* of the table and its two files: a C identifier */
+    const hci_machine_data *machine; /* as read */
+    hci_drive_data *drive;           /* as read; its defaults are filled in */
+    const hci_loop_level *levels;    /* ascending by torque, equally far apart: 1, 2, or an odd number */
+    size_t level_count;              /* entries of levels */
+    double max_error_A;              /* of a table over the angle; 0: 2e-4 of the largest current */
+    double speed_rad_per_s;          /* mechanical, up to which it is used; 0: as far as it goes */
+    uint64_t input_hash;             /* 64-bit FNV-1a of what the currents were read from */
+} hci_emit_loop_request;
+
+/* What it has become. */
+typedef struct {
+    size_t orders, levels, points; /* orders with the mean; points of a table in RAM */
+    size_t repeats, period_turns;  /* periods of the table in 2^32 of angle, and its electrical turns */
+    double highest_order;          /* electrical, in the rotor frame */
+    size_t flash_bytes;            /* of the constants */
+    size_t ram_bytes;              /* for reading ahead and for compensation */
+    size_t feedforward_ram_bytes;  /* for feedforward */
+    double max_error_A;            /* of a table against its waves, at each level's torque */
+    double peak_A;                 /* largest current, length of the vector */
+    double torque_low_Nm, torque_high_Nm; /* of the levels */
+    double lead_s;                        /* delay of the loop at low frequency */
+    double voltage_rad_per_s; /* mechanical: above it the voltage does not do for all orders; HUGE_VAL */
+    double sampled_rad_per_s; /* mechanical: above it the sampling does not do for all orders; HUGE_VAL */
+    uint32_t crc32;           /* of the waves */
+} hci_emit_loop_result;
+
+/* Writes NAME.h and NAME.c into `folder`, both or none; same request, same bytes. HCI_ERROR_INPUT, _ARGUMENT,
+ * _MEMORY, _OUTPUT, with a note. */
+hci_status hci_emit_loop(const char *folder, const hci_emit_loop_request *request,
+                         hci_emit_loop_result *result, hci_note *note);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,173 @@
+/* drive.csv: name,value,unit of the drive that makes the currents. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "hci/host/base/text.h"
+#include "hci/host/csv/csv.h"
+#include "hci/host/drive/drive.h"
+#include "host/base/memory.h"
+#include "host/base/quote.h"
+#include "host/csv/name_values.h"
+#include "host/drive/response_file.h"
+
+enum {
+#define COUNT_ONE(field, name, unit, low, high, fallback, what) +1
+    ENTRIES = 0 HCI_DRIVE_VALUES(COUNT_ONE)
+#undef COUNT_ONE
+};
+
+static const double LIMITS[ENTRIES][2] = {
+#define LIMITS_OF(field, name, unit, low, high, fallback, what) {low, high},
+    HCI_DRIVE_VALUES(LIMITS_OF)
+#undef LIMITS_OF
+};
+
+static void list_entries(hci_drive_data *d, hci_named_value list[ENTRIES])
+{
+    size_t k = 0;
+#define LIST_ONE(field, text, unit_text, low, high, fallback, what)                                          \
+    list[k++] = (hci_named_value){text, unit_text, &d->field};
+    HCI_DRIVE_VALUES(LIST_ONE)
+#undef LIST_ONE
+}
+
+void hci_drive_init(hci_drive_data *drive)
+{
+    hci_named_value list[ENTRIES];
+    memset(drive, 0, sizeof *drive);
+    list_entries(drive, list);
+    for (size_t k = 0; k < ENTRIES; ++k)
+        *list[k].value = NAN;
+}
+
+static hci_status read_number(const hci_csv *csv, size_t row, const hci_named_value *e, const double limit[2],
+                              hci_note *note)
+{
+    const bool whole = strcmp(e->unit, "count") == 0;
+    char expected[120];
+    const hci_status status = hci_value_read(csv, row, e->unit, e->value, note);
+    if (status) return status;
+    if (*e->value >= limit[0] && *e->value <= limit[1] && (!whole || *e->value == floor(*e->value)))
+        return HCI_OK;
+    snprintf(expected, sizeof expected, "a %snumber from %g to %g%s%s", whole ? "whole " : "", limit[0],
+             limit[1], whole ? "" : " ", whole ? "" : e->unit);
+    return hci_csv_error(csv, "value", row, note, expected, "see docs/files.md, drive.csv");
+}
+
+/* ---- words ---- */
+
+enum { CURRENT_CONTROL, DECOUPLING, MODULATION, RESPONSE, WORDS };
+
+static const char *const WORD[WORDS] = {"current_control", "decoupling", "modulation", "response"};
+
+#define WORD_OF(value, word) [value] = word,
+static const char *const LOOPS[] = {"pi", NULL};
+static const char *const DECOUPLINGS[] = {HCI_DECOUPLING_NAMES(WORD_OF) NULL};
+static const char *const MODULATIONS[] = {HCI_MODULATION_NAMES(WORD_OF) NULL};
+#undef WORD_OF
+static const char *const *const CHOICES[RESPONSE] = {LOOPS, DECOUPLINGS, MODULATIONS};
+
+static hci_status read_choice(const hci_csv *csv, size_t row, const char *const *choices, int *value,
+                              hci_note *note)
+{
+    char expected[120] = "one of:";
+    const char *text;
+    const hci_status status = hci_csv_text(csv, "value", row, &text, note);
+    if (status) return status;
+    for (*value = 0; choices[*value]; ++*value) {
+        const size_t used = strlen(expected);
+        if (hci_text_is(text, choices[*value])) return HCI_OK;
+        snprintf(expected + used, sizeof expected - used, "%s %s", *value > 0 ? "," : "", choices[*value]);
+    }
+    return hci_csv_error(csv, "value", row, note, expected, "see docs/files.md, drive.csv");
+}
+
+/* A path in the file is relative to the file's folder. */
+static hci_status read_response(const hci_csv *csv, size_t row, hci_drive_data *d, hci_note *note)
+{
+    const char *text, *slash = strrchr(d->path, '/');
+    const int folder = slash ? (int)(slash - d->path) + 1 : 0;
+    char path[HCI_DRIVE_PATH_SIZE];
+    const hci_status status = hci_csv_text(csv, "value", row, &text, note);
+    if (status) return status;
+    const int length = snprintf(path, sizeof path, "%.*s%s", text[0] == '/' ? 0 : folder, d->path, text);
+    if (text[0] == '\0' || length >= (int)sizeof path)
+        return hci_csv_error(csv, "value", row, note, "the path of loop.csv",
+                             "delete the row where the loop was not measured");
+    return hci_response_read(path, &d->response, &d->response_count, note);
+}
+
+static hci_status read_word(const hci_csv *csv, size_t row, int word, hci_drive_data *d, hci_note *note)
+{
+    int choice = 0;
+    if (word == RESPONSE) return read_response(csv, row, d, note);
+    const hci_status status = read_choice(csv, row, CHOICES[word], &choice, note);
+    if (status) return status;
+    if (word == DECOUPLING) d->decoupling = (hci_decoupling)choice;
+    if (word == MODULATION) d->modulation = (hci_modulation)choice;
+    return HCI_OK;
+}
+
+/* ---- rows ---- */
+
+static hci_status unknown_name(const hci_csv *csv, size_t row, const char *name, hci_note *note)
+{
+    char quoted[HCI_QUOTE_SIZE], path[HCI_QUOTE_PATH_SIZE], known[HCI_NOTE_SIZE] = "";
+    size_t used = 0;
+#define APPEND(text)                                                                                         \
+    used += (size_t)snprintf(known + used, used < sizeof known ? sizeof known - used : 0, " %s", text)
+    for (int k = 0; k < WORDS; ++k)
+        APPEND(WORD[k]);
+#define APPEND_ONE(field, text, unit, low, high, fallback, what) APPEND(text);
+    HCI_DRIVE_VALUES(APPEND_ONE)
+#undef APPEND_ONE
+#undef APPEND
+    return hci_note_set(note, HCI_ERROR_INPUT, "%s:%zu: no name %s; known:%s",
+                        hci_quote_path(hci_csv_path(csv), path), hci_csv_line(csv, row),
+                        hci_quote(name, quoted), known);
+}
+
+static hci_status read_row(const hci_csv *csv, size_t row, hci_drive_data *d, bool given[WORDS],
+                           hci_note *note)
+{
+    hci_named_value list[ENTRIES];
+    const char *name;
+    size_t at;
+    hci_status status = hci_csv_text(csv, "name", row, &name, note);
+    for (int k = 0; k < WORDS && !status; ++k) {
+        if (strcmp(name, WORD[k]) != 0) continue;
+        if (given[k])
+            return hci_csv_error(csv, "name", row, note, "each name once", "delete one of the two rows");
+        given[k] = true;
+        return read_word(csv, row, k, d, note);
+    }
+    list_entries(d, list);
+    if (!status) status = hci_named_value_find(csv, row, list, ENTRIES, &at, note);
+    if (status) return status;
+    return at < ENTRIES ? read_number(csv, row, &list[at], LIMITS[at], note)
+                        : unknown_name(csv, row, name, note);
+}
+
+hci_status hci_drive_read(const char *path, hci_drive_data *drive, hci_note *note)
+{
+    bool given[WORDS] = {false};
+    hci_csv *csv;
+    hci_status status;
+    hci_drive_init(drive);
+    if (snprintf(drive->path, sizeof drive->path, "%s", path) >= (int)sizeof drive->path)
+        return hci_note_set(note, HCI_ERROR_INPUT, "%.200s…: the path is too long", path);
+    status = hci_csv_read(path, &csv, note);
+    if (status) return status;
+    for (size_t row = 0; row < hci_csv_rows(csv) && !status; ++row)
+        status = read_row(csv, row, drive, given, note);
+    hci_csv_free(csv);
+    if (status) hci_drive_release(drive);
+    return status;
+}
+
+void hci_drive_release(hci_drive_data *drive)
+{
+    hci_memory_free(drive->response);
+    hci_drive_init(drive);
+}

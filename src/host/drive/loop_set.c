@@ -1,0 +1,421 @@
+/* From machine, drive and currents to what a controller holds in flash: which orders matter, their currents
+ * and voltages at each level of torque, how many points a table over the angle needs, and where it ends. */
+#include "host/drive/loop_set.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "host/base/memory.h"
+#include "host/base/quote.h"
+#include "host/drive/turn_samples.h"
+
+/* Orders are kept whose current is more than this share of the largest current, or whose voltage is more than
+ * this share of the fundamental's. */
+static const double LEAST_CURRENT = 1e-4, LEAST_VOLTAGE = 2e-4;
+
+/* Share of half the sampling frequency above which an order is left out: the ripple between the samples would
+ * be as large as what it is to take away. */
+static const double SAMPLING_SHARE = 0.8;
+
+static const double ERROR_SHARE = 2e-4;
+
+typedef struct {
+    const hci_loop_task *task;
+    hci_loop_set *set;
+    hci_note *note;
+    hci_machine_model machine, own;
+    hci_turn_samples level[HCI_LOOP_MOST_LEVELS];
+    size_t order[HCI_LOOP_MOST_ORDERS], count; /* kept, in periods of all turns */
+    double voltage_end;                        /* electrical */
+} maker;
+
+/* ---- levels ---- */
+
+static hci_status check_levels(const maker *m)
+{
+    const hci_loop_task *t = m->task;
+    const size_t n = t->level_count;
+    const double first = t->levels[0].torque_Nm, last = t->levels[n - 1].torque_Nm;
+    if (n > HCI_LOOP_MOST_LEVELS || (n > 2 && n % 2 == 0))
+        return hci_note_set(m->note, HCI_ERROR_ARGUMENT,
+                            "levels of torque: found %zu, expected 1, 2 or an odd number up to %d", n,
+                            (int)HCI_LOOP_MOST_LEVELS);
+    if (n > 1 && !(last > first))
+        return hci_note_set(m->note, HCI_ERROR_ARGUMENT,
+                            "levels of torque: found %g N·m after %g N·m, expected them to ascend", last,
+                            first);
+    for (size_t k = 0; k < n; ++k) {
+        const double wanted = first + (last - first) * (double)k / fmax((double)n - 1.0, 1.0);
+        if (fabs(t->levels[k].torque_Nm - wanted) > 1e-6 * (last - first) + 1e-12)
+            return hci_note_set(
+                m->note, HCI_ERROR_ARGUMENT,
+                "levels of torque: found %g N·m, expected %g N·m: levels are equally far apart",
+                t->levels[k].torque_Nm, wanted);
+    }
+    return HCI_OK;
+}
+
+static hci_status make_samples(maker *m)
+{
+    const hci_drive_data *d = m->task->drive;
+    hci_status status = hci_machine_model_make(m->task->machine, &m->machine, m->note);
+    if (!status && d->decoupling == HCI_DECOUPLING_CONSTANT)
+        status = hci_machine_model_make_constant(m->task->machine, &m->own, m->note);
+    const hci_machine_model *own = d->decoupling == HCI_DECOUPLING_NONE       ? NULL
+                                   : d->decoupling == HCI_DECOUPLING_CONSTANT ? &m->own
+                                                                              : &m->machine;
+    for (size_t k = 0; k < m->task->level_count && !status; ++k)
+        status = hci_turn_samples_make(&m->machine, own, &m->task->levels[k], &m->level[k], m->note);
+    for (size_t k = 1; k < m->task->level_count && !status; ++k)
+        if (m->level[k].turns != m->level[0].turns)
+            status = hci_note_set(m->note, HCI_ERROR_ARGUMENT,
+                                  "levels of torque: some have fractional orders and others not");
+    return status;
+}
+
+/* ---- orders ---- */
+
+static double size_of(const maker *m, int value, size_t k)
+{
+    double most = 0.0;
+    for (size_t l = 0; l < m->task->level_count; ++l)
+        for (int a = 0; a < 2; ++a) {
+            const hci_harmonic h = m->level[l].order[value + a][k];
+            most = fmax(most, hypot(h.sine, h.cosine));
+        }
+    return most;
+}
+
+static void find_peak(maker *m)
+{
+    for (size_t l = 0; l < m->task->level_count; ++l)
+        for (size_t k = 0; k < m->level[l].samples; ++k)
+            m->set->peak_A = fmax(m->set->peak_A, hypot(m->level[l].value[HCI_TURN_CURRENT][k],
+                                                        m->level[l].value[HCI_TURN_CURRENT + 1][k]));
+}
+
+static hci_status choose_orders(maker *m)
+{
+    const double voltage = size_of(m, HCI_TURN_VOLTAGE, 0);
+    double left_out = 0.0;
+    find_peak(m);
+    for (size_t k = 0; k < m->level[0].samples / 2; ++k) {
+        const double current = size_of(m, HCI_TURN_CURRENT, k);
+        if (k == 0 || current > LEAST_CURRENT * m->set->peak_A ||
+            size_of(m, HCI_TURN_VOLTAGE, k) > LEAST_VOLTAGE * voltage) {
+            if (m->count == HCI_LOOP_MOST_ORDERS)
+                return hci_note_set(
+                    m->note, HCI_ERROR_ARGUMENT,
+                    "currents and back-EMF have more than %d orders that matter; leave small ones "
+                    "out",
+                    (int)HCI_LOOP_MOST_ORDERS);
+            m->order[m->count++] = k;
+        } else {
+            left_out = fmax(left_out, current);
+        }
+    }
+    m->set->share_left_out = left_out / fmax(m->set->peak_A, 1e-300);
+    return HCI_OK;
+}
+
+static size_t divisor(size_t a, size_t b)
+{
+    while (b > 0) {
+        const size_t rest = a % b;
+        a = b;
+        b = rest;
+    }
+    return a;
+}
+
+static hci_loop_pair pair_of(const maker *m, size_t level, int value, size_t k)
+{
+    const hci_harmonic h = m->level[level].order[value][k];
+    return (hci_loop_pair){(float)h.cosine, k == 0 ? 0.0f : (float)h.sine};
+}
+
+static void fill_wave(const maker *m, size_t level, size_t k, hci_loop_wave *wave)
+{
+    for (int a = 0; a < 2; ++a) {
+        wave->current_A[a] = pair_of(m, level, HCI_TURN_CURRENT + a, k);
+        wave->voltage_Vs[a] = pair_of(m, level, HCI_TURN_VOLTAGE + a, k);
+        wave->own_Vs[a] = pair_of(m, level, HCI_TURN_OWN + a, k);
+    }
+}
+
+static hci_status fill_waves(maker *m)
+{
+    hci_loop_set *set = m->set;
+    hci_loop_f32 *loop = &set->loop;
+    const size_t levels = m->task->level_count, turns = m->level[0].turns;
+    size_t base = 0;
+    set->waves = hci_memory_new(m->count * levels, sizeof *set->waves);
+    set->orders = hci_memory_new(m->count, sizeof *set->orders);
+    if (!set->waves || !set->orders) return hci_note_memory(m->note, NULL, "%zu orders", m->count);
+    for (size_t k = 1; k < m->count; ++k)
+        base = divisor(m->order[k], base);
+    base = base > 0 ? base : turns;
+    for (size_t k = 0; k < m->count; ++k) {
+        set->orders[k] = (uint16_t)(m->order[k] / base);
+        for (size_t l = 0; l < levels; ++l)
+            fill_wave(m, l, m->order[k], &set->waves[k * levels + l]);
+    }
+    loop->waves = set->waves;
+    loop->orders = set->orders;
+    loop->order_count = (uint32_t)m->count;
+    loop->levels = (uint32_t)levels;
+    loop->repeats = (uint32_t)base;
+    loop->period_turns = (uint32_t)turns;
+    loop->base_order = (float)base / (float)turns;
+    loop->torque_low_Nm = (float)m->task->levels[0].torque_Nm;
+    loop->torque_high_Nm = (float)m->task->levels[levels - 1].torque_Nm;
+    return HCI_OK;
+}
+
+/* ---- the loop ---- */
+
+/* How late the current is at low frequency: −arg G/ν. */
+static double lead_of(const maker *m)
+{
+    const hci_drive_data *d = m->task->drive;
+    if (d->response_count > 0)
+        return -d->response[0].phase_rad[1] / (2.0 * HCI_PI * d->response[0].frequency_Hz);
+    const hci_loop_model model = hci_drive_loop(d, &m->machine, 0.0);
+    const double nu = 0.02 * HCI_PI / d->sample_s;
+    return -carg(hci_loop_answer_at(&model, nu).reference.m[1][1]) / nu;
+}
+
+/* (1/G − 1)/(R + jνL) at a measured frequency. */
+static hci_loop_response response_of(const maker *m, const hci_loop_point *p)
+{
+    const double nu = 2.0 * HCI_PI * p->frequency_Hz;
+    hci_loop_response r = {.frequency_rad_per_s = (float)nu};
+    for (int a = 0; a < 2; ++a) {
+        const double complex inverse = cexp(-p->phase_rad[a] * (double complex)I) / p->gain[a];
+        const double complex x = (inverse - 1.0) / (m->machine.resistance_ohm +
+                                                    nu * m->machine.inductance_H[a] * (double complex)I);
+        r.re[a] = (float)creal(x);
+        r.im[a] = (float)cimag(x);
+    }
+    return r;
+}
+
+static hci_status fill_responses(maker *m)
+{
+    const hci_drive_data *d = m->task->drive;
+    hci_loop_set *set = m->set;
+    if (d->response_count == 0) return HCI_OK;
+    set->responses = hci_memory_new(d->response_count, sizeof *set->responses);
+    if (!set->responses) return hci_note_memory(m->note, NULL, "%zu frequencies", d->response_count);
+    for (size_t k = 0; k < d->response_count; ++k)
+        set->responses[k] = response_of(m, &d->response[k]);
+    set->loop.responses = set->responses;
+    set->loop.response_count = (uint32_t)d->response_count;
+    return HCI_OK;
+}
+
+static void fill_loop(maker *m)
+{
+    const hci_drive_data *d = m->task->drive;
+    hci_loop_f32 *loop = &m->set->loop;
+    loop->resistance_ohm = (float)m->machine.resistance_ohm;
+    loop->inductance_H[0] = (float)m->machine.inductance_H[0];
+    loop->inductance_H[1] = (float)m->machine.inductance_H[1];
+    loop->proportional_ohm = (float)d->kp_ohm;
+    loop->integral_ohm_per_s = (float)d->ki_ohm_per_s;
+    loop->sample_s = (float)d->sample_s;
+    loop->delay_s = (float)(d->computing_delay_s + 0.5 * d->sample_s);
+    loop->lead_s = (float)lead_of(m);
+}
+
+/* ---- where it ends ---- */
+
+enum { ENDS_ANGLES = 1024 };
+
+/* Current and voltage of a level over a turn, of the orders up to one. */
+typedef struct {
+    hci_turn_samples turn; /* with fewer samples, and without orders */
+    double memory[4][ENDS_ANGLES];
+} partial_turn;
+
+static void add_order(const maker *m, size_t level, size_t k, partial_turn *x)
+{
+    for (int v = 0; v < 4; ++v) {
+        const hci_harmonic h = m->level[level].order[v][k];
+        for (size_t j = 0; j < x->turn.samples; ++j) {
+            const double angle_rad =
+                2.0 * HCI_PI * (double)(k * j % x->turn.samples) / (double)x->turn.samples;
+            x->memory[v][j] += h.cosine * cos(angle_rad) + h.sine * sin(angle_rad);
+        }
+    }
+}
+
+/* Electrical speed up to which the voltage does; `beyond` where it does for that, too. */
+static double voltage_end(const maker *m, const partial_turn *x, double beyond)
+{
+    const hci_drive_data *d = m->task->drive;
+    const double there_V = d->dc_link_voltage_V * (1.0 - 2.0 * d->dead_time_s / d->sample_s);
+    double low = 0.0, high = beyond;
+    for (int k = 0; k < 32; ++k) {
+        const double speed = 0.5 * (low + high);
+        if (hci_turn_samples_dc_link_V(&x->turn, m->machine.resistance_ohm, d->modulation, speed) < there_V)
+            low = speed;
+        else
+            high = speed;
+    }
+    return high < beyond ? low : beyond;
+}
+
+/* The speeds at which the voltage just does for the orders up to each: an order is whole up to its own, and
+ * gone where those below it take all. */
+static void fill_level_ranges(maker *m, size_t level, partial_turn *x)
+{
+    const double beyond = HCI_PI / m->task->drive->sample_s;
+    double before = beyond;
+    memset(x, 0, sizeof *x);
+    x->turn.turns = m->level[level].turns;
+    x->turn.samples = ENDS_ANGLES;
+    for (int v = 0; v < 4; ++v)
+        x->turn.value[v] = x->memory[v];
+    for (size_t k = 0; k < m->count; ++k) {
+        hci_loop_range *range = &m->set->ranges[k];
+        add_order(m, level, m->order[k], x);
+        const double end = fmin(before, voltage_end(m, x, beyond));
+        if (k > 0 && end < beyond) {
+            range->whole_rad_per_s = fminf(range->whole_rad_per_s, (float)end);
+            range->none_rad_per_s = fminf(range->none_rad_per_s, (float)fmax(before, 1.02 * end));
+        }
+        m->voltage_end = fmin(m->voltage_end, end < beyond ? end : HUGE_VAL);
+        before = end;
+    }
+}
+
+/* Where half the sampling is near, or no more speed is asked for. */
+static void limit_range(const maker *m, size_t k, hci_loop_range *range)
+{
+    const double p = m->machine.table.pole_pairs;
+    const double order = (double)m->order[k] / (double)m->level[0].turns;
+    const double end = SAMPLING_SHARE * HCI_PI / m->task->drive->sample_s / order;
+    const double whole =
+        m->task->speed_rad_per_s > 0.0 ? fmin(0.9 * end, m->task->speed_rad_per_s * p) : 0.9 * end;
+    *range = (hci_loop_range){(float)whole, (float)(whole / 0.9)};
+}
+
+static hci_status fill_ranges(maker *m)
+{
+    const double p = m->machine.table.pole_pairs;
+    hci_loop_set *set = m->set;
+    partial_turn *x = hci_memory_new(1, sizeof *x);
+    set->ranges = hci_memory_new(m->count, sizeof *set->ranges);
+    if (!x || !set->ranges) {
+        hci_memory_free(x);
+        return hci_note_memory(m->note, NULL, "%zu orders", m->count);
+    }
+    m->voltage_end = HUGE_VAL;
+    set->ranges[0] = (hci_loop_range){FLT_MAX, FLT_MAX};
+    for (size_t k = 1; k < m->count; ++k)
+        limit_range(m, k, &set->ranges[k]);
+    set->sampled_rad_per_s = m->count > 1 ? (double)set->ranges[m->count - 1].whole_rad_per_s / p : HUGE_VAL;
+    for (size_t l = 0; l < m->task->level_count; ++l)
+        fill_level_ranges(m, l, x);
+    set->voltage_rad_per_s = m->voltage_end / p;
+    set->loop.ranges = set->ranges;
+    set->loop.whole_rad_per_s = FLT_MAX;
+    for (size_t k = 0; k < m->count; ++k)
+        set->loop.whole_rad_per_s = fminf(set->loop.whole_rad_per_s, set->ranges[k].whole_rad_per_s);
+    hci_memory_free(x);
+    return HCI_OK;
+}
+
+/* ---- points ---- */
+
+/* Largest error of the splines at the level's own torque, as the controller computes them. */
+static double error_of(const maker *m, const hci_loop_tables *tables)
+{
+    double most = 0.0;
+    for (size_t l = 0; l < m->task->level_count; ++l) {
+        const hci_turn_samples *x = &m->level[l];
+        for (size_t k = 0; k < x->samples; ++k) {
+            const uint32_t angle = (uint32_t)(((uint64_t)k << 32) / x->samples);
+            const hci_loop_reference r =
+                hci_loop_at(tables, angle, (float)m->task->levels[l].torque_Nm, 0.0f);
+            most = fmax(most, hypot((double)r.id_A - x->value[HCI_TURN_CURRENT][k],
+                                    (double)r.iq_A - x->value[HCI_TURN_CURRENT + 1][k]));
+        }
+    }
+    return most;
+}
+
+static double try_points(maker *m, size_t points, float *memory)
+{
+    hci_loop_tables tables;
+    m->set->loop.points = (uint32_t)points;
+    hci_loop_start(&tables, &m->set->loop, HCI_LOOP_TABLE, memory);
+    hci_loop_make(&tables, 0.0f);
+    return error_of(m, &tables);
+}
+
+/* Four points to the period of the highest order, and more until the error is small enough or does not fall.
+ */
+static hci_status choose_points(maker *m)
+{
+    hci_loop_f32 *loop = &m->set->loop;
+    const double limit_A = m->task->max_error_A > 0.0 ? m->task->max_error_A : ERROR_SHARE * m->set->peak_A;
+    const size_t top = loop->orders[loop->order_count - 1];
+    float *memory;
+    loop->points = HCI_LOOP_MOST_POINTS;
+    memory = hci_memory_new(hci_loop_floats(loop, HCI_LOOP_TABLE), sizeof *memory);
+    if (!memory) return hci_note_memory(m->note, NULL, "a table");
+    for (size_t points = top > 1 ? 4 * top : 4;; points += points / 8 + 1) {
+        const size_t now = points < HCI_LOOP_MOST_POINTS ? points : HCI_LOOP_MOST_POINTS;
+        m->set->max_error_A = try_points(m, now, memory);
+        if (m->set->max_error_A <= limit_A || now == HCI_LOOP_MOST_POINTS || now > 24 * top + 64) break;
+    }
+    hci_memory_free(memory);
+    return HCI_OK;
+}
+
+/* ---- all of it ---- */
+
+static hci_status make(maker *m)
+{
+    hci_status status = check_levels(m);
+    if (!status) status = make_samples(m);
+    if (!status) status = choose_orders(m);
+    if (!status) status = fill_waves(m);
+    if (!status) status = fill_responses(m);
+    if (status) return status;
+    fill_loop(m);
+    status = fill_ranges(m);
+    if (!status) status = choose_points(m);
+    m->set->loop.crc32 = hci_loop_crc32(&m->set->loop);
+    return status;
+}
+
+hci_status hci_loop_set_make(const hci_loop_task *task, hci_loop_set *set, hci_note *note)
+{
+    maker *m = hci_memory_new(1, sizeof *m);
+    memset(set, 0, sizeof *set);
+    if (!m) return hci_note_memory(note, NULL, "the references");
+    m->task = task;
+    m->set = set;
+    m->note = note;
+    const hci_status status = make(m);
+    for (size_t k = 0; k < HCI_LOOP_MOST_LEVELS; ++k)
+        hci_turn_samples_release(&m->level[k]);
+    hci_machine_model_release(&m->machine);
+    hci_machine_model_release(&m->own);
+    hci_memory_free(m);
+    return status;
+}
+
+void hci_loop_set_release(hci_loop_set *set)
+{
+    hci_memory_free(set->waves);
+    hci_memory_free(set->orders);
+    hci_memory_free(set->ranges);
+    hci_memory_free(set->responses);
+    memset(set, 0, sizeof *set);
+}

@@ -1,0 +1,81 @@
+#!/bin/sh
+# `emit --drive` and `simulate --table`: words that belong together, wrong inputs with their places, files that appear whole or not at
+# all, the same bytes twice, and the C that is written.
+#   cli_drive.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
+. "$1/tests/support/common.sh"
+cd "$source_dir" || exit 1
+
+drive=data/drive/machine_a_10kHz.csv
+run 0 solve data/machine_a --target data/scenarios/02/target.csv --auto -q -o "$work/a"
+
+# ---- words that belong together
+
+refused() { # WORDS... -- EXPRESSION
+    set -- "$@"
+    words=
+    while [ "$1" != -- ]; do words="$words $1"; shift; done
+    # shellcheck disable=SC2086
+    run 2 $words
+    one_line_is_said
+    says "$2"
+    check "something was written by $words" [ ! -e "$work/out" ]
+}
+refused emit "$work/a" --name t --drive $drive -o "$work/out" -- '--drive FILE and --machine FOLDER go together'
+refused emit "$work/a" --name t --speed 500 -o "$work/out" -- '--speed goes with --drive'
+refused emit "$work/a" "$work/a" --name t -o "$work/out" -- 'several folders are levels of torque'
+refused emit "$work/a" --name t --machine data/machine_a --drive $drive --points 9 -o "$work/out" -- 'give --max-error in place of --points'
+refused emit "$work/a" --name t --machine data/machine_a --drive $drive --frame abc -o "$work/out" -- 'give --frame dq'
+refused emit "$work/a" "$work/a" --name t --machine data/machine_a --drive $drive -o "$work/out" -- 'found 2.4[0-9]* N·m twice'
+refused emit "$work/a" --name int --machine data/machine_a --drive $drive -o "$work/out" -- 'not a keyword'
+refused simulate data/machine_a -o "$work/out" -- 'expected MACHINE SCENARIO, or MACHINE with --table'
+refused simulate data/machine_a --table "$work/a" -o "$work/out" -- '--table needs --drive FILE and --speeds'
+refused simulate data/machine_a data/drive/imposed.csv --speeds 80 -o "$work/out" -- 'go with --table'
+refused simulate data/machine_a data/drive/imposed.csv --table "$work/a" --drive $drive --speeds 80 -- 'takes the place of a scenario'
+for speeds in 0 80,80 320,80 80, ,80 80,x nan '80;90'; do
+    refused simulate data/machine_a --table "$work/a" --drive $drive --speeds "$speeds" -o "$work/out" -- '--speeds: found .*ascending'
+done
+
+# ---- wrong inputs
+
+printf 'name,value,unit\ncurrent_kp,1,ohm\ngain,2,\n' >"$work/drive.csv"
+run 3 emit "$work/a" --name t --machine data/machine_a --drive "$work/drive.csv" -o "$work/out"
+says '/drive.csv:3: no name `gain`; known: current_control'
+grep -v '^resistance' $drive >"$work/drive.csv"
+run 3 emit "$work/a" --name t --machine data/machine_a --drive "$work/drive.csv" -o "$work/out"
+says 'no `resistance` above zero.*add a row'
+sed '$a current_kp,6,ohm,chosen' $drive >"$work/drive.csv"
+run 3 simulate data/machine_a --table "$work/a" --drive "$work/drive.csv" --speeds 80 -o "$work/out"
+says '/drive.csv: `current_kp` of 6 V/A .*not stable at 0 rpm: largest pole 1\.[0-9]*, .*at most 0\.[0-9]* of that'
+run 3 simulate data/machine_a --table "$work/a" --drive $drive --speeds 80,40000 -o "$work/out"
+says '40000 rpm has 7.5 samples in an electrical turn.*at most 3e\+04 rpm'
+refused simulate data/machine_a --table "$work/a" --drive $drive --speeds 80 --torque 1 -o "$work/out" -- '1 N·m is not among the levels of the table, 2.4[0-9]* to'
+run 3 simulate data/machine_a --table "$work/a/currents.csv" --drive $drive --speeds 80 -o "$work/out"
+says 'currents.csv'
+check "something was written" [ ! -e "$work/out" ]
+
+# ---- what is written: whole, the same bytes twice, C that compiles
+
+run 0 simulate data/machine_a --table "$work/a" --drive $drive --speeds 300 --report -o "$work/one"
+says '^simulated: data/machine_a' 'T_ripple in %' '^ *300 rpm +1[0-9.]+ +7[0-9.]+ +1[0-9.]+ +0.2[0-9]* +0.2' 'voltage +does for all orders up to'
+check "files: $(ls -A "$work/one" | tr '\n' ' ')" [ "$(ls -A "$work/one" | tr '\n' ' ')" = "report.html speeds.csv speeds.svg summary.json " ]
+run 0 simulate data/machine_a --table "$work/a" --drive $drive --speeds 300 --json -o "$work/two"
+check "--json differs from summary.json" cmp -s "$work/stdout" "$work/two/summary.json"
+check "a report that was not asked for" [ ! -e "$work/two/report.html" ]
+for file in speeds.csv speeds.svg summary.json; do
+    check "$file is another one the second time" cmp -s "$work/one/$file" "$work/two/$file"
+done
+run 0 emit "$work/a" --name smooth --machine data/machine_a --drive $drive -o "$work/c"
+says '^emitted: ' 'orders .* bytes of flash' 'bytes of RAM' 'hci/loop.h'
+run 0 emit "$work/a" --name smooth --machine data/machine_a --drive $drive --per-torque --speed 500 -q -o "$work/d"
+nothing_on_stderr
+if command -v cc >/dev/null; then
+    for folder in c d; do
+        check "$folder: smooth.c does not compile" cc -std=c99 -Wall -Wextra -Wpedantic -Wconversion -Wdouble-promotion -Werror -Iinclude \
+            -c "$work/$folder/smooth.c" -o "$work/$folder/smooth.o"
+    done
+    sed 's/HCI_LOOP_VERSION 1/HCI_LOOP_VERSION 2/' include/hci/loop.h >"$work/loop.h"
+    mkdir -p "$work/hci" && mv "$work/loop.h" "$work/hci" && cp include/hci/table.h "$work/hci"
+    check "another version compiles" sh -c "! cc -std=c99 -I'$work' -c '$work/c/smooth.c' -o '$work/smooth.o' 2>/dev/null"
+fi
+
+finish

@@ -1,0 +1,325 @@
+/* labels: slow
+ * Torque ripple through the sampled loop, tables and code as on a target: some 60 runs of a drive, a minute
+ * with sanitizers. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "hci/host/simulate/speeds.h"
+#include "hci/machine/frames.h"
+#include "host/drive/loop_model.h"
+#include "host/drive/loop_set.h"
+#include "host/drive/machine_model.h"
+#include "support/simulating.h"
+
+static hci_drive_data drive_of(const char *rows)
+{
+    hci_drive_data d;
+    hci_note note = {{0}};
+    char text[1024];
+    snprintf(text, sizeof text, "name,value,unit\n%s", rows);
+    files_write(files_path("drive.csv"), text);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_drive_read(files_path("drive.csv"), &d, &note), note.text);
+    return d;
+}
+
+/* Solves for a mean torque without ripple; the currents are read back from the folder. */
+static hci_loop_levels level_of(const hci_machine_data *machine, double torque_Nm)
+{
+    hci_loop_levels levels;
+    hci_note note = {{0}};
+    char text[128];
+    const char *folder = files_path("solution");
+    snprintf(text, sizeof text, "order,amplitude_Nm,phase_rad\n0,%.17g,1.5707963267948966\n", torque_Nm);
+    files_write(files_path("target.csv"), text);
+    hci_solution s = solve(machine, files_path("target.csv"), HCI_METHOD_AUTO, HCI_STRATEGY_MTPA);
+    hci_solution_release(&s);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_loop_levels_read(&folder, 1, false, &levels, &note), note.text);
+    TEST_ASSERT_EQUAL_DOUBLE(torque_Nm, levels.level[0].torque_Nm);
+    return levels;
+}
+
+enum { MOST_SPEEDS = 4 };
+
+typedef struct {
+    const hci_machine_data *machine;
+    const char *drive; /* rows of drive.csv */
+    double torque_Nm, rpm[MOST_SPEEDS], model_error;
+} grid;
+
+static hci_speeds run(const grid *g)
+{
+    hci_drive_data drive = drive_of(g->drive);
+    hci_loop_levels levels = level_of(g->machine, g->torque_Nm);
+    double speed[MOST_SPEEDS];
+    hci_speeds speeds;
+    hci_note note = {{0}};
+    hci_speeds_request q = {.machine = g->machine,
+                            .drive = &drive,
+                            .levels = levels.level,
+                            .level_count = levels.count,
+                            .torque_Nm = g->torque_Nm,
+                            .speeds_rad_per_s = speed,
+                            .model_error = g->model_error};
+    while (q.speed_count < MOST_SPEEDS && g->rpm[q.speed_count] > 0.0) {
+        speed[q.speed_count] = g->rpm[q.speed_count] * REF_PI / 30.0;
+        ++q.speed_count;
+    }
+    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_simulate_speeds(&q, &speeds, &note), note.text);
+    hci_drive_release(&drive);
+    hci_loop_levels_release(&levels);
+    return speeds;
+}
+
+static double ripple(const hci_speeds *s, size_t row, hci_remedy remedy)
+{
+    return s->row[row].remedy[remedy].T_ripple_percent;
+}
+
+/* Both sides of a figure, so that a change is seen: found 4.080, 0.469, 0.004; 15.19, 2.98, 0.041. */
+static void test_machine_c_keeps_its_torque(void)
+{
+    const grid g = {&machine_c, "", 8.0, {80.0, 320.0}, 0.0};
+    hci_speeds s = run(&g);
+    TEST_ASSERT_DOUBLE_WITHIN(0.05, 4.08, ripple(&s, 0, HCI_REMEDY_TABLE));
+    TEST_ASSERT_DOUBLE_WITHIN(0.15, 15.19, ripple(&s, 1, HCI_REMEDY_TABLE));
+    TEST_ASSERT_DOUBLE_WITHIN(0.05, 0.469, ripple(&s, 0, HCI_REMEDY_LEAD));
+    TEST_ASSERT_DOUBLE_WITHIN(0.15, 2.98, ripple(&s, 1, HCI_REMEDY_LEAD));
+    for (int remedy = HCI_REMEDY_COMPENSATION; remedy < HCI_REMEDIES; ++remedy) {
+        TEST_ASSERT_TRUE(ripple(&s, 0, (hci_remedy)remedy) < 0.01);
+        TEST_ASSERT_TRUE(ripple(&s, 1, (hci_remedy)remedy) < 0.06);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-3, 8.0, s.row[1].remedy[remedy].mean_Nm);
+        TEST_ASSERT_EQUAL_DOUBLE(0.0, s.row[1].remedy[remedy].limited_share);
+        /* the voltage that was foretold */
+        TEST_ASSERT_DOUBLE_WITHIN(4.0, s.row[1].needed_V, s.row[1].remedy[remedy].line_V);
+    }
+    hci_speeds_release(&s);
+}
+
+#define WINDING "resistance,0.1,ohm\ninductance_d,0.5,mH\ninductance_q,0.5,mH\ndc_link_voltage,100,V\n"
+
+/* At 1500 rpm what the hold leaves, which twice the sampling takes to a quarter. */
+static void test_machine_a_is_limited_by_the_hold(void)
+{
+    const grid slow = {&machine_a, WINDING, 2.46, {300.0, 1500.0}, 0.0};
+    const grid fast = {&machine_a, WINDING "current_sample_time,50,us\n", 2.46, {1500.0}, 0.0};
+    hci_speeds s = run(&slow), f = run(&fast);
+    TEST_ASSERT_TRUE(ripple(&s, 0, HCI_REMEDY_TABLE) > 70.0);
+    TEST_ASSERT_TRUE(ripple(&s, 0, HCI_REMEDY_FEEDFORWARD) < 0.3);
+    TEST_ASSERT_TRUE(ripple(&s, 1, HCI_REMEDY_FEEDFORWARD) < 7.0);
+    TEST_ASSERT_TRUE(ripple(&f, 0, HCI_REMEDY_FEEDFORWARD) < 2.0);
+    TEST_ASSERT_TRUE(ripple(&f, 0, HCI_REMEDY_COMPENSATION) < 2.0);
+    hci_speeds_release(&s);
+    hci_speeds_release(&f);
+}
+
+/* Other loops than the default one, each compensated as well. */
+static void test_other_loops_are_compensated(void)
+{
+    static const char *const LOOPS[] = {"decoupling,none,\n", "decoupling,constant,\n",
+                                        "computing_delay,50,us\ncurrent_kp,150,ohm\n",
+                                        "computing_delay,0,us\ndecoupling,constant,\ncurrent_ki,40000,\n"};
+    for (int l = 0; l < 4; ++l) {
+        const grid g = {&machine_c, LOOPS[l], 8.0, {320.0}, 0.0};
+        hci_speeds s = run(&g);
+        TEST_ASSERT_TRUE(ripple(&s, 0, HCI_REMEDY_TABLE) > 5.0);
+        TEST_ASSERT_TRUE_MESSAGE(ripple(&s, 0, HCI_REMEDY_COMPENSATION) < 0.1, LOOPS[l]);
+        TEST_ASSERT_TRUE_MESSAGE(ripple(&s, 0, HCI_REMEDY_FEEDFORWARD) < 0.1, LOOPS[l]);
+        hci_speeds_release(&s);
+    }
+}
+
+/* loop.csv as a drive would record it, from the model of the loop: as good as its gains. */
+static void write_response(void)
+{
+    hci_drive_data d = drive_of("decoupling,constant,\n");
+    hci_machine_data fitted;
+    hci_machine_model model;
+    hci_note note = {{0}};
+    FILE *file = fopen(files_path("loop.csv"), "w");
+    TEST_ASSERT_NOT_NULL(file);
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_drive_fit(&d, &machine_c, &fitted, &note));
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_machine_model_make(&fitted, &model, &note));
+    const hci_loop_model loop = hci_drive_loop(&d, &model, 0.0);
+    fprintf(file, "frequency_Hz,gain_d,phase_d_rad,gain_q,phase_q_rad\n");
+    for (double f = 5.0; f < 2500.0; f *= 1.15) {
+        const hci_matrix2 g = hci_loop_answer_at(&loop, 2.0 * REF_PI * f).reference;
+        fprintf(file, "%.9g,%.9g,%.9g,%.9g,%.9g\n", f, cabs(g.m[0][0]), carg(g.m[0][0]), cabs(g.m[1][1]),
+                carg(g.m[1][1]));
+    }
+    fclose(file);
+    hci_machine_model_release(&model);
+    hci_drive_release(&d);
+}
+
+static void test_a_measured_response_does_as_well(void)
+{
+    write_response();
+    const grid g = {&machine_c, "decoupling,constant,\nresponse,loop.csv,\n", 8.0, {80.0, 320.0}, 0.0};
+    hci_speeds s = run(&g);
+    TEST_ASSERT_TRUE(ripple(&s, 0, HCI_REMEDY_COMPENSATION) < 0.01);
+    TEST_ASSERT_TRUE(ripple(&s, 1, HCI_REMEDY_COMPENSATION) < 0.06);
+    TEST_ASSERT_DOUBLE_WITHIN(0.1, 2.07, ripple(&s, 1, HCI_REMEDY_LEAD));
+    hci_speeds_release(&s);
+}
+
+/* Dead time, coarse readings: the remedies cannot know them, but the drive's compensation can. */
+static void test_dead_time_and_readings_are_in_the_loop(void)
+{
+#define READINGS "current_quantum,0.01,A\nencoder_counts,16384,\n"
+    const grid clean = {&machine_c, READINGS, 8.0, {80.0}, 0.0},
+               dead = {&machine_c, READINGS "dead_time,2,us\n", 8.0, {80.0}, 0.0},
+               mended = {
+                   &machine_c, READINGS "dead_time,2,us\ndead_time_compensation,1,\n", 8.0, {80.0}, 0.0};
+    hci_speeds c = run(&clean), d = run(&dead), m = run(&mended);
+    const double quiet = ripple(&c, 0, HCI_REMEDY_FEEDFORWARD), loud = ripple(&d, 0, HCI_REMEDY_FEEDFORWARD),
+                 less = ripple(&m, 0, HCI_REMEDY_FEEDFORWARD);
+    TEST_ASSERT_TRUE(quiet < 0.15);
+    TEST_ASSERT_TRUE(loud > 1.5 * quiet);
+    TEST_ASSERT_TRUE(less < 0.7 * loud);
+    hci_speeds_release(&c);
+    hci_speeds_release(&d);
+    hci_speeds_release(&m);
+}
+
+/* R, L and flux a tenth off: what is left, on both sides of what was found. */
+static void test_a_wrong_model_leaves_something(void)
+{
+    const grid g = {&machine_c, "", 8.0, {320.0}, 0.1};
+    hci_speeds s = run(&g);
+    for (int remedy = HCI_REMEDY_TABLE; remedy < HCI_REMEDIES; ++remedy)
+        TEST_ASSERT_TRUE(s.row[0].remedy[remedy].worst_T_ripple_percent > ripple(&s, 0, (hci_remedy)remedy));
+    TEST_ASSERT_TRUE(s.row[0].remedy[HCI_REMEDY_FEEDFORWARD].worst_T_ripple_percent < 8.0);
+    hci_speeds_release(&s);
+}
+
+/* Beyond the voltage orders go, the highest first, and the ripple stays below that of the plain sine. */
+static void test_orders_end_with_the_voltage(void)
+{
+    const grid g = {&machine_c, "", 8.0, {400.0, 600.0, 800.0}, 0.0};
+    hci_speeds s = run(&g);
+    TEST_ASSERT_EQUAL_UINT64(0, s.row[0].orders_short);
+    TEST_ASSERT_TRUE(s.row[1].orders_short > 0);
+    TEST_ASSERT_TRUE(s.row[2].orders_short >= s.row[1].orders_short);
+    TEST_ASSERT_DOUBLE_WITHIN(20.0, 412.0, s.voltage_rad_per_s * 30.0 / REF_PI);
+    for (size_t k = 0; k < 3; ++k)
+        TEST_ASSERT_TRUE(ripple(&s, k, HCI_REMEDY_FEEDFORWARD) < ripple(&s, k, HCI_REMEDY_SINE));
+    hci_speeds_release(&s);
+}
+
+/* ---- levels of torque ---- */
+
+/* Largest difference of the currents at a torque between levels from those that were solved for it, as a
+ * share of the largest current. */
+static double error_between(const hci_loop_set *set, const hci_loop_level *solved)
+{
+    static float memory[20000];
+    hci_loop_tables tables;
+    double worst = 0.0;
+    TEST_ASSERT_TRUE(hci_loop_floats(&set->loop, HCI_LOOP_TABLE) <= 20000);
+    hci_loop_start(&tables, &set->loop, HCI_LOOP_TABLE, memory);
+    hci_loop_make(&tables, 0.0f);
+    for (uint32_t k = 0; k < 1000; ++k) {
+        const uint32_t angle = k * 2654435769u;
+        const double theta = 2.0 * REF_PI * angle / 4294967296.0;
+        double abc[3];
+        hci_waves_at(solved->waves, solved->count, theta, abc);
+        const hci_dq i = hci_park(hci_clarke(abc), theta);
+        const hci_loop_reference r = hci_loop_at(&tables, angle, (float)solved->torque_Nm, 0.0f);
+        worst = fmax(worst, hypot((double)r.id_A - i.d, (double)r.iq_A - i.q));
+    }
+    return worst / set->peak_A;
+}
+
+static hci_loop_set set_of(const hci_loop_level *levels, size_t count, hci_drive_data *drive)
+{
+    hci_loop_set set;
+    hci_machine_data fitted;
+    hci_note note = {{0}};
+    *drive = drive_of("");
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_drive_fit(drive, &machine_c, &fitted, &note));
+    const hci_loop_task task = {&fitted, drive, levels, count, 0.0, 0.0};
+    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_loop_set_make(&task, &set, &note), note.text);
+    return set;
+}
+
+/* Machine C from 0 to 8 N·m: of the largest current one level is off by more than a tenth, five by 0.3 %,
+ * nine by 0.04 %. */
+static void test_levels_of_torque_follow_the_solutions(void)
+{
+    hci_loop_levels solved[9], other[2];
+    hci_loop_level nine[9], five[5];
+    hci_drive_data drive;
+    for (int k = 0; k < 9; ++k) {
+        solved[k] = level_of(&machine_c, (double)k);
+        nine[k] = solved[k].level[0];
+        if (k % 2 == 0) five[k / 2] = nine[k];
+    }
+    other[0] = level_of(&machine_c, 0.5);
+    other[1] = level_of(&machine_c, 6.5);
+    hci_loop_set set = set_of(five, 5, &drive);
+    for (int k = 1; k < 9; k += 2)
+        TEST_ASSERT_TRUE(error_between(&set, &nine[k]) < 0.003);
+    hci_loop_set_release(&set);
+    set = set_of(nine, 9, &drive);
+    for (int k = 0; k < 2; ++k)
+        TEST_ASSERT_TRUE(error_between(&set, &other[k].level[0]) <
+                         0.0004 + 2e-4); /* and what the spline may be off */
+    hci_loop_set_release(&set);
+    set = set_of(&nine[8], 1, &drive);
+    TEST_ASSERT_TRUE(error_between(&set, &nine[4]) > 0.1);
+    hci_loop_set_release(&set);
+    for (int k = 0; k < 9; ++k)
+        hci_loop_levels_release(&solved[k]);
+    hci_loop_levels_release(&other[0]);
+    hci_loop_levels_release(&other[1]);
+    hci_drive_release(&drive);
+}
+
+/* Levels that are not equally far apart, or an even number of them. */
+static void test_levels_that_do_not_fit_are_refused(void)
+{
+    static const double WRONG[][4] = {{1.0, 2.0, 4.0, NAN}, {1.0, 2.0, 3.0, 4.0}, {3.0, 2.0, 1.0, NAN}};
+    const hci_wave wave = {1.0, 1, 1.0, 0.0};
+    hci_machine_data fitted;
+    hci_drive_data drive = drive_of("");
+    hci_note none = {{0}};
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_drive_fit(&drive, &machine_c, &fitted, &none));
+    for (int w = 0; w < 3; ++w) {
+        hci_loop_level level[4];
+        hci_loop_task task = {&fitted, &drive, level, 0, 0.0, 0.0};
+        hci_loop_set set;
+        hci_note note = {{0}};
+        for (; task.level_count < 4 && !isnan(WRONG[w][task.level_count]); ++task.level_count)
+            level[task.level_count] = (hci_loop_level){WRONG[w][task.level_count], &wave, 1};
+        TEST_ASSERT_EQUAL_INT(HCI_ERROR_ARGUMENT, hci_loop_set_make(&task, &set, &note));
+        TEST_ASSERT_NOT_NULL(strstr(note.text, "levels of torque"));
+        hci_loop_set_release(&set);
+    }
+    hci_drive_release(&drive);
+}
+
+void setUp(void)
+{
+    drives_start();
+}
+
+void tearDown(void)
+{
+    drives_end();
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_machine_c_keeps_its_torque);
+    RUN_TEST(test_machine_a_is_limited_by_the_hold);
+    RUN_TEST(test_other_loops_are_compensated);
+    RUN_TEST(test_a_measured_response_does_as_well);
+    RUN_TEST(test_dead_time_and_readings_are_in_the_loop);
+    RUN_TEST(test_a_wrong_model_leaves_something);
+    RUN_TEST(test_orders_end_with_the_voltage);
+    RUN_TEST(test_levels_of_torque_follow_the_solutions);
+    RUN_TEST(test_levels_that_do_not_fit_are_refused);
+    return UNITY_END();
+}
