@@ -142,6 +142,9 @@ tree
 add include/hci/table.h '#include "hci/status.h"'
 expect "table.h includes status.h" "table-include: include/hci/table.h includes include/hci/status.h"
 tree
+add include/hci/loop.h '#include "hci/table.h"' '#include "hci/status.h"'
+expect "loop.h includes status.h" "table-include: include/hci/loop.h includes include/hci/status.h"
+tree
 mkdir "$work/none"
 expect "no objects" "empty: no objects in $work/none" "$work/none"
 rm -rf "$root/src" "$root/include" "$root/cli"
