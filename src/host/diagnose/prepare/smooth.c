@@ -13,7 +13,8 @@ enum {
     MOST_ORDER = 24, /* electrical, of the currents in the rotor frame */
     ALL_ORDERS = 7,  /* up to here those of the mechanical turn too */
     MOST_PERIODS = 200,
-    LEAST_SAMPLES = 20 /* for each coefficient */
+    LEAST_SAMPLES = 20, /* for each coefficient */
+    ERROR_PERIODS = 5
 };
 
 #define STEADY  0.05 /* change of current within the segment, as a share */
@@ -52,14 +53,68 @@ static double parabola_at(const hci_binned_sample *sample, size_t from, size_t t
     return d > 0.0 ? base + c / d : base;
 }
 
-static bool angle_smooth(hci_binned_sample *sample, size_t n)
+/* ---- errors of the angle that repeat ---- */
+
+/* Periods in a mechanical turn in which encoders and resolvers err: once and twice a turn, and 1, 2 and 4
+ * times an electrical period. Only those that the segment has a whole period of. Returns how many. */
+static size_t error_periods(const hci_binned_sample *sample, size_t n, int pole_pairs, bool turns,
+                            double period[ERROR_PERIODS])
 {
+    static const int OF_PERIOD[] = {1, 2, 4}, OF_TURN[] = {1, 2};
+    const double span = fabs(sample[n - 1].reading.theta_m_rad - sample[0].reading.theta_m_rad);
+    size_t count = 0;
+    for (size_t k = 0; k < sizeof OF_PERIOD / sizeof *OF_PERIOD; ++k)
+        if (OF_PERIOD[k] * pole_pairs * span > 2.0 * HCI_PI) period[count++] = OF_PERIOD[k] * pole_pairs;
+    for (size_t k = 0; k < sizeof OF_TURN / sizeof *OF_TURN && turns; ++k)
+        if (OF_TURN[k] * span > 2.0 * HCI_PI && OF_TURN[k] != pole_pairs && OF_TURN[k] != 2 * pole_pairs)
+            period[count++] = OF_TURN[k];
+    return count;
+}
+
+static void error_row(double theta_m_rad, const double *period, size_t count, double *row)
+{
+    for (size_t k = 0; k < count; ++k) {
+        row[2 * k] = cos(period[k] * theta_m_rad);
+        row[2 * k + 1] = sin(period[k] * theta_m_rad);
+    }
+}
+
+/* A parabola through many samples of a period takes an error of the encoder out of the angle: what it took
+ * that repeats is put back, since currents and model go by what was read. */
+static void errors_keep(const hci_binned_sample *sample, size_t n, const double *period, size_t count,
+                        double *smooth)
+{
+    const size_t columns = 2 * count;
+    double gram[4 * ERROR_PERIODS * ERROR_PERIODS] = {0.0}, x[2 * ERROR_PERIODS] = {0.0};
+    double row[2 * ERROR_PERIODS] = {0.0};
+    for (size_t k = 0; k < n; ++k) {
+        error_row(smooth[k], period, count, row);
+        for (size_t i = 0; i < columns; ++i) {
+            x[i] += row[i] * (sample[k].reading.theta_m_rad - smooth[k]);
+            for (size_t j = 0; j < columns; ++j)
+                gram[i + j * columns] += row[i] * row[j];
+        }
+    }
+    if (count == 0 || hci_cholesky_factor(columns, gram)) return;
+    hci_cholesky_solve(columns, gram, x);
+    for (size_t k = 0; k < n; ++k) {
+        error_row(smooth[k], period, count, row);
+        for (size_t i = 0; i < columns; ++i)
+            smooth[k] += row[i] * x[i];
+    }
+}
+
+static bool angle_smooth(hci_binned_sample *sample, size_t n, int pole_pairs, bool turns)
+{
+    double period[ERROR_PERIODS];
+    const size_t count = error_periods(sample, n, pole_pairs, turns, period);
     double *smooth = hci_memory_new(n, sizeof *smooth);
     if (!smooth) return false;
     for (size_t k = 0; k < n; ++k) {
         const size_t reach = k < REACH ? k : n - 1 - k < REACH ? n - 1 - k : REACH;
         smooth[k] = reach < 2 ? sample[k].reading.theta_m_rad : parabola_at(sample, k - reach, k + reach, k);
     }
+    errors_keep(sample, n, period, count, smooth);
     for (size_t k = 0; k < n; ++k)
         sample[k].reading.theta_m_rad = smooth[k];
     hci_memory_free(smooth);
@@ -247,7 +302,7 @@ bool hci_segment_smooth(hci_binned_sample *sample, const hci_segment *segment, i
     const size_t n = segment->count;
     *series = false;
     if (segment->timed && segment->turns == 0 && n > 4 * REACH && is_turning(sample, n) &&
-        !angle_smooth(sample, n))
+        !angle_smooth(sample, n, pole_pairs, turns))
         return false;
     if (!is_steady(sample, n, pole_pairs)) return true;
     if (!series_make(sample, n, pole_pairs, turns, series)) return false;

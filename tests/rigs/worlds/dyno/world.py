@@ -512,7 +512,7 @@ def resolver(rng):
     """resolver: sine and cosine unequal and offset: once and twice a turn of its own period, one pole pair or as many as the motor"""
     c = context(rng); c.runs = plan_good(rng, c); p = c.true.p; K = rng.choice([1, p])
     c.b.ecc = {K: (.02 * rng.uniform(.7, 1.4) / p, rng.uniform(-PI, PI)), 2 * K: (.04 * rng.uniform(.7, 1.4) / p, rng.uniform(-PI, PI))}
-    c.truth.update(hidden=['position_eccentricity']); return c
+    c.truth.update(hidden=['position_eccentricity' if K == 1 else 'position_harmonics']); return c
 @kind
 def clamps_swapped(rng):
     """clamps of b and c changed places at the power analyser"""
