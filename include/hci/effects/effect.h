@@ -63,12 +63,13 @@ enum {
     HCI_PARAMETER_WITH_CURRENT = 2, /* acts with the current: not to be seen in a holding test, where the
                                      * current answers to the torque */
     HCI_PARAMETER_WITH_SPEED = 4,   /* acts with the speed: not to be seen in a holding test either */
-    HCI_PARAMETER_OF_TRANSDUCER = 8,     /* of a torque sensor: to be seen in a measured torque only */
-    HCI_PARAMETER_ALONG_TIME = 16,       /* makes `filter` act unless it is 0 */
-    HCI_PARAMETER_LAG = 32,              /* a time constant of `filter`: at 0 its regressor is −dT/dt */
+    HCI_PARAMETER_OF_TRANSDUCER = 8,      /* of a torque sensor: to be seen in a measured torque only */
+    HCI_PARAMETER_ALONG_TIME = 16,        /* makes `filter` act unless it is 0 */
+    HCI_PARAMETER_LAG = 32,               /* a time constant of `filter`: at 0 its regressor is −dT/dt */
     HCI_PARAMETER_REFERENCE_CURRENT = 64, /* the current at which the other values hold: not fitted, a
                                            * diagnosis sets it to the largest that was measured */
-    HCI_PARAMETER_SCALE = 128 /* how far the other values of the effect reach; says nothing while those are 0 */
+    HCI_PARAMETER_SCALE =
+        128 /* how far the other values of the effect reach; says nothing while those are 0 */
 };
 
 /* One kind of number that an effect has. */
@@ -160,6 +161,10 @@ typedef struct {
     const double *turn_order;   /* and those that repeat with the mechanical turn only */
     size_t turn_orders;         /* entries of turn_order */
     double orders;              /* how many orders they were chosen from */
+    const double *flux_order;   /* fractions at which cogging and torque with the currents vary alike over the
+                                 * turn, as the declared ones do with the flux; the strongest first */
+    size_t flux_orders;         /* entries of flux_order */
+    bool one_gain;              /* torque with the currents and cogging are off by the same factor */
     const hci_effect_speed_mean *of_speed; /* measured torques by the speed, each direction by itself */
     size_t of_speeds;                      /* entries of of_speed */
 } hci_effect_survey;

@@ -117,8 +117,7 @@ static void simulate(const hci_effect *effect, int pole_pairs, hci_sensor *senso
 /* At one speed it is a position offset and gains. */
 static void propose(const hci_effect_survey *survey, const hci_effect_proposals *to)
 {
-    if (survey->timed && survey->speeds > 1)
-        hci_effect_propose(to, TIME_CONSTANT, 1, 0.0, 2.0, EXPECTED_S);
+    if (survey->timed && survey->speeds > 1) hci_effect_propose(to, TIME_CONSTANT, 1, 0.0, 2.0, EXPECTED_S);
 }
 
 const hci_effect_type hci_effect_current_filter = {

@@ -70,8 +70,9 @@ static void simulate(const hci_effect *effect, int pole_pairs, hci_sensor *senso
 /* ---- where to look for it ---- */
 
 #define LEAST_RANGE 4.0  /* fastest over slowest */
-#define STANDS_OUT  25.0 /* fall of χ² beside friction, that means of so many samples do not have by chance */
-#define REGULAR     1e-9 /* added to a diagonal of 1: laws that the speeds do not tell apart */
+#define STANDS_OUT  25.0 /* fall of χ² beside friction, that means of so many samples do not have by chance \
+                          */
+#define REGULAR 1e-9     /* added to a diagonal of 1: laws that the speeds do not tell apart */
 
 enum { LAWS = 5, LEAST_SPEEDS = 4, SPEEDS_TRIED = 16 };
 
@@ -106,8 +107,8 @@ static double fall_of(const double gram[LAWS * LAWS], const double b[LAWS], size
     for (size_t j = 0; j < laws; ++j) {
         x[j] = b[j] / sqrt(gram[j + j * LAWS]);
         for (size_t i = 0; i < laws; ++i)
-            a[i + j * laws] = gram[i + j * LAWS] / sqrt(gram[i + i * LAWS] * gram[j + j * LAWS]) +
-                              (i == j ? REGULAR : 0.0);
+            a[i + j * laws] =
+                gram[i + j * LAWS] / sqrt(gram[i + i * LAWS] * gram[j + j * LAWS]) + (i == j ? REGULAR : 0.0);
     }
     if (hci_cholesky_factor(laws, a) != 0) return 0.0;
     hci_cholesky_solve(laws, a, x);

@@ -41,11 +41,10 @@ static void simulate(const hci_effect *effect, int pole_pairs, hci_sensor *senso
 
 #define EXPECTED 0.1
 
-/* Without a declared torque that does not go with the back-EMF it is a back-EMF of another size. */
+/* Where cogging and the torque with the currents are not off alike, it is the magnets. */
 static void propose(const hci_effect_survey *survey, const hci_effect_proposals *to)
 {
-    const hci_machine *m = survey->machine;
-    if (m->cogging_count > 0 || m->slope_count > 0) hci_effect_propose(to, GAIN, 1, 0.0, 1.0, EXPECTED);
+    if (survey->one_gain) hci_effect_propose(to, GAIN, 1, 0.0, 1.0, EXPECTED);
 }
 
 const hci_effect_type hci_effect_torque_gain = {

@@ -10,11 +10,11 @@
  * a co-energy and M T_cog does no work over a turn. */
 #include "core/effects/type.h"
 
+enum { SINE };
+
 static const hci_effect_parameter PARAMETER[] = {
-    HCI_ORDERED("sine", "1", "relative change of the flux, of sin nθ", 1e-6,
-                HCI_PARAMETER_LINEAR | HCI_PARAMETER_WITH_CURRENT),
-    HCI_ORDERED("cosine", "1", "relative change of the flux, of cos nθ", 1e-6,
-                HCI_PARAMETER_LINEAR | HCI_PARAMETER_WITH_CURRENT),
+    HCI_ORDERED("sine", "1", "relative change of the flux, of sin nθ", 1e-6, HCI_PARAMETER_LINEAR),
+    HCI_ORDERED("cosine", "1", "relative change of the flux, of cos nθ", 1e-6, HCI_PARAMETER_LINEAR),
 };
 
 /* M and its derivative by θ_m; by_value: out, ∂M/∂value of each term, or NULL. */
@@ -53,6 +53,15 @@ static void torque_of_all(const hci_effect *effect, const hci_machine *machine, 
         by_value[k] *= torque;
 }
 
+#define EXPECTED 0.1
+
+/* Where load and cogging do not tell the same it is not this. */
+static void propose(const hci_effect_survey *survey, const hci_effect_proposals *to)
+{
+    for (size_t k = 0; k < survey->flux_orders; ++k)
+        hci_effect_propose(to, SINE, 2, survey->flux_order[k], survey->machine->pole_pairs, EXPECTED);
+}
+
 const hci_effect_type hci_effect_unequal_magnets = {
     .name = "unequal_magnets",
     .equation = "T = (e(θ)·i + 2 T_cog(θ)) Σ S sin nθ + C cos nθ, n = k/p",
@@ -62,6 +71,8 @@ const hci_effect_type hci_effect_unequal_magnets = {
     .without =
         "the angle does not tell where in the mechanical turn the rotor was: orders k/p have any phase",
     .told_by = "no current: then only the orders around those of cogging are left",
+    .is_small = true,
+    .propose = propose,
     .in_machine = true,
     .torque_of_all = torque_of_all,
 };

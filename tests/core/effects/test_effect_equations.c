@@ -799,8 +799,7 @@ static void test_torque_drift_follows_the_time(void)
     for (int k = 0; k < 5; ++k) {
         double by = 0.0;
         x.elapsed_s = 0.7 * k;
-        TEST_ASSERT_DOUBLE_WITHIN(1e-12,
-                                  hci_effects_predict(&m.machine, &none, &x, NULL) + 0.5 * x.elapsed_s,
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, hci_effects_predict(&m.machine, &none, &x, NULL) + 0.5 * x.elapsed_s,
                                   hci_effects_predict(&m.machine, &l.list, &x, &by));
         TEST_ASSERT_EQUAL_DOUBLE(x.elapsed_s, by);
     }

@@ -23,7 +23,8 @@ static void test_words_are_appended(void)
     TEST_ASSERT_EQUAL_STRING("Falls. By 3.", text);
 }
 
-/* Whatever the size, what is kept is the beginning, whole characters, and nothing behind the end is written. */
+/* Whatever the size, what is kept is the beginning, whole characters, and nothing behind the end is written.
+ */
 static void test_what_has_no_room_is_cut_behind_a_character(void)
 {
     static const char full[] = "0.1 N\xC2\xB7m, 95 \xE2\x89\xA4 \xF0\x9F\x94\xA7";

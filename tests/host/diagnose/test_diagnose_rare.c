@@ -107,7 +107,8 @@ static void test_what_stands_still_does_not_drift(void)
 
 /* ---- a low pass ---- */
 
-/* Six runs at three speeds, with i_d too; what is read of the currents is the answer of a low pass to a sine. */
+/* Six runs at three speeds, with i_d too; what is read of the currents is the answer of a low pass to a sine.
+ */
 static void record_filtered(double tau_s)
 {
     static const double SPEED[] = {40.0, -80.0, 150.0};
@@ -162,16 +163,57 @@ static void record_gains(double of_current, double of_cogging)
             run[k].torque_Nm[j] += (of_current - 1.0) * 1.5 * K_NM_PER_A * (k % 2 ? 9.0 : 2.0) +
                                    of_cogging * 0.1 * sin(12.0 * P * run[k].theta_m_rad[j]);
     }
-    TEST_ASSERT_EQUAL_INT(HCI_OK, diagnose(NULL));
-    TEST_ASSERT_EQUAL_UINT64(1, count_of(HCI_FINDING_ADDED));
-    TEST_ASSERT_EQUAL_UINT64(0, count_of(HCI_FINDING_AMBIGUOUS));
+    diagnose(NULL);
+}
+
+/* Weak magnets take twice as much from cogging, to first order. */
+static void test_weak_magnets_are_no_calibration(void)
+{
+    record_gains(0.9, 0.81);
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_REJECTED, found("torque_gain")->verdict);
 }
 
 static void test_a_wrong_calibration(void)
 {
     record_gains(0.9, 0.9);
     TEST_ASSERT_EQUAL_INT(HCI_FINDING_ADDED, found("torque_gain")->verdict);
+    TEST_ASSERT_EQUAL_INT(HCI_DIAGNOSIS_EXPLAINED, diagnosis.verdict);
+    TEST_ASSERT_EQUAL_UINT64(1, count_of(HCI_FINDING_ADDED));
     is_value(-0.1, 0.02, term("torque_gain", "gain", 0.0));
+}
+
+/* ---- magnets that are not equal ---- */
+
+/* Four runs; torque of the currents and cogging torque vary with the turn, each by a share of its own. */
+static void record_magnets(double of_load, double of_cogging)
+{
+    declare_cogging();
+    for (int k = 0; k < 4; ++k) {
+        record(1200, &(point){k < 2 ? 60.0 : -150.0, k % 2 ? 1.2 : 0.4, 0.0, 0.0, 0.0});
+        for (size_t j = 0; j < 1200; ++j) {
+            const double theta_m = run[k].theta_m_rad[j], m = 0.05 * sin(theta_m + 0.5);
+            run[k].torque_Nm[j] += of_load * m * 1.5 * K_NM_PER_A * (k % 2 ? 1.2 : 0.4) +
+                                   (1.0 + 2.0 * of_cogging * m) * 0.1 * sin(12.0 * P * theta_m);
+        }
+    }
+    TEST_ASSERT_EQUAL_INT(HCI_OK, diagnose(NULL));
+    TEST_ASSERT_EQUAL_UINT64(1, count_of(HCI_FINDING_ADDED));
+    TEST_ASSERT_EQUAL_UINT64(0, count_of(HCI_FINDING_AMBIGUOUS));
+}
+
+static void test_unequal_magnets(void)
+{
+    record_magnets(1.0, 1.0);
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_ADDED, found("unequal_magnets")->verdict);
+    is_value(0.05 * cos(0.5), 0.05, term("unequal_magnets", "sine", 1.0 / P));
+    is_value(0.05 * sin(0.5), 0.05, term("unequal_magnets", "cosine", 1.0 / P));
+}
+
+/* An eccentric rotor leaves the cogging torque as it was. */
+static void test_an_eccentric_rotor_has_equal_magnets(void)
+{
+    record_magnets(1.0, 0.0);
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_ADDED, found("mechanical_order")->verdict);
 }
 
 /* ---- a torque sensor that is slow ---- */
@@ -229,7 +271,10 @@ int main(void)
     RUN_TEST(test_what_stands_still_does_not_drift);
     RUN_TEST(test_filter_of_the_currents);
     RUN_TEST(test_a_short_filter_is_a_delay);
+    RUN_TEST(test_weak_magnets_are_no_calibration);
     RUN_TEST(test_a_wrong_calibration);
+    RUN_TEST(test_unequal_magnets);
+    RUN_TEST(test_an_eccentric_rotor_has_equal_magnets);
     RUN_TEST(test_a_long_lag_is_no_delay);
     RUN_TEST(test_a_lag_within_an_arc);
     return UNITY_END();

@@ -7,6 +7,7 @@
 #include "host/base/memory.h"
 #include "host/diagnose/candidates/candidate_orders.h"
 #include "host/diagnose/candidates/empirical_term.h"
+#include "host/diagnose/candidates/flux_orders.h"
 #include "host/diagnose/candidates/residual_by_speed.h"
 
 enum {
@@ -157,6 +158,7 @@ static void add_all(builder *b, const hci_candidates_source *s, hci_effect_surve
                     const hci_candidate_orders *lines)
 {
     double slot[MOST_SLOT_ORDERS], turn[MOST_TURN_ORDERS];
+    hci_flux_orders flux;
     hci_effect_speed_mean of_speed[HCI_SPEED_MEANS];
     const hci_effect_proposals to = {add, b};
     x->has_turn = lines->stride == 1;
@@ -165,9 +167,13 @@ static void add_all(builder *b, const hci_candidates_source *s, hci_effect_surve
     x->slot_orders = orders_of(lines, s->machine->pole_pairs, true, MOST_SLOT_ORDERS, slot);
     x->turn_order = turn;
     x->turn_orders = orders_of(lines, s->machine->pole_pairs, false, MOST_TURN_ORDERS, turn);
+    b->failed = !hci_flux_orders_find(s, x->has_turn, &flux);
+    x->flux_order = flux.order;
+    x->flux_orders = flux.count;
+    x->one_gain = flux.one_gain;
     x->of_speed = of_speed;
     x->of_speeds = hci_residual_by_speed(s, of_speed);
-    for (size_t r = 0; (b->type = hci_effect_type_at(r)) != NULL; ++r)
+    for (size_t r = 0; !b->failed && (b->type = hci_effect_type_at(r)) != NULL; ++r)
         if (b->type->propose) b->type->propose(x, &to);
     add_unknown(b, s, lines);
 }

@@ -44,7 +44,8 @@ static const hci_known_term *term_find(const hci_known_model *of, const hci_effe
 static bool is_nothing(const hci_effect_type *type, size_t parameter, double value)
 {
     const hci_effect_parameter *x = &type->parameter[parameter];
-    return value == 0.0 || value == x->standard || (x->traits & (HCI_PARAMETER_REFERENCE_CURRENT | HCI_PARAMETER_SCALE));
+    return value == 0.0 || value == x->standard ||
+           (x->traits & (HCI_PARAMETER_REFERENCE_CURRENT | HCI_PARAMETER_SCALE));
 }
 
 static bool is_same_noise(const hci_known_model *x, const hci_regression *e)

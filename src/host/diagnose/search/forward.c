@@ -142,8 +142,8 @@ static hci_status contender_enter(comparison *c, hci_fitted_model *candidate, do
     return HCI_OK;
 }
 
-/* What a model must be better by than its score: two effects at once, and one that is called another unless it
- * is decisively better. */
+/* What a model must be better by than its score: two effects at once, and one that is called another unless
+ * it is decisively better. */
 static double handicap_of(const hci_candidate_model *x, const hci_candidate_model *best)
 {
     const hci_effect_type *a = hci_candidate_type(x->a), *b = hci_candidate_type(x->b);
@@ -205,8 +205,8 @@ static hci_status lag_enter(comparison *c, const hci_effect_type *type, hci_note
     if (hci_candidates_find_in(&c->present->candidates, &x)) return HCI_OK;
     hci_status status = hci_search_residual(c->search, &c->present->candidates, note);
     if (!status)
-        status = hci_lag_find(c->search->regression, type, c->search->residual_Nm, &time_constant_s, &gain,
-                              note);
+        status =
+            hci_lag_find(c->search->regression, type, c->search->residual_Nm, &time_constant_s, &gain, note);
     if (status || gain < hci_candidate_cost(&x, c->present->fit.rows) + HCI_DECISIVE) return status;
     x.term[0].value = time_constant_s;
     status = resonance_fit(c, &x, &candidate, note);

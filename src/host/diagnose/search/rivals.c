@@ -175,7 +175,8 @@ hci_status hci_search_rivals(hci_search *s, const hci_effect_type *type, hci_att
         if (status || with == hci_candidate_types()) break;
         const bool is_empirical = hci_candidate_type(with) == &hci_empirical_type;
         bool equal = !is_empirical && !hci_candidate_type(with)->seen_as &&
-                     !is_called(type, hci_candidate_type(with)) && rival.fit.score < a->model.fit.score + EQUAL;
+                     !is_called(type, hci_candidate_type(with)) &&
+                     rival.fit.score < a->model.fit.score + EQUAL;
         if (equal) status = is_as_good(&r, &rival, &equal, note);
         if (!status && equal) rival_mark(&r, with, &rival, a);
         hci_fitted_model_release(&rival);

@@ -83,15 +83,16 @@ static void test_motion_is_not_distorted(void)
     turn(MOST, 400.0, -80.0, 0.0, 0.0);
     reduce();
     TEST_ASSERT_TRUE(angle_error(0, MOST) < 1e-12);
-    /* A ripple of an order that no encoder errs in; x⁴/24 loses 3/35 (m + 1/2)⁴ in the middle of such a parabola. */
+    /* A ripple of an order that no encoder errs in; x⁴/24 loses 3/35 (m + 1/2)⁴ in the middle of such a
+     * parabola. */
     turn(MOST, 480.0, 80.0, 4.0, 0.01);
     reduce();
     const double lost = 0.01 * pow(10.5 * 8.0 * REF_PI / 480.0, 4.0) * 3.0 / 35.0 / 24.0;
     TEST_ASSERT_DOUBLE_WITHIN(0.05 * lost, lost / sqrt(2.0), angle_error(10, MOST - 10));
 }
 
-/* An error of a resolver, with twelve samples in an electrical period and white noise: it is what was read, and
- * stays; the noise does not. */
+/* An error of a resolver, with twelve samples in an electrical period and white noise: it is what was read,
+ * and stays; the noise does not. */
 static void test_errors_that_repeat_stay(void)
 {
     const double error_rad = 0.01, noise_rad = 0.002;
