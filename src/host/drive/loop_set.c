@@ -268,27 +268,36 @@ static double voltage_end(const maker *m, const partial_turn *x, double beyond)
     return high < beyond ? low : beyond;
 }
 
-/* The speeds at which the voltage just does for the orders up to each: an order is whole up to its own, and
- * gone where those below it take all. */
-static void fill_level_ranges(maker *m, size_t level, partial_turn *x)
+/* end: out, the speed up to which the voltage does for the orders up to each. */
+static void find_ends(const maker *m, size_t level, partial_turn *x, double end[HCI_LOOP_MOST_ORDERS])
 {
     const double beyond = HCI_PI / m->task->drive->sample_s;
-    double before = beyond;
     memset(x, 0, sizeof *x);
     x->turn.turns = m->level[level].turns;
     x->turn.samples = ENDS_ANGLES;
     for (int v = 0; v < 4; ++v)
         x->turn.value[v] = x->memory[v];
     for (size_t k = 0; k < m->count; ++k) {
-        hci_loop_range *range = &m->set->ranges[k];
         add_order(m, level, m->order[k], x);
-        const double end = fmin(before, voltage_end(m, x, beyond));
-        if (k > 0 && end < beyond) {
-            range->whole_rad_per_s = fminf(range->whole_rad_per_s, (float)end);
-            range->none_rad_per_s = fminf(range->none_rad_per_s, (float)fmax(before, 1.02 * end));
-        }
-        m->voltage_end = fmin(m->voltage_end, end < beyond ? end : HUGE_VAL);
-        before = end;
+        end[k] = voltage_end(m, x, beyond);
+    }
+}
+
+/* An order is whole as long as the voltage does for all up to it, or up to one above it: higher orders may
+ * take voltage off the peaks. It is gone where those below it take all. */
+static void fill_level_ranges(maker *m, size_t level, partial_turn *x)
+{
+    const double beyond = HCI_PI / m->task->drive->sample_s;
+    double end[HCI_LOOP_MOST_ORDERS];
+    find_ends(m, level, x, end);
+    m->voltage_end = fmin(m->voltage_end, end[m->count - 1] < beyond ? end[m->count - 1] : HUGE_VAL);
+    for (size_t k = m->count - 1; k-- > 0;)
+        end[k] = fmax(end[k], end[k + 1]);
+    for (size_t k = 1; k < m->count; ++k) {
+        hci_loop_range *range = &m->set->ranges[k];
+        if (!(end[k] < beyond)) continue;
+        range->whole_rad_per_s = fminf(range->whole_rad_per_s, (float)end[k]);
+        range->none_rad_per_s = fminf(range->none_rad_per_s, (float)fmax(end[k - 1], 1.02 * end[k]));
     }
 }
 

@@ -276,6 +276,38 @@ static void test_levels_of_torque_follow_the_solutions(void)
     hci_drive_release(&drive);
 }
 
+/* A fifth harmonic of the back-EMF raises the peaks of the line voltage, or takes them down, by its sign.
+ * Taken down, both orders fit at a speed at which the fundamental alone does not: no order may end below
+ * that. */
+static void test_orders_that_lower_the_peaks_stay(void)
+{
+    const hci_wave current = hci_wave_polar(1.0, 1, 0.01, 0.0);
+    const hci_loop_level level = {1e-3, &current, 1};
+    double end[3], whole[3];
+    for (int k = 0; k < 3; ++k) { /* the last: the fundamental alone */
+        hci_drive_data drive = drive_of("resistance,0.1,ohm\ninductance_d,0.5,mH\ninductance_q,0.5,mH\n"
+                                        "dc_link_voltage,60,V\ndecoupling,none,\n");
+        hci_wave emf[2] = {hci_wave_polar(1.0, 1, 0.14, 0.0),
+                           hci_wave_polar(5.0, -1, k == 0 ? 0.01 : -0.01, 0.0)};
+        hci_machine_data machine = machine_a, fitted;
+        hci_loop_task task = {&fitted, &drive, &level, 1, 0.0, 0.0};
+        hci_loop_set set;
+        hci_note note = {{0}};
+        machine.model.back_emf = emf;
+        machine.model.back_emf_count = k < 2 ? 2 : 1;
+        TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_drive_fit(&drive, &machine, &fitted, &note), note.text);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_loop_set_make(&task, &set, &note), note.text);
+        end[k] = set.voltage_rad_per_s;
+        whole[k] = (double)set.loop.whole_rad_per_s / machine.pole_pairs;
+        hci_loop_set_release(&set);
+        hci_drive_release(&drive);
+    }
+    TEST_ASSERT_TRUE(fmin(end[0], end[1]) < end[2] - 5.0);
+    TEST_ASSERT_TRUE(fmax(end[0], end[1]) > end[2] + 5.0);
+    for (int k = 0; k < 2; ++k)
+        TEST_ASSERT_TRUE(whole[k] > 0.999 * end[k]);
+}
+
 /* Levels that are not equally far apart, or an even number of them. */
 static void test_levels_that_do_not_fit_are_refused(void)
 {
@@ -320,6 +352,7 @@ int main(void)
     RUN_TEST(test_a_wrong_model_leaves_something);
     RUN_TEST(test_orders_end_with_the_voltage);
     RUN_TEST(test_levels_of_torque_follow_the_solutions);
+    RUN_TEST(test_orders_that_lower_the_peaks_stay);
     RUN_TEST(test_levels_that_do_not_fit_are_refused);
     return UNITY_END();
 }
