@@ -173,6 +173,20 @@ static void test_weak_magnets_are_no_calibration(void)
     TEST_ASSERT_EQUAL_INT(HCI_FINDING_REJECTED, found("torque_gain")->verdict);
 }
 
+/* Without current a smaller cogging torque tells no gain. */
+static void test_cogging_alone_is_no_calibration(void)
+{
+    declare_cogging();
+    for (int k = 0; k < 4; ++k) {
+        record(450, &(point){k < 2 ? 60.0 : -150.0, 0.0, 0.0, 0.0, 0.0});
+        for (size_t j = 0; j < 450; ++j)
+            run[k].torque_Nm[j] += 0.09 * sin(12.0 * P * run[k].theta_m_rad[j]);
+    }
+    TEST_ASSERT_EQUAL_INT(HCI_OK, diagnose(NULL));
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_REJECTED, found("torque_gain")->verdict);
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_ADDED, found("cogging")->verdict);
+}
+
 static void test_a_wrong_calibration(void)
 {
     record_gains(0.9, 0.9);
@@ -272,6 +286,7 @@ int main(void)
     RUN_TEST(test_filter_of_the_currents);
     RUN_TEST(test_a_short_filter_is_a_delay);
     RUN_TEST(test_weak_magnets_are_no_calibration);
+    RUN_TEST(test_cogging_alone_is_no_calibration);
     RUN_TEST(test_a_wrong_calibration);
     RUN_TEST(test_unequal_magnets);
     RUN_TEST(test_an_eccentric_rotor_has_equal_magnets);
