@@ -8,7 +8,7 @@
 static bool tells_mean(const hci_candidates_source *s, size_t run)
 {
     const hci_run *r = &s->runs[run];
-    return s->use[run] && r->torque_source != HCI_TORQUE_HOLDING && !r->mean_is_unknown;
+    return s->use[run] && r->torque_source == HCI_TORQUE_MEASURED && !r->mean_is_unknown;
 }
 
 static double fastest(const hci_candidates_source *s)

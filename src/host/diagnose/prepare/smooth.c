@@ -17,6 +17,7 @@ enum {
     ERROR_PERIODS = 5
 };
 
+#define REPEATS 60.0 /* χ² of ten values that repeat, once in 10⁸ by chance */
 #define STEADY  0.05 /* change of current within the segment, as a share */
 #define TURNING 0.5  /* and of speed, for the angle to be a smooth curve */
 
@@ -79,28 +80,46 @@ static void error_row(double theta_m_rad, const double *period, size_t count, do
     }
 }
 
-/* A parabola through many samples of a period takes an error of the encoder out of the angle: what it took
- * that repeats is put back, since currents and model go by what was read. */
-static void errors_keep(const hci_binned_sample *sample, size_t n, const double *period, size_t count,
-                        double *smooth)
+/* The sums of a fit of what smoothing took by waves of those periods. Returns the sum of its squares. */
+static double errors_sum(const hci_binned_sample *sample, size_t n, const double *period, size_t count,
+                         const double *smooth, double *gram, double *moment)
 {
     const size_t columns = 2 * count;
-    double gram[4 * ERROR_PERIODS * ERROR_PERIODS] = {0.0}, x[2 * ERROR_PERIODS] = {0.0};
-    double row[2 * ERROR_PERIODS] = {0.0};
-    for (size_t k = 0; k < n; ++k) {
+    double row[2 * ERROR_PERIODS] = {0.0}, square = 0.0;
+    for (size_t k = REACH; k + REACH < n; ++k) {
+        const double taken = sample[k].reading.theta_m_rad - smooth[k];
         error_row(smooth[k], period, count, row);
+        square += taken * taken;
         for (size_t i = 0; i < columns; ++i) {
-            x[i] += row[i] * (sample[k].reading.theta_m_rad - smooth[k]);
+            moment[i] += row[i] * taken;
             for (size_t j = 0; j < columns; ++j)
                 gram[i + j * columns] += row[i] * row[j];
         }
     }
-    if (count == 0 || hci_cholesky_factor(columns, gram)) return;
-    hci_cholesky_solve(columns, gram, x);
+    return square;
+}
+
+/* A parabola through many samples of a period takes an error of the encoder out of the angle: what it took
+ * that repeats is put back, where it stands out of the noise, since currents and model go by what was read.
+ * At the ends, where the parabolas are shorter, that is the reading. */
+static void errors_keep(const hci_binned_sample *sample, size_t n, const double *period, size_t count,
+                        double *smooth)
+{
+    double gram[4 * ERROR_PERIODS * ERROR_PERIODS] = {0.0}, x[2 * ERROR_PERIODS] = {0.0};
+    double moment[2 * ERROR_PERIODS] = {0.0}, row[2 * ERROR_PERIODS] = {0.0}, kept = 0.0;
+    const double square = errors_sum(sample, n, period, count, smooth, gram, moment);
+    memcpy(x, moment, sizeof x);
+    if (count == 0 || hci_cholesky_factor(2 * count, gram)) return;
+    hci_cholesky_solve(2 * count, gram, x);
+    for (size_t i = 0; i < 2 * count; ++i)
+        kept += x[i] * moment[i];
+    if (!(kept * (double)n > REPEATS * square)) return;
     for (size_t k = 0; k < n; ++k) {
+        const bool is_end = k < REACH || k + REACH >= n;
         error_row(smooth[k], period, count, row);
-        for (size_t i = 0; i < columns; ++i)
+        for (size_t i = 0; i < 2 * count; ++i)
             smooth[k] += row[i] * x[i];
+        if (is_end) smooth[k] = sample[k].reading.theta_m_rad;
     }
 }
 
