@@ -16,9 +16,12 @@
 enum {
     NAME,
     FORMAT,
+    SHAPE,
     FRAME,
-    POINTS,
     MAX_ERROR,
+    POINTS,
+    MAX_BYTES,
+    MAX_INSTRUCTIONS,
     PER_TORQUE,
     REFERENCE,
     MACHINE,
@@ -28,39 +31,59 @@ enum {
     CLI_COMMON_KEYS
 };
 
-static const cli_choice FORMATS[] = {{"f32", "f32 (default)"}, {NULL, NULL}};
+static const cli_choice FORMATS[] = {
+    [HCI_EMIT_F32] = {"f32", "f32 (default): float rows"},
+    [HCI_EMIT_I16] = {"i16", "; i16: 16-bit knots, read as amperes"},
+    [HCI_EMIT_Q15] = {"q15", "; q15: the same, read as integers"},
+    {NULL, NULL},
+};
+static const cli_choice SHAPES[] = {
+    [HCI_EMIT_AUTO] = {"auto", "auto (default): the fewest instructions within 1 KiB, else the fewest bytes"},
+    [HCI_EMIT_LINEAR] = {"linear", "; linear: the one shape of f32"},
+    [HCI_EMIT_QUADRATIC] = {"quadratic", "; quadratic"},
+    [HCI_EMIT_CUBIC] = {"cubic", "; cubic"},
+    {NULL, NULL},
+};
 static const cli_choice FRAMES[] = {
     [HCI_TABLE_ABC] = {"abc", "abc (default): phase currents"},
     [HCI_TABLE_DQ] = {"dq", "; dq: rotor frame"},
     {NULL, NULL},
 };
 
-static const cli_option OPTIONS[] = {
-    [NAME] = {"name", 0, CLI_TEXT, "ID", .help = "of the table and its files, a C identifier"},
-    [FORMAT] = {"format", 0, CLI_CHOICE, "NAME", NULL, .choices = FORMATS},
-    [FRAME] = {"frame", 0, CLI_CHOICE, "NAME", NULL, .choices = FRAMES},
-    [POINTS] = {"points", 0, CLI_WHOLE, "N", .help = "rows of the table (256)", .low = 1.0,
-                .high = HCI_EMIT_MAX_POINTS},
-    [MAX_ERROR] = {"max-error", 0, CLI_NUMBER, "A",
-                   .help = "instead: the fewest rows that keep every current within it", .low = 1e-12,
-                   .high = 1e9},
-    [PER_TORQUE] = {"per-torque", 0, CLI_FLAG, NULL,
-                    .help = "two parts, i = T*A + B, for every mean torque T (needs a folder)"},
-    [REFERENCE] = {"reference-torque", 0, CLI_NUMBER, "NM",
-                   .help = "with --per-torque: the largest T (default: the one solved for)", .low = 1e-9,
-                   .high = 1e9},
-    [MACHINE] = {"machine", 0, CLI_FOLDER, "FOLDER", .help = "with --drive: the machine of the currents"},
-    [DRIVE] =
-        {"drive", 0, CLI_FILE, "FILE",
-         .help = "drive.csv: orders of current and voltage for hci/loop.h, which a current loop can follow; "
-                 "several folders are levels of torque"},
-    [SPEED] =
-        {"speed", 0, CLI_NUMBER, "RPM",
-         .help = "with --drive: up to which orders are used (default: as far as the voltage and the sampling "
-                 "do)",
-         .low = 1e-3, .high = 1e6},
-    [OUT] = {"out", 'o', CLI_FOLDER, "FOLDER", .help = "where ID.h and ID.c go (default: here)"},
-    CLI_COMMON_OPTIONS};
+static const cli_option OPTIONS[] =
+    {[NAME] = {"name", 0, CLI_TEXT, "ID", .help = "of the table and its files, a C identifier"},
+     [FORMAT] = {"format", 0, CLI_CHOICE, "NAME", NULL, .choices = FORMATS},
+     [SHAPE] = {"shape", 0, CLI_CHOICE, "NAME", NULL, .choices = SHAPES},
+     [FRAME] = {"frame", 0, CLI_CHOICE, "NAME", NULL, .choices = FRAMES},
+     [MAX_ERROR] = {"max-error", 0, CLI_NUMBER, "A",
+                    .help = "the fewest points that keep every current within it (1 % of the peak)",
+                    .low = 1e-12, .high = 1e9},
+     [POINTS] = {"points", 0, CLI_WHOLE, "N",
+                 .help = "instead: rows of a period; of i16 and q15 steps in the part that is kept",
+                 .low = 1.0, .high = HCI_EMIT_MAX_POINTS},
+     [MAX_BYTES] = {"max-bytes", 0, CLI_WHOLE, "N",
+                    .help = "of rows or knots; without --max-error: the least error in so many", .low = 1.0,
+                    .high = 1e9},
+     [MAX_INSTRUCTIONS] = {"max-instructions", 0, CLI_WHOLE, "N", .help = "of one call on a Cortex-M4F",
+                           .low = 1.0, .high = 1e6},
+     [PER_TORQUE] = {"per-torque", 0, CLI_FLAG, NULL,
+                     .help = "two parts, i = T*A + B, for every mean torque T (needs a folder)"},
+     [REFERENCE] = {"reference-torque", 0, CLI_NUMBER, "NM",
+                    .help = "with --per-torque: the largest T (default: the one solved for)", .low = 1e-9,
+                    .high = 1e9},
+     [MACHINE] = {"machine", 0, CLI_FOLDER, "FOLDER", .help = "with --drive: the machine of the currents"},
+     [DRIVE] =
+         {"drive", 0, CLI_FILE, "FILE",
+          .help = "drive.csv: orders of current and voltage for hci/loop.h, which a current loop can follow; "
+                  "several folders are levels of torque"},
+     [SPEED] =
+         {"speed", 0, CLI_NUMBER, "RPM",
+          .help =
+              "with --drive: up to which orders are used (default: as far as the voltage and the sampling "
+              "do)",
+          .low = 1e-3, .high = 1e6},
+     [OUT] = {"out", 'o', CLI_FOLDER, "FOLDER", .help = "where ID.h and ID.c go (default: here)"},
+     CLI_COMMON_OPTIONS};
 
 typedef struct {
     hci_currents current, per_Nm;
@@ -105,9 +128,11 @@ static hci_status check_together(const cli_arguments *a, hci_note *note)
         wrong = "emit: --speed goes with --drive";
     else if (a->words > 1 && !a->given[DRIVE])
         wrong = "emit: several folders are levels of torque, which need --drive and --machine";
-    else if (a->given[DRIVE] && (a->given[POINTS] || a->given[REFERENCE]))
-        wrong = "emit: --drive makes its tables in RAM; give --max-error in place of --points, and no "
-                "--reference-torque";
+    else if (a->given[DRIVE] && (a->given[POINTS] || a->given[REFERENCE] || a->given[FORMAT] ||
+                                 a->given[SHAPE] || a->given[MAX_BYTES] || a->given[MAX_INSTRUCTIONS]))
+        wrong = "emit: --drive makes its tables in RAM, of floats; give --max-error alone of what says their "
+                "size, and "
+                "no --format, --shape or --reference-torque";
     else if (a->given[DRIVE] && a->given[FRAME] && a->choice[FRAME] != HCI_TABLE_DQ)
         wrong = "emit: --drive is in the rotor frame; give --frame dq, or none";
     else if (a->value[POINTS] && a->value[MAX_ERROR])
@@ -120,10 +145,13 @@ static hci_status check_together(const cli_arguments *a, hci_note *note)
 static hci_status read_options(const cli_arguments *a, hci_emit_request *r, hci_note *note)
 {
     r->name = a->value[NAME];
-    r->format = FORMATS[a->choice[FORMAT]].word;
+    r->format = (hci_emit_format)a->choice[FORMAT];
+    r->shape = (hci_emit_shape)a->choice[SHAPE];
     r->frame = (hci_table_frame)a->choice[FRAME];
     r->points = (size_t)cli_number_or(a, POINTS, 0.0);
     r->max_error_A = cli_number_or(a, MAX_ERROR, 0.0);
+    r->max_bytes = (size_t)cli_number_or(a, MAX_BYTES, 0.0);
+    r->max_instructions = (size_t)cli_number_or(a, MAX_INSTRUCTIONS, 0.0);
     return check_together(a, note);
 }
 
@@ -154,17 +182,35 @@ static hci_status read_inputs(const cli_arguments *a, inputs *in, hci_note *note
     return HCI_OK;
 }
 
+/* What was looked at, the one that was written marked. */
+static void show_choices(const hci_emit_result *result)
+{
+    cli_say("               format shape      points   bytes   error A  Cortex-M4F  M0+ (instructions)\n");
+    for (size_t k = 0; k < result->choices; ++k) {
+        const hci_emit_choice *c = &result->choice[k];
+        const bool chosen = c->format == result->chosen.format && c->shape == result->chosen.shape;
+        cli_say("  %-11s  %-6s %-9s %7zu %7zu  %8.3g  %10u  %3u\n",
+                chosen    ? "written"
+                : c->fits ? "possible"
+                          : "too much",
+                hci_emit_format_name(c->format), hci_emit_shape_name(c->shape), c->points, c->bytes,
+                c->max_error_A, c->cortex_m4f, c->cortex_m0_plus);
+    }
+}
+
 static void show(const hci_emit_request *r, const hci_emit_result *result, const char *folder)
 {
     cli_say(CLI_GOOD "emitted" CLI_PLAIN ": %s/%s.h and %s.c\n", folder, r->name, r->name);
-    cli_say("  table        %zu points of %zu values in %zu part%s, %zu bytes, frame %s\n", result->points,
-            result->columns, result->parts, result->parts == 1 ? "" : "s", result->bytes,
-            r->frame == HCI_TABLE_ABC ? "abc" : "dq");
-    cli_say("  period       %zu electrical turn%s\n", result->period_turns,
+    show_choices(result);
+    cli_say("  table        %zu values in %zu part%s in a row, frame %s; period %zu electrical turn%s",
+            result->columns, result->parts, result->parts == 1 ? "" : "s",
+            r->frame == HCI_TABLE_ABC ? "abc" : "dq", result->period_turns,
             result->period_turns == 1 ? "" : "s");
-    cli_say("  error        at most %.3g A of a peak of %.4g A", result->max_error_A, result->peak_A);
+    if (result->sectors > 1) cli_say(", 1/%zu kept", result->sectors);
+    cli_say("\n  error        at most %.3g A of a peak of %.4g A", result->chosen.max_error_A,
+            result->peak_A);
     if (r->per_Nm) cli_say(", up to %.4g N·m", r->reference_torque_Nm);
-    cli_say("\n  runtime      hci/table.h\n");
+    cli_say("\n  runtime      hci/%s\n", r->format == HCI_EMIT_F32 ? "table.h" : "table_i16.h");
 }
 
 /* ---- for a drive ---- */
@@ -257,10 +303,10 @@ static int run(const cli_arguments *a)
 const cli_command cli_emit = {
     .name = "emit",
     .words = "CURRENTS_OR_FOLDER... --name ID",
-    .does =
-        "Turns currents into C tables for a microcontroller.\n"
-        "Writes ID.h and ID.c, which need the header hci/table.h and nothing else; with --drive the header\n"
-        "hci/loop.h too.",
+    .does = "Turns currents into C tables for a microcontroller.\n"
+            "Writes ID.h and ID.c, which need hci/table.h (f32) or hci/table_i16.h and nothing else; with "
+            "--drive\n"
+            "hci/loop.h too.",
     .options = OPTIONS,
     .words_needed = 1,
     .takes_more_words = true,

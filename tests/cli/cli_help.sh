@@ -125,7 +125,9 @@ for number in 0 -1 1.5 x 1e9; do
     wrong "--points: found \`$number\`, expected" emit $currents --name t --points "$number"
 done
 wrong '--frame: found `xyz`, expected one of: abc, dq' emit $currents --name t --frame xyz
-wrong 'q15' emit $currents --name t --format q15 -o "$work/emitted"
+wrong '--format: found `q31`, expected one of: f32, i16, q15' emit $currents --name t --format q31 -o "$work/emitted"
+wrong '`cubic` with format `f32`.*use format `i16`' emit $currents --name t --shape cubic -o "$work/emitted"
+wrong 'instructions: found at most 20, but a linear table' emit $currents --name t --format q15 --max-instructions 20 -o "$work/emitted"
 wrong '--reference-torque goes with --per-torque' emit $currents --name t --reference-torque 2
 wrong '--per-torque needs the folder' emit $currents --name t --per-torque
 check "a wrong command line has written" [ ! -e "$work/emitted" ] && check "a wrong command line has written" [ ! -e "$work/x" ]

@@ -1,7 +1,8 @@
-/* Current waves to C. In: waves and the shape of a table; out: NAME.h and NAME.c, whose rows a
- * microcontroller reads through hci/table.h. The waves are sampled over the period that all of them have
- * (tabulate.c), the error of interpolating is measured, probes are taken by which a device can check itself,
- * and all of it is written as text (text.c). */
+/* Current waves to C. In: waves and what is wanted of a table; out: NAME.h and NAME.c, which a
+ * microcontroller reads through hci/table.h or hci/table_i16.h. The waves become rows (tabulate.c) or the
+ * knots of a spline (spline.c) over the period that all of them have, the shape is chosen by error and cost
+ * (choose.c), probes are taken by which a device can check itself, and all of it is written as text (text.c).
+ */
 #include "hci/host/emit/emit.h"
 
 #include <float.h>
@@ -100,45 +101,44 @@ static hci_status check_currents(const hci_emission *e, hci_note *note)
     return HCI_OK;
 }
 
-static hci_status fill_table(hci_emission *e, hci_note *note)
+/* Angles spread by the golden ratio, at +T, −T and no torque. */
+static uint32_t probe_angle(uint32_t k)
 {
-    const hci_emit_request *r = e->request;
-    const hci_tabulation *t = &e->tabulation;
-    const bool search = r->max_error_A > 0.0;
-    const size_t points = r->points > 0 ? r->points : HCI_EMIT_POINTS;
-    e->rows = hci_memory_new(((search ? HCI_EMIT_MAX_POINTS : points) + 1) * t->columns * t->parts,
-                             sizeof *e->rows);
-    if (!e->rows) return hci_note_memory(note, NULL, "the table");
-    if (!search) {
-        hci_tabulate(t, points, e->rows, &e->table);
-    } else if (!hci_tabulate_within(t, r->max_error_A, e->rows, &e->table)) {
-        hci_tabulate(t, HCI_EMIT_MAX_POINTS, e->rows, &e->table);
-        return hci_note_set(
-            note, HCI_ERROR_ARGUMENT,
-            "largest error: found %g A, but %d points, the most there may be, keep %g A; allow that much",
-            r->max_error_A, (int)HCI_EMIT_MAX_POINTS, (double)e->table.max_error_A);
-    }
-    return HCI_OK;
+    return k * 2654435769u;
 }
 
-/* Angles spread by the golden ratio, at +T, −T and no torque. */
+static int probe_sign(uint32_t k)
+{
+    return k % 3 == 0 ? 1 : k % 3 == 1 ? -1 : 0;
+}
+
 static void fill_probes(hci_emission *e)
 {
     for (uint32_t k = 0; k < HCI_EMIT_PROBES; ++k) {
         hci_table_f32_probe *p = &e->probes[k];
         double exact[3];
-        p->angle = k * 2654435769u;
-        p->torque_Nm = k % 3 == 0   ? e->table.reference_torque_Nm
-                       : k % 3 == 1 ? -e->table.reference_torque_Nm
-                                    : 0.0f;
-        p->torque_Nm += 0.0f; /* no −0 */
+        p->angle = probe_angle(k);
+        p->torque_Nm = (float)probe_sign(k) * e->table.reference_torque_Nm + 0.0f; /* no −0 */
         hci_tabulation_exact(&e->tabulation, p->angle, (double)p->torque_Nm, exact, NULL);
         for (size_t s = 0; s < 3; ++s)
             p->expected[s] = (float)hci_tabulation_clean(exact[s]);
     }
     e->table.probes = e->probes;
     e->table.probe_count = HCI_EMIT_PROBES;
-    e->table.crc32 = hci_table_f32_crc32(&e->table);
+    e->result.crc32 = e->table.crc32 = hci_table_f32_crc32(&e->table);
+}
+
+static void fill_spline_probes(hci_emission *e)
+{
+    for (uint32_t k = 0; k < HCI_EMIT_PROBES; ++k) {
+        hci_table_i16_probe *p = &e->spline_probes[k];
+        p->angle = probe_angle(k);
+        p->torque_q15 = e->spline.parts == 2 ? (int16_t)(probe_sign(k) * 32767) : (int16_t)0;
+        hci_table_i16_currents_q15(&e->spline, p->angle, p->torque_q15, p->expected);
+    }
+    e->spline.probes = e->spline_probes;
+    e->spline.probe_count = HCI_EMIT_PROBES;
+    e->result.crc32 = e->spline.crc32 = hci_table_i16_crc32(&e->spline);
 }
 
 static hci_status write_file(const hci_emission *e, hci_output *out, const char *extension,
@@ -153,37 +153,45 @@ static hci_status write_file(const hci_emission *e, hci_output *out, const char 
 
 static hci_status write_files(const hci_emission *e, const char *folder, hci_note *note)
 {
+    const bool f32 = e->request->format == HCI_EMIT_F32;
     hci_output *out;
     hci_status status = hci_output_open(folder, &out, note);
     if (status) return status;
-    status = write_file(e, out, "h", hci_emission_write_header, note);
-    if (!status) status = write_file(e, out, "c", hci_emission_write_source, note);
+    status =
+        write_file(e, out, "h", f32 ? hci_emission_write_header : hci_emission_write_spline_header, note);
+    if (!status)
+        status =
+            write_file(e, out, "c", f32 ? hci_emission_write_source : hci_emission_write_spline_source, note);
     if (!status) return hci_output_commit(out, note);
     hci_output_discard(out);
     return status;
 }
 
-static hci_emit_result result_of(const hci_table_f32 *t)
+static void finish_result(hci_emission *e)
 {
-    const hci_emit_result result = {.points = t->points,
-                                    .columns = t->columns,
-                                    .parts = t->parts,
-                                    .period_turns = t->period_turns,
-                                    .bytes = ((size_t)t->points + 1) * t->columns * t->parts * 4,
-                                    .max_error_A = (double)t->max_error_A,
-                                    .peak_A = (double)t->peak_A,
-                                    .crc32 = t->crc32};
-    return result;
+    const bool f32 = e->request->format == HCI_EMIT_F32;
+    hci_emit_result *x = &e->result;
+    x->columns = e->tabulation.columns;
+    x->parts = e->tabulation.parts;
+    x->period_turns = e->tabulation.period_turns;
+    x->sectors = f32 ? 1 : e->spline.sectors;
+    x->unit_A = f32 ? (double)NAN : (double)e->spline.unit_A;
+    x->peak_A = (double)(f32 ? e->table.peak_A : e->spline.peak_A);
 }
 
-/* What can be known before a file is opened: waves, rows, error, probes. */
+/* What can be known before a file is opened: waves, rows or knots, error, probes. */
 static hci_status make_table(hci_emission *e, hci_note *note)
 {
     hci_status status = take_waves(e, note);
     if (!status) status = check_currents(e, note);
-    if (!status) status = fill_table(e, note);
-    if (!status) fill_probes(e);
-    return status;
+    if (!status) status = hci_emission_choose(e, note);
+    if (status) return status;
+    if (e->request->format == HCI_EMIT_F32)
+        fill_probes(e);
+    else
+        fill_spline_probes(e);
+    finish_result(e);
+    return HCI_OK;
 }
 
 hci_status hci_emit(const char *folder, const hci_emit_request *request, hci_emit_result *result,
@@ -193,8 +201,8 @@ hci_status hci_emit(const char *folder, const hci_emit_request *request, hci_emi
     hci_status status = hci_emit_request_check(request, note);
     if (!status) status = make_table(&e, note);
     if (!status) status = write_files(&e, folder, note);
-    if (!status && result) *result = result_of(&e.table);
-    hci_memory_free(e.rows);
+    if (!status && result) *result = e.result;
+    hci_emission_release(&e);
     hci_memory_free(e.waves);
     return status;
 }

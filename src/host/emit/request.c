@@ -98,13 +98,27 @@ hci_status hci_emit_check_name(const char *name, hci_note *note)
                         name ? hci_quote(name, shown) : "none", expected);
 }
 
-static hci_status check_format(const char *format, hci_note *note)
+const char *hci_emit_format_name(hci_emit_format format)
 {
-    char shown[HCI_QUOTE_SIZE];
-    if (format && strcmp(format, "f32") == 0) return HCI_OK;
-    return hci_note_set(note, HCI_ERROR_ARGUMENT,
-                        "table format: found %s, expected `f32`; this version writes no other format",
-                        format ? hci_quote(format, shown) : "none");
+#define WORD(value, word) [value] = word,
+    static const char *const words[] = {HCI_EMIT_FORMAT_NAMES(WORD)};
+    return words[format];
+}
+
+const char *hci_emit_shape_name(hci_emit_shape shape)
+{
+    static const char *const words[] = {HCI_EMIT_SHAPE_NAMES(WORD)};
+#undef WORD
+    return words[shape];
+}
+
+static hci_status check_shape(const hci_emit_request *r, hci_note *note)
+{
+    if (r->format != HCI_EMIT_F32 || r->shape <= HCI_EMIT_LINEAR) return HCI_OK;
+    return hci_note_set(
+        note, HCI_ERROR_ARGUMENT,
+        "table shape: found `%s` with format `f32`, which is linear; use format `i16` or `q15`",
+        hci_emit_shape_name(r->shape));
 }
 
 static hci_status check_size(const hci_emit_request *r, hci_note *note)
@@ -118,9 +132,10 @@ static hci_status check_size(const hci_emit_request *r, hci_note *note)
     if (r->points > 0 && r->max_error_A > 0.0)
         return hci_note_set(note, HCI_ERROR_ARGUMENT,
                             "found both points and a largest error; give one of them");
-    if (r->points > HCI_EMIT_MAX_POINTS)
+    const int most = r->format == HCI_EMIT_F32 ? HCI_EMIT_MAX_POINTS : (int)HCI_TABLE_I16_MOST_INTERVALS;
+    if (r->points > (size_t)most)
         return hci_note_set(note, HCI_ERROR_ARGUMENT, "table points: found %zu, expected 1 to %d", r->points,
-                            (int)HCI_EMIT_MAX_POINTS);
+                            most);
     if (r->per_Nm && r->reference_torque_Nm <= 0.0)
         return hci_note_set(
             note, HCI_ERROR_ARGUMENT,
@@ -184,7 +199,7 @@ static hci_status check_waves(const hci_emit_request *r, const hci_wave *waves, 
 hci_status hci_emit_request_check(const hci_emit_request *r, hci_note *note)
 {
     hci_status status = hci_emit_check_name(r->name, note);
-    if (!status) status = check_format(r->format, note);
+    if (!status) status = check_shape(r, note);
     if (!status) status = check_size(r, note);
     if (!status) status = check_provenance(r, note);
     if (!status) status = check_waves(r, r->currents, r->current_count, note);

@@ -79,6 +79,20 @@ void hci_tabulation_exact(const hci_tabulation *t, uint32_t angle, double torque
     if (phase_A) *phase_A = fmax(fabs(abc[0]), fmax(fabs(abc[1]), fabs(abc[2])));
 }
 
+double hci_tabulation_peak_A(const hci_tabulation *t)
+{
+    /* cos(π/count·order) is what the grid misses at most */
+    const double count = ceil(fmin(256.0 * highest_order(t), 65536.0) * (double)t->period_turns);
+    double exact[3], phase_A, peak_A = 0.0;
+    for (double k = 0.0; k < count; k += 1.0)
+        for (int sign = -1; sign < (int)t->parts; sign += 2) {
+            hci_tabulation_exact(t, (uint32_t)(k / count * 4294967296.0), sign * t->torque_Nm, exact,
+                                 &phase_A);
+            peak_A = fmax(peak_A, phase_A);
+        }
+    return peak_A;
+}
+
 double hci_tabulation_clean(double current)
 {
     return fabs(current) < DUST ? 0.0 : current;

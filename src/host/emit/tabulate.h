@@ -23,6 +23,9 @@ double hci_tabulation_bound_A(const hci_tabulation *t);
 void hci_tabulation_exact(const hci_tabulation *t, uint32_t angle, double torque_Nm, double current[3],
                           double *phase_A);
 
+/* The largest |phase current| at the reference torque, to about 1e-4 of it. */
+double hci_tabulation_peak_A(const hci_tabulation *t);
+
 /* A current in A or A/(N·m), or 0 where it is but rounding dust of sin and cos. */
 double hci_tabulation_clean(double current);
 

@@ -1,31 +1,45 @@
-/* The C text of an emitted table. */
+/* The C text of an emitted table. Same input, same bytes: no dates, no paths, no locale. */
 #ifndef HCI_SRC_HOST_EMIT_TEXT_H
 #define HCI_SRC_HOST_EMIT_TEXT_H
 
 #include "hci/host/base/output.h"
-#include "hci/host/emit/emit.h"
-#include "host/emit/tabulate.h"
+#include "host/emit/emission.h"
 
-enum { HCI_EMIT_PROBES = 8 };
-
-/* All that is emitted. */
-typedef struct {
-    const hci_emit_request *request;
-    hci_wave *waves; /* the constant ones, then those per N·m */
-    float *rows;
-    hci_tabulation tabulation;
-    hci_table_f32_probe probes[HCI_EMIT_PROBES];
-    hci_table_f32 table;
-} hci_emission;
-
-/* A number of nine significant digits as C takes it for a floating constant. */
-const char *hci_emission_number(double value, char text[32]);
-
-/* The same as a constant of single precision, and what follows it. */
-void hci_emission_float(hci_output *output, float value, const char *end);
-
-/* What goes into NAME.h and NAME.c. */
+/* What goes into NAME.h and NAME.c of format f32 … */
 void hci_emission_write_header(const hci_emission *e, hci_output *output);
 void hci_emission_write_source(const hci_emission *e, hci_output *output);
+
+/* … and of i16 and q15. */
+void hci_emission_write_spline_header(const hci_emission *e, hci_output *output);
+void hci_emission_write_spline_source(const hci_emission *e, hci_output *output);
+
+/* ---- what both say ---- */
+
+/* Nine significant digits, which is enough for a float, with a decimal point in every locale and for every
+ * value, so that C takes it for a floating constant. */
+const char *hci_emission_number(double value, char text[32]);
+
+/* The number with the suffix f, and `end` behind it. */
+void hci_emission_float(hci_output *output, float value, const char *end);
+
+/* The first lines of NAME.extension, in a comment that hci_emission_input ends. */
+void hci_emission_title(const hci_emission *e, hci_output *output, const char *extension);
+
+/* What the values are, and in which unit. */
+void hci_emission_frame(const hci_emission *e, hci_output *output);
+
+/* Which angle, and where its zero is. */
+void hci_emission_angle(const hci_emission *e, hci_output *output);
+
+/* Where the numbers come from. Ends the comment. */
+void hci_emission_input(const hci_emission *e, hci_output *output);
+
+/* The waves of all parts. */
+void hci_emission_waves(const hci_emission *e, hci_output *output);
+
+/* `#ifndef` … of NAME.h and the include of `header`, which must have the version; and the end of NAME.h. */
+void hci_emission_guard(const hci_emission *e, hci_output *output, const char *header, const char *macro,
+                        int version);
+void hci_emission_guard_end(hci_output *output);
 
 #endif

@@ -1,21 +1,39 @@
 /* What `emit` has made, as JSON: a table, and orders for a drive. */
 #include "host/report/summary.h"
 
+static void add_choice(hci_json *json, const hci_emit_choice *c)
+{
+    hci_json_text(json, "format", hci_emit_format_name(c->format));
+    hci_json_text(json, "shape", hci_emit_shape_name(c->shape));
+    hci_json_number(json, "points", (double)c->points);
+    hci_json_number(json, "bytes", (double)c->bytes);
+    hci_json_number(json, "max_error_A", c->max_error_A);
+    hci_json_number(json, "instructions_cortex_m4f", c->cortex_m4f);
+    hci_json_number(json, "instructions_cortex_m0_plus", c->cortex_m0_plus);
+}
+
 char *hci_emit_json(const hci_emit_request *request, const hci_emit_result *result)
 {
     hci_json json;
     hci_summary_begin(&json, "emit");
     hci_json_text(&json, "name", request->name);
-    hci_json_text(&json, "format", request->format);
     hci_json_text(&json, "frame", request->frame == HCI_TABLE_ABC ? "abc" : "dq");
-    hci_json_number(&json, "points", (double)result->points);
+    add_choice(&json, &result->chosen);
     hci_json_number(&json, "columns", (double)result->columns);
     hci_json_number(&json, "parts", (double)result->parts);
     hci_json_number(&json, "period_electrical_turns", (double)result->period_turns);
-    hci_json_number(&json, "bytes", (double)result->bytes);
-    hci_json_number(&json, "max_error_A", result->max_error_A);
+    hci_json_number(&json, "sectors", (double)result->sectors);
+    hci_json_number(&json, "unit_A", result->unit_A);
     hci_json_number(&json, "peak_A", result->peak_A);
     hci_json_number(&json, "crc32", result->crc32);
+    hci_json_array(&json, "choices");
+    for (size_t k = 0; k < result->choices; ++k) {
+        hci_json_object(&json, NULL);
+        add_choice(&json, &result->choice[k]);
+        hci_json_bool(&json, "fits", result->choice[k].fits);
+        hci_json_close(&json);
+    }
+    hci_json_close(&json);
     return hci_json_end(&json);
 }
 

@@ -399,9 +399,8 @@ static hci_status write_json(double *figure)
 
 static hci_status write_emit_json(double *figure)
 {
-    const hci_emit_request request = {"memory", "f32", HCI_TABLE_ABC, false, NULL, 0, NULL, 0,
-                                      0.0,      0,     0.0,           NULL,  0,    0};
-    const hci_emit_result result = {0};
+    const hci_emit_request request = {.name = "memory"};
+    const hci_emit_result result = {.choices = 1};
     char *text = hci_emit_json(&request, &result);
     if (text == NULL) return HCI_ERROR_MEMORY;
     *figure = (double)strlen(text);
@@ -416,14 +415,13 @@ static hci_status emit(double *figure)
     hci_emit_result result = {0};
     hci_status status;
     request.name = "memory";
-    request.format = "f32";
     request.currents = solution.constant;
     request.per_Nm = solution.per_Nm;
     request.current_count = request.per_Nm_count = solution.current.count;
     request.reference_torque_Nm = 3.0;
     request.points = 32;
     status = hci_emit(files_path("out"), &request, &result, &note);
-    *figure = result.max_error_A + (double)result.crc32;
+    *figure = result.chosen.max_error_A + (double)result.crc32;
     if (status != HCI_OK) {
         TEST_ASSERT_EQUAL_INT(-1, files_count(files_path("out")));
     }

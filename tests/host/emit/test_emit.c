@@ -7,6 +7,7 @@
 
 #include "hci/host/emit/emit.h"
 #include "host/base/memory.h"
+#include "support/current_waves.h"
 #include "support/files.h"
 #include "support/reference.h"
 #include "unity.h"
@@ -53,64 +54,11 @@ static void more_than(double limit, double value)
     TEST_ASSERT_TRUE_MESSAGE(value > limit, text);
 }
 
-/* ---- currents ---- */
-
-enum { MOST_WAVES = 8 };
-
-/* The shift of a wave is its sequence. */
-typedef struct {
-    ref_wave ref[MOST_WAVES];
-    hci_wave wave[MOST_WAVES];
-    size_t count;
-} currents;
-
-static void add(currents *c, double order, int sequence, double amplitude, double phase)
-{
-    const ref_wave r = {order, sequence, amplitude, phase};
-    const hci_wave w = {order, sequence, amplitude * cos(phase), amplitude * sin(phase)};
-    c->ref[c->count] = r;
-    c->wave[c->count++] = w;
-}
-
-static currents injected(void)
-{
-    currents c = {.count = 0};
-    add(&c, 1, 1, 12.0, 0.2);
-    add(&c, 5, -1, 1.3, 2.9);
-    add(&c, 7, 1, -0.8, 0.1);
-    add(&c, 11, -1, 1.9, -2.2);
-    add(&c, 13, 1, 0.7, 1.0);
-    return c;
-}
-
-static currents cogging_part(void)
-{
-    currents c = {.count = 0};
-    add(&c, 0, 1, 0.3, 0.4);
-    add(&c, 11, -1, 1.1, 1.5);
-    add(&c, 13, 1, 0.9, -0.5);
-    return c;
-}
-
-/* ia, ib, ic, or id, iq by the projections of theory on the rotor axes. */
-static void reference_currents(const currents *c, hci_table_frame frame, double theta, double out[3])
-{
-    double abc[3], d = 0.0, q = 0.0;
-    for (int s = 0; s < 3; ++s) {
-        abc[s] = ref_waves_at(c->ref, c->count, s, theta);
-        q += 2.0 / 3.0 * abc[s] * sin(theta - 2.0 * REF_PI * s / 3.0);
-        d -= 2.0 / 3.0 * abc[s] * cos(theta - 2.0 * REF_PI * s / 3.0);
-    }
-    out[0] = frame == HCI_TABLE_ABC ? abc[0] : d;
-    out[1] = frame == HCI_TABLE_ABC ? abc[1] : q;
-    out[2] = frame == HCI_TABLE_ABC ? abc[2] : 0.0;
-}
-
 static hci_emit_request request_for(const currents *c)
 {
     hci_emit_request r = {0};
     r.name = "ripple_free";
-    r.format = "f32";
+    r.format = HCI_EMIT_F32;
     r.currents = c->wave;
     r.current_count = c->count;
     return r;
@@ -226,12 +174,12 @@ static hci_emit_result emit_and_read(const hci_emit_request *r, emitted *e)
 {
     const hci_emit_result result = emit_well(r);
     read_back(e);
-    TEST_ASSERT_EQUAL(result.points, e->table.points);
+    TEST_ASSERT_EQUAL(result.chosen.points, e->table.points);
     TEST_ASSERT_EQUAL(result.columns, e->table.columns);
     TEST_ASSERT_EQUAL(result.parts, e->table.parts);
     TEST_ASSERT_EQUAL(result.period_turns, e->table.period_turns);
     TEST_ASSERT_EQUAL_HEX32(result.crc32, e->table.crc32);
-    TEST_ASSERT_EQUAL_DOUBLE(result.max_error_A, (double)e->table.max_error_A);
+    TEST_ASSERT_EQUAL_DOUBLE(result.chosen.max_error_A, (double)e->table.max_error_A);
     TEST_ASSERT_EQUAL_DOUBLE(result.peak_A, (double)e->table.peak_A);
     TEST_ASSERT_EQUAL(HCI_TABLE_GOOD, hci_table_f32_check(&e->table));
     return result;
@@ -271,9 +219,9 @@ static void check_error(const hci_emit_request *r, const currents *c)
     emitted e;
     const hci_emit_result result = emit_and_read(r, &e);
     const double worst = worst_error(&e, NULL, c, 0.0, 20000);
-    at_most(result.max_error_A, worst);
+    at_most(result.chosen.max_error_A, worst);
     /* and it is the error, not just something larger: 20000 angles come close to the worst one */
-    more_than(0.97 * result.max_error_A, worst);
+    more_than(0.97 * result.chosen.max_error_A, worst);
 }
 
 static void test_stated_error_holds(void)
@@ -299,7 +247,7 @@ static void test_constant_current_needs_one_point(void)
     r.frame = HCI_TABLE_DQ;
     r.max_error_A = 2e-5;
     const hci_emit_result result = emit_and_read(&r, &e);
-    TEST_ASSERT_EQUAL(1, result.points);
+    TEST_ASSERT_EQUAL(1, result.chosen.points);
     at_most(2e-5, worst_error(&e, NULL, &c, 0.0, 2000));
 }
 
@@ -307,7 +255,7 @@ static double stated_error(hci_emit_request r, size_t points)
 {
     r.points = points;
     r.max_error_A = 0.0;
-    return emit_well(&r).max_error_A;
+    return emit_well(&r).chosen.max_error_A;
 }
 
 static void check_fewest(hci_emit_request r, const currents *c, double bound_A)
@@ -315,12 +263,12 @@ static void check_fewest(hci_emit_request r, const currents *c, double bound_A)
     emitted e;
     r.max_error_A = bound_A;
     const hci_emit_result result = emit_and_read(&r, &e);
-    at_most(bound_A, result.max_error_A);
+    at_most(bound_A, result.chosen.max_error_A);
     at_most(bound_A, worst_error(&e, NULL, c, 0.0, 5000));
-    TEST_ASSERT_EQUAL_DOUBLE(result.max_error_A, stated_error(r, result.points));
-    for (size_t points = 1; points < result.points; ++points)
+    TEST_ASSERT_EQUAL_DOUBLE(result.chosen.max_error_A, stated_error(r, result.chosen.points));
+    for (size_t points = 1; points < result.chosen.points; ++points)
         more_than(bound_A, stated_error(r, points));
-    r.points = result.points - 1;
+    r.points = result.chosen.points - 1;
     r.max_error_A = 0.0;
     emit_and_read(&r, &e);
     /* the stated error is 0.1 % above the true one, so that it holds between the angles that were measured */
@@ -374,11 +322,11 @@ static void test_two_parts_add_up(void)
         TEST_ASSERT_EQUAL(2, result.parts);
         TEST_ASSERT_EQUAL_DOUBLE(6.0, (double)e.table.reference_torque_Nm);
         const double worst = worst_error(&e, &a, &b, 6.0, 20000);
-        at_most(result.max_error_A, worst);
-        more_than(0.9 * result.max_error_A, worst);
-        r.points = result.points - 1;
+        at_most(result.chosen.max_error_A, worst);
+        more_than(0.9 * result.chosen.max_error_A, worst);
+        r.points = result.chosen.points - 1;
         r.max_error_A = 0.0;
-        more_than(0.2, emit_well(&r).max_error_A);
+        more_than(0.2, emit_well(&r).chosen.max_error_A);
     }
 }
 
@@ -391,9 +339,11 @@ static void test_neutral_conductor_has_three_columns(void)
     r.has_neutral = true;
     const hci_emit_result result = emit_and_read(&r, &e);
     TEST_ASSERT_EQUAL(3, result.columns);
-    TEST_ASSERT_EQUAL(HCI_EMIT_POINTS, result.points);
-    TEST_ASSERT_EQUAL(257 * 3 * 4, result.bytes);
-    at_most(result.max_error_A, worst_error(&e, NULL, &c, 0.0, 5000));
+    TEST_ASSERT_EQUAL((result.chosen.points + 1) * 3 * 4, result.chosen.bytes);
+    /* nothing was said of the size: the fewest points within 1 % of the peak */
+    at_most(0.01 * result.peak_A, result.chosen.max_error_A);
+    more_than(0.01 * result.peak_A, stated_error(r, result.chosen.points - 1));
+    at_most(result.chosen.max_error_A, worst_error(&e, NULL, &c, 0.0, 5000));
 }
 
 static void check_period(double first, double second, size_t turns)
@@ -409,7 +359,7 @@ static void check_period(double first, double second, size_t turns)
     TEST_ASSERT_EQUAL(turns, result.period_turns);
     for (size_t k = 0; k < c.count; ++k) /* as they are meant */
         c.ref[k].order = floor(c.ref[k].order * (double)turns + 0.5) / (double)turns;
-    at_most(result.max_error_A, worst_error(&e, NULL, &c, 0.0, 5000));
+    at_most(result.chosen.max_error_A, worst_error(&e, NULL, &c, 0.0, 5000));
 }
 
 static void test_fractional_orders_lengthen_the_period(void)
@@ -534,10 +484,10 @@ static void test_header_says_what_a_reader_must_know(void)
 static void refuse(hci_emit_request r, hci_status status, const char *words)
 {
     hci_note note = {{0}};
-    hci_emit_result result = {.points = 4711};
+    hci_emit_result result = {.columns = 4711};
     TEST_ASSERT_EQUAL(status, hci_emit(files_root, &r, &result, &note));
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(note.text, words), note.text);
-    TEST_ASSERT_EQUAL(4711, result.points);
+    TEST_ASSERT_EQUAL(4711, result.columns);
     TEST_ASSERT_EQUAL(0, files_count(files_root));
 }
 
@@ -592,8 +542,20 @@ static void test_requests_that_cannot_be_met_are_refused(void)
     static const char *const bad_line[] = {"fine", "ends */ here"};
     const currents c = injected();
     hci_emit_request r = request_for(&c);
-    r.format = "q15";
-    refuse(r, HCI_ERROR_ARGUMENT, "`q15`, expected `f32`");
+    r.shape = HCI_EMIT_CUBIC;
+    refuse(r, HCI_ERROR_ARGUMENT, "`cubic` with format `f32`");
+    r = request_for(&c);
+    r.max_error_A = 0.1;
+    r.max_bytes = 1000;
+    refuse(r, HCI_ERROR_ARGUMENT, "bytes: found at most 1000, but the smallest table takes");
+    r = request_for(&c);
+    r.max_instructions = 10;
+    refuse(r, HCI_ERROR_ARGUMENT,
+           "instructions: found at most 10, but a linear table of format f32 takes about 29");
+    r = request_for(&c);
+    r.format = HCI_EMIT_I16;
+    r.points = HCI_TABLE_I16_MOST_INTERVALS + 1;
+    refuse(r, HCI_ERROR_ARGUMENT, "4096, expected 1 to 4095");
     r = request_for(&c);
     r.points = 100;
     r.max_error_A = 0.1;

@@ -1,5 +1,5 @@
 /* Current waves to C: a header and a source file with a table that a microcontroller reads through
- * hci/table.h. */
+ * hci/table.h or hci/table_i16.h. */
 #ifndef HCI_HOST_EMIT_EMIT_H
 #define HCI_HOST_EMIT_EMIT_H
 
@@ -9,19 +9,61 @@
 
 #include "hci/host/base/note.h"
 #include "hci/math/harmonic.h"
-#include "hci/table.h"
+#include "hci/table_i16.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
 /* A table has at most so many points and its period at most so many electrical turns. */
-enum { HCI_EMIT_POINTS = 256, HCI_EMIT_MAX_POINTS = 65536, HCI_EMIT_MAX_TURNS = 4096 };
+enum { HCI_EMIT_MAX_POINTS = 65536, HCI_EMIT_MAX_TURNS = 4096 };
+
+/* The bytes of knots up to which the shape with the fewest instructions is chosen, unless the request says
+ * more; beyond it, the one with the fewest bytes. */
+enum { HCI_EMIT_SMALL_BYTES = 1024 };
+
+/* Without points, error or bytes: the largest error as a share of the peak current. */
+#define HCI_EMIT_ERROR_SHARE 0.01
+
+/* What the numbers of a table are. */
+typedef enum {
+    HCI_EMIT_F32, /* float rows, hci/table.h */
+    HCI_EMIT_I16, /* 16-bit knots, hci/table_i16.h, read as amperes */
+    HCI_EMIT_Q15  /* the same, read as integers */
+} hci_emit_format;
+
+/* Their words in options and files: X(format, word). */
+#define HCI_EMIT_FORMAT_NAMES(X)                                                                             \
+    X(HCI_EMIT_F32, "f32")                                                                                   \
+    X(HCI_EMIT_I16, "i16")                                                                                   \
+    X(HCI_EMIT_Q15, "q15")
+
+/* The name of a format; a static string. */
+const char *hci_emit_format_name(hci_emit_format format);
+
+/* How a table goes from one point to the next. */
+typedef enum {
+    HCI_EMIT_AUTO,      /* the fewest instructions within HCI_EMIT_SMALL_BYTES, else the fewest bytes */
+    HCI_EMIT_LINEAR,    /* the one shape of format f32 */
+    HCI_EMIT_QUADRATIC, /* a spline of degree 2 */
+    HCI_EMIT_CUBIC      /* and 3 */
+} hci_emit_shape;
+
+/* Their words in options and files: X(shape, word). */
+#define HCI_EMIT_SHAPE_NAMES(X)                                                                              \
+    X(HCI_EMIT_AUTO, "auto")                                                                                 \
+    X(HCI_EMIT_LINEAR, "linear")                                                                             \
+    X(HCI_EMIT_QUADRATIC, "quadratic")                                                                       \
+    X(HCI_EMIT_CUBIC, "cubic")
+
+/* The name of a shape; a static string. */
+const char *hci_emit_shape_name(hci_emit_shape shape);
 
 /* What goes into a table. Start with {0}; the arrays and strings belong to the caller. */
 typedef struct {
     const char *name;              /* of the table, its two files and nothing else: a C identifier */
-    const char *format;            /* "f32" */
+    hci_emit_format format;        /* of its numbers */
+    hci_emit_shape shape;          /* of its pieces; f32: auto or linear */
     hci_table_frame frame;         /* phase currents, or rotor frame */
     bool has_neutral;              /* else a star connection: no zero sequence, ic = −ia − ib */
     const hci_wave *currents;      /* i(θ) in A, or B(θ) when there is a part proportional to torque */
@@ -29,21 +71,42 @@ typedef struct {
     const hci_wave *per_Nm;        /* A(θ) in A/(N·m) for i = T·A(θ) + B(θ), or NULL */
     size_t per_Nm_count;           /* not used with per_Nm NULL */
     double reference_torque_Nm;    /* > 0 with per_Nm: the largest |T| for which errors and peak are stated */
-    size_t points;                 /* 0: from max_error_A, or HCI_EMIT_POINTS without that either */
+    size_t points;                 /* f32: rows in a period; i16, q15: steps in the part that is kept; 0: from
+                                    * max_error_A, or from HCI_EMIT_ERROR_SHARE without that and max_bytes */
     double max_error_A;            /* > 0: the fewest points that keep every current within it; else 0 */
+    size_t max_bytes;              /* of rows or knots; 0: any. Alone, it gives the least error in so many */
+    size_t max_instructions;       /* of one call on a Cortex-M4F; 0: any */
     const char *const *provenance; /* lines for the comment, without paths and dates */
     size_t provenance_count;       /* entries of provenance */
     uint64_t input_hash;           /* 64-bit FNV-1a of what the currents were read from */
 } hci_emit_request;
 
+/* A table as it could be. */
+typedef struct {
+    hci_emit_format format;  /* of its numbers */
+    hci_emit_shape shape;    /* not auto */
+    bool fits;               /* what was asked for: error, bytes, instructions */
+    size_t points;           /* as in the request */
+    size_t bytes;            /* of rows or knots */
+    double max_error_A;      /* holds at every angle for |T| <= reference_torque_Nm, rounding included */
+    unsigned cortex_m4f;     /* instructions of one call there, about; measured with -O2 */
+    unsigned cortex_m0_plus; /* and there */
+} hci_emit_choice;
+
+/* One of format f32 and three of splines. */
+enum { HCI_EMIT_MOST_CHOICES = 4 };
+
 /* What a table has become. */
 typedef struct {
-    size_t points, columns, parts; /* of the table: rows, values of one part in a row, 1 or 2 parts */
-    size_t period_turns;           /* electrical turns in one period */
-    size_t bytes;                  /* of the rows */
-    double max_error_A; /* holds at every angle for |T| <= reference_torque_Nm, single precision included */
-    double peak_A;      /* largest |phase current| */
-    uint32_t crc32;     /* of the rows */
+    hci_emit_choice chosen;                        /* what was written */
+    hci_emit_choice choice[HCI_EMIT_MOST_CHOICES]; /* what was looked at, with chosen among it */
+    size_t choices;                                /* entries of choice */
+    size_t columns, parts;                         /* values of one part in a row, 1 or 2 parts */
+    size_t period_turns;                           /* electrical turns in one period */
+    size_t sectors;                                /* of the period, of which one is kept; f32: 1 */
+    double unit_A;                                 /* of the integers; NAN for f32 */
+    double peak_A;                                 /* largest |phase current| */
+    uint32_t crc32;                                /* of the rows or knots */
 } hci_emit_result;
 
 /* Writes NAME.h and NAME.c into `folder`, both or none; same request, same bytes. result and note may be

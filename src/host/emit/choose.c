@@ -1,0 +1,200 @@
+/* Which shape a table gets. In: the request; out: for each shape the fewest points that keep the error, or
+ * the most that fit into the bytes, with what they cost; and the table of the one that is taken. */
+#include <math.h>
+
+#include "host/base/memory.h"
+#include "host/emit/cost.h"
+#include "host/emit/emission.h"
+
+/* ---- what is asked for ---- */
+
+/* The error to keep; INFINITY where only bytes are given, 0 where points are. */
+static double error_asked_A(const hci_emission *e)
+{
+    const hci_emit_request *r = e->request;
+    if (r->points > 0) return 0.0;
+    if (r->max_error_A > 0.0) return r->max_error_A;
+    return r->max_bytes > 0 ? (double)INFINITY : HCI_EMIT_ERROR_SHARE * hci_tabulation_peak_A(&e->tabulation);
+}
+
+static size_t values_in_row(const hci_emission *e)
+{
+    return e->tabulation.columns * e->tabulation.parts;
+}
+
+static bool fits(const hci_emit_request *r, const hci_emit_choice *c, double error_A)
+{
+    return (error_A == 0.0 || c->max_error_A <= error_A) && (r->max_bytes == 0 || c->bytes <= r->max_bytes) &&
+           (r->max_instructions == 0 || c->cortex_m4f <= r->max_instructions);
+}
+
+/* ---- one shape ---- */
+
+/* Rows of floats: the fewest within the error, as many as asked for, or as many as fit. */
+static bool make_f32(hci_emission *e, double error_A)
+{
+    const hci_emit_request *r = e->request;
+    const size_t row_bytes = values_in_row(e) * sizeof *e->rows;
+    size_t points = r->points;
+    if (isinf(error_A)) points = r->max_bytes / row_bytes > 1 ? r->max_bytes / row_bytes - 1 : 1;
+    if (points > HCI_EMIT_MAX_POINTS) points = HCI_EMIT_MAX_POINTS;
+    if (points == 0 && hci_tabulate_within(&e->tabulation, error_A, e->rows, &e->table)) return true;
+    hci_tabulate(&e->tabulation, points > 0 ? points : HCI_EMIT_MAX_POINTS, e->rows, &e->table);
+    return points > 0;
+}
+
+static bool make_spline(hci_emission *e, uint32_t degree, double error_A, bool integer)
+{
+    const hci_emit_request *r = e->request;
+    const size_t rows = r->max_bytes / (values_in_row(e) * sizeof *e->room.knots);
+    size_t intervals = r->points;
+    if (isinf(error_A)) intervals = rows > degree ? rows - degree : 1;
+    if (intervals == 0) return hci_spline_make_within(&e->room, degree, error_A, integer, &e->spline);
+    if (intervals > HCI_TABLE_I16_MOST_INTERVALS) intervals = HCI_TABLE_I16_MOST_INTERVALS;
+    hci_spline_make(&e->room, degree, (uint32_t)intervals, &e->spline);
+    return true;
+}
+
+/* Makes the table of a choice and fills in what it has become. */
+static void make(hci_emission *e, hci_emit_choice *c, double error_A)
+{
+    bool made;
+    if (c->format == HCI_EMIT_F32) {
+        made = make_f32(e, error_A);
+        c->points = e->table.points;
+        c->bytes = (c->points + 1) * values_in_row(e) * sizeof *e->rows;
+        c->max_error_A = (double)e->table.max_error_A;
+    } else {
+        const uint32_t degree = (uint32_t)(c->shape - HCI_EMIT_LINEAR) + 1;
+        const bool integer = c->format == HCI_EMIT_Q15;
+        made = make_spline(e, degree, error_A, integer);
+        c->points = e->spline.intervals;
+        c->bytes = (c->points + degree) * values_in_row(e) * sizeof *e->room.knots;
+        c->max_error_A = (double)(integer ? e->spline.max_error_q15_A : e->spline.max_error_A);
+    }
+    hci_emit_cost(&e->tabulation, c);
+    c->fits = made && fits(e->request, c, error_A);
+}
+
+/* ---- all of them ---- */
+
+/* All shapes, or with a number of points those of the format that it is meant for. */
+static void make_all(hci_emission *e, double error_A)
+{
+    const hci_emit_format asked = e->request->format, small = asked == HCI_EMIT_F32 ? HCI_EMIT_I16 : asked;
+    const hci_emit_choice all[HCI_EMIT_MOST_CHOICES] = {{.format = HCI_EMIT_F32, .shape = HCI_EMIT_LINEAR},
+                                                        {.format = small, .shape = HCI_EMIT_LINEAR},
+                                                        {.format = small, .shape = HCI_EMIT_QUADRATIC},
+                                                        {.format = small, .shape = HCI_EMIT_CUBIC}};
+    hci_emit_result *x = &e->result;
+    for (size_t k = 0; k < HCI_EMIT_MOST_CHOICES; ++k) {
+        if (e->request->points > 0 && all[k].format != asked) continue;
+        x->choice[x->choices] = all[k];
+        make(e, &x->choice[x->choices++], error_A);
+    }
+}
+
+static bool is_asked(const hci_emit_request *r, const hci_emit_choice *c)
+{
+    return c->format == r->format && (r->shape == HCI_EMIT_AUTO || r->shape == c->shape);
+}
+
+/* With bytes alone the least error; else fewer instructions where both are small, and fewer bytes where not.
+ */
+static bool is_better(const hci_emit_choice *a, const hci_emit_choice *b, double error_A)
+{
+    const bool small_a = a->bytes <= HCI_EMIT_SMALL_BYTES, small_b = b->bytes <= HCI_EMIT_SMALL_BYTES;
+    if (isinf(error_A)) return a->max_error_A < b->max_error_A;
+    if (small_a != small_b) return small_a;
+    return small_a ? a->cortex_m4f < b->cortex_m4f : a->bytes < b->bytes;
+}
+
+static const hci_emit_choice *best_of(const hci_emission *e, double error_A)
+{
+    const hci_emit_choice *best = NULL;
+    for (size_t k = 0; k < e->result.choices; ++k) {
+        const hci_emit_choice *c = &e->result.choice[k];
+        if (c->fits && is_asked(e->request, c) && (!best || is_better(c, best, error_A))) best = c;
+    }
+    return best;
+}
+
+/* What to look for among all that was asked for. */
+typedef enum { LEAST_ERROR, FEWEST_BYTES, FEWEST_INSTRUCTIONS } quality;
+
+static double value_of(const hci_emit_choice *c, quality what)
+{
+    return what == LEAST_ERROR    ? c->max_error_A
+           : what == FEWEST_BYTES ? (double)c->bytes
+                                  : (double)c->cortex_m4f;
+}
+
+/* Of those within the error, or NULL. */
+static const hci_emit_choice *nearest(const hci_emission *e, double error_A, quality what)
+{
+    const hci_emit_choice *near = NULL;
+    for (size_t k = 0; k < e->result.choices; ++k) {
+        const hci_emit_choice *c = &e->result.choice[k];
+        if (!is_asked(e->request, c) || (what != LEAST_ERROR && error_A > 0.0 && c->max_error_A > error_A))
+            continue;
+        if (!near || value_of(c, what) < value_of(near, what)) near = c;
+    }
+    return near;
+}
+
+static hci_status none_fits(const hci_emission *e, double error_A, hci_note *note)
+{
+    const hci_emit_request *r = e->request;
+    const hci_emit_choice *near = nearest(e, error_A, FEWEST_BYTES);
+    if (!near) {
+        near = nearest(e, error_A, LEAST_ERROR);
+        return hci_note_set(
+            note, HCI_ERROR_ARGUMENT,
+            "largest error: found %g A, but %zu points, the most there may be, keep %g A; allow that much",
+            error_A, near->points, near->max_error_A);
+    }
+    if (r->max_bytes > 0 && near->bytes > r->max_bytes)
+        return hci_note_set(
+            note, HCI_ERROR_ARGUMENT,
+            "bytes: found at most %zu, but the smallest table takes %zu; allow that many, or a larger "
+            "error, or another shape or format",
+            r->max_bytes, near->bytes);
+    near = nearest(e, error_A, FEWEST_INSTRUCTIONS);
+    return hci_note_set(
+        note, HCI_ERROR_ARGUMENT,
+        "instructions: found at most %zu, but a %s table of format %s takes about %u on a Cortex-M4F; "
+        "allow that many, or use another shape or frame dq",
+        r->max_instructions, hci_emit_shape_name(near->shape), hci_emit_format_name(near->format),
+        near->cortex_m4f);
+}
+
+static hci_status reserve(hci_emission *e, hci_note *note)
+{
+    const size_t values = (size_t)(HCI_EMIT_MAX_POINTS + 1) * values_in_row(e);
+    e->rows = hci_memory_new(values, sizeof *e->rows);
+    e->room.knots = hci_memory_new(HCI_SPLINE_MOST_VALUES, sizeof *e->room.knots);
+    e->room.knots_A = hci_memory_new(HCI_SPLINE_MOST_VALUES, sizeof *e->room.knots_A);
+    e->room.waves = &e->tabulation;
+    e->room.symmetry = hci_symmetry_of(&e->tabulation);
+    return e->rows && e->room.knots && e->room.knots_A ? HCI_OK : hci_note_memory(note, NULL, "the table");
+}
+
+hci_status hci_emission_choose(hci_emission *e, hci_note *note)
+{
+    const double error_A = error_asked_A(e);
+    const hci_status status = reserve(e, note);
+    if (status) return status;
+    make_all(e, error_A);
+    const hci_emit_choice *best = best_of(e, error_A);
+    if (!best) return none_fits(e, error_A, note);
+    e->result.chosen = *best;
+    make(e, &e->result.chosen, error_A);
+    return HCI_OK;
+}
+
+void hci_emission_release(hci_emission *e)
+{
+    hci_memory_free(e->rows);
+    hci_memory_free(e->room.knots);
+    hci_memory_free(e->room.knots_A);
+}

@@ -1,0 +1,79 @@
+#!/bin/sh
+# labels: slow
+# Tables of 16-bit knots in code for Cortex-M4F, M3 and M0+ on an emulated board: integers and floats at 65 536 angles are
+# those of the host to the last bit, and an evaluation takes the instructions that emit states.
+#   emit_small_tables.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
+. "$1/tests/support/common.sh"
+
+for tool in arm-none-eabi-gcc qemu-system-arm; do
+    command -v $tool >/dev/null || { echo "skipped: no $tool here"; exit 77; }
+done
+echo '#include <stdio.h>' | arm-none-eabi-gcc -E - >/dev/null 2>&1 || { echo "skipped: no newlib here"; exit 77; }
+
+mcu=$source_dir/examples/mcu
+run 0 solve "$source_dir/data/machine_a" --target "$source_dir/data/scenarios/02/target.csv" --auto --quiet -o "$work/currents"
+
+# table NAME OPTION...: emits it; TYPE, function and arguments go into the list.
+list=
+table() {
+    name=$1 type=$2 function=$3 extra=$4
+    shift 4
+    run 0 emit "$work/currents" --name "$name" --max-error 0.024 "$@" --json -o "$work/tables"
+    cp "$work/stdout" "$work/$name.json"
+    echo "#include \"$name.h\"" >>"$work/includes"
+    list="$list    X($name, hci_$type, hci_table_i16_$function, $extra) \\
+"
+}
+for shape in linear quadratic cubic; do
+    for frame in abc dq; do
+        table "i16_${frame}_$shape" "currents_$frame" $frame '' --format i16 --frame $frame --shape $shape
+        table "q15_${frame}_$shape" "units_$frame" ${frame}_q15 '' --format q15 --frame $frame --shape $shape
+        table "i16_${frame}_torque_$shape" "currents_$frame" ${frame}_torque 'COMMA 1.25f' --format i16 --frame $frame --shape $shape --per-torque
+        table "q15_${frame}_torque_$shape" "units_$frame" ${frame}_torque_q15 'COMMA 16000' --format q15 --frame $frame --shape $shape --per-torque
+    done
+done
+{
+    cat "$work/includes"
+    printf '#define COMMA ,\n#define TABLES(X) \\\n%s\n' "$list"
+} >"$work/tables/tables.h"
+
+sources="$source_dir/tests/host/emit/small_tables/main.c $work/tables/*.c"
+warnings='-std=c99 -O2 -Wall -Wextra -Wconversion -Wno-unused-function'
+# shellcheck disable=SC2086
+check 'built for the host' cc $warnings -ffp-contract=off -I"$source_dir/include" -I"$work/tables" $sources -o "$work/host"
+"$work/host" >"$work/host.txt" || fail 'the host program'
+
+# board NAME FLAG...: builds, runs, and keeps what it says.
+board() {
+    name=$1
+    shift
+    # shellcheck disable=SC2086
+    check "built for $name" arm-none-eabi-gcc "$@" -mthumb $warnings -ffp-contract=off -DON_BOARD -nostartfiles \
+        --specs=rdimon.specs -T "$mcu/mps2-an386.ld" -I"$source_dir/include" -I"$work/tables" -I"$mcu" $sources \
+        "$mcu/measure.c" "$mcu/startup.c" -o "$work/$name.elf"
+    timeout 200 qemu-system-arm -M mps2-an386 -nographic -monitor none -serial none \
+        -semihosting-config enable=on,target=native -icount shift=0 -kernel "$work/$name.elf" >"$work/$name.txt" ||
+        fail "$name ended with an error"
+    check "$name reached its end" grep -qx done "$work/$name.txt"
+    grep '^sum' "$work/host.txt" >"$work/expected"
+    grep '^sum' "$work/$name.txt" | check "$name computes the currents of the host" diff "$work/expected" -
+}
+board cortex_m4f -mcpu=cortex-m4 -mfpu=fpv4-sp-d16 -mfloat-abi=hard
+board cortex_m0_plus -mcpu=cortex-m0plus
+board cortex_m3 -mcpu=cortex-m3
+
+# What emit states of a table against what was counted.
+compare_costs() {
+    awk '$1 == "cost" { print $2, $4, $6 }' "$work/$1.txt" | while read -r name counted start; do
+        stated=$(tr ',{' '\n\n' <"$work/$name.json" | sed -n "s/.*\"instructions_$1\": *//p" | head -n 1)
+        echo "$1 $name: $counted instructions, stated $stated; check at start-up $start"
+        awk -v c="$counted" -v s="$stated" -v k="$start" 'BEGIN { d = 4 + s / 50; exit !(c > s - d && c < s + d && k < 50000) }' || echo "$name" >>"$work/wrong"
+    done
+}
+: >"$work/wrong"
+compare_costs cortex_m4f
+compare_costs cortex_m0_plus
+awk '$1 == "cost" && $2 ~ /(abc|dq)_(linear|quadratic|cubic)/ { print "cortex_m3", $2, $4 }' "$work/cortex_m3.txt"
+cat "$work/wrong"
+check 'instructions as stated' test ! -s "$work/wrong"
+finish
