@@ -23,7 +23,7 @@ refused() { # WORDS... -- EXPRESSION
 refused emit "$work/a" --name t --drive $drive -o "$work/out" -- '--drive FILE and --machine FOLDER go together'
 refused emit "$work/a" --name t --speed 500 -o "$work/out" -- '--speed goes with --drive'
 refused emit "$work/a" "$work/a" --name t -o "$work/out" -- 'several folders are levels of torque'
-refused emit "$work/a" --name t --machine data/machine_a --drive $drive --points 9 -o "$work/out" -- 'give --max-error in place of --points'
+refused emit "$work/a" --name t --machine data/machine_a --drive $drive --points 9 -o "$work/out" -- 'give --max-error alone of what says their size'
 refused emit "$work/a" --name t --machine data/machine_a --drive $drive --frame abc -o "$work/out" -- 'give --frame dq'
 refused emit "$work/a" "$work/a" --name t --machine data/machine_a --drive $drive -o "$work/out" -- 'found 2.4[0-9]* N·m twice'
 refused emit "$work/a" --name int --machine data/machine_a --drive $drive -o "$work/out" -- 'not a keyword'
