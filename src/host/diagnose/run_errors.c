@@ -73,12 +73,13 @@ static double repeatability(const hci_dataset *b, size_t run, const double *resi
     hci_angle_bins bins = {0};
     double samples = 0.0;
     for (const hci_segment *s = NULL; (s = hci_segment_next(&b->samples, run, s)) != NULL;)
-        samples += (double)s->count;
+        samples += (double)hci_segment_telling(&b->samples, s);
     const bool few = samples < PER_RANGE * HCI_ANGLE_BINS_MOST;
     bins.bins = few ? (size_t)(samples / PER_RANGE) + 1 : HCI_ANGLE_BINS_MOST;
     for (const hci_segment *s = NULL; (s = hci_segment_next(&b->samples, run, s)) != NULL;)
         for (size_t j = s->first; j < s->first + s->count; ++j)
-            hci_angle_bins_add(&bins, b->samples.sample[j].raw.theta_m_rad / turn_rad, residual[j]);
+            if (b->samples.sample[j].count > 0.0)
+                hci_angle_bins_add(&bins, b->samples.sample[j].raw.theta_m_rad / turn_rad, residual[j]);
     return hci_angle_bins_rms(&bins, FREEDOM);
 }
 

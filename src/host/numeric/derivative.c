@@ -234,10 +234,15 @@ static void find_slopes(window_sums *s, range_of_slopes r, size_t window, double
     }
 }
 
-void hci_derivative(const double *time_s, const double *x, size_t n, double *rate)
+size_t hci_derivative_window(const double *time_s, const double *x, size_t n)
 {
     window_sums sums = {.t = time_s, .x = x};
-    const size_t window = window_of(&sums, n);
+    return window_of(&sums, n);
+}
+
+void hci_derivative_over(const double *time_s, const double *x, size_t n, size_t window, double *rate)
+{
+    window_sums sums = {.t = time_s, .x = x};
     const double gap = fmax((double)window, GAP), gap_s = gap * usual_step(time_s, n, gap);
     for (size_t first = 0, end; first < n; first = end) {
         end = end_of_piece(time_s, n, first, gap_s);
@@ -245,4 +250,9 @@ void hci_derivative(const double *time_s, const double *x, size_t n, double *rat
         find_slopes(&sums, (range_of_slopes){first, end, is_long ? first : 0, is_long ? end : n}, window,
                     rate);
     }
+}
+
+void hci_derivative(const double *time_s, const double *x, size_t n, double *rate)
+{
+    hci_derivative_over(time_s, x, n, hci_derivative_window(time_s, x, n), rate);
 }

@@ -11,4 +11,8 @@
  * samples stand between two gaps. time_s: ascending. rate: out, n. O(n). */
 void hci_derivative(const double *time_s, const double *x, size_t n, double *rate);
 
+/* Samples of that window, at most n, and the slopes over one that is given. */
+size_t hci_derivative_window(const double *time_s, const double *x, size_t n);
+void hci_derivative_over(const double *time_s, const double *x, size_t n, size_t window, double *rate);
+
 #endif

@@ -140,7 +140,8 @@ static hci_status complete_speed(reader *r, hci_angle_path path)
         return HCI_OK;
     if (!recorded) run->speed_rad_per_s = hci_memory_new(run->count, sizeof(double));
     if (run->speed_rad_per_s == NULL) return memory_error(r);
-    hci_derivative(run->time_s, run->theta_m_rad, run->count, run->speed_rad_per_s);
+    run->speed_window = hci_derivative_window(run->time_s, run->theta_m_rad, run->count);
+    hci_derivative_over(run->time_s, run->theta_m_rad, run->count, run->speed_window, run->speed_rad_per_s);
     hci_note_add(&r->run->remark, recorded
                                       ? "the speed is 0 but the angle moves: the slope of the angle is taken"
                                       : "the speed is the slope of the angle");
@@ -417,7 +418,8 @@ static hci_status torque_of_inertia(reader *r)
     run->torque_Nm = hci_memory_new(run->count, sizeof(double));
     if (run->torque_Nm == NULL) return memory_error(r);
     if (r->options->holding) return hold(run, "turned slowly, as --holding says");
-    hci_derivative(run->time_s, run->speed_rad_per_s, run->count, run->torque_Nm);
+    run->torque_window = hci_derivative_window(run->time_s, run->speed_rad_per_s, run->count);
+    hci_derivative_over(run->time_s, run->speed_rad_per_s, run->count, run->torque_window, run->torque_Nm);
     for (size_t k = 0; k < run->count; ++k)
         run->torque_Nm[k] *= inertia_kgm2;
     if (hci_is_slow_turn(run, r->pole_pairs, inertia_kgm2, r->options->torque_constant_Nm_per_A))

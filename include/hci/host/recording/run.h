@@ -30,8 +30,10 @@ typedef struct {
     double *theta_m_rad;     /* mechanical, unwrapped */
     double *speed_rad_per_s; /* mechanical, signed; recorded, or the slope of the angle over time where it is
                               * not or stands at 0 while the angle moves; NULL: not known */
+    size_t speed_window;     /* samples that the speed is a slope of the angle over; 0: it was recorded */
     double *i_A;             /* [count][3], phase currents; of dq currents, turned by the recorded angle */
     double *torque_Nm;       /* on the shaft, as torque_source says */
+    size_t torque_window;    /* samples that an acceleration in torque_Nm is a slope over; 0: it has none */
     double *temperature_C;   /* of the magnets */
     double *v_V;             /* [count][3], phase voltages */
     hci_torque_source torque_source; /* where torque_Nm is from */

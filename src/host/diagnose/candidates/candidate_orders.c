@@ -117,6 +117,7 @@ bool hci_candidate_orders_make(const hci_candidates_source *s, size_t stride, hc
     const size_t runs = s->samples->run_count, count = most_periods(s) / stride + 1;
     memset(lines, 0, sizeof *lines);
     lines->stride = stride;
+    lines->slots = s->slots;
     lines->count = count;
     lines->still = hci_memory_new(4 * count + 2 * runs * count + 3 * runs, sizeof *lines->still);
     if (!lines->still) return false;
@@ -152,11 +153,13 @@ static size_t common_divisor(size_t a, size_t b)
     return a;
 }
 
-/* Whether an order of the mechanical turn is one of slots and poles: a whole electrical order, or one that a
- * group of the poles shares with a group of the slots. */
-static bool is_of_slots(size_t periods, size_t pole_pairs)
+/* Whether an order of the mechanical turn is one of slots and poles: a whole electrical order, one of all the
+ * slots, which magnets that differ make, or one that a group of the poles shares with a group of the slots.
+ */
+static bool is_of_slots(const hci_candidate_orders *lines, size_t periods, size_t pole_pairs)
 {
     if (periods % pole_pairs == 0) return true;
+    if (lines->slots > 1 && periods % lines->slots == 0) return true;
     return periods > pole_pairs && periods % 3 == 0 && common_divisor(periods, pole_pairs) > 1;
 }
 
@@ -172,7 +175,7 @@ size_t hci_candidate_orders_next(const hci_candidate_orders *lines, size_t pole_
     double most = HCI_STANDS_OUT;
     for (size_t k = 1; k < lines->count; ++k) {
         const double x = strength(lines, k, slots);
-        if (is_of_slots(k * lines->stride, pole_pairs) != slots || x >= *under || x <= most) continue;
+        if (is_of_slots(lines, k * lines->stride, pole_pairs) != slots || x >= *under || x <= most) continue;
         most = x;
         best = k;
     }

@@ -14,8 +14,8 @@
 /* For each order, in multiples of `stride` periods in a mechanical turn, how much χ² a torque of that order,
  * alone or in proportion to i_q, and in phase in all runs, would explain. Start with {0}. */
 typedef struct {
-    size_t stride;
-    size_t count; /* orders 0 … count − 1 */
+    size_t stride, slots; /* slots: of the machine; 0: not known */
+    size_t count;         /* orders 0 … count − 1 */
     double *still, *with_current;
     double *of_run; /* [run][count][2]: weighted sums with cos and sin */
     double *weight; /* of each run */

@@ -13,10 +13,12 @@
 enum {
     MOST_SLOT_ORDERS = 12, /* orders of slots and poles that are looked into at a time */
     MOST_TURN_ORDERS = 6,  /* and of those that repeat with the mechanical turn only */
-    UNKNOWN_LINES = 3
+    UNKNOWN_LINES = 3,
+    MOST_SPEEDS = 3
 };
 
 #define SIMILAR 0.15 /* speeds that differ by less, as a share, are the same */
+#define AROUND  1.2  /* standard deviations about a mean speed: at 0.15, 0.5 and 0.85 of a ramp from 0 */
 
 /* ---- a list that grows ---- */
 
@@ -103,19 +105,33 @@ static void add_unknown(builder *b, const hci_candidates_source *s, const hci_ca
 
 /* ---- what the recordings are like as a whole ---- */
 
-/* How many different speeds the runs have, at most three. */
+typedef struct {
+    double known[MOST_SPEEDS];
+    size_t count;
+} speeds;
+
+static void speed_add(speeds *x, double speed)
+{
+    bool is_new = x->count < MOST_SPEEDS && (speed > 0.0 || x->count == 0);
+    for (size_t k = 0; k < x->count; ++k)
+        is_new = is_new && fabs(speed - x->known[k]) > SIMILAR * fmax(speed, x->known[k]);
+    if (is_new) x->known[x->count++] = speed;
+}
+
+/* How many different speeds the runs have, at most three. A run that accelerates has those around its mean
+ * too. */
 static size_t speeds_of(const hci_candidates_source *s)
 {
-    double known[3];
-    size_t count = 0;
-    for (size_t r = 0; r < s->samples->run_count && count < 3; ++r) {
-        const double speed = fabs(s->samples->statistics[r].mean_speed_rad_per_s);
-        bool is_new = s->use[r] && (speed > 0.0 || count == 0);
-        for (size_t k = 0; k < count; ++k)
-            is_new = is_new && fabs(speed - known[k]) > SIMILAR * fmax(speed, known[k]);
-        if (is_new) known[count++] = speed;
+    speeds x = {.count = 0};
+    for (size_t r = 0; r < s->samples->run_count; ++r) {
+        const hci_run_statistics *f = &s->samples->statistics[r];
+        const double mean = fabs(f->mean_speed_rad_per_s);
+        if (!s->use[r]) continue;
+        speed_add(&x, mean);
+        speed_add(&x, mean + AROUND * f->speed_deviation);
+        speed_add(&x, fabs(mean - AROUND * f->speed_deviation));
     }
-    return count;
+    return x.count;
 }
 
 static hci_effect_survey survey_of(const hci_candidates_source *s)
@@ -175,7 +191,7 @@ static void add_all(builder *b, const hci_candidates_source *s, hci_effect_surve
     x->of_speeds = hci_residual_by_speed(s, of_speed);
     for (size_t r = 0; !b->failed && (b->type = hci_effect_type_at(r)) != NULL; ++r)
         if (b->type->propose) b->type->propose(x, &to);
-    add_unknown(b, s, lines);
+    if (!s->known_only) add_unknown(b, s, lines);
 }
 
 /* ---- the list ---- */

@@ -23,15 +23,21 @@ typedef struct {
 
 /* ---- what a run can show ---- */
 
-/* Whether a run can show a term of an effect at all. An acceleration is a slope over several samples and has
- * a delay of its own: it does not tell that of a channel. */
+/* Whether accelerations are those of a speed that the drive has filtered: they have a delay of their own, and
+ * do not tell that of a channel. */
+static bool filters_speed(const hci_run *run)
+{
+    return run->torque_source == HCI_TORQUE_INERTIA && run->speed_window == 0;
+}
+
+/* Whether a run can show a term of an effect at all. */
 static bool can_show(const hci_run *run, bool no_current, const hci_candidate *s, size_t term)
 {
     const unsigned traits = s->type->parameter[s->term[term].parameter].traits;
     if (no_current && ((traits & HCI_PARAMETER_WITH_CURRENT) || s->type->sum_by_value)) return false;
     if (run->torque_source == HCI_TORQUE_MEASURED) return true;
     if (traits & HCI_PARAMETER_OF_TRANSDUCER) return false;
-    if (run->torque_source == HCI_TORQUE_INERTIA && (s->type->needs & HCI_EFFECT_NEEDS_RATE)) return false;
+    if (filters_speed(run) && (s->type->needs & HCI_EFFECT_NEEDS_RATE)) return false;
     return run->torque_source != HCI_TORQUE_HOLDING ||
            !(traits & (HCI_PARAMETER_WITH_CURRENT | HCI_PARAMETER_WITH_SPEED));
 }
@@ -65,10 +71,11 @@ static void constants_free(const filling *f, const hci_segment *s, const hci_noi
 {
     double square = 0.0;
     for (size_t k = 0; k < s->count; ++k)
-        f->constant[k] = 1.0;
+        f->constant[k] = f->regression->samples->sample[s->first + k].count > 0.0 ? 1.0 : 0.0;
     hci_noise_whiten(noise, f->constant, s->count, 1);
     for (size_t k = 0; k < s->count; ++k)
         square += f->constant[k] * f->constant[k];
+    if (!(square > 0.0)) return;
     take_constant_out(f->constant, square, f->y, s->count, 1);
     for (size_t c = 0; c < f->model->columns; ++c)
         take_constant_out(f->constant, square, f->x + c, s->count, f->model->columns);
@@ -82,10 +89,11 @@ static void torque_rows(const filling *f, const hci_segment *s, const hci_predic
     const hci_noise *noise = hci_regression_noise(f->regression, s);
     for (size_t k = 0; k < s->count; ++k) {
         const double *from = predicted->by_value + k * predicted->terms;
+        const double tells = sample[k].count > 0.0 ? 1.0 : 0.0;
         double *to = f->x + k * m->columns;
-        f->y[k] = sample[k].torque_Nm - predicted->torque_Nm[k];
+        f->y[k] = tells * (sample[k].torque_Nm - predicted->torque_Nm[k]);
         for (size_t c = 0; c < m->columns; ++c)
-            to[c] = from[m->column[c].place];
+            to[c] = tells * from[m->column[c].place];
     }
     hci_noise_whiten(noise, f->y, s->count, 1);
     hci_noise_whiten(noise, f->x, s->count, m->columns);

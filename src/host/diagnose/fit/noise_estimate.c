@@ -34,14 +34,17 @@ static size_t longest_in_use(const hci_regression *e)
     return most;
 }
 
-/* Noise of a colour of its own. work: hci_noise_workspace(s->count). */
+/* Noise of a colour of its own. Samples that tell nothing are 0 in a residual, and no noise. work:
+ * hci_noise_workspace(s->count). */
 static void long_segment(const hci_regression *e, const hci_segment *s, const double *residual,
                          double floor_Nm, double *work)
 {
     hci_noise *noise = hci_regression_noise(e, s);
-    hci_noise_find(residual + s->first, s->count, is_closed(e, s), floor_Nm, noise, work);
-    noise->innovation = fmax(noise->innovation, NO_BETTER);
-    noise->rms = fmax(noise->rms, NO_BETTER);
+    const double telling = fmax(1.0, (double)hci_segment_telling(e->samples, s));
+    const double scale = sqrt((double)s->count / telling);
+    hci_noise_find(residual + s->first, s->count, is_closed(e, s), floor_Nm / scale, noise, work);
+    noise->innovation = fmax(scale * noise->innovation, NO_BETTER);
+    noise->rms = fmax(scale * noise->rms, NO_BETTER);
 }
 
 /* Noise that all short segments share. */
@@ -53,9 +56,9 @@ static void short_segments(const hci_regression *e, const double *residual, size
         if (s->count >= HCI_NOISE_LEAST) continue;
         for (size_t j = s->first; j < s->first + s->count; ++j)
             square += residual[j] * residual[j];
-        rows += (double)s->count;
+        rows += (double)hci_segment_telling(e->samples, s);
     }
-    const double freedom = fmax(rows - (double)parameters, FREEDOM * rows);
+    const double freedom = fmax(1.0, fmax(rows - (double)parameters, FREEDOM * rows));
     for (const hci_segment *s = NULL; (s = hci_regression_next(e, s)) != NULL;)
         if (s->count < HCI_NOISE_LEAST)
             *hci_regression_noise(e, s) =

@@ -5,6 +5,7 @@
 
 #include "host/base/memory.h"
 #include "host/machine/torque_constant.h"
+#include "host/numeric/slope_average.h"
 #include "host/numeric/statistics.h"
 #include "host/recording/rotor_frame.h"
 
@@ -58,12 +59,24 @@ bool hci_predicted_reading_is_dynamic(const hci_regression *e, const hci_segment
     return s->timed && s->smooth && e->runs[s->run].torque_source == HCI_TORQUE_MEASURED;
 }
 
+/* Whether the torque is a slope of the speed. */
+static bool is_slope(const hci_regression *e, const hci_segment *s)
+{
+    return s->timed && e->runs[s->run].torque_source == HCI_TORQUE_INERTIA;
+}
+
+/* How often a segment is run through. */
+static size_t turns_through(const hci_regression *e, const hci_segment *s, bool dynamic)
+{
+    return s->turns > 0 && (dynamic || is_slope(e, s)) ? HCI_SETTLING_TURNS : 1;
+}
+
 static size_t longest_run_through(const hci_regression *e, bool dynamic)
 {
     size_t most = 1;
     for (size_t k = 0; k < e->samples->segment_count; ++k) {
         const hci_segment *s = &e->samples->segment[k];
-        const size_t n = s->count * (dynamic && s->turns > 0 ? HCI_SETTLING_TURNS : 1);
+        const size_t n = s->count * turns_through(e, s, dynamic);
         most = n > most ? n : most;
     }
     return most;
@@ -89,14 +102,15 @@ bool hci_predicted_reading_make(const hci_regression *e, const hci_effects *effe
     memset(o, 0, sizeof *o);
     o->terms = hci_effects_terms(effects);
     o->holding_scale = holding_scale(e, effects);
-    o->torque_Nm = hci_memory_new(2 * most + 2 * o->terms, sizeof *o->torque_Nm);
+    o->torque_Nm = hci_memory_new(4 * most + 2 * o->terms, sizeof *o->torque_Nm);
     if (derivatives) o->by_value = hci_memory_new(most * (o->terms + 1), sizeof *o->by_value);
     if (!o->torque_Nm || (derivatives && !o->by_value)) {
         hci_predicted_reading_release(o);
         return false;
     }
     o->time_s = o->torque_Nm + most;
-    o->sum = o->time_s + most;
+    o->work = o->time_s + most;
+    o->sum = o->work + 2 * most;
     return true;
 }
 
@@ -159,7 +173,7 @@ static void turn_repeat(hci_predicted_reading *o, size_t n, size_t turn, double 
         o->time_s[turn * n + k] = o->time_s[k] + (double)turn * period_s;
 }
 
-/* Keeps the last turn, in which the sensor has settled. */
+/* Keeps one turn: the last one, in which a sensor has settled, or one between others. */
 static void turn_keep(hci_predicted_reading *o, size_t n, size_t turn)
 {
     memmove(o->torque_Nm, o->torque_Nm + turn * n, n * sizeof *o->torque_Nm);
@@ -167,27 +181,58 @@ static void turn_keep(hci_predicted_reading *o, size_t n, size_t turn)
         memmove(o->by_value, o->by_value + turn * n * o->terms, n * o->terms * sizeof *o->by_value);
 }
 
+/* Samples of a segment that a window of so many of its run spans. */
+static size_t window_in(const hci_run *run, const hci_segment *s, size_t window)
+{
+    if (s->turns == 0 || window == 0 || !(s->period_s > 0.0)) return window;
+    const double step_s = (run->time_s[run->count - 1] - run->time_s[0]) / (double)(run->count - 1);
+    return (size_t)((double)(window - 1) * step_s * (double)s->count / s->period_s + 0.5) + 1;
+}
+
+/* The mean over the windows of the slopes that make an acceleration. */
+static void average(const hci_regression *e, const hci_segment *s, size_t count, hci_predicted_reading *o)
+{
+    const hci_run *run = &e->runs[s->run];
+    const size_t window[] = {window_in(run, s, run->speed_window), window_in(run, s, run->torque_window)};
+    for (size_t k = 0; k < 2; ++k) {
+        hci_slope_average(o->time_s, count, window[k], o->torque_Nm, 1, o->work);
+        for (size_t c = 0; o->by_value && c < o->terms; ++c)
+            hci_slope_average(o->time_s, count, window[k], o->by_value + c, o->terms, o->work);
+    }
+}
+
 void hci_predicted_reading_fill(const hci_regression *e, const hci_effects *effects, const hci_segment *s,
                                 hci_predicted_reading *o)
 {
     const bool sensor = hci_predicted_reading_is_dynamic(e, s), dynamic = sensor && has_dynamics(effects);
-    const size_t turns = dynamic && s->turns > 0 ? HCI_SETTLING_TURNS : 1, lag = dormant_lag(effects);
+    const size_t turns = turns_through(e, s, dynamic), lag = dormant_lag(effects);
     fill_static(e, effects, s, o);
     if (o->by_value && sensor && lag < o->terms)
         lag_derivative(o->torque_Nm, o->time_s, s->count, o->by_value + lag, o->terms);
-    if (!dynamic) return;
     for (size_t turn = 1; turn < turns; ++turn)
         turn_repeat(o, s->count, turn, s->period_s);
-    hci_effects_filter(effects, o->time_s, turns * s->count, o->torque_Nm, o->by_value);
-    if (turns > 1) turn_keep(o, s->count, turns - 1);
+    if (dynamic) hci_effects_filter(effects, o->time_s, turns * s->count, o->torque_Nm, o->by_value);
+    if (is_slope(e, s) && !o->instant) average(e, s, turns * s->count, o);
+    if (turns > 1) turn_keep(o, s->count, dynamic ? turns - 1 : turns / 2);
 }
 
 /* Of a load that is not known only what varies is left. */
-static void take_mean_out(double *residual_Nm, size_t count)
+static void take_mean_out(const hci_binned_sample *sample, double *residual_Nm, size_t count)
 {
-    const double mean_Nm = hci_mean(residual_Nm, count);
+    double telling = 0.0;
     for (size_t j = 0; j < count; ++j)
-        residual_Nm[j] -= mean_Nm;
+        telling += sample[j].count > 0.0;
+    const double mean_Nm = telling > 0.0 ? hci_mean(residual_Nm, count) * (double)count / telling : 0.0;
+    for (size_t j = 0; j < count; ++j)
+        if (sample[j].count > 0.0) residual_Nm[j] -= mean_Nm;
+}
+
+/* 0 where a sample tells no torque. */
+static void residual_fill(const hci_binned_sample *sample, size_t count,
+                          const hci_predicted_reading *predicted, double *residual_Nm)
+{
+    for (size_t j = 0; j < count; ++j)
+        residual_Nm[j] = sample[j].count > 0.0 ? sample[j].torque_Nm - predicted->torque_Nm[j] : 0.0;
 }
 
 hci_status hci_regression_residual(const hci_regression *e, const hci_effects *effects, double *residual_Nm,
@@ -200,9 +245,9 @@ hci_status hci_regression_residual(const hci_regression *e, const hci_effects *e
     for (const hci_segment *s = NULL; (s = hci_regression_next(e, s)) != NULL;) {
         hci_predicted_reading_fill(e, effects, s, &predicted);
         hci_regression_count(e, s->count, predicted.terms, 0);
-        for (size_t j = 0; j < s->count; ++j)
-            residual_Nm[s->first + j] = e->samples->sample[s->first + j].torque_Nm - predicted.torque_Nm[j];
-        if (e->runs[s->run].mean_is_unknown) take_mean_out(residual_Nm + s->first, s->count);
+        const hci_binned_sample *sample = e->samples->sample + s->first;
+        residual_fill(sample, s->count, &predicted, residual_Nm + s->first);
+        if (e->runs[s->run].mean_is_unknown) take_mean_out(sample, residual_Nm + s->first, s->count);
     }
     hci_predicted_reading_release(&predicted);
     return HCI_OK;

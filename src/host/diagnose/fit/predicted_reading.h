@@ -1,7 +1,9 @@
 /* The torque that a model has the sensor read along a segment, and its derivatives by the model's values.
  *
  * The torque at each sample is that of the effects; a lag or resonance of the sensor then filters it along
- * time. The mean of a steady turn is run through several times until the sensor has settled.
+ * time. The mean of a steady turn is run through several times until the sensor has settled. Where the
+ * torque was measured as an acceleration, a slope of the speed over a window, it is the mean over that
+ * window.
  *
  * In a holding test the current is what was measured, and the torque that the model leaves stands for the
  * current that would make it: it is given in units of the declared torque per ampere, so that a model which
@@ -19,7 +21,9 @@ typedef struct {
     double *torque_Nm;
     double *by_value; /* [samples][terms], derivatives by the values of all terms; NULL: not wanted */
     double *time_s;
-    double *sum; /* [2 terms], for means */
+    double *sum;  /* [2 terms], for means */
+    double *work; /* [2 samples], for slopes */
+    bool instant; /* wanted as it is at each sample, not as a slope shows it */
     size_t terms;
     double holding_scale; /* of torques in a holding test: declared over modelled torque per ampere */
 } hci_predicted_reading;

@@ -6,6 +6,7 @@
 #include "hci/machine/frames.h"
 #include "host/base/memory.h"
 #include "host/diagnose/prepare/current_rate.h"
+#include "host/diagnose/prepare/rest.h"
 #include "host/diagnose/prepare/run_statistics.h"
 #include "host/diagnose/prepare/smooth.h"
 #include "host/diagnose/prepare/turns.h"
@@ -27,14 +28,16 @@ typedef struct {
     double holding_Nm_per_A; /* in a holding test, where the current of the q axis is what was measured; else
                                 0 */
     const hci_run_statistics *statistics;
+    const bool *at_rest; /* of each sample of the run: it tells no torque */
     hci_binned_samples *samples;
     size_t *capacity; /* samples that there is memory for */
 } reduction;
 
 /* ---- samples ---- */
 
-static void sample_of(const hci_run *r, size_t k, hci_binned_sample *c)
+static void sample_of(const reduction *x, size_t k, hci_binned_sample *c)
 {
+    const hci_run *r = x->run;
     memset(c, 0, sizeof *c);
     c->reading.theta_m_rad = r->theta_m_rad ? r->theta_m_rad[k] : 0.0;
     c->reading.speed_rad_per_s = r->speed_rad_per_s ? r->speed_rad_per_s[k] : 0.0;
@@ -45,7 +48,7 @@ static void sample_of(const hci_run *r, size_t k, hci_binned_sample *c)
     c->sum_A = r->has_sum ? r->i_A[3 * k] + r->i_A[3 * k + 1] + r->i_A[3 * k + 2] : (double)NAN;
     c->time_s = r->time_s ? r->time_s[k] : 0.0;
     c->reading.elapsed_s = r->time_s ? r->time_s[k] - r->time_s[0] : 0.0;
-    c->count = 1.0;
+    c->count = x->at_rest[k] ? 0.0 : 1.0;
 }
 
 /* Memory for so many more samples: where they begin, NULL when memory is out. */
@@ -133,7 +136,8 @@ static void means_take(const reduction *x, size_t first, size_t last, hci_binned
     memset(sample, 0, BINS_PER_TURN * sizeof *sample);
     for (size_t k = first; k <= last; ++k) {
         hci_binned_sample one;
-        sample_of(x->run, k, &one);
+        sample_of(x, k, &one);
+        if (!(one.count > 0.0)) continue;
         one.reading.theta_m_rad -= turn * floor(one.reading.theta_m_rad / turn);
         const size_t at = (size_t)(one.reading.theta_m_rad / turn * BINS_PER_TURN);
         mean_add(x, &sample[at < BINS_PER_TURN ? at : BINS_PER_TURN - 1], &one);
@@ -191,7 +195,7 @@ static bool open_segment(const reduction *x, size_t first, size_t count)
     hci_binned_sample *sample = reserve(x, count);
     if (!sample) return false;
     for (size_t k = 0; k < count; ++k)
-        sample_of(x->run, first + k, &sample[k]);
+        sample_of(x, first + k, &sample[k]);
     x->samples->count += count;
     return segment_finish(x, &s);
 }
@@ -276,26 +280,43 @@ static bool run_reduce(const reduction *x)
     return done;
 }
 
+static bool is_usable(const hci_run *run)
+{
+    return run->torque_Nm && (run->theta_m_rad || run->only_mean) && run->i_A && run->count > 0;
+}
+
+/* Adds run k. False when memory is out. */
+static bool run_add(const hci_machine *machine, const hci_run *run, size_t k, hci_binned_samples *samples,
+                    size_t *capacity)
+{
+    static const hci_effects none = {NULL, 0};
+    const bool holds = run->torque_source == HCI_TORQUE_HOLDING;
+    bool *at_rest = hci_memory_new(run->count + 1, sizeof *at_rest);
+    const reduction x = {run,
+                         k,
+                         machine->pole_pairs,
+                         holds ? hci_torque_constant(machine, &none) : 0.0,
+                         &samples->statistics[k],
+                         at_rest,
+                         samples,
+                         capacity};
+    samples->statistics[k] = hci_run_statistics_of(run, machine->pole_pairs);
+    if (at_rest && is_usable(run)) hci_rest_find(run, at_rest);
+    const bool done = at_rest && (!is_usable(run) || run_reduce(&x));
+    hci_memory_free(at_rest);
+    return done;
+}
+
 hci_status hci_binned_samples_make(const hci_machine *machine, const hci_run *runs, size_t run_count,
                                    hci_binned_samples *samples, hci_note *note)
 {
-    static const hci_effects none = {NULL, 0};
-    const double constant_Nm_per_A = hci_torque_constant(machine, &none);
     size_t capacity = 0;
     memset(samples, 0, sizeof *samples);
     samples->run_count = run_count;
     samples->statistics = hci_memory_new(run_count + 1, sizeof *samples->statistics);
     bool done = samples->statistics != NULL;
-    for (size_t k = 0; k < run_count && done; ++k) {
-        const bool holds = runs[k].torque_source == HCI_TORQUE_HOLDING;
-        const reduction x = {
-            &runs[k], k,        machine->pole_pairs, holds ? constant_Nm_per_A : 0.0, &samples->statistics[k],
-            samples,  &capacity};
-        samples->statistics[k] = hci_run_statistics_of(&runs[k], machine->pole_pairs);
-        if (runs[k].torque_Nm && (runs[k].theta_m_rad || runs[k].only_mean) && runs[k].i_A &&
-            runs[k].count > 0)
-            done = run_reduce(&x);
-    }
+    for (size_t k = 0; k < run_count && done; ++k)
+        done = run_add(machine, &runs[k], k, samples, &capacity);
     if (done) return HCI_OK;
     hci_binned_samples_release(samples);
     return hci_note_memory(note, NULL, "the recordings");
@@ -307,6 +328,14 @@ void hci_binned_samples_release(hci_binned_samples *samples)
     hci_memory_free(samples->segment);
     hci_memory_free(samples->statistics);
     memset(samples, 0, sizeof *samples);
+}
+
+size_t hci_segment_telling(const hci_binned_samples *samples, const hci_segment *s)
+{
+    size_t telling = 0;
+    for (size_t k = s->first; k < s->first + s->count; ++k)
+        telling += samples->sample[k].count > 0.0;
+    return telling;
 }
 
 size_t hci_segment_longest(const hci_binned_samples *samples)

@@ -28,6 +28,9 @@ hci_status hci_binned_samples_make(const hci_machine *machine, const hci_run *ru
                                    hci_binned_samples *samples, hci_note *note);
 void hci_binned_samples_release(hci_binned_samples *samples);
 
+/* Samples of a segment that tell a torque. */
+size_t hci_segment_telling(const hci_binned_samples *samples, const hci_segment *segment);
+
 /* Samples of the longest segment, at least 1. */
 size_t hci_segment_longest(const hci_binned_samples *samples);
 

@@ -68,7 +68,9 @@ static void sample_add(const hci_run *r, int pole_pairs, size_t k, hci_run_stati
     f->current_A += (i.d * i.d + i.q * i.q) / n;
     f->mean_id_A += i.d / n;
     f->mean_iq_A += i.q / n;
-    f->mean_speed_rad_per_s += r->speed_rad_per_s ? r->speed_rad_per_s[k] / n : 0.0;
+    const double speed = r->speed_rad_per_s ? r->speed_rad_per_s[k] : 0.0;
+    f->mean_speed_rad_per_s += speed / n;
+    f->speed_deviation += speed * speed / n;
     if (r->temperature_C) f->temperature_C += r->temperature_C[k] / n;
 }
 
@@ -96,6 +98,7 @@ hci_run_statistics hci_run_statistics_of(const hci_run *r, int pole_pairs)
         sample_add(r, pole_pairs, k, &f);
     f.rms_torque_Nm = sqrt(f.rms_torque_Nm);
     f.current_A = sqrt(f.current_A);
+    f.speed_deviation = sqrt(fmax(0.0, f.speed_deviation - f.mean_speed_rad_per_s * f.mean_speed_rad_per_s));
     f.no_current = is_noise(r, pole_pairs, f.current_A);
     if (f.no_current) f.current_A = f.mean_id_A = f.mean_iq_A = 0.0;
     if (r->only_mean) return f;

@@ -7,6 +7,7 @@
 
 typedef struct {
     double mean_torque_Nm, rms_torque_Nm;
+    double speed_deviation;                 /* rad/s, about the mean */
     double mean_speed_rad_per_s, current_A; /* root mean square of the current vector's length */
     double mean_id_A, mean_iq_A;
     bool no_current;  /* what was read as current is the noise of its sensors, and current_A is 0 */

@@ -11,7 +11,7 @@ typedef struct {
     double torque_Nm;
     double sum_A;        /* i_a + i_b + i_c; NAN where they were not recorded one by one */
     double time_s;       /* ascending within a segment; 0 where there is none */
-    double count;        /* samples in it */
+    double count;        /* samples in it; 0: it tells no torque */
     double scatter_N2m2; /* sum of the squared departures of their torques from the mean */
 } hci_binned_sample;
 

@@ -9,17 +9,20 @@
 #include "host/recording/rotor_frame.h"
 
 enum {
-    REACH = 10,      /* neighbours on each side for the angle */
-    MOST_ORDER = 24, /* electrical, of the currents in the rotor frame */
-    ALL_ORDERS = 7,  /* up to here those of the mechanical turn too */
+    REACH = 10,        /* neighbours on each side for the angle */
+    MOST_ORDER = 24,   /* electrical, of the currents in the rotor frame */
+    FIRST_ORDERS = 12, /* of them before all others */
+    ALL_ORDERS = 7,    /* up to here those of the mechanical turn too */
     MOST_PERIODS = 200,
     LEAST_SAMPLES = 20, /* for each coefficient */
+    LEAST_IN_ALL = 2 * LEAST_SAMPLES * MOST_ORDER,
     ERROR_PERIODS = 5
 };
 
-#define REPEATS 60.0 /* χ² of ten values that repeat, once in 10⁸ by chance */
-#define STEADY  0.05 /* change of current within the segment, as a share */
-#define TURNING 0.5  /* and of speed, for the angle to be a smooth curve */
+#define REPEATS  60.0 /* χ² of ten values that repeat, once in 10⁸ by chance */
+#define RESOLVED 0.48 /* periods for each sample */
+#define STEADY   0.05 /* change of current within the segment, as a share */
+#define TURNING  0.5  /* and of speed, for the angle to be a smooth curve */
 
 /* ---- angle ---- */
 
@@ -155,15 +158,27 @@ static bool is_steady(const hci_binned_sample *sample, size_t n, int pole_pairs)
     return hypot(d[1] - d[0], q[1] - q[0]) <= STEADY * length;
 }
 
-/* Periods in a turn, ascending: all up to a few times the pole pairs, where irregularities of the rotor and
- * of the encoder lie, and whole electrical ones up to the last. In the rotor frame injected 5th and 7th
- * harmonics are of order 6. Without a known turn only the latter, in electrical orders. */
-static size_t periods_list(int pole_pairs, bool turns, size_t n, size_t *periods)
+/* How many periods in a turn the samples of a segment resolve. */
+static double periods_resolved(const hci_binned_sample *sample, size_t n)
+{
+    const double span_rad = fabs(sample[n - 1].reading.theta_m_rad - sample[0].reading.theta_m_rad);
+    return span_rad > 0.0 ? RESOLVED * (double)(n - 1) * 2.0 * HCI_PI / span_rad : 0.0;
+}
+
+/* Periods in a turn, ascending: the electrical orders that drives ripple at, and as many as the samples bear
+ * of those of the rotor and of the encoder, up to a few times the pole pairs, and of higher electrical
+ * orders. In the rotor frame injected 5th and 7th harmonics are of order 6. Without a known turn only the
+ * electrical ones. resolved: no more than so many. */
+static size_t periods_list(int pole_pairs, bool turns, size_t n, double resolved, size_t *periods)
 {
     const size_t p = (size_t)pole_pairs, most = n / (2 * LEAST_SAMPLES);
-    size_t count = 0;
-    for (size_t k = 1; k <= MOST_ORDER * p && count < MOST_PERIODS && count < most; ++k)
-        if (k % p == 0 || (turns && k <= ALL_ORDERS * p)) periods[count++] = k;
+    size_t count = 0, others = most > FIRST_ORDERS ? most - FIRST_ORDERS : 0;
+    for (size_t k = 1; k <= MOST_ORDER * p && (double)k <= resolved && count < MOST_PERIODS; ++k) {
+        const bool whole = k % p == 0, first = whole && k <= FIRST_ORDERS * p;
+        if (!first && (others == 0 || (!whole && (!turns || k > ALL_ORDERS * p)))) continue;
+        others -= !first;
+        periods[count++] = k;
+    }
     return count;
 }
 
@@ -305,9 +320,10 @@ static bool workspace_make(series_workspace *r, size_t n, size_t columns)
 static bool series_make(hci_binned_sample *sample, size_t n, int pole_pairs, bool turns, bool *series)
 {
     size_t periods[MOST_PERIODS];
-    const size_t count = periods_list(pole_pairs, turns, n, periods);
+    const double resolved = periods_resolved(sample, n);
+    const size_t count = periods_list(pole_pairs, turns, n, resolved, periods);
     series_workspace workspace;
-    if (count < MOST_ORDER) return true;
+    if (n < LEAST_IN_ALL || count == 0) return true;
     const bool made = workspace_make(&workspace, n, 2 * count + 1);
     if (made) *series = currents_smooth(sample, n, pole_pairs, periods, count, &workspace);
     hci_memory_free(workspace.rows);

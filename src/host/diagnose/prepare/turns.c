@@ -10,6 +10,7 @@
 #define STEADY_K 1.0  /* and of temperature, in kelvin */
 #define STEEP    6.0  /* standard errors of a line along the turns, and … */
 #define LIFT     0.2  /* … share of the scatter by which it rises or falls, that are no noise */
+#define EVEN     0.5  /* change of speed within a turn of a free shaft, as a share of the largest */
 #define NEARLY   0.02 /* of a turn: turning back by more ends a turn, falling short by less does not count */
 
 enum { LEAST_OF_LINE = 6 }; /* turns */
@@ -34,7 +35,10 @@ static void sample_add(const hci_run *r, int pole_pairs, size_t k, hci_turn *sum
     const hci_dq i = hci_run_dq(r, pole_pairs, k);
     sum->d += i.d;
     sum->q += i.q;
-    sum->speed += r->speed_rad_per_s ? r->speed_rad_per_s[k] : 0.0;
+    const double speed = r->speed_rad_per_s ? r->speed_rad_per_s[k] : 0.0;
+    sum->speed += speed;
+    sum->least_speed = fmin(sum->least_speed, speed);
+    sum->most_speed = fmax(sum->most_speed, speed);
     sum->temperature += r->temperature_C ? r->temperature_C[k] : 0.0;
     sum->torque += r->torque_Nm ? r->torque_Nm[k] : 0.0;
 }
@@ -43,7 +47,7 @@ static void sample_add(const hci_run *r, int pole_pairs, size_t k, hci_turn *sum
 static hci_turn turn_from(const hci_run *run, int pole_pairs, size_t first)
 {
     const double *theta = run->theta_m_rad, turn = hci_turn_rad(run, pole_pairs);
-    hci_turn sum = {.first = first};
+    hci_turn sum = {.first = first, .least_speed = INFINITY, .most_speed = -INFINITY};
     double farthest = 0.0;
     size_t k = first;
     for (; k < run->count; ++k) {
@@ -62,11 +66,18 @@ static hci_turn turn_from(const hci_run *run, int pole_pairs, size_t first)
     return sum;
 }
 
+static bool is_even(const hci_run *run, const hci_turn *x)
+{
+    const double most = fmax(fabs(x->most_speed), fabs(x->least_speed));
+    return run->torque_source != HCI_TORQUE_INERTIA || x->most_speed - x->least_speed <= EVEN * most;
+}
+
 bool hci_turns_alike(const hci_run *run, const hci_run_statistics *statistics, const hci_turn *a,
                      const hci_turn *b)
 {
     const double most_A = statistics->current_A, most_speed = fabs(statistics->mean_speed_rad_per_s);
-    return a->whole && b->whole && direction_of_turn(run, a) == direction_of_turn(run, b) &&
+    return a->whole && b->whole && is_even(run, a) && is_even(run, b) &&
+           direction_of_turn(run, a) == direction_of_turn(run, b) &&
            hypot(a->d - b->d, a->q - b->q) <= STEADY * most_A + 1e-12 &&
            fabs(a->speed - b->speed) <= STEADY * most_speed + 1e-12 &&
            fabs(a->temperature - b->temperature) < STEADY_K;

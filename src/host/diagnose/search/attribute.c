@@ -9,53 +9,13 @@
 #include "host/diagnose/search/backward.h"
 #include "host/diagnose/search/candidate_models.h"
 #include "host/diagnose/search/coenergy.h"
-#include "host/diagnose/search/forward.h"
 #include "host/diagnose/search/rivals.h"
+#include "host/diagnose/search/rounds.h"
 #include "host/diagnose/search/settle.h"
 #include "host/diagnose/search/stability.h"
 
-enum { MOST_EFFECTS = 6, MOST_ROUNDS = 14 };
-
 #define SERIES_ERROR 0.002
 #define EQUAL_SHARE  0.2 /* of their mean, by which values of three phases may differ and are equal */
-#define SEARCH_SHARE 0.7 /* of the whole work */
-
-/* ---- the search ---- */
-
-/* One more effect, then without those that it makes superfluous; where none comes in, another in place of one
- * that is. again: out, whether anything changed. */
-static hci_status round_run(hci_search *s, hci_fitted_model *model, bool *again, hci_note *note)
-{
-    hci_status status = HCI_OK;
-    *again = false;
-    if (hci_candidates_types_in(&model->candidates) < MOST_EFFECTS)
-        status = hci_search_forward(s, model, again, note);
-    if (!status && *again) status = hci_search_prune(s, model, note);
-    for (bool dropped = true; dropped && !status && !hci_search_is_over(s);)
-        status = hci_search_drop(s, model, &dropped, note);
-    if (!status && !*again && !hci_search_is_over(s)) status = hci_search_swap(s, model, again, note);
-    return status;
-}
-
-/* Of the whole work that is done before a round. How many rounds follow is not known; the later ones take
- * longer.
- */
-static double share_before(int round)
-{
-    return SEARCH_SHARE * pow(1.0 - pow(0.85, round), 1.5);
-}
-
-static hci_status search_run(hci_search *s, hci_fitted_model *model, hci_note *note)
-{
-    hci_search_begin(s, "looking for effects", 0.0, 0.0);
-    hci_status status = hci_search_renew(s, model, note);
-    bool again = true;
-    for (int round = 0; again && !status && round < MOST_ROUNDS && !hci_search_is_over(s); ++round) {
-        hci_search_begin(s, "looking for effects", share_before(round), share_before(round + 1));
-        status = round_run(s, model, &again, note);
-    }
-    return status;
-}
 
 /* ---- verdicts ---- */
 
@@ -207,9 +167,9 @@ static hci_status verdicts(hci_search *s, hci_attribution *a, hci_note *note)
 static hci_status attribute(hci_search *s, hci_attribution *a, hci_note *note)
 {
     hci_candidates none = {0};
-    hci_status status = search_run(s, &a->model, note);
+    hci_status status = hci_search_rounds(s, &a->model, note);
     if (status) return status;
-    hci_search_begin(s, "weighing the evidence", SEARCH_SHARE, 1.0);
+    hci_search_begin(s, "weighing the evidence", HCI_ROUNDS_SHARE, 1.0);
     status = hci_search_keep_predictive(s, &a->model, note);
     if (!status && !hci_search_is_over(s)) status = hci_search_coenergy(s, &a->model, note);
     for (bool dropped = s->whole_coenergy; dropped && !status;)

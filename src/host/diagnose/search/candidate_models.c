@@ -22,7 +22,7 @@ static void variance_set(hci_search *s)
     for (const hci_segment *x = NULL; (x = hci_regression_next(s->regression, x)) != NULL;) {
         const double rms = hci_regression_noise(s->regression, x)->rms;
         for (size_t j = x->first; j < x->first + x->count && rms > 0.0; ++j)
-            s->variance[j] = rms * rms;
+            if (samples->sample[j].count > 0.0) s->variance[j] = rms * rms;
     }
 }
 
@@ -39,7 +39,9 @@ static hci_status candidates_renew(hci_search *s, const hci_candidates *model, h
                                           s->residual_Nm,
                                           s->variance,
                                           s->options->reference_current_A,
-                                          saturates ? s->richness : 0};
+                                          saturates ? s->richness : 0,
+                                          s->options->slots,
+                                          s->known_only};
     const hci_status status = hci_search_residual(s, model, note);
     if (status) return status;
     variance_set(s);

@@ -215,7 +215,7 @@ static hci_status settle_part(const comparison *c, choice *how, int part, hci_no
     how->without[part] = false;
     if (!status) status = leave_out(c, how, &in, note);
     const bool missed = in.misfit + NO_WORSE < out.misfit || in.square + HCI_DECISIVE < out.square;
-    how->without[part] = !missed || explained_by(c, how, part) < LEAST * c->search->options->resolution_Nm;
+    how->without[part] = !missed || explained_by(c, how, part) < LEAST * c->search->resolution_Nm;
     return status;
 }
 
@@ -335,7 +335,7 @@ hci_status hci_search_coenergy(hci_search *s, hci_fitted_model *model, hci_note 
     if (!saturates(&model->candidates) || hci_regression_runs_in_use(s->regression) < LEAST_RUNS)
         return HCI_OK;
     c.noise_Nm = hci_search_noise_rms(s);
-    if (c.noise_Nm > BLUNT * s->options->resolution_Nm) return HCI_OK;
+    if (c.noise_Nm > BLUNT * s->resolution_Nm) return HCI_OK;
     noise_even(s->regression, c.noise_Nm);
     hci_status status = comparison_make(&c, note);
     if (!status) status = choose_all(&c, &best, note);

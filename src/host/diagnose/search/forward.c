@@ -96,7 +96,7 @@ static bool powers_lead(const hci_candidate_models *t)
 static bool is_much_left(const hci_search *s)
 {
     const double rms = hci_search_residual_rms(s);
-    return !(rms < MUCH * s->options->resolution_Nm || rms < STANDS_OUT * hci_search_noise_rms(s));
+    return !(rms < MUCH * s->resolution_Nm || rms < STANDS_OUT * hci_search_noise_rms(s));
 }
 
 /* High powers of the currents fit anything: they are looked into only where much is left, and taken only when

@@ -2,12 +2,15 @@
 #include "host/diagnose/fit/model.h"
 #include "host/diagnose/fit/noise_estimate.h"
 #include "host/diagnose/fit/predicted_reading.h"
+#include "host/diagnose/fit/within_slope.h"
 
 #include <math.h>
 #include <string.h>
 
 #define NOTICEABLE 0.05 /* least torque of an effect, as a share of the noise of a sample */
 #define RESOLVED   0.5  /* and as a share of the resolution */
+
+#define WITHIN_SLOPE 0.25 /* of what a torque varies within the window of a slope, that is not known */
 
 #define PART 0.02 /* of what is left of a step that a fit or a residual takes */
 
@@ -73,16 +76,29 @@ hci_status hci_search_residual(hci_search *s, const hci_candidates *candidates, 
     return status;
 }
 
+/* Of what the torque varies within the window of a slope a share is not known. */
+static hci_status resolution_find(hci_search *s, const hci_candidates *candidates, hci_note *note)
+{
+    hci_model model;
+    double within_Nm = 0.0;
+    hci_status status = hci_model_make(s->regression->declared, candidates, false, &model, note);
+    if (!status) status = hci_within_slope_find(s->regression, &model.list, &within_Nm, note);
+    hci_model_release(&model);
+    s->resolution_Nm = fmax(s->options->resolution_Nm, WITHIN_SLOPE * within_Nm);
+    return status;
+}
+
 /* Smoothing takes the noise of currents and angle out of the residual, but not out of the few orders that
  * effects are found in. */
 hci_status hci_search_noise(hci_search *s, const hci_candidates *candidates, hci_note *note)
 {
+    hci_status status = resolution_find(s, candidates, note);
     s->regression->raw = true;
-    const hci_status status = hci_search_residual(s, candidates, note);
+    if (!status) status = hci_search_residual(s, candidates, note);
     s->regression->raw = false;
     if (status) return status;
     return hci_regression_noise_estimate(s->regression, s->residual_Nm, hci_candidates_terms_in(candidates),
-                                         s->options->resolution_Nm, note);
+                                         s->resolution_Nm, note);
 }
 
 hci_status hci_search_renew(hci_search *s, hci_fitted_model *model, hci_note *note)
@@ -95,11 +111,11 @@ hci_status hci_search_renew(hci_search *s, hci_fitted_model *model, hci_note *no
 double hci_search_residual_rms(const hci_search *s)
 {
     double sum = 0.0, count = 0.0;
-    for (const hci_segment *x = NULL; (x = hci_regression_next(s->regression, x)) != NULL;)
-        for (size_t j = x->first; j < x->first + x->count; ++j) {
+    for (const hci_segment *x = NULL; (x = hci_regression_next(s->regression, x)) != NULL;) {
+        for (size_t j = x->first; j < x->first + x->count; ++j)
             sum += s->residual_Nm[j] * s->residual_Nm[j];
-            count += 1.0;
-        }
+        count += (double)hci_segment_telling(s->regression->samples, x);
+    }
     return count > 0.0 ? sqrt(sum / count) : 0.0;
 }
 
@@ -108,8 +124,9 @@ double hci_search_noise_rms(const hci_search *s)
     double sum = 0.0, count = 0.0;
     for (const hci_segment *x = NULL; (x = hci_regression_next(s->regression, x)) != NULL;) {
         const double rms = hci_regression_noise(s->regression, x)->rms;
-        sum += rms * rms * (double)x->count;
-        count += (double)x->count;
+        const double telling = (double)hci_segment_telling(s->regression->samples, x);
+        sum += rms * rms * telling;
+        count += telling;
     }
     return count > 0.0 ? sqrt(sum / count) : 0.0;
 }
@@ -135,7 +152,7 @@ hci_status hci_search_noticeable(hci_search *s, const hci_candidates *with, cons
 {
     double explained_Nm;
     const hci_status status = hci_search_explained(s, with, without, &explained_Nm, note);
-    const double least = fmax(NOTICEABLE * hci_search_noise_rms(s), RESOLVED * s->options->resolution_Nm);
+    const double least = fmax(NOTICEABLE * hci_search_noise_rms(s), RESOLVED * s->resolution_Nm);
     *noticeable = !status &&
                   (explained_Nm > least || hci_candidates_types_in(with) == hci_candidates_types_in(without));
     return status;

@@ -21,8 +21,11 @@ typedef struct {
     hci_regression *regression;
     const hci_attribute_options *options;
     double *residual_Nm, *variance; /* of each sample, of the model looked at last */
+    double resolution_Nm;           /* what the model is not asked to be better than: as in the options, or
+                                     * more where it is to describe slopes */
     int richness;                   /* of saturation */
     hci_disbelieved disbelieved;    /* to be released */
+    bool known_only;                /* nothing unknown competes */
     bool whole_coenergy;            /* all terms of the co-energy are in, each with an expectation */
     const char *doing;
     double share, until; /* of all work: done so far, and when the step at hand is done */

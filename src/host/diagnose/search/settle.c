@@ -49,19 +49,6 @@ static void outliers_drop(double *whitened, double *residual, size_t n)
         if (fabs(whitened[j]) > OUTLYING) whitened[j] = residual[j] = 0.0;
 }
 
-static void goodness_add(const hci_noise *noise, double *residual, double *whitened, size_t n, bool is_even,
-                         goodness *g)
-{
-    memcpy(whitened, residual, n * sizeof *whitened);
-    hci_noise_whiten(noise, whitened, n, 1);
-    outliers_drop(whitened, residual, n);
-    for (size_t j = 0; j < n; ++j)
-        g->square += residual[j] * residual[j];
-    g->noise += (double)n * noise->rms * noise->rms;
-    g->rows += (double)n;
-    if (is_even) blocks_add(whitened, n, g);
-}
-
 /* How much the size of the errors varies along a run, over what noise does: the variance of a block's sum
  * relative to its mean is 2/BLOCK for noise. */
 static double clumps_of(const goodness *g)
@@ -78,6 +65,21 @@ static bool has_even_noise(const hci_search *s, const hci_segment *x)
     return s->regression->runs[x->run].torque_source != HCI_TORQUE_INERTIA;
 }
 
+static void goodness_add(const hci_search *s, const hci_segment *x, double *whitened, goodness *g)
+{
+    const hci_noise *noise = hci_regression_noise(s->regression, x);
+    const double telling = (double)hci_segment_telling(s->regression->samples, x);
+    double *residual = s->residual_Nm + x->first;
+    memcpy(whitened, residual, x->count * sizeof *whitened);
+    hci_noise_whiten(noise, whitened, x->count, 1);
+    outliers_drop(whitened, residual, x->count);
+    for (size_t j = 0; j < x->count; ++j)
+        g->square += residual[j] * residual[j];
+    g->noise += telling * noise->rms * noise->rms;
+    g->rows += telling;
+    if (has_even_noise(s, x)) blocks_add(whitened, x->count, g);
+}
+
 static hci_status goodness_of(hci_search *s, const hci_candidates *model, goodness *g, hci_note *note)
 {
     double *whitened = hci_memory_new(hci_segment_longest(s->regression->samples), sizeof *whitened);
@@ -85,10 +87,21 @@ static hci_status goodness_of(hci_search *s, const hci_candidates *model, goodne
     if (!whitened) return hci_note_memory(note, NULL, "judging the residual");
     const hci_status status = hci_search_noise(s, model, note);
     for (const hci_segment *x = NULL; !status && (x = hci_regression_next(s->regression, x)) != NULL;)
-        if (x->count >= HCI_NOISE_LEAST)
-            goodness_add(hci_regression_noise(s->regression, x), s->residual_Nm + x->first, whitened,
-                         x->count, has_even_noise(s, x), g);
+        if (x->count >= HCI_NOISE_LEAST) goodness_add(s, x, whitened, g);
     hci_memory_free(whitened);
+    return status;
+}
+
+static bool is_noise(const goodness *g)
+{
+    return g->square < (1.0 + EXCESS) * g->noise && clumps_of(g) < CLUMPS;
+}
+
+hci_status hci_search_is_noise(hci_search *s, const hci_candidates *model, bool *noise, hci_note *note)
+{
+    goodness g;
+    const hci_status status = goodness_of(s, model, &g, note);
+    *noise = !status && is_noise(&g);
     return status;
 }
 
@@ -96,12 +109,12 @@ static hci_status goodness_of(hci_search *s, const hci_candidates *model, goodne
  * whether its size is the same all along. */
 static hci_status residual_judge(hci_search *s, hci_attribution *a, hci_note *note)
 {
-    const double least_Nm = NOT_SMALL * s->options->resolution_Nm;
+    const double least_Nm = NOT_SMALL * s->resolution_Nm;
     goodness g;
     const hci_status status = goodness_of(s, &a->model.candidates, &g, note);
     if (status || !(g.rows > 0.0)) return status;
     const double excess = g.square / g.noise - 1.0, left = g.square / g.rows;
-    a->wanders = !(excess < EXCESS && clumps_of(&g) < CLUMPS);
+    a->wanders = !is_noise(&g);
     a->unknown = a->wanders && left > least_Nm * least_Nm;
     a->unexplained_Nm = a->unknown ? sqrt(left * fmax(excess / (1.0 + excess), LEAST_SHARE)) : 0.0;
     return HCI_OK;

@@ -44,8 +44,8 @@ void setUp(void)
         use[r] = true;
     }
     samples = (hci_binned_samples){sample, COUNT, segment, RUNS, statistics, RUNS};
-    source =
-        (hci_candidates_source){&MACHINE, &NO_EFFECTS, &samples, run, use, residual_Nm, variance, NAN, 0};
+    source = (hci_candidates_source){&MACHINE, &NO_EFFECTS, &samples, run, use,  residual_Nm,
+                                     variance, NAN,         0,        0,   false};
 }
 
 void tearDown(void)
@@ -155,6 +155,23 @@ static void test_slots_and_the_turn(void)
     TEST_ASSERT_TRUE((first == 1 && second == 7) || (first == 7 && second == 1));
 }
 
+/* With 8 declared slots 8 and 16 a turn are theirs, which are no whole electrical orders of 3 pole pairs. */
+static void test_orders_of_all_the_slots(void)
+{
+    double under = INFINITY;
+    hide(16.0, 0.05, 0.0);
+    hide(7.0, 0.02, 0.0);
+    find(1);
+    TEST_ASSERT_EQUAL_UINT64(16, hci_candidate_orders_next(&orders, P, false, &under));
+    source.slots = 8;
+    hci_candidate_orders_release(&orders);
+    find(1);
+    under = INFINITY;
+    TEST_ASSERT_EQUAL_UINT64(16, hci_candidate_orders_next(&orders, P, true, &under));
+    under = INFINITY;
+    TEST_ASSERT_EQUAL_UINT64(7, hci_candidate_orders_next(&orders, P, false, &under));
+}
+
 /* Two thirds of a pole pair's orders are shared by groups of poles and slots: of 6 pole pairs order 9. */
 static void test_groups_of_slots(void)
 {
@@ -215,6 +232,7 @@ int main(void)
     RUN_TEST(test_noise_stands_out_at_the_rate_of_the_limit);
     RUN_TEST(test_orders_end_below_half_the_samples);
     RUN_TEST(test_slots_and_the_turn);
+    RUN_TEST(test_orders_of_all_the_slots);
     RUN_TEST(test_groups_of_slots);
     RUN_TEST(test_growth_that_no_effect_has);
     RUN_TEST(test_laws_of_growth);

@@ -22,6 +22,7 @@ static double residual_Nm[RUNS * SAMPLES], variance[RUNS * SAMPLES];
 static hci_binned_samples samples;
 static hci_candidates list;
 static int richness;
+static bool known_only;
 
 /* One turn each at three speeds and currents, with noise for a residual. */
 void setUp(void)
@@ -29,6 +30,7 @@ void setUp(void)
     seed = 77;
     declared = NO_EFFECTS;
     richness = 0;
+    known_only = false;
     back_emf[0] = (hci_wave){1.0, 1, 0.2, 0.0};
     back_emf[1] = (hci_wave){2.0, -1, 0.001, 0.0};
     machine = (hci_machine){.pole_pairs = P, .back_emf = back_emf, .back_emf_count = 1};
@@ -63,8 +65,8 @@ static void hide(double periods, double amplitude_Nm)
 
 static hci_status make_from(const hci_candidates *known)
 {
-    const hci_candidates_source source = {&machine,    &declared, &samples, run,     use,
-                                          residual_Nm, variance,  NAN,      richness};
+    const hci_candidates_source source = {&machine, &declared, &samples, run, use,       residual_Nm,
+                                          variance, NAN,       richness, 0,   known_only};
     hci_note note = {{0}};
     hci_candidates_release(&list);
     return hci_candidates_make(&source, known, &list, &note);
@@ -204,6 +206,10 @@ static void test_friction_has_as_many_parts_as_speeds(void)
     make();
     TEST_ASSERT_EQUAL_UINT64(1, terms_of("friction", "coulomb", NULL));
     TEST_ASSERT_EQUAL_UINT64(1, terms_of("friction", "", NULL));
+    for (size_t k = 0; k < SAMPLES; ++k) /* one run that runs up */
+        run[1].speed_rad_per_s[k] = 20.0 * (double)k / SAMPLES;
+    make();
+    TEST_ASSERT_EQUAL_UINT64(3, terms_of("friction", "", NULL));
     for (size_t r = 0; r < RUNS; ++r) {
         free_column(&run[r].speed_rad_per_s);
         free_column(&run[r].time_s);
@@ -263,6 +269,19 @@ static void test_orders_stand_out_of_the_residual(void)
 }
 
 /* 180 samples in a turn tell orders up to 90 periods: 30 electrical ones. */
+/* What no effect explains may be kept from competing. */
+static void test_known_effects_alone(void)
+{
+    for (int alone = 0; alone < 2; ++alone) {
+        known_only = alone;
+        for (size_t r = 0; r < RUNS; ++r) /* grows with the current and the speed */
+            for (size_t k = 0; k < SAMPLES; ++k)
+                residual_Nm[r * SAMPLES + k] = 0.1 * (double)(r * r) * cos(5.0 * run[r].theta_m_rad[k]);
+        make();
+        TEST_ASSERT_EQUAL(alone == 0, terms_of("unknown", "", NULL) > 0);
+    }
+}
+
 static void test_orders_above_half_the_samples_are_none(void)
 {
     double most;
@@ -356,6 +375,7 @@ int main(void)
     RUN_TEST(test_without_current_no_saturation);
     RUN_TEST(test_even_harmonics_only_beside_even_ones);
     RUN_TEST(test_orders_stand_out_of_the_residual);
+    RUN_TEST(test_known_effects_alone);
     RUN_TEST(test_orders_above_half_the_samples_are_none);
     RUN_TEST(test_without_a_known_turn_no_orders_of_the_turn);
     RUN_TEST(test_more_is_offered_where_the_iron_saturates);

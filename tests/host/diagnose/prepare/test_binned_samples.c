@@ -249,6 +249,20 @@ static void test_short_runs(void)
     TEST_ASSERT_EQUAL_UINT64(1, binned.run_count);
 }
 
+/* A free shaft whose speed falls to a third within each turn: its accelerations are of time, which a mean
+ * over turns spreads evenly. One at a steady speed is averaged. */
+static void test_an_uneven_free_shaft_stays(void)
+{
+    for (int uneven = 0; uneven < 2; ++uneven) {
+        turn_steadily(20.0, 400.0, 50.0);
+        run.torque_source = HCI_TORQUE_INERTIA;
+        for (size_t k = 0; k < run.count && uneven; ++k)
+            run.speed_rad_per_s[k] = 50.0 + 25.0 * sin(run.theta_m_rad[k]);
+        reduce();
+        TEST_ASSERT_EQUAL(uneven == 0, binned.segment[0].turns > 0);
+    }
+}
+
 static void test_memory_is_out(void)
 {
     hci_note note;
@@ -276,6 +290,7 @@ int main(void)
     RUN_TEST(test_holding_there_and_back);
     RUN_TEST(test_an_unsteady_run_stays);
     RUN_TEST(test_short_runs);
+    RUN_TEST(test_an_uneven_free_shaft_stays);
     RUN_TEST(test_memory_is_out);
     return UNITY_END();
 }
