@@ -23,10 +23,10 @@ void tearDown(void)
  * torque of 4 a turn goes with the root of the speed. */
 static void record_all(bool growing)
 {
-    static const double SPEED[] = {20.0, -20.0, 150.0, -150.0};
+    static const double SPEED[] = {20.0, -20.0, 150.0, -150.0}, CURRENT_A[] = {2.0, 9.0, 9.0, 2.0};
     for (size_t r = 0; r < 4; ++r) {
         const double growth = growing ? sqrt(fabs(SPEED[r]) / 150.0) : 1.0;
-        record(N, &(point){SPEED[r], 2.0, 0.0, SPEED[r] > 0.0 ? 0.04 : -0.04, 0.0});
+        record(N, &(point){SPEED[r], CURRENT_A[r], 0.0, SPEED[r] > 0.0 ? 0.04 : -0.04, 0.0});
         for (size_t k = 0; k < N; ++k) {
             const double x = run[r].theta_m_rad[k];
             run[r].torque_Nm[k] += 0.05 * sin(2.0 * P * x) + 0.04 * cos(6.0 * P * x) + 0.06 * sin(x + 0.4) +
