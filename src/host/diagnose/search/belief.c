@@ -8,6 +8,7 @@
 #define LEAST_CONSTANT 0.5  /* of the torque per ampere that is declared: a correction leaves no less */
 #define LARGEST_DEFECT 3.0  /* of a sensor, in units of what is expected of such a defect */
 #define NEARLY         0.9  /* of what a model explains: another one that explains as much is as good */
+#define HARDLY         0.1  /* acceleration beside a residual, that is next to none */
 #define ROUNDING       1e-6 /* of the torque per ampere, that is none */
 
 /* A defect that nobody would have left unnoticed; their number: none. */
@@ -131,6 +132,25 @@ static bool others_remove(const hci_disbelieved *better, hci_candidates *model)
     return changed;
 }
 
+/* Whether all runs are free shafts that hardly accelerate beside what the declared machine leaves: a machine
+ * that makes no torque describes them whatever they are. */
+static hci_status is_trivial(hci_search *s, bool *trivial, hci_note *note)
+{
+    const hci_candidates none = {0};
+    double torque = 0.0, residual = 0.0;
+    const hci_status status = hci_search_residual(s, &none, note);
+    *trivial = !status;
+    for (const hci_segment *x = NULL; !status && (x = hci_regression_next(s->regression, x)) != NULL;) {
+        *trivial = *trivial && s->regression->runs[x->run].torque_source == HCI_TORQUE_INERTIA;
+        for (size_t j = x->first; j < x->first + x->count; ++j) {
+            torque += pow(s->regression->samples->sample[j].torque_Nm, 2.0);
+            residual += pow(s->residual_Nm[j], 2.0);
+        }
+    }
+    *trivial = *trivial && torque < HARDLY * HARDLY * residual;
+    return status;
+}
+
 /* By how much a model lowers the score of the one without any effect, with the noise of now. */
 static hci_status gain_of(hci_search *s, hci_fitted_model *model, double *gain, hci_note *note)
 {
@@ -152,7 +172,9 @@ hci_status hci_search_yield(hci_search *s, hci_fitted_model *model, hci_yield *y
     if (!status) status = gain_of(s, model, &believed, note);
     if (status) return status;
     if (gain > HCI_DECISIVE && gain > NEARLY * believed) *yield = HCI_YIELD_RIVAL;
-    if (!(gain > believed + HCI_DECISIVE)) return HCI_OK;
+    bool trivial = false;
+    if (gain > believed + HCI_DECISIVE) status = is_trivial(s, &trivial, note);
+    if (status || trivial || !(gain > believed + HCI_DECISIVE)) return status;
     *yield = HCI_YIELD_BETTER;
     return others_remove(x, &model->candidates) ? hci_search_renew(s, model, note) : HCI_OK;
 }

@@ -87,6 +87,29 @@ static void test_what_both_have_in_common_stays(void)
     TEST_ASSERT_FALSE(model_has("cogging"));
 }
 
+/* Shafts that turn steadily against a load and have no torque sensor: a machine that makes no torque
+ * describes that they do not accelerate, whatever holds them back. It does not take the friction away. */
+static void test_no_torque_at_a_steady_speed(void)
+{
+    hci_yield yield = HCI_YIELD_BETTER;
+    for (int k = 0; k < 4; ++k) {
+        record(SAMPLES, &(point){k < 2 ? 60.0 : -150.0, k % 2 ? 5.2 : 4.8, 0.0, 0.0, 0.0});
+        run[k].torque_source = HCI_TORQUE_INERTIA;
+        for (size_t j = 0; j < SAMPLES; ++j)
+            run[k].torque_Nm[j] = 1e-3 * ref_normal(&seed);
+    }
+    search_start();
+    model_add("back_emf", "sine", NULL, 1.0);
+    fit();
+    TEST_ASSERT_EQUAL_STRING("back_emf", search.disbelieved.type->name);
+    hci_candidates_remove_type(&model.candidates, hci_effect_type_find("back_emf"));
+    model_add("friction", "coulomb", NULL, 0.0);
+    fit();
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_yield(&search, &model, &yield, &note));
+    TEST_ASSERT_EQUAL_INT(HCI_YIELD_RIVAL, yield);
+    TEST_ASSERT_TRUE(model_has("friction"));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -94,5 +117,6 @@ int main(void)
     RUN_TEST(test_a_tenth_of_the_magnets_is_not);
     RUN_TEST(test_a_sensor_with_half_its_gain_is_not);
     RUN_TEST(test_what_both_have_in_common_stays);
+    RUN_TEST(test_no_torque_at_a_steady_speed);
     return UNITY_END();
 }
