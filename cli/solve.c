@@ -14,6 +14,7 @@
 #include "cli/terminal/terminal.h"
 #include "hci/host/base/number.h"
 #include "hci/host/currents/solution_folder.h"
+#include "hci/host/drive/drive.h"
 #include "hci/host/machine/effects.h"
 #include "hci/host/report/summary.h"
 #include "hci/host/report/write.h"
@@ -32,6 +33,7 @@ enum {
     LIMIT_CURRENT,
     LIMIT_VOLTAGE,
     SPEED,
+    DRIVE,
     TEMPERATURE,
     OUT,
     REPORT,
@@ -73,6 +75,8 @@ static const cli_option OPTIONS[] = {
                        .high = 1e9},
     [SPEED] = {"speed", 0, CLI_NUMBER, "RPM", .help = "mechanical speed for --limit-voltage", .low = -1e7,
                .high = 1e7},
+    [DRIVE] = {"drive", 0, CLI_FILE, "FILE",
+               .help = "drive.csv: leaves out what its current loop cannot be made to follow at --speed"},
     [TEMPERATURE] = {"temperature", 0, CLI_NUMBER, "C",
                      .help = "of the magnets, for magnet_temperature in effects.csv", .low = -273.15,
                      .high = 1e4},
@@ -118,7 +122,11 @@ static hci_status check_together(const cli_arguments *a, hci_method method, hci_
     else if (!a->given[HARMONICS] &&
              (a->given[COMPARE] || method == HCI_METHOD_LU || method == HCI_METHOD_UMFPACK))
         wrong = "--compare and --method lu or umfpack need a set: --harmonics FILE";
-    else if (a->given[LIMIT_VOLTAGE] != a->given[SPEED])
+    else if (a->given[DRIVE] && (!a->given[SPEED] || cli_number_or(a, SPEED, 0.0) == 0.0))
+        wrong = "solve: what a drive follows depends on the speed; add --speed RPM, not 0";
+    else if (a->given[DRIVE] && method == HCI_METHOD_POINTWISE)
+        wrong = "solve: --drive leaves out harmonics, and --method pointwise has none to choose";
+    else if (!a->given[DRIVE] && a->given[LIMIT_VOLTAGE] != a->given[SPEED])
         wrong = "solve: --limit-voltage and --speed go together";
     else if (!a->value[TARGET])
         wrong = "solve: the wanted torque is missing; add --target FILE";
@@ -156,6 +164,7 @@ typedef struct {
     hci_component_set set;
     hci_wave held;
     hci_solve_options options;
+    hci_note drive_remark; /* what --drive leaves out, or "" */
 } inputs;
 
 /* An input that stands in the output folder under the name of a result would be replaced by it. */
@@ -174,6 +183,48 @@ static hci_status keep_apart(const char *input, const char *folder, hci_note *no
     return HCI_OK;
 }
 
+/* Leaves out of a given set what is above the order. */
+static void drop_components(inputs *in, double highest)
+{
+    hci_component_set *set = &in->set;
+    size_t kept = 0;
+    for (size_t k = 0; k < set->count; ++k) {
+        const hci_component c = set->component[k];
+        if (fabs(c.order - c.sequence) > highest + HCI_ORDER_TOLERANCE) {
+            hci_note_add(&in->drive_remark, "left out: %s %g", hci_set_name(set->set[k]), c.order);
+            continue;
+        }
+        set->component[kept] = c;
+        set->set[kept++] = set->set[k];
+    }
+    set->count = kept;
+}
+
+/* What a current loop cannot be made to follow: orders in the rotor frame above those that its sampling does
+ * for. */
+static hci_status read_drive(const cli_arguments *a, inputs *in, hci_note *note)
+{
+    hci_drive_data drive;
+    hci_status status = a->value[DRIVE] ? hci_drive_read(a->value[DRIVE], &drive, note) : HCI_OK;
+    if (status || !a->value[DRIVE]) return status;
+    const double electrical = fabs(in->options.speed_rad_per_s) * in->machine.model.pole_pairs;
+    const double highest = hci_drive_highest_rad_per_s(&drive) / electrical;
+    in->options.highest_rotor_order = highest;
+    hci_note_add(
+        &in->drive_remark,
+        "at %g rpm the sampling of the drive does for orders up to %.4g in the rotor frame (n - 1 of `pos`, "
+        "n + 1 of `neg`)",
+        cli_number_or(a, SPEED, 0.0), floor(highest));
+    drop_components(in, highest);
+    hci_drive_release(&drive);
+    if (highest >= 6.0) return HCI_OK;
+    return hci_note_set(
+        note, HCI_ERROR_INPUT,
+        "%s: at %g rpm the sampling does for orders up to %.3g in the rotor frame, which leaves no "
+        "harmonic to choose; expected at least 6: give a lower --speed",
+        a->value[DRIVE], cli_number_or(a, SPEED, 0.0), highest);
+}
+
 static hci_status read_inputs(const cli_arguments *a, inputs *in, hci_note *note)
 {
     hci_status status = read_options(a, &in->options, &in->held, note);
@@ -185,6 +236,7 @@ static hci_status read_inputs(const cli_arguments *a, inputs *in, hci_note *note
     if (!status) status = hci_target_read(a->value[TARGET], &in->target, note);
     if (!status && a->value[HARMONICS])
         status = hci_component_set_read(a->value[HARMONICS], in->machine.has_neutral, &in->set, note);
+    if (!status) status = read_drive(a, in, note);
     in->options.target = &in->target;
     in->options.effects = &in->effects.list;
     in->options.uncertainty = &in->uncertainty;
@@ -218,6 +270,7 @@ static void show_remarks(const inputs *in, const hci_solution *s)
 {
     cli_remark(&in->machine.remark);
     cli_remark(&in->set.remark);
+    cli_remark(&in->drive_remark);
     cli_remark(&s->remark);
     remark_period(in, s);
 }

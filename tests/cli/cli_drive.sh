@@ -53,6 +53,20 @@ run 3 simulate data/machine_a --table "$work/a/currents.csv" --drive $drive --sp
 says 'currents.csv'
 check "something was written" [ ! -e "$work/out" ]
 
+# ---- solve leaves out what the loop cannot be made to follow
+
+refused solve data/machine_a --target data/scenarios/02/target.csv --auto --drive $drive -o "$work/out" -- 'what a drive follows depends on the speed'
+refused solve data/machine_a --target data/scenarios/02/target.csv --method pointwise --drive $drive --speed 3000 -o "$work/out" -- 'leaves out harmonics'
+run 3 solve data/machine_a --target data/scenarios/02/target.csv --auto --drive $drive --speed 50000 -o "$work/out"
+says 'orders up to 2.4 in the rotor frame, which leaves no harmonic to choose.*lower --speed'
+run 0 solve data/machine_a --target data/scenarios/02/target.csv --auto --drive $drive --speed 3000 -o "$work/slow"
+says 'at 3000 rpm the sampling of the drive does for orders up to 40 in the rotor frame' 'components up to order 37'
+check "an order above 40 in the rotor frame" awk -F, '/^[0-9]/ && $1 - ($2 == "pos" ? 1 : -1) > 40 { bad = 1 } END { exit bad }' "$work/slow/currents.csv"
+run 0 solve data/machine_a --target data/scenarios/02/target.csv --auto --drive $drive --speed 1500 -q -o "$work/fast"
+check "1500 rpm leaves something out" cmp -s "$work/fast/currents.csv" "$work/a/currents.csv"
+run 0 solve data/machine_a --target data/scenarios/02/target.csv --harmonics data/scenarios/02/harmonics.csv --drive $drive --speed 5000 -o "$work/named"
+says 'left out: sym 29' 'left out: asym 37'
+
 # ---- what is written: whole, the same bytes twice, C that compiles
 
 run 0 simulate data/machine_a --table "$work/a" --drive $drive --speeds 300 --report -o "$work/one"

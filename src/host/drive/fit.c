@@ -27,6 +27,16 @@ static void fill(double *value, double fallback)
     if (isnan(*value)) *value = fallback;
 }
 
+static const double SAMPLE_s = 1e-4;
+
+/* Share of half the sampling frequency. */
+static const double SAMPLING_SHARE = 0.8;
+
+double hci_drive_highest_rad_per_s(const hci_drive_data *drive)
+{
+    return SAMPLING_SHARE * HCI_PI / (isnan(drive->sample_s) ? SAMPLE_s : drive->sample_s);
+}
+
 static void fill_defaults(hci_drive_data *d, const hci_machine_model *m)
 {
     const double bandwidth_per_s = 0.2 / d->sample_s;
@@ -119,7 +129,7 @@ hci_status hci_drive_fit(hci_drive_data *drive, const hci_machine_data *machine,
 {
     hci_machine_model model;
     *fitted = *machine;
-    fill(&drive->sample_s, 1e-4);
+    fill(&drive->sample_s, SAMPLE_s);
     hci_status status = join_all(drive, fitted, note);
     if (status) return status;
     drive->dc_link_voltage_V = fitted->dc_link_voltage_V;

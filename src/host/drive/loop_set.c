@@ -15,10 +15,6 @@
  * this share of the fundamental's. */
 static const double LEAST_CURRENT = 1e-4, LEAST_VOLTAGE = 2e-4;
 
-/* Share of half the sampling frequency above which an order is left out: the ripple between the samples would
- * be as large as what it is to take away. */
-static const double SAMPLING_SHARE = 0.8;
-
 static const double ERROR_SHARE = 2e-4;
 
 typedef struct {
@@ -306,7 +302,7 @@ static void limit_range(const maker *m, size_t k, hci_loop_range *range)
 {
     const double p = m->machine.table.pole_pairs;
     const double order = (double)m->order[k] / (double)m->level[0].turns;
-    const double end = SAMPLING_SHARE * HCI_PI / m->task->drive->sample_s / order;
+    const double end = hci_drive_highest_rad_per_s(m->task->drive) / order;
     const double whole =
         m->task->speed_rad_per_s > 0.0 ? fmin(0.9 * end, m->task->speed_rad_per_s * p) : 0.9 * end;
     *range = (hci_loop_range){(float)whole, (float)(whole / 0.9)};

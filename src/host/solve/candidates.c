@@ -39,14 +39,21 @@ static bool is_held(const hci_task *t, double order)
     return t->held && fabs(t->held->order - order) < HCI_ORDER_TOLERANCE;
 }
 
+/* Whether a current loop follows the component: seen from the rotor it is of order n − σ. */
+static bool is_followed(const hci_task *t, double order, int sequence)
+{
+    return !(t->highest_rotor_order > 0.0) ||
+           fabs(order - sequence) <= t->highest_rotor_order + HCI_ORDER_TOLERANCE;
+}
+
 static size_t every_component(const hci_task *t, double top_order, hci_component *all)
 {
     const size_t steps = (size_t)floor(top_order * (double)t->period_turns + 0.5);
     size_t n = 0;
     for (size_t k = 0; k <= steps; ++k) {
         const double order = (double)k / (double)t->period_turns;
-        if (!is_held(t, order)) all[n++] = (hci_component){order, 1};
-        if (k > 0) all[n++] = (hci_component){order, -1};
+        if (!is_held(t, order) && is_followed(t, order, 1)) all[n++] = (hci_component){order, 1};
+        if (k > 0 && is_followed(t, order, -1)) all[n++] = (hci_component){order, -1};
         if (t->has_neutral) all[n++] = (hci_component){order, 0};
     }
     return n;

@@ -85,6 +85,12 @@ static bool is_good_enough(const search *s, const hci_choice *c)
            (isnan(s->limit_A2) || c->cost.mean_square_A2 <= LOSS_MARGIN * s->limit_A2);
 }
 
+/* Whether no component above an order may be chosen. */
+static bool is_all(const hci_task *t, double top_order)
+{
+    return t->highest_rotor_order > 0.0 && top_order > t->highest_rotor_order + 1.0;
+}
+
 /* Doubles *top until it is good enough; *below: the highest that was not. *found: whether there is such. */
 static hci_status find_upper(search *s, double *below, double *top, bool *found, hci_note *note)
 {
@@ -95,7 +101,9 @@ static hci_status find_upper(search *s, double *below, double *top, bool *found,
         status = solve_up_to(s->task, *top, &s->best, note);
         *found = !status && is_good_enough(s, &s->best);
         if (status || *found) return status;
-        if (doubling == DOUBLINGS || (s->task->higher && 2.0 * *top > MOST_SAMPLED_ORDER)) return HCI_OK;
+        if (doubling == DOUBLINGS || is_all(s->task, *top) ||
+            (s->task->higher && 2.0 * *top > MOST_SAMPLED_ORDER))
+            return HCI_OK;
         *below = *top;
         *top *= 2.0;
     }

@@ -20,9 +20,11 @@ typedef struct {
     size_t gradient_count;
     const hci_harmonic *offset; /* NULL: none */
     size_t offset_count;
-    double compared_up_to; /* orders above are left to themselves; 0: all are compared */
-    size_t period_turns;   /* electrical turns after which every order named so far repeats */
-    hci_strategy strategy; /* of the pointwise method */
+    double
+        highest_rotor_order; /* |n − σ| of components that are not to be chosen is above it; 0: any may be */
+    double compared_up_to;   /* orders above are left to themselves; 0: all are compared */
+    size_t period_turns;     /* electrical turns after which every order named so far repeats */
+    hci_strategy strategy;   /* of the pointwise method */
     hci_progress *progress;
     void *progress_context;
 } hci_task;

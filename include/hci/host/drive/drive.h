@@ -113,6 +113,10 @@ hci_status hci_drive_read(const char *path, hci_drive_data *drive, hci_note *not
 /* Nothing given: every number NAN. */
 void hci_drive_init(hci_drive_data *drive);
 
+/* The highest frequency in the rotor frame that references can make of a drive, 0.8 of half its sampling:
+ * above it the ripple between the samples is as large as what it is to take away. */
+double hci_drive_highest_rad_per_s(const hci_drive_data *drive);
+
 /* Frees what a drive holds and empties it. */
 void hci_drive_release(hci_drive_data *drive);
 

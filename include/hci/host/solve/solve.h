@@ -54,6 +54,9 @@ typedef struct {
     double limit_current_A; /* largest phase current allowed; 0: none */
     double limit_voltage_V; /* dc-link voltage that the line voltages must stay below; 0: none */
     double speed_rad_per_s; /* mechanical, for the voltage; 0 with no limit_voltage_V */
+    /* Components whose order in the rotor frame, |n − σ|, is above it are not chosen; 0: all may be. A set
+     * keeps what it names. */
+    double highest_rotor_order;
     const hci_effects *effects; /* beside the declared machine, or NULL; needed where it has_effects */
     const hci_uncertainty *uncertainty; /* what recordings of the machine leave open, or NULL */
     bool at_temperature;    /* magnets are at temperature_C, else at the reference of their effect */
