@@ -506,7 +506,7 @@ static inline uint32_t hci_loop_ahead(const hci_loop_f32 *loop, uint32_t angle, 
 }
 
 /* What the loop is to be asked for at a sample. angle: of the sample; speed_rad_per_s: electrical. On a
- * Cortex-M4F 160 instructions with one level of torque, 290 with HCI_LOOP_FEEDFORWARD; may run in an
+ * Cortex-M4F 170 instructions with one level of torque, 290 with HCI_LOOP_FEEDFORWARD; may run in an
  * interrupt.
  */
 static inline hci_loop_reference hci_loop_at(const hci_loop_tables *tables, uint32_t angle, float torque_Nm,
@@ -514,7 +514,7 @@ static inline hci_loop_reference hci_loop_at(const hci_loop_tables *tables, uint
 {
     const hci_loop_f32 *loop = tables->loop;
     const hci_loop_mix mix = hci_loop_mix_of(loop, torque_Nm);
-    const float speed = speed_rad_per_s == speed_rad_per_s ? speed_rad_per_s : 0.0f;
+    const float speed = hci_loop_size(speed_rad_per_s) < 1e9f ? speed_rad_per_s : 0.0f; /* nor a NaN */
     hci_loop_reference out = {0.0f, 0.0f, 0.0f, 0.0f};
     float current[2], voltage[4], lead = 0.0f;
     if (tables->remedy == HCI_LOOP_LEAD) lead = speed * loop->lead_s;

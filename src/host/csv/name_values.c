@@ -1,9 +1,11 @@
 #include "host/csv/name_values.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "hci/host/base/text.h"
 #include "hci/host/base/unit.h"
 
 static bool converts(const char *unit, const char *wanted, double *factor)
@@ -32,6 +34,35 @@ hci_status hci_value_read(const hci_csv *csv, size_t row, const char *wanted, do
     if (!status) status = hci_value_factor(csv, row, wanted, &factor, note);
     if (!status) *value *= factor;
     return status;
+}
+
+hci_status hci_value_read_within(const hci_csv *csv, size_t row, const hci_named_value *wanted,
+                                 const hci_value_range *range, hci_note *note)
+{
+    const bool whole = strcmp(wanted->unit, "count") == 0;
+    const hci_status status = hci_value_read(csv, row, wanted->unit, wanted->value, note);
+    const double value = *wanted->value;
+    char expected[120];
+    if (status) return status;
+    if (value >= range->low && value <= range->high && (!whole || value == floor(value))) return HCI_OK;
+    snprintf(expected, sizeof expected, "a %snumber from %g to %g%s%s", whole ? "whole " : "", range->low,
+             range->high, whole ? "" : " ", whole ? "" : wanted->unit);
+    return hci_csv_error(csv, "value", row, note, expected, range->remedy);
+}
+
+hci_status hci_value_read_choice(const hci_csv *csv, size_t row, const char *const *choices,
+                                 const char *remedy, int *value, hci_note *note)
+{
+    char expected[120] = "one of:";
+    const char *text;
+    const hci_status status = hci_csv_text(csv, "value", row, &text, note);
+    if (status) return status;
+    for (*value = 0; choices[*value]; ++*value) {
+        const size_t used = strlen(expected);
+        if (hci_text_is(text, choices[*value])) return HCI_OK;
+        snprintf(expected + used, sizeof expected - used, "%s %s", *value > 0 ? "," : "", choices[*value]);
+    }
+    return hci_csv_error(csv, "value", row, note, expected, remedy);
 }
 
 hci_status hci_named_value_find(const hci_csv *csv, size_t row, const hci_named_value *list, size_t count,

@@ -22,6 +22,20 @@ hci_status hci_value_factor(const hci_csv *csv, size_t row, const char *wanted, 
  * does not convert. */
 hci_status hci_value_read(const hci_csv *csv, size_t row, const char *wanted, double *value, hci_note *note);
 
+/* The same with its range, in the unit that is wanted; `count` as that unit stands for a whole number.
+ * remedy: what to do about another one. HCI_ERROR_INPUT. */
+typedef struct {
+    double low, high;
+    const char *remedy;
+} hci_value_range;
+
+hci_status hci_value_read_within(const hci_csv *csv, size_t row, const hci_named_value *wanted,
+                                 const hci_value_range *range, hci_note *note);
+
+/* The place of the column `value` among words that end with NULL, whatever its case. HCI_ERROR_INPUT. */
+hci_status hci_value_read_choice(const hci_csv *csv, size_t row, const char *const *choices,
+                                 const char *remedy, int *value, hci_note *note);
+
 /* Which of `count` names the column `name` holds in this row: *at, or `count` for none of them.
  * HCI_ERROR_INPUT where the name was there before, that is, where its value is not NAN any more. The value is
  * not read yet. */

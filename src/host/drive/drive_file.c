@@ -3,7 +3,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "hci/host/base/text.h"
 #include "hci/host/csv/csv.h"
 #include "hci/host/drive/drive.h"
 #include "host/base/memory.h"
@@ -17,10 +16,12 @@ enum {
 #undef COUNT_ONE
 };
 
-static const double LIMITS[ENTRIES][2] = {
-#define LIMITS_OF(field, name, unit, low, high, fallback, what) {low, high},
-    HCI_DRIVE_VALUES(LIMITS_OF)
-#undef LIMITS_OF
+static const char REMEDY[] = "see docs/files.md, drive.csv";
+
+static const hci_value_range RANGES[ENTRIES] = {
+#define RANGE_OF(field, name, unit, low, high, fallback, what) {low, high, REMEDY},
+    HCI_DRIVE_VALUES(RANGE_OF)
+#undef RANGE_OF
 };
 
 static void list_entries(hci_drive_data *d, hci_named_value list[ENTRIES])
@@ -41,20 +42,6 @@ void hci_drive_init(hci_drive_data *drive)
         *list[k].value = NAN;
 }
 
-static hci_status read_number(const hci_csv *csv, size_t row, const hci_named_value *e, const double limit[2],
-                              hci_note *note)
-{
-    const bool whole = strcmp(e->unit, "count") == 0;
-    char expected[120];
-    const hci_status status = hci_value_read(csv, row, e->unit, e->value, note);
-    if (status) return status;
-    if (*e->value >= limit[0] && *e->value <= limit[1] && (!whole || *e->value == floor(*e->value)))
-        return HCI_OK;
-    snprintf(expected, sizeof expected, "a %snumber from %g to %g%s%s", whole ? "whole " : "", limit[0],
-             limit[1], whole ? "" : " ", whole ? "" : e->unit);
-    return hci_csv_error(csv, "value", row, note, expected, "see docs/files.md, drive.csv");
-}
-
 /* ---- words ---- */
 
 enum { CURRENT_CONTROL, DECOUPLING, MODULATION, RESPONSE, WORDS };
@@ -67,21 +54,6 @@ static const char *const DECOUPLINGS[] = {HCI_DECOUPLING_NAMES(WORD_OF) NULL};
 static const char *const MODULATIONS[] = {HCI_MODULATION_NAMES(WORD_OF) NULL};
 #undef WORD_OF
 static const char *const *const CHOICES[RESPONSE] = {LOOPS, DECOUPLINGS, MODULATIONS};
-
-static hci_status read_choice(const hci_csv *csv, size_t row, const char *const *choices, int *value,
-                              hci_note *note)
-{
-    char expected[120] = "one of:";
-    const char *text;
-    const hci_status status = hci_csv_text(csv, "value", row, &text, note);
-    if (status) return status;
-    for (*value = 0; choices[*value]; ++*value) {
-        const size_t used = strlen(expected);
-        if (hci_text_is(text, choices[*value])) return HCI_OK;
-        snprintf(expected + used, sizeof expected - used, "%s %s", *value > 0 ? "," : "", choices[*value]);
-    }
-    return hci_csv_error(csv, "value", row, note, expected, "see docs/files.md, drive.csv");
-}
 
 /* A path in the file is relative to the file's folder. */
 static hci_status read_response(const hci_csv *csv, size_t row, hci_drive_data *d, hci_note *note)
@@ -102,7 +74,7 @@ static hci_status read_word(const hci_csv *csv, size_t row, int word, hci_drive_
 {
     int choice = 0;
     if (word == RESPONSE) return read_response(csv, row, d, note);
-    const hci_status status = read_choice(csv, row, CHOICES[word], &choice, note);
+    const hci_status status = hci_value_read_choice(csv, row, CHOICES[word], REMEDY, &choice, note);
     if (status) return status;
     if (word == DECOUPLING) d->decoupling = (hci_decoupling)choice;
     if (word == MODULATION) d->modulation = (hci_modulation)choice;
@@ -145,7 +117,7 @@ static hci_status read_row(const hci_csv *csv, size_t row, hci_drive_data *d, bo
     list_entries(d, list);
     if (!status) status = hci_named_value_find(csv, row, list, ENTRIES, &at, note);
     if (status) return status;
-    return at < ENTRIES ? read_number(csv, row, &list[at], LIMITS[at], note)
+    return at < ENTRIES ? hci_value_read_within(csv, row, &list[at], &RANGES[at], note)
                         : unknown_name(csv, row, name, note);
 }
 

@@ -48,18 +48,13 @@ void hci_scenario_init(hci_scenario *scenario)
 
 /* ---- numbers ---- */
 
+static const char REMEDY[] = "see hci-solve simulate --help";
+
 static hci_status read_number(const hci_csv *csv, size_t row, const hci_named_value *e, const limits *l,
                               hci_note *note)
 {
-    const bool whole = strcmp(e->unit, "count") == 0;
-    char expected[120];
-    const hci_status status = hci_value_read(csv, row, e->unit, e->value, note);
-    if (status) return status;
-    if (*e->value >= l->low && *e->value <= l->high && (!whole || *e->value == floor(*e->value)))
-        return HCI_OK;
-    snprintf(expected, sizeof expected, "a %snumber from %g to %g%s%s", whole ? "whole " : "", l->low,
-             l->high, whole ? "" : " ", whole ? "" : e->unit);
-    return hci_csv_error(csv, "value", row, note, expected, "see hci-solve simulate --help");
+    const hci_value_range range = {l->low, l->high, REMEDY};
+    return hci_value_read_within(csv, row, e, &range, note);
 }
 
 /* ---- words ---- */
@@ -70,22 +65,6 @@ enum { CURRENT_CONTROL, STRATEGY, STRATEGY_2, CURRENTS, WORDS };
 static const char *const CONTROLS[] = {HCI_CURRENT_LOOP_NAMES(WORD_OF) NULL};
 static const char *const STRATEGIES[] = {HCI_STRATEGY_NAMES(WORD_OF) NULL};
 #undef WORD_OF
-
-/* Position of the value among the choices. */
-static hci_status read_choice(const hci_csv *csv, size_t row, const char *const *choices, int *value,
-                              hci_note *note)
-{
-    char expected[120] = "one of:";
-    const char *text;
-    const hci_status status = hci_csv_text(csv, "value", row, &text, note);
-    if (status) return status;
-    for (*value = 0; choices[*value]; ++*value) {
-        const size_t used = strlen(expected);
-        if (strcmp(choices[*value], text) == 0) return HCI_OK;
-        snprintf(expected + used, sizeof expected - used, "%s %s", *value > 0 ? "," : "", choices[*value]);
-    }
-    return hci_csv_error(csv, "value", row, note, expected, "see hci-solve simulate --help");
-}
 
 /* A path in the file is relative to the file's folder. */
 static hci_status read_currents(const hci_csv *csv, size_t row, hci_scenario *s, hci_note *note)
@@ -108,7 +87,8 @@ static hci_status read_word(const hci_csv *csv, size_t row, int word, hci_scenar
     int choice = 0;
     hci_status status;
     if (word == CURRENTS) return read_currents(csv, row, s, note);
-    status = read_choice(csv, row, word == CURRENT_CONTROL ? CONTROLS : STRATEGIES, &choice, note);
+    status = hci_value_read_choice(csv, row, word == CURRENT_CONTROL ? CONTROLS : STRATEGIES, REMEDY, &choice,
+                                   note);
     if (word == CURRENT_CONTROL) s->current_control = (hci_current_loop)choice;
     if (word == STRATEGY) s->strategy = (hci_strategy)choice;
     if (word == STRATEGY_2) s->strategy_2 = (hci_strategy)choice;

@@ -18,6 +18,8 @@ emit_all() {
     "$hci_solve" emit "$work/currents" --name form_abc --frame abc --points 100 --quiet -o "$1"
     "$hci_solve" emit "$work/currents" --name form_dq --frame dq --max-error 0.1 --quiet -o "$1"
     "$hci_solve" emit "$work/currents" --name form_torque --frame abc --per-torque --quiet -o "$1"
+    "$hci_solve" emit "$work/currents" --name form_drive --machine "$source/data/machine_a" --drive "$source/data/drive/machine_a_10kHz.csv" \
+        --per-torque --quiet -o "$1"
 }
 emit_all "$work/first"
 (cd "$work" && emit_all second)
@@ -36,7 +38,7 @@ clang_cxx="-Weverything -Wno-padded -Wno-c++98-compat -Wno-c++98-compat-pedantic
 
 compile_c() {
     for standard in c99 c11 gnu17; do
-        for name in form_abc form_dq form_torque; do
+        for name in form_abc form_dq form_torque form_drive; do
             "$1" -std=$standard -O2 $2 -Iinclude -I"$work/first" -c "$work/first/$name.c" -o "$work/$name.o" ||
                 fail "$1 -std=$standard $name.c"
         done

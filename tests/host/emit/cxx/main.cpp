@@ -3,6 +3,7 @@
 
 #include "form_abc.h"
 #include "form_dq.h"
+#include "form_drive.h"
 #include "form_torque.h"
 
 namespace
@@ -31,6 +32,20 @@ bool torque_form_agrees()
     const hci_currents_abc y = hci_table_f32_abc_torque(&form_torque, angle, form_torque.reference_torque_Nm);
     return near(x.ia_A, y.ia_A, tolerance) && near(x.ib_A, y.ib_A, tolerance) && near(x.ic_A, y.ic_A, tolerance);
 }
+
+// For a drive, at a standstill and at the torque that was solved for, too.
+bool drive_form_agrees()
+{
+    static float memory[form_drive_FLOATS];
+    hci_loop_tables tables;
+    hci_loop_start(&tables, &form_drive, HCI_LOOP_FEEDFORWARD, memory);
+    hci_loop_make(&tables, 0.0f);
+    const float tolerance = form_dq.max_error_A + 0.01f;
+    const std::uint32_t angle = hci_angle_from_rad(2.0f);
+    const hci_currents_dq x = hci_table_f32_dq(&form_dq, angle);
+    const hci_loop_reference y = hci_loop_at(&tables, angle, form_drive.torque_high_Nm, 0.0f);
+    return near(x.id_A, y.id_A, tolerance) && near(x.iq_A, y.iq_A, tolerance);
+}
 } // namespace
 
 int main()
@@ -39,5 +54,7 @@ int main()
     if (hci_table_f32_check(&form_dq) != HCI_TABLE_GOOD) return 2;
     if (hci_table_f32_check(&form_torque) != HCI_TABLE_GOOD) return 3;
     if (!frames_agree()) return 4;
-    return torque_form_agrees() ? 0 : 5;
+    if (!torque_form_agrees()) return 5;
+    if (hci_loop_check(&form_drive) != HCI_TABLE_GOOD) return 6;
+    return drive_form_agrees() ? 0 : 7;
 }
