@@ -8,6 +8,7 @@
 #include "cli/command/command.h"
 #include "cli/command/parse.h"
 #include "cli/commands.h"
+#include "cli/solve_limits.h"
 #include "cli/solve_words.h"
 #include "cli/terminal/progress.h"
 #include "cli/terminal/say.h"
@@ -31,9 +32,16 @@ enum {
     TOLERANCE,
     MAX_LOSS,
     LIMIT_CURRENT,
+    LIMIT_RMS,
+    LIMIT_COPPER,
     LIMIT_VOLTAGE,
     SPEED,
     DRIVE,
+    VOLTAGE_RESERVE,
+    DEAD_TIME,
+    PWM_FREQUENCY,
+    IGNORE_RATINGS,
+    MINIMISE,
     TEMPERATURE,
     OUT,
     REPORT,
@@ -42,6 +50,13 @@ enum {
 
 static const cli_choice METHODS[] = {HCI_METHOD_NAMES(CLI_CHOICE_OF){NULL, NULL}};
 static const cli_choice STRATEGIES[] = {HCI_STRATEGY_NAMES(CLI_CHOICE_OF){NULL, NULL}};
+static const cli_choice MINIMISES[] = {
+    [HCI_MINIMISE_AUTO] = {"auto", "auto (default): least squares, within limits worst"},
+    [HCI_MINIMISE_WORST] = {"worst", "; worst: order"},
+    [HCI_MINIMISE_PEAK_TO_PEAK] = {"peak-to-peak", NULL},
+    [HCI_MINIMISE_RMS] = {"rms", NULL},
+    {NULL, NULL},
+};
 static const cli_choice COMPARES[] = {
     [HCI_COMPARE_ALL] = {"all", "all (default): every order reached"},
     [HCI_COMPARE_SQUARE] = {"square", "; square: as many as unknowns"},
@@ -67,16 +82,29 @@ static const cli_option OPTIONS[] = {
                    .high = 1.0},
     [MAX_LOSS] = {"max-loss", 0, CLI_NUMBER, "RATIO",
                   .help = "with --auto K: copper over the pointwise limit (1.10)", .low = 1.0, .high = 1e6},
-    [LIMIT_CURRENT] = {"limit-current", 0, CLI_NUMBER, "A",
-                       .help = "largest phase current; exit code 1 when it is exceeded", .low = 1e-9,
-                       .high = 1e9},
+    [LIMIT_CURRENT] = {"limit-current", 0, CLI_TEXT, "A[,PHASE=A]",
+                       .help = "largest phase current, peak; such as 12, a=10 or 12,a=0 (a is open)"},
+    [LIMIT_RMS] = {"limit-rms", 0, CLI_TEXT, "A[,PHASE=A]", .help = "largest rms current of a phase"},
+    [LIMIT_COPPER] = {"limit-copper", 0, CLI_TEXT, "W",
+                      .help = "largest copper loss; 1.2x: over that of the plain sine"},
     [LIMIT_VOLTAGE] = {"limit-voltage", 0, CLI_NUMBER, "V",
-                       .help = "dc-link voltage for the line voltages; with --speed", .low = 1e-9,
+                       .help = "dc link, which line voltages stay below; with --speed", .low = 1e-9,
                        .high = 1e9},
-    [SPEED] = {"speed", 0, CLI_NUMBER, "RPM", .help = "mechanical speed for --limit-voltage", .low = -1e7,
-               .high = 1e7},
+    [SPEED] = {"speed", 0, CLI_NUMBER, "RPM",
+               .help = "mechanical; the voltage is limited by --limit-voltage or dc_link_voltage",
+               .low = -1e7, .high = 1e7},
     [DRIVE] = {"drive", 0, CLI_FILE, "FILE",
                .help = "drive.csv: leaves out what its current loop cannot be made to follow at --speed"},
+    [VOLTAGE_RESERVE] = {"voltage-reserve", 0, CLI_NUMBER, "SHARE",
+                         .help = "of the dc link that is left for the control (0)", .low = 0.0, .high = 0.9},
+    [DEAD_TIME] = {"dead-time", 0, CLI_NUMBER, "S",
+                   .help = "of a leg, which takes voltage; with --pwm-frequency", .low = 0.0, .high = 1e-2},
+    [PWM_FREQUENCY] = {"pwm-frequency", 0, CLI_NUMBER, "HZ",
+                       .help = "switching frequency of a leg, for --dead-time", .low = 1.0, .high = 1e9},
+    [IGNORE_RATINGS] = {"ignore-ratings", 0, CLI_FLAG, NULL,
+                        .help = "max_current and dc_link_voltage of machine.csv are no limits"},
+    [MINIMISE] = {"minimise", 0, CLI_CHOICE, "WHAT",
+                  .help = "ripple that is made smallest where it cannot be as wanted:", .choices = MINIMISES},
     [TEMPERATURE] = {"temperature", 0, CLI_NUMBER, "C",
                      .help = "of the magnets, for magnet_temperature in effects.csv", .low = -273.15,
                      .high = 1e4},
@@ -126,13 +154,39 @@ static hci_status check_together(const cli_arguments *a, hci_method method, hci_
         wrong = "solve: what a drive follows depends on the speed; add --speed RPM, not 0";
     else if (a->given[DRIVE] && method == HCI_METHOD_POINTWISE)
         wrong = "solve: --drive leaves out harmonics, and --method pointwise has none to choose";
-    else if (!a->given[DRIVE] && a->given[LIMIT_VOLTAGE] != a->given[SPEED])
+    else if (a->given[LIMIT_VOLTAGE] && !a->given[SPEED])
         wrong = "solve: --limit-voltage and --speed go together";
+    else if (a->given[DEAD_TIME] != a->given[PWM_FREQUENCY])
+        wrong = "solve: --dead-time and --pwm-frequency go together";
+    else if (a->given[VOLTAGE_RESERVE] && !a->given[SPEED])
+        wrong = "solve: --voltage-reserve limits the voltage at a speed; add --speed RPM";
+    else if (a->given[MINIMISE] && method == HCI_METHOD_POINTWISE)
+        wrong = "--minimise is of sets of harmonics; leave out --method pointwise";
     else if (!a->value[TARGET])
         wrong = "solve: the wanted torque is missing; add --target FILE";
     else if (a->given[REPORT] && !a->given[OUT])
         wrong = "--report is written into a folder; add --out FOLDER";
     return wrong ? hci_note_set(note, HCI_ERROR_ARGUMENT, "%s", wrong) : HCI_OK;
+}
+
+static hci_status read_limits(const cli_arguments *a, hci_solve_options *o, hci_note *note)
+{
+    hci_status status = HCI_OK;
+    if (a->given[LIMIT_CURRENT]) status = cli_limit_current(a->value[LIMIT_CURRENT], o, note);
+    if (!status && a->given[LIMIT_RMS]) status = cli_limit_rms(a->value[LIMIT_RMS], &o->limits, note);
+    if (!status && a->given[LIMIT_COPPER])
+        status = cli_limit_copper(a->value[LIMIT_COPPER], &o->limits, note);
+    return status;
+}
+
+/* A speed alone says nothing without the voltage that there is. */
+static hci_status check_link(const cli_arguments *a, const hci_machine_data *m, hci_note *note)
+{
+    if (!a->given[SPEED] || a->given[LIMIT_VOLTAGE] || a->given[DRIVE]) return HCI_OK;
+    if (!a->given[IGNORE_RATINGS] && m->dc_link_voltage_V > 0.0) return HCI_OK;
+    return hci_note_set(note, HCI_ERROR_ARGUMENT,
+                        "solve: --limit-voltage and --speed go together, unless machine.csv has a "
+                        "`dc_link_voltage` that is to be kept");
 }
 
 static hci_status read_options(const cli_arguments *a, hci_solve_options *o, hci_wave *held, hci_note *note)
@@ -144,12 +198,17 @@ static hci_status read_options(const cli_arguments *a, hci_solve_options *o, hci
     o->choose_at_most = (size_t)cli_number_or(a, AUTO, 0.0);
     o->tolerance = cli_number_or(a, TOLERANCE, 0.0);
     o->loss_allowance = cli_number_or(a, MAX_LOSS, 0.0);
-    o->limit_current_A = cli_number_or(a, LIMIT_CURRENT, 0.0);
+    o->minimise = (hci_minimise)a->choice[MINIMISE];
+    o->limits.voltage_reserve = cli_number_or(a, VOLTAGE_RESERVE, 0.0);
+    o->limits.dead_time_s = cli_number_or(a, DEAD_TIME, 0.0);
+    o->limits.pwm_frequency_Hz = cli_number_or(a, PWM_FREQUENCY, 0.0);
+    o->limits.ignore_ratings = a->given[IGNORE_RATINGS];
     o->limit_voltage_V = cli_number_or(a, LIMIT_VOLTAGE, 0.0);
     o->speed_rad_per_s = cli_number_or(a, SPEED, 0.0) * HCI_PI / 30.0;
     o->at_temperature = a->given[TEMPERATURE];
     o->temperature_C = cli_number_or(a, TEMPERATURE, 0.0);
     status = check_together(a, o->method, note);
+    if (!status) status = read_limits(a, o, note);
     if (status || !a->value[FUNDAMENTAL]) return status;
     o->held = held;
     return read_fundamental(a->value[FUNDAMENTAL], held, note);
@@ -231,6 +290,7 @@ static hci_status read_inputs(const cli_arguments *a, inputs *in, hci_note *note
     if (!status) status = keep_apart(a->value[TARGET], a->value[OUT], note);
     if (!status) status = keep_apart(a->value[HARMONICS], a->value[OUT], note);
     if (!status) status = hci_machine_read(a->word[0], &in->machine, note);
+    if (!status) status = check_link(a, &in->machine, note);
     if (!status) status = hci_effects_read_machine(a->word[0], &in->effects, note);
     if (!status) status = hci_uncertainty_read_machine(a->word[0], &in->uncertainty, note);
     if (!status) status = hci_target_read(a->value[TARGET], &in->target, note);

@@ -143,15 +143,82 @@ static void show_expected(const hci_expected_ripple *e)
     cli_say_paragraph(4, words);
 }
 
+/* "phase current a", "line voltage" */
+static const char *name_of(const hci_limit *l)
+{
+    static const char *const PHASE[] = {"phase current a", "phase current b", "phase current c"};
+    static const char *const RMS[] = {"rms current a", "rms current b", "rms current c"};
+    if (l->kind == HCI_LIMIT_CURRENT) return l->phase < 0 ? "phase current" : PHASE[l->phase];
+    if (l->kind == HCI_LIMIT_RMS) return l->phase < 0 ? "rms current" : RMS[l->phase];
+    return l->kind == HCI_LIMIT_VOLTAGE ? "line voltage" : "mean of i_a² + i_b² + i_c²";
+}
+
+static const char *unit_of(const hci_limit *l)
+{
+    return l->kind == HCI_LIMIT_VOLTAGE ? "V" : l->kind == HCI_LIMIT_COPPER ? "A²" : "A";
+}
+
+/* "; 1 A more: 0.12 N·m less ripple" */
+static void show_gain(const hci_solution *s, const hci_limit *l)
+{
+    static const char *const WHAT[] = {"", "A² less copper", "N·m less ripple",
+                                       "N·m nearer to the wanted mean", "of all limits less to widen"};
+    if (!l->binds) return;
+    cli_say("; 1 %s more%s: %.3g %s", unit_of(l), l->kind == HCI_LIMIT_VOLTAGE ? " of dc link" : "", l->gain,
+            WHAT[s->limit_cost]);
+}
+
+static void show_touches(const hci_limit *l)
+{
+    static const char *const PHASE[] = {"a", "b", "c"}, *const PAIR[] = {"ab", "bc", "ca"};
+    const size_t shown = l->touch_count < 6 ? l->touch_count : 6;
+    if (!l->binds || shown == 0) return;
+    cli_say("\n               touched at");
+    for (size_t k = 0; k < shown; ++k)
+        cli_say("%s %s %.1f°", k > 0 ? "," : "",
+                (l->kind == HCI_LIMIT_VOLTAGE ? PAIR : PHASE)[l->touch[k].phase],
+                l->touch[k].theta_rad * 180.0 / HCI_PI);
+    if (l->touch_count > shown) cli_say(" and at %zu more angles", l->touch_count - shown);
+}
+
+static void show_limit(const hci_solution *s, const hci_limit *l)
+{
+    cli_say("  limit        %s %.4g of %.4g %s%s", name_of(l), l->value, l->limit, unit_of(l),
+            l->is_declared ? " (machine.csv)" : "");
+    show_gain(s, l);
+    show_touches(l);
+    cli_say("\n");
+}
+
+/* What the limits cost, in a sentence. */
+static void show_cost(const hci_solution *s)
+{
+    const double mean_Nm = s->order_count ? s->order[0].torque_Nm.cosine : 0.0;
+    if (s->limit_cost == HCI_COST_COPPER) cli_say("  limits       kept; they cost copper only\n");
+    if (s->limit_cost == HCI_COST_RIPPLE)
+        cli_say("  limits       kept; the ripple is the smallest within them (%.4g N·m)\n", s->minimised_Nm);
+    if (s->limit_cost == HCI_COST_TORQUE)
+        cli_say("  limits       kept; %.6g N·m is the mean torque nearest to %.6g N·m within them\n", mean_Nm,
+                s->wanted_mean_Nm);
+    if (s->limit_cost == HCI_COST_LIMITS)
+        cli_say(
+            "  limits       no current keeps them; the given one would with all of them wider by %.3g %%\n",
+            100.0 * s->exceeded_share);
+}
+
 static void show_limits(const hci_solution *s)
 {
     if (isfinite(s->peak_line_voltage_V))
         cli_say("  voltage      peak line voltage %.4g V\n", s->peak_line_voltage_V);
-    if (s->within_limits) return;
-    cli_say("  limits       not kept");
-    if (isfinite(s->torque_at_limit_Nm))
-        cli_say("; a mean torque of %.4g N·m would keep the current limit", s->torque_at_limit_Nm);
-    cli_say("\n");
+    show_cost(s);
+    if (!s->within_limits && s->limit_cost != HCI_COST_LIMITS) {
+        cli_say("  limits       not kept");
+        if (isfinite(s->torque_at_limit_Nm))
+            cli_say("; a mean torque of %.4g N·m would keep the current limit", s->torque_at_limit_Nm);
+        cli_say("\n");
+    }
+    for (size_t k = 0; k < s->limit_count; ++k)
+        show_limit(s, &s->limit[k]);
 }
 
 void cli_show_solution(const hci_solution *s, const char *machine, const char *target)

@@ -113,7 +113,24 @@ wrong 'pointwise.*cannot hold the fundamental' solve data/machine_a --target $ta
 wrong 'square system.*--method qr' solve data/machine_a --target $target --harmonics $set --method umfpack
 wrong '--limit-voltage and --speed go together' solve data/machine_a --target $target --limit-voltage 300
 wrong '--limit-voltage and --speed go together' solve data/machine_a --target $target --speed 300
-wrong '--limit-current: found `0`' solve data/machine_a --target $target --limit-current 0
+for current in 0 -3 a=-1 a=x d=3 12,13 a=1,a=2 '' 12, a= 1e10; do
+    wrong "--limit-current: found \`$current\`, expected a peak above 0 A" solve data/machine_a --target $target --limit-current "$current"
+done
+for current in 0 a=0 -3 x; do
+    wrong "--limit-rms: found \`$current\`, expected a rms current above 0 A" solve data/machine_a --target $target --limit-rms "$current"
+done
+for loss in 0 -3 x 1.2y x ''; do
+    wrong "--limit-copper: found \`$loss\`, expected a copper loss above 0 W" solve data/machine_a --target $target --limit-copper "$loss"
+done
+wrong 'two phases are limited to 0 A, and a star' solve data/machine_a --target $target --limit-current a=0,c=0 -o "$work/x"
+wrong 'all three phases are limited to 0 A' solve data/machine_a --target $target --limit-current a=0,b=0,c=0 -o "$work/x"
+wrong 'phase a carries no current, but a fundamental' solve data/machine_a --target $target --fundamental 12,0.2 --limit-current a=0
+wrong '--dead-time and --pwm-frequency go together' solve data/machine_c --target $target --speed 80 --dead-time 1e-6
+wrong '--voltage-reserve .* add --speed' solve data/machine_c --target $target --voltage-reserve 0.1
+wrong 'reserve and dead time take 1\.4' solve data/machine_c --target $target --speed 80 --voltage-reserve 0.4 --dead-time 5e-4 --pwm-frequency 1000
+wrong '--minimise: found `least`' solve data/machine_a --target $target --minimise least
+wrong '--minimise is of sets' solve data/machine_a --target $target --minimise rms --method pointwise
+wrong 'unless machine.csv has a `dc_link_voltage`' solve data/machine_c --target $target --speed 80 --ignore-ratings
 
 currents=data/example_currents/currents.csv
 wrong 'add --name ID' emit $currents

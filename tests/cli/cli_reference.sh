@@ -113,7 +113,7 @@ complete_all() {
 }
 complete_all
 is_offered solve simulate -- s # both begin with s
-is_offered --method --max-loss -- solve data/machine_a --m
+is_offered --method --max-loss --minimise -- solve data/machine_a --m
 is_offered -- solve --bogus
 
 # refusal COMMAND OPTION: the words after "expected one of" of the program that is given a wrong one
@@ -165,7 +165,7 @@ cp "$work/stdout" "$work/functions/_hci-solve"
 # Lines that are typed, and what they are completed to.
 cat >"$work/lines" <<'LINES'
 hci-solve diag|hci-solve diagnose
-hci-solve solve --limit-c|hci-solve solve --limit-current
+hci-solve solve --limit-cu|hci-solve solve --limit-current
 hci-solve solve x --method poi|hci-solve solve x --method pointwise
 hci-solve init x --kv-of phase|hci-solve init x --kv-of phase-peak
 hci-solve solve --target a\ fi|hci-solve solve --target a file.csv

@@ -110,6 +110,20 @@ run 0 solve data/machine_a --target "$work/target.csv" --quiet -o "$work/fractio
 torque_is_right "$work/fractional" data/machine_a "$work/target.csv" 2 2 ''
 check "the period is not two turns" grep -q '"period_electrical_turns":[[:space:]]*2,' "$work/fractional/summary.json"
 
+# ---- within limits: the currents that are written keep them, and the words and the page say what they cost
+
+target=data/scenarios/02/target.csv
+run 1 solve data/machine_a --target $target --auto --limit-current 17 --report -o "$work/within"
+says 'limits       kept; the ripple is the smallest within them' 'limit        phase current 17 of 17 A; 1 A more: 0\.0[0-9]* N·m less ripple' 'touched at a '
+check "a phase has more than 17 A" awk -F, 'NR > 1 { for (k = 2; k <= 4; k++) if ($k > 17 || $k < -17) exit 1 }' "$work/within/waveform.csv"
+check "no section of limits" grep -q '<h2>Limits</h2>' "$work/within/report.html"
+check "the summary does not say what limits cost" grep -q '"cost":[[:space:]]*"ripple"' "$work/within/summary.json"
+check "there are currents per N·m" [ ! -e "$work/within/currents_per_Nm.csv" ]
+run 1 solve data/machine_a --target $target --auto --limit-current a=0 -o "$work/open"
+check "phase a has current" awk -F, 'NR > 1 && ($2 > 1e-9 || $2 < -1e-9) { exit 1 }' "$work/open/waveform.csv"
+run 0 solve data/machine_a --target $target --auto --limit-current 24.5 --quiet -o "$work/wide"
+check "a limit that is kept anyhow changes the currents" cmp "$work/wide/currents.csv" "$work/auto/currents.csv"
+
 # ---- a wish that is not cared for
 
 printf 'order,amplitude_Nm,phase_rad,weight\n0,%s,0,1\n5,3,0,0\n' $mean >"$work/free.csv"

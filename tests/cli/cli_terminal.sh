@@ -93,7 +93,7 @@ solve="solve data/machine_a --target $target"
     plan always 80 NO_COLOR=1 -- $solve --color always
     plan json_quiet 80 -- $solve --json -q
     plan reached 120 -- $solve
-    plan limit 80 -- $solve --limit-current 1
+    plan limit 80 -- $solve --method pointwise --limit-current 1
     plan missed 80 -- solve data/machine_a --target data/scenarios/07/target.csv --harmonics data/scenarios/07/harmonics.csv
     plan error 80 -- solve no_such_machine --target $target -q
     # what a name may hold does not drive the terminal

@@ -129,13 +129,38 @@ double hci_cone_depth(const hci_cone *cone, const double *u)
     return most;
 }
 
-/* Where u + t d leaves a second-order cone: the first root of a t² + 2 b t + c above zero. */
+/* (u + t d)_0² − |(u + t d)_1|², 0 outside of the cone. */
+static double moved_square(size_t n, const double *u, const double *d, double t)
+{
+    const double head = u[0] + t * d[0];
+    double side = 0.0;
+    for (size_t i = 1; i < n; ++i)
+        side += (u[i] + t * d[i]) * (u[i] + t * d[i]);
+    side = sqrt(side);
+    return head > side ? (head - side) * (head + side) : 0.0;
+}
+
+double hci_cone_least_product(const hci_cone *cone, const double *const s[2], const double *const z[2],
+                              double t)
+{
+    double least = HUGE_VAL;
+    size_t at = cone->linear;
+    for (size_t i = linear_at(cone, 0); i < cone->entries; i = linear_at(cone, i + 1))
+        least = fmin(least, fmax(0.0, s[0][i] + t * s[1][i]) * fmax(0.0, z[0][i] + t * z[1][i]));
+    for (size_t k = 0; k < cone->cones; at += cone->size[k++])
+        least = fmin(least, sqrt(moved_square(cone->size[k], s[0] + at, s[1] + at, t) *
+                                 moved_square(cone->size[k], z[0] + at, z[1] + at, t)));
+    return least;
+}
+
+/* Where u + t d leaves a second-order cone: the first root of a t² + 2 b t + c above zero, in the form that
+ * does not subtract numbers of like size. */
 static double block_step(size_t n, const double *u, const double *d)
 {
-    const double a = d[0] * d[0] - hci_vector_dot(n - 1, d + 1, d + 1), c = hyperbolic(n, u),
+    const double a = hyperbolic(n, d), c = hyperbolic(n, u),
                  b = u[0] * d[0] - hci_vector_dot(n - 1, u + 1, d + 1), square = b * b - a * c;
-    if (square < 0.0 || !(sqrt(square) - b > 0.0)) return HUGE_VAL;
-    return c / (sqrt(square) - b);
+    if (square < 0.0 || (a >= 0.0 && b >= 0.0)) return HUGE_VAL;
+    return b > 0.0 ? -(sqrt(square) + b) / a : c / (sqrt(square) - b);
 }
 
 double hci_cone_step(const hci_cone *cone, const double *u, const double *d, double most)

@@ -46,6 +46,11 @@ void hci_cone_add_unit(const hci_cone *cone, double t, double *u);
 /* The least t with u + t e in the cone; negative inside of it. */
 double hci_cone_depth(const hci_cone *cone, const double *u);
 
+/* The smallest product of s + t ds with z + t dz in any part of the cone: of a second-order cone the root of
+ * both hyperbolic squares. At the centre all are alike. 0 where one of both is outside. */
+double hci_cone_least_product(const hci_cone *cone, const double *const s_and_ds[2],
+                              const double *const z_and_dz[2], double t);
+
 /* The largest step t <= most with u + t d in the cone, u inside of it. */
 double hci_cone_step(const hci_cone *cone, const double *u, const double *d, double most);
 

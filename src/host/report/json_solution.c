@@ -102,6 +102,58 @@ static void put_current(hci_json *json, const hci_solution *s)
     hci_json_close(json);
 }
 
+static void put_phase(hci_json *json, const char *name, hci_limit_kind kind, int phase)
+{
+    static const char *const PHASE[] = {"a", "b", "c"}, *const PAIR[] = {"ab", "bc", "ca"};
+    if (phase < 0 || kind == HCI_LIMIT_COPPER)
+        hci_json_text(json, name, "all");
+    else
+        hci_json_text(json, name, (kind == HCI_LIMIT_VOLTAGE ? PAIR : PHASE)[phase]);
+}
+
+static void put_touches(hci_json *json, const hci_limit *l)
+{
+    hci_json_array(json, "touched_at");
+    for (size_t k = 0; k < l->touch_count && k < HCI_MOST_TOUCHES; ++k) {
+        hci_json_object(json, NULL);
+        put_phase(json, "phase", l->kind, l->touch[k].phase);
+        hci_json_number(json, "theta_e_rad", l->touch[k].theta_rad);
+        hci_json_close(json);
+    }
+    hci_json_close(json);
+    hci_json_number(json, "touches", (double)l->touch_count);
+}
+
+static void put_limit(hci_json *json, const hci_limit *l)
+{
+    hci_json_object(json, NULL);
+    hci_json_text(json, "kind", hci_limit_kind_name(l->kind));
+    put_phase(json, "phase", l->kind, l->phase);
+    hci_json_number(json, "limit", l->limit);
+    hci_json_number(json, "value", l->value);
+    hci_json_bool(json, "declared", l->is_declared);
+    hci_json_bool(json, "binds", l->binds);
+    hci_json_number(json, "gain", l->gain);
+    put_touches(json, l);
+    hci_json_close(json);
+}
+
+static void put_limits(hci_json *json, const hci_solution *s)
+{
+    static const char *const MINIMISED[] = {"", "worst", "peak-to-peak", "rms"};
+    hci_json_object(json, "limits");
+    hci_json_text(json, "cost", hci_limit_cost_name(s->limit_cost));
+    hci_json_number(json, "wanted_mean_Nm", s->wanted_mean_Nm);
+    hci_json_text(json, "minimised", MINIMISED[s->minimised]);
+    hci_json_number(json, "minimised_Nm", s->minimised_Nm);
+    hci_json_number(json, "exceeded_share", s->exceeded_share);
+    hci_json_array(json, "limit");
+    for (size_t k = 0; k < s->limit_count; ++k)
+        put_limit(json, &s->limit[k]);
+    hci_json_close(json);
+    hci_json_close(json);
+}
+
 char *hci_solution_json(const hci_solution *solution, hci_status verdict)
 {
     hci_json json;
@@ -111,6 +163,7 @@ char *hci_solution_json(const hci_solution *solution, hci_status verdict)
     put_gaps(&json, solution);
     put_torque(&json, solution);
     put_current(&json, solution);
+    put_limits(&json, solution);
     hci_summary_expected(&json, &solution->expected);
     return hci_json_end(&json);
 }

@@ -149,8 +149,7 @@ static hci_status solve_system(const hci_harmonic_system *system, hci_method wan
     return orthogonal_solve(system, x, s, note);
 }
 
-/* Size, rank and condition of a chosen set, whose solution is known already. */
-static hci_status describe(const hci_task *t, const hci_answer *a, hci_solution *s, hci_note *note)
+hci_status hci_linear_describe(const hci_task *t, const hci_answer *a, hci_solution *s, hci_note *note)
 {
     hci_harmonic_system system;
     double *x;
@@ -207,5 +206,5 @@ hci_status hci_linear_answer(const hci_task *task, const hci_solve_options *opti
         return solve_given(task, &given, answer, solution, note);
     else
         status = hci_choose_all(task, solution->tolerance_Nm, solution->limit_mean_square_A2, answer, note);
-    return status ? status : describe(task, answer, solution, note);
+    return status ? status : hci_linear_describe(task, answer, solution, note);
 }

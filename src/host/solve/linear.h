@@ -13,4 +13,9 @@ hci_status hci_linear_answer(const hci_task *task, const hci_solve_options *opti
                              const hci_component_set *only, hci_answer *answer, hci_solution *solution,
                              hci_note *note);
 
+/* Fills size, rank, condition and method of *solution for an answer that is known already.
+ * HCI_ERROR_NUMERIC, _MEMORY. */
+hci_status hci_linear_describe(const hci_task *task, const hci_answer *answer, hci_solution *solution,
+                               hci_note *note);
+
 #endif

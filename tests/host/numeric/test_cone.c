@@ -12,7 +12,9 @@
 
 static hci_cone_answer answer;
 
-void setUp(void) {}
+void setUp(void)
+{
+}
 
 void tearDown(void)
 {
@@ -59,8 +61,16 @@ static void test_equations_alone(void)
 {
     const double p_[] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, c[] = {0, 0, 0}, a[] = {1, 1, 2, 1, -1, -2, 1, 0, 0},
                  b[] = {3, 1, 2}, g[] = {1, 0, 0}, h[] = {100};
-    const hci_cone_problem p = {.unknowns = 3, .p = p_, .c = c, .equalities = 3, .a = a, .b = b,
-                                .rows = 1, .linear = 1, .g = g, .h = h};
+    const hci_cone_problem p = {.unknowns = 3,
+                                .p = p_,
+                                .c = c,
+                                .equalities = 3,
+                                .a = a,
+                                .b = b,
+                                .rows = 1,
+                                .linear = 1,
+                                .g = g,
+                                .h = h};
     solve(&p);
     TEST_ASSERT_EQUAL(HCI_CONE_SOLVED, answer.end);
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, 1.5, answer.x[0]);
@@ -73,8 +83,7 @@ static void test_a_circle(void)
 {
     const double c[] = {-3, -4}, g[] = {0, -1, 0, 0, 0, -1}, h[] = {2, 0, 0};
     const size_t size[] = {3};
-    const hci_cone_problem p = {
-        .unknowns = 2, .c = c, .rows = 3, .g = g, .h = h, .cones = 1, .cone = size};
+    const hci_cone_problem p = {.unknowns = 2, .c = c, .rows = 3, .g = g, .h = h, .cones = 1, .cone = size};
     solve(&p);
     TEST_ASSERT_EQUAL(HCI_CONE_SOLVED, answer.end);
     TEST_ASSERT_DOUBLE_WITHIN(1e-8, 1.2, answer.x[0]);
@@ -87,8 +96,7 @@ static void test_the_smallest_worst(void)
 {
     const double c[] = {0, 1}, g[] = {0, -1, 0, -1, -1, 0, -1, 0}, h[] = {0, -1, 0, 1};
     const size_t size[] = {2, 2};
-    const hci_cone_problem p = {
-        .unknowns = 2, .c = c, .rows = 4, .g = g, .h = h, .cones = 2, .cone = size};
+    const hci_cone_problem p = {.unknowns = 2, .c = c, .rows = 4, .g = g, .h = h, .cones = 2, .cone = size};
     solve(&p);
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.0, answer.x[0]);
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, 1.0, answer.x[1]);

@@ -23,6 +23,7 @@ extern "C" {
     X(viscous_friction_Nms_per_rad, "viscous_friction", "Nms_per_rad")                                       \
     X(coulomb_friction_Nm, "coulomb_friction", "Nm")                                                         \
     X(dc_link_voltage_V, "dc_link_voltage", "V")                                                             \
+    X(max_current_A, "max_current", "A")                                                                     \
     X(rated_current_A, "rated_current", "A")                                                                 \
     X(rated_torque_Nm, "rated_torque", "Nm")                                                                 \
     X(rated_speed_rad_per_s, "rated_speed", "rad_per_s")

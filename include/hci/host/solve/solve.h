@@ -2,6 +2,8 @@
 #ifndef HCI_HOST_SOLVE_SOLVE_H
 #define HCI_HOST_SOLVE_SOLVE_H
 
+#include <stdbool.h>
+
 #include "hci/effects/effect.h"
 #include "hci/host/base/progress.h"
 #include "hci/host/currents/currents.h"
@@ -40,6 +42,34 @@ typedef enum {
 /* The name of a method as on the command line; a static string. */
 const char *hci_method_name(hci_method method);
 
+/* Which ripple is made smallest where the wanted torque is not reached. */
+typedef enum {
+    HCI_MINIMISE_AUTO,         /* the sum of squares of all orders; within limits that act, the worst order */
+    HCI_MINIMISE_WORST,        /* the largest weighted error of an order */
+    HCI_MINIMISE_PEAK_TO_PEAK, /* the swing of the torque less what is wanted; weights 0 count as not there */
+    HCI_MINIMISE_RMS           /* the weighted root of the sum of squares */
+} hci_minimise;
+
+/* Their words in files and options: X(minimise, word). */
+#define HCI_MINIMISE_NAMES(X)                                                                                \
+    X(HCI_MINIMISE_WORST, "worst")                                                                           \
+    X(HCI_MINIMISE_PEAK_TO_PEAK, "peak-to-peak")                                                             \
+    X(HCI_MINIMISE_RMS, "rms")
+
+/* What the currents have to keep, beside limit_current_A and limit_voltage_V. 0: no such limit. Voltages need
+ * a speed; without limit_voltage_V the dc_link_voltage that the machine declares is the limit at a speed that
+ * is not 0, and its max_current is one of each phase that has none, unless ignore_ratings. */
+typedef struct {
+    double current_A[3];                  /* largest |current| of each phase, in place of limit_current_A */
+    bool is_open[3];                      /* phases that carry no current */
+    double rms_A[3];                      /* of each phase */
+    double voltage_reserve;               /* share of the dc link that is left for the control, below 1 */
+    double dead_time_s, pwm_frequency_Hz; /* line voltages lose 2 · dead time · frequency of the dc link */
+    double copper_W;                      /* copper loss of all phases; needs `resistance` */
+    double copper_ratio;                  /* copper loss over that of the plain sine */
+    bool ignore_ratings;                  /* leave out what the machine declares */
+} hci_solve_limits;
+
 /* What is asked for. Start with {0}; all but target may stay so. */
 typedef struct {
     const hci_target *target;     /* wanted torque */
@@ -50,10 +80,12 @@ typedef struct {
     hci_strategy strategy;        /* of the pointwise method */
     hci_compare compare;          /* which orders are rows */
     double tolerance;             /* an order is reached within this share of the mean torque; 0: 1e-6 */
-    double loss_allowance;  /* with choose_at_most: copper loss allowed over the pointwise limit; 0: 1.10 */
-    double limit_current_A; /* largest phase current allowed; 0: none */
-    double limit_voltage_V; /* dc-link voltage that the line voltages must stay below; 0: none */
-    double speed_rad_per_s; /* mechanical, for the voltage; 0 with no limit_voltage_V */
+    double loss_allowance;   /* with choose_at_most: copper loss allowed over the pointwise limit; 0: 1.10 */
+    double limit_current_A;  /* largest phase current allowed; 0: none */
+    double limit_voltage_V;  /* dc-link voltage that the line voltages must stay below; 0: none */
+    double speed_rad_per_s;  /* mechanical, for the voltage */
+    hci_solve_limits limits; /* more of them */
+    hci_minimise minimise;   /* which ripple, where it cannot be as wanted */
     /* Components whose order in the rotor frame, |n − σ|, is above it are not chosen; 0: all may be. A set
      * keeps what it names. */
     double highest_rotor_order;
@@ -107,6 +139,51 @@ typedef struct {
     double *value;               /* of the entries */
 } hci_solved_system;
 
+/* Kinds of limits. */
+typedef enum {
+    HCI_LIMIT_CURRENT, /* |current| of a phase, A */
+    HCI_LIMIT_RMS,     /* rms current of a phase, A */
+    HCI_LIMIT_VOLTAGE, /* |voltage| between two phases, V */
+    HCI_LIMIT_COPPER   /* mean of i_a² + i_b² + i_c², A² */
+} hci_limit_kind;
+
+/* The kind in a word, as in summary.json; a static string. */
+const char *hci_limit_kind_name(hci_limit_kind kind);
+
+/* Most limits that there are at once, and most places at which one is told to be touched. */
+enum { HCI_MOST_LIMITS = 8, HCI_MOST_TOUCHES = 24 };
+
+/* Where a limit is touched. */
+typedef struct {
+    int phase;        /* 0, 1, 2: a, b, c; of voltages ab, bc, ca */
+    double theta_rad; /* electrical */
+} hci_limit_touch;
+
+/* One limit and how the currents stand to it. */
+typedef struct {
+    hci_limit_kind kind; /* of what */
+    int phase;           /* 0, 1, 2: of phase a, b, c alone; −1: the same for all */
+    double limit, value; /* what is allowed, and the largest there is; unit of the kind */
+    bool is_declared;    /* by the machine, not asked for */
+    bool binds;          /* it is touched and costs something */
+    double gain;         /* what 1 more of it would give, by solution.limit_cost; 0 where it does not bind */
+    hci_limit_touch touch[HCI_MOST_TOUCHES]; /* currents and voltages: where it is touched */
+    size_t touch_count;                      /* of them; those beyond HCI_MOST_TOUCHES are not kept */
+} hci_limit;
+
+/* What limits have cost, the worst first of which applies, and so what a wider limit would give. */
+typedef enum {
+    HCI_COST_NONE,   /* the currents without limits keep them all */
+    HCI_COST_COPPER, /* the torque is as wanted, for more copper loss: gain is A² less */
+    HCI_COST_RIPPLE, /* the mean torque is as wanted, its ripple is not: gain is N·m less of it */
+    HCI_COST_TORQUE, /* the mean torque is the nearest that there is: gain is N·m nearer */
+    HCI_COST_LIMITS  /* no current keeps them: the one that exceeds all by the same share; gain is that share
+                      * less */
+} hci_limit_cost;
+
+/* The cost in a word, as in summary.json; a static string. */
+const char *hci_limit_cost_name(hci_limit_cost cost);
+
 /* Currents, what they do and what they cost. Made by hci_solve. */
 typedef struct {
     hci_currents current; /* what flows, a held fundamental included */
@@ -142,11 +219,19 @@ typedef struct {
     double limit_mean_square_A2, loss_to_limit; /* of the pointwise limit, and copper loss over that; NAN when
                                                  * e⊥ vanishes at an angle */
 
-    bool within_limits;          /* whether it fits; true where no limit was asked for */
+    bool within_limits;          /* whether it fits; true where there is no limit */
     double peak_phase_current_A; /* largest |phase current| */
     double peak_line_voltage_V;  /* largest |line voltage| at the speed asked for; NAN without one */
-    double torque_at_limit_Nm;   /* the largest mean torque with the same ripple that keeps the current limit;
-                                  * NAN when   not known or none does */
+    double torque_at_limit_Nm;   /* the largest mean torque at which the currents without limits, scaled with
+                                  * it, keep the current limit; NAN when they do anyhow, or not known */
+
+    hci_limit limit[HCI_MOST_LIMITS]; /* each limit there is */
+    size_t limit_count;               /* of them */
+    hci_limit_cost limit_cost;        /* what they cost */
+    double exceeded_share;            /* HCI_COST_LIMITS: by how much every limit is widened; else 0 */
+    double wanted_mean_Nm;            /* mean torque asked for */
+    hci_minimise minimised;           /* which ripple was made smallest within limits */
+    double minimised_Nm;              /* how small it is; NAN where no limit acts */
 
     hci_expected_ripple expected; /* of the real machine, where recordings tell of it */
 
@@ -155,8 +240,9 @@ typedef struct {
 } hci_solution;
 
 /* Finds the currents. HCI_OK; HCI_NOT_REACHED with the nearest result when a cared-for order is not within
- * the tolerance or a limit is not kept (the result is not bent to the limit); or an error with a note, and
- * then *solution is empty. Otherwise *solution is to be given to hci_solution_release. */
+ * the tolerance or no currents keep the limits; or an error with a note, and then *solution is empty. Within
+ * limits these come in turn: the mean torque, the ripple of `minimise`, the copper loss. Otherwise *solution
+ * is to be given to hci_solution_release. */
 hci_status hci_solve(const hci_machine_data *machine, const hci_solve_options *options,
                      hci_solution *solution, hci_note *note);
 

@@ -96,6 +96,63 @@ static void show_cost(const hci_solution_page *p)
     hci_html_section_end(out);
 }
 
+/* ---- limits ---- */
+
+static const char *name_of_limit(const hci_limit *l)
+{
+    static const char *const NAME[] = {"phase current, A", "rms current, A", "line voltage, V",
+                                       "mean of i_a² + i_b² + i_c², A²"};
+    return NAME[l->kind];
+}
+
+/* The angles at which a limit is touched, in degrees. */
+static void say_touches(const hci_limit *l, char *text, size_t size)
+{
+    static const char *const PHASE[] = {"a", "b", "c"}, *const PAIR[] = {"ab", "bc", "ca"};
+    size_t used = 0;
+    text[0] = '\0';
+    for (size_t k = 0; k < l->touch_count && k < HCI_MOST_TOUCHES && used + 24 < size; ++k)
+        used += (size_t)snprintf(text + used, size - used, "%s%s %.1f°", k > 0 ? ", " : "",
+                                 (l->kind == HCI_LIMIT_VOLTAGE ? PAIR : PHASE)[l->touch[k].phase],
+                                 l->touch[k].theta_rad * 180.0 / HCI_PI);
+}
+
+static void show_limit(hci_output *out, const hci_limit *l)
+{
+    static const char *const PHASE[] = {"a", "b", "c"};
+    char touches[640];
+    say_touches(l, touches, sizeof touches);
+    hci_html_row(out);
+    hci_html_cell(out, name_of_limit(l));
+    hci_html_cell(out, l->phase < 0 ? "all" : PHASE[l->phase]);
+    hci_html_number(out, l->limit);
+    hci_html_number(out, l->value);
+    hci_html_number(out, l->gain);
+    hci_html_cell(out, touches);
+    hci_html_row_end(out);
+}
+
+static void show_limits(const hci_solution_page *p)
+{
+    static const char *const COLUMN[] = {"<Limit",          "<Phase",      "Allowed", "Largest",
+                                         "Gain for 1 more", "<Touched at", NULL};
+    static const char *const COST[] = {
+        "The currents keep the limits as they are.",
+        "The torque is as wanted, for more copper loss. Gain: A² less.",
+        "The mean torque is as wanted; its ripple is the smallest within the limits. Gain: N·m less ripple.",
+        "The mean torque is the nearest to the wanted one within the limits. Gain: N·m nearer.",
+        "No current keeps the limits; this one exceeds all of them by the same share. Gain: share less."};
+    const hci_solution *s = p->solution;
+    if (s->limit_count == 0) return;
+    hci_html_section(p->out, "Limits");
+    hci_html_paragraph(p->out, NULL, COST[s->limit_cost]);
+    hci_html_table(p->out, "Limits, and what 1 more of each would give", COLUMN);
+    for (size_t k = 0; k < s->limit_count; ++k)
+        show_limit(p->out, &s->limit[k]);
+    hci_html_table_end(p->out);
+    hci_html_section_end(p->out);
+}
+
 /* ---- the page ---- */
 
 void hci_page_solution(hci_output *out, const hci_solution *s, hci_status verdict,
@@ -112,6 +169,7 @@ void hci_page_solution(hci_output *out, const hci_solution *s, hci_status verdic
     show_tiles(&p);
     hci_page_torque(&p);
     hci_page_currents(&p);
+    show_limits(&p);
     hci_page_system(&p);
     show_cost(&p);
     hci_page_show_sources(out, sources);

@@ -1,4 +1,4 @@
-#include "host/solve/expect.h"
+#include "host/solution/expect.h"
 
 #include <math.h>
 

@@ -8,9 +8,11 @@
 #include <string.h>
 
 #include "host/base/memory.h"
+#include "host/currents/plain_sine.h"
 #include "host/solve/evaluate_solution.h"
-#include "host/solve/expect.h"
-#include "host/solve/limits.h"
+#include "host/solution/expect.h"
+#include "host/solution/limited.h"
+#include "host/solution/limits.h"
 #include "host/solve/linear.h"
 #include "host/solve/newton.h"
 #include "host/solve/pointwise.h"
@@ -91,6 +93,14 @@ static double largest_current(const hci_answer *a, double mean_Nm)
     for (size_t k = 0; k < 2 * a->set.count; ++k)
         largest = fmax(largest, fmax(fabs(mean_Nm * a->x[k]), fabs(a->x[2 * a->set.count + k])));
     return largest;
+}
+
+static void release_currents(hci_solution *s)
+{
+    hci_currents_release(&s->current);
+    hci_memory_free(s->per_Nm);
+    hci_memory_free(s->constant);
+    s->per_Nm = s->constant = NULL;
 }
 
 static hci_status reserve_currents(size_t most, bool has_parts, hci_solution *s, hci_note *note)
@@ -202,8 +212,8 @@ static void remark_left_out(const hci_effects *effects, hci_note *remark)
         snprintf(names + used, sizeof names - used, "%s%s", used > 0 ? ", " : "",
                  effects->effect[k].type->name);
     }
-    hci_note_set(
-        remark, HCI_OK,
+    hci_note_add(
+        remark,
         "effects.csv: left out, since not in the machine: %s; the currents are for the true angle and the "
         "true current, so the drive that plays them has to correct what its sensors read",
         names);
@@ -213,9 +223,45 @@ static void remark_left_out(const hci_effects *effects, hci_note *remark)
 typedef struct {
     hci_quadratic_model model;
     hci_task task;
+    hci_bounds bounds;
     hci_linear_torque at; /* where the task was made linear last */
     hci_answer answer;
 } work;
+
+/* What the plain sine of the wanted mean torque takes, by which a ratio of copper is meant. */
+static double plain_A(const hci_task *t)
+{
+    const hci_wave plain = t->held ? *t->held : hci_plain_sine(t->machine, hci_target_mean_Nm(t->target));
+    return hci_amplitude(plain.sine, plain.cosine);
+}
+
+/* Waves of an answer, and how they stand to the limits. */
+static hci_status take_answer(const hci_machine_data *m, const hci_solve_options *o, work *w, bool has_parts,
+                              hci_solution *s, hci_note *note)
+{
+    hci_status status;
+    release_currents(s);
+    status = fill_currents(&w->answer, o, has_parts, s, note);
+    return status ? status : hci_limits_check(m, o, &w->bounds, s, note);
+}
+
+/* The currents without limits; where they do not keep them, or a ripple is to be made smallest, those within.
+ */
+static hci_status find_currents(const hci_machine_data *m, const hci_solve_options *o, work *w,
+                                hci_solution *s, hci_note *note)
+{
+    const hci_limited within = {&w->task, m, o, &w->bounds, &w->at, s};
+    const double mean_Nm = hci_target_mean_Nm(o->target);
+    hci_status status = find_answer(&w->task, o, &w->at, &w->answer, s, note);
+    s->wanted_mean_Nm = mean_Nm;
+    s->minimised_Nm = s->torque_at_limit_Nm = NAN;
+    if (!status) status = take_answer(m, o, w, !o->held && hci_task_is_linear(&w->task), s, note);
+    if (status || o->method == HCI_METHOD_POINTWISE) return status;
+    hci_limits_scale(&w->bounds, mean_Nm, s);
+    if (s->within_limits && o->minimise == HCI_MINIMISE_AUTO) return HCI_OK;
+    status = hci_limited_answer(&within, &w->answer, note);
+    return status ? status : take_answer(m, o, w, false, s, note);
+}
 
 static hci_status solve_task(const hci_machine_data *machine, const hci_solve_options *o, work *w,
                              hci_solution *s, hci_note *note)
@@ -226,13 +272,12 @@ static hci_status solve_task(const hci_machine_data *machine, const hci_solve_op
     s->period_turns = t->period_turns;
     s->tolerance_Nm = (o->tolerance > 0.0 ? o->tolerance : DEFAULT_TOLERANCE) * torque_scale_Nm(t);
     s->limit_mean_square_A2 = hci_pointwise_mean_square_A2(t);
-    status = find_answer(t, o, &w->at, &w->answer, s, note);
-    if (!status) status = fill_currents(&w->answer, o, !o->held && hci_task_is_linear(t), s, note);
+    hci_limits_list(&w->bounds, s);
+    status = find_currents(machine, o, w, s, note);
     if (!status)
         status = hci_solution_evaluate(t, &w->answer.set, o->set ? o->compare : HCI_COMPARE_ALL, s, note);
     if (!status && o->method != HCI_METHOD_POINTWISE) status = fill_system(t, &w->answer, s, note);
-    if (!status) status = hci_solution_expect(&machine->model, o, s, note);
-    return status ? status : hci_limits_check(machine, o, s, note);
+    return status ? status : hci_solution_expect(&machine->model, o, s, note);
 }
 
 hci_status hci_solve(const hci_machine_data *machine, const hci_solve_options *options,
@@ -245,6 +290,7 @@ hci_status hci_solve(const hci_machine_data *machine, const hci_solve_options *o
     if (!status)
         status = hci_quadratic_model_make(&machine->model, options->effects, temperature_C, &w.model, note);
     if (!status) status = make_task(machine, &w.model, options, &w.task, note);
+    if (!status) status = hci_bounds_make(machine, options, plain_A(&w.task), &w.bounds, note);
     if (!status) status = solve_task(machine, options, &w, solution, note);
     if (!status && w.model.left_out > 0) remark_left_out(options->effects, &solution->remark);
     hci_answer_release(&w.answer);
@@ -257,9 +303,7 @@ hci_status hci_solve(const hci_machine_data *machine, const hci_solve_options *o
 
 void hci_solution_release(hci_solution *solution)
 {
-    hci_currents_release(&solution->current);
-    hci_memory_free(solution->per_Nm);
-    hci_memory_free(solution->constant);
+    release_currents(solution);
     hci_memory_free(solution->order);
     hci_component_set_release(&solution->system.set);
     hci_memory_free(solution->system.column_start);

@@ -1,0 +1,29 @@
+/* The limits of one solve, from what is asked for and what the machine declares. */
+#ifndef HCI_SRC_HOST_SOLVE_BOUNDS_H
+#define HCI_SRC_HOST_SOLVE_BOUNDS_H
+
+#include "hci/host/solve/solve.h"
+
+/* HUGE_VAL: no such limit. */
+typedef struct {
+    double current_A[3]; /* largest |current| of each phase; 0: open */
+    double rms_A[3];
+    double line_V;            /* largest |line voltage| */
+    double line_V_per_V;      /* of it for 1 V of dc link */
+    double mean_square_A2;    /* of all phases together: copper */
+    bool current_is_declared; /* by the machine, of all phases without one of their own */
+    bool voltage_is_declared;
+} hci_bounds;
+
+/* plain_A: amplitude of the sine that a ratio of copper is of; 0: none. HCI_ERROR_ARGUMENT for limits that
+ * contradict each other, HCI_ERROR_INPUT for a value that machine.csv lacks. */
+hci_status hci_bounds_make(const hci_machine_data *machine, const hci_solve_options *options, double plain_A,
+                           hci_bounds *bounds, hci_note *note);
+
+/* Whether there is any. */
+bool hci_bounds_any(const hci_bounds *bounds);
+
+/* Whether the three phases have the same ones. */
+bool hci_bounds_are_alike(const hci_bounds *bounds);
+
+#endif

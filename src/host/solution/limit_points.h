@@ -1,0 +1,73 @@
+/* Where over the angle currents and voltages are limited: rows of phase currents, line voltages and torque,
+ * linear in the coordinates of the components, and the angles of their peaks (theory.md, section 15). */
+#ifndef HCI_SRC_HOST_SOLVE_LIMIT_POINTS_H
+#define HCI_SRC_HOST_SOLVE_LIMIT_POINTS_H
+
+#include "host/machine/torque_gradient.h"
+#include "host/solution/bounds.h"
+#include "host/solve/harmonic_system.h"
+#include "host/solution/voltage.h"
+
+typedef enum { HCI_POINT_CURRENT, HCI_POINT_VOLTAGE, HCI_POINT_TORQUE } hci_point_kind;
+
+/* One quantity at one angle. */
+typedef struct {
+    hci_point_kind kind;
+    int phase; /* of the current; pair of the line voltage */
+    double theta_rad;
+} hci_limit_point;
+
+/* What makes a quantity a function of the coordinates x (S and C of each component in turn). */
+typedef struct {
+    const hci_component_set *set;
+    const hci_wave *held;              /* or NULL */
+    const hci_voltage_model *voltage;  /* or NULL */
+    const hci_wave_list *at;           /* currents where the voltage is made linear; NULL: none */
+    const hci_harmonic_system *system; /* of the torque; only for its points */
+    double mean_Nm;                    /* at which h of the system is taken */
+    size_t turns;                      /* electrical turns of a period */
+} hci_limit_field;
+
+/* The row g (2·count, out) and the constant: quantity = g·x + constant. The torque is that less what is
+ * wanted, orders above 0. */
+double hci_limit_row(const hci_limit_field *field, const hci_limit_point *point, double *g);
+
+/* Points with what was added last behind. Start with {0}. */
+typedef struct {
+    hci_limit_point *point;
+    size_t count, room;
+} hci_limit_points;
+
+/* HCI_ERROR_MEMORY, without a note. */
+hci_status hci_limit_points_add(hci_limit_points *points, hci_limit_point point);
+void hci_limit_points_release(hci_limit_points *points);
+
+/* The rows of one quantity at angles that are evenly spaced over the period. Start with {0}. */
+typedef struct {
+    hci_point_kind kind;
+    int phase;
+    size_t samples, unknowns;
+    double period_rad,
+        step_rad;         /* over which they are; the quantity repeats after it, or its negative does */
+    double *g, *constant; /* samples × unknowns, row after row; samples */
+    bool *is_row;         /* samples: whether it is a row of the program; the caller's to set */
+} hci_limit_grid;
+
+/* kind, phase, samples and period_rad of *grid are filled already. HCI_ERROR_MEMORY, without a note. */
+hci_status hci_limit_grid_make(const hci_limit_field *field, hci_limit_grid *grid);
+void hci_limit_grid_release(hci_limit_grid *grid);
+
+/* Takes samples out of the program that are below a share of the ends of `range`. */
+void hci_limit_grid_thin(hci_limit_grid *grid, const double *x, const double range[2], double share);
+
+/* Appends the local extremes of the quantity beyond low … high, each to the rounding of its angle. *worst:
+ * out, how far the furthest is beyond, in the unit of the quantity; negative when all are within.
+ * HCI_ERROR_MEMORY, without a note. O(samples · unknowns). */
+hci_status hci_limit_peaks(const hci_limit_field *field, const hci_limit_grid *grid, const double *x,
+                           const double range[2], hci_limit_points *points, double *worst);
+
+/* Coordinates of component k as phase s sees it: a sine of S' and a cosine of C' of its order. turn: out,
+ * S' = turn[0] S + turn[1] C, C' = turn[0] C − turn[1] S. */
+void hci_limit_turn(hci_component component, int phase, double turn[2]);
+
+#endif

@@ -1,0 +1,277 @@
+#include "host/solution/limits.h"
+
+#include <math.h>
+
+#include "hci/machine/frames.h"
+#include "host/base/memory.h"
+#include "host/numeric/peak.h"
+#include "host/solve/task.h"
+
+#define NEARLY  0.95 /* share of the largest sample from which a peak is looked at */
+#define TOUCHED 1e-5 /* share of a limit below it that counts as touched */
+#define KEPT    1e-9 /* share beyond a limit that is rounding */
+
+enum { SAMPLES_PER_PERIOD = 64 };
+
+const char *hci_limit_kind_name(hci_limit_kind kind)
+{
+    static const char *const NAME[] = {"current", "rms", "voltage", "copper"};
+    return NAME[kind];
+}
+
+const char *hci_limit_cost_name(hci_limit_cost cost)
+{
+    static const char *const NAME[] = {"none", "copper", "ripple", "torque", "limits"};
+    return NAME[cost];
+}
+
+/* ---- the list ---- */
+
+static hci_limit *add_limit(hci_solution *s, hci_limit_kind kind, int phase, double limit)
+{
+    hci_limit *l = &s->limit[s->limit_count++];
+    *l = (hci_limit){.kind = kind, .phase = phase, .limit = limit};
+    return l;
+}
+
+/* One entry where all phases are alike, else one for each phase that is limited. */
+static void add_phases(hci_solution *s, hci_limit_kind kind, const double limit[3], bool is_declared)
+{
+    const bool alike = limit[0] == limit[1] && limit[1] == limit[2];
+    for (int phase = 0; phase < (alike ? 1 : 3); ++phase)
+        if (limit[phase] < HUGE_VAL)
+            add_limit(s, kind, alike ? -1 : phase, limit[phase])->is_declared = is_declared;
+}
+
+void hci_limits_list(const hci_bounds *b, hci_solution *s)
+{
+    s->limit_count = 0;
+    add_phases(s, HCI_LIMIT_CURRENT, b->current_A, b->current_is_declared);
+    add_phases(s, HCI_LIMIT_RMS, b->rms_A, false);
+    if (b->line_V < HUGE_VAL)
+        add_limit(s, HCI_LIMIT_VOLTAGE, -1, b->line_V)->is_declared = b->voltage_is_declared;
+    if (b->mean_square_A2 < HUGE_VAL) add_limit(s, HCI_LIMIT_COPPER, -1, b->mean_square_A2);
+}
+
+void hci_limits_take_gains(const hci_limit_optimum *c, hci_solution *s)
+{
+    for (size_t k = 0; k < s->limit_count; ++k) {
+        hci_limit *l = &s->limit[k];
+        const double *phases = l->kind == HCI_LIMIT_CURRENT ? c->current_gain : c->rms_gain;
+        const double sum = l->phase < 0 ? phases[0] + phases[1] + phases[2] : phases[l->phase];
+        l->gain = l->kind == HCI_LIMIT_VOLTAGE  ? c->voltage_gain
+                  : l->kind == HCI_LIMIT_COPPER ? c->copper_gain
+                                                : sum;
+        l->binds = l->gain > 0.0;
+    }
+}
+
+/* ---- peaks ---- */
+
+/* A current or a voltage of one phase over the angle. */
+typedef struct {
+    const hci_solution *solution;
+    const hci_voltage_model *voltage; /* NULL: the current */
+    int phase;
+    double step_rad;
+} curve;
+
+static void plane_of(const hci_solution *s, double theta_rad, hci_plane_current *i)
+{
+    double abc[3], change[3] = {0.0, 0.0, 0.0};
+    hci_waves_at(s->current.wave, s->current.count, theta_rad, abc);
+    hci_plane_from_abc(abc, i->x);
+    for (size_t k = 0; k < s->current.count; ++k) {
+        const hci_wave w = s->current.wave[k];
+        const hci_wave slope = {w.order, w.sequence, -w.order * w.cosine, w.order * w.sine};
+        hci_waves_at(&slope, 1, theta_rad, abc);
+        for (int phase = 0; phase < 3; ++phase)
+            change[phase] += abc[phase];
+    }
+    hci_plane_from_abc(change, i->slope);
+}
+
+/* Sizes of all three at one angle. */
+static void sizes_at(const curve *c, double theta_rad, double size[3])
+{
+    hci_plane_current i;
+    double v[2];
+    if (c->voltage) {
+        plane_of(c->solution, theta_rad, &i);
+        hci_voltage_at(c->voltage, theta_rad, &i, v);
+    } else {
+        hci_waves_at(c->solution->current.wave, c->solution->current.count, theta_rad, size);
+    }
+    for (int k = 0; k < 3; ++k)
+        size[k] = fabs(c->voltage ? hci_line_of_plane(v, k) : size[k]);
+}
+
+static double size_at(const void *context, double theta_rad)
+{
+    const curve *c = context;
+    double size[3];
+    sizes_at(c, theta_rad, size);
+    return size[c->phase];
+}
+
+/* Angles in a period: so many in the shortest wave that no peak hides between two of them. */
+static size_t samples_of(const hci_solution *s, double top)
+{
+    for (size_t k = 0; k < s->current.count; ++k)
+        top = fmax(top, s->current.wave[k].order);
+    return s->period_turns * (size_t)ceil(SAMPLES_PER_PERIOD * top);
+}
+
+/* Where a peak is near its limit. */
+static void note_touch(hci_limit *l, int phase, double theta_rad, double value)
+{
+    const double turn = 2.0 * HCI_PI;
+    if (!l || value < (1.0 - TOUCHED) * l->limit) return;
+    if (l->touch_count < HCI_MOST_TOUCHES)
+        l->touch[l->touch_count] = (hci_limit_touch){phase, theta_rad < 0.0 ? theta_rad + turn : theta_rad};
+    ++l->touch_count;
+}
+
+/* The largest value over the period, and where it touches a limit (or NULL). value: that of every third place
+ * is of this phase. */
+static double peak_of(const curve *c, size_t samples, hci_limit *l, const double *value)
+{
+    const hci_peak_function f = {size_at, c};
+    double most = 0.0;
+    for (size_t k = 0; k < samples; ++k)
+        most = fmax(most, value[3 * k]);
+    for (size_t k = 0; k < samples; ++k) {
+        const double before = value[3 * ((k + samples - 1) % samples)],
+                     after = value[3 * ((k + 1) % samples)];
+        double theta_rad = c->step_rad * (double)k, peak;
+        if (value[3 * k] < before || value[3 * k] <= after || value[3 * k] < NEARLY * most) continue;
+        peak = hci_peak_refine(&f, c->step_rad, &theta_rad);
+        most = fmax(most, peak);
+        note_touch(l, c->phase, theta_rad, peak);
+    }
+    return most;
+}
+
+static void sample(const curve *c, size_t samples, double *value)
+{
+    for (size_t k = 0; k < samples; ++k)
+        sizes_at(c, c->step_rad * (double)k, value + 3 * k);
+}
+
+static hci_limit *find_limit(hci_solution *s, hci_limit_kind kind, int phase)
+{
+    for (size_t k = 0; k < s->limit_count; ++k)
+        if (s->limit[k].kind == kind && (s->limit[k].phase < 0 || s->limit[k].phase == phase))
+            return &s->limit[k];
+    return NULL;
+}
+
+static void take_value(hci_limit *l, double value)
+{
+    if (l) l->value = fmax(l->value, value);
+}
+
+/* Peak and rms currents. value: workspace of 3·samples. */
+static void check_currents(hci_solution *s, size_t samples, double *value)
+{
+    curve c = {s, NULL, 0, 2.0 * HCI_PI * (double)s->period_turns / (double)samples};
+    sample(&c, samples, value);
+    s->peak_phase_current_A = 0.0;
+    for (; c.phase < 3; ++c.phase) {
+        hci_limit *l = find_limit(s, HCI_LIMIT_CURRENT, c.phase);
+        const double peak_A = peak_of(&c, samples, l, value + c.phase);
+        double sum = 0.0;
+        for (size_t k = 0; k < samples; ++k)
+            sum += value[3 * k + (size_t)c.phase] * value[3 * k + (size_t)c.phase];
+        take_value(l, peak_A);
+        take_value(find_limit(s, HCI_LIMIT_RMS, c.phase), sqrt(sum / (double)samples));
+        s->peak_phase_current_A = fmax(s->peak_phase_current_A, peak_A);
+    }
+}
+
+static void check_voltages(const hci_voltage_model *v, hci_solution *s, size_t samples, double *value)
+{
+    curve c = {s, v, 0, 2.0 * HCI_PI * (double)s->period_turns / (double)samples};
+    sample(&c, samples, value);
+    s->peak_line_voltage_V = 0.0;
+    for (; c.phase < 3; ++c.phase) {
+        hci_limit *l = find_limit(s, HCI_LIMIT_VOLTAGE, c.phase);
+        const double peak_V = peak_of(&c, samples, l, value + c.phase);
+        take_value(l, peak_V);
+        s->peak_line_voltage_V = fmax(s->peak_line_voltage_V, peak_V);
+    }
+}
+
+static double top_of_voltage(const hci_machine_data *m, const hci_effects *effects)
+{
+    double top = 1.0;
+    for (size_t k = 0; k < m->model.back_emf_count; ++k)
+        top = fmax(top, m->model.back_emf[k].order);
+    return effects ? fmax(top, hci_effects_top_order(effects)) : top;
+}
+
+static void judge(hci_solution *s)
+{
+    hci_limit *copper = find_limit(s, HCI_LIMIT_COPPER, 0);
+    take_value(copper, hci_waves_mean_square(s->current.wave, s->current.count));
+    s->within_limits = true;
+    for (size_t k = 0; k < s->limit_count; ++k)
+        if (s->limit[k].value > s->limit[k].limit * (1.0 + KEPT) + KEPT * s->peak_phase_current_A)
+            s->within_limits = false;
+}
+
+hci_status hci_limits_check(const hci_machine_data *m, const hci_solve_options *o, const hci_bounds *b,
+                            hci_solution *s, hci_note *note)
+{
+    const bool has_voltage = b->line_V < HUGE_VAL;
+    const size_t samples = samples_of(s, has_voltage ? top_of_voltage(m, o->effects) : 1.0);
+    double *value = hci_memory_new(3 * samples, sizeof *value);
+    hci_voltage_model voltage;
+    hci_status status = value ? HCI_OK : hci_note_memory(note, NULL, "checking limits");
+    s->peak_line_voltage_V = NAN;
+    for (size_t k = 0; k < s->limit_count; ++k) {
+        s->limit[k].value = 0.0;
+        s->limit[k].touch_count = 0;
+    }
+    if (!status) check_currents(s, samples, value);
+    if (!status && has_voltage) status = hci_voltage_model_make(m, o, &voltage, note);
+    if (!status && has_voltage) check_voltages(&voltage, s, samples, value);
+    if (!status) judge(s);
+    hci_memory_free(value);
+    return status;
+}
+
+/* ---- the same currents for less torque ---- */
+
+/* Largest share of its limit that mean × per_Nm + constant has in any phase. */
+static double share_at(const hci_bounds *b, const hci_solution *s, double mean_Nm)
+{
+    const size_t samples = samples_of(s, 1.0);
+    double most = 0.0;
+    for (size_t k = 0; k < samples; ++k) {
+        const double theta_rad = 2.0 * HCI_PI * (double)(s->period_turns * k) / (double)samples;
+        double per_Nm[3], rest[3];
+        hci_waves_at(s->per_Nm, s->current.count, theta_rad, per_Nm);
+        hci_waves_at(s->constant, s->current.count, theta_rad, rest);
+        for (int phase = 0; phase < 3; ++phase)
+            most = fmax(most, fabs(mean_Nm * per_Nm[phase] + rest[phase]) / b->current_A[phase]);
+    }
+    return most;
+}
+
+/* The peak is a convex function of the mean torque, so the means that keep the limit are an interval. */
+void hci_limits_scale(const hci_bounds *b, double wanted_Nm, hci_solution *s)
+{
+    double good = 0.0, bad = wanted_Nm;
+    bool is_beyond = false;
+    s->torque_at_limit_Nm = NAN;
+    for (size_t k = 0; k < s->limit_count; ++k)
+        is_beyond =
+            is_beyond || (s->limit[k].kind == HCI_LIMIT_CURRENT && s->limit[k].value > s->limit[k].limit);
+    if (!is_beyond || !s->per_Nm || !(share_at(b, s, 0.0) <= 1.0)) return;
+    for (int step = 0; step < 40; ++step) {
+        const double middle = 0.5 * (good + bad);
+        *(share_at(b, s, middle) <= 1.0 ? &good : &bad) = middle;
+    }
+    s->torque_at_limit_Nm = good;
+}

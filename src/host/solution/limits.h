@@ -1,0 +1,22 @@
+/* How currents stand to the limits of current, voltage and copper. */
+#ifndef HCI_SRC_HOST_SOLVE_LIMITS_H
+#define HCI_SRC_HOST_SOLVE_LIMITS_H
+
+#include "host/solution/bounds.h"
+#include "host/solution/limit_program.h"
+
+/* Names the limits there are in solution->limit, without values. */
+void hci_limits_list(const hci_bounds *bounds, hci_solution *solution);
+
+/* Fills peaks, values, touches and within_limits of a solution whose currents are filled. HCI_ERROR_INPUT
+ * when the voltage needs a value that machine.csv lacks, _MEMORY. */
+hci_status hci_limits_check(const hci_machine_data *machine, const hci_solve_options *options,
+                            const hci_bounds *bounds, hci_solution *solution, hci_note *note);
+
+/* Fills torque_at_limit_Nm of currents that are not shaped by limits. */
+void hci_limits_scale(const hci_bounds *bounds, double wanted_Nm, hci_solution *solution);
+
+/* What 1 more of each limit gives, of the stage that says what limits cost. */
+void hci_limits_take_gains(const hci_limit_optimum *cost, hci_solution *solution);
+
+#endif

@@ -1,0 +1,41 @@
+/* The voltage that currents need at one speed: v = R i + d(L(θ) i)/dt + ω_m e(θ), and what effects add. */
+#ifndef HCI_SRC_HOST_SOLVE_VOLTAGE_H
+#define HCI_SRC_HOST_SOLVE_VOLTAGE_H
+
+#include "hci/host/solve/solve.h"
+
+typedef struct {
+    const hci_machine_data *machine;
+    const hci_effects *effects; /* or NULL */
+    double speed_rad_per_s, temperature_C;
+    double mean_H[3]; /* the constant part of L in the orthonormal plane: αα, αβ, ββ */
+} hci_voltage_model;
+
+/* A current and its derivative by the electrical angle, in the orthonormal plane. */
+typedef struct {
+    double x[2], slope[2];
+} hci_plane_current;
+
+/* v made linear at a current: v ≈ value + by_current (x − x_0) + by_slope (x' − x'_0); matrices by columns.
+ */
+typedef struct {
+    double value[2], by_current[4], by_slope[4];
+} hci_linear_voltage;
+
+/* HCI_ERROR_INPUT when machine.csv lacks a value that the voltage needs. machine and effects must outlive
+ * *model. */
+hci_status hci_voltage_model_make(const hci_machine_data *machine, const hci_solve_options *options,
+                                  hci_voltage_model *model, hci_note *note);
+
+/* The phase voltages at one angle in the plane. O(harmonics). */
+void hci_voltage_at(const hci_voltage_model *model, double theta_rad, const hci_plane_current *i,
+                    double v[2]);
+
+/* The same made linear. */
+void hci_voltage_linearise(const hci_voltage_model *model, double theta_rad, const hci_plane_current *i,
+                           hci_linear_voltage *v);
+
+/* v_a − v_b, v_b − v_c or v_c − v_a (pair 0, 1, 2) of phase voltages in the plane. */
+double hci_line_of_plane(const double v[2], int pair);
+
+#endif
