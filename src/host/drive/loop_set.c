@@ -1,6 +1,7 @@
 /* From machine, drive and currents to what a controller holds in flash: which orders matter, their currents
  * and voltages at each level of torque, how many points a table over the angle needs, and where it ends. */
 #include "host/drive/loop_set.h"
+#include "host/numeric/divisor.h"
 
 #include <float.h>
 #include <math.h>
@@ -116,16 +117,6 @@ static hci_status choose_orders(maker *m)
     return HCI_OK;
 }
 
-static size_t divisor(size_t a, size_t b)
-{
-    while (b > 0) {
-        const size_t rest = a % b;
-        a = b;
-        b = rest;
-    }
-    return a;
-}
-
 static hci_loop_pair pair_of(const maker *m, size_t level, int value, size_t k)
 {
     const hci_harmonic h = m->level[level].order[value][k];
@@ -151,7 +142,7 @@ static hci_status fill_waves(maker *m)
     set->orders = hci_memory_new(m->count, sizeof *set->orders);
     if (!set->waves || !set->orders) return hci_note_memory(m->note, NULL, "%zu orders", m->count);
     for (size_t k = 1; k < m->count; ++k)
-        base = divisor(m->order[k], base);
+        base = hci_common_divisor(m->order[k], base);
     base = base > 0 ? base : turns;
     for (size_t k = 0; k < m->count; ++k) {
         set->orders[k] = (uint16_t)(m->order[k] / base);

@@ -175,21 +175,6 @@ static void round_knots(const hci_spline_room *r, hci_table_i16 *x)
 
 /* ---- error ---- */
 
-/* Σ n²A, by which the second derivative of the currents is bounded, and the largest order. */
-typedef struct {
-    double bend_A, order;
-} roughness;
-
-static void add_roughness(const hci_tabulation *t, const hci_wave *waves, size_t count, double scale,
-                          roughness *out)
-{
-    for (size_t k = 0; k < count; ++k) {
-        const double order = order_seen(t, &waves[k]);
-        out->bend_A += scale * order * order * hci_amplitude(waves[k].sine, waves[k].cosine);
-        out->order = fmax(out->order, fabs(order));
-    }
-}
-
 /* Largest second derivative of the spline: that of a knot's second difference. */
 static double spline_bend_A(const hci_spline_room *r, const hci_table_i16 *x)
 {
@@ -214,14 +199,10 @@ static grid grid_of(const hci_spline_room *r, const hci_table_i16 *x)
 {
     const hci_tabulation *t = r->waves;
     const double step_rad = interval_rad(r, x->intervals);
-    roughness rough = {0.0, 1.0};
-    add_roughness(t, t->constant, t->constant_count, 1.0, &rough);
-    add_roughness(t, t->per_Nm, t->per_Nm_count, t->torque_Nm, &rough);
-    const grid g = {(uint32_t)fmin(fmax(32.0, ceil(20.0 * step_rad * rough.order)), MOST_FINE), 0.0};
-    const double d_rad = step_rad / g.fine;
-    return (grid){g.fine, d_rad * d_rad / 8.0 * (rough.bend_A + spline_bend_A(r, x)) +
-                              TRUNCATION * (double)x->unit_A * x->parts +
-                              ldexp(hci_tabulation_bound_A(t), -21)};
+    const double fine = fmin(fmax(32.0, ceil(20.0 * step_rad * hci_tabulation_highest_order(t))), MOST_FINE);
+    const double d_rad = step_rad / fine, bend_A = hci_tabulation_bend_A(t) + spline_bend_A(r, x);
+    return (grid){(uint32_t)fine, d_rad * d_rad / 8.0 * bend_A + TRUNCATION * (double)x->unit_A * x->parts +
+                                      ldexp(hci_tabulation_bound_A(t), -21)};
 }
 
 typedef struct {
@@ -240,12 +221,6 @@ static void measure_at(const hci_tabulation *t, const hci_table_i16 *x, uint32_t
     most->peak_A = fmax(most->peak_A, phase_A);
 }
 
-static float round_up(double x)
-{
-    const float y = (float)x;
-    return (double)y < x ? nextafterf(y, INFINITY) : y;
-}
-
 /* The sector that is kept, and the first angle of each other one: those differ by phases and signs alone. */
 static void measure(const hci_spline_room *r, hci_table_i16 *x)
 {
@@ -259,10 +234,10 @@ static void measure(const hci_spline_room *r, hci_table_i16 *x)
         if (t->parts == 2) measure_at(t, x, angle, -t->torque_Nm, &most);
     }
     const double unit_A = (double)x->unit_A;
-    x->max_error_A = round_up(most.error_A + g.margin_A);
+    x->max_error_A = hci_tabulation_round_up(most.error_A + g.margin_A);
     x->max_error_q15_A =
-        round_up(most.error_A + g.margin_A + ROUNDING * unit_A * (x->parts == 2 ? 3.0 : 1.0));
-    x->peak_A = round_up(most.peak_A);
+        hci_tabulation_round_up(most.error_A + g.margin_A + ROUNDING * unit_A * (x->parts == 2 ? 3.0 : 1.0));
+    x->peak_A = hci_tabulation_round_up(most.peak_A);
 }
 
 void hci_spline_make(const hci_spline_room *r, uint32_t degree, uint32_t intervals, hci_table_i16 *x)

@@ -5,6 +5,8 @@
 
 #include <math.h>
 
+#include "host/numeric/divisor.h"
+
 /* The least sector first. With 1/6 the next one holds (−i_b, −i_c, −i_a), with 1/3 (i_c, i_a, i_b). */
 static const hci_symmetry PHASES[] = {{6, 1, 1}, {3, 2, 0}, {2, 0, 1}};
 
@@ -25,21 +27,11 @@ static bool all_have(const hci_wave *waves, size_t count, const hci_symmetry *s)
     return true;
 }
 
-static uint32_t greatest_divisor(uint32_t a, uint32_t b)
-{
-    while (b > 0) {
-        const uint32_t rest = a % b;
-        a = b;
-        b = rest;
-    }
-    return a;
-}
-
-static uint32_t common_divisor(const hci_tabulation *t, const hci_wave *waves, size_t count, uint32_t divisor)
+static size_t common_cycles(const hci_tabulation *t, const hci_wave *waves, size_t count, size_t divisor)
 {
     for (size_t k = 0; k < count; ++k) {
         const double cycles = fabs(waves[k].order - waves[k].sequence) * (double)t->period_turns;
-        divisor = greatest_divisor(divisor, (uint32_t)floor(cycles + 0.5));
+        divisor = hci_common_divisor(divisor, (size_t)floor(cycles + 0.5));
     }
     return divisor;
 }
@@ -48,9 +40,9 @@ hci_symmetry hci_symmetry_of(const hci_tabulation *t)
 {
     hci_symmetry none = {1, 0, 0};
     if (t->frame == HCI_TABLE_DQ) {
-        none.sectors = common_divisor(t, t->constant, t->constant_count, 0);
-        none.sectors = common_divisor(t, t->per_Nm, t->per_Nm_count, none.sectors);
-        if (none.sectors == 0) none.sectors = 1;
+        const size_t constant = common_cycles(t, t->constant, t->constant_count, 0);
+        const size_t all = common_cycles(t, t->per_Nm, t->per_Nm_count, constant);
+        if (all > 0) none.sectors = (uint32_t)all;
         return none;
     }
     for (size_t k = 0; k < sizeof PHASES / sizeof *PHASES && t->period_turns == 1; ++k)

@@ -33,7 +33,7 @@ static double curvature(const hci_tabulation *t, const hci_wave *w)
     return order * order * amplitude(w);
 }
 
-static double curvature_bound_A(const hci_tabulation *t)
+double hci_tabulation_bend_A(const hci_tabulation *t)
 {
     double constant = 0.0, per_Nm = 0.0;
     for (size_t k = 0; k < t->constant_count; ++k)
@@ -43,7 +43,7 @@ static double curvature_bound_A(const hci_tabulation *t)
     return constant + t->torque_Nm * per_Nm;
 }
 
-static double highest_order(const hci_tabulation *t)
+double hci_tabulation_highest_order(const hci_tabulation *t)
 {
     double highest = 1.0;
     for (size_t k = 0; k < t->constant_count; ++k)
@@ -82,7 +82,8 @@ void hci_tabulation_exact(const hci_tabulation *t, uint32_t angle, double torque
 double hci_tabulation_peak_A(const hci_tabulation *t)
 {
     /* cos(π/count·order) is what the grid misses at most */
-    const double count = ceil(fmin(256.0 * highest_order(t), 65536.0) * (double)t->period_turns);
+    const double count =
+        ceil(fmin(256.0 * hci_tabulation_highest_order(t), 65536.0) * (double)t->period_turns);
     double exact[3], phase_A, peak_A = 0.0;
     for (double k = 0.0; k < count; k += 1.0)
         for (int sign = -1; sign < (int)t->parts; sign += 2) {
@@ -136,10 +137,10 @@ typedef struct {
  * with or without fused multiply-add, stay within 2⁻²¹ of the largest current of each other. */
 static grid grid_of(const hci_tabulation *t, size_t points)
 {
-    const double least = 64.0 * highest_order(t) * (double)t->period_turns / (double)points;
+    const double least = 64.0 * hci_tabulation_highest_order(t) * (double)t->period_turns / (double)points;
     grid g = {points, (size_t)fmax(32.0, ceil(least)), 0.0};
     const double step_rad = 2.0 * HCI_PI * (double)t->period_turns / ((double)points * (double)g.fine);
-    g.margin_A = step_rad * step_rad / 8.0 * curvature_bound_A(t) + ldexp(hci_tabulation_bound_A(t), -21);
+    g.margin_A = step_rad * step_rad / 8.0 * hci_tabulation_bend_A(t) + ldexp(hci_tabulation_bound_A(t), -21);
     return g;
 }
 
@@ -190,8 +191,7 @@ static hci_table_f32 table_of(const hci_tabulation *t, size_t points, const floa
     return table;
 }
 
-/* The float that is not below x. */
-static float round_up(double x)
+float hci_tabulation_round_up(double x)
 {
     const float y = (float)x;
     return (double)y < x ? nextafterf(y, INFINITY) : y;
@@ -215,8 +215,8 @@ static bool tabulate(const hci_tabulation *t, grid g, double limit_A, double *fi
             return false;
         }
     }
-    table->max_error_A = round_up(most.error_A + g.margin_A);
-    table->peak_A = round_up(most.peak_A);
+    table->max_error_A = hci_tabulation_round_up(most.error_A + g.margin_A);
+    table->peak_A = hci_tabulation_round_up(most.peak_A);
     return true;
 }
 

@@ -18,6 +18,15 @@ typedef struct {
 /* Σ|A| of the waves at the reference torque: no current is larger. */
 double hci_tabulation_bound_A(const hci_tabulation *t);
 
+/* Σ n²A at the reference torque: no second derivative of a current by the angle is larger. */
+double hci_tabulation_bend_A(const hci_tabulation *t);
+
+/* The highest order of all waves, at least 1. */
+double hci_tabulation_highest_order(const hci_tabulation *t);
+
+/* The float that is not below x. */
+float hci_tabulation_round_up(double x);
+
 /* The exact currents ia, ib, ic or id, iq, 0 at an angle of the table. phase_A: out, may be NULL: the largest
  * |phase current|. */
 void hci_tabulation_exact(const hci_tabulation *t, uint32_t angle, double torque_Nm, double current[3],

@@ -5,6 +5,7 @@
 
 #include "host/base/memory.h"
 #include "host/diagnose/candidates/empirical_term.h"
+#include "host/numeric/divisor.h"
 #include "host/recording/rotor_frame.h"
 
 #define RESOLVED 0.48 /* orders for each sample of a turn */
@@ -143,16 +144,6 @@ void hci_candidate_orders_release(hci_candidate_orders *lines)
 
 /* ---- those that stand out ---- */
 
-static size_t common_divisor(size_t a, size_t b)
-{
-    while (b > 0) {
-        const size_t rest = a % b;
-        a = b;
-        b = rest;
-    }
-    return a;
-}
-
 /* Whether an order of the mechanical turn is one of slots and poles: a whole electrical order, one of all the
  * slots, which magnets that differ make, or one that a group of the poles shares with a group of the slots.
  */
@@ -160,7 +151,7 @@ static bool is_of_slots(const hci_candidate_orders *lines, size_t periods, size_
 {
     if (periods % pole_pairs == 0) return true;
     if (lines->slots > 1 && periods % lines->slots == 0) return true;
-    return periods > pole_pairs && periods % 3 == 0 && common_divisor(periods, pole_pairs) > 1;
+    return periods > pole_pairs && periods % 3 == 0 && hci_common_divisor(periods, pole_pairs) > 1;
 }
 
 static double strength(const hci_candidate_orders *lines, size_t k, bool slots)
