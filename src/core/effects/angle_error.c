@@ -15,14 +15,18 @@ hci_effect_oscillation hci_angle_error_at(const hci_effect *effect, int periods,
     return sum;
 }
 
-enum { STEPS_MOST = 50 };
+/* A step below this leaves its square times E''/2, which is rounding. */
+#define LAST_STEP_RAD 1e-6
 
-/* θ + E(θ) = reading by Newton's method; there is one solution while |E'| < 1. */
+enum { STEPS_MOST = 12 };
+
+/* θ + E(θ) = reading by Newton's method; there is one solution while |E'| < 1, and where there are more the
+ * steps need not end. */
 void hci_angle_error_undo(const hci_effect *effect, int periods, hci_sample *x)
 {
     const double reading = x->theta_m_rad;
     double change = 1.0, theta = reading;
-    for (int k = 0; k < STEPS_MOST && fabs(change) > 1e-15 * (1.0 + fabs(reading)); ++k) {
+    for (int k = 0; k < STEPS_MOST && fabs(change) > LAST_STEP_RAD; ++k) {
         const hci_effect_oscillation error = hci_angle_error_at(effect, periods, theta);
         change = (reading - theta - error.value) / (1.0 + error.slope);
         theta += change;

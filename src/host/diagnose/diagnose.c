@@ -11,12 +11,15 @@
 #include "host/diagnose/fit/model.h"
 #include "host/diagnose/held_out.h"
 #include "host/diagnose/next_points.h"
+#include "host/diagnose/open_voltage.h"
 #include "host/diagnose/run_errors.h"
 #include "host/diagnose/search/attribute.h"
 #include "host/diagnose/uncertainty.h"
+#include "host/machine/torque_constant.h"
 #include "host/recording/free_shaft.h"
 
 #define RESOLUTION 5e-4 /* of the largest rms torque */
+#define AGAINST    0.05 /* of the torque per ampere, that voltages which agree to 2 % exclude */
 
 const char *hci_finding_verdict_name(hci_finding_verdict verdict)
 {
@@ -117,6 +120,17 @@ static hci_status test(hci_dataset *b, const hci_runs *runs, hci_attribution *a,
     return HCI_OK;
 }
 
+/* Whether the corrected machine has another torque per ampere, while open-circuit voltages, which are the
+ * same figure, say that the declared one is right. */
+static bool is_against_voltages(const hci_dataset *b, const hci_machine_data *machine, const hci_runs *runs,
+                                const hci_diagnosis *d)
+{
+    const double declared = hci_torque_constant(&machine->model, b->regression.declared);
+    const double corrected = hci_torque_constant(&machine->model, &d->effects.list);
+    return fabs(corrected - declared) > AGAINST * fabs(declared) &&
+           hci_open_voltage_agrees(&machine->model, runs);
+}
+
 static hci_status diagnose(hci_dataset *b, const hci_machine_data *machine, const hci_runs *runs,
                            const hci_diagnose_options *options, hci_diagnosis *d, hci_note *note)
 {
@@ -136,6 +150,11 @@ static hci_status diagnose(hci_dataset *b, const hci_machine_data *machine, cons
     if (!status) status = fill(b, runs, &a, d, note);
     if (!status && !a.unknown && d->verdict != HCI_DIAGNOSIS_COMPLETE)
         status = test(b, runs, &a, d, how.resolution_Nm, note);
+    if (!status && is_against_voltages(b, machine, runs, d)) {
+        status = withdraw(b, runs, &a, d, true, note);
+        d->contradicted = false;
+        d->against_voltages = true;
+    }
     if (!status) status = hci_next_points_unknown(&b->regression, machine, d, note);
     hci_attribution_release(&a);
     return status;
@@ -178,6 +197,8 @@ hci_status hci_diagnose(const hci_machine_data *machine, const hci_effects *decl
     }
     if (fitted == 0)
         return hci_note_set(note, HCI_ERROR_INPUT, "no run has the role `fit`; give it to at least one");
+    const double off = hci_open_voltage_off(&machine->model, runs);
+    diagnosis->open_voltage_off = off;
     if (usable == 0) return nothing_measured(declared, diagnosis, note);
     hci_status status = hci_free_shafts_find(machine, declared, runs->run, runs->count, note);
     if (!status) status = hci_dataset_make(machine, declared, runs, &b, note);
@@ -188,6 +209,9 @@ hci_status hci_diagnose(const hci_machine_data *machine, const hci_effects *decl
         hci_diagnosis_release(diagnosis);
         return status;
     }
+    diagnosis->open_voltage_off = off;
+    if (off > HCI_OPEN_VOLTAGE_OFF && diagnosis->verdict == HCI_DIAGNOSIS_COMPLETE)
+        diagnosis->verdict = HCI_DIAGNOSIS_UNKNOWN;
     return diagnosis->verdict >= HCI_DIAGNOSIS_AMBIGUOUS || diagnosis->search != HCI_WORK_COMPLETE
                ? HCI_NOT_REACHED
                : HCI_OK;

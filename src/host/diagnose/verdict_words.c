@@ -92,10 +92,18 @@ static void say_unstable(const hci_words *w, const hci_diagnosis *d)
     }
 }
 
+/* Nothing is left of the torques: what contradicts are voltages. */
+static bool is_of_voltages(const hci_diagnosis *d)
+{
+    return d->open_voltage_off > HCI_OPEN_VOLTAGE_OFF && !any(d, HCI_FINDING_ADDED) && !d->wanders &&
+           d->unexplained_count == 0 && !d->disbelieved && !d->contradicted;
+}
+
 static void say_unknown(const hci_words *w, const hci_diagnosis *d)
 {
     if (d->verdict == HCI_DIAGNOSIS_UNKNOWN)
-        hci_words_say(w, "No known effect explains what the model lacks.");
+        hci_words_say(w, is_of_voltages(d) ? "What the model lacks does not show in these torques."
+                                           : "No known effect explains what the model lacks.");
     if (d->verdict == HCI_DIAGNOSIS_PARTLY) {
         hci_words_say(w, "Partly explained: the model lacked ");
         say_names(w, d, HCI_FINDING_ADDED, " and ");
@@ -125,6 +133,23 @@ static void say_free_shafts(const hci_words *w, const hci_diagnosis *d)
     if (count > 0)
         hci_words_say(w, " The torque of %zu of %zu runs is inertia x acceleration, as of a free shaft.",
                       count, d->runs);
+}
+
+/* Effects are found in the torque, which says nothing of the back-EMF without a current. */
+static void say_open_voltage(const hci_words *w, const hci_diagnosis *d)
+{
+    if (d->against_voltages)
+        hci_words_say(w,
+                      " The torques ask for another torque per ampere, but the voltages that were recorded "
+                      "without a current are those of the declared back-EMF: inertia, or the scale of "
+                      "torque or current, may be wrong.");
+    if (!(d->open_voltage_off > HCI_OPEN_VOLTAGE_OFF)) return;
+    hci_words_say(
+        w,
+        " The voltages that were recorded without a current differ from speed x back_emf.csv by %.2g "
+        "%%; no effect is looked for in voltages: take the back-EMF from `harmonics`, or see with "
+        "`check` what is meant otherwise.",
+        100.0 * d->open_voltage_off);
 }
 
 static void say_search(const hci_words *w, const hci_diagnosis *d)
@@ -204,5 +229,6 @@ void hci_diagnosis_words(const hci_diagnosis *d, char *text, size_t size)
         say_nothing_measured(&w);
     else
         say_verdict(&w, d);
+    say_open_voltage(&w, d);
     say_free_shafts(&w, d);
 }

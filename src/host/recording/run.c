@@ -32,6 +32,7 @@ typedef struct {
     const hci_run_options *options;
     int pole_pairs;
     size_t predicted; /* steps of the angle whose whole turns are from the speed */
+    bool no_currents; /* no column of them */
 } reader;
 
 /* ---- columns ---- */
@@ -366,7 +367,8 @@ static hci_status read_currents(reader *r)
         return missing(r, "id_A without iq_A", "both, or iq_A alone", "add the column iq_A");
     if (!has(r, HCI_RUN_IQ) && has(r, HCI_RUN_TORQUE_COMPUTED) && r->options->torque_constant_Nm_per_A > 0.0)
         return read_current_of_torque(r);
-    if (!has(r, HCI_RUN_IQ) && r->run->theta_m_rad != NULL)
+    r->no_currents = !has(r, HCI_RUN_IQ);
+    if (r->no_currents && r->run->theta_m_rad != NULL)
         hci_note_add(&r->run->remark, "no currents: taken as 0");
     return read_dq(r, HCI_RUN_ID, HCI_RUN_IQ, &r->run->i_A);
 }
@@ -403,9 +405,11 @@ static hci_status hold(hci_run *run, const char *why)
     return HCI_OK;
 }
 
+/* Without a current but with voltages something drives the shaft, whose torque is not known. */
 static bool can_accelerate(const reader *r)
 {
     const hci_run *run = r->run;
+    if (r->no_currents && run->v_V != NULL) return false;
     return r->options->inertia_kgm2 > 0.0 && run->time_s != NULL && run->speed_rad_per_s != NULL &&
            run->count >= 3;
 }

@@ -483,6 +483,17 @@ static void test_torque_of_inertia(void)
         TEST_ASSERT_DOUBLE_WITHIN(0.02 * 0.05, 0.02 * acceleration_at(time_at(k)), run.torque_Nm[k]);
 }
 
+/* With voltages and without a current something turns the shaft. */
+static void test_a_driven_shaft_is_not_free(void)
+{
+    FILE *file = begin("time_s,theta_m_rad,speed_rad_per_s,va_V,vb_V,vc_V");
+    for (int k = 0; k < 300; ++k)
+        row(file, 6, time_at(k), angle_at(time_at(k)), speed_at(time_at(k)), 1.0, 2.0, -3.0);
+    fclose(file);
+    read_run(4, 0.02);
+    TEST_ASSERT_NULL(run.torque_Nm);
+}
+
 /* ---- what is refused ---- */
 
 static void test_refused_runs(void)
@@ -667,6 +678,7 @@ int main(void)
     RUN_TEST(test_a_torque_map_knows_the_mean_only);
     RUN_TEST(test_torque_sources);
     RUN_TEST(test_torque_of_inertia);
+    RUN_TEST(test_a_driven_shaft_is_not_free);
     RUN_TEST(test_refused_runs);
     RUN_TEST(test_unused_columns_are_named);
     RUN_TEST(test_memory_runs_out_everywhere);

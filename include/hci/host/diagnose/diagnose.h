@@ -145,15 +145,23 @@ typedef struct {
     hci_next_point next[HCI_MOST_NEXT_POINTS]; /* what to record next, most telling first */
     size_t next_points;                        /* entries of next in use; 0: nothing is left open */
     char advice[3 * HCI_DETAIL_SIZE];          /* the same in a few sentences, or "" */
-    bool contradicted;     /* effects described the runs that were fitted, but not those held out, and were
-                              dropped */
-    bool wanders;          /* something is left that does not repeat with the turn */
+    bool contradicted;       /* effects described the runs that were fitted, but not those held out, and were
+                                dropped */
+    bool wanders;            /* something is left that does not repeat with the turn */
+    double open_voltage_off; /* share by which voltages without a current differ from the declared back-EMF;
+                              * 0: none were recorded */
+    bool against_voltages; /* the torques ask for another torque per ampere, which voltages that were recorded
+                            * without a current exclude: effects were dropped */
     bool nothing_measured; /* no run to be fitted has an angle and a torque: nothing can be said */
 } hci_diagnosis;
 
+/* Of hci_diagnosis.open_voltage_off, that is no error of instruments: magnets, turns or harmonics differ. */
+#define HCI_OPEN_VOLTAGE_OFF 0.02
+
 /* Finds what is missing. HCI_OK; HCI_NOT_REACHED when the verdict is ambiguous, partly explained or unknown
- * (which it is where no run tells a torque), or the search did not come to its end; or an error with a note,
- * and then *diagnosis is empty. runs: kept as long as the diagnosis. */
+ * (which it is where no run tells a torque, or nothing is found and voltages contradict the back-EMF), or the
+ * search did not come to its end; or an error with a note, and then *diagnosis is empty. runs: kept as long
+ * as the diagnosis. */
 hci_status hci_diagnose(const hci_machine_data *machine, const hci_effects *declared, const hci_runs *runs,
                         const hci_diagnose_options *options, hci_diagnosis *diagnosis, hci_note *note);
 

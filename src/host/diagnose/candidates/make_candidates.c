@@ -18,7 +18,7 @@ enum {
 };
 
 #define SIMILAR 0.15 /* speeds that differ by less, as a share, are the same */
-#define AROUND  1.2  /* standard deviations about a mean speed: at 0.15, 0.5 and 0.85 of a ramp from 0 */
+#define AROUND  1.2  /* standard deviations above a mean speed: at 0.85 of a ramp from 0 */
 
 /* ---- a list that grows ---- */
 
@@ -118,8 +118,8 @@ static void speed_add(speeds *x, double speed)
     if (is_new) x->known[x->count++] = speed;
 }
 
-/* How many different speeds the runs have, at most three. A run that accelerates has those around its mean
- * too. */
+/* How many different speeds the runs have, at most three. A run that accelerates has a higher one too; how a
+ * friction is curved over a single ramp is hard to tell from what it begins with. */
 static size_t speeds_of(const hci_candidates_source *s)
 {
     speeds x = {.count = 0};
@@ -129,7 +129,6 @@ static size_t speeds_of(const hci_candidates_source *s)
         if (!s->use[r]) continue;
         speed_add(&x, mean);
         speed_add(&x, mean + AROUND * f->speed_deviation);
-        speed_add(&x, fabs(mean - AROUND * f->speed_deviation));
     }
     return x.count;
 }

@@ -208,8 +208,9 @@ static void test_friction_has_as_many_parts_as_speeds(void)
     TEST_ASSERT_EQUAL_UINT64(1, terms_of("friction", "", NULL));
     for (size_t k = 0; k < SAMPLES; ++k) /* one run that runs up */
         run[1].speed_rad_per_s[k] = 20.0 * (double)k / SAMPLES;
+    use[0] = false;
     make();
-    TEST_ASSERT_EQUAL_UINT64(3, terms_of("friction", "", NULL));
+    TEST_ASSERT_EQUAL_UINT64(2, terms_of("friction", "", NULL));
     for (size_t r = 0; r < RUNS; ++r) {
         free_column(&run[r].speed_rad_per_s);
         free_column(&run[r].time_s);

@@ -1,0 +1,103 @@
+/* Voltages of a shaft that something drives, recorded without a current: they are compared with the declared
+ * back-EMF, and what contradicts them is not kept. */
+#define _XOPEN_SOURCE 700
+#include "host/diagnose/open_voltage.h"
+
+#include "support/diagnosing.h"
+
+enum { N = 600 };
+
+static double voltage[MOST_RUNS][3 * N];
+
+void setUp(void)
+{
+    dataset_start();
+}
+
+void tearDown(void)
+{
+    for (size_t k = 0; k < MOST_RUNS; ++k)
+        run[k].v_V = NULL;
+    dataset_end();
+}
+
+/* At 100 rad/s, 300 samples a turn; scale: of the back-EMF of 0.2 V·s/rad; a fifth harmonic of it too. */
+static void record_open(double scale, double fifth, double noise_V)
+{
+    const size_t r = runs.count;
+    record(N, &(point){100.0, 0.0, 0.0, 0.0, 0.0});
+    run[r].v_V = voltage[r];
+    for (size_t k = 0; k < N; ++k)
+        for (int s = 0; s < 3; ++s) {
+            const double x = P * run[r].theta_m_rad[k] - 2.0 * REF_PI * s / 3.0;
+            voltage[r][3 * k + (size_t)s] = 100.0 * K_NM_PER_A * (scale * sin(x) + fifth * sin(5.0 * x)) +
+                                            noise_V * ref_normal(&seed) + 3.0;
+        }
+}
+
+/* A common voltage of the phases and noise are no difference. */
+static void test_difference(void)
+{
+    record_open(1.0, 0.0, 0.5);
+    TEST_ASSERT_DOUBLE_WITHIN(0.01, 0.0, hci_open_voltage_off(&machine.model, &runs));
+    TEST_ASSERT_TRUE(hci_open_voltage_agrees(&machine.model, &runs));
+    record_open(0.9, 0.0, 0.5);
+    TEST_ASSERT_DOUBLE_WITHIN(0.005, 0.1 / sqrt(2.0), hci_open_voltage_off(&machine.model, &runs));
+    TEST_ASSERT_FALSE(hci_open_voltage_agrees(&machine.model, &runs));
+}
+
+static void test_none(void)
+{
+    record_open(0.8, 0.0, 0.0);
+    rec_phases(0.0, 1.0, 0.3, run[0].i_A + 30); /* a current flows */
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, hci_open_voltage_off(&machine.model, &runs));
+    TEST_ASSERT_FALSE(hci_open_voltage_agrees(&machine.model, &runs));
+}
+
+static hci_status find(void)
+{
+    hci_note note = {{0}};
+    return hci_diagnose(&machine, &(hci_effects){NULL, 0}, &runs, &options, &diagnosis, &note);
+}
+
+/* Torques without a current leave noise alone, but a fifth harmonic of the voltages is declared nowhere. */
+static void test_nothing_in_the_torque(void)
+{
+    char words[2048];
+    record_open(1.0, 0.05, 0.1);
+    TEST_ASSERT_EQUAL_INT(HCI_NOT_REACHED, find());
+    TEST_ASSERT_EQUAL_INT(HCI_DIAGNOSIS_UNKNOWN, diagnosis.verdict);
+    hci_diagnosis_words(&diagnosis, words, sizeof words);
+    TEST_ASSERT_NOT_NULL(strstr(words, "does not show in these torques"));
+    TEST_ASSERT_NOT_NULL(strstr(words, "differ from speed x back_emf.csv by 4.9 %"));
+}
+
+/* Free shafts whose inertia is a fifth larger than declared ask for a weaker back-EMF, which the voltages
+ * exclude. Without these it is the back-EMF. */
+static void test_voltages_exclude_a_weaker_back_emf(void)
+{
+    for (int open = 0; open < 2; ++open) {
+        for (int k = 0; k < 4; ++k) {
+            record(450, &(point){k < 2 ? 60.0 : -150.0, k % 2 ? 9.0 : -4.0, 0.0, 0.0, 0.0});
+            run[runs.count - 1].torque_source = HCI_TORQUE_INERTIA;
+            for (size_t j = 0; j < 450; ++j)
+                run[runs.count - 1].torque_Nm[j] *= 0.8;
+        }
+        if (open) record_open(1.0, 0.0, 0.1);
+        hci_diagnosis_release(&diagnosis);
+        find();
+        TEST_ASSERT_EQUAL(open, diagnosis.against_voltages);
+        TEST_ASSERT_EQUAL(open == 0, found("back_emf")->verdict != HCI_FINDING_REJECTED);
+    }
+    TEST_ASSERT_EQUAL_INT(HCI_DIAGNOSIS_UNKNOWN, diagnosis.verdict);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_difference);
+    RUN_TEST(test_none);
+    RUN_TEST(test_nothing_in_the_torque);
+    RUN_TEST(test_voltages_exclude_a_weaker_back_emf);
+    return UNITY_END();
+}
