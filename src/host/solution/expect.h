@@ -1,6 +1,6 @@
 /* What the real machine is expected to do with the currents of a solution. */
-#ifndef HCI_SRC_HOST_SOLVE_EXPECT_H
-#define HCI_SRC_HOST_SOLVE_EXPECT_H
+#ifndef HCI_SRC_HOST_SOLUTION_EXPECT_H
+#define HCI_SRC_HOST_SOLUTION_EXPECT_H
 
 #include "hci/host/solve/solve.h"
 

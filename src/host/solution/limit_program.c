@@ -357,6 +357,22 @@ static void add_copper(build *b)
     if (row) row[b->n] = sqrt(1.5) * hci_amplitude(held->sine, held->cosine) / limit_A;
 }
 
+/* |x − centre| <= radius, of all but FIT, which has to have room. */
+static void add_trust(build *b)
+{
+    const hci_limit_program *p = b->of;
+    if (!(p->radius_A > 0.0) || b->stage == HCI_STAGE_FIT) return;
+    begin_cone(b, 1 + b->coordinates);
+    double *head = new_row(b);
+    if (head) head[b->n] = 1.0;
+    for (size_t j = 0; j < b->coordinates; ++j) {
+        double *row = new_row(b);
+        if (!row) return;
+        row[j] = p->scale_A / p->radius_A;
+        row[b->n] = p->centre[j] / p->radius_A;
+    }
+}
+
 /* ---- equations ---- */
 
 static double *new_equation(build *b)
@@ -415,6 +431,7 @@ static void fill(build *b)
     for (int phase = 0; phase < 3; ++phase)
         add_rms(b, phase);
     add_copper(b);
+    add_trust(b);
     for (int phase = 0; phase < 3; ++phase)
         add_open(b, phase);
     add_orders(b);
@@ -441,7 +458,7 @@ static bool begin(const hci_limit_program *of, hci_limit_stage stage, build *b)
     b->coordinates = 2 * of->field.set->count;
     b->n = unknowns_of(b);
     b->width = b->n + 1;
-    b->cone = hci_memory_new(system_rows + 4, sizeof *b->cone);
+    b->cone = hci_memory_new(system_rows + 5, sizeof *b->cone);
     b->equal = hci_memory_new((system_rows + 3 * b->coordinates) * b->width, sizeof *b->equal);
     b->p = hci_memory_new(b->n * b->n, sizeof *b->p);
     b->c = hci_memory_new(b->n, sizeof *b->c);

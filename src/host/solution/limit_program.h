@@ -1,6 +1,6 @@
 /* One stage of solving within limits, as a convex program (theory.md, section 15). */
-#ifndef HCI_SRC_HOST_SOLVE_LIMIT_PROGRAM_H
-#define HCI_SRC_HOST_SOLVE_LIMIT_PROGRAM_H
+#ifndef HCI_SRC_HOST_SOLUTION_LIMIT_PROGRAM_H
+#define HCI_SRC_HOST_SOLUTION_LIMIT_PROGRAM_H
 
 #include "host/solution/limit_points.h"
 
@@ -24,6 +24,9 @@ typedef struct {
     hci_limit_grid grid[HCI_MOST_GRIDS];
     size_t grids;
     hci_limit_points points; /* rows beside those of the grids */
+
+    const double *centre; /* coordinates from which x is at most radius_A away, √Σ of squares; 0: no bound */
+    double radius_A;
 
     double widened;   /* share by which every limit is wider than asked for */
     double mean_Nm;   /* RIPPLE and COPPER: nearest mean torque */

@@ -1,6 +1,6 @@
 /* How currents stand to the limits of current, voltage and copper. */
-#ifndef HCI_SRC_HOST_SOLVE_LIMITS_H
-#define HCI_SRC_HOST_SOLVE_LIMITS_H
+#ifndef HCI_SRC_HOST_SOLUTION_LIMITS_H
+#define HCI_SRC_HOST_SOLUTION_LIMITS_H
 
 #include "host/solution/bounds.h"
 #include "host/solution/limit_program.h"

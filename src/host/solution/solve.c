@@ -9,10 +9,10 @@
 
 #include "host/base/memory.h"
 #include "host/currents/plain_sine.h"
-#include "host/solve/evaluate_solution.h"
 #include "host/solution/expect.h"
 #include "host/solution/limited.h"
 #include "host/solution/limits.h"
+#include "host/solve/evaluate_solution.h"
 #include "host/solve/linear.h"
 #include "host/solve/newton.h"
 #include "host/solve/pointwise.h"

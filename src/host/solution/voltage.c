@@ -144,30 +144,38 @@ void hci_voltage_at(const hci_voltage_model *model, double theta_rad, const hci_
     voltage_of(model, &m, theta_rad, i, v);
 }
 
-/* One column of a derivative by the central difference; coordinate 0, 1: x, 2, 3: its slope. */
-static void difference(const hci_voltage_model *model, double theta_rad, const hci_plane_current *i,
-                       int coordinate, double column[2])
+/* One column of what the effects add, by the central difference; coordinate 0, 1: x, 2, 3: its slope. */
+static void add_difference(const hci_voltage_model *model, double theta_rad, const hci_plane_current *i,
+                           int coordinate, double column[2])
 {
-    const magnetic m = magnetic_at(model, theta_rad);
     const double size_A = DIFFERENCE_A * fmax(1.0, hypot(i->x[0], i->x[1]));
-    double low[2], high[2];
+    double low[2] = {0.0, 0.0}, high[2] = {0.0, 0.0};
     hci_plane_current moved = *i;
     double *at = coordinate < 2 ? &moved.x[coordinate] : &moved.slope[coordinate - 2];
     *at += size_A;
-    voltage_of(model, &m, theta_rad, &moved, high);
+    add_effects(model, theta_rad, &moved, high);
     *at -= 2.0 * size_A;
-    voltage_of(model, &m, theta_rad, &moved, low);
+    add_effects(model, theta_rad, &moved, low);
     for (int k = 0; k < 2; ++k)
-        column[k] = (high[k] - low[k]) / (2.0 * size_A);
+        column[k] += (high[k] - low[k]) / (2.0 * size_A);
 }
 
 void hci_voltage_linearise(const hci_voltage_model *model, double theta_rad, const hci_plane_current *i,
                            hci_linear_voltage *v)
 {
-    hci_voltage_at(model, theta_rad, i, v->value);
+    const magnetic m = magnetic_at(model, theta_rad);
+    const double speed = model->speed_rad_per_s, r = model->machine->resistance_ohm;
+    voltage_of(model, &m, theta_rad, i, v->value);
     for (int k = 0; k < 2; ++k) {
-        difference(model, theta_rad, i, k, v->by_current + 2 * k);
-        difference(model, theta_rad, i, k + 2, v->by_slope + 2 * k);
+        const double unit[2] = {k == 0, k == 1};
+        double *by_current = v->by_current + 2 * k, *by_slope = v->by_slope + 2 * k;
+        by_current[0] = r * unit[0], by_current[1] = r * unit[1];
+        by_slope[0] = by_slope[1] = 0.0;
+        add_product(speed, m.slope, unit, by_current);
+        add_product(speed * model->machine->pole_pairs, m.inductance_H, unit, by_slope);
+        if (!model->effects || model->effects->count == 0) continue;
+        add_difference(model, theta_rad, i, k, by_current);
+        add_difference(model, theta_rad, i, k + 2, by_slope);
     }
 }
 
