@@ -138,10 +138,11 @@ static const hci_run_errors *errors_of(const hci_diagnosis *d, const char *file)
     return NULL;
 }
 
-/* Only noise is larger by chance where samples are few. */
+/* Only noise is larger by chance where samples are few; and how large it is was found from as many. */
 static hci_again_run run_of(const hci_run_errors *last, const hci_run_errors *now, double open_Nm)
 {
-    const double by_chance = last->rms_after_Nm > 0.0 ? last->after_high_Nm / last->rms_after_Nm : 1.0;
+    const double above = last->rms_after_Nm > 0.0 ? last->after_high_Nm / last->rms_after_Nm - 1.0 : 0.0;
+    const double by_chance = 1.0 + sqrt(2.0) * above;
     const double bound_Nm = hypot(open_Nm, last->noise_floor_Nm * by_chance);
     return (hci_again_run){.file = last->file,
                            .role = last->role,

@@ -10,8 +10,9 @@
  * without, the orders of recordings that tell all terms of it and of those that tell single ones. */
 enum { MOST_POWER = 8, PLAIN_POWER = 4, MOST_ORDER = 96, PLAIN_ORDER = 48 };
 
-#define WHOLE_TURN 0.9  /* electrical, of a run that tells orders by its samples */
-#define HALF       1e-6 /* of an order: half as many orders as samples is one too many */
+#define FIRST_OF_SLOTS 5.0  /* order of a back-EMF beside 6, the first of cogging torque and co-energy */
+#define WHOLE_TURN     0.9  /* electrical, of a run that tells orders by its samples */
+#define HALF           1e-6 /* of an order: half as many orders as samples is one too many */
 
 /* ---- how far ---- */
 
@@ -108,6 +109,7 @@ static void term_fill(const hci_regression *e, const hci_candidates *fitted, hci
     t->unit[at] = unit > 0.0 ? unit : 1.0;
     t->fixed[at] = by_width ? (double)NAN : deviation > 0.0 ? 1.0 / (deviation * deviation) : 0.0;
     t->centre[at] = known ? -x->term[j].value : 0.0;
+    t->of_mean[at] = x->coenergy_unit > 0.0 && x->term[j].order < FIRST_OF_SLOTS;
 }
 
 hci_status hci_allowed_terms_make(const hci_regression *regression, const hci_candidates *fitted,
@@ -120,7 +122,8 @@ hci_status hci_allowed_terms_make(const hci_regression *regression, const hci_ca
     t->candidates.reference_current_A = series.reference_current_A;
     const size_t terms = hci_candidates_terms_in(&t->candidates);
     t->unit = hci_memory_new(3 * terms + 1, sizeof *t->unit);
-    if (!t->unit) {
+    t->of_mean = hci_memory_new(terms + 1, sizeof *t->of_mean);
+    if (!t->unit || !t->of_mean) {
         hci_allowed_terms_release(t);
         return hci_note_memory(note, NULL, "what recordings leave open");
     }
@@ -139,11 +142,14 @@ void hci_allowed_terms_release(hci_allowed_terms *t)
 {
     hci_candidates_release(&t->candidates);
     hci_memory_free(t->unit);
+    hci_memory_free(t->of_mean);
     memset(t, 0, sizeof *t);
 }
 
-void hci_allowed_terms_precision(const hci_allowed_terms *t, double width, double *precision)
+void hci_allowed_terms_precision(const hci_allowed_terms *t, hci_allowed_width width, double *precision)
 {
-    for (size_t k = 0; k < t->count; ++k)
-        precision[k] = isnan(t->fixed[k]) ? 1.0 / (width * width * t->unit[k] * t->unit[k]) : t->fixed[k];
+    for (size_t k = 0; k < t->count; ++k) {
+        const double deviation = width.orders * (t->of_mean[k] ? width.mean_times : 1.0) * t->unit[k];
+        precision[k] = isnan(t->fixed[k]) ? 1.0 / (deviation * deviation) : t->fixed[k];
+    }
 }

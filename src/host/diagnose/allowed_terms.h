@@ -2,6 +2,8 @@
 #ifndef HCI_SRC_HOST_DIAGNOSE_ALLOWED_TERMS_H
 #define HCI_SRC_HOST_DIAGNOSE_ALLOWED_TERMS_H
 
+#include <stdbool.h>
+
 #include "host/diagnose/candidates/candidates.h"
 #include "host/diagnose/fit/regression.h"
 
@@ -12,6 +14,7 @@ typedef struct {
     double *unit;              /* [count]: deviation to be expected where the width is 1 */
     double *fixed; /* [count]: one over the variance that is expected whatever the width; NAN: by the width */
     double *centre; /* [count]: expected value less the value of the fitted machine */
+    bool *of_mean;  /* [count]: whether it is one of the mean torque: order 0, and of the back-EMF order 1 */
 } hci_allowed_terms;
 
 /* fitted: those that are in are the model. On failure *terms is empty. HCI_ERROR_MEMORY. O(terms²). */
@@ -19,7 +22,13 @@ hci_status hci_allowed_terms_make(const hci_regression *regression, const hci_ca
                                   hci_allowed_terms *terms, hci_note *note);
 void hci_allowed_terms_release(hci_allowed_terms *terms);
 
-/* precision[count]: one over the variance that is expected with a width, in units of the noise. */
-void hci_allowed_terms_precision(const hci_allowed_terms *terms, double width, double *precision);
+/* How far terms are expected from their centre: in units of the noise, and terms of the mean torque so many
+ * times that, since slots make the orders and saturation of the iron as a whole the mean. */
+typedef struct {
+    double orders, mean_times;
+} hci_allowed_width;
+
+/* precision[count]: one over the variance that is expected. */
+void hci_allowed_terms_precision(const hci_allowed_terms *terms, hci_allowed_width width, double *precision);
 
 #endif

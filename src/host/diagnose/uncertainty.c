@@ -3,102 +3,89 @@
 #include <math.h>
 #include <string.h>
 
+#include "hci/math/harmonic.h"
 #include "host/base/memory.h"
-#include "host/diagnose/allowed_terms.h"
 #include "host/diagnose/fit/linearise.h"
 #include "host/diagnose/fit/model.h"
-#include "host/numeric/ridge.h"
+#include "host/diagnose/fit/run_parts.h"
+#include "host/diagnose/width_trials.h"
 #include "host/recording/rotor_frame.h"
 
-enum { LEAST_RUNS = 3, MACHINES = 200, SEED = 1 };
+enum { MACHINES = 200, SEED = 1 };
 
-/* Widths of the expectation that are tried, in units of the noise, the widest first. */
-static const double WIDTHS[] = {300.0, 100.0, 30.0, 10.0, 3.0, 1.0, 0.3, 0.1, 0.03, 0.01, 0.003};
+#define MOST_FREEDOM 200.0 /* of Student's distribution, that is a normal one */
 
-enum { WIDTH_COUNT = sizeof WIDTHS / sizeof *WIDTHS, MOST_WORSE = 2 };
-
-/* A width is refused where it describes runs left out worse than the best one by more than this in χ²: what
- * one parameter does by chance once in twenty times. */
-#define AS_GOOD 4.0
+#define COPY  0.99 /* cosine of what two recordings tell, from which on they are left out together */
+#define WHOLE 1.0  /* electrical turns that remain of a run where a part of it is left out */
 
 typedef struct {
     hci_regression *regression;
     hci_allowed_terms terms;
-    hci_condensed runs;
-    size_t *run;              /* of each group: its place in the list of runs */
-    double *precision;        /* [terms] */
-    hci_ridge ridge;          /* of the width that is chosen */
-    hci_left_out_group *left; /* of each group, and as many behind them of work */
+    hci_condensed parts; /* runs, or parts of them */
+    hci_condensed runs;  /* the same, with those joined that tell the same */
+    size_t *run, *group; /* of each part: its run, and what it is joined to */
+    hci_width_trials trials;
 } finding;
 
 /* ---- recordings, one by one ---- */
 
-static hci_status run_add(void *context, size_t run, hci_note *note)
+static hci_status part_add(void *context, const hci_regression *part, size_t run, hci_note *note)
 {
     finding *f = context;
     hci_normal_equations normal;
-    const hci_status status = hci_regression_normal(f->regression, &f->terms.candidates, true, &normal, note);
+    const hci_status status = hci_regression_normal(part, &f->terms.candidates, true, &normal, note);
     if (status) return status;
     const bool told = normal.rows > 0.0;
-    const bool made = !told || hci_condensed_add(&f->runs, &normal, f->terms.unit);
+    const bool made = !told || hci_condensed_add(&f->parts, &normal, f->terms.unit);
     hci_normal_equations_release(&normal);
     if (!made) return hci_note_memory(note, NULL, "what recordings leave open");
-    if (told) f->run[f->runs.count - 1] = run;
+    if (told) f->run[f->parts.count - 1] = run;
     return HCI_OK;
 }
 
-/* ---- how wide ---- */
-
-/* −2 log of the likelihood of runs left out, each with a noise of its own. */
-static double misfit_of(const finding *f, const hci_left_out_group *left)
+/* Electrical turns that the samples of a run cover. */
+static double turns_of(const hci_regression *e, size_t run)
 {
-    double sum = 0.0;
-    for (size_t g = 0; g < f->runs.count; ++g)
-        sum += f->runs.group[g].rows * log(left[g].square);
-    return isnan(sum) ? (double)INFINITY : sum;
-}
-
-/* ridge: out; *misfit: INFINITY where there is none. */
-static hci_status width_try(const finding *f, double width, hci_ridge *ridge, hci_left_out_group *left,
-                            double *misfit, hci_note *note)
-{
-    const hci_expectation expected = {f->precision, f->terms.centre};
-    *misfit = INFINITY;
-    hci_allowed_terms_precision(&f->terms, width, f->precision);
-    if (!hci_ridge_make(&f->runs, &expected, ridge)) return HCI_OK;
-    if (!hci_ridge_leave_out(ridge, &f->runs, left)) return hci_note_memory(note, NULL, "leaving runs out");
-    *misfit = misfit_of(f, left);
-    return HCI_OK;
-}
-
-/* Keeps a ridge with what leaving out told of it. */
-static void width_keep(finding *f, hci_ridge *next)
-{
-    hci_ridge_release(&f->ridge);
-    f->ridge = *next;
-    memset(next, 0, sizeof *next);
-    memcpy(f->left, f->left + f->runs.count, f->runs.count * sizeof *f->left);
-}
-
-/* The widest expectation that describes runs left out as well as any narrower one; none narrower is looked at
- * behind two that describe them worse. */
-static hci_status width_choose(finding *f, hci_note *note)
-{
-    double kept = INFINITY;
-    int worse = 0;
-    hci_status status = HCI_OK;
-    for (size_t w = 0; w < WIDTH_COUNT && worse < MOST_WORSE && !status; ++w) {
-        hci_ridge next = {0};
-        double misfit;
-        status = width_try(f, WIDTHS[w], &next, f->left + f->runs.count, &misfit, note);
-        worse = isfinite(misfit) && misfit > kept + AS_GOOD ? worse + 1 : 0;
-        if (!status && misfit + AS_GOOD < kept) {
-            width_keep(f, &next);
-            kept = misfit;
-        }
-        hci_ridge_release(&next);
+    double turns = 0.0;
+    for (const hci_segment *s = NULL; (s = hci_segment_next(e->samples, run, s)) != NULL;) {
+        const hci_binned_sample *first = e->samples->sample + s->first, *last = first + s->count - 1;
+        turns += fabs(last->reading.theta_m_rad - first->reading.theta_m_rad) * e->machine->pole_pairs;
     }
-    return status;
+    return turns / (2.0 * HCI_PI);
+}
+
+/* Whether a part of a run can be left out, and what remains still tells all orders. */
+static bool spans_enough(const hci_regression *e, size_t parts)
+{
+    for (size_t r = 0; r < e->samples->run_count && parts > 1; ++r)
+        if (e->use[r] && !(turns_of(e, r) * (double)(parts - 1) >= WHOLE * (double)parts)) return false;
+    return true;
+}
+
+/* A recording that another one repeats is not left out while that one stays: both are. Where so few are left
+ * that nothing can be left out, such as parts of one run, repetitions are all there is. */
+static hci_status runs_join(finding *f, hci_note *note)
+{
+    if (!hci_condensed_join(&f->parts, f->terms.unit, COPY, &f->runs, f->group))
+        return hci_note_memory(note, NULL, "what recordings leave open");
+    if (f->runs.count >= HCI_LEAST_GROUPS || f->runs.count == f->parts.count) return HCI_OK;
+    hci_condensed_release(&f->runs);
+    if (!hci_condensed_join(&f->parts, f->terms.unit, INFINITY, &f->runs, f->group))
+        return hci_note_memory(note, NULL, "what recordings leave open");
+    return HCI_OK;
+}
+
+static hci_status parts_add(finding *f, hci_note *note)
+{
+    const hci_regression *e = f->regression;
+    const size_t parts = hci_run_parts(e), most = parts * hci_regression_runs_in_use(e);
+    if (!spans_enough(e, parts)) return HCI_OK;
+    f->run = hci_memory_new(2 * most + 1, sizeof *f->run);
+    if (!f->run || !hci_condensed_start(&f->parts, f->terms.count, most))
+        return hci_note_memory(note, NULL, "what recordings leave open");
+    f->group = f->run + most;
+    const hci_status status = hci_run_parts_each(e, part_add, f, note);
+    return status ? status : runs_join(f, note);
 }
 
 /* ---- what was measured ---- */
@@ -131,102 +118,161 @@ static hci_status measured_fill(const finding *f, const hci_effects *effects, si
     return HCI_OK;
 }
 
-/* ---- machines that are allowed ---- */
-
-/* Mean of s² over the runs that tell of it, and how many these are. */
-static double scale_square(const finding *f, size_t *count)
+/* What leaving out tells of one run: mean of s² over its parts; NAN: nothing. */
+static double misfit_of_run(const finding *f, const hci_left_out_group *left, size_t run)
 {
-    double sum = 0.0;
-    *count = 0;
-    for (size_t g = 0; g < f->runs.count; ++g)
-        if (isfinite(f->left[g].misfit)) {
-            sum += f->left[g].misfit;
-            ++*count;
-        }
-    return *count > 0 ? sum / (double)*count : (double)NAN;
+    double sum = 0.0, count = 0.0;
+    for (size_t k = 0; k < f->parts.count; ++k) {
+        const double misfit = left[f->group[k]].misfit;
+        if (f->run[k] != run || !isfinite(misfit)) continue;
+        sum += misfit;
+        count += 1.0;
+    }
+    return count > 0.0 ? sum / count : (double)NAN;
 }
 
-/* s of the group that tells of it behind place `at`, around and around. */
-static double next_scale(const finding *f, size_t *at)
+/* Whether a part is the first of its run. */
+static bool is_first(const finding *f, size_t part)
+{
+    return part == 0 || f->run[part - 1] != f->run[part];
+}
+
+static hci_status runs_fill(const finding *f, const hci_effects *effects, hci_uncertainty *u, hci_note *note)
+{
+    const hci_left_out_group *left = f->trials.trial[f->trials.best].left;
+    double sum = 0.0, count = 0.0;
+    size_t at = 0;
+    hci_status status = HCI_OK;
+    for (size_t k = 0; k < f->parts.count && !status; ++k) {
+        if (!is_first(f, k)) continue;
+        status = measured_fill(f, effects, f->run[k], &u->run[at], note);
+        u->run[at].misfit = misfit_of_run(f, left, f->run[k]);
+        if (isfinite(u->run[at].misfit)) {
+            sum += u->run[at].misfit;
+            count += 1.0;
+        }
+        ++at;
+    }
+    for (size_t r = 0; r < at; ++r)
+        u->run[r].misfit = sqrt(u->run[r].misfit * count / sum);
+    return status;
+}
+
+/* ---- machines that are allowed ---- */
+
+/* How many groups tell of s; where none shows an error, 0. */
+static size_t told_by(const finding *f, const hci_width_trial *x)
+{
+    size_t count = 0;
+    double sum = 0.0;
+    for (size_t g = 0; g < f->runs.count; ++g)
+        if (isfinite(x->left[g].misfit)) {
+            sum += x->left[g].misfit;
+            ++count;
+        }
+    return sum > 0.0 ? count : 0;
+}
+
+/* Where machines go, and what chance they are drawn with. */
+typedef struct {
+    const hci_model *model;
+    hci_uncertainty *uncertainty;
+    hci_draws draws;
+    double *x, *size; /* [columns], [groups] */
+} drawing;
+
+/* The size of the group that has one behind place `at`, around and around. */
+static double next_size(const finding *f, const double *size, size_t *at)
 {
     do
         *at = (*at + 1) % f->runs.count;
-    while (!isfinite(f->left[*at].misfit));
-    return sqrt(fmax(0.0, f->left[*at].misfit));
+    while (isnan(size[*at]));
+    return size[*at];
 }
 
-/* Departures of all machines: errors of the size that one run after the other has shown, and more, since few
- * runs may have shown too little. */
-static hci_status machines_draw(const finding *f, const hci_model *model, size_t told, hci_uncertainty *u,
-                                hci_note *note)
+/* Departures of the machines from one place to another, of one trial: errors of the size that is to be
+ * expected of one run after the other, and more, since few runs may have shown too little. */
+static hci_status trial_draw(const finding *f, size_t trial, size_t from, size_t until, drawing *d,
+                             hci_note *note)
 {
-    hci_draws draws = {SEED};
+    const double freedom = hci_group_sizes(f->trials.trial[trial].left, f->runs.count, d->size);
+    const unsigned whole = (unsigned)fmin(MOST_FREEDOM, fmax(1.0, freedom));
     size_t at = 0;
-    double *x = hci_memory_new(model->columns + 1, sizeof *x);
-    if (!x) return hci_note_memory(note, NULL, "what recordings leave open");
-    for (size_t m = 0; m < u->machines; ++m) {
-        const double s = next_scale(f, &at) * hci_draws_student_scale(&draws, (unsigned)told - 1);
-        hci_ridge_draw(&f->ridge, s, &draws, x);
-        for (size_t c = 0; c < model->columns; ++c)
-            u->departure[model->column[c].place * u->machines + m] = x[c];
+    hci_ridge ridge;
+    if (!hci_width_trials_ridge(&f->trials, trial, &f->terms, &f->runs, &ridge))
+        return hci_note_memory(note, NULL, "what recordings leave open");
+    for (size_t m = from; m < until; ++m) {
+        const double s = next_size(f, d->size, &at) * hci_draws_student_scale(&d->draws, whole);
+        hci_ridge_draw(&ridge, s, &d->draws, d->x);
+        for (size_t c = 0; c < d->model->columns; ++c)
+            d->uncertainty->departure[d->model->column[c].place * d->uncertainty->machines + m] = d->x[c];
     }
-    hci_memory_free(x);
+    hci_ridge_release(&ridge);
     return HCI_OK;
 }
 
-static hci_status uncertainty_fill(const finding *f, double scale, size_t told, hci_uncertainty *u,
-                                   hci_note *note)
+/* Each trial has as many machines as its weight is of all. */
+static hci_status machines_draw(const finding *f, const hci_model *model, hci_uncertainty *u, hci_note *note)
+{
+    drawing d = {model, u, {SEED}, hci_memory_new(model->columns + f->runs.count + 1, sizeof *d.x), NULL};
+    double sum = 0.0;
+    size_t from = 0;
+    hci_status status = d.x ? HCI_OK : hci_note_memory(note, NULL, "what recordings leave open");
+    if (d.x) d.size = d.x + model->columns;
+    for (size_t k = 0; k < f->trials.count && !status; ++k) {
+        sum += f->trials.trial[k].weight;
+        const size_t until = (size_t)floor(sum * (double)u->machines + 0.5);
+        if (until > from) status = trial_draw(f, k, from, until, &d, note);
+        from = until;
+    }
+    hci_memory_free(d.x);
+    return status;
+}
+
+static size_t runs_told(const finding *f)
+{
+    size_t runs = 0;
+    for (size_t k = 0; k < f->parts.count; ++k)
+        runs += is_first(f, k);
+    return runs;
+}
+
+static hci_status uncertainty_fill(const finding *f, hci_uncertainty *u, hci_note *note)
 {
     hci_model model;
     hci_status status = hci_model_make(f->regression->declared, &f->terms.candidates, true, &model, note);
     if (status) return status;
     u->effects = (hci_effects_data){model.list, model.effect, model.term};
-    status = hci_uncertainty_reserve(u, f->runs.count, MACHINES, note);
-    for (size_t g = 0; g < f->runs.count && !status; ++g) {
-        status = measured_fill(f, &model.list, f->run[g], &u->run[g], note);
-        u->run[g].misfit = sqrt(f->left[g].misfit / scale);
-    }
-    if (!status) status = machines_draw(f, &model, told, u, note);
+    status = hci_uncertainty_reserve(u, runs_told(f), MACHINES, note);
+    if (!status) status = runs_fill(f, &model.list, u, note);
+    if (!status) status = machines_draw(f, &model, u, note);
     hci_memory_free(model.column);
     return status;
 }
 
 /* ---- all of it ---- */
 
-static hci_status finding_make(finding *f, const hci_candidates *fitted, hci_note *note)
-{
-    const size_t runs = f->regression->samples->run_count;
-    hci_status status = hci_allowed_terms_make(f->regression, fitted, &f->terms, note);
-    if (status) return status;
-    f->run = hci_memory_new(runs + 1, sizeof *f->run);
-    f->left = hci_memory_new(2 * runs + 1, sizeof *f->left);
-    f->precision = hci_memory_new(f->terms.count + 1, sizeof *f->precision);
-    if (!f->run || !f->left || !f->precision || !hci_condensed_start(&f->runs, f->terms.count, runs))
-        return hci_note_memory(note, NULL, "what recordings leave open");
-    return hci_regression_each_run(f->regression, run_add, f, note);
-}
-
 static void finding_release(finding *f)
 {
-    hci_ridge_release(&f->ridge);
+    hci_width_trials_release(&f->trials);
+    hci_condensed_release(&f->parts);
     hci_condensed_release(&f->runs);
     hci_allowed_terms_release(&f->terms);
     hci_memory_free(f->run);
-    hci_memory_free(f->left);
-    hci_memory_free(f->precision);
 }
 
 hci_status hci_uncertainty_find(hci_regression *regression, const hci_candidates *fitted,
                                 hci_uncertainty *uncertainty, hci_note *note)
 {
     finding f = {.regression = regression};
-    size_t told = 0;
     memset(uncertainty, 0, sizeof *uncertainty);
-    hci_status status = finding_make(&f, fitted, note);
-    if (!status && f.runs.count >= LEAST_RUNS) status = width_choose(&f, note);
-    const double scale = !status && f.ridge.factor ? scale_square(&f, &told) : (double)NAN;
-    if (!status && scale > 0.0 && told >= LEAST_RUNS)
-        status = uncertainty_fill(&f, scale, told, uncertainty, note);
+    hci_status status = hci_allowed_terms_make(f.regression, fitted, &f.terms, note);
+    if (!status) status = parts_add(&f, note);
+    if (!status && f.runs.count >= HCI_LEAST_GROUPS) {
+        status = hci_width_trials_make(&f.terms, &f.runs, &f.trials, note);
+        if (!status && told_by(&f, &f.trials.trial[f.trials.best]) >= HCI_LEAST_GROUPS)
+            status = uncertainty_fill(&f, uncertainty, note);
+    }
     finding_release(&f);
     if (status) hci_uncertainty_release(uncertainty);
     return status;

@@ -17,9 +17,11 @@ const char *hci_ripple_state_words(hci_ripple_state state)
     static const char *const WORDS[] = {
         "",
         "Ripple not known: no recordings that tell it (diagnose writes uncertainty.csv from three or more "
-        "that it has explained)",
+        "that it has explained, or from parts of a long one)",
         "Ripple not known: effects.csv is not the one that uncertainty.csv was found for; run diagnose "
-        "again"};
+        "again",
+        "Ripple not known: the currents lie far outside of what one or two recordings show; record such a "
+        "run"};
     return WORDS[state];
 }
 
@@ -170,6 +172,7 @@ static void fill_currents(const hci_ripple_path *path, const hci_uncertainty *u,
     e->measured_iq_A = all.iq_A;
     e->measured_speed_rad_per_s = all.speed_rad_per_s;
     e->outside_A = 0.0;
+    e->recordings = u->runs;
     for (size_t k = 0; k < path->count; ++k) {
         const double theta_rad = path->machine->pole_pairs * path->sample[k].theta_m_rad;
         const hci_dq i = hci_park(hci_clarke(path->sample[k].i_abc), theta_rad);
@@ -183,13 +186,27 @@ static void fill_currents(const hci_ripple_path *path, const hci_uncertainty *u,
     e->speed_outside = beyond(all.speed_rad_per_s, path->speed_rad_per_s) > 0.0;
 }
 
+#define CHECKED 0.5 /* of the largest current recorded: how far outside the bound has been checked */
+
+/* The largest i_d or i_q that was recorded. */
+static double largest_measured_A(const hci_expected_ripple *e)
+{
+    const double d = fmax(fabs(e->measured_id_A.least), fabs(e->measured_id_A.most));
+    return fmax(d, fmax(fabs(e->measured_iq_A.least), fabs(e->measured_iq_A.most)));
+}
+
+bool hci_expected_ripple_is_far(const hci_expected_ripple *e)
+{
+    return e->outside_A > CHECKED * largest_measured_A(e);
+}
+
 /* ---- all of it ---- */
 
 static hci_expected_ripple nothing(hci_ripple_state state)
 {
     const hci_measured_range none = {NAN, NAN};
-    return (hci_expected_ripple){state, NAN,  NAN,  NAN,  NAN, NAN, NAN,  none,
-                                 none,  none, none, none, NAN, NAN, false};
+    return (hci_expected_ripple){state, NAN,  NAN,  NAN,  NAN, NAN, NAN,   none,
+                                 none,  none, none, none, NAN, NAN, false, 0};
 }
 
 hci_status hci_expected_ripple_find(const hci_ripple_path *path, const hci_uncertainty *u,
@@ -201,12 +218,16 @@ hci_status hci_expected_ripple_find(const hci_ripple_path *path, const hci_uncer
     expected->state = HCI_RIPPLE_OTHER_EFFECTS;
     if (!hci_uncertainty_is_of(u, path->effects)) return HCI_OK;
     expected->state = HCI_RIPPLE_KNOWN;
+    fill_currents(path, u, expected);
+    if (u->runs < HCI_RIPPLE_LEAST_RECORDINGS && hci_expected_ripple_is_far(expected)) {
+        *expected = nothing(HCI_RIPPLE_TOO_FAR);
+        return HCI_OK;
+    }
     hci_status status = machines_make(path, u, &m, note);
     for (size_t k = 0; k < path->count && !status; ++k)
         sample_fill(&m, k);
     if (!status) {
         fill_peaks(&m, expected);
-        fill_currents(path, u, expected);
         status = fill_worst(&m, expected, note);
     }
     hci_memory_free(m.torque_Nm);

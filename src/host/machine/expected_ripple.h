@@ -5,6 +5,9 @@
 #include "hci/effects/effect.h"
 #include "hci/host/machine/expected_ripple.h"
 
+/* Of fewer recordings parts were left out in turn, which tell nothing of other currents. */
+enum { HCI_RIPPLE_LEAST_RECORDINGS = 3 };
+
 /* Samples of a current, and what the model makes of it. */
 typedef struct {
     const hci_machine *machine; /* declared */
@@ -22,5 +25,8 @@ typedef struct {
  */
 hci_status hci_expected_ripple_find(const hci_ripple_path *path, const hci_uncertainty *uncertainty,
                                     hci_expected_ripple *expected, hci_note *note);
+
+/* Whether currents lie further outside of what was recorded than a bound has been checked for. */
+bool hci_expected_ripple_is_far(const hci_expected_ripple *expected);
 
 #endif

@@ -2,11 +2,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "hci/host/machine/expected_ripple.h"
 #include "hci/math/harmonic.h"
 #include "host/base/words.h"
-
-#define CHECKED 0.5 /* of the largest current recorded: how far outside the bound has been checked */
+#include "host/machine/expected_ripple.h"
 
 static void say_ripple(const hci_words *w, const hci_expected_ripple *e)
 {
@@ -28,13 +26,6 @@ static void say_measured(const hci_words *w, const hci_expected_ripple *e)
                   e->measured_iq_A.least, e->measured_iq_A.most);
 }
 
-/* The largest i_d or i_q that was recorded. */
-static double largest_measured_A(const hci_expected_ripple *e)
-{
-    const double d = fmax(fabs(e->measured_id_A.least), fabs(e->measured_id_A.most));
-    return fmax(d, fmax(fabs(e->measured_iq_A.least), fabs(e->measured_iq_A.most)));
-}
-
 static void say_currents(const hci_words *w, const hci_expected_ripple *e)
 {
     if (e->outside_share > 0.0) {
@@ -44,7 +35,7 @@ static void say_currents(const hci_words *w, const hci_expected_ripple *e)
         hci_words_say(
             w, ", by up to %.2g A: what the machine does there was not seen, and the bound is wider for it.",
             e->outside_A);
-        if (e->outside_A > CHECKED * largest_measured_A(e))
+        if (hci_expected_ripple_is_far(e))
             hci_words_say(w, " That is further outside than such a bound has been checked for: record it.");
         return;
     }
@@ -61,6 +52,17 @@ static void say_speed(const hci_words *w, const hci_expected_ripple *e)
                       rpm * e->measured_speed_rad_per_s.least, rpm * e->measured_speed_rad_per_s.most);
 }
 
+/* Parts of a recording are left out where there are no recordings to leave out. */
+static void say_recordings(const hci_words *w, const hci_expected_ripple *e)
+{
+    if (e->recordings > 0 && e->recordings < HCI_RIPPLE_LEAST_RECORDINGS)
+        hci_words_say(
+            w,
+            " That was told by parts of %zu recording%s: what the machine does otherwise than there "
+            "was not seen.",
+            e->recordings, e->recordings == 1 ? "" : "s");
+}
+
 void hci_expected_ripple_words(const hci_expected_ripple *e, char *text, size_t size)
 {
     const hci_words w = {text, size};
@@ -72,4 +74,5 @@ void hci_expected_ripple_words(const hci_expected_ripple *e, char *text, size_t 
     say_ripple(&w, e);
     say_currents(&w, e);
     say_speed(&w, e);
+    say_recordings(&w, e);
 }

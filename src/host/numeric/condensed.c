@@ -123,3 +123,88 @@ bool hci_condensed_add(hci_condensed *all, const hci_normal_equations *group, co
         all->moment[k] += group->moment[k];
     return true;
 }
+
+/* ---- groups that tell the same ---- */
+
+/* Σ of the elementwise product of two XᵀX, |F_aᵀ D F_b|² with D over what all groups tell. */
+static double product_of(const hci_condensed *all, const hci_condensed_group *a, const hci_condensed_group *b)
+{
+    double sum = 0.0;
+    for (size_t i = 0; i < a->rank; ++i)
+        for (size_t j = 0; j < b->rank; ++j) {
+            double x = 0.0;
+            for (size_t k = 0; k < all->n; ++k) {
+                const double told = all->gram[k * all->n + k];
+                if (told > 0.0) x += a->factor[k * a->rank + i] * b->factor[k * b->rank + j] / told;
+            }
+            sum += x * x;
+        }
+    return sum;
+}
+
+/* The first group that tells the same as a group, itself at last. */
+static size_t leader_of(const hci_condensed *all, size_t g, double alike, const double *square)
+{
+    for (size_t j = 0; j < g; ++j)
+        if (product_of(all, &all->group[j], &all->group[g]) >= alike * sqrt(square[j] * square[g])) return j;
+    return g;
+}
+
+static void group_take(const hci_condensed_group *g, hci_normal_equations *sum)
+{
+    for (size_t i = 0; i < sum->n; ++i) {
+        const double *row = g->factor + i * g->rank;
+        for (size_t r = 0; r < g->rank; ++r)
+            sum->moment[i] += row[r] * g->moment[r];
+        for (size_t j = 0; j < sum->n; ++j)
+            for (size_t r = 0; r < g->rank; ++r)
+                sum->gram[i * sum->n + j] += row[r] * g->factor[j * g->rank + r];
+    }
+    for (size_t r = 0; r < g->rank; ++r)
+        sum->square += g->moment[r] * g->moment[r];
+    sum->square += g->rest;
+    sum->rows += g->rows;
+}
+
+/* All groups with the same leader as one. */
+static bool cluster_add(const hci_condensed *all, const double *unit, size_t leader, const size_t *of,
+                        hci_condensed *joined)
+{
+    hci_normal_equations sum = {0};
+    if (!hci_normal_equations_start(&sum, all->n)) return false;
+    for (size_t g = leader; g < all->count; ++g)
+        if (of[g] == leader) group_take(&all->group[g], &sum);
+    const bool added = hci_condensed_add(joined, &sum, unit);
+    hci_normal_equations_release(&sum);
+    return added;
+}
+
+static void leaders_find(const hci_condensed *all, double alike, double *square, size_t *of)
+{
+    for (size_t g = 0; g < all->count; ++g) {
+        square[g] = product_of(all, &all->group[g], &all->group[g]);
+        of[g] = leader_of(all, g, alike, square);
+        of[g] = of[of[g]];
+    }
+}
+
+bool hci_condensed_join(const hci_condensed *all, const double *unit, double alike, hci_condensed *joined,
+                        size_t *of)
+{
+    double *square = hci_memory_new(all->count + 1, sizeof *square);
+    size_t *place = hci_memory_new(all->count + 1, sizeof *place);
+    bool made = square && place && hci_condensed_start(joined, all->n, all->count);
+    if (made) leaders_find(all, alike, square, of);
+    for (size_t g = 0; g < all->count && made; ++g) {
+        if (of[g] == g) {
+            place[g] = joined->count;
+            made = cluster_add(all, unit, g, of, joined);
+        }
+    }
+    for (size_t g = 0; g < all->count && made; ++g)
+        of[g] = place[of[g]];
+    if (!made) hci_condensed_release(joined);
+    hci_memory_free(square);
+    hci_memory_free(place);
+    return made;
+}

@@ -34,4 +34,10 @@ void hci_condensed_release(hci_condensed *all);
  * largest regressor at that size is left out. False when memory is out. O(n rank²). */
 bool hci_condensed_add(hci_condensed *all, const hci_normal_equations *group, const double *unit);
 
+/* The same with groups joined that tell the same: whose XᵀX, each unknown in units of what all groups tell of
+ * it, have a cosine of `alike` or more. joined: out, start with {0}; of[all->count]: out, the joined group of
+ * each. False when memory is out, and then *joined is empty. O(n rank² groups² + n² rank groups). */
+bool hci_condensed_join(const hci_condensed *all, const double *unit, double alike, hci_condensed *joined,
+                        size_t *of);
+
 #endif

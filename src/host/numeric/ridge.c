@@ -115,14 +115,19 @@ static bool errors_find(const leaving *w)
 static hci_left_out_group judge(const leaving *w)
 {
     const size_t rank = w->group->rank;
-    double square = w->group->rest, sum = 0.0, trace = 0.0;
+    const double beside = w->group->rows - (double)rank,
+                 noise = beside >= 1.0 ? w->group->rest / beside : 0.0;
+    double square = w->group->rest, sum = 0.0, trace = 0.0, squares = 0.0;
     for (size_t i = 0; i < rank; ++i) {
         square += w->e[i] * w->e[i];
         trace += w->k[i + i * rank];
-        for (size_t j = 0; j < rank; ++j)
+        for (size_t j = 0; j < rank; ++j) {
             sum += w->u[i] * w->k[i + j * rank] * w->e[j];
+            squares += w->k[i + j * rank] * w->k[i + j * rank];
+        }
     }
-    return (hci_left_out_group){square, trace > 0.0 ? sum / trace : (double)NAN};
+    if (!(trace > 0.0)) return (hci_left_out_group){square, NAN, 0.0, noise};
+    return (hci_left_out_group){square, sum / trace, trace * trace / squares, noise};
 }
 
 static bool leave_one(const hci_ridge *p, const hci_condensed_group *group, hci_left_out_group *out)
@@ -137,7 +142,7 @@ static bool leave_one(const hci_ridge *p, const hci_condensed_group *group, hci_
     w.e = w.u + rank;
     whiten(&w);
     products_fill(&w);
-    *out = errors_find(&w) ? judge(&w) : (hci_left_out_group){INFINITY, NAN};
+    *out = errors_find(&w) ? judge(&w) : (hci_left_out_group){INFINITY, NAN, 0.0, 0.0};
     hci_memory_free(w.v);
     return true;
 }
@@ -147,6 +152,60 @@ bool hci_ridge_leave_out(const hci_ridge *ridge, const hci_condensed *rows, hci_
     for (size_t g = 0; g < rows->count; ++g)
         if (!leave_one(ridge, &rows->group[g], &out[g])) return false;
     return true;
+}
+
+/* ---- how groups differ ---- */
+
+/* Over the groups that tell something. */
+typedef struct {
+    double count, mean; /* of s² */
+    double noise;       /* f */
+    double by_chance;   /* mean variance of s² that noise makes */
+    double beyond;      /* τ² */
+} scatter;
+
+static double chance_of(const hci_left_out_group *g, const scatter *x)
+{
+    return 2.0 * x->noise * x->noise * x->mean * x->mean / fmax(1.0, g->directions);
+}
+
+static void means_fill(const hci_left_out_group *left, size_t count, scatter *x)
+{
+    double noise = 0.0;
+    for (size_t g = 0; g < count; ++g) {
+        if (!isfinite(left[g].misfit)) continue;
+        x->mean += left[g].misfit;
+        noise += left[g].noise;
+        x->count += 1.0;
+    }
+    x->noise = x->mean > 0.0 ? fmin(1.0, noise / x->mean) : 0.0;
+    x->mean /= fmax(1.0, x->count);
+}
+
+static void scatter_fill(const hci_left_out_group *left, size_t count, scatter *x)
+{
+    double square = 0.0;
+    for (size_t g = 0; g < count; ++g) {
+        if (!isfinite(left[g].misfit)) continue;
+        square += (left[g].misfit - x->mean) * (left[g].misfit - x->mean);
+        x->by_chance += chance_of(&left[g], x) / x->count;
+    }
+    x->beyond = fmax(0.0, square / fmax(1.0, x->count - 1.0) - x->by_chance);
+}
+
+double hci_group_sizes(const hci_left_out_group *left, size_t count, double *size)
+{
+    scatter x = {0.0, 0.0, 0.0, 0.0, 0.0};
+    means_fill(left, count, &x);
+    scatter_fill(left, count, &x);
+    for (size_t g = 0; g < count; ++g) {
+        const double share = x.beyond > 0.0 ? x.beyond / (x.beyond + chance_of(&left[g], &x)) : 0.0;
+        const double square = x.mean + share * (left[g].misfit - x.mean);
+        size[g] = isfinite(left[g].misfit) ? sqrt(fmax(0.0, square)) : (double)NAN;
+    }
+    if (!(x.mean > 0.0)) return 0.0;
+    const double lacking = 2.0 * pow((1.0 - x.noise) * x.mean, 2.0);
+    return fmax(1.0, 2.0 * x.mean * x.mean * x.count / (fmax(x.beyond, lacking) + x.by_chance));
 }
 
 /* ---- draws ---- */

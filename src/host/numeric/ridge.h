@@ -38,12 +38,30 @@ void hci_ridge_release(hci_ridge *ridge);
 
 /* What leaving each group out tells. */
 typedef struct {
-    double square; /* Σ (y − X x)² with the mean from all others */
-    double misfit; /* s² of this group; NAN where it tells of no unknown */
+    double square;     /* Σ (y − X x)² with the mean from all others */
+    double misfit;     /* s² of this group; NAN where it tells of no unknown */
+    double directions; /* of how many squares that is the mean, (tr K)²/tr K² */
+    double noise;      /* mean square of what no unknown describes; 0 where there is nothing else */
 } hci_left_out_group;
 
 /* out[rows->count]. False when memory is out. O(n² Σ rank). */
 bool hci_ridge_leave_out(const hci_ridge *ridge, const hci_condensed *rows, hci_left_out_group *out);
+
+/* By how much groups differ in the size of their errors, beyond what chance makes of few numbers.
+ *
+ * In: s² of each group, the mean of ν squares. Out: s² of each as it is to be expected of the group, and how
+ * well their mean is known. Of the mean s̄² a share f is noise, as large as what no unknown describes, and its
+ * squares are independent of each other: by chance s² scatters with the variance 2 f² s̄⁴/ν. What it scatters
+ * more, τ², is a difference of the groups (DerSimonian and Laird 1986). The rest of s̄² is what the unknowns
+ * cannot describe; that is the same law in all directions of a group, which counts as one value of it
+ * (Satterthwaite 1946):
+ *
+ *     s̃² = s̄² + (s² − s̄²) τ²/(τ² + 2 f² s̄⁴/ν)
+ *     freedom of the mean = 2 s̄⁴ n/(max(τ², 2 (1 − f)² s̄⁴) + mean of 2 f² s̄⁴/ν)
+ *
+ * size[count]: out, s̃ of each; NAN where the group tells nothing. Returns the freedom, at least 1; 0 where no
+ * group shows an error. */
+double hci_group_sizes(const hci_left_out_group *left, size_t count, double *size);
 
 /* x[n]: one draw of mean + s A^(−1/2) z. O(n²). */
 void hci_ridge_draw(const hci_ridge *ridge, double s, hci_draws *draws, double *x);

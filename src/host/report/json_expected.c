@@ -28,5 +28,6 @@ void hci_summary_expected(hci_json *json, const hci_expected_ripple *e)
     hci_json_number(json, "outside_share", e->outside_share);
     hci_json_number(json, "outside_A", e->outside_A);
     hci_json_bool(json, "speed_outside", e->speed_outside);
+    hci_json_number(json, "recordings", (double)e->recordings);
     hci_json_close(json);
 }

@@ -52,6 +52,14 @@ static const char RUNS[] =
     "\"runs/a,b.csv\",-3,0,0,6,10,12,1.25\n"
     "runs/c.csv,0,2.5,-1,1,,,\n";
 
+/* One more, which covers nothing that those do not. */
+static const char THREE_RUNS[] =
+    "file,id_least_A,id_most_A,iq_least_A,iq_most_A,speed_least_rad_per_s,speed_most_rad_per_s,"
+    "misfit\n"
+    "\"runs/a,b.csv\",-3,0,0,6,10,12,1.25\n"
+    "runs/c.csv,0,2.5,-1,1,,,\n"
+    "runs/d.csv,0,0,0,0,,,1\n";
+
 static hci_status read_texts(const char *terms, const char *measured)
 {
     note.text[0] = '\0';
@@ -188,7 +196,7 @@ static void allow_cogging(double sigma_Nm)
         }
         strcat(text, of_cosine ? "\n" : "\ncogging,cosine_12,0,Nm,");
     }
-    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, read_texts(text, RUNS), note.text);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, read_texts(text, THREE_RUNS), note.text);
 }
 
 /* A constant current in the rotor frame over one turn, and the mean torque alone. */
@@ -303,6 +311,27 @@ static void test_not_known(void)
     TEST_ASSERT_TRUE(isnan(e.T_ripple_percent));
 }
 
+/* Of one or two recordings parts tell how large errors are: nothing of far away. */
+static void test_too_far_for_two_recordings(void)
+{
+    char words[1024];
+    TEST_ASSERT_EQUAL_INT(HCI_OK, read_texts("effect,parameter,value,unit,departures\n"
+                                             "cogging,sine_12,0,Nm,0.001 -0.002 0.0005\n",
+                                             RUNS));
+    hci_ripple_path path = path_of(0.0, 8.9); /* half as much again as 6 A is 9 A */
+    hci_expected_ripple e = expect(&path);
+    TEST_ASSERT_EQUAL_INT(HCI_RIPPLE_KNOWN, e.state);
+    TEST_ASSERT_EQUAL_UINT(2, e.recordings);
+    hci_expected_ripple_words(&e, words, sizeof words);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(words, "by parts of 2 recordings"), words);
+    path = path_of(0.0, 9.1);
+    e = expect(&path);
+    TEST_ASSERT_EQUAL_INT(HCI_RIPPLE_TOO_FAR, e.state);
+    TEST_ASSERT_TRUE(isnan(e.peak_to_peak_Nm));
+    hci_expected_ripple_words(&e, words, sizeof words);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(words, "far outside of what one or two recordings show"), words);
+}
+
 static void test_words(void)
 {
     char words[1024];
@@ -356,6 +385,7 @@ int main(void)
     RUN_TEST(test_currents_outside);
     RUN_TEST(test_grows_with_the_current);
     RUN_TEST(test_not_known);
+    RUN_TEST(test_too_far_for_two_recordings);
     RUN_TEST(test_words);
     RUN_TEST(test_memory);
     return UNITY_END();

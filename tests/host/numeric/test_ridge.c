@@ -234,33 +234,51 @@ static void test_draws(void)
     TEST_ASSERT_DOUBLE_WITHIN(0.04 * S * S / 9.0, S * S / 9.0, square);
 }
 
-/* Share of worlds in which a value that was never measured is below what one draw in twenty exceeds. known:
- * the size of the errors is, else the groups tell it. */
-static double coverage(size_t of_groups, bool known, int worlds)
+/* How large errors are, when draws are made: known, or as the groups tell it. */
+typedef struct {
+    bool known;
+    double size[MOST_GROUPS], freedom;
+} errors;
+
+static double size_of(const errors *e, int k, hci_draws *draws)
+{
+    if (e->known) return S;
+    return e->size[(size_t)k % groups] * hci_draws_student_scale(draws, (unsigned)e->freedom);
+}
+
+/* How many of 199 draws of a value that was never measured are below it. */
+static int draws_below(const double *truth, const errors *e, hci_draws *draws)
 {
     enum { DRAWS = 199 };
+    double drawn[MOST_COLUMNS], at[MOST_COLUMNS], value = 0.0;
+    int below = 0;
+    for (size_t c = 0; c < columns; ++c) {
+        at[c] = ref_uniform(&seed, -2.0, 2.0);
+        value += at[c] * truth[c];
+    }
+    for (int k = 0; k < DRAWS; ++k) {
+        double of_draw = 0.0;
+        hci_ridge_draw(&ridge, size_of(e, k, draws), draws, drawn);
+        for (size_t c = 0; c < columns; ++c)
+            of_draw += at[c] * drawn[c];
+        below += of_draw < value;
+    }
+    return below;
+}
+
+/* Share of worlds in which it is below what one draw in twenty exceeds. */
+static double coverage(size_t of_groups, bool known, int worlds)
+{
     int within = 0;
     for (int w = 0; w < worlds; ++w) {
-        double truth[MOST_COLUMNS], drawn[MOST_COLUMNS], at[MOST_COLUMNS], value = 0.0;
+        double truth[MOST_COLUMNS];
         hci_draws draws = {(uint64_t)w};
-        int below = 0;
+        errors e = {.known = known};
         size(of_groups, 3, 6);
         draw_world(truth);
         solve();
-        for (size_t c = 0; c < columns; ++c) {
-            at[c] = ref_uniform(&seed, -2.0, 2.0);
-            value += at[c] * truth[c];
-        }
-        const double s = known ? S : sqrt(mean_misfit());
-        for (int k = 0; k < DRAWS; ++k) {
-            double of_draw = 0.0;
-            const double wider = known ? 1.0 : hci_draws_student_scale(&draws, (unsigned)of_groups - 1);
-            hci_ridge_draw(&ridge, s * wider, &draws, drawn);
-            for (size_t c = 0; c < columns; ++c)
-                of_draw += at[c] * drawn[c];
-            below += of_draw < value;
-        }
-        within += below < 190; /* of 199 draws 9 at the most are above the 190th */
+        e.freedom = hci_group_sizes(left, groups, e.size);
+        within += draws_below(truth, &e, &draws) < 190; /* 9 at the most are above the 190th */
         release();
     }
     return (double)within / worlds;
@@ -272,7 +290,8 @@ static void test_one_value_in_twenty_is_above_the_bound(void)
     TEST_ASSERT_DOUBLE_WITHIN(3.0 * sqrt(0.05 * 0.95 / WORLDS), 0.95, coverage(4, true, WORLDS));
 }
 
-/* A group counts as one value of s², though it may tell more: rather too wide than too narrow. */
+/* Of a few groups, each of a few rows, it is not known whether they differ: rather too wide than too narrow.
+ */
 static void test_no_more_than_that_where_groups_tell_the_size(void)
 {
     enum { WORLDS = 1000 };
@@ -282,6 +301,116 @@ static void test_no_more_than_that_where_groups_tell_the_size(void)
         TEST_ASSERT_TRUE(share > least);
         TEST_ASSERT_TRUE(share < 0.99);
     }
+}
+
+/* ---- groups that tell the same ---- */
+
+/* The third group repeats the first, but for y. */
+static void test_copies_are_joined(void)
+{
+    hci_condensed joined = {0};
+    size_t of[MOST_GROUPS];
+    size(4, 5, 6);
+    draw_rows();
+    memcpy(x + 2 * rows * columns, x, rows * columns * sizeof *x);
+    condense();
+    TEST_ASSERT_TRUE(hci_condensed_join(&condensed, unit, 0.99, &joined, of));
+    TEST_ASSERT_EQUAL_UINT(3, joined.count);
+    TEST_ASSERT_EQUAL_UINT(of[0], of[2]);
+    TEST_ASSERT_TRUE(of[0] != of[1] && of[1] != of[3] && of[0] != of[3]);
+    for (size_t k = 0; k < columns * columns; ++k)
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, condensed.gram[k], joined.gram[k]);
+    for (size_t k = 0; k < columns; ++k)
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, condensed.moment[k], joined.moment[k]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 2.0 * (double)rows, joined.group[of[0]].rows);
+    hci_condensed_release(&joined);
+}
+
+/* An unknown that only a run and its copy tell of: with both left out, it is as if nobody had measured it. */
+static void test_a_copy_does_not_vouch_for_a_run(void)
+{
+    hci_condensed joined = {0};
+    hci_ridge of_joined;
+    hci_left_out_group alone[MOST_GROUPS];
+    size_t of[MOST_GROUPS];
+    const hci_expectation expected = {precision, centre};
+    size(3, 1, 2);
+    x[0] = x[2] = 1.0, x[1] = x[3] = 0.0;
+    x[4] = 0.0, x[5] = 1.0;
+    y[0] = y[1] = 5.0, y[2] = 1.0;
+    precision[0] = precision[1] = 1e-3;
+    solve();
+    TEST_ASSERT_DOUBLE_WITHIN(0.01, 0.0, left[0].square); /* the copy says 5 as well */
+    TEST_ASSERT_TRUE(hci_condensed_join(&condensed, unit, 0.99, &joined, of));
+    TEST_ASSERT_TRUE(hci_ridge_make(&joined, &expected, &of_joined));
+    TEST_ASSERT_TRUE(hci_ridge_leave_out(&of_joined, &joined, alone));
+    TEST_ASSERT_DOUBLE_WITHIN(0.01, 2.0 * 5.0 * 5.0, alone[of[0]].square);
+    hci_ridge_release(&of_joined);
+    hci_condensed_release(&joined);
+}
+
+/* ---- sizes of groups ---- */
+
+/* Means of so many squares. */
+static void draw_sizes(size_t count, double directions, const double *true_size)
+{
+    for (size_t g = 0; g < count; ++g) {
+        left[g] = (hci_left_out_group){0.0, 0.0, directions, true_size[g] * true_size[g]};
+        for (int k = 0; k < (int)directions; ++k)
+            left[g].misfit += pow(true_size[g] * ref_normal(&seed), 2.0) / directions;
+    }
+}
+
+/* What chance makes of a few squares is no difference of the groups. */
+static void test_groups_that_are_alike(void)
+{
+    static const double SAME[MOST_GROUPS] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
+    enum { WORLDS = 300 };
+    double raw = 0.0, shrunk = 0.0, freedom = 0.0, s[MOST_GROUPS];
+    for (int w = 0; w < WORLDS; ++w) {
+        draw_sizes(MOST_GROUPS, 4.0, SAME);
+        freedom += hci_group_sizes(left, MOST_GROUPS, s) / WORLDS;
+        for (size_t g = 0; g < MOST_GROUPS; ++g) {
+            raw += pow(left[g].misfit - 1.0, 2.0);
+            shrunk += pow(s[g] * s[g] - 1.0, 2.0);
+        }
+    }
+    TEST_ASSERT_TRUE(shrunk < 0.35 * raw);
+    TEST_ASSERT_TRUE(freedom > 0.6 * 4.0 * MOST_GROUPS && freedom <= 4.0 * MOST_GROUPS);
+}
+
+static void test_groups_that_differ(void)
+{
+    static const double OTHER[MOST_GROUPS] = {0.2, 3.0, 0.2, 3.0, 0.2, 3.0, 0.2, 3.0, 0.2, 3.0, 0.2, 3.0};
+    double s[MOST_GROUPS];
+    draw_sizes(MOST_GROUPS, 40.0, OTHER);
+    const double freedom = hci_group_sizes(left, MOST_GROUPS, s);
+    for (size_t g = 0; g < MOST_GROUPS; ++g)
+        TEST_ASSERT_DOUBLE_WITHIN(0.5, OTHER[g], s[g]);
+    TEST_ASSERT_TRUE(freedom < 2.5 * MOST_GROUPS);
+}
+
+/* Without noise nothing is by chance, and a group is one value, of however many directions. */
+static void test_groups_without_noise(void)
+{
+    double s[4];
+    for (size_t g = 0; g < 4; ++g)
+        left[g] = (hci_left_out_group){0.0, 1.0 + 0.1 * (double)g, 100.0, 0.0};
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 4.0, hci_group_sizes(left, 4, s));
+    for (size_t g = 0; g < 4; ++g)
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, sqrt(left[g].misfit), s[g]);
+}
+
+static void test_groups_that_tell_nothing(void)
+{
+    double s[3];
+    left[0] = left[2] = (hci_left_out_group){1.0, 4.0, 2.0, 4.0};
+    left[1] = (hci_left_out_group){1.0, NAN, 0.0, 4.0};
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 4.0, hci_group_sizes(left, 3, s));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 2.0, s[0]);
+    TEST_ASSERT_TRUE(isnan(s[1]));
+    left[0].misfit = left[2].misfit = 0.0;
+    TEST_ASSERT_DOUBLE_WITHIN(0.0, 0.0, hci_group_sizes(left, 3, s));
 }
 
 /* ---- memory ---- */
@@ -299,6 +428,13 @@ static void test_memory(void)
     hci_memory_fail_after(1);
     TEST_ASSERT_TRUE(hci_ridge_make(&condensed, &expected, &ridge));
     TEST_ASSERT_FALSE(hci_ridge_leave_out(&ridge, &condensed, left));
+    for (long allocations = 0; allocations < 4; ++allocations) {
+        hci_condensed joined = {0};
+        size_t of[MOST_GROUPS];
+        hci_memory_fail_after(allocations);
+        TEST_ASSERT_FALSE(hci_condensed_join(&condensed, unit, 0.99, &joined, of));
+        TEST_ASSERT_NULL(joined.gram);
+    }
 }
 
 int main(void)
@@ -313,6 +449,12 @@ int main(void)
     RUN_TEST(test_draws);
     RUN_TEST(test_one_value_in_twenty_is_above_the_bound);
     RUN_TEST(test_no_more_than_that_where_groups_tell_the_size);
+    RUN_TEST(test_copies_are_joined);
+    RUN_TEST(test_a_copy_does_not_vouch_for_a_run);
+    RUN_TEST(test_groups_that_are_alike);
+    RUN_TEST(test_groups_that_differ);
+    RUN_TEST(test_groups_without_noise);
+    RUN_TEST(test_groups_that_tell_nothing);
     RUN_TEST(test_memory);
     return UNITY_END();
 }

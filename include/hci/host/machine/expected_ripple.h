@@ -12,7 +12,8 @@ extern "C" {
 typedef enum {
     HCI_RIPPLE_KNOWN,
     HCI_RIPPLE_NO_RECORDINGS, /* the machine has no uncertainty.csv */
-    HCI_RIPPLE_OTHER_EFFECTS  /* effects.csv is not the one that uncertainty.csv was found for */
+    HCI_RIPPLE_OTHER_EFFECTS, /* effects.csv is not the one that uncertainty.csv was found for */
+    HCI_RIPPLE_TOO_FAR /* parts of one or two recordings tell nothing of currents so far outside of them */
 } hci_ripple_state;
 
 /* Why it is not known in words, "" where it is; a static string. */
@@ -32,6 +33,7 @@ typedef struct {
     double outside_share; /* of the angle, where i_d or i_q is outside of what was recorded: 0 to 1 */
     double outside_A;     /* how far at most */
     bool speed_outside;   /* the speed is; false where it is not known */
+    size_t recordings;    /* that tell it; 0: not known. Of fewer than three, parts were compared */
 } hci_expected_ripple;
 
 /* What to expect in a few plain sentences. size: of text, 1024 will do. */

@@ -31,61 +31,22 @@ static void count_from_zero(const hci_candidates *list, hci_normal_equations *x)
         }
 }
 
-/* ---- groups of samples ---- */
-
-/* Where the samples of one run are: each of its segments cut to one of so many parts, all others empty. */
-static void segments_cut(const hci_binned_samples *samples, size_t run, size_t part, size_t parts,
-                         hci_segment *segment)
-{
-    for (size_t k = 0; k < samples->segment_count; ++k) {
-        const hci_segment *s = &samples->segment[k];
-        const size_t from = s->count * part / parts, until = s->count * (part + 1) / parts;
-        segment[k] = *s;
-        segment[k].first += from;
-        segment[k].count = s->run == run ? until - from : 0;
-        if (parts > 1) segment[k].turns = 0;
-    }
-}
-
 /* What is linearised, one group at a time. */
 typedef struct {
-    hci_binned_samples samples; /* with segments of its own */
-    hci_regression regression;
     const hci_candidates *list;
+    hci_run_equations *x;
 } grouping;
 
-static hci_status group_add(const grouping *g, hci_run_equations *x, hci_note *note)
+static hci_status group_add(void *context, const hci_regression *part, size_t run, hci_note *note)
 {
-    hci_normal_equations *normal = &x->run[x->groups.count];
-    const hci_status status = hci_regression_normal(&g->regression, g->list, false, normal, note);
+    const grouping *g = context;
+    hci_normal_equations *normal = &g->x->run[g->x->groups.count];
+    const hci_status status = hci_regression_normal(part, g->list, false, normal, note);
+    (void)run;
     if (status) return status;
     count_from_zero(g->list, normal);
-    ++x->groups.count;
+    ++g->x->groups.count;
     return HCI_OK;
-}
-
-static hci_status groups_fill(const hci_regression *e, grouping *g, hci_run_equations *x, hci_note *note)
-{
-    hci_status status = HCI_OK;
-    for (size_t r = 0; r < e->samples->run_count; ++r)
-        for (size_t part = 0; e->use[r] && part < x->parts && !status; ++part) {
-            segments_cut(e->samples, r, part, x->parts, g->samples.segment);
-            status = group_add(g, x, note);
-        }
-    return status;
-}
-
-static hci_status groups_make(const hci_regression *e, const hci_candidates *list, hci_run_equations *x,
-                              hci_note *note)
-{
-    grouping g = {*e->samples, *e, list};
-    g.samples.segment = hci_memory_new(e->samples->segment_count + 1, sizeof *g.samples.segment);
-    if (!g.samples.segment) return hci_note_memory(note, NULL, "leaving runs out");
-    g.regression.samples = &g.samples;
-    g.regression.known = NULL; /* those are of whole runs */
-    const hci_status status = groups_fill(e, &g, x, note);
-    hci_memory_free(g.samples.segment);
-    return status;
 }
 
 hci_status hci_run_equations_make(const hci_regression *e, const hci_candidates *candidates,
@@ -94,7 +55,7 @@ hci_status hci_run_equations_make(const hci_regression *e, const hci_candidates 
     const size_t runs = hci_regression_runs_in_use(e);
     hci_candidates list = {0};
     memset(x, 0, sizeof *x);
-    x->parts = runs > 0 && runs < HCI_LEAST_GROUPS ? (HCI_LEAST_GROUPS + runs) / runs : 1;
+    x->parts = hci_run_parts(e);
     hci_status status = hci_candidates_copy(candidates, &list, note);
     if (status) return status;
     x->run = hci_memory_new(runs * x->parts + 1, sizeof *x->run);
@@ -102,7 +63,7 @@ hci_status hci_run_equations_make(const hci_regression *e, const hci_candidates 
     if (!x->run || !x->precision) status = hci_note_memory(note, NULL, "leaving runs out");
     x->groups.group = x->run;
     if (!status) precision_take(&list, x->precision);
-    if (!status) status = groups_make(e, &list, x, note);
+    if (!status) status = hci_run_parts_each(e, group_add, &(grouping){&list, x}, note);
     hci_candidates_release(&list);
     if (status) hci_run_equations_release(x);
     return status;

@@ -7,11 +7,8 @@
 #define HCI_SRC_HOST_DIAGNOSE_FIT_RUN_EQUATIONS_H
 
 #include "host/diagnose/candidates/candidates.h"
-#include "host/diagnose/fit/regression.h"
+#include "host/diagnose/fit/run_parts.h"
 #include "host/numeric/left_out.h"
-
-/* Fewer runs than this are cut into parts, each of which is a group. */
-enum { HCI_LEAST_GROUPS = 3 };
 
 /* Start with {0}. */
 typedef struct {

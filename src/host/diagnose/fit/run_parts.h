@@ -1,0 +1,20 @@
+/* Runs one by one, or parts of them where there are few: what can be left out in turn. */
+#ifndef HCI_SRC_HOST_DIAGNOSE_FIT_RUN_PARTS_H
+#define HCI_SRC_HOST_DIAGNOSE_FIT_RUN_PARTS_H
+
+#include "host/diagnose/fit/regression.h"
+
+/* Fewer runs than this are cut into parts. */
+enum { HCI_LEAST_GROUPS = 3 };
+
+/* Into how many parts each run in use is cut; 1 where there are runs enough. */
+size_t hci_run_parts(const hci_regression *regression);
+
+/* Calls `visit` for each part of each run in use, with a regression that has nothing but its samples, until
+ * it returns a status other than HCI_OK. HCI_ERROR_MEMORY, and what `visit` returns. */
+hci_status hci_run_parts_each(const hci_regression *regression,
+                              hci_status (*visit)(void *context, const hci_regression *part, size_t run,
+                                                  hci_note *note),
+                              void *context, hci_note *note);
+
+#endif
