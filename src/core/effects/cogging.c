@@ -24,10 +24,18 @@ static void torque_of_all(const hci_effect *effect, const hci_machine *machine, 
 
 #define EXPECTED 0.3 /* of the largest torque */
 
+/* Slots in multiples of three and pairs of poles make orders 6k: there are fewer of them to choose from. */
+static double alternatives(const hci_effect_survey *survey, double order)
+{
+    return fmod(order, 6.0) == 0.0 ? survey->orders / 6.0 : survey->orders;
+}
+
 static void propose(const hci_effect_survey *survey, const hci_effect_proposals *to)
 {
-    for (size_t k = 0; k < survey->slot_orders; ++k)
-        hci_effect_propose(to, SINE, 2, survey->slot_order[k], survey->orders, EXPECTED * survey->torque_Nm);
+    for (size_t k = 0; k < survey->slot_orders; ++k) {
+        const double order = survey->slot_order[k];
+        hci_effect_propose(to, SINE, 2, order, alternatives(survey, order), EXPECTED * survey->torque_Nm);
+    }
 }
 
 /* T = p n c sin nθ of W' = −c cos nθ */

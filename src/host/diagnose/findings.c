@@ -125,6 +125,7 @@ void hci_findings_fill(const hci_attribution *a, hci_diagnosis *d)
         finding_put(d, &f);
     }
     if (a->unknown) unknown_put(a, whole_Nm2, d);
+    d->inertia_as_well = a->inertia_as_well;
     d->verdict = verdict_of(a, d);
 }
 

@@ -230,6 +230,10 @@ static void advice_of_pair(const comparison *c, const pair *p, hci_diagnosis *d)
 /* For terms that are the same in all runs, where the one is a part of the other. */
 static void advice_of_same(const hci_attribution *a, hci_diagnosis *d)
 {
+    if (a->inertia_as_well && advice_begin(d))
+        hci_words_say(&(hci_words){d->advice, sizeof d->advice},
+                      "torque per ampere or inertia: a torque sensor would tell, or the voltages of the open "
+                      "terminals while another motor turns the shaft");
     for (size_t r = 0; r < a->types; ++r) {
         const hci_verdict *v = &a->verdict[r];
         if (v->in || !v->ambiguous || v->alternative.candidates.candidate || !advice_begin(d)) continue;

@@ -193,8 +193,11 @@ static void say_ambiguous(const hci_words *w, const hci_diagnosis *d)
 {
     say_added(w, d);
     hci_words_say(w, "%sThese recordings do not tell ", any(d, HCI_FINDING_ADDED) ? " " : "");
-    say_names(w, d, HCI_FINDING_AMBIGUOUS, " and ");
-    hci_words_say(w, " apart: each explains them equally well.");
+    say_names(w, d, HCI_FINDING_AMBIGUOUS, d->inertia_as_well ? ", " : " and ");
+    hci_words_say(w, "%s apart: each explains them equally well.",
+                  d->inertia_as_well ? " and a wrong inertia" : "");
+    if (d->inertia_as_well)
+        hci_words_say(w, " A free shaft shows torque per ampere and inertia as their ratio only.");
 }
 
 static void say_verdict(const hci_words *w, const hci_diagnosis *d)

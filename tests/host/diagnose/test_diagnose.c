@@ -193,9 +193,61 @@ static void test_the_ripple_of_a_shaft_with_a_load_is_used(void)
     TEST_ASSERT_DOUBLE_WITHIN(0.06 * NOISE_NM, NOISE_NM, diagnosis.rms_after_Nm);
 }
 
+/* A free shaft: inertia × acceleration of a motor whose torque per ampere, or inertia, is off by a quarter.
+ * sensor: the last run has a torque sensor. */
+static void record_free(bool sensor)
+{
+    for (int k = 0; k < 4; ++k) {
+        record(900, &(point){k % 2 ? 60.0 : -90.0, k < 2 ? 4.0 : -2.5, 0.0, 0.0, 0.0});
+        run[k].torque_source = sensor && k == 3 ? HCI_TORQUE_MEASURED : HCI_TORQUE_INERTIA;
+        for (size_t j = 0; j < 900; ++j)
+            run[k].torque_Nm[j] -= 0.25 * 1.5 * K_NM_PER_A * (k < 2 ? 4.0 : -2.5);
+    }
+}
+
+static void test_torque_per_ampere_or_inertia(void)
+{
+    char words[2000];
+    record_free(false);
+    TEST_ASSERT_EQUAL_INT(HCI_NOT_REACHED, diagnose(NULL));
+    TEST_ASSERT_EQUAL_INT(HCI_DIAGNOSIS_AMBIGUOUS, diagnosis.verdict);
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_AMBIGUOUS, found("back_emf")->verdict);
+    hci_diagnosis_words(&diagnosis, words, sizeof words);
+    TEST_ASSERT_NOT_NULL(strstr(words, "back_emf and a wrong inertia apart"));
+    TEST_ASSERT_NOT_NULL(strstr(diagnosis.advice, "a torque sensor would tell"));
+}
+
+static void test_a_torque_sensor_tells_them(void)
+{
+    record_free(true);
+    diagnose(NULL);
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_ADDED, found("back_emf")->verdict);
+    TEST_ASSERT_FALSE(diagnosis.inertia_as_well);
+}
+
+/* One current: order 6 may be cogging torque, of which it is a usual order among very many, or back-EMF. */
+static void test_cogging_at_one_current(void)
+{
+    record(6000, &(point){60.0, 9.0, 0.0, 0.0, 0.0});
+    for (size_t j = 0; j < run[0].count; ++j) {
+        const double theta_m = run[0].theta_m_rad[j] * 0.1; /* two turns */
+        run[0].theta_m_rad[j] = theta_m;
+        run[0].time_s[j] = theta_m / 60.0;
+        rec_phases(0.0, 9.0, P * theta_m, run[0].i_A + 3 * j);
+        run[0].torque_Nm[j] += 0.05 * sin(6.0 * P * theta_m + 0.4);
+    }
+    TEST_ASSERT_EQUAL_INT(HCI_NOT_REACHED, diagnose(NULL));
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_AMBIGUOUS, found("back_emf")->verdict);
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_AMBIGUOUS, found("cogging")->verdict);
+    TEST_ASSERT_TRUE(diagnosis.next_points > 0);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_cogging_at_one_current);
+    RUN_TEST(test_torque_per_ampere_or_inertia);
+    RUN_TEST(test_a_torque_sensor_tells_them);
     RUN_TEST(test_nothing_is_missing);
     RUN_TEST(test_a_run_held_out_takes_no_part);
     RUN_TEST(test_current_offset);

@@ -7,6 +7,7 @@
 #include "host/base/memory.h"
 #include "host/diagnose/fit/standard_errors.h"
 #include "host/diagnose/search/backward.h"
+#include "host/diagnose/search/belief.h"
 #include "host/diagnose/search/candidate_models.h"
 #include "host/diagnose/search/coenergy.h"
 #include "host/diagnose/search/rivals.h"
@@ -15,6 +16,7 @@
 #include "host/diagnose/search/stability.h"
 
 #define SERIES_ERROR 0.002
+#define RATIO        1e-3 /* change of the torque per ampere, as a share, that an inertia may be wrong by */
 #define EQUAL_SHARE  0.2 /* of their mean, by which values of three phases may differ and are equal */
 
 /* ---- verdicts ---- */
@@ -146,6 +148,38 @@ static hci_status companions_leave(hci_search *s, hci_attribution *a, bool *left
     return status;
 }
 
+/* Whether every torque in use is an inertia times an acceleration. */
+static bool are_free_shafts(const hci_search *s)
+{
+    bool any = false;
+    for (size_t r = 0; r < s->regression->samples->run_count; ++r) {
+        if (!s->regression->use[r]) continue;
+        if (s->regression->runs[r].torque_source != HCI_TORQUE_INERTIA) return false;
+        any = true;
+    }
+    return any;
+}
+
+/* Free shafts show torque per ampere and inertia as their ratio only: what changes the one is as well a wrong
+ * inertia. */
+static hci_status verdicts_of_ratio(hci_search *s, hci_attribution *a, hci_note *note)
+{
+    double with = 1.0, without = 1.0;
+    if (!are_free_shafts(s)) return HCI_OK;
+    hci_status status = hci_search_constant_share(s, &a->model.candidates, &with, note);
+    for (size_t r = 0; r < a->types && !status; ++r) {
+        hci_candidates rest = {0};
+        if (!a->verdict[r].in) continue;
+        status = hci_candidates_copy(&a->model.candidates, &rest, note);
+        if (!status) hci_candidates_remove_type(&rest, a->verdict[r].type);
+        if (!status) status = hci_search_constant_share(s, &rest, &without, note);
+        hci_candidates_release(&rest);
+        if (status || !(fabs(with - without) > RATIO)) continue;
+        a->verdict[r].ambiguous = a->inertia_as_well = true;
+    }
+    return status;
+}
+
 static hci_status verdicts(hci_search *s, hci_attribution *a, hci_note *note)
 {
     hci_status status = HCI_OK;
@@ -159,6 +193,7 @@ static hci_status verdicts(hci_search *s, hci_attribution *a, hci_note *note)
     if (!status && !hci_search_is_over(s)) status = verdicts_of_others(s, a, note);
     if (!status && !hci_search_is_over(s)) status = verdicts_of_same(s, a, note);
     if (!status && !a->unknown) verdicts_of_equal(a);
+    if (!status && !a->unknown) status = verdicts_of_ratio(s, a, note);
     return status;
 }
 

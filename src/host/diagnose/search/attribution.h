@@ -29,6 +29,7 @@ typedef struct {
     const hci_effect_type *disbelieved; /* describes the recordings best, with values that nobody would
                                          * believe; NULL: none */
     double disbelieved_share;           /* of the declared torque per ampere, that it leaves */
+    bool inertia_as_well;               /* a wrong inertia looks the same as an effect that is in */
     bool wanders;                       /* what is left does not repeat with the turn */
     double unexplained_Nm;              /* rms of what no effect explains */
     hci_verdict verdict[HCI_MOST_TYPES];

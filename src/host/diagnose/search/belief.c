@@ -23,9 +23,8 @@ static size_t large_defect(const hci_candidates *candidates)
     return candidates->count;
 }
 
-/* What the model leaves of the declared torque per ampere, as a share; 1 where none is declared. */
-static hci_status constant_share(const hci_search *s, const hci_candidates *candidates, double *share,
-                                 hci_note *note)
+hci_status hci_search_constant_share(const hci_search *s, const hci_candidates *candidates, double *share,
+                                     hci_note *note)
 {
     const hci_regression *e = s->regression;
     const double declared = hci_torque_constant(e->machine, e->declared);
@@ -53,7 +52,7 @@ static hci_status culprit_find(const hci_search *s, const hci_candidates *candid
         if (!hci_candidates_have(candidates, type)) continue;
         status = hci_candidates_copy(candidates, &without, note);
         if (!status) hci_candidates_remove_type(&without, type);
-        if (!status) status = constant_share(s, &without, &share, note);
+        if (!status) status = hci_search_constant_share(s, &without, &share, note);
         hci_candidates_release(&without);
         if (status || share <= most) continue;
         most = share;
@@ -108,7 +107,7 @@ hci_status hci_search_fit(hci_search *s, hci_fitted_model *model, hci_note *note
         status = disbelieve(s, model, model->candidates.candidate[defect].type, share, note);
         if (!status) status = defects_leave(s, model, note);
     }
-    if (!status) status = constant_share(s, &model->candidates, &share, note);
+    if (!status) status = hci_search_constant_share(s, &model->candidates, &share, note);
     if (status || share >= LEAST_CONSTANT) return status;
     status = culprit_find(s, &model->candidates, &culprit, note);
     if (!status && culprit) status = disbelieve(s, model, culprit, share, note);

@@ -13,6 +13,11 @@
  * those is kept in search->disbelieved. HCI_ERROR_MEMORY. */
 hci_status hci_search_fit(hci_search *search, hci_fitted_model *model, hci_note *note);
 
+/* What a model leaves of the declared torque per ampere, as a share; 1 where none is declared.
+ * HCI_ERROR_MEMORY. */
+hci_status hci_search_constant_share(const hci_search *search, const hci_candidates *candidates,
+                                     double *share, hci_note *note);
+
 /* How well the best model that is not believed describes the recordings, beside the one that is. */
 typedef enum {
     HCI_YIELD_NOTHING, /* worse, or there is none */

@@ -85,9 +85,11 @@ static void bench_release(dataset *b)
 static void model_add(hci_candidate_models *t, dataset *b, size_t type_a, size_t type_b)
 {
     hci_candidate_model *x = &t->model[t->count];
-    *x = (hci_candidate_model){type_a, type_b, 0.0, t->flags + t->count * (t->list.count + 1)};
+    *x = (hci_candidate_model){type_a, type_b, 0.0, t->flags + t->count * (t->list.count + 1), 0};
     x->gain = hci_group_select(&b->choice, hci_candidate_type(type_a), hci_candidate_type(type_b), x->in,
                                &b->sweep, b->spare);
+    for (size_t k = 0; k < t->list.count; ++k)
+        x->terms += x->in[k] ? t->list.candidate[k].count : 0;
     ++t->count;
 }
 

@@ -11,6 +11,7 @@ typedef struct {
     size_t a, b; /* as in hci_candidate_type; equal for one */
     double gain; /* fall of the score */
     bool *in;    /* of each candidate of the list */
+    size_t terms; /* of those */
 } hci_candidate_model;
 
 typedef struct {

@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "host/diagnose/candidates/empirical_term.h"
 #include "host/diagnose/fit/resonance.h"
 #include "host/diagnose/search/belief.h"
 #include "host/diagnose/search/candidate_models.h"
@@ -20,7 +21,7 @@
     1.1 /* … times the noise: a residual in which high powers of the currents are looked for               \
          */
 
-enum { SINGLES = 3, RICHEST = 2 }; /* single effects that are fitted; of saturation */
+enum { SINGLES = 3, PAIRS = 2, RICHEST = 2 }; /* models that are fitted; of saturation */
 
 /* ---- which models are fitted in full ---- */
 
@@ -66,14 +67,29 @@ static const hci_candidate_model *best_pair(const hci_candidate_models *t, const
     return best;
 }
 
-/* The best single effects, and the best pair where it beats what begins with the best of them. */
-static size_t models_pick(const hci_candidate_models *t, const hci_candidate_model *picked[SINGLES + 1])
+/* The best pair that explains more than a single effect and has no more values. */
+static const hci_candidate_model *frugal_pair(const hci_candidate_models *t, const hci_candidate_model *single)
+{
+    const hci_candidate_model *best = NULL;
+    for (size_t k = 0; k < t->count; ++k) {
+        const hci_candidate_model *x = &t->model[k];
+        if (!is_pair(x) || x->terms > single->terms || x->gain < single->gain + PAIR) continue;
+        if (!best || x->gain > best->gain) best = x;
+    }
+    return best;
+}
+
+/* The best single effects, the best pair where it beats what begins with the best of them, and the best that
+ * needs no more values than that one: one step takes a family of many values before two effects of few. */
+static size_t models_pick(const hci_candidate_models *t, const hci_candidate_model *picked[SINGLES + PAIRS])
 {
     size_t count = singles_pick(t, picked);
     const hci_candidate_model *pair = best_pair(t, NULL);
     const hci_candidate_model *with_first = count > 0 ? best_pair(t, picked[0]) : NULL;
+    const hci_candidate_model *frugal = count > 0 ? frugal_pair(t, picked[0]) : NULL;
     if (pair && pair->gain > PAIR && (!with_first || pair->gain > with_first->gain + HCI_DECISIVE))
         picked[count++] = pair;
+    if (frugal && !is_picked(frugal, picked, count)) picked[count++] = frugal;
     return count;
 }
 
@@ -142,18 +158,19 @@ static hci_status contender_enter(comparison *c, hci_fitted_model *candidate, do
     return HCI_OK;
 }
 
-/* What a model must be better by than its score: two effects at once, and one that is called another unless
- * it is decisively better. */
+/* What a model must be better by than its score: two effects at once, where they have more values than one
+ * by a share of what that explains too, and one that is called another unless it is decisively better. */
 static double handicap_of(const hci_candidate_model *x, const hci_candidate_model *best)
 {
     const hci_effect_type *a = hci_candidate_type(x->a), *b = hci_candidate_type(x->b);
-    const double pair = is_pair(x) ? HCI_DECISIVE + PAIR_MARGIN * best->gain : 0.0;
+    const double margin = x->terms > best->terms ? PAIR_MARGIN * best->gain : 0.0;
+    const double pair = is_pair(x) ? HCI_DECISIVE + margin : 0.0;
     return pair + (a->seen_as || b->seen_as ? HCI_DECISIVE : 0.0);
 }
 
 static hci_status models_enter(comparison *c, const hci_candidate_models *t, hci_note *note)
 {
-    const hci_candidate_model *picked[SINGLES + 1];
+    const hci_candidate_model *picked[SINGLES + PAIRS];
     const size_t count = models_pick(t, picked);
     hci_status status = HCI_OK;
     for (size_t k = 0; k < count && !status && !hci_search_is_over(c->search); ++k) {
@@ -215,9 +232,14 @@ static hci_status lag_enter(comparison *c, const hci_effect_type *type, hci_note
     return status;
 }
 
+static comparison comparison_from(hci_search *s, const hci_fitted_model *present)
+{
+    return (comparison){s, present, {{NULL, 0, 0.0}, {0.0, 0, 0.0, 0.0}}, present->fit.score - HCI_DECISIVE};
+}
+
 hci_status hci_search_forward(hci_search *s, hci_fitted_model *model, bool *added, hci_note *note)
 {
-    comparison c = {s, model, {{NULL, 0, 0.0}, {0.0, 0, 0.0, 0.0}}, model->fit.score - HCI_DECISIVE};
+    comparison c = comparison_from(s, model);
     hci_candidate_models t;
     hci_status status = models_enriched(s, &model->candidates, &t, note);
     *added = false;
@@ -233,6 +255,38 @@ hci_status hci_search_forward(hci_search *s, hci_fitted_model *model, bool *adde
         *added = true;
         status = hci_search_renew(s, model, note);
     }
+    hci_fitted_model_release(&c.best);
+    return status;
+}
+
+/* ---- without a series ---- */
+
+static bool is_loose(size_t type)
+{
+    return hci_candidate_type(type)->is_series || hci_candidate_type(type) == &hci_empirical_type;
+}
+
+/* Leaves models with a series, or with what no effect explains, out of the table. */
+static void loose_leave(hci_candidate_models *t)
+{
+    size_t count = 0;
+    for (size_t k = 0; k < t->count; ++k)
+        if (!is_loose(t->model[k].a) && !is_loose(t->model[k].b)) t->model[count++] = t->model[k];
+    t->count = count;
+}
+
+hci_status hci_search_forward_few(hci_search *s, hci_fitted_model *model, bool *added, hci_note *note)
+{
+    comparison c = comparison_from(s, model);
+    hci_candidate_models t;
+    hci_status status = hci_candidate_models_make(s, &model->candidates, true, &t, note);
+    *added = false;
+    if (status) return status;
+    loose_leave(&t);
+    status = models_enter(&c, &t, note);
+    hci_candidate_models_release(&t);
+    *added = !status && c.best.candidates.candidate;
+    if (*added) hci_fitted_model_replace(model, &c.best);
     hci_fitted_model_release(&c.best);
     return status;
 }

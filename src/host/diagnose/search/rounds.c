@@ -4,6 +4,7 @@
 
 #include "host/diagnose/candidates/empirical_term.h"
 #include "host/diagnose/search/backward.h"
+#include "host/diagnose/search/few_values.h"
 #include "host/diagnose/search/forward.h"
 #include "host/diagnose/search/rivals.h"
 #include "host/diagnose/search/settle.h"
@@ -11,7 +12,7 @@
 enum { MOST_EFFECTS = 6, MOST_ROUNDS = 14 };
 
 /* One more effect, then without those that it makes superfluous; where none comes in, another in place of one
- * that is. again: out, whether anything changed. */
+ * that is, or a few in place of a series. again: out, whether anything changed. */
 static hci_status round_run(hci_search *s, hci_fitted_model *model, bool *again, hci_note *note)
 {
     hci_status status = HCI_OK;
@@ -21,7 +22,11 @@ static hci_status round_run(hci_search *s, hci_fitted_model *model, bool *again,
     if (!status && *again) status = hci_search_prune(s, model, note);
     for (bool dropped = true; dropped && !status && !hci_search_is_over(s);)
         status = hci_search_drop(s, model, &dropped, note);
-    if (!status && !*again && !hci_search_is_over(s)) status = hci_search_swap(s, model, again, note);
+    if (!status && !*again && !hci_search_is_over(s)) {
+        status = hci_search_swap(s, model, again, note);
+        if (!status && *again) status = hci_search_prune(s, model, note);
+    }
+    if (!status && !*again && !hci_search_is_over(s)) status = hci_search_few_values(s, model, again, note);
     return status;
 }
 

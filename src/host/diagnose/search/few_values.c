@@ -1,0 +1,49 @@
+#include "host/diagnose/search/few_values.h"
+
+#include "host/diagnose/search/belief.h"
+#include "host/diagnose/search/forward.h"
+
+enum { MOST_STEPS = 3 };
+
+/* The model with all series in the currents taken out, or with nothing at all. */
+static hci_status start(hci_search *s, const hci_fitted_model *model, bool empty, hci_fitted_model *few,
+                        hci_note *note)
+{
+    hci_status status = hci_fitted_model_copy(model, few, note);
+    for (size_t k = 0; k < few->candidates.count; ++k)
+        if (empty || few->candidates.candidate[k].type->is_series) few->candidates.candidate[k].in = false;
+    if (!status) status = hci_search_fit(s, few, note);
+    return status;
+}
+
+/* Takes effects of few values in until it is better than the model, or no further one comes in. */
+static hci_status steps_run(hci_search *s, const hci_fitted_model *model, hci_fitted_model *few, bool *better,
+                            hci_note *note)
+{
+    hci_status status = HCI_OK;
+    bool added = true;
+    *better = false;
+    for (int step = 0; step < MOST_STEPS && added && !*better && !status && !hci_search_is_over(s); ++step) {
+        status = hci_search_forward_few(s, few, &added, note);
+        *better = !status && few->fit.score < model->fit.score - HCI_AS_GOOD;
+    }
+    return status;
+}
+
+hci_status hci_search_few_values(hci_search *s, hci_fitted_model *model, bool *changed, hci_note *note)
+{
+    hci_status status = HCI_OK;
+    *changed = false;
+    if (!hci_candidates_have_series(&model->candidates)) return HCI_OK;
+    for (int empty = 0; empty < 2 && !*changed && !status && !hci_search_is_over(s); ++empty) {
+        hci_fitted_model few = {0};
+        status = start(s, model, empty, &few, note);
+        if (!status) status = steps_run(s, model, &few, changed, note);
+        if (!status && *changed) {
+            hci_fitted_model_replace(model, &few);
+            status = hci_search_renew(s, model, note);
+        }
+        hci_fitted_model_release(&few);
+    }
+    return status;
+}

@@ -1,0 +1,14 @@
+/* A few effects of few values in place of a series in the currents.
+ *
+ * A series describes nearly anything a little, so that one step takes it before two or three effects that
+ * describe the recordings better together and each alone worse. */
+#ifndef HCI_SRC_HOST_DIAGNOSE_SEARCH_FEW_VALUES_H
+#define HCI_SRC_HOST_DIAGNOSE_SEARCH_FEW_VALUES_H
+
+#include "host/diagnose/search/search.h"
+
+/* Looks for effects that make the series in a model superfluous. changed: out, whether it has been replaced.
+ * HCI_ERROR_MEMORY. */
+hci_status hci_search_few_values(hci_search *search, hci_fitted_model *model, bool *changed, hci_note *note);
+
+#endif
