@@ -3,6 +3,8 @@
 #include "host/diagnose/search/belief.h"
 #include "host/diagnose/search/forward.h"
 
+#define NEARER 0.7 /* share of what it is behind that a step may leave */
+
 enum { MOST_STEPS = 3 };
 
 /* The model with all series in the currents taken out, or with nothing at all. */
@@ -16,7 +18,8 @@ static hci_status start(hci_search *s, const hci_fitted_model *model, bool empty
     return status;
 }
 
-/* Takes effects of few values in until it is better than the model, or no further one comes in. */
+/* Takes effects of few values in until it is better than the model, or no further one comes in, or one that
+ * brings it hardly nearer. */
 static hci_status steps_run(hci_search *s, const hci_fitted_model *model, hci_fitted_model *few, bool *better,
                             hci_note *note)
 {
@@ -24,8 +27,11 @@ static hci_status steps_run(hci_search *s, const hci_fitted_model *model, hci_fi
     bool added = true;
     *better = false;
     for (int step = 0; step < MOST_STEPS && added && !*better && !status && !hci_search_is_over(s); ++step) {
+        const double behind = few->fit.score - model->fit.score;
         status = hci_search_forward_few(s, few, &added, note);
-        *better = !status && few->fit.score < model->fit.score - HCI_AS_GOOD;
+        const double left = few->fit.score - model->fit.score;
+        *better = !status && left < -HCI_AS_GOOD;
+        if (left > NEARER * behind) break;
     }
     return status;
 }
