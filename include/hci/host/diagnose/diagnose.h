@@ -148,14 +148,11 @@ typedef struct {
     bool contradicted;       /* effects described the runs that were fitted, but not those held out, and were
                                 dropped */
     bool wanders;            /* something is left that does not repeat with the turn */
+    bool inertia_as_well;    /* free shafts alone: a wrong inertia looks the same as an ambiguous effect */
     double open_voltage_off; /* share by which voltages without a current differ from the declared back-EMF;
                               * 0: none were recorded */
     bool against_voltages; /* the torques ask for another torque per ampere, which voltages that were recorded
                             * without a current exclude: effects were dropped */
-    bool contradicted;     /* effects described the runs that were fitted, but not those held out, and were
-                              dropped */
-    bool inertia_as_well;  /* free shafts alone: a wrong inertia looks the same as an ambiguous effect */
-    bool wanders;          /* something is left that does not repeat with the turn */
     bool nothing_measured; /* no run to be fitted has an angle and a torque: nothing can be said */
 } hci_diagnosis;
 
