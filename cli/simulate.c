@@ -194,6 +194,7 @@ const cli_command cli_simulate = {
     .example =
         "  hci-solve simulate data/machine_a data/drive/imposed.csv -o out/imposed\n"
         "  hci-solve simulate data/machine_c data/drive/filho_strategy_3.csv -o out/strategy_3\n"
+        "  hci-solve solve data/machine_a --target data/scenarios/02/target.csv --auto -o out/machine_a\n"
         "  hci-solve simulate data/machine_a --table out/machine_a --drive data/drive/machine_a_10kHz.csv "
         "--speeds 100,300,1000 -o out/speeds\n"
         "\nExit codes: 0 done; " CLI_EXIT_ERRORS,
