@@ -17,7 +17,7 @@
 
 #define SERIES_ERROR 0.002
 #define RATIO        1e-3 /* change of the torque per ampere, as a share, that an inertia may be wrong by */
-#define EQUAL_SHARE  0.2 /* of their mean, by which values of three phases may differ and are equal */
+#define EQUAL_SHARE  0.2  /* of their mean, by which values of three phases may differ and are equal */
 
 /* ---- verdicts ---- */
 

@@ -8,9 +8,9 @@ enum { HCI_MOST_CANDIDATE_MODELS = HCI_MOST_TYPES * (HCI_MOST_TYPES + 1) / 2 };
 
 /* One or two types that could come in together. */
 typedef struct {
-    size_t a, b; /* as in hci_candidate_type; equal for one */
-    double gain; /* fall of the score */
-    bool *in;    /* of each candidate of the list */
+    size_t a, b;  /* as in hci_candidate_type; equal for one */
+    double gain;  /* fall of the score */
+    bool *in;     /* of each candidate of the list */
     size_t terms; /* of those */
 } hci_candidate_model;
 

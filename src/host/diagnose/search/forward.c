@@ -21,7 +21,7 @@
     1.1 /* … times the noise: a residual in which high powers of the currents are looked for               \
          */
 
-enum { SINGLES = 3, PAIRS = 2, RICHEST = 2 }; /* models that are fitted; of saturation */
+enum { SINGLES = 3, PAIRS = 2, FEW = 6, RICHEST = 2 }; /* models that are fitted; values; of saturation */
 
 /* ---- which models are fitted in full ---- */
 
@@ -67,14 +67,26 @@ static const hci_candidate_model *best_pair(const hci_candidate_models *t, const
     return best;
 }
 
-/* The best pair that explains more than a single effect and has no more values. */
-static const hci_candidate_model *frugal_pair(const hci_candidate_models *t, const hci_candidate_model *single)
+/* What describes nearly anything a little: a series in the currents, and what no effect explains. */
+static bool is_loose(size_t type)
+{
+    return hci_candidate_type(type)->is_series || hci_candidate_type(type) == &hci_empirical_type;
+}
+
+static bool is_frugal(const hci_candidate_model *x, const hci_candidate_model *single)
+{
+    return is_pair(x) && !is_loose(x->a) && !is_loose(x->b) && x->terms <= single->terms && x->terms <= FEW &&
+           x->gain > single->gain + PAIR;
+}
+
+/* The best pair of few values that explains more than a single effect with no fewer. */
+static const hci_candidate_model *frugal_pair(const hci_candidate_models *t,
+                                              const hci_candidate_model *single)
 {
     const hci_candidate_model *best = NULL;
     for (size_t k = 0; k < t->count; ++k) {
         const hci_candidate_model *x = &t->model[k];
-        if (!is_pair(x) || x->terms > single->terms || x->gain < single->gain + PAIR) continue;
-        if (!best || x->gain > best->gain) best = x;
+        if (is_frugal(x, single) && (!best || x->gain > best->gain)) best = x;
     }
     return best;
 }
@@ -158,12 +170,12 @@ static hci_status contender_enter(comparison *c, hci_fitted_model *candidate, do
     return HCI_OK;
 }
 
-/* What a model must be better by than its score: two effects at once, where they have more values than one
- * by a share of what that explains too, and one that is called another unless it is decisively better. */
+/* What a model must be better by than its score: two effects at once, unless of few values by a share of what
+ * one explains too, and one that is called another unless it is decisively better. */
 static double handicap_of(const hci_candidate_model *x, const hci_candidate_model *best)
 {
     const hci_effect_type *a = hci_candidate_type(x->a), *b = hci_candidate_type(x->b);
-    const double margin = x->terms > best->terms ? PAIR_MARGIN * best->gain : 0.0;
+    const double margin = is_frugal(x, best) ? 0.0 : PAIR_MARGIN * best->gain;
     const double pair = is_pair(x) ? HCI_DECISIVE + margin : 0.0;
     return pair + (a->seen_as || b->seen_as ? HCI_DECISIVE : 0.0);
 }
@@ -260,11 +272,6 @@ hci_status hci_search_forward(hci_search *s, hci_fitted_model *model, bool *adde
 }
 
 /* ---- without a series ---- */
-
-static bool is_loose(size_t type)
-{
-    return hci_candidate_type(type)->is_series || hci_candidate_type(type) == &hci_empirical_type;
-}
 
 /* Leaves models with a series, or with what no effect explains, out of the table. */
 static void loose_leave(hci_candidate_models *t)
