@@ -14,7 +14,7 @@
 #define HARDER      10.0  /* factors of the damping */
 #define EASIER      0.1
 
-enum { MOST_STEPS = 25 };
+enum { MOST_STEPS = 25, STEPS_IN_HASTE = 2 };
 
 double hci_candidate_cost(const hci_candidate *candidate, double rows)
 {
@@ -166,7 +166,9 @@ static hci_status steps_take(fitting *f, hci_note *note)
 {
     hci_status status = HCI_OK;
     bool last = false;
-    for (int k = 0; k < MOST_STEPS && !last && !status; ++k) {
+    const double *work = f->regression->work;
+    const int most = work && *work > HCI_MOST_WORK ? STEPS_IN_HASTE : MOST_STEPS;
+    for (int k = 0; k < most && !last && !status; ++k) {
         if (!step_find(f, f->damping)) {
             f->damping = fmax(WHERE_STUCK, HARDER * f->damping);
             continue;

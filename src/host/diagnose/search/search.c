@@ -14,8 +14,6 @@
 
 #define PART 0.02 /* of what is left of a step that a fit or a residual takes */
 
-#define MOST_WORK 6e10 /* as hci_regression.work counts it, that a search may take */
-
 /* ---- the end ---- */
 
 bool hci_search_is_over(hci_search *s)
@@ -24,7 +22,7 @@ bool hci_search_is_over(hci_search *s)
     if (s->ended != HCI_WORK_COMPLETE) return true;
     if (s->options->stop && s->options->stop(s->options->stop_context))
         s->ended = HCI_WORK_INTERRUPTED;
-    else if (work && *work > MOST_WORK)
+    else if (work && *work > HCI_MOST_WORK)
         s->ended = HCI_WORK_LIMITED;
     return s->ended != HCI_WORK_COMPLETE;
 }

@@ -2,6 +2,7 @@
  * errors against the scatter of the values over draws of the noise. */
 #include "host/diagnose/fit/fit.h"
 
+#include "host/diagnose/fit/linearise.h"
 #include "host/diagnose/fit/standard_errors.h"
 #include "support/searching.h"
 
@@ -152,6 +153,33 @@ static void test_an_angle_is_found(void)
     }
 }
 
+/* What a fit from far off takes, in predictions of the recordings. */
+static double predictions_of_fit(double work_so_far)
+{
+    value_of(0, 0)->value = 0.9;
+    *dataset.regression.work = work_so_far;
+    fit();
+    const double taken = *dataset.regression.work - work_so_far;
+    hci_normal_equations normal;
+    *dataset.regression.work = 0.0;
+    dataset.regression.known = NULL;
+    TEST_ASSERT_EQUAL_INT(
+        HCI_OK, hci_regression_normal(&dataset.regression, &model.candidates, false, &normal, &note));
+    hci_normal_equations_release(&normal);
+    return taken / *dataset.regression.work;
+}
+
+/* Beyond the limit of work it is the start and two steps. */
+static void test_a_fit_in_haste(void)
+{
+    record_two(100, 0.3, 0.0, 0.0);
+    weigh(NOISE_NM);
+    dataset.regression.known = NULL;
+    model_add("position_offset", "angle", NULL, 0.0);
+    TEST_ASSERT_TRUE(predictions_of_fit(0.0) > 3.5);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, 3.0, predictions_of_fit(2.0 * HCI_MOST_WORK));
+}
+
 /* ---- standard errors ---- */
 
 typedef struct {
@@ -228,6 +256,7 @@ int main(void)
     RUN_TEST(test_a_value_stays_above_its_least);
     RUN_TEST(test_a_term_twice);
     RUN_TEST(test_an_angle_is_found);
+    RUN_TEST(test_a_fit_in_haste);
     RUN_TEST(test_standard_errors_are_the_scatter);
     RUN_TEST(test_correlated_noise_raises_the_errors);
     RUN_TEST(test_memory_is_out);
