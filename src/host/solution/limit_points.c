@@ -50,6 +50,11 @@ static void add_plane(const hci_wave *w, double theta_rad, hci_plane_current *su
 
 /* ---- rows ---- */
 
+double hci_limit_of_point(const hci_bounds *bounds, hci_point_kind kind, int phase)
+{
+    return kind == HCI_POINT_VOLTAGE ? bounds->line_V : bounds->current_A[phase];
+}
+
 static double current_row(const hci_limit_field *f, const hci_limit_point *p, double *g)
 {
     double pair[2] = {0.0, 0.0};
@@ -117,6 +122,11 @@ double hci_limit_row(const hci_limit_field *field, const hci_limit_point *point,
     return torque_row(field, point, g);
 }
 
+size_t hci_limit_row_room(const hci_limit_field *f)
+{
+    return 2 * f->set->count + (f->system ? f->system->rows + f->system->unknowns : 0);
+}
+
 /* ---- lists ---- */
 
 hci_status hci_limit_points_add(hci_limit_points *points, hci_limit_point point)
@@ -140,17 +150,11 @@ void hci_limit_points_release(hci_limit_points *points)
 
 /* ---- peaks ---- */
 
-/* Room for one row of any kind. */
-static size_t row_room(const hci_limit_field *f)
-{
-    return 2 * f->set->count + (f->system ? f->system->rows + f->system->unknowns : 0);
-}
-
 hci_status hci_limit_grid_make(const hci_limit_field *field, hci_limit_grid *grid)
 {
     grid->unknowns = 2 * field->set->count;
     grid->step_rad = grid->period_rad / (double)grid->samples;
-    grid->g = hci_memory_new(grid->samples * grid->unknowns + row_room(field), sizeof *grid->g);
+    grid->g = hci_memory_new(grid->samples * grid->unknowns + hci_limit_row_room(field), sizeof *grid->g);
     grid->constant = hci_memory_new(grid->samples, sizeof *grid->constant);
     grid->is_row = hci_memory_new(grid->samples, sizeof *grid->is_row);
     if (!grid->g || !grid->constant || !grid->is_row) return HCI_ERROR_MEMORY;
@@ -218,7 +222,8 @@ hci_status hci_limit_peaks(const hci_limit_field *field, const hci_limit_grid *g
                            const double range[2], hci_limit_points *points, double *worst)
 {
     const size_t n = grid->samples;
-    double *row = hci_memory_new(row_room(field) + n, sizeof *row), *over = row + row_room(field);
+    double *row = hci_memory_new(hci_limit_row_room(field) + n, sizeof *row),
+           *over = row + hci_limit_row_room(field);
     const search s = {field, grid, x, range, row};
     const double near = NEARLY * (range[1] - range[0]);
     hci_status status = row ? HCI_OK : HCI_ERROR_MEMORY;

@@ -17,6 +17,9 @@ typedef struct {
     double theta_rad;
 } hci_limit_point;
 
+/* The largest size of a current or voltage. */
+double hci_limit_of_point(const hci_bounds *bounds, hci_point_kind kind, int phase);
+
 /* What makes a quantity a function of the coordinates x (S and C of each component in turn). */
 typedef struct {
     const hci_component_set *set;
@@ -31,6 +34,9 @@ typedef struct {
 /* The row g (2·count, out) and the constant: quantity = g·x + constant. The torque is that less what is
  * wanted, orders above 0. */
 double hci_limit_row(const hci_limit_field *field, const hci_limit_point *point, double *g);
+
+/* Room for a row of any kind: that of the torque is made in what is behind its end. */
+size_t hci_limit_row_room(const hci_limit_field *field);
 
 /* Points with what was added last behind. Start with {0}. */
 typedef struct {

@@ -1,4 +1,4 @@
-/* One stage of solving within limits, as a convex program (theory.md, section 15). */
+/* What a stage of solving within limits is made of, and what it gives (theory.md, section 15). */
 #ifndef HCI_SRC_HOST_SOLUTION_LIMIT_PROGRAM_H
 #define HCI_SRC_HOST_SOLUTION_LIMIT_PROGRAM_H
 
@@ -51,13 +51,5 @@ typedef struct {
 
 /* What `slack` is, unless that leaves no room; that of the mean always. */
 #define HCI_LIMIT_SLACK 1e-6
-
-/* The bound of a grid's quantity: ±limit, widened. */
-double hci_limit_of_grid(const hci_limit_program *program, const hci_limit_grid *grid);
-
-/* *optimum: out; x to be freed with hci_memory_free, also where it is infeasible. HCI_ERROR_MEMORY, _NUMERIC.
- */
-hci_status hci_limit_program_solve(const hci_limit_program *program, hci_limit_stage stage,
-                                   hci_limit_optimum *optimum, hci_note *note);
 
 #endif

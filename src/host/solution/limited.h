@@ -2,7 +2,7 @@
 #ifndef HCI_SRC_HOST_SOLUTION_LIMITED_H
 #define HCI_SRC_HOST_SOLUTION_LIMITED_H
 
-#include "host/solution/wishes.h"
+#include "host/solution/wishes_program.h"
 #include "host/solve/answer.h"
 
 /* Replaces the answer without limits, which says where to begin and, for a set that is given or of at most K

@@ -2,33 +2,7 @@
 #ifndef HCI_SRC_HOST_SOLUTION_WISHES_H
 #define HCI_SRC_HOST_SOLUTION_WISHES_H
 
-#include "host/machine/torque_gradient.h"
-#include "host/solution/limit_program.h"
-#include "host/solve/task.h"
-
-/* What is solved, and where it goes. */
-typedef struct {
-    hci_task *task; /* gradient and offset follow the current where the torque is not linear */
-    const hci_machine_data *machine;
-    const hci_solve_options *options;
-    const hci_bounds *bounds;
-    hci_linear_torque *at; /* what they point to; to be released after the task was last used */
-    hci_solution *solution;
-} hci_limited;
-
-/* Start with {0}, `of` and `set` filled. */
-typedef struct {
-    const hci_limited *of;
-    hci_component_set set;
-    hci_harmonic_system system;
-    hci_voltage_model voltage;
-    hci_wave_list current; /* where voltage and torque are made linear */
-    hci_limit_program program;
-    double *x;              /* S and C of each component, A: what was found */
-    bool is_coarse;         /* the torque is still being made linear: peaks may stay for the next step */
-    bool is_hard;           /* the torque of the last step could not be as wanted */
-    hci_limit_optimum cost; /* of the stage that says what limits cost */
-} hci_wishes;
+#include "host/solution/wishes_program.h"
 
 /* Fills what does not change from step to step. HCI_ERROR_INPUT where the voltage needs a value that is not
  * given. To be released in any case. */
@@ -39,8 +13,5 @@ hci_status hci_wishes_begin(hci_wishes *wishes, hci_note *note);
 hci_status hci_wishes_meet(hci_wishes *wishes, hci_note *note);
 
 void hci_wishes_release(hci_wishes *wishes);
-
-/* The highest order of a set, at least 1. */
-double hci_wishes_top(const hci_component_set *set);
 
 #endif

@@ -3,8 +3,8 @@
  *
  * A vector of the cone has first `linear` entries that are each not negative, then the second-order cones of
  * `size` entries with u_0 >= |u_1 … |, then `after` entries that are not negative again. */
-#ifndef HCI_SRC_HOST_NUMERIC_CONE_SCALING_H
-#define HCI_SRC_HOST_NUMERIC_CONE_SCALING_H
+#ifndef HCI_SRC_HOST_CONIC_SCALING_H
+#define HCI_SRC_HOST_CONIC_SCALING_H
 
 #include <stddef.h>
 

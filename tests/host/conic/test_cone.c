@@ -1,6 +1,6 @@
 /* Convex programs: against answers by hand, and at random against the conditions of Karush, Kuhn and Tucker,
  * which say of any x and z whether they are the answer. */
-#include "host/numeric/cone.h"
+#include "host/conic/solve.h"
 
 #include <math.h>
 #include <stdbool.h>

@@ -1,4 +1,4 @@
-#include "host/numeric/cone_scaling.h"
+#include "host/conic/scaling.h"
 
 #include <math.h>
 #include <stdbool.h>

@@ -1,11 +1,9 @@
 /* A convex program over linear inequalities and second-order cones, of a few hundred unknowns (theory.md,
  * section 15). */
-#ifndef HCI_SRC_HOST_NUMERIC_CONE_H
-#define HCI_SRC_HOST_NUMERIC_CONE_H
+#ifndef HCI_SRC_HOST_CONIC_PROBLEM_H
+#define HCI_SRC_HOST_CONIC_PROBLEM_H
 
 #include <stddef.h>
-
-#include "hci/host/base/note.h"
 
 /* Minimise ½ xᵀP x + c·x under A x = b and, row by row of G,
  *
@@ -42,10 +40,5 @@ typedef struct {
     double error; /* largest of residuals and gap, relative */
     size_t steps;
 } hci_cone_answer;
-
-/* Primal–dual interior point, 10 to 30 steps. *answer is to be released in any case. HCI_ERROR_MEMORY.
- * O(rows · unknowns²) a step. */
-hci_status hci_cone_solve(const hci_cone_problem *problem, hci_cone_answer *answer, hci_note *note);
-void hci_cone_answer_release(hci_cone_answer *answer);
 
 #endif

@@ -1,0 +1,154 @@
+/* Rows of how large the currents are as a whole: heat of each phase and of all, the distance from the last
+ * answer, and phases that carry none. */
+#include "host/solution/limit_rows.h"
+
+#include <math.h>
+
+/* ---- one order as a phase sees it ---- */
+
+static bool is_order(const hci_limit_build *b, size_t k, double order)
+{
+    return fabs(b->of->field.set->component[k].order - order) < HCI_ORDER_TOLERANCE;
+}
+
+/* Whether component k is the first of its order. */
+static bool begins_order(const hci_limit_build *b, size_t k)
+{
+    for (size_t j = 0; j < k; ++j)
+        if (is_order(b, j, b->of->field.set->component[k].order)) return false;
+    return true;
+}
+
+/* Coordinate S' (part 0) or C' (part 1) of one order as one phase sees it, times a factor. */
+typedef struct {
+    double order;
+    int phase, part;
+    double factor;
+} phase_part;
+
+/* The same of one component: what its S and its C bring. */
+static void part_of(const phase_part *x, hci_component c, double pair[2])
+{
+    double turn[2];
+    hci_limit_turn(c, x->phase, turn);
+    pair[0] = x->factor * (x->part ? -turn[1] : turn[0]);
+    pair[1] = x->factor * (x->part ? turn[0] : turn[1]);
+}
+
+/* Fills a row with a coordinate; what is held goes to the right side. */
+static void phase_row(const hci_limit_build *b, const phase_part *x, double *row)
+{
+    const hci_component_set *set = b->of->field.set;
+    const hci_wave *held = b->of->field.held;
+    double pair[2];
+    for (size_t k = 0; k < set->count; ++k) {
+        if (!is_order(b, k, x->order)) continue;
+        part_of(x, set->component[k], pair);
+        row[2 * k] = b->of->scale_A * pair[0];
+        row[2 * k + 1] = b->of->scale_A * pair[1];
+    }
+    if (!held || fabs(held->order - x->order) >= HCI_ORDER_TOLERANCE) return;
+    part_of(x, (hci_component){held->order, held->sequence}, pair);
+    row[b->n] = -(pair[0] * held->sine + pair[1] * held->cosine);
+}
+
+/* ---- rms ---- */
+
+/* The head of a cone of heat: 1, and the share by which limits are widened. */
+static void add_heat_head(hci_limit_build *b, size_t rows, size_t limit_of)
+{
+    double *row;
+    hci_limit_cone_add(b, rows);
+    row = hci_limit_row_add(b);
+    if (!row) return;
+    row[b->n] = 1.0;
+    if (b->stage == HCI_STAGE_FIT) row[hci_limit_objective(b)] = -1.0;
+    b->limit_of[b->rows - 1] = limit_of;
+}
+
+/* The rms current of a phase: √(Σ ½(S'² + C'²)) <= limit, a direct current in full. */
+static void add_rms(hci_limit_build *b, int phase)
+{
+    const double limit_A = b->of->bounds->rms_A[phase] * (1.0 + b->of->widened);
+    const size_t head = b->rows;
+    if (!(limit_A < HUGE_VAL)) return;
+    add_heat_head(b, 0, hci_limit_tag(HCI_LIMIT_RMS, phase));
+    for (size_t k = 0; k < b->of->field.set->count; ++k) {
+        const double order = b->of->field.set->component[k].order;
+        const bool is_mean = order < HCI_ORDER_TOLERANCE;
+        for (int part = is_mean ? 1 : 0; begins_order(b, k) && part < 2; ++part) {
+            const phase_part x = {order, phase, part, (is_mean ? 1.0 : sqrt(0.5)) / limit_A};
+            double *row = hci_limit_row_add(b);
+            if (row) phase_row(b, &x, row);
+        }
+    }
+    b->cone[b->cones - 1] = b->rows - head;
+}
+
+void hci_limit_add_rms(hci_limit_build *b)
+{
+    for (int phase = 0; phase < 3; ++phase)
+        add_rms(b, phase);
+}
+
+/* ---- copper ---- */
+
+double hci_limit_copper_of(hci_component c, int part)
+{
+    if (c.sequence != 0 || c.order >= HCI_ORDER_TOLERANCE) return 1.0;
+    return part ? 2.0 : 1e-6;
+}
+
+/* √(3/2 Σ x²) <= limit, what is held included. */
+void hci_limit_add_copper(hci_limit_build *b)
+{
+    const hci_wave *held = b->of->field.held;
+    const double limit_A = sqrt(b->of->bounds->mean_square_A2) * (1.0 + b->of->widened);
+    if (!(limit_A < HUGE_VAL)) return;
+    add_heat_head(b, 1 + b->coordinates + (held ? 1 : 0), hci_limit_tag(HCI_LIMIT_COPPER, 0));
+    for (size_t j = 0; j < b->coordinates; ++j) {
+        double *row = hci_limit_row_add(b);
+        if (row)
+            row[j] = b->of->scale_A / limit_A *
+                     sqrt(1.5 * hci_limit_copper_of(b->of->field.set->component[j / 2], (int)(j % 2)));
+    }
+    double *row = held ? hci_limit_row_add(b) : NULL;
+    if (row) row[b->n] = sqrt(1.5) * hci_amplitude(held->sine, held->cosine) / limit_A;
+}
+
+/* ---- distance ---- */
+
+/* |x − centre| <= radius, of all but FIT, which has to have room. */
+void hci_limit_add_trust(hci_limit_build *b)
+{
+    const hci_limit_program *p = b->of;
+    if (!(p->radius_A > 0.0) || b->stage == HCI_STAGE_FIT) return;
+    hci_limit_cone_add(b, 1 + b->coordinates);
+    double *head = hci_limit_row_add(b);
+    if (head) head[b->n] = 1.0;
+    for (size_t j = 0; j < b->coordinates; ++j) {
+        double *row = hci_limit_row_add(b);
+        if (!row) return;
+        row[j] = p->scale_A / p->radius_A;
+        row[b->n] = p->centre[j] / p->radius_A;
+    }
+}
+
+/* ---- open phases ---- */
+
+/* A phase that is open: every order of its current is 0. */
+static void add_open(hci_limit_build *b, int phase)
+{
+    if (b->of->bounds->current_A[phase] > 0.0) return;
+    for (size_t k = 0; k < b->of->field.set->count; ++k)
+        for (int part = 0; begins_order(b, k) && part < 2; ++part) {
+            const phase_part x = {b->of->field.set->component[k].order, phase, part, 1.0 / b->of->scale_A};
+            if (x.order >= HCI_ORDER_TOLERANCE || part == 1) phase_row(b, &x, hci_limit_equation_add(b));
+        }
+}
+
+void hci_limit_add_open(hci_limit_build *b)
+{
+    for (int phase = 0; phase < 3; ++phase)
+        add_open(b, phase);
+}

@@ -1,0 +1,30 @@
+/* The rows of a program of limits and wishes, by where they come from. Each function adds those that the
+ * stage asks for. */
+#ifndef HCI_SRC_HOST_SOLUTION_LIMIT_ROWS_H
+#define HCI_SRC_HOST_SOLUTION_LIMIT_ROWS_H
+
+#include "host/solution/limit_build.h"
+
+/* Phase currents and line voltages at angles, or the torque there (limit_angle_rows.c). */
+void hci_limit_add_angles(hci_limit_build *build);
+void hci_limit_add_torque_angles(hci_limit_build *build);
+
+/* Orders of the torque (limit_torque_rows.c): the mean and the swing, linear; cones of the orders above 0;
+ * equations of orders that are as wanted. */
+void hci_limit_add_mean(hci_limit_build *build);
+void hci_limit_add_swing(hci_limit_build *build);
+void hci_limit_add_torque_cones(hci_limit_build *build);
+void hci_limit_add_orders(hci_limit_build *build);
+
+/* Sizes of the currents (limit_current_rows.c): cones of each phase's rms current, of the copper and of the
+ * distance from the last answer; equations of phases that are open. */
+void hci_limit_add_rms(hci_limit_build *build);
+void hci_limit_add_copper(hci_limit_build *build);
+void hci_limit_add_trust(hci_limit_build *build);
+void hci_limit_add_open(hci_limit_build *build);
+
+/* Mean of i_a² + i_b² + i_c² over 3/2 of a unit of x_k²: 1, of a zero sequence at order 0 2 for C, 0 for S.
+ */
+double hci_limit_copper_of(hci_component component, int part);
+
+#endif

@@ -1,0 +1,211 @@
+#include "host/solution/limited_path.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "core/math/vector.h"
+#include "host/base/memory.h"
+#include "host/numeric/anderson.h"
+#include "host/solution/merit.h"
+#include "host/solve/linearise.h"
+
+enum {
+    MOST_STEPS = 60,
+    PATIENCE = 14 /* steps in which the change is not halved, after which the distance is bounded */
+};
+
+#define COARSE      1e-6 /* change of the current above which steps are coarse */
+#define CONVERGED   1e-8 /* change of the current as a share of it */
+#define CLOSE       1e-4 /* distance as a share of the current at which nothing better is near */
+#define SETTLING    1e-2 /* the same for the last step, which brings peaks within their limits */
+#define LEAST_SHARE 0.1  /* of the way to an answer */
+#define SHRINK      0.3
+#define GROW        2.0
+
+static hci_status out_of_memory(hci_note *note)
+{
+    return hci_note_memory(note, NULL, "solving within limits");
+}
+
+/* Where the iteration stands. */
+typedef struct {
+    hci_wishes *wishes;
+    size_t n;
+    double *from,
+        *best; /* n: where the torque is made linear, and the best answer; no best before the first */
+    hci_limit_merit merit; /* of the best */
+    hci_anderson mixing;
+    double change, radius_A; /* change of the last step as a share; 0: not bounded */
+    double share, least_change;
+    int idle; /* steps since the least change was halved */
+} path;
+
+static double length(const path *p, const double *x)
+{
+    return sqrt(hci_vector_dot(p->n, x, x));
+}
+
+static double distance(const path *p, const double *x, const double *y)
+{
+    double sum = 0.0;
+    for (size_t j = 0; j < p->n; ++j)
+        sum += (x[j] - y[j]) * (x[j] - y[j]);
+    return sqrt(sum);
+}
+
+/* Waves of coordinates with what is held, each once. */
+static hci_status waves_of(const hci_wishes *w, const double *x, hci_wave_list *i, hci_note *note)
+{
+    hci_wave *wave = hci_memory_new(w->set.count + 1, sizeof *wave);
+    size_t n = 0;
+    if (!wave) return out_of_memory(note);
+    if (w->of->task->held) wave[n++] = *w->of->task->held;
+    for (size_t k = 0; k < w->set.count; ++k)
+        wave[n++] =
+            (hci_wave){w->set.component[k].order, w->set.component[k].sequence, x[2 * k], x[2 * k + 1]};
+    hci_memory_free(i->wave);
+    i->wave = wave;
+    i->count = hci_waves_join(wave, n, 1e-12);
+    return HCI_OK;
+}
+
+/* The wishes with torque and voltage made linear at p->from. */
+static hci_status step(const path *p, hci_note *note)
+{
+    hci_wishes *w = p->wishes;
+    hci_task *t = w->of->task;
+    hci_status status = waves_of(w, p->from, &w->current, note);
+    w->program.centre = p->from;
+    w->program.radius_A = p->radius_A;
+    if (!status && !hci_task_is_linear(t))
+        status = hci_task_linearise(t, w->current.wave, w->current.count, w->of->at, note);
+    return status ? status : hci_wishes_meet(w, note);
+}
+
+/* Keeps the answer where its true torque is better than that of the best. */
+static hci_status judge(path *p, bool *is_better, hci_note *note)
+{
+    const hci_wishes *w = p->wishes;
+    hci_wave_list i = {NULL, 0};
+    hci_limit_merit merit;
+    hci_status status = waves_of(w, w->x, &i, note);
+    if (!status) status = hci_limit_merit_evaluate(w->of->task, w->program.minimise, &i, &merit, note);
+    hci_memory_free(i.wave);
+    if (status) return status;
+    *is_better = !p->best || hci_limit_merit_less(&merit, &p->merit, w->program.scale_Nm);
+    if (!*is_better) return HCI_OK;
+    if (!p->best) p->best = hci_memory_new(p->n, sizeof *p->best);
+    if (!p->best) return out_of_memory(note);
+    memcpy(p->best, w->x, p->n * sizeof *p->best);
+    p->merit = merit;
+    return HCI_OK;
+}
+
+/* By Anderson's acceleration; by a share of the way where the change grows. */
+static void move_freely(path *p, double before)
+{
+    const double *x = p->wishes->x;
+    if (p->change < before) {
+        p->share = 1.0;
+        hci_anderson_step(&p->mixing, p->from, x);
+        return;
+    }
+    p->share = fmax(0.5 * p->share, LEAST_SHARE);
+    for (size_t j = 0; j < p->n; ++j)
+        p->from[j] += p->share * (x[j] - p->from[j]);
+}
+
+/* Where the current does not come to rest: from the best answer on, no further than half of the last step. */
+static void bound(path *p)
+{
+    p->radius_A = 0.5 * distance(p, p->wishes->x, p->from);
+    memcpy(p->from, p->best, p->n * sizeof *p->from);
+}
+
+/* Whether the change has not been halved for a while. */
+static bool is_restless(path *p)
+{
+    ++p->idle;
+    if (p->change < 0.5 * p->least_change) {
+        p->least_change = p->change;
+        p->idle = 0;
+    }
+    return p->idle > PATIENCE;
+}
+
+static void move_bounded(path *p, bool is_better)
+{
+    const double moved_A = distance(p, p->wishes->x, p->from);
+    if (!is_better)
+        p->radius_A = SHRINK * fmin(p->radius_A, moved_A);
+    else if (moved_A > 0.9 * p->radius_A)
+        p->radius_A *= GROW;
+    memcpy(p->from, p->best, p->n * sizeof *p->from);
+}
+
+static hci_status advance(path *p, hci_note *note)
+{
+    const double before = p->change;
+    bool is_better = false;
+    hci_status status;
+    p->wishes->is_coarse = p->change > COARSE;
+    status = step(p, note);
+    if (!status) status = judge(p, &is_better, note);
+    if (status) return status;
+    p->change = distance(p, p->wishes->x, p->from) / fmax(length(p, p->wishes->x), 1e-12);
+    if (p->radius_A > 0.0)
+        move_bounded(p, is_better);
+    else if (is_restless(p))
+        bound(p);
+    else
+        move_freely(p, before);
+    return HCI_OK;
+}
+
+static bool goes_on(const path *p)
+{
+    if (p->radius_A > 0.0) return p->radius_A > CLOSE * length(p, p->from);
+    return p->change > CONVERGED;
+}
+
+/* The last step beside the best answer, with peaks between the angles brought within their limits. */
+static hci_status settle(path *p, hci_note *note)
+{
+    p->wishes->is_coarse = false;
+    memcpy(p->from, p->best, p->n * sizeof *p->from);
+    p->radius_A = SETTLING * length(p, p->best);
+    return step(p, note);
+}
+
+/* Whether neither torque nor voltage has to be made linear. */
+static bool is_linear(const hci_wishes *w)
+{
+    const hci_effects *e = w->of->options->effects;
+    return hci_task_is_linear(w->of->task) && !(e && e->count > 0 && w->of->bounds->line_V < HUGE_VAL);
+}
+
+static hci_status iterate(path *p, hci_note *note)
+{
+    hci_solution *s = p->wishes->of->solution;
+    hci_status status = hci_anderson_reset(&p->mixing, p->n) ? out_of_memory(note) : HCI_OK;
+    int k = 0;
+    p->change = p->least_change = HUGE_VAL;
+    p->share = 1.0;
+    for (; k < MOST_STEPS && goes_on(p) && !status; ++k)
+        status = advance(p, note);
+    s->newton_steps += (size_t)k;
+    s->newton_converged = k < MOST_STEPS;
+    if (!status && p->radius_A > 0.0) status = settle(p, note);
+    s->newton_change = p->change;
+    return status;
+}
+
+hci_status hci_limited_path_follow(hci_wishes *wishes, double *from, hci_note *note)
+{
+    path p = {.wishes = wishes, .n = 2 * wishes->set.count, .from = from};
+    const hci_status status = is_linear(wishes) ? step(&p, note) : iterate(&p, note);
+    hci_anderson_release(&p.mixing);
+    hci_memory_free(p.best);
+    wishes->program.centre = NULL;
+    return status;
+}

@@ -1,0 +1,13 @@
+/* Wishes where torque or voltage are not linear in the current. */
+#ifndef HCI_SRC_HOST_SOLUTION_LIMITED_PATH_H
+#define HCI_SRC_HOST_SOLUTION_LIMITED_PATH_H
+
+#include "host/solution/wishes.h"
+
+/* Meets the wishes with torque and voltage made linear again and again, from `from` (coordinates of
+ * wishes->set; of no meaning afterwards) on: at the last answer, by Anderson's acceleration, as long as that
+ * comes to rest; else within a distance from the best answer that shrinks where the true torque is not better
+ * than that. wishes->x is the answer. Fills the steps of the solution. HCI_ERROR_NUMERIC, _MEMORY. */
+hci_status hci_limited_path_follow(hci_wishes *wishes, double *from, hci_note *note);
+
+#endif

@@ -1,0 +1,95 @@
+#include "host/solution/wish.h"
+
+#include <string.h>
+
+#include "host/base/memory.h"
+#include "host/solution/limit_stage.h"
+
+enum {
+    COARSE_ROUNDS = 2,
+    MOST_ROUNDS = 40 /* of adding peaks, each of which squares the error */
+};
+
+#define IDLE 0.7 /* share of a limit below which an angle is left out until a peak is there */
+
+static hci_status out_of_memory(hci_note *note)
+{
+    return hci_note_memory(note, NULL, "solving within limits");
+}
+
+/* What a grid's quantity has to stay within; false where this stage does not ask for it. */
+static bool range_of(const hci_wishes *l, const hci_limit_grid *g, hci_limit_stage stage,
+                     const hci_limit_optimum *o, double range[2])
+{
+    const hci_limit_program *p = &l->program;
+    const bool is_torque = g->kind == HCI_POINT_TORQUE;
+    const double margin_Nm = 1e-7 * p->scale_Nm,
+                 limit =
+                     is_torque ? 0.0 : hci_limit_of_point(p->bounds, g->kind, g->phase) * (1.0 + p->widened);
+    range[1] = is_torque ? o->highest_Nm + margin_Nm : limit * (1.0 - HCI_LIMIT_MARGIN);
+    range[0] = is_torque ? o->lowest_Nm - margin_Nm : -range[1];
+    return !is_torque || stage >= HCI_STAGE_RIPPLE;
+}
+
+/* Adds the peaks of an optimum beyond a limit; *added: how many. */
+static hci_status add_peaks(hci_wishes *l, hci_limit_stage stage, const hci_limit_optimum *o, size_t *added,
+                            hci_note *note)
+{
+    hci_limit_program *p = &l->program;
+    const size_t before = p->points.count;
+    hci_status status = HCI_OK;
+    if (stage == HCI_STAGE_FIT) p->widened = o->smallest;
+    for (size_t q = 0; q < p->grids && !status; ++q) {
+        double range[2], worst;
+        if (!range_of(l, &p->grid[q], stage, o, range)) continue;
+        status = hci_limit_peaks(&p->field, &p->grid[q], o->x, range, &p->points, &worst);
+        if (!status && stage >= HCI_STAGE_RIPPLE) hci_limit_grid_thin(&p->grid[q], o->x, range, IDLE);
+    }
+    if (stage == HCI_STAGE_FIT) p->widened = 0.0;
+    *added = p->points.count - before;
+    return status ? out_of_memory(note) : HCI_OK;
+}
+
+/* How often peaks are added: until there are none, or while the torque is still being made linear a few
+ * times, since they are kept for the next step. */
+static int rounds_of(const hci_wishes *l)
+{
+    return l->is_coarse ? COARSE_ROUNDS : MOST_ROUNDS;
+}
+
+/* One more round; where rounding spoils it the one before stays, unsettled, and *goes_on is false. */
+static hci_status try_round(hci_wishes *l, hci_limit_stage stage, hci_limit_optimum *o, bool *goes_on,
+                            hci_note *note)
+{
+    const bool is_first = !o->x;
+    hci_limit_optimum next;
+    hci_note ignored = {{0}};
+    const hci_status status = hci_limit_stage_solve(&l->program, stage, &next, is_first ? note : &ignored);
+    *goes_on = is_first || (status != HCI_ERROR_NUMERIC && !next.is_infeasible);
+    hci_memory_free(*goes_on ? o->x : next.x);
+    if (!*goes_on) return HCI_OK;
+    *o = next;
+    *goes_on = !status && !next.is_infeasible;
+    return status;
+}
+
+hci_status hci_wish_solve(hci_wishes *l, hci_limit_stage stage, hci_limit_optimum *o, hci_note *note)
+{
+    size_t added = 1;
+    bool goes_on = true;
+    hci_status status = HCI_OK;
+    memset(o, 0, sizeof *o);
+    for (int round = 0; round < rounds_of(l) && added > 0 && goes_on && !status; ++round) {
+        status = try_round(l, stage, o, &goes_on, note);
+        if (!status && goes_on) status = add_peaks(l, stage, o, &added, note);
+    }
+    o->is_settled = added == 0;
+    return status;
+}
+
+void hci_wish_take(hci_wishes *l, hci_limit_optimum *o)
+{
+    hci_memory_free(l->x);
+    l->x = o->x;
+    o->x = NULL;
+}
