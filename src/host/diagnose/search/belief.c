@@ -150,30 +150,47 @@ static hci_status is_trivial(hci_search *s, bool *trivial, hci_note *note)
     return status;
 }
 
-/* By how much a model lowers the score of the one without any effect, with the noise of now. */
-static hci_status gain_of(hci_search *s, hci_fitted_model *model, double *gain, hci_note *note)
+/* How well a model describes the recordings, against the one without any effect. */
+typedef struct {
+    double gain;  /* fall of the score, with the noise of now */
+    double white; /* score with white noise of one size in all runs */
+} merit;
+
+static hci_status merit_of(hci_search *s, hci_fitted_model *model, merit *to, hci_note *note)
 {
     hci_candidates none = {0};
     hci_fit without;
     hci_status status = hci_regression_fit(s->regression, &none, &without, note);
     if (!status) status = hci_regression_fit(s->regression, &model->candidates, &model->fit, note);
-    *gain = status ? 0.0 : without.score - model->fit.score;
-    return status;
+    if (!status) status = hci_search_residual(s, &model->candidates, note);
+    if (status) return status;
+    const double price = hci_fit_effective_score(&model->fit, &model->candidates) - model->fit.square;
+    to->gain = without.score - model->fit.score;
+    to->white = model->fit.rows * 2.0 * log(hci_search_residual_rms(s)) + price;
+    return HCI_OK;
+}
+
+/* The colour of the noise is that of what one of both leaves, and suits the other less or more by chance: a
+ * model is better where white noise says so too. */
+static bool is_better(const merit *x, const merit *than)
+{
+    return x->gain > than->gain + HCI_DECISIVE && x->white + HCI_DECISIVE < than->white;
 }
 
 hci_status hci_search_yield(hci_search *s, hci_fitted_model *model, hci_yield *yield, hci_note *note)
 {
     hci_disbelieved *x = &s->disbelieved;
-    double gain = 0.0, believed = 0.0;
+    merit other = {0}, believed = {0};
+    bool trivial = false;
     *yield = HCI_YIELD_NOTHING;
     if (!x->type) return HCI_OK;
-    hci_status status = gain_of(s, &x->model, &gain, note);
-    if (!status) status = gain_of(s, model, &believed, note);
+    hci_status status = merit_of(s, &x->model, &other, note);
+    if (!status) status = merit_of(s, model, &believed, note);
     if (status) return status;
-    if (gain > HCI_DECISIVE && gain > NEARLY * believed) *yield = HCI_YIELD_RIVAL;
-    bool trivial = false;
-    if (gain > believed + HCI_DECISIVE) status = is_trivial(s, &trivial, note);
-    if (status || trivial || !(gain > believed + HCI_DECISIVE)) return status;
+    if (other.gain > HCI_DECISIVE && other.gain > NEARLY * believed.gain) *yield = HCI_YIELD_RIVAL;
+    if (!is_better(&other, &believed)) return HCI_OK;
+    status = is_trivial(s, &trivial, note);
+    if (status || trivial) return status;
     *yield = HCI_YIELD_BETTER;
     return others_remove(x, &model->candidates) ? hci_search_renew(s, model, note) : HCI_OK;
 }
