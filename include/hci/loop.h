@@ -56,9 +56,9 @@ typedef struct {
     const hci_loop_wave *waves;         /* order_count·levels, the levels of an order together */
     const uint16_t *orders;             /* whole multiples of base_order, ascending; the first is 0 */
     const hci_loop_range *ranges;       /* of the speed, one for each order */
-    const hci_loop_response *responses; /* NULL: k_p and k_i say what the loop does */
+    const hci_loop_response *responses; /* not used without entries: k_p and k_i say what the loop does */
     uint32_t order_count;               /* >= 1 */
-    uint32_t response_count;            /* entries of responses */
+    uint32_t response_count;            /* entries of responses: 0, or at least 2 */
     uint32_t levels;                    /* of torque, equally far apart: 1, 2, or an odd number */
     uint32_t points;                    /* of a table in RAM, in its own period */
     uint32_t repeats;                   /* periods of the table in 2^32 of angle */
@@ -102,22 +102,6 @@ typedef struct {
 } hci_loop_reference;
 
 /* ---- arithmetic ---- */
-
-/* Sine and cosine of an angle whose turn is 2^32, to 2e-7. */
-static inline void hci_loop_sine_cosine(uint32_t angle, float *sine, float *cosine)
-{
-    const uint32_t quadrant = (angle + 0x20000000u) >> 30;
-    const float x = HCI_TABLE_CAST(float, HCI_TABLE_CAST(int32_t, angle - (quadrant << 30))) *
-                    1.46291808e-9f; /* 2π/2^32 */
-    const float y = x * x;
-    const float s =
-        x * (1.0f - y * (0.166666667f - y * (8.33333333e-3f - y * (1.98412698e-4f - y * 2.75573192e-6f))));
-    const float c = 1.0f - y * (0.5f - y * (4.16666667e-2f - y * (1.38888889e-3f - y * 2.48015873e-5f)));
-    const float a = (quadrant & 1u) != 0u ? c : s;
-    const float b = (quadrant & 1u) != 0u ? s : c;
-    *sine = (quadrant & 2u) != 0u ? -a : a;
-    *cosine = quadrant == 1u || quadrant == 2u ? -b : b;
-}
 
 /* sin(x)/x for |x| <= π/2, to 3e-7. */
 static inline float hci_loop_sinc(float x)
@@ -188,12 +172,12 @@ static inline void hci_loop_hold(const hci_loop_f32 *loop, float speed_rad_per_s
 static inline hci_loop_order hci_loop_order_at(const hci_loop_f32 *loop, uint32_t k, float speed_rad_per_s)
 {
     hci_loop_order order;
-    order.nu_rad_per_s = HCI_TABLE_CAST(float, loop->orders[k]) * loop->base_order * speed_rad_per_s;
+    order.nu_rad_per_s = HCI_TABLE_F32(loop->orders[k]) * loop->base_order * speed_rad_per_s;
     order.half = 0.5f * order.nu_rad_per_s * loop->sample_s;
     order.share = hci_loop_share(loop->ranges[k], speed_rad_per_s);
     if (!(order.share > 0.0f)) order.half = 0.0f;
-    hci_loop_sine_cosine(hci_angle_from_rad(order.nu_rad_per_s * loop->delay_s), &order.ahead_im,
-                         &order.ahead_re);
+    hci_angle_sine_cosine(hci_angle_from_rad(order.nu_rad_per_s * loop->delay_s), &order.ahead_im,
+                          &order.ahead_re);
     hci_loop_hold(loop, speed_rad_per_s, &order);
     return order;
 }
@@ -264,7 +248,7 @@ static inline void hci_loop_compensated(const hci_loop_f32 *loop, const hci_loop
                                   speed_rad_per_s, wave->voltage_Vs[a]);
     hci_loop_held(order, needed, held);
     for (a = 0; a < 2; ++a) {
-        if (loop->responses) {
+        if (loop->response_count > 0u) {
             out[a] = hci_loop_times(wave->own_Vs[a], order->ahead_re, -order->ahead_im); /* it acts as late */
             out[a] = hci_loop_through_response(loop, order->nu_rad_per_s, a,
                                                hci_loop_plus(needed[a], -speed_rad_per_s, out[a]));
@@ -335,8 +319,7 @@ static inline void hci_loop_start(hci_loop_tables *tables, const hci_loop_f32 *l
 static inline float hci_loop_prefilter(const hci_loop_f32 *loop, uint32_t k)
 {
     float s, c;
-    hci_loop_sine_cosine(
-        HCI_TABLE_CAST(uint32_t, (HCI_TABLE_CAST(uint64_t, loop->orders[k]) << 32) / loop->points), &s, &c);
+    hci_angle_sine_cosine(HCI_TABLE_U32((HCI_TABLE_U64(loop->orders[k]) << 32) / loop->points), &s, &c);
     return 8.0f / (6.0f + 2.0f * c);
 }
 
@@ -368,8 +351,9 @@ static inline void hci_loop_make_factors(hci_loop_tables *tables, float speed_ra
             hci_loop_pair out[6];
             hci_loop_make_wave(tables, &order, &loop->waves[k * loop->levels + l], out);
             for (v = 0u; v < values; ++v) {
-                *factor++ = scale * out[v].c;
-                *factor++ = scale * out[v].s;
+                factor[0] = scale * out[v].c;
+                factor[1] = scale * out[v].s;
+                factor = &factor[2];
             }
         }
     }
@@ -384,12 +368,13 @@ static inline void hci_loop_add_order(const hci_loop_tables *tables, const float
     for (l = 0u; l < levels; ++l) {
         float *current = tables->current + (row * levels + l) * 2u;
         float *voltage = tables->voltage + (row * levels + l) * 4u;
-        for (v = 0u; v < values; ++v, factor += 2) {
+        for (v = 0u; v < values; ++v) {
             const float sum = factor[0] * cosine + factor[1] * sine;
             if (v < 2u)
                 current[v] += sum;
             else
                 voltage[v - 2u] += sum;
+            factor = &factor[2];
         }
     }
 }
@@ -408,7 +393,7 @@ static inline void hci_loop_make_row(const hci_loop_tables *tables, uint32_t row
         tables->voltage[row * loop->levels * 4u + k] = 0.0f;
     for (k = 0u; k < loop->order_count; ++k) {
         float s, c;
-        hci_loop_sine_cosine((loop->orders[k] * at) % loop->points * step, &s, &c);
+        hci_angle_sine_cosine((loop->orders[k] * at) % loop->points * step, &s, &c);
         hci_loop_add_order(tables, tables->factors + 2u * k * n, row, c, s);
     }
 }
@@ -456,53 +441,63 @@ static inline hci_loop_mix hci_loop_parabola(uint32_t middle, float u)
     return mix;
 }
 
-/* A torque that is no number counts as the lowest. Parabolas meet at levels, so that currents do not jump. */
+/* A torque within that of the levels. NaN counts as none, or as what is nearest to none. */
+static inline float hci_loop_torque(const hci_loop_f32 *loop, float torque_Nm)
+{
+    float t = 0.0f;
+    if ((torque_Nm > 0.0f) || (torque_Nm <= 0.0f)) t = torque_Nm;
+    if (t < loop->torque_low_Nm) t = loop->torque_low_Nm;
+    if (t > loop->torque_high_Nm) t = loop->torque_high_Nm;
+    return t;
+}
+
+/* Parabolas meet at levels, so that currents do not jump. */
 static inline hci_loop_mix hci_loop_mix_of(const hci_loop_f32 *loop, float torque_Nm)
 {
     const float range = loop->torque_high_Nm - loop->torque_low_Nm;
     const uint32_t last = loop->levels - 1u;
     hci_loop_mix mix = {0u, 1u, {1.0f, 0.0f, 0.0f}};
-    float x = 0.0f;
-    uint32_t panel;
+    float x;
+    uint32_t panel, middle;
     if (last == 0u) return mix;
-    if (torque_Nm > loop->torque_low_Nm) x = (torque_Nm - loop->torque_low_Nm) / range;
-    if (x > 1.0f) x = 1.0f;
+    x = (hci_loop_torque(loop, torque_Nm) - loop->torque_low_Nm) / range;
     if (last == 1u) {
         mix.count = 2u;
         mix.weight[0] = 1.0f - x;
         mix.weight[1] = x;
         return mix;
     }
-    x *= HCI_TABLE_CAST(float, last);
-    panel = HCI_TABLE_CAST(uint32_t, 0.5f * x);
+    x *= HCI_TABLE_F32(last);
+    panel = HCI_TABLE_U32(0.5f * x);
     if (2u * panel >= last) panel = last / 2u - 1u;
-    return hci_loop_parabola(2u * panel + 1u, x - HCI_TABLE_CAST(float, 2u * panel + 1u));
+    middle = 2u * panel + 1u;
+    return hci_loop_parabola(middle, x - HCI_TABLE_F32(middle));
 }
 
 /* `columns` values of a table at an angle: quadratic B-spline over three rows, then the levels. */
 static inline void hci_loop_read(const hci_loop_f32 *loop, const float *rows, uint32_t columns,
                                  uint32_t angle, const hci_loop_mix *mix, float *out)
 {
-    const uint64_t position = HCI_TABLE_CAST(uint64_t, angle * loop->repeats) * loop->points + 0x80000000u;
+    const uint64_t position = HCI_TABLE_U64(angle * loop->repeats) * loop->points + 0x80000000u;
     const uint32_t stride = loop->levels * columns;
-    const float t =
-        HCI_TABLE_CAST(float, HCI_TABLE_CAST(uint32_t, position)) * 2.32830644e-10f - 0.5f; /* 2^-32 */
+    const float t = HCI_TABLE_F32(HCI_TABLE_U32(position)) * 2.32830644e-10f - 0.5f; /* 2^-32 */
     const float before = 0.5f * (0.5f - t) * (0.5f - t), after = 0.5f * (0.5f + t) * (0.5f + t);
-    const float *row = rows + HCI_TABLE_CAST(uint32_t, position >> 32) * stride + mix->first * columns;
+    const float *row = rows + HCI_TABLE_U32(position >> 32) * stride + mix->first * columns;
     uint32_t l, v;
     for (v = 0u; v < columns; ++v)
         out[v] = 0.0f;
-    for (l = 0u; l < mix->count; ++l, row += columns) {
+    for (l = 0u; l < mix->count; ++l) {
         for (v = 0u; v < columns; ++v)
             out[v] += mix->weight[l] * (row[stride + v] + before * (row[v] - row[stride + v]) +
                                         after * (row[2u * stride + v] - row[stride + v]));
+        row = &row[columns];
     }
 }
 
 /* An angle turned on by ω·seconds. */
 static inline uint32_t hci_loop_ahead(const hci_loop_f32 *loop, uint32_t angle, float way_rad)
 {
-    return angle + hci_angle_from_rad(way_rad / HCI_TABLE_CAST(float, loop->period_turns));
+    return angle + hci_angle_from_rad(way_rad / HCI_TABLE_F32(loop->period_turns));
 }
 
 /* What the loop is to be asked for at a sample. angle: of the sample; speed_rad_per_s: electrical. On a
@@ -556,7 +551,7 @@ static inline hci_table_verdict hci_loop_check(const hci_loop_f32 *loop)
     if (loop->order_count == 0u || loop->levels == 0u || loop->points == 0u || loop->orders[0] != 0u)
         return HCI_TABLE_BAD_SHAPE;
     if (loop->levels > 2u && loop->levels % 2u == 0u) return HCI_TABLE_BAD_SHAPE;
-    if (loop->responses && loop->response_count < 2u) return HCI_TABLE_BAD_SHAPE;
+    if (loop->response_count == 1u) return HCI_TABLE_BAD_SHAPE;
     return hci_loop_crc32(loop) == loop->crc32 ? HCI_TABLE_GOOD : HCI_TABLE_BAD_CRC;
 }
 

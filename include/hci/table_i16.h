@@ -86,18 +86,19 @@ HCI_TABLE_INLINE uint32_t hci_table_i16_upper(uint32_t angle, uint32_t sectors)
     (defined(__SIZEOF_INT__) && __SIZEOF_INT__ < 4)
     return ((angle >> 16) * sectors + (((angle & 0xFFFFu) * sectors) >> 16)) >> 16;
 #else
-    return HCI_TABLE_CAST(uint32_t, (HCI_TABLE_CAST(uint64_t, angle) * sectors) >> 32);
+    return HCI_TABLE_U32((HCI_TABLE_U64(angle) * sectors) >> 32);
 #endif
 }
 
 /* The sector is the upper half of angle·sectors and the way in it the lower one, which 32 bits hold. */
 HCI_TABLE_INLINE hci_table_i16_place hci_table_i16_find(const hci_table_i16 *table, uint32_t angle)
 {
-    const uint32_t position = ((angle * table->sectors) >> 12) * table->intervals;
+    uint32_t position = ((angle * table->sectors) >> 12) * table->intervals;
     hci_table_i16_place place;
     place.sector = hci_table_i16_upper(angle, table->sectors);
     place.interval = position >> 20;
-    place.fraction = HCI_TABLE_CAST(int32_t, (position >> 5) & 0x7FFFu);
+    position = (position >> 5) & 0x7FFFu;
+    place.fraction = HCI_TABLE_I32(position);
     return place;
 }
 
@@ -105,6 +106,14 @@ HCI_TABLE_INLINE hci_table_i16_place hci_table_i16_find(const hci_table_i16 *tab
  *
  * Values in fixed point: 32768 to unit_A, and 65536 for quadratic splines. `emit` keeps knots and their
  * differences so small that nothing overflows. */
+
+/* value·2^−bits, rounded down. MISRA C 10.1 does not want signed numbers shifted, since a compiler may do as
+ * it likes: hci_table_i16_needs_arithmetic_shifts refuses those that do. */
+HCI_TABLE_INLINE int32_t hci_table_i16_right(int32_t value, uint32_t bits)
+{
+    /* cppcheck-suppress misra-c2012-10.1 */
+    return value >> bits;
+}
 
 /* c₀ + u (c₁ − c₀). stride: values from one knot to the next; fraction: 32768 u. */
 HCI_TABLE_INLINE int32_t hci_table_i16_linear(const int16_t *knot, uint32_t stride, int32_t fraction)
@@ -118,7 +127,7 @@ HCI_TABLE_INLINE int32_t hci_table_i16_quadratic(const int16_t *knot, uint32_t s
 {
     const int32_t c0 = knot[0], c1 = knot[stride], c2 = knot[2u * stride];
     const int32_t slope = c1 - c0, bend = c2 - c1 - slope;
-    return (c0 + c1) * 32768 + (2 * slope + ((bend * fraction) >> 15)) * fraction;
+    return (c0 + c1) * 32768 + (2 * slope + hci_table_i16_right(bend * fraction, 15u)) * fraction;
 }
 
 /* ¾ of ⅙(c₀ + 4c₁ + c₂) + ½u (c₂ − c₀) + ½u² (c₀ − 2c₁ + c₂) + ⅙u³ (c₃ − 3c₂ + 3c₁ − c₀). */
@@ -126,9 +135,9 @@ HCI_TABLE_INLINE int32_t hci_table_i16_cubic(const int16_t *knot, uint32_t strid
 {
     const int32_t c0 = knot[0], c1 = knot[stride], c2 = knot[2u * stride], c3 = knot[3u * stride];
     const int32_t bend = c0 - 2 * c1 + c2, twist = c3 - 2 * c2 + c1 - bend;
-    int32_t slope = 3 * bend + ((twist * fraction) >> 15);
-    slope = 3 * (c2 - c0) + ((slope * fraction) >> 15);
-    return (c0 + 4 * c1 + c2) * 4096 + ((slope * fraction) >> 3);
+    int32_t slope = 3 * bend + hci_table_i16_right(twist * fraction, 15u);
+    slope = 3 * (c2 - c0) + hci_table_i16_right(slope * fraction, 15u);
+    return (c0 + 4 * c1 + c2) * 4096 + hci_table_i16_right(slope * fraction, 3u);
 }
 
 /* The value between knots by the degree of the table. */
@@ -145,13 +154,14 @@ HCI_TABLE_INLINE int32_t hci_table_i16_spline(const hci_table_i16 *table, const 
 HCI_TABLE_INLINE float hci_table_i16_ampere(const hci_table_i16 *table, int32_t value)
 {
     const float share = table->degree == 2u ? 1.0f / 65536.0f : 1.0f / 32768.0f;
-    return HCI_TABLE_CAST(float, value) * (table->unit_A * share);
+    return HCI_TABLE_F32(value) * (table->unit_A * share);
 }
 
 /* The nearest whole unit to a value in fixed point. */
 HCI_TABLE_INLINE int32_t hci_table_i16_round(const hci_table_i16 *table, int32_t value)
 {
-    return table->degree == 2u ? (value + 32768) >> 16 : (value + 16384) >> 15;
+    return table->degree == 2u ? hci_table_i16_right(value + 32768, 16u)
+                               : hci_table_i16_right(value + 16384, 15u);
 }
 
 /* ---- sectors ---- */
@@ -276,9 +286,9 @@ HCI_TABLE_INLINE hci_units_abc hci_table_i16_abc_q15(const hci_table_i16 *table,
 {
     const hci_table_i16_values v = hci_table_i16_part(table, hci_table_i16_find(table, angle), 0u);
     hci_units_abc i;
-    i.ia = HCI_TABLE_CAST(int16_t, hci_table_i16_round(table, v.a));
-    i.ib = HCI_TABLE_CAST(int16_t, hci_table_i16_round(table, v.b));
-    i.ic = HCI_TABLE_CAST(int16_t, hci_table_i16_round(table, v.c));
+    i.ia = HCI_TABLE_I16(hci_table_i16_round(table, v.a));
+    i.ib = HCI_TABLE_I16(hci_table_i16_round(table, v.b));
+    i.ic = HCI_TABLE_I16(hci_table_i16_round(table, v.c));
     return i;
 }
 
@@ -287,8 +297,8 @@ HCI_TABLE_INLINE hci_units_dq hci_table_i16_dq_q15(const hci_table_i16 *table, u
 {
     const hci_table_i16_values v = hci_table_i16_part(table, hci_table_i16_find(table, angle), 0u);
     hci_units_dq i;
-    i.id = HCI_TABLE_CAST(int16_t, hci_table_i16_round(table, v.a));
-    i.iq = HCI_TABLE_CAST(int16_t, hci_table_i16_round(table, v.b));
+    i.id = HCI_TABLE_I16(hci_table_i16_round(table, v.a));
+    i.iq = HCI_TABLE_I16(hci_table_i16_round(table, v.b));
     return i;
 }
 
@@ -296,8 +306,8 @@ HCI_TABLE_INLINE hci_units_dq hci_table_i16_dq_q15(const hci_table_i16 *table, u
 HCI_TABLE_INLINE int16_t hci_table_i16_sum_q15(const hci_table_i16 *table, int32_t a, int32_t b,
                                                int16_t torque_q15)
 {
-    const int32_t part = (hci_table_i16_round(table, a) * torque_q15 + 16384) >> 15;
-    return HCI_TABLE_CAST(int16_t, part + hci_table_i16_round(table, b));
+    const int32_t part = hci_table_i16_right(hci_table_i16_round(table, a) * torque_q15 + 16384, 15u);
+    return HCI_TABLE_I16(part + hci_table_i16_round(table, b));
 }
 
 /* Phase currents of a table with frame abc and two parts, in unit_A; torque_q15: share of
@@ -376,14 +386,14 @@ static inline uint32_t hci_table_i16_crc32(const hci_table_i16 *table)
     uint32_t crc = 0xFFFFFFFFu;
     uint32_t k;
     for (k = 0u; k < count; ++k)
-        crc = hci_table_crc32_next(crc, HCI_TABLE_CAST(uint32_t, table->knots[k]) & 0xFFFFu, 4);
+        crc = hci_table_crc32_next(crc, HCI_TABLE_U32(table->knots[k]) & 0xFFFFu, 4);
     return ~crc;
 }
 
 /* Whether a table has a shape that the functions above can read. */
 static inline int hci_table_i16_shape_good(const hci_table_i16 *table)
 {
-    const uint32_t most_columns = table->frame == HCI_TABLE_ABC ? 3u : 2u;
+    const uint32_t most_columns = hci_table_most_columns(table->frame);
     return table->intervals >= 1u && table->intervals <= HCI_TABLE_I16_MOST_INTERVALS &&
            table->degree >= 1u && table->degree <= 3u && table->columns >= 2u &&
            table->columns <= most_columns && table->parts >= 1u && table->parts <= 2u &&

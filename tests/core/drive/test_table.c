@@ -29,6 +29,7 @@ static hci_table_f32 random_table(uint64_t *seed, uint32_t points, uint32_t colu
     table.points = points;
     table.columns = columns;
     table.parts = parts;
+    table.reference_torque_Nm = parts == 2 ? 2.0f : 0.0f;
     return table;
 }
 
@@ -237,9 +238,28 @@ static void test_check_refuses_wrong_shapes(void)
         TEST_ASSERT_EQUAL(HCI_TABLE_BAD_SHAPE, hci_table_f32_check(&table[k]));
 }
 
+/* Currents beyond the reference torque were not asked for, and what is no number is no torque. */
+static void test_torque_is_limited(void)
+{
+    uint64_t seed = 9;
+    for (int frame = HCI_TABLE_ABC; frame <= HCI_TABLE_DQ; ++frame) {
+        hci_table_f32 table = random_table(&seed, 7, 2, 2);
+        static const float asked[] = {2.5f, 1e30f, INFINITY, -2.5f, -INFINITY, NAN};
+        static const float taken[] = {2.0f, 2.0f, 2.0f, -2.0f, -2.0f, 0.0f};
+        table.frame = (hci_table_frame)frame;
+        for (size_t k = 0; k < sizeof asked / sizeof *asked; ++k) {
+            float found[3], expected[3];
+            hci_table_f32_currents(&table, 0x33333333u, asked[k], found);
+            hci_table_f32_currents(&table, 0x33333333u, taken[k], expected);
+            TEST_ASSERT_EQUAL_FLOAT_ARRAY(expected, found, 3);
+        }
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_torque_is_limited);
     RUN_TEST(test_interpolates_with_any_number_of_points);
     RUN_TEST(test_row_angles_give_rows);
     RUN_TEST(test_radians);

@@ -1,6 +1,10 @@
 // Emitted tables in a C++ program: included, linked, checked and read.
 #include <cstdint>
 
+#include "hci/blob.h"
+#include "hci/counter.h"
+#include "hci/foc.h"
+
 #include "form_abc.h"
 #include "form_dq.h"
 #include "form_drive.h"
