@@ -10,6 +10,7 @@
 #include "cli/terminal/text.h"
 #include "hci/host/currents/solution_folder.h"
 #include "hci/host/emit/emit.h"
+#include "hci/host/emit/emit_foreign.h"
 #include "hci/host/emit/emit_loop.h"
 #include "hci/host/report/summary.h"
 
@@ -27,6 +28,11 @@ enum {
     MACHINE,
     DRIVE,
     SPEED,
+    FOR,
+    ENCODER_OFFSET,
+    ENCODER_DIRECTION,
+    TORQUE_CONSTANT,
+    COUNTS,
     OUT,
     CLI_COMMON_KEYS
 };
@@ -50,6 +56,13 @@ static const cli_choice FRAMES[] = {
     {NULL, NULL},
 };
 
+static const cli_choice TARGETS[] = {HCI_FOREIGN_TARGETS(CLI_CHOICE_OF){NULL, NULL}};
+static const cli_choice DIRECTIONS[] = {
+    {"1", "1 (default)"},
+    {"-1", "; -1: its angle falls when the machine turns in its positive direction"},
+    {NULL, NULL},
+};
+
 static const cli_option OPTIONS[] =
     {[NAME] = {"name", 0, CLI_TEXT, "ID", .help = "of the table and its files, a C identifier"},
      [FORMAT] = {"format", 0, CLI_CHOICE, "NAME", NULL, .choices = FORMATS},
@@ -58,9 +71,12 @@ static const cli_option OPTIONS[] =
      [MAX_ERROR] = {"max-error", 0, CLI_NUMBER, "A",
                     .help = "the fewest points that keep every current within it (1 % of the peak)",
                     .low = 1e-12, .high = 1e9},
-     [POINTS] = {"points", 0, CLI_WHOLE, "N",
-                 .help = "instead: rows of a period; of i16 and q15 steps in the part that is kept",
-                 .low = 1.0, .high = HCI_EMIT_MAX_POINTS},
+     [POINTS] =
+         {"points", 0, CLI_WHOLE, "N",
+          .help =
+              "instead: rows of a period; of i16 and q15 steps in the part that is kept; with --for a power "
+              "of two",
+          .low = 1.0, .high = HCI_EMIT_MAX_POINTS},
      [MAX_BYTES] = {"max-bytes", 0, CLI_WHOLE, "N",
                     .help = "of rows or knots; without --max-error: the least error in so many", .low = 1.0,
                     .high = 1e9},
@@ -71,7 +87,8 @@ static const cli_option OPTIONS[] =
      [REFERENCE] = {"reference-torque", 0, CLI_NUMBER, "NM",
                     .help = "with --per-torque: the largest T (default: the one solved for)", .low = 1e-9,
                     .high = 1e9},
-     [MACHINE] = {"machine", 0, CLI_FOLDER, "FOLDER", .help = "with --drive: the machine of the currents"},
+     [MACHINE] = {"machine", 0, CLI_FOLDER, "FOLDER",
+                  .help = "with --drive and --for: the machine of the currents"},
      [DRIVE] =
          {"drive", 0, CLI_FILE, "FILE",
           .help = "drive.csv: orders of current and voltage for hci/loop.h, which a current loop can follow; "
@@ -82,6 +99,20 @@ static const cli_option OPTIONS[] =
               "with --drive: up to which orders are used (default: as far as the voltage and the sampling "
               "do)",
           .low = 1e-3, .high = 1e6},
+     [FOR] = {"for", 0, CLI_CHOICE, "TARGET",
+              .help = "the compensation map of this drive instead, in its own form: ", .choices = TARGETS},
+     [ENCODER_OFFSET] = {"encoder-offset", 0, CLI_NUMBER, "DEG",
+                         .help = "with --for: the drive's angle where that of the machine is 0 (0); of its "
+                                 "encoder, or electrical",
+                         .low = -1e6, .high = 1e6},
+     [ENCODER_DIRECTION] = {"encoder-direction", 0, CLI_CHOICE, "SIGN",
+                            .help = "with --for: ", .choices = DIRECTIONS},
+     [TORQUE_CONSTANT] = {"torque-constant", 0, CLI_NUMBER, "NM_PER_A",
+                          .help =
+                              "with --for: torque of 1 A of i_q as the drive has it (that of the machine)",
+                          .low = 1e-9, .high = 1e6},
+     [COUNTS] = {"counts-per-ampere", 0, CLI_NUMBER, "N",
+                 .help = "with --for: the drive's scale of the current", .low = 1e-6, .high = 1e9},
      [OUT] = {"out", 'o', CLI_FOLDER, "FOLDER", .help = "where ID.h and ID.c go (default: here)"},
      CLI_COMMON_OPTIONS};
 
@@ -122,8 +153,22 @@ static hci_status check_together(const cli_arguments *a, hci_note *note)
     const char *wrong = NULL;
     if (!a->value[NAME])
         wrong = "emit: the table has no name; add --name ID";
-    else if (a->given[DRIVE] != a->given[MACHINE])
+    else if (a->given[DRIVE] && a->given[FOR])
+        wrong = "emit: --drive is for hci/loop.h, --for TARGET for another maker's drive; give one of them";
+    else if (a->given[FOR] && !a->given[MACHINE])
+        wrong = "emit: --for TARGET needs --machine FOLDER";
+    else if (!a->given[FOR] && a->given[DRIVE] != a->given[MACHINE])
         wrong = "emit: --drive FILE and --machine FOLDER go together";
+    else if (!a->given[FOR] && (a->given[ENCODER_OFFSET] || a->given[ENCODER_DIRECTION] ||
+                                a->given[TORQUE_CONSTANT] || a->given[COUNTS]))
+        wrong =
+            "emit: --encoder-offset, --encoder-direction, --torque-constant and --counts-per-ampere go with "
+            "--for TARGET";
+    else if (a->given[FOR] &&
+             (a->given[FORMAT] || a->given[SHAPE] || a->given[FRAME] || a->given[MAX_ERROR] ||
+              a->given[MAX_BYTES] || a->given[MAX_INSTRUCTIONS] || a->given[SPEED]))
+        wrong = "emit: the form of a map --for TARGET is that of the drive; leave out --format, --shape, "
+                "--frame, --max-error, --max-bytes, --max-instructions and --speed";
     else if (a->given[SPEED] && !a->given[DRIVE])
         wrong = "emit: --speed goes with --drive";
     else if (a->words > 1 && !a->given[DRIVE])
@@ -282,9 +327,83 @@ static int run_for_drive(const cli_arguments *a)
     return status ? cli_fail(status, &note) : 0;
 }
 
+/* ---- for another maker's drive ---- */
+
+typedef struct {
+    inputs currents;
+    hci_machine_data machine;
+    hci_emit_foreign_request request;
+} foreign_inputs;
+
+static hci_status read_foreign_inputs(const cli_arguments *a, foreign_inputs *in, hci_note *note)
+{
+    const hci_emit_request *currents = &in->currents.request;
+    hci_status status = read_inputs(a, &in->currents, note);
+    if (!status) status = hci_machine_read(a->value[MACHINE], &in->machine, note);
+    in->request =
+        (hci_emit_foreign_request){.name = currents->name,
+                                   .target = (hci_foreign_name)a->choice[FOR],
+                                   .machine_folder = a->value[MACHINE],
+                                   .machine = &in->machine,
+                                   .currents = currents->currents,
+                                   .current_count = currents->current_count,
+                                   .per_Nm = currents->per_Nm,
+                                   .per_Nm_count = currents->per_Nm_count,
+                                   .reference_torque_Nm = currents->reference_torque_Nm,
+                                   .points = currents->points,
+                                   .torque_constant_Nm_per_A = cli_number_or(a, TORQUE_CONSTANT, 0.0),
+                                   .counts_per_A = cli_number_or(a, COUNTS, 0.0),
+                                   .encoder_offset_deg = cli_number_or(a, ENCODER_OFFSET, 0.0),
+                                   .encoder_direction = a->choice[ENCODER_DIRECTION] == 1 ? -1 : 1,
+                                   .input_hash = currents->input_hash};
+    return status;
+}
+
+static void show_foreign(const hci_emit_foreign_request *r, const hci_emit_foreign_result *x,
+                         const char *folder)
+{
+    const char *unit = hci_foreign_is_torque(r->target) ? "N·m" : "A";
+    cli_say(CLI_GOOD "emitted" CLI_PLAIN " for %s into %s: %s\n", hci_foreign_word(r->target), folder,
+            x->files);
+    cli_say("  holds        %s\n  not          %s\n  form         %s\n", x->carries, x->lacks, x->samples);
+    if (x->unit > 0.0)
+        cli_say("  rounding     to whole numbers of %.4g %s; the largest value is %.4g %s\n", x->unit, unit,
+                x->peak, unit);
+    if (x->cut) cli_say("  cut          %zu values that are too large for it\n", x->cut);
+    if (x->left_out)
+        cli_say("  left out     %zu orders for which it has no room, the largest %.4g %s\n", x->left_out,
+                x->left_out_amplitude, unit);
+    cli_say("  ripple       peak to peak, N·m         sine    with this map\n");
+    for (size_t k = 0; k < x->ripples; ++k)
+        cli_say("               at %8.4g N·m    %10.4g   %10.4g\n", x->ripple[k].torque_Nm,
+                x->ripple[k].without_Nm, x->ripple[k].with_Nm);
+    if (x->has_higher_effects)
+        cli_say(
+            "  remark       effects of the third degree and more in the current are not in these figures\n");
+}
+
+static int run_for_foreign(const cli_arguments *a)
+{
+    const char *folder = a->value[OUT] ? a->value[OUT] : ".";
+    hci_emit_foreign_result result;
+    hci_note note = {{0}};
+    foreign_inputs in;
+    memset(&in, 0, sizeof in);
+    hci_status status = read_foreign_inputs(a, &in, &note);
+    if (!status) status = hci_emit_foreign(folder, &in.request, &result, &note);
+    if (!status && cli_is_wordy()) show_foreign(&in.request, &result, folder);
+    if (!status && a->given[JSON])
+        status = cli_print_json(hci_emit_foreign_json(&in.request, &result), &note);
+    hci_machine_release(&in.machine);
+    hci_currents_release(&in.currents.current);
+    hci_currents_release(&in.currents.per_Nm);
+    return status ? cli_fail(status, &note) : 0;
+}
+
 static int run(const cli_arguments *a)
 {
     if (a->given[DRIVE]) return run_for_drive(a);
+    if (a->given[FOR]) return run_for_foreign(a);
     const char *folder = a->value[OUT] ? a->value[OUT] : ".";
     hci_emit_result result;
     hci_note note = {{0}};

@@ -201,6 +201,8 @@ run 0 emit "$work/solve" --name page --json -q -o "$work/emitted"
 named "$work/stdout" 'summary.json of emit'
 run 0 emit "$work/solve" --name page --machine data/machine_a --drive data/drive/machine_a_10kHz.csv --json -q -o "$work/emitted"
 named "$work/stdout" 'summary.json of emit --drive'
+run 0 emit data/example_currents/currents.csv --name map --machine data/machine_a --for moteus -o "$work/map" --json
+named "$work/stdout" 'summary.json of emit --for'
 run 0 init "$work/first" --pole-pairs 7 --kv 400 --slots 12 --json -q
 named "$work/stdout" 'summary.json of init'
 for file in machine.csv back_emf.csv; do

@@ -13,6 +13,7 @@
 #include "host/base/quote.h"
 #include "host/base/unit_lookup.h"
 #include "host/csv/table.h"
+#include "host/foreign/as_recording.h"
 
 enum { COLUMNS_MAX = 4096 };
 
@@ -361,10 +362,29 @@ static bool find_units(const hci_csv *csv)
 
 /* ---- the table ---- */
 
+/* A map out of somebody's drive becomes the table that it stands for. */
+static hci_status turn_into_table(hci_csv *csv, hci_note *note)
+{
+    const hci_foreign_type *type = hci_foreign_recognise(csv->text);
+    hci_foreign_map map;
+    char *table;
+    if (type == NULL) return HCI_OK;
+    hci_status status = hci_foreign_read(type, csv->path, csv->text, &map, note);
+    if (status) return status;
+    status = hci_foreign_as_csv(&map, &table, note);
+    hci_foreign_map_release(&map);
+    if (status) return status;
+    hci_memory_free(csv->text);
+    csv->text = table;
+    csv->map_of = type->word;
+    return HCI_OK;
+}
+
 static hci_status read_table(hci_csv *csv, hci_note *note)
 {
     reader r = {.csv = csv, .note = note, .line = 1};
     hci_status status = hci_csv_load(csv, note);
+    if (!status) status = turn_into_table(csv, note);
     if (status) return status;
     r.next = csv->text + (strncmp(csv->text, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0);
     pass_foreword(&r);

@@ -50,6 +50,11 @@ void hci_csv_free(hci_csv *csv)
     hci_memory_free(csv);
 }
 
+const char *hci_csv_map_of(const hci_csv *csv)
+{
+    return csv->map_of;
+}
+
 const char *hci_csv_path(const hci_csv *csv)
 {
     return csv->path;

@@ -493,6 +493,9 @@ static hci_status take(reader *r, const hci_csv *csv)
     hci_run *run = r->run;
     hci_status status = hci_run_columns_open(csv, &r->columns, &run->remark, r->note);
     if (status) return status;
+    if (hci_csv_map_of(csv) != NULL)
+        hci_note_add(&run->remark, "a map of %s, read as the recording of a shaft that its currents hold",
+                     hci_csv_map_of(csv));
     run->count = r->columns.count;
     run->row = r->columns.row;
     r->columns.row = NULL;

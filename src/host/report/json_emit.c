@@ -1,4 +1,6 @@
 /* What `emit` has made, as JSON: a table, and orders for a drive. */
+#include <math.h>
+
 #include "host/report/summary.h"
 
 static void add_choice(hci_json *json, const hci_emit_choice *c)
@@ -59,5 +61,37 @@ char *hci_emit_loop_json(const hci_emit_loop_request *request, const hci_emit_lo
     hci_json_number(&json, "voltage_rpm", r->voltage_rad_per_s * 30.0 / HCI_PI);
     hci_json_number(&json, "sampled_rpm", r->sampled_rad_per_s * 30.0 / HCI_PI);
     hci_json_number(&json, "crc32", r->crc32);
+    return hci_json_end(&json);
+}
+
+char *hci_emit_foreign_json(const hci_emit_foreign_request *request, const hci_emit_foreign_result *r)
+{
+    hci_json json;
+    hci_summary_begin(&json, "emit");
+    hci_json_text(&json, "name", request->name);
+    hci_json_text(&json, "target", hci_foreign_word(request->target));
+    hci_json_text(&json, "files", r->files);
+    hci_json_text(&json, "holds", r->carries);
+    hci_json_text(&json, "lacks", r->lacks);
+    hci_json_text(&json, "form", r->samples);
+    hci_json_text(&json, "unit", hci_foreign_is_torque(request->target) ? "Nm" : "A");
+    hci_json_number(&json, "points", (double)r->points);
+    hci_json_number(&json, "terms", (double)r->terms);
+    hci_json_number(&json, "step", r->unit > 0.0 ? r->unit : (double)NAN);
+    hci_json_number(&json, "peak", r->peak);
+    hci_json_number(&json, "cut", (double)r->cut);
+    hci_json_number(&json, "left_out", (double)r->left_out);
+    hci_json_number(&json, "left_out_amplitude", r->left_out_amplitude);
+    hci_json_number(&json, "torque_Nm", r->torque_Nm);
+    hci_json_number(&json, "torque_constant_Nm_per_A", r->torque_constant_Nm_per_A);
+    hci_json_array(&json, "ripple");
+    for (size_t k = 0; k < r->ripples; ++k) {
+        hci_json_object(&json, NULL);
+        hci_json_number(&json, "torque_Nm", r->ripple[k].torque_Nm);
+        hci_json_number(&json, "sine_peak_to_peak_Nm", r->ripple[k].without_Nm);
+        hci_json_number(&json, "map_peak_to_peak_Nm", r->ripple[k].with_Nm);
+        hci_json_close(&json);
+    }
+    hci_json_close(&json);
     return hci_json_end(&json);
 }

@@ -30,6 +30,10 @@ void hci_csv_free(hci_csv *csv);
 /* The path that it was read from; owned by csv. */
 const char *hci_csv_path(const hci_csv *csv);
 
+/* The drive whose compensation map the file was, which has been read as the recording that it stands for: a
+ * word such as "moteus", or NULL. */
+const char *hci_csv_map_of(const hci_csv *csv);
+
 /* Rows of data: without the header, the row of units and comments. */
 size_t hci_csv_rows(const hci_csv *csv);
 

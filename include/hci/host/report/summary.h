@@ -6,6 +6,7 @@
 #include "hci/host/check/check.h"
 #include "hci/host/diagnose/diagnose.h"
 #include "hci/host/emit/emit.h"
+#include "hci/host/emit/emit_foreign.h"
 #include "hci/host/emit/emit_loop.h"
 #include "hci/host/machine/init.h"
 #include "hci/host/recording/predict.h"
@@ -44,6 +45,9 @@ char *hci_prediction_json(const hci_prediction *prediction);
 
 /* What `init` has made of a sheet. */
 char *hci_init_json(const hci_sheet *sheet);
+
+/* What `emit --for` has made of a request. */
+char *hci_emit_foreign_json(const hci_emit_foreign_request *request, const hci_emit_foreign_result *result);
 
 /* What `emit` has made of a request. */
 char *hci_emit_json(const hci_emit_request *request, const hci_emit_result *result);

@@ -1,0 +1,11 @@
+/* What ripple a map leaves in its drive. */
+#ifndef HCI_SRC_HOST_EMIT_FOREIGN_RIPPLE_H
+#define HCI_SRC_HOST_EMIT_FOREIGN_RIPPLE_H
+
+#include "host/emit/foreign_need.h"
+
+/* Torque over one mechanical turn with a plain sine and with the map, which is read as the drive reads it. */
+hci_foreign_ripple hci_foreign_ripple_of(const hci_foreign_need *need, const hci_foreign_map *map,
+                                         double torque_Nm);
+
+#endif

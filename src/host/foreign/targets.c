@@ -1,0 +1,16 @@
+/* The list of targets, one file each. */
+#include "host/foreign/map.h"
+
+const hci_foreign_type *const hci_foreign_types[HCI_FOREIGN_TARGET_COUNT] = {
+    [HCI_FOREIGN_MOTEUS] = &hci_foreign_moteus,
+};
+
+const char *hci_foreign_word(hci_foreign_name name)
+{
+    return hci_foreign_types[name]->word;
+}
+
+bool hci_foreign_is_torque(hci_foreign_name name)
+{
+    return hci_foreign_types[name]->kind == HCI_FOREIGN_TORQUE;
+}

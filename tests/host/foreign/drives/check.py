@@ -1,0 +1,119 @@
+#!/usr/bin/env python3
+"""The map of one target through a second implementation of its drive.
+
+    check.py HCI_SOLVE SOURCE_DIR WORK TARGET
+
+For an encoder as it is, turned, and turned the other way round: the ripple that `emit --for` states is that of the
+drive on the machine; what `harmonics` reads back is what stands in the file; a wrong direction would be seen."""
+import cmath
+import importlib
+import json
+import math
+import os
+import subprocess
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from plant import Mounted, Plant  # noqa: E402
+
+solve, source, work, target = sys.argv[1:]
+MACHINE = "data/machine_a"
+PLACES = [(0.0, 1), (37.3, 1), (-101.7, -1)]
+failures = 0
+
+
+def expect(right, what):
+    global failures
+    if not right:
+        failures += 1
+        print("FAILED: %s: %s" % (target, what))
+
+
+def run(*words):
+    done = subprocess.run([solve, *words], capture_output=True, text=True, cwd=source)
+    if done.returncode:
+        sys.exit("%s: %s: %s" % (target, " ".join(words), done.stderr))
+    return done.stdout
+
+
+def solution(name):
+    """Currents for no mean torque and for that of a scenario."""
+    folder = work + "/" + name
+    if not os.path.exists(folder):
+        wanted = work + "/none.csv"
+        with open(wanted, "w", encoding="utf-8") as file:
+            file.write("order,amplitude_Nm,phase_rad\n0,0,0\n")
+        run("solve", MACHINE, "--target", wanted if name == "none" else "data/scenarios/02/target.csv", "--auto", "-q", "-o", folder)
+    return folder
+
+
+def near(a, b, share, floor=0.0):
+    return abs(a - b) <= share * max(abs(a), abs(b)) + floor
+
+
+def check_ripple(plant, drive, place, summary, name):
+    for stated in summary["ripple"]:
+        mounted = Mounted(plant, drive, *place)
+        found = mounted.ripple(stated["torque_Nm"])
+        expect(near(found, stated["map_peak_to_peak_Nm"], 0.02),
+               "%s, encoder %s, %g N·m: stated %g N·m, found %g" % (name, place, stated["torque_Nm"], stated["map_peak_to_peak_Nm"], found))
+        wrong = Mounted(plant, drive, place[0], -place[1])
+        if summary["torque_Nm"] == stated["torque_Nm"]:
+            expect(wrong.ripple(stated["torque_Nm"], 997) > 3 * found, "%s: the wrong direction is not seen" % name)
+
+
+def order_of(values, order):
+    """amplitude·e^(i phase) of a sine of this order in equal steps of a turn."""
+    return 2j * sum(v * cmath.exp(-2j * math.pi * order * k / len(values)) for k, v in enumerate(values)) / len(values)
+
+
+def check_reading(plant, drive, place, path):
+    """Cogging torque from the file by `harmonics`, against that of the drive's own values at standstill."""
+    K, steps = plant.torque_constant, 4096
+    electrical = drive.electrical
+    values = []
+    for k in range(steps):
+        angle = 2 * math.pi * k / steps
+        turn = (drive.zero_deg + place[0]) / 360 + place[1] * angle / (2 * math.pi)
+        values.append(-place[1] * K * drive.add(turn - math.floor(turn), 0.0)[1])
+    out = json.loads(run("harmonics", path, "--quantity", "cogging", "--pole-pairs", str(plant.pole_pairs), "--orders", "12,24,36",
+                         "--torque-constant", repr(K), "--json"))
+    for row in out["orders"]:
+        order = row["order"] * (1 if electrical else plant.pole_pairs)
+        there = order_of(values, round(order))
+        read = cmath.rect(row["amplitude"], row["phase_rad"])
+        expect(abs(read - there) < 0.002 * abs(there) + K * drive.step(), "encoder %s, order %g: read %s, in the file %s" % (place, row["order"], read, there))
+
+
+def main():
+    plant = Plant(source + "/" + MACHINE)
+    module = importlib.import_module(target.replace("-", "_"))
+    for name in ("none", "loaded"):
+        for k, place in enumerate(PLACES):
+            base = "%s/%s_%s_%d" % (work, module.__name__, name, k)
+            words = ["emit", solution(name), "--for", target, "--machine", MACHINE, "--name", os.path.basename(base), "-o", work,
+                     "--encoder-offset", repr(place[0]), "--encoder-direction", str(place[1]), "--json", *module.Drive.emit]
+            if name == "loaded":
+                words += getattr(module.Drive, "emit_loaded", [])
+            summary = json.loads(run(*words))
+            drive = module.Drive(base)
+            check_ripple(plant, drive, place, summary, name)
+            if name == "none":
+                check_reading(plant, drive, place, base + ("" if module.Drive.file.startswith("_") else ".") + module.Drive.file)
+    for name in summary["files"].split(", "):
+        with open(work + "/" + name, encoding="utf-8") as file:
+            head = file.read(200)
+        if "python3" in head:
+            script(work + "/" + name)
+
+
+def script(path):
+    """Without --store nothing is sent: it ends well where no library of the drive is there, and says so."""
+    done = subprocess.run([sys.executable, "-B", path], capture_output=True, text=True, env={"PATH": os.environ["PATH"]})
+    expect(done.returncode == 0 and "nothing was sent" in done.stdout, "%s without --store: %s" % (path, done.stderr or done.stdout[-200:]))
+    done = subprocess.run([sys.executable, "-B", path, "--store"], capture_output=True, text=True, env={"PATH": os.environ["PATH"]})
+    expect("nothing was sent" not in done.stdout, "%s --store does nothing" % path)
+
+
+main()
+sys.exit(failures > 0)

@@ -1,0 +1,56 @@
+"""A machine with surface magnets, from its tables by their formulas, and a drive whose phases b and c may be swapped.
+
+Nothing here is taken from the program: torque = sum of e_s i_s + cogging, e_s = A sin(n (theta - 2 pi s/3) + phase).
+"""
+import csv
+import math
+
+
+def table(path):
+    with open(path, encoding="utf-8") as file:
+        return list(csv.DictReader(line for line in file if not line.startswith("#")))
+
+
+class Plant:
+    def __init__(self, folder):
+        values = {row["name"]: row["value"] for row in table(folder + "/machine.csv")}
+        self.pole_pairs = int(values["pole_pairs"])
+        speed = 2 * math.pi * float(values["emf_frequency"]) / self.pole_pairs
+        self.emf = [(int(r["order"]), float(r["amplitude_V"]) / speed, float(r["phase_rad"])) for r in table(folder + "/back_emf.csv")]
+        self.cogging = [(float(r["order"]), float(r["amplitude_Nm"]), float(r["phase_rad"])) for r in table(folder + "/cogging.csv")]
+        self.torque_constant = 1.5 * self.emf[0][1]
+
+    def emf_at(self, theta):
+        return [sum(a * math.sin(n * (theta - 2 * math.pi * s / 3) + g) for n, a, g in self.emf) for s in range(3)]
+
+    def cogging_at(self, theta):
+        return sum(a * math.sin(n * theta + g) for n, a, g in self.cogging)
+
+    def torque(self, theta, phases):
+        return sum(e * i for e, i in zip(self.emf_at(theta), phases)) + self.cogging_at(theta)
+
+
+def phases(theta, d, q):
+    """Phase currents in the frame of docs/theory.md: ia = iq sin(theta) - id cos(theta)."""
+    return [q * math.sin(theta - 2 * math.pi * s / 3) - d * math.cos(theta - 2 * math.pi * s / 3) for s in range(3)]
+
+
+class Mounted:
+    """A drive on a machine: its angle is zero_deg + offset_deg + direction*theta, in turns; with direction -1 its
+    phases b and c are those of the machine swapped, so that it turns the other way."""
+
+    def __init__(self, plant, drive, offset_deg=0.0, direction=1):
+        self.plant, self.drive, self.offset_deg, self.direction = plant, drive, offset_deg, direction
+
+    def torque(self, theta_m, own_q):
+        """Torque of the machine; own_q: what the drive asks for besides, in the sense of the machine."""
+        theta = self.plant.pole_pairs * theta_m
+        angle = theta if self.drive.electrical else theta_m
+        turn = (self.drive.zero_deg + self.offset_deg) / 360 + self.direction * angle / (2 * math.pi)
+        d, q = self.drive.add(turn - math.floor(turn), self.direction * own_q)
+        a, b, c = phases(self.direction * theta, d, self.direction * own_q + q)
+        return self.plant.torque(theta, [a, b, c] if self.direction == 1 else [a, c, b])
+
+    def ripple(self, torque, angles=9973):
+        values = [self.torque(2 * math.pi * k / angles, torque / self.plant.torque_constant) for k in range(angles)]
+        return max(values) - min(values)

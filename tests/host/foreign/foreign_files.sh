@@ -1,0 +1,92 @@
+#!/bin/sh
+# Maps that are not whole, options that do not belong together, and nothing half written.
+#   foreign_files.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
+. "$1/tests/support/common.sh"
+cd "$source_dir" || exit 1
+
+printf 'order,amplitude_Nm,phase_rad\n0,0,0\n' >"$work/zero.csv"
+run 0 solve data/machine_a --target "$work/zero.csv" --auto -q -o "$work/zero"
+run 0 solve data/machine_a --target data/scenarios/02/target.csv --auto -q -o "$work/loaded"
+
+emit() {
+    code=$1
+    shift
+    run "$code" emit "$work/zero" --name map --machine data/machine_a -o "$work/out" "$@"
+}
+
+# same FILE FILE: the same bytes
+same() {
+    cmp -s "$1" "$2"
+}
+
+# ---- options
+
+run 2 emit "$work/zero" --name map --for moteus -o "$work/out"
+says '--for TARGET needs --machine FOLDER'
+emit 2 --for moteus --format i16
+says 'the form of a map --for TARGET is that of the drive'
+emit 2 --for moteus --drive data/drive/machine_a_10kHz.csv
+says 'give one of them'
+emit 2 --for moteus --points 512
+says 'leave out --points'
+run 2 emit "$work/loaded" --name map --machine data/machine_a -o "$work/out" --for moteus --per-torque
+says 'leave out --per-torque'
+emit 2 --for moteus --encoder-direction 0
+says 'expected one of: 1, -1|expected .*1.*-1'
+run 2 emit "$work/zero" --name map --encoder-offset 3 -o "$work/out"
+says 'go with --for TARGET'
+check "files without a map" [ ! -e "$work/out" ]
+
+# ---- a machine that i_q alone cannot serve
+
+mkdir "$work/steep" && cp data/machine_a/*.csv "$work/steep" && printf 'order,amplitude_V,phase_rad\n1,10,0\n5,12,0\n' >"$work/steep/back_emf.csv"
+run 3 emit "$work/zero" --name map --machine "$work/steep" --for moteus -o "$work/out"
+says 'i_q alone cannot cancel the ripple of this machine'
+check "files of a map that cannot be" [ ! -e "$work/out" ]
+
+# ---- moteus: the same request, the same bytes; what a dump lacks
+
+emit 0 --for moteus && cp "$work/out/map.cfg" "$work/map.cfg"
+emit 0 --for moteus
+check "the same request gives other bytes" same "$work/map.cfg" "$work/out/map.cfg"
+
+harmonics() {
+    code=$1
+    shift
+    run "$code" harmonics "$@" --quantity cogging --pole-pairs 2 --torque-constant 0.2094
+}
+
+grep -v 'comp\.77 ' "$work/map.cfg" >"$work/gap.cfg"
+harmonics 3 "$work/gap.cfg"
+says 'found no motor.cogging_dq_comp.77' 'moteus_tool --dump-config'
+grep -v scale "$work/map.cfg" >"$work/unscaled.cfg"
+harmonics 3 "$work/unscaled.cfg"
+says 'found no motor.cogging_dq_scale'
+sed 's/comp\.5 .*/comp.5 128/' "$work/map.cfg" >"$work/large.cfg"
+harmonics 3 "$work/large.cfg"
+says 'found motor.cogging_dq_comp.5 128'
+sed 's/^# encoder_direction.*/# encoder_direction 0/' "$work/map.cfg" >"$work/turned.cfg"
+harmonics 3 "$work/turned.cfg"
+says 'found encoder_direction 0, expected 1 or -1'
+
+# a dump has other settings about it, and "conf set" stands before each line of a script
+{
+    printf 'clock.hsitrim 64\nmotor.poles 4\n'
+    grep -v '^#' "$work/map.cfg"
+    printf 'servo.pid_dq.kp 0.05\n'
+} >"$work/dump.txt"
+sed -n 's/^motor/conf set &/p' "$work/map.cfg" >"$work/commands.txt"
+harmonics 0 "$work/map.cfg" --json && cp "$work/stdout" "$work/read"
+for form in dump.txt commands.txt; do
+    harmonics 0 "$work/$form" --json
+    check "$form is read as another map" same "$work/read" "$work/stdout"
+done
+harmonics 0 "$work/map.cfg"
+says 'a map of moteus, read as the recording of a shaft that its currents hold'
+
+# ---- read by the other commands
+
+run 0 predict data/machine_a "$work/map.cfg" --json
+check "the machine is not held by the map" awk -F'[:,]' '/"worst_Nm"/ { found = $2 + 0 } END { exit !(found > 0 && found < 0.02) }' "$work/stdout"
+run 0 check data/machine_a "$work/map.cfg" --json
+finish

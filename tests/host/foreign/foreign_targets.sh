@@ -1,0 +1,16 @@
+#!/bin/sh
+# Every target of `emit --for` through a second implementation of its drive, written from its description: drives/TARGET.py.
+#   foreign_targets.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
+. "$1/tests/support/common.sh"
+cd "$source_dir" || exit 1
+command -v python3 >/dev/null || exit 77
+drives=$source_dir/tests/host/foreign/drives
+
+run 2 emit data/example_currents/currents.csv --for nothing --name x --machine data/machine_a
+says 'expected one of: '
+targets=$(sed -n 's/.*expected one of: //p' "$work/stderr" | tr -d ',')
+check "no targets" [ -n "$targets" ]
+for target in $targets; do
+    check "$target" python3 -B "$drives/check.py" "$hci_solve" "$source_dir" "$work" "$target"
+done
+finish
