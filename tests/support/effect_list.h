@@ -83,6 +83,7 @@ static inline hci_sample el_sample(uint64_t *seed)
     for (int s = 0; s < 3; ++s)
         x.curvature_A_per_s2[s] = 100.0 * x.change_A_per_s[(s + 1) % 3];
     x.temperature_C = ref_uniform(seed, 20.0, 100.0);
+    x.swing_rad_per_s = 60.0;
     return x;
 }
 

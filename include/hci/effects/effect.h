@@ -40,8 +40,10 @@ typedef struct {
     double change_A_per_s[3]; /* how fast the currents change in the rotor frame, as phase quantities: 0 for
                                * currents that turn with the rotor. Only delays use it */
     double curvature_A_per_s2[3]; /* the same of that rate; where it is not known, 0 */
-    double temperature_C; /* of the magnets; NAN where it is not known, which stands for the reference */
-    double elapsed_s;     /* since the start of the recording; 0 where there is no time */
+    double swing_rad_per_s; /* how fast the currents swing in the rotor frame: a delay of a radian of it or
+                             * more goes on along that oscillation; 0: along a parabola */
+    double temperature_C;   /* of the magnets; NAN where it is not known, which stands for the reference */
+    double elapsed_s;       /* since the start of the recording; 0 where there is no time */
     int computed_phase; /* 1, 2, 3: no sensor reads this phase's current, it is minus the sum of the other two
                          * as they are read; 0: each has its own, or it is not known */
 } hci_sample;
@@ -247,6 +249,8 @@ struct hci_effect_type {
                               * looks for on a grid, since no small step from nothing finds them */
     const size_t *lag;       /* one parameter, a time constant in s, that a diagnosis looks for on a grid too:
                               * a long one is far from what small steps from nothing promise */
+    const size_t *late; /* one parameter, the delay in s of the torque's channel, that a diagnosis looks for
+                         * on a grid too: over a slow bus it is many radians of what the torque shows */
 
     /* Names the terms that such recordings could show. */
     void (*propose)(const hci_effect_survey *survey, const hci_effect_proposals *to);

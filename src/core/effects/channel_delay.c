@@ -21,15 +21,34 @@ static void turn(double abc[3], double angle_rad)
     hci_clarke_inverse(y, abc);
 }
 
+/* What a value, its rate and its curvature become of in a time: of an oscillation about any mean
+ *
+ *     x(t) = x + x' sin(wt)/w + x'' (1 − cos wt)/w²
+ *
+ * which stays within bounds however long the time is, and is the parabola where wt is small. */
+typedef struct {
+    double by_rate, by_curvature; /* of the value */
+    double kept, lost;            /* x'(t) = kept x' + by_rate x''      x''(t) = kept x'' − lost x' */
+} swing;
+
+static swing swing_of(double w, double time_s)
+{
+    if (!(w > 0.0)) return (swing){time_s, 0.5 * time_s * time_s, 1.0, 0.0};
+    const double s = sin(w * time_s), c = cos(w * time_s);
+    return (swing){s / w, (1.0 - c) / (w * w), c, w * s};
+}
+
 /* Moves angle and currents on in time; the currents in the rotor frame by their rate of change and its own.
  */
 static void advance(hci_sample *x, int pole_pairs, double angle_s, double current_s)
 {
+    const swing on = swing_of(x->swing_rad_per_s, current_s);
     x->theta_m_rad += x->speed_rad_per_s * angle_s;
     for (int k = 0; k < 3; ++k) {
-        const double curvature = x->curvature_A_per_s2[k];
-        x->i_abc[k] += current_s * (x->change_A_per_s[k] + 0.5 * current_s * curvature);
-        x->change_A_per_s[k] += current_s * curvature;
+        const double rate = x->change_A_per_s[k], curvature = x->curvature_A_per_s2[k];
+        x->i_abc[k] += on.by_rate * rate + on.by_curvature * curvature;
+        x->change_A_per_s[k] = on.kept * rate + on.by_rate * curvature;
+        x->curvature_A_per_s2[k] = on.kept * curvature - on.lost * rate;
     }
     turn(x->i_abc, pole_pairs * x->speed_rad_per_s * current_s);
     turn(x->change_A_per_s, pole_pairs * x->speed_rad_per_s * current_s);
@@ -78,8 +97,9 @@ static void undo_adjoint(const hci_effect *effect, int pole_pairs, const hci_sam
     const double lead_s = hci_effect_value(effect, CURRENT) - hci_effect_value(effect, TORQUE);
     turn(by->by_current, -pole_pairs * before->speed_rad_per_s * lead_s);
     turn(by->by_change, -pole_pairs * before->speed_rad_per_s * lead_s);
+    const swing on = swing_of(before->swing_rad_per_s, lead_s);
     for (int k = 0; k < 3; ++k)
-        by->by_change[k] += lead_s * by->by_current[k];
+        by->by_change[k] = on.kept * by->by_change[k] + on.by_rate * by->by_current[k];
 }
 
 static void delay_add(const hci_effect *effect, size_t parameter, hci_effect_channel *channel)
@@ -99,9 +119,11 @@ static void simulate(const hci_effect *effect, int pole_pairs, hci_sensor *senso
     delay_add(effect, TORQUE, &channels[HCI_SENSE_TORQUE]);
 }
 
+static const size_t LATE[] = {TORQUE};
+
 #define EXPECTED_S 1e-3
 
-/* Of the three only two differences show. */
+/* Of the three only two differences show; that of the torque is looked for where it is long. */
 static void propose(const hci_effect_survey *survey, const hci_effect_proposals *to)
 {
     if (!survey->timed) return;
@@ -117,6 +139,7 @@ const hci_effect_type hci_effect_channel_delay = {
     .needs = HCI_EFFECT_NEEDS_SPEED | HCI_EFFECT_NEEDS_RATE,
     .without = "without a speed friction and delays are left out",
     .told_by = "another speed, at least four times as fast",
+    .late = LATE,
     .propose = propose,
     .sense = sense,
     .undo = undo,

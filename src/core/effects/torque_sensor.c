@@ -2,11 +2,19 @@
  *
  *     y'' + 2ζω_n y' + ω_n² y = ω_n² T      τ z' + z = y      T_read = z + offset
  *
- * By the trapezoidal rule with the torque linear over a step; each derivative by a parameter is the same
- * filter with another input, exactly so in discrete time. */
+ * By the trapezoidal rule with the torque linear between samples, in steps that are short beside the
+ * resonance; each derivative by a parameter is the same filter with another input, exactly so in discrete
+ * time. */
 #include "core/effects/type.h"
 
+#include <string.h>
+
 enum { TIME_CONSTANT, NATURAL_FREQUENCY, DAMPING, OFFSET };
+
+enum { LEAST_PARTS = 4, MOST_PARTS = 8 }; /* of a step between samples */
+
+#define LONGEST_STEP 0.125 /* of a part, in radians of the resonance: the frequency is 0.13 % off */
+#define UNEVEN       0.1   /* of a step, that the next one may be longer or shorter */
 
 static const hci_effect_parameter PARAMETER[] = {
     HCI_PLAIN("time_constant", "s", "of a first-order lag; 0: none", 0.0, 0.0,
@@ -84,34 +92,94 @@ static double input_for(const stage *s, const stage_state *m, size_t parameter)
     return 0.0;
 }
 
-/* Sample k, in place; the first one, and one after a step back in time, finds the stage settled. */
-static void answer(const stage *s, const double *time_s, size_t k, stage_state *m, double *x)
+/* In how many parts a step is taken: trapezoids swing (ω step)²/12 too slowly. */
+static size_t parts_of(const stage *s, double step_s)
 {
-    const double step_s = k > 0 ? time_s[k] - time_s[k - 1] : -1.0;
-    if (step_s >= 0.0)
-        *x = stage_step(s, m, step_s, *x);
-    else
-        *m = (stage_state){*x, *x, 0.0};
+    const double rate = s->omega > 0.0 ? s->omega : 1.0 / s->tau_s,
+                 parts = ceil(rate * step_s / LONGEST_STEP);
+    return parts < LEAST_PARTS ? LEAST_PARTS : parts > MOST_PARTS ? MOST_PARTS : (size_t)parts;
 }
 
-static void filter_column(const stage *s, const double *time_s, size_t n, double *column, size_t stride)
+/* A column of a run on its way through a stage, in place. before: the input of the sample before the last
+ * one. */
+typedef struct {
+    const double *time_s;
+    size_t count, stride;
+    double *x, before;
+} column;
+
+static bool is_even(const double *time_s, size_t n, size_t k)
+{
+    if (k < 2 || k + 1 >= n) return false;
+    const double step_s = time_s[k] - time_s[k - 1];
+    return fabs(time_s[k - 1] - time_s[k - 2] - step_s) < UNEVEN * step_s &&
+           fabs(time_s[k + 1] - time_s[k] - step_s) < UNEVEN * step_s;
+}
+
+/* The input between the sample before k and k, at a share of the way: on the cubic through four samples,
+ * where they follow each other evenly, else on a line. A line through thirteen samples of a period is 2 % too
+ * low. */
+static double input_at(const column *c, size_t k, double from, double to, double u)
+{
+    if (!is_even(c->time_s, c->count, k)) return from + u * (to - from);
+    const double a = c->before, d = c->x[(k + 1) * c->stride];
+    const double first = to - a / 3.0 - from / 2.0 - d / 6.0, second = 0.5 * (a + to) - from;
+    return from + u * (first + u * (second + u * ((d - a) / 6.0 + 0.5 * (from - to))));
+}
+
+/* What the stage answers with to its own parameters: the same filter with another input, step by step. */
+typedef struct {
+    const hci_effect *effect;
+    stage_state state[sizeof PARAMETER / sizeof *PARAMETER]; /* of each term */
+} own_answers;
+
+static void part(const stage *s, double step_s, double input, stage_state *m, own_answers *own)
+{
+    stage_step(s, m, step_s, input);
+    for (size_t j = 0; own && j < own->effect->count; ++j)
+        stage_step(s, &own->state[j], step_s, input_for(s, m, own->effect->term[j].parameter));
+}
+
+/* Sample k, in place; the first one, and one after a step back in time, finds the stage settled. own: may be
+ * NULL. */
+static void answer(const stage *s, column *c, size_t k, stage_state *m, own_answers *own)
+{
+    const double step_s = k > 0 ? c->time_s[k] - c->time_s[k - 1] : -1.0, from = m->input;
+    double *x = &c->x[k * c->stride];
+    const double to = *x;
+    if (step_s >= 0.0) {
+        const size_t parts = parts_of(s, step_s);
+        for (size_t j = 1; j <= parts; ++j) {
+            const double share = (double)j / (double)parts;
+            part(s, step_s / (double)parts, j < parts ? input_at(c, k, from, to, share) : to, m, own);
+        }
+        *x = m->y;
+    } else {
+        *m = (stage_state){to, to, 0.0};
+        if (own) memset(own->state, 0, sizeof own->state);
+    }
+    c->before = from;
+}
+
+static void filter_column(const stage *s, column c)
 {
     stage_state m = {0.0, 0.0, 0.0};
-    for (size_t k = 0; k < n; ++k)
-        answer(s, time_s, k, &m, &column[k * stride]);
+    for (size_t k = 0; k < c.count; ++k)
+        answer(s, &c, k, &m, NULL);
 }
 
 static void filter_stage(const hci_effect *effect, const stage *s, const hci_effect_run *run)
 {
     stage_state m = {0.0, 0.0, 0.0};
-    for (size_t k = 0; k < run->count; ++k) {
-        answer(s, run->time_s, k, &m, &run->torque_Nm[k]);
-        for (size_t j = 0; run->by_value && j < effect->count; ++j)
-            run->by_value[k * run->columns + run->own_column + j] +=
-                input_for(s, &m, effect->term[j].parameter);
-    }
+    column torque = {run->time_s, run->count, 1, run->torque_Nm, 0.0};
+    own_answers own = {effect, {{0.0, 0.0, 0.0}}};
     for (size_t c = 0; run->by_value && c < run->columns; ++c)
-        filter_column(s, run->time_s, run->count, run->by_value + c, run->columns);
+        filter_column(s, (column){run->time_s, run->count, run->columns, run->by_value + c, 0.0});
+    for (size_t k = 0; k < run->count; ++k) {
+        answer(s, &torque, k, &m, run->by_value ? &own : NULL);
+        for (size_t j = 0; run->by_value && j < effect->count; ++j)
+            run->by_value[k * run->columns + run->own_column + j] += own.state[j].y;
+    }
 }
 
 /* The offset comes behind the lag, but a constant passes both unchanged. */

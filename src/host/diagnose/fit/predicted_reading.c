@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "host/base/memory.h"
+#include "host/diagnose/prepare/turns.h"
 #include "host/machine/torque_constant.h"
 #include "host/numeric/slope_average.h"
 #include "host/numeric/statistics.h"
@@ -76,7 +77,7 @@ static size_t longest_run_through(const hci_regression *e, bool dynamic)
     size_t most = 1;
     for (size_t k = 0; k < e->samples->segment_count; ++k) {
         const hci_segment *s = &e->samples->segment[k];
-        const size_t n = s->count * turns_through(e, s, dynamic);
+        const size_t turns = turns_through(e, s, dynamic), n = s->count * (turns == 1 && dynamic ? 2 : turns);
         most = n > most ? n : most;
     }
     return most;
@@ -173,12 +174,44 @@ static void turn_repeat(hci_predicted_reading *o, size_t n, size_t turn, double 
         o->time_s[turn * n + k] = o->time_s[k] + (double)turn * period_s;
 }
 
-/* Keeps one turn: the last one, in which a sensor has settled, or one between others. */
-static void turn_keep(hci_predicted_reading *o, size_t n, size_t turn)
+/* Keeps n samples from one on: of the last turn, in which a sensor has settled, or of one between others. */
+static void turn_keep(hci_predicted_reading *o, size_t n, size_t first)
 {
-    memmove(o->torque_Nm, o->torque_Nm + turn * n, n * sizeof *o->torque_Nm);
+    memmove(o->torque_Nm, o->torque_Nm + first, n * sizeof *o->torque_Nm);
+    if (o->by_value) memmove(o->by_value, o->by_value + first * o->terms, n * o->terms * sizeof *o->by_value);
+}
+
+/* Samples of the first period of a segment; 0 where it is shorter than that. */
+static size_t first_period(const hci_binned_sample *sample, size_t count, double period_rad)
+{
+    for (size_t k = 1; k < count; ++k)
+        if (fabs(sample[k].reading.theta_m_rad - sample[0].reading.theta_m_rad) >= period_rad) return k;
+    return 0;
+}
+
+/* A sensor that swings has been swinging before a steady recording began: its first turn, or where it has
+ * none its first electrical period, is run through before. Returns of how many samples that is. */
+static size_t lead_in(const hci_regression *e, const hci_segment *s, hci_predicted_reading *o)
+{
+    const hci_binned_sample *sample = e->samples->sample + s->first;
+    const int p = e->machine->pole_pairs;
+    double period_rad = hci_turn_rad(&e->runs[s->run], p);
+    size_t lead = first_period(sample, s->count, period_rad);
+    if (lead == 0) lead = first_period(sample, s->count, period_rad = 2.0 * HCI_PI / p);
+    if (lead == 0) return 0;
+    const double beyond = fabs(sample[lead].reading.theta_m_rad - sample[0].reading.theta_m_rad) - period_rad;
+    const double step = fabs(sample[lead].reading.theta_m_rad - sample[lead - 1].reading.theta_m_rad);
+    const double period_s =
+        o->time_s[lead] - beyond / step * (o->time_s[lead] - o->time_s[lead - 1]) - o->time_s[0];
+    turn_repeat(o, s->count, 1, 0.0);
+    memmove(o->torque_Nm + lead, o->torque_Nm + s->count, s->count * sizeof *o->torque_Nm);
+    memmove(o->time_s + lead, o->time_s + s->count, s->count * sizeof *o->time_s);
     if (o->by_value)
-        memmove(o->by_value, o->by_value + turn * n * o->terms, n * o->terms * sizeof *o->by_value);
+        memmove(o->by_value + lead * o->terms, o->by_value + s->count * o->terms,
+                s->count * o->terms * sizeof *o->by_value);
+    for (size_t k = 0; k < lead; ++k)
+        o->time_s[k] -= period_s;
+    return lead;
 }
 
 /* Samples of a segment that a window of so many of its run spans. */
@@ -211,9 +244,11 @@ void hci_predicted_reading_fill(const hci_regression *e, const hci_effects *effe
         lag_derivative(o->torque_Nm, o->time_s, s->count, o->by_value + lag, o->terms);
     for (size_t turn = 1; turn < turns; ++turn)
         turn_repeat(o, s->count, turn, s->period_s);
-    if (dynamic) hci_effects_filter(effects, o->time_s, turns * s->count, o->torque_Nm, o->by_value);
+    const size_t lead = dynamic && turns == 1 ? lead_in(e, s, o) : 0;
+    if (dynamic) hci_effects_filter(effects, o->time_s, lead + turns * s->count, o->torque_Nm, o->by_value);
     if (is_slope(e, s) && !o->instant) average(e, s, turns * s->count, o);
-    if (turns > 1) turn_keep(o, s->count, dynamic ? turns - 1 : turns / 2);
+    if (lead > 0) turn_keep(o, s->count, lead);
+    if (turns > 1) turn_keep(o, s->count, (dynamic ? turns - 1 : turns / 2) * s->count);
 }
 
 /* Of a load that is not known only what varies is left. */

@@ -98,6 +98,7 @@ static bool segment_finish(const reduction *x, hci_segment *s)
         const hci_sample *from = &sample[k].reading;
         memcpy(sample[k].raw.change_A_per_s, from->change_A_per_s, sizeof from->change_A_per_s);
         memcpy(sample[k].raw.curvature_A_per_s2, from->curvature_A_per_s2, sizeof from->curvature_A_per_s2);
+        sample[k].raw.swing_rad_per_s = from->swing_rad_per_s;
     }
     s->smooth = series;
     return segment_add(x->samples, s);

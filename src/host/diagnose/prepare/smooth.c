@@ -21,8 +21,10 @@ enum {
 
 #define REPEATS  60.0 /* χ² of ten values that repeat, once in 10⁸ by chance */
 #define RESOLVED 0.48 /* periods for each sample */
-#define STEADY   0.05 /* change of current within the segment, as a share */
-#define TURNING  0.5  /* and of speed, for the angle to be a smooth curve */
+#define BY_CHANCE                                                                                            \
+    10.0 /* times the mean square that noise has at an order: of 200 one in a hundred recordings */
+#define STEADY  0.05 /* change of current within the segment, as a share */
+#define TURNING 0.5  /* and of speed, for the angle to be a smooth curve */
 
 /* ---- angle ---- */
 
@@ -232,13 +234,35 @@ static void slopes_at(const double *row, const double *coefficients, const size_
 }
 
 /* coordinate: i_d, i_q and the zero sequence of each sample; slope, curvature: their derivatives by the
- * angle. */
+ * angle; slopes, curvatures: sums of the squares of all of them. */
 typedef struct {
     double *rows, *coordinate[3], *slope[3], *curvature[3], *factor, *coefficients;
+    double slopes, curvatures;
     hci_normal_equations normal;
 } series_workspace;
 
-/* Replaces one coordinate by its series. */
+/* Replaces one coordinate by its series. Returns the mean square of what that takes away. */
+static double series_put(series_workspace *r, size_t n, double *coordinate)
+{
+    const size_t columns = r->normal.n;
+    double square = 0.0;
+    for (size_t k = 0; k < n; ++k) {
+        const double smooth = series_at(r->rows + k * columns, r->coefficients, columns);
+        square += (coordinate[k] - smooth) * (coordinate[k] - smooth);
+        coordinate[k] = smooth;
+    }
+    return square / (double)n;
+}
+
+/* An order that is as large as noise makes it says nothing of how fast the current changes: it leaves the
+ * coefficients. */
+static void noise_leave(series_workspace *r, size_t n, double variance)
+{
+    const double most = BY_CHANCE * 4.0 * variance / (double)n;
+    for (double *x = r->coefficients + 1; x < r->coefficients + r->normal.n; x += 2)
+        if (x[0] * x[0] + x[1] * x[1] < most) x[0] = x[1] = 0.0;
+}
+
 static bool coordinate_smooth(series_workspace *r, size_t n, const size_t *periods, int axis)
 {
     double *coordinate = r->coordinate[axis];
@@ -248,10 +272,12 @@ static bool coordinate_smooth(series_workspace *r, size_t n, const size_t *perio
         for (size_t c = 0; c < columns; ++c)
             r->normal.moment[c] += r->rows[k * columns + c] * coordinate[k];
     if (!series_fit(&r->normal, r->factor, r->coefficients)) return false;
+    noise_leave(r, n, series_put(r, n, coordinate));
     for (size_t k = 0; k < n; ++k) {
-        coordinate[k] = series_at(r->rows + k * columns, r->coefficients, columns);
         slopes_at(r->rows + k * columns, r->coefficients, periods, columns / 2, &r->slope[axis][k],
                   &r->curvature[axis][k]);
+        r->slopes += r->slope[axis][k] * r->slope[axis][k];
+        r->curvatures += r->curvature[axis][k] * r->curvature[axis][k];
     }
     return true;
 }
@@ -278,12 +304,14 @@ static void phases_of(double *const axis[3], size_t k, double scale, double thet
 
 static void coordinates_write(const series_workspace *r, size_t n, int pole_pairs, hci_binned_sample *sample)
 {
+    const double swing = r->slopes > 0.0 ? sqrt(r->curvatures / r->slopes) : 0.0; /* periods in a turn */
     for (size_t k = 0; k < n; ++k) {
         hci_sample *x = &sample[k].reading;
         const double theta = pole_pairs * x->theta_m_rad, speed = x->speed_rad_per_s;
         phases_of(r->coordinate, k, 1.0, theta, x->i_abc);
         phases_of(r->slope, k, speed, theta, x->change_A_per_s);
         phases_of(r->curvature, k, speed * speed, theta, x->curvature_A_per_s2);
+        x->swing_rad_per_s = swing * fabs(speed);
     }
 }
 

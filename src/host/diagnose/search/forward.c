@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "host/diagnose/candidates/empirical_term.h"
+#include "host/diagnose/fit/late_torque.h"
 #include "host/diagnose/fit/resonance.h"
 #include "host/diagnose/search/belief.h"
 #include "host/diagnose/search/candidate_models.h"
@@ -16,6 +17,7 @@
 #define PAIR_MARGIN     0.02 /* what two effects at once must explain more than one, as a share */
 #define RESONANCE_PRICE 12.0 /* of having looked at so many frequencies */
 #define LAG_PRICE       6.0  /* and at so many time constants */
+#define LATE_PRICE      12.0 /* and at so many delays */
 #define MUCH            3.0  /* times the resolution, and … */
 #define STANDS_OUT                                                                                           \
     1.1 /* … times the noise: a residual in which high powers of the currents are looked for               \
@@ -244,6 +246,36 @@ static hci_status lag_enter(comparison *c, const hci_effect_type *type, hci_note
     return status;
 }
 
+/* The model with a torque that is later by a delay than it has already. */
+static hci_status late_fit(comparison *c, hci_candidate *x, hci_fitted_model *candidate, hci_note *note)
+{
+    const hci_candidate *known = hci_candidates_find_in(&c->present->candidates, x);
+    hci_status status = hci_fitted_model_copy(c->present, candidate, note);
+    if (known)
+        candidate->candidates.candidate[known - c->present->candidates.candidate].term[0].value +=
+            x->term[0].value;
+    if (!status && !known) status = hci_candidates_add(&candidate->candidates, x, note);
+    if (!status) status = hci_search_fit(c->search, candidate, note);
+    return status;
+}
+
+/* And a torque that is late by more than a radian of what it shows. */
+static hci_status late_enter(comparison *c, const hci_effect_type *type, hci_note *note)
+{
+    hci_candidate x = {.type = type, .count = 1, .price = LATE_PRICE, .in = true};
+    hci_fitted_model candidate = {0};
+    hci_late_torque found = {0.0, 0.0};
+    hci_status status = hci_search_residual(c->search, &c->present->candidates, note);
+    if (!status && is_much_left(c->search))
+        status = hci_late_torque_find(c->search->regression, c->search->residual_Nm, &found, note);
+    if (status || found.gain < hci_candidate_cost(&x, c->present->fit.rows) + HCI_DECISIVE) return status;
+    x.term[0] = (hci_effect_term){type->late[0], 0.0, found.delay_s, NAN};
+    status = late_fit(c, &x, &candidate, note);
+    if (!status) status = contender_enter(c, &candidate, 0.0, note);
+    hci_fitted_model_release(&candidate);
+    return status;
+}
+
 static comparison comparison_from(hci_search *s, const hci_fitted_model *present)
 {
     return (comparison){s, present, {{NULL, 0, 0.0}, {0.0, 0, 0.0, 0.0}}, present->fit.score - HCI_DECISIVE};
@@ -262,6 +294,8 @@ hci_status hci_search_forward(hci_search *s, hci_fitted_model *model, bool *adde
         if (hci_effect_type_at(r)->resonance) status = resonance_enter(&c, hci_effect_type_at(r), note);
     for (size_t r = 0; hci_effect_type_at(r) && !status && !hci_search_is_over(s); ++r)
         if (hci_effect_type_at(r)->lag) status = lag_enter(&c, hci_effect_type_at(r), note);
+    for (size_t r = 0; hci_effect_type_at(r) && !status && !hci_search_is_over(s); ++r)
+        if (hci_effect_type_at(r)->late) status = late_enter(&c, hci_effect_type_at(r), note);
     if (!status && c.best.candidates.candidate) {
         hci_fitted_model_replace(model, &c.best);
         *added = true;

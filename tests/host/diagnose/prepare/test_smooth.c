@@ -217,6 +217,28 @@ static void test_currents_are_not_distorted(void)
         }
 }
 
+/* Noise of a constant current is no change: its slope would be as large as the highest order is, and a delay
+ * of many periods of that would make many times the noise of it. What is there swings as it does. */
+static void test_rates_are_no_noise(void)
+{
+    turn(MOST, 400.0, 50.0, 0.0, 0.0);
+    for (size_t k = 0; k < MOST; ++k) {
+        rec_phases(0.0, 3.0, P * truth[k], run.i_A + 3 * k);
+        for (int s = 0; s < 3; ++s)
+            run.i_A[3 * k + (size_t)s] += 0.05 * ref_normal(&seed);
+    }
+    reduce();
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, binned.sample[100].reading.change_A_per_s[0]);
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, binned.sample[100].reading.swing_rad_per_s);
+    once = 0.0;
+    turn(MOST, 400.0, -50.0, 0.0, 0.0);
+    flow(0.05);
+    reduce();
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, 6.0 * P * 50.0, binned.sample[100].reading.swing_rad_per_s);
+    TEST_ASSERT_EQUAL_DOUBLE(binned.sample[100].reading.swing_rad_per_s,
+                             binned.sample[100].raw.swing_rad_per_s);
+}
+
 /* Of few samples the electrical orders come first: what a drive's current ripples at order 12 stays, though
  * 1000 samples bear 25 orders, and there are 21 of the rotor below. */
 static void test_ripple_of_few_samples(void)
@@ -276,6 +298,7 @@ int main(void)
     RUN_TEST(test_what_is_not_smoothed);
     RUN_TEST(test_noise_of_currents);
     RUN_TEST(test_currents_are_not_distorted);
+    RUN_TEST(test_rates_are_no_noise);
     RUN_TEST(test_ripple_of_few_samples);
     RUN_TEST(test_rate_of_change_of_a_short_run);
     RUN_TEST(test_a_ramp_of_current_stays);

@@ -1,0 +1,70 @@
+/* The delay of a torque on a grid, against torques that were shifted by it in closed form. */
+#include "host/diagnose/fit/late_torque.h"
+
+#include "support/searching.h"
+
+enum { N = 3000, PER_TURN = 300 };
+
+static const double SPEED = 50.0;
+
+void setUp(void)
+{
+    dataset_start();
+    record(N, &(point){SPEED, 0.0, 0.0, 0.0, 0.0});
+    search_start();
+    dataset.regression.noise[0] = hci_noise_white(NOISE_NM);
+}
+
+void tearDown(void)
+{
+    search_end();
+    dataset_end();
+}
+
+/* Orders 1 to 40 of the turn, that is up to 7.5 samples in a period. */
+static double wave(double time_s)
+{
+    double sum = 0.0;
+    for (int n = 1; n <= 40; ++n)
+        sum += 0.1 * sin(n * SPEED * time_s + 0.3 * n * n);
+    return sum;
+}
+
+static hci_late_torque find(double delay_s, double size)
+{
+    hci_late_torque found;
+    for (size_t k = 0; k < dataset.samples.count; ++k) {
+        hci_binned_sample *x = &dataset.samples.sample[k];
+        x->torque_Nm = size * wave(x->time_s - delay_s) + NOISE_NM * ref_normal(&seed);
+        search.residual_Nm[k] = x->torque_Nm - size * wave(x->time_s);
+    }
+    TEST_ASSERT_EQUAL_INT(HCI_OK,
+                          hci_late_torque_find(&dataset.regression, search.residual_Nm, &found, &note));
+    return found;
+}
+
+/* 4 ms are 8 radians of the highest order. */
+static void test_a_delay_is_found(void)
+{
+    static const double DELAY_S[] = {4e-3, -2.5e-3, 0.37e-3};
+    const double step_s = 2.0 * REF_PI / PER_TURN / SPEED;
+    for (size_t k = 0; k < 3; ++k) {
+        const hci_late_torque found = find(DELAY_S[k], 1.0);
+        TEST_ASSERT_DOUBLE_WITHIN(0.1 * step_s, DELAY_S[k], found.delay_s);
+        TEST_ASSERT_TRUE(found.gain > 1e4);
+    }
+}
+
+/* Of 46 delays the best one lowers χ² by little. */
+static void test_no_delay_is_found_in_noise(void)
+{
+    TEST_ASSERT_TRUE(find(0.0, 0.1).gain < 12.0);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_a_delay_is_found);
+    RUN_TEST(test_no_delay_is_found_in_noise);
+    return UNITY_END();
+}
