@@ -242,12 +242,58 @@ static void test_cogging_at_one_current(void)
     TEST_ASSERT_TRUE(diagnosis.next_points > 0);
 }
 
+/* Harmonics of the back-EMF beside the fundamental of 0.2 N·m/A, sin(nθ − nσ2πs/3), all of them a share
+ * larger than declared, phase by phase. */
+static void record_strong(const double share[3])
+{
+    static const double AMPLITUDE[] = {K_NM_PER_A, 0.02, 0.012, 0.008}, ORDER[] = {1.0, 5.0, 7.0, 11.0};
+    hci_note note = {{0}};
+    hci_machine_release(&machine);
+    files_write(files_path("back_emf.csv"),
+                "order,amplitude_Nm_per_A,phase_rad\n1,0.2,0\n5,0.02,0\n7,0.012,0\n"
+                "11,0.008,0\n");
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_machine_read(files_root, &machine, &note));
+    record_map(0.0, 0.0);
+    for (size_t k = 0; k < runs.count; ++k)
+        for (size_t j = 0; j < run[k].count; ++j) {
+            run[k].torque_Nm[j] = NOISE_NM * ref_normal(&seed);
+            for (size_t s = 0; s < 3; ++s)
+                for (size_t h = 0; h < 4; ++h)
+                    run[k].torque_Nm[j] +=
+                        (1.0 + share[s]) * AMPLITUDE[h] * run[k].i_A[3 * j + s] *
+                        sin(ORDER[h] * (P * run[k].theta_m_rad[j] - 2.0 * REF_PI * (double)s / 3.0));
+        }
+}
+
+/* Stronger magnets, not three gains that are wrong alike: both are said, the back-EMF with its own values. */
+static void test_equal_phases_are_a_back_emf(void)
+{
+    record_strong((double[]){0.25, 0.25, 0.25});
+    TEST_ASSERT_EQUAL_INT(HCI_NOT_REACHED, diagnose(NULL));
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_AMBIGUOUS, found("back_emf")->verdict);
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_AMBIGUOUS, found("phase_imbalance")->verdict);
+    const char *value = strstr(found("back_emf")->detail, "in place of phase_imbalance: sine_1 = ");
+    TEST_ASSERT_NOT_NULL(value);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-4, 0.25 * K_NM_PER_A, strtod(strchr(value, '=') + 1, NULL)); /* ± 2.4e-5 */
+}
+
+static void test_unequal_phases_are_not(void)
+{
+    record_strong((double[]){0.25, 0.15, 0.05});
+    TEST_ASSERT_EQUAL_INT(HCI_NOT_REACHED,
+                          diagnose(NULL)); /* the gains of the current sensors look the same */
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_AMBIGUOUS, found("phase_imbalance")->verdict);
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_REJECTED, found("back_emf")->verdict);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_cogging_at_one_current);
     RUN_TEST(test_torque_per_ampere_or_inertia);
     RUN_TEST(test_a_torque_sensor_tells_them);
+    RUN_TEST(test_equal_phases_are_a_back_emf);
+    RUN_TEST(test_unequal_phases_are_not);
     RUN_TEST(test_nothing_is_missing);
     RUN_TEST(test_a_run_held_out_takes_no_part);
     RUN_TEST(test_current_offset);

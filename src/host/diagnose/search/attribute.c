@@ -64,18 +64,39 @@ static bool is_convention(const hci_effect_type *type, const hci_effect_type *as
     return type->is_angle_zero && as->any_phase;
 }
 
-/* Marks a type that looks the same as a part of another, unless it would explain nothing without that. */
-static void same_mark(hci_attribution *a, size_t type, const hci_effect_type *as)
+static size_t verdict_at(const hci_attribution *a, const hci_effect_type *type)
 {
-    hci_verdict *v = &a->verdict[type];
     size_t k = 0;
-    while (a->verdict[k].type != as)
+    while (a->verdict[k].type != type)
         ++k;
-    if (v->in || v->ambiguous || !a->plausible[k][type] || is_convention(v->type, as)) return;
-    if (v->type->seen_as || as->seen_as == v->type) return;
-    v->ambiguous = a->verdict[k].ambiguous = true;
+    return k;
+}
+
+/* Marks a type that stands in place of another as well, with the values that it would have there. */
+static hci_status rival_mark(hci_search *s, hci_attribution *a, size_t type, const hci_effect_type *as,
+                             hci_note *note)
+{
+    hci_verdict *v = &a->verdict[type], *other = &a->verdict[verdict_at(a, as)];
+    v->ambiguous = other->ambiguous = true;
     v->rival_of = as;
-    v->gain = a->verdict[k].gain;
+    v->gain = other->gain;
+    if (hci_search_is_over(s)) return HCI_OK;
+    hci_fitted_model_release(&v->alternative);
+    const hci_status status = hci_search_instead(s, &a->model, as, v->type, &v->alternative, note);
+    if (!status && v->alternative.candidates.candidate)
+        v->gain -= v->alternative.fit.score - a->model.fit.score;
+    return status;
+}
+
+/* Marks a type that looks the same as a part of another, unless it would explain nothing without that. */
+static hci_status same_mark(hci_search *s, hci_attribution *a, size_t type, const hci_effect_type *as,
+                            hci_note *note)
+{
+    const hci_verdict *v = &a->verdict[type];
+    if (v->in || v->ambiguous || !a->plausible[verdict_at(a, as)][type] || is_convention(v->type, as))
+        return HCI_OK;
+    if (v->type->seen_as || as->seen_as == v->type) return HCI_OK;
+    return rival_mark(s, a, type, as, note);
 }
 
 /* Effects that look the same as a part of one that is in. */
@@ -83,9 +104,9 @@ static hci_status verdicts_of_same(hci_search *s, hci_attribution *a, hci_note *
 {
     const hci_effect_type *same_as[HCI_MOST_TYPES];
     if (a->unknown) return HCI_OK;
-    const hci_status status = hci_candidate_models_same(s, &a->model.candidates, same_as, note);
+    hci_status status = hci_candidate_models_same(s, &a->model.candidates, same_as, note);
     for (size_t r = 0; r < a->types && !status; ++r)
-        if (same_as[r] && !is_of_whole(s, same_as[r])) same_mark(a, r, same_as[r]);
+        if (same_as[r] && !is_of_whole(s, same_as[r])) status = same_mark(s, a, r, same_as[r], note);
     return status;
 }
 
@@ -106,19 +127,18 @@ static bool are_equal(const hci_candidates *model, const hci_effect_type *type)
 }
 
 /* Equal gains of all phases are a back-EMF of another size, and sensors that are wrong alike are rare. */
-static void verdicts_of_equal(hci_attribution *a)
+static hci_status verdicts_of_equal(hci_search *s, hci_attribution *a, hci_note *note)
 {
-    for (size_t r = 0; r < a->types; ++r) {
+    hci_status status = HCI_OK;
+    for (size_t r = 0; r < a->types && !status; ++r) {
         hci_verdict *v = &a->verdict[r];
         const hci_effect_type *other = v->type->when_equal;
-        size_t k = 0;
         if (!v->in || !other || !are_equal(&a->model.candidates, v->type)) continue;
-        while (a->verdict[k].type != other)
-            ++k;
-        v->ambiguous = true;
-        a->verdict[k].ambiguous = true;
-        if (!a->verdict[k].in) a->verdict[k].rival_of = v->type;
+        const size_t k = verdict_at(a, other);
+        v->ambiguous = a->verdict[k].ambiguous = true;
+        if (!a->verdict[k].in) status = rival_mark(s, a, k, v->type, note);
     }
+    return status;
 }
 
 /* A series in the currents is not what iron does to the last digit: its fall of the score, and the share of
@@ -192,7 +212,7 @@ static hci_status verdicts(hci_search *s, hci_attribution *a, hci_note *note)
     }
     if (!status && !hci_search_is_over(s)) status = verdicts_of_others(s, a, note);
     if (!status && !hci_search_is_over(s)) status = verdicts_of_same(s, a, note);
-    if (!status && !a->unknown) verdicts_of_equal(a);
+    if (!status && !a->unknown) status = verdicts_of_equal(s, a, note);
     if (!status && !a->unknown) status = verdicts_of_ratio(s, a, note);
     return status;
 }

@@ -1,5 +1,6 @@
 #include "host/diagnose/search/rivals.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "host/diagnose/candidates/empirical_term.h"
@@ -181,6 +182,22 @@ hci_status hci_search_rivals(hci_search *s, const hci_effect_type *type, hci_att
         if (!status && equal) rival_mark(&r, with, &rival, a);
         hci_fitted_model_release(&rival);
     }
+    rivalry_end(&r);
+    return status;
+}
+
+hci_status hci_search_instead(hci_search *s, const hci_fitted_model *model, const hci_effect_type *in_place,
+                              const hci_effect_type *type, hci_fitted_model *instead, hci_note *note)
+{
+    rivalry r;
+    size_t k = 0;
+    memset(instead, 0, sizeof *instead);
+    hci_status status = rivalry_start(s, model, in_place, &r, note);
+    while (!status && k < r.models.count && hci_candidate_type(r.models.model[k].a) != type)
+        ++k;
+    if (!status && k < r.models.count)
+        status = hci_candidate_model_fit(s, &r.models, &r.models.model[k], instead, note);
+    if (!status && !isfinite(instead->fit.score)) hci_fitted_model_release(instead);
     rivalry_end(&r);
     return status;
 }

@@ -11,4 +11,10 @@ hci_status hci_search_swap(hci_search *search, hci_fitted_model *model, bool *sw
 hci_status hci_search_rivals(hci_search *search, const hci_effect_type *type, hci_attribution *attribution,
                              hci_note *note);
 
+/* The model with one effect in place of another, for the values it would have; instead: out, empty where the
+ * effect would not lower the score or could not be believed. HCI_ERROR_MEMORY. */
+hci_status hci_search_instead(hci_search *search, const hci_fitted_model *model,
+                              const hci_effect_type *in_place, const hci_effect_type *type,
+                              hci_fitted_model *instead, hci_note *note);
+
 #endif
