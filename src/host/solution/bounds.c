@@ -35,6 +35,11 @@ static hci_status check_open(const hci_machine_data *m, const hci_solve_options 
                                 "phase %c carries no current, but a fundamental of all phases is held; leave "
                                 "out one of the two",
                                 PHASE[s]);
+    if (count > 0 && o->choose_at_most > 0)
+        return hci_note_set(
+            note, HCI_ERROR_ARGUMENT,
+            "at most K components are chosen for three phases that carry current; with an open one "
+            "leave out K or name the components with --harmonics");
     if (count <= (m->has_neutral ? 2 : 1)) return HCI_OK;
     return hci_note_set(note, HCI_ERROR_ARGUMENT,
                         "%s phases are limited to 0 A, and %s connection then carries no current at all, so "

@@ -47,9 +47,9 @@ typedef struct {
 } hci_limit_optimum;
 
 /* A share of a limit that is kept free, so that peaks found to the same share beyond are within it. */
-#define HCI_LIMIT_MARGIN 2e-8
+#define HCI_LIMIT_MARGIN 1e-9
 
 /* What `slack` is, unless that leaves no room; that of the mean always. */
-#define HCI_LIMIT_SLACK 1e-6
+#define HCI_LIMIT_SLACK 5e-7
 
 #endif

@@ -19,24 +19,49 @@ static bool has_mean_row(const hci_harmonic_system *s)
     return s->order_count > 0 && s->order[0] < HCI_ORDER_TOLERANCE;
 }
 
-/* |mean − wanted| <= t, or what the mean may fall back by from the nearest. */
-void hci_limit_add_mean(hci_limit_build *b)
+/* Whether any component reaches rows k … k + rows − 1. The error of an order that none does is the same for
+ * all currents, and must not hide the others behind it. */
+static bool is_reached(const hci_harmonic_system *s, size_t k, size_t rows)
+{
+    const size_t entries = (size_t)s->u.column_start[s->unknowns];
+    for (size_t e = 0; e < entries; ++e)
+        if ((size_t)s->u.row[e] >= k && (size_t)s->u.row[e] < k + rows) return true;
+    return false;
+}
+
+/* |mean − wanted| <= t; 0 <= t where the mean is not compared. */
+static void add_nearest_mean(hci_limit_build *b)
+{
+    const hci_harmonic_system *s = b->of->field.system;
+    const bool is_compared = has_mean_row(s);
+    for (int side = 0; side < (is_compared ? 2 : 1); ++side) {
+        double *row = hci_limit_row_add(b);
+        if (!row) return;
+        if (is_compared) row[b->n] = system_row(b, 0, (side == 0 ? 1.0 : -1.0) / s->row_weight[0], row);
+        row[hci_limit_objective(b)] = -1.0;
+    }
+}
+
+/* The nearest mean, or a little less. */
+static void add_reached_mean(hci_limit_build *b)
 {
     const hci_limit_program *p = b->of;
-    if (!has_mean_row(p->field.system)) return;
+    const double missed_Nm = fabs(p->mean_Nm - p->field.mean_Nm),
+                 room_Nm = HCI_LIMIT_SLACK * fmax(p->scale_Nm, fabs(p->mean_Nm));
     for (int side = 0; side < 2; ++side) {
-        const double sign = side == 0 ? 1.0 : -1.0;
-        double *row = b->stage == HCI_STAGE_MEAN || (b->stage > HCI_STAGE_MEAN && !p->has_mean)
-                          ? hci_limit_row_add(b)
-                          : NULL;
+        double *row = hci_limit_row_add(b);
         if (!row) return;
-        row[b->n] = system_row(b, 0, sign / p->field.system->row_weight[0], row);
-        if (b->stage == HCI_STAGE_MEAN)
-            row[hci_limit_objective(b)] = -1.0;
-        else
-            row[b->n] += fabs(p->mean_Nm - p->field.mean_Nm) / p->scale_Nm +
-                         HCI_LIMIT_SLACK * fmax(1.0, fabs(p->mean_Nm) / p->scale_Nm);
+        row[b->n] = system_row(b, 0, (side == 0 ? 1.0 : -1.0) / p->field.system->row_weight[0], row);
+        row[b->n] += (missed_Nm + room_Nm) / p->scale_Nm;
     }
+}
+
+void hci_limit_add_mean(hci_limit_build *b)
+{
+    if (b->stage == HCI_STAGE_MEAN)
+        add_nearest_mean(b);
+    else if (b->stage > HCI_STAGE_MEAN && !b->of->has_mean && has_mean_row(b->of->field.system))
+        add_reached_mean(b);
 }
 
 /* The head of a cone of torque: t, or the ripple that is to be kept. */
@@ -57,28 +82,48 @@ static void add_torque_row(hci_limit_build *b, size_t k)
     if (row) row[b->n] = system_row(b, k, 1.0, row);
 }
 
+/* Its length is known when its rows are there. */
+static size_t begin_cone(hci_limit_build *b)
+{
+    hci_limit_cone_add(b, 0);
+    add_torque_head(b);
+    return b->rows - 1;
+}
+
 /* One cone for each order (its largest error), or one for all of them (their root of the sum of squares). */
 void hci_limit_add_torque_cones(hci_limit_build *b)
 {
     const hci_harmonic_system *s = b->of->field.system;
-    const size_t first = has_mean_row(s) ? 1 : 0;
-    const bool is_rms = b->of->minimise == HCI_MINIMISE_RMS;
-    if (b->stage < HCI_STAGE_RIPPLE || hci_limit_is_swing(b) || s->rows == first) return;
+    const bool is_one = b->of->minimise == HCI_MINIMISE_RMS;
+    size_t head = 0;
+    if (b->stage < HCI_STAGE_RIPPLE || hci_limit_is_swing(b)) return;
     if (b->stage == HCI_STAGE_COPPER && b->of->has_ripple) return;
-    for (size_t k = first; k < s->rows; ++k) {
-        if (k == first || (!is_rms && (k - first) % 2 == 0)) {
-            hci_limit_cone_add(b, is_rms ? 1 + s->rows - first : 3);
-            add_torque_head(b);
-        }
+    for (size_t k = has_mean_row(s) ? 1 : 0; k < s->rows; k += 2) {
+        if (!is_reached(s, k, 2)) continue;
+        if (head == 0 || !is_one) head = begin_cone(b);
         add_torque_row(b, k);
+        add_torque_row(b, k + 1);
+        b->cone[b->cones - 1] = b->rows - head;
     }
+}
+
+/* 0 <= t, where no order is reached that would bound it. */
+static void add_no_ripple(hci_limit_build *b)
+{
+    const hci_harmonic_system *s = b->of->field.system;
+    const size_t first = has_mean_row(s) ? 1 : 0;
+    if (b->stage != HCI_STAGE_RIPPLE || is_reached(s, first, s->rows - first)) return;
+    double *row = hci_limit_row_add(b);
+    if (row) row[hci_limit_objective(b)] = -1.0;
 }
 
 /* highest − lowest <= t, or the swing that is to be kept. */
 void hci_limit_add_swing(hci_limit_build *b)
 {
     const hci_limit_program *p = b->of;
-    double *row = hci_limit_is_swing(b) && b->stage >= HCI_STAGE_RIPPLE ? hci_limit_row_add(b) : NULL;
+    double *row;
+    if (!hci_limit_is_swing(b)) add_no_ripple(b);
+    row = hci_limit_is_swing(b) && b->stage >= HCI_STAGE_RIPPLE ? hci_limit_row_add(b) : NULL;
     if (!row) return;
     row[hci_limit_objective(b) + 1] = 1.0;
     row[hci_limit_objective(b) + 2] = -1.0;
@@ -88,17 +133,23 @@ void hci_limit_add_swing(hci_limit_build *b)
         row[b->n] = p->ripple_Nm * (1.0 + p->slack) / p->scale_Nm + 0.1 * p->slack;
 }
 
+static void add_equation(hci_limit_build *b, size_t k)
+{
+    double *row = hci_limit_equation_add(b);
+    row[b->n] = system_row(b, k, 1.0 / b->of->field.system->row_weight[k], row);
+}
+
 /* The mean where the wanted one is reached, and every order where no ripple is left. */
 void hci_limit_add_orders(hci_limit_build *b)
 {
     const hci_limit_program *p = b->of;
     const hci_harmonic_system *s = p->field.system;
-    const bool all = b->stage == HCI_STAGE_COPPER && p->has_ripple;
-    if (b->stage < HCI_STAGE_RIPPLE) return;
-    for (size_t k = 0; k < s->rows; ++k) {
-        const bool is_mean = k == 0 && has_mean_row(s);
-        if (is_mean ? !p->has_mean : !all) continue;
-        double *row = hci_limit_equation_add(b);
-        row[b->n] = system_row(b, k, 1.0 / s->row_weight[k], row);
+    const size_t first = has_mean_row(s) ? 1 : 0;
+    if (b->stage >= HCI_STAGE_RIPPLE && first == 1 && p->has_mean) add_equation(b, 0);
+    if (b->stage < HCI_STAGE_COPPER || !p->has_ripple) return;
+    for (size_t k = first; k < s->rows; k += 2) {
+        if (!is_reached(s, k, 2)) continue;
+        add_equation(b, k);
+        add_equation(b, k + 1);
     }
 }

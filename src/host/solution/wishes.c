@@ -184,11 +184,24 @@ static hci_status try_all(hci_wishes *l, bool *is_met, hci_note *note)
     return status == HCI_ERROR_MEMORY ? out_of_memory(note) : HCI_OK;
 }
 
+static hci_status after_mean(hci_wishes *l, hci_note *note)
+{
+    const hci_status status = find_ripple(l, note);
+    return status ? status : find_copper(l, note);
+}
+
+/* Limits that were widened leave next to no room. Where that is too little for a further wish, the currents
+ * that were found stay. */
 static hci_status in_turn(hci_wishes *l, hci_note *note)
 {
-    hci_status status = find_mean(l, note);
-    if (!status) status = find_ripple(l, note);
-    return status ? status : find_copper(l, note);
+    hci_note why = {{0}};
+    hci_status status = find_mean(l, &why);
+    if (!status) status = after_mean(l, &why);
+    if (status == HCI_ERROR_NUMERIC && l->program.widened > 0.0) {
+        l->program.ripple_Nm = NAN;
+        return HCI_OK;
+    }
+    return status ? hci_note_set(note, status, "%s", why.text) : HCI_OK;
 }
 
 /* An equation, which has no multiplier to tell what it costs. */

@@ -353,6 +353,28 @@ static void test_gain_is_the_slope_of_the_ripple(void)
     TEST_ASSERT_TRUE(compared > 10);
 }
 
+/* Order 5 is wanted and no component reaches it: what is left of the others is what it is without order 5. */
+static void test_an_order_out_of_reach_hides_no_other(void)
+{
+    static const hci_minimise WHAT[] = {HCI_MINIMISE_WORST, HCI_MINIMISE_RMS};
+    for (int wish = 0; wish < 2; ++wish) {
+        double ripple_Nm[2];
+        for (size_t wanted = 1; wanted <= 2; ++wanted) {
+            seed = 3;
+            make_random();
+            options.minimise = WHAT[wish];
+            options.limit_current_A = 11.0;
+            order[1] = (hci_target_order){{5.0, 2.0, 0.0}, 1.0};
+            target.count = wanted;
+            solve(HCI_NOT_REACHED);
+            TEST_ASSERT_EQUAL(HCI_COST_RIPPLE, solution.limit_cost);
+            ripple_Nm[wanted - 1] = solution.minimised_Nm;
+        }
+        TEST_ASSERT_TRUE(ripple_Nm[0] > 0.01);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-6, ripple_Nm[0], ripple_Nm[1]);
+    }
+}
+
 /* What goes in is heat, torque times speed, and what is stored, which has no mean: mean v·i = R mean i·i +
  * ω_m T. */
 static void test_power_balance_of_the_voltage(void)
@@ -411,6 +433,7 @@ int main(void)
     RUN_TEST(test_peaks_are_kept_between_the_angles);
     RUN_TEST(test_each_ripple_is_smallest_by_its_own_measure);
     RUN_TEST(test_gain_is_the_slope_of_the_ripple);
+    RUN_TEST(test_an_order_out_of_reach_hides_no_other);
     RUN_TEST(test_power_balance_of_the_voltage);
     RUN_TEST(test_memory_runs_out);
     return UNITY_END();

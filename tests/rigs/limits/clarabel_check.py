@@ -10,6 +10,9 @@ matrices is used, only the files that it writes. Each wish is solved with what t
     ripple   at the project's mean torque the worst order cannot be smaller
     copper   at the project's mean torque and worst order the copper cannot be smaller
 
+Next to the smallest ripple the copper is steep: 1e-9 of a limit can be worth 3e-5 of it, and no solver keeps a limit
+closer. Where the copper is off by more than 1e-6 it is held against that of limits which are 1e-9 wider and tighter.
+
 Exit code 77: numpy, scipy or clarabel is not installed.
 """
 import csv
@@ -29,7 +32,7 @@ except ImportError as missing:
     sys.exit(77)
 
 TOLERANCE = 1e-6  # of the mean torque, and of the copper loss
-ALLOWED = {"ripple": 2 * TOLERANCE, "copper": 100 * TOLERANCE}  # the copper may use the ripple's own slack
+TIGHTER = 2e-9  # share by which the project takes limits tighter, lest a peak be above
 TURN = 2.0 * math.pi
 
 
@@ -80,7 +83,7 @@ class Task:
         self.make_torque()
 
     def make_torque(self):
-        """Spectrum of the torque, by the transform of samples: rows S and C of each order, mean first."""
+        """Spectrum of the torque, by the transform of samples: rows S and C of each order that a component reaches."""
         orders = self.top + max(n for n, _, _ in self.machine.emf) + max([n for n, _, _ in self.machine.cogging] + [0])
         count = 4 * int(orders + 8)
         theta = TURN * np.arange(count) / count
@@ -89,7 +92,7 @@ class Task:
         rest = wanted - self.machine.cogging_torque(theta)
         u, h = np.fft.rfft(torque, axis=0) * 2 / count, np.fft.rfft(rest) * 2 / count
         self.mean_u, self.mean_h = u[0].real / 2, h[0].real / 2
-        keep = [m for m in range(1, count // 2) if np.abs(u[m]).max() > 1e-12 or abs(h[m]) > 1e-12]
+        keep = [m for m in range(1, count // 2) if np.abs(u[m]).max() > 1e-12]
         self.u = np.array([[-u[m].imag, u[m].real] for m in keep])  # order, (S, C), coordinate
         self.h = np.array([[-h[m].imag, h[m].real] for m in keep])
 
@@ -130,7 +133,7 @@ class Task:
                 r, c = self.limited(np.array([at]))
                 peak = float(np.abs(r[q] @ x + c[q])[0])
                 most = max(most, peak)
-                if peak > 1 + 1e-8:
+                if peak > 1 + 3e-10:
                     found.append((q, at))
         return found, max(most, float(value.max()))
 
@@ -199,7 +202,7 @@ def solve(task, wish, mean=None, worst=None):
         x = scale * np.array(answer.x[:n])
         best = 1.5 * float(x @ x) if wish == "copper" else float(answer.x[n])
         found, most = task.peaks(x)
-        if most < 1 + 3e-8:
+        if most < 1 + 1e-9:
             return best, ""
         value = np.abs(g @ x / scale + c)
         places = [place for place, v in zip(places, value) if v > 0.6] + found
@@ -229,7 +232,7 @@ class Tally:
     """Largest deviations, and what was beyond the tolerance."""
 
     def __init__(self):
-        self.cases = self.limited = 0
+        self.cases = self.limited = self.steep = 0
         self.most = {"mean": 0.0, "ripple": 0.0, "copper": 0.0, "peak": 0.0}
         self.bad, self.open = [], []
 
@@ -243,10 +246,10 @@ class Tally:
         """Where clarabel stops between, theirs is of fewer rows than the task and so a lower bound: a current that
         keeps all limits and comes as near to it is the best; one that does not leaves it open."""
         deviation = math.inf if theirs is None else (ours - theirs) / scale
-        if why and not deviation <= ALLOWED[what] + room:
+        if why and not deviation <= TOLERANCE + room:
             self.open.append(f"{name}: {what}: {why}")
         else:
-            self.note(name, what, abs(deviation), ALLOWED[what] + room)
+            self.note(name, what, abs(deviation), TOLERANCE + room)
 
 
 def compare(program, machine, target, name, tally, work, limits):
@@ -274,19 +277,35 @@ def compare(program, machine, target, name, tally, work, limits):
         return
     tally.note(name, "peak", max(0.0, task.peaks(x)[1] - 1.0), 1e-9)
     least, _ = solve(task, "mean")
-    # the project takes limits 4e-8 tighter, lest a peak be above: what that costs its gains say
-    room = 4e-8 * sum(limit["gain"] * limit["limit"] for limit in summary["limits"]["limit"]) / scale
-    tally.note(name, "mean", abs(abs(task.mean(x) - task.mean_h) - max(least, 0.0)) / scale, 2 * TOLERANCE + room)
+    room = TIGHTER * sum(limit["gain"] * limit["limit"] for limit in summary["limits"]["limit"]) / scale
+    tally.note(name, "mean", abs(abs(task.mean(x) - task.mean_h) - max(least, 0.0)) / scale, TOLERANCE + room)
     if summary["limits"]["cost"] == "torque":  # next to the largest torque a wish for ripple has next to no room
         return
     smallest, why = solve(task, "ripple", task.mean(x))
     tally.judge(name, "ripple", task.worst(x), smallest, why, scale, room)
-    # copper falls as a root of the room that mean and ripple leave: theirs has to be the same
-    for bound in ("limit_A", "line_V"):
-        if getattr(task, bound):
-            setattr(task, bound, getattr(task, bound) * (1 - 4e-8))
-    copper, why = solve(task, "copper", task.mean(x), task.worst(x) + 1e-9 * scale)
-    tally.judge(name, "copper", 1.5 * float(x @ x), copper, why, copper)
+    compare_copper(task, x, name, tally, scale)
+
+
+def compare_copper(task, x, name, tally, scale):
+    """The copper that clarabel needs for the same mean and ripple, or where that is steep how far outside of what it
+    needs with limits 1e-9 wider and tighter."""
+    ours, mean, worst = 1.5 * float(x @ x), task.mean(x), task.worst(x) + 1e-12 * scale
+    limit_A, line_V = task.limit_A, task.line_V
+
+    def theirs(tighter):
+        task.limit_A = limit_A and limit_A * (1 - tighter)
+        task.line_V = line_V and line_V * (1 - tighter)
+        return solve(task, "copper", mean, worst)
+
+    copper, why = theirs(TIGHTER)
+    if copper is None or why or abs(ours - copper) <= TOLERANCE * copper:
+        tally.judge(name, "copper", ours, copper, why, copper)
+        return
+    tally.steep += 1
+    low, why_low = theirs(TIGHTER - 1e-9)
+    high, why_high = theirs(TIGHTER + 1e-9)
+    nearest = None if low is None or high is None else min(max(ours, low), high)
+    tally.judge(name, "copper", ours, nearest, why_low or why_high, copper)
 
 
 def read_csv(path):
@@ -361,7 +380,7 @@ def main():
         else:
             random_machines(program, tally, work, int(sys.argv[4]) if len(sys.argv) > 4 else 200)
     print(f"{tally.cases} cases, {tally.limited} in which a limit acts; largest deviations: "
-          + ", ".join(f"{k} {v:.2g}" for k, v in tally.most.items()))
+          + ", ".join(f"{k} {v:.2g}" for k, v in tally.most.items()) + f"; steep copper in {tally.steep}")
     for line in [f"open: {line}" for line in tally.open] + [f"wrong: {line}" for line in tally.bad]:
         print(line)
     sys.exit(1 if tally.bad else 0)

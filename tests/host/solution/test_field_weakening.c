@@ -1,0 +1,127 @@
+/* Machine A beyond its base speed: the voltage alone makes i_d negative. Its plain sine against the closed
+ * form of the voltage circle; then its
+ * smooth torque, with all harmonics. */
+#include <math.h>
+#include <string.h>
+
+#include "hci/host/machine/machine.h"
+#include "hci/host/solve/solve.h"
+#include "support/reference.h"
+#include "unity.h"
+
+#define RESISTANCE_OHM 0.1 /* assumed: the paper gives neither */
+#define INDUCTANCE_H   0.5e-3
+
+static hci_machine_data machine;
+static hci_target target;
+static hci_target_order order[1];
+static hci_component fundamental[1] = {{1.0, 1}};
+static hci_set name[1] = {HCI_SET_POS};
+static hci_component_set set;
+static hci_solve_options options;
+static hci_solution solution;
+
+void setUp(void)
+{
+    hci_note note = {{0}};
+    memset(&options, 0, sizeof options);
+    memset(&solution, 0, sizeof solution);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_machine_read("data/machine_a", &machine, &note), note.text);
+    machine.resistance_ohm = RESISTANCE_OHM;
+    machine.inductance_d_H = machine.inductance_q_H = INDUCTANCE_H;
+    order[0] = (hci_target_order){{0.0, 0.0, 2.46}, 1.0};
+    target = (hci_target){order, 1};
+    set = (hci_component_set){fundamental, name, 1, {{0}}};
+    options.target = &target;
+}
+
+void tearDown(void)
+{
+    hci_solution_release(&solution);
+    hci_machine_release(&machine);
+}
+
+static void solve(hci_status expected)
+{
+    hci_note note = {{0}};
+    hci_solution_release(&solution);
+    TEST_ASSERT_EQUAL_MESSAGE(expected, hci_solve(&machine, &options, &solution, &note), note.text);
+    TEST_ASSERT_TRUE(solution.within_limits);
+}
+
+static double i_d_A(void)
+{
+    for (size_t k = 0; k < solution.current.count; ++k)
+        if (solution.current.wave[k].order == 1.0 && solution.current.wave[k].sequence == 1)
+            return -solution.current.wave[k].cosine;
+    TEST_FAIL_MESSAGE("no fundamental");
+    return 0.0;
+}
+
+/* ---- the plain sine ---- */
+
+/* Smallest |i_d| with (R i_d − ωL i_q)² + (R i_q + ωL i_d + ω_m k)² = U²/3, 0 where the sine keeps U by
+ * itself; k: back-EMF per rad/s. */
+static double closed_form_A(double speed_rad_per_s, double line_V)
+{
+    const double k = machine.model.back_emf[0].sine, i_q = 2.46 / (1.5 * k),
+                 x = 2.0 * speed_rad_per_s * INDUCTANCE_H, r = RESISTANCE_OHM, e = speed_rad_per_s * k;
+    const double a = r * r + x * x, b = x * e,
+                 c = pow(x * i_q, 2.0) + pow(r * i_q + e, 2.0) - line_V * line_V / 3.0;
+    return c <= 0.0 ? 0.0 : (-b + sqrt(b * b - a * c)) / a;
+}
+
+static void only_the_fundamental(void)
+{
+    TEST_ASSERT_DOUBLE_WITHIN(0.0, 1.0, machine.model.back_emf[0].order);
+    machine.model.back_emf_count = 1;
+    machine.model.cogging_count = 0;
+    options.set = &set;
+}
+
+static void test_the_plain_sine_follows_the_voltage_circle(void)
+{
+    only_the_fundamental();
+    for (double rpm = 1000.0; rpm <= 2000.0; rpm += 200.0) {
+        const double speed = rpm * REF_PI / 30.0;
+        options.speed_rad_per_s = speed;
+        options.limit_voltage_V = 40.0;
+        const double expected_A = closed_form_A(speed, 40.0);
+        TEST_ASSERT_TRUE((rpm > 1500.0) == (expected_A < 0.0)); /* base speed between 1400 and 1600 rpm */
+        solve(HCI_OK);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-4, expected_A, i_d_A());
+        TEST_ASSERT_DOUBLE_WITHIN(1e-6, 2.46, solution.order[0].torque_Nm.cosine);
+    }
+}
+
+/* ---- with all harmonics ---- */
+
+/* Smooth torque within 90 V: the further the currents without a limit are beyond it, the more i_d goes
+ * against the magnets. (Beyond 2000 rpm harmonics of the voltage are in the way, and ripple takes the place
+ * of i_d.) */
+static void test_smooth_torque_takes_a_negative_i_d(void)
+{
+    double before_A = 0.0;
+    for (double rpm = 1500.0; rpm <= 1900.0; rpm += 200.0) {
+        options.speed_rad_per_s = rpm * REF_PI / 30.0;
+        options.limit_voltage_V = 1e4;
+        solve(HCI_OK);
+        const double free_A = i_d_A();
+        TEST_ASSERT_TRUE(solution.peak_line_voltage_V > 90.0);
+        options.limit_voltage_V = 90.0;
+        solve(HCI_OK);
+        TEST_ASSERT_EQUAL(HCI_COST_COPPER, solution.limit_cost);
+        TEST_ASSERT_TRUE(rpm < 1600.0 || i_d_A() < free_A - 0.3);
+        TEST_ASSERT_TRUE(rpm < 1600.0 || i_d_A() < before_A - 0.3);
+        before_A = i_d_A();
+    }
+    TEST_ASSERT_TRUE(before_A < -1.0);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_the_plain_sine_follows_the_voltage_circle);
+    RUN_TEST(test_smooth_torque_takes_a_negative_i_d);
+    return UNITY_END();
+}
