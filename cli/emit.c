@@ -33,6 +33,7 @@ enum {
     ENCODER_DIRECTION,
     TORQUE_CONSTANT,
     COUNTS,
+    WAVE,
     OUT,
     CLI_COMMON_KEYS
 };
@@ -57,6 +58,13 @@ static const cli_choice FRAMES[] = {
 };
 
 static const cli_choice TARGETS[] = {HCI_FOREIGN_TARGETS(CLI_CHOICE_OF){NULL, NULL}};
+static const cli_choice WAVES[] = {
+    [HCI_FOREIGN_SINE] = {"sine", "sine (default): sin(nx + phase)"},
+    [HCI_FOREIGN_COSINE] = {"cosine", "; cosine"},
+    [HCI_FOREIGN_SINE_LAG] = {"sine-lag", "; sine-lag: sin(nx - phase)"},
+    [HCI_FOREIGN_COSINE_LAG] = {"cosine-lag", "; cosine-lag"},
+    {NULL, NULL},
+};
 static const cli_choice DIRECTIONS[] = {
     {"1", "1 (default)"},
     {"-1", "; -1: its angle falls when the machine turns in its positive direction"},
@@ -100,19 +108,21 @@ static const cli_option OPTIONS[] =
               "do)",
           .low = 1e-3, .high = 1e6},
      [FOR] = {"for", 0, CLI_CHOICE, "TARGET",
-              .help = "the compensation map of this drive instead, in its own form: ", .choices = TARGETS},
+              .help = "the compensation map of this drive instead, in its own form:", .choices = TARGETS},
      [ENCODER_OFFSET] = {"encoder-offset", 0, CLI_NUMBER, "DEG",
                          .help = "with --for: the drive's angle where that of the machine is 0 (0); of its "
                                  "encoder, or electrical",
                          .low = -1e6, .high = 1e6},
      [ENCODER_DIRECTION] = {"encoder-direction", 0, CLI_CHOICE, "SIGN",
-                            .help = "with --for: ", .choices = DIRECTIONS},
+                            .help = "with --for:", .choices = DIRECTIONS},
      [TORQUE_CONSTANT] = {"torque-constant", 0, CLI_NUMBER, "NM_PER_A",
                           .help =
                               "with --for: torque of 1 A of i_q as the drive has it (that of the machine)",
                           .low = 1e-9, .high = 1e6},
      [COUNTS] = {"counts-per-ampere", 0, CLI_NUMBER, "N",
                  .help = "with --for: the drive's scale of the current", .low = 1e-6, .high = 1e9},
+     [WAVE] = {"wave", 0, CLI_CHOICE, "NAME",
+               .help = "with --for beckhoff: what its amplitude and phase mean:", .choices = WAVES},
      [OUT] = {"out", 'o', CLI_FOLDER, "FOLDER", .help = "where ID.h and ID.c go (default: here)"},
      CLI_COMMON_OPTIONS};
 
@@ -160,10 +170,10 @@ static hci_status check_together(const cli_arguments *a, hci_note *note)
     else if (!a->given[FOR] && a->given[DRIVE] != a->given[MACHINE])
         wrong = "emit: --drive FILE and --machine FOLDER go together";
     else if (!a->given[FOR] && (a->given[ENCODER_OFFSET] || a->given[ENCODER_DIRECTION] ||
-                                a->given[TORQUE_CONSTANT] || a->given[COUNTS]))
-        wrong =
-            "emit: --encoder-offset, --encoder-direction, --torque-constant and --counts-per-ampere go with "
-            "--for TARGET";
+                                a->given[TORQUE_CONSTANT] || a->given[COUNTS] || a->given[WAVE]))
+        wrong = "emit: --encoder-offset, --encoder-direction, --torque-constant, --counts-per-ampere and "
+                "--wave go with "
+                "--for TARGET";
     else if (a->given[FOR] &&
              (a->given[FORMAT] || a->given[SHAPE] || a->given[FRAME] || a->given[MAX_ERROR] ||
               a->given[MAX_BYTES] || a->given[MAX_INSTRUCTIONS] || a->given[SPEED]))
@@ -352,6 +362,7 @@ static hci_status read_foreign_inputs(const cli_arguments *a, foreign_inputs *in
                                    .reference_torque_Nm = currents->reference_torque_Nm,
                                    .points = currents->points,
                                    .torque_constant_Nm_per_A = cli_number_or(a, TORQUE_CONSTANT, 0.0),
+                                   .wave = (hci_foreign_wave)a->choice[WAVE],
                                    .counts_per_A = cli_number_or(a, COUNTS, 0.0),
                                    .encoder_offset_deg = cli_number_or(a, ENCODER_OFFSET, 0.0),
                                    .encoder_direction = a->choice[ENCODER_DIRECTION] == 1 ? -1 : 1,

@@ -43,6 +43,11 @@ static hci_status check_target(const hci_emit_foreign_request *r, const hci_fore
     if (!type->has_counts && r->counts_per_A > 0.0)
         return hci_note_set(note, HCI_ERROR_ARGUMENT,
                             "--for %s: it has no counts; leave out --counts-per-ampere", type->word);
+    if (!type->has_wave && r->wave != HCI_FOREIGN_SINE)
+        return hci_note_set(note, HCI_ERROR_ARGUMENT,
+                            "--for %s: its map has no phases that could be meant "
+                            "otherwise; leave out --wave",
+                            type->word);
     if (r->points > 0 && type->default_points == 0)
         return hci_note_set(note, HCI_ERROR_ARGUMENT, "--for %s: %s; leave out --points", type->word,
                             type->samples);
@@ -112,14 +117,29 @@ static hci_status fill_table(emission *e, hci_note *note)
                                                : e->type->default_points;
     hci_status status = hci_foreign_map_points(map, points, note);
     for (size_t k = 0; !status && k < points; ++k)
-        status = row_at(e, (double)k / (double)points, map->value + k * map->columns, note);
-    if (!status) status = hci_foreign_balance(map, note);
+        status = row_at(e, ((double)k + (e->type->in_middle ? 0.5 : 0.0)) / (double)points,
+                        map->value + k * map->columns, note);
+    if (!status && !e->type->in_middle) status = hci_foreign_balance(map, note);
+    return status;
+}
+
+static hci_status fill_terms(emission *e, hci_note *note)
+{
+    enum { SAMPLES = 4096 };
+    double *const value = hci_memory_new(SAMPLES, sizeof *value);
+    hci_status status = value ? HCI_OK : hci_note_memory(note, NULL, "the harmonics of a map");
+    for (size_t k = 0; !status && k < SAMPLES; ++k)
+        status = row_at(e, (double)k / SAMPLES, value + k, note);
+    if (!status) hci_foreign_find_terms(&e->map, value, SAMPLES);
+    hci_memory_free(value);
     return status;
 }
 
 static double peak_of(const hci_foreign_map *map)
 {
     double peak = 0.0;
+    for (size_t k = 0; k < map->terms; ++k)
+        peak = fmax(peak, map->term[k].amplitude);
     for (size_t c = 0; c < map->columns && c < 2; ++c)
         peak = fmax(peak, hci_foreign_largest(map, c));
     return peak;
@@ -133,7 +153,8 @@ static hci_status fill(emission *e, hci_note *note)
     e->map.direction = r->encoder_direction < 0 ? -1 : 1;
     e->map.counts_per_A = e->type->has_counts ? r->counts_per_A : 1.0;
     e->map.torque_constant_Nm_per_A = e->need.torque_constant_Nm_per_A;
-    const hci_status status = fill_table(e, note);
+    e->map.wave = r->wave;
+    const hci_status status = e->type->most_terms > 0 ? fill_terms(e, note) : fill_table(e, note);
     if (status) return status;
     e->result.peak = peak_of(&e->map);
     e->type->fit(&e->map);

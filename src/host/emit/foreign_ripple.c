@@ -2,7 +2,8 @@
 
 #include <math.h>
 
-enum { ANGLES = 1 << 15 };
+/* A prime, so that it meets all parts of all steps of a table. */
+enum { ANGLES = 40009 };
 
 typedef struct {
     double low, high;
@@ -26,19 +27,41 @@ static void currents_at(const hci_foreign_need *need, const hci_foreign_map *map
     dq[1] = own_q_A + map->direction * add[1];
 }
 
+static double torque_at(const hci_foreign_need *need, double theta_rad, const double dq[2])
+{
+    double abc[3];
+    hci_foreign_phases(theta_rad, dq, abc);
+    return hci_torque_at(need->machine, theta_rad, abc);
+}
+
+static double angle_rad(const hci_foreign_need *need, int k)
+{
+    return 2.0 * HCI_PI * need->machine->pole_pairs * (k + 0.5) / ANGLES;
+}
+
+static double mean_with(const hci_foreign_need *need, const hci_foreign_map *map, double own_q_A)
+{
+    double sum = 0.0, dq[2];
+    for (int k = 0; k < ANGLES; ++k) {
+        currents_at(need, map, angle_rad(need, k), own_q_A, dq);
+        sum += torque_at(need, angle_rad(need, k), dq);
+    }
+    return sum / ANGLES;
+}
+
 hci_foreign_ripple hci_foreign_ripple_of(const hci_foreign_need *need, const hci_foreign_map *map,
                                          double torque_Nm)
 {
-    const double own_q_A = torque_Nm / need->torque_constant_Nm_per_A;
+    const double K = need->torque_constant_Nm_per_A, sine_A = torque_Nm / K;
+    const double own_q_A = sine_A - (mean_with(need, map, sine_A) - torque_Nm) /
+                                        hci_machine_torque_constant(need->request->machine);
     range without = {HUGE_VAL, -HUGE_VAL}, with = without;
     for (int k = 0; k < ANGLES; ++k) {
-        const double theta_rad = 2.0 * HCI_PI * need->machine->pole_pairs * (k + 0.5) / ANGLES;
-        double dq[2] = {0.0, own_q_A}, abc[3];
-        hci_foreign_phases(theta_rad, dq, abc);
-        widen(&without, hci_torque_at(need->machine, theta_rad, abc));
+        const double theta_rad = angle_rad(need, k);
+        double dq[2] = {0.0, sine_A};
+        widen(&without, torque_at(need, theta_rad, dq));
         currents_at(need, map, theta_rad, own_q_A, dq);
-        hci_foreign_phases(theta_rad, dq, abc);
-        widen(&with, hci_torque_at(need->machine, theta_rad, abc));
+        widen(&with, torque_at(need, theta_rad, dq));
     }
     return (hci_foreign_ripple){torque_Nm, without.high - without.low, with.high - with.low};
 }

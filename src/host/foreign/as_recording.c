@@ -7,8 +7,14 @@
 #include "host/base/memory.h"
 #include "host/foreign/text.h"
 
-/* Rows of a map of harmonics, and bytes of a row at most. */
-enum { ROWS_OF_HARMONICS = 2048, ROW_SIZE = 4 * 32 };
+/* Rows of a map of harmonics, rows between two nodes that straight lines join, and bytes of a row at most. */
+enum { ROWS_OF_HARMONICS = 2048, ROWS_OF_A_LINE = 4, ROW_SIZE = 4 * 32 };
+
+static size_t rows_of(const hci_foreign_map *map)
+{
+    if (map->points == 0) return ROWS_OF_HARMONICS;
+    return map->points * (map->type->in_middle ? 1 : ROWS_OF_A_LINE);
+}
 
 const hci_foreign_type *hci_foreign_recognise(const char *text)
 {
@@ -59,13 +65,13 @@ static int row(const hci_foreign_map *map, double turn, char text[ROW_SIZE])
 
 hci_status hci_foreign_as_csv(const hci_foreign_map *map, char **csv, hci_note *note)
 {
-    const size_t rows = map->points > 0 ? map->points : ROWS_OF_HARMONICS;
+    const size_t rows = rows_of(map);
     const char *const names = header(map);
     size_t used = strlen(names);
     *csv = hci_memory_malloc(used + rows * ROW_SIZE + 1);
     if (*csv == NULL) return hci_note_memory(note, NULL, "a map of %zu rows", rows);
     memcpy(*csv, names, used + 1);
     for (size_t k = 0; k < rows; ++k)
-        used += (size_t)row(map, (double)k / (double)rows, *csv + used);
+        used += (size_t)row(map, ((double)k + 0.5) / (double)rows, *csv + used);
     return HCI_OK;
 }

@@ -95,3 +95,75 @@ double hci_foreign_largest(const hci_foreign_map *map, size_t column)
         largest = fmax(largest, fabs(map->value[k * map->columns + column]));
     return largest;
 }
+
+size_t hci_foreign_index(const hci_foreign_map *map, double turn)
+{
+    const size_t index = (size_t)(turn * (double)map->points);
+    return index < map->points ? index : map->points - 1;
+}
+
+/* ---- terms ---- */
+
+static hci_foreign_term term_of(const double *value, size_t count, size_t order)
+{
+    double sine = 0.0, cosine = 0.0;
+    for (size_t k = 0; k < count; ++k) {
+        const double x = 2.0 * HCI_PI * (double)(order * k % count) / (double)count;
+        sine += value[k] * sin(x) * 2.0 / (double)count;
+        cosine += value[k] * cos(x) * 2.0 / (double)count;
+    }
+    return (hci_foreign_term){(double)order, hypot(sine, cosine), atan2(cosine, sine)};
+}
+
+/* Keeps the terms in the order of their amplitudes; returns the one for which there is no room. */
+static hci_foreign_term put_in(hci_foreign_map *map, hci_foreign_term term)
+{
+    size_t place = map->terms;
+    while (place > 0 && map->term[place - 1].amplitude < term.amplitude)
+        --place;
+    for (size_t k = place; k < map->terms; ++k) {
+        const hci_foreign_term moved = map->term[k];
+        map->term[k] = term;
+        term = moved;
+    }
+    if (map->terms == map->type->most_terms) return term;
+    map->term[map->terms++] = term;
+    return (hci_foreign_term){0.0, 0.0, 0.0};
+}
+
+void hci_foreign_find_terms(hci_foreign_map *map, const double *value, size_t count)
+{
+    double largest = 0.0;
+    for (size_t k = 0; k < count; ++k)
+        largest = fmax(largest, fabs(value[k]));
+    map->terms = 0;
+    for (size_t order = 1; (double)order <= map->type->most_order && order < count / 2; ++order) {
+        const hci_foreign_term term = term_of(value, count, order);
+        if (term.amplitude < 1e-4 * largest) continue;
+        const hci_foreign_term lost = put_in(map, term);
+        map->left_out += lost.amplitude > 0.0;
+        map->left_out_amplitude = fmax(map->left_out_amplitude, lost.amplitude);
+    }
+}
+
+static bool lags(const hci_foreign_map *map)
+{
+    return map->wave == HCI_FOREIGN_SINE_LAG || map->wave == HCI_FOREIGN_COSINE_LAG;
+}
+
+/* By how much a term's own sine is ahead of its phase. */
+static double lead_rad(const hci_foreign_map *map)
+{
+    return map->wave == HCI_FOREIGN_COSINE || map->wave == HCI_FOREIGN_COSINE_LAG ? HCI_PI / 2.0 : 0.0;
+}
+
+double hci_foreign_phase_in_file(const hci_foreign_map *map, double phase_rad)
+{
+    const double phase = (phase_rad - lead_rad(map)) * (lags(map) ? -1.0 : 1.0);
+    return 2.0 * HCI_PI * hci_foreign_fraction(phase / (2.0 * HCI_PI));
+}
+
+double hci_foreign_phase_of_file(const hci_foreign_map *map, double phase_rad)
+{
+    return (lags(map) ? -phase_rad : phase_rad) + lead_rad(map);
+}

@@ -39,6 +39,7 @@ typedef struct {
     double offset_deg; /* of the drive's own turns, mechanical or electrical */
     int direction;     /* 1 or −1 */
     double counts_per_A;
+    hci_foreign_wave wave;           /* what the file means by amplitude and phase */
     double torque_constant_Nm_per_A; /* by which the drive makes i_q of a torque */
 
     size_t points, columns;
@@ -67,9 +68,11 @@ struct hci_foreign_type {
     double zero_deg;    /* of the drive's angle where that of the machine is 0 */
     size_t points;      /* 0: as asked, or default_points */
     size_t default_points;
-    bool has_counts;                          /* counts_per_A must be known */
-    size_t most_terms;                        /* of harmonics */
-    double most_order;                        /* of harmonics, in turns of its angle */
+    bool in_middle;    /* the value of an index is that at the middle of its part of the turn */
+    bool has_wave;     /* what it means by amplitude and phase has to be said */
+    bool has_counts;   /* counts_per_A must be known */
+    size_t most_terms; /* of harmonics */
+    double most_order; /* of harmonics, in turns of its angle */
     const char *file[HCI_FOREIGN_MOST_FILES]; /* endings of the files, the first is that which is read back */
 
     /* Rounds value or term to what the file can hold; counts what is cut. */
@@ -86,7 +89,8 @@ struct hci_foreign_type {
 };
 
 /* One file each. */
-extern const hci_foreign_type hci_foreign_moteus;
+extern const hci_foreign_type hci_foreign_moteus, hci_foreign_novanta, hci_foreign_csv, hci_foreign_beckhoff,
+    hci_foreign_openffboard;
 
 /* All targets, by their names. */
 extern const hci_foreign_type *const hci_foreign_types[HCI_FOREIGN_TARGET_COUNT];
@@ -118,7 +122,18 @@ double hci_foreign_sum(const hci_foreign_map *map, double turn);
  * are off by half as much, above and below. HCI_ERROR_MEMORY. */
 hci_status hci_foreign_balance(hci_foreign_map *map, hci_note *note);
 
-/* Σ|…|, largest of a column. */
+/* Largest magnitude of a column. */
 double hci_foreign_largest(const hci_foreign_map *map, size_t column);
+
+/* The index of an angle in turns, where values are not joined by lines. */
+size_t hci_foreign_index(const hci_foreign_map *map, double turn);
+
+/* Terms from values in equal steps of a turn: the strongest whole orders, up to what the type has room for. A
+ * mean is no term. */
+void hci_foreign_find_terms(hci_foreign_map *map, const double *value, size_t count);
+
+/* The phase of a term as the file has it, 0 to 2π, and as it is. */
+double hci_foreign_phase_in_file(const hci_foreign_map *map, double phase_rad);
+double hci_foreign_phase_of_file(const hci_foreign_map *map, double phase_rad);
 
 #endif

@@ -2,7 +2,9 @@
 #include "host/foreign/map.h"
 
 const hci_foreign_type *const hci_foreign_types[HCI_FOREIGN_TARGET_COUNT] = {
-    [HCI_FOREIGN_MOTEUS] = &hci_foreign_moteus,
+    [HCI_FOREIGN_MOTEUS] = &hci_foreign_moteus,     [HCI_FOREIGN_NOVANTA] = &hci_foreign_novanta,
+    [HCI_FOREIGN_BECKHOFF] = &hci_foreign_beckhoff, [HCI_FOREIGN_OPENFFBOARD] = &hci_foreign_openffboard,
+    [HCI_FOREIGN_CSV] = &hci_foreign_csv,
 };
 
 const char *hci_foreign_word(hci_foreign_name name)

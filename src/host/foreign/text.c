@@ -20,9 +20,20 @@ void hci_foreign_write_head(const hci_foreign_map *map, const hci_foreign_files 
     hci_number_text(map->offset_deg, text);
     hci_output_text(output, "%s encoder_offset_deg %s\n%s encoder_direction %d\n", mark, text, mark,
                     map->direction);
+    if (map->type->has_wave) hci_output_text(output, "%s wave %s\n", mark, hci_foreign_wave_word(map->wave));
     if (!map->type->has_counts) return;
     hci_number_text(map->counts_per_A, text);
     hci_output_text(output, "%s counts_per_ampere %s\n", mark, text);
+}
+
+const char *hci_foreign_wave_word(hci_foreign_wave wave)
+{
+    static const char *const WORD[] = {
+#define HCI_FOREIGN_WAVE_WORD(value, word) [value] = word,
+        HCI_FOREIGN_WAVES(HCI_FOREIGN_WAVE_WORD)
+#undef HCI_FOREIGN_WAVE_WORD
+    };
+    return WORD[wave];
 }
 
 bool hci_foreign_number(const char *text, const char **end, double *value)
@@ -58,6 +69,17 @@ bool hci_foreign_said(const char *text, const char *word, double *value)
     return false;
 }
 
+/* `wave cosine`; a sine without it. */
+static void read_wave(const char *text, hci_foreign_map *map)
+{
+    const char *word = strstr(text, "wave ");
+    for (int k = 0; word != NULL && k <= HCI_FOREIGN_COSINE_LAG; ++k) {
+        const char *name = hci_foreign_wave_word((hci_foreign_wave)k);
+        const size_t length = strlen(name);
+        if (strncmp(word + 5, name, length) == 0 && word[5 + length] <= ' ') map->wave = (hci_foreign_wave)k;
+    }
+}
+
 hci_status hci_foreign_read_head(const char *path, const char *text, hci_foreign_map *map, hci_note *note)
 {
     char shown[HCI_QUOTE_PATH_SIZE];
@@ -65,6 +87,7 @@ hci_status hci_foreign_read_head(const char *path, const char *text, hci_foreign
     hci_foreign_said(text, "encoder_offset_deg", &map->offset_deg);
     hci_foreign_said(text, "encoder_direction", &direction);
     hci_foreign_said(text, "counts_per_ampere", &map->counts_per_A);
+    if (map->type->has_wave) read_wave(text, map);
     if (direction != 1.0 && direction != -1.0)
         return hci_note_set(note, HCI_ERROR_INPUT, "%s: found encoder_direction %g, expected 1 or -1",
                             hci_quote_path(path, shown), direction);

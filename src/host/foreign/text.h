@@ -21,6 +21,9 @@ bool hci_foreign_said(const char *text, const char *word, double *value);
  * locale. */
 bool hci_foreign_number(const char *text, const char **end, double *value);
 
+/* The word of a wave; a static string. */
+const char *hci_foreign_wave_word(hci_foreign_wave wave);
+
 /* Nine digits, as a float is read back. */
 const char *hci_foreign_float(double value, char text[32]);
 

@@ -84,6 +84,60 @@ done
 harmonics 0 "$work/map.cfg"
 says 'a map of moteus, read as the recording of a shaft that its currents hold'
 
+# ---- the other tables: what they lack
+
+emit 0 --for novanta && cp "$work/out/map.csv" "$work/novanta.csv"
+sed '/^300,/d' "$work/novanta.csv" >"$work/gap.csv"
+harmonics 3 "$work/gap.csv"
+says 'found `301,.*expected the indices 0 to 511'
+echo '512,0' | cat "$work/novanta.csv" - >"$work/long.csv"
+harmonics 3 "$work/long.csv"
+says 'found `512,0`'
+
+emit 0 --for beckhoff && cp "$work/out/map.csv" "$work/beckhoff.csv"
+grep -v ',0x0A,' "$work/beckhoff.csv" >"$work/gap.csv"
+harmonics 3 "$work/gap.csv"
+says 'found no value at 0x32CB:0A'
+sed 's/^\(0x32CB,0x07,UINT32\),[0-9]*/\1,201/' "$work/beckhoff.csv" >"$work/large.csv"
+harmonics 3 "$work/large.csv"
+says 'found 201 at 0x32CB:07'
+# halved by the gain, or shifted by a quarter of a turn
+harmonics 0 "$work/beckhoff.csv" --orders 12 --json
+awk -F'[:,]' '/"amplitude"/ { print $2 }' "$work/stdout" >"$work/whole"
+sed 's/^\(0x32CB,0x02,REAL32\),1/\1,0.5/' "$work/beckhoff.csv" >"$work/half.csv"
+harmonics 0 "$work/half.csv" --orders 12 --json
+check "the gain is not read" awk -F'[:,]' -v whole="$(cat "$work/whole")" '/"amplitude"/ { r = $2 / whole; exit !(r > 0.4999 && r < 0.5001) }' "$work/stdout"
+sed 's/^# wave sine$/# wave cosine/' "$work/beckhoff.csv" >"$work/cosine.csv"
+harmonics 0 "$work/beckhoff.csv" --orders 12 --json
+awk -F'[:,]' '/"phase_rad"/ { print $2 }' "$work/stdout" >"$work/sine"
+harmonics 0 "$work/cosine.csv" --orders 12 --json
+check "the wave is not read" awk -F'[:,]' -v sine="$(cat "$work/sine")" '/"phase_rad"/ { turn = cos($2 - sine - 1.5707963); exit !(turn > 0.999999) }' "$work/stdout"
+
+emit 2 --for openffboard
+says 'add --counts-per-ampere N'
+emit 2 --for moteus --counts-per-ampere 3
+says 'leave out --counts-per-ampere'
+emit 2 --for moteus --wave cosine
+says 'leave out --wave'
+emit 0 --for openffboard --counts-per-ampere 400 && cp "$work/out/map.txt" "$work/openffboard.txt"
+harmonics 0 "$work/openffboard.txt" --json && cp "$work/stdout" "$work/read"
+{
+    echo '# counts_per_ampere 400'
+    printf '[tmc.0.coggingHarmonics?|%s]\n' "$(grep -v '^#' "$work/openffboard.txt")"
+} >"$work/answer.txt"
+harmonics 0 "$work/answer.txt" --json
+check "what a board answers is read as another map" same "$work/read" "$work/stdout"
+grep -v '^#' "$work/openffboard.txt" >"$work/bare.txt"
+harmonics 3 "$work/bare.txt"
+says 'found no comment `# counts_per_ampere N`'
+
+emit 2 --for csv --points 500
+says 'expected a power of two'
+emit 0 --for csv --points 64 && cp "$work/out/map.csv" "$work/table.csv"
+sed '20d' "$work/table.csv" >"$work/gap.csv"
+harmonics 3 "$work/gap.csv"
+says 'in equal steps of one turn from 0'
+
 # ---- read by the other commands
 
 run 0 predict data/machine_a "$work/map.cfg" --json

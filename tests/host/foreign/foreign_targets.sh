@@ -1,5 +1,7 @@
 #!/bin/sh
+# labels: slow
 # Every target of `emit --for` through a second implementation of its drive, written from its description: drives/TARGET.py.
+# Slow, since these are in Python: a quarter of a minute of processor time.
 #   foreign_targets.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
 . "$1/tests/support/common.sh"
 cd "$source_dir" || exit 1

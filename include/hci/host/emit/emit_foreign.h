@@ -24,6 +24,7 @@ typedef struct {
     size_t per_Nm_count;        /* entries of per_Nm */
     double reference_torque_Nm; /* with per_Nm: for which torque the ripple is told */
     double torque_constant_Nm_per_A; /* by which the drive makes i_q of a torque; 0: that of the machine */
+    hci_foreign_wave wave;           /* what the drive means by amplitude and phase */
     double counts_per_A;             /* for targets with counts; 0: not known */
     size_t points;                   /* for targets that take any number; 0: theirs */
     double encoder_offset_deg; /* what the drive's angle is where the machine's is 0, in its own turns */
@@ -33,7 +34,7 @@ typedef struct {
 
 /* Ripple at one torque, peak to peak over a mechanical turn. */
 typedef struct {
-    double torque_Nm;  /* that the drive makes of its own i_q by the torque constant */
+    double torque_Nm;  /* mean, to which the drive brings its own i_q */
     double without_Nm; /* with a plain sine of current */
     double with_Nm;    /* with the map, as the drive samples and rounds it */
 } hci_foreign_ripple;

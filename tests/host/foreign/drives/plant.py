@@ -3,6 +3,7 @@
 Nothing here is taken from the program: torque = sum of e_s i_s + cogging, e_s = A sin(n (theta - 2 pi s/3) + phase).
 """
 import csv
+import functools
 import math
 
 
@@ -26,8 +27,11 @@ class Plant:
     def cogging_at(self, theta):
         return sum(a * math.sin(n * theta + g) for n, a, g in self.cogging)
 
-    def torque(self, theta, phases):
-        return sum(e * i for e, i in zip(self.emf_at(theta), phases)) + self.cogging_at(theta)
+    @functools.lru_cache(maxsize=None)
+    def grid(self, angles):
+        """(mechanical angle, back-EMF, cogging torque) in equal steps of a mechanical turn."""
+        steps = [2 * math.pi * k / angles for k in range(angles)]
+        return [(m, self.emf_at(self.pole_pairs * m), self.cogging_at(self.pole_pairs * m)) for m in steps]
 
 
 def phases(theta, d, q):
@@ -42,15 +46,23 @@ class Mounted:
     def __init__(self, plant, drive, offset_deg=0.0, direction=1):
         self.plant, self.drive, self.offset_deg, self.direction = plant, drive, offset_deg, direction
 
-    def torque(self, theta_m, own_q):
-        """Torque of the machine; own_q: what the drive asks for besides, in the sense of the machine."""
+    def currents(self, theta_m, own_q):
+        """Phase currents of the machine; own_q: what the drive asks for besides, in the sense of the machine."""
         theta = self.plant.pole_pairs * theta_m
         angle = theta if self.drive.electrical else theta_m
         turn = (self.drive.zero_deg + self.offset_deg) / 360 + self.direction * angle / (2 * math.pi)
         d, q = self.drive.add(turn - math.floor(turn), self.direction * own_q)
         a, b, c = phases(self.direction * theta, d, self.direction * own_q + q)
-        return self.plant.torque(theta, [a, b, c] if self.direction == 1 else [a, c, b])
+        return (a, b, c) if self.direction == 1 else (a, c, b)
 
-    def ripple(self, torque, angles=9973):
-        values = [self.torque(2 * math.pi * k / angles, torque / self.plant.torque_constant) for k in range(angles)]
+    def torques(self, own_q, angles):
+        return [sum(e * i for e, i in zip(emf, self.currents(m, own_q))) + cogging for m, emf, cogging in self.plant.grid(angles)]
+
+    def ripple(self, torque, angles=19997, constant=None):
+        """Peak to peak, where the drive's own current makes what is missing of the mean torque. constant: by which it
+        makes a current of a torque."""
+        own = torque / (constant or self.plant.torque_constant)
+        coarse = self.torques(own, 997)
+        own += (torque - sum(coarse) / len(coarse)) / self.plant.torque_constant
+        values = self.torques(own, angles)
         return max(values) - min(values)
