@@ -10,6 +10,7 @@ import importlib
 import json
 import math
 import os
+import shutil
 import subprocess
 import sys
 
@@ -17,7 +18,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from plant import Mounted, Plant  # noqa: E402
 
 solve, source, work, target = sys.argv[1:]
-MACHINE = "data/machine_a"
+MACHINE = work + "/machine"
 PLACES = [(0.0, 1), (37.3, 1), (-101.7, -1)]
 failures = 0
 
@@ -34,6 +35,15 @@ def run(*words):
     if done.returncode:
         sys.exit("%s: %s: %s" % (target, " ".join(words), done.stderr))
     return done.stdout
+
+
+def make_machine():
+    """Machine A and an order 1, by which a shift of any part of an electrical turn is seen."""
+    if os.path.exists(MACHINE):
+        return
+    shutil.copytree(source + "/data/machine_a", MACHINE)
+    with open(MACHINE + "/cogging.csv", "a", encoding="utf-8") as file:
+        file.write("1,0.05,0.7\n")
 
 
 def solution(name):
@@ -55,7 +65,7 @@ def check_ripple(plant, drive, place, summary, name):
     for stated in summary["ripple"]:
         mounted = Mounted(plant, drive, *place)
         found = mounted.ripple(stated["torque_Nm"], constant=summary["torque_constant_Nm_per_A"])
-        expect(near(found, stated["map_peak_to_peak_Nm"], 0.02),
+        expect(near(found, stated["map_peak_to_peak_Nm"], 0.002),
                "%s, encoder %s, %g N·m: stated %g N·m, found %g" % (name, place, stated["torque_Nm"], stated["map_peak_to_peak_Nm"], found))
         wrong = Mounted(plant, drive, place[0], -place[1])
         if summary["torque_Nm"] == stated["torque_Nm"]:
@@ -76,7 +86,7 @@ def check_reading(plant, drive, place, path):
         angle = 2 * math.pi * k / steps
         turn = (drive.zero_deg + place[0]) / 360 + place[1] * angle / (2 * math.pi)
         values.append(-place[1] * K * drive.add(turn - math.floor(turn), 0.0)[1])
-    out = json.loads(run("harmonics", path, "--quantity", "cogging", "--pole-pairs", str(plant.pole_pairs), "--orders", "12,24,36",
+    out = json.loads(run("harmonics", path, "--quantity", "cogging", "--pole-pairs", str(plant.pole_pairs), "--orders", "1,12,24,36",
                          "--torque-constant", repr(K), "--json"))
     for row in out["orders"]:
         order = row["order"] * (1 if electrical else plant.pole_pairs)
@@ -86,7 +96,8 @@ def check_reading(plant, drive, place, path):
 
 
 def main():
-    plant = Plant(source + "/" + MACHINE)
+    make_machine()
+    plant = Plant(MACHINE)
     module = importlib.import_module({"csv": "csv_table"}.get(target, target.replace("-", "_")))
     for name in ("none", "loaded"):
         for k, place in enumerate(PLACES):

@@ -30,7 +30,7 @@ class Plant:
     @functools.lru_cache(maxsize=None)
     def grid(self, angles):
         """(mechanical angle, back-EMF, cogging torque) in equal steps of a mechanical turn."""
-        steps = [2 * math.pi * k / angles for k in range(angles)]
+        steps = [2 * math.pi * (k + 0.5) / angles for k in range(angles)]
         return [(m, self.emf_at(self.pole_pairs * m), self.cogging_at(self.pole_pairs * m)) for m in steps]
 
 
@@ -58,11 +58,11 @@ class Mounted:
     def torques(self, own_q, angles):
         return [sum(e * i for e, i in zip(emf, self.currents(m, own_q))) + cogging for m, emf, cogging in self.plant.grid(angles)]
 
-    def ripple(self, torque, angles=19997, constant=None):
+    def ripple(self, torque, angles=40009, constant=None):
         """Peak to peak, where the drive's own current makes what is missing of the mean torque. constant: by which it
         makes a current of a torque."""
         own = torque / (constant or self.plant.torque_constant)
-        coarse = self.torques(own, 997)
+        coarse = self.torques(own, 4999)
         own += (torque - sum(coarse) / len(coarse)) / self.plant.torque_constant
         values = self.torques(own, angles)
         return max(values) - min(values)
