@@ -1,11 +1,11 @@
-/* The whole of a file as one text, or why it is none. */
+/* The whole of a file as one text, or why it is none. What a device has learnt becomes text here. */
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "host/base/memory.h"
 #include "host/base/quote.h"
-#include "host/csv/table.h"
+#include "host/csv/learned.h"
 
 enum { FIRST_READ = 1 << 16 };
 
@@ -90,5 +90,7 @@ hci_status hci_csv_load(hci_csv *csv, hci_note *note)
 {
     size_t size = 0;
     const hci_status status = read_file(csv, &size, note);
-    return status ? status : check_encoding(csv, size, note);
+    if (status) return status;
+    if (hci_csv_is_learned(csv, size)) return hci_csv_read_learned(csv, size, note);
+    return check_encoding(csv, size, note);
 }
