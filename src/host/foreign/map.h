@@ -89,8 +89,8 @@ struct hci_foreign_type {
 };
 
 /* One file each. */
-extern const hci_foreign_type hci_foreign_moteus, hci_foreign_novanta, hci_foreign_csv, hci_foreign_beckhoff,
-    hci_foreign_openffboard;
+extern const hci_foreign_type hci_foreign_simplefoc, hci_foreign_mcsdk, hci_foreign_moteus,
+    hci_foreign_novanta, hci_foreign_csv, hci_foreign_beckhoff, hci_foreign_openffboard;
 
 /* All targets, by their names. */
 extern const hci_foreign_type *const hci_foreign_types[HCI_FOREIGN_TARGET_COUNT];

@@ -163,9 +163,6 @@ static hci_status read(const char *path, const char *text, hci_foreign_map *map,
     hci_foreign_term term;
     const char *at_term = answer(text);
     char found[48];
-    double said;
-    if (!hci_foreign_said(text, "counts_per_ampere", &said))
-        return wrong(path, "no comment `# counts_per_ampere N`, the board's counts of one A", note);
     while (read_term(at_term, &at_term, &term)) {
         snprintf(found, sizeof found, "%zu terms, order %g", map->terms + 1, term.order);
         if (map->terms == HARMONICS || !(term.order >= 1.0 && term.order <= 65535.0) ||

@@ -86,17 +86,18 @@ hci_status hci_foreign_read_head(const char *path, const char *text, hci_foreign
     double direction = 1.0;
     hci_foreign_said(text, "encoder_offset_deg", &map->offset_deg);
     hci_foreign_said(text, "encoder_direction", &direction);
-    hci_foreign_said(text, "counts_per_ampere", &map->counts_per_A);
+    const bool counts = hci_foreign_said(text, "counts_per_ampere", &map->counts_per_A);
     if (map->type->has_wave) read_wave(text, map);
     if (direction != 1.0 && direction != -1.0)
         return hci_note_set(note, HCI_ERROR_INPUT, "%s: found encoder_direction %g, expected 1 or -1",
                             hci_quote_path(path, shown), direction);
     map->direction = direction > 0.0 ? 1 : -1;
-    if (map->type->has_counts && !(map->counts_per_A > 0.0))
-        return hci_note_set(note, HCI_ERROR_INPUT,
-                            "%s: found counts_per_ampere %g, expected a number above 0; it is the drive's "
-                            "scale of the current",
-                            hci_quote_path(path, shown), map->counts_per_A);
+    if (map->type->has_counts && !(counts && map->counts_per_A > 0.0))
+        return hci_note_set(
+            note, HCI_ERROR_INPUT,
+            "%s: found no comment `counts_per_ampere N` with a number above 0; put it into the file: "
+            "the drive's counts of one A",
+            hci_quote_path(path, shown));
     return HCI_OK;
 }
 

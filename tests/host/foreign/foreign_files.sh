@@ -129,7 +129,7 @@ harmonics 0 "$work/answer.txt" --json
 check "what a board answers is read as another map" same "$work/read" "$work/stdout"
 grep -v '^#' "$work/openffboard.txt" >"$work/bare.txt"
 harmonics 3 "$work/bare.txt"
-says 'found no comment `# counts_per_ampere N`'
+says 'found no comment `counts_per_ampere N`'
 
 emit 2 --for csv --points 500
 says 'expected a power of two'
@@ -137,6 +137,31 @@ emit 0 --for csv --points 64 && cp "$work/out/map.csv" "$work/table.csv"
 sed '20d' "$work/table.csv" >"$work/gap.csv"
 harmonics 3 "$work/gap.csv"
 says 'in equal steps of one turn from 0'
+
+# ---- code: what the tables of the source lack
+
+run 0 emit "$work/loaded" --name map --machine data/machine_a -o "$work/out" --for st-mcsdk --counts-per-ampere 600 --per-torque
+cp "$work/out/map.h" "$work/map.h"
+harmonics 0 "$work/map.h"
+says 'a map of st-mcsdk'
+grep -v counts_per_ampere "$work/map.h" >"$work/bare.h"
+harmonics 3 "$work/bare.h"
+says 'found no comment `counts_per_ampere N`'
+sed '40d' "$work/map.h" >"$work/gap.h"
+harmonics 3 "$work/gap.h"
+says 'a power of two of them'
+sed '40s/, [-0-9]*}/}/' "$work/map.h" >"$work/torn.h"
+harmonics 3 "$work/torn.h"
+says 'expected rows'
+emit 0 --for simplefoc && cp "$work/out/map.h" "$work/simple.h"
+harmonics 0 "$work/simple.h"
+check "two columns" grep -q 'map_table\[256\]\[2\]' "$work/simple.h"
+emit 2 --for simplefoc --points 300
+says 'expected a power of two from 8 to 4096'
+
+# counts that are too many for 16 bits are cut, and that is said
+emit 0 --for st-mcsdk --counts-per-ampere 20000
+says 'cut +[0-9]+ values that are too large for it'
 
 # ---- read by the other commands
 

@@ -10,6 +10,8 @@ extern "C" {
 
 /* X(value, word), one line a target. */
 #define HCI_FOREIGN_TARGETS(X)                                                                               \
+    X(HCI_FOREIGN_SIMPLEFOC, "simplefoc")                                                                    \
+    X(HCI_FOREIGN_MCSDK, "st-mcsdk")                                                                         \
     X(HCI_FOREIGN_MOTEUS, "moteus")                                                                          \
     X(HCI_FOREIGN_NOVANTA, "novanta")                                                                        \
     X(HCI_FOREIGN_BECKHOFF, "beckhoff")                                                                      \

@@ -109,6 +109,9 @@ def main():
             summary = json.loads(run(*words))
             drive = module.Drive(base)
             check_ripple(plant, drive, place, summary, name)
+            if hasattr(drive, "compiled") and k == 2:
+                off = drive.compiled()
+                expect(off is None or off <= 1, "%s: the compiled function is another one: %s" % (name, off))
             if name == "none":
                 check_reading(plant, drive, place, base + ("" if module.Drive.file.startswith("_") else ".") + module.Drive.file)
     for name in summary["files"].split(", "):
