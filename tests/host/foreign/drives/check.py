@@ -69,6 +69,7 @@ def check_ripple(plant, drive, place, summary, name):
                "%s, encoder %s, %g N·m: stated %g N·m, found %g" % (name, place, stated["torque_Nm"], stated["map_peak_to_peak_Nm"], found))
         wrong = Mounted(plant, drive, place[0], -place[1])
         if summary["torque_Nm"] == stated["torque_Nm"]:
+            expect(found < 0.35 * stated["sine_peak_to_peak_Nm"], "%s, encoder %s: it leaves %g N·m" % (name, place, found))
             expect(wrong.ripple(stated["torque_Nm"], 997, summary["torque_constant_Nm_per_A"]) > 3 * found, "%s: the wrong direction is not seen" % name)
 
 
