@@ -159,8 +159,9 @@ static hci_status read_term(const char *path, const char *text, unsigned k, doub
             return wrong(path, subindex, found, note);
     }
     if (v[2] == 0.0 || v[0] == 0.0) return HCI_OK;
-    map->term[map->terms++] = (hci_foreign_term){
-        v[0], gain * v[2], hci_foreign_phase_of_file(map, (double)(float)v[1] * HCI_PI / 180.0)};
+    map->term[map->terms++] =
+        (hci_foreign_term){v[0], gain * (double)(float)v[2],
+                           hci_foreign_phase_of_file(map, (double)(float)v[1] * HCI_PI / 180.0)};
     return HCI_OK;
 }
 

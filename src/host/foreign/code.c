@@ -44,7 +44,7 @@ static size_t read_row(const char *text, const char **end, double value[4])
     if (*text != '{') return 0;
     for (++text; count < 4 && hci_foreign_number(text, &text, &value[count]); text += strspn(text, ", "))
         text += (++count, *text == 'f');
-    *end = text + 1;
+    *end = *text == '}' ? text + 1 : text;
     return *text == '}' && (count == 2 || count == 4) ? count : 0;
 }
 

@@ -105,7 +105,7 @@ static hci_status read(const char *path, const char *text, hci_foreign_map *map,
 const hci_foreign_type hci_foreign_csv = {
     .word = "csv",
     .carries = "i_d and i_q over the mechanical turn, for one torque, with --per-torque for any",
-    .lacks = "nothing of the currents",
+    .lacks = "the zero sequence",
     .samples = "a table of doubles, straight lines between its rows",
     .kind = HCI_FOREIGN_DQ,
     .default_points = 1024,

@@ -105,7 +105,7 @@ static hci_status read(const char *path, const char *text, hci_foreign_map *map,
 const hci_foreign_type hci_foreign_simplefoc = {
     .word = "simplefoc",
     .carries = "i_d and i_q over the electrical turn, for one torque, with --per-torque for any",
-    .lacks = "what differs from one electrical turn to the next",
+    .lacks = "what differs from one electrical turn to the next, and the zero sequence",
     .samples = "a table of floats, straight lines between its rows",
     .kind = HCI_FOREIGN_DQ,
     .is_electrical = true,
