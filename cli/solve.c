@@ -31,16 +31,9 @@ enum {
     COMPARE,
     TOLERANCE,
     MAX_LOSS,
-    LIMIT_CURRENT,
-    LIMIT_RMS,
-    LIMIT_COPPER,
-    LIMIT_VOLTAGE,
+    CLI_LIMIT_KEYS,
     SPEED,
     DRIVE,
-    VOLTAGE_RESERVE,
-    DEAD_TIME,
-    PWM_FREQUENCY,
-    IGNORE_RATINGS,
     MINIMISE,
     TEMPERATURE,
     OUT,
@@ -50,13 +43,6 @@ enum {
 
 static const cli_choice METHODS[] = {HCI_METHOD_NAMES(CLI_CHOICE_OF){NULL, NULL}};
 static const cli_choice STRATEGIES[] = {HCI_STRATEGY_NAMES(CLI_CHOICE_OF){NULL, NULL}};
-static const cli_choice MINIMISES[] = {
-    [HCI_MINIMISE_AUTO] = {"auto", "auto (default): least squares, within limits worst"},
-    [HCI_MINIMISE_WORST] = {"worst", "; worst: order"},
-    [HCI_MINIMISE_PEAK_TO_PEAK] = {"peak-to-peak", NULL},
-    [HCI_MINIMISE_RMS] = {"rms", NULL},
-    {NULL, NULL},
-};
 static const cli_choice COMPARES[] = {
     [HCI_COMPARE_ALL] = {"all", "all (default): every order reached"},
     [HCI_COMPARE_SQUARE] = {"square", "; square: as many as unknowns"},
@@ -82,29 +68,15 @@ static const cli_option OPTIONS[] = {
                    .high = 1.0},
     [MAX_LOSS] = {"max-loss", 0, CLI_NUMBER, "RATIO",
                   .help = "with --auto K: copper over the pointwise limit (1.10)", .low = 1.0, .high = 1e6},
-    [LIMIT_CURRENT] = {"limit-current", 0, CLI_TEXT, "A[,PHASE=A]",
-                       .help = "largest phase current, peak; such as 12, a=10 or 12,a=0 (a is open)"},
-    [LIMIT_RMS] = {"limit-rms", 0, CLI_TEXT, "A[,PHASE=A]", .help = "largest rms current of a phase"},
-    [LIMIT_COPPER] = {"limit-copper", 0, CLI_TEXT, "W",
-                      .help = "largest copper loss; 1.2x: over that of the plain sine"},
-    [LIMIT_VOLTAGE] = {"limit-voltage", 0, CLI_NUMBER, "V",
-                       .help = "dc link, which line voltages stay below; with --speed", .low = 1e-9,
-                       .high = 1e9},
+    CLI_LIMIT_OPTIONS,
     [SPEED] = {"speed", 0, CLI_NUMBER, "RPM",
                .help = "mechanical; the voltage is limited by --limit-voltage or dc_link_voltage",
                .low = -1e7, .high = 1e7},
     [DRIVE] = {"drive", 0, CLI_FILE, "FILE",
                .help = "drive.csv: leaves out what its current loop cannot be made to follow at --speed"},
-    [VOLTAGE_RESERVE] = {"voltage-reserve", 0, CLI_NUMBER, "SHARE",
-                         .help = "of the dc link that is left for the control (0)", .low = 0.0, .high = 0.9},
-    [DEAD_TIME] = {"dead-time", 0, CLI_NUMBER, "S",
-                   .help = "of a leg, which takes voltage; with --pwm-frequency", .low = 0.0, .high = 1e-2},
-    [PWM_FREQUENCY] = {"pwm-frequency", 0, CLI_NUMBER, "HZ",
-                       .help = "switching frequency of a leg, for --dead-time", .low = 1.0, .high = 1e9},
-    [IGNORE_RATINGS] = {"ignore-ratings", 0, CLI_FLAG, NULL,
-                        .help = "max_current and dc_link_voltage of machine.csv are no limits"},
     [MINIMISE] = {"minimise", 0, CLI_CHOICE, "WHAT",
-                  .help = "ripple that is made smallest where it cannot be as wanted:", .choices = MINIMISES},
+                  .help = "ripple that is made smallest where it cannot be as wanted:", 
+                  .choices = cli_minimise_choices},
     [TEMPERATURE] = {"temperature", 0, CLI_NUMBER, "C",
                      .help = "of the magnets, for magnet_temperature in effects.csv", .low = -273.15,
                      .high = 1e4},
@@ -156,8 +128,6 @@ static hci_status check_together(const cli_arguments *a, hci_method method, hci_
         wrong = "solve: --drive leaves out harmonics, and --method pointwise has none to choose";
     else if (a->given[LIMIT_VOLTAGE] && !a->given[SPEED])
         wrong = "solve: --limit-voltage and --speed go together";
-    else if (a->given[DEAD_TIME] != a->given[PWM_FREQUENCY])
-        wrong = "solve: --dead-time and --pwm-frequency go together";
     else if (a->given[VOLTAGE_RESERVE] && !a->given[SPEED])
         wrong = "solve: --voltage-reserve limits the voltage at a speed; add --speed RPM";
     else if (a->given[MINIMISE] && method == HCI_METHOD_POINTWISE)
@@ -167,16 +137,6 @@ static hci_status check_together(const cli_arguments *a, hci_method method, hci_
     else if (a->given[REPORT] && !a->given[OUT])
         wrong = "--report is written into a folder; add --out FOLDER";
     return wrong ? hci_note_set(note, HCI_ERROR_ARGUMENT, "%s", wrong) : HCI_OK;
-}
-
-static hci_status read_limits(const cli_arguments *a, hci_solve_options *o, hci_note *note)
-{
-    hci_status status = HCI_OK;
-    if (a->given[LIMIT_CURRENT]) status = cli_limit_current(a->value[LIMIT_CURRENT], o, note);
-    if (!status && a->given[LIMIT_RMS]) status = cli_limit_rms(a->value[LIMIT_RMS], &o->limits, note);
-    if (!status && a->given[LIMIT_COPPER])
-        status = cli_limit_copper(a->value[LIMIT_COPPER], &o->limits, note);
-    return status;
 }
 
 /* A speed alone says nothing without the voltage that there is. */
@@ -198,17 +158,11 @@ static hci_status read_options(const cli_arguments *a, hci_solve_options *o, hci
     o->choose_at_most = (size_t)cli_number_or(a, AUTO, 0.0);
     o->tolerance = cli_number_or(a, TOLERANCE, 0.0);
     o->loss_allowance = cli_number_or(a, MAX_LOSS, 0.0);
-    o->minimise = (hci_minimise)a->choice[MINIMISE];
-    o->limits.voltage_reserve = cli_number_or(a, VOLTAGE_RESERVE, 0.0);
-    o->limits.dead_time_s = cli_number_or(a, DEAD_TIME, 0.0);
-    o->limits.pwm_frequency_Hz = cli_number_or(a, PWM_FREQUENCY, 0.0);
-    o->limits.ignore_ratings = a->given[IGNORE_RATINGS];
-    o->limit_voltage_V = cli_number_or(a, LIMIT_VOLTAGE, 0.0);
     o->speed_rad_per_s = cli_number_or(a, SPEED, 0.0) * HCI_PI / 30.0;
     o->at_temperature = a->given[TEMPERATURE];
     o->temperature_C = cli_number_or(a, TEMPERATURE, 0.0);
     status = check_together(a, o->method, note);
-    if (!status) status = read_limits(a, o, note);
+    if (!status) status = cli_limits_take(OPTIONS, a, o, note);
     if (status || !a->value[FUNDAMENTAL]) return status;
     o->held = held;
     return read_fundamental(a->value[FUNDAMENTAL], held, note);

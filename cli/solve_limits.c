@@ -3,7 +3,16 @@
 #include <math.h>
 #include <string.h>
 
+#include "cli/command/parse.h"
 #include "hci/host/base/number.h"
+
+const cli_choice cli_minimise_choices[] = {
+    [HCI_MINIMISE_AUTO] = {"auto", "auto (default): least squares, within limits worst"},
+    [HCI_MINIMISE_WORST] = {"worst", "; worst: order"},
+    [HCI_MINIMISE_PEAK_TO_PEAK] = {"peak-to-peak", NULL},
+    [HCI_MINIMISE_RMS] = {"rms", NULL},
+    {NULL, NULL},
+};
 
 enum { ITEM_SIZE = 64 };
 
@@ -42,7 +51,7 @@ static bool read_phases(const char *text, double *all, double value[3])
     return true;
 }
 
-hci_status cli_limit_current(const char *text, hci_solve_options *options, hci_note *note)
+static hci_status take_current(const char *text, hci_solve_options *options, hci_note *note)
 {
     double all_A, phase_A[3];
     if (!read_phases(text, &all_A, phase_A))
@@ -59,7 +68,7 @@ hci_status cli_limit_current(const char *text, hci_solve_options *options, hci_n
     return HCI_OK;
 }
 
-hci_status cli_limit_rms(const char *text, hci_solve_limits *limits, hci_note *note)
+static hci_status take_rms(const char *text, hci_solve_limits *limits, hci_note *note)
 {
     double all_A, phase_A[3];
     const bool good = read_phases(text, &all_A, phase_A);
@@ -73,7 +82,7 @@ hci_status cli_limit_rms(const char *text, hci_solve_limits *limits, hci_note *n
         text);
 }
 
-hci_status cli_limit_copper(const char *text, hci_solve_limits *limits, hci_note *note)
+static hci_status take_copper(const char *text, hci_solve_limits *limits, hci_note *note)
 {
     char item[ITEM_SIZE];
     const size_t length = strlen(text);
@@ -89,4 +98,37 @@ hci_status cli_limit_copper(const char *text, hci_solve_limits *limits, hci_note
             text);
     *(is_ratio ? &limits->copper_ratio : &limits->copper_W) = number;
     return HCI_OK;
+}
+
+/* ---- all of them ---- */
+
+/* Place of an option that the table has. */
+static int place(const cli_option *table, const char *name)
+{
+    return cli_option_find(table, name, strlen(name));
+}
+
+static double number_or_0(const cli_option *table, const cli_arguments *a, const char *name)
+{
+    return cli_number_or(a, place(table, name), 0.0);
+}
+
+hci_status cli_limits_take(const cli_option *table, const cli_arguments *a, hci_solve_options *o,
+                           hci_note *note)
+{
+    const char *current = a->value[place(table, "limit-current")], *rms = a->value[place(table, "limit-rms")],
+               *copper = a->value[place(table, "limit-copper")];
+    hci_status status = HCI_OK;
+    o->minimise = (hci_minimise)a->choice[place(table, "minimise")];
+    o->limits.voltage_reserve = number_or_0(table, a, "voltage-reserve");
+    o->limits.dead_time_s = number_or_0(table, a, "dead-time");
+    o->limits.pwm_frequency_Hz = number_or_0(table, a, "pwm-frequency");
+    o->limits.ignore_ratings = a->given[place(table, "ignore-ratings")];
+    o->limit_voltage_V = number_or_0(table, a, "limit-voltage");
+    if (a->given[place(table, "dead-time")] != a->given[place(table, "pwm-frequency")])
+        status = hci_note_set(note, HCI_ERROR_ARGUMENT, "--dead-time and --pwm-frequency go together");
+    if (!status && current) status = take_current(current, o, note);
+    if (!status && rms) status = take_rms(rms, &o->limits, note);
+    if (!status && copper) status = take_copper(copper, &o->limits, note);
+    return status;
 }

@@ -6,7 +6,8 @@
  *   reading   how recordings are read
  *   parse     words of a command line to arguments
  *   help      the text of --help
- *   command   from the words to the exit code */
+ *   command   from the words to the exit code
+ *   jobs      independent work shared out among processes */
 #ifndef HCI_CLI_OPTION_H
 #define HCI_CLI_OPTION_H
 

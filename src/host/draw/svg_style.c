@@ -3,7 +3,7 @@
 
 /* Okabe and Ito's palette, told apart by colour-blind readers and by lightness in a grey print; darker in the
  * light, where marks need a contrast of 3 to the ground. Grid and rails are below that: nothing is read from
- * them alone. */
+ * them alone. heat: levels of a map, viridis; kind: what is told apart in a map. */
 const char hci_svg_style[] =
     ".hci{font:12px system-ui,'Helvetica Neue',Arial,sans-serif}.hci text{fill:#1c1f23}"
     ".hci .back{fill:#fff}.hci .verdict{font-size:18px;font-weight:600}.hci .facts{font-size:13px}"
@@ -28,6 +28,14 @@ const char hci_svg_style[] =
     ".minus{fill:#fff;stroke:#c04a00;stroke-width:1.2}.hci .band{fill:#eceef1}"
     ".hci .haze{stroke:#e1e4e8;stroke-width:1.6}.hci .edge{stroke:#767c86;stroke-width:.8}"
     ".hci .limit{stroke:#c04a00;stroke-width:1.4;stroke-dasharray:5 3}"
+    ".hci .heat0{fill:#440154}.hci .heat1{fill:#482878}"
+    ".hci .heat2{fill:#3e4a89}.hci .heat3{fill:#31688e}"
+    ".hci .heat4{fill:#26828e}.hci .heat5{fill:#1f9e89}"
+    ".hci .heat6{fill:#35b779}.hci .heat7{fill:#6dcd59}"
+    ".hci .heat8{fill:#b4de2c}.hci .heat9{fill:#fde725}"
+    ".hci .kind0{fill:#c3c7cd}.hci .kind1{fill:#0072b2}"
+    ".hci .kind2{fill:#56b4e9}.hci .kind3{fill:#c04a00}"
+    ".hci .kind4{fill:#009e73}.hci .kind5{fill:#b87a00}"
     "@media screen and (prefers-color-scheme:dark){.hci text{fill:#eceff2}.hci .back{fill:#16191d}"
     ".hci .quiet{fill:#a6adb6}.hci .no{fill:#ff8c50}.hci .grid{stroke:#2b3037}.hci .axis{stroke:#737a84}"
     ".hci .before{stroke:#858c96}.hci rect.before{fill:#6c737d}.hci .wanted{stroke:#e69f00}"

@@ -1,0 +1,191 @@
+#define _POSIX_C_SOURCE 200809L
+
+#include "cli/sweep_run.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "cli/command/jobs.h"
+#include "cli/terminal/progress.h"
+#include "cli/terminal/signals.h"
+
+#define KEEP_S 1.0 /* between two writings of the points */
+
+/* ---- what a trade-off ranges over: in a process of its own too, so that this one never solves ---- */
+
+typedef struct {
+    hci_status status;
+    hci_note note;
+    hci_grid_span span;
+} span_answer;
+
+typedef struct {
+    const hci_grid_request *request;
+    span_answer answer;
+} span_work;
+
+static void find_span(void *context, size_t item, void *answer)
+{
+    span_work *w = context;
+    (void)item;
+    memset(&w->answer, 0, sizeof w->answer);
+    w->answer.status = hci_grid_span_find(w->request, &w->answer.span, &w->answer.note);
+    memcpy(answer, &w->answer, sizeof w->answer);
+}
+
+static void take_span(void *context, size_t item, const void *answer, int number)
+{
+    span_work *w = context;
+    (void)item;
+    if (answer)
+        memcpy(&w->answer, answer, sizeof w->answer);
+    else
+        w->answer.status = hci_note_set(&w->answer.note, HCI_ERROR_NUMERIC, "the solver ended by signal %d", number);
+}
+
+static bool is_wanted(void *context)
+{
+    (void)context;
+    return !cli_signals_deferred(NULL);
+}
+
+static hci_status span_of(const hci_grid_request *request, hci_grid_span *span, hci_note *note)
+{
+    static const size_t ONE = 0;
+    span_work w = {.request = request, .answer = {.status = HCI_ERROR_NUMERIC}};
+    const cli_jobs jobs = {.jobs = 1,
+                           .item = &ONE,
+                           .items = 1,
+                           .answer_size = sizeof(span_answer),
+                           .work = find_span,
+                           .take = take_span,
+                           .goes_on = is_wanted,
+                           .context = &w};
+    const hci_status status = cli_jobs_run(&jobs, note);
+    if (status) return status;
+    *span = w.answer.span;
+    return w.answer.status ? hci_note_set(note, w.answer.status, "%s", w.answer.note.text) : HCI_OK;
+}
+
+/* ---- points ---- */
+
+typedef struct {
+    const cli_sweep_inputs *inputs;
+    const char *out;
+    hci_grid *sweep;
+    size_t *item;
+    size_t items, taken;
+    double kept_s;   /* when the points were written last */
+    bool is_changed; /* since then */
+    hci_status status;
+    hci_note note;
+} points_work;
+
+static double now_s(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static void solve_point(void *context, size_t item, void *answer)
+{
+    const points_work *w = context;
+    hci_grid_row row;
+    hci_grid_solve(&w->sweep->request, &w->sweep->plan.point[item], &row);
+    memcpy(answer, &row, sizeof row);
+}
+
+static void take_point(void *context, size_t item, const void *answer, int number)
+{
+    points_work *w = context;
+    char reason[64];
+    if (answer) {
+        memcpy(&w->sweep->row[item], answer, sizeof w->sweep->row[item]);
+    } else {
+        snprintf(reason, sizeof reason, "the solver ended by signal %d", number);
+        hci_grid_fail(&w->sweep->plan.point[item], reason, &w->sweep->row[item]);
+    }
+    w->sweep->done[item] = true;
+    w->is_changed = true;
+    ++w->taken;
+}
+
+static void keep(points_work *w)
+{
+    if (w->out && w->is_changed && !w->status)
+        w->status = hci_grid_keep_points(w->sweep, &w->inputs->inputs, w->out, &w->note);
+    w->is_changed = false;
+    w->kept_s = now_s();
+}
+
+static bool goes_on(void *context)
+{
+    points_work *w = context;
+    cli_work unit = {(double)w->items, "points"};
+    cli_progress(&unit, "sweeping", (double)w->taken / (double)w->items);
+    if (now_s() - w->kept_s > KEEP_S) keep(w);
+    return !w->status && !cli_signals_deferred(NULL);
+}
+
+static hci_status list_items(points_work *w, hci_note *note)
+{
+    const hci_grid *s = w->sweep;
+    w->item = malloc((s->plan.count + 1) * sizeof *w->item);
+    if (!w->item) return hci_note_memory(note, NULL, "the points of a grid");
+    for (size_t k = 0; k < s->plan.count; ++k)
+        if (!s->done[k] && k % w->inputs->shares == w->inputs->share - 1) w->item[w->items++] = k;
+    return HCI_OK;
+}
+
+static hci_status solve_points(points_work *w, size_t jobs, hci_note *note)
+{
+    const cli_jobs all = {.jobs = jobs,
+                          .item = w->item,
+                          .items = w->items,
+                          .answer_size = sizeof(hci_grid_row),
+                          .work = solve_point,
+                          .take = take_point,
+                          .goes_on = goes_on,
+                          .context = w};
+    hci_status status;
+    w->kept_s = now_s();
+    status = cli_jobs_run(&all, note);
+    w->is_changed = true;
+    keep(w);
+    cli_progress_end();
+    if (!status && w->status) return hci_note_set(note, w->status, "%s", w->note.text);
+    return status;
+}
+
+/* ---- all of it ---- */
+
+static hci_status take_known(const cli_sweep_inputs *in, const cli_sweep_work *work, hci_grid *sweep, hci_note *note)
+{
+    hci_status status = HCI_OK;
+    if (work->out) status = hci_grid_take_points(sweep, &in->inputs, work->out, false, note);
+    for (size_t k = 0; k < work->joins && !status; ++k)
+        status = hci_grid_take_points(sweep, &in->inputs, work->join[k], true, note);
+    return status;
+}
+
+hci_status cli_sweep_run(const cli_sweep_inputs *in, const cli_sweep_work *work, hci_grid *sweep, hci_note *note)
+{
+    const bool is_trade_off = in->request.kind == HCI_GRID_TRADE_OFF;
+    points_work w = {.inputs = in, .out = work->out, .sweep = sweep};
+    hci_grid_span span;
+    hci_grid_plan plan = {0};
+    hci_status status = HCI_OK;
+    cli_signals_defer();
+    if (is_trade_off) status = span_of(&in->request, &span, note);
+    if (!status) status = hci_grid_plan_make(&in->request, is_trade_off ? &span : NULL, &plan, note);
+    if (!status) status = hci_grid_begin(&in->request, &plan, sweep, note);
+    hci_grid_plan_release(&plan);
+    if (!status) status = take_known(in, work, sweep, note);
+    if (!status) status = list_items(&w, note);
+    if (!status) status = solve_points(&w, work->jobs, note);
+    free(w.item);
+    return status;
+}

@@ -1,0 +1,278 @@
+/* Maps over torque and speed, a cell for each point: ripple, copper, peak current, voltage, and which limit
+ * binds. */
+#include <math.h>
+#include <stdio.h>
+
+#include "host/plot/sweep/plot_sweep.h"
+
+enum { WIDTH = 1320, HEIGHT = 836, LEVELS = 10, MOST_SIDE = 512 };
+
+/* The places of the panels: three in a row. */
+static const double LEFT[] = {70.0, 504.0, 938.0}, TOP[] = {112.0, 486.0};
+#define PANEL_WIDTH  350.0
+#define PANEL_HEIGHT 236.0
+
+typedef double value_of(const hci_grid *s, const hci_grid_figures *f);
+
+static double ripple(const hci_grid *s, const hci_grid_figures *f)
+{
+    (void)s;
+    return f->T_ripple_percent;
+}
+
+static double copper(const hci_grid *s, const hci_grid_figures *f)
+{
+    const double loss_W = hci_grid_copper_W(&s->request, f);
+    return isfinite(s->request.machine->resistance_ohm) ? loss_W : f->mean_square_A2;
+}
+
+static double peak(const hci_grid *s, const hci_grid_figures *f)
+{
+    (void)s;
+    return f->peak_A;
+}
+
+static double line(const hci_grid *s, const hci_grid_figures *f)
+{
+    (void)s;
+    return f->line_V;
+}
+
+/* ---- where the points are ---- */
+
+/* Values that points have, ascending, each once. */
+typedef struct {
+    double value[MOST_SIDE];
+    size_t count;
+} side;
+
+static void include(side *s, double value)
+{
+    size_t k = 0;
+    while (k < s->count && s->value[k] < value)
+        ++k;
+    if ((k < s->count && s->value[k] == value) || s->count == MOST_SIDE) return;
+    for (size_t j = s->count++; j > k; --j)
+        s->value[j] = s->value[j - 1];
+    s->value[k] = value;
+}
+
+/* The edges of the cell of a value: halfway to its neighbours. */
+static void edges(const side *s, double value, double edge[2])
+{
+    size_t k = 0;
+    while (k + 1 < s->count && s->value[k] < value)
+        ++k;
+    const double below = k > 0 ? value - s->value[k - 1] : k + 1 < s->count ? s->value[k + 1] - value : 1.0;
+    const double above = k + 1 < s->count ? s->value[k + 1] - value : below;
+    edge[0] = value - 0.5 * below;
+    edge[1] = value + 0.5 * above;
+}
+
+typedef struct {
+    const hci_grid *sweep;
+    side speed_rpm, torque_Nm;
+    double link_V; /* of the points that are drawn; NAN: all */
+} field;
+
+static void fill_field(const hci_grid *s, field *f)
+{
+    *f = (field){.sweep = s, .link_V = s->plan.point[0].link_V};
+    for (size_t k = 0; k < s->plan.count; ++k) {
+        include(&f->speed_rpm, hci_grid_rpm(s->plan.point[k].speed_rad_per_s));
+        include(&f->torque_Nm, s->plan.point[k].torque_Nm);
+    }
+}
+
+static bool is_drawn(const field *f, size_t k)
+{
+    return isnan(f->link_V) || f->sweep->plan.point[k].link_V == f->link_V;
+}
+
+/* ---- a panel ---- */
+
+typedef struct {
+    const field *field;
+    hci_svg_box box;
+    hci_svg_axis x, y;
+    const char *title;
+    value_of *value; /* NULL: the limit that binds */
+    bool is_ripple;
+    double level[LEVELS]; /* a cell has the colour of the last one that it reaches */
+} panel;
+
+static hci_svg_axis axis_of(const side *s, double from, double to, double ticks)
+{
+    double first[2], last[2];
+    edges(s, s->value[0], first);
+    edges(s, s->value[s->count - 1], last);
+    hci_svg_axis a = {first[0], last[1], from, to, 0.0};
+    a.step = hci_svg_nice_step((a.high - a.low) / ticks);
+    return a;
+}
+
+static panel make_panel(const field *f, int place, const char *title, value_of *value)
+{
+    panel p = {.field = f, .title = title, .value = value, .is_ripple = value == ripple};
+    const double left = LEFT[place % 3], top = TOP[place / 3];
+    p.box = (hci_svg_box){left, top, left + PANEL_WIDTH, top + PANEL_HEIGHT};
+    p.x = axis_of(&f->speed_rpm, p.box.left, p.box.right, 6.0);
+    p.y = axis_of(&f->torque_Nm, p.box.bottom, p.box.top, 6.0);
+    return p;
+}
+
+/* Steps of 1, 2, 5 that end below the largest ripple; the first level is none. */
+static void set_ripple_levels(panel *p, double most_percent)
+{
+    double level = hci_svg_nice_step(fmax(most_percent, 0.01) * 0.5);
+    for (int k = LEVELS - 1; k > 0; --k) {
+        p->level[k] = level;
+        level = hci_svg_nice_step(0.39 * level);
+    }
+    p->level[0] = 0.0;
+}
+
+/* Ripple in steps of 1, 2, 5; anything else in equal steps. */
+static void set_levels(panel *p)
+{
+    const hci_grid *s = p->field->sweep;
+    hci_range r = HCI_RANGE_EMPTY;
+    for (size_t k = 0; k < s->plan.count && p->value; ++k)
+        if (is_drawn(p->field, k) && s->row[k].verdict <= HCI_GRID_RIPPLE)
+            hci_range_include(&r, p->value(s, &s->row[k].best));
+    if (!(r.low <= r.high)) r = (hci_range){0.0, 1.0};
+    const double least = fmax((r.high - r.low) / (LEVELS - 1), fmax(1e-3 * r.high, 1e-12));
+    const double step = hci_svg_nice_step(least), low = step * floor(r.low / step);
+    for (int k = 0; k < LEVELS; ++k)
+        p->level[k] = low + k * step;
+    if (p->is_ripple) set_ripple_levels(p, r.high);
+}
+
+/* Classes of the limits that bind: none, current, rms, voltage, copper, several. */
+static int limit_class(const hci_grid_figures *f)
+{
+    int found = 0, count = 0;
+    for (int k = 0; k <= HCI_LIMIT_COPPER; ++k)
+        if (f->binds[k]) {
+            found = k + 1;
+            ++count;
+        }
+    return count > 1 ? HCI_LIMIT_COPPER + 2 : found;
+}
+
+static void style_of(const panel *p, const hci_grid_row *row, char style[16])
+{
+    int k = LEVELS - 1;
+    if (row->verdict > HCI_GRID_RIPPLE && (p->value || row->verdict > HCI_GRID_TORQUE)) {
+        snprintf(style, 16, "band");
+        return;
+    }
+    if (!p->value) {
+        snprintf(style, 16, "kind%d", limit_class(&row->best));
+        return;
+    }
+    const double value = p->value(p->field->sweep, &row->best);
+    while (k > 0 && !(value >= p->level[k] - 1e-12 * fabs(p->level[k])))
+        --k;
+    snprintf(style, 16, "%s%d", isfinite(value) ? "heat" : "band", isfinite(value) ? k : 0);
+    if (!isfinite(value)) style[4] = '\0';
+}
+
+static void draw_cells(hci_output *out, const panel *p)
+{
+    const hci_grid *s = p->field->sweep;
+    for (size_t k = 0; k < s->plan.count; ++k) {
+        const hci_grid_point *point = &s->plan.point[k];
+        double x[2], y[2];
+        char style[16];
+        if (!is_drawn(p->field, k)) continue;
+        edges(&p->field->speed_rpm, hci_grid_rpm(point->speed_rad_per_s), x);
+        edges(&p->field->torque_Nm, point->torque_Nm, y);
+        style_of(p, &s->row[k], style);
+        hci_svg_rectangle(out, style, hci_svg_at(&p->x, x[0]), hci_svg_at(&p->y, y[1]), hci_svg_at(&p->x, x[1]),
+                          hci_svg_at(&p->y, y[0]));
+    }
+}
+
+/* ---- legends ---- */
+
+static void draw_levels(hci_output *out, const panel *p)
+{
+    const double top = p->box.bottom + 46.0, width = PANEL_WIDTH / LEVELS;
+    const double step = p->level[1] - p->level[0];
+    for (int k = 0; k < LEVELS; ++k) {
+        const double left = p->box.left + k * width;
+        char style[16], text[HCI_SVG_NUMBER_SIZE];
+        snprintf(style, sizeof style, "heat%d", k);
+        hci_svg_rectangle(out, style, left, top, left + width, top + 10.0);
+        if (p->is_ripple)
+            hci_svg_short_text(text, p->level[k]);
+        else
+            hci_svg_tick_text(text, p->level[k], step, fabs(p->level[LEVELS - 1]));
+        hci_svg_label(out, "small quiet", left, top + 22.0, text);
+    }
+}
+
+static void draw_kinds(hci_output *out, const panel *p)
+{
+    static const char *const NAME[] = {"none", "current", "rms", "voltage", "copper", "several"};
+    const double top = p->box.bottom + 46.0;
+    double left = p->box.left;
+    for (int k = 0; k < (int)(sizeof NAME / sizeof NAME[0]); ++k) {
+        char style[16];
+        snprintf(style, sizeof style, "kind%d", k);
+        hci_svg_rectangle(out, style, left, top, left + 10.0, top + 10.0);
+        hci_svg_label(out, "small quiet", left + 13.0, top + 9.0, NAME[k]);
+        left += 24.0 + hci_svg_text_width("small quiet", NAME[k]);
+    }
+}
+
+static void draw_panel(hci_output *out, panel *p)
+{
+    set_levels(p);
+    hci_svg_head(out, &p->box, p->title, NULL, 0);
+    draw_cells(out, p);
+    hci_svg_grid(out, &p->x, &p->box, false);
+    hci_svg_grid(out, &p->y, &p->box, true);
+    if (p->value)
+        draw_levels(out, p);
+    else
+        draw_kinds(out, p);
+    hci_svg_label(out, "quiet middle", 0.5 * (p->box.left + p->box.right), p->box.bottom + 36.0, "speed in rpm");
+}
+
+/* ---- all of it ---- */
+
+static void draw_remarks(hci_output *out, const field *f)
+{
+    char text[96] = "";
+    const double left = LEFT[2], top = TOP[1] + 20.0;
+    if (!isnan(f->link_V)) snprintf(text, sizeof text, "Drawn: the points with a dc link of %.5g V.", f->link_V);
+    hci_svg_label(out, "quiet", left, top, "Upwards: mean torque in N·m.");
+    hci_svg_label(out, "quiet", left, top + 22.0, "Grey: the mean torque is not reached within the limits;");
+    hci_svg_label(out, "quiet", left, top + 40.0, "in the map of limits: nothing keeps them, or no result.");
+    hci_svg_label(out, "quiet", left, top + 62.0, text);
+    hci_svg_label(out, "quiet", left, top + 84.0, "map.csv has the numbers.");
+}
+
+void hci_plot_map(hci_output *out, const hci_grid *s, bool stands_alone)
+{
+    static const hci_svg_picture PICTURE = {
+        "sweep", "Maps over torque and speed",
+        "Five maps over speed and mean torque, a cell for each point: torque ripple, copper, peak phase current, "
+        "peak line voltage, and the limit that binds. map.csv has the numbers.",
+        0, 0, WIDTH, HEIGHT};
+    const bool in_W = isfinite(s->request.machine->resistance_ohm);
+    field f;
+    fill_field(s, &f);
+    panel all[] = {make_panel(&f, 0, "Torque ripple in % of the mean", ripple),
+                   make_panel(&f, 1, in_W ? "Copper loss in W" : "Mean of i_a² + i_b² + i_c² in A²", copper),
+                   make_panel(&f, 2, "Peak phase current in A", peak),
+                   make_panel(&f, 3, "Peak line voltage in V", line),
+                   make_panel(&f, 4, "Limit that binds", NULL)};
+    hci_plot_sweep_begin(out, &PICTURE, s, stands_alone);
+    for (size_t k = 0; k < sizeof all / sizeof all[0]; ++k)
+        draw_panel(out, &all[k]);
+    draw_remarks(out, &f);
+    hci_svg_end(out);
+}

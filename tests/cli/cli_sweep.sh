@@ -1,0 +1,139 @@
+#!/bin/sh
+# `sweep`: words that belong together, lists, points that go on from where they were after an interruption, shares that join to the bytes of
+# the whole, the same bytes with one process and with several, points without a result, and that a point is what `solve` gives.
+#   cli_sweep.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
+. "$1/tests/support/common.sh"
+. "$1/tests/cli/small_machine.sh"
+cd "$source_dir" || exit 1
+
+fresh
+printf 'resistance,0.3,ohm,test\ninductance_d,1.5,mH,test\ninductance_q,1.5,mH,test\n' >>"$m/machine.csv"
+printf 'order,set\n1,pos\n5,neg\n7,pos\n11,neg\n13,pos\n' >"$h"
+
+# ---- words that belong together
+
+refused() { # EXPRESSION WORD...
+    expression=$1
+    shift
+    run 2 sweep "$@" -o "$work/out"
+    one_line_is_said
+    says "$expression"
+    check "something was written by $*" [ ! -e "$work/out" ]
+}
+refused 'expected --trade-off, --envelope, --map, or a GRID' "$m"
+refused 'three sweeps; give one' "$m" --map --envelope
+refused 'add --torque NM' "$m" --trade-off
+refused 'one torque at one speed' "$m" --trade-off --torque 1 --speeds 100,200
+refused 'add --speeds' "$m" --envelope --limit-current 5
+refused 'looks for the torque' "$m" --envelope --speeds 100 --torques 1,2
+refused 'add --torques NM,... and --speeds' "$m" --map --torques 1
+refused '--ripple goes with --envelope' "$m" --map --torques 1 --speeds 100 --ripple 2
+refused 'go with --trade-off' "$m" --envelope --speeds 100 --torque 1
+refused 'takes the place of --torques' "$m" "$t" --torques 1
+refused 'expected MACHINE, or MACHINE and a GRID' "$m" "$t" "$h" --map
+refused 'give the limit in W' "$m" --envelope --speeds 100 --limit-copper 1.2x
+refused 'limited at a speed; add --speed RPM' "$m" --trade-off --torque 1 --limit-voltage 50
+refused 'such as 3/16' "$m" --map --torques 1 --speeds 100 --shard 3
+refused 'such as 3/16' "$m" --map --torques 1 --speeds 100 --shard 4/3
+refused 'takes none; expected a torque above 0' "$m" --trade-off --torque 0
+for list in '' ' ' 1,1 2,1 1:2 1:2:0 2:1:1 1:2:x nan 1,,2 1:1e9:1e-3 '1;2'; do
+    refused '--torques: found .*expected ascending values' "$m" --map --torques "$list" --speeds 100
+done
+run 2 sweep "$m" --map --torques 1 --speeds 100 --shard 1/2
+says 'add --out FOLDER'
+run 2 sweep "$m" --map --torques 1 --speeds 100 --report
+says 'add --out FOLDER'
+
+# ---- one run, several processes, shares
+
+map="sweep $m --map --torques 0.5:2:0.5 --speeds 300,1500 --limit-current 12 --limit-voltage 40 --harmonics $h --report"
+# shellcheck disable=SC2086
+{
+    run 0 $map --jobs 1 -o "$work/one"
+    says '^swept: .*, map, 8 points' 'phase current at most 12 A; line voltage at most 40 V'
+    check "files: $(ls -A "$work/one" | tr '\n' ' ')" [ "$(ls -A "$work/one" | tr '\n' ' ')" = "map.csv map.svg points.csv report.html summary.json sweep.csv " ]
+    run 0 $map --jobs 3 --json -o "$work/three"
+    check "--json differs from summary.json" cmp -s "$work/stdout" "$work/three/summary.json"
+    run 0 $map --shard 1/3 -o "$work/share1"
+    says '^3 of 8 points are done and kept in ' '--join'
+    check "files: $(ls -A "$work/share1" | tr '\n' ' ')" [ "$(ls -A "$work/share1" | tr '\n' ' ')" = "points.csv sweep.csv " ]
+    run 0 $map --shard 2/3 -q -o "$work/share2"
+    nothing_on_stderr
+    run 0 $map --shard 3/3 -q -o "$work/share3"
+    run 0 $map --join "$work/share1" --join "$work/share2" --join "$work/share3" -q -o "$work/joined"
+}
+for folder in three joined; do
+    check "$folder is not the whole" diff -r "$work/one" "$work/$folder"
+done
+
+# ---- interrupted, killed, and gone on
+
+# shellcheck disable=SC2086
+{
+    run 0 $map --shard 1/4 -q -o "$work/again"
+    rm "$work/again/sweep.csv"
+    run 3 $map -q -o "$work/again"
+    says 'sweep.csv'
+    rm -r "$work/again"
+    run 0 $map --shard 1/4 -q -o "$work/again"
+    run 3 $map --ignore-ratings -q -o "$work/again"
+    says '`ignore-ratings` was not given, and is yes; expected the same command'
+    sed 's/,0.3,ohm/,0.4,ohm/' "$m/machine.csv" >"$work/other.csv" && cp "$m/machine.csv" "$work/own.csv" && cp "$work/other.csv" "$m/machine.csv"
+    run 3 $map -q -o "$work/again"
+    says '`machine.csv` was checksum'
+    cp "$work/own.csv" "$m/machine.csv"
+    run 0 $map -q -o "$work/again"
+}
+check "gone on is not the whole" diff -r "$work/one" "$work/again"
+
+# ended SIGNAL FOLDER: a longer sweep, ended as soon as some points are kept, and gone on.
+long="sweep $m --map --torques 0.2:2:0.2 --speeds 300,900,1500 --limit-current 12 --limit-voltage 40 --harmonics $h --minimise peak-to-peak"
+# shellcheck disable=SC2086
+run 0 $long -q -o "$work/long"
+ended() {
+    shown="hci-solve $long, and kill -$1"
+    # shellcheck disable=SC2086
+    env --default-signal=INT "$hci_solve" $long -q -o "$2" 2>"$work/stderr" &
+    job=$!
+    tries=0
+    while [ ! -s "$2/points.csv" ] && kill -0 $job 2>/dev/null && [ $tries -lt 600 ]; do sleep 0.05 && tries=$((tries + 1)); done
+    kill "-$1" $job 2>/dev/null
+    wait $job 2>/dev/null
+    check "nothing was kept" [ -s "$2/points.csv" ]
+    # shellcheck disable=SC2086
+    run 0 $long -q -o "$2"
+    rm -f "$2"/.hci-*
+    check "ended by $1 and gone on is not the whole" diff -r "$work/long" "$2"
+}
+ended INT "$work/interrupted"
+ended KILL "$work/killed"
+
+# ---- a point is what `solve` gives; a grid in a file
+
+printf 'order,amplitude_Nm,phase_rad\n0,1.5,0\n' >"$t"
+run 1 solve "$m" --target "$t" --harmonics "$h" --limit-current 12 --limit-voltage 40 --speed 1500 --json
+awk -F: '/"peak_phase_A"|"peak_line_voltage_V"/ { gsub(/[ ,\t]/, "", $2); print $2 }' "$work/stdout" | sort >"$work/solved"
+awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k } $1 == 1.5 && $2 == 1500 { print $at["peak_phase_A"]; print $at["peak_line_V"] }' \
+    "$work/one/map.csv" | sort >"$work/swept"
+check "a point is not what solve gives: $(cat "$work/solved" "$work/swept" | tr '\n' ' ')" cmp -s "$work/solved" "$work/swept"
+printf 'torque_mNm,speed_rpm,dc_link_V\n500,300,40\n1500,1500,40\n' >"$work/grid.csv"
+run 0 sweep "$m" "$work/grid.csv" --limit-current 12 --harmonics "$h" -q -o "$work/grid"
+check "a grid is not its points" [ "$(cut -d, -f4-8 "$work/grid/map.csv" | sed -n 3p)" = "$(grep '^1.5,1500,' "$work/one/map.csv" | cut -d, -f4-8)" ]
+printf 'torque_Nm,speed_rpm,dc_link_V\n1,300,0\n' >"$work/grid.csv"
+run 3 sweep "$m" "$work/grid.csv" --limit-current 12 -o "$work/out"
+says 'grid.csv:2: .*a voltage above 0'
+
+# ---- no result
+
+grep -v '^inductance' "$work/own.csv" >"$m/machine.csv"
+run 1 sweep "$m" --map --torques 1 --speeds 300 --limit-voltage 40 -o "$work/failed"
+says 'failed +1 points' 'point 1: .*inductance'
+check "no row of a point that failed" grep -q ',failed,.*inductance' "$work/failed/map.csv"
+cp "$work/own.csv" "$m/machine.csv"
+run 1 sweep "$m" --envelope --speeds 300 -q
+run 0 sweep "$m" --envelope --speeds 300,1200 --ripple 60 --limit-current 12 --limit-voltage 40 --harmonics "$h" -o "$work/envelope"
+says 'envelope, 2 points' '^ +300 rpm +[0-9.]+ +[0-9.]+ +[0-9.]+ +[0-9.]+ +[0-9.]+'
+run 0 sweep "$m" --trade-off --torque 1 --currents 5,8 --coppers 1.1 --harmonics "$h" -o "$work/trade_off"
+says 'trade-off, 3 points' 'plain sine' 'least limit of the phase current'
+
+finish
