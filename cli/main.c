@@ -16,8 +16,9 @@
 #include "hci/version.h"
 
 /* In the order in which one uses them. */
-static const cli_command *const COMMANDS[] = {&cli_init, &cli_check,    &cli_harmonics, &cli_solve,
-                                              &cli_sweep, &cli_emit, &cli_simulate, &cli_predict, &cli_diagnose};
+static const cli_command *const COMMANDS[] = {&cli_init,     &cli_check,   &cli_harmonics,
+                                              &cli_solve,    &cli_sweep,   &cli_emit,
+                                              &cli_simulate, &cli_predict, &cli_diagnose};
 enum { COMMAND_COUNT = sizeof COMMANDS / sizeof COMMANDS[0] };
 
 static int print_usage(FILE *stream)

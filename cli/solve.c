@@ -75,7 +75,7 @@ static const cli_option OPTIONS[] = {
     [DRIVE] = {"drive", 0, CLI_FILE, "FILE",
                .help = "drive.csv: leaves out what its current loop cannot be made to follow at --speed"},
     [MINIMISE] = {"minimise", 0, CLI_CHOICE, "WHAT",
-                  .help = "ripple that is made smallest where it cannot be as wanted:", 
+                  .help = "ripple that is made smallest where it cannot be as wanted:",
                   .choices = cli_minimise_choices},
     [TEMPERATURE] = {"temperature", 0, CLI_NUMBER, "C",
                      .help = "of the magnets, for magnet_temperature in effects.csv", .low = -273.15,

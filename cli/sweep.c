@@ -17,7 +17,8 @@ enum { BEFORE_LIMITS = SWEEP_LIMITS - 1, CLI_LIMIT_KEYS, CLI_COMMON_KEYS };
 
 static const cli_option OPTIONS[] = {
     [SWEEP_TRADE_OFF] = {"trade-off", 0, CLI_FLAG, NULL,
-                         .help = "ripple by the limit of the peak current and by that of copper, for --torque"},
+                         .help =
+                             "ripple by the limit of the peak current and by that of copper, for --torque"},
     [SWEEP_ENVELOPE] = {"envelope", 0, CLI_FLAG, NULL,
                         .help = "the largest torque at each of --speeds, beside that of the plain sine"},
     [SWEEP_MAP] = {"map", 0, CLI_FLAG, NULL, .help = "each of --torques at each of --speeds"},
@@ -26,18 +27,19 @@ static const cli_option OPTIONS[] = {
     [SWEEP_TORQUES] = {"torques", 0, CLI_TEXT, "NM,...",
                        .help = "with --map: mean torques; lists and ranges such as 0.5,1:4:0.5"},
     [SWEEP_SPEED] = {"speed", 0, CLI_NUMBER, "RPM",
-                     .help = "with --trade-off: at which the voltage is limited (0)", .low = -1e7, .high = 1e7},
+                     .help = "with --trade-off: at which the voltage is limited (0)", .low = -1e7,
+                     .high = 1e7},
     [SWEEP_SPEEDS] = {"speeds", 0, CLI_TEXT, "RPM,...",
                       .help = "with --envelope and --map: lists and ranges such as 0:3000:100"},
     [SWEEP_LINKS] = {"dc-links", 0, CLI_TEXT, "V,...",
                      .help = "with --envelope and --map: dc-link voltages, each with all speeds"},
-    [SWEEP_RIPPLE] = {"ripple", 0, CLI_NUMBER, "PERCENT", .help = "with --envelope: T_ripple that is allowed (1)",
-                      .low = 0.02, .high = 1000.0},
+    [SWEEP_RIPPLE] = {"ripple", 0, CLI_NUMBER, "PERCENT",
+                      .help = "with --envelope: T_ripple that is allowed (1)", .low = 0.02, .high = 1000.0},
     [SWEEP_CURRENTS] = {"currents", 0, CLI_TEXT, "A,...",
                         .help = "with --trade-off: limits of the peak phase current (default: chosen)"},
-    [SWEEP_COPPERS] = {"coppers", 0, CLI_TEXT, "RATIO,...",
-                       .help =
-                           "with --trade-off: limits of the copper loss over that of the plain sine (default: chosen)"},
+    [SWEEP_COPPERS] =
+        {"coppers", 0, CLI_TEXT, "RATIO,...",
+         .help = "with --trade-off: limits of the copper loss over that of the plain sine (default: chosen)"},
     [SWEEP_HARMONICS] = {"harmonics", 0, CLI_FILE, "FILE",
                          .help = "components to use: order,set (sym, asym, pos, neg)"},
     [SWEEP_AUTO] = {"auto", 0, CLI_COUNT_OPTIONAL, "K",
@@ -49,15 +51,18 @@ static const cli_option OPTIONS[] = {
     [SWEEP_TEMPERATURE] = {"temperature", 0, CLI_NUMBER, "C",
                            .help = "of the magnets, for magnet_temperature in effects.csv", .low = -273.15,
                            .high = 1e4},
-    [SWEEP_JOBS] = {"jobs", 'j', CLI_WHOLE, "N", .help = "processes (default: as many as there are processors)",
-                    .low = 1.0, .high = CLI_MOST_JOBS},
+    [SWEEP_JOBS] = {"jobs", 'j', CLI_WHOLE, "N",
+                    .help = "processes (default: as many as there are processors)", .low = 1.0,
+                    .high = CLI_MOST_JOBS},
     [SWEEP_SHARD] = {"shard", 0, CLI_TEXT, "K/N",
-                     .help = "solve only share K of N, such as 3/16, and leave its points in --out for --join"},
+                     .help =
+                         "solve only share K of N, such as 3/16, and leave its points in --out for --join"},
     [SWEEP_JOIN] = {"join", 0, CLI_FOLDER, "FOLDER",
                     .help = "take the points that the same sweep left there; may be given for several",
                     .repeats = true},
     [SWEEP_OUT] = {"out", 'o', CLI_FOLDER, "FOLDER",
-                   .help = "where the results go, and points as they are done; without it nothing is written"},
+                   .help =
+                       "where the results go, and points as they are done; without it nothing is written"},
     [SWEEP_REPORT] = {"report", 0, CLI_FLAG, NULL, .help = "report.html beside the results, for people"},
     CLI_LIMIT_OPTIONS,
     CLI_COMMON_OPTIONS};
@@ -80,10 +85,11 @@ static bool is_vain(const hci_grid *s)
 static void say_unfinished(const cli_arguments *a, const hci_grid *s)
 {
     if (!cli_is_wordy()) return;
-    cli_say("%zu of %zu points are done%s%s\n", hci_grid_done(s), s->plan.count, a->value[SWEEP_OUT] ? " and kept in " : "",
-            a->value[SWEEP_OUT] ? a->value[SWEEP_OUT] : "");
+    cli_say("%zu of %zu points are done%s%s\n", hci_grid_done(s), s->plan.count,
+            a->value[SWEEP_OUT] ? " and kept in " : "", a->value[SWEEP_OUT] ? a->value[SWEEP_OUT] : "");
     if (a->value[SWEEP_SHARD] && !cli_signals_deferred(NULL))
-        cli_say("  the same command without --shard and with --join for each folder puts the shares together\n");
+        cli_say(
+            "  the same command without --shard and with --join for each folder puts the shares together\n");
     else if (a->value[SWEEP_OUT])
         cli_say("  the same command goes on from there\n");
 }
@@ -138,20 +144,23 @@ static int run(const cli_arguments *a)
 const cli_command cli_sweep = {
     .name = "sweep",
     .words = "MACHINE [GRID]",
-    .does = "Solves over a grid: ripple against peak current and copper, largest torque over speed, maps.\n"
-            "Each point is solved as `solve` does, by as many processes as there are processors. Writes\n"
-            "trade_off.csv, envelope.csv or map.csv with its picture, summary.json, and points.csv and sweep.csv,\n"
-            "from which the same command goes on; with --report also report.html.\n"
-            "GRID: a table torque_Nm,speed_rpm[,dc_link_V], a point of a map in each row.",
+    .does =
+        "Solves over a grid: ripple against peak current and copper, largest torque over speed, maps.\n"
+        "Each point is solved as `solve` does, by as many processes as there are processors.\n"
+        "Writes trade_off.csv, envelope.csv or map.csv with its picture, summary.json, and points.csv and\n"
+        "sweep.csv, from which the same command goes on; with --report also report.html.\n"
+        "GRID: a table torque_Nm,speed_rpm[,dc_link_V], a point of a map in each row.",
     .options = OPTIONS,
     .words_needed = 1,
     .takes_more_words = true,
     .word_kind = CLI_FILE,
-    .example = "  hci-solve sweep data/machine_a --trade-off --torque 2.46 -o out/trade_off\n"
-               "  hci-solve sweep data/machine_c --envelope --ripple 1 --speeds 0:1500:100 --limit-current 8 -o "
-               "out/envelope\n"
-               "  hci-solve sweep data/machine_c --map --torques 2:8:2 --speeds 0:600:200 --limit-current 8 -o out/map\n"
-               "\nExit codes: 0 done; 1 done, but no point has a torque; " CLI_EXIT_ERRORS,
+    .example =
+        "  hci-solve sweep data/machine_a --trade-off --torque 2.46 -o out/trade_off\n"
+        "  hci-solve sweep data/machine_a --envelope --ripple 1 --speeds 0 --limit-current 20 -o "
+        "out/envelope\n"
+        "  hci-solve sweep data/machine_c --map --torques 2:8:3 --speeds 0:800:400 --limit-current 8 -o "
+        "out/map\n"
+        "\nExit codes: 0 done; 1 done, but no point has a torque; " CLI_EXIT_ERRORS,
     .source = "cli/sweep.c",
     .guide = "drive.md",
     .run = run,

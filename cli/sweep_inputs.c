@@ -28,8 +28,8 @@ typedef struct {
 static hci_status wrong_list(const list_kind *kind, const char *found, hci_note *note)
 {
     return hci_note_set(note, HCI_ERROR_ARGUMENT,
-                        "--%s: found `%.60s`, expected ascending values from %g to %g, as in %s", kind->option,
-                        found, kind->low, kind->high, kind->example);
+                        "--%s: found `%.60s`, expected ascending values from %g to %g, as in %s",
+                        kind->option, found, kind->low, kind->high, kind->example);
 }
 
 static bool append(cli_list *list, double value)
@@ -76,7 +76,8 @@ static hci_status append_item(const list_kind *kind, const char *item, cli_list 
     const double steps = floor((range[1] - range[0]) / range[2] + 1e-9);
     if (!(steps < MOST_VALUES)) return wrong_list(kind, item, note);
     for (double k = 0.0; k <= steps; k += 1.0) {
-        const double value = rounded(range[0] + k * range[2]), last = list->count ? list->value[list->count - 1] : 0.0;
+        const double value = rounded(range[0] + k * range[2]),
+                     last = list->count ? list->value[list->count - 1] : 0.0;
         if (!(value >= kind->low && value <= kind->high) || (list->count && !(value * kind->factor > last)))
             return wrong_list(kind, item, note);
         if (!append(list, value * kind->factor)) return hci_note_memory(note, NULL, "--%s", kind->option);
@@ -143,7 +144,8 @@ static const char *wrong_axes(const cli_arguments *a)
                        a->given[SWEEP_COPPERS]))
         return "sweep: --torque, --speed, --currents and --coppers go with --trade-off; otherwise --torques "
                "and --speeds";
-    if (envelope && !a->given[SWEEP_SPEEDS]) return "sweep: --envelope is over the speed; add --speeds RPM,...";
+    if (envelope && !a->given[SWEEP_SPEEDS])
+        return "sweep: --envelope is over the speed; add --speeds RPM,...";
     if (envelope && a->given[SWEEP_TORQUES])
         return "sweep: --envelope looks for the torque; leave out --torques";
     if (!envelope && a->given[SWEEP_RIPPLE]) return "sweep: --ripple goes with --envelope";
@@ -186,17 +188,18 @@ static hci_status read_shard(const cli_arguments *a, cli_sweep_inputs *in, hci_n
         in->shares = (size_t)of[1];
         return HCI_OK;
     }
-    return hci_note_set(note, HCI_ERROR_ARGUMENT, "--shard: found `%.60s`, expected a share such as 3/16", text);
+    return hci_note_set(note, HCI_ERROR_ARGUMENT, "--shard: found `%.60s`, expected a share such as 3/16",
+                        text);
 }
 
 /* A limit of the voltage that no speed lets act is a slip. */
 static hci_status check_voltage(const cli_arguments *a, const cli_sweep_inputs *in, hci_note *note)
 {
     const hci_solve_options *o = &in->options;
-    if (in->speed_rad_per_s.count || in->point || (o->limit_voltage_V == 0.0 && o->limits.voltage_reserve == 0.0))
+    if (in->speed_rad_per_s.count || in->point ||
+        (o->limit_voltage_V == 0.0 && o->limits.voltage_reserve == 0.0))
         return HCI_OK;
-    return hci_note_set(note, HCI_ERROR_ARGUMENT,
-                        "sweep: the voltage is limited at a speed; add %s RPM",
+    return hci_note_set(note, HCI_ERROR_ARGUMENT, "sweep: the voltage is limited at a speed; add %s RPM",
                         a->given[SWEEP_TRADE_OFF] ? "--speed" : "--speeds");
 }
 
@@ -204,7 +207,8 @@ static hci_status check_voltage(const cli_arguments *a, const cli_sweep_inputs *
 
 static bool is_about_work(int key)
 {
-    return key == SWEEP_JOBS || key == SWEEP_SHARD || key == SWEEP_JOIN || key == SWEEP_OUT || key == SWEEP_REPORT;
+    return key == SWEEP_JOBS || key == SWEEP_SHARD || key == SWEEP_JOIN || key == SWEEP_OUT ||
+           key == SWEEP_REPORT;
 }
 
 static void list_inputs(const cli_option *table, const cli_arguments *a, hci_grid_inputs *inputs)
@@ -242,21 +246,22 @@ static hci_grid_axis axis_of(const cli_list *list)
 static void fill_request(const cli_arguments *a, size_t points, cli_sweep_inputs *in)
 {
     in->request = (hci_grid_request){.kind = a->given[SWEEP_TRADE_OFF]  ? HCI_GRID_TRADE_OFF
-                                              : a->given[SWEEP_ENVELOPE] ? HCI_GRID_ENVELOPE
-                                                                         : HCI_GRID_MAP,
-                                      .machine = &in->machine,
-                                      .options = &in->options,
-                                      .ripple_percent = cli_number_or(a, SWEEP_RIPPLE, 1.0),
-                                      .torque_Nm = axis_of(&in->torque_Nm),
-                                      .speed_rad_per_s = axis_of(&in->speed_rad_per_s),
-                                      .link_V = axis_of(&in->link_V),
-                                      .limit_current_A = axis_of(&in->current_A),
-                                      .limit_copper = axis_of(&in->copper),
-                                      .point = in->point,
-                                      .point_count = points};
+                                             : a->given[SWEEP_ENVELOPE] ? HCI_GRID_ENVELOPE
+                                                                        : HCI_GRID_MAP,
+                                     .machine = &in->machine,
+                                     .options = &in->options,
+                                     .ripple_percent = cli_number_or(a, SWEEP_RIPPLE, 1.0),
+                                     .torque_Nm = axis_of(&in->torque_Nm),
+                                     .speed_rad_per_s = axis_of(&in->speed_rad_per_s),
+                                     .link_V = axis_of(&in->link_V),
+                                     .limit_current_A = axis_of(&in->current_A),
+                                     .limit_copper = axis_of(&in->copper),
+                                     .point = in->point,
+                                     .point_count = points};
 }
 
-hci_status cli_sweep_read(const cli_option *table, const cli_arguments *a, cli_sweep_inputs *in, hci_note *note)
+hci_status cli_sweep_read(const cli_option *table, const cli_arguments *a, cli_sweep_inputs *in,
+                          hci_note *note)
 {
     size_t points = 0;
     hci_status status = check_together(a, note);

@@ -42,7 +42,8 @@ static void take_span(void *context, size_t item, const void *answer, int number
     if (answer)
         memcpy(&w->answer, answer, sizeof w->answer);
     else
-        w->answer.status = hci_note_set(&w->answer.note, HCI_ERROR_NUMERIC, "the solver ended by signal %d", number);
+        w->answer.status =
+            hci_note_set(&w->answer.note, HCI_ERROR_NUMERIC, "the solver ended by signal %d", number);
 }
 
 static bool is_wanted(void *context)
@@ -162,7 +163,8 @@ static hci_status solve_points(points_work *w, size_t jobs, hci_note *note)
 
 /* ---- all of it ---- */
 
-static hci_status take_known(const cli_sweep_inputs *in, const cli_sweep_work *work, hci_grid *sweep, hci_note *note)
+static hci_status take_known(const cli_sweep_inputs *in, const cli_sweep_work *work, hci_grid *sweep,
+                             hci_note *note)
 {
     hci_status status = HCI_OK;
     if (work->out) status = hci_grid_take_points(sweep, &in->inputs, work->out, false, note);
@@ -171,7 +173,8 @@ static hci_status take_known(const cli_sweep_inputs *in, const cli_sweep_work *w
     return status;
 }
 
-hci_status cli_sweep_run(const cli_sweep_inputs *in, const cli_sweep_work *work, hci_grid *sweep, hci_note *note)
+hci_status cli_sweep_run(const cli_sweep_inputs *in, const cli_sweep_work *work, hci_grid *sweep,
+                         hci_note *note)
 {
     const bool is_trade_off = in->request.kind == HCI_GRID_TRADE_OFF;
     points_work w = {.inputs = in, .out = work->out, .sweep = sweep};

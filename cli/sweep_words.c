@@ -50,8 +50,9 @@ static void show_number(double value, int width)
 static void show_envelope(const hci_grid *s)
 {
     const size_t every = (s->plan.count + MOST_ROWS - 1) / MOST_ROWS;
-    cli_say("\n  largest mean torque in N·m with at most %.4g %% of ripple, with any, and of the plain sine\n",
-            s->request.ripple_percent);
+    cli_say(
+        "\n  largest mean torque in N·m with at most %.4g %% of ripple, with any, and of the plain sine\n",
+        s->request.ripple_percent);
     cli_say("      speed    torque       any   (ripple)      sine   (ripple)  binds\n");
     for (size_t k = 0; k < s->plan.count; k += every) {
         const hci_grid_row *row = &s->row[k];
@@ -76,7 +77,8 @@ static void show_map(const hci_grid *s)
     cli_say("  no ripple    %zu points\n", count[HCI_GRID_REACHED]);
     cli_say("  least ripple %zu points\n", count[HCI_GRID_RIPPLE]);
     cli_say("  less torque  %zu points\n", count[HCI_GRID_TORQUE]);
-    if (count[HCI_GRID_LIMITS]) cli_say("  no current   keeps the limits at %zu points\n", count[HCI_GRID_LIMITS]);
+    if (count[HCI_GRID_LIMITS])
+        cli_say("  no current   keeps the limits at %zu points\n", count[HCI_GRID_LIMITS]);
 }
 
 /* ---- all of it ---- */

@@ -133,7 +133,8 @@ static bool is_fault(int number)
     return number == SIGSEGV || number == SIGBUS || number == SIGFPE || number == SIGILL || number == SIGABRT;
 }
 
-/* The next item for a process, which is started where there is none; one that has nothing to do stays idle. */
+/* The next item for a process, which is started where there is none; one that has nothing to do stays idle.
+ */
 static hci_status hand_out(crew *c, worker *w, hci_note *note)
 {
     hci_status status = HCI_OK;
@@ -163,8 +164,8 @@ static hci_status take_answer(crew *c, worker *w, bool *stops, hci_note *note)
     }
     *stops = number == SIGINT;
     if (*stops) return HCI_OK;
-    return hci_note_set(note, HCI_ERROR_NUMERIC, "a process was ended by signal %d; the points that are done are kept",
-                        number);
+    return hci_note_set(note, HCI_ERROR_NUMERIC,
+                        "a process was ended by signal %d; the points that are done are kept", number);
 }
 
 static size_t list_busy(const crew *c, struct pollfd list[], size_t place[])

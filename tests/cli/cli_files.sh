@@ -140,6 +140,29 @@ run 0 simulate data/machine_a --table "$work/solve" --drive data/drive/machine_a
 written "$work/speeds/speeds.csv" '`speeds.csv`'
 named "$work/speeds/summary.json" 'summary.json of simulate --table'
 
+# ---- sweep
+
+for name in trade_off.csv envelope.csv map.csv points.csv sweep.csv; do
+    example "\`$name\`" >"$work/example.csv"
+    check "the example of $name has other columns" fits "$(header "$work/example.csv")" "\`$name\`"
+done
+example 'A grid' >"$work/grid.csv"
+check "the example of a grid: $(header "$work/grid.csv")" [ "$(sed -n 2p "$work/grid.csv")" ]
+sweep="sweep $m --limit-current 12 --harmonics $work/harmonics.csv -q"
+# shellcheck disable=SC2086
+{
+    run 0 $sweep --trade-off --torque 1 --currents 4,8 --coppers 1.2 -o "$work/sweep_trade_off"
+    run 0 $sweep --envelope --speeds 0 --ripple 500 --report -o "$work/sweep_envelope"
+    run 0 $sweep --map --torques 1 --speeds 0 -o "$work/sweep_map"
+    run 1 $sweep "$work/grid.csv" -o "$work/by_grid" # no inductance: no point has a result
+}
+for kind in trade_off envelope map; do
+    written "$work/sweep_$kind/$kind.csv" "\`$kind.csv\`"
+    written "$work/sweep_$kind/points.csv" '`points.csv`'
+    written "$work/sweep_$kind/sweep.csv" '`sweep.csv`'
+    named "$work/sweep_$kind/summary.json" "summary.json of sweep --$(echo $kind | tr _ -)"
+done
+
 # ---- harmonics and predict
 
 run 0 harmonics "$work/driven/trajectory.csv" --quantity cogging --pole-pairs 2 --json -q -o "$work/table"
@@ -211,7 +234,7 @@ done
 
 # ---- no file is written that the page does not name
 
-for file in $(cd "$work" && find solve driven speeds diagnosed first emitted -type f | sed 's#.*/##' | sort -u); do
+for file in $(cd "$work" && find solve sweep_trade_off sweep_envelope sweep_map driven speeds diagnosed first emitted -type f | sed 's#.*/##' | sort -u); do
     case $file in
         page.h | page.c) file=ID.${file#page.} ;;
     esac

@@ -112,7 +112,7 @@ complete_all() {
     done
 }
 complete_all
-is_offered solve simulate -- s # both begin with s
+is_offered solve sweep simulate -- s # they begin with s
 is_offered --method --max-loss --minimise -- solve data/machine_a --m
 is_offered -- solve --bogus
 

@@ -6,7 +6,7 @@
 #include "hci/host/sweep/sweep.h"
 
 /* Numbers of figures: X(field, column). */
-#define HCI_GRID_FIGURES(X)                                                                                 \
+#define HCI_GRID_FIGURES(X)                                                                                  \
     X(mean_Nm, "mean_Nm")                                                                                    \
     X(T_ripple_percent, "T_ripple_percent")                                                                  \
     X(worst_Nm, "worst_error_Nm")                                                                            \

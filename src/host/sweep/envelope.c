@@ -1,6 +1,6 @@
-/* The largest torque at one speed: with any ripple, of the nearest mean to one that is too large; with no more
- * ripple than is allowed, by narrowing down between a torque that has it and one that has not; and of the
- * plain sine, as the largest mean of the one component. */
+/* The largest torque at one speed: with any ripple, of the nearest mean to one that is too large; with no
+ * more ripple than is allowed, by narrowing down between a torque that has it and one that has not; and of
+ * the plain sine, as the largest mean of the one component. */
 #include <math.h>
 #include <string.h>
 
@@ -9,7 +9,7 @@
 #include "host/solution/bounds.h"
 #include "host/sweep/figures.h"
 
-enum { MOST_TRIALS = 20, MOST_FAILURES = 4, MOST_STEPS = 30, SPARE_ORDERS = 8 };
+enum { MOST_TRIALS = 20, MOST_FAILURES = 4, MOST_STEPS = 30, SPARE_ORDERS = 8, PROBES = 4 };
 
 #define FIRST     1.3   /* of the torque of a plain sine at the limit: what is asked for first */
 #define ANOTHER   1.17  /* of it: what is asked for where the solver does not succeed */
@@ -18,6 +18,8 @@ enum { MOST_TRIALS = 20, MOST_FAILURES = 4, MOST_STEPS = 30, SPARE_ORDERS = 8 };
 #define AIM       0.985 /* share of the ripple allowed that is looked for */
 #define FIRST_CUT 0.9   /* of the largest with any ripple: what is tried first */
 #define EDGE      0.04  /* share of the bracket that each step takes off at least */
+#define JUMP      0.5   /* share of the ripple allowed below which the next torque should not have too much */
+#define PROBE     0.005 /* share of the torque by which further ones are tried */
 #define NOTHING   1e-3  /* share of the largest torque that is none */
 
 /* ---- the largest torque ---- */
@@ -78,7 +80,8 @@ static double line(const search *s, double a_Nm, double a_percent, double b_Nm, 
     return a_Nm + (AIM * s->allowed_percent - a_percent) * (b_Nm - a_Nm) / (b_percent - a_percent);
 }
 
-/* The next torque to try: by a line where there is one, and always inside the bracket. is_slow: by halving. */
+/* The next torque to try: by a line where there is one, and always inside the bracket. is_slow: by halving.
+ */
 static double next_Nm(const search *s, bool is_slow)
 {
     const double width_Nm = s->bad_Nm - s->good_Nm, edge_Nm = EDGE * width_Nm;
@@ -117,6 +120,20 @@ static bool goes_on(const search *s)
     return !(s->good_percent >= JUST * s->allowed_percent);
 }
 
+/* A ripple that jumps from little to more than is allowed is one that the solver has not brought down, as
+ * happens where the torque is not linear: torques further on are tried. */
+static void look_beyond(search *s, double most_Nm)
+{
+    double next_Nm = s->bad_Nm;
+    for (int k = 0; k < PROBES && s->good_percent < JUMP * s->allowed_percent; ++k) {
+        const double before_Nm = s->good_Nm;
+        next_Nm *= 1.0 + PROBE;
+        if (next_Nm >= most_Nm) return;
+        try_torque(s, next_Nm);
+        if (s->good_Nm > before_Nm) k = -1;
+    }
+}
+
 /* Fills best and its verdict from `most`. */
 static void narrow(search *s, hci_grid_row *row)
 {
@@ -130,6 +147,7 @@ static void narrow(search *s, hci_grid_row *row)
         try_torque(s, next_Nm(s, k > 3 && k % 2 == 1 && width_Nm > 0.5 * before_Nm));
         before_Nm = width_Nm;
     }
+    if (s->good_Nm > 0.0) look_beyond(s, most_Nm);
     row->verdict = s->good_Nm > 0.0 ? HCI_GRID_REACHED : HCI_GRID_RIPPLE;
     if (s->good_Nm > 0.0) row->best = s->best;
 }
@@ -197,7 +215,8 @@ static void solve_sine(const hci_grid_request *r, const hci_solve_options *optio
 /* The sine first, since it tells how much torque there is about. */
 static void fill(const hci_grid_request *r, const hci_solve_options *o, double first_Nm, hci_grid_row *row)
 {
-    search s = {.request = r, .options = o, .allowed_percent = r->ripple_percent > 0.0 ? r->ripple_percent : 1.0};
+    search s = {
+        .request = r, .options = o, .allowed_percent = r->ripple_percent > 0.0 ? r->ripple_percent : 1.0};
     hci_grid_answer a;
     solve_sine(r, o, first_Nm, row);
     solve_largest(r->machine, o, row->sine.mean_Nm > 0.0 ? FIRST * row->sine.mean_Nm : first_Nm, &a);

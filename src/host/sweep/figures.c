@@ -4,22 +4,26 @@
 #include <math.h>
 #include <string.h>
 
-enum { SAMPLES_PER_PERIOD = 32, LEAST_SAMPLES = 1024 }; /* of the highest order: peaks to half a percent of it */
+enum {
+    SAMPLES_PER_PERIOD = 32,
+    LEAST_SAMPLES = 1024
+}; /* of the highest order: peaks to half a percent of it */
 
-#define TOUCHED  1e-4 /* share of a limit below which it does not bind: an interior point leaves every price above 0 */
+#define TOUCHED                                                                                              \
+    1e-4 /* share of a limit below which it does not bind: an interior point leaves every price above 0 */
 #define MEAN_MET 1e-5 /* share of the torque within which a mean is the wanted one */
 
 hci_grid_figures hci_grid_no_figures(void)
 {
     return (hci_grid_figures){.mean_Nm = NAN,
-                               .T_ripple_percent = NAN,
-                               .worst_Nm = NAN,
-                               .worst_order = NAN,
-                               .mean_square_A2 = NAN,
-                               .loss_to_plain = NAN,
-                               .peak_A = NAN,
-                               .rms_A = NAN,
-                               .line_V = NAN};
+                              .T_ripple_percent = NAN,
+                              .worst_Nm = NAN,
+                              .worst_order = NAN,
+                              .mean_square_A2 = NAN,
+                              .loss_to_plain = NAN,
+                              .peak_A = NAN,
+                              .rms_A = NAN,
+                              .line_V = NAN};
 }
 
 /* 100 (max − min)/mean of the torque, or of that of the plain sine; NAN without a mean. */
@@ -33,7 +37,8 @@ static double ripple_percent(const hci_solution *s, bool is_plain)
         const double theta_rad = 2.0 * HCI_PI * (double)(s->period_turns * k) / (double)samples;
         double sum_Nm = 0.0;
         for (size_t j = 0; j < s->order_count; ++j)
-            sum_Nm += hci_harmonics_at(is_plain ? &s->order[j].before_Nm : &s->order[j].torque_Nm, 1, theta_rad);
+            sum_Nm +=
+                hci_harmonics_at(is_plain ? &s->order[j].before_Nm : &s->order[j].torque_Nm, 1, theta_rad);
         mean_Nm += sum_Nm / (double)samples;
         high = fmax(high, sum_Nm);
         low = fmin(low, sum_Nm);
@@ -75,7 +80,7 @@ hci_grid_figures hci_grid_plain_figures_of(const hci_solution *s)
 }
 
 hci_solve_options hci_grid_options_of(const hci_grid_request *r, const hci_grid_point *p,
-                                       const hci_target *target)
+                                      const hci_target *target)
 {
     hci_solve_options o = *r->options;
     o.target = target;
@@ -120,7 +125,7 @@ static void solve(const hci_machine_data *machine, const hci_solve_options *o, h
 /* Without a wish for another ripple first: where none remains that is the better answer, since it need not
  * come from the limited components of a search. */
 void hci_grid_solve_once(const hci_machine_data *machine, const hci_solve_options *options,
-                          hci_grid_answer *answer)
+                         hci_grid_answer *answer)
 {
     hci_solve_options o = *options;
     memset(answer, 0, sizeof *answer);

@@ -7,13 +7,16 @@
 /* All NAN, nothing binds. */
 hci_grid_figures hci_grid_no_figures(void);
 
+/* A row without figures. */
+void hci_grid_row_begin(const hci_grid_point *point, hci_grid_row *row);
+
 /* Of a solution; of the plain sine that it is compared with. */
 hci_grid_figures hci_grid_figures_of(const hci_solution *solution);
 hci_grid_figures hci_grid_plain_figures_of(const hci_solution *solution);
 
 /* The options of one point, for this target. */
 hci_solve_options hci_grid_options_of(const hci_grid_request *request, const hci_grid_point *point,
-                                       const hci_target *target);
+                                      const hci_target *target);
 
 /* One solve: where ripple remains and the options name another one than the worst order, the solve for that.
  * figures, plain (or NULL), verdict: out; the note has the reason of HCI_GRID_FAILED. */
@@ -24,7 +27,7 @@ typedef struct {
 } hci_grid_answer;
 
 void hci_grid_solve_once(const hci_machine_data *machine, const hci_solve_options *options,
-                          hci_grid_answer *answer);
+                         hci_grid_answer *answer);
 
 /* The largest torque at a point: best, most and sine of its row. */
 void hci_grid_envelope(const hci_grid_request *request, const hci_grid_point *point, hci_grid_row *row);

@@ -52,8 +52,8 @@ hci_status hci_grid_read(const char *path, hci_grid_point **point, size_t *count
     if (!*point)
         status = hci_note_memory(note, path, "the points");
     else if (*count == 0)
-        status = hci_note_set(note, HCI_ERROR_INPUT, "%s: no rows; expected a point in each, torque_Nm,speed_rpm",
-                              path);
+        status = hci_note_set(note, HCI_ERROR_INPUT,
+                              "%s: no rows; expected a point in each, torque_Nm,speed_rpm", path);
     else
         status = take(csv, *point, note);
     hci_csv_free(csv);

@@ -11,7 +11,8 @@
 
 const hci_grid_row *hci_grid_least(const hci_grid *s, bool of_copper, double ripple_percent)
 {
-    const size_t from = of_copper ? s->plan.by_current : 0, to = of_copper ? s->plan.count : s->plan.by_current;
+    const size_t from = of_copper ? s->plan.by_current : 0,
+                 to = of_copper ? s->plan.count : s->plan.by_current;
     for (size_t k = from; k < to; ++k)
         if (s->done[k] && s->row[k].verdict <= HCI_GRID_RIPPLE &&
             s->row[k].best.T_ripple_percent <= ripple_percent)
@@ -35,7 +36,8 @@ static void say_phases(const hci_words *w, const char *what, const double limit[
         return;
     }
     for (int s = 0; s < 3; ++s)
-        if (limit[s] < HUGE_VAL) hci_words_say(w, "%s%s %c at most %.5g A", s ? "; " : gap, what, "abc"[s], limit[s]);
+        if (limit[s] < HUGE_VAL)
+            hci_words_say(w, "%s%s %c at most %.5g A", s ? "; " : gap, what, "abc"[s], limit[s]);
 }
 
 void hci_grid_limits_words(const hci_grid_request *r, char text[HCI_GRID_WORDS_SIZE])

@@ -28,9 +28,10 @@ hci_status hci_grid_span_find(const hci_grid_request *r, hci_grid_span *span, hc
     *span = (hci_grid_span){s.plain_amplitude_A, s.peak_phase_current_A, s.loss_to_plain};
     hci_solution_release(&s);
     if (span->peak_A > 0.0 && span->plain_A > 0.0) return HCI_OK;
-    return hci_note_set(note, HCI_ERROR_ARGUMENT,
-                        "a trade-off is of the current that a torque takes, and this one takes none; expected a "
-                        "torque above 0 N·m");
+    return hci_note_set(
+        note, HCI_ERROR_ARGUMENT,
+        "a trade-off is of the current that a torque takes, and this one takes none; expected a "
+        "torque above 0 N·m");
 }
 
 /* ---- points ---- */
@@ -132,8 +133,8 @@ static hci_status check(const hci_grid_request *r, const hci_grid_span *span, hc
     return wrong ? hci_note_set(note, HCI_ERROR_ARGUMENT, "%s", wrong) : HCI_OK;
 }
 
-hci_status hci_grid_plan_make(const hci_grid_request *request, const hci_grid_span *span,
-                               hci_grid_plan *plan, hci_note *note)
+hci_status hci_grid_plan_make(const hci_grid_request *request, const hci_grid_span *span, hci_grid_plan *plan,
+                              hci_note *note)
 {
     const hci_status status = check(request, span, note);
     *plan = (hci_grid_plan){0};

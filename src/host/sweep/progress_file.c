@@ -176,7 +176,7 @@ static hci_status write_both(hci_output *out, const hci_grid *s, const hci_grid_
 }
 
 hci_status hci_grid_keep_points(const hci_grid *sweep, const hci_grid_inputs *inputs, const char *folder,
-                                 hci_note *note)
+                                hci_note *note)
 {
     hci_output *out;
     hci_status status = hci_output_open(folder, &out, note);
@@ -240,7 +240,8 @@ static void read_verdict(reader *r, hci_grid_row *row)
     while (k <= HCI_GRID_FAILED && strcmp(word, hci_grid_verdict_name((hci_grid_verdict)k)) != 0)
         ++k;
     if (k > HCI_GRID_FAILED && !r->status)
-        r->status = hci_csv_error(r->csv, "verdict", r->row, r->note, "one of reached, ripple, torque, limits, failed",
+        r->status = hci_csv_error(r->csv, "verdict", r->row, r->note,
+                                  "one of reached, ripple, torque, limits, failed",
                                   "points.csv is written by hci-solve sweep; delete it and begin anew");
     row->verdict = k > HCI_GRID_FAILED ? HCI_GRID_FAILED : (hci_grid_verdict)k;
 }
@@ -300,7 +301,7 @@ static hci_status read_points(hci_grid *s, const char *path, hci_note *note)
 }
 
 hci_status hci_grid_take_points(hci_grid *sweep, const hci_grid_inputs *inputs, const char *folder,
-                                 bool must_be, hci_note *note)
+                                bool must_be, hci_note *note)
 {
     char path[PATH_SIZE];
     hci_status status = hci_machine_path(path, sizeof path, folder, POINTS, note);

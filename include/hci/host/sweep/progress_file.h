@@ -14,14 +14,14 @@ enum { HCI_GRID_MOST_INPUTS = 48, HCI_GRID_INPUT_SIZE = 256 };
 
 /* One thing that results depend on. */
 typedef struct {
-    char name[64];                    /* option or file */
+    char name[64];                   /* option or file */
     char value[HCI_GRID_INPUT_SIZE]; /* as given; of a file a checksum of its bytes */
 } hci_grid_input;
 
 /* All that results depend on. Start with {0}. */
 typedef struct {
     hci_grid_input input[HCI_GRID_MOST_INPUTS]; /* in the order in which they were added */
-    size_t count;                                 /* entries of input */
+    size_t count;                               /* entries of input */
 } hci_grid_inputs;
 
 /* Appends one; what has no room goes into a checksum. */
@@ -37,11 +37,11 @@ void hci_grid_inputs_add_machine(hci_grid_inputs *inputs, const char *folder);
  * HCI_ERROR_INPUT where they are of other inputs, which the note names, or cannot be read; HCI_ERROR_MEMORY.
  */
 hci_status hci_grid_take_points(hci_grid *sweep, const hci_grid_inputs *inputs, const char *folder,
-                                 bool must_be, hci_note *note);
+                                bool must_be, hci_note *note);
 
 /* Writes points.csv and sweep.csv into the folder; both or none. HCI_ERROR_OUTPUT, _MEMORY. */
 hci_status hci_grid_keep_points(const hci_grid *sweep, const hci_grid_inputs *inputs, const char *folder,
-                                 hci_note *note);
+                                hci_note *note);
 
 #ifdef __cplusplus
 }

@@ -18,9 +18,9 @@ typedef enum {
 } hci_grid_kind;
 
 /* Their words in files and options: X(kind, word). */
-#define HCI_GRID_KIND_NAMES(X)                                                                              \
-    X(HCI_GRID_TRADE_OFF, "trade-off")                                                                      \
-    X(HCI_GRID_ENVELOPE, "envelope")                                                                        \
+#define HCI_GRID_KIND_NAMES(X)                                                                               \
+    X(HCI_GRID_TRADE_OFF, "trade-off")                                                                       \
+    X(HCI_GRID_ENVELOPE, "envelope")                                                                         \
     X(HCI_GRID_MAP, "map")
 
 /* The word of a kind; a static string. */
@@ -43,28 +43,28 @@ typedef struct {
 
 /* What is asked for. Start with {0}. */
 typedef struct {
-    hci_grid_kind kind;
+    hci_grid_kind kind;               /* what it is for */
     const hci_machine_data *machine;  /* of all points */
     const hci_solve_options *options; /* of each point; target, speed and dc link are the point's own */
     double ripple_percent;            /* envelope: largest T_ripple; 0: 1 */
-    hci_grid_axis torque_Nm;         /* trade-off: one; map */
-    hci_grid_axis speed_rad_per_s;   /* trade-off: at most one, 0 without it; envelope; map */
-    hci_grid_axis link_V;            /* envelope, map: may be empty */
-    hci_grid_axis limit_current_A;   /* trade-off: chosen where it is empty */
-    hci_grid_axis limit_copper;      /* the same; copper loss over that of the plain sine */
-    const hci_grid_point *point;     /* map: these in place of the axes, or NULL */
+    hci_grid_axis torque_Nm;          /* trade-off: one; map */
+    hci_grid_axis speed_rad_per_s;    /* trade-off: at most one, 0 without it; envelope; map */
+    hci_grid_axis link_V;             /* envelope, map: may be empty */
+    hci_grid_axis limit_current_A;    /* trade-off: chosen where it is empty */
+    hci_grid_axis limit_copper;       /* the same; copper loss over that of the plain sine */
+    const hci_grid_point *point;      /* map: these in place of the axes, or NULL */
     size_t point_count;               /* entries of point */
 } hci_grid_request;
 
 /* What currents do. NAN: not known. */
 typedef struct {
-    double mean_Nm;                 /* mean torque */
-    double T_ripple_percent;        /* 100 (max − min)/mean */
-    double worst_Nm, worst_order;   /* the largest error of an order, and that order */
-    double mean_square_A2;          /* mean of i_a² + i_b² + i_c² */
-    double loss_to_plain;           /* copper loss over that of the plain sine of the torque that is wanted */
-    double peak_A, rms_A;           /* of a phase; the rms is that of the three phases together */
-    double line_V;                  /* largest |line voltage|; only where it is limited */
+    double mean_Nm;               /* mean torque */
+    double T_ripple_percent;      /* 100 (max − min)/mean */
+    double worst_Nm, worst_order; /* the largest error of an order, and that order */
+    double mean_square_A2;        /* mean of i_a² + i_b² + i_c² */
+    double loss_to_plain;         /* copper loss over that of the plain sine of the torque that is wanted */
+    double peak_A, rms_A;         /* of a phase; the rms is that of the three phases together */
+    double line_V;                /* largest |line voltage|; only where it is limited */
     bool binds[HCI_LIMIT_COPPER + 1]; /* by hci_limit_kind: that limit is touched and costs something */
 } hci_grid_figures;
 
@@ -78,11 +78,11 @@ typedef enum {
 } hci_grid_verdict;
 
 /* Their words in files: X(verdict, word). */
-#define HCI_GRID_VERDICT_NAMES(X)                                                                           \
-    X(HCI_GRID_REACHED, "reached")                                                                          \
-    X(HCI_GRID_RIPPLE, "ripple")                                                                            \
-    X(HCI_GRID_TORQUE, "torque")                                                                            \
-    X(HCI_GRID_LIMITS, "limits")                                                                            \
+#define HCI_GRID_VERDICT_NAMES(X)                                                                            \
+    X(HCI_GRID_REACHED, "reached")                                                                           \
+    X(HCI_GRID_RIPPLE, "ripple")                                                                             \
+    X(HCI_GRID_TORQUE, "torque")                                                                             \
+    X(HCI_GRID_LIMITS, "limits")                                                                             \
     X(HCI_GRID_FAILED, "failed")
 
 /* The word of a verdict; a static string. */
@@ -93,12 +93,12 @@ enum { HCI_GRID_REASON_SIZE = 240 };
 
 /* A point that is solved. */
 typedef struct {
-    hci_grid_point point;      /* what was asked for */
-    hci_grid_verdict verdict;  /* how it came out */
-    hci_grid_figures best;     /* of the currents that were found; envelope: with the ripple allowed */
-    hci_grid_figures most;     /* envelope: of the largest mean torque with any ripple */
-    hci_grid_figures sine;     /* of the plain sine: envelope: of its largest mean torque within the same
-                                 * limits; else of the one with the wanted mean, without limits */
+    hci_grid_point point;     /* what was asked for */
+    hci_grid_verdict verdict; /* how it came out */
+    hci_grid_figures best;    /* of the currents that were found; envelope: with the ripple allowed */
+    hci_grid_figures most;    /* envelope: of the largest mean torque with any ripple */
+    hci_grid_figures sine;    /* of the plain sine: envelope: of its largest mean torque within the same
+                               * limits; else of the one with the wanted mean, without limits */
     char reason[HCI_GRID_REASON_SIZE]; /* of a point that failed, or "" */
 } hci_grid_row;
 
@@ -118,14 +118,14 @@ hci_status hci_grid_span_find(const hci_grid_request *request, hci_grid_span *sp
 /* The points of a grid in their order. Start with {0}. */
 typedef struct {
     hci_grid_point *point; /* of the grid */
-    size_t count;           /* entries of point */
-    size_t by_current;      /* trade-off: so many of them limit the current, those behind the copper */
+    size_t count;          /* entries of point */
+    size_t by_current;     /* trade-off: so many of them limit the current, those behind the copper */
 } hci_grid_plan;
 
 /* span: of a trade-off, else NULL. *plan: out, to be given to hci_grid_plan_release. HCI_ERROR_ARGUMENT for
  * a grid that is empty or lacks an axis, HCI_ERROR_MEMORY. */
-hci_status hci_grid_plan_make(const hci_grid_request *request, const hci_grid_span *span,
-                               hci_grid_plan *plan, hci_note *note);
+hci_status hci_grid_plan_make(const hci_grid_request *request, const hci_grid_span *span, hci_grid_plan *plan,
+                              hci_note *note);
 
 /* Frees what a plan holds and empties it. */
 void hci_grid_plan_release(hci_grid_plan *plan);
@@ -138,12 +138,12 @@ typedef struct {
     hci_grid_request request; /* what was asked for */
     hci_grid_plan plan;       /* its points */
     hci_grid_row *row;        /* plan.count; of those that are done */
-    bool *done;                /* plan.count */
+    bool *done;               /* plan.count */
 } hci_grid;
 
 /* Rows for a plan, none of them done; the sweep takes the plan. HCI_ERROR_MEMORY. */
 hci_status hci_grid_begin(const hci_grid_request *request, hci_grid_plan *plan, hci_grid *sweep,
-                           hci_note *note);
+                          hci_note *note);
 
 /* How many points are done. */
 size_t hci_grid_done(const hci_grid *sweep);
@@ -158,8 +158,10 @@ const hci_grid_row *hci_grid_least(const hci_grid *sweep, bool of_copper, double
 /* Points by their verdict. */
 void hci_grid_count(const hci_grid *sweep, size_t count[HCI_GRID_FAILED + 1]);
 
-/* "phase current at most 12 A; dc link 311 V": the limits of all points. */
-enum { HCI_GRID_WORDS_SIZE = 256 };
+/* Bytes of the words of limits, and of those that bind. */
+enum { HCI_GRID_WORDS_SIZE = 256, HCI_GRID_BINDS_SIZE = 64 };
+
+/* "phase current at most 12 A; line voltage at most 311 V": the limits of all points. */
 void hci_grid_limits_words(const hci_grid_request *request, char text[HCI_GRID_WORDS_SIZE]);
 
 /* A speed in rpm with the digits that it was given with. */
@@ -169,7 +171,6 @@ double hci_grid_rpm(double speed_rad_per_s);
 double hci_grid_copper_W(const hci_grid_request *request, const hci_grid_figures *figures);
 
 /* "current+voltage": the limits that bind, or "". */
-enum { HCI_GRID_BINDS_SIZE = 64 };
 void hci_grid_binds_text(const hci_grid_figures *figures, char text[HCI_GRID_BINDS_SIZE]);
 
 /* Frees what a sweep holds and empties it. */

@@ -1,5 +1,5 @@
-/* The largest torque over the speed: with little ripple, with any, and of the plain sine; below, the ripple of
- * each. */
+/* The largest torque over the speed: with little ripple, with any, and of the plain sine; below, the ripple
+ * of each. */
 #include <math.h>
 #include <stdio.h>
 
@@ -69,7 +69,8 @@ static void draw_curve(hci_output *out, const panel *p, int curve)
     draw_line(out, p, curve);
     for (size_t k = 0; k < p->sweep->plan.count && curve == 0; ++k) {
         const hci_grid_row *row = &p->sweep->row[k];
-        if (isfinite(p->value(&row->best))) hci_svg_circle(out, "dot", x_at(p, row), y_at(p, p->value(&row->best)), 2.6);
+        if (isfinite(p->value(&row->best)))
+            hci_svg_circle(out, "dot", x_at(p, row), y_at(p, p->value(&row->best)), 2.6);
     }
 }
 
@@ -108,7 +109,8 @@ static void draw_torque(hci_output *out, const hci_grid *s)
     char allowed[64];
     hci_range r = range_of(s, torque);
     hci_range_include(&r, 0.0);
-    const panel p = {s, speed_axis(s, &TORQUE), hci_svg_axis_over(r, TORQUE.bottom, TORQUE.top, 8.0), torque, false};
+    const panel p = {s, speed_axis(s, &TORQUE), hci_svg_axis_over(r, TORQUE.bottom, TORQUE.top, 8.0), torque,
+                     false};
     snprintf(allowed, sizeof allowed, "at most %.4g %% of ripple", s->request.ripple_percent);
     const hci_svg_entry legend[] = {{HCI_SVG_LINE, "a", allowed},
                                     {HCI_SVG_LINE, "c", "any ripple"},
@@ -126,7 +128,8 @@ static void draw_ripple(hci_output *out, const hci_grid *s)
     const hci_svg_entry legend[] = {{HCI_SVG_LINE, "limit", "allowed"}};
     hci_range r = range_of(s, ripple);
     hci_range_include(&r, s->request.ripple_percent);
-    const panel p = {s, speed_axis(s, &RIPPLE), hci_svg_log_axis(r, RIPPLE.bottom, RIPPLE.top, 3.0), ripple, true};
+    const panel p = {s, speed_axis(s, &RIPPLE), hci_svg_log_axis(r, RIPPLE.bottom, RIPPLE.top, 3.0), ripple,
+                     true};
     hci_svg_head(out, &RIPPLE, "Ripple of these torques in % of the mean", legend, 1);
     hci_svg_grid(out, &p.x, &RIPPLE, false);
     hci_svg_log_grid(out, &p.y, &RIPPLE, true);
@@ -140,10 +143,15 @@ static void draw_ripple(hci_output *out, const hci_grid *s)
 void hci_plot_envelope(hci_output *out, const hci_grid *s, bool stands_alone)
 {
     static const hci_svg_picture PICTURE = {
-        "sweep", "Largest torque over the speed",
-        "Above: the largest mean torque over the speed with little ripple, with any ripple and of the plain sine, "
+        "sweep",
+        "Largest torque over the speed",
+        "Above: the largest mean torque over the speed with little ripple, with any ripple and of the plain "
+        "sine, "
         "within the same limits. Below: the ripple of these torques. envelope.csv has the numbers.",
-        0, 0, WIDTH, HEIGHT};
+        0,
+        0,
+        WIDTH,
+        HEIGHT};
     hci_plot_sweep_begin(out, &PICTURE, s, stands_alone);
     draw_torque(out, s);
     draw_ripple(out, s);

@@ -189,8 +189,8 @@ static void draw_cells(hci_output *out, const panel *p)
         edges(&p->field->speed_rpm, hci_grid_rpm(point->speed_rad_per_s), x);
         edges(&p->field->torque_Nm, point->torque_Nm, y);
         style_of(p, &s->row[k], style);
-        hci_svg_rectangle(out, style, hci_svg_at(&p->x, x[0]), hci_svg_at(&p->y, y[1]), hci_svg_at(&p->x, x[1]),
-                          hci_svg_at(&p->y, y[0]));
+        hci_svg_rectangle(out, style, hci_svg_at(&p->x, x[0]), hci_svg_at(&p->y, y[1]),
+                          hci_svg_at(&p->x, x[1]), hci_svg_at(&p->y, y[0]));
     }
 }
 
@@ -238,7 +238,8 @@ static void draw_panel(hci_output *out, panel *p)
         draw_levels(out, p);
     else
         draw_kinds(out, p);
-    hci_svg_label(out, "quiet middle", 0.5 * (p->box.left + p->box.right), p->box.bottom + 36.0, "speed in rpm");
+    hci_svg_label(out, "quiet middle", 0.5 * (p->box.left + p->box.right), p->box.bottom + 36.0,
+                  "speed in rpm");
 }
 
 /* ---- all of it ---- */
@@ -247,7 +248,8 @@ static void draw_remarks(hci_output *out, const field *f)
 {
     char text[96] = "";
     const double left = LEFT[2], top = TOP[1] + 20.0;
-    if (!isnan(f->link_V)) snprintf(text, sizeof text, "Drawn: the points with a dc link of %.5g V.", f->link_V);
+    if (!isnan(f->link_V))
+        snprintf(text, sizeof text, "Drawn: the points with a dc link of %.5g V.", f->link_V);
     hci_svg_label(out, "quiet", left, top, "Upwards: mean torque in N·m.");
     hci_svg_label(out, "quiet", left, top + 22.0, "Grey: the mean torque is not reached within the limits;");
     hci_svg_label(out, "quiet", left, top + 40.0, "in the map of limits: nothing keeps them, or no result.");
@@ -258,10 +260,15 @@ static void draw_remarks(hci_output *out, const field *f)
 void hci_plot_map(hci_output *out, const hci_grid *s, bool stands_alone)
 {
     static const hci_svg_picture PICTURE = {
-        "sweep", "Maps over torque and speed",
-        "Five maps over speed and mean torque, a cell for each point: torque ripple, copper, peak phase current, "
+        "sweep",
+        "Maps over torque and speed",
+        "Five maps over speed and mean torque, a cell for each point: torque ripple, copper, peak phase "
+        "current, "
         "peak line voltage, and the limit that binds. map.csv has the numbers.",
-        0, 0, WIDTH, HEIGHT};
+        0,
+        0,
+        WIDTH,
+        HEIGHT};
     const bool in_W = isfinite(s->request.machine->resistance_ohm);
     field f;
     fill_field(s, &f);

@@ -68,8 +68,9 @@ static const hci_grid_figures *sine_of(const hci_grid *s)
 static void draw_sine(hci_output *out, const panel *p, const hci_svg_axis *x, const hci_svg_axis *y)
 {
     const hci_grid_figures *sine = sine_of(p->sweep);
-    if (sine) hci_svg_circle(out, "before", hci_svg_at(x, p->of_copper ? 1.0 : sine->peak_A),
-                             hci_svg_at(y, p->value(sine)), 4.5);
+    if (sine)
+        hci_svg_circle(out, "before", hci_svg_at(x, p->of_copper ? 1.0 : sine->peak_A),
+                       hci_svg_at(y, p->value(sine)), 4.5);
 }
 
 static void ranges(const panel *p, hci_range *x, hci_range *y)
@@ -127,7 +128,8 @@ static void draw_panel(hci_output *out, const panel *p)
     draw_curve(out, p, &x, &y);
     draw_sine(out, p, &x, &y);
     hci_svg_label(out, "quiet middle", 0.5 * (p->box->left + p->box->right), p->box->bottom + 38.0,
-                  p->of_copper ? "limit of the copper loss, × the plain sine" : "limit of the phase current, peak in A");
+                  p->of_copper ? "limit of the copper loss, × the plain sine"
+                               : "limit of the phase current, peak in A");
 }
 
 void hci_plot_trade_off(hci_output *out, const hci_grid *s, bool stands_alone)
@@ -140,10 +142,15 @@ void hci_plot_trade_off(hci_output *out, const hci_grid *s, bool stands_alone)
     snprintf(title, sizeof title, "%.5g N·m at %.5g rpm: ripple against peak current and copper",
              s->plan.point[0].torque_Nm, hci_grid_rpm(s->plan.point[0].speed_rad_per_s));
     const hci_svg_picture picture = {
-        "sweep", title,
-        "Four panels: torque ripple over the limit of the phase current and over the limit of the copper loss; "
+        "sweep",
+        title,
+        "Four panels: torque ripple over the limit of the phase current and over the limit of the copper "
+        "loss; "
         "copper loss over the first, peak current over the second. trade_off.csv has the numbers.",
-        0, 0, WIDTH, HEIGHT};
+        0,
+        0,
+        WIDTH,
+        HEIGHT};
     hci_plot_sweep_begin(out, &picture, s, stands_alone);
     for (size_t k = 0; k < sizeof all / sizeof all[0]; ++k)
         draw_panel(out, &all[k]);

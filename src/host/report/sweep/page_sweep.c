@@ -16,10 +16,11 @@ static void say_least(hci_output *out, const hci_grid *s, double percent, const 
 {
     const hci_grid_row *row = hci_grid_least(s, false, percent);
     if (!row) return;
-    hci_html_say(out, NULL,
-                 "%s: a limit of the phase current of %.4g A, with %.3g %% of ripple and %.4g times the copper loss "
-                 "of the plain sine.",
-                 what, row->point.limit_current_A, row->best.T_ripple_percent, row->best.loss_to_plain);
+    hci_html_say(
+        out, NULL,
+        "%s: a limit of the phase current of %.4g A, with %.3g %% of ripple and %.4g times the copper loss "
+        "of the plain sine.",
+        what, row->point.limit_current_A, row->best.T_ripple_percent, row->best.loss_to_plain);
 }
 
 static void say_trade_off(hci_output *out, const hci_grid *s)
@@ -31,11 +32,13 @@ static void say_trade_off(hci_output *out, const hci_grid *s)
 
 static void rows_of_trade_off(hci_output *out, const hci_grid *s, bool of_copper)
 {
-    static const char *const CURRENT[] = {"limit in A", "ripple in %", "copper loss, × the plain sine",
-                                          "peak current in A", "<verdict", NULL};
-    static const char *const COPPER[] = {"limit, × the plain sine", "ripple in %", "copper loss, × the plain sine",
-                                         "peak current in A", "<verdict", NULL};
-    const size_t from = of_copper ? s->plan.by_current : 0, to = of_copper ? s->plan.count : s->plan.by_current;
+    static const char *const CURRENT[] = {"limit in A",        "ripple in %", "copper loss, × the plain sine",
+                                          "peak current in A", "<verdict",    NULL};
+    static const char *const COPPER[] = {
+        "limit, × the plain sine", "ripple in %", "copper loss, × the plain sine",
+        "peak current in A",       "<verdict",    NULL};
+    const size_t from = of_copper ? s->plan.by_current : 0,
+                 to = of_copper ? s->plan.count : s->plan.by_current;
     hci_html_table(out, of_copper ? "By the limit of the copper loss" : "By the limit of the phase current",
                    of_copper ? COPPER : CURRENT);
     for (size_t k = from; k < to && k < from + MOST_ROWS; ++k) {
@@ -57,19 +60,27 @@ static void say_envelope(hci_output *out, const hci_grid *s)
 {
     const hci_grid_row *row = &s->row[0];
     if (isfinite(row->best.mean_Nm))
-        hci_html_say(out, NULL,
-                     "At %.4g rpm: %.4g N·m with at most %.4g %% of ripple, %.4g N·m with %.3g %%, and %.4g N·m with "
-                     "%.3g %% by the plain sine.",
-                     hci_grid_rpm(row->point.speed_rad_per_s), row->best.mean_Nm, s->request.ripple_percent,
-                     row->most.mean_Nm, row->most.T_ripple_percent, row->sine.mean_Nm, row->sine.T_ripple_percent);
+        hci_html_say(
+            out, NULL,
+            "At %.4g rpm: %.4g N·m with at most %.4g %% of ripple, %.4g N·m with %.3g %%, and %.4g N·m with "
+            "%.3g %% by the plain sine.",
+            hci_grid_rpm(row->point.speed_rad_per_s), row->best.mean_Nm, s->request.ripple_percent,
+            row->most.mean_Nm, row->most.T_ripple_percent, row->sine.mean_Nm, row->sine.T_ripple_percent);
 }
 
 static void rows_of_envelope(hci_output *out, const hci_grid *s)
 {
-    static const char *const COLUMN[] = {"speed in rpm",     "dc link in V",          "torque in N·m",
-                                         "its ripple in %",  "with any ripple in N·m", "its ripple in %",
-                                         "plain sine in N·m", "its ripple in %",       "<binds",
-                                         "<verdict",          NULL};
+    static const char *const COLUMN[] = {"speed in rpm",
+                                         "dc link in V",
+                                         "torque in N·m",
+                                         "its ripple in %",
+                                         "with any ripple in N·m",
+                                         "its ripple in %",
+                                         "plain sine in N·m",
+                                         "its ripple in %",
+                                         "<binds",
+                                         "<verdict",
+                                         NULL};
     hci_html_table(out, "Largest mean torque", COLUMN);
     for (size_t k = 0; k < s->plan.count && k < MOST_ROWS; ++k) {
         const hci_grid_row *row = &s->row[k];
@@ -96,17 +107,24 @@ static void say_map(hci_output *out, const hci_grid *s)
 {
     size_t count[HCI_GRID_FAILED + 1];
     hci_grid_count(s, count);
-    hci_html_say(out, NULL,
-                 "Of %zu points %zu have no ripple, %zu the smallest there is, %zu less torque than is wanted; at %zu "
-                 "no current keeps the limits, and %zu have no result.",
-                 s->plan.count, count[HCI_GRID_REACHED], count[HCI_GRID_RIPPLE], count[HCI_GRID_TORQUE],
-                 count[HCI_GRID_LIMITS], count[HCI_GRID_FAILED]);
+    hci_html_say(
+        out, NULL,
+        "Of %zu points %zu have no ripple, %zu the smallest there is, %zu less torque than is wanted; at %zu "
+        "no current keeps the limits, and %zu have no result.",
+        s->plan.count, count[HCI_GRID_REACHED], count[HCI_GRID_RIPPLE], count[HCI_GRID_TORQUE],
+        count[HCI_GRID_LIMITS], count[HCI_GRID_FAILED]);
 }
 
 static void rows_of_map(hci_output *out, const hci_grid *s)
 {
-    static const char *const COLUMN[] = {"speed in rpm",     "torque in N·m", "ripple in %", "mean square in A²",
-                                         "peak current in A", "line voltage in V", "<binds", "<verdict",
+    static const char *const COLUMN[] = {"speed in rpm",
+                                         "torque in N·m",
+                                         "ripple in %",
+                                         "mean square in A²",
+                                         "peak current in A",
+                                         "line voltage in V",
+                                         "<binds",
+                                         "<verdict",
                                          NULL};
     hci_html_table(out, s->plan.count > MOST_ROWS ? "Points; the first of them" : "Points", COLUMN);
     for (size_t k = 0; k < s->plan.count && k < MOST_ROWS; ++k) {
@@ -154,8 +172,8 @@ static void show_tables(hci_output *out, const hci_grid *s)
 
 void hci_page_sweep(hci_output *out, const hci_grid *s, const hci_report_sources *sources)
 {
-    static const char *const HEADING[] = {"Ripple against current and copper", "Largest torque over the speed",
-                                          "Maps over torque and speed"};
+    static const char *const HEADING[] = {"Ripple against current and copper",
+                                          "Largest torque over the speed", "Maps over torque and speed"};
     static const char *const FILES[] = {"trade_off.csv", "envelope.csv", "map.csv"};
     char origin[HCI_PAGE_ORIGIN_SIZE], limits[HCI_GRID_WORDS_SIZE];
     hci_page_origin(origin, sources);
@@ -170,10 +188,11 @@ void hci_page_sweep(hci_output *out, const hci_grid *s, const hci_report_sources
     hci_plot_sweep(out, s, false);
     hci_html_figure_tables(out);
     show_tables(out, s);
-    hci_html_figure_end(out,
-                        "Torque ripple: 100 (T_max − T_min) / T_mean of the torque that the model makes of currents "
-                        "that flow exactly. Each point is solved as `solve` does.",
-                        FILES[s->request.kind], origin);
+    hci_html_figure_end(
+        out,
+        "Torque ripple: 100 (T_max − T_min) / T_mean of the torque that the model makes of currents "
+        "that flow exactly. Each point is solved as `solve` does.",
+        FILES[s->request.kind], origin);
     hci_html_section_end(out);
     show_reasons(out, s);
     hci_page_show_sources(out, sources);

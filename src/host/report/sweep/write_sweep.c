@@ -115,7 +115,7 @@ static hci_status write_all(hci_output *out, const hci_grid *s, const hci_report
 }
 
 hci_status hci_grid_write(const hci_grid *sweep, const hci_report_sources *sources, const char *folder,
-                           hci_note *note)
+                          hci_note *note)
 {
     hci_output *out;
     hci_status status = hci_output_open(folder, &out, note);

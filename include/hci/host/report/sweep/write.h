@@ -15,7 +15,7 @@ char *hci_grid_json(const hci_grid *sweep);
 /* Writes trade_off.csv, envelope.csv or map.csv with the picture of the same name, summary.json and, with
  * sources, report.html into `folder`; all or none. All points are done. HCI_ERROR_OUTPUT, _MEMORY. */
 hci_status hci_grid_write(const hci_grid *sweep, const hci_report_sources *sources, const char *folder,
-                           hci_note *note);
+                          hci_note *note);
 
 #ifdef __cplusplus
 }
