@@ -112,8 +112,8 @@ ended KILL "$work/killed"
 
 printf 'order,amplitude_Nm,phase_rad\n0,1.5,0\n' >"$t"
 run 1 solve "$m" --target "$t" --harmonics "$h" --limit-current 12 --limit-voltage 40 --speed 1500 --json
-awk -F: '/"peak_phase_A"|"peak_line_voltage_V"/ { gsub(/[ ,\t]/, "", $2); print $2 }' "$work/stdout" | sort >"$work/solved"
-awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k } $1 == 1.5 && $2 == 1500 { print $at["peak_phase_A"]; print $at["peak_line_V"] }' \
+awk -F: '/"peak_phase_A"|"peak_line_voltage_V"/ { gsub(/[ ,\t]/, "", $2); printf "%.14g\n", $2 }' "$work/stdout" | sort >"$work/solved"
+awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k } $1 == 1.5 && $2 == 1500 { printf "%.14g\n%.14g\n", $at["peak_phase_A"], $at["peak_line_V"] }' \
     "$work/one/map.csv" | sort >"$work/swept"
 check "a point is not what solve gives: $(cat "$work/solved" "$work/swept" | tr '\n' ' ')" cmp -s "$work/solved" "$work/swept"
 printf 'torque_mNm,speed_rpm,dc_link_V\n500,300,40\n1500,1500,40\n' >"$work/grid.csv"
