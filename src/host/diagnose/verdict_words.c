@@ -96,7 +96,7 @@ static void say_unstable(const hci_words *w, const hci_diagnosis *d)
 static bool is_of_voltages(const hci_diagnosis *d)
 {
     return d->open_voltage_off > HCI_OPEN_VOLTAGE_OFF && !any(d, HCI_FINDING_ADDED) && !d->wanders &&
-           d->unexplained_count == 0 && !d->disbelieved && !d->contradicted;
+           !d->means_open && d->unexplained_count == 0 && !d->disbelieved && !d->contradicted;
 }
 
 static void say_unknown(const hci_words *w, const hci_diagnosis *d)
@@ -115,6 +115,10 @@ static void say_unknown(const hci_words *w, const hci_diagnosis *d)
         hci_words_say(
             w, " Effects that describe the runs that were fitted and not those that were held out were "
                "dropped.");
+    if (d->means_open)
+        hci_words_say(w,
+                      " The mean of each run is off by something else: what would explain all of them says "
+                      "nothing of a run left out, as where the zero of a sensor is another one each time.");
     if (d->wanders) hci_words_say(w, " Something in it does not repeat with the turn of the rotor.");
     for (size_t k = 0; k < d->unexplained_count; ++k) {
         const hci_unexplained *u = &d->unexplained[k];

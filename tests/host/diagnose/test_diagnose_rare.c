@@ -275,6 +275,39 @@ static void test_a_lag_within_an_arc(void)
     is_slow(3e-3);
 }
 
+/* ---- zeros that are another one in each run ---- */
+
+static void record_zeros(double offset_A)
+{
+    static const double ZERO_NM[] = {0.05, -0.08, 0.09, -0.02, 0.07, -0.06, -0.09, 0.03};
+    static const double SPEED[] = {20.0, -20.0, 60.0, -60.0, 110.0, -110.0, 150.0, -40.0};
+    static const double IQ_A[] = {0.0, 0.0, 9.0, 6.0, 3.0, -9.0, 5.0, -4.0};
+    for (int k = 0; k < 8; ++k)
+        record(900, &(point){SPEED[k], IQ_A[k], offset_A, ZERO_NM[k], 0.0});
+}
+
+/* Six numbers for eight means: friction, drag of the iron and a gain describe them nearly, and say nothing of
+ * the one that is left out. */
+static void test_zeros_of_their_own_are_no_effect(void)
+{
+    record_zeros(0.0);
+    TEST_ASSERT_EQUAL_INT(HCI_NOT_REACHED, diagnose(NULL));
+    TEST_ASSERT_EQUAL_INT(HCI_DIAGNOSIS_UNKNOWN, diagnosis.verdict);
+    TEST_ASSERT_TRUE(diagnosis.means_open);
+    TEST_ASSERT_EQUAL_UINT64(0, diagnosis.effects.list.count);
+}
+
+/* An offset of a current sensor makes a ripple of order 1, and stands there. */
+static void test_beside_such_zeros_ripple_is_explained(void)
+{
+    record_zeros(0.3);
+    TEST_ASSERT_EQUAL_INT(HCI_NOT_REACHED, diagnose(NULL));
+    TEST_ASSERT_EQUAL_INT(HCI_DIAGNOSIS_PARTLY, diagnosis.verdict);
+    TEST_ASSERT_TRUE(diagnosis.means_open);
+    TEST_ASSERT_EQUAL_UINT64(1, diagnosis.effects.list.count);
+    is_value(0.3, 0.05, term("current_offset", "a", 0.0));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -292,5 +325,7 @@ int main(void)
     RUN_TEST(test_an_eccentric_rotor_has_equal_magnets);
     RUN_TEST(test_a_long_lag_is_no_delay);
     RUN_TEST(test_a_lag_within_an_arc);
+    RUN_TEST(test_zeros_of_their_own_are_no_effect);
+    RUN_TEST(test_beside_such_zeros_ripple_is_explained);
     return UNITY_END();
 }

@@ -145,10 +145,12 @@ typedef struct {
     hci_next_point next[HCI_MOST_NEXT_POINTS]; /* what to record next, most telling first */
     size_t next_points;                        /* entries of next in use; 0: nothing is left open */
     char advice[3 * HCI_DETAIL_SIZE];          /* the same in a few sentences, or "" */
-    bool contradicted;       /* effects described the runs that were fitted, but not those held out, and were
-                                dropped */
-    bool wanders;            /* something is left that does not repeat with the turn */
-    bool inertia_as_well;    /* free shafts alone: a wrong inertia looks the same as an ambiguous effect */
+    bool contradicted;    /* effects described the runs that were fitted, but not those held out, and were
+                             dropped */
+    bool means_open;      /* effects described the means of the runs that were fitted, but not of those left
+                           * out, and were dropped */
+    bool wanders;         /* something is left that does not repeat with the turn */
+    bool inertia_as_well; /* free shafts alone: a wrong inertia looks the same as an ambiguous effect */
     double open_voltage_off; /* share by which voltages without a current differ from the declared back-EMF;
                               * 0: none were recorded */
     bool against_voltages; /* the torques ask for another torque per ampere, which voltages that were recorded

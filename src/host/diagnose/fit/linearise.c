@@ -98,7 +98,7 @@ static void torque_rows(const filling *f, const hci_segment *s, const hci_predic
     hci_noise_whiten(noise, f->y, s->count, 1);
     hci_noise_whiten(noise, f->x, s->count, m->columns);
     columns_clear(f, s);
-    if (f->regression->runs[s->run].mean_is_unknown) constants_free(f, s, noise);
+    if (hci_regression_mean_is_free(f->regression, s)) constants_free(f, s, noise);
 }
 
 /* The row of one sample: what the sum of the readings leaves, in units of its noise. */
@@ -248,9 +248,10 @@ static bool rows_keep(const filling *f)
     return kept;
 }
 
-/* A scatter takes the rows themselves. */
+/* A scatter takes the rows themselves, and what is known has the means in it. */
 static bool fill(filling *f)
 {
+    if (f->regression->free_means) return rows_fill(f);
     if (!f->scatter && hci_known_equations_find(f->regression->known, f->regression, f->model, f->normal))
         return true;
     return rows_fill(f) && rows_keep(f);

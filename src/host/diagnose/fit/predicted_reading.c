@@ -282,7 +282,7 @@ hci_status hci_regression_residual(const hci_regression *e, const hci_effects *e
         hci_regression_count(e, s->count, predicted.terms, 0);
         const hci_binned_sample *sample = e->samples->sample + s->first;
         residual_fill(sample, s->count, &predicted, residual_Nm + s->first);
-        if (e->runs[s->run].mean_is_unknown) take_mean_out(sample, residual_Nm + s->first, s->count);
+        if (hci_regression_mean_is_free(e, s)) take_mean_out(sample, residual_Nm + s->first, s->count);
     }
     hci_predicted_reading_release(&predicted);
     return HCI_OK;

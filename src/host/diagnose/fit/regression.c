@@ -52,3 +52,9 @@ void hci_regression_count(const hci_regression *e, size_t samples, size_t terms,
     const double n = (double)columns;
     if (e->work) *e->work += (double)samples * (OF_SAMPLE + OF_TERM * (double)terms + 0.5 * n * n);
 }
+
+bool hci_regression_mean_is_free(const hci_regression *e, const hci_segment *s)
+{
+    const hci_run *run = &e->runs[s->run];
+    return run->mean_is_unknown || (e->free_means && !run->only_mean);
+}

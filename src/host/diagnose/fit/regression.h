@@ -19,6 +19,7 @@ typedef struct {
     double *sum_deviation_A;    /* of each run: noise of i_a + i_b + i_c; NAN where that says nothing */
     hci_known_equations *known; /* of models linearised before; NULL: none are kept */
     double *work;               /* multiplications so far, about; NULL: not counted */
+    bool free_means;            /* of each segment: nothing is concluded from them */
 } hci_regression;
 
 /* Work that a search may take; beyond it the best model so far is kept, and fits end after a few steps. */
@@ -39,6 +40,9 @@ hci_status hci_regression_each_run(hci_regression *regression,
 /* Adds the multiplications of predicting so many samples of a model, about. columns: whose products are
  * summed up. */
 void hci_regression_count(const hci_regression *regression, size_t samples, size_t terms, size_t columns);
+
+/* Whether the mean of a segment says nothing: it is at its best value whatever the model. */
+bool hci_regression_mean_is_free(const hci_regression *regression, const hci_segment *segment);
 
 /* The noise of a segment. */
 hci_noise *hci_regression_noise(const hci_regression *regression, const hci_segment *segment);

@@ -235,6 +235,7 @@ static hci_status attribute(hci_search *s, hci_attribution *a, hci_note *note)
     if (!status) status = hci_search_stability(s, a, note);
     if (!status) status = hci_regression_standard_errors(s->regression, &a->model.candidates, note);
     if (!status) status = hci_regression_fit(s->regression, &none, &a->before, note);
+    s->regression->free_means = false;
     a->ended = s->ended;
     return status;
 }

@@ -30,8 +30,9 @@ typedef struct {
                                          * believe; NULL: none */
     double disbelieved_share;           /* of the declared torque per ampere, that it leaves */
     bool inertia_as_well;               /* a wrong inertia looks the same as an effect that is in */
-    bool wanders;                       /* what is left does not repeat with the turn */
-    double unexplained_Nm;              /* rms of what no effect explains */
+    bool means_open; /* what was found of the means of the runs says nothing of those left out, and is out */
+    bool wanders;    /* what is left does not repeat with the turn */
+    double unexplained_Nm; /* rms of what no effect explains */
     hci_verdict verdict[HCI_MOST_TYPES];
     size_t types;
     bool plausible[HCI_MOST_TYPES]

@@ -6,6 +6,7 @@
 #include "host/base/memory.h"
 #include "host/diagnose/candidates/empirical_term.h"
 #include "host/diagnose/search/belief.h"
+#include "host/diagnose/search/stability.h"
 
 #define EXCESS       0.1  /* variance over that of the noise that tells of something that does not repeat */
 #define CLUMPS       1.35 /* the same of how uneven the errors are; noise makes 1.0 ± 0.1 */
@@ -16,6 +17,9 @@
 #define SMALL        0.6  /* what is not understood is no finding below this share of what is */
 #define UNTOUCHED    1.5  /* a known effect this much larger than what is not understood stands beside it */
 #define LEAST_BLOCKS 50.0 /* to tell from how uneven errors are */
+#define UNPREDICTED                                                                                          \
+    0.04 /* of what effects explain, that they leave in runs left out: a fifth of the error                  \
+          */
 
 enum { BLOCK = 24 }; /* samples */
 
@@ -192,9 +196,69 @@ static hci_status settle(hci_search *s, hci_attribution *a, hci_note *note)
     return status;
 }
 
+/* ---- the means of the runs ---- */
+
+/* Takes a type out that explains nothing once the means count: what little ripple it describes makes values
+ * of it that the means forbid. */
+static hci_status forbidden_leaves(hci_search *s, hci_candidates *model, const hci_effect_type *type,
+                                   hci_note *note)
+{
+    hci_candidates without = {0};
+    double explained_Nm = 0.0;
+    if (!hci_candidates_have(model, type)) return HCI_OK;
+    hci_status status = hci_candidates_copy(model, &without, note);
+    if (!status) hci_candidates_remove_type(&without, type);
+    if (!status) status = hci_search_explained(s, model, &without, &explained_Nm, note);
+    hci_candidates_release(&without);
+    if (!status && !(explained_Nm > 0.0)) hci_candidates_remove_type(model, type);
+    return status;
+}
+
+/* Takes all out where the ripple of runs left out is not described either. */
+static hci_status unpredicted_leave(hci_search *s, hci_candidates *model, hci_note *note)
+{
+    double share = 0.0;
+    const hci_status status = hci_search_unpredicted(s, model, &share, note);
+    for (size_t r = 0; !status && share > UNPREDICTED && r < hci_candidate_types(); ++r)
+        hci_candidates_remove_type(model, hci_candidate_type(r));
+    return status;
+}
+
+/* Keeps what stands in the ripple alone. What is left of the means then is not known. */
+static hci_status means_leave(hci_search *s, hci_attribution *a, hci_note *note)
+{
+    hci_candidates *model = &a->model.candidates;
+    s->regression->free_means = true;
+    hci_candidates_remove_type(model, &hci_empirical_type);
+    hci_status status = hci_search_renew(s, &a->model, note);
+    if (!status) status = hci_search_keep_predictive(s, &a->model, note);
+    if (!status) status = unpredicted_leave(s, model, note);
+    const double noise_Nm = hci_search_noise_rms(s);
+    s->regression->free_means = false;
+    for (size_t r = 0; r < a->types && !status; ++r)
+        status = forbidden_leaves(s, model, hci_candidate_type(r), note);
+    if (!status) status = hci_search_residual(s, model, note);
+    const double left_Nm = hci_search_residual_rms(s);
+    s->regression->free_means = true;
+    a->means_open = a->unknown = true;
+    a->unexplained_Nm = sqrt(fmax(0.0, left_Nm * left_Nm - noise_Nm * noise_Nm));
+    return status;
+}
+
+/* A few numbers for as many runs describe the mean of each whatever it is, such as a zero that is another one
+ * each time: effects that explain the runs but not those left out are none. */
+static hci_status means_judge(hci_search *s, hci_attribution *a, hci_note *note)
+{
+    double share = 0.0;
+    if (s->whole_coenergy) return HCI_OK;
+    const hci_status status = hci_search_unpredicted(s, &a->model.candidates, &share, note);
+    return status || !(share > UNPREDICTED) ? status : means_leave(s, a, note);
+}
+
 /* Judging finds the noise anew, and scores are comparable with the same noise only. */
 hci_status hci_search_settle(hci_search *s, hci_attribution *a, hci_note *note)
 {
-    const hci_status status = settle(s, a, note);
+    hci_status status = means_judge(s, a, note);
+    if (!status && !a->means_open) status = settle(s, a, note);
     return status ? status : hci_search_renew(s, &a->model, note);
 }

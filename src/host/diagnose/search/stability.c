@@ -8,6 +8,10 @@
 
 #define FLOOR 0.05 /* mean square of a run, in units of its noise, below which it is as good as can be */
 
+#define BY_CHANCE 8.0 /* χ² by which runs left out are described worse for each term, and some more */
+
+enum { LEAST_RUNS = 6 }; /* for the whole of a model to be asked what it says of runs left out */
+
 /* The model's equations, run by run, and room for what is asked of them. */
 typedef struct {
     const hci_candidates *model;
@@ -131,6 +135,39 @@ hci_status hci_search_left_out(hci_search *s, const hci_candidates *model, doubl
         *misfit += rows * log(l.with[r] / rows + FLOOR);
     }
     leaving_end(&l);
+    return status;
+}
+
+/* Sums over the runs of their squares without any effect, less those of the model that was fitted to all of
+ * them; and of those of the runs left out, less the same. */
+static hci_status promises_sum(const leaving *l, double *taken, double *missed, hci_note *note)
+{
+    double all_in = 0.0, without = 0.0, left_out = 0.0;
+    if (!hci_left_out_squares(&l->equations.groups, l->equations.precision, l->with) ||
+        !hci_all_in_square(&l->equations.groups, l->equations.precision, &all_in))
+        return hci_note_memory(note, NULL, "leaving runs out");
+    for (size_t r = 0; r < l->equations.groups.count; ++r) {
+        without += l->equations.groups.group[r].square;
+        left_out += l->with[r];
+    }
+    *taken = without - all_in;
+    *missed = left_out - all_in;
+    return HCI_OK;
+}
+
+hci_status hci_search_unpredicted(hci_search *s, const hci_candidates *model, double *share, hci_note *note)
+{
+    leaving l;
+    double taken = 0.0, missed = 0.0;
+    *share = 0.0;
+    if (hci_regression_runs_in_use(s->regression) < LEAST_RUNS || hci_candidates_types_in(model) == 0)
+        return HCI_OK;
+    hci_status status = leaving_start(s, model, &l, note);
+    if (status) return status;
+    status = promises_sum(&l, &taken, &missed, note);
+    leaving_end(&l);
+    missed -= BY_CHANCE * (double)hci_candidates_terms_in(model);
+    if (!status && taken > 0.0) *share = fmax(0.0, missed / taken);
     return status;
 }
 

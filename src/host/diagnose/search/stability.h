@@ -19,6 +19,12 @@ hci_status hci_search_keep_predictive(hci_search *search, hci_fitted_model *mode
 hci_status hci_search_left_out(hci_search *search, const hci_candidates *model, double *misfit,
                                hci_note *note);
 
+/* What a model says of runs left out in turn: the share of the error that it takes away when they are fitted
+ * that it leaves when they are not. Near 0 for what is right, about 1 for what is chosen to fit these runs
+ * alone. 0 of fewer than six runs, which may each be the only one to show something. HCI_ERROR_MEMORY. */
+hci_status hci_search_unpredicted(hci_search *search, const hci_candidates *model, double *share,
+                                  hci_note *note);
+
 /* Sets stays and left_out of the verdicts of effects that are in. HCI_ERROR_MEMORY. */
 hci_status hci_search_stability(hci_search *search, hci_attribution *attribution, hci_note *note);
 
