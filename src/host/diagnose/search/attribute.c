@@ -230,6 +230,7 @@ static hci_status attribute(hci_search *s, hci_attribution *a, hci_note *note)
     for (bool dropped = s->whole_coenergy; dropped && !status;)
         status = hci_search_drop(s, &a->model, &dropped, note);
     if (s->whole_coenergy && !status) status = hci_search_keep_predictive(s, &a->model, note);
+    if (!status) status = hci_search_drop_unsure(s, &a->model, note);
     if (!status) status = hci_search_settle(s, a, note);
     if (!status) status = verdicts(s, a, note);
     if (!status) status = hci_search_stability(s, a, note);

@@ -1,5 +1,10 @@
 #include "host/diagnose/search/backward.h"
+
+#include <math.h>
+
+#include "host/diagnose/candidates/empirical_term.h"
 #include "host/diagnose/fit/linearise.h"
+#include "host/diagnose/fit/standard_errors.h"
 
 /* ---- single orders ---- */
 
@@ -109,5 +114,58 @@ hci_status hci_search_drop(hci_search *s, hci_fitted_model *model, bool *dropped
     for (size_t r = 0; r < hci_candidate_types() && !status && !*dropped && !hci_search_is_over(s); ++r)
         if (may_leave(s, model, hci_candidate_type(r)))
             status = drop_type(s, model, hci_candidate_type(r), dropped, note);
+    return status;
+}
+
+/* ---- effects that noise makes ---- */
+
+/* By how much the strongest order of a type pays its price with its own standard errors; terms of a friction
+ * or an imbalance that come three at a time say little one by one, and are not asked. */
+static double sureness(const hci_candidates *model, const hci_effect_type *type, double rows)
+{
+    double most = -INFINITY;
+    for (size_t k = 0; k < model->count; ++k) {
+        const hci_candidate *x = &model->candidate[k];
+        double sum = 0.0;
+        if (!x->in || x->type != type) continue;
+        for (size_t j = 0; j < x->count; ++j)
+            sum += x->term[j].std_error > 0.0 ? pow(hci_candidate_departure(x, j) / x->term[j].std_error, 2.0)
+                                              : (double)INFINITY;
+        most = fmax(most, x->count > 2 ? (double)INFINITY : sum - hci_candidate_cost(x, rows));
+    }
+    return most;
+}
+
+static bool is_asked(const hci_search *s, const hci_fitted_model *model, const hci_effect_type *type)
+{
+    return may_leave(s, model, type) && type != &hci_empirical_type && !type->is_series;
+}
+
+/* The type that is least sure; NULL where all are. */
+static const hci_effect_type *unsure_type(const hci_search *s, const hci_fitted_model *model)
+{
+    const hci_effect_type *unsure = NULL;
+    double least = 0.0;
+    for (size_t r = 0; r < hci_candidate_types(); ++r) {
+        const hci_effect_type *type = hci_candidate_type(r);
+        if (!is_asked(s, model, type)) continue;
+        const double sure = sureness(&model->candidates, type, model->fit.rows);
+        if (!(sure < least)) continue;
+        least = sure;
+        unsure = type;
+    }
+    return unsure;
+}
+
+hci_status hci_search_drop_unsure(hci_search *s, hci_fitted_model *model, hci_note *note)
+{
+    hci_status status = HCI_OK;
+    while (!status && hci_candidates_types_in(&model->candidates) > 0) {
+        status = hci_regression_standard_errors(s->regression, &model->candidates, note);
+        const hci_effect_type *unsure = status ? NULL : unsure_type(s, model);
+        if (!unsure) break;
+        hci_candidates_remove_type(&model->candidates, unsure);
+        status = hci_search_renew(s, model, note);
+    }
     return status;
 }

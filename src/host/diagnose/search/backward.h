@@ -12,4 +12,8 @@ hci_status hci_search_prune(hci_search *search, hci_fitted_model *model, hci_not
  */
 hci_status hci_search_drop(hci_search *search, hci_fitted_model *model, bool *dropped, hci_note *note);
 
+/* Lets go, one after the other, of effects that do not pay their price once standard errors count what the
+ * noise has in common over many samples: a wander that looks like an order for a while. HCI_ERROR_MEMORY. */
+hci_status hci_search_drop_unsure(hci_search *search, hci_fitted_model *model, hci_note *note);
+
 #endif

@@ -121,6 +121,30 @@ static void test_effects_that_are_not_there_leave(void)
     TEST_ASSERT_TRUE(model_has("friction"));
 }
 
+/* Short pieces in which an order has one sign or the other, 7 times and 5 times: on the average it is a sixth
+ * of its size, six standard errors of white noise, and half of one over such pieces. */
+static void test_an_order_that_wanders_leaves(void)
+{
+    static const double SIGN[MOST_RUNS] = {1, -1, 1, -1, 1, 1, -1, 1, -1, 1, -1, 1};
+    for (int wanders = 0; wanders < 2; ++wanders) {
+        for (int k = 0; k < MOST_RUNS; ++k) {
+            record(120, &(point){60.0, 2.0, 0.0, 0.0, 0.0});
+            for (size_t j = 0; j < 120; ++j)
+                run[k].torque_Nm[j] +=
+                    (wanders ? 0.05 * SIGN[k] : 0.005) * sin(6.0 * P * run[k].theta_m_rad[j]);
+        }
+        search_start();
+        model_add("cogging", "sine", "cosine", 6.0);
+        model_fit();
+        model_fit();
+        TEST_ASSERT_EQUAL_UINT64(0, drop_all());
+        TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_drop_unsure(&search, &model, &note));
+        TEST_ASSERT_EQUAL(!wanders, model_has("cogging"));
+        tearDown();
+        setUp();
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -130,5 +154,6 @@ int main(void)
     RUN_TEST(test_an_effect_that_became_superfluous_leaves);
     RUN_TEST(test_effects_that_are_there_stay);
     RUN_TEST(test_effects_that_are_not_there_leave);
+    RUN_TEST(test_an_order_that_wanders_leaves);
     return UNITY_END();
 }
