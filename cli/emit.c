@@ -34,6 +34,7 @@ enum {
     TORQUE_CONSTANT,
     COUNTS,
     WAVE,
+    BLOB,
     OUT,
     CLI_COMMON_KEYS
 };
@@ -96,7 +97,9 @@ static const cli_option OPTIONS[] =
                     .help = "with --per-torque: the largest T (default: the one solved for)", .low = 1e-9,
                     .high = 1e9},
      [MACHINE] = {"machine", 0, CLI_FOLDER, "FOLDER",
-                  .help = "with --drive and --for: the machine of the currents"},
+                  .help =
+                      "the machine of the currents: its name and pole pairs go into the header; needed with "
+                      "--drive and --for"},
      [DRIVE] =
          {"drive", 0, CLI_FILE, "FILE",
           .help = "drive.csv: orders of current and voltage for hci/loop.h, which a current loop can follow; "
@@ -123,15 +126,49 @@ static const cli_option OPTIONS[] =
                  .help = "with --for: the drive's scale of the current", .low = 1e-6, .high = 1e9},
      [WAVE] = {"wave", 0, CLI_CHOICE, "NAME",
                .help = "with --for beckhoff: what its amplitude and phase mean:", .choices = WAVES},
+     [BLOB] = {"blob", 0, CLI_FLAG, NULL,
+               .help = "ID.bin too: the table as bytes that a bootloader or a bus brings, for hci/blob.h"},
      [OUT] = {"out", 'o', CLI_FOLDER, "FOLDER", .help = "where ID.h and ID.c go (default: here)"},
      CLI_COMMON_OPTIONS};
+
+/* The last part of a path, without slashes at its end. */
+static void folder_name(const char *path, char *name, size_t size)
+{
+    size_t end = strlen(path), begin;
+    while (end > 1 && path[end - 1] == '/')
+        --end;
+    for (begin = end; begin > 0 && path[begin - 1] != '/'; --begin)
+        continue;
+    snprintf(name, size, "%.*s", (int)(end - begin), path + begin);
+}
 
 typedef struct {
     hci_currents current, per_Nm;
     char provenance[2][160];
     const char *lines[2];
     hci_emit_request request;
+    hci_machine_data machine; /* empty where it is not given */
+    char machine_name[64];
 } inputs;
+
+/* What the header and the blob say of the machine, and the torque of a folder that was solved for one. */
+static hci_status read_facts(const cli_arguments *a, inputs *in, hci_note *note)
+{
+    hci_emit_facts *facts = &in->request.facts;
+    hci_note none = {{0}};
+    hci_status status = HCI_OK;
+    in->request.blob = a->given[BLOB];
+    if (hci_solution_is_folder(a->word[0]) &&
+        hci_solution_read_mean_torque(a->word[0], &facts->mean_torque_Nm, &none) != HCI_OK)
+        facts->mean_torque_Nm = 0.0;
+    if (!a->given[MACHINE]) return HCI_OK;
+    status = hci_machine_read(a->value[MACHINE], &in->machine, note);
+    if (status) return status;
+    facts->pole_pairs = (size_t)in->machine.pole_pairs;
+    folder_name(a->value[MACHINE], in->machine_name, sizeof in->machine_name);
+    facts->machine = in->machine_name;
+    return HCI_OK;
+}
 
 static hci_status read_parts(const cli_arguments *a, inputs *in, hci_note *note)
 {
@@ -167,8 +204,10 @@ static hci_status check_together(const cli_arguments *a, hci_note *note)
         wrong = "emit: --drive is for hci/loop.h, --for TARGET for another maker's drive; give one of them";
     else if (a->given[FOR] && !a->given[MACHINE])
         wrong = "emit: --for TARGET needs --machine FOLDER";
-    else if (!a->given[FOR] && a->given[DRIVE] != a->given[MACHINE])
-        wrong = "emit: --drive FILE and --machine FOLDER go together";
+    else if (a->given[DRIVE] && !a->given[MACHINE])
+        wrong = "emit: --drive FILE needs --machine FOLDER";
+    else if (a->given[BLOB] && (a->given[DRIVE] || a->given[FOR]))
+        wrong = "emit: --blob is a table for hci/table.h or hci/table_i16.h; leave out --drive and --for";
     else if (!a->given[FOR] && (a->given[ENCODER_OFFSET] || a->given[ENCODER_DIRECTION] ||
                                 a->given[TORQUE_CONSTANT] || a->given[COUNTS] || a->given[WAVE]))
         wrong = "emit: --encoder-offset, --encoder-direction, --torque-constant, --counts-per-ampere and "
@@ -265,6 +304,7 @@ static void show(const hci_emit_request *r, const hci_emit_result *result, const
     cli_say("\n  error        at most %.3g A of a peak of %.4g A", result->chosen.max_error_A,
             result->peak_A);
     if (r->per_Nm) cli_say(", up to %.4g N·m", r->reference_torque_Nm);
+    if (r->blob) cli_say("\n  blob         %s.bin, for hci/blob.h", r->name);
     cli_say("\n  runtime      hci/%s\n", r->format == HCI_EMIT_F32 ? "table.h" : "table_i16.h");
 }
 
@@ -422,9 +462,11 @@ static int run(const cli_arguments *a)
     inputs in;
     memset(&in, 0, sizeof in);
     status = read_inputs(a, &in, &note);
+    if (!status) status = read_facts(a, &in, &note);
     if (!status) status = hci_emit(folder, &in.request, &result, &note);
     if (!status && cli_is_wordy()) show(&in.request, &result, folder);
     if (!status && a->given[JSON]) status = cli_print_json(hci_emit_json(&in.request, &result), &note);
+    hci_machine_release(&in.machine);
     hci_currents_release(&in.current);
     hci_currents_release(&in.per_Nm);
     return status ? cli_fail(status, &note) : 0;

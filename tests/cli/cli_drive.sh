@@ -20,7 +20,7 @@ refused() { # WORDS... -- EXPRESSION
     says "$2"
     check "something was written by $words" [ ! -e "$work/out" ]
 }
-refused emit "$work/a" --name t --drive $drive -o "$work/out" -- '--drive FILE and --machine FOLDER go together'
+refused emit "$work/a" --name t --drive $drive -o "$work/out" -- '--drive FILE needs --machine FOLDER'
 refused emit "$work/a" --name t --speed 500 -o "$work/out" -- '--speed goes with --drive'
 refused emit "$work/a" "$work/a" --name t -o "$work/out" -- 'several folders are levels of torque'
 refused emit "$work/a" --name t --machine data/machine_a --drive $drive --points 9 -o "$work/out" -- 'give --max-error alone of what says their size'

@@ -255,6 +255,13 @@ void hci_output_text(hci_output *output, const char *format, ...)
     va_end(arguments);
 }
 
+void hci_output_bytes(hci_output *output, const void *bytes, size_t count)
+{
+    assert(output->stream != NULL);
+    errno = 0;
+    if (fwrite(bytes, 1, count, output->stream) != count) remember(output, errno);
+}
+
 void hci_output_number(hci_output *output, double value, char end)
 {
     char text[32];

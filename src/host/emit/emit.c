@@ -151,6 +151,14 @@ static hci_status write_file(const hci_emission *e, hci_output *out, const char 
     return status;
 }
 
+/* One that an earlier run left holds another table. */
+static hci_status without_blob(const hci_emission *e, hci_output *out, hci_note *note)
+{
+    char file[HCI_EMIT_NAME_LENGTH + 8];
+    snprintf(file, sizeof file, "%s.bin", e->request->name);
+    return hci_output_without(out, file, note);
+}
+
 static hci_status write_files(const hci_emission *e, const char *folder, hci_note *note)
 {
     const bool f32 = e->request->format == HCI_EMIT_F32;
@@ -162,6 +170,8 @@ static hci_status write_files(const hci_emission *e, const char *folder, hci_not
     if (!status)
         status =
             write_file(e, out, "c", f32 ? hci_emission_write_source : hci_emission_write_spline_source, note);
+    if (!status && e->request->blob) status = write_file(e, out, "bin", hci_emission_write_blob, note);
+    if (!status && !e->request->blob) status = without_blob(e, out, note);
     if (!status) return hci_output_commit(out, note);
     hci_output_discard(out);
     return status;

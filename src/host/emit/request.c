@@ -157,6 +157,10 @@ static bool is_comment_text(const char *text)
 static hci_status check_provenance(const hci_emit_request *r, hci_note *note)
 {
     char shown[HCI_QUOTE_SIZE];
+    if (r->facts.machine && !is_comment_text(r->facts.machine))
+        return hci_note_set(note, HCI_ERROR_ARGUMENT,
+                            "machine: found %s, expected one line of UTF-8 text without comment marks",
+                            hci_quote(r->facts.machine, shown));
     for (size_t k = 0; k < r->provenance_count; ++k) {
         if (!is_comment_text(r->provenance[k]))
             return hci_note_set(note, HCI_ERROR_ARGUMENT,

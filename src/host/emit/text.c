@@ -72,9 +72,50 @@ void hci_emission_angle(const hci_emission *e, hci_output *out)
         " *         the rising zero crossing of the fundamental of phase a's back-EMF and grows with\n"
         " *         rotation a-b-c, the direction of positive torque.\n",
         turns, plural(turns), turns == 1 ? "" : " (period_turns)");
+    if (turns > 1)
+        hci_output_text(
+            out,
+            " *         Which of the pole pairs begins the table: the one at angle 0 of the recordings and\n"
+            " *         tables of the machine; hci/counter.h and `hci-solve check --table` say how to get "
+            "there.\n");
     hci_output_text(
         out,
         " * Orders: electrical; mechanical order = electrical order * pole pairs. Amplitudes are peak.\n");
+}
+
+void hci_emission_facts(const hci_emission *e, hci_output *out)
+{
+    const hci_emit_facts *f = &e->request->facts;
+    const double highest = hci_tabulation_highest_order(&e->tabulation);
+    char text[32];
+    if (f->machine || f->pole_pairs > 0)
+        hci_output_text(out, " * Motor:  %s", f->machine ? f->machine : "name not known");
+    if (f->pole_pairs > 0) hci_output_text(out, ", %zu pole pair%s", f->pole_pairs, plural(f->pole_pairs));
+    if (f->machine || f->pole_pairs > 0) hci_output_text(out, ".\n");
+    if (e->tabulation.parts == 1 && f->mean_torque_Nm != 0.0)
+        hci_output_text(out,
+                        " * Torque: %s N*m of mean torque, and no other: emit --per-torque is for all.\n",
+                        hci_emission_number(f->mean_torque_Nm, text));
+    if (e->tabulation.parts == 2)
+        hci_output_text(out, " * Torque: any up to the reference torque, to which it is limited; one that is "
+                             "no number is none.\n");
+    hci_output_text(out, " * Loop:   has to follow up to %s times the electrical frequency",
+                    hci_emission_number(highest, text));
+    if (f->pole_pairs > 0)
+        hci_output_text(out, ", %.0f Hz at 1000 rpm", highest * (double)f->pole_pairs * 1000.0 / 60.0);
+    hci_output_text(out, ";\n *         above what it follows, fade out (hci/guard.h) or emit --drive.\n");
+}
+
+void hci_emission_macros(const hci_emission *e, hci_output *out)
+{
+    const size_t pairs = e->request->facts.pole_pairs, turns = e->tabulation.period_turns;
+    const char *name = e->request->name;
+    if (pairs == 0) return;
+    hci_output_text(out, "#define %s_POLE_PAIRS %zuu\n", name, pairs);
+    if (pairs % turns == 0)
+        hci_output_text(out, "#define %s_PERIODS %zuu /* for hci_angle_from_mechanical */\n", name,
+                        pairs / turns);
+    hci_output_text(out, "\n");
 }
 
 void hci_emission_input(const hci_emission *e, hci_output *out)

@@ -13,6 +13,9 @@ void hci_emission_write_source(const hci_emission *e, hci_output *output);
 void hci_emission_write_spline_header(const hci_emission *e, hci_output *output);
 void hci_emission_write_spline_source(const hci_emission *e, hci_output *output);
 
+/* What goes into NAME.bin of any format. */
+void hci_emission_write_blob(const hci_emission *e, hci_output *output);
+
 /* ---- what both say ---- */
 
 /* Nine significant digits, which is enough for a float, with a decimal point in every locale and for every
@@ -30,6 +33,12 @@ void hci_emission_frame(const hci_emission *e, hci_output *output);
 
 /* Which angle, and where its zero is. */
 void hci_emission_angle(const hci_emission *e, hci_output *output);
+
+/* Machine, torque, and what a current loop has to follow. */
+void hci_emission_facts(const hci_emission *e, hci_output *output);
+
+/* NAME_POLE_PAIRS and NAME_PERIODS, where they are known. */
+void hci_emission_macros(const hci_emission *e, hci_output *output);
 
 /* Where the numbers come from. Ends the comment. */
 void hci_emission_input(const hci_emission *e, hci_output *output);

@@ -39,9 +39,11 @@ void hci_emission_write_header(const hci_emission *e, hci_output *out)
     write_use(e, out);
     hci_emission_frame(e, out);
     hci_emission_angle(e, out);
+    hci_emission_facts(e, out);
     write_figures(e, out);
     hci_emission_input(e, out);
     hci_emission_guard(e, out, "hci/table.h", "HCI_TABLE_VERSION", HCI_TABLE_VERSION);
+    hci_emission_macros(e, out);
     hci_output_text(out, "extern const hci_table_f32 %s;\n\n", e->request->name);
     hci_emission_guard_end(out);
 }

@@ -101,10 +101,12 @@ void hci_emission_write_spline_header(const hci_emission *e, hci_output *out)
     write_use(e, out);
     hci_emission_frame(e, out);
     hci_emission_angle(e, out);
+    hci_emission_facts(e, out);
     write_shape(e, out);
     write_figures(e, out);
     hci_emission_input(e, out);
     hci_emission_guard(e, out, "hci/table_i16.h", "HCI_TABLE_I16_VERSION", HCI_TABLE_I16_VERSION);
+    hci_emission_macros(e, out);
     write_table(e, out);
     hci_emission_guard_end(out);
 }

@@ -3,6 +3,8 @@
 #ifndef HCI_HOST_BASE_OUTPUT_H
 #define HCI_HOST_BASE_OUTPUT_H
 
+#include <stddef.h>
+
 #include "hci/host/base/note.h"
 
 #ifdef __cplusplus
@@ -26,6 +28,9 @@ hci_status hci_output_without(hci_output *output, const char *name, hci_note *no
 
 /* Appends to the current file. Write errors (disk full, …) are remembered and reported by the commit. */
 void hci_output_text(hci_output *output, const char *format, ...) HCI_PRINTF(2, 3);
+
+/* Appends bytes as they are. */
+void hci_output_bytes(hci_output *output, const void *bytes, size_t count);
 
 /* One CSV number: shortest text that reads back to the same double, followed by `end` (',' or '\n'). A value
  * that is not finite is remembered, and the commit fails with HCI_ERROR_NOT_FINITE. */

@@ -59,6 +59,13 @@ typedef enum {
 /* The name of a shape; a static string. */
 const char *hci_emit_shape_name(hci_emit_shape shape);
 
+/* What an emitted table says of where it is from; {NULL} where nothing is known. */
+typedef struct {
+    const char *machine;   /* its name, one line; NULL: not known */
+    size_t pole_pairs;     /* 0: not known */
+    double mean_torque_Nm; /* that currents of one part were solved for; 0: not known */
+} hci_emit_facts;
+
 /* What goes into a table. Start with {0}; the arrays and strings belong to the caller. */
 typedef struct {
     const char *name;              /* of the table, its two files and nothing else: a C identifier */
@@ -76,6 +83,8 @@ typedef struct {
     double max_error_A;            /* > 0: the fewest points that keep every current within it; else 0 */
     size_t max_bytes;              /* of rows or knots; 0: any. Alone, it gives the least error in so many */
     size_t max_instructions;       /* of one call on a Cortex-M4F; 0: any */
+    hci_emit_facts facts;          /* for the header and the blob */
+    bool blob;                     /* NAME.bin too, for hci/blob.h */
     const char *const *provenance; /* lines for the comment, without paths and dates */
     size_t provenance_count;       /* entries of provenance */
     uint64_t input_hash;           /* 64-bit FNV-1a of what the currents were read from */
@@ -109,8 +118,8 @@ typedef struct {
     uint32_t crc32;                                /* of the rows or knots */
 } hci_emit_result;
 
-/* Writes NAME.h and NAME.c into `folder`, both or none; same request, same bytes. result and note may be
- * NULL. HCI_ERROR_ARGUMENT, _NOT_FINITE, _MEMORY, _OUTPUT, with a note. */
+/* Writes NAME.h and NAME.c, and NAME.bin where asked for, into `folder`, all or none; same request, same
+ * bytes. result and note may be NULL. HCI_ERROR_ARGUMENT, _NOT_FINITE, _MEMORY, _OUTPUT, with a note. */
 hci_status hci_emit(const char *folder, const hci_emit_request *request, hci_emit_result *result,
                     hci_note *note);
 

@@ -1,0 +1,38 @@
+#!/bin/sh
+# Blobs of `emit --blob`, read by hci/blob.h in a C and a C++ program: the currents of the compiled tables, and nothing that is
+# cut off, damaged in a bit, newer or of another kind.
+#   emit_blob.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
+. "$1/tests/support/common.sh"
+
+command -v cc >/dev/null || { echo "skipped: no cc here"; exit 77; }
+cd "$source_dir" || exit 1
+run 0 solve data/machine_a --target data/scenarios/02/target.csv --auto --quiet -o "$work/currents"
+emit() { # NAME OPTION...
+    name=$1
+    shift
+    run 0 emit "$work/currents" --name "$name" --machine data/machine_a "$@" --blob --quiet -o "$work/tables"
+}
+emit rows --points 20
+options="-std=c11 -O1 -g -Wall -Wextra -Wconversion -Wno-unused-function -fsanitize=address,undefined -fno-sanitize-recover=all -Iinclude -I$work/tables"
+for table in 'abc linear' 'abc cubic --per-torque' 'dq quadratic' 'dq linear --per-torque'; do
+    # shellcheck disable=SC2086
+    set -- $table
+    emit small --format i16 --frame "$1" --shape "$2" ${3:+"$3"}
+    # shellcheck disable=SC2086
+    check "built: $table" cc $options tests/host/emit/blob/main.c "$work"/tables/rows.c "$work"/tables/small.c -o "$work/program"
+    check "blobs: $table" "$work/program" "$work/tables/rows.bin" "$work/tables/small.bin"
+done
+emit rows --frame dq --per-torque --points 15
+# shellcheck disable=SC2086
+check 'built' cc $options tests/host/emit/blob/main.c "$work"/tables/rows.c "$work"/tables/small.c -o "$work/program"
+check 'rows per torque' "$work/program" "$work/tables/rows.bin" "$work/tables/small.bin"
+
+# One that an earlier run left holds another table; a drive's tables have none.
+run 0 emit "$work/currents" --name rows --quiet -o "$work/tables"
+check 'an old blob stays' test ! -e "$work/tables/rows.bin"
+run 2 emit "$work/currents" --name rows --blob --drive data/drive/machine_a_10kHz.csv --machine data/machine_a -o "$work/tables"
+says '--blob is a table for hci/table.h'
+run 0 emit "$work/currents" --name rows --machine data/machine_a/ --quiet -o "$work/tables"
+check 'facts in the header' grep -q 'Motor:  machine_a, 2 pole pairs' "$work/tables/rows.h"
+check 'facts in the header' grep -q '^#define rows_PERIODS 2u' "$work/tables/rows.h"
+finish
