@@ -251,8 +251,8 @@ static inline uint32_t hci_table_crc32_next(uint32_t crc, uint32_t bits, int nib
     return crc;
 }
 
-/* CRC-32 of so many bytes, low ones first, after `crc`: four times as fast, and 1 KiB of flash. */
-static inline uint32_t hci_table_crc32_bytes(uint32_t crc, uint32_t bits, int bytes)
+/* The CRC-32 of one byte: 1 KiB of flash, and a quarter of the time that half bytes take. */
+static inline uint32_t hci_table_crc32_remainder(uint32_t byte)
 {
     static const uint32_t remainder[256] = {
         0x00000000u, 0x77073096u, 0xEE0E612Cu, 0x990951BAu, 0x076DC419u, 0x706AF48Fu, 0xE963A535u,
@@ -292,11 +292,27 @@ static inline uint32_t hci_table_crc32_bytes(uint32_t crc, uint32_t bits, int by
         0x47B2CF7Fu, 0x30B5FFE9u, 0xBDBDF21Cu, 0xCABAC28Au, 0x53B39330u, 0x24B4A3A6u, 0xBAD03605u,
         0xCDD70693u, 0x54DE5729u, 0x23D967BFu, 0xB3667A2Eu, 0xC4614AB8u, 0x5D681B02u, 0x2A6F2B94u,
         0xB40BBE37u, 0xC30C8EA1u, 0x5A05DF1Bu, 0x2D02EF8Du};
+    return remainder[byte & 255u];
+}
+
+/* CRC-32 of so many bytes, low ones first, after `crc`. */
+static inline uint32_t hci_table_crc32_bytes(uint32_t crc, uint32_t bits, int bytes)
+{
     int k;
     crc ^= bits;
     for (k = 0; k < bytes; ++k)
-        crc = (crc >> 8) ^ remainder[crc & 255u];
+        crc = (crc >> 8) ^ hci_table_crc32_remainder(crc);
     return crc;
+}
+
+/* The same of four, one after the other without a loop. */
+static inline uint32_t hci_table_crc32_word(uint32_t crc, uint32_t bits)
+{
+    crc ^= bits;
+    crc = (crc >> 8) ^ hci_table_crc32_remainder(crc);
+    crc = (crc >> 8) ^ hci_table_crc32_remainder(crc);
+    crc = (crc >> 8) ^ hci_table_crc32_remainder(crc);
+    return (crc >> 8) ^ hci_table_crc32_remainder(crc);
 }
 
 /* CRC-32 of one value's IEEE 754 bits, low byte first, after `crc`. */
@@ -307,7 +323,7 @@ static inline uint32_t hci_table_f32_crc32_next(uint32_t crc, float value)
         uint32_t bits;
     } pun; /* memcpy would need <string.h>, and bytes of eight bits, which not every DSP has */
     pun.value = value;
-    return hci_table_crc32_bytes(crc, pun.bits, 4);
+    return hci_table_crc32_word(crc, pun.bits);
 }
 
 /* CRC-32 (IEEE 802.3, as in zlib) of all rows. About 20 instructions a value, for start-up. */

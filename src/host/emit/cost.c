@@ -8,7 +8,7 @@ typedef struct {
 } cost;
 
 /* [frame][parts − 1]. */
-static const cost F32[2][2] = {{{29, 904}, {49, 1855}}, {{21, 801}, {36, 1750}}};
+static const cost F32[2][2] = {{{29, 904}, {61, 1983}}, {{21, 801}, {47, 1880}}};
 
 /* [frame][parts − 1][degree − 1]; of phase currents with phases and signs to change. */
 static const cost I16[2][2][3] = {{{{49, 629}, {63, 657}, {82, 699}}, {{89, 1781}, {117, 1857}, {155, 1915}}},
