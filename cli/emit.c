@@ -428,9 +428,6 @@ static void show_foreign(const hci_emit_foreign_request *r, const hci_emit_forei
     for (size_t k = 0; k < x->ripples; ++k)
         cli_say("               at %8.4g N·m    %10.4g   %10.4g\n", x->ripple[k].torque_Nm,
                 x->ripple[k].without_Nm, x->ripple[k].with_Nm);
-    if (x->has_higher_effects)
-        cli_say(
-            "  remark       effects of the third degree and more in the current are not in these figures\n");
 }
 
 static int run_for_foreign(const cli_arguments *a)

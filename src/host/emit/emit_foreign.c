@@ -12,7 +12,6 @@
 #include "host/base/memory.h"
 #include "host/emit/foreign_ripple.h"
 #include "host/emit/request.h"
-#include "host/machine/quadratic_model.h"
 
 enum { MOST_POINTS = 4096, LEAST_POINTS = 8, LINES = 8, LINE_SIZE = 120 };
 
@@ -30,33 +29,33 @@ typedef struct {
 
 /* ---- what is asked for ---- */
 
+static hci_status refuse(const hci_foreign_type *type, hci_note *note, const char *why, const char *remedy)
+{
+    return hci_note_set(note, HCI_ERROR_ARGUMENT, "--for %s: %s; %s", type->word, why, remedy);
+}
+
+static hci_status check_points(size_t points, const hci_foreign_type *type, hci_note *note)
+{
+    if (points == 0) return HCI_OK;
+    if (type->default_points == 0) return refuse(type, note, type->samples, "leave out --points");
+    if (points >= LEAST_POINTS && points <= MOST_POINTS && (points & (points - 1)) == 0) return HCI_OK;
+    return hci_note_set(note, HCI_ERROR_ARGUMENT,
+                        "--points: found %zu, expected a power of two from %d to %d", points,
+                        (int)LEAST_POINTS, (int)MOST_POINTS);
+}
+
 static hci_status check_target(const hci_emit_foreign_request *r, const hci_foreign_type *type,
                                hci_note *note)
 {
     if (r->per_Nm && type->kind != HCI_FOREIGN_DQ)
-        return hci_note_set(note, HCI_ERROR_ARGUMENT,
-                            "--for %s: its map is the same at every torque; leave out --per-torque",
-                            type->word);
+        return refuse(type, note, "its map is the same at every torque", "leave out --per-torque");
     if (type->has_counts && !(r->counts_per_A > 0.0))
-        return hci_note_set(note, HCI_ERROR_ARGUMENT,
-                            "--for %s: its numbers are counts; add --counts-per-ampere N", type->word);
+        return refuse(type, note, "its numbers are counts", "add --counts-per-ampere N");
     if (!type->has_counts && r->counts_per_A > 0.0)
-        return hci_note_set(note, HCI_ERROR_ARGUMENT,
-                            "--for %s: it has no counts; leave out --counts-per-ampere", type->word);
+        return refuse(type, note, "it has no counts", "leave out --counts-per-ampere");
     if (!type->has_wave && r->wave != HCI_FOREIGN_SINE)
-        return hci_note_set(note, HCI_ERROR_ARGUMENT,
-                            "--for %s: its map has no phases that could be meant "
-                            "otherwise; leave out --wave",
-                            type->word);
-    if (r->points > 0 && type->default_points == 0)
-        return hci_note_set(note, HCI_ERROR_ARGUMENT, "--for %s: %s; leave out --points", type->word,
-                            type->samples);
-    if (r->points > 0 &&
-        (r->points < LEAST_POINTS || r->points > MOST_POINTS || (r->points & (r->points - 1))))
-        return hci_note_set(note, HCI_ERROR_ARGUMENT,
-                            "--points: found %zu, expected a power of two from %d to %d", r->points,
-                            (int)LEAST_POINTS, (int)MOST_POINTS);
-    return HCI_OK;
+        return refuse(type, note, "its map has no phases that could be meant otherwise", "leave out --wave");
+    return check_points(r->points, type, note);
 }
 
 /* The machine with what its effects add up to the second degree. */
@@ -68,8 +67,8 @@ static hci_status take_machine(emission *e, hci_note *note)
         status = hci_quadratic_model_make(&r->machine->model, &e->effects.list, (double)NAN, &e->model, note);
     if (status) return status;
     const double own = r->torque_constant_Nm_per_A;
-    e->result.has_higher_effects = e->model.higher.effects != NULL;
     e->need = (hci_foreign_need){.machine = &e->model.machine,
+                                 .higher = e->model.higher.effects ? &e->model.higher : NULL,
                                  .request = r,
                                  .torque_constant_Nm_per_A =
                                      own > 0.0 ? own : hci_machine_torque_constant(r->machine)};

@@ -31,7 +31,7 @@ static double torque_at(const hci_foreign_need *need, double theta_rad, const do
 {
     double abc[3];
     hci_foreign_phases(theta_rad, dq, abc);
-    return hci_torque_at(need->machine, theta_rad, abc);
+    return hci_foreign_torque_at(need, theta_rad, abc, NULL);
 }
 
 static double angle_rad(const hci_foreign_need *need, int k)

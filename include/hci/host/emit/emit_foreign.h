@@ -2,7 +2,6 @@
 #ifndef HCI_HOST_EMIT_EMIT_FOREIGN_H
 #define HCI_HOST_EMIT_EMIT_FOREIGN_H
 
-#include <stdbool.h>
 #include <stdint.h>
 
 #include "hci/host/foreign/foreign_target.h"
@@ -56,7 +55,6 @@ typedef struct {
     double torque_constant_Nm_per_A;                /* that was used */
     hci_foreign_ripple ripple[HCI_FOREIGN_RIPPLES]; /* at 0, torque_Nm and −torque_Nm */
     size_t ripples;                                 /* 1 where torque_Nm is 0 */
-    bool has_higher_effects;                        /* saturation and the like, which the ripple leaves out */
 } hci_emit_foreign_result;
 
 /* Writes the files of a target into `folder`, all or none; same request, same bytes.
