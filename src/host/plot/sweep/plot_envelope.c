@@ -91,6 +91,14 @@ static hci_svg_axis speed_axis(const hci_grid *s, const hci_svg_box *b)
     return hci_svg_axis_over(r, b->left, b->right, 10.0);
 }
 
+/* Speeds at which there is no torque with so little ripple. */
+static void mark_none(hci_output *out, const panel *p)
+{
+    for (size_t k = 0; k < p->sweep->plan.count; ++k)
+        if (p->sweep->row[k].verdict == HCI_GRID_RIPPLE || p->sweep->row[k].verdict == HCI_GRID_LIMITS)
+            hci_svg_cross(out, x_at(p, &p->sweep->row[k]), y_at(p, 0.0));
+}
+
 /* The dc link at the first point of each line, where there are several. */
 static void name_links(hci_output *out, const panel *p)
 {
@@ -114,12 +122,14 @@ static void draw_torque(hci_output *out, const hci_grid *s)
     snprintf(allowed, sizeof allowed, "at most %.4g %% of ripple", s->request.ripple_percent);
     const hci_svg_entry legend[] = {{HCI_SVG_LINE, "a", allowed},
                                     {HCI_SVG_LINE, "c", "any ripple"},
-                                    {HCI_SVG_LINE, "before", "plain sine"}};
-    hci_svg_head(out, &TORQUE, "Largest mean torque in N·m", legend, CURVES);
+                                    {HCI_SVG_LINE, "before", "plain sine"},
+                                    {HCI_SVG_CROSS, "cross", "no torque with so little"}};
+    hci_svg_head(out, &TORQUE, "Largest mean torque in N·m", legend, CURVES + 1);
     hci_svg_grid(out, &p.x, &TORQUE, false);
     hci_svg_grid(out, &p.y, &TORQUE, true);
     for (int curve = CURVES - 1; curve >= 0; --curve)
         draw_curve(out, &p, curve);
+    mark_none(out, &p);
     name_links(out, &p);
 }
 

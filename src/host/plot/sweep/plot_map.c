@@ -57,7 +57,7 @@ static void include(side *s, double value)
     s->value[k] = value;
 }
 
-/* The edges of the cell of a value: halfway to its neighbours. */
+/* The edges of the cell of a value: halfway to its neighbours, at the first one not across zero. */
 static void edges(const side *s, double value, double edge[2])
 {
     size_t k = 0;
@@ -65,7 +65,7 @@ static void edges(const side *s, double value, double edge[2])
         ++k;
     const double below = k > 0 ? value - s->value[k - 1] : k + 1 < s->count ? s->value[k + 1] - value : 1.0;
     const double above = k + 1 < s->count ? s->value[k + 1] - value : below;
-    edge[0] = value - 0.5 * below;
+    edge[0] = value >= 0.0 ? fmax(value - 0.5 * below, 0.0) : value - 0.5 * below;
     edge[1] = value + 0.5 * above;
 }
 

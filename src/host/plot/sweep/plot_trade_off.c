@@ -5,10 +5,10 @@
 
 #include "host/plot/sweep/plot_sweep.h"
 
-enum { WIDTH = 1000, HEIGHT = 720 };
+enum { WIDTH = 1000, HEIGHT = 772 };
 
 static const hci_svg_box BOX[2][2] = {{{70, 106, 490, 380}, {570, 106, 980, 380}},
-                                      {{70, 444, 490, 650}, {570, 444, 980, 650}}};
+                                      {{70, 488, 490, 700}, {570, 488, 980, 700}}};
 
 typedef double value_of(const hci_grid_figures *f);
 
@@ -80,6 +80,7 @@ static void ranges(const panel *p, hci_range *x, hci_range *y)
     for (size_t k = first(p); k < end(p); ++k)
         if (is_shown(p, k)) {
             hci_range_include(x, limit_of(p, k));
+            if (k > first(p)) hci_range_include(x, limit_of(p, k - 1));
             hci_range_include(y, p->value(&p->sweep->row[k].best));
         }
     if (!sine) return;
@@ -113,13 +114,23 @@ static void draw_unreached(hci_output *out, const panel *p, const hci_svg_axis *
         hci_svg_label(out, "small quiet", p->box->left + 6.0, p->box->top + 16.0, "not reached");
 }
 
+/* Over the limits alone, without zero. */
+static hci_svg_axis limit_axis(hci_range r, const hci_svg_box *b)
+{
+    const double margin = r.low < r.high ? 0.03 * (r.high - r.low) : 0.1 * fabs(r.low) + 1e-9;
+    hci_svg_axis a = {r.low - margin, r.high + margin, b->left, b->right, 0.0};
+    if (!(r.low <= r.high)) a = (hci_svg_axis){0.0, 1.0, b->left, b->right, 0.0};
+    a.step = hci_svg_nice_step((a.high - a.low) / 8.0);
+    return a;
+}
+
 static void draw_panel(hci_output *out, const panel *p)
 {
     static const hci_svg_entry LEGEND[] = {{HCI_SVG_LINE, "a", "within the limit"},
                                            {HCI_SVG_DOT, "before", "plain sine"}};
     hci_range over, values;
     ranges(p, &over, &values);
-    const hci_svg_axis x = hci_svg_axis_over(over, p->box->left, p->box->right, 8.0),
+    const hci_svg_axis x = limit_axis(over, p->box),
                        y = hci_svg_axis_over(values, p->box->bottom, p->box->top, 6.0);
     draw_unreached(out, p, &x);
     hci_svg_head(out, p->box, p->title, LEGEND, 2);
