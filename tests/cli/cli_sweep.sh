@@ -66,7 +66,7 @@ for folder in three joined; do
     check "$folder is not the whole" diff -r "$work/one" "$work/$folder"
 done
 
-# ---- interrupted, killed, and gone on
+# ---- gone on, and refused with other inputs; cli_sweep_interrupt.sh ends it
 
 # shellcheck disable=SC2086
 {
@@ -85,28 +85,6 @@ done
     run 0 $map -q -o "$work/again"
 }
 check "gone on is not the whole" diff -r "$work/one" "$work/again"
-
-# ended SIGNAL FOLDER: a longer sweep, ended as soon as some points are kept, and gone on.
-long="sweep $m --map --torques 0.2:2:0.2 --speeds 300,900,1500 --limit-current 12 --limit-voltage 40 --harmonics $h --minimise peak-to-peak"
-# shellcheck disable=SC2086
-run 0 $long -q -o "$work/long"
-ended() {
-    shown="hci-solve $long, and kill -$1"
-    # shellcheck disable=SC2086
-    env --default-signal=INT "$hci_solve" $long -q -o "$2" 2>"$work/stderr" &
-    job=$!
-    tries=0
-    while [ ! -s "$2/points.csv" ] && kill -0 $job 2>/dev/null && [ $tries -lt 600 ]; do sleep 0.05 && tries=$((tries + 1)); done
-    kill "-$1" $job 2>/dev/null
-    wait $job 2>/dev/null
-    check "nothing was kept" [ -s "$2/points.csv" ]
-    # shellcheck disable=SC2086
-    run 0 $long -q -o "$2"
-    rm -f "$2"/.hci-*
-    check "ended by $1 and gone on is not the whole" diff -r "$work/long" "$2"
-}
-ended INT "$work/interrupted"
-ended KILL "$work/killed"
 
 # ---- a point is what `solve` gives; a grid in a file
 
