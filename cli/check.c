@@ -1,19 +1,28 @@
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "cli/command/command.h"
 #include "cli/command/reading.h"
 #include "cli/commands.h"
 #include "cli/terminal/say.h"
 #include "cli/terminal/terminal.h"
 #include "cli/terminal/text.h"
 #include "hci/host/check/check.h"
+#include "hci/host/check/table_rotation.h"
+#include "hci/host/currents/solution_folder.h"
+#include "hci/host/machine/machine.h"
 #include "hci/host/report/summary.h"
 #include "hci/host/report/write.h"
+#include "hci/math/harmonic.h"
 
-enum { OUT, CLI_READING_KEYS, CLI_COMMON_KEYS };
+enum { TABLE, OUT, CLI_READING_KEYS, CLI_COMMON_KEYS };
 
 static const cli_option OPTIONS[] = {
+    [TABLE] =
+        {"table", 0, CLI_FILE, "CURRENTS_OR_FOLDER",
+         .help = "instead: whether the drive of the one recording reads this table at the angle of its log"},
     [OUT] = {"out", 'o', CLI_FOLDER, "FOLDER",
              .help = "where summary.json goes; without it nothing is written"},
     CLI_READING_OPTIONS,
@@ -172,7 +181,7 @@ static void show_remarks(const hci_check *c)
     }
 }
 
-/* ---- the command ---- */
+/* ---- summary ---- */
 
 static hci_status give_summary(const hci_check *c, const cli_arguments *a, hci_note *note)
 {
@@ -186,12 +195,100 @@ static hci_status give_summary(const hci_check *c, const cli_arguments *a, hci_n
     return HCI_OK;
 }
 
+/* ---- at which angle a drive reads its table ---- */
+
+static double degrees(double rad)
+{
+    return rad * 180.0 / HCI_PI;
+}
+
+/* The angle is told to a hundredth of a degree at best: logs are not better. */
+static double shown_error(const hci_table_rotation *x)
+{
+    return fmax(0.01, degrees(x->error_rad));
+}
+
+static void show_table_remedy(double pole_pairs, const hci_table_rotation *x)
+{
+    const double turns = x->rotation_rad / (2.0 * HCI_PI) / pole_pairs;
+    if (x->backwards)
+        cli_say("  remedy       the encoder counts against a-b-c: its direction is -1\n");
+    else
+        cli_say("  remedy       add 0x%08" PRIX32
+                "u to zero_angle of hci/counter.h, or take %.3f degrees from the "
+                "angle of the shaft\n",
+                (uint32_t)(int64_t)floor(turns * 4294967296.0 + 0.5), 360.0 * turns);
+}
+
+static void show_table(const char *run, double pole_pairs, const hci_table_rotation *x)
+{
+    if (x->is_rotated)
+        cli_say(CLI_BAD "rotated" CLI_PLAIN
+                        ": %s: the table is read %s%.2f ± %.2g degrees electrical %s of the "
+                        "angle in the log\n",
+                run, x->backwards ? "backwards, " : "", fabs(degrees(x->rotation_rad)), shown_error(x),
+                x->rotation_rad < 0.0 ? "behind" : "ahead");
+    else
+        cli_say(CLI_GOOD "aligned" CLI_PLAIN
+                         ": %s: the table is read at the angle in the log, to %.2g degrees "
+                         "electrical\n",
+                run, shown_error(x));
+    cli_say("  difference   %.1f %% of the current as it is, %.1f %% where the table is turned so; the "
+            "currents are "
+            "%.4g times the table\n",
+            100.0 * x->left_as_is, 100.0 * x->left, x->gain);
+    if (x->period_turns > 1)
+        cli_say("  elsewhere    %.1f %% at best in another of the %zu electrical turns\n",
+                100.0 * x->left_elsewhere, x->period_turns);
+    if (x->is_rotated) show_table_remedy(pole_pairs, x);
+}
+
+static hci_status compare_table(const cli_arguments *a, const char *table_path,
+                                const hci_run_options *options, bool json, hci_table_rotation *x,
+                                hci_note *note)
+{
+    hci_currents table = {0};
+    hci_run run = {0};
+    hci_status status = hci_solution_read_currents(table_path, HCI_SOLUTION_CURRENTS, &table, note);
+    if (!status) status = hci_run_read(a->word[1], options, &run, note);
+    if (!status) status = hci_table_rotation_of(&table, &run, options->pole_pairs, x, note);
+    if (!status && cli_is_wordy()) show_table(a->word[1], options->pole_pairs, x);
+    if (!status && json) status = cli_print_json(hci_table_rotation_json(x), note);
+    hci_run_release(&run);
+    hci_currents_release(&table);
+    return status;
+}
+
+static int check_table(const cli_arguments *a, const char *table_path, bool json, hci_run_options *options)
+{
+    hci_machine_data machine = {0};
+    hci_table_rotation x;
+    hci_note note = {{0}};
+    hci_status status = HCI_OK;
+    if (a->words != 2)
+        status = hci_note_set(&note, HCI_ERROR_ARGUMENT,
+                              "check: --table CURRENTS goes with a machine and one recording");
+    if (!status) status = hci_machine_read(a->word[0], &machine, &note);
+    options->pole_pairs = (int)machine.pole_pairs;
+    if (!status) status = compare_table(a, table_path, options, json, &x, &note);
+    hci_machine_release(&machine);
+    if (status) return cli_fail(status, &note);
+    return x.is_rotated ? 1 : 0;
+}
+
+/* ---- the command ---- */
+
 static int run(const cli_arguments *a)
 {
     static hci_check check;
     hci_note note = {{0}};
     cli_reading reading;
     hci_status status = cli_reading_take(a, a->given[STRICT], &reading, &note);
+    if (!status && a->given[TABLE]) {
+        const int code = check_table(a, a->value[TABLE], a->given[JSON], &reading.run);
+        cli_reading_release(&reading);
+        return code;
+    }
     if (!status) status = hci_check_files(a->word[0], a->word + 1, a->words - 1, &reading.run, &check, &note);
     cli_reading_release(&reading);
     if (status && status != HCI_NOT_REACHED) return cli_fail(status, &note);
@@ -215,7 +312,8 @@ const cli_command cli_check = {
     .word_kind = CLI_FILE,
     .example = "  hci-solve check data/machine_c\n"
                "  hci-solve check data/fem_c/machine data/fem_c/runs/I0.csv data/fem_c/runs/id0_iq6.csv\n"
-               "\nExit codes: 0 consistent; 1 slips found, ambiguous or not understood; " CLI_EXIT_ERRORS,
+               "\nExit codes: 0 consistent, or aligned; 1 slips found, ambiguous, not understood or "
+               "rotated; " CLI_EXIT_ERRORS,
     .source = "cli/check.c",
     .guide = "check.md",
     .run = run,

@@ -217,6 +217,8 @@ named "$work/round2/summary.json" 'summary.json of diagnose'
 sed 's/^1,21.93/1,37.98/' "$m/back_emf.csv" >"$work/declared/back_emf.csv" # line for phase voltage
 run 1 check "$work/declared" "$work/runs/slow.csv" -q -o "$work/checked"
 named "$work/checked/summary.json" 'summary.json of check'
+run 0 check data/machine_a "$work/solve/waveform.csv" --table "$work/solve" --json -q
+named "$work/stdout" 'summary.json of check --table'
 
 # ---- emit and init
 

@@ -4,6 +4,7 @@
 #define HCI_HOST_REPORT_SUMMARY_H
 
 #include "hci/host/check/check.h"
+#include "hci/host/check/table_rotation.h"
 #include "hci/host/diagnose/diagnose.h"
 #include "hci/host/emit/emit.h"
 #include "hci/host/emit/emit_foreign.h"
@@ -33,6 +34,9 @@ char *hci_speeds_json(const hci_speeds *speeds);
 
 /* What `emit --drive` has made of a request. */
 char *hci_emit_loop_json(const hci_emit_loop_request *request, const hci_emit_loop_result *result);
+
+/* What `check --table` has found. */
+char *hci_table_rotation_json(const hci_table_rotation *rotation);
 
 /* What `check` has found. */
 char *hci_check_json(const hci_check *check);

@@ -1,0 +1,37 @@
+/* Whether a drive reads a table at the angle that its log has. */
+#ifndef HCI_HOST_CHECK_TABLE_ROTATION_H
+#define HCI_HOST_CHECK_TABLE_ROTATION_H
+
+#include "hci/host/currents/currents.h"
+#include "hci/host/recording/run.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* How the currents of a recording lie to those of a table: i(θ) = gain · table(θ + rotation), or with −θ
+ * where it is read backwards. */
+typedef struct {
+    double rotation_rad; /* electrical, −π·period … π·period: the table is read so far ahead of the log's
+                            angle */
+    double error_rad;    /* standard error of it */
+    double gain;         /* the recorded currents by the table's: the share of the torque */
+    bool backwards;      /* against the direction of the log's angle */
+    bool is_rotated;     /* by more than three errors and 0.01 rad, or backwards */
+    double left_as_is;     /* rms of what differs by rms of the currents, at no rotation */
+    double left;           /* and at this one */
+    double left_elsewhere; /* at the best rotation in another electrical turn of the table; 1 with one turn */
+    size_t period_turns;   /* electrical turns in the table */
+    size_t samples;        /* that were compared */
+} hci_table_rotation;
+
+/* Compares. HCI_ERROR_INPUT where the run has no currents or no angle, or the table none; _MEMORY. A current
+ * loop that lags behind its reference looks like a table that is read too late: take a slow log. */
+hci_status hci_table_rotation_of(const hci_currents *table, const hci_run *run, int pole_pairs,
+                                 hci_table_rotation *rotation, hci_note *note);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,194 @@
+/* Where a drive reads a table. In: the waves of a table, a recording of phase currents over the angle; out:
+ * the shift at which the one fits the other best. The table is computed on a fine grid, all shifts by whole
+ * steps of it are tried on some samples, and the best is refined by Newton's method on all of them. */
+#include "hci/host/check/table_rotation.h"
+
+#include <math.h>
+#include <stdint.h>
+
+#include "hci/math/harmonic.h"
+#include "host/base/memory.h"
+
+/* Grid points of an electrical turn, turns of a table at most, and samples that shifts are tried on. */
+enum { GRID = 512, MOST_TURNS = 64, TRIED = 600 };
+
+typedef struct {
+    const hci_currents *table;
+    const hci_run *run;
+    double pole_pairs;
+    size_t turns;
+    double *grid; /* [GRID·turns][3] */
+} comparison;
+
+/* Sums over samples: measured², table², measured·table. */
+typedef struct {
+    double mm, tt, mt;
+} sums;
+
+static size_t period_of(const hci_currents *table)
+{
+    for (size_t turns = 1; turns <= MOST_TURNS; ++turns) {
+        bool whole = true;
+        for (size_t k = 0; k < table->count; ++k) {
+            const double cycles = table->wave[k].order * (double)turns;
+            whole = whole && fabs(cycles - floor(cycles + 0.5)) < 10.0 * HCI_ORDER_TOLERANCE;
+        }
+        if (whole) return turns;
+    }
+    return MOST_TURNS;
+}
+
+static hci_status make_grid(comparison *c, hci_note *note)
+{
+    c->turns = period_of(c->table);
+    c->grid = hci_memory_new(GRID * c->turns * 3, sizeof *c->grid);
+    if (!c->grid) return hci_note_memory(note, c->run->name, "%zu turns of the table", c->turns);
+    for (size_t k = 0; k < GRID * c->turns; ++k)
+        hci_waves_at(c->table->wave, c->table->count, 2.0 * HCI_PI * (double)k / GRID, c->grid + 3 * k);
+    return HCI_OK;
+}
+
+static double theta_rad(const comparison *c, size_t sample, bool backwards)
+{
+    const double theta = c->run->theta_m_rad[sample] * c->pole_pairs;
+    return backwards ? -theta : theta;
+}
+
+static void add(sums *s, const double measured[3], const double table[3])
+{
+    for (int k = 0; k < 3; ++k) {
+        s->mm += measured[k] * measured[k];
+        s->tt += table[k] * table[k];
+        s->mt += measured[k] * table[k];
+    }
+}
+
+/* Share of the measured square that no gain > 0 explains. */
+static double left_of(const sums *s)
+{
+    if (!(s->mt > 0.0) || !(s->tt > 0.0)) return 1.0;
+    return fmax(0.0, 1.0 - s->mt * s->mt / (s->mm * s->tt));
+}
+
+/* At a shift of whole grid points, on some samples, by the golden ratio all over the recording. */
+static double try_shift(const comparison *c, size_t shift, bool backwards)
+{
+    const size_t all = GRID * c->turns;
+    sums s = {0.0, 0.0, 0.0};
+    for (uint32_t n = 0; n < TRIED; ++n) {
+        const size_t k = (size_t)(((uint64_t)(n * 2654435769u) * c->run->count) >> 32);
+        const double turns = theta_rad(c, k, backwards) / (2.0 * HCI_PI * (double)c->turns);
+        const size_t place = (size_t)((turns - floor(turns)) * (double)all + 0.5) + shift;
+        add(&s, c->run->i_A + 3 * k, c->grid + 3 * (place % all));
+    }
+    return left_of(&s);
+}
+
+/* The table and its slope at an angle. */
+static void table_at(const comparison *c, double theta, double value[3], double slope[3])
+{
+    const double step = 1e-5;
+    double before[3], after[3];
+    hci_waves_at(c->table->wave, c->table->count, theta, value);
+    hci_waves_at(c->table->wave, c->table->count, theta - step, before);
+    hci_waves_at(c->table->wave, c->table->count, theta + step, after);
+    for (int k = 0; k < 3; ++k)
+        slope[k] = (after[k] - before[k]) / (2.0 * step);
+}
+
+/* One step of Gauss and Newton for the gain and the rotation, on all samples; and what is left before it. */
+static void refine(const comparison *c, hci_table_rotation *x)
+{
+    double tt = 0.0, ts = 0.0, ss = 0.0, rt = 0.0, rs = 0.0, rr = 0.0, mm = 0.0, determinant;
+    for (size_t k = 0; k < c->run->count; ++k) {
+        const double *i = c->run->i_A + 3 * k;
+        double t[3], slope[3];
+        table_at(c, theta_rad(c, k, x->backwards) + x->rotation_rad, t, slope);
+        for (int s = 0; s < 3; ++s) {
+            const double r = i[s] - x->gain * t[s], g = x->gain * slope[s];
+            mm += i[s] * i[s], rr += r * r, tt += t[s] * t[s], ts += t[s] * g, ss += g * g, rt += r * t[s],
+                rs += r * g;
+        }
+    }
+    determinant = tt * ss - ts * ts;
+    x->left = sqrt(rr / mm);
+    if (!(determinant > 0.0)) return;
+    x->error_rad = sqrt(rr / (2.0 * (double)c->run->count) * tt / determinant);
+    x->gain += (rt * ss - rs * ts) / determinant;
+    x->rotation_rad += (rs * tt - rt * ts) / determinant;
+}
+
+/* What is left as it is, and the gain of a start. */
+static double gain_at(const comparison *c, double rotation_rad, bool backwards, double *left)
+{
+    sums s = {0.0, 0.0, 0.0};
+    for (size_t k = 0; k < c->run->count; ++k) {
+        double t[3];
+        hci_waves_at(c->table->wave, c->table->count, theta_rad(c, k, backwards) + rotation_rad, t);
+        add(&s, c->run->i_A + 3 * k, t);
+    }
+    *left = sqrt(left_of(&s));
+    return s.tt > 0.0 ? s.mt / s.tt : 0.0;
+}
+
+/* The best shift, and the best in another electrical turn. */
+static void search(const comparison *c, hci_table_rotation *x)
+{
+    const size_t all = GRID * c->turns;
+    double best = 2.0, elsewhere = 2.0;
+    size_t at = 0;
+    for (size_t k = 0; k < 2 * all; ++k) {
+        const double left = try_shift(c, k % all, k >= all);
+        if (!(left < best)) continue;
+        best = left;
+        at = k;
+    }
+    x->backwards = at >= all;
+    at %= all;
+    for (size_t turn = 1; turn < c->turns; ++turn)
+        for (size_t k = 0; k < 33; ++k)
+            elsewhere = fmin(elsewhere, try_shift(c, (at + turn * GRID + k + all - 16) % all, x->backwards));
+    x->left_elsewhere = c->turns > 1 ? sqrt(elsewhere) : 1.0;
+    x->rotation_rad = 2.0 * HCI_PI * (double)at / GRID;
+    if (at > all / 2) x->rotation_rad -= 2.0 * HCI_PI * (double)c->turns;
+}
+
+static hci_status check_inputs(const comparison *c, hci_note *note)
+{
+    double sum = 0.0;
+    if (!c->run->theta_m_rad || c->run->zero_is_unknown || c->run->only_mean)
+        return hci_note_set(
+            note, HCI_ERROR_INPUT,
+            "%s: found no angle from a known zero, expected theta_m_rad or theta_e_rad; log the angle "
+            "with which the table is read",
+            c->run->name);
+    for (size_t k = 0; k < 3 * c->run->count; ++k)
+        sum += c->run->i_A[k] * c->run->i_A[k];
+    if (!(sum > 0.0))
+        return hci_note_set(note, HCI_ERROR_INPUT,
+                            "%s: found no current, expected ia_A, ib_A, ic_A or id_A, iq_A; log what flows",
+                            c->run->name);
+    if (c->table->count == 0)
+        return hci_note_set(note, HCI_ERROR_INPUT,
+                            "the table has no currents; solve for a torque or a cogging torque");
+    return HCI_OK;
+}
+
+hci_status hci_table_rotation_of(const hci_currents *table, const hci_run *run, int pole_pairs,
+                                 hci_table_rotation *x, hci_note *note)
+{
+    comparison c = {table, run, pole_pairs, 1, NULL};
+    hci_status status = check_inputs(&c, note);
+    if (!status) status = make_grid(&c, note);
+    if (status) return status;
+    *x = (hci_table_rotation){.period_turns = c.turns, .samples = run->count};
+    search(&c, x);
+    (void)gain_at(&c, 0.0, false, &x->left_as_is);
+    x->gain = gain_at(&c, x->rotation_rad, x->backwards, &x->left);
+    for (int k = 0; k < 4; ++k)
+        refine(&c, x);
+    x->is_rotated =
+        x->backwards || (fabs(x->rotation_rad) > 3.0 * x->error_rad && fabs(x->rotation_rad) > 0.01);
+    hci_memory_free(c.grid);
+    return HCI_OK;
+}

@@ -1,0 +1,129 @@
+/* By how much a table is rotated, from recordings that are made of it: any rotation, share, noise and
+ * direction; tables of several electrical turns. */
+#include <math.h>
+#include <string.h>
+
+#include "hci/host/check/table_rotation.h"
+#include "support/reference.h"
+#include "unity.h"
+
+enum { COUNT = 4000, PAIRS = 7 };
+
+static double theta[COUNT], current[3 * COUNT];
+static hci_wave wave[4];
+static hci_currents table;
+static hci_run run;
+static hci_note note;
+
+void setUp(void)
+{
+    wave[0] = hci_wave_polar(1.0, 1, 8.0, 0.1);
+    wave[1] = hci_wave_polar(5.0, -1, 1.0, 0.7);
+    wave[2] = hci_wave_polar(7.0, 1, 0.8, -2.0);
+    wave[3] = hci_wave_polar(9.0 / 7.0, 1, 0.5, 1.1); /* of the mechanical turn */
+    table = (hci_currents){.wave = wave, .count = 3};
+    memset(&run, 0, sizeof run);
+    run.name = "log";
+    run.count = COUNT;
+    run.theta_m_rad = theta;
+    run.i_A = current;
+    note.text[0] = '\0';
+}
+void tearDown(void)
+{
+}
+
+/* Plays the table `ahead` of the log's angle, over three turns of the shaft. */
+static void play(double ahead_rad, double gain, double noise_A, int direction, uint64_t seed)
+{
+    for (size_t k = 0; k < COUNT; ++k) {
+        theta[k] = 6.0 * REF_PI * (double)k / COUNT;
+        hci_waves_at(wave, table.count, direction * PAIRS * theta[k] + ahead_rad, current + 3 * k);
+        for (int s = 0; s < 3; ++s)
+            current[3 * k + (size_t)s] = gain * current[3 * k + (size_t)s] + noise_A * ref_normal(&seed);
+    }
+}
+
+static hci_table_rotation compare(void)
+{
+    hci_table_rotation x;
+    memset(&x, 0, sizeof x);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_table_rotation_of(&table, &run, PAIRS, &x, &note), note.text);
+    return x;
+}
+
+static void test_any_rotation(void)
+{
+    uint64_t seed = 1;
+    for (int k = 0; k < 12; ++k) {
+        const double ahead = ref_uniform(&seed, -REF_PI, REF_PI), gain = ref_uniform(&seed, 0.1, 2.0);
+        play(ahead, gain, 0.0, 1, 1);
+        const hci_table_rotation x = compare();
+        TEST_ASSERT_DOUBLE_WITHIN(1e-6, ahead, x.rotation_rad);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-6, gain, x.gain);
+        TEST_ASSERT_TRUE(x.is_rotated == (fabs(ahead) > 0.01) && !x.backwards);
+        TEST_ASSERT_TRUE(x.left < 1e-5 && x.left <= x.left_as_is);
+    }
+    play(0.0, 1.0, 0.0, 1, 1);
+    TEST_ASSERT_FALSE(compare().is_rotated);
+}
+
+/* Errors of the rotation by those that are stated. */
+static void test_the_error_is_that_of_the_noise(void)
+{
+    double sum = 0.0;
+    enum { TIMES = 40 };
+    for (uint64_t k = 0; k < TIMES; ++k) {
+        play(0.3, 1.0, 2.0, 1, 100 + k);
+        const hci_table_rotation x = compare();
+        sum += pow((x.rotation_rad - 0.3) / x.error_rad, 2.0);
+        TEST_ASSERT_TRUE(x.is_rotated);
+    }
+    TEST_ASSERT_DOUBLE_WITHIN(0.7, 1.0, sum / TIMES); /* 40 squares have a deviation of 0.22 */
+    TEST_ASSERT_TRUE(sum / TIMES > 0.3);
+}
+
+static void test_backwards(void)
+{
+    play(0.5, 1.0, 0.1, -1, 3);
+    const hci_table_rotation x = compare();
+    TEST_ASSERT_TRUE(x.backwards && x.is_rotated);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-2, 0.5, x.rotation_rad);
+}
+
+/* A half order of the shaft tells the seven turns apart. */
+static void test_which_of_the_turns(void)
+{
+    table.count = 4;
+    for (int turn = -3; turn <= 3; ++turn) {
+        const double ahead = 0.2 + 2.0 * REF_PI * turn;
+        play(ahead, 0.7, 0.05, 1, 5);
+        const hci_table_rotation x = compare();
+        TEST_ASSERT_EQUAL_UINT(7, (unsigned)x.period_turns);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-2, ahead, x.rotation_rad);
+        TEST_ASSERT_TRUE(x.left_elsewhere > 3.0 * x.left);
+    }
+}
+
+static void test_what_cannot_be_compared(void)
+{
+    hci_table_rotation x;
+    play(0.0, 0.0, 0.0, 1, 1);
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, hci_table_rotation_of(&table, &run, PAIRS, &x, &note));
+    TEST_ASSERT_NOT_NULL(strstr(note.text, "log: found no current"));
+    note.text[0] = '\0';
+    run.theta_m_rad = NULL;
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, hci_table_rotation_of(&table, &run, PAIRS, &x, &note));
+    TEST_ASSERT_NOT_NULL(strstr(note.text, "log: found no angle"));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_any_rotation);
+    RUN_TEST(test_the_error_is_that_of_the_noise);
+    RUN_TEST(test_backwards);
+    RUN_TEST(test_which_of_the_turns);
+    RUN_TEST(test_what_cannot_be_compared);
+    return UNITY_END();
+}
