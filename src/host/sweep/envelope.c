@@ -9,7 +9,7 @@
 #include "host/solution/bounds.h"
 #include "host/sweep/figures.h"
 
-enum { MOST_TRIALS = 20, MOST_FAILURES = 4, MOST_STEPS = 30, SPARE_ORDERS = 8, PROBES = 4 };
+enum { MOST_TRIALS = 20, MOST_FAILURES = 4, MOST_STEPS = 30, SPARE_ORDERS = 8 };
 
 #define FIRST     1.3   /* of the torque of a plain sine at the limit: what is asked for first */
 #define ANOTHER   1.17  /* of it: what is asked for where the solver does not succeed */
@@ -18,8 +18,6 @@ enum { MOST_TRIALS = 20, MOST_FAILURES = 4, MOST_STEPS = 30, SPARE_ORDERS = 8, P
 #define AIM       0.985 /* share of the ripple allowed that is looked for */
 #define FIRST_CUT 0.9   /* of the largest with any ripple: what is tried first */
 #define EDGE      0.04  /* share of the bracket that each step takes off at least */
-#define JUMP      0.5   /* share of the ripple allowed below which the next torque should not have too much */
-#define PROBE     0.005 /* share of the torque by which further ones are tried */
 #define NOTHING   1e-3  /* share of the largest torque that is none */
 
 /* ---- the largest torque ---- */
@@ -100,8 +98,8 @@ static void try_torque(search *s, double torque_Nm)
 {
     hci_grid_answer a;
     solve_for(s->request->machine, s->options, torque_Nm, &a);
-    const bool is_good = a.verdict == HCI_GRID_REACHED ||
-                         (a.verdict == HCI_GRID_RIPPLE && a.figures.T_ripple_percent <= s->allowed_percent);
+    const bool is_good = a.verdict <= HCI_GRID_TORQUE && a.figures.T_ripple_percent <= s->allowed_percent &&
+                         a.figures.mean_Nm >= (1.0 - 0.5 * NEAR) * torque_Nm;
     if (is_good) {
         s->good_Nm = torque_Nm;
         s->good_percent = a.figures.T_ripple_percent;
@@ -120,20 +118,6 @@ static bool goes_on(const search *s)
     return !(s->good_percent >= JUST * s->allowed_percent);
 }
 
-/* A ripple that jumps from little to more than is allowed is one that the solver has not brought down, as
- * happens where the torque is not linear: torques further on are tried. */
-static void look_beyond(search *s, double most_Nm)
-{
-    double next_Nm = s->bad_Nm;
-    for (int k = 0; k < PROBES && s->good_percent < JUMP * s->allowed_percent; ++k) {
-        const double before_Nm = s->good_Nm;
-        next_Nm *= 1.0 + PROBE;
-        if (next_Nm >= most_Nm) return;
-        try_torque(s, next_Nm);
-        if (s->good_Nm > before_Nm) k = -1;
-    }
-}
-
 /* Fills best and its verdict from `most`. */
 static void narrow(search *s, hci_grid_row *row)
 {
@@ -147,7 +131,6 @@ static void narrow(search *s, hci_grid_row *row)
         try_torque(s, next_Nm(s, k > 3 && k % 2 == 1 && width_Nm > 0.5 * before_Nm));
         before_Nm = width_Nm;
     }
-    if (s->good_Nm > 0.0) look_beyond(s, most_Nm);
     row->verdict = s->good_Nm > 0.0 ? HCI_GRID_REACHED : HCI_GRID_RIPPLE;
     if (s->good_Nm > 0.0) row->best = s->best;
 }

@@ -11,7 +11,7 @@ enum {
 
 #define TOUCHED                                                                                              \
     1e-4 /* share of a limit below which it does not bind: an interior point leaves every price above 0 */
-#define MEAN_MET 1e-5 /* share of the torque within which a mean is the wanted one */
+#define MEAN_MET 1e-4 /* share of the torque within which a mean is the wanted one */
 
 hci_grid_figures hci_grid_no_figures(void)
 {
