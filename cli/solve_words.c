@@ -210,7 +210,7 @@ static void show_limits(const hci_solution *s)
 {
     if (isfinite(s->peak_line_voltage_V))
         cli_say("  voltage      peak line voltage %.4g V\n", s->peak_line_voltage_V);
-    show_cost(s);
+    if (s->within_limits || s->limit_cost == HCI_COST_LIMITS) show_cost(s);
     if (!s->within_limits && s->limit_cost != HCI_COST_LIMITS) {
         cli_say("  limits       not kept");
         if (isfinite(s->torque_at_limit_Nm))

@@ -22,6 +22,7 @@ typedef struct {
     const double *g, *h, *low; /* rows × unknowns, rows, two_sided */
     size_t cones;
     const size_t *cone; /* rows of each second-order cone, at least 2 */
+    double precision;   /* relative residuals and gap at which it may end; 0: as precise as it gets */
 } hci_cone_problem;
 
 typedef enum {

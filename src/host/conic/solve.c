@@ -12,7 +12,7 @@
 
 enum { MOST_STEPS = 150, MOST_IDLE = 30, MOST_SHORTER = 20 };
 
-#define EXACT       1e-10 /* relative residuals and gap at which it ends */
+#define EXACT       1e-10 /* relative residuals and gap at which it ends at the latest */
 #define GOOD        1e-7  /* and below which the best point is called solved */
 #define CERTAIN     1e-8  /* relative residual of a proof that there is no solution */
 #define TO_BOUNDARY 0.99  /* share of the way to the boundary */
@@ -187,10 +187,11 @@ static void keep_best(hci_cone_state *v, double error)
 
 static void iterate(hci_cone_state *v, hci_cone_answer *a)
 {
+    const double enough = fmax(EXACT, v->problem->precision);
     bool goes_on = begin(v);
     v->best = HUGE_VAL;
     a->end = HCI_CONE_STALLED;
-    while (goes_on && v->best > EXACT && a->steps < MOST_STEPS && v->idle < MOST_IDLE) {
+    while (goes_on && v->best > enough && a->steps < MOST_STEPS && v->idle < MOST_IDLE) {
         keep_best(v, residuals(v));
         if (v->best > GOOD && is_hopeless(v, &a->end)) {
             memcpy(v->best_x, v->x, v->n * sizeof *v->x);
@@ -198,10 +199,10 @@ static void iterate(hci_cone_state *v, hci_cone_answer *a)
             v->best = HUGE_VAL;
             return;
         }
-        goes_on = v->best > EXACT && step(v);
+        goes_on = v->best > enough && step(v);
         ++a->steps;
     }
-    a->end = v->best <= GOOD ? HCI_CONE_SOLVED : HCI_CONE_STALLED;
+    a->end = v->best <= fmax(GOOD, enough) ? HCI_CONE_SOLVED : HCI_CONE_STALLED;
 }
 
 /* ---- all of it ---- */

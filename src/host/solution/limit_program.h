@@ -28,6 +28,7 @@ typedef struct {
     const double *centre; /* coordinates from which x is at most radius_A away, √Σ of squares; 0: no bound */
     double radius_A;
 
+    double precision; /* of the solver, relative; 0: as precise as it gets */
     double widened;   /* share by which every limit is wider than asked for */
     double mean_Nm;   /* RIPPLE and COPPER: nearest mean torque */
     bool has_mean;    /* it is the wanted one */

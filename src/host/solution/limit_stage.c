@@ -114,7 +114,8 @@ static hci_cone_problem problem_of(const hci_limit_build *b, const double *g, co
                               .h = g + b->n * b->rows,
                               .low = b->low,
                               .cones = b->cones,
-                              .cone = b->cone};
+                              .cone = b->cone,
+                              .precision = b->of->precision};
 }
 
 static hci_status solve(const hci_limit_build *b, const hci_cone_problem *problem, hci_limit_optimum *o,

@@ -14,13 +14,15 @@ enum {
     PATIENCE = 14 /* steps in which the change is not halved, after which the distance is bounded */
 };
 
-#define COARSE      1e-6 /* change of the current above which steps are coarse */
-#define CONVERGED   1e-8 /* change of the current as a share of it */
-#define CLOSE       1e-4 /* distance as a share of the current at which nothing better is near */
-#define SETTLING    1e-2 /* the same for the last step, which brings peaks within their limits */
-#define LEAST_SHARE 0.1  /* of the way to an answer */
-#define SHRINK      0.3
-#define GROW        2.0
+#define FAR           3e-2 /* change of the current above which programs are solved roughly */
+#define COARSE        1e-6 /* change of the current above which steps are coarse */
+#define CONVERGED     1e-8 /* change of the current as a share of it */
+#define CLOSE         1e-4 /* distance as a share of the current at which nothing better is near */
+#define SETTLING      1e-2 /* the same for the last step, which brings peaks within their limits */
+#define LEAST_SHARE   0.1  /* of the way to an answer */
+#define SHRINK        0.3
+#define AFTER_FAILURE 0.1 /* the same after a step that rounding spoils */
+#define GROW          2.0
 
 static hci_status out_of_memory(hci_note *note)
 {
@@ -143,15 +145,26 @@ static void move_bounded(path *p, bool is_better)
     memcpy(p->from, p->best, p->n * sizeof *p->from);
 }
 
+/* From the best answer on, within less, where rounding spoils a step. */
+static hci_status step_back(path *p, hci_status status, const hci_note *why, hci_note *note)
+{
+    if (status != HCI_ERROR_NUMERIC || !p->best) return hci_note_set(note, status, "%s", why->text);
+    p->radius_A = p->radius_A > 0.0 ? SHRINK * p->radius_A : AFTER_FAILURE * length(p, p->best);
+    memcpy(p->from, p->best, p->n * sizeof *p->from);
+    return HCI_OK;
+}
+
 static hci_status advance(path *p, hci_note *note)
 {
     const double before = p->change;
     bool is_better = false;
+    hci_note why = {{0}};
     hci_status status;
     p->wishes->is_coarse = p->change > COARSE;
-    status = step(p, note);
-    if (!status) status = judge(p, &is_better, note);
-    if (status) return status;
+    p->wishes->is_far = p->change > FAR;
+    status = step(p, &why);
+    if (!status) status = judge(p, &is_better, &why);
+    if (status) return step_back(p, status, &why, note);
     p->change = distance(p, p->wishes->x, p->from) / fmax(length(p, p->wishes->x), 1e-12);
     if (p->radius_A > 0.0)
         move_bounded(p, is_better);
@@ -165,16 +178,26 @@ static hci_status advance(path *p, hci_note *note)
 static bool goes_on(const path *p)
 {
     if (p->radius_A > 0.0) return p->radius_A > CLOSE * length(p, p->from);
-    return p->change > CONVERGED;
+    return p->change > CONVERGED || p->wishes->is_coarse;
 }
 
-/* The last step beside the best answer, with peaks between the angles brought within their limits. */
-static hci_status settle(path *p, hci_note *note)
+static hci_status settle_at(path *p, bool is_coarse, hci_note *note)
 {
-    p->wishes->is_coarse = false;
+    p->wishes->is_coarse = is_coarse;
+    p->wishes->is_far = false;
     memcpy(p->from, p->best, p->n * sizeof *p->from);
     p->radius_A = SETTLING * length(p, p->best);
     return step(p, note);
+}
+
+/* The last step beside the best answer, with peaks between the angles brought within their limits, or where
+ * rounding spoils that left as they are. */
+static hci_status settle(path *p, hci_note *note)
+{
+    hci_note why = {{0}};
+    const hci_status status = settle_at(p, false, &why);
+    if (status == HCI_ERROR_NUMERIC) return settle_at(p, true, note);
+    return status ? hci_note_set(note, status, "%s", why.text) : HCI_OK;
 }
 
 /* Whether neither torque nor voltage has to be made linear. */

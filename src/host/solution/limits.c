@@ -243,35 +243,45 @@ hci_status hci_limits_check(const hci_machine_data *m, const hci_solve_options *
 
 /* ---- the same currents for less torque ---- */
 
-/* Largest share of its limit that mean × per_Nm + constant has in any phase. */
-static double share_at(const hci_bounds *b, const hci_solution *s, double mean_Nm)
+/* Narrows the means low … high to those with |mean × slope + rest| <= limit. */
+static void narrow(double slope, double rest, double limit, double *low, double *high)
 {
-    const size_t samples = samples_of(s, 1.0);
-    double most = 0.0;
-    for (size_t k = 0; k < samples; ++k) {
-        const double theta_rad = 2.0 * HCI_PI * (double)(s->period_turns * k) / (double)samples;
-        double per_Nm[3], rest[3];
-        hci_waves_at(s->per_Nm, s->current.count, theta_rad, per_Nm);
-        hci_waves_at(s->constant, s->current.count, theta_rad, rest);
-        for (int phase = 0; phase < 3; ++phase)
-            most = fmax(most, fabs(mean_Nm * per_Nm[phase] + rest[phase]) / b->current_A[phase]);
-    }
-    return most;
+    const double one = (limit - rest) / slope, other = (-limit - rest) / slope;
+    if (slope == 0.0) return;
+    *low = fmax(*low, fmin(one, other));
+    *high = fmin(*high, fmax(one, other));
 }
 
-/* The peak is a convex function of the mean torque, so the means that keep the limit are an interval. */
+/* The same with the currents mean × per_Nm + constant of all phases at one angle; false where no current of
+ * mean 0 keeps the limit. */
+static bool narrow_at(const hci_bounds *b, const hci_solution *s, double theta_rad, double *low, double *high)
+{
+    double per_Nm[3], rest[3];
+    bool is_kept = true;
+    hci_waves_at(s->per_Nm, s->current.count, theta_rad, per_Nm);
+    hci_waves_at(s->constant, s->current.count, theta_rad, rest);
+    for (int phase = 0; phase < 3; ++phase) {
+        is_kept = is_kept && fabs(rest[phase]) <= b->current_A[phase];
+        narrow(per_Nm[phase], rest[phase], b->current_A[phase], low, high);
+    }
+    return is_kept;
+}
+
+static bool exceeds_current(const hci_solution *s)
+{
+    for (size_t k = 0; k < s->limit_count; ++k)
+        if (s->limit[k].kind == HCI_LIMIT_CURRENT && s->limit[k].value > s->limit[k].limit) return true;
+    return false;
+}
+
 void hci_limits_scale(const hci_bounds *b, double wanted_Nm, hci_solution *s)
 {
-    double good = 0.0, bad = wanted_Nm;
-    bool is_beyond = false;
+    const size_t samples = samples_of(s, 1.0);
+    double low = -HUGE_VAL, high = HUGE_VAL;
     s->torque_at_limit_Nm = NAN;
-    for (size_t k = 0; k < s->limit_count; ++k)
-        is_beyond =
-            is_beyond || (s->limit[k].kind == HCI_LIMIT_CURRENT && s->limit[k].value > s->limit[k].limit);
-    if (!is_beyond || !s->per_Nm || !(share_at(b, s, 0.0) <= 1.0)) return;
-    for (int step = 0; step < 40; ++step) {
-        const double middle = 0.5 * (good + bad);
-        *(share_at(b, s, middle) <= 1.0 ? &good : &bad) = middle;
-    }
-    s->torque_at_limit_Nm = good;
+    if (!exceeds_current(s) || !s->per_Nm) return;
+    for (size_t k = 0; k < samples; ++k)
+        if (!narrow_at(b, s, 2.0 * HCI_PI * (double)(s->period_turns * k) / (double)samples, &low, &high))
+            return;
+    s->torque_at_limit_Nm = fmax(low, fmin(high, wanted_Nm));
 }

@@ -1,16 +1,21 @@
 #include "host/solution/wish.h"
 
+#include <math.h>
 #include <string.h>
 
+#include "core/math/vector.h"
 #include "host/base/memory.h"
 #include "host/solution/limit_stage.h"
 
 enum {
+    FEW = 12, /* peaks that are left when it becomes precise */
     COARSE_ROUNDS = 2,
     MOST_ROUNDS = 40 /* of adding peaks, each of which squares the error */
 };
 
-#define IDLE 0.7 /* share of a limit below which an angle is left out until a peak is there */
+#define ROUGH 1e-6 /* of the solver while peaks are still looked for */
+#define NEAR  0.97 /* share of a limit from which a peak of the last answer is kept as a row */
+#define IDLE  0.7  /* share of a limit below which an angle is left out until a peak is there */
 
 static hci_status out_of_memory(hci_note *note)
 {
@@ -73,15 +78,39 @@ static hci_status try_round(hci_wishes *l, hci_limit_stage stage, hci_limit_opti
     return status;
 }
 
+hci_status hci_wish_forget(hci_wishes *l, hci_note *note)
+{
+    hci_limit_program *p = &l->program;
+    double *row = l->x ? hci_memory_new(hci_limit_row_room(&p->field), sizeof *row) : NULL;
+    size_t kept = 0;
+    if (!l->x) return HCI_OK;
+    if (!row) return out_of_memory(note);
+    for (size_t k = 0; k < p->points.count; ++k) {
+        const hci_limit_point *at = &p->points.point[k];
+        const double limit = hci_limit_of_point(p->bounds, at->kind, at->phase) * (1.0 + p->widened),
+                     constant = hci_limit_row(&p->field, at, row);
+        if (at->kind == HCI_POINT_TORQUE ||
+            fabs(constant + hci_vector_dot(2 * l->set.count, row, l->x)) >= NEAR * limit)
+            p->points.point[kept++] = *at;
+    }
+    p->points.count = kept;
+    hci_memory_free(row);
+    return HCI_OK;
+}
+
+/* Roughly until no peaks are left, then precisely until there are none either. */
 hci_status hci_wish_solve(hci_wishes *l, hci_limit_stage stage, hci_limit_optimum *o, hci_note *note)
 {
     size_t added = 1;
     bool goes_on = true;
     hci_status status = HCI_OK;
     memset(o, 0, sizeof *o);
-    for (int round = 0; round < rounds_of(l) && added > 0 && goes_on && !status; ++round) {
+    l->program.precision = l->is_coarse && !l->is_far ? 0.0 : ROUGH;
+    for (int round = 0; round < rounds_of(l) && goes_on && !status; ++round) {
         status = try_round(l, stage, o, &goes_on, note);
         if (!status && goes_on) status = add_peaks(l, stage, o, &added, note);
+        if (added == 0 && (l->is_coarse || !(l->program.precision > 0.0))) break;
+        if (added < FEW && !l->is_coarse) l->program.precision = 0.0;
     }
     o->is_settled = added == 0;
     return status;

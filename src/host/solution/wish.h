@@ -10,6 +10,10 @@
 hci_status hci_wish_solve(hci_wishes *wishes, hci_limit_stage stage, hci_limit_optimum *optimum,
                           hci_note *note);
 
+/* Takes peaks that the last answer is not near out of the program, lest rows that no longer matter become
+ * many. HCI_ERROR_MEMORY. */
+hci_status hci_wish_forget(hci_wishes *wishes, hci_note *note);
+
 /* Takes its currents out of an optimum. */
 void hci_wish_take(hci_wishes *wishes, hci_limit_optimum *optimum);
 

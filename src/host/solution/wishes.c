@@ -149,7 +149,9 @@ static hci_status find_copper(hci_wishes *l, hci_note *note)
     hci_limit_program *p = &l->program;
     hci_limit_optimum o;
     hci_note ignored = {{0}};
-    hci_status status = hci_wish_solve(l, HCI_STAGE_COPPER, &o, &ignored);
+    hci_status status = l->is_coarse ? HCI_OK : hci_wish_forget(l, note);
+    if (status) return status;
+    status = hci_wish_solve(l, HCI_STAGE_COPPER, &o, &ignored);
     for (int k = 0; k < MOST_SLACKS && !l->is_coarse && !is_settled(status, &o) && status != HCI_ERROR_MEMORY;
          ++k) {
         hci_memory_free(o.x);
@@ -201,6 +203,7 @@ static hci_status in_turn(hci_wishes *l, hci_note *note)
         l->program.ripple_Nm = NAN;
         return HCI_OK;
     }
+    if (status == HCI_ERROR_MEMORY) return out_of_memory(note);
     return status ? hci_note_set(note, status, "%s", why.text) : HCI_OK;
 }
 
@@ -242,7 +245,8 @@ hci_status hci_wishes_begin(hci_wishes *wishes, hci_note *note)
 
 hci_status hci_wishes_meet(hci_wishes *wishes, hci_note *note)
 {
-    const hci_status status = hci_wishes_program_make(wishes, note);
+    hci_status status = hci_wishes_program_make(wishes, note);
+    if (!status && wishes->is_far) status = hci_wish_forget(wishes, note);
     return status ? status : all_wishes(wishes, note);
 }
 

@@ -27,6 +27,7 @@ typedef struct {
     hci_limit_program program;
     double *x;              /* S and C of each component, A: what was found */
     bool is_coarse;         /* the torque is still being made linear: peaks may stay for the next step */
+    bool is_far;            /* and so far off that the solver need not be precise */
     bool is_hard;           /* the torque of the last step could not be as wanted */
     hci_limit_optimum cost; /* of the stage that says what limits cost */
 } hci_wishes;
