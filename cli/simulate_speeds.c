@@ -11,6 +11,7 @@
 #include "cli/terminal/say.h"
 #include "cli/terminal/terminal.h"
 #include "cli/terminal/text.h"
+#include "hci/host/machine/effects.h"
 #include "hci/host/report/summary.h"
 #include "hci/host/report/write.h"
 
@@ -18,6 +19,7 @@ enum { MOST_SPEEDS = 64 };
 
 typedef struct {
     hci_machine_data machine;
+    hci_effects_data effects;
     hci_drive_data drive;
     hci_loop_levels levels;
     double speed_rad_per_s[MOST_SPEEDS];
@@ -51,12 +53,7 @@ static hci_status read_inputs(const cli_speeds_words *w, inputs *in, hci_note *n
 {
     hci_status status = read_speeds(w->speeds, in, note);
     if (!status) status = hci_machine_read(w->machine, &in->machine, note);
-    if (!status && in->machine.has_effects)
-        status =
-            hci_note_set(note, HCI_ERROR_INPUT,
-                         "%s: effects.csv holds more than the tables of a drive know; simulate the machine "
-                         "without it",
-                         w->machine);
+    if (!status) status = hci_effects_read_machine(w->machine, &in->effects, note);
     if (!status) status = hci_drive_read(w->drive, &in->drive, note);
     if (!status) status = hci_loop_levels_read(w->table, w->table_count, false, &in->levels, note);
     return status;
@@ -117,6 +114,7 @@ static hci_status simulate(const cli_speeds_words *w, inputs *in, hci_note *note
     const hci_report_sources sources = {.machine = w->machine, .currents = w->table[0], .drive = w->drive};
     const double last_Nm = in->levels.level[in->levels.count - 1].torque_Nm;
     const hci_speeds_request request = {.machine = &in->machine,
+                                        .effects = &in->effects.list,
                                         .drive = &in->drive,
                                         .levels = in->levels.level,
                                         .level_count = in->levels.count,
@@ -144,6 +142,7 @@ hci_status cli_simulate_speeds(const cli_speeds_words *words, hci_note *note)
     if (!status) status = simulate(words, &in, note);
     hci_loop_levels_release(&in.levels);
     hci_drive_release(&in.drive);
+    hci_effects_release(&in.effects);
     hci_machine_release(&in.machine);
     return status;
 }

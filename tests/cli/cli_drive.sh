@@ -53,6 +53,17 @@ run 3 simulate data/machine_a --table "$work/a/currents.csv" --drive $drive --sp
 says 'currents.csv'
 check "something was written" [ ! -e "$work/out" ]
 
+# ---- a machine that saturates: its currents are for it, and the loop's tables do for most of it
+
+cp -r data/machine_c_saturated "$work/saturated"
+printf 'inductance_d,80,mH,test\ninductance_q,80,mH,test\n' >>"$work/saturated/machine.csv"
+printf 'order,amplitude_Nm,phase_rad\n0,8,0\n' >"$work/eight.csv"
+run 0 solve data/machine_c_saturated --target "$work/eight.csv" --auto -q -o "$work/eight"
+run 0 simulate "$work/saturated" --table "$work/eight" --drive data/drive/machine_c_10kHz.csv --speeds 80 -q -o "$work/saturated_speeds"
+check "saturation does not act, or is not compensated" awk -F, '{ at[$2] = $3; mean[$2] = $6 }
+    END { exit !(at["table"] > 3 && at["compensation"] < 0.5 && at["compensation"] > 0.1 && mean["compensation"] > 7.99 && mean["compensation"] < 8.01) }' \
+    "$work/saturated_speeds/speeds.csv"
+
 # ---- solve leaves out what the loop cannot be made to follow
 
 refused solve data/machine_a --target data/scenarios/02/target.csv --auto --drive $drive -o "$work/out" -- 'what a drive follows depends on the speed'

@@ -110,7 +110,8 @@ static hci_status run(grid *g, const hci_machine_data *machine, hci_remedy remed
                                     &g->known.table,
                                     g->request->drive->modulation == HCI_MODULATION_SINUSOIDAL};
     const hci_effects none = {NULL, 0};
-    const hci_simulate_options options = {.effects = &none, .loop = &loop, .observer = &observer};
+    const hci_simulate_options options = {
+        .effects = g->request->effects ? g->request->effects : &none, .loop = &loop, .observer = &observer};
     const hci_status status = hci_simulate(machine, &scenario, &options, &s, g->note);
     if (status) return status;
     *result = (hci_speed_result){.mean_Nm = s.torque_Nm.mean,

@@ -5,6 +5,7 @@
 
 #include "hci/host/base/progress.h"
 #include "hci/host/drive/drive.h"
+#include "hci/host/machine/effects.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -52,6 +53,7 @@ typedef struct {
 /* What is asked for. */
 typedef struct {
     const hci_machine_data *machine; /* as read */
+    const hci_effects *effects;      /* of the simulated machine, which its tables do not know; NULL: none */
     hci_drive_data *drive;           /* as read; its defaults are filled in */
     const hci_loop_level *levels;    /* of torque, as of hci_emit_loop */
     size_t level_count;              /* entries of levels */
