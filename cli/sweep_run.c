@@ -80,6 +80,7 @@ typedef struct {
     size_t items, taken;
     double kept_s;   /* when the points were written last */
     bool is_changed; /* since then */
+    bool is_any;     /* a point that did not fail: until then nothing is written */
     hci_status status;
     hci_note note;
 } points_work;
@@ -110,13 +111,14 @@ static void take_point(void *context, size_t item, const void *answer, int numbe
         hci_grid_fail(&w->sweep->plan.point[item], reason, &w->sweep->row[item]);
     }
     w->sweep->done[item] = true;
+    w->is_any = w->is_any || w->sweep->row[item].verdict != HCI_GRID_FAILED;
     w->is_changed = true;
     ++w->taken;
 }
 
 static void keep(points_work *w)
 {
-    if (w->out && w->is_changed && !w->status)
+    if (w->out && w->is_any && w->is_changed && !w->status)
         w->status = hci_grid_keep_points(w->sweep, &w->inputs->inputs, w->out, &w->note);
     w->is_changed = false;
     w->kept_s = now_s();
@@ -136,8 +138,10 @@ static hci_status list_items(points_work *w, hci_note *note)
     const hci_grid *s = w->sweep;
     w->item = malloc((s->plan.count + 1) * sizeof *w->item);
     if (!w->item) return hci_note_memory(note, NULL, "the points of a grid");
-    for (size_t k = 0; k < s->plan.count; ++k)
+    for (size_t k = 0; k < s->plan.count; ++k) {
+        w->is_any = w->is_any || (s->done[k] && s->row[k].verdict != HCI_GRID_FAILED);
         if (!s->done[k] && k % w->inputs->shares == w->inputs->share - 1) w->item[w->items++] = k;
+    }
     return HCI_OK;
 }
 
@@ -159,6 +163,13 @@ static hci_status solve_points(points_work *w, size_t jobs, hci_note *note)
     cli_progress_end();
     if (!status && w->status) return hci_note_set(note, w->status, "%s", w->note.text);
     return status;
+}
+
+/* Where each point of this run fails, what was given is wrong, and the reason of the first says it. */
+static hci_status judge(const points_work *w, hci_note *note)
+{
+    if (w->is_any || w->items == 0 || w->taken < w->items) return HCI_OK;
+    return hci_note_set(note, HCI_ERROR_INPUT, "%s", w->sweep->row[w->item[0]].reason);
 }
 
 /* ---- all of it ---- */
@@ -189,6 +200,7 @@ hci_status cli_sweep_run(const cli_sweep_inputs *in, const cli_sweep_work *work,
     if (!status) status = take_known(in, work, sweep, note);
     if (!status) status = list_items(&w, note);
     if (!status) status = solve_points(&w, work->jobs, note);
+    if (!status) status = judge(&w, note);
     free(w.item);
     return status;
 }

@@ -229,7 +229,10 @@ void hci_grid_envelope(const hci_grid_request *r, const hci_grid_point *p, hci_g
     if (hci_bounds_make(r->machine, &o, 0.0, &b, &note))
         hci_grid_fail(p, note.text, row);
     else if (!(amplitude_within(&b) < HUGE_VAL))
-        hci_grid_fail(p, "no limit of the current", row);
+        hci_grid_fail(p,
+                      "the largest torque is that of a limit of the current, and there is none; give "
+                      "--limit-current, --limit-rms or --limit-copper, or max_current in machine.csv",
+                      row);
     else
         fill(r, &o, FIRST * hci_machine_torque_constant(r->machine) * amplitude_within(&b), row);
 }
