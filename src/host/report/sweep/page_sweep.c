@@ -68,6 +68,23 @@ static void say_envelope(hci_output *out, const hci_grid *s)
             row->most.mean_Nm, row->most.T_ripple_percent, row->sine.mean_Nm, row->sine.T_ripple_percent);
 }
 
+static void envelope_row(hci_output *out, const hci_grid_row *row)
+{
+    const hci_grid_figures *part[] = {&row->best, &row->most, &row->sine};
+    char binds[HCI_GRID_BINDS_SIZE];
+    hci_html_row(out);
+    hci_html_number(out, hci_grid_rpm(row->point.speed_rad_per_s));
+    hci_html_number(out, row->point.link_V);
+    for (int j = 0; j < 3; ++j) {
+        hci_html_number(out, part[j]->mean_Nm);
+        hci_html_number(out, part[j]->T_ripple_percent);
+    }
+    hci_grid_binds_text(&row->best, binds);
+    hci_html_cell(out, binds);
+    hci_html_cell(out, hci_grid_verdict_name(row->verdict));
+    hci_html_row_end(out);
+}
+
 static void rows_of_envelope(hci_output *out, const hci_grid *s)
 {
     static const char *const COLUMN[] = {"speed in rpm",
@@ -82,22 +99,8 @@ static void rows_of_envelope(hci_output *out, const hci_grid *s)
                                          "<verdict",
                                          NULL};
     hci_html_table(out, "Largest mean torque", COLUMN);
-    for (size_t k = 0; k < s->plan.count && k < MOST_ROWS; ++k) {
-        const hci_grid_row *row = &s->row[k];
-        const hci_grid_figures *part[] = {&row->best, &row->most, &row->sine};
-        char binds[HCI_GRID_BINDS_SIZE];
-        hci_html_row(out);
-        hci_html_number(out, hci_grid_rpm(row->point.speed_rad_per_s));
-        hci_html_number(out, row->point.link_V);
-        for (int j = 0; j < 3; ++j) {
-            hci_html_number(out, part[j]->mean_Nm);
-            hci_html_number(out, part[j]->T_ripple_percent);
-        }
-        hci_grid_binds_text(&row->best, binds);
-        hci_html_cell(out, binds);
-        hci_html_cell(out, hci_grid_verdict_name(row->verdict));
-        hci_html_row_end(out);
-    }
+    for (size_t k = 0; k < s->plan.count && k < MOST_ROWS; ++k)
+        envelope_row(out, &s->row[k]);
     hci_html_table_end(out);
 }
 
@@ -115,6 +118,22 @@ static void say_map(hci_output *out, const hci_grid *s)
         count[HCI_GRID_LIMITS], count[HCI_GRID_FAILED]);
 }
 
+static void map_row(hci_output *out, const hci_grid_row *row)
+{
+    char binds[HCI_GRID_BINDS_SIZE];
+    hci_html_row(out);
+    hci_html_number(out, hci_grid_rpm(row->point.speed_rad_per_s));
+    hci_html_number(out, row->point.torque_Nm);
+    hci_html_number(out, row->best.T_ripple_percent);
+    hci_html_number(out, row->best.mean_square_A2);
+    hci_html_number(out, row->best.peak_A);
+    hci_html_number(out, row->best.line_V);
+    hci_grid_binds_text(&row->best, binds);
+    hci_html_cell(out, binds);
+    hci_html_cell(out, hci_grid_verdict_name(row->verdict));
+    hci_html_row_end(out);
+}
+
 static void rows_of_map(hci_output *out, const hci_grid *s)
 {
     static const char *const COLUMN[] = {"speed in rpm",
@@ -127,21 +146,8 @@ static void rows_of_map(hci_output *out, const hci_grid *s)
                                          "<verdict",
                                          NULL};
     hci_html_table(out, s->plan.count > MOST_ROWS ? "Points; the first of them" : "Points", COLUMN);
-    for (size_t k = 0; k < s->plan.count && k < MOST_ROWS; ++k) {
-        const hci_grid_row *row = &s->row[k];
-        char binds[HCI_GRID_BINDS_SIZE];
-        hci_html_row(out);
-        hci_html_number(out, hci_grid_rpm(row->point.speed_rad_per_s));
-        hci_html_number(out, row->point.torque_Nm);
-        hci_html_number(out, row->best.T_ripple_percent);
-        hci_html_number(out, row->best.mean_square_A2);
-        hci_html_number(out, row->best.peak_A);
-        hci_html_number(out, row->best.line_V);
-        hci_grid_binds_text(&row->best, binds);
-        hci_html_cell(out, binds);
-        hci_html_cell(out, hci_grid_verdict_name(row->verdict));
-        hci_html_row_end(out);
-    }
+    for (size_t k = 0; k < s->plan.count && k < MOST_ROWS; ++k)
+        map_row(out, &s->row[k]);
     hci_html_table_end(out);
 }
 
@@ -170,19 +176,21 @@ static void show_tables(hci_output *out, const hci_grid *s)
     rows_of_trade_off(out, s, true);
 }
 
-void hci_page_sweep(hci_output *out, const hci_grid *s, const hci_report_sources *sources)
+static void say_results(hci_output *out, const hci_grid *s)
 {
-    static const char *const HEADING[] = {"Ripple against current and copper",
-                                          "Largest torque over the speed", "Maps over torque and speed"};
-    static const char *const FILES[] = {"trade_off.csv", "envelope.csv", "map.csv"};
-    char origin[HCI_PAGE_ORIGIN_SIZE], limits[HCI_GRID_WORDS_SIZE];
-    hci_page_origin(origin, sources);
+    char limits[HCI_GRID_WORDS_SIZE];
     hci_grid_limits_words(&s->request, limits);
-    hci_html_begin(out, HEADING[s->request.kind], "Done", true);
     hci_html_say(out, "lead", "%zu points; %s.", s->plan.count, limits[0] ? limits : "no limits");
     if (s->request.kind == HCI_GRID_TRADE_OFF) say_trade_off(out, s);
     if (s->request.kind == HCI_GRID_ENVELOPE) say_envelope(out, s);
     if (s->request.kind == HCI_GRID_MAP) say_map(out, s);
+}
+
+static void show_figure(hci_output *out, const hci_grid *s, const hci_report_sources *sources)
+{
+    static const char *const FILES[] = {"trade_off.csv", "envelope.csv", "map.csv"};
+    char origin[HCI_PAGE_ORIGIN_SIZE];
+    hci_page_origin(origin, sources);
     hci_html_section(out, "Picture and numbers");
     hci_html_figure(out);
     hci_plot_sweep(out, s, false);
@@ -194,6 +202,15 @@ void hci_page_sweep(hci_output *out, const hci_grid *s, const hci_report_sources
         "that flow exactly. Each point is solved as `solve` does.",
         FILES[s->request.kind], origin);
     hci_html_section_end(out);
+}
+
+void hci_page_sweep(hci_output *out, const hci_grid *s, const hci_report_sources *sources)
+{
+    static const char *const HEADING[] = {"Ripple against current and copper",
+                                          "Largest torque over the speed", "Maps over torque and speed"};
+    hci_html_begin(out, HEADING[s->request.kind], "Done", true);
+    say_results(out, s);
+    show_figure(out, s, sources);
     show_reasons(out, s);
     hci_page_show_sources(out, sources);
     hci_html_end(out);
