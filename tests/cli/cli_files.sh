@@ -154,7 +154,8 @@ sweep="sweep $m --limit-current 12 --harmonics $work/harmonics.csv -q"
     run 0 $sweep --trade-off --torque 1 --currents 4,8 --coppers 1.2 -o "$work/sweep_trade_off"
     run 0 $sweep --envelope --speeds 0 --ripple 500 --report -o "$work/sweep_envelope"
     run 0 $sweep --map --torques 1 --speeds 0 -o "$work/sweep_map"
-    run 1 $sweep "$work/grid.csv" -o "$work/by_grid" # no inductance: no point has a result
+    run 3 $sweep "$work/grid.csv" -o "$work/by_grid" # read, but there is no inductance
+    says 'inductance'
 }
 for kind in trade_off envelope map; do
     written "$work/sweep_$kind/$kind.csv" "\`$kind.csv\`"

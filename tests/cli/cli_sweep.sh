@@ -107,6 +107,8 @@ grep -v '^inductance' "$work/own.csv" >"$m/machine.csv"
 run 3 sweep "$m" --map --torques 1,2 --speeds 300 --limit-voltage 40 -o "$work/all_failed"
 says 'machine.csv: .*inductance'
 check "a sweep whose points all fail left a folder" [ ! -e "$work/all_failed" ]
+run 0 sweep "$m" --map --torques 1,2 --speeds 300 --limit-voltage 40 --shard 1/2 -q -o "$work/failed_share"
+check "a share whose points all fail is not kept" grep -q '^1,.*,failed,.*inductance' "$work/failed_share/points.csv"
 cp "$work/own.csv" "$m/machine.csv"
 run 3 sweep "$m" --envelope --speeds 300 -q
 says 'limit-current'
