@@ -4,7 +4,7 @@
  *     speed ─▶ PI ─▶ torque ─▶ strategy, current waves or code ─▶ limits ─▶ hysteresis │ PI │ ideal ─▶
  * inverter
  *
- * Everything runs once a step of the plant; slower samples are every n-th step. */
+ * Everything runs once a step of the plant; slower samples are every n-th. For an interrupt: hci/foc.h. */
 #ifndef HCI_DRIVE_CONTROL_H
 #define HCI_DRIVE_CONTROL_H
 

@@ -1,6 +1,6 @@
 /* Clarke and Park transforms, amplitude-invariant, in the project's frame: q in phase with the fundamental of
  * the back-EMF, d on the magnet axis, i_a = i_q sin θ − i_d cos θ. i_q > 0 makes positive torque, i_d > 0
- * strengthens the magnets' flux. */
+ * strengthens the magnets' flux. Double: 5450 instructions on a Cortex-M4F; there hci/foc.h. */
 #ifndef HCI_MACHINE_FRAMES_H
 #define HCI_MACHINE_FRAMES_H
 
