@@ -24,23 +24,28 @@ static hci_status check_signs(const hci_solve_options *o, hci_note *note)
                         "limits: found a negative value or one that is no number; expected values above 0");
 }
 
+static hci_status check_open_held(const hci_solve_options *o, hci_note *note)
+{
+    for (int s = 0; s < 3 && o->held; ++s)
+        if (o->limits.is_open[s])
+            return hci_note_set(note, HCI_ERROR_ARGUMENT,
+                                "phase %c carries no current, but a fundamental of all phases is held; leave "
+                                "out one of the two",
+                                PHASE[s]);
+    return HCI_OK;
+}
+
 /* A star has no way back through the neutral: two phases are one loop, one phase is none. */
 static hci_status check_open(const hci_machine_data *m, const hci_solve_options *o, hci_note *note)
 {
     const bool *open = o->limits.is_open;
     const int count = open[0] + open[1] + open[2];
-    for (int s = 0; s < 3 && o->held; ++s)
-        if (open[s])
-            return hci_note_set(note, HCI_ERROR_ARGUMENT,
-                                "phase %c carries no current, but a fundamental of all phases is held; leave "
-                                "out one of the two",
-                                PHASE[s]);
     if (count > 0 && o->choose_at_most > 0)
         return hci_note_set(
             note, HCI_ERROR_ARGUMENT,
-            "at most K components are chosen for three phases that carry current; with an open one "
-            "leave out K or name the components with --harmonics");
-    if (count <= (m->has_neutral ? 2 : 1)) return HCI_OK;
+            "at most K components are chosen for three phases that carry current; with an open "
+            "one leave out K or name the components with --harmonics");
+    if (count <= (m->has_neutral ? 2 : 1)) return check_open_held(o, note);
     return hci_note_set(note, HCI_ERROR_ARGUMENT,
                         "%s phases are limited to 0 A, and %s connection then carries no current at all, so "
                         "there is no torque; allow current in %s",

@@ -142,24 +142,31 @@ static bool is_settled(hci_status status, const hci_limit_optimum *o)
     return !status && !o->is_infeasible && o->is_settled;
 }
 
-/* Takes no ripple at all first, then a little more than the smallest until that leaves room for an answer.
- * Where none is found, the currents of the smallest ripple stay. */
-static hci_status find_copper(hci_wishes *l, hci_note *note)
+/* Takes no ripple at all first, then a little more than the smallest until that leaves room for an answer. */
+static hci_status solve_copper(hci_wishes *l, hci_limit_optimum *o)
 {
     hci_limit_program *p = &l->program;
-    hci_limit_optimum o;
     hci_note ignored = {{0}};
-    hci_status status = l->is_coarse ? HCI_OK : hci_wish_forget(l, note);
-    if (status) return status;
-    status = hci_wish_solve(l, HCI_STAGE_COPPER, &o, &ignored);
-    for (int k = 0; k < MOST_SLACKS && !l->is_coarse && !is_settled(status, &o) && status != HCI_ERROR_MEMORY;
+    hci_status status = hci_wish_solve(l, HCI_STAGE_COPPER, o, &ignored);
+    for (int k = 0; k < MOST_SLACKS && !l->is_coarse && !is_settled(status, o) && status != HCI_ERROR_MEMORY;
          ++k) {
-        hci_memory_free(o.x);
+        hci_memory_free(o->x);
         if (!p->has_ripple) p->slack *= 10.0;
         p->has_ripple = false;
-        status = hci_wish_solve(l, HCI_STAGE_COPPER, &o, &ignored);
+        status = hci_wish_solve(l, HCI_STAGE_COPPER, o, &ignored);
     }
     p->slack = HCI_LIMIT_SLACK;
+    return status;
+}
+
+/* Where none is found, the currents of the smallest ripple stay. */
+static hci_status find_copper(hci_wishes *l, hci_note *note)
+{
+    const hci_limit_program *p = &l->program;
+    hci_limit_optimum o;
+    hci_status status = l->is_coarse ? HCI_OK : hci_wish_forget(l, note);
+    if (status) return status;
+    status = solve_copper(l, &o);
     if (is_settled(status, &o) || (l->is_coarse && !status && !o.is_infeasible)) {
         if (p->has_mean && p->has_ripple) note_cost(l, HCI_COST_COPPER, &o, o.smallest);
         hci_wish_take(l, &o);
