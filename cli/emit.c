@@ -43,6 +43,8 @@ static const cli_choice FORMATS[] = {
     [HCI_EMIT_F32] = {"f32", "f32 (default): float rows"},
     [HCI_EMIT_I16] = {"i16", "; i16: 16-bit knots, read as amperes"},
     [HCI_EMIT_Q15] = {"q15", "; q15: the same, read as integers"},
+    [HCI_EMIT_CSV] = {"csv", "; csv, json: the rows of f32 in ID.csv or ID.json, for other programs"},
+    [HCI_EMIT_JSON] = {"json", ""},
     {NULL, NULL},
 };
 static const cli_choice SHAPES[] = {
@@ -294,7 +296,12 @@ static void show_choices(const hci_emit_result *result)
 
 static void show(const hci_emit_request *r, const hci_emit_result *result, const char *folder)
 {
-    cli_say(CLI_GOOD "emitted" CLI_PLAIN ": %s/%s.h and %s.c\n", folder, r->name, r->name);
+    const bool is_data = r->format == HCI_EMIT_CSV || r->format == HCI_EMIT_JSON;
+    if (is_data)
+        cli_say(CLI_GOOD "emitted" CLI_PLAIN ": %s/%s.%s\n", folder, r->name,
+                hci_emit_format_name(r->format));
+    else
+        cli_say(CLI_GOOD "emitted" CLI_PLAIN ": %s/%s.h and %s.c\n", folder, r->name, r->name);
     show_choices(result);
     cli_say("  table        %zu values in %zu part%s in a row, frame %s; period %zu electrical turn%s",
             result->columns, result->parts, result->parts == 1 ? "" : "s",
@@ -305,7 +312,10 @@ static void show(const hci_emit_request *r, const hci_emit_result *result, const
             result->peak_A);
     if (r->per_Nm) cli_say(", up to %.4g N·m", r->reference_torque_Nm);
     if (r->blob) cli_say("\n  blob         %s.bin, for hci/blob.h", r->name);
-    cli_say("\n  runtime      hci/%s\n", r->format == HCI_EMIT_F32 ? "table.h" : "table_i16.h");
+    if (is_data)
+        cli_say("\n  rows         straight lines between them; after the last comes the first\n");
+    else
+        cli_say("\n  runtime      hci/%s\n", r->format == HCI_EMIT_F32 ? "table.h" : "table_i16.h");
 }
 
 /* ---- for a drive ---- */

@@ -59,7 +59,7 @@ static bool make_spline(hci_emission *e, uint32_t degree, double error_A, bool i
 static void make(hci_emission *e, hci_emit_choice *c, double error_A)
 {
     bool made;
-    if (c->format == HCI_EMIT_F32) {
+    if (hci_emit_has_rows(c->format)) {
         made = make_f32(e, error_A);
         c->points = e->table.points;
         c->bytes = (c->points + 1) * values_in_row(e) * sizeof *e->rows;
@@ -81,8 +81,10 @@ static void make(hci_emission *e, hci_emit_choice *c, double error_A)
 /* All shapes, or with a number of points those of the format that it is meant for. */
 static void make_all(hci_emission *e, double error_A)
 {
-    const hci_emit_format asked = e->request->format, small = asked == HCI_EMIT_F32 ? HCI_EMIT_I16 : asked;
-    const hci_emit_choice all[HCI_EMIT_MOST_CHOICES] = {{.format = HCI_EMIT_F32, .shape = HCI_EMIT_LINEAR},
+    const hci_emit_format asked = e->request->format;
+    const hci_emit_format rows = hci_emit_has_rows(asked) ? asked : HCI_EMIT_F32,
+                          small = hci_emit_has_rows(asked) ? HCI_EMIT_I16 : asked;
+    const hci_emit_choice all[HCI_EMIT_MOST_CHOICES] = {{.format = rows, .shape = HCI_EMIT_LINEAR},
                                                         {.format = small, .shape = HCI_EMIT_LINEAR},
                                                         {.format = small, .shape = HCI_EMIT_QUADRATIC},
                                                         {.format = small, .shape = HCI_EMIT_CUBIC}};

@@ -20,9 +20,9 @@ void hci_emit_cost(const hci_tabulation *t, hci_emit_choice *choice)
 {
     const size_t part = t->parts - 1, frame = t->frame == HCI_TABLE_ABC ? 0 : 1;
     const size_t degree = (size_t)(choice->shape - HCI_EMIT_LINEAR);
-    const cost c = choice->format == HCI_EMIT_F32   ? F32[frame][part]
-                   : choice->format == HCI_EMIT_I16 ? I16[frame][part][degree]
-                                                    : Q15[frame][part][degree];
+    const cost c = hci_emit_has_rows(choice->format) ? F32[frame][part]
+                   : choice->format == HCI_EMIT_I16  ? I16[frame][part][degree]
+                                                     : Q15[frame][part][degree];
     choice->cortex_m4f = c.m4f;
     choice->cortex_m0_plus = c.m0_plus;
 }

@@ -159,19 +159,34 @@ static hci_status without_blob(const hci_emission *e, hci_output *out, hci_note 
     return hci_output_without(out, file, note);
 }
 
+static hci_status write_c(const hci_emission *e, hci_output *out, hci_note *note)
+{
+    const bool rows = hci_emit_has_rows(e->request->format);
+    hci_status status =
+        write_file(e, out, "h", rows ? hci_emission_write_header : hci_emission_write_spline_header, note);
+    if (!status)
+        status = write_file(e, out, "c", rows ? hci_emission_write_source : hci_emission_write_spline_source,
+                            note);
+    if (status) return status;
+    return e->request->blob ? write_file(e, out, "bin", hci_emission_write_blob, note)
+                            : without_blob(e, out, note);
+}
+
 static hci_status write_files(const hci_emission *e, const char *folder, hci_note *note)
 {
-    const bool f32 = e->request->format == HCI_EMIT_F32;
     hci_output *out;
     hci_status status = hci_output_open(folder, &out, note);
     if (status) return status;
-    status =
-        write_file(e, out, "h", f32 ? hci_emission_write_header : hci_emission_write_spline_header, note);
-    if (!status)
-        status =
-            write_file(e, out, "c", f32 ? hci_emission_write_source : hci_emission_write_spline_source, note);
-    if (!status && e->request->blob) status = write_file(e, out, "bin", hci_emission_write_blob, note);
-    if (!status && !e->request->blob) status = without_blob(e, out, note);
+    switch (e->request->format) {
+    case HCI_EMIT_CSV:
+        status = write_file(e, out, "csv", hci_emission_write_csv, note);
+        break;
+    case HCI_EMIT_JSON:
+        status = write_file(e, out, "json", hci_emission_write_json, note);
+        break;
+    default:
+        status = write_c(e, out, note);
+    }
     if (!status) return hci_output_commit(out, note);
     hci_output_discard(out);
     return status;
@@ -179,7 +194,7 @@ static hci_status write_files(const hci_emission *e, const char *folder, hci_not
 
 static void finish_result(hci_emission *e)
 {
-    const bool f32 = e->request->format == HCI_EMIT_F32;
+    const bool f32 = hci_emit_has_rows(e->request->format);
     hci_emit_result *x = &e->result;
     x->columns = e->tabulation.columns;
     x->parts = e->tabulation.parts;
@@ -196,7 +211,7 @@ static hci_status make_table(hci_emission *e, hci_note *note)
     if (!status) status = check_currents(e, note);
     if (!status) status = hci_emission_choose(e, note);
     if (status) return status;
-    if (e->request->format == HCI_EMIT_F32)
+    if (hci_emit_has_rows(e->request->format))
         fill_probes(e);
     else
         fill_spline_probes(e);

@@ -114,11 +114,19 @@ const char *hci_emit_shape_name(hci_emit_shape shape)
 
 static hci_status check_shape(const hci_emit_request *r, hci_note *note)
 {
-    if (r->format != HCI_EMIT_F32 || r->shape <= HCI_EMIT_LINEAR) return HCI_OK;
+    if (!hci_emit_has_rows(r->format) || r->shape <= HCI_EMIT_LINEAR) return HCI_OK;
     return hci_note_set(
         note, HCI_ERROR_ARGUMENT,
-        "table shape: found `%s` with format `f32`, which is linear; use format `i16` or `q15`",
-        hci_emit_shape_name(r->shape));
+        "table shape: found `%s` with format `%s`, which is linear; use format `i16` or `q15`",
+        hci_emit_shape_name(r->shape), hci_emit_format_name(r->format));
+}
+
+static hci_status check_blob(const hci_emit_request *r, hci_note *note)
+{
+    if (!r->blob || (r->format != HCI_EMIT_CSV && r->format != HCI_EMIT_JSON)) return HCI_OK;
+    return hci_note_set(note, HCI_ERROR_ARGUMENT,
+                        "blob: found with format `%s`, expected `f32`, `i16` or `q15`, which devices read",
+                        hci_emit_format_name(r->format));
 }
 
 static hci_status check_size(const hci_emit_request *r, hci_note *note)
@@ -132,7 +140,7 @@ static hci_status check_size(const hci_emit_request *r, hci_note *note)
     if (r->points > 0 && r->max_error_A > 0.0)
         return hci_note_set(note, HCI_ERROR_ARGUMENT,
                             "found both points and a largest error; give one of them");
-    const int most = r->format == HCI_EMIT_F32 ? HCI_EMIT_MAX_POINTS : (int)HCI_TABLE_I16_MOST_INTERVALS;
+    const int most = hci_emit_has_rows(r->format) ? HCI_EMIT_MAX_POINTS : (int)HCI_TABLE_I16_MOST_INTERVALS;
     if (r->points > (size_t)most)
         return hci_note_set(note, HCI_ERROR_ARGUMENT, "table points: found %zu, expected 1 to %d", r->points,
                             most);
@@ -204,6 +212,7 @@ hci_status hci_emit_request_check(const hci_emit_request *r, hci_note *note)
 {
     hci_status status = hci_emit_check_name(r->name, note);
     if (!status) status = check_shape(r, note);
+    if (!status) status = check_blob(r, note);
     if (!status) status = check_size(r, note);
     if (!status) status = check_provenance(r, note);
     if (!status) status = check_waves(r, r->currents, r->current_count, note);

@@ -13,6 +13,10 @@ void hci_emission_write_source(const hci_emission *e, hci_output *output);
 void hci_emission_write_spline_header(const hci_emission *e, hci_output *output);
 void hci_emission_write_spline_source(const hci_emission *e, hci_output *output);
 
+/* NAME.csv and NAME.json, of those formats. */
+void hci_emission_write_csv(const hci_emission *e, hci_output *output);
+void hci_emission_write_json(const hci_emission *e, hci_output *output);
+
 /* What goes into NAME.bin of any format. */
 void hci_emission_write_blob(const hci_emission *e, hci_output *output);
 

@@ -29,14 +29,24 @@ enum { HCI_EMIT_SMALL_BYTES = 1024 };
 typedef enum {
     HCI_EMIT_F32, /* float rows, hci/table.h */
     HCI_EMIT_I16, /* 16-bit knots, hci/table_i16.h, read as amperes */
-    HCI_EMIT_Q15  /* the same, read as integers */
+    HCI_EMIT_Q15, /* the same, read as integers */
+    HCI_EMIT_CSV, /* the rows of f32 as NAME.csv, for other programs */
+    HCI_EMIT_JSON /* the same as NAME.json */
 } hci_emit_format;
 
 /* Their words in options and files: X(format, word). */
 #define HCI_EMIT_FORMAT_NAMES(X)                                                                             \
     X(HCI_EMIT_F32, "f32")                                                                                   \
     X(HCI_EMIT_I16, "i16")                                                                                   \
-    X(HCI_EMIT_Q15, "q15")
+    X(HCI_EMIT_Q15, "q15")                                                                                   \
+    X(HCI_EMIT_CSV, "csv")                                                                                   \
+    X(HCI_EMIT_JSON, "json")
+
+/* Whether a format holds rows of floats, not knots of integers. */
+static inline bool hci_emit_has_rows(hci_emit_format format)
+{
+    return format != HCI_EMIT_I16 && format != HCI_EMIT_Q15;
+}
 
 /* The name of a format; a static string. */
 const char *hci_emit_format_name(hci_emit_format format);
@@ -84,7 +94,7 @@ typedef struct {
     size_t max_bytes;              /* of rows or knots; 0: any. Alone, it gives the least error in so many */
     size_t max_instructions;       /* of one call on a Cortex-M4F; 0: any */
     hci_emit_facts facts;          /* for the header and the blob */
-    bool blob;                     /* NAME.bin too, for hci/blob.h */
+    bool blob;                     /* NAME.bin too, for hci/blob.h; not of csv and json */
     const char *const *provenance; /* lines for the comment, without paths and dates */
     size_t provenance_count;       /* entries of provenance */
     uint64_t input_hash;           /* 64-bit FNV-1a of what the currents were read from */
@@ -118,8 +128,9 @@ typedef struct {
     uint32_t crc32;                                /* of the rows or knots */
 } hci_emit_result;
 
-/* Writes NAME.h and NAME.c, and NAME.bin where asked for, into `folder`, all or none; same request, same
- * bytes. result and note may be NULL. HCI_ERROR_ARGUMENT, _NOT_FINITE, _MEMORY, _OUTPUT, with a note. */
+/* Writes NAME.h and NAME.c, and NAME.bin where asked for, or NAME.csv or NAME.json alone, into `folder`, all
+ * or none; same request, same bytes. result and note may be NULL. HCI_ERROR_ARGUMENT, _NOT_FINITE, _MEMORY,
+ * _OUTPUT, with a note. */
 hci_status hci_emit(const char *folder, const hci_emit_request *request, hci_emit_result *result,
                     hci_note *note);
 
