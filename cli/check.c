@@ -173,6 +173,7 @@ static void show(const hci_check *c)
 /* One look at a way of reading is enough where many recordings have it. */
 static void show_remarks(const hci_check *c)
 {
+    cli_remark(&c->machine_remark);
     for (size_t k = 0; k < c->runs; ++k) {
         bool is_first = true;
         for (size_t j = 0; j < k; ++j)

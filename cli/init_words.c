@@ -35,8 +35,8 @@ static void show_next(const hci_sheet *s, const char *folder)
 void cli_show_sheet(const hci_sheet *s, const char *folder)
 {
     hci_note remark;
-    cli_say(CLI_GOOD "machine" CLI_PLAIN ": %s: machine.csv, back_emf.csv%s\n", folder,
-            s->slots > 0 ? ", cogging.csv" : "");
+    cli_say(CLI_GOOD "machine" CLI_PLAIN ": %s: machine.csv, back_emf.csv%s%s\n", folder,
+            s->slots > 0 ? ", cogging.csv" : "", hci_sheet_is_salient(s) ? ", inductance.csv" : "");
     hci_sheet_remark(s, &remark);
     cli_remark(&remark);
     show_constants(s);
@@ -44,5 +44,9 @@ void cli_show_sheet(const hci_sheet *s, const char *folder)
         cli_say("  cogging      first at order %d (%d in a mechanical turn); amplitudes 0 until measured\n",
                 hci_cogging_order(s->slots, s->pole_pairs),
                 s->pole_pairs * hci_cogging_order(s->slots, s->pole_pairs));
+    if (hci_sheet_is_salient(s))
+        cli_say(
+            "  inductance   L_d and L_q differ: interior magnets, with reluctance torque; its harmonics are "
+            "not known\n");
     show_next(s, folder);
 }

@@ -74,6 +74,13 @@ machine pole_pairs,2,1,x emf_frequency,0,Hz,x; refused 3 'emf_frequency'
 machine pole_pairs,2,1,x emf_frequency,-50,Hz,x; refused 3 'emf_frequency'
 machine pole_pairs,2,1,x emf_frequency,50,furlong,x; refused 3 'machine.csv:3: .*unit.*furlong.*expected a unit that converts to Hz'
 machine pole_pairs,2,1,x emf_frequency,50,V,x; refused 3 'machine.csv:3: .*unit.*expected a unit that converts to Hz'
+for row in resistance,-0.1,ohm inductance_d,-1,mH inductance_q,0,mH inductance_d,30, inductance_q,30,H max_current,0,A max_current,-5,A dc_link_voltage,0,V dc_link_voltage,-12,V \
+    rated_current,-5,A rated_torque,0,Nm rated_speed,-3000,rpm inertia,-1,kgm2 viscous_friction,-1,Nms_per_rad coulomb_friction,-1,Nm; do
+    machine pole_pairs,2,1,x "$hz" "$row,x"; refused 3 'machine.csv:4: .*value.*found .*, expected a number from .* to .*; check its sign, and that the column .unit. says'
+done
+machine pole_pairs,2,1,x "$hz" colour,5,,x max_curent,5,A,x
+run 0 solve "$m" --target data/scenarios/02/target.csv
+says 'note: .*machine.csv: not used: `max_curent` in line 5 \(did you mean `max_current`\?\), `colour`$'
 machine pole_pairs,2,1,x "$hz" resistance,1,N,x; refused 3 'machine.csv:4: .*unit.*ohm'
 printf 'name,unit,source\npole_pairs,1,x\n' >"$m/machine.csv"; refused 3 'machine.csv:1: .*value'
 printf 'value,unit\n2,1\n' >"$m/machine.csv"; refused 3 'machine.csv:1: .*name'

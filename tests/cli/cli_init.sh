@@ -72,6 +72,33 @@ for expected in '"back_emf_Vs_per_rad":[[:space:]]*0.76410' '"torque_constant_rm
 done
 if command -v python3 >/dev/null; then check "not JSON" python3 -m json.tool "$work/stdout" "$work/json"; fi
 
+# ---- L_d and L_q that differ: with inductance.csv reluctance torque, without it every command says so
+
+says_inductance() { for word in "$@"; do check "summary lacks: $word" grep -q "$word" "$work/stdout"; done; }
+says_inductance '"inductance.csv"'
+printf 'order,amplitude_Nm,phase_rad\n0,4,0\n' >"$work/four.csv"
+run 0 solve "$work/servo" --target "$work/four.csv" -q
+nothing_on_stderr
+run 0 check "$work/servo"
+check "check speaks of a table that is there" [ "$(grep -c 'reluctance' "$work/stderr")" -eq 0 ]
+cp -r "$work/servo" "$work/salient"
+rm "$work/salient/inductance.csv"
+silent='salient: L_d of 0\.004 H and L_q of 0\.006 H differ, but there is no inductance.csv:.* without the reluctance torque .* write inductance.csv'
+run 0 solve "$work/salient" --target "$work/four.csv"
+says "note: .*$silent"
+run 0 check "$work/salient"
+says "note: .*$silent"
+run 0 check "$work/salient" --json
+check "the summary of check lacks it" grep -q 'without the reluctance' "$work/stdout"
+run 0 sweep "$work/salient" --map --torques 4 --speeds 0 --limit-current 20 -o "$work/salient_map"
+says "note: .*$silent"
+run 0 simulate "$work/salient" data/drive/imposed.csv
+says "note: .*$silent"
+printf 'effect,parameter,value,unit,std_error\nreluctance,qq_cosine_6,0,H,\n' >"$work/salient/effects.csv"
+run 0 simulate "$work/salient" data/drive/imposed.csv -q
+run 0 check "$work/salient"
+check "check does not see effects.csv" [ "$(grep -c 'without the reluctance' "$work/stderr")" -eq 0 ]
+
 # ratings that need another reading
 run 0 init servo --pole-pairs 4 --volt-per-krpm 98 --rated-current 5 --rated-torque 7.9 -o "$work/slip"
 says 'note: rated torque 7.9 N·m.*5\.731 N·m: 1\.38 times: about sqrt\(2\)'

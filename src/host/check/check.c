@@ -34,7 +34,7 @@ hci_status hci_check_files(const char *machine, const char *const *run, size_t r
     check->machine = machine;
     check->run = run;
     check->runs = runs;
-    status = hci_check_machine_read(machine, &data, note);
+    status = hci_check_machine_read(machine, &data, &check->machine_remark, note);
     if (!status) status = hci_check_runs_read(run, runs, reading, &data, check->remark, note);
     if (!status && !hci_check_pole_pairs_count(&data))
         status = hci_note_memory(note, NULL, "the orders of a turn");

@@ -12,6 +12,7 @@
 #include "hci/host/base/output.h"
 #include "hci/math/harmonic.h"
 #include "host/base/quote.h"
+#include "host/machine/saliency.h"
 
 #define MOST_FOLDER 4096
 
@@ -177,6 +178,29 @@ static hci_status write_cogging(hci_output *out, const hci_sheet *s, hci_note *n
     return HCI_OK;
 }
 
+bool hci_sheet_is_salient(const hci_sheet *s)
+{
+    return hci_is_salient(s->inductance_d_H, s->inductance_q_H);
+}
+
+static hci_status write_inductance(hci_output *out, const hci_sheet *s, hci_note *note)
+{
+    const hci_status status = hci_output_file(out, "inductance.csv", note);
+    if (status) return status;
+    hci_output_text(out, "# Inductances of machine ");
+    write_name(out, s->name);
+    hci_output_text(out, ", of L_d and L_q of the data sheet alone: what makes it a machine with\n"
+                         "# interior magnets, whose torque has 3/2 p (L_d - L_q) i_d i_q beside that of the "
+                         "magnets. The harmonics of\n"
+                         "# the inductances, which make the reluctance torque ripple, are in no data sheet: "
+                         "an LCR meter at many\n"
+                         "# rotor angles, or finite elements, give them. L_d and L_q do not tell the "
+                         "inductance of a current through\n"
+                         "# the star point, which is 0 here and does not matter with `connection,star`.\n");
+    hci_saliency_write_rows(out, s->inductance_d_H, s->inductance_q_H);
+    return HCI_OK;
+}
+
 /* ---- into a folder ---- */
 
 static bool not_below(double value, double least)
@@ -234,6 +258,7 @@ hci_status hci_init_write(const char *folder, const hci_sheet *sheet, hci_note *
     if (!status) status = write_machine(out, sheet, note);
     if (!status) status = write_emf(out, sheet, note);
     if (!status && sheet->slots > 0) status = write_cogging(out, sheet, note);
+    if (!status && hci_sheet_is_salient(sheet)) status = write_inductance(out, sheet, note);
     if (!status) return hci_output_commit(out, note);
     hci_output_discard(out);
     return status;

@@ -13,6 +13,7 @@
 #include "host/machine/folder.h"
 #include "host/machine/inductance.h"
 #include "host/machine/machine_values.h"
+#include "host/machine/saliency.h"
 #include "host/machine/spectrum_table.h"
 
 #define PATH_SIZE 4096
@@ -183,6 +184,8 @@ static hci_status read_folder(const char *folder, hci_machine_data *m, hci_note 
     if (!status && hci_machine_has(path)) status = read_inductance(path, m, note);
     if (!status) status = hci_machine_path(path, PATH_SIZE, folder, "effects.csv", note);
     m->has_effects = !status && hci_machine_has(path);
+    if (!status && m->model.slope_count == 0 && m->inductance_count == 0)
+        hci_saliency_remark(folder, m->inductance_d_H, m->inductance_q_H, &m->remark);
     return status;
 }
 

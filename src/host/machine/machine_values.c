@@ -1,10 +1,12 @@
 #include "host/machine/machine_values.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
+#include "hci/host/base/spelling.h"
 #include "hci/host/base/text.h"
+#include "host/base/quote.h"
+#include "host/base/words.h"
 #include "host/csv/name_values.h"
 
 /* Which of the list are the pole pairs, by their place in it. */
@@ -22,6 +24,26 @@ static void list_values(hci_machine_values *v, hci_named_value list[HCI_MACHINE_
 #undef LIST_ONE
 }
 
+/* Least and most, both allowed, as machines have them with room to spare: what a wrong sign, a wrong unit or
+ * a 0 in place of nothing makes of a value is outside. */
+#define OF_UNIT(unit)                                                                                        \
+    "check its sign, and that the column `unit` says the unit that the value is in (empty: " unit            \
+    "), or delete the row where it is not known"
+
+static const hci_value_range RANGES[HCI_MACHINE_VALUE_COUNT] = {
+    [PLACE_OF_resistance_ohm] = {0.0, 1e6, OF_UNIT("ohm")},
+    [PLACE_OF_inductance_d_H] = {1e-12, 10.0, OF_UNIT("H")},
+    [PLACE_OF_inductance_q_H] = {1e-12, 10.0, OF_UNIT("H")},
+    [PLACE_OF_inertia_kgm2] = {0.0, 1e6, OF_UNIT("kgm2")},
+    [PLACE_OF_viscous_friction_Nms_per_rad] = {0.0, 1e6, OF_UNIT("Nms_per_rad")},
+    [PLACE_OF_coulomb_friction_Nm] = {0.0, 1e9, OF_UNIT("Nm")},
+    [PLACE_OF_dc_link_voltage_V] = {1e-3, 1e6, OF_UNIT("V")},
+    [PLACE_OF_max_current_A] = {1e-6, 1e6, OF_UNIT("A")},
+    [PLACE_OF_rated_current_A] = {1e-9, 1e6, OF_UNIT("A")},
+    [PLACE_OF_rated_torque_Nm] = {1e-9, 1e9, OF_UNIT("Nm")},
+    [PLACE_OF_rated_speed_rad_per_s] = {1e-6, 1e6, OF_UNIT("rad_per_s")},
+};
+
 static hci_status read_connection(const hci_csv *csv, size_t row, bool *has_neutral, hci_note *note)
 {
     const char *text;
@@ -33,16 +55,47 @@ static hci_status read_connection(const hci_csv *csv, size_t row, bool *has_neut
                          "for a delta winding give the equivalent star's values");
 }
 
-static void remark_unknown(hci_note *remark, const char *path, const char *name)
+/* ---- names that are not known ---- */
+
+/* The name that was probably meant, or NULL. */
+static const char *meant(const char *name)
 {
-    const size_t used = strlen(remark->text);
-    char *end = remark->text + used;
-    const size_t left = sizeof remark->text - used;
-    if (used == 0)
-        snprintf(end, left, "%.300s: not used: %.60s", path, name);
-    else
-        snprintf(end, left, ", %.60s", name);
+#define NAME_OF(field, text, unit) text,
+    static const char *const NAMES[] = {HCI_MACHINE_VALUES(NAME_OF) "connection", NULL};
+#undef NAME_OF
+    return hci_nearest(name, NAMES);
 }
+
+static bool is_known(const char *name)
+{
+    const char *nearest = meant(name);
+    return nearest && strcmp(nearest, name) == 0;
+}
+
+static void remark_unknown(hci_machine_values *v, size_t row, bool is_slip, size_t *count)
+{
+    char quoted[HCI_QUOTE_SIZE], path[HCI_QUOTE_PATH_SIZE];
+    const hci_words words = {v->remark.text, sizeof v->remark.text};
+    const char *name, *nearest;
+    if (hci_csv_text(v->csv, "name", row, &name, NULL) != HCI_OK || is_known(name)) return;
+    nearest = meant(name);
+    if ((nearest != NULL) != is_slip) return;
+    if (*count == 0) hci_words_say(&words, "%s: not used:", hci_quote_path(hci_csv_path(v->csv), path));
+    hci_words_say(&words, "%s %s", (*count)++ == 0 ? "" : ",", hci_quote(name, quoted));
+    if (is_slip)
+        hci_words_say(&words, " in line %zu (did you mean `%s`?)", hci_csv_line(v->csv, row), nearest);
+}
+
+/* Those that look like a slip of the pen come first. */
+static void remark_all_unknown(hci_machine_values *v)
+{
+    size_t count = 0;
+    for (int pass = 0; pass < 2; ++pass)
+        for (size_t row = 0; row < hci_csv_rows(v->csv); ++row)
+            remark_unknown(v, row, pass == 0, &count);
+}
+
+/* ---- rows ---- */
 
 static hci_status read_row(hci_machine_values *v, size_t row, hci_note *note)
 {
@@ -55,12 +108,10 @@ static hci_status read_row(hci_machine_values *v, size_t row, hci_note *note)
     list_values(v, list);
     status = hci_named_value_find(v->csv, row, list, HCI_MACHINE_VALUE_COUNT, &k, note);
     if (status) return status;
-    if (k == HCI_MACHINE_VALUE_COUNT) {
-        remark_unknown(&v->remark, hci_csv_path(v->csv), name);
-        return HCI_OK;
-    }
+    if (k == HCI_MACHINE_VALUE_COUNT) return HCI_OK;
     v->row[k] = row;
-    return hci_value_read(v->csv, row, list[k].unit, list[k].value, note);
+    return RANGES[k].remedy ? hci_value_read_within(v->csv, row, &list[k], &RANGES[k], note)
+                            : hci_value_read(v->csv, row, list[k].unit, list[k].value, note);
 }
 
 static hci_status check_pole_pairs(const hci_machine_values *v, hci_note *note)
@@ -84,6 +135,7 @@ hci_status hci_machine_values_read(const char *path, hci_machine_values *values,
     hci_status status = hci_csv_read(path, &values->csv, note);
     for (size_t row = 0; !status && row < hci_csv_rows(values->csv); ++row)
         status = read_row(values, row, note);
+    if (!status) remark_all_unknown(values);
     return status ? status : check_pole_pairs(values, note);
 }
 

@@ -65,17 +65,22 @@ static void put_lists(hci_json *json, const hci_check *c)
     put_texts(json, "untold", c->untold, c->untolds);
 }
 
-/* One for each recording that has something to say. */
+static void put_remark(hci_json *json, const char *read, const hci_note *remark)
+{
+    if (!remark->text[0]) return;
+    hci_json_object(json, NULL);
+    hci_json_text(json, "run", read);
+    hci_json_text(json, "remark", remark->text);
+    hci_json_close(json);
+}
+
+/* One for the machine and each recording that has something to say. */
 static void put_remarks(hci_json *json, const hci_check *c)
 {
     hci_json_array(json, "remarks");
-    for (size_t k = 0; k < c->runs; ++k) {
-        if (!c->remark[k].text[0]) continue;
-        hci_json_object(json, NULL);
-        hci_json_text(json, "run", c->run[k]);
-        hci_json_text(json, "remark", c->remark[k].text);
-        hci_json_close(json);
-    }
+    put_remark(json, c->machine, &c->machine_remark);
+    for (size_t k = 0; k < c->runs; ++k)
+        put_remark(json, c->run[k], &c->remark[k]);
     hci_json_close(json);
 }
 

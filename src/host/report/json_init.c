@@ -24,12 +24,13 @@ static void put_constants(hci_json *json, const hci_sheet *s)
         hci_json_number(json, SHOWN[k].key, hci_sheet_value(SHOWN[k].reading, emf, s->pole_pairs));
 }
 
-static void put_files(hci_json *json, bool cogging)
+static void put_files(hci_json *json, const hci_sheet *s)
 {
     hci_json_array(json, "files");
     hci_json_text(json, NULL, "machine.csv");
     hci_json_text(json, NULL, "back_emf.csv");
-    if (cogging) hci_json_text(json, NULL, "cogging.csv");
+    if (s->slots > 0) hci_json_text(json, NULL, "cogging.csv");
+    if (hci_sheet_is_salient(s)) hci_json_text(json, NULL, "inductance.csv");
     hci_json_close(json);
 }
 
@@ -48,7 +49,7 @@ char *hci_init_json(const hci_sheet *s)
     hci_json_number(&json, "resistance_ohm", hci_sheet_resistance_ohm(s));
     hci_json_number(&json, "rated_current_A", hci_sheet_current_A(s));
     hci_json_number(&json, "cogging_order", order);
-    put_files(&json, s->slots > 0);
+    put_files(&json, s);
     hci_json_text(&json, "remark", remark.text);
     return hci_json_end(&json);
 }

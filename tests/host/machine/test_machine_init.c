@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "hci/host/machine/machine.h"
+#include "hci/machine/frames.h"
 #include "host/base/memory.h"
 #include "support/files.h"
 #include "unity.h"
@@ -240,7 +241,7 @@ static void test_everything_reads_back(void)
     s.rated_speed_rpm = 3000.0;
     s.dc_link_voltage_V = 560.0;
     write_good(&s);
-    TEST_ASSERT_EQUAL_INT(3, files_count(files_path("m")));
+    TEST_ASSERT_EQUAL_INT(4, files_count(files_path("m")));
     read_back(&m);
     TEST_ASSERT_EQUAL_DOUBLE(0.95, m.resistance_ohm);
     TEST_ASSERT_EQUAL_DOUBLE(4e-3, m.inductance_d_H);
@@ -255,6 +256,45 @@ static void test_everything_reads_back(void)
         TEST_ASSERT_EQUAL_DOUBLE(6.0 * (double)(k + 1), m.cogging[k].order);
         TEST_ASSERT_EQUAL_DOUBLE(0.0, m.cogging[k].sine);
     }
+    hci_machine_release(&m);
+}
+
+/* i_d, i_q of the frame in which the fundamental of the back-EMF is e_q. */
+static double torque_of(const hci_machine_data *m, double d_A, double q_A, double theta_rad)
+{
+    double i[3];
+    hci_clarke_inverse(hci_park_inverse((hci_dq){.d = d_A, .q = q_A}, theta_rad), i);
+    return hci_torque_at(&m->model, theta_rad, i);
+}
+
+/* 3/2 p i_q (flux + (L_d - L_q) i_d) at every angle, by the tables that were written. */
+static void test_inductances_that_differ_make_reluctance_torque(void)
+{
+    hci_machine_data m;
+    hci_sheet s = sheet_of(HCI_SHEET_FLUX, 0.1, 4);
+    s.inductance_d_H = 0.2e-3;
+    s.inductance_q_H = 0.5e-3;
+    write_good(&s);
+    read_back(&m);
+    for (int k = 0; k < 11; ++k) {
+        const double theta_rad = 0.6 * k;
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, 1.5 * 4 * 150.0 * (0.1 + 0.3e-3 * 200.0),
+                                  torque_of(&m, -200.0, 150.0, theta_rad));
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, 1.5 * 4 * -50.0 * (0.1 - 0.3e-3 * 80.0),
+                                  torque_of(&m, 80.0, -50.0, theta_rad));
+    }
+    hci_machine_release(&m);
+}
+
+static void test_inductances_that_are_nearly_equal_make_none(void)
+{
+    hci_machine_data m;
+    hci_sheet s = sheet_of(HCI_SHEET_FLUX, 0.1, 4);
+    s.inductance_d_H = 1.000e-3;
+    s.inductance_q_H = 1.009e-3;
+    write_good(&s);
+    TEST_ASSERT_EQUAL_INT(2, files_count(files_path("m")));
+    read_back(&m);
     hci_machine_release(&m);
 }
 
@@ -366,6 +406,8 @@ int main(void)
     RUN_TEST(test_remarks);
     RUN_TEST(test_the_least_reads_back);
     RUN_TEST(test_everything_reads_back);
+    RUN_TEST(test_inductances_that_differ_make_reluctance_torque);
+    RUN_TEST(test_inductances_that_are_nearly_equal_make_none);
     RUN_TEST(test_odd_names_do_not_break_the_tables);
     RUN_TEST(test_orders_stay_readable);
     RUN_TEST(test_nothing_is_overwritten);

@@ -93,6 +93,7 @@ typedef struct {
     size_t gaps;                                          /* entries of gap in use */
     const char *untold[HCI_CHECK_MOST_UNTOLD];            /* slips that would change nothing here; static */
     size_t untolds;                                       /* entries of untold in use */
+    hci_note machine_remark;                              /* what to know of the machine's folder, or "" */
     hci_note remark[HCI_CHECK_MOST_RUNS];                 /* how each recording was read, or "" */
     const char *machine;                                  /* the caller's */
     const char *const *run;                               /* the caller's */

@@ -86,9 +86,13 @@ int hci_cogging_order(int slots, int pole_pairs);
  * nothing to say. */
 void hci_sheet_remark(const hci_sheet *sheet, hci_note *remark);
 
-/* Writes machine.csv, back_emf.csv and, where slots are given, cogging.csv into `folder`, which is made if it
- * is missing. HCI_ERROR_ARGUMENT for values outside their range, HCI_ERROR_OUTPUT when a table of a machine
- * is there already; then nothing is written. HCI_ERROR_MEMORY. */
+/* Whether L_d and L_q differ by more than 1 %, which makes it a machine with interior magnets. */
+bool hci_sheet_is_salient(const hci_sheet *sheet);
+
+/* Writes machine.csv, back_emf.csv and, where slots are given, cogging.csv, where L_d and L_q differ
+ * inductance.csv into `folder`, which is made if it is missing. HCI_ERROR_ARGUMENT for values outside their
+ * range, HCI_ERROR_OUTPUT when a table of a machine is there already; then nothing is written.
+ * HCI_ERROR_MEMORY. */
 hci_status hci_init_write(const char *folder, const hci_sheet *sheet, hci_note *note);
 
 #ifdef __cplusplus

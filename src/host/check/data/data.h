@@ -150,8 +150,8 @@ typedef struct {
 } check_data;
 
 /* *data starts from {0}; what these two leave is to be released even after a failure. HCI_ERROR_INPUT with
- * file, line and remedy, HCI_ERROR_MEMORY. */
-hci_status hci_check_machine_read(const char *folder, check_data *data, hci_note *note);
+ * file, line and remedy, HCI_ERROR_MEMORY. remark: what to know of the machine's folder. */
+hci_status hci_check_machine_read(const char *folder, check_data *data, hci_note *remark, hci_note *note);
 /* After the machine. remark: [count], how each recording was read. */
 hci_status hci_check_runs_read(const char *const *path, size_t count, const hci_run_options *reading,
                                check_data *data, hci_note *remark, hci_note *note);

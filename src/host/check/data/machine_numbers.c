@@ -11,6 +11,7 @@
 #include "host/machine/folder.h"
 #include "host/machine/inductance.h"
 #include "host/machine/machine_values.h"
+#include "host/machine/saliency.h"
 #include "host/machine/spectrum_table.h"
 
 static void keep_text(char out[CHECK_TEXT], const char *text)
@@ -42,7 +43,7 @@ static hci_status slots_check(const check_data *data, hci_note *note)
                         data->machine_path, data->cell[CHECK_slots].line, slots, (int)HCI_MOST_SLOTS);
 }
 
-static hci_status values_read(check_data *data, hci_note *note)
+static hci_status values_read(check_data *data, hci_note *remark, hci_note *note)
 {
     hci_machine_values v;
     const hci_status status = hci_machine_values_read(data->machine_path, &v, note);
@@ -51,6 +52,7 @@ static hci_status values_read(check_data *data, hci_note *note)
         if (!isnan(v.value[k])) data->cell[k] = place_of(v.csv, data->machine_path, "value", v.row[k]);
     }
     data->has_neutral = v.has_neutral;
+    *remark = v.remark;
     hci_machine_values_release(&v);
     return status ? status : slots_check(data, note);
 }
@@ -207,18 +209,21 @@ static hci_status inductance_read(check_data *data, hci_note *note)
 
 /* ---- the folder */
 
-hci_status hci_check_machine_read(const char *folder, check_data *data, hci_note *note)
+hci_status hci_check_machine_read(const char *folder, check_data *data, hci_note *remark, hci_note *note)
 {
     hci_status status = hci_machine_check_folder(folder, note);
     for (size_t k = 0; k < CHECK_VALUE_COUNT; ++k)
         data->value[k] = NAN;
     if (!status) status = hci_machine_path(data->machine_path, CHECK_PATH, folder, "machine.csv", note);
-    if (!status) status = values_read(data, note);
+    if (!status) status = values_read(data, remark, note);
     if (!status) status = hci_machine_path(data->emf.path, CHECK_PATH, folder, "back_emf.csv", note);
     if (!status) status = emf_read(data, note);
     if (!status) status = hci_machine_path(data->cogging.path, CHECK_PATH, folder, "cogging.csv", note);
     if (!status && hci_machine_has(data->cogging.path)) status = cogging_read(data, note);
     if (!status) status = hci_machine_path(data->inductance.path, CHECK_PATH, folder, "inductance.csv", note);
     if (!status && hci_machine_has(data->inductance.path)) status = inductance_read(data, note);
+    if (!status && !data->inductance.given)
+        hci_saliency_remark(folder, data->value[CHECK_inductance_d_H], data->value[CHECK_inductance_q_H],
+                            remark);
     return status;
 }
