@@ -158,6 +158,7 @@ static hci_status read_options(const cli_arguments *a, hci_solve_options *o, hci
     o->choose_at_most = (size_t)cli_number_or(a, AUTO, 0.0);
     o->tolerance = cli_number_or(a, TOLERANCE, 0.0);
     o->loss_allowance = cli_number_or(a, MAX_LOSS, 0.0);
+    o->at_speed = a->given[SPEED];
     o->speed_rad_per_s = cli_number_or(a, SPEED, 0.0) * HCI_PI / 30.0;
     o->at_temperature = a->given[TEMPERATURE];
     o->temperature_C = cli_number_or(a, TEMPERATURE, 0.0);

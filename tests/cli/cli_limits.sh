@@ -128,6 +128,12 @@ says 'line voltage 60 of 60 V \(machine.csv\)'
 run 1 solve "$m" --target "$t" --speed 1500 --limit-voltage 200
 says 'phase current 8 of 8 A \(machine.csv\)' 'line voltage [0-9.]* of 200 V'
 
+for speed in 0 0.001; do # at standstill there is R·i
+    small star dc_link_voltage,4,V,test
+    run 1 solve "$m" --target "$t" --speed $speed
+    says 'line voltage 4 of 4 V \(machine.csv\)'
+done
+
 # ---- methods: sets of harmonics are shaped by limits, one angle at a time is only held against them
 
 small star

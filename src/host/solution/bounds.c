@@ -87,8 +87,9 @@ static void take_currents(const hci_machine_data *m, const hci_solve_options *o,
 static void take_voltage(const hci_machine_data *m, const hci_solve_options *o, hci_bounds *b)
 {
     const hci_solve_limits *l = &o->limits;
-    const bool declared = !l->ignore_ratings && is_given(m->dc_link_voltage_V) &&
-                          !is_given(o->limit_voltage_V) && o->speed_rad_per_s != 0.0;
+    const bool has_speed = o->at_speed || o->speed_rad_per_s != 0.0;
+    const bool declared =
+        !l->ignore_ratings && is_given(m->dc_link_voltage_V) && !is_given(o->limit_voltage_V) && has_speed;
     const double link_V = declared ? m->dc_link_voltage_V : o->limit_voltage_V;
     b->voltage_is_declared = declared;
     b->line_V_per_V = 1.0 - l->voltage_reserve - 2.0 * l->dead_time_s * l->pwm_frequency_Hz;

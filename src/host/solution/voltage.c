@@ -48,7 +48,7 @@ hci_status hci_voltage_model_make(const hci_machine_data *m, const hci_solve_opt
 {
     *model = (hci_voltage_model){m, o->effects, o->speed_rad_per_s, hci_magnet_temperature_C(o), {0}};
     fill_mean(m, model->mean_H);
-    if (!isnan(m->resistance_ohm) && !isnan(model->mean_H[0])) return HCI_OK;
+    if (!isnan(m->resistance_ohm) && (!isnan(model->mean_H[0]) || o->speed_rad_per_s == 0.0)) return HCI_OK;
     return hci_note_set(
         note, HCI_ERROR_INPUT,
         "machine.csv: the voltage needs `resistance`, `inductance_d` and `inductance_q`; add these rows "
@@ -105,8 +105,10 @@ static magnetic magnetic_at(const hci_voltage_model *v, double theta_rad)
     return x;
 }
 
+/* Nothing at standstill, where inductances need not be known. */
 static void add_product(double factor, const double m[3], const double x[2], double out[2])
 {
+    if (factor == 0.0) return;
     out[0] += factor * (m[0] * x[0] + m[1] * x[1]);
     out[1] += factor * (m[1] * x[0] + m[2] * x[1]);
 }

@@ -85,6 +85,7 @@ hci_solve_options hci_grid_options_of(const hci_grid_request *r, const hci_grid_
     hci_solve_options o = *r->options;
     o.target = target;
     o.progress = NULL;
+    o.at_speed = r->speed_rad_per_s.count > 0 || r->point;
     o.speed_rad_per_s = p->speed_rad_per_s;
     if (!isnan(p->link_V)) o.limit_voltage_V = p->link_V;
     if (!isnan(p->limit_current_A)) o.limit_current_A = p->limit_current_A;

@@ -204,6 +204,20 @@ static void test_ratings(void)
     solve(HCI_OK);
 }
 
+/* At standstill a line voltage is √3 R i: half of that of 10 A leaves 5 A, which make 1.5·0.2·5. */
+static void test_a_declared_dc_link_at_standstill(void)
+{
+    machine.dc_link_voltage_V = 0.5 * sqrt(3.0) * 0.4 * 10.0;
+    machine.inductance_d_H = machine.inductance_q_H = NAN; /* induces nothing there */
+    solve(HCI_OK);                                         /* at no speed in particular it is no limit */
+    options.at_speed = true;
+    solve(HCI_NOT_REACHED);
+    TEST_ASSERT_TRUE(limit(HCI_LIMIT_VOLTAGE)->is_declared && solution.within_limits);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-5, 1.5, mean_Nm());
+    options.limits.ignore_ratings = true;
+    solve(HCI_OK);
+}
+
 /* ---- contradictions ---- */
 
 static void refused(const char *words)
@@ -429,6 +443,7 @@ int main(void)
     RUN_TEST(test_field_weakening);
     RUN_TEST(test_limits_that_nothing_keeps);
     RUN_TEST(test_ratings);
+    RUN_TEST(test_a_declared_dc_link_at_standstill);
     RUN_TEST(test_contradictions);
     RUN_TEST(test_peaks_are_kept_between_the_angles);
     RUN_TEST(test_each_ripple_is_smallest_by_its_own_measure);

@@ -84,6 +84,8 @@ typedef struct {
     double limit_current_A;  /* largest phase current allowed; 0: none */
     double limit_voltage_V;  /* dc-link voltage that the line voltages must stay below; 0: none */
     double speed_rad_per_s;  /* mechanical, for the voltage */
+    bool at_speed;           /* a speed is given, be it 0: then a declared dc_link_voltage is a limit. Any
+                              * speed_rad_per_s other than 0 counts as given */
     hci_solve_limits limits; /* more of them */
     hci_minimise minimise;   /* which ripple, where it cannot be as wanted */
     /* Components whose order in the rotor frame, |n − σ|, is above it are not chosen; 0: all may be. A set
