@@ -214,6 +214,14 @@ static void drop_components(inputs *in, double highest)
     set->count = kept;
 }
 
+/* Whether the loop can be used at all, and which voltage is kept. */
+static hci_status take_loop(const cli_arguments *a, const hci_drive_data *drive, inputs *in, hci_note *note)
+{
+    if (!a->given[LIMIT_VOLTAGE] && !a->given[IGNORE_RATINGS])
+        hci_drive_voltage_remark(drive, &in->machine, &in->drive_remark);
+    return hci_drive_check_loop(drive, &in->machine, in->options.speed_rad_per_s, &in->drive_remark, note);
+}
+
 /* What a current loop cannot be made to follow: orders in the rotor frame above those that its sampling does
  * for. */
 static hci_status read_drive(const cli_arguments *a, inputs *in, hci_note *note)
@@ -230,8 +238,9 @@ static hci_status read_drive(const cli_arguments *a, inputs *in, hci_note *note)
         "n + 1 of `neg`)",
         cli_number_or(a, SPEED, 0.0), floor(highest));
     drop_components(in, highest);
+    if (highest >= 6.0) status = take_loop(a, &drive, in, note);
     hci_drive_release(&drive);
-    if (highest >= 6.0) return HCI_OK;
+    if (highest >= 6.0) return status;
     return hci_note_set(
         note, HCI_ERROR_INPUT,
         "%s: at %g rpm the sampling does for orders up to %.3g in the rotor frame, which leaves no "

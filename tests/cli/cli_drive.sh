@@ -70,6 +70,23 @@ refused solve data/machine_a --target data/scenarios/02/target.csv --auto --driv
 refused solve data/machine_a --target data/scenarios/02/target.csv --method pointwise --drive $drive --speed 3000 -o "$work/out" -- 'leaves out harmonics'
 run 3 solve data/machine_a --target data/scenarios/02/target.csv --auto --drive $drive --speed 50000 -o "$work/out"
 says 'orders up to 2.4 in the rotor frame, which leaves no harmonic to choose.*lower --speed'
+printf 'name,value,unit\ncurrent_kp,500,ohm\ndc_link_voltage,100,V\nresistance,0.1,ohm\ninductance_d,0.5,mH\ninductance_q,0.5,mH\n' >"$work/unstable.csv"
+run 3 solve data/machine_a --target data/scenarios/02/target.csv --auto --drive "$work/unstable.csv" --speed 1500 -o "$work/out"
+says 'unstable.csv: `current_kp` of 500 V/A .* is not stable'
+check "something is written" [ ! -e "$work/out" ]
+printf 'name,value,unit\ncurrent_sample_time,50,us\n' >"$work/bare.csv"
+run 0 solve data/machine_a --target data/scenarios/02/target.csv --auto --drive "$work/bare.csv" --speed 1500
+says 'bare.csv nor the machine has `resistance`: whether the loop is stable is not checked'
+sed 's/space_vector/sinusoidal/' $drive >"$work/sinusoidal.csv"
+run 0 solve data/machine_a --target data/scenarios/02/target.csv --auto --drive "$work/sinusoidal.csv" --speed 1500
+says 'the voltage is not limited; the drive has a dc link of 100 V and sinusoidal modulation.*: --limit-voltage 86\.6 '
+cp -r data/machine_a "$work/linked"
+printf 'resistance,0.1,ohm,t\ninductance_d,0.5,mH,t\ninductance_q,0.5,mH,t\ndc_link_voltage,120,V,t\n' >>"$work/linked/machine.csv"
+grep -vE '^(resistance|inductance)' $drive >"$work/linked.csv"
+run 0 solve "$work/linked" --target data/scenarios/02/target.csv --auto --drive "$work/linked.csv" --speed 1500
+says 'the voltage limit is the 120 V of machine.csv; the drive has a dc link of 100 V: --limit-voltage 100 '
+run 0 solve "$work/linked" --target data/scenarios/02/target.csv --auto --drive "$work/linked.csv" --speed 1500 --limit-voltage 100
+check "a remark on the voltage beside --limit-voltage" [ "$(grep -c 'the drive has a dc link' "$work/stderr")" -eq 0 ]
 run 0 solve data/machine_a --target data/scenarios/02/target.csv --auto --drive $drive --speed 3000 -o "$work/slow"
 says 'at 3000 rpm the sampling of the drive does for orders up to 40 in the rotor frame' 'components up to order 37'
 check "an order above 40 in the rotor frame" awk -F, '/^[0-9]/ && $1 - ($2 == "pos" ? 1 : -1) > 40 { bad = 1 } END { exit bad }' "$work/slow/currents.csv"

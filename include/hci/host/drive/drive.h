@@ -132,6 +132,16 @@ hci_status hci_drive_fit(hci_drive_data *drive, const hci_machine_data *machine,
 hci_status hci_drive_check_speed(const hci_drive_data *drive, const hci_machine_data *fitted,
                                  double speed_rad_per_s, hci_note *note);
 
+/* Both for a drive as it was read, which stays so: HCI_ERROR_INPUT where its loop is not stable at standstill
+ * or at the speed, or is sampled too seldom there. remark: where R or L are known to neither file, that
+ * nothing was checked. */
+hci_status hci_drive_check_loop(const hci_drive_data *drive, const hci_machine_data *machine,
+                                double speed_rad_per_s, hci_note *remark, hci_note *note);
+
+/* Adds to the remark that the dc link and the modulation of a drive are no limit of currents that are solved
+ * without an explicit one, and what to give; nothing where the one of the machine, which is, is the same. */
+void hci_drive_voltage_remark(const hci_drive_data *drive, const hci_machine_data *machine, hci_note *remark);
+
 #ifdef __cplusplus
 }
 #endif

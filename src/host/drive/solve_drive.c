@@ -1,0 +1,59 @@
+/* What a solve has to know of a drive: that its loop is stable, and whose dc link is kept. */
+#include <math.h>
+
+#include "hci/host/drive/drive.h"
+#include "host/base/quote.h"
+
+static bool is_given(double in_drive, double in_machine)
+{
+    return in_drive > 0.0 || in_machine > 0.0;
+}
+
+/* The first value that a loop needs and neither file has; NULL: none. */
+static const char *missing(const hci_drive_data *d, const hci_machine_data *m)
+{
+    if (!is_given(d->resistance_ohm, m->resistance_ohm)) return "resistance";
+    if (m->inductance_count > 0) return NULL;
+    if (m->model.slope_count > 0) return "La_H";
+    if (!is_given(d->inductance_d_H, m->inductance_d_H)) return "inductance_d";
+    return is_given(d->inductance_q_H, m->inductance_q_H) ? NULL : "inductance_q";
+}
+
+hci_status hci_drive_check_loop(const hci_drive_data *drive, const hci_machine_data *machine,
+                                double speed_rad_per_s, hci_note *remark, hci_note *note)
+{
+    const char *name = missing(drive, machine);
+    hci_drive_data d = *drive;
+    hci_machine_data m = *machine, fitted;
+    if (name) {
+        hci_note_add(remark, "neither %s nor the machine has `%s`: whether the loop is stable is not checked",
+                     drive->path, name);
+        return HCI_OK;
+    }
+    if (!is_given(d.dc_link_voltage_V, m.dc_link_voltage_V))
+        m.dc_link_voltage_V = 1.0; /* stability does not ask for it */
+    const hci_status status = hci_drive_fit(&d, &m, &fitted, note);
+    return status ? status : hci_drive_check_speed(&d, &fitted, speed_rad_per_s, note);
+}
+
+void hci_drive_voltage_remark(const hci_drive_data *drive, const hci_machine_data *machine, hci_note *remark)
+{
+    const bool is_sinusoidal = drive->modulation == HCI_MODULATION_SINUSOIDAL;
+    const bool keeps_machine = machine->dc_link_voltage_V > 0.0;
+    const double link_V =
+        drive->dc_link_voltage_V > 0.0 ? drive->dc_link_voltage_V : machine->dc_link_voltage_V;
+    const double line_V = (is_sinusoidal ? 0.5 * sqrt(3.0) : 1.0) * link_V;
+    if (!(link_V > 0.0) || line_V == machine->dc_link_voltage_V) return;
+    if (keeps_machine)
+        hci_note_add(remark, "the voltage limit is the %g V of machine.csv", machine->dc_link_voltage_V);
+    else
+        hci_note_add(remark, "the voltage is not limited");
+    hci_note_add(remark,
+                 "the drive has a dc link of %g V%s: --limit-voltage %.4g keeps it at --speed "
+                 "(resistance and inductances then in machine.csv)",
+                 link_V,
+                 is_sinusoidal
+                     ? " and sinusoidal modulation, which reaches sqrt(3)/2 of it between phases of a sine"
+                     : "",
+                 line_V);
+}
