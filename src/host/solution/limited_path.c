@@ -11,7 +11,9 @@
 
 enum {
     MOST_STEPS = 60,
-    PATIENCE = 14 /* steps in which the change is not halved, after which the distance is bounded */
+    PATIENCE = 14, /* steps in which the change is not halved, after which the distance is bounded */
+    POLISHES = 3,  /* steps after the last, each within less of it */
+    HALVES = 5     /* of the currents that the first step begins at, where rounding spoils it */
 };
 
 #define FAR           3e-2 /* change of the current above which programs are solved roughly */
@@ -19,6 +21,7 @@ enum {
 #define CONVERGED     1e-8 /* change of the current as a share of it */
 #define CLOSE         1e-4 /* distance as a share of the current at which nothing better is near */
 #define SETTLING      1e-2 /* the same for the last step, which brings peaks within their limits */
+#define POLISH        0.1  /* of that distance, for each further step */
 #define LEAST_SHARE   0.1  /* of the way to an answer */
 #define SHRINK        0.3
 #define AFTER_FAILURE 0.1 /* the same after a step that rounding spoils */
@@ -39,7 +42,7 @@ typedef struct {
     hci_anderson mixing;
     double change, radius_A; /* change of the last step as a share; 0: not bounded */
     double share, least_change;
-    int idle; /* steps since the least change was halved */
+    int idle, halved; /* steps since the least change was halved; how often the first currents were */
 } path;
 
 static double length(const path *p, const double *x)
@@ -145,10 +148,18 @@ static void move_bounded(path *p, bool is_better)
     memcpy(p->from, p->best, p->n * sizeof *p->from);
 }
 
-/* From the best answer on, within less, where rounding spoils a step. */
+/* Where rounding spoils a step: from the best answer on, within less; before there is one, from half of the
+ * currents, whose torque is nearer to linear. */
 static hci_status step_back(path *p, hci_status status, const hci_note *why, hci_note *note)
 {
-    if (status != HCI_ERROR_NUMERIC || !p->best) return hci_note_set(note, status, "%s", why->text);
+    if (status != HCI_ERROR_NUMERIC || (!p->best && p->halved == HALVES))
+        return hci_note_set(note, status, "%s", why->text);
+    if (!p->best) {
+        ++p->halved;
+        for (size_t j = 0; j < p->n; ++j)
+            p->from[j] *= 0.5;
+        return HCI_OK;
+    }
     p->radius_A = p->radius_A > 0.0 ? SHRINK * p->radius_A : AFTER_FAILURE * length(p, p->best);
     memcpy(p->from, p->best, p->n * sizeof *p->from);
     return HCI_OK;
@@ -181,24 +192,85 @@ static bool goes_on(const path *p)
     return p->change > CONVERGED || p->wishes->is_coarse;
 }
 
-static hci_status settle_at(path *p, bool is_coarse, hci_note *note)
+/* ---- the last steps ---- */
+
+static hci_status settle_at(path *p, double radius_A, bool is_coarse, hci_note *note)
 {
     p->wishes->is_coarse = is_coarse;
     p->wishes->is_far = false;
     memcpy(p->from, p->best, p->n * sizeof *p->from);
-    p->radius_A = SETTLING * length(p, p->best);
+    p->radius_A = radius_A;
     return step(p, note);
 }
 
-/* The last step beside the best answer, with peaks between the angles brought within their limits, or where
- * rounding spoils that left as they are. */
-static hci_status settle(path *p, hci_note *note)
+/* What a step says of the limits beside its currents. */
+typedef struct {
+    hci_limit_cost cost;
+    hci_limit_optimum gains;
+    double exceeded_share, minimised_Nm;
+} account;
+
+static account account_of(const hci_wishes *w)
+{
+    const hci_solution *s = w->of->solution;
+    return (account){s->limit_cost, w->cost, s->exceeded_share, s->minimised_Nm};
+}
+
+/* The best answer with what the step of `said` tells. */
+static void give_best(const path *p, const account *said)
+{
+    hci_solution *s = p->wishes->of->solution;
+    memcpy(p->wishes->x, p->best, p->n * sizeof *p->best);
+    s->limit_cost = said->cost;
+    s->exceeded_share = said->exceeded_share;
+    s->minimised_Nm = said->minimised_Nm;
+    p->wishes->cost = said->gains;
+}
+
+/* One more step, kept where it needs no wider limits and its true torque is better. The bound on the distance
+ * takes part in what limits cost, so that this stays as it was. */
+static hci_status polish_once(path *p, double radius_A, account *said, hci_note *note)
 {
     hci_note why = {{0}};
-    const hci_status status = settle_at(p, false, &why);
-    if (status == HCI_ERROR_NUMERIC) return settle_at(p, true, note);
-    return status ? hci_note_set(note, status, "%s", why.text) : HCI_OK;
+    bool is_better = false;
+    hci_status status = settle_at(p, radius_A, false, &why);
+    const account now = account_of(p->wishes);
+    if (!status && now.exceeded_share <= said->exceeded_share) status = judge(p, &is_better, &why);
+    if (is_better) said->minimised_Nm = now.minimised_Nm;
+    return status == HCI_ERROR_MEMORY ? out_of_memory(note) : HCI_OK;
 }
+
+/* The last step leaves an error of the square of its length in the true torque: further ones, each within
+ * less. */
+static hci_status polish(path *p, hci_note *note)
+{
+    account said = account_of(p->wishes);
+    double radius_A = p->radius_A;
+    bool ignored;
+    hci_status status;
+    hci_memory_free(p->best);
+    p->best = NULL;
+    status = judge(p, &ignored, note);
+    for (int k = 0; k < POLISHES && !status; ++k)
+        status = polish_once(p, radius_A *= POLISH, &said, note);
+    if (!status) give_best(p, &said);
+    return status;
+}
+
+/* The last step beside the best answer, with peaks between the angles brought within their limits; where
+ * rounding spoils that within more, and at last left as they are. */
+static hci_status settle(path *p, hci_note *note)
+{
+    const double least_A = SETTLING * length(p, p->best);
+    hci_note why = {{0}};
+    hci_status status = settle_at(p, least_A, false, &why);
+    if (status == HCI_ERROR_NUMERIC) status = settle_at(p, 3.0 * least_A, false, &why);
+    if (!status) return polish(p, note);
+    if (status == HCI_ERROR_NUMERIC) return settle_at(p, least_A, true, note);
+    return hci_note_set(note, status, "%s", why.text);
+}
+
+/* ---- all of it ---- */
 
 /* Whether neither torque nor voltage has to be made linear. */
 static bool is_linear(const hci_wishes *w)
