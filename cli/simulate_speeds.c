@@ -61,10 +61,15 @@ static hci_status read_inputs(const cli_speeds_words *w, inputs *in, hci_note *n
 
 /* ---- words ---- */
 
+static double rpm(double rad_per_s)
+{
+    return rad_per_s * 30.0 / HCI_PI;
+}
+
 static void show_rows(const hci_speeds *s, bool worst)
 {
     for (size_t k = 0; k < s->count; ++k) {
-        cli_say("  %7.5g rpm ", s->row[k].speed_rad_per_s * 30.0 / HCI_PI);
+        cli_say("  %7.5g rpm ", rpm(s->row[k].speed_rad_per_s));
         for (int r = 0; r < HCI_REMEDIES; ++r)
             cli_say(" %12.4g", worst ? s->row[k].remedy[r].worst_T_ripple_percent
                                      : s->row[k].remedy[r].T_ripple_percent);
@@ -78,15 +83,70 @@ static void show_rows(const hci_speeds *s, bool worst)
 static void show_limit(const char *what, double speed_rad_per_s)
 {
     if (isfinite(speed_rad_per_s))
-        cli_say("  %s does for all orders up to %.4g rpm\n", what, speed_rad_per_s * 30.0 / HCI_PI);
+        cli_say("  %s does for all orders up to %.4g rpm\n", what, rpm(speed_rad_per_s));
+}
+
+/* A torque that is made but for this share is made. */
+static const double MADE = 0.01;
+
+static bool is_made(const hci_speeds *s, size_t speed)
+{
+    bool made = true;
+    for (int r = 0; r < HCI_REMEDIES; ++r)
+        made = made && fabs(s->row[speed].remedy[r].mean_Nm - s->torque_Nm) <= MADE * fabs(s->torque_Nm);
+    return made;
+}
+
+/* Ripple alone says nothing of currents that do not make the torque. */
+static void show_means(const hci_speeds *s)
+{
+    bool is_first = true;
+    for (size_t k = 0; k < s->count && s->torque_Nm != 0.0; ++k) {
+        if (is_made(s, k)) continue;
+        if (is_first)
+            cli_say("\n  mean torque in N·m at speeds where one is more than %g %% off %.4g N·m\n",
+                    100.0 * MADE, s->torque_Nm);
+        is_first = false;
+        cli_say("  %7.5g rpm ", rpm(s->row[k].speed_rad_per_s));
+        for (int r = 0; r < HCI_REMEDIES; ++r)
+            cli_say(" %12.4g", s->row[k].remedy[r].mean_Nm);
+        cli_say("\n");
+    }
+}
+
+static void list_worse(const hci_speeds *s, hci_remedy remedy)
+{
+    const char *between = "";
+    cli_say("at ");
+    for (size_t k = 0; k < s->count; ++k) {
+        if (!hci_speeds_is_worse(&s->row[k], remedy)) continue;
+        cli_say("%s%.4g", between, rpm(s->row[k].speed_rad_per_s));
+        between = ", ";
+    }
+    cli_say(" rpm\n");
+}
+
+/* Says no more than was seen at the given speeds. */
+static void show_worse(const hci_speeds *s, hci_remedy remedy)
+{
+    size_t worse = 0, first = s->count;
+    for (size_t k = s->count; k-- > 0;)
+        if (hci_speeds_is_worse(&s->row[k], remedy)) ++worse, first = k;
+    if (worse == 0) return;
+    cli_say("  %s is worse than the plain sine ", hci_remedy_name(remedy));
+    if (worse == s->count)
+        cli_say("at all given speeds\n");
+    else if (first > 0 && worse == s->count - first)
+        cli_say("from between %.4g and %.4g rpm on\n", rpm(s->row[first - 1].speed_rad_per_s),
+                rpm(s->row[first].speed_rad_per_s));
+    else
+        list_worse(s, remedy);
 }
 
 static void show_harm(const hci_speeds *s)
 {
     for (int r = HCI_REMEDY_TABLE; r < HCI_REMEDIES; ++r)
-        if (isfinite(s->harmful_rad_per_s[r]))
-            cli_say("  %s is worse than the plain sine from about %.4g rpm on\n",
-                    hci_remedy_name((hci_remedy)r), s->harmful_rad_per_s[r] * 30.0 / HCI_PI);
+        show_worse(s, (hci_remedy)r);
 }
 
 static void show(const hci_speeds *s, const cli_speeds_words *w)
@@ -101,6 +161,7 @@ static void show(const hci_speeds *s, const cli_speeds_words *w)
                 100.0 * s->model_error);
         show_rows(s, true);
     }
+    show_means(s);
     cli_say("\n");
     show_limit("voltage ", s->voltage_rad_per_s);
     show_limit("sampling", s->sampled_rad_per_s);

@@ -207,6 +207,16 @@ static hci_status run_speed(grid *g, hci_speed_row *row)
     return status;
 }
 
+/* Of the plain sine's ripple: less is what single precision and the sampling of a turn make of two equal
+ * ones. */
+static const double WORSE = 1e-3;
+
+bool hci_speeds_is_worse(const hci_speed_row *row, hci_remedy remedy)
+{
+    const double sine_percent = row->remedy[HCI_REMEDY_SINE].T_ripple_percent;
+    return row->remedy[remedy].T_ripple_percent > (1.0 + WORSE) * sine_percent;
+}
+
 /* Where the remedy's ripple passes that of the plain sine, straight between the speeds. */
 static double harmful_from(const hci_speeds *s, int remedy)
 {
@@ -215,10 +225,10 @@ static double harmful_from(const hci_speeds *s, int remedy)
         const hci_speed_row *row = &s->row[k];
         const double more =
             row->remedy[remedy].T_ripple_percent - row->remedy[HCI_REMEDY_SINE].T_ripple_percent;
-        if (more > 0.0 && k == 0) return row->speed_rad_per_s;
-        if (more > 0.0)
-            return speed_before + (row->speed_rad_per_s - speed_before) * before / (before - more);
-        before = more;
+        const bool is_worse = hci_speeds_is_worse(row, (hci_remedy)remedy);
+        if (is_worse && k == 0) return row->speed_rad_per_s;
+        if (is_worse) return speed_before + (row->speed_rad_per_s - speed_before) * before / (before - more);
+        before = fmin(more, 0.0);
         speed_before = row->speed_rad_per_s;
     }
     return HUGE_VAL;
