@@ -50,9 +50,14 @@ static void show_number(double value, int width)
 static void show_envelope(const hci_grid *s)
 {
     const size_t every = (s->plan.count + MOST_ROWS - 1) / MOST_ROWS;
-    cli_say(
-        "\n  largest mean torque in N·m with at most %.4g %% of ripple, with any, and of the plain sine\n",
-        s->request.ripple_percent);
+    const hci_component_set *set = s->request.options->set;
+    cli_say("\n  largest mean torque found, in N·m, with at most %.4g %% of ripple, with any, and of the plain "
+            "sine\n",
+            s->request.ripple_percent);
+    if (set)
+        cli_say("  all but the plain sine with these %zu components; others may make more\n", set->count);
+    else
+        cli_say("  all but the plain sine with components that are chosen\n");
     cli_say("      speed    torque       any   (ripple)      sine   (ripple)  binds\n");
     for (size_t k = 0; k < s->plan.count; k += every) {
         const hci_grid_row *row = &s->row[k];

@@ -195,6 +195,41 @@ static void solve_sine(const hci_grid_request *r, const hci_solve_options *optio
 
 /* ---- all of it ---- */
 
+/* Whether the torque is linear in the current. */
+static bool is_linear(const hci_grid_request *r)
+{
+    const hci_solve_options *o = r->options;
+    const double temperature_C = o->at_temperature ? o->temperature_C : (double)NAN;
+    hci_quadratic_model q;
+    hci_note ignored = {{0}};
+    const hci_status status =
+        hci_quadratic_model_make(&r->machine->model, o->effects, temperature_C, &q, &ignored);
+    const bool is = !status && q.machine.slope_count == 0 && !q.higher.effects;
+    hci_quadratic_model_release(&q);
+    return is;
+}
+
+/* Whether the plain sine is one of the currents that may be used. */
+static bool has_sine(const hci_solve_options *o)
+{
+    if (!o->set) return true;
+    for (size_t k = 0; k < o->set->count; ++k)
+        if (o->set->component[k].order == 1.0 && o->set->component[k].sequence == 1) return true;
+    return false;
+}
+
+/* Where the torque is not linear a search may end below the sine, which is a bound from below. */
+static void take_sine(const hci_solve_options *o, search *s, hci_grid_row *row)
+{
+    const hci_grid_figures *sine = &row->sine;
+    if (!has_sine(o) || !(sine->mean_Nm > 0.0)) return;
+    if (!(row->most.mean_Nm >= sine->mean_Nm)) row->most = *sine;
+    if (!(sine->T_ripple_percent <= s->allowed_percent)) return;
+    s->good_Nm = sine->mean_Nm;
+    s->good_percent = sine->T_ripple_percent;
+    s->best = *sine;
+}
+
 /* The sine first, since it tells how much torque there is about. */
 static void fill(const hci_grid_request *r, const hci_solve_options *o, double first_Nm, hci_grid_row *row)
 {
@@ -213,6 +248,7 @@ static void fill(const hci_grid_request *r, const hci_solve_options *o, double f
     if (a.verdict == HCI_GRID_LIMITS || !(a.figures.mean_Nm > NOTHING * NEAR * first_Nm)) return;
     row->most = a.figures;
     row->verdict = HCI_GRID_REACHED;
+    take_sine(o, &s, row);
     if (row->most.T_ripple_percent <= s.allowed_percent)
         row->best = row->most;
     else
@@ -223,9 +259,10 @@ void hci_grid_envelope(const hci_grid_request *r, const hci_grid_point *p, hci_g
 {
     hci_target_order none = {{0.0, 0.0, 1.0}, 1.0};
     const hci_target target = {&none, 1};
-    const hci_solve_options o = hci_grid_options_of(r, p, &target);
+    hci_solve_options o = hci_grid_options_of(r, p, &target);
     hci_bounds b;
     hci_note note = {{0}};
+    if (o.minimise == HCI_MINIMISE_AUTO && is_linear(r)) o.minimise = HCI_MINIMISE_PEAK_TO_PEAK;
     if (hci_bounds_make(r->machine, &o, 0.0, &b, &note))
         hci_grid_fail(p, note.text, row);
     else if (!(amplitude_within(&b) < HUGE_VAL))

@@ -45,7 +45,8 @@ typedef struct {
 typedef struct {
     hci_grid_kind kind;               /* what it is for */
     const hci_machine_data *machine;  /* of all points */
-    const hci_solve_options *options; /* of each point; target, speed and dc link are the point's own */
+    const hci_solve_options *options; /* of each point; target, speed and dc link are the point's own; envelope
+                                       * of a torque linear in the current: HCI_MINIMISE_AUTO is the swing */
     double ripple_percent;            /* envelope: largest T_ripple; 0: 1 */
     hci_grid_axis torque_Nm;          /* trade-off: one; map */
     hci_grid_axis speed_rad_per_s;    /* trade-off: at most one, 0 without it; envelope; map */
