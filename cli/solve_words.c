@@ -130,7 +130,9 @@ static void show_current(const hci_solution *s)
             s->current.count == 1 ? "" : "s", top_order(s), s->peak_phase_current_A);
     if (!to_plain && !to_limit) return;
     cli_say("  copper loss  ");
-    if (to_plain) cli_say("%.4g × the plain fundamental of %.4g A", s->loss_to_plain, s->plain_amplitude_A);
+    if (to_plain)
+        cli_say("%.4g × the plain fundamental of %.4g A%s", s->loss_to_plain, s->plain_amplitude_A,
+                s->limit_cost == HCI_COST_TORQUE ? " that the wanted mean takes" : "");
     if (to_limit) cli_say("%s%.4g × the pointwise limit", to_plain ? "; " : "", s->loss_to_limit);
     cli_say("\n");
 }
@@ -162,10 +164,10 @@ static const char *unit_of(const hci_limit *l)
 static void show_gain(const hci_solution *s, const hci_limit *l)
 {
     static const char *const WHAT[] = {"", "A² less copper", "N·m less ripple",
-                                       "N·m nearer to the wanted mean", "of all limits less to widen"};
+                                       "N·m nearer to the wanted mean", "% less to widen all limits by"};
     if (!l->binds) return;
-    cli_say("; 1 %s more%s: %.3g %s", unit_of(l), l->kind == HCI_LIMIT_VOLTAGE ? " of dc link" : "", l->gain,
-            WHAT[s->limit_cost]);
+    cli_say("; 1 %s more%s: %.3g %s", unit_of(l), l->kind == HCI_LIMIT_VOLTAGE ? " of dc link" : "",
+            s->limit_cost == HCI_COST_LIMITS ? 100.0 * l->gain : l->gain, WHAT[s->limit_cost]);
 }
 
 static void show_touches(const hci_limit *l)

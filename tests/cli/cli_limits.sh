@@ -137,8 +137,13 @@ done
 # ---- methods: sets of harmonics are shaped by limits, one angle at a time is only held against them
 
 small star
-run 1 solve "$m" --target "$t" --method pointwise --limit-current 9
+run 1 solve "$m" --target "$t" --method pointwise --limit-current 9 -o "$work/beyond" --report
 says '^reached, but a limit is not kept' 'limits +not kept'
+check "summary.json does not tell that a limit is not kept" grep -q '"cost":[[:space:]]*"not kept"' "$work/beyond/summary.json"
+check "the report does not tell that a limit is not kept" grep -q 'A limit is not kept' "$work/beyond/report.html"
+check "the report says that limits are kept" eval "! grep -q 'keep the limits' '$work/beyond/report.html'"
+run 1 solve "$m" --target "$t" --limit-current 9 --speed 100 --limit-voltage 500
+check "a voltage that is far off has a price" eval "! grep -q 'V more of dc link' '$work/stderr'"
 run 1 solve "$m" --target "$t" --auto 3 --limit-current 9
 says 'phase current 9 of 9 A'
 run 1 solve "$m" --target "$t" --harmonics "$h" --limit-current 9

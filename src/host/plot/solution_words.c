@@ -29,7 +29,8 @@ static void missed_line(char line[LINE_SIZE], const hci_solution *s, size_t miss
     hci_svg_quantity_text(error, s->worst_error_Nm, "N·m");
     if (missed > 1)
         snprintf(more, sizeof more, ", %zu more order%s missed", missed - 1, missed > 2 ? "s" : "");
-    snprintf(line, LINE_SIZE, "Not reached: order %s is off by %s%s", order, error, more);
+    snprintf(line, LINE_SIZE, "Not reached: order %s is off by %s%s%s", order, error, more,
+             s->within_limits ? "" : "; a limit is not kept");
 }
 
 static void limit_line(char line[LINE_SIZE], const hci_solution *s)

@@ -142,7 +142,9 @@ static void put_limits(hci_json *json, const hci_solution *s)
 {
     static const char *const MINIMISED[] = {"", "worst", "peak-to-peak", "rms"};
     hci_json_object(json, "limits");
-    hci_json_text(json, "cost", hci_limit_cost_name(s->limit_cost));
+    hci_json_text(json, "cost",
+                  s->within_limits || s->limit_cost == HCI_COST_LIMITS ? hci_limit_cost_name(s->limit_cost)
+                                                                       : "not kept");
     hci_json_number(json, "wanted_mean_Nm", s->wanted_mean_Nm);
     hci_json_text(json, "minimised", MINIMISED[s->minimised]);
     hci_json_number(json, "minimised_Nm", s->minimised_Nm);

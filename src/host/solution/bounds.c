@@ -63,9 +63,9 @@ static hci_status check_voltage(const hci_solve_options *o, hci_note *note)
             "the dead time takes 2 · dead time · switching frequency of the dc link: give both, "
             "--dead-time and --pwm-frequency");
     if (l->voltage_reserve >= 0.0 && lost < 1.0) return HCI_OK;
-    return hci_note_set(note, HCI_ERROR_ARGUMENT,
-                        "reserve and dead time take %.3g of the dc link; expected a share from 0 to below 1",
-                        lost);
+    return hci_note_set(
+        note, HCI_ERROR_ARGUMENT,
+        "reserve and dead time take %.3g times the dc link; expected a share from 0 to below 1", lost);
 }
 
 /* ---- from options to bounds ---- */

@@ -10,6 +10,7 @@
 #define NEARLY  0.95 /* share of the largest sample from which a peak is looked at */
 #define TOUCHED 1e-5 /* share of a limit below it that counts as touched */
 #define KEPT    1e-9 /* share beyond a limit that is rounding */
+#define FAR_OFF 1e-3 /* share below a limit from which it does not bind */
 
 enum { SAMPLES_PER_PERIOD = 64 };
 
@@ -210,10 +211,21 @@ static double top_of_voltage(const hci_machine_data *m, const hci_effects *effec
     return effects ? fmax(top, hci_effects_top_order(effects)) : top;
 }
 
+/* A limit that is far off costs nothing: a gain is then rounding, as is the current of an open phase. */
+static void clean(const hci_solution *s, hci_limit *l)
+{
+    if (l->limit == 0.0 && l->value <= KEPT * s->peak_phase_current_A) l->value = 0.0;
+    if (l->value >= (1.0 - FAR_OFF) * l->limit) return;
+    l->gain = 0.0;
+    l->binds = false;
+}
+
 static void judge(hci_solution *s)
 {
     hci_limit *copper = find_limit(s, HCI_LIMIT_COPPER, 0);
     take_value(copper, hci_waves_mean_square(s->current.wave, s->current.count));
+    for (size_t k = 0; k < s->limit_count; ++k)
+        clean(s, &s->limit[k]);
     s->within_limits = true;
     for (size_t k = 0; k < s->limit_count; ++k)
         if (s->limit[k].value > s->limit[k].limit * (1.0 + KEPT) + KEPT * s->peak_phase_current_A)

@@ -41,9 +41,10 @@ static void say_verdict(const hci_solution_page *p, hci_status verdict)
         "With these currents the machine makes %s on average%s. From peak to peak its torque varies %s, "
         "with a plain sine %s%s.",
         mean,
-        verdict != HCI_OK ? ", but not all that was asked for"
-        : is_smooth       ? " and no ripple, as was asked for"
-                          : " and the ripple that was asked for",
+        !s->within_limits   ? ", but beyond a limit"
+        : verdict != HCI_OK ? ", but not all that was asked for"
+        : is_smooth         ? " and no ripple, as was asked for"
+                            : " and the ripple that was asked for",
         after, before, loss);
     hci_html_paragraph(p->out, NULL, p->facts.verdict);
     hci_expected_ripple_words(&s->expected, expected, sizeof expected);
@@ -145,7 +146,11 @@ static void show_limits(const hci_solution_page *p)
     const hci_solution *s = p->solution;
     if (s->limit_count == 0) return;
     hci_html_section(p->out, "Limits");
-    hci_html_paragraph(p->out, NULL, COST[s->limit_cost]);
+    hci_html_paragraph(
+        p->out, NULL,
+        s->within_limits || s->limit_cost == HCI_COST_LIMITS
+            ? COST[s->limit_cost]
+            : "A limit is not kept by these currents: its largest value is above what is allowed.");
     hci_html_table(p->out, "Limits, and what 1 more of each would give", COLUMN);
     for (size_t k = 0; k < s->limit_count; ++k)
         show_limit(p->out, &s->limit[k]);
