@@ -203,6 +203,18 @@ static hci_status check_voltage(const cli_arguments *a, const cli_sweep_inputs *
                         a->given[SWEEP_TRADE_OFF] ? "--speed" : "--speeds");
 }
 
+/* Voltages of the points take its place, so it would be dropped. */
+static hci_status check_links(const cli_sweep_inputs *in, size_t points, hci_note *note)
+{
+    bool is_linked = in->link_V.count > 0;
+    for (size_t k = 0; k < points; ++k)
+        is_linked = is_linked || !isnan(in->point[k].link_V);
+    if (!is_linked || in->options.limit_voltage_V == 0.0) return HCI_OK;
+    return hci_note_set(note, HCI_ERROR_ARGUMENT,
+                        "sweep: %s and --limit-voltage are both dc links; leave one of them out",
+                        points ? "dc_link_V of the GRID" : "--dc-links");
+}
+
 /* ---- what results depend on ---- */
 
 static bool is_about_work(int key)
@@ -274,6 +286,7 @@ hci_status cli_sweep_read(const cli_option *table, const cli_arguments *a, cli_s
         status = hci_component_set_read(a->value[SWEEP_HARMONICS], in->machine.has_neutral, &in->set, note);
     if (!status && a->words == 2) status = hci_grid_read(a->word[1], &in->point, &points, note);
     if (!status) status = check_voltage(a, in, note);
+    if (!status) status = check_links(in, points, note);
     if (status) return status;
     fill_options(a, in);
     fill_request(a, points, in);

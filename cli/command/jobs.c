@@ -162,7 +162,7 @@ static hci_status take_answer(crew *c, worker *w, bool *stops, hci_note *note)
         j->take(j->context, w->item, NULL, number);
         return HCI_OK;
     }
-    *stops = number == SIGINT;
+    *stops = number == SIGINT || !j->goes_on(j->context);
     if (*stops) return HCI_OK;
     return hci_note_set(note, HCI_ERROR_NUMERIC,
                         "a process was ended by signal %d; the points that are done are kept", number);

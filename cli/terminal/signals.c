@@ -42,7 +42,7 @@ static volatile sig_atomic_t is_deferred;
 
 static void defer(int number)
 {
-    is_deferred = 1;
+    is_deferred = number;
     handle(number, leave);
 }
 
@@ -50,6 +50,8 @@ void cli_signals_defer(void)
 {
     is_deferred = 0;
     handle(SIGINT, defer);
+    handle(SIGTERM, defer);
+    handle(SIGHUP, defer);
 }
 
 bool cli_signals_deferred(void *context)
@@ -60,7 +62,8 @@ bool cli_signals_deferred(void *context)
 
 void cli_signals_obey(void)
 {
-    if (!is_deferred) return;
-    handle(SIGINT, SIG_DFL);
-    raise(SIGINT);
+    const int number = is_deferred;
+    if (!number) return;
+    handle(number, SIG_DFL);
+    raise(number);
 }

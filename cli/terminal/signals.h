@@ -8,14 +8,14 @@
  * written, and then ends it as it would have. */
 void cli_signals_catch(void);
 
-/* From now on the first Ctrl-C is only remembered, until cli_signals_catch; the second one ends the program.
- * A Ctrl-C that the program was told to ignore stays ignored. */
+/* From now on the first Ctrl-C, SIGTERM or SIGHUP is only remembered, until cli_signals_catch; the second one
+ * ends the program. One that the program was told to ignore stays ignored. */
 void cli_signals_defer(void);
 
-/* Whether there was a Ctrl-C that is remembered; an hci_stop. context: not used. */
+/* Whether there was one that is remembered; an hci_stop. context: not used. */
 bool cli_signals_deferred(void *context);
 
-/* Ends the program as that Ctrl-C would have; nothing happens where there was none. */
+/* Ends the program as that signal would have; nothing happens where there was none. */
 void cli_signals_obey(void);
 
 #endif

@@ -39,6 +39,9 @@ refused 'takes none; expected a torque above 0' "$m" --trade-off --torque 0
 for list in '' ' ' 1,1 2,1 1:2 1:2:0 2:1:1 1:2:x nan 1,,2 1:1e9:1e-3 '1;2'; do
     refused '--torques: found .*expected ascending values' "$m" --map --torques "$list" --speeds 100
 done
+refused '--dc-links and --limit-voltage are both dc links' "$m" --map --torques 1 --speeds 100 --dc-links 50,100 --limit-voltage 24
+printf 'torque_Nm,speed_rpm,dc_link_V\n1,300,40\n' >"$work/linked.csv"
+refused 'dc_link_V of the GRID and --limit-voltage' "$m" "$work/linked.csv" --limit-voltage 24
 run 2 sweep "$m" --map --torques 1 --speeds 100 --shard 1/2
 says 'add --out FOLDER'
 run 2 sweep "$m" --map --torques 1 --speeds 100 --report
@@ -73,7 +76,7 @@ done
     run 0 $map --shard 1/4 -q -o "$work/again"
     rm "$work/again/sweep.csv"
     run 3 $map -q -o "$work/again"
-    says 'sweep.csv'
+    says 'sweep.csv: is not there' 'delete points.csv to begin anew'
     rm -r "$work/again"
     run 0 $map --shard 1/4 -q -o "$work/again"
     run 3 $map --ignore-ratings -q -o "$work/again"

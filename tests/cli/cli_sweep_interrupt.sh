@@ -37,6 +37,7 @@ ended() {
     check "ended by $1 and gone on is not the whole" diff -r "$work/whole" "$3"
 }
 ended INT 130 "$work/interrupted"
+ended TERM 143 "$work/terminated"
 ended KILL 137 "$work/killed"
 
 finish
