@@ -65,7 +65,7 @@ static void test_at_any_time(void)
     TEST_ASSERT_EQUAL_INT(HCI_OK, diagnose(NULL));
     const long all = asked;
     const double end_Nm = diagnosis.rms_after_Nm;
-    for (long k = 0; k < all; k = 4 * k + 1) {
+    for (long k = 0; k < all; k = 2 * k + 1) {
         asked = 0;
         until = k;
         TEST_ASSERT_EQUAL_INT(HCI_NOT_REACHED, diagnose(NULL));
