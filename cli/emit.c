@@ -273,9 +273,20 @@ static hci_status read_inputs(const cli_arguments *a, inputs *in, hci_note *note
     snprintf(in->provenance[0], sizeof in->provenance[0], "%zu current components, solved by hci-solve",
              in->current.count);
     in->lines[0] = in->provenance[0];
+    in->lines[1] = hci_solution_verdict_words(hci_solution_read_verdict(a->word[0]));
     in->request.provenance = in->lines;
-    in->request.provenance_count = 1;
+    in->request.provenance_count = in->lines[1][0] != '\0' ? 2 : 1;
     return HCI_OK;
+}
+
+/* Currents that are not what was asked of `solve`. */
+static void remark_currents(const cli_arguments *a)
+{
+    for (size_t k = 0; k < a->words; ++k) {
+        hci_note remark = {{0}};
+        hci_solution_remark(a->word[k], &remark);
+        cli_remark(&remark);
+    }
 }
 
 /* What was looked at, the one that was written marked. */
@@ -380,6 +391,7 @@ static int run_for_drive(const cli_arguments *a)
     hci_status status = read_drive_inputs(a, &in, &note);
     if (!status) status = hci_emit_loop(folder, &in.request, &result, &note);
     if (!status && cli_is_wordy()) show_loop(&in.request, &result, folder);
+    if (!status) remark_currents(a);
     if (!status && a->given[JSON]) status = cli_print_json(hci_emit_loop_json(&in.request, &result), &note);
     hci_loop_levels_release(&in.levels);
     hci_drive_release(&in.drive);
@@ -450,6 +462,7 @@ static int run_for_foreign(const cli_arguments *a)
     hci_status status = read_foreign_inputs(a, &in, &note);
     if (!status) status = hci_emit_foreign(folder, &in.request, &result, &note);
     if (!status && cli_is_wordy()) show_foreign(&in.request, &result, folder);
+    if (!status) remark_currents(a);
     if (!status && a->given[JSON])
         status = cli_print_json(hci_emit_foreign_json(&in.request, &result), &note);
     hci_machine_release(&in.machine);
@@ -472,6 +485,7 @@ static int run(const cli_arguments *a)
     if (!status) status = read_facts(a, &in, &note);
     if (!status) status = hci_emit(folder, &in.request, &result, &note);
     if (!status && cli_is_wordy()) show(&in.request, &result, folder);
+    if (!status) remark_currents(a);
     if (!status && a->given[JSON]) status = cli_print_json(hci_emit_json(&in.request, &result), &note);
     hci_machine_release(&in.machine);
     hci_currents_release(&in.current);

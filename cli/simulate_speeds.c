@@ -11,6 +11,7 @@
 #include "cli/terminal/say.h"
 #include "cli/terminal/terminal.h"
 #include "cli/terminal/text.h"
+#include "hci/host/currents/solution_folder.h"
 #include "hci/host/machine/effects.h"
 #include "hci/host/report/summary.h"
 #include "hci/host/report/write.h"
@@ -189,6 +190,11 @@ static hci_status simulate(const cli_speeds_words *w, inputs *in, hci_note *note
     cli_progress_end();
     if (!status && w->out) status = hci_speeds_write(&speeds, w->report ? &sources : NULL, w->out, note);
     if (!status && cli_is_wordy()) show(&speeds, w);
+    for (size_t k = 0; k < w->table_count && !status; ++k) {
+        hci_note remark = {{0}};
+        hci_solution_remark(w->table[k], &remark);
+        cli_remark(&remark);
+    }
     if (!status && w->json) status = cli_print_json(hci_speeds_json(&speeds), note);
     hci_speeds_release(&speeds);
     return status;

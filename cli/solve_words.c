@@ -214,7 +214,10 @@ static void show_limits(const hci_solution *s)
         cli_say("  voltage      peak line voltage %.4g V\n", s->peak_line_voltage_V);
     if (s->within_limits || s->limit_cost == HCI_COST_LIMITS) show_cost(s);
     if (!s->within_limits && s->limit_cost != HCI_COST_LIMITS) {
-        cli_say("  limits       not kept");
+        cli_say("  limits       not kept%s",
+                s->method == HCI_METHOD_POINTWISE
+                    ? ": --method pointwise does not take limits into account, it only checks them"
+                    : "");
         if (isfinite(s->torque_at_limit_Nm))
             cli_say("; a mean torque of %.4g N·m would keep the current limit", s->torque_at_limit_Nm);
         cli_say("\n");

@@ -84,6 +84,24 @@ run 0 solve "$work/sinusoidal_machine" --target "$work/two.csv" -q -o "$work/two
 run 0 simulate "$work/sinusoidal_machine" --table "$work/two" --drive $drive --speeds 300,1000
 check "the same sine is called worse" [ "$(grep -cE 'table is worse' "$work/stderr")" -eq 0 ]
 
+# ---- currents that are not what was asked of solve
+
+run 1 solve "$work/sinusoidal_machine" --target "$work/two.csv" --limit-current 5 -q -o "$work/near"
+not_reached='near: the torque of these currents is not as it was wanted: .*not reached'
+run 0 simulate "$work/sinusoidal_machine" --table "$work/near" --drive $drive --speeds 300
+says "note: .*$not_reached"
+run 0 emit "$work/near" --name near --machine "$work/sinusoidal_machine" --drive $drive -o "$work/near_loop"
+says "note: .*$not_reached"
+run 0 emit "$work/near" --name near -o "$work/near_table"
+says "note: .*$not_reached"
+check "the header does not say it" grep -q 'the torque of these currents is not as it was wanted' "$work/near_table/near.h" "$work/near_table/near.c"
+run 1 solve "$work/sinusoidal_machine" --target "$work/two.csv" --method pointwise --limit-current 5 -o "$work/over"
+says 'not kept: --method pointwise does not take limits into account, it only checks them'
+run 0 emit "$work/over" --name over -o "$work/over_table"
+says 'note: .*over: these currents do not keep the limits with which they were solved'
+run 0 emit "$work/two" --name two -o "$work/two_table"
+check "good currents are spoken of" [ "$(grep -c 'note:' "$work/stderr")" -eq 0 ]
+
 # ---- solve leaves out what the loop cannot be made to follow
 
 refused solve data/machine_a --target data/scenarios/02/target.csv --auto --drive $drive -o "$work/out" -- 'what a drive follows depends on the speed'

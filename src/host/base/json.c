@@ -73,3 +73,14 @@ void hci_json_free(char *text)
 {
     cJSON_free(text);
 }
+
+bool hci_json_find_bool(const char *text, const char *object, const char *name, bool *value)
+{
+    cJSON *all = cJSON_Parse(text);
+    const cJSON *in = all && object ? cJSON_GetObjectItemCaseSensitive(all, object) : all;
+    const cJSON *item = in ? cJSON_GetObjectItemCaseSensitive(in, name) : NULL;
+    const bool found = cJSON_IsBool(item);
+    if (found) *value = cJSON_IsTrue(item);
+    cJSON_Delete(all);
+    return found;
+}

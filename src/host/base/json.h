@@ -32,4 +32,8 @@ void hci_json_text(hci_json *json, const char *name, const char *value);
 char *hci_json_end(hci_json *json);
 void hci_json_free(char *text);
 
+/* A truth value in the object `object` of a text, or with NULL in the outermost one. False where the text is
+ * no JSON or has none of that name; *value is then left. */
+bool hci_json_find_bool(const char *text, const char *object, const char *name, bool *value);
+
 #endif

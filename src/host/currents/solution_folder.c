@@ -6,6 +6,9 @@
 #include <sys/stat.h>
 
 #include "hci/host/csv/csv.h"
+#include "host/base/json.h"
+#include "host/base/memory.h"
+#include "host/base/quote.h"
 
 enum { PATH_SIZE = 4096 + 32 };
 
@@ -75,4 +78,53 @@ hci_status hci_solution_read_mean_torque(const char *folder, double *torque_Nm, 
                             path);
     *torque_Nm = mean_Nm;
     return HCI_OK;
+}
+
+/* ---- what solve said of them ---- */
+
+/* A file as text, to be freed; NULL where it cannot be had. */
+static char *text_of(const char *path)
+{
+    FILE *file = fopen(path, "rb");
+    struct stat info;
+    char *text = NULL;
+    if (file && stat(path, &info) == 0 && S_ISREG(info.st_mode)) {
+        text = hci_memory_new((size_t)info.st_size + 1, 1);
+        if (text) text[fread(text, 1, (size_t)info.st_size, file)] = '\0';
+    }
+    if (file) fclose(file);
+    return text;
+}
+
+hci_solution_verdict hci_solution_read_verdict(const char *path)
+{
+    bool reached = true, within = true;
+    char file[PATH_SIZE];
+    char *text = NULL;
+    if (hci_solution_is_folder(path) && !path_of(path, HCI_SOLUTION_SUMMARY, file, NULL))
+        text = text_of(file);
+    if (text) {
+        hci_json_find_bool(text, NULL, "reached", &reached);
+        hci_json_find_bool(text, "current", "within_limits", &within);
+    }
+    hci_memory_free(text);
+    return !within ? HCI_SOLUTION_OUT_OF_LIMITS : reached ? HCI_SOLUTION_GOOD : HCI_SOLUTION_NOT_REACHED;
+}
+
+const char *hci_solution_verdict_words(hci_solution_verdict verdict)
+{
+    static const char *const WORDS[] = {"",
+                                        "the torque of these currents is not as it was wanted: `solve` says "
+                                        "not reached, the nearest is given",
+                                        "these currents do not keep the limits with which they were solved"};
+    return WORDS[verdict];
+}
+
+void hci_solution_remark(const char *path, hci_note *remark)
+{
+    const hci_solution_verdict verdict = hci_solution_read_verdict(path);
+    char shown[HCI_QUOTE_PATH_SIZE];
+    if (verdict == HCI_SOLUTION_GOOD) return;
+    hci_note_add(remark, "%s: %s (summary.json)", hci_quote_path(path, shown),
+                 hci_solution_verdict_words(verdict));
 }

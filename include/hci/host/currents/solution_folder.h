@@ -45,6 +45,22 @@ hci_status hci_solution_read_mean_torque(const char *folder, double *torque_Nm, 
 /* The same, 0 where it was solved without a mean torque. */
 hci_status hci_solution_read_wanted_torque(const char *folder, double *torque_Nm, hci_note *note);
 
+/* How the currents of a folder stand to what was asked of `solve`. */
+typedef enum {
+    HCI_SOLUTION_GOOD,         /* as wanted, or nothing is known of them */
+    HCI_SOLUTION_NOT_REACHED,  /* the nearest to a torque that is not reached */
+    HCI_SOLUTION_OUT_OF_LIMITS /* a limit is not kept */
+} hci_solution_verdict;
+
+/* By summary.json of the folder; good for one file, and where there is none. */
+hci_solution_verdict hci_solution_read_verdict(const char *path);
+
+/* In words; "" where they are good; a static string. */
+const char *hci_solution_verdict_words(hci_solution_verdict verdict);
+
+/* Adds these words to a remark, with the folder. */
+void hci_solution_remark(const char *path, hci_note *remark);
+
 #ifdef __cplusplus
 }
 #endif
