@@ -196,46 +196,51 @@ static hci_status read_parts(const cli_arguments *a, inputs *in, hci_note *note)
     return status;
 }
 
-/* Options that exclude or need each other. */
+/* Whether any of the options is given. */
+static bool any_of(const cli_arguments *a, const int *key, size_t count)
+{
+    bool any = false;
+    for (size_t k = 0; k < count; ++k)
+        any = any || a->given[key[k]];
+    return any;
+}
+
+#define ANY(a, ...) any_of(a, (const int[]){__VA_ARGS__}, sizeof(const int[]){__VA_ARGS__} / sizeof(int))
+
+/* Options that exclude or need each other; the first that is broken is said. */
 static hci_status check_together(const cli_arguments *a, hci_note *note)
 {
-    const char *wrong = NULL;
-    if (!a->value[NAME])
-        wrong = "emit: the table has no name; add --name ID";
-    else if (a->given[DRIVE] && a->given[FOR])
-        wrong = "emit: --drive is for hci/loop.h, --for TARGET for another maker's drive; give one of them";
-    else if (a->given[FOR] && !a->given[MACHINE])
-        wrong = "emit: --for TARGET needs --machine FOLDER";
-    else if (a->given[DRIVE] && !a->given[MACHINE])
-        wrong = "emit: --drive FILE needs --machine FOLDER";
-    else if (a->given[BLOB] && (a->given[DRIVE] || a->given[FOR]))
-        wrong = "emit: --blob is a table for hci/table.h or hci/table_i16.h; leave out --drive and --for";
-    else if (!a->given[FOR] && (a->given[ENCODER_OFFSET] || a->given[ENCODER_DIRECTION] ||
-                                a->given[TORQUE_CONSTANT] || a->given[COUNTS] || a->given[WAVE]))
-        wrong = "emit: --encoder-offset, --encoder-direction, --torque-constant, --counts-per-ampere and "
-                "--wave go with "
-                "--for TARGET";
-    else if (a->given[FOR] &&
-             (a->given[FORMAT] || a->given[SHAPE] || a->given[FRAME] || a->given[MAX_ERROR] ||
-              a->given[MAX_BYTES] || a->given[MAX_INSTRUCTIONS] || a->given[SPEED]))
-        wrong = "emit: the form of a map --for TARGET is that of the drive; leave out --format, --shape, "
-                "--frame, --max-error, --max-bytes, --max-instructions and --speed";
-    else if (a->given[SPEED] && !a->given[DRIVE])
-        wrong = "emit: --speed goes with --drive";
-    else if (a->words > 1 && !a->given[DRIVE])
-        wrong = "emit: several folders are levels of torque, which need --drive and --machine";
-    else if (a->given[DRIVE] && (a->given[POINTS] || a->given[REFERENCE] || a->given[FORMAT] ||
-                                 a->given[SHAPE] || a->given[MAX_BYTES] || a->given[MAX_INSTRUCTIONS]))
-        wrong = "emit: --drive makes its tables in RAM, of floats; give --max-error alone of what says their "
-                "size, and "
-                "no --format, --shape or --reference-torque";
-    else if (a->given[DRIVE] && a->given[FRAME] && a->choice[FRAME] != HCI_TABLE_DQ)
-        wrong = "emit: --drive is in the rotor frame; give --frame dq, or none";
-    else if (a->value[POINTS] && a->value[MAX_ERROR])
-        wrong = "emit: give --points or --max-error, not both";
-    else if (a->given[REFERENCE] && !a->given[PER_TORQUE])
-        wrong = "emit: --reference-torque goes with --per-torque";
-    return wrong ? hci_note_set(note, HCI_ERROR_ARGUMENT, "%s", wrong) : HCI_OK;
+    const bool drive = a->given[DRIVE], target = a->given[FOR], machine = a->given[MACHINE];
+    const struct {
+        bool broken;
+        const char *words;
+    } rule[] = {
+        {!a->value[NAME], "the table has no name; add --name ID"},
+        {drive && target,
+         "--drive is for hci/loop.h, --for TARGET for another maker's drive; give one of them"},
+        {target && !machine, "--for TARGET needs --machine FOLDER"},
+        {drive && !machine, "--drive FILE needs --machine FOLDER"},
+        {a->given[BLOB] && (drive || target),
+         "--blob is a table for hci/table.h or hci/table_i16.h; leave out --drive and --for"},
+        {!target && ANY(a, ENCODER_OFFSET, ENCODER_DIRECTION, TORQUE_CONSTANT, COUNTS, WAVE),
+         "--encoder-offset, --encoder-direction, --torque-constant, --counts-per-ampere and --wave go with "
+         "--for TARGET"},
+        {target && ANY(a, FORMAT, SHAPE, FRAME, MAX_ERROR, MAX_BYTES, MAX_INSTRUCTIONS, SPEED),
+         "the form of a map --for TARGET is that of the drive; leave out --format, --shape, --frame, "
+         "--max-error, --max-bytes, --max-instructions and --speed"},
+        {a->given[SPEED] && !drive, "--speed goes with --drive"},
+        {a->words > 1 && !drive, "several folders are levels of torque, which need --drive and --machine"},
+        {drive && ANY(a, POINTS, REFERENCE, FORMAT, SHAPE, MAX_BYTES, MAX_INSTRUCTIONS),
+         "--drive makes its tables in RAM, of floats; give --max-error alone of what says their size, and no "
+         "--format, --shape or --reference-torque"},
+        {drive && a->given[FRAME] && a->choice[FRAME] != HCI_TABLE_DQ,
+         "--drive is in the rotor frame; give --frame dq, or none"},
+        {a->value[POINTS] && a->value[MAX_ERROR], "give --points or --max-error, not both"},
+        {a->given[REFERENCE] && !a->given[PER_TORQUE], "--reference-torque goes with --per-torque"},
+    };
+    for (size_t k = 0; k < sizeof rule / sizeof *rule; ++k)
+        if (rule[k].broken) return hci_note_set(note, HCI_ERROR_ARGUMENT, "emit: %s", rule[k].words);
+    return HCI_OK;
 }
 
 static hci_status read_options(const cli_arguments *a, hci_emit_request *r, hci_note *note)
