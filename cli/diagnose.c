@@ -8,7 +8,7 @@
 #include "cli/command/parse.h"
 #include "cli/command/reading.h"
 #include "cli/commands.h"
-#include "cli/diagnose_words.h"
+#include "cli/diagnose/diagnose_words.h"
 #include "cli/terminal/progress.h"
 #include "cli/terminal/say.h"
 #include "cli/terminal/signals.h"

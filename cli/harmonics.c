@@ -5,7 +5,7 @@
 #include "cli/command/command.h"
 #include "cli/command/reading.h"
 #include "cli/commands.h"
-#include "cli/harmonics_words.h"
+#include "cli/harmonics/harmonics_words.h"
 #include "cli/terminal/say.h"
 #include "cli/terminal/terminal.h"
 #include "hci/host/base/number.h"

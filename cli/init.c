@@ -4,7 +4,7 @@
 #include "cli/command/command.h"
 #include "cli/command/parse.h"
 #include "cli/commands.h"
-#include "cli/init_words.h"
+#include "cli/init/init_words.h"
 #include "cli/terminal/say.h"
 #include "cli/terminal/terminal.h"
 #include "hci/host/machine/init.h"

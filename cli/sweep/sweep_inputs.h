@@ -28,7 +28,7 @@ typedef enum {
     SWEEP_JOIN,
     SWEEP_OUT,
     SWEEP_REPORT,
-    SWEEP_LIMITS /* those of cli/solve_limits.h begin here */
+    SWEEP_LIMITS /* those of cli/solve/solve_limits.h begin here */
 } cli_sweep_key;
 
 /* Values of one list. */

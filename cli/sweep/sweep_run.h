@@ -2,7 +2,7 @@
 #ifndef HCI_CLI_SWEEP_RUN_H
 #define HCI_CLI_SWEEP_RUN_H
 
-#include "cli/sweep_inputs.h"
+#include "cli/sweep/sweep_inputs.h"
 
 /* Where points come from and go to. */
 typedef struct {

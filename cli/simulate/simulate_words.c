@@ -1,4 +1,4 @@
-#include "cli/simulate_words.h"
+#include "cli/simulate/simulate_words.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,4 +1,4 @@
-#include "cli/solve_limits.h"
+#include "cli/solve/solve_limits.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-#include "cli/sweep_inputs.h"
+#include "cli/sweep/sweep_inputs.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "cli/command/parse.h"
-#include "cli/solve_limits.h"
+#include "cli/solve/solve_limits.h"
 #include "hci/host/base/number.h"
 #include "hci/host/sweep/grid_file.h"
 #include "hci/version.h"

@@ -1,4 +1,4 @@
-#include "cli/simulate_speeds.h"
+#include "cli/simulate/simulate_speeds.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,4 +1,4 @@
-#include "cli/sweep_words.h"
+#include "cli/sweep/sweep_words.h"
 
 #include <math.h>
 
@@ -51,9 +51,10 @@ static void show_envelope(const hci_grid *s)
 {
     const size_t every = (s->plan.count + MOST_ROWS - 1) / MOST_ROWS;
     const hci_component_set *set = s->request.options->set;
-    cli_say("\n  largest mean torque found, in N·m, with at most %.4g %% of ripple, with any, and of the plain "
-            "sine\n",
-            s->request.ripple_percent);
+    cli_say(
+        "\n  largest mean torque found, in N·m, with at most %.4g %% of ripple, with any, and of the plain "
+        "sine\n",
+        s->request.ripple_percent);
     if (set)
         cli_say("  all but the plain sine with these %zu components; others may make more\n", set->count);
     else

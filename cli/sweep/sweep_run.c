@@ -1,6 +1,6 @@
 #define _POSIX_C_SOURCE 200809L
 
-#include "cli/sweep_run.h"
+#include "cli/sweep/sweep_run.h"
 
 #include <stdio.h>
 #include <stdlib.h>

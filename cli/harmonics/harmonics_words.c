@@ -1,4 +1,4 @@
-#include "cli/harmonics_words.h"
+#include "cli/harmonics/harmonics_words.h"
 
 #include <math.h>
 #include <stdio.h>

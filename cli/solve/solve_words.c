@@ -2,7 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/solve_words.h"
+#include "cli/solve/solve_words.h"
 #include "cli/terminal/chart.h"
 #include "cli/terminal/rows.h"
 #include "cli/terminal/say.h"

@@ -1,4 +1,4 @@
-#include "cli/diagnose_words.h"
+#include "cli/diagnose/diagnose_words.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,4 +1,4 @@
-#include "cli/init_words.h"
+#include "cli/init/init_words.h"
 
 #include "cli/terminal/say.h"
 #include "cli/terminal/text.h"
