@@ -1,0 +1,131 @@
+#include "cli/emit/emit_currents.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/command/parse.h"
+#include "cli/emit/emit_options.h"
+#include "cli/terminal/say.h"
+#include "cli/terminal/terminal.h"
+#include "hci/host/currents/solution_folder.h"
+
+/* The last part of a path, without slashes at its end. */
+static void folder_name(const char *path, char *name, size_t size)
+{
+    size_t end = strlen(path), begin;
+    while (end > 1 && path[end - 1] == '/')
+        --end;
+    for (begin = end; begin > 0 && path[begin - 1] != '/'; --begin)
+        continue;
+    snprintf(name, size, "%.*s", (int)(end - begin), path + begin);
+}
+
+/* What header and blob say of the machine, and the torque of a folder that was solved for one. */
+static hci_status read_facts(const cli_arguments *a, cli_emit_currents *in, hci_note *note)
+{
+    hci_emit_facts *facts = &in->request.facts;
+    hci_note none = {{0}};
+    hci_status status = HCI_OK;
+    in->request.blob = a->given[EMIT_BLOB];
+    if (hci_solution_is_folder(a->word[0]) &&
+        hci_solution_read_mean_torque(a->word[0], &facts->mean_torque_Nm, &none) != HCI_OK)
+        facts->mean_torque_Nm = 0.0;
+    if (!a->given[EMIT_MACHINE]) return HCI_OK;
+    status = hci_machine_read(a->value[EMIT_MACHINE], &in->machine, note);
+    if (status) return status;
+    facts->pole_pairs = (size_t)in->machine.pole_pairs;
+    folder_name(a->value[EMIT_MACHINE], in->machine_name, sizeof in->machine_name);
+    facts->machine = in->machine_name;
+    return HCI_OK;
+}
+
+static hci_status read_parts(const cli_arguments *a, cli_emit_currents *in, hci_note *note)
+{
+    const char *from = a->word[0];
+    hci_status status;
+    if (!hci_solution_is_folder(from))
+        return hci_note_set(note, HCI_ERROR_ARGUMENT,
+                            "--per-torque needs the folder that `solve` wrote, not one file: %s", from);
+    if (!hci_solution_has_parts(from))
+        return hci_note_set(
+            note, HCI_ERROR_INPUT,
+            "%s: no currents_per_Nm.csv: these currents are not linear in the mean torque (a held "
+            "fundamental, or reluctance torque); leave out --per-torque",
+            from);
+    status = hci_solution_read_currents(from, HCI_SOLUTION_CURRENTS_CONSTANT, &in->current, note);
+    if (!status) status = hci_solution_read_currents(from, HCI_SOLUTION_CURRENTS_PER_NM, &in->per_Nm, note);
+    in->request.reference_torque_Nm = cli_number_or(a, EMIT_REFERENCE, 0.0);
+    if (!status && !a->given[EMIT_REFERENCE])
+        status = hci_solution_read_mean_torque(from, &in->request.reference_torque_Nm, note);
+    in->request.reference_torque_Nm = fabs(in->request.reference_torque_Nm);
+    in->request.per_Nm = in->per_Nm.wave;
+    in->request.per_Nm_count = in->per_Nm.count;
+    return status;
+}
+
+static hci_status read_options(const cli_arguments *a, hci_emit_request *r, hci_note *note)
+{
+    r->name = a->value[EMIT_NAME];
+    r->format = (hci_emit_format)a->choice[EMIT_FORMAT];
+    r->shape = (hci_emit_shape)a->choice[EMIT_SHAPE];
+    r->frame = (hci_table_frame)a->choice[EMIT_FRAME];
+    r->points = (size_t)cli_number_or(a, EMIT_POINTS, 0.0);
+    r->max_error_A = cli_number_or(a, EMIT_MAX_ERROR, 0.0);
+    r->max_bytes = (size_t)cli_number_or(a, EMIT_MAX_BYTES, 0.0);
+    r->max_instructions = (size_t)cli_number_or(a, EMIT_MAX_INSTRUCTIONS, 0.0);
+    return cli_emit_check(a, note);
+}
+
+static bool has_zero_sequence(const hci_currents *c)
+{
+    for (size_t k = 0; k < c->count; ++k)
+        if (c->wave[k].sequence == 0) return true;
+    return false;
+}
+
+/* The waves, and where they are from. */
+static hci_status read_waves(const cli_arguments *a, cli_emit_currents *in, hci_note *note)
+{
+    hci_status status;
+    if (a->given[EMIT_PER_TORQUE])
+        status = read_parts(a, in, note);
+    else
+        status = hci_solution_read_currents(a->word[0], HCI_SOLUTION_CURRENTS, &in->current, note);
+    if (status) return status;
+    in->request.currents = in->current.wave;
+    in->request.current_count = in->current.count;
+    in->request.has_neutral = has_zero_sequence(&in->current) || has_zero_sequence(&in->per_Nm);
+    in->request.input_hash = in->current.hash ^ (in->per_Nm.hash * 31u);
+    snprintf(in->provenance[0], sizeof in->provenance[0], "%zu current components, solved by hci-solve",
+             in->current.count);
+    in->lines[0] = in->provenance[0];
+    in->lines[1] = hci_solution_verdict_words(hci_solution_read_verdict(a->word[0]));
+    in->request.provenance = in->lines;
+    in->request.provenance_count = in->lines[1][0] != '\0' ? 2 : 1;
+    return HCI_OK;
+}
+
+hci_status cli_emit_currents_read(const cli_arguments *a, cli_emit_currents *in, hci_note *note)
+{
+    hci_status status = read_options(a, &in->request, note);
+    if (!status) status = read_waves(a, in, note);
+    if (!status) status = read_facts(a, in, note);
+    return status;
+}
+
+void cli_emit_currents_release(cli_emit_currents *in)
+{
+    hci_machine_release(&in->machine);
+    hci_currents_release(&in->current);
+    hci_currents_release(&in->per_Nm);
+}
+
+void cli_emit_remark(const cli_arguments *a)
+{
+    for (size_t k = 0; k < a->words; ++k) {
+        hci_note remark = {{0}};
+        hci_solution_remark(a->word[k], &remark);
+        cli_remark(&remark);
+    }
+}

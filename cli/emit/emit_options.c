@@ -1,0 +1,161 @@
+#include "cli/emit/emit_options.h"
+
+#include "cli/terminal/terminal.h"
+#include "hci/host/emit/emit.h"
+#include "hci/host/foreign/foreign_target.h"
+
+enum { BEFORE_COMMON = EMIT_COMMON - 1, CLI_COMMON_KEYS };
+
+static const cli_choice FORMATS[] = {
+    [HCI_EMIT_F32] = {"f32", "f32 (default): float rows"},
+    [HCI_EMIT_I16] = {"i16", "; i16: 16-bit knots, read as amperes"},
+    [HCI_EMIT_Q15] = {"q15", "; q15: the same, read as integers"},
+    [HCI_EMIT_CSV] = {"csv", "; csv, json: the rows of f32 in ID.csv or ID.json, for other programs"},
+    [HCI_EMIT_JSON] = {"json", ""},
+    {NULL, NULL},
+};
+static const cli_choice SHAPES[] = {
+    [HCI_EMIT_AUTO] = {"auto", "auto (default): the fewest instructions within 1 KiB, else the fewest bytes"},
+    [HCI_EMIT_LINEAR] = {"linear", "; linear: the one shape of f32"},
+    [HCI_EMIT_QUADRATIC] = {"quadratic", "; quadratic"},
+    [HCI_EMIT_CUBIC] = {"cubic", "; cubic"},
+    {NULL, NULL},
+};
+static const cli_choice FRAMES[] = {
+    [HCI_TABLE_ABC] = {"abc", "abc (default): phase currents"},
+    [HCI_TABLE_DQ] = {"dq", "; dq: rotor frame"},
+    {NULL, NULL},
+};
+
+static const cli_choice TARGETS[] = {HCI_FOREIGN_TARGETS(CLI_CHOICE_OF){NULL, NULL}};
+static const cli_choice WAVES[] = {
+    [HCI_FOREIGN_SINE] = {"sine", "sine (default): sin(nx + phase)"},
+    [HCI_FOREIGN_COSINE] = {"cosine", "; cosine"},
+    [HCI_FOREIGN_SINE_LAG] = {"sine-lag", "; sine-lag: sin(nx - phase)"},
+    [HCI_FOREIGN_COSINE_LAG] = {"cosine-lag", "; cosine-lag"},
+    {NULL, NULL},
+};
+static const cli_choice DIRECTIONS[] = {
+    {"1", "1 (default)"},
+    {"-1", "; -1: its angle falls when the machine turns in its positive direction"},
+    {NULL, NULL},
+};
+
+const cli_option cli_emit_options[] = {
+    [EMIT_NAME] = {"name", 0, CLI_TEXT, "ID", .help = "of the table and its files, a C identifier"},
+    [EMIT_FORMAT] = {"format", 0, CLI_CHOICE, "NAME", NULL, .choices = FORMATS},
+    [EMIT_SHAPE] = {"shape", 0, CLI_CHOICE, "NAME", NULL, .choices = SHAPES},
+    [EMIT_FRAME] = {"frame", 0, CLI_CHOICE, "NAME", NULL, .choices = FRAMES},
+    [EMIT_MAX_ERROR] = {"max-error", 0, CLI_NUMBER, "A",
+                        .help = "the fewest points that keep every current within it (1 % of the peak)",
+                        .low = 1e-12, .high = 1e9},
+    [EMIT_POINTS] =
+        {"points", 0, CLI_WHOLE, "N",
+         .help =
+             "instead: rows of a period; of i16 and q15 steps in the part that is kept; with --for a power "
+             "of two",
+         .low = 1.0, .high = HCI_EMIT_MAX_POINTS},
+    [EMIT_MAX_BYTES] = {"max-bytes", 0, CLI_WHOLE, "N",
+                        .help = "of rows or knots; without --max-error: the least error in so many",
+                        .low = 1.0, .high = 1e9},
+    [EMIT_MAX_INSTRUCTIONS] = {"max-instructions", 0, CLI_WHOLE, "N", .help = "of one call on a Cortex-M4F",
+                               .low = 1.0, .high = 1e6},
+    [EMIT_PER_TORQUE] = {"per-torque", 0, CLI_FLAG, NULL,
+                         .help = "two parts, i = T*A + B, for every mean torque T (needs a folder)"},
+    [EMIT_REFERENCE] = {"reference-torque", 0, CLI_NUMBER, "NM",
+                        .help = "with --per-torque: the largest T (default: the one solved for)", .low = 1e-9,
+                        .high = 1e9},
+    [EMIT_MACHINE] =
+        {"machine", 0, CLI_FOLDER, "FOLDER",
+         .help = "the machine of the currents: its name and pole pairs go into the header; needed with "
+                 "--drive and --for"},
+    [EMIT_DRIVE] =
+        {"drive", 0, CLI_FILE, "FILE",
+         .help = "drive.csv: orders of current and voltage for hci/loop.h, which a current loop can follow; "
+                 "several folders are levels of torque"},
+    [EMIT_SPEED] =
+        {"speed", 0, CLI_NUMBER, "RPM",
+         .help = "with --drive: up to which orders are used (default: as far as the voltage and the sampling "
+                 "do)",
+         .low = 1e-3, .high = 1e6},
+    [EMIT_FOR] = {"for", 0, CLI_CHOICE, "TARGET",
+                  .help = "the compensation map of this drive instead, in its own form:", .choices = TARGETS},
+    [EMIT_ENCODER_OFFSET] = {"encoder-offset", 0, CLI_NUMBER, "DEG",
+                             .help =
+                                 "with --for: the drive's angle where that of the machine is 0 (0); of its "
+                                 "encoder, or electrical",
+                             .low = -1e6, .high = 1e6},
+    [EMIT_ENCODER_DIRECTION] = {"encoder-direction", 0, CLI_CHOICE, "SIGN",
+                                .help = "with --for:", .choices = DIRECTIONS},
+    [EMIT_TORQUE_CONSTANT] =
+        {"torque-constant", 0, CLI_NUMBER, "NM_PER_A",
+         .help = "with --for: torque of 1 A of i_q as the drive has it (that of the machine)", .low = 1e-9,
+         .high = 1e6},
+    [EMIT_COUNTS] = {"counts-per-ampere", 0, CLI_NUMBER, "N",
+                     .help = "with --for: the drive's scale of the current", .low = 1e-6, .high = 1e9},
+    [EMIT_WAVE] = {"wave", 0, CLI_CHOICE, "NAME",
+                   .help = "with --for beckhoff: what its amplitude and phase mean:", .choices = WAVES},
+    [EMIT_BLOB] = {"blob", 0, CLI_FLAG, NULL,
+                   .help =
+                       "ID.bin too: the table as bytes that a bootloader or a bus brings, for hci/blob.h"},
+    [EMIT_OUT] = {"out", 'o', CLI_FOLDER, "FOLDER", .help = "where ID.h and ID.c go (default: here)"},
+    CLI_COMMON_OPTIONS};
+
+/* Whether any of the options is given. */
+static bool any_of(const cli_arguments *a, const int *key, size_t count)
+{
+    bool any = false;
+    for (size_t k = 0; k < count; ++k)
+        any = any || a->given[key[k]];
+    return any;
+}
+
+#define ANY(a, ...) any_of(a, (const int[]){__VA_ARGS__}, sizeof(const int[]){__VA_ARGS__} / sizeof(int))
+
+hci_status cli_emit_check(const cli_arguments *a, hci_note *note)
+{
+    const bool drive = a->given[EMIT_DRIVE], target = a->given[EMIT_FOR], machine = a->given[EMIT_MACHINE];
+    const struct {
+        bool broken;
+        const char *words;
+    } rule[] = {
+        {!a->value[EMIT_NAME], "the table has no name; add --name ID"},
+        {drive && target,
+         "--drive is for hci/loop.h, --for TARGET for another maker's drive; give one of them"},
+        {target && !machine, "--for TARGET needs --machine FOLDER"},
+        {drive && !machine, "--drive FILE needs --machine FOLDER"},
+        {a->given[EMIT_BLOB] && (drive || target),
+         "--blob is a table for hci/table.h or hci/table_i16.h; leave out --drive and --for"},
+        {!target && ANY(a, EMIT_ENCODER_OFFSET, EMIT_ENCODER_DIRECTION, EMIT_TORQUE_CONSTANT, EMIT_COUNTS,
+                        EMIT_WAVE),
+         "--encoder-offset, --encoder-direction, --torque-constant, --counts-per-ampere and --wave go with "
+         "--for TARGET"},
+        {target && ANY(a, EMIT_FORMAT, EMIT_SHAPE, EMIT_FRAME, EMIT_MAX_ERROR, EMIT_MAX_BYTES,
+                       EMIT_MAX_INSTRUCTIONS, EMIT_SPEED),
+         "the form of a map --for TARGET is that of the drive; leave out --format, --shape, --frame, "
+         "--max-error, --max-bytes, --max-instructions and --speed"},
+        {a->given[EMIT_SPEED] && !drive, "--speed goes with --drive"},
+        {a->words > 1 && !drive, "several folders are levels of torque, which need --drive and --machine"},
+        {drive && ANY(a, EMIT_POINTS, EMIT_REFERENCE, EMIT_FORMAT, EMIT_SHAPE, EMIT_MAX_BYTES,
+                      EMIT_MAX_INSTRUCTIONS),
+         "--drive makes its tables in RAM, of floats; give --max-error alone of what says their size, and no "
+         "--format, --shape or --reference-torque"},
+        {drive && a->given[EMIT_FRAME] && a->choice[EMIT_FRAME] != HCI_TABLE_DQ,
+         "--drive is in the rotor frame; give --frame dq, or none"},
+        {a->value[EMIT_POINTS] && a->value[EMIT_MAX_ERROR], "give --points or --max-error, not both"},
+        {a->given[EMIT_REFERENCE] && !a->given[EMIT_PER_TORQUE], "--reference-torque goes with --per-torque"},
+    };
+    for (size_t k = 0; k < sizeof rule / sizeof *rule; ++k)
+        if (rule[k].broken) return hci_note_set(note, HCI_ERROR_ARGUMENT, "emit: %s", rule[k].words);
+    return HCI_OK;
+}
+
+const char *cli_emit_folder(const cli_arguments *a)
+{
+    return a->value[EMIT_OUT] ? a->value[EMIT_OUT] : ".";
+}
+
+bool cli_emit_wants_json(const cli_arguments *a)
+{
+    return a->given[JSON];
+}

@@ -1,0 +1,91 @@
+#include "cli/emit/emit_words.h"
+
+#include <math.h>
+
+#include "cli/terminal/say.h"
+#include "cli/terminal/text.h"
+#include "hci/math/harmonic.h"
+
+/* What was looked at, the one that was written marked. */
+static void show_choices(const hci_emit_result *result)
+{
+    cli_say("               format shape      points   bytes   error A  Cortex-M4F  M0+ (instructions)\n");
+    for (size_t k = 0; k < result->choices; ++k) {
+        const hci_emit_choice *c = &result->choice[k];
+        const bool chosen = c->format == result->chosen.format && c->shape == result->chosen.shape;
+        cli_say("  %-11s  %-6s %-9s %7zu %7zu  %8.3g  %10u  %3u\n",
+                chosen    ? "written"
+                : c->fits ? "possible"
+                          : "too much",
+                hci_emit_format_name(c->format), hci_emit_shape_name(c->shape), c->points, c->bytes,
+                c->max_error_A, c->cortex_m4f, c->cortex_m0_plus);
+    }
+}
+
+void cli_show_table(const hci_emit_request *r, const hci_emit_result *result, const char *folder)
+{
+    const bool is_data = r->format == HCI_EMIT_CSV || r->format == HCI_EMIT_JSON;
+    if (is_data)
+        cli_say(CLI_GOOD "emitted" CLI_PLAIN ": %s/%s.%s\n", folder, r->name,
+                hci_emit_format_name(r->format));
+    else
+        cli_say(CLI_GOOD "emitted" CLI_PLAIN ": %s/%s.h and %s.c\n", folder, r->name, r->name);
+    show_choices(result);
+    cli_say("  table        %zu values in %zu part%s in a row, frame %s; period %zu electrical turn%s",
+            result->columns, result->parts, result->parts == 1 ? "" : "s",
+            r->frame == HCI_TABLE_ABC ? "abc" : "dq", result->period_turns,
+            result->period_turns == 1 ? "" : "s");
+    if (result->sectors > 1) cli_say(", 1/%zu kept", result->sectors);
+    cli_say("\n  error        at most %.3g A of a peak of %.4g A", result->chosen.max_error_A,
+            result->peak_A);
+    if (r->per_Nm) cli_say(", up to %.4g N·m", r->reference_torque_Nm);
+    if (r->blob) cli_say("\n  blob         %s.bin, for hci/blob.h", r->name);
+    if (is_data)
+        cli_say("\n  rows         straight lines between them; after the last comes the first\n");
+    else
+        cli_say("\n  runtime      hci/%s\n", r->format == HCI_EMIT_F32 ? "table.h" : "table_i16.h");
+}
+
+static void show_speed(const char *what, double speed_rad_per_s)
+{
+    if (isfinite(speed_rad_per_s))
+        cli_say("  %s all orders up to %.4g rpm\n", what, speed_rad_per_s * 30.0 / HCI_PI);
+}
+
+void cli_show_loop(const hci_emit_loop_request *r, const hci_emit_loop_result *result, const char *folder)
+{
+    cli_say(CLI_GOOD "emitted" CLI_PLAIN ": %s/%s.h and %s.c\n", folder, r->name, r->name);
+    cli_say(
+        "  orders       %zu up to %.4g, %zu level%s of torque from %.4g to %.4g N·m, %zu bytes of flash\n",
+        result->orders, result->highest_order, result->levels, result->levels == 1 ? "" : "s",
+        result->torque_low_Nm, result->torque_high_Nm, result->flash_bytes);
+    cli_say("  table        %zu points, %zu times in %zu electrical turn%s; %zu bytes of RAM, %zu with "
+            "feedforward\n",
+            result->points, result->repeats, result->period_turns, result->period_turns == 1 ? "" : "s",
+            result->ram_bytes, result->feedforward_ram_bytes);
+    cli_say("  error        at most %.3g A of a current vector of %.4g A\n", result->max_error_A,
+            result->peak_A);
+    cli_say("  lead         %.4g us\n", 1e6 * result->lead_s);
+    show_speed("voltage     ", result->voltage_rad_per_s);
+    show_speed("sampling    ", result->sampled_rad_per_s);
+    cli_say("  runtime      hci/loop.h and hci/table.h\n");
+}
+
+void cli_show_foreign(const hci_emit_foreign_request *r, const hci_emit_foreign_result *x, const char *folder)
+{
+    const char *unit = hci_foreign_is_torque(r->target) ? "N·m" : "A";
+    cli_say(CLI_GOOD "emitted" CLI_PLAIN " for %s into %s: %s\n", hci_foreign_word(r->target), folder,
+            x->files);
+    cli_say("  holds        %s\n  not          %s\n  form         %s\n", x->carries, x->lacks, x->samples);
+    if (x->unit > 0.0)
+        cli_say("  rounding     to whole numbers of %.4g %s; the largest value is %.4g %s\n", x->unit, unit,
+                x->peak, unit);
+    if (x->cut) cli_say("  cut          %zu values that are too large for it\n", x->cut);
+    if (x->left_out)
+        cli_say("  left out     %zu orders for which it has no room, the largest %.4g %s\n", x->left_out,
+                x->left_out_amplitude, unit);
+    cli_say("  ripple       peak to peak, N·m         sine    with this map\n");
+    for (size_t k = 0; k < x->ripples; ++k)
+        cli_say("               at %8.4g N·m    %10.4g   %10.4g\n", x->ripple[k].torque_Nm,
+                x->ripple[k].without_Nm, x->ripple[k].with_Nm);
+}
