@@ -10,6 +10,7 @@
 #include "cli/reference/reference.h"
 #include "cli/terminal/say.h"
 #include "cli/terminal/signals.h"
+#include "cli/terminal/start.h"
 #include "cli/terminal/terminal.h"
 #include "cli/terminal/text.h"
 #include "hci/host/base/spelling.h"
@@ -88,6 +89,7 @@ static int run(int argc, char **argv)
 int main(int argc, char **argv)
 {
     int exit_code;
+    cli_start();
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN);
     cli_signals_catch();

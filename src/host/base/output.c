@@ -80,6 +80,13 @@ static hci_status output_error(const char *path, hci_note *note, const char *fou
                         found, remedy);
 }
 
+/* What the system refused; error: of errno. */
+static hci_status system_error(const char *path, hci_note *note, int error, const char *remedy)
+{
+    if (error == ENOMEM) return hci_note_memory(note, path, "writing it");
+    return output_error(path, note, strerror(error), remedy);
+}
+
 /* ---- the folder ---- */
 
 static hci_status open_set(const char *folder, hci_output **output, hci_note *note)
@@ -98,7 +105,7 @@ static hci_status open_set(const char *folder, hci_output **output, hci_note *no
         *output = set;
         return HCI_OK;
     }
-    const hci_status status = output_error(folder, note, strerror(errno), "give a folder that can be made");
+    const hci_status status = system_error(folder, note, errno, "give a folder that can be made");
     hci_memory_free(set->folder);
     hci_memory_free(set);
     return status;
@@ -127,7 +134,7 @@ static hci_status check_target(const char *target, hci_note *note)
         return output_error(target, note, "found something that is not a plain file", "name another file");
     }
     if (faccessat(AT_FDCWD, target, W_OK, AT_EACCESS) != 0)
-        return output_error(target, note, strerror(errno), "make the file writable");
+        return system_error(target, note, errno, "make the file writable");
     return HCI_OK;
 }
 
@@ -215,8 +222,7 @@ static hci_status add_file(hci_output *output, const char *name, hci_note *note)
     status = name_file(output->folder, name, f, note);
     if (!status) {
         output->stream = open_temporary(output->folder, f);
-        if (output->stream == NULL)
-            status = output_error(f->target, note, strerror(errno), "check the folder");
+        if (output->stream == NULL) status = system_error(f->target, note, errno, "check the folder");
     }
     if (!status) {
         output->count++;
@@ -278,7 +284,7 @@ static hci_status check_written(const file *f, hci_note *note)
 {
     char shown[HCI_QUOTE_PATH_SIZE];
     if (f->error != 0)
-        return output_error(f->target, note, strerror(f->error), "free some space or name another folder");
+        return system_error(f->target, note, f->error, "free some space or name another folder");
     if (!f->not_finite) return HCI_OK;
     return hci_note_set(note, HCI_ERROR_NOT_FINITE, "%s: not written: a result is infinite or not a number",
                         hci_quote_path(f->target, shown));
@@ -304,7 +310,7 @@ static hci_status publish(file *f, hci_note *note)
     const hci_status status = check_target(f->target, note);
     if (status) return status;
     if (!make_backup(f) || !(f->absent ? take_away(f) : rename(f->temporary, f->target) == 0)) {
-        return output_error(f->target, note, strerror(errno), "check the folder");
+        return system_error(f->target, note, errno, "check the folder");
     }
     f->renamed = !f->absent;
     return HCI_OK;

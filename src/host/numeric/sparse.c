@@ -11,6 +11,54 @@
 
 enum { POWER_STEPS = 20 };
 
+/* ---- memory of the libraries ---- */
+
+/* After an allocation that fails SPQR may go on, with a heap that it corrupts or to other numbers. So all
+ * that follow fail as well, with which it does end, and what it has computed by then is not used. */
+static bool short_of_memory;
+
+static void *kept(void *block)
+{
+    short_of_memory = short_of_memory || block == NULL;
+    return block;
+}
+
+static void *library_malloc(size_t size)
+{
+    return kept(short_of_memory ? NULL : hci_memory_malloc(size));
+}
+
+static void *library_calloc(size_t count, size_t size)
+{
+    return kept(short_of_memory ? NULL : hci_memory_new(count, size));
+}
+
+static void *library_realloc(void *block, size_t size)
+{
+    return kept(short_of_memory ? NULL : hci_memory_realloc(block, size));
+}
+
+static void begin_library(void)
+{
+    short_of_memory = false;
+#if SUITESPARSE_MAIN_VERSION < 7
+    SuiteSparse_config.malloc_func = library_malloc;
+    SuiteSparse_config.calloc_func = library_calloc;
+    SuiteSparse_config.realloc_func = library_realloc;
+    SuiteSparse_config.free_func = hci_memory_free;
+#else
+    SuiteSparse_config_malloc_func_set(library_malloc);
+    SuiteSparse_config_calloc_func_set(library_calloc);
+    SuiteSparse_config_realloc_func_set(library_realloc);
+    SuiteSparse_config_free_func_set(hci_memory_free);
+#endif
+}
+
+static hci_status end_library(hci_status status, const char *which, hci_note *note)
+{
+    return short_of_memory ? hci_note_memory(note, NULL, "%s", which) : status;
+}
+
 static double normalise(double *x, size_t n)
 {
     double sum = 0.0;
@@ -139,6 +187,7 @@ hci_status hci_sparse_lu_solve(const hci_sparse *a, const double *b, size_t righ
     const SuiteSparse_long n = (SuiteSparse_long)a->columns;
     void *symbolic = NULL, *numeric = NULL;
     hci_status status;
+    begin_library();
     status = umfpack_status(
         umfpack_dl_symbolic(n, n, a->column_start, a->row, a->value, &symbolic, NULL, NULL), note);
     if (!status)
@@ -148,7 +197,7 @@ hci_status hci_sparse_lu_solve(const hci_sparse *a, const double *b, size_t righ
     if (!status) status = umfpack_examine(a, numeric, condition, note);
     if (!status) status = umfpack_substitute(a, numeric, b, right_sides, x, note);
     umfpack_dl_free_numeric(&numeric);
-    return status;
+    return end_library(status, "the sparse LU", note);
 }
 
 /* ---- SPQR ---- */
@@ -296,11 +345,12 @@ hci_status hci_sparse_qr_solve(const hci_sparse *a, const double *b, size_t righ
     if (a->rows == 0 || a->columns == 0) return HCI_OK;
     copy = hci_memory_new(a->rows * right_sides, sizeof *copy);
     if (!copy) return hci_note_memory(note, NULL, "%zu rows", a->rows);
+    begin_library();
     cholmod_l_start(&cc);
     cc.print = 0;
     right = as_dense(b, a->rows, right_sides, copy);
     status = qr_solve(a, &right, x, found, &cc, note);
     cholmod_l_finish(&cc);
     hci_memory_free(copy);
-    return status;
+    return end_library(status, "the sparse QR", note);
 }

@@ -138,6 +138,7 @@ static hci_status table_copy(hci_output *out, const char *folder, const char *na
         return hci_note_set(note, HCI_ERROR_INPUT, "%.200s…: the path is too long", folder);
     file = fopen(path, "rb");
     if (!file && errno == ENOENT) return hci_output_without(out, name, note);
+    if (!file && errno == ENOMEM) return hci_note_memory(note, path, "reading it");
     if (!file) return hci_note_set(note, HCI_ERROR_INPUT, "%s: %s", path, strerror(errno));
     status = hci_output_file(out, name, note);
     while (!status && (length = fread(part, 1, sizeof part, file)) > 0)

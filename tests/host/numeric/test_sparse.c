@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "host/base/memory.h"
 #include "support/jacobi.h"
 #include "support/reference.h"
 #include "unity.h"
@@ -23,6 +24,7 @@ void setUp(void)
 
 void tearDown(void)
 {
+    hci_memory_fail_after(-1);
 }
 
 static hci_sparse compress(matrix *a)
@@ -248,6 +250,53 @@ static void test_lu_of_singular_squares(void)
     }
 }
 
+/* With the memory of a solve running out after each of its allocations in turn: no memory, or the solution.
+ */
+typedef hci_status solve_of(const hci_sparse *a, const double *b, double *x, hci_note *note);
+
+static hci_status by_lu(const hci_sparse *a, const double *b, double *x, hci_note *note)
+{
+    double condition;
+    return hci_sparse_lu_solve(a, b, SIDES, x, &condition, note);
+}
+
+static hci_status by_qr(const hci_sparse *a, const double *b, double *x, hci_note *note)
+{
+    hci_sparse_rank found;
+    return hci_sparse_qr_solve(a, b, SIDES, x, &found, note);
+}
+
+static void check_every_allocation(solve_of *solve, size_t rows, size_t columns)
+{
+    static matrix a;
+    double b[SIDES * MOST], x[SIDES * MOST], expected[SIDES * MOST];
+    uint64_t seed = 20209;
+    hci_status status = HCI_ERROR_MEMORY;
+    draw(&seed, rows, columns, 0.4, &a);
+    draw_sides(&seed, rows, b);
+    const hci_sparse s = compress(&a);
+    TEST_ASSERT_EQUAL(HCI_OK, solve(&s, b, expected, NULL));
+    long succeed = 0;
+    for (; status; ++succeed) {
+        hci_note note = {{0}};
+        hci_memory_fail_after(succeed);
+        status = solve(&s, b, x, &note);
+        hci_memory_fail_after(-1);
+        TEST_ASSERT_EQUAL_MESSAGE(status ? HCI_ERROR_MEMORY : HCI_OK, status, note.text);
+        TEST_ASSERT_TRUE(succeed < 10000);
+    }
+    TEST_ASSERT_TRUE(succeed > 20); /* those of the libraries are among them */
+    TEST_ASSERT_EQUAL_MEMORY(expected, x, SIDES * columns * sizeof *x);
+}
+
+static void test_memory_that_runs_out(void)
+{
+    check_every_allocation(by_lu, 20, 20);
+    check_every_allocation(by_qr, 20, 20);
+    check_every_allocation(by_qr, 30, 20);
+    check_every_allocation(by_qr, 20, 30);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -258,5 +307,6 @@ int main(void)
     RUN_TEST(test_qr_of_nothing);
     RUN_TEST(test_lu_of_regular_squares);
     RUN_TEST(test_lu_of_singular_squares);
+    RUN_TEST(test_memory_that_runs_out);
     return UNITY_END();
 }
