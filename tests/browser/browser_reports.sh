@@ -19,7 +19,7 @@ done
 command -v python3 >/dev/null || skip "python3 is not installed, which drives the browser"
 
 cd "$source_dir" || exit 1
-run 0 solve data/machine_a --target data/scenarios/02/target.csv --auto -q -o "$work/solve" --report
+run 1 solve data/machine_a --target data/scenarios/02/target.csv --auto --limit-current 15 -q -o "$work/solve" --report
 run 0 simulate data/machine_c data/drive/filho_strategy_3.csv -q -o "$work/simulate" --report
 run 0 diagnose data/fem_c/machine --runs data/fem_c/runs.csv -q -o "$work/diagnose"
 # orders that are no whole numbers, a torque of 50 mN.m with a ripple of a thousandth of it, and names that are long
@@ -51,10 +51,10 @@ spoil dark dark 'dark: .*contrast' 's/--quiet:#a6adb6/--quiet:#5a6068/'
 spoil light pale 'polyline after: contrast' 's/\.hci \.after{stroke:#0072b2/.hci .after{stroke:#9fd0ee/'
 spoil light role 'torque-title: no role' 's/role="img"/role="presentation"/'
 spoil light title 'vector-title: no title' 's/<title id="vector-title">[^<]*/<title id="vector-title">/'
-spoil light description 'system-title: no description' 's/id="system-desc"/id="nothing"/'
+spoil light description 'limits-title: no description' 's/id="limits-desc"/id="nothing"/'
 spoil light table 'torque-title: no table follows' 's|<tbody>|<tbody hidden=""></tbody>&|'
 spoil light cut 'torque-title: cut off: ' 's/<text class="quiet end" x="[0-9.]*"/<text class="quiet end" x="14"/'
-spoil light over 'spectrum-title: over another text: ' '/id="spectrum-title"/,/<\/svg>/s/<text class="quiet middle" x="[0-9.]*"/<text class="quiet middle" x="300"/'
+spoil light over 'torque-title: over another text: ' '/id="torque-title"/,/<\/svg>/s/<text class="quiet middle" x="[0-9.]*"/<text class="quiet middle" x="300"/'
 spoil light sources 'spectrum-title: no sources' 's/ Made from: [^<]*//'
 spoil light headings 'headings are not in order' 's/<h2>/<h4>/'
 spoil light unnamed 'cannot be scrolled by keys' 's/class="table" tabindex="0"/class="table"/'

@@ -63,10 +63,16 @@ def stops(browser, expected):
         yield f"keyboard: no ring about the focus of {kind!r}"
 
 
+def unfold(browser):
+    """What is folded away is looked at too."""
+    browser.evaluate("document.querySelectorAll('details').forEach((d) => { d.open = true; })")
+
+
 def measured(browser, url, scheme):
     browser.screen(*DESK)
     browser.media("", scheme)
     browser.open(url)
+    unfold(browser)
     return browser.evaluate(MEASURE)
 
 
@@ -94,6 +100,7 @@ def is_narrow(browser, url):
     browser.screen(*PHONE, phone=True)
     browser.media()
     browser.open(url)
+    unfold(browser)
     found = browser.evaluate(MEASURE)
     if found["width"] > PHONE[0] or found["window"] > PHONE[0]:
         yield f"wider than a telephone: {max(found['width'], found['window'])} of {PHONE[0]} pixels"
@@ -103,6 +110,7 @@ def is_whole_on_paper(browser, url):
     browser.screen(*PAPER)
     browser.media("print")
     browser.open(url)
+    unfold(browser)
     found = browser.evaluate(MEASURE)
     yield from (f"cut off on paper: {text}" for text in found["clipped"])
     if found["width"] > PAPER[0]:

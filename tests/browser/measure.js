@@ -40,11 +40,12 @@
     if (found < (large ? 3 : 4.5)) faint.push(`${name(e)}: contrast ${found.toFixed(2)}`);
   }
 
-  // Marks: 3 to their ground by the better of fill and stroke. Nothing is read from grid, rail, band, haze and back alone.
+  // Marks: 3 to their ground by the better of fill and stroke. Nothing is read from grid, rail, band, haze and back alone; a hit
+  // is a place for the pointer.
   const pale = [];
   for (const e of document.querySelectorAll("svg path, svg polyline, svg rect, svg circle")) {
     const kind = e.getAttribute("class") || "", style = getComputedStyle(e), below = ground(e);
-    if (["grid", "rail", "band", "haze", "back"].includes(kind)) continue;
+    if (["grid", "rail", "band", "haze", "back", "hit"].includes(kind)) continue;
     const paints = [[style.fill, style.fillOpacity], [style.stroke, style.strokeOpacity]]
       .map(([paint, share]) => [colour(paint), Number(share)]).filter(([c]) => c);
     const found = Math.max(0, ...paints.map(([c, share]) => contrast(over(c, below, c[3] * share), below)));
@@ -91,6 +92,6 @@
     width: root.scrollWidth, window: window.innerWidth,
     unreachable: scrolls.filter((e) => e.tabIndex !== 0 || !e.getAttribute("aria-label")).map(name),
     clipped: scrolls.filter((e) => e.scrollHeight > e.clientHeight + 1 || e.scrollWidth > e.clientWidth + 1).map(name),
-    stops: document.querySelectorAll("a[href], [tabindex='0']").length,
+    stops: document.querySelectorAll("a[href], summary, [tabindex='0']").length,
   };
 })()

@@ -13,7 +13,8 @@
 
 enum { LONGEST_WORD = 24 };
 
-/* The same grounds as those of the pictures. Text has a contrast of at least 4.5 on both. */
+/* The same grounds as those of the pictures. Text has a contrast of at least 4.5 on both. A picture is there
+ * twice, for screens and paper and for telephones: only one of them is shown. */
 static const char STYLE[] =
     ":root{color-scheme:light dark;--ink:#1c1f23;--quiet:#5a6068;--ground:#fff;--line:#d9dce1;"
     "--panel:#f5f6f8;--good:#00664a;--bad:#a63f00;--link:#005a8e}"
@@ -22,62 +23,78 @@ static const char STYLE[] =
     "*{box-sizing:border-box}html{-webkit-text-size-adjust:100%}"
     "body{margin:0;background:var(--ground);color:var(--ink);"
     "font:16px/1.5 system-ui,'Helvetica Neue',Arial,sans-serif}"
-    "main{max-width:80rem;margin:0 auto;padding:1.5rem 1.25rem 3rem}"
-    "h1{font-size:1.7rem;line-height:1.2;margin:.2rem 0 .6rem}"
-    "h2{font-size:1.25rem;margin:2.4rem 0 .3rem;padding-top:.9rem;border-top:1px solid var(--line)}"
-    "p{margin:.4rem 0;max-width:46rem;overflow-wrap:anywhere}.lead{font-size:1.15rem}"
-    ".quiet,figcaption,caption{color:var(--quiet);font-size:.875rem}"
-    ".badge{display:inline-block;border:2px solid currentColor;border-radius:.4rem;padding:.05rem .6rem;"
-    "font-weight:700}.good{color:var(--good)}.bad{color:var(--bad)}"
+    "main{max-width:56rem;margin:0 auto;padding:1.5rem 1.25rem 3rem}"
+    "h1,h2{font-family:'Iowan Old Style','Palatino Linotype',Palatino,Charter,Georgia,serif;"
+    "line-height:1.2;text-wrap:balance}"
+    "h1{font-size:2.1rem;margin:.3rem 0 .8rem}"
+    "h2{font-size:1.3rem;margin:2.2rem 0 .5rem;padding-top:.8rem;border-top:1px solid var(--line)}"
+    "h1,h2,p,td,figcaption{overflow-wrap:anywhere}"
+    "p{margin:.4rem 0;max-width:46rem}.lead{font-size:1.15rem}"
+    ".quiet,figcaption,caption,.kicker{color:var(--quiet);font-size:.875rem}"
+    ".kicker{border-top:5px solid var(--ink);padding-top:.7rem;margin:0;max-width:none}"
+    ".badge{display:inline-block;border:2px solid currentColor;border-radius:.3rem;padding:0 .5rem;"
+    "font-weight:700;margin-right:.6rem}.good{color:var(--good)}.bad{color:var(--bad)}"
     ".tiles{display:flex;flex-wrap:wrap;gap:.75rem;margin:1rem 0;padding:0;list-style:none}"
     ".tiles li{background:var(--panel);border-radius:.5rem;padding:.6rem .9rem;flex:1 1 13rem}"
     ".tiles b{display:block;font-size:1.25rem;line-height:1.3}"
     ".tiles span{display:block;color:var(--quiet);font-size:.875rem}"
-    "figure{margin:1rem 0;display:grid;grid-template-columns:minmax(0,1fr);gap:1rem 2rem;align-items:start}"
-    "figcaption{grid-column:1/-1}.picture,.table{overflow:auto}"
-    ".picture svg{display:block;width:100%;height:auto;max-width:38rem}"
+    "figure{margin:.6rem 0 0}figcaption{max-width:46rem;margin:.3rem 0}"
+    ".table{overflow:auto;max-height:28rem}.table+.table{margin-top:1rem}"
+    ".picture svg,.wide svg,.narrow svg{display:block;width:100%;height:auto}.narrow{display:none}"
+    "details{margin:.3rem 0}summary{cursor:pointer;color:var(--link);font-size:.875rem;width:fit-content}"
     ":focus-visible{outline:3px solid var(--link);outline-offset:2px}"
     ".skip{position:absolute;left:.5rem;top:-4rem;padding:.4rem "
     ".8rem;background:var(--ground);color:var(--link)}"
     ".skip:focus{top:.5rem}"
-    "figure .table{max-height:21rem}figure .table:only-child{max-height:28rem}"
-    "@media (min-width:62rem){figure{grid-template-columns:minmax(0,5fr) minmax(0,7fr)}}"
-    "@media (max-width:30rem){.picture .hci,.picture .hci .head{font-size:14px}.tiles "
-    "li{flex-basis:9rem}.tiles "
-    "b{font-size:1.1rem}"
-    "main{padding:1rem .8rem 2rem}}"
     "table{border-collapse:collapse;font-size:.8125rem;font-variant-numeric:tabular-nums;min-width:60%}"
     "caption{text-align:left;padding-bottom:.3rem;position:sticky;left:0;max-width:calc(100vw - 2rem)}"
     "th,td{text-align:right;padding:.2rem .5rem;border-bottom:1px solid var(--line);vertical-align:top}"
     "th{position:sticky;top:0;background:var(--ground);vertical-align:bottom}"
     "th.text,td.text{text-align:left}td.text{white-space:nowrap}"
     "td.words{white-space:normal;min-width:9rem}"
-    "td:first-child,th:first-child{padding-left:0}.table+.table{margin-top:1rem}"
-    "@media print{body{font-size:10pt}main{max-width:none;padding:0}figure{display:block}.skip{display:none}"
-    "figure .table,figure .table:only-child,.picture{overflow:visible;max-height:none}.picture "
-    "svg{max-width:12.5cm;min-width:0}"
-    ".picture,tr,.tiles,p{break-inside:avoid}h2,section p,caption,thead{break-after:avoid}th{position:static}"
+    "td:first-child,th:first-child{padding-left:0}"
+    ".compare{width:100%;margin:1.2rem 0 .4rem;font-size:1.05rem;table-layout:fixed}"
+    ".compare th,.compare td{position:static;text-align:left;padding:.35rem .8rem .35rem "
+    "0;overflow-wrap:anywhere}"
+    ".compare thead th{color:var(--quiet);font-size:.8125rem;font-weight:400;border-bottom:2px solid "
+    "var(--ink)}"
+    ".compare thead td{border-bottom:2px solid var(--ink)}.compare tbody "
+    "th{font-weight:400;vertical-align:top}.compare td{font-weight:600}"
+    ".compare small{display:block;font-weight:400;font-size:.8125rem;color:var(--quiet)}"
+    "@media screen and (max-width:36rem){.wide{display:none}.narrow{display:block}h1{font-size:1.6rem}"
+    "h2{font-size:1.15rem}.lead{font-size:1.05rem}.compare{font-size:.9rem}.compare th,.compare "
+    "td{padding-right:.5rem}"
+    "main{padding:1rem .8rem 2rem}.kicker{padding-top:.5rem}}"
+    "@page{margin:12mm 14mm}"
+    "@media print{body{font-size:9.5pt}main{max-width:none;padding:0}.skip{display:none}"
+    "h1{font-size:19pt}h2{font-size:12.5pt;margin-top:1rem;padding-top:.4rem}.lead{font-size:11pt}"
+    "details:not([open]){display:none}.compare{font-size:10pt;margin:.5rem 0}.compare th,.compare "
+    "td{padding-top:.15rem;padding-bottom:.15rem}"
+    ".table{overflow:visible;max-height:none}"
+    ".wide svg{width:14.5cm;margin:0 auto}figcaption,.quiet{font-size:8pt}"
+    "section,.picture,.wide,tr,.tiles,p{break-inside:avoid}h1,h2,caption,thead{break-after:avoid}"
+    "th{position:static}"
     "caption{position:static;max-width:none}th,td{padding:.1rem .4rem}"
     "td.long{white-space:normal;overflow-wrap:anywhere;min-width:11em}td.words{min-width:9em}}";
 
 /* ---- the page ---- */
 
-void hci_html_begin(hci_output *out, const char *heading, const char *verdict, bool good)
+void hci_html_begin(hci_output *out, const hci_html_opening *o)
 {
     hci_output_text(out, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
                          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
                          "<meta name=\"generator\" content=\"hci-solve " HCI_VERSION_STRING "\"/>\n<title>");
-    hci_svg_text(out, heading);
-    hci_output_text(out, ": ");
-    hci_svg_text(out, verdict);
+    hci_svg_text(out, o->heading);
     hci_output_text(out,
                     "</title>\n<style>%s\n%s</style>\n</head>\n<body>\n<a class=\"skip\" href=\"#evidence\">"
-                    "Skip to the evidence</a>\n<main>\n<h1>",
-                    STYLE, hci_svg_style);
-    hci_svg_text(out, heading);
-    hci_output_text(out, "</h1>\n<p><span class=\"badge %s\">", good ? "good" : "bad");
-    hci_svg_text(out, verdict);
-    hci_output_text(out, "</span></p>\n");
+                    "Skip to the evidence</a>\n<main>\n<p class=\"kicker\"><span class=\"badge %s\">",
+                    STYLE, hci_svg_style, o->good ? "good" : "bad");
+    hci_svg_text(out, o->badge);
+    hci_output_text(out, "</span> ");
+    hci_svg_text(out, o->kicker);
+    hci_output_text(out, "</p>\n<h1>");
+    hci_svg_text(out, o->heading);
+    hci_output_text(out, "</h1>\n");
 }
 
 void hci_html_end(hci_output *out)
@@ -85,7 +102,8 @@ void hci_html_end(hci_output *out)
     hci_html_paragraph(out, "quiet",
                        "Written by hci-solve " HCI_VERSION_STRING ". Amplitudes are peak values, angles "
                        "and orders electrical, unless it says otherwise. Four significant digits are "
-                       "shown; the CSV files beside this one hold all of them.");
+                       "shown; the CSV files beside this one hold all of them. On a screen each mark "
+                       "tells its value under the pointer.");
     hci_output_text(out, "</main>\n</body>\n</html>\n");
 }
 
@@ -113,10 +131,23 @@ void hci_html_say(hci_output *out, const char *style, const char *format, ...)
     hci_html_paragraph(out, style, text);
 }
 
+/* The letter after "i_" is a subscript. */
+static void put_heading(hci_output *out, const char *text)
+{
+    for (const char *at; (at = strstr(text, "i_")) && at[2] && strchr("abcdq", at[2]); text = at + 3) {
+        char before[512];
+        snprintf(before, sizeof before, "%.*s", (int)(at - text) + 1, text);
+        hci_svg_text(out, before);
+        hci_output_text(out, "<sub>%c</sub>", at[2]);
+    }
+    hci_svg_text(out, text);
+}
+
 void hci_html_section(hci_output *out, const char *heading)
 {
-    hci_output_text(out, "<section>\n");
-    put_element(out, "h2", NULL, heading);
+    hci_output_text(out, "<section>\n<h2>");
+    put_heading(out, heading);
+    hci_output_text(out, "</h2>\n");
 }
 
 void hci_html_section_end(hci_output *out)
@@ -150,6 +181,94 @@ void hci_html_tile_number(hci_output *out, const char *name, double value, const
 void hci_html_tiles_end(hci_output *out)
 {
     hci_output_text(out, "</ul>\n<div id=\"evidence\" tabindex=\"-1\"></div>\n");
+}
+
+/* ---- before and after ---- */
+
+void hci_html_compare(hci_output *out, const char *const *column)
+{
+    hci_output_text(out, "<table class=\"compare\">\n<thead><tr><td></td>");
+    for (; *column; ++column) {
+        hci_output_text(out, "<th scope=\"col\">");
+        hci_svg_text(out, *column);
+        hci_output_text(out, "</th>");
+    }
+    hci_output_text(out, "</tr></thead>\n<tbody>\n");
+}
+
+/* "2.5 N·m|98 %": what follows the bar is a small second line, or all there is. */
+static void put_compared(hci_output *out, const char *text)
+{
+    char first[256];
+    const char *bar = strchr(text, '|');
+    snprintf(first, sizeof first, "%.*s", (int)(bar ? bar - text : (long)strlen(text)), text);
+    hci_output_text(out, "<td>");
+    hci_svg_text(out, first);
+    if (bar) put_element(out, "small", NULL, bar + 1);
+    hci_output_text(out, "</td>");
+}
+
+void hci_html_compare_row(hci_output *out, const char *name, const char *const *value)
+{
+    hci_output_text(out, "<tr><th scope=\"row\">");
+    hci_svg_text(out, name);
+    hci_output_text(out, "</th>");
+    for (; *value; ++value)
+        put_compared(out, *value);
+    hci_html_row_end(out);
+}
+
+void hci_html_compare_end(hci_output *out)
+{
+    hci_output_text(out, "</tbody>\n</table>\n<div id=\"evidence\" tabindex=\"-1\"></div>\n");
+}
+
+/* ---- what is folded away ---- */
+
+void hci_html_fold(hci_output *out, const char *summary)
+{
+    hci_output_text(out, "<details>");
+    put_element(out, "summary", NULL, summary);
+}
+
+void hci_html_fold_end(hci_output *out)
+{
+    hci_output_text(out, "</details>\n");
+}
+
+/* ---- drawings ---- */
+
+/* Pixels of a drawing: its width, and what its box leaves free at the top and at the bottom. */
+enum { WIDE = 760, NARROW = 360, LEFT = 12, RIGHT = 14, BOTTOM = 44, WIDE_TOP = 38, NARROW_TOP = 60 };
+
+static void draw(hci_output *out, const hci_html_drawing *d, bool is_narrow)
+{
+    const int width = is_narrow ? NARROW : WIDE, height = is_narrow ? d->narrow : d->wide;
+    const int top = d->headless ? 8 : is_narrow ? NARROW_TOP : WIDE_TOP;
+    const hci_svg_box box = {LEFT + HCI_SVG_MARGIN, top, LEFT + width - RIGHT, height - BOTTOM};
+    char id[64];
+    snprintf(id, sizeof id, "%.40s%s", d->id, is_narrow ? "-narrow" : "");
+    hci_output_text(out, "<div class=\"%s\">\n", is_narrow ? "narrow" : "wide");
+    hci_svg_begin(out, &(hci_svg_picture){id, d->title, d->description, LEFT, 0, width, height});
+    d->draw(out, &box, d->context);
+    hci_svg_end(out);
+    hci_output_text(out, "</div>\n");
+}
+
+void hci_html_drawing_begin(hci_output *out, const hci_html_drawing *d)
+{
+    hci_output_text(out, "<figure>\n");
+    draw(out, d, false);
+    draw(out, d, true);
+    put_element(out, "figcaption", NULL, d->caption);
+    hci_html_fold(out, "Numbers and sources");
+}
+
+void hci_html_drawing_end(hci_output *out, const char *numbers, const char *origin)
+{
+    hci_html_say(out, "quiet", " Numbers: %s%s%s.", numbers, origin[0] ? ". Made from: " : "", origin);
+    hci_html_fold_end(out);
+    hci_output_text(out, "</figure>\n");
 }
 
 /* ---- figures ---- */

@@ -6,13 +6,21 @@
 #include <stdbool.h>
 
 #include "hci/host/base/output.h"
+#include "host/draw/svg.h"
 
 enum { HCI_HTML_NUMBER_SIZE = 48 };
 
 /* ---- the page ---- */
 
-/* Up to the heading; verdict: a word or a few on a badge; good: whether it is what one hopes for. */
-void hci_html_begin(hci_output *out, const char *heading, const char *verdict, bool good);
+/* How a page opens: kicker, what was done and with what; badge: the verdict in a word or a few; heading: what
+ * was found, as a sentence; good: whether it is what one hopes for. */
+typedef struct {
+    const char *kicker, *badge, *heading;
+    bool good;
+} hci_html_opening;
+
+/* Up to the heading. */
+void hci_html_begin(hci_output *out, const hci_html_opening *opening);
 void hci_html_end(hci_output *out);
 
 /* ---- text ---- */
@@ -35,6 +43,39 @@ void hci_html_tile_number(hci_output *out, const char *name, double value, const
 
 /* After them comes the evidence, to which the first link of the page leads. */
 void hci_html_tiles_end(hci_output *out);
+
+/* ---- before and after ---- */
+
+/* A table of large figures, the same quantity before and after in each row. column: headings without that of
+ * the names, NULL at the end. After it comes the evidence, as after tiles. */
+void hci_html_compare(hci_output *out, const char *const *column);
+
+/* value: one for each column, NULL at the end; what follows a | is a second line in small letters. */
+void hci_html_compare_row(hci_output *out, const char *name, const char *const *value);
+void hci_html_compare_end(hci_output *out);
+
+/* ---- a drawing at full width ---- */
+
+/* Drawn twice, for a screen or paper and for a telephone; wide, narrow: its heights. The box is that of the
+ * axes: numbers and title of an axis have room around it, and over it a title and a legend, which may take
+ * two rows where it is narrow; headless: nothing over it. */
+typedef struct {
+    const char *id, *title, *description, *caption;
+    int wide, narrow;
+    bool headless;
+    void (*draw)(hci_output *out, const hci_svg_box *box, const void *context);
+    const void *context;
+} hci_html_drawing;
+
+/* The drawing and its caption. Between the two come tables, which are folded away. */
+void hci_html_drawing_begin(hci_output *out, const hci_html_drawing *drawing);
+
+/* numbers: the files that hold them; origin: those that they were made from. */
+void hci_html_drawing_end(hci_output *out, const char *numbers, const char *origin);
+
+/* What is only of interest to some: shown on request. */
+void hci_html_fold(hci_output *out, const char *summary);
+void hci_html_fold_end(hci_output *out);
 
 /* ---- a picture and its table ---- */
 

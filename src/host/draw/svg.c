@@ -2,6 +2,7 @@
 #include "host/draw/svg.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -122,6 +123,32 @@ void hci_svg_label(hci_output *out, const char *style, double x, double y, const
     hci_output_text(out, "</text>\n");
 }
 
+/* ---- what is told under the pointer ---- */
+
+void hci_svg_hint(hci_output *out, const char *format, ...)
+{
+    char text[512];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    hci_output_text(out, "<g><title>");
+    hci_svg_text(out, text);
+    hci_output_text(out, "</title>\n");
+}
+
+void hci_svg_hint_end(hci_output *out)
+{
+    hci_output_text(out, "</g>\n");
+}
+
+void hci_svg_strip(hci_output *out, const hci_svg_box *strip, const char *text)
+{
+    hci_svg_hint(out, "%s", text);
+    hci_svg_rectangle(out, "hit", strip->left, strip->top, strip->right, strip->bottom);
+    hci_svg_hint_end(out);
+}
+
 /* ---- names and labels ---- */
 
 void hci_svg_name(hci_output *out, const char *style, double x, double y, const char *text, double room)
@@ -204,9 +231,53 @@ void hci_svg_legend(hci_output *out, const hci_svg_entry *entries, size_t count,
     }
 }
 
+#define ROW 18.0 /* pixels from row to row over a box */
+
+static double width_of_entry(const hci_svg_entry *e)
+{
+    return 38.0 + hci_svg_text_width("legend", e->text);
+}
+
+/* How many of the entries fit in a row, one at least. */
+static size_t fit_in_row(const hci_svg_entry *entries, size_t count, double width)
+{
+    size_t n = 0;
+    for (double used = 0.0; n < count; ++n) {
+        used += width_of_entry(&entries[n]);
+        if (n > 0 && used - 16.0 > width) break;
+    }
+    return n;
+}
+
+static void draw_legend_row(hci_output *out, const hci_svg_entry *entries, size_t count, double left,
+                            double y)
+{
+    for (size_t k = 0; k < count; ++k) {
+        draw_mark(out, entries[k], left, y - 4.0);
+        hci_svg_label(out, "legend", left + 22.0, y, entries[k].text);
+        left += width_of_entry(&entries[k]);
+    }
+}
+
 void hci_svg_head(hci_output *out, const hci_svg_box *b, const char *title, const hci_svg_entry *entries,
                   size_t count)
 {
-    hci_svg_label(out, "head", b->left - 34.0, b->top - 18.0, title);
-    hci_svg_legend(out, entries, count, b->right, b->top - 18.0);
+    const double left = b->left - 34.0, width = b->right - left;
+    double used = hci_svg_text_width("head", title), y = b->top - ROW;
+    size_t rows = 0;
+    for (size_t k = 0; k < count; ++k)
+        used += width_of_entry(&entries[k]);
+    if (used <= width) {
+        hci_svg_label(out, "head", left, y, title);
+        hci_svg_legend(out, entries, count, b->right, y);
+        return;
+    }
+    for (size_t k = 0; k < count; k += fit_in_row(entries + k, count - k, width))
+        ++rows;
+    y -= ROW * (double)rows - 4.0;
+    hci_svg_label(out, "head", left, y, title);
+    for (size_t k = 0, n; k < count; k += n) {
+        n = fit_in_row(entries + k, count - k, width);
+        draw_legend_row(out, entries + k, n, left, y += ROW);
+    }
 }

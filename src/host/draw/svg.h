@@ -32,11 +32,22 @@ void hci_svg_tick_text(char text[HCI_SVG_NUMBER_SIZE], double value, double step
 
 /* ---- elements ---- */
 
+typedef struct {
+    double left, top, right, bottom;
+} hci_svg_box;
+
 void hci_svg_segment(hci_output *out, const char *style, double x1, double y1, double x2, double y2);
 void hci_svg_rectangle(hci_output *out, const char *style, double left, double top, double right,
                        double bottom);
 void hci_svg_circle(hci_output *out, const char *style, double x, double y, double radius);
 void hci_svg_cross(hci_output *out, double x, double y);
+
+/* What is drawn between the two tells this text under the pointer. */
+void hci_svg_hint(hci_output *out, const char *format, ...) HCI_PRINTF(2, 3);
+void hci_svg_hint_end(hci_output *out);
+
+/* A strip that is seen under the pointer alone, and then tells the text. */
+void hci_svg_strip(hci_output *out, const hci_svg_box *strip, const char *text);
 
 /* A line through points: begin, points, end. */
 void hci_svg_line_begin(hci_output *out, const char *style);
@@ -82,10 +93,6 @@ void hci_svg_end(hci_output *out);
 
 /* ---- axes ---- */
 
-typedef struct {
-    double left, top, right, bottom;
-} hci_svg_box;
-
 /* Values low … high lie at the coordinates from … to, with a grid line at every multiple of step. */
 typedef struct {
     double low, high, from, to, step;
@@ -108,7 +115,7 @@ void hci_svg_equal_axes(hci_range x, hci_range y, const hci_svg_box *b, hci_svg_
                         hci_svg_axis *y_axis);
 
 /* Pixels at the left of a box in which the numbers of an upright axis stand. */
-enum { HCI_SVG_MARGIN = 58 };
+enum { HCI_SVG_MARGIN = 46 };
 
 /* The box, narrower at its left where they need more. */
 hci_svg_box hci_svg_box_beside(hci_svg_box box, const hci_svg_axis *upright);
@@ -134,7 +141,7 @@ typedef struct {
 /* In one line that ends at `right`. */
 void hci_svg_legend(hci_output *out, const hci_svg_entry *entries, size_t count, double right, double y);
 
-/* Title and legend over a box. */
+/* Title and legend over a box: in one row, or where it is narrow the legend in rows of its own below. */
 void hci_svg_head(hci_output *out, const hci_svg_box *b, const char *title, const hci_svg_entry *entries,
                   size_t count);
 

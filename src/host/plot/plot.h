@@ -18,10 +18,11 @@
  * O(samples·(orders + components)), at most 23040 samples; so are the next two. */
 void hci_plot_solution(hci_output *out, const hci_solution *solution);
 
-/* One of the four panels as a picture. */
-typedef enum { HCI_PANEL_TORQUE, HCI_PANEL_SPECTRUM, HCI_PANEL_CURRENT, HCI_PANEL_VECTOR } hci_plot_panel;
-
-void hci_plot_solution_panel(hci_output *out, const hci_solution *solution, hci_plot_panel panel);
+/* Its panels, each about the box of its axes; solution: an hci_solution. */
+void hci_plot_solution_torque(hci_output *out, const hci_svg_box *box, const void *solution);
+void hci_plot_solution_spectrum(hci_output *out, const hci_svg_box *box, const void *solution);
+void hci_plot_solution_currents(hci_output *out, const hci_svg_box *box, const void *solution);
+void hci_plot_solution_dq(hci_output *out, const hci_svg_box *box, const void *solution);
 
 enum { HCI_PLOT_LINE_SIZE = 512 };
 
@@ -56,18 +57,7 @@ void hci_plot_waveform(hci_output *out, const hci_waveform *waveform);
  */
 void hci_plot_speeds(hci_output *out, const hci_speeds *speeds, bool stands_alone);
 
-/* ---- plot_system.c, plot_residuals.c: numbers in rows and columns, as squares whose size tells theirs ----
- */
-
-/* U: torque orders down, current components to the right. Where they are more than fit, a square is the
- * largest of several. What solves nothing is marked. O(entries). */
-void hci_plot_system(hci_output *out, const hci_solution *solution);
-
-/* Whether a component of U carries current in the solution. */
-bool hci_plot_is_used(const hci_solution *solution, hci_component component);
-
-/* Entries below this share of the largest get no mark. */
-#define HCI_PLOT_ZERO 1e-6
+/* ---- plot_residuals.c: numbers in rows and columns, as squares whose size tells theirs ---- */
 
 /* Residual after by run and order, before it behind. run, order: what is shown, ascending; at most
  * HCI_PLOT_MOST_CELLS of each. */

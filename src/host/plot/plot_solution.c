@@ -47,28 +47,28 @@ void hci_plot_solution(hci_output *out, const hci_solution *solution)
     hci_svg_end(out);
 }
 
-void hci_plot_solution_panel(hci_output *out, const hci_solution *solution, hci_plot_panel panel)
+void hci_plot_solution_torque(hci_output *out, const hci_svg_box *box, const void *solution)
 {
-    static const char *const ID[] = {"torque", "spectrum", "current", "vector"};
-    static const char *const TITLE[] = {"Torque over the electrical angle: before, wanted, after",
-                                        "Torque ripple by electrical order: before, wanted, after",
-                                        "Phase currents over the electrical angle",
-                                        "Path of the current vector in the plane of i_d and i_q"};
-    static const char *const DESCRIPTION[] = {
-        "Lines in N·m over the electrical angle in degrees. The table beside it has the extremes.",
-        "Bars in N·m, peak amplitude, three for each order. The table beside it has the numbers.",
-        "Lines in A over the electrical angle in degrees: the plain sine of phase a, and phases a, b and c "
-        "of "
-        "the solution. The table beside it has the waves that they are made of.",
-        "i_q in A over i_d in A: the point of the plain sine, the path of the solution and where it is at "
-        "angle 0. The table beside it has the extremes."};
-    static const hci_svg_box BOX = {76, 36, 540, 278};
     hci_solution_curves c;
     hci_solution_curves_fill(&c, solution);
-    hci_svg_begin(out, &(hci_svg_picture){ID[panel], TITLE[panel], DESCRIPTION[panel], 12, 0, 552, 322});
-    if (panel == HCI_PANEL_TORQUE) hci_panel_torque(out, &c, &BOX);
-    if (panel == HCI_PANEL_SPECTRUM) hci_panel_spectrum(out, solution, &BOX);
-    if (panel == HCI_PANEL_CURRENT) hci_panel_currents(out, &c, &BOX);
-    if (panel == HCI_PANEL_VECTOR) hci_panel_vector(out, &c, &BOX);
-    hci_svg_end(out);
+    hci_panel_torque(out, &c, box);
+}
+
+void hci_plot_solution_currents(hci_output *out, const hci_svg_box *box, const void *solution)
+{
+    hci_solution_curves c;
+    hci_solution_curves_fill(&c, solution);
+    hci_panel_currents(out, &c, box);
+}
+
+void hci_plot_solution_dq(hci_output *out, const hci_svg_box *box, const void *solution)
+{
+    hci_solution_curves c;
+    hci_solution_curves_fill(&c, solution);
+    hci_panel_dq(out, &c, box);
+}
+
+void hci_plot_solution_spectrum(hci_output *out, const hci_svg_box *box, const void *solution)
+{
+    hci_panel_spectrum(out, solution, box);
 }

@@ -29,8 +29,38 @@ static void draw_curve(hci_output *out, const char *style, const double *value, 
     hci_svg_line_end(out);
 }
 
-static void draw_angle(hci_output *out, const hci_solution_curves *c, const hci_svg_axis *x,
-                       const hci_svg_box *b)
+enum { STRIPS = 60 };
+
+/* A curve and its name in what strips tell. */
+typedef struct {
+    const char *name;
+    const double *value;
+} told;
+
+/* Strips over the angle that tell the values of some curves there. */
+static void draw_strips(hci_output *out, const hci_solution_curves *c, const hci_svg_box *b, const char *unit,
+                        const told *curve, size_t count)
+{
+    const double width = (b->right - b->left) / STRIPS;
+    for (size_t k = 0; k < STRIPS; ++k) {
+        const size_t vertex = (2 * k + 1) * HCI_CURVE_VERTICES / (2 * STRIPS);
+        const hci_svg_box strip = {b->left + width * (double)k, b->top, b->left + width * (double)(k + 1),
+                                   b->bottom};
+        char text[320];
+        size_t used = (size_t)snprintf(text, sizeof text, "%.4g°",
+                                       360.0 * c->turns * (double)vertex / HCI_CURVE_VERTICES);
+        for (size_t j = 0; j < count && used < sizeof text; ++j) {
+            char number[HCI_SVG_NUMBER_SIZE];
+            hci_svg_quantity_text(number, curve[j].value[vertex], unit);
+            used += (size_t)snprintf(text + used, sizeof text - used, "%s %s %s", j > 0 ? "," : ":",
+                                     curve[j].name, number);
+        }
+        hci_svg_strip(out, &strip, text);
+    }
+}
+
+void hci_panel_angle(hci_output *out, const hci_solution_curves *c, const hci_svg_axis *x,
+                     const hci_svg_box *b)
 {
     char text[HCI_SVG_NUMBER_SIZE + 80];
     hci_svg_grid(out, x, b, false);
@@ -52,12 +82,17 @@ void hci_panel_torque(hci_output *out, const hci_solution_curves *c, const hci_s
     const hci_svg_box b = hci_svg_box_beside(*box, &y);
     const hci_svg_axis x = hci_svg_axis_of_angle(c->turns, &b);
     hci_svg_head(out, &b, "Torque in N·m", LEGEND, 3);
-    draw_angle(out, c, &x, &b);
+    hci_panel_angle(out, c, &x, &b);
     hci_svg_grid(out, &y, &b, true);
     draw_curve(out, "before", c->value[HCI_CURVE_BEFORE], &x, &y);
     draw_curve(out, "after", c->value[HCI_CURVE_AFTER], &x, &y);
     draw_curve(out, "wanted", c->value[HCI_CURVE_WANTED], &x,
                &y); /* dashed, so that what lies under it is seen */
+    draw_strips(out, c, &b, "N·m",
+                (const told[]){{"before", c->value[HCI_CURVE_BEFORE]},
+                               {"wanted", c->value[HCI_CURVE_WANTED]},
+                               {"after", c->value[HCI_CURVE_AFTER]}},
+                3);
 }
 
 /* The letter of a phase over its peak. */
@@ -82,7 +117,7 @@ void hci_panel_currents(hci_output *out, const hci_solution_curves *c, const hci
     const hci_svg_box b = hci_svg_box_beside(*box, &y);
     const hci_svg_axis x = hci_svg_axis_of_angle(c->turns, &b);
     hci_svg_head(out, &b, "Phase currents in A", LEGEND, 4);
-    draw_angle(out, c, &x, &b);
+    hci_panel_angle(out, c, &x, &b);
     hci_svg_grid(out, &y, &b, true);
     draw_curve(out, "before", c->value[HCI_CURVE_PLAIN_A], &x, &y);
     draw_curve(out, "c", c->value[HCI_CURVE_PHASE_C], &x, &y);
@@ -91,4 +126,10 @@ void hci_panel_currents(hci_output *out, const hci_solution_curves *c, const hci
     draw_phase_letter(out, c->value[HCI_CURVE_PHASE_A], "a", &y, &b);
     draw_phase_letter(out, c->value[HCI_CURVE_PHASE_B], "b", &y, &b);
     draw_phase_letter(out, c->value[HCI_CURVE_PHASE_C], "c", &y, &b);
+    draw_strips(out, c, &b, "A",
+                (const told[]){{"i_a before", c->value[HCI_CURVE_PLAIN_A]},
+                               {"i_a", c->value[HCI_CURVE_PHASE_A]},
+                               {"i_b", c->value[HCI_CURVE_PHASE_B]},
+                               {"i_c", c->value[HCI_CURVE_PHASE_C]}},
+                4);
 }

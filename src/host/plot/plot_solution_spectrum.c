@@ -54,7 +54,7 @@ static groups groups_in(const hci_svg_box *b, const ripple *r)
 {
     groups g;
     g.count = hci_plot_largest(group_weight, r, r->solution->order_count, MOST_GROUPS, g.order);
-    g.width = fmin((b->right - b->left) / (double)(g.count > 0 ? g.count : 1), 60.0);
+    g.width = fmin((b->right - b->left) / (double)(g.count > 0 ? g.count : 1), 110.0);
     g.left = 0.5 * (b->left + b->right - g.width * (double)g.count);
     return g;
 }
@@ -66,16 +66,31 @@ static void draw_bar(hci_output *out, const char *style, double left, double wid
     hci_svg_rectangle(out, style, left, fmin(hci_svg_at(y, value), y->from - 1.5), left + width, y->from);
 }
 
+/* The bars of an order tell its amplitudes. */
+static void begin_group(hci_output *out, const hci_solved_order *o)
+{
+    char order[HCI_SVG_NUMBER_SIZE], before[HCI_SVG_NUMBER_SIZE], wanted[HCI_SVG_NUMBER_SIZE],
+        after[HCI_SVG_NUMBER_SIZE];
+    hci_svg_short_text(order, hci_order_number(o));
+    hci_svg_quantity_text(before, hci_peak_Nm(o->before_Nm), "N·m");
+    hci_svg_quantity_text(wanted, hci_peak_Nm(o->target_Nm), "N·m");
+    hci_svg_quantity_text(after, hci_peak_Nm(o->torque_Nm), "N·m");
+    hci_svg_hint(out, "order %s: before %s, wanted %s, after %s; %s", order, before, wanted, after,
+                 hci_order_verdict_name(o->verdict));
+}
+
 static void draw_group(hci_output *out, const hci_solved_order *o, double middle, double width,
                        const hci_svg_axis *y)
 {
-    const double bar = fmin(13.0, 0.27 * width), top = hci_svg_at(y, hci_order_largest_Nm(o)) - 9.0;
+    const double bar = fmin(24.0, 0.27 * width), top = hci_svg_at(y, hci_order_largest_Nm(o)) - 9.0;
+    begin_group(out, o);
     draw_bar(out, "before", middle - 1.5 * bar, bar, hci_peak_Nm(o->before_Nm), y);
     draw_bar(out, "wanted", middle - 0.5 * bar, bar, hci_peak_Nm(o->target_Nm), y);
     draw_bar(out, "after", middle + 0.5 * bar, bar, hci_peak_Nm(o->torque_Nm), y);
     if (o->verdict == HCI_ORDER_UNREACHABLE) hci_svg_cross(out, middle, top);
     if (hci_order_is_missed(o) && o->verdict != HCI_ORDER_UNREACHABLE)
         hci_svg_circle(out, "ring", middle, top, 4.0);
+    hci_svg_hint_end(out);
 }
 
 /* Bars, and the orders below. */

@@ -24,6 +24,7 @@ static void draw_path(hci_output *out, const hci_solution_curves *c, const hci_s
 {
     const size_t count = hci_curve_vectors(c);
     double last_x = -1e9, last_y = -1e9;
+    hci_svg_hint(out, "after: the path over %.0f electrical turn%s", c->turns, c->turns > 1.0 ? "s" : "");
     hci_svg_line_begin(out, "path");
     for (size_t k = 0; k <= count; ++k) {
         const hci_dq i = hci_curve_vector_sample(c, k, count);
@@ -34,6 +35,7 @@ static void draw_path(hci_output *out, const hci_solution_curves *c, const hci_s
         last_y = y;
     }
     hci_svg_line_end(out);
+    hci_svg_hint_end(out);
 }
 
 /* With a rim, to be seen on a dense path. */
@@ -41,6 +43,14 @@ static void draw_vector_mark(hci_output *out, const char *style, double x, doubl
 {
     hci_svg_circle(out, "back", x, y, 6.5);
     hci_svg_circle(out, style, x, y, 4.2);
+}
+
+static void tell_vector(hci_output *out, const char *name, hci_dq i)
+{
+    char d[HCI_SVG_NUMBER_SIZE], q[HCI_SVG_NUMBER_SIZE];
+    hci_svg_quantity_text(d, i.d, "A");
+    hci_svg_quantity_text(q, i.q, "A");
+    hci_svg_hint(out, "%s: i_d %s, i_q %s", name, d, q);
 }
 
 void hci_panel_vector(hci_output *out, const hci_solution_curves *c, const hci_svg_box *box)
@@ -58,6 +68,10 @@ void hci_panel_vector(hci_output *out, const hci_solution_curves *c, const hci_s
     hci_svg_grid(out, &q, &b, true);
     hci_svg_label(out, "quiet middle", 0.5 * (b.left + b.right), b.bottom + 35.0, "i_d in A");
     draw_path(out, c, &d, &q);
+    tell_vector(out, "before", plain);
     draw_vector_mark(out, "plain", hci_svg_at(&d, plain.d), hci_svg_at(&q, plain.q));
+    hci_svg_hint_end(out);
+    tell_vector(out, "after, at 0°", start);
     draw_vector_mark(out, "start", hci_svg_at(&d, start.d), hci_svg_at(&q, start.q));
+    hci_svg_hint_end(out);
 }

@@ -51,8 +51,13 @@ bool hci_order_is_missed(const hci_solved_order *order);
 
 void hci_panel_torque(hci_output *out, const hci_solution_curves *curves, const hci_svg_box *box);
 void hci_panel_currents(hci_output *out, const hci_solution_curves *curves, const hci_svg_box *box);
+void hci_panel_dq(hci_output *out, const hci_solution_curves *curves, const hci_svg_box *box);
 void hci_panel_vector(hci_output *out, const hci_solution_curves *curves, const hci_svg_box *box);
 void hci_panel_spectrum(hci_output *out, const hci_solution *solution, const hci_svg_box *box);
+
+/* Grid, numbers and title of the electrical angle. */
+void hci_panel_angle(hci_output *out, const hci_solution_curves *curves, const hci_svg_axis *x,
+                     const hci_svg_box *box);
 
 /* ---- solution_words.c ---- */
 

@@ -1,5 +1,5 @@
-/* U of a solution against sampled torque, and its picture against U; large systems; the residual by run and
- * order; mean and extremes over one turn of a simulated drive. */
+/* U of a solution against sampled torque; the residual by run and order; mean and extremes over one turn of a
+ * simulated drive. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,7 +13,7 @@
 #include "support/written.h"
 #include "unity.h"
 
-enum { MOST_BYTES = 400000, MANY = 300 };
+enum { MOST_BYTES = 400000 };
 
 static const char *picture;
 static hci_machine_data machine;
@@ -81,11 +81,6 @@ static double number_after(const char *at, const char *key)
     at = strstr(at, key);
     TEST_ASSERT_NOT_NULL(at);
     return strtod(at + strlen(key), NULL);
-}
-
-static void put_system(hci_output *out)
-{
-    hci_plot_system(out, &solution);
 }
 
 /* The square whose middle is there, as its side; 0 where there is none. Those of the legend lie above `top`.
@@ -171,146 +166,6 @@ static void test_no_system_angle_by_angle(void)
     solve_end();
 }
 
-/* ---- the picture against U ---- */
-
-/* Each entry is a square of its sign, with an area by its size, at its place; and there is no other. */
-static void test_squares_are_the_entries(void)
-{
-    size_t entries = 0, rows = 0;
-    double largest = 0.0;
-    solve_poor_set();
-    draw(put_system);
-    for (size_t k = 0; k < solution.order_count; ++k)
-        rows += solution.order[k].torque_Nm.order > 0.0 ? 2 : 1;
-    for (size_t i = 0; i < rows; ++i)
-        for (size_t j = 0; j < 2 * solution.system.set.count; ++j)
-            largest = fmax(largest, fabs(entry(i, j)));
-    const double cell = 20.0, left = 64.0, top = 66.0;
-    for (size_t i = 0; i < rows; ++i)
-        for (size_t j = 0; j < 2 * solution.system.set.count; ++j) {
-            const double value = entry(i, j), x = left + cell * ((double)j + 0.5),
-                         y = top + cell * ((double)i + 0.5);
-            const double side = fmax(0.9 * cell * sqrt(fabs(value) / largest), 2.6);
-            const bool is_there = fabs(value) > 1e-6 * largest;
-            TEST_ASSERT_DOUBLE_WITHIN(0.03, is_there && value > 0.0 ? side : 0.0, side_at("plus", x, y));
-            TEST_ASSERT_DOUBLE_WITHIN(0.03, is_there && value < 0.0 ? side : 0.0, side_at("minus", x, y));
-            entries += is_there;
-        }
-    TEST_ASSERT_EQUAL_UINT64(entries + 2, text_count("class=\"plus\"", picture) +
-                                              text_count("class=\"minus\"", picture)); /* and the legend */
-    solve_end();
-}
-
-static void test_marks_of_what_takes_no_part(void)
-{
-    solve_poor_set();
-    draw(put_system);
-    TEST_ASSERT_EQUAL_UINT64(4, text_count("class=\"no end\"", picture)); /* 5, 24, 30, 36 */
-    TEST_ASSERT_EQUAL_UINT64(2 * (4 + 1), text_count("class=\"cross\"", picture));
-    TEST_ASSERT_NOT_NULL(strstr(picture, ">5</text>"));
-    TEST_ASSERT_EQUAL_UINT64(2 + 1, text_count("class=\"band\"", picture)); /* 4+ and 2−, and the legend */
-    TEST_ASSERT_NOT_NULL(strstr(picture, ">(4+)</text>"));
-    TEST_ASSERT_NOT_NULL(strstr(picture, ">(2−)</text>"));
-    TEST_ASSERT_NOT_NULL(strstr(picture, ">7+</text>"));
-    solution.order[1].verdict = HCI_ORDER_FREE;
-    draw(put_system);
-    TEST_ASSERT_EQUAL_UINT64(3 + 1, text_count("class=\"band\"", picture));
-    solve_end();
-}
-
-/* ---- more than fits ---- */
-
-static hci_solved_order many_order[MANY];
-static hci_component many_component[MANY];
-static hci_set many_set[MANY];
-static hci_wave many_wave[MANY];
-static int64_t many_start[2 * MANY + 1], many_row[2 * MANY];
-static double many_value[2 * MANY];
-
-/* Column j has one entry, at a row that falls with it. */
-static void make_many(size_t orders, size_t components)
-{
-    for (size_t k = 0; k < orders; ++k)
-        many_order[k] = (hci_solved_order){.torque_Nm = {(double)k, 0.0, 0.0}};
-    for (size_t k = 0; k < components; ++k) {
-        many_component[k] = (hci_component){(double)k + 1.0, 1};
-        many_wave[k] = hci_wave_polar((double)k + 1.0, 1, 1.0, 0.0);
-    }
-    for (size_t j = 0; j < 2 * components; ++j) {
-        many_start[j + 1] = (int64_t)(j + 1);
-        many_row[j] = (int64_t)((2 * orders - 2) * j / (2 * components - 1));
-        many_value[j] = j % 2 ? -0.25 : 1.0;
-    }
-    solution =
-        (hci_solution){.current = {.wave = many_wave, .count = components},
-                       .order = many_order,
-                       .order_count = orders,
-                       .system = {.set = {.component = many_component, .set = many_set, .count = components},
-                                  .column_start = many_start,
-                                  .row = many_row,
-                                  .value = many_value}};
-}
-
-static void test_large_systems_are_binned(void)
-{
-    make_many(MANY, MANY); /* 48 cells at most: 7 items in each, which makes 43 */
-    draw(put_system);
-    TEST_ASSERT_NOT_NULL(strstr(picture, ">a cell holds 7 torque orders by 7 components</text>"));
-    TEST_ASSERT_EQUAL_UINT64(0, text_count("class=\"minus\"", picture));
-    const double cell = (524.0 - 64.0) / 43.0;
-    size_t squares = 1; /* of the legend */
-    for (size_t i = 0; i < 43; ++i)
-        for (size_t j = 0; j < 43; ++j) {
-            double largest = 0.0;
-            for (size_t k = 14 * j; k < 14 * (j + 1) && k < 2 * MANY; ++k)
-                if (((size_t)many_row[k] + 1) / 2 / 7 == i) largest = fmax(largest, fabs(many_value[k]));
-            squares += largest > 0.0;
-            const double side = fmax(0.9 * cell * sqrt(largest), 2.6);
-            TEST_ASSERT_DOUBLE_WITHIN(
-                0.03, largest > 0.0 ? side : 0.0,
-                side_at("plus", 64.0 + cell * ((double)j + 0.5), 66.0 + cell * ((double)i + 0.5)));
-        }
-    TEST_ASSERT_EQUAL_UINT64(squares, text_count("class=\"plus\"", picture));
-    TEST_ASSERT_TRUE(text_count("<text", picture) < 120);
-}
-
-/* Sizes about the limits: no text of a column is nearer to the next one in its row than it is long. */
-static void test_sizes(void)
-{
-    static const size_t SIZE[] = {1, 2, 23, 24, 25, 48, 49, 96, 97, MANY};
-    for (size_t i = 0; i < sizeof SIZE / sizeof *SIZE; ++i)
-        for (size_t j = 0; j < sizeof SIZE / sizeof *SIZE; ++j) {
-            double last[2] = {-1e9, -1e9}, first_y = NAN;
-            make_many(SIZE[i], SIZE[j]);
-            draw(put_system);
-            TEST_ASSERT_NULL(strstr(picture, "nan"));
-            const double height = number_after(strstr(picture, "viewBox=\"0 0 540 "), "540 ");
-            TEST_ASSERT_TRUE(height > 100.0 && height <= 66.0 + 472.0 + 78.0);
-            for (const char *at = picture; (at = strstr(at, "<text class=\"quiet middle\"")); ++at) {
-                const double x = number_after(at, " x=\""), y = number_after(at, " y=\"");
-                const char *text = strchr(at, '>') + 1;
-                const double width = 7.0 * (double)(strchr(text, '<') - text);
-                if (isnan(first_y)) first_y = y;
-                TEST_ASSERT_TRUE(x - width > last[y > first_y + 1.0] - 0.01 * width);
-                last[y > first_y + 1.0] = x;
-                TEST_ASSERT_TRUE(y < height);
-            }
-        }
-}
-
-static void test_nothing_flows(void)
-{
-    make_many(5, 5);
-    solution.current.count = 0;
-    draw(put_system);
-    TEST_ASSERT_EQUAL_UINT64(5 + 1, text_count("class=\"band\"", picture));
-    many_value[0] = many_value[1] = 0.0;
-    make_many(3, 1);
-    memset(many_value, 0, sizeof many_value);
-    draw(put_system);
-    TEST_ASSERT_EQUAL_UINT64(1, text_count("class=\"plus\"", picture)); /* of the legend */
-}
-
 /* ---- residual by run and order ---- */
 
 static hci_plot_map map;
@@ -392,11 +247,6 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_system_is_that_of_the_torque);
     RUN_TEST(test_no_system_angle_by_angle);
-    RUN_TEST(test_squares_are_the_entries);
-    RUN_TEST(test_marks_of_what_takes_no_part);
-    RUN_TEST(test_large_systems_are_binned);
-    RUN_TEST(test_sizes);
-    RUN_TEST(test_nothing_flows);
     RUN_TEST(test_map);
     RUN_TEST(test_turn);
     return UNITY_END();

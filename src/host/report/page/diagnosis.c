@@ -16,8 +16,8 @@ static void say_verdict(hci_output *out, const hci_diagnosis *d)
                                         "Not explained"};
     char words[WORDS_SIZE];
     hci_diagnosis_words(d, words, sizeof words);
-    hci_html_begin(out, "Diagnosis of the machine model", BADGE[d->verdict],
-                   d->verdict <= HCI_DIAGNOSIS_EXPLAINED);
+    hci_html_begin(out, &(hci_html_opening){"Diagnosis of the machine model", BADGE[d->verdict],
+                                            BADGE[d->verdict], d->verdict <= HCI_DIAGNOSIS_EXPLAINED});
     hci_html_paragraph(out, "lead", words);
 }
 

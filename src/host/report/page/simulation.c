@@ -50,11 +50,10 @@ static void tile_of_ripple(hci_output *out, const char *name, double before, dou
 static void say_verdict(hci_output *out, const hci_simulation *s)
 {
     char from[HCI_HTML_NUMBER_SIZE], to[HCI_HTML_NUMBER_SIZE];
-    hci_html_begin(out, "Simulation of the drive",
-                   !s->energy_balances ? "Not to be trusted: the energy does not balance"
-                   : s->remark.text[0] ? "Done, with a remark"
-                                       : "Done",
-                   s->energy_balances);
+    const char *badge = !s->energy_balances ? "Not to be trusted: the energy does not balance"
+                        : s->remark.text[0] ? "Done, with a remark"
+                                            : "Done";
+    hci_html_begin(out, &(hci_html_opening){"Simulation of the drive", badge, badge, s->energy_balances});
     say_facts(out, s);
     hci_html_number_text(from, s->from_s);
     hci_html_number_text(to, s->to_s);

@@ -1,8 +1,18 @@
-/* The section of a solution about its currents: of the phases, and their vector. */
+/* The sections of a solution about its currents: of the phases, and their vector. */
 #include <math.h>
+#include <stdio.h>
 
-#include "host/draw/html.h"
 #include "host/report/page/solution_sections.h"
+
+static void row_of_range(hci_output *out, const char *name, hci_range r)
+{
+    const double value[] = {r.low, r.high, r.high - r.low};
+    hci_html_row(out);
+    hci_html_cell(out, name);
+    for (size_t k = 0; k < 3; ++k)
+        hci_html_number(out, value[k]);
+    hci_html_row_end(out);
+}
 
 static void table_of_waves(const hci_solution_page *p)
 {
@@ -21,58 +31,100 @@ static void table_of_waves(const hci_solution_page *p)
     hci_html_table_end(p->out);
 }
 
-static void table_of_currents_over_turn(const hci_solution_page *p)
+static void heading_of_currents(const hci_solution *s, char text[256])
 {
-    static const char *const COLUMN[] = {"Angle °", "i_a before A", "i_a A", "i_b A", "i_c A", NULL};
-    hci_html_table(p->out, "Phase currents over the electrical angle", COLUMN);
-    for (size_t k = 0; k <= HCI_PAGE_STEPS; ++k) {
-        const hci_plot_point *x = &p->point[k];
-        hci_page_row(
-            p->out,
-            (const double[]){hci_page_angle_deg(k), x->plain_A, x->phase_A[0], x->phase_A[1], x->phase_A[2]},
-            5);
-    }
-    hci_html_table_end(p->out);
-}
-
-static void tables_of_currents(const hci_solution_page *p)
-{
-    table_of_waves(p);
-    table_of_currents_over_turn(p);
-}
-
-static void table_of_vector_over_turn(const hci_solution_page *p)
-{
-    static const char *const COLUMN[] = {"Angle °", "i_d A", "i_q A", "Length A", NULL};
-    hci_html_table(p->out, "Current vector over the electrical angle, after", COLUMN);
-    for (size_t k = 0; k <= HCI_PAGE_STEPS; ++k) {
-        const hci_dq i = p->point[k].dq_A;
-        hci_page_row(p->out, (const double[]){hci_page_angle_deg(k), i.d, i.q, hypot(i.d, i.q)}, 4);
-    }
-    hci_html_table_end(p->out);
-}
-
-static void tables_of_vector(const hci_solution_page *p)
-{
-    static const char *const COLUMN[] = {"<Current", "Least A", "Most A", "Swing A", NULL};
-    const hci_plot_facts *f = &p->facts;
-    hci_html_table(p->out, "Extremes over the period", COLUMN);
-    hci_page_row_of_range(p->out, "i_d before", (hci_range){f->plain_dq_A.d, f->plain_dq_A.d}, 0.0);
-    hci_page_row_of_range(p->out, "i_q before", (hci_range){f->plain_dq_A.q, f->plain_dq_A.q}, 0.0);
-    hci_page_row_of_range(p->out, "i_d after", f->d_A, 0.0);
-    hci_page_row_of_range(p->out, "i_q after", f->q_A, 0.0);
-    hci_html_table_end(p->out);
-    table_of_vector_over_turn(p);
+    char before[HCI_HTML_NUMBER_SIZE], after[HCI_HTML_NUMBER_SIZE], ratio[HCI_HTML_NUMBER_SIZE];
+    hci_html_quantity_text(before, s->plain_amplitude_A, "A");
+    hci_html_quantity_text(after, s->peak_phase_current_A, "A");
+    hci_html_number_text(ratio, s->loss_to_plain);
+    if (!hci_page_has_plain(s))
+        snprintf(text, 256, "It takes a current of %s at the peak", after);
+    else
+        snprintf(text, 256, "The phases carry %s at the peak, the %s %s; copper loss is %s times that", after,
+                 s->plain_is_held ? "held fundamental" : "plain sine", before, ratio);
 }
 
 void hci_page_currents(const hci_solution_page *p)
 {
-    hci_html_section(p->out, "Currents");
-    hci_page_panel(p, HCI_PANEL_CURRENT, tables_of_currents, p->facts.baseline,
-                   "currents.csv and waveform.csv");
-    hci_page_panel(p, HCI_PANEL_VECTOR, tables_of_vector,
-                   "A plain sine is one point in this plane, since it turns with the rotor. d is the magnet "
-                   "axis, q leads it.",
-                   "waveform.csv");
+    char heading[256];
+    const hci_html_drawing drawing = {
+        .id = "current",
+        .title = "Phase currents over the electrical angle",
+        .description = "Lines in A over the electrical angle in degrees: the plain sine of phase a, and "
+                       "phases a, b and c of the solution.",
+        .caption = p->facts.baseline,
+        .wide = 285,
+        .narrow = 300,
+        .draw = hci_plot_solution_currents,
+        .context = p->solution};
+    heading_of_currents(p->solution, heading);
+    hci_html_section(p->out, heading);
+    hci_html_drawing_begin(p->out, &drawing);
+    table_of_waves(p);
+    hci_html_drawing_end(p->out, "currents.csv and waveform.csv", p->origin);
+    hci_html_section_end(p->out);
+}
+
+/* ---- the vector ---- */
+
+static void table_of_vector(const hci_solution_page *p)
+{
+    static const char *const COLUMN[] = {"<Current", "Least A", "Most A", "Swing A", NULL};
+    const hci_plot_facts *f = &p->facts;
+    hci_html_table(p->out, "Extremes over the period", COLUMN);
+    row_of_range(p->out, "i_d before", (hci_range){f->plain_dq_A.d, f->plain_dq_A.d});
+    row_of_range(p->out, "i_q before", (hci_range){f->plain_dq_A.q, f->plain_dq_A.q});
+    row_of_range(p->out, "i_d after", f->d_A);
+    row_of_range(p->out, "i_q after", f->q_A);
+    hci_html_table_end(p->out);
+}
+
+/* Of what is at least 1 % of the largest wave. */
+static double highest_rotor_order(const hci_solution *s)
+{
+    double highest = 0.0, largest_A = 0.0;
+    for (size_t k = 0; k < s->current.count; ++k)
+        largest_A = fmax(largest_A, hci_amplitude(s->current.wave[k].sine, s->current.wave[k].cosine));
+    for (size_t k = 0; k < s->current.count; ++k)
+        if (hci_amplitude(s->current.wave[k].sine, s->current.wave[k].cosine) >= 0.01 * largest_A)
+            highest = fmax(highest, fabs(s->current.wave[k].order - s->current.wave[k].sequence));
+    return highest;
+}
+
+static void heading_of_vector(const hci_solution_page *p, char text[512])
+{
+    char d_low[HCI_HTML_NUMBER_SIZE], d_high[HCI_HTML_NUMBER_SIZE], q_low[HCI_HTML_NUMBER_SIZE],
+        q_high[HCI_HTML_NUMBER_SIZE], order[HCI_HTML_NUMBER_SIZE];
+    hci_html_number_text(d_low, p->facts.d_A.low);
+    hci_html_number_text(d_high, p->facts.d_A.high);
+    hci_html_number_text(q_low, p->facts.q_A.low);
+    hci_html_number_text(q_high, p->facts.q_A.high);
+    hci_html_number_text(order, highest_rotor_order(p->solution));
+    snprintf(text, 512,
+             "The current loop has to move i_d from %s to %s A and i_q from %s to %s A, up to order %s",
+             d_low, d_high, q_low, q_high, order);
+}
+
+void hci_page_vector(const hci_solution_page *p)
+{
+    char heading[512];
+    const hci_html_drawing drawing = {
+        .id = "vector",
+        .title = "Currents i_d and i_q over the electrical angle",
+        .description =
+            "Lines in A over the electrical angle in degrees: i_d and i_q of the plain sine, which "
+            "stand still, and of the solution. The table has the extremes.",
+        .caption = "A plain sine stands still here, since it turns with the rotor; what moves is what the "
+                   "current loop has to follow. d is the magnet axis, q leads it.",
+        .wide = 262,
+        .narrow = 290,
+        .draw = hci_plot_solution_dq,
+        .context = p->solution};
+    if (p->solution->current.count == 0) return;
+    heading_of_vector(p, heading);
+    hci_html_section(p->out, heading);
+    hci_html_drawing_begin(p->out, &drawing);
+    table_of_vector(p);
+    hci_html_drawing_end(p->out, "waveform.csv", p->origin);
     hci_html_section_end(p->out);
 }

@@ -1,36 +1,54 @@
-/* The section of a solution about its torque: over the angle and by order. */
+/* The sections of a solution about its torque: over the angle and by order. */
 #include <math.h>
 #include <stdio.h>
 
-#include "host/draw/html.h"
 #include "host/report/page/solution_sections.h"
 
 enum { MOST_ORDERS = 32 }; /* that the table lists */
 
 /* ---- over the angle ---- */
 
-static void table_of_torque_over_turn(const hci_solution_page *p)
+static void row_of_range(hci_output *out, const char *name, hci_range r, double least)
 {
-    static const char *const COLUMN[] = {"Angle °", "Before N·m", "Wanted N·m", "After N·m", NULL};
-    hci_html_table(p->out, "Torque over the electrical angle", COLUMN);
-    for (size_t k = 0; k <= HCI_PAGE_STEPS; ++k) {
-        const hci_plot_point *x = &p->point[k];
-        hci_page_row(p->out, (const double[]){hci_page_angle_deg(k), x->before_Nm, x->wanted_Nm, x->after_Nm},
-                     4);
-    }
-    hci_html_table_end(p->out);
+    hci_html_row(out);
+    hci_html_cell(out, name);
+    hci_html_number(out, r.low);
+    hci_html_number(out, r.high);
+    hci_html_number_above(out, r.high - r.low, least);
+    hci_html_row_end(out);
 }
 
-static void tables_of_torque(const hci_solution_page *p)
+static void table_of_extremes(const hci_solution_page *p)
 {
     static const char *const COLUMN[] = {"<Torque", "Least N·m", "Most N·m", "Peak to peak N·m", NULL};
     const double least_Nm = HCI_PAGE_ROUNDING * p->solution->tolerance_Nm;
     hci_html_table(p->out, "Extremes over the period", COLUMN);
-    hci_page_row_of_range(p->out, "before", p->facts.before_Nm, least_Nm);
-    hci_page_row_of_range(p->out, "wanted", p->facts.wanted_Nm, least_Nm);
-    hci_page_row_of_range(p->out, "after", p->facts.after_Nm, least_Nm);
+    row_of_range(p->out, "before", p->facts.before_Nm, least_Nm);
+    row_of_range(p->out, "wanted", p->facts.wanted_Nm, least_Nm);
+    row_of_range(p->out, "after", p->facts.after_Nm, least_Nm);
     hci_html_table_end(p->out);
-    table_of_torque_over_turn(p);
+}
+
+void hci_page_torque(const hci_solution_page *p)
+{
+    char heading[256], before[HCI_PAGE_SWING_SIZE], after[HCI_PAGE_SWING_SIZE];
+    const hci_html_drawing drawing = {
+        .id = "torque",
+        .title = "Torque over the electrical angle: before, wanted, after",
+        .description = "Lines in N·m over the electrical angle in degrees. The table has the extremes.",
+        .caption = "The torque that the model makes of currents that flow exactly.",
+        .wide = 262,
+        .narrow = 280,
+        .draw = hci_plot_solution_torque,
+        .context = p->solution};
+    hci_page_swing(before, p->facts.before_Nm, p->solution->tolerance_Nm);
+    hci_page_swing(after, p->facts.after_Nm, p->solution->tolerance_Nm);
+    snprintf(heading, sizeof heading, "Over the angle the torque varies by %s, before by %s", after, before);
+    hci_html_section(p->out, heading);
+    hci_html_drawing_begin(p->out, &drawing);
+    table_of_extremes(p);
+    hci_html_drawing_end(p->out, "waveform.csv", p->origin);
+    hci_html_section_end(p->out);
 }
 
 /* ---- by order ---- */
@@ -90,22 +108,50 @@ static void table_of_orders(const hci_solution_page *p)
     hci_html_table_end(p->out);
 }
 
-/* ---- the section ---- */
-
-void hci_page_torque(const hci_solution_page *p)
+static size_t count_missed(const hci_solution *s)
 {
-    char caption[400], tolerance[HCI_HTML_NUMBER_SIZE];
+    size_t count = 0;
+    for (size_t k = 0; k < s->order_count; ++k)
+        count += s->order[k].verdict > HCI_ORDER_FREE;
+    return count;
+}
+
+static void heading_of_orders(const hci_solution *s, char text[256])
+{
+    char error[HCI_HTML_NUMBER_SIZE], order[HCI_HTML_NUMBER_SIZE], tolerance[HCI_HTML_NUMBER_SIZE];
+    const size_t missed = count_missed(s);
+    hci_html_quantity_text(error, s->worst_error_Nm, "N·m");
+    hci_html_quantity_text(tolerance, s->tolerance_Nm, "N·m");
+    hci_html_number_text(order, s->worst_order);
+    if (missed == 0)
+        snprintf(text, 256, "Every order of the torque is within %s of what is wanted", tolerance);
+    else
+        snprintf(text, 256,
+                 "%zu of %zu orders of the torque %s not as wanted; the furthest, %s, is off by %s", missed,
+                 s->order_count, missed == 1 ? "is" : "are", order, error);
+}
+
+void hci_page_torque_orders(const hci_solution_page *p)
+{
+    char caption[400], heading[256], tolerance[HCI_HTML_NUMBER_SIZE];
     hci_html_quantity_text(tolerance, p->solution->tolerance_Nm, "N·m");
-    snprintf(
-        caption, sizeof caption,
-        "An order counts as reached when it is within %s of what is wanted; a dashed line shows this where "
-        "it is "
-        "high enough to be seen. What is left below is rounding, and less than a thousandth of it is shown "
-        "as 0. "
-        "The picture leaves the mean, order 0, out.",
-        tolerance);
-    hci_html_section(p->out, "Torque");
-    hci_page_panel(p, HCI_PANEL_TORQUE, tables_of_torque, p->facts.baseline, "waveform.csv");
-    hci_page_panel(p, HCI_PANEL_SPECTRUM, table_of_orders, caption, "spectrum.csv");
+    snprintf(caption, sizeof caption,
+             "Peak amplitudes without the mean, order 0. An order counts as reached within %s of what is "
+             "wanted; a dashed line shows this where it is high enough to be seen.",
+             tolerance);
+    const hci_html_drawing drawing = {
+        .id = "spectrum",
+        .title = "Torque ripple by electrical order: before, wanted, after",
+        .description = "Bars in N·m, peak amplitude, three for each order. The table has the numbers.",
+        .caption = caption,
+        .wide = 240,
+        .narrow = 290,
+        .draw = hci_plot_solution_spectrum,
+        .context = p->solution};
+    heading_of_orders(p->solution, heading);
+    hci_html_section(p->out, heading);
+    hci_html_drawing_begin(p->out, &drawing);
+    table_of_orders(p);
+    hci_html_drawing_end(p->out, "spectrum.csv", p->origin);
     hci_html_section_end(p->out);
 }

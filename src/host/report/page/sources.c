@@ -36,8 +36,8 @@ void hci_page_show_sources(hci_output *out, const hci_report_sources *sources)
 {
     source list[SOURCES];
     list_sources(sources, list);
-    hci_html_section(out, "Sources");
+    hci_html_section(out, "Made from");
     for (size_t k = 0; k < SOURCES; ++k)
-        if (list[k].file) hci_html_say(out, NULL, "%s: %s", list[k].what, list[k].file);
+        if (list[k].file) hci_html_say(out, "quiet", "%s: %s", list[k].what, list[k].file);
     hci_html_section_end(out);
 }

@@ -77,7 +77,7 @@ void hci_page_speeds(hci_output *out, const hci_speeds *s, const hci_report_sour
     hci_page_origin(origin, sources);
     hci_html_quantity_text(torque, s->torque_Nm, "N·m");
     hci_html_quantity_text(link, s->dc_link_V, "V");
-    hci_html_begin(out, "Torque ripple through the current loop", "Done", true);
+    hci_html_begin(out, &(hci_html_opening){"Torque ripple through the current loop", "Done", "Done", true});
     hci_html_say(out, "lead", "%s at %zu speeds with a dc link of %s.", torque, s->count, link);
     say_ends(out, s);
     hci_html_section(out, "Ripple over the speed");

@@ -208,7 +208,7 @@ void hci_page_sweep(hci_output *out, const hci_grid *s, const hci_report_sources
 {
     static const char *const HEADING[] = {"Ripple against current and copper",
                                           "Largest torque over the speed", "Maps over torque and speed"};
-    hci_html_begin(out, HEADING[s->request.kind], "Done", true);
+    hci_html_begin(out, &(hci_html_opening){HEADING[s->request.kind], "Done", "Done", true});
     say_results(out, s);
     show_figure(out, s, sources);
     show_reasons(out, s);

@@ -627,17 +627,73 @@ static void test_solution(void)
     s.worst_order = 6.0;
     s.plain = hci_wave_polar(1.0, 1, 10.0, 0.0);
     s.plain_amplitude_A = 10.0;
+    s.peak_phase_current_A = 11.5;
+    s.tolerance_Nm = 1e-6;
+    s.within_limits = true;
+    s.expected.state = HCI_RIPPLE_NO_RECORDINGS;
     s.loss_to_plain = s.loss_to_limit = s.peak_line_voltage_V = s.torque_at_limit_Nm = NAN;
     hci_output *out = open_page();
     hci_page_solution(out, &s, HCI_NOT_REACHED, &sources);
     read_page(out);
-    check_page(4);
-    text_has("Not reached", page);
+    check_page(2 * 4); /* each for a screen and for a telephone */
+    text_has("badge bad\">Not reached</span> Currents for a wanted torque · m</p>", page);
+    text_has("<h1>2.1 N·m, with 0.625 N·m of ripple from peak to peak</h1>", page);
+    text_has("<td>1 N·m<small>47.6 % of the mean</small>\n</td><td>0.625 N·m<small>29.8 % of the "
+             "mean</small>\n</td>"
+             "<td><small>not known</small>\n</td>",
+             page);
+    text_has("<td>10 A</td><td>11.5 A</td>", page);
+    text_has("1 of 2 orders of the torque is not as wanted; the furthest, 6, is off by 0.3125 N·m", page);
+    TEST_ASSERT_EQUAL_UINT64(2, text_count("<title>order 6: before 0.5 N·m, wanted 0 N·m, after 0.3125 N·m; "
+                                           "missed</title>",
+                                           page));
+    text_lacks("The limits", page);
     text_has("Wanted torque: a&#60;script&#62;", page);
     text_has(hci_order_verdict_name(HCI_ORDER_MISSED), page);
     check_number(hci_amplitude(order[1].torque_Nm.sine, order[1].torque_Nm.cosine));
     check_number(hci_amplitude(wave[1].sine, wave[1].cosine));
     check_number(order[1].error_Nm);
+}
+
+/* A limit of 20 A of which 15 are used, and one that is exceeded, with the torque that is lost. */
+static void test_solution_within_limits(void)
+{
+    hci_wave wave[] = {hci_wave_polar(1.0, 1, 15.0, 0.0)};
+    hci_set set[1] = {0};
+    hci_solved_order order[1];
+    hci_solution s;
+    memset(&s, 0, sizeof s);
+    memset(order, 0, sizeof order);
+    order[0].target_Nm = hci_harmonic_polar(0.0, 3.0, REF_PI / 2.0);
+    order[0].torque_Nm = order[0].before_Nm = hci_harmonic_polar(0.0, 2.0, REF_PI / 2.0);
+    order[0].verdict = HCI_ORDER_MISSED;
+    order[0].error_Nm = s.worst_error_Nm = 1.0;
+    s.current = (hci_currents){.wave = wave, .set = set, .count = 1};
+    s.order = order;
+    s.order_count = s.period_turns = 1;
+    s.tolerance_Nm = 1e-6;
+    s.plain = wave[0];
+    s.plain_amplitude_A = s.peak_phase_current_A = 15.0;
+    s.loss_to_plain = 1.0;
+    s.loss_to_limit = s.torque_at_limit_Nm = NAN;
+    s.peak_line_voltage_V = 48.0;
+    s.limit[0] = (hci_limit){.kind = HCI_LIMIT_CURRENT, .phase = -1, .limit = 20.0, .value = 15.0};
+    s.limit[1] =
+        (hci_limit){.kind = HCI_LIMIT_VOLTAGE, .phase = -1, .limit = 40.0, .value = 48.0, .binds = true};
+    s.limit_count = 2;
+    s.limit_cost = HCI_COST_LIMITS;
+    hci_output *out = open_page();
+    hci_page_solution(out, &s, HCI_NOT_REACHED, &(hci_report_sources){.machine = "m", .target = "t"});
+    read_page(out);
+    check_page(2 * 5);
+    text_has("<h1>2 N·m on average, where 3 N·m was asked for</h1>", page);
+    text_has("<h2>No current keeps the limits: this one exceeds all of them by the same share</h2>", page);
+    text_has("<td>–</td><td>48 V</td>", page);
+    const char *used = strstr(page, "<title>phase current: 15 A of 20 A</title>\n<rect class=\"after\" "),
+               *over = strstr(page, "<title>line voltage: 48 V of 40 V</title>\n<rect class=\"over\" ");
+    TEST_ASSERT_TRUE(used && over);
+    TEST_ASSERT_DOUBLE_WITHIN(0.02, 0.75 / 1.2,
+                              number_after(used, " width=\"") / number_after(over, " width=\""));
 }
 
 static void test_simulation(void)
@@ -764,6 +820,7 @@ int main(void)
     RUN_TEST(test_clearest_value);
     RUN_TEST(test_contrast);
     RUN_TEST(test_solution);
+    RUN_TEST(test_solution_within_limits);
     RUN_TEST(test_simulation);
     RUN_TEST(test_simulation_with_before);
     return UNITY_END();

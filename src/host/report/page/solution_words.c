@@ -1,0 +1,179 @@
+/* What the page of a solution says first: the verdict, and before and after in large figures. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "host/report/page/solution_sections.h"
+
+enum { CELL_SIZE = 128 };
+
+static bool has_mean(const hci_solution *s)
+{
+    return s->order_count > 0 && s->order[0].torque_Nm.order < HCI_ORDER_TOLERANCE;
+}
+
+static double mean_Nm(const hci_solution *s)
+{
+    return has_mean(s) ? s->order[0].torque_Nm.cosine : 0.0;
+}
+
+static double swing_Nm(hci_range r)
+{
+    return r.high - r.low;
+}
+
+void hci_page_swing(char text[HCI_PAGE_SWING_SIZE], hci_range r, double tolerance_Nm)
+{
+    char swing[HCI_HTML_NUMBER_SIZE];
+    hci_html_quantity_text(swing, fmax(swing_Nm(r), tolerance_Nm), "N·m");
+    snprintf(text, HCI_PAGE_SWING_SIZE, "%s%s", swing_Nm(r) < tolerance_Nm ? "less than " : "", swing);
+}
+
+bool hci_page_has_plain(const hci_solution *s)
+{
+    return s->plain_amplitude_A > 0.0;
+}
+
+/* ---- the verdict ---- */
+
+static bool is_smooth_wish(const hci_solution_page *p)
+{
+    return swing_Nm(p->facts.wanted_Nm) <= p->solution->tolerance_Nm;
+}
+
+static bool misses_the_mean(const hci_solution *s)
+{
+    return has_mean(s) && s->order[0].verdict > HCI_ORDER_FREE;
+}
+
+static void heading_of(const hci_solution_page *p, hci_status verdict, char text[512])
+{
+    const hci_solution *s = p->solution;
+    char mean[HCI_HTML_NUMBER_SIZE], wanted[HCI_HTML_NUMBER_SIZE], swing[HCI_PAGE_SWING_SIZE];
+    hci_html_quantity_text(mean, mean_Nm(s), "N·m");
+    hci_html_quantity_text(wanted, has_mean(s) ? s->order[0].target_Nm.cosine : 0.0, "N·m");
+    hci_page_swing(swing, p->facts.after_Nm, s->tolerance_Nm);
+    if (verdict == HCI_OK)
+        snprintf(text, 512, is_smooth_wish(p) ? "%s without ripple" : "%s with the ripple that was asked for",
+                 mean);
+    else if (misses_the_mean(s))
+        snprintf(text, 512, "%s on average, where %s was asked for", mean, wanted);
+    else if (!s->within_limits)
+        snprintf(text, 512, "%s takes more than a limit allows", mean);
+    else
+        snprintf(text, 512, "%s, with %s of ripple from peak to peak", mean, swing);
+}
+
+static void say_lead(const hci_solution_page *p)
+{
+    const hci_solution *s = p->solution;
+    char plain[HCI_HTML_NUMBER_SIZE], peak[HCI_HTML_NUMBER_SIZE], ratio[HCI_HTML_NUMBER_SIZE],
+        before[HCI_PAGE_SWING_SIZE], after[HCI_PAGE_SWING_SIZE];
+    hci_html_quantity_text(plain, s->plain_amplitude_A, "A");
+    hci_html_quantity_text(peak, s->peak_phase_current_A, "A");
+    hci_html_number_text(ratio, s->loss_to_plain);
+    hci_page_swing(before, p->facts.before_Nm, s->tolerance_Nm);
+    hci_page_swing(after, p->facts.after_Nm, s->tolerance_Nm);
+    if (hci_page_has_plain(s))
+        hci_html_say(p->out, "lead",
+                     "%s of %s leaves a torque that varies by %s from peak to peak. With these currents it "
+                     "varies by %s%s, for %s times the copper loss and a peak current of %s.",
+                     s->plain_is_held ? "The held fundamental" : "A plain sine", plain, before, after,
+                     is_smooth_wish(p) || s->worst_error_Nm > s->tolerance_Nm ? "" : ", as was asked for",
+                     ratio, peak);
+    else
+        hci_html_say(p->out, "lead",
+                     "Without current the torque varies by %s from peak to peak. With these currents it "
+                     "varies by %s, for a peak current of %s.",
+                     before, after, peak);
+}
+
+/* ---- before and after ---- */
+
+/* "3.775 N·m|153 % of the mean" */
+static void cell_of_ripple(char text[CELL_SIZE], const hci_solution *s, double swing, double mean)
+{
+    char percent[HCI_HTML_NUMBER_SIZE], in_Nm[HCI_PAGE_SWING_SIZE];
+    hci_page_swing(in_Nm, (hci_range){0.0, swing}, s->tolerance_Nm);
+    hci_html_number_text(percent, 100.0 * swing / fabs(mean));
+    if (fabs(mean) > 1e-12 && swing >= s->tolerance_Nm)
+        snprintf(text, CELL_SIZE, "%s|%s %% of the mean", in_Nm, percent);
+    else
+        snprintf(text, CELL_SIZE, "%s", in_Nm);
+}
+
+static void row_of(hci_output *out, const char *name, const char *before, const char *after,
+                   const char *machine)
+{
+    hci_html_compare_row(out, name, (const char *const[]){before, after, machine, NULL});
+}
+
+static void row_of_mean(const hci_solution_page *p)
+{
+    const hci_solution *s = p->solution;
+    char before[CELL_SIZE], after[HCI_HTML_NUMBER_SIZE];
+    hci_html_quantity_text(before, has_mean(s) ? s->order[0].before_Nm.cosine : 0.0, "N·m");
+    hci_html_quantity_text(after, mean_Nm(s), "N·m");
+    row_of(p->out, "Mean torque", before, after, "–");
+}
+
+static void row_of_ripple(const hci_solution_page *p)
+{
+    const hci_solution *s = p->solution;
+    char before[CELL_SIZE], after[CELL_SIZE], machine[CELL_SIZE] = "|not known";
+    cell_of_ripple(before, s, swing_Nm(p->facts.before_Nm), has_mean(s) ? s->order[0].before_Nm.cosine : 0.0);
+    cell_of_ripple(after, s, swing_Nm(p->facts.after_Nm), mean_Nm(s));
+    if (s->expected.state == HCI_RIPPLE_KNOWN)
+        cell_of_ripple(machine, s, s->expected.peak_to_peak_Nm, mean_Nm(s));
+    row_of(p->out, "Torque ripple, peak to peak", before, after, machine);
+}
+
+static void row_of_currents(const hci_solution_page *p)
+{
+    const hci_solution *s = p->solution;
+    char before[CELL_SIZE] = "0 A", after[HCI_HTML_NUMBER_SIZE], ratio[HCI_HTML_NUMBER_SIZE];
+    if (hci_page_has_plain(s)) hci_html_quantity_text(before, s->plain_amplitude_A, "A");
+    hci_html_quantity_text(after, s->peak_phase_current_A, "A");
+    row_of(p->out, "Peak phase current", before, after, "|the same, if the current loop follows");
+    if (!isfinite(s->loss_to_plain)) return;
+    hci_html_quantity_text(ratio, s->loss_to_plain, "×");
+    row_of(p->out, "Copper loss", "1 ×", ratio, "|the same");
+}
+
+static void row_of_voltage(const hci_solution_page *p)
+{
+    char after[HCI_HTML_NUMBER_SIZE];
+    if (!isfinite(p->solution->peak_line_voltage_V)) return;
+    hci_html_quantity_text(after, p->solution->peak_line_voltage_V, "V");
+    row_of(p->out, "Peak line voltage", "–", after, "–");
+}
+
+static void show_before_and_after(const hci_solution_page *p)
+{
+    const hci_solution *s = p->solution;
+    const char *const column[] = {!hci_page_has_plain(s) ? "Before: no current"
+                                  : s->plain_is_held     ? "Before: held fundamental"
+                                                         : "Before: plain sine",
+                                  "After: in the model", "After: to expect on the machine", NULL};
+    char expected[1024];
+    hci_html_compare(p->out, column);
+    row_of_mean(p);
+    row_of_ripple(p);
+    row_of_currents(p);
+    row_of_voltage(p);
+    hci_html_compare_end(p->out);
+    hci_expected_ripple_words(&s->expected, expected, sizeof expected);
+    hci_html_say(p->out, "quiet", "On the real machine: %s", expected);
+    if (s->remark.text[0]) hci_html_paragraph(p->out, "quiet", s->remark.text);
+}
+
+void hci_page_solution_verdict(const hci_solution_page *p, hci_status verdict, const char *machine)
+{
+    char heading[512], kicker[512];
+    heading_of(p, verdict, heading);
+    snprintf(kicker, sizeof kicker, "Currents for a wanted torque · %s", machine ? machine : "");
+    hci_html_begin(p->out, &(hci_html_opening){kicker, verdict == HCI_OK ? "Reached" : "Not reached", heading,
+                                               verdict == HCI_OK});
+    say_lead(p);
+    show_before_and_after(p);
+}
