@@ -22,6 +22,7 @@ const hci_alias hci_aliases[] = {
     PLAIN("t", "time_s", "s", "many"),
     PLAIN("ms_today", "time_s", "ms", "VESC Tool"),
     TOLD("timestamp", "time_s", "s", "many", "the time"),
+    TOLD("datetime", "time_s", "s", "many", "the time"),
     PLAIN("x-axis", "time_s", NULL, "Keysight"),
     PLAIN("Source", "time_s", NULL, "Siglent"),
     PLAIN("Second", "time_s", "s", "Siglent"),

@@ -12,6 +12,8 @@
 #include "host/base/number_read.h"
 #include "host/base/quote.h"
 #include "host/base/unit_lookup.h"
+#include "host/csv/blanks.h"
+#include "host/csv/number_cell.h"
 #include "host/csv/table.h"
 #include "host/foreign/as_recording.h"
 
@@ -188,16 +190,9 @@ static hci_status check_name(const hci_csv *csv, size_t column, hci_note *note)
     return HCI_OK;
 }
 
-static hci_status check_header(const hci_csv *csv, hci_note *note)
+/* Rows without a header. */
+static hci_status no_names(const hci_csv *csv, hci_note *note)
 {
-    size_t numbers = 0;
-    for (size_t column = 0; column < csv->columns; column++) {
-        const hci_status status = check_name(csv, column, note);
-        if (status) return status;
-        numbers += *hci_csv_cell(csv, 0, column) == '\0' ||
-                   hci_csv_kind(csv, hci_csv_cell(csv, 0, column)) != HCI_NUMBER_NONE;
-    }
-    if (numbers < csv->columns) return HCI_OK;
     char found[HCI_QUOTE_SIZE];
     const size_t last = csv->columns - 1;
     const hci_csv_fault fault = {.line = hci_csv_record_line(csv, 0),
@@ -206,6 +201,20 @@ static hci_status check_header(const hci_csv *csv, hci_note *note)
                                  .expected = "a column name",
                                  .remedy = "put a row of column names first"};
     return hci_csv_fault_note(csv, &fault, note);
+}
+
+static hci_status check_header(const hci_csv *csv, hci_note *note)
+{
+    size_t numbers = 0;
+    hci_status status = HCI_OK;
+    for (size_t column = 0; column < csv->columns; column++) {
+        const char *name = hci_csv_cell(csv, 0, column);
+        numbers += *name == '\0' || hci_csv_is_number(name);
+    }
+    if (numbers == csv->columns) return no_names(csv, note);
+    for (size_t column = 0; column < csv->columns && !status; column++)
+        status = check_name(csv, column, note);
+    return status;
 }
 
 /* To the line that the table begins with. */
@@ -336,7 +345,7 @@ static hci_status read_rows(reader *r)
 static bool has_no_words_below(const hci_csv *csv, size_t column)
 {
     const char *below = csv->records > 2 ? hci_csv_cell(csv, 2, column) : "";
-    return *below == '\0' || hci_csv_kind(csv, below) != HCI_NUMBER_NONE;
+    return *below == '\0' || hci_csv_is_number(below);
 }
 
 /* Record 1 is a row of units when each cell is a unit, "1", "-" or empty, at least one is a true unit, and no
@@ -351,7 +360,7 @@ static bool find_units(const hci_csv *csv)
         const char *cell = hci_csv_cell(csv, 1, column);
         if (hci_text_begins(hci_csv_cell(csv, 0, column), "unit", sizeof "unit")) return false;
         if (hci_csv_says_no_unit(cell)) continue;
-        if (hci_csv_kind(csv, cell) != HCI_NUMBER_NONE || !has_no_words_below(csv, column)) return false;
+        if (hci_csv_is_number(cell) || !has_no_words_below(csv, column)) return false;
         if (hci_csv_cell_unit(cell) != NULL)
             units++;
         else
@@ -386,6 +395,7 @@ static hci_status read_table(hci_csv *csv, hci_note *note)
     hci_status status = hci_csv_load(csv, note);
     if (!status) status = turn_into_table(csv, note);
     if (status) return status;
+    hci_csv_prepare(csv->text);
     r.next = csv->text + (strncmp(csv->text, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0);
     pass_foreword(&r);
     status = read_header(&r);

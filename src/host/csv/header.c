@@ -1,8 +1,8 @@
 /* Finding the table in files of instruments and field solvers, which begin with lines about themselves. */
 #include <string.h>
 
-#include "host/base/number_read.h"
 #include "host/csv/column_name.h"
+#include "host/csv/number_cell.h"
 #include "host/csv/table.h"
 
 enum { LINES_MOST = 64, CELLS_MOST = 256, CELL_SIZE = 64, ROWS_WANTED = 2 };
@@ -89,12 +89,9 @@ static size_t cut(line_reader *r)
 
 static void classify_cell(const line_reader *r, size_t k, line_kind *kind)
 {
-    double value;
-    char mark;
     const char *cell = r->cell[k];
     if (*cell == '\0') kind->has_gap = true;
-    const bool is_number = hci_number_read(cell, r->separator == ';', &value, &mark) != HCI_NUMBER_NONE;
-    kind->numbers += is_number;
+    kind->numbers += hci_csv_is_number(cell);
     kind->silent += hci_csv_says_no_unit(cell);
     kind->units += !hci_csv_says_no_unit(cell) && hci_csv_cell_unit(cell) != NULL;
     for (size_t other = 0; other < k; ++other)

@@ -5,6 +5,7 @@
 
 #include "host/base/memory.h"
 #include "host/base/quote.h"
+#include "host/csv/encoding.h"
 #include "host/csv/learned.h"
 
 enum { FIRST_READ = 1 << 16 };
@@ -56,7 +57,29 @@ static hci_status read_file(hci_csv *csv, size_t *size, hci_note *note)
     return HCI_OK;
 }
 
-/* A spreadsheet, UTF-16 without its mark, or a log that lost its end to a power failure. */
+/* What a file is whose first bytes tell; NULL: nothing that is known. */
+static const char *kind_of(const char *text, size_t size)
+{
+    static const struct {
+        const char *bytes;
+        size_t length;
+        const char *words;
+    } KINDS[] = {{"PK\003\004", 4, "found a workbook (.xlsx, .ods) or another ZIP file"},
+                 {"\xD0\xCF\x11\xE0", 4, "found an old workbook (.xls)"},
+                 {"MATLAB 5.0", 10, "found a MATLAB file"},
+                 {"\x89HDF", 4, "found an HDF5 or MATLAB file"},
+                 {"\x93NUMPY", 6, "found a NumPy file"},
+                 {"MDF     ", 8, "found an MDF file"},
+                 {"TDSm", 4, "found a TDMS file"},
+                 {"%PDF", 4, "found a PDF file"},
+                 {"\x1F\x8B", 2, "found a compressed file"}};
+    for (size_t k = 0; k < sizeof KINDS / sizeof *KINDS; ++k)
+        if (size >= KINDS[k].length && memcmp(text, KINDS[k].bytes, KINDS[k].length) == 0)
+            return KINDS[k].words;
+    return NULL;
+}
+
+/* A file that is no text, or a log that lost its end to a power failure. */
 static hci_status nul_error(const hci_csv *csv, hci_note *note)
 {
     char path[HCI_QUOTE_PATH_SIZE];
@@ -76,14 +99,31 @@ static bool ends_in_nul(const hci_csv *csv, size_t size)
     return true;
 }
 
-static hci_status check_encoding(const hci_csv *csv, size_t size, hci_note *note)
+static hci_status too_large(const hci_csv *csv, hci_note *note)
 {
-    if (size == SIZE_LIMIT)
-        return hci_csv_file_error(csv->path, note, "found 2 GiB or more", "split the file");
-    if (size >= 2 && (memcmp(csv->text, "\xFF\xFE", 2) == 0 || memcmp(csv->text, "\xFE\xFF", 2) == 0)) {
-        return hci_csv_file_error(csv->path, note, "found UTF-16, expected UTF-8", "save it as CSV in UTF-8");
-    }
-    if (csv->leaves_holes && ends_in_nul(csv, size)) return HCI_OK;
+    return hci_csv_file_error(csv->path, note, "found 2 GiB or more", "split the file");
+}
+
+/* Into UTF-8, where a spreadsheet has saved it in another encoding. */
+static hci_status change_encoding(hci_csv *csv, size_t *size, hci_note *note)
+{
+    const hci_encoding encoding = hci_encoding_of(csv->text, *size);
+    if (encoding == HCI_ENCODING_UTF8 || encoding == HCI_ENCODING_OTHER) return HCI_OK;
+    char *text = hci_encoding_to_utf8(encoding, csv->text, size);
+    if (text == NULL) return hci_note_memory(note, csv->path, "reading it");
+    hci_memory_free(csv->text);
+    csv->text = text;
+    return *size >= SIZE_LIMIT ? too_large(csv, note) : HCI_OK;
+}
+
+static hci_status check_text(hci_csv *csv, size_t size, hci_note *note)
+{
+    if (size == SIZE_LIMIT) return too_large(csv, note);
+    const char *kind = kind_of(csv->text, size);
+    if (kind != NULL)
+        return hci_csv_file_error(csv->path, note, kind, "save the table in it as CSV and give that file");
+    const hci_status status = change_encoding(csv, &size, note);
+    if (status || (csv->leaves_holes && ends_in_nul(csv, size))) return status;
     return strlen(csv->text) < size ? nul_error(csv, note) : HCI_OK;
 }
 
@@ -93,5 +133,5 @@ hci_status hci_csv_load(hci_csv *csv, hci_note *note)
     const hci_status status = read_file(csv, &size, note);
     if (status) return status;
     if (hci_csv_is_learned(csv, size)) return hci_csv_read_learned(csv, size, note);
-    return check_encoding(csv, size, note);
+    return check_text(csv, size, note);
 }

@@ -33,13 +33,6 @@ bool hci_csv_same_name(const char *a, const char *b)
     return strlen(a) == 1 ? strcmp(a, b) == 0 : hci_text_is(a, b);
 }
 
-hci_number_kind hci_csv_kind(const hci_csv *csv, const char *cell)
-{
-    double value;
-    char mark;
-    return hci_number_read(cell, csv->separator == ';', &value, &mark);
-}
-
 void hci_csv_free(hci_csv *csv)
 {
     if (csv == NULL) return;

@@ -53,9 +53,6 @@ size_t hci_csv_record_line(const hci_csv *csv, size_t record);
  * T the torque. */
 bool hci_csv_same_name(const char *a, const char *b);
 
-/* What a cell is as a number, with the decimal marks of this file. */
-hci_number_kind hci_csv_kind(const hci_csv *csv, const char *cell);
-
 /* The record of data row 0. */
 size_t hci_csv_first_record(const hci_csv *csv);
 

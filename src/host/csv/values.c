@@ -9,6 +9,8 @@
 #include "host/base/number_read.h"
 #include "host/base/quote.h"
 #include "host/csv/column.h"
+#include "host/csv/marks.h"
+#include "host/csv/number_cell.h"
 #include "host/csv/table.h"
 
 static const char *quote_cell(const char *cell, char out[HCI_QUOTE_SIZE])
@@ -23,7 +25,7 @@ static bool is_broken_unit_row(const hci_csv *csv, size_t *column)
     for (size_t c = 0; c < csv->columns; c++) {
         const char *cell = hci_csv_cell(csv, 1, c);
         if (hci_csv_says_no_unit(cell)) continue;
-        if (hci_csv_kind(csv, cell) != HCI_NUMBER_NONE) return false;
+        if (hci_csv_is_number(cell)) return false;
         if (hci_csv_cell_unit(cell) != NULL) {
             units++;
         } else {
@@ -34,74 +36,80 @@ static bool is_broken_unit_row(const hci_csv *csv, size_t *column)
     return units > 0 && others == 1;
 }
 
-static hci_status number_error(const hci_csv *csv, size_t record, size_t column, hci_number_kind kind,
-                               hci_note *note)
+/* A number with its unit, as 12 A or 0.5Nm. */
+static bool is_number_with_unit(const char *cell)
 {
-    const char *remedy = "write it with a decimal point, e.g. 21.93";
-    char found[HCI_QUOTE_SIZE];
-    if (kind == HCI_NUMBER_NOT_FINITE) remedy = "remove the line or correct the value";
-    if (*hci_csv_cell(csv, record, column) == '\0') remedy = "fill the cell or remove the line";
-    hci_csv_fault fault = {.line = hci_csv_record_line(csv, record),
-                           .column = column,
-                           .expected = "a finite number",
-                           .remedy = remedy};
-    size_t unit = column;
+    char number[32];
+    double value;
+    char mark;
+    const size_t length = strspn(cell, "+-.,0123456789");
+    if (length == 0 || length >= sizeof number) return false;
+    memcpy(number, cell, length);
+    number[length] = '\0';
+    return hci_number_read(number, true, &value, &mark) == HCI_NUMBER_FINITE &&
+           hci_csv_cell_unit(cell + length + strspn(cell + length, " ")) != NULL;
+}
+
+static const char *remedy_of(const char *cell, hci_number_kind kind)
+{
+    double days, value;
+    if (*cell == '\0') return "fill the cell or remove the line";
+    if (kind == HCI_NUMBER_NOT_FINITE) return "remove the line or correct the value";
+    if (*cell == '#') return "a spreadsheet writes this for an error: correct the formula, or empty the cell";
+    if (hci_csv_clock(cell, &days, &value)) return "a clock time is read in a column of time only";
+    if (hci_csv_fraction(cell, &value)) return "write it as a decimal number; orders only may be fractions";
+    if (is_number_with_unit(cell))
+        return "write the unit into the column's name, as in torque_mNm, and the number alone";
+    return "write a number with a decimal point, e.g. 21.93";
+}
+
+/* "; 593 more cells of the column are none, first in lines 3, 4 and 5", or nothing. */
+static void tell_others(hci_cell_reader *r, size_t record, char *text, size_t size)
+{
+    size_t lines[3], count = 0;
+    for (size_t k = record + 1; k < r->csv->records; ++k) {
+        double value;
+        hci_number_kind kind;
+        if (hci_cell_read(r, k, &kind, &value, NULL) || kind == HCI_NUMBER_FINITE) continue;
+        if (count < 3) lines[count] = hci_csv_record_line(r->csv, k);
+        ++count;
+    }
+    int used = count > 0 ? snprintf(text, size, " (%zu more cell%s of the column %s none: line%s ", count,
+                                    count > 1 ? "s" : "", count > 1 ? "are" : "is", count > 1 ? "s" : "")
+                         : 0;
+    for (size_t k = 0; k < count && k < 3; ++k)
+        used += snprintf(text + used, size - (size_t)used, "%s%zu", k > 0 ? ", " : "", lines[k]);
+    if (count > 0) snprintf(text + used, size - (size_t)used, "%s)", count > 3 ? ", ..." : "");
+}
+
+static hci_status number_error(hci_cell_reader *r, size_t record, hci_number_kind kind, hci_note *note)
+{
+    const hci_csv *csv = r->csv;
+    const char *cell = hci_csv_cell(csv, record, r->column);
+    char found[HCI_QUOTE_SIZE], remedy[240], others[120] = "";
+    size_t unit = r->column;
+    hci_csv_fault fault = {.line = hci_csv_record_line(csv, record), .column = r->column, .remedy = remedy};
+    fault.expected = r->of_second > 0.0 ? "a finite number, or a time as 12:00:01.5" : "a finite number";
     if (record == 1 && is_broken_unit_row(csv, &unit)) {
         fault.column = unit;
         fault.expected = HCI_CSV_UNIT_EXPECTED;
         fault.remedy = HCI_CSV_UNIT_REMEDY;
     }
+    tell_others(r, record, others, sizeof others);
+    snprintf(remedy, sizeof remedy, "%s%s", remedy_of(cell, kind), others);
     fault.name = hci_csv_cell(csv, 0, fault.column);
     fault.found = quote_cell(hci_csv_cell(csv, record, fault.column), found);
     return hci_csv_fault_note(csv, &fault, note);
 }
 
-/* "1.234" among "0,5" is a thousand and some to one reader and 1.234 to the next. */
-static hci_status mark_error(const hci_csv *csv, size_t record, size_t column, hci_note *note)
+static hci_status read_cells(hci_cell_reader *r, size_t first, size_t count, double *values, hci_note *note)
 {
-    char found[HCI_QUOTE_SIZE];
-    const hci_csv_fault fault = {
-        .line = hci_csv_record_line(csv, record),
-        .column = column,
-        .name = hci_csv_cell(csv, 0, column),
-        .found = hci_quote(hci_csv_cell(csv, record, column), found),
-        .expected = "one decimal mark in all of the column",
-        .remedy = "write no marks between thousands, and the same decimal mark everywhere"};
-    return hci_csv_fault_note(csv, &fault, note);
-}
-
-/* A column that is read cell by cell, with the decimal mark that it has shown so far. */
-typedef struct {
-    const hci_csv *csv;
-    hci_column_match found;
-    char mark;
-} column_reader;
-
-/* kind, value: out. HCI_ERROR_INPUT for a second decimal mark. */
-static hci_status read_cell(column_reader *r, size_t record, hci_number_kind *kind, double *value,
-                            hci_note *note)
-{
-    char mark = 0;
-    const char *cell = hci_csv_cell(r->csv, record, r->found.column);
-    *kind = hci_number_read(cell, r->csv->separator == ';', value, &mark);
-    if (*kind != HCI_NUMBER_FINITE) return HCI_OK;
-    if (!isfinite(*value *= r->found.factor)) *kind = HCI_NUMBER_NOT_FINITE;
-    if (mark != 0 && r->mark != 0 && mark != r->mark)
-        return mark_error(r->csv, record, r->found.column, note);
-    if (mark != 0) r->mark = mark;
-    return HCI_OK;
-}
-
-static hci_status read_cells(const hci_csv *csv, hci_column_match found, size_t first, size_t count,
-                             double *values, hci_note *note)
-{
-    column_reader r = {.csv = csv, .found = found};
     for (size_t record = first; record < first + count; record++) {
         double value;
         hci_number_kind kind;
-        const hci_status status = read_cell(&r, record, &kind, &value, note);
-        if (kind != HCI_NUMBER_FINITE) return number_error(csv, record, found.column, kind, note);
+        const hci_status status = hci_cell_read(r, record, &kind, &value, note);
         if (status) return status;
+        if (kind != HCI_NUMBER_FINITE) return number_error(r, record, kind, note);
         values[record - first] = value;
     }
     return HCI_OK;
@@ -111,7 +119,8 @@ hci_status hci_csv_numbers(const hci_csv *csv, const char *column, double *value
 {
     const hci_column_match found = hci_column_find(csv, column);
     if (found.kind != HCI_COLUMN_ONE) return hci_column_error(csv, column, &found, note);
-    return read_cells(csv, found, hci_csv_first_record(csv), hci_csv_rows(csv), values, note);
+    hci_cell_reader r = hci_cell_reader_of(csv, column, &found);
+    return read_cells(&r, hci_csv_first_record(csv), hci_csv_rows(csv), values, note);
 }
 
 /* ---- cells without a number ---- */
@@ -119,41 +128,43 @@ hci_status hci_csv_numbers(const hci_csv *csv, const char *column, double *value
 /* A text in the first row may be a unit that is not known. */
 static bool is_hole(const hci_csv *csv, size_t record, const char *cell, hci_number_kind kind)
 {
-    static const char *const MISSING[] = {"NA", "N/A", "#N/A", "null", "none"};
-    if (record > hci_csv_first_record(csv) || *cell == '\0' || kind != HCI_NUMBER_NONE) return true;
+    static const char *const MISSING[] = {"NA", "N/A", "null", "none"};
+    if (record > hci_csv_first_record(csv) || *cell == '\0' || *cell == '#' || kind != HCI_NUMBER_NONE)
+        return true;
     for (size_t k = 0; k < sizeof MISSING / sizeof *MISSING; ++k)
         if (hci_text_is(cell, MISSING[k])) return true;
     return false;
 }
 
-static void note_hole(const hci_csv *csv, size_t record, size_t column, hci_number_kind kind,
-                      hci_csv_hole *first)
+static void note_hole(hci_cell_reader *r, size_t record, hci_number_kind kind, hci_csv_hole *first)
 {
     char quoted[HCI_QUOTE_SIZE];
-    const size_t line = hci_csv_record_line(csv, record);
+    const size_t line = hci_csv_record_line(r->csv, record);
     if (first->line != 0 && first->line <= line) return;
     memset(first, 0, sizeof *first);
     first->line = line;
-    first->column = column;
-    snprintf(first->found, sizeof first->found, "%s", quote_cell(hci_csv_cell(csv, record, column), quoted));
-    number_error(csv, record, column, kind, &first->error);
+    first->column = r->column;
+    snprintf(first->found, sizeof first->found, "%s",
+             quote_cell(hci_csv_cell(r->csv, record, r->column), quoted));
+    number_error(r, record, kind, &first->error);
 }
 
 hci_status hci_csv_numbers_or_nan(const hci_csv *csv, const char *column, double *values, hci_csv_hole *first,
                                   hci_note *note)
 {
-    column_reader r = {.csv = csv, .found = hci_column_find(csv, column)};
-    const size_t from = hci_csv_first_record(csv), at = r.found.column;
-    if (r.found.kind != HCI_COLUMN_ONE) return hci_column_error(csv, column, &r.found, note);
+    const hci_column_match found = hci_column_find(csv, column);
+    const size_t from = hci_csv_first_record(csv);
+    if (found.kind != HCI_COLUMN_ONE) return hci_column_error(csv, column, &found, note);
+    hci_cell_reader r = hci_cell_reader_of(csv, column, &found);
     for (size_t record = from; record < csv->records; record++) {
         double *value = &values[record - from];
         hci_number_kind kind;
-        const hci_status status = read_cell(&r, record, &kind, value, note);
+        const hci_status status = hci_cell_read(&r, record, &kind, value, note);
         if (status) return status;
         if (kind == HCI_NUMBER_FINITE) continue;
-        if (!is_hole(csv, record, hci_csv_cell(csv, record, at), kind))
-            return number_error(csv, record, at, kind, note);
-        note_hole(csv, record, at, kind, first);
+        if (!is_hole(csv, record, hci_csv_cell(csv, record, found.column), kind))
+            return number_error(&r, record, kind, note);
+        note_hole(&r, record, kind, first);
         *value = NAN;
     }
     return HCI_OK;
@@ -168,7 +179,8 @@ hci_status hci_csv_number(const hci_csv *csv, const char *column, size_t row, do
     if (found.kind == HCI_COLUMN_NONE || found.kind == HCI_COLUMN_TWICE)
         return hci_column_error(csv, column, &found, note);
     found.factor = 1;
-    return read_cells(csv, found, hci_csv_first_record(csv) + row, 1, value, note);
+    hci_cell_reader r = hci_cell_reader_of(csv, column, &found);
+    return read_cells(&r, hci_csv_first_record(csv) + row, 1, value, note);
 }
 
 hci_status hci_csv_text(const hci_csv *csv, const char *column, size_t row, const char **text, hci_note *note)

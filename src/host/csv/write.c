@@ -8,8 +8,9 @@
 #include "hci/host/base/text.h"
 #include "hci/host/base/utf8.h"
 #include "host/base/memory.h"
-#include "host/base/number_read.h"
 #include "host/base/quote.h"
+#include "host/csv/marks.h"
+#include "host/csv/number_cell.h"
 #include "host/csv/table.h"
 
 typedef struct {
@@ -17,6 +18,7 @@ typedef struct {
     const hci_csv_added *added;
     size_t added_count;
     hci_output *output;
+    hci_cell_reader *readers; /* of each column */
     hci_note *note;
 } writer;
 
@@ -44,10 +46,24 @@ void hci_csv_write_cell(hci_output *output, const char *cell, bool first)
     hci_output_text(output, "\",");
 }
 
-/* A number with a decimal comma gets a point, and keeps its digits. */
-static void write_number(const writer *w, const char *cell, const char *comma)
+/* A number with a decimal comma gets a point, and keeps its digits; one with marks between thousands loses
+ * these. */
+static void write_cell(const writer *w, size_t record, size_t column, bool first)
 {
-    hci_output_text(w->output, "%.*s.%s,", (int)(comma - cell), cell, comma + 1);
+    const char *cell = hci_csv_cell(w->csv, record, column);
+    hci_cell_reader *r = &w->readers[column];
+    const hci_marks marks = hci_marks_of(cell);
+    const char mark = marks.decimal != 0 ? marks.decimal : marks.doubtful;
+    const char *comma = strchr(cell, ',');
+    hci_number_kind kind = HCI_NUMBER_NONE;
+    double value;
+    if (marks.group == 0 && mark == ',' && r->decimal == ',')
+        hci_output_text(w->output, "%.*s.%s,", (int)(comma - cell), cell, comma + 1);
+    else if ((marks.group != 0 || (mark != 0 && mark != r->decimal)) &&
+             !hci_cell_read(r, record, &kind, &value, NULL) && kind == HCI_NUMBER_FINITE)
+        hci_output_number(w->output, value, ',');
+    else
+        hci_csv_write_cell(w->output, cell, first);
 }
 
 static hci_status write_own(const writer *w, size_t record)
@@ -58,11 +74,7 @@ static hci_status write_own(const writer *w, size_t record)
         if (is_replaced(w, column)) continue;
         if (!hci_utf8_valid(cell))
             return hci_csv_encoding_error(w->csv, hci_csv_record_line(w->csv, record), column, cell, w->note);
-        const char *comma = w->csv->separator == ';' ? strchr(cell, ',') : NULL;
-        if (comma != NULL && hci_csv_kind(w->csv, cell) == HCI_NUMBER_FINITE)
-            write_number(w, cell, comma);
-        else
-            hci_csv_write_cell(w->output, cell, first);
+        write_cell(w, record, column, first);
         first = false;
     }
     return HCI_OK;
@@ -103,11 +115,15 @@ static hci_status open_output(const char *path, hci_output **output, hci_note *n
 hci_status hci_csv_write_with(const hci_csv *csv, const hci_csv_added *added, size_t count, const char *path,
                               hci_note *note)
 {
-    writer w = {csv, added, count, NULL, note};
+    writer w = {csv, added, count, NULL, hci_memory_new(csv->columns, sizeof *w.readers), note};
     assert(count > 0);
+    if (w.readers == NULL) return hci_note_memory(note, path, "the output");
+    for (size_t column = 0; column < csv->columns; ++column)
+        w.readers[column] = hci_cell_reader_plain(csv, column);
     hci_status status = open_output(path, &w.output, note);
     for (size_t record = 0; record < csv->records && !status; ++record)
         status = write_record(&w, record);
+    hci_memory_free(w.readers);
     if (!status) return hci_output_commit(w.output, note);
     hci_output_discard(w.output);
     return status;
