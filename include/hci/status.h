@@ -17,7 +17,8 @@ extern "C" {
     X(HCI_ERROR_NOT_FINITE, 4, "a value is infinite or not a number")                                        \
     X(HCI_ERROR_NUMERIC, 4, "the numerical method did not succeed")                                          \
     X(HCI_ERROR_MEMORY, 4, "out of memory")                                                                  \
-    X(HCI_ERROR_OUTPUT, 5, "could not write")
+    X(HCI_ERROR_OUTPUT, 5, "could not write")                                                                \
+    X(HCI_ERROR_STOPPED, 4, "it was asked to stop")
 
 /* What a function returns. Values above HCI_NOT_REACHED are failures. */
 typedef enum {

@@ -203,7 +203,7 @@ static hci_status no_names(const hci_csv *csv, hci_note *note)
     return hci_csv_fault_note(csv, &fault, note);
 }
 
-static hci_status check_header(const hci_csv *csv, hci_note *note)
+hci_status hci_csv_check_header(const hci_csv *csv, hci_note *note)
 {
     size_t numbers = 0;
     hci_status status = HCI_OK;
@@ -258,7 +258,7 @@ static hci_status read_header(reader *r)
     csv->columns = filled;
     csv->records = 1;
     r->used = 1 + filled;
-    return check_header(csv, r->note);
+    return hci_csv_check_header(csv, r->note);
 }
 
 /* ---- rows ---- */

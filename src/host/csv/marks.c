@@ -42,6 +42,7 @@ static char mark_of_file(const hci_csv *csv, char doubtful)
 static char decimal_mark(const hci_csv *csv, size_t column)
 {
     char doubtful = 0;
+    if (csv->number != NULL) return '.';
     for (size_t record = hci_csv_first_record(csv); record < csv->records; ++record) {
         const char *cell = hci_csv_cell(csv, record, column);
         const char mark = decimal_of(cell);
@@ -122,10 +123,21 @@ static bool read_clock(hci_cell_reader *r, const char *cell, double *value)
     return true;
 }
 
+static hci_number_kind read_number(const hci_cell_reader *r, size_t record, double *value)
+{
+    *value = r->csv->number[r->column][record - 1] * r->factor;
+    if (isfinite(*value)) return HCI_NUMBER_FINITE;
+    return isnan(*value) ? HCI_NUMBER_NONE : HCI_NUMBER_NOT_FINITE;
+}
+
 hci_status hci_cell_read(hci_cell_reader *r, size_t record, hci_number_kind *kind, double *value,
                          hci_note *note)
 {
     char mark = 0;
+    if (r->csv->number != NULL) {
+        *kind = read_number(r, record, value);
+        return HCI_OK;
+    }
     const char *cell = hci_csv_cell(r->csv, record, r->column);
     *kind = hci_number_read(cell, false, value, &mark);
     if (*kind == HCI_NUMBER_NONE || (mark != 0 && mark != r->decimal)) {

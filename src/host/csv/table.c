@@ -3,28 +3,52 @@
 #include "host/csv/table.h"
 
 #include <assert.h>
+#include <math.h>
 #include <string.h>
 
+#include "hci/host/base/number.h"
 #include "hci/host/base/text.h"
 #include "host/base/memory.h"
 #include "host/base/quote.h"
 
 /* ---- cells ---- */
 
+/* A number in memory as the text of a cell. */
+static char *show(const hci_csv *csv, double value)
+{
+    if (isfinite(value))
+        hci_number_text(value, csv->shown);
+    else
+        strcpy(csv->shown, isnan(value) ? "" : value > 0.0 ? "inf" : "-inf");
+    return csv->shown;
+}
+
 char *hci_csv_cell(const hci_csv *csv, size_t record, size_t column)
 {
+    if (csv->number != NULL && record > 0) return show(csv, csv->number[column][record - 1]);
     return csv->text + csv->index[record * (csv->columns + 1) + 1 + column];
 }
 
 size_t hci_csv_record_line(const hci_csv *csv, size_t record)
 {
-    return csv->index[record * (csv->columns + 1)];
+    return csv->number != NULL ? record + 1 : csv->index[record * (csv->columns + 1)];
+}
+
+static bool is_same_number(double a, double b)
+{
+    return isnan(a) || isnan(b) ? isnan(a) && isnan(b) : !(fabs(a - b) > 0.0);
+}
+
+static bool is_same_cell(const hci_csv *csv, size_t a, size_t b, size_t column)
+{
+    if (csv->number != NULL) return is_same_number(csv->number[column][a - 1], csv->number[column][b - 1]);
+    return strcmp(hci_csv_cell(csv, a, column), hci_csv_cell(csv, b, column)) == 0;
 }
 
 bool hci_csv_same_record(const hci_csv *csv, size_t a, size_t b)
 {
     for (size_t column = 0; column < csv->columns; ++column)
-        if (strcmp(hci_csv_cell(csv, a, column), hci_csv_cell(csv, b, column)) != 0) return false;
+        if (!is_same_cell(csv, a, b, column)) return false;
     return true;
 }
 
@@ -40,6 +64,7 @@ void hci_csv_free(hci_csv *csv)
     hci_memory_free(csv->text);
     hci_memory_free(csv->index);
     hci_memory_free(csv->given);
+    hci_memory_free(csv->shown);
     hci_memory_free(csv);
 }
 

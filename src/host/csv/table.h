@@ -35,17 +35,23 @@ struct hci_csv {
     bool leaves_holes;  /* rows that are too short or too long are left out, and counted */
     hci_csv_given *given;
     size_t given_count;
-    size_t torn;       /* rows left out so */
-    hci_csv_hole hole; /* the first of them */
+    size_t torn;                 /* rows left out so */
+    hci_csv_hole hole;           /* the first of them */
+    const double *const *number; /* rows of numbers in memory in place of cells; NULL: text */
+    char *shown;                 /* with them: the cell that was asked for last, as text */
 };
 
 /* Reads the whole of csv->path into csv->text, and makes sure that it is text. HCI_ERROR_INPUT, _MEMORY. */
 hci_status hci_csv_load(hci_csv *csv, hci_note *note);
 
+/* Names in record 0 that no header may have. HCI_ERROR_INPUT. */
+hci_status hci_csv_check_header(const hci_csv *csv, hci_note *note);
+
 /* "path: found …; remedy". */
 hci_status hci_csv_file_error(const char *path, hci_note *note, const char *found, const char *remedy);
 
-/* A cell of a record (0: header), and a record's line in the file. */
+/* A cell of a record (0: header), and a record's line in the file. Of numbers in memory a cell is valid until
+ * the next one is asked for. */
 char *hci_csv_cell(const hci_csv *csv, size_t record, size_t column);
 size_t hci_csv_record_line(const hci_csv *csv, size_t record);
 

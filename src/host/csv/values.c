@@ -22,6 +22,7 @@ static const char *quote_cell(const char *cell, char out[HCI_QUOTE_SIZE])
 static bool is_broken_unit_row(const hci_csv *csv, size_t *column)
 {
     size_t units = 0, others = 0;
+    if (csv->number != NULL) return false;
     for (size_t c = 0; c < csv->columns; c++) {
         const char *cell = hci_csv_cell(csv, 1, c);
         if (hci_csv_says_no_unit(cell)) continue;

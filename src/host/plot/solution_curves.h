@@ -61,6 +61,6 @@ void hci_panel_angle(hci_output *out, const hci_solution_curves *curves, const h
 
 /* ---- solution_words.c ---- */
 
-void hci_solution_words(const hci_solution_curves *curves, hci_plot_facts *facts);
+void hci_solution_curve_words(const hci_solution_curves *curves, hci_plot_facts *facts);
 
 #endif

@@ -107,7 +107,7 @@ static void baseline_line(char line[LINE_SIZE], const hci_solution_curves *c)
     snprintf(line + strlen(line), LINE_SIZE - strlen(line), ".");
 }
 
-void hci_solution_words(const hci_solution_curves *c, hci_plot_facts *f)
+void hci_solution_curve_words(const hci_solution_curves *c, hci_plot_facts *f)
 {
     verdict_line(f->verdict, c->solution);
     facts_line(f->facts, c);

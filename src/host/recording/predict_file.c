@@ -78,14 +78,13 @@ typedef struct {
     hci_effects_data effects;
     hci_uncertainty uncertainty;
     hci_csv *csv;
-    hci_run run;
-    double *model, *residual; /* residual: NULL where the run has no torque */
+    hci_predicted_run done;
 } task;
 
 /* A shaft that drives something has a torque that is not known, and no residual. */
 static hci_status keep_free(task *t, hci_note *note)
 {
-    hci_run *run = &t->run;
+    hci_run *run = &t->done.run;
     const hci_status status = hci_free_shafts_find(&t->machine, &t->effects.list, run, 1, note);
     if (status || !run->mean_is_unknown) return status;
     hci_memory_free(run->torque_Nm);
@@ -104,21 +103,22 @@ static hci_status read_task(task *t, const char *machine, const char *run, hci_r
     reading.inertia_kgm2 = t->machine.inertia_kgm2;
     reading.torque_constant_Nm_per_A = hci_machine_torque_constant(&t->machine);
     if (!status) status = hci_run_csv(run, &reading, &t->csv, note);
-    if (!status) status = hci_run_of_csv(t->csv, &reading, &t->run, note);
+    if (!status) status = hci_run_of_csv(t->csv, &reading, &t->done.run, note);
     if (!status) status = keep_free(t, note);
     return status;
 }
 
 static hci_status predict_task(task *t, hci_note *note)
 {
-    const size_t n = t->run.count;
-    t->model = hci_memory_new(n, sizeof(double));
-    if (t->run.torque_Nm != NULL) t->residual = hci_memory_new(n, sizeof(double));
-    if (t->model == NULL || (t->run.torque_Nm != NULL && t->residual == NULL))
-        return hci_note_memory(note, t->run.name, "a prediction");
-    const hci_status status = hci_predict(&t->machine, &t->effects.list, &t->run, t->model, note);
-    for (size_t k = 0; k < n && !status && t->residual != NULL; ++k)
-        t->residual[k] = t->run.torque_Nm[k] - t->model[k];
+    const size_t n = t->done.run.count;
+    t->done.model_Nm = hci_memory_new(n, sizeof(double));
+    if (t->done.run.torque_Nm != NULL) t->done.residual_Nm = hci_memory_new(n, sizeof(double));
+    if (t->done.model_Nm == NULL || (t->done.run.torque_Nm != NULL && t->done.residual_Nm == NULL))
+        return hci_note_memory(note, t->done.run.name, "a prediction");
+    const hci_status status =
+        hci_predict(&t->machine, &t->effects.list, &t->done.run, t->done.model_Nm, note);
+    for (size_t k = 0; k < n && !status && t->done.residual_Nm != NULL; ++k)
+        t->done.residual_Nm[k] = t->done.run.torque_Nm[k] - t->done.model_Nm[k];
     return status;
 }
 
@@ -128,8 +128,8 @@ static double *spread(const task *t, const double *value, double *by_row)
     const size_t rows = hci_csv_rows(t->csv);
     for (size_t row = 0; row < rows; ++row)
         by_row[row] = NAN;
-    for (size_t k = 0; k < t->run.count; ++k)
-        by_row[t->run.row != NULL ? t->run.row[k] : k] = value[k];
+    for (size_t k = 0; k < t->done.run.count; ++k)
+        by_row[t->done.run.row != NULL ? t->done.run.row[k] : k] = value[k];
     return by_row + rows;
 }
 
@@ -138,15 +138,15 @@ static hci_status write_task(const task *t, const char *out, hci_note *note)
     double *room = hci_memory_new(hci_csv_rows(t->csv), 3 * sizeof *room), *next = room;
     hci_csv_added added[3] = {{"torque_model_Nm", "Nm", room}};
     size_t count = 1;
-    if (room == NULL) return hci_note_memory(note, t->run.name, "a prediction");
-    next = spread(t, t->model, next);
-    if (t->run.torque_source == HCI_TORQUE_INERTIA) {
+    if (room == NULL) return hci_note_memory(note, t->done.run.name, "a prediction");
+    next = spread(t, t->done.model_Nm, next);
+    if (t->done.run.torque_source == HCI_TORQUE_INERTIA) {
         added[count++] = (hci_csv_added){"torque_inertia_Nm", "Nm", next};
-        next = spread(t, t->run.torque_Nm, next);
+        next = spread(t, t->done.run.torque_Nm, next);
     }
-    if (t->residual != NULL) {
+    if (t->done.residual_Nm != NULL) {
         added[count++] = (hci_csv_added){"residual_Nm", "Nm", next};
-        spread(t, t->residual, next);
+        spread(t, t->done.residual_Nm, next);
     }
     const hci_status status = hci_csv_write_with(t->csv, added, count, out, note);
     hci_memory_free(room);
@@ -155,13 +155,34 @@ static hci_status write_task(const task *t, const char *out, hci_note *note)
 
 static void release_task(task *t)
 {
-    hci_memory_free(t->model);
-    hci_memory_free(t->residual);
-    hci_run_release(&t->run);
     hci_csv_free(t->csv);
     hci_effects_release(&t->effects);
     hci_uncertainty_release(&t->uncertainty);
     hci_machine_release(&t->machine);
+}
+
+void hci_predicted_run_release(hci_predicted_run *predicted)
+{
+    hci_memory_free(predicted->model_Nm);
+    hci_memory_free(predicted->residual_Nm);
+    hci_run_release(&predicted->run);
+    memset(predicted, 0, sizeof *predicted);
+}
+
+/* Predicts; out: path of the file, or NULL. */
+static hci_status perform(task *t, const char *out, hci_prediction *prediction, hci_note *note)
+{
+    hci_status status = predict_task(t, note);
+    if (!status)
+        status = hci_expect_run(&t->machine, &t->effects.list, &t->uncertainty, &t->done.run,
+                                &prediction->expected, note);
+    if (!status && out != NULL) status = write_task(t, out, note);
+    if (status) return status;
+    sum_up(&t->done.run, t->done.model_Nm, t->done.residual_Nm, prediction);
+    add_remark(&prediction->remark, t->machine.remark.text);
+    add_remark(&prediction->remark, t->done.run.remark.text);
+    remark_missing(&t->done.run, &t->effects.list, &prediction->remark);
+    return HCI_OK;
 }
 
 hci_status hci_predict_file(const char *machine, const char *run, const hci_run_options *reading,
@@ -171,17 +192,22 @@ hci_status hci_predict_file(const char *machine, const char *run, const hci_run_
     memset(&t, 0, sizeof t);
     memset(prediction, 0, sizeof *prediction);
     hci_status status = read_task(&t, machine, run, *reading, note);
-    if (!status) status = predict_task(&t, note);
-    if (!status)
-        status =
-            hci_expect_run(&t.machine, &t.effects.list, &t.uncertainty, &t.run, &prediction->expected, note);
-    if (!status && out != NULL) status = write_task(&t, out, note);
-    if (!status) {
-        sum_up(&t.run, t.model, t.residual, prediction);
-        add_remark(&prediction->remark, t.machine.remark.text);
-        add_remark(&prediction->remark, t.run.remark.text);
-        remark_missing(&t.run, &t.effects.list, &prediction->remark);
-    }
+    if (!status) status = perform(&t, out, prediction, note);
     release_task(&t);
+    hci_predicted_run_release(&t.done);
+    return status;
+}
+
+hci_status hci_predict_samples(const char *machine, const char *run, const hci_run_options *reading,
+                               hci_predicted_run *predicted, hci_prediction *prediction, hci_note *note)
+{
+    task t;
+    memset(&t, 0, sizeof t);
+    memset(prediction, 0, sizeof *prediction);
+    hci_status status = read_task(&t, machine, run, *reading, note);
+    if (!status) status = perform(&t, NULL, prediction, note);
+    release_task(&t);
+    if (status) hci_predicted_run_release(&t.done);
+    *predicted = t.done;
     return status;
 }

@@ -9,6 +9,7 @@
 #include "hci/math/harmonic.h"
 #include "host/base/memory.h"
 #include "host/base/quote.h"
+#include "host/csv/table.h"
 #include "host/numeric/derivative.h"
 #include "host/numeric/statistics.h"
 #include "host/numeric/unwrap.h"
@@ -518,11 +519,11 @@ hci_status hci_run_of_csv(const hci_csv *csv, const hci_run_options *options, hc
     return status;
 }
 
-/* The names that stand beside the file, and then those of the options. */
+/* The names that stand beside the file, if it is one, and then those of the options. */
 static hci_status name_columns(const char *path, const hci_run_options *options, hci_csv *csv, hci_note *note)
 {
     hci_column_names beside = {0};
-    hci_status status = hci_column_names_beside(&beside, path, note);
+    hci_status status = path ? hci_column_names_beside(&beside, path, note) : HCI_OK;
     if (!status) status = hci_column_names_apply(options->list_columns, true, csv, note);
     if (!status) status = hci_column_names_apply(&beside, true, csv, note);
     if (!status) status = hci_column_names_apply(options->columns, false, csv, note);
@@ -530,12 +531,29 @@ static hci_status name_columns(const char *path, const hci_run_options *options,
     return status;
 }
 
+/* The recording in memory of this name; NULL: it is a file. */
+static const hci_csv_memory *in_memory(const char *path, const hci_run_options *options)
+{
+    for (size_t k = 0; k < options->memory_count; ++k)
+        if (strcmp(options->memory[k].name, path) == 0) return &options->memory[k];
+    return NULL;
+}
+
+static hci_status read_memory(const hci_csv_memory *from, bool strict, hci_csv **csv, hci_note *note)
+{
+    const hci_status status = hci_csv_of_memory(from, csv, note);
+    if (!status) (*csv)->leaves_holes = !strict;
+    return status;
+}
+
 hci_status hci_run_csv(const char *path, const hci_run_options *options, hci_csv **csv, hci_note *note)
 {
-    hci_status status =
-        options->strict ? hci_csv_read(path, csv, note) : hci_csv_read_recording(path, csv, note);
+    const hci_csv_memory *from = in_memory(path, options);
+    hci_status status = from              ? read_memory(from, options->strict, csv, note)
+                        : options->strict ? hci_csv_read(path, csv, note)
+                                          : hci_csv_read_recording(path, csv, note);
     if (status) return status;
-    status = name_columns(path, options, *csv, note);
+    status = name_columns(from ? NULL : path, options, *csv, note);
     if (!status) return status;
     hci_csv_free(*csv);
     *csv = NULL;

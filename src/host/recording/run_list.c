@@ -214,6 +214,43 @@ hci_status hci_runs_join(hci_runs *runs, hci_runs *more, hci_note *note)
     return HCI_OK;
 }
 
+/* ---- a list without a file ---- */
+
+static hci_status check_new(const hci_runs *runs, const char *path, hci_note *note)
+{
+    char shown[HCI_QUOTE_PATH_SIZE];
+    if (runs->origin)
+        return hci_note_set(note, HCI_ERROR_ARGUMENT,
+                            "a list that was read from a file takes no more runs; join it with another list");
+    for (size_t k = 0; k < runs->count; ++k)
+        if (strcmp(runs->run[k].name, path) == 0)
+            return hci_note_set(
+                note, HCI_ERROR_INPUT,
+                "%s: found it a second time, expected each recording once; remove one of them",
+                hci_quote_path(path, shown));
+    return HCI_OK;
+}
+
+hci_status hci_runs_add(hci_runs *runs, const char *path, hci_role role, const hci_run_options *options,
+                        hci_note *note)
+{
+    void *all = runs->run, *roles = runs->role;
+    hci_run run = {0};
+    hci_status status = check_new(runs, path, note);
+    if (!status) status = hci_run_read(path, options, &run, note);
+    if (status) return status;
+    const bool done =
+        append(&all, runs->count, &run, 1, sizeof run) && append(&roles, runs->count, &role, 1, sizeof role);
+    runs->run = all;
+    runs->role = roles;
+    if (done) {
+        ++runs->count;
+        return HCI_OK;
+    }
+    hci_run_release(&run);
+    return hci_note_memory(note, path, "a list of recordings");
+}
+
 void hci_runs_release(hci_runs *runs)
 {
     for (size_t k = 0; k < runs->count; ++k)

@@ -6,7 +6,7 @@
 #include "hci/machine/frames.h"
 #include "host/base/memory.h"
 #include "host/report/page/page.h"
-#include "host/report/trajectory.h"
+#include "host/samples/trajectory.h"
 
 /* ---- what is kept of the steps ---- */
 
@@ -33,7 +33,7 @@ static hci_status begin(void *context, const hci_simulation_plan *plan, hci_note
 {
     writer *w = context;
     hci_status status = hci_output_open(w->where->folder, &w->out, note);
-    if (!status) status = hci_trajectory_begin(&w->trajectory, w->out, plan, note);
+    if (!status) status = hci_trajectory_begin_file(&w->trajectory, w->out, plan, note);
     if (!status) status = begin_traces(w, plan, note);
     if (!status && w->next && w->next->begin) status = w->next->begin(w->next->context, plan, note);
     return status;

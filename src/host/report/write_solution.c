@@ -5,9 +5,9 @@
 #include "hci/host/currents/solution_folder.h"
 #include "hci/host/report/summary.h"
 #include "hci/host/report/write.h"
-#include "hci/machine/frames.h"
 #include "host/plot/plot.h"
 #include "host/report/page/page.h"
+#include "host/samples/waveform_rows.h"
 
 static void write_currents(hci_output *out, const hci_currents *currents, const hci_wave *wave,
                            const char *amplitude_column)
@@ -45,44 +45,15 @@ static void write_spectrum(hci_output *out, const hci_solution *s)
     }
 }
 
-/* Enough points to draw the highest order that flows or is made, at least one a degree. */
-static size_t points_per_turn(const hci_solution *s)
-{
-    double top = 0.0;
-    for (size_t k = 0; k < s->current.count; ++k)
-        top = fmax(top, s->current.wave[k].order);
-    for (size_t k = 0; k < s->order_count; ++k)
-        top = fmax(top, s->order[k].torque_Nm.order);
-    return (size_t)fmax(360.0, 8.0 * ceil(top));
-}
-
-/* With effects the spectrum, which holds every order, is all that says the torque without them at hand. */
-static double torque_at(const hci_machine_data *m, const hci_solution *s, double theta_rad,
-                        const double abc[3])
-{
-    double sum_Nm = 0.0;
-    if (!s->with_effects) return hci_torque_at(&m->model, theta_rad, abc);
-    for (size_t k = 0; k < s->order_count; ++k)
-        sum_Nm += hci_harmonics_at(&s->order[k].torque_Nm, 1, theta_rad);
-    return sum_Nm;
-}
-
 static void write_waveform(hci_output *out, const hci_machine_data *m, const hci_solution *s)
 {
-    const size_t per_turn = points_per_turn(s);
-    hci_output_text(out, "theta_e_rad,ia_A,ib_A,ic_A,id_A,iq_A,torque_Nm\n");
+    const size_t per_turn = hci_waveform_points_per_turn(s);
+    double row[HCI_WAVEFORM_COLUMNS];
+    hci_output_text(out, "%s\n", HCI_WAVEFORM_NAMES);
     for (size_t k = 0; k < per_turn * s->period_turns; ++k) {
-        const double theta_rad = 2.0 * HCI_PI * (double)k / (double)per_turn;
-        double abc[3];
-        hci_dq dq;
-        hci_waves_at(s->current.wave, s->current.count, theta_rad, abc);
-        dq = hci_park(hci_clarke(abc), theta_rad);
-        hci_output_number(out, theta_rad, ',');
-        for (int phase = 0; phase < 3; ++phase)
-            hci_output_number(out, abc[phase], ',');
-        hci_output_number(out, dq.d, ',');
-        hci_output_number(out, dq.q, ',');
-        hci_output_number(out, torque_at(m, s, theta_rad, abc), '\n');
+        hci_waveform_row(m, s, 2.0 * HCI_PI * (double)k / (double)per_turn, row);
+        for (size_t column = 0; column < HCI_WAVEFORM_COLUMNS; ++column)
+            hci_output_number(out, row[column], column + 1 < HCI_WAVEFORM_COLUMNS ? ',' : '\n');
     }
 }
 

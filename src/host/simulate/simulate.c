@@ -88,8 +88,12 @@ static hci_status make_steps(const run *r, const hci_simulate_options *options, 
     /* One step more than the duration has, for the values at its end. */
     for (size_t k = 0; k <= steps && !status; ++k) {
         status = make_step(r, k, note);
-        if (options->progress && k % share == 0)
+        if (k % share != 0 || status) continue;
+        if (options->progress)
             options->progress(options->progress_context, "simulating", (double)k / (double)steps);
+        if (options->stop && options->stop(options->stop_context))
+            status = hci_note_set(note, HCI_ERROR_STOPPED, "the simulation was stopped at %g s",
+                                  (double)k * r->setup->drive.control.step_s);
     }
     return status;
 }

@@ -69,6 +69,8 @@ static hci_status make_task(const hci_machine_data *m, const hci_quadratic_model
     t->highest_rotor_order = o->highest_rotor_order;
     t->progress = o->progress;
     t->progress_context = o->progress_context;
+    t->stop = o->stop;
+    t->stop_context = o->stop_context;
     status = check_star(m, t, note);
     if (!status) status = check_held(o, note);
     return status ? status : hci_task_find_period(t, o->set, o->held, o->held ? 1 : 0, note);

@@ -138,6 +138,8 @@ hci_status hci_harmonic_system_make(const hci_task *task, const hci_component *c
 {
     hci_harmonic *rest = NULL;
     memset(system, 0, sizeof *system);
+    const hci_status goes_on = hci_task_goes_on(task, note);
+    if (goes_on) return goes_on;
     system->order = hci_memory_new(2 * most_orders(task, count), sizeof *system->order);
     if (system->order) {
         system->order_count = all_orders(task, component, count, system->order);

@@ -194,7 +194,7 @@ static void sample_strategy(const hci_task *t, size_t count, double *row, hci_so
     const double nothing[3] = {0.0, 0.0, 0.0};
     double x[2] = {0.0, 0.0};
     bool in_gap = false;
-    for (size_t k = 0; k < count; ++k) {
+    for (size_t k = 0; k < count && !hci_task_goes_on(t, NULL); ++k) {
         const double wanted_Nm = mean_Nm + wanted_ripple_Nm(t, angle_rad(t, k));
         double abc[3], least_iq_A;
         const bool is_missing = current_at(t, t->strategy, k, wanted_Nm, x, &least_iq_A) != HCI_OK;
@@ -277,7 +277,7 @@ static hci_status sample(const hci_task *t, size_t count, double *row, hci_solut
 {
     if (!is_linear(t)) {
         sample_strategy(t, count, row, s);
-        return HCI_OK;
+        return hci_task_goes_on(t, note);
     }
     if (sample_linear(t, count, row)) return HCI_OK;
     return hci_note_set(

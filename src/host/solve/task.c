@@ -22,6 +22,12 @@ double hci_magnet_temperature_C(const hci_solve_options *o)
     return o->temperature_C;
 }
 
+hci_status hci_task_goes_on(const hci_task *task, hci_note *note)
+{
+    if (!task->stop || !task->stop(task->stop_context)) return HCI_OK;
+    return hci_note_set(note, HCI_ERROR_STOPPED, "solving was stopped before there was a result");
+}
+
 bool hci_task_is_linear(const hci_task *task)
 {
     return task->machine->slope_count == 0 && !task->higher;

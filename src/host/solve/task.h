@@ -27,6 +27,8 @@ typedef struct {
     hci_strategy strategy;   /* of the pointwise method */
     hci_progress *progress;
     void *progress_context;
+    hci_stop *stop; /* asked before each system that is solved, and at each angle of the pointwise method */
+    void *stop_context;
 } hci_task;
 
 /* A task for a machine: the gradient of no current, everything else but the target zero. model and target
@@ -37,6 +39,9 @@ void hci_task_begin(const hci_quadratic_model *model, const hci_target *target, 
  * HCI_ERROR_INPUT when there is no common period. */
 hci_status hci_task_find_period(hci_task *task, const hci_component_set *set, const hci_wave *wave,
                                 size_t count, hci_note *note);
+
+/* HCI_ERROR_STOPPED where the task is to end without a result. */
+hci_status hci_task_goes_on(const hci_task *task, hci_note *note);
 
 /* Whether the torque is linear in the currents: neither L' nor T_x. */
 bool hci_task_is_linear(const hci_task *task);

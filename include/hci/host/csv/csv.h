@@ -24,6 +24,20 @@ hci_status hci_csv_read(const char *path, hci_csv **csv, hci_note *note);
  * which a power failure leaves. HCI_ERROR_INPUT where that would be more than half of the rows. */
 hci_status hci_csv_read_recording(const char *path, hci_csv **csv, hci_note *note);
 
+/* A table of numbers that is in memory already, so that no file is on the way. */
+typedef struct {
+    const char *name;           /* stands for a path: by which it is asked for, and in messages */
+    const char *const *column;  /* names as a header has them, each once */
+    const double *const *value; /* `rows` numbers of each column; NAN: an empty cell. Not copied */
+    size_t columns, rows;       /* entries of column and of value; of each of these */
+} hci_csv_memory;
+
+/* The same as if it had been read from a file with the header in its line 1. from: kept as long as *csv,
+ * which is to be given to hci_csv_free. HCI_ERROR_INPUT for names that no header may have, _MEMORY.
+ * O(columns²).
+ */
+hci_status hci_csv_of_memory(const hci_csv_memory *from, hci_csv **csv, hci_note *note);
+
 /* Frees a table; NULL is fine. */
 void hci_csv_free(hci_csv *csv);
 

@@ -47,6 +47,21 @@ typedef struct {
 hci_status hci_predict_file(const char *machine, const char *run, const hci_run_options *reading,
                             const char *out, hci_prediction *prediction, hci_note *note);
 
+/* A run as it was read, and what the model says of each of its samples. Start with {0}. */
+typedef struct {
+    hci_run run;         /* its torque is NULL where there is nothing to compare with */
+    double *model_Nm;    /* [run.count] */
+    double *residual_Nm; /* [run.count], torque of the run − model; NULL where the run has no torque */
+} hci_predicted_run;
+
+/* The same without a file: the samples are kept. *predicted: out, to be given to hci_predicted_run_release;
+ * empty on failure. Errors as of hci_predict_file. */
+hci_status hci_predict_samples(const char *machine, const char *run, const hci_run_options *reading,
+                               hci_predicted_run *predicted, hci_prediction *prediction, hci_note *note);
+
+/* Frees what it holds and empties it. */
+void hci_predicted_run_release(hci_predicted_run *predicted);
+
 #ifdef __cplusplus
 }
 #endif

@@ -57,6 +57,8 @@ typedef struct {
     bool strict;  /* a hole refuses the file */
     const hci_column_names *columns;      /* which column is what, before all names; NULL: names say it */
     const hci_column_names *list_columns; /* the same for all runs of a list, which counts least; or NULL */
+    const hci_csv_memory *memory;         /* recordings in memory: read in place of files of their names */
+    size_t memory_count;                  /* entries of memory */
 } hci_run_options;
 
 /* Reads a run: an angle or voltages, and what else there is of time_s, theta_m_rad, theta_e_rad,
@@ -90,7 +92,8 @@ hci_status hci_run_read(const char *path, const hci_run_options *options, hci_ru
 hci_status hci_run_of_csv(const hci_csv *csv, const hci_run_options *options, hci_run *run, hci_note *note);
 
 /* Reads a recording as hci_run_read does, strictly or not, with the columns that options->columns and
- * `columns.csv` beside the file name. */
+ * `columns.csv` beside the file name. One in memory, whose numbers have to stay as long as *csv, has no such
+ * file beside it. */
 hci_status hci_run_csv(const char *path, const hci_run_options *options, hci_csv **csv, hci_note *note);
 
 /* Frees what a run holds and empties it. */
@@ -129,6 +132,12 @@ typedef struct {
  * instead. A cell `test` that
  * is `holding` stands for hci_run_options.holding. HCI_ERROR_INPUT, _MEMORY. */
 hci_status hci_runs_read(const char *path, const hci_runs_options *options, hci_runs *runs, hci_note *note);
+
+/* Reads one more run, of a file or of memory, into a list that was not read from one: its origins are not
+ * known. HCI_ERROR_ARGUMENT for a list that was, _INPUT, also for a run of the same name; _MEMORY. The list
+ * is as it was then. */
+hci_status hci_runs_add(hci_runs *runs, const char *path, hci_role role, const hci_run_options *options,
+                        hci_note *note);
 
 /* Puts the runs of `more`, which is empty then, behind those of `runs`; both were read from lists. `list`
  * becomes that of `more`. HCI_ERROR_INPUT where a file is in both; HCI_ERROR_MEMORY; both are as they were

@@ -241,13 +241,15 @@ typedef struct {
     const hci_simulation_observer *observer; /* may be NULL */
     hci_progress *progress;                  /* may be NULL */
     void *progress_context;                  /* first argument of progress */
+    hci_stop *stop;                          /* may be NULL; then HCI_ERROR_STOPPED, and nothing is kept */
+    void *stop_context;                      /* first argument of stop */
 } hci_simulate_options;
 
 /* Runs the scenario and writes nothing (hci_simulate_to_folder of hci/host/report/write.h does). HCI_OK, and
  * *simulation is to be given to hci_simulation_release; or an error with a note, and then it is empty:
  * HCI_ERROR_INPUT for what contradicts itself or is missing in machine or scenario, HCI_ERROR_NUMERIC when
- * the state left the finite numbers, HCI_ERROR_MEMORY, or what the observer's begin returned. Same input,
- * same result to the bit on one libm. */
+ * the state left the finite numbers, HCI_ERROR_MEMORY, HCI_ERROR_STOPPED, or what the observer's begin
+ * returned. Same input, same result to the bit on one libm. */
 hci_status hci_simulate(const hci_machine_data *machine, const hci_scenario *scenario,
                         const hci_simulate_options *options, hci_simulation *simulation, hci_note *note);
 

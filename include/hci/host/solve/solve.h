@@ -97,6 +97,8 @@ typedef struct {
     double temperature_C;   /* of the magnets */
     hci_progress *progress; /* may be NULL */
     void *progress_context; /* first argument of progress */
+    hci_stop *stop;         /* may be NULL; then HCI_ERROR_STOPPED, and nothing is kept */
+    void *stop_context;     /* first argument of stop */
 } hci_solve_options;
 
 /* Why an order is as it is. */

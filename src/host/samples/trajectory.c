@@ -1,8 +1,9 @@
-/* trajectory.csv of a simulation, a row every so many steps. */
+/* The rows of trajectory.csv of a simulation, one every so many steps. */
 #include <math.h>
+#include <stdio.h>
 
 #include "hci/machine/frames.h"
-#include "host/report/trajectory.h"
+#include "host/samples/trajectory.h"
 
 static double wrapped_rad(double angle_rad)
 {
@@ -10,36 +11,53 @@ static double wrapped_rad(double angle_rad)
     return wrapped < turn ? wrapped : 0.0;
 }
 
-hci_status hci_trajectory_begin(hci_trajectory *t, hci_output *out, const hci_simulation_plan *plan,
-                                hci_note *note)
+void hci_trajectory_names(const hci_simulation_plan *plan, char *names, size_t size)
 {
+    snprintf(names, size,
+             "time_s,theta_m_rad,theta_e_rad,speed_rad_per_s,ia_A,ib_A,ic_A,id_A,iq_A,torque_Nm%s,"
+             "load_torque_Nm,id_reference_A,iq_reference_A%s%s%s",
+             plan->has_voltage ? ",va_V,vb_V,vc_V" : "", plan->has_command ? ",torque_command_Nm" : "",
+             isnan(plan->temperature_C) ? "" : ",temperature_C",
+             plan->has_sensors
+                 ? ",theta_m_true_rad,speed_true_rad_per_s,ia_true_A,ib_true_A,ic_true_A,torque_true_Nm"
+                 : "");
+}
+
+void hci_trajectory_begin(hci_trajectory *t, const hci_simulation_plan *plan, hci_trajectory_sink *sink,
+                          void *context)
+{
+    *t = (hci_trajectory){.sink = sink, .context = context, .plan = *plan};
+}
+
+static void row_to_file(void *out, const double *row, size_t columns)
+{
+    for (size_t k = 0; k < columns; ++k)
+        hci_output_number(out, row[k], k + 1 < columns ? ',' : '\n');
+}
+
+hci_status hci_trajectory_begin_file(hci_trajectory *t, hci_output *out, const hci_simulation_plan *plan,
+                                     hci_note *note)
+{
+    char names[HCI_SAMPLES_COLUMNS];
     const hci_status status = hci_output_file(out, "trajectory.csv", note);
     if (status) return status;
-    *t = (hci_trajectory){.out = out, .plan = *plan};
-    hci_output_text(
-        out,
-        "time_s,theta_m_rad,theta_e_rad,speed_rad_per_s,ia_A,ib_A,ic_A,id_A,iq_A,torque_Nm%s,"
-        "load_torque_Nm,id_reference_A,iq_reference_A%s%s%s\n",
-        plan->has_voltage ? ",va_V,vb_V,vc_V" : "", plan->has_command ? ",torque_command_Nm" : "",
-        isnan(plan->temperature_C) ? "" : ",temperature_C",
-        plan->has_sensors
-            ? ",theta_m_true_rad,speed_true_rad_per_s,ia_true_A,ib_true_A,ic_true_A,torque_true_Nm"
-            : "");
+    hci_trajectory_begin(t, plan, row_to_file, out);
+    hci_trajectory_names(plan, names, sizeof names);
+    hci_output_text(out, "%s\n", names);
     return HCI_OK;
 }
 
 enum { THETA_E_COLUMN = 2, CURRENT_COLUMN = 4, VOLTAGE_COLUMN = 10 };
 
-/* Writes the row that waits. */
-static void write_row(hci_trajectory *t)
+/* Gives the row that waits away. */
+static void give_row(hci_trajectory *t)
 {
     if (t->columns == 0) return;
     if (t->plan.has_voltage) {
         const double mean_V[2] = {t->v_sum_V[0] / (double)t->waited, t->v_sum_V[1] / (double)t->waited};
         hci_plane_to_abc(mean_V, t->row + VOLTAGE_COLUMN);
     }
-    for (size_t k = 0; k < t->columns; ++k)
-        hci_output_number(t->out, t->row[k], k + 1 < t->columns ? ',' : '\n');
+    t->sink(t->context, t->row, t->columns);
     t->columns = 0;
 }
 
@@ -117,7 +135,7 @@ static void begin_row(hci_trajectory *t, const hci_simulation_step *step)
 void hci_trajectory_add(hci_trajectory *t, const hci_simulation_step *step)
 {
     if (is_read_late(t)) set_currents(t, step->state->measured.i_abc);
-    if (t->waited >= t->plan.steps_per_row) write_row(t);
+    if (t->waited >= t->plan.steps_per_row) give_row(t);
     if (t->columns == 0) begin_row(t, step);
     t->v_sum_V[0] += step->v_V[0];
     t->v_sum_V[1] += step->v_V[1];
@@ -127,5 +145,5 @@ void hci_trajectory_add(hci_trajectory *t, const hci_simulation_step *step)
 void hci_trajectory_end(hci_trajectory *t)
 {
     if (is_read_late(t)) t->columns = 0;
-    write_row(t);
+    give_row(t);
 }
