@@ -3,6 +3,7 @@
 #include "hci/host/base/output.h"
 
 #include <assert.h>
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
@@ -16,8 +17,11 @@
 
 #include "hci/host/base/number.h"
 #include "host/base/folder.h"
+#include "host/base/folder_lock.h"
+#include "host/base/journal.h"
 #include "host/base/memory.h"
 #include "host/base/quote.h"
+#include "host/base/sync.h"
 
 typedef struct {
     char *target;    /* folder/name */
@@ -29,12 +33,15 @@ typedef struct {
     int error;       /* errno of the first failed write */
 } file;
 
+enum { LOCK_WAIT_ms = 2000 };
+
 struct hci_output {
     char *folder;
     size_t existing; /* length of the part of `folder` that was there before */
     file *files;
     size_t count;
     FILE *stream; /* of the last file */
+    hci_folder_lock *lock;
     hci_output *older;
 };
 
@@ -89,6 +96,42 @@ static hci_status system_error(const char *path, hci_note *note, int error, cons
 
 /* ---- the folder ---- */
 
+/* Temporary files that processes have left which were killed before their set was complete. A backup may be
+ * the only copy of a file, and stays. */
+static void remove_left_over(const char *folder)
+{
+    DIR *names = opendir(folder);
+    const struct dirent *entry;
+    if (names == NULL) return;
+    while ((entry = readdir(names)) != NULL) {
+        const char *name = entry->d_name, *end = strrchr(name, '.');
+        if (strncmp(name, ".hci-", 5) == 0 && strcmp(end, ".tmp") == 0) unlinkat(dirfd(names), name, 0);
+    }
+    closedir(names);
+}
+
+/* Locks the folder, and ends what a process that was killed has begun there. */
+static hci_status lock_folder(hci_output *set, hci_note *note)
+{
+    bool is_alone;
+    set->lock = hci_folder_lock_take(set->folder, LOCK_WAIT_ms, &is_alone);
+    if (set->lock == NULL && errno == EWOULDBLOCK)
+        return output_error(set->folder, note, "another process is writing into it",
+                            "wait until it has ended, or name another folder");
+    if (set->lock == NULL) return system_error(set->folder, note, errno, "check the folder");
+    if (is_alone && hci_journal_finish(set->folder)) remove_left_over(set->folder);
+    return HCI_OK;
+}
+
+static hci_status make_folder(hci_output *set, hci_note *note)
+{
+    if (!hci_folder_make(set->folder, &set->existing))
+        return system_error(set->folder, note, errno, "give a folder that can be made");
+    const hci_status status = lock_folder(set, note);
+    if (status) hci_folder_remove(set->folder, set->existing);
+    return status;
+}
+
 static hci_status open_set(const char *folder, hci_output **output, hci_note *note)
 {
     if (*folder == '\0')
@@ -100,12 +143,12 @@ static hci_status open_set(const char *folder, hci_output **output, hci_note *no
         return hci_note_memory(note, folder, "writing it");
     }
     memcpy(set->folder, folder, strlen(folder) + 1);
-    if (hci_folder_make(set->folder, &set->existing)) {
+    hci_status status = make_folder(set, note);
+    if (!status) {
         enter(set);
         *output = set;
         return HCI_OK;
     }
-    const hci_status status = system_error(folder, note, errno, "give a folder that can be made");
     hci_memory_free(set->folder);
     hci_memory_free(set);
     return status;
@@ -207,6 +250,7 @@ static void close_stream(hci_output *output)
     if (output->stream == NULL) return;
     errno = 0;
     if (ferror(output->stream)) remember(output, EIO);
+    if (!hci_sync_stream(output->stream)) remember(output, errno);
     if (fclose(output->stream) != 0) remember(output, errno);
     output->stream = NULL;
 }
@@ -337,16 +381,51 @@ hci_status hci_output_check(hci_output *output, hci_note *note)
     return status;
 }
 
+/* The part of a path behind the folder. */
+static const char *name_of(const char *path)
+{
+    return strrchr(path, '/') + 1;
+}
+
+/* From here on the set is written, whatever becomes of the process. One file needs no journal. */
+static hci_status begin_journal(const hci_output *output, hci_note *note)
+{
+    if (output->count < 2) return HCI_OK;
+    FILE *journal = hci_journal_open(output->folder);
+    for (size_t i = 0; i < output->count && journal != NULL; i++) {
+        const file *f = &output->files[i];
+        hci_journal_step(journal, f->absent, name_of(f->temporary), name_of(f->backup), name_of(f->target));
+    }
+    if (journal != NULL && hci_journal_begin(output->folder, journal)) return HCI_OK;
+    return system_error(output->folder, note, errno, "free some space or name another folder");
+}
+
+static void undo(hci_output *output)
+{
+    hci_journal_end(output->folder);
+    for (size_t i = output->count; i-- > 0;)
+        withdraw(&output->files[i]);
+}
+
+static void end_journal(hci_output *output)
+{
+    hci_sync_folder(output->folder);
+    hci_journal_end(output->folder);
+    for (size_t i = 0; i < output->count; i++)
+        if (output->files[i].has_backup) unlink(output->files[i].backup);
+}
+
 static hci_status publish_all(hci_output *output, hci_note *note)
 {
     hci_status status = hci_output_check(output, note);
+    if (!status) status = begin_journal(output, note);
+    if (status) return status;
     for (size_t i = 0; i < output->count && !status; i++)
         status = publish(&output->files[i], note);
-    for (size_t i = output->count; i-- > 0;) {
-        file *f = &output->files[i];
-        if (status) withdraw(f);
-        if (!status && f->has_backup) unlink(f->backup);
-    }
+    if (status)
+        undo(output);
+    else
+        end_journal(output);
     return status;
 }
 
@@ -374,10 +453,20 @@ void hci_output_discard(hci_output *output)
         forget(&output->files[i]);
     }
     hci_folder_remove(output->folder, output->existing);
+    hci_folder_lock_release(output->lock);
     hci_memory_free(output->files);
     hci_memory_free(output->folder);
     hci_memory_free(output);
     release_signals(&signals);
+}
+
+void hci_output_finish_interrupted(const char *folder)
+{
+    bool is_alone;
+    if (!hci_journal_exists(folder)) return;
+    hci_folder_lock *lock = hci_folder_lock_take(folder, LOCK_WAIT_ms, &is_alone);
+    if (lock != NULL && is_alone) hci_journal_finish(folder);
+    hci_folder_lock_release(lock);
 }
 
 void hci_output_abandon(void)

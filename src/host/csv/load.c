@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "hci/host/base/output.h"
 #include "host/base/memory.h"
 #include "host/base/quote.h"
 #include "host/csv/encoding.h"
@@ -44,8 +45,21 @@ static char *read_stream(FILE *stream, size_t *size)
     return text;
 }
 
+/* Files that a process was killed over are those of its set first. */
+static void finish_interrupted(const char *path)
+{
+    char folder[4096];
+    const char *end = strrchr(path, '/');
+    const size_t length = end != NULL ? (size_t)(end - path) : 0;
+    if (length >= sizeof folder) return;
+    memcpy(folder, path, length);
+    folder[length] = '\0';
+    hci_output_finish_interrupted(end == NULL ? "." : length == 0 ? "/" : folder);
+}
+
 static hci_status read_file(hci_csv *csv, size_t *size, hci_note *note)
 {
+    finish_interrupted(csv->path);
     errno = 0;
     FILE *stream = fopen(csv->path, "rb");
     if (stream == NULL) return system_error(csv->path, note, errno);

@@ -202,21 +202,69 @@ static void test_a_rename_that_fails_by_itself_keeps_the_older_file(void)
     TEST_ASSERT_EQUAL(2, files_count(files_root));
 }
 
-/* What a crashed run has left is neither used nor lost. */
-static void test_left_over_temporary_files_are_not_touched(void)
+/* What a process has left that was killed: temporary files go, a backup may be the only copy of a file. */
+static void test_left_over_files(void)
 {
     char temporary[256], backup[256];
     files_write(files_path("a.csv"), "old a\n");
-    snprintf(temporary, sizeof temporary, "%s/.hci-%ld-0.tmp", files_root, (long)getpid());
-    snprintf(backup, sizeof backup, "%s/.hci-%ld-1.old", files_root, (long)getpid());
+    snprintf(temporary, sizeof temporary, "%s/.hci-7-0.tmp", files_root);
+    snprintf(backup, sizeof backup, "%s/.hci-%ld-0.old", files_root, (long)getpid());
     files_write(temporary, "left over\n");
     files_write(backup, "precious\n");
     hci_output *output = open_set(files_root);
+    TEST_ASSERT_EQUAL(-1, access(temporary, F_OK));
     start(output, "a.csv", "new a\n");
     TEST_ASSERT_EQUAL(HCI_ERROR_OUTPUT, hci_output_commit(output, NULL));
-    assert_holds(temporary, "left over\n");
     assert_holds(backup, "precious\n");
     assert_holds(files_path("a.csv"), "old a\n");
+}
+
+/* A journal by hand, as it stands in the folder when a process is killed behind the first of three steps. */
+static void leave_a_journal(void)
+{
+    files_write(files_path("a.csv"), "new a\n");
+    files_write(files_path("b.csv"), "old b\n");
+    files_write(files_path("c.csv"), "old c\n");
+    files_write(files_path(".hci-7-0.old"), "old a\n");
+    files_write(files_path(".hci-7-1.tmp"), "new b\n");
+    files_write(files_path(".hci-7-2.tmp"), "");
+    files_write(files_path(".hci-journal"), "rename\t.hci-7-0.tmp\t.hci-7-0.old\ta.csv\n"
+                                            "rename\t.hci-7-1.tmp\t.hci-7-1.old\tb.csv\n"
+                                            "remove\t.hci-7-2.tmp\t.hci-7-2.old\tc.csv\n");
+}
+
+static void assert_is_ended(void)
+{
+    assert_holds(files_path("a.csv"), "new a\n");
+    assert_holds(files_path("b.csv"), "new b\n");
+    TEST_ASSERT_EQUAL(2, files_count(files_root));
+}
+
+static void test_a_set_that_was_interrupted_is_ended(void)
+{
+    leave_a_journal();
+    hci_output_finish_interrupted(files_root);
+    assert_is_ended();
+    leave_a_journal();
+    hci_output_discard(open_set(files_root));
+    assert_is_ended();
+    hci_output_finish_interrupted(files_root);
+    assert_is_ended();
+}
+
+/* Nothing outside of the folder is touched, and no file that is not ours is renamed. */
+static void test_a_journal_of_others_is_not_followed(void)
+{
+    static const char *const STEP[] = {"rename\t.hci-7-0.tmp\t.hci-7-0.old\t../b.csv\n",
+                                       "rename\tprecious\t.hci-7-0.old\tb.csv\n",
+                                       "remove\t.hci-7-0.tmp\tprecious\tb.csv\n", "rename\n", "\n"};
+    for (size_t k = 0; k < sizeof STEP / sizeof *STEP; k++) {
+        files_write(files_path("precious"), "precious\n");
+        files_write(files_path(".hci-7-0.tmp"), "new\n");
+        files_write(files_path(".hci-journal"), STEP[k]);
+        hci_output_finish_interrupted(files_root);
+        TEST_ASSERT_EQUAL_MESSAGE(3, files_count(files_root), STEP[k]);
+    }
 }
 
 /* ---- what is refused ---- */
@@ -418,7 +466,9 @@ int main(void)
     RUN_TEST(test_only_own_and_empty_folders_are_removed);
     RUN_TEST(test_a_failed_rename_undoes_those_before);
     RUN_TEST(test_a_rename_that_fails_by_itself_keeps_the_older_file);
-    RUN_TEST(test_left_over_temporary_files_are_not_touched);
+    RUN_TEST(test_left_over_files);
+    RUN_TEST(test_a_set_that_was_interrupted_is_ended);
+    RUN_TEST(test_a_journal_of_others_is_not_followed);
     RUN_TEST(test_folders_that_cannot_be_are_refused);
     RUN_TEST(test_only_plain_files_are_replaced);
     RUN_TEST(test_names_have_no_folder_part);

@@ -14,8 +14,9 @@ extern "C" {
 /* A set of files that is being written. */
 typedef struct hci_output hci_output;
 
-/* Opens a set of files in `folder`, which is made (with its parents) if it is missing. HCI_ERROR_OUTPUT,
- * _MEMORY. */
+/* Opens a set of files in `folder`, which is made (with its parents) if it is missing, and locked until the
+ * set has ended: another process that opens one there waits for up to two seconds, and is refused then. What
+ * a process that was killed has begun there is ended first. HCI_ERROR_OUTPUT, _MEMORY. */
 hci_status hci_output_open(const char *folder, hci_output **output, hci_note *note);
 
 /* Starts the next file; `name` has no folder part. What is written from now on goes into it. A target that is
@@ -42,12 +43,17 @@ hci_status hci_output_check(hci_output *output, hci_note *note);
 
 /* Flushes, checks and renames every file, and frees `output` in any case. On failure no file of the set is
  * left, and files that were there before are untouched: each is kept by a second link until the last rename
- * has succeeded; signals wait until then. A process that is killed can leave hidden `.hci-*` files behind,
- * and between two renames a part of the set. HCI_ERROR_OUTPUT, _NOT_FINITE. */
+ * has succeeded; signals wait until then. When the process is killed or the power fails between the first and
+ * the last rename, the next set that is opened there, or hci_output_finish_interrupted, does the rest; until
+ * then the folder has a hidden `.hci-journal`. HCI_ERROR_OUTPUT, _NOT_FINITE, _MEMORY. */
 hci_status hci_output_commit(hci_output *output, hci_note *note);
 
 /* Removes the temporary files and frees. output may be NULL. */
 void hci_output_discard(hci_output *output);
+
+/* Ends what a process has begun in a folder that was killed between two renames; for who is going to read
+ * there. A folder that cannot be written stays as it is. */
+void hci_output_finish_interrupted(const char *folder);
 
 /* For the handler of a signal that ends the program, and safe there: removes what all sets that are open have
  * written and the folders that they have made. Their memory stays. For programs of one thread. */

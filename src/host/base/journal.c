@@ -1,0 +1,126 @@
+#define _POSIX_C_SOURCE 200809L
+
+#include "host/base/journal.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "host/base/sync.h"
+
+#ifndef PATH_MAX
+#define PATH_MAX 4096
+#endif
+
+static const char JOURNAL[] = ".hci-journal", DRAFT[] = ".hci-journal.tmp";
+
+enum { PATH_SIZE = PATH_MAX + 1, LINE_SIZE = 1024 };
+
+static bool path_of(const char *folder, const char *name, char path[PATH_SIZE])
+{
+    const int length = snprintf(path, PATH_SIZE, "%s/%s", folder, name);
+    const bool fits = length > 0 && length < PATH_SIZE;
+    if (!fits) errno = ENAMETOOLONG;
+    return fits;
+}
+
+/* ---- writing ---- */
+
+FILE *hci_journal_open(const char *folder)
+{
+    char draft[PATH_SIZE];
+    return path_of(folder, DRAFT, draft) ? fopen(draft, "w") : NULL;
+}
+
+/* A line each: what is done, and the three names between tabs. */
+void hci_journal_step(FILE *journal, bool is_removed, const char *temporary, const char *backup,
+                      const char *target)
+{
+    fprintf(journal, "%s\t%s\t%s\t%s\n", is_removed ? "remove" : "rename", temporary, backup, target);
+}
+
+static bool is_written(FILE *journal)
+{
+    const bool good = hci_sync_stream(journal) && !ferror(journal);
+    return fclose(journal) == 0 && good;
+}
+
+bool hci_journal_begin(const char *folder, FILE *journal)
+{
+    char draft[PATH_SIZE], path[PATH_SIZE];
+    const bool named = path_of(folder, DRAFT, draft) && path_of(folder, JOURNAL, path);
+    if (is_written(journal) && named && rename(draft, path) == 0 && hci_sync_folder(folder)) return true;
+    const int error = errno;
+    if (named) unlink(draft);
+    if (named) unlink(path);
+    errno = error;
+    return false;
+}
+
+void hci_journal_end(const char *folder)
+{
+    char path[PATH_SIZE];
+    if (path_of(folder, JOURNAL, path)) unlink(path);
+}
+
+/* ---- ending what another has begun ---- */
+
+static bool take_away(const char *folder, const char *name)
+{
+    char path[PATH_SIZE];
+    return path_of(folder, name, path) && (unlink(path) == 0 || errno == ENOENT);
+}
+
+/* A step that was done already has no temporary file any more. */
+static bool rename_again(const char *folder, const char *temporary, const char *target)
+{
+    char from[PATH_SIZE], to[PATH_SIZE];
+    return path_of(folder, temporary, from) && path_of(folder, target, to) &&
+           (rename(from, to) == 0 || errno == ENOENT);
+}
+
+/* Only hidden files of ours are renamed, and only in this folder. */
+static bool is_ours(char *const field[4])
+{
+    return strncmp(field[1], ".hci-", 5) == 0 && strncmp(field[2], ".hci-", 5) == 0 && *field[3] != '\0' &&
+           strpbrk(field[1], "/") == NULL && strpbrk(field[2], "/") == NULL && strpbrk(field[3], "/") == NULL;
+}
+
+static bool do_step(const char *folder, char *line)
+{
+    char *field[4];
+    line[strcspn(line, "\n")] = '\0';
+    for (int k = 0; k < 4; ++k) {
+        field[k] = line;
+        line += strcspn(line, "\t");
+        if (*line != '\0') *line++ = '\0';
+    }
+    if (!is_ours(field)) return errno = EINVAL, false;
+    const bool done = strcmp(field[0], "remove") == 0
+                          ? take_away(folder, field[3]) && take_away(folder, field[1])
+                          : rename_again(folder, field[1], field[3]);
+    return done && take_away(folder, field[2]);
+}
+
+bool hci_journal_exists(const char *folder)
+{
+    char path[PATH_SIZE];
+    struct stat status;
+    return path_of(folder, JOURNAL, path) && lstat(path, &status) == 0;
+}
+
+bool hci_journal_finish(const char *folder)
+{
+    char path[PATH_SIZE], line[LINE_SIZE];
+    bool good = path_of(folder, JOURNAL, path);
+    FILE *stream = good ? fopen(path, "r") : NULL;
+    if (stream == NULL) return good && errno == ENOENT;
+    while (good && fgets(line, sizeof line, stream) != NULL)
+        good = do_step(folder, line);
+    fclose(stream);
+    return good && hci_sync_folder(folder) && unlink(path) == 0;
+}
