@@ -17,12 +17,14 @@
 #include "hci/host/report/write.h"
 #include "hci/math/harmonic.h"
 
-enum { TABLE, OUT, CLI_READING_KEYS, CLI_COMMON_KEYS };
+enum { TABLE, VERBOSE, OUT, CLI_READING_KEYS, CLI_COMMON_KEYS };
 
 static const cli_option OPTIONS[] = {
     [TABLE] =
         {"table", 0, CLI_FILE, "CURRENTS_OR_FOLDER",
          .help = "instead: whether the drive of the one recording reads this table at the angle of its log"},
+    [VERBOSE] = {"verbose", 'v', CLI_FLAG, NULL,
+                 .help = "what agrees, with its numbers, and what could not be checked, too"},
     [OUT] = {"out", 'o', CLI_FOLDER, "FOLDER",
              .help = "where summary.json goes; without it nothing is written"},
     CLI_READING_OPTIONS,
@@ -147,14 +149,29 @@ static void show_gaps(const hci_check *c)
     }
 }
 
-static void show_untold(const hci_check *c)
+static void show_untold(const hci_check *c, bool verbose)
 {
+    if (c->untolds > 0 && verbose) cli_say("\n");
     for (size_t k = 0; k < c->untolds; ++k)
-        cli_say("%s%s", k > 0 ? ", " : "\n  cannot be told from these files: ", c->untold[k]);
+        cli_say("%s%s", k > 0 ? ", " : "  not told     by these files: ", c->untold[k]);
     if (c->untolds > 0) cli_say("\n");
 }
 
-static void show(const hci_check *c)
+/* "12 relations agree, 2 are not judged, 17 are not checked (--verbose lists them)" */
+static void show_counts(const hci_check *c)
+{
+    size_t agree = 0, unjudged = 0;
+    for (size_t k = 0; k < c->evidences; ++k) {
+        agree += c->evidence[k].state == HCI_CHECK_AGREES;
+        unjudged += c->evidence[k].state == HCI_CHECK_UNJUDGED;
+    }
+    cli_say("  checked      %zu relation%s agree%s", agree, agree == 1 ? "" : "s", agree == 1 ? "s" : "");
+    if (unjudged > 0) cli_say("; %zu not judged, since the recordings leave too much open", unjudged);
+    if (c->gaps > 0) cli_say("; %zu not checked, for want of entries or recordings", c->gaps);
+    cli_say(" (--verbose lists them)\n");
+}
+
+static void show(const hci_check *c, bool verbose)
 {
     show_verdict(c);
     for (size_t k = 0; k < c->findings; ++k)
@@ -164,10 +181,15 @@ static void show(const hci_check *c)
     show_evidence_of(c, HCI_CHECK_MENDABLE, "still off as read, and met with a slip that is possible");
     show_evidence_of(c, HCI_CHECK_WORSE, "speaks against it: agrees as declared, and not as read");
     show_evidence_of(c, HCI_CHECK_UNMENDED, "not understood: agrees in no reading");
-    show_evidence_of(c, HCI_CHECK_AGREES, "checked and consistent");
-    show_unjudged(c);
-    show_gaps(c);
-    show_untold(c);
+    if (verbose) {
+        show_evidence_of(c, HCI_CHECK_AGREES, "checked and consistent");
+        show_unjudged(c);
+        show_gaps(c);
+    } else {
+        if (c->verdict != HCI_CHECK_CONSISTENT) cli_say("\n");
+        show_counts(c);
+    }
+    show_untold(c, verbose);
 }
 
 /* One look at a way of reading is enough where many recordings have it. */
@@ -184,16 +206,13 @@ static void show_remarks(const hci_check *c)
 
 /* ---- summary ---- */
 
-static hci_status give_summary(const hci_check *c, const cli_arguments *a, hci_note *note)
+static hci_status give_results(const hci_check *c, const cli_arguments *a, hci_note *note)
 {
     const hci_status status = a->value[OUT] ? hci_check_write(c, a->value[OUT], note) : HCI_OK;
-    char *json;
-    if (status || !a->given[JSON]) return status;
-    json = hci_check_json(c);
-    if (!json) return hci_note_memory(note, NULL, "the summary");
-    puts(json);
-    hci_text_free(json);
-    return HCI_OK;
+    if (status) return status;
+    show_remarks(c);
+    if (cli_is_wordy()) show(c, a->given[VERBOSE]);
+    return a->given[JSON] ? cli_print_json(hci_check_json(c), note) : HCI_OK;
 }
 
 /* ---- at which angle a drive reads its table ---- */
@@ -293,9 +312,7 @@ static int run(const cli_arguments *a)
     if (!status) status = hci_check_files(a->word[0], a->word + 1, a->words - 1, &reading.run, &check, &note);
     cli_reading_release(&reading);
     if (status && status != HCI_NOT_REACHED) return cli_fail(status, &note);
-    show_remarks(&check);
-    if (cli_is_wordy()) show(&check);
-    const hci_status given = give_summary(&check, a, &note);
+    const hci_status given = give_results(&check, a, &note);
     return given ? cli_fail(given, &note) : hci_status_exit_code(status);
 }
 

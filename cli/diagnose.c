@@ -228,7 +228,6 @@ static int run(const cli_arguments *a)
     }
     hci_again_release(&again);
     release_inputs(&in);
-    fflush(stdout);
     cli_signals_obey();
     return exit_code;
 }

@@ -44,6 +44,7 @@ const cli_command cli_emit = {
     .options = cli_emit_options,
     .words_needed = 1,
     .takes_more_words = true,
+    .names_files = true,
     .word_kind = CLI_FILE,
     .example =
         "  hci-solve solve data/machine_a --target data/scenarios/02/target.csv --auto -o out/machine_a\n"

@@ -243,6 +243,7 @@ const cli_command cli_init = {
             "Needs the pole pairs, and one of --kv, --volt-per-krpm, --torque-constant, --flux.",
     .options = OPTIONS,
     .words_needed = 1,
+    .names_files = true,
     .word_kind = CLI_TEXT,
     .example =
         "  hci-solve init mn4004 --poles 24 --kv 300 --slots 18 -o out/mn4004\n"

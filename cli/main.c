@@ -1,11 +1,14 @@
 #define _POSIX_C_SOURCE 200809L
 
 #include <errno.h>
+#include <poll.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "cli/command/command.h"
+#include "cli/command/help.h"
 #include "cli/commands.h"
 #include "cli/reference/reference.h"
 #include "cli/terminal/say.h"
@@ -44,10 +47,10 @@ static int print_usage(FILE *stream)
                     "  hci-solve emit out/currents --name mn4004 --frame dq -o out/firmware\n\n");
     cli_print_wrapped(
         stream, width, 0, 0,
-        "Each command says what it found on standard error (with --json as JSON on standard output), writes "
-        "its files where --out says, and ends "
-        "with exit code 0 when all is well. hci-solve COMMAND --help tells its options, files and exit "
-        "codes, with an example; hci-solve --version the version.");
+        "Each command prints what it found on standard output (with --json as JSON), progress, remarks and errors "
+        "on standard error, writes its files where --out says, and ends with exit code 0 when all is well. "
+        "hci-solve help COMMAND tells its options, files and exit codes, with an example; hci-solve -V the "
+        "version. A file named - is standard input, where one table or one recording is read.");
     fputc('\n', stream);
     cli_print_wrapped(
         stream, width, 0, 0,
@@ -65,24 +68,59 @@ static int unknown_command(const char *word)
     nearest = hci_nearest(word, names);
     return cli_fail(hci_note_set(&note, HCI_ERROR_ARGUMENT,
                                  "unknown command `%s`%s%s%s hci-solve --help lists the commands, hci-solve "
-                                 "COMMAND --help tells of one",
+                                 "help COMMAND tells of one",
                                  word, nearest ? "; did you mean `" : ";", nearest ? nearest : "",
                                  nearest ? "`?" : ""),
                     &note);
 }
 
+static const cli_command *command_of(const char *word)
+{
+    for (size_t k = 0; k < COMMAND_COUNT; ++k)
+        if (strcmp(word, COMMANDS[k]->name) == 0) return COMMANDS[k];
+    return NULL;
+}
+
+static int help_of(const char *word)
+{
+    const cli_command *command = command_of(word);
+    if (!command) return unknown_command(word);
+    cli_print_help(command);
+    return 0;
+}
+
+static bool is_one_of(const char *word, const char *a, const char *b)
+{
+    return strcmp(word, a) == 0 || strcmp(word, b) == 0;
+}
+
 static int run(int argc, char **argv)
 {
     const char *word = argc > 1 ? argv[1] : "";
-    if (strcmp(word, "--version") == 0) return puts("hci-solve " HCI_VERSION_STRING), 0;
-    if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0 || strcmp(word, "help") == 0)
-        return print_usage(stdout);
-    for (size_t k = 0; k < COMMAND_COUNT; ++k)
-        if (strcmp(word, COMMANDS[k]->name) == 0) return cli_command_run(COMMANDS[k], argc - 2, argv + 2);
+    const cli_command *command = command_of(word);
+    if (is_one_of(word, "--version", "-V")) return puts("hci-solve " HCI_VERSION_STRING), 0;
+    if (strcmp(word, "help") == 0 && argc > 2) return help_of(argv[2]);
+    if (is_one_of(word, "--help", "-h") || strcmp(word, "help") == 0) return print_usage(stdout);
+    if (command) return cli_command_run(command, argc - 2, argv + 2);
     if (strcmp(word, "reference") == 0) return cli_reference(COMMANDS, COMMAND_COUNT, argc - 2, argv + 2);
     if (argc > 1) return unknown_command(word);
     print_usage(stderr);
     return hci_status_exit_code(HCI_ERROR_ARGUMENT);
+}
+
+/* A reader such as `head` that has seen enough is no error. */
+static bool is_reader_gone(void)
+{
+    struct pollfd out = {STDOUT_FILENO, POLLOUT, 0};
+    return poll(&out, 1, 0) > 0 && (out.revents & POLLERR) != 0;
+}
+
+/* Errors are JSON too where it is asked for, those of the command line included. */
+static bool asks_for_json(int argc, char **argv)
+{
+    for (int k = 1; k < argc && strcmp(argv[k], "--") != 0; ++k)
+        if (strcmp(argv[k], "--json") == 0) return true;
+    return false;
 }
 
 /* A closed pipe or a full disk shows when standard output is flushed, not as a signal. */
@@ -93,8 +131,9 @@ int main(int argc, char **argv)
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN);
     cli_signals_catch();
+    cli_terminal_begin(false, asks_for_json(argc, argv), CLI_COLOR_AUTO);
     exit_code = run(argc, argv);
-    if (fflush(stdout) != 0 || ferror(stdout)) {
+    if ((fflush(stdout) != 0 || ferror(stdout)) && !is_reader_gone()) {
         fprintf(stderr, "hci-solve: standard output: %s\n", strerror(errno));
         return hci_status_exit_code(HCI_ERROR_OUTPUT);
     }

@@ -47,6 +47,12 @@ static void show_ripple(const hci_prediction *p)
                           .unit = "N·m"});
 }
 
+/* A run that the model itself has made. */
+static bool is_rounding(const hci_prediction *p)
+{
+    return p->rms_residual_Nm < 1e-12 * (fabs(p->mean_torque_Nm) + p->ripple_torque_Nm);
+}
+
 static void show_expected(const hci_expected_ripple *e)
 {
     char words[1024];
@@ -66,12 +72,13 @@ static void show(const hci_prediction *p, const cli_arguments *a)
         cli_say("  torque       mean %.6g N·m, ripple %.4g N·m rms\n", p->mean_torque_Nm,
                 p->ripple_torque_Nm);
     cli_say("  model        mean %.6g N·m, ripple %.4g N·m rms\n", p->mean_model_Nm, p->ripple_model_Nm);
-    if (isfinite(p->rms_residual_Nm))
+    if (isfinite(p->rms_residual_Nm) && is_rounding(p))
+        cli_say("  residual     none above rounding\n");
+    else if (isfinite(p->rms_residual_Nm))
         cli_say("  residual     %.4g N·m rms, mean %.4g N·m, at most %.4g N·m (sample %zu)\n",
                 p->rms_residual_Nm, p->mean_residual_Nm, p->worst_residual_Nm, p->worst_sample + 1);
     if (p->expected.state == HCI_RIPPLE_KNOWN) show_expected(&p->expected);
-    if (a->value[OUT]) cli_say("  written      %s\n", a->value[OUT]);
-    if (isfinite(p->rms_residual_Nm)) show_ripple(p);
+    if (isfinite(p->rms_residual_Nm) && !is_rounding(p)) show_ripple(p);
 }
 
 /* The run itself is a measurement, and not to be replaced. */

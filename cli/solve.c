@@ -67,7 +67,7 @@ static const cli_option OPTIONS[] = {
                    .help = "of the mean torque; an order within it is reached (1e-6)", .low = 1e-14,
                    .high = 1.0},
     [MAX_LOSS] = {"max-loss", 0, CLI_NUMBER, "RATIO",
-                  .help = "with --auto K: copper over the pointwise limit (1.10)", .low = 1.0, .high = 1e6},
+                  .help = "with --auto K: copper over the least that the torque takes at each angle (1.10)", .low = 1.0, .high = 1e6},
     CLI_LIMIT_OPTIONS,
     [SPEED] = {"speed", 0, CLI_NUMBER, "RPM",
                .help = "mechanical; the voltage is limited by --limit-voltage or dc_link_voltage",

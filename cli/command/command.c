@@ -5,6 +5,7 @@
 
 #include "cli/command/help.h"
 #include "cli/command/parse.h"
+#include "cli/command/written.h"
 #include "cli/terminal/say.h"
 #include "cli/terminal/terminal.h"
 #include "hci/host/report/summary.h"
@@ -31,6 +32,16 @@ static hci_status begin_terminal(const cli_command *command, cli_arguments *a, h
     return status;
 }
 
+/* What a command has written is named at its end. */
+static int run(const cli_command *command, const cli_arguments *arguments)
+{
+    cli_written_begin();
+    const int code = command->run(arguments);
+    if (code <= hci_status_exit_code(HCI_NOT_REACHED) && !command->names_files) cli_written_say();
+    cli_written_end();
+    return code;
+}
+
 int cli_command_run(const cli_command *command, int count, char *const *words)
 {
     cli_arguments arguments;
@@ -40,7 +51,7 @@ int cli_command_run(const cli_command *command, int count, char *const *words)
     status = cli_parse_words(command, count, words, &arguments, &note);
     if (!status) status = begin_terminal(command, &arguments, &note);
     if (!status) status = cli_parse_values(command->options, &arguments, &note);
-    return status ? cli_fail(status, &note) : command->run(&arguments);
+    return status ? cli_fail(status, &note) : run(command, &arguments);
 }
 
 hci_status cli_print_json(char *json, hci_note *note)

@@ -6,6 +6,7 @@
  *   reading   how recordings are read
  *   parse     words of a command line to arguments
  *   help      the text of --help
+ *   written   the files that a command wrote
  *   command   from the words to the exit code
  *   jobs      independent work shared out among processes */
 #ifndef HCI_CLI_OPTION_H
@@ -69,6 +70,7 @@ typedef struct {
     const cli_option *options;
     size_t words_needed;
     bool takes_more_words; /* beside words_needed: more may follow */
+    bool names_files;      /* its words name the files that it wrote */
     cli_kind word_kind;    /* CLI_FILE: they name what is there; CLI_TEXT: they are new names */
     const char *example;
     const char *source;      /* file of the table */
@@ -95,7 +97,7 @@ typedef struct {
               CLI_FLAG,                                                                                      \
               NULL,                                                                                          \
               .is_common = true,                                                                             \
-              .help = "the summary as JSON on standard output, in place of the words"},                      \
+              .help = "the summary, or the error, as JSON on standard output in place of the words"},                      \
     [QUIET] = {"quiet",           'q',                                                                       \
                CLI_FLAG,          NULL,                                                                      \
                .is_common = true, .help = "no words and no progress, only errors"},                          \

@@ -1,8 +1,11 @@
+#define _POSIX_C_SOURCE 200809L
+
 #include "cli/diagnose/diagnose_words.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "cli/terminal/chart.h"
 #include "cli/terminal/rows.h"
@@ -146,7 +149,7 @@ static void draw_runs(const hci_diagnosis *d)
     snprintf(caption, sizeof caption,
              "error of each run (rms of measured less modelled torque), N·m; before: the machine as "
              "declared; %s noise, where it is in the range",
-             cli_is_ascii() ? "|" : "│");
+             cli_is_ascii(STDOUT_FILENO) ? "|" : "│");
     cli_draw(&(cli_chart){.caption = caption,
                           .column = COLUMNS,
                           .columns = 6,

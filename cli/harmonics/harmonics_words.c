@@ -1,8 +1,11 @@
+#define _POSIX_C_SOURCE 200809L
+
 #include "cli/harmonics/harmonics_words.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "cli/terminal/chart.h"
 #include "cli/terminal/rows.h"
@@ -92,7 +95,7 @@ static void show_orders(const hci_waveform *w)
     const size_t rows = cli_pick(kept_amplitude, w, w->count, 1e-6, s.pick, NULL);
     snprintf(caption, sizeof caption, "%s by electrical order, %s; in the bars %s is the standard error",
              cogging ? "cogging torque" : "back-EMF", cogging ? "N·m (peak)" : "N·m/A (peak of a phase)",
-             cli_is_ascii() ? "|" : "│");
+             cli_is_ascii(STDOUT_FILENO) ? "|" : "│");
     cli_draw(&(cli_chart){.caption = caption,
                           .column = COLUMNS,
                           .columns = 5,

@@ -4,7 +4,7 @@
 
 #include "hci/host/waveform/waveform.h"
 
-/* How many orders there are, where they are from, how sure they are, and a drawing, on standard error. run:
+/* How many orders there are, where they are from, how sure they are, and a drawing, on standard output. run:
  * its path. */
 void cli_show_waveform(const hci_waveform *w, const char *run);
 

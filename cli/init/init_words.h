@@ -4,7 +4,7 @@
 
 #include "hci/host/machine/init.h"
 
-/* What was written, the strength of the magnets in every reading, and what to do next, on standard error.
+/* What was written, the strength of the magnets in every reading, and what to do next, on standard output.
  * folder: where the tables are. */
 void cli_show_sheet(const hci_sheet *s, const char *folder);
 

@@ -74,13 +74,14 @@ static void roff_head(void)
            ".SH NAME\nhci\\-solve \\- phase currents that make a permanent\\-magnet motor produce a wanted "
            "torque\n"
            ".SH SYNOPSIS\n.B hci\\-solve\n.I command\n[\\fIoptions\\fR]\n.br\n"
-           ".B hci\\-solve\n.I command\n.B \\-\\-help\n.br\n.B hci\\-solve \\-\\-version\n"
+           ".B hci\\-solve\n.B help\n.I command\n.br\n.B hci\\-solve \\-\\-version\n"
            ".SH DESCRIPTION\n"
            "From the back\\-EMF and cogging torque of a motor and a wanted torque\n"
            "to the harmonic currents that produce it, and to the C tables of its controller;\n"
            "from recordings to what the model of the motor lacks.\n.PP\n"
-           "Results go into the folder that \\fB\\-\\-out\\fR names, words to standard error,\n"
-           "and with \\fB\\-\\-json\\fR a summary to standard output.\n");
+           "Files go into the folder that \\fB\\-\\-out\\fR names. What was found is printed on standard output,\n"
+           "with \\fB\\-\\-json\\fR as JSON; progress, remarks and errors on standard error.\n"
+           "A file named \\fB\\-\\fR is standard input, where one table or one recording is read.\n");
 }
 
 static void roff_tail(void)

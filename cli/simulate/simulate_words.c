@@ -10,12 +10,25 @@
 #include "cli/terminal/text.h"
 #include "hci/math/harmonic.h"
 
+/* A ripple that is rounding is none. */
+static const double ROUNDING_percent = 1e-9;
+
+static void show_share(const char *name, double percent)
+{
+    if (percent < ROUNDING_percent)
+        cli_say("%s 0 %%", name);
+    else
+        cli_say("%s %.4g %%", name, percent);
+}
+
 static void show_torque(const hci_simulation *s)
 {
     cli_say("  torque       mean %.6g N·m, %.6g to %.6g", s->torque_Nm.mean, s->torque_Nm.least,
             s->torque_Nm.most);
-    if (isfinite(s->T_ripple_percent))
-        cli_say("; T_ripple %.4g %%, F_ripple %.4g %%", s->T_ripple_percent, s->F_ripple_percent);
+    if (isfinite(s->T_ripple_percent)) {
+        show_share("; T_ripple", s->T_ripple_percent);
+        show_share(", F_ripple", s->F_ripple_percent);
+    }
     cli_say("\n");
     cli_say("  current      mean %.4g A, rms %.4g, %.4g to %.4g (vector length); peak phase current %.4g A\n",
             s->current_A.mean, s->current_A.rms, s->current_A.least, s->current_A.most, s->peak_phase_A);
@@ -35,6 +48,16 @@ static void show_loss(const hci_simulation *s)
     cli_say("\n");
 }
 
+static void show_energy(const hci_simulation *s)
+{
+    cli_say("  energy       %.5g J in, %.5g J copper, %.5g J to the shaft; ", s->energy_J.electrical,
+            s->energy_J.copper, s->energy_J.mechanical);
+    if (fabs(s->energy_J.residual) < 1e-9 * fabs(s->energy_J.electrical))
+        cli_say("they balance\n");
+    else
+        cli_say("error %.2g J\n", s->energy_J.residual);
+}
+
 static void show_control(const hci_simulation *s)
 {
     if (isfinite(s->switching_frequency_Hz)) cli_say("  switching    %.4g Hz\n", s->switching_frequency_Hz);
@@ -43,8 +66,7 @@ static void show_control(const hci_simulation *s)
                 s->without_current, s->samples);
     if (s->limited > 0) cli_say("  limited      current at %zu of %zu samples\n", s->limited, s->samples);
     if (isfinite(s->energy_J.residual))
-        cli_say("  energy       %.5g J in, %.5g J copper, %.5g J to the shaft; error %.2g J\n",
-                s->energy_J.electrical, s->energy_J.copper, s->energy_J.mechanical, s->energy_J.residual);
+        show_energy(s);
 }
 
 /* ---- spectrum ---- */

@@ -4,7 +4,7 @@
 
 #include "hci/host/simulate/simulate.h"
 
-/* What was evaluated, torque, current, loss, control and the torque spectrum, on standard error. machine,
+/* What was evaluated, torque, current, loss, control and the torque spectrum, on standard output. machine,
  * scenario: their paths. */
 void cli_show_simulation(const hci_simulation *s, const char *machine, const char *scenario);
 

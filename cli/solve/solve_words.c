@@ -123,6 +123,20 @@ static void show_gaps(const hci_solution *s)
         cli_say("               from i_q = %.4g A on there is one at every angle\n", s->least_iq_A);
 }
 
+/* Copper loss beside that of the shortest current at each angle. */
+static void show_least(double ratio)
+{
+    if (ratio >= 2.0)
+        cli_say("%.3g × the least that the wanted torque takes", ratio);
+    else if (ratio >= 1.0005)
+        cli_say("%.2g %% above the least that the wanted torque takes", 100.0 * (ratio - 1.0));
+    else if (ratio > 0.9995)
+        cli_say("the least that the wanted torque takes");
+    else
+        cli_say("%.2g %% less than the wanted torque takes at every angle: orders that are free or not made save it",
+                100.0 * (1.0 - ratio));
+}
+
 static void show_current(const hci_solution *s)
 {
     const bool to_plain = isfinite(s->loss_to_plain), to_limit = isfinite(s->loss_to_limit);
@@ -133,7 +147,8 @@ static void show_current(const hci_solution *s)
     if (to_plain)
         cli_say("%.4g × the plain fundamental of %.4g A%s", s->loss_to_plain, s->plain_amplitude_A,
                 s->limit_cost == HCI_COST_TORQUE ? " that the wanted mean takes" : "");
-    if (to_limit) cli_say("%s%.4g × the pointwise limit", to_plain ? "; " : "", s->loss_to_limit);
+    if (to_plain && to_limit) cli_say("; ");
+    if (to_limit) show_least(s->loss_to_limit);
     cli_say("\n");
 }
 
@@ -226,6 +241,19 @@ static void show_limits(const hci_solution *s)
         show_limit(s, &s->limit[k]);
 }
 
+/* An error that is rounding is none. */
+static const double ROUNDING = 1e-3;
+
+static void show_torque(const hci_solution *s, bool reached)
+{
+    cli_say("  torque       mean %.6g N·m; ", s->order_count ? s->order[0].torque_Nm.cosine : 0.0);
+    if (reached && s->worst_error_Nm < ROUNDING * s->tolerance_Nm)
+        cli_say("every order as wanted, far within the tolerance of %.3g N·m\n", s->tolerance_Nm);
+    else
+        cli_say("worst error %.3g N·m at order %g (tolerance %.3g N·m)\n", s->worst_error_Nm, s->worst_order,
+                s->tolerance_Nm);
+}
+
 void cli_show_solution(const hci_solution *s, const char *machine, const char *target)
 {
     bool reached = true;
@@ -237,9 +265,7 @@ void cli_show_solution(const hci_solution *s, const char *machine, const char *t
                                : CLI_WARN,
             reached ? "reached" : "not reached", reached ? "" : " (the nearest is given)",
             s->within_limits ? "" : ", but a limit is not kept", machine, target);
-    cli_say("  torque       mean %.6g N·m; worst error %.3g N·m at order %g (tolerance %.3g N·m)\n",
-            s->order_count ? s->order[0].torque_Nm.cosine : 0.0, s->worst_error_Nm, s->worst_order,
-            s->tolerance_Nm);
+    show_torque(s, reached);
     show_expected(&s->expected);
     show_current(s);
     show_limits(s);

@@ -4,7 +4,7 @@
 
 #include "hci/host/solve/solve.h"
 
-/* The verdict, the currents and the torque spectrum, on standard error. machine, target: their paths. */
+/* The verdict, the currents and the torque spectrum, on standard output. machine, target: their paths. */
 void cli_show_solution(const hci_solution *solution, const char *machine, const char *target);
 
 #endif

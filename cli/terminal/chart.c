@@ -65,7 +65,7 @@ static void measure(layout *l)
 /* Bars share what the texts leave; a long name in the first column gives way to them. */
 static void share_width(layout *l)
 {
-    const int width = cli_width(STDERR_FILENO);
+    const int width = cli_width(STDOUT_FILENO);
     int used = 1, bars = 0, cells;
     for (size_t c = 0; c < l->chart->columns; ++c) {
         used += (int)l->width[c] + 1;
@@ -93,7 +93,7 @@ static double along(const layout *l, double value)
 static const char *shortened(const char *text, size_t width, const char **mark)
 {
     size_t columns = cli_text_width(text);
-    *mark = columns > width ? (cli_is_ascii() ? "~" : "…") : "";
+    *mark = columns > width ? (cli_is_ascii(STDOUT_FILENO) ? "~" : "…") : "";
     for (columns += **mark != '\0'; columns > width; --columns)
         do
             ++text;
@@ -127,7 +127,8 @@ static void draw_row(layout *l, size_t row)
     for (size_t c = 0; c < l->chart->columns; ++c) {
         const cli_column_kind kind = l->chart->column[c].kind;
         if (kind == CLI_BAR)
-            cli_bar_text(along(l, cell[c].value), along(l, cell[c].mark), (int)l->width[c], bar);
+            cli_bar_text(along(l, cell[c].value), along(l, cell[c].mark), (int)l->width[c],
+                         cli_is_ascii(STDOUT_FILENO), bar);
         add_text(line, kind, l->width[c], kind == CLI_BAR ? bar : cell[c].text);
     }
     show_line(line);

@@ -1,4 +1,4 @@
-/* Tables with bars, on standard error. Uses terminal, text, say and bar. */
+/* Tables with bars, on standard output. Uses terminal, text, say and bar. */
 #ifndef HCI_CLI_CHART_H
 #define HCI_CLI_CHART_H
 

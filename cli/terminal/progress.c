@@ -65,7 +65,8 @@ void cli_progress_text(const cli_estimate *e, const cli_work *work, const char *
         rate[0] = '\0';
         room += RATE;
     }
-    if (room >= LEAST_CELLS) cli_bar_text(e->share, NAN, room < MOST_CELLS ? room : MOST_CELLS, cells);
+    if (room >= LEAST_CELLS)
+        cli_bar_text(e->share, NAN, room < MOST_CELLS ? room : MOST_CELLS, cli_is_ascii(STDERR_FILENO), cells);
     if (words + FIGURES > columns) times[0] = '\0';
     snprintf(text, size, "%s %s%s%3.0f %%%s%s", what, cells, cells[0] ? " " : "", 100.0 * e->share, times,
              rate);
@@ -110,7 +111,7 @@ static bool is_due(void)
 void cli_progress(void *work, const char *what, double share)
 {
     char line[LINE_SIZE];
-    if (cli_is_quiet() || !cli_is_terminal()) return;
+    if (cli_is_quiet() || !cli_is_terminal(STDERR_FILENO)) return;
     if (!job.is_started) start(share);
     cli_estimate_follow(&job.estimate, clock_s() - job.start_s, fmin(fmax(share, 0.0), 1.0));
     if (!is_due()) return;

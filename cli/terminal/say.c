@@ -1,3 +1,5 @@
+#define _POSIX_C_SOURCE 200809L
+
 #include "cli/terminal/say.h"
 
 #include <stdarg.h>
@@ -7,6 +9,7 @@
 
 #include "cli/terminal/terminal.h"
 #include "cli/terminal/text.h"
+#include "hci/host/report/summary.h"
 
 enum { WIDEST_TEXT = 96, WORDS_AT = 15, LINE_SIZE = 8192 };
 
@@ -21,16 +24,18 @@ static int indent_of(const char *text, size_t blanks)
     return keyed ? WORDS_AT : (int)blanks + 2;
 }
 
-/* A command is to be copied, and stays in one piece. */
-static void show_line(const char *text)
+/* A command is to be copied, and stays in one piece. What went to the other stream before stands before. */
+static void show_line(FILE *stream, const char *text)
 {
     const size_t blanks = strspn(text, " ");
     const bool command = blanks > 0 && strncmp(text + blanks, "hci-solve ", 10) == 0;
-    const int width = cli_is_terminal() && !command ? cli_width(STDERR_FILENO) : LINE_SIZE;
+    const int width = cli_is_terminal(fileno(stream)) && !command ? cli_width(fileno(stream)) : LINE_SIZE;
+    cli_line_erase();
+    if (stream == stderr) fflush(stdout);
     if (*text)
-        cli_print_wrapped(stderr, width, 0, indent_of(text, blanks), text);
+        cli_print_wrapped(stream, width, 0, indent_of(text, blanks), text);
     else
-        fputc('\n', stderr);
+        fputc('\n', stream);
 }
 
 void cli_say(const char *format, ...)
@@ -42,7 +47,7 @@ void cli_say(const char *format, ...)
     va_end(arguments);
     while ((end = strchr(line, '\n')) != NULL) {
         *end = '\0';
-        show_line(line);
+        show_line(stdout, line);
         memmove(line, end + 1, strlen(end + 1) + 1);
     }
     line_used = strlen(line);
@@ -50,22 +55,32 @@ void cli_say(const char *format, ...)
 
 void cli_say_paragraph(int indent, const char *text)
 {
-    const int width = cli_width(STDERR_FILENO);
-    fprintf(stderr, "%*s", indent, "");
-    cli_print_wrapped(stderr, width < WIDEST_TEXT ? width : WIDEST_TEXT, indent, indent, text);
+    const int width = cli_width(STDOUT_FILENO);
+    cli_line_erase();
+    printf("%*s", indent, "");
+    cli_print_wrapped(stdout, width < WIDEST_TEXT ? width : WIDEST_TEXT, indent, indent, text);
 }
 
 /* ---- errors and remarks ---- */
 
 int cli_fail(hci_status status, const hci_note *note)
 {
-    cli_line_erase();
-    cli_say(CLI_BAD "hci-solve:" CLI_PLAIN " %s\n", note->text[0] ? note->text : hci_status_text(status));
+    char text[HCI_NOTE_SIZE + 64];
+    snprintf(text, sizeof text, CLI_BAD "hci-solve:" CLI_PLAIN " %s",
+             note->text[0] ? note->text : hci_status_text(status));
+    show_line(stderr, text);
+    if (cli_is_json()) {
+        char *json = hci_failure_json(status, note);
+        if (json) puts(json);
+        hci_text_free(json);
+    }
     return hci_status_exit_code(status);
 }
 
 void cli_remark(const hci_note *remark)
 {
-    if (remark->text[0] && cli_is_wordy())
-        cli_say("hci-solve: " CLI_WARN "note:" CLI_PLAIN " %s\n", remark->text);
+    char text[HCI_NOTE_SIZE + 64];
+    if (!remark->text[0] || !cli_is_wordy()) return;
+    snprintf(text, sizeof text, "hci-solve: " CLI_WARN "note:" CLI_PLAIN " %s", remark->text);
+    show_line(stderr, text);
 }

@@ -4,6 +4,7 @@
 
 #include <signal.h>
 #include <stddef.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "cli/terminal/terminal.h"
@@ -64,6 +65,7 @@ void cli_signals_obey(void)
 {
     const int number = is_deferred;
     if (!number) return;
+    fflush(stdout);
     handle(number, SIG_DFL);
     raise(number);
 }

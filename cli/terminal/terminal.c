@@ -18,7 +18,7 @@ static struct {
     volatile sig_atomic_t line_is_shown;
 } terminal;
 
-/* ---- what standard error is ---- */
+/* ---- what the streams are ---- */
 
 static const char *environment(const char *name)
 {
@@ -26,16 +26,16 @@ static const char *environment(const char *name)
     return value ? value : "";
 }
 
-bool cli_is_terminal(void)
+bool cli_is_terminal(int descriptor)
 {
     const char *kind = environment("TERM");
-    return isatty(STDERR_FILENO) && kind[0] != '\0' && strcmp(kind, "dumb") != 0;
+    return isatty(descriptor) && kind[0] != '\0' && strcmp(kind, "dumb") != 0;
 }
 
-bool cli_has_color(void)
+bool cli_has_color(int descriptor)
 {
     if (terminal.color != CLI_COLOR_AUTO) return terminal.color == CLI_COLOR_ALWAYS;
-    return cli_is_terminal() && environment("NO_COLOR")[0] == '\0';
+    return cli_is_terminal(descriptor) && environment("NO_COLOR")[0] == '\0';
 }
 
 /* Whether a part stands in a text, in capitals or not. */
@@ -55,9 +55,9 @@ bool cli_is_utf8(void)
     return contains(locale, "utf-8") || contains(locale, "utf8");
 }
 
-bool cli_is_ascii(void)
+bool cli_is_ascii(int descriptor)
 {
-    return !cli_is_terminal() || !cli_is_utf8();
+    return !cli_is_terminal(descriptor) || !cli_is_utf8();
 }
 
 int cli_width(int descriptor)
@@ -87,6 +87,11 @@ bool cli_is_wordy(void)
 bool cli_is_quiet(void)
 {
     return terminal.quiet;
+}
+
+bool cli_is_json(void)
+{
+    return terminal.json;
 }
 
 /* ---- a line that the next one replaces ---- */

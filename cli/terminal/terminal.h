@@ -1,9 +1,9 @@
-/* What standard error is and how much is wanted on it: the lowest file of cli.
+/* What standard output and standard error are and how much is wanted on them: the lowest file of cli.
  *
  * Order in this folder; a file uses only those before it:
- *   terminal  what standard error is, what --quiet, --json and --color ask for, the line of progress on it
+ *   terminal  what the two streams are, what --quiet, --json and --color ask for, the line of progress
  *   text      width of texts, styles, lines that are wrapped
- *   say       words for people, errors and remarks
+ *   say       results for people on standard output; errors and remarks on standard error
  *   rows      which rows of a long table are shown
  *   bar       one bar of characters
  *   chart     a table with bars
@@ -24,15 +24,16 @@ void cli_terminal_begin(bool quiet, bool json, cli_color color);
 /* Whether words are wanted: neither --quiet nor --json. */
 bool cli_is_wordy(void);
 bool cli_is_quiet(void);
-/* Whether standard error is a terminal that is more than dumb. */
-bool cli_is_terminal(void);
-/* Whether styles are shown: by --color; `auto` on a terminal, unless NO_COLOR says otherwise. */
-bool cli_has_color(void);
+bool cli_is_json(void);
+/* Whether STDOUT_FILENO or STDERR_FILENO is a terminal that is more than dumb. */
+bool cli_is_terminal(int descriptor);
+/* Whether styles are shown there: by --color; `auto` on a terminal, unless NO_COLOR says otherwise. */
+bool cli_has_color(int descriptor);
 /* Whether the locale is one of UTF-8, by the names in LC_ALL, LC_CTYPE and LANG. */
 bool cli_is_utf8(void);
-/* Whether drawings are made of ASCII: without a terminal, so that scripts see the same everywhere, and where
+/* Whether drawings there are made of ASCII: without a terminal, so that scripts see the same everywhere, and where
  * the locale is not of UTF-8. */
-bool cli_is_ascii(void);
+bool cli_is_ascii(int descriptor);
 /* Columns of the terminal: COLUMNS, else what `descriptor` says, else 80; at least 40. */
 int cli_width(int descriptor);
 

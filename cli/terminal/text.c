@@ -44,7 +44,7 @@ static const char *ascii_of(const char *text)
 static void put_style(char style, FILE *stream)
 {
     static const char *const CODES[] = {"32;1", "33;1", "31;1", "0"};
-    if (cli_has_color()) fprintf(stream, "\033[%sm", CODES[style - 1]);
+    if (cli_has_color(fileno(stream))) fprintf(stream, "\033[%sm", CODES[style - 1]);
 }
 
 /* A text in ASCII; what does not fit into `size` bytes is left out. */

@@ -7,7 +7,9 @@ cd "$source_dir" || exit 1
 # ---- nothing wrong
 
 run 0 check data/machine_c
-nothing_on_stdout
+says '^consistent: ' '^  checked      10 relations agree; 21 not checked, ' '^  not told     by these files: poles_for_pole_pairs, '
+check "a clean check is more than three lines" [ "$(wc -l <"$work/stdout")" -eq 3 ]
+run 0 check data/machine_c --verbose
 says '^consistent: ' '0\.9964 +1  rated torque over what the rated current makes' 'not checked, for want of' 'a recording of currents, angle and torque: torque_size'
 run 0 check data/fem_c/machine data/fem_c/runs/*.csv -q
 nothing_on_stdout
@@ -19,7 +21,6 @@ cp -R data/fem_c/machine "$work/typed"
 sed 's/^1,0.89205945,/1,1.545092,/' data/fem_c/machine/back_emf.csv >"$work/typed/back_emf.csv"
 cp -R "$work/typed" "$work/before"
 run 1 check "$work/typed" data/fem_c/runs/I0.csv data/fem_c/runs/id0_iq6.csv
-nothing_on_stdout
 says '^1 slip found: the back-EMF is given line to line, not line to star point, more than 99.9 % sure' \
     'typed/back_emf.csv:2: column amplitude_Nm_per_A: found 1.545092, should be 0.892059' \
     'evidence: ' '0\.5894 .*torque over 3/2 k_e i_q and the reluctance torque'
@@ -37,8 +38,8 @@ says '^ambiguous: ' 'possible angle_zero_d_axis' 'or instead: emf_sign; would te
 
 # ---- bounds, what leaves no trace, what is only possible, what is nearer
 
-run 0 check data/machine_a
-says '<= 300  flux linkage' '^  cannot be told from these files: poles_for_pole_pairs, emf_rms, '
+run 0 check data/machine_a -v
+says '<= 300  factor between the flux linkage' '^  not told     by these files: poles_for_pole_pairs, emf_rms, '
 printf 'name,value,unit\npole_pairs,4,1\nresistance,0.38,ohm\ninductance_d,1,mH\ninductance_q,1,mH\nrated_current,7.0710678,A\nrated_torque,1.5,Nm\n' \
     >"$work/typed/machine.csv"
 printf 'order,amplitude_Nm_per_A,phase_rad\n1,0.1,0\n' >"$work/typed/back_emf.csv"
@@ -55,7 +56,7 @@ drive() {
 }
 drive load -2 10
 drive back 0 0
-run 1 check "$work/typed" "$work/load.csv" "$work/back.csv"
+run 1 check "$work/typed" "$work/load.csv" "$work/back.csv" --verbose
 says '^hci-solve: note: .*`erpm` is read as.*columns not used: `odd`' '^1 slip found, 1 more possible: rated_current is rms' \
     'possible resistance_line' ' 1  change of the angle over time against the speed'
 check "the same remark twice" [ "$(grep -c 'note:' "$work/stderr")" -eq 1 ]

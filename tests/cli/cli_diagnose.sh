@@ -47,7 +47,6 @@ row() {
 recordings 0.3 0 slow.csv:60:2 back.csv:-150:7 held.csv:90:4
 printf 'file,role\nslow.csv,fit\nback.csv,fit\nheld.csv,holdout\n' >list.csv
 run 0 diagnose machine --runs list.csv -o deep/out
-nothing_on_stdout
 says '^diagnosed: machine, list.csv: explained$' 'added +current_offset: a = 0\.(29|30)' 'held.csv +holdout'
 check "files: $(ls deep/out | tr '\n' ' ')" [ "$(ls deep/out | tr '\n' ' ')" = \
     'declared effects.csv errors.csv machine report.html residual_spectrum.csv summary.json ' ]
@@ -79,8 +78,8 @@ run 0 diagnose deep/out/machine --runs list.csv
 says ': complete$'
 run 0 predict deep/out/machine held.csv
 after=$(awk -F, '$1 == "held.csv" { printf "%.6f", $5 }' deep/out/errors.csv)
-check "predict says other than $after: $(row stderr residual)" \
-    [ "$(awk '/residual/ { printf "%.4f", $2 }' stderr)" = "$(awk "BEGIN { printf \"%.4f\", $after }")" ]
+check "predict says other than $after: $(row stdout residual)" \
+    [ "$(awk '/residual/ { printf "%.4f", $2 }' stdout)" = "$(awk "BEGIN { printf \"%.4f\", $after }")" ]
 
 # ---- not told apart
 

@@ -69,11 +69,11 @@ check "saturation does not act, or is not compensated" awk -F, '{ at[$2] = $3; m
 run 0 simulate data/machine_a --table "$work/a" --drive $drive --speeds 300,3000
 says 'mean torque in N·m at speeds where one is more than 1 % off 2\.463 N·m' '^ +3000 rpm( +0\.[0-9]+){5}$' \
     '^  lead is worse than the plain sine from between 300 and 3000 rpm on$'
-check "a torque that is made is told" [ "$(grep -cE '^ +300 rpm( +[0-9.]+){5}$' "$work/stderr")" -eq 0 ]
+check "a torque that is made is told" [ "$(grep -cE '^ +300 rpm( +[0-9.]+){5}$' "$work/stdout")" -eq 0 ]
 run 0 simulate data/machine_a --table "$work/a" --drive $drive --speeds 3000
 says '^  lead is worse than the plain sine at all given speeds$'
 run 0 simulate data/machine_a --table "$work/a" --drive $drive --speeds 300
-check "what is better is called worse" [ "$(grep -cE 'worse|mean torque' "$work/stderr")" -eq 0 ]
+check "what is better is called worse" [ "$(grep -cE 'worse|mean torque' "$work/stdout")" -eq 0 ]
 # a table that is the plain sine is not worse than it
 printf 'order,amplitude_Nm,phase_rad\n0,2,0\n' >"$work/two.csv"
 printf 'name,value,unit,source\npole_pairs,2,1,t\n' >"$work/plain_machine.csv"
@@ -82,7 +82,7 @@ mv "$work/plain_machine.csv" "$work/sinusoidal_machine/machine.csv"
 printf 'order,amplitude_Nm_per_A,phase_rad\n1,0.14,0\n' >"$work/sinusoidal_machine/back_emf.csv"
 run 0 solve "$work/sinusoidal_machine" --target "$work/two.csv" -q -o "$work/two"
 run 0 simulate "$work/sinusoidal_machine" --table "$work/two" --drive $drive --speeds 300,1000
-check "the same sine is called worse" [ "$(grep -cE 'table is worse' "$work/stderr")" -eq 0 ]
+check "the same sine is called worse" [ "$(grep -cE 'table is worse' "$work/stdout")" -eq 0 ]
 
 # ---- currents that are not what was asked of solve
 

@@ -15,7 +15,7 @@ check "no commands in the help" [ -n "$commands" ]
 commands=$(echo $commands)
 check "not in the order in which one uses them: $commands" \
     [ "$(echo "$commands" | sed 's/ check / /')" = "init harmonics solve sweep emit simulate predict diagnose" ]
-for words in 'hci-solve init .* -o out/' 'hci-solve COMMAND --help' 'Documentation: man hci-solve'; do
+for words in 'hci-solve init .* -o out/' 'hci-solve help COMMAND' 'Documentation: man hci-solve'; do
     check "the help lacks: $words" grep -q -e "$words" "$work/usage"
 done
 for word in -h help; do
@@ -25,8 +25,11 @@ done
 
 version=$(sed -n 's/^#define HCI_VERSION_STRING *"\(.*\)"/\1/p' "$source_dir/include/hci/version.h" "$2/include/hci/version.h" 2>/dev/null |
     head -n 1)
+run 0 -V
+cp "$work/stdout" "$work/version"
 run 0 --version
 nothing_on_stderr
+check "-V differs from --version" cmp -s "$work/stdout" "$work/version"
 check "not a version" grep -Eq '^hci-solve [0-9]+\.[0-9]+\.[0-9]+$' "$work/stdout"
 [ -z "$version" ] || check "not the version of the header" grep -Fqx "hci-solve $version" "$work/stdout"
 
@@ -38,6 +41,8 @@ for command in $commands; do
     cp "$work/stdout" "$work/help"
     run 0 "$command" no_such_machine -h
     check "-h differs from --help" cmp -s "$work/stdout" "$work/help"
+    run 0 help "$command"
+    check "help $command differs from --help" cmp -s "$work/stdout" "$work/help"
     check "help of $command does not name its exit codes" grep -q '^Exit codes: 0' "$work/help"
     check "help of $command has no example" grep -q "^  hci-solve $command " "$work/help"
     check "help of $command does not say what is written" grep -Eq '^Writes |changes nothing' "$work/help"
@@ -71,9 +76,10 @@ set=data/scenarios/02/harmonics.csv
 
 wrong 'COMMAND' # no word at all: the usage
 wrong 'unknown command `sovle`; did you mean `solve`\? ' sovle
-says 'hci-solve COMMAND --help'
+says 'hci-solve help COMMAND'
 check "a mistyped command is answered with a page" [ "$(wc -l <"$work/stderr")" -eq 1 ]
 wrong 'did you mean `simulate`\?' simulat
+wrong 'did you mean `simulate`\?' help simulat
 wrong 'unknown command `xyzzy`; hci-solve --help' xyzzy
 wrong 'unknown command `--bogus`' --bogus
 wrong 'found 0 words, expected 1: MACHINE --target FILE; see hci-solve solve --help' solve
@@ -148,6 +154,49 @@ wrong 'instructions: found at most 20, but a linear table' emit $currents --name
 wrong '--reference-torque goes with --per-torque' emit $currents --name t --reference-torque 2
 wrong '--per-torque needs the folder' emit $currents --name t --per-torque
 check "a wrong command line has written" [ ! -e "$work/emitted" ] && check "a wrong command line has written" [ ! -e "$work/x" ]
+
+# ---- with --json an error is an object on standard output too
+
+# error_has CODE FIELD...: a call that fails has said each of these lines on standard output.
+error_has() {
+    for field; do check "the error lacks: $field" grep -Fq "$(printf '\t\t%s' "$field")" "$work/stdout"; done
+}
+run 2 sovle --json
+error_has '"exit_code":	2,' '"message":	"unknown command `sovle`; did you mean `solve`?'
+run 2 solve data/machine_a --target $target --json --tolerance 9
+error_has '"exit_code":	2,' '"message":	"--tolerance: found `9`, expected a number'
+printf 'order,amplitude_Nm,phase_rad\n0,2,0\n6,x,0\n' >"$work/a: b.csv"
+run 3 solve data/machine_a --target "$work/a: b.csv" --json -q
+error_has '"exit_code":	3,' "\"file\":	\"$work/a: b.csv\"," '"line":	3,' '"column":	2,' '"column_name":	"amplitude_Nm",' '"remedy":	"'
+run 3 solve no_such_machine --target $target --json
+error_has '"file":	"no_such_machine",'
+run 5 solve data/machine_a --target $target --json -o "$work/a: b.csv/x"
+error_has '"exit_code":	5,'
+
+# ---- - is standard input
+
+piped() { # WORD...: the program reads the file $input
+    shown="hci-solve $* <$input"
+    "$hci_solve" "$@" <"$input" >"$work/stdout" 2>"$work/stderr"
+    code=$?
+    check "exit code $code" [ "$code" -eq 0 ]
+    streams_are_kept
+}
+input=$target
+piped solve data/machine_a --target - --json
+cp "$work/stdout" "$work/piped"
+run 0 solve data/machine_a --target $target --json
+check "--target - is another one" cmp -s "$work/stdout" "$work/piped"
+run 0 simulate data/machine_a data/drive/imposed.csv -q -o "$work/run"
+input=$work/run/trajectory.csv
+for words in 'harmonics RUN --quantity cogging --pole-pairs 2' 'predict data/machine_a RUN' 'check data/machine_a RUN'; do
+    # shellcheck disable=SC2046
+    piped $(echo "$words" | sed 's/RUN/-/') --json
+    sed "s|$input|-|" "$work/stdout" >"$work/piped"
+    # shellcheck disable=SC2046
+    run 0 $(echo "$words" | sed "s|RUN|$input|") --json
+    check "$words is another one" eval "sed 's|$input|-|' '$work/stdout' | cmp -s - '$work/piped'"
+done
 
 # ---- right ones that look odd
 

@@ -18,7 +18,7 @@ small() { # CONNECTION [ROW...]
 }
 
 value() { # WORDS: of the first line that has them
-    sed -n "s/.*$1.*/\\1/p" "$work/stderr" | head -n 1
+    sed -n "s/.*$1.*/\\1/p" "$work/stdout" | head -n 1
 }
 
 is_less() { awk -v a="$1" -v b="$2" 'BEGIN { exit !(a + 0 < b + 0) }'; }
@@ -120,7 +120,7 @@ small star max_current,8,A,test dc_link_voltage,60,V,test rated_current,5,A,test
 run 1 solve "$m" --target "$t"
 says 'phase current 8 of 8 A \(machine.csv\); 1 A more'
 run 0 solve "$m" --target "$t" --ignore-ratings
-check "a rating is a limit after all" eval "! grep -q 'limit   ' '$work/stderr'"
+check "a rating is a limit after all" eval "! grep -q 'limit   ' '$work/stdout'"
 run 0 solve "$m" --target "$t" --limit-current 30
 says 'phase current 9\.[0-9]* of 30 A$'
 run 0 solve "$m" --target "$t" --limit-current 30 --speed 1500
@@ -143,7 +143,7 @@ check "summary.json does not tell that a limit is not kept" grep -q '"cost":[[:s
 check "the report does not tell that a limit is not kept" grep -q 'A limit is not kept' "$work/beyond/report.html"
 check "the report says that limits are kept" eval "! grep -q 'keep the limits' '$work/beyond/report.html'"
 run 1 solve "$m" --target "$t" --limit-current 9 --speed 100 --limit-voltage 500
-check "a voltage that is far off has a price" eval "! grep -q 'V more of dc link' '$work/stderr'"
+check "a voltage that is far off has a price" eval "! grep -q 'V more of dc link' '$work/stdout'"
 run 1 solve "$m" --target "$t" --auto 3 --limit-current 9
 says 'phase current 9 of 9 A'
 run 1 solve "$m" --target "$t" --harmonics "$h" --limit-current 9

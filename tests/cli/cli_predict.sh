@@ -8,9 +8,8 @@ cd "$source_dir" || exit 1
 
 run 0 simulate data/machine_a data/drive/imposed.csv -q -o "$work/imposed"
 run 0 predict data/machine_a "$work/imposed/trajectory.csv" -o "$work/deep/er/predicted.csv"
-nothing_on_stdout
 says '^predicted: data/machine_a, .*trajectory.csv$' 'torque as measured' 'mean 2.4629 N·m' "written .*/predicted.csv" \
-    'residual     [0-9.]+e-1[0-9] N·m rms'
+    'residual     none above rounding'
 check "header: $(head -n 1 "$work/deep/er/predicted.csv")" [ "$(head -n 1 "$work/deep/er/predicted.csv")" = \
     "$(head -n 1 "$work/imposed/trajectory.csv"),torque_model_Nm,residual_Nm" ]
 cut -d, -f1-11 "$work/deep/er/predicted.csv" >"$work/own"
@@ -24,7 +23,7 @@ run 0 simulate "$work/machine" data/drive/imposed.csv -q -o "$work/effects"
 run 0 predict data/machine_a "$work/effects/trajectory.csv"
 says 'residual     0\.[0-9]+ N·m rms'
 run 0 predict "$work/machine" "$work/effects/trajectory.csv"
-says 'residual     [0-9.]+e-1[0-9] N·m rms'
+says 'residual     none above rounding'
 
 # ---- same input, same bytes; the old prediction is replaced, not added to
 

@@ -96,10 +96,10 @@ sed -n 's/.*"mean_Nm":[[:space:]]*\([-0-9.e+]*\),*$/\1/p' "$work/imposed/summary
 check "the mean is not that of the summary" grep -Fq "<data value=\"$(cut -c 1-12 "$work/mean")" "$work/imposed/report.html"
 check "imposed currents taken for a strategy" [ "$(grep -c 'A strategy asks' "$work/imposed/report.html")" -eq 0 ]
 run 0 simulate data/machine_a data/drive/imposed.csv -o "$work/again" --report
-plain=$(sed -n 's/.*of 11.76 A as it should flow, T_ripple \([0-9]*\)\..*/\1/p' "$work/stderr")
+plain=$(sed -n 's/.*of 11.76 A as it should flow, T_ripple \([0-9]*\)\..*/\1/p' "$work/stdout")
 check "the terminal names no ripple before" [ -n "$plain" ]
 check "the page has another ripple before" grep -q "<b>$plain → " "$work/imposed/report.html"
-check "another order before" [ "$(awk '$1 == 6 { print $2 }' "$work/stderr")" = "$(sed -n 's|.*>6</data></td><td><data value="\([0-9.]\{6\}\).*|\1|p' "$work/imposed/report.html" | head -n 1)" ]
+check "another order before" [ "$(awk '$1 == 6 { print $2 }' "$work/stdout")" = "$(sed -n 's|.*>6</data></td><td><data value="\([0-9.]\{6\}\).*|\1|p' "$work/imposed/report.html" | head -n 1)" ]
 run 0 simulate data/machine_a data/drive/imposed.csv -q -o "$work/imposed"
 check "the page of an earlier simulation" [ ! -e "$work/imposed/report.html" ]
 

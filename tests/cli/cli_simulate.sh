@@ -19,7 +19,6 @@ near() { # FOUND EXPECTED RELATIVE
 
 run 0 solve data/machine_a --target data/scenarios/12/target.csv --auto -q -o "$work/solution"
 run 0 simulate data/machine_a data/drive/imposed.csv --currents "$work/solution" -o "$work/imposed"
-nothing_on_stdout
 says '^simulated: data/machine_a, data/drive/imposed.csv$' '2 whole periods at 1500 rpm' 'mean 2.4629 N·m' 'copper loss'
 check "files: $(ls -A "$work/imposed" | tr '\n' ' ')" [ "$(ls -A "$work/imposed" | tr '\n' ' ')" = "spectrum.csv summary.json trajectory.csv " ]
 check "header of the spectrum" [ "$(head -n 1 "$work/imposed/spectrum.csv")" = order,torque_Nm,torque_phase_rad ]
@@ -40,7 +39,7 @@ check "data/drive/machine_a_currents.csv is not what solve finds" awk -F, '/^#/ 
     { d = ($3 * cos($4) - s[$1 $2]) ^ 2 + ($3 * sin($4) - c[$1 $2]) ^ 2; if (d > 1e-16) bad = 1; m++ }
     END { exit bad || n != m || !n }' data/drive/machine_a_currents.csv "$work/again/currents.csv"
 run 0 simulate data/machine_a data/drive/imposed.csv
-says 'T_ripple [0-9.]+e-1[0-9] %'
+says 'T_ripple 0 %'
 
 # ---- switched voltages are told of (the second paper's experiment is run in cli_examples.sh); the figures from the trajectory
 

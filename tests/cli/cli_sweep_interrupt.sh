@@ -19,7 +19,7 @@ run 0 $long -q -o "$work/whole"
 ended() {
     shown="hci-solve $long, and kill -$1"
     # shellcheck disable=SC2086
-    env --default-signal=INT "$hci_solve" $long --jobs 1 -o "$3" 2>"$work/stderr" &
+    env --default-signal=INT "$hci_solve" $long --jobs 1 -o "$3" >"$work/stdout" 2>"$work/stderr" &
     job=$!
     tries=0
     while [ ! -s "$3/points.csv" ] && kill -0 $job 2>/dev/null && [ $tries -lt 600 ]; do sleep 0.05 && tries=$((tries + 1)); done

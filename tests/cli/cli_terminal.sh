@@ -54,12 +54,10 @@ while read -r words <&3; do
     set -- $words
     LC_ALL=C.UTF-8 "$hci_solve" "$@" >"$work/stdout" 2>"$work/stderr"
     piped=$?
-    nothing_on_stdout
-    check "an escape in a pipe" eval "! grep -q '$escape' '$work/stderr'"
-    check "blocks in a pipe" eval "! grep -q '█' '$work/stderr'"
+    check "an escape in a pipe" eval "! grep -q '$escape' '$work/stdout' '$work/stderr'"
+    check "blocks in a pipe" eval "! grep -q '█' '$work/stdout'"
     for columns in 60 120; do
         seen $piped $k.$columns
-        nothing_on_stdout
         says '█' "$escape\[3[123];1m" '(linear|logarithmic), [0-9]' 'N·m'
     done
     seen $piped $k.ascii
@@ -67,10 +65,9 @@ while read -r words <&3; do
     check "other than ASCII in the locale C" eval "! LC_ALL=C grep -q '[^ -~$escape]' '$work/stderr'"
     seen $piped $k.quiet
     shows_nothing "--quiet shows something"
-    nothing_on_stdout
     seen $piped $k.json
     json_on_stdout
-    nothing_on_stderr
+    shows_nothing "--json shows words"
     cp "$work/stdout" "$work/on_terminal.json"
     run $piped "$@" --json
     nothing_on_stderr
@@ -156,7 +153,7 @@ seen 0 logarithmic
 says '^ +12 +0\.3102 .* (█){38}▊$'
 
 run 0 solve data/machine_a --target "$work/thirty.csv"
-rows=$(grep -Ec '^ +[0-9]+ [0-9.]+ .* 0\.[01]' "$work/stderr")
+rows=$(grep -Ec '^ +[0-9]+ [0-9.]+ .* 0\.[01]' "$work/stdout")
 check "rows drawn: $rows" [ "$rows" -eq 20 ]
 says '^  and [0-9]+ smaller ones: spectrum.csv$'
 

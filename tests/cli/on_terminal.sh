@@ -1,4 +1,4 @@
-# Calls with standard error on a terminal; read after tests/support/common.sh.
+# Calls on a terminal, of which standard output is a file with --json; read after tests/support/common.sh.
 
 python3 -c 'import fcntl, pty, termios; pty.openpty()' 2>/dev/null || { echo "skipped: no pseudo-terminal through python3"; exit 77; }
 
@@ -6,7 +6,7 @@ escape=$(printf '\033')
 unset COLUMNS NO_COLOR LC_CTYPE LANG
 mkdir "$work/seen"
 
-# plan NAME COLUMNS [NAME=VALUE...] -- WORD...: a call with standard error on a terminal. Calls are made together by `perform`, since
+# plan NAME COLUMNS [NAME=VALUE...] -- WORD...: a call on a terminal. Calls are made together by `perform`, since
 # python takes longer to start than they take. $keys: what is typed when something is seen, as terminal.py has it.
 plan() {
     { printf '%s\037' "$work/seen/$1" "$2" "${keys-}"; shift 2

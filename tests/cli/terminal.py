@@ -1,9 +1,9 @@
-"""Runs programs with their standard error on a pseudo-terminal and their standard output in a file.
+"""Runs programs on a pseudo-terminal; with --json their standard output is a file.
 
     terminal.py <JOBS
 
 A line of JOBS is a program to run: FIELD, each ended by the byte 31: NAME, COLUMNS, KEYS, NAME=VALUE…, `--`, WORD…
-NAME.screen gets every byte that the terminal got, NAME.stdout what was printed, NAME.code the exit code, 128 and more for a signal as
+NAME.screen gets every byte that the terminal got, NAME.stdout what was printed with --json, NAME.code the exit code, 128 and more for a signal as
 a shell has it, and NAME.long the lines that are longer than the terminal, escapes and commands to copy not counted. KEYS, if any, is
 REGEX>TEXT (with escapes, such as \\x03 for Ctrl-C): TEXT is typed as soon as the expression is found in what is shown.
 """
@@ -25,7 +25,9 @@ def start(words, columns, settings, stdout):
     fcntl.ioctl(2, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
     signal.signal(signal.SIGINT, signal.SIG_DFL)  # a job in the background of a shell ignores it
     os.dup2(os.open("/dev/null", os.O_RDONLY), 0)
-    os.dup2(os.open(stdout, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o666), 1)
+    file = os.open(stdout, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o666)
+    if "--json" in words:
+        os.dup2(file, 1)
     os.environ.update(TERM="xterm", LC_ALL="C.UTF-8")
     os.environ.update(setting.split("=", 1) for setting in settings)
     os.execvp(words[0], words)

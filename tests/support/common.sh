@@ -29,6 +29,7 @@ fail() {
     echo "FAILED: $*"
     [ -z "$shown" ] || echo "    after: $shown"
     [ ! -s "$work/stderr" ] || sed 's/^/    stderr: /' "$work/stderr" | head -n 4
+    [ ! -s "$work/stdout" ] || sed 's/^/    stdout: /' "$work/stdout" | head -n 4
 }
 
 # check WHAT COMMAND...: the command succeeds.
@@ -48,13 +49,23 @@ run() {
     "$hci_solve" "$@" >"$work/stdout" 2>"$work/stderr" </dev/null
     code=$?
     [ "$code" -eq "$expected" ] || fail "exit code $code, expected $expected"
+    streams_are_kept
 }
 
-# says EXPRESSION...: each extended regular expression is found on standard error.
+# What was found is on standard output, a remark or an error on standard error; with an error standard output is empty, or has it as JSON.
+streams_are_kept() {
+    if [ "$code" -le 1 ]; then
+        ! grep -v '^hci-solve: note: ' "$work/stderr" >"$work/strays" || fail "more than remarks on standard error"
+    elif [ -s "$work/stdout" ]; then
+        grep -q '^	"error":' "$work/stdout" || fail "an error has standard output"
+    fi
+}
+
+# says EXPRESSION...: each extended regular expression is found in what is said, on either stream.
 says() {
     for expression; do
         checks=$((checks + 1))
-        grep -Eq -e "$expression" "$work/stderr" || fail "standard error lacks: $expression"
+        grep -Eqs -e "$expression" "$work/stdout" "$work/stderr" || fail "not said: $expression"
     done
 }
 

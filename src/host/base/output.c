@@ -78,6 +78,25 @@ static void leave(const hci_output *output)
         }
 }
 
+/* ---- who wants to know ---- */
+
+static struct {
+    hci_output_told *told;
+    void *context;
+} listener;
+
+void hci_output_tell(hci_output_told *told, void *context)
+{
+    listener.told = told;
+    listener.context = context;
+}
+
+static void tell(const hci_output *output)
+{
+    for (size_t i = 0; i < output->count && listener.told != NULL; i++)
+        if (!output->files[i].absent) listener.told(listener.context, output->files[i].target);
+}
+
 /* ---- messages ---- */
 
 static hci_status output_error(const char *path, hci_note *note, const char *found, const char *remedy)
@@ -436,6 +455,7 @@ hci_status hci_output_commit(hci_output *output, hci_note *note)
     hold_signals(&signals);
     const hci_status status = publish_all(output, note);
     if (!status) output->existing = strlen(output->folder);
+    if (!status) tell(output);
     hci_output_discard(output);
     release_signals(&signals);
     return status;

@@ -1,5 +1,6 @@
-/* The whole of a file as one text, or why it is none. What a device has learnt becomes text here. */
+/* The whole of a file as one text, or why it is none; "-" is standard input, which can be read once. What a device has learnt becomes text here. */
 #include <errno.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -59,13 +60,14 @@ static void finish_interrupted(const char *path)
 
 static hci_status read_file(hci_csv *csv, size_t *size, hci_note *note)
 {
+    const bool is_input = strcmp(csv->path, "-") == 0;
     finish_interrupted(csv->path);
     errno = 0;
-    FILE *stream = fopen(csv->path, "rb");
+    FILE *stream = is_input ? stdin : fopen(csv->path, "rb");
     if (stream == NULL) return system_error(csv->path, note, errno);
     csv->text = read_stream(stream, size);
     const int failure = ferror(stream) ? errno : 0;
-    fclose(stream);
+    if (!is_input) fclose(stream);
     if (csv->text == NULL) return hci_note_memory(note, csv->path, "reading it");
     if (failure != 0) return system_error(csv->path, note, failure);
     return HCI_OK;

@@ -55,6 +55,12 @@ void hci_output_discard(hci_output *output);
  * there. A folder that cannot be written stays as it is. */
 void hci_output_finish_interrupted(const char *folder);
 
+/* What is told of each file that a commit has put into place; path: folder/name, valid during the call. */
+typedef void hci_output_told(void *context, const char *path);
+
+/* From now on each commit tells its files, in their order; NULL: none does. For programs of one thread. */
+void hci_output_tell(hci_output_told *told, void *context);
+
 /* For the handler of a signal that ends the program, and safe there: removes what all sets that are open have
  * written and the folders that they have made. Their memory stays. For programs of one thread. */
 void hci_output_abandon(void);

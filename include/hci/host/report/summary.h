@@ -56,6 +56,10 @@ char *hci_emit_foreign_json(const hci_emit_foreign_request *request, const hci_e
 /* What `emit` has made of a request. */
 char *hci_emit_json(const hci_emit_request *request, const hci_emit_result *result);
 
+/* Why a command failed: an object `error` with exit_code, status and message, and file, line, column,
+ * column_name and remedy as far as the note has them. note: its text may be "". */
+char *hci_failure_json(hci_status status, const hci_note *note);
+
 /* Frees a text of this library; NULL is fine. */
 void hci_text_free(char *text);
 
