@@ -1,0 +1,55 @@
+"""The look of the pictures: the colours of the reports (src/host/draw/svg_style.c)."""
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Optional
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+TEXT, QUIET, AXIS, GRID = "#1c1f23", "#5a6068", "#8b9099", "#e4e6ea"
+BEFORE, WANTED, AFTER, ALARM = "#767c86", "#b87a00", "#0072b2", "#c04a00"
+PHASES = ("#0072b2", "#b87a00", "#009e73")
+
+
+def figure_of(figure: Optional["Figure"], width: float, height: float, title: str, facts: str = "") -> "Figure":
+    """The figure that is drawn into, with its heading."""
+    if figure is None:
+        from matplotlib import pyplot
+
+        figure = pyplot.figure()
+    figure.set_size_inches(width, height)
+    figure.set_layout_engine("constrained")
+    heading = figure.suptitle(title, x=0.01, ha="left", fontsize=13, fontweight="bold", color=TEXT)
+    if facts:
+        heading.set_text(title + "\n" + facts)
+        heading.set_fontsize(10)
+    return figure
+
+
+def axes_of(axes: "Axes", title: str, x: str, y: str) -> "Axes":
+    """Axes in this look."""
+    axes.set_title(title, loc="left", fontsize=10, fontweight="bold", color=TEXT)
+    axes.set_xlabel(x, fontsize=9, color=QUIET)
+    axes.set_ylabel(y, fontsize=9, color=QUIET)
+    axes.tick_params(labelsize=8, color=AXIS, labelcolor=QUIET)
+    axes.grid(True, color=GRID, linewidth=0.8)
+    axes.set_axisbelow(True)
+    for side, spine in axes.spines.items():
+        spine.set_visible(side in ("left", "bottom"))
+        spine.set_color(AXIS)
+    return axes
+
+
+def calm(axes: "Axes") -> None:
+    """No axis over rounding alone: at least a millionth of the values is shown."""
+    low, high = axes.get_ylim()
+    least = 1e-6 * max(abs(low), abs(high), 1e-9)
+    if high - low < least:
+        axes.set_ylim((low + high - least) / 2, (low + high + least) / 2)
+
+
+def legend_of(axes: "Axes", **more: Any) -> None:
+    """A legend over the axes, to the right."""
+    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=4, frameon=False, fontsize=8,
+                labelcolor=QUIET, borderaxespad=0.2, handlelength=1.4, columnspacing=1.2, **more)

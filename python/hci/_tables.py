@@ -1,0 +1,82 @@
+"""Small tables as the files that the library reads, so that it is the one that checks them."""
+from __future__ import annotations
+
+import os
+import tempfile
+from pathlib import Path
+from typing import Any, Iterable, Mapping, Sequence, Tuple, Union
+
+
+class Tables:
+    """A temporary folder; `hide` is what messages leave out of its paths."""
+
+    def __init__(self) -> None:
+        self._folder = tempfile.TemporaryDirectory(prefix="hci-")
+        self.hide = self._folder.name + os.sep
+
+    def __enter__(self) -> "Tables":
+        return self
+
+    def __exit__(self, *_: Any) -> None:
+        self._folder.cleanup()
+
+    @property
+    def folder(self) -> Path:
+        return Path(self._folder.name)
+
+    def write(self, name: str, columns: Sequence[str], rows: Iterable[Sequence[Any]]) -> Path:
+        """A table; numbers are written so that they read back to the same double."""
+        path = self.folder / name
+        lines = [",".join(columns)] + [",".join(_cell(value) for value in row) for row in rows]
+        path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+        return path
+
+
+def _cell(value: Any) -> str:
+    if isinstance(value, str):
+        return '"' + value.replace('"', '""') + '"' if set(value) & set(',"\n') else value
+    return repr(float(value))
+
+
+#: Order to amplitude in N·m, or to (amplitude, phase in rad), or to (amplitude, phase, weight).
+Target = Union[str, "os.PathLike[str]", float, Mapping[float, Union[float, Tuple[float, ...]]]]
+
+
+def target_path(target: Target, tables: Tables) -> Path:
+    """A wanted torque as a file."""
+    if isinstance(target, (str, os.PathLike)):
+        return Path(target)
+    if not isinstance(target, Mapping):
+        target = {0.0: float(target)}
+    rows = []
+    for order, value in target.items():
+        parts = tuple(value) if isinstance(value, (tuple, list)) else (value,)
+        amplitude, phase, weight = (*parts, 0.0, 1.0)[:3] if len(parts) == 1 else (*parts, 1.0)[:3]
+        rows.append((order, amplitude, phase, weight))
+    return tables.write("target.csv", ("order", "amplitude_Nm", "phase_rad", "weight"), rows)
+
+
+#: (order, set) of each component, set being pos, neg, sym, asym or zero.
+Harmonics = Union[str, "os.PathLike[str]", Iterable[Tuple[float, str]]]
+
+
+def harmonics_path(harmonics: Harmonics, tables: Tables) -> Path:
+    """A set of components as a file."""
+    if isinstance(harmonics, (str, os.PathLike)):
+        return Path(harmonics)
+    return tables.write("harmonics.csv", ("order", "set"), harmonics)
+
+
+#: Name to value in the unit of docs/simulate.md, to (value, unit), or to a word.
+Scenario = Union[str, "os.PathLike[str]", Mapping[str, Any]]
+
+
+def scenario_path(scenario: Scenario, tables: Tables) -> Path:
+    """A scenario as a file."""
+    if isinstance(scenario, (str, os.PathLike)):
+        return Path(scenario)
+    rows = []
+    for name, value in scenario.items():
+        number, unit = value if isinstance(value, tuple) else (value, "")
+        rows.append((name, os.path.abspath(number) if name == "currents" else number, unit))
+    return tables.write("scenario.csv", ("name", "value", "unit"), rows)

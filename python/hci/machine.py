@@ -1,0 +1,384 @@
+"""A machine, and everything that is asked of it."""
+from __future__ import annotations
+
+import math
+import os
+import tempfile
+from pathlib import Path as FilePath
+from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Union
+
+import numpy.typing as npt
+
+from ._arrays import view
+from ._binding import ffi, lib
+from ._call import Note, Path, Progress, Watch, path, strings, text
+from ._tables import Harmonics, Scenario, Tables, Target, harmonics_path, scenario_path, target_path
+from .check import Check
+from .diagnosis import Diagnosis
+from .errors import ArgumentError
+from .prediction import Prediction
+from .recording import Reading, Recordable, recordings_of
+from .simulation import Simulation
+from .solution import Solution, _word
+from .waveform import Waveform
+
+_METHODS = {"auto": lib.HCI_METHOD_AUTO, "lu": lib.HCI_METHOD_LU, "umfpack": lib.HCI_METHOD_UMFPACK,
+            "qr": lib.HCI_METHOD_QR, "pointwise": lib.HCI_METHOD_POINTWISE}
+_STRATEGIES = {"mtpa": lib.HCI_STRATEGY_MTPA, "id0": lib.HCI_STRATEGY_ID0, "cancel": lib.HCI_STRATEGY_CANCEL}
+_COMPARES = {"all": lib.HCI_COMPARE_ALL, "square": lib.HCI_COMPARE_SQUARE}
+_MINIMISE = {"auto": lib.HCI_MINIMISE_AUTO, "worst": lib.HCI_MINIMISE_WORST,
+             "peak-to-peak": lib.HCI_MINIMISE_PEAK_TO_PEAK, "rms": lib.HCI_MINIMISE_RMS}
+_READINGS = {
+    "kv_line_peak": lib.HCI_SHEET_KV_LINE_PEAK, "kv_line_rms": lib.HCI_SHEET_KV_LINE_RMS,
+    "kv_phase_peak": lib.HCI_SHEET_KV_PHASE_PEAK, "volt_line_rms": lib.HCI_SHEET_VOLT_LINE_RMS,
+    "volt_line_peak": lib.HCI_SHEET_VOLT_LINE_PEAK, "volt_phase_peak": lib.HCI_SHEET_VOLT_PHASE_PEAK,
+    "volt_phase_rms": lib.HCI_SHEET_VOLT_PHASE_RMS, "torque_peak": lib.HCI_SHEET_TORQUE_PEAK,
+    "torque_rms": lib.HCI_SHEET_TORQUE_RMS, "torque_dc": lib.HCI_SHEET_TORQUE_DC, "flux": lib.HCI_SHEET_FLUX,
+}
+_QUANTITIES = {"back_emf": lib.HCI_WAVEFORM_BACK_EMF, "cogging": lib.HCI_WAVEFORM_COGGING}
+#: One limit for all phases, or one of each phase by its letter; 0 opens a phase.
+PhaseLimit = Union[float, Mapping[str, float]]
+
+
+class Machine:
+    """A machine as its folder describes it: `Machine.read` or `Machine.from_datasheet` makes one.
+
+    Attributes:
+        path: of the folder.
+        name: of the folder, the last part of its path.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.path = os.fspath(folder)
+        self.name = FilePath(self.path).name
+        self._folder: Optional[tempfile.TemporaryDirectory[str]] = None
+        note = Note()
+        self.c = ffi.gc(ffi.new("hci_machine_data *"), lib.hci_machine_release)
+        self._effects = ffi.gc(ffi.new("hci_effects_data *"), lib.hci_effects_release)
+        self._uncertainty = ffi.gc(ffi.new("hci_uncertainty *"), lib.hci_uncertainty_release)
+        note.check(lib.hci_machine_read(path(folder), self.c, note.c))
+        note.check(lib.hci_effects_read_machine(path(folder), self._effects, note.c))
+        note.check(lib.hci_uncertainty_read_machine(path(folder), self._uncertainty, note.c))
+
+    @classmethod
+    def read(cls, folder: Path) -> "Machine":
+        """Reads the folder of a machine: machine.csv, back_emf.csv and what else docs/files.md names."""
+        return cls(folder)
+
+    @classmethod
+    def from_datasheet(cls, *, pole_pairs: int, strength: float, reading: str, folder: Optional[Path] = None,
+                       name: str = "machine", slots: int = 0, resistance_ohm: float = math.nan,
+                       resistance_of_line: bool = False, inductance_H: float = math.nan,
+                       inductance_d_H: float = math.nan, inductance_q_H: float = math.nan,
+                       inertia_kgm2: float = math.nan, rated_current_A: float = math.nan,
+                       rated_current_is_rms: bool = False, rated_torque_Nm: float = math.nan,
+                       rated_speed_rpm: float = math.nan, dc_link_voltage_V: float = math.nan) -> "Machine":
+        """Makes a first machine folder from the values of a data sheet, as `hci-solve init` does.
+
+        Args:
+            pole_pairs: a machine with N magnets has N/2.
+            strength: of the magnets, in the unit of the reading.
+            reading: how the sheet means it: kv_line_peak, kv_line_rms, kv_phase_peak (rpm/V), volt_line_rms,
+                volt_line_peak, volt_phase_peak, volt_phase_rms (V/krpm), torque_peak, torque_rms, torque_dc (N·m/A)
+                or flux (Wb).
+            folder: where the tables go; a temporary folder of the machine without it.
+            name: of the machine, for the first line of the tables.
+            slots: of the stator; they give the orders of the cogging torque.
+            resistance_ohm: of a phase, or between two terminals with resistance_of_line.
+            inductance_H: of a phase; inductance_d_H and inductance_q_H along the magnets and across them instead.
+            inertia_kgm2: of the rotor.
+            rated_current_A: of a phase, peak, or rms with rated_current_is_rms.
+            rated_torque_Nm: on the shaft.
+            rated_speed_rpm: mechanical.
+            dc_link_voltage_V: of battery or supply.
+        """
+        label, note = ffi.new("char[]", name.encode()), Note()
+        both = not math.isnan(inductance_H)
+        sheet = ffi.new("hci_sheet *", {
+            "name": label, "pole_pairs": pole_pairs, "slots": slots, "reading": _word(_READINGS, reading, "reading"),
+            "strength": strength, "resistance_ohm": resistance_ohm, "resistance_of_line": resistance_of_line,
+            "inductance_d_H": inductance_H if both else inductance_d_H,
+            "inductance_q_H": inductance_H if both else inductance_q_H, "inertia_kgm2": inertia_kgm2,
+            "rated_current_A": rated_current_A, "rated_current_is_rms": rated_current_is_rms,
+            "rated_torque_Nm": rated_torque_Nm, "rated_speed_rpm": rated_speed_rpm,
+            "dc_link_voltage_V": dc_link_voltage_V})
+        own = tempfile.TemporaryDirectory(prefix="hci-machine-") if folder is None else None
+        where = os.path.join(own.name, name) if own is not None else os.fspath(folder or "")
+        note.check(lib.hci_init_write(path(where), sheet, note.c))
+        machine = cls(where)
+        machine._folder = own
+        return machine
+
+    def __repr__(self) -> str:
+        return f"<Machine {self.path}: {self.pole_pairs} pole pairs, {len(self.back_emf)} back-EMF orders>"
+
+    # ---- what it is ----
+
+    @property
+    def pole_pairs(self) -> int:
+        """Electrical turns in a mechanical one."""
+        return int(self.c.model.pole_pairs)
+
+    @property
+    def values(self) -> Dict[str, float]:
+        """Numbers of machine.csv by their names with units; those that are not given are left out."""
+        names = [name for name, field in ffi.typeof("hci_machine_data").fields if field.type.cname == "double"]
+        found = {name: float(getattr(self.c, name)) for name in names}
+        return {name: value for name, value in found.items() if not math.isnan(value)}
+
+    @property
+    def back_emf(self) -> npt.NDArray[Any]:
+        """Waves of the back-EMF per speed: fields order, sequence, sine, cosine in N·m/A. A view."""
+        return view(self.c, self.c.back_emf, self.c.model.back_emf_count, "hci_wave")
+
+    @property
+    def cogging(self) -> npt.NDArray[Any]:
+        """Cogging torque: fields order, sine, cosine in N·m. A view."""
+        return view(self.c, self.c.cogging, self.c.model.cogging_count, "hci_harmonic")
+
+    @property
+    def effects(self) -> List[str]:
+        """Names of the effects of effects.csv."""
+        return [text(self._effects.effect[k].type.name) for k in range(self._effects.list.count)]
+
+    @property
+    def remark(self) -> str:
+        """What a reader should know, such as names that were not understood."""
+        return text(self.c.remark.text)
+
+    # ---- currents ----
+
+    def solve(self, target: Target, *, harmonics: Optional[Harmonics] = None, at_most: int = 0,
+              fundamental: Optional[Tuple[float, float]] = None, method: str = "auto", strategy: str = "mtpa",
+              compare: str = "all", tolerance: float = 0.0, max_loss: float = 0.0,
+              limit_current_A: PhaseLimit = 0.0, limit_rms_A: PhaseLimit = 0.0, limit_copper_W: float = 0.0,
+              limit_copper_ratio: float = 0.0, limit_voltage_V: float = 0.0, speed_rpm: Optional[float] = None,
+              voltage_reserve: float = 0.0, dead_time_s: float = 0.0, pwm_frequency_Hz: float = 0.0,
+              ignore_ratings: bool = False, minimise: str = "auto", temperature_C: Optional[float] = None,
+              progress: Progress = None) -> Solution:
+        """Finds the currents that make the machine produce a wanted torque: `hci-solve solve`.
+
+        Args:
+            target: a file, a mean torque in N·m, or {order: amplitude_Nm} or {order: (amplitude_Nm, phase_rad)} or
+                with a weight as the third: 0 is do not care. Order 0 is the mean; orders not listed are wanted zero.
+            harmonics: components to use, a file or [(order, set), …]; without it they are chosen.
+            at_most: so many components are chosen; 0: as many as it takes.
+            fundamental: peak amplitude in A and phase in rad of a fundamental that is held.
+            method: auto, lu, umfpack, qr or pointwise.
+            strategy: of the method pointwise: mtpa, id0 or cancel.
+            compare: all orders, or square: as many as unknowns.
+            tolerance: share of the mean torque within which an order is reached; 0: 1e-6.
+            max_loss: with at_most: copper loss over the pointwise limit; 0: 1.10.
+            limit_current_A: largest |phase current|, of all phases or {"a": 10}; 0 of a phase opens it.
+            limit_rms_A: rms of a phase current, likewise.
+            limit_copper_W: copper loss of all phases.
+            limit_copper_ratio: copper loss over that of the plain sine.
+            limit_voltage_V: dc-link voltage that line voltages stay below at speed_rpm.
+            speed_rpm: mechanical.
+            voltage_reserve: share of the dc link that is left for the control.
+            dead_time_s: with pwm_frequency_Hz: what line voltages lose.
+            pwm_frequency_Hz: see dead_time_s.
+            ignore_ratings: leave out the limits that machine.csv declares.
+            minimise: which ripple is made smallest where limits act: auto, worst, peak-to-peak or rms.
+            temperature_C: of the magnets.
+            progress: see docs/python.md.
+
+        Returns:
+            The solution; `reached` tells whether the torque is as wanted.
+        """
+        options = ffi.new("hci_solve_options *", {
+            "choose_at_most": at_most, "method": _word(_METHODS, method, "method"),
+            "strategy": _word(_STRATEGIES, strategy, "strategy"), "compare": _word(_COMPARES, compare, "compare"),
+            "tolerance": tolerance, "loss_allowance": max_loss, "limit_voltage_V": limit_voltage_V,
+            "minimise": _word(_MINIMISE, minimise, "minimise"), "at_speed": speed_rpm is not None,
+            "speed_rad_per_s": (speed_rpm or 0.0) * math.pi / 30.0, "at_temperature": temperature_C is not None,
+            "temperature_C": temperature_C or 0.0,
+            "limits": {"voltage_reserve": voltage_reserve, "dead_time_s": dead_time_s, "copper_W": limit_copper_W,
+                       "pwm_frequency_Hz": pwm_frequency_Hz, "copper_ratio": limit_copper_ratio,
+                       "ignore_ratings": ignore_ratings}})
+        if limit_voltage_V and speed_rpm is None:
+            raise ArgumentError("limit_voltage_V: the voltage depends on the speed; give speed_rpm too")
+        _set_limits(options, limit_current_A, limit_rms_A)
+        held = lib.hci_wave_polar(1.0, 1, *fundamental) if fundamental else None
+        kept = ffi.new("hci_wave *", held) if held is not None else ffi.NULL
+        options.held = kept
+        return self._solve(options, target, harmonics, Watch(progress))
+
+    def _solve(self, options: Any, target: Target, harmonics: Optional[Harmonics], watch: Watch) -> Solution:
+        note, solution = Note(), ffi.new("hci_solution *")
+        wanted = ffi.gc(ffi.new("hci_target *"), lib.hci_target_release)
+        chosen = ffi.gc(ffi.new("hci_component_set *"), lib.hci_component_set_release)
+        with Tables() as tables:
+            note.check(lib.hci_target_read(path(target_path(target, tables)), wanted, note.c), hide=tables.hide)
+            if harmonics is not None:
+                note.check(lib.hci_component_set_read(path(harmonics_path(harmonics, tables)), self.c.has_neutral,
+                                                      chosen, note.c), hide=tables.hide)
+        options.target, options.set = wanted, chosen if harmonics is not None else ffi.NULL
+        options.effects, options.uncertainty = ffi.addressof(self._effects, "list"), self._uncertainty
+        watch.into(options)
+        status = lib.hci_solve(self.c, options, solution, note.c)
+        found = ffi.gc(solution, lib.hci_solution_release)
+        watch.finish()
+        return Solution(self, found, note.check(status))
+
+    def pointwise(self, target: Target, strategy: str = "mtpa", **more: Any) -> Solution:
+        """The currents angle by angle: mtpa (the shortest), id0 or cancel. more: as of `solve`."""
+        return self.solve(target, method="pointwise", strategy=strategy, **more)
+
+    # ---- recordings ----
+
+    def _reading(self, recordings: Sequence[Any], columns: Optional[Mapping[str, str]], holding: bool, strict: bool) -> Reading:
+        reading = Reading(recordings, columns=columns, holding=holding, strict=strict)
+        reading.c.pole_pairs, reading.c.inertia_kgm2 = self.pole_pairs, self.c.inertia_kgm2
+        reading.c.torque_constant_Nm_per_A = lib.hci_machine_torque_constant(self.c)
+        return reading
+
+    def predict(self, recording: Recordable, *, columns: Optional[Mapping[str, str]] = None, holding: bool = False,
+                strict: bool = False) -> Prediction:
+        """The modelled torque of each sample of a recording, and what the recording differs by.
+
+        Args:
+            recording: a path, a DataFrame, a mapping of arrays or a `Recording`.
+            columns: which column is which quantity, where names do not say it: {"torque_mNm": "Channel 3"}.
+            holding: without a torque column the shaft is turned slowly, and its torque is 0.
+            strict: a cell without a number is an error.
+        """
+        (one,) = recordings_of([recording])
+        reading, note = self._reading([one], columns, holding, strict), Note()
+        samples = ffi.gc(ffi.new("hci_predicted_run *"), lib.hci_predicted_run_release)
+        found = ffi.new("hci_prediction *")
+        note.check(lib.hci_predict_samples(path(self.path), path(one.name), reading.c, samples, found, note.c))
+        return Prediction(samples, found)
+
+    def diagnose(self, runs: Union[Path, Iterable[Recordable]], *, holdout: Iterable[Recordable] = (),
+                 columns: Optional[Mapping[str, str]] = None, holding: bool = False, strict: bool = False,
+                 resolution_percent: float = 0.0, progress: Progress = None) -> Diagnosis:
+        """Finds what the model of the machine lacks to describe recordings: `hci-solve diagnose`.
+
+        Ctrl-C, or a progress function that returns True, ends the search for effects with what it has so far
+        (`summary["search"]` tells); the interrupt is not raised then.
+
+        Args:
+            runs: a list of runs as a file (runs.csv), or recordings that the model is fitted to.
+            holdout: recordings that it is tested on.
+            columns: which column is which quantity, where names do not say it.
+            holding: without a torque column the shaft is turned slowly, and its torque is 0.
+            strict: a cell without a number is an error.
+            resolution_percent: what the model is not asked to be better than; 0: 0.05.
+            progress: see docs/python.md.
+        """
+        watch = Watch(progress)
+        read = _Runs(self, runs, list(holdout), (columns, holding, strict))
+        options = ffi.new("hci_diagnose_options *", {"resolution": resolution_percent / 100.0})
+        watch.into(options)
+        c, note = ffi.new("hci_diagnosis *"), Note()
+        status = lib.hci_diagnose(self.c, ffi.addressof(self._effects, "list"), read.c, options, c, note.c)
+        found = ffi.gc(c, lib.hci_diagnosis_release)
+        watch.finish((KeyboardInterrupt,))
+        return Diagnosis(self, found, read, note.check(status))
+
+    def check(self, *recordings: Recordable, columns: Optional[Mapping[str, str]] = None, holding: bool = False,
+              strict: bool = False) -> Check:
+        """Looks for broken conventions: poles for pole pairs, rms for peak, a sign, an angle zero: `hci-solve check`.
+
+        Args:
+            recordings: any number, which have the same conventions.
+            columns: which column is which quantity, where names do not say it.
+            holding: without a torque column the shaft is turned slowly, and its torque is 0.
+            strict: a cell without a number is an error.
+        """
+        all_of = recordings_of(recordings)
+        reading, note, found = self._reading(all_of, columns, holding, strict), Note(), ffi.new("hci_check *")
+        names, kept = strings([path(recording.name) for recording in all_of])
+        folder = ffi.new("char[]", path(self.path))
+        status = lib.hci_check_files(folder, names, len(all_of), reading.c, found, note.c)
+        return Check(found, (names, kept, folder), note.check(status))
+
+    def harmonics(self, recording: Recordable, quantity: str, *, orders: Optional[Sequence[float]] = None,
+                  max_order: float = math.nan, torque_constant_Nm_per_A: float = math.nan,
+                  columns: Optional[Mapping[str, str]] = None, holding: bool = False, strict: bool = False) -> Waveform:
+        """The orders of a measured waveform with their standard errors: `hci-solve harmonics`.
+
+        Args:
+            recording: a path, a DataFrame, a mapping of arrays or a `Recording`.
+            quantity: cogging or back_emf.
+            orders: electrical, ascending, these and no others; without them what stands out.
+            max_order: highest one that is looked for.
+            torque_constant_Nm_per_A: of i_q, for cogging from a run with currents.
+            columns: which column is which quantity, where names do not say it.
+            holding: without a torque column the shaft is turned slowly, and its torque is 0.
+            strict: a cell without a number is an error.
+        """
+        (one,) = recordings_of([recording])
+        reading, note = self._reading([one], columns, holding, strict), Note()
+        reading.c.inertia_kgm2, reading.c.torque_constant_Nm_per_A = math.nan, 0.0
+        given = ffi.new("double[]", [float(order) for order in orders]) if orders is not None else ffi.NULL
+        options = ffi.new("hci_waveform_options *", {
+            "quantity": _word(_QUANTITIES, quantity, "quantity"), "pole_pairs": self.pole_pairs, "orders": given,
+            "order_count": len(orders) if orders is not None else 0, "max_order": max_order,
+            "torque_constant_Nm_per_A": torque_constant_Nm_per_A})
+        run = ffi.gc(ffi.new("hci_run *"), lib.hci_run_release)
+        note.check(lib.hci_run_read(path(one.name), reading.c, run, note.c))
+        found = ffi.gc(ffi.new("hci_waveform *"), lib.hci_waveform_release)
+        note.check(lib.hci_waveform_find(run, options, found, note.c))
+        return Waveform(found)
+
+    # ---- the drive in time ----
+
+    def simulate(self, scenario: Scenario, *, currents: Union[Solution, Path, None] = None,
+                 progress: Progress = None) -> Simulation:
+        """Runs the drive in time: machine, shaft, current and speed control, sensors: `hci-solve simulate`.
+
+        Args:
+            scenario: a file, or names and values as docs/simulate.md has them: {"duration": 0.1, "prescribed_speed":
+                (100, "rpm"), "current_control": "ideal"}. A number alone is in the unit of the page.
+            currents: what flows, in place of the scenario's: a solution, its folder or currents.csv.
+            progress: see docs/python.md.
+        """
+        watch, note = Watch(progress), Note()
+        c, found, samples = ffi.new("hci_scenario *"), ffi.new("hci_simulation *"), ffi.new("hci_samples *")
+        options = ffi.new("hci_simulate_options *", {"effects": ffi.addressof(self._effects, "list")})
+        watch.into(options)
+        with Tables() as tables:
+            note.check(lib.hci_scenario_read(path(scenario_path(scenario, tables)), c, note.c), hide=tables.hide)
+            if isinstance(currents, Solution):
+                currents.write(tables.folder / "solution")
+                currents = tables.folder / "solution"
+            if currents is not None:
+                c.currents = path(currents)
+            status = lib.hci_simulate_samples(self.c, c, options, samples, found, note.c)
+        watch.finish()
+        note.check(status, hide=tables.hide)
+        return Simulation(ffi.gc(found, lib.hci_simulation_release), ffi.gc(samples, lib.hci_samples_release))
+
+
+class _Runs:
+    """The recordings of a diagnosis, for as long as this lives."""
+
+    def __init__(self, machine: Machine, runs: Union[Path, Iterable[Recordable]], holdout: List[Recordable], how: Any) -> None:
+        self.c = ffi.gc(ffi.new("hci_runs *"), lib.hci_runs_release)
+        note = Note()
+        if isinstance(runs, (str, os.PathLike)):
+            if holdout:
+                raise ArgumentError("holdout: a list of runs in a file says itself which are held out; leave one of them out")
+            reading = machine._reading([], *how)
+            note.check(lib.hci_runs_read(path(runs), ffi.new("hci_runs_options *", {"run": reading.c[0]}), self.c, note.c))
+            return
+        fitted = list(runs)
+        all_of = recordings_of(fitted + holdout)
+        reading = machine._reading(all_of, *how)
+        for k, recording in enumerate(all_of):
+            role = lib.HCI_ROLE_FIT if k < len(fitted) else lib.HCI_ROLE_HOLDOUT
+            note.check(lib.hci_runs_add(self.c, path(recording.name), role, reading.c, note.c))
+
+
+def _set_limits(options: Any, current: PhaseLimit, rms: PhaseLimit) -> None:
+    """Limits of all phases or of some."""
+    if isinstance(current, Mapping):
+        for phase, value in current.items():
+            options.limits.is_open["abc".index(phase)] = value == 0.0
+            options.limits.current_A["abc".index(phase)] = value
+    else:
+        options.limit_current_A = current
+    for phase in "abc":
+        options.limits.rms_A["abc".index(phase)] = rms.get(phase, 0.0) if isinstance(rms, Mapping) else rms

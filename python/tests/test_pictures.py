@@ -1,0 +1,56 @@
+"""Pictures show the numbers of the result, and a notebook shows picture and verdict."""
+import base64
+import inspect
+import re
+
+import numpy as np
+import pytest
+
+import hci
+
+pytest.importorskip("matplotlib")
+
+
+def axes(figure, title):
+    (found,) = [one for one in figure.axes if one.get_title(loc="left") == title]
+    return found
+
+
+def test_a_solution(smooth):
+    figure = smooth.plot()
+    after = [line for line in axes(figure, "Torque").lines if line.get_label() == "after"][0]
+    assert np.array_equal(after.get_ydata(), smooth.waveform["torque_Nm"])
+    assert [line.get_color() for line in axes(figure, "Phase currents").lines] == ["#767c86", "#0072b2", "#b87a00", "#009e73"]
+    before = [bar.get_height() for bar in axes(figure, "Torque ripple by order").patches][0]
+    assert before == pytest.approx(smooth.spectrum()["before_Nm"][1])
+
+
+def test_the_others(machine_a, machine_c, data):
+    drive = machine_a.simulate(data / "drive/driven.csv")
+    columns = {name: drive.trajectory[name] for name in ("time_s", "theta_m_rad", "speed_rad_per_s", "torque_Nm")}
+    prediction = machine_a.predict(columns)
+    results = [drive, prediction, machine_a.harmonics(columns, "cogging"), machine_a.check(columns)]
+    for result in results:
+        figure = result.plot()
+        assert figure.axes and all(one.lines or one.patches or one.collections for one in figure.axes)
+
+
+def test_in_a_notebook(smooth):
+    page = smooth._repr_html_()
+    assert smooth.verdict.splitlines()[0] in page
+    picture = base64.b64decode(re.search(r"base64,([^\"]*)", page)[1])
+    assert picture.startswith(b"\x89PNG") and 20_000 < len(picture) < 200_000
+    assert repr(smooth) == "<Solution: Reached: every torque order is within 2.463 µN·m of what is wanted>"
+
+
+def test_everything_is_documented_and_typed():
+    for name in hci.__all__:
+        thing = getattr(hci, name)
+        assert thing.__doc__, name
+        for member, value in vars(thing).items():
+            if member.startswith("_") or not (inspect.isfunction(value) or isinstance(value, (property, classmethod))):
+                continue
+            function = value.fget if isinstance(value, property) else getattr(value, "__func__", value)
+            assert function.__annotations__.get("return") is not None, f"{name}.{member}"
+            inherited = any(getattr(getattr(base, member, None), "__doc__", None) for base in thing.__mro__)
+            assert inherited, f"{name}.{member}"
