@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import os
+import threading
 from typing import Any, Callable, Dict, List, Optional, Tuple, Type, Union
 
 from . import errors
@@ -11,6 +12,9 @@ Path = Union[str, "os.PathLike[str]"]
 #: Called with what is being done and the share 0 … 1 of it that is done; returns True to stop. A bar of tqdm
 #: with total=1 will do as well.
 Progress = Union[Callable[[str, float], Optional[bool]], Any, None]
+
+#: The library keeps a list of the files that it writes: one thread writes at a time.
+writing = threading.RLock()
 
 _CLASSES: Dict[int, Type[errors.HciError]] = {
     lib.HCI_ERROR_ARGUMENT: errors.ArgumentError,
@@ -68,7 +72,7 @@ class Watch:
             return False
         if callable(self._progress) and not hasattr(self._progress, "update"):
             return self._progress(what, share) is True
-        bar = self._progress
+        bar: Any = self._progress
         if hasattr(bar, "set_description"):
             bar.set_description(what, refresh=False)
         bar.update(max(0.0, share * (bar.total or 1) - bar.n))
@@ -84,8 +88,9 @@ class Watch:
             self._raised = _lost.pop()
         if self._raised is not None and not isinstance(self._raised, kept):
             raise self._raised
-        if self._progress is not None and hasattr(self._progress, "update"):
-            self._progress.update(max(0.0, (self._progress.total or 1) - self._progress.n))
+        bar: Any = self._progress
+        if hasattr(bar, "update"):
+            bar.update(max(0.0, (bar.total or 1) - bar.n))
 
 
 #: What was raised before a watch was known: a signal may come at any instant.

@@ -9,7 +9,7 @@ import numpy.typing as npt
 from . import _look
 from ._arrays import view
 from ._binding import ffi, lib
-from ._call import Note, Path, path, text
+from ._call import Note, Path, path, text, writing
 from ._result import Result, json_of
 
 if TYPE_CHECKING:
@@ -111,7 +111,8 @@ class Diagnosis(Result):
     def write(self, folder: Path) -> None:
         """Writes the files that `hci-solve diagnose -o` writes, the corrected machine in folder/machine."""
         note = Note()
-        note.check(lib.hci_diagnosis_write(self._c, ffi.NULL, self._runs.c, path(self.machine.path), path(folder), note.c))
+        with writing:
+            note.check(lib.hci_diagnosis_write(self._c, ffi.NULL, self._runs.c, path(self.machine.path), path(folder), note.c))
 
     def corrected(self, folder: Path) -> "Machine":
         """Writes all files into a folder, and reads the corrected machine from there."""

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from ._arrays import view
 from ._binding import ffi, lib
-from ._call import Note, Path, Progress, Watch, path, strings, text
+from ._call import Note, Path, Progress, Watch, path, strings, text, writing
 from ._tables import Harmonics, Scenario, Tables, Target, harmonics_path, scenario_path, target_path
 from .check import Check
 from .diagnosis import Diagnosis
@@ -104,7 +104,8 @@ class Machine:
             "dc_link_voltage_V": dc_link_voltage_V})
         own = tempfile.TemporaryDirectory(prefix="hci-machine-") if folder is None else None
         where = os.path.join(own.name, name) if own is not None else os.fspath(folder or "")
-        note.check(lib.hci_init_write(path(where), sheet, note.c))
+        with writing:
+            note.check(lib.hci_init_write(path(where), sheet, note.c))
         machine = cls(where)
         machine._folder = own
         return machine

@@ -10,7 +10,7 @@ import numpy.typing as npt
 from . import _look
 from ._arrays import view
 from ._binding import ffi, lib
-from ._call import Note, Path, path, strings, text
+from ._call import Note, Path, path, strings, text, writing
 from ._result import Result, json_of
 from ._tables import Tables
 
@@ -149,7 +149,7 @@ class Solution(Result):
         import pandas
 
         orders = self.orders
-        table = {"order": orders["torque_Nm"]["order"]}
+        table: Dict[str, Any] = {"order": orders["torque_Nm"]["order"]}
         for name, field in (("target_Nm", "target_Nm"), ("torque_Nm", "torque_Nm"), ("before_Nm", "before_Nm")):
             table[name] = amplitude(orders[field])
         table["error_Nm"] = orders["error_Nm"]
@@ -159,7 +159,8 @@ class Solution(Result):
     def write(self, folder: Path) -> None:
         """Writes the files that `hci-solve solve -o` writes."""
         note = Note()
-        note.check(lib.hci_solution_write(self.machine.c, self._c, self._status, path(folder), note.c))
+        with writing:
+            note.check(lib.hci_solution_write(self.machine.c, self._c, self._status, path(folder), note.c))
 
     def emit(self, folder: Path, name: str, *, format: str = "f32", shape: str = "auto", frame: str = "abc",
              points: int = 0, max_error_A: float = 0.0, max_bytes: int = 0, max_instructions: int = 0,
@@ -205,7 +206,8 @@ class Solution(Result):
         request.provenance, request.provenance_count = lines, 2 if verdict else 1
         request.facts.machine, request.facts.pole_pairs = label, self.machine.pole_pairs
         request.facts.mean_torque_Nm = float(self._c.wanted_mean_Nm)
-        note.check(lib.hci_emit(path(folder), request, result, note.c))
+        with writing:
+            note.check(lib.hci_emit(path(folder), request, result, note.c))
         summary = json_of(lib.hci_emit_json(request, result))
         del kept
         data = request.format in (lib.HCI_EMIT_CSV, lib.HCI_EMIT_JSON)

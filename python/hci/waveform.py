@@ -9,7 +9,7 @@ import numpy.typing as npt
 from . import _look
 from ._arrays import view
 from ._binding import ffi, lib
-from ._call import Note, Path, path, text
+from ._call import Note, Path, path, text, writing
 from ._result import Result, json_of
 
 if TYPE_CHECKING:
@@ -65,7 +65,8 @@ class Waveform(Result):
     def write(self, folder: Path) -> None:
         """Writes back_emf.csv or cogging.csv as a machine folder has it, and a picture."""
         note = Note()
-        note.check(lib.hci_waveform_write(self._c, path(folder), note.c))
+        with writing:
+            note.check(lib.hci_waveform_write(self._c, path(folder), note.c))
 
     def plot(self, figure: Optional["Figure"] = None) -> "Figure":
         """The waveform over a turn, and its orders."""
