@@ -32,6 +32,7 @@ $python -m pip -q install 'scikit-build-core>=0.10' cffi >"$work/log" 2>&1 || sk
 $python -m pip -q install numpy pytest matplotlib pandas nbclient nbformat ipykernel >"$work/log" 2>&1 ||
     skip "no packages to be had: $(tail -n 1 "$work/log")"
 
+export CMAKE_BUILD_PARALLEL_LEVEL=2
 ! command -v ccache >/dev/null || export CMAKE_C_COMPILER_LAUNCHER=ccache
 quietly $python -m pip wheel --no-deps --no-build-isolation -C build-dir="$build" -w "$work/dist" "$source_dir"
 quietly $python -m pip install --no-index "$work"/dist/hci-*.whl
