@@ -28,8 +28,8 @@ python3 -m venv "$work/venv"
 python=$work/venv/bin/python
 export PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_NO_INPUT=1
 $python -m pip -q install 'scikit-build-core>=0.10' cffi >"$work/log" 2>&1 || skip "no packages to be had: $(tail -n 1 "$work/log")"
-# Those of the extra `test`; with the wheel itself they would be fetched as well, but a failure could mean both.
-$python -m pip -q install numpy pytest matplotlib pandas nbclient nbformat ipykernel >"$work/log" 2>&1 ||
+# Those of the extra `test`, apart from the wheel, so that a failure below is one of the package.
+$python -m pip -q install numpy pytest matplotlib pandas polars scipy tqdm nbclient nbformat ipykernel >"$work/log" 2>&1 ||
     skip "no packages to be had: $(tail -n 1 "$work/log")"
 
 export CMAKE_BUILD_PARALLEL_LEVEL=2
