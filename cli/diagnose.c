@@ -164,7 +164,9 @@ static int give_results(const cli_arguments *a, const inputs *in, const hci_diag
     if (a->value[OUT]) status = write_results(a, in, d, r, &note);
     if (!status && cli_is_wordy()) cli_show_diagnosis(d, r, in->folder, a->value[RUNS]);
     if (!status) show_remarks(in);
-    if (!status && a->given[JSON]) status = cli_print_json(hci_diagnosis_json(d, r), &note);
+    if (!status && a->given[JSON])
+        status =
+            cli_print_json(a->value[OUT] ? hci_summary_read(a->value[OUT]) : hci_diagnosis_json(d, r), &note);
     return status ? cli_fail(status, &note) : hci_status_exit_code(verdict);
 }
 

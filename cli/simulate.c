@@ -118,7 +118,9 @@ static hci_status simulate(const cli_arguments *a, const hci_machine_data *machi
         cli_remark(&machine->remark);
         cli_remark(&simulation.remark);
     }
-    if (!status && a->given[JSON]) status = cli_print_json(hci_simulation_json(&simulation), note);
+    if (!status && a->given[JSON])
+        status = cli_print_json(
+            where.folder ? hci_summary_read(where.folder) : hci_simulation_json(&simulation), note);
     hci_simulation_release(&simulation);
     return status;
 }

@@ -311,7 +311,9 @@ static int give_results(const cli_arguments *a, const inputs *in, const hci_solu
                                                 a->value[OUT], &note);
     if (!status && cli_is_wordy()) cli_show_solution(s, a->word[0], a->value[TARGET]);
     if (!status) show_remarks(in, s);
-    if (!status && a->given[JSON]) status = cli_print_json(hci_solution_json(s, verdict), &note);
+    if (!status && a->given[JSON])
+        status = cli_print_json(
+            a->value[OUT] ? hci_summary_read(a->value[OUT]) : hci_solution_json(s, verdict), &note);
     return status ? cli_fail(status, &note) : hci_status_exit_code(verdict);
 }
 

@@ -104,7 +104,9 @@ static hci_status give_results(const cli_arguments *a, const hci_grid *s, hci_no
         cli_show_sweep(s, a->word[0]);
         cli_remark(&s->request.machine->remark);
     }
-    if (!status && a->given[JSON]) status = cli_print_json(hci_grid_json(s), note);
+    if (!status && a->given[JSON])
+        status = cli_print_json(
+            a->value[SWEEP_OUT] ? hci_summary_read(a->value[SWEEP_OUT]) : hci_grid_json(s), note);
     return !status && is_vain(s) ? HCI_NOT_REACHED : status;
 }
 

@@ -195,7 +195,8 @@ static hci_status simulate(const cli_speeds_words *w, inputs *in, hci_note *note
         hci_solution_remark(w->table[k], &remark);
         cli_remark(&remark);
     }
-    if (!status && w->json) status = cli_print_json(hci_speeds_json(&speeds), note);
+    if (!status && w->json)
+        status = cli_print_json(w->out ? hci_summary_read(w->out) : hci_speeds_json(&speeds), note);
     hci_speeds_release(&speeds);
     return status;
 }

@@ -4,12 +4,20 @@
 #include <assert.h>
 #include <cjson/cJSON.h>
 #include <math.h>
+#include <string.h>
 
 void hci_json_begin(hci_json *j)
 {
     j->open[0] = cJSON_CreateObject();
     j->depth = 1;
     j->failed = !j->open[0];
+}
+
+void hci_json_continue(hci_json *j, const char *text)
+{
+    j->open[0] = cJSON_Parse(text);
+    j->depth = 1;
+    j->failed = !cJSON_IsObject(j->open[0]);
 }
 
 /* Adds an item, which may be NULL for lack of memory. */
@@ -74,13 +82,29 @@ void hci_json_free(char *text)
     cJSON_free(text);
 }
 
+/* In the object `object` of a text, or with NULL in the outermost one; NULL where there is none. */
+static const cJSON *find(const cJSON *all, const char *object, const char *name)
+{
+    const cJSON *in = all && object ? cJSON_GetObjectItemCaseSensitive(all, object) : all;
+    return in ? cJSON_GetObjectItemCaseSensitive(in, name) : NULL;
+}
+
 bool hci_json_find_bool(const char *text, const char *object, const char *name, bool *value)
 {
     cJSON *all = cJSON_Parse(text);
-    const cJSON *in = all && object ? cJSON_GetObjectItemCaseSensitive(all, object) : all;
-    const cJSON *item = in ? cJSON_GetObjectItemCaseSensitive(in, name) : NULL;
+    const cJSON *item = find(all, object, name);
     const bool found = cJSON_IsBool(item);
     if (found) *value = cJSON_IsTrue(item);
+    cJSON_Delete(all);
+    return found;
+}
+
+bool hci_json_find_text(const char *text, const char *object, const char *name, char *value, size_t size)
+{
+    cJSON *all = cJSON_Parse(text);
+    const cJSON *item = find(all, object, name);
+    const bool found = cJSON_IsString(item) && strlen(item->valuestring) < size;
+    if (found) strcpy(value, item->valuestring);
     cJSON_Delete(all);
     return found;
 }

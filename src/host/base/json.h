@@ -17,6 +17,9 @@ typedef struct {
 /* Opens the object that all is in. To be ended with hci_json_end. */
 void hci_json_begin(hci_json *json);
 
+/* Opens the object of a text that was written before, to add to it. To be ended with hci_json_end. */
+void hci_json_continue(hci_json *json, const char *text);
+
 /* name: of a member of the object that is open; NULL for an item of the array that is open. What is opened is
  * to be closed. */
 void hci_json_object(hci_json *json, const char *name);
@@ -35,5 +38,8 @@ void hci_json_free(char *text);
 /* A truth value in the object `object` of a text, or with NULL in the outermost one. False where the text is
  * no JSON or has none of that name; *value is then left. */
 bool hci_json_find_bool(const char *text, const char *object, const char *name, bool *value);
+
+/* Likewise a text of less than `size` bytes. */
+bool hci_json_find_text(const char *text, const char *object, const char *name, char *value, size_t size);
 
 #endif

@@ -16,6 +16,7 @@
 #include <unistd.h>
 
 #include "hci/host/base/number.h"
+#include "host/base/checksum.h"
 #include "host/base/folder.h"
 #include "host/base/folder_lock.h"
 #include "host/base/journal.h"
@@ -432,6 +433,22 @@ static void end_journal(hci_output *output)
     hci_journal_end(output->folder);
     for (size_t i = 0; i < output->count; i++)
         if (output->files[i].has_backup) unlink(output->files[i].backup);
+}
+
+hci_status hci_output_checksums(hci_output *output,
+                                void (*show)(void *context, const char *name, const char *checksum),
+                                void *context, hci_note *note)
+{
+    char checksum[HCI_CHECKSUM_SIZE];
+    close_stream(output);
+    for (size_t i = 0; i < output->count; i++) {
+        const file *f = &output->files[i];
+        if (f->absent) continue;
+        if (!hci_checksum_file(f->temporary, checksum))
+            return system_error(f->target, note, errno, "check the folder");
+        show(context, name_of(f->target), checksum);
+    }
+    return HCI_OK;
 }
 
 static hci_status publish_all(hci_output *output, hci_note *note)

@@ -3,12 +3,16 @@
 #include "hci/host/currents/solution_folder.h"
 
 #include <stdio.h>
+#include <string.h>
 #include <sys/stat.h>
 
+#include "hci/host/base/output.h"
 #include "hci/host/csv/csv.h"
+#include "host/base/checksum.h"
 #include "host/base/json.h"
 #include "host/base/memory.h"
 #include "host/base/quote.h"
+#include "host/base/whole_file.h"
 
 enum { PATH_SIZE = 4096 + 32 };
 
@@ -33,6 +37,39 @@ static hci_status path_of(const char *folder, hci_solution_file file, char path[
     return hci_note_set(note, HCI_ERROR_INPUT, "%.200s…: the path is too long", folder);
 }
 
+/* The text of its summary, to be freed; NULL where it has none. */
+static char *summary_of(const char *folder)
+{
+    char path[PATH_SIZE];
+    return path_of(folder, HCI_SOLUTION_SUMMARY, path, NULL) ? NULL : hci_whole_file(path);
+}
+
+/* Whether a file is the one that was written with the summary, as far as that tells. */
+static hci_status check_file(const char *summary, const char *path, hci_solution_file file, hci_note *note)
+{
+    char wanted[HCI_CHECKSUM_SIZE], found[HCI_CHECKSUM_SIZE], shown[HCI_QUOTE_PATH_SIZE];
+    if (!hci_json_find_text(summary, "files", hci_solution_file_name(file), wanted, sizeof wanted) ||
+        !hci_checksum_file(path, found) || strcmp(wanted, found) == 0)
+        return HCI_OK;
+    return hci_note_set(
+        note, HCI_ERROR_INPUT,
+        "%s: found a file with the checksum %s, expected %s, as summary.json beside it says: it was "
+        "edited, or is of another run; solve again, or give the path of this file alone to use it "
+        "as it is",
+        hci_quote_path(path, shown), found, wanted);
+}
+
+/* The path of a file of a folder of results, which is to be the one that was written with the others. */
+static hci_status find_file(const char *folder, hci_solution_file file, char path[PATH_SIZE], hci_note *note)
+{
+    hci_output_finish_interrupted(folder);
+    hci_status status = path_of(folder, file, path, note);
+    char *summary = status ? NULL : summary_of(folder);
+    if (summary) status = check_file(summary, path, file, note);
+    hci_memory_free(summary);
+    return status;
+}
+
 bool hci_solution_has_parts(const char *folder)
 {
     char path[PATH_SIZE];
@@ -47,7 +84,7 @@ hci_status hci_solution_read_currents(const char *path, hci_solution_file part, 
     hci_status status;
     if (part == HCI_SOLUTION_CURRENTS && !hci_solution_is_folder(path))
         return hci_currents_read(path, false, currents, note);
-    status = path_of(path, part, file, note);
+    status = find_file(path, part, file, note);
     return status ? status : hci_currents_read(file, part == HCI_SOLUTION_CURRENTS_PER_NM, currents, note);
 }
 
@@ -56,7 +93,7 @@ hci_status hci_solution_read_wanted_torque(const char *folder, double *torque_Nm
     char path[PATH_SIZE];
     hci_csv *csv;
     double order = 1.0;
-    hci_status status = path_of(folder, HCI_SOLUTION_SPECTRUM, path, note);
+    hci_status status = find_file(folder, HCI_SOLUTION_SPECTRUM, path, note);
     *torque_Nm = 0.0;
     if (!status) status = hci_csv_read(path, &csv, note);
     if (status) return status;
@@ -82,27 +119,10 @@ hci_status hci_solution_read_mean_torque(const char *folder, double *torque_Nm, 
 
 /* ---- what solve said of them ---- */
 
-/* A file as text, to be freed; NULL where it cannot be had. */
-static char *text_of(const char *path)
-{
-    FILE *file = fopen(path, "rb");
-    struct stat info;
-    char *text = NULL;
-    if (file && stat(path, &info) == 0 && S_ISREG(info.st_mode)) {
-        text = hci_memory_new((size_t)info.st_size + 1, 1);
-        if (text) text[fread(text, 1, (size_t)info.st_size, file)] = '\0';
-    }
-    if (file) fclose(file);
-    return text;
-}
-
 hci_solution_verdict hci_solution_read_verdict(const char *path)
 {
     bool reached = true, within = true;
-    char file[PATH_SIZE];
-    char *text = NULL;
-    if (hci_solution_is_folder(path) && !path_of(path, HCI_SOLUTION_SUMMARY, file, NULL))
-        text = text_of(file);
+    char *text = hci_solution_is_folder(path) ? summary_of(path) : NULL;
     if (text) {
         hci_json_find_bool(text, NULL, "reached", &reached);
         hci_json_find_bool(text, "current", "within_limits", &within);

@@ -11,6 +11,7 @@
 #include "host/csv/write.h"
 #include "host/diagnose/findings.h"
 #include "host/report/page/page.h"
+#include "host/report/summary.h"
 #include "host/report/write_next.h"
 #include "host/report/write_runs.h"
 
@@ -106,18 +107,6 @@ static hci_status unexplained_write(hci_output *out, const hci_diagnosis *d, hci
     return HCI_OK;
 }
 
-static hci_status summary_write(hci_output *out, const hci_diagnosis *d, const hci_resolution *resolution,
-                                hci_note *note)
-{
-    char *json = hci_diagnosis_json(d, resolution);
-    hci_status status;
-    if (!json) return hci_note_memory(note, NULL, "the summary");
-    status = hci_output_file(out, "summary.json", note);
-    if (!status) hci_output_text(out, "%s\n", json);
-    hci_text_free(json);
-    return status;
-}
-
 static hci_status report_write(hci_output *out, const hci_diagnosis *d, const hci_resolution *resolution,
                                const hci_runs *runs, const char *machine_folder, hci_note *note)
 {
@@ -198,8 +187,8 @@ static hci_status results_write(hci_output *out, const hci_diagnosis *d, const h
     if (!status) status = spectrum_write(out, d, runs, note);
     if (!status) status = unexplained_write(out, d, note);
     if (!status) status = hci_next_points_write(out, d, note);
-    if (!status) status = summary_write(out, d, resolution, note);
-    return status ? status : report_write(out, d, resolution, runs, machine_folder, note);
+    if (!status) status = report_write(out, d, resolution, runs, machine_folder, note);
+    return status ? status : hci_summary_write(out, hci_diagnosis_json(d, resolution), note);
 }
 
 /* The sets appear one after the other, the one with the summary last. */

@@ -6,6 +6,7 @@
 #include "hci/machine/frames.h"
 #include "host/base/memory.h"
 #include "host/report/page/page.h"
+#include "host/report/summary.h"
 #include "host/samples/trajectory.h"
 
 /* ---- what is kept of the steps ---- */
@@ -74,17 +75,6 @@ static hci_status write_spectrum(hci_output *out, const hci_simulation *s, hci_n
     return HCI_OK;
 }
 
-static hci_status write_summary(hci_output *out, const hci_simulation *s, hci_note *note)
-{
-    char *json = hci_simulation_json(s);
-    hci_status status;
-    if (!json) return hci_note_memory(note, NULL, "the summary");
-    status = hci_output_file(out, "summary.json", note);
-    if (!status) hci_output_text(out, "%s\n", json);
-    hci_text_free(json);
-    return status;
-}
-
 static hci_status write_report(const writer *w, const hci_simulation *s, hci_note *note)
 {
     const hci_report_sources *sources = w->where->sources;
@@ -98,8 +88,8 @@ static hci_status write_rest(writer *w, const hci_simulation *s, hci_note *note)
     hci_status status;
     hci_trajectory_end(&w->trajectory);
     status = write_spectrum(w->out, s, note);
-    if (!status) status = write_summary(w->out, s, note);
-    return status ? status : write_report(w, s, note);
+    if (!status) status = write_report(w, s, note);
+    return status ? status : hci_summary_write(w->out, hci_simulation_json(s), note);
 }
 
 hci_status hci_simulate_to_folder(const hci_machine_data *machine, const hci_scenario *scenario,

@@ -7,6 +7,7 @@
 #include "hci/host/report/write.h"
 #include "host/plot/plot.h"
 #include "host/report/page/page.h"
+#include "host/report/summary.h"
 #include "host/samples/waveform_rows.h"
 
 static void write_currents(hci_output *out, const hci_currents *currents, const hci_wave *wave,
@@ -57,15 +58,6 @@ static void write_waveform(hci_output *out, const hci_machine_data *m, const hci
     }
 }
 
-static hci_status write_summary(hci_output *out, const hci_solution *s, hci_status verdict, hci_note *note)
-{
-    char *json = hci_solution_json(s, verdict);
-    if (!json) return hci_note_memory(note, NULL, "the summary");
-    hci_output_text(out, "%s\n", json);
-    hci_text_free(json);
-    return HCI_OK;
-}
-
 static hci_status begin_file(hci_output *out, hci_solution_file file, hci_note *note)
 {
     return hci_output_file(out, hci_solution_file_name(file), note);
@@ -82,7 +74,7 @@ static hci_status write_part(hci_output *out, hci_solution_file file, const hci_
 }
 
 static hci_status write_files(hci_output *out, const hci_machine_data *m, const hci_solution *s,
-                              hci_status verdict, hci_note *note)
+                              hci_note *note)
 {
     hci_status status = write_part(out, HCI_SOLUTION_CURRENTS, s, s->current.wave, "amplitude_A", note);
     if (!status)
@@ -95,8 +87,7 @@ static hci_status write_files(hci_output *out, const hci_machine_data *m, const 
     if (!status) write_waveform(out, m, s);
     if (!status) status = begin_file(out, HCI_SOLUTION_PICTURE, note);
     if (!status) hci_plot_solution(out, s);
-    if (!status) status = begin_file(out, HCI_SOLUTION_SUMMARY, note);
-    return status ? status : write_summary(out, s, verdict, note);
+    return status;
 }
 
 static hci_status write_report(hci_output *out, const hci_solution *s, hci_status verdict,
@@ -122,8 +113,9 @@ hci_status hci_solution_write_with_report(const hci_machine_data *machine, const
     hci_output *out;
     hci_status status = hci_output_open(folder, &out, note);
     if (status) return status;
-    status = write_files(out, machine, solution, verdict, note);
+    status = write_files(out, machine, solution, note);
     if (!status) status = write_report(out, solution, verdict, sources, note);
+    if (!status) status = hci_summary_write(out, hci_solution_json(solution, verdict), note);
     if (!status) return hci_output_commit(out, note);
     hci_output_discard(out);
     return status;

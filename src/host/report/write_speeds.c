@@ -5,6 +5,7 @@
 #include "hci/host/report/write.h"
 #include "host/plot/plot.h"
 #include "host/report/page/page.h"
+#include "host/report/summary.h"
 
 /* An empty cell where there is no number. */
 static void put(hci_output *out, double value, char end)
@@ -43,28 +44,16 @@ static hci_status write_csv(hci_output *out, const hci_speeds *s, hci_note *note
     return HCI_OK;
 }
 
-static hci_status write_summary(hci_output *out, const hci_speeds *s, hci_note *note)
-{
-    char *json = hci_speeds_json(s);
-    if (!json) return hci_note_memory(note, NULL, "the summary");
-    const hci_status status = hci_output_file(out, "summary.json", note);
-    if (!status) hci_output_text(out, "%s\n", json);
-    hci_text_free(json);
-    return status;
-}
-
 static hci_status write_all(hci_output *out, const hci_speeds *s, const hci_report_sources *sources,
                             hci_note *note)
 {
     hci_status status = write_csv(out, s, note);
     if (!status) status = hci_output_file(out, "speeds.svg", note);
     if (!status) hci_plot_speeds(out, s, true);
-    if (!status) status = write_summary(out, s, note);
-    if (status) return status;
-    if (!sources) return hci_output_without(out, "report.html", note);
-    status = hci_output_file(out, "report.html", note);
-    if (!status) hci_page_speeds(out, s, sources);
-    return status;
+    if (!status && !sources) status = hci_output_without(out, "report.html", note);
+    if (!status && sources) status = hci_output_file(out, "report.html", note);
+    if (!status && sources) hci_page_speeds(out, s, sources);
+    return status ? status : hci_summary_write(out, hci_speeds_json(s), note);
 }
 
 hci_status hci_speeds_write(const hci_speeds *speeds, const hci_report_sources *sources, const char *folder,

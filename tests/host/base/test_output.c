@@ -133,6 +133,26 @@ static void test_numbers_come_with_their_separator(void)
                  "order,amplitude_V\n1,0.30000000000000004\n-1.7976931348623157e308,1e-7\n");
 }
 
+static void collect(void *context, const char *name, const char *checksum)
+{
+    char *text = context;
+    snprintf(text + strlen(text), 256 - strlen(text), "%s %s;", name, checksum);
+}
+
+/* Expected: what the command cksum prints. */
+static void test_checksums_are_those_of_cksum(void)
+{
+    char text[256] = "";
+    hci_note note = {0};
+    hci_output *output = open_set(files_root);
+    start(output, "a.csv", "123456789");
+    TEST_ASSERT_EQUAL(HCI_OK, hci_output_without(output, "gone.csv", &note));
+    start(output, "b.csv", "");
+    TEST_ASSERT_EQUAL(HCI_OK, hci_output_checksums(output, collect, text, &note));
+    TEST_ASSERT_EQUAL_STRING("a.csv 930766865 9;b.csv 4294967295 0;", text);
+    TEST_ASSERT_EQUAL(HCI_OK, hci_output_commit(output, &note));
+}
+
 static void test_an_empty_set_leaves_its_folder(void)
 {
     TEST_ASSERT_EQUAL(HCI_OK, hci_output_commit(open_set(files_path("out")), NULL));
@@ -461,6 +481,7 @@ int main(void)
     RUN_TEST(test_a_relative_folder_is_below_the_current_one);
     RUN_TEST(test_files_have_the_mode_of_ordinary_files);
     RUN_TEST(test_numbers_come_with_their_separator);
+    RUN_TEST(test_checksums_are_those_of_cksum);
     RUN_TEST(test_an_empty_set_leaves_its_folder);
     RUN_TEST(test_a_discarded_set_leaves_nothing);
     RUN_TEST(test_only_own_and_empty_folders_are_removed);

@@ -41,6 +41,13 @@ void hci_output_number(hci_output *output, double value, char end);
  * folders that are to appear together. HCI_ERROR_OUTPUT, _NOT_FINITE; discard the set then. */
 hci_status hci_output_check(hci_output *output, hci_note *note);
 
+/* Shows name and checksum of each file so far, but for those that the set does not have, and ends the last.
+ * The checksum is what the POSIX command `cksum` prints: a number, a blank, the size in bytes.
+ * HCI_ERROR_OUTPUT. */
+hci_status hci_output_checksums(hci_output *output,
+                                void (*show)(void *context, const char *name, const char *checksum),
+                                void *context, hci_note *note);
+
 /* Flushes, checks and renames every file, and frees `output` in any case. On failure no file of the set is
  * left, and files that were there before are untouched: each is kept by a second link until the last rename
  * has succeeded; signals wait until then. When the process is killed or the power fails between the first and

@@ -63,6 +63,10 @@ char *hci_failure_json(hci_status status, const hci_note *note);
 /* Frees a text of this library; NULL is fine. */
 void hci_text_free(char *text);
 
+/* The summary that was written into a folder, with the checksums of its files; NULL also where it cannot be
+ * read. */
+char *hci_summary_read(const char *folder);
+
 #ifdef __cplusplus
 }
 #endif

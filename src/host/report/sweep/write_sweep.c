@@ -3,6 +3,7 @@
 #include "hci/host/report/summary.h"
 #include "hci/host/report/sweep/write.h"
 #include "host/plot/sweep/plot_sweep.h"
+#include "host/report/summary.h"
 #include "host/report/sweep/page_sweep.h"
 #include "host/sweep/columns.h"
 
@@ -90,28 +91,16 @@ static hci_status write_table(hci_output *out, const hci_grid *s, hci_note *note
     return HCI_OK;
 }
 
-static hci_status write_summary(hci_output *out, const hci_grid *s, hci_note *note)
-{
-    char *json = hci_grid_json(s);
-    if (!json) return hci_note_memory(note, NULL, "the summary");
-    const hci_status status = hci_output_file(out, "summary.json", note);
-    if (!status) hci_output_text(out, "%s\n", json);
-    hci_text_free(json);
-    return status;
-}
-
 static hci_status write_all(hci_output *out, const hci_grid *s, const hci_report_sources *sources,
                             hci_note *note)
 {
     hci_status status = write_table(out, s, note);
     if (!status) status = hci_output_file(out, PICTURE[s->request.kind], note);
     if (!status) hci_plot_sweep(out, s, true);
-    if (!status) status = write_summary(out, s, note);
-    if (status) return status;
-    if (!sources) return hci_output_without(out, "report.html", note);
-    status = hci_output_file(out, "report.html", note);
-    if (!status) hci_page_sweep(out, s, sources);
-    return status;
+    if (!status && !sources) status = hci_output_without(out, "report.html", note);
+    if (!status && sources) status = hci_output_file(out, "report.html", note);
+    if (!status && sources) hci_page_sweep(out, s, sources);
+    return status ? status : hci_summary_write(out, hci_grid_json(s), note);
 }
 
 hci_status hci_grid_write(const hci_grid *sweep, const hci_report_sources *sources, const char *folder,
