@@ -212,7 +212,9 @@ static hci_status give_results(const hci_check *c, const cli_arguments *a, hci_n
     if (status) return status;
     show_remarks(c);
     if (cli_is_wordy()) show(c, a->given[VERBOSE]);
-    return a->given[JSON] ? cli_print_json(hci_check_json(c), note) : HCI_OK;
+    return a->given[JSON]
+               ? cli_print_json(a->value[OUT] ? hci_summary_read(a->value[OUT]) : hci_check_json(c), note)
+               : HCI_OK;
 }
 
 /* ---- at which angle a drive reads its table ---- */

@@ -8,6 +8,7 @@
 #include "cli/terminal/say.h"
 #include "cli/terminal/signals.h"
 #include "cli/terminal/terminal.h"
+#include "hci/host/report/summary.h"
 #include "hci/host/report/sweep/write.h"
 
 #include <string.h>

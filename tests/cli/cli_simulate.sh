@@ -68,7 +68,7 @@ check "there is no ripple to compare" awk -v t="$t_ripple" 'BEGIN { exit !(t > 1
 
 TZ=Asia/Tokyo LC_ALL=de_DE.UTF-8 "$hci_solve" simulate ./data/machine_c "$scenario" -q -o "$work/deep/er" 2>"$work/stderr"
 check "other bytes" diff -r "$work/one" "$work/deep/er"
-run 0 simulate data/machine_c "$scenario" --quiet --json
+run 0 simulate data/machine_c "$scenario" --quiet --json -o "$work/one"
 nothing_on_stderr
 check "--json differs with --quiet" cmp -s "$work/stdout" "$work/one/summary.json"
 mkdir "$work/empty" && cd "$work/empty" || exit 1

@@ -153,10 +153,10 @@ done
 
 # ---- words to standard error, data to standard output
 
-run 0 solve data/machine_a --target $target --auto --json
+run 0 solve data/machine_a --target $target --auto --json -o "$work/auto"
 check "--json differs from summary.json" cmp -s "$work/stdout" "$work/auto/summary.json"
 nothing_on_stderr
-run 0 solve data/machine_a --target $target --auto --json --quiet
+run 0 solve data/machine_a --target $target --auto --json --quiet -o "$work/auto"
 check "--json differs with --quiet" cmp -s "$work/stdout" "$work/auto/summary.json"
 nothing_on_stderr
 [ $has_python = no ] || check "not JSON" python3 -c 'import json, sys; json.load(open(sys.argv[1]))' "$work/stdout"

@@ -1,6 +1,7 @@
 #!/bin/sh
 # A folder of results that is replaced: the process is killed before any call that changes the folder, or the call fails.
-# The folder holds the older results or the newer. While another process writes into it, it is refused.
+# The folder holds the older results or the newer. While another process writes into it, it is refused; results of which a
+# file is not their own are, too.
 . "$(dirname "$0")/../support/common.sh"
 use_plain_build
 cd "$source_dir" || exit 1
@@ -25,4 +26,11 @@ check "the folder has changed" diff -r "$work/before" "$work/older"
 kill $holder
 wait $holder 2>/dev/null
 run 0 solve data/machine_a --target data/scenarios/02/target.csv --auto -q -o "$work/older"
+# A file of another run among those of this one.
+cp "$work/before/currents.csv" "$work/older/currents.csv"
+run 3 emit "$work/older" --name x -o "$work/emitted"
+says 'older/currents.csv: found a file with the checksum [0-9 ]+, expected [0-9 ]+, as summary.json beside it says'
+check "something was emitted" [ ! -e "$work/emitted" ]
+run 3 simulate data/machine_a data/drive/imposed.csv --currents "$work/older" -q -o "$work/simulated"
+run 0 emit "$work/older/currents.csv" --name x -q -o "$work/emitted"
 finish

@@ -48,7 +48,7 @@ static char *summary_of(const char *folder)
 static hci_status check_file(const char *summary, const char *path, hci_solution_file file, hci_note *note)
 {
     char wanted[HCI_CHECKSUM_SIZE], found[HCI_CHECKSUM_SIZE], shown[HCI_QUOTE_PATH_SIZE];
-    if (!hci_json_find_text(summary, "files", hci_solution_file_name(file), wanted, sizeof wanted) ||
+    if (!hci_json_find_text(summary, "checksums", hci_solution_file_name(file), wanted, sizeof wanted) ||
         !hci_checksum_file(path, found) || strcmp(wanted, found) == 0)
         return HCI_OK;
     return hci_note_set(

@@ -38,7 +38,7 @@ static char *with_files(hci_output *out, const char *json, hci_status *status, h
 {
     hci_json all;
     hci_json_continue(&all, json);
-    hci_json_object(&all, "files");
+    hci_json_object(&all, "checksums");
     *status = hci_output_checksums(out, add_checksum, &all, note);
     if (!all.failed) hci_json_close(&all);
     return hci_json_end(&all);
