@@ -42,7 +42,7 @@ check_core() {
     awk '$3 == "C" { print "core-writable: " $1 " has the common symbol " $2 }' "$work/symbols"
 }
 
-prints='^_*(std(in|out|err)|v?printf|puts|putchar|putchar_unlocked|perror|psignal|umfpack_.*_report_.*|cholmod_.*print.*)(_chk)?$'
+prints='^_*(std(out|err)|v?printf|puts|putchar|putchar_unlocked|perror|psignal|umfpack_.*_report_.*|cholmod_.*print.*)(_chk)?$'
 ends='^(_*exit|_Exit|quick_exit|at_quick_exit|atexit|abort|raise|kill|signal|sigaction|longjmp|system|popen|fork|exec[lv]p?e?)$'
 allocates='^(malloc|calloc|realloc|reallocarray|free|strn?dup|v?asprintf|getline|getdelim|open_memstream|aligned_alloc|posix_memalign|alloca)$'
 
