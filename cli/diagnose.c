@@ -17,7 +17,7 @@
 #include "hci/host/report/summary.h"
 #include "hci/host/report/write.h"
 
-enum { RUNS, AGAIN, OUT, TARGET, RESOLUTION, REPORT, HOLDING, CLI_READING_KEYS, CLI_COMMON_KEYS };
+enum { RUNS, AGAIN, OUT, TARGET, RESOLUTION, ORDER_BASE, REPORT, HOLDING, CLI_READING_KEYS, CLI_COMMON_KEYS };
 
 static const cli_option OPTIONS[] = {
     [RUNS] = {"runs", 0, CLI_FILE, "LIST",
@@ -25,6 +25,7 @@ static const cli_option OPTIONS[] = {
     [AGAIN] = {"again", 0, CLI_FOLDER, "LAST",
                .help =
                    "--out of the last diagnosis: its machine and recordings, and those of LIST as new ones"},
+    [ORDER_BASE] = CLI_ORDER_BASE_OPTION,
     [OUT] = {"out", 'o', CLI_FOLDER, "FOLDER", .help = "where the results go; without it nothing is written"},
     [TARGET] = {"target", 0, CLI_FILE, "FILE",
                 .help = "wanted torque: solve the currents again for the corrected machine"},
@@ -113,8 +114,11 @@ static hci_status read_inputs(const cli_arguments *a, inputs *in, hci_note *note
     if (!status) status = find_machine(a, in, note);
     in->options.resolution = cli_number_or(a, RESOLUTION, 0.0) / 100.0;
     in->options.progress = cli_progress;
-    if (!status && a->value[TARGET]) status = hci_target_read(a->value[TARGET], &in->target, note);
-    if (!status) status = hci_machine_read(in->folder, &in->machine, note);
+    const hci_order_base base = (hci_order_base)a->choice[ORDER_BASE];
+    if (!status) status = hci_machine_read_orders(in->folder, base, &in->machine, note);
+    if (!status && a->value[TARGET])
+        status = hci_target_read_orders(a->value[TARGET], base, in->machine.model.pole_pairs, &in->target,
+                                        &in->machine.remark, note);
     if (!status) status = hci_effects_read_machine(in->folder, &in->declared, note);
     if (status) return status;
     in->reading.run.pole_pairs = in->machine.model.pole_pairs;

@@ -14,7 +14,18 @@
 #include "hci/host/waveform/waveform.h"
 #include "hci/math/harmonic.h"
 
-enum { QUANTITY, POLE_PAIRS, ORDERS, MAX_ORDER, CONSTANT, OUT, HOLDING, CLI_READING_KEYS, CLI_COMMON_KEYS };
+enum {
+    QUANTITY,
+    POLE_PAIRS,
+    ORDERS,
+    ORDER_BASE,
+    MAX_ORDER,
+    CONSTANT,
+    OUT,
+    HOLDING,
+    CLI_READING_KEYS,
+    CLI_COMMON_KEYS
+};
 
 static const cli_choice QUANTITIES[] = {
     [HCI_WAVEFORM_BACK_EMF] = {"back_emf", NULL},
@@ -28,6 +39,7 @@ static const cli_option OPTIONS[] = {
                     .high = 1000.0},
     [ORDERS] = {"orders", 0, CLI_TEXT, "LIST",
                 .help = "these electrical orders and no others, such as 1,5,7 or 12/7"},
+    [ORDER_BASE] = CLI_ORDER_BASE_OPTION,
     [MAX_ORDER] = {"max-order", 0, CLI_NUMBER, "N", .help = "highest electrical order looked at (60)",
                    .low = 1.0, .high = HCI_MOST_ORDER},
     [CONSTANT] = {"torque-constant", 0, CLI_NUMBER, "NM_PER_A",
@@ -100,7 +112,10 @@ static hci_status read_options(const cli_arguments *a, hci_waveform_options *o, 
     o->torque_constant_Nm_per_A = a->number[CONSTANT];
     if (!a->value[ORDERS]) return HCI_OK;
     o->orders = orders;
-    return read_orders(a->value[ORDERS], orders, &o->order_count, note);
+    const hci_status read = read_orders(a->value[ORDERS], orders, &o->order_count, note);
+    for (size_t k = 0; !read && a->choice[ORDER_BASE] == HCI_ORDER_MECHANICAL && k < o->order_count; ++k)
+        orders[k] /= o->pole_pairs;
+    return read;
 }
 
 /* ---- the command ---- */

@@ -246,8 +246,8 @@ const cli_command cli_init = {
     .names_files = true,
     .word_kind = CLI_TEXT,
     .example =
-        "  hci-solve init mn4004 --poles 24 --kv 300 --slots 18 -o out/mn4004\n"
-        "  hci-solve solve out/mn4004 --target data/scenarios/02/target.csv --auto -o out/mn4004_currents\n"
+        "  hci-solve init hub --poles 30 --kv 16 --slots 27 -o out/hub\n"
+        "  hci-solve solve out/hub --target data/scenarios/02/target.csv --auto -o out/hub_currents\n"
         "  hci-solve init servo --pole-pairs 4 --volt-per-krpm 98 --resistance 1.9 --resistance-of line -o "
         "out/servo\n"
         "\nExit codes: 0 done; " CLI_EXIT_ERRORS,

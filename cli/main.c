@@ -41,10 +41,10 @@ static int print_usage(FILE *stream)
         cli_print_wrapped(stream, width, 13, 13, line);
     }
     fprintf(stream, "\nFrom a data sheet to C tables\n"
-                    "  hci-solve init mn4004 --poles 24 --kv 300 --slots 18 -o out/mn4004\n"
-                    "  hci-solve solve out/mn4004 --target data/scenarios/02/target.csv \\\n"
+                    "  hci-solve init hub --poles 30 --kv 16 --slots 27 -o out/hub\n"
+                    "  hci-solve solve out/hub --target data/scenarios/02/target.csv \\\n"
                     "      --auto -o out/currents\n"
-                    "  hci-solve emit out/currents --name mn4004 --frame dq -o out/firmware\n\n");
+                    "  hci-solve emit out/currents --name hub --frame dq -o out/firmware\n\n");
     cli_print_wrapped(
         stream, width, 0, 0,
         "Each command prints what it found on standard output (with --json as JSON), progress, remarks and errors "

@@ -36,6 +36,7 @@ enum {
     DRIVE,
     MINIMISE,
     TEMPERATURE,
+    ORDER_BASE,
     OUT,
     REPORT,
     CLI_COMMON_KEYS
@@ -80,6 +81,7 @@ static const cli_option OPTIONS[] = {
     [TEMPERATURE] = {"temperature", 0, CLI_NUMBER, "C",
                      .help = "of the magnets, for magnet_temperature in effects.csv", .low = -273.15,
                      .high = 1e4},
+    [ORDER_BASE] = CLI_ORDER_BASE_OPTION,
     [OUT] = {"out", 'o', CLI_FOLDER, "FOLDER", .help = "where the results go; without it nothing is written"},
     [REPORT] = {"report", 0, CLI_FLAG, NULL, .help = "report.html beside the results, for people"},
     CLI_COMMON_OPTIONS};
@@ -178,7 +180,8 @@ typedef struct {
     hci_component_set set;
     hci_wave held;
     hci_solve_options options;
-    hci_note drive_remark; /* what --drive leaves out, or "" */
+    hci_note target_remark; /* of target.csv, or "" */
+    hci_note drive_remark;  /* what --drive leaves out, or "" */
 } inputs;
 
 /* An input that stands in the output folder under the name of a result would be replaced by it. */
@@ -253,13 +256,17 @@ static hci_status read_inputs(const cli_arguments *a, inputs *in, hci_note *note
     hci_status status = read_options(a, &in->options, &in->held, note);
     if (!status) status = keep_apart(a->value[TARGET], a->value[OUT], note);
     if (!status) status = keep_apart(a->value[HARMONICS], a->value[OUT], note);
-    if (!status) status = hci_machine_read(a->word[0], &in->machine, note);
+    const hci_order_base base = (hci_order_base)a->choice[ORDER_BASE];
+    if (!status) status = hci_machine_read_orders(a->word[0], base, &in->machine, note);
+    const hci_set_tables of = {in->machine.has_neutral, in->machine.model.pole_pairs, base};
     if (!status) status = check_link(a, &in->machine, note);
     if (!status) status = hci_effects_read_machine(a->word[0], &in->effects, note);
     if (!status) status = hci_uncertainty_read_machine(a->word[0], &in->uncertainty, note);
-    if (!status) status = hci_target_read(a->value[TARGET], &in->target, note);
+    if (!status)
+        status = hci_target_read_orders(a->value[TARGET], base, of.pole_pairs, &in->target,
+                                        &in->target_remark, note);
     if (!status && a->value[HARMONICS])
-        status = hci_component_set_read(a->value[HARMONICS], in->machine.has_neutral, &in->set, note);
+        status = hci_component_set_read_orders(a->value[HARMONICS], &of, &in->set, note);
     if (!status) status = read_drive(a, in, note);
     in->options.target = &in->target;
     in->options.effects = &in->effects.list;
@@ -293,6 +300,7 @@ static void remark_period(const inputs *in, const hci_solution *s)
 static void show_remarks(const inputs *in, const hci_solution *s)
 {
     cli_remark(&in->machine.remark);
+    cli_remark(&in->target_remark);
     cli_remark(&in->set.remark);
     cli_remark(&in->drive_remark);
     cli_remark(&s->remark);

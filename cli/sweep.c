@@ -61,6 +61,7 @@ static const cli_option OPTIONS[] = {
     [SWEEP_JOIN] = {"join", 0, CLI_FOLDER, "FOLDER",
                     .help = "take the points that the same sweep left there; may be given for several",
                     .repeats = true},
+    [SWEEP_ORDER_BASE] = CLI_ORDER_BASE_OPTION,
     [SWEEP_OUT] = {"out", 'o', CLI_FOLDER, "FOLDER",
                    .help =
                        "where the results go, and points as they are done; without it nothing is written"},

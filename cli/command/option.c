@@ -4,11 +4,18 @@
 #include <string.h>
 
 #include "cli/terminal/terminal.h"
+#include "hci/host/csv/csv.h"
 
 const cli_choice cli_color_choices[] = {
     [CLI_COLOR_AUTO] = {"auto", "auto (default: on a terminal)"},
     [CLI_COLOR_ALWAYS] = {"always", NULL},
     [CLI_COLOR_NEVER] = {"never", NULL},
+    {NULL, NULL},
+};
+
+const cli_choice cli_order_bases[] = {
+    [HCI_ORDER_ELECTRICAL] = {"electrical", "electrical (default)"},
+    [HCI_ORDER_MECHANICAL] = {"mechanical", NULL},
     {NULL, NULL},
 };
 

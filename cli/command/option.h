@@ -51,7 +51,7 @@ typedef struct {
     bool repeats;              /* may be given more than once; at most one of a table */
 } cli_option;
 
-enum { CLI_MOST_OPTIONS = 32, CLI_MOST_WORDS = 72, CLI_HELP_SIZE = 512 };
+enum { CLI_MOST_OPTIONS = 40, CLI_MOST_WORDS = 72, CLI_HELP_SIZE = 512 };
 
 /* What stands on a command line, by the places of the options in the table. */
 typedef struct {
@@ -97,7 +97,7 @@ typedef struct {
               CLI_FLAG,                                                                                      \
               NULL,                                                                                          \
               .is_common = true,                                                                             \
-              .help = "the summary, or the error, as JSON on standard output in place of the words"},                      \
+              .help = "the summary, or the error, as JSON on standard output in place of the words"},        \
     [QUIET] = {"quiet",           'q',                                                                       \
                CLI_FLAG,          NULL,                                                                      \
                .is_common = true, .help = "no words and no progress, only errors"},                          \
@@ -117,6 +117,14 @@ typedef struct {
                 .repeats = true},                                                                            \
     [STRICT] = {"strict", 0, CLI_FLAG, NULL,                                                                 \
                 .help = "refuse a recording with holes; without it such rows are left out and counted"}
+
+/* What the orders in files count periods of; the choice is a hci_order_base. */
+extern const cli_choice cli_order_bases[];
+#define CLI_ORDER_BASE_OPTION                                                                                \
+    {                                                                                                        \
+        "order-base", 0, CLI_CHOICE, "BASE", .choices = cli_order_bases,                                     \
+                                             .help = "turn that orders which are read count in:"             \
+    }
 
 /* The same where the torque of a recording is used. */
 #define CLI_HOLDING_OPTION                                                                                   \

@@ -121,15 +121,28 @@ hci_status cli_parse_words(const cli_command *command, int count, char *const *w
 
 /* ---- values ---- */
 
+/* A number and letters behind it. */
+static bool has_unit(const char *text)
+{
+    char number[32];
+    double value;
+    const size_t length = strspn(text, "+-.0123456789");
+    if (length == 0 || length >= sizeof number || text[length] == '\0' || strchr(",:;", text[length]))
+        return false;
+    memcpy(number, text, length);
+    number[length] = '\0';
+    return hci_number_parse(number, &value);
+}
+
 static hci_status wrong_number(const cli_option *o, const char *text, hci_note *note)
 {
     const char *what = o->kind == CLI_NUMBER ? "a number"
                        : o->step == 2        ? "an even number"
                        : o->step == 3        ? "a multiple of 3"
                                              : "a whole number";
+    const char *remedy = o->remedy ? o->remedy : has_unit(text) ? "give the number without its unit" : NULL;
     return hci_note_set(note, HCI_ERROR_ARGUMENT, "--%s: found `%.60s`, expected %s from %g to %g%s%s",
-                        o->name, text, what, o->low, o->high, o->remedy ? "; " : "",
-                        o->remedy ? o->remedy : "");
+                        o->name, text, what, o->low, o->high, remedy ? "; " : "", remedy ? remedy : "");
 }
 
 static hci_status read_number(const cli_option *o, const char *text, double *number, hci_note *note)
@@ -144,14 +157,18 @@ static hci_status read_number(const cli_option *o, const char *text, double *num
 static hci_status read_choice(const cli_option *o, const char *text, int *choice, hci_note *note)
 {
     char list[128] = "";
+    const char *words[32] = {NULL}, *nearest;
     for (*choice = 0; o->choices[*choice].word; ++*choice) {
         const char *word = o->choices[*choice].word;
         const size_t used = strlen(list);
         if (strcmp(word, text) == 0) return HCI_OK;
+        if (*choice + 1 < (int)(sizeof words / sizeof *words)) words[*choice] = word;
         snprintf(list + used, sizeof list - used, "%s%s", used ? ", " : "", word);
     }
-    return hci_note_set(note, HCI_ERROR_ARGUMENT, "--%s: found `%s`, expected one of: %s", o->name, text,
-                        list);
+    nearest = hci_nearest(text, words);
+    return hci_note_set(note, HCI_ERROR_ARGUMENT, "--%s: found `%s`, expected one of: %s%s%s%s", o->name,
+                        text, list, nearest ? "; did you mean `" : "", nearest ? nearest : "",
+                        nearest ? "`?" : "");
 }
 
 hci_status cli_parse_value(const cli_option *options, int option, cli_arguments *a, hci_note *note)

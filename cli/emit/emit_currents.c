@@ -47,6 +47,8 @@ static hci_status read_parts(const cli_arguments *a, cli_emit_currents *in, hci_
     if (!hci_solution_is_folder(from))
         return hci_note_set(note, HCI_ERROR_ARGUMENT,
                             "--per-torque needs the folder that `solve` wrote, not one file: %s", from);
+    status = hci_solution_check_folder(from, note);
+    if (status) return status;
     if (!hci_solution_has_parts(from))
         return hci_note_set(
             note, HCI_ERROR_INPUT,

@@ -280,10 +280,12 @@ hci_status cli_sweep_read(const cli_option *table, const cli_arguments *a, cli_s
     if (!status) status = read_lists(a, in, note);
     if (!status) status = read_shard(a, in, note);
     if (!status) status = cli_limits_take(table, a, &in->options, note);
-    if (!status) status = hci_machine_read(a->word[0], &in->machine, note);
+    const hci_order_base base = (hci_order_base)a->choice[SWEEP_ORDER_BASE];
+    if (!status) status = hci_machine_read_orders(a->word[0], base, &in->machine, note);
+    const hci_set_tables of = {in->machine.has_neutral, in->machine.model.pole_pairs, base};
     if (!status) status = hci_effects_read_machine(a->word[0], &in->effects, note);
     if (!status && a->value[SWEEP_HARMONICS])
-        status = hci_component_set_read(a->value[SWEEP_HARMONICS], in->machine.has_neutral, &in->set, note);
+        status = hci_component_set_read_orders(a->value[SWEEP_HARMONICS], &of, &in->set, note);
     if (!status && a->words == 2) status = hci_grid_read(a->word[1], &in->point, &points, note);
     if (!status) status = check_voltage(a, in, note);
     if (!status) status = check_links(in, points, note);

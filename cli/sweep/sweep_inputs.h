@@ -26,6 +26,7 @@ typedef enum {
     SWEEP_JOBS,
     SWEEP_SHARD,
     SWEEP_JOIN,
+    SWEEP_ORDER_BASE,
     SWEEP_OUT,
     SWEEP_REPORT,
     SWEEP_LIMITS /* those of cli/solve/solve_limits.h begin here */

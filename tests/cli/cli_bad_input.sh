@@ -129,7 +129,7 @@ table "$m/back_emf.csv" back_emf.csv order,amplitude_V,phase_rad 1,21.93,0
 # ---- what only one of the tables refuses
 
 emf() { printf 'order,amplitude_V,phase_rad\n1,21.93,0\n%s\n' "$1" >"$m/back_emf.csv"; }
-emf 2.5,1,0; refused 3 'back_emf.csv:3: .*order.*2.5.*expected a whole electrical order from 1; .*divided by pole pairs'
+emf 2.5,1,0; refused 3 'back_emf.csv:3: .*order.*2.5.*expected a whole electrical order from 1; .*name the column mechanical_order'
 emf 0,1,0;   refused 3 'back_emf.csv:3: .*order.*expected a whole electrical order from 1'
 printf 'order,amplitude_A,phase_rad\n1,21.93,0\n' >"$m/back_emf.csv"; refused 3 'back_emf.csv:1: .*amplitude_V'
 printf 'order,amplitude_V,phase_rad\n1,0,0\n' >"$m/back_emf.csv"; refused 3 'back_emf.csv: every amplitude is zero'

@@ -39,7 +39,7 @@ done
 
 printf 'name,value,unit\ncurrent_kp,1,ohm\ngain,2,\n' >"$work/drive.csv"
 run 3 emit "$work/a" --name t --machine data/machine_a --drive "$work/drive.csv" -o "$work/out"
-says '/drive.csv:3: no name `gain`; known: current_control'
+says '/drive.csv:3: column 1 `name`: found `gain`, expected a name that is known here'
 grep -v '^resistance' $drive >"$work/drive.csv"
 run 3 emit "$work/a" --name t --machine data/machine_a --drive "$work/drive.csv" -o "$work/out"
 says 'no `resistance` above zero.*add a row'

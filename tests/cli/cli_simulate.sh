@@ -99,7 +99,7 @@ refused() { # CODE EXPRESSION WORD...
 
 refused 2 'expected MACHINE SCENARIO, or MACHINE with --table' data/machine_c
 refused 3 'none.csv: .*No such file' data/machine_c "$work/none.csv"
-rows duratoin,1,s; refused 3 'scenario.csv:2: no name `duratoin`; known: .* duration ' data/machine_c "$scenario"
+rows duratoin,1,s; refused 3 'scenario.csv:2: column 1 `name`: found `duratoin`, .*; did you mean `duration`\?' data/machine_c "$scenario"
 rows duration,1,A; refused 3 'scenario.csv:2: .*a unit that converts to s' data/machine_c "$scenario"
 rows duration,1,s prescribed_speed,80,rpm torque_reference,2,Nm current_control,pi,
 refused 3 'machine.csv: no `inductance_d`.*add a row `inductance_d,VALUE,H,SOURCE`' data/machine_a "$scenario"

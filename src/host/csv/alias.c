@@ -183,6 +183,8 @@ const hci_alias hci_aliases[] = {
     PLAIN("2", "vb_V", NULL, "Keysight"),
     PLAIN("3", "vc_V", NULL, "Keysight"),
     PLAIN("harmonic_order", "order", "1", "many"),
+    PLAIN("electrical_order", "order", "1", "many"),
+    PLAIN("mechanical_order", "order", "1", "many"),
     PLAIN("L_aa", "La_H", "H", "many"),
     PLAIN("L_bb", "Lb_H", "H", "many"),
     PLAIN("L_cc", "Lc_H", "H", "many"),

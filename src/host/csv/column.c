@@ -65,13 +65,13 @@ static bool is_given(const hci_csv *csv, size_t column)
     return false;
 }
 
-/* The unit at the end of a header under any name, such as "AI3 (mV)"; NULL: none. */
-static const hci_unit *unit_of_header(const char *header)
+const hci_unit *hci_column_unit(const hci_csv *csv, size_t column)
 {
+    const char *header = hci_csv_cell(csv, 0, column);
     const hci_unit *unit = NULL;
-    for (size_t at = 1; header[at] != '\0' && unit == NULL; ++at)
+    for (size_t at = 1; *header != '\0' && header[at] != '\0' && unit == NULL; ++at)
         unit = hci_column_unit_of_tail(header + at);
-    return unit;
+    return unit != NULL ? unit : hci_csv_row_unit(csv, column);
 }
 
 /* In the unit that the header says, or the row of units, or the user, or in the canonical one. */
@@ -82,19 +82,43 @@ static hci_column_match find_given(const hci_csv *csv, const hci_wanted_column *
         const size_t column = csv->given[k].column;
         if (!hci_column_split(csv->given[k].name, want, &said)) continue;
         if (said != NULL && said->dimension != want->unit->dimension) continue;
-        hci_column_match result = {.kind = HCI_COLUMN_ONE, .column = column, .factor = 1, .has_unit = true};
-        const hci_unit *of_header = unit_of_header(hci_csv_cell(csv, 0, column));
-        const hci_unit *of_row = hci_csv_row_unit(csv, column);
-        const hci_unit *unit = of_header != NULL ? of_header : of_row != NULL ? of_row : said;
+        hci_column_match result = {.kind = HCI_COLUMN_ONE, .column = column, .factor = 1};
+        const hci_unit *of_file = hci_column_unit(csv, column);
+        const hci_unit *unit = of_file != NULL ? of_file : said;
+        if (csv->given[k].counts > 0.0) unit = hci_unit_find("turn", 4);
+        result.has_unit = unit != NULL;
         if (unit == NULL) unit = want->unit;
         result.factor = unit->factor / want->unit->factor;
+        if (csv->given[k].counts > 0.0) result.factor /= csv->given[k].counts;
         if (unit->dimension != want->unit->dimension) result.kind = HCI_COLUMN_GIVEN_UNIT;
         return result;
     }
     return (hci_column_match){.kind = HCI_COLUMN_NONE, .factor = 1};
 }
 
+void hci_csv_orders_of(hci_csv *csv, int pole_pairs, hci_order_base base)
+{
+    csv->pole_pairs = pole_pairs;
+    csv->orders_mechanical = base == HCI_ORDER_MECHANICAL;
+}
+
 hci_status hci_csv_give(hci_csv *csv, const char *name, size_t column, hci_note *note)
+{
+    return hci_csv_give_counts(csv, name, column, 0.0, note);
+}
+
+bool hci_csv_counts(const char *name)
+{
+    static const char *const WORDS[] = {"count", "cnt", "tick", "pulse", "increment"};
+    char lower[64] = "";
+    for (size_t k = 0; name[k] != '\0' && k + 1 < sizeof lower; ++k)
+        lower[k] = (char)(name[k] >= 'A' && name[k] <= 'Z' ? name[k] - 'A' + 'a' : name[k]);
+    for (size_t k = 0; k < sizeof WORDS / sizeof *WORDS; ++k)
+        if (strstr(lower, WORDS[k]) != NULL) return true;
+    return false;
+}
+
+hci_status hci_csv_give_counts(hci_csv *csv, const char *name, size_t column, double counts, hci_note *note)
 {
     hci_csv_given *larger = hci_memory_resize(csv->given, csv->given_count + 1, sizeof *larger);
     if (larger == NULL) return hci_note_memory(note, csv->path, "its columns");
@@ -102,6 +126,7 @@ hci_status hci_csv_give(hci_csv *csv, const char *name, size_t column, hci_note 
     hci_csv_given *given = &csv->given[csv->given_count++];
     snprintf(given->name, sizeof given->name, "%s", name);
     given->column = column;
+    given->counts = counts;
     return HCI_OK;
 }
 

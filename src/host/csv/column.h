@@ -5,6 +5,7 @@
 #include <stdbool.h>
 
 #include "hci/host/csv/csv.h"
+#include "host/base/unit_lookup.h"
 #include "host/csv/alias.h"
 
 typedef enum {
@@ -24,6 +25,9 @@ typedef struct {
     const hci_alias *alias; /* by which it was found; NULL: by its own name */
     bool has_unit;          /* the file says a unit */
 } hci_column_match;
+
+/* The unit at the end of a header under any name, such as "AI3 (mV)", or in the row of units; NULL: none. */
+const hci_unit *hci_column_unit(const hci_csv *csv, size_t column);
 
 /* By the canonical name with its unit, or by a name of another tool where none has the canonical one. */
 hci_column_match hci_column_find(const hci_csv *csv, const char *name);

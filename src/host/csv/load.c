@@ -25,6 +25,9 @@ static hci_status system_error(const char *path, hci_note *note, int error)
 {
     char found[128];
     if (error == ENOMEM) return hci_note_memory(note, path, "reading it");
+    if (error == EISDIR)
+        return hci_csv_file_error(path, note, "found a folder, expected a CSV file",
+                                  "give the path of a file in it");
     snprintf(found, sizeof found, "cannot be read: %s", strerror(error != 0 ? error : EIO));
     return hci_csv_file_error(path, note, found, "give the path of a CSV file that you may read");
 }

@@ -58,6 +58,14 @@ hci_cell_reader hci_cell_reader_plain(const hci_csv *csv, size_t column)
         .csv = csv, .column = column, .factor = 1.0, .decimal = decimal_mark(csv, column), .first_day = NAN};
 }
 
+/* Does a column of orders count in a mechanical turn? */
+static bool is_mechanical(const hci_csv *csv, const hci_column_match *found)
+{
+    const char *alias = found->alias != NULL ? found->alias->name : "";
+    if (strcmp(alias, "electrical_order") == 0) return false;
+    return strcmp(alias, "mechanical_order") == 0 || csv->orders_mechanical;
+}
+
 hci_cell_reader hci_cell_reader_of(const hci_csv *csv, const char *name, const hci_column_match *found)
 {
     const hci_wanted_column want = hci_wanted_column_of(name);
@@ -66,6 +74,7 @@ hci_cell_reader hci_cell_reader_of(const hci_csv *csv, const char *name, const h
     r.factor = found->factor;
     if (want.unit->dimension == second->dimension) r.of_second = second->factor / want.unit->factor;
     r.is_order = strcmp(name, "order") == 0;
+    if (r.is_order && csv->pole_pairs > 0 && is_mechanical(csv, found)) r.factor /= csv->pole_pairs;
     return r;
 }
 

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "hci/host/base/spelling.h"
 #include "hci/host/base/text.h"
 #include "hci/host/base/unit.h"
 
@@ -24,7 +25,11 @@ hci_status hci_value_factor(const hci_csv *csv, size_t row, const char *wanted, 
     const hci_status status = hci_csv_has(csv, "unit") ? hci_csv_text(csv, "unit", row, &unit, note) : HCI_OK;
     if (status || converts(unit, wanted, factor)) return status;
     snprintf(expected, sizeof expected, "a unit that converts to %s", wanted);
-    return hci_csv_error(csv, "unit", row, note, expected, "check the unit of this value");
+    return hci_csv_error(
+        csv, "unit", row, note, expected,
+        strcmp(wanted, "Hz") == 0
+            ? "check the unit of this value; electrical Hz are mechanical rpm / 60 x pole pairs"
+            : "check the unit of this value");
 }
 
 hci_status hci_value_read(const hci_csv *csv, size_t row, const char *wanted, double *value, hci_note *note)
@@ -63,6 +68,18 @@ hci_status hci_value_read_choice(const hci_csv *csv, size_t row, const char *con
         snprintf(expected + used, sizeof expected - used, "%s %s", *value > 0 ? "," : "", choices[*value]);
     }
     return hci_csv_error(csv, "value", row, note, expected, remedy);
+}
+
+hci_status hci_unknown_name(const hci_csv *csv, size_t row, const char *name, const char *const *names,
+                            const char *where, hci_note *note)
+{
+    char remedy[200];
+    const char *nearest = hci_nearest(name, names);
+    if (nearest != NULL)
+        snprintf(remedy, sizeof remedy, "did you mean `%s`? %s lists all", nearest, where);
+    else
+        snprintf(remedy, sizeof remedy, "%s lists all", where);
+    return hci_csv_error(csv, "name", row, note, "a name that is known here", remedy);
 }
 
 hci_status hci_named_value_find(const hci_csv *csv, size_t row, const hci_named_value *list, size_t count,

@@ -36,6 +36,11 @@ hci_status hci_value_read_within(const hci_csv *csv, size_t row, const hci_named
 hci_status hci_value_read_choice(const hci_csv *csv, size_t row, const char *const *choices,
                                  const char *remedy, int *value, hci_note *note);
 
+/* The error of a name that is none of `names` (ends with NULL), with the nearest where there is one.
+ * where: the page that lists them all. HCI_ERROR_INPUT. */
+hci_status hci_unknown_name(const hci_csv *csv, size_t row, const char *name, const char *const *names,
+                            const char *where, hci_note *note);
+
 /* Which of `count` names the column `name` holds in this row: *at, or `count` for none of them.
  * HCI_ERROR_INPUT where the name was there before, that is, where its value is not NAN any more. The value is
  * not read yet. */

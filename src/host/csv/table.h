@@ -20,6 +20,7 @@ typedef struct {
 typedef struct {
     char name[32]; /* canonical, with its unit or without */
     size_t column;
+    double counts; /* of a turn, where the column counts them; 0: it does not */
 } hci_csv_given;
 
 struct hci_csv {
@@ -39,6 +40,8 @@ struct hci_csv {
     hci_csv_hole hole;           /* the first of them */
     const double *const *number; /* rows of numbers in memory in place of cells; NULL: text */
     char *shown;                 /* with them: the cell that was asked for last, as text */
+    int pole_pairs;              /* that divide mechanical orders; 0: not known */
+    bool orders_mechanical;      /* those of a column `order` */
 };
 
 /* Reads the whole of csv->path into csv->text, and makes sure that it is text. HCI_ERROR_INPUT, _MEMORY. */

@@ -116,10 +116,23 @@ static hci_status read_cells(hci_cell_reader *r, size_t first, size_t count, dou
     return HCI_OK;
 }
 
+static hci_status unknown_pole_pairs(const hci_csv *csv, size_t column, hci_note *note)
+{
+    const hci_csv_fault fault = {.line = hci_csv_record_line(csv, 0),
+                                 .column = column,
+                                 .name = hci_csv_cell(csv, 0, column),
+                                 .found = "orders of a mechanical turn",
+                                 .expected = "electrical ones, since no pole pairs are known here",
+                                 .remedy = "divide them by the pole pairs and name the column order"};
+    return hci_csv_fault_note(csv, &fault, note);
+}
+
 hci_status hci_csv_numbers(const hci_csv *csv, const char *column, double *values, hci_note *note)
 {
     const hci_column_match found = hci_column_find(csv, column);
     if (found.kind != HCI_COLUMN_ONE) return hci_column_error(csv, column, &found, note);
+    if (found.alias != NULL && strcmp(found.alias->name, "mechanical_order") == 0 && csv->pole_pairs == 0)
+        return unknown_pole_pairs(csv, found.column, note);
     hci_cell_reader r = hci_cell_reader_of(csv, column, &found);
     return read_cells(&r, hci_csv_first_record(csv), hci_csv_rows(csv), values, note);
 }

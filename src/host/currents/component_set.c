@@ -122,11 +122,19 @@ static hci_status set_from_csv(const hci_csv *csv, bool has_neutral, hci_compone
 
 hci_status hci_component_set_read(const char *path, bool has_neutral, hci_component_set *set, hci_note *note)
 {
+    const hci_set_tables of = {.has_neutral = has_neutral};
+    return hci_component_set_read_orders(path, &of, set, note);
+}
+
+hci_status hci_component_set_read_orders(const char *path, const hci_set_tables *of, hci_component_set *set,
+                                         hci_note *note)
+{
     hci_csv *csv;
     hci_status status = hci_csv_read(path, &csv, note);
     memset(set, 0, sizeof *set);
     if (status) return status;
-    status = set_from_csv(csv, has_neutral, set, note);
+    hci_csv_orders_of(csv, of->pole_pairs, of->order_base);
+    status = set_from_csv(csv, of->has_neutral, set, note);
     hci_csv_free(csv);
     if (status) hci_component_set_release(set);
     return status;

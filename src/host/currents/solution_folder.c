@@ -77,6 +77,46 @@ bool hci_solution_has_parts(const char *folder)
     return !path_of(folder, HCI_SOLUTION_CURRENTS_PER_NM, path, NULL) && stat(path, &info) == 0;
 }
 
+static bool has_file(const char *folder, const char *file)
+{
+    char path[PATH_SIZE];
+    struct stat info;
+    const int length = snprintf(path, PATH_SIZE, "%s/%s", folder, file);
+    return length > 0 && length < PATH_SIZE && stat(path, &info) == 0;
+}
+
+/* A folder without currents: what it is, and what makes some. */
+static hci_status no_currents(const char *folder, hci_note *note)
+{
+    char path[HCI_QUOTE_PATH_SIZE];
+    const char *shown = hci_quote_path(folder, path);
+    if (has_file(folder, "machine.csv"))
+        return hci_note_set(
+            note, HCI_ERROR_INPUT,
+            "%s: found the folder of a machine, expected one that solve wrote, with currents.csv; find the "
+            "currents first: hci-solve solve %s --target TARGET -o OUT, and then give OUT",
+            shown, shown);
+    if (has_file(folder, "machine/machine.csv"))
+        return hci_note_set(
+            note, HCI_ERROR_INPUT,
+            "%s: found the results of diagnose, expected a folder that solve wrote, with currents.csv; find "
+            "the currents of the corrected machine first: hci-solve solve %s/machine --target TARGET -o OUT, "
+            "and then give OUT",
+            shown, shown);
+    return hci_note_set(
+        note, HCI_ERROR_INPUT,
+        "%s: found a folder without currents.csv, expected one that solve wrote; give the folder of its -o, "
+        "or a file of currents",
+        shown);
+}
+
+hci_status hci_solution_check_folder(const char *folder, hci_note *note)
+{
+    hci_output_finish_interrupted(folder);
+    return has_file(folder, hci_solution_file_name(HCI_SOLUTION_CURRENTS)) ? HCI_OK
+                                                                           : no_currents(folder, note);
+}
+
 hci_status hci_solution_read_currents(const char *path, hci_solution_file part, hci_currents *currents,
                                       hci_note *note)
 {
@@ -84,7 +124,8 @@ hci_status hci_solution_read_currents(const char *path, hci_solution_file part, 
     hci_status status;
     if (part == HCI_SOLUTION_CURRENTS && !hci_solution_is_folder(path))
         return hci_currents_read(path, false, currents, note);
-    status = find_file(path, part, file, note);
+    status = hci_solution_check_folder(path, note);
+    if (!status) status = find_file(path, part, file, note);
     return status ? status : hci_currents_read(file, part == HCI_SOLUTION_CURRENTS_PER_NM, currents, note);
 }
 

@@ -60,11 +60,20 @@ static hci_status target_from_csv(const hci_csv *csv, hci_target *target, hci_no
 
 hci_status hci_target_read(const char *path, hci_target *target, hci_note *note)
 {
+    hci_note remark = {{0}};
+    return hci_target_read_orders(path, HCI_ORDER_ELECTRICAL, 0, target, &remark, note);
+}
+
+hci_status hci_target_read_orders(const char *path, hci_order_base base, int pole_pairs, hci_target *target,
+                                  hci_note *remark, hci_note *note)
+{
     hci_csv *csv;
     hci_status status = hci_csv_read(path, &csv, note);
     memset(target, 0, sizeof *target);
     if (status) return status;
+    hci_csv_orders_of(csv, pole_pairs, base);
     status = target_from_csv(csv, target, note);
+    if (!status) hci_spectrum_tell_degrees(csv, remark);
     hci_csv_free(csv);
     if (status) hci_target_release(target);
     return status;

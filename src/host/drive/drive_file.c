@@ -85,19 +85,14 @@ static hci_status read_word(const hci_csv *csv, size_t row, int word, hci_drive_
 
 static hci_status unknown_name(const hci_csv *csv, size_t row, const char *name, hci_note *note)
 {
-    char quoted[HCI_QUOTE_SIZE], path[HCI_QUOTE_PATH_SIZE], known[HCI_NOTE_SIZE] = "";
-    size_t used = 0;
-#define APPEND(text)                                                                                         \
-    used += (size_t)snprintf(known + used, used < sizeof known ? sizeof known - used : 0, " %s", text)
-    for (int k = 0; k < WORDS; ++k)
-        APPEND(WORD[k]);
-#define APPEND_ONE(field, text, unit, low, high, fallback, what) APPEND(text);
-    HCI_DRIVE_VALUES(APPEND_ONE)
-#undef APPEND_ONE
-#undef APPEND
-    return hci_note_set(note, HCI_ERROR_INPUT, "%s:%zu: no name %s; known:%s",
-                        hci_quote_path(hci_csv_path(csv), path), hci_csv_line(csv, row),
-                        hci_quote(name, quoted), known);
+#define NAME_OF(field, text, unit, low, high, fallback, what) text,
+    static const char *const VALUES[] = {HCI_DRIVE_VALUES(NAME_OF)};
+#undef NAME_OF
+    const char *names[WORDS + sizeof VALUES / sizeof *VALUES + 1] = {NULL};
+    for (size_t k = 0; k < WORDS; ++k)
+        names[k] = WORD[k];
+    memcpy(names + WORDS, VALUES, sizeof VALUES);
+    return hci_unknown_name(csv, row, name, names, "docs/files.md", note);
 }
 
 static hci_status read_row(const hci_csv *csv, size_t row, hci_drive_data *d, bool given[WORDS],

@@ -10,6 +10,7 @@
 #include <sys/stat.h>
 
 #include "hci/host/base/number.h"
+#include "hci/host/base/spelling.h"
 #include "hci/host/csv/csv.h"
 #include "host/base/memory.h"
 #include "host/csv/name_values.h"
@@ -36,13 +37,27 @@ static void append(char list[LIST_SIZE], const char *before, const char *name, c
     snprintf(list + used, LIST_SIZE - used, "%s%s%s", before, name, after);
 }
 
-static hci_status type_error(const hci_csv *csv, size_t row, hci_note *note)
+enum { MOST_TYPES = 64, REMEDY_SIZE = 120 };
+
+/* "; did you mean `friction`?", or nothing. */
+static void suggest(const char *name, const char *const *names, char remedy[REMEDY_SIZE])
 {
-    char list[LIST_SIZE] = "one of";
+    const char *nearest = hci_nearest(name, names);
+    const size_t used = strlen(remedy);
+    if (nearest != NULL) snprintf(remedy + used, REMEDY_SIZE - used, "; did you mean `%s`?", nearest);
+}
+
+static hci_status type_error(const hci_csv *csv, size_t row, const char *name, hci_note *note)
+{
+    char list[LIST_SIZE] = "one of", remedy[REMEDY_SIZE] = "correct the name or delete the row";
+    const char *names[MOST_TYPES + 1] = {NULL};
     const hci_effect_type *type;
+    for (size_t k = 0; k < MOST_TYPES && (type = hci_effect_type_at(k)) != NULL; ++k)
+        names[k] = type->name;
+    suggest(name, names, remedy);
     for (size_t k = 0; (type = hci_effect_type_at(k)) != NULL; ++k)
         append(list, k > 0 ? ", " : " ", type->name, "");
-    return hci_csv_error(csv, "effect", row, note, list, "correct the name or delete the row");
+    return hci_csv_error(csv, "effect", row, note, list, remedy);
 }
 
 static hci_status parameter_error(const hci_csv *csv, size_t row, const hci_effect_type *type, hci_note *note)
@@ -68,7 +83,7 @@ static hci_status read_type(const hci_csv *csv, effect_row *r, hci_note *note)
     if (status) return status;
     for (r->type = 0; (type = hci_effect_type_at(r->type)) != NULL; ++r->type)
         if (strcmp(type->name, name) == 0) return HCI_OK;
-    return type_error(csv, r->row, note);
+    return type_error(csv, r->row, name, note);
 }
 
 /* Is `name` the parameter, with its order where it has one? */

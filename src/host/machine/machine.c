@@ -10,6 +10,7 @@
 
 #include "hci/host/csv/csv.h"
 #include "host/base/memory.h"
+#include "host/csv/table.h"
 #include "host/machine/folder.h"
 #include "host/machine/inductance.h"
 #include "host/machine/machine_values.h"
@@ -81,9 +82,13 @@ static hci_status check_emf_order(const hci_csv *csv, const hci_harmonic *h, con
     if (h[k].order >= 1.0 - HCI_ORDER_TOLERANCE &&
         fabs(h[k].order - floor(h[k].order + 0.5)) < HCI_ORDER_TOLERANCE)
         return HCI_OK;
-    return hci_csv_error(
-        csv, "order", row_of[k], note, "a whole electrical order from 1",
-        "orders count periods in one electrical turn: mechanical order divided by pole pairs");
+    if (csv->orders_mechanical)
+        return hci_csv_error(csv, "order", row_of[k], note, "an order that the pole pairs divide",
+                             "--order-base mechanical says that orders count periods of a mechanical turn: "
+                             "name this column electrical_order, if its orders do not");
+    return hci_csv_error(csv, "order", row_of[k], note, "a whole electrical order from 1",
+                         "orders count periods in one electrical turn: for those of a mechanical turn name "
+                         "the column mechanical_order");
 }
 
 /* In N·m/A, or V·s/rad. */
@@ -141,7 +146,9 @@ static hci_status read_emf(const char *path, hci_machine_data *m, hci_note *note
     hci_csv *csv;
     hci_status status = hci_csv_read(path, &csv, note);
     if (status) return status;
+    hci_csv_orders_of(csv, m->model.pole_pairs, m->order_base);
     status = take_emf(csv, m, note);
+    if (!status) hci_spectrum_tell_degrees(csv, &m->remark);
     hci_csv_free(csv);
     return status;
 }
@@ -152,7 +159,16 @@ static hci_status read_cogging(const char *path, hci_machine_data *m, hci_note *
     size_t *row_of = NULL;
     hci_status status = hci_csv_read(path, &csv, note);
     if (status) return status;
+    hci_csv_orders_of(csv, m->model.pole_pairs, m->order_base);
     status = hci_spectrum_rows(csv, "amplitude_Nm", &m->cogging, &row_of, &m->model.cogging_count, note);
+    if (!status) hci_spectrum_tell_degrees(csv, &m->remark);
+    if (!status && m->model.cogging_count > 0 &&
+        !(largest_amplitude(m->cogging, m->model.cogging_count) > 0.0))
+        hci_note_add(&m->remark,
+                     "%s: every amplitude is 0, so that no cogging torque is counteracted: if it was not "
+                     "measured, the real "
+                     "machine keeps all that it has",
+                     path);
     m->model.cogging = m->cogging;
     hci_memory_free(row_of);
     hci_csv_free(csv);
@@ -171,10 +187,28 @@ static hci_status read_inductance(const char *path, hci_machine_data *m, hci_not
     return status;
 }
 
+/* A folder without machine.csv: what it is, and what to do. */
+static hci_status no_machine(const char *folder, const char *path, hci_note *note)
+{
+    char inner[PATH_SIZE];
+    hci_status status = hci_machine_path(inner, PATH_SIZE, folder, "machine/machine.csv", note);
+    if (status) return status;
+    if (hci_machine_has(inner))
+        return hci_note_set(note, HCI_ERROR_INPUT,
+                            "%.300s: No such file; the machine is in the folder below: give %.300s/machine",
+                            path, folder);
+    return hci_note_set(
+        note, HCI_ERROR_INPUT,
+        "%.300s: No such file; expected the folder of a machine with machine.csv and back_emf.csv: give "
+        "that folder, or make a first one with hci-solve init",
+        path);
+}
+
 static hci_status read_folder(const char *folder, hci_machine_data *m, hci_note *note)
 {
     char path[PATH_SIZE];
     hci_status status = hci_machine_path(path, PATH_SIZE, folder, "machine.csv", note);
+    if (!status && !hci_machine_has(path)) return no_machine(folder, path, note);
     if (!status) status = read_values(path, m, note);
     if (!status) status = hci_machine_path(path, PATH_SIZE, folder, "back_emf.csv", note);
     if (!status) status = read_emf(path, m, note);
@@ -191,7 +225,14 @@ static hci_status read_folder(const char *folder, hci_machine_data *m, hci_note 
 
 hci_status hci_machine_read(const char *path, hci_machine_data *machine, hci_note *note)
 {
+    return hci_machine_read_orders(path, HCI_ORDER_ELECTRICAL, machine, note);
+}
+
+hci_status hci_machine_read_orders(const char *path, hci_order_base base, hci_machine_data *machine,
+                                   hci_note *note)
+{
     memset(machine, 0, sizeof *machine);
+    machine->order_base = base;
     hci_status status = hci_machine_check_folder(path, note);
     if (!status) status = read_folder(path, machine, note);
     if (status) hci_machine_release(machine);

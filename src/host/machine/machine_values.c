@@ -55,6 +55,31 @@ static hci_status read_connection(const hci_csv *csv, size_t row, bool *has_neut
                          "for a delta winding give the equivalent star's values");
 }
 
+/* ---- machines that are none of this program's ---- */
+
+/* "phases,6" and "type,induction": not a value to pass over. */
+static hci_status check_kind(const hci_csv *csv, size_t row, const char *name, bool *known, hci_note *note)
+{
+    static const char *const KINDS[] = {"pmsm", "ipmsm", "spmsm", "ipm", "spm",
+                                        "bldc", "pm",    "pmac",  "bpm", "three-phase pmsm"};
+    const bool phases = hci_text_is(name, "phases") || hci_text_is(name, "phase_count") ||
+                        hci_text_is(name, "number_of_phases");
+    const char *text;
+    *known = phases || hci_text_is(name, "type") || hci_text_is(name, "machine_type") ||
+             hci_text_is(name, "motor_type");
+    hci_status status = *known ? hci_csv_text(csv, "value", row, &text, note) : HCI_OK;
+    if (status || !*known || (phases && strcmp(text, "3") == 0)) return status;
+    for (size_t k = 0; k < sizeof KINDS / sizeof *KINDS && !phases; ++k)
+        if (hci_text_is(text, KINDS[k])) return HCI_OK;
+    return hci_csv_error(
+        csv, "value", row, note,
+        phases ? "3: machines with another number of phases are not supported"
+               : "a permanent-magnet synchronous machine, such as pmsm: no other is supported",
+        phases ? "there is no way to describe this machine here; delete the row if it has three phases"
+               : "delete the row if the machine has magnets and three phases; induction, reluctance and "
+                 "wound-field machines cannot be described here");
+}
+
 /* ---- names that are not known ---- */
 
 /* The name that was probably meant, or NULL. */
@@ -68,6 +93,10 @@ static const char *meant(const char *name)
 
 static bool is_known(const char *name)
 {
+    static const char *const KIND[] = {"phases", "phase_count",  "number_of_phases",
+                                       "type",   "machine_type", "motor_type"};
+    for (size_t k = 0; k < sizeof KIND / sizeof *KIND; ++k)
+        if (hci_text_is(name, KIND[k])) return true;
     const char *nearest = meant(name);
     return nearest && strcmp(nearest, name) == 0;
 }
@@ -104,6 +133,9 @@ static hci_status read_row(hci_machine_values *v, size_t row, hci_note *note)
     size_t k;
     hci_status status = hci_csv_text(v->csv, "name", row, &name, note);
     if (status) return status;
+    bool is_kind;
+    status = check_kind(v->csv, row, name, &is_kind, note);
+    if (status || is_kind) return status;
     if (strcmp(name, "connection") == 0) return read_connection(v->csv, row, &v->has_neutral, note);
     list_values(v, list);
     status = hci_named_value_find(v->csv, row, list, HCI_MACHINE_VALUE_COUNT, &k, note);
@@ -114,13 +146,21 @@ static hci_status read_row(hci_machine_values *v, size_t row, hci_note *note)
                             : hci_value_read(v->csv, row, list[k].unit, list[k].value, note);
 }
 
+static bool has_poles(const hci_machine_values *v)
+{
+    const char *name;
+    for (size_t row = 0; row < hci_csv_rows(v->csv); ++row)
+        if (!hci_csv_text(v->csv, "name", row, &name, NULL) && hci_text_is(name, "poles")) return true;
+    return false;
+}
+
 static hci_status check_pole_pairs(const hci_machine_values *v, hci_note *note)
 {
     const double p = v->value[PLACE_OF_pole_pairs];
     if (p >= 1.0 && p <= 1000.0 && p == floor(p)) return HCI_OK;
     if (isnan(p))
-        return hci_note_set(note, HCI_ERROR_INPUT, "%s: no `pole_pairs`; add a row `pole_pairs,N,1,source`",
-                            hci_csv_path(v->csv));
+        return hci_note_set(note, HCI_ERROR_INPUT, "%s: no `pole_pairs`; add a row `pole_pairs,N,1,source`%s",
+                            hci_csv_path(v->csv), has_poles(v) ? ", with half of `poles`" : "");
     return hci_note_set(note, HCI_ERROR_INPUT,
                         "%s:%zu: `pole_pairs`: found %g, expected a whole number from 1 to 1000; a machine "
                         "with N poles has N/2 pole pairs",

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "host/base/memory.h"
+#include "host/base/quote.h"
 
 #define MOST_AMPLITUDE 1e9
 
@@ -74,6 +75,22 @@ static hci_status read_rows(const spectrum_columns *t, spectrum_row *rows, size_
         rows[k] = (spectrum_row){hci_harmonic_polar(t->order[k], t->amplitude[k], t->phase_rad[k]), k};
     }
     return status ? status : sort_rows(t->csv, rows, count, note);
+}
+
+void hci_spectrum_tell_degrees(const hci_csv *csv, hci_note *remark)
+{
+    const size_t count = hci_csv_rows(csv);
+    double *phase_rad = hci_memory_new(count, sizeof *phase_rad), most_rad = 0.0;
+    char path[HCI_QUOTE_PATH_SIZE];
+    if (phase_rad == NULL) return;
+    if (!hci_csv_numbers(csv, "phase_rad", phase_rad, NULL))
+        for (size_t k = 0; k < count; ++k)
+            if (fabs(phase_rad[k]) > fabs(most_rad)) most_rad = phase_rad[k];
+    if (fabs(most_rad) > 4.0 * HCI_PI)
+        hci_note_add(remark,
+                     "%s: a phase of %g rad, which looks like degrees: if it is, name the column phase_deg",
+                     hci_quote_path(hci_csv_path(csv), path), most_rad);
+    hci_memory_free(phase_rad);
 }
 
 hci_status hci_spectrum_rows(const hci_csv *csv, const char *amplitude_column, hci_harmonic **terms,

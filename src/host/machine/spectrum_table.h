@@ -12,6 +12,10 @@
 hci_status hci_spectrum_rows(const hci_csv *csv, const char *amplitude_column, hci_harmonic **terms,
                              size_t **row_of, size_t *count, hci_note *note);
 
+/* Adds to a remark that the phases of a table are in rad and look like degrees, if they do: one is beyond two
+ * turns. */
+void hci_spectrum_tell_degrees(const hci_csv *csv, hci_note *remark);
+
 /* The error of an order above HCI_MOST_ORDER, in any table with a column `order`. HCI_ERROR_INPUT. */
 hci_status hci_spectrum_order_error(const hci_csv *csv, size_t row, hci_note *note);
 

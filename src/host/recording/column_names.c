@@ -3,9 +3,11 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "hci/host/base/number.h"
 #include "hci/host/base/spelling.h"
 #include "host/base/memory.h"
 #include "host/base/quote.h"
+#include "host/csv/column.h"
 #include "host/csv/column_name.h"
 #include "host/csv/table.h"
 #include "host/recording/run_columns.h"
@@ -214,6 +216,44 @@ static bool find_header(const hci_csv *csv, const char *header, size_t *column)
     return false;
 }
 
+/* "COLUMN/COUNTS": an angle in the counts of an encoder, of which a turn has COUNTS. length: out, of COLUMN.
+ */
+static double counts_of(const hci_column_name *item, size_t *length)
+{
+    const char *slash = strrchr(item->column, '/');
+    double counts;
+    if (slash == NULL || slash == item->column || !hci_number_parse(slash + 1, &counts)) return 0.0;
+    *length = (size_t)(slash - item->column);
+    return counts >= 1.0 ? counts : 0.0;
+}
+
+/* An angle, of whatever unit. */
+static bool is_angle(const char *name)
+{
+    static const hci_run_column ANGLES[] = {HCI_RUN_THETA_M, HCI_RUN_THETA_E};
+    const hci_unit *unit;
+    for (size_t k = 0; k < 2; ++k) {
+        const hci_wanted_column want = hci_wanted_column_of(hci_run_column_name(ANGLES[k]));
+        if (hci_column_split(name, &want, &unit)) return true;
+    }
+    return false;
+}
+
+static hci_status counts_error(const hci_csv *csv, const hci_column_name *item, bool given, hci_note *note)
+{
+    char path[HCI_QUOTE_PATH_SIZE], quoted[HCI_QUOTE_SIZE];
+    if (given)
+        return hci_note_set(note, HCI_ERROR_INPUT,
+                            "%.300s: found counts of a turn, expected them with an angle; write %s=COLUMN",
+                            item->from, item->name);
+    return hci_note_set(
+        note, HCI_ERROR_INPUT,
+        "%.300s: found %s in %s, which looks like the counts of an encoder, expected how many a turn has; "
+        "write %s=%s/COUNTS, such as %s/4096, or its unit if it has one, such as theta_m_deg=%s",
+        item->from, hci_quote(item->column, quoted), hci_quote_path(hci_csv_path(csv), path), item->name,
+        item->column, item->column, item->column);
+}
+
 static hci_status no_such_column(const hci_csv *csv, const hci_column_name *item, hci_note *note)
 {
     enum { MOST = 64 };
@@ -243,6 +283,40 @@ static bool has_quantity(const hci_csv *csv, const char *name)
     return false;
 }
 
+/* In what is no radian: that nobody counts in. */
+static bool has_unit(const char *name, const hci_csv *csv, size_t column)
+{
+    size_t length;
+    const hci_unit *said = hci_unit_of_name(name, &length);
+    return (name[length] != '\0' && !hci_unit_equal(said, hci_unit_find("rad", 3))) ||
+           hci_column_unit(csv, column) != NULL;
+}
+
+static hci_status give(hci_csv *csv, const hci_column_name *item, size_t column, hci_note *note)
+{
+    if (is_angle(item->name) && hci_csv_counts(item->column) && !has_unit(item->name, csv, column))
+        return counts_error(csv, item, false, note);
+    return hci_csv_give(csv, item->name, column, note);
+}
+
+/* The column before the "/COUNTS". */
+static bool find_counted(const hci_csv *csv, const hci_column_name *item, size_t *column)
+{
+    char header[256];
+    size_t length;
+    if (counts_of(item, &length) <= 0.0 || length >= sizeof header) return false;
+    memcpy(header, item->column, length);
+    header[length] = '\0';
+    return find_header(csv, header, column);
+}
+
+static hci_status give_counted(hci_csv *csv, const hci_column_name *item, size_t column, hci_note *note)
+{
+    size_t length;
+    return is_angle(item->name) ? hci_csv_give_counts(csv, item->name, column, counts_of(item, &length), note)
+                                : counts_error(csv, item, true, note);
+}
+
 hci_status hci_column_names_apply(const hci_column_names *names, bool optional, hci_csv *csv, hci_note *note)
 {
     hci_status status = HCI_OK;
@@ -250,7 +324,9 @@ hci_status hci_column_names_apply(const hci_column_names *names, bool optional, 
         const hci_column_name *item = &names->item[k];
         size_t column;
         if (find_header(csv, item->column, &column))
-            status = hci_csv_give(csv, item->name, column, note);
+            status = give(csv, item, column, note);
+        else if (find_counted(csv, item, &column))
+            status = give_counted(csv, item, column, note);
         else if (!optional || !has_quantity(csv, item->name))
             status = no_such_column(csv, item, note);
     }

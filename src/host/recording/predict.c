@@ -35,9 +35,11 @@ hci_status hci_predict_readings(const hci_run *run, int pole_pairs, bool with_ch
 {
     if (run->theta_m_rad == NULL) {
         char path[HCI_QUOTE_PATH_SIZE];
-        return hci_note_set(note, HCI_ERROR_INPUT,
-                            "%s: found no angle, expected theta_m_rad or theta_e_rad; add the column",
-                            hci_quote_path(run->name, path));
+        return hci_note_set(
+            note, HCI_ERROR_INPUT,
+            "%s: found no angle, expected theta_m_rad or theta_e_rad; add the column, or say which it is: "
+            "--column theta_m_deg=COLUMN",
+            hci_quote_path(run->name, path));
     }
     for (size_t k = 0; k < run->count; ++k) {
         hci_sample *x = &reading[k];

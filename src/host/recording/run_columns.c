@@ -1,9 +1,11 @@
 #include "host/recording/run_columns.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "host/base/memory.h"
 #include "host/base/quote.h"
+#include "host/csv/column.h"
 #include "host/csv/table.h"
 
 static const char *const NAME[HCI_RUN_COLUMN_COUNT] = {
@@ -41,6 +43,62 @@ bool hci_run_columns_suffice(const hci_run_columns *c)
            (c->has[HCI_RUN_TIME] && speed) || (c->has[HCI_RUN_TORQUE] && c->has[HCI_RUN_IQ]);
 }
 
+/* A torque over currents, with nothing that an angle could come of. */
+static bool is_map(const hci_run_columns *c)
+{
+    const bool speed = c->has[HCI_RUN_SPEED] || c->has[HCI_RUN_SPEED_E];
+    return !c->has[HCI_RUN_VA] && !c->has[HCI_RUN_VAB] && !(c->has[HCI_RUN_TIME] && speed);
+}
+
+/* Could a column that is not known be the angle? Counts of an encoder are told apart. */
+static bool looks_like_angle(const char *name)
+{
+    static const char *const WORDS[] = {"angle",    "theta",  "encoder", "enc_",
+                                        "position", "winkel", "resolver"};
+    char lower[64] = "";
+    for (size_t k = 0; name[k] != '\0' && k + 1 < sizeof lower; ++k)
+        lower[k] = (char)(name[k] >= 'A' && name[k] <= 'Z' ? name[k] - 'A' + 'a' : name[k]);
+    for (size_t k = 0; k < sizeof WORDS / sizeof *WORDS; ++k)
+        if (strstr(lower, WORDS[k]) != NULL && strstr(lower, "current") == NULL) return true;
+    return false;
+}
+
+/* The header of a column that is likely to be the angle; NULL: none. */
+static const char *likely_angle(const hci_run_columns *c)
+{
+    for (size_t column = 0; column < hci_csv_columns(c->csv); ++column) {
+        const char *name = hci_csv_name(c->csv, column);
+        bool known = false;
+        for (int k = 0; k < HCI_RUN_COLUMN_COUNT; ++k)
+            known = known || (c->has[k] && c->at[k] == column);
+        if (!known && (hci_csv_counts(name) || looks_like_angle(name))) return name;
+    }
+    return NULL;
+}
+
+static void say_which(const hci_run_columns *c, hci_note *missing)
+{
+    const char *name = likely_angle(c);
+    if (name == NULL && c->has[HCI_RUN_TIME])
+        hci_note_add(
+            missing,
+            "or say which column it is: --column theta_m_deg=COLUMN; a column `speed_rpm` beside the "
+            "time will do, too");
+    else if (name == NULL)
+        hci_note_add(missing, "or say which column it is: --column theta_m_deg=COLUMN");
+    else if (hci_csv_counts(name))
+        hci_note_add(missing,
+                     "if `%.60s` is an encoder, say --column \"theta_m=%.60s/COUNTS\" with its counts of a "
+                     "turn, such as 4096",
+                     name, name);
+    else
+        hci_note_add(missing,
+                     "if `%.60s` is the angle of the rotor, say --column \"theta_m_deg=%.60s\" (or "
+                     "theta_m_rad; theta_e of an "
+                     "electrical angle)",
+                     name, name);
+}
+
 /* Neither angle nor voltages: most likely a column under another name. Where voltages would do without an
  * angle, one that may be either is refused all the same, and not passed over. */
 static hci_status check_angle(const hci_run_columns *c, bool is_needed)
@@ -49,9 +107,12 @@ static hci_status check_angle(const hci_run_columns *c, bool is_needed)
     double unused;
     if (c->has[HCI_RUN_THETA_M] || c->has[HCI_RUN_THETA_E]) return HCI_OK;
     hci_status status = hci_csv_check_clear(c->csv, c->note);
-    if (status || (!is_needed && has_any(c)) || hci_run_columns_suffice(c)) return status;
+    if (status || (!is_needed && has_any(c))) return status;
+    if (hci_run_columns_suffice(c) && !(is_map(c) && likely_angle(c) != NULL)) return HCI_OK;
     status = hci_csv_number(c->csv, NAME[HCI_RUN_THETA_M], 0, &unused, &missing);
-    return hci_note_set(c->note, status, "%s; `%s` will do as well", missing.text, NAME[HCI_RUN_THETA_E]);
+    hci_note_add(&missing, "`%s` will do as well", NAME[HCI_RUN_THETA_E]);
+    say_which(c, &missing);
+    return hci_note_set(c->note, status, "%s", missing.text);
 }
 
 static hci_status find(const hci_csv *csv, bool needs_angle, hci_run_columns *c, hci_note *remark,
@@ -96,18 +157,53 @@ const char *hci_run_column_name(hci_run_column which)
     return NAME[which];
 }
 
+/* Do angles turn over at 360, or go round in quarters of whole numbers? */
+static bool look_like_degrees(const double *angle, size_t count)
+{
+    double least = angle[0], most = angle[0], longest = 0.0;
+    bool even = true;
+    for (size_t k = 0; k < count; ++k) {
+        least = fmin(least, angle[k]);
+        most = fmax(most, angle[k]);
+        if (k > 0) longest = fmax(longest, fabs(angle[k] - angle[k - 1]));
+        even = even && fabs(4.0 * angle[k] - round(4.0 * angle[k])) < 1e-9;
+    }
+    const double range = most - least;
+    return range >= 330.0 && range <= 361.0 && most <= 361.0 && least >= -361.0 && (even || longest >= 330.0);
+}
+
+/* An angle without a unit is in rad. */
+static void tell_degrees(const hci_run_columns *c, hci_run_column which)
+{
+    char quoted[HCI_QUOTE_SIZE];
+    const hci_column_match found = hci_column_find(c->csv, NAME[which]);
+    const char *name = which == HCI_RUN_THETA_M ? "theta_m_deg" : "theta_e_deg", *header;
+    if ((which != HCI_RUN_THETA_M && which != HCI_RUN_THETA_E) || found.has_unit || found.alias != NULL)
+        return;
+    if (!look_like_degrees(c->value[which], c->count)) return;
+    header = hci_quote(hci_csv_name(c->csv, found.column), quoted);
+    hci_note_add(
+        c->remark,
+        "%s has no unit and is read in rad, but looks like degrees: name it %s, or say --column %s=COLUMN",
+        header, name, name);
+}
+
 hci_status hci_run_column_read(hci_run_columns *c, hci_run_column which)
 {
     hci_note told = {{0}};
+    hci_status status = HCI_OK;
     if (!c->has[which] || c->value[which]) return HCI_OK;
     if (hci_csv_told(c->csv, NAME[which], &told)) hci_note_add(c->remark, "%s", told.text);
     c->used[c->at[which]] = true;
     c->value[which] = c->ready[which];
     c->ready[which] = NULL;
-    if (c->value[which]) return HCI_OK;
-    c->value[which] = hci_memory_new(c->count, sizeof(double));
-    if (!c->value[which]) return memory_error(c);
-    return hci_csv_numbers(c->csv, NAME[which], c->value[which], c->note);
+    if (!c->value[which]) {
+        c->value[which] = hci_memory_new(c->count, sizeof(double));
+        if (!c->value[which]) return memory_error(c);
+        status = hci_csv_numbers(c->csv, NAME[which], c->value[which], c->note);
+    }
+    if (!status) tell_degrees(c, which);
+    return status;
 }
 
 double *hci_run_column_take(hci_run_columns *c, hci_run_column which)

@@ -7,6 +7,7 @@
 #include "host/base/memory.h"
 #include "host/base/path.h"
 #include "host/base/quote.h"
+#include "host/recording/run_columns.h"
 
 typedef struct {
     const hci_csv *csv;
@@ -129,10 +130,31 @@ static hci_status read_row(const list_reader *l, size_t row)
     return status ? status : read_one(l, row, file);
 }
 
+/* A recording, or a list without its header, in place of a list. */
+static hci_status check_columns(const list_reader *l)
+{
+    char path[HCI_QUOTE_PATH_SIZE], quoted[HCI_QUOTE_SIZE];
+    const char *shown = hci_quote_path(hci_csv_path(l->csv), path);
+    if (hci_csv_has(l->csv, "file")) return HCI_OK;
+    for (int k = 0; k < HCI_RUN_COLUMN_COUNT; ++k)
+        if (hci_csv_has(l->csv, hci_run_column_name((hci_run_column)k)))
+            return hci_note_set(
+                l->note, HCI_ERROR_INPUT,
+                "%s: found a recording with %s, expected a list of recordings; write one with the header "
+                "file,role and a row for each recording, such as %s,fit",
+                shown, hci_run_column_name((hci_run_column)k), shown);
+    return hci_note_set(
+        l->note, HCI_ERROR_INPUT,
+        "%s:1: found no column `file` but %s, expected a list of recordings with the header file,role; "
+        "write that header as the first line",
+        shown, hci_quote(hci_csv_name(l->csv, 0), quoted));
+}
+
 static hci_status read_rows(const list_reader *l)
 {
     const size_t rows = hci_csv_rows(l->csv);
-    hci_status status = HCI_OK;
+    hci_status status = check_columns(l);
+    if (status) return status;
     if (rows == 0) {
         char path[HCI_QUOTE_PATH_SIZE];
         return hci_note_set(l->note, HCI_ERROR_INPUT, "%s: found no run, expected a row for each; add one",

@@ -97,24 +97,15 @@ static hci_status read_word(const hci_csv *csv, size_t row, int word, hci_scenar
 
 /* ---- rows ---- */
 
-/* Names that follow from the one before them (current_offset_b after _a) have no text of their own and are
- * left out. */
 static hci_status unknown_name(const hci_csv *csv, size_t row, const char *name, const hci_named_value *list,
                                hci_note *note)
 {
-    char known[HCI_NOTE_SIZE] = "", quoted[HCI_QUOTE_SIZE], path[HCI_QUOTE_PATH_SIZE];
-    size_t used = 0;
-#define APPEND(text)                                                                                         \
-    used += (size_t)snprintf(known + used, used < sizeof known ? sizeof known - used : 0, " %s", text)
-#define APPEND_WORD(text, choices, fallback, what) APPEND(text);
-    HCI_SCENARIO_WORDS(APPEND_WORD)
-#undef APPEND_WORD
-    for (size_t k = 0; k < ENTRIES && used < sizeof known; ++k)
-        if (LIMITS[k].what[0] != '\0') APPEND(list[k].name);
-#undef APPEND
-    return hci_note_set(note, HCI_ERROR_INPUT, "%s:%zu: no name %s; known:%s",
-                        hci_quote_path(hci_csv_path(csv), path), hci_csv_line(csv, row),
-                        hci_quote(name, quoted), known);
+#define WORD_NAME(text, choices, fallback, what) text,
+    const char *names[WORDS + ENTRIES + 1] = {HCI_SCENARIO_WORDS(WORD_NAME)};
+#undef WORD_NAME
+    for (size_t k = 0; k < ENTRIES; ++k)
+        names[WORDS + k] = list[k].name;
+    return hci_unknown_name(csv, row, name, names, "docs/simulate.md", note);
 }
 
 static hci_status read_row(const hci_csv *csv, size_t row, hci_scenario *s, bool given[WORDS], hci_note *note)

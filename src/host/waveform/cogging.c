@@ -1,8 +1,10 @@
 /* Cogging torque: the recorded torque less what the current makes, over the turns of both directions. */
 #include <math.h>
+#include <stdio.h>
 
 #include "hci/math/harmonic.h"
 #include "host/base/memory.h"
+#include "host/numeric/statistics.h"
 #include "host/recording/rotor_frame.h"
 #include "host/waveform/task.h"
 
@@ -21,10 +23,15 @@ static hci_status check_cogging(const hci_waveform_task *t)
 {
     const bool constant = !isnan(t->options->torque_constant_Nm_per_A);
     if (t->run->theta_m_rad == NULL)
-        return hci_waveform_refuse(t, "no angle", "theta_m_rad or theta_e_rad", "add the column");
+        return hci_waveform_refuse(t, "no angle", "theta_m_rad or theta_e_rad",
+                                   "add the column, or say which it is: --column theta_m_deg=COLUMN");
     if (t->run->torque_Nm == NULL)
-        return hci_waveform_refuse(t, "no torque", "torque_Nm",
-                                   "add the column; of a rotor held at rest by its current it is 0");
+        return hci_waveform_refuse(
+            t, "no torque", "torque_Nm",
+            hci_waveform_current_rms(t->run) > 0.0
+                ? "add the column, or where the current held the shaft or turned it slowly say "
+                  "--holding --torque-constant NM_PER_A (1 to get amperes)"
+                : "add the column, or say which it is: --column torque_Nm=COLUMN");
     if (t->run->torque_source == HCI_TORQUE_HOLDING && !constant)
         return hci_waveform_refuse(t, "a torque of 0 throughout, as of a rotor held by its current",
                                    "the torque constant to make torque of that current",
@@ -101,9 +108,14 @@ static hci_status cogging_of(const hci_waveform_task *t, double *value, double *
     } else if (status == HCI_ERROR_SINGULAR && t->options->orders != NULL) {
         status = hci_waveform_fit_given(t, value, angle);
     } else if (status == HCI_ERROR_SINGULAR) {
-        status = hci_waveform_refuse(t, "angles that do not go round an electrical turn",
-                                     "samples all around, without large gaps",
-                                     "record more of the turn, or name the orders to fit with --orders");
+        char found[120];
+        snprintf(found, sizeof found,
+                 "mechanical angles over %.3g deg, which do not go round an electrical turn",
+                 hci_peak_to_peak(t->run->theta_m_rad, t->run->count) * 180.0 / HCI_PI);
+        status = hci_waveform_refuse(
+            t, found, "samples all around, without large gaps",
+            "check the unit of the angle, record more of the turn, or name the orders to fit "
+            "with --orders");
     }
     hci_average_release(&average);
     if (status == HCI_ERROR_MEMORY) return hci_waveform_memory(t);

@@ -411,6 +411,15 @@ static void test_a_caller_can_point_at_a_cell(void)
     hci_csv_free(csv);
 }
 
+static void assert_folder(const char *path)
+{
+    hci_note note = {0};
+    hci_csv *csv;
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, hci_csv_read(path, &csv, &note));
+    TEST_ASSERT_NOT_NULL_MESSAGE(
+        strstr(note.text, ": found a folder, expected a CSV file; give the path of a file in it"), note.text);
+}
+
 static void assert_unreadable(const char *path, const char *reason)
 {
     hci_note note = {0};
@@ -428,7 +437,7 @@ static void test_what_cannot_be_opened_is_said_with_its_reason(void)
 {
     const bool root = geteuid() == 0;
     assert_unreadable("tests/files/csv/there_is_no_such_file.csv", "No such file or directory");
-    assert_unreadable("tests/files", "Is a directory");
+    assert_folder("tests/files");
     assert_unreadable("", "No such file or directory");
     files_write(scratch, "");
     TEST_ASSERT_EQUAL(0, chmod(scratch, 0));

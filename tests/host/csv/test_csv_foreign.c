@@ -35,6 +35,7 @@ static hci_csv *read_text(const char *text)
     hci_csv *csv;
     files_write(path, text);
     TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_csv_read(path, &csv, &note), note.text);
+    hci_csv_orders_of(csv, 1, HCI_ORDER_ELECTRICAL);
     return csv;
 }
 

@@ -2,6 +2,7 @@
  * here. */
 #include <math.h>
 
+#include "hci/host/currents/component_set.h"
 #include "hci/host/currents/solution_folder.h"
 #include "hci/host/currents/target.h"
 #include "support/files.h"
@@ -45,6 +46,68 @@ static void test_a_target_is_sorted_and_complete(void)
     TEST_ASSERT_EQUAL_DOUBLE(0.0, hci_target_at(&t, 12.0).torque_Nm.sine);
     hci_target_release(&t);
     TEST_ASSERT_NULL(t.order);
+}
+
+/* Order 6 in each: by the option, by the header whatever the option, and as a fraction. */
+static void test_orders_of_a_mechanical_turn(void)
+{
+    static const struct {
+        const char *text;
+        hci_order_base base;
+    } cases[] = {{"order,amplitude_Nm,phase_rad\n42,1,0\n", HCI_ORDER_MECHANICAL},
+                 {"mechanical_order,amplitude_Nm,phase_rad\n42,1,0\n", HCI_ORDER_ELECTRICAL},
+                 {"mechanical_order,amplitude_Nm,phase_rad\n84/2,1,0\n", HCI_ORDER_MECHANICAL},
+                 {"electrical_order,amplitude_Nm,phase_rad\n6,1,0\n", HCI_ORDER_MECHANICAL},
+                 {"order,amplitude_Nm,phase_rad\n42/7,1,0\n", HCI_ORDER_ELECTRICAL}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
+        hci_target t;
+        hci_note remark = {{0}};
+        const char *path = file("target.csv", cases[k].text);
+        TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_target_read_orders(path, cases[k].base, 7, &t, &remark, &note),
+                                  note.text);
+        TEST_ASSERT_EQUAL_DOUBLE(6.0, t.order[0].torque_Nm.order);
+        TEST_ASSERT_EQUAL_STRING("", remark.text);
+        hci_target_release(&t);
+    }
+}
+
+static void test_mechanical_orders_need_pole_pairs(void)
+{
+    hci_target t;
+    const char *path = file("target.csv", "mechanical_order,amplitude_Nm,phase_rad\n42,1,0\n");
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, hci_target_read(path, &t, &note));
+    text_has("found orders of a mechanical turn", note.text);
+    text_has("divide them by the pole pairs and name the column order", note.text);
+}
+
+static void test_mechanical_orders_of_components(void)
+{
+    hci_component_set set;
+    const hci_set_tables of = {.pole_pairs = 7, .order_base = HCI_ORDER_MECHANICAL};
+    const char *path = file("set.csv", "order,set\n35,neg\n");
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_component_set_read_orders(path, &of, &set, &note), note.text);
+    TEST_ASSERT_EQUAL_DOUBLE(5.0, set.component[0].order);
+    hci_component_set_release(&set);
+}
+
+static void test_phases_that_look_like_degrees_are_told(void)
+{
+    static const char *const texts[] = {
+        "order,amplitude_Nm,phase_rad\n6,1,90\n", "order,amplitude_Nm,phase\n6,1,90\n",
+        "order,amplitude_Nm,phase_rad\n6,1,6\n", "order,amplitude_Nm,phase_deg\n6,1,90\n"};
+    for (size_t k = 0; k < 4; ++k) {
+        hci_target t;
+        hci_note remark = {{0}};
+        const char *path = file("target.csv", texts[k]);
+        TEST_ASSERT_EQUAL_MESSAGE(
+            HCI_OK, hci_target_read_orders(path, HCI_ORDER_ELECTRICAL, 7, &t, &remark, &note), note.text);
+        if (k < 2)
+            text_has("a phase of 90 rad, which looks like degrees: if it is, name the column phase_deg",
+                     remark.text);
+        else
+            TEST_ASSERT_EQUAL_STRING("", remark.text);
+        hci_target_release(&t);
+    }
 }
 
 static void test_weights_are_one_where_there_is_no_such_column(void)
@@ -144,6 +207,10 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_a_target_is_sorted_and_complete);
+    RUN_TEST(test_orders_of_a_mechanical_turn);
+    RUN_TEST(test_mechanical_orders_need_pole_pairs);
+    RUN_TEST(test_mechanical_orders_of_components);
+    RUN_TEST(test_phases_that_look_like_degrees_are_told);
     RUN_TEST(test_weights_are_one_where_there_is_no_such_column);
     RUN_TEST(test_weights_that_are_refused);
     RUN_TEST(test_a_set_has_each_component_once);

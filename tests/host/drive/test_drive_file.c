@@ -72,7 +72,8 @@ static void test_values_are_read_in_their_units(void)
 static void test_wrong_rows_are_named(void)
 {
     refuse("current_kp,12,ohm\ncurrent_kp,13,ohm\n", "drive.csv:3: column");
-    refuse("kp,12,ohm\n", "drive.csv:2: no name `kp`; known: current_control");
+    refuse("kp,12,ohm\n",
+           "drive.csv:2: column 1 `name`: found `kp`, expected a name that is known here; docs/files.md");
     refuse("current_control,hysteresis,\n", "drive.csv:2: column");
     refuse("current_control,hysteresis,\n", "expected one of: pi");
     refuse("decoupling,some,\n", "expected one of: table, constant, none");

@@ -60,6 +60,38 @@ static void test_columns_without_a_name(void)
     text_has("columns not used: `spare`", run.remark.text);
 }
 
+/* A turn of 4096 counts, on the command line or in columns.csv; what looks like counts is not read in rad. */
+static void test_counts_of_an_encoder(void)
+{
+    files_write(path, "enc_count,torque_Nm\n0,1\n1024,2\n2048,3\n");
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, read_run());
+    text_has("if `enc_count` is an encoder, say --column \"theta_m=enc_count/COUNTS\"", note.text);
+    add("theta_m=enc_count/4096");
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, read_run(), note.text);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.5 * REF_PI, run.theta_m_rad[1]);
+    hci_column_names_release(&names);
+    add("theta_e_rad=Enc_Count/8192");
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, read_run(), note.text);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.125 * REF_PI, run.theta_m_rad[1]);
+    hci_column_names_release(&names);
+    add("theta_m=enc_count");
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, read_run());
+    text_has(
+        "looks like the counts of an encoder, expected how many a turn has; write theta_m=enc_count/COUNTS",
+        note.text);
+    hci_column_names_release(&names);
+    add("torque_Nm=enc_count/4096");
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, read_run());
+    text_has("found counts of a turn, expected them with an angle", note.text);
+    hci_column_names_release(&names);
+    add("theta_m_deg=enc_count");
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, read_run(), note.text);
+    hci_column_names_release(&names);
+    add("theta_m=enc_count/none");
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, read_run());
+    text_has("found no column `enc_count/none`", note.text);
+}
+
 /* The unit of the header, or of the row of units, comes before that of the option. */
 static void test_units_of_the_file(void)
 {
@@ -179,6 +211,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_columns_without_a_name);
+    RUN_TEST(test_counts_of_an_encoder);
     RUN_TEST(test_units_of_the_file);
     RUN_TEST(test_what_is_said_comes_first);
     RUN_TEST(test_a_table_beside_the_recording_and_one_beside_the_list);

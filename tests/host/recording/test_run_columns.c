@@ -48,6 +48,38 @@ static double first_value(hci_run_column which)
 
 /* ---- names and units */
 
+/* Angles without a unit are in rad, unless they turn over at 360 or go to it in whole numbers. */
+static void test_angles_that_look_like_degrees_are_told(void)
+{
+    static const struct {
+        const char *text;
+        bool told;
+    } cases[] = {{"theta_m\n0\n120.3\n240.1\n359.9\n0.2\n", true},
+                 {"theta_m\n0\n90\n180\n270\n359.5\n", true},
+                 {"theta_m\n0\n90.3\n180\n270\n359.5\n", false}, /* 57 turns, slowly */
+                 {"theta_m_rad\n0\n120.3\n240.1\n359.9\n0.2\n", false},
+                 {"theta_m\n0\n2\n4\n6\n0.2\n", false}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
+        TEST_ASSERT_EQUAL(HCI_OK, find(cases[k].text));
+        first_value(HCI_RUN_THETA_M);
+        TEST_ASSERT_EQUAL_MESSAGE(cases[k].told,
+                                  strstr(remark.text, "looks like degrees: name it theta_m_deg") != NULL,
+                                  cases[k].text);
+        memset(&remark, 0, sizeof remark);
+        hci_run_columns_release(&columns);
+        hci_csv_free(csv);
+        csv = NULL;
+    }
+}
+
+/* A column that could be the angle is not passed over for a map of means. */
+static void test_a_column_that_may_be_the_angle_is_asked_for(void)
+{
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, find("Winkel,iq_A,torque_Nm\n0,1,1\n"));
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(note.text, "if `Winkel` is the angle of the rotor, say --column"),
+                                 note.text);
+}
+
 static void test_values_come_in_si_units(void)
 {
     TEST_ASSERT_EQUAL(HCI_OK, find("Log of a bench\nmade by hand\n"
@@ -222,6 +254,8 @@ static void test_out_of_memory(void)
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_angles_that_look_like_degrees_are_told);
+    RUN_TEST(test_a_column_that_may_be_the_angle_is_asked_for);
     RUN_TEST(test_values_come_in_si_units);
     RUN_TEST(test_the_header_says_where_a_column_stands);
     RUN_TEST(test_names_of_other_tools);

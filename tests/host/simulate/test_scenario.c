@@ -29,8 +29,10 @@ static void test_units_and_relative_paths(void)
 
 static void test_wrong_rows_are_refused(void)
 {
-    refused(&machine_c, "duratoin,1,s\n", "scenario.csv:2: no name `duratoin`; known: current_control");
-    refused(&machine_c, "duratoin,1,s\n", " trajectory_every"); /* the list is whole */
+    refused(&machine_c, "duratoin,1,s\n",
+            "scenario.csv:2: column 1 `name`: found `duratoin`, expected a name that is known here; did "
+            "you mean `duration`?");
+    refused(&machine_c, "trajectory_evry,1,\n", "did you mean `trajectory_every`?"); /* the last */
     refused(&machine_c, "duration,1,s\nduration,1,s\n", "each name once");
     refused(&machine_c, "strategy,id0,\nstrategy,id0,\n", "each name once");
     refused(&machine_c, "duration,1,A\n", "a unit that converts to s");

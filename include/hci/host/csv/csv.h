@@ -65,6 +65,20 @@ bool hci_csv_has(const hci_csv *csv, const char *column);
  * HCI_ERROR_MEMORY. */
 hci_status hci_csv_give(hci_csv *csv, const char *name, size_t column, hci_note *note);
 
+/* The same of an angle that an encoder counts: `counts` in a turn. */
+hci_status hci_csv_give_counts(hci_csv *csv, const char *name, size_t column, double counts, hci_note *note);
+
+/* Is a column, by its name, an encoder's counts? */
+bool hci_csv_counts(const char *name);
+
+/* What a column `order` counts periods of. */
+typedef enum { HCI_ORDER_ELECTRICAL, HCI_ORDER_MECHANICAL } hci_order_base;
+
+/* What the orders of a table count: a column `mechanical_order`, and where base is mechanical a column
+ * `order`, periods of a mechanical turn, which `pole_pairs` divides on reading. Before it, `order` is
+ * electrical and `mechanical_order` refused. */
+void hci_csv_orders_of(hci_csv *csv, int pole_pairs, hci_order_base base);
+
 /* How many columns the file has. */
 size_t hci_csv_columns(const hci_csv *csv);
 

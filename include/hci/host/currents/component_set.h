@@ -5,6 +5,7 @@
 #include <stdbool.h>
 
 #include "hci/host/base/note.h"
+#include "hci/host/csv/csv.h"
 #include "hci/machine/system.h"
 
 #ifdef __cplusplus
@@ -34,6 +35,17 @@ typedef struct {
 /* Reads a set of components: columns order, set. A file with a header alone is an empty set. Orders divisible
  * by three are refused as `sym` unless the machine has a neutral conductor. */
 hci_status hci_component_set_read(const char *path, bool has_neutral, hci_component_set *set, hci_note *note);
+
+/* What a table of components is read for. */
+typedef struct {
+    bool has_neutral;          /* of the machine */
+    int pole_pairs;            /* that divide mechanical orders; 0: not known */
+    hci_order_base order_base; /* of the column `order` */
+} hci_set_tables;
+
+/* The same for orders of either base. */
+hci_status hci_component_set_read_orders(const char *path, const hci_set_tables *of, hci_component_set *set,
+                                         hci_note *note);
 
 /* Frees what a set holds and empties it. */
 void hci_component_set_release(hci_component_set *set);

@@ -58,6 +58,9 @@ hci_solution_verdict hci_solution_read_verdict(const char *path);
 /* In words; "" where they are good; a static string. */
 const char *hci_solution_verdict_words(hci_solution_verdict verdict);
 
+/* HCI_ERROR_INPUT for a folder without currents.csv: what it is, and what to do. */
+hci_status hci_solution_check_folder(const char *folder, hci_note *note);
+
 /* Adds these words to a remark, with the folder. */
 void hci_solution_remark(const char *path, hci_note *remark);
 

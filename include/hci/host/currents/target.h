@@ -3,6 +3,7 @@
 #define HCI_HOST_CURRENTS_TARGET_H
 
 #include "hci/host/base/note.h"
+#include "hci/host/csv/csv.h"
 #include "hci/math/harmonic.h"
 
 #ifdef __cplusplus
@@ -25,6 +26,11 @@ typedef struct {
  * amplitude is the signed mean and the phase 0 or π/2. Orders ascending on return. HCI_ERROR_INPUT,
  * HCI_ERROR_MEMORY. */
 hci_status hci_target_read(const char *path, hci_target *target, hci_note *note);
+
+/* The same where the column `order` counts what base says; pole_pairs divides mechanical orders, also those
+ * of a column `mechanical_order`. */
+hci_status hci_target_read_orders(const char *path, hci_order_base base, int pole_pairs, hci_target *target,
+                                  hci_note *remark, hci_note *note);
 
 /* Frees what a target holds and empties it. */
 void hci_target_release(hci_target *target);

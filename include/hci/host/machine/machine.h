@@ -5,6 +5,7 @@
 #include <stdbool.h>
 
 #include "hci/host/base/note.h"
+#include "hci/host/csv/csv.h"
 #include "hci/machine/torque.h"
 
 #ifdef __cplusplus
@@ -41,12 +42,17 @@ typedef struct {
     hci_inductance_slope *slope; /* of model */
     hci_inductance *inductance;  /* L(θ) of inductance.csv; NULL without it or when it holds slopes only */
     size_t inductance_count;     /* entries of inductance */
+    hci_order_base order_base;   /* of the tables that were read */
     hci_note remark;             /* what a reader should know: names that were not understood, or "" */
 } hci_machine_data;
 
 /* Reads the folder `path`. On success *machine is to be given to hci_machine_release; on failure it is empty
  * and the note says why. HCI_ERROR_INPUT, HCI_ERROR_MEMORY. */
 hci_status hci_machine_read(const char *path, hci_machine_data *machine, hci_note *note);
+
+/* The same where the column `order` of back_emf.csv and cogging.csv counts what base says. */
+hci_status hci_machine_read_orders(const char *path, hci_order_base base, hci_machine_data *machine,
+                                   hci_note *note);
 
 /* N·m per ampere of i_q by its back-EMF: 3/2 of the fundamental, as peak values. O(harmonics). */
 double hci_machine_torque_constant(const hci_machine_data *machine);
