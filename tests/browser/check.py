@@ -104,6 +104,7 @@ def is_narrow(browser, url):
     found = browser.evaluate(MEASURE)
     if found["width"] > PHONE[0] or found["window"] > PHONE[0]:
         yield f"wider than a telephone: {max(found['width'], found['window'])} of {PHONE[0]} pixels"
+    yield from found["labels"]
 
 
 def is_whole_on_paper(browser, url):

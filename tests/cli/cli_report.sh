@@ -98,7 +98,7 @@ check "imposed currents taken for a strategy" [ "$(grep -c 'A strategy asks' "$w
 run 0 simulate data/machine_a data/drive/imposed.csv -o "$work/again" --report
 plain=$(sed -n 's/.*of 11.76 A as it should flow, T_ripple \([0-9]*\)\..*/\1/p' "$work/stdout")
 check "the terminal names no ripple before" [ -n "$plain" ]
-check "the page has another ripple before" grep -q "<b>$plain → " "$work/imposed/report.html"
+check "the page has another ripple before" grep -q "T_ripple, peak to peak to mean</th><td>$plain" "$work/imposed/report.html"
 check "another order before" [ "$(awk '$1 == 6 { print $2 }' "$work/stdout")" = "$(sed -n 's|.*>6</data></td><td><data value="\([0-9.]\{6\}\).*|\1|p' "$work/imposed/report.html" | head -n 1)" ]
 run 0 simulate data/machine_a data/drive/imposed.csv -q -o "$work/imposed"
 check "the page of an earlier simulation" [ ! -e "$work/imposed/report.html" ]

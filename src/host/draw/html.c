@@ -30,17 +30,13 @@ static const char STYLE[] =
     "h2{font-size:1.3rem;margin:2.2rem 0 .5rem;padding-top:.8rem;border-top:1px solid var(--line)}"
     "h1,h2,p,td,figcaption{overflow-wrap:anywhere}"
     "p{margin:.4rem 0;max-width:46rem}.lead{font-size:1.15rem}"
-    ".quiet,figcaption,caption,.kicker{color:var(--quiet);font-size:.875rem}"
+    "p.quiet,figcaption,caption,.kicker{color:var(--quiet);font-size:.875rem}"
     ".kicker{border-top:5px solid var(--ink);padding-top:.7rem;margin:0;max-width:none}"
     ".badge{display:inline-block;border:2px solid currentColor;border-radius:.3rem;padding:0 .5rem;"
     "font-weight:700;margin-right:.6rem}.good{color:var(--good)}.bad{color:var(--bad)}"
-    ".tiles{display:flex;flex-wrap:wrap;gap:.75rem;margin:1rem 0;padding:0;list-style:none}"
-    ".tiles li{background:var(--panel);border-radius:.5rem;padding:.6rem .9rem;flex:1 1 13rem}"
-    ".tiles b{display:block;font-size:1.25rem;line-height:1.3}"
-    ".tiles span{display:block;color:var(--quiet);font-size:.875rem}"
     "figure{margin:.6rem 0 0}figcaption{max-width:46rem;margin:.3rem 0}"
     ".table{overflow:auto;max-height:28rem}.table+.table{margin-top:1rem}"
-    ".picture svg,.wide svg,.narrow svg{display:block;width:100%;height:auto}.narrow{display:none}"
+    ".wide svg,.narrow svg{display:block;width:100%;height:auto}.narrow{display:none}"
     "details{margin:.3rem 0}summary{cursor:pointer;color:var(--link);font-size:.875rem;width:fit-content}"
     ":focus-visible{outline:3px solid var(--link);outline-offset:2px}"
     ".skip{position:absolute;left:.5rem;top:-4rem;padding:.4rem "
@@ -71,8 +67,8 @@ static const char STYLE[] =
     "details:not([open]){display:none}.compare{font-size:10pt;margin:.5rem 0}.compare th,.compare "
     "td{padding-top:.15rem;padding-bottom:.15rem}"
     ".table{overflow:visible;max-height:none}"
-    ".wide svg{width:14.5cm;margin:0 auto}figcaption,.quiet{font-size:8pt}"
-    "section,.picture,.wide,tr,.tiles,p{break-inside:avoid}h1,h2,caption,thead{break-after:avoid}"
+    ".wide svg{width:14.5cm;margin:0 auto}figcaption,p.quiet{font-size:8pt}"
+    "section,.wide,tr,p{break-inside:avoid}h1,h2,caption,thead{break-after:avoid}"
     "th{position:static}"
     "caption{position:static;max-width:none}th,td{padding:.1rem .4rem}"
     "td.long{white-space:normal;overflow-wrap:anywhere;min-width:11em}td.words{min-width:9em}}";
@@ -155,32 +151,9 @@ void hci_html_section_end(hci_output *out)
     hci_output_text(out, "</section>\n");
 }
 
-void hci_html_tiles(hci_output *out)
+void hci_html_evidence(hci_output *out)
 {
-    hci_output_text(out, "<ul class=\"tiles\">\n");
-}
-
-void hci_html_tile(hci_output *out, const char *name, const char *value, const char *remark)
-{
-    hci_output_text(out, "<li>");
-    put_element(out, "span", NULL, name);
-    put_element(out, "b", NULL, value);
-    put_element(out, "span", NULL, remark);
-    hci_output_text(out, "</li>\n");
-}
-
-void hci_html_tile_number(hci_output *out, const char *name, double value, const char *unit,
-                          const char *remark)
-{
-    char text[HCI_HTML_NUMBER_SIZE];
-    if (!isfinite(value)) return;
-    hci_html_quantity_text(text, value, unit);
-    hci_html_tile(out, name, text, remark);
-}
-
-void hci_html_tiles_end(hci_output *out)
-{
-    hci_output_text(out, "</ul>\n<div id=\"evidence\" tabindex=\"-1\"></div>\n");
+    hci_output_text(out, "<div id=\"evidence\" tabindex=\"-1\"></div>\n");
 }
 
 /* ---- before and after ---- */
@@ -220,7 +193,8 @@ void hci_html_compare_row(hci_output *out, const char *name, const char *const *
 
 void hci_html_compare_end(hci_output *out)
 {
-    hci_output_text(out, "</tbody>\n</table>\n<div id=\"evidence\" tabindex=\"-1\"></div>\n");
+    hci_output_text(out, "</tbody>\n</table>\n");
+    hci_html_evidence(out);
 }
 
 /* ---- what is folded away ---- */
@@ -239,12 +213,13 @@ void hci_html_fold_end(hci_output *out)
 /* ---- drawings ---- */
 
 /* Pixels of a drawing: its width, and what its box leaves free at the top and at the bottom. */
-enum { WIDE = 760, NARROW = 360, LEFT = 12, RIGHT = 14, BOTTOM = 44, WIDE_TOP = 38, NARROW_TOP = 60 };
+enum { WIDE = 760, NARROW = 360, LEFT = 12, RIGHT = 14, BOTTOM = 44, WIDE_TOP = 38, ROW = 18 };
 
 static void draw(hci_output *out, const hci_html_drawing *d, bool is_narrow)
 {
     const int width = is_narrow ? NARROW : WIDE, height = is_narrow ? d->narrow : d->wide;
-    const int top = d->headless ? 8 : is_narrow ? NARROW_TOP : WIDE_TOP;
+    const int rows = d->legend_rows > 0 ? d->legend_rows : 2;
+    const int top = d->headless ? 8 : is_narrow ? WIDE_TOP - 14 + ROW * rows : WIDE_TOP;
     const hci_svg_box box = {LEFT + HCI_SVG_MARGIN, top, LEFT + width - RIGHT, height - BOTTOM};
     char id[64];
     snprintf(id, sizeof id, "%.40s%s", d->id, is_narrow ? "-narrow" : "");
@@ -269,30 +244,6 @@ void hci_html_drawing_end(hci_output *out, const char *numbers, const char *orig
     hci_html_say(out, "quiet", " Numbers: %s%s%s.", numbers, origin[0] ? ". Made from: " : "", origin);
     hci_html_fold_end(out);
     hci_output_text(out, "</figure>\n");
-}
-
-/* ---- figures ---- */
-
-void hci_html_figure(hci_output *out)
-{
-    hci_output_text(
-        out, "<figure>\n<div class=\"picture\" tabindex=\"0\" role=\"group\" aria-label=\"Picture\">\n");
-}
-
-void hci_html_figure_tables(hci_output *out)
-{
-    hci_output_text(out, "</div>\n<div>\n");
-}
-
-void hci_html_figure_end(hci_output *out, const char *caption, const char *numbers, const char *origin)
-{
-    hci_output_text(out, "</div>\n<figcaption>");
-    hci_svg_text(out, caption);
-    hci_output_text(out, " Numbers: ");
-    hci_svg_text(out, numbers);
-    if (origin[0]) hci_output_text(out, ". Made from: ");
-    hci_svg_text(out, origin);
-    hci_output_text(out, ".</figcaption>\n</figure>\n");
 }
 
 /* ---- tables ---- */

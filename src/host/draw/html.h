@@ -33,21 +33,13 @@ void hci_html_say(hci_output *out, const char *style, const char *format, ...) H
 void hci_html_section(hci_output *out, const char *heading);
 void hci_html_section_end(hci_output *out);
 
-/* A few large figures in a row. */
-void hci_html_tiles(hci_output *out);
-void hci_html_tile(hci_output *out, const char *name, const char *value, const char *remark);
-
-/* Of a number with its unit; nothing where it is not finite. */
-void hci_html_tile_number(hci_output *out, const char *name, double value, const char *unit,
-                          const char *remark);
-
-/* After them comes the evidence, to which the first link of the page leads. */
-void hci_html_tiles_end(hci_output *out);
+/* After the verdict comes the evidence, to which the first link of the page leads. */
+void hci_html_evidence(hci_output *out);
 
 /* ---- before and after ---- */
 
 /* A table of large figures, the same quantity before and after in each row. column: headings without that of
- * the names, NULL at the end. After it comes the evidence, as after tiles. */
+ * the names, NULL at the end. After it comes the evidence. */
 void hci_html_compare(hci_output *out, const char *const *column);
 
 /* value: one for each column, NULL at the end; what follows a | is a second line in small letters. */
@@ -58,10 +50,10 @@ void hci_html_compare_end(hci_output *out);
 
 /* Drawn twice, for a screen or paper and for a telephone; wide, narrow: its heights. The box is that of the
  * axes: numbers and title of an axis have room around it, and over it a title and a legend, which may take
- * two rows where it is narrow; headless: nothing over it. */
+ * so many legend_rows where it is narrow, 2 without it; headless: nothing over it. */
 typedef struct {
     const char *id, *title, *description, *caption;
-    int wide, narrow;
+    int wide, narrow, legend_rows;
     bool headless;
     void (*draw)(hci_output *out, const hci_svg_box *box, const void *context);
     const void *context;
@@ -76,14 +68,6 @@ void hci_html_drawing_end(hci_output *out, const char *numbers, const char *orig
 /* What is only of interest to some: shown on request. */
 void hci_html_fold(hci_output *out, const char *summary);
 void hci_html_fold_end(hci_output *out);
-
-/* ---- a picture and its table ---- */
-
-/* Between them the <svg>; then tables, then the caption. numbers: the files that hold them; origin: those
- * that they were made from. */
-void hci_html_figure(hci_output *out);
-void hci_html_figure_tables(hci_output *out);
-void hci_html_figure_end(hci_output *out, const char *caption, const char *numbers, const char *origin);
 
 /* ---- tables ---- */
 

@@ -2,7 +2,6 @@
 #include "host/draw/svg.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -125,15 +124,36 @@ void hci_svg_label(hci_output *out, const char *style, double x, double y, const
 
 /* ---- what is told under the pointer ---- */
 
-void hci_svg_hint(hci_output *out, const char *format, ...)
+void hci_svg_tell(hci_output *out, const char *text)
 {
-    char text[512];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
     hci_output_text(out, "<g><title>");
     hci_svg_text(out, text);
+}
+
+void hci_svg_tell_more(hci_output *out, const char *text)
+{
+    hci_svg_text(out, text);
+}
+
+/* A prefix would be odd before °, %, ×, rpm and ms. */
+void hci_svg_tell_value(hci_output *out, const char *words, double value, const char *unit)
+{
+    char text[HCI_SVG_NUMBER_SIZE];
+    const bool is_plain = (unsigned char)*unit >= 0x80 || *unit == '%' || *unit == 'r' || *unit == 'm';
+    if (!isfinite(value)) return;
+    if (is_plain) {
+        hci_svg_short_text(text, value);
+        snprintf(text + strlen(text), sizeof text - strlen(text), "%s%s", strcmp(unit, "°") == 0 ? "" : " ",
+                 unit);
+    } else {
+        hci_svg_quantity_text(text, value, unit);
+    }
+    hci_svg_text(out, words);
+    hci_svg_text(out, text);
+}
+
+void hci_svg_hint(hci_output *out)
+{
     hci_output_text(out, "</title>\n");
 }
 
@@ -142,9 +162,9 @@ void hci_svg_hint_end(hci_output *out)
     hci_output_text(out, "</g>\n");
 }
 
-void hci_svg_strip(hci_output *out, const hci_svg_box *strip, const char *text)
+void hci_svg_strip(hci_output *out, const hci_svg_box *strip)
 {
-    hci_svg_hint(out, "%s", text);
+    hci_svg_hint(out);
     hci_svg_rectangle(out, "hit", strip->left, strip->top, strip->right, strip->bottom);
     hci_svg_hint_end(out);
 }

@@ -42,12 +42,16 @@ void hci_svg_rectangle(hci_output *out, const char *style, double left, double t
 void hci_svg_circle(hci_output *out, const char *style, double x, double y, double radius);
 void hci_svg_cross(hci_output *out, double x, double y);
 
-/* What is drawn between the two tells this text under the pointer. */
-void hci_svg_hint(hci_output *out, const char *format, ...) HCI_PRINTF(2, 3);
+/* What is drawn between hci_svg_hint and hci_svg_hint_end tells a text under the pointer: first its parts.
+ * A value: words, number and unit; nothing where it is not finite. */
+void hci_svg_tell(hci_output *out, const char *text);
+void hci_svg_tell_more(hci_output *out, const char *text);
+void hci_svg_tell_value(hci_output *out, const char *words, double value, const char *unit);
+void hci_svg_hint(hci_output *out);
 void hci_svg_hint_end(hci_output *out);
 
-/* A strip that is seen under the pointer alone, and then tells the text. */
-void hci_svg_strip(hci_output *out, const hci_svg_box *strip, const char *text);
+/* Ends a hint with a strip that is seen under the pointer alone. */
+void hci_svg_strip(hci_output *out, const hci_svg_box *strip);
 
 /* A line through points: begin, points, end. */
 void hci_svg_line_begin(hci_output *out, const char *style);
@@ -126,6 +130,7 @@ void hci_svg_grid(hci_output *out, const hci_svg_axis *a, const hci_svg_box *b, 
 /* Logarithmic, from a 1, 2 or 5 times a power of ten to another, at least one decade. What is too small, or
  * not above 0, lies at its lower end. */
 hci_svg_axis hci_svg_log_axis(hci_range r, double from, double to, double most_decades);
+hci_svg_box hci_svg_log_box_beside(hci_svg_box box, const hci_svg_axis *upright);
 double hci_svg_log_at(const hci_svg_axis *a, double value);
 void hci_svg_log_grid(hci_output *out, const hci_svg_axis *a, const hci_svg_box *b, bool upwards);
 

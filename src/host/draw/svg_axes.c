@@ -169,6 +169,18 @@ double hci_svg_log_at(const hci_svg_axis *a, double value)
     return value > 0.0 ? hci_svg_at(a, log10(value)) : a->from;
 }
 
+hci_svg_box hci_svg_log_box_beside(hci_svg_box b, const hci_svg_axis *y)
+{
+    double widest = 0.0;
+    for (double k = ceil(y->low - 1e-6); k <= y->high + 1e-6; k += 1.0) {
+        char text[HCI_SVG_NUMBER_SIZE];
+        hci_svg_tick_text(text, pow(10.0, k), pow(10.0, k), pow(10.0, k));
+        widest = fmax(widest, hci_svg_text_width("quiet end", text));
+    }
+    b.left += fmax(widest + NUMBER_GAP - HCI_SVG_MARGIN, 0.0);
+    return b;
+}
+
 static void draw_log_line(hci_output *out, const hci_svg_axis *a, const hci_svg_box *b, bool upwards,
                           double value)
 {

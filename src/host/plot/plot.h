@@ -53,9 +53,12 @@ void hci_plot_waveform(hci_output *out, const hci_waveform *waveform);
 
 /* ---- plot_speeds.c ---- */
 
-/* Torque ripple and voltage over the speed, with a style sheet of its own where it stands alone. O(speeds).
- */
-void hci_plot_speeds(hci_output *out, const hci_speeds *speeds, bool stands_alone);
+/* Torque ripple, and voltage, over the speed; speeds: an hci_speeds. O(speeds). */
+void hci_plot_speeds_ripple(hci_output *out, const hci_svg_box *box, const void *speeds);
+void hci_plot_speeds_voltage(hci_output *out, const hci_svg_box *box, const void *speeds);
+
+/* Both as a picture with a style sheet of its own. */
+void hci_plot_speeds(hci_output *out, const hci_speeds *speeds);
 
 /* ---- plot_residuals.c: numbers in rows and columns, as squares whose size tells theirs ---- */
 
@@ -71,7 +74,7 @@ typedef struct {
     size_t runs_shown, orders_shown;
 } hci_plot_map;
 
-void hci_plot_residuals(hci_output *out, const hci_plot_map *map);
+void hci_plot_residuals(hci_output *out, const hci_svg_box *box, const void *map);
 
 /* ---- largest.c, plot_orders.c ---- */
 
@@ -88,26 +91,35 @@ typedef struct {
 
 /* Amplitudes over the order, ascending; logarithmic over at most four decades. noise: what the legend calls
  * noise_Nm; before_Nm and noise_Nm are there of all orders or of none. */
-void hci_plot_orders(hci_output *out, const hci_svg_picture *words, const hci_plot_order *order, size_t count,
-                     const char *noise, bool logarithmic);
+typedef struct {
+    const hci_plot_order *order;
+    size_t count;
+    const char *title, *noise;
+    bool logarithmic;
+} hci_plot_orders_data;
 
-/* ---- plot_findings.c, plot_runs.c, plot_terms.c ---- */
+/* orders: an hci_plot_orders_data. */
+void hci_plot_orders(hci_output *out, const hci_svg_box *box, const void *orders);
+
+/* ---- plot_findings.c, plot_runs.c: of a diagnosis ---- */
 
 /* Of a finding that is added or ambiguous, the effect of the corrected machine and the term whose value is
  * the largest multiple of its standard error; NULL where none has one. */
 const hci_effect *hci_plot_clearest(const hci_diagnosis *diagnosis, const hci_finding *finding, size_t *term);
 
-/* Effects by the fall of the BIC, the share of the residual that is each one's alone, and the 95 % interval
- * of its clearest value as a share of it. */
-void hci_plot_findings(hci_output *out, const hci_diagnosis *diagnosis);
+/* rms torque that an effect alone explains; NAN where there is none. */
+double hci_plot_own_Nm(const hci_diagnosis *diagnosis, const hci_finding *finding);
+
+/* Those that explain some, and how many they are. */
+size_t hci_plot_findings_shown(const hci_diagnosis *diagnosis, const hci_finding *shown[HCI_MOST_FINDINGS]);
+
+/* The torque that each of these explains, beside the errors before and after; a row each. */
+void hci_plot_findings(hci_output *out, const hci_svg_box *box, const void *diagnosis);
 
 /* Error of the runs before and after, those held out first; at most so many of each role. */
 enum { HCI_PLOT_MOST_RUNS = 40 };
-void hci_plot_runs(hci_output *out, const hci_diagnosis *diagnosis);
-
-/* Values with their 95 % intervals, all of them in one unit. */
-void hci_plot_terms(hci_output *out, const char *id, const char *title, const hci_effect *effect,
-                    const size_t *term, size_t count);
+size_t hci_plot_runs_rows(const hci_diagnosis *diagnosis);
+void hci_plot_runs(hci_output *out, const hci_svg_box *box, const void *diagnosis);
 
 /* "sine_18" */
 enum { HCI_PLOT_NAME_SIZE = 96 };

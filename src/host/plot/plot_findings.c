@@ -1,4 +1,4 @@
-/* The effects of a diagnosis by how much the recordings speak for them. */
+/* The effects of a diagnosis by the torque that each alone explains. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -6,17 +6,17 @@
 #include "host/plot/plot.h"
 #include "host/plot/rows.h"
 
-enum { EFFECTS = 170 }; /* x of where their names end */
-
-static bool is_shown(const hci_finding *f)
+double hci_plot_own_Nm(const hci_diagnosis *d, const hci_finding *f)
 {
-    return f->verdict != HCI_FINDING_REJECTED || f->delta_bic > 1.0;
+    return f->verdict == HCI_FINDING_REJECTED ? (double)NAN : sqrt(f->residual_share) * d->rms_before_Nm;
 }
 
-static const char *style_of(hci_finding_verdict verdict)
+size_t hci_plot_findings_shown(const hci_diagnosis *d, const hci_finding *shown[HCI_MOST_FINDINGS])
 {
-    static const char *const STYLE[] = {"after", "maybe", "before"};
-    return STYLE[verdict];
+    size_t rows = 0;
+    for (size_t k = 0; k < d->findings; ++k)
+        if (hci_plot_own_Nm(d, &d->finding[k]) > 0.0) shown[rows++] = &d->finding[k];
+    return rows;
 }
 
 const hci_effect *hci_plot_clearest(const hci_diagnosis *d, const hci_finding *f, size_t *term)
@@ -37,78 +37,87 @@ const hci_effect *hci_plot_clearest(const hci_diagnosis *d, const hci_finding *f
     return found;
 }
 
-static double rounded_percent(double percent)
+void hci_plot_term_name(char name[HCI_PLOT_NAME_SIZE], const hci_effect *effect, size_t term)
 {
-    const double power = pow(10.0, 1.0 - floor(log10(percent)));
-    return round(percent * power) / power;
+    const hci_effect_term *t = &effect->term[term];
+    const hci_effect_parameter *p = &effect->type->parameter[t->parameter];
+    char order[HCI_SVG_NUMBER_SIZE];
+    hci_svg_short_text(order, t->order);
+    snprintf(name, HCI_PLOT_NAME_SIZE, "%.40s%s%s", p->name, p->ordered ? "_" : "", p->ordered ? order : "");
 }
 
-/* "± 0.4 %" */
-static void draw_uncertainty(hci_output *out, const hci_diagnosis *d, const hci_finding *f, double y)
+/* The lines that all effects are compared with. */
+typedef struct {
+    const char *style, *name;
+    double value_Nm;
+} level;
+
+static void draw_level(hci_output *out, const hci_svg_axis *x, const hci_svg_box *b, const level *l)
 {
-    char text[HCI_SVG_NUMBER_SIZE + 16] = "± ";
-    size_t term;
-    const hci_effect *e = hci_plot_clearest(d, f, &term);
-    if (!e) return;
-    hci_svg_short_text(text + strlen(text),
-                       rounded_percent(196.0 * e->term[term].std_error / fabs(e->term[term].value)));
-    strcat(text, " %");
-    hci_svg_label(out, "quiet end", HCI_ROWS_WIDTH - 8.0, y + 4.0, text);
+    const double at = hci_svg_log_at(x, l->value_Nm);
+    if (!(l->value_Nm > 0.0) || at <= x->from) return;
+    hci_svg_tell(out, l->name);
+    hci_svg_tell_value(out, ": ", l->value_Nm, "N·m");
+    hci_svg_hint(out);
+    hci_svg_segment(out, l->style, at, b->top, at, b->bottom);
+    hci_svg_hint_end(out);
 }
 
-static void draw_finding(hci_output *out, const hci_finding *f, double y, const hci_svg_axis *bic,
-                         const hci_svg_axis *share)
+static void draw_finding(hci_output *out, const hci_diagnosis *d, const hci_finding *f, double y,
+                         const hci_svg_axis *x)
 {
-    const char *style = style_of(f->verdict);
-    hci_svg_name(out, f->verdict == HCI_FINDING_ADDED ? "head" : "quiet", 4.0, y + 4.0, f->effect,
-                 EFFECTS - 8.0);
-    if (f->delta_bic > 0.0)
-        hci_svg_rectangle(out, style, bic->from, y - 6.0,
-                          fmax(hci_svg_log_at(bic, f->delta_bic), bic->from + 1.5), y + 6.0);
-    if (isfinite(f->residual_share))
-        hci_svg_rectangle(out, style, share->from, y - 6.0,
-                          fmax(hci_svg_at(share, 100.0 * f->residual_share), share->from + 1.5), y + 6.0);
+    const double own_Nm = hci_plot_own_Nm(d, f), at = hci_svg_log_at(x, own_Nm);
+    hci_svg_tell(out, f->effect);
+    hci_svg_tell_value(out, ": by it alone ", own_Nm, "N·m");
+    hci_svg_tell_more(out, ", ");
+    hci_svg_tell_more(out, hci_finding_verdict_name(f->verdict));
+    hci_svg_hint(out);
+    hci_svg_segment(out, "rail", x->from, y, at, y);
+    hci_svg_circle(out, f->verdict == HCI_FINDING_ADDED ? "dot" : "maybe", at, y, 5.0);
+    hci_svg_hint_end(out);
 }
 
-static size_t shown_findings(const hci_diagnosis *d, const hci_finding *shown[HCI_MOST_FINDINGS])
+static hci_svg_axis axis_of(const hci_diagnosis *d, const hci_finding *const *shown, size_t rows,
+                            const hci_svg_box *b)
 {
-    size_t rows = 0;
-    for (size_t k = 0; k < d->findings; ++k)
-        if (is_shown(&d->finding[k])) shown[rows++] = &d->finding[k];
-    return rows;
-}
-
-static const char FINDINGS[] =
-    "Two bars for each effect: the fall of the Bayesian information criterion on a logarithmic axis, and the "
-    "share in per cent of the residual's mean square that is this effect's alone; at the right the 95 % "
-    "interval "
-    "of its clearest value, in per cent of it. The table beside it has the numbers.";
-
-void hci_plot_findings(hci_output *out, const hci_diagnosis *d)
-{
-    static const hci_svg_entry LEGEND[] = {{HCI_SVG_BAR, "after", "added"},
-                                           {HCI_SVG_BAR, "maybe", "ambiguous"},
-                                           {HCI_SVG_BAR, "before", "rejected"}};
-    const hci_finding *shown[HCI_MOST_FINDINGS];
-    const size_t rows = shown_findings(d, shown);
-    const hci_svg_box left = hci_rows_box(EFFECTS, 330.0, rows), right = hci_rows_box(356.0, 440.0, rows);
-    hci_range most = {1.0, 10.0};
-    hci_svg_axis bic, share = {0.0, 100.0, right.left, right.right, 50.0};
+    hci_range r = HCI_RANGE_EMPTY;
+    hci_range_include(&r, d->rms_before_Nm);
+    if (d->rms_after_Nm > 0.0) hci_range_include(&r, d->rms_after_Nm);
     for (size_t k = 0; k < rows; ++k)
-        hci_range_include(&most, shown[k]->delta_bic);
-    bic = hci_svg_log_axis((hci_range){1.0, most.high}, left.left, left.right, 12.0);
-    hci_rows_begin(out, "findings", "Effects by how much the recordings speak for them", FINDINGS, rows);
-    hci_svg_legend(out, LEGEND, 3, HCI_ROWS_WIDTH - 8.0, 18.0);
-    hci_svg_label(out, "head", left.left, HCI_ROWS_TOP - 12.0, "ΔBIC");
-    hci_svg_label(out, "head", right.left, HCI_ROWS_TOP - 12.0, "own share, %");
-    hci_svg_label(out, "head end", HCI_ROWS_WIDTH - 8.0, HCI_ROWS_TOP - 12.0, "certainty");
-    hci_svg_log_grid(out, &bic, &left, false);
-    hci_svg_grid(out, &share, &right, false);
-    if (rows == 0) hci_svg_label(out, "quiet", 4.0, HCI_ROWS_TOP - 12.0, "no effect is needed");
+        hci_range_include(&r, hci_plot_own_Nm(d, shown[k]));
+    r.low *= 0.5;
+    return hci_svg_log_axis(r, b->left, b->right, 5.0);
+}
+
+static bool any_ambiguous(const hci_finding *const *shown, size_t rows)
+{
+    for (size_t k = 0; k < rows; ++k)
+        if (shown[k]->verdict == HCI_FINDING_AMBIGUOUS) return true;
+    return false;
+}
+
+void hci_plot_findings(hci_output *out, const hci_svg_box *area, const void *diagnosis)
+{
+    static const hci_svg_entry LEGEND[] = {{HCI_SVG_DOT, "dot", "by it alone"},
+                                           {HCI_SVG_LINE, "before", "error before"},
+                                           {HCI_SVG_LINE, "after", "error after"},
+                                           {HCI_SVG_LINE, "noise", "noise"},
+                                           {HCI_SVG_DOT, "maybe", "by it or another"}};
+    const hci_diagnosis *d = diagnosis;
+    const level levels[] = {{"before", "error before", d->rms_before_Nm},
+                            {"after", "error after", d->rms_after_Nm},
+                            {"noise", "noise", d->noise_Nm}};
+    const hci_finding *shown[HCI_MOST_FINDINGS];
+    const size_t rows = hci_plot_findings_shown(d, shown);
+    const hci_svg_box b = hci_rows_box(area);
+    const hci_svg_axis x = axis_of(d, shown, rows, &b);
+    hci_svg_head(out, area, "Explained torque, rms", LEGEND, any_ambiguous(shown, rows) ? 5 : 4);
+    hci_svg_log_grid(out, &x, &b, false);
+    for (size_t k = 0; k < 3; ++k)
+        draw_level(out, &x, &b, &levels[k]);
     for (size_t k = 0; k < rows; ++k) {
-        draw_finding(out, shown[k], hci_rows_middle(k), &bic, &share);
-        draw_uncertainty(out, d, shown[k], hci_rows_middle(k));
+        hci_rows_name(out, &b, k, shown[k]->verdict == HCI_FINDING_ADDED, shown[k]->effect);
+        draw_finding(out, d, shown[k], hci_rows_middle(&b, k), &x);
     }
-    hci_rows_foot(out, &left, "logarithmic");
-    hci_svg_end(out);
+    hci_rows_foot(out, &b, "N·m, logarithmic");
 }

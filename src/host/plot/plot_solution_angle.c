@@ -46,16 +46,14 @@ static void draw_strips(hci_output *out, const hci_solution_curves *c, const hci
         const size_t vertex = (2 * k + 1) * HCI_CURVE_VERTICES / (2 * STRIPS);
         const hci_svg_box strip = {b->left + width * (double)k, b->top, b->left + width * (double)(k + 1),
                                    b->bottom};
-        char text[320];
-        size_t used = (size_t)snprintf(text, sizeof text, "%.4g°",
-                                       360.0 * c->turns * (double)vertex / HCI_CURVE_VERTICES);
-        for (size_t j = 0; j < count && used < sizeof text; ++j) {
-            char number[HCI_SVG_NUMBER_SIZE];
-            hci_svg_quantity_text(number, curve[j].value[vertex], unit);
-            used += (size_t)snprintf(text + used, sizeof text - used, "%s %s %s", j > 0 ? "," : ":",
-                                     curve[j].name, number);
+        hci_svg_tell(out, "");
+        hci_svg_tell_value(out, "", 360.0 * c->turns * (double)vertex / HCI_CURVE_VERTICES, "°");
+        for (size_t j = 0; j < count; ++j) {
+            hci_svg_tell_more(out, j > 0 ? ", " : ": ");
+            hci_svg_tell_more(out, curve[j].name);
+            hci_svg_tell_value(out, " ", curve[j].value[vertex], unit);
         }
-        hci_svg_strip(out, &strip, text);
+        hci_svg_strip(out, &strip);
     }
 }
 

@@ -1,7 +1,4 @@
 /* i_d and i_q of a solution over the electrical angle. */
-#include <math.h>
-#include <stdio.h>
-
 #include "host/plot/solution_curves.h"
 
 enum { STRIPS = 60 };
@@ -37,12 +34,11 @@ static void draw_strips(hci_output *out, const panel *p)
     for (size_t k = 0; k < STRIPS; ++k) {
         const hci_dq i = hci_curve_vector_sample(p->curves, 2 * k + 1, 2 * STRIPS);
         const double left = p->box.left + width * (double)k;
-        char d[HCI_SVG_NUMBER_SIZE], q[HCI_SVG_NUMBER_SIZE], text[160];
-        hci_svg_quantity_text(d, i.d, "A");
-        hci_svg_quantity_text(q, i.q, "A");
-        snprintf(text, sizeof text, "%.4g°: i_d %s, i_q %s",
-                 360.0 * p->curves->turns * (double)(2 * k + 1) / (2 * STRIPS), d, q);
-        hci_svg_strip(out, &(hci_svg_box){left, p->box.top, left + width, p->box.bottom}, text);
+        hci_svg_tell(out, "");
+        hci_svg_tell_value(out, "", 360.0 * p->curves->turns * (double)(2 * k + 1) / (2 * STRIPS), "°");
+        hci_svg_tell_value(out, ": i_d ", i.d, "A");
+        hci_svg_tell_value(out, ", i_q ", i.q, "A");
+        hci_svg_strip(out, &(hci_svg_box){left, p->box.top, left + width, p->box.bottom});
     }
 }
 

@@ -69,14 +69,16 @@ static void draw_bar(hci_output *out, const char *style, double left, double wid
 /* The bars of an order tell its amplitudes. */
 static void begin_group(hci_output *out, const hci_solved_order *o)
 {
-    char order[HCI_SVG_NUMBER_SIZE], before[HCI_SVG_NUMBER_SIZE], wanted[HCI_SVG_NUMBER_SIZE],
-        after[HCI_SVG_NUMBER_SIZE];
+    char order[HCI_SVG_NUMBER_SIZE];
     hci_svg_short_text(order, hci_order_number(o));
-    hci_svg_quantity_text(before, hci_peak_Nm(o->before_Nm), "N·m");
-    hci_svg_quantity_text(wanted, hci_peak_Nm(o->target_Nm), "N·m");
-    hci_svg_quantity_text(after, hci_peak_Nm(o->torque_Nm), "N·m");
-    hci_svg_hint(out, "order %s: before %s, wanted %s, after %s; %s", order, before, wanted, after,
-                 hci_order_verdict_name(o->verdict));
+    hci_svg_tell(out, "order ");
+    hci_svg_tell_more(out, order);
+    hci_svg_tell_value(out, ": before ", hci_peak_Nm(o->before_Nm), "N·m");
+    hci_svg_tell_value(out, ", wanted ", hci_peak_Nm(o->target_Nm), "N·m");
+    hci_svg_tell_value(out, ", after ", hci_peak_Nm(o->torque_Nm), "N·m");
+    hci_svg_tell_more(out, "; ");
+    hci_svg_tell_more(out, hci_order_verdict_name(o->verdict));
+    hci_svg_hint(out);
 }
 
 static void draw_group(hci_output *out, const hci_solved_order *o, double middle, double width,

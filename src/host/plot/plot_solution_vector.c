@@ -24,7 +24,8 @@ static void draw_path(hci_output *out, const hci_solution_curves *c, const hci_s
 {
     const size_t count = hci_curve_vectors(c);
     double last_x = -1e9, last_y = -1e9;
-    hci_svg_hint(out, "after: the path over %.0f electrical turn%s", c->turns, c->turns > 1.0 ? "s" : "");
+    hci_svg_tell(out, "after: the path over the period");
+    hci_svg_hint(out);
     hci_svg_line_begin(out, "path");
     for (size_t k = 0; k <= count; ++k) {
         const hci_dq i = hci_curve_vector_sample(c, k, count);
@@ -47,10 +48,10 @@ static void draw_vector_mark(hci_output *out, const char *style, double x, doubl
 
 static void tell_vector(hci_output *out, const char *name, hci_dq i)
 {
-    char d[HCI_SVG_NUMBER_SIZE], q[HCI_SVG_NUMBER_SIZE];
-    hci_svg_quantity_text(d, i.d, "A");
-    hci_svg_quantity_text(q, i.q, "A");
-    hci_svg_hint(out, "%s: i_d %s, i_q %s", name, d, q);
+    hci_svg_tell(out, name);
+    hci_svg_tell_value(out, ": i_d ", i.d, "A");
+    hci_svg_tell_value(out, ", i_q ", i.q, "A");
+    hci_svg_hint(out);
 }
 
 void hci_panel_vector(hci_output *out, const hci_solution_curves *c, const hci_svg_box *box)

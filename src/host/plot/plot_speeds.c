@@ -3,9 +3,9 @@
 
 #include "host/plot/plot.h"
 
-enum { WIDTH = 760, HEIGHT = 560 };
+enum { WIDTH = 760, HEIGHT = 580 };
 
-static const hci_svg_box RIPPLE = {70, 64, 736, 340}, VOLTAGE = {70, 404, 736, 510};
+static const hci_svg_box RIPPLE = {70, 64, 736, 340}, VOLTAGE = {70, 424, 736, 530};
 
 static const char *const STYLE[HCI_REMEDIES] = {"before", "noise", "wanted", "c", "a"};
 
@@ -70,59 +70,83 @@ static hci_svg_axis speed_axis(const hci_speeds *s, const hci_svg_box *b)
     return hci_svg_log_axis(r, b->left, b->right, 4.0);
 }
 
-static void draw_ripple(hci_output *out, const hci_speeds *s)
+static void draw_strips(hci_output *out, const hci_speeds *s, const panel *p, const hci_svg_box *b,
+                        const char *unit)
+{
+    static const char *const NAME[HCI_REMEDIES] = {": sine ", ", table ", ", lead ", ", compensation ",
+                                                   ", feedforward "};
+    for (size_t k = 0; k < s->count; ++k) {
+        const double x = hci_svg_log_at(&p->x, rpm_of(&s->row[k]));
+        const hci_svg_box strip = {fmax(x - 5.0, b->left), b->top, fmin(x + 5.0, b->right), b->bottom};
+        hci_svg_tell(out, "");
+        hci_svg_tell_value(out, "", rpm_of(&s->row[k]), "rpm");
+        for (int j = 0; j < HCI_REMEDIES; ++j)
+            hci_svg_tell_value(out, NAME[j], p->value(&s->row[k], j), unit);
+        hci_svg_strip(out, &strip);
+    }
+}
+
+void hci_plot_speeds_ripple(hci_output *out, const hci_svg_box *area, const void *speeds)
 {
     static const hci_svg_entry LEGEND[] = {{HCI_SVG_LINE, "before", "sine"},
                                            {HCI_SVG_LINE, "noise", "table"},
                                            {HCI_SVG_LINE, "wanted", "lead"},
                                            {HCI_SVG_LINE, "c", "compensation"},
                                            {HCI_SVG_LINE, "a", "feedforward"}};
-    const panel p = {speed_axis(s, &RIPPLE),
-                     hci_svg_log_axis(range_of(s, ripple_of), RIPPLE.bottom, RIPPLE.top, 5.0), ripple_of,
-                     true};
-    hci_svg_head(out, &RIPPLE, "Torque ripple in % of the mean", LEGEND, HCI_REMEDIES);
-    hci_svg_log_grid(out, &p.x, &RIPPLE, false);
-    hci_svg_log_grid(out, &p.y, &RIPPLE, true);
+    const hci_speeds *s = speeds;
+    panel p = {.y = hci_svg_log_axis(range_of(s, ripple_of), area->bottom, area->top, 5.0),
+               .value = ripple_of,
+               .logarithmic = true};
+    const hci_svg_box b = hci_svg_log_box_beside(*area, &p.y);
+    p.x = speed_axis(s, &b);
+    hci_svg_head(out, &b, "Torque ripple in % of the mean", LEGEND, HCI_REMEDIES);
+    hci_svg_log_grid(out, &p.x, &b, false);
+    hci_svg_log_grid(out, &p.y, &b, true);
     for (int remedy = 0; remedy < HCI_REMEDIES; ++remedy)
         draw_remedy(out, s, &p, remedy);
+    draw_strips(out, s, &p, &b, "%");
+    hci_svg_label(out, "quiet middle", 0.5 * (b.left + b.right), b.bottom + 35.0, "speed in rpm");
 }
 
-static void draw_voltage(hci_output *out, const hci_speeds *s)
+void hci_plot_speeds_voltage(hci_output *out, const hci_svg_box *area, const void *speeds)
 {
+    static const hci_svg_entry LEGEND[] = {{HCI_SVG_LINE, "before", "sine"},
+                                           {HCI_SVG_LINE, "c", "compensation"},
+                                           {HCI_SVG_LINE, "a", "feedforward"},
+                                           {HCI_SVG_LINE, "limit", "dc link"}};
+    const hci_speeds *s = speeds;
     hci_range r = range_of(s, voltage_of);
     hci_range_include(&r, 0.0);
     hci_range_include(&r, s->dc_link_V);
-    const panel p = {speed_axis(s, &VOLTAGE), hci_svg_axis_over(r, VOLTAGE.bottom, VOLTAGE.top, 4.0),
-                     voltage_of, false};
-    static const hci_svg_entry LEGEND[] = {{HCI_SVG_LINE, "limit", "dc link"}};
-    hci_svg_head(out, &VOLTAGE, "Largest line voltage in V", LEGEND, 1);
-    hci_svg_log_grid(out, &p.x, &VOLTAGE, false);
-    hci_svg_grid(out, &p.y, &VOLTAGE, true);
-    hci_svg_segment(out, "limit", VOLTAGE.left, y_at(&p, s->dc_link_V), VOLTAGE.right,
-                    y_at(&p, s->dc_link_V));
+    panel p = {.y = hci_svg_axis_over(r, area->bottom, area->top, 4.0), .value = voltage_of};
+    const hci_svg_box b = hci_svg_box_beside(*area, &p.y);
+    p.x = speed_axis(s, &b);
+    hci_svg_head(out, &b, "Largest line voltage in V", LEGEND, 4);
+    hci_svg_log_grid(out, &p.x, &b, false);
+    hci_svg_grid(out, &p.y, &b, true);
+    hci_svg_segment(out, "limit", b.left, y_at(&p, s->dc_link_V), b.right, y_at(&p, s->dc_link_V));
     for (int remedy = 0; remedy < HCI_REMEDIES; ++remedy)
         draw_remedy(out, s, &p, remedy);
-    hci_svg_label(out, "quiet middle", 0.5 * (VOLTAGE.left + VOLTAGE.right), HEIGHT - 14.0, "speed in rpm");
+    draw_strips(out, s, &p, &b, "V");
+    hci_svg_label(out, "quiet middle", 0.5 * (b.left + b.right), b.bottom + 35.0, "speed in rpm");
 }
 
-void hci_plot_speeds(hci_output *out, const hci_speeds *s, bool stands_alone)
+void hci_plot_speeds(hci_output *out, const hci_speeds *s)
 {
     static const hci_svg_picture PICTURE = {
         "speeds",
         "Torque ripple over the speed by remedy",
         "Above: torque ripple in percent on logarithmic axes, one line for each of sine, table, lead, "
-        "compensation "
-        "and feedforward. Below: the largest line voltage and the dc link. speeds.csv has the numbers.",
+        "compensation and feedforward. Below: the largest line voltage and the dc link. speeds.csv has the "
+        "numbers.",
         0,
         0,
         WIDTH,
         HEIGHT};
     hci_svg_begin(out, &PICTURE);
-    if (stands_alone) {
-        hci_output_text(out, "<style>%s</style>\n", hci_svg_style);
-        hci_svg_rectangle(out, "back", 0.0, 0.0, WIDTH, HEIGHT);
-    }
-    draw_ripple(out, s);
-    draw_voltage(out, s);
+    hci_output_text(out, "<style>%s</style>\n", hci_svg_style);
+    hci_svg_rectangle(out, "back", 0.0, 0.0, WIDTH, HEIGHT);
+    hci_plot_speeds_ripple(out, &RIPPLE, s);
+    hci_plot_speeds_voltage(out, &VOLTAGE, s);
     hci_svg_end(out);
 }

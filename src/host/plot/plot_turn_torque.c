@@ -2,7 +2,7 @@
  */
 #include "host/plot/plot_drive.h"
 
-static const hci_svg_box BOX = {64, 40, 462, 240};
+enum { STRIPS = 60 };
 
 static double angle_deg(size_t step)
 {
@@ -55,32 +55,51 @@ static hci_range range_of_both(const hci_turn_means *t, const hci_turn_means *be
     return r;
 }
 
-void hci_plot_turn_torque(hci_output *out, const hci_turn_means *t, const hci_turn_means *before)
+static void tell_range(hci_output *out, const char *words, hci_range r)
 {
-    static const hci_svg_entry ALONE[] = {{HCI_SVG_LINE, "edge", "least and most"},
-                                          {HCI_SVG_LINE, "after", "mean"}};
-    static const hci_svg_entry COMPARED[] = {{HCI_SVG_LINE, "before", "before"},
-                                             {HCI_SVG_LINE, "after", "after"}};
-    const hci_svg_axis y = hci_svg_axis_over(range_of_both(t, before), BOX.bottom, BOX.top, 6.0);
-    const hci_svg_box b = hci_svg_box_beside(BOX, &y);
+    hci_svg_tell_value(out, words, r.low, "N·m");
+    hci_svg_tell_value(out, " to ", r.high, "N·m");
+}
+
+static void draw_strips(hci_output *out, const hci_plot_turn *t, const hci_svg_box *b)
+{
+    const double width = (b->right - b->left) / STRIPS;
+    const size_t step = HCI_TURN_STEPS / STRIPS;
+    for (size_t k = 0; k < STRIPS; ++k) {
+        const double left = b->left + width * (double)k;
+        const hci_turn_mean m = hci_turn_mean_of(t->turn, k * step, step);
+        if (m.samples == 0 && !t->before) continue;
+        hci_svg_tell(out, "");
+        hci_svg_tell_value(out, "", 360.0 * ((double)k + 0.5) / STRIPS, "°");
+        if (m.samples > 0) {
+            hci_svg_tell_value(out, ": mean ", m.torque_Nm, "N·m");
+            tell_range(out, ", from ", m.torque_range_Nm);
+        }
+        if (t->before)
+            tell_range(out, "; before from ", hci_turn_mean_of(t->before, k * step, step).torque_range_Nm);
+        hci_svg_strip(out, &(hci_svg_box){left, b->top, left + width, b->bottom});
+    }
+}
+
+void hci_plot_turn_torque(hci_output *out, const hci_svg_box *area, const void *turn)
+{
+    static const hci_svg_entry ENTRY[] = {{HCI_SVG_LINE, "before", "before"},
+                                          {HCI_SVG_LINE, "after", "after, mean of the turns"},
+                                          {HCI_SVG_LINE, "edge", "least and most"}};
+    const hci_plot_turn *t = turn;
+    const hci_svg_axis y = hci_svg_axis_over(range_of_both(t->turn, t->before), area->bottom, area->top, 6.0);
+    const hci_svg_box b = hci_svg_box_beside(*area, &y);
     const hci_svg_axis x = hci_svg_axis_of_angle(1.0, &b);
-    hci_svg_begin(out,
-                  &(hci_svg_picture){
-                      "turn", "Torque over one electrical turn",
-                      "The mean over all turns in N·m at each electrical angle in degrees, and the band from "
-                      "the least to the most; with a plain sine and simulated. The table beside it has the "
-                      "numbers.",
-                      0, 0, 480, 284});
-    hci_svg_head(out, &b, "Torque in N·m", before ? COMPARED : ALONE, 2);
+    hci_svg_head(out, &b, "Torque in N·m", ENTRY + (t->before ? 0 : 1), t->before ? 3 : 2);
     hci_svg_grid(out, &x, &b, false);
     hci_svg_grid(out, &y, &b, true);
-    if (before) draw_band(out, before, &x, &y);
-    draw_band(out, t, &x, &y);
-    if (before) draw_mean(out, before, "before", &x, &y);
-    draw_edge(out, t, false, &x, &y);
-    draw_edge(out, t, true, &x, &y);
-    draw_mean(out, t, "after", &x, &y);
+    if (t->before) draw_band(out, t->before, &x, &y);
+    draw_band(out, t->turn, &x, &y);
+    if (t->before) draw_mean(out, t->before, "before", &x, &y);
+    draw_edge(out, t->turn, false, &x, &y);
+    draw_edge(out, t->turn, true, &x, &y);
+    draw_mean(out, t->turn, "after", &x, &y);
+    draw_strips(out, t, &b);
     hci_svg_label(out, "quiet middle", 0.5 * (b.left + b.right), b.bottom + 35.0,
                   "electrical angle in degrees");
-    hci_svg_end(out);
 }

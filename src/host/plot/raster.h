@@ -6,13 +6,6 @@
 
 #include "host/draw/svg.h"
 
-enum {
-    HCI_RASTER_CANVAS = 540,
-    HCI_RASTER_LEFT = 64,
-    HCI_RASTER_RIGHT = 524,
-    HCI_RASTER_TOP = 66
-}; /* pixels */
-
 typedef struct {
     double left, top, width, height; /* of a cell */
 } hci_raster;

@@ -1,19 +1,23 @@
 #include "host/plot/rows.h"
 
-double hci_rows_middle(size_t k)
+#include <math.h>
+
+double hci_rows_middle(const hci_svg_box *b, size_t k)
 {
-    return HCI_ROWS_TOP + HCI_ROWS_HEIGHT * ((double)k + 0.5);
+    return b->top + HCI_ROWS_HEIGHT * ((double)k + 0.5);
 }
 
-void hci_rows_begin(hci_output *out, const char *id, const char *title, const char *description, size_t rows)
+hci_svg_box hci_rows_box(const hci_svg_box *area)
 {
-    const int height = HCI_ROWS_TOP + HCI_ROWS_HEIGHT * (int)rows + 46;
-    hci_svg_begin(out, &(hci_svg_picture){id, title, description, 0, 0, HCI_ROWS_WIDTH, height});
+    hci_svg_box b = *area;
+    b.left += fmin(0.24 * (b.right - b.left), 130.0);
+    return b;
 }
 
-hci_svg_box hci_rows_box(double left, double right, size_t rows)
+void hci_rows_name(hci_output *out, const hci_svg_box *b, size_t k, bool is_bold, const char *name)
 {
-    return (hci_svg_box){left, HCI_ROWS_TOP, right, hci_rows_middle(rows) - 0.5 * HCI_ROWS_HEIGHT};
+    hci_svg_name(out, is_bold ? "head end" : "quiet end", b->left - 8.0, hci_rows_middle(b, k) + 4.0, name,
+                 b->left - 24.0);
 }
 
 void hci_rows_foot(hci_output *out, const hci_svg_box *b, const char *text)

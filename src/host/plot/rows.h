@@ -6,20 +6,16 @@
 
 #include "host/draw/svg.h"
 
-enum {
-    HCI_ROWS_WIDTH = 540,
-    HCI_ROWS_HEIGHT = 21,
-    HCI_ROWS_TOP = 62
-}; /* pixels: of the picture, of a row, above them */
+enum { HCI_ROWS_HEIGHT = 21 }; /* pixels of a row */
 
 /* y of the middle of row k. */
-double hci_rows_middle(size_t k);
+double hci_rows_middle(const hci_svg_box *box, size_t k);
 
-/* Begins a picture that is high enough for so many rows. */
-void hci_rows_begin(hci_output *out, const char *id, const char *title, const char *description, size_t rows);
+/* The box without the names at its left: a fourth of it, less of a wide one. */
+hci_svg_box hci_rows_box(const hci_svg_box *area);
 
-/* The box of an axis beside the names. */
-hci_svg_box hci_rows_box(double left, double right, size_t rows);
+/* A name beside row k; is_bold: of what stands out. */
+void hci_rows_name(hci_output *out, const hci_svg_box *box, size_t k, bool is_bold, const char *name);
 
 /* What stands below the numbers of the axis. */
 void hci_rows_foot(hci_output *out, const hci_svg_box *box, const char *text);

@@ -49,7 +49,7 @@ static hci_status write_all(hci_output *out, const hci_speeds *s, const hci_repo
 {
     hci_status status = write_csv(out, s, note);
     if (!status) status = hci_output_file(out, "speeds.svg", note);
-    if (!status) hci_plot_speeds(out, s, true);
+    if (!status) hci_plot_speeds(out, s);
     if (!status && !sources) status = hci_output_without(out, "report.html", note);
     if (!status && sources) status = hci_output_file(out, "report.html", note);
     if (!status && sources) hci_page_speeds(out, s, sources);

@@ -8,6 +8,7 @@
 #include "host/base/memory.h"
 #include "host/plot/plot.h"
 #include "host/plot/plot_drive.h"
+#include "host/plot/rows.h"
 #include "support/reference.h"
 #include "support/texts.h"
 #include "support/written.h"
@@ -172,7 +173,7 @@ static hci_plot_map map;
 
 static void put_map(hci_output *out)
 {
-    hci_plot_residuals(out, &map);
+    hci_plot_residuals(out, &(hci_svg_box){42.0, 66.0, 524.0, 66.0 + 2 * HCI_ROWS_HEIGHT}, &map);
 }
 
 /* Sides grow by a quarter for each decade; what is not shown is left out. */
@@ -191,12 +192,15 @@ static void test_map(void)
     static hci_diagnosis diagnosis = {.line = line, .lines = 4};
     map = (hci_plot_map){&diagnosis, &runs, shown, order, 2, 2};
     draw(put_map);
-    const double width = (524.0 - 172.0) / 2.0, y = 66.0 + 17.0 / 2.0;
-    TEST_ASSERT_DOUBLE_WITHIN(0.02, 0.9 * 17.0, side_at("before", 172.0 + 0.5 * width, y));
-    TEST_ASSERT_DOUBLE_WITHIN(0.02, 0.9 * 17.0 * 0.5, side_at("plus", 172.0 + 0.5 * width, y));
-    TEST_ASSERT_DOUBLE_WITHIN(0.02, 0.9 * 17.0 * 0.75, side_at("before", 172.0 + 1.5 * width, y + 17.0));
-    TEST_ASSERT_DOUBLE_WITHIN(0.02, fmax(0.9 * 17.0 * (1.0 + log10(0.0005) / 4.0), 2.6),
-                              side_at("within", 172.0 + 1.5 * width, y + 17.0));
+    const double left = 42.0 + 0.24 * (524.0 - 42.0), width = (524.0 - left) / 2.0, high = HCI_ROWS_HEIGHT,
+                 y = 66.0 + 0.5 * high;
+    TEST_ASSERT_DOUBLE_WITHIN(0.02, 0.9 * high, side_at("before", left + 0.5 * width, y));
+    TEST_ASSERT_DOUBLE_WITHIN(0.02, 0.9 * high * 0.5, side_at("plus", left + 0.5 * width, y));
+    TEST_ASSERT_DOUBLE_WITHIN(0.02, 0.9 * high * 0.75, side_at("before", left + 1.5 * width, y + high));
+    TEST_ASSERT_DOUBLE_WITHIN(0.02, fmax(0.9 * high * (1.0 + log10(0.0005) / 4.0), 2.6),
+                              side_at("within", left + 1.5 * width, y + high));
+    TEST_ASSERT_NOT_NULL(
+        strstr(picture, "<title>a.csv, order 6: before 1 N·m, after 10 mN·m, noise 1 mN·m</title>"));
     TEST_ASSERT_EQUAL_UINT64(2 + 1, text_count("<rect class=\"before\"", picture));
     TEST_ASSERT_NOT_NULL(strstr(picture, ">c.csv</text>"));
     TEST_ASSERT_NULL(strstr(picture, "b&#60;.csv"));
@@ -208,8 +212,10 @@ static hci_turn_means turn;
 
 static void put_turn(hci_output *out)
 {
-    hci_plot_turn_torque(out, &turn, NULL);
-    hci_plot_turn_vector(out, &turn, (hci_dq){.q = 3.0});
+    const hci_svg_box box = {58.0, 40.0, 462.0, 240.0};
+    const hci_plot_turn drawn = {.turn = &turn, .plain_q_A = 3.0};
+    hci_plot_turn_torque(out, &box, &drawn);
+    hci_plot_turn_dq(out, &box, &drawn);
 }
 
 /* Torque 5 + sin 6θ with a peak in a single sample, current (cos θ, 2): means by the integral over 10

@@ -5,9 +5,9 @@
 
 #include "host/plot/sweep/plot_sweep.h"
 
-enum { WIDTH = 1000, HEIGHT = 760, CURVES = 3 };
+enum { WIDTH = 1000, HEIGHT = 780, CURVES = 3 };
 
-static const hci_svg_box TORQUE = {70, 106, 976, 440}, RIPPLE = {70, 510, 976, 700};
+static const hci_svg_box TORQUE = {70, 106, 976, 440}, RIPPLE = {70, 530, 976, 730};
 
 static const char *const STYLE[CURVES] = {"a", "c", "before"};
 
@@ -91,12 +91,23 @@ static hci_svg_axis speed_axis(const hci_grid *s, const hci_svg_box *b)
     return hci_svg_axis_over(r, b->left, b->right, 10.0);
 }
 
-/* Speeds at which there is no torque with so little ripple. */
+/* Whether there is no torque with so little ripple. */
+static bool is_none(const hci_grid_row *row)
+{
+    return row->verdict == HCI_GRID_RIPPLE || row->verdict == HCI_GRID_LIMITS;
+}
+
+static bool has_none(const hci_grid *s)
+{
+    for (size_t k = 0; k < s->plan.count; ++k)
+        if (is_none(&s->row[k])) return true;
+    return false;
+}
+
 static void mark_none(hci_output *out, const panel *p)
 {
     for (size_t k = 0; k < p->sweep->plan.count; ++k)
-        if (p->sweep->row[k].verdict == HCI_GRID_RIPPLE || p->sweep->row[k].verdict == HCI_GRID_LIMITS)
-            hci_svg_cross(out, x_at(p, &p->sweep->row[k]), y_at(p, 0.0));
+        if (is_none(&p->sweep->row[k])) hci_svg_cross(out, x_at(p, &p->sweep->row[k]), y_at(p, 0.0));
 }
 
 /* The dc link at the first point of each line, where there are several. */
@@ -112,58 +123,86 @@ static void name_links(hci_output *out, const panel *p)
     }
 }
 
-static void draw_torque(hci_output *out, const hci_grid *s)
+/* Strips about the speeds that tell what all curves are there. */
+static void draw_strips(hci_output *out, const panel *p, const hci_svg_box *b, const char *unit)
 {
+    for (size_t k = 0; k < p->sweep->plan.count; ++k) {
+        const hci_grid_row *row = &p->sweep->row[k];
+        const double x = x_at(p, row);
+        const hci_svg_box strip = {fmax(x - 5.0, b->left), b->top, fmin(x + 5.0, b->right), b->bottom};
+        hci_svg_tell(out, "");
+        hci_svg_tell_value(out, "", hci_grid_rpm(row->point.speed_rad_per_s), "rpm");
+        hci_svg_tell_value(out, ", little ripple: ", p->value(&row->best), unit);
+        hci_svg_tell_value(out, ", any ripple: ", p->value(&row->most), unit);
+        hci_svg_tell_value(out, ", plain sine: ", p->value(&row->sine), unit);
+        hci_svg_strip(out, &strip);
+    }
+}
+
+void hci_plot_envelope_torque(hci_output *out, const hci_svg_box *area, const void *sweep)
+{
+    const hci_grid *s = sweep;
     char allowed[64];
     hci_range r = range_of(s, torque);
     hci_range_include(&r, 0.0);
-    const panel p = {s, speed_axis(s, &TORQUE), hci_svg_axis_over(r, TORQUE.bottom, TORQUE.top, 8.0), torque,
-                     false};
+    panel p = {.sweep = s, .y = hci_svg_axis_over(r, area->bottom, area->top, 8.0), .value = torque};
+    const hci_svg_box b = hci_svg_box_beside(*area, &p.y);
+    p.x = speed_axis(s, &b);
     snprintf(allowed, sizeof allowed, "at most %.4g %% of ripple", s->request.ripple_percent);
     const hci_svg_entry legend[] = {{HCI_SVG_LINE, "a", allowed},
                                     {HCI_SVG_LINE, "c", "any ripple"},
                                     {HCI_SVG_LINE, "before", "plain sine"},
-                                    {HCI_SVG_CROSS, "cross", "no torque with so little"}};
-    hci_svg_head(out, &TORQUE, "Largest mean torque in N·m", legend, CURVES + 1);
-    hci_svg_grid(out, &p.x, &TORQUE, false);
-    hci_svg_grid(out, &p.y, &TORQUE, true);
+                                    {HCI_SVG_CROSS, "cross", "none"}};
+    hci_svg_head(out, &b, "Largest torque in N·m", legend, CURVES + has_none(s));
+    hci_svg_grid(out, &p.x, &b, false);
+    hci_svg_grid(out, &p.y, &b, true);
     for (int curve = CURVES - 1; curve >= 0; --curve)
         draw_curve(out, &p, curve);
     mark_none(out, &p);
     name_links(out, &p);
+    draw_strips(out, &p, &b, "N·m");
+    hci_svg_label(out, "quiet middle", 0.5 * (b.left + b.right), b.bottom + 35.0, "speed in rpm");
 }
 
-static void draw_ripple(hci_output *out, const hci_grid *s)
+void hci_plot_envelope_ripple(hci_output *out, const hci_svg_box *area, const void *sweep)
 {
-    const hci_svg_entry legend[] = {{HCI_SVG_LINE, "limit", "allowed"}};
+    static const hci_svg_entry LEGEND[] = {{HCI_SVG_LINE, "a", "little ripple"},
+                                           {HCI_SVG_LINE, "c", "any ripple"},
+                                           {HCI_SVG_LINE, "before", "plain sine"},
+                                           {HCI_SVG_LINE, "limit", "allowed"}};
+    const hci_grid *s = sweep;
     hci_range r = range_of(s, ripple);
     hci_range_include(&r, s->request.ripple_percent);
-    const panel p = {s, speed_axis(s, &RIPPLE), hci_svg_log_axis(r, RIPPLE.bottom, RIPPLE.top, 3.0), ripple,
-                     true};
-    hci_svg_head(out, &RIPPLE, "Ripple of these torques in % of the mean", legend, 1);
-    hci_svg_grid(out, &p.x, &RIPPLE, false);
-    hci_svg_log_grid(out, &p.y, &RIPPLE, true);
-    hci_svg_segment(out, "limit", RIPPLE.left, y_at(&p, s->request.ripple_percent), RIPPLE.right,
+    panel p = {.sweep = s,
+               .y = hci_svg_log_axis(r, area->bottom, area->top, 3.0),
+               .value = ripple,
+               .is_logarithmic = true};
+    const hci_svg_box b = hci_svg_log_box_beside(*area, &p.y);
+    p.x = speed_axis(s, &b);
+    hci_svg_head(out, &b, "Ripple in % of the mean", LEGEND, 4);
+    hci_svg_grid(out, &p.x, &b, false);
+    hci_svg_log_grid(out, &p.y, &b, true);
+    hci_svg_segment(out, "limit", b.left, y_at(&p, s->request.ripple_percent), b.right,
                     y_at(&p, s->request.ripple_percent));
     for (int curve = CURVES - 1; curve >= 0; --curve)
         draw_curve(out, &p, curve);
-    hci_svg_label(out, "quiet middle", 0.5 * (RIPPLE.left + RIPPLE.right), HEIGHT - 18.0, "speed in rpm");
+    draw_strips(out, &p, &b, "%");
+    hci_svg_label(out, "quiet middle", 0.5 * (b.left + b.right), b.bottom + 35.0, "speed in rpm");
 }
 
-void hci_plot_envelope(hci_output *out, const hci_grid *s, bool stands_alone)
+void hci_plot_envelope(hci_output *out, const hci_grid *s)
 {
     static const hci_svg_picture PICTURE = {
         "sweep",
         "Largest torque over the speed",
         "Above: the largest mean torque over the speed with little ripple, with any ripple and of the plain "
-        "sine, "
-        "within the same limits. Below: the ripple of these torques. envelope.csv has the numbers.",
+        "sine, within the same limits. Below: the ripple of these torques. envelope.csv has the numbers.",
         0,
         0,
         WIDTH,
         HEIGHT};
-    hci_plot_sweep_begin(out, &PICTURE, s, stands_alone);
-    draw_torque(out, s);
-    draw_ripple(out, s);
+    hci_plot_sweep_begin(out, &PICTURE, s);
+    hci_plot_envelope_torque(out, &TORQUE, s);
+    hci_plot_envelope_ripple(out, &RIPPLE, s);
     hci_svg_end(out);
 }

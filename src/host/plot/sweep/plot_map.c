@@ -7,10 +7,12 @@
 
 enum { WIDTH = 1320, HEIGHT = 836, LEVELS = 10, MOST_SIDE = 512 };
 
-/* The places of the panels: three in a row. */
-static const double LEFT[] = {70.0, 504.0, 938.0}, TOP[] = {112.0, 486.0};
-#define PANEL_WIDTH  350.0
-#define PANEL_HEIGHT 236.0
+/* How panels are put side by side in a box. */
+typedef struct {
+    hci_svg_box area;
+    int columns;
+    double width, height, across, down; /* of the axes; from one panel to the next */
+} layout;
 
 typedef double value_of(const hci_grid *s, const hci_grid_figures *f);
 
@@ -95,7 +97,7 @@ typedef struct {
     const field *field;
     hci_svg_box box;
     hci_svg_axis x, y;
-    const char *title;
+    const char *title, *unit;
     value_of *value; /* NULL: the limit that binds */
     bool is_ripple;
     double level[LEVELS]; /* a cell has the colour of the last one that it reaches */
@@ -111,11 +113,12 @@ static hci_svg_axis axis_of(const side *s, double from, double to, double ticks)
     return a;
 }
 
-static panel make_panel(const field *f, int place, const char *title, value_of *value)
+static panel make_panel(const field *f, const layout *l, int place, const char *title, value_of *value)
 {
     panel p = {.field = f, .title = title, .value = value, .is_ripple = value == ripple};
-    const double left = LEFT[place % 3], top = TOP[place / 3];
-    p.box = (hci_svg_box){left, top, left + PANEL_WIDTH, top + PANEL_HEIGHT};
+    const double left = l->area.left + l->across * (place % l->columns),
+                 top = l->area.top + l->down * (place / l->columns);
+    p.box = (hci_svg_box){left, top, left + l->width, top + l->height};
     p.x = axis_of(&f->speed_rpm, p.box.left, p.box.right, 6.0);
     p.y = axis_of(&f->torque_Nm, p.box.bottom, p.box.top, 6.0);
     return p;
@@ -178,6 +181,23 @@ static void style_of(const panel *p, const hci_grid_row *row, char style[16])
     if (!isfinite(value)) style[4] = '\0';
 }
 
+static void tell_cell(hci_output *out, const panel *p, const hci_grid_point *point, const hci_grid_row *row)
+{
+    char binds[HCI_GRID_BINDS_SIZE];
+    hci_grid_binds_text(&row->best, binds);
+    hci_svg_tell(out, "");
+    hci_svg_tell_value(out, "", hci_grid_rpm(point->speed_rad_per_s), "rpm");
+    hci_svg_tell_value(out, ", ", point->torque_Nm, "N·m");
+    if (p->value)
+        hci_svg_tell_value(out, ": ", p->value(p->field->sweep, &row->best), p->unit);
+    else
+        hci_svg_tell_more(out, binds[0] ? ": " : ": no limit");
+    if (!p->value) hci_svg_tell_more(out, binds);
+    hci_svg_tell_more(out, "; ");
+    hci_svg_tell_more(out, hci_grid_verdict_name(row->verdict));
+    hci_svg_hint(out);
+}
+
 static void draw_cells(hci_output *out, const panel *p)
 {
     const hci_grid *s = p->field->sweep;
@@ -189,8 +209,10 @@ static void draw_cells(hci_output *out, const panel *p)
         edges(&p->field->speed_rpm, hci_grid_rpm(point->speed_rad_per_s), x);
         edges(&p->field->torque_Nm, point->torque_Nm, y);
         style_of(p, &s->row[k], style);
+        tell_cell(out, p, point, &s->row[k]);
         hci_svg_rectangle(out, style, hci_svg_at(&p->x, x[0]), hci_svg_at(&p->y, y[1]),
                           hci_svg_at(&p->x, x[1]), hci_svg_at(&p->y, y[0]));
+        hci_svg_hint_end(out);
     }
 }
 
@@ -198,7 +220,7 @@ static void draw_cells(hci_output *out, const panel *p)
 
 static void draw_levels(hci_output *out, const panel *p)
 {
-    const double top = p->box.bottom + 46.0, width = PANEL_WIDTH / LEVELS;
+    const double top = p->box.bottom + 46.0, width = (p->box.right - p->box.left) / LEVELS;
     const double step = p->level[1] - p->level[0];
     for (int k = 0; k < LEVELS; ++k) {
         const double left = p->box.left + k * width;
@@ -244,12 +266,38 @@ static void draw_panel(hci_output *out, panel *p)
 
 /* ---- all of it ---- */
 
-static void draw_remarks(hci_output *out, const field *f)
+static void draw_maps(hci_output *out, const hci_grid *s, const layout *l)
+{
+    const bool in_W = isfinite(s->request.machine->resistance_ohm);
+    const char *const unit[] = {"%", in_W ? "W" : "A²", "A", "V", ""};
+    field f;
+    fill_field(s, &f);
+    panel all[] = {
+        make_panel(&f, l, 0, "Torque ripple in % of the mean", ripple),
+        make_panel(&f, l, 1, in_W ? "Copper loss in W" : "Mean of i_a² + i_b² + i_c² in A²", copper),
+        make_panel(&f, l, 2, "Peak phase current in A", peak),
+        make_panel(&f, l, 3, "Peak line voltage in V", line), make_panel(&f, l, 4, "Limit that binds", NULL)};
+    for (size_t k = 0; k < sizeof all / sizeof all[0]; ++k) {
+        all[k].unit = unit[k];
+        draw_panel(out, &all[k]);
+    }
+}
+
+void hci_plot_maps(hci_output *out, const hci_svg_box *box, const void *sweep)
+{
+    layout l = {.area = *box, .columns = box->right - box->left > 500.0 ? 2 : 1, .down = HCI_MAP_DOWN};
+    l.area.top += 26.0;
+    l.height = l.down - 116.0;
+    l.across = (box->right - box->left + 46.0) / l.columns;
+    l.width = l.across - 46.0;
+    draw_maps(out, sweep, &l);
+}
+
+static void draw_remarks(hci_output *out, const hci_grid *s, double left, double top)
 {
     char text[96] = "";
-    const double left = LEFT[2], top = TOP[1] + 20.0;
-    if (!isnan(f->link_V))
-        snprintf(text, sizeof text, "Drawn: the points with a dc link of %.5g V.", f->link_V);
+    if (!isnan(s->plan.point[0].link_V))
+        snprintf(text, sizeof text, "Drawn: the points with a dc link of %.5g V.", s->plan.point[0].link_V);
     hci_svg_label(out, "quiet", left, top, "Upwards: mean torque in N·m.");
     hci_svg_label(out, "quiet", left, top + 22.0, "Grey: the mean torque is not reached within the limits;");
     hci_svg_label(out, "quiet", left, top + 40.0, "in the map of limits: nothing keeps them, or no result.");
@@ -257,7 +305,7 @@ static void draw_remarks(hci_output *out, const field *f)
     hci_svg_label(out, "quiet", left, top + 84.0, "map.csv has the numbers.");
 }
 
-void hci_plot_map(hci_output *out, const hci_grid *s, bool stands_alone)
+void hci_plot_map(hci_output *out, const hci_grid *s)
 {
     static const hci_svg_picture PICTURE = {
         "sweep",
@@ -269,17 +317,9 @@ void hci_plot_map(hci_output *out, const hci_grid *s, bool stands_alone)
         0,
         WIDTH,
         HEIGHT};
-    const bool in_W = isfinite(s->request.machine->resistance_ohm);
-    field f;
-    fill_field(s, &f);
-    panel all[] = {make_panel(&f, 0, "Torque ripple in % of the mean", ripple),
-                   make_panel(&f, 1, in_W ? "Copper loss in W" : "Mean of i_a² + i_b² + i_c² in A²", copper),
-                   make_panel(&f, 2, "Peak phase current in A", peak),
-                   make_panel(&f, 3, "Peak line voltage in V", line),
-                   make_panel(&f, 4, "Limit that binds", NULL)};
-    hci_plot_sweep_begin(out, &PICTURE, s, stands_alone);
-    for (size_t k = 0; k < sizeof all / sizeof all[0]; ++k)
-        draw_panel(out, &all[k]);
-    draw_remarks(out, &f);
+    const layout l = {{70.0, 112.0, WIDTH, HEIGHT}, 3, 350.0, 236.0, 434.0, 374.0};
+    hci_plot_sweep_begin(out, &PICTURE, s);
+    draw_maps(out, s, &l);
+    draw_remarks(out, s, 938.0, 506.0);
     hci_svg_end(out);
 }

@@ -102,6 +102,23 @@ static void draw_curve(hci_output *out, const panel *p, const hci_svg_axis *x, c
                            hci_svg_at(y, p->value(&p->sweep->row[k].best)), 2.4);
 }
 
+/* Wider than the dots, to be hit. */
+static void draw_hints(hci_output *out, const panel *p, const hci_svg_axis *x)
+{
+    for (size_t k = first(p); k < end(p); ++k) {
+        const hci_grid_figures *f = &p->sweep->row[k].best;
+        const double at = hci_svg_at(x, limit_of(p, k));
+        const hci_svg_box strip = {at - 4.0, p->box->top, at + 4.0, p->box->bottom};
+        if (!is_shown(p, k)) continue;
+        hci_svg_tell(out, "limit ");
+        hci_svg_tell_value(out, "", limit_of(p, k), p->of_copper ? "×" : "A");
+        hci_svg_tell_value(out, ": ripple ", f->T_ripple_percent, "%");
+        hci_svg_tell_value(out, ", copper ", f->loss_to_plain, "×");
+        hci_svg_tell_value(out, ", peak ", f->peak_A, "A");
+        hci_svg_strip(out, &strip);
+    }
+}
+
 /* Where the limit does not let the torque be reached. */
 static void draw_unreached(hci_output *out, const panel *p, const hci_svg_axis *x)
 {
@@ -124,31 +141,50 @@ static hci_svg_axis limit_axis(hci_range r, const hci_svg_box *b)
     return a;
 }
 
-static void draw_panel(hci_output *out, const panel *p)
+static void draw_panel(hci_output *out, panel *p)
 {
     static const hci_svg_entry LEGEND[] = {{HCI_SVG_LINE, "a", "within the limit"},
                                            {HCI_SVG_DOT, "before", "plain sine"}};
     hci_range over, values;
     ranges(p, &over, &values);
-    const hci_svg_axis x = limit_axis(over, p->box),
-                       y = hci_svg_axis_over(values, p->box->bottom, p->box->top, 6.0);
+    const hci_svg_axis y = hci_svg_axis_over(values, p->box->bottom, p->box->top, 6.0);
+    const hci_svg_box b = hci_svg_box_beside(*p->box, &y);
+    p->box = &b;
+    const hci_svg_axis x = limit_axis(over, &b);
     draw_unreached(out, p, &x);
     hci_svg_head(out, p->box, p->title, LEGEND, 2);
     hci_svg_grid(out, &x, p->box, false);
     hci_svg_grid(out, &y, p->box, true);
     draw_curve(out, p, &x, &y);
     draw_sine(out, p, &x, &y);
-    hci_svg_label(out, "quiet middle", 0.5 * (p->box->left + p->box->right), p->box->bottom + 38.0,
+    draw_hints(out, p, &x);
+    hci_svg_label(out, "quiet middle", 0.5 * (p->box->left + p->box->right), p->box->bottom + 35.0,
                   p->of_copper ? "limit of the copper loss, × the plain sine"
                                : "limit of the phase current, peak in A");
 }
 
-void hci_plot_trade_off(hci_output *out, const hci_grid *s, bool stands_alone)
+void hci_plot_ripple_by_current(hci_output *out, const hci_svg_box *box, const void *sweep)
 {
-    const panel all[] = {{s, false, ripple, &BOX[0][0], "Torque ripple in %"},
-                         {s, true, ripple, &BOX[0][1], "Torque ripple in %"},
-                         {s, false, copper, &BOX[1][0], "Copper loss, × the plain sine"},
-                         {s, true, peak, &BOX[1][1], "Peak phase current in A"}};
+    draw_panel(out, &(panel){sweep, false, ripple, box, "Torque ripple in %"});
+}
+
+void hci_plot_ripple_by_copper(hci_output *out, const hci_svg_box *box, const void *sweep)
+{
+    draw_panel(out, &(panel){sweep, true, ripple, box, "Torque ripple in %"});
+}
+
+void hci_plot_copper_by_current(hci_output *out, const hci_svg_box *box, const void *sweep)
+{
+    draw_panel(out, &(panel){sweep, false, copper, box, "Copper loss, × the plain sine"});
+}
+
+void hci_plot_peak_by_copper(hci_output *out, const hci_svg_box *box, const void *sweep)
+{
+    draw_panel(out, &(panel){sweep, true, peak, box, "Peak phase current in A"});
+}
+
+void hci_plot_trade_off(hci_output *out, const hci_grid *s)
+{
     char title[128];
     snprintf(title, sizeof title, "%.5g N·m at %.5g rpm: ripple against peak current and copper",
              s->plan.point[0].torque_Nm, hci_grid_rpm(s->plan.point[0].speed_rad_per_s));
@@ -162,8 +198,10 @@ void hci_plot_trade_off(hci_output *out, const hci_grid *s, bool stands_alone)
         0,
         WIDTH,
         HEIGHT};
-    hci_plot_sweep_begin(out, &picture, s, stands_alone);
-    for (size_t k = 0; k < sizeof all / sizeof all[0]; ++k)
-        draw_panel(out, &all[k]);
+    hci_plot_sweep_begin(out, &picture, s);
+    hci_plot_ripple_by_current(out, &BOX[0][0], s);
+    hci_plot_ripple_by_copper(out, &BOX[0][1], s);
+    hci_plot_copper_by_current(out, &BOX[1][0], s);
+    hci_plot_peak_by_copper(out, &BOX[1][1], s);
     hci_svg_end(out);
 }

@@ -57,24 +57,7 @@ static void table_of_terms(hci_output *out, const char *caption, const hci_effec
     hci_html_table_end(out);
 }
 
-/* A picture only where there are errors to compare. */
-static void draw_terms(hci_output *out, const char *caption, const hci_effect *e, const size_t *term,
-                       size_t count, size_t *pictures)
-{
-    size_t with_error = 0;
-    for (size_t k = 0; k < count; ++k)
-        with_error += e->term[term[k]].std_error > 0.0;
-    if (with_error > 1) {
-        char id[32];
-        snprintf(id, sizeof id, "terms-%zu", ++*pictures);
-        hci_plot_terms(out, id, caption, e, term, count);
-    } else {
-        hci_html_paragraph(out, NULL, e->type->equation);
-    }
-}
-
-static void show_group(hci_output *out, const hci_diagnosis *d, const term_group *g, size_t *pictures,
-                       const char *origin)
+static void show_group(hci_output *out, const hci_diagnosis *d, const term_group *g)
 {
     size_t term[MOST_TERMS], all = 0;
     const size_t count = hci_plot_largest(term_weight, g, g->effect->count, MOST_TERMS, term);
@@ -82,32 +65,25 @@ static void show_group(hci_output *out, const hci_diagnosis *d, const term_group
     char caption[200];
     for (size_t k = 0; k < g->effect->count; ++k)
         all += term_weight(g, k) > 0.0;
-    snprintf(caption, sizeof caption, "%.40s (%s)%s", name, is_found(d, name) ? "found" : "declared",
-             count < all ? ", the largest values" : "");
-    hci_html_figure(out);
-    draw_terms(out, caption, g->effect, term, count, pictures);
-    hci_html_figure_tables(out);
+    snprintf(caption, sizeof caption, "%.40s (%s): %s%zu of %zu values in this unit", name,
+             is_found(d, name) ? "found" : "declared", count < all ? "the largest " : "", count, all);
+    hci_html_paragraph(out, NULL, g->effect->type->equation);
     table_of_terms(out, caption, g->effect, term, count);
-    snprintf(caption, sizeof caption, "%zu of %zu values of this effect in this unit.", count, all);
-    hci_html_figure_end(out, caption, "machine/effects.csv", origin);
 }
 
-void hci_page_parameters(hci_output *out, const hci_diagnosis *d, const char *origin)
+void hci_page_parameters(hci_output *out, const hci_diagnosis *d)
 {
-    size_t pictures = 0;
     if (d->effects.list.count == 0) return;
-    hci_html_section(out, "Parameters of the effects");
-    hci_html_paragraph(out, NULL,
-                       "What the corrected machine, in the folder machine beside this page, has beyond its "
-                       "declared tables. Bars are 95 % intervals: 1.96 standard errors to each side.");
+    hci_html_fold(out, "Values of the effects, with their standard errors");
     for (size_t k = 0; k < d->effects.list.count; ++k) {
         const hci_effect *e = &d->effects.list.effect[k];
         for (size_t j = 0; j < e->count; ++j) {
             size_t i = 0;
             while (strcmp(unit_of(e, i), unit_of(e, j)) != 0)
                 ++i;
-            if (i == j) show_group(out, d, &(term_group){e, unit_of(e, j)}, &pictures, origin);
+            if (i == j) show_group(out, d, &(term_group){e, unit_of(e, j)});
         }
     }
-    hci_html_section_end(out);
+    hci_html_paragraph(out, "quiet", "All of them: machine/effects.csv.");
+    hci_html_fold_end(out);
 }

@@ -7,9 +7,10 @@
 #include "host/base/memory.h"
 #include "host/draw/html.h"
 #include "host/plot/plot.h"
+#include "host/plot/rows.h"
 #include "host/report/page/diagnosis_sections.h"
 
-enum { MOST_ORDERS = 24, MOST_LINES = 40 }; /* that a table lists */
+enum { MOST_ORDERS = 24, MOST_LINES = 24 }; /* that a table lists */
 
 /* ---- by order ---- */
 
@@ -93,26 +94,45 @@ static void table_of_orders(hci_output *out, const orders *o, const hci_runs *ru
     hci_html_table_end(out);
 }
 
+static void heading_of_orders(const orders *o, char text[256])
+{
+    char before[HCI_HTML_NUMBER_SIZE], after[HCI_HTML_NUMBER_SIZE], order[HCI_HTML_NUMBER_SIZE];
+    double most_before_Nm = 0.0;
+    size_t most = 0;
+    for (size_t k = 0; k < o->count; ++k) {
+        most_before_Nm = fmax(most_before_Nm, o->order[k].before_Nm);
+        if (o->order[k].after_Nm > o->order[most].after_Nm) most = k;
+    }
+    hci_html_number_text(before, most_before_Nm);
+    hci_html_number_text(after, o->order[most].after_Nm);
+    hci_html_number_text(order, o->order[most].order);
+    snprintf(text, 256, "The largest order that is left, %s, has %s N·m; before, the largest had %s N·m",
+             order, after, before);
+}
+
 static void show_orders(hci_output *out, const orders *o, const hci_runs *runs, const char *origin)
 {
-    static const hci_svg_picture WORDS = {
-        "orders",
-        "Residual by electrical order, before and after, with the noise",
-        "A stem for each order on a logarithmic axis: the largest amplitude in N·m that any run has there, "
-        "before and after the correction; a dash for the noise of that run. The table beside it has the "
-        "largest.",
-        0,
-        0,
-        480,
-        304};
-    hci_html_figure(out);
-    hci_plot_orders(out, &WORDS, o->order, o->count, "noise", true);
-    hci_html_figure_tables(out);
+    const hci_plot_orders_data data = {o->order, o->count, "Torque error in N·m, peak", "noise", true};
+    const hci_html_drawing drawing = {
+        .id = "orders",
+        .title = "Residual by electrical order, before and after, with the noise",
+        .description = "A stem for each order on a logarithmic axis: the largest amplitude in N·m that any "
+                       "run has there, before and after the correction; a dash for the noise of that run.",
+        .caption =
+            "Measured less modelled torque. Of each order the run with the largest amplitude; order 0 is "
+            "the mean. The noise is what chance alone exceeds once in twenty times. Four decades are "
+            "drawn; what is less lies below them.",
+        .wide = 300,
+        .narrow = 300,
+        .draw = hci_plot_orders,
+        .context = &data};
+    char heading[256];
+    heading_of_orders(o, heading);
+    hci_html_section(out, heading);
+    hci_html_drawing_begin(out, &drawing);
     table_of_orders(out, o, runs);
-    hci_html_figure_end(out,
-                        "Before: the declared machine. After: the corrected one. Four decades are drawn; "
-                        "what is less lies below them.",
-                        "residual_spectrum.csv", origin);
+    hci_html_drawing_end(out, "residual_spectrum.csv", origin);
+    hci_html_section_end(out);
 }
 
 /* ---- by run and order ---- */
@@ -153,52 +173,72 @@ static void table_of_lines(hci_output *out, const hci_diagnosis *d, const hci_ru
     hci_html_table_end(out);
 }
 
-static void draw_map(hci_output *out, const hci_diagnosis *d, const orders *o, const hci_runs *runs)
+static void fill_map(const hci_diagnosis *d, const orders *o, const hci_runs *runs, size_t *run,
+                     double *order, hci_plot_map *map)
 {
-    size_t place[HCI_PLOT_MOST_CELLS], run[HCI_PLOT_MOST_CELLS];
-    double order[HCI_PLOT_MOST_CELLS];
+    size_t place[HCI_PLOT_MOST_CELLS];
     const run_sizes sizes = {d, o->of_run_Nm};
-    hci_plot_map map = {d, runs, run, order, 0, 0};
-    map.runs_shown = hci_plot_largest(run_weight, &sizes, runs->count, HCI_PLOT_MOST_CELLS, run);
-    map.orders_shown = hci_plot_largest(order_weight, o, o->count, HCI_PLOT_MOST_CELLS, place);
-    for (size_t k = 0; k < map.orders_shown; ++k)
+    *map = (hci_plot_map){d, runs, run, order, 0, 0};
+    map->runs_shown = hci_plot_largest(run_weight, &sizes, runs->count, HCI_PLOT_MOST_CELLS, run);
+    map->orders_shown = hci_plot_largest(order_weight, o, o->count, HCI_PLOT_MOST_CELLS, place);
+    for (size_t k = 0; k < map->orders_shown; ++k)
         order[k] = o->order[place[k]].order;
-    hci_plot_residuals(out, &map);
+}
+
+static void heading_of_map(const hci_diagnosis *d, const hci_runs *runs, char text[512])
+{
+    char order[HCI_HTML_NUMBER_SIZE];
+    size_t most = 0;
+    for (size_t k = 0; k < d->lines; ++k)
+        if (d->line[k].after_Nm > d->line[most].after_Nm) most = k;
+    hci_html_number_text(order, d->line[most].order);
+    snprintf(text, 512, "Most is left at order %s in %s", order, runs->run[d->line[most].run].name);
 }
 
 static void show_map(hci_output *out, const hci_diagnosis *d, const orders *o, const hci_runs *runs,
                      const char *origin)
 {
-    hci_html_figure(out);
-    draw_map(out, d, o, runs);
-    hci_html_figure_tables(out);
+    size_t run[HCI_PLOT_MOST_CELLS];
+    double order[HCI_PLOT_MOST_CELLS];
+    hci_plot_map map;
+    fill_map(d, o, runs, run, order, &map);
+    const int rows = (int)map.runs_shown * HCI_ROWS_HEIGHT;
+    const hci_html_drawing drawing = {
+        .id = "map",
+        .title = "Residual by run and electrical order, before and after",
+        .description =
+            "A square for each run and order: its side grows with the logarithm of the amplitude in "
+            "N·m, over four decades. The table has the largest.",
+        .caption =
+            "Runs downwards, those in bold were held out; orders to the right. The side of a square grows "
+            "with the logarithm of the amplitude over four decades. Of more than 24 runs or orders those "
+            "with the largest amplitude are drawn.",
+        .wide = 82 + rows,
+        .narrow = 104 + rows,
+        .draw = hci_plot_residuals,
+        .context = &map};
+    char heading[512];
+    heading_of_map(d, runs, heading);
+    hci_html_section(out, heading);
+    hci_html_drawing_begin(out, &drawing);
     table_of_lines(out, d, runs);
-    hci_html_figure_end(
-        out,
-        "Before: the declared machine. After: the corrected one. Names in bold are runs held out. Of more "
-        "than 24 runs or orders the picture has those with the largest amplitude. The side of a square "
-        "grows with the logarithm of the amplitude over four decades.",
-        "residual_spectrum.csv", origin);
+    hci_html_drawing_end(out, "residual_spectrum.csv", origin);
+    hci_html_section_end(out);
 }
 
-/* ---- the section ---- */
+/* ---- the sections ---- */
 
 hci_status hci_page_residual(hci_output *out, const hci_diagnosis *d, const hci_runs *runs,
                              const char *origin, hci_note *note)
 {
     orders o = {NULL, 0, NULL};
     const hci_status status = orders_make(d, runs, &o, note);
-    if (!status) {
-        hci_html_section(out, "What is left, by order");
-        hci_html_paragraph(
-            out, NULL,
-            o.count > 0 ? "The residual is measured less modelled torque. Of each order the run with the "
-                          "largest amplitude is shown; order 0 is the mean. The noise is what chance alone "
-                          "exceeds once in twenty times."
-                        : "No order of the residual stands out of the noise, before or after.");
-        if (o.count > 0) show_orders(out, &o, runs, origin);
-        if (o.count > 0) show_map(out, d, &o, runs, origin);
-        hci_html_section_end(out);
+    if (!status && o.count == 0)
+        hci_html_paragraph(out, "quiet",
+                           "No order of the residual stands out of the noise, before or after.");
+    if (!status && o.count > 0) {
+        show_orders(out, &o, runs, origin);
+        show_map(out, d, &o, runs, origin);
     }
     hci_memory_free(o.order);
     hci_memory_free(o.of_run_Nm);

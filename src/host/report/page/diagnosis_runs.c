@@ -1,6 +1,10 @@
 /* The section of a diagnosis about its runs: errors before and after, and slips of the index. */
+#include <math.h>
+#include <stdio.h>
+
 #include "host/draw/html.h"
 #include "host/plot/plot.h"
+#include "host/plot/rows.h"
 #include "host/report/page/diagnosis_sections.h"
 
 static void table_of_runs(hci_output *out, const hci_diagnosis *d)
@@ -45,21 +49,40 @@ static void say_slips(hci_output *out, const hci_diagnosis *d)
     hci_html_table_end(out);
 }
 
+static void heading_of(const hci_diagnosis *d, char text[256])
+{
+    const bool held = isfinite(d->holdout_after_Nm);
+    char before[HCI_HTML_NUMBER_SIZE], after[HCI_HTML_NUMBER_SIZE];
+    hci_html_number_text(before, held ? d->holdout_before_Nm : d->rms_before_Nm);
+    hci_html_number_text(after, held ? d->holdout_after_Nm : d->rms_after_Nm);
+    snprintf(text, 256, "%s the error goes from %s to %s N·m",
+             held ? "On the runs that were held out" : "On the runs that were fitted", before, after);
+}
+
 void hci_page_run_errors(hci_output *out, const hci_diagnosis *d, const char *origin)
 {
-    hci_html_section(out, "How well it fits, run by run");
-    hci_html_paragraph(out, NULL,
-                       "Runs that were held out took no part in the fit: they are the test. A model as good "
-                       "as the recordings allow reaches their noise.");
-    hci_html_figure(out);
-    hci_plot_runs(out, d);
-    hci_html_figure_tables(out);
+    const int rows = (int)hci_plot_runs_rows(d) * HCI_ROWS_HEIGHT;
+    const hci_html_drawing drawing = {
+        .id = "runs",
+        .title = "Error of each run before and after, with its noise",
+        .description = "One row for each run, those that were held out first: rms of measured less modelled "
+                       "torque in N·m on a logarithmic axis, before and after the correction, and the noise "
+                       "of the recording. The bar behind a mark is its 95 % interval.",
+        .caption =
+            "Measured less modelled torque: before of the declared machine, after of the corrected one. "
+            "Runs held out took no part in the fit: they are the test. Of more than 40 runs of one role "
+            "those with the largest error are drawn; noise left of the axis is not.",
+        .wide = 82 + rows,
+        .narrow = 140 + rows,
+        .legend_rows = 3,
+        .draw = hci_plot_runs,
+        .context = d};
+    char heading[256];
+    heading_of(d, heading);
+    hci_html_section(out, heading);
+    hci_html_drawing_begin(out, &drawing);
     table_of_runs(out, d);
-    hci_html_figure_end(out,
-                        "Before: the declared machine. After: the corrected one. Of more than 40 runs of "
-                        "one role the picture has those with the largest error after. Noise left of the "
-                        "axis is not drawn.",
-                        "errors.csv", origin);
+    hci_html_drawing_end(out, "errors.csv", origin);
     say_slips(out, d);
     hci_html_section_end(out);
 }

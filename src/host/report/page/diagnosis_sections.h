@@ -15,8 +15,8 @@ void hci_page_run_errors(hci_output *out, const hci_diagnosis *diagnosis, const 
 hci_status hci_page_residual(hci_output *out, const hci_diagnosis *diagnosis, const hci_runs *runs,
                              const char *origin, hci_note *note);
 
-/* Parameters of each effect of the corrected machine; nothing where it has none. */
-void hci_page_parameters(hci_output *out, const hci_diagnosis *diagnosis, const char *origin);
+/* Parameters of each effect of the corrected machine, folded away; nothing where it has none. */
+void hci_page_parameters(hci_output *out, const hci_diagnosis *diagnosis);
 
 /* Orders that no effect explains; nothing where there are none. */
 void hci_page_unexplained(hci_output *out, const hci_diagnosis *diagnosis);

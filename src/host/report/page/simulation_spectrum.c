@@ -96,26 +96,47 @@ static void caption_of(char text[CAPTION_SIZE], const hci_simulation *s, double 
              has_floor ? ": about what switching and noise leave anywhere." : "");
 }
 
+static void heading_of(const hci_simulation *s, const hci_plot_order *order, char text[256])
+{
+    char number[HCI_HTML_NUMBER_SIZE], after[HCI_HTML_NUMBER_SIZE], before[HCI_HTML_NUMBER_SIZE];
+    double before_Nm = 0.0;
+    size_t most = 0;
+    for (size_t k = 0; k + 1 < s->spectrum_count; ++k) {
+        before_Nm = fmax(before_Nm, order[k].before_Nm);
+        if (order[k].after_Nm > order[most].after_Nm) most = k;
+    }
+    hci_html_number_text(number, order[most].order);
+    hci_html_quantity_text(after, order[most].after_Nm, "N·m");
+    hci_html_quantity_text(before, before_Nm, "N·m");
+    if (hci_page_has_before(s))
+        snprintf(text, 256, "The largest order, %s, has %s; that of a plain sine has %s", number, after,
+                 before);
+    else
+        snprintf(text, 256, "The largest order, %s, has %s", number, after);
+}
+
 static void show_orders(hci_output *out, const hci_simulation *s, const hci_plot_order *order,
                         const char *origin)
 {
-    static const hci_svg_picture WORDS = {
-        "spectrum",
-        "Torque ripple by electrical order",
-        "A stem for each order but 0, the mean: peak amplitude in N·m, with a plain sine and simulated. The "
-        "table beside it has the largest.",
-        0,
-        0,
-        480,
-        304};
-    char caption[CAPTION_SIZE];
+    const hci_plot_orders_data data = {order, s->spectrum_count - 1, "Torque ripple in N·m, peak", "floor",
+                                       hci_page_has_before(s)};
+    char caption[CAPTION_SIZE], heading[256];
     caption_of(caption, s, order[0].noise_Nm);
-    hci_html_section(out, "Torque ripple by order");
-    hci_html_figure(out);
-    hci_plot_orders(out, &WORDS, order, s->spectrum_count - 1, "floor", hci_page_has_before(s));
-    hci_html_figure_tables(out);
+    const hci_html_drawing drawing = {
+        .id = "spectrum",
+        .title = "Torque ripple by electrical order",
+        .description = "A stem for each order but 0, the mean: peak amplitude in N·m, with a plain sine and "
+                       "simulated. The table has the largest.",
+        .caption = caption,
+        .wide = 290,
+        .narrow = 300,
+        .draw = hci_plot_orders,
+        .context = &data};
+    heading_of(s, order, heading);
+    hci_html_section(out, heading);
+    hci_html_drawing_begin(out, &drawing);
     table_of_orders(out, s);
-    hci_html_figure_end(out, caption, "spectrum.csv", origin);
+    hci_html_drawing_end(out, "spectrum.csv", origin);
     hci_html_section_end(out);
 }
 

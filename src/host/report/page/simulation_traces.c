@@ -1,9 +1,10 @@
 /* The section of a simulation over the time. */
+#include <stdio.h>
+#include <string.h>
+
 #include "host/draw/html.h"
 #include "host/plot/plot_drive.h"
 #include "host/report/page/simulation_sections.h"
-
-enum { SLICES = 20 }; /* of the evaluated time: rows of a table */
 
 static void row_of(hci_output *out, const char *name, const hci_statistics *x, double factor)
 {
@@ -13,31 +14,6 @@ static void row_of(hci_output *out, const char *name, const hci_statistics *x, d
     for (size_t k = 0; k < 4; ++k)
         hci_html_number_in(out, factor * value[k], factor * (x->most - x->least));
     hci_html_row_end(out);
-}
-
-/* The extremes of slices of the window, which are what the picture draws. */
-static void table_of_slices(hci_output *out, const hci_traces *t, const hci_plot_window *w)
-{
-    static const char *const ONE[] = {"From ms", "to ms", "Least", "Most", NULL};
-    static const char *const THREE[] = {"From ms",  "to ms",     "Least i_a", "Most i_a", "Least i_b",
-                                        "Most i_b", "Least i_c", "Most i_c",  NULL};
-    const double slice_s = (w->to_s - w->from_s) / SLICES;
-    const hci_range all = hci_traces_range(t, w->first, w->from_s, w->to_s);
-    const double span = all.high - all.low;
-    hci_html_table(out, "Extremes over the time", w->first == w->last ? ONE : THREE);
-    for (size_t k = 0; k < SLICES; ++k) {
-        const double from_s = w->from_s + slice_s * (double)k, to_s = from_s + slice_s;
-        hci_html_row(out);
-        hci_html_number(out, 1e3 * from_s);
-        hci_html_number(out, 1e3 * to_s);
-        for (size_t j = w->first; j <= (size_t)w->last; ++j) {
-            const hci_range r = hci_traces_range(t, (hci_trace)j, from_s, to_s);
-            hci_html_number_in(out, r.low, span);
-            hci_html_number_in(out, r.high, span);
-        }
-        hci_html_row_end(out);
-    }
-    hci_html_table_end(out);
 }
 
 static void table_of_statistics(hci_output *out, const hci_simulation *s, hci_trace first)
@@ -53,33 +29,73 @@ static void table_of_statistics(hci_output *out, const hci_simulation *s, hci_tr
     hci_html_table_end(out);
 }
 
-static void show_window(hci_output *out, const hci_simulation *s, const hci_traces *t,
-                        const hci_plot_window *w, const char *origin)
+static const char TRUE_VALUES[] =
+    "True values, not what sensors read; between extremes where samples are denser than the picture.";
+
+static void show_currents(hci_output *out, const hci_simulation *s, const hci_traces *t, const char *origin)
 {
-    hci_html_figure(out);
-    hci_plot_traces(out, t, w);
-    hci_html_figure_tables(out);
-    table_of_statistics(out, s, w->first);
-    table_of_slices(out, t, w);
-    hci_html_figure_end(
-        out,
-        "True values, not what sensors read; between extremes where samples are denser than the picture.",
-        "summary.json, and trajectory.csv with the course", origin);
+    const hci_plot_window window = {t,      "Phase currents in A", HCI_TRACE_A_A, HCI_TRACE_C_A, s->from_s,
+                                    s->to_s};
+    const hci_html_drawing drawing = {.id = "current",
+                                      .title = "Phase currents over time",
+                                      .description = "Three lines in A over time in ms.",
+                                      .caption = TRUE_VALUES,
+                                      .wide = 262,
+                                      .narrow = 262,
+                                      .draw = hci_plot_traces,
+                                      .context = &window};
+    char heading[256], peak[HCI_HTML_NUMBER_SIZE], plain[HCI_HTML_NUMBER_SIZE];
+    hci_html_quantity_text(peak, s->peak_phase_A, "A");
+    hci_html_quantity_text(plain, s->plain_amplitude_A, "A");
+    if (s->plain_amplitude_A > 0.0)
+        snprintf(heading, sizeof heading, "The phases carry %s at the peak, a plain sine %s", peak, plain);
+    else
+        snprintf(heading, sizeof heading, "The phases carry %s at the peak", peak);
+    hci_html_section(out, heading);
+    hci_html_drawing_begin(out, &drawing);
+    table_of_statistics(out, s, HCI_TRACE_A_A);
+    hci_html_drawing_end(out, "summary.json, and trajectory.csv with the course", origin);
+    hci_html_section_end(out);
+}
+
+static void heading_of_course(const hci_simulation *s, char text[256])
+{
+    const double rpm = 30.0 / HCI_PI;
+    char low[HCI_HTML_NUMBER_SIZE], high[HCI_HTML_NUMBER_SIZE];
+    hci_html_number_text(low, s->speed_rad_per_s.least * rpm);
+    hci_html_number_text(high, s->speed_rad_per_s.most * rpm);
+    if (strcmp(low, high) == 0)
+        snprintf(text, 256, "Over time the speed is %s rpm", low);
+    else
+        snprintf(text, 256, "Over time the speed is between %s and %s rpm", low, high);
+}
+
+static void show_course(hci_output *out, const hci_simulation *s, const hci_traces *t, const char *origin)
+{
+    const hci_plot_window window[] = {
+        {t, "Torque in N·m", HCI_TRACE_TORQUE_NM, HCI_TRACE_TORQUE_NM, s->from_s, s->to_s},
+        {t, "Speed in rpm, mechanical", HCI_TRACE_SPEED_RPM, HCI_TRACE_SPEED_RPM, s->from_s, s->to_s}};
+    const hci_html_drawing drawing = {.id = "torque",
+                                      .title = "Torque and speed over time",
+                                      .description =
+                                          "Two lines over time in ms: torque in N·m, speed in rpm.",
+                                      .caption = TRUE_VALUES,
+                                      .wide = 380,
+                                      .narrow = 400,
+                                      .draw = hci_plot_traces_of_two,
+                                      .context = window};
+    char heading[256];
+    heading_of_course(s, heading);
+    hci_html_section(out, heading);
+    hci_html_drawing_begin(out, &drawing);
+    table_of_statistics(out, s, HCI_TRACE_TORQUE_NM);
+    table_of_statistics(out, s, HCI_TRACE_SPEED_RPM);
+    hci_html_drawing_end(out, "summary.json, and trajectory.csv with the course", origin);
+    hci_html_section_end(out);
 }
 
 void hci_page_traces(hci_output *out, const hci_simulation *s, const hci_traces *t, const char *origin)
 {
-    static const char LINE[] = "A line over time in ms. The table beside it has mean and extremes.";
-    static const char LINES[] = "Three lines over time in ms. The tables beside it have the extremes over "
-                                "the time, and mean and extremes of the current vector.";
-    static const hci_svg_picture TORQUE = {"torque", "Torque in N·m", LINE, 0, 0, 480, 264},
-                                 SPEED = {"speed", "Speed in rpm, mechanical", LINE, 0, 0, 480, 264},
-                                 CURRENT = {"current", "Phase currents in A", LINES, 0, 0, 480, 264};
-    const hci_plot_window window[] = {{&TORQUE, HCI_TRACE_TORQUE_NM, HCI_TRACE_TORQUE_NM, s->from_s, s->to_s},
-                                      {&SPEED, HCI_TRACE_SPEED_RPM, HCI_TRACE_SPEED_RPM, s->from_s, s->to_s},
-                                      {&CURRENT, HCI_TRACE_A_A, HCI_TRACE_C_A, s->from_s, s->to_s}};
-    hci_html_section(out, "Over time");
-    for (size_t k = 0; k < sizeof window / sizeof *window; ++k)
-        show_window(out, s, t, &window[k], origin);
-    hci_html_section_end(out);
+    show_currents(out, s, t, origin);
+    show_course(out, s, t, origin);
 }

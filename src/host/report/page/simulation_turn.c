@@ -1,4 +1,4 @@
-/* The section of a simulation over one electrical turn. */
+/* The sections of a simulation over one electrical turn. */
 #include <math.h>
 #include <stdio.h>
 
@@ -7,8 +7,7 @@
 #include "host/plot/plot_drive.h"
 #include "host/report/page/simulation_sections.h"
 
-/* STEPS of a turn: rows of the tables, as HCI_PAGE_STEPS. */
-enum { STEPS = 40, SAMPLES_IN_STEP = 4, MOST_TURNS = 64 };
+enum { SAMPLES_IN_STEP = 4, MOST_TURNS = 64 };
 
 /* Torque of the plain sine over all turns of its period, a few samples in each step of the picture. */
 static void fill_before(hci_turn_means *t, const hci_torque_evaluation *plain)
@@ -28,83 +27,116 @@ static void fill_before(hci_turn_means *t, const hci_torque_evaluation *plain)
     }
 }
 
-static void cells_of_turn(hci_output *out, const hci_turn_means *t, size_t row)
-{
-    const hci_turn_mean m = hci_turn_mean_of(t, row * (HCI_TURN_STEPS / STEPS), HCI_TURN_STEPS / STEPS);
-    const double value[] = {m.torque_range_Nm.low, m.torque_Nm, m.torque_range_Nm.high};
-    for (size_t j = 0; j < sizeof value / sizeof *value; ++j)
-        hci_html_number(out, m.samples > 0 ? value[j] : (double)NAN);
-}
-
 /* before: NULL for none. */
-static void table_of_turn_torque(hci_output *out, const hci_turn_means *t, const hci_turn_means *before)
+static void table_of_extremes(hci_output *out, const hci_turn_means *t, const hci_turn_means *before)
 {
-    static const char *const ALONE[] = {"From °", "to °", "Least N·m", "Mean N·m", "Most N·m", NULL};
-    static const char *const COMPARED[] = {
-        "From °", "to °", "Before: least N·m", "mean", "most", "After: least N·m", "mean", "most", NULL};
-    hci_html_table(out, "Torque over the electrical angle", before ? COMPARED : ALONE);
-    for (size_t k = 0; k < STEPS; ++k) {
+    static const char *const COLUMN[] = {"<Torque", "Least N·m", "Mean N·m", "Most N·m", NULL};
+    const hci_turn_means *const row[] = {before, t};
+    hci_html_table(out, "Over all turns", COLUMN);
+    for (size_t k = 0; k < 2; ++k) {
+        if (!row[k]) continue;
+        const hci_turn_mean m = hci_turn_mean_of(row[k], 0, HCI_TURN_STEPS);
         hci_html_row(out);
-        hci_html_number(out, 360.0 / STEPS * (double)k);
-        hci_html_number(out, 360.0 / STEPS * (double)(k + 1));
-        if (before) cells_of_turn(out, before, k);
-        cells_of_turn(out, t, k);
+        hci_html_cell(out, k == 0 ? "before" : "after");
+        const double value[] = {m.torque_range_Nm.low, m.torque_Nm, m.torque_range_Nm.high};
+        for (size_t j = 0; j < 3; ++j)
+            hci_html_number(out, m.samples > 0 ? value[j] : (double)NAN);
         hci_html_row_end(out);
     }
     hci_html_table_end(out);
 }
 
-/* One step of the picture in each row, where the mean of several would cut the corners of the path. */
-static void table_of_turn_vector(hci_output *out, const hci_turn_means *t)
+static void heading_of_torque(const hci_simulation *s, char text[256])
 {
-    static const char *const COLUMN[] = {"Angle °", "i_d A", "i_q A", "Length A", NULL};
-    hci_html_table(out, "Mean current vector at electrical angles", COLUMN);
-    for (size_t k = 0; k < HCI_TURN_STEPS; k += HCI_TURN_STEPS / STEPS) {
-        const hci_turn_mean m = hci_turn_mean_of(t, k, 1);
-        if (m.samples == 0) continue;
-        const double value[] = {360.0 * ((double)k + 0.5) / HCI_TURN_STEPS, m.current_A.d, m.current_A.q,
-                                hypot(m.current_A.d, m.current_A.q)};
-        hci_html_row(out);
-        for (size_t j = 0; j < sizeof value / sizeof *value; ++j)
-            hci_html_number(out, value[j]);
-        hci_html_row_end(out);
-    }
-    hci_html_table_end(out);
+    char after[HCI_HTML_NUMBER_SIZE], before[HCI_HTML_NUMBER_SIZE];
+    hci_html_quantity_text(after, s->torque_Nm.most - s->torque_Nm.least, "N·m");
+    hci_html_quantity_text(before, s->plain.peak_to_peak_Nm, "N·m");
+    if (hci_page_has_before(s))
+        snprintf(text, 256, "From peak to peak the torque varies by %s, with a plain sine by %s", after,
+                 before);
+    else
+        snprintf(text, 256, "From peak to peak the torque varies by %s", after);
 }
 
-/* before: NULL for none. */
-static void show_torque(hci_output *out, const hci_simulation *s, const hci_turn_means *t,
-                        const hci_turn_means *before, const char *origin)
+static void show_torque(hci_output *out, const hci_simulation *s, const hci_plot_turn *turn,
+                        const char *origin)
 {
-    char caption[HCI_PAGE_BASELINE_SIZE + 240], baseline[HCI_PAGE_BASELINE_SIZE];
-    hci_html_figure(out);
-    hci_plot_turn_torque(out, t, before);
-    hci_html_figure_tables(out);
-    table_of_turn_torque(out, t, before);
+    char caption[HCI_PAGE_BASELINE_SIZE + 240], baseline[HCI_PAGE_BASELINE_SIZE], heading[256];
     hci_page_say_baseline(baseline, s);
     snprintf(
         caption, sizeof caption,
-        "%sEvery sample of the evaluated time and what remains to the end, by its electrical angle: what "
-        "repeats with the turn is in the mean, what does not widens the grey band from the least to the "
-        "most.",
+        "%sEvery sample by its electrical angle: what repeats with the turn is in the mean, what does not "
+        "widens the band from the least to the most.",
         baseline);
-    hci_html_figure_end(out, caption, "trajectory.csv with the course", origin);
+    const hci_html_drawing drawing = {
+        .id = "turn",
+        .title = "Torque over one electrical turn",
+        .description =
+            "The mean over all turns in N·m at each electrical angle in degrees, and the band from "
+            "the least to the most; with a plain sine and simulated.",
+        .caption = caption,
+        .wide = 280,
+        .narrow = 290,
+        .draw = hci_plot_turn_torque,
+        .context = turn};
+    heading_of_torque(s, heading);
+    hci_html_section(out, heading);
+    hci_html_drawing_begin(out, &drawing);
+    table_of_extremes(out, turn->turn, turn->before);
+    hci_html_drawing_end(out, "trajectory.csv with the course", origin);
+    hci_html_section_end(out);
 }
 
-static void show_vector(hci_output *out, const hci_simulation *s, const hci_turn_means *t, const char *origin)
+static void table_of_currents(hci_output *out, const hci_turn_means *t, double plain_q_A)
 {
-    char caption[HCI_PAGE_BASELINE_SIZE + 240], plain[HCI_HTML_NUMBER_SIZE];
+    static const char *const COLUMN[] = {"<Current", "Least A", "Most A", NULL};
+    hci_range d = HCI_RANGE_EMPTY, q = HCI_RANGE_EMPTY;
+    for (size_t k = 0; k < HCI_TURN_STEPS; ++k) {
+        const hci_turn_mean m = hci_turn_mean_of(t, k, 1);
+        if (m.samples == 0) continue;
+        hci_range_include(&d, m.current_A.d);
+        hci_range_include(&q, m.current_A.q);
+    }
+    const struct {
+        const char *name;
+        hci_range range;
+    } row[] = {{"i_d", d}, {"i_q", q}, {"i_q of the plain sine", {plain_q_A, plain_q_A}}};
+    hci_html_table(out, "Means of each degree", COLUMN);
+    for (size_t k = 0; k < sizeof row / sizeof *row; ++k) {
+        hci_html_row(out);
+        hci_html_cell(out, row[k].name);
+        hci_html_number(out, row[k].range.low);
+        hci_html_number(out, row[k].range.high);
+        hci_html_row_end(out);
+    }
+    hci_html_table_end(out);
+}
+
+static void show_currents(hci_output *out, const hci_plot_turn *turn, const char *origin)
+{
+    const hci_html_drawing drawing = {
+        .id = "vector",
+        .title = "Mean i_d and i_q over one electrical turn",
+        .description = "Lines in A over the electrical angle in degrees: the means of i_d and i_q over all "
+                       "turns, and those of a plain sine with the same mean torque, which stand still.",
+        .caption =
+            "The means over all turns. A plain sine in phase with the back-EMF stands still here. d is "
+            "the magnet axis, q leads it.",
+        .wide = 262,
+        .narrow = 270,
+        .draw = hci_plot_turn_dq,
+        .context = turn};
+    hci_html_section(out, "What the current loop makes of the currents in the rotor frame");
+    hci_html_drawing_begin(out, &drawing);
+    table_of_currents(out, turn->turn, turn->plain_q_A);
+    hci_html_drawing_end(out, "trajectory.csv with the course", origin);
+    hci_html_section_end(out);
+}
+
+static double plain_q_A(const hci_simulation *s)
+{
     const double plain_A = isfinite(s->plain_amplitude_A) ? s->plain_amplitude_A : 0.0;
-    hci_html_figure(out);
-    hci_plot_turn_vector(out, t, (hci_dq){.q = s->torque_Nm.mean < 0.0 ? -plain_A : plain_A});
-    hci_html_figure_tables(out);
-    table_of_turn_vector(out, t);
-    hci_html_quantity_text(plain, plain_A, "A");
-    snprintf(caption, sizeof caption,
-             "Baseline: the plain sine of %s in phase with the back-EMF, which would make the same mean "
-             "torque with it. d is the magnet axis, q leads it.",
-             plain);
-    hci_html_figure_end(out, caption, "trajectory.csv with the course", origin);
+    return s->torque_Nm.mean < 0.0 ? -plain_A : plain_A;
 }
 
 hci_status hci_page_turn(hci_output *out, const hci_simulation *s, const hci_turn_means *turn,
@@ -115,10 +147,9 @@ hci_status hci_page_turn(hci_output *out, const hci_simulation *s, const hci_tur
     hci_turn_means *before = has_before ? hci_memory_new(1, sizeof *before) : NULL;
     if (has_before && !before) return hci_note_memory(note, NULL, "the report");
     if (has_before) fill_before(before, &s->plain);
-    hci_html_section(out, "Over one electrical turn");
-    show_torque(out, s, turn, before, origin);
-    show_vector(out, s, turn, origin);
-    hci_html_section_end(out);
+    const hci_plot_turn drawn = {turn, before, plain_q_A(s)};
+    show_torque(out, s, &drawn, origin);
+    show_currents(out, &drawn, origin);
     hci_memory_free(before);
     return HCI_OK;
 }

@@ -59,12 +59,13 @@ static void table_of_limits(const hci_solution_page *p)
 
 static void draw_limit(hci_output *out, const hci_limit *l, const hci_svg_axis *x, double y)
 {
-    char name[HCI_HTML_NUMBER_SIZE], value[HCI_HTML_NUMBER_SIZE], limit[HCI_HTML_NUMBER_SIZE];
+    char name[HCI_HTML_NUMBER_SIZE];
     const double share = l->limit > 0.0 ? 100.0 * l->value / l->limit : 0.0;
     name_of(l, name);
-    hci_html_quantity_text(value, l->value, unit_of(l));
-    hci_html_quantity_text(limit, l->limit, unit_of(l));
-    hci_svg_hint(out, "%s: %s of %s", name, value, limit);
+    hci_svg_tell(out, name);
+    hci_svg_tell_value(out, ": ", l->value, unit_of(l));
+    hci_svg_tell_value(out, " of ", l->limit, unit_of(l));
+    hci_svg_hint(out);
     hci_svg_rectangle(out, share > 100.0001 ? "over" : "after", x->from, y - 7.0, hci_svg_at(x, share),
                       y + 7.0);
     hci_svg_hint_end(out);

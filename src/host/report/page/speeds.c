@@ -64,37 +64,93 @@ static void table_of_voltage(hci_output *out, const hci_speeds *s)
 }
 
 static const char CAPTION[] =
-    "Torque ripple 100 (T_max − T_min) / T_mean of the simulated drive at a constant speed, whose references "
-    "come from the emitted tables in single precision. Sine: i_d = 0 and a constant i_q. Table: the currents "
-    "as "
-    "they are. Lead: read ahead by the delay of the loop. Compensation: each order divided by what the loop "
-    "makes of it. Feedforward: the voltage is given as well. Below: the largest line voltage, and the dc "
-    "link.";
+    "100 (T_max − T_min) / T_mean of the simulated drive at a constant speed, whose references come from the "
+    "emitted tables in single precision. Sine: i_d = 0 and a constant i_q. Table: the currents as they are. "
+    "Lead: read ahead by the delay of the loop. Compensation: each order divided by what the loop makes of "
+    "it. "
+    "Feedforward: the voltage is given as well.";
+
+/* The remedy with the least ripple at the highest speed that has any. */
+static void heading_of_ripple(const hci_speeds *s, char text[256])
+{
+    static const char *const NAME[HCI_REMEDIES] = {"a plain sine", "the table as it is",
+                                                   "the table read ahead", "compensation", "feedforward"};
+    const hci_speed_row *row = &s->row[s->count - 1];
+    char least[HCI_HTML_NUMBER_SIZE], sine[HCI_HTML_NUMBER_SIZE], speed[HCI_HTML_NUMBER_SIZE];
+    int best = 0;
+    for (int r = 1; r < HCI_REMEDIES; ++r)
+        if (row->remedy[r].T_ripple_percent < row->remedy[best].T_ripple_percent) best = r;
+    hci_html_number_text(speed, rpm(row->speed_rad_per_s));
+    hci_html_number_text(least, row->remedy[best].T_ripple_percent);
+    hci_html_number_text(sine, row->remedy[HCI_REMEDY_SINE].T_ripple_percent);
+    snprintf(text, 256, "At %s rpm %s leaves the least ripple, %s %%; a plain sine has %s %%", speed,
+             NAME[best], least, sine);
+}
+
+static void tables_of_ripple(hci_output *out, const hci_speeds *s)
+{
+    char caption[128];
+    table_of_ripple(out, s, "T_ripple in %", false);
+    if (!(s->model_error > 0.0)) return;
+    snprintf(caption, sizeof caption,
+             "The same in %%, the worst of machines whose R, L and flux are %.3g %% off",
+             100.0 * s->model_error);
+    table_of_ripple(out, s, caption, true);
+}
+
+static void show_ripple(hci_output *out, const hci_speeds *s, const char *origin)
+{
+    const hci_html_drawing drawing = {
+        .id = "speeds",
+        .title = "Torque ripple over the speed by remedy",
+        .description =
+            "Torque ripple in percent over the speed in rpm, both logarithmic: one line for each of "
+            "sine, table, lead, compensation and feedforward.",
+        .caption = CAPTION,
+        .wide = 340,
+        .narrow = 340,
+        .draw = hci_plot_speeds_ripple,
+        .context = s};
+    hci_html_section(out, "How the ripple grows with the speed");
+    hci_html_drawing_begin(out, &drawing);
+    tables_of_ripple(out, s);
+    hci_html_drawing_end(out, "speeds.csv, summary.json", origin);
+    hci_html_section_end(out);
+}
+
+static void show_voltage(hci_output *out, const hci_speeds *s, const char *origin)
+{
+    const hci_html_drawing drawing = {.id = "voltage",
+                                      .title = "Largest line voltage over the speed",
+                                      .description = "Lines in V over the speed in rpm, and the dc link.",
+                                      .caption = "What the currents take, and what there is.",
+                                      .wide = 230,
+                                      .narrow = 250,
+                                      .draw = hci_plot_speeds_voltage,
+                                      .context = s};
+    hci_html_section(out, "The voltage that it takes");
+    hci_html_drawing_begin(out, &drawing);
+    table_of_voltage(out, s);
+    hci_html_drawing_end(out, "speeds.csv, summary.json", origin);
+    say_ends(out, s);
+    hci_html_section_end(out);
+}
 
 void hci_page_speeds(hci_output *out, const hci_speeds *s, const hci_report_sources *sources)
 {
-    char origin[HCI_PAGE_ORIGIN_SIZE], torque[HCI_HTML_NUMBER_SIZE], link[HCI_HTML_NUMBER_SIZE];
+    char origin[HCI_PAGE_ORIGIN_SIZE], torque[HCI_HTML_NUMBER_SIZE], link[HCI_HTML_NUMBER_SIZE], heading[256],
+        kicker[512];
     hci_page_origin(origin, sources);
     hci_html_quantity_text(torque, s->torque_Nm, "N·m");
     hci_html_quantity_text(link, s->dc_link_V, "V");
-    hci_html_begin(out, &(hci_html_opening){"Torque ripple through the current loop", "Done", "Done", true});
+    heading_of_ripple(s, heading);
+    snprintf(kicker, sizeof kicker, "Torque ripple through the current loop · %s",
+             sources->machine ? sources->machine : "");
+    hci_html_begin(out, &(hci_html_opening){kicker, "Done", heading, true});
     hci_html_say(out, "lead", "%s at %zu speeds with a dc link of %s.", torque, s->count, link);
-    say_ends(out, s);
-    hci_html_section(out, "Ripple over the speed");
-    hci_html_figure(out);
-    hci_plot_speeds(out, s, false);
-    hci_html_figure_tables(out);
-    table_of_ripple(out, s, "T_ripple in %", false);
-    if (s->model_error > 0.0) {
-        char caption[128];
-        snprintf(caption, sizeof caption,
-                 "The same in %%, the worst of machines whose R, L and flux are %.3g %% off",
-                 100.0 * s->model_error);
-        table_of_ripple(out, s, caption, true);
-    }
-    table_of_voltage(out, s);
-    hci_html_figure_end(out, CAPTION, "speeds.csv, summary.json", origin);
-    hci_html_section_end(out);
+    hci_html_evidence(out);
+    show_ripple(out, s, origin);
+    show_voltage(out, s, origin);
     hci_page_show_sources(out, sources);
     hci_html_end(out);
 }

@@ -15,12 +15,16 @@ enum { MOST_ROWS = 400 };
 static void say_least(hci_output *out, const hci_grid *s, double percent, const char *what)
 {
     const hci_grid_row *row = hci_grid_least(s, false, percent);
+    char ripple[64];
     if (!row) return;
-    hci_html_say(
-        out, NULL,
-        "%s: a limit of the phase current of %.4g A, with %.3g %% of ripple and %.4g times the copper loss "
-        "of the plain sine.",
-        what, row->point.limit_current_A, row->best.T_ripple_percent, row->best.loss_to_plain);
+    if (row->best.T_ripple_percent < HCI_GRID_SMOOTH)
+        snprintf(ripple, sizeof ripple, "no ripple");
+    else
+        snprintf(ripple, sizeof ripple, "%.3g %% of ripple", row->best.T_ripple_percent);
+    hci_html_say(out, NULL,
+                 "%s: a limit of the phase current of %.4g A, with %s and %.4g times the copper loss of the "
+                 "plain sine.",
+                 what, row->point.limit_current_A, ripple, row->best.loss_to_plain);
 }
 
 static void say_trade_off(hci_output *out, const hci_grid *s)
@@ -151,7 +155,154 @@ static void rows_of_map(hci_output *out, const hci_grid *s)
     hci_html_table_end(out);
 }
 
-/* ---- all of it ---- */
+/* ---- the pictures ---- */
+
+static void tables_of(hci_output *out, const hci_grid *s, int picture)
+{
+    if (s->request.kind == HCI_GRID_ENVELOPE) rows_of_envelope(out, s);
+    if (s->request.kind == HCI_GRID_MAP) rows_of_map(out, s);
+    if (s->request.kind == HCI_GRID_TRADE_OFF) rows_of_trade_off(out, s, picture % 2 == 1);
+}
+
+/* A section: the sentence, and the drawing that shows it. */
+typedef struct {
+    const char *heading;
+    hci_html_drawing drawing;
+} picture;
+
+#define RIPPLE_IS                                                                                             \
+    "Torque ripple: 100 (T_max − T_min) / T_mean of the torque that the model makes of currents that flow " \
+    "exactly. Each point is solved as `solve` does."
+
+static const picture TRADE_OFF[] = {
+    {"The more peak current is allowed, the less ripple",
+     {.id = "ripple-current",
+      .title = "Torque ripple over the limit of the phase current",
+      .description = "A line with a dot for each limit: torque ripple in per cent; the plain sine as a dot.",
+      .caption = RIPPLE_IS,
+      .wide = 280,
+      .narrow = 290,
+      .draw = hci_plot_ripple_by_current}},
+    {"The more copper loss is allowed, the less ripple",
+     {.id = "ripple-copper",
+      .title = "Torque ripple over the limit of the copper loss",
+      .description = "A line with a dot for each limit: torque ripple in per cent; the plain sine as a dot.",
+      .caption = "The same ripple, where copper loss is limited and the peak is not.",
+      .wide = 280,
+      .narrow = 290,
+      .draw = hci_plot_ripple_by_copper}},
+    {"The copper loss that goes with each peak current",
+     {.id = "copper-current",
+      .title = "Copper loss over the limit of the phase current",
+      .description = "A line with a dot for each limit: copper loss over that of the plain sine.",
+      .caption = "Of the currents of the first picture.",
+      .wide = 230,
+      .narrow = 250,
+      .draw = hci_plot_copper_by_current}},
+    {"The peak current that goes with each copper loss",
+     {.id = "peak-copper",
+      .title = "Peak phase current over the limit of the copper loss",
+      .description = "A line with a dot for each limit: peak phase current in A.",
+      .caption = "Of the currents of the second picture.",
+      .wide = 230,
+      .narrow = 250,
+      .draw = hci_plot_peak_by_copper}},
+    {NULL, {NULL}}};
+
+static const picture ENVELOPE[] = {
+    {"How much torque there is at each speed",
+     {.id = "torque",
+      .title = "Largest mean torque over the speed",
+      .description =
+          "Lines in N·m over the speed in rpm: with little ripple, with any, and of the plain sine, "
+          "within the same limits.",
+      .caption = "The largest mean torque within the limits. " RIPPLE_IS,
+      .wide = 320,
+      .narrow = 320,
+      .legend_rows = 3,
+      .draw = hci_plot_envelope_torque}},
+    {"How much ripple these torques have",
+     {.id = "ripple",
+      .title = "Ripple of these torques over the speed",
+      .description = "Lines in per cent of the mean torque over the speed in rpm, logarithmic.",
+      .caption = "Ripple of the torques above.",
+      .wide = 250,
+      .narrow = 280,
+      .draw = hci_plot_envelope_ripple}},
+    {NULL, {NULL}}};
+
+static const picture MAP[] = {
+    {"What each torque costs at each speed",
+     {.id = "maps",
+      .title = "Maps over torque and speed",
+      .description =
+          "Five maps over speed and mean torque, a cell for each point: torque ripple, copper, peak "
+          "phase current, peak line voltage, and the limit that binds.",
+      .caption =
+          "Upwards: mean torque in N·m. Grey: the mean torque is not reached within the limits; in the "
+          "map of limits: nothing keeps them, or no result. Of several dc links the first is "
+          "drawn. " RIPPLE_IS,
+      .wide = 3 * HCI_MAP_DOWN + 8,
+      .narrow = 5 * HCI_MAP_DOWN + 8,
+      .headless = true,
+      .draw = hci_plot_maps}},
+    {NULL, {NULL}}};
+
+static void show_pictures(hci_output *out, const hci_grid *s, const hci_report_sources *sources)
+{
+    static const picture *const OF[] = {TRADE_OFF, ENVELOPE, MAP};
+    static const char *const FILES[] = {"trade_off.csv", "envelope.csv", "map.csv"};
+    char origin[HCI_PAGE_ORIGIN_SIZE];
+    hci_page_origin(origin, sources);
+    for (int k = 0; OF[s->request.kind][k].heading; ++k) {
+        hci_html_drawing drawing = OF[s->request.kind][k].drawing;
+        drawing.context = s;
+        hci_html_section(out, OF[s->request.kind][k].heading);
+        hci_html_drawing_begin(out, &drawing);
+        tables_of(out, s, k);
+        hci_html_drawing_end(out, FILES[s->request.kind], origin);
+        hci_html_section_end(out);
+    }
+}
+
+/* ---- the verdict ---- */
+
+static void heading_of_trade_off(const hci_grid *s, char text[256])
+{
+    const hci_grid_row *smooth = hci_grid_least(s, false, HCI_GRID_SMOOTH),
+                       *least = hci_grid_least(s, false, HUGE_VAL);
+    const double torque_Nm = s->plan.point[0].torque_Nm;
+    if (smooth)
+        snprintf(text, 256, "%.4g N·m without ripple takes %.4g A at the peak", torque_Nm,
+                 smooth->best.peak_A);
+    else if (least)
+        snprintf(text, 256, "%.4g N·m takes %.4g A at the peak, with %.3g %% of ripple", torque_Nm,
+                 least->best.peak_A, least->best.T_ripple_percent);
+    else
+        snprintf(text, 256, "No limit that was tried lets %.4g N·m be made", torque_Nm);
+}
+
+static void heading_of_envelope(const hci_grid *s, char text[256])
+{
+    const hci_grid_row *row = &s->row[0];
+    if (isfinite(row->best.mean_Nm))
+        snprintf(text, 256, "%.4g N·m at %.4g rpm with at most %.4g %% of ripple", row->best.mean_Nm,
+                 hci_grid_rpm(row->point.speed_rad_per_s), s->request.ripple_percent);
+    else
+        snprintf(text, 256, "No torque at %.4g rpm with at most %.4g %% of ripple",
+                 hci_grid_rpm(row->point.speed_rad_per_s), s->request.ripple_percent);
+}
+
+static void heading_of(const hci_grid *s, char text[256])
+{
+    size_t count[HCI_GRID_FAILED + 1];
+    hci_grid_count(s, count);
+    if (s->request.kind == HCI_GRID_TRADE_OFF) heading_of_trade_off(s, text);
+    if (s->request.kind == HCI_GRID_ENVELOPE) heading_of_envelope(s, text);
+    if (s->request.kind == HCI_GRID_MAP)
+        snprintf(text, 256, "At %zu of %zu points the torque is made without ripple", count[HCI_GRID_REACHED],
+                 s->plan.count);
+}
 
 static void show_reasons(hci_output *out, const hci_grid *s)
 {
@@ -167,15 +318,6 @@ static void show_reasons(hci_output *out, const hci_grid *s)
     hci_html_section_end(out);
 }
 
-static void show_tables(hci_output *out, const hci_grid *s)
-{
-    if (s->request.kind == HCI_GRID_ENVELOPE) rows_of_envelope(out, s);
-    if (s->request.kind == HCI_GRID_MAP) rows_of_map(out, s);
-    if (s->request.kind != HCI_GRID_TRADE_OFF) return;
-    rows_of_trade_off(out, s, false);
-    rows_of_trade_off(out, s, true);
-}
-
 static void say_results(hci_output *out, const hci_grid *s)
 {
     char limits[HCI_GRID_WORDS_SIZE];
@@ -184,33 +326,24 @@ static void say_results(hci_output *out, const hci_grid *s)
     if (s->request.kind == HCI_GRID_TRADE_OFF) say_trade_off(out, s);
     if (s->request.kind == HCI_GRID_ENVELOPE) say_envelope(out, s);
     if (s->request.kind == HCI_GRID_MAP) say_map(out, s);
-}
-
-static void show_figure(hci_output *out, const hci_grid *s, const hci_report_sources *sources)
-{
-    static const char *const FILES[] = {"trade_off.csv", "envelope.csv", "map.csv"};
-    char origin[HCI_PAGE_ORIGIN_SIZE];
-    hci_page_origin(origin, sources);
-    hci_html_section(out, "Picture and numbers");
-    hci_html_figure(out);
-    hci_plot_sweep(out, s, false);
-    hci_html_figure_tables(out);
-    show_tables(out, s);
-    hci_html_figure_end(
-        out,
-        "Torque ripple: 100 (T_max − T_min) / T_mean of the torque that the model makes of currents "
-        "that flow exactly. Each point is solved as `solve` does.",
-        FILES[s->request.kind], origin);
-    hci_html_section_end(out);
+    hci_html_evidence(out);
 }
 
 void hci_page_sweep(hci_output *out, const hci_grid *s, const hci_report_sources *sources)
 {
-    static const char *const HEADING[] = {"Ripple against current and copper",
-                                          "Largest torque over the speed", "Maps over torque and speed"};
-    hci_html_begin(out, &(hci_html_opening){HEADING[s->request.kind], "Done", "Done", true});
+    static const char *const KIND[] = {"Ripple against current and copper", "Largest torque over the speed",
+                                       "Maps over torque and speed"};
+    size_t count[HCI_GRID_FAILED + 1];
+    char kicker[512], heading[256];
+    hci_grid_count(s, count);
+    heading_of(s, heading);
+    snprintf(kicker, sizeof kicker, "%s · %s", KIND[s->request.kind],
+             sources->machine ? sources->machine : "");
+    hci_html_begin(out, &(hci_html_opening){kicker,
+                                            count[HCI_GRID_FAILED] == 0 ? "Done" : "Points without a result",
+                                            heading, count[HCI_GRID_FAILED] == 0});
     say_results(out, s);
-    show_figure(out, s, sources);
+    show_pictures(out, s, sources);
     show_reasons(out, s);
     hci_page_show_sources(out, sources);
     hci_html_end(out);

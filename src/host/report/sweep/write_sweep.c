@@ -96,7 +96,7 @@ static hci_status write_all(hci_output *out, const hci_grid *s, const hci_report
 {
     hci_status status = write_table(out, s, note);
     if (!status) status = hci_output_file(out, PICTURE[s->request.kind], note);
-    if (!status) hci_plot_sweep(out, s, true);
+    if (!status) hci_plot_sweep(out, s);
     if (!status && !sources) status = hci_output_without(out, "report.html", note);
     if (!status && sources) status = hci_output_file(out, "report.html", note);
     if (!status && sources) hci_page_sweep(out, s, sources);
