@@ -127,7 +127,7 @@ use_firmware() {
     clean cmake --build firmware
 }
 
-# The commands of README and tutorial, in the documents, data and examples that were installed.
+# The commands of README and two tutorials, in the documents, data and examples that were installed.
 use_documents() {
     mkdir "$work/used"
     ln -s "$tests" "$work/used/tests"
@@ -135,7 +135,7 @@ use_documents() {
         ln -s "$doc/$name" "$work/used/$name"
     done
     # shellcheck disable=SC2046
-    clean sh "$tests/docs/docs_commands.sh" "$work/used" "$build" "$root/bin/hci-solve" README.md $(cd "$doc" && ls docs/tutorial.md)
+    clean sh "$tests/docs/docs_commands.sh" "$work/used" "$build" "$root/bin/hci-solve" README.md $(cd "$doc" && ls docs/tutorials/gimbal.md docs/tutorials/mn4004.md)
     for name in copyright CITATION.cff DESIGN.md docs/reference/solve.md; do
         [ -s "$doc/$name" ] || fail "no $name"
     done

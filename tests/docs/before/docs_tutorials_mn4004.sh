@@ -1,4 +1,4 @@
-# The recordings of docs/tutorial.md, where they are, in place of the stand-ins that the page makes. The figures on the page are theirs.
+# The recordings of docs/tutorials/mn4004.md, where they are, in place of the stand-ins that the page makes. The figures on the page are theirs.
 # Called in a scratch folder.
 real=../shared/measured/laas_mn4004
 if [ -d "$real" ]; then
