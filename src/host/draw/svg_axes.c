@@ -172,7 +172,7 @@ double hci_svg_log_at(const hci_svg_axis *a, double value)
 hci_svg_box hci_svg_log_box_beside(hci_svg_box b, const hci_svg_axis *y)
 {
     double widest = 0.0;
-    for (double k = ceil(y->low - 1e-6); k <= y->high + 1e-6; k += 1.0) {
+    for (double k = floor(y->low + 1e-6); k <= y->high + 1e-6; k += 1.0) {
         char text[HCI_SVG_NUMBER_SIZE];
         hci_svg_tick_text(text, pow(10.0, k), pow(10.0, k), pow(10.0, k));
         widest = fmax(widest, hci_svg_text_width("quiet end", text));

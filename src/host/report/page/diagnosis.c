@@ -80,6 +80,10 @@ static double largest_mean_Nm(const hci_diagnosis *d)
     return largest;
 }
 
+static const char NO_MORE[] =
+    " No effect that this program knows takes more of it away and holds for runs that "
+    "it was not fitted to.";
+
 /* What is left, against the noise and against the torque: "explained" is no claim that it is noise. */
 static void say_what_is_left(hci_output *out, const hci_diagnosis *d)
 {
@@ -95,11 +99,11 @@ static void say_what_is_left(hci_output *out, const hci_diagnosis *d)
         hci_html_say(
             out, NULL,
             "What is left of the fitted runs, %s N·m, is %s times their noise%s%s%s: an error of the "
-            "model, not chance. No effect that this program knows takes more of it away and holds "
-            "for runs that it was not fitted to.",
+            "model, not chance.%s",
             left, ratio, largest_Nm > d->rms_after_Nm ? ", and " : "",
             largest_Nm > d->rms_after_Nm ? share : "",
-            largest_Nm > d->rms_after_Nm ? " % of their largest mean torque" : "");
+            largest_Nm > d->rms_after_Nm ? " % of their largest mean torque" : "",
+            d->search == HCI_WORK_COMPLETE ? NO_MORE : "");
 }
 
 static void show_before_and_after(hci_output *out, const hci_diagnosis *d)

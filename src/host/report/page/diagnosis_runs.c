@@ -1,6 +1,7 @@
 /* The section of a diagnosis about its runs: errors before and after, and slips of the index. */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "host/draw/html.h"
 #include "host/plot/plot.h"
@@ -55,8 +56,11 @@ static void heading_of(const hci_diagnosis *d, char text[256])
     char before[HCI_HTML_NUMBER_SIZE], after[HCI_HTML_NUMBER_SIZE];
     hci_html_number_text(before, held ? d->holdout_before_Nm : d->rms_before_Nm);
     hci_html_number_text(after, held ? d->holdout_after_Nm : d->rms_after_Nm);
-    snprintf(text, 256, "%s the error goes from %s to %s N·m",
-             held ? "On the runs that were held out" : "On the runs that were fitted", before, after);
+    const char *where = held ? "On the runs that were held out" : "On the runs that were fitted";
+    if (strcmp(before, after) == 0)
+        snprintf(text, 256, "%s the error stays %s N·m", where, after);
+    else
+        snprintf(text, 256, "%s the error goes from %s to %s N·m", where, before, after);
 }
 
 void hci_page_run_errors(hci_output *out, const hci_diagnosis *d, const char *origin)

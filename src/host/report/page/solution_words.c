@@ -93,8 +93,9 @@ static void say_lead(const hci_solution_page *p)
 /* "3.775 N·m|153 % of the mean" */
 static void cell_of_ripple(char text[CELL_SIZE], const hci_solution *s, double swing, double mean)
 {
-    char percent[HCI_HTML_NUMBER_SIZE], in_Nm[HCI_PAGE_SWING_SIZE];
-    hci_page_swing(in_Nm, (hci_range){0.0, swing}, s->tolerance_Nm);
+    char percent[HCI_HTML_NUMBER_SIZE], number[HCI_HTML_NUMBER_SIZE], in_Nm[HCI_PAGE_SWING_SIZE];
+    hci_html_number_text(number, fmax(swing, s->tolerance_Nm));
+    snprintf(in_Nm, sizeof in_Nm, "%s%.20s N·m", swing < s->tolerance_Nm ? "less than " : "", number);
     hci_html_number_text(percent, 100.0 * swing / fabs(mean));
     if (fabs(mean) > 1e-12 && swing >= s->tolerance_Nm)
         snprintf(text, CELL_SIZE, "%s|%s %% of the mean", in_Nm, percent);

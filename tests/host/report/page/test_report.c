@@ -247,6 +247,23 @@ static void test_diagnosis(void)
     text_lacks("What to measure next", page);
 }
 
+/* What is left above the noise is told so; that nothing known explains it only of a search that was finished.
+ */
+static void test_what_is_left_above_the_noise(void)
+{
+    diagnosis.rms_after_Nm = 0.03;
+    diagnosis.holdout_after_Nm = diagnosis.holdout_before_Nm;
+    write_diagnosis(NULL);
+    text_has(
+        "What is left of the fitted runs, 0.03 N·m, is 10 times their noise, and 0.9 % of their largest mean "
+        "torque: an error of the model, not chance. No effect that this program knows",
+        page);
+    text_has("On the runs that were held out the error stays 0.5 N·m", page);
+    diagnosis.search = HCI_WORK_LIMITED;
+    write_diagnosis(NULL);
+    text_has("an error of the model, not chance.</p>", page);
+}
+
 /* Lines 0 … 2 are run 0's, 3 … 5 run 1's, at orders 0, 6, 12: the larger one stands. */
 static void test_largest_of_each_order(void)
 {
@@ -811,6 +828,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_diagnosis);
+    RUN_TEST(test_what_is_left_above_the_noise);
     RUN_TEST(test_largest_of_each_order);
     RUN_TEST(test_other_verdicts);
     RUN_TEST(test_what_is_seldom);
