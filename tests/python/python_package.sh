@@ -34,7 +34,7 @@ $python -m pip -q install numpy pytest matplotlib pandas polars scipy tqdm nbcli
 
 export CMAKE_BUILD_PARALLEL_LEVEL=2
 ! command -v ccache >/dev/null || export CMAKE_C_COMPILER_LAUNCHER=ccache
-quietly $python -m pip wheel --no-deps --no-build-isolation -C build-dir="$build" -w "$work/dist" "$source_dir"
+quietly $python -m pip wheel --no-deps --no-build-isolation --config-settings=build-dir="$build" -w "$work/dist" "$source_dir"
 quietly $python -m pip install --no-index "$work"/dist/hci-*.whl
 cd "$work"
 echo "wheel: $(wc -c <"$(echo dist/hci-*.whl)") bytes"
