@@ -26,10 +26,12 @@ python3 -c 'import ensurepip, venv' 2>/dev/null || skip "python3 has no venv her
 python3 -c 'import os, sysconfig; os.stat(sysconfig.get_path("include") + "/Python.h")' 2>/dev/null || skip "no headers of Python"
 python3 -m venv "$work/venv"
 python=$work/venv/bin/python
+unset PYTHONDONTWRITEBYTECODE # what is used is compiled once, what is not never; nothing of it in the sources
+export PYTHONPYCACHEPREFIX=$work/pycache
 export PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_NO_INPUT=1
-$python -m pip -q install 'scikit-build-core>=0.10' cffi >"$work/log" 2>&1 || skip "no packages to be had: $(tail -n 1 "$work/log")"
+$python -m pip -q install --no-compile "scikit-build-core>=0.10" cffi >"$work/log" 2>&1 || skip "no packages to be had: $(tail -n 1 "$work/log")"
 # Those of the extra `test`, apart from the wheel, so that a failure below is one of the package.
-$python -m pip -q install numpy pytest matplotlib pandas polars scipy tqdm nbclient nbformat ipykernel >"$work/log" 2>&1 ||
+$python -m pip -q install --no-compile numpy pytest matplotlib pandas polars scipy tqdm nbclient nbformat ipykernel >"$work/log" 2>&1 ||
     skip "no packages to be had: $(tail -n 1 "$work/log")"
 
 export CMAKE_BUILD_PARALLEL_LEVEL=2
