@@ -85,3 +85,16 @@ def test_tqdm_fits(machine_c):
     with tqdm.tqdm(total=1, disable=False, file=open(os.devnull, "w")) as bar:
         machine_c.simulate({**LONG, "duration": 2.0}, progress=bar)
         assert bar.n == pytest.approx(1.0)
+
+
+def test_diagnose_ends_with_what_it_has(data):
+    machine = hci.Machine.read(data / "fem_c/machine")
+    timer = threading.Timer(1.0, os.kill, (os.getpid(), signal.SIGINT))
+    started = time.monotonic()
+    timer.start()
+    found = machine.diagnose(data / "fem_c/runs.csv")
+    assert found.summary["search"] == "interrupted" and not found.complete
+    assert time.monotonic() - started < 15.0
+    timer.join()
+    stopped = machine.diagnose(data / "fem_c/runs.csv", progress=lambda what, share: True)
+    assert stopped.summary["search"] == "interrupted"
