@@ -35,7 +35,7 @@ emit() {
     esac
     [ "$format" = f32 ] && function=hci_table_f32_$call || function=hci_table_i16_$call
     type=hci_currents_$frame
-    if [ "$format" = q15 ]; then
+    if [ "$format" = q15 ] || [ "$format" = i8 ]; then
         function=${function}_q15 type=hci_units_$frame
         [ -z "$argument" ] || argument=', 16000'
     fi
@@ -47,7 +47,7 @@ emit() {
     echo "#include \"$name.h\"" >>"$work/includes"
     echo "    X($name, $type, $function(&$name, angle$argument)) \\" >>"$work/list"
     case "$machine $percent $form" in
-    'a 0.1 abc' | 'a 0.1 torque' | 'a 0.01 torque') [ "$format" = q15 ] || echo "    X($name, hci_table_${format}_check) \\" >>"$work/checks" ;;
+    'a 0.1 abc' | 'a 0.1 torque' | 'a 0.01 torque') [ "$format" = q15 ] || [ "$format" = i8 ] || echo "    X($name, hci_table_${format}_check) \\" >>"$work/checks" ;;
     esac
     awk -v m="$machine" -v p="$percent" -v f="$form" -v t="$format" -v shape="$(field "$work/json" shape)" -v bytes="$(field "$work/json" bytes)" \
         -v error="$(field "$work/json" max_error_A)" -v peak="$peak" -v name="$name" \
@@ -57,7 +57,8 @@ for machine in a c; do
     for percent in 1 0.1 0.01; do
         for form in abc dq torque; do
             [ $machine$form = ctorque ] && continue
-            for format in f32 i16 q15; do
+            for format in f32 i16 q15 i8; do
+                [ $format = i8 ] && [ $percent != 1 ] && continue
                 emit $machine $percent $form $format
             done
         done
@@ -104,11 +105,11 @@ done | awk '
       shape = $5 == "f32" ? "" : $6 " "
       cell[row, $5] = sprintf("%s%d B, %s %% | %d | %d | %d | %d | %d", shape, $7, $8, cost[$1, "m4f"], cost[$1, "m3"], cost[$1, "m0plus"], cost[$1, "rv32"], stack[$1]) }
     END {
-        split("f32 i16 q15", format, " ")
-        title["f32"] = "`f32`, layout 1"; title["i16"] = "`i16`, in amperes"; title["q15"] = "`q15`, integers"
-        for (f = 1; f <= 3; ++f) {
+        split("f32 i16 q15 i8", format, " ")
+        title["f32"] = "`f32`"; title["i16"] = "`i16`, in amperes"; title["q15"] = "`q15`, integers"; title["i8"] = "`i8`, integers"
+        for (f = 1; f <= 4; ++f) {
             printf "%s:\n\n| | size, error | M4F | M3 | M0+ | rv32imac | stack |\n|---|---|---|---|---|---|---|\n", title[format[f]]
-            for (k = 1; k <= rows; ++k) printf "| %s | %s |\n", order[k], (order[k], format[f]) in cell ? cell[order[k], format[f]] : "not possible | | | | |"
+            for (k = 1; k <= rows; ++k) if (format[f] != "i8" || order[k] ~ / 1 %/) printf "| %s | %s |\n", order[k], (order[k], format[f]) in cell ? cell[order[k], format[f]] : "not possible | | | | |"
             printf "\n"
         } }' - "$work/figures"
 

@@ -46,7 +46,7 @@ typedef struct {
     const cli_choice *choices; /* CLI_CHOICE */
     double low, high;          /* CLI_NUMBER, CLI_WHOLE, CLI_COUNT_OPTIONAL */
     int step;                  /* CLI_WHOLE: a multiple of it; 0 is 1 */
-    const char *remedy;        /* what to do about a wrong number, or NULL */
+    const char *remedy;        /* what to do about a wrong number or choice, or NULL */
     bool is_common;            /* every command has it */
     bool repeats;              /* may be given more than once; at most one of a table */
 } cli_option;

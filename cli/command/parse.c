@@ -166,9 +166,9 @@ static hci_status read_choice(const cli_option *o, const char *text, int *choice
         snprintf(list + used, sizeof list - used, "%s%s", used ? ", " : "", word);
     }
     nearest = hci_nearest(text, words);
-    return hci_note_set(note, HCI_ERROR_ARGUMENT, "--%s: found `%s`, expected one of: %s%s%s%s", o->name,
+    return hci_note_set(note, HCI_ERROR_ARGUMENT, "--%s: found `%s`, expected one of: %s%s%s%s%s%s", o->name,
                         text, list, nearest ? "; did you mean `" : "", nearest ? nearest : "",
-                        nearest ? "`?" : "");
+                        nearest ? "`?" : "", o->remedy ? "; " : "", o->remedy ? o->remedy : "");
 }
 
 hci_status cli_parse_value(const cli_option *options, int option, cli_arguments *a, hci_note *note)

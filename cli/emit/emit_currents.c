@@ -10,17 +10,6 @@
 #include "cli/terminal/terminal.h"
 #include "hci/host/currents/solution_folder.h"
 
-/* The last part of a path, without slashes at its end. */
-static void folder_name(const char *path, char *name, size_t size)
-{
-    size_t end = strlen(path), begin;
-    while (end > 1 && path[end - 1] == '/')
-        --end;
-    for (begin = end; begin > 0 && path[begin - 1] != '/'; --begin)
-        continue;
-    snprintf(name, size, "%.*s", (int)(end - begin), path + begin);
-}
-
 /* What header and blob say of the machine, and the torque of a folder that was solved for one. */
 static hci_status read_facts(const cli_arguments *a, cli_emit_currents *in, hci_note *note)
 {
@@ -33,11 +22,7 @@ static hci_status read_facts(const cli_arguments *a, cli_emit_currents *in, hci_
         facts->mean_torque_Nm = 0.0;
     if (!a->given[EMIT_MACHINE]) return HCI_OK;
     status = hci_machine_read(a->value[EMIT_MACHINE], &in->machine, note);
-    if (status) return status;
-    facts->pole_pairs = (size_t)in->machine.pole_pairs;
-    folder_name(a->value[EMIT_MACHINE], in->machine_name, sizeof in->machine_name);
-    facts->machine = in->machine_name;
-    return HCI_OK;
+    return status ? status : hci_emit_facts_read(a->value[EMIT_MACHINE], &in->machine, facts, note);
 }
 
 static hci_status read_parts(const cli_arguments *a, cli_emit_currents *in, hci_note *note)

@@ -15,7 +15,6 @@ typedef struct {
     const char *lines[2];
     hci_emit_request request;
     hci_machine_data machine; /* empty where it is not given */
-    char machine_name[64];
 } cli_emit_currents;
 
 /* Reads it. It is to be released even after a failure. HCI_ERROR_ARGUMENT, _INPUT, _MEMORY. */

@@ -10,6 +10,7 @@ static const cli_choice FORMATS[] = {
     [HCI_EMIT_F32] = {"f32", "f32 (default): float rows"},
     [HCI_EMIT_I16] = {"i16", "; i16: 16-bit knots, read as amperes"},
     [HCI_EMIT_Q15] = {"q15", "; q15: the same, read as integers"},
+    [HCI_EMIT_I8] = {"i8", "; i8: 8-bit knots, read as those integers"},
     [HCI_EMIT_CSV] = {"csv", "; csv, json: the rows of f32 in ID.csv or ID.json, for other programs"},
     [HCI_EMIT_JSON] = {"json", ""},
     {NULL, NULL},
@@ -43,18 +44,19 @@ static const cli_choice DIRECTIONS[] = {
 
 const cli_option cli_emit_options[] = {
     [EMIT_NAME] = {"name", 0, CLI_TEXT, "ID", .help = "of the table and its files, a C identifier"},
-    [EMIT_FORMAT] = {"format", 0, CLI_CHOICE, "NAME", NULL, .choices = FORMATS},
+    [EMIT_FORMAT] = {"format", 0, CLI_CHOICE, "NAME", NULL, .choices = FORMATS,
+                     .remedy = "q31 is not made: q15 keeps 0.01 % of the peak, a tenth of what a current "
+                               "sensor tells"},
     [EMIT_SHAPE] = {"shape", 0, CLI_CHOICE, "NAME", NULL, .choices = SHAPES},
     [EMIT_FRAME] = {"frame", 0, CLI_CHOICE, "NAME", NULL, .choices = FRAMES},
     [EMIT_MAX_ERROR] = {"max-error", 0, CLI_NUMBER, "A",
                         .help = "the fewest points that keep every current within it (1 % of the peak)",
                         .low = 1e-12, .high = 1e9},
-    [EMIT_POINTS] =
-        {"points", 0, CLI_WHOLE, "N",
-         .help =
-             "instead: rows of a period; of i16 and q15 steps in the part that is kept; with --for a power "
-             "of two",
-         .low = 1.0, .high = HCI_EMIT_MAX_POINTS},
+    [EMIT_POINTS] = {"points", 0, CLI_WHOLE, "N",
+                     .help = "instead: rows of a period; of i16, q15 and i8 steps in the part that is kept; "
+                             "with --for a power "
+                             "of two",
+                     .low = 1.0, .high = HCI_EMIT_MAX_POINTS},
     [EMIT_MAX_BYTES] = {"max-bytes", 0, CLI_WHOLE, "N",
                         .help = "of rows or knots; without --max-error: the least error in so many",
                         .low = 1.0, .high = 1e9},

@@ -13,7 +13,7 @@
  *    12  hash of the input, 64 bits   52  mean torque, N*m       (float), 0 where it is not known
  *    20  pole pairs, 0: not known     56  points, or intervals
  *    24  frame                        60  probes
- *    28  columns                      64  CRC-32 of the rows or knots
+ *    28  columns                      64  sum of the rows, or CRC-32 of the knots
  *    32  parts                        68  of knots: degree, sectors, rotation, alternates,
  *                                         unit, A (float), error of the integers, A (float)
  *    92  name of the machine, up to 35 bytes and zeros
@@ -40,7 +40,8 @@
 /* What a blob holds. */
 typedef enum {
     HCI_BLOB_F32 = 1, /* hci_table_f32 */
-    HCI_BLOB_I16 = 2  /* hci_table_i16 */
+    HCI_BLOB_I16 = 2, /* hci_table_i16 */
+    HCI_BLOB_I8 = 3   /* the same with knots of 8 bits */
 } hci_blob_kind;
 
 /* What reading a blob has found. */
@@ -179,7 +180,7 @@ static inline hci_blob_verdict hci_blob_check(const void *blob, uint32_t size, h
     if (hci_blob_crc32(blob, bytes - 4u) != hci_blob_u32(blob, bytes - 4u)) return HCI_BLOB_DAMAGED;
     if (hci_blob_u16(blob, 6u) != HCI_TABLE_U32(kind)) return HCI_BLOB_OTHER_KIND;
     if (hci_blob_has_sizes(blob) == 0) return HCI_BLOB_DAMAGED;
-    rows = hci_blob_u32(blob, 56u) + (kind == HCI_BLOB_I16 ? hci_blob_u32(blob, 68u) : 1u);
+    rows = hci_blob_u32(blob, 56u) + (kind == HCI_BLOB_F32 ? 1u : hci_blob_u32(blob, 68u));
     if (bytes != HCI_BLOB_HEAD + hci_blob_row_bytes(blob, rows, value_bytes) +
                      hci_blob_u32(blob, 60u) * probe_bytes + 4u)
         return HCI_BLOB_DAMAGED;
@@ -236,7 +237,7 @@ static inline hci_blob_verdict hci_blob_table_f32(const void *blob, uint32_t siz
     t.parts = hci_blob_u32(blob, 32u);
     t.frame = hci_blob_frame(blob);
     t.period_turns = hci_blob_u32(blob, 36u);
-    t.crc32 = hci_blob_u32(blob, 64u);
+    t.sum32 = hci_blob_u32(blob, 64u);
     t.max_error_A = hci_blob_float(blob, 48u);
     t.peak_A = hci_blob_float(blob, 40u);
     t.reference_torque_Nm = hci_blob_float(blob, 44u);
@@ -246,26 +247,40 @@ static inline hci_blob_verdict hci_blob_table_f32(const void *blob, uint32_t siz
     return HCI_BLOB_GOOD;
 }
 
-/* The same of a table of knots. A table that the compiler does not see as a constant costs more: see
- * examples/mcu. */
+/* Whether its knots have 8 bits, as far as that can be seen before it is checked. */
+static inline int hci_blob_is_i8(const void *blob, uint32_t size)
+{
+    return ((size >= 8u) && (hci_blob_u16(blob, 6u) == HCI_TABLE_U32(HCI_BLOB_I8))) ? 1 : 0;
+}
+
+/* The same of a table of knots, of 16 bits or 8. A table that the compiler does not see as a constant costs
+ * more: see examples/mcu. */
 static inline hci_blob_verdict hci_blob_table_i16(const void *blob, uint32_t size, hci_table_i16 *table,
                                                   hci_blob_facts *facts)
 {
     hci_table_i16 t;
-    const hci_blob_verdict verdict = hci_blob_check(blob, size, HCI_BLOB_I16, 2u, 12u);
+    const int eight = hci_blob_is_i8(blob, size);
+    const hci_blob_kind kind = eight != 0 ? HCI_BLOB_I8 : HCI_BLOB_I16;
+    hci_blob_verdict verdict;
     const void *knots, *probes;
+    uint32_t bytes = 2u;
+    if (eight != 0) bytes = 1u;
+    verdict = hci_blob_check(blob, size, kind, bytes, 12u);
     if (verdict != HCI_BLOB_GOOD) return verdict;
     t.intervals = hci_blob_u32(blob, 56u);
     t.degree = hci_blob_u32(blob, 68u);
     knots = hci_blob_at(blob, HCI_BLOB_HEAD);
-    probes = hci_blob_at(blob, HCI_BLOB_HEAD + hci_blob_row_bytes(blob, t.intervals + t.degree, 2u));
+    probes = hci_blob_at(blob, HCI_BLOB_HEAD + hci_blob_row_bytes(blob, t.intervals + t.degree, bytes));
 #ifdef __cplusplus
-    t.knots = static_cast<const int16_t *>(knots);
+    t.knots = eight != 0 ? NULL : static_cast<const int16_t *>(knots);
+    t.knots_i8 = eight != 0 ? static_cast<const int8_t *>(knots) : NULL;
     t.probes = static_cast<const hci_table_i16_probe *>(probes);
 #else
-    t.knots = knots;
+    t.knots = eight != 0 ? NULL : knots;
+    t.knots_i8 = eight != 0 ? knots : NULL;
     t.probes = probes;
 #endif
+    t.knot_bits = 8u * bytes;
     t.probe_count = hci_blob_u32(blob, 60u);
     t.columns = hci_blob_u32(blob, 28u);
     t.parts = hci_blob_u32(blob, 32u);

@@ -412,7 +412,7 @@ static inline uint32_t hci_learn_table(const hci_learn *learn, const hci_learn_t
         hci_learn_add_figures(&x, options, table);
         taken += 1u;
     }
-    table->crc32 = hci_table_f32_crc32(table);
+    table->sum32 = hci_table_f32_sum32(table);
     return taken;
 }
 

@@ -1,4 +1,5 @@
-/* Small current tables on a microcontroller: knots of 16 bits, of the part of a turn that does not repeat.
+/* Small current tables on a microcontroller: knots of 16 bits, or of 8, of the part of a turn that does not
+ * repeat.
  *
  * A table holds the knots of a spline through the currents: linear, quadratic or cubic pieces in equal steps.
  * Where a sixth, a third or half of a turn says all, only that is kept, and phases and signs are changed
@@ -8,15 +9,17 @@
  * hci_table_i16_abc and its neighbours give amperes; those named _q15 are integer arithmetic throughout, for
  * controllers without a floating-point unit, and give units of unit_A. All 32-bit: no 64-bit product, no
  * division. A table that the compiler sees as a constant (as the emitted header has it) costs only what its
- * shape needs. Needs hci/table.h and <stdint.h>; signed numbers are shifted to the right as two's complement,
- * which is checked below. C99 and C++. */
+ * shape needs. Needs hci/table.h, <stddef.h> and <stdint.h>; signed numbers are shifted to the right as two's
+ * complement, which is checked below. C99 and C++. */
 #ifndef HCI_TABLE_I16_H
 #define HCI_TABLE_I16_H
+
+#include <stddef.h>
 
 #include "hci/table.h"
 
 /* Version of the layout below; emitted files refuse to compile with another one. */
-#define HCI_TABLE_I16_VERSION 1
+#define HCI_TABLE_I16_VERSION 2
 
 /* Fails to compile where a right shift does not keep the sign. */
 typedef char hci_table_i16_needs_arithmetic_shifts[(-1 >> 1) == -1 ? 1 : -1];
@@ -48,12 +51,15 @@ typedef struct {
     int16_t expected[3]; /* in unit_A: ia, ib, ic or id, iq, 0 */
 } hci_table_i16_probe;
 
-/* A table of currents over the angle, as `hci-solve emit --format i16` writes it: constant, in flash. */
+/* A table of currents over the angle, as `hci-solve emit --format i16`, `q15` or `i8` writes it: constant, in
+ * flash. */
 typedef struct {
-    const int16_t *knots; /* intervals + degree rows of parts·columns values, A(θ) before B(θ), in
-                           * unit_A; of a cubic spline in ¾ of it */
+    const int16_t *knots;   /* intervals + degree rows of parts·columns values, A(θ) before B(θ), in
+                             * unit_A; of a cubic spline in ¾ of it; NULL with knots of 8 bits */
+    const int8_t *knots_i8; /* the same in 256 units each, or NULL */
     const hci_table_i16_probe *probes; /* points to check at start-up */
     uint32_t probe_count;              /* entries of probes */
+    uint32_t knot_bits;                /* 16, or 8: which of the two there are */
     uint32_t intervals;                /* in a sector; 1 … HCI_TABLE_I16_MOST_INTERVALS */
     uint32_t degree;                   /* of the spline: 1, 2, 3 */
     uint32_t columns;                  /* abc: 2 for a star (ic = −ia − ib), 3 with a neutral; dq: 2 */
@@ -115,39 +121,71 @@ HCI_TABLE_INLINE int32_t hci_table_i16_right(int32_t value, uint32_t bits)
     return value >> bits;
 }
 
-/* c₀ + u (c₁ − c₀). stride: values from one knot to the next; fraction: 32768 u. */
-HCI_TABLE_INLINE int32_t hci_table_i16_linear(const int16_t *knot, uint32_t stride, int32_t fraction)
+/* Values from one knot to the next. */
+HCI_TABLE_INLINE uint32_t hci_table_i16_stride(const hci_table_i16 *table)
 {
-    const int32_t c0 = knot[0], c1 = knot[stride];
-    return c0 * 32768 + (c1 - c0) * fraction;
+    return table->columns * table->parts;
+}
+
+/* The knots that an interval needs, as many as its degree and one more. */
+typedef struct {
+    int32_t c0, c1, c2, c3; /* in units; of a cubic spline in ¾ of it */
+} hci_table_i16_window;
+
+/* Those from a knot of 16 bits on. */
+HCI_TABLE_INLINE hci_table_i16_window hci_table_i16_window_i16(const hci_table_i16 *table,
+                                                               const int16_t *knot)
+{
+    const uint32_t stride = hci_table_i16_stride(table);
+    hci_table_i16_window w;
+    w.c0 = knot[0];
+    w.c1 = knot[stride];
+    w.c2 = table->degree >= 2u ? knot[2u * stride] : 0;
+    w.c3 = table->degree >= 3u ? knot[3u * stride] : 0;
+    return w;
+}
+
+/* And of 8 bits, the upper half of 16. */
+HCI_TABLE_INLINE hci_table_i16_window hci_table_i16_window_i8(const hci_table_i16 *table, const int8_t *knot)
+{
+    const uint32_t stride = hci_table_i16_stride(table);
+    hci_table_i16_window w;
+    w.c0 = knot[0] * 256;
+    w.c1 = knot[stride] * 256;
+    w.c2 = table->degree >= 2u ? knot[2u * stride] * 256 : 0;
+    w.c3 = table->degree >= 3u ? knot[3u * stride] * 256 : 0;
+    return w;
+}
+
+/* c₀ + u (c₁ − c₀). fraction: 32768 u. */
+HCI_TABLE_INLINE int32_t hci_table_i16_linear(hci_table_i16_window w, int32_t fraction)
+{
+    return w.c0 * 32768 + (w.c1 - w.c0) * fraction;
 }
 
 /* Twice ½(c₀ + c₁) + u (c₁ − c₀) + ½u² (c₀ − 2c₁ + c₂). */
-HCI_TABLE_INLINE int32_t hci_table_i16_quadratic(const int16_t *knot, uint32_t stride, int32_t fraction)
+HCI_TABLE_INLINE int32_t hci_table_i16_quadratic(hci_table_i16_window w, int32_t fraction)
 {
-    const int32_t c0 = knot[0], c1 = knot[stride], c2 = knot[2u * stride];
-    const int32_t slope = c1 - c0, bend = c2 - c1 - slope;
-    return (c0 + c1) * 32768 + (2 * slope + hci_table_i16_right(bend * fraction, 15u)) * fraction;
+    const int32_t slope = w.c1 - w.c0, bend = w.c2 - w.c1 - slope;
+    return (w.c0 + w.c1) * 32768 + (2 * slope + hci_table_i16_right(bend * fraction, 15u)) * fraction;
 }
 
 /* ¾ of ⅙(c₀ + 4c₁ + c₂) + ½u (c₂ − c₀) + ½u² (c₀ − 2c₁ + c₂) + ⅙u³ (c₃ − 3c₂ + 3c₁ − c₀). */
-HCI_TABLE_INLINE int32_t hci_table_i16_cubic(const int16_t *knot, uint32_t stride, int32_t fraction)
+HCI_TABLE_INLINE int32_t hci_table_i16_cubic(hci_table_i16_window w, int32_t fraction)
 {
-    const int32_t c0 = knot[0], c1 = knot[stride], c2 = knot[2u * stride], c3 = knot[3u * stride];
-    const int32_t bend = c0 - 2 * c1 + c2, twist = c3 - 2 * c2 + c1 - bend;
+    const int32_t bend = w.c0 - 2 * w.c1 + w.c2, twist = w.c3 - 2 * w.c2 + w.c1 - bend;
     int32_t slope = 3 * bend + hci_table_i16_right(twist * fraction, 15u);
-    slope = 3 * (c2 - c0) + hci_table_i16_right(slope * fraction, 15u);
-    return (c0 + 4 * c1 + c2) * 4096 + hci_table_i16_right(slope * fraction, 3u);
+    slope = 3 * (w.c2 - w.c0) + hci_table_i16_right(slope * fraction, 15u);
+    return (w.c0 + 4 * w.c1 + w.c2) * 4096 + hci_table_i16_right(slope * fraction, 3u);
 }
 
 /* The value between knots by the degree of the table. */
-HCI_TABLE_INLINE int32_t hci_table_i16_spline(const hci_table_i16 *table, const int16_t *knot,
+HCI_TABLE_INLINE int32_t hci_table_i16_spline(const hci_table_i16 *table, hci_table_i16_window w,
                                               int32_t fraction)
 {
-    const uint32_t stride = table->columns * table->parts;
-    if (table->degree == 1u) return hci_table_i16_linear(knot, stride, fraction);
-    if (table->degree == 2u) return hci_table_i16_quadratic(knot, stride, fraction);
-    return hci_table_i16_cubic(knot, stride, fraction);
+    if (table->degree == 1u) return hci_table_i16_linear(w, fraction);
+    if (table->degree == 2u) return hci_table_i16_quadratic(w, fraction);
+    return hci_table_i16_cubic(w, fraction);
 }
 
 /* Amperes of a value in fixed point. */
@@ -200,18 +238,37 @@ HCI_TABLE_INLINE hci_table_i16_values hci_table_i16_unfold(const hci_table_i16 *
     return v;
 }
 
+/* The columns of one part (0 or 1) at a place, as they are kept. */
+HCI_TABLE_INLINE hci_table_i16_values hci_table_i16_columns(const hci_table_i16 *table,
+                                                            hci_table_i16_place place, uint32_t part)
+{
+    const uint32_t first = place.interval * hci_table_i16_stride(table) + part * table->columns;
+    const int32_t u = place.fraction;
+    hci_table_i16_values v;
+    v.c = 0;
+    if (table->knot_bits == 8u) {
+        const int8_t *knot = &table->knots_i8[first];
+        v.a = hci_table_i16_spline(table, hci_table_i16_window_i8(table, knot), u);
+        v.b = hci_table_i16_spline(table, hci_table_i16_window_i8(table, &knot[1]), u);
+        if (table->columns == 3u)
+            v.c = hci_table_i16_spline(table, hci_table_i16_window_i8(table, &knot[2]), u);
+    } else {
+        const int16_t *knot = &table->knots[first];
+        v.a = hci_table_i16_spline(table, hci_table_i16_window_i16(table, knot), u);
+        v.b = hci_table_i16_spline(table, hci_table_i16_window_i16(table, &knot[1]), u);
+        if (table->columns == 3u)
+            v.c = hci_table_i16_spline(table, hci_table_i16_window_i16(table, &knot[2]), u);
+    }
+    return v;
+}
+
 /* One part (0 or 1) at a place, in fixed point. */
 HCI_TABLE_INLINE hci_table_i16_values hci_table_i16_part(const hci_table_i16 *table,
                                                          hci_table_i16_place place, uint32_t part)
 {
-    const int16_t *knot =
-        table->knots + place.interval * (table->columns * table->parts) + part * table->columns;
-    hci_table_i16_values v;
-    v.a = hci_table_i16_spline(table, knot, place.fraction);
-    v.b = hci_table_i16_spline(table, knot + 1, place.fraction);
-    v.c = 0;
+    hci_table_i16_values v = hci_table_i16_columns(table, place, part);
     if (table->frame == HCI_TABLE_DQ) return v;
-    v.c = table->columns == 3u ? hci_table_i16_spline(table, knot + 2, place.fraction) : -v.a - v.b;
+    if (table->columns == 2u) v.c = -v.a - v.b;
     return hci_table_i16_unfold(table, place.sector, v);
 }
 
@@ -379,14 +436,18 @@ static inline void hci_table_i16_currents(const hci_table_i16 *table, uint32_t a
 
 /* ---- check at start-up ---- */
 
-/* CRC-32 (IEEE 802.3, as in zlib) of all knots as 16-bit values, low byte first. */
+/* CRC-32 (IEEE 802.3, as in zlib) of all knots as they are kept, low byte first. */
 static inline uint32_t hci_table_i16_crc32(const hci_table_i16 *table)
 {
-    const uint32_t count = (table->intervals + table->degree) * table->columns * table->parts;
+    const uint32_t count = (table->intervals + table->degree) * hci_table_i16_stride(table);
     uint32_t crc = 0xFFFFFFFFu;
     uint32_t k;
-    for (k = 0u; k < count; ++k)
-        crc = hci_table_crc32_next(crc, HCI_TABLE_U32(table->knots[k]) & 0xFFFFu, 4);
+    for (k = 0u; k < count; ++k) {
+        if (table->knot_bits == 8u)
+            crc = hci_table_crc32_next(crc, HCI_TABLE_U32(table->knots_i8[k]) & 0xFFu, 2);
+        else
+            crc = hci_table_crc32_next(crc, HCI_TABLE_U32(table->knots[k]) & 0xFFFFu, 4);
+    }
     return ~crc;
 }
 
@@ -397,7 +458,8 @@ static inline int hci_table_i16_shape_good(const hci_table_i16 *table)
     return table->intervals >= 1u && table->intervals <= HCI_TABLE_I16_MOST_INTERVALS &&
            table->degree >= 1u && table->degree <= 3u && table->columns >= 2u &&
            table->columns <= most_columns && table->parts >= 1u && table->parts <= 2u &&
-           table->sectors >= 1u && table->rotation <= 2u && table->alternates <= 1u &&
+           (table->knot_bits == 8u || table->knot_bits == 16u) && table->sectors >= 1u &&
+           table->rotation <= 2u && table->alternates <= 1u &&
            (table->rotation == 0u || table->sectors <= 6u);
 }
 

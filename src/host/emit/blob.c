@@ -31,7 +31,7 @@ static void put_float(sink *s, float value)
 /* Both kinds have these, in this order. */
 typedef struct {
     hci_blob_kind kind;
-    uint32_t columns, parts, period_turns, points, crc32;
+    uint32_t columns, parts, period_turns, points, sum;
     float peak_A, reference_torque_Nm, max_error_A;
     size_t row_bytes, probe_bytes;
 } figures;
@@ -47,13 +47,13 @@ static figures figures_of(const hci_emission *e)
                          t->parts,
                          t->period_turns,
                          t->points,
-                         t->crc32,
+                         t->sum32,
                          t->peak_A,
                          t->reference_torque_Nm,
                          t->max_error_A,
                          (t->points + 1) * values * 4,
                          HCI_EMIT_PROBES * 20};
-    return (figures){HCI_BLOB_I16,
+    return (figures){x->knot_bits == 8 ? HCI_BLOB_I8 : HCI_BLOB_I16,
                      x->columns,
                      x->parts,
                      x->period_turns,
@@ -62,14 +62,14 @@ static figures figures_of(const hci_emission *e)
                      x->peak_A,
                      x->reference_torque_Nm,
                      x->max_error_A,
-                     ((x->intervals + x->degree) * values * 2 + 3) / 4 * 4,
+                     ((x->intervals + x->degree) * values * (x->knot_bits / 8) + 3) / 4 * 4,
                      HCI_EMIT_PROBES * 12};
 }
 
 static void put_name(sink *s, const char *name)
 {
     char text[HCI_BLOB_NAME] = {0};
-    if (name) snprintf(text, sizeof text, "%s", name);
+    snprintf(text, sizeof text, "%.*s", (int)sizeof text - 1, name);
     for (size_t k = 0; k < sizeof text; ++k)
         put(s, (unsigned char)text[k], 1);
 }
@@ -94,7 +94,7 @@ static void put_head(sink *s, const hci_emission *e, const figures *f)
     put_float(s, (float)r->facts.mean_torque_Nm);
     put(s, f->points, 4);
     put(s, HCI_EMIT_PROBES, 4);
-    put(s, f->crc32, 4);
+    put(s, f->sum, 4);
 }
 
 /* The fields of knots, or zeros. */
@@ -127,9 +127,11 @@ static void put_knots(sink *s, const hci_emission *e)
 {
     const hci_table_i16 *x = &e->spline;
     const size_t values = (size_t)(x->intervals + x->degree) * x->columns * x->parts;
+    const int bytes = (int)x->knot_bits / 8;
     for (size_t k = 0; k < values; ++k)
-        put(s, (uint32_t)x->knots[k] & 0xFFFFu, 2);
-    if (values % 2) put(s, 0, 2);
+        put(s, bytes == 1 ? (uint32_t)x->knots_i8[k] & 0xFFu : (uint32_t)x->knots[k] & 0xFFFFu, bytes);
+    for (size_t k = values * (size_t)bytes; k % 4 != 0; ++k)
+        put(s, 0, 1);
     for (size_t k = 0; k < HCI_EMIT_PROBES; ++k) {
         const hci_table_i16_probe *p = &e->spline_probes[k];
         put(s, p->angle, 4);

@@ -43,12 +43,28 @@ static bool make_f32(hci_emission *e, double error_A)
     return points > 0;
 }
 
-static bool make_spline(hci_emission *e, uint32_t degree, double error_A, bool integer)
+/* Intervals that the shape of a choice needs with knots of 16 bits, which was looked at before. */
+static uint32_t intervals_of_i16(const hci_emission *e, hci_emit_shape shape)
+{
+    for (size_t k = 0; k < e->result.choices; ++k) {
+        const hci_emit_choice *c = &e->result.choice[k];
+        if (c->shape == shape && !hci_emit_has_rows(c->format) && c->format != HCI_EMIT_I8)
+            return (uint32_t)c->points;
+    }
+    return 1;
+}
+
+static bool make_spline(hci_emission *e, const hci_emit_choice *c, uint32_t degree, double error_A)
 {
     const hci_emit_request *r = e->request;
-    const size_t rows = r->max_bytes / (values_in_row(e) * sizeof *e->room.knots);
+    const bool eight = c->format == HCI_EMIT_I8, integer = hci_emit_is_integer(c->format);
+    const size_t rows = r->max_bytes / (values_in_row(e) * (eight ? 1 : 2));
     size_t intervals = r->points;
+    e->room.knot_bits = eight ? 8 : 16;
     if (isinf(error_A)) intervals = rows > degree ? rows - degree : 1;
+    if (intervals == 0 && eight)
+        return hci_spline_make_i8_within(&e->room, degree, intervals_of_i16(e, c->shape), error_A,
+                                         &e->spline);
     if (intervals == 0) return hci_spline_make_within(&e->room, degree, error_A, integer, &e->spline);
     if (intervals > HCI_TABLE_I16_MOST_INTERVALS) intervals = HCI_TABLE_I16_MOST_INTERVALS;
     hci_spline_make(&e->room, degree, (uint32_t)intervals, &e->spline);
@@ -66,11 +82,11 @@ static void make(hci_emission *e, hci_emit_choice *c, double error_A)
         c->max_error_A = (double)e->table.max_error_A;
     } else {
         const uint32_t degree = (uint32_t)(c->shape - HCI_EMIT_LINEAR) + 1;
-        const bool integer = c->format == HCI_EMIT_Q15;
-        made = make_spline(e, degree, error_A, integer);
+        made = make_spline(e, c, degree, error_A);
         c->points = e->spline.intervals;
-        c->bytes = (c->points + degree) * values_in_row(e) * sizeof *e->room.knots;
-        c->max_error_A = (double)(integer ? e->spline.max_error_q15_A : e->spline.max_error_A);
+        c->bytes = (c->points + degree) * values_in_row(e) * (e->spline.knot_bits / 8);
+        c->max_error_A =
+            (double)(hci_emit_is_integer(c->format) ? e->spline.max_error_q15_A : e->spline.max_error_A);
     }
     hci_emit_cost(&e->tabulation, c);
     c->fits = made && fits(e->request, c, error_A);
@@ -83,11 +99,14 @@ static void make_all(hci_emission *e, double error_A)
 {
     const hci_emit_format asked = e->request->format;
     const hci_emit_format rows = hci_emit_has_rows(asked) ? asked : HCI_EMIT_F32,
-                          small = hci_emit_has_rows(asked) ? HCI_EMIT_I16 : asked;
+                          small = hci_emit_is_integer(asked) ? HCI_EMIT_Q15 : HCI_EMIT_I16;
     const hci_emit_choice all[HCI_EMIT_MOST_CHOICES] = {{.format = rows, .shape = HCI_EMIT_LINEAR},
                                                         {.format = small, .shape = HCI_EMIT_LINEAR},
                                                         {.format = small, .shape = HCI_EMIT_QUADRATIC},
-                                                        {.format = small, .shape = HCI_EMIT_CUBIC}};
+                                                        {.format = small, .shape = HCI_EMIT_CUBIC},
+                                                        {.format = HCI_EMIT_I8, .shape = HCI_EMIT_LINEAR},
+                                                        {.format = HCI_EMIT_I8, .shape = HCI_EMIT_QUADRATIC},
+                                                        {.format = HCI_EMIT_I8, .shape = HCI_EMIT_CUBIC}};
     hci_emit_result *x = &e->result;
     for (size_t k = 0; k < HCI_EMIT_MOST_CHOICES; ++k) {
         if (e->request->points > 0 && all[k].format != asked) continue;
@@ -152,8 +171,9 @@ static hci_status none_fits(const hci_emission *e, double error_A, hci_note *not
         near = nearest(e, error_A, LEAST_ERROR);
         return hci_note_set(
             note, HCI_ERROR_ARGUMENT,
-            "largest error: found %g A, but %zu points, the most there may be, keep %g A; allow that much",
-            error_A, near->points, near->max_error_A);
+            "largest error: found %g A, but %s keeps no less than %g A, with %zu points; allow that much%s",
+            error_A, hci_emit_format_name(near->format), near->max_error_A, near->points,
+            hci_emit_is_integer(near->format) ? ", or use another format" : "");
     }
     if (r->max_bytes > 0 && near->bytes > r->max_bytes)
         return hci_note_set(
@@ -176,9 +196,12 @@ static hci_status reserve(hci_emission *e, hci_note *note)
     e->rows = hci_memory_new(values, sizeof *e->rows);
     e->room.knots = hci_memory_new(HCI_SPLINE_MOST_VALUES, sizeof *e->room.knots);
     e->room.knots_A = hci_memory_new(HCI_SPLINE_MOST_VALUES, sizeof *e->room.knots_A);
+    e->room.knots_i8 = hci_memory_new(HCI_SPLINE_MOST_VALUES, sizeof *e->room.knots_i8);
     e->room.waves = &e->tabulation;
     e->room.symmetry = hci_symmetry_of(&e->tabulation);
-    return e->rows && e->room.knots && e->room.knots_A ? HCI_OK : hci_note_memory(note, NULL, "the table");
+    return e->rows && e->room.knots && e->room.knots_A && e->room.knots_i8
+               ? HCI_OK
+               : hci_note_memory(note, NULL, "the table");
 }
 
 hci_status hci_emission_choose(hci_emission *e, hci_note *note)
@@ -199,4 +222,5 @@ void hci_emission_release(hci_emission *e)
     hci_memory_free(e->rows);
     hci_memory_free(e->room.knots);
     hci_memory_free(e->room.knots_A);
+    hci_memory_free(e->room.knots_i8);
 }

@@ -16,12 +16,16 @@ static const cost I16[2][2][3] = {{{{49, 629}, {63, 657}, {82, 699}}, {{89, 1781
 static const cost Q15[2][2][3] = {{{{47, 67}, {61, 89}, {79, 142}}, {{88, 157}, {115, 237}, {156, 301}}},
                                   {{{26, 41}, {42, 68}, {59, 109}}, {{54, 86}, {82, 156}, {119, 247}}}};
 
+static const cost I8[2][2][3] = {{{{48, 70}, {62, 95}, {85, 153}}, {{91, 153}, {119, 245}, {174, 332}}},
+                                 {{{29, 44}, {44, 74}, {66, 120}}, {{58, 86}, {85, 171}, {133, 262}}}};
+
 void hci_emit_cost(const hci_tabulation *t, hci_emit_choice *choice)
 {
     const size_t part = t->parts - 1, frame = t->frame == HCI_TABLE_ABC ? 0 : 1;
     const size_t degree = (size_t)(choice->shape - HCI_EMIT_LINEAR);
     const cost c = hci_emit_has_rows(choice->format) ? F32[frame][part]
                    : choice->format == HCI_EMIT_I16  ? I16[frame][part][degree]
+                   : choice->format == HCI_EMIT_I8   ? I8[frame][part][degree]
                                                      : Q15[frame][part][degree];
     choice->cortex_m4f = c.m4f;
     choice->cortex_m0_plus = c.m0_plus;

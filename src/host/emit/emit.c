@@ -125,7 +125,8 @@ static void fill_probes(hci_emission *e)
     }
     e->table.probes = e->probes;
     e->table.probe_count = HCI_EMIT_PROBES;
-    e->result.crc32 = e->table.crc32 = hci_table_f32_crc32(&e->table);
+    e->table.sum32 = hci_table_f32_sum32(&e->table);
+    e->result.crc32 = hci_table_f32_crc32(&e->table);
 }
 
 static void fill_spline_probes(hci_emission *e)

@@ -86,12 +86,14 @@ static void write_header(const emission *e, hci_output *out)
     const char *name = e->request->name;
     write_title(e, out, "h");
     write_use(e, out);
+    hci_emission_facts_of_machine(&e->request->facts, out);
     write_figures(e, out);
     hci_output_text(out, "#ifndef HCI_EMITTED_%s_H\n#define HCI_EMITTED_%s_H\n\n#include \"hci/loop.h\"\n\n",
                     name, name);
     hci_output_text(out,
                     "#if HCI_LOOP_VERSION != %d\n#error \"%s needs version %d of hci/loop.h\"\n#endif\n\n",
                     HCI_LOOP_VERSION, name, HCI_LOOP_VERSION);
+    hci_emission_macros(name, e->request->facts.pole_pairs, e->set.loop.period_turns, out);
     hci_output_text(out,
                     "/* Floats of RAM for any remedy; %" PRIu32 " do without HCI_LOOP_FEEDFORWARD. */\n"
                     "#define %s_FLOATS %" PRIu32 "u\n\n",
@@ -287,6 +289,7 @@ hci_status hci_emit_loop(const char *folder, const hci_emit_loop_request *reques
     emission e = {.request = request};
     hci_machine_data fitted;
     hci_status status = hci_emit_check_name(request->name, note);
+    if (!status) status = hci_emit_check_facts(&request->facts, note);
     if (!status) status = hci_drive_fit(request->drive, request->machine, &fitted, note);
     if (!status && request->speed_rad_per_s > 0.0)
         status = hci_drive_check_speed(request->drive, &fitted, request->speed_rad_per_s, note);

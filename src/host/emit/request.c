@@ -117,16 +117,17 @@ static hci_status check_shape(const hci_emit_request *r, hci_note *note)
     if (!hci_emit_has_rows(r->format) || r->shape <= HCI_EMIT_LINEAR) return HCI_OK;
     return hci_note_set(
         note, HCI_ERROR_ARGUMENT,
-        "table shape: found `%s` with format `%s`, which is linear; use format `i16` or `q15`",
+        "table shape: found `%s` with format `%s`, which is linear; use format `i16`, `q15` or `i8`",
         hci_emit_shape_name(r->shape), hci_emit_format_name(r->format));
 }
 
 static hci_status check_blob(const hci_emit_request *r, hci_note *note)
 {
     if (!r->blob || (r->format != HCI_EMIT_CSV && r->format != HCI_EMIT_JSON)) return HCI_OK;
-    return hci_note_set(note, HCI_ERROR_ARGUMENT,
-                        "blob: found with format `%s`, expected `f32`, `i16` or `q15`, which devices read",
-                        hci_emit_format_name(r->format));
+    return hci_note_set(
+        note, HCI_ERROR_ARGUMENT,
+        "blob: found with format `%s`, expected `f32`, `i16`, `q15` or `i8`, which devices read",
+        hci_emit_format_name(r->format));
 }
 
 static hci_status check_size(const hci_emit_request *r, hci_note *note)
@@ -162,13 +163,18 @@ static bool is_comment_text(const char *text)
     return hci_utf8_valid(text) && strstr(text, "*/") == NULL && strstr(text, "/*") == NULL;
 }
 
+hci_status hci_emit_check_facts(const hci_emit_facts *facts, hci_note *note)
+{
+    char shown[HCI_QUOTE_SIZE];
+    if (is_comment_text(facts->machine)) return HCI_OK;
+    return hci_note_set(note, HCI_ERROR_ARGUMENT,
+                        "machine: found %s, expected one line of UTF-8 text without comment marks",
+                        hci_quote(facts->machine, shown));
+}
+
 static hci_status check_provenance(const hci_emit_request *r, hci_note *note)
 {
     char shown[HCI_QUOTE_SIZE];
-    if (r->facts.machine && !is_comment_text(r->facts.machine))
-        return hci_note_set(note, HCI_ERROR_ARGUMENT,
-                            "machine: found %s, expected one line of UTF-8 text without comment marks",
-                            hci_quote(r->facts.machine, shown));
     for (size_t k = 0; k < r->provenance_count; ++k) {
         if (!is_comment_text(r->provenance[k]))
             return hci_note_set(note, HCI_ERROR_ARGUMENT,
@@ -214,6 +220,7 @@ hci_status hci_emit_request_check(const hci_emit_request *r, hci_note *note)
     if (!status) status = check_shape(r, note);
     if (!status) status = check_blob(r, note);
     if (!status) status = check_size(r, note);
+    if (!status) status = hci_emit_check_facts(&r->facts, note);
     if (!status) status = check_provenance(r, note);
     if (!status) status = check_waves(r, r->currents, r->current_count, note);
     if (!status && r->per_Nm) status = check_waves(r, r->per_Nm, r->per_Nm_count, note);

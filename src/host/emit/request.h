@@ -10,6 +10,9 @@ enum { HCI_EMIT_NAME_LENGTH = 48 };
 /* Whether a name may be that of a table in C and C++. HCI_OK or HCI_ERROR_ARGUMENT. */
 hci_status hci_emit_check_name(const char *name, hci_note *note);
 
+/* Whether the name of a machine may stand in a comment. HCI_OK or HCI_ERROR_ARGUMENT. */
+hci_status hci_emit_check_facts(const hci_emit_facts *facts, hci_note *note);
+
 /* HCI_OK, HCI_ERROR_ARGUMENT or _NOT_FINITE. */
 hci_status hci_emit_request_check(const hci_emit_request *request, hci_note *note);
 

@@ -12,13 +12,21 @@
 
 /* Largest knots and currents in units, and largest differences of neighbours: no sum overflows. */
 #define MOST_UNITS 32000.0
-static const double MOST_STEP[] = {0.0, 2.0 * MOST_UNITS, MOST_UNITS, 10800.0}; /* [degree] */
+static const double MOST_STEP[] = {0.0, 2.0 * MOST_UNITS, MOST_UNITS, 10800.0};    /* [degree] */
+static const double MOST_STEP_I8[] = {0.0, 2.0 * MOST_UNITS, MOST_UNITS, 10496.0}; /* 41 units of 256 */
 #define CUBIC_UNITS 0.75 /* unit of a cubic knot in units of the currents */
 
 /* What truncation in the device's arithmetic changes from one angle to the next, and rounding to whole units
  * of each of the parts. */
 #define TRUNCATION 0.3
 #define ROUNDING   0.51
+
+/* Of the peak: with knots of 8 bits, 125 units to it, some current is off by 0.4 units but for happy chances.
+ */
+#define LEAST_ROUNDING (0.4 / 125.0)
+
+/* Numbers of knots of 8 bits that are tried. */
+enum { MOST_TRIES = 32 };
 
 enum { PLACES = 16 };
 
@@ -164,13 +172,20 @@ static extent extent_of(const hci_spline_room *r, const hci_table_i16 *x)
 static void round_knots(const hci_spline_room *r, hci_table_i16 *x)
 {
     const extent e = extent_of(r, x);
-    const bool cubic = x->degree == 3;
-    const double unit_A =
-        fmax(e.value_A / MOST_UNITS, e.step_A / MOST_STEP[x->degree]) / (cubic ? CUBIC_UNITS : 1.0);
+    const bool eight = x->knot_bits == 8;
+    const double share = x->degree == 3 ? CUBIC_UNITS : 1.0;
+    const double most_step = (eight ? MOST_STEP_I8 : MOST_STEP)[x->degree];
+    const double unit_A = fmax(e.value_A / MOST_UNITS, e.step_A / most_step) / share;
     x->unit_A = unit_A > 0.0 ? (float)unit_A : 1.0f;
-    const double knot_A = (double)x->unit_A * (cubic ? CUBIC_UNITS : 1.0);
-    for (size_t k = 0; k < (size_t)(x->intervals + x->degree) * x->columns * x->parts; ++k)
-        r->knots[k] = (int16_t)floor(hci_tabulation_clean(r->knots_A[k]) / knot_A + 0.5);
+    const double knot_A = (double)x->unit_A * share * (eight ? 256.0 : 1.0);
+    for (size_t k = 0; k < (size_t)(x->intervals + x->degree) * x->columns * x->parts; ++k) {
+        const double knot = floor(hci_tabulation_clean(r->knots_A[k]) / knot_A + 0.5);
+        if (eight)
+            r->knots_i8[k] = (int8_t)knot;
+        else
+            r->knots[k] = (int16_t)knot;
+        r->knots_A[k] = knot * knot_A;
+    }
 }
 
 /* ---- error ---- */
@@ -243,7 +258,10 @@ static void measure(const hci_spline_room *r, hci_table_i16 *x)
 void hci_spline_make(const hci_spline_room *r, uint32_t degree, uint32_t intervals, hci_table_i16 *x)
 {
     const hci_tabulation *t = r->waves;
-    *x = (hci_table_i16){.knots = r->knots,
+    const bool eight = r->knot_bits == 8;
+    *x = (hci_table_i16){.knots = eight ? NULL : r->knots,
+                         .knots_i8 = eight ? r->knots_i8 : NULL,
+                         .knot_bits = r->knot_bits,
                          .intervals = intervals,
                          .degree = degree,
                          .columns = (uint32_t)t->columns,
@@ -280,4 +298,15 @@ bool hci_spline_make_within(const hci_spline_room *r, uint32_t degree, double ma
         *(is_within(r, degree, middle, max_error_A, integer, x) ? &good : &bad) = middle;
     }
     return is_within(r, degree, good, max_error_A, integer, x);
+}
+
+bool hci_spline_make_i8_within(const hci_spline_room *r, uint32_t degree, uint32_t first, double max_error_A,
+                               hci_table_i16 *x)
+{
+    const uint32_t step = 1 + first / MOST_TRIES;
+    for (uint32_t k = 0; k < MOST_TRIES && first + k * step <= HCI_TABLE_I16_MOST_INTERVALS; ++k) {
+        if (is_within(r, degree, first + k * step, max_error_A, true, x)) return true;
+        if ((double)x->peak_A * LEAST_ROUNDING > max_error_A) break;
+    }
+    return false;
 }

@@ -44,7 +44,7 @@ void hci_emission_title(const hci_emission *e, hci_output *out, const char *exte
 
 void hci_emission_frame(const hci_emission *e, hci_output *out)
 {
-    const bool units = e->result.chosen.format == HCI_EMIT_Q15;
+    const bool units = hci_emit_is_integer(e->result.chosen.format);
     const char *a = units ? "" : "_A", *unit = units ? "unit_A" : "A";
     if (e->request->frame == HCI_TABLE_ABC) {
         hci_output_text(out, " * Values: ia%s, ib%s, ic%s", a, a, a);
@@ -83,15 +83,53 @@ void hci_emission_angle(const hci_emission *e, hci_output *out)
         " * Orders: electrical; mechanical order = electrical order * pole pairs. Amplitudes are peak.\n");
 }
 
+/* ---- facts of the machine ---- */
+
+static void write_motor(const hci_emit_facts *f, hci_output *out)
+{
+    if (f->machine[0] == '\0' && f->pole_pairs == 0) return;
+    hci_output_text(out, " * Motor:  %s", f->machine[0] ? f->machine : "name not known");
+    if (f->pole_pairs > 0) hci_output_text(out, ", %zu pole pair%s", f->pole_pairs, plural(f->pole_pairs));
+    hci_output_text(out, ".\n");
+}
+
+static void write_magnets(const hci_emit_facts *f, hci_output *out)
+{
+    char share[32], reference[32];
+    if (f->emf_per_kelvin == 0.0) return;
+    hci_output_text(
+        out,
+        " * Magnets: the machine's back-EMF is that of %s deg C and changes by %s %% a kelvin; so does\n"
+        " *         what these currents make with it.\n",
+        hci_emission_number(f->magnets_C, reference), hci_emission_number(100.0 * f->emf_per_kelvin, share));
+}
+
+/* The frequency that a current loop has to follow, which bounds the speed. */
+static void write_speed(const hci_emit_facts *f, double highest, hci_output *out)
+{
+    char text[32];
+    const double per_rpm_Hz = highest * (double)f->pole_pairs / 60.0;
+    const double rated_rpm = f->rated_speed_rad_per_s * 30.0 / HCI_PI;
+    hci_output_text(out, " * Loop:   has to follow up to %s times the electrical frequency",
+                    hci_emission_number(highest, text));
+    if (f->pole_pairs > 0) hci_output_text(out, ", %.0f Hz at 1000 rpm", 1000.0 * per_rpm_Hz);
+    hci_output_text(out, ";\n *         above what it follows, fade out (hci/guard.h) or emit --drive.\n");
+    if (rated_rpm > 0.0 && f->pole_pairs > 0)
+        hci_output_text(out, " * Speed:  any that the loop follows; rated are %.5g rpm, %.0f Hz.\n",
+                        rated_rpm, rated_rpm * per_rpm_Hz);
+}
+
+void hci_emission_facts_of_machine(const hci_emit_facts *facts, hci_output *out)
+{
+    write_motor(facts, out);
+    write_magnets(facts, out);
+}
+
 void hci_emission_facts(const hci_emission *e, hci_output *out)
 {
     const hci_emit_facts *f = &e->request->facts;
-    const double highest = hci_tabulation_highest_order(&e->tabulation);
     char text[32];
-    if (f->machine || f->pole_pairs > 0)
-        hci_output_text(out, " * Motor:  %s", f->machine ? f->machine : "name not known");
-    if (f->pole_pairs > 0) hci_output_text(out, ", %zu pole pair%s", f->pole_pairs, plural(f->pole_pairs));
-    if (f->machine || f->pole_pairs > 0) hci_output_text(out, ".\n");
+    hci_emission_facts_of_machine(f, out);
     if (e->tabulation.parts == 1 && f->mean_torque_Nm != 0.0)
         hci_output_text(out,
                         " * Torque: %s N*m of mean torque, and no other: emit --per-torque is for all.\n",
@@ -99,22 +137,16 @@ void hci_emission_facts(const hci_emission *e, hci_output *out)
     if (e->tabulation.parts == 2)
         hci_output_text(out, " * Torque: any up to the reference torque, to which it is limited; one that is "
                              "no number is none.\n");
-    hci_output_text(out, " * Loop:   has to follow up to %s times the electrical frequency",
-                    hci_emission_number(highest, text));
-    if (f->pole_pairs > 0)
-        hci_output_text(out, ", %.0f Hz at 1000 rpm", highest * (double)f->pole_pairs * 1000.0 / 60.0);
-    hci_output_text(out, ";\n *         above what it follows, fade out (hci/guard.h) or emit --drive.\n");
+    write_speed(f, hci_tabulation_highest_order(&e->tabulation), out);
 }
 
-void hci_emission_macros(const hci_emission *e, hci_output *out)
+void hci_emission_macros(const char *name, size_t pole_pairs, size_t turns, hci_output *out)
 {
-    const size_t pairs = e->request->facts.pole_pairs, turns = e->tabulation.period_turns;
-    const char *name = e->request->name;
-    if (pairs == 0) return;
-    hci_output_text(out, "#define %s_POLE_PAIRS %zuu\n", name, pairs);
-    if (pairs % turns == 0)
+    if (pole_pairs == 0) return;
+    hci_output_text(out, "#define %s_POLE_PAIRS %zuu\n", name, pole_pairs);
+    if (pole_pairs % turns == 0)
         hci_output_text(out, "#define %s_PERIODS %zuu /* for hci_angle_from_mechanical */\n", name,
-                        pairs / turns);
+                        pole_pairs / turns);
     hci_output_text(out, "\n");
 }
 

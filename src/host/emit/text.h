@@ -9,7 +9,7 @@
 void hci_emission_write_header(const hci_emission *e, hci_output *output);
 void hci_emission_write_source(const hci_emission *e, hci_output *output);
 
-/* … and of i16 and q15. */
+/* … and of i16, q15 and i8. */
 void hci_emission_write_spline_header(const hci_emission *e, hci_output *output);
 void hci_emission_write_spline_source(const hci_emission *e, hci_output *output);
 
@@ -38,11 +38,14 @@ void hci_emission_frame(const hci_emission *e, hci_output *output);
 /* Which angle, and where its zero is. */
 void hci_emission_angle(const hci_emission *e, hci_output *output);
 
-/* Machine, torque, and what a current loop has to follow. */
+/* Machine and magnets. */
+void hci_emission_facts_of_machine(const hci_emit_facts *facts, hci_output *output);
+
+/* The same, torque, and what a current loop has to follow. */
 void hci_emission_facts(const hci_emission *e, hci_output *output);
 
-/* NAME_POLE_PAIRS and NAME_PERIODS, where they are known. */
-void hci_emission_macros(const hci_emission *e, hci_output *output);
+/* NAME_POLE_PAIRS and NAME_PERIODS, of a table over so many electrical turns, where they are known. */
+void hci_emission_macros(const char *name, size_t pole_pairs, size_t turns, hci_output *output);
 
 /* Where the numbers come from. Ends the comment. */
 void hci_emission_input(const hci_emission *e, hci_output *output);

@@ -30,7 +30,7 @@ static void write_figures(const hci_emission *e, hci_output *out)
     if (t->parts == 2)
         hci_output_text(out, ", |torque| <= %s N*m",
                         hci_emission_number((double)t->reference_torque_Nm, text));
-    hci_output_text(out, ".\n * CRC-32: %08" PRIx32 " (IEEE 802.3) of the rows.\n", t->crc32);
+    hci_output_text(out, ".\n * CRC-32: %08" PRIx32 " (IEEE 802.3) of the rows.\n", e->result.crc32);
 }
 
 void hci_emission_write_header(const hci_emission *e, hci_output *out)
@@ -43,7 +43,7 @@ void hci_emission_write_header(const hci_emission *e, hci_output *out)
     write_figures(e, out);
     hci_emission_input(e, out);
     hci_emission_guard(e, out, "hci/table.h", "HCI_TABLE_VERSION", HCI_TABLE_VERSION);
-    hci_emission_macros(e, out);
+    hci_emission_macros(e->request->name, e->request->facts.pole_pairs, e->tabulation.period_turns, out);
     hci_output_text(out, "extern const hci_table_f32 %s;\n\n", e->request->name);
     hci_emission_guard_end(out);
 }
@@ -88,8 +88,8 @@ static void write_table(const hci_emission *e, hci_output *out)
     hci_output_text(out, "    %" PRIu32 "u, /* columns */\n    %" PRIu32 "u, /* parts */\n", t->columns,
                     t->parts);
     hci_output_text(out, "    %s,\n", t->frame == HCI_TABLE_ABC ? "HCI_TABLE_ABC" : "HCI_TABLE_DQ");
-    hci_output_text(out, "    %" PRIu32 "u, /* period_turns */\n    0x%08" PRIX32 "u, /* crc32 */\n    ",
-                    t->period_turns, t->crc32);
+    hci_output_text(out, "    %" PRIu32 "u, /* period_turns */\n    0x%08" PRIX32 "u, /* sum32 */\n    ",
+                    t->period_turns, t->sum32);
     hci_emission_float(out, t->max_error_A, ", /* max_error_A */\n    ");
     hci_emission_float(out, t->peak_A, ", /* peak_A */\n    ");
     hci_emission_float(out, t->reference_torque_Nm, " /* reference_torque_Nm */\n};\n");

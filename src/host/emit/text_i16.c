@@ -11,10 +11,15 @@ static size_t values_of(const hci_table_i16 *t)
     return (size_t)(t->intervals + t->degree) * t->columns * t->parts;
 }
 
+static const char *knot_type(const hci_table_i16 *t)
+{
+    return t->knot_bits == 8 ? "int8_t" : "int16_t";
+}
+
 static void write_use(const hci_emission *e, hci_output *out)
 {
     const char *frame = e->spline.frame == HCI_TABLE_ABC ? "abc" : "dq";
-    const bool torque = e->spline.parts == 2, integer = e->result.chosen.format == HCI_EMIT_Q15;
+    const bool torque = e->spline.parts == 2, integer = hci_emit_is_integer(e->result.chosen.format);
     hci_output_text(out, " *\n * Use:    hci_%s_%s i = hci_table_i16_%s%s%s(&%s, angle%s);\n",
                     integer ? "units" : "currents", frame, frame, torque ? "_torque" : "",
                     integer ? "_q15" : "", e->request->name,
@@ -37,7 +42,8 @@ static void write_shape(const hci_emission *e, hci_output *out)
     hci_output_text(out, " * Shape:  %s spline, %" PRIu32 " interval%s in 1/%" PRIu32 " of the period%s.\n",
                     degrees[t->degree], t->intervals, t->intervals == 1 ? "" : "s", t->sectors,
                     t->rotation || t->alternates ? "; the rest by phases and signs" : "");
-    hci_output_text(out, " * Size:   %zu values, %zu bytes.\n", values_of(t), 2 * values_of(t));
+    hci_output_text(out, " * Size:   %zu values of %" PRIu32 " bits, %zu bytes.\n", values_of(t),
+                    t->knot_bits, t->knot_bits / 8 * values_of(t));
 }
 
 static void write_torque(const hci_emission *e, hci_output *out)
@@ -69,9 +75,11 @@ static void write_shape_fields(const hci_emission *e, hci_output *out)
     const struct {
         uint32_t value;
         const char *name;
-    } field[] = {{HCI_EMIT_PROBES, "probe_count"}, {t->intervals, "intervals"},  {t->degree, "degree"},
-                 {t->columns, "columns"},          {t->parts, "parts"},          {t->sectors, "sectors"},
-                 {t->rotation, "rotation"},        {t->alternates, "alternates"}};
+    } field[] = {{HCI_EMIT_PROBES, "probe_count"}, {t->knot_bits, "knot_bits"},
+                 {t->intervals, "intervals"},      {t->degree, "degree"},
+                 {t->columns, "columns"},          {t->parts, "parts"},
+                 {t->sectors, "sectors"},          {t->rotation, "rotation"},
+                 {t->alternates, "alternates"}};
     for (size_t k = 0; k < sizeof field / sizeof *field; ++k)
         hci_output_text(out, "    %" PRIu32 "u, /* %s */\n", field[k].value, field[k].name);
 }
@@ -80,10 +88,14 @@ static void write_table(const hci_emission *e, hci_output *out)
 {
     const hci_table_i16 *t = &e->spline;
     const char *name = e->request->name;
-    hci_output_text(out, "extern const int16_t %s_knots[%zu];\n", name, values_of(t));
+    hci_output_text(out, "extern const %s %s_knots[%zu];\n", knot_type(t), name, values_of(t));
     hci_output_text(out, "extern const hci_table_i16_probe %s_probes[%d];\n\n", name, (int)HCI_EMIT_PROBES);
-    hci_output_text(out, "static const hci_table_i16 %s = {\n    %s_knots,\n    %s_probes,\n", name, name,
-                    name);
+    hci_output_text(out, "static const hci_table_i16 %s = {\n    ", name);
+    if (t->knot_bits == 8)
+        hci_output_text(out, "NULL,\n    %s_knots,\n", name);
+    else
+        hci_output_text(out, "%s_knots,\n    NULL, /* knots_i8 */\n", name);
+    hci_output_text(out, "    %s_probes,\n", name);
     write_shape_fields(e, out);
     hci_output_text(out, "    %s,\n", t->frame == HCI_TABLE_ABC ? "HCI_TABLE_ABC" : "HCI_TABLE_DQ");
     hci_output_text(out, "    %" PRIu32 "u, /* period_turns */\n    0x%08" PRIX32 "u, /* crc32 */\n    ",
@@ -106,7 +118,7 @@ void hci_emission_write_spline_header(const hci_emission *e, hci_output *out)
     write_figures(e, out);
     hci_emission_input(e, out);
     hci_emission_guard(e, out, "hci/table_i16.h", "HCI_TABLE_I16_VERSION", HCI_TABLE_I16_VERSION);
-    hci_emission_macros(e, out);
+    hci_emission_macros(e->request->name, e->request->facts.pole_pairs, e->tabulation.period_turns, out);
     write_table(e, out);
     hci_emission_guard_end(out);
 }
@@ -114,9 +126,10 @@ void hci_emission_write_spline_header(const hci_emission *e, hci_output *out)
 static void write_knots(const hci_emission *e, hci_output *out)
 {
     const size_t values = (size_t)e->spline.columns * e->spline.parts, all = values_of(&e->spline);
-    hci_output_text(out, "const int16_t %s_knots[%zu] = {\n", e->request->name, all);
+    hci_output_text(out, "const %s %s_knots[%zu] = {\n", knot_type(&e->spline), e->request->name, all);
     for (size_t k = 0; k < all; ++k)
-        hci_output_text(out, "%s%d,%s", k % values == 0 ? "    " : " ", e->spline.knots[k],
+        hci_output_text(out, "%s%d,%s", k % values == 0 ? "    " : " ",
+                        e->spline.knot_bits == 8 ? e->spline.knots_i8[k] : e->spline.knots[k],
                         k % values + 1 == values ? "\n" : "");
     hci_output_text(out, "};\n\n");
 }

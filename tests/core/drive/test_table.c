@@ -152,7 +152,7 @@ static void test_mechanical_angle_wraps(void)
 
 /* ---- check ---- */
 
-static const uint32_t KNOWN_CRC = 0x3322CA60u;
+static const uint32_t KNOWN_CRC = 0x3322CA60u, KNOWN_SUM = 0x0B813743u;
 static const float known_rows[] = {0.0f, 1.5f, -2.25f, 1e-7f, 0.0f, 1.5f};
 static const hci_table_f32_probe known_probes[] = {
     {0x00000000u, 0.0f, {0.0f, 1.5f, -1.5f}},
@@ -168,7 +168,7 @@ static hci_table_f32 known_table(void)
     table.points = 2;
     table.columns = 2;
     table.parts = 1;
-    table.crc32 = KNOWN_CRC;
+    table.sum32 = KNOWN_SUM;
     table.max_error_A = 1e-6f;
     return table;
 }
@@ -180,24 +180,40 @@ static void test_crc_is_that_of_zlib(void)
     TEST_ASSERT_EQUAL_HEX32(KNOWN_CRC, hci_table_f32_crc32(&table));
 }
 
+/* The figure is s = s·(2654435761 + 2·6) + bits, s ^= s >> 15 in whole numbers modulo 2^32, from 2166136261
+ * on, made with Python. */
+static void test_sum_is_that_of_its_formula(void)
+{
+    const hci_table_f32 table = known_table();
+    TEST_ASSERT_EQUAL_HEX32(KNOWN_SUM, hci_table_f32_sum32(&table));
+}
+
 static void test_check_passes_a_good_table(void)
 {
     const hci_table_f32 table = known_table();
     TEST_ASSERT_EQUAL(HCI_TABLE_GOOD, hci_table_f32_check(&table));
 }
 
-static void test_check_sees_every_flipped_bit(void)
+static void flip(unsigned char *bytes, size_t bit)
+{
+    bytes[bit / 8] = (unsigned char)(bytes[bit / 8] ^ 1u << bit % 8);
+}
+
+/* One, and any two: two signs are where a sum of words is weakest. */
+static void test_check_sees_every_one_and_two_flipped_bits(void)
 {
     float damaged[6];
-    for (size_t bit = 0; bit < 8 * sizeof damaged; ++bit) {
-        hci_table_f32 table = known_table();
-        unsigned char bytes[sizeof damaged];
-        memcpy(bytes, known_rows, sizeof bytes);
-        bytes[bit / 8] = (unsigned char)(bytes[bit / 8] ^ 1u << bit % 8);
-        memcpy(damaged, bytes, sizeof bytes);
-        table.rows = damaged;
-        TEST_ASSERT_EQUAL(HCI_TABLE_BAD_CRC, hci_table_f32_check(&table));
-    }
+    hci_table_f32 table = known_table();
+    table.rows = damaged;
+    for (size_t one = 0; one < 8 * sizeof damaged; ++one)
+        for (size_t other = one; other < 8 * sizeof damaged; ++other) {
+            unsigned char bytes[sizeof damaged];
+            memcpy(bytes, known_rows, sizeof bytes);
+            flip(bytes, one);
+            if (other != one) flip(bytes, other);
+            memcpy(damaged, bytes, sizeof bytes);
+            TEST_ASSERT_EQUAL(HCI_TABLE_BAD_CRC, hci_table_f32_check(&table));
+        }
 }
 
 static void check_probe(size_t k, size_t s, float offset, hci_table_verdict verdict)
@@ -267,7 +283,8 @@ int main(void)
     RUN_TEST(test_mechanical_angle_wraps);
     RUN_TEST(test_crc_is_that_of_zlib);
     RUN_TEST(test_check_passes_a_good_table);
-    RUN_TEST(test_check_sees_every_flipped_bit);
+    RUN_TEST(test_check_sees_every_one_and_two_flipped_bits);
+    RUN_TEST(test_sum_is_that_of_its_formula);
     RUN_TEST(test_check_compares_every_probe);
     RUN_TEST(test_check_refuses_wrong_shapes);
     return UNITY_END();

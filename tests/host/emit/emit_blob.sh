@@ -14,10 +14,10 @@ emit() { # NAME OPTION...
 }
 emit rows --points 20
 options="-std=c11 -O1 -g -Wall -Wextra -Wconversion -Wno-unused-function -fsanitize=address,undefined -fno-sanitize-recover=all -Iinclude -I$work/tables"
-for table in 'abc linear' 'abc cubic --per-torque' 'dq quadratic' 'dq linear --per-torque'; do
+for table in 'i16 abc linear' 'i16 abc cubic --per-torque' 'i8 abc linear' 'i8 dq quadratic --per-torque'; do
     # shellcheck disable=SC2086
     set -- $table
-    emit small --format i16 --frame "$1" --shape "$2" ${3:+"$3"}
+    emit small --format "$1" --frame "$2" --shape "$3" ${4:+"$4"}
     # shellcheck disable=SC2086
     check "built: $table" cc $options tests/host/emit/blob/main.c "$work"/tables/rows.c "$work"/tables/small.c -o "$work/program"
     check "blobs: $table" "$work/program" "$work/tables/rows.bin" "$work/tables/small.bin"
@@ -35,4 +35,14 @@ says '--blob is a table for hci/table.h'
 run 0 emit "$work/currents" --name rows --machine data/machine_a/ --quiet -o "$work/tables"
 check 'facts in the header' grep -q 'Motor:  machine_a, 2 pole pairs' "$work/tables/rows.h"
 check 'facts in the header' grep -q '^#define rows_PERIODS 2u' "$work/tables/rows.h"
+cp -r data/machine_a "$work/warm"
+echo 'rated_speed,1500,rpm,nameplate' >>"$work/warm/machine.csv"
+printf 'effect,parameter,value,unit,std_error\nmagnet_temperature,emf_per_kelvin,-0.0011,1/K,\nmagnet_temperature,reference,25,C,\n' >"$work/warm/effects.csv"
+run 0 emit "$work/currents" --name rows --machine "$work/warm" --quiet -o "$work/tables"
+check 'rated speed' grep -q 'rated are 1500 rpm, 2450 Hz' "$work/tables/rows.h"
+check 'magnets' grep -q 'that of 25.0 deg C and changes by -0.11 % a kelvin' "$work/tables/rows.h"
+run 0 emit "$work/currents" --name rows --machine "$work/warm" --drive data/drive/machine_a_10kHz.csv --quiet -o "$work/tables"
+check 'facts for a drive' grep -q 'Motor:  warm, 2 pole pairs' "$work/tables/rows.h"
+check 'magnets for a drive' grep -q 'that of 25.0 deg C' "$work/tables/rows.h"
+check 'poles for a drive' grep -q '^#define rows_POLE_PAIRS 2u' "$work/tables/rows.h"
 finish

@@ -66,9 +66,9 @@ have gcc || have clang || { echo "emit_compilers: skipped, no compiler of these:
 cc=gcc
 have gcc || cc=clang
 mkdir -p "$work/other/hci"
-sed 's/^#define HCI_TABLE_VERSION 1$/#define HCI_TABLE_VERSION 2/' include/hci/table.h >"$work/other/hci/table.h"
+sed 's/^#define HCI_TABLE_VERSION 2$/#define HCI_TABLE_VERSION 3/' include/hci/table.h >"$work/other/hci/table.h"
 ! cmp -s include/hci/table.h "$work/other/hci/table.h" || fail "the version of hci/table.h was not found"
 ! $cc -I"$work/other" -I"$work/first" -c "$work/first/form_abc.c" -o "$work/refused.o" 2>"$work/refused" ||
     fail "another version of hci/table.h was taken"
-grep -q 'form_abc needs version 1 of hci/table.h' "$work/refused" || { cat "$work/refused" >&2; fail "the refusal does not say why"; }
+grep -q 'form_abc needs version 2 of hci/table.h' "$work/refused" || { cat "$work/refused" >&2; fail "the refusal does not say why"; }
 echo "another version: refused"

@@ -1,6 +1,6 @@
 #!/bin/sh
 # labels: slow
-# Tables of 16-bit knots in code for Cortex-M4F, M3 and M0+ on an emulated board: integers and floats at 65 536 angles are
+# Tables of 16-bit and 8-bit knots in code for Cortex-M4F, M3 and M0+ on an emulated board: integers and floats at 65 536 angles are
 # those of the host to the last bit, and an evaluation takes the instructions that emit states.
 #   emit_small_tables.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
 . "$1/tests/support/common.sh"
@@ -18,18 +18,22 @@ list=
 table() {
     name=$1 type=$2 function=$3 extra=$4
     shift 4
-    run 0 emit "$work/currents" --name "$name" --max-error 0.024 "$@" --json -o "$work/tables"
+    run 0 emit "$work/currents" --name "$name" "$@" --json -o "$work/tables"
     cp "$work/stdout" "$work/$name.json"
     echo "#include \"$name.h\"" >>"$work/includes"
     list="$list    X($name, hci_$type, hci_table_i16_$function, $extra) \\
 "
 }
+small='--max-error 0.024'
+# shellcheck disable=SC2086
 for shape in linear quadratic cubic; do
+    table "i8_abc_$shape" units_abc abc_q15 '' --format i8 --shape $shape
+    table "i8_dq_torque_$shape" units_dq dq_torque_q15 'COMMA 16000' --format i8 --max-error 0.4 --frame dq --shape $shape --per-torque
     for frame in abc dq; do
-        table "i16_${frame}_$shape" "currents_$frame" $frame '' --format i16 --frame $frame --shape $shape
-        table "q15_${frame}_$shape" "units_$frame" ${frame}_q15 '' --format q15 --frame $frame --shape $shape
-        table "i16_${frame}_torque_$shape" "currents_$frame" ${frame}_torque 'COMMA 1.25f' --format i16 --frame $frame --shape $shape --per-torque
-        table "q15_${frame}_torque_$shape" "units_$frame" ${frame}_torque_q15 'COMMA 16000' --format q15 --frame $frame --shape $shape --per-torque
+        table "i16_${frame}_$shape" "currents_$frame" $frame '' $small --format i16 --frame $frame --shape $shape
+        table "q15_${frame}_$shape" "units_$frame" ${frame}_q15 '' $small --format q15 --frame $frame --shape $shape
+        table "i16_${frame}_torque_$shape" "currents_$frame" ${frame}_torque 'COMMA 1.25f' $small --format i16 --frame $frame --shape $shape --per-torque
+        table "q15_${frame}_torque_$shape" "units_$frame" ${frame}_torque_q15 'COMMA 16000' $small --format q15 --frame $frame --shape $shape --per-torque
     done
 done
 {
@@ -61,6 +65,28 @@ board() {
 board cortex_m4f -mcpu=cortex-m4 -mfpu=fpv4-sp-d16 -mfloat-abi=hard
 board cortex_m0_plus -mcpu=cortex-m0plus
 board cortex_m3 -mcpu=cortex-m3
+
+# Knots, probes and code of one table, linked by sections: the struct is folded into the code. 1 KiB with the evaluation; of
+# quadratic knots with the check at start-up too.
+bytes_of() { # NAME
+    for source in "$work/size.c" "$work/tables/$1.c"; do
+        # shellcheck disable=SC2086
+        arm-none-eabi-gcc -mcpu=cortex-m4 -mfpu=fpv4-sp-d16 -mfloat-abi=hard -mthumb $warnings -Wno-missing-prototypes -ffunction-sections \
+            -fdata-sections -DTABLE="$1" -include "$work/tables/$1.h" -I"$source_dir/include" -I"$work/tables" -c "$source" -o "$work/size.o" &&
+            arm-none-eabi-size -A "$work/size.o"
+    done | awk '/^\.text\.reference/ { code = $2 } /^\.text\.is_good|^\.rodata\.remainder/ { check += $2 } /^\.rodata\..*_(knots|probes)/ { data += $2 }
+        END { print data, code, check }'
+}
+cat >"$work/size.c" <<'C'
+hci_currents_abc reference(uint32_t angle) { return hci_table_i16_abc(&TABLE, angle); }
+int is_good(void) { return hci_table_i16_check(&TABLE) == HCI_TABLE_GOOD; }
+C
+for shape in linear quadratic; do
+    bytes=$(bytes_of i16_abc_$shape)
+    echo "i16 abc $shape, Cortex-M4F: knots and probes, evaluation, check: $bytes bytes"
+    echo "$shape $bytes" >>"$work/sizes"
+done
+check 'the aim of 1 KiB' awk '{ sum = $2 + $3 + ($1 == "quadratic" ? $4 : 0); if (!($2 > 200 && $3 > 100 && $4 > 200 && sum <= 1024)) exit 1; n++ } END { exit n != 2 }' "$work/sizes"
 
 # What emit states of a table against what was counted.
 compare_costs() {

@@ -12,6 +12,7 @@
 
 static int16_t knots[HCI_SPLINE_MOST_VALUES];
 static double knots_A[HCI_SPLINE_MOST_VALUES];
+static int8_t knots_i8[HCI_SPLINE_MOST_VALUES];
 static hci_tabulation waves;
 static hci_spline_room room;
 
@@ -36,7 +37,7 @@ static void take(const currents *a, const currents *b, double torque_Nm, hci_tab
                              .parts = a ? 2 : 1,
                              .period_turns = 1,
                              .torque_Nm = a ? torque_Nm : 0.0};
-    room = (hci_spline_room){&waves, hci_symmetry_of(&waves), knots, knots_A};
+    room = (hci_spline_room){&waves, hci_symmetry_of(&waves), knots, knots_A, knots_i8, 16};
 }
 
 typedef struct {
@@ -88,11 +89,12 @@ static void test_stated_errors_hold_and_are_errors(void)
     const currents c = injected();
     for (int frame = HCI_TABLE_ABC; frame <= HCI_TABLE_DQ; ++frame)
         for (uint32_t degree = 1; degree <= 3; ++degree)
-            for (size_t k = 0; k < sizeof intervals / sizeof *intervals; ++k) {
+            for (size_t k = 0; k < 2 * sizeof intervals / sizeof *intervals; ++k) {
                 hci_table_i16 x;
                 take(NULL, &c, 0.0, (hci_table_frame)frame, false);
-                hci_spline_make(&room, degree, intervals[k], &x);
-                check(&x, NULL, &c, k == 0 || degree == 1 ? 0.8 : 0.4);
+                room.knot_bits = k % 2 ? 8 : 16;
+                hci_spline_make(&room, degree, intervals[k / 2], &x);
+                check(&x, NULL, &c, k < 2 || degree == 1 ? 0.8 : 0.4);
             }
 }
 
@@ -103,6 +105,9 @@ static void test_two_parts_add_up(void)
         for (uint32_t degree = 1; degree <= 3; ++degree) {
             hci_table_i16 x;
             take(&a, &b, 1.7, (hci_table_frame)frame, false);
+            hci_spline_make(&room, degree, 40, &x);
+            check(&x, &a, &b, 0.5);
+            room.knot_bits = 8;
             hci_spline_make(&room, degree, 40, &x);
             check(&x, &a, &b, 0.5);
         }
@@ -140,6 +145,23 @@ static void test_fewest_intervals_for_an_error(void)
             hci_spline_make(&room, degree, intervals - 1, &less);
             TEST_ASSERT_TRUE((double)less.max_error_A > error_A);
         }
+}
+
+/* As above; and what 8 bits cannot keep is not kept. */
+static void test_fewest_intervals_of_8_bits(void)
+{
+    const currents c = injected();
+    for (uint32_t degree = 1; degree <= 3; ++degree) {
+        hci_table_i16 fine, x;
+        take(NULL, &c, 0.0, HCI_TABLE_ABC, false);
+        const double error_A = 0.01 * hci_tabulation_peak_A(&waves);
+        TEST_ASSERT_TRUE(hci_spline_make_within(&room, degree, error_A, true, &fine));
+        room.knot_bits = 8;
+        TEST_ASSERT_TRUE(hci_spline_make_i8_within(&room, degree, fine.intervals, error_A, &x));
+        TEST_ASSERT_TRUE((double)x.max_error_q15_A <= error_A);
+        TEST_ASSERT_TRUE(x.intervals >= fine.intervals && x.intervals <= 2 * fine.intervals);
+        TEST_ASSERT_FALSE(hci_spline_make_i8_within(&room, degree, fine.intervals, 0.05 * error_A, &x));
+    }
 }
 
 static void test_an_error_below_the_unit_is_not_kept(void)
@@ -189,6 +211,8 @@ static void test_the_largest_knots_do_not_overflow(void)
     for (uint32_t degree = 1; degree <= 3; ++degree) {
         const int16_t most = degree == 3 ? 5400 : degree == 2 ? 16000 : 32000;
         hci_table_i16 x = {.knots = knots,
+                           .knots_i8 = knots_i8,
+                           .knot_bits = 16,
                            .intervals = 8,
                            .degree = degree,
                            .columns = 2,
@@ -197,10 +221,13 @@ static void test_the_largest_knots_do_not_overflow(void)
                            .frame = HCI_TABLE_DQ,
                            .period_turns = 1,
                            .unit_A = 1.0f};
-        for (int k = 0; k < 22; ++k)
+        for (int k = 0; k < 22; ++k) {
             knots[k] = (int16_t)(k % 4 < 2 ? most : -most);
+            knots_i8[k] = (int8_t)(knots[k] / 256);
+        }
         for (uint32_t k = 0; k < 100000; ++k) {
             int16_t current[3];
+            x.knot_bits = k % 2 ? 8 : 16;
             hci_table_i16_currents_q15(&x, k * 42949u, 0, current);
             TEST_ASSERT_TRUE(current[0] >= -most - 1 && current[0] <= most + 1);
         }
@@ -218,6 +245,11 @@ static void test_steep_currents_have_a_larger_unit(void)
     hci_spline_make(&room, 3, 2, &x);
     for (uint32_t k = 2; k < (x.intervals + 3) * 2; ++k)
         TEST_ASSERT_TRUE(abs(knots[k] - knots[k - 2]) <= 10801);
+    check(&x, NULL, &c, 0.5);
+    room.knot_bits = 8;
+    hci_spline_make(&room, 3, 2, &x);
+    for (uint32_t k = 2; k < (x.intervals + 3) * 2; ++k)
+        TEST_ASSERT_TRUE(abs(knots_i8[k] - knots_i8[k - 2]) <= 42);
     check(&x, NULL, &c, 0.5);
 }
 
@@ -257,15 +289,23 @@ static void test_damage_is_noticed(void)
     bad = x;
     bad.intervals = 4096;
     TEST_ASSERT_EQUAL(HCI_TABLE_BAD_SHAPE, hci_table_i16_check(&bad));
+    bad = x;
+    bad.knot_bits = 12;
+    TEST_ASSERT_EQUAL(HCI_TABLE_BAD_SHAPE, hci_table_i16_check(&bad));
 }
 
 /* The CRC-32 of "123456789" is CBF43926. */
 static void test_crc_is_that_of_zlib(void)
 {
     int16_t digits[5] = {0x3231, 0x3433, 0x3635, 0x3837, 0};
-    const hci_table_i16 x = {.knots = digits, .intervals = 1, .degree = 1, .columns = 2, .parts = 1};
+    const hci_table_i16 x = {
+        .knots = digits, .knot_bits = 16, .intervals = 1, .degree = 1, .columns = 2, .parts = 1};
     const uint32_t eight = ~hci_table_i16_crc32(&x);
+    const int8_t bytes[9] = {'1', '2', '3', '4', '5', '6', '7', '8', '9'};
+    const hci_table_i16 nine = {
+        .knots_i8 = bytes, .knot_bits = 8, .intervals = 2, .degree = 1, .columns = 3, .parts = 1};
     TEST_ASSERT_EQUAL_HEX32(0xCBF43926u, ~hci_table_crc32_next(eight, 0x39u, 2));
+    TEST_ASSERT_EQUAL_HEX32(0xCBF43926u, hci_table_i16_crc32(&nine));
 }
 
 int main(void)
@@ -275,6 +315,7 @@ int main(void)
     RUN_TEST(test_two_parts_add_up);
     RUN_TEST(test_torque_is_limited);
     RUN_TEST(test_fewest_intervals_for_an_error);
+    RUN_TEST(test_fewest_intervals_of_8_bits);
     RUN_TEST(test_an_error_below_the_unit_is_not_kept);
     RUN_TEST(test_what_of_a_turn_is_kept);
     RUN_TEST(test_the_largest_knots_do_not_overflow);

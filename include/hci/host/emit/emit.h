@@ -8,6 +8,7 @@
 #include <stdint.h>
 
 #include "hci/host/base/note.h"
+#include "hci/host/emit/emit_facts.h"
 #include "hci/math/harmonic.h"
 #include "hci/table_i16.h"
 
@@ -30,6 +31,7 @@ typedef enum {
     HCI_EMIT_F32, /* float rows, hci/table.h */
     HCI_EMIT_I16, /* 16-bit knots, hci/table_i16.h, read as amperes */
     HCI_EMIT_Q15, /* the same, read as integers */
+    HCI_EMIT_I8,  /* 8-bit knots, read as the integers of q15 */
     HCI_EMIT_CSV, /* the rows of f32 as NAME.csv, for other programs */
     HCI_EMIT_JSON /* the same as NAME.json */
 } hci_emit_format;
@@ -39,13 +41,20 @@ typedef enum {
     X(HCI_EMIT_F32, "f32")                                                                                   \
     X(HCI_EMIT_I16, "i16")                                                                                   \
     X(HCI_EMIT_Q15, "q15")                                                                                   \
+    X(HCI_EMIT_I8, "i8")                                                                                     \
     X(HCI_EMIT_CSV, "csv")                                                                                   \
     X(HCI_EMIT_JSON, "json")
 
 /* Whether a format holds rows of floats, not knots of integers. */
 static inline bool hci_emit_has_rows(hci_emit_format format)
 {
-    return format != HCI_EMIT_I16 && format != HCI_EMIT_Q15;
+    return format != HCI_EMIT_I16 && format != HCI_EMIT_Q15 && format != HCI_EMIT_I8;
+}
+
+/* Whether it is meant for the functions that give integers, which round to them. */
+static inline bool hci_emit_is_integer(hci_emit_format format)
+{
+    return format == HCI_EMIT_Q15 || format == HCI_EMIT_I8;
 }
 
 /* The name of a format; a static string. */
@@ -69,13 +78,6 @@ typedef enum {
 /* The name of a shape; a static string. */
 const char *hci_emit_shape_name(hci_emit_shape shape);
 
-/* What an emitted table says of where it is from; {NULL} where nothing is known. */
-typedef struct {
-    const char *machine;   /* its name, one line; NULL: not known */
-    size_t pole_pairs;     /* 0: not known */
-    double mean_torque_Nm; /* that currents of one part were solved for; 0: not known */
-} hci_emit_facts;
-
 /* What goes into a table. Start with {0}; the arrays and strings belong to the caller. */
 typedef struct {
     const char *name;              /* of the table, its two files and nothing else: a C identifier */
@@ -88,7 +90,7 @@ typedef struct {
     const hci_wave *per_Nm;        /* A(θ) in A/(N·m) for i = T·A(θ) + B(θ), or NULL */
     size_t per_Nm_count;           /* not used with per_Nm NULL */
     double reference_torque_Nm;    /* > 0 with per_Nm: the largest |T| for which errors and peak are stated */
-    size_t points;                 /* f32: rows in a period; i16, q15: steps in the part that is kept; 0: from
+    size_t points;                 /* f32: rows in a period; else steps in the part that is kept; 0: from
                                     * max_error_A, or from HCI_EMIT_ERROR_SHARE without that and max_bytes */
     double max_error_A;            /* > 0: the fewest points that keep every current within it; else 0 */
     size_t max_bytes;              /* of rows or knots; 0: any. Alone, it gives the least error in so many */
@@ -112,8 +114,8 @@ typedef struct {
     unsigned cortex_m0_plus; /* and there */
 } hci_emit_choice;
 
-/* One of format f32 and three of splines. */
-enum { HCI_EMIT_MOST_CHOICES = 4 };
+/* One of format f32, three of splines with knots of 16 bits and three with knots of 8. */
+enum { HCI_EMIT_MOST_CHOICES = 7 };
 
 /* What a table has become. */
 typedef struct {

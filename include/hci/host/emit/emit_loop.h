@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include "hci/host/drive/drive.h"
+#include "hci/host/emit/emit_facts.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -20,6 +21,7 @@ typedef struct {
     size_t level_count;              /* entries of levels */
     double max_error_A;              /* of a table over the angle; 0: 2e-4 of the largest current */
     double speed_rad_per_s;          /* mechanical, up to which it is used; 0: as far as it goes */
+    hci_emit_facts facts;            /* for the header */
     uint64_t input_hash;             /* 64-bit FNV-1a of what the currents were read from */
 } hci_emit_loop_request;
 

@@ -1,0 +1,35 @@
+/* What emitted files say of the machine that they are for. */
+#ifndef HCI_HOST_EMIT_EMIT_FACTS_H
+#define HCI_HOST_EMIT_EMIT_FACTS_H
+
+#include <stddef.h>
+
+#include "hci/host/machine/machine.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Letters of a machine's name with the zero behind it. */
+enum { HCI_EMIT_MACHINE_NAME = 64 };
+
+/* Facts for the head of a table and its blob. Start with {{0}}, which is that nothing is known. */
+typedef struct {
+    char machine[HCI_EMIT_MACHINE_NAME]; /* its name, one line; "": not known */
+    size_t pole_pairs;                   /* 0: not known */
+    double mean_torque_Nm;               /* that currents of one part were solved for; 0: not known */
+    double rated_speed_rad_per_s;        /* mechanical; 0: not known */
+    double emf_per_kelvin; /* relative change of the back-EMF where magnets are hot; 0: not known */
+    double magnets_C;      /* temperature of the declared back-EMF; with emf_per_kelvin */
+} hci_emit_facts;
+
+/* What the folder of a machine says, as hci_machine_read has read it; mean_torque_Nm stays. HCI_ERROR_INPUT,
+ * _MEMORY; *facts is then as it was. */
+hci_status hci_emit_facts_read(const char *folder, const hci_machine_data *machine, hci_emit_facts *facts,
+                               hci_note *note);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
