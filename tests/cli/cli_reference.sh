@@ -122,7 +122,7 @@ refusal() {
     simulate | predict) set -- "$1" "$2" @ x x ;;
     *) set -- "$1" "$2" @ x ;;
     esac
-    "$hci_solve" "$@" 2>&1 >/dev/null | sed -n 's/^hci-solve: .*found .@., expected one of: \([a-z0-9_, -]*\)/\1/p' | sed 's/,//g'
+    "$hci_solve" "$@" 2>&1 >/dev/null | sed -n 's/^hci-solve: .*found .@., expected one of: \([a-z0-9_, -]*\).*/\1/p' | sed 's/,//g'
 }
 
 cd "$source_dir" || exit 1
