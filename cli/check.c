@@ -224,26 +224,46 @@ static double degrees(double rad)
     return rad * 180.0 / HCI_PI;
 }
 
-/* The angle is told to a hundredth of a degree at best: logs are not better. */
+/* The angle is told to a hundredth of a degree at best: logs are not better; and to half a step. */
 static double shown_error(const hci_table_rotation *x)
 {
-    return fmax(0.01, degrees(x->error_rad));
+    return fmax(0.01, degrees(x->error_rad + 0.5 * x->step_rad));
 }
 
 static void show_table_remedy(double pole_pairs, const hci_table_rotation *x)
 {
     const double turns = x->rotation_rad / (2.0 * HCI_PI) / pole_pairs;
-    if (x->backwards)
-        cli_say("  remedy       the encoder counts against a-b-c: its direction is -1\n");
-    else
-        cli_say("  remedy       add 0x%08" PRIX32
-                "u to zero_angle of hci/counter.h, or take %.3f degrees from the "
+    if (x->backwards) cli_say("  remedy       the encoder counts against a-b-c: its direction is -1\n");
+    if (!x->backwards || fabs(x->rotation_rad) > 0.01)
+        cli_say("  %s add 0x%08" PRIX32 "u to zero_angle of hci/counter.h, or take %.3f degrees from the "
                 "angle of the shaft\n",
+                x->backwards ? "and then    " : "remedy      ",
                 (uint32_t)(int64_t)floor(turns * 4294967296.0 + 0.5), 360.0 * turns);
+}
+
+static void show_no_table(const char *run, double pole_pairs, const hci_table_rotation *x)
+{
+    cli_say(CLI_BAD
+            "not found" CLI_PLAIN
+            ": %s: the currents are those of this table at no rotation: %.1f %% of them is left at best\n",
+            run, 100.0 * x->left);
+    if (x->pole_pairs_seen > 0)
+        cli_say("  remedy       with %zu pole pairs in place of %g they are: the log's angle is multiplied "
+                "by another "
+                "number than that of machine.csv\n",
+                x->pole_pairs_seen, pole_pairs);
+    else
+        cli_say("  remedy       compare with the table that is in the drive, in a log of the angle and the "
+                "phase currents "
+                "of one steady speed\n");
 }
 
 static void show_table(const char *run, double pole_pairs, const hci_table_rotation *x)
 {
+    if (!x->is_found) {
+        show_no_table(run, pole_pairs, x);
+        return;
+    }
     if (x->is_rotated)
         cli_say(CLI_BAD "rotated" CLI_PLAIN
                         ": %s: the table is read %s%.2f ± %.2g degrees electrical %s of the "
@@ -262,6 +282,10 @@ static void show_table(const char *run, double pole_pairs, const hci_table_rotat
     if (x->period_turns > 1)
         cli_say("  elsewhere    %.1f %% at best in another of the %zu electrical turns\n",
                 100.0 * x->left_elsewhere, x->period_turns);
+    if (x->step_rad > 0.0)
+        cli_say("  coarse       the log's angle goes in steps of %.3g degrees electrical; half of one cannot "
+                "be told\n",
+                degrees(x->step_rad));
     if (x->is_rotated) show_table_remedy(pole_pairs, x);
 }
 
@@ -295,7 +319,7 @@ static int check_table(const cli_arguments *a, const char *table_path, bool json
     if (!status) status = compare_table(a, table_path, options, json, &x, &note);
     hci_machine_release(&machine);
     if (status) return cli_fail(status, &note);
-    return x.is_rotated ? 1 : 0;
+    return x.is_rotated || !x.is_found ? 1 : 0;
 }
 
 /* ---- the command ---- */

@@ -9,8 +9,13 @@
 #include "hci/math/harmonic.h"
 #include "host/base/memory.h"
 
-/* Grid points of an electrical turn, turns of a table at most, and samples that shifts are tried on. */
-enum { GRID = 512, MOST_TURNS = 64, TRIED = 600 };
+/* Grid points of an electrical turn, turns of a table at most, samples that shifts are tried on, and pole
+ * pairs that are. */
+enum { GRID = 512, MOST_TURNS = 64, TRIED = 600, MOST_PAIRS = 64 };
+
+/* Of the rms: a table that leaves more is not in the recording; other pole pairs are named from the second
+ * on. */
+static const double FOUND = 0.95, SEEN = 0.5;
 
 typedef struct {
     const hci_currents *table;
@@ -131,18 +136,27 @@ static double gain_at(const comparison *c, double rotation_rad, bool backwards, 
     return s.tt > 0.0 ? s.mt / s.tt : 0.0;
 }
 
+/* The best of all shifts in both directions; those backwards behind the others. *best: what it leaves. */
+static size_t best_shift(const comparison *c, double *best)
+{
+    const size_t all = GRID * c->turns;
+    size_t at = 0;
+    *best = 2.0;
+    for (size_t k = 0; k < 2 * all; ++k) {
+        const double left = try_shift(c, k % all, k >= all);
+        if (!(left < *best)) continue;
+        *best = left;
+        at = k;
+    }
+    return at;
+}
+
 /* The best shift, and the best in another electrical turn. */
 static void search(const comparison *c, hci_table_rotation *x)
 {
     const size_t all = GRID * c->turns;
-    double best = 2.0, elsewhere = 2.0;
-    size_t at = 0;
-    for (size_t k = 0; k < 2 * all; ++k) {
-        const double left = try_shift(c, k % all, k >= all);
-        if (!(left < best)) continue;
-        best = left;
-        at = k;
-    }
+    double best, elsewhere = 2.0;
+    size_t at = best_shift(c, &best);
     x->backwards = at >= all;
     at %= all;
     for (size_t turn = 1; turn < c->turns; ++turn)
@@ -151,6 +165,46 @@ static void search(const comparison *c, hci_table_rotation *x)
     x->left_elsewhere = c->turns > 1 ? sqrt(elsewhere) : 1.0;
     x->rotation_rad = 2.0 * HCI_PI * (double)at / GRID;
     if (at > all / 2) x->rotation_rad -= 2.0 * HCI_PI * (double)c->turns;
+}
+
+/* Pole pairs with which a table of one electrical turn is in the recording, or 0. */
+static size_t pole_pairs_seen(comparison c)
+{
+    double least = SEEN * SEEN;
+    size_t seen = 0;
+    for (size_t pairs = 1; c.turns == 1 && pairs <= MOST_PAIRS; ++pairs) {
+        double left;
+        c.pole_pairs = (double)pairs;
+        (void)best_shift(&c, &left);
+        if (!(left < least)) continue;
+        least = left;
+        seen = pairs;
+    }
+    return seen;
+}
+
+/* Electrical step of an angle that stands still at a fifth of the samples or more: of a coarse encoder. */
+static double step_of(const comparison *c)
+{
+    size_t still = 0, moves = 0;
+    double sum = 0.0;
+    for (size_t k = 1; k < c->run->count; ++k) {
+        const double step = fabs(c->run->theta_m_rad[k] - c->run->theta_m_rad[k - 1]) * c->pole_pairs;
+        still += step < 1e-9;
+        moves += step >= 1e-9;
+        sum += step;
+    }
+    return moves > 0 && 5 * still >= c->run->count ? sum / (double)moves : 0.0;
+}
+
+static void conclude(const comparison *c, hci_table_rotation *x)
+{
+    const double rotation = fabs(x->rotation_rad);
+    x->step_rad = step_of(c);
+    x->is_found = x->left < FOUND;
+    if (!x->is_found) x->pole_pairs_seen = pole_pairs_seen(*c);
+    x->is_rotated = x->is_found &&
+                    (x->backwards || (rotation > 3.0 * x->error_rad + 0.5 * x->step_rad && rotation > 0.01));
 }
 
 static hci_status check_inputs(const comparison *c, hci_note *note)
@@ -187,8 +241,7 @@ hci_status hci_table_rotation_of(const hci_currents *table, const hci_run *run, 
     x->gain = gain_at(&c, x->rotation_rad, x->backwards, &x->left);
     for (int k = 0; k < 4; ++k)
         refine(&c, x);
-    x->is_rotated =
-        x->backwards || (fabs(x->rotation_rad) > 3.0 * x->error_rad && fabs(x->rotation_rad) > 0.01);
+    conclude(&c, x);
     hci_memory_free(c.grid);
     return HCI_OK;
 }

@@ -38,8 +38,7 @@ static void write_reply(const hci_foreign_map *map, const hci_foreign_files *fil
 {
     char amplitude[32], phase[32];
     hci_foreign_write_head(map, files, "#",
-                           "OpenFFBoard: order:amplitude:phase, as the command coggingHarmonics answers.",
-                           output);
+                           "OpenFFBoard: order:amplitude:phase, in counts and radians, of map.hex.", output);
     for (size_t k = 0; k < map->terms; ++k)
         hci_output_text(output, "%s%.0f:%s:%s", k > 0 ? "," : "", map->term[k].order,
                         hci_foreign_float((double)counts(map, &map->term[k]), amplitude),
@@ -138,6 +137,12 @@ static bool read_term(const char *text, const char **end, hci_foreign_term *term
            hci_foreign_number(*end + 1, end, &term->phase_rad) && strchr(",]\r\n", **end) != NULL;
 }
 
+/* Whether terms are whole numbers alone: a board answers in whole counts and milliradians. */
+static bool is_whole(const char *text)
+{
+    return text[strcspn(text, ".eE]\r\n")] != '.' && strcspn(text, "eE") >= strcspn(text, "]\r\n");
+}
+
 static bool recognises(const char *text)
 {
     hci_foreign_term term;
@@ -162,6 +167,7 @@ static hci_status read(const char *path, const char *text, hci_foreign_map *map,
 {
     hci_foreign_term term;
     const char *at_term = answer(text);
+    const double unit_rad = is_whole(at_term) ? 1e-3 : 1.0;
     char found[48];
     while (read_term(at_term, &at_term, &term)) {
         snprintf(found, sizeof found, "%zu terms, order %g", map->terms + 1, term.order);
@@ -169,7 +175,7 @@ static hci_status read(const char *path, const char *text, hci_foreign_map *map,
             floor(term.order) != term.order)
             return wrong(path, found, note);
         term.amplitude = (double)(float)term.amplitude / map->counts_per_A;
-        term.phase_rad = (double)(float)term.phase_rad;
+        term.phase_rad = (double)(float)(unit_rad * term.phase_rad);
         if (term.amplitude > 0.0) map->term[map->terms++] = term;
         if (*at_term != ',') break;
         ++at_term;

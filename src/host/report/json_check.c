@@ -101,15 +101,18 @@ char *hci_table_rotation_json(const hci_table_rotation *x)
 {
     hci_json json;
     hci_summary_begin(&json, "check");
+    hci_json_bool(&json, "found", x->is_found);
     hci_json_bool(&json, "rotated", x->is_rotated);
     hci_json_number(&json, "rotation_e_rad", x->rotation_rad);
     hci_json_number(&json, "error_e_rad", x->error_rad);
+    hci_json_number(&json, "step_e_rad", x->step_rad);
     hci_json_bool(&json, "backwards", x->backwards);
     hci_json_number(&json, "gain", x->gain);
     hci_json_number(&json, "left_as_is", x->left_as_is);
     hci_json_number(&json, "left", x->left);
     hci_json_number(&json, "left_elsewhere", x->left_elsewhere);
     hci_json_number(&json, "period_electrical_turns", (double)x->period_turns);
+    hci_json_number(&json, "pole_pairs_seen", (double)x->pole_pairs_seen);
     hci_json_number(&json, "samples", (double)x->samples);
     return hci_json_end(&json);
 }

@@ -105,6 +105,51 @@ static void test_which_of_the_turns(void)
     }
 }
 
+/* Of a table that is read with other pole pairs nothing is left at any rotation; what was played is named. */
+static void test_other_pole_pairs(void)
+{
+    static const size_t pairs[] = {1, 5, 14, 21};
+    for (size_t n = 0; n < sizeof pairs / sizeof *pairs; ++n) {
+        for (size_t k = 0; k < COUNT; ++k) {
+            theta[k] = 6.0 * REF_PI * (double)k / COUNT;
+            hci_waves_at(wave, table.count, (double)pairs[n] * theta[k] + 0.4, current + 3 * k);
+        }
+        const hci_table_rotation x = compare();
+        TEST_ASSERT_FALSE(x.is_found);
+        TEST_ASSERT_FALSE(x.is_rotated);
+        TEST_ASSERT_EQUAL_UINT((unsigned)pairs[n], (unsigned)x.pole_pairs_seen);
+    }
+}
+
+static void test_noise_is_no_table(void)
+{
+    uint64_t seed = 9;
+    play(0.0, 0.0, 0.0, 1, 1);
+    for (size_t k = 0; k < 3 * COUNT; ++k)
+        current[k] = ref_normal(&seed);
+    const hci_table_rotation x = compare();
+    TEST_ASSERT_FALSE(x.is_found);
+    TEST_ASSERT_EQUAL_UINT(0, (unsigned)x.pole_pairs_seen);
+}
+
+/* An encoder that rounds down: half of its step is part of what is found, and not called a rotation. */
+static void test_a_coarse_angle(void)
+{
+    const double step = 2.0 * REF_PI / (24.0 * PAIRS);
+    for (int far = 0; far < 2; ++far) {
+        play(far ? 0.4 : 0.0, 1.0, 0.0, 1, 1);
+        for (size_t k = 0; k < COUNT; ++k)
+            theta[k] = step * floor(theta[k] / step);
+        const hci_table_rotation x = compare();
+        TEST_ASSERT_TRUE(x.is_found && !x.backwards);
+        TEST_ASSERT_TRUE(x.is_rotated == (far == 1));
+        TEST_ASSERT_DOUBLE_WITHIN(1e-3, step * PAIRS, x.step_rad);
+        TEST_ASSERT_DOUBLE_WITHIN(0.55 * x.step_rad, far ? 0.4 : 0.0, x.rotation_rad);
+    }
+    play(0.0, 1.0, 0.0, 1, 1);
+    TEST_ASSERT_TRUE(compare().step_rad == 0.0);
+}
+
 static void test_what_cannot_be_compared(void)
 {
     hci_table_rotation x;
@@ -124,6 +169,9 @@ int main(void)
     RUN_TEST(test_the_error_is_that_of_the_noise);
     RUN_TEST(test_backwards);
     RUN_TEST(test_which_of_the_turns);
+    RUN_TEST(test_other_pole_pairs);
+    RUN_TEST(test_noise_is_no_table);
+    RUN_TEST(test_a_coarse_angle);
     RUN_TEST(test_what_cannot_be_compared);
     return UNITY_END();
 }

@@ -17,7 +17,8 @@ build_integer() { # NAME CMAKE_OPTION...
 }
 same() { # NAME: its output is that of this machine
     check "$1 reached its end" grep -qx done "$work/$1.txt"
-    grep -v '^cost' "$work/$1.txt" | check "$1 has the references of this machine" cmp -s - "$work/native.txt"
+    grep -v '^cost' "$work/$1.txt" >"$work/references"
+    check "$1 has the references of this machine" cmp -s "$work/references" "$work/native.txt"
     echo "$1: $(grep -c ' ' "$work/native.txt") references as on this machine"
 }
 build_integer native

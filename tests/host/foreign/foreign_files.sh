@@ -127,6 +127,16 @@ harmonics 0 "$work/openffboard.txt" --json && cp "$work/stdout" "$work/read"
 } >"$work/answer.txt"
 harmonics 0 "$work/answer.txt" --json
 check "what a board answers is read as another map" same "$work/read" "$work/stdout"
+# A board answers in whole counts and milliradians.
+harmonics 0 "$work/openffboard.txt" --orders 12 --json
+awk -F'[:,]' '/"amplitude"/ { print $2 } /"phase_rad"/ { print $2 }' "$work/stdout" >"$work/exact"
+{
+    echo '# counts_per_ampere 400'
+    grep -v '^#' "$work/openffboard.txt" | tr ',' '\n' | awk -F: '{ printf("%s%d:%d:%d", (NR > 1) ? "," : "", $1, $2, 1000 * $3) } END { print "" }'
+} >"$work/whole.txt"
+harmonics 0 "$work/whole.txt" --orders 12 --json
+awk -F'[:,]' '/"amplitude"/ { print $2 } /"phase_rad"/ { print $2 }' "$work/stdout" | paste "$work/exact" - >"$work/both"
+check "an answer in milliradians is read as another map" awk '{ d = $1 - $2; if (d < 0) d = -d; if (d > 0.003) exit 1 } END { exit NR != 2 }' "$work/both"
 grep -v '^#' "$work/openffboard.txt" >"$work/bare.txt"
 harmonics 3 "$work/bare.txt"
 says 'found no comment `counts_per_ampere N`'

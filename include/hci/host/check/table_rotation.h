@@ -17,9 +17,12 @@ typedef struct {
     double error_rad;    /* standard error of it */
     double gain;         /* the recorded currents by the table's: the share of the torque */
     bool backwards;      /* against the direction of the log's angle */
-    bool is_rotated;     /* by more than three errors and 0.01 rad, or backwards */
-    double left_as_is;     /* rms of what differs by rms of the currents, at no rotation */
-    double left;           /* and at this one */
+    bool is_found;       /* the table is in the recording: at its best it leaves less than 95 % of the rms */
+    bool is_rotated;     /* by more than three errors, half a step and 0.01 rad, or backwards */
+    double step_rad;     /* electrical, of the log's angle where it stands still between samples; else 0 */
+    size_t pole_pairs_seen; /* where it is not found: pole pairs with which it is; 0: none up to 64 */
+    double left_as_is;      /* rms of what differs by rms of the currents, at no rotation */
+    double left;            /* and at this one */
     double left_elsewhere; /* at the best rotation in another electrical turn of the table; 1 with one turn */
     size_t period_turns;   /* electrical turns in the table */
     size_t samples;        /* that were compared */
