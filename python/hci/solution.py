@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from .machine import Machine
 
 Array = npt.NDArray[Any]
-_FORMATS = {"f32": lib.HCI_EMIT_F32, "i16": lib.HCI_EMIT_I16, "q15": lib.HCI_EMIT_Q15, "csv": lib.HCI_EMIT_CSV,
+_FORMATS = {"f32": lib.HCI_EMIT_F32, "i16": lib.HCI_EMIT_I16, "q15": lib.HCI_EMIT_Q15, "i8": lib.HCI_EMIT_I8, "csv": lib.HCI_EMIT_CSV,
             "json": lib.HCI_EMIT_JSON}
 _SHAPES = {"auto": lib.HCI_EMIT_AUTO, "linear": lib.HCI_EMIT_LINEAR, "quadratic": lib.HCI_EMIT_QUADRATIC,
            "cubic": lib.HCI_EMIT_CUBIC}
@@ -170,7 +170,7 @@ class Solution(Result):
         Args:
             folder: where the files go.
             name: of the table, a C identifier.
-            format: f32, i16 or q15 for C; csv or json for other programs.
+            format: f32, i16, q15 or i8 for C; csv or json for other programs.
             shape: auto, linear, quadratic or cubic.
             frame: abc (phase currents) or dq (rotor frame).
             points: rows, 0: as many as the error asks for.
@@ -198,13 +198,13 @@ class Solution(Result):
         parts = _currents(source, lib.HCI_SOLUTION_CURRENTS_PER_NM, tables) if per_torque else ffi.new("hci_currents *")
         verdict = text(lib.hci_solution_verdict_words(lib.hci_solution_read_verdict(source)))
         lines, kept = strings([f"{read.count} current components, solved by hci-solve".encode(), verdict.encode()])
-        identifier, label = ffi.new("char[]", name.encode()), ffi.new("char[]", self.machine.name.encode())
+        identifier, facts = ffi.new("char[]", name.encode()), ffi.addressof(request, "facts")
         request.name, request.currents, request.current_count = identifier, read.wave, read.count
         request.per_Nm, request.per_Nm_count = parts.wave, parts.count
         request.has_neutral = any(part.wave[k].sequence == 0 for part in (read, parts) for k in range(part.count))
         request.input_hash = (read.hash ^ (parts.hash * 31)) & 0xFFFFFFFFFFFFFFFF
         request.provenance, request.provenance_count = lines, 2 if verdict else 1
-        request.facts.machine, request.facts.pole_pairs = label, self.machine.pole_pairs
+        note.check(lib.hci_emit_facts_read(path(self.machine.path), self.machine.c, facts, note.c))
         request.facts.mean_torque_Nm = float(self._c.wanted_mean_Nm)
         with writing:
             note.check(lib.hci_emit(path(folder), request, result, note.c))

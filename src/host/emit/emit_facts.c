@@ -44,7 +44,8 @@ hci_status hci_emit_facts_read(const char *folder, const hci_machine_data *machi
     if (status) return status;
     folder_name(folder, facts->machine, sizeof facts->machine);
     facts->pole_pairs = (size_t)machine->pole_pairs;
-    facts->rated_speed_rad_per_s = machine->rated_speed_rad_per_s;
+    facts->rated_speed_rad_per_s =
+        machine->rated_speed_rad_per_s > 0.0 ? machine->rated_speed_rad_per_s : 0.0; /* NAN: not given */
     take_magnets(&effects.list, facts);
     hci_effects_release(&effects);
     return HCI_OK;
