@@ -33,6 +33,7 @@ static hci_status read_drive_inputs(const cli_arguments *a, drive_inputs *in, hc
                                 .level_count = in->levels.count,
                                 .max_error_A = cli_number_or(a, EMIT_MAX_ERROR, 0.0),
                                 .speed_rad_per_s = cli_number_or(a, EMIT_SPEED, 0.0) * HCI_PI / 30.0,
+                                .blob = a->given[EMIT_BLOB],
                                 .input_hash = in->levels.hash};
     if (!status) status = hci_emit_facts_read(a->value[EMIT_MACHINE], &in->machine, &in->request.facts, note);
     return status;

@@ -98,8 +98,9 @@ const cli_option cli_emit_options[] = {
     [EMIT_WAVE] = {"wave", 0, CLI_CHOICE, "NAME",
                    .help = "with --for beckhoff: what its amplitude and phase mean:", .choices = WAVES},
     [EMIT_BLOB] = {"blob", 0, CLI_FLAG, NULL,
-                   .help =
-                       "ID.bin too: the table as bytes that a bootloader or a bus brings, for hci/blob.h"},
+                   .help = "ID.bin too: the table as bytes that a bootloader or a bus brings, for "
+                           "hci/blob.h; with --drive for "
+                           "hci/loop_blob.h"},
     [EMIT_OUT] = {"out", 'o', CLI_FOLDER, "FOLDER", .help = "where ID.h and ID.c go (default: here)"},
     CLI_COMMON_OPTIONS};
 
@@ -126,8 +127,8 @@ hci_status cli_emit_check(const cli_arguments *a, hci_note *note)
          "--drive is for hci/loop.h, --for TARGET for another maker's drive; give one of them"},
         {target && !machine, "--for TARGET needs --machine FOLDER"},
         {drive && !machine, "--drive FILE needs --machine FOLDER"},
-        {a->given[EMIT_BLOB] && (drive || target),
-         "--blob is a table for hci/table.h or hci/table_i16.h; leave out --drive and --for"},
+        {a->given[EMIT_BLOB] && target,
+         "--blob is for hci/table.h, hci/table_i16.h or hci/loop.h; leave out --for"},
         {!target && ANY(a, EMIT_ENCODER_OFFSET, EMIT_ENCODER_DIRECTION, EMIT_TORQUE_CONSTANT, EMIT_COUNTS,
                         EMIT_WAVE),
          "--encoder-offset, --encoder-direction, --torque-constant, --counts-per-ampere and --wave go with "

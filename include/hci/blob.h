@@ -41,7 +41,8 @@
 typedef enum {
     HCI_BLOB_F32 = 1, /* hci_table_f32 */
     HCI_BLOB_I16 = 2, /* hci_table_i16 */
-    HCI_BLOB_I8 = 3   /* the same with knots of 8 bits */
+    HCI_BLOB_I8 = 3,  /* the same with knots of 8 bits */
+    HCI_BLOB_LOOP = 4 /* hci_loop_f32, read by hci/loop_blob.h */
 } hci_blob_kind;
 
 /* What reading a blob has found. */
@@ -164,12 +165,10 @@ static inline int hci_blob_has_sizes(const void *blob)
                : 0;
 }
 
-/* All that can be said before the table is looked at. size: of the memory that it lies in. value_bytes: of a
- * value and, as probe_bytes, of a probe of that kind. */
-static inline hci_blob_verdict hci_blob_check(const void *blob, uint32_t size, hci_blob_kind kind,
-                                              uint32_t value_bytes, uint32_t probe_bytes)
+/* Whether a blob of that kind is there and whole. size: of the memory that it lies in. */
+static inline hci_blob_verdict hci_blob_check_whole(const void *blob, uint32_t size, hci_blob_kind kind)
 {
-    uint32_t bytes, rows;
+    uint32_t bytes;
     if (hci_blob_is_in_place(blob) == 0) return HCI_BLOB_NONE;
     if (size < 12u) return HCI_BLOB_CUT_OFF;
     if ((hci_blob_u32(blob, 0u) != 0x54494348u) || (hci_blob_u16(blob, 4u) == 0u)) return HCI_BLOB_NONE;
@@ -179,10 +178,21 @@ static inline hci_blob_verdict hci_blob_check(const void *blob, uint32_t size, h
     if (bytes < (HCI_BLOB_HEAD + 4u)) return HCI_BLOB_DAMAGED;
     if (hci_blob_crc32(blob, bytes - 4u) != hci_blob_u32(blob, bytes - 4u)) return HCI_BLOB_DAMAGED;
     if (hci_blob_u16(blob, 6u) != HCI_TABLE_U32(kind)) return HCI_BLOB_OTHER_KIND;
+    return HCI_BLOB_GOOD;
+}
+
+/* All that can be said before the table is looked at. value_bytes: of a value and, as probe_bytes, of a probe
+ * of that kind. */
+static inline hci_blob_verdict hci_blob_check(const void *blob, uint32_t size, hci_blob_kind kind,
+                                              uint32_t value_bytes, uint32_t probe_bytes)
+{
+    const hci_blob_verdict verdict = hci_blob_check_whole(blob, size, kind);
+    uint32_t rows;
+    if (verdict != HCI_BLOB_GOOD) return verdict;
     if (hci_blob_has_sizes(blob) == 0) return HCI_BLOB_DAMAGED;
     rows = hci_blob_u32(blob, 56u) + (kind == HCI_BLOB_F32 ? 1u : hci_blob_u32(blob, 68u));
-    if (bytes != HCI_BLOB_HEAD + hci_blob_row_bytes(blob, rows, value_bytes) +
-                     hci_blob_u32(blob, 60u) * probe_bytes + 4u)
+    if (hci_blob_u32(blob, 8u) != HCI_BLOB_HEAD + hci_blob_row_bytes(blob, rows, value_bytes) +
+                                      hci_blob_u32(blob, 60u) * probe_bytes + 4u)
         return HCI_BLOB_DAMAGED;
     return HCI_BLOB_GOOD;
 }

@@ -1,32 +1,7 @@
 /* A table as the bytes that hci/blob.h reads: a head, rows or knots, probes, CRC-32, low bytes first. */
-#include <stdio.h>
-#include <string.h>
-
 #include "hci/blob.h"
+#include "host/emit/blob_bytes.h"
 #include "host/emit/text.h"
-
-/* What is written: the end of what there is so far, and its CRC. */
-typedef struct {
-    hci_output *out;
-    uint32_t crc;
-} sink;
-
-static void put(sink *s, uint32_t value, int bytes)
-{
-    unsigned char low[4];
-    for (int k = 0; k < bytes; ++k)
-        low[k] = (unsigned char)(value >> 8 * k & 255u);
-    s->crc =
-        hci_table_crc32_bytes(s->crc, value & (bytes == 4 ? 0xFFFFFFFFu : (1u << 8 * bytes) - 1u), bytes);
-    hci_output_bytes(s->out, low, (size_t)bytes);
-}
-
-static void put_float(sink *s, float value)
-{
-    uint32_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    put(s, bits, 4);
-}
 
 /* Both kinds have these, in this order. */
 typedef struct {
@@ -66,90 +41,77 @@ static figures figures_of(const hci_emission *e)
                      HCI_EMIT_PROBES * 12};
 }
 
-static void put_name(sink *s, const char *name)
-{
-    char text[HCI_BLOB_NAME] = {0};
-    snprintf(text, sizeof text, "%.*s", (int)sizeof text - 1, name);
-    for (size_t k = 0; k < sizeof text; ++k)
-        put(s, (unsigned char)text[k], 1);
-}
-
-static void put_head(sink *s, const hci_emission *e, const figures *f)
+static void put_head(hci_blob_sink *s, const hci_emission *e, const figures *f)
 {
     const hci_emit_request *r = e->request;
-    put(s, 0x54494348u, 4);
-    put(s, HCI_BLOB_VERSION, 2);
-    put(s, (uint32_t)f->kind, 2);
-    put(s, (uint32_t)(HCI_BLOB_HEAD + f->row_bytes + f->probe_bytes + 4), 4);
-    put(s, (uint32_t)r->input_hash, 4);
-    put(s, (uint32_t)(r->input_hash >> 32), 4);
-    put(s, (uint32_t)r->facts.pole_pairs, 4);
-    put(s, r->frame == HCI_TABLE_ABC ? 0 : 1, 4);
-    put(s, f->columns, 4);
-    put(s, f->parts, 4);
-    put(s, f->period_turns, 4);
-    put_float(s, f->peak_A);
-    put_float(s, f->reference_torque_Nm);
-    put_float(s, f->max_error_A);
-    put_float(s, (float)r->facts.mean_torque_Nm);
-    put(s, f->points, 4);
-    put(s, HCI_EMIT_PROBES, 4);
-    put(s, f->sum, 4);
+    hci_blob_put_start(s, (int)f->kind, HCI_BLOB_HEAD + f->row_bytes + f->probe_bytes + 4, r->input_hash,
+                       r->facts.pole_pairs);
+    hci_blob_put(s, r->frame == HCI_TABLE_ABC ? 0 : 1, 4);
+    hci_blob_put(s, f->columns, 4);
+    hci_blob_put(s, f->parts, 4);
+    hci_blob_put(s, f->period_turns, 4);
+    hci_blob_put_float(s, f->peak_A);
+    hci_blob_put_float(s, f->reference_torque_Nm);
+    hci_blob_put_float(s, f->max_error_A);
+    hci_blob_put_float(s, (float)r->facts.mean_torque_Nm);
+    hci_blob_put(s, f->points, 4);
+    hci_blob_put(s, HCI_EMIT_PROBES, 4);
+    hci_blob_put(s, f->sum, 4);
 }
 
 /* The fields of knots, or zeros. */
-static void put_shape(sink *s, const hci_emission *e)
+static void put_shape(hci_blob_sink *s, const hci_emission *e)
 {
     const hci_table_i16 none = {0}, *x = e->request->format == HCI_EMIT_F32 ? &none : &e->spline;
-    put(s, x->degree, 4);
-    put(s, x->sectors, 4);
-    put(s, x->rotation, 4);
-    put(s, x->alternates, 4);
-    put_float(s, x->unit_A);
-    put_float(s, x->max_error_q15_A);
-    put_name(s, e->request->facts.machine);
+    hci_blob_put(s, x->degree, 4);
+    hci_blob_put(s, x->sectors, 4);
+    hci_blob_put(s, x->rotation, 4);
+    hci_blob_put(s, x->alternates, 4);
+    hci_blob_put_float(s, x->unit_A);
+    hci_blob_put_float(s, x->max_error_q15_A);
+    hci_blob_put_name(s, e->request->facts.machine);
 }
 
-static void put_rows(sink *s, const hci_emission *e)
+static void put_rows(hci_blob_sink *s, const hci_emission *e)
 {
     const hci_table_f32 *t = &e->table;
     for (size_t k = 0; k < (size_t)(t->points + 1) * t->columns * t->parts; ++k)
-        put_float(s, e->rows[k]);
+        hci_blob_put_float(s, e->rows[k]);
     for (size_t k = 0; k < HCI_EMIT_PROBES; ++k) {
-        put(s, e->probes[k].angle, 4);
-        put_float(s, e->probes[k].torque_Nm);
+        hci_blob_put(s, e->probes[k].angle, 4);
+        hci_blob_put_float(s, e->probes[k].torque_Nm);
         for (int c = 0; c < 3; ++c)
-            put_float(s, e->probes[k].expected[c]);
+            hci_blob_put_float(s, e->probes[k].expected[c]);
     }
 }
 
-static void put_knots(sink *s, const hci_emission *e)
+static void put_knots(hci_blob_sink *s, const hci_emission *e)
 {
     const hci_table_i16 *x = &e->spline;
     const size_t values = (size_t)(x->intervals + x->degree) * x->columns * x->parts;
     const int bytes = (int)x->knot_bits / 8;
     for (size_t k = 0; k < values; ++k)
-        put(s, bytes == 1 ? (uint32_t)x->knots_i8[k] & 0xFFu : (uint32_t)x->knots[k] & 0xFFFFu, bytes);
-    for (size_t k = values * (size_t)bytes; k % 4 != 0; ++k)
-        put(s, 0, 1);
+        hci_blob_put(s, bytes == 1 ? (uint32_t)x->knots_i8[k] & 0xFFu : (uint32_t)x->knots[k] & 0xFFFFu,
+                     bytes);
+    hci_blob_fill(s);
     for (size_t k = 0; k < HCI_EMIT_PROBES; ++k) {
         const hci_table_i16_probe *p = &e->spline_probes[k];
-        put(s, p->angle, 4);
-        put(s, (uint32_t)p->torque_q15 & 0xFFFFu, 2);
+        hci_blob_put(s, p->angle, 4);
+        hci_blob_put(s, (uint32_t)p->torque_q15 & 0xFFFFu, 2);
         for (int c = 0; c < 3; ++c)
-            put(s, (uint32_t)p->expected[c] & 0xFFFFu, 2);
+            hci_blob_put(s, (uint32_t)p->expected[c] & 0xFFFFu, 2);
     }
 }
 
 void hci_emission_write_blob(const hci_emission *e, hci_output *out)
 {
     const figures f = figures_of(e);
-    sink s = {out, 0xFFFFFFFFu};
+    hci_blob_sink s = {out, 0xFFFFFFFFu, 0};
     put_head(&s, e, &f);
     put_shape(&s, e);
     if (e->request->format == HCI_EMIT_F32)
         put_rows(&s, e);
     else
         put_knots(&s, e);
-    put(&s, ~s.crc, 4);
+    hci_blob_put_crc(&s);
 }

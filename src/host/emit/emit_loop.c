@@ -8,6 +8,7 @@
 
 #include "hci/version.h"
 #include "host/drive/loop_set.h"
+#include "host/emit/blob_loop.h"
 #include "host/emit/request.h"
 #include "host/emit/text.h"
 
@@ -238,6 +239,19 @@ static void write_source(const emission *e, hci_output *out)
 
 /* ---- all of it ---- */
 
+static void write_blob(const emission *e, hci_output *out)
+{
+    hci_emit_loop_blob(&e->set.loop, e->request, out);
+}
+
+/* One that an earlier run left holds others. */
+static hci_status without_blob(const emission *e, hci_output *out, hci_note *note)
+{
+    char file[HCI_EMIT_NAME_LENGTH + 8];
+    snprintf(file, sizeof file, "%s.bin", e->request->name);
+    return hci_output_without(out, file, note);
+}
+
 static hci_status write_file(const emission *e, hci_output *out, const char *extension,
                              void (*write)(const emission *, hci_output *), hci_note *note)
 {
@@ -255,6 +269,8 @@ static hci_status write_files(const emission *e, const char *folder, hci_note *n
     if (status) return status;
     status = write_file(e, out, "h", write_header, note);
     if (!status) status = write_file(e, out, "c", write_source, note);
+    if (!status)
+        status = e->request->blob ? write_file(e, out, "bin", write_blob, note) : without_blob(e, out, note);
     if (!status) return hci_output_commit(out, note);
     hci_output_discard(out);
     return status;

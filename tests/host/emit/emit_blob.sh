@@ -27,11 +27,20 @@ emit rows --frame dq --per-torque --points 15
 check 'built' cc $options tests/host/emit/blob/main.c "$work"/tables/rows.c "$work"/tables/small.c -o "$work/program"
 check 'rows per torque' "$work/program" "$work/tables/rows.bin" "$work/tables/small.bin"
 
-# One that an earlier run left holds another table; a drive's tables have none.
+# Orders for a drive.
+cp "$work/tables/rows.bin" "$work/other.bin"
+run 0 emit "$work/currents" --name orders --machine data/machine_a --drive data/drive/machine_a_10kHz.csv --blob --quiet -o "$work/tables"
+# shellcheck disable=SC2086
+check 'built: orders' cc $options tests/host/emit/blob_loop/main.c "$work"/tables/orders.c -o "$work/program"
+check 'blob of orders' "$work/program" "$work/tables/orders.bin" "$work/other.bin"
+run 0 emit "$work/currents" --name orders --machine data/machine_a --drive data/drive/machine_a_10kHz.csv --quiet -o "$work/tables"
+check 'an old blob of orders stays' test ! -e "$work/tables/orders.bin"
+
+# One that an earlier run left holds another table; another maker's drive has none.
 run 0 emit "$work/currents" --name rows --quiet -o "$work/tables"
 check 'an old blob stays' test ! -e "$work/tables/rows.bin"
-run 2 emit "$work/currents" --name rows --blob --drive data/drive/machine_a_10kHz.csv --machine data/machine_a -o "$work/tables"
-says '--blob is a table for hci/table.h'
+run 2 emit "$work/currents" --name rows --blob --for moteus --machine data/machine_a -o "$work/tables"
+says '--blob is for hci/table.h'
 run 0 emit "$work/currents" --name rows --machine data/machine_a/ --quiet -o "$work/tables"
 check 'facts in the header' grep -q 'Motor:  machine_a, 2 pole pairs' "$work/tables/rows.h"
 check 'facts in the header' grep -q '^#define rows_PERIODS 2u' "$work/tables/rows.h"

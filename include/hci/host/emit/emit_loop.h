@@ -3,6 +3,7 @@
 #ifndef HCI_HOST_EMIT_EMIT_LOOP_H
 #define HCI_HOST_EMIT_EMIT_LOOP_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "hci/host/drive/drive.h"
@@ -21,7 +22,8 @@ typedef struct {
     size_t level_count;              /* entries of levels */
     double max_error_A;              /* of a table over the angle; 0: 2e-4 of the largest current */
     double speed_rad_per_s;          /* mechanical, up to which it is used; 0: as far as it goes */
-    hci_emit_facts facts;            /* for the header */
+    hci_emit_facts facts;            /* for the header and the blob */
+    bool blob;                       /* NAME.bin too, for hci/loop_blob.h */
     uint64_t input_hash;             /* 64-bit FNV-1a of what the currents were read from */
 } hci_emit_loop_request;
 
@@ -42,8 +44,8 @@ typedef struct {
     uint32_t crc32;           /* of the waves */
 } hci_emit_loop_result;
 
-/* Writes NAME.h and NAME.c into `folder`, both or none; same request, same bytes. HCI_ERROR_INPUT, _ARGUMENT,
- * _MEMORY, _OUTPUT, with a note. */
+/* Writes NAME.h and NAME.c into `folder`, and NAME.bin where asked for, all or none; same request, same
+ * bytes. HCI_ERROR_INPUT, _ARGUMENT, _MEMORY, _OUTPUT, with a note. */
 hci_status hci_emit_loop(const char *folder, const hci_emit_loop_request *request,
                          hci_emit_loop_result *result, hci_note *note);
 
