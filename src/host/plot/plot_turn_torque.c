@@ -84,7 +84,7 @@ static void draw_strips(hci_output *out, const hci_plot_turn *t, const hci_svg_b
 void hci_plot_turn_torque(hci_output *out, const hci_svg_box *area, const void *turn)
 {
     static const hci_svg_entry ENTRY[] = {{HCI_SVG_LINE, "before", "before"},
-                                          {HCI_SVG_LINE, "after", "after, mean of the turns"},
+                                          {HCI_SVG_LINE, "after", "after, mean"},
                                           {HCI_SVG_LINE, "edge", "least and most"}};
     const hci_plot_turn *t = turn;
     const hci_svg_axis y = hci_svg_axis_over(range_of_both(t->turn, t->before), area->bottom, area->top, 6.0);
