@@ -125,9 +125,9 @@ static void draw_spectrum_foot(hci_output *out, const hci_solution *s, const hci
         snprintf(text, sizeof text, "electrical order, the largest %zu of %zu", shown, eligible);
     else
         snprintf(text, sizeof text, "electrical order");
-    hci_svg_label(out, "quiet", b->left, b->bottom + 35.0, text);
+    hci_svg_label(out, "quiet", b->left, b->bottom + 39.0, text);
     hci_svg_legend(out, missed ? MARKS : MARKS + 1, (size_t)missed + (size_t)unreachable, b->right,
-                   b->bottom + 35.0);
+                   b->bottom + 39.0);
 }
 
 void hci_panel_spectrum(hci_output *out, const hci_solution *s, const hci_svg_box *box)

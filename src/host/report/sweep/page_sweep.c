@@ -227,7 +227,8 @@ static const picture ENVELOPE[] = {
       .description = "Lines in per cent of the mean torque over the speed in rpm, logarithmic.",
       .caption = "Ripple of the torques above.",
       .wide = 250,
-      .narrow = 280,
+      .narrow = 290,
+      .legend_rows = 3,
       .draw = hci_plot_envelope_ripple}},
     {NULL, {NULL}}};
 
