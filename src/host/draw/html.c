@@ -219,7 +219,7 @@ static void draw(hci_output *out, const hci_html_drawing *d, bool is_narrow)
 {
     const int width = is_narrow ? NARROW : WIDE, height = is_narrow ? d->narrow : d->wide;
     const int rows = d->legend_rows > 0 ? d->legend_rows : 2;
-    const int top = d->headless ? 8 : is_narrow ? WIDE_TOP - 14 + ROW * rows : WIDE_TOP;
+    const int top = d->headless ? 8 : is_narrow ? WIDE_TOP - 10 + ROW * rows : WIDE_TOP;
     const hci_svg_box box = {LEFT + HCI_SVG_MARGIN, top, LEFT + width - RIGHT, height - BOTTOM};
     char id[64];
     snprintf(id, sizeof id, "%.40s%s", d->id, is_narrow ? "-narrow" : "");
