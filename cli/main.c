@@ -20,9 +20,9 @@
 #include "hci/version.h"
 
 /* In the order in which one uses them. */
-static const cli_command *const COMMANDS[] = {&cli_init,     &cli_check,   &cli_harmonics,
-                                              &cli_solve,    &cli_sweep,   &cli_emit,
-                                              &cli_simulate, &cli_predict, &cli_diagnose};
+static const cli_command *const COMMANDS[] = {&cli_tune,    &cli_init,    &cli_check, &cli_harmonics,
+                                              &cli_solve,   &cli_sweep,   &cli_emit,  &cli_simulate,
+                                              &cli_predict, &cli_diagnose};
 enum { COMMAND_COUNT = sizeof COMMANDS / sizeof COMMANDS[0] };
 
 static int print_usage(FILE *stream)
@@ -47,7 +47,8 @@ static int print_usage(FILE *stream)
                     "  hci-solve emit out/currents --name hub --frame dq -o out/firmware\n\n");
     cli_print_wrapped(
         stream, width, 0, 0,
-        "Each command prints what it found on standard output (with --json as JSON), progress, remarks and errors "
+        "Each command prints what it found on standard output (with --json as JSON), progress, remarks and "
+        "errors "
         "on standard error, writes its files where --out says, and ends with exit code 0 when all is well. "
         "hci-solve help COMMAND tells its options, files and exit codes, with an example; hci-solve -V the "
         "version. A file named - is standard input, where one table or one recording is read.");

@@ -30,7 +30,8 @@ static const char *take_place(char *text, hci_status status, const char **file, 
         return rest;
     }
     char *end = strstr(text, ": ");
-    const bool is_file = code == hci_status_exit_code(HCI_ERROR_INPUT) || code == hci_status_exit_code(HCI_ERROR_OUTPUT);
+    const bool is_file =
+        code == hci_status_exit_code(HCI_ERROR_INPUT) || code == hci_status_exit_code(HCI_ERROR_OUTPUT);
     if (!is_file || end == NULL || strncmp(text, "--", 2) == 0) return text;
     *end = '\0';
     *file = text;

@@ -21,6 +21,9 @@ typedef struct {
 /* Verdict, and before and after in large figures. verdict: what hci_solve returned. */
 void hci_page_solution_verdict(const hci_solution_page *page, hci_status verdict, const char *machine);
 
+/* The table of before and after, and what to expect of the real machine. */
+void hci_page_before_and_after(const hci_solution_page *page);
+
 /* "3.8 N·m"; "less than 2 µN·m" where it is below the tolerance of the orders. */
 enum { HCI_PAGE_SWING_SIZE = HCI_HTML_NUMBER_SIZE + 16 };
 void hci_page_swing(char text[HCI_PAGE_SWING_SIZE], hci_range range, double tolerance_Nm);

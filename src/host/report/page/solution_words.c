@@ -149,7 +149,7 @@ static void row_of_voltage(const hci_solution_page *p)
     row_of(p->out, "Peak line voltage", "–", after, "–");
 }
 
-static void show_before_and_after(const hci_solution_page *p)
+void hci_page_before_and_after(const hci_solution_page *p)
 {
     const hci_solution *s = p->solution;
     const char *const column[] = {!hci_page_has_plain(s) ? "Before: no current"
@@ -176,5 +176,5 @@ void hci_page_solution_verdict(const hci_solution_page *p, hci_status verdict, c
     hci_html_begin(p->out, &(hci_html_opening){kicker, verdict == HCI_OK ? "Reached" : "Not reached", heading,
                                                verdict == HCI_OK});
     say_lead(p);
-    show_before_and_after(p);
+    hci_page_before_and_after(p);
 }

@@ -1,0 +1,506 @@
+#include "cli/tune/tune_steps.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/command/command.h"
+#include "cli/command/parse.h"
+#include "cli/terminal/progress.h"
+#include "cli/terminal/terminal.h"
+#include "cli/tune/tune_options.h"
+#include "hci/host/currents/target.h"
+#include "hci/host/report/write.h"
+#include "hci/host/waveform/waveform.h"
+
+enum { MOST_STEP_WORDS = 96 };
+
+/* ---- commands: as they are run, and as a shell repeats them ---- */
+
+static void note_text(cli_tuning *t, const char *format, ...) HCI_PRINTF(2, 3);
+static void note_text(cli_tuning *t, const char *format, ...)
+{
+    const size_t used = strlen(t->tuning.commands);
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(t->tuning.commands + used, sizeof t->tuning.commands - used, format, arguments);
+    va_end(arguments);
+}
+
+/* A word of a shell. What begins with the folder of the results goes into the folder of the repetition. */
+static void note_word(cli_tuning *t, const char *word)
+{
+    const size_t length = strlen(t->out);
+    const bool is_out = strncmp(word, t->out, length) == 0 && (word[length] == '/' || word[length] == '\0');
+    note_text(t, is_out ? " \"$OUT\"'" : " '");
+    for (word += is_out ? length : 0; *word; ++word)
+        note_text(t, *word == '\'' ? "'\\''" : "%c", *word);
+    note_text(t, "'");
+}
+
+/* A command line; `code`: as a step that may answer 1. */
+typedef struct {
+    const char *word[MOST_STEP_WORDS];
+    size_t count;
+} command_line;
+
+static void add(command_line *c, const char *word)
+{
+    if (c->count < MOST_STEP_WORDS) c->word[c->count++] = word;
+}
+
+static void add_option(command_line *c, const char *name, const char *value)
+{
+    static char dashed[2 * MOST_STEP_WORDS][40];
+    static size_t used;
+    char *text = dashed[used++ % (2 * MOST_STEP_WORDS)];
+    snprintf(text, sizeof dashed[0], "--%s", name);
+    add(c, text);
+    if (value) add(c, value);
+}
+
+static void add_reading(command_line *c, const cli_arguments *a)
+{
+    for (size_t k = 0; k < a->repeats; ++k)
+        add_option(c, "column", a->repeated[k]);
+    if (a->given[STRICT]) add_option(c, "strict", NULL);
+}
+
+static void note_command(cli_tuning *t, const command_line *c, bool may_be_no)
+{
+    note_text(t, "hci-solve");
+    for (size_t k = 0; k < c->count; ++k)
+        if (k == 0)
+            note_text(t, " %s", c->word[k]);
+        else
+            note_word(t, c->word[k]);
+    note_text(t, may_be_no ? " || [ $? -eq 1 ]\n" : "\n");
+}
+
+/* Runs it here, without words. */
+static hci_status run(cli_tuning *t, const cli_command *command, command_line *c, hci_note *note)
+{
+    char *words[MOST_STEP_WORDS + 1];
+    note_command(t, c, false);
+    for (size_t k = 1; k < c->count; ++k)
+        words[k - 1] = (char *)(size_t)c->word[k];
+    words[c->count - 1] = "-q";
+    const int code = cli_command_run(command, (int)c->count, words);
+    const cli_arguments *a = t->arguments;
+    cli_terminal_begin(a->given[QUIET], a->given[JSON], (cli_color)a->choice[COLOR]);
+    if (code == 0) return HCI_OK;
+    return hci_note_set(
+        note,
+        code == 2   ? HCI_ERROR_ARGUMENT
+        : code == 3 ? HCI_ERROR_INPUT
+        : code == 5 ? HCI_ERROR_OUTPUT
+                    : HCI_ERROR_NUMERIC,
+        "tune: the step `%s` failed, for the reason above; correct that and begin again with a new --out",
+        c->word[0]);
+}
+
+static void path_in(const cli_tuning *t, const char *name, char path[CLI_TUNE_PATH])
+{
+    snprintf(path, CLI_TUNE_PATH, "%.1900s/%s", t->out, name);
+}
+
+/* ---- what is read ---- */
+
+static hci_status init_machine(cli_tuning *t, hci_note *note)
+{
+    const cli_arguments *a = t->arguments;
+    command_line c = {{"init", "machine"}, 2};
+    for (int k = 0; k <= TUNE_DC_LINK; ++k)
+        if (a->given[k]) add_option(&c, cli_tune_options[k].name, a->value[k]);
+    path_in(t, "machine", t->machine);
+    add(&c, "-o");
+    add(&c, t->machine);
+    t->is_own = true;
+    return run(t, t->commands.init, &c, note);
+}
+
+static hci_status list_logs(cli_tuning *t, hci_note *note)
+{
+    const cli_arguments *a = t->arguments;
+    const char *test = a->given[TUNE_HOLDING] ? "holding" : "";
+    path_in(t, "runs.csv", t->list);
+    note_text(t, "echo file,role,test >\"$OUT\"/runs.csv\nfor log in");
+    for (size_t k = 0; k < a->words; ++k)
+        note_word(t, a->word[k]);
+    note_text(t,
+              "; do echo \"$(realpath --relative-to=\"$OUT\" \"$log\"),fit,%s\"; done >>\"$OUT\"/runs.csv\n",
+              test);
+    return hci_tuning_write_list(t->out, a->word, a->words, test, note);
+}
+
+hci_status cli_tune_begin(const cli_arguments *a, cli_tuning *t, hci_note *note)
+{
+    hci_status status;
+    t->arguments = a;
+    t->out = a->value[TUNE_OUT];
+    if (!t->out || !*t->out)
+        return hci_note_set(note, HCI_ERROR_ARGUMENT, "tune: add --out FOLDER, a new folder for the results");
+    if (a->given[TUNE_RUNS] && a->words != 1)
+        return hci_note_set(note, HCI_ERROR_ARGUMENT,
+                            "tune: found %zu words, expected one machine beside --runs LIST", a->words);
+    note_text(t, "#!/bin/sh\n# What tune did, step by step, from the folder where it was called: sh "
+                 "commands.sh NEW_FOLDER\n"
+                 "set -eu\nOUT=${1:?give a new folder}\nmkdir -p \"$OUT\"\n");
+    if (a->given[TUNE_RUNS]) {
+        snprintf(t->machine, sizeof t->machine, "%s", a->word[0]);
+        snprintf(t->list, sizeof t->list, "%s", a->value[TUNE_RUNS]);
+        return HCI_OK;
+    }
+    status = init_machine(t, note);
+    return status ? status : list_logs(t, note);
+}
+
+static const char *source_words(const hci_run *r)
+{
+    static const char *const WORDS[] = {
+        "no torque in it", "torque as measured",
+        "the shaft is held or turned slowly by control: its current answers cogging and friction",
+        "a free shaft: torque is inertia x acceleration"};
+    return WORDS[r->torque_source];
+}
+
+/* "log.csv: 9000 samples, 12.3 s, torque as measured; currents up to 3.2 A" */
+static void say_run(cli_tuning *t, const hci_run *r)
+{
+    double most_A = 0.0;
+    char time[48] = "";
+    for (size_t k = 0; k < 3 * r->count; ++k)
+        most_A = fmax(most_A, fabs(r->i_A[k]));
+    if (r->time_s && r->count > 1)
+        snprintf(time, sizeof time, ", %.4g s", r->time_s[r->count - 1] - r->time_s[0]);
+    hci_tuning_say(&t->tuning, HCI_TUNING_READ, "%s: %zu samples%s; %s; phase currents up to %.3g A%s",
+                   r->name, r->count, time, source_words(r), most_A, r->v_V ? "; voltages" : "");
+    if (r->remark.text[0]) hci_tuning_say(&t->tuning, HCI_TUNING_READ, "  %s", r->remark.text);
+}
+
+static void release_inputs(cli_tuning *t)
+{
+    hci_runs_release(&t->runs);
+    hci_effects_release(&t->effects);
+    hci_machine_release(&t->declared);
+}
+
+static hci_status read_inputs(cli_tuning *t, hci_note *note)
+{
+    const cli_arguments *a = t->arguments;
+    release_inputs(t);
+    cli_reading_release(&t->reading);
+    hci_status status = cli_reading_take(a, a->given[STRICT], &t->reading, note);
+    if (!status) status = hci_machine_read(t->machine, &t->declared, note);
+    if (!status) status = hci_effects_read_machine(t->machine, &t->effects, note);
+    if (status) return status;
+    t->reading.run.pole_pairs = t->declared.model.pole_pairs;
+    t->reading.run.holding = a->given[TUNE_HOLDING];
+    t->reading.run.inertia_kgm2 = t->declared.inertia_kgm2;
+    t->reading.run.torque_constant_Nm_per_A = hci_machine_torque_constant(&t->declared);
+    return hci_runs_read(t->list, &(hci_runs_options){t->reading.run, cli_progress, NULL}, &t->runs, note);
+}
+
+hci_status cli_tune_read(cli_tuning *t, hci_note *note)
+{
+    const hci_status status = read_inputs(t, note);
+    for (size_t k = 0; k < t->runs.count && !status; ++k)
+        say_run(t, &t->runs.run[k]);
+    return status;
+}
+
+/* ---- conventions ---- */
+
+static void say_check(cli_tuning *t, const hci_check *c)
+{
+    hci_tuning_say(&t->tuning, HCI_TUNING_READ, "conventions: %s (%zu relations checked)",
+                   hci_check_verdict_name(c->verdict), c->evidences);
+    for (size_t k = 0; k < c->findings; ++k) {
+        const hci_check_finding *f = &c->finding[k];
+        const bool is_found = f->probability >= HCI_CHECK_FOUND;
+        hci_tuning_say(&t->tuning, is_found ? HCI_TUNING_READ : HCI_TUNING_UNKNOWN,
+                       "%s: %s (%.3g %%); %s:%zu, %s: found %s, should be %s",
+                       is_found ? "slip" : "possible slip", f->words, 100.0 * f->probability, f->file,
+                       f->line, f->column, f->found, f->should_be);
+        t->has_slip = t->has_slip || is_found;
+    }
+}
+
+/* check has no list of recordings: their first HCI_CHECK_MOST_RUNS are its words. */
+hci_status cli_tune_check(cli_tuning *t, hci_note *note)
+{
+    static hci_check check;
+    const char *run[HCI_CHECK_MOST_RUNS];
+    char folder[CLI_TUNE_PATH];
+    command_line c = {{"check", t->machine}, 2};
+    size_t count = 0;
+    for (; count < t->runs.count && count < HCI_CHECK_MOST_RUNS; ++count) {
+        run[count] = t->arguments->given[TUNE_RUNS] ? t->runs.origin[count].path : t->arguments->word[count];
+        add(&c, run[count]);
+    }
+    path_in(t, "check", folder);
+    add_reading(&c, t->arguments);
+    add(&c, "-o");
+    add(&c, folder);
+    hci_run_options reading = t->reading.run;
+    reading.holding = false;
+    note_command(t, &c, true);
+    const hci_status status = hci_check_files(t->machine, run, count, &reading, &check, note);
+    if (status > HCI_NOT_REACHED) return status;
+    say_check(t, &check);
+    return hci_check_write(&check, folder, note);
+}
+
+/* ---- back-EMF ---- */
+
+static bool has_open_voltages(const hci_run *r)
+{
+    for (size_t k = 0; k < 3 * r->count; ++k)
+        if (fabs(r->i_A[k]) > 0.0) return false;
+    return r->v_V != NULL;
+}
+
+static void say_back_emf(cli_tuning *t, const hci_run *r, const hci_waveform *w)
+{
+    for (size_t k = 0, shown = 0; k < w->count && shown < 6; ++k) {
+        const hci_waveform_order *o = &w->order[k];
+        if (!o->kept) continue;
+        hci_tuning_say(&t->tuning, HCI_TUNING_FOUND,
+                       "back-EMF of %s: order %.5g, %.5g ± %.1g V·s/rad (peak of a phase)", r->name, o->order,
+                       o->amplitude, o->std_error);
+        ++shown;
+    }
+    if (w->remark.text[0]) hci_tuning_say(&t->tuning, HCI_TUNING_READ, "  %s", w->remark.text);
+}
+
+/* Puts it into the machine in place of the value of the data sheet. */
+static hci_status take_back_emf(cli_tuning *t, size_t k, const hci_waveform *w, hci_note *note)
+{
+    char pole_pairs[16];
+    const char *path = t->arguments->word[k];
+    command_line c = {{"harmonics", path}, 2};
+    snprintf(pole_pairs, sizeof pole_pairs, "%d", t->declared.model.pole_pairs);
+    add_option(&c, "quantity", "back_emf");
+    add_option(&c, "pole-pairs", pole_pairs);
+    add_reading(&c, t->arguments);
+    add(&c, "-o");
+    add(&c, t->machine);
+    say_back_emf(t, &t->runs.run[k], w);
+    t->has_emf = true;
+    const hci_status status = run(t, t->commands.harmonics, &c, note);
+    return status ? status : read_inputs(t, note);
+}
+
+hci_status cli_tune_back_emf(cli_tuning *t, hci_note *note)
+{
+    for (size_t k = 0; k < t->runs.count && t->is_own && !t->has_slip; ++k) {
+        const hci_waveform_options options = {.quantity = HCI_WAVEFORM_BACK_EMF,
+                                              .pole_pairs = t->declared.model.pole_pairs,
+                                              .max_order = (double)NAN,
+                                              .torque_constant_Nm_per_A = (double)NAN};
+        hci_waveform w = {0};
+        hci_note why = {{0}};
+        if (!has_open_voltages(&t->runs.run[k])) continue;
+        hci_status status = hci_waveform_find(&t->runs.run[k], &options, &w, &why);
+        if (status) hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN, "back-EMF: %s", why.text);
+        const bool is_found = !status && w.kept > 0;
+        if (is_found) status = take_back_emf(t, k, &w, note);
+        hci_waveform_release(&w);
+        if (is_found) return status;
+    }
+    return HCI_OK;
+}
+
+/* ---- what the model lacks ---- */
+
+static void say_diagnosis(cli_tuning *t)
+{
+    const hci_diagnosis *d = &t->diagnosis;
+    char words[2048];
+    hci_diagnosis_words(d, words, sizeof words);
+    hci_tuning_say(&t->tuning, t->diagnosed ? HCI_TUNING_UNKNOWN : HCI_TUNING_FOUND, "%s", words);
+    for (size_t k = 0; k < d->findings; ++k)
+        if (d->finding[k].verdict != HCI_FINDING_REJECTED)
+            hci_tuning_say(&t->tuning, HCI_TUNING_FOUND, "%s (%s): %s", d->finding[k].effect,
+                           hci_finding_verdict_name(d->finding[k].verdict), d->finding[k].detail);
+    if (d->advice[0]) hci_tuning_say(&t->tuning, HCI_TUNING_NEXT, "%s", d->advice);
+}
+
+hci_status cli_tune_diagnose(cli_tuning *t, hci_note *note)
+{
+    const hci_diagnose_options options = {.progress = cli_progress};
+    char folder[CLI_TUNE_PATH];
+    command_line c = {{"diagnose", t->machine, "--runs", t->list}, 4};
+    if (t->has_slip) return HCI_OK;
+    path_in(t, "diagnose", folder);
+    if (t->arguments->given[TUNE_HOLDING]) add_option(&c, "holding", NULL);
+    add_reading(&c, t->arguments);
+    add(&c, "-o");
+    add(&c, folder);
+    note_command(t, &c, true);
+    t->diagnosed = hci_diagnose(&t->declared, &t->effects.list, &t->runs, &options, &t->diagnosis, note);
+    cli_progress_end();
+    if (t->diagnosed > HCI_NOT_REACHED) return t->diagnosed;
+    say_diagnosis(t);
+    return hci_diagnosis_write(&t->diagnosis, NULL, &t->runs, t->machine, folder, note);
+}
+
+/* ---- currents ---- */
+
+bool cli_tune_can_solve(const cli_tuning *t)
+{
+    return !t->has_slip && (t->has_emf || (!t->diagnosis.nothing_measured && t->diagnosis.runs > 0));
+}
+
+/* The largest mean torque, and the largest i_q as torque, that the recordings show. */
+static void recorded(const cli_tuning *t, double *mean_Nm, double *current_Nm)
+{
+    double most_A = 0.0;
+    *mean_Nm = 0.0;
+    for (size_t k = 0; k < t->diagnosis.runs; ++k)
+        if (t->diagnosis.run[k].source == HCI_TORQUE_MEASURED)
+            *mean_Nm = fmax(*mean_Nm, fabs(t->diagnosis.run[k].mean_torque_Nm));
+    for (size_t k = 0; k < t->runs.count; ++k)
+        for (size_t n = 0; n < 3 * t->runs.run[k].count; ++n)
+            most_A = fmax(most_A, fabs(t->runs.run[k].i_A[n]));
+    *current_Nm = most_A * t->reading.run.torque_constant_Nm_per_A;
+}
+
+/* Three digits are enough of a torque that nobody asked for. */
+static double rounded(double x)
+{
+    char text[32];
+    double value = 0.0;
+    snprintf(text, sizeof text, "%.2g", x);
+    sscanf(text, "%lf", &value);
+    return value;
+}
+
+static void choose_torque(cli_tuning *t)
+{
+    const hci_machine_data *m = &t->declared;
+    const double rated_Nm = m->rated_current_A * t->reading.run.torque_constant_Nm_per_A;
+    const char *why;
+    double mean_Nm, current_Nm;
+    recorded(t, &mean_Nm, &current_Nm);
+    if (t->arguments->given[TUNE_TORQUE])
+        t->mean_Nm = t->arguments->number[TUNE_TORQUE], why = "as asked for by --torque";
+    else if (mean_Nm > 0.0)
+        t->mean_Nm = rounded(mean_Nm),
+        why = "the largest mean torque of the recordings, where they tell what to expect";
+    else if (m->rated_torque_Nm > 0.0)
+        t->mean_Nm = m->rated_torque_Nm, why = "the rated torque; no recording has a load";
+    else if (rated_Nm > 0.0)
+        t->mean_Nm = rounded(rated_Nm / 3.0),
+        why = "what a third of the rated current makes; no recording has a load";
+    else
+        t->mean_Nm = rounded(current_Nm),
+        why = "what the largest recorded current makes; nothing is rated, and no recording has a load";
+    hci_tuning_say(&t->tuning, HCI_TUNING_WANTED, "a torque without ripple of %.4g N·m: %s", t->mean_Nm, why);
+}
+
+static hci_status read_corrected(cli_tuning *t, const char *machine, hci_note *note)
+{
+    char path[CLI_TUNE_PATH];
+    path_in(t, "target.csv", path);
+    hci_status status = hci_tuning_write_target(t->out, t->mean_Nm, note);
+    if (!status) status = hci_target_read(path, &t->target, note);
+    if (!status) status = hci_machine_read(machine, &t->corrected, note);
+    if (!status) status = hci_effects_read_machine(machine, &t->found, note);
+    if (!status) status = hci_uncertainty_read_machine(machine, &t->uncertainty, note);
+    return status;
+}
+
+/* A sine of the rated current heats as much as is allowed: so much rms in each phase. */
+static void limit_heat(cli_tuning *t, hci_solve_options *o, char text[32], command_line *c)
+{
+    if (!(t->corrected.rated_current_A > 0.0)) return;
+    double rms_A = 0.0;
+    snprintf(text, 32, "%.5g", t->corrected.rated_current_A / sqrt(2.0));
+    sscanf(text, "%lf", &rms_A);
+    for (int s = 0; s < 3; ++s)
+        o->limits.rms_A[s] = rms_A;
+    add_option(c, "limit-rms", text);
+    hci_tuning_say(&t->tuning, HCI_TUNING_WANTED,
+                   "within %s A rms in each phase, the heat of a sine of the rated current", text);
+}
+
+static void note_target(cli_tuning *t)
+{
+    note_text(t, "printf 'order,amplitude_Nm,phase_rad\\n0,%.17g,0\\n' >\"$OUT\"/target.csv\n", t->mean_Nm);
+}
+
+hci_status cli_tune_solve(cli_tuning *t, hci_note *note)
+{
+    char machine[CLI_TUNE_PATH], target[CLI_TUNE_PATH], folder[CLI_TUNE_PATH], rms[32];
+    if (!cli_tune_can_solve(t)) return HCI_OK;
+    path_in(t, "diagnose/machine", machine);
+    path_in(t, "target.csv", target);
+    path_in(t, "currents", folder);
+    choose_torque(t);
+    if (!(t->mean_Nm > 0.0)) return HCI_OK;
+    command_line c = {{"solve", machine, "--target", target, "--auto", "--report", "-o", folder}, 8};
+    hci_status status = read_corrected(t, machine, note);
+    if (status) return status;
+    hci_solve_options options = {.target = &t->target,
+                                 .effects = &t->found.list,
+                                 .uncertainty = &t->uncertainty,
+                                 .progress = cli_progress};
+    limit_heat(t, &options, rms, &c);
+    note_target(t);
+    note_command(t, &c, true);
+    t->tuning.solved = hci_solve(&t->corrected, &options, &t->solution, note);
+    cli_progress_end();
+    if (t->tuning.solved > HCI_NOT_REACHED) return t->tuning.solved;
+    t->is_solved = true;
+    t->tuning.solution = &t->solution;
+    return hci_solution_write_with_report(&t->corrected, &t->solution, t->tuning.solved,
+                                          &(hci_report_sources){.machine = machine, .target = target}, folder,
+                                          note);
+}
+
+/* ---- table ---- */
+
+hci_status cli_tune_emit(cli_tuning *t, hci_note *note)
+{
+    const char *name = t->arguments->value[TUNE_NAME] ? t->arguments->value[TUNE_NAME] : "tuned";
+    char currents[CLI_TUNE_PATH], folder[CLI_TUNE_PATH], machine[CLI_TUNE_PATH];
+    if (!t->is_solved) return HCI_OK;
+    path_in(t, "currents", currents);
+    path_in(t, "table", folder);
+    path_in(t, "diagnose/machine", machine);
+    command_line c = {{"emit", currents, "--name", name, "--frame", "dq", "--machine", machine, "-o", folder},
+                      10};
+    const hci_status status = run(t, t->commands.emit, &c, note);
+    if (status) return status;
+    t->is_emitted = true;
+    hci_tuning_say(&t->tuning, HCI_TUNING_LOAD,
+                   "%s/%s.h and %s.c need hci/table.h alone: `hci_currents_dq i = hci_table_f32_dq(&%s, "
+                   "angle);`, where 2^32 of "
+                   "the angle is one electrical turn from the zero of the logs. They are the whole reference "
+                   "for %.4g N·m "
+                   "(docs/controller.md).",
+                   folder, name, name, name, t->mean_Nm);
+    hci_tuning_say(&t->tuning, HCI_TUNING_LOAD,
+                   "For a drive whose firmware is somebody else's: hci-solve emit %s --name %s --for "
+                   "simplefoc --machine %s -o %s, or another one of docs/drives.",
+                   currents, name, machine, folder);
+    hci_tuning_say(&t->tuning, HCI_TUNING_LOAD,
+                   "First turn on the bench: log angle and currents while the table is played, and run "
+                   "hci-solve check %s LOG --table %s, which tells an angle that is off.",
+                   machine, currents);
+    return HCI_OK;
+}
+
+void cli_tune_release(cli_tuning *t)
+{
+    if (t->is_solved) hci_solution_release(&t->solution);
+    hci_target_release(&t->target);
+    hci_uncertainty_release(&t->uncertainty);
+    hci_effects_release(&t->found);
+    hci_machine_release(&t->corrected);
+    hci_diagnosis_release(&t->diagnosis);
+    release_inputs(t);
+    cli_reading_release(&t->reading);
+}

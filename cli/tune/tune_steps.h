@@ -1,0 +1,59 @@
+/* The steps of tune: each is an ordinary command that leaves an ordinary folder, and is noted as such. Uses
+ * tune_options and the folder command. */
+#ifndef HCI_CLI_TUNE_STEPS_H
+#define HCI_CLI_TUNE_STEPS_H
+
+#include "cli/command/reading.h"
+#include "hci/host/check/check.h"
+#include "hci/host/diagnose/diagnose.h"
+#include "hci/host/machine/effects.h"
+#include "hci/host/machine/machine.h"
+#include "hci/host/report/tuning.h"
+
+enum { CLI_TUNE_PATH = 2048 };
+
+/* Commands that are run as they are. */
+typedef struct {
+    const cli_command *init, *harmonics, *emit;
+} cli_tune_commands;
+
+/* What the steps hand on to each other. Start with zeros. */
+typedef struct {
+    const cli_arguments *arguments;
+    cli_tune_commands commands;
+    const char *out;
+    char machine[CLI_TUNE_PATH]; /* folder of the machine that recordings are read with */
+    char list[CLI_TUNE_PATH];    /* of the recordings */
+    bool is_own;                 /* the machine was made here */
+    cli_reading reading;
+    hci_machine_data declared;
+    hci_effects_data effects;
+    hci_runs runs;
+    hci_diagnosis diagnosis;
+    hci_status diagnosed;
+    bool has_slip, has_emf; /* check found one; back-EMF was measured */
+    double mean_Nm;         /* that is solved for */
+    hci_machine_data corrected;
+    hci_effects_data found;
+    hci_uncertainty uncertainty;
+    hci_target target;
+    hci_solution solution;
+    bool is_solved, is_emitted;
+    hci_tuning tuning;
+} cli_tuning;
+
+/* In this order. Errors are those of the commands; what a recording does not hold is none. */
+hci_status cli_tune_begin(const cli_arguments *arguments, cli_tuning *tune, hci_note *note);
+hci_status cli_tune_read(cli_tuning *tune, hci_note *note);
+hci_status cli_tune_check(cli_tuning *tune, hci_note *note);
+hci_status cli_tune_back_emf(cli_tuning *tune, hci_note *note);
+hci_status cli_tune_diagnose(cli_tuning *tune, hci_note *note);
+hci_status cli_tune_solve(cli_tuning *tune, hci_note *note);
+hci_status cli_tune_emit(cli_tuning *tune, hci_note *note);
+
+/* Whether there is anything to solve with: no slip, and something was measured. */
+bool cli_tune_can_solve(const cli_tuning *tune);
+
+void cli_tune_release(cli_tuning *tune);
+
+#endif

@@ -1,0 +1,144 @@
+#include "cli/tune/tune_words.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/terminal/say.h"
+#include "cli/terminal/text.h"
+
+/* ---- what is concluded ---- */
+
+static void say_missing(cli_tuning *t)
+{
+    if (!t->is_solved && !t->has_slip && !cli_tune_can_solve(t))
+        hci_tuning_say(&t->tuning, HCI_TUNING_NEXT,
+                       "Without a torque sensor: turn the shaft slowly under position control, one turn "
+                       "forward and one back, log "
+                       "angle and i_q, and give --holding. With one: turn it slowly without current and log "
+                       "angle and torque; "
+                       "then under load, at three currents (docs/measuring.md).");
+    if (t->has_slip)
+        hci_tuning_say(&t->tuning, HCI_TUNING_NEXT,
+                       "Correct what `slip` names (in %s, or in the log), and begin again with a new --out.",
+                       t->machine);
+    if (t->is_solved && t->solution.expected.state != HCI_RIPPLE_KNOWN)
+        hci_tuning_say(&t->tuning, HCI_TUNING_NEXT,
+                       "To know the ripple on the machine: three recordings or more under load, up to the "
+                       "currents of the table, "
+                       "with a torque sensor.");
+    if (t->is_own && !t->has_emf)
+        hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
+                       "The torque per ampere is that of the data sheet unless back_emf stands above; "
+                       "voltages of the open "
+                       "machine, driven by another, tell it.");
+}
+
+static bool has_found(const hci_diagnosis *d, const char *effect)
+{
+    for (size_t k = 0; k < d->findings; ++k)
+        if (strcmp(d->finding[k].effect, effect) == 0 && d->finding[k].verdict == HCI_FINDING_ADDED)
+            return true;
+    return false;
+}
+
+static void say_cogging(cli_tuning *t)
+{
+    bool is_declared = false;
+    for (size_t k = 0; k < t->declared.model.cogging_count; ++k)
+        is_declared = is_declared || hypot(t->declared.cogging[k].sine, t->declared.cogging[k].cosine) > 0.0;
+    if (t->is_solved && !is_declared && !has_found(&t->diagnosis, "cogging"))
+        hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
+                       "No cogging torque was found: either it is below what the logs resolve, or they "
+                       "cannot show it. The table takes "
+                       "none away.");
+}
+
+static void set_heading(hci_tuning *t, const hci_solution *s)
+{
+    double before_Nm, after_Nm;
+    hci_tuning_swing(s, &before_Nm, &after_Nm);
+    if (after_Nm < 1e-3 * before_Nm)
+        snprintf(t->heading, sizeof t->heading,
+                 "A ripple of %.3g N·m from peak to peak falls to less than a thousandth, in the model",
+                 before_Nm);
+    else if (before_Nm > 0.0)
+        snprintf(t->heading, sizeof t->heading,
+                 "A ripple of %.3g N·m from peak to peak falls to %.3g N·m, in the model", before_Nm,
+                 after_Nm);
+    else
+        snprintf(t->heading, sizeof t->heading, "Nothing was found that would make a ripple");
+}
+
+void cli_tune_conclude(cli_tuning *t)
+{
+    hci_tuning *r = &t->tuning;
+    say_cogging(t);
+    say_missing(t);
+    r->good = t->is_emitted && !t->diagnosed && !r->solved;
+    snprintf(r->verdict, sizeof r->verdict, "%s",
+             r->good                                         ? "tuned"
+             : t->has_slip                                   ? "a convention is broken"
+             : !t->is_emitted                                ? "not enough in the logs"
+             : r->solved                                     ? "tuned, but not as wanted"
+             : t->diagnosis.verdict == HCI_DIAGNOSIS_UNKNOWN ? "tuned with what is certain"
+                                                             : "tuned, with something left open");
+    if (t->is_solved)
+        set_heading(r, &t->solution);
+    else if (t->has_slip)
+        snprintf(r->heading, sizeof r->heading,
+                 "What the files say contradicts itself, so nothing was solved");
+    else
+        snprintf(r->heading, sizeof r->heading,
+                 "The logs tell neither cogging torque nor back-EMF, so nothing was solved");
+}
+
+/* ---- words ---- */
+
+static void show_part(const hci_tuning *t, hci_tuning_part part)
+{
+    const char *text = t->part[part];
+    if (!*text) return;
+    cli_say("\n%s\n", hci_tuning_part_name(part));
+    while (*text) {
+        char line[4096];
+        const size_t length = strcspn(text, "\n");
+        snprintf(line, sizeof line, "%.*s", (int)length, text);
+        cli_say_paragraph(2 + (int)strspn(line, " "), line + strspn(line, " "));
+        text += length + (text[length] == '\n');
+    }
+}
+
+static void show_before_and_after(const hci_solution *s)
+{
+    const hci_expected_ripple *e = &s->expected;
+    double before_Nm, after_Nm;
+    char expected[64] = "not known";
+    hci_tuning_swing(s, &before_Nm, &after_Nm);
+    if (e->state == HCI_RIPPLE_KNOWN)
+        snprintf(expected, sizeof expected, "at most %.3g N·m (95 %%)", e->peak_to_peak_Nm);
+    if (after_Nm < s->tolerance_Nm) after_Nm = 0.0;
+    cli_say("                              plain sine   with the table   to expect on the machine\n");
+    cli_say("  ripple, peak to peak, N·m   %10.3g   %14.3g   %s\n", before_Nm, after_Nm, expected);
+    cli_say("  peak phase current, A       %10.4g   %14.4g   the same, if the current loop follows\n",
+            s->plain_amplitude_A, s->peak_phase_current_A);
+    cli_say("  copper loss, to the sine    %10d   %14.4g   the same\n", 1, s->loss_to_plain);
+}
+
+void cli_show_tuning(const cli_tuning *t)
+{
+    const hci_tuning *r = &t->tuning;
+    cli_say("%s%s" CLI_PLAIN ": %s\n", r->good ? CLI_GOOD : CLI_WARN, r->verdict, r->heading);
+    if (t->is_solved) {
+        char words[1024];
+        show_before_and_after(&t->solution);
+        hci_expected_ripple_words(&t->solution.expected, words, sizeof words);
+        cli_say("  on the real machine\n");
+        cli_say_paragraph(4, words);
+    }
+    for (int k = 0; k < HCI_TUNING_PARTS; ++k)
+        show_part(r, (hci_tuning_part)k);
+    cli_say("\nThe report is %s/report.html; sh %s/commands.sh FOLDER does it again, step by step:\n", t->out,
+            t->out);
+    cli_say("%s", r->commands);
+}
