@@ -28,15 +28,32 @@ static void note_text(cli_tuning *t, const char *format, ...)
     va_end(arguments);
 }
 
+/* What needs no quotes in a shell. */
+static bool is_plain(const char *word)
+{
+    return *word && strspn(word, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+./,=:") ==
+                        strlen(word);
+}
+
+static void note_quoted(cli_tuning *t, const char *word)
+{
+    note_text(t, "'");
+    for (; *word; ++word)
+        note_text(t, *word == '\'' ? "'\\''" : "%c", *word);
+    note_text(t, "'");
+}
+
 /* A word of a shell. What begins with the folder of the results goes into the folder of the repetition. */
 static void note_word(cli_tuning *t, const char *word)
 {
     const size_t length = strlen(t->out);
     const bool is_out = strncmp(word, t->out, length) == 0 && (word[length] == '/' || word[length] == '\0');
-    note_text(t, is_out ? " \"$OUT\"'" : " '");
-    for (word += is_out ? length : 0; *word; ++word)
-        note_text(t, *word == '\'' ? "'\\''" : "%c", *word);
-    note_text(t, "'");
+    note_text(t, is_out ? " \"$OUT\"" : " ");
+    word += is_out ? length : 0;
+    if (is_plain(word))
+        note_text(t, "%s", word);
+    else if (!is_out || *word)
+        note_quoted(t, word);
 }
 
 /* A command line; `code`: as a step that may answer 1. */
@@ -165,17 +182,24 @@ static const char *source_words(const hci_run *r)
     return WORDS[r->torque_source];
 }
 
-/* "log.csv: 9000 samples, 12.3 s, torque as measured; currents up to 3.2 A" */
-static void say_run(cli_tuning *t, const hci_run *r)
+/* As it was given; in a list, as that names it. */
+static const char *name_of(const cli_tuning *t, size_t k)
 {
+    return t->arguments->given[TUNE_RUNS] ? t->runs.run[k].name : t->arguments->word[k];
+}
+
+/* "log.csv: 9000 samples, 12.3 s, torque as measured; currents up to 3.2 A" */
+static void say_run(cli_tuning *t, size_t k)
+{
+    const hci_run *r = &t->runs.run[k];
     double most_A = 0.0;
     char time[48] = "";
-    for (size_t k = 0; k < 3 * r->count; ++k)
-        most_A = fmax(most_A, fabs(r->i_A[k]));
+    for (size_t n = 0; n < 3 * r->count; ++n)
+        most_A = fmax(most_A, fabs(r->i_A[n]));
     if (r->time_s && r->count > 1)
         snprintf(time, sizeof time, ", %.4g s", r->time_s[r->count - 1] - r->time_s[0]);
     hci_tuning_say(&t->tuning, HCI_TUNING_READ, "%s: %zu samples%s; %s; phase currents up to %.3g A%s",
-                   r->name, r->count, time, source_words(r), most_A, r->v_V ? "; voltages" : "");
+                   name_of(t, k), r->count, time, source_words(r), most_A, r->v_V ? "; voltages" : "");
     if (r->remark.text[0]) hci_tuning_say(&t->tuning, HCI_TUNING_READ, "  %s", r->remark.text);
 }
 
@@ -206,7 +230,7 @@ hci_status cli_tune_read(cli_tuning *t, hci_note *note)
 {
     const hci_status status = read_inputs(t, note);
     for (size_t k = 0; k < t->runs.count && !status; ++k)
-        say_run(t, &t->runs.run[k]);
+        say_run(t, k);
     return status;
 }
 
@@ -216,6 +240,11 @@ static void say_check(cli_tuning *t, const hci_check *c)
 {
     hci_tuning_say(&t->tuning, HCI_TUNING_READ, "conventions: %s (%zu relations checked)",
                    hci_check_verdict_name(c->verdict), c->evidences);
+    for (size_t k = 0; k < c->evidences; ++k)
+        if (c->evidence[k].state == HCI_CHECK_UNMENDED)
+            hci_tuning_say(&t->tuning, HCI_TUNING_READ, "  not understood: %s is %.4g, expected %s%.4g",
+                           c->evidence[k].words, c->evidence[k].declared,
+                           c->evidence[k].at_most ? "at most " : "", c->evidence[k].expected);
     for (size_t k = 0; k < c->findings; ++k) {
         const hci_check_finding *f = &c->finding[k];
         const bool is_found = f->probability >= HCI_CHECK_FOUND;
@@ -252,64 +281,107 @@ hci_status cli_tune_check(cli_tuning *t, hci_note *note)
     return hci_check_write(&check, folder, note);
 }
 
-/* ---- back-EMF ---- */
+/* ---- waveforms: what a recording without load shows by itself ---- */
 
-static bool has_open_voltages(const hci_run *r)
+static bool has_no_current(const hci_run *r)
 {
     for (size_t k = 0; k < 3 * r->count; ++k)
         if (fabs(r->i_A[k]) > 0.0) return false;
-    return r->v_V != NULL;
+    return true;
 }
 
-static void say_back_emf(cli_tuning *t, const hci_run *r, const hci_waveform *w)
+/* Whether a recording is one for the quantity. */
+static bool is_for(const hci_run *r, hci_waveform_quantity quantity)
 {
-    for (size_t k = 0, shown = 0; k < w->count && shown < 6; ++k) {
-        const hci_waveform_order *o = &w->order[k];
-        if (!o->kept) continue;
-        hci_tuning_say(&t->tuning, HCI_TUNING_FOUND,
-                       "back-EMF of %s: order %.5g, %.5g ± %.1g V·s/rad (peak of a phase)", r->name, o->order,
-                       o->amplitude, o->std_error);
-        ++shown;
+    if (quantity == HCI_WAVEFORM_BACK_EMF) return r->v_V && has_no_current(r);
+    return r->torque_source == HCI_TORQUE_HOLDING ||
+           (r->torque_source == HCI_TORQUE_MEASURED && has_no_current(r));
+}
+
+enum { MOST_ORDERS_SAID = 6 };
+
+/* The largest of them. */
+static void say_waveform(cli_tuning *t, size_t run, const hci_waveform *w)
+{
+    const bool is_emf = w->quantity == HCI_WAVEFORM_BACK_EMF;
+    const char *unit = is_emf ? "V·s/rad (peak of a phase)" : "N·m";
+    double above = HUGE_VAL;
+    hci_tuning_say(&t->tuning, HCI_TUNING_FOUND, "%s, %zu orders, from %s",
+                   is_emf ? "back-EMF" : "cogging torque", w->kept, name_of(t, run));
+    for (size_t shown = 0; shown < MOST_ORDERS_SAID && shown < w->kept; ++shown) {
+        const hci_waveform_order *most = NULL;
+        for (size_t k = 0; k < w->count; ++k)
+            if (w->order[k].kept && w->order[k].amplitude < above &&
+                (!most || w->order[k].amplitude > most->amplitude))
+                most = &w->order[k];
+        if (!most) break;
+        above = most->amplitude;
+        hci_tuning_say(&t->tuning, HCI_TUNING_FOUND, "  order %.5g: %.4g ± %.1g %s", most->order,
+                       most->amplitude, most->std_error, unit);
     }
+    if (!is_emf && isfinite(w->friction_Nm))
+        hci_tuning_say(&t->tuning, HCI_TUNING_FOUND,
+                       "  friction: %.4g ± %.1g N·m, half the difference of the directions", w->friction_Nm,
+                       w->friction_error_Nm);
     if (w->remark.text[0]) hci_tuning_say(&t->tuning, HCI_TUNING_READ, "  %s", w->remark.text);
 }
 
-/* Puts it into the machine in place of the value of the data sheet. */
-static hci_status take_back_emf(cli_tuning *t, size_t k, const hci_waveform *w, hci_note *note)
+/* Puts it into the machine in place of what the data sheet gave. */
+static hci_status take_waveform(cli_tuning *t, size_t k, const hci_waveform *w, hci_note *note)
 {
-    char pole_pairs[16];
-    const char *path = t->arguments->word[k];
-    command_line c = {{"harmonics", path}, 2};
+    const bool is_emf = w->quantity == HCI_WAVEFORM_BACK_EMF;
+    const bool holds = !is_emf && t->runs.run[k].torque_source == HCI_TORQUE_HOLDING;
+    char pole_pairs[16], constant[32];
+    command_line c = {{"harmonics", t->arguments->word[k]}, 2};
     snprintf(pole_pairs, sizeof pole_pairs, "%d", t->declared.model.pole_pairs);
-    add_option(&c, "quantity", "back_emf");
+    snprintf(constant, sizeof constant, "%.17g", t->reading.run.torque_constant_Nm_per_A);
+    add_option(&c, "quantity", is_emf ? "back_emf" : "cogging");
     add_option(&c, "pole-pairs", pole_pairs);
+    if (holds) add_option(&c, "torque-constant", constant);
+    if (!is_emf && t->arguments->given[TUNE_HOLDING]) add_option(&c, "holding", NULL);
     add_reading(&c, t->arguments);
     add(&c, "-o");
     add(&c, t->machine);
-    say_back_emf(t, &t->runs.run[k], w);
-    t->has_emf = true;
+    say_waveform(t, k, w);
+    *(is_emf ? &t->has_emf : &t->has_cogging) = true;
     const hci_status status = run(t, t->commands.harmonics, &c, note);
     return status ? status : read_inputs(t, note);
 }
 
-hci_status cli_tune_back_emf(cli_tuning *t, hci_note *note)
+static hci_status find_waveform(cli_tuning *t, size_t k, hci_waveform_quantity quantity, bool *found,
+                                hci_note *note)
 {
-    for (size_t k = 0; k < t->runs.count && t->is_own && !t->has_slip; ++k) {
-        const hci_waveform_options options = {.quantity = HCI_WAVEFORM_BACK_EMF,
-                                              .pole_pairs = t->declared.model.pole_pairs,
-                                              .max_order = (double)NAN,
-                                              .torque_constant_Nm_per_A = (double)NAN};
-        hci_waveform w = {0};
-        hci_note why = {{0}};
-        if (!has_open_voltages(&t->runs.run[k])) continue;
-        hci_status status = hci_waveform_find(&t->runs.run[k], &options, &w, &why);
-        if (status) hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN, "back-EMF: %s", why.text);
-        const bool is_found = !status && w.kept > 0;
-        if (is_found) status = take_back_emf(t, k, &w, note);
-        hci_waveform_release(&w);
-        if (is_found) return status;
+    const hci_run *r = &t->runs.run[k];
+    const bool holds = r->torque_source == HCI_TORQUE_HOLDING;
+    const hci_waveform_options options = {.quantity = quantity,
+                                          .pole_pairs = t->declared.model.pole_pairs,
+                                          .max_order = (double)NAN,
+                                          .torque_constant_Nm_per_A =
+                                              quantity == HCI_WAVEFORM_COGGING && holds
+                                                  ? t->reading.run.torque_constant_Nm_per_A
+                                                  : (double)NAN};
+    hci_waveform w = {0};
+    hci_note why = {{0}};
+    hci_status status = hci_waveform_find(r, &options, &w, &why);
+    *found = !status && w.kept > 0;
+    if (status) hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN, "%s", why.text);
+    status = *found ? take_waveform(t, k, &w, note) : HCI_OK;
+    hci_waveform_release(&w);
+    return status;
+}
+
+/* Of each quantity the first recording that shows it. */
+hci_status cli_tune_waveforms(cli_tuning *t, hci_note *note)
+{
+    static const hci_waveform_quantity QUANTITIES[] = {HCI_WAVEFORM_BACK_EMF, HCI_WAVEFORM_COGGING};
+    hci_status status = HCI_OK;
+    for (int q = 0; q < 2 && t->is_own && !t->has_slip; ++q) {
+        bool found = false;
+        for (size_t k = 0; k < t->runs.count && !found && !status; ++k)
+            if (is_for(&t->runs.run[k], QUANTITIES[q]))
+                status = find_waveform(t, k, QUANTITIES[q], &found, note);
     }
-    return HCI_OK;
+    return status;
 }
 
 /* ---- what the model lacks ---- */
@@ -350,7 +422,8 @@ hci_status cli_tune_diagnose(cli_tuning *t, hci_note *note)
 
 bool cli_tune_can_solve(const cli_tuning *t)
 {
-    return !t->has_slip && (t->has_emf || (!t->diagnosis.nothing_measured && t->diagnosis.runs > 0));
+    return !t->has_slip &&
+           (t->has_emf || t->has_cogging || (!t->diagnosis.nothing_measured && t->diagnosis.runs > 0));
 }
 
 /* The largest mean torque, and the largest i_q as torque, that the recordings show. */
@@ -394,6 +467,9 @@ static void choose_torque(cli_tuning *t)
     else if (rated_Nm > 0.0)
         t->mean_Nm = rounded(rated_Nm / 3.0),
         why = "what a third of the rated current makes; no recording has a load";
+    else if (!(current_Nm > 0.0))
+        t->mean_Nm = rounded(t->reading.run.torque_constant_Nm_per_A),
+        why = "what 1 A makes; nothing is rated, and no recording has a current";
     else
         t->mean_Nm = rounded(current_Nm),
         why = "what the largest recorded current makes; nothing is rated, and no recording has a load";

@@ -31,8 +31,8 @@ typedef struct {
     hci_runs runs;
     hci_diagnosis diagnosis;
     hci_status diagnosed;
-    bool has_slip, has_emf; /* check found one; back-EMF was measured */
-    double mean_Nm;         /* that is solved for */
+    bool has_slip, has_emf, has_cogging; /* check found one; they were measured without load */
+    double mean_Nm;                      /* that is solved for */
     hci_machine_data corrected;
     hci_effects_data found;
     hci_uncertainty uncertainty;
@@ -46,7 +46,7 @@ typedef struct {
 hci_status cli_tune_begin(const cli_arguments *arguments, cli_tuning *tune, hci_note *note);
 hci_status cli_tune_read(cli_tuning *tune, hci_note *note);
 hci_status cli_tune_check(cli_tuning *tune, hci_note *note);
-hci_status cli_tune_back_emf(cli_tuning *tune, hci_note *note);
+hci_status cli_tune_waveforms(cli_tuning *tune, hci_note *note);
 hci_status cli_tune_diagnose(cli_tuning *tune, hci_note *note);
 hci_status cli_tune_solve(cli_tuning *tune, hci_note *note);
 hci_status cli_tune_emit(cli_tuning *tune, hci_note *note);

@@ -9,6 +9,14 @@
 
 /* ---- what is concluded ---- */
 
+static bool has_found(const hci_diagnosis *d, const char *effect)
+{
+    for (size_t k = 0; k < d->findings; ++k)
+        if (strcmp(d->finding[k].effect, effect) == 0 && d->finding[k].verdict == HCI_FINDING_ADDED)
+            return true;
+    return false;
+}
+
 static void say_missing(cli_tuning *t)
 {
     if (!t->is_solved && !t->has_slip && !cli_tune_can_solve(t))
@@ -27,19 +35,11 @@ static void say_missing(cli_tuning *t)
                        "To know the ripple on the machine: three recordings or more under load, up to the "
                        "currents of the table, "
                        "with a torque sensor.");
-    if (t->is_own && !t->has_emf)
+    if (t->is_own && !t->has_emf && !has_found(&t->diagnosis, "back_emf"))
         hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
-                       "The torque per ampere is that of the data sheet unless back_emf stands above; "
-                       "voltages of the open "
-                       "machine, driven by another, tell it.");
-}
-
-static bool has_found(const hci_diagnosis *d, const char *effect)
-{
-    for (size_t k = 0; k < d->findings; ++k)
-        if (strcmp(d->finding[k].effect, effect) == 0 && d->finding[k].verdict == HCI_FINDING_ADDED)
-            return true;
-    return false;
+                       "The torque per ampere and the back-EMF are those of the data sheet; voltages of the "
+                       "open machine, driven by "
+                       "another, would tell them.");
 }
 
 static void say_cogging(cli_tuning *t)
@@ -47,7 +47,7 @@ static void say_cogging(cli_tuning *t)
     bool is_declared = false;
     for (size_t k = 0; k < t->declared.model.cogging_count; ++k)
         is_declared = is_declared || hypot(t->declared.cogging[k].sine, t->declared.cogging[k].cosine) > 0.0;
-    if (t->is_solved && !is_declared && !has_found(&t->diagnosis, "cogging"))
+    if (t->is_solved && !t->has_cogging && !is_declared && !has_found(&t->diagnosis, "cogging"))
         hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
                        "No cogging torque was found: either it is below what the logs resolve, or they "
                        "cannot show it. The table takes "
@@ -125,6 +125,29 @@ static void show_before_and_after(const hci_solution *s)
     cli_say("  copper loss, to the sine    %10d   %14.4g   the same\n", 1, s->loss_to_plain);
 }
 
+/* As they can be typed: the folder by its name. */
+static void show_commands(const cli_tuning *t)
+{
+    static const char FOLDER[] = "\"$OUT\"", OR[] = " || [";
+    const char *text = t->tuning.commands;
+    while (*text) {
+        const size_t length = strcspn(text, "\n");
+        if (strncmp(text, "hci-solve ", 10) == 0) {
+            cli_say("    ");
+            for (const char *at = text; at < text + length && strncmp(at, OR, sizeof OR - 1) != 0;) {
+                const bool is_folder = strncmp(at, FOLDER, sizeof FOLDER - 1) == 0;
+                if (is_folder)
+                    cli_say("%s", t->out);
+                else
+                    cli_say("%c", *at);
+                at += is_folder ? sizeof FOLDER - 1 : 1;
+            }
+            cli_say("\n");
+        }
+        text += length + (text[length] == '\n');
+    }
+}
+
 void cli_show_tuning(const cli_tuning *t)
 {
     const hci_tuning *r = &t->tuning;
@@ -138,7 +161,7 @@ void cli_show_tuning(const cli_tuning *t)
     }
     for (int k = 0; k < HCI_TUNING_PARTS; ++k)
         show_part(r, (hci_tuning_part)k);
-    cli_say("\nThe report is %s/report.html; sh %s/commands.sh FOLDER does it again, step by step:\n", t->out,
-            t->out);
-    cli_say("%s", r->commands);
+    cli_say("\nThe report is %s/report.html; sh %s/commands.sh FOLDER does this again, step by step:\n",
+            t->out, t->out);
+    show_commands(t);
 }
