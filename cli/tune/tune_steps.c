@@ -10,6 +10,7 @@
 #include "cli/terminal/progress.h"
 #include "cli/terminal/terminal.h"
 #include "cli/tune/tune_options.h"
+#include "hci/host/base/number.h"
 #include "hci/host/currents/target.h"
 #include "hci/host/report/write.h"
 #include "hci/host/waveform/waveform.h"
@@ -290,12 +291,13 @@ static bool has_no_current(const hci_run *r)
     return true;
 }
 
-/* Whether a recording is one for the quantity. */
+/* Whether a recording is one for the quantity. Cogging torque that a sensor has measured is left to diagnose,
+ * which finds it in all recordings at once and knows what they leave open of it: from one of them alone it is
+ * off by more than what would be stated. */
 static bool is_for(const hci_run *r, hci_waveform_quantity quantity)
 {
     if (quantity == HCI_WAVEFORM_BACK_EMF) return r->v_V && has_no_current(r);
-    return r->torque_source == HCI_TORQUE_HOLDING ||
-           (r->torque_source == HCI_TORQUE_MEASURED && has_no_current(r));
+    return r->torque_source == HCI_TORQUE_HOLDING;
 }
 
 enum { MOST_ORDERS_SAID = 6 };
@@ -334,7 +336,7 @@ static hci_status take_waveform(cli_tuning *t, size_t k, const hci_waveform *w, 
     char pole_pairs[16], constant[32];
     command_line c = {{"harmonics", t->arguments->word[k]}, 2};
     snprintf(pole_pairs, sizeof pole_pairs, "%d", t->declared.model.pole_pairs);
-    snprintf(constant, sizeof constant, "%.17g", t->reading.run.torque_constant_Nm_per_A);
+    hci_number_text(t->reading.run.torque_constant_Nm_per_A, constant);
     add_option(&c, "quantity", is_emf ? "back_emf" : "cogging");
     add_option(&c, "pole-pairs", pole_pairs);
     if (holds) add_option(&c, "torque-constant", constant);
@@ -386,6 +388,67 @@ hci_status cli_tune_waveforms(cli_tuning *t, hci_note *note)
 
 /* ---- what the model lacks ---- */
 
+/* The place of "sine" or "cosine" among the values of an effect, of an order; -1: none. */
+static int place_of(const hci_effect *e, const char *name, double order)
+{
+    for (size_t k = 0; k < e->count; ++k)
+        if (strcmp(e->type->parameter[e->term[k].parameter].name, name) == 0 &&
+            fabs(e->term[k].order - order) < HCI_ORDER_TOLERANCE)
+            return (int)k;
+    return -1;
+}
+
+/* The amplitude of the order of a value, where it is a sine with a cosine; else 0. */
+static double amplitude_of(const hci_effect *e, size_t k, double *std_error)
+{
+    const int sine = place_of(e, "sine", e->term[k].order), cosine = place_of(e, "cosine", e->term[k].order);
+    if (sine != (int)k || cosine < 0) return 0.0;
+    *std_error = fmax(e->term[sine].std_error, e->term[cosine].std_error);
+    return hypot(e->term[sine].value, e->term[cosine].value);
+}
+
+/* Whether an effect is a sum of sines with cosines. */
+static bool has_orders(const hci_effect *e)
+{
+    double std_error;
+    for (size_t k = 0; k < e->count; ++k)
+        if (amplitude_of(e, k, &std_error) > 0.0) return true;
+    return false;
+}
+
+static void say_orders(cli_tuning *t, const hci_effect *e)
+{
+    double above = HUGE_VAL;
+    for (size_t shown = 0; shown < MOST_ORDERS_SAID; ++shown) {
+        double most = 0.0, error = 0.0, order = 0.0;
+        for (size_t k = 0; k < e->count; ++k) {
+            double std_error = 0.0;
+            const double amplitude = amplitude_of(e, k, &std_error);
+            if (amplitude < above && amplitude > most)
+                most = amplitude, error = std_error, order = e->term[k].order;
+        }
+        if (!(most > 0.0)) return;
+        hci_tuning_say(&t->tuning, HCI_TUNING_FOUND, "  order %.5g: %.4g ± %.1g %s", order, most, error,
+                       strcmp(e->type->parameter[0].unit, "Nm") == 0 ? "N·m" : e->type->parameter[0].unit);
+        above = most;
+    }
+}
+
+static void say_finding(cli_tuning *t, const hci_finding *f)
+{
+    const hci_effects *list = &t->diagnosis.effects.list;
+    const hci_effect *effect = NULL;
+    for (size_t k = 0; k < list->count; ++k)
+        if (strcmp(list->effect[k].type->name, f->effect) == 0) effect = &list->effect[k];
+    const char *verdict = hci_finding_verdict_name(f->verdict);
+    if (effect && has_orders(effect)) {
+        hci_tuning_say(&t->tuning, HCI_TUNING_FOUND, "%s (%s), the largest orders:", f->effect, verdict);
+        say_orders(t, effect);
+        return;
+    }
+    hci_tuning_say(&t->tuning, HCI_TUNING_FOUND, "%s (%s): %s", f->effect, verdict, f->detail);
+}
+
 static void say_diagnosis(cli_tuning *t)
 {
     const hci_diagnosis *d = &t->diagnosis;
@@ -393,9 +456,7 @@ static void say_diagnosis(cli_tuning *t)
     hci_diagnosis_words(d, words, sizeof words);
     hci_tuning_say(&t->tuning, t->diagnosed ? HCI_TUNING_UNKNOWN : HCI_TUNING_FOUND, "%s", words);
     for (size_t k = 0; k < d->findings; ++k)
-        if (d->finding[k].verdict != HCI_FINDING_REJECTED)
-            hci_tuning_say(&t->tuning, HCI_TUNING_FOUND, "%s (%s): %s", d->finding[k].effect,
-                           hci_finding_verdict_name(d->finding[k].verdict), d->finding[k].detail);
+        if (d->finding[k].verdict != HCI_FINDING_REJECTED) say_finding(t, &d->finding[k]);
     if (d->advice[0]) hci_tuning_say(&t->tuning, HCI_TUNING_NEXT, "%s", d->advice);
 }
 
@@ -450,6 +511,9 @@ static double rounded(double x)
     return value;
 }
 
+/* A mean torque below this share of what the currents could make is friction or the zero of the sensor. */
+static const double LEAST_LOAD = 0.02;
+
 static void choose_torque(cli_tuning *t)
 {
     const hci_machine_data *m = &t->declared;
@@ -457,13 +521,15 @@ static void choose_torque(cli_tuning *t)
     const char *why;
     double mean_Nm, current_Nm;
     recorded(t, &mean_Nm, &current_Nm);
+    if (!(mean_Nm > LEAST_LOAD * current_Nm && current_Nm > 0.0)) mean_Nm = 0.0;
+    t->has_load = mean_Nm > 0.0;
     if (t->arguments->given[TUNE_TORQUE])
         t->mean_Nm = t->arguments->number[TUNE_TORQUE], why = "as asked for by --torque";
+    else if (m->rated_torque_Nm > 0.0 && !(mean_Nm > 0.0 && mean_Nm < m->rated_torque_Nm))
+        t->mean_Nm = m->rated_torque_Nm, why = "the rated torque";
     else if (mean_Nm > 0.0)
         t->mean_Nm = rounded(mean_Nm),
-        why = "the largest mean torque of the recordings, where they tell what to expect";
-    else if (m->rated_torque_Nm > 0.0)
-        t->mean_Nm = m->rated_torque_Nm, why = "the rated torque; no recording has a load";
+        why = "the largest mean torque of the recordings; up to there they tell what to expect";
     else if (rated_Nm > 0.0)
         t->mean_Nm = rounded(rated_Nm / 3.0),
         why = "what a third of the rated current makes; no recording has a load";
@@ -504,7 +570,9 @@ static void limit_heat(cli_tuning *t, hci_solve_options *o, char text[32], comma
 
 static void note_target(cli_tuning *t)
 {
-    note_text(t, "printf 'order,amplitude_Nm,phase_rad\\n0,%.17g,0\\n' >\"$OUT\"/target.csv\n", t->mean_Nm);
+    char mean[32];
+    hci_number_text(t->mean_Nm, mean);
+    note_text(t, "printf 'order,amplitude_Nm,phase_rad\\n0,%s,0\\n' >\"$OUT\"/target.csv\n", mean);
 }
 
 hci_status cli_tune_solve(cli_tuning *t, hci_note *note)

@@ -32,6 +32,7 @@ typedef struct {
     hci_diagnosis diagnosis;
     hci_status diagnosed;
     bool has_slip, has_emf, has_cogging; /* check found one; they were measured without load */
+    bool has_load;                       /* a recording has a torque sensor and a mean torque */
     double mean_Nm;                      /* that is solved for */
     hci_machine_data corrected;
     hci_effects_data found;

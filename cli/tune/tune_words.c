@@ -9,14 +9,6 @@
 
 /* ---- what is concluded ---- */
 
-static bool has_found(const hci_diagnosis *d, const char *effect)
-{
-    for (size_t k = 0; k < d->findings; ++k)
-        if (strcmp(d->finding[k].effect, effect) == 0 && d->finding[k].verdict == HCI_FINDING_ADDED)
-            return true;
-    return false;
-}
-
 static void say_missing(cli_tuning *t)
 {
     if (!t->is_solved && !t->has_slip && !cli_tune_can_solve(t))
@@ -35,23 +27,26 @@ static void say_missing(cli_tuning *t)
                        "To know the ripple on the machine: three recordings or more under load, up to the "
                        "currents of the table, "
                        "with a torque sensor.");
-    if (t->is_own && !t->has_emf && !has_found(&t->diagnosis, "back_emf"))
+    if (t->is_own && !t->has_emf && !t->has_load)
         hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
                        "The torque per ampere and the back-EMF are those of the data sheet; voltages of the "
                        "open machine, driven by "
                        "another, would tell them.");
 }
 
+/* Where no recording tells of it. */
 static void say_cogging(cli_tuning *t)
 {
-    bool is_declared = false;
-    for (size_t k = 0; k < t->declared.model.cogging_count; ++k)
-        is_declared = is_declared || hypot(t->declared.cogging[k].sine, t->declared.cogging[k].cosine) > 0.0;
-    if (t->is_solved && !t->has_cogging && !is_declared && !has_found(&t->diagnosis, "cogging"))
+    double before_Nm = 0.0, after_Nm;
+    if (!t->is_solved) return;
+    hci_tuning_swing(&t->solution, &before_Nm, &after_Nm);
+    if (!t->has_cogging && t->diagnosis.nothing_measured)
         hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
-                       "No cogging torque was found: either it is below what the logs resolve, or they "
-                       "cannot show it. The table takes "
-                       "none away.");
+                       "No recording tells of the cogging torque: the table takes none away.");
+    else if (before_Nm < t->solution.tolerance_Nm)
+        hci_tuning_say(
+            &t->tuning, HCI_TUNING_UNKNOWN,
+            "No ripple was found: it is below what the recordings resolve, or they cannot show it.");
 }
 
 static void set_heading(hci_tuning *t, const hci_solution *s)

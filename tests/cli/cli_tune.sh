@@ -1,0 +1,89 @@
+#!/bin/sh
+# From logs to a table in one go: on logs of a simulated machine with known cogging torque the currents do on that machine what the report
+# states; the steps are the ordinary commands; what a log does not hold is said, with exit code 1.
+#   cli_tune.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
+. "$1/tests/support/common.sh"
+use_plain_build
+cd "$work" || exit 1
+
+# ---- a machine, and logs of it as a drive with a torque sensor writes them
+
+mkdir true
+printf 'name,value,unit\npole_pairs,7,1\nrated_current,6,A\n' >true/machine.csv
+printf 'order,amplitude_Nm_per_A,phase_rad\n1,0.1,0\n' >true/back_emf.csv
+printf 'order,amplitude_Nm,phase_rad\n1.7142857142857142,0.004,0.7\n12,0.02,0.3\n' >true/cogging.csv
+log() { # NAME TORQUE_Nm SPEED_rpm SEED
+    printf 'name,value,unit\nduration,0.5,s\nprescribed_speed,%s,rpm\ncurrent_control,ideal,\nstrategy,id0,\ntorque_reference,%s,Nm\ntorque_noise,2,mNm\nseed,%s,\ntrajectory_every,6,\n' \
+        "$3" "$2" "$4" >scenario.csv
+    "$hci_solve" simulate true scenario.csv -q -o "$1" || exit 1
+    awk -F, -v OFS=, 'NR == 1 { for (k = 1; k <= NF; ++k) c[$k] = k; print "time_s,theta_m_rad,speed_rad_per_s,ia_A,ib_A,ic_A,torque_Nm"; next }
+        { print $c["time_s"], $c["theta_m_rad"], $c["speed_rad_per_s"], $c["ia_A"], $c["ib_A"], $c["ic_A"], $c["torque_Nm"] }' "$1/trajectory.csv" >"$1.csv"
+}
+log idle 0 240 1
+log load 0.6 240 2
+log back -0.4 -250 4
+number() { # NAME FILE: the first number of that name
+    sed -n "s/.*\"$1\":[[:space:]]*\([-0-9.e+]*\),*\$/\1/p" "$2" | head -n 1
+}
+
+# ---- what the report states is what the true machine does
+
+run 0 tune idle.csv load.csv back.csv --pole-pairs 7 --flux 0.0142857142857143 --rated-current 6 -o out
+says '^tuned: A ripple of 0\.04[0-9]* N·m from peak to peak falls to less than a thousandth, in the model$' \
+    'order 12: 0\.0(20|19)[0-9]* ± [0-9.e-]+ N·m' 'a torque without ripple of 0\.6 N·m' 'hci-solve emit out/currents --name tuned '
+files_are() { check "files of $1: $(ls "$1" | tr '\n' ' ')" [ "$(ls "$1" | tr '\n' ' ')" = "$2 " ]; }
+files_are out 'check commands.sh currents diagnose machine report.html runs.csv summary.json table target.csv'
+files_are out/table 'tuned.c tuned.h'
+bound=$(number T_ripple_percent_95 out/summary.json)
+printf 'name,value,unit\nduration,0.3,s\nprescribed_speed,240,rpm\ncurrent_control,ideal,\ncurrents,out/currents/currents.csv,\n' >played.csv
+run 0 simulate true played.csv -q -o played
+ripple=$(number T_ripple played/summary.json)
+check "the true machine has $ripple % of ripple, stated were at most $bound %" awk -v a="$ripple" -v b="$bound" 'BEGIN { exit !(a > 0 && a <= b && b < 0.3) }'
+sed '/^inertia/d; /^dc_link_voltage/s/,[0-9.]*,/,24,/; /^resistance/s/,[0-9.]*,/,0.1,/' "$source_dir/data/drive/machine_a_10kHz.csv" >drive.csv
+run 0 simulate true --table out/currents --drive drive.csv --speeds 20 -q -o speeds
+check "through the current loop the table does not take the ripple away: $(cat speeds/speeds.csv)" \
+    awk -F, '{ at[$2] = $3 } END { exit !(at["sine"] > 7 && at["compensation"] < 0.01 * at["sine"]) }' speeds/speeds.csv
+
+# ---- each step is the ordinary command
+
+mkdir bin && ln -s "$hci_solve" bin/hci-solve
+check "commands.sh fails" env PATH="$work/bin:$PATH" sh out/commands.sh repeated >"$work/stdout" 2>"$work/stderr"
+rm -f out/report.html out/summary.json out/commands.sh
+grep -rl repeated repeated | while read -r file; do sed -i 's/repeated/out/g' "$file"; done # the folder, where a report names it
+check "the steps are other ones: $(diff -rq out repeated)" diff -rq out repeated
+run 0 tune true --runs out/runs.csv --torque 0.5 --name smooth --json -o listed
+check "not the torque that was asked for" grep -q 'N·m: as asked for by --torque"' "$work/stdout"
+check "summary.json is not what --json says" cmp -s "$work/stdout" listed/summary.json
+check "no table of that name" [ -s listed/table/smooth.h ]
+
+# ---- logs that do not hold it
+
+awk -F, -v OFS=, '{ print $1, $3 }' idle.csv >clock.csv
+run 1 tune clock.csv --pole-pairs 7 --flux 0.0142857 -o clock
+says '^not enough in the logs: ' 'turn the shaft slowly under position control'
+files_are clock 'check commands.sh diagnose machine report.html runs.csv summary.json'
+awk 'BEGIN { print "theta_e_rad,speed_rad_per_s,va_V,vb_V,vc_V"; turn = 6.283185307179586
+    for (k = 0; k < 700; ++k) { x = turn * k / 100; y = x - turn / 3; z = x + turn / 3
+        printf "%.9f,10,%.9f,%.9f,%.9f\n", x, sin(x) + 0.05 * sin(5 * x), sin(y) + 0.05 * sin(5 * y), sin(z) + 0.05 * sin(5 * z) } }' >open.csv
+run 1 tune open.csv --pole-pairs 7 --flux 0.0142857 -o open
+says 'order 5: 0\.005 ± ' 'what 1 A makes' 'No recording tells of the cogging torque'
+awk -F, 'NR > 1 { print $2, $7 }' OFS=, idle.csv | sed '1i theta_m_rad,torque_Nm' >torque.csv
+run 1 tune torque.csv --poles 12 --slots 12 --flux 0.0142857 -o slip
+says '^a convention is broken: ' 'slip: '
+check "a table although a convention is broken" [ ! -e slip/table ]
+
+# ---- wrong
+
+run 2 tune idle.csv --pole-pairs 7 --kv 100
+says 'tune: add --out FOLDER'
+run 2 tune idle.csv --pole-pairs 7 -o nothing
+says 'init: nothing says how strong the magnets are' 'the step `init` failed'
+run 2 tune idle.csv --pole-pairs x --kv 100 -o nothing
+says '--pole-pairs: found `x`'
+run 2 tune true load.csv --runs runs.csv -o nothing
+says 'found 2 words, expected one machine beside --runs LIST'
+check "something is left" [ ! -e nothing ]
+run 3 tune none.csv --pole-pairs 7 --kv 100 -o none
+says 'none.csv: No such file'
+
+finish
