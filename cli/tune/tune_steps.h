@@ -8,7 +8,7 @@
 #include "hci/host/diagnose/diagnose.h"
 #include "hci/host/machine/effects.h"
 #include "hci/host/machine/machine.h"
-#include "hci/host/report/tuning.h"
+#include "hci/host/report/tune/tuning.h"
 
 enum { CLI_TUNE_PATH = 2048 };
 

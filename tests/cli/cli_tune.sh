@@ -50,6 +50,9 @@ mkdir bin && ln -s "$hci_solve" bin/hci-solve
 check "commands.sh fails" env PATH="$work/bin:$PATH" sh out/commands.sh repeated >"$work/stdout" 2>"$work/stderr"
 rm -f out/report.html out/summary.json out/commands.sh
 grep -rl repeated repeated | while read -r file; do sed -i 's/repeated/out/g' "$file"; done # the folder, where a report names it
+# a page names its folder, and summary.json beside it has its checksum
+find out repeated -name summary.json -exec sed -i '/"report.html":/d' {} +
+find out repeated -name report.html -exec rm {} +
 check "the steps are other ones: $(diff -rq out repeated)" diff -rq out repeated
 run 0 tune true --runs out/runs.csv --torque 0.5 --name smooth --json -o listed
 check "not the torque that was asked for" grep -q 'N·m: as asked for by --torque"' "$work/stdout"

@@ -5,7 +5,6 @@
 #include "hci/host/diagnose/diagnose.h"
 #include "hci/host/report/page/sources.h"
 #include "hci/host/simulate/simulate.h"
-#include "hci/host/report/tuning.h"
 #include "hci/host/simulate/speeds.h"
 #include "hci/host/solve/solve.h"
 #include "host/simulate/traces.h"
@@ -31,7 +30,5 @@ void hci_page_speeds(hci_output *out, const hci_speeds *speeds, const hci_report
 /* HCI_ERROR_MEMORY. */
 hci_status hci_page_simulation(hci_output *out, const hci_simulation *simulation, const hci_traces *traces,
                                const hci_report_sources *sources, hci_note *note);
-
-void hci_page_tuning(hci_output *out, const hci_tuning *tuning);
 
 #endif

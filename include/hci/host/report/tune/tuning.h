@@ -1,8 +1,7 @@
 /* The report of `tune`: what was read, found, solved and emitted, and what is left open. */
-#ifndef HCI_HOST_REPORT_TUNING_H
-#define HCI_HOST_REPORT_TUNING_H
+#ifndef HCI_HOST_REPORT_TUNE_TUNING_H
+#define HCI_HOST_REPORT_TUNE_TUNING_H
 
-#include "hci/host/machine/machine.h"
 #include "hci/host/solve/solve.h"
 
 #ifdef __cplusplus

@@ -1,44 +1,15 @@
 /* The files of `tune` itself: its list of recordings, its target, its report and its commands. */
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "hci/host/base/output.h"
 #include "hci/host/report/summary.h"
-#include "hci/host/report/tuning.h"
 #include "host/base/memory.h"
 #include "host/base/path.h"
-#include "host/base/words.h"
 #include "host/csv/write.h"
-#include "host/plot/plot.h"
-#include "host/report/page/page.h"
 #include "host/report/summary.h"
-
-const char *hci_tuning_part_name(hci_tuning_part part)
-{
-    static const char *const NAMES[] = {"What was read",     "What was found",      "What was solved for",
-                                        "What is not known", "What to record next", "Into the drive"};
-    return NAMES[part];
-}
-
-void hci_tuning_say(hci_tuning *t, hci_tuning_part part, const char *format, ...)
-{
-    const hci_words words = {t->part[part], sizeof t->part[part]};
-    va_list arguments;
-    va_start(arguments, format);
-    hci_words_say_list(&words, format, arguments);
-    va_end(arguments);
-    hci_words_say(&words, "\n");
-}
-
-void hci_tuning_swing(const hci_solution *s, double *before_Nm, double *after_Nm)
-{
-    hci_plot_facts facts;
-    hci_plot_solution_facts(s, &facts);
-    *before_Nm = facts.before_Nm.high - facts.before_Nm.low;
-    *after_Nm = facts.after_Nm.high - facts.after_Nm.low;
-}
+#include "host/report/tune/page_tuning.h"
 
 /* ---- inputs of its steps ---- */
 
