@@ -204,6 +204,10 @@ typedef struct {
     void *context;                   /* its first argument */
 } hci_effect_proposals;
 
+enum {
+    HCI_EFFECT_SENSORS = 8 /* that `filter_many` takes at once */
+};
+
 /* A run whose torque is modelled. */
 typedef struct {
     const double *time_s; /* ascending; a step back starts anew */
@@ -304,6 +308,12 @@ struct hci_effect_type {
 
     /* What happens to the reading of the torque along a run, in place. */
     void (*filter)(const hci_effect *effect, const hci_effect_run *run);
+
+    /* What each of several such effects, 1 to HCI_EFFECT_SENSORS of them, makes of the torque of a run, which
+     * stays as it is; each has either a resonance or a lag, all have the same. reading_Nm: out, of each
+     * sample HCI_EFFECT_SENSORS readings, `count` of them of use. */
+    void (*filter_many)(const hci_effect *effects, size_t count, const hci_effect_run *run,
+                        double *reading_Nm);
 };
 
 /* Type k of the registry; NULL behind the last one. */

@@ -3,7 +3,7 @@
 hci_effect_oscillation hci_angle_error_at(const hci_effect *effect, int periods, double theta_m_rad)
 {
     hci_effect_oscillation sum = {0.0, 0.0};
-    hci_effect_turn turn = {HCI_EFFECT_NO_TURN, 0.0, 0.0};
+    hci_turning turn = HCI_TURNING;
     for (size_t j = 0; j < effect->count; ++j) {
         const hci_effect_term *t = &effect->term[j];
         if (t->value == 0.0) continue;
@@ -41,7 +41,7 @@ void hci_angle_error_undo_adjoint(const hci_effect *effect, int periods, const h
     hci_sample after = *before;
     hci_angle_error_undo(effect, periods, &after);
     by->by_angle /= 1.0 + hci_angle_error_at(effect, periods, after.theta_m_rad).slope;
-    hci_effect_turn turn = {HCI_EFFECT_NO_TURN, 0.0, 0.0};
+    hci_turning turn = HCI_TURNING;
     for (size_t j = 0; j < effect->count; ++j) {
         const hci_effect_term *t = &effect->term[j];
         hci_effect_turn_to(&turn, t->order, periods, after.theta_m_rad);

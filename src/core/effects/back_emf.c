@@ -32,7 +32,7 @@ static int sequence_of(const hci_effect_term *term)
 static void torque_of_all(const hci_effect *effect, const hci_machine *machine, const hci_sample *truth,
                           hci_effect_torque *sum, double *by_value)
 {
-    hci_effect_turn turn = {HCI_EFFECT_NO_TURN, 0.0, 0.0};
+    hci_turning turn = HCI_TURNING;
     for (size_t k = 0; k < effect->count; ++k) {
         const hci_effect_term *term = &effect->term[k];
         const bool cosine = term->parameter % 2 == 1;

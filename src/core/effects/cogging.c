@@ -11,7 +11,7 @@ static const hci_effect_parameter PARAMETER[] = {
 static void torque_of_all(const hci_effect *effect, const hci_machine *machine, const hci_sample *truth,
                           hci_effect_torque *sum, double *by_value)
 {
-    hci_effect_turn turn = {HCI_EFFECT_NO_TURN, 0.0, 0.0};
+    hci_turning turn = HCI_TURNING;
     for (size_t k = 0; k < effect->count; ++k) {
         const hci_effect_term *term = &effect->term[k];
         hci_effect_turn_to(&turn, term->order, machine->pole_pairs, truth->theta_m_rad);

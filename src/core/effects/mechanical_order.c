@@ -36,7 +36,7 @@ static double of_current(double value, const hci_effect_oscillation *f, const do
 static void torque_of_all(const hci_effect *effect, const hci_machine *machine, const hci_sample *truth,
                           hci_effect_torque *sum, double *by_value)
 {
-    hci_effect_turn turn = {HCI_EFFECT_NO_TURN, 0.0, 0.0};
+    hci_turning turn = HCI_TURNING;
     double q[3], q_slope[3];
     quadrature(machine->pole_pairs, truth->theta_m_rad, q, q_slope);
     for (size_t k = 0; k < effect->count; ++k) {

@@ -10,15 +10,19 @@ static const hci_effect_parameter PARAMETER[] = {
               HCI_PARAMETER_LINEAR | HCI_PARAMETER_WITH_CURRENT),
 };
 
-static double torque(const hci_effect *effect, const hci_effect_term *term, const hci_machine *machine,
-                     const hci_sample *truth, hci_effect_torque *sum)
+static void torque_of_all(const hci_effect *effect, const hci_machine *machine, const hci_sample *truth,
+                          hci_effect_torque *sum, double *by_value)
 {
-    (void)effect;
     double e[3], slope[3];
     hci_torque_back_emf_at(machine, machine->pole_pairs * truth->theta_m_rad, e, slope);
-    for (size_t s = 0; s < 3; ++s)
-        if (s != term->parameter) e[s] = slope[s] = 0.0;
-    return hci_effect_add_emf(sum, term->value, e, slope, truth->i_abc);
+    for (size_t k = 0; k < effect->count; ++k) {
+        const size_t s = effect->term[k].parameter;
+        const double value = effect->term[k].value, by = e[s] * truth->i_abc[s];
+        sum->torque_Nm += value * by;
+        sum->by_current[s] += value * e[s];
+        sum->by_angle += value * slope[s] * truth->i_abc[s];
+        if (by_value) by_value[k] = by;
+    }
 }
 
 #define EXPECTED 0.2 /* of the back-EMF */
@@ -38,5 +42,5 @@ const hci_effect_type hci_effect_phase_imbalance = {
     .when_equal = &hci_effect_back_emf,
     .propose = propose,
     .in_machine = true,
-    .torque = torque,
+    .torque_of_all = torque_of_all,
 };

@@ -6,6 +6,7 @@
 #include <math.h>
 
 #include "core/math/phases.h"
+#include "core/math/turning.h"
 #include "hci/effects/effect.h"
 
 /* One line for each. The order is that in which the bench's effects act on the way from the truth to the
@@ -62,21 +63,10 @@ static inline double hci_effect_periods(double order, int pole_pairs)
     return fabs(k - whole) < HCI_ORDER_TOLERANCE * pole_pairs ? whole : k;
 }
 
-/* sin and cos of k θ_m, kept while k stays: terms of one order follow each other. Start with
- * HCI_EFFECT_NO_TURN. */
-#define HCI_EFFECT_NO_TURN (-1.0)
-
-typedef struct {
-    double k, s, c;
-} hci_effect_turn;
-
-static inline void hci_effect_turn_to(hci_effect_turn *turn, double order, int pole_pairs, double theta_m_rad)
+/* sin and cos of k θ_m, kept while k stays: terms of one order follow each other. */
+static inline void hci_effect_turn_to(hci_turning *turn, double order, int pole_pairs, double theta_m_rad)
 {
-    const double k = hci_effect_periods(order, pole_pairs);
-    if (k == turn->k) return;
-    turn->k = k;
-    turn->s = sin(k * theta_m_rad);
-    turn->c = cos(k * theta_m_rad);
+    hci_turning_to(turn, hci_effect_periods(order, pole_pairs), theta_m_rad);
 }
 
 /* sin or cos of k θ_m, and its derivative by θ_m. */
@@ -84,7 +74,7 @@ typedef struct {
     double value, slope;
 } hci_effect_oscillation;
 
-static inline hci_effect_oscillation hci_effect_oscillate(const hci_effect_turn *turn, bool cosine)
+static inline hci_effect_oscillation hci_effect_oscillate(const hci_turning *turn, bool cosine)
 {
     const hci_effect_oscillation x = {cosine ? turn->c : turn->s,
                                       cosine ? -turn->k * turn->s : turn->k * turn->c};

@@ -22,7 +22,7 @@ static hci_effect_oscillation change_at(const hci_effect *effect, int pole_pairs
                                         double *by_value)
 {
     hci_effect_oscillation sum = {0.0, 0.0};
-    hci_effect_turn turn = {HCI_EFFECT_NO_TURN, 0.0, 0.0};
+    hci_turning turn = HCI_TURNING;
     for (size_t k = 0; k < effect->count; ++k) {
         const hci_effect_term *term = &effect->term[k];
         hci_effect_turn_to(&turn, term->order, pole_pairs, theta_m_rad);

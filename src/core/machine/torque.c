@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "core/math/phases.h"
+#include "core/math/turning.h"
 #include "hci/machine/system.h"
 
 /* Row and column of each stored entry of a phase matrix; entries off the diagonal stand for two. */
@@ -15,9 +16,11 @@ static void slope_at(const hci_machine *m, double theta_rad, double slope[HCI_PH
 {
     for (size_t q = 0; q < HCI_PHASE_MATRIX; ++q)
         slope[q] = by_angle[q] = 0.0;
+    hci_turning at = HCI_TURNING;
     for (size_t k = 0; k < m->slope_count; ++k) {
         const hci_inductance_slope *t = &m->slope[k];
-        const double s = sin(t->order * theta_rad), c = cos(t->order * theta_rad);
+        hci_turning_to(&at, t->order, theta_rad);
+        const double s = at.s, c = at.c;
         for (size_t q = 0; q < HCI_PHASE_MATRIX; ++q) {
             slope[q] += t->sine[q] * s + t->cosine[q] * c;
             by_angle[q] += m->pole_pairs * t->order * (t->sine[q] * c - t->cosine[q] * s);
@@ -38,11 +41,12 @@ void hci_torque_back_emf_at(const hci_machine *machine, double theta_rad, double
 {
     for (size_t s = 0; s < 3; ++s)
         e[s] = by_angle[s] = 0.0;
+    hci_turning at = HCI_TURNING;
     for (size_t k = 0; k < machine->back_emf_count; ++k) {
         const hci_wave *w = &machine->back_emf[k];
         const double n = machine->pole_pairs * w->order;
-        const double s = sin(w->order * theta_rad), c = cos(w->order * theta_rad);
-        const double x = w->sine * s + w->cosine * c, y = w->sine * c - w->cosine * s;
+        hci_turning_to(&at, w->order, theta_rad);
+        const double x = w->sine * at.s + w->cosine * at.c, y = w->sine * at.c - w->cosine * at.s;
         hci_phases_add(x, y, w->sequence, e);
         hci_phases_add(n * y, -n * x, w->sequence, by_angle);
     }
@@ -51,11 +55,12 @@ void hci_torque_back_emf_at(const hci_machine *machine, double theta_rad, double
 /* Adds T_cog and its derivative by θ_m. */
 static void cogging_add(const hci_machine *m, double theta_rad, hci_torque_slopes *sum)
 {
+    hci_turning at = HCI_TURNING;
     for (size_t k = 0; k < m->cogging_count; ++k) {
         const hci_harmonic *h = &m->cogging[k];
-        const double s = sin(h->order * theta_rad), c = cos(h->order * theta_rad);
-        sum->torque_Nm += h->sine * s + h->cosine * c;
-        sum->by_angle += m->pole_pairs * h->order * (h->sine * c - h->cosine * s);
+        hci_turning_to(&at, h->order, theta_rad);
+        sum->torque_Nm += h->sine * at.s + h->cosine * at.c;
+        sum->by_angle += m->pole_pairs * h->order * (h->sine * at.c - h->cosine * at.s);
     }
 }
 

@@ -816,6 +816,39 @@ static void test_torque_sensor_starts_and_repeats(void)
         TEST_ASSERT_DOUBLE_WITHIN(8.0 / 768.0, answer[k], torque[k]);
 }
 
+/* More columns than go side by side, and several sensors at once: each is what one by itself makes of the
+ * torque, in steps of any size. */
+static void test_torque_sensors_side_by_side(void)
+{
+    enum { N = 60, TERMS = 39, COLUMNS = 2 + TERMS };
+    static double torque[N], one[N], by[N * COLUMNS], many[N * HCI_EFFECT_SENSORS];
+    static const double FREQUENCY_Hz[] = {20.0, 75.0, 190.0}, DAMPING[] = {0.03, 0.1, 0.3};
+    const hci_effect_run run = {run_time, N, torque, NULL, 0, 0};
+    hci_effect sensor[3];
+    hci_effect_term term[3][2];
+    static el_list l[3], none;
+    for (size_t k = 0; k < 3; ++k) {
+        el_add(&l[k], "torque_sensor", "natural_frequency", 0.0, FREQUENCY_Hz[k]);
+        el_add(&l[k], "torque_sensor", "damping", 0.0, DAMPING[k]);
+        memcpy(term[k], l[k].term[0], sizeof term[k]);
+        sensor[k] = (hci_effect){l[k].effect[0].type, term[k], 2};
+    }
+    uneven_run(torque, &none, NULL, N);
+    sensor[0].type->filter_many(sensor, 3, &run, many);
+    for (size_t k = 0; k < 3; ++k) {
+        const hci_effect_run alone = {run_time, N, one, by, COLUMNS, 0};
+        for (size_t j = 0; j < N * COLUMNS; ++j)
+            by[j] = j % COLUMNS < 2 ? 0.0 : torque[j / COLUMNS];
+        memcpy(one, torque, sizeof one);
+        sensor[k].type->filter(&sensor[k], &alone);
+        for (size_t j = 0; j < N * TERMS; ++j)
+            TEST_ASSERT_EQUAL_DOUBLE(one[j / TERMS], by[j / TERMS * COLUMNS + 2 + j % TERMS]);
+        /* in more parts of a step than it takes alone, where another one swings faster */
+        for (size_t j = 0; j < N; ++j)
+            TEST_ASSERT_DOUBLE_WITHIN(k == 2 ? 1e-12 : 0.01, one[j], many[HCI_EFFECT_SENSORS * j + k]);
+    }
+}
+
 /* Straight in time from the start of a run, whatever else there is. */
 static void test_torque_drift_follows_the_time(void)
 {
@@ -931,6 +964,7 @@ int main(void)
     RUN_TEST(test_torque_sensor_derivatives);
     RUN_TEST(test_torque_sensor_starts_and_repeats);
     RUN_TEST(test_torque_sensor_filters_regressors);
+    RUN_TEST(test_torque_sensors_side_by_side);
     RUN_TEST(test_registry);
     RUN_TEST(test_no_effects);
     return UNITY_END();

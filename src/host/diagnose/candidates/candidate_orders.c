@@ -6,6 +6,7 @@
 #include "host/base/memory.h"
 #include "host/diagnose/candidates/empirical_term.h"
 #include "host/numeric/divisor.h"
+#include "host/numeric/wide.h"
 #include "host/recording/rotor_frame.h"
 
 #define RESOLVED 0.48 /* orders for each sample of a turn */
@@ -55,25 +56,61 @@ static void means_of(const hci_candidates_source *s, double *mean, double *weigh
 
 /* Sums over all samples. */
 typedef struct {
-    double *with_current; /* [count][2]: with i_q; cosine and sine */
+    double *with_current; /* [2][count]: with i_q; cosine and sine */
     double weight, weight_iq;
 } sums;
 
-/* residual: weighted. of_run: sums of the sample's run. */
-static void sample_add(double angle_rad, double residual, double iq, size_t count, double *with_current,
-                       double *of_run)
+enum { LANES = 8 }; /* orders side by side */
+
+/* cos and sin of LANES orders, and of a step of as many. */
+typedef struct {
+    double x[LANES], y[LANES], cosine, sine;
+} rotor;
+
+static rotor rotor_at(double angle_rad)
 {
     const double cs = cos(angle_rad), sn = sin(angle_rad);
-    double x = 1.0, y = 0.0;
-    for (size_t k = 0; k < count; ++k) {
-        of_run[2 * k] += residual * x;
-        of_run[2 * k + 1] += residual * y;
-        with_current[2 * k] += residual * iq * x;
-        with_current[2 * k + 1] += residual * iq * y;
-        const double next = cs * x - sn * y;
-        y = sn * x + cs * y;
-        x = next;
+    rotor r = {{1.0}, {0.0}, 1.0, 0.0};
+    for (size_t k = 0; k < LANES; ++k) {
+        r.x[k] = r.cosine;
+        r.y[k] = r.sine;
+        r.cosine = cs * r.x[k] - sn * r.y[k];
+        r.sine = sn * r.x[k] + cs * r.y[k];
     }
+    return r;
+}
+
+/* Adds so many sums with the orders where the rotor stands. to: cosines, and `count` further on the sines. */
+static inline void lanes_add(const rotor *r, double value, double *restrict to, size_t lanes, size_t count)
+{
+    for (size_t j = 0; j < lanes; ++j) {
+        to[j] += value * r->x[j];
+        to[count + j] += value * r->y[j];
+    }
+}
+
+static inline void rotor_turn(rotor *r)
+{
+    for (size_t j = 0; j < LANES; ++j) {
+        const double x = r->x[j];
+        r->x[j] = r->cosine * x - r->sine * r->y[j];
+        r->y[j] = r->sine * x + r->cosine * r->y[j];
+    }
+}
+
+/* residual: weighted. of_run: sums of the sample's run. */
+HCI_WIDE static void sample_add(double angle_rad, double residual, double iq, size_t count,
+                                double *with_current, double *of_run)
+{
+    rotor r = rotor_at(angle_rad);
+    size_t k = 0;
+    for (; k + LANES <= count; k += LANES) {
+        lanes_add(&r, residual, of_run + k, LANES, count);
+        lanes_add(&r, residual * iq, with_current + k, LANES, count);
+        rotor_turn(&r);
+    }
+    lanes_add(&r, residual, of_run + k, count - k, count);
+    lanes_add(&r, residual * iq, with_current + k, count - k, count);
 }
 
 static void segment_add(const hci_candidates_source *s, const hci_segment *x, double mean,
@@ -103,12 +140,12 @@ static void lines_fill(const sums *sum, size_t runs, hci_candidate_orders *lines
     for (size_t k = 0; k < lines->count; ++k) {
         double cosine = 0.0, sine = 0.0;
         for (size_t r = 0; r < runs; ++r) {
-            cosine += lines->of_run[2 * (lines->count * r + k)];
-            sine += lines->of_run[2 * (lines->count * r + k) + 1];
+            cosine += lines->of_run[2 * lines->count * r + k];
+            sine += lines->of_run[2 * lines->count * r + lines->count + k];
         }
         lines->still[k] = explained(cosine, sine, sum->weight);
         lines->with_current[k] =
-            explained(sum->with_current[2 * k], sum->with_current[2 * k + 1], sum->weight_iq);
+            explained(sum->with_current[k], sum->with_current[lines->count + k], sum->weight_iq);
     }
 }
 
@@ -183,10 +220,10 @@ static double growth_gain(const hci_candidate_orders *lines, const hci_binned_sa
     double cosine = 0.0, sine = 0.0, weight = 0.0;
     for (size_t r = 0; r < samples->run_count; ++r) {
         const hci_run_statistics *f = &samples->statistics[r];
-        const double *sum = lines->of_run + 2 * (lines->count * r + k);
+        const double *sum = lines->of_run + 2 * lines->count * r + k;
         const double x = hci_growth_law_at(g, f->current_A, f->mean_speed_rad_per_s);
         cosine += x * sum[0];
-        sine += x * sum[1];
+        sine += x * sum[lines->count];
         weight += x * x * lines->weight[r];
     }
     return explained(cosine, sine, weight);

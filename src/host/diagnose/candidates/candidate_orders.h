@@ -17,7 +17,7 @@ typedef struct {
     size_t stride, slots; /* slots: of the machine; 0: not known */
     size_t count;         /* orders 0 … count − 1 */
     double *still, *with_current;
-    double *of_run; /* [run][count][2]: weighted sums with cos and sin */
+    double *of_run; /* [run][2][count]: weighted sums with cos and with sin */
     double *weight; /* of each run */
 } hci_candidate_orders;
 

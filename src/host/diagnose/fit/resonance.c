@@ -1,6 +1,7 @@
 #include "host/diagnose/fit/resonance.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "hci/math/harmonic.h"
 #include "host/base/memory.h"
@@ -17,17 +18,19 @@ typedef struct {
     const hci_regression *regression;
     const hci_effect_type *type; /* whose resonance it is */
     const double *residual_Nm;
-    double *torque_Nm, *time_s, *y;
+    double *torque_Nm, *time_s, *reading_Nm;
 } scan;
+
+enum { SENSORS = HCI_EFFECT_SENSORS };
 
 /* Everything in one block, which begins at torque_Nm. False when memory is out. */
 static bool scan_make(scan *l)
 {
-    const size_t most = hci_segment_longest(l->regression->samples);
-    l->torque_Nm = hci_memory_new((2 * HCI_SETTLING_TURNS + 1) * most, sizeof *l->torque_Nm);
+    const size_t most = HCI_SETTLING_TURNS * hci_segment_longest(l->regression->samples);
+    l->torque_Nm = hci_memory_new((2 + SENSORS) * most, sizeof *l->torque_Nm);
     if (!l->torque_Nm) return false;
-    l->time_s = l->torque_Nm + HCI_SETTLING_TURNS * most;
-    l->y = l->time_s + HCI_SETTLING_TURNS * most;
+    l->time_s = l->torque_Nm + most;
+    l->reading_Nm = l->time_s + most;
     return true;
 }
 
@@ -42,46 +45,45 @@ static void turns_fill(const scan *l, const hci_segment *s, size_t turns)
         }
 }
 
-static double segment_square(const scan *l, const hci_effects *sensor, const hci_segment *s)
+/* Adds χ² of the last turn behind each sensor. */
+static void segment_squares(const scan *l, const hci_effect *sensors, size_t count, const hci_segment *s,
+                            double square[SENSORS])
 {
     const hci_binned_sample *sample = l->regression->samples->sample + s->first;
     const size_t n = s->count, turns = s->turns > 0 ? HCI_SETTLING_TURNS : 1;
-    double sum = 0.0;
+    const hci_effect_run run = {l->time_s, turns * n, l->torque_Nm, NULL, 0, 0};
+    double *y = l->reading_Nm + (turns - 1) * n * SENSORS;
     turns_fill(l, s, turns);
-    if (sensor) hci_effects_filter(sensor, l->time_s, turns * n, l->torque_Nm, NULL);
+    l->type->filter_many(sensors, count, &run, l->reading_Nm);
     for (size_t k = 0; k < n; ++k)
-        l->y[k] = sample[k].torque_Nm - l->torque_Nm[(turns - 1) * n + k];
-    hci_noise_whiten(hci_regression_noise(l->regression, s), l->y, n, 1);
+        for (size_t j = 0; j < SENSORS; ++j)
+            y[k * SENSORS + j] = sample[k].torque_Nm - y[k * SENSORS + j];
+    hci_noise_whiten(hci_regression_noise(l->regression, s), y, n, SENSORS);
     for (size_t k = 0; k < n; ++k)
-        sum += l->y[k] * l->y[k];
-    return sum;
+        for (size_t j = 0; j < SENSORS; ++j)
+            square[j] += y[k * SENSORS + j] * y[k * SENSORS + j];
 }
 
-/* χ² of all that a sensor's dynamics could show in. sensor: NULL for one without. */
-static double sensor_square(const scan *l, const hci_effects *sensor)
+/* χ² of all that a sensor's dynamics could show in, behind each sensor. */
+static void sensor_squares(const scan *l, const hci_effect *sensors, size_t count, double square[SENSORS])
+{
+    memset(square, 0, SENSORS * sizeof *square);
+    for (const hci_segment *s = NULL; (s = hci_regression_next(l->regression, s)) != NULL;)
+        if (hci_predicted_reading_is_dynamic(l->regression, s)) segment_squares(l, sensors, count, s, square);
+}
+
+/* The same without a sensor. */
+static double plain_square(const scan *l)
 {
     double sum = 0.0;
-    for (const hci_segment *s = NULL; (s = hci_regression_next(l->regression, s)) != NULL;)
-        if (hci_predicted_reading_is_dynamic(l->regression, s)) sum += segment_square(l, sensor, s);
+    for (const hci_segment *s = NULL; (s = hci_regression_next(l->regression, s)) != NULL;) {
+        if (!hci_predicted_reading_is_dynamic(l->regression, s)) continue;
+        memcpy(l->reading_Nm, l->residual_Nm + s->first, s->count * sizeof *l->reading_Nm);
+        hci_noise_whiten(hci_regression_noise(l->regression, s), l->reading_Nm, s->count, 1);
+        for (size_t k = 0; k < s->count; ++k)
+            sum += l->reading_Nm[k] * l->reading_Nm[k];
+    }
     return sum;
-}
-
-static double square_with_lag(const scan *l, double time_constant_s)
-{
-    const hci_effect_term term[] = {{l->type->lag[0], 0.0, time_constant_s, NAN}};
-    const hci_effect effect = {l->type, term, 1};
-    const hci_effects sensor = {&effect, 1};
-    return sensor_square(l, &sensor);
-}
-
-static double square_with(const scan *l, double frequency_Hz, double damping)
-{
-    const size_t *parameter = l->type->resonance;
-    const hci_effect_term term[] = {{parameter[0], 0.0, frequency_Hz, NAN},
-                                    {parameter[1], 0.0, damping, NAN}};
-    const hci_effect effect = {l->type, term, 2};
-    const hci_effects sensor = {&effect, 1};
-    return sensor_square(l, &sensor);
 }
 
 /* From the slowest turn to a third of the sampling rate. */
@@ -99,32 +101,74 @@ static void frequency_range(const hci_regression *e, double *low_Hz, double *hig
     }
 }
 
+/* Point k of a grid of so many, evenly spaced by ratio. */
+static double on_grid(double low, double high, int k, int count)
+{
+    return low * pow(high / low, (double)k / (count - 1));
+}
+
+enum { DAMPINGS = sizeof DAMPING / sizeof *DAMPING, POINTS = FREQUENCIES * DAMPINGS };
+
+/* As many points of the grid as go side by side, from one on. */
+static void points_try(const scan *l, const double range_Hz[2], int from, double before, hci_resonance *best)
+{
+    hci_effect_term term[SENSORS][2];
+    hci_effect sensor[SENSORS] = {{0}};
+    double square[SENSORS];
+    const int count = POINTS - from < SENSORS ? POINTS - from : SENSORS;
+    for (int k = 0; k < count; ++k) {
+        const double at_Hz = on_grid(range_Hz[0], range_Hz[1], (from + k) / DAMPINGS, FREQUENCIES);
+        term[k][0] = (hci_effect_term){l->type->resonance[0], 0.0, at_Hz, NAN};
+        term[k][1] = (hci_effect_term){l->type->resonance[1], 0.0, DAMPING[(from + k) % DAMPINGS], NAN};
+        sensor[k] = (hci_effect){l->type, term[k], 2};
+    }
+    sensor_squares(l, sensor, (size_t)count, square);
+    for (int k = 0; k < count; ++k)
+        if (before - square[k] > best->gain)
+            *best = (hci_resonance){term[k][0].value, term[k][1].value, before - square[k]};
+}
+
 static void grid_search(const scan *l, hci_resonance *best)
 {
-    double low_Hz, high_Hz;
-    frequency_range(l->regression, &low_Hz, &high_Hz);
-    const double before = sensor_square(l, NULL);
-    for (int k = 0; k < FREQUENCIES && low_Hz < high_Hz; ++k) {
-        const double frequency_Hz = low_Hz * pow(high_Hz / low_Hz, (double)k / (FREQUENCIES - 1));
-        for (size_t j = 0; j < sizeof DAMPING / sizeof *DAMPING; ++j) {
-            const double fall = before - square_with(l, frequency_Hz, DAMPING[j]);
-            if (fall > best->gain) *best = (hci_resonance){frequency_Hz, DAMPING[j], fall};
-        }
+    double range_Hz[2];
+    frequency_range(l->regression, &range_Hz[0], &range_Hz[1]);
+    if (!(range_Hz[0] < range_Hz[1])) return;
+    const double before = plain_square(l);
+    for (int k = 0; k < POINTS; k += SENSORS)
+        points_try(l, range_Hz, k, before, best);
+}
+
+/* As many lags as go side by side, from one on. */
+static void lags_try(const scan *l, const double range_Hz[2], int from, double *time_constant_s,
+                     double *least)
+{
+    hci_effect_term term[SENSORS];
+    hci_effect sensor[SENSORS] = {{0}};
+    double square[SENSORS];
+    const int count = LAGS - from < SENSORS ? LAGS - from : SENSORS;
+    for (int k = 0; k < count; ++k) {
+        const double corner_Hz = on_grid(range_Hz[0], range_Hz[1], from + k, LAGS);
+        term[k] = (hci_effect_term){l->type->lag[0], 0.0, 1.0 / (2.0 * HCI_PI * corner_Hz), NAN};
+        sensor[k] = (hci_effect){l->type, &term[k], 1};
+    }
+    sensor_squares(l, sensor, (size_t)count, square);
+    for (int k = 0; k < count; ++k) {
+        if (!(square[k] < *least)) continue;
+        *least = square[k];
+        *time_constant_s = term[k].value;
     }
 }
 
 static void lag_search(const scan *l, double *time_constant_s, double *gain)
 {
-    double low_Hz, high_Hz;
-    frequency_range(l->regression, &low_Hz, &high_Hz);
-    const double before = sensor_square(l, NULL);
-    for (int k = 0; k < LAGS && low_Hz < high_Hz; ++k) {
-        const double corner_Hz = low_Hz * pow(high_Hz / low_Hz, (double)k / (LAGS - 1));
-        const double tau_s = 1.0 / (2.0 * HCI_PI * corner_Hz), fall = before - square_with_lag(l, tau_s);
-        if (!(fall > *gain)) continue;
-        *gain = fall;
-        *time_constant_s = tau_s;
-    }
+    double range_Hz[2];
+    frequency_range(l->regression, &range_Hz[0], &range_Hz[1]);
+    if (!(range_Hz[0] < range_Hz[1])) return;
+    const double before = plain_square(l);
+    double least = before;
+    for (int k = 0; k < LAGS; k += SENSORS)
+        lags_try(l, range_Hz, k, time_constant_s, &least);
+    *gain = before - least;
 }
 
 hci_status hci_resonance_find(const hci_regression *regression, const hci_effect_type *type,
