@@ -104,6 +104,29 @@ static void test_what_an_order_explains(void)
                               orders.still[18]);
 }
 
+/* A run of means has no angle: what it says of orders, and what it weighs, is nothing. */
+static void test_means_have_no_orders(void)
+{
+    double still[90], with_current[90];
+    const size_t first = (RUNS - 1) * SAMPLES;
+    hide(18, 0.004, 0.0);
+    samples.segment_count = RUNS - 1;
+    find(1);
+    memcpy(still, orders.still, sizeof still);
+    memcpy(with_current, orders.with_current, sizeof with_current);
+    samples.segment_count = RUNS;
+    run[RUNS - 1].only_mean = true;
+    for (size_t k = first; k < COUNT; ++k) {
+        sample[k].reading.theta_m_rad = 0.0;
+        residual_Nm[k] = 0.1 * ref_normal(&seed);
+    }
+    find(1);
+    run[RUNS - 1].only_mean = false;
+    TEST_ASSERT_EQUAL_DOUBLE_ARRAY(still, orders.still, 90);
+    TEST_ASSERT_EQUAL_DOUBLE_ARRAY(with_current, orders.with_current, 90);
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, orders.weight[RUNS - 1]);
+}
+
 /* Noise gives χ² of two degrees of freedom: above x once in exp(x/2) times, above the limit once in 403. */
 static void test_noise_stands_out_at_the_rate_of_the_limit(void)
 {
@@ -229,6 +252,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_what_an_order_explains);
+    RUN_TEST(test_means_have_no_orders);
     RUN_TEST(test_noise_stands_out_at_the_rate_of_the_limit);
     RUN_TEST(test_orders_end_below_half_the_samples);
     RUN_TEST(test_slots_and_the_turn);
