@@ -9,11 +9,13 @@
 #include "host/diagnose/findings.h"
 #include "host/diagnose/fit/dataset.h"
 #include "host/diagnose/fit/model.h"
+#include "host/diagnose/fit/standard_errors.h"
 #include "host/diagnose/held_out.h"
 #include "host/diagnose/next_points.h"
 #include "host/diagnose/open_voltage.h"
 #include "host/diagnose/run_errors.h"
 #include "host/diagnose/search/attribute.h"
+#include "host/diagnose/search/backward.h"
 #include "host/diagnose/uncertainty.h"
 #include "host/machine/torque_constant.h"
 #include "host/recording/free_shaft.h"
@@ -120,6 +122,42 @@ static hci_status test(hci_dataset *b, const hci_runs *runs, hci_attribution *a,
     return HCI_OK;
 }
 
+static hci_status type_leaves(hci_dataset *b, hci_attribution *a, const hci_effect_type *type, hci_note *note)
+{
+    hci_candidates *model = &a->model.candidates;
+    hci_candidates_remove_type(model, type);
+    for (size_t r = 0; r < a->types; ++r)
+        if (a->verdict[r].type == type) a->verdict[r].in = false;
+    const hci_status status = hci_regression_fit(&b->regression, model, &a->model.fit, note);
+    return status ? status : hci_regression_standard_errors(&b->regression, model, note);
+}
+
+/* One that is not certain any more, now that others have left; NULL: none. */
+static const hci_effect_type *unsure_of(const hci_attribution *a)
+{
+    for (size_t r = 0; r < a->types; ++r) {
+        const hci_verdict *v = &a->verdict[r];
+        if (!v->in || v->ambiguous || v->type->is_series) continue;
+        if (hci_search_sureness(&a->model.candidates, v->type, a->model.fit.rows) < 0.0) return v->type;
+    }
+    return NULL;
+}
+
+/* Small effects that make the runs held out worse are terms that were found by chance, or describe what the
+ * others get wrong. */
+static hci_status misleading_leave(hci_dataset *b, const hci_runs *runs, hci_attribution *a, hci_note *note)
+{
+    const hci_effect_type *type = NULL;
+    hci_status status = HCI_OK;
+    for (bool any = false; !status; any = true) {
+        status = hci_held_out_misleading(b, runs, a, &type, note);
+        if (!status && !type && any) type = unsure_of(a);
+        if (status || !type) break;
+        status = type_leaves(b, a, type, note);
+    }
+    return status;
+}
+
 /* Whether the corrected machine has another torque per ampere, while open-circuit voltages, which are the
  * same figure, say that the declared one is right. */
 static bool is_against_voltages(const hci_dataset *b, const hci_machine_data *machine, const hci_runs *runs,
@@ -146,7 +184,8 @@ static hci_status diagnose(hci_dataset *b, const hci_machine_data *machine, cons
     hci_attribution a;
     hci_status status = hci_attribute(&b->regression, &how, &a, note);
     if (status) return status;
-    status = hci_next_points_tell_apart(&b->regression, machine, &a, d, note);
+    if (!a.unknown) status = misleading_leave(b, runs, &a, note);
+    if (!status) status = hci_next_points_tell_apart(&b->regression, machine, &a, d, note);
     if (!status) status = fill(b, runs, &a, d, note);
     if (!status && !a.unknown && d->verdict != HCI_DIAGNOSIS_COMPLETE)
         status = test(b, runs, &a, d, how.resolution_Nm, note);

@@ -3,8 +3,10 @@
 #include <math.h>
 
 #include "host/base/memory.h"
+#include "host/diagnose/fit/fit.h"
 #include "host/diagnose/fit/model.h"
 #include "host/diagnose/fit/predicted_reading.h"
+#include "host/diagnose/search/search.h"
 
 #define BEYOND        1.05 /* of the largest current and speed fitted: beyond it a run is no test */
 #define NOISY         1.5  /* error of a run held out, over its noise … */
@@ -15,6 +17,8 @@
 #define MEAN_LEFT     0.5  /* of the noise of a sample, that the mean of a run may be off */
 #define HELPS         1.05 /* of the error held out, without an effect that lowers it */
 #define STAYS         0.95 /* share of an error that has not fallen */
+#define SMALL         0.05 /* share of what all effects explain, that a small one explains of it at most */
+#define BY_CHANCE     20.0 /* χ² by which runs held out are described worse, all of them together */
 
 /* Whether a run is within the currents and speeds of those that were fitted. */
 static bool is_within(const hci_run_statistics *f, const hci_dataset *b)
@@ -123,7 +127,7 @@ static hci_status square_of(hci_dataset *b, const hci_runs *runs, const hci_cand
 
 /* The mean square over the runs held out without one type; NULL: with all. */
 static hci_status square_without(hci_dataset *b, const hci_runs *runs, const hci_effect_type *type,
-                                 hci_candidates *model, double *square, hci_note *note)
+                                 const hci_candidates *model, double *square, hci_note *note)
 {
     hci_candidates without = {0};
     double *residual_Nm = hci_memory_new(b->samples.count + 1, sizeof *residual_Nm);
@@ -146,5 +150,60 @@ hci_status hci_held_out_keep(hci_dataset *b, const hci_runs *runs, hci_candidate
     for (size_t r = 0; r < hci_candidate_types() && !status; ++r)
         if (!(without_Nm2[r] > HELPS * HELPS * with_Nm2))
             hci_candidates_remove_type(model, hci_candidate_type(r));
+    return status;
+}
+
+/* ---- which effects mislead ---- */
+
+/* Samples of the runs held out within what was fitted. */
+static double samples_of(const hci_dataset *b, const hci_runs *runs)
+{
+    double count = 0.0;
+    for (size_t k = 0; k < b->samples.segment_count; ++k) {
+        const hci_segment *s = &b->samples.segment[k];
+        if (runs->role[s->run] != HCI_ROLE_FIT && is_within(&b->samples.statistics[s->run], b))
+            count += (double)s->count;
+    }
+    return count;
+}
+
+/* The same mean square without one type, all others fitted anew; 0 where the runs that were fitted do not
+ * ask for it any more. */
+static hci_status square_refitted(hci_dataset *b, const hci_runs *runs, const hci_effect_type *type,
+                                  const hci_fitted_model *model, double *square, hci_note *note)
+{
+    hci_candidates without = {0};
+    hci_fit fit;
+    hci_status status = hci_candidates_copy(&model->candidates, &without, note);
+    if (!status) hci_candidates_remove_type(&without, type);
+    if (!status) status = hci_regression_fit(&b->regression, &without, &fit, note);
+    if (!status) status = square_without(b, runs, NULL, &without, square, note);
+    if (!status && fit.score < model->fit.score + HCI_DECISIVE) *square = 0.0;
+    hci_candidates_release(&without);
+    return status;
+}
+
+static double gain_of_all(const hci_attribution *a)
+{
+    return a->before.score - a->model.fit.score;
+}
+
+hci_status hci_held_out_misleading(hci_dataset *b, const hci_runs *runs, const hci_attribution *a,
+                                   const hci_effect_type **type, hci_note *note)
+{
+    const double samples = samples_of(b, runs);
+    double with_Nm2 = 0.0, without_Nm2 = 0.0;
+    *type = NULL;
+    if (!(samples > 0.0)) return HCI_OK;
+    hci_status status = square_without(b, runs, NULL, &a->model.candidates, &with_Nm2, note);
+    double least_Nm2 = with_Nm2 * (1.0 - BY_CHANCE / samples);
+    for (size_t r = 0; r < a->types && !status; ++r) {
+        const hci_verdict *v = &a->verdict[r];
+        if (!v->in || v->ambiguous || v->gain > SMALL * gain_of_all(a)) continue;
+        status = square_refitted(b, runs, v->type, &a->model, &without_Nm2, note);
+        if (status || !(without_Nm2 < least_Nm2)) continue;
+        least_Nm2 = without_Nm2;
+        *type = v->type;
+    }
     return status;
 }

@@ -25,4 +25,11 @@ hci_held_out_result hci_held_out_judge(const hci_dataset *dataset, const hci_run
 hci_status hci_held_out_keep(hci_dataset *dataset, const hci_runs *runs, hci_candidates *model,
                              hci_note *note);
 
+/* Of effects that explain little beside others the one without which, the others fitted anew, these runs are
+ * described best, and better than with it by more than chance; before all others one that the runs that were
+ * fitted do not ask for any more; NULL: none. HCI_ERROR_MEMORY. */
+hci_status hci_held_out_misleading(hci_dataset *dataset, const hci_runs *runs,
+                                   const hci_attribution *attribution, const hci_effect_type **type,
+                                   hci_note *note);
+
 #endif

@@ -16,6 +16,7 @@
 #include "host/diagnose/search/stability.h"
 
 #define SERIES_ERROR 0.002
+#define SWING_ERROR  0.005
 #define RATIO        1e-3 /* change of the torque per ampere, as a share, that an inertia may be wrong by */
 #define EQUAL_SHARE  0.2  /* of their mean, by which values of three phases may differ and are equal */
 
@@ -141,25 +142,50 @@ static hci_status verdicts_of_equal(hci_search *s, hci_attribution *a, hci_note 
     return status;
 }
 
-/* A series in the currents is not what iron does to the last digit: its fall of the score, and the share of
- * it that another effect of the iron must reach to be more than a part of that error. */
-static double series_gain(const hci_attribution *a)
+/* Whether a type that is in delays, or has a lag or a resonance: the zero of a torque sensor has none. */
+static bool swings(const hci_candidates *model, const hci_effect_type *type)
 {
-    double most = 0.0;
-    for (size_t r = 0; r < a->types; ++r)
-        if (a->verdict[r].in && a->verdict[r].type->beyond_quadratic) most = fmax(most, a->verdict[r].gain);
-    return most;
+    if (type->late) return true;
+    for (size_t k = 0; k < model->count && type->lag; ++k) {
+        const hci_candidate *x = &model->candidate[k];
+        if (x->in && x->type == type &&
+            (type->parameter[x->term[0].parameter].traits & HCI_PARAMETER_ALONG_TIME))
+            return true;
+    }
+    return false;
 }
 
-/* Back-EMF, reluctance and cogging beside saturation that the recordings do not ask for. */
+/* What a model of the type gets wrong, as a share of what it explains: a series in the currents is not what
+ * iron does to the last digit, nor what a sensor answers between samples that are far apart in a period, nor
+ * a delay the filter that makes it. */
+static double error_of(const hci_attribution *a, const hci_effect_type *type)
+{
+    if (type->beyond_quadratic) return SERIES_ERROR;
+    return swings(&a->model.candidates, type) ? SWING_ERROR : 0.0;
+}
+
+/* The fall of the score that another effect of the iron must reach to be more than a part of the error of the
+ * others; 0: none of them is off. */
+static double least_companion(const hci_attribution *a, const hci_verdict *v)
+{
+    double most = 0.0;
+    for (size_t r = 0; r < a->types; ++r) {
+        const hci_verdict *other = &a->verdict[r];
+        const double error = error_of(a, other->type);
+        const bool both = v->type->beyond_quadratic && other->type->beyond_quadratic;
+        if (other->in && other != v && error > 0.0 && !both) most = fmax(most, error * other->gain);
+    }
+    return most > 0.0 ? fmax(HCI_DECISIVE, most) : 0.0;
+}
+
+/* Effects of the iron beside such others that the recordings do not ask for. */
 static hci_status companions_leave(hci_search *s, hci_attribution *a, bool *left, hci_note *note)
 {
-    const double series = series_gain(a), least = fmax(HCI_DECISIVE, SERIES_ERROR * series);
     hci_status status = HCI_OK;
     *left = false;
-    for (size_t r = 0; r < a->types && series > 0.0 && !status && !*left; ++r) {
+    for (size_t r = 0; r < a->types && !status && !*left; ++r) {
         hci_verdict *v = &a->verdict[r];
-        if (!v->in || !v->type->propose_coenergy || v->type->beyond_quadratic || !(v->gain < least)) continue;
+        if (!v->in || !v->type->propose_coenergy || !(v->gain < least_companion(a, v))) continue;
         hci_candidates_remove_type(&a->model.candidates, v->type);
         v->in = false;
         *left = true;

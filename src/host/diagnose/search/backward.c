@@ -121,7 +121,7 @@ hci_status hci_search_drop(hci_search *s, hci_fitted_model *model, bool *dropped
 
 /* By how much the strongest order of a type pays its price with its own standard errors; terms of a friction
  * or an imbalance that come three at a time say little one by one, and are not asked. */
-static double sureness(const hci_candidates *model, const hci_effect_type *type, double rows)
+double hci_search_sureness(const hci_candidates *model, const hci_effect_type *type, double rows)
 {
     double most = -INFINITY;
     for (size_t k = 0; k < model->count; ++k) {
@@ -149,7 +149,7 @@ static const hci_effect_type *unsure_type(const hci_search *s, const hci_fitted_
     for (size_t r = 0; r < hci_candidate_types(); ++r) {
         const hci_effect_type *type = hci_candidate_type(r);
         if (!is_asked(s, model, type)) continue;
-        const double sure = sureness(&model->candidates, type, model->fit.rows);
+        const double sure = hci_search_sureness(&model->candidates, type, model->fit.rows);
         if (!(sure < least)) continue;
         least = sure;
         unsure = type;

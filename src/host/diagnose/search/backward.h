@@ -16,4 +16,8 @@ hci_status hci_search_drop(hci_search *search, hci_fitted_model *model, bool *dr
  * noise has in common over many samples: a wander that looks like an order for a while. HCI_ERROR_MEMORY. */
 hci_status hci_search_drop_unsure(hci_search *search, hci_fitted_model *model, hci_note *note);
 
+/* By how much the order of a type that is surest pays more than its price, by the standard errors that it
+ * has; INFINITY where these do not tell. */
+double hci_search_sureness(const hci_candidates *model, const hci_effect_type *type, double rows);
+
 #endif
