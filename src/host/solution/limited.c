@@ -40,6 +40,80 @@ static hci_status give(const hci_wishes *w, hci_answer *a, hci_note *note)
     return HCI_OK;
 }
 
+/* ---- another beginning, where the torque is not linear ---- */
+
+static bool is_fundamental(hci_component c)
+{
+    return fabs(c.order - 1.0) < HCI_ORDER_TOLERANCE && c.sequence == 1;
+}
+
+/* Coordinates of the best sine within the limits, and no harmonics. */
+static hci_status start_at_sine(const hci_wishes *w, const hci_answer *a, double *x, hci_note *note)
+{
+    hci_component fundamental = {1.0, 1};
+    hci_set name = HCI_SET_POS;
+    hci_wishes sine = {.of = w->of, .set = {.component = &fundamental, .set = &name, .count = 1}};
+    double from[2] = {0.0, 0.0};
+    hci_status status = hci_wishes_begin(&sine, note);
+    start(&sine, a, from);
+    if (!status) status = hci_limited_path_follow(&sine, from, note);
+    for (size_t k = 0; k < w->set.count && !status; ++k)
+        for (size_t part = 0; part < 2; ++part)
+            x[2 * k + part] = is_fundamental(w->set.component[k]) ? sine.x[part] : 0.0;
+    sine.set = (hci_component_set){0};
+    hci_wishes_release(&sine);
+    return status;
+}
+
+/* What stands beside the currents of an answer. */
+typedef struct {
+    double *x;
+    hci_limit_merit merit;
+    hci_limit_optimum cost;
+    hci_solution solution;
+} beginning;
+
+/* The better of what was found and what comes of the best sine: w->x. */
+static hci_status better(hci_wishes *w, const hci_answer *a, beginning *first, double *x, hci_note *note)
+{
+    hci_limit_merit merit;
+    hci_status status = start_at_sine(w, a, x, note);
+    w->is_hard = false;
+    if (!status) status = hci_limited_path_follow(w, x, note);
+    if (!status) status = hci_limited_path_merit(w, w->x, &merit, note);
+    if (status == HCI_ERROR_MEMORY) return status;
+    if (!status && hci_limit_merit_less(&merit, &first->merit, w->program.scale_Nm)) return HCI_OK;
+    memcpy(w->x, first->x, 2 * w->set.count * sizeof *w->x);
+    w->cost = first->cost;
+    *w->of->solution = first->solution;
+    return HCI_OK;
+}
+
+/* Whether a second beginning may find more: where the mean falls short of torque that is not linear. */
+static bool may_find_more(const hci_wishes *w)
+{
+    bool has_fundamental = false;
+    for (size_t k = 0; k < w->set.count; ++k)
+        has_fundamental = has_fundamental || is_fundamental(w->set.component[k]);
+    return has_fundamental && w->set.count > 1 && !w->of->task->held && !hci_task_is_linear(w->of->task) &&
+           hci_bounds_are_alike(w->of->bounds) && w->of->solution->limit_cost == HCI_COST_TORQUE;
+}
+
+static hci_status begin_again(hci_wishes *w, const hci_answer *a, double *x, hci_note *note)
+{
+    beginning first = {.x = hci_memory_new(2 * w->set.count, sizeof *first.x)};
+    hci_status status = first.x ? HCI_OK : out_of_memory(note);
+    if (!status) {
+        memcpy(first.x, w->x, 2 * w->set.count * sizeof *w->x);
+        first.cost = w->cost;
+        first.solution = *w->of->solution;
+        status = hci_limited_path_merit(w, w->x, &first.merit, note);
+    }
+    if (!status) status = better(w, a, &first, x, note);
+    hci_memory_free(first.x);
+    return status;
+}
+
 static hci_status solve(hci_wishes *w, hci_answer *a, hci_note *note)
 {
     double *x = hci_memory_new(2 * w->set.count, sizeof *x);
@@ -48,6 +122,7 @@ static hci_status solve(hci_wishes *w, hci_answer *a, hci_note *note)
         start(w, a, x);
         status = hci_limited_path_follow(w, x, note);
     }
+    if (!status && may_find_more(w)) status = begin_again(w, a, x, note);
     if (!status) status = give(w, a, note);
     if (!status) status = hci_linear_describe(w->of->task, a, w->of->solution, note);
     hci_memory_free(x);

@@ -6,7 +6,6 @@
 #include "core/math/vector.h"
 #include "host/base/memory.h"
 #include "host/numeric/anderson.h"
-#include "host/solution/merit.h"
 #include "host/solve/linearise.h"
 
 enum {
@@ -87,15 +86,22 @@ static hci_status step(const path *p, hci_note *note)
     return status ? status : hci_wishes_meet(w, note);
 }
 
+hci_status hci_limited_path_merit(const hci_wishes *w, const double *x, hci_limit_merit *merit,
+                                  hci_note *note)
+{
+    hci_wave_list i = {NULL, 0};
+    hci_status status = waves_of(w, x, &i, note);
+    if (!status) status = hci_limit_merit_evaluate(w->of->task, w->program.minimise, &i, merit, note);
+    hci_memory_free(i.wave);
+    return status;
+}
+
 /* Keeps the answer where its true torque is better than that of the best. */
 static hci_status judge(path *p, bool *is_better, hci_note *note)
 {
     const hci_wishes *w = p->wishes;
-    hci_wave_list i = {NULL, 0};
     hci_limit_merit merit;
-    hci_status status = waves_of(w, w->x, &i, note);
-    if (!status) status = hci_limit_merit_evaluate(w->of->task, w->program.minimise, &i, &merit, note);
-    hci_memory_free(i.wave);
+    const hci_status status = hci_limited_path_merit(w, w->x, &merit, note);
     if (status) return status;
     *is_better = !p->best || hci_limit_merit_less(&merit, &p->merit, w->program.scale_Nm);
     if (!*is_better) return HCI_OK;

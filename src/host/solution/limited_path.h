@@ -2,6 +2,7 @@
 #ifndef HCI_SRC_HOST_SOLUTION_LIMITED_PATH_H
 #define HCI_SRC_HOST_SOLUTION_LIMITED_PATH_H
 
+#include "host/solution/merit.h"
 #include "host/solution/wishes.h"
 
 /* Meets the wishes with torque and voltage made linear again and again, from `from` (coordinates of
@@ -9,5 +10,9 @@
  * comes to rest; else within a distance from the best answer that shrinks where the true torque is not better
  * than that. wishes->x is the answer. Fills the steps of the solution. HCI_ERROR_NUMERIC, _MEMORY. */
 hci_status hci_limited_path_follow(hci_wishes *wishes, double *from, hci_note *note);
+
+/* How good the true torque of coordinates x is. HCI_ERROR_MEMORY. */
+hci_status hci_limited_path_merit(const hci_wishes *wishes, const double *x, hci_limit_merit *merit,
+                                  hci_note *note);
 
 #endif

@@ -139,10 +139,25 @@ static void test_a_mean_beyond_the_sine_is_as_wanted(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-3, 198.683, solution.order[0].torque_Nm.cosine);
 }
 
+/* The largest torque of a peak current grows without bends: one that is too small lies in a lesser optimum.
+ */
+static void test_the_largest_torque_grows_evenly(void)
+{
+    double most_Nm[3];
+    for (int k = 0; k < 3; ++k) {
+        options.limit_current_A = 236.0 + 2.0 * k;
+        solve(3, 150.0);
+        most_Nm[k] = solution.order[0].torque_Nm.cosine;
+    }
+    TEST_ASSERT_DOUBLE_WITHIN(0.02, 0.5 * (most_Nm[0] + most_Nm[2]), most_Nm[1]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-3, 143.909, most_Nm[1]);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_the_largest_torque_of_the_sine);
     RUN_TEST(test_a_mean_beyond_the_sine_is_as_wanted);
+    RUN_TEST(test_the_largest_torque_grows_evenly);
     return UNITY_END();
 }
