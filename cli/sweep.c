@@ -125,6 +125,7 @@ static hci_status sweep(const cli_arguments *a, const cli_sweep_inputs *in, hci_
     memset(&s, 0, sizeof s);
     status = cli_sweep_run(in, &work, &s, note);
     const bool is_stopped = cli_signals_deferred(NULL);
+    cli_remark(&s.remark);
     if (s.plan.count > 0 && (is_stopped || (!status && !is_complete(&s)))) say_unfinished(a, &s);
     cli_signals_obey();
     cli_signals_catch();

@@ -215,8 +215,10 @@ static void show_cost(const hci_solution *s)
     if (s->limit_cost == HCI_COST_RIPPLE)
         cli_say("  limits       kept; the ripple is the smallest within them (%.4g N·m)\n", s->minimised_Nm);
     if (s->limit_cost == HCI_COST_TORQUE)
-        cli_say("  limits       kept; %.6g N·m is the mean torque nearest to %.6g N·m within them\n", mean_Nm,
-                s->wanted_mean_Nm);
+        cli_say(
+            "  limits       kept; %.6g N·m is the mean torque nearest to %.6g N·m within them that was found "
+            "with these components\n",
+            mean_Nm, s->wanted_mean_Nm);
     if (s->limit_cost == HCI_COST_LIMITS)
         cli_say(
             "  limits       no current keeps them; the given one would with all of them wider by %.3g %%\n",

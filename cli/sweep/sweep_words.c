@@ -4,6 +4,7 @@
 
 #include "cli/terminal/say.h"
 #include "cli/terminal/text.h"
+#include "hci/host/base/unit.h"
 
 enum { MOST_ROWS = 24, MOST_REASONS = 5 };
 
@@ -16,8 +17,9 @@ static void show_least(const hci_grid *s, bool of_copper, double percent, const 
         cli_say("  %-12s not within these limits\n", what);
         return;
     }
-    cli_say("  %-12s %.4g %s: T_ripple %.3g %%, peak %.4g A, copper %.4g × the plain sine\n", what,
+    cli_say("  %-12s %.4g %s%s: T_ripple %.3g %%, peak %.4g A, copper %.4g × the plain sine\n", what,
             of_copper ? row->point.limit_copper : row->point.limit_current_A, of_copper ? "×" : "A",
+            row == s->row + (of_copper ? s->plan.by_current : 0) ? " (the first that was tried)" : "",
             row->best.T_ripple_percent, row->best.peak_A, row->best.loss_to_plain);
 }
 
@@ -64,7 +66,7 @@ static void show_envelope(const hci_grid *s)
         const hci_grid_row *row = &s->row[k];
         char binds[HCI_GRID_BINDS_SIZE];
         hci_grid_binds_text(&row->best, binds);
-        cli_say("  %5.5g rpm", hci_grid_rpm(row->point.speed_rad_per_s));
+        cli_say("  %5.5g rpm", hci_rpm(row->point.speed_rad_per_s));
         show_number(row->best.mean_Nm, 9);
         show_number(row->most.mean_Nm, 9);
         show_number(row->most.T_ripple_percent, 9);

@@ -1,8 +1,10 @@
 /* The units that files may use, in every spelling. */
 #include "hci/host/base/unit.h"
 
+#include <stdio.h>
 #include <string.h>
 
+#include "hci/host/base/number.h"
 #include "hci/math/harmonic.h"
 #include "host/base/unit_lookup.h"
 
@@ -238,4 +240,12 @@ bool hci_unit_factor(const char *unit, const char *wanted_unit, double *factor)
     if (from == NULL || to == NULL || from->dimension != to->dimension) return false;
     *factor = from->factor / to->factor;
     return true;
+}
+
+double hci_rpm(double speed_rad_per_s)
+{
+    char text[32];
+    double rpm;
+    snprintf(text, sizeof text, "%.12g", speed_rad_per_s * 30.0 / HCI_PI);
+    return hci_number_parse(text, &rpm) ? rpm : speed_rad_per_s * 30.0 / HCI_PI;
 }

@@ -1,6 +1,7 @@
 /* summary.json of `simulate`: of a scenario, and of speeds. */
 #include <stdio.h>
 
+#include "hci/host/base/unit.h"
 #include "host/report/summary.h"
 
 /* Opens an object of the four figures with the unit in their names; whoever calls adds to it and closes it.
@@ -87,11 +88,6 @@ char *hci_simulation_json(const hci_simulation *simulation)
 
 /* ---- speeds ---- */
 
-static double rpm(double speed_rad_per_s)
-{
-    return speed_rad_per_s * 30.0 / HCI_PI;
-}
-
 static void put_result(hci_json *json, hci_remedy remedy, const hci_speed_result *x)
 {
     hci_json_object(json, NULL);
@@ -109,7 +105,7 @@ static void put_result(hci_json *json, hci_remedy remedy, const hci_speed_result
 static void put_row(hci_json *json, const hci_speed_row *row)
 {
     hci_json_object(json, NULL);
-    hci_json_number(json, "speed_rpm", rpm(row->speed_rad_per_s));
+    hci_json_number(json, "speed_rpm", hci_rpm(row->speed_rad_per_s));
     hci_json_number(json, "needed_dc_link_V", row->needed_V);
     hci_json_number(json, "orders_short", (double)row->orders_short);
     hci_json_array(json, "remedies");
@@ -127,11 +123,11 @@ char *hci_speeds_json(const hci_speeds *s)
     hci_json_number(&json, "dc_link_V", s->dc_link_V);
     hci_json_number(&json, "lead_s", s->lead_s);
     hci_json_number(&json, "model_error_percent", 100.0 * s->model_error);
-    hci_json_number(&json, "voltage_rpm", rpm(s->voltage_rad_per_s));
-    hci_json_number(&json, "sampled_rpm", rpm(s->sampled_rad_per_s));
+    hci_json_number(&json, "voltage_rpm", hci_rpm(s->voltage_rad_per_s));
+    hci_json_number(&json, "sampled_rpm", hci_rpm(s->sampled_rad_per_s));
     hci_json_object(&json, "harmful_from_rpm");
     for (int k = HCI_REMEDY_TABLE; k < HCI_REMEDIES; ++k)
-        hci_json_number(&json, hci_remedy_name((hci_remedy)k), rpm(s->harmful_rad_per_s[k]));
+        hci_json_number(&json, hci_remedy_name((hci_remedy)k), hci_rpm(s->harmful_rad_per_s[k]));
     hci_json_close(&json);
     hci_json_array(&json, "speeds");
     for (size_t k = 0; k < s->count; ++k)

@@ -1,6 +1,7 @@
 /* The files of `simulate --table`: speeds.csv, speeds.svg, summary.json and report.html. */
 #include <math.h>
 
+#include "hci/host/base/unit.h"
 #include "hci/host/report/summary.h"
 #include "hci/host/report/write.h"
 #include "host/plot/plot.h"
@@ -19,7 +20,7 @@ static void put(hci_output *out, double value, char end)
 static void write_row(hci_output *out, const hci_speed_row *row, hci_remedy remedy)
 {
     const hci_speed_result *x = &row->remedy[remedy];
-    hci_output_number(out, row->speed_rad_per_s * 30.0 / HCI_PI, ',');
+    hci_output_number(out, hci_rpm(row->speed_rad_per_s), ',');
     hci_output_text(out, "%s,", hci_remedy_name(remedy));
     put(out, x->T_ripple_percent, ',');
     put(out, x->F_ripple_percent, ',');

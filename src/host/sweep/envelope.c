@@ -31,6 +31,13 @@ static double amplitude_within(const hci_bounds *b)
     return fmin(most_A, sqrt(2.0 / 3.0 * b->mean_square_A2));
 }
 
+/* Without what compares with a torque that only the search asked for. */
+static hci_grid_figures by_itself(hci_grid_figures f)
+{
+    f.worst_Nm = f.worst_order = f.loss_to_plain = NAN;
+    return f;
+}
+
 static void solve_for(const hci_machine_data *machine, const hci_solve_options *options, double torque_Nm,
                       hci_grid_answer *a)
 {
@@ -189,7 +196,7 @@ static void solve_sine(const hci_grid_request *r, const hci_solve_options *optio
         target.order[0].torque_Nm.cosine = first_Nm;
         hci_grid_solve_once(r->machine, &o, &a);
     }
-    if (a.verdict == HCI_GRID_TORQUE) row->sine = a.figures;
+    if (a.verdict == HCI_GRID_TORQUE) row->sine = by_itself(a.figures);
     hci_memory_free(target.order);
 }
 
@@ -246,7 +253,7 @@ static void fill(const hci_grid_request *r, const hci_solve_options *o, double f
     }
     row->verdict = HCI_GRID_LIMITS;
     if (a.verdict == HCI_GRID_LIMITS || !(a.figures.mean_Nm > NOTHING * NEAR * first_Nm)) return;
-    row->most = a.figures;
+    row->most = by_itself(a.figures);
     row->verdict = HCI_GRID_REACHED;
     take_sine(o, &s, row);
     if (row->most.T_ripple_percent <= s.allowed_percent)

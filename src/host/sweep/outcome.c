@@ -59,14 +59,6 @@ void hci_grid_limits_words(const hci_grid_request *r, char text[HCI_GRID_WORDS_S
                       o.limits.copper_ratio);
 }
 
-double hci_grid_rpm(double speed_rad_per_s)
-{
-    char text[32];
-    double rpm;
-    snprintf(text, sizeof text, "%.12g", speed_rad_per_s * 30.0 / HCI_PI);
-    return hci_number_parse(text, &rpm) ? rpm : speed_rad_per_s * 30.0 / HCI_PI;
-}
-
 double hci_grid_copper_W(const hci_grid_request *r, const hci_grid_figures *f)
 {
     return r->machine->resistance_ohm * f->mean_square_A2;

@@ -8,6 +8,7 @@
 
 #include "hci/host/base/number.h"
 #include "hci/host/csv/csv.h"
+#include "host/csv/table.h"
 #include "host/machine/folder.h"
 #include "host/sweep/columns.h"
 
@@ -293,11 +294,24 @@ static hci_status read_row(reader *r, hci_grid *s)
     return HCI_OK;
 }
 
+/* The end of the file may be missing, and with it the last row; no other may be torn. */
+static hci_status take_torn(hci_grid *s, const hci_csv *csv, hci_note *note)
+{
+    const size_t records = csv->records;
+    if (csv->torn == 0) return HCI_OK;
+    if (csv->torn > 1 || (records > 0 && csv->hole.line < hci_csv_record_line(csv, records - 1)))
+        return hci_note_set(note, HCI_ERROR_INPUT, "%s", csv->hole.error.text);
+    hci_note_add(&s->remark, "%s:%zu: the row ends before its last column; it is left out, and solved again",
+                 csv->path, csv->hole.line);
+    return HCI_OK;
+}
+
 static hci_status read_points(hci_grid *s, const char *path, hci_note *note)
 {
     hci_csv *csv;
-    hci_status status = hci_csv_read(path, &csv, note);
+    hci_status status = hci_csv_read_recording(path, &csv, note);
     if (status) return status;
+    status = take_torn(s, csv, note);
     for (size_t row = 0; row < hci_csv_rows(csv) && !status; ++row) {
         reader r = {csv, row, HCI_OK, note};
         status = read_row(&r, s);

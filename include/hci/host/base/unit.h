@@ -12,6 +12,9 @@ extern "C" {
  * "Nm", "rad/s", "rad_per_s"). False when unknown or of another dimension. */
 bool hci_unit_factor(const char *unit, const char *wanted_unit, double *factor);
 
+/* A speed in rpm with the digits that it was given with, for people and files: to 12 of them. */
+double hci_rpm(double speed_rad_per_s);
+
 #ifdef __cplusplus
 }
 #endif

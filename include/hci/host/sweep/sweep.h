@@ -43,18 +43,19 @@ typedef struct {
 
 /* What is asked for. Start with {0}. */
 typedef struct {
-    hci_grid_kind kind;               /* what it is for */
-    const hci_machine_data *machine;  /* of all points */
-    const hci_solve_options *options; /* of each point; target, speed and dc link are the point's own; envelope
-                                       * of a torque linear in the current: HCI_MINIMISE_AUTO is the swing */
-    double ripple_percent;            /* envelope: largest T_ripple; 0: 1 */
-    hci_grid_axis torque_Nm;          /* trade-off: one; map */
-    hci_grid_axis speed_rad_per_s;    /* trade-off: at most one, 0 without it; envelope; map */
-    hci_grid_axis link_V;             /* envelope, map: may be empty */
-    hci_grid_axis limit_current_A;    /* trade-off: chosen where it is empty */
-    hci_grid_axis limit_copper;       /* the same; copper loss over that of the plain sine */
-    const hci_grid_point *point;      /* map: these in place of the axes, or NULL */
-    size_t point_count;               /* entries of point */
+    hci_grid_kind kind;              /* what it is for */
+    const hci_machine_data *machine; /* of all points */
+    const hci_solve_options
+        *options;                  /* of each point; target, speed and dc link are the point's own; envelope
+                                    * of a torque linear in the current: HCI_MINIMISE_AUTO is the swing */
+    double ripple_percent;         /* envelope: largest T_ripple; 0: 1 */
+    hci_grid_axis torque_Nm;       /* trade-off: one; map */
+    hci_grid_axis speed_rad_per_s; /* trade-off: at most one, 0 without it; envelope; map */
+    hci_grid_axis link_V;          /* envelope, map: may be empty */
+    hci_grid_axis limit_current_A; /* trade-off: chosen where it is empty */
+    hci_grid_axis limit_copper;    /* the same; copper loss over that of the plain sine */
+    const hci_grid_point *point;   /* map: these in place of the axes, or NULL */
+    size_t point_count;            /* entries of point */
 } hci_grid_request;
 
 /* What currents do. NAN: not known. */
@@ -140,6 +141,7 @@ typedef struct {
     hci_grid_plan plan;       /* its points */
     hci_grid_row *row;        /* plan.count; of those that are done */
     bool *done;               /* plan.count */
+    hci_note remark;          /* what was left out of points.csv, in words; empty otherwise */
 } hci_grid;
 
 /* Rows for a plan, none of them done; the sweep takes the plan. HCI_ERROR_MEMORY. */
@@ -164,9 +166,6 @@ enum { HCI_GRID_WORDS_SIZE = 256, HCI_GRID_BINDS_SIZE = 64 };
 
 /* "phase current at most 12 A; line voltage at most 311 V": the limits of all points. */
 void hci_grid_limits_words(const hci_grid_request *request, char text[HCI_GRID_WORDS_SIZE]);
-
-/* A speed in rpm with the digits that it was given with. */
-double hci_grid_rpm(double speed_rad_per_s);
 
 /* Copper loss in W of a mean of i_a² + i_b² + i_c²; NAN where the machine does not say its resistance. */
 double hci_grid_copper_W(const hci_grid_request *request, const hci_grid_figures *figures);

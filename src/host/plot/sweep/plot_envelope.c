@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "hci/host/base/unit.h"
 #include "host/plot/sweep/plot_sweep.h"
 
 enum { WIDTH = 1000, HEIGHT = 780, CURVES = 3 };
@@ -42,7 +43,7 @@ static double y_at(const panel *p, double value)
 
 static double x_at(const panel *p, const hci_grid_row *row)
 {
-    return hci_svg_at(&p->x, hci_grid_rpm(row->point.speed_rad_per_s));
+    return hci_svg_at(&p->x, hci_rpm(row->point.speed_rad_per_s));
 }
 
 /* One line for each dc link; a gap where there is no value. */
@@ -87,7 +88,7 @@ static hci_svg_axis speed_axis(const hci_grid *s, const hci_svg_box *b)
 {
     hci_range r = HCI_RANGE_EMPTY;
     for (size_t k = 0; k < s->plan.count; ++k)
-        hci_range_include(&r, hci_grid_rpm(s->plan.point[k].speed_rad_per_s));
+        hci_range_include(&r, hci_rpm(s->plan.point[k].speed_rad_per_s));
     return hci_svg_axis_over(r, b->left, b->right, 10.0);
 }
 

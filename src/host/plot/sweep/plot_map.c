@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "hci/host/base/unit.h"
 #include "host/plot/sweep/plot_sweep.h"
 
 enum { WIDTH = 1320, HEIGHT = 836, LEVELS = 10, MOST_SIDE = 512 };
@@ -81,7 +82,7 @@ static void fill_field(const hci_grid *s, field *f)
 {
     *f = (field){.sweep = s, .link_V = s->plan.point[0].link_V};
     for (size_t k = 0; k < s->plan.count; ++k) {
-        include(&f->speed_rpm, hci_grid_rpm(s->plan.point[k].speed_rad_per_s));
+        include(&f->speed_rpm, hci_rpm(s->plan.point[k].speed_rad_per_s));
         include(&f->torque_Nm, s->plan.point[k].torque_Nm);
     }
 }
@@ -206,7 +207,7 @@ static void draw_cells(hci_output *out, const panel *p)
         double x[2], y[2];
         char style[16];
         if (!is_drawn(p->field, k)) continue;
-        edges(&p->field->speed_rpm, hci_grid_rpm(point->speed_rad_per_s), x);
+        edges(&p->field->speed_rpm, hci_rpm(point->speed_rad_per_s), x);
         edges(&p->field->torque_Nm, point->torque_Nm, y);
         style_of(p, &s->row[k], style);
         tell_cell(out, p, point, &s->row[k]);

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "hci/host/base/unit.h"
 #include "host/plot/sweep/plot_sweep.h"
 
 enum { WIDTH = 1000, HEIGHT = 772 };
@@ -187,7 +188,7 @@ void hci_plot_trade_off(hci_output *out, const hci_grid *s)
 {
     char title[128];
     snprintf(title, sizeof title, "%.5g N·m at %.5g rpm: ripple against peak current and copper",
-             s->plan.point[0].torque_Nm, hci_grid_rpm(s->plan.point[0].speed_rad_per_s));
+             s->plan.point[0].torque_Nm, hci_rpm(s->plan.point[0].speed_rad_per_s));
     const hci_svg_picture picture = {
         "sweep",
         title,

@@ -1,5 +1,6 @@
 #include <math.h>
 
+#include "hci/host/base/unit.h"
 #include "hci/host/report/sweep/write.h"
 #include "host/report/summary.h"
 #include "host/sweep/columns.h"
@@ -26,6 +27,19 @@ static void put_counts(hci_json *json, const hci_grid *s)
     hci_json_close(json);
 }
 
+static void put_failures(hci_json *json, const hci_grid *s)
+{
+    hci_json_array(json, "failed");
+    for (size_t k = 0; k < s->plan.count; ++k) {
+        if (!s->done[k] || s->row[k].verdict != HCI_GRID_FAILED) continue;
+        hci_json_object(json, NULL);
+        hci_json_number(json, "point", (double)(k + 1));
+        hci_json_text(json, "reason", s->row[k].reason);
+        hci_json_close(json);
+    }
+    hci_json_close(json);
+}
+
 /* ---- trade-off ---- */
 
 static void put_least(hci_json *json, const char *name, const hci_grid *s, bool of_copper, double percent)
@@ -44,7 +58,7 @@ static void put_trade_off(hci_json *json, const hci_grid *s)
 {
     static const char *const NAME[] = {"by_current", "by_copper"};
     hci_json_number(json, "torque_Nm", s->plan.point[0].torque_Nm);
-    hci_json_number(json, "speed_rpm", hci_grid_rpm(s->plan.point[0].speed_rad_per_s));
+    hci_json_number(json, "speed_rpm", hci_rpm(s->plan.point[0].speed_rad_per_s));
     for (int k = 0; k < 2; ++k) {
         hci_json_object(json, NAME[k]);
         put_least(json, "any_ripple", s, k == 1, HUGE_VAL);
@@ -77,7 +91,7 @@ static void put_envelope(hci_json *json, const hci_grid *s)
     for (size_t k = 0; k < s->plan.count; ++k) {
         const hci_grid_row *row = &s->row[k];
         hci_json_object(json, NULL);
-        hci_json_number(json, "speed_rpm", hci_grid_rpm(row->point.speed_rad_per_s));
+        hci_json_number(json, "speed_rpm", hci_rpm(row->point.speed_rad_per_s));
         hci_json_number(json, "dc_link_V", row->point.link_V);
         hci_json_text(json, "verdict", hci_grid_verdict_name(row->verdict));
         put_part(json, "best", s, &row->best);
@@ -115,6 +129,7 @@ char *hci_grid_json(const hci_grid *s)
     hci_json_text(&json, "kind", hci_grid_kind_name(s->request.kind));
     hci_json_text(&json, "limits", limits);
     put_counts(&json, s);
+    put_failures(&json, s);
     if (s->request.kind == HCI_GRID_TRADE_OFF) put_trade_off(&json, s);
     if (s->request.kind == HCI_GRID_ENVELOPE) put_envelope(&json, s);
     if (s->request.kind == HCI_GRID_MAP) put_map(&json, s);

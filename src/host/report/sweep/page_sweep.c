@@ -1,5 +1,6 @@
 /* The page of a sweep: what it found in a sentence, its picture, its table. */
 #include "host/report/sweep/page_sweep.h"
+#include "hci/host/base/unit.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -68,7 +69,7 @@ static void say_envelope(hci_output *out, const hci_grid *s)
             out, NULL,
             "At %.4g rpm: %.4g N·m with at most %.4g %% of ripple, %.4g N·m with %.3g %%, and %.4g N·m with "
             "%.3g %% by the plain sine.",
-            hci_grid_rpm(row->point.speed_rad_per_s), row->best.mean_Nm, s->request.ripple_percent,
+            hci_rpm(row->point.speed_rad_per_s), row->best.mean_Nm, s->request.ripple_percent,
             row->most.mean_Nm, row->most.T_ripple_percent, row->sine.mean_Nm, row->sine.T_ripple_percent);
 }
 
@@ -77,7 +78,7 @@ static void envelope_row(hci_output *out, const hci_grid_row *row)
     const hci_grid_figures *part[] = {&row->best, &row->most, &row->sine};
     char binds[HCI_GRID_BINDS_SIZE];
     hci_html_row(out);
-    hci_html_number(out, hci_grid_rpm(row->point.speed_rad_per_s));
+    hci_html_number(out, hci_rpm(row->point.speed_rad_per_s));
     hci_html_number(out, row->point.link_V);
     for (int j = 0; j < 3; ++j) {
         hci_html_number(out, part[j]->mean_Nm);
@@ -126,7 +127,7 @@ static void map_row(hci_output *out, const hci_grid_row *row)
 {
     char binds[HCI_GRID_BINDS_SIZE];
     hci_html_row(out);
-    hci_html_number(out, hci_grid_rpm(row->point.speed_rad_per_s));
+    hci_html_number(out, hci_rpm(row->point.speed_rad_per_s));
     hci_html_number(out, row->point.torque_Nm);
     hci_html_number(out, row->best.T_ripple_percent);
     hci_html_number(out, row->best.mean_square_A2);

@@ -1,5 +1,6 @@
 /* The files of `sweep`: a table and a picture of its kind, summary.json and report.html. */
 
+#include "hci/host/base/unit.h"
 #include "hci/host/report/summary.h"
 #include "hci/host/report/sweep/write.h"
 #include "host/plot/sweep/plot_sweep.h"
@@ -55,7 +56,7 @@ static void write_envelope(hci_output *out, const hci_grid *s)
     hci_output_text(out, "verdict,reason\n");
     for (size_t k = 0; k < s->plan.count; ++k) {
         const hci_grid_row *row = &s->row[k];
-        hci_grid_put(out, hci_grid_rpm(row->point.speed_rad_per_s), ',');
+        hci_grid_put(out, hci_rpm(row->point.speed_rad_per_s), ',');
         hci_grid_put(out, row->point.link_V, ',');
         put_figures(out, s, &row->best);
         put_figures(out, s, &row->most);
@@ -72,7 +73,7 @@ static void write_map(hci_output *out, const hci_grid *s)
     for (size_t k = 0; k < s->plan.count; ++k) {
         const hci_grid_row *row = &s->row[k];
         hci_grid_put(out, row->point.torque_Nm, ',');
-        hci_grid_put(out, hci_grid_rpm(row->point.speed_rad_per_s), ',');
+        hci_grid_put(out, hci_rpm(row->point.speed_rad_per_s), ',');
         hci_grid_put(out, row->point.link_V, ',');
         put_figures(out, s, &row->best);
         put_end(out, row);
