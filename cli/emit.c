@@ -20,7 +20,7 @@ static int emit_table(const cli_arguments *a)
     hci_status status = cli_emit_currents_read(a, &in, &note);
     if (!status) status = hci_emit(cli_emit_folder(a), &in.request, &result, &note);
     if (!status && cli_is_wordy()) cli_show_table(&in.request, &result, cli_emit_folder(a));
-    if (!status) cli_emit_remark(a);
+    if (!status) cli_emit_remark(a, &in.machine);
     if (!status && cli_emit_wants_json(a))
         status = cli_print_json(hci_emit_json(&in.request, &result), &note);
     cli_emit_currents_release(&in);

@@ -108,11 +108,11 @@ void cli_emit_currents_release(cli_emit_currents *in)
     hci_currents_release(&in->per_Nm);
 }
 
-void cli_emit_remark(const cli_arguments *a)
+void cli_emit_remark(const cli_arguments *a, const hci_machine_data *machine)
 {
     for (size_t k = 0; k < a->words; ++k) {
         hci_note remark = {{0}};
-        hci_solution_remark(a->word[k], &remark);
+        hci_solution_remark(a->word[k], machine, &remark);
         cli_remark(&remark);
     }
 }

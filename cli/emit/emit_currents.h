@@ -21,7 +21,8 @@ typedef struct {
 hci_status cli_emit_currents_read(const cli_arguments *arguments, cli_emit_currents *in, hci_note *note);
 void cli_emit_currents_release(cli_emit_currents *in);
 
-/* Says where currents are not what was asked of `solve`. */
-void cli_emit_remark(const cli_arguments *arguments);
+/* Says where currents are not what was asked of `solve`, or of another machine than the given one (NULL: none
+ * is given). */
+void cli_emit_remark(const cli_arguments *arguments, const hci_machine_data *machine);
 
 #endif

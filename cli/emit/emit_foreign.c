@@ -50,7 +50,7 @@ int cli_emit_for_foreign(const cli_arguments *a)
     hci_status status = read_foreign_inputs(a, &in, &note);
     if (!status) status = hci_emit_foreign(folder, &in.request, &result, &note);
     if (!status && cli_is_wordy()) cli_show_foreign(&in.request, &result, folder);
-    if (!status) cli_emit_remark(a);
+    if (!status) cli_emit_remark(a, &in.currents.machine);
     if (!status && cli_emit_wants_json(a))
         status = cli_print_json(hci_emit_foreign_json(&in.request, &result), &note);
     cli_emit_currents_release(&in.currents);

@@ -192,7 +192,7 @@ static hci_status simulate(const cli_speeds_words *w, inputs *in, hci_note *note
     if (!status && cli_is_wordy()) show(&speeds, w);
     for (size_t k = 0; k < w->table_count && !status; ++k) {
         hci_note remark = {{0}};
-        hci_solution_remark(w->table[k], &remark);
+        hci_solution_remark(w->table[k], &in->machine, &remark);
         cli_remark(&remark);
     }
     if (!status && w->json)

@@ -99,6 +99,13 @@ run 1 solve "$work/sinusoidal_machine" --target "$work/two.csv" --method pointwi
 says 'not kept: --method pointwise does not take limits into account, it only checks them'
 run 0 emit "$work/over" --name over -o "$work/over_table"
 says 'note: .*over: these currents do not keep the limits with which they were solved'
+cp -R "$work/sinusoidal_machine" "$work/other_machine" && printf 'order,amplitude_Nm_per_A,phase_rad\n1,0.15,0\n' >"$work/other_machine/back_emf.csv"
+run 0 simulate "$work/other_machine" --table "$work/two" --drive $drive --speeds 300
+says 'note: .*two: these currents were solved for the machine sinusoidal_machine .*, and this is other_machine'
+run 0 emit "$work/two" --name two --machine "$work/other_machine" --drive $drive -o "$work/two_loop"
+says 'note: .*two: these currents were solved for the machine sinusoidal_machine '
+run 0 emit "$work/two" --name two --machine "$work/sinusoidal_machine" -o "$work/two_table"
+check "its own machine is spoken of" [ "$(grep -c 'note:' "$work/stderr")" -eq 0 ]
 run 0 emit "$work/two" --name two -o "$work/two_table"
 check "good currents are spoken of" [ "$(grep -c 'note:' "$work/stderr")" -eq 0 ]
 

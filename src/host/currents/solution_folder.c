@@ -181,11 +181,28 @@ const char *hci_solution_verdict_words(hci_solution_verdict verdict)
     return WORDS[verdict];
 }
 
-void hci_solution_remark(const char *path, hci_note *remark)
+/* Where the machine that summary.json names is not the given one. */
+static void remark_machine(const char *path, const hci_machine_identity *is, hci_note *remark)
+{
+    hci_machine_identity was = {{0}, {0}};
+    char shown[HCI_QUOTE_PATH_SIZE];
+    char *text = hci_solution_is_folder(path) ? summary_of(path) : NULL;
+    const bool is_known = text && hci_json_find_text(text, "machine", "name", was.name, sizeof was.name) &&
+                          hci_json_find_text(text, "machine", "digest", was.digest, sizeof was.digest);
+    hci_memory_free(text);
+    if (!is_known || !is->digest[0] || strcmp(was.digest, is->digest) == 0) return;
+    hci_note_add(remark,
+                 "%s: these currents were solved for the machine %s (digest of its files %s), and this is %s "
+                 "(%s); right if both are the same motor, else solve again for this one",
+                 hci_quote_path(path, shown), was.name, was.digest, is->name, is->digest);
+}
+
+void hci_solution_remark(const char *path, const hci_machine_data *machine, hci_note *remark)
 {
     const hci_solution_verdict verdict = hci_solution_read_verdict(path);
     char shown[HCI_QUOTE_PATH_SIZE];
-    if (verdict == HCI_SOLUTION_GOOD) return;
-    hci_note_add(remark, "%s: %s (summary.json)", hci_quote_path(path, shown),
-                 hci_solution_verdict_words(verdict));
+    if (verdict != HCI_SOLUTION_GOOD)
+        hci_note_add(remark, "%s: %s (summary.json)", hci_quote_path(path, shown),
+                     hci_solution_verdict_words(verdict));
+    if (machine) remark_machine(path, &machine->identity, remark);
 }

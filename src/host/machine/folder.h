@@ -6,12 +6,20 @@
 #include <stddef.h>
 
 #include "hci/host/base/note.h"
+#include "hci/host/machine/machine.h"
+
+/* The names of the files of a machine. */
+enum { HCI_MACHINE_FILES = 5 };
+extern const char *const hci_machine_files[HCI_MACHINE_FILES];
 
 /* "folder/file"; HCI_ERROR_INPUT with a note where it does not fit. */
 hci_status hci_machine_path(char *path, size_t size, const char *folder, const char *file, hci_note *note);
 
 /* Whether the file is there, or there is something in its place that cannot be looked at. */
 bool hci_machine_has(const char *path);
+
+/* Name of the folder and digest of the files in it. */
+void hci_machine_identify(const char *folder, hci_machine_identity *identity);
 
 /* HCI_ERROR_INPUT with a note where there is no such folder. */
 hci_status hci_machine_check_folder(const char *folder, hci_note *note);

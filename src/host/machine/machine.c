@@ -1,12 +1,7 @@
-#define _POSIX_C_SOURCE 200809L
-
 #include "hci/host/machine/machine.h"
 
-#include <errno.h>
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "hci/host/csv/csv.h"
 #include "host/base/memory.h"
@@ -18,33 +13,6 @@
 #include "host/machine/spectrum_table.h"
 
 #define PATH_SIZE 4096
-
-bool hci_machine_has(const char *path)
-{
-    struct stat info;
-    return stat(path, &info) == 0 || errno != ENOENT;
-}
-
-hci_status hci_machine_path(char *path, size_t size, const char *folder, const char *file, hci_note *note)
-{
-    const int length = snprintf(path, size, "%s/%s", folder, file);
-    if (length > 0 && (size_t)length < size) return HCI_OK;
-    return hci_note_set(note, HCI_ERROR_INPUT, "%.200s…: the path is longer than %zu bytes", folder,
-                        size - 1);
-}
-
-hci_status hci_machine_check_folder(const char *folder, hci_note *note)
-{
-    struct stat info;
-    if (stat(folder, &info) != 0)
-        return hci_note_set(note, HCI_ERROR_INPUT,
-                            "%.300s: %s; expected the folder of a machine with machine.csv and back_emf.csv",
-                            folder, strerror(errno));
-    if (S_ISDIR(info.st_mode)) return HCI_OK;
-    return hci_note_set(
-        note, HCI_ERROR_INPUT,
-        "%.300s: found a file, expected the folder of a machine with machine.csv and back_emf.csv", folder);
-}
 
 static hci_status read_values(const char *path, hci_machine_data *m, hci_note *note)
 {
@@ -235,6 +203,7 @@ hci_status hci_machine_read_orders(const char *path, hci_order_base base, hci_ma
     machine->order_base = base;
     hci_status status = hci_machine_check_folder(path, note);
     if (!status) status = read_folder(path, machine, note);
+    if (!status) hci_machine_identify(path, &machine->identity);
     if (status) hci_machine_release(machine);
     return status;
 }

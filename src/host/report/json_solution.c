@@ -161,6 +161,10 @@ char *hci_solution_json(const hci_solution *solution, hci_status verdict)
     hci_json json;
     hci_summary_begin(&json, "solve");
     hci_json_bool(&json, "reached", verdict == HCI_OK);
+    hci_json_object(&json, "machine");
+    hci_json_text(&json, "name", solution->machine.name);
+    hci_json_text(&json, "digest", solution->machine.digest);
+    hci_json_close(&json);
     put_system(&json, solution);
     put_gaps(&json, solution);
     put_torque(&json, solution);

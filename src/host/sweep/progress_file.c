@@ -8,6 +8,7 @@
 
 #include "hci/host/base/number.h"
 #include "hci/host/csv/csv.h"
+#include "host/base/digest.h"
 #include "host/csv/table.h"
 #include "host/machine/folder.h"
 #include "host/sweep/columns.h"
@@ -18,16 +19,6 @@
 enum { PATH_SIZE = 4096 };
 
 /* ---- inputs ---- */
-
-#define CHECKSUM_START 14695981039346656037u
-
-/* FNV-1a. */
-static uint64_t checksum_next(uint64_t sum, const char *bytes, size_t count)
-{
-    for (size_t k = 0; k < count; ++k)
-        sum = (sum ^ (unsigned char)bytes[k]) * 1099511628211u;
-    return sum;
-}
 
 static void add_checksum(hci_grid_inputs *inputs, const char *name, uint64_t sum)
 {
@@ -40,7 +31,7 @@ void hci_grid_inputs_add(hci_grid_inputs *inputs, const char *name, const char *
 {
     if (inputs->count == HCI_GRID_MOST_INPUTS) return;
     if (strlen(value) >= HCI_GRID_INPUT_SIZE || strpbrk(value, "\n\r")) {
-        add_checksum(inputs, name, checksum_next(CHECKSUM_START, value, strlen(value)));
+        add_checksum(inputs, name, hci_digest_next(HCI_DIGEST_START, value, strlen(value)));
         return;
     }
     hci_grid_input *i = &inputs->input[inputs->count++];
@@ -50,29 +41,21 @@ void hci_grid_inputs_add(hci_grid_inputs *inputs, const char *name, const char *
 
 void hci_grid_inputs_add_file(hci_grid_inputs *inputs, const char *name, const char *path)
 {
-    FILE *file = fopen(path, "rb");
-    uint64_t sum = CHECKSUM_START;
-    char block[4096];
-    size_t count;
-    if (!file) {
+    uint64_t sum = HCI_DIGEST_START;
+    if (!hci_digest_file(path, &sum)) {
         hci_grid_inputs_add(inputs, name, "none");
         return;
     }
-    while ((count = fread(block, 1, sizeof block, file)) > 0)
-        sum = checksum_next(sum, block, count);
-    fclose(file);
     add_checksum(inputs, name, sum);
 }
 
 void hci_grid_inputs_add_machine(hci_grid_inputs *inputs, const char *folder)
 {
-    static const char *const FILES[] = {"machine.csv", "back_emf.csv", "cogging.csv", "inductance.csv",
-                                        "effects.csv"};
-    for (size_t k = 0; k < sizeof FILES / sizeof FILES[0]; ++k) {
+    for (size_t k = 0; k < HCI_MACHINE_FILES; ++k) {
         char path[PATH_SIZE];
         hci_note ignored = {{0}};
-        if (hci_machine_path(path, sizeof path, folder, FILES[k], &ignored) == HCI_OK)
-            hci_grid_inputs_add_file(inputs, FILES[k], path);
+        if (hci_machine_path(path, sizeof path, folder, hci_machine_files[k], &ignored) == HCI_OK)
+            hci_grid_inputs_add_file(inputs, hci_machine_files[k], path);
     }
 }
 

@@ -5,6 +5,7 @@
 #include <stdbool.h>
 
 #include "hci/host/currents/currents.h"
+#include "hci/host/machine/machine.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -61,8 +62,9 @@ const char *hci_solution_verdict_words(hci_solution_verdict verdict);
 /* HCI_ERROR_INPUT for a folder without currents.csv: what it is, and what to do. */
 hci_status hci_solution_check_folder(const char *folder, hci_note *note);
 
-/* Adds these words to a remark, with the folder. */
-void hci_solution_remark(const char *path, hci_note *remark);
+/* Adds these words to a remark, with the folder; and, where summary.json names another machine than the given
+ * one, or one of the same name with other files, both. machine: that the currents are for, or NULL. */
+void hci_solution_remark(const char *path, const hci_machine_data *machine, hci_note *remark);
 
 #ifdef __cplusplus
 }

@@ -29,21 +29,28 @@ extern "C" {
     X(rated_torque_Nm, "rated_torque", "Nm")                                                                 \
     X(rated_speed_rad_per_s, "rated_speed", "rad_per_s")
 
+/* Which machine it is: to tell whether currents are another one's. */
+typedef struct {
+    char name[64];   /* of its folder, cut short where it is long */
+    char digest[17]; /* of the files of the folder: 16 hexadecimal digits; "" where none was read */
+} hci_machine_identity;
+
 /* A machine as read from its folder. Start with {0}. */
 typedef struct {
 #define HCI_MACHINE_FIELD(field, name, unit) double field;
     HCI_MACHINE_VALUES(HCI_MACHINE_FIELD)
 #undef HCI_MACHINE_FIELD
-    bool has_neutral;            /* connection star-neutral */
-    bool has_effects;            /* effects.csv is there */
-    hci_machine model;           /* points into the arrays below */
-    hci_wave *back_emf;          /* of model */
-    hci_harmonic *cogging;       /* of model */
-    hci_inductance_slope *slope; /* of model */
-    hci_inductance *inductance;  /* L(θ) of inductance.csv; NULL without it or when it holds slopes only */
-    size_t inductance_count;     /* entries of inductance */
-    hci_order_base order_base;   /* of the tables that were read */
-    hci_note remark;             /* what a reader should know: names that were not understood, or "" */
+    bool has_neutral;              /* connection star-neutral */
+    bool has_effects;              /* effects.csv is there */
+    hci_machine model;             /* points into the arrays below */
+    hci_wave *back_emf;            /* of model */
+    hci_harmonic *cogging;         /* of model */
+    hci_inductance_slope *slope;   /* of model */
+    hci_inductance *inductance;    /* L(θ) of inductance.csv; NULL without it or when it holds slopes only */
+    size_t inductance_count;       /* entries of inductance */
+    hci_order_base order_base;     /* of the tables that were read */
+    hci_machine_identity identity; /* which it is */
+    hci_note remark;               /* what a reader should know: names that were not understood, or "" */
 } hci_machine_data;
 
 /* Reads the folder `path`. On success *machine is to be given to hci_machine_release; on failure it is empty

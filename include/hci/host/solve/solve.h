@@ -239,8 +239,9 @@ typedef struct {
 
     hci_expected_ripple expected; /* of the real machine, where recordings tell of it */
 
-    bool with_effects; /* torque and voltage are those of the machine with its effects */
-    hci_note remark;   /* what the user should know of them, or "" */
+    bool with_effects;            /* torque and voltage are those of the machine with its effects */
+    hci_machine_identity machine; /* they are of */
+    hci_note remark;              /* what the user should know of them, or "" */
 } hci_solution;
 
 /* Finds the currents. HCI_OK; HCI_NOT_REACHED with the nearest result when a cared-for order is not within
