@@ -132,7 +132,7 @@ static void draw_strips(hci_output *out, const panel *p, const hci_svg_box *b, c
         const double x = x_at(p, row);
         const hci_svg_box strip = {fmax(x - 5.0, b->left), b->top, fmin(x + 5.0, b->right), b->bottom};
         hci_svg_tell(out, "");
-        hci_svg_tell_value(out, "", hci_grid_rpm(row->point.speed_rad_per_s), "rpm");
+        hci_svg_tell_value(out, "", hci_rpm(row->point.speed_rad_per_s), "rpm");
         hci_svg_tell_value(out, ", little ripple: ", p->value(&row->best), unit);
         hci_svg_tell_value(out, ", any ripple: ", p->value(&row->most), unit);
         hci_svg_tell_value(out, ", plain sine: ", p->value(&row->sine), unit);

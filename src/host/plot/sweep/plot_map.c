@@ -187,7 +187,7 @@ static void tell_cell(hci_output *out, const panel *p, const hci_grid_point *poi
     char binds[HCI_GRID_BINDS_SIZE];
     hci_grid_binds_text(&row->best, binds);
     hci_svg_tell(out, "");
-    hci_svg_tell_value(out, "", hci_grid_rpm(point->speed_rad_per_s), "rpm");
+    hci_svg_tell_value(out, "", hci_rpm(point->speed_rad_per_s), "rpm");
     hci_svg_tell_value(out, ", ", point->torque_Nm, "N·m");
     if (p->value)
         hci_svg_tell_value(out, ": ", p->value(p->field->sweep, &row->best), p->unit);

@@ -289,10 +289,10 @@ static void heading_of_envelope(const hci_grid *s, char text[256])
     const hci_grid_row *row = &s->row[0];
     if (isfinite(row->best.mean_Nm))
         snprintf(text, 256, "%.4g N·m at %.4g rpm with at most %.4g %% of ripple", row->best.mean_Nm,
-                 hci_grid_rpm(row->point.speed_rad_per_s), s->request.ripple_percent);
+                 hci_rpm(row->point.speed_rad_per_s), s->request.ripple_percent);
     else
         snprintf(text, 256, "No torque at %.4g rpm with at most %.4g %% of ripple",
-                 hci_grid_rpm(row->point.speed_rad_per_s), s->request.ripple_percent);
+                 hci_rpm(row->point.speed_rad_per_s), s->request.ripple_percent);
 }
 
 static void heading_of(const hci_grid *s, char text[256])
