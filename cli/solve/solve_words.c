@@ -248,7 +248,8 @@ static const double ROUNDING = 1e-3;
 
 static void show_torque(const hci_solution *s, bool reached)
 {
-    cli_say("  torque       mean %.6g N·m; ", s->order_count ? s->order[0].torque_Nm.cosine : 0.0);
+    const double mean_Nm = s->order_count ? s->order[0].torque_Nm.cosine : 0.0;
+    cli_say("  torque       mean %.6g N·m; ", fabs(mean_Nm) < ROUNDING * s->tolerance_Nm ? 0.0 : mean_Nm);
     if (reached && s->worst_error_Nm < ROUNDING * s->tolerance_Nm)
         cli_say("every order as wanted, far within the tolerance of %.3g N·m\n", s->tolerance_Nm);
     else

@@ -144,7 +144,7 @@ for again in 1 2; do
         -o "$work/deep/er/again/" >"$work/json" 2>/dev/null
     check "run $again gave other bytes" diff -r "$work/auto" "$work/deep/er/again"
 done
-check "a path is in the results" eval "! grep -rqF -e '$work' -e '$source_dir' -e machine_a '$work/auto'"
+check "a path is in the results" eval "! grep -rqF -e '$work' -e '$source_dir' -e data/machine_a '$work/auto'"
 run 1 solve data/machine_a --target data/scenarios/07/target.csv --harmonics data/scenarios/07/harmonics.csv \
     --fundamental 12,0.2 --quiet -o "$work/deep/er/again"
 for table in "$work"/held/*; do

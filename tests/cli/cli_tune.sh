@@ -1,6 +1,7 @@
 #!/bin/sh
 # From logs to a table in one go: on logs of a simulated machine with known cogging torque the currents do on that machine what the report
 # states; the steps are the ordinary commands; what a log does not hold is said, with exit code 1.
+# labels: slow
 #   cli_tune.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
 . "$1/tests/support/common.sh"
 use_plain_build

@@ -11,8 +11,8 @@ failed=0
 expect() {
     root=$work/tree
     rm -rf "$root"
-    mkdir -p "$root/src/core/effects" "$root/src/host/diagnose" "$root/cli" "$root/include/hci/host/simulate"
-    printf '#define HCI_EFFECT_TYPES(X) \\\n    X(cogging) \\\n    X(back_emf) \\\n    X(magnet_temperature)\n' >"$root/src/core/effects/type.h"
+    mkdir -p "$root/src/core/effects" "$root/src/host/diagnose" "$root/cli" "$root/src/host/csv" "$root/include/hci/host/simulate"
+    printf '#define HCI_EFFECT_TYPES(X) \\\n    X(cogging) \\\n    X(back_emf) \\\n    X(mechanical_order) \\\n    X(magnet_temperature)\n' >"$root/src/core/effects/type.h"
     echo "$4" >"$root/$3"
     code=0
     said=$(sh "$here/effect_names.sh" "$root") || code=$?
@@ -32,6 +32,8 @@ expect "a table's file name" 0 src/host/diagnose/a.c 'path(folder, "cogging.csv"
 expect "the quantity of harmonics" 0 cli/a.c '[HCI_WAVEFORM_COGGING] = {"cogging", NULL},'
 expect "prose" 0 src/host/diagnose/a.c '"the cogging torque of this machine"'
 expect "the key of a scenario" 0 include/hci/host/simulate/simulate.h '    X(magnet_temperature_C, "magnet_temperature", "C")'
+expect "a column" 0 src/host/csv/alias.c 'PLAIN("mechanical_order", "order", "1", "many"),'
+expect "an effect of the name of a column" 1 src/host/diagnose/a.c 'strcmp(name, "mechanical_order")'
 expect "an effect itself" 0 src/core/effects/cogging.c 'const hci_effect_type hci_effect_cogging = {.name = "cogging"};'
 expect "no registry" 1 src/core/effects/type.h ''
 exit $failed

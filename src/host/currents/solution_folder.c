@@ -192,7 +192,7 @@ static void remark_machine(const char *path, const hci_machine_identity *is, hci
     hci_memory_free(text);
     if (!is_known || !is->digest[0] || strcmp(was.digest, is->digest) == 0) return;
     hci_note_add(remark,
-                 "%s: these currents were solved for the machine %s (digest of its files %s), and this is %s "
+                 "%s: these currents were solved for the machine %s (digest %s), and this is %s "
                  "(%s); right if both are the same motor, else solve again for this one",
                  hci_quote_path(path, shown), was.name, was.digest, is->name, is->digest);
 }

@@ -55,17 +55,49 @@ static void take_name(const char *path, char *name, size_t size)
     snprintf(name, size, "%.*s", (int)(end - begin), path + begin);
 }
 
-/* A file that is not there counts by its name alone. */
-void hci_machine_identify(const char *folder, hci_machine_identity *identity)
+/* Rounded, so that the same machine in other units is the same. */
+static uint64_t add_number(uint64_t sum, double value)
 {
-    uint64_t sum = HCI_DIGEST_START;
-    for (size_t k = 0; k < HCI_MACHINE_FILES; ++k) {
-        char path[PATH_SIZE];
-        hci_note ignored = {{0}};
-        sum = hci_digest_next(sum, hci_machine_files[k], strlen(hci_machine_files[k]));
-        if (hci_machine_path(path, sizeof path, folder, hci_machine_files[k], &ignored) == HCI_OK)
-            hci_digest_file(path, &sum);
+    char text[32];
+    snprintf(text, sizeof text, "%.9g ", value);
+    return hci_digest_next(sum, text, strlen(text));
+}
+
+static uint64_t add_numbers(uint64_t sum, const double *value, size_t count)
+{
+    for (size_t k = 0; k < count; ++k)
+        sum = add_number(sum, value[k]);
+    return sum;
+}
+
+static uint64_t add_tables(uint64_t sum, const hci_machine *m)
+{
+    for (size_t k = 0; k < m->back_emf_count; ++k) {
+        const hci_wave *w = &m->back_emf[k];
+        sum = add_numbers(sum, (double[]){w->order, w->sequence, w->sine, w->cosine}, 4);
     }
-    take_name(folder, identity->name, sizeof identity->name);
-    snprintf(identity->digest, sizeof identity->digest, "%016llx", (unsigned long long)sum);
+    sum = hci_digest_next(sum, "; ", 2);
+    for (size_t k = 0; k < m->cogging_count; ++k)
+        sum = add_numbers(sum, (double[]){m->cogging[k].order, m->cogging[k].sine, m->cogging[k].cosine}, 3);
+    sum = hci_digest_next(sum, "; ", 2);
+    for (size_t k = 0; k < m->slope_count; ++k) {
+        sum = add_number(sum, m->slope[k].order);
+        sum = add_numbers(sum, m->slope[k].sine, HCI_PHASE_MATRIX);
+        sum = add_numbers(sum, m->slope[k].cosine, HCI_PHASE_MATRIX);
+    }
+    return sum;
+}
+
+void hci_machine_identify(const char *folder, hci_machine_data *machine)
+{
+    char path[PATH_SIZE];
+    hci_note ignored = {{0}};
+    uint64_t sum = add_number(HCI_DIGEST_START, machine->model.pole_pairs);
+    sum = add_number(sum, machine->has_neutral);
+    sum = add_tables(sum, &machine->model);
+    if (machine->has_effects &&
+        hci_machine_path(path, sizeof path, folder, "effects.csv", &ignored) == HCI_OK)
+        hci_digest_file(path, &sum);
+    take_name(folder, machine->identity.name, sizeof machine->identity.name);
+    snprintf(machine->identity.digest, sizeof machine->identity.digest, "%016llx", (unsigned long long)sum);
 }

@@ -18,8 +18,8 @@ hci_status hci_machine_path(char *path, size_t size, const char *folder, const c
 /* Whether the file is there, or there is something in its place that cannot be looked at. */
 bool hci_machine_has(const char *path);
 
-/* Name of the folder and digest of the files in it. */
-void hci_machine_identify(const char *folder, hci_machine_identity *identity);
+/* Its identity: the name of the folder it was read from, and a digest of what makes its torque. */
+void hci_machine_identify(const char *folder, hci_machine_data *machine);
 
 /* HCI_ERROR_INPUT with a note where there is no such folder. */
 hci_status hci_machine_check_folder(const char *folder, hci_note *note);

@@ -203,7 +203,7 @@ hci_status hci_machine_read_orders(const char *path, hci_order_base base, hci_ma
     machine->order_base = base;
     hci_status status = hci_machine_check_folder(path, note);
     if (!status) status = read_folder(path, machine, note);
-    if (!status) hci_machine_identify(path, &machine->identity);
+    if (!status) hci_machine_identify(path, machine);
     if (status) hci_machine_release(machine);
     return status;
 }

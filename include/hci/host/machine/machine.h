@@ -32,7 +32,7 @@ extern "C" {
 /* Which machine it is: to tell whether currents are another one's. */
 typedef struct {
     char name[64];   /* of its folder, cut short where it is long */
-    char digest[17]; /* of the files of the folder: 16 hexadecimal digits; "" where none was read */
+    char digest[17]; /* of what makes its torque: 16 hexadecimal digits; "" where none was read */
 } hci_machine_identity;
 
 /* A machine as read from its folder. Start with {0}. */
