@@ -95,9 +95,9 @@ void hci_machine_identify(const char *folder, hci_machine_data *machine)
     uint64_t sum = add_number(HCI_DIGEST_START, machine->model.pole_pairs);
     sum = add_number(sum, machine->has_neutral);
     sum = add_tables(sum, &machine->model);
-    if (machine->has_effects &&
-        hci_machine_path(path, sizeof path, folder, "effects.csv", &ignored) == HCI_OK)
-        hci_digest_file(path, &sum);
     take_name(folder, machine->identity.name, sizeof machine->identity.name);
+    if (machine->has_effects && (hci_machine_path(path, sizeof path, folder, "effects.csv", &ignored) ||
+                                 !hci_digest_file(path, &sum)))
+        return;
     snprintf(machine->identity.digest, sizeof machine->identity.digest, "%016llx", (unsigned long long)sum);
 }

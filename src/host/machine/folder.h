@@ -18,7 +18,8 @@ hci_status hci_machine_path(char *path, size_t size, const char *folder, const c
 /* Whether the file is there, or there is something in its place that cannot be looked at. */
 bool hci_machine_has(const char *path);
 
-/* Its identity: the name of the folder it was read from, and a digest of what makes its torque. */
+/* Its identity: the name of the folder it was read from, and a digest of what makes its torque; none where
+ * effects.csv cannot be read. */
 void hci_machine_identify(const char *folder, hci_machine_data *machine);
 
 /* HCI_ERROR_INPUT with a note where there is no such folder. */
