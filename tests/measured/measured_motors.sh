@@ -41,7 +41,7 @@ diagnose() {
     code=$?
     check "exit code $code, expected one of $2" eval "case ' $2 ' in *' $code '*) ;; *) false ;; esac"
     check "$1: no errors.csv" [ -s "$work/$1/errors.csv" ]
-    cp "$work/stderr" "$work/$1.words"
+    cat "$work/stdout" "$work/stderr" >"$work/$1.words"
     awk -F, -v name="$1" 'NR > 1 { sub(/.*\//, "", $1); printf "%s %-16s %-8s rms %.4g → %.4g N·m, noise %.4g\n", name, $1, $2, $4, $5, $6 }' \
         "$work/$1/errors.csv"
 }
@@ -140,7 +140,7 @@ done
 for rpm in 0250 0500 1000; do
     run 0 harmonics "$measured/trampa6340_back_emf/${rpm}rpm.csv" --quantity back_emf --pole-pairs 7 -o "$work/trampa_$rpm"
     says 'channel vc reads 0\.(09[0-9]+|1|10[0-9]*) times the others: a x10 probe' 'channel vb has an offset of -0\.(1[5-9]|2[0-5])'
-    speed=$(sed -n 's/^ *speed *\([0-9.]*\) rpm mean$/\1/p' "$work/stderr")
+    speed=$(sed -n 's/^ *speed *\([0-9.]*\) rpm mean$/\1/p' "$work/stdout")
     emf=$(awk -F, '$1 == 1 { print $2 }' "$work/trampa_$rpm/back_emf.csv")
     echo "6340 at $speed rpm: $emf V·s/rad"
     holds "speed" "$speed > 0.99 * $rpm && $speed < 1.01 * $rpm"
