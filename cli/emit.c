@@ -21,6 +21,7 @@ static int emit_table(const cli_arguments *a)
     if (!status) status = hci_emit(cli_emit_folder(a), &in.request, &result, &note);
     if (!status && cli_is_wordy()) cli_show_table(&in.request, &result, cli_emit_folder(a));
     if (!status) cli_emit_remark(a, &in.machine);
+    if (!status) cli_remark_table(&result);
     if (!status && cli_emit_wants_json(a))
         status = cli_print_json(hci_emit_json(&in.request, &result), &note);
     cli_emit_currents_release(&in);

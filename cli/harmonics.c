@@ -35,8 +35,9 @@ static const cli_choice QUANTITIES[] = {
 
 static const cli_option OPTIONS[] = {
     [QUANTITY] = {"quantity", 0, CLI_CHOICE, "NAME", NULL, .choices = QUANTITIES},
-    [POLE_PAIRS] = {"pole-pairs", 0, CLI_WHOLE, "P", .help = "of the machine (half its poles)", .low = 1.0,
-                    .high = 1000.0},
+    [POLE_PAIRS] = {"pole-pairs", 0, CLI_WHOLE, "P",
+                    .help = "of the machine (half its poles); not needed for what a device has learnt",
+                    .low = 1.0, .high = 1000.0},
     [ORDERS] = {"orders", 0, CLI_TEXT, "LIST",
                 .help = "these electrical orders and no others, such as 1,5,7 or 12/7"},
     [ORDER_BASE] = CLI_ORDER_BASE_OPTION,
@@ -92,8 +93,6 @@ static hci_status check_together(const cli_arguments *a, hci_note *note)
     const char *wrong = NULL;
     if (!a->value[QUANTITY])
         wrong = "harmonics: add --quantity back_emf or cogging";
-    else if (!a->value[POLE_PAIRS])
-        wrong = "harmonics: add --pole-pairs P";
     else if (a->given[ORDERS] && a->given[MAX_ORDER])
         wrong = "harmonics: give --orders or --max-order, not both";
     else if (a->given[CONSTANT] && a->choice[QUANTITY] != HCI_WAVEFORM_COGGING)
@@ -107,15 +106,20 @@ static hci_status read_options(const cli_arguments *a, hci_waveform_options *o, 
     const hci_status status = check_together(a, note);
     if (status) return status;
     o->quantity = (hci_waveform_quantity)a->choice[QUANTITY];
-    o->pole_pairs = (int)a->number[POLE_PAIRS];
     o->max_order = a->number[MAX_ORDER];
     o->torque_constant_Nm_per_A = a->number[CONSTANT];
     if (!a->value[ORDERS]) return HCI_OK;
     o->orders = orders;
-    const hci_status read = read_orders(a->value[ORDERS], orders, &o->order_count, note);
-    for (size_t k = 0; !read && a->choice[ORDER_BASE] == HCI_ORDER_MECHANICAL && k < o->order_count; ++k)
-        orders[k] /= o->pole_pairs;
-    return read;
+    return read_orders(a->value[ORDERS], orders, &o->order_count, note);
+}
+
+/* The pole pairs, and what was given by them. */
+static void take_pole_pairs(const cli_arguments *a, int pole_pairs, hci_waveform_options *o,
+                            double orders[MOST_ORDERS])
+{
+    o->pole_pairs = pole_pairs;
+    for (size_t k = 0; a->choice[ORDER_BASE] == HCI_ORDER_MECHANICAL && k < o->order_count; ++k)
+        orders[k] /= pole_pairs;
 }
 
 /* ---- the command ---- */
@@ -148,9 +152,10 @@ static int run(const cli_arguments *a)
     memset(&recording, 0, sizeof recording);
     hci_status status = cli_reading_take(a, a->given[STRICT], &reading, &note);
     if (!status) status = read_options(a, &options, orders, &note);
-    reading.run.pole_pairs = options.pole_pairs;
+    reading.run.pole_pairs = a->value[POLE_PAIRS] ? (int)a->number[POLE_PAIRS] : 0;
     reading.run.holding = a->given[HOLDING];
     if (!status) status = hci_run_read(a->word[0], &reading.run, &recording, &note);
+    if (!status) take_pole_pairs(a, recording.pole_pairs, &options, orders);
     if (!status) status = analyse(a, &options, &recording, &note);
     hci_run_release(&recording);
     cli_reading_release(&reading);

@@ -72,6 +72,15 @@ void cli_show_loop(const hci_emit_loop_request *r, const hci_emit_loop_result *r
     cli_say("  runtime      hci/loop.h and hci/table.h\n");
 }
 
+static void show_ripple(const hci_foreign_ripple *r)
+{
+    cli_say("               at %8.4g N·m    %10.4g   ", r->torque_Nm, r->without_Nm);
+    if (hci_foreign_ripple_is_reached(r))
+        cli_say("%10.4g\n", r->with_Nm);
+    else
+        cli_say("not reached\n");
+}
+
 void cli_show_foreign(const hci_emit_foreign_request *r, const hci_emit_foreign_result *x, const char *folder)
 {
     const char *unit = hci_foreign_is_torque(r->target) ? "N·m" : "A";
@@ -87,6 +96,36 @@ void cli_show_foreign(const hci_emit_foreign_request *r, const hci_emit_foreign_
                 x->left_out_amplitude, unit);
     cli_say("  ripple       peak to peak, N·m         sine    with this map\n");
     for (size_t k = 0; k < x->ripples; ++k)
-        cli_say("               at %8.4g N·m    %10.4g   %10.4g\n", x->ripple[k].torque_Nm,
-                x->ripple[k].without_Nm, x->ripple[k].with_Nm);
+        show_ripple(&x->ripple[k]);
+}
+
+/* ---- remarks ---- */
+
+void cli_remark_table(const hci_emit_result *result)
+{
+    hci_note remark = {{0}};
+    if (result->chosen.max_error_A > 0.1 * result->peak_A)
+        hci_note_add(
+            &remark,
+            "the table is off by up to %.3g A, %.0f %% of the peak current: give it more --points, or "
+            "leave them to --max-error",
+            result->chosen.max_error_A, 100.0 * result->chosen.max_error_A / result->peak_A);
+    cli_remark(&remark);
+}
+
+/* What the map does at the torque that it is made for. */
+void cli_remark_foreign(const hci_emit_foreign_result *x)
+{
+    hci_note remark = {{0}};
+    const hci_foreign_ripple *r = &x->ripple[x->ripples > 1 ? 1 : 0];
+    if (!hci_foreign_ripple_is_reached(r))
+        hci_note_add(&remark,
+                     "the torque %.4g N·m is not reached: the counts of the drive end at %.4g N·m; choose a "
+                     "smaller scale of its currents (--counts-per-ampere)",
+                     r->torque_Nm, r->mean_Nm);
+    else if (r->with_Nm > r->without_Nm)
+        hci_note_add(&remark,
+                     "with this map the ripple at %.4g N·m is larger than without: %.4g N·m and %.4g N·m",
+                     r->torque_Nm, r->with_Nm, r->without_Nm);
+    cli_remark(&remark);
 }

@@ -13,4 +13,9 @@ void cli_show_loop(const hci_emit_loop_request *request, const hci_emit_loop_res
 void cli_show_foreign(const hci_emit_foreign_request *request, const hci_emit_foreign_result *result,
                       const char *folder);
 
+/* Where what was written is of little use: a table with a large error, a map that makes the ripple larger or
+ * whose torque the drive does not reach. */
+void cli_remark_table(const hci_emit_result *result);
+void cli_remark_foreign(const hci_emit_foreign_result *result);
+
 #endif

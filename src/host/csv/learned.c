@@ -164,5 +164,6 @@ hci_status hci_csv_read_learned(hci_csv *csv, size_t size, hci_note *note)
     if (hci_blob_u32(csv->text, 20) == 0 && hci_blob_u32(csv->text, 24) == 0)
         return refuse(csv, "found no whole turn in what the device has learnt",
                       "let it turn at least once in each direction", note);
+    csv->learned_pole_pairs = (int)facts.pole_pairs;
     return make_text(csv, &facts, note);
 }

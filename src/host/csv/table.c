@@ -73,6 +73,11 @@ const char *hci_csv_map_of(const hci_csv *csv)
     return csv->map_of;
 }
 
+int hci_csv_learned_pole_pairs(const hci_csv *csv)
+{
+    return csv->learned_pole_pairs;
+}
+
 const char *hci_csv_path(const hci_csv *csv)
 {
     return csv->path;

@@ -32,6 +32,7 @@ struct hci_csv {
     bool has_units;    /* record 1 is the row of units */
     bool has_foreword; /* lines before the header were passed over */
     char separator;
+    int learned_pole_pairs; /* of what a device has learnt; 0: it was something else */
     const char *map_of; /* the drive whose map the file was, its word; NULL: it was a table */
     bool leaves_holes;  /* rows that are too short or too long are left out, and counted */
     hci_csv_given *given;

@@ -162,6 +162,11 @@ static hci_status fill(emission *e, hci_note *note)
 
 /* ---- what is told ---- */
 
+bool hci_foreign_ripple_is_reached(const hci_foreign_ripple *r)
+{
+    return fabs(r->mean_Nm - r->torque_Nm) <= 0.01 * fabs(r->torque_Nm) || r->torque_Nm == 0.0;
+}
+
 static void tell(emission *e)
 {
     hci_emit_foreign_result *x = &e->result;
@@ -182,6 +187,17 @@ static void tell(emission *e)
         x->ripple[k] = hci_foreign_ripple_of(&e->need, &e->map, torque_Nm[k]);
 }
 
+static void ripple_line(const hci_foreign_ripple *r, char text[LINE_SIZE])
+{
+    if (hci_foreign_ripple_is_reached(r))
+        snprintf(text, LINE_SIZE,
+                 "Ripple at %.4g N*m, peak to peak: %.4g N*m with a sine, %.4g N*m with this.", r->torque_Nm,
+                 r->without_Nm, r->with_Nm);
+    else
+        snprintf(text, LINE_SIZE, "%.4g N*m is not reached: the counts of the drive end at %.4g N*m.",
+                 r->torque_Nm, r->mean_Nm);
+}
+
 /* The lines at the head of a file. */
 static void make_lines(emission *e)
 {
@@ -191,9 +207,7 @@ static void make_lines(emission *e)
     snprintf(e->text[used++], LINE_SIZE, "Does not hold %s.", x->lacks);
     snprintf(e->text[used++], LINE_SIZE, "Form: %s.", x->samples);
     for (size_t k = 0; k < x->ripples; ++k)
-        snprintf(e->text[used++], LINE_SIZE,
-                 "Ripple at %.4g N*m, peak to peak: %.4g N*m with a sine, %.4g N*m with this.",
-                 x->ripple[k].torque_Nm, x->ripple[k].without_Nm, x->ripple[k].with_Nm);
+        ripple_line(&x->ripple[k], e->text[used++]);
     snprintf(e->text[used++], LINE_SIZE, "Input: FNV-1a %016" PRIx64, e->request->input_hash);
     for (size_t k = 0; k < used; ++k)
         e->line[k] = e->text[k];

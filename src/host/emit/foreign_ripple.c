@@ -39,29 +39,89 @@ static double angle_rad(const hci_foreign_need *need, int k)
     return 2.0 * HCI_PI * need->machine->pole_pairs * (k + 0.5) / ANGLES;
 }
 
-static double mean_with(const hci_foreign_need *need, const hci_foreign_map *map, double own_q_A)
+/* ---- one i_q of the drive ---- */
+
+/* Where the drive's own i_q is own_q_A; map NULL: nothing is added. */
+typedef struct {
+    const hci_foreign_need *need;
+    const hci_foreign_map *map;
+    double own_q_A, mean_Nm, slope_Nm_per_A;
+    range torque_Nm;
+} turn;
+
+static double torque_of(const turn *t, double theta_rad)
 {
-    double sum = 0.0, dq[2];
-    for (int k = 0; k < ANGLES; ++k) {
-        currents_at(need, map, angle_rad(need, k), own_q_A, dq);
-        sum += torque_at(need, angle_rad(need, k), dq);
+    double dq[2] = {0.0, t->own_q_A};
+    if (t->map != NULL) currents_at(t->need, t->map, theta_rad, t->own_q_A, dq);
+    return torque_at(t->need, theta_rad, dq);
+}
+
+/* Both sides of each step of a table without lines: the extremes are there. */
+static void widen_by_steps(turn *t)
+{
+    enum { SIDES = 2 };
+    const double side = 1e-9;
+    if (t->map == NULL || !t->map->type->in_middle) return;
+    for (size_t k = 0; k < SIDES * t->map->points; ++k) {
+        const double place = ((double)(k / SIDES) + (k % SIDES ? side : -side)) / (double)t->map->points;
+        for (int turns = 0; turns < t->need->machine->pole_pairs; ++turns)
+            widen(&t->torque_Nm, torque_of(t, hci_foreign_theta_rad(t->map, place) + 2.0 * HCI_PI * turns));
     }
-    return sum / ANGLES;
+}
+
+static void go_round(turn *t)
+{
+    double sum = 0.0;
+    t->torque_Nm = (range){HUGE_VAL, -HUGE_VAL};
+    for (int k = 0; k < ANGLES; ++k) {
+        const double torque_Nm = torque_of(t, angle_rad(t->need, k));
+        widen(&t->torque_Nm, torque_Nm);
+        sum += torque_Nm;
+    }
+    t->mean_Nm = sum / ANGLES;
+}
+
+/* ---- the i_q at which the mean torque is one asked for ---- */
+
+/* A whole number of the drive, and less than a figure that is shown. */
+static double tolerance(const turn *t, double torque_Nm)
+{
+    const bool has_counts = t->map != NULL && t->map->type->has_counts;
+    const double unit = has_counts ? t->map->unit * t->slope_Nm_per_A : 0.0;
+    return unit + 1e-6 * (fabs(torque_Nm) + t->slope_Nm_per_A * 1e-3);
+}
+
+/* The secant through the last two places; where torque no longer follows the current, which a drive has cut,
+ * the last of them stays. */
+static void find_mean(turn *t, double torque_Nm)
+{
+    enum { STEPS = 12 };
+    t->own_q_A = torque_Nm / t->need->torque_constant_Nm_per_A;
+    go_round(t);
+    for (int step = 0; step == 0 || (step < STEPS && fabs(torque_Nm - t->mean_Nm) > tolerance(t, torque_Nm));
+         ++step) {
+        const turn last = *t;
+        t->own_q_A += (torque_Nm - t->mean_Nm) / t->slope_Nm_per_A;
+        go_round(t);
+        const double slope = (t->mean_Nm - last.mean_Nm) / (t->own_q_A - last.own_q_A);
+        if (!(slope > 0.01 * last.slope_Nm_per_A)) break;
+        t->slope_Nm_per_A = slope;
+    }
+    widen_by_steps(t);
+}
+
+static turn at_mean(const hci_foreign_need *need, const hci_foreign_map *map, double torque_Nm)
+{
+    turn t = {.need = need, .map = map};
+    t.slope_Nm_per_A = hci_machine_torque_constant(need->request->machine);
+    find_mean(&t, torque_Nm);
+    return t;
 }
 
 hci_foreign_ripple hci_foreign_ripple_of(const hci_foreign_need *need, const hci_foreign_map *map,
                                          double torque_Nm)
 {
-    const double K = need->torque_constant_Nm_per_A, sine_A = torque_Nm / K;
-    const double own_q_A = sine_A - (mean_with(need, map, sine_A) - torque_Nm) /
-                                        hci_machine_torque_constant(need->request->machine);
-    range without = {HUGE_VAL, -HUGE_VAL}, with = without;
-    for (int k = 0; k < ANGLES; ++k) {
-        const double theta_rad = angle_rad(need, k);
-        double dq[2] = {0.0, sine_A};
-        widen(&without, torque_at(need, theta_rad, dq));
-        currents_at(need, map, theta_rad, own_q_A, dq);
-        widen(&with, torque_at(need, theta_rad, dq));
-    }
-    return (hci_foreign_ripple){torque_Nm, without.high - without.low, with.high - with.low};
+    const turn without = at_mean(need, NULL, torque_Nm), with = at_mean(need, map, torque_Nm);
+    return (hci_foreign_ripple){torque_Nm, without.torque_Nm.high - without.torque_Nm.low,
+                                with.torque_Nm.high - with.torque_Nm.low, with.mean_Nm};
 }

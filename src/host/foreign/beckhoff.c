@@ -105,18 +105,22 @@ static void write_script(const hci_foreign_map *map, const hci_foreign_files *fi
                     "parser.add_argument(\"--store\", action=\"store_true\")\n"
                     "arguments = parser.parse_args()\n");
     hci_output_text(
-        output, "if arguments.store:\n"
-                "    import pyads\n"
-                "    drive = pyads.Connection(arguments.net_id, arguments.address)\n"
-                "    with drive:\n"
-                "        for index, sub, form, value, _ in values(arguments.channel):\n"
-                "            data = list(struct.pack(FORM[form], value))\n"
-                "            drive.write(0xF302, index << 16 | sub, data, pyads.PLCTYPE_BYTE * len(data))\n"
-                "    print(\"written\")\n"
-                "else:\n"
-                "    for index, sub, form, value, name in values(arguments.channel):\n"
-                "        print(f\"{index:#06x}:{sub:02x} {form} {value} {name}\")\n"
-                "    print(\"nothing was sent: --store writes these values\")\n");
+        output,
+        "if arguments.store:\n"
+        "    try:\n"
+        "        import pyads\n"
+        "    except ImportError as missing:\n"
+        "        raise SystemExit(f\"pyads is not there ({missing}); pip install pyads, then again\")\n"
+        "    drive = pyads.Connection(arguments.net_id, arguments.address)\n"
+        "    with drive:\n"
+        "        for index, sub, form, value, _ in values(arguments.channel):\n"
+        "            data = list(struct.pack(FORM[form], value))\n"
+        "            drive.write(0xF302, index << 16 | sub, data, pyads.PLCTYPE_BYTE * len(data))\n"
+        "    print(\"written\")\n"
+        "else:\n"
+        "    for index, sub, form, value, name in values(arguments.channel):\n"
+        "        print(f\"{index:#06x}:{sub:02x} {form} {value} {name}\")\n"
+        "    print(\"nothing was sent: --store writes these values\")\n");
 }
 
 static bool recognises(const char *text)

@@ -71,21 +71,26 @@ static void write_script(const hci_foreign_map *map, const hci_foreign_files *fi
         "NAME = \"%s.cfg\"\n"
         "\n\n",
         files->name, files->name, files->name);
-    hci_output_text(output, "def commands():\n"
-                            "    path = os.path.join(os.path.dirname(os.path.abspath(__file__)), NAME)\n"
-                            "    with open(path, encoding=\"utf-8\") as file:\n"
-                            "        lines = [line.split(\"#\")[0].strip() for line in file]\n"
-                            "    return [\"conf set \" + line for line in lines if line] + [\"conf write\"]\n"
-                            "\n\n"
-                            "async def store(target):\n"
-                            "    import moteus\n"
-                            "    stream = moteus.Stream(moteus.Controller(id=target))\n"
-                            "    await stream.write_message(b\"tel stop\")\n"
-                            "    await stream.flush_read()\n"
-                            "    await stream.command(b\"d stop\")\n"
-                            "    for line in commands():\n"
-                            "        await stream.command(line.encode(\"ascii\"))\n"
-                            "\n\n");
+    hci_output_text(
+        output,
+        "def commands():\n"
+        "    path = os.path.join(os.path.dirname(os.path.abspath(__file__)), NAME)\n"
+        "    with open(path, encoding=\"utf-8\") as file:\n"
+        "        lines = [line.split(\"#\")[0].strip() for line in file]\n"
+        "    return [\"conf set \" + line for line in lines if line] + [\"conf write\"]\n"
+        "\n\n"
+        "async def store(target):\n"
+        "    try:\n"
+        "        import moteus\n"
+        "    except ImportError as missing:\n"
+        "        raise SystemExit(f\"moteus is not there ({missing}); pip install moteus, then again\")\n"
+        "    stream = moteus.Stream(moteus.Controller(id=target))\n"
+        "    await stream.write_message(b\"tel stop\")\n"
+        "    await stream.flush_read()\n"
+        "    await stream.command(b\"d stop\")\n"
+        "    for line in commands():\n"
+        "        await stream.command(line.encode(\"ascii\"))\n"
+        "\n\n");
     hci_output_text(
         output, "parser = argparse.ArgumentParser()\n"
                 "parser.add_argument(\"--target\", \"-t\", type=int, default=1)\n"

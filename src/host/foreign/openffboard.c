@@ -1,6 +1,7 @@
 /* OpenFFBoard with a TMC4671, branch with anti-cogging: twenty harmonics of the mechanical turn, each a float
  * amplitude in counts of the torque command, a float phase and a 16-bit order, 12 bytes, in flash at
- * 0x08010000 + 240·axis. The sum is cut to whole counts and added to the command. */
+ * 0x08010000 + 240·axis. The sum is cut to whole counts and added to the command, and what comes of it
+ * limited to ±32767 counts. */
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -10,7 +11,14 @@
 #include "host/base/quote.h"
 #include "host/foreign/text.h"
 
-enum { HARMONICS = 20, TERM_BYTES = 12, BYTES = HARMONICS * TERM_BYTES, RECORD = 16, PAGE = 0x0801 };
+enum {
+    HARMONICS = 20,
+    TERM_BYTES = 12,
+    BYTES = HARMONICS * TERM_BYTES,
+    RECORD = 16,
+    PAGE = 0x0801,
+    MOST = 32767
+};
 
 static float counts(const hci_foreign_map *map, const hci_foreign_term *t)
 {
@@ -27,11 +35,17 @@ static void fit(hci_foreign_map *map)
     }
 }
 
+static double limited(double counts_of_torque)
+{
+    return fmax(-MOST, fmin(MOST, counts_of_torque));
+}
+
 static void at(const hci_foreign_map *map, double turn, double own_q_A, double add[2])
 {
-    (void)own_q_A;
+    const double own = limited(own_q_A * map->counts_per_A);
+    const double sum = trunc(hci_foreign_sum(map, turn) * map->counts_per_A);
     add[0] = 0.0;
-    add[1] = trunc(hci_foreign_sum(map, turn) * map->counts_per_A) / map->counts_per_A;
+    add[1] = limited(own + sum) / map->counts_per_A - own_q_A;
 }
 
 static void write_reply(const hci_foreign_map *map, const hci_foreign_files *files, hci_output *output)
@@ -110,6 +124,9 @@ static void write_script(const hci_foreign_map *map, const hci_foreign_files *fi
 
                     "if [ \"${1-}\" = --store ]; then\n"
                     "    STM32_Programmer_CLI -c port=SWD -w \"$file\" -v -rst\n"
+                    "elif [ $# -gt 0 ]; then\n"
+                    "    sed -n '2,5s/^# //p' \"$0\"\n"
+                    "    [ \"$1\" = --help ] || exit 2\n"
                     "else\n"
                     "    echo \"STM32_Programmer_CLI -c port=SWD -w $file -v -rst\"\n"
                     "    echo \"nothing was sent: --store runs this\"\n"
@@ -188,7 +205,8 @@ const hci_foreign_type hci_foreign_openffboard = {
     .word = "openffboard",
     .carries = "i_q over the mechanical turn, added whatever the torque",
     .lacks = "i_d, and what depends on the torque",
-    .samples = "20 harmonics of single precision, their sum cut to whole counts",
+    .samples =
+        "20 harmonics of single precision, their sum cut to whole counts and with the command to 32767",
     .kind = HCI_FOREIGN_Q,
     .has_counts = true,
     .most_terms = HARMONICS,

@@ -75,8 +75,11 @@ static void write_function(const hci_foreign_map *map, const hci_foreign_files *
                     "        value[k] = a + share * (b - a);\n    }\n",
                     columns, columns, name, name, name, name);
     hci_output_text(
-        output, columns == 4 ? "    motor.feed_forward_current.d = value[0] + motor.current_sp * value[2];\n"
-                               "    motor.feed_forward_current.q = value[1] + motor.current_sp * value[3];\n"
+        output, columns == 4 ? "    // loopFOC() limits current_sp before it adds\n"
+                               "    const float most = motor.current_limit, asked = motor.current_sp;\n"
+                               "    const float own = asked > most ? most : asked < -most ? -most : asked;\n"
+                               "    motor.feed_forward_current.d = value[0] + own * value[2];\n"
+                               "    motor.feed_forward_current.q = value[1] + own * value[3];\n"
                              : "    motor.feed_forward_current.d = value[0];\n"
                                "    motor.feed_forward_current.q = value[1];\n");
     hci_output_text(output, "}\n\n#endif\n");

@@ -506,14 +506,30 @@ static hci_status take(reader *r, const hci_csv *csv)
     return read_all(r);
 }
 
+/* Those asked for, or those in the file, which must not contradict each other. */
+static hci_status choose_pole_pairs(reader *r, const hci_csv *csv)
+{
+    const int asked = r->options->pole_pairs, there = hci_csv_learned_pole_pairs(csv);
+    char shown[HCI_QUOTE_PATH_SIZE];
+    r->run->pole_pairs = r->pole_pairs = asked > 0 ? asked : there;
+    if (asked > 0 && there > 0 && asked != there)
+        return hci_note_set(
+            r->note, HCI_ERROR_INPUT,
+            "%s: found what a device has learnt of a machine with %d pole pairs, expected %d; "
+            "take the machine that it was learnt on",
+            hci_quote_path(hci_csv_path(csv), shown), there, asked);
+    if (r->pole_pairs > 0) return HCI_OK;
+    return hci_note_set(r->note, HCI_ERROR_ARGUMENT,
+                        "%s: found %d pole pairs, expected 1 or more; add --pole-pairs P",
+                        hci_quote_path(hci_csv_path(csv), shown), asked);
+}
+
 hci_status hci_run_of_csv(const hci_csv *csv, const hci_run_options *options, hci_run *run, hci_note *note)
 {
-    reader r = {.run = run, .note = note, .options = options, .pole_pairs = options->pole_pairs};
+    reader r = {.run = run, .note = note, .options = options};
     memset(run, 0, sizeof *run);
-    if (options->pole_pairs < 1)
-        return hci_note_set(note, HCI_ERROR_ARGUMENT, "found %d pole pairs, expected 1 or more",
-                            options->pole_pairs);
-    const hci_status status = take(&r, csv);
+    hci_status status = choose_pole_pairs(&r, csv);
+    if (!status) status = take(&r, csv);
     hci_run_columns_release(&r.columns);
     if (status) hci_run_release(run);
     return status;

@@ -90,6 +90,7 @@ char *hci_emit_foreign_json(const hci_emit_foreign_request *request, const hci_e
         hci_json_number(&json, "torque_Nm", r->ripple[k].torque_Nm);
         hci_json_number(&json, "sine_peak_to_peak_Nm", r->ripple[k].without_Nm);
         hci_json_number(&json, "map_peak_to_peak_Nm", r->ripple[k].with_Nm);
+        hci_json_number(&json, "map_mean_Nm", r->ripple[k].mean_Nm);
         hci_json_close(&json);
     }
     hci_json_close(&json);

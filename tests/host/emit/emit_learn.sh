@@ -48,6 +48,13 @@ check 'it finds the cogging torque, to its error' awk -F, 'NR == FNR { if (/^[0-
             if (x > 1.01 * truth[n] || x < 0.99 * truth[n] || error[n] < 3e-6 || error[n] > 1e-4) bad = 1 }
         exit bad || m != 3 || friction < 0.079 || friction > 0.081 }' data/machine_a/cogging.csv "$work/diagnosed/machine/effects.csv"
 
+# The pole pairs are those in the file.
+run 0 harmonics "$work/learnt.hcil" --quantity cogging --torque-constant 0.2094 --json && cp "$work/stdout" "$work/own"
+run 0 harmonics "$work/learnt.hcil" --quantity cogging --torque-constant 0.2094 --pole-pairs 2 --json
+check 'the pole pairs in the file' cmp -s "$work/stdout" "$work/own"
+run 3 harmonics "$work/learnt.hcil" --quantity cogging --torque-constant 0.2094 --pole-pairs 3
+says 'learnt of a machine with 2 pole pairs, expected 3'
+
 head -c 300 "$work/learnt.hcil" >"$work/cut.hcil"
 run 3 harmonics "$work/cut.hcil" --pole-pairs 2 --quantity cogging
 says 'cut.hcil: found the beginning of what a device has learnt.*read it from the device again'

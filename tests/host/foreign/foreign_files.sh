@@ -173,6 +173,32 @@ says 'expected a power of two from 8 to 4096'
 emit 0 --for st-mcsdk --counts-per-ampere 20000
 says 'cut +[0-9]+ values that are too large for it'
 
+# ---- figures: sine and map at one mean torque, whatever constant the drive has; counts that end before it
+
+for target in novanta 'st-mcsdk --counts-per-ampere 600 --per-torque'; do
+    for constant in '' '--torque-constant 0.3'; do
+        # shellcheck disable=SC2086
+        run 0 emit "$work/loaded" --name map --machine data/machine_a -o "$work/out" --for $target $constant --json
+        awk -F'[:,]' '/sine_peak/ { print $2 }' "$work/stdout" >"$work/sine$constant"
+        awk -F'[:,]' '/"map_mean_Nm"/ && (d = $2 - m) * d > 1e-6 { bad = 1 } /"torque_Nm"/ { m = $2 } END { exit bad }' "$work/stdout"
+        check "$target $constant: another mean torque" [ $? -eq 0 ]
+    done
+    check "$target: the sine depends on the constant of the drive" awk 'NR == FNR { v[FNR] = $1; next } { d = v[FNR] - $1; if (d * d > 1e-10) bad = 1 }
+        END { exit bad || FNR != 3 }' "$work/sine" "$work/sine--torque-constant 0.3"
+done
+for target in 'openffboard --counts-per-ampere 3277' 'st-mcsdk --counts-per-ampere 1e9'; do
+    # shellcheck disable=SC2086
+    run 0 emit "$work/loaded" --name map --machine data/machine_a -o "$work/out" --for $target
+    says 'at +2.463 N·m +3.778 +not reached' 'note: the torque 2.463 N·m is not reached'
+    check "$target: not in the file" grep -q '2.463 N\*m is not reached: the counts of the drive end at' "$work/out/map.$([ "${target%% *}" = st-mcsdk ] && echo h || echo txt)"
+done
+run 0 emit "$work/loaded" --name map --machine data/machine_a -o "$work/out" --for csv --points 8
+says 'with this map the ripple at 2.463 N·m is larger than without: 4.678 N·m and 3.778 N·m'
+run 0 emit "$work/loaded" --name map -o "$work/out" --points 7
+says 'the table is off by up to .* of the peak current: give it more --points'
+run 0 emit "$work/loaded" --name map -o "$work/out"
+check "a remark on a good table" eval "! grep -q 'off by up to' '$work/stderr'"
+
 # ---- read by the other commands
 
 run 0 predict data/machine_a "$work/map.cfg" --json

@@ -2,6 +2,7 @@
 #ifndef HCI_HOST_EMIT_EMIT_FOREIGN_H
 #define HCI_HOST_EMIT_EMIT_FOREIGN_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "hci/host/foreign/foreign_target.h"
@@ -36,6 +37,7 @@ typedef struct {
     double torque_Nm;  /* mean, to which the drive brings its own i_q */
     double without_Nm; /* with a plain sine of current */
     double with_Nm;    /* with the map, as the drive samples and rounds it */
+    double mean_Nm;    /* mean that the drive reaches with the map: less where its numbers end before */
 } hci_foreign_ripple;
 
 /* Torques at which the ripple is told. */
@@ -56,6 +58,9 @@ typedef struct {
     hci_foreign_ripple ripple[HCI_FOREIGN_RIPPLES]; /* at 0, torque_Nm and −torque_Nm */
     size_t ripples;                                 /* 1 where torque_Nm is 0 */
 } hci_emit_foreign_result;
+
+/* Whether the drive reaches the mean torque with the map, to 1 %. */
+bool hci_foreign_ripple_is_reached(const hci_foreign_ripple *ripple);
 
 /* Writes the files of a target into `folder`, all or none; same request, same bytes.
  *

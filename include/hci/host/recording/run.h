@@ -26,6 +26,7 @@ typedef enum {
 typedef struct {
     char *name;              /* the file as the list names it */
     size_t count;            /* samples */
+    int pole_pairs;          /* by which it was read */
     double *time_s;          /* ascending; NULL: the samples have no order in time */
     double *theta_m_rad;     /* mechanical, unwrapped */
     double *speed_rad_per_s; /* mechanical, signed; recorded, or the slope of the angle over time where it is
@@ -50,7 +51,8 @@ typedef struct {
 
 /* What reading a run asks for beside its file. */
 typedef struct {
-    int pole_pairs;      /* to turn electrical angles into mechanical ones */
+    int pole_pairs;      /* to turn electrical angles into mechanical ones; 0: those in the file, which only
+                          * what a device has learnt has */
     double inertia_kgm2; /* for a run without torque_Nm; NAN or 0: not known, the torque is then missing */
     double torque_constant_Nm_per_A; /* of i_q, for a torque that a drive computed; 0: not known */
     bool holding; /* without a torque column the shaft is turned slowly, and its torque is 0 */

@@ -73,6 +73,24 @@ def check_ripple(plant, drive, place, summary, name):
             expect(wrong.ripple(stated["torque_Nm"], 997, summary["torque_constant_Nm_per_A"]) > 3 * found, "%s: the wrong direction is not seen" % name)
 
 
+def check_limit(plant, drive_type):
+    """A torque that the drive makes with currents which it cuts, found by halving, and one that it cannot make."""
+    for counts in (1700, 2500):
+        base = work + "/limited"
+        words = ["emit", solution("loaded"), "--for", target, "--machine", MACHINE, "--name", "limited", "-o", work, "--counts-per-ampere", str(counts), "--json"]
+        stated = json.loads(run(*words))["ripple"][1]
+        drive = drive_type(base)
+        drive.counts = counts
+        mounted = Mounted(plant, drive)
+        low, high = 0.0, 40.0
+        for _ in range(18):
+            values = mounted.torques((low + high) / 2, 1999)
+            mean = sum(values) / len(values)
+            low, high = ((low + high) / 2, high) if mean < stated["torque_Nm"] else (low, (low + high) / 2)
+        expect(near(mean, stated["map_mean_Nm"], 0.002) and near(max(values) - min(values), stated["map_peak_to_peak_Nm"], 0.005),
+               "%d counts: found %g N·m with a mean of %g, stated %s" % (counts, max(values) - min(values), mean, stated))
+
+
 def order_of(values, order):
     """amplitude·e^(i phase) of a sine of this order in equal steps of a turn."""
     return 2j * sum(v * cmath.exp(-2j * math.pi * order * k / len(values)) for k, v in enumerate(values)) / len(values)
@@ -115,6 +133,8 @@ def main():
                 expect(off is None or off <= 1, "%s: the compiled function is another one: %s" % (name, off))
             if name == "none":
                 check_reading(plant, drive, place, base + ("" if module.Drive.file.startswith("_") else ".") + module.Drive.file)
+    if target == "openffboard":
+        check_limit(plant, module.Drive)
     for name in summary["files"].split(", "):
         with open(work + "/" + name, encoding="utf-8") as file:
             head = file.read(200)
@@ -128,6 +148,9 @@ def script(path, by):
     expect(done.returncode == 0 and "nothing was sent" in done.stdout, "%s without --store: %s" % (path, done.stderr or done.stdout[-200:]))
     done = subprocess.run([*by, path, "--store"], capture_output=True, text=True, env={"PATH": os.environ["PATH"]})
     expect("nothing was sent" not in done.stdout, "%s --store does nothing" % path)
+    expect("Traceback" not in done.stderr, "%s --store without its package: %s" % (path, done.stderr))
+    done = subprocess.run([*by, path, "--help"], capture_output=True, text=True, env={"PATH": os.environ["PATH"]})
+    expect(done.returncode == 0 and "--store" in done.stdout and "nothing was sent" not in done.stdout, "%s --help: %s" % (path, done.stdout))
 
 
 main()

@@ -7,6 +7,7 @@ class Drive:
     electrical, zero_deg = True, 180.0
     emit = []
     file = "csv"
+    steps = 512
 
     def __init__(self, base):
         with open(base + ".csv", encoding="utf-8") as file:

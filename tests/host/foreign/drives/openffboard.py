@@ -1,6 +1,6 @@
 """OpenFFBoard: twenty times float amplitude, float phase, uint16 order and two bytes of nothing, from 0x08010000 on. The
 compensation is the sum of amplitude·sin(order·angle + phase) over the mechanical turn, cut to whole counts, and added to
-the torque command; orders whose amplitude is not above 0 are passed over."""
+the torque command, and the sum limited to +-32767; orders whose amplitude is not above 0 are passed over."""
 import math
 import struct
 
@@ -41,7 +41,8 @@ class Drive:
 
     def add(self, turn, own_q):
         total = sum(a * math.sin(2 * math.pi * turn * n + phase) for a, phase, n, _ in self.term if a > 0)
-        return 0.0, int(total) / self.counts
+        own = max(-32767, min(32767, own_q * self.counts))
+        return 0.0, max(-32767, min(32767, own + int(total))) / self.counts - own_q
 
     def step(self):
         return 1 / self.counts

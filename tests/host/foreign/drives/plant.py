@@ -64,5 +64,12 @@ class Mounted:
         own = torque / (constant or self.plant.torque_constant)
         coarse = self.torques(own, 4999)
         own += (torque - sum(coarse) / len(coarse)) / self.plant.torque_constant
-        values = self.torques(own, angles)
+        values = self.torques(own, angles) + self.at_steps(own)
         return max(values) - min(values)
+
+    def at_steps(self, own_q):
+        """Torques at both sides of each step, of an electrical table without lines between its values."""
+        pairs, zero = self.plant.pole_pairs, (self.drive.zero_deg + self.offset_deg) / 360
+        turns = [(k + side) / self.drive.steps for k in range(self.drive.steps) for side in (-1e-7, 1e-7)] if hasattr(self.drive, "steps") else []
+        angles = [2 * math.pi * (self.direction * (turn - zero) + j) / pairs for turn in turns for j in range(pairs)]
+        return [sum(e * i for e, i in zip(self.plant.emf_at(pairs * m), self.currents(m, own_q))) + self.plant.cogging_at(pairs * m) for m in angles]

@@ -6,18 +6,19 @@ import os
 import source
 
 MAIN = r"""
+#include <cmath>
 #include <cstdio>
 struct DQ { float d, q; };
-struct Motor { float electrical_angle, current_sp, shaft_velocity; int pole_pairs; DQ feed_forward_current; };
+struct Motor { float electrical_angle, current_sp, current_limit, shaft_velocity; int pole_pairs; DQ feed_forward_current; };
 #include "HEADER"
 int main()
 {
     for (int k = -5; k <= 2005; ++k) {
-        Motor motor = {6.28318531f * k / 2000, 0.37f * (k % 7), 0.0f, 2, {0, 0}};
+        Motor motor = {6.28318531f * k / 2000, 0.37f * (k % 7), k % 3 ? 10.0f : 1.0f, 0.0f, 2, {0, 0}};
         NAME_feed(motor);
-        std::printf("%.9g %.9g %.9g %.9g\n", motor.electrical_angle, motor.current_sp, motor.feed_forward_current.d, motor.feed_forward_current.q);
+        std::printf("%.9g %.9g %.9g %.9g\n", motor.electrical_angle, std::fmax(-motor.current_limit, std::fmin(motor.current_sp, motor.current_limit)), motor.feed_forward_current.d, motor.feed_forward_current.q);
     }
-    Motor late = {1.0f, 2.0f, 50.0f, 2, {0, 0}}, ahead = {1.0f + 0.01f, 2.0f, 0.0f, 2, {0, 0}};
+    Motor late = {1.0f, 2.0f, 10.0f, 50.0f, 2, {0, 0}}, ahead = {1.0f + 0.01f, 2.0f, 10.0f, 0.0f, 2, {0, 0}};
     NAME_feed(late, 0.0001f);
     NAME_feed(ahead);
     std::printf("%.9g %.9g %.9g %.9g\n", ahead.electrical_angle, 2.0f, late.feed_forward_current.d, late.feed_forward_current.q);
