@@ -112,9 +112,33 @@ static void put_element(hci_output *out, const char *name, const char *style, co
     hci_output_text(out, "</%s>\n", name);
 }
 
+/* The first `length` bytes of a text. */
+static void put_part(hci_output *out, const char *text, size_t length)
+{
+    char part[4096];
+    snprintf(part, sizeof part, "%.*s", (int)length, text);
+    hci_svg_text(out, part);
+}
+
+/* What stands between two grave accents is code. */
+static void put_with_code(hci_output *out, const char *text)
+{
+    const char *begin, *end;
+    while ((begin = strchr(text, '`')) != NULL && (end = strchr(begin + 1, '`')) != NULL) {
+        put_part(out, text, (size_t)(begin - text));
+        hci_output_text(out, "<code>");
+        put_part(out, begin + 1, (size_t)(end - begin - 1));
+        hci_output_text(out, "</code>");
+        text = end + 1;
+    }
+    hci_svg_text(out, text);
+}
+
 void hci_html_paragraph(hci_output *out, const char *style, const char *text)
 {
-    put_element(out, "p", style, text);
+    hci_output_text(out, "<p%s%s%s>", style ? " class=\"" : "", style ? style : "", style ? "\"" : "");
+    put_with_code(out, text);
+    hci_output_text(out, "</p>\n");
 }
 
 void hci_html_say(hci_output *out, const char *style, const char *format, ...)

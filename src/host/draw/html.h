@@ -25,6 +25,7 @@ void hci_html_end(hci_output *out);
 
 /* ---- text ---- */
 
+/* What stands between two grave accents in the text is set as code. */
 void hci_html_paragraph(hci_output *out, const char *style, const char *text);
 
 /* The same of parts that are put together, at most 4095 bytes. */
