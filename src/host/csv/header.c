@@ -119,7 +119,13 @@ static bool is_names(const line_kind *kind)
     return kind->count > 1 && kind->numbers == 0 && !kind->has_gap && !kind->is_twice && !is_units(kind);
 }
 
-/* Rows of `count` numbers, of which the file may have no more than one, after a row of units or none. */
+/* A row below `count` names: more numbers than empty cells and words, and two of them at least. */
+static bool is_row(const line_kind *kind, size_t count)
+{
+    return kind->count <= count && kind->numbers > 1 && 2 * kind->numbers > count;
+}
+
+/* Such rows, of which the file may have no more than one, after a row of units or none. */
 static bool has_numbers_below(line_reader *r, const char *header, char separator, size_t count)
 {
     const char *line = find_line(next_line(header));
@@ -131,7 +137,7 @@ static bool has_numbers_below(line_reader *r, const char *header, char separator
     for (int row = 0; row < ROWS_WANTED; ++row) {
         if (*line == '\0') return row > 0;
         kind = classify(r, line, separator);
-        if (kind.count != count || kind.numbers != count) return false;
+        if (!is_row(&kind, count)) return false;
         line = find_line(next_line(line));
     }
     return true;

@@ -328,8 +328,10 @@ static const struct {
     {"a,b\n1,x\n3,4\n", 0, "a"}, /* a broken first row */
     {"name,value\nfoo,bar\n1,2\n3,4\n", 0, "name"},
     {"file,role\nx.csv,fit\ny.csv,fit\n", 0, "file"},
-    {"about\na,a\n1,2\n3,4\n", 0, "about"},   /* not all different */
-    {"about\na,b\n1,2\n3,4,5\n", 0, "about"}, /* not as many numbers */
+    {"about;;;;\na;b;c;d;e\ns;A;A;V;\n1,5;2,5;;4;a word\n4;5;6;7;\n", 2, "a"}, /* empty cells and words */
+    {"about;;;\na;b;c;d\n1;;;word\n4;5;6;7\n", 0, "about"},                    /* mostly no numbers */
+    {"about\na,a\n1,2\n3,4\n", 0, "about"},                                    /* not all different */
+    {"about\na,b\n1,2\n3,4,5\n", 0, "about"},                                  /* not as many numbers */
 };
 
 static void test_the_header_is_found(void)
