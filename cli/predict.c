@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 #include <sys/stat.h>
 
 #include "cli/command/command.h"
@@ -81,14 +82,35 @@ static void show(const hci_prediction *p, const cli_arguments *a)
     if (isfinite(p->rms_residual_Nm) && !is_rounding(p)) show_ripple(p);
 }
 
-/* The run itself is a measurement, and not to be replaced. */
-static hci_status keep_apart(const char *run, const char *out, hci_note *note)
+static bool is_same_file(const char *path, const char *other)
 {
-    struct stat from, to;
-    if (!out || stat(run, &from) != 0 || stat(out, &to) != 0) return HCI_OK;
-    if (to.st_dev != from.st_dev || to.st_ino != from.st_ino) return HCI_OK;
-    return hci_note_set(note, HCI_ERROR_ARGUMENT,
-                        "%.300s would be replaced by its prediction; give another --out", run);
+    struct stat a, b;
+    return stat(path, &a) == 0 && stat(other, &b) == 0 && a.st_dev == b.st_dev && a.st_ino == b.st_ino;
+}
+
+/* Whether a path is that of a file in the folder. */
+static bool is_within(const char *path, const char *folder)
+{
+    char parent[4096];
+    struct stat info;
+    const char *end = strrchr(path, '/');
+    const size_t length = end ? (size_t)(end - path) : 0;
+    if (stat(path, &info) != 0 || length >= sizeof parent) return false;
+    snprintf(parent, sizeof parent, "%.*s", (int)length, path);
+    return is_same_file(end ? (length ? parent : "/") : ".", folder);
+}
+
+/* The run is a measurement, the machine made by hand or by much work: neither is to be replaced. */
+static hci_status keep_apart(const char *machine, const char *run, const char *out, hci_note *note)
+{
+    if (!out) return HCI_OK;
+    if (is_same_file(run, out))
+        return hci_note_set(note, HCI_ERROR_ARGUMENT,
+                            "%.300s would be replaced by its prediction; give another --out", run);
+    if (!is_within(out, machine)) return HCI_OK;
+    return hci_note_set(
+        note, HCI_ERROR_ARGUMENT,
+        "%.300s is a file of the machine and would be replaced by a prediction; give another --out", out);
 }
 
 static int run(const cli_arguments *a)
@@ -98,7 +120,7 @@ static int run(const cli_arguments *a)
     cli_reading reading;
     hci_status status = cli_reading_take(a, a->given[STRICT], &reading, &note);
     reading.run.holding = a->given[HOLDING];
-    if (!status) status = keep_apart(a->word[1], a->value[OUT], &note);
+    if (!status) status = keep_apart(a->word[0], a->word[1], a->value[OUT], &note);
     if (!status)
         status = hci_predict_file(a->word[0], a->word[1], &reading.run, a->value[OUT], &prediction, &note);
     cli_reading_release(&reading);

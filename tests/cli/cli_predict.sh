@@ -85,6 +85,9 @@ refused() { # CODE EXPRESSION WORD...
 refused 2 'found 1 words, expected 2: MACHINE RUN' data/machine_a
 refused 3 'none.csv: .*No such file' data/machine_a "$work/none.csv" -o "$work/refused/x.csv"
 refused 2 'run.csv would be replaced by its prediction' data/machine_a "$work/run.csv" -o "$work/./run.csv"
+cp -R data/machine_a "$work/kept"
+refused 2 'back_emf.csv is a file of the machine and would be replaced by a prediction' "$work/kept" "$work/run.csv" -o "$work/kept/./back_emf.csv"
+check "the machine has changed" diff -r data/machine_a "$work/kept"
 printf 'time_s,theta_e_deg,iq_A\n0,1,1\n1,,1\n' >"$work/wrong.csv"
 refused 3 'wrong.csv:3: column 2 `theta_e_deg`: found an empty cell' data/machine_a "$work/wrong.csv" --strict -o "$work/refused/x.csv"
 printf 'time_s,angle,iq_A\n0,1,1\n' >"$work/wrong.csv"

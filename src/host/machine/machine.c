@@ -130,17 +130,24 @@ static hci_status read_cogging(const char *path, hci_machine_data *m, hci_note *
     hci_csv_orders_of(csv, m->model.pole_pairs, m->order_base);
     status = hci_spectrum_rows(csv, "amplitude_Nm", &m->cogging, &row_of, &m->model.cogging_count, note);
     if (!status) hci_spectrum_tell_degrees(csv, &m->remark);
-    if (!status && m->model.cogging_count > 0 &&
-        !(largest_amplitude(m->cogging, m->model.cogging_count) > 0.0))
-        hci_note_add(&m->remark,
-                     "%s: every amplitude is 0, so that no cogging torque is counteracted: if it was not "
-                     "measured, the real "
-                     "machine keeps all that it has",
-                     path);
     m->model.cogging = m->cogging;
     hci_memory_free(row_of);
     hci_csv_free(csv);
     return status;
+}
+
+/* Cogging torque that was not measured looks like none. A machine with effects was diagnosed: it has them
+ * there. */
+static void tell_no_cogging(const char *folder, hci_machine_data *m)
+{
+    if (m->has_effects || m->model.cogging_count == 0 ||
+        largest_amplitude(m->cogging, m->model.cogging_count) > 0.0)
+        return;
+    hci_note_add(
+        &m->remark,
+        "%s/cogging.csv: every amplitude is 0, so that no cogging torque is counteracted: if it was not "
+        "measured, the real machine keeps all that it has",
+        folder);
 }
 
 static hci_status read_inductance(const char *path, hci_machine_data *m, hci_note *note)
@@ -186,6 +193,7 @@ static hci_status read_folder(const char *folder, hci_machine_data *m, hci_note 
     if (!status && hci_machine_has(path)) status = read_inductance(path, m, note);
     if (!status) status = hci_machine_path(path, PATH_SIZE, folder, "effects.csv", note);
     m->has_effects = !status && hci_machine_has(path);
+    if (!status) tell_no_cogging(folder, m);
     if (!status && m->model.slope_count == 0 && m->inductance_count == 0)
         hci_saliency_remark(folder, m->inductance_d_H, m->inductance_q_H, &m->remark);
     return status;
