@@ -7,6 +7,7 @@
 #include "cli/command/command.h"
 #include "cli/command/parse.h"
 #include "cli/command/reading.h"
+#include "cli/command/same_file.h"
 #include "cli/commands.h"
 #include "cli/diagnose/diagnose_words.h"
 #include "cli/terminal/progress.h"
@@ -54,12 +55,9 @@ typedef struct {
 /* The machine that is read would be replaced by a folder of that name within the results. */
 static hci_status keep_apart(const char *machine, const char *folder, const char *name, hci_note *note)
 {
-    struct stat from, to;
     char path[PATH_SIZE];
     if (!folder || snprintf(path, sizeof path, "%s/%s", folder, name) >= PATH_SIZE) return HCI_OK;
-    if (stat(machine, &from) != 0 || stat(path, &to) != 0 || from.st_dev != to.st_dev ||
-        from.st_ino != to.st_ino)
-        return HCI_OK;
+    if (!cli_is_same_file(machine, path)) return HCI_OK;
     return hci_note_set(note, HCI_ERROR_ARGUMENT,
                         "%s would be replaced by a result of the same name; give another --out", machine);
 }

@@ -3,10 +3,10 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "cli/command/command.h"
 #include "cli/command/reading.h"
+#include "cli/command/same_file.h"
 #include "cli/commands.h"
 #include "cli/terminal/chart.h"
 #include "cli/terminal/say.h"
@@ -82,29 +82,22 @@ static void show(const hci_prediction *p, const cli_arguments *a)
     if (isfinite(p->rms_residual_Nm) && !is_rounding(p)) show_ripple(p);
 }
 
-static bool is_same_file(const char *path, const char *other)
-{
-    struct stat a, b;
-    return stat(path, &a) == 0 && stat(other, &b) == 0 && a.st_dev == b.st_dev && a.st_ino == b.st_ino;
-}
-
 /* Whether a path is that of a file in the folder. */
 static bool is_within(const char *path, const char *folder)
 {
     char parent[4096];
-    struct stat info;
     const char *end = strrchr(path, '/');
     const size_t length = end ? (size_t)(end - path) : 0;
-    if (stat(path, &info) != 0 || length >= sizeof parent) return false;
+    if (!cli_is_same_file(path, path) || length >= sizeof parent) return false;
     snprintf(parent, sizeof parent, "%.*s", (int)length, path);
-    return is_same_file(end ? (length ? parent : "/") : ".", folder);
+    return cli_is_same_file(end ? (length ? parent : "/") : ".", folder);
 }
 
 /* The run is a measurement, the machine made by hand or by much work: neither is to be replaced. */
 static hci_status keep_apart(const char *machine, const char *run, const char *out, hci_note *note)
 {
     if (!out) return HCI_OK;
-    if (is_same_file(run, out))
+    if (cli_is_same_file(run, out))
         return hci_note_set(note, HCI_ERROR_ARGUMENT,
                             "%.300s would be replaced by its prediction; give another --out", run);
     if (!is_within(out, machine)) return HCI_OK;

@@ -3,10 +3,10 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "cli/command/command.h"
 #include "cli/command/parse.h"
+#include "cli/command/same_file.h"
 #include "cli/commands.h"
 #include "cli/solve/solve_limits.h"
 #include "cli/solve/solve_words.h"
@@ -68,7 +68,8 @@ static const cli_option OPTIONS[] = {
                    .help = "of the mean torque; an order within it is reached (1e-6)", .low = 1e-14,
                    .high = 1.0},
     [MAX_LOSS] = {"max-loss", 0, CLI_NUMBER, "RATIO",
-                  .help = "with --auto K: copper over the least that the torque takes at each angle (1.10)", .low = 1.0, .high = 1e6},
+                  .help = "with --auto K: copper over the least that the torque takes at each angle (1.10)",
+                  .low = 1.0, .high = 1e6},
     CLI_LIMIT_OPTIONS,
     [SPEED] = {"speed", 0, CLI_NUMBER, "RPM",
                .help = "mechanical; the voltage is limited by --limit-voltage or dc_link_voltage",
@@ -187,12 +188,11 @@ typedef struct {
 /* An input that stands in the output folder under the name of a result would be replaced by it. */
 static hci_status keep_apart(const char *input, const char *folder, hci_note *note)
 {
-    struct stat from, to;
     char path[4096];
-    if (!input || !folder || stat(input, &from) != 0) return HCI_OK;
+    if (!input || !folder) return HCI_OK;
     for (int k = 0; k < HCI_SOLUTION_FILES; ++k) {
         snprintf(path, sizeof path, "%s/%s", folder, hci_solution_file_name((hci_solution_file)k));
-        if (stat(path, &to) == 0 && to.st_dev == from.st_dev && to.st_ino == from.st_ino)
+        if (cli_is_same_file(input, path))
             return hci_note_set(note, HCI_ERROR_ARGUMENT,
                                 "%s would be replaced by a result of the same name; give another --out",
                                 input);

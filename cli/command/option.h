@@ -4,6 +4,7 @@
  * Order in this folder; a file uses only those before it and the folder terminal:
  *   option    what an option and a command are, and their texts
  *   reading   how recordings are read
+ *   same_file whether a result would replace what is read
  *   parse     words of a command line to arguments
  *   help      the text of --help
  *   written   the files that a command wrote

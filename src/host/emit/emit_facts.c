@@ -2,21 +2,9 @@
  * speed, and how its magnets depend on the temperature. */
 #include "hci/host/emit/emit_facts.h"
 
-#include <stdio.h>
 #include <string.h>
 
 #include "hci/host/machine/effects.h"
-
-/* The last part of a path, without slashes at its end. */
-static void folder_name(const char *path, char *name, size_t size)
-{
-    size_t end = strlen(path), begin;
-    while (end > 1 && path[end - 1] == '/')
-        --end;
-    for (begin = end; begin > 0 && path[begin - 1] != '/'; --begin)
-        continue;
-    snprintf(name, size, "%.*s", (int)(end - begin), path + begin);
-}
 
 /* The parameter of an effect with that unit, 0 where it has none. */
 static double value_with_unit(const hci_effect *effect, const char *unit)
@@ -42,7 +30,7 @@ hci_status hci_emit_facts_read(const char *folder, const hci_machine_data *machi
     hci_effects_data effects;
     const hci_status status = hci_effects_read_machine(folder, &effects, note);
     if (status) return status;
-    folder_name(folder, facts->machine, sizeof facts->machine);
+    memcpy(facts->machine, machine->identity.name, sizeof facts->machine);
     facts->pole_pairs = (size_t)machine->pole_pairs;
     facts->rated_speed_rad_per_s =
         machine->rated_speed_rad_per_s > 0.0 ? machine->rated_speed_rad_per_s : 0.0; /* NAN: not given */

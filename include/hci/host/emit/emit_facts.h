@@ -10,17 +10,14 @@
 extern "C" {
 #endif
 
-/* Letters of a machine's name with the zero behind it. */
-enum { HCI_EMIT_MACHINE_NAME = 64 };
-
 /* Facts for the head of a table and its blob. Start with {{0}}, which is that nothing is known. */
 typedef struct {
-    char machine[HCI_EMIT_MACHINE_NAME]; /* its name, one line; "": not known */
-    size_t pole_pairs;                   /* 0: not known */
-    double mean_torque_Nm;               /* that currents of one part were solved for; 0: not known */
-    double rated_speed_rad_per_s;        /* mechanical; 0: not known */
-    double emf_per_kelvin; /* relative change of the back-EMF where magnets are hot; 0: not known */
-    double magnets_C;      /* temperature of the declared back-EMF; with emf_per_kelvin */
+    char machine[HCI_MACHINE_NAME]; /* its name, one line; "": not known */
+    size_t pole_pairs;              /* 0: not known */
+    double mean_torque_Nm;          /* that currents of one part were solved for; 0: not known */
+    double rated_speed_rad_per_s;   /* mechanical; 0: not known */
+    double emf_per_kelvin;          /* relative change of the back-EMF where magnets are hot; 0: not known */
+    double magnets_C;               /* temperature of the declared back-EMF; with emf_per_kelvin */
 } hci_emit_facts;
 
 /* What the folder of a machine says, as hci_machine_read has read it; mean_torque_Nm stays. HCI_ERROR_INPUT,

@@ -29,10 +29,13 @@ extern "C" {
     X(rated_torque_Nm, "rated_torque", "Nm")                                                                 \
     X(rated_speed_rad_per_s, "rated_speed", "rad_per_s")
 
+/* Letters of a machine's name with the zero behind it. */
+enum { HCI_MACHINE_NAME = 64 };
+
 /* Which machine it is: to tell whether currents are another one's. */
 typedef struct {
-    char name[64];   /* of its folder, cut short where it is long */
-    char digest[17]; /* of what makes its torque: 16 hexadecimal digits; "" where none was read */
+    char name[HCI_MACHINE_NAME]; /* of its folder, cut short where it is long */
+    char digest[17];             /* of what makes its torque: 16 hexadecimal digits; "" where none was read */
 } hci_machine_identity;
 
 /* A machine as read from its folder. Start with {0}. */
