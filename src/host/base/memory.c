@@ -7,18 +7,26 @@
 /* Negative: no limit. Written only while a test has set a limit, so threads may allocate freely without one.
  */
 static long remaining = -1;
+static bool only_one_fails;
 
 void hci_memory_fail_after(long count)
 {
     remaining = count;
+    only_one_fails = false;
+}
+
+void hci_memory_fail_once_after(long count)
+{
+    remaining = count;
+    only_one_fails = true;
 }
 
 static bool refused(void)
 {
     if (remaining < 0) return false;
-    if (remaining == 0) return true;
-    remaining--;
-    return false;
+    if (remaining > 0) return remaining--, false;
+    if (only_one_fails) remaining = -1;
+    return true;
 }
 
 static bool overflows(size_t count, size_t size)

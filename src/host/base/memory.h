@@ -18,4 +18,7 @@ void *hci_memory_realloc(void *block, size_t size);
  * off. SuiteSparse and cJSON allocate through these functions too. */
 void hci_memory_fail_after(long count);
 
+/* The same, but only one allocation fails: libraries may go on after it. */
+void hci_memory_fail_once_after(long count);
+
 #endif

@@ -266,27 +266,39 @@ static hci_status by_qr(const hci_sparse *a, const double *b, double *x, hci_not
     return hci_sparse_qr_solve(a, b, SIDES, x, &found, note);
 }
 
+typedef struct {
+    solve_of *solve;
+    hci_sparse matrix;
+    double sides[SIDES * MOST], expected[SIDES * MOST];
+} system_of;
+
+/* After `succeed` allocations one fails, or all: HCI_ERROR_MEMORY, or the solution. */
+static hci_status solve_short_of_memory(const system_of *s, void (*fail_after)(long), long succeed)
+{
+    double x[SIDES * MOST];
+    hci_note note = {{0}};
+    fail_after(succeed);
+    const hci_status status = s->solve(&s->matrix, s->sides, x, &note);
+    hci_memory_fail_after(-1);
+    TEST_ASSERT_EQUAL_MESSAGE(status ? HCI_ERROR_MEMORY : HCI_OK, status, note.text);
+    if (!status) TEST_ASSERT_EQUAL_MEMORY(s->expected, x, SIDES * s->matrix.columns * sizeof *x);
+    return status;
+}
+
 static void check_every_allocation(solve_of *solve, size_t rows, size_t columns)
 {
     static matrix a;
-    double b[SIDES * MOST], x[SIDES * MOST], expected[SIDES * MOST];
     uint64_t seed = 20209;
-    hci_status status = HCI_ERROR_MEMORY;
+    long count = 0;
     draw(&seed, rows, columns, 0.4, &a);
-    draw_sides(&seed, rows, b);
-    const hci_sparse s = compress(&a);
-    TEST_ASSERT_EQUAL(HCI_OK, solve(&s, b, expected, NULL));
-    long succeed = 0;
-    for (; status; ++succeed) {
-        hci_note note = {{0}};
-        hci_memory_fail_after(succeed);
-        status = solve(&s, b, x, &note);
-        hci_memory_fail_after(-1);
-        TEST_ASSERT_EQUAL_MESSAGE(status ? HCI_ERROR_MEMORY : HCI_OK, status, note.text);
-        TEST_ASSERT_TRUE(succeed < 10000);
-    }
-    TEST_ASSERT_TRUE(succeed > 20); /* those of the libraries are among them */
-    TEST_ASSERT_EQUAL_MEMORY(expected, x, SIDES * columns * sizeof *x);
+    system_of s = {.solve = solve, .matrix = compress(&a)};
+    draw_sides(&seed, rows, s.sides);
+    TEST_ASSERT_EQUAL(HCI_OK, solve(&s.matrix, s.sides, s.expected, NULL));
+    while (solve_short_of_memory(&s, hci_memory_fail_after, count))
+        TEST_ASSERT_TRUE(++count < 10000);
+    TEST_ASSERT_TRUE(count > 20); /* those of the libraries are among them */
+    for (long k = 0; k < count; ++k)
+        solve_short_of_memory(&s, hci_memory_fail_once_after, k);
 }
 
 static void test_memory_that_runs_out(void)
