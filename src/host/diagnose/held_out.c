@@ -15,6 +15,7 @@
 #define NEARLY_ALL    0.1  /* share of an error that is next to nothing beside what it was */
 #define RIPPLE        2.0  /* over the noise, which of slopes is known by half: a ripple that is there */
 #define MEAN_LEFT     0.5  /* of the noise of a sample, that the mean of a run may be off */
+#define RIPPLE_LEFT   0.3  /* share of the error of a fitted run that a ripple beside its noise is of */
 #define HELPS         1.05 /* of the error held out, without an effect that lowers it */
 #define STAYS         0.95 /* share of an error that has not fallen */
 #define SMALL         0.05 /* share of what all effects explain, that a small one explains of it at most */
@@ -81,6 +82,18 @@ static bool leaves_means(const hci_diagnosis *d, double resolution_Nm)
     return false;
 }
 
+/* Whether a run that was fitted has a ripple that noise does not make. */
+static bool leaves_ripple(const hci_diagnosis *d, double resolution_Nm)
+{
+    for (size_t k = 0; k < d->runs; ++k) {
+        const hci_run_errors *e = &d->run[k];
+        if (e->role != HCI_ROLE_FIT) continue;
+        const double noise_Nm = fmax(RIPPLE * e->noise_floor_Nm, COARSE * resolution_Nm);
+        if (e->ripple_after_Nm > fmax(noise_Nm, RIPPLE_LEFT * e->rms_before_Nm)) return true;
+    }
+    return false;
+}
+
 /* Whether something is left that the effects do not explain: the error held out is above the noise, or that
  * of currents and speeds beyond those that were fitted does not fall. */
 static bool is_partial(const test_errors *x, const hci_diagnosis *d, double resolution_Nm)
@@ -89,7 +102,8 @@ static bool is_partial(const test_errors *x, const hci_diagnosis *d, double reso
     const bool rises = d->holdout_after_Nm > allowed_Nm && !(d->holdout_after_Nm < d->holdout_before_Nm);
     const bool ripples = d->holdout_ripple_after_Nm > fmax(allowed_Nm, RIPPLE * d->holdout_noise_Nm) &&
                          !(d->holdout_ripple_after_Nm < STAYS * d->holdout_ripple_before_Nm);
-    return !is_described(x) || rises || ripples || leaves_means(d, resolution_Nm);
+    return !is_described(x) || rises || ripples || leaves_means(d, resolution_Nm) ||
+           leaves_ripple(d, resolution_Nm);
 }
 
 hci_held_out_result hci_held_out_judge(const hci_dataset *b, const hci_runs *runs, const hci_diagnosis *d,

@@ -88,6 +88,22 @@ static void test_means_of_runs_are_judged(void)
     TEST_ASSERT_EQUAL_INT(HCI_HELD_OUT_DESCRIBED, hci_held_out_judge(&none, &runs, &of_one, 1e-4));
 }
 
+/* Nor is a ripple that is three times the noise of a run and most of what it was, such as of a lag in place of a
+ * delay; noise of slopes is known by half. */
+static void test_ripple_of_fitted_runs_is_judged(void)
+{
+    hci_run_errors error = {.role = HCI_ROLE_FIT, .rms_before_Nm = 0.15, .noise_floor_Nm = 0.02};
+    const hci_diagnosis of_one = {
+        .run = &error, .runs = 1, .holdout_after_Nm = NAN, .holdout_ripple_after_Nm = NAN};
+    const hci_dataset none = {0};
+    error.ripple_after_Nm = 0.039;
+    TEST_ASSERT_EQUAL_INT(HCI_HELD_OUT_DESCRIBED, hci_held_out_judge(&none, &runs, &of_one, 1e-4));
+    error.ripple_after_Nm = 0.06;
+    TEST_ASSERT_EQUAL_INT(HCI_HELD_OUT_PARTLY, hci_held_out_judge(&none, &runs, &of_one, 1e-4));
+    error.rms_before_Nm = 0.25; /* less than a third of it is left */
+    TEST_ASSERT_EQUAL_INT(HCI_HELD_OUT_DESCRIBED, hci_held_out_judge(&none, &runs, &of_one, 1e-4));
+}
+
 static hci_held_out_result judged(hci_diagnosis d)
 {
     const hci_dataset none = {0};
@@ -173,6 +189,7 @@ int main(void)
     RUN_TEST(test_small_effects_that_mislead_are_left_out);
     RUN_TEST(test_small_effects_that_predict_stay);
     RUN_TEST(test_means_of_runs_are_judged);
+    RUN_TEST(test_ripple_of_fitted_runs_is_judged);
     RUN_TEST(test_what_rises_is_not_explained);
     RUN_TEST(test_equal_gains_are_not_told_from_magnets);
     RUN_TEST(test_a_torque_map_tells_reluctance);

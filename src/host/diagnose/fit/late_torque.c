@@ -7,6 +7,8 @@
 #define LONGEST_S 5e-3 /* delay of a bus, either way */
 #define STEP      0.5  /* of the shortest time between two samples */
 
+#define OF_SAMPLE 25.0 /* multiplications: a line between two samples, and the noise's memory */
+
 enum { MOST_STEPS = 200, REFINEMENTS = 4 }; /* each way; halvings of the step about the best delay */
 
 /* The torque in the air gap, as it was measured less what the model leaves, and shifted in time. */
@@ -73,19 +75,25 @@ static double square_with(scan *l, double delay_s)
     for (const hci_segment *s = NULL; (s = hci_regression_next(l->regression, s)) != NULL;) {
         if (!is_telling(l, s)) continue;
         sum += segment_square(l, s, delay_s);
-        hci_regression_count(l->regression, s->count, 1, 0);
+        hci_regression_count_products(l->regression, OF_SAMPLE * (double)s->count);
     }
     return sum;
 }
 
-/* The shortest time between samples, on the average of a segment; infinite where none tells. */
+/* The time between two samples as they were taken, on the average; 0: not known. The bins of a mean over turns
+ * lie closer together, and say nothing faster. */
+static double step_s(const hci_run *run)
+{
+    return run->count > 1 ? (run->time_s[run->count - 1] - run->time_s[0]) / (double)(run->count - 1) : 0.0;
+}
+
+/* The shortest of them; infinite where none tells. */
 static double shortest_step_s(const scan *l)
 {
     double least = INFINITY;
     for (const hci_segment *s = NULL; (s = hci_regression_next(l->regression, s)) != NULL;) {
-        const hci_binned_sample *sample = l->regression->samples->sample + s->first;
-        const double length_s = sample[s->count - 1].time_s - sample[0].time_s;
-        if (is_telling(l, s) && length_s > 0.0) least = fmin(least, length_s / (double)(s->count - 1));
+        const double step = is_telling(l, s) ? step_s(&l->regression->runs[s->run]) : 0.0;
+        if (step > 0.0) least = fmin(least, step);
     }
     return least;
 }

@@ -50,7 +50,12 @@ hci_status hci_regression_each_run(hci_regression *e,
 void hci_regression_count(const hci_regression *e, size_t samples, size_t terms, size_t columns)
 {
     const double n = (double)columns;
-    if (e->work) *e->work += (double)samples * (OF_SAMPLE + OF_TERM * (double)terms + 0.5 * n * n);
+    hci_regression_count_products(e, (double)samples * (OF_SAMPLE + OF_TERM * (double)terms + 0.5 * n * n));
+}
+
+void hci_regression_count_products(const hci_regression *e, double products)
+{
+    if (e->work) *e->work += products;
 }
 
 bool hci_regression_mean_is_free(const hci_regression *e, const hci_segment *s)

@@ -41,6 +41,9 @@ hci_status hci_regression_each_run(hci_regression *regression,
  * summed up. */
 void hci_regression_count(const hci_regression *regression, size_t samples, size_t terms, size_t columns);
 
+/* Adds multiplications of anything else. */
+void hci_regression_count_products(const hci_regression *regression, double products);
+
 /* Whether the mean of a segment says nothing: it is at its best value whatever the model. */
 bool hci_regression_mean_is_free(const hci_regression *regression, const hci_segment *segment);
 

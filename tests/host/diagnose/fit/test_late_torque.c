@@ -55,6 +55,15 @@ static void test_a_delay_is_found(void)
     }
 }
 
+/* Bins of a mean over turns lie closer together than samples do: steps are those of the clock, of which few
+ * reach 5 ms. */
+static void test_bins_make_no_smaller_steps(void)
+{
+    for (size_t k = 0; k < dataset.samples.count; ++k)
+        dataset.samples.sample[k].time_s /= 12.0;
+    TEST_ASSERT_DOUBLE_WITHIN(2e-5, 4.5e-3, find(4.5e-3, 1.0).delay_s);
+}
+
 /* Of 46 delays the best one lowers χ² by little. */
 static void test_no_delay_is_found_in_noise(void)
 {
@@ -65,6 +74,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_a_delay_is_found);
+    RUN_TEST(test_bins_make_no_smaller_steps);
     RUN_TEST(test_no_delay_is_found_in_noise);
     return UNITY_END();
 }
