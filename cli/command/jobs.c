@@ -9,7 +9,12 @@
 #include <string.h>
 #include <sys/types.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
+
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
 
 enum { WAIT_MS = 200 };
 
@@ -19,6 +24,7 @@ typedef struct {
     int to, from;
     bool is_busy;
     size_t item;
+    double begun_s; /* with the item */
 } worker;
 
 typedef struct {
@@ -59,7 +65,23 @@ static bool write_all(int to, const void *block, size_t size)
     return true;
 }
 
+static double now_s(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
 /* ---- in a process of its own ---- */
+
+/* Who is killed does not end its processes; where the system can, it ends them. */
+static void end_with_parent(pid_t parent)
+{
+#ifdef __linux__
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+#endif
+    if (getppid() != parent) _exit(0);
+}
 
 /* Ctrl-C and its like end it at once: what it works at is begun again another time. */
 static void serve(const cli_jobs *j, int from, int to)
@@ -102,8 +124,9 @@ static hci_status start(crew *c, worker *w, hci_note *note)
         return cannot_start(note);
     }
     fflush(NULL); /* what is not written yet would be written twice */
-    const pid_t pid = fork();
+    const pid_t parent = getpid(), pid = fork();
     if (pid == 0) {
+        end_with_parent(parent);
         close_others(c);
         close(there[1]), close(back[0]);
         serve(c->jobs, there[0], back[1]);
@@ -133,6 +156,11 @@ static bool is_fault(int number)
     return number == SIGSEGV || number == SIGBUS || number == SIGFPE || number == SIGILL || number == SIGABRT;
 }
 
+static bool is_request(int number)
+{
+    return number == SIGINT || number == SIGTERM || number == SIGHUP;
+}
+
 /* The next item for a process, which is started where there is none; one that has nothing to do stays idle.
  */
 static hci_status hand_out(crew *c, worker *w, hci_note *note)
@@ -143,6 +171,7 @@ static hci_status hand_out(crew *c, worker *w, hci_note *note)
     if (status) return status;
     w->item = c->jobs->item[c->next++];
     w->is_busy = true;
+    w->begun_s = now_s();
     (void)write_all(w->to, &w->item, sizeof w->item); /* one that has ended is seen when it is read from */
     return HCI_OK;
 }
@@ -158,7 +187,7 @@ static hci_status take_answer(crew *c, worker *w, bool *stops, hci_note *note)
         return HCI_OK;
     }
     const int number = end(w, false);
-    if (is_fault(number)) {
+    if (is_fault(number) || (j->outlives_all && !is_request(number))) {
         j->take(j->context, w->item, NULL, number);
         return HCI_OK;
     }
@@ -166,6 +195,19 @@ static hci_status take_answer(crew *c, worker *w, bool *stops, hci_note *note)
     if (*stops) return HCI_OK;
     return hci_note_set(note, HCI_ERROR_NUMERIC,
                         "a process was ended by signal %d; the points that are done are kept", number);
+}
+
+static void end_late(crew *c)
+{
+    const cli_jobs *j = c->jobs;
+    const double now = now_s();
+    for (size_t k = 0; k < j->jobs && j->limit_s > 0.0; ++k) {
+        worker *w = &c->worker[k];
+        if (!w->is_busy || now - w->begun_s < j->limit_s) continue;
+        w->is_busy = false;
+        (void)end(w, true);
+        j->take(j->context, w->item, NULL, CLI_JOB_LATE);
+    }
 }
 
 static size_t list_busy(const crew *c, struct pollfd list[], size_t place[])
@@ -191,6 +233,7 @@ static hci_status round_of(crew *c, bool *stops, hci_note *note)
     if (poll(list, (nfds_t)busy, WAIT_MS) > 0)
         for (size_t k = 0; k < busy && !status && !*stops; ++k)
             if (list[k].revents) status = take_answer(c, &c->worker[place[k]], stops, note);
+    if (!status && !*stops) end_late(c);
     *stops = *stops || !c->jobs->goes_on(c->jobs->context);
     return status;
 }

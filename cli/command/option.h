@@ -9,7 +9,8 @@
  *   help      the text of --help
  *   written   the files that a command wrote
  *   command   from the words to the exit code
- *   jobs      independent work shared out among processes */
+ *   jobs      independent work shared out among processes
+ *   shard     a share of it */
 #ifndef HCI_CLI_OPTION_H
 #define HCI_CLI_OPTION_H
 

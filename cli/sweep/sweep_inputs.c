@@ -173,25 +173,6 @@ static hci_status check_together(const cli_arguments *a, hci_note *note)
     return wrong ? hci_note_set(note, HCI_ERROR_ARGUMENT, "%s", wrong) : HCI_OK;
 }
 
-/* K/N */
-static hci_status read_shard(const cli_arguments *a, cli_sweep_inputs *in, hci_note *note)
-{
-    const char *text = a->value[SWEEP_SHARD], *slash = text ? strchr(text, '/') : NULL;
-    char share[ITEM_SIZE] = "";
-    double of[2];
-    in->share = in->shares = 1;
-    if (!text) return HCI_OK;
-    if (slash && (size_t)(slash - text) < sizeof share) memcpy(share, text, (size_t)(slash - text));
-    if (slash && hci_number_parse(share, &of[0]) && hci_number_parse(slash + 1, &of[1]) && of[0] >= 1.0 &&
-        of[0] <= of[1] && of[1] <= MOST_VALUES && floor(of[0]) == of[0] && floor(of[1]) == of[1]) {
-        in->share = (size_t)of[0];
-        in->shares = (size_t)of[1];
-        return HCI_OK;
-    }
-    return hci_note_set(note, HCI_ERROR_ARGUMENT, "--shard: found `%.60s`, expected a share such as 3/16",
-                        text);
-}
-
 /* A limit of the voltage that no speed lets act is a slip. */
 static hci_status check_voltage(const cli_arguments *a, const cli_sweep_inputs *in, hci_note *note)
 {
@@ -278,7 +259,7 @@ hci_status cli_sweep_read(const cli_option *table, const cli_arguments *a, cli_s
     size_t points = 0;
     hci_status status = check_together(a, note);
     if (!status) status = read_lists(a, in, note);
-    if (!status) status = read_shard(a, in, note);
+    if (!status) status = cli_shard_read(a->value[SWEEP_SHARD], &in->shard, note);
     if (!status) status = cli_limits_take(table, a, &in->options, note);
     const hci_order_base base = (hci_order_base)a->choice[SWEEP_ORDER_BASE];
     if (!status) status = hci_machine_read_orders(a->word[0], base, &in->machine, note);

@@ -3,6 +3,7 @@
 #define HCI_CLI_SWEEP_INPUTS_H
 
 #include "cli/command/option.h"
+#include "cli/command/shard.h"
 #include "hci/host/machine/effects.h"
 #include "hci/host/sweep/progress_file.h"
 
@@ -48,7 +49,7 @@ typedef struct {
     hci_grid_point *point; /* of the grid in a file, or NULL */
     hci_grid_request request;
     hci_grid_inputs inputs;
-    size_t share, shares; /* --shard: share of shares, from 1 */
+    cli_shard shard;
 } cli_sweep_inputs;
 
 /* Reads it all. *inputs is to be released even after a failure, and not to be moved. table: the options of

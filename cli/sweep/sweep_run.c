@@ -138,10 +138,10 @@ static hci_status list_items(points_work *w, hci_note *note)
     const hci_grid *s = w->sweep;
     w->item = malloc((s->plan.count + 1) * sizeof *w->item);
     if (!w->item) return hci_note_memory(note, NULL, "the points of a grid");
-    w->is_any = w->inputs->shares > 1; /* one share does not tell for all */
+    w->is_any = w->inputs->shard.shares > 1; /* one share does not tell for all */
     for (size_t k = 0; k < s->plan.count; ++k) {
         w->is_any = w->is_any || (s->done[k] && s->row[k].verdict != HCI_GRID_FAILED);
-        if (!s->done[k] && k % w->inputs->shares == w->inputs->share - 1) w->item[w->items++] = k;
+        if (!s->done[k] && cli_shard_has(&w->inputs->shard, k)) w->item[w->items++] = k;
     }
     return HCI_OK;
 }

@@ -164,6 +164,19 @@ for kind in trade_off envelope map; do
     named "$work/sweep_$kind/summary.json" "summary.json of sweep --$(echo $kind | tr _ -)"
 done
 
+# ---- batch
+
+example '`motors.csv`' >"$work/example.csv"
+check "the example of motors.csv has other columns" fits "$(header "$work/example.csv")" '`motors.csv`'
+run 0 batch data/fleet/motors.csv --command solve -o "$work/batch" -q
+written "$work/batch/fleet.csv" '`fleet.csv` of solve'
+named "$work/batch/summary.json" 'summary.json of batch'
+printf 'motor,machine,runs,logs\nnone,none,none,none\n' >"$work/motors.csv"
+for command in diagnose tune; do
+    run 1 batch "$work/motors.csv" --command $command -o "$work/batch_$command" -q
+    written "$work/batch_$command/fleet.csv" "\`fleet.csv\` of $command"
+done
+
 # ---- harmonics and predict
 
 run 0 harmonics "$work/driven/trajectory.csv" --quantity cogging --pole-pairs 2 --json -q -o "$work/table"

@@ -1,8 +1,10 @@
-#define _POSIX_C_SOURCE 200809L
+#define _XOPEN_SOURCE 700
 
 #include "host/base/folder.h"
 
 #include <errno.h>
+#include <ftw.h>
+#include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -69,4 +71,17 @@ bool hci_folder_make(char *folder, size_t *existing)
         return false;
     }
     return true;
+}
+
+enum { MOST_OPEN = 16 };
+
+static int delete_one(const char *path, const struct stat *info, int kind, struct FTW *place)
+{
+    (void)info, (void)kind, (void)place;
+    return remove(path);
+}
+
+bool hci_folder_delete(const char *folder)
+{
+    return nftw(folder, delete_one, MOST_OPEN, FTW_DEPTH | FTW_PHYS) == 0 || errno == ENOENT;
 }

@@ -13,4 +13,8 @@ bool hci_folder_make(char *folder, size_t *existing);
 /* Removes what was made of it, as far as it is empty. Safe in the handler of a signal. */
 void hci_folder_remove(char *folder, size_t existing);
 
+/* Removes a folder with all that is in it; links in it are removed, not followed. False, with errno, where
+ * something stays; true where there is none. */
+bool hci_folder_delete(const char *folder);
+
 #endif

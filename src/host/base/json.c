@@ -99,6 +99,16 @@ bool hci_json_find_bool(const char *text, const char *object, const char *name, 
     return found;
 }
 
+bool hci_json_find_number(const char *text, const char *object, const char *name, double *value)
+{
+    cJSON *all = cJSON_Parse(text);
+    const cJSON *item = find(all, object, name);
+    const bool found = cJSON_IsNumber(item);
+    if (found) *value = item->valuedouble;
+    cJSON_Delete(all);
+    return found;
+}
+
 bool hci_json_find_text(const char *text, const char *object, const char *name, char *value, size_t size)
 {
     cJSON *all = cJSON_Parse(text);

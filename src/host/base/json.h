@@ -39,6 +39,9 @@ void hci_json_free(char *text);
  * no JSON or has none of that name; *value is then left. */
 bool hci_json_find_bool(const char *text, const char *object, const char *name, bool *value);
 
+/* Likewise a number. */
+bool hci_json_find_number(const char *text, const char *object, const char *name, double *value);
+
 /* Likewise a text of less than `size` bytes. */
 bool hci_json_find_text(const char *text, const char *object, const char *name, char *value, size_t size);
 

@@ -1,0 +1,123 @@
+#!/bin/sh
+# `batch`: words that belong together, one row and one folder a motor, bad motors, a motor that hangs, a process that is ended from outside,
+# shares, and that a batch which is killed again and again ends with the bytes of one that was left alone.
+#   cli_batch.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
+. "$1/tests/support/common.sh"
+. "$1/tests/cli/small_machine.sh"
+cd "$source_dir" || exit 1
+
+fresh
+{
+    echo motor,serial,batch,date,machine,target,harmonics
+    for k in 01 02 03 04 05 06 07 08 09 10 11 12; do echo "m$k,$k,one,2025-01-$k,m,t.csv,h.csv"; done
+    echo 'bad,13,"one, two",2025-01-13,none,t.csv,h.csv'
+} >"$work/list.csv"
+batch="batch $work/list.csv --command solve"
+
+# ---- words that belong together
+
+refused() { # CODE EXPRESSION WORD...
+    wanted=$1 expression=$2
+    shift 2
+    run "$wanted" "$@" -o "$work/out"
+    one_line_is_said
+    says "$expression"
+    check "something was written by $*" [ ! -e "$work/out" ]
+}
+refused 2 'add --command' batch "$work/list.csv"
+refused 2 'such as 3/16' $batch --shard 0/2
+sed '1s/harmonics/harmonic/' "$work/list.csv" >"$work/slip.csv"
+refused 3 'column 7: found `harmonic`.*did you mean `harmonics`' batch "$work/slip.csv" --command solve
+sed 's/^m02/m01/' "$work/list.csv" >"$work/slip.csv"
+refused 3 'slip.csv:3: column 1 `motor`: found `m01`, expected each name once' batch "$work/slip.csv" --command solve
+sed 's/^m02/..\/m02/' "$work/list.csv" >"$work/slip.csv"
+refused 3 'a name that a folder can have' batch "$work/slip.csv" --command solve
+run 2 $batch
+says 'add --out'
+
+# ---- all of it; again there is nothing to do; shares
+
+# shellcheck disable=SC2086
+{
+    run 1 $batch --jobs 1 -o "$work/one"
+    says '^done: 13 of 13 motors' 'done +12' 'failed +1'
+    check "files: $(ls -A "$work/one" | tr '\n' ' ')" [ "$(ls -A "$work/one" | tr '\n' ' ')" = "fleet.csv motors summary.json " ]
+    check "motors: $(ls -A "$work/one/motors" | wc -l)" [ "$(ls -A "$work/one/motors" | wc -l)" -eq 13 ]
+    check "the bad motor is no row" grep -q '^bad,13,"one, two",2025-01-13,failed,3,,.*none: No such file' "$work/one/fleet.csv"
+    check "rows are not in the order of the list" [ "$(cut -d, -f1 "$work/one/fleet.csv" | tr '\n' ' ')" = "motor m01 m02 m03 m04 m05 m06 m07 m08 m09 m10 m11 m12 bad " ]
+    run 0 solve "$m" --target "$t" --harmonics "$h" -q -o "$work/alone"
+    cp "$work/one/motors/m05/motor.csv" "$work/alone/"
+    check "a motor is not what solve gives" diff -r "$work/alone" "$work/one/motors/m05"
+    cp -Rp "$work/one" "$work/again"
+    run 1 $batch --json -o "$work/again"
+    check "--json differs from summary.json" cmp -s "$work/stdout" "$work/again/summary.json"
+    check "done again" diff -r "$work/one" "$work/again"
+    check "a motor was done again" [ ! "$work/again/motors/m05/motor.csv" -nt "$work/one/fleet.csv" ]
+    run 0 $batch --shard 2/4 -q -o "$work/share"
+    check "share" [ "$(cut -d, -f1 "$work/share/fleet.csv" | tr '\n' ' ')" = "motor m02 m06 m10 " ]
+    run 3 $batch -o "$work/again" -- --strategy id0 --method pointwise
+    says 'motor.csv: this motor was done with other words'
+    sed -i 1s/mean_Nm/mean/ "$work/again/motors/m05/motor.csv"
+    run 3 $batch -o "$work/again"
+    says 'm05/motor.csv: found a row of another command or version'
+    rm -r "$work/again/motors/m05"
+
+    # the bad motor is mended: only it is done
+    ln -s m "$work/none"
+    run 1 $batch -q -o "$work/again"
+    run 0 $batch --retry -q -o "$work/again"
+    check "the mended motor is not done" grep -q '^bad,.*,done,0,reached' "$work/again/fleet.csv"
+    rm "$work/none"
+}
+
+# ---- killed at any time, and gone on
+
+chance=7
+killed=0
+# shellcheck disable=SC2086
+while [ $killed -lt 10 ]; do
+    "$hci_solve" $batch --jobs 2 -q -o "$work/killed" >"$work/stdout" 2>"$work/stderr" &
+    job=$!
+    chance=$(((chance * 1103515245 + 12345) % 2147483648))
+    sleep "0.$(printf '%03d' $((chance / 65536 % 60)))"
+    kill -KILL $job 2>/dev/null
+    wait $job 2>/dev/null
+    code=$?
+    killed=$((killed + 1))
+    [ $code -eq 137 ] || rm -rf "$work/killed/motors/m0$((killed % 9 + 1))" # it was done already
+done
+run 1 $batch -q -o "$work/killed"
+rm -f "$work"/killed/.hci-*
+check "killed and gone on is not the whole" diff -r "$work/one" "$work/killed"
+
+# ---- a motor that hangs, one whose process is ended from outside
+
+mkfifo "$work/pipe.csv"
+printf 'motor,machine,target,harmonics\nhangs,m,pipe.csv,h.csv\nm1,m,t.csv,h.csv\n' >"$work/hangs.csv"
+run 1 batch "$work/hangs.csv" --command solve --jobs 1 --time-limit 0.5 -q -o "$work/late"
+check "a motor that hangs is no row" grep -q '^hangs,,,,late,,,it took longer than 0.5 s,' "$work/late/fleet.csv"
+check "nothing came after the motor that hangs" grep -q '^m1,,,,done,' "$work/late/fleet.csv"
+"$hci_solve" batch "$work/hangs.csv" --command solve --jobs 1 -q -o "$work/crashed" 2>"$work/stderr" &
+job=$!
+tries=0
+while ! child=$(pgrep -P $job) && [ $tries -lt 200 ]; do sleep 0.02 && tries=$((tries + 1)); done
+sleep 0.1
+kill -KILL "$child"
+wait $job
+check "exit code of a batch with a crash" [ $? -eq 1 ]
+check "a crash is no row" grep -q '^hangs,,,,crashed,,,its process was ended by signal 9,' "$work/crashed/fleet.csv"
+check "nothing came after the crash" grep -q '^m1,,,,done,' "$work/crashed/fleet.csv"
+
+# ---- Ctrl-C
+
+env --default-signal=INT "$hci_solve" batch "$work/hangs.csv" --command solve --jobs 2 -o "$work/stopped" >"$work/stdout" 2>"$work/stderr" &
+job=$!
+tries=0
+while ! [ -e "$work/stopped/motors/m1" ] && [ $tries -lt 200 ]; do sleep 0.02 && tries=$((tries + 1)); done
+kill -INT $job
+wait $job
+check "exit code after Ctrl-C" [ $? -eq 130 ]
+says '^not done yet: 1 of 2 motors' 'the same command goes on from there'
+check "fleet.csv after Ctrl-C" grep -q '^m1,,,,done,' "$work/stopped/fleet.csv"
+
+finish
