@@ -2,6 +2,7 @@
 
 #include "cli/terminal/text.h"
 
+#include <stdint.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -60,14 +61,26 @@ static const char *in_ascii(const char *text, char *plain, size_t size)
     return plain;
 }
 
-/* `length` bytes; what would drive a terminal is no text. */
+/* Whether the character that a text begins with drives a terminal (C0, DEL, C1), or is none. */
+static bool is_no_text(const char *text)
+{
+    uint32_t code;
+    return hci_utf8_decode(text, &code) == 0 || code < 0x20 || (code >= 0x7F && code < 0xA0);
+}
+
+/* `length` bytes, whole characters; what would drive a terminal is no text. */
 static void put_text(const char *text, size_t length, FILE *stream)
 {
-    for (size_t k = 0; k < length; ++k)
+    for (size_t k = 0; k < length;) {
+        const size_t bytes = hci_utf8_length(text + k);
         if (text[k] >= CLI_GOOD[0] && text[k] <= CLI_PLAIN[0])
             put_style(text[k], stream);
+        else if (is_no_text(text + k))
+            fputc('?', stream);
         else
-            fputc((unsigned char)text[k] < ' ' || text[k] == 0x7F ? '?' : text[k], stream);
+            fwrite(text + k, 1, bytes, stream);
+        k += bytes > 0 ? bytes : 1;
+    }
 }
 
 /* Bytes of a text up to the last blank within `width` columns; a word that is too long stays whole. */

@@ -13,6 +13,7 @@ hci_status hci_note_set(hci_note *note, hci_status status, const char *format, .
     va_start(arguments, format);
     hci_words_say_list(&(hci_words){note->text, sizeof note->text}, format, arguments);
     va_end(arguments);
+    hci_quote_mask(note->text);
     return status;
 }
 
@@ -35,4 +36,5 @@ void hci_note_add(hci_note *remark, const char *format, ...)
     if (remark->text[0] != '\0') hci_words_say(&words, "; ");
     hci_words_say_list(&words, format, arguments);
     va_end(arguments);
+    hci_quote_mask(remark->text);
 }

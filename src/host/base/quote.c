@@ -58,3 +58,13 @@ const char *hci_quote_path(const char *path, char out[HCI_QUOTE_PATH_SIZE])
     out[used] = '\0';
     return out;
 }
+
+void hci_quote_mask(char *text)
+{
+    while (*text != '\0') {
+        const size_t length = hci_utf8_length(text);
+        const bool plain = length > 0 && !is_control(text);
+        if (!plain) memset(text, '?', length > 0 ? length : 1);
+        text += length > 0 ? length : 1;
+    }
+}

@@ -11,4 +11,7 @@ const char *hci_quote(const char *text, char out[HCI_QUOTE_SIZE]);
 /* A path without backticks; a long one loses its beginning. */
 const char *hci_quote_path(const char *path, char out[HCI_QUOTE_PATH_SIZE]);
 
+/* In place: control characters and bytes that are not UTF-8 become `?`, one for each byte. */
+void hci_quote_mask(char *text);
+
 #endif

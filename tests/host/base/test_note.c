@@ -49,6 +49,16 @@ static void test_a_long_path_keeps_its_end(void)
     TEST_ASSERT_EQUAL_STRING_LEN("\xE2\x80\xA6", out, 3);
 }
 
+/* Words of a command line and names out of files are quoted as they stand: none may drive a terminal or spoil JSON. */
+static void test_what_would_drive_a_terminal_is_masked(void)
+{
+    hci_note note = {0}, remark = {{0}};
+    hci_note_set(&note, HCI_ERROR_INPUT, "unknown `%s`", "a\033[31m\x7F\xC2\x9B\xFF\xC3\xA9");
+    TEST_ASSERT_EQUAL_STRING("unknown `a?[31m????\xC3\xA9`", note.text);
+    hci_note_add(&remark, "%s", "\x15");
+    TEST_ASSERT_EQUAL_STRING("?", remark.text);
+}
+
 /* "; ≤" is five bytes: behind one to five others the end falls into the letter one way or another. */
 static void test_a_full_remark_ends_with_a_whole_letter(void)
 {
@@ -80,6 +90,7 @@ int main(void)
     RUN_TEST(test_the_first_error_wins);
     RUN_TEST(test_a_note_is_cut_between_characters);
     RUN_TEST(test_a_long_path_keeps_its_end);
+    RUN_TEST(test_what_would_drive_a_terminal_is_masked);
     RUN_TEST(test_a_full_remark_ends_with_a_whole_letter);
     RUN_TEST(test_what_memory_was_for_is_said_with_its_file);
     return UNITY_END();
