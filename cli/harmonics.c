@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "cli/command/command.h"
+#include "cli/command/parse.h"
 #include "cli/command/reading.h"
 #include "cli/commands.h"
 #include "cli/harmonics/harmonics_words.h"
@@ -21,6 +22,7 @@ enum {
     ORDER_BASE,
     MAX_ORDER,
     CONSTANT,
+    INERTIA,
     OUT,
     HOLDING,
     CLI_READING_KEYS,
@@ -45,6 +47,11 @@ static const cli_option OPTIONS[] = {
                    .low = 1.0, .high = HCI_MOST_ORDER},
     [CONSTANT] = {"torque-constant", 0, CLI_NUMBER, "NM_PER_A",
                   .help = "cogging of a run with currents: torque of 1 A of i_q", .low = 1e-9, .high = 1e6},
+    [INERTIA] = {"inertia", 0, CLI_NUMBER, "KGM2",
+                 .help =
+                     "without a torque sensor: inertia x acceleration is the torque, or with --holding is "
+                     "taken out of that of the current",
+                 .low = 1e-12, .high = 1e6},
     [OUT] = {"out", 'o', CLI_FOLDER, "FOLDER", .help = "where the table goes; without it nothing is written"},
     [HOLDING] = CLI_HOLDING_OPTION,
     CLI_READING_OPTIONS,
@@ -97,6 +104,8 @@ static hci_status check_together(const cli_arguments *a, hci_note *note)
         wrong = "harmonics: give --orders or --max-order, not both";
     else if (a->given[CONSTANT] && a->choice[QUANTITY] != HCI_WAVEFORM_COGGING)
         wrong = "--torque-constant goes with --quantity cogging";
+    else if (a->given[INERTIA] && !a->given[CONSTANT])
+        wrong = "--inertia goes with --quantity cogging and --torque-constant";
     return wrong ? hci_note_set(note, HCI_ERROR_ARGUMENT, "%s", wrong) : HCI_OK;
 }
 
@@ -154,6 +163,8 @@ static int run(const cli_arguments *a)
     if (!status) status = read_options(a, &options, orders, &note);
     reading.run.pole_pairs = a->value[POLE_PAIRS] ? (int)a->number[POLE_PAIRS] : 0;
     reading.run.holding = a->given[HOLDING];
+    reading.run.inertia_kgm2 = a->number[INERTIA];
+    reading.run.torque_constant_Nm_per_A = cli_number_or(a, CONSTANT, 0.0);
     if (!status) status = hci_run_read(a->word[0], &reading.run, &recording, &note);
     if (!status) take_pole_pairs(a, recording.pole_pairs, &options, orders);
     if (!status) status = analyse(a, &options, &recording, &note);

@@ -1,9 +1,11 @@
 #include <stdlib.h>
 
 #include "cli/command/command.h"
+#include "cli/command/written.h"
 #include "cli/commands.h"
 #include "cli/terminal/say.h"
 #include "cli/terminal/terminal.h"
+#include "cli/tune/tune_found.h"
 #include "cli/tune/tune_options.h"
 #include "cli/tune/tune_words.h"
 
@@ -14,6 +16,7 @@ static hci_status steps(const cli_arguments *a, cli_tuning *t, hci_note *note)
     if (!status) status = cli_tune_check(t, note);
     if (!status) status = cli_tune_waveforms(t, note);
     if (!status) status = cli_tune_diagnose(t, note);
+    if (!status && t->has_diagnosis) cli_tune_say_diagnosis(t);
     if (!status) status = cli_tune_solve(t, note);
     if (!status) status = cli_tune_emit(t, note);
     if (status) return status;
@@ -29,6 +32,7 @@ static int run(const cli_arguments *a)
     t->commands = (cli_tune_commands){&cli_init, &cli_harmonics, &cli_emit};
     hci_status status = steps(a, t, &note);
     int code;
+    if (status && t->is_own) cli_written_remove(t->out); /* so that the same call can be made again */
     if (!status && cli_is_wordy()) cli_show_tuning(t);
     if (!status && a->given[JSON]) status = cli_print_json(hci_tuning_json(&t->tuning), &note);
     code = status ? cli_fail(status, &note) : t->tuning.good ? 0 : 1;

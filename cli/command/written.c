@@ -6,6 +6,7 @@
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "cli/terminal/say.h"
 #include "cli/terminal/terminal.h"
@@ -14,6 +15,7 @@
 static struct {
     char **path;
     size_t count;
+    int depth; /* commands that have begun */
 } written;
 
 static bool is_known(const char *path)
@@ -38,8 +40,7 @@ static void add(void *context, const char *path)
 
 void cli_written_begin(void)
 {
-    cli_written_end();
-    hci_output_tell(add, NULL);
+    if (written.depth++ == 0) hci_output_tell(add, NULL);
 }
 
 /* Bytes of the folder of a path, with its slash. */
@@ -86,8 +87,29 @@ void cli_written_say(void)
         if (is_first_of_folder(k)) say_folder(k);
 }
 
+/* The folders above a file, down to `root`, as far as nothing else is in them; the path is cut. */
+static void remove_folders(char *path, const char *root)
+{
+    for (char *slash = strrchr(path, '/'); slash && slash - path >= (ptrdiff_t)strlen(root);
+         slash = strrchr(path, '/')) {
+        *slash = '\0';
+        if (rmdir(path) != 0) return;
+    }
+}
+
+void cli_written_remove(const char *root)
+{
+    for (size_t k = written.count; k-- > 0;) {
+        (void)unlink(written.path[k]);
+        remove_folders(written.path[k], root);
+        free(written.path[k]);
+    }
+    written.count = 0;
+}
+
 void cli_written_end(void)
 {
+    if (--written.depth > 0) return;
     hci_output_tell(NULL, NULL);
     for (size_t k = 0; k < written.count; ++k)
         free(written.path[k]);

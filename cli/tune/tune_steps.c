@@ -14,6 +14,7 @@
 #include "hci/host/currents/target.h"
 #include "hci/host/report/write.h"
 #include "hci/host/waveform/waveform.h"
+#include "hci/math/harmonic.h"
 
 enum { MOST_STEP_WORDS = 96 };
 
@@ -201,7 +202,6 @@ static void say_run(cli_tuning *t, size_t k)
         snprintf(time, sizeof time, ", %.4g s", r->time_s[r->count - 1] - r->time_s[0]);
     hci_tuning_say(&t->tuning, HCI_TUNING_READ, "%s: %zu samples%s; %s; phase currents up to %.3g A%s",
                    name_of(t, k), r->count, time, source_words(r), most_A, r->v_V ? "; voltages" : "");
-    if (r->remark.text[0]) hci_tuning_say(&t->tuning, HCI_TUNING_READ, "  %s", r->remark.text);
 }
 
 static void release_inputs(cli_tuning *t)
@@ -227,11 +227,34 @@ static hci_status read_inputs(cli_tuning *t, hci_note *note)
     return hci_runs_read(t->list, &(hci_runs_options){t->reading.run, cli_progress, NULL}, &t->runs, note);
 }
 
+/* The same remark of many recordings is said once. */
+static void say_remark(cli_tuning *t, size_t k)
+{
+    const char *text = t->runs.run[k].remark.text;
+    size_t count = 0;
+    for (size_t j = 0; j < t->runs.count; ++j) {
+        const bool is_same = strcmp(t->runs.run[j].remark.text, text) == 0;
+        if (is_same && j < k) return;
+        count += is_same;
+    }
+    if (!*text) return;
+    if (count > 1)
+        hci_tuning_say(&t->tuning, HCI_TUNING_READ, "%zu of %zu recordings: %s", count, t->runs.count, text);
+    else if (t->runs.count > 1)
+        hci_tuning_say(&t->tuning, HCI_TUNING_READ, "%s: %s", name_of(t, k), text);
+    else
+        hci_tuning_say(&t->tuning, HCI_TUNING_READ, "  %s", text);
+}
+
 hci_status cli_tune_read(cli_tuning *t, hci_note *note)
 {
     const hci_status status = read_inputs(t, note);
     for (size_t k = 0; k < t->runs.count && !status; ++k)
         say_run(t, k);
+    for (size_t k = 0; k < t->runs.count && !status; ++k) {
+        say_remark(t, k);
+        t->has_unsteady = t->has_unsteady || t->runs.run[k].is_unsteady;
+    }
     return status;
 }
 
@@ -284,33 +307,63 @@ hci_status cli_tune_check(cli_tuning *t, hci_note *note)
 
 /* ---- waveforms: what a recording without load shows by itself ---- */
 
-static bool has_no_current(const hci_run *r)
+/* Of the phase currents, beside those that another recording has or the machine is rated for. */
+#define NO_CURRENT 0.01
+
+/* Times what noise alone makes of a mean. */
+#define NOISE_OF_MEAN 5.0
+
+static double rms_of(const hci_run *r)
 {
+    double sum = 0.0;
     for (size_t k = 0; k < 3 * r->count; ++k)
-        if (fabs(r->i_A[k]) > 0.0) return false;
-    return true;
+        sum += r->i_A[k] * r->i_A[k];
+    return sqrt(sum / (3.0 * (double)r->count));
+}
+
+/* Of phase currents in the plane that turns with the angle: what a drive makes stands still there, and noise
+ * and the offsets of sensors go to 0. */
+static double mean_vector(const hci_run *r)
+{
+    double along = 0.0, across = 0.0;
+    for (size_t k = 0; k < r->count && r->theta_m_rad; ++k)
+        for (int s = 0; s < 3; ++s) {
+            const double x = r->pole_pairs * r->theta_m_rad[k] - 2.0 * HCI_PI * s / 3.0;
+            along += r->i_A[3 * k + (size_t)s] * cos(x);
+            across += r->i_A[3 * k + (size_t)s] * sin(x);
+        }
+    return 2.0 / 3.0 * hypot(along, across) / (double)r->count;
+}
+
+/* None, or what a sensor of current makes of none. */
+static bool has_no_current(const cli_tuning *t, const hci_run *r)
+{
+    const double rms_A = rms_of(r);
+    double most_A = t->declared.rated_current_A > 0.0 ? t->declared.rated_current_A : 0.0;
+    for (size_t k = 0; k < t->runs.count; ++k)
+        most_A = fmax(most_A, rms_of(&t->runs.run[k]));
+    if (rms_A <= NO_CURRENT * most_A) return true;
+    return r->theta_m_rad && mean_vector(r) < NOISE_OF_MEAN * rms_A / sqrt((double)r->count);
 }
 
 /* Whether a recording is one for the quantity. Cogging torque that a sensor has measured is left to diagnose,
  * which finds it in all recordings at once and knows what they leave open of it: from one of them alone it is
  * off by more than what would be stated. */
-static bool is_for(const hci_run *r, hci_waveform_quantity quantity)
+static bool is_for(const cli_tuning *t, const hci_run *r, hci_waveform_quantity quantity)
 {
-    if (quantity == HCI_WAVEFORM_BACK_EMF) return r->v_V && has_no_current(r);
+    if (quantity == HCI_WAVEFORM_BACK_EMF) return r->v_V && has_no_current(t, r);
     return r->torque_source == HCI_TORQUE_HOLDING;
 }
-
-enum { MOST_ORDERS_SAID = 6 };
 
 /* The largest of them. */
 static void say_waveform(cli_tuning *t, size_t run, const hci_waveform *w)
 {
     const bool is_emf = w->quantity == HCI_WAVEFORM_BACK_EMF;
-    const char *unit = is_emf ? "V·s/rad (peak of a phase)" : "N·m";
     double above = HUGE_VAL;
-    hci_tuning_say(&t->tuning, HCI_TUNING_FOUND, "%s, %zu orders, from %s",
-                   is_emf ? "back-EMF" : "cogging torque", w->kept, name_of(t, run));
-    for (size_t shown = 0; shown < MOST_ORDERS_SAID && shown < w->kept; ++shown) {
+    if (w->remark.text[0]) hci_tuning_say(&t->tuning, HCI_TUNING_READ, "  %s", w->remark.text);
+    if (!is_emf) return; /* said when diagnose has added to it */
+    hci_tuning_say(&t->tuning, HCI_TUNING_FOUND, "back-EMF, %zu orders, from %s", w->kept, name_of(t, run));
+    for (size_t shown = 0; shown < CLI_TUNE_ORDERS_SAID && shown < w->kept; ++shown) {
         const hci_waveform_order *most = NULL;
         for (size_t k = 0; k < w->count; ++k)
             if (w->order[k].kept && w->order[k].amplitude < above &&
@@ -318,28 +371,26 @@ static void say_waveform(cli_tuning *t, size_t run, const hci_waveform *w)
                 most = &w->order[k];
         if (!most) break;
         above = most->amplitude;
-        hci_tuning_say(&t->tuning, HCI_TUNING_FOUND, "  order %.5g: %.4g ± %.1g %s", most->order,
-                       most->amplitude, most->std_error, unit);
+        hci_tuning_say(&t->tuning, HCI_TUNING_FOUND, "  order %.5g: %.4g ± %.1g V·s/rad (peak of a phase)",
+                       most->order, most->amplitude, most->std_error);
     }
-    if (!is_emf && isfinite(w->friction_Nm))
-        hci_tuning_say(&t->tuning, HCI_TUNING_FOUND,
-                       "  friction: %.4g ± %.1g N·m, half the difference of the directions", w->friction_Nm,
-                       w->friction_error_Nm);
-    if (w->remark.text[0]) hci_tuning_say(&t->tuning, HCI_TUNING_READ, "  %s", w->remark.text);
 }
 
 /* Puts it into the machine in place of what the data sheet gave. */
-static hci_status take_waveform(cli_tuning *t, size_t k, const hci_waveform *w, hci_note *note)
+static hci_status take_waveform(cli_tuning *t, size_t k, const hci_waveform *w, bool is_far, hci_note *note)
 {
     const bool is_emf = w->quantity == HCI_WAVEFORM_BACK_EMF;
     const bool holds = !is_emf && t->runs.run[k].torque_source == HCI_TORQUE_HOLDING;
-    char pole_pairs[16], constant[32];
+    char pole_pairs[16], constant[32], inertia[32];
     command_line c = {{"harmonics", t->arguments->word[k]}, 2};
     snprintf(pole_pairs, sizeof pole_pairs, "%d", t->declared.model.pole_pairs);
     hci_number_text(t->reading.run.torque_constant_Nm_per_A, constant);
+    hci_number_text(t->declared.inertia_kgm2, inertia);
     add_option(&c, "quantity", is_emf ? "back_emf" : "cogging");
     add_option(&c, "pole-pairs", pole_pairs);
     if (holds) add_option(&c, "torque-constant", constant);
+    if (holds && t->declared.inertia_kgm2 > 0.0) add_option(&c, "inertia", inertia);
+    if (is_far) add_option(&c, "max-order", "60");
     if (!is_emf && t->arguments->given[TUNE_HOLDING]) add_option(&c, "holding", NULL);
     add_reading(&c, t->arguments);
     add(&c, "-o");
@@ -348,6 +399,26 @@ static hci_status take_waveform(cli_tuning *t, size_t k, const hci_waveform *w, 
     *(is_emf ? &t->has_emf : &t->has_cogging) = true;
     const hci_status status = run(t, t->commands.harmonics, &c, note);
     return status ? status : read_inputs(t, note);
+}
+
+#define USUAL_ORDER 60.0
+
+/* Up to the usual order; where the samples of a turn do not reach it, those of turns are put together. */
+static hci_status find_far(const hci_run *r, const hci_waveform_options *options, hci_waveform *w,
+                           bool *is_far, hci_note *why)
+{
+    hci_waveform_options far = *options;
+    hci_waveform more = {0};
+    hci_note unused = {{0}};
+    const hci_status status = hci_waveform_find(r, options, w, why);
+    *is_far = false;
+    if (status || (double)w->count * w->step > USUAL_ORDER - 1.0) return status;
+    far.max_order = USUAL_ORDER;
+    if (hci_waveform_find(r, &far, &more, &unused)) return HCI_OK;
+    hci_waveform_release(w);
+    *w = more;
+    *is_far = true;
+    return HCI_OK;
 }
 
 static hci_status find_waveform(cli_tuning *t, size_t k, hci_waveform_quantity quantity, bool *found,
@@ -364,11 +435,16 @@ static hci_status find_waveform(cli_tuning *t, size_t k, hci_waveform_quantity q
                                                   : (double)NAN};
     hci_waveform w = {0};
     hci_note why = {{0}};
-    hci_status status = hci_waveform_find(r, &options, &w, &why);
+    bool is_far = false;
+    hci_status status = find_far(r, &options, &w, &is_far, &why);
     *found = !status && w.kept > 0;
     if (status) hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN, "%s", why.text);
-    status = *found ? take_waveform(t, k, &w, note) : HCI_OK;
-    hci_waveform_release(&w);
+    status = *found ? take_waveform(t, k, &w, is_far, note) : HCI_OK;
+    if (*found && quantity == HCI_WAVEFORM_COGGING && !status) {
+        t->cogging = w;
+        t->tuning.cogging = &t->cogging;
+    } else
+        hci_waveform_release(&w);
     return status;
 }
 
@@ -377,10 +453,10 @@ hci_status cli_tune_waveforms(cli_tuning *t, hci_note *note)
 {
     static const hci_waveform_quantity QUANTITIES[] = {HCI_WAVEFORM_BACK_EMF, HCI_WAVEFORM_COGGING};
     hci_status status = HCI_OK;
-    for (int q = 0; q < 2 && t->is_own && !t->has_slip; ++q) {
+    for (int q = 0; q < 2 && t->is_own && !t->has_slip && !t->has_unsteady; ++q) {
         bool found = false;
         for (size_t k = 0; k < t->runs.count && !found && !status; ++k)
-            if (is_for(&t->runs.run[k], QUANTITIES[q]))
+            if (is_for(t, &t->runs.run[k], QUANTITIES[q]))
                 status = find_waveform(t, k, QUANTITIES[q], &found, note);
     }
     return status;
@@ -388,84 +464,12 @@ hci_status cli_tune_waveforms(cli_tuning *t, hci_note *note)
 
 /* ---- what the model lacks ---- */
 
-/* The place of "sine" or "cosine" among the values of an effect, of an order; -1: none. */
-static int place_of(const hci_effect *e, const char *name, double order)
-{
-    for (size_t k = 0; k < e->count; ++k)
-        if (strcmp(e->type->parameter[e->term[k].parameter].name, name) == 0 &&
-            fabs(e->term[k].order - order) < HCI_ORDER_TOLERANCE)
-            return (int)k;
-    return -1;
-}
-
-/* The amplitude of the order of a value, where it is a sine with a cosine; else 0. */
-static double amplitude_of(const hci_effect *e, size_t k, double *std_error)
-{
-    const int sine = place_of(e, "sine", e->term[k].order), cosine = place_of(e, "cosine", e->term[k].order);
-    if (sine != (int)k || cosine < 0) return 0.0;
-    *std_error = fmax(e->term[sine].std_error, e->term[cosine].std_error);
-    return hypot(e->term[sine].value, e->term[cosine].value);
-}
-
-/* Whether an effect is a sum of sines with cosines. */
-static bool has_orders(const hci_effect *e)
-{
-    double std_error;
-    for (size_t k = 0; k < e->count; ++k)
-        if (amplitude_of(e, k, &std_error) > 0.0) return true;
-    return false;
-}
-
-static void say_orders(cli_tuning *t, const hci_effect *e)
-{
-    double above = HUGE_VAL;
-    for (size_t shown = 0; shown < MOST_ORDERS_SAID; ++shown) {
-        double most = 0.0, error = 0.0, order = 0.0;
-        for (size_t k = 0; k < e->count; ++k) {
-            double std_error = 0.0;
-            const double amplitude = amplitude_of(e, k, &std_error);
-            if (amplitude < above && amplitude > most)
-                most = amplitude, error = std_error, order = e->term[k].order;
-        }
-        if (!(most > 0.0)) return;
-        hci_tuning_say(&t->tuning, HCI_TUNING_FOUND, "  order %.5g: %.4g ± %.1g %s", order, most, error,
-                       strcmp(e->type->parameter[0].unit, "Nm") == 0 ? "N·m" : e->type->parameter[0].unit);
-        above = most;
-    }
-}
-
-static void say_finding(cli_tuning *t, const hci_finding *f)
-{
-    const hci_effects *list = &t->diagnosis.effects.list;
-    const hci_effect *effect = NULL;
-    for (size_t k = 0; k < list->count; ++k)
-        if (strcmp(list->effect[k].type->name, f->effect) == 0) effect = &list->effect[k];
-    const char *verdict = hci_finding_verdict_name(f->verdict);
-    if (effect && has_orders(effect)) {
-        hci_tuning_say(&t->tuning, HCI_TUNING_FOUND, "%s (%s), the largest orders:", f->effect, verdict);
-        say_orders(t, effect);
-        return;
-    }
-    hci_tuning_say(&t->tuning, HCI_TUNING_FOUND, "%s (%s): %s", f->effect, verdict, f->detail);
-}
-
-static void say_diagnosis(cli_tuning *t)
-{
-    const hci_diagnosis *d = &t->diagnosis;
-    char words[2048];
-    hci_diagnosis_words(d, words, sizeof words);
-    hci_tuning_say(&t->tuning, t->diagnosed ? HCI_TUNING_UNKNOWN : HCI_TUNING_FOUND, "%s", words);
-    for (size_t k = 0; k < d->findings; ++k)
-        if (d->finding[k].verdict != HCI_FINDING_REJECTED) say_finding(t, &d->finding[k]);
-    if (d->advice[0]) hci_tuning_say(&t->tuning, HCI_TUNING_NEXT, "%s", d->advice);
-}
-
 hci_status cli_tune_diagnose(cli_tuning *t, hci_note *note)
 {
     const hci_diagnose_options options = {.progress = cli_progress};
     char folder[CLI_TUNE_PATH];
     command_line c = {{"diagnose", t->machine, "--runs", t->list}, 4};
-    if (t->has_slip) return HCI_OK;
+    if (t->has_slip || t->has_unsteady) return HCI_OK;
     path_in(t, "diagnose", folder);
     if (t->arguments->given[TUNE_HOLDING]) add_option(&c, "holding", NULL);
     add_reading(&c, t->arguments);
@@ -475,7 +479,7 @@ hci_status cli_tune_diagnose(cli_tuning *t, hci_note *note)
     t->diagnosed = hci_diagnose(&t->declared, &t->effects.list, &t->runs, &options, &t->diagnosis, note);
     cli_progress_end();
     if (t->diagnosed > HCI_NOT_REACHED) return t->diagnosed;
-    say_diagnosis(t);
+    t->has_diagnosis = true;
     return hci_diagnosis_write(&t->diagnosis, NULL, &t->runs, t->machine, folder, note);
 }
 
@@ -483,7 +487,7 @@ hci_status cli_tune_diagnose(cli_tuning *t, hci_note *note)
 
 bool cli_tune_can_solve(const cli_tuning *t)
 {
-    return !t->has_slip &&
+    return !t->has_slip && !t->has_unsteady &&
            (t->has_emf || t->has_cogging || (!t->diagnosis.nothing_measured && t->diagnosis.runs > 0));
 }
 
@@ -510,6 +514,15 @@ static double rounded(double x)
     sscanf(text, "%lf", &value);
     return value;
 }
+
+static double rounded_down(double x)
+{
+    const double digit = pow(10.0, floor(log10(x)) - 1.0);
+    return rounded(digit * floor(x / digit));
+}
+
+/* The most that is taken of the torque that a sine of the rated current makes, where nobody asked for one. */
+static const double OF_RATED = 0.9;
 
 /* A mean torque below this share of what the currents could make is friction or the zero of the sensor. */
 static const double LEAST_LOAD = 0.02;
@@ -539,6 +552,10 @@ static void choose_torque(cli_tuning *t)
     else
         t->mean_Nm = rounded(current_Nm),
         why = "what the largest recorded current makes; nothing is rated, and no recording has a load";
+    const bool is_chosen = !t->arguments->given[TUNE_TORQUE] && !(m->rated_torque_Nm > 0.0);
+    if (is_chosen && rated_Nm > 0.0 && t->mean_Nm > OF_RATED * rated_Nm)
+        t->mean_Nm = rounded_down(OF_RATED * rated_Nm),
+        why = "nine tenths of what a sine of the rated current makes; what takes the ripple away heats, too";
     hci_tuning_say(&t->tuning, HCI_TUNING_WANTED, "a torque without ripple of %.4g N·m: %s", t->mean_Nm, why);
 }
 
@@ -645,6 +662,7 @@ void cli_tune_release(cli_tuning *t)
     hci_effects_release(&t->found);
     hci_machine_release(&t->corrected);
     hci_diagnosis_release(&t->diagnosis);
+    hci_waveform_release(&t->cogging);
     release_inputs(t);
     cli_reading_release(&t->reading);
 }

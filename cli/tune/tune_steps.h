@@ -9,8 +9,10 @@
 #include "hci/host/machine/effects.h"
 #include "hci/host/machine/machine.h"
 #include "hci/host/report/tune/tuning.h"
+#include "hci/host/waveform/waveform.h"
 
-enum { CLI_TUNE_PATH = 2048 };
+/* Bytes of a path; the largest orders of a waveform that are said. */
+enum { CLI_TUNE_PATH = 2048, CLI_TUNE_ORDERS_SAID = 6 };
 
 /* Commands that are run as they are. */
 typedef struct {
@@ -32,6 +34,9 @@ typedef struct {
     hci_diagnosis diagnosis;
     hci_status diagnosed;
     bool has_slip, has_emf, has_cogging; /* check found one; they were measured without load */
+    bool has_diagnosis;                  /* diagnose had something to do */
+    bool has_unsteady;                   /* a slow turn sticks and slips */
+    hci_waveform cogging;                /* of a holding test; empty: none */
     bool has_load;                       /* a recording has a torque sensor and a mean torque */
     double mean_Nm;                      /* that is solved for */
     hci_machine_data corrected;
@@ -52,7 +57,7 @@ hci_status cli_tune_diagnose(cli_tuning *tune, hci_note *note);
 hci_status cli_tune_solve(cli_tuning *tune, hci_note *note);
 hci_status cli_tune_emit(cli_tuning *tune, hci_note *note);
 
-/* Whether there is anything to solve with: no slip, and something was measured. */
+/* Whether there is anything to solve with: no slip, no slow turn that sticks, and something was measured. */
 bool cli_tune_can_solve(const cli_tuning *tune);
 
 void cli_tune_release(cli_tuning *tune);

@@ -6,18 +6,63 @@
 
 #include "cli/terminal/say.h"
 #include "cli/terminal/text.h"
+#include "cli/tune/tune_options.h"
+
+/* Times the noise that a ripple may have without being looked at. */
+#define NEAR_NOISE 1.5
+
+/* Times the ripple of a plain sine: a bound that is more says nothing. */
+#define BOUNDLESS 10.0
 
 /* ---- what is concluded ---- */
 
-static void say_missing(cli_tuning *t)
+/* Whether a recording tells where the electrical angle is 0. */
+static bool knows_zero(const cli_tuning *t)
 {
-    if (!t->is_solved && !t->has_slip && !cli_tune_can_solve(t))
-        hci_tuning_say(&t->tuning, HCI_TUNING_NEXT,
-                       "Without a torque sensor: turn the shaft slowly under position control, one turn "
-                       "forward and one back, log "
-                       "angle and i_q, and give --holding. With one: turn it slowly without current and log "
-                       "angle and torque; "
-                       "then under load, at three currents (docs/measuring.md).");
+    bool knows = !t->is_own || t->has_emf || t->has_load;
+    for (size_t k = 0; k < t->runs.count; ++k)
+        knows = knows || t->runs.run[k].is_electrical || (t->runs.run[k].v_V && t->runs.run[k].theta_m_rad);
+    return knows;
+}
+
+static void say_unknown(cli_tuning *t)
+{
+    if (t->is_own && !t->has_emf && !t->has_load)
+        hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
+                       "The torque per ampere and the back-EMF are those of the data sheet; voltages of the "
+                       "open machine, driven by another, would tell them.");
+    if (!knows_zero(t))
+        hci_tuning_say(
+            &t->tuning, HCI_TUNING_UNKNOWN,
+            "Where the electrical zero is: the logs have the angle of an encoder, whose zero is "
+            "taken for that of the back-EMF of phase a. The dq table answers cogging torque at the "
+            "right angle of the encoder whatever the zero, as long as the drive's own angle makes "
+            "the phase currents; harmonics of the back-EMF and tables of phase currents need it "
+            "(docs/tutorials/zero.md).");
+    for (size_t k = 0; k < t->runs.count; ++k)
+        if (t->runs.run[k].is_unsteady)
+            hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
+                           "What of the current in %s answers cogging torque, and what answers the shaft's "
+                           "sticking and slipping.",
+                           t->arguments->given[TUNE_RUNS] ? t->runs.run[k].name : t->arguments->word[k]);
+}
+
+static void say_next(cli_tuning *t)
+{
+    if (t->has_unsteady)
+        hci_tuning_say(
+            &t->tuning, HCI_TUNING_NEXT,
+            "Turn the shaft evenly: a stiffer position control, or a lower speed with it; its speed "
+            "is to vary by less than 30 %% rms. Or move it in steps of half a degree or less, keep "
+            "the samples at rest alone, and give them a column torque_Nm of 0. A log that sticks is "
+            "left out of the next call.");
+    else if (!t->is_solved && !t->has_slip && !cli_tune_can_solve(t))
+        hci_tuning_say(
+            &t->tuning, HCI_TUNING_NEXT,
+            "Without a torque sensor: turn the shaft slowly under position control, one turn "
+            "forward and one back, log angle and i_q, and give --holding. With one: turn it slowly "
+            "without current and log angle and torque; then under load, at three currents "
+            "(docs/measuring.md).");
     if (t->has_slip)
         hci_tuning_say(&t->tuning, HCI_TUNING_NEXT,
                        "Correct what `slip` names (in %s, or in the log), and begin again with a new --out.",
@@ -25,16 +70,21 @@ static void say_missing(cli_tuning *t)
     if (t->is_solved && t->solution.expected.state != HCI_RIPPLE_KNOWN)
         hci_tuning_say(&t->tuning, HCI_TUNING_NEXT,
                        "To know the ripple on the machine: three recordings or more under load, up to the "
-                       "currents of the table, "
-                       "with a torque sensor.");
-    if (t->is_own && !t->has_emf && !t->has_load)
-        hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
-                       "The torque per ampere and the back-EMF are those of the data sheet; voltages of the "
-                       "open machine, driven by "
-                       "another, would tell them.");
+                       "currents of the table, with a torque sensor.");
 }
 
-/* Where no recording tells of it. */
+/* The largest ripple that is left unexplained in a recording, rms; 0 where all are near their noise. */
+static double unexplained_Nm(const cli_tuning *t)
+{
+    double most_Nm = 0.0;
+    for (size_t k = 0; k < t->diagnosis.runs; ++k) {
+        const hci_run_errors *r = &t->diagnosis.run[k];
+        if (r->ripple_after_Nm > NEAR_NOISE * r->noise_floor_Nm) most_Nm = fmax(most_Nm, r->ripple_after_Nm);
+    }
+    return most_Nm;
+}
+
+/* Where no recording tells of it, or nothing was found of it. */
 static void say_cogging(cli_tuning *t)
 {
     double before_Nm = 0.0, after_Nm;
@@ -43,46 +93,86 @@ static void say_cogging(cli_tuning *t)
     if (!t->has_cogging && t->diagnosis.nothing_measured)
         hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
                        "No recording tells of the cogging torque: the table takes none away.");
-    else if (before_Nm < t->solution.tolerance_Nm)
-        hci_tuning_say(
-            &t->tuning, HCI_TUNING_UNKNOWN,
-            "No ripple was found: it is below what the recordings resolve, or they cannot show it.");
+    else if (before_Nm >= t->solution.tolerance_Nm)
+        return;
+    else if (unexplained_Nm(t) > 0.0)
+        hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
+                       "What makes the ripple: up to %.3g N·m rms of it is in a recording, and nothing that "
+                       "is certain explains it. The table takes none of it away.",
+                       unexplained_Nm(t));
+    else
+        hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
+                       "No ripple was found: it is below what the recordings resolve, or they cannot show "
+                       "it.");
 }
 
-static void set_heading(hci_tuning *t, const hci_solution *s)
+/* What the figures of the model leave open. */
+static void limit_of(const cli_tuning *t, double before_Nm, char text[256])
 {
-    double before_Nm, after_Nm;
-    hci_tuning_swing(s, &before_Nm, &after_Nm);
-    if (after_Nm < 1e-3 * before_Nm)
-        snprintf(t->heading, sizeof t->heading,
-                 "A ripple of %.3g N·m from peak to peak falls to less than a thousandth, in the model",
-                 before_Nm);
-    else if (before_Nm > 0.0)
-        snprintf(t->heading, sizeof t->heading,
-                 "A ripple of %.3g N·m from peak to peak falls to %.3g N·m, in the model", before_Nm,
-                 after_Nm);
+    const hci_expected_ripple *e = &t->solution.expected;
+    if (e->state == HCI_RIPPLE_KNOWN && e->peak_to_peak_Nm < BOUNDLESS * before_Nm)
+        snprintf(text, 256, "in the model; on the machine it is at most %.3g N·m (95 %%)",
+                 e->peak_to_peak_Nm);
+    else if (e->state == HCI_RIPPLE_KNOWN)
+        snprintf(text, 256, "in the model; what is left on the machine is not bounded by these recordings");
+    else if (t->is_own && !t->has_emf && !t->has_load)
+        snprintf(text, 256,
+                 "in the model with a sine as back-EMF: harmonics of the real one, and the ripple that they "
+                 "make with current, are not known");
     else
-        snprintf(t->heading, sizeof t->heading, "Nothing was found that would make a ripple");
+        snprintf(text, 256, "in the model; what is left on the machine is not known");
+}
+
+static void set_heading(cli_tuning *t)
+{
+    hci_tuning *r = &t->tuning;
+    double before_Nm, after_Nm;
+    char limit[256];
+    hci_tuning_swing(&t->solution, &before_Nm, &after_Nm);
+    limit_of(t, before_Nm, limit);
+    if (before_Nm < t->solution.tolerance_Nm && unexplained_Nm(t) > 0.0)
+        snprintf(r->heading, sizeof r->heading,
+                 "Nothing certain was found that makes a ripple, but up to %.3g N·m rms of it is in the "
+                 "recordings",
+                 unexplained_Nm(t));
+    else if (before_Nm < t->solution.tolerance_Nm)
+        snprintf(r->heading, sizeof r->heading, "Nothing was found that would make a ripple");
+    else if (after_Nm < 1e-3 * before_Nm)
+        snprintf(r->heading, sizeof r->heading,
+                 "A ripple of %.3g N·m from peak to peak falls to less than a thousandth, %s", before_Nm,
+                 limit);
+    else
+        snprintf(r->heading, sizeof r->heading,
+                 after_Nm < before_Nm ? "A ripple of %.3g N·m from peak to peak falls to %.3g N·m, %s"
+                                      : "A ripple of %.3g N·m from peak to peak becomes one of %.3g N·m, %s",
+                 before_Nm, after_Nm, limit);
 }
 
 void cli_tune_conclude(cli_tuning *t)
 {
     hci_tuning *r = &t->tuning;
     say_cogging(t);
-    say_missing(t);
+    say_unknown(t);
+    say_next(t);
     r->good = t->is_emitted && !t->diagnosed && !r->solved;
     snprintf(r->verdict, sizeof r->verdict, "%s",
              r->good                                         ? "tuned"
              : t->has_slip                                   ? "a convention is broken"
+             : t->has_unsteady                               ? "the shaft sticks and slips"
              : !t->is_emitted                                ? "not enough in the logs"
              : r->solved                                     ? "tuned, but not as wanted"
              : t->diagnosis.verdict == HCI_DIAGNOSIS_UNKNOWN ? "tuned with what is certain"
                                                              : "tuned, with something left open");
     if (t->is_solved)
-        set_heading(r, &t->solution);
+        set_heading(t);
     else if (t->has_slip)
         snprintf(r->heading, sizeof r->heading,
                  "What the files say contradicts itself, so nothing was solved");
+    else if (t->has_unsteady)
+        snprintf(
+            r->heading, sizeof r->heading,
+            "The current of a shaft that turns in jerks does not tell its cogging torque, so nothing was "
+            "solved");
     else
         snprintf(r->heading, sizeof r->heading,
                  "The logs tell neither cogging torque nor back-EMF, so nothing was solved");

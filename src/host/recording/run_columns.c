@@ -76,7 +76,7 @@ static const char *likely_angle(const hci_run_columns *c)
     return NULL;
 }
 
-static void say_which(const hci_run_columns *c, hci_note *missing)
+void hci_run_columns_say_angle(const hci_run_columns *c, hci_note *missing)
 {
     const char *name = likely_angle(c);
     if (name == NULL && c->has[HCI_RUN_TIME])
@@ -99,6 +99,20 @@ static void say_which(const hci_run_columns *c, hci_note *missing)
                      name, name);
 }
 
+/* A list of recordings where one of them is expected. */
+static hci_status refuse_list(const hci_run_columns *c)
+{
+    char path[HCI_QUOTE_PATH_SIZE];
+    const hci_csv *csv = c->csv;
+    if (hci_csv_columns(csv) < 2 || !hci_csv_same_name(hci_csv_name(csv, 0), "file") ||
+        !hci_csv_same_name(hci_csv_name(csv, 1), "role"))
+        return HCI_OK;
+    return hci_note_set(c->note, HCI_ERROR_INPUT,
+                        "%s: found a list of recordings, expected one of them; name the recordings one by "
+                        "one, or give the list to --runs",
+                        hci_quote_path(hci_csv_path(csv), path));
+}
+
 /* Neither angle nor voltages: most likely a column under another name. Where voltages would do without an
  * angle, one that may be either is refused all the same, and not passed over. */
 static hci_status check_angle(const hci_run_columns *c, bool is_needed)
@@ -106,12 +120,13 @@ static hci_status check_angle(const hci_run_columns *c, bool is_needed)
     hci_note missing = {{0}};
     double unused;
     if (c->has[HCI_RUN_THETA_M] || c->has[HCI_RUN_THETA_E]) return HCI_OK;
-    hci_status status = hci_csv_check_clear(c->csv, c->note);
+    hci_status status = refuse_list(c);
+    if (!status) status = hci_csv_check_clear(c->csv, c->note);
     if (status || (!is_needed && has_any(c))) return status;
     if (hci_run_columns_suffice(c) && !(is_map(c) && likely_angle(c) != NULL)) return HCI_OK;
     status = hci_csv_number(c->csv, NAME[HCI_RUN_THETA_M], 0, &unused, &missing);
     hci_note_add(&missing, "`%s` will do as well", NAME[HCI_RUN_THETA_E]);
-    say_which(c, &missing);
+    hci_run_columns_say_angle(c, &missing);
     return hci_note_set(c->note, status, "%s", missing.text);
 }
 

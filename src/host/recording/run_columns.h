@@ -56,6 +56,9 @@ typedef struct {
  * or voltages, or with an angle that may be mechanical or electrical; HCI_ERROR_MEMORY. */
 hci_status hci_run_columns_find(const hci_csv *csv, hci_run_columns *c, hci_note *remark, hci_note *note);
 
+/* Adds to an error which column may be the angle, and how to say it. */
+void hci_run_columns_say_angle(const hci_run_columns *c, hci_note *missing);
+
 /* So, for who can do without angle and voltages: any column that is known will do. */
 hci_status hci_run_columns_find_any(const hci_csv *csv, hci_run_columns *c, hci_note *remark, hci_note *note);
 void hci_run_columns_release(hci_run_columns *c);

@@ -2,10 +2,13 @@
 
 #include <math.h>
 
+#include "hci/math/harmonic.h"
 #include "host/numeric/statistics.h"
 #include "host/recording/rotor_frame.h"
 
-#define NEGLIGIBLE 0.2 /* inertia × acceleration beside the torque of the current */
+#define NEGLIGIBLE 0.2   /* inertia × acceleration beside the torque of the current */
+#define SLOW       2.1   /* rad/s; control follows cogging torque up to some ten events a second */
+#define WORTH_WORD 0.005 /* inertia × acceleration of which nothing need be said, in the same measure */
 
 enum { LEAST = 16 };
 
@@ -31,4 +34,45 @@ bool hci_is_slow_turn(const hci_run *run, int pole_pairs, double inertia_kgm2,
     const double accelerating_Nm = sqrt(hci_mean_square_about(run->torque_Nm, run->count, mean_Nm));
     const double energy_J = 0.5 * inertia_kgm2 * hci_mean_square_about(run->speed_rad_per_s, run->count, 0.0);
     return accelerating_Nm < NEGLIGIBLE * rms_Nm && energy_J < rms_Nm / pole_pairs;
+}
+
+/* The longest ways up and down; noise of the angle is in neither. */
+static void ways_of(const double *theta_m_rad, size_t count, double *up_rad, double *down_rad)
+{
+    double least = theta_m_rad[0], most = theta_m_rad[0];
+    *up_rad = *down_rad = 0.0;
+    for (size_t k = 0; k < count; ++k) {
+        least = fmin(least, theta_m_rad[k]);
+        most = fmax(most, theta_m_rad[k]);
+        *up_rad = fmax(*up_rad, theta_m_rad[k] - least);
+        *down_rad = fmax(*down_rad, most - theta_m_rad[k]);
+    }
+}
+
+bool hci_is_slow_turn_both_ways(const hci_run *run, int pole_pairs)
+{
+    double up_rad, down_rad, pace = 0.0;
+    if (run->theta_m_rad == NULL || run->time_s == NULL || run->speed_rad_per_s == NULL) return false;
+    if (run->count < LEAST || !(rms_of_current(run, pole_pairs, 1.0) > 0.0)) return false;
+    for (size_t k = 0; k < run->count; ++k)
+        pace += fabs(run->speed_rad_per_s[k]) / (double)run->count;
+    ways_of(run->theta_m_rad, run->count, &up_rad, &down_rad);
+    return pace < SLOW && fmin(up_rad, down_rad) > HCI_PI / pole_pairs;
+}
+
+void hci_slow_turn_correct(hci_run *run, int pole_pairs, double torque_constant_Nm_per_A)
+{
+    const double made_Nm = rms_of_current(run, pole_pairs, torque_constant_Nm_per_A);
+    const double rms_Nm = sqrt(hci_mean_square_about(run->torque_Nm, run->count, 0.0));
+    for (size_t k = 0; k < run->count; ++k) {
+        const hci_dq off = {.d = 0.0, .q = run->torque_Nm[k] / torque_constant_Nm_per_A};
+        double phases_A[3];
+        hci_phases_of_dq(off, pole_pairs * run->theta_m_rad[k], phases_A);
+        for (size_t s = 0; s < 3; ++s)
+            run->i_A[3 * k + s] -= phases_A[s];
+    }
+    if (rms_Nm > WORTH_WORD * made_Nm)
+        hci_note_add(&run->remark,
+                     "inertia x acceleration, %.3g N·m rms, is taken out of the %.3g N·m that i_q makes",
+                     rms_Nm, made_Nm);
 }

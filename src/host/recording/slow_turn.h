@@ -13,4 +13,11 @@
 bool hci_is_slow_turn(const hci_run *run, int pole_pairs, double inertia_kgm2,
                       double torque_constant_Nm_per_A);
 
+/* The same where the inertia is not known: a current, and half an electrical turn or more in each direction
+ * at no more than 20 rpm. A shaft that another one turns so has no current. O(samples). */
+bool hci_is_slow_turn_both_ways(const hci_run *run, int pole_pairs);
+
+/* Takes torque_Nm of the run, inertia × acceleration, out of what torque_constant·i_q is, and says so. */
+void hci_slow_turn_correct(hci_run *run, int pole_pairs, double torque_constant_Nm_per_A);
+
 #endif

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "hci/host/recording/run.h"
+#include "host/recording/rotor_frame.h"
 #include "support/draws.h"
 #include "support/run_file.h"
 #include "support/texts.h"
@@ -99,6 +100,67 @@ static void test_it_can_be_said(void)
     TEST_ASSERT_EQUAL(HCI_TORQUE_MEASURED, run.torque_source);
 }
 
+/* Its speed varies by 1.2 / √2 = 85 %, less what is in the mean over 6/7 of a period; and by a tenth of it.
+ */
+static void test_a_shaft_that_sticks_and_slips_is_told(void)
+{
+    const hci_run_options said = {.pole_pairs = P, .inertia_kgm2 = NAN, .holding = true};
+    read_turn(0.6, 0.02, 0.1, &said, "lamp");
+    TEST_ASSERT_TRUE(run.is_unsteady);
+    text_has("varies by 73 %", run.remark.text);
+    text_has("sticks and slips", run.remark.text);
+    hci_run_release(&run);
+    read_turn(0.6, 0.02, 0.01, &said, "lamp");
+    TEST_ASSERT_FALSE(run.is_unsteady);
+}
+
+/* Forward and back, so slowly that a shaft without control would not do it; inertia not known. */
+static void test_a_turn_forward_and_back_is_found(void)
+{
+    const hci_run_options constant = {.pole_pairs = P, .torque_constant_Nm_per_A = CONSTANT};
+    const double pace[] = {0.8, 8.0};
+    for (size_t j = 0; j < 2; ++j) {
+        FILE *file = fopen(path, "w");
+        TEST_ASSERT_NOT_NULL(file);
+        fprintf(file, "time_s,theta_m_rad,iq_A\n");
+        for (size_t k = 0; k < N; ++k) {
+            const double t = STEP_S * (double)k, half = STEP_S * 0.5 * N;
+            const double turn = pace[j] * (half - fabs(t - half));
+            fprintf(file, "%.4f,%.9f,%.9f\n", t, turn,
+                    ((t < half ? 0.02 : -0.02) + COGGING_Nm * sin(12.0 * turn)) / CONSTANT);
+        }
+        fclose(file);
+        TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_run_read(path, &constant, &run, &note), note.text);
+        TEST_ASSERT_EQUAL(j == 0 ? HCI_TORQUE_HOLDING : HCI_TORQUE_NONE, run.torque_source);
+        TEST_ASSERT_FALSE(run.is_unsteady);
+        hci_run_release(&run);
+    }
+    read_turn(0.8, 0.02, 0.0, &constant, "lamp"); /* one way */
+    TEST_ASSERT_EQUAL(HCI_TORQUE_NONE, run.torque_source);
+}
+
+/* i_q = (T + J α) / k with α = −(12 ω)² a sin 12 ω t: what is left is T, within what slopes smooth away. */
+static void test_what_accelerates_is_taken_out(void)
+{
+    const double w = 12.0 * 0.6, a = 0.02, inertia = 2e-3;
+    const hci_run_options said = {
+        .pole_pairs = P, .inertia_kgm2 = inertia, .torque_constant_Nm_per_A = CONSTANT, .holding = true};
+    FILE *file = fopen(path, "w");
+    TEST_ASSERT_NOT_NULL(file);
+    fprintf(file, "time_s,theta_m_rad,speed_rad_per_s,iq_A\n");
+    for (size_t k = 0; k < N; ++k) {
+        const double t = STEP_S * (double)k, x = w * t;
+        fprintf(file, "%.4f,%.12f,%.12f,%.12f\n", t, 0.6 * t + a * sin(x), 0.6 + a * w * cos(x),
+                (COGGING_Nm - inertia * w * w * a * sin(x)) / CONSTANT);
+    }
+    fclose(file);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_run_read(path, &said, &run, &note), note.text);
+    for (size_t k = 20; k < N - 20; ++k)
+        TEST_ASSERT_DOUBLE_WITHIN(0.02 * inertia * w * w * a / CONSTANT, COGGING_Nm / CONSTANT,
+                                  hci_run_dq(&run, P, k).q);
+    text_has("inertia x acceleration, 0.00146 N·m rms, is taken out of the", run.remark.text);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -107,5 +169,8 @@ int main(void)
     RUN_TEST(test_a_shaft_that_is_accelerated_is_none);
     RUN_TEST(test_it_takes_inertia_and_torque_constant);
     RUN_TEST(test_it_can_be_said);
+    RUN_TEST(test_a_shaft_that_sticks_and_slips_is_told);
+    RUN_TEST(test_a_turn_forward_and_back_is_found);
+    RUN_TEST(test_what_accelerates_is_taken_out);
     return UNITY_END();
 }

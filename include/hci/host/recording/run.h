@@ -18,8 +18,9 @@ extern "C" {
 typedef enum {
     HCI_TORQUE_NONE,     /* neither of the following */
     HCI_TORQUE_MEASURED, /* a column torque_Nm */
-    HCI_TORQUE_HOLDING, /* that column is 0 throughout: the shaft is at rest and the current is the reading */
-    HCI_TORQUE_INERTIA  /* a free shaft: moment of inertia × angular acceleration */
+    HCI_TORQUE_HOLDING,  /* that column is 0 throughout: the shaft is at rest and the current is the reading;
+                          * or as below */
+    HCI_TORQUE_INERTIA   /* a free shaft: moment of inertia × angular acceleration */
 } hci_torque_source;
 
 /* Columns of `count` samples as they were recorded; what the run does not have is NULL. Start with {0}. */
@@ -38,8 +39,11 @@ typedef struct {
     double *temperature_C;   /* of the magnets */
     double *v_V;             /* [count][3], phase voltages */
     hci_torque_source torque_source; /* where torque_Nm is from */
-    bool turn_known; /* the angle is mechanical, or an electrical one that is not wrapped: orders k/p are in
-                        it */
+    bool turn_known;  /* the angle is mechanical, or an electrical one that is not wrapped: orders k/p are in
+                         it */
+    bool is_unsteady; /* a holding test whose shaft sticks and slips: its current tells no cogging torque */
+    bool is_electrical;   /* an electrical angle was recorded; else its zero is supposed to be that of the
+                           * mechanical one */
     bool zero_is_unknown; /* the angle is the integral of the speed, from 0 */
     bool only_mean;       /* no angle, but torques over i_d and i_q: means over a turn. i_A is of angle 0 */
     bool mean_is_unknown; /* a constant load stands in torque_Nm too: only what varies says something */
@@ -85,7 +89,9 @@ typedef struct {
  *
  * A run without torque_Nm has inertia × acceleration, or a torque of 0 where options->holding, or where it is
  * a slow turn under control: its current varies by more than five times what accelerates, and its kinetic
- * energy is less than the work of that over one electrical radian.
+ * energy is less than the work of that over one electrical radian; or, where the inertia is not known and the
+ * torque constant is, it turns forward and back at no more than 20 rpm. What of its i_q accelerates is then
+ * taken out where inertia and torque constant are known.
  *
  * On failure *run is empty. HCI_ERROR_INPUT, _MEMORY, _ARGUMENT for less than one pole pair. O(samples). */
 hci_status hci_run_read(const char *path, const hci_run_options *options, hci_run *run, hci_note *note);

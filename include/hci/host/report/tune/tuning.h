@@ -3,6 +3,7 @@
 #define HCI_HOST_REPORT_TUNE_TUNING_H
 
 #include "hci/host/solve/solve.h"
+#include "hci/host/waveform/waveform.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -30,6 +31,7 @@ typedef struct {
     char commands[HCI_TUNING_TEXT];               /* the steps, for a shell */
     const hci_solution *solution;                 /* the currents; NULL: none were solved */
     hci_status solved;                            /* what solving them answered */
+    const hci_waveform *cogging;                  /* of a holding test; NULL: none */
 } hci_tuning;
 
 /* The heading of a part; a static string. */

@@ -1,0 +1,221 @@
+#include "cli/tune/tune_found.h"
+
+#include <math.h>
+#include <string.h>
+
+/* ---- effects ---- */
+
+/* The place of "sine" or "cosine" among the values of an effect, of an order; -1: none. */
+static int place_of(const hci_effect *e, const char *name, double order)
+{
+    for (size_t k = 0; k < e->count; ++k)
+        if (strcmp(e->type->parameter[e->term[k].parameter].name, name) == 0 &&
+            fabs(e->term[k].order - order) < HCI_ORDER_TOLERANCE)
+            return (int)k;
+    return -1;
+}
+
+/* The amplitude of the order of a value, where it is a sine with a cosine; else 0. */
+static double amplitude_of(const hci_effect *e, size_t k, double *std_error)
+{
+    const int sine = place_of(e, "sine", e->term[k].order), cosine = place_of(e, "cosine", e->term[k].order);
+    if (sine != (int)k || cosine < 0) return 0.0;
+    *std_error = fmax(e->term[sine].std_error, e->term[cosine].std_error);
+    return hypot(e->term[sine].value, e->term[cosine].value);
+}
+
+/* Whether an effect is a sum of sines with cosines. */
+static bool has_orders(const hci_effect *e)
+{
+    double std_error;
+    for (size_t k = 0; k < e->count; ++k)
+        if (amplitude_of(e, k, &std_error) > 0.0) return true;
+    return false;
+}
+
+static void say_orders(cli_tuning *t, hci_tuning_part part, const hci_effect *e)
+{
+    double above = HUGE_VAL;
+    for (size_t shown = 0; shown < CLI_TUNE_ORDERS_SAID; ++shown) {
+        double most = 0.0, error = 0.0, order = 0.0;
+        for (size_t k = 0; k < e->count; ++k) {
+            double std_error = 0.0;
+            const double amplitude = amplitude_of(e, k, &std_error);
+            if (amplitude < above && amplitude > most)
+                most = amplitude, error = std_error, order = e->term[k].order;
+        }
+        if (!(most > 0.0)) return;
+        hci_tuning_say(&t->tuning, part, "  order %.5g: %.4g ± %.1g %s", order, most, error,
+                       strcmp(e->type->parameter[0].unit, "Nm") == 0 ? "N·m" : e->type->parameter[0].unit);
+        above = most;
+    }
+}
+
+/* The effect of a finding; NULL: not among those of the corrected machine. */
+static const hci_effect *effect_of(const cli_tuning *t, const hci_finding *f)
+{
+    const hci_effects *list = &t->diagnosis.effects.list;
+    for (size_t k = 0; k < list->count; ++k)
+        if (strcmp(list->effect[k].type->name, f->effect) == 0) return &list->effect[k];
+    return NULL;
+}
+
+/* Whether an effect is a torque that follows the angle alone, as cogging torque is. */
+static bool is_of_angle(const hci_effect *e)
+{
+    return e && has_orders(e) && strcmp(e->type->parameter[0].unit, "Nm") == 0;
+}
+
+static bool is_friction(const hci_effect *e)
+{
+    return e && e->type->coulomb_Nm;
+}
+
+/* An effect that the recordings show and that is of a kind, from number `from` of the findings on; NULL:
+ * none. */
+static const hci_effect *next_found(const cli_tuning *t, bool (*is_kind)(const hci_effect *), size_t *from)
+{
+    for (; *from < t->diagnosis.findings; ++*from) {
+        const hci_finding *f = &t->diagnosis.finding[*from];
+        const hci_effect *e = effect_of(t, f);
+        if (f->verdict == HCI_FINDING_ADDED && is_kind(e)) return ++*from, e;
+    }
+    return NULL;
+}
+
+/* What several effects explain equally well is not found. */
+static void say_finding(cli_tuning *t, const hci_finding *f)
+{
+    const hci_effect *effect = effect_of(t, f);
+    const bool is_known = f->verdict == HCI_FINDING_ADDED && strcmp(f->effect, "unknown") != 0;
+    const hci_tuning_part part = is_known ? HCI_TUNING_FOUND : HCI_TUNING_UNKNOWN;
+    if (is_known && t->cogging.kept > 0 && is_of_angle(effect)) return; /* with what the holding test shows */
+    if (effect && has_orders(effect)) {
+        hci_tuning_say(&t->tuning, part, "%s (%s), the largest orders:", f->effect,
+                       hci_finding_verdict_name(f->verdict));
+        say_orders(t, part, effect);
+        return;
+    }
+    hci_tuning_say(&t->tuning, part, "%s (%s): %s", f->effect,
+                   is_known || strcmp(f->effect, "unknown") != 0 ? hci_finding_verdict_name(f->verdict)
+                                                                 : "left",
+                   f->detail);
+}
+
+/* ---- cogging torque of a holding test, with what diagnose has added to it ---- */
+
+enum { MOST_ORDERS = 512 };
+
+typedef struct {
+    double order, sine_Nm, cosine_Nm, std_error_Nm;
+} order_sum;
+
+static size_t add_order(order_sum sum[MOST_ORDERS], size_t count, order_sum next)
+{
+    for (size_t k = 0; k < count; ++k)
+        if (fabs(sum[k].order - next.order) < HCI_ORDER_TOLERANCE) {
+            sum[k].sine_Nm += next.sine_Nm;
+            sum[k].cosine_Nm += next.cosine_Nm;
+            sum[k].std_error_Nm = hypot(sum[k].std_error_Nm, next.std_error_Nm);
+            return count;
+        }
+    if (count < MOST_ORDERS) sum[count++] = next;
+    return count;
+}
+
+static size_t sum_cogging(const cli_tuning *t, order_sum sum[MOST_ORDERS])
+{
+    size_t count = 0;
+    for (size_t k = 0; k < t->cogging.count; ++k) {
+        const hci_waveform_order *o = &t->cogging.order[k];
+        const order_sum next = {o->order, o->amplitude * cos(o->phase_rad), o->amplitude * sin(o->phase_rad),
+                                o->std_error};
+        if (o->kept) count = add_order(sum, count, next);
+    }
+    size_t from = 0;
+    for (const hci_effect *e; (e = next_found(t, is_of_angle, &from)) != NULL;)
+        for (size_t k = 0; k < e->count; ++k) {
+            const int sine = place_of(e, "sine", e->term[k].order),
+                      cosine = place_of(e, "cosine", e->term[k].order);
+            if (sine != (int)k || cosine < 0) continue;
+            const order_sum next = {e->term[k].order, e->term[sine].value, e->term[cosine].value,
+                                    fmax(e->term[sine].std_error, e->term[cosine].std_error)};
+            count = add_order(sum, count, next);
+        }
+    return count;
+}
+
+static void say_cogging(cli_tuning *t)
+{
+    static order_sum sum[MOST_ORDERS];
+    const size_t count = sum_cogging(t, sum);
+    if (t->cogging.kept == 0) return;
+    hci_tuning_say(&t->tuning, HCI_TUNING_FOUND,
+                   "cogging torque and what else follows the angle alone, %zu "
+                   "orders, the largest:",
+                   count);
+    for (size_t shown = 0; shown < CLI_TUNE_ORDERS_SAID && shown < count; ++shown) {
+        order_sum *most = &sum[shown];
+        for (size_t k = shown; k < count; ++k)
+            if (hypot(sum[k].sine_Nm, sum[k].cosine_Nm) > hypot(most->sine_Nm, most->cosine_Nm))
+                most = &sum[k];
+        const order_sum o = *most;
+        *most = sum[shown];
+        hci_tuning_say(&t->tuning, HCI_TUNING_FOUND, "  order %.5g: %.4g ± %.1g N·m", o.order,
+                       hypot(o.sine_Nm, o.cosine_Nm), o.std_error_Nm);
+    }
+    size_t from = 0;
+    if (isfinite(t->cogging.friction_Nm) && !next_found(t, is_friction, &from))
+        hci_tuning_say(&t->tuning, HCI_TUNING_FOUND,
+                       "friction: %.4g ± %.1g N·m, half the difference of the directions",
+                       t->cogging.friction_Nm, t->cogging.friction_error_Nm);
+}
+
+/* ---- the sentences of diagnose, each where it belongs ---- */
+
+static bool begins(const char *text, const char *with)
+{
+    return strncmp(text, with, strlen(with)) == 0;
+}
+
+static void say_sentence(cli_tuning *t, const char *text)
+{
+    static const char *const FOUND[] = {"The model lacked ", "On the runs that were ", "No run was held out",
+                                        "The torque of ", "Nothing is missing"};
+    static const char PARTLY[] = "Partly explained: t", ELSE[] = "; what else it lacks";
+    bool found = !t->diagnosed;
+    for (size_t k = 0; k < sizeof FOUND / sizeof *FOUND; ++k)
+        found = found || begins(text, FOUND[k]);
+    const char *rest = begins(text, PARTLY) ? strstr(text, ELSE) : NULL;
+    if (!rest) {
+        hci_tuning_say(&t->tuning, found ? HCI_TUNING_FOUND : HCI_TUNING_UNKNOWN, "%s", text);
+        return;
+    }
+    hci_tuning_say(&t->tuning, HCI_TUNING_FOUND, "T%.*s.", (int)(rest - text - (long)sizeof PARTLY + 1),
+                   text + sizeof PARTLY - 1);
+    hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN, "What else the model lacks%s", rest + sizeof ELSE - 1);
+}
+
+static void say_words(cli_tuning *t)
+{
+    char words[2048];
+    hci_diagnosis_words(&t->diagnosis, words, sizeof words);
+    for (char *text = words, *end; *text; text = end) {
+        end = strstr(text, ". ");
+        if (end)
+            end[1] = '\0', end += 2;
+        else
+            end = text + strlen(text);
+        say_sentence(t, text);
+    }
+}
+
+void cli_tune_say_diagnosis(cli_tuning *t)
+{
+    const hci_diagnosis *d = &t->diagnosis;
+    say_cogging(t);
+    say_words(t);
+    for (size_t k = 0; k < d->findings; ++k)
+        if (d->finding[k].verdict != HCI_FINDING_REJECTED) say_finding(t, &d->finding[k]);
+    if (d->advice[0]) hci_tuning_say(&t->tuning, HCI_TUNING_NEXT, "%s", d->advice);
+}

@@ -1,0 +1,73 @@
+#include "host/recording/speed_variation.h"
+
+#include <math.h>
+
+#include "hci/math/harmonic.h"
+#include "host/base/memory.h"
+#include "host/numeric/derivative.h"
+
+#define SAME_PACE 2.0 /* mean speeds of neighbouring windows within this factor */
+#define PAUSE     0.2 /* of the mean speed of the run */
+#define ENOUGH    0.2 /* of the samples */
+
+enum { LEAST = 16 };
+
+/* The mean over the window around a sample. */
+static double mean_speed(const hci_run *run, size_t k, size_t half)
+{
+    return (run->theta_m_rad[k + half] - run->theta_m_rad[k - half]) /
+           (run->time_s[k + half] - run->time_s[k - half]);
+}
+
+/* Whether the window beside this one, where there is one, has its direction and its pace. */
+static bool goes_on(const hci_run *run, size_t beside, size_t half, double speed)
+{
+    if (beside < half || beside >= run->count - half) return true; /* one before 0 is beyond the end */
+    const double ratio = mean_speed(run, beside, half) / speed;
+    return ratio > 1.0 / SAME_PACE && ratio < SAME_PACE;
+}
+
+static double mean_pace(const double *rate, size_t count)
+{
+    double sum = 0.0;
+    for (size_t k = 0; k < count; ++k)
+        sum += fabs(rate[k]);
+    return sum / (double)count;
+}
+
+/* Half of the samples of half an electrical turn; at most an eighth of the run. */
+static size_t half_window(const hci_run *run, int pole_pairs, double pace)
+{
+    const double step_s = (run->time_s[run->count - 1] - run->time_s[0]) / (double)(run->count - 1);
+    const double samples = 0.5 * HCI_PI / (pole_pairs * pace * step_s);
+    return samples < (double)(run->count / 8) ? (size_t)samples + 1 : run->count / 8;
+}
+
+static double share_of(const hci_run *run, const double *rate, int pole_pairs)
+{
+    const double pace = mean_pace(rate, run->count);
+    if (!(pace > 0.0)) return 0.0;
+    const size_t half = half_window(run, pole_pairs, pace);
+    double sum = 0.0, used = 0.0;
+    for (size_t k = half; k + half < run->count; ++k) {
+        const double mean = mean_speed(run, k, half);
+        if (!(fabs(mean) > PAUSE * pace) || !goes_on(run, k - 2 * half, half, mean) ||
+            !goes_on(run, k + 2 * half, half, mean))
+            continue;
+        sum += (rate[k] / mean - 1.0) * (rate[k] / mean - 1.0);
+        used += 1.0;
+    }
+    return used > ENOUGH * (double)run->count ? sqrt(sum / used) : 0.0;
+}
+
+bool hci_speed_variation(const hci_run *run, int pole_pairs, double *share)
+{
+    *share = 0.0;
+    if (run->time_s == NULL || run->theta_m_rad == NULL || run->count < LEAST) return true;
+    double *rate = hci_memory_new(run->count, sizeof *rate);
+    if (rate == NULL) return false;
+    hci_derivative(run->time_s, run->theta_m_rad, run->count, rate);
+    *share = share_of(run, rate, pole_pairs);
+    hci_memory_free(rate);
+    return true;
+}
