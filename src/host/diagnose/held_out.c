@@ -154,6 +154,13 @@ static hci_status square_without(hci_dataset *b, const hci_runs *runs, const hci
     return status;
 }
 
+/* By how much the mean square has to be larger without a type: a series in the currents describes anything a
+ * little, and has to halve the error. */
+static double helps(const hci_effect_type *type)
+{
+    return type->is_series ? 1.0 / (HARDLY_BETTER * HARDLY_BETTER) : HELPS * HELPS;
+}
+
 hci_status hci_held_out_keep(hci_dataset *b, const hci_runs *runs, hci_candidates *model, hci_note *note)
 {
     double with_Nm2 = 0.0, without_Nm2[HCI_MOST_TYPES] = {0.0};
@@ -162,7 +169,7 @@ hci_status hci_held_out_keep(hci_dataset *b, const hci_runs *runs, hci_candidate
         if (hci_candidates_have(model, hci_candidate_type(r)))
             status = square_without(b, runs, hci_candidate_type(r), model, &without_Nm2[r], note);
     for (size_t r = 0; r < hci_candidate_types() && !status; ++r)
-        if (!(without_Nm2[r] > HELPS * HELPS * with_Nm2))
+        if (!(without_Nm2[r] > helps(hci_candidate_type(r)) * with_Nm2))
             hci_candidates_remove_type(model, hci_candidate_type(r));
     return status;
 }

@@ -10,15 +10,14 @@
 #include "host/diagnose/search/belief.h"
 #include "host/diagnose/search/candidate_models.h"
 #include "host/diagnose/search/coenergy.h"
+#include "host/diagnose/search/companions.h"
 #include "host/diagnose/search/rivals.h"
 #include "host/diagnose/search/rounds.h"
 #include "host/diagnose/search/settle.h"
 #include "host/diagnose/search/stability.h"
 
-#define SERIES_ERROR 0.002
-#define SWING_ERROR  0.005
-#define RATIO        1e-3 /* change of the torque per ampere, as a share, that an inertia may be wrong by */
-#define EQUAL_SHARE  0.2  /* of their mean, by which values of three phases may differ and are equal */
+#define RATIO       1e-3 /* change of the torque per ampere, as a share, that an inertia may be wrong by */
+#define EQUAL_SHARE 0.2  /* of their mean, by which values of three phases may differ and are equal */
 
 /* ---- verdicts ---- */
 
@@ -142,50 +141,14 @@ static hci_status verdicts_of_equal(hci_search *s, hci_attribution *a, hci_note 
     return status;
 }
 
-/* Whether a type that is in delays, or has a lag or a resonance: the zero of a torque sensor has none. */
-static bool swings(const hci_candidates *model, const hci_effect_type *type)
-{
-    if (type->late) return true;
-    for (size_t k = 0; k < model->count && type->lag; ++k) {
-        const hci_candidate *x = &model->candidate[k];
-        if (x->in && x->type == type &&
-            (type->parameter[x->term[0].parameter].traits & HCI_PARAMETER_ALONG_TIME))
-            return true;
-    }
-    return false;
-}
-
-/* What a model of the type gets wrong, as a share of what it explains: a series in the currents is not what
- * iron does to the last digit, nor what a sensor answers between samples that are far apart in a period, nor
- * a delay the filter that makes it. */
-static double error_of(const hci_attribution *a, const hci_effect_type *type)
-{
-    if (type->beyond_quadratic) return SERIES_ERROR;
-    return swings(&a->model.candidates, type) ? SWING_ERROR : 0.0;
-}
-
-/* The fall of the score that another effect of the iron must reach to be more than a part of the error of the
- * others; 0: none of them is off. */
-static double least_companion(const hci_attribution *a, const hci_verdict *v)
-{
-    double most = 0.0;
-    for (size_t r = 0; r < a->types; ++r) {
-        const hci_verdict *other = &a->verdict[r];
-        const double error = error_of(a, other->type);
-        const bool both = v->type->beyond_quadratic && other->type->beyond_quadratic;
-        if (other->in && other != v && error > 0.0 && !both) most = fmax(most, error * other->gain);
-    }
-    return most > 0.0 ? fmax(HCI_DECISIVE, most) : 0.0;
-}
-
-/* Effects of the iron beside such others that the recordings do not ask for. */
+/* Effects beside such others that the recordings do not ask for. */
 static hci_status companions_leave(hci_search *s, hci_attribution *a, bool *left, hci_note *note)
 {
     hci_status status = HCI_OK;
     *left = false;
     for (size_t r = 0; r < a->types && !status && !*left; ++r) {
         hci_verdict *v = &a->verdict[r];
-        if (!v->in || !v->type->propose_coenergy || !(v->gain < least_companion(a, v))) continue;
+        if (!v->in || !(v->gain < hci_companion_least(s->regression, a, v))) continue;
         hci_candidates_remove_type(&a->model.candidates, v->type);
         v->in = false;
         *left = true;
@@ -194,24 +157,12 @@ static hci_status companions_leave(hci_search *s, hci_attribution *a, bool *left
     return status;
 }
 
-/* Whether every torque in use is an inertia times an acceleration. */
-static bool are_free_shafts(const hci_search *s)
-{
-    bool any = false;
-    for (size_t r = 0; r < s->regression->samples->run_count; ++r) {
-        if (!s->regression->use[r]) continue;
-        if (s->regression->runs[r].torque_source != HCI_TORQUE_INERTIA) return false;
-        any = true;
-    }
-    return any;
-}
-
 /* Free shafts show torque per ampere and inertia as their ratio only: what changes the one is as well a wrong
  * inertia. */
 static hci_status verdicts_of_ratio(hci_search *s, hci_attribution *a, hci_note *note)
 {
     double with = 1.0, without = 1.0;
-    if (!are_free_shafts(s)) return HCI_OK;
+    if (!hci_are_free_shafts(s->regression)) return HCI_OK;
     hci_status status = hci_search_constant_share(s, &a->model.candidates, &with, note);
     for (size_t r = 0; r < a->types && !status; ++r) {
         hci_candidates rest = {0};

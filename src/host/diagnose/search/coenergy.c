@@ -29,6 +29,7 @@ static const double WIDTHS[] = {1.0, 3.0, 10.0, 30.0, 100.0};
 #define NO_WORSE 0.01 /* of the mean logarithm of the squares */
 #define FLOOR    0.05 /* mean square of a run, in units of its noise, below which it is as good as can be */
 
+#define SAME_CURRENT 0.02 /* of the largest */
 #define BLUNT                                                                                                \
     10.0 /* noise over the resolution, above which single terms say all that the recordings can tell */
 #define WHOLE_TURN 0.9 /* electrical, of a run that tells orders by its samples */
@@ -328,12 +329,35 @@ static bool saturates(const hci_candidates *candidates)
     return false;
 }
 
+/* Whether a run has about the currents of an earlier one in use. */
+static bool is_repeated(const hci_regression *e, size_t run, double most_A)
+{
+    const hci_run_statistics *of = e->samples->statistics;
+    for (size_t r = 0; r < run; ++r)
+        if (e->use[r] && hypot(of[r].mean_id_A - of[run].mean_id_A, of[r].mean_iq_A - of[run].mean_iq_A) <
+                             SAME_CURRENT * most_A)
+            return true;
+    return false;
+}
+
+/* Runs in use, of those at the same currents one: as many powers of the currents as there are of them can be
+ * told at the most. Of a run whose currents vary nothing is known here, and it counts. */
+static size_t different_currents(const hci_regression *e)
+{
+    double most_A = 0.0;
+    size_t count = 0;
+    for (size_t r = 0; r < e->samples->run_count; ++r)
+        if (e->use[r]) most_A = fmax(most_A, e->samples->statistics[r].current_A);
+    for (size_t r = 0; r < e->samples->run_count; ++r)
+        count += e->use[r] && hci_segment_next(e->samples, r, NULL) && !is_repeated(e, r, most_A);
+    return count;
+}
+
 hci_status hci_search_coenergy(hci_search *s, hci_fitted_model *model, hci_note *note)
 {
     comparison c = {.search = s, .known = model};
     choice best = {0};
-    if (!saturates(&model->candidates) || hci_regression_runs_in_use(s->regression) < LEAST_RUNS)
-        return HCI_OK;
+    if (!saturates(&model->candidates) || different_currents(s->regression) < LEAST_RUNS) return HCI_OK;
     c.noise_Nm = hci_search_noise_rms(s);
     if (c.noise_Nm > BLUNT * s->resolution_Nm) return HCI_OK;
     noise_even(s->regression, c.noise_Nm);

@@ -15,6 +15,7 @@
 #define PAIR         (2.0 * HCI_DECISIVE) /* the same of two effects at once */
 
 #define PAIR_MARGIN     0.02 /* what two effects at once must explain more than one, as a share */
+#define LOOSE_MARGIN    0.01 /* the same of a series, beside effects of few values that others may join */
 #define RESONANCE_PRICE 12.0 /* of having looked at so many frequencies */
 #define LAG_PRICE       6.0  /* and at so many time constants */
 #define LATE_PRICE      12.0 /* and at so many delays */
@@ -172,14 +173,15 @@ static hci_status contender_enter(comparison *c, hci_fitted_model *candidate, do
     return HCI_OK;
 }
 
-/* What a model must be better by than its score: two effects at once, unless of few values by a share of what
- * one explains too, and one that is called another unless it is decisively better. */
+/* What a model must be better by than its score: two effects at once, unless of few values, and a series by a
+ * share of what one explains too, and one that is called another unless it is decisively better. */
 static double handicap_of(const hci_candidate_model *x, const hci_candidate_model *best)
 {
     const hci_effect_type *a = hci_candidate_type(x->a), *b = hci_candidate_type(x->b);
     const double margin = is_frugal(x, best) ? 0.0 : PAIR_MARGIN * best->gain;
     const double pair = is_pair(x) ? HCI_DECISIVE + margin : 0.0;
-    return pair + (a->seen_as || b->seen_as ? HCI_DECISIVE : 0.0);
+    const double loose = is_loose(x->a) || is_loose(x->b) ? LOOSE_MARGIN * best->gain : 0.0;
+    return pair + loose + (a->seen_as || b->seen_as ? HCI_DECISIVE : 0.0);
 }
 
 static hci_status models_enter(comparison *c, const hci_candidate_models *t, hci_note *note)

@@ -96,6 +96,30 @@ static void test_a_torque_that_is_late_by_radians(void)
     TEST_ASSERT_FALSE(step_forward());
 }
 
+/* Currents that are read 1 ms late, which turns i_d into i_q, beside a ripple that grows with the square of
+ * the current: a series in the currents describes both at seven operating points, with many values. The delay
+ * comes first, since the ripple can still be added. */
+static void test_few_values_before_a_series(void)
+{
+    static const double SPEED[] = {25.0, -25.0, 40.0, -60.0, 50.0, -30.0, 60.0}, DELAY_S = 1e-3;
+    static const double D_A[] = {0.0, -6.0, 5.0, -4.5, 3.0, 7.0, -8.0},
+                        Q_A[] = {4.0, 2.0, 10.0, 6.0, 8.0, -10.0, 3.0};
+    for (size_t k = 0; k < 7; ++k) {
+        const double lag = P * SPEED[k] * DELAY_S;
+        record(300, &(point){SPEED[k], Q_A[k], 0.0, 0.0, 0.0});
+        for (size_t j = 0; j < 300; ++j) {
+            const double theta = P * run[k].theta_m_rad[j];
+            rec_phases(D_A[k], Q_A[k], theta - lag, run[k].i_A + 3 * j);
+            run[k].torque_Nm[j] += 2e-4 * Q_A[k] * Q_A[k] * sin(6.0 * theta);
+        }
+    }
+    search_start();
+    model_fit();
+    TEST_ASSERT_TRUE(step_forward());
+    TEST_ASSERT_TRUE(model_has("channel_delay"));
+    TEST_ASSERT_FALSE(model_has("saturation"));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -103,5 +127,6 @@ int main(void)
     RUN_TEST(test_the_true_effect_comes_in_alone);
     RUN_TEST(test_a_second_effect);
     RUN_TEST(test_a_torque_that_is_late_by_radians);
+    RUN_TEST(test_few_values_before_a_series);
     return UNITY_END();
 }

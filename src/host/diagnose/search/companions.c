@@ -1,0 +1,100 @@
+#include "host/diagnose/search/companions.h"
+
+#include <math.h>
+
+#include "host/diagnose/search/search.h"
+
+#define SERIES_ERROR 0.002
+#define SWING_ERROR  0.005
+#define ANY_ERROR    3e-4 /* a noise of another size in each run, an inertia, the angle between two samples */
+#define PLAIN        40.0 /* a fall of the score that no such error makes */
+
+/* Whether a type that is in delays, or has a lag or a resonance: the zero of a torque sensor has none. */
+static bool swings(const hci_candidates *model, const hci_effect_type *type)
+{
+    if (type->late) return true;
+    for (size_t k = 0; k < model->count && type->lag; ++k) {
+        const hci_candidate *x = &model->candidate[k];
+        if (x->in && x->type == type &&
+            (type->parameter[x->term[0].parameter].traits & HCI_PARAMETER_ALONG_TIME))
+            return true;
+    }
+    return false;
+}
+
+/* What a model of the type gets wrong, as a share of what it explains: a series in the currents is not what
+ * iron does to the last digit, nor what a sensor answers between samples that are far apart in a period, nor
+ * a delay the filter that makes it. */
+static double error_of(const hci_attribution *a, const hci_effect_type *type)
+{
+    if (type->beyond_quadratic) return SERIES_ERROR;
+    return swings(&a->model.candidates, type) ? SWING_ERROR : 0.0;
+}
+
+/* The fall of the score that another effect of the iron must reach to be more than a part of the error of the
+ * others; 0: none of them is off. */
+static double least_of_iron(const hci_attribution *a, const hci_verdict *v)
+{
+    double most = 0.0;
+    for (size_t r = 0; r < a->types; ++r) {
+        const hci_verdict *other = &a->verdict[r];
+        const double error = error_of(a, other->type);
+        const bool both = v->type->beyond_quadratic && other->type->beyond_quadratic;
+        if (other->in && other != v && error > 0.0 && !both) most = fmax(most, error * other->gain);
+    }
+    return most > 0.0 ? fmax(HCI_DECISIVE, most) : 0.0;
+}
+
+/* The same of any effect: a small part of what the largest of the others explains. */
+static double least_of_any(const hci_attribution *a, const hci_verdict *v)
+{
+    double most = 0.0;
+    for (size_t r = 0; r < a->types; ++r)
+        if (a->verdict[r].in && &a->verdict[r] != v) most = fmax(most, a->verdict[r].gain);
+    return fmin(PLAIN, ANY_ERROR * most);
+}
+
+/* ---- delays of free shafts ---- */
+
+/* Whether every torque in use is an inertia times an acceleration. */
+bool hci_are_free_shafts(const hci_regression *e)
+{
+    bool any = false;
+    for (size_t r = 0; r < e->samples->run_count; ++r) {
+        if (!e->use[r]) continue;
+        if (e->runs[r].torque_source != HCI_TORQUE_INERTIA) return false;
+        any = true;
+    }
+    return any;
+}
+
+/* The shortest time between two samples of the runs in use; infinite where none has times. */
+static double shortest_step_s(const hci_regression *e)
+{
+    double least = INFINITY;
+    for (size_t r = 0; r < e->samples->run_count; ++r) {
+        const hci_run *run = &e->runs[r];
+        if (!e->use[r] || !run->time_s || run->count < 2) continue;
+        least = fmin(least, (run->time_s[run->count - 1] - run->time_s[0]) / (double)(run->count - 1));
+    }
+    return least;
+}
+
+/* Whether all delays of a type are shorter than a sample of a free shaft: when its acceleration was, which is
+ * a slope of the angle, is not known better than that. */
+static bool is_within_slope(const hci_regression *e, const hci_candidates *model, const hci_effect_type *type)
+{
+    double longest_s = 0.0;
+    if (!type->late || !hci_are_free_shafts(e)) return false;
+    for (size_t k = 0; k < model->count; ++k)
+        for (size_t j = 0; model->candidate[k].in && j < model->candidate[k].count; ++j)
+            if (model->candidate[k].type == type)
+                longest_s = fmax(longest_s, fabs(model->candidate[k].term[j].value));
+    return longest_s < shortest_step_s(e);
+}
+
+double hci_companion_least(const hci_regression *e, const hci_attribution *a, const hci_verdict *v)
+{
+    if (is_within_slope(e, &a->model.candidates, v->type)) return INFINITY;
+    return fmax(least_of_any(a, v), v->type->propose_coenergy ? least_of_iron(a, v) : 0.0);
+}

@@ -1,0 +1,16 @@
+/* What an effect must explain to be more than a part of what those beside it get wrong. */
+#ifndef HCI_SRC_HOST_DIAGNOSE_SEARCH_COMPANIONS_H
+#define HCI_SRC_HOST_DIAGNOSE_SEARCH_COMPANIONS_H
+
+#include "host/diagnose/fit/regression.h"
+#include "host/diagnose/search/attribution.h"
+
+/* Whether every torque in use is an inertia times an acceleration. */
+bool hci_are_free_shafts(const hci_regression *regression);
+
+/* The fall of the score that an effect with this verdict must reach beside those of the attribution that are
+ * in; INFINITY: whatever it reaches, it is an error of the readings. */
+double hci_companion_least(const hci_regression *regression, const hci_attribution *attribution,
+                           const hci_verdict *verdict);
+
+#endif

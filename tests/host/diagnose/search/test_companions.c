@@ -1,0 +1,112 @@
+/* What an effect must explain beside others, from what those get wrong. */
+#include "host/diagnose/search/companions.h"
+
+#include "support/searching.h"
+
+static hci_attribution attribution;
+
+void setUp(void)
+{
+    dataset_start();
+    memset(&attribution, 0, sizeof attribution);
+}
+
+void tearDown(void)
+{
+    hci_fitted_model_release(&attribution.model);
+    search_end();
+    dataset_end();
+}
+
+/* Two short runs. source: of their torque. */
+static void record_two(hci_torque_source source)
+{
+    record(150, &(point){60.0, 2.0, 0.0, 0.0, 0.0});
+    record(150, &(point){-60.0, 5.0, 0.0, 0.0, 0.0});
+    run[0].torque_source = run[1].torque_source = source;
+    search_start();
+}
+
+static const hci_verdict *add(const char *effect, double gain)
+{
+    hci_verdict *v = &attribution.verdict[attribution.types++];
+    *v = (hci_verdict){.type = hci_effect_type_find(effect), .in = true, .gain = gain};
+    return v;
+}
+
+static void add_term(const char *effect, const char *parameter, double value)
+{
+    hci_candidate x = candidate_of(effect, parameter, NULL, 0.0);
+    x.term[0].value = value;
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_candidates_add(&attribution.model.candidates, &x, &note));
+}
+
+static double least(const hci_verdict *v)
+{
+    return hci_companion_least(&dataset.regression, &attribution, v);
+}
+
+/* Beside 100 000 the twenty of a friction may be noise of another size; forty is not, nor is twenty alone. */
+static void test_what_is_faint_beside_much(void)
+{
+    record_two(HCI_TORQUE_MEASURED);
+    const hci_verdict *faint = add("friction", 20.0);
+    TEST_ASSERT_TRUE(least(faint) <= 0.0);
+    add("cogging", 1e5);
+    TEST_ASSERT_DOUBLE_WITHIN(0.1, 30.0, least(faint));
+    TEST_ASSERT_DOUBLE_WITHIN(0.1, 0.006, least(&attribution.verdict[1]));
+    attribution.verdict[1].gain = 1e9;
+    TEST_ASSERT_DOUBLE_WITHIN(0.1, 40.0, least(faint));
+}
+
+/* A lag is right to some per cent of its amplitude, and a delay is, beside which effects of the iron are
+ * asked for more; friction, which a lag leaves as it is, is not, nor does the zero of the sensor ask for
+ * anything. */
+static void test_the_iron_beside_lags_and_delays(void)
+{
+    record_two(HCI_TORQUE_MEASURED);
+    const hci_verdict *iron = add("saturation", 400.0), *friction = add("friction", 400.0);
+    add("torque_sensor", 1e5);
+    add_term("torque_sensor", "offset", 0.1);
+    TEST_ASSERT_DOUBLE_WITHIN(0.1, 30.0, least(iron));
+    add_term("torque_sensor", "time_constant", 1e-3);
+    TEST_ASSERT_DOUBLE_WITHIN(0.1, 500.0, least(iron));
+    TEST_ASSERT_DOUBLE_WITHIN(0.1, 30.0, least(friction));
+    add("channel_delay", 2e5);
+    TEST_ASSERT_DOUBLE_WITHIN(0.1, 1000.0, least(iron));
+}
+
+/* A series is not what iron does: other effects of the iron are a part of its error, but not of themselves.
+ */
+static void test_the_iron_beside_a_series(void)
+{
+    record_two(HCI_TORQUE_MEASURED);
+    const hci_verdict *series = add("saturation", 1e6), *emf = add("back_emf", 400.0);
+    TEST_ASSERT_DOUBLE_WITHIN(0.1, 2000.0, least(emf));
+    TEST_ASSERT_DOUBLE_WITHIN(0.2, 0.1, least(series));
+}
+
+/* A slope of the angle is not known to be at a time better than a sample; what a sensor reads is. */
+static void test_delays_within_a_slope(void)
+{
+    record_two(HCI_TORQUE_INERTIA);
+    const double step_s = run[0].time_s[1] - run[0].time_s[0];
+    const hci_verdict *delay = add("channel_delay", 1e3);
+    add_term("channel_delay", "current", 0.5 * step_s);
+    TEST_ASSERT_TRUE(isinf(least(delay)));
+    attribution.model.candidates.candidate[0].term[0].value = -2.0 * step_s;
+    TEST_ASSERT_TRUE(least(delay) <= 0.0);
+    attribution.model.candidates.candidate[0].term[0].value = 0.5 * step_s;
+    run[0].torque_source = run[1].torque_source = HCI_TORQUE_MEASURED;
+    TEST_ASSERT_TRUE(least(delay) <= 0.0);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_what_is_faint_beside_much);
+    RUN_TEST(test_the_iron_beside_lags_and_delays);
+    RUN_TEST(test_the_iron_beside_a_series);
+    RUN_TEST(test_delays_within_a_slope);
+    return UNITY_END();
+}
