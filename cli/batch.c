@@ -29,7 +29,7 @@ static const cli_option OPTIONS[] = {
     CLI_COMMON_OPTIONS};
 
 static const cli_command *const RUN[] = {
-    [HCI_FLEET_DIAGNOSE] = &cli_diagnose, [HCI_FLEET_TUNE] = &cli_tune, [HCI_FLEET_SOLVE] = &cli_solve};
+    [HCI_FLEET_DIAGNOSE] = &cli_diagnose, [HCI_FLEET_TUNE] = &cli_tune, [HCI_FLEET_SOLVE] = &cli_solve, [HCI_FLEET_FIT] = &cli_fit};
 
 /* ---- what came of it ---- */
 
@@ -63,7 +63,7 @@ static hci_status read_all(const cli_arguments *a, cli_batch *b, cli_batch_work 
 {
     if (!a->value[OUT]) return hci_note_set(note, HCI_ERROR_ARGUMENT, "batch: add --out FOLDER");
     if (!a->given[COMMAND])
-        return hci_note_set(note, HCI_ERROR_ARGUMENT, "batch: add --command diagnose, tune or solve");
+        return hci_note_set(note, HCI_ERROR_ARGUMENT, "batch: add --command fit, diagnose, tune or solve");
     b->command = RUN[a->choice[COMMAND]];
     b->path = a->word[0];
     b->common = a->word + 1;
@@ -99,7 +99,7 @@ static int run(const cli_arguments *a)
 const cli_command cli_batch_command = {
     .name = "batch",
     .words = "LIST --command COMMAND -o FOLDER [-- OPTION...]",
-    .does = "Runs diagnose, tune or solve on each motor of a list, by as many processes as there are processors.\n"
+    .does = "Runs fit, diagnose, tune or solve on each motor of a list, by as many processes as there are processors.\n"
             "Writes motors/NAME, what the command writes, for each motor as it is done, fleet.csv with a row for\n"
             "each, and summary.json at the end. The same command goes on from there.\n"
             "LIST: a table with a row for each motor: motor, its name; machine, its folder; logs, divided by\n"

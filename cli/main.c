@@ -22,7 +22,7 @@
 /* In the order in which one uses them. */
 static const cli_command *const COMMANDS[] = {&cli_tune,    &cli_init,    &cli_check, &cli_harmonics,
                                               &cli_solve,   &cli_sweep,   &cli_emit,  &cli_simulate,
-                                              &cli_predict, &cli_diagnose, &cli_batch_command};
+                                              &cli_predict, &cli_diagnose, &cli_fit, &cli_batch_command};
 enum { COMMAND_COUNT = sizeof COMMANDS / sizeof COMMANDS[0] };
 
 static int print_usage(FILE *stream)

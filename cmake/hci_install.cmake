@@ -30,7 +30,7 @@ if(HCI_WITH_HOST)
             FILES_MATCHING PATTERN "*.h")
     install(TARGETS hci_host EXPORT hciHostTargets ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT host)
     install(EXPORT hciHostTargets NAMESPACE hci:: DESTINATION "${package_dir}" COMPONENT host)
-    install(FILES cmake/FindSuiteSparse.cmake cmake/FindcJSON.cmake DESTINATION "${package_dir}" COMPONENT host)
+    install(FILES cmake/FindSuiteSparse.cmake cmake/FindcJSON.cmake cmake/FindSQLite.cmake DESTINATION "${package_dir}" COMPONENT host)
     hci_install_pc(hci-host host)
 
     # Documents, data and examples lie as in the sources, so that links and commands in them hold there, too.

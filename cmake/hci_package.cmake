@@ -24,5 +24,5 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 # What programs linked with hci::host need.
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libsuitesparse-dev, libcjson-dev")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libsuitesparse-dev, libcjson-dev, libsqlite3-dev")
 include(CPack)

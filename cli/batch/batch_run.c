@@ -2,6 +2,7 @@
 
 #include "cli/batch/batch_run.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,7 +15,7 @@
 #include "cli/terminal/signals.h"
 #include "hci/version.h"
 
-#define KEEP_S 1.0 /* at least, between two writings of fleet.csv */
+#define KEEP_S 1.0 /* at least, between two writings of fleet.csv and fleet.sqlite */
 
 /* Writing takes at most this share of the time. */
 #define KEEP_SHARE 0.05
@@ -24,6 +25,7 @@ enum { PATH_SIZE = 4096, LONGEST_SAID = 4096 };
 /* What a process answers for a motor. */
 typedef struct {
     hci_status status; /* of writing; the rest counts where it is HCI_OK */
+    double seconds;
     char text[HCI_FLEET_ROW_SIZE];
 } answer;
 
@@ -34,6 +36,7 @@ typedef struct {
     size_t items, taken;
     double kept_s, keeping_s; /* when fleet.csv was written last, and how long that took */
     bool is_changed;          /* since then */
+    hci_fleet_stored stored;
     hci_status status;
     hci_note note;
 } crew;
@@ -110,6 +113,7 @@ static void do_motor(void *context, size_t motor, void *result)
     crew *c = context;
     const hci_fleet_results *r = &c->work->results;
     const hci_fleet_digest digest = digest_of(c->work->batch, motor);
+    const double begun_s = now_s();
     char part[PATH_SIZE];
     hci_note note = {{0}};
     answer a = {.status = hci_fleet_part(r, motor, part, sizeof part, &note)};
@@ -122,13 +126,15 @@ static void do_motor(void *context, size_t motor, void *result)
             a.status = hci_fleet_end(r, motor, &outcome, &digest, a.text, &note);
     }
     if (a.status) snprintf(a.text, sizeof a.text, "%s", note.text);
+    a.seconds = now_s() - begun_s;
     memcpy(result, &a, sizeof a);
 }
 
 /* ---- here ---- */
 
-static void take_row(crew *c, size_t motor, const char *row)
+static void take_row(crew *c, size_t motor, const char *row, double seconds)
 {
+    c->stored.seconds[motor] = seconds;
     c->work->row[motor] = strdup(row);
     if (!c->work->row[motor]) c->status = hci_note_memory(&c->note, NULL, "the rows of a fleet");
     c->is_changed = true;
@@ -153,7 +159,7 @@ static void take_lost(crew *c, size_t motor, int number)
         snprintf(outcome.reason, sizeof outcome.reason, "its process ended");
     }
     if (!c->status && !is_done) c->status = hci_fleet_end(r, motor, &outcome, &digest, row, &c->note);
-    if (!c->status) take_row(c, motor, row);
+    if (!c->status) take_row(c, motor, row, NAN);
 }
 
 static void take_answer(void *context, size_t motor, const void *result, int number)
@@ -168,7 +174,7 @@ static void take_answer(void *context, size_t motor, const void *result, int num
     if (a.status)
         c->status = hci_note_set(&c->note, a.status, "%s", a.text);
     else
-        take_row(c, motor, a.text);
+        take_row(c, motor, a.text, a.seconds);
 }
 
 static bool is_whole(const cli_batch_work *w)
@@ -182,7 +188,8 @@ static void keep(crew *c)
 {
     const double begun_s = now_s();
     hci_note note = {{0}};
-    const hci_status status = hci_fleet_write(&c->work->results, c->work->row, is_whole(c->work), &note);
+    hci_status status = hci_fleet_store(&c->work->results, c->work->row, &c->stored, &note);
+    if (!status) status = hci_fleet_write(&c->work->results, c->work->row, is_whole(c->work), &note);
     if (status && !c->status) c->status = hci_note_set(&c->note, status, "%s", note.text);
     c->is_changed = false;
     c->kept_s = now_s();
@@ -217,7 +224,7 @@ static hci_status list_items(crew *c, hci_note *note)
             is_done = false;
         }
         if (status) return status;
-        if (is_done) take_row(c, k, row);
+        if (is_done) take_row(c, k, row, NAN);
         if (!is_done && cli_shard_has(&w->shard, k)) c->item[c->items++] = k;
     }
     c->taken = 0;
@@ -252,13 +259,17 @@ hci_status cli_batch_run(cli_batch_work *work, hci_note *note)
     hci_status status = HCI_OK;
     work->row = calloc(count, sizeof *work->row);
     c.item = malloc(count * sizeof *c.item);
-    if (!work->row || !c.item) status = hci_note_memory(note, NULL, "the motors of a list");
+    c.stored = (hci_fleet_stored){calloc(count, sizeof(double)), calloc(count, sizeof(bool)), false};
+    if (!work->row || !c.item || !c.stored.seconds || !c.stored.is_stored)
+        status = hci_note_memory(note, NULL, "the motors of a list");
     cli_signals_defer();
     if (!status) status = hci_fleet_lock(&work->results, &lock, note);
     if (!status) status = list_items(&c, note);
     if (!status) status = do_motors(&c, note);
     hci_fleet_unlock(lock);
     free(c.item);
+    free(c.stored.seconds);
+    free(c.stored.is_stored);
     return status;
 }
 

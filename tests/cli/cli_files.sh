@@ -172,10 +172,14 @@ run 0 batch data/fleet/motors.csv --command solve -o "$work/batch" -q
 written "$work/batch/fleet.csv" '`fleet.csv` of solve'
 named "$work/batch/summary.json" 'summary.json of batch'
 printf 'motor,machine,runs,logs\nnone,none,none,none\n' >"$work/motors.csv"
-for command in diagnose tune; do
+for command in fit diagnose tune; do
     run 1 batch "$work/motors.csv" --command $command -o "$work/batch_$command" -q
     written "$work/batch_$command/fleet.csv" "\`fleet.csv\` of $command"
 done
+
+run 0 fit data/fem_c/machine --runs data/fem_c/runs.csv -o "$work/fitted" -q
+written "$work/fitted/parameters.csv" '`parameters.csv`'
+named "$work/fitted/summary.json" 'summary.json of fit'
 
 # ---- harmonics and predict
 
@@ -250,7 +254,7 @@ done
 
 # ---- no file is written that the page does not name
 
-for file in $(cd "$work" && find solve sweep_trade_off sweep_envelope sweep_map driven speeds diagnosed first emitted -type f | sed 's#.*/##' | sort -u); do
+for file in $(cd "$work" && find solve sweep_trade_off sweep_envelope sweep_map fitted driven speeds diagnosed first emitted -type f | sed 's#.*/##' | sort -u); do
     case $file in
         page.h | page.c) file=ID.${file#page.} ;;
     esac

@@ -50,7 +50,7 @@ field() {
 }
 version=$(sed -n 's/^#define HCI_VERSION_STRING "\(.*\)"/\1/p' "$source_dir/include/hci/version.h")
 [ "$(field Package) $(field Version)" = "hci-solve $version" ] || fail "control: $(field Package) $(field Version)"
-for library in libc6 libcholmod libcjson libspqr libumfpack; do
+for library in libc6 libcholmod libcjson libsqlite3- libspqr libumfpack; do
     field Depends | grep -q "$library[0-9]* (>= " || fail "does not depend on $library: $(field Depends)"
 done
 for name in Maintainer Section Description Architecture Installed-Size; do

@@ -83,13 +83,13 @@ check_includes() {
     # One file includes each outside library, that is, whatever neither C, nor the operating system, nor this project provides.
     includes_of src | awk -v allowed="$standard$posix" '
         { header = substr($2, 2, length($2) - 2) }
-        $2 ~ /^"/ && header !~ /(umfpack|SuiteSparseQR_C|cholmod|cJSON)\.h$/ { next }
+        $2 ~ /^"/ && header !~ /(umfpack|SuiteSparseQR_C|cholmod|cJSON|sqlite3)\.h$/ { next }
         index(allowed, " " header " ") { next }
         { sub(/^.*\//, "", header)
           if (header in owner && owner[header] != $1) print "one-owner: " header " in " $1 " and in " owner[header]
           owner[header] = $1 }'
     includes_of cli include | awk '
-        $2 ~ /(umfpack|SuiteSparseQR_C|cholmod|cJSON)\.h[>"]$/ { print "one-owner: " $2 " in " $1 }'
+        $2 ~ /(umfpack|SuiteSparseQR_C|cholmod|cJSON|sqlite3)\.h[>"]$/ { print "one-owner: " $2 " in " $1 }'
 }
 
 [ $# -eq 2 ] || { echo "usage: check.sh core|host|includes PATH" >&2; exit 2; }

@@ -62,6 +62,7 @@ include "two files know zlib.h" "one-owner: zlib.h in src/host/b.c and in src/ho
 include "two files know SuiteSparseQR_C.h" \
     'one-owner: SuiteSparseQR_C.h in src/host/b.c and in src/host/a.c' \
     src/host/a.c '#include "SuiteSparseQR_C.h"' src/host/b.c '#include <suitesparse/SuiteSparseQR_C.h>'
+include "cli knows sqlite3.h" "one-owner: <sqlite3.h> in cli/a.c" cli/a.c '#include <sqlite3.h>'
 include "cli knows cJSON.h" "one-owner: <cjson/cJSON.h> in cli/a.c" cli/a.c '#include <cjson/cJSON.h>'
 expect "an archive without members" "empty: no symbols in $work/none.a" core "$work/none.a"
 mkdir "$work/nothing"

@@ -1,7 +1,7 @@
 /* Cogging torque that is not declared. */
 #include "core/effects/type.h"
 
-enum { SINE, COSINE };
+enum { SINE, COSINE, MOST_ALIKE = 3 };
 
 static const hci_effect_parameter PARAMETER[] = {
     HCI_ORDERED("sine", "Nm", "of sin nθ", 1e-6, HCI_PARAMETER_LINEAR),
@@ -45,6 +45,25 @@ static void propose_coenergy(const hci_effect_coenergy_series *series, const hci
         hci_effect_propose_coenergy(to, SINE, 0, n, series->pole_pairs * n);
 }
 
+/* How many declared orders are larger. */
+static int rank_of(const hci_machine *machine, size_t order)
+{
+    int larger = 0;
+    for (size_t k = 0; k < machine->cogging_count; ++k) {
+        const hci_harmonic *a = &machine->cogging[k], *b = &machine->cogging[order];
+        const double by = hypot(a->sine, a->cosine) - hypot(b->sine, b->cosine);
+        larger += by > 0.0 || (by == 0.0 && k < order);
+    }
+    return larger;
+}
+
+static void propose_alike(const hci_machine *machine, const hci_effect_proposals *to)
+{
+    for (size_t k = 0; k < machine->cogging_count; ++k)
+        if (machine->cogging[k].order > 0.0 && rank_of(machine, k) < MOST_ALIKE)
+            hci_effect_propose(to, SINE, 2, machine->cogging[k].order, 1.0, 0.0);
+}
+
 const hci_effect_type hci_effect_cogging = {
     .name = "cogging",
     .equation = "T = Σ S sin nθ + C cos nθ",
@@ -52,6 +71,7 @@ const hci_effect_type hci_effect_cogging = {
     HCI_EFFECT_PARAMETERS(PARAMETER),
     .any_phase = true,
     .propose = propose,
+    .propose_alike = propose_alike,
     .propose_coenergy = propose_coenergy,
     .in_machine = true,
     .torque_of_all = torque_of_all,

@@ -55,6 +55,12 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
     hci_effect_propose_phases(to, EXPECTED * survey->current_A);
 }
 
+static void propose_alike(const hci_machine *machine, const hci_effect_proposals *to)
+{
+    (void)machine;
+    hci_effect_propose(to, 0, 2, 0.0, 1.0, 0.0);
+}
+
 const hci_effect_type hci_effect_current_offset = {
     .name = "current_offset",
     .equation = "i_s,read = i_s + o_s",
@@ -64,6 +70,7 @@ const hci_effect_type hci_effect_current_offset = {
     .told_by = "a torque transducer and currents of their own",
     .sum_by_value = sum_by_value,
     .propose = propose,
+    .propose_alike = propose_alike,
     .sense = sense,
     .undo = undo,
     .undo_adjoint = undo_adjoint,

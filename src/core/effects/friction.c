@@ -65,6 +65,12 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
     if (survey->moving || survey->timed) hci_effect_propose(to, COULOMB, survey->speeds, 0.0, 1.0, 0.0);
 }
 
+static void propose_alike(const hci_machine *machine, const hci_effect_proposals *to)
+{
+    (void)machine;
+    hci_effect_propose(to, COULOMB, 2, 0.0, 1.0, 0.0);
+}
+
 const hci_effect_type hci_effect_friction = {
     .name = "friction",
     .equation = "T = −(T_c sign ω + B ω + Q ω |ω|)",
@@ -74,6 +80,7 @@ const hci_effect_type hci_effect_friction = {
     .without = "without a speed friction and delays are left out",
     .told_by = "the other direction of rotation, or three speeds",
     .propose = propose,
+    .propose_alike = propose_alike,
     .torque = torque,
     .drag_Nm = drag_Nm,
     .coulomb_Nm = coulomb_Nm,

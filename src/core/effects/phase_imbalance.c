@@ -33,6 +33,12 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
     hci_effect_propose_phases(to, EXPECTED);
 }
 
+static void propose_alike(const hci_machine *machine, const hci_effect_proposals *to)
+{
+    (void)machine;
+    hci_effect_propose_phases(to, EXPECTED);
+}
+
 const hci_effect_type hci_effect_phase_imbalance = {
     .name = "phase_imbalance",
     .equation = "T = Σ_s g_s e_s(θ) i_s",
@@ -41,6 +47,7 @@ const hci_effect_type hci_effect_phase_imbalance = {
     .is_small = true,
     .when_equal = &hci_effect_back_emf,
     .propose = propose,
+    .propose_alike = propose_alike,
     .in_machine = true,
     .torque_of_all = torque_of_all,
 };

@@ -40,6 +40,12 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
     hci_effect_propose(to, ANGLE, 1, 0.0, 1.0, EXPECTED_RAD);
 }
 
+static void propose_alike(const hci_machine *machine, const hci_effect_proposals *to)
+{
+    (void)machine;
+    hci_effect_propose(to, ANGLE, 1, 0.0, 1.0, EXPECTED_RAD);
+}
+
 const hci_effect_type hci_effect_position_offset = {
     .name = "position_offset",
     .equation = "θ_read = θ + δ",
@@ -47,6 +53,7 @@ const hci_effect_type hci_effect_position_offset = {
     HCI_EFFECT_PARAMETERS(PARAMETER),
     .is_angle_zero = true,
     .propose = propose,
+    .propose_alike = propose_alike,
     .sense = sense,
     .undo = undo,
     .undo_adjoint = undo_adjoint,

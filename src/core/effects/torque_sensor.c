@@ -185,6 +185,12 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
     if (survey->timed) hci_effect_propose(to, TIME_CONSTANT, 1, 0.0, 1.0, 0.0);
 }
 
+static void propose_alike(const hci_machine *machine, const hci_effect_proposals *to)
+{
+    (void)machine;
+    hci_effect_propose(to, OFFSET, 1, 0.0, 1.0, 0.0);
+}
+
 const hci_effect_type hci_effect_torque_sensor = {
     .name = "torque_sensor",
     .equation = "T_read = G(s) T + offset, G = 1/(1 + τs) · 1/(1 + 2ζs/ω_n + s²/ω_n²)",
@@ -196,6 +202,7 @@ const hci_effect_type hci_effect_torque_sensor = {
     .resonance = RESONANCE,
     .lag = LAG,
     .propose = propose,
+    .propose_alike = propose_alike,
     .torque = torque,
     .simulate = simulate,
     .filter = filter,

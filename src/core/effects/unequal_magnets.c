@@ -10,7 +10,7 @@
  * a co-energy and M T_cog does no work over a turn. */
 #include "core/effects/type.h"
 
-enum { SINE };
+enum { SINE, MOST_ALIKE = 2 };
 
 static const hci_effect_parameter PARAMETER[] = {
     HCI_ORDERED("sine", "1", "relative change of the flux, of sin nθ", 1e-6, HCI_PARAMETER_LINEAR),
@@ -62,6 +62,12 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
         hci_effect_propose(to, SINE, 2, survey->flux_order[k], survey->machine->pole_pairs, EXPECTED);
 }
 
+static void propose_alike(const hci_machine *machine, const hci_effect_proposals *to)
+{
+    for (int k = 1; k < machine->pole_pairs && k <= MOST_ALIKE; ++k)
+        hci_effect_propose(to, SINE, 2, (double)k / machine->pole_pairs, 1.0, EXPECTED);
+}
+
 const hci_effect_type hci_effect_unequal_magnets = {
     .name = "unequal_magnets",
     .equation = "T = (e(θ)·i + 2 T_cog(θ)) Σ S sin nθ + C cos nθ, n = k/p",
@@ -73,6 +79,7 @@ const hci_effect_type hci_effect_unequal_magnets = {
     .told_by = "no current: then only the orders around those of cogging are left",
     .is_small = true,
     .propose = propose,
+    .propose_alike = propose_alike,
     .in_machine = true,
     .torque_of_all = torque_of_all,
 };

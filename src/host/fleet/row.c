@@ -33,7 +33,13 @@ static const figure FIGURES[][8] = {
                          {"worst_order", "torque", "worst_order"},
                          {"peak_phase_A", "current", "peak_phase_A"},
                          {"loss_ratio_to_plain", "current", "loss_ratio_to_plain"}},
+    [HCI_FLEET_FIT] = {{"rms_before_Nm", NULL, "rms_before_Nm"}, {"rms_after_Nm", NULL, "rms_after_Nm"}},
 };
+
+static bool has_effects(hci_fleet_command command)
+{
+    return command == HCI_FLEET_DIAGNOSE || command == HCI_FLEET_TUNE;
+}
 
 /* ---- cells ---- */
 
@@ -85,7 +91,7 @@ static void put_effects(const hci_words *row, hci_fleet_command command, const c
     char path[PATH_SIZE], text[CELL_SIZE];
     hci_note ignored = {{0}};
     hci_csv *csv = NULL;
-    if (command == HCI_FLEET_SOLVE) return;
+    if (!has_effects(command)) return;
     snprintf(path, sizeof path, "%s/%seffects.csv", part, command == HCI_FLEET_TUNE ? "diagnose/" : "");
     (void)hci_csv_read(path, &csv, &ignored);
     for (int k = 0; k < 2; ++k) {
@@ -103,7 +109,7 @@ void hci_fleet_header(hci_fleet_command command, char header[HCI_FLEET_ROW_SIZE]
     const hci_words row = {header, HCI_FLEET_ROW_SIZE};
     header[0] = '\0';
     hci_words_say(&row, "motor,serial,batch,date,state,exit_code,verdict,reason,");
-    if (command != HCI_FLEET_SOLVE) hci_words_say(&row, "effects,ambiguous,");
+    if (has_effects(command)) hci_words_say(&row, "effects,ambiguous,");
     for (const figure *f = FIGURES[command]; f->column; ++f)
         hci_words_say(&row, "%s,", f->column);
     hci_words_say(&row, "words_digest");

@@ -15,13 +15,15 @@ extern "C" {
 #define HCI_FLEET_COMMAND_NAMES(X)                                                                           \
     X(HCI_FLEET_DIAGNOSE, "diagnose")                                                                        \
     X(HCI_FLEET_TUNE, "tune")                                                                                \
-    X(HCI_FLEET_SOLVE, "solve")
+    X(HCI_FLEET_SOLVE, "solve")                                                                              \
+    X(HCI_FLEET_FIT, "fit")
 
 /* What is run on each motor. */
 typedef enum {
     HCI_FLEET_DIAGNOSE, /* what its model lacks */
     HCI_FLEET_TUNE,     /* from its logs to a table */
-    HCI_FLEET_SOLVE     /* its currents */
+    HCI_FLEET_SOLVE,    /* its currents */
+    HCI_FLEET_FIT       /* the parameters in common */
 } hci_fleet_command;
 
 /* The word of a command; a static string. */
@@ -116,6 +118,19 @@ hci_fleet_count hci_fleet_count_rows(char *const *row, size_t count);
 /* Writes fleet.csv: the rows that are not NULL, in the order of the list; and where is_complete summary.json
  * beside it. HCI_ERROR_OUTPUT, _MEMORY. */
 hci_status hci_fleet_write(const hci_fleet_results *results, char *const *row, bool is_complete,
+                           hci_note *note);
+
+/* How far fleet.sqlite has come. Start with {0}. */
+typedef struct {
+    double *seconds; /* that each motor of the list took; NAN: not known */
+    bool *is_stored; /* of each: it has its row there */
+    bool is_begun;   /* the first hci_fleet_store has been */
+} hci_fleet_stored;
+
+/* Brings fleet.sqlite up to the rows that are not NULL, in one transaction: table `motor` with the columns of
+ * fleet.csv and `seconds`, table `parameter` with the rows of parameters.csv of each motor. The first call
+ * takes out motors that are not done. HCI_ERROR_OUTPUT, _MEMORY. */
+hci_status hci_fleet_store(const hci_fleet_results *results, char *const *row, hci_fleet_stored *stored,
                            hci_note *note);
 
 #ifdef __cplusplus

@@ -1,0 +1,57 @@
+/* The same terms fitted to each motor of one make: in which it differs from what is declared of all, without a
+ * search, so that motors can be compared. */
+#ifndef HCI_HOST_FLEET_FIT_H
+#define HCI_HOST_FLEET_FIT_H
+
+#include "hci/host/machine/effects.h"
+#include "hci/host/machine/machine.h"
+#include "hci/host/recording/run.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Most parameters of a motor, and bytes of the name of one. */
+enum { HCI_FLEET_MOST_PARAMETERS = 40, HCI_FLEET_PARAMETER_SIZE = 40 };
+
+/* By how much a motor differs in one respect. */
+typedef struct {
+    char effect[HCI_FLEET_PARAMETER_SIZE];    /* as in effects.csv; equal values of three phases: what they
+                                               * look like */
+    char parameter[HCI_FLEET_PARAMETER_SIZE]; /* as in effects.csv; `common`: the mean of the three phases,
+                                               * whose own values are then without it */
+    char unit[HCI_FLEET_PARAMETER_SIZE];      /* of value and std_error */
+    double value;                             /* beyond what is declared; NAN: the recordings do not tell */
+    double std_error;                         /* by the noise alone; NAN with value */
+} hci_fleet_parameter;
+
+/* What was fitted. */
+typedef struct {
+    hci_fleet_parameter parameter[HCI_FLEET_MOST_PARAMETERS]; /* in the order of the effects */
+    size_t count;                       /* entries of parameter */
+    double rms_before_Nm, rms_after_Nm; /* measured less modelled torque: as declared, and fitted */
+    size_t samples;                     /* of all runs that were fitted */
+} hci_fleet_fit;
+
+/* Fits the terms that each effect names for this, together and with equal weights, to all samples with a
+ * measured torque of the runs to be fitted: Gauss–Newton steps from what is declared. A term that the runs
+ * cannot tell from those before it stays as declared. Standard errors are those of white noise, widened for
+ * noise that is correlated from sample to sample. HCI_ERROR_INPUT where no run tells a torque, _NUMERIC,
+ * _MEMORY. O(samples·terms²). */
+hci_status hci_fleet_fit_runs(const hci_machine_data *machine, const hci_effects *declared,
+                              const hci_runs *runs, hci_fleet_fit *fit, hci_note *note);
+
+/* As in summary.json of `fit`; to be freed with hci_text_free, NULL when memory is out. */
+char *hci_fleet_fit_json(const hci_fleet_fit *fit);
+
+/* Writes parameters.csv and summary.json. HCI_ERROR_OUTPUT, _MEMORY. */
+hci_status hci_fleet_fit_write(const hci_fleet_fit *fit, const char *folder, hci_note *note);
+
+/* Reads both from a folder; false in *is_there where it has none. HCI_ERROR_INPUT, _MEMORY. */
+hci_status hci_fleet_fit_read(const char *folder, hci_fleet_fit *fit, bool *is_there, hci_note *note);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
