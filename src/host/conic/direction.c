@@ -6,8 +6,6 @@
 #include "core/math/vector.h"
 #include "hci/math/dense.h"
 
-enum { REFINEMENTS = 2 };
-
 /* ---- the normal equations ---- */
 
 /* Weights of the linear rows; a two-sided one has that of both its sides. */
@@ -122,7 +120,7 @@ static void fill_right(hci_cone_state *v, double share)
         v->right[j] = -v->right[j];
 }
 
-void hci_cone_direction(hci_cone_state *v, double share)
+void hci_cone_direction(hci_cone_state *v, double share, int refinements)
 {
     hci_cone_divide(&v->cone, v->scaling.point, v->ds, v->ds);
     hci_cone_apply(&v->scaling, 0, v->ds, v->ds); /* W(λ \ d) */
@@ -134,6 +132,6 @@ void hci_cone_direction(hci_cone_state *v, double share)
         v->ds[k] = -share * v->rs[k] - v->weighed[k];
     }
     divide_twice(v, v->dz);
-    for (int k = 0; k < REFINEMENTS; ++k)
+    for (int k = 0; k < refinements; ++k)
         refine(v, share);
 }

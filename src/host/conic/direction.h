@@ -13,7 +13,7 @@ bool hci_cone_normal_factor(hci_cone_state *solver);
 void hci_cone_normal_solve(const hci_cone_state *solver);
 
 /* dx, ds, dz of P dx + Gᵀdz = −share·rx, G dx + ds = −share·rs, λ∘(W dz + W⁻¹ds) = d. d: in solver->ds, which
- * becomes ds. */
-void hci_cone_direction(hci_cone_state *solver, double share);
+ * becomes ds. refinements: how often what rounding leaves of the first equation is solved for again. */
+void hci_cone_direction(hci_cone_state *solver, double share, int refinements);
 
 #endif

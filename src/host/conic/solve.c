@@ -10,10 +10,17 @@
 #include "host/base/memory.h"
 #include "host/conic/direction.h"
 
-enum { MOST_STEPS = 150, MOST_IDLE = 30, MOST_SHORTER = 20 };
+enum {
+    MOST_STEPS = 150,
+    MOST_IDLE = 60, /* steps in which the error is not halved */
+    FEW_IDLE = 3,   /* the same where rounding is all that is left */
+    MOST_SHORTER = 20,
+    REFINEMENTS = 2 /* of a direction that is taken */
+};
 
 #define EXACT       1e-10 /* relative residuals and gap at which it ends at the latest */
 #define GOOD        1e-7  /* and below which the best point is called solved */
+#define ROUNDED     1e-8  /* and below which rounding may be all that is left */
 #define CERTAIN     1e-8  /* relative residual of a proof that there is no solution */
 #define TO_BOUNDARY 0.99  /* share of the way to the boundary */
 #define CENTRED     1e-3  /* share of the mean product of s and z below which none may fall */
@@ -39,7 +46,7 @@ static void predict(hci_cone_state *v)
     hci_cone_product(&v->cone, v->scaling.point, v->scaling.point, v->ds);
     for (size_t k = 0; k < v->entries; ++k)
         v->ds[k] = -v->ds[k];
-    hci_cone_direction(v, 1.0);
+    hci_cone_direction(v, 1.0, 0);
 }
 
 /* d = −λ∘λ − (W⁻¹ds)∘(W dz) + σμ e, of the direction predicted. */
@@ -52,7 +59,7 @@ static void correct(hci_cone_state *v, double sigma, double mu)
     for (size_t k = 0; k < v->entries; ++k)
         v->ds[k] = -v->ds[k] - v->dz[k];
     hci_cone_add_unit(&v->cone, sigma * mu, v->ds);
-    hci_cone_direction(v, 1.0 - sigma);
+    hci_cone_direction(v, 1.0 - sigma, REFINEMENTS);
 }
 
 /* The longest step after which no product s·z is far below the mean of all, for from there the next steps
@@ -185,13 +192,18 @@ static void keep_best(hci_cone_state *v, double error)
     memcpy(v->best_z, v->z, v->entries * sizeof *v->z);
 }
 
+static bool is_idle(const hci_cone_state *v)
+{
+    return v->idle >= (v->best > ROUNDED ? MOST_IDLE : FEW_IDLE);
+}
+
 static void iterate(hci_cone_state *v, hci_cone_answer *a)
 {
     const double enough = fmax(EXACT, v->problem->precision);
     bool goes_on = begin(v);
     v->best = HUGE_VAL;
     a->end = HCI_CONE_STALLED;
-    while (goes_on && v->best > enough && a->steps < MOST_STEPS && v->idle < MOST_IDLE) {
+    while (goes_on && v->best > enough && a->steps < MOST_STEPS && !is_idle(v)) {
         keep_best(v, residuals(v));
         if (v->best > GOOD && is_hopeless(v, &a->end)) {
             memcpy(v->best_x, v->x, v->n * sizeof *v->x);

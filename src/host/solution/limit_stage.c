@@ -10,14 +10,20 @@
 #include "host/solution/limit_rows.h"
 
 #define LEAST_PRICE 1e-9 /* of current where nothing else prices it, lest it be without bounds */
+#define LOW_PRICE   1e-7 /* the same beside the ripple, so that it is the same currents that are looked for */
 #define WORST_ERROR 1e-5 /* of a program, relative, that is taken as solved */
+
+static double price_of_copper(hci_limit_stage stage)
+{
+    if (stage == HCI_STAGE_COPPER) return 1.0;
+    return stage == HCI_STAGE_RIPPLE ? LOW_PRICE : LEAST_PRICE;
+}
 
 static void fill_objective(hci_limit_build *b)
 {
-    for (size_t j = 0; j < b->coordinates; ++j) {
-        const double copper = hci_limit_copper_of(b->of->field.set->component[j / 2], (int)(j % 2));
-        b->p[j * (b->n + 1)] = b->stage == HCI_STAGE_COPPER ? copper : LEAST_PRICE * copper;
-    }
+    for (size_t j = 0; j < b->coordinates; ++j)
+        b->p[j * (b->n + 1)] =
+            price_of_copper(b->stage) * hci_limit_copper_of(b->of->field.set->component[j / 2], (int)(j % 2));
     if (b->stage != HCI_STAGE_COPPER) b->c[hci_limit_objective(b)] = 1.0;
     for (size_t j = b->coordinates; b->stage == HCI_STAGE_COPPER && j < b->n; ++j)
         b->p[j * (b->n + 1)] = LEAST_PRICE;

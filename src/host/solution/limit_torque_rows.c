@@ -73,7 +73,7 @@ static void add_torque_head(hci_limit_build *b)
     if (b->stage == HCI_STAGE_RIPPLE)
         row[hci_limit_objective(b)] = -1.0;
     else
-        row[b->n] = p->ripple_Nm * (1.0 + p->slack) / p->scale_Nm + 0.1 * p->slack;
+        row[b->n] = p->ripple_Nm / p->scale_Nm + p->slack;
 }
 
 static void add_torque_row(hci_limit_build *b, size_t k)
@@ -130,7 +130,7 @@ void hci_limit_add_swing(hci_limit_build *b)
     if (b->stage == HCI_STAGE_RIPPLE)
         row[hci_limit_objective(b)] = -1.0;
     else
-        row[b->n] = p->ripple_Nm * (1.0 + p->slack) / p->scale_Nm + 0.1 * p->slack;
+        row[b->n] = p->ripple_Nm / p->scale_Nm + p->slack;
 }
 
 static void add_equation(hci_limit_build *b, size_t k)

@@ -12,6 +12,8 @@
 #include "host/solution/limits.h"
 #include "host/solve/linear.h"
 
+#define NEAR 1e-4 /* share of the torque to which an answer without its last steps tells the mean */
+
 static hci_status out_of_memory(hci_note *note)
 {
     return hci_note_memory(note, NULL, "solving within limits");
@@ -56,7 +58,7 @@ static hci_status start_at_sine(const hci_wishes *w, const hci_answer *a, double
     double from[2] = {0.0, 0.0};
     hci_status status = hci_wishes_begin(&sine, note);
     start(&sine, a, from);
-    if (!status) status = hci_limited_path_follow(&sine, from, note);
+    if (!status) status = hci_limited_path_approach(&sine, from, note);
     for (size_t k = 0; k < w->set.count && !status; ++k)
         for (size_t part = 0; part < 2; ++part)
             x[2 * k + part] = is_fundamental(w->set.component[k]) ? sine.x[part] : 0.0;
@@ -73,14 +75,35 @@ typedef struct {
     hci_solution solution;
 } beginning;
 
-/* The better of what was found and what comes of the best sine: w->x. */
-static hci_status better(hci_wishes *w, const hci_answer *a, beginning *first, double *x, hci_note *note)
+static hci_status merit_of(const hci_wishes *w, hci_limit_merit *merit, hci_note *note)
+{
+    return hci_limited_path_merit(w, w->x, merit, note);
+}
+
+/* Whether what the best sine leads to may have a mean that is nearer to the wanted one by more than it is
+ * known to. x: out, its currents. */
+static hci_status try_sine(hci_wishes *w, const hci_answer *a, const beginning *first, double *x,
+                           hci_note *note)
 {
     hci_limit_merit merit;
     hci_status status = start_at_sine(w, a, x, note);
     w->is_hard = false;
+    w->program.points.count = 0;
+    if (!status) status = hci_limited_path_approach(w, x, note);
+    if (!status) status = merit_of(w, &merit, note);
+    if (status) return status;
+    memcpy(x, w->x, 2 * w->set.count * sizeof *x);
+    return merit.mean_error_Nm < first->merit.mean_error_Nm - NEAR * w->program.scale_Nm ? HCI_OK
+                                                                                         : HCI_ERROR_NUMERIC;
+}
+
+/* The better of what was found and what comes of the best sine: w->x. */
+static hci_status better(hci_wishes *w, const hci_answer *a, beginning *first, double *x, hci_note *note)
+{
+    hci_limit_merit merit;
+    hci_status status = try_sine(w, a, first, x, note);
     if (!status) status = hci_limited_path_follow(w, x, note);
-    if (!status) status = hci_limited_path_merit(w, w->x, &merit, note);
+    if (!status) status = merit_of(w, &merit, note);
     if (status == HCI_ERROR_MEMORY) return status;
     if (!status && hci_limit_merit_less(&merit, &first->merit, w->program.scale_Nm)) return HCI_OK;
     memcpy(w->x, first->x, 2 * w->set.count * sizeof *w->x);
@@ -107,7 +130,7 @@ static hci_status begin_again(hci_wishes *w, const hci_answer *a, double *x, hci
         memcpy(first.x, w->x, 2 * w->set.count * sizeof *w->x);
         first.cost = w->cost;
         first.solution = *w->of->solution;
-        status = hci_limited_path_merit(w, w->x, &first.merit, note);
+        status = merit_of(w, &first.merit, note);
     }
     if (!status) status = better(w, a, &first, x, note);
     hci_memory_free(first.x);

@@ -10,15 +10,16 @@
 
 enum {
     MOST_STEPS = 60,
-    PATIENCE = 14, /* steps in which the change is not halved, after which the distance is bounded */
-    POLISHES = 3,  /* steps after the last, each within less of it */
-    HALVES = 5     /* of the currents that the first step begins at, where rounding spoils it */
+    PATIENCE = 6, /* steps in which neither the change is halved nor the torque better, after which the
+                   * distance is bounded */
+    POLISHES = 3, /* steps after the last, each within less of it */
+    HALVES = 5    /* of the currents that the first step begins at, where rounding spoils it */
 };
 
 #define FAR           3e-2 /* change of the current above which programs are solved roughly */
 #define COARSE        1e-6 /* change of the current above which steps are coarse */
 #define CONVERGED     1e-8 /* change of the current as a share of it */
-#define CLOSE         1e-4 /* distance as a share of the current at which nothing better is near */
+#define CLOSE         3e-3 /* distance as a share of the current at which nothing better is near */
 #define SETTLING      1e-2 /* the same for the last step, which brings peaks within their limits */
 #define POLISH        0.1  /* of that distance, for each further step */
 #define LEAST_SHARE   0.1  /* of the way to an answer */
@@ -133,10 +134,11 @@ static void bound(path *p)
     memcpy(p->from, p->best, p->n * sizeof *p->from);
 }
 
-/* Whether the change has not been halved for a while. */
-static bool is_restless(path *p)
+/* Whether for a while the change has not been halved and the torque not been better. */
+static bool is_restless(path *p, bool is_better)
 {
     ++p->idle;
+    if (is_better) p->idle = 0;
     if (p->change < 0.5 * p->least_change) {
         p->least_change = p->change;
         p->idle = 0;
@@ -185,7 +187,7 @@ static hci_status advance(path *p, hci_note *note)
     p->change = distance(p, p->wishes->x, p->from) / fmax(length(p, p->wishes->x), 1e-12);
     if (p->radius_A > 0.0)
         move_bounded(p, is_better);
-    else if (is_restless(p))
+    else if (is_restless(p, is_better))
         bound(p);
     else
         move_freely(p, before);
@@ -195,7 +197,7 @@ static hci_status advance(path *p, hci_note *note)
 static bool goes_on(const path *p)
 {
     if (p->radius_A > 0.0) return p->radius_A > CLOSE * length(p, p->from);
-    return p->change > CONVERGED || p->wishes->is_coarse;
+    return p->wishes->is_coarse || p->change > COARSE || (p->change > CONVERGED && p->idle == 0);
 }
 
 /* ---- the last steps ---- */
@@ -296,17 +298,31 @@ static hci_status iterate(path *p, hci_note *note)
         status = advance(p, note);
     s->newton_steps += (size_t)k;
     s->newton_converged = k < MOST_STEPS;
-    if (!status && p->radius_A > 0.0) status = settle(p, note);
     s->newton_change = p->change;
     return status;
+}
+
+static void end(path *p)
+{
+    hci_anderson_release(&p->mixing);
+    hci_memory_free(p->best);
+    p->wishes->program.centre = NULL;
 }
 
 hci_status hci_limited_path_follow(hci_wishes *wishes, double *from, hci_note *note)
 {
     path p = {.wishes = wishes, .n = 2 * wishes->set.count, .from = from};
-    const hci_status status = is_linear(wishes) ? step(&p, note) : iterate(&p, note);
-    hci_anderson_release(&p.mixing);
-    hci_memory_free(p.best);
-    wishes->program.centre = NULL;
+    hci_status status = is_linear(wishes) ? step(&p, note) : iterate(&p, note);
+    if (!status && p.radius_A > 0.0) status = settle(&p, note);
+    end(&p);
+    return status;
+}
+
+hci_status hci_limited_path_approach(hci_wishes *wishes, double *from, hci_note *note)
+{
+    path p = {.wishes = wishes, .n = 2 * wishes->set.count, .from = from};
+    const hci_status status = iterate(&p, note);
+    if (!status && p.radius_A > 0.0) memcpy(wishes->x, p.best, p.n * sizeof *p.best);
+    end(&p);
     return status;
 }

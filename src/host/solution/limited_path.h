@@ -11,6 +11,10 @@
  * than that. wishes->x is the answer. Fills the steps of the solution. HCI_ERROR_NUMERIC, _MEMORY. */
 hci_status hci_limited_path_follow(hci_wishes *wishes, double *from, hci_note *note);
 
+/* The same to a few thousandths of the currents, without the last steps that bring peaks between the angles
+ * within the limits. */
+hci_status hci_limited_path_approach(hci_wishes *wishes, double *from, hci_note *note);
+
 /* How good the true torque of coordinates x is. HCI_ERROR_MEMORY. */
 hci_status hci_limited_path_merit(const hci_wishes *wishes, const double *x, hci_limit_merit *merit,
                                   hci_note *note);

@@ -13,16 +13,18 @@ enum {
     MOST_ROUNDS = 40 /* of adding peaks, each of which squares the error */
 };
 
-#define ROUGH 1e-6 /* of the solver while peaks are still looked for */
-#define NEAR  0.97 /* share of a limit from which a peak of the last answer is kept as a row */
-#define IDLE  0.7  /* share of a limit below which an angle is left out until a peak is there */
+#define ROUGH  1e-6 /* of the solver while peaks are still looked for */
+#define NEAR   0.97 /* share of a limit from which a peak of the last answer is kept as a row */
+#define BESIDE 0.25 /* of the spacing of samples: of points nearer than that the last is kept */
+#define IDLE   0.7  /* share of a limit below which an angle is left out until a peak is there */
 
 static hci_status out_of_memory(hci_note *note)
 {
     return hci_note_memory(note, NULL, "solving within limits");
 }
 
-/* What a grid's quantity has to stay within; false where this stage does not ask for it. */
+/* What a grid's quantity has to stay within; false where this stage does not ask for it, as of the torque
+ * where every order is an equation: highest and lowest are then of no meaning. */
 static bool range_of(const hci_wishes *l, const hci_limit_grid *g, hci_limit_stage stage,
                      const hci_limit_optimum *o, double range[2])
 {
@@ -33,7 +35,7 @@ static bool range_of(const hci_wishes *l, const hci_limit_grid *g, hci_limit_sta
                      is_torque ? 0.0 : hci_limit_of_point(p->bounds, g->kind, g->phase) * (1.0 + p->widened);
     range[1] = is_torque ? o->highest_Nm + margin_Nm : limit * (1.0 - HCI_LIMIT_MARGIN);
     range[0] = is_torque ? o->lowest_Nm - margin_Nm : -range[1];
-    return !is_torque || stage >= HCI_STAGE_RIPPLE;
+    return !is_torque || stage == HCI_STAGE_RIPPLE || (stage == HCI_STAGE_COPPER && !p->has_ripple);
 }
 
 /* Adds the peaks of an optimum beyond a limit; *added: how many. */
@@ -78,6 +80,28 @@ static hci_status try_round(hci_wishes *l, hci_limit_stage stage, hci_limit_opti
     return status;
 }
 
+/* Spacing of the samples at which peaks of a point's quantity are looked for. */
+static double step_rad(const hci_limit_program *p, const hci_limit_point *at)
+{
+    for (size_t q = 0; q < p->grids; ++q)
+        if (p->grid[q].kind == at->kind && p->grid[q].phase == at->phase) return p->grid[q].step_rad;
+    return 0.0;
+}
+
+/* Whether a later point is next to point k, which then says nothing new. */
+static bool is_repeated(const hci_limit_program *p, size_t k)
+{
+    const hci_limit_point *at = &p->points.point[k];
+    const double near_rad = BESIDE * step_rad(p, at);
+    for (size_t j = k + 1; j < p->points.count; ++j) {
+        const hci_limit_point *later = &p->points.point[j];
+        if (later->kind == at->kind && later->phase == at->phase &&
+            fabs(later->theta_rad - at->theta_rad) < near_rad)
+            return true;
+    }
+    return false;
+}
+
 hci_status hci_wish_forget(hci_wishes *l, hci_note *note)
 {
     hci_limit_program *p = &l->program;
@@ -87,6 +111,7 @@ hci_status hci_wish_forget(hci_wishes *l, hci_note *note)
     if (!row) return out_of_memory(note);
     for (size_t k = 0; k < p->points.count; ++k) {
         const hci_limit_point *at = &p->points.point[k];
+        if (is_repeated(p, k)) continue;
         const double limit = hci_limit_of_point(p->bounds, at->kind, at->phase) * (1.0 + p->widened),
                      constant = hci_limit_row(&p->field, at, row);
         if (at->kind == HCI_POINT_TORQUE ||
@@ -98,6 +123,12 @@ hci_status hci_wish_forget(hci_wishes *l, hci_note *note)
     return HCI_OK;
 }
 
+/* While the currents come to rest by themselves, which they do not where each answer is a little off. */
+static bool needs_precision(const hci_wishes *l)
+{
+    return l->is_coarse && !l->is_far && !(l->program.radius_A > 0.0);
+}
+
 /* Roughly until no peaks are left, then precisely until there are none either. */
 hci_status hci_wish_solve(hci_wishes *l, hci_limit_stage stage, hci_limit_optimum *o, hci_note *note)
 {
@@ -105,7 +136,7 @@ hci_status hci_wish_solve(hci_wishes *l, hci_limit_stage stage, hci_limit_optimu
     bool goes_on = true;
     hci_status status = HCI_OK;
     memset(o, 0, sizeof *o);
-    l->program.precision = l->is_coarse && !l->is_far ? 0.0 : ROUGH;
+    l->program.precision = needs_precision(l) ? 0.0 : ROUGH;
     for (int round = 0; round < rounds_of(l) && goes_on && !status; ++round) {
         status = try_round(l, stage, o, &goes_on, note);
         if (!status && goes_on) status = add_peaks(l, stage, o, &added, note);

@@ -10,7 +10,8 @@
 hci_status hci_wish_solve(hci_wishes *wishes, hci_limit_stage stage, hci_limit_optimum *optimum,
                           hci_note *note);
 
-/* Takes peaks that the last answer is not near out of the program, lest rows that no longer matter become
+/* Takes peaks that the last answer is not near, or that have another beside them, out of the program, lest
+ * rows that no longer matter become
  * many. HCI_ERROR_MEMORY. */
 hci_status hci_wish_forget(hci_wishes *wishes, hci_note *note);
 

@@ -193,10 +193,19 @@ static hci_status try_all(hci_wishes *l, bool *is_met, hci_note *note)
     return status == HCI_ERROR_MEMORY ? out_of_memory(note) : HCI_OK;
 }
 
+/* Whether the answer is only to tell where the torque is to be made linear next: then the copper does not
+ * matter, nor the ripple where the mean is far off. */
+static bool is_sketch(const hci_wishes *l)
+{
+    return l->is_far || (l->is_coarse && l->program.radius_A > 0.0);
+}
+
 static hci_status after_mean(hci_wishes *l, hci_note *note)
 {
-    const hci_status status = find_ripple(l, note);
-    return status ? status : find_copper(l, note);
+    hci_status status = HCI_OK;
+    if (l->is_far && !l->program.has_mean) return status;
+    status = find_ripple(l, note);
+    return status || (is_sketch(l) && !l->program.has_ripple) ? status : find_copper(l, note);
 }
 
 /* Limits that were widened leave next to no room. Where that is too little for a further wish, the currents
@@ -253,7 +262,7 @@ hci_status hci_wishes_begin(hci_wishes *wishes, hci_note *note)
 hci_status hci_wishes_meet(hci_wishes *wishes, hci_note *note)
 {
     hci_status status = hci_wishes_program_make(wishes, note);
-    if (!status && wishes->is_far) status = hci_wish_forget(wishes, note);
+    if (!status && (wishes->is_far || wishes->program.radius_A > 0.0)) status = hci_wish_forget(wishes, note);
     return status ? status : all_wishes(wishes, note);
 }
 

@@ -181,22 +181,15 @@ static hci_grid_plan plan_trade_off(void)
     return plan;
 }
 
-/* Ripple falls from the first limit at which the torque is reached to none; every limit is kept. The solver
- * does not come to working precision at all of them; such a point is a row with a reason, and not the end. */
-enum { MOST_FAILURES = 2 };
-
+/* Ripple falls from the first limit at which the torque is reached to none; every limit is kept. */
 static void check_curve(const hci_grid_plan *plan, size_t from, size_t to)
 {
     double before_percent = HUGE_VAL;
-    size_t reached = 0, failed = 0;
+    size_t reached = 0;
     for (size_t k = from; k < to; ++k) {
         hci_grid_row row;
         hci_grid_solve(&request, &plan->point[k], &row);
-        TEST_ASSERT_EQUAL(row.verdict == HCI_GRID_FAILED, row.reason[0] != '\0');
-        if (row.verdict == HCI_GRID_FAILED) {
-            ++failed;
-            continue;
-        }
+        TEST_ASSERT_TRUE_MESSAGE(row.verdict != HCI_GRID_FAILED, row.reason);
         TEST_ASSERT_FALSE(row.best.peak_A > row.point.limit_current_A);
         TEST_ASSERT_FALSE(row.best.loss_to_plain > row.point.limit_copper * (1.0 + 1e-9));
         if (row.verdict > HCI_GRID_RIPPLE) {
@@ -207,7 +200,7 @@ static void check_curve(const hci_grid_plan *plan, size_t from, size_t to)
         TEST_ASSERT_TRUE(row.best.T_ripple_percent <= before_percent + 1e-3);
         before_percent = row.best.T_ripple_percent;
     }
-    TEST_ASSERT_TRUE(reached >= 5 && failed <= MOST_FAILURES);
+    TEST_ASSERT_TRUE(reached >= 5);
     TEST_ASSERT_TRUE(before_percent < 1e-6);
 }
 
