@@ -80,7 +80,7 @@ static double noise_rms(const hci_regression *e)
     double sum = 0.0, count = 0.0;
     for (const hci_segment *s = NULL; (s = hci_regression_next(e, s)) != NULL;) {
         const double rms = hci_regression_noise(e, s)->rms;
-        sum += rms * rms * (double)s->count;
+        sum += hci_segment_joined(s) * rms * rms * (double)s->count;
         count += (double)s->count;
     }
     return count > 0.0 ? sqrt(sum / count) : 0.0;

@@ -94,13 +94,22 @@ static double noise_of_turns(const hci_dataset *b, const hci_run *runs, size_t r
     return repeatability(b, run, residual, turn_rad);
 }
 
-/* From the spectrum between the orders; NAN without samples. */
+/* Readings that a sample is the mean of, on the average. */
+static double readings_in_one(const hci_dataset *b, const hci_segment *s)
+{
+    double readings = 0.0;
+    for (size_t j = s->first; j < s->first + s->count; ++j)
+        readings += b->samples.sample[j].count;
+    return readings / fmax(1.0, (double)hci_segment_telling(&b->samples, s));
+}
+
+/* Of one reading, from the spectrum between the orders; NAN without samples. */
 static double noise_of_spectrum(const hci_dataset *b, size_t run)
 {
     double sum = 0.0, count = 0.0;
     for (const hci_segment *s = NULL; (s = hci_segment_next(&b->samples, run, s)) != NULL;) {
         const double rms = hci_regression_noise(&b->regression, s)->rms;
-        sum += (double)s->count * rms * rms;
+        sum += (double)s->count * rms * rms * readings_in_one(b, s);
         count += (double)s->count;
     }
     return count > 0.0 ? sqrt(sum / count) : (double)NAN;

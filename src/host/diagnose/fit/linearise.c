@@ -131,13 +131,13 @@ static bool sum_rows(const filling *f, const hci_segment *s)
     return true;
 }
 
-static void scatter_add(const filling *f, size_t rows)
+static void scatter_add(const filling *f, size_t rows, size_t block)
 {
     const size_t n = f->normal->n;
     double *square = f->scatter->square, *sum = square + n * n;
-    for (size_t from = 0; from + BLOCK / 2 < rows; from += BLOCK, ++f->scatter->blocks) {
+    for (size_t from = 0; from + block / 2 < rows; from += block, ++f->scatter->blocks) {
         memset(sum, 0, n * sizeof *sum);
-        for (size_t k = from; k < rows && k < from + BLOCK; ++k)
+        for (size_t k = from; k < rows && k < from + block; ++k)
             for (size_t c = 0; c < n; ++c)
                 sum[c] += f->x[k * n + c] * f->y[k];
         for (size_t i = 0; i < n; ++i)
@@ -146,10 +146,18 @@ static void scatter_add(const filling *f, size_t rows)
     }
 }
 
-static void rows_add(const filling *f, size_t rows)
+static void rows_add(const filling *f, const hci_segment *s)
 {
-    hci_normal_equations_add(f->normal, f->x, f->y, rows);
-    if (f->scatter) scatter_add(f, rows);
+    hci_normal_equations_add(f->normal, f->x, f->y, s->count);
+    if (f->scatter) scatter_add(f, s->count, (size_t)(BLOCK / hci_segment_joined(s)));
+}
+
+/* Bins that were joined have left out what they differed by, which is noise whatever the model. */
+static void joined_add(const filling *f, const hci_segment *s)
+{
+    const double rows = (hci_segment_joined(s) - 1.0) * (double)s->count;
+    f->normal->rows += rows;
+    f->normal->square += rows;
 }
 
 /* Sums of currents inform, but the price of a parameter is that of torques: they do not count as rows. */
@@ -158,9 +166,10 @@ static void segment_add(const filling *f, const hci_segment *s, hci_predicted_re
     hci_predicted_reading_fill(f->regression, &f->model->list, s, predicted);
     hci_regression_count(f->regression, s->count, predicted->terms, f->model->columns);
     torque_rows(f, s, predicted);
-    rows_add(f, s->count);
+    rows_add(f, s);
+    joined_add(f, s);
     const double rows = f->normal->rows;
-    if (sum_rows(f, s)) rows_add(f, s->count);
+    if (sum_rows(f, s)) rows_add(f, s);
     f->normal->rows = rows;
 }
 

@@ -13,6 +13,7 @@
 #define ROUNDING_OF_MEAN 1e-9 /* of the mean size of a derivative, that a mean of 0 has */
 #define SAME_SCALE       1e-6 /* departure of a torque per ampere that is rounding */
 #define LARGEST_SCALE    1e3  /* of a torque per ampere that has vanished */
+#define CLOSE            0.25 /* of the mean step: between angles that tell no curvature */
 
 enum { ANGLES_OF_MEAN = 97 /* a prime: evenly spread over the electrical and the mechanical turn */ };
 
@@ -103,7 +104,7 @@ bool hci_predicted_reading_make(const hci_regression *e, const hci_effects *effe
     memset(o, 0, sizeof *o);
     o->terms = hci_effects_terms(effects);
     o->holding_scale = holding_scale(e, effects);
-    o->torque_Nm = hci_memory_new(4 * most + 2 * o->terms, sizeof *o->torque_Nm);
+    o->torque_Nm = hci_memory_new(4 * most + 4 * o->terms + 2, sizeof *o->torque_Nm);
     if (derivatives) o->by_value = hci_memory_new(most * (o->terms + 1), sizeof *o->by_value);
     if (!o->torque_Nm || (derivatives && !o->by_value)) {
         hci_predicted_reading_release(o);
@@ -112,6 +113,7 @@ bool hci_predicted_reading_make(const hci_regression *e, const hci_effects *effe
     o->time_s = o->torque_Nm + most;
     o->work = o->time_s + most;
     o->sum = o->work + 2 * most;
+    o->row = o->sum + 2 * o->terms;
     return true;
 }
 
@@ -163,6 +165,67 @@ static void fill_static(const hci_regression *e, const hci_effects *effects, con
             by_value[c] *= o->holding_scale;
     }
 }
+
+/* ---- means over bins ---- */
+
+/* The step of angle from sample k to the next one, around the turn; 0 where there is none. */
+static double step_at(const hci_binned_sample *sample, size_t n, double turn_rad, size_t k)
+{
+    const size_t next = k + 1 < n ? k + 1 : 0;
+    const double step = fabs(sample[next].reading.theta_m_rad - sample[k].reading.theta_m_rad);
+    return k + 1 < n ? step : turn_rad > step ? turn_rad - step : 0.0;
+}
+
+/* What the curvatures by the angle are multiplied with, and the steps behind and ahead. */
+typedef struct {
+    double half_spread, behind, ahead;
+} bend;
+
+/* Adds to a row half the variance of the angles times the curvature of a parabola through its neighbours. before:
+ * in and out, the row before as it was. */
+static void row_bend(const bend *x, double *row, const double *after, double *before, size_t columns)
+{
+    const double scale = 2.0 * x->half_spread / (x->behind + x->ahead);
+    for (size_t c = 0; c < columns; ++c) {
+        const double here = row[c];
+        row[c] += scale * ((after[c] - here) / x->ahead - (here - before[c]) / x->behind);
+        before[c] = here;
+    }
+}
+
+/* A sample that is the mean over a wide bin shows the mean of the torque over it, not the torque at its mean
+ * angle. turn_rad: 0 where the last sample is not followed by the first. row: [2 columns]. */
+static void bins_widen(const hci_binned_sample *sample, size_t n, double turn_rad, double *x, size_t columns,
+                       double *row)
+{
+    const double least = CLOSE * fabs(sample[n - 1].reading.theta_m_rad - sample[0].reading.theta_m_rad) /
+                         (double)n;
+    double *first = row + columns, last_step = step_at(sample, n, turn_rad, n - 1);
+    memcpy(row, x + (n - 1) * columns, columns * sizeof *row);
+    memcpy(first, x, columns * sizeof *first);
+    for (size_t k = 0; k < n; ++k) {
+        const bend b = {0.5 * sample[k].spread_rad2, last_step, step_at(sample, n, turn_rad, k)};
+        last_step = b.ahead;
+        if (b.half_spread > 0.0 && b.behind > least && b.ahead > least)
+            row_bend(&b, x + k * columns, k + 1 < n ? x + (k + 1) * columns : first, row, columns);
+        else
+            memcpy(row, x + k * columns, columns * sizeof *row);
+    }
+}
+
+static void means_widen(const hci_regression *e, const hci_segment *s, hci_predicted_reading *o)
+{
+    const hci_binned_sample *sample = e->samples->sample + s->first;
+    const double turn_rad = s->turns > 0 ? hci_turn_rad(&e->runs[s->run], e->machine->pole_pairs) : 0.0;
+    bool spread = false;
+    for (size_t k = 0; k < s->count && !spread; ++k)
+        spread = sample[k].spread_rad2 > 0.0;
+    if (!spread || s->count < 3) return;
+    bins_widen(sample, s->count, turn_rad, o->torque_Nm, 1, o->row);
+    if (o->by_value && o->terms > 0) bins_widen(sample, s->count, turn_rad, o->by_value, o->terms, o->row);
+}
+
+/* ---- along time ---- */
 
 /* Writes the first turn n samples long again behind it. */
 static void turn_repeat(hci_predicted_reading *o, size_t n, size_t turn, double period_s)
@@ -240,6 +303,7 @@ void hci_predicted_reading_fill(const hci_regression *e, const hci_effects *effe
     const bool sensor = hci_predicted_reading_is_dynamic(e, s), dynamic = sensor && has_dynamics(effects);
     const size_t turns = turns_through(e, s, dynamic), lag = dormant_lag(effects);
     fill_static(e, effects, s, o);
+    means_widen(e, s, o);
     if (o->by_value && sensor && lag < o->terms)
         lag_derivative(o->torque_Nm, o->time_s, s->count, o->by_value + lag, o->terms);
     for (size_t turn = 1; turn < turns; ++turn)

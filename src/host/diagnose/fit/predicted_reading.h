@@ -22,6 +22,7 @@ typedef struct {
     double *by_value; /* [samples][terms], derivatives by the values of all terms; NULL: not wanted */
     double *time_s;
     double *sum;  /* [2 terms], for means */
+    double *row;  /* [2 (terms + 1)], for means over bins */
     double *work; /* [2 samples], for slopes */
     bool instant; /* wanted as it is at each sample, not as a slope shows it */
     size_t terms;

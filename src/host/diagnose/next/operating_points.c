@@ -14,7 +14,7 @@ static double mean_noise_Nm(const hci_regression *e)
 {
     double sum = 0.0, count = 0.0;
     for (const hci_segment *s = NULL; (s = hci_regression_next(e, s)) != NULL; count += 1.0)
-        sum += hci_regression_noise(e, s)->rms;
+        sum += hci_regression_noise(e, s)->rms * sqrt(hci_segment_joined(s));
     return sum / fmax(1.0, count);
 }
 

@@ -23,7 +23,7 @@ hci_status hci_trial_run_make(const hci_regression *e, const hci_playable *playa
     memset(b, 0, sizeof *b);
     b->sample = hci_memory_new(n, sizeof *b->sample);
     b->residual_Nm = hci_memory_new(n, sizeof *b->residual_Nm);
-    b->segment = (hci_segment){0, 0, n, 1, 1.0, true, true};
+    b->segment = (hci_segment){0, 0, n, 1, 1.0, true, true, 1.0};
     b->run.torque_source = playable->source == HCI_TORQUE_HOLDING ? HCI_TORQUE_HOLDING : HCI_TORQUE_MEASURED;
     b->run.turn_known = true;
     b->samples = (hci_binned_samples){b->sample, n, &b->segment, 1, &b->statistics, 1};

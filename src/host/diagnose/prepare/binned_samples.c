@@ -15,6 +15,8 @@
 
 enum {
     BINS_PER_TURN = 4096, /* of a mean over turns */
+    OF_PERIOD = 180,      /* of them, for each electrical period in it, that are left where they are joined */
+    MOST_JOINED = 4,
     LEAST_TURNS = 3,      /* for such a mean */
     MOST_OPEN = 8,        /* segments of samples as they are, for each run */
     CREEPING_PIECES = 4   /* means of one steady run whose torque creeps */
@@ -118,7 +120,9 @@ static void mean_add(const reduction *r, hci_binned_sample *c, const hci_binned_
     const double w = 1.0 / (c->count += 1.0);
     hci_sample *m = &c->reading;
     const double departure = measured_Nm(r, x) - measured_Nm(r, c);
+    const double step_rad = c->count > 1.0 ? x->reading.theta_m_rad - m->theta_m_rad : 0.0;
     m->computed_phase = x->reading.computed_phase;
+    c->spread_rad2 = (1.0 - w) * (c->spread_rad2 + w * step_rad * step_rad);
     m->theta_m_rad += w * (x->reading.theta_m_rad - m->theta_m_rad);
     m->speed_rad_per_s += w * (x->reading.speed_rad_per_s - m->speed_rad_per_s);
     for (int s = 0; s < 3; ++s)
@@ -143,6 +147,55 @@ static void means_take(const reduction *x, size_t first, size_t last, hci_binned
         const size_t at = (size_t)(one.reading.theta_m_rad / turn * BINS_PER_TURN);
         mean_add(x, &sample[at < BINS_PER_TURN ? at : BINS_PER_TURN - 1], &one);
     }
+}
+
+/* How many neighbouring bins are joined to one: the orders that are looked for take a few samples a period. */
+static size_t joined_to_one(const reduction *x)
+{
+    const size_t periods = x->run->turn_known ? (size_t)x->pole_pairs : 1;
+    const size_t most = BINS_PER_TURN / (OF_PERIOD * periods);
+    return most < 1 ? 1 : most > MOST_JOINED ? MOST_JOINED : most;
+}
+
+/* Adds the mean of a bin to that of others at about the same angle. The currents are joined in the rotor frame,
+ * in which they do not turn. */
+static void mean_join(const reduction *r, hci_binned_sample *c, const hci_binned_sample *x)
+{
+    hci_sample *m = &c->reading;
+    const hci_dq before = hci_sample_dq(m, r->pole_pairs), other = hci_sample_dq(&x->reading, r->pole_pairs);
+    const double count = c->count + x->count, w = x->count / count, rest = 1.0 - w;
+    const double departure = measured_Nm(r, x) - measured_Nm(r, c);
+    const double step_rad = x->reading.theta_m_rad - m->theta_m_rad;
+    const hci_dq i = {rest * before.d + w * other.d, rest * before.q + w * other.q,
+                      rest * before.zero + w * other.zero};
+    m->theta_m_rad += w * step_rad;
+    m->speed_rad_per_s += w * (x->reading.speed_rad_per_s - m->speed_rad_per_s);
+    hci_phases_of_dq(i, r->pole_pairs * m->theta_m_rad, m->i_abc);
+    m->temperature_C += w * (x->reading.temperature_C - m->temperature_C);
+    m->elapsed_s += w * (x->reading.elapsed_s - m->elapsed_s);
+    c->torque_Nm += w * (x->torque_Nm - c->torque_Nm);
+    c->sum_A += w * (x->sum_A - c->sum_A);
+    c->scatter_N2m2 += x->scatter_N2m2 + rest * w * count * departure * departure;
+    c->spread_rad2 = rest * c->spread_rad2 + w * x->spread_rad2 + rest * w * step_rad * step_rad;
+    c->count = count;
+}
+
+/* Joins so many bins to one, wherever they hold samples. Returns how many of the narrow ones did. */
+static size_t bins_join(const reduction *x, hci_binned_sample *sample, size_t most)
+{
+    size_t filled = 0;
+    for (size_t k = 0; k < BINS_PER_TURN; ++k) {
+        hci_binned_sample *to = &sample[k / most * most];
+        if (!(sample[k].count > 0.0)) continue;
+        ++filled;
+        if (to == &sample[k]) continue;
+        if (to->count > 0.0)
+            mean_join(x, to, &sample[k]);
+        else
+            *to = sample[k];
+        sample[k].count = 0.0;
+    }
+    return filled;
 }
 
 /* Sorts the samples along time: against the angle when it falls; then gives them the time of a steady turn.
@@ -178,12 +231,14 @@ static bool mean_segment(const reduction *x, const hci_turn *turns, size_t count
     const hci_run *r = x->run;
     const size_t first = turns[0].first, last = turns[count - 1].first + turns[count - 1].count - 1;
     const double period_s = period_of(x, first, last);
-    hci_segment s = {x->index, x->samples->count, 0, count, period_s, r->time_s != NULL, false};
+    hci_segment s = {x->index, x->samples->count, 0, count, period_s, r->time_s != NULL, false, 1.0};
     hci_binned_sample *sample = reserve(x, BINS_PER_TURN);
     if (!sample) return false;
     means_take(x, first, last, sample);
+    const size_t narrow = bins_join(x, sample, joined_to_one(x));
     s.count =
         bins_close(sample, hci_turn_direction(r, first, last), hci_turn_rad(x->run, x->pole_pairs), period_s);
+    s.joined = s.count > 0 ? (double)narrow / (double)s.count : 1.0;
     x->samples->count += s.count;
     return segment_finish(x, &s);
 }
@@ -192,7 +247,7 @@ static bool mean_segment(const reduction *x, const hci_turn *turns, size_t count
 
 static bool open_segment(const reduction *x, size_t first, size_t count)
 {
-    hci_segment s = {x->index, x->samples->count, count, 0, 0.0, x->run->time_s != NULL, false};
+    hci_segment s = {x->index, x->samples->count, count, 0, 0.0, x->run->time_s != NULL, false, 1.0};
     hci_binned_sample *sample = reserve(x, count);
     if (!sample) return false;
     for (size_t k = 0; k < count; ++k)

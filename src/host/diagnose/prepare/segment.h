@@ -13,6 +13,7 @@ typedef struct {
     double time_s;       /* ascending within a segment; 0 where there is none */
     double count;        /* samples in it; 0: it tells no torque */
     double scatter_N2m2; /* sum of the squared departures of their torques from the mean */
+    double spread_rad2;  /* variance of their angles */
 } hci_binned_sample;
 
 enum { HCI_LONGEST_SEGMENT = 4096 }; /* samples of a segment */
@@ -25,6 +26,14 @@ typedef struct {
     double period_s; /* of one turn, when turns > 0 */
     bool timed;
     bool smooth; /* the currents are free of noise */
+    double joined; /* narrow bins of the turn in a sample, on the average, >= 1; 0 is 1 */
 } hci_segment;
+
+/* Means of so many narrow bins have that part of the variance of the noise of one: what is judged by the noise
+ * of a sample, and by how many there are, is judged as if they had not been joined. */
+static inline double hci_segment_joined(const hci_segment *segment)
+{
+    return segment->joined > 1.0 ? segment->joined : 1.0;
+}
 
 #endif

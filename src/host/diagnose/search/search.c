@@ -110,9 +110,12 @@ double hci_search_residual_rms(const hci_search *s)
 {
     double sum = 0.0, count = 0.0;
     for (const hci_segment *x = NULL; (x = hci_regression_next(s->regression, x)) != NULL;) {
+        const double rms = hci_regression_noise(s->regression, x)->rms;
+        const double telling = (double)hci_segment_telling(s->regression->samples, x);
         for (size_t j = x->first; j < x->first + x->count; ++j)
             sum += s->residual_Nm[j] * s->residual_Nm[j];
-        count += (double)hci_segment_telling(s->regression->samples, x);
+        sum += (hci_segment_joined(x) - 1.0) * rms * rms * telling;
+        count += telling;
     }
     return count > 0.0 ? sqrt(sum / count) : 0.0;
 }
@@ -123,7 +126,7 @@ double hci_search_noise_rms(const hci_search *s)
     for (const hci_segment *x = NULL; (x = hci_regression_next(s->regression, x)) != NULL;) {
         const double rms = hci_regression_noise(s->regression, x)->rms;
         const double telling = (double)hci_segment_telling(s->regression->samples, x);
-        sum += rms * rms * telling;
+        sum += hci_segment_joined(x) * rms * rms * telling;
         count += telling;
     }
     return count > 0.0 ? sqrt(sum / count) : 0.0;

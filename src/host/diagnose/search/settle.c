@@ -73,13 +73,15 @@ static void goodness_add(const hci_search *s, const hci_segment *x, double *whit
 {
     const hci_noise *noise = hci_regression_noise(s->regression, x);
     const double telling = (double)hci_segment_telling(s->regression->samples, x);
+    const double square = telling * noise->rms * noise->rms, joined = hci_segment_joined(x);
     double *residual = s->residual_Nm + x->first;
     memcpy(whitened, residual, x->count * sizeof *whitened);
     hci_noise_whiten(noise, whitened, x->count, 1);
     outliers_drop(whitened, residual, x->count);
     for (size_t j = 0; j < x->count; ++j)
         g->square += residual[j] * residual[j];
-    g->noise += telling * noise->rms * noise->rms;
+    g->square += (joined - 1.0) * square;
+    g->noise += joined * square;
     g->rows += telling;
     if (has_even_noise(s, x)) blocks_add(whitened, x->count, g);
 }

@@ -33,7 +33,7 @@ void setUp(void)
     memset(statistics, 0, sizeof statistics);
     for (size_t r = 0; r < RUNS; ++r) {
         const double iq = 0.5 * (double)(r * r);
-        segment[r] = (hci_segment){r, r * SAMPLES, SAMPLES, 0, 0.0, false, false};
+        segment[r] = (hci_segment){.run = r, .first = r * SAMPLES, .count = SAMPLES};
         statistics[r].current_A = iq;
         for (size_t k = r * SAMPLES; k < (r + 1) * SAMPLES; ++k) {
             sample[k].reading.theta_m_rad = 2.0 * REF_PI * (double)(k % SAMPLES) / SAMPLES;

@@ -24,7 +24,7 @@ void setUp(void)
     memset(sample, 0, sizeof sample);
     memset(residual_Nm, 0, sizeof residual_Nm);
     for (size_t r = 0; r < RUNS; ++r) {
-        segment[r] = (hci_segment){r, r * SAMPLES, SAMPLES, 0, 0.0, false, false};
+        segment[r] = (hci_segment){.run = r, .first = r * SAMPLES, .count = SAMPLES};
         statistics[r] = (hci_run_statistics){.turns = 1.0};
         run[r] = (hci_run){.turn_known = true, .torque_source = HCI_TORQUE_MEASURED};
         for (size_t k = 0; k < SAMPLES; ++k)
