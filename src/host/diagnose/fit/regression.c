@@ -43,9 +43,10 @@ hci_status hci_regression_each_run(hci_regression *e,
     return status;
 }
 
-/* A prediction takes that many for each term and derivative, and for all that is common to the terms. */
-#define OF_TERM   60.0
-#define OF_SAMPLE 1000.0
+/* Of a sum of products, in wide loops; a prediction takes as long as that many of them for each term and
+ * derivative, and for all that is common to the terms. */
+#define OF_TERM   250.0
+#define OF_SAMPLE 4000.0
 
 void hci_regression_count(const hci_regression *e, size_t samples, size_t terms, size_t columns)
 {

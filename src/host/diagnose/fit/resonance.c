@@ -13,6 +13,8 @@ static const double DAMPING[] = {0.03, 0.1, 0.3};
 
 #define TOP 0.33 /* highest frequency, as a share of the sampling rate */
 
+#define OF_SAMPLE 1700.0 /* multiplications that a sample takes on its way through the sensors, about */
+
 /* Torque without and with the resonance, in turns of a steady turn. */
 typedef struct {
     const hci_regression *regression;
@@ -54,6 +56,7 @@ static void segment_squares(const scan *l, const hci_effect *sensors, size_t cou
     const hci_effect_run run = {l->time_s, turns * n, l->torque_Nm, NULL, 0, 0};
     double *y = l->reading_Nm + (turns - 1) * n * SENSORS;
     turns_fill(l, s, turns);
+    hci_regression_count_products(l->regression, OF_SAMPLE * (double)(turns * n));
     l->type->filter_many(sensors, count, &run, l->reading_Nm);
     for (size_t k = 0; k < n; ++k)
         for (size_t j = 0; j < SENSORS; ++j)
