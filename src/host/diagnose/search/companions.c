@@ -6,6 +6,8 @@
 
 #define SERIES_ERROR 0.002
 #define SWING_ERROR  0.005
+#define JITTER_ERROR 0.25 /* of a delay that is another one at each sample */
+#define JITTER       1.5  /* largest over least noise of a run that tells of it */
 #define ANY_ERROR    3e-4 /* a noise of another size in each run, an inertia, the angle between two samples */
 #define PLAIN        40.0 /* a fall of the score that no such error makes */
 
@@ -22,23 +24,50 @@ static bool swings(const hci_candidates *model, const hci_effect_type *type)
     return false;
 }
 
+/* Noise of a sample of a run, of which a mean over turns has less; 0: none is in use. */
+static double noise_Nm(const hci_regression *e, size_t run)
+{
+    double sum = 0.0, bins = 0.0;
+    for (const hci_segment *s = NULL; (s = hci_segment_next(e->samples, run, s)) != NULL;) {
+        const double rms = hci_regression_noise(e, s)->rms;
+        for (size_t k = s->first; k < s->first + s->count && e->use[run]; ++k, bins += 1.0)
+            sum += rms * rms * e->samples->sample[k].count;
+    }
+    return bins > 0.0 ? sqrt(sum / bins) : 0.0;
+}
+
+/* Whether the noise is not of one size: beside a delay that is what stamps that are off by another time at
+ * each sample make of a torque that varies. They take from its high orders too, which no delay does. */
+static bool jitters(const hci_regression *e)
+{
+    double least = INFINITY, most = 0.0;
+    for (size_t r = 0; r < e->samples->run_count; ++r) {
+        const double noise = noise_Nm(e, r);
+        if (!(noise > 0.0)) continue;
+        least = fmin(least, noise);
+        most = fmax(most, noise);
+    }
+    return most > JITTER * least;
+}
+
 /* What a model of the type gets wrong, as a share of what it explains: a series in the currents is not what
  * iron does to the last digit, nor what a sensor answers between samples that are far apart in a period, nor
  * a delay the filter that makes it. */
-static double error_of(const hci_attribution *a, const hci_effect_type *type)
+static double error_of(const hci_regression *e, const hci_attribution *a, const hci_effect_type *type)
 {
+    if (type->late && jitters(e)) return JITTER_ERROR;
     if (type->beyond_quadratic) return SERIES_ERROR;
     return swings(&a->model.candidates, type) ? SWING_ERROR : 0.0;
 }
 
 /* The fall of the score that another effect of the iron must reach to be more than a part of the error of the
  * others; 0: none of them is off. */
-static double least_of_iron(const hci_attribution *a, const hci_verdict *v)
+static double least_of_iron(const hci_regression *e, const hci_attribution *a, const hci_verdict *v)
 {
     double most = 0.0;
     for (size_t r = 0; r < a->types; ++r) {
         const hci_verdict *other = &a->verdict[r];
-        const double error = error_of(a, other->type);
+        const double error = error_of(e, a, other->type);
         const bool both = v->type->beyond_quadratic && other->type->beyond_quadratic;
         if (other->in && other != v && error > 0.0 && !both) most = fmax(most, error * other->gain);
     }
@@ -96,5 +125,5 @@ static bool is_within_slope(const hci_regression *e, const hci_candidates *model
 double hci_companion_least(const hci_regression *e, const hci_attribution *a, const hci_verdict *v)
 {
     if (is_within_slope(e, &a->model.candidates, v->type)) return INFINITY;
-    return fmax(least_of_any(a, v), v->type->propose_coenergy ? least_of_iron(a, v) : 0.0);
+    return fmax(least_of_any(a, v), v->type->propose_coenergy ? least_of_iron(e, a, v) : 0.0);
 }

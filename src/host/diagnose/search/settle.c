@@ -9,7 +9,8 @@
 #include "host/diagnose/search/stability.h"
 
 #define EXCESS       0.1  /* variance over that of the noise that tells of something that does not repeat */
-#define CLUMPS       1.35 /* the same of how uneven the errors are; noise makes 1.0 ± 0.1 */
+#define CLUMPS       1.35 /* the same of how uneven the errors are; noise makes 1 … */
+#define SPREAD       4.0  /* … give or take a deviation, of which so many are still noise */
 #define NOT_SMALL    2.0  /* times the resolution: rms of a residual that has to be understood */
 #define LEAST_SHARE  0.25 /* of the residual's mean square that counts as unexplained when it is uneven */
 #define OUTLYING     8.0  /* times the noise */
@@ -98,9 +99,16 @@ static hci_status goodness_of(hci_search *s, const hci_candidates *model, goodne
     return status;
 }
 
+/* How uneven noise may be in so many blocks: the variance of a sum of k squares of noise, from n of them, is
+ * known to √((2 + 12/k)/n). */
+static double most_clumps(const goodness *g)
+{
+    return fmax(CLUMPS, 1.0 + SPREAD * sqrt((2.0 + 12.0 / BLOCK) / fmax(1.0, g->blocks)));
+}
+
 static bool is_noise(const goodness *g)
 {
-    return g->square < (1.0 + EXCESS) * g->noise && clumps_of(g) < CLUMPS;
+    return g->square < (1.0 + EXCESS) * g->noise && clumps_of(g) < most_clumps(g);
 }
 
 hci_status hci_search_is_noise(hci_search *s, const hci_candidates *model, bool *noise, hci_note *note)

@@ -25,6 +25,8 @@ static void record_two(hci_torque_source source)
     record(150, &(point){-60.0, 5.0, 0.0, 0.0, 0.0});
     run[0].torque_source = run[1].torque_source = source;
     search_start();
+    for (size_t k = 0; k < dataset.samples.segment_count; ++k)
+        dataset.regression.noise[k] = hci_noise_white(NOISE_NM);
 }
 
 static const hci_verdict *add(const char *effect, double gain)
@@ -76,6 +78,20 @@ static void test_the_iron_beside_lags_and_delays(void)
     TEST_ASSERT_DOUBLE_WITHIN(0.1, 1000.0, least(iron));
 }
 
+/* A delay that is another one at each sample shows in the noise of the runs, and what it takes from high
+ * orders is iron no more; a run that is a mean over four samples each has half of their noise. */
+static void test_the_iron_beside_jitter(void)
+{
+    record_two(HCI_TORQUE_MEASURED);
+    const hci_verdict *iron = add("saturation", 1e4);
+    add("channel_delay", 1e5);
+    dataset.regression.noise[1] = hci_noise_white(2.0 * NOISE_NM);
+    TEST_ASSERT_DOUBLE_WITHIN(0.1, 25000.0, least(iron));
+    for (size_t k = 0; k < 150; ++k)
+        dataset.samples.sample[k].count = 4.0;
+    TEST_ASSERT_DOUBLE_WITHIN(0.1, 500.0, least(iron));
+}
+
 /* A series is not what iron does: other effects of the iron are a part of its error, but not of themselves.
  */
 static void test_the_iron_beside_a_series(void)
@@ -106,6 +122,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_what_is_faint_beside_much);
     RUN_TEST(test_the_iron_beside_lags_and_delays);
+    RUN_TEST(test_the_iron_beside_jitter);
     RUN_TEST(test_the_iron_beside_a_series);
     RUN_TEST(test_delays_within_a_slope);
     return UNITY_END();

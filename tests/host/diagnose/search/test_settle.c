@@ -1,0 +1,55 @@
+/* Whether what is left is noise. */
+#include "host/diagnose/search/settle.h"
+
+#include "support/searching.h"
+
+void setUp(void)
+{
+    dataset_start();
+}
+
+void tearDown(void)
+{
+    search_end();
+    dataset_end();
+}
+
+/* Of one run, without any effect. */
+static bool is_noise(void)
+{
+    bool noise = false;
+    search_start();
+    model_fit();
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_is_noise(&search, &model.candidates, &noise, &note));
+    return noise;
+}
+
+/* How uneven the errors are is known badly from few samples: 1230 of white noise are 50 blocks. */
+static void test_short_noise_is_noise(void)
+{
+    for (uint64_t k = 0; k < 40; ++k) {
+        seed = 500 + k;
+        record(1230, &(point){60.0, 0.0, 0.0, 0.0, 0.0});
+        TEST_ASSERT_TRUE(is_noise());
+        tearDown();
+        setUp();
+    }
+    search_start();
+}
+
+/* Every second tenth of a run three times as large is none. */
+static void test_bursts_are_no_noise(void)
+{
+    record(3000, &(point){60.0, 0.0, 0.0, 0.0, 0.0});
+    for (size_t j = 0; j < 3000; ++j)
+        if (j / 300 % 2) run[0].torque_Nm[j] *= 3.0;
+    TEST_ASSERT_FALSE(is_noise());
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_short_noise_is_noise);
+    RUN_TEST(test_bursts_are_no_noise);
+    return UNITY_END();
+}
