@@ -169,6 +169,16 @@ static bool is_against_voltages(const hci_dataset *b, const hci_machine_data *ma
            hci_open_voltage_agrees(&machine->model, runs);
 }
 
+/* The share by which the corrected torque per ampere is above what voltages without a current show. */
+static double beyond_voltages(const hci_dataset *b, const hci_machine_data *machine, const hci_runs *runs,
+                              const hci_diagnosis *d)
+{
+    const double declared = hci_torque_constant(&machine->model, b->regression.declared);
+    const double corrected = hci_torque_constant(&machine->model, &d->effects.list);
+    const double shown = declared * hci_open_voltage_scale(&machine->model, runs);
+    return fabs(shown) > 0.0 ? corrected / shown - 1.0 : 0.0;
+}
+
 static hci_status diagnose(hci_dataset *b, const hci_machine_data *machine, const hci_runs *runs,
                            const hci_diagnose_options *options, hci_diagnosis *d, hci_note *note)
 {
@@ -194,6 +204,7 @@ static hci_status diagnose(hci_dataset *b, const hci_machine_data *machine, cons
         d->contradicted = false;
         d->against_voltages = true;
     }
+    if (!status) d->beyond_voltages = beyond_voltages(b, machine, runs, d);
     if (!status) status = hci_next_points_unknown(&b->regression, machine, d, note);
     hci_attribution_release(&a);
     return status;

@@ -3,6 +3,9 @@
 #include <math.h>
 
 #include "hci/host/diagnose/diagnose.h"
+#include "host/diagnose/prepare/run_statistics.h"
+
+#define WELL_KNOWN 2e-3 /* standard error of a scale */
 
 typedef struct {
     double off, rough, expected; /* Σ of squares: of the difference, of its steps, of speed × back-EMF */
@@ -71,4 +74,40 @@ bool hci_open_voltage_agrees(const hci_machine *machine, const hci_runs *runs)
 {
     const sums sum = sums_of(machine, runs);
     return sum.expected > 0.0 && share_of(&sum) < HCI_OPEN_VOLTAGE_OFF;
+}
+
+/* ---- how large they are ---- */
+
+static bool is_idle(const hci_machine *machine, const hci_run *run)
+{
+    if (!run->v_V || !run->theta_m_rad || !run->speed_rad_per_s || !run->i_A) return false;
+    return is_open(run) || hci_run_statistics_of(run, machine->pole_pairs).no_current;
+}
+
+typedef struct {
+    double along, square, off, count; /* Σ of products and squares, and of the squares of the difference */
+} scale_sums;
+
+static void scale_add(const hci_machine *machine, const hci_run *run, scale_sums *sum)
+{
+    double off_V[3];
+    for (size_t k = 0; k < run->count; ++k) {
+        sum->square += difference_at(machine, run, k, off_V);
+        for (size_t s = 0; s < 3; ++s) {
+            const double expected_V =
+                run->v_V[3 * k + s] - off_V[s]; /* and the mean, of which off_V has none */
+            sum->along += off_V[s] * expected_V;
+            sum->off += off_V[s] * off_V[s];
+            sum->count += 1.0;
+        }
+    }
+}
+
+double hci_open_voltage_scale(const hci_machine *machine, const hci_runs *runs)
+{
+    scale_sums sum = {0.0, 0.0, 0.0, 0.0};
+    for (size_t r = 0; r < runs->count; ++r)
+        if (is_idle(machine, &runs->run[r])) scale_add(machine, &runs->run[r], &sum);
+    const bool known = sum.square > 0.0 && sum.off < WELL_KNOWN * WELL_KNOWN * sum.square * sum.count;
+    return known ? 1.0 + sum.along / sum.square : (double)NAN;
 }

@@ -17,4 +17,8 @@ double hci_open_voltage_off(const hci_machine *machine, const hci_runs *runs);
 /* Whether there are such voltages, and they are those of the declared back-EMF. */
 bool hci_open_voltage_agrees(const hci_machine *machine, const hci_runs *runs);
 
+/* Size of these voltages beside the declared back-EMF, all phases together: 1 where it is the same; NAN
+ * without such voltages. Here currents that are nothing but the noise of their sensors are none. */
+double hci_open_voltage_scale(const hci_machine *machine, const hci_runs *runs);
+
 #endif

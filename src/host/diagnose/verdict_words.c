@@ -147,6 +147,11 @@ static void say_open_voltage(const hci_words *w, const hci_diagnosis *d)
                       " The torques ask for another torque per ampere, but the voltages that were recorded "
                       "without a current are those of the declared back-EMF: inertia, or the scale of "
                       "torque or current, may be wrong.");
+    else if (fabs(d->beyond_voltages) > HCI_BEYOND_VOLTAGES && d->verdict == HCI_DIAGNOSIS_EXPLAINED)
+        hci_words_say(w,
+                      " Its torque per ampere is %.2g %% %s what the voltages that were recorded without a "
+                      "current show: a gain of the torque or current sensors looks the same.",
+                      100.0 * fabs(d->beyond_voltages), d->beyond_voltages > 0.0 ? "above" : "below");
     if (!(d->open_voltage_off > HCI_OPEN_VOLTAGE_OFF)) return;
     hci_words_say(
         w,

@@ -17,6 +17,7 @@
 #include "host/recording/computed_torque.h"
 #include "host/recording/holes.h"
 #include "host/recording/rotor_frame.h"
+#include "host/recording/row_direction.h"
 #include "host/recording/run_columns.h"
 #include "host/recording/slow_turn.h"
 #include "host/recording/speed_variation.h"
@@ -432,6 +433,7 @@ static hci_status hold(reader *r, const char *why)
         hci_slow_turn_correct(run, r->pole_pairs, constant);
     for (size_t k = 0; k < run->count; ++k)
         run->torque_Nm[k] = 0.0;
+    if (!hci_row_direction_set(run)) return memory_error(r);
     return judge_speed(r);
 }
 
@@ -515,6 +517,7 @@ static hci_status read_torque(reader *r)
     hci_run_computed_torque_leave(&r->columns);
     if (run->torque_Nm == NULL) return torque_of_inertia(r);
     run->torque_source = is_zero(run->torque_Nm, run->count) ? HCI_TORQUE_HOLDING : HCI_TORQUE_MEASURED;
+    if (run->torque_source == HCI_TORQUE_HOLDING && !hci_row_direction_set(run)) return memory_error(r);
     return HCI_OK;
 }
 

@@ -54,6 +54,20 @@ static void test_none(void)
     TEST_ASSERT_FALSE(hci_open_voltage_agrees(&machine.model, &runs));
 }
 
+/* The size alone, beside other harmonics, and where noise is read as a current. */
+static void test_scale(void)
+{
+    TEST_ASSERT_TRUE(isnan(hci_open_voltage_scale(&machine.model, &runs)));
+    record_open(1.03, 0.05, 0.1);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-3, 1.03, hci_open_voltage_scale(&machine.model, &runs));
+    for (size_t k = 0; k < 3 * N; ++k)
+        run[0].i_A[k] = 0.01 * ref_normal(&seed);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-3, 1.03, hci_open_voltage_scale(&machine.model, &runs));
+    for (size_t k = 0; k < N; ++k)
+        rec_phases(0.0, 1.0, P * run[0].theta_m_rad[k], run[0].i_A + 3 * k);
+    TEST_ASSERT_TRUE(isnan(hci_open_voltage_scale(&machine.model, &runs)));
+}
+
 static hci_status find(void)
 {
     hci_note note = {{0}};
@@ -92,12 +106,34 @@ static void test_voltages_exclude_a_weaker_back_emf(void)
     TEST_ASSERT_EQUAL_INT(HCI_DIAGNOSIS_UNKNOWN, diagnosis.verdict);
 }
 
+/* A torque sensor that reads 3 % too much makes magnets of it, which the voltages do not show: that is said.
+ */
+static void test_a_gain_that_voltages_do_not_show(void)
+{
+    char words[2048];
+    for (int with = 0; with < 2; ++with) {
+        for (int k = 0; k < 4; ++k) {
+            record(450, &(point){k < 2 ? 60.0 : -150.0, k % 2 ? 9.0 : -4.0, 0.0, 0.0, 0.0});
+            for (size_t j = 0; j < 450; ++j)
+                run[runs.count - 1].torque_Nm[j] *= 1.03;
+        }
+        if (with) record_open(1.0, 0.0, 0.1);
+        hci_diagnosis_release(&diagnosis);
+        find();
+        hci_diagnosis_words(&diagnosis, words, sizeof words);
+        TEST_ASSERT_DOUBLE_WITHIN(0.004, with ? 0.03 : 0.0, diagnosis.beyond_voltages);
+        TEST_ASSERT_EQUAL(with == 1, strstr(words, "% above what the voltages") != NULL);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_difference);
     RUN_TEST(test_none);
+    RUN_TEST(test_scale);
     RUN_TEST(test_nothing_in_the_torque);
     RUN_TEST(test_voltages_exclude_a_weaker_back_emf);
+    RUN_TEST(test_a_gain_that_voltages_do_not_show);
     return UNITY_END();
 }

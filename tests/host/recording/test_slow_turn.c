@@ -48,6 +48,35 @@ static void read_turn(double speed, double load_Nm, double wobble_rad, const hci
     TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_run_read(path, options, &run, &note), note.text);
 }
 
+/* A holding map without time: there and back in the order of its rows, or one row there, one back. */
+static void read_map(bool ordered)
+{
+    const hci_run_options options = {.pole_pairs = P};
+    FILE *file = fopen(path, "w");
+    TEST_ASSERT_NOT_NULL(file);
+    fprintf(file, "theta_m_rad,iq_A,torque_Nm\n");
+    for (int k = 0; k < 400; ++k) {
+        const int at = ordered ? (k < 200 ? k : 399 - k) : 200 * (k % 2) + k / 2;
+        fprintf(file, "%.6f,%.6f,0\n", 0.004 * at, 0.1 * sin(0.3 * at));
+    }
+    fclose(file);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_run_read(path, &options, &run, &note), note.text);
+    TEST_ASSERT_EQUAL(HCI_TORQUE_HOLDING, run.torque_source);
+}
+
+/* The order of the rows tells which way the shaft went, which friction goes by. */
+static void test_a_map_goes_the_way_of_its_rows(void)
+{
+    read_map(true);
+    TEST_ASSERT_NOT_NULL(run.speed_rad_per_s);
+    for (size_t k = 0; k < 400; ++k)
+        if (k != 199 && k != 200) TEST_ASSERT_EQUAL_DOUBLE(k < 199 ? 0.1 : -0.1, run.speed_rad_per_s[k]);
+    text_has("the way the angle goes from row to row", run.remark.text);
+    hci_run_release(&run);
+    read_map(false);
+    TEST_ASSERT_NULL(run.speed_rad_per_s);
+}
+
 static const hci_run_options KNOWN = {
     .pole_pairs = P, .inertia_kgm2 = INERTIA, .torque_constant_Nm_per_A = CONSTANT};
 
@@ -164,6 +193,7 @@ static void test_what_accelerates_is_taken_out(void)
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_a_map_goes_the_way_of_its_rows);
     RUN_TEST(test_a_slow_turn_is_found);
     RUN_TEST(test_a_fast_shaft_under_load_is_none);
     RUN_TEST(test_a_shaft_that_is_accelerated_is_none);

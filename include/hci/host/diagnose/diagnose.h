@@ -155,11 +155,16 @@ typedef struct {
                               * 0: none were recorded */
     bool against_voltages; /* the torques ask for another torque per ampere, which voltages that were recorded
                             * without a current exclude: effects were dropped */
+    double beyond_voltages; /* share by which the corrected torque per ampere is above what voltages that were
+                             * recorded without a current show; 0: none were recorded */
     bool nothing_measured; /* no run to be fitted has an angle and a torque: nothing can be said */
 } hci_diagnosis;
 
 /* Of hci_diagnosis.open_voltage_off, that is no error of instruments: magnets, turns or harmonics differ. */
 #define HCI_OPEN_VOLTAGE_OFF 0.02
+
+/* Of hci_diagnosis.beyond_voltages, that is said: a gain of the torque or current sensors looks the same. */
+#define HCI_BEYOND_VOLTAGES 0.01
 
 /* Finds what is missing. HCI_OK; HCI_NOT_REACHED when the verdict is ambiguous, partly explained or unknown
  * (which it is where no run tells a torque, or nothing is found and voltages contradict the back-EMF), or the
