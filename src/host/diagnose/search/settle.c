@@ -11,6 +11,8 @@
 #define EXCESS       0.1  /* variance over that of the noise that tells of something that does not repeat */
 #define CLUMPS       1.35 /* the same of how uneven the errors are; noise makes 1 … */
 #define SPREAD       4.0  /* … give or take a deviation, of which so many are still noise */
+#define FOLLOWS      0.1 /* share of a residual that the rate of the modelled torque describes, which noise … */
+#define LATE         1.0  /* … and an acceleration that is taken between samples do not, in samples */
 #define NOT_SMALL    2.0  /* times the resolution: rms of a residual that has to be understood */
 #define LEAST_SHARE  0.25 /* of the residual's mean square that counts as unexplained when it is uneven */
 #define OUTLYING     8.0  /* times the noise */
@@ -30,6 +32,8 @@ enum { BLOCK = 24 }; /* samples */
 typedef struct {
     double square, noise, rows;         /* residual and noise, N²·m² */
     double block, block_square, blocks; /* sums of whitened squares over short blocks */
+    double left, follows, rate; /* of free shafts: residual², × rate of the modelled torque, rate² */
+    double time_s, steps;       /* of them */
 } goodness;
 
 static void blocks_add(const double *whitened, size_t n, goodness *g)
@@ -70,6 +74,30 @@ static bool has_even_noise(const hci_search *s, const hci_segment *x)
     return s->regression->runs[x->run].torque_source != HCI_TORQUE_INERTIA;
 }
 
+/* How the residual of a free shaft goes with the rate of the modelled torque, as where a current was read
+ * late or behind a filter: its noise is that of a slope, and long misfits at steps of the current pass for
+ * it. */
+static void following_add(const hci_search *s, const hci_segment *x, const double *residual, goodness *g)
+{
+    const hci_binned_sample *b = s->regression->samples->sample + x->first;
+    for (size_t k = 1; k + 1 < x->count; ++k) {
+        const double time_s = b[k + 1].time_s - b[k - 1].time_s;
+        const double rise_Nm = b[k + 1].torque_Nm - residual[k + 1] - b[k - 1].torque_Nm + residual[k - 1];
+        const double rate = time_s > 0.0 ? rise_Nm / time_s : 0.0;
+        g->left += residual[k] * residual[k];
+        g->follows += residual[k] * rate;
+        g->rate += rate * rate;
+        g->time_s += 0.5 * time_s;
+        g->steps += 1.0;
+    }
+}
+
+static bool is_late(const goodness *g)
+{
+    return g->follows * g->follows > FOLLOWS * g->left * g->rate &&
+           fabs(g->follows) * g->steps > LATE * g->time_s * g->rate;
+}
+
 static void goodness_add(const hci_search *s, const hci_segment *x, double *whitened, goodness *g)
 {
     const hci_noise *noise = hci_regression_noise(s->regression, x);
@@ -84,7 +112,10 @@ static void goodness_add(const hci_search *s, const hci_segment *x, double *whit
     g->square += (joined - 1.0) * square;
     g->noise += joined * square;
     g->rows += telling;
-    if (has_even_noise(s, x)) blocks_add(whitened, x->count, g);
+    if (has_even_noise(s, x))
+        blocks_add(whitened, x->count, g);
+    else if (x->timed)
+        following_add(s, x, residual, g);
 }
 
 static hci_status goodness_of(hci_search *s, const hci_candidates *model, goodness *g, hci_note *note)
@@ -108,7 +139,7 @@ static double most_clumps(const goodness *g)
 
 static bool is_noise(const goodness *g)
 {
-    return g->square < (1.0 + EXCESS) * g->noise && clumps_of(g) < most_clumps(g);
+    return g->square < (1.0 + EXCESS) * g->noise && clumps_of(g) < most_clumps(g) && !is_late(g);
 }
 
 hci_status hci_search_is_noise(hci_search *s, const hci_candidates *model, bool *noise, hci_note *note)

@@ -46,10 +46,36 @@ static void test_bursts_are_no_noise(void)
     TEST_ASSERT_FALSE(is_noise());
 }
 
+/* A free shaft whose current steps every 200 samples, read behind a filter of so many. */
+static void record_steps(double filter)
+{
+    double before = 5.0;
+    record(3000, &(point){60.0, 0.0, 0.0, 0.0, 0.0});
+    run[0].torque_source = HCI_TORQUE_INERTIA;
+    for (size_t j = 0; j < 3000; ++j) {
+        const double flows = j / 200 % 2 ? 2.0 : 5.0, share = 1.0 / (1.0 + filter);
+        before += share * (flows - before);
+        rec_phases(0.0, before, P * run[0].theta_m_rad[j], run[0].i_A + 3 * j);
+        run[0].torque_Nm[j] = 1.5 * K_NM_PER_A * flows + 0.1 * ref_normal(&seed);
+    }
+}
+
+/* What a current behind a filter leaves follows the rate of its torque. */
+static void test_what_a_filter_leaves_is_no_noise(void)
+{
+    record_steps(0.0);
+    TEST_ASSERT_TRUE(is_noise());
+    tearDown();
+    setUp();
+    record_steps(8.0);
+    TEST_ASSERT_FALSE(is_noise());
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_short_noise_is_noise);
     RUN_TEST(test_bursts_are_no_noise);
+    RUN_TEST(test_what_a_filter_leaves_is_no_noise);
     return UNITY_END();
 }
