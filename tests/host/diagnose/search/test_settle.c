@@ -46,15 +46,18 @@ static void test_bursts_are_no_noise(void)
     TEST_ASSERT_FALSE(is_noise());
 }
 
-/* A free shaft whose current steps every 200 samples, read behind a filter of so many. */
+/* A free shaft whose current steps now and then, read behind a filter of so many samples. */
 static void record_steps(double filter)
 {
-    double before = 5.0;
+    double before = 5.0, flows = 5.0, next = 0.0;
     record(3000, &(point){60.0, 0.0, 0.0, 0.0, 0.0});
     run[0].torque_source = HCI_TORQUE_INERTIA;
     for (size_t j = 0; j < 3000; ++j) {
-        const double flows = j / 200 % 2 ? 2.0 : 5.0, share = 1.0 / (1.0 + filter);
-        before += share * (flows - before);
+        if ((double)j >= next) {
+            flows = ref_uniform(&seed, 2.0, 5.0);
+            next += ref_uniform(&seed, 20.0, 120.0);
+        }
+        before += (flows - before) / (1.0 + filter);
         rec_phases(0.0, before, P * run[0].theta_m_rad[j], run[0].i_A + 3 * j);
         run[0].torque_Nm[j] = 1.5 * K_NM_PER_A * flows + 0.1 * ref_normal(&seed);
     }
