@@ -8,5 +8,6 @@
 
 extern const cli_command cli_check, cli_diagnose, cli_emit, cli_harmonics, cli_init, cli_predict,
     cli_simulate, cli_solve, cli_sweep, cli_tune, cli_fit, cli_batch_command;
+extern const cli_command cli_export_fmu;
 
 #endif

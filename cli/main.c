@@ -22,6 +22,7 @@
 /* In the order in which one uses them. */
 static const cli_command *const COMMANDS[] = {&cli_tune,    &cli_init,    &cli_check, &cli_harmonics,
                                               &cli_solve,   &cli_sweep,   &cli_emit,  &cli_simulate,
+                                              &cli_export_fmu,
                                               &cli_predict, &cli_diagnose, &cli_fit, &cli_batch_command};
 enum { COMMAND_COUNT = sizeof COMMANDS / sizeof COMMANDS[0] };
 
@@ -37,8 +38,8 @@ static int print_usage(FILE *stream)
     for (size_t k = 0; k < COMMAND_COUNT; ++k) {
         char line[256];
         snprintf(line, sizeof line, "%.*s", (int)strcspn(COMMANDS[k]->does, "\n"), COMMANDS[k]->does);
-        fprintf(stream, "  %-10s ", COMMANDS[k]->name);
-        cli_print_wrapped(stream, width, 13, 13, line);
+        fprintf(stream, "  %-10s  ", COMMANDS[k]->name);
+        cli_print_wrapped(stream, width, 14, 14, line);
     }
     fprintf(stream, "\nFrom a data sheet to C tables\n"
                     "  hci-solve init hub --poles 30 --kv 16 --slots 27 -o out/hub\n"

@@ -10,7 +10,7 @@ use_plain_build
 mkdir "$work/here" && ln -s "$source_dir/data" "$work/here/data" && cd "$work/here" || exit 1
 
 run 0 --help
-commands=$(sed -n 's/^  \([a-z]*\) .*/\1/p' "$work/stdout")
+commands=$(sed -n 's/^  \([a-z-]*\)  .*/\1/p' "$work/stdout")
 check "no commands in the help" [ -n "$commands" ]
 
 examples() {

@@ -248,6 +248,8 @@ run 0 emit data/example_currents/currents.csv --name map --machine data/machine_
 named "$work/stdout" 'summary.json of emit --for'
 run 0 init "$work/first" --pole-pairs 7 --kv 400 --slots 12 --json -q
 named "$work/stdout" 'summary.json of init'
+run 0 export-fmu "$work/first" --inputs currents --sources-only -o "$work/first.fmu" --json -q
+named "$work/stdout" 'summary.json of export-fmu'
 for file in machine.csv back_emf.csv; do
     written "$work/first/$file" "\`$file\`"
 done

@@ -9,12 +9,12 @@ mkdir "$work/here" && ln -s "$source_dir/data" "$work/here/data" && cd "$work/he
 run 0 --help
 nothing_on_stderr
 cp "$work/stdout" "$work/usage"
-commands=$(sed -n 's/^  \([a-z]*\) .*/\1/p' "$work/usage")
+commands=$(sed -n 's/^  \([a-z-]*\)  .*/\1/p' "$work/usage")
 check "no commands in the help" [ -n "$commands" ]
 # shellcheck disable=SC2086
 commands=$(echo $commands)
 check "not in the order in which one uses them: $commands" \
-    [ "$(echo "$commands" | sed 's/ check / /')" = "tune init harmonics solve sweep emit simulate predict diagnose fit batch" ]
+    [ "$(echo "$commands" | sed 's/ check / /')" = "tune init harmonics solve sweep emit simulate export-fmu predict diagnose fit batch" ]
 for words in 'hci-solve init .* -o out/' 'hci-solve help COMMAND' 'Documentation: man hci-solve'; do
     check "the help lacks: $words" grep -q -e "$words" "$work/usage"
 done

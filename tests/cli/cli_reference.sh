@@ -14,7 +14,7 @@ commands=$(sed -n 's/^| \[`\(.*\)`\](.*/\1/p' "$work/pages/README.md")
 check "the index of the pages is empty" [ -n "$commands" ]
 
 run 0 --help
-for command in $(sed -n 's/^  \([a-z]*\) .*/\1/p' "$work/stdout" | sort -u); do
+for command in $(sed -n 's/^  \([a-z-]*\)  .*/\1/p' "$work/stdout" | sort -u); do
     check "no page of $command" [ -s "$work/pages/$command.md" ]
 done
 for page in "$work"/pages/*.md; do

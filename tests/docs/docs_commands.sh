@@ -168,7 +168,7 @@ $said" "$line"
 
 # ---- all pages
 
-commands=$(hci-solve --help | sed -n 's/^  \([a-z]*\) .*/\1/p')
+commands=$(hci-solve --help | sed -n 's/^  \([a-z-]*\)  .*/\1/p')
 check "no commands in the help" [ -n "$commands" ]
 cd "$source_dir" || exit 1
 

@@ -202,6 +202,10 @@ typedef struct {
     double torque_measured_Nm;                 /* and its reading */
 } hci_drive_state;
 
+/* state->measured: what the sensors read of the plant now, the first part of a step. For who controls the
+ * plant by other means; each call is one step of the sensors. */
+void hci_drive_measure(const hci_drive *drive, hci_drive_state *state);
+
 /* Measure, control, and move the plant on by control.step_s. The state's plant is then one step ahead of its
  * measurements. */
 void hci_drive_step(const hci_drive *drive, hci_drive_state *state, double set_point, double load_Nm);

@@ -1,6 +1,6 @@
 #include "hci/drive/control.h"
 
-static void measure(const hci_drive *drive, hci_drive_state *state)
+void hci_drive_measure(const hci_drive *drive, hci_drive_state *state)
 {
     const hci_plant_state *plant = &state->plant;
     hci_measurement *m = &state->measured;
@@ -28,7 +28,7 @@ void hci_drive_step(const hci_drive *drive, hci_drive_state *state, double set_p
 {
     const hci_control *control = &drive->control;
     const double theta_m_rad = state->plant.theta_m_rad;
-    measure(drive, state);
+    hci_drive_measure(drive, state);
     hci_control_step(control, &state->control, &state->measured, set_point);
     apply_inverter(drive, state);
     if (control->loop == HCI_CURRENT_IDEAL)

@@ -184,6 +184,21 @@ hci_status hci_output_open(const char *folder, hci_output **output, hci_note *no
     return status;
 }
 
+hci_status hci_output_open_file(const char *path, hci_output **output, hci_note *note)
+{
+    const char *slash = strrchr(path, '/');
+    const size_t length = slash == NULL ? 1 : slash == path ? 1 : (size_t)(slash - path);
+    char *folder = hci_memory_malloc(length + 1);
+    *output = NULL;
+    if (folder == NULL) return hci_note_memory(note, NULL, "the output");
+    memcpy(folder, slash == NULL ? "." : path, length);
+    folder[length] = '\0';
+    hci_status status = hci_output_open(folder, output, note);
+    hci_memory_free(folder);
+    if (!status) status = hci_output_file(*output, slash == NULL ? path : slash + 1, note);
+    return status;
+}
+
 /* ---- one file ---- */
 
 /* Only a plain file that may be written is replaced: not a folder, a device, or a link to something else. */

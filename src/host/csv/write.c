@@ -97,21 +97,6 @@ static hci_status write_record(const writer *w, size_t record)
     return status;
 }
 
-/* The folder of a path, and its last part. */
-static hci_status open_output(const char *path, hci_output **output, hci_note *note)
-{
-    const char *slash = strrchr(path, '/');
-    const size_t length = slash == NULL ? 1 : slash == path ? 1 : (size_t)(slash - path);
-    char *folder = hci_memory_malloc(length + 1);
-    if (folder == NULL) return hci_note_memory(note, NULL, "the output");
-    memcpy(folder, slash == NULL ? "." : path, length);
-    folder[length] = '\0';
-    hci_status status = hci_output_open(folder, output, note);
-    hci_memory_free(folder);
-    if (!status) status = hci_output_file(*output, slash == NULL ? path : slash + 1, note);
-    return status;
-}
-
 hci_status hci_csv_write_with(const hci_csv *csv, const hci_csv_added *added, size_t count, const char *path,
                               hci_note *note)
 {
@@ -120,7 +105,7 @@ hci_status hci_csv_write_with(const hci_csv *csv, const hci_csv_added *added, si
     if (w.readers == NULL) return hci_note_memory(note, path, "the output");
     for (size_t column = 0; column < csv->columns; ++column)
         w.readers[column] = hci_cell_reader_plain(csv, column);
-    hci_status status = open_output(path, &w.output, note);
+    hci_status status = hci_output_open_file(path, &w.output, note);
     for (size_t record = 0; record < csv->records && !status; ++record)
         status = write_record(&w, record);
     hci_memory_free(w.readers);

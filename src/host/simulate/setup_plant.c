@@ -70,12 +70,11 @@ static hci_status choose_inductance(const hci_setup_task *b, hci_plant_inductanc
 static hci_status fill_table(const hci_setup_task *b)
 {
     hci_setup *p = b->setup;
-    hci_plant_inductance given;
     size_t points;
     int turns;
-    hci_status status = choose_inductance(b, &given);
+    hci_status status = choose_inductance(b, &p->inductance);
     if (status) return status;
-    turns = hci_plant_table_turns(&b->machine->model, &given);
+    turns = hci_plant_table_turns(&b->machine->model, &p->inductance);
     if (turns == 0)
         return hci_note_set(b->note, HCI_ERROR_INPUT,
                             "cogging.csv: an order is no multiple of 1/pole_pairs, so that nothing repeats "
@@ -85,7 +84,7 @@ static hci_status fill_table(const hci_setup_task *b)
     p->period_turns = (size_t)turns;
     p->rows = hci_memory_new(hci_plant_table_size(points), sizeof *p->rows);
     if (!p->rows) return hci_note_memory(b->note, NULL, "a table of %zu angles", points);
-    status = hci_plant_table_fill(&b->machine->model, &given, points, p->rows, &p->drive.plant.table);
+    status = hci_plant_table_fill(&b->machine->model, &p->inductance, points, p->rows, &p->drive.plant.table);
     p->drive.control.table = &p->drive.plant.table;
     if (status == HCI_ERROR_SINGULAR)
         return hci_note_set(b->note, HCI_ERROR_INPUT,

@@ -13,7 +13,8 @@ typedef struct {
     hci_drive drive;
     hci_drive_state state; /* at the start, and then */
     double *rows;          /* of the table */
-    hci_inductance *terms; /* integrated from slopes, or NULL */
+    hci_plant_inductance inductance; /* what the table was made of */
+    hci_inductance *terms;           /* integrated from slopes, or NULL */
     hci_currents fixed, per_Nm;
     hci_current_source source[2];
     hci_sensor sensor[HCI_SENSE_COUNT];

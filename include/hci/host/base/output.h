@@ -24,6 +24,10 @@ hci_status hci_output_open(const char *folder, hci_output **output, hci_note *no
  * a second time, HCI_ERROR_OUTPUT, _MEMORY; discard the set then. */
 hci_status hci_output_file(hci_output *output, const char *name, hci_note *note);
 
+/* A set of one file: hci_output_open with the folder of the path, hci_output_file with its last part. *output
+ * is to be committed or discarded after a failure too, unless it is NULL. */
+hci_status hci_output_open_file(const char *path, hci_output **output, hci_note *note);
+
 /* A file that the set does not have: one of this name that an earlier run left is removed by the commit. */
 hci_status hci_output_without(hci_output *output, const char *name, hci_note *note);
 

@@ -3,7 +3,7 @@
 #define HCI_HOST_MACHINE_EFFECTS_H
 
 #include "hci/drive/control.h"
-#include "hci/effects/effect.h"
+#include "hci/effects/attach.h"
 #include "hci/host/base/note.h"
 #include "hci/host/base/output.h"
 
@@ -34,16 +34,9 @@ void hci_effects_release(hci_effects_data *effects);
  * written with the same bytes. HCI_ERROR_OUTPUT, _MEMORY; discard the set then. */
 hci_status hci_effects_write(hci_output *output, const hci_effects *effects, hci_note *note);
 
-/* What a drive with effects points to; one for each drive, to be kept as long as that. */
-typedef struct hci_effects_attachment hci_effects_attachment;
-
-/* Puts effects on a drive whose plant, control.step_s and sensors are set up: plant.effects (which must be
- * empty) gets one entry, plant.coulomb_Nm grows, and the sensors become `sensors`, HCI_SENSE_COUNT of them,
- * changed and kept. Do this before hci_sensor_workspace and hci_sensor_start. plant: the machine, its effects
- * and the temperature of its magnets (NAN: the reference); what it points to is kept. state: whose speed the
- * friction before the torque sensor has, kept; NULL: the sensor does not see that friction. *attachment: out,
- * to be given to hci_effects_detach; NULL on failure. HCI_ERROR_ARGUMENT for a delay below 0 or of a million
- * steps, or Coulomb friction below 0 in sum; HCI_ERROR_MEMORY. The drive is then untouched. */
+/* hci_effects_put, with memory for the attachment and words for a refusal. *attachment: out, to be given to
+ * hci_effects_detach; NULL on failure. HCI_ERROR_ARGUMENT for a delay below 0 or of a million steps, or
+ * Coulomb friction below 0 in sum; HCI_ERROR_MEMORY. The drive is then untouched. */
 hci_status hci_effects_attach(const hci_effects_plant *plant, const hci_plant_state *state, hci_drive *drive,
                               hci_sensor *sensors, hci_effects_attachment **attachment, hci_note *note);
 

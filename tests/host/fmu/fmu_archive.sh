@@ -1,0 +1,75 @@
+#!/bin/sh
+# What an FMU consists of, without another program that imports it: archive, description, sources that any compiler takes,
+# and what is said where it cannot be made. Costs 4 seconds of the C compiler.
+. "$1/tests/support/common.sh"
+machine=$source_dir/data/machine_c
+cd "$work" || exit 1
+TMPDIR=$work/tmp
+export TMPDIR
+mkdir "$TMPDIR"
+
+command -v cc >/dev/null || { echo "skipped: no cc"; exit 77; }
+
+run 0 export-fmu "$machine" -q -o c.fmu
+check "no temporary file is left" [ -z "$(ls -A "$TMPDIR")" ]
+run 0 export-fmu "$machine" --json -o c_again.fmu
+check "the same bytes again" cmp c.fmu c_again.fmu
+grep -q '"effects":	0' stdout || fail "JSON has no effects"
+
+# ---- the archive, read by another program
+
+python3 - c.fmu <<'END' || fail "the archive"
+import sys, zipfile
+from xml.etree import ElementTree
+archive = zipfile.ZipFile(sys.argv[1])
+assert archive.testzip() is None
+names = archive.namelist()
+assert len(names) == len(set(names))
+archive.extractall("fmu")
+root = ElementTree.parse("fmu/modelDescription.xml").getroot()
+assert root.get("fmiVersion") == "2.0"
+model = root.find("CoSimulation")
+assert f"binaries/linux64/{model.get('modelIdentifier')}.so" in names
+listed = {file.get("name") for file in model.find("SourceFiles")}
+assert listed == {name[8:] for name in names if name.startswith("sources/") and name.endswith(".c")}, listed
+variables = root.findall("ModelVariables/ScalarVariable")
+assert all(v.get("description") for v in variables)
+units = {unit.get("name") for unit in root.find("UnitDefinitions")}
+reals = [v.find("Real") for v in variables if v.find("Real") is not None]
+assert all(real.get("unit") in units for real in reals)
+assert {v.get("name") for v in variables if v.get("causality") == "input"} == {"va", "vb", "vc", "load_torque", "speed_prescribed"}
+guid = root.get("guid")
+assert guid in open("fmu/sources/hci_data.c").read()
+END
+
+# ---- its sources: one folder, no options, no warnings
+
+for file in fmu/sources/fmu_*.c fmu/sources/hci_data.c; do
+    check "$file compiles" cc -std=c99 -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror -fsyntax-only "$file"
+done
+nm -D --defined-only fmu/binaries/linux64/machine_c.so | awk '{ print $3 }' >exported
+check "only functions of FMI are to be seen" [ -z "$(grep -v '^fmi2' exported)" ]
+check "all of them" [ "$(grep -c '^fmi2' exported)" -eq "$(grep -c '^HCI_FMI2_FUNCTION' fmu/sources/fmu_fmi2.h)" ]
+
+# ---- effects, and what goes wrong
+
+mkdir plain
+printf 'name,value,unit,source\npole_pairs,2,1,test\nemf_frequency,50,Hz,test\n' >plain/machine.csv
+printf 'order,amplitude_V,phase_rad\n1,21.93,0\n' >plain/back_emf.csv
+run 3 export-fmu plain -o plain.fmu
+grep -q 'inductance_d' stderr || fail "the missing inductance is not named"
+check "nothing is written" [ ! -e plain.fmu ]
+run 0 export-fmu plain --inputs currents --sources-only -q -o plain.fmu
+CC=no-such-compiler
+export CC
+run 5 export-fmu "$machine" -o other.fmu
+grep -q 'no C compiler: found none named `no-such-compiler`.*--sources-only' stderr || fail "the missing compiler is not named"
+CC=false
+run 5 export-fmu "$machine" -o other.fmu
+grep -q '`false` did not compile' stderr || fail "the compiler's failure is not told"
+check "nothing is written" [ ! -e other.fmu ]
+check "and nothing left" [ -z "$(ls -A "$TMPDIR")" ]
+run 0 export-fmu "$machine" --sources-only -q -o sources.fmu
+python3 -c 'import zipfile; assert not [n for n in zipfile.ZipFile("sources.fmu").namelist() if n.startswith("binaries/")]' ||
+    fail "--sources-only has a binary"
+finish

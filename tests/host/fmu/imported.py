@@ -1,0 +1,249 @@
+"""FMUs of hci-solve in FMPy, against hci-solve simulate.
+
+    imported.py HCI_SOLVE DATA     in a folder that may be written
+"""
+import csv
+import os
+import shutil
+import subprocess
+import sys
+
+import fmpy
+import fmpy.fmi2
+import fmpy.validation
+import numpy
+
+PROGRAM, DATA = sys.argv[1:3]
+TOLERANCE = 1e-9
+
+
+def hci_solve(*words):
+    subprocess.run([PROGRAM, *words, "-q"], check=True)
+
+
+def export(machine, name, *words):
+    """An FMU, validated."""
+    hci_solve("export-fmu", machine, "-o", name, *words)
+    problems = fmpy.validation.validate_fmu(name)
+    assert not problems, problems
+    return name
+
+
+class Slave:
+    """An instance, with values by their names."""
+
+    def __init__(self, name, instance="one"):
+        self.description = fmpy.read_model_description(name)
+        self.folder = fmpy.extract(name)
+        self.variables = {v.name: v for v in self.description.modelVariables}
+        model = self.description.coSimulation.modelIdentifier
+        make = {"2": fmpy.fmi2.FMU2Slave}[self.description.fmiVersion[0]]
+        self.fmu = make(guid=self.description.guid, modelIdentifier=model, unzipDirectory=self.folder, instanceName=instance)
+        self.fmu.instantiate()
+
+    def start(self, **values):
+        self.fmu.setupExperiment(startTime=0.0)
+        self.fmu.enterInitializationMode()
+        self.set(**values)
+        self.fmu.exitInitializationMode()
+        self.time_s = 0.0
+
+    def set(self, **values):
+        for name, value in values.items():
+            variable = self.variables[name]
+            if variable.type == "Boolean":
+                self.fmu.setBoolean([variable.valueReference], [value])
+            elif variable.type == "Enumeration":
+                self.fmu.setInteger([variable.valueReference], [value])
+            else:
+                self.fmu.setReal([variable.valueReference], [value])
+
+    def get(self, *names):
+        return numpy.array(self.fmu.getReal([self.variables[name].valueReference for name in names]))
+
+    def step(self, duration_s):
+        self.fmu.doStep(self.time_s, duration_s)
+        self.time_s += duration_s
+
+    def restored(self, kept):
+        return getattr(self.fmu, "deSerializeFMUstate", None or getattr(self.fmu, "deserializeFMUState", None))(kept)
+
+    def end(self):
+        self.fmu.terminate()
+        self.fmu.freeInstance()
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+
+# ---- trajectories
+
+def write_scenario(name, **values):
+    with open(name, "w") as file:
+        file.write("name,value\n" + "".join(f"{key},{value}\n" for key, value in values.items()))
+    return name
+
+
+def simulated(machine, **values):
+    """Every step of a simulation, by column."""
+    scenario = write_scenario("scenario.csv", **values, trajectory_every=1)
+    hci_solve("simulate", machine, scenario, "-o", "simulated")
+    with open("simulated/trajectory.csv") as file:
+        rows = list(csv.reader(file))
+    return dict(zip(rows[0], numpy.array(rows[1:], dtype=float).T))
+
+
+def differences(slave, trajectory, inputs, columns, step_s, every=1):
+    """Largest differences over a trajectory whose inputs are played, as a share of the largest value."""
+    most = dict.fromkeys(columns, 0.0)
+    count = len(trajectory["time_s"]) - 1
+    for k in range(0, count + 1, every):
+        slave.set(**{name: trajectory[column][k] for name, column in inputs.items()})
+        for (name, column), value in zip(columns.items(), slave.get(*columns)):
+            difference = value - trajectory[column][k]
+            if name == "angle":  # wrapped in the file
+                difference = (difference + numpy.pi) % (2 * numpy.pi) - numpy.pi
+            most[name] = max(most[name], abs(difference))
+        if k < count:
+            slave.step(every * step_s)
+    return {name: most[name] / max(abs(trajectory[column]).max(), 1e-12) for name, column in columns.items()}
+
+
+VOLTAGES = {"va": "va_V", "vb": "vb_V", "vc": "vc_V", "load_torque": "load_torque_Nm"}
+CURRENTS = {"ia_imposed": "ia_A", "ib_imposed": "ib_A", "ic_imposed": "ic_A"}
+TRUE = {"torque": "torque_Nm", "speed": "speed_rad_per_s", "angle": "theta_m_rad", "ia": "ia_A", "ib": "ib_A", "ic": "ic_A",
+        "id": "id_A", "iq": "iq_A"}
+
+
+def with_sensors(trajectory):
+    """Names of the true and of the measured columns, where sensors stand between."""
+    columns = {name: column.replace("_Nm", "_true_Nm").replace("_A", "_true_A").replace("_rad", "_true_rad", 1)
+               for name, column in TRUE.items()}
+    return {name: column for name, column in columns.items() if column in trajectory}
+
+
+def check(what, share):
+    worst = max(share, key=share.get)
+    print(f"{what}: largest difference {share[worst]:.2g} of the largest value ({worst})")
+    assert share[worst] <= TOLERANCE, share
+
+
+STEP_s = 1e-5
+
+
+def check_voltages(version):
+    """A loaded start of machine C under current control, its voltages played to the FMU."""
+    name = export(f"{DATA}/machine_c", f"voltages_{version}.fmu", "--fmi", version)
+    trajectory = simulated(f"{DATA}/machine_c", duration=0.03, torque_reference=6, load_torque=2, current_control="pi")
+    slave = Slave(name)
+    slave.start()
+    check(f"FMI {version}, voltages", differences(slave, trajectory, VOLTAGES, TRUE, STEP_s))
+    slave.end()
+    return name, trajectory
+
+
+def check_currents(version):
+    name = export(f"{DATA}/machine_a", f"currents_{version}.fmu", "--fmi", version, "--inputs", "currents")
+    shutil.copy(f"{DATA}/drive/machine_a_currents.csv", ".")
+    step_s = 2e-5
+    trajectory = simulated(f"{DATA}/machine_a", duration=0.02, step=step_s, prescribed_speed=157.07963267948966,
+                           current_control="ideal", currents="machine_a_currents.csv")
+    slave = Slave(name)
+    slave.start(speed_is_prescribed=True, speed_prescribed=157.07963267948966, step=step_s)
+    check(f"FMI {version}, currents", differences(slave, trajectory, CURRENTS, TRUE, step_s))
+    slave.end()
+
+
+EFFECTS = """effect,parameter,value,unit,std_error
+cogging,sine_18,0.05,Nm,
+saturation,d1q2_cosine_0,-0.4,Nm,
+saturation,reference_current,8,A,
+phase_imbalance,a,0.02,1,
+magnet_temperature,emf_per_kelvin,-0.001,1/K,
+friction,coulomb,0.2,Nm,
+friction,viscous,0.001,Nms_per_rad,
+current_gain,b,0.03,1,
+current_offset,c,0.05,A,
+position_offset,angle,0.02,rad,
+channel_delay,current,0.000025,s,
+"""
+
+
+def check_effects(version):
+    """Effects on machine and sensors: with a delay, the readings have a memory."""
+    shutil.copytree(f"{DATA}/machine_c", "effects", dirs_exist_ok=True)
+    with open("effects/effects.csv", "w") as file:
+        file.write(EFFECTS)
+    name = export("effects", f"effects_{version}.fmu", "--fmi", version)
+    trajectory = simulated("effects", duration=0.03, torque_reference=6, load_torque=2, current_control="pi",
+                           magnet_temperature=80)
+    slave = Slave(name)
+    slave.start(magnet_temperature=80.0)
+    measured = {"ia_measured": "ia_A", "ib_measured": "ib_A", "ic_measured": "ic_A", "speed_measured": "speed_rad_per_s"}
+    check(f"FMI {version}, effects, true", differences(slave, trajectory, VOLTAGES, with_sensors(trajectory), STEP_s))
+    slave.fmu.reset()
+    slave.start(magnet_temperature=80.0)
+    check(f"FMI {version}, effects, measured, after a reset", differences(slave, trajectory, VOLTAGES, measured, STEP_s))
+    slave.end()
+    return name
+
+
+# ---- instances and states
+
+def play(slave, trajectory, first, last):
+    for k in range(first, last):
+        slave.set(**{name: trajectory[column][k] for name, column in VOLTAGES.items()})
+        slave.step(STEP_s)
+    return slave.get(*TRUE, "ia_measured", "torque_measured")
+
+
+def check_states(name, trajectory):
+    """Two instances at once, a state taken and given back, as bytes into the other one too; twice the same."""
+    one, two = Slave(name), Slave(name, "two")
+    one.start()
+    two.start(angle_start=0.3)
+    at_100 = play(one, trajectory, 0, 100)
+    other = play(two, trajectory, 0, 100)
+    assert (at_100 != other).any()
+    state = one.fmu.getFMUState()
+    at_200 = play(one, trajectory, 100, 200)
+    one.fmu.setFMUState(state)
+    assert (one.get(*TRUE, "ia_measured", "torque_measured") == at_100).all()
+    assert (play(one, trajectory, 100, 200) == at_200).all()
+    kept = one.fmu.serializeFMUState(state)
+    two.fmu.setFMUState(two.restored(kept))
+    assert (play(two, trajectory, 100, 200) == at_200).all()
+    one.end()
+    two.end()
+    again = Slave(name)
+    again.start()
+    assert (play(again, trajectory, 0, 100) == at_100).all()
+    again.end()
+    print(f"{name}: two instances, states, and instantiated again: the same to the bit")
+
+
+def check_refusals(name):
+    slave = Slave(name)
+    slave.start()
+    for wrong in (lambda: slave.set(inertia=1.0), lambda: slave.set(torque=1.0), lambda: slave.step(-1.0)):
+        try:
+            wrong()
+        except Exception:
+            continue
+        raise AssertionError("not refused")
+    slave.end()
+    try:
+        slave = Slave(name)
+        slave.start(step=0.0)
+    except Exception:
+        pass
+    else:
+        raise AssertionError("a step of 0 is not refused")
+    slave.fmu.freeInstance()
+
+
+for version in ["2"]:
+    voltages, played = check_voltages(version)
+    check_currents(version)
+    effects = check_effects(version)
+    check_states(voltages, played)
+    check_states(effects, played)
+    check_refusals(voltages)
