@@ -64,6 +64,17 @@ sed -i 's/^resistance,0.38/resistance,0.2/; s/^rated_current,7.0710678/rated_cur
 printf 'order,amplitude_Nm_per_A,phase_rad\n1,0.2,0\n' >"$work/typed/back_emf.csv"
 run 1 check "$work/typed" "$work/load.csv" "$work/back.csv"
 says '^1 slip found: the back-EMF is given line to line' '^  better as read, but still off'
+# a row of units: the remedy is one that the file accepts
+awk -F, -v OFS=, 'NR == 1 { print "time,theta_m,erpm,id,iq,vd,vq,torque,odd"; print "s,rad,rpm,A,A,V,V,Nm,"; next } { $8 *= 1000 } 1' "$work/load.csv" >"$work/units.csv"
+printf 'order,amplitude_Nm_per_A,phase_rad\n1,0.1,0\n' >"$work/typed/back_emf.csv"
+run 1 check "$work/typed" "$work/units.csv"
+says '^1 slip found: the torque is in mN·m' 'column torque: found torque, should be mNm in line 2, the row of units'
+sed -i '2s/Nm/mNm/' "$work/units.csv"
+run 0 check "$work/typed" "$work/units.csv"
+# the remedy for an angle under another name
+sed 's/theta_m_rad/turned/' "$work/load.csv" >"$work/turned.csv"
+run 0 check "$work/typed" "$work/turned.csv"
+says 'no angle: what needs it is not compared' '--column theta_m_deg=COLUMN'
 sed 's/theta_m_rad/theta/; s/vd_V,vq_V/va_V,vb_V/; s/odd/vc_V/' "$work/load.csv" >"$work/either.csv"
 run 3 check "$work/typed" "$work/either.csv"
 says 'theta.*mechanical or electrical'

@@ -25,6 +25,8 @@ enum {
     CHECK_AT_THETA_E,
     CHECK_AT_THETA,
     CHECK_AT_PHASES,
+    CHECK_AT_CLAMPS, /* currents, where there are voltages to compare them with */
+    CHECK_AT_PROBES, /* voltages, where there are currents */
     CHECK_AT_ABC,
     CHECK_AT_DQ,
     CHECK_AT_DRIVE,

@@ -4,11 +4,26 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "host/base/unit_lookup.h"
+
 /* Their texts are copied. */
 typedef char
     same_texts[(int)CHECK_TEXT == (int)HCI_CHECK_TEXT && (int)CHECK_PATH == (int)HCI_CHECK_PATH ? 1 : -1];
 
 #define SQRT2 1.4142135623730951
+
+/* Phase currents and phase voltages, be it in two recordings, that do not follow the angle the same way
+ * round. */
+static bool are_opposed(const check_data *data)
+{
+    bool current[2] = {false, false}, voltage[2] = {false, false};
+    for (size_t k = 0; k < data->runs; ++k) {
+        const check_run *r = &data->run[k];
+        if (r->has_abc && isfinite(r->current_order)) current[r->current_order < 0.0] = true;
+        if (r->has_phase_voltage && isfinite(r->voltage_order)) voltage[r->voltage_order < 0.0] = true;
+    }
+    return (current[0] && voltage[1]) || (current[1] && voltage[0]);
+}
 
 /* The first recording with a cell of this kind. */
 static const check_place *run_place(const check_data *data, int where)
@@ -24,6 +39,8 @@ static const check_place *run_place(const check_data *data, int where)
         if (where == CHECK_AT_DRIVE && r->has_dq && r->has_dq_voltage) place = &r->current_cell;
         if (where == CHECK_AT_PHASES && r->theta_cell.path)
             place = r->has_abc ? &r->current_cell : r->has_phase_voltage ? &r->voltage_cell : NULL;
+        if (where == CHECK_AT_CLAMPS && r->has_abc && are_opposed(data)) place = &r->current_cell;
+        if (where == CHECK_AT_PROBES && r->has_phase_voltage && are_opposed(data)) place = &r->voltage_cell;
         if (where == CHECK_AT_VOLTAGE || (where == CHECK_AT_PHASE_VOLTAGE && r->has_phase_voltage))
             place = &r->voltage_cell;
         if (where == CHECK_AT_TORQUE && r->has_torque) place = &r->torque_cell;
@@ -158,6 +175,31 @@ static void fill(char out[HCI_CHECK_TEXT], const char *words, double number)
         snprintf(out, HCI_CHECK_TEXT, "%.*s%s%s", (int)(at - words), words, text, at + 2);
 }
 
+static bool has_unit(const char *name)
+{
+    size_t base;
+    hci_unit_of_name(name, &base);
+    return name[base] != '\0';
+}
+
+/* Where a row of units says the unit, that is to be changed: "mNm in line 2, the row of units". */
+static void move_unit(const check_error *error, const check_place *place, char should_be[HCI_CHECK_TEXT])
+{
+    size_t base;
+    char name[HCI_CHECK_TEXT];
+    if (error->aspect == CHECK_OF_THETA_UNIT) snprintf(should_be, HCI_CHECK_TEXT, "theta_deg");
+    if (strchr(should_be, ' ') || !has_unit(should_be)) return;
+    snprintf(name, sizeof name, "%s", should_be);
+    hci_unit_of_name(name, &base);
+    if (error->aspect == CHECK_OF_THETA) { /* another name, in the unit that there is */
+        should_be[base] = '\0';
+        return;
+    }
+    const bool in_both = has_unit(place->column);
+    snprintf(should_be, HCI_CHECK_TEXT, "%.40s%s%.40s in line %zu, the row of units", in_both ? name : "",
+             in_both ? ", and " : "", name + base + 1, place->unit_line);
+}
+
 void hci_check_error_locate(const check_error *error, const check_data *data, const check_interpretation *as,
                             hci_check_finding *finding)
 {
@@ -170,4 +212,5 @@ void hci_check_error_locate(const check_error *error, const check_data *data, co
     memcpy(finding->column, place->column, sizeof finding->column);
     memcpy(finding->found, place->text, sizeof finding->found);
     fill(finding->should_be, error->should_be, right_number(error, data, as));
+    if (place->unit_line > 0) move_unit(error, place, finding->should_be);
 }

@@ -54,6 +54,12 @@ static double emf_of(const check_data *data, const check_interpretation *as, dou
         return a * pole_pairs / (2.0 * HCI_PI);
     case CHECK_EMF_FLUX_LINKAGE:
         return a * pole_pairs;
+    case CHECK_EMF_TAKEN_PER_KRPM:
+        return declared / hci_sheet_emf(HCI_SHEET_VOLT_PHASE_PEAK, 1.0, 1);
+    case CHECK_EMF_TAKEN_PER_KRPM_LINE:
+        return declared / hci_sheet_emf(HCI_SHEET_VOLT_LINE_PEAK, 1.0, 1);
+    case CHECK_EMF_TAKEN_PER_KRPM_LINE_RMS:
+        return declared / hci_sheet_emf(HCI_SHEET_VOLT_LINE_RMS, 1.0, 1);
     default:
         return declared;
     }

@@ -18,7 +18,10 @@ enum {
     CHECK_EMF_VOLT_PER_KRPM_LINE_RMS,
     CHECK_EMF_KV,
     CHECK_EMF_VOLT_PER_HZ,
-    CHECK_EMF_FLUX_LINKAGE
+    CHECK_EMF_FLUX_LINKAGE,
+    CHECK_EMF_TAKEN_PER_KRPM, /* of V·s/rad */
+    CHECK_EMF_TAKEN_PER_KRPM_LINE,
+    CHECK_EMF_TAKEN_PER_KRPM_LINE_RMS
 };
 
 /* Factors are 1 and flags 0 where the files are as they are declared. All fields are doubles, so that a
@@ -38,13 +41,14 @@ typedef struct {
     double direction;                                      /* −1: the angle is counted backward */
     double run_zero_rad;                                   /* θ = angle of the recording + this */
     double swapped;                                        /* 1: phases b and c of the recordings */
-    double current, voltage;                               /* factors */
-    double dq;                                             /* factor of i_d, i_q and of v_d, v_q */
-    double voltage_is_line;                                /* 1: va, vb, vc hold v_ab, v_bc, v_ca */
-    double torque, speed;                                  /* factors */
-    double speed_electrical;                               /* 1: so */
-    double speed_unsigned;                                 /* 1: so; its sign is that of the angle */
-    double time;                                           /* factor */
+    double currents_swapped, voltages_swapped; /* 1: those of the currents, of the voltages alone */
+    double current, voltage;                   /* factors */
+    double dq;                                 /* factor of i_d, i_q and of v_d, v_q */
+    double voltage_is_line;                    /* 1: va, vb, vc hold v_ab, v_bc, v_ca */
+    double torque, speed;                      /* factors */
+    double speed_electrical;                   /* 1: so */
+    double speed_unsigned;                     /* 1: so; its sign is that of the angle */
+    double time;                               /* factor */
 } check_interpretation;
 
 /* The machine that the tables are in an interpretation. NAN: not known. */

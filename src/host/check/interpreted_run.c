@@ -51,11 +51,21 @@ static check_vector phase_of_line(check_vector x, const check_interpretation *as
     return as->voltage_is_line > 0.0 ? hci_check_turned(hci_check_scaled(x, 1.0 / SQRT3), -HCI_PI / 6.0) : x;
 }
 
+bool hci_check_currents_swapped(const check_interpretation *as)
+{
+    return (as->swapped > 0.0) != (as->currents_swapped > 0.0);
+}
+
+bool hci_check_voltages_swapped(const check_interpretation *as)
+{
+    return (as->swapped > 0.0) != (as->voltages_swapped > 0.0);
+}
+
 /* d + jq of means over the frames: x = −(d + jq) e^{jθ}. An angle counted backward exchanges the frames;
  * swapped phases conjugate αβ, and conj(x) e^{−jθ} = conj(x e^{jθ}). */
-static check_vector dq_of(const check_vector way[2], const check_interpretation *as)
+static check_vector dq_of(const check_vector way[2], const check_interpretation *as, bool swapped)
 {
-    const bool swapped = as->swapped > 0.0, backward = as->direction < 0.0;
+    const bool backward = as->direction < 0.0;
     const check_vector x = way[swapped == backward ? CHECK_FORWARD : CHECK_BACKWARD];
     return hci_check_turned(hci_check_scaled(swapped ? hci_check_conjugate(x) : x, -1.0), -as->run_zero_rad);
 }
@@ -65,7 +75,9 @@ check_vector hci_check_current_of(const check_run *r, const check_interpretation
     const check_frame *frame = hci_check_frame_of(r, hci_check_scale_of(r, as, m));
     const check_vector none = {0.0, 0.0};
     if (r->has_dq) return hci_check_scaled(r->dq, as->current * as->dq);
-    return r->has_abc && frame ? hci_check_scaled(dq_of(frame->current, as), as->current) : none;
+    return r->has_abc && frame
+               ? hci_check_scaled(dq_of(frame->current, as, hci_check_currents_swapped(as)), as->current)
+               : none;
 }
 
 static check_vector voltage_of(const check_run *r, const check_interpretation *as, const check_model *m)
@@ -74,7 +86,7 @@ static check_vector voltage_of(const check_run *r, const check_interpretation *a
     check_vector way[2] = {{0.0, 0.0}, {0.0, 0.0}};
     for (int k = CHECK_FORWARD; frame && k <= CHECK_BACKWARD; ++k)
         way[k] = phase_of_line(frame->voltage[k], as);
-    return hci_check_scaled(dq_of(way, as), as->voltage);
+    return hci_check_scaled(dq_of(way, as, hci_check_voltages_swapped(as)), as->voltage);
 }
 
 /* The drive has turned v_d, v_q with an angle of its own: no convention error of the recorded one is in them.
@@ -98,12 +110,14 @@ check_voltage_terms hci_check_voltage_terms_of(const check_run *r, const check_i
     return x;
 }
 
-/* 3/2 Re(v i*). Of phase currents it needs no frame, so that a wrong angle does not spoil it. */
+/* 3/2 Re(v i*). Of phase currents it needs no frame, so that a wrong angle does not spoil it, unless the
+ * phases of one of both are taken otherwise. */
 double hci_check_power_of(const check_run *r, const check_interpretation *as, const check_model *m)
 {
     if (r->has_dq_voltage) return 1.5 * r->power.re * as->voltage * as->current * as->dq * as->dq;
+    const bool by_frame = r->has_dq || hci_check_currents_swapped(as) != hci_check_voltages_swapped(as);
     const check_vector p =
-        r->has_dq
+        by_frame
             ? hci_check_product(voltage_of(r, as, m), hci_check_conjugate(hci_check_current_of(r, as, m)))
             : hci_check_scaled(phase_of_line(r->power, as), as->voltage * as->current);
     return 1.5 * p.re;

@@ -38,4 +38,8 @@ bool hci_check_has_turning_voltage(const check_run *r);
 bool hci_check_has_drop(const check_data *data, const check_run *r);
 bool hci_check_has_emf(const check_data *data, const check_run *r, const check_model *m);
 
+/* Whether phases b and c of the currents, or of the voltages, are read the other way round. */
+bool hci_check_currents_swapped(const check_interpretation *as);
+bool hci_check_voltages_swapped(const check_interpretation *as);
+
 #endif

@@ -95,12 +95,20 @@ static bool may_join(const check_posterior *p, size_t a, size_t b)
            hci_check_error_applies(&HCI_CHECK_ERRORS[b], p->data);
 }
 
+/* A number that was converted without need: with two further errors it is not looked for. */
+static bool is_seldom_third(size_t k)
+{
+    return HCI_CHECK_ERRORS[k].aspect == CHECK_OF_EMF && HCI_CHECK_ERRORS[k].plus >= CHECK_EMF_TAKEN_PER_KRPM;
+}
+
 /* All that have a and b, and one further. */
 static bool weigh_triples(check_posterior *p, size_t a, size_t b)
 {
     bool good = weigh(p, (int)a, (int)b, -1);
+    if (is_seldom_third(a) || is_seldom_third(b)) return good;
     for (size_t c = b + 1; c < HCI_CHECK_ERROR_COUNT && good; ++c)
-        if (may_join(p, a, c) && may_join(p, b, c)) good = weigh(p, (int)a, (int)b, (int)c);
+        if (!is_seldom_third(c) && may_join(p, a, c) && may_join(p, b, c))
+            good = weigh(p, (int)a, (int)b, (int)c);
     return good;
 }
 

@@ -24,7 +24,8 @@ static check_value order_against_angle(const check_data *data, const check_inter
     if (!best) return HCI_CHECK_NONE;
     const double order =
         (of_current ? best->current_order : best->voltage_order) / hci_check_scale_of(best, as, m);
-    return hci_check_found(as->swapped > 0.0 ? -order : order);
+    const bool swapped = of_current ? hci_check_currents_swapped(as) : hci_check_voltages_swapped(as);
+    return hci_check_found(swapped ? -order : order);
 }
 
 static check_value current_order(const check_data *data, const check_interpretation *as, const check_model *m)

@@ -33,6 +33,9 @@ const hci_alias hci_aliases[] = {
     PLAIN("theta_r", NULL, NULL, "many"),
     PLAIN("rotor_angle", NULL, NULL, "many"),
     PLAIN("rotor_position", NULL, NULL, "many"),
+    PLAIN("angle", NULL, NULL, "many"),
+    PLAIN("mech angle", "theta_m_rad", "rad", "many"),
+    PLAIN("elec angle", "theta_e_rad", "rad", "many"),
     TOLD("th", "theta_e_rad", "deg", "SyR-e", "the electrical angle"),
     TOLD("epsilon", "theta_e_rad", "rad", "GEM", "the electrical angle"),
     PLAIN("epsilon_el", "theta_e_rad", "rad", "many"),
@@ -197,6 +200,62 @@ const hci_alias hci_aliases[] = {
     PLAIN("L(PhaseA,PhaseB)", "Mab_H", "H", "Maxwell"),
     PLAIN("L(PhaseB,PhaseC)", "Mbc_H", "H", "Maxwell"),
     PLAIN("L(PhaseC,PhaseA)", "Mca_H", "H", "Maxwell"),
+    PLAIN("Zeit", "time_s", "s", "German"),
+    TOLD("Drehzahl", "speed_rad_per_s", "rpm", "German", "the mechanical speed"),
+    TOLD("Drehmoment", "torque_Nm", "N*m", "German", "the torque"),
+    TOLD("Wellenmoment", "torque_Nm", "N*m", "German", "the torque"),
+    PLAIN("Winkel", NULL, NULL, "German"),
+    PLAIN("Drehwinkel", NULL, NULL, "German"),
+    PLAIN("Rotorwinkel", NULL, NULL, "German"),
+    PLAIN("Läuferwinkel", NULL, NULL, "German"),
+    PLAIN("Laeuferwinkel", NULL, NULL, "German"),
+    PLAIN("mechanischer Winkel", "theta_m_rad", "rad", "German"),
+    PLAIN("Winkel mech", "theta_m_rad", "rad", "German"),
+    PLAIN("elektrischer Winkel", "theta_e_rad", "rad", "German"),
+    PLAIN("Winkel el", "theta_e_rad", "rad", "German"),
+    PLAIN("temps", "time_s", "s", "French"),
+    TOLD("vitesse", "speed_rad_per_s", "rpm", "French", "the mechanical speed"),
+    TOLD("vitesse de rotation", "speed_rad_per_s", "rpm", "French", "the mechanical speed"),
+    TOLD("couple", "torque_Nm", "N*m", "French", "the torque"),
+    PLAIN("angle mécanique", "theta_m_rad", "rad", "French"),
+    PLAIN("angle mecanique", "theta_m_rad", "rad", "French"),
+    PLAIN("angle électrique", "theta_e_rad", "rad", "French"),
+    PLAIN("angle electrique", "theta_e_rad", "rad", "French"),
+    PLAIN("tempo", "time_s", "s", "Italian"),
+    TOLD("velocità", "speed_rad_per_s", "rpm", "Italian", "the mechanical speed"),
+    TOLD("velocita", "speed_rad_per_s", "rpm", "Italian", "the mechanical speed"),
+    TOLD("giri", "speed_rad_per_s", "rpm", "Italian", "the mechanical speed"),
+    TOLD("coppia", "torque_Nm", "N*m", "Italian", "the torque"),
+    PLAIN("angolo", NULL, NULL, "Italian"),
+    PLAIN("angolo meccanico", "theta_m_rad", "rad", "Italian"),
+    PLAIN("angolo elettrico", "theta_e_rad", "rad", "Italian"),
+    PLAIN("tiempo", "time_s", "s", "Spanish"),
+    TOLD("velocidad", "speed_rad_per_s", "rpm", "Spanish", "the mechanical speed"),
+    TOLD("par", "torque_Nm", "N*m", "Spanish", "the torque"),
+    PLAIN("ángulo", NULL, NULL, "Spanish"),
+    PLAIN("angulo", NULL, NULL, "Spanish"),
+    PLAIN("ángulo mecánico", "theta_m_rad", "rad", "Spanish"),
+    PLAIN("angulo mecanico", "theta_m_rad", "rad", "Spanish"),
+    PLAIN("ángulo eléctrico", "theta_e_rad", "rad", "Spanish"),
+    PLAIN("angulo electrico", "theta_e_rad", "rad", "Spanish"),
+    PLAIN("i_l1", "ia_A", "A", "many"),
+    PLAIN("i_l2", "ib_A", "A", "many"),
+    PLAIN("i_l3", "ic_A", "A", "many"),
+    PLAIN("u_l1", "va_V", "V", "many"),
+    PLAIN("u_l2", "vb_V", "V", "many"),
+    PLAIN("u_l3", "vc_V", "V", "many"),
+    PLAIN("i_1", "ia_A", "A", "many"),
+    PLAIN("i_2", "ib_A", "A", "many"),
+    PLAIN("i_3", "ic_A", "A", "many"),
+    PLAIN("u_1", "va_V", "V", "many"),
+    PLAIN("u_2", "vb_V", "V", "many"),
+    PLAIN("u_3", "vc_V", "V", "many"),
+    PLAIN("u_u", "va_V", "V", "many"),
+    PLAIN("u_v", "vb_V", "V", "many"),
+    PLAIN("u_w", "vc_V", "V", "many"),
+    PLAIN("u_uv", "vab_V", "V", "many"),
+    PLAIN("u_vw", "vbc_V", "V", "many"),
+    PLAIN("u_wu", "vca_V", "V", "many"),
 };
 
 const size_t hci_alias_count = sizeof hci_aliases / sizeof *hci_aliases;
@@ -211,10 +270,19 @@ static char lower(char c)
     return (char)(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
 }
 
+/* The same of a capital with an accent, of two bytes: C3 80 to C3 9E. */
+static char lower_after(char before, char c)
+{
+    const unsigned char byte = (unsigned char)c;
+    if ((unsigned char)before == 0xC3 && byte >= 0x80 && byte <= 0x9E) return (char)(byte + 0x20);
+    return lower(c);
+}
+
 /* Same letters. A leading '-' is a sign, which must not be lost. */
 static bool is_alike(const char *name, size_t length, const char *alias)
 {
     const char *end = name + length;
+    char before = '\0', before_alias = '\0';
     if (length > 0 && *name == '-') return false;
     for (;;) {
         while (name < end && is_filler(*name))
@@ -222,7 +290,9 @@ static bool is_alike(const char *name, size_t length, const char *alias)
         while (is_filler(*alias))
             ++alias;
         if (name == end || *alias == '\0') return name == end && *alias == '\0';
-        if (lower(*name++) != lower(*alias++)) return false;
+        if (lower_after(before, *name) != lower_after(before_alias, *alias)) return false;
+        before = *name++;
+        before_alias = *alias++;
     }
 }
 

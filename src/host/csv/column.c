@@ -300,24 +300,33 @@ bool hci_csv_told(const hci_csv *csv, const char *name, hci_note *told)
 
 static hci_status unclear_error(const hci_csv *csv, size_t column, hci_note *note)
 {
+    char remedy[200];
     const hci_csv_fault fault = {.line = hci_csv_record_line(csv, 0),
                                  .column = column,
                                  .name = hci_csv_cell(csv, 0, column),
                                  .found = "an angle that may be mechanical or electrical",
                                  .expected = "theta_m or theta_e",
-                                 .remedy =
-                                     "rename the column to the one it is, or say --column theta_m=COLUMN"};
+                                 .remedy = remedy};
+    snprintf(
+        remedy, sizeof remedy,
+        "rename the column to the one it is, say --column \"theta_m=%.60s\" (or theta_e), or add the speed",
+        hci_csv_cell(csv, 0, column));
     return hci_csv_fault_note(csv, &fault, note);
+}
+
+bool hci_csv_unclear(const hci_csv *csv, size_t *column)
+{
+    const hci_unit *unit;
+    for (*column = 0; *column < csv->columns; ++*column)
+        for (size_t k = 0; k < hci_alias_count && !is_given(csv, *column); k++)
+            if (hci_aliases[k].column == NULL &&
+                hci_column_split_alias(hci_csv_cell(csv, 0, *column), &hci_aliases[k], &unit))
+                return true;
+    return false;
 }
 
 hci_status hci_csv_check_clear(const hci_csv *csv, hci_note *note)
 {
-    const hci_unit *unit;
-    for (size_t column = 0; column < csv->columns; column++) {
-        const char *name = hci_csv_cell(csv, 0, column);
-        for (size_t k = 0; k < hci_alias_count && !is_given(csv, column); k++)
-            if (hci_aliases[k].column == NULL && hci_column_split_alias(name, &hci_aliases[k], &unit))
-                return unclear_error(csv, column, note);
-    }
-    return HCI_OK;
+    size_t column;
+    return hci_csv_unclear(csv, &column) ? unclear_error(csv, column, note) : HCI_OK;
 }

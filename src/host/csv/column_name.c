@@ -2,6 +2,7 @@
  * another tool. */
 #include "host/csv/column_name.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #include "hci/host/base/text.h"
@@ -17,12 +18,54 @@ hci_wanted_column hci_wanted_column_of(const char *name)
 const hci_unit *hci_column_unit_of_tail(const char *tail)
 {
     if (*tail == '_') return hci_unit_of_suffix(tail + 1);
+    const bool is_apart = *tail == ' ';
     tail += strspn(tail, " \t");
+    if (is_apart && hci_text_begins(tail, "in ", 3)) return hci_csv_cell_unit(tail + 3);
     if (*tail == '/' || *tail == ',') return hci_csv_cell_unit(tail + 1 + strspn(tail + 1, " \t"));
     return *tail == '(' || *tail == '[' ? hci_csv_cell_unit(tail) : NULL;
 }
 
-bool hci_column_split(const char *name, const hci_wanted_column *want, const hci_unit **unit)
+/* ---- a word for the quantity before the name ---- */
+
+enum { MOST_BARE = 64 };
+
+/* What follows such a word, with the letter of the quantity before it: "Strom Iq" is iq and i_Iq, "Current a"
+ * i_a. True where there is a word, of currents or voltages. */
+typedef struct {
+    char bare[MOST_BARE], with_letter[MOST_BARE];
+    int dimension;
+} worded_name;
+
+static const char *skip_word(const char *name, const char *const *words)
+{
+    for (; *words != NULL; ++words) {
+        const size_t length = strlen(*words);
+        if (hci_text_begins(name, *words, length) && (name[length] == ' ' || name[length] == '_'))
+            return name + length + 1 + strspn(name + length + 1, " _");
+    }
+    return NULL;
+}
+
+static bool take_word(const char *name, worded_name *w)
+{
+    static const char *const CURRENT[] = {"Strom", "Courant", "Corrente", "Corriente", "Current", NULL};
+    static const char *const VOLTAGE[] = {"Spannung",       "Tension", "Tensione",
+                                          "Tensi\xC3\xB3n", "Voltage", NULL};
+    static const char *const PHASE[] = {"Phase", "Fase", NULL};
+    const char *current = skip_word(name, CURRENT), *rest = current ? current : skip_word(name, VOLTAGE);
+    const char *after = rest ? skip_word(rest, PHASE) : NULL;
+    if (after) rest = after;
+    if (!rest || *rest == '\0' || strlen(rest) + 3 > MOST_BARE) return false;
+    if (strcmp(rest, current ? "A" : "V") == 0) return false; /* likely to be the unit */
+    snprintf(w->bare, sizeof w->bare, "%s", rest);
+    snprintf(w->with_letter, sizeof w->with_letter, "%c_%s", current ? 'i' : 'u', rest);
+    w->dimension = hci_unit_find(current ? "A" : "V", 1)->dimension;
+    return true;
+}
+
+/* ---- names as they are asked for ---- */
+
+static bool split(const char *name, const hci_wanted_column *want, const hci_unit **unit)
 {
     if (!hci_text_begins(name, want->base, want->base_length)) return false;
     const char *rest = name + want->base_length;
@@ -32,7 +75,14 @@ bool hci_column_split(const char *name, const hci_wanted_column *want, const hci
     return *unit != NULL;
 }
 
-bool hci_column_split_alias(const char *name, const hci_alias *alias, const hci_unit **unit)
+bool hci_column_split(const char *name, const hci_wanted_column *want, const hci_unit **unit)
+{
+    worded_name w;
+    if (split(name, want, unit)) return true;
+    return take_word(name, &w) && want->unit->dimension == w.dimension && split(w.bare, want, unit);
+}
+
+static bool split_alias(const char *name, const hci_alias *alias, const hci_unit **unit)
 {
     const size_t length = strlen(name);
     *unit = NULL;
@@ -43,6 +93,16 @@ bool hci_column_split_alias(const char *name, const hci_alias *alias, const hci_
         if (*unit != NULL) return true;
     }
     return false;
+}
+
+bool hci_column_split_alias(const char *name, const hci_alias *alias, const hci_unit **unit)
+{
+    worded_name w;
+    if (split_alias(name, alias, unit)) return true;
+    if (alias->unit == NULL || alias->beside != NULL || !take_word(name, &w)) return false;
+    const hci_unit *of_alias = hci_unit_find(alias->unit, strlen(alias->unit));
+    return of_alias != NULL && of_alias->dimension == w.dimension &&
+           (split_alias(w.bare, alias, unit) || split_alias(w.with_letter, alias, unit));
 }
 
 bool hci_column_is_known(const char *name)

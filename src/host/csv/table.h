@@ -33,10 +33,11 @@ struct hci_csv {
     bool has_foreword; /* lines before the header were passed over */
     char separator;
     int learned_pole_pairs; /* of what a device has learnt; 0: it was something else */
-    const char *map_of; /* the drive whose map the file was, its word; NULL: it was a table */
-    bool leaves_holes;  /* rows that are too short or too long are left out, and counted */
+    const char *map_of;     /* the drive whose map the file was, its word; NULL: it was a table */
+    bool leaves_holes;      /* rows that are too short or too long are left out, and counted */
     hci_csv_given *given;
     size_t given_count;
+    hci_note decided;            /* what was decided of a column that could mean two things, or "" */
     size_t torn;                 /* rows left out so */
     hci_csv_hole hole;           /* the first of them */
     const double *const *number; /* rows of numbers in memory in place of cells; NULL: text */
@@ -91,6 +92,9 @@ bool hci_csv_says_no_unit(const char *cell);
 
 /* The unit that the row of units names for a column; NULL where it says nothing, or nothing that is known. */
 const hci_unit *hci_csv_row_unit(const hci_csv *csv, size_t column);
+
+/* The column of an angle that may be mechanical or electrical; false: none. */
+bool hci_csv_unclear(const hci_csv *csv, size_t *column);
 
 /* Names the columns that were not used, used[columns], in a remark: one under an unknown name would otherwise
  * be missed in silence. */

@@ -13,6 +13,7 @@
 #include "host/numeric/derivative.h"
 #include "host/numeric/statistics.h"
 #include "host/numeric/unwrap.h"
+#include "host/recording/bare_angle.h"
 #include "host/recording/clock.h"
 #include "host/recording/computed_torque.h"
 #include "host/recording/holes.h"
@@ -623,6 +624,7 @@ hci_status hci_run_csv(const char *path, const hci_run_options *options, hci_csv
                                           : hci_csv_read_recording(path, csv, note);
     if (status) return status;
     status = name_columns(from ? NULL : path, options, *csv, note);
+    if (!status) status = hci_bare_angle_decide(*csv, options->pole_pairs, note);
     if (!status) return status;
     hci_csv_free(*csv);
     *csv = NULL;

@@ -122,6 +122,10 @@ static hci_status check_angle(const hci_run_columns *c, bool is_needed)
     if (c->has[HCI_RUN_THETA_M] || c->has[HCI_RUN_THETA_E]) return HCI_OK;
     hci_status status = refuse_list(c);
     if (!status) status = hci_csv_check_clear(c->csv, c->note);
+    if (!status && !is_needed && has_any(c) && !c->has[HCI_RUN_VA] && !c->has[HCI_RUN_VAB]) {
+        hci_note_add(c->remark, "no angle: what needs it is not compared");
+        hci_run_columns_say_angle(c, c->remark);
+    }
     if (status || (!is_needed && has_any(c))) return status;
     if (hci_run_columns_suffice(c) && !(is_map(c) && likely_angle(c) != NULL)) return HCI_OK;
     status = hci_csv_number(c->csv, NAME[HCI_RUN_THETA_M], 0, &unused, &missing);
@@ -140,6 +144,7 @@ static hci_status find(const hci_csv *csv, bool needs_angle, hci_run_columns *c,
     for (int k = 0; k < HCI_RUN_COLUMN_COUNT; ++k)
         c->has[k] = hci_csv_find(csv, NAME[k], &c->at[k]);
     const hci_status status = check_angle(c, needs_angle);
+    if (!status && csv->decided.text[0]) hci_note_add(remark, "%s", csv->decided.text);
     if (!status && hci_csv_header_line(csv) > 0)
         hci_note_add(remark, "line %zu is the header, what stands before it is not read",
                      hci_csv_header_line(csv));
@@ -252,6 +257,11 @@ const char *hci_run_column_header(const hci_run_columns *c, hci_run_column which
     if (!c->has[which]) return NULL;
     *line = hci_csv_record_line(c->csv, 0);
     return hci_csv_name(c->csv, c->at[which]);
+}
+
+size_t hci_run_column_unit_line(const hci_run_columns *c, hci_run_column which)
+{
+    return c->has[which] && hci_csv_row_unit(c->csv, c->at[which]) ? hci_csv_record_line(c->csv, 1) : 0;
 }
 
 void hci_run_columns_tell_unused(const hci_run_columns *c)

@@ -63,6 +63,9 @@ void hci_run_columns_say_angle(const hci_run_columns *c, hci_note *missing);
 hci_status hci_run_columns_find_any(const hci_csv *csv, hci_run_columns *c, hci_note *remark, hci_note *note);
 void hci_run_columns_release(hci_run_columns *c);
 
+/* The line of the row of units, where that names the unit of a column; 0: none does. */
+size_t hci_run_column_unit_line(const hci_run_columns *c, hci_run_column which);
+
 /* Reads a column into c->value, if the file has it. HCI_ERROR_INPUT with line and column, HCI_ERROR_MEMORY.
  */
 hci_status hci_run_column_read(hci_run_columns *c, hci_run_column which);

@@ -305,15 +305,18 @@ static void test_slips_of_the_emf(void)
         const char *slip;
         double amplitude;
     } CASES[] = {
-        {"emf_rms", 0.0707106781},                    /* 0.1/√2 */
-        {"emf_line", 0.1732050808},                   /* 0.1·√3 */
-        {"emf_line_rms", 0.1224744871},               /* 0.1·√3/√2 */
-        {"emf_volt_per_krpm", 10.471975512},          /* 0.1·104.71975512 */
-        {"emf_volt_per_krpm_line", 18.137993642},     /* ·√3 */
-        {"emf_volt_per_krpm_line_rms", 12.825498301}, /* ·√3/√2 */
-        {"emf_kv", 55.132889543},                     /* 9.5492965855/(√3·0.1) */
-        {"emf_volt_per_hz", 0.1570796327},            /* ψ·2π = 0.025·2π */
-        {"emf_flux_linkage", 0.025},                  /* 0.1/4 */
+        {"emf_rms", 0.0707106781},                       /* 0.1/√2 */
+        {"emf_line", 0.1732050808},                      /* 0.1·√3 */
+        {"emf_line_rms", 0.1224744871},                  /* 0.1·√3/√2 */
+        {"emf_volt_per_krpm", 10.471975512},             /* 0.1·104.71975512 */
+        {"emf_volt_per_krpm_line", 18.137993642},        /* ·√3 */
+        {"emf_volt_per_krpm_line_rms", 12.825498301},    /* ·√3/√2 */
+        {"emf_kv", 55.132889543},                        /* 9.5492965855/(√3·0.1) */
+        {"emf_volt_per_hz", 0.1570796327},               /* ψ·2π = 0.025·2π */
+        {"emf_flux_linkage", 0.025},                     /* 0.1/4 */
+        {"emf_taken_per_krpm", 0.000954929658551372},    /* 0.1/104.71975512 */
+        {"emf_taken_per_krpm_line", 0.000551328895},     /* /√3 */
+        {"emf_taken_per_krpm_line_rms", 0.000779696801}, /* ·√2/√3 */
     };
     for (size_t k = 0; k < sizeof CASES / sizeof *CASES; ++k) {
         write_machine(MACHINE, "amplitude_Nm_per_A", CASES[k].amplitude, 0.0);
@@ -461,6 +464,20 @@ static void swap_b_and_c(sample *x)
     x->v[2] = v;
 }
 
+static void swap_clamps(sample *x)
+{
+    const double i = x->i[1];
+    x->i[1] = x->i[2];
+    x->i[2] = i;
+}
+
+static void swap_probes(sample *x)
+{
+    const double v = x->v[1];
+    x->v[1] = x->v[2];
+    x->v[2] = v;
+}
+
 static void times(double x[3], double factor)
 {
     for (int s = 0; s < 3; ++s)
@@ -510,6 +527,8 @@ static void test_slips_of_recordings(void)
         {"run_angle_zero_q_axis", from_trough, "trough"},
         {"direction_reversed", angle_backward, ""},
         {"phases_swapped", swap_b_and_c, ""},
+        {"currents_swapped", swap_clamps, ""},
+        {"voltages_swapped", swap_probes, ""},
         {"current_rms", currents_rms, ""},
         {"voltage_line", voltages_to_lines, ""},
         {"voltage_sign", voltages_out, ""},
@@ -814,7 +833,7 @@ static void test_v_q_alone(void)
 static void test_signs_that_look_alike_are_all_named(void)
 {
     write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
-    check_runs("time_s,theta_m_rad,speed_rad_per_s,ia_A,ib_A,ic_A,u,u2,u3,torque_Nm", currents_out, false);
+    check_runs("time_s,theta_m_rad,speed_rad_per_s,ia_A,ib_A,ic_A,x1,x2,x3,torque_Nm", currents_out, false);
     TEST_ASSERT_EQUAL(HCI_CHECK_AMBIGUOUS, check.verdict);
     TEST_ASSERT_TRUE(check.findings >= 2);
     TEST_ASSERT_TRUE(is_named(&check.finding[0], "current_sign") &&
@@ -919,13 +938,20 @@ static void test_how_a_recording_was_read_is_said(void)
     TEST_ASSERT_EQUAL_STRING("", check.remark[1].text);
 }
 
-static void test_an_angle_of_either_kind_is_refused(void)
+static void test_an_angle_of_either_kind_is_told_by_the_speed_or_refused(void)
 {
     write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
     TEST_ASSERT_EQUAL(
         HCI_ERROR_INPUT,
-        check_runs("time_s,theta,speed_rad_per_s,ia_A,ib_A,ic_A,va_V,vb_V,vc_V,torque_Nm", none, false));
+        check_runs("time_s,theta,turning,ia_A,ib_A,ic_A,va_V,vb_V,vc_V,torque_Nm", none, false));
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(note.text, "theta_m or theta_e"), note.text);
+    remove_files();
+    write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
+    TEST_ASSERT_EQUAL_MESSAGE(
+        HCI_OK,
+        check_runs("time_s,theta,speed_rad_per_s,ia_A,ib_A,ic_A,va_V,vb_V,vc_V,torque_Nm", none, false),
+        note.text);
+    TEST_ASSERT_NOT_NULL(strstr(check.remark[0].text, "`theta` is the mechanical angle"));
 }
 
 /* Torque and speed say something by themselves, and a file that says nothing stops no other. */
@@ -1043,7 +1069,7 @@ int main(void)
     RUN_TEST(test_measured_data);
     RUN_TEST(test_the_place_is_the_header);
     RUN_TEST(test_how_a_recording_was_read_is_said);
-    RUN_TEST(test_an_angle_of_either_kind_is_refused);
+    RUN_TEST(test_an_angle_of_either_kind_is_told_by_the_speed_or_refused);
     RUN_TEST(test_an_angle_is_not_needed);
     RUN_TEST(test_what_leaves_no_trace_is_said);
     RUN_TEST(test_a_relation_that_another_replaces_is_no_gap);

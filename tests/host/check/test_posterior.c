@@ -185,6 +185,7 @@ static void test_the_prior_of_a_unit_knows_the_column(void)
     for (size_t k = 0; k < HCI_CHECK_ERROR_COUNT; ++k) {
         const check_error *e = &HCI_CHECK_ERRORS[k];
         const bool of_unit = strncmp(e->name, "emf_volt_per", 12) == 0 || strcmp(e->name, "emf_kv") == 0 ||
+                             strncmp(e->name, "emf_taken_per", 13) == 0 ||
                              strcmp(e->name, "emf_flux_linkage") == 0;
         data.emf_in_volts = false;
         TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1e-15, e->prior, hci_check_error_prior(e, &data), e->name);

@@ -162,6 +162,9 @@ static void test_every_kind_of_back_emf(void)
                  {"emf_volt_per_krpm", 0.1 / (1000.0 * RPM)},
                  {"emf_volt_per_krpm_line", 0.1 / (1000.0 * RPM) / SQRT3},
                  {"emf_volt_per_krpm_line_rms", 0.1 / (1000.0 * RPM) / SQRT3 * SQRT2},
+                 {"emf_taken_per_krpm", 0.1 * (1000.0 * RPM)},
+                 {"emf_taken_per_krpm_line", 0.1 * (1000.0 * RPM) * SQRT3},
+                 {"emf_taken_per_krpm_line_rms", 0.1 * (1000.0 * RPM) * SQRT3 / SQRT2},
                  {"emf_kv", 1.0 / (0.1 * RPM) / SQRT3},
                  {"emf_volt_per_hz", 0.1 * 4.0 / (2.0 * REF_PI)},
                  {"emf_flux_linkage", 0.1 * 4.0}};

@@ -75,8 +75,8 @@ static void test_angles_that_look_like_degrees_are_told(void)
 /* A column that could be the angle is not passed over for a map of means. */
 static void test_a_column_that_may_be_the_angle_is_asked_for(void)
 {
-    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, find("Winkel,iq_A,torque_Nm\n0,1,1\n"));
-    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(note.text, "if `Winkel` is the angle of the rotor, say --column"),
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, find("Winkel_roh,iq_A,torque_Nm\n0,1,1\n"));
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(note.text, "if `Winkel_roh` is the angle of the rotor, say --column"),
                                  note.text);
 }
 
@@ -251,9 +251,85 @@ static void test_out_of_memory(void)
     TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, status, note.text);
 }
 
+/* A word for the quantity before the name, a unit after "in", capitals with accents. */
+static void test_names_in_other_languages_are_read(void)
+{
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK,
+                              find("Zeit in ms,mechanischer Winkel in \xC2\xB0,Drehzahl [1/min],Strom "
+                                   "Iq,Strom d,Spannung L1,Spannung "
+                                   "L2,Drehmoment (mNm)\n1000,180,60,2,3,4,5,6\n"),
+                              note.text);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 1.0, first_value(HCI_RUN_TIME));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, acos(-1.0), first_value(HCI_RUN_THETA_M));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 2.0 * acos(-1.0), first_value(HCI_RUN_SPEED));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 2.0, first_value(HCI_RUN_IQ));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 3.0, first_value(HCI_RUN_ID));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 4.0, first_value(HCI_RUN_VA));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 5.0, first_value(HCI_RUN_VB));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.006, first_value(HCI_RUN_TORQUE));
+}
+
+static void test_more_languages_are_read(void)
+{
+    TEST_ASSERT_EQUAL_MESSAGE(
+        HCI_OK,
+        find("temps,\xC3\x81NGULO MEC\xC3\x81NICO,velocit\xC3\xA0,courant phase a,corriente "
+             "b,corrente Ic,couple\n1,2,60,3,4,5,6\n"),
+        note.text);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 2.0, first_value(HCI_RUN_THETA_M));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 3.0, first_value(HCI_RUN_IA));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 4.0, first_value(HCI_RUN_IB));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 5.0, first_value(HCI_RUN_IC));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 6.0, first_value(HCI_RUN_TORQUE));
+}
+
+/* At 60 rpm, for 0.5 s, wrapped after a turn of it. */
+static void read_bare(const char *angle, double turns_per_s, double full)
+{
+    char text[4096];
+    size_t used = (size_t)snprintf(text, sizeof text, "t,rpm,%s,torque_Nm\n", angle);
+    for (int k = 0; k < 50; ++k)
+        used += (size_t)snprintf(text + used, sizeof text - used, "%.2f,60,%.4f,1\n", 0.01 * k,
+                                 full * fmod(0.01 * k * turns_per_s, 1.0));
+    const char *path = files_path("run.csv");
+    const hci_run_options options = {.pole_pairs = 4};
+    files_write(path, text);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_run_csv(path, &options, &csv, &note), note.text);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_run_columns_find(csv, &columns, &remark, &note), note.text);
+}
+
+static void test_a_bare_angle_is_what_turns_as_fast_as_the_speed(void)
+{
+    static const struct {
+        const char *name;
+        double turns_per_s, full;
+        hci_run_column which;
+    } CASES[] = {{"Angle (deg)", 1.0, 360.0, HCI_RUN_THETA_M},
+                 {"Angle", 4.0, 6.283185307, HCI_RUN_THETA_E},
+                 {"Winkel", 1.0, 360.0, HCI_RUN_THETA_M},
+                 {"angle", -4.0, 360.0, HCI_RUN_THETA_E}};
+    for (size_t k = 0; k < sizeof CASES / sizeof *CASES; ++k) {
+        read_bare(CASES[k].name, CASES[k].turns_per_s, CASES[k].full);
+        TEST_ASSERT_TRUE_MESSAGE(columns.has[CASES[k].which], CASES[k].name);
+        TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_run_column_read(&columns, CASES[k].which), note.text);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-3, 0.02 * acos(-1.0) * CASES[k].turns_per_s,
+                                  columns.value[CASES[k].which][1]);
+        const char *told = CASES[k].which == HCI_RUN_THETA_M ? "it turns as fast as the speed says"
+                                                             : "by the pole pairs faster than the speed says";
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(remark.text, told), remark.text);
+        hci_run_columns_release(&columns);
+        hci_csv_free(csv);
+        csv = NULL;
+        memset(&remark, 0, sizeof remark);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_names_in_other_languages_are_read);
+    RUN_TEST(test_more_languages_are_read);
+    RUN_TEST(test_a_bare_angle_is_what_turns_as_fast_as_the_speed);
     RUN_TEST(test_angles_that_look_like_degrees_are_told);
     RUN_TEST(test_a_column_that_may_be_the_angle_is_asked_for);
     RUN_TEST(test_values_come_in_si_units);

@@ -193,6 +193,15 @@ def phases_swapped(case):
                 run[names[1]], run[names[2]] = run[names[2]], run[names[1]]
 
 
+def swapped_alone(names):
+    """Clamps or probes b and c the other way round."""
+    def apply(case):
+        for run in case.runs:
+            if names[1] in run:
+                run[names[1]], run[names[2]] = run[names[2]], run[names[1]]
+    return apply
+
+
 def columns_times(names, factor):
     """factor: of the motor."""
     def apply(case):
@@ -219,6 +228,9 @@ APPLY = {
     "emf_volt_per_krpm": emf_times(lambda m: KRPM),
     "emf_volt_per_krpm_line": emf_times(lambda m: KRPM * math.sqrt(3)),
     "emf_volt_per_krpm_line_rms": emf_times(lambda m: KRPM * math.sqrt(1.5)),
+    "emf_taken_per_krpm": emf_times(lambda m: 1 / KRPM),
+    "emf_taken_per_krpm_line": emf_times(lambda m: 1 / KRPM / math.sqrt(3)),
+    "emf_taken_per_krpm_line_rms": emf_times(lambda m: 1 / KRPM / math.sqrt(1.5)),
     "emf_kv": emf_times(lambda m: KV / m.k_e ** 2),
     "emf_volt_per_hz": emf_times(lambda m: TURN / m.pole_pairs),
     "emf_flux_linkage": emf_times(lambda m: 1 / m.pole_pairs),
@@ -237,6 +249,8 @@ APPLY = {
     "run_angle_zero_d_axis": run_angle_zero_d_axis,
     "run_angle_zero_q_axis": run_angle_zero_q_axis,
     "phases_swapped": phases_swapped,
+    "currents_swapped": swapped_alone(CURRENTS),
+    "voltages_swapped": swapped_alone(VOLTAGES),
     "direction_reversed": direction_reversed,
     "current_sign": columns_times(ANY_CURRENT, lambda m: -1),
     "current_rms": columns_times(ANY_CURRENT, lambda m: 1 / math.sqrt(2)),
@@ -304,6 +318,9 @@ SETTINGS = {
     "emf_volt_per_krpm": [(wish(**BY_SPEED), ["back"], RADIANS, []), (surface(**BY_SPEED), [], {}, [])],
     "emf_volt_per_krpm_line": [(wish(**BY_SPEED), ["back"], RADIANS, []), (surface(**BY_SPEED), [], {}, [])],
     "emf_volt_per_krpm_line_rms": [(wish(**BY_SPEED), ["back"], RADIANS, []), (surface(**BY_SPEED), [], {}, [])],
+    "emf_taken_per_krpm": [(wish(), ["back"], RADIANS, []), (surface(), ["back", "load"], ABC, [])],
+    "emf_taken_per_krpm_line": [(wish(), ["back"], RADIANS, []), (surface(), ["back", "load"], ABC, [])],
+    "emf_taken_per_krpm_line_rms": [(wish(), ["back"], RADIANS, []), (surface(), ["back", "load"], ABC, [])],
     "emf_kv": [(wish(k_e=apart(lambda k: KV / k ** 2), **BY_SPEED), ["back"], RADIANS, []),
                (surface(k_e=apart(lambda k: 0.5 * KV / k ** 2), kind="drone", **BY_SPEED), [], {}, [])],
     "emf_volt_per_hz": [(wish(pole_pairs=apart(lambda p: TURN / p), **BY_SPEED), ["back"], RADIANS, []),
@@ -332,6 +349,8 @@ SETTINGS = {
     "run_angle_zero_q_axis": [(wish(), ["back"], RADIANS, []), (wish(saliency="none"), ["load", "brake"], ABC_NO_V, [])],
     "phases_swapped": [(wish(), ["back"], RADIANS, ["direction_reversed"]),
                        (wish(), ["load", "brake"], ABC, ["direction_reversed"])],
+    "currents_swapped": [(wish(), ["load", "back"], ABC, []), (wish(), ["load", "back", "brake"], ABC, [])],
+    "voltages_swapped": [(wish(), ["load", "back"], ABC, []), (wish(), ["load", "back", "brake"], ABC, [])],
     "direction_reversed": [(wish(), ["back"], RADIANS, []), (wish(), ["load", "back"], ABC, [])],
     "current_sign": [(wish(), ["load", "back"], ABC, ["torque_sign"]), (wish(), ["load"], DQ_NO_V, ["torque_sign"])],
     "current_rms": [(known(), ["back", "load", "brake"], ABC_NO_V, []), (surface(), ["load", "brake"], ABC, [])],
@@ -390,7 +409,8 @@ def emf_readings(case):
     if per_speed:
         readings.update(emf_volt_per_krpm=k / KRPM, emf_volt_per_krpm_line=k / KRPM / math.sqrt(3), emf_kv=KV / k,
                         emf_volt_per_krpm_line_rms=k / KRPM / math.sqrt(1.5), emf_volt_per_hz=k * motor.pole_pairs / TURN,
-                        emf_flux_linkage=k * motor.pole_pairs)
+                        emf_flux_linkage=k * motor.pole_pairs, emf_taken_per_krpm=k * KRPM, emf_taken_per_krpm_line=k * KRPM * math.sqrt(3),
+                        emf_taken_per_krpm_line_rms=k * KRPM * math.sqrt(1.5))
     elif not case.runs:
         readings["poles_for_pole_pairs"] = k / 2
     return readings

@@ -22,6 +22,7 @@ typedef struct {
     size_t line;             /* from 1 */
     char column[CHECK_TEXT]; /* as the header spells it */
     char text[CHECK_TEXT];   /* the cell */
+    size_t unit_line;        /* of the row of units that names the unit of the column; 0: none does */
 } check_place;
 
 /* ---- machine folder */

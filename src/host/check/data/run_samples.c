@@ -19,6 +19,7 @@ static void place(const check_samples *s, hci_run_column which, check_run *run, 
     out->line = line;
     snprintf(out->column, sizeof out->column, "%s", header);
     snprintf(out->text, sizeof out->text, "%s", header);
+    out->unit_line = hci_run_column_unit_line(&s->columns, which);
 }
 
 static void places(const check_samples *s, check_run *run)

@@ -1,0 +1,13 @@
+/* An angle whose name does not say whether it is mechanical or electrical. */
+#ifndef HCI_SRC_HOST_RECORDING_BARE_ANGLE_H
+#define HCI_SRC_HOST_RECORDING_BARE_ANGLE_H
+
+#include "hci/host/csv/csv.h"
+
+/* Gives such a column the name of what it is, where time and mechanical speed tell: the one turns as fast as
+ * the speed says, the other by the pole pairs faster (0: by any whole number). Where the file gives no unit,
+ * degrees are told from radians so too. What was decided is noted in the table. A file with an angle that is
+ * named, or without speed, stays as it is. HCI_ERROR_MEMORY. O(rows). */
+hci_status hci_bare_angle_decide(hci_csv *csv, int pole_pairs, hci_note *note);
+
+#endif
