@@ -111,10 +111,11 @@ static void check_text(const char *text)
             "the same number back");
 }
 
-/* A file without a name, so that nothing is left behind; /dev/fd reads it from its beginning. */
+/* A file without a name, in memory where that can be; /dev/fd reads it from its beginning. */
 static int open_nameless(char path[32])
 {
-    char name[] = "/tmp/hci-fuzz-csv-XXXXXX";
+    char in_memory[] = "/dev/shm/hci-fuzz-csv-XXXXXX", on_disk[] = "/tmp/hci-fuzz-csv-XXXXXX";
+    char *name = access("/dev/shm", W_OK) == 0 ? in_memory : on_disk;
     const int descriptor = mkstemp(name);
     fuzz_require(descriptor >= 0 && unlink(name) == 0, "a file to write into");
     snprintf(path, 32, "/dev/fd/%d", descriptor);

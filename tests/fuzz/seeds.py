@@ -4,6 +4,7 @@
 seeds.py HCI_SOLVE OUT [--dictionary FILE]; runs in the source folder. OUT/TARGET/NAME is written for each target."""
 import math
 import pathlib
+import random
 import re
 import shutil
 import subprocess
@@ -164,6 +165,12 @@ class Seeds:
                 if path.stat().st_size < 4 * MOST_BYTES:
                     self.add("fuzz_csv", f"map_{path.name}", path.read_bytes())
 
+    def laws(self):
+        """Bytes that machines are drawn from."""
+        for k in range(2, 17):
+            draws = random.Random(k)
+            self.add("fuzz_laws", f"draws_{k}", bytes(draws.randrange(256) for _ in range(20 + 10 * k)))
+
     def commands(self):
         run = recording(16)
         self.add("fuzz_check", "machine", small_machine())
@@ -218,7 +225,7 @@ def main():
     shutil.rmtree(out, ignore_errors=True)
     seeds = Seeds(program, out)
     with tempfile.TemporaryDirectory() as work:
-        for make in (seeds.csv, seeds.machine, seeds.runs, seeds.wanted, seeds.drive, seeds.commands):
+        for make in (seeds.csv, seeds.machine, seeds.runs, seeds.wanted, seeds.drive, seeds.laws, seeds.commands):
             make()
         seeds.results(pathlib.Path(work))
         seeds.maps(pathlib.Path(work))

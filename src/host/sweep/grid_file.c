@@ -59,7 +59,7 @@ hci_status hci_grid_read(const char *path, hci_grid_point **point, size_t *count
     hci_csv_free(csv);
     if (status) {
         hci_grid_points_free(*point);
-        *point = NULL;
+        *point = NULL, *count = 0;
     }
     return status;
 }
