@@ -142,6 +142,21 @@ weighted nan;    refused 3 't.csv:3: .*weight'
 weighted '';     refused 3 't.csv:3: .*weight'
 printf '%s\n0,2,0\n5.7654321,1,0\n6.1234567,1,0\n7.2718281,1,0\n' $header >"$t"; refused 3 'no common period.*k/pole_pairs'
 
+# Work that grows faster than the rows is refused before it begins.
+rows_of() { awk -v n="$1" -v row="$2" 'BEGIN { for (k = 1; k <= n; ++k) { printf "%.2f,", k / 100; print row } }'; }
+{ echo $header; rows_of 10001 0.1,0; } >"$t"
+refused 3 't.csv: found 10001 rows, expected at most 10000; keep the orders that matter'
+{ echo $header; rows_of 10001 0.1,0; } >"$m/cogging.csv"
+refused 3 'cogging.csv: found 10001 rows, expected at most 10000; keep the orders that matter'
+{ echo order,set; rows_of 10001 pos; } >"$h"
+refused 3 'h.csv: found 10001 rows, expected at most 10000; keep the orders that matter' -- --harmonics "$h"
+{ echo order,set,amplitude_A,phase_rad; rows_of 10001 pos,0.1,0; } >"$work/currents.csv"
+run 3 emit "$work/currents.csv" --name x -o "$work/out"
+says 'currents.csv: found 10001 rows, expected at most 10000; keep the orders that matter'
+awk 'BEGIN { print "file,role"; for (k = 0; k < 4097; ++k) print "run_" k ".csv,fit" }' >"$work/runs.csv"
+run 3 diagnose "$m" --runs "$work/runs.csv" -o "$work/out"
+says 'runs.csv: found 4097 rows, expected at most 4096; join short recordings, or leave some out'
+
 set_of() { printf 'order,set\n5,neg\n%s\n' "$1" >"$h"; }
 for name in symm positive '' 'pos ition' 1; do
     set_of "7,$name"; refused 3 'h.csv:3: .*set.*expected .pos., .neg., .sym. or .asym.;' -- --harmonics "$h"

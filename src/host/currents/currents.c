@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "host/base/memory.h"
+#include "host/csv/most_rows.h"
 #include "host/currents/component_row.h"
 
 /* FNV-1a, 64 bits. */
@@ -30,7 +31,8 @@ static hci_status currents_parse(const hci_csv *csv, bool per_Nm, hci_currents *
 {
     const size_t rows = hci_csv_rows(csv);
     double *order = column, *amplitude = column + rows, *phase_rad = column + 2 * rows;
-    hci_status status = hci_csv_numbers(csv, "order", order, note);
+    hci_status status = hci_csv_check_rows(csv, HCI_MOST_ORDERS_LISTED, "keep the orders that matter", note);
+    if (!status) status = hci_csv_numbers(csv, "order", order, note);
     if (!status)
         status = hci_csv_numbers(csv, per_Nm ? "amplitude_A_per_Nm" : "amplitude_A", amplitude, note);
     if (!status) status = hci_csv_numbers(csv, "phase_rad", phase_rad, note);

@@ -7,6 +7,7 @@
 #include "host/base/memory.h"
 #include "host/base/path.h"
 #include "host/base/quote.h"
+#include "host/csv/most_rows.h"
 #include "host/recording/run_columns.h"
 
 typedef struct {
@@ -160,6 +161,8 @@ static hci_status read_rows(const list_reader *l)
         return hci_note_set(l->note, HCI_ERROR_INPUT, "%s: found no run, expected a row for each; add one",
                             hci_quote_path(hci_csv_path(l->csv), path));
     }
+    status = hci_csv_check_rows(l->csv, HCI_MOST_RUNS_LISTED, "join short recordings, or leave some out", l->note);
+    if (status) return status;
     l->runs->run = hci_memory_new(rows, sizeof *l->runs->run);
     l->runs->role = hci_memory_new(rows, sizeof *l->runs->role);
     l->runs->origin = hci_memory_new(rows, sizeof *l->runs->origin);
