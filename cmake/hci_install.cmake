@@ -35,7 +35,7 @@ if(HCI_WITH_HOST)
 
     # Documents, data and examples lie as in the sources, so that links and commands in them hold there, too.
     install(TARGETS hci-solve RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT program)
-    install(FILES README.md DESIGN.md CONTRIBUTING.md CHANGELOG.md CITATION.cff DESTINATION "${doc_dir}" COMPONENT program)
+    install(FILES README.md DESIGN.md CONTRIBUTING.md SECURITY.md CHANGELOG.md CITATION.cff DESTINATION "${doc_dir}" COMPONENT program)
     install(DIRECTORY docs data examples DESTINATION "${doc_dir}" COMPONENT program PATTERN "__pycache__" EXCLUDE)
     install(FILES cmake/cortex-m4.cmake DESTINATION "${doc_dir}/cmake" COMPONENT program)
 endif()
