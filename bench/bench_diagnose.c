@@ -1,11 +1,15 @@
-/* What a long recording costs: reading it, and diagnosing it once it is read.
+/* What recordings cost: reading them, and diagnosing them once they are read, as a share of reading the same
+ * files in the same process.
  *
- * The recording is a temporary file with ROWS lines of time, angle, speed, three currents and torque, noise
- * in currents and torque: a machine with back-EMF orders 1, 5 and 7 and cogging order 12 under five current
- * levels, with cogging of order 18 and friction that the declared model does not have. Where libcsv was found
- * when this was configured, it reads the same file in the same run, its fields turned into numbers by strtod.
+ * Temporary files with lines of time, angle, speed, three currents and torque, noise in currents and torque:
+ * a machine with back-EMF orders 1, 5 and 7 and cogging order 12 under five current levels and in both
+ * directions, with cogging of order 18 and friction that the declared model does not have. Twelve runs of
+ * 5000 rows, ten of 100000, each at one level in one direction; and one of a million, all of them in it.
+ * Where libcsv was found when this was configured, it reads the same files in the same run, its fields turned
+ * into numbers by strtod.
  *
- * usage: bench_diagnose [ROWS]      one thread; each case is a process of its own, and the median of three */
+ * usage: bench_diagnose [RUNS ROWS]      one thread; each case is a process of its own, and the median of
+ * three */
 #define _POSIX_C_SOURCE 200809L
 
 #include <math.h>
@@ -26,12 +30,20 @@
 #include "support/draws.h"
 #include "timing.h"
 
-enum { POLE_PAIRS = 2, EMF_COUNT = 3, COLUMNS = 7, REPEATS = 3, ROWS = 1000000, LEVELS = 5 };
+enum { POLE_PAIRS = 2, EMF_COUNT = 3, COLUMNS = 7, REPEATS = 3, LEVELS = 5, MOST_RUNS = 64 };
 
 static const double SAMPLE_s = 50e-6, SPEED_rad_per_s = 40.0, FRICTION_Nm = 0.02;
+static const double FEWER_s =
+    1e-3; /* between rows where a run of a list is short, so that it has some turns */
 static const hci_harmonic COGGING[2] = {
     {12.0, 0.03, 0.01}, {18.0, 0.02, -0.01} /* not declared */
 };
+
+/* Files of so many rows each. */
+typedef struct {
+    char path[MOST_RUNS][40];
+    size_t runs, rows;
+} recordings;
 
 /* What a case takes. */
 typedef struct {
@@ -56,27 +68,31 @@ static double cogging_at(const hci_harmonic *h, double theta_rad)
     return h->sine * sin(h->order * theta_rad) + h->cosine * cos(h->order * theta_rad);
 }
 
-static void write_recording(FILE *file, size_t rows)
+/* Rows of one file: at one level of the current in one direction, or (level < 0) all of them one after the
+ * other.
+ */
+static void write_recording(FILE *file, size_t rows, int level, double step_s)
 {
     hci_wave emf[EMF_COUNT];
     back_emf(emf);
     const hci_machine machine = {.pole_pairs = POLE_PAIRS, .back_emf = emf, .back_emf_count = EMF_COUNT};
     fputs("time_s,theta_m_rad,speed_rad_per_s,ia_A,ib_A,ic_A,torque_Nm\n", file);
     for (size_t k = 0; k < rows; ++k) {
-        const bool forward = 2 * k < rows;
-        const double time_s = SAMPLE_s * (double)k;
+        const bool forward = level < 0 ? 2 * k < rows : level % 2 == 0;
+        const size_t at = level < 0 ? (forward ? k : rows - k) : k;
         const double speed_rad_per_s = forward ? SPEED_rad_per_s : -SPEED_rad_per_s;
-        const double theta_m_rad = SPEED_rad_per_s * SAMPLE_s * (double)(forward ? k : rows - k);
+        const double theta_m_rad = (level < 0 ? SPEED_rad_per_s : speed_rad_per_s) * step_s * (double)at;
         const double theta_rad = POLE_PAIRS * theta_m_rad;
-        const hci_dq i = {.d = 0.0, .q = 3.0 * (double)(2 * LEVELS * k / rows % LEVELS)};
+        const size_t of = level < 0 ? 2 * LEVELS * k / rows : (size_t)level / 2;
+        const hci_dq i = {.d = 0.0, .q = 3.0 * (double)(of % LEVELS)};
         double i_A[3];
         hci_clarke_inverse(hci_park_inverse(i, theta_rad), i_A);
         const double torque_Nm = hci_torque_at(&machine, theta_rad, i_A) +
                                  cogging_at(&COGGING[0], theta_rad) + cogging_at(&COGGING[1], theta_rad) -
                                  (forward ? FRICTION_Nm : -FRICTION_Nm);
-        fprintf(file, "%.9g,%.9g,%.9g,%.6g,%.6g,%.6g,%.6g\n", time_s, theta_m_rad, speed_rad_per_s,
-                i_A[0] + 0.01 * ref_uniform(&seed, -1.0, 1.0), i_A[1] + 0.01 * ref_uniform(&seed, -1.0, 1.0),
-                i_A[2] + 0.01 * ref_uniform(&seed, -1.0, 1.0),
+        fprintf(file, "%.9g,%.9g,%.9g,%.6g,%.6g,%.6g,%.6g\n", step_s * (double)k, theta_m_rad,
+                speed_rad_per_s, i_A[0] + 0.01 * ref_uniform(&seed, -1.0, 1.0),
+                i_A[1] + 0.01 * ref_uniform(&seed, -1.0, 1.0), i_A[2] + 0.01 * ref_uniform(&seed, -1.0, 1.0),
                 torque_Nm + 0.005 * ref_uniform(&seed, -1.0, 1.0));
     }
 }
@@ -123,27 +139,37 @@ static int is_found(const hci_diagnosis *d)
     return cogging && friction && !other;
 }
 
-static cost use_hci(const char *path)
+static hci_status read_all(const recordings *x, hci_run *run, hci_role *role, hci_note *note)
 {
+    hci_status status = HCI_OK;
+    for (size_t r = 0; r < x->runs && !status; ++r) {
+        role[r] = HCI_ROLE_FIT;
+        status = hci_run_read(x->path[r], &(hci_run_options){.pole_pairs = POLE_PAIRS, .inertia_kgm2 = NAN},
+                              &run[r], note);
+    }
+    return status;
+}
+
+static cost use_hci(const recordings *x)
+{
+    static hci_run run[MOST_RUNS];
+    static hci_role role[MOST_RUNS];
     hci_wave emf[EMF_COUNT];
     const hci_machine_data machine = declared_machine(emf);
     const hci_effects none = {0};
     hci_note note = {{0}};
-    hci_run run;
-    hci_role role = HCI_ROLE_FIT;
     hci_diagnosis diagnosis;
     cost c = {0};
 
     double start_s = bench_now_s();
-    if (hci_run_read(path, &(hci_run_options){.pole_pairs = POLE_PAIRS, .inertia_kgm2 = NAN}, &run, &note)) {
-        c.failed = 1;
-        return c;
-    }
+    c.failed = read_all(x, run, role, &note) != HCI_OK;
     c.read_s = bench_now_s() - start_s;
     c.read_MB = peak_MB();
-    c.rows = run.count;
+    for (size_t r = 0; r < x->runs; ++r)
+        c.rows += run[r].count;
+    if (c.failed) return c;
 
-    const hci_runs runs = {.run = &run, .role = &role, .count = 1};
+    const hci_runs runs = {.run = run, .role = role, .count = x->runs};
     const hci_diagnose_options options = {0};
     start_s = bench_now_s();
     const hci_status status = hci_diagnose(&machine, &none, &runs, &options, &diagnosis, &note);
@@ -152,7 +178,8 @@ static cost use_hci(const char *path)
     c.failed = status > HCI_NOT_REACHED;
     c.found = !c.failed && is_found(&diagnosis);
     if (!c.failed) hci_diagnosis_release(&diagnosis);
-    hci_run_release(&run);
+    for (size_t r = 0; r < x->runs; ++r)
+        hci_run_release(&run[r]);
     return c;
 }
 
@@ -195,30 +222,36 @@ static void take_row(int character, void *context)
     }
 }
 
-static cost use_libcsv(const char *path)
+static void read_table(const char *path, cost *c)
 {
     static char buffer[1 << 16];
     struct csv_parser parser;
     table t = {{0}, 0, 0, 0, 0};
-    cost c = {0};
     size_t length;
-    const double start_s = bench_now_s();
     FILE *file = fopen(path, "r");
     if (!file || csv_init(&parser, CSV_APPEND_NULL)) {
-        c.failed = 1;
-        return c;
+        c->failed = 1;
+        return;
     }
     while ((length = fread(buffer, 1, sizeof buffer, file)) > 0)
         if (csv_parse(&parser, buffer, length, take_field, take_row, &t) != length) t.failed = 1;
     csv_fini(&parser, take_field, take_row, &t);
     csv_free(&parser);
     fclose(file);
-    c.read_s = bench_now_s() - start_s;
-    c.read_MB = peak_MB();
-    c.rows = t.rows - 1; /* the header */
-    c.failed = t.failed;
+    c->rows += t.rows - 1; /* the header */
+    c->failed |= t.failed;
+    c->read_MB = peak_MB();
     for (int k = 0; k < COLUMNS; ++k)
         free(t.column[k]);
+}
+
+static cost use_libcsv(const recordings *x)
+{
+    cost c = {0};
+    const double start_s = bench_now_s();
+    for (size_t r = 0; r < x->runs; ++r)
+        read_table(x->path[r], &c);
+    c.read_s = bench_now_s() - start_s;
     return c;
 }
 #endif
@@ -226,7 +259,7 @@ static cost use_libcsv(const char *path)
 /* ---- cases ---- */
 
 /* In a process of its own, so that the peak of memory is that of the case. */
-static cost measure(cost (*use)(const char *path), const char *path)
+static cost measure(cost (*use)(const recordings *x), const recordings *x)
 {
     cost c = {0};
     int ends[2];
@@ -234,7 +267,7 @@ static cost measure(cost (*use)(const char *path), const char *path)
     if (pipe(ends)) return c;
     const pid_t child = fork();
     if (child == 0) {
-        const cost mine = use(path);
+        const cost mine = use(x);
         _exit(write(ends[1], &mine, sizeof mine) == (ssize_t)sizeof mine ? 0 : 1);
     }
     close(ends[1]);
@@ -249,53 +282,82 @@ static double median3(double a, double b, double c)
     return fmax(fmin(a, b), fmin(fmax(a, b), c));
 }
 
-static cost median(cost (*use)(const char *path), const char *path)
+static cost median(cost (*use)(const recordings *x), const recordings *x)
 {
     cost c[REPEATS];
     for (int k = 0; k < REPEATS; ++k)
-        c[k] = measure(use, path);
+        c[k] = measure(use, x);
     c[0].failed |= c[1].failed | c[2].failed;
     c[0].read_s = median3(c[0].read_s, c[1].read_s, c[2].read_s);
     c[0].diagnose_s = median3(c[0].diagnose_s, c[1].diagnose_s, c[2].diagnose_s);
     return c[0];
 }
 
-static int report(const char *path, size_t rows, double size_MB)
+static int report(const recordings *x, double size_MB)
 {
-    printf("%zu rows of %d columns, %.0f MB\n", rows, COLUMNS, size_MB);
-    const cost own = median(use_hci, path);
+    const size_t rows = x->runs * x->rows;
+    printf("%zu x %zu rows of %d columns, %.0f MB\n", x->runs, x->rows, COLUMNS, size_MB);
+    const cost own = median(use_hci, x);
     if (own.failed || own.rows != rows) return 1;
     printf("  hci_run_read   %8.3f s  %7.1f MB/s  peak %6.0f MB\n", own.read_s, size_MB / own.read_s,
            own.read_MB);
 #ifdef HCI_BENCH_LIBCSV
-    const cost peer = median(use_libcsv, path);
+    const cost peer = median(use_libcsv, x);
     if (peer.failed || peer.rows != rows) return 1;
     printf("  libcsv, strtod %8.3f s  %7.1f MB/s  peak %6.0f MB\n", peer.read_s, size_MB / peer.read_s,
            peer.read_MB);
 #else
     printf("  libcsv was not found when this was configured\n");
 #endif
-    printf("  hci_diagnose   %8.3f s  %7.2f times reading  peak %6.0f MB\n", own.diagnose_s,
-           own.diagnose_s / own.read_s, own.diagnose_MB);
+    printf("  hci_diagnose   %8.3f s  %7.2f times reading  %.2g rows/s  peak %6.0f MB\n", own.diagnose_s,
+           own.diagnose_s / own.read_s, (double)rows / (own.read_s + own.diagnose_s), own.diagnose_MB);
     printf("  hidden effects %s\n", own.found ? "found" : "NOT found");
     return !own.found;
 }
 
-int main(int argc, char **argv)
+/* Writes the files; their bytes, -1 where one cannot be written. */
+static long files_write(recordings *x)
 {
-    const size_t rows = argc > 1 ? (size_t)strtoul(argv[1], NULL, 10) : ROWS;
-    char path[] = "/tmp/hci-bench-XXXXXX";
-    const int descriptor = mkstemp(path);
-    FILE *file = descriptor < 0 ? NULL : fdopen(descriptor, "w");
-    if (!file || rows == 0) {
-        fprintf(stderr, "bench_diagnose: cannot write %s\n", path);
-        return 5;
+    long bytes = 0;
+    for (size_t r = 0; r < x->runs; ++r) {
+        strcpy(x->path[r], "/tmp/hci-bench-XXXXXX");
+        const int descriptor = mkstemp(x->path[r]);
+        FILE *file = descriptor < 0 ? NULL : fdopen(descriptor, "w");
+        if (!file) return -1;
+        write_recording(file, x->rows, x->runs == 1 ? -1 : (int)r,
+                        x->runs > 1 && x->rows < 20000 ? FEWER_s : SAMPLE_s);
+        bytes += ftell(file);
+        fclose(file);
     }
-    write_recording(file, rows);
-    const long bytes = ftell(file);
-    fclose(file);
-    const int failed = report(path, rows, 1e-6 * (double)bytes);
-    unlink(path);
+    return bytes;
+}
+
+static int bench(size_t runs, size_t rows)
+{
+    static recordings x;
+    x.runs = runs;
+    x.rows = rows;
+    const long bytes = files_write(&x);
+    int failed = 1;
+    if (bytes < 0)
+        fprintf(stderr, "bench_diagnose: cannot write in /tmp\n");
+    else
+        failed = report(&x, 1e-6 * (double)bytes);
+    for (size_t r = 0; r < runs; ++r)
+        unlink(x.path[r]);
     if (failed) fprintf(stderr, "bench_diagnose: failed\n");
     return failed;
+}
+
+int main(int argc, char **argv)
+{
+    const size_t runs = argc > 2 ? (size_t)strtoul(argv[1], NULL, 10) : 0;
+    const size_t rows = argc > 2 ? (size_t)strtoul(argv[2], NULL, 10) : 0;
+    if (argc > 2 && (runs == 0 || runs > MOST_RUNS || rows == 0)) {
+        fprintf(stderr, "usage: bench_diagnose [RUNS ROWS], 1 to %d runs\n", MOST_RUNS);
+        return 2;
+    }
+    if (argc > 2) return bench(runs, rows);
+    const int list = bench(12, 5000), tens = bench(10, 100000), one = bench(1, 1000000);
+    return list || tens || one;
 }

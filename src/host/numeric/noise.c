@@ -134,17 +134,32 @@ hci_noise hci_noise_white(double rms)
     return noise;
 }
 
+enum { RUN = 32 /* numbers at a time */ };
+
+/* Numbers `from` to `from` + count − 1 of rows of so many columns, which follow each other as one row would.
+ * All are read before any is replaced. */
+static inline void run_whiten(const hci_noise *noise, double *x, size_t from, size_t count, size_t columns)
+{
+    const double scale = 1.0 / noise->innovation;
+    double kept[RUN];
+    for (size_t k = 0; k < count; ++k)
+        kept[k] = x[from + k];
+    for (size_t j = 0; j < HCI_NOISE_MEMORY; ++j) {
+        const double *before = x + from - (j + 1) * columns, weight = noise->prediction[j];
+        for (size_t k = 0; k < count; ++k)
+            kept[k] -= weight * before[k];
+    }
+    for (size_t k = 0; k < count; ++k)
+        x[from + k] = scale * kept[k];
+}
+
 HCI_WIDE void hci_noise_whiten(const hci_noise *noise, double *x, size_t n, size_t columns)
 {
-    for (size_t k = n; k-- > 0;) {
-        double *restrict row = x + k * columns;
-        const double scale = 1.0 / (k < HCI_NOISE_MEMORY ? noise->rms : noise->innovation);
-        for (size_t j = 0; j < HCI_NOISE_MEMORY && k >= HCI_NOISE_MEMORY; ++j) {
-            const double *before = row - (j + 1) * columns, weight = noise->prediction[j];
-            for (size_t c = 0; c < columns; ++c)
-                row[c] -= weight * before[c];
-        }
-        for (size_t c = 0; c < columns; ++c)
-            row[c] *= scale;
-    }
+    const size_t first = (n < HCI_NOISE_MEMORY ? n : HCI_NOISE_MEMORY) * columns;
+    size_t end = n * columns;
+    for (; end >= first + RUN; end -= RUN)
+        run_whiten(noise, x, end - RUN, RUN, columns);
+    run_whiten(noise, x, first, end - first, columns);
+    for (size_t k = 0; k < first; ++k)
+        x[k] *= 1.0 / noise->rms;
 }

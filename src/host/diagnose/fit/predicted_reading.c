@@ -15,6 +15,8 @@
 #define LARGEST_SCALE    1e3  /* of a torque per ampere that has vanished */
 #define CLOSE            0.25 /* of the mean step: between angles that tell no curvature */
 
+enum { LEAST_LEAD = 4 /* samples, that inputs between samples are told from */ };
+
 enum { ANGLES_OF_MEAN = 97 /* a prime: evenly spread over the electrical and the mechanical turn */ };
 
 static unsigned traits_of(const hci_effect *effect, size_t term)
@@ -67,21 +69,52 @@ static bool is_slope(const hci_regression *e, const hci_segment *s)
     return s->timed && e->runs[s->run].torque_source == HCI_TORQUE_INERTIA;
 }
 
-/* How often a segment is run through. */
-static size_t turns_through(const hci_regression *e, const hci_segment *s, bool dynamic)
+/* How often a segment is run through for its slopes. */
+static size_t turns_through(const hci_regression *e, const hci_segment *s)
 {
-    return s->turns > 0 && (dynamic || is_slope(e, s)) ? HCI_SETTLING_TURNS : 1;
+    return s->turns > 0 && is_slope(e, s) ? HCI_SETTLING_TURNS : 1;
 }
 
+/* The most room that a segment takes. */
 static size_t longest_run_through(const hci_regression *e, bool dynamic)
 {
     size_t most = 1;
     for (size_t k = 0; k < e->samples->segment_count; ++k) {
         const hci_segment *s = &e->samples->segment[k];
-        const size_t turns = turns_through(e, s, dynamic), n = s->count * (turns == 1 && dynamic ? 2 : turns);
+        const size_t before = s->turns > 0 ? HCI_SETTLING_TURNS : 2;
+        const size_t n = s->count * (dynamic ? before : turns_through(e, s));
         most = n > most ? n : most;
     }
     return most;
+}
+
+double hci_settling_s(const hci_effects *effects)
+{
+    double sum_s = 0.0;
+    for (size_t k = 0; k < effects->count; ++k) {
+        const hci_effect *e = &effects->effect[k];
+        const double tau_s = e->type->lag ? hci_effect_value(e, e->type->lag[0]) : 0.0;
+        const double omega =
+            e->type->resonance ? 2.0 * HCI_PI * hci_effect_value(e, e->type->resonance[0]) : 0.0;
+        const double damping = e->type->resonance ? hci_effect_value(e, e->type->resonance[1]) : 0.0;
+        const double slow = damping > 1.0 ? damping - sqrt(damping * damping - 1.0) : damping;
+        sum_s += HCI_SETTLED * tau_s;
+        if (omega > 0.0) sum_s += slow > 0.0 ? HCI_SETTLED / (slow * omega) : (double)INFINITY;
+    }
+    return sum_s;
+}
+
+size_t hci_settling_samples(const hci_binned_sample *sample, const hci_segment *s, double settling_s)
+{
+    const size_t most = (HCI_SETTLING_TURNS - 1) * s->count;
+    const double turns = s->period_s > 0.0 ? settling_s / s->period_s : 0.0;
+    if (!(turns < HCI_SETTLING_TURNS - 1)) return most;
+    const double last_s = sample[0].time_s + s->period_s - (settling_s - floor(turns) * s->period_s);
+    size_t of_turn = s->count;
+    while (of_turn > 0 && sample[of_turn - 1].time_s >= last_s)
+        --of_turn;
+    const size_t lead = (size_t)turns * s->count + (s->count - of_turn) + LEAST_LEAD;
+    return lead < most ? lead : most;
 }
 
 /* Declared over modelled torque per ampere; 1 where there is no holding test. */
@@ -181,8 +214,8 @@ typedef struct {
     double half_spread, behind, ahead;
 } bend;
 
-/* Adds to a row half the variance of the angles times the curvature of a parabola through its neighbours. before:
- * in and out, the row before as it was. */
+/* Adds to a row half the variance of the angles times the curvature of a parabola through its neighbours.
+ * before: in and out, the row before as it was. */
 static void row_bend(const bend *x, double *row, const double *after, double *before, size_t columns)
 {
     const double scale = 2.0 * x->half_spread / (x->behind + x->ahead);
@@ -198,8 +231,8 @@ static void row_bend(const bend *x, double *row, const double *after, double *be
 static void bins_widen(const hci_binned_sample *sample, size_t n, double turn_rad, double *x, size_t columns,
                        double *row)
 {
-    const double least = CLOSE * fabs(sample[n - 1].reading.theta_m_rad - sample[0].reading.theta_m_rad) /
-                         (double)n;
+    const double least =
+        CLOSE * fabs(sample[n - 1].reading.theta_m_rad - sample[0].reading.theta_m_rad) / (double)n;
     double *first = row + columns, last_step = step_at(sample, n, turn_rad, n - 1);
     memcpy(row, x + (n - 1) * columns, columns * sizeof *row);
     memcpy(first, x, columns * sizeof *first);
@@ -242,6 +275,21 @@ static void turn_keep(hci_predicted_reading *o, size_t n, size_t first)
 {
     memmove(o->torque_Nm, o->torque_Nm + first, n * sizeof *o->torque_Nm);
     if (o->by_value) memmove(o->by_value, o->by_value + first * o->terms, n * o->terms * sizeof *o->by_value);
+}
+
+/* Puts as many samples before a steady turn of n as those of the turns before it. */
+static void turns_before(hci_predicted_reading *o, size_t n, size_t lead, double period_s)
+{
+    memmove(o->torque_Nm + lead, o->torque_Nm, n * sizeof *o->torque_Nm);
+    memmove(o->time_s + lead, o->time_s, n * sizeof *o->time_s);
+    if (o->by_value) memmove(o->by_value + lead * o->terms, o->by_value, n * o->terms * sizeof *o->by_value);
+    for (size_t k = lead; k-- > 0;) {
+        o->torque_Nm[k] = o->torque_Nm[k + n];
+        o->time_s[k] = o->time_s[k + n] - period_s;
+        if (o->by_value)
+            memcpy(o->by_value + k * o->terms, o->by_value + (k + n) * o->terms,
+                   o->terms * sizeof *o->by_value);
+    }
 }
 
 /* Samples of the first period of a segment; 0 where it is shorter than that. */
@@ -301,18 +349,23 @@ void hci_predicted_reading_fill(const hci_regression *e, const hci_effects *effe
                                 hci_predicted_reading *o)
 {
     const bool sensor = hci_predicted_reading_is_dynamic(e, s), dynamic = sensor && has_dynamics(effects);
-    const size_t turns = turns_through(e, s, dynamic), lag = dormant_lag(effects);
+    const size_t turns = turns_through(e, s), lag = dormant_lag(effects);
+    size_t lead = 0;
     fill_static(e, effects, s, o);
     means_widen(e, s, o);
     if (o->by_value && sensor && lag < o->terms)
         lag_derivative(o->torque_Nm, o->time_s, s->count, o->by_value + lag, o->terms);
     for (size_t turn = 1; turn < turns; ++turn)
         turn_repeat(o, s->count, turn, s->period_s);
-    const size_t lead = dynamic && turns == 1 ? lead_in(e, s, o) : 0;
-    if (dynamic) hci_effects_filter(effects, o->time_s, lead + turns * s->count, o->torque_Nm, o->by_value);
+    if (dynamic && s->turns > 0) {
+        lead = hci_settling_samples(e->samples->sample + s->first, s, hci_settling_s(effects));
+        turns_before(o, s->count, lead, s->period_s);
+    } else if (dynamic)
+        lead = lead_in(e, s, o);
+    if (dynamic) hci_effects_filter(effects, o->time_s, lead + s->count, o->torque_Nm, o->by_value);
     if (is_slope(e, s) && !o->instant) average(e, s, turns * s->count, o);
     if (lead > 0) turn_keep(o, s->count, lead);
-    if (turns > 1) turn_keep(o, s->count, (dynamic ? turns - 1 : turns / 2) * s->count);
+    if (turns > 1) turn_keep(o, s->count, turns / 2 * s->count);
 }
 
 /* Of a load that is not known only what varies is left. */

@@ -13,8 +13,17 @@
 
 #include "host/diagnose/fit/regression.h"
 
-/* The mean of a steady turn is run through so many times, so that a slow sensor settles. */
+/* The mean of a steady turn is run through so many times at most, so that a slow sensor settles. */
 enum { HCI_SETTLING_TURNS = 4 };
+
+#define HCI_SETTLED 16.0 /* time constants, after which 1e-7 is left */
+
+/* How long a sensor with such dynamics takes to settle; 0 without any, INFINITY where it never does. */
+double hci_settling_s(const hci_effects *effects);
+
+/* Samples of the turns before the mean of a steady one that take so long, at most all but one of
+ * HCI_SETTLING_TURNS. sample: of the segment. */
+size_t hci_settling_samples(const hci_binned_sample *sample, const hci_segment *segment, double settling_s);
 
 /* Long enough for the longest segment with its repetitions. Start with {0}. */
 typedef struct {

@@ -13,6 +13,8 @@ static const double DAMPING[] = {0.03, 0.1, 0.3};
 
 #define TOP 0.33 /* highest frequency, as a share of the sampling rate */
 
+#define ROUGHLY 0.375 /* of the time in which a sensor has settled to 1e-7 */
+
 #define OF_SAMPLE 1700.0 /* multiplications that a sample takes on its way through the sensors, about */
 
 /* Torque without and with the resonance, in turns of a steady turn. */
@@ -36,27 +38,41 @@ static bool scan_make(scan *l)
     return true;
 }
 
-/* The torque in the air gap: what was measured, less what the model leaves. */
-static void turns_fill(const scan *l, const hci_segment *s, size_t turns)
+/* The torque in the air gap: what was measured, less what the model leaves. lead: so many samples of the
+ * turns before. */
+static void torque_fill(const scan *l, const hci_segment *s, size_t lead)
 {
     const hci_binned_sample *sample = l->regression->samples->sample + s->first;
-    for (size_t turn = 0; turn < turns; ++turn)
-        for (size_t k = 0; k < s->count; ++k) {
-            l->torque_Nm[turn * s->count + k] = sample[k].torque_Nm - l->residual_Nm[s->first + k];
-            l->time_s[turn * s->count + k] = sample[k].time_s + (double)turn * s->period_s;
-        }
+    for (size_t k = 0; k < s->count; ++k) {
+        l->torque_Nm[lead + k] = sample[k].torque_Nm - l->residual_Nm[s->first + k];
+        l->time_s[lead + k] = sample[k].time_s;
+    }
+    for (size_t k = lead; k-- > 0;) {
+        l->torque_Nm[k] = l->torque_Nm[k + s->count];
+        l->time_s[k] = l->time_s[k + s->count] - s->period_s;
+    }
 }
 
-/* Adds χ² of the last turn behind each sensor. */
+/* How long the slowest of some sensors takes to settle to a few thousandths. */
+static double settling_s(const hci_effect *sensors, size_t count)
+{
+    double most_s = 0.0;
+    for (size_t k = 0; k < count; ++k)
+        most_s = fmax(most_s, ROUGHLY * hci_settling_s(&(hci_effects){&sensors[k], 1}));
+    return most_s;
+}
+
+/* Adds χ² of a turn behind each sensor. */
 static void segment_squares(const scan *l, const hci_effect *sensors, size_t count, const hci_segment *s,
                             double square[SENSORS])
 {
     const hci_binned_sample *sample = l->regression->samples->sample + s->first;
-    const size_t n = s->count, turns = s->turns > 0 ? HCI_SETTLING_TURNS : 1;
-    const hci_effect_run run = {l->time_s, turns * n, l->torque_Nm, NULL, 0, 0};
-    double *y = l->reading_Nm + (turns - 1) * n * SENSORS;
-    turns_fill(l, s, turns);
-    hci_regression_count_products(l->regression, OF_SAMPLE * (double)(turns * n));
+    const size_t n = s->count;
+    const size_t lead = s->turns > 0 ? hci_settling_samples(sample, s, settling_s(sensors, count)) : 0;
+    const hci_effect_run run = {l->time_s, lead + n, l->torque_Nm, NULL, 0, 0};
+    double *y = l->reading_Nm + lead * SENSORS;
+    torque_fill(l, s, lead);
+    hci_regression_count_products(l->regression, OF_SAMPLE * (double)(lead + n));
     l->type->filter_many(sensors, count, &run, l->reading_Nm);
     for (size_t k = 0; k < n; ++k)
         for (size_t j = 0; j < SENSORS; ++j)

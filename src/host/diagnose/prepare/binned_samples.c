@@ -17,9 +17,9 @@ enum {
     BINS_PER_TURN = 4096, /* of a mean over turns */
     OF_PERIOD = 180,      /* of them, for each electrical period in it, that are left where they are joined */
     MOST_JOINED = 4,
-    LEAST_TURNS = 3,      /* for such a mean */
-    MOST_OPEN = 8,        /* segments of samples as they are, for each run */
-    CREEPING_PIECES = 4   /* means of one steady run whose torque creeps */
+    LEAST_TURNS = 3,    /* for such a mean */
+    MOST_OPEN = 8,      /* segments of samples as they are, for each run */
+    CREEPING_PIECES = 4 /* means of one steady run whose torque creeps */
 };
 
 /* One run on its way into the samples. */
@@ -149,7 +149,8 @@ static void means_take(const reduction *x, size_t first, size_t last, hci_binned
     }
 }
 
-/* How many neighbouring bins are joined to one: the orders that are looked for take a few samples a period. */
+/* How many neighbouring bins are joined to one: the orders that are looked for take a few samples a period.
+ */
 static size_t joined_to_one(const reduction *x)
 {
     const size_t periods = x->run->turn_known ? (size_t)x->pole_pairs : 1;
@@ -157,8 +158,8 @@ static size_t joined_to_one(const reduction *x)
     return most < 1 ? 1 : most > MOST_JOINED ? MOST_JOINED : most;
 }
 
-/* Adds the mean of a bin to that of others at about the same angle. The currents are joined in the rotor frame,
- * in which they do not turn. */
+/* Adds the mean of a bin to that of others at about the same angle. The currents are joined in the rotor
+ * frame, in which they do not turn. */
 static void mean_join(const reduction *r, hci_binned_sample *c, const hci_binned_sample *x)
 {
     hci_sample *m = &c->reading;

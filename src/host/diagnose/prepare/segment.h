@@ -25,12 +25,12 @@ typedef struct {
     size_t turns;    /* in the mean, electrical periods where the turn is not known; 0: samples as they are */
     double period_s; /* of one turn, when turns > 0 */
     bool timed;
-    bool smooth; /* the currents are free of noise */
+    bool smooth;   /* the currents are free of noise */
     double joined; /* narrow bins of the turn in a sample, on the average, >= 1; 0 is 1 */
 } hci_segment;
 
-/* Means of so many narrow bins have that part of the variance of the noise of one: what is judged by the noise
- * of a sample, and by how many there are, is judged as if they had not been joined. */
+/* Means of so many narrow bins have that part of the variance of the noise of one: what is judged by the
+ * noise of a sample, and by how many there are, is judged as if they had not been joined. */
 static inline double hci_segment_joined(const hci_segment *segment)
 {
     return segment->joined > 1.0 ? segment->joined : 1.0;

@@ -78,7 +78,7 @@ bool hci_turns_alike(const hci_run *run, const hci_run_statistics *statistics, c
     const double most_A = statistics->current_A, most_speed = fabs(statistics->mean_speed_rad_per_s);
     return a->whole && b->whole && is_even(run, a) && is_even(run, b) &&
            direction_of_turn(run, a) == direction_of_turn(run, b) &&
-           hypot(a->d - b->d, a->q - b->q) <= STEADY * most_A + 1e-12 &&
+           (statistics->no_current || hypot(a->d - b->d, a->q - b->q) <= STEADY * most_A + 1e-12) &&
            fabs(a->speed - b->speed) <= STEADY * most_speed + 1e-12 &&
            fabs(a->temperature - b->temperature) < STEADY_K;
 }

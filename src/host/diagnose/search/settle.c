@@ -98,6 +98,20 @@ static bool is_late(const goodness *g)
            fabs(g->follows) * g->steps > LATE * g->time_s * g->rate;
 }
 
+/* Means of many samples have less noise than those of few: as if all were of as many. */
+static void counts_even(const hci_search *s, const hci_segment *x, double *whitened)
+{
+    const hci_binned_sample *sample = s->regression->samples->sample + x->first;
+    double sum = 0.0, telling = 0.0;
+    for (size_t j = 0; j < x->count; ++j) {
+        if (!(sample[j].count > 0.0)) continue;
+        sum += 1.0 / sample[j].count;
+        telling += 1.0;
+    }
+    for (size_t j = 0; j < x->count && x->turns > 0; ++j)
+        whitened[j] *= sqrt(sample[j].count * sum / telling);
+}
+
 static void goodness_add(const hci_search *s, const hci_segment *x, double *whitened, goodness *g)
 {
     const hci_noise *noise = hci_regression_noise(s->regression, x);
@@ -106,6 +120,7 @@ static void goodness_add(const hci_search *s, const hci_segment *x, double *whit
     double *residual = s->residual_Nm + x->first;
     memcpy(whitened, residual, x->count * sizeof *whitened);
     hci_noise_whiten(noise, whitened, x->count, 1);
+    counts_even(s, x, whitened);
     outliers_drop(whitened, residual, x->count);
     for (size_t j = 0; j < x->count; ++j)
         g->square += residual[j] * residual[j];

@@ -1,8 +1,9 @@
-/* Means over wide bins of the turn against every row of the recording: least squares on the rows themselves gives
- * the same values, within a tenth of their standard errors, and the same squares. */
+/* Means over wide bins of the turn against every row of the recording: least squares on the rows themselves
+ * gives the same values, within a tenth of their standard errors, and the same squares. */
 #include "host/diagnose/fit/predicted_reading.h"
 
 #include "hci/math/dense.h"
+#include "host/diagnose/search/settle.h"
 #include "support/searching.h"
 
 enum { N = 23772 /* 63 turns: what is behind the last one is left */, COLUMNS = 5 };
@@ -38,7 +39,8 @@ static void record_long(double speed, double iq)
         rec_phases(0.0, iq, P * theta_m, r->i_A + 3 * k);
         r->torque_Nm[k] = 1.5 * K_NM_PER_A * iq - COULOMB_NM * sign(speed) + NOISE_NM * ref_normal(&seed);
         for (int j = 0; j < 2; ++j)
-            r->torque_Nm[k] += SINE_NM[j] * sin(ORDER[j] * P * theta_m) + COSINE_NM[j] * cos(ORDER[j] * P * theta_m);
+            r->torque_Nm[k] +=
+                SINE_NM[j] * sin(ORDER[j] * P * theta_m) + COSINE_NM[j] * cos(ORDER[j] * P * theta_m);
     }
 }
 
@@ -83,7 +85,8 @@ static void least_squares(double value[COLUMNS], double error[COLUMNS])
 static void noise_known(void)
 {
     for (const hci_segment *s = NULL; (s = hci_regression_next(&dataset.regression, s)) != NULL;)
-        *hci_regression_noise(&dataset.regression, s) = hci_noise_white(NOISE_NM * sqrt((double)s->count / N));
+        *hci_regression_noise(&dataset.regression, s) =
+            hci_noise_white(NOISE_NM * sqrt((double)s->count / N));
 }
 
 static void test_the_values_of_all_rows(void)
@@ -96,20 +99,22 @@ static void test_the_values_of_all_rows(void)
         model_add("cogging", "sine", "cosine", ORDER[j]);
     model_add("friction", "coulomb", NULL, 0.0);
     noise_known();
-    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_regression_fit(&dataset.regression, &model.candidates, &model.fit, &note));
+    TEST_ASSERT_EQUAL_INT(HCI_OK,
+                          hci_regression_fit(&dataset.regression, &model.candidates, &model.fit, &note));
     least_squares(value, error);
     TEST_ASSERT_EQUAL_UINT64(2, dataset.samples.segment_count);
     TEST_ASSERT_EQUAL_UINT64(2 * 1024, dataset.samples.count);
     for (int a = 0; a < COLUMNS; ++a) {
-        const hci_effect_term *t = a < 4 ? term_in(&model.candidates, "cogging", a % 2 ? "cosine" : "sine", ORDER[a / 2])
-                                         : term_in(&model.candidates, "friction", "coulomb", 0.0);
+        const hci_effect_term *t =
+            a < 4 ? term_in(&model.candidates, "cogging", a % 2 ? "cosine" : "sine", ORDER[a / 2])
+                  : term_in(&model.candidates, "friction", "coulomb", 0.0);
         TEST_ASSERT_DOUBLE_WITHIN(0.1 * error[a], value[a], t->value);
         TEST_ASSERT_DOUBLE_WITHIN(0.15 * error[a], error[a], t->std_error);
     }
 }
 
-/* What a fit is judged by is that of bins that were not joined: as many rows, each with a square of noise, and the
- * noise of one of them. */
+/* What a fit is judged by is that of bins that were not joined: as many rows, each with a square of noise,
+ * and the noise of one of them. */
 static void test_squares_of_narrow_bins(void)
 {
     record_long(60.0, 3.0);
@@ -127,10 +132,40 @@ static void test_squares_of_narrow_bins(void)
     TEST_ASSERT_DOUBLE_WITHIN(0.1 * NOISE_NM, NOISE_NM / sqrt(in_one), hci_search_residual_rms(&search));
 }
 
+/* ---- samples that lie close on one half of the turn ---- */
+
+static void record_uneven(double direction)
+{
+    hci_run *r = add_run(20000);
+    for (size_t k = 0; k < r->count; ++k) {
+        const double turns = (double)k / 500.318, x = turns - floor(turns);
+        const double of_turn = x < 0.2 ? 0.5 * x / 0.2 : 0.5 + 0.5 * (x - 0.2) / 0.8;
+        const double turned = 2.0 * REF_PI * (floor(turns) + of_turn);
+        r->theta_m_rad[k] = direction * turned;
+        r->time_s[k] = turned / 60.0;
+        r->speed_rad_per_s[k] = direction * 60.0;
+        rec_phases(0.0, 3.0, P * turned * direction, r->i_A + 3 * k);
+        r->torque_Nm[k] = 1.5 * K_NM_PER_A * 3.0 + NOISE_NM * ref_normal(&seed);
+    }
+}
+
+/* Bins of four samples have twice the noise of those of sixteen, and that is noise all the same. */
+static void test_uneven_counts_are_noise(void)
+{
+    bool noise = false;
+    record_uneven(1.0);
+    record_uneven(-1.0);
+    search_start();
+    TEST_ASSERT_EQUAL_UINT64(2, dataset.samples.segment_count);
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_is_noise(&search, &model.candidates, &noise, &note));
+    TEST_ASSERT_TRUE(noise);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_the_values_of_all_rows);
     RUN_TEST(test_squares_of_narrow_bins);
+    RUN_TEST(test_uneven_counts_are_noise);
     return UNITY_END();
 }

@@ -60,8 +60,8 @@ static void turn_steadily(double turns, double samples, double speed)
 
 /* Each sample is the formula at its own angle, with noise that falls with the samples in it; time goes on as
  * the shaft turns. turn_rad: after which all repeats. width_rad: of a sample, whose mean is off by half the
- * second derivative times (width/2)² at most; it has four narrow bins, and the currents are off by the width of
- * one. */
+ * second derivative times (width/2)² at most; it has four narrow bins, and the currents are off by the width
+ * of one. */
 static void is_mean_of_turns(double speed, double turns, double turn_rad, double width_rad)
 {
     const hci_segment *s = binned.segment;
@@ -143,6 +143,21 @@ static void test_other_columns_of_a_mean(void)
         TEST_ASSERT_DOUBLE_WITHIN(0.02, 40.19, binned.sample[k].reading.temperature_C);
     }
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, 40.19, binned.statistics[0].temperature_C);
+}
+
+/* Where only noise of the currents was read, it is the same in all turns. */
+static void test_turns_without_current(void)
+{
+    turn_steadily(20.0, 400.0, 50.0);
+    for (size_t k = 0; k < 3 * run.count; ++k)
+        run.i_A[k] = 0.01 * ref_normal(&seed);
+    reduce();
+    TEST_ASSERT_TRUE(binned.statistics[0].no_current);
+    TEST_ASSERT_EQUAL_UINT64(1, binned.segment_count);
+    TEST_ASSERT_TRUE(binned.segment[0].turns > 0);
+    TEST_ASSERT_EQUAL_UINT64(400, binned.count);
+    for (int s = 0; s < 3; ++s)
+        TEST_ASSERT_EQUAL_DOUBLE(0.0, binned.sample[7].raw.i_abc[s]);
 }
 
 /* ---- holding maps: the current that holds the shaft, at rest, one way and the other ---- */
@@ -291,6 +306,7 @@ int main(void)
     RUN_TEST(test_turns_become_one_mean);
     RUN_TEST(test_turns_of_a_wrapped_electrical_angle);
     RUN_TEST(test_other_columns_of_a_mean);
+    RUN_TEST(test_turns_without_current);
     RUN_TEST(test_holding_there_and_back);
     RUN_TEST(test_an_unsteady_run_stays);
     RUN_TEST(test_short_runs);

@@ -1,0 +1,110 @@
+/* The mean of a steady turn behind a slow sensor is that of a sensor that has settled, from its first sample
+ * on: closed form of a lag and of a resonance at one order. */
+#include "host/diagnose/fit/predicted_reading.h"
+
+#include "support/searching.h"
+
+enum { N = 23772 };
+
+static const double SAMPLES_OF_TURN = 377.318, SPEED = 60.0, ORDER = 6.0, SINE_NM = 0.5;
+
+void setUp(void)
+{
+    dataset_start();
+}
+
+void tearDown(void)
+{
+    search_end();
+    dataset_end();
+}
+
+/* What a sensor makes of sin x: so much of it, so much later. */
+typedef struct {
+    double gain, phase_rad;
+} answer;
+
+static answer answer_of(double tau_s, double natural_Hz, double damping)
+{
+    const double w = ORDER * P * SPEED, lag = w * tau_s,
+                 share = natural_Hz > 0.0 ? w / (2.0 * REF_PI * natural_Hz) : 0.0;
+    const double re = 1.0 - share * share, im = 2.0 * damping * share;
+    return (answer){1.0 / sqrt((1.0 + lag * lag) * (re * re + im * im)), atan(lag) + atan2(im, re)};
+}
+
+static void record_settled(double direction, answer x)
+{
+    hci_run *r = add_run(N);
+    for (size_t k = 0; k < N; ++k) {
+        const double turned = 2.0 * REF_PI * (double)k / SAMPLES_OF_TURN;
+        r->theta_m_rad[k] = direction * turned;
+        r->time_s[k] = turned / SPEED;
+        r->speed_rad_per_s[k] = direction * SPEED;
+        rec_phases(0.0, 0.0, P * r->theta_m_rad[k], r->i_A + 3 * k);
+        r->torque_Nm[k] = direction * SINE_NM * x.gain * sin(ORDER * P * turned - x.phase_rad);
+    }
+}
+
+/* Largest residual of the model at the values that the recording was made with, as a share of the torque. */
+static double worst_share(double tau_s, double natural_Hz, double damping)
+{
+    const answer x = answer_of(tau_s, natural_Hz, damping);
+    double worst = 0.0;
+    record_settled(1.0, x);
+    record_settled(-1.0, x);
+    search_start();
+    model_add("cogging", "sine", "cosine", ORDER);
+    model.candidates.candidate[0].term[0].value = SINE_NM;
+    model_add("torque_sensor", "time_constant", NULL, 0.0);
+    model.candidates.candidate[1].term[0].value = tau_s;
+    model_add("torque_sensor", "natural_frequency", "damping", 0.0);
+    model.candidates.candidate[2].term[0].value = natural_Hz;
+    model.candidates.candidate[2].term[1].value = damping;
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_residual(&search, &model.candidates, &note));
+    TEST_ASSERT_TRUE(dataset.samples.segment[0].turns > 0);
+    for (size_t k = 0; k < dataset.samples.count; ++k)
+        worst = fmax(worst, fabs(search.residual_Nm[k]) / SINE_NM);
+    return worst;
+}
+
+/* A turn takes 0.1 s: the sensor settles within it, or in three of them. */
+static void test_it_has_settled(void)
+{
+    static const struct {
+        double tau_s, natural_Hz, damping;
+    } SENSOR[] = {
+        {2e-4, 0.0, 0.05}, {2e-3, 0.0, 0.05}, {0.015, 0.0, 0.05}, {0.0, 600.0, 0.1}, {5e-4, 300.0, 2.0}};
+    for (size_t k = 0; k < sizeof SENSOR / sizeof *SENSOR; ++k) {
+        TEST_ASSERT_DOUBLE_WITHIN(2e-3, 0.0,
+                                  worst_share(SENSOR[k].tau_s, SENSOR[k].natural_Hz, SENSOR[k].damping));
+        tearDown();
+        setUp();
+    }
+}
+
+/* Sixteen time constants, of each stage; without any there is nothing to wait for, and without damping no
+ * end. */
+static void test_how_long_it_takes(void)
+{
+    const hci_effect_type *type = hci_effect_type_find("torque_sensor");
+    hci_effect_term term[3] = {{parameter_of(type, "time_constant"), 0.0, 1e-3, NAN},
+                               {parameter_of(type, "natural_frequency"), 0.0, 50.0, NAN},
+                               {parameter_of(type, "damping"), 0.0, 0.1, NAN}};
+    const hci_effect sensor = {type, term, 3};
+    const hci_effects list = {&sensor, 1};
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 16.0 * (1e-3 + 1.0 / (0.1 * 100.0 * REF_PI)), hci_settling_s(&list));
+    term[2].value = 1.25; /* poles at half and at twice the frequency */
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 16.0 * (1e-3 + 2.0 / (100.0 * REF_PI)), hci_settling_s(&list));
+    term[2].value = 0.0;
+    TEST_ASSERT_TRUE(hci_settling_s(&list) > 1e300);
+    term[0].value = term[1].value = 0.0;
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, hci_settling_s(&list));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_it_has_settled);
+    RUN_TEST(test_how_long_it_takes);
+    return UNITY_END();
+}
