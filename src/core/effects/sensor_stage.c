@@ -2,9 +2,9 @@
 
 #include <math.h>
 
-enum { LEAST_PARTS = 4, MOST_PARTS = 8 }; /* of a step between samples */
+enum { LEAST_PARTS = 4, MOST_PARTS = 12 }; /* of a step between samples */
 
-#define LONGEST_STEP 0.125 /* of a part, in radians of the resonance: the frequency is 0.13 % off */
+#define LONGEST_STEP 0.04 /* of a part, in radians of the resonance: the frequency is 0.013 % off */
 #define UNEVEN       0.1   /* of a step, that the next one may be longer or shorter */
 #define SAME_STEP    1e-6  /* of a step, by which another one differs and is the same */
 

@@ -7,7 +7,7 @@
 #define LONGEST_S 5e-3 /* delay of a bus, either way */
 #define STEP      0.5  /* of the shortest time between two samples */
 
-#define OF_SAMPLE 250.0 /* multiplications: a line between two samples, and the noise's memory */
+#define OF_SAMPLE 100.0 /* multiplications: a line between two samples, and the noise's memory */
 
 enum { MOST_STEPS = 200, REFINEMENTS = 4 }; /* each way; halvings of the step about the best delay */
 
