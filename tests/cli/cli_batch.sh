@@ -41,7 +41,7 @@ says 'add --out'
 {
     run 1 $batch --jobs 1 -o "$work/one"
     says '^done: 13 of 13 motors' 'done +12' 'failed +1'
-    check "files: $(ls -A "$work/one" | tr '\n' ' ')" [ "$(ls -A "$work/one" | tr '\n' ' ')" = "fleet.csv motors summary.json " ]
+    check "files: $(ls -A "$work/one" | tr '\n' ' ')" [ "$(ls -A "$work/one" | tr '\n' ' ')" = "fleet.csv fleet.sqlite motors summary.json " ]
     check "motors: $(ls -A "$work/one/motors" | wc -l)" [ "$(ls -A "$work/one/motors" | wc -l)" -eq 13 ]
     check "the bad motor is no row" grep -q '^bad,13,"one, two",2025-01-13,failed,3,,.*none: No such file' "$work/one/fleet.csv"
     check "rows are not in the order of the list" [ "$(cut -d, -f1 "$work/one/fleet.csv" | tr '\n' ' ')" = "motor m01 m02 m03 m04 m05 m06 m07 m08 m09 m10 m11 m12 bad " ]
@@ -51,7 +51,7 @@ says 'add --out'
     cp -Rp "$work/one" "$work/again"
     run 1 $batch --json -o "$work/again"
     check "--json differs from summary.json" cmp -s "$work/stdout" "$work/again/summary.json"
-    check "done again" diff -r "$work/one" "$work/again"
+    check "done again" diff -r -x fleet.sqlite "$work/one" "$work/again"
     check "a motor was done again" [ ! "$work/again/motors/m05/motor.csv" -nt "$work/one/fleet.csv" ]
     run 0 $batch --shard 2/4 -q -o "$work/share"
     check "share" [ "$(cut -d, -f1 "$work/share/fleet.csv" | tr '\n' ' ')" = "motor m02 m06 m10 " ]
@@ -72,6 +72,22 @@ says 'add --out'
 
 # ---- killed at any time, and gone on
 
+# same_rows: fleet.sqlite has the rows of fleet.csv, each once.
+same_rows() {
+    check "fleet.sqlite has other rows than fleet.csv" python3 - "$work/killed" <<'PY'
+import csv, sqlite3, sys
+rows = list(csv.DictReader(open(sys.argv[1] + "/fleet.csv")))
+base = sqlite3.connect(sys.argv[1] + "/fleet.sqlite")
+base.row_factory = sqlite3.Row
+kept = {row["motor"]: row for row in base.execute("SELECT * FROM motor")}
+assert len(kept) == len(rows)
+for row in rows:
+    for name, cell in row.items():
+        value = kept[row["motor"]][name]
+        assert (value is None and cell == "") or str(value) == cell or float(value) == float(cell), (row["motor"], name, cell, value)
+PY
+}
+
 chance=7
 killed=0
 # shellcheck disable=SC2086
@@ -88,7 +104,8 @@ while [ $killed -lt 10 ]; do
 done
 run 1 $batch -q -o "$work/killed"
 rm -f "$work"/killed/.hci-*
-check "killed and gone on is not the whole" diff -r "$work/one" "$work/killed"
+check "killed and gone on is not the whole" diff -r -x fleet.sqlite "$work/one" "$work/killed"
+same_rows
 
 # ---- a motor that hangs, one whose process is ended from outside
 
