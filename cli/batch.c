@@ -69,6 +69,7 @@ static hci_status read_all(const cli_arguments *a, cli_batch *b, cli_batch_work 
     b->common = a->word + 1;
     b->commons = a->words - 1;
     w->batch = b;
+    w->fit = &cli_fit;
     w->results = (hci_fleet_results){a->value[OUT], (hci_fleet_command)a->choice[COMMAND], &b->list};
     w->jobs = (size_t)cli_number_or(a, JOBS, (double)cli_processors());
     w->limit_s = cli_number_or(a, LIMIT, 0.0);

@@ -7,7 +7,7 @@
 #include "cli/command/option.h"
 
 extern const cli_command cli_check, cli_diagnose, cli_emit, cli_harmonics, cli_init, cli_predict,
-    cli_simulate, cli_solve, cli_sweep, cli_tune, cli_fit, cli_batch_command;
+    cli_simulate, cli_solve, cli_sweep, cli_tune, cli_fit, cli_batch_command, cli_fleet;
 extern const cli_command cli_export_fmu;
 
 #endif

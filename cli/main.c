@@ -23,7 +23,7 @@
 static const cli_command *const COMMANDS[] = {&cli_tune,    &cli_init,    &cli_check, &cli_harmonics,
                                               &cli_solve,   &cli_sweep,   &cli_emit,  &cli_simulate,
                                               &cli_export_fmu,
-                                              &cli_predict, &cli_diagnose, &cli_fit, &cli_batch_command};
+                                              &cli_predict, &cli_diagnose, &cli_fit, &cli_batch_command, &cli_fleet};
 enum { COMMAND_COUNT = sizeof COMMANDS / sizeof COMMANDS[0] };
 
 static int print_usage(FILE *stream)

@@ -108,6 +108,20 @@ static hci_fleet_outcome run_command(crew *c, size_t motor, const char *part)
     return outcome;
 }
 
+/* Of a diagnosis the parameters in common too, so that motors can be compared. Where there are none, that is no failure. */
+static void fit_beside(crew *c, size_t motor, const char *part)
+{
+    const cli_batch *b = c->work->batch;
+    char folder[PATH_SIZE];
+    cli_batch_words words;
+    if (c->work->results.command != HCI_FLEET_DIAGNOSE || snprintf(folder, sizeof folder, "%s/fit", part) >= PATH_SIZE) return;
+    cli_batch_paths_of(b, motor, &words);
+    cli_batch_add(&words, "--quiet");
+    cli_batch_add(&words, "--out");
+    cli_batch_add(&words, folder);
+    if (!words.is_full) (void)cli_command_run(c->work->fit, (int)words.count, words.word);
+}
+
 static void do_motor(void *context, size_t motor, void *result)
 {
     crew *c = context;
@@ -120,6 +134,7 @@ static void do_motor(void *context, size_t motor, void *result)
     if (!a.status) a.status = hci_fleet_begin(r, motor, &note);
     if (!a.status) {
         const hci_fleet_outcome outcome = run_command(c, motor, part);
+        if (outcome.state <= HCI_FLEET_OPEN) fit_beside(c, motor, part);
         if (outcome.exit_code == hci_status_exit_code(HCI_ERROR_OUTPUT))
             a.status = hci_note_set(&note, HCI_ERROR_OUTPUT, "%s", outcome.reason);
         else

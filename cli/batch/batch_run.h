@@ -10,6 +10,7 @@ typedef struct {
     const cli_batch *batch;
     hci_fleet_results results;
     cli_shard shard;
+    const cli_command *fit; /* run beside a diagnosis */
     size_t jobs;
     double limit_s; /* of a motor; 0: none */
     bool retries;   /* motors without a result are done again */

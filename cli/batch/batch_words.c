@@ -100,6 +100,15 @@ void cli_batch_words_of(const cli_batch *b, size_t motor, bool from_here, cli_ba
         cli_batch_add(words, b->common[k]);
 }
 
+void cli_batch_paths_of(const cli_batch *b, size_t motor, cli_batch_words *words)
+{
+    words->count = words->used = 0;
+    words->is_full = false;
+    add_path(b, hci_fleet_cell(&b->list, motor, "machine"), true, words);
+    cli_batch_add(words, "--runs");
+    add_path(b, hci_fleet_cell(&b->list, motor, "runs"), true, words);
+}
+
 static const char *nearest(const cli_batch *b, const char *name)
 {
     const char *names[CLI_MOST_OPTIONS + 8];

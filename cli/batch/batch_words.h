@@ -32,6 +32,9 @@ hci_status cli_batch_check(const cli_batch *batch, hci_note *note);
  * paths from here. */
 void cli_batch_words_of(const cli_batch *batch, size_t motor, bool from_here, cli_batch_words *words);
 
+/* Its machine and its list of recordings alone, as words with paths from here. */
+void cli_batch_paths_of(const cli_batch *batch, size_t motor, cli_batch_words *words);
+
 /* Appends one. */
 void cli_batch_add(cli_batch_words *words, const char *word);
 

@@ -181,6 +181,12 @@ run 0 fit data/fem_c/machine --runs data/fem_c/runs.csv -o "$work/fitted" -q
 written "$work/fitted/parameters.csv" '`parameters.csv`'
 named "$work/fitted/summary.json" 'summary.json of fit'
 
+run 0 fleet "$work/batch_fit" -q -o "$work/line"
+header "$work/line/deviations.csv" >"$work/line/header"
+written "$work/line/line.csv" '`line.csv`'
+check "deviations.csv: $(cat "$work/line/header")" grep -q "^$(columns '`deviations.csv`' | cut -d ' ' -f 2 | paste -s -d ,)" "$work/line/header"
+named "$work/line/summary.json" 'summary.json of fleet'
+
 # ---- harmonics and predict
 
 run 0 harmonics "$work/driven/trajectory.csv" --quantity cogging --pole-pairs 2 --json -q -o "$work/table"

@@ -14,7 +14,7 @@ check "no commands in the help" [ -n "$commands" ]
 # shellcheck disable=SC2086
 commands=$(echo $commands)
 check "not in the order in which one uses them: $commands" \
-    [ "$(echo "$commands" | sed 's/ check / /')" = "tune init harmonics solve sweep emit simulate export-fmu predict diagnose fit batch" ]
+    [ "$(echo "$commands" | sed 's/ check / /')" = "tune init harmonics solve sweep emit simulate export-fmu predict diagnose fit batch fleet" ]
 for words in 'hci-solve init .* -o out/' 'hci-solve help COMMAND' 'Documentation: man hci-solve'; do
     check "the help lacks: $words" grep -q -e "$words" "$work/usage"
 done

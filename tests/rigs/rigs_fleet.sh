@@ -42,4 +42,24 @@ if not 0.7 < mean < 1.4:
     sys.exit("standard errors are not those of the noise")
 PY
 check "$(python3 "$work/compare.py" "$work/line" "$work/fitted" 2>&1 | tail -n 1)" python3 "$work/compare.py" "$work/line" "$work/fitted"
+
+# Shares are joined to the rows of the whole; the hidden faults are caught and named.
+for share in 1 2; do run 0 batch "$work/line/motors.csv" --command fit --jobs 2 -q --shard $share/2 -o "$work/share$share"; done
+run 0 fleet "$work/share1" "$work/share2" -q -o "$work/joined"
+run 0 fleet "$work/fitted" -o "$work/whole"
+says '^stand out: [0-9]+ of 60 motors' 'limit +3\.8' 'phase_imbalance b: -'
+check "joined shares are not the whole" diff -r "$work/whole" "$work/joined"
+check "fleet.csv is not that of the batch" cmp -s "$work/whole/fleet.csv" "$work/fitted/fleet.csv"
+python3 "$source_dir/tests/rigs/fleet/score.py" "$work/whole" "$work/line/truth.csv" --require 0.95 0.04 >"$work/stdout" 2>&1 || fail "score"
+if command -v parallel >/dev/null; then
+    shown='examples/fleet/parallel.sh'
+    HCI_SOLVE=$hci_solve JOBS=2 "$source_dir/examples/fleet/parallel.sh" "$work/line/motors.csv" fit 2 "$work/parallel" >"$work/stdout" 2>"$work/stderr" || fail "GNU parallel"
+    check "shares by GNU parallel are not the whole" diff -r "$work/whole" "$work/parallel/line"
+else
+    echo "skipped: no GNU parallel here"
+fi
+run 2 fleet "$work/fitted" -o "$work/fitted"
+says 'the folder of a batch'
+run 3 fleet "$work/line"
+says 'fleet.csv: cannot be read'
 finish

@@ -185,9 +185,10 @@ static hci_status put_motor(const database *d, size_t motor, const char *row, do
     hci_fleet_fit fit;
     bool is_there = false;
     hci_status status = forget(d, named);
-    snprintf(folder, sizeof folder, "%.3000s/motors/%s", d->results->folder, named);
+    snprintf(folder, sizeof folder, "%.3000s/motors/%s%s", d->results->folder, named,
+             d->results->command == HCI_FLEET_DIAGNOSE ? "/fit" : "");
     if (!status) status = put_row(d, row, seconds);
-    if (!status && d->results->command == HCI_FLEET_FIT)
+    if (!status && hci_fleet_row_state(row) <= HCI_FLEET_OPEN)
         status = hci_fleet_fit_read(folder, &fit, &is_there, d->note);
     return status || !is_there ? status : put_parameters(d, named, &fit);
 }
