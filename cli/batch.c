@@ -101,10 +101,10 @@ const cli_command cli_batch_command = {
     .name = "batch",
     .words = "LIST --command COMMAND -o FOLDER [-- OPTION...]",
     .does = "Runs fit, diagnose, tune or solve on each motor of a list, by as many processes as there are processors.\n"
-            "Writes motors/NAME, what the command writes, for each motor as it is done, fleet.csv with a row for\n"
+            "Writes motors/NAME, what the command writes, for each motor as it is done, fleet.csv with a row for "
             "each, and summary.json at the end. The same command goes on from there.\n"
-            "LIST: a table with a row for each motor: motor, its name; machine, its folder; logs, divided by\n"
-            "semicolons; serial, batch, date; any option of the command by its name, such as runs. Paths are from\n"
+            "LIST: a table with a row for each motor: motor, its name; machine, its folder; logs, divided by "
+            "semicolons; serial, batch, date; any option of the command by its name, such as runs. Paths are from "
             "the folder of LIST. What stands behind -- is given to the command for every motor.",
     .options = OPTIONS,
     .words_needed = 1,

@@ -17,7 +17,7 @@
 #include "hci/host/report/write.h"
 #include "hci/math/harmonic.h"
 
-enum { TABLE, VERBOSE, OUT, CLI_READING_KEYS, CLI_COMMON_KEYS };
+enum { TABLE, VERBOSE, OUT, ORDER_BASE, CLI_READING_KEYS, CLI_COMMON_KEYS };
 
 static const cli_option OPTIONS[] = {
     [TABLE] =
@@ -27,6 +27,7 @@ static const cli_option OPTIONS[] = {
                  .help = "what agrees, with its numbers, and what could not be checked, too"},
     [OUT] = {"out", 'o', CLI_FOLDER, "FOLDER",
              .help = "where summary.json goes; without it nothing is written"},
+    [ORDER_BASE] = CLI_TABLE_ORDER_BASE_OPTION,
     CLI_READING_OPTIONS,
     CLI_COMMON_OPTIONS};
 
@@ -192,16 +193,15 @@ static void show(const hci_check *c, bool verbose)
     show_untold(c, verbose);
 }
 
-/* One look at a way of reading is enough where many recordings have it. */
+static const hci_note *remark_of_run(const void *context, size_t k)
+{
+    return &((const hci_check *)context)->remark[k];
+}
+
 static void show_remarks(const hci_check *c)
 {
     cli_remark(&c->machine_remark);
-    for (size_t k = 0; k < c->runs; ++k) {
-        bool is_first = true;
-        for (size_t j = 0; j < k; ++j)
-            is_first = is_first && strcmp(c->remark[j].text, c->remark[k].text) != 0;
-        if (is_first) cli_remark(&c->remark[k]);
-    }
+    cli_remark_each(remark_of_run, c, c->runs);
 }
 
 /* ---- summary ---- */
@@ -314,7 +314,7 @@ static int check_table(const cli_arguments *a, const char *table_path, bool json
     if (a->words != 2)
         status = hci_note_set(&note, HCI_ERROR_ARGUMENT,
                               "check: --table CURRENTS goes with a machine and one recording");
-    if (!status) status = hci_machine_read(a->word[0], &machine, &note);
+    if (!status) status = hci_machine_read_orders(a->word[0], options->order_base, &machine, &note);
     options->pole_pairs = (int)machine.pole_pairs;
     if (!status) status = compare_table(a, table_path, options, json, &x, &note);
     hci_machine_release(&machine);
@@ -330,6 +330,7 @@ static int run(const cli_arguments *a)
     hci_note note = {{0}};
     cli_reading reading;
     hci_status status = cli_reading_take(a, a->given[STRICT], &reading, &note);
+    reading.run.order_base = (hci_order_base)a->choice[ORDER_BASE];
     if (!status && a->given[TABLE]) {
         const int code = check_table(a, a->value[TABLE], a->given[JSON], &reading.run);
         cli_reading_release(&reading);

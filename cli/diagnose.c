@@ -150,11 +150,15 @@ static hci_status write_results(const cli_arguments *a, const inputs *in, const 
         &(hci_report_sources){.machine = in->folder, .target = a->value[TARGET]}, folder, note);
 }
 
+static const hci_note *remark_of_run(const void *context, size_t k)
+{
+    return &((const inputs *)context)->runs.run[k].remark;
+}
+
 static void show_remarks(const inputs *in)
 {
     cli_remark(&in->machine.remark);
-    for (size_t k = 0; k < in->runs.count; ++k)
-        cli_remark(&in->runs.run[k].remark);
+    cli_remark_each(remark_of_run, in, in->runs.count);
 }
 
 static int give_results(const cli_arguments *a, const inputs *in, const hci_diagnosis *d,
@@ -240,8 +244,8 @@ const cli_command cli_diagnose = {
     .name = "diagnose",
     .words = "{MACHINE | --again LAST} --runs LIST",
     .does = "Finds what the model of the machine lacks to describe recordings, and corrects it.\n"
-            "Writes machine/, effects.csv, errors.csv, residual_spectrum.csv, summary.json and report.html;\n"
-            "unexplained.csv where something is left that no effect explains, measure_next.csv where more\n"
+            "Writes machine/, effects.csv, errors.csv, residual_spectrum.csv, summary.json and report.html; "
+            "unexplained.csv where something is left that no effect explains, measure_next.csv where more "
             "recordings would tell; with --target, solution/.",
     .options = OPTIONS,
     .takes_more_words = true, /* one, or none with --again */

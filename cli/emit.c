@@ -39,9 +39,8 @@ const cli_command cli_emit = {
     .name = "emit",
     .words = "CURRENTS_OR_FOLDER... --name ID",
     .does = "Turns currents into C tables for a microcontroller.\n"
-            "Writes ID.h and ID.c, which need hci/table.h (f32) or hci/table_i16.h and nothing else; with "
-            "--drive\n"
-            "hci/loop.h too.",
+            "Writes ID.h and ID.c, which need hci/table.h (f32) or hci/table_i16.h and nothing else; "
+            "with --drive hci/loop.h too.",
     .options = cli_emit_options,
     .words_needed = 1,
     .takes_more_words = true,

@@ -15,11 +15,12 @@
 #include "hci/host/recording/predict.h"
 #include "hci/host/report/summary.h"
 
-enum { OUT, HOLDING, CLI_READING_KEYS, CLI_COMMON_KEYS };
+enum { OUT, ORDER_BASE, HOLDING, CLI_READING_KEYS, CLI_COMMON_KEYS };
 
 static const cli_option OPTIONS[] = {
     [OUT] = {"out", 'o', CLI_FILE, "FILE",
              .help = "the run with the model's torque; without it nothing is written"},
+    [ORDER_BASE] = CLI_TABLE_ORDER_BASE_OPTION,
     [HOLDING] = CLI_HOLDING_OPTION,
     CLI_READING_OPTIONS,
     CLI_COMMON_OPTIONS};
@@ -113,6 +114,7 @@ static int run(const cli_arguments *a)
     cli_reading reading;
     hci_status status = cli_reading_take(a, a->given[STRICT], &reading, &note);
     reading.run.holding = a->given[HOLDING];
+    reading.run.order_base = (hci_order_base)a->choice[ORDER_BASE];
     if (!status) status = keep_apart(a->word[0], a->word[1], a->value[OUT], &note);
     if (!status)
         status = hci_predict_file(a->word[0], a->word[1], &reading.run, a->value[OUT], &prediction, &note);

@@ -16,7 +16,7 @@
 #include "hci/host/report/summary.h"
 #include "hci/host/report/write.h"
 
-enum { CURRENTS, TABLE, DRIVE, SPEEDS, TORQUE, MODEL_ERROR, OUT, REPORT, CLI_COMMON_KEYS };
+enum { CURRENTS, TABLE, DRIVE, SPEEDS, TORQUE, MODEL_ERROR, OUT, REPORT, ORDER_BASE, CLI_COMMON_KEYS };
 
 static const cli_option OPTIONS[] = {
     [CURRENTS] = {"currents", 0, CLI_FILE, "PATH",
@@ -37,6 +37,7 @@ static const cli_option OPTIONS[] = {
                      .low = 0.0, .high = 90.0},
     [OUT] = {"out", 'o', CLI_FOLDER, "FOLDER", .help = "where the results go; without it nothing is written"},
     [REPORT] = {"report", 0, CLI_FLAG, NULL, .help = "report.html beside the results, for people"},
+    [ORDER_BASE] = CLI_TABLE_ORDER_BASE_OPTION,
     CLI_COMMON_OPTIONS};
 
 /* ---- help ---- */
@@ -156,7 +157,8 @@ static int run_speeds(const cli_arguments *a)
                                     .error_percent = cli_number_or(a, MODEL_ERROR, 0.0),
                                     .out = a->value[OUT],
                                     .report = a->given[REPORT],
-                                    .json = a->given[JSON]};
+                                    .json = a->given[JSON],
+                                    .order_base = (hci_order_base)a->choice[ORDER_BASE]};
     hci_note note = {{0}};
     const hci_status status = cli_simulate_speeds(&words, &note);
     return status ? cli_fail(status, &note) : 0;
@@ -171,7 +173,8 @@ static int run(const cli_arguments *a)
     hci_status status = check_together(a, &note);
     if (!status && a->repeats > 0) return run_speeds(a);
     memset(&machine, 0, sizeof machine);
-    if (!status) status = hci_machine_read(a->word[0], &machine, &note);
+    const hci_order_base base = (hci_order_base)a->choice[ORDER_BASE];
+    if (!status) status = hci_machine_read_orders(a->word[0], base, &machine, &note);
     if (!status) status = hci_effects_read_machine(a->word[0], &effects, &note);
     if (!status) status = hci_scenario_read(a->word[1], &scenario, &note);
     if (!status && a->given[CURRENTS]) status = override_currents(a->value[CURRENTS], &scenario, &note);
@@ -187,7 +190,7 @@ const cli_command cli_simulate = {
     .does =
         "Runs the drive in time: machine, shaft, current and speed control, sensors.\n"
         "Writes trajectory.csv, spectrum.csv and summary.json; with --report also report.html.\n"
-        "With --table: torque ripple through the current loop at several speeds, by what is done about it;\n"
+        "With --table: torque ripple through the current loop at several speeds, by what is done about it; "
         "writes speeds.csv, speeds.svg and summary.json.",
     .options = OPTIONS,
     .words_needed = 1,

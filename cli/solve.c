@@ -349,7 +349,7 @@ const cli_command cli_solve = {
     .name = "solve",
     .words = "MACHINE --target FILE",
     .does = "Finds the harmonic currents that make the machine produce the wanted torque spectrum.\n"
-            "Writes currents.csv, waveform.csv, spectrum.csv, summary.json and solution.svg;\n"
+            "Writes currents.csv, waveform.csv, spectrum.csv, summary.json and solution.svg; "
             "with --report also report.html.",
     .options = OPTIONS,
     .words_needed = 1,

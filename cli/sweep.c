@@ -152,7 +152,7 @@ const cli_command cli_sweep = {
     .does =
         "Solves over a grid: ripple against peak current and copper, largest torque over speed, maps.\n"
         "Each point is solved as `solve` does, by as many processes as there are processors.\n"
-        "Writes trade_off.csv, envelope.csv or map.csv with its picture, summary.json, and points.csv and\n"
+        "Writes trade_off.csv, envelope.csv or map.csv with its picture, summary.json, and points.csv and "
         "sweep.csv, from which the same command goes on; with --report also report.html.\n"
         "GRID: a table torque_Nm,speed_rpm[,dc_link_V], a point of a map in each row.",
     .options = OPTIONS,

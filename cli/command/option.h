@@ -128,6 +128,13 @@ extern const cli_choice cli_order_bases[];
                                              .help = "turn that orders which are read count in:"             \
     }
 
+/* The same of a machine's tables alone: what `solve` wrote is electrical. */
+#define CLI_TABLE_ORDER_BASE_OPTION                                                                          \
+    {                                                                                                        \
+        "order-base", 0, CLI_CHOICE, "BASE", .choices = cli_order_bases,                                     \
+                                             .help = "turn that orders in the machine's tables count in:"    \
+    }
+
 /* The same where the torque of a recording is used. */
 #define CLI_HOLDING_OPTION                                                                                   \
     {                                                                                                        \

@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "cli/terminal/say.h"
+
 hci_status cli_reading_take(const cli_arguments *a, bool strict, cli_reading *reading, hci_note *note)
 {
     hci_status status = HCI_OK;
@@ -18,4 +20,22 @@ hci_status cli_reading_take(const cli_arguments *a, bool strict, cli_reading *re
 void cli_reading_release(cli_reading *reading)
 {
     hci_column_names_release(&reading->columns);
+}
+
+void cli_remark_each(const hci_note *(*remark)(const void *context, size_t k), const void *context,
+                     size_t count)
+{
+    for (size_t k = 0; k < count; ++k) {
+        const hci_note *one = remark(context, k);
+        size_t before = 0, alike = 0;
+        for (size_t j = 0; j < count; ++j) {
+            const bool is_same = strcmp(remark(context, j)->text, one->text) == 0;
+            before += is_same && j < k;
+            alike += is_same;
+        }
+        hci_note said = *one;
+        if (alike > 1 && one->text[0])
+            hci_note_set(&said, HCI_OK, "%zu of %zu recordings: %s", alike, count, one->text);
+        if (before == 0) cli_remark(&said);
+    }
 }

@@ -17,4 +17,9 @@ hci_status cli_reading_take(const cli_arguments *arguments, bool strict, cli_rea
                             hci_note *note);
 void cli_reading_release(cli_reading *reading);
 
+/* The remarks of recordings, remark(context, k) for k < count: what several have in common is said once, with
+ * their number. */
+void cli_remark_each(const hci_note *(*remark)(const void *context, size_t k), const void *context,
+                     size_t count);
+
 #endif

@@ -21,7 +21,8 @@ static hci_status read_facts(const cli_arguments *a, cli_emit_currents *in, hci_
         hci_solution_read_mean_torque(a->word[0], &facts->mean_torque_Nm, &none) != HCI_OK)
         facts->mean_torque_Nm = 0.0;
     if (!a->given[EMIT_MACHINE]) return HCI_OK;
-    status = hci_machine_read(a->value[EMIT_MACHINE], &in->machine, note);
+    status = hci_machine_read_orders(a->value[EMIT_MACHINE], (hci_order_base)a->choice[EMIT_ORDER_BASE],
+                                     &in->machine, note);
     return status ? status : hci_emit_facts_read(a->value[EMIT_MACHINE], &in->machine, facts, note);
 }
 

@@ -21,7 +21,9 @@ typedef struct {
 static hci_status read_drive_inputs(const cli_arguments *a, drive_inputs *in, hci_note *note)
 {
     hci_status status = cli_emit_check(a, note);
-    if (!status) status = hci_machine_read(a->value[EMIT_MACHINE], &in->machine, note);
+    if (!status)
+        status = hci_machine_read_orders(a->value[EMIT_MACHINE], (hci_order_base)a->choice[EMIT_ORDER_BASE],
+                                         &in->machine, note);
     if (!status) status = hci_drive_read(a->value[EMIT_DRIVE], &in->drive, note);
     if (!status)
         status = hci_loop_levels_read(a->word, a->words, a->given[EMIT_PER_TORQUE], &in->levels, note);

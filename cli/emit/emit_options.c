@@ -101,6 +101,7 @@ const cli_option cli_emit_options[] = {
                    .help = "ID.bin too: the table as bytes that a bootloader or a bus brings, for "
                            "hci/blob.h; with --drive for "
                            "hci/loop_blob.h"},
+    [EMIT_ORDER_BASE] = CLI_TABLE_ORDER_BASE_OPTION,
     [EMIT_OUT] = {"out", 'o', CLI_FOLDER, "FOLDER", .help = "where ID.h and ID.c go (default: here)"},
     CLI_COMMON_OPTIONS};
 

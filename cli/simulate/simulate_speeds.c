@@ -53,7 +53,7 @@ static hci_status read_speeds(const char *text, inputs *in, hci_note *note)
 static hci_status read_inputs(const cli_speeds_words *w, inputs *in, hci_note *note)
 {
     hci_status status = read_speeds(w->speeds, in, note);
-    if (!status) status = hci_machine_read(w->machine, &in->machine, note);
+    if (!status) status = hci_machine_read_orders(w->machine, w->order_base, &in->machine, note);
     if (!status) status = hci_effects_read_machine(w->machine, &in->effects, note);
     if (!status) status = hci_drive_read(w->drive, &in->drive, note);
     if (!status) status = hci_loop_levels_read(w->table, w->table_count, false, &in->levels, note);

@@ -6,6 +6,7 @@
 #include <stddef.h>
 
 #include "hci/host/base/note.h"
+#include "hci/host/csv/csv.h"
 
 /* What stands on the command line. */
 typedef struct {
@@ -17,6 +18,7 @@ typedef struct {
     double error_percent; /* 0: not asked */
     const char *out;      /* folder, or NULL */
     bool report, json;
+    hci_order_base order_base; /* of the machine's tables */
 } cli_speeds_words;
 
 /* All of it, to the last file and word. */

@@ -61,7 +61,7 @@ static void show_envelope(const hci_grid *s)
         cli_say("  all but the plain sine with these %zu components; others may make more\n", set->count);
     else
         cli_say("  all but the plain sine with components that are chosen\n");
-    cli_say("      speed    torque       any   (ripple)      sine   (ripple)  binds\n");
+    cli_say("      speed    torque       any  ripple %%      sine  ripple %%  binds\n");
     for (size_t k = 0; k < s->plan.count; k += every) {
         const hci_grid_row *row = &s->row[k];
         char binds[HCI_GRID_BINDS_SIZE];

@@ -71,6 +71,15 @@ run 1 check "$work/typed" "$work/units.csv"
 says '^1 slip found: the torque is in mN·m' 'column torque: found torque, should be mNm in line 2, the row of units'
 sed -i '2s/Nm/mNm/' "$work/units.csv"
 run 0 check "$work/typed" "$work/units.csv"
+# orders of a mechanical turn, as they are declared
+mkdir -p "$work/turn" && cp data/machine_a/machine.csv "$work/turn"
+for table in back_emf cogging; do awk -F, -v OFS=, '!/^#/ && !/order/ { $1 *= 2 } 1' "data/machine_a/$table.csv" >"$work/turn/$table.csv"; done
+run 1 check "$work/turn"
+run 0 check "$work/turn" --order-base mechanical
+run 0 predict "$work/turn" "$work/load.csv" --order-base mechanical
+run 0 simulate "$work/turn" data/drive/driven.csv --order-base mechanical -q
+printf 'order,set,amplitude_A,phase_rad\n1,pos,1,0\n' >"$work/sine.csv"
+run 0 emit "$work/sine.csv" --name sine --machine "$work/turn" --order-base mechanical -q -o "$work/sine"
 # the remedy for an angle under another name
 sed 's/theta_m_rad/turned/' "$work/load.csv" >"$work/turned.csv"
 run 0 check "$work/typed" "$work/turned.csv"

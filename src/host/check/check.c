@@ -31,6 +31,7 @@ hci_status hci_check_files(const char *machine, const char *const *run, size_t r
         return hci_note_set(note, HCI_ERROR_ARGUMENT,
                             "found %zu recordings, expected at most %d; leave some out", runs,
                             HCI_CHECK_MOST_RUNS);
+    data.order_base = reading->order_base;
     check->machine = machine;
     check->run = run;
     check->runs = runs;

@@ -6,9 +6,12 @@
 #include "host/base/words.h"
 #include "host/machine/expected_ripple.h"
 
+/* A mean torque so small beside the ripple is none to take a percentage of. */
+#define NO_MEAN_PERCENT 1000.0
+
 static void say_ripple(const hci_words *w, const hci_expected_ripple *e)
 {
-    if (isfinite(e->T_ripple_percent))
+    if (isfinite(e->T_ripple_percent) && e->T_ripple_percent < NO_MEAN_PERCENT)
         hci_words_say(
             w,
             "Ripple at most %.2g %% of the mean torque (95 %%), %.2g N·m from peak to peak; half of the "

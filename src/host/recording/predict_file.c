@@ -96,7 +96,7 @@ static hci_status keep_free(task *t, hci_note *note)
 static hci_status read_task(task *t, const char *machine, const char *run, hci_run_options reading,
                             hci_note *note)
 {
-    hci_status status = hci_machine_read(machine, &t->machine, note);
+    hci_status status = hci_machine_read_orders(machine, reading.order_base, &t->machine, note);
     if (!status) status = hci_effects_read_machine(machine, &t->effects, note);
     if (!status) status = hci_uncertainty_read_machine(machine, &t->uncertainty, note);
     reading.pole_pairs = t->machine.model.pole_pairs;

@@ -102,9 +102,9 @@ typedef struct {
 
 /* Reads the folder `machine` and `runs` recordings (at most HCI_CHECK_MOST_RUNS, which must have the same
  * conventions), tries every reading of them with up to three slips, and finds the one that makes the numbers
- * agree (docs/check.md). Nothing is written. reading: of the recordings; pole pairs and inertia are not
- * used. machine and run must outlive *check. HCI_OK; HCI_NOT_REACHED for
- * every verdict but consistent; HCI_ERROR_INPUT, _MEMORY, _ARGUMENT; *check is then undefined. O(samples). */
+ * agree (docs/check.md). Nothing is written. reading: of the recordings, and order_base of the tables; pole
+ * pairs and inertia are not used. machine and run must outlive *check. HCI_OK; HCI_NOT_REACHED for every
+ * verdict but consistent; HCI_ERROR_INPUT, _MEMORY, _ARGUMENT; *check is then undefined. O(samples). */
 hci_status hci_check_files(const char *machine, const char *const *run, size_t runs,
                            const hci_run_options *reading, hci_check *check, hci_note *note);
 

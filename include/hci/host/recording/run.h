@@ -59,8 +59,9 @@ typedef struct {
                           * what a device has learnt has */
     double inertia_kgm2; /* for a run without torque_Nm; NAN or 0: not known, the torque is then missing */
     double torque_constant_Nm_per_A; /* of i_q, for a torque that a drive computed; 0: not known */
-    bool holding; /* without a torque column the shaft is turned slowly, and its torque is 0 */
-    bool strict;  /* a hole refuses the file */
+    bool holding;              /* without a torque column the shaft is turned slowly, and its torque is 0 */
+    bool strict;               /* a hole refuses the file */
+    hci_order_base order_base; /* of the tables of a machine that is read beside */
     const hci_column_names *columns;      /* which column is what, before all names; NULL: names say it */
     const hci_column_names *list_columns; /* the same for all runs of a list, which counts least; or NULL */
     const hci_csv_memory *memory;         /* recordings in memory: read in place of files of their names */

@@ -138,6 +138,7 @@ typedef struct {
     double value[CHECK_VALUE_COUNT]; /* canonical units; NAN: not given */
     check_place cell[CHECK_VALUE_COUNT];
     bool has_neutral;
+    hci_order_base order_base; /* that the tables are declared with */
     bool emf_in_volts;
     check_table emf, cogging;
     check_inductance inductance;

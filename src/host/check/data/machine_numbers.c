@@ -105,7 +105,7 @@ static hci_status emf_read(check_data *data, hci_note *note)
     if (status) return status;
     data->emf_in_volts = !hci_csv_has(csv, "amplitude_Nm_per_A");
     const char *amplitude = data->emf_in_volts ? "amplitude_V" : "amplitude_Nm_per_A";
-    hci_csv_orders_of(csv, (int)data->value[CHECK_pole_pairs], HCI_ORDER_ELECTRICAL);
+    hci_csv_orders_of(csv, (int)data->value[CHECK_pole_pairs], data->order_base);
     status = table_check(csv, amplitude, note);
     if (!status) status = columns_read(csv, amplitude, &data->emf, note);
     hci_csv_free(csv);
@@ -127,7 +127,7 @@ static hci_status cogging_read(check_data *data, hci_note *note)
     hci_csv *csv;
     hci_status status = hci_csv_read(data->cogging.path, &csv, note);
     if (status) return status;
-    hci_csv_orders_of(csv, (int)data->value[CHECK_pole_pairs], HCI_ORDER_ELECTRICAL);
+    hci_csv_orders_of(csv, (int)data->value[CHECK_pole_pairs], data->order_base);
     status = table_check(csv, "amplitude_Nm", note);
     if (!status) status = columns_read(csv, "amplitude_Nm", &data->cogging, note);
     hci_csv_free(csv);

@@ -1,6 +1,7 @@
 /* The sections of a solution about its currents: of the phases, and their vector. */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "host/report/page/solution_sections.h"
 
@@ -36,7 +37,7 @@ static void heading_of_currents(const hci_solution *s, char text[256])
     char before[HCI_HTML_NUMBER_SIZE], after[HCI_HTML_NUMBER_SIZE], ratio[HCI_HTML_NUMBER_SIZE];
     hci_html_quantity_text(before, s->plain_amplitude_A, "A");
     hci_html_quantity_text(after, s->peak_phase_current_A, "A");
-    hci_html_number_text(ratio, s->loss_to_plain);
+    hci_page_ratio(ratio, s->loss_to_plain);
     if (!hci_page_has_plain(s))
         snprintf(text, 256, "It takes a current of %s at the peak", after);
     else
@@ -79,14 +80,16 @@ static void table_of_vector(const hci_solution_page *p)
     hci_html_table_end(p->out);
 }
 
-/* Of what is at least 1 % of the largest wave. */
-static double highest_rotor_order(const hci_solution *s)
+#define LARGE 0.01 /* of the largest wave */
+
+/* Of what is at least this share of the largest wave. */
+static double highest_rotor_order(const hci_solution *s, double share)
 {
     double highest = 0.0, largest_A = 0.0;
     for (size_t k = 0; k < s->current.count; ++k)
         largest_A = fmax(largest_A, hci_amplitude(s->current.wave[k].sine, s->current.wave[k].cosine));
     for (size_t k = 0; k < s->current.count; ++k)
-        if (hci_amplitude(s->current.wave[k].sine, s->current.wave[k].cosine) >= 0.01 * largest_A)
+        if (hci_amplitude(s->current.wave[k].sine, s->current.wave[k].cosine) >= share * largest_A)
             highest = fmax(highest, fabs(s->current.wave[k].order - s->current.wave[k].sequence));
     return highest;
 }
@@ -99,10 +102,20 @@ static void heading_of_vector(const hci_solution_page *p, char text[512])
     hci_html_number_text(d_high, p->facts.d_A.high);
     hci_html_number_text(q_low, p->facts.q_A.low);
     hci_html_number_text(q_high, p->facts.q_A.high);
-    hci_html_number_text(order, highest_rotor_order(p->solution));
-    snprintf(text, 512,
-             "The current loop has to move i_d from %s to %s A and i_q from %s to %s A, up to order %s",
-             d_low, d_high, q_low, q_high, order);
+    const double highest = highest_rotor_order(p->solution, 0.0);
+    const double large = highest_rotor_order(p->solution, LARGE);
+    hci_html_number_text(order, highest);
+    snprintf(
+        text, 512,
+        "The current loop has to move i_d from %s to %s A and i_q from %s to %s A, up to order %s of the "
+        "turn",
+        d_low, d_high, q_low, q_high, order);
+    if (large < highest) {
+        const size_t used = strlen(text);
+        hci_html_number_text(order, large);
+        snprintf(text + used, 512 - used, "; above order %s by less than 1 %% of the largest component",
+                 order);
+    }
 }
 
 void hci_page_vector(const hci_solution_page *p)

@@ -28,6 +28,9 @@ void hci_page_before_and_after(const hci_solution_page *page);
 enum { HCI_PAGE_SWING_SIZE = HCI_HTML_NUMBER_SIZE + 16 };
 void hci_page_swing(char text[HCI_PAGE_SWING_SIZE], hci_range range, double tolerance_Nm);
 
+/* Of the copper losses, with four digits: 1.005 is not 1. */
+void hci_page_ratio(char text[HCI_HTML_NUMBER_SIZE], double ratio);
+
 /* Whether there is a plain sine to compare with. */
 bool hci_page_has_plain(const hci_solution *solution);
 

@@ -71,7 +71,7 @@ static void say_lead(const hci_solution_page *p)
         before[HCI_PAGE_SWING_SIZE], after[HCI_PAGE_SWING_SIZE];
     hci_html_quantity_text(plain, s->plain_amplitude_A, "A");
     hci_html_quantity_text(peak, s->peak_phase_current_A, "A");
-    hci_html_number_text(ratio, s->loss_to_plain);
+    hci_page_ratio(ratio, s->loss_to_plain);
     hci_page_swing(before, p->facts.before_Nm, s->tolerance_Nm);
     hci_page_swing(after, p->facts.after_Nm, s->tolerance_Nm);
     if (hci_page_has_plain(s))
@@ -88,7 +88,15 @@ static void say_lead(const hci_solution_page *p)
                      before, after, peak);
 }
 
+void hci_page_ratio(char text[HCI_HTML_NUMBER_SIZE], double ratio)
+{
+    snprintf(text, HCI_HTML_NUMBER_SIZE, "%.4g", ratio);
+}
+
 /* ---- before and after ---- */
+
+/* A mean that is less than this share of the ripple is none to take a percentage of. */
+#define NO_MEAN 0.1
 
 /* "3.775 N·m|153 % of the mean" */
 static void cell_of_ripple(char text[CELL_SIZE], const hci_solution *s, double swing, double mean)
@@ -97,7 +105,7 @@ static void cell_of_ripple(char text[CELL_SIZE], const hci_solution *s, double s
     hci_html_number_text(number, fmax(swing, s->tolerance_Nm));
     snprintf(in_Nm, sizeof in_Nm, "%s%.20s N·m", swing < s->tolerance_Nm ? "less than " : "", number);
     hci_html_number_text(percent, 100.0 * swing / fabs(mean));
-    if (fabs(mean) > 1e-12 && swing >= s->tolerance_Nm)
+    if (fabs(mean) > NO_MEAN * swing && swing >= s->tolerance_Nm)
         snprintf(text, CELL_SIZE, "%s|%s %% of the mean", in_Nm, percent);
     else
         snprintf(text, CELL_SIZE, "%s", in_Nm);
@@ -132,13 +140,15 @@ static void row_of_ripple(const hci_solution_page *p)
 static void row_of_currents(const hci_solution_page *p)
 {
     const hci_solution *s = p->solution;
-    char before[CELL_SIZE] = "0 A", after[HCI_HTML_NUMBER_SIZE], ratio[HCI_HTML_NUMBER_SIZE];
+    char before[CELL_SIZE] = "0 A", after[HCI_HTML_NUMBER_SIZE], ratio[HCI_HTML_NUMBER_SIZE],
+         times[HCI_HTML_NUMBER_SIZE + 8];
     if (hci_page_has_plain(s)) hci_html_quantity_text(before, s->plain_amplitude_A, "A");
     hci_html_quantity_text(after, s->peak_phase_current_A, "A");
     row_of(p->out, "Peak phase current", before, after, "|the same, if the current loop follows");
     if (!isfinite(s->loss_to_plain)) return;
-    hci_html_quantity_text(ratio, s->loss_to_plain, "×");
-    row_of(p->out, "Copper loss", "1 ×", ratio, "|the same");
+    hci_page_ratio(ratio, s->loss_to_plain);
+    snprintf(times, sizeof times, "%.40s ×", ratio);
+    row_of(p->out, "Copper loss", "1 ×", times, "|the same");
 }
 
 static void row_of_voltage(const hci_solution_page *p)
