@@ -12,6 +12,7 @@
 #include "cli/tune/tune_options.h"
 #include "hci/host/base/number.h"
 #include "hci/host/currents/target.h"
+#include "hci/host/recording/predict.h"
 #include "hci/host/report/write.h"
 #include "hci/host/waveform/waveform.h"
 #include "hci/math/harmonic.h"
@@ -246,11 +247,22 @@ static void say_remark(cli_tuning *t, size_t k)
         hci_tuning_say(&t->tuning, HCI_TUNING_READ, "  %s", text);
 }
 
+/* The one that is shown: what sticks, or else the first. */
+static void choose_log(cli_tuning *t)
+{
+    size_t shown = 0;
+    for (size_t k = t->runs.count; k-- > 0;)
+        if (t->runs.run[k].is_unsteady) shown = k;
+    t->shown = shown;
+    t->tuning.log_name = name_of(t, shown);
+}
+
 hci_status cli_tune_read(cli_tuning *t, hci_note *note)
 {
     const hci_status status = read_inputs(t, note);
     for (size_t k = 0; k < t->runs.count && !status; ++k)
         say_run(t, k);
+    if (!status && t->runs.count > 0) choose_log(t);
     for (size_t k = 0; k < t->runs.count && !status; ++k) {
         say_remark(t, k);
         t->has_unsteady = t->has_unsteady || t->runs.run[k].is_unsteady;
@@ -442,7 +454,6 @@ static hci_status find_waveform(cli_tuning *t, size_t k, hci_waveform_quantity q
     status = *found ? take_waveform(t, k, &w, is_far, note) : HCI_OK;
     if (*found && quantity == HCI_WAVEFORM_COGGING && !status) {
         t->cogging = w;
-        t->tuning.cogging = &t->cogging;
     } else
         hci_waveform_release(&w);
     return status;
@@ -592,6 +603,26 @@ static void note_target(cli_tuning *t)
     note_text(t, "printf 'order,amplitude_Nm,phase_rad\\n0,%s,0\\n' >\"$OUT\"/target.csv\n", mean);
 }
 
+/* What the corrected machine makes without current: over a mechanical turn where the logs know it. */
+static hci_status open_torque(cli_tuning *t, hci_note *note)
+{
+    static double theta_m_rad[HCI_TUNING_POINTS], i_A[3 * HCI_TUNING_POINTS], still[HCI_TUNING_POINTS];
+    hci_run run = {.count = HCI_TUNING_POINTS,
+                   .pole_pairs = t->corrected.model.pole_pairs,
+                   .theta_m_rad = theta_m_rad,
+                   .speed_rad_per_s = still,
+                   .i_A = i_A,
+                   .turn_known = true};
+    for (size_t k = 0; k < t->runs.count; ++k)
+        t->tuning.open_is_mechanical = t->tuning.open_is_mechanical || t->runs.run[k].turn_known;
+    const double turns = t->tuning.open_is_mechanical ? 1.0 : 1.0 / run.pole_pairs;
+    for (size_t k = 0; k < HCI_TUNING_POINTS; ++k)
+        theta_m_rad[k] = 2.0 * HCI_PI * turns * (double)k / (HCI_TUNING_POINTS - 1);
+    const hci_status status = hci_predict(&t->corrected, &t->found.list, &run, t->open_Nm, note);
+    if (!status) t->tuning.open_Nm = t->open_Nm;
+    return status;
+}
+
 hci_status cli_tune_solve(cli_tuning *t, hci_note *note)
 {
     char machine[CLI_TUNE_PATH], target[CLI_TUNE_PATH], folder[CLI_TUNE_PATH], rms[32];
@@ -603,6 +634,7 @@ hci_status cli_tune_solve(cli_tuning *t, hci_note *note)
     if (!(t->mean_Nm > 0.0)) return HCI_OK;
     command_line c = {{"solve", machine, "--target", target, "--auto", "--report", "-o", folder}, 8};
     hci_status status = read_corrected(t, machine, note);
+    if (!status) status = open_torque(t, note);
     if (status) return status;
     hci_solve_options options = {.target = &t->target,
                                  .effects = &t->found.list,

@@ -33,6 +33,7 @@ typedef struct {
     hci_runs runs;
     hci_diagnosis diagnosis;
     hci_status diagnosed;
+    size_t shown;                        /* recording in the report */
     bool has_slip, has_emf, has_cogging; /* check found one; they were measured without load */
     bool has_diagnosis;                  /* diagnose had something to do */
     bool has_unsteady;                   /* a slow turn sticks and slips */
@@ -45,6 +46,7 @@ typedef struct {
     hci_target target;
     hci_solution solution;
     bool is_solved, is_emitted;
+    double open_Nm[HCI_TUNING_POINTS]; /* torque without current */
     hci_tuning tuning;
 } cli_tuning;
 

@@ -151,6 +151,7 @@ static void set_heading(cli_tuning *t)
 void cli_tune_conclude(cli_tuning *t)
 {
     hci_tuning *r = &t->tuning;
+    r->log = t->runs.count > 0 ? &t->runs.run[t->shown] : NULL;
     say_cogging(t);
     say_unknown(t);
     say_next(t);

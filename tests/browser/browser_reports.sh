@@ -1,6 +1,6 @@
 #!/bin/sh
 # labels: report slow
-# The three reports in a headless Chromium without network: nothing on the console, nothing fetched, readable in the light, in
+# The reports in a headless Chromium without network: nothing on the console, nothing fetched, readable in the light, in
 # the dark, on a telephone, on paper, by keyboard and without JavaScript. Then copies of a report that are spoilt in one way each:
 # what is wrong is said of each of them.
 #   browser_reports.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
@@ -32,6 +32,15 @@ printf 'name,value,unit\nduration,2.1,s\nprescribed_speed,30,rpm\ncurrent_contro
 run 0 simulate "$work/small" "$work/turn.csv" --currents "$work/sine.csv" -q -o "$work/small_simulated" --report
 printf 'order,set\n1,pos\n5,neg\n' >"$work/set.csv"
 run 1 solve data/machine_a --target data/scenarios/02/target.csv --harmonics "$work/set.csv" -q -o "$work/missed" --report
+# a log in jerks, and one that is tuned
+slow_turn() { # FILE SHARE: 7 pole pairs at 12 rpm, forward and back
+    awk -v share="$2" 'BEGIN { print "t,i_q,theta_m"; for (k = 0; k < 2000; ++k) { t = 0.01 * k; way = t < 10 ? 1 : -1; x = 1.2566 * (10 + (t - 10) * way)
+        printf "%.2f,%.5f,%.5f\n", t, way * 0.05 + 0.3 * sin(84 * x + 0.4), x + share * sin(84 * x) / 84 } }' >"$1"
+}
+slow_turn "$work/slow.csv" 0.1
+run 0 tune "$work/slow.csv" --pole-pairs 7 --kv 120 -q -o "$work/tuned"
+slow_turn "$work/jerks.csv" 0.9
+run 1 tune "$work/jerks.csv" --pole-pairs 7 --kv 120 -q -o "$work/jerks"
 
 # spoil CHECK NAME EXPECTED SED_EXPRESSION: a copy of the report in which something is wrong, and what is to be said of it.
 mkdir -p "$work/spoilt" "$work/profile"

@@ -51,6 +51,30 @@ void hci_plot_solution_point(const hci_solution *solution, double theta_rad, hci
  * O(points·orders). */
 void hci_plot_waveform(hci_output *out, const hci_waveform *waveform);
 
+/* ---- plot_tuning.c ---- */
+
+/* A log over its time, angle or speed above, and torque, current or voltage below; log: an hci_run of which
+ * hci_plot_log_can. O(samples). */
+void hci_plot_log(hci_output *out, const hci_svg_box *box, const void *log);
+bool hci_plot_log_can(const hci_run *log);
+
+/* What its panels show, and its extremes. */
+typedef struct {
+    const char *position, *signal;
+    hci_range of_position, of_signal;
+} hci_plot_log_facts;
+
+void hci_plot_log_ranges(const hci_run *log, hci_plot_log_facts *facts);
+
+/* Torque without current over a turn, its ends included. open: an hci_plot_open. */
+typedef struct {
+    const double *torque_Nm;
+    size_t count;
+    bool is_mechanical; /* the turn */
+} hci_plot_open;
+
+void hci_plot_open_torque(hci_output *out, const hci_svg_box *box, const void *open);
+
 /* ---- plot_speeds.c ---- */
 
 /* Torque ripple, and voltage, over the speed; speeds: an hci_speeds. O(speeds). */

@@ -3,6 +3,7 @@
 #include "host/report/tune/page_tuning.h"
 
 #include <stdarg.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "host/base/words.h"
@@ -51,6 +52,92 @@ static void show_part(hci_output *out, const hci_tuning *t, hci_tuning_part part
     hci_html_section_end(out);
 }
 
+/* ---- pictures ---- */
+
+static void row_of_range(hci_output *out, const char *name, hci_range r)
+{
+    hci_html_row(out);
+    hci_html_cell(out, name);
+    hci_html_number(out, r.low);
+    hci_html_number(out, r.high);
+    hci_html_row_end(out);
+}
+
+static void show_log(hci_output *out, const hci_tuning *t)
+{
+    static const char *const COLUMN[] = {"<Quantity", "Least", "Most", NULL};
+    const hci_html_drawing drawing = {
+        .id = "log",
+        .title = "The log over its time",
+        .description =
+            "Two lines over the time: the angle of the shaft, or its speed, and the torque, the current "
+            "or a voltage. The table has the extremes.",
+        .caption =
+            "Each column spans the least and the most of its samples; rows that were left out are not in it.",
+        .wide = 330,
+        .narrow = 360,
+        .legend_rows = 1,
+        .draw = hci_plot_log,
+        .context = t->log};
+    hci_plot_log_facts facts;
+    char heading[512];
+    if (!t->log || !hci_plot_log_can(t->log)) return;
+    hci_plot_log_ranges(t->log, &facts);
+    snprintf(heading, sizeof heading, "%.300s as it was read: %s, and %s", t->log_name, facts.position,
+             facts.signal);
+    hci_html_section(out, heading);
+    hci_html_drawing_begin(out, &drawing);
+    hci_html_table(out, "Extremes over the log", COLUMN);
+    row_of_range(out, facts.position, facts.of_position);
+    row_of_range(out, facts.signal, facts.of_signal);
+    hci_html_table_end(out);
+    hci_html_drawing_end(out, "runs.csv, which names the logs", t->log_name);
+    hci_html_section_end(out);
+}
+
+static hci_range range_of(const double *value, size_t count)
+{
+    hci_range r = HCI_RANGE_EMPTY;
+    for (size_t k = 0; k < count; ++k)
+        hci_range_include(&r, value[k]);
+    return r;
+}
+
+/* What was found without current; below the tolerance of the solution there is nothing to show. */
+static void show_open_torque(hci_output *out, const hci_tuning *t)
+{
+    static const char *const COLUMN[] = {"<Torque", "Least N·m", "Most N·m", NULL};
+    const hci_plot_open open = {t->open_Nm, HCI_TUNING_POINTS, t->open_is_mechanical};
+    const hci_html_drawing drawing = {
+        .id = "cogging",
+        .title = "Torque without current over the angle",
+        .description =
+            "A line in N·m over a turn: the torque that the corrected machine makes without current. The "
+            "table has the extremes.",
+        .caption =
+            "Of the machine in diagnose/machine: its cogging torque, and what else follows the angle alone.",
+        .wide = 262,
+        .narrow = 260,
+        .legend_rows = 1,
+        .draw = hci_plot_open_torque,
+        .context = &open};
+    char heading[256], swing[HCI_PAGE_SWING_SIZE];
+    if (!t->open_Nm || !t->solution) return;
+    const hci_range r = range_of(t->open_Nm, HCI_TUNING_POINTS);
+    if (!(r.high - r.low > t->solution->tolerance_Nm)) return;
+    hci_page_swing(swing, r, t->solution->tolerance_Nm);
+    snprintf(heading, sizeof heading,
+             "Without current the torque that was found varies by %s over the %s turn", swing,
+             t->open_is_mechanical ? "mechanical" : "electrical");
+    hci_html_section(out, heading);
+    hci_html_drawing_begin(out, &drawing);
+    hci_html_table(out, "Extremes over the turn", COLUMN);
+    row_of_range(out, "without current", r);
+    hci_html_table_end(out);
+    hci_html_drawing_end(out, "diagnose/machine", "the logs");
+    hci_html_section_end(out);
+}
+
 void hci_page_tuning(hci_output *out, const hci_tuning *t)
 {
     hci_solution_page p = {.out = out, .solution = t->solution, .origin = "currents"};
@@ -58,8 +145,13 @@ void hci_page_tuning(hci_output *out, const hci_tuning *t)
     if (t->solution) {
         hci_plot_solution_facts(t->solution, &p.facts);
         hci_page_before_and_after(&p);
+        show_log(out, t);
+        show_open_torque(out, t);
         hci_page_torque(&p);
         hci_page_currents(&p);
+    } else {
+        hci_html_evidence(out);
+        show_log(out, t);
     }
     for (int k = 0; k < HCI_TUNING_PARTS; ++k)
         show_part(out, t, (hci_tuning_part)k);

@@ -2,8 +2,8 @@
 #ifndef HCI_HOST_REPORT_TUNE_TUNING_H
 #define HCI_HOST_REPORT_TUNE_TUNING_H
 
+#include "hci/host/recording/run.h"
 #include "hci/host/solve/solve.h"
-#include "hci/host/waveform/waveform.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -20,8 +20,8 @@ typedef enum {
     HCI_TUNING_PARTS
 } hci_tuning_part;
 
-/* Bytes of a part, and of the commands. */
-enum { HCI_TUNING_TEXT = 16384 };
+/* Bytes of a part, and of the commands; points of a turn, its ends included. */
+enum { HCI_TUNING_TEXT = 16384, HCI_TUNING_POINTS = 1441 };
 
 /* All of it. Start with {0}; texts are lines, each ended by '\n'. */
 typedef struct {
@@ -31,7 +31,10 @@ typedef struct {
     char commands[HCI_TUNING_TEXT];               /* the steps, for a shell */
     const hci_solution *solution;                 /* the currents; NULL: none were solved */
     hci_status solved;                            /* what solving them answered */
-    const hci_waveform *cogging;                  /* of a holding test; NULL: none */
+    const hci_run *log;                           /* the recording that is shown; NULL: none */
+    const char *log_name;                         /* as it was given */
+    const double *open_Nm;   /* torque without current over a turn, HCI_TUNING_POINTS; NULL: none */
+    bool open_is_mechanical; /* that turn; else an electrical one */
 } hci_tuning;
 
 /* The heading of a part; a static string. */

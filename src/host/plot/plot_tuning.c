@@ -1,0 +1,180 @@
+/* A log as it was read, over the time; and the torque of a machine without current, over the angle. */
+#include <math.h>
+#include <stdio.h>
+
+#include "hci/host/base/unit.h"
+#include "hci/math/harmonic.h"
+#include "host/plot/plot.h"
+#include "host/recording/rotor_frame.h"
+
+enum { COLUMNS = 480, STRIPS = 60 };
+
+/* ---- a log ---- */
+
+/* Least and most in each part of the time. */
+typedef struct {
+    hci_range part[COLUMNS], all;
+    double end; /* of the axis, s or samples */
+} raster;
+
+static double time_of(const hci_run *run, size_t k)
+{
+    return run->time_s ? run->time_s[k] - run->time_s[0] : (double)k;
+}
+
+/* The mechanical angle in turns, or the speed in rpm. */
+static double position_of(const hci_run *run, size_t k)
+{
+    return run->theta_m_rad ? run->theta_m_rad[k] / (2.0 * HCI_PI) : hci_rpm(run->speed_rad_per_s[k]);
+}
+
+/* The torque as it was measured, or i_q, or the voltage of phase a. */
+static double signal_of(const hci_run *run, size_t k)
+{
+    if (run->torque_source == HCI_TORQUE_MEASURED) return run->torque_Nm[k];
+    if (run->v_V && run->torque_source == HCI_TORQUE_NONE) return run->v_V[3 * k];
+    return run->theta_m_rad ? hci_run_dq(run, run->pole_pairs, k).q : run->i_A[3 * k];
+}
+
+static const char *name_of_signal(const hci_run *run)
+{
+    if (run->torque_source == HCI_TORQUE_MEASURED) return "Torque in N·m";
+    if (run->v_V && run->torque_source == HCI_TORQUE_NONE) return "Voltage of phase a in V";
+    return run->theta_m_rad ? "i_q in A" : "i_a in A";
+}
+
+static void fill(raster *r, const hci_run *run, double (*value)(const hci_run *, size_t))
+{
+    r->end = time_of(run, run->count - 1);
+    r->all = HCI_RANGE_EMPTY;
+    for (size_t j = 0; j < COLUMNS; ++j)
+        r->part[j] = HCI_RANGE_EMPTY;
+    for (size_t k = 0; k < run->count; ++k) {
+        const double share = r->end > 0.0 ? time_of(run, k) / r->end : 0.0, x = value(run, k);
+        const size_t j = (size_t)fmin(COLUMNS - 1.0, fmax(0.0, share * COLUMNS));
+        hci_range_include(&r->part[j], x);
+        hci_range_include(&r->all, x);
+    }
+}
+
+static void draw_raster(hci_output *out, const raster *r, const hci_svg_axis *x, const hci_svg_axis *y)
+{
+    hci_svg_line_begin(out, "after");
+    for (size_t j = 0; j < COLUMNS; ++j) {
+        const hci_range p = r->part[j];
+        const double at = x->from + (x->to - x->from) * ((double)j + 0.5) / COLUMNS;
+        if (p.low > p.high) continue;
+        hci_svg_line_point(out, at, hci_svg_at(y, j % 2 == 0 ? p.low : p.high));
+        if (p.high > p.low) hci_svg_line_point(out, at, hci_svg_at(y, j % 2 == 0 ? p.high : p.low));
+    }
+    hci_svg_line_end(out);
+}
+
+static void tell_raster(hci_output *out, const raster *r, const hci_run *run, const hci_svg_box *b)
+{
+    const double width = (b->right - b->left) / STRIPS;
+    for (size_t k = 0; k < STRIPS; ++k) {
+        const hci_svg_box strip = {b->left + width * (double)k, b->top, b->left + width * (double)(k + 1),
+                                   b->bottom};
+        hci_range all = HCI_RANGE_EMPTY;
+        for (size_t j = k * COLUMNS / STRIPS; j < (k + 1) * COLUMNS / STRIPS; ++j)
+            if (r->part[j].low <= r->part[j].high) {
+                hci_range_include(&all, r->part[j].low);
+                hci_range_include(&all, r->part[j].high);
+            }
+        if (all.low > all.high) continue;
+        hci_svg_tell(out, "");
+        hci_svg_tell_value(out, run->time_s ? "" : "sample ", r->end * ((double)k + 0.5) / STRIPS,
+                           run->time_s ? "s" : "");
+        hci_svg_tell_value(out, ": ", all.low, "");
+        hci_svg_tell_value(out, " to ", all.high, "");
+        hci_svg_strip(out, &strip);
+    }
+}
+
+static void draw_panel(hci_output *out, const hci_svg_box *area, const hci_run *run, const char *title,
+                       double (*value)(const hci_run *, size_t))
+{
+    raster r;
+    fill(&r, run, value);
+    const hci_svg_axis y = hci_svg_axis_over(r.all, area->bottom, area->top, 4.0);
+    const hci_svg_box b = hci_svg_box_beside(*area, &y);
+    hci_svg_axis x = {0.0, r.end > 0.0 ? r.end : 1.0, b.left, b.right, 1.0};
+    x.step = hci_svg_nice_step(x.high / 7.0);
+    hci_svg_head(out, &b, title, NULL, 0);
+    hci_svg_grid(out, &x, &b, false);
+    hci_svg_grid(out, &y, &b, true);
+    draw_raster(out, &r, &x, &y);
+    tell_raster(out, &r, run, &b);
+    hci_svg_label(out, "quiet middle", 0.5 * (b.left + b.right), b.bottom + 35.0,
+                  run->time_s ? "time in s" : "sample");
+}
+
+void hci_plot_log_ranges(const hci_run *run, hci_plot_log_facts *facts)
+{
+    facts->position = run->theta_m_rad ? "mechanical angle in turns" : "speed in rpm";
+    facts->signal = name_of_signal(run);
+    facts->of_position = facts->of_signal = HCI_RANGE_EMPTY;
+    for (size_t k = 0; k < run->count; ++k) {
+        hci_range_include(&facts->of_position, position_of(run, k));
+        hci_range_include(&facts->of_signal, signal_of(run, k));
+    }
+}
+
+void hci_plot_log(hci_output *out, const hci_svg_box *area, const void *log)
+{
+    const hci_run *run = log;
+    hci_svg_box upper = *area, lower = *area;
+    upper.bottom = 0.5 * (area->top + area->bottom) - 38.0;
+    lower.top = upper.bottom + 76.0;
+    draw_panel(out, &upper, run, run->theta_m_rad ? "Mechanical angle in turns" : "Speed in rpm",
+               position_of);
+    draw_panel(out, &lower, run, name_of_signal(run), signal_of);
+}
+
+bool hci_plot_log_can(const hci_run *run)
+{
+    return run->count > 1 && run->i_A && (run->theta_m_rad || run->speed_rad_per_s);
+}
+
+/* ---- torque without current ---- */
+
+static hci_range range_of(const hci_plot_open *o)
+{
+    hci_range r = HCI_RANGE_EMPTY;
+    for (size_t k = 0; k < o->count; ++k)
+        hci_range_include(&r, o->torque_Nm[k]);
+    return r;
+}
+
+static double angle_of(const hci_plot_open *o, size_t k)
+{
+    return 360.0 * (double)k / (double)(o->count - 1);
+}
+
+void hci_plot_open_torque(hci_output *out, const hci_svg_box *area, const void *open)
+{
+    const hci_plot_open *o = open;
+    const hci_svg_axis y = hci_svg_axis_over(range_of(o), area->bottom, area->top, 6.0);
+    const hci_svg_box b = hci_svg_box_beside(*area, &y);
+    const hci_svg_axis x = hci_svg_axis_of_angle(1.0, &b);
+    const double width = (b.right - b.left) / STRIPS;
+    hci_svg_head(out, &b, "Torque in N·m", NULL, 0);
+    hci_svg_grid(out, &x, &b, false);
+    hci_svg_grid(out, &y, &b, true);
+    hci_svg_line_begin(out, "after");
+    for (size_t k = 0; k < o->count; ++k)
+        hci_svg_line_point(out, hci_svg_at(&x, angle_of(o, k)), hci_svg_at(&y, o->torque_Nm[k]));
+    hci_svg_line_end(out);
+    for (size_t k = 0; k < STRIPS; ++k) {
+        const size_t at = (2 * k + 1) * (o->count - 1) / (2 * STRIPS);
+        const hci_svg_box strip = {b.left + width * (double)k, b.top, b.left + width * (double)(k + 1),
+                                   b.bottom};
+        hci_svg_tell(out, "");
+        hci_svg_tell_value(out, "", angle_of(o, at), "°");
+        hci_svg_tell_value(out, ": ", o->torque_Nm[at], "N·m");
+        hci_svg_strip(out, &strip);
+    }
+    hci_svg_label(out, "quiet middle", 0.5 * (b.left + b.right), b.bottom + 35.0,
+                  o->is_mechanical ? "mechanical angle in degrees" : "electrical angle in degrees");
+}
