@@ -19,7 +19,7 @@
 /* Whether a recording tells where the electrical angle is 0. */
 static bool knows_zero(const cli_tuning *t)
 {
-    bool knows = !t->is_own || t->has_emf || t->has_load;
+    bool knows = !t->is_own || t->has_load;
     for (size_t k = 0; k < t->runs.count; ++k)
         knows = knows || t->runs.run[k].is_electrical || (t->runs.run[k].v_V && t->runs.run[k].theta_m_rad);
     return knows;

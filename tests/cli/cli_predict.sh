@@ -91,7 +91,7 @@ check "the machine has changed" diff -r data/machine_a "$work/kept"
 printf 'time_s,theta_e_deg,iq_A\n0,1,1\n1,,1\n' >"$work/wrong.csv"
 refused 3 'wrong.csv:3: column 2 `theta_e_deg`: found an empty cell' data/machine_a "$work/wrong.csv" --strict -o "$work/refused/x.csv"
 printf 'time_s,angle,iq_A\n0,1,1\n' >"$work/wrong.csv"
-refused 3 'found no column `theta_m_rad` but `time_s`, `angle`' data/machine_a "$work/wrong.csv" -o "$work/refused/x.csv"
+refused 3 '`angle`: found an angle that may be mechanical or electrical, expected theta_m or theta_e' data/machine_a "$work/wrong.csv" -o "$work/refused/x.csv"
 check "something was written" [ ! -e "$work/refused" ]
 : >"$work/file"
 refused 5 'file' data/machine_a "$work/run.csv" -o "$work/file/x.csv"

@@ -256,6 +256,12 @@ const hci_alias hci_aliases[] = {
     PLAIN("u_uv", "vab_V", "V", "many"),
     PLAIN("u_vw", "vbc_V", "V", "many"),
     PLAIN("u_wu", "vca_V", "V", "many"),
+    PLAIN("u_12", "vab_V", "V", "many"),
+    PLAIN("u_23", "vbc_V", "V", "many"),
+    PLAIN("u_31", "vca_V", "V", "many"),
+    PLAIN("u_l1l2", "vab_V", "V", "many"),
+    PLAIN("u_l2l3", "vbc_V", "V", "many"),
+    PLAIN("u_l3l1", "vca_V", "V", "many"),
 };
 
 const size_t hci_alias_count = sizeof hci_aliases / sizeof *hci_aliases;

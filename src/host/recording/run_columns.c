@@ -6,6 +6,7 @@
 #include "host/base/memory.h"
 #include "host/base/quote.h"
 #include "host/csv/column.h"
+#include "host/csv/column_name.h"
 #include "host/csv/table.h"
 
 static const char *const NAME[HCI_RUN_COLUMN_COUNT] = {
@@ -76,9 +77,27 @@ static const char *likely_angle(const hci_run_columns *c)
     return NULL;
 }
 
+/* The first column in volts, under a name that is not known; NULL: none. */
+static const char *likely_voltage(const hci_run_columns *c)
+{
+    const hci_unit *volt = hci_unit_find("V", 1);
+    for (size_t column = 0; column < hci_csv_columns(c->csv); ++column) {
+        const hci_unit *unit = hci_column_unit(c->csv, column);
+        if (unit != NULL && unit->dimension == volt->dimension &&
+            !hci_column_is_known(hci_csv_name(c->csv, column)))
+            return hci_csv_name(c->csv, column);
+    }
+    return NULL;
+}
+
 void hci_run_columns_say_angle(const hci_run_columns *c, hci_note *missing)
 {
-    const char *name = likely_angle(c);
+    const char *name = likely_angle(c), *voltage = likely_voltage(c);
+    if (voltage != NULL)
+        hci_note_add(missing,
+                     "if `%.60s` is a voltage of the machine turned by another, say --column \"va_V=%.60s\" "
+                     "(vab_V line to line) and so of the others",
+                     voltage, voltage);
     if (name == NULL && c->has[HCI_RUN_TIME])
         hci_note_add(
             missing,

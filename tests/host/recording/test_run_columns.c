@@ -269,6 +269,18 @@ static void test_names_in_other_languages_are_read(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.006, first_value(HCI_RUN_TORQUE));
 }
 
+/* Two or three voltages do without an angle. */
+static void test_a_voltage_of_another_name_is_asked_for(void)
+{
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, find("time_s,probe (V),gate (V)\n0,1,1\n"));
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(note.text, "say --column \"va_V=probe (V)\""), note.text);
+    remark.text[0] = note.text[0] = '\0';
+    hci_csv_free(csv);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, find("Zeit in s,Spannung U12 in V,Spannung U23 in V\n0,1,2\n"),
+                              note.text);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 2.0, first_value(HCI_RUN_VBC));
+}
+
 static void test_more_languages_are_read(void)
 {
     TEST_ASSERT_EQUAL_MESSAGE(
@@ -328,6 +340,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_names_in_other_languages_are_read);
+    RUN_TEST(test_a_voltage_of_another_name_is_asked_for);
     RUN_TEST(test_more_languages_are_read);
     RUN_TEST(test_a_bare_angle_is_what_turns_as_fast_as_the_speed);
     RUN_TEST(test_angles_that_look_like_degrees_are_told);

@@ -109,7 +109,7 @@ static void show_open_torque(hci_output *out, const hci_tuning *t)
     static const char *const COLUMN[] = {"<Torque", "Least N·m", "Most N·m", NULL};
     const hci_plot_open open = {t->open_Nm, HCI_TUNING_POINTS, t->open_is_mechanical};
     const hci_html_drawing drawing = {
-        .id = "cogging",
+        .id = "open",
         .title = "Torque without current over the angle",
         .description =
             "A line in N·m over a turn: the torque that the corrected machine makes without current. The "
