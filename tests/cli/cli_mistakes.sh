@@ -56,7 +56,7 @@ log $names '1,400s/\.\([0-9]*\),/,\1,/g'; cogging 3 'if the comma is the decimal
 log time_s,enc_count,iq_A,torque_Nm; cogging 3 'if `enc_count` is an encoder, say --column "theta_m=enc_count/COUNTS"'
 log time_s,enc_count,iq_A,torque_Nm; cogging 3 'looks like the counts of an encoder' 'enc_count/4096' -- --column theta_m_rad=enc_count
 log time_s,enc_count,iq_A,torque_Nm; cogging 0 'the speed is the slope' -- --column theta_m=enc_count/6.283185307
-log time,angle,iq,torque; cogging 3 'if `angle` is the angle of the rotor, say --column "theta_m_deg=angle"'
+log time,angle,iq,torque; cogging 3 '`angle`: found an angle that may be mechanical or electrical.*say --column "theta_m=angle" .theta_m_deg in degrees'
 log time,angle,iq,torque; cogging 0 'the speed is the slope' -- --column theta_m_rad=angle
 log t,theta,iq,T; cogging 3 'column 2 `theta`: found an angle that may be mechanical or electrical'
 log $names; cogging 3 'found no column `Current` in r.csv; it has' -- --column iq=Current

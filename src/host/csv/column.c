@@ -300,17 +300,18 @@ bool hci_csv_told(const hci_csv *csv, const char *name, hci_note *told)
 
 static hci_status unclear_error(const hci_csv *csv, size_t column, hci_note *note)
 {
-    char remedy[200];
+    char remedy[240];
     const hci_csv_fault fault = {.line = hci_csv_record_line(csv, 0),
                                  .column = column,
                                  .name = hci_csv_cell(csv, 0, column),
                                  .found = "an angle that may be mechanical or electrical",
                                  .expected = "theta_m or theta_e",
                                  .remedy = remedy};
-    snprintf(
-        remedy, sizeof remedy,
-        "rename the column to the one it is, say --column \"theta_m=%.60s\" (or theta_e), or add the speed",
-        hci_csv_cell(csv, 0, column));
+    snprintf(remedy, sizeof remedy,
+             "rename the column to the one it is, say --column \"theta_m=%.60s\" (theta_m_deg in degrees, "
+             "theta_e of an "
+             "electrical angle), or add the speed",
+             hci_csv_cell(csv, 0, column));
     return hci_csv_fault_note(csv, &fault, note);
 }
 
