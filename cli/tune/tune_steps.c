@@ -247,10 +247,12 @@ static void say_remark(cli_tuning *t, size_t k)
         hci_tuning_say(&t->tuning, HCI_TUNING_READ, "  %s", text);
 }
 
-/* The one that is shown: what sticks, or else the first. */
+/* The one that is shown: what sticks, or else the first that tells where the shaft is. */
 static void choose_log(cli_tuning *t)
 {
     size_t shown = 0;
+    for (size_t k = t->runs.count; k-- > 0;)
+        if (t->runs.run[k].theta_m_rad || t->runs.run[k].speed_rad_per_s) shown = k;
     for (size_t k = t->runs.count; k-- > 0;)
         if (t->runs.run[k].is_unsteady) shown = k;
     t->shown = shown;

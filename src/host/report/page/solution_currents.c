@@ -105,11 +105,10 @@ static void heading_of_vector(const hci_solution_page *p, char text[512])
     const double highest = highest_rotor_order(p->solution, 0.0);
     const double large = highest_rotor_order(p->solution, LARGE);
     hci_html_number_text(order, highest);
-    snprintf(
-        text, 512,
-        "The current loop has to move i_d from %s to %s A and i_q from %s to %s A, up to order %s of the "
-        "turn",
-        d_low, d_high, q_low, q_high, order);
+    snprintf(text, 512,
+             "The current loop has to move i_d from %s to %s A and i_q from %s to %s A, up to "
+             "electrical order %s",
+             d_low, d_high, q_low, q_high, order);
     if (large < highest) {
         const size_t used = strlen(text);
         hci_html_number_text(order, large);
