@@ -33,9 +33,9 @@ void cli_remark_each(const hci_note *(*remark)(const void *context, size_t k), c
             before += is_same && j < k;
             alike += is_same;
         }
-        hci_note said = *one;
+        hci_note many = {{0}};
         if (alike > 1 && one->text[0])
-            hci_note_set(&said, HCI_OK, "%zu of %zu recordings: %s", alike, count, one->text);
-        if (before == 0) cli_remark(&said);
+            hci_note_set(&many, HCI_OK, "%zu of %zu recordings: %s", alike, count, one->text);
+        if (before == 0) cli_remark(many.text[0] ? &many : one);
     }
 }

@@ -512,9 +512,12 @@ static void recorded(const cli_tuning *t, double *mean_Nm, double *current_Nm)
     for (size_t k = 0; k < t->diagnosis.runs; ++k)
         if (t->diagnosis.run[k].source == HCI_TORQUE_MEASURED)
             *mean_Nm = fmax(*mean_Nm, fabs(t->diagnosis.run[k].mean_torque_Nm));
-    for (size_t k = 0; k < t->runs.count; ++k)
-        for (size_t n = 0; n < 3 * t->runs.run[k].count; ++n)
-            most_A = fmax(most_A, fabs(t->runs.run[k].i_A[n]));
+    for (size_t k = 0; k < t->runs.count; ++k) {
+        const hci_run *r = &t->runs.run[k];
+        const size_t count = has_no_current(t, r) ? 0 : 3 * r->count;
+        for (size_t n = 0; n < count; ++n)
+            most_A = fmax(most_A, fabs(r->i_A[n]));
+    }
     *current_Nm = most_A * t->reading.run.torque_constant_Nm_per_A;
 }
 

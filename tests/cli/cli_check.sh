@@ -60,6 +60,7 @@ run 1 check "$work/typed" "$work/load.csv" "$work/back.csv" --verbose
 says '^hci-solve: note: .*`erpm` is read as.*columns not used: `odd`' '^1 slip found, 1 more possible: rated_current is rms' \
     'possible resistance_line' ' 1  change of the angle over time against the speed'
 check "the same remark twice" [ "$(grep -c 'note:' "$work/stderr")" -eq 1 ]
+says 'note: .*2 of 2 recordings: ' 
 sed -i 's/^resistance,0.38/resistance,0.2/; s/^rated_current,7.0710678/rated_current,10/' "$work/typed/machine.csv"
 printf 'order,amplitude_Nm_per_A,phase_rad\n1,0.2,0\n' >"$work/typed/back_emf.csv"
 run 1 check "$work/typed" "$work/load.csv" "$work/back.csv"

@@ -78,6 +78,10 @@ solve() {
 }
 solve --report
 alone "$work/solved/report.html"
+check "the current loop has to follow other orders" grep -q 'up to electrical order 48' "$work/solved/report.html"
+printf 'order,amplitude_Nm,phase_rad\n0,1e-6,0\n' >"$work/nearly_none.csv"
+run 0 solve data/machine_a --target "$work/nearly_none.csv" --auto -q --report -o "$work/nearly_none"
+check "a percentage of no mean" [ "$(grep -c '% of the mean' "$work/nearly_none/report.html")" -eq 0 ]
 column "$work/solved/currents.csv" 1 3 4 >"$work/numbers"
 holds "$work/solved/report.html"
 check "the target is not named" grep -q 'Wanted torque: data/scenarios/02/target.csv<' "$work/solved/report.html"

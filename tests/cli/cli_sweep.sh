@@ -120,6 +120,7 @@ cp "$work/own.csv" "$m/machine.csv"
 run 3 sweep "$m" --envelope --speeds 300 -q
 says 'limit-current'
 run 0 sweep "$m" --envelope --speeds 300,1200 --ripple 60 --limit-current 12 --limit-voltage 40 --harmonics "$h" -o "$work/envelope"
+says "any  ripple %      sine  ripple %  binds"
 says 'envelope, 2 points' '^ +300 rpm +[0-9.]+ +[0-9.]+ +[0-9.]+ +[0-9.]+ +[0-9.]+'
 
 # ---- an envelope makes the swing smallest that it limits, and is not below a plain sine that has as little ripple
