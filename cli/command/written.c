@@ -107,6 +107,19 @@ void cli_written_remove(const char *root)
     written.count = 0;
 }
 
+void cli_written_forget(const char *folder)
+{
+    const size_t length = strlen(folder);
+    size_t kept = 0;
+    for (size_t k = 0; k < written.count && length > 0; ++k) {
+        if (strncmp(written.path[k], folder, length) == 0 && written.path[k][length] == '/')
+            free(written.path[k]);
+        else
+            written.path[kept++] = written.path[k];
+    }
+    if (length > 0) written.count = kept;
+}
+
 void cli_written_end(void)
 {
     if (--written.depth > 0) return;

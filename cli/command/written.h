@@ -9,6 +9,8 @@ void cli_written_begin(void);
 void cli_written_say(void);
 /* Removes them and the folders from `root` on that are empty then: of a command that failed in the middle. */
 void cli_written_remove(const char *root);
+/* Forgets those in a folder of temporary files; "": none. */
+void cli_written_forget(const char *folder);
 /* Ends what the last begin has begun; the outermost forgets them. */
 void cli_written_end(void);
 

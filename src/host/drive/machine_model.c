@@ -42,6 +42,8 @@ static hci_status fill(const hci_machine *machine, const hci_plant_inductance *g
             "the tables of the machine: an order is no multiple of 1/pole_pairs, so that nothing "
             "repeats after a mechanical turn; check the orders, which are electrical");
     const size_t points = (size_t)turns * POINTS_PER_TURN;
+    m->machine = *machine;
+    m->inductance = *given;
     m->rows = hci_memory_new(hci_plant_table_size(points), sizeof *m->rows);
     if (!m->rows) return hci_note_memory(note, NULL, "a table of %zu angles", points);
     const hci_status status = hci_plant_table_fill(machine, given, points, m->rows, &m->table);

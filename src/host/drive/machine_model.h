@@ -10,6 +10,8 @@
 typedef struct {
     hci_plant_table table; /* of rows */
     double *rows;
+    hci_machine machine; /* what the table was made of; the arrays are those of the machine that was read */
+    hci_plant_inductance inductance;
     double resistance_ohm, inductance_H[2]; /* L_d, L_q: means over a turn, seen from the rotor */
 } hci_machine_model;
 

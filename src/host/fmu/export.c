@@ -9,6 +9,7 @@
 #include "hci/version.h"
 #include "host/base/digest.h"
 #include "host/base/memory.h"
+#include "host/fmu/controller_code.h"
 #include "host/fmu/machine_code.h"
 #include "host/fmu/sources.h"
 #include "host/fmu/zip.h"
@@ -19,7 +20,9 @@ typedef struct {
     const hci_fmu_request *request;
     hci_fmu_result *result;
     hci_note *note;
+    hci_machine_data joined; /* with the drive */
     hci_fmu_machine_model machine;
+    hci_fmu_controller_model controller;
     hci_long_text data;        /* hci_data.c */
     hci_long_text description; /* modelDescription.xml */
     hci_long_text build;       /* buildDescription.xml */
@@ -35,14 +38,14 @@ typedef struct {
 /* ---- names ---- */
 
 /* A C identifier of a machine's name. */
-static void make_identifier(const char *name, char identifier[HCI_MACHINE_NAME + 16])
+static void make_identifier(const char *name, const char *end, char identifier[HCI_MACHINE_NAME + 24])
 {
     static const char LETTERS[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789";
     size_t length = 0;
     if (name[0] == '\0' || strspn(name, "0123456789") > 0) length = (size_t)sprintf(identifier, "machine_");
     for (; *name; ++name)
         identifier[length++] = strchr(LETTERS, *name) ? *name : '_';
-    identifier[length] = '\0';
+    strcpy(identifier + length, end);
 }
 
 /* Of everything that is compiled, so that a description cannot be used with another binary. */
@@ -72,11 +75,16 @@ static bool ends(const char *name, const char *end)
     return length >= more && strcmp(name + length - more, end) == 0;
 }
 
+static bool is_controller(const export *e)
+{
+    return e->request->level_count > 0;
+}
+
 /* Of two versions and two models an FMU has one. */
 static bool is_wanted(const export *e, const char *name)
 {
     if (begins(name, "fmu_fmi")) return name[strlen("fmu_fmi")] - '0' == e->request->fmi_version;
-    return !begins(name, "fmu_controller");
+    return !begins(name, is_controller(e) ? "fmu_machine" : "fmu_controller");
 }
 
 static hci_status add_source(export *e, const char *name, const void *bytes, size_t size)
@@ -105,7 +113,10 @@ static hci_status make_data(export *e)
     hci_long_text_add(&e->data,
                       "/* Written by hci-solve " HCI_VERSION_STRING
                       "; export it again rather than edit it.\n * SPDX-License-Identifier: MIT */\n");
-    hci_fmu_machine_code(&e->machine, &e->data);
+    if (is_controller(e))
+        hci_fmu_controller_code(&e->controller, &e->data);
+    else
+        hci_fmu_machine_code(&e->machine, &e->data);
     if (!e->data.failed) make_token(e);
     hci_long_text_add(&e->data, "\nconst char hci_fmu_token[] = \"%s\";\n", e->token);
     if (e->data.failed) return hci_note_memory(e->note, NULL, "the data of an FMU");
@@ -128,9 +139,17 @@ static hci_status make_description(export *e)
                              .token = e->token,
                              .sources = e->code,
                              .source_count = e->codes};
-    hci_fmu_machine_describe(&e->machine, &d);
+    if (is_controller(e))
+        hci_fmu_controller_describe(&e->controller, &d);
+    else
+        hci_fmu_machine_describe(&e->machine, &d);
     count_variables(e, &d);
-    hci_fmu_describe_2(&d, &e->description);
+    if (e->request->fmi_version == 2) {
+        hci_fmu_describe_2(&d, &e->description);
+    } else {
+        hci_fmu_describe_3(&d, &e->description);
+        hci_fmu_describe_build(&d, &e->build);
+    }
     if (e->description.failed || e->build.failed)
         return hci_note_memory(e->note, NULL, "a model description");
     return HCI_OK;
@@ -226,21 +245,37 @@ static hci_status write_archive(export *e, const char *path)
 
 /* ---- all of it ---- */
 
+/* The model, and what is beside it in the sources. */
+static hci_status make_model(export *e)
+{
+    const hci_fmu_request *r = e->request;
+    hci_status status = HCI_OK;
+    e->joined = *r->machine;
+    if (r->drive) status = hci_drive_fit(r->drive, r->machine, &e->joined, e->note);
+    if (status) return status;
+    if (!is_controller(e)) return hci_fmu_machine_make(r, &e->joined, &e->machine, e->note);
+    status = hci_fmu_controller_make(r, &e->joined, &e->controller, e->note);
+    if (status) return status;
+    const char *const h = e->controller.table_h, *const c = e->controller.table_c;
+    status = add_source(e, HCI_FMU_TABLE_H, h, strlen(h));
+    return status ? status : add_source(e, HCI_FMU_TABLE_C, c, strlen(c));
+}
+
 static hci_status make(export *e, const char *path)
 {
     const hci_fmu_request *r = e->request;
-    make_identifier(r->machine->identity.name, e->result->identifier);
-    hci_status status = hci_fmu_machine_make(r, &e->machine, e->note);
+    make_identifier(r->machine->identity.name, is_controller(e) ? "_controller" : "", e->result->identifier);
+    hci_status status = make_model(e);
     if (!status) status = add_sources(e);
     if (!status) status = make_data(e);
     if (!status) status = make_description(e);
     if (!status) status = make_binary(e);
     if (!status) status = write_archive(e, path);
     e->result->fmi_version = r->fmi_version;
-    e->result->effects = r->effects ? r->effects->count : 0;
+    e->result->effects = r->effects && !is_controller(e) ? r->effects->count : 0;
     e->result->sources = e->sources;
     e->result->binary_bytes = e->binary_bytes;
-    e->result->remark = e->machine.setup.remark;
+    if (!is_controller(e)) e->result->remark = e->machine.setup.remark;
     return status;
 }
 
@@ -254,7 +289,10 @@ hci_status hci_fmu_export(const char *path, const hci_fmu_request *request, hci_
     e->result = result;
     e->note = note;
     const hci_status status = make(e, path);
-    hci_fmu_machine_release(&e->machine);
+    if (is_controller(e))
+        hci_fmu_controller_release(&e->controller);
+    else
+        hci_fmu_machine_release(&e->machine);
     hci_long_text_release(&e->data);
     hci_long_text_release(&e->description);
     hci_long_text_release(&e->build);

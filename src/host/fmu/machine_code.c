@@ -7,22 +7,24 @@
 
 static const hci_fmu_variable LIST[] = {HCI_FMU_MACHINE_VARIABLES(HCI_FMU_ENTRY)};
 
-/* Longest internal step: a tenth of a sample at 10 kHz, as `simulate` has it. */
+/* Longest internal step without a drive: a tenth of a sample at 10 kHz; as `simulate` has it. */
 static const double STEP_s = 1e-5;
+enum { STEPS_OF_A_SAMPLE = 10 };
 
 /* ---- what the machine is ---- */
 
 /* A scenario in which the set-up of `simulate` wants to know of the machine what the model needs, and no
  * more. */
-static void fill_scenario(const hci_fmu_request *r, hci_scenario *s)
+static void fill_scenario(const hci_fmu_machine_model *m, hci_scenario *s)
 {
     hci_scenario_init(s);
-    s->current_control = r->imposed ? HCI_CURRENT_IDEAL : HCI_CURRENT_PI;
+    s->current_control = m->request->imposed ? HCI_CURRENT_IDEAL : HCI_CURRENT_PI;
     s->duration_s = 1.0;
-    s->step_s = STEP_s;
+    s->step_s = m->step_s;
+    s->current_sample_time_s = m->step_s;
     s->torque_reference_Nm = 0.0;
     s->dc_link_voltage_V = 1.0;
-    if (isnan(r->machine->inertia_kgm2)) s->prescribed_speed_rad_per_s = 0.0;
+    if (isnan(m->machine->inertia_kgm2)) s->prescribed_speed_rad_per_s = 0.0;
 }
 
 /* The temperature at which the magnets are declared, NAN where nothing depends on it. */
@@ -45,16 +47,18 @@ static double or_zero(double value)
 static void fill_start(hci_fmu_machine_model *m)
 {
     const hci_fmu_request *r = m->request;
-    const hci_machine_data *machine = r->machine;
+    const hci_machine_data *machine = m->machine;
     m->start[HCI_FMU_MACHINE_TEMPERATURE] = or_zero(reference_temperature_C(r->effects));
     m->start[HCI_FMU_MACHINE_RESISTANCE] = or_zero(machine->resistance_ohm);
     m->start[HCI_FMU_MACHINE_INERTIA] = or_zero(machine->inertia_kgm2);
     m->start[HCI_FMU_MACHINE_VISCOUS] = or_zero(machine->viscous_friction_Nms_per_rad);
     m->start[HCI_FMU_MACHINE_COULOMB] = or_zero(machine->coulomb_friction_Nm);
     m->start[HCI_FMU_MACHINE_IS_PRESCRIBED] = isnan(machine->inertia_kgm2);
-    m->start[HCI_FMU_MACHINE_STEP] = STEP_s;
-    m->start[HCI_FMU_MACHINE_DEAD_TIME_VOLTAGE] = r->dead_time_voltage_V;
-    m->start[HCI_FMU_MACHINE_DEAD_TIME_CROSSING] = r->dead_time_crossing_A;
+    m->start[HCI_FMU_MACHINE_STEP] = m->step_s;
+    if (!r->drive) return;
+    m->start[HCI_FMU_MACHINE_DEAD_TIME_VOLTAGE] =
+        r->drive->dc_link_voltage_V * r->drive->dead_time_s / r->drive->sample_s;
+    m->start[HCI_FMU_MACHINE_DEAD_TIME_CROSSING] = r->drive->dead_time_crossing_A;
 }
 
 static void leave_out(hci_fmu_machine_model *m)
@@ -70,15 +74,18 @@ static void leave_out(hci_fmu_machine_model *m)
     m->left_out[HCI_FMU_MACHINE_TEMPERATURE] = isnan(reference_temperature_C(m->request->effects));
 }
 
-hci_status hci_fmu_machine_make(const hci_fmu_request *request, hci_fmu_machine_model *m, hci_note *note)
+hci_status hci_fmu_machine_make(const hci_fmu_request *request, const hci_machine_data *machine,
+                                hci_fmu_machine_model *m, hci_note *note)
 {
     static const hci_effects NONE = {NULL, 0};
     const hci_simulate_options options = {.effects = request->effects ? request->effects : &NONE};
     hci_scenario scenario;
     memset(m, 0, sizeof *m);
     m->request = request;
-    fill_scenario(request, &scenario);
-    const hci_status status = hci_setup_make(request->machine, &options, &scenario, &m->setup, note);
+    m->machine = machine;
+    m->step_s = request->drive ? request->drive->sample_s / STEPS_OF_A_SAMPLE : STEP_s;
+    fill_scenario(m, &scenario);
+    const hci_status status = hci_setup_make(machine, &options, &scenario, &m->setup, note);
     if (status) return status;
     fill_start(m);
     leave_out(m);
@@ -113,7 +120,7 @@ void hci_fmu_machine_describe(const hci_fmu_machine_model *m, hci_fmu_descriptio
     d->left_out = m->left_out;
     d->feeds = feeds;
     d->context = m;
-    d->step_s = STEP_s;
+    d->step_s = m->step_s;
 }
 
 /* ---- its code ---- */
@@ -151,7 +158,7 @@ static void add_effects(const hci_effects *effects, hci_long_text *text)
 
 void hci_fmu_machine_code(const hci_fmu_machine_model *m, hci_long_text *text)
 {
-    const hci_machine *machine = &m->request->machine->model;
+    const hci_machine *machine = &m->machine->model;
     const size_t effects = m->request->effects ? m->request->effects->count : 0;
     hci_long_text_add(text, "#include \"core_effects_type.h\"\n#include \"fmu_machine_data.h\"\n"
                             "#include \"fmu_model.h\"\n\n");

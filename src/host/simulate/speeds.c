@@ -4,12 +4,12 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/drive/table_code.h"
 #include "hci/host/simulate/simulate.h"
 #include "host/base/memory.h"
 #include "host/currents/plain_sine.h"
 #include "host/drive/loop_set.h"
 #include "host/drive/turn_samples.h"
-#include "host/simulate/table_code.h"
 
 #define NAME_OF(value, word) [value] = word,
 static const char *const NAMES[] = {HCI_REMEDY_NAMES(NAME_OF)};

@@ -51,6 +51,33 @@ nm -D --defined-only fmu/binaries/linux64/machine_c.so | awk '{ print $3 }' >exp
 check "only functions of FMI are to be seen" [ -z "$(grep -v '^fmi2' exported)" ]
 check "all of them" [ "$(grep -c '^fmi2' exported)" -eq "$(grep -c '^HCI_FMI2_FUNCTION' fmu/sources/fmu_fmi2.h)" ]
 
+# ---- FMI 3, and a controller with its table
+
+run 0 solve "$source_dir/data/machine_a" --target "$source_dir/data/scenarios/02/target.csv" --auto -q -o solved
+run 0 export-fmu "$source_dir/data/machine_a" --table solved --drive "$source_dir/data/drive/machine_a_10kHz.csv" --fmi 3 --sources-only --json -q
+check "its own name" [ -s machine_a_controller.fmu ]
+python3 - machine_a_controller.fmu <<'END' || fail "the archive of FMI 3"
+import sys, zipfile
+from xml.etree import ElementTree
+archive = zipfile.ZipFile(sys.argv[1])
+archive.extractall("controller")
+root = ElementTree.parse("controller/modelDescription.xml").getroot()
+assert root.get("fmiVersion") == "3.0"
+build = ElementTree.parse("controller/sources/buildDescription.xml").getroot()
+listed = {file.get("name") for file in build.iter("SourceFile")}
+assert listed == {name[8:] for name in archive.namelist() if name.startswith("sources/") and name.endswith(".c")}, listed
+assert "torque_table.c" in listed and "fmu_machine.c" not in listed
+assert [item.get("name") for item in root.iter("Item")] == ["table", "lead", "compensation", "feedforward"]
+assert root.get("instantiationToken") in open("controller/sources/hci_data.c").read()
+END
+for file in controller/sources/fmu_*.c controller/sources/hci_data.c controller/sources/torque_table.c; do
+    check "$file compiles" cc -std=c99 -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror -fsyntax-only "$file"
+done
+run 2 export-fmu "$machine" --table solved
+grep -q -e '--table needs --drive' stderr || fail "a table without a drive"
+run 2 export-fmu "$machine" --table solved --drive drive.csv --inputs currents
+run 3 export-fmu "$source_dir/data/machine_a" --table nowhere --drive "$source_dir/data/drive/machine_a_10kHz.csv"
+
 # ---- effects, and what goes wrong
 
 mkdir plain

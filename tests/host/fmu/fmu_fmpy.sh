@@ -21,4 +21,16 @@ if ! "$python" -c 'import fmpy' 2>/dev/null; then
     "$python" -m pip -q install fmpy >"$work/log" 2>&1 || skip "no FMPy to be had: $(tail -n 1 "$work/log")"
 fi
 cd "$work" || exit 1
+
+# The functions against the headers of the standard, which FMPy has: the same prototypes, and none is missing.
+headers=$("$python" -c 'import os, fmpy; print(os.path.join(os.path.dirname(fmpy.__file__), "c-code"))')
+for version in 2 3; do
+    cc -std=c99 -Wall -Werror -c -o "fmi$version.o" -I "$source_dir/src" -I "$source_dir/include" -I "$headers" \
+        -include "fmi${version}Functions.h" "-DHCI_SRC_FMU_FMI${version}_H" "-DHCI_FMI$version(name)=name" \
+        '-DHCI_FMI3_OTHER_TYPES(X)=X(Float32) X(Int8) X(UInt8) X(Int16) X(UInt16) X(Int32) X(UInt32) X(UInt64) X(String)' \
+        "$source_dir/src/fmu/fmi$version.c" || { echo "FAILED: other prototypes than those of FMI $version"; exit 1; }
+done
+grep -o 'TYPE *fmi3[A-Za-z0-9]*' "$headers/fmi3Functions.h" | sed 's/TYPE *//' | sort >standard
+nm --defined-only fmi3.o | awk '$3 ~ /^fmi3/ { print $3 }' | sort | diff standard - || { echo "FAILED: functions of FMI 3 are missing"; exit 1; }
+
 "$python" "$source_dir/tests/host/fmu/imported.py" "$hci_solve" "$source_dir/data"

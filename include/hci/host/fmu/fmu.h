@@ -3,6 +3,7 @@
 #ifndef HCI_HOST_FMU_FMU_H
 #define HCI_HOST_FMU_FMU_H
 
+#include "hci/host/drive/drive.h"
 #include "hci/host/machine/effects.h"
 #include "hci/host/machine/machine.h"
 
@@ -21,16 +22,19 @@ typedef struct {
     const hci_machine_data *machine; /* as read */
     const hci_effects *effects;      /* of the machine; NULL: none */
     bool imposed;                    /* its inputs are currents, not voltages */
-    double dead_time_voltage_V;      /* start value: what dead time takes of a phase voltage; 0: nothing */
-    double dead_time_crossing_A;     /* start value: current below which it acts in part */
+    hci_drive_data *drive;           /* as read, or NULL; its defaults are filled in. Of a machine: the dead
+                                        time of its inverter, and what machine.csv does not have */
+    const hci_loop_level *levels;    /* of torque, as of hci_emit_loop: a controller with their table, which
+                                        needs drive; NULL with count 0: the machine */
+    size_t level_count;              /* entries of levels */
     hci_fmu_compile *compile;        /* NULL: without a binary */
     void *compile_context;           /* first argument of compile */
-    const char *work_folder; /* empty, for the sources while they are compiled; not with compile NULL */
+    const char *work_folder;         /* empty, for temporary files */
 } hci_fmu_request;
 
 /* What was made. */
 typedef struct {
-    char identifier[HCI_MACHINE_NAME + 16]; /* of the model: a C identifier */
+    char identifier[HCI_MACHINE_NAME + 24]; /* of the model: a C identifier */
     int fmi_version;                        /* 2 or 3 */
     size_t inputs, outputs, parameters;     /* how many variables */
     size_t effects;                         /* that the machine has */

@@ -1,4 +1,4 @@
-#include "host/simulate/table_code.h"
+#include "core/drive/table_code.h"
 
 #include <math.h>
 

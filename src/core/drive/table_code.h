@@ -1,6 +1,6 @@
 /* The firmware of a simulated drive: hci/loop.h in single precision, asked once a sample. */
-#ifndef HCI_SRC_HOST_SIMULATE_TABLE_CODE_H
-#define HCI_SRC_HOST_SIMULATE_TABLE_CODE_H
+#ifndef HCI_SRC_CORE_DRIVE_TABLE_CODE_H
+#define HCI_SRC_CORE_DRIVE_TABLE_CODE_H
 
 #include "hci/drive/control.h"
 #include "hci/loop.h"

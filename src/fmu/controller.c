@@ -1,0 +1,248 @@
+/* A drive's controller as a model: the emitted orders, read by the code of a target, and the PI current loop
+ * of the simulated drive.
+ *
+ * Outputs are those that act from the present instant on. So the next step of the control is made ahead, on a
+ * copy, from the inputs as they are; a communication step then takes it over. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/drive/table_code.h"
+#include "fmu/controller_data.h"
+#include "fmu/controller_variables.h"
+#include "fmu/model.h"
+#include "hci/drive/control.h"
+#include "hci/machine/frames.h"
+
+#define VALUE(key) (m->value[HCI_FMU_CONTROLLER_##key])
+
+const hci_fmu_variable hci_fmu_list[] = {HCI_FMU_CONTROLLER_VARIABLES(HCI_FMU_ENTRY)};
+const size_t hci_fmu_count = HCI_FMU_CONTROLLER_COUNT;
+
+struct hci_fmu_model {
+    double value[HCI_FMU_CONTROLLER_COUNT];
+    double *rows;  /* of the known machine's table over the angle */
+    float *memory; /* of the tables that are made of the orders */
+    hci_plant_table table;
+    hci_table_code code;
+    hci_reference_code asked;
+    hci_current_source source;
+    hci_control control;
+    hci_control_state state;
+    bool has_begun;
+    char words[200]; /* what is wrong */
+};
+
+typedef struct {
+    double value[HCI_FMU_CONTROLLER_COUNT];
+    hci_control_state state;
+    float made_rad_per_s; /* speed for which the tables were made */
+    bool has_begun;
+} saved_state;
+
+/* ---- instances ---- */
+
+static bool make_memory(hci_fmu_model *m)
+{
+    const hci_fmu_controller_data *d = &hci_fmu_controller;
+    m->rows = calloc(hci_plant_table_size(d->points), sizeof *m->rows);
+    m->memory = calloc(hci_loop_floats(d->loop, HCI_LOOP_FEEDFORWARD), sizeof *m->memory);
+    return m->rows && m->memory &&
+           hci_plant_table_fill(&d->known, &d->inductance, d->points, m->rows, &m->table) == HCI_OK;
+}
+
+hci_fmu_model *hci_fmu_new(void)
+{
+    hci_fmu_model *m = calloc(1, sizeof *m);
+    if (!m) return NULL;
+    hci_fmu_reset(m);
+    if (make_memory(m)) return m;
+    hci_fmu_free(m);
+    return NULL;
+}
+
+void hci_fmu_free(hci_fmu_model *m)
+{
+    if (!m) return;
+    free(m->rows);
+    free(m->memory);
+    free(m);
+}
+
+double *hci_fmu_values(hci_fmu_model *m)
+{
+    return m->value;
+}
+
+bool hci_fmu_has_begun(const hci_fmu_model *m)
+{
+    return m->has_begun;
+}
+
+void hci_fmu_reset(hci_fmu_model *m)
+{
+    memcpy(m->value, hci_fmu_start, sizeof m->value);
+    m->has_begun = false;
+}
+
+/* ---- parameters ---- */
+
+static const char *check_parameters(hci_fmu_model *m)
+{
+    if (!(VALUE(REMEDY) >= 1.0 && VALUE(REMEDY) <= 4.0)) return "remedy is none of the four";
+    if (!(VALUE(DC_LINK) > 0.0)) return "dc_link_voltage has to be above 0";
+    if (!(VALUE(KP) >= 0.0 && VALUE(KI) >= 0.0)) return "current_kp and current_ki have to be 0 or more";
+    if (!(VALUE(QUANTUM) >= 0.0)) return "current_quantum has to be 0 or more";
+    if (!(VALUE(COUNTS) >= 0.0 && VALUE(COUNTS) <= 1e9)) return "encoder_counts has to be 0 to 1e9";
+    return NULL;
+}
+
+static void set_loop(hci_fmu_model *m)
+{
+    const hci_fmu_controller_data *d = &hci_fmu_controller;
+    hci_current_pi *pi = &m->control.current;
+    pi->pi = (hci_pi){VALUE(KP), VALUE(KI)};
+    pi->decoupled = d->decoupled;
+    pi->delay_steps = d->delay_steps;
+    pi->sinusoidal = d->sinusoidal;
+    pi->dead_time = (hci_dead_time){VALUE(DEAD_TIME_VOLTAGE), VALUE(DEAD_TIME_CROSSING)};
+}
+
+static void set_control(hci_fmu_model *m)
+{
+    const hci_fmu_controller_data *d = &hci_fmu_controller;
+    hci_control *c = &m->control;
+    memset(c, 0, sizeof *c);
+    c->table = &m->table;
+    c->step_s = d->step_s;
+    c->dc_link_V = VALUE(DC_LINK);
+    c->speed_every = c->current_every = d->every;
+    c->torque_limit_Nm = c->id_limit = c->iq_limit = c->peak_limit_A = HUGE_VAL;
+    c->sources = &m->source;
+    c->source_count = 1;
+    c->loop = HCI_CURRENT_PI;
+    set_loop(m);
+}
+
+static void set_code(hci_fmu_model *m)
+{
+    memset(&m->code, 0, sizeof m->code);
+    memset(&m->source, 0, sizeof m->source);
+    m->code.pole_pairs = (uint32_t)m->table.pole_pairs;
+    m->code.counts = (uint32_t)VALUE(COUNTS);
+    hci_loop_start(&m->code.tables, hci_fmu_controller.loop, (hci_loop_remedy)(VALUE(REMEDY) - 1.0),
+                   m->memory);
+    m->asked = (hci_reference_code){hci_table_code_at, &m->code};
+    m->source.code = &m->asked;
+}
+
+/* ---- the start ---- */
+
+static float electrical_speed(const hci_fmu_model *m)
+{
+    return (float)(VALUE(SPEED) * m->table.pole_pairs);
+}
+
+static const char *to_initial_state(hci_fmu_model *m)
+{
+    const char *words = check_parameters(m);
+    memset(&m->state, 0, sizeof m->state);
+    if (words) return words;
+    set_control(m);
+    set_code(m);
+    hci_loop_make(&m->code.tables, electrical_speed(m));
+    return NULL;
+}
+
+const char *hci_fmu_begin(hci_fmu_model *m)
+{
+    const char *words = to_initial_state(m);
+    m->has_begun = !words;
+    return words;
+}
+
+/* ---- a step ---- */
+
+static double to_nearest(double value, double quantum)
+{
+    return quantum > 0.0 ? quantum * floor(value / quantum + 0.5) : value;
+}
+
+static void make_step(const hci_fmu_model *m, hci_control_state *state)
+{
+    const double quantum_A = VALUE(QUANTUM), counts = VALUE(COUNTS);
+    const hci_measurement measured = {{to_nearest(VALUE(IA), quantum_A), to_nearest(VALUE(IB), quantum_A),
+                                       to_nearest(VALUE(IC), quantum_A)},
+                                      to_nearest(VALUE(ANGLE), counts > 0.0 ? 2.0 * HCI_PI / counts : 0.0),
+                                      VALUE(SPEED)};
+    hci_control_step(&m->control, state, &measured, VALUE(TORQUE_REFERENCE));
+}
+
+const char *hci_fmu_step(hci_fmu_model *m, double duration_s)
+{
+    const double step_s = hci_fmu_controller.step_s, steps = floor(duration_s / step_s + 0.5);
+    if (!(steps >= 1.0 && fabs(duration_s - steps * step_s) <= 1e-6 * step_s)) {
+        snprintf(m->words, sizeof m->words,
+                 "a communication step of %g s is no multiple of %g s, in which the controller counts its "
+                 "samples and delays",
+                 duration_s, step_s);
+        return m->words;
+    }
+    if (hci_loop_is_old(&m->code.tables, electrical_speed(m)))
+        hci_loop_make(&m->code.tables, electrical_speed(m));
+    for (double k = 0.0; k < steps; k += 1.0)
+        make_step(m, &m->state);
+    return NULL;
+}
+
+/* ---- outputs ---- */
+
+const char *hci_fmu_update(hci_fmu_model *m)
+{
+    const char *words = m->has_begun ? NULL : to_initial_state(m);
+    double reference_A[3];
+    if (words) return words;
+    hci_control_state ahead = m->state;
+    make_step(m, &ahead);
+    hci_plane_to_abc(ahead.v, &VALUE(VA));
+    hci_plane_to_abc(ahead.reference, reference_A);
+    const hci_dq dq = hci_park(hci_clarke(reference_A), m->table.pole_pairs * VALUE(ANGLE));
+    VALUE(ID_REFERENCE) = dq.d;
+    VALUE(IQ_REFERENCE) = dq.q;
+    return NULL;
+}
+
+/* ---- saved states ---- */
+
+size_t hci_fmu_state_size(const hci_fmu_model *m)
+{
+    (void)m;
+    return sizeof(saved_state);
+}
+
+void hci_fmu_state_save(const hci_fmu_model *m, void *memory)
+{
+    saved_state s;
+    memset(&s, 0, sizeof s);
+    memcpy(s.value, m->value, sizeof s.value);
+    s.state = m->state;
+    s.made_rad_per_s = m->code.tables.made_rad_per_s;
+    s.has_begun = m->has_begun;
+    memcpy(memory, &s, sizeof s);
+}
+
+const char *hci_fmu_state_load(hci_fmu_model *m, const void *memory, size_t size)
+{
+    saved_state s;
+    if (size != sizeof s) return "these bytes are no state of this FMU";
+    memcpy(&s, memory, sizeof s);
+    memcpy(m->value, s.value, sizeof s.value);
+    m->has_begun = s.has_begun;
+    if (!s.has_begun) return NULL;
+    const char *words = to_initial_state(m);
+    if (words) return words;
+    m->state = s.state;
+    hci_loop_make(&m->code.tables, s.made_rad_per_s);
+    return NULL;
+}
