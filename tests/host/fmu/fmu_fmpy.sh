@@ -1,8 +1,8 @@
 #!/bin/sh
 # labels: slow
 # FMUs as another program has them: FMPy, which checks the description against the standard's schema and runs the binary
-# through its own binding of FMI. Slow: fetches FMPy once, into a folder of the build, and compiles FMUs; afterwards it takes
-# some 20 seconds. Skipped where Python's venv is missing or FMPy cannot be had.
+# through its own binding of FMI. Slow: fetches FMPy once, into a folder of the build, and compiles seven FMUs, three seconds
+# each. Skipped where Python's venv is missing or FMPy cannot be had.
 #   fmu_fmpy.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
 . "$1/tests/support/common.sh"
 use_plain_build
