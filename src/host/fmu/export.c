@@ -187,10 +187,29 @@ static hci_status read_binary(export *e, const char *library)
     return hci_note_set(e->note, HCI_ERROR_OUTPUT, "%s: the compiler made no library that can be read", path);
 }
 
+/* Where a binary of this system belongs; NULL where the standard has no name for it. */
+static const char *binary_folder(int fmi_version)
+{
+#if defined __linux__ && defined __x86_64__
+    return fmi_version == 2 ? "binaries/linux64/" : "binaries/x86_64-linux/";
+#elif defined __linux__ && defined __i386__
+    return fmi_version == 2 ? "binaries/linux32/" : "binaries/x86-linux/";
+#elif defined __linux__ && defined __aarch64__
+    return fmi_version == 2 ? NULL : "binaries/aarch64-linux/";
+#else
+    (void)fmi_version;
+    return NULL;
+#endif
+}
+
 static hci_status make_binary(export *e)
 {
     char library[HCI_MACHINE_NAME + 32];
     if (!e->request->compile) return HCI_OK;
+    if (!binary_folder(e->request->fmi_version))
+        return hci_note_set(e->note, HCI_ERROR_ARGUMENT,
+                            "FMI %d has no name for a binary of this system; give --sources-only",
+                            e->request->fmi_version);
     snprintf(library, sizeof library, "%s.so", e->result->identifier);
     hci_status status = write_sources(e);
     if (!status)
@@ -219,9 +238,7 @@ static void fill_archive(const export *e, archive *a)
     char library[HCI_MACHINE_NAME + 32];
     snprintf(library, sizeof library, "%s.so", e->result->identifier);
     add_entry(a, "", "modelDescription.xml", e->description.text, e->description.size);
-    if (e->binary)
-        add_entry(a, e->request->fmi_version == 2 ? "binaries/linux64/" : "binaries/x86_64-linux/", library,
-                  e->binary, e->binary_bytes);
+    if (e->binary) add_entry(a, binary_folder(e->request->fmi_version), library, e->binary, e->binary_bytes);
     for (size_t k = 0; k < e->sources; ++k)
         add_entry(a, "sources/", e->source[k].path, e->source[k].bytes, e->source[k].size);
     if (e->build.text) add_entry(a, "sources/", "buildDescription.xml", e->build.text, e->build.size);
