@@ -115,6 +115,30 @@ hci_status hci_search_fit(hci_search *s, hci_fitted_model *model, hci_note *note
     return status;
 }
 
+/* A type that is not believed; NULL: all are. */
+static hci_status unbelieved_find(const hci_search *s, const hci_candidates *candidates,
+                                  const hci_effect_type **type, hci_note *note)
+{
+    const size_t defect = large_defect(candidates);
+    double share = 1.0;
+    *type = defect < candidates->count ? candidates->candidate[defect].type : NULL;
+    if (*type) return HCI_OK;
+    const hci_status status = hci_search_constant_share(s, candidates, &share, note);
+    return status || share >= LEAST_CONSTANT ? status : culprit_find(s, candidates, type, note);
+}
+
+hci_status hci_search_keep_believed(hci_search *s, hci_fitted_model *model, hci_note *note)
+{
+    const hci_effect_type *type = NULL;
+    hci_status status = unbelieved_find(s, &model->candidates, &type, note);
+    while (!status && type) {
+        hci_candidates_remove_type(&model->candidates, type);
+        status = hci_search_renew(s, model, note);
+        if (!status) status = unbelieved_find(s, &model->candidates, &type, note);
+    }
+    return status;
+}
+
 /* ---- what it means for the model that is believed ---- */
 
 /* Takes out what is in the model and not, or as the culprit, in the one that is not believed. */

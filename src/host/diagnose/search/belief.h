@@ -18,6 +18,10 @@ hci_status hci_search_fit(hci_search *search, hci_fitted_model *model, hci_note 
 hci_status hci_search_constant_share(const hci_search *search, const hci_candidates *candidates,
                                      double *share, hci_note *note);
 
+/* Takes the types out of a model that was fitted without that, one by one, whose values cannot be believed or
+ * which take the torque per ampere away; with the noise found anew. HCI_ERROR_MEMORY. */
+hci_status hci_search_keep_believed(hci_search *search, hci_fitted_model *model, hci_note *note);
+
 /* How well the best model that is not believed describes the recordings, beside the one that is. */
 typedef enum {
     HCI_YIELD_NOTHING, /* worse, or there is none */

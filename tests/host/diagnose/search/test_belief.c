@@ -77,6 +77,28 @@ static void test_a_sensor_with_half_its_gain_is_not(void)
     TEST_ASSERT_EQUAL_STRING("current_gain", search.disbelieved.type->name);
 }
 
+/* Fitted without being asked, as where the means of the runs do not count, it leaves; friction stays. */
+static void test_what_is_not_believed_leaves(void)
+{
+    record_share(0.1, 0.05);
+    model_add("friction", "coulomb", NULL, 0.0);
+    model_add("back_emf", "sine", NULL, 1.0);
+    model_fit();
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_keep_believed(&search, &model, &note));
+    TEST_ASSERT_TRUE(model_has("friction"));
+    TEST_ASSERT_FALSE(model_has("back_emf"));
+}
+
+static void test_what_is_believed_stays(void)
+{
+    record_share(0.8, 0.05);
+    model_add("friction", "coulomb", NULL, 0.0);
+    model_add("back_emf", "sine", NULL, 1.0);
+    model_fit();
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_keep_believed(&search, &model, &note));
+    TEST_ASSERT_TRUE(model_has("friction") && model_has("back_emf"));
+}
+
 /* Friction is in both, cogging only in the one that is believed. */
 static void test_what_both_have_in_common_stays(void)
 {
@@ -146,6 +168,8 @@ int main(void)
     RUN_TEST(test_weak_magnets_are_believed);
     RUN_TEST(test_a_tenth_of_the_magnets_is_not);
     RUN_TEST(test_a_sensor_with_half_its_gain_is_not);
+    RUN_TEST(test_what_is_not_believed_leaves);
+    RUN_TEST(test_what_is_believed_stays);
     RUN_TEST(test_what_both_have_in_common_stays);
     RUN_TEST(test_better_by_the_noise_alone);
     RUN_TEST(test_no_torque_at_a_steady_speed);
