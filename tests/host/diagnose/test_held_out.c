@@ -104,6 +104,20 @@ static void test_ripple_of_fitted_runs_is_judged(void)
     TEST_ASSERT_EQUAL_INT(HCI_HELD_OUT_DESCRIBED, hci_held_out_judge(&none, &runs, &of_one, 1e-4));
 }
 
+/* In one direction friction is not told from the zero of the sensor; so little of either beside much cogging is
+ * neither, and no one asks which. */
+static void test_faint_effects_leave_as_a_pair(void)
+{
+    for (size_t k = 0; k < 4; ++k) {
+        record(SAMPLES, &(point){60.0, 2.0 + 3.0 * (double)(k % 3), 0.0, 0.0013, 0.0});
+        add_cogging(k, 0.5);
+    }
+    TEST_ASSERT_EQUAL_INT(HCI_OK, diagnose(NULL));
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_ADDED, found("cogging")->verdict);
+    TEST_ASSERT_EQUAL_UINT64(1, count_of(HCI_FINDING_ADDED));
+    TEST_ASSERT_EQUAL_UINT64(0, count_of(HCI_FINDING_AMBIGUOUS));
+}
+
 /* Whether an effect is kept that takes two fifths of the error of a run held out, order 6 at 4 A. */
 static bool is_kept(const char *effect, const char *parameter, double by_value_Nm)
 {
@@ -217,6 +231,7 @@ int main(void)
     RUN_TEST(test_small_effects_that_predict_stay);
     RUN_TEST(test_means_of_runs_are_judged);
     RUN_TEST(test_ripple_of_fitted_runs_is_judged);
+    RUN_TEST(test_faint_effects_leave_as_a_pair);
     RUN_TEST(test_what_helps_is_kept);
     RUN_TEST(test_what_rises_is_not_explained);
     RUN_TEST(test_equal_gains_are_not_told_from_magnets);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "host/base/memory.h"
+#include "host/diagnose/candidates/empirical_term.h"
 #include "host/diagnose/fit/standard_errors.h"
 #include "host/diagnose/search/backward.h"
 #include "host/diagnose/search/belief.h"
@@ -141,6 +142,16 @@ static hci_status verdicts_of_equal(hci_search *s, hci_attribution *a, hci_note 
     return status;
 }
 
+/* What was told apart and what was not, before an effect left, is asked anew. */
+static void ambiguities_forget(hci_attribution *a)
+{
+    for (size_t r = 0; r < a->types; ++r) {
+        a->verdict[r].ambiguous = false;
+        a->verdict[r].rival_of = NULL;
+        hci_fitted_model_release(&a->verdict[r].alternative);
+    }
+}
+
 /* Effects beside such others that the recordings do not ask for. */
 static hci_status companions_leave(hci_search *s, hci_attribution *a, bool *left, hci_note *note)
 {
@@ -148,8 +159,10 @@ static hci_status companions_leave(hci_search *s, hci_attribution *a, bool *left
     *left = false;
     for (size_t r = 0; r < a->types && !status && !*left; ++r) {
         hci_verdict *v = &a->verdict[r];
-        if (!v->in || !(v->gain < hci_companion_least(s->regression, a, v))) continue;
+        if (!v->in || v->type == &hci_empirical_type) continue;
+        if (!(v->gain < hci_companion_least(s->regression, a, v))) continue;
         hci_candidates_remove_type(&a->model.candidates, v->type);
+        ambiguities_forget(a);
         v->in = false;
         *left = true;
         status = hci_search_renew(s, &a->model, note);
