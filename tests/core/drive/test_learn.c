@@ -211,7 +211,7 @@ static void test_standard_error_is_that_of_the_noise(void)
     int stand_out = 0;
     enum { TIMES = 60 };
     for (int n = 0; n < TIMES; ++n) {
-        hci_learn_result x;
+        hci_learn_result x = {0};
         setUp();
         turn_both_ways((turning){8192.0, 0.0, 2.0, 0, 100 + (uint64_t)n}, 3.0);
         TEST_ASSERT_TRUE(hci_learn_result_of(&learn, 4, &x));

@@ -1,7 +1,8 @@
 #!/bin/sh
 # labels: slow
 # Tables of 16-bit and 8-bit knots in code for Cortex-M4F, M3 and M0+ on an emulated board: integers and floats at 65 536 angles are
-# those of the host to the last bit, and an evaluation takes the instructions that emit states.
+# those of the host to the last bit, and an evaluation takes the instructions that emit states. The same currents on other processors
+# of Linux, big-endian ones among them, where there are a compiler and an emulator for them (scripts/platforms --install).
 #   emit_small_tables.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
 . "$1/tests/support/common.sh"
 
@@ -66,6 +67,22 @@ board() {
 board cortex_m4f -mcpu=cortex-m4 -mfpu=fpv4-sp-d16 -mfloat-abi=hard
 board cortex_m0_plus -mcpu=cortex-m0plus
 board cortex_m3 -mcpu=cortex-m3
+
+# elsewhere NAME COMPILER EMULATOR FLAG...: float arithmetic has to be that of floats, which the flags see to.
+elsewhere() {
+    name=$1 compiler=$2 emulator=$3
+    shift 3
+    command -v "$compiler" >/dev/null && command -v "$emulator" >/dev/null || { echo "not compared: no $compiler or $emulator here"; return 0; }
+    # shellcheck disable=SC2086
+    check "built for $name" "$compiler" "$@" $warnings -static -ffp-contract=off -I"$source_dir/include" -I"$work/tables" $sources -o "$work/$name"
+    "$emulator" "$work/$name" >"$work/$name.txt" || fail "$name ended with an error"
+    grep '^sum' "$work/$name.txt" >"$work/found"
+    check "$name computes the currents of the host" diff "$work/expected" "$work/found"
+}
+elsewhere i686 i686-linux-gnu-gcc qemu-i386 -msse2 -mfpmath=sse
+elsewhere armhf arm-linux-gnueabihf-gcc qemu-arm
+elsewhere aarch64 aarch64-linux-gnu-gcc qemu-aarch64
+elsewhere s390x s390x-linux-gnu-gcc qemu-s390x -fexcess-precision=fast
 
 # Knots, probes and code of one table, linked by sections: the struct is folded into the code. 1 KiB with the evaluation; of
 # quadratic knots with the check at start-up too.

@@ -17,14 +17,24 @@ enum { ANGLES = 65536, CALLS = 2000 };
 static const uint32_t STEP =
     2654435769u; /* the golden ratio of a turn: calls come to all parts of the table */
 
-/* FNV-1a. */
-static uint32_t sum_of(uint32_t sum, const void *bytes, size_t count)
+/* FNV-1a of values of 2 or 4 bytes, least significant byte first on every processor. */
+static uint32_t sum_of(uint32_t sum, const void *values, size_t count, size_t width)
 {
-    const unsigned char *byte = bytes;
-    for (size_t k = 0; k < count; ++k)
-        sum = (sum ^ byte[k]) * 16777619u;
+    for (size_t k = 0; k < count; ++k) {
+        const unsigned char *value = (const unsigned char *)values + k * width;
+        uint16_t half;
+        uint32_t word = 0u;
+        memcpy(&half, value, sizeof half);
+        if (width == sizeof word) memcpy(&word, value, sizeof word);
+        if (width == sizeof half) word = half;
+        for (size_t b = 0; b < width; ++b)
+            sum = (sum ^ (word >> 8u * b & 0xffu)) * 16777619u;
+    }
     return sum;
 }
+
+/* Structs hci_units_… hold 16-bit integers, hci_currents_… floats. */
+#define WIDTH(type) (strstr(#type, "units") != NULL ? sizeof(int16_t) : sizeof(float))
 
 #define DEFINE(name, type, function, extra)                                                                  \
     type call_##name(uint32_t angle);                                                                        \
@@ -38,7 +48,7 @@ static uint32_t sum_of(uint32_t sum, const void *bytes, size_t count)
         uint32_t sum = 2166136261u;                                                                          \
         for (uint32_t k = 0u; k < ANGLES; ++k) {                                                             \
             const type i = call_##name(k * 65536u + k);                                                      \
-            sum = sum_of(sum, &i, sizeof i);                                                                 \
+            sum = sum_of(sum, &i, sizeof i / WIDTH(type), WIDTH(type));                                      \
         }                                                                                                    \
         return sum;                                                                                          \
     }                                                                                                        \
