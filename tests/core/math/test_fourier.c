@@ -63,6 +63,7 @@ static void check_harmonic(double tolerance, hci_harmonic expected, hci_harmonic
 
 static void test_uniform_against_sums_in_long_double(void)
 {
+    if (LDBL_MANT_DIG <= DBL_MANT_DIG) TEST_IGNORE_MESSAGE("long double is double here");
     const size_t counts[] = {1, 2, 3, 7, 64, 97, 360, 1001};
     for (size_t c = 0; c < sizeof counts / sizeof *counts; c++) {
         const size_t count = counts[c], turns = 1 + c % 3;
