@@ -68,14 +68,16 @@ static const cli_option OPTIONS[] = {
                    .help = "of the mean torque; an order within it is reached (1e-6)", .low = 1e-14,
                    .high = 1.0},
     [MAX_LOSS] = {"max-loss", 0, CLI_NUMBER, "RATIO",
-                  .help = "with --auto K: copper over the least that the torque takes at each angle (1.10)",
+                  .help = "with --auto K: copper over the least that the torque takes at each angle (1.10); "
+                          "with --drive: over that of orders as they come (1.5)",
                   .low = 1.0, .high = 1e6},
     CLI_LIMIT_OPTIONS,
     [SPEED] = {"speed", 0, CLI_NUMBER, "RPM",
                .help = "mechanical; the voltage is limited by --limit-voltage or dc_link_voltage",
                .low = -1e7, .high = 1e7},
     [DRIVE] = {"drive", 0, CLI_FILE, "FILE",
-               .help = "drive.csv: leaves out what its current loop cannot be made to follow at --speed"},
+               .help =
+                   "drive.csv: leaves out or reduces orders that its current loop cannot follow at --speed"},
     [MINIMISE] = {"minimise", 0, CLI_CHOICE, "WHAT",
                   .help = "ripple that is made smallest where it cannot be as wanted:",
                   .choices = cli_minimise_choices},
@@ -118,8 +120,8 @@ static hci_status check_together(const cli_arguments *a, hci_method method, hci_
         wrong = "--harmonics names the components; leave out --auto or --method pointwise";
     else if (a->given[AUTO] && method != HCI_METHOD_AUTO)
         wrong = "--auto chooses the method too; leave out --method";
-    else if (a->given[MAX_LOSS] && !a->value[AUTO])
-        wrong = "--max-loss goes with --auto K";
+    else if (a->given[MAX_LOSS] && !a->value[AUTO] && !a->given[DRIVE])
+        wrong = "--max-loss goes with --auto K or --drive";
     else if (a->given[STRATEGY] && method != HCI_METHOD_POINTWISE)
         wrong = "--strategy works angle by angle; add --method pointwise";
     else if (!a->given[HARMONICS] &&
@@ -235,6 +237,7 @@ static hci_status read_drive(const cli_arguments *a, inputs *in, hci_note *note)
     const double electrical = fabs(in->options.speed_rad_per_s) * in->machine.model.pole_pairs;
     const double highest = hci_drive_highest_rad_per_s(&drive) / electrical;
     in->options.highest_rotor_order = highest;
+    in->options.sample_rad = hci_drive_sample_s(&drive) * electrical;
     hci_note_add(
         &in->drive_remark,
         "at %g rpm the sampling of the drive does for orders up to %.4g in the rotor frame (n - 1 of `pos`, "

@@ -32,9 +32,14 @@ static const double SAMPLE_s = 1e-4;
 /* Share of half the sampling frequency. */
 static const double SAMPLING_SHARE = 0.8;
 
+double hci_drive_sample_s(const hci_drive_data *drive)
+{
+    return isnan(drive->sample_s) ? SAMPLE_s : drive->sample_s;
+}
+
 double hci_drive_highest_rad_per_s(const hci_drive_data *drive)
 {
-    return SAMPLING_SHARE * HCI_PI / (isnan(drive->sample_s) ? SAMPLE_s : drive->sample_s);
+    return SAMPLING_SHARE * HCI_PI / hci_drive_sample_s(drive);
 }
 
 static void fill_defaults(hci_drive_data *d, const hci_machine_model *m)

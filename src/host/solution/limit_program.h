@@ -33,6 +33,7 @@ typedef struct {
     double mean_Nm;   /* RIPPLE and COPPER: nearest mean torque */
     bool has_mean;    /* it is the wanted one */
     double ripple_Nm; /* COPPER: smallest ripple */
+    const hci_task *task; /* what a square of current counts */
     double slack;     /* share of the ripple by which the copper may make it worse */
     bool has_ripple;  /* none is left: all orders are as wanted */
 } hci_limit_program;

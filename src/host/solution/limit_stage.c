@@ -19,11 +19,20 @@ static double price_of_copper(hci_limit_stage stage)
     return stage == HCI_STAGE_RIPPLE ? LOW_PRICE : LEAST_PRICE;
 }
 
+/* What a square counts beside the copper. */
+static double size_of(const hci_limit_build *b, size_t j)
+{
+    const double size = b->stage == HCI_STAGE_COPPER
+                            ? hci_task_size_of(b->of->task, b->of->field.set->component[j / 2])
+                            : 1.0;
+    return size * size;
+}
+
 static void fill_objective(hci_limit_build *b)
 {
     for (size_t j = 0; j < b->coordinates; ++j)
-        b->p[j * (b->n + 1)] =
-            price_of_copper(b->stage) * hci_limit_copper_of(b->of->field.set->component[j / 2], (int)(j % 2));
+        b->p[j * (b->n + 1)] = price_of_copper(b->stage) * size_of(b, j) *
+                               hci_limit_copper_of(b->of->field.set->component[j / 2], (int)(j % 2));
     if (b->stage != HCI_STAGE_COPPER) b->c[hci_limit_objective(b)] = 1.0;
     for (size_t j = b->coordinates; b->stage == HCI_STAGE_COPPER && j < b->n; ++j)
         b->p[j * (b->n + 1)] = LEAST_PRICE;

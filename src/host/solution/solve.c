@@ -1,6 +1,6 @@
 /* From a wanted torque to currents. In: a machine, its effects, and what is asked for; out: a solution, with
  * what the currents do and cost. This file sets the task, lets one of linear.c, newton.c and pointwise.c
- * answer it, and puts the answer into the solution. */
+ * answer it (hold.c), and puts the answer into the solution. */
 #include "hci/host/solve/solve.h"
 
 #include <math.h>
@@ -10,11 +10,10 @@
 #include "host/base/memory.h"
 #include "host/currents/plain_sine.h"
 #include "host/solution/expect.h"
+#include "host/solution/hold.h"
 #include "host/solution/limited.h"
 #include "host/solution/limits.h"
 #include "host/solve/evaluate_solution.h"
-#include "host/solve/linear.h"
-#include "host/solve/newton.h"
 #include "host/solve/pointwise.h"
 
 #define DEFAULT_TOLERANCE 1e-6
@@ -196,14 +195,6 @@ static hci_status verdict_of(const hci_solution *s)
     return s->within_limits ? HCI_OK : HCI_NOT_REACHED;
 }
 
-static hci_status find_answer(hci_task *t, const hci_solve_options *o, hci_linear_torque *at, hci_answer *a,
-                              hci_solution *s, hci_note *note)
-{
-    if (o->method == HCI_METHOD_POINTWISE) return hci_pointwise_answer(t, a, s, note);
-    if (!hci_task_is_linear(t)) return hci_newton_answer(t, o, at, a, s, note);
-    return hci_linear_answer(t, o, NULL, a, s, note);
-}
-
 /* Names of the effects that do not act in the machine, and what that means. */
 static void remark_left_out(const hci_effects *effects, hci_note *remark)
 {
@@ -254,7 +245,7 @@ static hci_status find_currents(const hci_machine_data *m, const hci_solve_optio
 {
     const hci_limited within = {&w->task, m, o, &w->bounds, &w->at, s};
     const double mean_Nm = hci_target_mean_Nm(o->target);
-    hci_status status = find_answer(&w->task, o, &w->at, &w->answer, s, note);
+    hci_status status = hci_held_answer(&w->task, o, &w->at, &w->answer, s, note);
     s->wanted_mean_Nm = mean_Nm;
     s->minimised_Nm = s->torque_at_limit_Nm = NAN;
     if (!status) status = take_answer(m, o, w, !o->held && hci_task_is_linear(&w->task), s, note);

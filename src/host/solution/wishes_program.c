@@ -164,6 +164,7 @@ void hci_wishes_program_begin(hci_wishes *l)
                                  &l->system,
                                  hci_target_mean_Nm(o->target),
                                  of->task->period_turns};
+    p->task = of->task;
     p->bounds = of->bounds;
     p->minimise = o->minimise == HCI_MINIMISE_AUTO ? HCI_MINIMISE_WORST : o->minimise;
     p->scale_Nm = of->solution->tolerance_Nm / (o->tolerance > 0.0 ? o->tolerance : 1e-6);

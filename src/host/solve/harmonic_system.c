@@ -133,6 +133,19 @@ static bool reserve_rows(hci_harmonic_system *b, size_t count, size_t gradient_c
     return b->row_weight && b->h && b->u.column_start && b->u.row && b->u.value;
 }
 
+double hci_task_size_of(const hci_task *task, hci_component c)
+{
+    return sqrt(1.0 + task->rotor_price * pow(c.order - c.sequence, 8.0));
+}
+
+static bool fill_sizes(const hci_task *task, const hci_component *component, hci_harmonic_system *s)
+{
+    s->size = hci_memory_new(s->unknowns, sizeof *s->size);
+    for (size_t j = 0; s->size && j < s->unknowns; ++j)
+        s->size[j] = hci_task_size_of(task, component[j / 2]);
+    return s->size;
+}
+
 hci_status hci_harmonic_system_make(const hci_task *task, const hci_component *component, size_t count,
                                     hci_compare compare, hci_harmonic_system *system, hci_note *note)
 {
@@ -158,7 +171,9 @@ hci_status hci_harmonic_system_make(const hci_task *task, const hci_component *c
                       system->order_count, system->u.column_start, system->u.row, system->u.value);
     apply_weights(task, system);
     hci_memory_free(rest);
-    return HCI_OK;
+    if (!(task->rotor_price > 0.0) || fill_sizes(task, component, system)) return HCI_OK;
+    hci_harmonic_system_release(system);
+    return hci_note_memory(note, NULL, "a system of %zu components", count);
 }
 
 void hci_harmonic_system_release(hci_harmonic_system *system)
@@ -169,5 +184,35 @@ void hci_harmonic_system_release(hci_harmonic_system *system)
     hci_memory_free(system->u.column_start);
     hci_memory_free(system->u.row);
     hci_memory_free(system->u.value);
+    hci_memory_free(system->size);
     memset(system, 0, sizeof *system);
+}
+
+/* Columns and unknowns in the unit in which a square counts 1, and x back again. */
+static void scale_columns(const hci_harmonic_system *s, double *value)
+{
+    for (size_t j = 0; j < s->unknowns; ++j)
+        for (int64_t k = s->u.column_start[j]; k < s->u.column_start[j + 1]; ++k)
+            value[k] = s->u.value[k] / s->size[j];
+}
+
+static hci_status solve_scaled(const hci_harmonic_system *s, double *x, hci_sparse_rank *found,
+                               hci_note *note)
+{
+    hci_sparse u = s->u;
+    hci_status status;
+    u.value = hci_memory_new((size_t)u.column_start[s->unknowns], sizeof *u.value);
+    if (!u.value) return hci_note_memory(note, NULL, "solving");
+    scale_columns(s, u.value);
+    status = hci_sparse_qr_solve(&u, s->h, 2, x, found, note);
+    for (size_t j = 0; j < 2 * s->unknowns && !status; ++j)
+        x[j] /= s->size[j % s->unknowns];
+    hci_memory_free(u.value);
+    return status;
+}
+
+hci_status hci_harmonic_system_solve(const hci_harmonic_system *s, double *x, hci_sparse_rank *found,
+                                     hci_note *note)
+{
+    return s->size ? solve_scaled(s, x, found, note) : hci_sparse_qr_solve(&s->u, s->h, 2, x, found, note);
 }

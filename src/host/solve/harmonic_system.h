@@ -15,12 +15,21 @@ typedef struct {
     double *row_weight; /* rows */
     double *h;          /* rows × 2 */
     hci_sparse u;       /* rows × unknowns; owned */
+    double *size;       /* unknowns: root of what a square of the current counts; NULL: 1 */
 } hci_harmonic_system;
 
 /* component: `count` of them, two unknowns each. *system is to be released on success, else empty.
  * HCI_ERROR_MEMORY. O(nonzeros · log orders). */
 hci_status hci_harmonic_system_make(const hci_task *task, const hci_component *component, size_t count,
                                     hci_compare compare, hci_harmonic_system *system, hci_note *note);
+
+/* The least-squares solution of least size of both right-hand sides, into x (unknowns × 2). *found: out.
+ * HCI_ERROR_NUMERIC, _MEMORY. */
+hci_status hci_harmonic_system_solve(const hci_harmonic_system *system, double *x, hci_sparse_rank *found,
+                                     hci_note *note);
 void hci_harmonic_system_release(hci_harmonic_system *system);
+
+/* Root of what a square of a component's current counts. */
+double hci_task_size_of(const hci_task *task, hci_component component);
 
 #endif

@@ -128,7 +128,7 @@ static hci_status orthogonal_solve(const hci_harmonic_system *system, double *x,
                                    hci_note *note)
 {
     hci_sparse_rank found;
-    const hci_status status = hci_sparse_qr_solve(&system->u, system->h, 2, x, &found, note);
+    const hci_status status = hci_harmonic_system_solve(system, x, &found, note);
     s->rank = found.rank;
     s->condition = found.condition;
     return status;

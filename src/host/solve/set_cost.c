@@ -69,7 +69,7 @@ hci_status hci_choice_solve(const hci_harmonic_system *system, double mean_Nm, h
 {
     double *r = hci_memory_new(system->rows, sizeof *r);
     hci_sparse_rank found;
-    const hci_status status = r ? hci_sparse_qr_solve(&system->u, system->h, 2, c->answer.x, &found, note)
+    const hci_status status = r ? hci_harmonic_system_solve(system, c->answer.x, &found, note)
                                 : hci_note_memory(note, NULL, "choosing harmonics");
     if (!status) c->cost = hci_set_cost_of(system, &c->answer.set, c->answer.x, mean_Nm, r);
     hci_memory_free(r);

@@ -113,6 +113,9 @@ hci_status hci_drive_read(const char *path, hci_drive_data *drive, hci_note *not
 /* Nothing given: every number NAN. */
 void hci_drive_init(hci_drive_data *drive);
 
+/* From one sample of a drive's current loop to the next, its default where none is given. */
+double hci_drive_sample_s(const hci_drive_data *drive);
+
 /* The highest frequency in the rotor frame that references can make of a drive, 0.8 of half its sampling:
  * above it the ripple between the samples is as large as what it is to take away. */
 double hci_drive_highest_rad_per_s(const hci_drive_data *drive);

@@ -1,0 +1,88 @@
+/* What a sampled loop leaves of currents, and high orders that are priced for it. */
+#include <math.h>
+#include <string.h>
+
+#include "hci/host/machine/machine.h"
+#include "hci/host/solve/solve.h"
+#include "host/solution/hold.h"
+#include "unity.h"
+
+static hci_machine_data machine;
+static hci_target target;
+static hci_target_order order[1];
+static hci_solve_options options;
+static hci_solution solution;
+
+void setUp(void)
+{
+    hci_note note = {{0}};
+    memset(&options, 0, sizeof options);
+    memset(&solution, 0, sizeof solution);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_machine_read("data/machine_a", &machine, &note), note.text);
+    order[0] = (hci_target_order){{0.0, 0.0, 2.46}, 1.0};
+    target = (hci_target){order, 1};
+    options.target = &target;
+}
+
+void tearDown(void)
+{
+    hci_solution_release(&solution);
+    hci_machine_release(&machine);
+}
+
+/* A sine of amplitude A and step x between two samples is missed by 1 − cos(x/2) of A between them, x²/8 of a
+ * small step: here order 6 in the rotor frame, of which a sine of back-EMF makes 3/2 K of torque. */
+static void test_a_sine_between_its_samples(void)
+{
+    const double amplitude_A = 2.0, k = 0.3, sample_rad = 0.02;
+    const hci_wave emf = {1.0, 1, k, 0.0}, current = {7.0, 1, amplitude_A, 0.0};
+    const hci_task task = {.gradient = &emf, .gradient_count = 1, .period_turns = 1};
+    const double missed = 1.0 - cos(0.5 * 6.0 * sample_rad);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-4, 2.0 * 1.5 * k * amplitude_A * missed,
+                              hci_hold_ripple_Nm(&task, &current, 1, sample_rad) /* order x⁴ is left out */);
+}
+
+static double ripple_Nm(double sample_rad)
+{
+    const hci_task task = {.gradient = machine.model.back_emf,
+                           .gradient_count = machine.model.back_emf_count,
+                           .period_turns = 1};
+    return hci_hold_ripple_Nm(&task, solution.current.wave, solution.current.count, sample_rad);
+}
+
+static double solve(void)
+{
+    hci_note note = {{0}};
+    hci_solution_release(&solution);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_solve(&machine, &options, &solution, &note), note.text);
+    return hci_waves_mean_square(solution.current.wave, solution.current.count);
+}
+
+/* 1500 rpm at 10 kHz. */
+static void test_high_orders_are_priced(void)
+{
+    const double sample_rad = 100.0 * HCI_PI * 1e-4;
+    const double copper_A2 = solve(), before_Nm = ripple_Nm(sample_rad);
+    options.sample_rad = sample_rad;
+    TEST_ASSERT_TRUE(solve() <= 1.5 * copper_A2 * (1.0 + 1e-9));
+    TEST_ASSERT_TRUE(ripple_Nm(sample_rad) < 0.6 * before_Nm);
+    TEST_ASSERT_NOT_NULL(strstr(solution.remark.text, "reduced: "));
+}
+
+/* At a tenth of the speed it is not worth a price. */
+static void test_nothing_is_priced_where_little_is_missed(void)
+{
+    const double copper_A2 = solve();
+    options.sample_rad = 10.0 * HCI_PI * 1e-4;
+    TEST_ASSERT_EQUAL_DOUBLE(copper_A2, solve());
+    TEST_ASSERT_EQUAL_STRING("", solution.remark.text);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_a_sine_between_its_samples);
+    RUN_TEST(test_high_orders_are_priced);
+    RUN_TEST(test_nothing_is_priced_where_little_is_missed);
+    return UNITY_END();
+}
