@@ -133,7 +133,8 @@ static void show_least(double ratio)
     else if (ratio > 0.9995)
         cli_say("the least that the wanted torque takes");
     else
-        cli_say("%.2g %% less than the wanted torque takes at every angle: orders that are free or not made save it",
+        cli_say("%.2g %% less than the wanted torque takes at every angle: orders that are free or not made "
+                "save it",
                 100.0 * (1.0 - ratio));
 }
 
@@ -175,6 +176,9 @@ static const char *unit_of(const hci_limit *l)
     return l->kind == HCI_LIMIT_VOLTAGE ? "V" : l->kind == HCI_LIMIT_COPPER ? "A²" : "A";
 }
 
+/* Share of the mean torque above which the ripple beside the largest mean is spoken of. */
+static const double MUCH_RIPPLE = 0.01;
+
 /* "; 1 A more: 0.12 N·m less ripple" */
 static void show_gain(const hci_solution *s, const hci_limit *l)
 {
@@ -207,18 +211,37 @@ static void show_limit(const hci_solution *s, const hci_limit *l)
     cli_say("\n");
 }
 
+static const char *measure_of(hci_minimise minimise)
+{
+    if (minimise == HCI_MINIMISE_PEAK_TO_PEAK) return "the ripple, peak to peak,";
+    return minimise == HCI_MINIMISE_RMS ? "the rms of the ripple" : "the largest order of the ripple";
+}
+
+/* The mean comes first, whatever it costs in ripple. */
+static void show_trade(const hci_solution *s, double mean_Nm)
+{
+    if (s->worst_error_Nm <= MUCH_RIPPLE * fabs(mean_Nm) || s->worst_order < HCI_ORDER_TOLERANCE) return;
+    cli_say("               the mean comes before the ripple, %.3g N·m at order %g: a little less of it may "
+            "leave\n"
+            "               much less ripple (sweep --envelope --ripple 1 finds the most with little)\n",
+            s->worst_error_Nm, s->worst_order);
+}
+
 /* What the limits cost, in a sentence. */
 static void show_cost(const hci_solution *s)
 {
     const double mean_Nm = s->order_count ? s->order[0].torque_Nm.cosine : 0.0;
     if (s->limit_cost == HCI_COST_COPPER) cli_say("  limits       kept; they cost copper only\n");
     if (s->limit_cost == HCI_COST_RIPPLE)
-        cli_say("  limits       kept; the ripple is the smallest within them (%.4g N·m)\n", s->minimised_Nm);
-    if (s->limit_cost == HCI_COST_TORQUE)
+        cli_say("  limits       kept; %s is the smallest within them (%.4g N·m)\n", measure_of(s->minimised),
+                s->minimised_Nm);
+    if (s->limit_cost == HCI_COST_TORQUE) {
         cli_say(
             "  limits       kept; %.6g N·m is the mean torque nearest to %.6g N·m within them that was found "
             "with these components\n",
             mean_Nm, s->wanted_mean_Nm);
+        show_trade(s, mean_Nm);
+    }
     if (s->limit_cost == HCI_COST_LIMITS)
         cli_say(
             "  limits       no current keeps them; the given one would with all of them wider by %.3g %%\n",

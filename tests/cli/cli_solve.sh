@@ -112,7 +112,7 @@ check "the period is not two turns" grep -q '"period_electrical_turns":[[:space:
 
 target=data/scenarios/02/target.csv
 run 1 solve data/machine_a --target $target --auto --limit-current 17 --report -o "$work/within"
-says 'limits       kept; the ripple is the smallest within them' 'limit        phase current 17 of 17 A; 1 A more: 0\.0[0-9]* N·m less ripple' 'touched at a '
+says 'limits       kept; the largest order of the ripple is the smallest within them' 'limit        phase current 17 of 17 A; 1 A more: 0\.0[0-9]* N·m less ripple' 'touched at a '
 check "a phase has more than 17 A" awk -F, 'NR > 1 { for (k = 2; k <= 4; k++) if ($k > 17 || $k < -17) exit 1 }' "$work/within/waveform.csv"
 check "no section of limits" grep -q '<h2>The limits cost smoothness' "$work/within/report.html"
 check "the summary does not say what limits cost" grep -q '"cost":[[:space:]]*"ripple"' "$work/within/summary.json"
