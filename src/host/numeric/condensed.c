@@ -142,11 +142,46 @@ static double product_of(const hci_condensed *all, const hci_condensed_group *a,
     return sum;
 }
 
-/* The first group that tells the same as a group, itself at last. */
-static size_t leader_of(const hci_condensed *all, size_t g, double alike, const double *square)
+/* What decides whether groups tell the same, of all of them. */
+typedef struct {
+    double *square;   /* [group]: |XᵀX|², elementwise */
+    double *diagonal; /* [group][n] */
+} likeness;
+
+static void likeness_fill(const hci_condensed *all, size_t g, likeness *of)
 {
-    for (size_t j = 0; j < g; ++j)
-        if (product_of(all, &all->group[j], &all->group[g]) >= alike * sqrt(square[j] * square[g])) return j;
+    const hci_condensed_group *group = &all->group[g];
+    double *diagonal = of->diagonal + g * all->n;
+    of->square[g] = product_of(all, group, group);
+    for (size_t k = 0; k < all->n; ++k) {
+        const double told = all->gram[k * all->n + k];
+        for (size_t r = 0; r < group->rank && told > 0.0; ++r)
+            diagonal[k] += group->factor[k * group->rank + r] * group->factor[k * group->rank + r] / told;
+    }
+}
+
+/* What product_of is at most: the diagonals' product, and the rests as if they were parallel. O(n). */
+static double most_product(const likeness *of, size_t n, size_t a, size_t b)
+{
+    const double *x = of->diagonal + a * n, *y = of->diagonal + b * n;
+    double product = 0.0, xx = 0.0, yy = 0.0;
+    for (size_t k = 0; k < n; ++k) {
+        product += x[k] * y[k];
+        xx += x[k] * x[k];
+        yy += y[k] * y[k];
+    }
+    return product + sqrt(fmax(0.0, of->square[a] - xx) * fmax(0.0, of->square[b] - yy));
+}
+
+/* The first group that tells the same as a group, itself at last. */
+static size_t leader_of(const hci_condensed *all, size_t g, double alike, const likeness *of)
+{
+    for (size_t j = 0; j < g; ++j) {
+        const double least = alike * sqrt(of->square[j] * of->square[g]);
+        if (most_product(of, all->n, j, g) * (1.0 + 1e-9) >= least &&
+            product_of(all, &all->group[j], &all->group[g]) >= least)
+            return j;
+    }
     return g;
 }
 
@@ -179,22 +214,27 @@ static bool cluster_add(const hci_condensed *all, const double *unit, size_t lea
     return added;
 }
 
-static void leaders_find(const hci_condensed *all, double alike, double *square, size_t *of)
+static bool leaders_find(const hci_condensed *all, double alike, size_t *of)
 {
-    for (size_t g = 0; g < all->count; ++g) {
-        square[g] = product_of(all, &all->group[g], &all->group[g]);
-        of[g] = leader_of(all, g, alike, square);
+    likeness like = {hci_memory_new(all->count + 1, sizeof *like.square),
+                     hci_memory_new(all->count * all->n + 1, sizeof *like.diagonal)};
+    const bool made = like.square && like.diagonal;
+    for (size_t g = 0; g < all->count && made; ++g) {
+        likeness_fill(all, g, &like);
+        of[g] = leader_of(all, g, alike, &like);
         of[g] = of[of[g]];
     }
+    hci_memory_free(like.square);
+    hci_memory_free(like.diagonal);
+    return made;
 }
 
 bool hci_condensed_join(const hci_condensed *all, const double *unit, double alike, hci_condensed *joined,
                         size_t *of)
 {
-    double *square = hci_memory_new(all->count + 1, sizeof *square);
     size_t *place = hci_memory_new(all->count + 1, sizeof *place);
-    bool made = square && place && hci_condensed_start(joined, all->n, all->count);
-    if (made) leaders_find(all, alike, square, of);
+    bool made = place && hci_condensed_start(joined, all->n, all->count);
+    made = made && leaders_find(all, alike, of);
     for (size_t g = 0; g < all->count && made; ++g) {
         if (of[g] == g) {
             place[g] = joined->count;
@@ -204,7 +244,6 @@ bool hci_condensed_join(const hci_condensed *all, const double *unit, double ali
     for (size_t g = 0; g < all->count && made; ++g)
         of[g] = place[of[g]];
     if (!made) hci_condensed_release(joined);
-    hci_memory_free(square);
     hci_memory_free(place);
     return made;
 }

@@ -326,6 +326,42 @@ static void test_copies_are_joined(void)
     hci_condensed_release(&joined);
 }
 
+/* Cosine of two XᵀX, each unknown in units of what all groups tell of it, element by element. */
+static double cosine_of(size_t a, size_t b)
+{
+    double ab = 0.0, aa = 0.0, bb = 0.0;
+    for (size_t i = 0; i < columns; ++i)
+        for (size_t j = 0; j < columns; ++j) {
+            const double told = condensed.gram[i * columns + i] * condensed.gram[j * columns + j];
+            const double p = group[a].gram[i * columns + j], q = group[b].gram[i * columns + j];
+            ab += p * q / told, aa += p * p / told, bb += q * q / told;
+        }
+    return ab / sqrt(aa * bb);
+}
+
+/* Whatever is asked for, the first group that is as much alike is the one that a group is joined to. */
+static void test_groups_are_joined_by_their_cosine(void)
+{
+    size_t pairs = 0;
+    size(MOST_GROUPS, 6, 5);
+    draw_rows();
+    condense();
+    for (double alike = 0.3; alike < 1.0; alike += 0.05) {
+        hci_condensed joined = {0};
+        size_t of[MOST_GROUPS];
+        TEST_ASSERT_TRUE(hci_condensed_join(&condensed, unit, alike, &joined, of));
+        for (size_t g = 0; g < groups; ++g) {
+            size_t first = 0;
+            while (first < g && cosine_of(first, g) < alike)
+                ++first;
+            TEST_ASSERT_EQUAL_UINT(of[first], of[g]);
+            pairs += first < g;
+        }
+        hci_condensed_release(&joined);
+    }
+    TEST_ASSERT_TRUE(pairs > 40 && pairs < 120);
+}
+
 /* An unknown that only a run and its copy tell of: with both left out, it is as if nobody had measured it. */
 static void test_a_copy_does_not_vouch_for_a_run(void)
 {
@@ -450,6 +486,7 @@ int main(void)
     RUN_TEST(test_one_value_in_twenty_is_above_the_bound);
     RUN_TEST(test_no_more_than_that_where_groups_tell_the_size);
     RUN_TEST(test_copies_are_joined);
+    RUN_TEST(test_groups_are_joined_by_their_cosine);
     RUN_TEST(test_a_copy_does_not_vouch_for_a_run);
     RUN_TEST(test_groups_that_are_alike);
     RUN_TEST(test_groups_that_differ);
