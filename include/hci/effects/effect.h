@@ -148,7 +148,7 @@ typedef struct {
     bool timed;                 /* a run has time and speed */
     bool moving;                /* the shaft turned */
     bool both_directions;       /* in one run forward, in one backward */
-    bool has_temperature;       /* of the magnets */
+    bool has_temperature;       /* of the magnets, which changes */
     bool has_turn;              /* the angle tells where in the mechanical turn the rotor was */
     bool creeps;                /* in a run the mean torque of a turn rises or falls from turn to turn */
     double duration_s;          /* of the longest run with time */

@@ -3,6 +3,8 @@
 
 enum { PER_KELVIN, REFERENCE };
 
+#define EXPECTED_PER_KELVIN 0.003 /* ferrite 0.002, neodymium 0.001, samarium-cobalt 0.0004 */
+
 static const hci_effect_parameter PARAMETER[] = {
     HCI_PLAIN("emf_per_kelvin", "1/K", "relative change of the back-EMF, below 0 for magnets", 0.0, -DBL_MAX,
               HCI_PARAMETER_LINEAR | HCI_PARAMETER_WITH_CURRENT),
@@ -26,7 +28,7 @@ static double torque(const hci_effect *effect, const hci_effect_term *term, cons
 
 static void propose(const hci_effect_survey *survey, const hci_effect_proposals *to)
 {
-    if (survey->has_temperature) hci_effect_propose(to, PER_KELVIN, 1, 0.0, 1.0, 0.0);
+    if (survey->has_temperature) hci_effect_propose(to, PER_KELVIN, 1, 0.0, 1.0, EXPECTED_PER_KELVIN);
 }
 
 const hci_effect_type hci_effect_magnet_temperature = {
@@ -37,6 +39,7 @@ const hci_effect_type hci_effect_magnet_temperature = {
     .needs = HCI_EFFECT_NEEDS_TEMPERATURE,
     .without = "without a temperature the magnets are at the reference",
     .propose = propose,
+    .is_small = true,
     .in_machine = true,
     .torque = torque,
 };

@@ -20,6 +20,8 @@ enum {
 #define SIMILAR 0.15 /* speeds that differ by less, as a share, are the same */
 #define AROUND  1.2  /* standard deviations above a mean speed: at 0.85 of a ramp from 0 */
 
+#define LEAST_WARMING_K 2.0 /* a sensor of a temperature that stays wanders less */
+
 /* ---- a list that grows ---- */
 
 typedef struct {
@@ -133,6 +135,19 @@ static size_t speeds_of(const hci_candidates_source *s)
     return x.count;
 }
 
+/* Whether the temperature is another one at times: of one that stays a share of the torque is left open. */
+static bool warms(const hci_candidates_source *s)
+{
+    double coldest_C = INFINITY, hottest_C = -INFINITY;
+    for (size_t r = 0; r < s->samples->run_count; ++r) {
+        const hci_run_statistics *f = &s->samples->statistics[r];
+        if (!s->use[r] || !isfinite(f->temperature_C)) continue;
+        coldest_C = fmin(coldest_C, f->coldest_C);
+        hottest_C = fmax(hottest_C, f->hottest_C);
+    }
+    return hottest_C - coldest_C > LEAST_WARMING_K;
+}
+
 static hci_effect_survey survey_of(const hci_candidates_source *s)
 {
     hci_effect_survey x = {.machine = s->machine, .richness = s->richness, .speeds = speeds_of(s)};
@@ -143,7 +158,6 @@ static hci_effect_survey survey_of(const hci_candidates_source *s)
         x.moving = x.moving || f->mean_speed_rad_per_s != 0.0;
         ahead = ahead || (s->use[r] && f->mean_speed_rad_per_s > 0.0);
         back = back || (s->use[r] && f->mean_speed_rad_per_s < 0.0);
-        x.has_temperature = x.has_temperature || isfinite(f->temperature_C);
         x.has_turn = x.has_turn || s->runs[r].turn_known;
         x.creeps = x.creeps || (s->use[r] && f->creeps && s->runs[r].torque_source == HCI_TORQUE_MEASURED);
         if (s->runs[r].time_s && s->runs[r].count > 0)
@@ -151,6 +165,7 @@ static hci_effect_survey survey_of(const hci_candidates_source *s)
         x.torque_Nm = fmax(x.torque_Nm, f->rms_torque_Nm);
         x.current_A = fmax(x.current_A, f->current_A);
     }
+    x.has_temperature = warms(s);
     x.both_directions = ahead && back;
     x.reference_current_A = s->reference_current_A > 0.0 ? s->reference_current_A : x.current_A;
     return x;

@@ -71,7 +71,10 @@ static void sample_add(const hci_run *r, int pole_pairs, size_t k, hci_run_stati
     const double speed = r->speed_rad_per_s ? r->speed_rad_per_s[k] : 0.0;
     f->mean_speed_rad_per_s += speed / n;
     f->speed_deviation += speed * speed / n;
-    if (r->temperature_C) f->temperature_C += r->temperature_C[k] / n;
+    if (!r->temperature_C) return;
+    f->temperature_C += r->temperature_C[k] / n;
+    f->coldest_C = fmin(f->coldest_C, r->temperature_C[k]);
+    f->hottest_C = fmax(f->hottest_C, r->temperature_C[k]);
 }
 
 /* Whether the current is nothing but noise: white, so that neighbours have nothing in common, while a current
@@ -91,7 +94,7 @@ static bool is_noise(const hci_run *r, int pole_pairs, double current_A)
 
 hci_run_statistics hci_run_statistics_of(const hci_run *r, int pole_pairs)
 {
-    hci_run_statistics f = {.repeat_Nm = NAN, .temperature_C = NAN};
+    hci_run_statistics f = {.repeat_Nm = NAN, .temperature_C = NAN, .coldest_C = NAN, .hottest_C = NAN};
     if (r->count == 0 || !(r->theta_m_rad || r->only_mean) || !r->i_A) return f;
     if (r->temperature_C) f.temperature_C = 0.0;
     for (size_t k = 0; k < r->count; ++k)

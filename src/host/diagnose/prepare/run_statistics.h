@@ -16,6 +16,7 @@ typedef struct {
     bool creeps;           /* the mean torque of a turn rises or falls from turn to turn */
     double turns;          /* of the mechanical angle, from the least to the largest */
     double temperature_C;  /* mean; NAN */
+    double coldest_C, hottest_C; /* of its samples; NAN */
 } hci_run_statistics;
 
 /* Of a run without an angle all is 0, but for what is not known (NAN). O(samples). */

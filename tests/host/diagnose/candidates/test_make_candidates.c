@@ -225,6 +225,10 @@ static void test_the_magnets_need_a_temperature(void)
     TEST_ASSERT_EQUAL_UINT64(0, terms_of("magnet_temperature", "", NULL));
     run[1].temperature_C = calloc(SAMPLES, sizeof *run[1].temperature_C);
     make();
+    TEST_ASSERT_EQUAL_UINT64(0, terms_of("magnet_temperature", "", NULL)); /* it does not change */
+    for (size_t k = 0; k < SAMPLES; ++k)
+        run[1].temperature_C[k] = 20.0 + 30.0 * (double)k / SAMPLES;
+    make();
     TEST_ASSERT_EQUAL_UINT64(1, terms_of("magnet_temperature", "", NULL));
 }
 
