@@ -14,8 +14,10 @@
 #define BEHIND       60.0 /* … and so much */
 #define PAIR         (2.0 * HCI_DECISIVE) /* the same of two effects at once */
 
-#define PAIR_MARGIN     0.02 /* what two effects at once must explain more than one, as a share */
-#define LOOSE_MARGIN    0.01 /* the same of a series, beside effects of few values that others may join */
+#define PAIR_MARGIN  0.02 /* what two effects at once must explain more than one, as a share */
+#define LOOSE_MARGIN 0.01 /* the same of a series, beside effects of few values that others may join */
+#define LOOSE_MOST                                                                                           \
+    300.0 /* of which it is no more: what is left of the iron beside large effects is a series */
 #define RESONANCE_PRICE 12.0 /* of having looked at so many frequencies */
 #define LAG_PRICE       6.0  /* and at so many time constants */
 #define LATE_PRICE      12.0 /* and at so many delays */
@@ -180,7 +182,7 @@ static double handicap_of(const hci_candidate_model *x, const hci_candidate_mode
     const hci_effect_type *a = hci_candidate_type(x->a), *b = hci_candidate_type(x->b);
     const double margin = is_frugal(x, best) ? 0.0 : PAIR_MARGIN * best->gain;
     const double pair = is_pair(x) ? HCI_DECISIVE + margin : 0.0;
-    const double loose = is_loose(x->a) || is_loose(x->b) ? LOOSE_MARGIN * best->gain : 0.0;
+    const double loose = is_loose(x->a) || is_loose(x->b) ? fmin(LOOSE_MOST, LOOSE_MARGIN * best->gain) : 0.0;
     return pair + loose + (a->seen_as || b->seen_as ? HCI_DECISIVE : 0.0);
 }
 
