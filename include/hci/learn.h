@@ -539,7 +539,7 @@ static inline hci_blob_verdict hci_learn_check(const void *blob, uint32_t size, 
  * while the one is written leaves the other. NULL where neither is whole. */
 static inline const void *hci_learn_newest(const void *a, const void *b, uint32_t size)
 {
-    hci_learn_facts of_a = {0}, of_b = {0};
+    hci_learn_facts of_a = {0u, 0u, 0u, 0.0f}, of_b = {0u, 0u, 0u, 0.0f};
     const hci_blob_verdict is_a = hci_learn_check(a, size, &of_a);
     const hci_blob_verdict is_b = hci_learn_check(b, size, &of_b);
     if ((is_a != HCI_BLOB_GOOD) && (is_b != HCI_BLOB_GOOD)) return NULL;

@@ -14,14 +14,13 @@
 #define BEHIND       60.0 /* … and so much */
 #define PAIR         (2.0 * HCI_DECISIVE) /* the same of two effects at once */
 
-#define PAIR_MARGIN  0.02 /* what two effects at once must explain more than one, as a share */
-#define LOOSE_MARGIN 0.01 /* the same of a series, beside effects of few values that others may join */
-#define LOOSE_MOST                                                                                           \
-    300.0 /* of which it is no more: what is left of the iron beside large effects is a series */
-#define RESONANCE_PRICE 12.0 /* of having looked at so many frequencies */
-#define LAG_PRICE       6.0  /* and at so many time constants */
-#define LATE_PRICE      12.0 /* and at so many delays */
-#define MUCH            3.0  /* times the resolution, and … */
+#define PAIR_MARGIN     0.02   /* what two effects at once must explain more than one, as a share */
+#define LOOSE_MARGIN    0.01   /* the same of a series, beside effects of few values that others may join */
+#define LOOSE_MOST      5000.0 /* and no more: beside large effects of the iron the rest is a series */
+#define RESONANCE_PRICE 12.0   /* of having looked at so many frequencies */
+#define LAG_PRICE       6.0    /* and at so many time constants */
+#define LATE_PRICE      12.0   /* and at so many delays */
+#define MUCH            3.0    /* times the resolution, and … */
 #define STANDS_OUT                                                                                           \
     1.1 /* … times the noise: a residual in which high powers of the currents are looked for               \
          */
