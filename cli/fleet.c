@@ -28,9 +28,9 @@ static void show_odd(const hci_line *l)
         const hci_line_motor *m = &l->motor[k];
         if (!m->stands_out) continue;
         const hci_fleet_parameter *p = &l->parameter[m->worst].name;
-        cli_say("  %-12s %s %s: %+.3g%s%s, %+.1f standard deviations\n", m->name, p->effect, p->parameter,
+        cli_say("  %-12s %s %s: %+.3g%s%s, %+.1f standard deviations%s\n", m->name, p->effect, p->parameter,
                 l->value[k * l->parameters + m->worst], strcmp(p->unit, "1") == 0 ? "" : " ", strcmp(p->unit, "1") == 0 ? "" : p->unit,
-                m->deviation);
+                m->deviation, m->worst + 1 == l->parameters ? "; none of the parameters describes it: diagnose it" : "");
         ++said;
     }
     if (hci_line_outside(l) > said) cli_say("  and %zu more, in deviations.csv\n", hci_line_outside(l) - said);

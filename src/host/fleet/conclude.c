@@ -45,6 +45,7 @@ static double deviation_of(const hci_line *l, size_t motor, size_t parameter, do
     const double more = fmax(s * s - p->noise * p->noise, 0.0);
     const double scale = sqrt(p->scale * p->scale + (isnan(more) ? 0.0 : more));
     const double off = l->value[motor * l->parameters + parameter] - p->median;
+    if (isnan(off)) return NAN; /* not told, of this motor or of all */
     return scale > 0.0 ? off / scale : off == 0.0 ? 0.0 : off > 0.0 ? HUGE_VAL : -HUGE_VAL;
 }
 
@@ -73,6 +74,7 @@ static void name_residual(const hci_line *l, hci_line_motor *m, size_t motor)
     hci_line_motor named = {.worst = HCI_LINE_NONE};
     for (size_t k = 0; k < last; ++k) {
         const double deviation = deviation_of(l, motor, k, usual);
+        if (isnan(deviation) || l->parameter[k].motors < 2) continue;
         if (fabs(deviation) > l->limit && fabs(hci_line_deviation(l, motor, k)) > OWN_ERRORS) take_worst(&named, k, deviation);
     }
     take_worst(m, last, hci_line_deviation(l, motor, last));

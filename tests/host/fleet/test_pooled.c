@@ -2,7 +2,9 @@
 #include "host/fleet/pooled.h"
 
 #include <math.h>
+#include <string.h>
 
+#include "hci/host/fleet/line.h"
 #include "host/fleet/trends.h"
 #include "support/draws.h"
 #include "unity.h"
@@ -123,6 +125,31 @@ static void test_a_line_and_steps_are_found(void)
     TEST_ASSERT_DOUBLE_WITHIN(0.2, sqrt(30.0), found.widening);
 }
 
+/* One parameter is told, one by no motor, one by the odd motor alone; the last is what stays, which is large in that motor. */
+static void test_what_is_not_told_names_no_motor(void)
+{
+    enum { LINE = 12, PARAMETERS = 4, ODD = 7 };
+    hci_line_motor motor[LINE];
+    hci_line_parameter parameter[PARAMETERS];
+    double told[LINE * PARAMETERS], error[LINE * PARAMETERS];
+    hci_line line = {.motor = motor, .motors = LINE, .parameter = parameter, .parameters = PARAMETERS, .value = told, .std_error = error};
+    hci_note note;
+    memset(motor, 0, sizeof motor);
+    memset(parameter, 0, sizeof parameter);
+    for (int k = 0; k < LINE; ++k) {
+        const double not_told = NAN, *row = (double[]){0.01 * (k % 5), not_told, k == ODD ? 1.0 : not_told, k == ODD ? 0.5 : 0.1 + 0.001 * (k % 3)};
+        memcpy(told + PARAMETERS * k, row, PARAMETERS * sizeof *row);
+        for (int j = 0; j < PARAMETERS; ++j)
+            error[PARAMETERS * k + j] = isnan(row[j]) ? not_told : 0.01 * (j + 1 < PARAMETERS);
+    }
+    TEST_ASSERT_EQUAL(HCI_OK, hci_line_conclude(0.002, &line, &note));
+    TEST_ASSERT_EQUAL(1, hci_line_outside(&line));
+    TEST_ASSERT_TRUE(motor[ODD].stands_out);
+    TEST_ASSERT_EQUAL(PARAMETERS - 1, motor[ODD].worst);
+    TEST_ASSERT_TRUE(isfinite(motor[ODD].deviation));
+    TEST_ASSERT_TRUE(isnan(hci_line_deviation(&line, 0, 1)));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -133,5 +160,6 @@ int main(void)
     RUN_TEST(test_limits_of_a_normal_distribution);
     RUN_TEST(test_F_as_a_normal_deviate);
     RUN_TEST(test_a_line_and_steps_are_found);
+    RUN_TEST(test_what_is_not_told_names_no_motor);
     return UNITY_END();
 }
