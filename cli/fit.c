@@ -48,9 +48,10 @@ static void release(inputs *in)
 
 static void show(const cli_arguments *a, const hci_fleet_fit *fit)
 {
-    cli_say(CLI_GOOD "fitted" CLI_PLAIN ": %s, %s\n", a->word[0], a->value[RUNS]);
-    cli_say("  error        %.4g N·m rms as declared, %.4g N·m fitted; %zu samples\n", fit->rms_before_Nm,
-            fit->rms_after_Nm, fit->samples);
+    cli_say("%s" CLI_PLAIN ": %s, %s\n", fit->is_found ? CLI_GOOD "fitted" : CLI_WARN "not fitted", a->word[0], a->value[RUNS]);
+    cli_say("  error        %.4g N·m rms as declared", fit->rms_before_Nm);
+    if (fit->is_found) cli_say(", %.4g N·m fitted", fit->rms_after_Nm);
+    cli_say("; %zu samples\n", fit->samples);
     for (size_t k = 0; k < fit->count; ++k) {
         const hci_fleet_parameter *p = &fit->parameter[k];
         if (isnan(p->value))
@@ -61,16 +62,22 @@ static void show(const cli_arguments *a, const hci_fleet_fit *fit)
     }
 }
 
-static hci_status fit_and_give(const cli_arguments *a, const inputs *in, hci_note *note)
+static const hci_note *remark_of_run(const void *context, size_t k)
 {
-    hci_fleet_fit fit;
-    hci_status status = hci_fleet_fit_runs(&in->machine, &in->declared.list, &in->runs, &fit, note);
-    if (!status && a->value[OUT]) status = hci_fleet_fit_write(&fit, a->value[OUT], note);
+    return &((const inputs *)context)->runs.run[k].remark;
+}
+
+static hci_status fit_and_give(const cli_arguments *a, const inputs *in, hci_fleet_fit *fit, hci_note *note)
+{
+    hci_status status = hci_fleet_fit_runs(&in->machine, &in->declared.list, &in->runs, fit, note);
+    if (!status && a->value[OUT]) status = hci_fleet_fit_write(fit, a->value[OUT], note);
     if (status) return status;
-    if (cli_is_wordy()) show(a, &fit);
+    if (cli_is_wordy()) show(a, fit);
     cli_remark(&in->machine.remark);
+    cli_remark_each(remark_of_run, in, in->runs.count);
+    cli_remark(&fit->remark);
     if (!a->given[JSON]) return HCI_OK;
-    return cli_print_json(a->value[OUT] ? hci_summary_read(a->value[OUT]) : hci_fleet_fit_json(&fit), note);
+    return cli_print_json(a->value[OUT] ? hci_summary_read(a->value[OUT]) : hci_fleet_fit_json(fit), note);
 }
 
 static int run(const cli_arguments *a)
@@ -79,9 +86,10 @@ static int run(const cli_arguments *a)
     hci_note note = {{0}};
     memset(&in, 0, sizeof in);
     hci_status status = read_all(a, &in, &note);
-    if (!status) status = fit_and_give(a, &in, &note);
+    hci_fleet_fit fit;
+    if (!status) status = fit_and_give(a, &in, &fit, &note);
     release(&in);
-    return status ? cli_fail(status, &note) : 0;
+    return status ? cli_fail(status, &note) : !fit.is_found;
 }
 
 const cli_command cli_fit = {
@@ -93,7 +101,7 @@ const cli_command cli_fit = {
     .words_needed = 1,
     .word_kind = CLI_FILE,
     .example = "  hci-solve fit data/fem_c/machine --runs data/fem_c/runs.csv -o out/fitted\n"
-               "\nExit codes: 0 done; " CLI_EXIT_ERRORS,
+               "\nExit codes: 0 done; 1 no least error is found, the declared values stay; " CLI_EXIT_ERRORS,
     .source = "cli/fit.c",
     .guide = "fleet.md",
     .run = run,

@@ -137,4 +137,43 @@ check "exit code after Ctrl-C" [ $? -eq 130 ]
 says '^not done yet: 1 of 2 motors' 'the same command goes on from there'
 check "fleet.csv after Ctrl-C" grep -q '^m1,,,,done,' "$work/stopped/fleet.csv"
 
+# ---- fit: one direction and one kind of current do not tell the strength of the magnets and the angle apart; what is not used is said
+
+mkdir "$work/fit"
+cat >"$work/fit.py" <<'PY'
+import math, os, random, sys
+os.chdir(sys.argv[1])
+random.seed(1)
+os.mkdir("m")
+for name, text in (("machine", "name,value,unit,source\npole_pairs,2,1,test\nemf_frequency,50,Hz,test\nconnection,star,,test\n"),
+                   ("back_emf", "order,amplitude_V,phase_rad\n1,21.93,0\n"), ("cogging", "order,amplitude_Nm,phase_rad\n6,0,0\n")):
+    open(f"m/{name}.csv", "w").write(text)
+for name, current, without in (("light", 2, ()), ("full", 4, (100, 101, 500)), ("idle", 0, range(512))):
+    with open(name + ".csv", "w") as f:
+        f.write("time_s,theta_m_rad,ia_A,ib_A,ic_A" + ("\n" if name == "idle" else ",torque_Nm\n"))
+        for k in range(512):
+            angle = 4 * math.pi * k / 512
+            row = [k / 512, angle] + [current * math.sin(2 * angle - s * 2 * math.pi / 3) + random.gauss(0, 0.02) for s in range(3)]
+            torque = 0.97 * current * 1.5 * 21.93 / (math.pi * 50) + 0.05 * math.sin(12 * angle) + 0.01 * math.cos(4 * angle) + random.gauss(0, 0.005)
+            cells = [str(x) for x in row] + ([] if name == "idle" else ["" if k in without else str(torque)])
+            f.write(",".join(cells) + "\n")
+open("runs.csv", "w").write("file,role\nlight.csv,fit\nfull.csv,fit\nidle.csv,fit\n")
+open("motors.csv", "w").write("motor,machine,runs\none,m,runs.csv\n")
+PY
+python3 "$work/fit.py" "$work/fit" || fail "fit.py"
+run 0 fit "$work/fit/m" --runs "$work/fit/runs.csv" -o "$work/fit/out"
+says '1 of 3 recordings are not used; the first, idle.csv, is without a measured torque' '3 rows of the recordings have a hole' '; 1021 samples' \
+    'position_offset angle: not told'
+check "an ill-told fit: $(cat "$work/fit/out/parameters.csv")" python3 - "$work/fit/out" <<'PY'
+import csv, json, sys
+s = json.load(open(sys.argv[1] + "/summary.json"))
+p = {(r["effect"], r["parameter"]): r for r in csv.DictReader(open(sys.argv[1] + "/parameters.csv"))}
+magnets = p["back_emf", "common"]
+assert s["found"] and s["rms_after_Nm"] <= s["rms_before_Nm"]
+assert p["position_offset", "angle"]["value"] == ""
+assert abs(float(magnets["value"]) + 0.03) < 3 * float(magnets["std_error"]) < 0.1
+PY
+run 0 batch "$work/fit/motors.csv" --command fit --jobs 1 -q -o "$work/fit/batch"
+check "fleet.csv of a fit: $(cat "$work/fit/batch/fleet.csv")" grep -q '^one,.*,done,0,,"1 of 3 recordings are not used; .*; 3 rows .*",1021,1,3,' "$work/fit/batch/fleet.csv"
+
 finish

@@ -10,7 +10,11 @@
 #include "host/base/memory.h"
 #include "host/numeric/normal_equations.h"
 
-enum { MOST_TERMS = HCI_FLEET_MOST_PARAMETERS - 2, MOST_EFFECTS = 64, STEPS = 3 };
+enum { MOST_TERMS = HCI_FLEET_MOST_PARAMETERS - 2, MOST_EFFECTS = 64, STEPS = 10, HALVINGS = 12 };
+
+/* Shares of the sum of squares: a step that lowers it by less is not made; the fit is found where none lowers it by more. */
+#define CONVERGED 1e-9
+#define FOUND 1e-4
 
 /* ---- the model: what is declared, and behind it the terms in common ---- */
 
@@ -18,6 +22,9 @@ typedef struct {
     hci_effect effect[MOST_EFFECTS];
     hci_effects list;
     hci_effect_term term[MOST_TERMS]; /* those in common */
+    double expected[MOST_TERMS];      /* standard deviation of values that there are; 0: any */
+    bool is_left_out[MOST_TERMS];     /* the recordings do not tell it */
+    double coulomb_Nm;                /* that is declared */
     size_t terms, declared_terms;
 } model;
 
@@ -33,6 +40,7 @@ static void take(void *context, const hci_effect_candidate *candidate)
     for (size_t k = 0; k < candidate->count && t->m->terms < MOST_TERMS; ++k) {
         const size_t parameter = candidate->parameter + k;
         const double order = t->type->parameter[parameter].ordered ? candidate->order : 0.0;
+        t->m->expected[t->m->terms] = candidate->expected;
         t->m->term[t->m->terms++] = (hci_effect_term){parameter, order, 0.0, NAN};
     }
 }
@@ -54,6 +62,7 @@ static void make_model(const hci_machine *machine, const hci_effects *declared, 
     m->declared_terms = hci_effects_terms(declared);
     for (size_t k = 0; k < declared->count && k < MOST_EFFECTS; ++k)
         m->effect[m->list.count++] = declared->effect[k];
+    m->coulomb_Nm = hci_effects_coulomb_Nm(declared);
     for (size_t k = 0; hci_effect_type_at(k); ++k)
         add_type(machine, hci_effect_type_at(k), m);
     m->list.effect = m->effect;
@@ -103,18 +112,73 @@ static hci_status sum_up(const data *d, const model *m, sums *s, hci_note *note)
     return HCI_OK;
 }
 
-static hci_status step(const data *d, model *m, hci_sweep *sweep, sums *s, hci_note *note)
+/* ---- steps ---- */
+
+/* Where the fit is. */
+typedef struct {
+    sums s;
+    hci_sweep sweep; /* of the linearisation there */
+} place;
+
+static void release_place(place *p)
 {
-    hci_status status = sum_up(d, m, s, note);
+    hci_normal_equations_release(&p->s.normal);
+    hci_sweep_release(&p->sweep);
+}
+
+static hci_status look(const data *d, const model *m, place *p, hci_note *note)
+{
+    hci_status status = sum_up(d, m, &p->s, note);
     if (status) return status;
-    const bool is_begun = hci_sweep_start(sweep, &s->normal);
-    hci_normal_equations_release(&s->normal);
-    if (!is_begun) return hci_note_memory(note, NULL, "a fit");
+    if (!hci_sweep_start(&p->sweep, &p->s.normal)) return hci_note_memory(note, NULL, "a fit");
     for (size_t k = 0; k < m->terms; ++k)
-        (void)hci_sweep_in(sweep, k); /* one that depends on those before stays out */
-    for (size_t k = 0; k < m->terms; ++k)
-        if (sweep->in[k]) m->term[k].value += sweep->b[k];
+        if (!m->is_left_out[k]) (void)hci_sweep_in(&p->sweep, k); /* one that depends on those before stays out */
     return HCI_OK;
+}
+
+static void move(model *m, const hci_sweep *by, double share)
+{
+    for (size_t k = 0; k < m->terms; ++k)
+        if (by->in[k]) m->term[k].value += share * by->b[k];
+}
+
+/* A step, halved until the error falls. *is_lower: whether it did; else nothing is changed. */
+static hci_status step(const data *d, model *m, place *p, bool *is_lower, hci_note *note)
+{
+    double share = 1.0;
+    *is_lower = false;
+    for (int k = 0; k < HALVINGS; ++k, share *= 0.5) {
+        place next = {0};
+        move(m, &p->sweep, share);
+        const hci_status status = look(d, m, &next, note);
+        *is_lower = !status && next.s.square <= p->s.square;
+        if (*is_lower) {
+            release_place(p);
+            *p = next;
+            return HCI_OK;
+        }
+        release_place(&next);
+        move(m, &p->sweep, -share);
+        if (status) return status;
+    }
+    return HCI_OK;
+}
+
+/* The linearised torque has no sum of squares that is lower by more than a share. */
+static bool is_least(const place *p, double share)
+{
+    return !(p->s.square - p->sweep.square > share * p->s.square);
+}
+
+/* Steps until they change nothing. *is_found: whether that came about. */
+static hci_status descend(const data *d, model *m, place *p, bool *is_found, hci_note *note)
+{
+    hci_status status = HCI_OK;
+    bool is_lower = true;
+    for (int k = 0; k < STEPS && is_lower && !is_least(p, CONVERGED) && !status; ++k)
+        status = step(d, m, p, &is_lower, note);
+    *is_found = !status && is_least(p, FOUND);
+    return status;
 }
 
 /* ---- values ---- */
@@ -191,48 +255,189 @@ static void list_values(const model *m, const hci_sweep *sweep, hci_fleet_fit *f
     }
 }
 
-/* Noise that is correlated from sample to sample by ρ counts as (1 − ρ)/(1 + ρ) as many samples. */
-static void widen(const sums *s, size_t samples, size_t columns, hci_fleet_fit *fit)
+/* The deviation by which standard errors are wider than those for residuals of a deviation of 1. Noise that is correlated from
+ * sample to sample by ρ counts as (1 − ρ)/(1 + ρ) as many samples. */
+static double deviation_of(const sums *s, size_t samples, size_t columns)
 {
-    const double correlation = fmin(fmax(s->beside / s->square, 0.0), 0.99);
+    const double correlation = s->square > 0.0 ? fmin(fmax(s->beside / s->square, 0.0), 0.99) : 0.0;
     const double freedom = samples > columns ? (double)(samples - columns) : 1.0;
-    const double deviation = sqrt(s->square / freedom * (1.0 + correlation) / (1.0 - correlation));
-    for (size_t k = 0; k < fit->count; ++k)
-        fit->parameter[k].std_error *= deviation;
+    return sqrt(s->square / freedom * (1.0 + correlation) / (1.0 - correlation));
+}
+
+/* ---- what the recordings do not tell ---- */
+
+static bool is_coulomb(const model *m, size_t term)
+{
+    for (size_t k = 0; k < m->list.count; ++k) {
+        const hci_effect *e = &m->effect[k];
+        if (e->type->coulomb_Nm && e->term >= m->term && e->term <= m->term + term && m->term + term < e->term + e->count)
+            return strcmp(e->type->parameter[m->term[term].parameter].name, "coulomb") == 0;
+    }
+    return false;
+}
+
+/* What doubts are measured by. */
+typedef struct {
+    double rms_Nm;    /* of what stays */
+    double deviation; /* by which standard errors are wider than those for residuals of a deviation of 1 */
+    double samples;
+} yardstick;
+
+/* Where terms are as declared: by what the first step is expected to leave, whose correlation is not known. */
+static yardstick before(const model *m, const place *p, size_t samples)
+{
+    const sums s = {.square = fmax(p->sweep.square, 0.0)};
+    return (yardstick){sqrt(s.square / (double)samples), deviation_of(&s, samples, m->terms), (double)samples};
+}
+
+static yardstick after(const model *m, const place *p, size_t samples)
+{
+    return (yardstick){sqrt(p->s.square / (double)samples), deviation_of(&p->s, samples, m->terms), (double)samples};
+}
+
+/* By how much a term is beyond belief; up to 1 it is believed. Its standard error moves the torque by more than the rms of what
+ * stays, or is larger than the values that there are; or it is a friction that drives. */
+static double doubt(const model *m, const hci_sweep *sweep, const yardstick *by, size_t term)
+{
+    const double std_error = by->deviation * sqrt(sweep->a[term * sweep->n + term]);
+    const double as_torque = std_error * sqrt(sweep->diagonal[term] / by->samples);
+    double worst = by->rms_Nm > 0.0 ? as_torque / by->rms_Nm : 0.0;
+    if (m->expected[term] > 0.0) worst = fmax(worst, std_error / m->expected[term]);
+    if (is_coulomb(m, term) && std_error > 0.0)
+        worst = fmax(worst, -(m->coulomb_Nm + m->term[term].value) / (3.0 * std_error));
+    return worst;
+}
+
+#define ALIKE 0.3 /* terms that one direction confounds have doubts alike; the one that is listed last goes */
+
+/* Leaves out the term that is told least. False: all are told. */
+static bool leave_out(model *m, const hci_sweep *sweep, const yardstick *by)
+{
+    double most = 1.0;
+    size_t last = m->terms;
+    for (size_t k = 0; k < m->terms; ++k)
+        if (sweep->in[k]) most = fmax(most, doubt(m, sweep, by, k));
+    for (size_t k = 0; k < m->terms; ++k)
+        if (sweep->in[k] && doubt(m, sweep, by, k) > fmax(1.0, ALIKE * most)) last = k;
+    if (last == m->terms) return false;
+    m->is_left_out[last] = true;
+    return true;
+}
+
+/* The terms that can be told where they are as declared. */
+static void leave_out_first(model *m, place *p, size_t samples)
+{
+    for (;;) {
+        const yardstick by = before(m, p, samples);
+        if (!leave_out(m, &p->sweep, &by)) return;
+        for (size_t k = 0; k < m->terms; ++k)
+            if (m->is_left_out[k]) hci_sweep_out(&p->sweep, k);
+    }
+}
+
+/* Where no least error is found: the last term in which the torque is not linear. False: none is left. */
+static bool leave_out_curved(model *m, const hci_sweep *sweep)
+{
+    for (size_t k = m->list.count; k-- > 0;) {
+        const hci_effect *e = &m->effect[k];
+        if (e->term < m->term || e->term >= m->term + m->terms) continue; /* declared */
+        for (size_t j = e->count; j-- > 0;) {
+            const size_t term = (size_t)(e->term - m->term) + j;
+            if (!sweep->in[term] || (e->type->parameter[e->term[j].parameter].traits & HCI_PARAMETER_LINEAR)) continue;
+            m->is_left_out[term] = true;
+            return true;
+        }
+    }
+    return false;
 }
 
 /* ---- all of it ---- */
 
+/* From what is declared to the least error, by the terms that are not left out. */
+static hci_status fit_once(const data *d, model *m, place *p, hci_fleet_fit *fit, hci_note *note)
+{
+    for (size_t k = 0; k < m->terms; ++k)
+        m->term[k].value = 0.0;
+    release_place(p);
+    hci_status status = look(d, m, p, note);
+    if (status) return status;
+    if (!isfinite(p->s.square)) return hci_note_set(note, HCI_ERROR_NUMERIC, "the terms in common cannot be fitted");
+    fit->rms_before_Nm = sqrt(p->s.square / (double)d->samples);
+    leave_out_first(m, p, d->samples);
+    return descend(d, m, p, &fit->is_found, note);
+}
+
+static void keep_declared(hci_fleet_fit *fit)
+{
+    fit->rms_after_Nm = NAN;
+    for (size_t k = 0; k < fit->count; ++k)
+        fit->parameter[k].value = fit->parameter[k].std_error = NAN;
+    hci_note_add(&fit->remark, "the error cannot be brought to its least value, and the declared values stay: `check` the recordings, or `diagnose` them");
+}
+
 static hci_status take_steps(const data *d, model *m, hci_fleet_fit *fit, hci_note *note)
 {
-    hci_sweep sweep = {0};
-    sums s = {0};
-    hci_status status = HCI_OK;
-    for (int k = 0; k < STEPS && !status; ++k) {
-        hci_sweep_release(&sweep);
-        status = step(d, m, &sweep, &s, note);
-        if (k == 0) fit->rms_before_Nm = sqrt(s.square / (double)d->samples);
-    }
-    if (!status) status = sum_up(d, m, &s, note);
-    hci_normal_equations_release(&s.normal);
-    if (!status && !isfinite(s.square))
-        status = hci_note_set(note, HCI_ERROR_NUMERIC, "the terms in common cannot be fitted");
-    if (!status) {
-        fit->rms_after_Nm = sqrt(s.square / (double)d->samples);
-        list_values(m, &sweep, fit);
-        widen(&s, d->samples, m->terms, fit);
-    }
-    hci_sweep_release(&sweep);
+    place p = {0};
+    hci_status status;
+    bool is_again;
+    do {
+        status = fit_once(d, m, &p, fit, note);
+        const yardstick by = after(m, &p, d->samples);
+        is_again = !status && (fit->is_found ? leave_out(m, &p.sweep, &by) : leave_out_curved(m, &p.sweep));
+    } while (is_again);
+    if (!status) list_values(m, &p.sweep, fit);
+    if (!status) fit->rms_after_Nm = sqrt(p.s.square / (double)d->samples);
+    for (size_t k = 0; k < fit->count && !status; ++k)
+        fit->parameter[k].std_error *= deviation_of(&p.s, d->samples, m->terms);
+    if (!status && !fit->is_found) keep_declared(fit);
+    release_place(&p);
     return status;
+}
+
+/* ---- which recordings are used ---- */
+
+/* Why a run cannot be fitted; NULL: it can. */
+static const char *reason_against(const hci_run *r)
+{
+    if (r->torque_source == HCI_TORQUE_HOLDING) return "a turn that is held, whose current is the reading";
+    if (r->torque_source != HCI_TORQUE_MEASURED) return "without a measured torque";
+    if (!r->theta_m_rad) return "without an angle";
+    return r->mean_is_unknown ? "with an unknown constant load" : NULL;
+}
+
+/* Those that are left out: how many of how many, and the first. */
+static void remark_unused(const hci_runs *runs, hci_fleet_fit *fit)
+{
+    const hci_run *first = NULL;
+    for (size_t k = 0; k < runs->count; ++k) {
+        if (runs->role[k] != HCI_ROLE_FIT) continue;
+        ++fit->recordings;
+        if (!reason_against(&runs->run[k])) continue;
+        ++fit->recordings_unused;
+        if (!first) first = &runs->run[k];
+    }
+    if (first)
+        hci_note_add(&fit->remark, "%zu of %zu recordings are not used; the first, %.200s, is %s", fit->recordings_unused, fit->recordings,
+                     first->name, reason_against(first));
+}
+
+/* Rows of the recordings in use that are not among their samples. */
+static void remark_holes(const hci_runs *runs, hci_fleet_fit *fit)
+{
+    for (size_t k = 0; k < runs->count; ++k) {
+        const hci_run *r = &runs->run[k];
+        if (runs->role[k] == HCI_ROLE_FIT && !reason_against(r) && r->row && r->count > 0)
+            fit->rows_unused += r->row[r->count - 1] + 1 - r->count;
+    }
+    if (fit->rows_unused > 0)
+        hci_note_add(&fit->remark, "%zu rows of the recordings have a hole or repeat the one before, and are not used", fit->rows_unused);
 }
 
 static hci_status read_run(const hci_machine_data *machine, const hci_runs *runs, size_t k, data *d,
                            hci_note *note)
 {
     const hci_run *r = &runs->run[k];
-    if (runs->role[k] != HCI_ROLE_FIT || r->torque_source != HCI_TORQUE_MEASURED || !r->theta_m_rad ||
-        r->mean_is_unknown)
-        return HCI_OK;
+    if (runs->role[k] != HCI_ROLE_FIT || reason_against(r)) return HCI_OK;
     d->reading[k] = hci_memory_new(r->count, sizeof *d->reading[k]);
     if (!d->reading[k]) return hci_note_memory(note, r->name, "its samples");
     d->samples += r->count;
@@ -255,6 +460,8 @@ hci_status hci_fleet_fit_runs(const hci_machine_data *machine, const hci_effects
                               "%s: found no run to be fitted with an angle and a measured torque; expected one "
                               "at least",
                               runs->list ? runs->list : "recordings");
+    remark_unused(runs, fit);
+    remark_holes(runs, fit);
     make_model(&machine->model, declared, &m);
     if (!status) status = take_steps(&d, &m, fit, note);
     fit->samples = d.samples;

@@ -19,6 +19,11 @@ char *hci_fleet_fit_json(const hci_fleet_fit *fit)
     hci_json json;
     hci_summary_begin(&json, "fit");
     hci_json_number(&json, "samples", (double)fit->samples);
+    hci_json_number(&json, "recordings", (double)fit->recordings);
+    hci_json_number(&json, "recordings_unused", (double)fit->recordings_unused);
+    hci_json_number(&json, "rows_unused", (double)fit->rows_unused);
+    hci_json_text(&json, "remark", fit->remark.text);
+    hci_json_bool(&json, "found", fit->is_found);
     hci_json_number(&json, "rms_before_Nm", fit->rms_before_Nm);
     hci_json_number(&json, "rms_after_Nm", fit->rms_after_Nm);
     hci_json_array(&json, "parameters");

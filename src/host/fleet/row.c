@@ -33,7 +33,11 @@ static const figure FIGURES[][8] = {
                          {"worst_order", "torque", "worst_order"},
                          {"peak_phase_A", "current", "peak_phase_A"},
                          {"loss_ratio_to_plain", "current", "loss_ratio_to_plain"}},
-    [HCI_FLEET_FIT] = {{"rms_before_Nm", NULL, "rms_before_Nm"}, {"rms_after_Nm", NULL, "rms_after_Nm"}},
+    [HCI_FLEET_FIT] = {{"samples", NULL, "samples"},
+                       {"recordings_unused", NULL, "recordings_unused"},
+                       {"rows_unused", NULL, "rows_unused"},
+                       {"rms_before_Nm", NULL, "rms_before_Nm"},
+                       {"rms_after_Nm", NULL, "rms_after_Nm"}},
 };
 
 static bool has_effects(hci_fleet_command command)
@@ -69,6 +73,15 @@ static void put_verdict(const hci_words *row, hci_fleet_command command, const c
         snprintf(text, sizeof text, "%s", reached ? "reached" : "not reached");
     else if (summary)
         (void)hci_json_find_text(summary, NULL, "verdict", text, sizeof text);
+    put_text(row, text);
+}
+
+/* Why there is no result, or what a fit says of the recordings. */
+static void put_reason(const hci_words *row, const hci_fleet_outcome *outcome, const char *summary)
+{
+    char text[HCI_FLEET_REASON_SIZE];
+    snprintf(text, sizeof text, "%s", outcome->reason);
+    if (summary && text[0] == '\0') (void)hci_json_find_text(summary, NULL, "remark", text, sizeof text);
     put_text(row, text);
 }
 
@@ -129,7 +142,7 @@ void hci_fleet_row_make(const hci_fleet_results *results, size_t motor, const hc
     if (outcome->exit_code >= 0) hci_words_say(&row, "%d", outcome->exit_code);
     hci_words_say(&row, ",");
     put_verdict(&row, results->command, summary);
-    put_text(&row, outcome->reason);
+    put_reason(&row, outcome, summary);
     put_effects(&row, results->command, has_result ? part : "");
     for (const figure *f = FIGURES[results->command]; f->column; ++f)
         put_figure(&row, summary, f);
