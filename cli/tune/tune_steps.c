@@ -360,12 +360,66 @@ static bool has_no_current(const cli_tuning *t, const hci_run *r)
     return r->theta_m_rad && mean_vector(r) < NOISE_OF_MEAN * rms_A / sqrt((double)r->count);
 }
 
+/* Of the voltages, that of currents may drop and no more. */
+#define DROP 0.01
+
+/* Times what chance makes two recordings of noise have in common. */
+#define CHANCE 3.0
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* Of three phases, without what they have in common. */
+static void star(const double phase[3], double without[3])
+{
+    for (int s = 0; s < 3; ++s)
+        without[s] = phase[s] - (phase[0] + phase[1] + phase[2]) / 3.0;
+}
+
+/* The part of the voltages that follows the current, in phase with it or a quarter of a turn off, from 0 to 1:
+ * at least the share of what the current drops in an unknown resistance, as long as the current itself is not
+ * noise. */
+static double share_that_follows(const hci_run *r)
+{
+    double v[3], i[3], along = 0.0, across = 0.0, vv = 0.0, ii = 0.0;
+    for (size_t k = 0; k < r->count; ++k) {
+        star(r->v_V + 3 * k, v);
+        star(r->i_A + 3 * k, i);
+        const double quarter[3] = {(i[1] - i[2]) / sqrt(3.0), (i[2] - i[0]) / sqrt(3.0),
+                                   (i[0] - i[1]) / sqrt(3.0)};
+        along += dot(v, i), across += dot(v, quarter);
+        vv += dot(v, v), ii += dot(i, i);
+    }
+    return vv * ii > 0.0 ? hypot(along, across) / sqrt(vv * ii) : 0.0;
+}
+
+static double rms_voltage(const hci_run *r)
+{
+    double v[3], sum = 0.0;
+    for (size_t k = 0; k < r->count; ++k) {
+        star(r->v_V + 3 * k, v);
+        sum += dot(v, v);
+    }
+    return sqrt(sum / (3.0 * (double)r->count));
+}
+
+/* Whether what the currents drop cannot matter in the voltages: by a known resistance, or because the voltages
+ * do not follow the currents. */
+static bool drops_nothing(const cli_tuning *t, const hci_run *r)
+{
+    const double ohm = t->declared.resistance_ohm;
+    if (ohm > 0.0 && ohm * rms_of(r) <= DROP * rms_voltage(r)) return true;
+    return share_that_follows(r) <= DROP + CHANCE / sqrt(2.0 * (double)r->count);
+}
+
 /* Whether a recording is one for the quantity. Cogging torque that a sensor has measured is left to diagnose,
  * which finds it in all recordings at once and knows what they leave open of it: from one of them alone it is
  * off by more than what would be stated. */
 static bool is_for(const cli_tuning *t, const hci_run *r, hci_waveform_quantity quantity)
 {
-    if (quantity == HCI_WAVEFORM_BACK_EMF) return r->v_V && has_no_current(t, r);
+    if (quantity == HCI_WAVEFORM_BACK_EMF) return r->v_V && has_no_current(t, r) && drops_nothing(t, r);
     return r->torque_source == HCI_TORQUE_HOLDING;
 }
 
@@ -390,6 +444,15 @@ static void say_waveform(cli_tuning *t, size_t run, const hci_waveform *w)
     }
 }
 
+/* Times the back-EMF of the data sheet, of what was measured. */
+static double to_sheet(const cli_tuning *t, const hci_waveform *w)
+{
+    for (size_t k = 0; k < w->count; ++k)
+        if (fabs(w->order[k].order - 1.0) < HCI_ORDER_TOLERANCE)
+            return 1.5 * w->order[k].amplitude / t->reading.run.torque_constant_Nm_per_A;
+    return 1.0;
+}
+
 /* Puts it into the machine in place of what the data sheet gave. */
 static hci_status take_waveform(cli_tuning *t, size_t k, const hci_waveform *w, bool is_far, hci_note *note)
 {
@@ -411,6 +474,7 @@ static hci_status take_waveform(cli_tuning *t, size_t k, const hci_waveform *w, 
     add(&c, t->machine);
     say_waveform(t, k, w);
     *(is_emf ? &t->has_emf : &t->has_cogging) = true;
+    if (is_emf) t->emf_to_sheet = to_sheet(t, w);
     const hci_status status = run(t, t->commands.harmonics, &c, note);
     return status ? status : read_inputs(t, note);
 }
@@ -454,11 +518,26 @@ static hci_status find_waveform(cli_tuning *t, size_t k, hci_waveform_quantity q
     *found = !status && w.kept > 0;
     if (status) hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN, "%s", why.text);
     status = *found ? take_waveform(t, k, &w, is_far, note) : HCI_OK;
+    if (quantity == HCI_WAVEFORM_COGGING && *found) t->cogging_reach = (double)w.count * w.step;
     if (*found && quantity == HCI_WAVEFORM_COGGING && !status) {
         t->cogging = w;
     } else
         hci_waveform_release(&w);
     return status;
+}
+
+/* Voltages that nothing was taken from. */
+static void say_not_open(cli_tuning *t)
+{
+    for (size_t k = 0; k < t->runs.count && !t->has_emf; ++k) {
+        const hci_run *r = &t->runs.run[k];
+        if (!r->v_V || is_for(t, r, HCI_WAVEFORM_BACK_EMF)) continue;
+        hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
+                       "The back-EMF is not taken from the voltages of %s: currents of %.3g A rms flow, and "
+                       "%.0f %% of the voltage follows them. Record voltages with open terminals, turned by "
+                       "another motor.",
+                       name_of(t, k), rms_of(r), 100.0 * share_that_follows(r));
+    }
 }
 
 /* Of each quantity the first recording that shows it. */
@@ -472,6 +551,7 @@ hci_status cli_tune_waveforms(cli_tuning *t, hci_note *note)
             if (is_for(t, &t->runs.run[k], QUANTITIES[q]))
                 status = find_waveform(t, k, QUANTITIES[q], &found, note);
     }
+    if (!status && t->is_own && !t->has_slip && !t->has_unsteady) say_not_open(t);
     return status;
 }
 
@@ -660,6 +740,19 @@ hci_status cli_tune_solve(cli_tuning *t, hci_note *note)
 
 /* ---- table ---- */
 
+/* Electrical turns of the table that was emitted, as its header states them; 0: it does not. */
+static unsigned long turns_of_table(const char *folder, const char *name)
+{
+    char path[2 * CLI_TUNE_PATH], line[512];
+    unsigned long turns = 0;
+    snprintf(path, sizeof path, "%s/%s.h", folder, name);
+    FILE *f = fopen(path, "r");
+    while (f && turns == 0 && fgets(line, sizeof line, f))
+        if (sscanf(line, " * Angle: uint32_t, 2^32 = %lu electrical turn", &turns) != 1) turns = 0;
+    if (f) fclose(f);
+    return turns;
+}
+
 hci_status cli_tune_emit(cli_tuning *t, hci_note *note)
 {
     const char *name = t->arguments->value[TUNE_NAME] ? t->arguments->value[TUNE_NAME] : "tuned";
@@ -673,13 +766,14 @@ hci_status cli_tune_emit(cli_tuning *t, hci_note *note)
     const hci_status status = run(t, t->commands.emit, &c, note);
     if (status) return status;
     t->is_emitted = true;
+    const unsigned long turns = turns_of_table(folder, name);
     hci_tuning_say(&t->tuning, HCI_TUNING_LOAD,
                    "%s/%s.h and %s.c need hci/table.h alone: `hci_currents_dq i = hci_table_f32_dq(&%s, "
                    "angle);`, where 2^32 of "
-                   "the angle is one electrical turn from the zero of the logs. They are the whole reference "
-                   "for %.4g N·m "
-                   "(docs/controller.md).",
-                   folder, name, name, name, t->mean_Nm);
+                   "the angle is %lu electrical turn%s from the zero of the logs%s. They are the whole "
+                   "reference for %.4g N·m (docs/controller.md).",
+                   folder, name, name, name, turns, turns == 1 ? "" : "s",
+                   turns == 1 ? "" : ", not one: the angle goes on from turn to turn", t->mean_Nm);
     hci_tuning_say(&t->tuning, HCI_TUNING_LOAD,
                    "For a drive whose firmware is somebody else's: hci-solve emit %s --name %s --for "
                    "simplefoc --machine %s -o %s, or another one of docs/drives.",

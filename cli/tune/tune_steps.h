@@ -37,6 +37,8 @@ typedef struct {
     bool has_slip, has_emf, has_cogging; /* check found one; they were measured without load */
     bool has_diagnosis;                  /* diagnose had something to do */
     bool has_unsteady;                   /* a slow turn sticks and slips */
+    double emf_to_sheet;                 /* has_emf: the measured back-EMF to that of the data sheet */
+    double cogging_reach;                /* order up to which a holding test was looked at; 0: none */
     hci_waveform cogging;                /* of a holding test; empty: none */
     bool has_load;                       /* a recording has a torque sensor and a mean torque */
     double mean_Nm;                      /* that is solved for */

@@ -25,8 +25,51 @@ static bool knows_zero(const cli_tuning *t)
     return knows;
 }
 
+/* Of the data sheet, that a measured back-EMF may be off and not be a contradiction. */
+#define OFF_SHEET 0.15
+
+static bool is_off_sheet(const cli_tuning *t)
+{
+    return t->has_emf && fabs(t->emf_to_sheet - 1.0) > OFF_SHEET;
+}
+
+/* The electrical order of the cogging torque of slots and poles; 0: the slots are not given. */
+static double order_of_slots(const cli_tuning *t)
+{
+    const long slots = lround(t->declared.slots), poles = 2L * t->declared.model.pole_pairs;
+    long a = slots, b = poles;
+    if (!(t->declared.slots > 0.0) || slots < 1) return 0.0;
+    while (b > 0) {
+        const long rest = a % b;
+        a = b, b = rest;
+    }
+    return 2.0 * (double)(slots / a);
+}
+
+/* Whether slots and poles say of cogging torque where the logs were not looked at. */
+static bool misses_slots(const cli_tuning *t)
+{
+    return t->cogging_reach > 0.0 && order_of_slots(t) > t->cogging_reach + HCI_ORDER_TOLERANCE;
+}
+
+static void say_limits(cli_tuning *t)
+{
+    if (is_off_sheet(t))
+        hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
+                       "Which back-EMF is right: the measured one is %.3g times that of the data sheet, and "
+                       "was taken. Check Kv and what it is of, the pole pairs, and that nothing drove a "
+                       "current.",
+                       t->emf_to_sheet);
+    if (misses_slots(t))
+        hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
+                       "The cogging torque of slots and poles, order %.5g: orders above %.5g were not looked "
+                       "at, since the samples lie too far apart. Turn more slowly, or log more often.",
+                       order_of_slots(t), t->cogging_reach);
+}
+
 static void say_unknown(cli_tuning *t)
 {
+    say_limits(t);
     if (t->is_own && !t->has_emf && !t->has_load)
         hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
                        "The torque per ampere and the back-EMF are those of the data sheet; voltages of the "
@@ -148,6 +191,19 @@ static void set_heading(cli_tuning *t)
                  before_Nm, after_Nm, limit);
 }
 
+/* What a reader of the heading alone has to know. */
+static void add_to_heading(cli_tuning *t)
+{
+    char *heading = t->tuning.heading;
+    const size_t size = sizeof t->tuning.heading;
+    if (is_off_sheet(t))
+        snprintf(heading + strlen(heading), size - strlen(heading),
+                 "; the measured back-EMF is %.3g times that of the data sheet", t->emf_to_sheet);
+    if (misses_slots(t))
+        snprintf(heading + strlen(heading), size - strlen(heading),
+                 "; order %.5g, which slots and poles make, was not looked at", order_of_slots(t));
+}
+
 void cli_tune_conclude(cli_tuning *t)
 {
     hci_tuning *r = &t->tuning;
@@ -177,6 +233,7 @@ void cli_tune_conclude(cli_tuning *t)
     else
         snprintf(r->heading, sizeof r->heading,
                  "The logs tell neither cogging torque nor back-EMF, so nothing was solved");
+    add_to_heading(t);
 }
 
 /* ---- words ---- */

@@ -74,6 +74,8 @@ awk 'BEGIN { srand(3); print "theta_e_rad,speed_rad_per_s,va_V,vb_V,vc_V,ia_A,ib
             0.02 * (rand() - 0.5), 0.02 * (rand() - 0.5), 0.02 * (rand() - 0.5) } }' >open.csv
 run 1 tune open.csv --pole-pairs 7 --flux 0.0142857 -o open
 says 'order 5: 0\.005 ± ' 'what 1 A makes' 'No recording tells of the cogging torque'
+run 1 tune open.csv --pole-pairs 7 --flux 0.02 -o half
+says '^tuned.*; the measured back-EMF is 0\.71[0-9]* times that of the data sheet' 'Which back-EMF is right: ' 'order 1: 0\.1 ± '
 awk -F, 'NR > 1 { print $2, $7 }' OFS=, idle.csv | sed '1i theta_m_rad,torque_Nm' >torque.csv
 run 1 tune torque.csv --poles 12 --slots 12 --flux 0.0142857 -o slip
 says '^a convention is broken: ' 'slip: '
@@ -94,6 +96,18 @@ check "not said: turned slowly forward and back" grep -q 'turned slowly forward 
 says '^tuned: .*in the model with a sine as back-EMF: harmonics of the real one.* are not known$' \
     'Where the electrical zero is: ' '  order 12: 0\.02[0-9]* ± ' '--max-order 60'
 check "cogging torque is found twice: $(grep -c 'cogging' "$work/stdout")" [ "$(grep -c '^  order 12: ' "$work/stdout")" = 0 ]
+check "the table's period is not said" grep -q "the angle is $(sed -n 's/.*2^32 = \([0-9]* electrical turns*\).*/\1/p' slow/table/tuned.h) from" slow/summary.json
+# voltages that are mostly what the current drops are no back-EMF, rated for much or not
+awk -F';' -v OFS=';' '{ print $0, NR == 1 ? "d_axis_voltage;q_axis_voltage" : "0;" 0.5 * $3 + $2 / 66.84507 * 0.08 }' slow.csv >volts.csv
+run 0 tune volts.csv --pole-pairs 7 --kv 120 --slots 12 --rated-current 20 -o volts
+says '^tuned: .*in the model with a sine as back-EMF: ' 'The back-EMF is not taken from the voltages of volts.csv: '
+check "not said what follows the current, nor what to record" grep -q 'and [89][0-9] % of the voltage follows them\. Record voltages with open terminals' volts/summary.json
+check "a back-EMF from a driven machine" [ "$(grep -c back_emf volts/commands.sh)" -eq 0 ]
+check "orders that were looked at are said to be not" [ "$(grep -c 'was not looked at' volts/summary.json)" -eq 0 ]
+# polled so slowly that the order of slots and poles is out of reach
+awk 'NR % 20 == 1' slow.csv >sparse.csv
+run 0 tune sparse.csv --pole-pairs 7 --kv 120 --slots 12 -o sparse
+says '^tuned: .*; order 12, which slots and poles make, was not looked at$' 'The cogging torque of slots and poles, order 12: orders above 1\.2857 were not'
 slow_turn jerks.csv 0.9
 run 1 tune slow.csv jerks.csv --pole-pairs 7 --kv 120 -o jerks
 says '^the shaft sticks and slips: ' 'varies by [0-9]+ % rms' 'What of the current in jerks.csv answers cogging torque' 'Turn the shaft evenly'
