@@ -27,6 +27,7 @@ typedef enum {
     EMIT_COUNTS,
     EMIT_WAVE,
     EMIT_BLOB,
+    EMIT_ANGLE_OF_LOGS,
     EMIT_ORDER_BASE,
     EMIT_OUT,
     EMIT_COMMON /* those of all commands begin here */

@@ -378,9 +378,9 @@ static void star(const double phase[3], double without[3])
         without[s] = phase[s] - (phase[0] + phase[1] + phase[2]) / 3.0;
 }
 
-/* The part of the voltages that follows the current, in phase with it or a quarter of a turn off, from 0 to 1:
- * at least the share of what the current drops in an unknown resistance, as long as the current itself is not
- * noise. */
+/* The part of the voltages that follows the current, in phase with it or a quarter of a turn off, from 0 to
+ * 1: at least the share of what the current drops in an unknown resistance, as long as the current itself is
+ * not noise. */
 static double share_that_follows(const hci_run *r)
 {
     double v[3], i[3], along = 0.0, across = 0.0, vv = 0.0, ii = 0.0;
@@ -405,8 +405,8 @@ static double rms_voltage(const hci_run *r)
     return sqrt(sum / (3.0 * (double)r->count));
 }
 
-/* Whether what the currents drop cannot matter in the voltages: by a known resistance, or because the voltages
- * do not follow the currents. */
+/* Whether what the currents drop cannot matter in the voltages: by a known resistance, or because the
+ * voltages do not follow the currents. */
 static bool drops_nothing(const cli_tuning *t, const hci_run *r)
 {
     const double ohm = t->declared.resistance_ohm;
@@ -753,6 +753,17 @@ static unsigned long turns_of_table(const char *folder, const char *name)
     return turns;
 }
 
+bool cli_tune_knows_zero(const cli_tuning *t)
+{
+    bool knows = !t->is_own || t->has_load;
+    for (size_t k = 0; k < t->runs.count; ++k) {
+        const hci_run *r = &t->runs.run[k];
+        const bool has_phases = r->v_V && r->theta_m_rad && !r->voltage_is_dq;
+        knows = knows || r->is_electrical || (t->has_emf && has_phases);
+    }
+    return knows;
+}
+
 hci_status cli_tune_emit(cli_tuning *t, hci_note *note)
 {
     const char *name = t->arguments->value[TUNE_NAME] ? t->arguments->value[TUNE_NAME] : "tuned";
@@ -763,6 +774,7 @@ hci_status cli_tune_emit(cli_tuning *t, hci_note *note)
     path_in(t, "diagnose/machine", machine);
     command_line c = {{"emit", currents, "--name", name, "--frame", "dq", "--machine", machine, "-o", folder},
                       10};
+    if (!cli_tune_knows_zero(t)) add_option(&c, "angle-of-logs", NULL);
     const hci_status status = run(t, t->commands.emit, &c, note);
     if (status) return status;
     t->is_emitted = true;

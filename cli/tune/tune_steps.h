@@ -64,6 +64,9 @@ hci_status cli_tune_emit(cli_tuning *tune, hci_note *note);
 /* Whether there is anything to solve with: no slip, no slow turn that sticks, and something was measured. */
 bool cli_tune_can_solve(const cli_tuning *tune);
 
+/* Whether a recording tells where the electrical angle is 0: not by v_d and v_q. */
+bool cli_tune_knows_zero(const cli_tuning *tune);
+
 void cli_tune_release(cli_tuning *tune);
 
 #endif

@@ -16,15 +16,6 @@
 
 /* ---- what is concluded ---- */
 
-/* Whether a recording tells where the electrical angle is 0. */
-static bool knows_zero(const cli_tuning *t)
-{
-    bool knows = !t->is_own || t->has_load;
-    for (size_t k = 0; k < t->runs.count; ++k)
-        knows = knows || t->runs.run[k].is_electrical || (t->runs.run[k].v_V && t->runs.run[k].theta_m_rad);
-    return knows;
-}
-
 /* Of the data sheet, that a measured back-EMF may be off and not be a contradiction. */
 #define OFF_SHEET 0.15
 
@@ -74,11 +65,13 @@ static void say_unknown(cli_tuning *t)
         hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
                        "The torque per ampere and the back-EMF are those of the data sheet; voltages of the "
                        "open machine, driven by another, would tell them.");
-    if (!knows_zero(t))
+    if (!cli_tune_knows_zero(t))
         hci_tuning_say(
             &t->tuning, HCI_TUNING_UNKNOWN,
             "Where the electrical zero is: the logs have the angle of an encoder, whose zero is "
-            "taken for that of the back-EMF of phase a. The dq table answers cogging torque at the "
+            "taken for that of the back-EMF of phase a; v_d and v_q, turned by the same angle, do not "
+            "tell it. The angle of the table is that of the logs, and its header says so. The dq table "
+            "answers cogging torque at the "
             "right angle of the encoder whatever the zero, as long as the drive's own angle makes "
             "the phase currents; harmonics of the back-EMF and tables of phase currents need it "
             "(docs/tutorials/zero.md).");

@@ -103,6 +103,11 @@ run 0 tune volts.csv --pole-pairs 7 --kv 120 --slots 12 --rated-current 20 -o vo
 says '^tuned: .*in the model with a sine as back-EMF: ' 'The back-EMF is not taken from the voltages of volts.csv: '
 check "not said what follows the current, nor what to record" grep -q 'and [89][0-9] % of the voltage follows them\. Record voltages with open terminals' volts/summary.json
 check "a back-EMF from a driven machine" [ "$(grep -c back_emf volts/commands.sh)" -eq 0 ]
+for folder in slow volts; do
+    check "whose zero the angle of $folder has" grep -q 'the zero of the logs, which do not tell where phase' $folder/table/tuned.h
+    check "the header says a zero that nobody knows" [ "$(grep -c 'the rising zero crossing of the fundamental' $folder/table/tuned.h)" -eq 0 ]
+    check "the report of $folder does not say that the zero is not known" grep -q 'Where the electrical zero is: ' $folder/summary.json
+done
 check "orders that were looked at are said to be not" [ "$(grep -c 'was not looked at' volts/summary.json)" -eq 0 ]
 # polled so slowly that the order of slots and poles is out of reach
 awk 'NR % 20 == 1' slow.csv >sparse.csv

@@ -68,10 +68,16 @@ void hci_emission_angle(const hci_emission *e, hci_output *out)
     const size_t turns = e->tabulation.period_turns;
     hci_output_text(
         out,
-        " * Angle:  uint32_t, 2^32 = %zu electrical turn%s%s. theta = pole pairs * mechanical angle is 0 at\n"
-        " *         the rising zero crossing of the fundamental of phase a's back-EMF and grows with\n"
+        " * Angle:  uint32_t, 2^32 = %zu electrical turn%s%s. theta = pole pairs * mechanical angle is 0 %s\n"
         " *         rotation a-b-c, the direction of positive torque.\n",
-        turns, plural(turns), turns == 1 ? "" : " (period_turns)");
+        turns, plural(turns), turns == 1 ? "" : " (period_turns)",
+        e->request->facts.angle_of_logs
+            ? "at\n"
+              " *         the zero of the logs, which do not tell where phase a's back-EMF crosses zero: it "
+              "was\n"
+              " *         taken to rise through zero there. theta grows with"
+            : "at\n"
+              " *         the rising zero crossing of the fundamental of phase a's back-EMF and grows with");
     if (turns > 1)
         hci_output_text(
             out,

@@ -384,7 +384,8 @@ static hci_status read_currents(reader *r)
 static hci_status read_dq_voltages(reader *r)
 {
     const bool given = hci_run_phase_count(&r->columns, HCI_RUN_VA) < 2 && has(r, HCI_RUN_VQ);
-    return given && r->run->theta_m_rad != NULL ? read_dq(r, HCI_RUN_VD, HCI_RUN_VQ, &r->run->v_V) : HCI_OK;
+    r->run->voltage_is_dq = given && r->run->theta_m_rad != NULL;
+    return r->run->voltage_is_dq ? read_dq(r, HCI_RUN_VD, HCI_RUN_VQ, &r->run->v_V) : HCI_OK;
 }
 
 static hci_status read_voltages(reader *r)

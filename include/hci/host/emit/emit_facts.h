@@ -2,6 +2,7 @@
 #ifndef HCI_HOST_EMIT_EMIT_FACTS_H
 #define HCI_HOST_EMIT_EMIT_FACTS_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "hci/host/machine/machine.h"
@@ -18,6 +19,8 @@ typedef struct {
     double rated_speed_rad_per_s;   /* mechanical; 0: not known */
     double emf_per_kelvin;          /* relative change of the back-EMF where magnets are hot; 0: not known */
     double magnets_C;               /* temperature of the declared back-EMF; with emf_per_kelvin */
+    bool angle_of_logs;             /* theta is that of the recordings, whose zero is not known to be that of
+                                     * the back-EMF */
 } hci_emit_facts;
 
 /* What the folder of a machine says, as hci_machine_read has read it; mean_torque_Nm stays. HCI_ERROR_INPUT,

@@ -45,6 +45,7 @@ typedef struct {
     bool is_electrical;   /* an electrical angle was recorded; else its zero is supposed to be that of the
                            * mechanical one */
     bool zero_is_unknown; /* the angle is the integral of the speed, from 0 */
+    bool voltage_is_dq;   /* v_V was v_d and v_q, turned by the recorded angle: says nothing of its zero */
     bool only_mean;       /* no angle, but torques over i_d and i_q: means over a turn. i_A is of angle 0 */
     bool mean_is_unknown; /* a constant load stands in torque_Nm too: only what varies says something */
     bool has_sum;         /* all three currents were recorded, so that their sum says something */
