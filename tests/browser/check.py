@@ -91,7 +91,7 @@ def is_readable(browser, url):
     yield from (f"cannot be scrolled by keys, or has no name: {text}" for text in found["unreachable"])
     if found["headings"]:
         yield "headings are not in order"
-    if found["count"] < 3:
+    if found["count"] < 2:
         yield f"{found['count']} pictures"
     yield from stops(browser, found["stops"])
 
