@@ -66,7 +66,7 @@ static hci_status fill(hci_dataset *b, const hci_runs *runs, hci_attribution *a,
     hci_unexplained_fill(b, a, d);
     hci_candidates_remove_type(&a->model.candidates, &hci_empirical_type);
     hci_status status = effects_fill(&b->regression, &a->model.candidates, d, note);
-    if (!status && !a->unknown)
+    if (!status && !a->unknown && a->ended == HCI_WORK_COMPLETE) /* of a model that had no rival: no bound */
         status = hci_uncertainty_find(&b->regression, &a->model.candidates, &d->uncertainty, note);
     if (!status) status = hci_run_errors_fill(b, runs, a->model.fit.parameters, d, note);
     if (!status) hci_findings_fill(a, d);

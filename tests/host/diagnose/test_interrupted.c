@@ -56,6 +56,7 @@ static void test_until_the_end(void)
     TEST_ASSERT_EQUAL_INT(HCI_FINDING_ADDED, found("cogging")->verdict);
     TEST_ASSERT_EQUAL_INT(HCI_FINDING_ADDED, found("friction")->verdict);
     TEST_ASSERT_FALSE(says("interrupted"));
+    TEST_ASSERT_TRUE(diagnosis.uncertainty.machines > 0);
 }
 
 static void test_at_any_time(void)
@@ -74,6 +75,7 @@ static void test_at_any_time(void)
         TEST_ASSERT_EQUAL_UINT64(4, diagnosis.runs);
         TEST_ASSERT_TRUE(diagnosis.rms_after_Nm <= 1.001 * last_Nm);
         TEST_ASSERT_TRUE(says("interrupted"));
+        TEST_ASSERT_EQUAL_UINT64(0, diagnosis.uncertainty.machines); /* nothing is promised */
         last_Nm = diagnosis.rms_after_Nm;
     }
     TEST_ASSERT_DOUBLE_WITHIN(0.01 * end_Nm, end_Nm, last_Nm);

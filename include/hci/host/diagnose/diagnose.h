@@ -126,14 +126,15 @@ typedef struct {
     hci_finding finding[HCI_MOST_FINDINGS]; /* most important first */
     size_t findings;                        /* entries of finding in use */
     hci_effects_data effects;               /* of the corrected machine: declared ones and added ones */
-    hci_uncertainty uncertainty;            /* of the corrected machine; empty where a part is unknown */
-    hci_run_errors *run;                    /* of each run with a torque */
-    size_t runs;                            /* entries of run */
-    hci_residual_line *line;                /* orders that stand out of the noise, run by run */
-    size_t lines;                           /* entries of line */
-    hci_unexplained unexplained[HCI_MOST_UNEXPLAINED];            /* orders that no effect explains */
-    size_t unexplained_count;                                     /* entries of unexplained in use */
-    double rms_before_Nm, rms_after_Nm, noise_Nm;                 /* of the runs that were fitted */
+    hci_uncertainty
+        uncertainty; /* of the corrected machine; empty where a part is unknown or the search ended early */
+    hci_run_errors *run;                               /* of each run with a torque */
+    size_t runs;                                       /* entries of run */
+    hci_residual_line *line;                           /* orders that stand out of the noise, run by run */
+    size_t lines;                                      /* entries of line */
+    hci_unexplained unexplained[HCI_MOST_UNEXPLAINED]; /* orders that no effect explains */
+    size_t unexplained_count;                          /* entries of unexplained in use */
+    double rms_before_Nm, rms_after_Nm, noise_Nm;      /* of the runs that were fitted */
     double holdout_before_Nm, holdout_after_Nm, holdout_noise_Nm; /* NAN without such runs */
     double holdout_mean_before_Nm, holdout_mean_after_Nm;         /* rms of the mean errors of these runs */
     double holdout_ripple_before_Nm, holdout_ripple_after_Nm;     /* and of what is left beside the means */
@@ -157,7 +158,7 @@ typedef struct {
                             * without a current exclude: effects were dropped */
     double beyond_voltages; /* share by which the corrected torque per ampere is above what voltages that were
                              * recorded without a current show; 0: none were recorded */
-    bool nothing_measured; /* no run to be fitted has an angle and a torque: nothing can be said */
+    bool nothing_measured;  /* no run to be fitted has an angle and a torque: nothing can be said */
 } hci_diagnosis;
 
 /* Of hci_diagnosis.open_voltage_off, that is no error of instruments: magnets, turns or harmonics differ. */
