@@ -4,6 +4,10 @@
 
 #include <math.h>
 
+#include "host/solve/harmonic_system.h"
+
+#define LEAST_COPPER 1e-6 /* of a unit that makes none */
+
 /* ---- one order as a phase sees it ---- */
 
 static bool is_order(const hci_limit_build *b, size_t k, double order)
@@ -95,8 +99,7 @@ void hci_limit_add_rms(hci_limit_build *b)
 
 double hci_limit_copper_of(hci_component c, int part)
 {
-    if (c.sequence != 0 || c.order >= HCI_ORDER_TOLERANCE) return 1.0;
-    return part ? 2.0 : 1e-6;
+    return fmax(hci_component_copper(c, part), LEAST_COPPER);
 }
 
 /* √(3/2 Σ x²) <= limit, what is held included. */

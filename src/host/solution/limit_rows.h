@@ -23,8 +23,7 @@ void hci_limit_add_copper(hci_limit_build *build);
 void hci_limit_add_trust(hci_limit_build *build);
 void hci_limit_add_open(hci_limit_build *build);
 
-/* Mean of i_a² + i_b² + i_c² over 3/2 of a unit of x_k²: 1, of a zero sequence at order 0 2 for C, 0 for S.
- */
+/* hci_component_copper, and a millionth where that is 0, so that the program has one answer. */
 double hci_limit_copper_of(hci_component component, int part);
 
 #endif

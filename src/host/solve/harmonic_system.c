@@ -138,11 +138,29 @@ double hci_task_size_of(const hci_task *task, hci_component c)
     return sqrt(1.0 + task->rotor_price * pow(c.order - c.sequence, 8.0));
 }
 
+double hci_component_copper(hci_component c, int part)
+{
+    if (c.sequence != 0 || c.order >= HCI_ORDER_TOLERANCE) return 1.0;
+    return part ? 2.0 : 0.0;
+}
+
+/* Whether the square of some unknown counts more or less than those of the others. */
+static bool has_sizes(const hci_task *task, const hci_component *component, size_t count)
+{
+    bool found = task->rotor_price > 0.0;
+    for (size_t k = 0; k < count; ++k)
+        found = found || hci_component_copper(component[k], 1) != 1.0;
+    return found;
+}
+
+/* An unknown without copper has a column of zeros, so that its size says nothing. */
 static bool fill_sizes(const hci_task *task, const hci_component *component, hci_harmonic_system *s)
 {
     s->size = hci_memory_new(s->unknowns, sizeof *s->size);
-    for (size_t j = 0; s->size && j < s->unknowns; ++j)
-        s->size[j] = hci_task_size_of(task, component[j / 2]);
+    for (size_t j = 0; s->size && j < s->unknowns; ++j) {
+        const double copper = hci_component_copper(component[j / 2], (int)(j % 2));
+        s->size[j] = hci_task_size_of(task, component[j / 2]) * (copper > 0.0 ? sqrt(copper) : 1.0);
+    }
     return s->size;
 }
 
@@ -171,7 +189,7 @@ hci_status hci_harmonic_system_make(const hci_task *task, const hci_component *c
                       system->order_count, system->u.column_start, system->u.row, system->u.value);
     apply_weights(task, system);
     hci_memory_free(rest);
-    if (!(task->rotor_price > 0.0) || fill_sizes(task, component, system)) return HCI_OK;
+    if (!has_sizes(task, component, count) || fill_sizes(task, component, system)) return HCI_OK;
     hci_harmonic_system_release(system);
     return hci_note_memory(note, NULL, "a system of %zu components", count);
 }

@@ -15,17 +15,14 @@ bool hci_set_cost_less(const hci_set_preference *p, hci_set_cost a, hci_set_cost
     return a.worst_Nm < b.worst_Nm;
 }
 
-/* (3/2) Σ I², theory.md section 3, over components that are all different. A direct current of the zero
- * sequence is I in each phase at all times, so 3 I². */
+/* (3/2) Σ I², theory.md section 3, over components that are all different. */
 static double mean_square_A2(const hci_component_set *set, const double *x, double mean_Nm)
 {
     const size_t n = 2 * set->count;
     double sum = 0.0;
-    for (size_t k = 0; k < set->count; ++k) {
-        const double s = hci_coordinate(x, n, mean_Nm, 2 * k), c = hci_coordinate(x, n, mean_Nm, 2 * k + 1);
-        const bool is_direct =
-            set->component[k].order < HCI_ORDER_TOLERANCE && set->component[k].sequence == 0;
-        sum += is_direct ? 3.0 * c * c : 1.5 * (s * s + c * c);
+    for (size_t j = 0; j < n; ++j) {
+        const double value = hci_coordinate(x, n, mean_Nm, j);
+        sum += 1.5 * hci_component_copper(set->component[j / 2], (int)(j % 2)) * value * value;
     }
     return sum;
 }

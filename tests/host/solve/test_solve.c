@@ -959,6 +959,30 @@ static void test_closed_form(void)
     hci_solution_release(&s);
 }
 
+/* Order 3 by a direct current C of zero sequence, 3 C E, and by order 6 of it, (3/2) I E, whose order 9 is not
+ * cared for. Their copper is 3 C² and (3/2) I², so the least of it has C = I = W/(4.5 E): W²/(4.5 E²). */
+static void test_direct_current_of_zero_sequence(void)
+{
+    static problem p;
+    hci_solution s;
+    memset(&p, 0, sizeof p);
+    p.turns = 1;
+    p.has_neutral = true;
+    p.emf_count = 2;
+    p.emf[0] = (ref_wave){1.0, 0.0, 0.5, 0.0};
+    p.emf[1] = (ref_wave){3.0, 0.0, 0.2, 0.3};
+    p.target_count = 3;
+    p.wanted[0] = (hci_target_order){{0.0, 0.0, 0.0}, 1.0};
+    p.wanted[1] = (hci_target_order){{3.0, 0.9 * cos(0.3), 0.9 * sin(0.3)}, 1.0};
+    p.wanted[2] = (hci_target_order){{9.0, 0.0, 0.0}, 0.0};
+    add_component(&p, (hci_component){0.0, 0}, HCI_SET_ZERO);
+    add_component(&p, (hci_component){6.0, 0}, HCI_SET_ZERO);
+    bind(&p);
+    TEST_ASSERT_EQUAL_INT(HCI_OK, solve_well(&p, &s));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.9 * 0.9 / (4.5 * 0.2 * 0.2), s.mean_square_A2);
+    hci_solution_release(&s);
+}
+
 /* Without a mean the largest cogging is the measure, and there is no plain fundamental to compare with. */
 static void test_no_mean(void)
 {
@@ -1079,6 +1103,7 @@ int main(void)
     RUN_TEST(test_pointwise_refuses_a_held_fundamental);
     RUN_TEST(test_auto);
     RUN_TEST(test_closed_form);
+    RUN_TEST(test_direct_current_of_zero_sequence);
     RUN_TEST(test_no_mean);
     RUN_TEST(test_vanishing_back_emf);
     RUN_TEST(test_singular_to_working_precision);
