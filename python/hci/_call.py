@@ -41,12 +41,19 @@ class Note:
     def __init__(self) -> None:
         self.c = ffi.new("hci_note *")
 
-    def check(self, status: int, reached_matters: bool = False, hide: str = "") -> int:
-        """Raises what a status stands for. hide: what is left out of the message: a temporary folder."""
-        if status == lib.HCI_OK or (status == lib.HCI_NOT_REACHED and not reached_matters):
+    def check(self, status: int, hide: Optional[Callable[[str], str]] = None) -> int:
+        """Raises what a status stands for. hide: makes of a message one that names no temporary file."""
+        if status in (lib.HCI_OK, lib.HCI_NOT_REACHED):
             return status
         words = text(self.c.text) or text(lib.hci_status_text(status))
-        raise _CLASSES.get(status, errors.NumericError)(words.replace(hide, "") if hide else words)
+        raise _CLASSES.get(status, errors.NumericError)(hide(words) if hide else words)
+
+
+def whole(value: int, name: str) -> int:
+    """A whole number that C takes as a size."""
+    if not 0 <= value < 2**31 or value != int(value):
+        raise errors.ArgumentError(f"{name}: found {value!r}, expected a whole number from 0 on; give another one")
+    return int(value)
 
 
 class Watch:

@@ -1,7 +1,9 @@
 """The look of the pictures: the colours of the reports (src/host/draw/svg_style.c)."""
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Optional
+import math
+import textwrap
+from typing import TYPE_CHECKING, Any, Optional, Sequence
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -22,7 +24,8 @@ def figure_of(figure: Optional["Figure"], width: float, height: float, title: st
     figure.set_layout_engine("constrained")
     heading = figure.suptitle(title, x=0.01, ha="left", fontsize=13, fontweight="bold", color=TEXT)
     if facts:
-        heading.set_text(title + "\n" + facts)
+        letters = int(9.5 * width)
+        heading.set_text("\n".join(textwrap.wrap(title, letters) + textwrap.wrap(facts, letters)))
         heading.set_fontsize(10)
     return figure
 
@@ -47,6 +50,27 @@ def calm(axes: "Axes") -> None:
     least = 1e-6 * max(abs(low), abs(high), 1e-9)
     if high - low < least:
         axes.set_ylim((low + high - least) / 2, (low + high + least) / 2)
+
+
+def logarithmic(axes: "Axes", name: str) -> None:
+    """A logarithmic axis, x or y, with at least half a decade and with labels that have room."""
+    from matplotlib.ticker import FormatStrFormatter, LogFormatterMathtext, LogLocator, NullFormatter
+
+    axis = getattr(axes, name + "axis")
+    axes.set(**{name + "scale": "log"})
+    low, high = axis.get_view_interval()
+    wider = max(1.0, 10.0 ** (0.5 - math.log10(high / low)))
+    axes.set(**{name + "lim": (low / math.sqrt(wider), high * math.sqrt(wider))})
+    is_short = math.log10(wider * high / low) < 2.0
+    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if is_short else (1.0,)))
+    axis.set_major_formatter(FormatStrFormatter("%g") if is_short else LogFormatterMathtext())
+    axis.set_minor_formatter(NullFormatter())
+
+
+def some_labels(axes: "Axes", labels: Sequence[str], most: int) -> None:
+    """Labels of places 0, 1, … along x: all, or every so many."""
+    every = -(-len(labels) // most) if labels else 1
+    axes.set_xticks(range(0, len(labels), every), labels[::every])
 
 
 def legend_of(axes: "Axes", **more: Any) -> None:

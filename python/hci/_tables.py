@@ -2,17 +2,17 @@
 from __future__ import annotations
 
 import os
+import re
 import tempfile
 from pathlib import Path
 from typing import Any, Iterable, Mapping, Sequence, Tuple, Union
 
 
 class Tables:
-    """A temporary folder; `hide` is what messages leave out of its paths."""
+    """A temporary folder, of which messages say nothing: a table in it is the argument that it was made of."""
 
     def __init__(self) -> None:
         self._folder = tempfile.TemporaryDirectory(prefix="hci-")
-        self.hide = self._folder.name + os.sep
 
     def __enter__(self) -> "Tables":
         return self
@@ -23,6 +23,10 @@ class Tables:
     @property
     def folder(self) -> Path:
         return Path(self._folder.name)
+
+    def hide(self, words: str) -> str:
+        """A message with the names of arguments in place of paths."""
+        return re.sub(re.escape(self._folder.name + os.sep) + r"(\w+)(\.csv)?", r"argument \1", words)
 
     def write(self, name: str, columns: Sequence[str], rows: Iterable[Sequence[Any]]) -> Path:
         """A table; numbers are written so that they read back to the same double."""

@@ -19,6 +19,10 @@ if TYPE_CHECKING:
     from .machine import Machine
 
 
+#: Most runs that a picture names.
+_NAMES = 60
+
+
 class Finding(NamedTuple):
     """One effect: added, ambiguous or rejected."""
 
@@ -123,7 +127,7 @@ class Diagnosis(Result):
 
     def plot(self, figure: Optional["Figure"] = None) -> "Figure":
         """Error of each run before and after, and the residual by order."""
-        figure = _look.figure_of(figure, 10.0, 5.0, self.word.capitalize() + ": " + (", ".join(self.effects) or "no effect added"))
+        figure = _look.figure_of(figure, 10.0, max(5.0, 1.2 + 0.18 * min(self._c.runs, _NAMES)), self.word.capitalize() + ": " + (", ".join(self.effects) or "no effect added"))
         axes = figure.subplots(1, 2)
         self._draw_runs(axes[0])
         self._draw_orders(axes[1])
@@ -139,8 +143,8 @@ class Diagnosis(Result):
             axes.plot(run.rms_before_Nm, k, "o", ms=4, color=_look.AXIS)
             axes.plot(run.rms_after_Nm, k, "o", ms=5, color=_look.AFTER, mfc="white" if held else _look.AFTER)
         if runs and min(run.rms_after_Nm for run in runs) > 0.0:
-            axes.set_xscale("log")
-        axes.set_yticks(place, [text(run.file).rsplit("/", 1)[-1] for run in runs] if len(runs) <= 40 else [""] * len(runs))
+            _look.logarithmic(axes, "x")
+        axes.set_yticks(place, [text(run.file).rsplit("/", 1)[-1] for run in runs] if len(runs) <= _NAMES else [""] * len(runs))
         axes.invert_yaxis()
 
     def _draw_orders(self, axes: Any) -> None:
@@ -150,5 +154,5 @@ class Diagnosis(Result):
             size = [np.max(self.lines[name][self.lines["order"] == order]) for order in orders]
             axes.plot(orders, size, "o", ms=4, color=colour, label=label)
         if len(orders):
-            axes.set_yscale("log")
+            _look.logarithmic(axes, "y")
             _look.legend_of(axes)

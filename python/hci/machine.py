@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from ._arrays import view
 from ._binding import ffi, lib
-from ._call import Note, Path, Progress, Watch, path, strings, text, writing
+from ._call import Note, Path, Progress, Watch, path, strings, text, whole, writing
 from ._tables import Harmonics, Scenario, Tables, Target, harmonics_path, scenario_path, target_path
 from .check import Check
 from .diagnosis import Diagnosis
@@ -95,7 +95,7 @@ class Machine:
         label, note = ffi.new("char[]", name.encode()), Note()
         both = not math.isnan(inductance_H)
         sheet = ffi.new("hci_sheet *", {
-            "name": label, "pole_pairs": pole_pairs, "slots": slots, "reading": _word(_READINGS, reading, "reading"),
+            "name": label, "pole_pairs": whole(pole_pairs, "pole_pairs"), "slots": whole(slots, "slots"), "reading": _word(_READINGS, reading, "reading"),
             "strength": strength, "resistance_ohm": resistance_ohm, "resistance_of_line": resistance_of_line,
             "inductance_d_H": inductance_H if both else inductance_d_H,
             "inductance_q_H": inductance_H if both else inductance_q_H, "inertia_kgm2": inertia_kgm2,
@@ -188,7 +188,7 @@ class Machine:
             The solution; `reached` tells whether the torque is as wanted.
         """
         options = ffi.new("hci_solve_options *", {
-            "choose_at_most": at_most, "method": _word(_METHODS, method, "method"),
+            "choose_at_most": whole(at_most, "at_most"), "method": _word(_METHODS, method, "method"),
             "strategy": _word(_STRATEGIES, strategy, "strategy"), "compare": _word(_COMPARES, compare, "compare"),
             "tolerance": tolerance, "loss_allowance": max_loss, "limit_voltage_V": limit_voltage_V,
             "minimise": _word(_MINIMISE, minimise, "minimise"), "at_speed": speed_rpm is not None,

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import TYPE_CHECKING, Any, Dict, Iterable, List, Mapping, Optional, Sequence, Set, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -23,7 +23,8 @@ class Recording:
     Args:
         data: the path of a CSV file, a DataFrame of pandas or polars, a mapping of names to arrays, or an
             array with named fields. Names are as docs/files.md has them, with their units ("torque_mNm"), or
-            those of other tools. Columns of dates become seconds, columns of words are left out.
+            those of other tools; two rows of names, as pandas reads a row of units, are "name (unit)". Columns of
+            dates become seconds, columns of words are left out.
         name: stands for a path in messages.
 
     Columns that are contiguous doubles are not copied.
@@ -37,10 +38,14 @@ class Recording:
             self.name = self.path
             return
         self.name = name
-        for column, values in _pairs(data):
-            numbers = _numbers(values)
+        seen: Set[str] = set()
+        for label, values in _pairs(data):
+            column, numbers = _name(label), _numbers(values)
+            if column in seen:
+                raise ValueError(f"{name}: column {column!r}: found twice, expected each name once; rename one of them")
+            seen.add(column)
             if numbers is not None:
-                self.columns[str(column)] = numbers
+                self.columns[column] = numbers
         lengths = {column: len(values) for column, values in self.columns.items()}
         if len(set(lengths.values())) > 1:
             raise ValueError(f"{name}: columns of different lengths: {lengths}; give as many values of each")
@@ -228,6 +233,15 @@ def _pairs(data: Any) -> Iterable[Tuple[str, Any]]:
         return [(name, data[name]) for name in data.columns]
     raise TypeError(f"found {type(data).__name__}, expected a path, a DataFrame, a mapping of arrays or an array "
                     "with named fields")
+
+
+def _name(label: Any) -> str:
+    """Of a column; of several rows of names, as pandas reads them, the last is the unit."""
+    if not isinstance(label, tuple):
+        return str(label)
+    *words, unit = [str(word) for word in label]
+    name = " ".join(word for word in words if word and not word.startswith("Unnamed: "))
+    return name if unit in ("", "-", "1") or unit.startswith("Unnamed: ") else f"{name} ({unit})".strip()
 
 
 def _numbers(values: Any) -> Optional[npt.NDArray[np.float64]]:

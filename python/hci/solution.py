@@ -10,9 +10,10 @@ import numpy.typing as npt
 from . import _look
 from ._arrays import view
 from ._binding import ffi, lib
-from ._call import Note, Path, path, strings, text, writing
+from ._call import Note, Path, path, strings, text, whole, writing
 from ._result import Result, json_of
 from ._tables import Tables
+from .errors import ArgumentError
 
 if TYPE_CHECKING:
     import pandas
@@ -183,8 +184,12 @@ class Solution(Result):
         """
         request = ffi.new("hci_emit_request *", {
             "format": _word(_FORMATS, format, "format"), "shape": _word(_SHAPES, shape, "shape"),
-            "frame": _word(_FRAMES, frame, "frame"), "points": points, "max_error_A": max_error_A,
-            "max_bytes": max_bytes, "max_instructions": max_instructions, "blob": blob})
+            "frame": _word(_FRAMES, frame, "frame"), "points": whole(points, "points"), "max_error_A": max_error_A,
+            "max_bytes": whole(max_bytes, "max_bytes"), "max_instructions": whole(max_instructions, "max_instructions"),
+            "blob": blob})
+        if per_torque and self.currents_per_Nm is None:
+            raise ArgumentError("per_torque: these currents are not linear in the mean torque (a held fundamental, or reluctance "
+                                "torque); leave it out")
         if per_torque:
             request.reference_torque_Nm = abs(self.mean_torque_Nm if reference_torque_Nm is None else reference_torque_Nm)
         with Tables() as tables:
@@ -243,7 +248,7 @@ class Solution(Result):
         axes.bar(place - 0.2, sizes[0][shown], 0.4, color=_look.AXIS, label="before")
         axes.bar(place + 0.2, sizes[2][shown], 0.4, color=_look.AFTER, label="after")
         axes.bar(place, sizes[1][shown], 0.8, fill=False, edgecolor=_look.WANTED, lw=1.2, label="wanted")
-        axes.set_xticks(place, [f"{order:.4g}" for order in orders["torque_Nm"]["order"][shown]])
+        _look.some_labels(axes, [f"{order:.4g}" for order in orders["torque_Nm"]["order"][shown]], 16)
         _look.legend_of(axes)
 
     def _draw_currents(self, axes: "Axes") -> None:

@@ -83,5 +83,5 @@ class Waveform(Result):
         _look.axes_of(axes[1], "By order", "electrical order", f"{self.unit}, peak")
         axes[1].errorbar(kept["order"], kept["amplitude"], 1.96 * kept["std_error"], fmt="o", ms=4, color=_look.AFTER)
         if len(kept):
-            axes[1].set_yscale("log")
+            _look.logarithmic(axes[1], "y")
         return figure

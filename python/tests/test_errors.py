@@ -17,10 +17,12 @@ def test_a_broken_machine(tmp_path):
     assert isinstance(error, ValueError)
 
 
-def test_a_table_from_numbers_has_no_temporary_path(machine_a):
+def test_a_table_from_numbers_is_an_argument(machine_a):
     with pytest.raises(hci.InputError) as caught:
         machine_a.solve({0: 1.0, -3: 0.1})
-    assert (caught.value.file, caught.value.line, caught.value.column) == ("target.csv", 3, 1)
+    assert (caught.value.file, caught.value.line, caught.value.column) == ("argument target", 3, 1)
+    with pytest.raises(hci.InputError, match="^argument scenario: "):
+        machine_a.simulate({"prescribed_speed": 10.0})
 
 
 def test_a_recording_in_memory(machine_a):
@@ -35,6 +37,13 @@ def test_a_recording_in_memory(machine_a):
 def test_arguments(machine_a, tmp_path):
     with pytest.raises(ValueError, match="method: found 'magic', expected one of auto"):
         machine_a.solve(1.0, method="magic")
+    for number in (-3, 2**40, 1.5):
+        with pytest.raises(hci.ArgumentError, match=f"at_most: found {number}, expected a whole number from 0 on"):
+            machine_a.solve(1.0, at_most=number)
+    with pytest.raises(hci.ArgumentError, match="a set of harmonics is given, and so many are to be chosen"):
+        machine_a.solve(1.0, at_most=2, harmonics=[(1, "pos")])
+    with pytest.raises(hci.ArgumentError, match="method pointwise has no set"):
+        machine_a.pointwise(1.0, harmonics=[(1, "pos")])
     with pytest.raises(hci.ArgumentError, match="speed_rpm"):
         machine_a.solve(1.0, limit_voltage_V=10.0)
     (tmp_path / "file").write_text("")
@@ -42,6 +51,8 @@ def test_arguments(machine_a, tmp_path):
         machine_a.solve(1.0).write(tmp_path / "file" / "below")
     with pytest.raises(ValueError, match="different lengths"):
         hci.Recording({"a": [1.0, 2.0], "b": [1.0]})
+    with pytest.raises(hci.ArgumentError, match="per_torque: these currents are not linear"):
+        machine_a.solve(1.0, fundamental=(5.0, 0.1)).emit(tmp_path, "x", per_torque=True)
     with pytest.raises(TypeError, match="expected a path"):
         hci.Recording(3)
 

@@ -35,6 +35,36 @@ def test_the_others(machine_a, machine_c, data):
         assert figure.axes and all(one.lines or one.patches or one.collections for one in figure.axes)
 
 
+def collisions(figure):
+    """Pairs of labels of one axis that overlap, and texts that leave the figure."""
+    figure.draw_without_rendering()
+    box = {text: text.get_window_extent() for text in [figure._suptitle] if text}
+    found = [text.get_text() for text, extent in box.items() if extent.x1 > figure.bbox.x1 or extent.x0 < figure.bbox.x0]
+    for axes in figure.axes:
+        for axis in (axes.xaxis, axes.yaxis):
+            shown = [label.get_window_extent() for label in axis.get_ticklabels(which="both") if label.get_text()]
+            found += [(axis.get_label_text(), k) for k, (a, b) in enumerate(zip(shown, shown[1:])) if a.overlaps(b)]
+    return found
+
+
+@pytest.fixture
+def many_runs(machine_a):
+    """A diagnosis of forty recordings, whose errors are within a decade."""
+    angle = np.arange(720) * 2 * np.pi / 720
+    iq = np.linspace(1.0, 3.0, 40)
+    rng = np.random.default_rng(1)
+    runs = []
+    for k, size in enumerate(iq):
+        torque = 0.2 * size + 0.02 * np.sin(12 * angle) + rng.normal(0, 0.01, 720)
+        runs.append(hci.Recording({"theta_m_rad": angle, "iq_A": np.full(720, size), "torque_Nm": torque}, f"recording of run {k}"))
+    return machine_a.diagnose(runs, progress=lambda what, share: True)
+
+
+def test_labels_have_room(many_runs, smooth, machine_c):
+    for result in (smooth, machine_c.solve({0: 4.0, 6: 0.5}, harmonics=[(1, "pos")]), many_runs):
+        assert not collisions(result.plot()), type(result)
+
+
 def test_in_a_notebook(smooth):
     page = smooth._repr_html_()
     assert smooth.verdict.splitlines()[0] in page

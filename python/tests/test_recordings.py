@@ -49,6 +49,18 @@ def test_pandas(machine_a, columns, expected):
     assert np.allclose(machine_a.predict(dated).torque_model_Nm, expected.torque_model_Nm, atol=1e-9)
 
 
+def test_rows_of_names_in_pandas(machine_a, columns, expected):
+    pandas = pytest.importorskip("pandas")
+    frame = pandas.DataFrame(dict(zip((("time", "ms"), ("theta_e", "deg"), ("iq", "A"), ("torque", "mNm")), columns.values())))
+    assert list(hci.Recording(frame).columns) == ["time (ms)", "theta_e (deg)", "iq (A)", "torque (mNm)"]
+    same(machine_a.predict(frame), expected)
+    single = hci.Recording({("count", "-"): [1.0], ("Unnamed: 3_level_0", "A"): [1.0], ("iq", "Unnamed: 4_level_1"): [1.0]})
+    assert list(single.columns) == ["count", "(A)", "iq"]
+    twice = pandas.DataFrame([[1.0, 2.0]], columns=["iq_A", "iq_A"])
+    with pytest.raises(ValueError, match="column 'iq_A': found twice"):
+        hci.Recording(twice)
+
+
 def test_polars(machine_a, columns, expected):
     polars = pytest.importorskip("polars")
     same(machine_a.predict(polars.DataFrame(columns)), expected)

@@ -155,7 +155,7 @@ static void make_task(task *t, const hci_machine *machine)
     t->options.target = &t->target;
     if (is_large(machine) || draw(3) == 2) make_set(t);
     else if (draw(3) == 0) t->options.choose_at_most = 1 + draw(4);
-    t->options.method = draw(6) == 0 ? HCI_METHOD_POINTWISE : HCI_METHOD_AUTO;
+    t->options.method = !t->options.set && draw(6) == 0 ? HCI_METHOD_POINTWISE : HCI_METHOD_AUTO;
     t->options.compare = draw(4) == 0 ? HCI_COMPARE_SQUARE : HCI_COMPARE_ALL;
     t->options.limit_current_A = draw(6) == 0 ? fabs(draw_size()) : 0.0;
     t->options.stop = is_late;

@@ -1011,12 +1011,12 @@ static void test_vanishing_back_emf(void)
     TEST_ASSERT_TRUE(isnan(s.limit_mean_square_A2));
     TEST_ASSERT_TRUE(isnan(s.loss_to_limit));
     hci_solution_release(&s);
+    p.options.set = NULL;
     p.options.method = HCI_METHOD_POINTWISE;
     p.options.strategy = HCI_STRATEGY_MTPA;
     TEST_ASSERT_EQUAL_INT(HCI_ERROR_NUMERIC, solve(&p, &s));
     TEST_ASSERT_NULL(s.current.wave);
     p.options.method = HCI_METHOD_AUTO;
-    p.options.set = NULL;
     p.options.choose_at_most = 4;
     solve_well(&p, &s);
     TEST_ASSERT_TRUE(s.current.count > 0 && s.current.count <= 4);
@@ -1093,6 +1093,12 @@ static void test_refusals(void)
     bind(&p);
     TEST_ASSERT_EQUAL_INT(HCI_ERROR_INPUT, solve(&p, &s));
     TEST_ASSERT_NULL(s.current.wave);
+    plain_problem(&p); /* a set, and what has no use for one */
+    p.options.choose_at_most = 2;
+    TEST_ASSERT_EQUAL_INT(HCI_ERROR_ARGUMENT, solve(&p, &s));
+    p.options.choose_at_most = 0;
+    p.options.method = HCI_METHOD_POINTWISE;
+    TEST_ASSERT_EQUAL_INT(HCI_ERROR_ARGUMENT, solve(&p, &s));
 }
 
 int main(void)

@@ -73,8 +73,8 @@ typedef struct {
 /* What is asked for. Start with {0}; all but target may stay so. */
 typedef struct {
     const hci_target *target;     /* wanted torque */
-    const hci_component_set *set; /* NULL: choose (method pointwise needs none) */
-    size_t choose_at_most;        /* with set NULL: at most so many components, 0 for as many as it takes */
+    const hci_component_set *set; /* NULL: choose; only NULL goes with choose_at_most and method pointwise */
+    size_t choose_at_most;        /* at most so many components, 0 for as many as it takes */
     const hci_wave *held;         /* a fundamental that is held fixed, or NULL to solve for it too */
     hci_method method;            /* how to solve */
     hci_strategy strategy;        /* of the pointwise method */
