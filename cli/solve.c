@@ -54,7 +54,7 @@ static const cli_option OPTIONS[] = {
     [TARGET] = {"target", 0, CLI_FILE, "FILE",
                 .help = "wanted torque: order,amplitude_Nm,phase_rad[,weight]"},
     [HARMONICS] = {"harmonics", 0, CLI_FILE, "FILE",
-                   .help = "components to use: order,set (sym, asym, pos, neg)"},
+                   .help = "components to use: order,set (pos, neg, sym, asym; zero with a neutral)"},
     [AUTO] = {"auto", 0, CLI_COUNT_OPTIONAL, "K",
               .help = "choose the components (default), at most K of them", .low = 1.0, .high = 1e4},
     [FUNDAMENTAL] = {"fundamental", 0, CLI_TEXT, "A,RAD",
@@ -300,8 +300,19 @@ static void remark_period(const inputs *in, const hci_solution *s)
     cli_remark(&remark);
 }
 
-static void show_remarks(const inputs *in, const hci_solution *s)
+static void remark_temperature(const cli_arguments *a, const inputs *in)
 {
+    hci_note remark = {{0}};
+    const bool is_used = hci_effects_needs(&in->effects.list) & HCI_EFFECT_NEEDS_TEMPERATURE;
+    if (!a->given[TEMPERATURE] || is_used) return;
+    hci_note_set(&remark, HCI_OK,
+                 "--temperature changes nothing: effects.csv of the machine has no magnet_temperature");
+    cli_remark(&remark);
+}
+
+static void show_remarks(const cli_arguments *a, const inputs *in, const hci_solution *s)
+{
+    remark_temperature(a, in);
     cli_remark(&in->machine.remark);
     cli_remark(&in->target_remark);
     cli_remark(&in->set.remark);
@@ -321,7 +332,7 @@ static int give_results(const cli_arguments *a, const inputs *in, const hci_solu
         status = hci_solution_write_with_report(&in->machine, s, verdict, a->given[REPORT] ? &sources : NULL,
                                                 a->value[OUT], &note);
     if (!status && cli_is_wordy()) cli_show_solution(s, a->word[0], a->value[TARGET]);
-    if (!status) show_remarks(in, s);
+    if (!status) show_remarks(a, in, s);
     if (!status && a->given[JSON])
         status = cli_print_json(
             a->value[OUT] ? hci_summary_read(a->value[OUT]) : hci_solution_json(s, verdict), &note);

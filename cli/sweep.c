@@ -42,7 +42,7 @@ static const cli_option OPTIONS[] = {
         {"coppers", 0, CLI_TEXT, "RATIO,...",
          .help = "with --trade-off: limits of the copper loss over that of the plain sine (default: chosen)"},
     [SWEEP_HARMONICS] = {"harmonics", 0, CLI_FILE, "FILE",
-                         .help = "components to use: order,set (sym, asym, pos, neg)"},
+                         .help = "components to use: order,set (pos, neg, sym, asym; zero with a neutral)"},
     [SWEEP_AUTO] = {"auto", 0, CLI_COUNT_OPTIONAL, "K",
                     .help = "choose the components (default), at most K of them", .low = 1.0, .high = 1e4},
     [SWEEP_MINIMISE] = {"minimise", 0, CLI_CHOICE, "WHAT",

@@ -32,8 +32,8 @@ static void show_torque(const hci_simulation *s)
     cli_say("\n");
     cli_say("  current      mean %.4g A, rms %.4g, %.4g to %.4g (vector length); peak phase current %.4g A\n",
             s->current_A.mean, s->current_A.rms, s->current_A.least, s->current_A.most, s->peak_phase_A);
-    cli_say("  in dq_x      mean %.4g A, rms %.4g, %.4g to %.4g\n", s->current_dqx_A.mean,
-            s->current_dqx_A.rms, s->current_dqx_A.least, s->current_dqx_A.most);
+    cli_say("  in dq_x      mean %.4g A, rms %.4g, %.4g to %.4g (where 1 A of i_q makes 1.225 N·m)\n",
+            s->current_dqx_A.mean, s->current_dqx_A.rms, s->current_dqx_A.least, s->current_dqx_A.most);
 }
 
 static void show_loss(const hci_simulation *s)

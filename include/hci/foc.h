@@ -5,8 +5,8 @@
  * = 0 is where the fundamental of phase a's back-EMF crosses zero rising, half an electrical turn from where
  * most firmware has it; d and q are the same.
  *
- * Sine and cosine come from hci_angle_sine_cosine, once a sample for all of it. Needs <stdint.h> and
- * hci/table.h: no libm, no heap, nothing writable. C99 and C++. */
+ * Sine and cosine come from hci_angle_sine_cosine, once a sample for all of it. Needs hci/guard.h and the
+ * headers of the tables: no libm, no heap, nothing writable. C99 and C++. */
 #ifndef HCI_FOC_H
 #define HCI_FOC_H
 

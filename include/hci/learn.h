@@ -321,7 +321,7 @@ typedef struct {
     uint32_t repeats; /* periods of the table in a mechanical turn, 1 … 65535: of orders 12, 24, 36 … it may
                        * be 12, and the table has a twelfth of the points; other orders are left out */
     float least_errors; /* orders whose amplitude is less than so many standard errors are left out; 6. With
-                         * three  turns each way 3 lets one of twenty in that are not there, 6 one of a
+                         * three turns each way 3 lets one of twenty in that are not there, 6 one of a
                          * thousand */
     int with_mean; /* not 0: with the mean, where nothing but cogging loads the shaft; where the back-EMF has
                     * harmonics the current against cogging has a mean */

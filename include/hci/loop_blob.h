@@ -2,13 +2,21 @@
  * to be put into flash by a bootloader or received over a bus. As hci/blob.h, which says when a blob is
  * refused: cut off, damaged in a single bit, of another kind, newer, or not at a multiple of four bytes.
  *
- *     0 to 19  as in hci/blob.h, kind 4       20  pole pairs, 0: not known
- *    24  orders                               40  repeats
- *    28  responses                            44  electrical turns in 2^32 of angle
- *    32  levels of torque                     48  torque of the first level, of the last, N*m; resistance,
- * ohm; 36  points                                   L_d, L_q, H; k_p, k_i; sample, delay, s; whole, rad/s;
- * lead, s 92  name of the machine, up to 35 bytes and zeros 128  waves, ranges, responses; orders of 16 bits,
- * filled up to four bytes; CRC-32 of all that stands before
+ *     0  "HCIT", version, kind 4, bytes, hash: as in hci/blob.h
+ *    20  pole pairs, 0: not known
+ *    24  orders                               28  responses
+ *    32  levels of torque                     36  points
+ *    40  repeats                              44  electrical turns in 2^32 of angle
+ *        then floats:
+ *    48  torque of the first level, N*m       52  of the last
+ *    56  resistance, ohm                      60  L_d, H
+ *    64  L_q, H                               68  k_p, ohm
+ *    72  k_i, ohm/s                           76  sample, s
+ *    80  delay, s                             84  speed below which nothing fades, rad/s
+ *    88  lead, s
+ *    92  name of the machine, up to 35 bytes and zeros
+ *   128  waves, ranges, responses; orders of 16 bits, filled up to four bytes
+ *        CRC-32 of all that stands before
  *
  * Low bytes first. For start-up. C99 and C++. */
 #ifndef HCI_LOOP_BLOB_H

@@ -35,15 +35,17 @@ cp -r data/machine_a "$work/hot"
 rm -f "$work/hot/cogging.csv"
 printf 'effect,parameter,value,unit,std_error\nmagnet_temperature,emf_per_kelvin,-0.001,1/K,\n' >"$work/hot/effects.csv"
 run 0 solve "$work/hot" --target data/scenarios/02/target.csv -q -o "$work/at20"
-run 0 solve "$work/hot" --target data/scenarios/02/target.csv --temperature 120 -q -o "$work/at120"
+run 0 solve "$work/hot" --target data/scenarios/02/target.csv --temperature 120 -o "$work/at120"
+grep -q 'temperature changes nothing' "$work/stderr"
+check "a temperature that is used is said to change nothing" [ $? -ne 0 ]
 check "the current at 120 °C is not that at 20 °C divided by 0.9" awk -v cold="$(cell "$work/at20/currents.csv" 2 3)" \
     -v hot="$(cell "$work/at120/currents.csv" 2 3)" 'BEGIN { d = 0.9 * hot / cold - 1; exit !(d * d < 1e-18) }'
 check "hot magnets have no linear parts" [ -s "$work/at120/currents_per_Nm.csv" ]
 
 # ---- what the real machine will do: not known, known from what recordings leave open, and of another machine
 
-run 0 solve data/machine_a --target data/scenarios/02/target.csv -o "$work/declared"
-says 'not known: no recordings'
+run 0 solve data/machine_a --target data/scenarios/02/target.csv --temperature 80 -o "$work/declared"
+says 'not known: no recordings' 'note: --temperature changes nothing'
 grep -q '"T_ripple_percent_95":[[:space:]]*null' "$work/declared/summary.json" && grep -q '"known":[[:space:]]*false' "$work/declared/summary.json"
 check "a figure without recordings" [ $? -eq 0 ]
 cp -r data/machine_a "$work/left_open"

@@ -1,8 +1,8 @@
 /* Control of the simulated drive: a speed loop, torque to currents, current control; and the closed loop of
  * all.
  *
- *     speed ─▶ PI ─▶ torque ─▶ strategy, current waves or code ─▶ limits ─▶ hysteresis │ PI │ ideal ─▶
- * inverter
+ *     speed ─▶ PI ─▶ torque ─▶ strategy, current waves or code ─▶ limits
+ *         ─▶ hysteresis, PI or ideal ─▶ inverter
  *
  * Everything runs once a step of the plant; slower samples are every n-th. For an interrupt: hci/foc.h. */
 #ifndef HCI_DRIVE_CONTROL_H

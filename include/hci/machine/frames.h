@@ -57,7 +57,8 @@ typedef struct {
     double q_alpha, q_beta; /* unit vector of the q axis; the d axis is (q_beta, −q_alpha) */
 } hci_dqx_frame;
 
-/* A quantity in the extended frame. Currents are in N·m there: the mutual torque is sqrt(3/2)·i_qx. */
+/* A quantity in the extended frame. A current is in A·(N·m/A) = N·m there, which the literature and the files
+ * call A: the mutual torque is sqrt(3/2) N·m for each, whatever the machine. */
 typedef struct {
     double d, q; /* q along the back-EMF vector */
 } hci_dqx;

@@ -62,11 +62,12 @@ typedef struct {
  * T_cog is T without current, its e gives the axes and the mutual torque e·x, and its shortest current the
  * size of the currents to be looked at.
  *
- * - mtpa: the shortest x with T(x) = τ, as the shortest of the lengths r(φ) at which T along a ray is τ.
- *   previous NULL: the shortest of 48 rays to begin with, which finds the best of several ranges; otherwise
- * the ray of `previous`, which follows one range along θ.
- * - id0: i_d = 0, i_q = τ/e_q; whatever is not mutual torque stays.
- * - cancel: i_q = τ/e_q and the shortest i_d with T = τ, that is i_d cancels all that is not mutual torque.
+ *     mtpa    the shortest x with T(x) = τ, as the shortest of the lengths r(φ) at which T along a ray is τ
+ *     id0     i_d = 0, i_q = τ/e_q; whatever is not mutual torque stays
+ *     cancel  i_q = τ/e_q and the shortest i_d with T = τ: i_d cancels all that is not mutual torque
+ *
+ * previous: NULL, and mtpa begins with the shortest of 48 rays, which finds the best of several ranges; or the
+ * answer at a neighbouring angle, whose ray follows one range along θ.
  *
  * x: out, also where the answer is no, as above. HCI_OK or HCI_NOT_REACHED. Some tens of torques from a
  * neighbouring current, about a thousand without one. */

@@ -33,7 +33,7 @@ static hci_status name_read(const hci_csv *csv, size_t row, hci_set *name, hci_n
     while (k < SETS && !hci_text_is(text, SET_NAME[k]))
         ++k;
     if (k == SETS)
-        return hci_csv_error(csv, "set", row, note, "`pos`, `neg`, `sym` or `asym`",
+        return hci_csv_error(csv, "set", row, note, "`pos`, `neg`, `sym` or `asym`, or `zero` with a neutral",
                              "`pos` and `neg` are the positive and negative sequence");
     *name = (hci_set)k;
     return HCI_OK;

@@ -19,6 +19,9 @@ static const char *const SLOPE[HCI_PHASE_MATRIX] = {"dLa_H_per_rad",  "dLb_H_per
 
 #define ANGLE_TOLERANCE_RAD 1e-4
 
+/* Means of slopes up to this share of the largest order are errors of whoever measured or computed them. */
+#define MOST_MEAN 0.05
+
 /* Checks the angles and tells how many rows make one turn: all of them, or all but the repeated end point. */
 static hci_status check_angles(const hci_csv *csv, const double *theta_rad, size_t rows, size_t *count,
                                hci_note *note)
@@ -119,6 +122,24 @@ static void balance(hci_inductance *terms, size_t count)
         terms[k] = balanced(&terms[k]);
 }
 
+/* The mean of a slope over a turn is zero, or the inductance would grow with every turn, and the machine make
+ * energy of nothing. What errors leave of it becomes zero. */
+static hci_status drop_mean_slope(hci_inductance *terms, size_t count, const char *path, hci_note *note)
+{
+    const double mean = largest_entry(&terms[0]);
+    double largest = 0.0;
+    for (size_t k = 1; k < count; ++k)
+        largest = fmax(largest, largest_entry(&terms[k]));
+    if (mean > MOST_MEAN * largest)
+        return hci_note_set(note, HCI_ERROR_INPUT,
+                            "%s: found slopes with a mean of up to %.3g H/rad over the turn, expected 0, since an "
+                            "inductance comes back to where it was; name the columns La_H … Mca_H if they are "
+                            "inductances, or subtract the mean of each",
+                            path, mean);
+    terms[0] = (hci_inductance){0.0, {0}, {0}};
+    return HCI_OK;
+}
+
 /* Keeps the orders that matter. terms: all orders of the file, L or L'. */
 static void keep_orders(const hci_inductance *terms, size_t count, bool are_slopes, int pole_pairs,
                         hci_inductance_table *t)
@@ -161,6 +182,7 @@ static hci_status analyse(const analysis *a, int pole_pairs, hci_inductance_tabl
     orders = (count + 1) / 2;
     for (size_t m = 0; m < orders && !status; ++m)
         status = analyse_order(a->column, rows, count, a->theta_rad[0], m, &a->terms[m]);
+    if (!status && a->are_slopes) status = drop_mean_slope(a->terms, orders, hci_csv_path(a->csv), note);
     if (!status) balance(a->terms, orders);
     if (!status) keep_orders(a->terms, orders, a->are_slopes, pole_pairs, t);
     return status;

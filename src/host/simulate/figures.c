@@ -15,10 +15,28 @@ static hci_statistics statistics(double mean, double mean_square, const hci_inte
 /* A mean that is a smaller share than this of the swing about it is no measure for a ripple. */
 #define LEAST_MEAN 0.01
 
+/* A mean that is a smaller share than this of the torques that it is the sum of is rounding. */
+#define ROUNDING 1e-12
+
+/* The largest torque, and the cogging torque, which currents may cancel. */
+static double size_of_torque_Nm(const hci_machine *machine, const hci_integrals *x)
+{
+    double size = fmax(fabs(x->most[HCI_EXTREME_TORQUE]), fabs(x->least[HCI_EXTREME_TORQUE]));
+    for (size_t k = 0; k < machine->cogging_count; ++k)
+        size += hci_amplitude(machine->cogging[k].sine, machine->cogging[k].cosine);
+    return size;
+}
+
+static double mean_torque_Nm(const hci_evaluation *e, const hci_integrals *x, double offset_Nm)
+{
+    const double mean_Nm = e->reference_Nm + offset_Nm;
+    return fabs(mean_Nm) > ROUNDING * size_of_torque_Nm(e->setup->machine, x) ? mean_Nm : 0.0;
+}
+
 static void give_statistics(const hci_evaluation *e, const hci_integrals *x, double time_s, hci_simulation *s)
 {
     const double *sum = x->integral, offset = sum[HCI_INTEGRAL_TORQUE] / time_s,
-                 mean = e->reference_Nm + offset;
+                 mean = mean_torque_Nm(e, x, offset);
     const double variance = fmax(sum[HCI_INTEGRAL_TORQUE_2] / time_s - offset * offset, 0.0);
     s->torque_Nm = statistics(mean, mean * mean + variance, x, HCI_EXTREME_TORQUE);
     s->current_A = statistics(sum[HCI_INTEGRAL_LENGTH] / time_s, sum[HCI_INTEGRAL_LENGTH_2] / time_s, x,

@@ -1,6 +1,9 @@
 /* Currents found angle by angle. In: a task; out: the currents of a strategy as waves, and the copper of the
- * shortest, by which every other solution is measured. The shortest that make the wanted torque are, without
- * reluctance torque, i(θ) = (T*(θ) − T_cog(θ)) e⊥ / (e⊥·e⊥)        e⊥ = e − mean(e) in a star connection,
+ * shortest, by which every other solution is measured. Without reluctance torque the shortest that make the
+ * wanted torque are
+ *
+ *     i(θ) = (T*(θ) − T_cog(θ)) e⊥ / (e⊥·e⊥)        e⊥ = e − mean(e) in a star connection, else e
+ *
  * which is linear in the torque (theory.md, section 6); all else is left to hci_strategy_current (section 8).
  */
 #include "host/solve/pointwise.h"

@@ -108,6 +108,22 @@ static void test_a_rotor_at_rest_has_no_spectrum(void)
     hci_simulation_release(&s);
 }
 
+/* Cogging torque alone, and cancelled: what rounding leaves of the mean is compared with no plain sine. */
+static void test_a_mean_of_rounding_is_none(void)
+{
+    static const char *const STRATEGY[] = {"id0", "mtpa"};
+    for (size_t k = 0; k < 2; ++k) {
+        char rows[128];
+        snprintf(rows, sizeof rows,
+                 "duration,0.05,s\nprescribed_speed,1500,rpm\ntorque_reference,0,Nm\nstrategy,%s,\n",
+                 STRATEGY[k]);
+        hci_simulation s = simulate(&machine_a, rows);
+        const bool is_zero = s.torque_Nm.mean == 0.0 && s.plain_amplitude_A == 0.0;
+        hci_simulation_release(&s);
+        TEST_ASSERT_TRUE(is_zero);
+    }
+}
+
 /* ---- control ---- */
 
 /* Hysteresis at constant speed and torque, of a strategy that wants no ripple: what is left goes with the
@@ -284,6 +300,7 @@ int main(void)
     RUN_TEST(test_spectrum_is_over_the_angle);
     RUN_TEST(test_turning_backwards_gives_the_same_spectrum);
     RUN_TEST(test_a_rotor_at_rest_has_no_spectrum);
+    RUN_TEST(test_a_mean_of_rounding_is_none);
     RUN_TEST(test_ripple_goes_with_the_band);
     RUN_TEST(test_pi_control_holds_the_torque);
     RUN_TEST(test_limits_and_missing_currents_are_counted);
