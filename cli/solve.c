@@ -19,7 +19,7 @@
 #include "hci/host/machine/effects.h"
 #include "hci/host/report/summary.h"
 #include "hci/host/report/write.h"
-#include "hci/host/solve/solve.h"
+#include "hci/host/solution/for_drive.h"
 
 enum {
     TARGET,
@@ -202,56 +202,15 @@ static hci_status keep_apart(const char *input, const char *folder, hci_note *no
     return HCI_OK;
 }
 
-/* Leaves out of a given set what is above the order. */
-static void drop_components(inputs *in, double highest)
-{
-    hci_component_set *set = &in->set;
-    size_t kept = 0;
-    for (size_t k = 0; k < set->count; ++k) {
-        const hci_component c = set->component[k];
-        if (fabs(c.order - c.sequence) > highest + HCI_ORDER_TOLERANCE) {
-            hci_note_add(&in->drive_remark, "left out: %s %g", hci_set_name(set->set[k]), c.order);
-            continue;
-        }
-        set->component[kept] = c;
-        set->set[kept++] = set->set[k];
-    }
-    set->count = kept;
-}
-
-/* Whether the loop can be used at all, and which voltage is kept. */
-static hci_status take_loop(const cli_arguments *a, const hci_drive_data *drive, inputs *in, hci_note *note)
-{
-    if (!a->given[LIMIT_VOLTAGE] && !a->given[IGNORE_RATINGS])
-        hci_drive_voltage_remark(drive, &in->machine, &in->drive_remark);
-    return hci_drive_check_loop(drive, &in->machine, in->options.speed_rad_per_s, &in->drive_remark, note);
-}
-
-/* What a current loop cannot be made to follow: orders in the rotor frame above those that its sampling does
- * for. */
+/* What a current loop cannot be made to follow is left out. */
 static hci_status read_drive(const cli_arguments *a, inputs *in, hci_note *note)
 {
     hci_drive_data drive;
     hci_status status = a->value[DRIVE] ? hci_drive_read(a->value[DRIVE], &drive, note) : HCI_OK;
     if (status || !a->value[DRIVE]) return status;
-    const double electrical = fabs(in->options.speed_rad_per_s) * in->machine.model.pole_pairs;
-    const double highest = hci_drive_highest_rad_per_s(&drive) / electrical;
-    in->options.highest_rotor_order = highest;
-    in->options.sample_rad = hci_drive_sample_s(&drive) * electrical;
-    hci_note_add(
-        &in->drive_remark,
-        "at %g rpm the sampling of the drive does for orders up to %.4g in the rotor frame (n - 1 of `pos`, "
-        "n + 1 of `neg`)",
-        cli_number_or(a, SPEED, 0.0), floor(highest));
-    drop_components(in, highest);
-    if (highest >= 6.0) status = take_loop(a, &drive, in, note);
+    status = hci_solve_for_drive(&drive, &in->machine, &in->options, &in->set, &in->drive_remark, note);
     hci_drive_release(&drive);
-    if (highest >= 6.0) return status;
-    return hci_note_set(
-        note, HCI_ERROR_INPUT,
-        "%s: at %g rpm the sampling does for orders up to %.3g in the rotor frame, which leaves no "
-        "harmonic to choose; expected at least 6: give a lower --speed",
-        a->value[DRIVE], cli_number_or(a, SPEED, 0.0), highest);
+    return status;
 }
 
 static hci_status read_inputs(const cli_arguments *a, inputs *in, hci_note *note)

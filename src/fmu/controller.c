@@ -15,13 +15,13 @@
 #include "hci/drive/control.h"
 #include "hci/machine/frames.h"
 
-#define VALUE(key) (m->value[HCI_FMU_CONTROLLER_##key])
+#define VALUE(key) (m->head.value[HCI_FMU_CONTROLLER_##key])
 
 const hci_fmu_variable hci_fmu_list[] = {HCI_FMU_CONTROLLER_VARIABLES(HCI_FMU_ENTRY)};
 const size_t hci_fmu_count = HCI_FMU_CONTROLLER_COUNT;
 
 struct hci_fmu_model {
-    double value[HCI_FMU_CONTROLLER_COUNT];
+    hci_fmu_head head;
     double *rows;  /* of the known machine's table over the angle */
     float *memory; /* of the tables that are made of the orders */
     hci_plant_table table;
@@ -30,20 +30,17 @@ struct hci_fmu_model {
     hci_current_source source;
     hci_control control;
     hci_control_state state;
-    bool has_begun;
-    char words[200]; /* what is wrong */
 };
+const size_t hci_fmu_model_size = sizeof(hci_fmu_model);
 
 typedef struct {
-    double value[HCI_FMU_CONTROLLER_COUNT];
     hci_control_state state;
     float made_rad_per_s; /* speed for which the tables were made */
-    bool has_begun;
 } saved_state;
 
-/* ---- instances ---- */
+/* ---- its memory ---- */
 
-static bool make_memory(hci_fmu_model *m)
+bool hci_fmu_make(hci_fmu_model *m)
 {
     const hci_fmu_controller_data *d = &hci_fmu_controller;
     m->rows = calloc(hci_plant_table_size(d->points), sizeof *m->rows);
@@ -52,38 +49,10 @@ static bool make_memory(hci_fmu_model *m)
            hci_plant_table_fill(&d->known, &d->inductance, d->points, m->rows, &m->table) == HCI_OK;
 }
 
-hci_fmu_model *hci_fmu_new(void)
+void hci_fmu_release(hci_fmu_model *m)
 {
-    hci_fmu_model *m = calloc(1, sizeof *m);
-    if (!m) return NULL;
-    hci_fmu_reset(m);
-    if (make_memory(m)) return m;
-    hci_fmu_free(m);
-    return NULL;
-}
-
-void hci_fmu_free(hci_fmu_model *m)
-{
-    if (!m) return;
     free(m->rows);
     free(m->memory);
-    free(m);
-}
-
-double *hci_fmu_values(hci_fmu_model *m)
-{
-    return m->value;
-}
-
-bool hci_fmu_has_begun(const hci_fmu_model *m)
-{
-    return m->has_begun;
-}
-
-void hci_fmu_reset(hci_fmu_model *m)
-{
-    memcpy(m->value, hci_fmu_start, sizeof m->value);
-    m->has_begun = false;
 }
 
 /* ---- parameters ---- */
@@ -144,7 +113,7 @@ static float electrical_speed(const hci_fmu_model *m)
     return (float)(VALUE(SPEED) * m->table.pole_pairs);
 }
 
-static const char *to_initial_state(hci_fmu_model *m)
+const char *hci_fmu_to_initial_state(hci_fmu_model *m)
 {
     const char *words = check_parameters(m);
     memset(&m->state, 0, sizeof m->state);
@@ -153,13 +122,6 @@ static const char *to_initial_state(hci_fmu_model *m)
     set_code(m);
     hci_loop_make(&m->code.tables, electrical_speed(m));
     return NULL;
-}
-
-const char *hci_fmu_begin(hci_fmu_model *m)
-{
-    const char *words = to_initial_state(m);
-    m->has_begun = !words;
-    return words;
 }
 
 /* ---- a step ---- */
@@ -179,16 +141,23 @@ static void make_step(const hci_fmu_model *m, hci_control_state *state)
     hci_control_step(&m->control, state, &measured, VALUE(TORQUE_REFERENCE));
 }
 
+/* Longer than a sample the control would not see what its voltages do. */
+static const char *check_step(hci_fmu_model *m, double duration_s, double steps)
+{
+    const double step_s = hci_fmu_controller.step_s, most = hci_fmu_controller.every;
+    if (steps >= 1.0 && steps <= most && fabs(duration_s - steps * step_s) <= 1e-6 * step_s) return NULL;
+    snprintf(m->head.words, sizeof m->head.words,
+             "a communication step of %g s, expected a multiple of %g s, in which the controller counts its "
+             "delays, up to its sample of %g s",
+             duration_s, step_s, most * step_s);
+    return m->head.words;
+}
+
 const char *hci_fmu_step(hci_fmu_model *m, double duration_s)
 {
-    const double step_s = hci_fmu_controller.step_s, steps = floor(duration_s / step_s + 0.5);
-    if (!(steps >= 1.0 && fabs(duration_s - steps * step_s) <= 1e-6 * step_s)) {
-        snprintf(m->words, sizeof m->words,
-                 "a communication step of %g s is no multiple of %g s, in which the controller counts its "
-                 "samples and delays",
-                 duration_s, step_s);
-        return m->words;
-    }
+    const double steps = floor(duration_s / hci_fmu_controller.step_s + 0.5);
+    const char *words = check_step(m, duration_s, steps);
+    if (words) return words;
     if (hci_loop_is_old(&m->code.tables, electrical_speed(m)))
         hci_loop_make(&m->code.tables, electrical_speed(m));
     for (double k = 0.0; k < steps; k += 1.0)
@@ -200,9 +169,7 @@ const char *hci_fmu_step(hci_fmu_model *m, double duration_s)
 
 const char *hci_fmu_update(hci_fmu_model *m)
 {
-    const char *words = m->has_begun ? NULL : to_initial_state(m);
     double reference_A[3];
-    if (words) return words;
     hci_control_state ahead = m->state;
     make_step(m, &ahead);
     hci_plane_to_abc(ahead.v, &VALUE(VA));
@@ -225,10 +192,8 @@ void hci_fmu_state_save(const hci_fmu_model *m, void *memory)
 {
     saved_state s;
     memset(&s, 0, sizeof s);
-    memcpy(s.value, m->value, sizeof s.value);
     s.state = m->state;
     s.made_rad_per_s = m->code.tables.made_rad_per_s;
-    s.has_begun = m->has_begun;
     memcpy(memory, &s, sizeof s);
 }
 
@@ -236,12 +201,9 @@ const char *hci_fmu_state_load(hci_fmu_model *m, const void *memory, size_t size
 {
     saved_state s;
     if (size != sizeof s) return "these bytes are no state of this FMU";
-    memcpy(&s, memory, sizeof s);
-    memcpy(m->value, s.value, sizeof s.value);
-    m->has_begun = s.has_begun;
-    if (!s.has_begun) return NULL;
-    const char *words = to_initial_state(m);
+    const char *words = hci_fmu_to_initial_state(m);
     if (words) return words;
+    memcpy(&s, memory, sizeof s);
     m->state = s.state;
     hci_loop_make(&m->code.tables, s.made_rad_per_s);
     return NULL;

@@ -1,12 +1,13 @@
 /* The C interface of FMI 3.0, as far as an FMU has to provide it: types, numbers and signatures as the
- * standard (3.0.1, sections 2.2, 3.3, 4.3 and 5.3) states them. Functions of other interface types and of
- * variable types that no model here has are there too, and answer that they are not. */
+ * standard (3.0.1, sections 2.2, 3.3, 4.3 and 5.3) states them. */
 #ifndef HCI_SRC_FMU_FMI3_H
 #define HCI_SRC_FMU_FMI3_H
 
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+
+#include "fmu/fmi3_absent.h"
 
 typedef void *fmi3Instance;
 typedef void *fmi3InstanceEnvironment;
@@ -70,10 +71,6 @@ typedef void (*fmi3UnlockPreemptionCallback)(void);
 /* Declaration of a function. */
 #define HCI_FMI3_FUNCTION(result, name) HCI_FMI3_EXPORT result HCI_FMI3(name)
 
-/* Types of variables that no model here has: X(type). */
-#define HCI_FMI3_OTHER_TYPES(X)                                                                              \
-    X(Float32) X(Int8) X(UInt8) X(Int16) X(UInt16) X(Int32) X(UInt32) X(UInt64) X(String)
-
 /* A getter and a setter. */
 #define HCI_FMI3_VALUES(type)                                                                                \
     HCI_FMI3_FUNCTION(fmi3Status, fmi3Get##type)                                                             \
@@ -100,29 +97,13 @@ HCI_FMI3_FUNCTION(fmi3Status, fmi3EnterInitializationMode)
 (fmi3Instance c, fmi3Boolean tolerance_defined, fmi3Float64 tolerance, fmi3Float64 start,
  fmi3Boolean stop_defined, fmi3Float64 stop);
 HCI_FMI3_FUNCTION(fmi3Status, fmi3ExitInitializationMode)(fmi3Instance c);
-HCI_FMI3_FUNCTION(fmi3Status, fmi3EnterEventMode)(fmi3Instance c);
 HCI_FMI3_FUNCTION(fmi3Status, fmi3Terminate)(fmi3Instance c);
 HCI_FMI3_FUNCTION(fmi3Status, fmi3Reset)(fmi3Instance c);
 
 HCI_FMI3_VALUES(Float64)
 HCI_FMI3_VALUES(Int64)
 HCI_FMI3_VALUES(Boolean)
-HCI_FMI3_OTHER_TYPES(HCI_FMI3_VALUES)
-HCI_FMI3_FUNCTION(fmi3Status, fmi3GetBinary)
-(fmi3Instance c, const fmi3ValueReference vr[], size_t n, size_t sizes[], fmi3Binary value[], size_t values);
-HCI_FMI3_FUNCTION(fmi3Status, fmi3SetBinary)
-(fmi3Instance c, const fmi3ValueReference vr[], size_t n, const size_t sizes[], const fmi3Binary value[],
- size_t values);
-HCI_FMI3_FUNCTION(fmi3Status, fmi3GetClock)
-(fmi3Instance c, const fmi3ValueReference vr[], size_t n, fmi3Clock value[]);
-HCI_FMI3_FUNCTION(fmi3Status, fmi3SetClock)
-(fmi3Instance c, const fmi3ValueReference vr[], size_t n, const fmi3Clock value[]);
 
-HCI_FMI3_FUNCTION(fmi3Status, fmi3GetNumberOfVariableDependencies)
-(fmi3Instance c, fmi3ValueReference vr, size_t *count);
-HCI_FMI3_FUNCTION(fmi3Status, fmi3GetVariableDependencies)
-(fmi3Instance c, fmi3ValueReference dependent, size_t elements[], fmi3ValueReference independents[],
- size_t independent_elements[], fmi3DependencyKind kinds[], size_t count);
 HCI_FMI3_FUNCTION(fmi3Status, fmi3GetFMUState)(fmi3Instance c, fmi3FMUState *state);
 HCI_FMI3_FUNCTION(fmi3Status, fmi3SetFMUState)(fmi3Instance c, fmi3FMUState state);
 HCI_FMI3_FUNCTION(fmi3Status, fmi3FreeFMUState)(fmi3Instance c, fmi3FMUState *state);
@@ -131,60 +112,18 @@ HCI_FMI3_FUNCTION(fmi3Status, fmi3SerializeFMUState)
 (fmi3Instance c, fmi3FMUState state, fmi3Byte bytes[], size_t size);
 HCI_FMI3_FUNCTION(fmi3Status, fmi3DeserializeFMUState)
 (fmi3Instance c, const fmi3Byte bytes[], size_t size, fmi3FMUState *state);
-HCI_FMI3_FUNCTION(fmi3Status, fmi3GetDirectionalDerivative)
-(fmi3Instance c, const fmi3ValueReference unknown[], size_t unknowns, const fmi3ValueReference known[],
- size_t knowns, const fmi3Float64 seed[], size_t seeds, fmi3Float64 answer[], size_t answers);
-HCI_FMI3_FUNCTION(fmi3Status, fmi3GetAdjointDerivative)
-(fmi3Instance c, const fmi3ValueReference unknown[], size_t unknowns, const fmi3ValueReference known[],
- size_t knowns, const fmi3Float64 seed[], size_t seeds, fmi3Float64 answer[], size_t answers);
 
-HCI_FMI3_FUNCTION(fmi3Status, fmi3EnterConfigurationMode)(fmi3Instance c);
-HCI_FMI3_FUNCTION(fmi3Status, fmi3ExitConfigurationMode)(fmi3Instance c);
-HCI_FMI3_FUNCTION(fmi3Status, fmi3GetIntervalDecimal)
-(fmi3Instance c, const fmi3ValueReference vr[], size_t n, fmi3Float64 interval[],
- fmi3IntervalQualifier qualifier[]);
-HCI_FMI3_FUNCTION(fmi3Status, fmi3GetIntervalFraction)
-(fmi3Instance c, const fmi3ValueReference vr[], size_t n, fmi3UInt64 counter[], fmi3UInt64 resolution[],
- fmi3IntervalQualifier qualifier[]);
-HCI_FMI3_FUNCTION(fmi3Status, fmi3GetShiftDecimal)
-(fmi3Instance c, const fmi3ValueReference vr[], size_t n, fmi3Float64 shift[]);
-HCI_FMI3_FUNCTION(fmi3Status, fmi3GetShiftFraction)
-(fmi3Instance c, const fmi3ValueReference vr[], size_t n, fmi3UInt64 counter[], fmi3UInt64 resolution[]);
-HCI_FMI3_FUNCTION(fmi3Status, fmi3SetIntervalDecimal)
-(fmi3Instance c, const fmi3ValueReference vr[], size_t n, const fmi3Float64 interval[]);
-HCI_FMI3_FUNCTION(fmi3Status, fmi3SetIntervalFraction)
-(fmi3Instance c, const fmi3ValueReference vr[], size_t n, const fmi3UInt64 counter[],
- const fmi3UInt64 resolution[]);
-HCI_FMI3_FUNCTION(fmi3Status, fmi3SetShiftDecimal)
-(fmi3Instance c, const fmi3ValueReference vr[], size_t n, const fmi3Float64 shift[]);
-HCI_FMI3_FUNCTION(fmi3Status, fmi3SetShiftFraction)
-(fmi3Instance c, const fmi3ValueReference vr[], size_t n, const fmi3UInt64 counter[],
- const fmi3UInt64 resolution[]);
-HCI_FMI3_FUNCTION(fmi3Status, fmi3EvaluateDiscreteStates)(fmi3Instance c);
-HCI_FMI3_FUNCTION(fmi3Status, fmi3UpdateDiscreteStates)
-(fmi3Instance c, fmi3Boolean *again, fmi3Boolean *terminate, fmi3Boolean *nominals, fmi3Boolean *values,
- fmi3Boolean *event_defined, fmi3Float64 *event_s);
-
-HCI_FMI3_FUNCTION(fmi3Status, fmi3EnterContinuousTimeMode)(fmi3Instance c);
-HCI_FMI3_FUNCTION(fmi3Status, fmi3CompletedIntegratorStep)
-(fmi3Instance c, fmi3Boolean no_way_back, fmi3Boolean *event, fmi3Boolean *terminate);
-HCI_FMI3_FUNCTION(fmi3Status, fmi3SetTime)(fmi3Instance c, fmi3Float64 time_s);
-HCI_FMI3_FUNCTION(fmi3Status, fmi3SetContinuousStates)(fmi3Instance c, const fmi3Float64 x[], size_t n);
-HCI_FMI3_FUNCTION(fmi3Status, fmi3GetContinuousStateDerivatives)(fmi3Instance c, fmi3Float64 x[], size_t n);
-HCI_FMI3_FUNCTION(fmi3Status, fmi3GetEventIndicators)(fmi3Instance c, fmi3Float64 x[], size_t n);
-HCI_FMI3_FUNCTION(fmi3Status, fmi3GetContinuousStates)(fmi3Instance c, fmi3Float64 x[], size_t n);
-HCI_FMI3_FUNCTION(fmi3Status, fmi3GetNominalsOfContinuousStates)(fmi3Instance c, fmi3Float64 x[], size_t n);
 HCI_FMI3_FUNCTION(fmi3Status, fmi3GetNumberOfEventIndicators)(fmi3Instance c, size_t *n);
 HCI_FMI3_FUNCTION(fmi3Status, fmi3GetNumberOfContinuousStates)(fmi3Instance c, size_t *n);
 
 HCI_FMI3_FUNCTION(fmi3Status, fmi3EnterStepMode)(fmi3Instance c);
-HCI_FMI3_FUNCTION(fmi3Status, fmi3GetOutputDerivatives)
-(fmi3Instance c, const fmi3ValueReference vr[], size_t n, const fmi3Int32 order[], fmi3Float64 value[],
- size_t values);
 HCI_FMI3_FUNCTION(fmi3Status, fmi3DoStep)
 (fmi3Instance c, fmi3Float64 from_s, fmi3Float64 duration_s, fmi3Boolean no_way_back, fmi3Boolean *event,
  fmi3Boolean *terminate, fmi3Boolean *early, fmi3Float64 *last_s);
-HCI_FMI3_FUNCTION(fmi3Status, fmi3ActivateModelPartition)
-(fmi3Instance c, fmi3ValueReference clock, fmi3Float64 time_s);
+
+/* Those that are there and answer that they are not. */
+#define HCI_FMI3_DECLARE(name, asked, parameters) HCI_FMI3_FUNCTION(fmi3Status, name) parameters;
+HCI_FMI3_ABSENT(HCI_FMI3_DECLARE)
+#undef HCI_FMI3_DECLARE
 
 #endif

@@ -10,13 +10,13 @@
 #include "hci/effects/attach.h"
 #include "hci/machine/frames.h"
 
-#define VALUE(key) (m->value[HCI_FMU_MACHINE_##key])
+#define VALUE(key) (m->head.value[HCI_FMU_MACHINE_##key])
 
 const hci_fmu_variable hci_fmu_list[] = {HCI_FMU_MACHINE_VARIABLES(HCI_FMU_ENTRY)};
 const size_t hci_fmu_count = HCI_FMU_MACHINE_COUNT;
 
 struct hci_fmu_model {
-    double value[HCI_FMU_MACHINE_COUNT];
+    hci_fmu_head head;
     double *rows; /* of the table over the angle */
     double *ring; /* readings that are on their way, of all sensors */
     size_t ring_size;
@@ -24,70 +24,40 @@ struct hci_fmu_model {
     hci_drive_state state;
     hci_sensor sensor[HCI_SENSE_COUNT];
     hci_effects_attachment effects;
-    bool has_begun;
-    char words[200]; /* what is wrong */
 };
+const size_t hci_fmu_model_size = sizeof(hci_fmu_model);
 
 /* What a saved state consists of; the ring follows it. */
 typedef struct {
-    double value[HCI_FMU_MACHINE_COUNT];
     hci_plant_state plant;
     hci_measurement measured;
     double torque_measured_Nm;
     hci_sensor_state sensor[HCI_SENSE_COUNT]; /* but for its pointer */
     double memory[HCI_SENSE_COUNT][HCI_EFFECT_LINKS][8];
-    bool has_begun;
 } saved_state;
 
-/* ---- instances ---- */
+/* ---- its memory ---- */
 
-static bool fill_table(hci_fmu_model *m)
+bool hci_fmu_make(hci_fmu_model *m)
 {
-    m->rows = calloc(hci_plant_table_size(hci_fmu_machine.points), sizeof *m->rows);
-    return m->rows && hci_plant_table_fill(&hci_fmu_machine.machine, &hci_fmu_machine.inductance,
-                                           hci_fmu_machine.points, m->rows, &m->drive.plant.table) == HCI_OK;
+    const hci_fmu_machine_data *d = &hci_fmu_machine;
+    m->rows = calloc(hci_plant_table_size(d->points), sizeof *m->rows);
+    return m->rows && hci_plant_table_fill(&d->machine, &d->inductance, d->points, m->rows,
+                                           &m->drive.plant.table) == HCI_OK;
 }
 
-hci_fmu_model *hci_fmu_new(void)
+void hci_fmu_release(hci_fmu_model *m)
 {
-    hci_fmu_model *m = calloc(1, sizeof *m);
-    if (!m) return NULL;
-    hci_fmu_reset(m);
-    if (fill_table(m)) return m;
-    hci_fmu_free(m);
-    return NULL;
-}
-
-void hci_fmu_free(hci_fmu_model *m)
-{
-    if (!m) return;
     free(m->rows);
     free(m->ring);
-    free(m);
-}
-
-double *hci_fmu_values(hci_fmu_model *m)
-{
-    return m->value;
-}
-
-bool hci_fmu_has_begun(const hci_fmu_model *m)
-{
-    return m->has_begun;
-}
-
-void hci_fmu_reset(hci_fmu_model *m)
-{
-    memcpy(m->value, hci_fmu_start, sizeof m->value);
-    m->has_begun = false;
 }
 
 /* ---- parameters ---- */
 
 static const char *wrong(hci_fmu_model *m, const char *what, double value, const char *expected)
 {
-    snprintf(m->words, sizeof m->words, "%s is %g, expected %s", what, value, expected);
-    return m->words;
+    snprintf(m->head.words, sizeof m->head.words, "%s is %g, expected %s", what, value, expected);
+    return m->head.words;
 }
 
 static const char *check_parameters(hci_fmu_model *m)
@@ -98,8 +68,6 @@ static const char *check_parameters(hci_fmu_model *m)
     if (!(VALUE(COULOMB) >= 0.0)) return wrong(m, "coulomb_friction", VALUE(COULOMB), "0 or more");
     if (!(VALUE(INERTIA) > 0.0) && !(VALUE(IS_PRESCRIBED) > 0.0))
         return wrong(m, "inertia", VALUE(INERTIA), "above 0, or speed_is_prescribed true");
-    if (!isfinite(VALUE(ANGLE_START)) || !isfinite(VALUE(SPEED_START)))
-        return "angle_start and speed_start have to be numbers";
     return NULL;
 }
 
@@ -171,7 +139,7 @@ static void start_sensors(hci_fmu_model *m)
                          HCI_SENSE_COUNT + (uint64_t)k, first[k]);
 }
 
-static const char *to_initial_state(hci_fmu_model *m)
+const char *hci_fmu_to_initial_state(hci_fmu_model *m)
 {
     const double turn = 2.0 * HCI_PI;
     const char *words = make_drive(m);
@@ -185,24 +153,17 @@ static const char *to_initial_state(hci_fmu_model *m)
     return NULL;
 }
 
-const char *hci_fmu_begin(hci_fmu_model *m)
-{
-    const char *words = to_initial_state(m);
-    m->has_begun = !words;
-    return words;
-}
-
 /* ---- a step ---- */
 
 /* A delay is so many internal steps; where there is one, these have to be as long as the parameter says. */
 static const char *check_step(hci_fmu_model *m, double step_s)
 {
     if (m->ring_size == 0 || fabs(step_s - VALUE(STEP)) <= 1e-6 * VALUE(STEP)) return NULL;
-    snprintf(m->words, sizeof m->words,
+    snprintf(m->head.words, sizeof m->head.words,
              "sensors of this machine have a delay, so that a communication step has to be a multiple of "
              "the parameter step, %g s",
              VALUE(STEP));
-    return m->words;
+    return m->head.words;
 }
 
 static void hold_inputs(hci_fmu_model *m, double held[2])
@@ -264,8 +225,6 @@ static void update_currents(hci_fmu_model *m, double theta_rad, double i[2])
 
 const char *hci_fmu_update(hci_fmu_model *m)
 {
-    const char *words = m->has_begun ? NULL : to_initial_state(m);
-    if (words) return words;
     hci_plant_state at = m->state.plant;
     const double turn = 2.0 * HCI_PI, theta_rad = m->drive.plant.table.pole_pairs * at.theta_m_rad;
     update_currents(m, theta_rad, at.i);
@@ -292,7 +251,6 @@ void hci_fmu_state_save(const hci_fmu_model *m, void *memory)
 {
     saved_state s;
     memset(&s, 0, sizeof s);
-    memcpy(s.value, m->value, sizeof s.value);
     s.plant = m->state.plant;
     s.measured = m->state.measured;
     s.torque_measured_Nm = m->state.torque_measured_Nm;
@@ -302,7 +260,6 @@ void hci_fmu_state_save(const hci_fmu_model *m, void *memory)
         for (size_t j = 0; j < m->effects.probe[k].channel.count; ++j)
             memcpy(s.memory[k][j], m->effects.probe[k].channel.link[j].memory, sizeof s.memory[k][j]);
     }
-    s.has_begun = m->has_begun;
     memcpy(memory, &s, sizeof s);
     if (m->ring_size > 0) memcpy((char *)memory + sizeof s, m->ring, m->ring_size * sizeof *m->ring);
 }
@@ -321,14 +278,10 @@ static void restore_sensors(hci_fmu_model *m, const saved_state *s)
 const char *hci_fmu_state_load(hci_fmu_model *m, const void *memory, size_t size)
 {
     saved_state s;
-    if (size < sizeof s) return "these bytes are no state of this FMU";
-    memcpy(&s, memory, sizeof s);
-    memcpy(m->value, s.value, sizeof s.value);
-    m->has_begun = s.has_begun;
-    if (!s.has_begun) return NULL;
     const char *words = make_drive(m);
     if (words) return words;
     if (size != hci_fmu_state_size(m)) return "these bytes are no state of this FMU";
+    memcpy(&s, memory, sizeof s);
     m->state.plant = s.plant;
     m->state.measured = s.measured;
     m->state.torque_measured_Nm = s.torque_measured_Nm;

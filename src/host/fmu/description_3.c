@@ -1,34 +1,10 @@
 /* modelDescription.xml and buildDescription.xml of FMI 3.0. */
-#include "hci/version.h"
 #include "host/fmu/description_parts.h"
 
 static size_t reference_of(const hci_fmu_description *d, size_t variable)
 {
     (void)d;
     return variable;
-}
-
-static void add_head(const hci_fmu_description *d, hci_long_text *text)
-{
-    hci_long_text_add(text,
-                      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<fmiModelDescription fmiVersion=\"3.0\"");
-    hci_fmu_attribute(text, "modelName", d->name);
-    hci_fmu_attribute(text, "instantiationToken", d->token);
-    hci_fmu_attribute(text, "description", d->what);
-    hci_long_text_add(text, " generationTool=\"hci-solve " HCI_VERSION_STRING
-                            "\" variableNamingConvention=\"flat\">\n  <CoSimulation");
-    hci_fmu_attribute(text, "modelIdentifier", d->identifier);
-    hci_long_text_add(text, " canGetAndSetFMUState=\"true\" canSerializeFMUState=\"true\""
-                            " canHandleVariableCommunicationStepSize=\"true\"/>\n");
-}
-
-static void add_choices(const hci_fmu_description *d, hci_long_text *text)
-{
-    if (!d->choices) return;
-    hci_long_text_add(text, "  <TypeDefinitions>\n    <EnumerationType name=\"Choice\">\n");
-    for (int k = 0; d->choices[k]; ++k)
-        hci_long_text_add(text, "      <Item name=\"%s\" value=\"%d\"/>\n", d->choices[k], k + 1);
-    hci_long_text_add(text, "    </EnumerationType>\n  </TypeDefinitions>\n");
 }
 
 static void add_variable(const hci_fmu_description *d, size_t k, hci_long_text *text)
@@ -41,14 +17,7 @@ static void add_variable(const hci_fmu_description *d, size_t k, hci_long_text *
     hci_long_text_add(text, " valueReference=\"%zu\"", k);
     hci_fmu_attribute(text, "description", v->description);
     hci_fmu_causality_attributes(v, text);
-    if (v->type == HCI_FMU_CHOICE) hci_long_text_add(text, " declaredType=\"Choice\"");
-    if (v->unit[0]) hci_fmu_attribute(text, "unit", v->unit);
-    if (v->type == HCI_FMU_BOOLEAN)
-        hci_long_text_add(text, " start=\"%s\"", d->start[k] > 0.0 ? "true" : "false");
-    else if (v->type == HCI_FMU_CHOICE)
-        hci_long_text_add(text, " start=\"%d\"", (int)d->start[k]);
-    else if (v->causality != HCI_FMU_OUTPUT)
-        hci_fmu_attribute_number(text, "start", d->start[k]);
+    hci_fmu_value_attributes(d, k, text);
     hci_long_text_add(text, "/>\n");
 }
 
@@ -81,9 +50,10 @@ static void add_structure(const hci_fmu_description *d, hci_long_text *text)
 
 void hci_fmu_describe_3(const hci_fmu_description *d, hci_long_text *text)
 {
-    add_head(d, text);
+    hci_fmu_head(d, 3, "instantiationToken", "", text);
+    hci_long_text_add(text, " canGetAndSetFMUState=\"true\" canSerializeFMUState=\"true\"/>\n");
     hci_fmu_units(d, text);
-    add_choices(d, text);
+    hci_fmu_choices(d, "<EnumerationType name=\"Choice\">", "</EnumerationType>", text);
     hci_fmu_experiment(d, text);
     add_variables(d, text);
     add_structure(d, text);

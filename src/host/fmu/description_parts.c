@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "hci/version.h"
+
 void hci_fmu_attribute(hci_long_text *text, const char *name, const char *value)
 {
     hci_long_text_add(text, " %s=\"", name);
@@ -24,6 +26,34 @@ void hci_fmu_attribute_number(hci_long_text *text, const char *name, double valu
     hci_long_text_add(text, " %s=\"", name);
     hci_long_text_number(text, value);
     hci_long_text_add(text, "\"");
+}
+
+/* ---- head ---- */
+
+void hci_fmu_head(const hci_fmu_description *d, int version, const char *token, const char *more,
+                  hci_long_text *text)
+{
+    hci_long_text_add(text,
+                      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<fmiModelDescription fmiVersion=\"%d.0\"",
+                      version);
+    hci_fmu_attribute(text, "modelName", d->name);
+    hci_fmu_attribute(text, token, d->token);
+    hci_fmu_attribute(text, "description", d->what);
+    hci_long_text_add(text,
+                      " generationTool=\"hci-solve " HCI_VERSION_STRING
+                      "\" variableNamingConvention=\"flat\"%s>\n  <CoSimulation",
+                      more);
+    hci_fmu_attribute(text, "modelIdentifier", d->identifier);
+    hci_long_text_add(text, " canHandleVariableCommunicationStepSize=\"true\"");
+}
+
+void hci_fmu_choices(const hci_fmu_description *d, const char *open, const char *close, hci_long_text *text)
+{
+    if (!d->choices) return;
+    hci_long_text_add(text, "  <TypeDefinitions>\n    %s\n", open);
+    for (int k = 0; d->choices[k]; ++k)
+        hci_long_text_add(text, "      <Item name=\"%s\" value=\"%d\"/>\n", d->choices[k], k + 1);
+    hci_long_text_add(text, "    %s\n  </TypeDefinitions>\n", close);
 }
 
 /* ---- units ---- */
@@ -65,9 +95,22 @@ void hci_fmu_units(const hci_fmu_description *d, hci_long_text *text)
 
 /* ---- the rest ---- */
 
+void hci_fmu_value_attributes(const hci_fmu_description *d, size_t k, hci_long_text *text)
+{
+    const hci_fmu_variable *v = &d->list[k];
+    if (v->unit[0]) hci_fmu_attribute(text, "unit", v->unit);
+    if (v->type == HCI_FMU_CHOICE)
+        hci_long_text_add(text, " declaredType=\"Choice\" start=\"%d\"", (int)d->start[k]);
+    else if (v->type == HCI_FMU_BOOLEAN)
+        hci_long_text_add(text, " start=\"%s\"", d->start[k] > 0.0 ? "true" : "false");
+    else if (v->causality != HCI_FMU_OUTPUT)
+        hci_fmu_attribute_number(text, "start", d->start[k]);
+}
+
 void hci_fmu_experiment(const hci_fmu_description *d, hci_long_text *text)
 {
-    hci_long_text_add(text, "  <LogCategories>\n    <Category name=\"logStatusError\"/>\n  </LogCategories>\n"
+    hci_long_text_add(text, "  <LogCategories>\n    <Category name=\"logStatusError\"/>\n"
+                            "    <Category name=\"logStatusDiscard\"/>\n  </LogCategories>\n"
                             "  <DefaultExperiment startTime=\"0.0\"");
     hci_fmu_attribute_number(text, "stepSize", d->step_s);
     hci_long_text_add(text, "/>\n");

@@ -1,6 +1,9 @@
 /* The plant: the machine as a table over the angle, the winding, and the shaft. */
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
+#include "hci/machine/frames.h"
 #include "host/base/memory.h"
 #include "host/simulate/setup_task.h"
 
@@ -30,23 +33,80 @@ static hci_status integrate_slopes(const hci_setup_task *b, hci_plant_inductance
     return HCI_OK;
 }
 
+/* Rows of machine.csv that currents driven by a voltage need, all that are missing at once. */
+static hci_status need_winding(const hci_setup_task *b)
+{
+    const hci_machine_data *m = b->machine;
+    const bool has_table = m->inductance_count > 0 || m->model.slope_count > 0;
+    const struct {
+        const char *row;
+        bool missing;
+    } need[] = {{"resistance,VALUE,ohm,SOURCE", isnan(m->resistance_ohm)},
+                {"inductance_d,VALUE,H,SOURCE", isnan(m->inductance_d_H) && !has_table},
+                {"inductance_q,VALUE,H,SOURCE", isnan(m->inductance_q_H) && !has_table}};
+    char rows[160] = "";
+    for (size_t k = 0; k < sizeof need / sizeof *need; ++k)
+        if (need[k].missing)
+            snprintf(rows + strlen(rows), sizeof rows - strlen(rows), "%s`%s`", rows[0] ? ", " : "",
+                     need[k].row);
+    if (!rows[0]) return HCI_OK;
+    return hci_note_set(
+        b->note, HCI_ERROR_INPUT,
+        "machine.csv: currents that a voltage drives need a resistance and inductances; add %s", rows);
+}
+
+/* Means over a turn of what the effects add to L_d and L_q at small currents. */
+static void effects_d_and_q(const hci_setup_task *b, double *d_H, double *q_H)
+{
+    enum { ANGLES = 360 };
+    const hci_machine *m = &b->machine->model;
+    *d_H = *q_H = 0.0;
+    for (int k = 0; k < ANGLES && b->effects; ++k) {
+        const hci_sample at = {.theta_m_rad = 2.0 * HCI_PI * k / (ANGLES * m->pole_pairs)};
+        const hci_effect_torque x = hci_effects_torque(m, b->effects, &at, NULL);
+        const double c = cos(2.0 * HCI_PI * k / ANGLES), s = sin(2.0 * HCI_PI * k / ANGLES);
+        const double *l = x.inductance_H;
+        *d_H += (c * c * l[0] + 2.0 * c * s * l[1] + s * s * l[2]) / ANGLES;
+        *q_H += (s * s * l[0] - 2.0 * c * s * l[1] + c * c * l[2]) / ANGLES;
+    }
+}
+
+/* L_d and L_q that differ make a reluctance torque. Where the effects have one, recordings have told it
+ * whole, and the difference would count twice: then machine.csv says how large both are, and the effects by
+ * how much they differ. */
+static void take_difference(const hci_setup_task *b, hci_plant_inductance *given)
+{
+    double d_H, q_H;
+    if (fabs(given->d_H - given->q_H) <= 1e-9 * given->q_H) return;
+    effects_d_and_q(b, &d_H, &q_H);
+    if (fabs(d_H - q_H) <= 1e-9 * given->q_H) {
+        hci_note_add(&b->setup->remark,
+                     "inductance_d and inductance_q differ, and the reluctance torque that follows is in "
+                     "this simulation; `solve` reads inductance.csv only");
+        return;
+    }
+    given->d_H = given->q_H = 0.5 * (given->d_H + given->q_H - d_H - q_H);
+    hci_note_add(
+        &b->setup->remark,
+        "inductance_d and inductance_q differ, and effects.csv has the reluctance torque: their mean "
+        "is taken, and a difference of %.4g H from effects.csv",
+        d_H - q_H);
+}
+
 /* L_d and L_q of machine.csv; where imposed currents do without them, placeholders. */
-static hci_status take_d_and_q(const hci_setup_task *b, bool is_imposed, hci_plant_inductance *given)
+static hci_status take_d_and_q(const hci_setup_task *b, hci_plant_inductance *given)
 {
     static const char WHO[] = "the change of currents needs";
     const hci_machine_data *m = b->machine;
-    if (!is_imposed || isnan(m->inductance_d_H) != isnan(m->inductance_q_H)) {
+    if (isnan(m->inductance_d_H) != isnan(m->inductance_q_H)) {
         hci_status status = hci_setup_need(b, m->inductance_d_H, "inductance_d", "H", WHO);
         if (!status) status = hci_setup_need(b, m->inductance_q_H, "inductance_q", "H", WHO);
-        if (status) return status;
+        return status;
     }
     b->setup->has_inductance = !isnan(m->inductance_d_H);
     given->d_H = hci_value_or(m->inductance_d_H, 1e-3);
     given->q_H = hci_value_or(m->inductance_q_H, 1e-3);
-    if (fabs(given->d_H - given->q_H) > 1e-9 * given->q_H)
-        hci_note_add(&b->setup->remark,
-                     "inductance_d and inductance_q differ, and the reluctance torque that follows is in "
-                     "this simulation; `solve` reads inductance.csv only");
+    take_difference(b, given);
     return HCI_OK;
 }
 
@@ -62,7 +122,7 @@ static hci_status choose_inductance(const hci_setup_task *b, hci_plant_inductanc
                             "inductance.csv: slopes only, but currents that a voltage drives need the "
                             "inductances; give the columns "
                             "La_H … Mca_H, or `current_control,ideal` in the scenario");
-    if (m->model.slope_count == 0) return take_d_and_q(b, is_imposed, given);
+    if (m->model.slope_count == 0) return take_d_and_q(b, given);
     b->setup->has_inductance = false;
     return integrate_slopes(b, given);
 }
@@ -72,7 +132,8 @@ static hci_status fill_table(const hci_setup_task *b)
     hci_setup *p = b->setup;
     size_t points;
     int turns;
-    hci_status status = choose_inductance(b, &p->inductance);
+    hci_status status = b->scenario->current_control == HCI_CURRENT_IDEAL ? HCI_OK : need_winding(b);
+    if (!status) status = choose_inductance(b, &p->inductance);
     if (status) return status;
     turns = hci_plant_table_turns(&b->machine->model, &p->inductance);
     if (turns == 0)
@@ -126,8 +187,7 @@ static hci_status set_resistance(const hci_setup_task *b)
     b->setup->drive.plant.resistance_ohm = resistance;
     if (resistance < 0.0)
         return hci_note_set(b->note, HCI_ERROR_INPUT, "machine.csv: expected `resistance` of zero or more");
-    if (b->scenario->current_control == HCI_CURRENT_IDEAL) return HCI_OK;
-    return hci_setup_need(b, resistance, "resistance", "ohm", "currents that a voltage drives need");
+    return HCI_OK;
 }
 
 hci_status hci_setup_plant(const hci_setup_task *b)

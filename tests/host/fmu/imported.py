@@ -232,7 +232,8 @@ def check_states(name, trajectory):
 def check_refusals(name):
     slave = Slave(name)
     slave.start()
-    for wrong in (lambda: slave.set(inertia=1.0), lambda: slave.set(torque=1.0), lambda: slave.step(-1.0)):
+    for wrong in (lambda: slave.set(inertia=1.0), lambda: slave.set(torque=1.0), lambda: slave.step(-1.0),
+                  lambda: slave.set(va=float("nan"))):
         try:
             wrong()
         except Exception:

@@ -59,7 +59,8 @@ extern "C" {
     X(current_ki_V_per_As, "current_ki", "V/(A*s)", 0.0, 1e12, "0.2 R/current_sample_time",                  \
       "of the pi loop")                                                                                      \
     X(pwm_delay, "pwm_delay", "count", 0.0, 1.0, "1", "1: the pi loop's voltage is used one sample later")   \
-    X(decoupling, "decoupling", "count", 0.0, 1.0, "1", "1: the pi loop adds the motional voltages")         \
+    X(decoupling, "decoupling", "count", 0.0, 1.0, "1",                                                      \
+      "1: the pi loop adds the motional voltages with all their harmonics")                                  \
     X(computing_delay_s, "computing_delay", "s", 0.0, 1.0, "current_sample_time where pwm_delay is 1",       \
       "from a sample to the use of the pi loop's voltage")                                                   \
     X(dead_time_s, "dead_time", "s", 0.0, 0.01, "0", "of a leg in each sample of the pi loop")               \

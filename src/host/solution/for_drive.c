@@ -1,0 +1,56 @@
+#include "hci/host/solution/for_drive.h"
+
+#include <math.h>
+
+#include "hci/machine/frames.h"
+#include "hci/math/harmonic.h"
+
+/* A harmonic of the torque needs at least this order in the rotor frame. */
+static const double LEAST_ORDER = 6.0;
+
+/* Leaves out of a given set what is above the order. */
+static void drop_components(hci_component_set *set, double highest, hci_note *remark)
+{
+    size_t kept = 0;
+    for (size_t k = 0; k < set->count; ++k) {
+        const hci_component c = set->component[k];
+        if (fabs(c.order - c.sequence) > highest + HCI_ORDER_TOLERANCE) {
+            hci_note_add(remark, "left out: %s %g", hci_set_name(set->set[k]), c.order);
+            continue;
+        }
+        set->component[kept] = c;
+        set->set[kept++] = set->set[k];
+    }
+    set->count = kept;
+}
+
+/* Whether the loop can be used at all, and which voltage is kept. */
+static hci_status check_loop(const hci_drive_data *drive, const hci_machine_data *machine,
+                             const hci_solve_options *o, hci_note *remark, hci_note *note)
+{
+    if (!(o->limit_voltage_V > 0.0) && !o->limits.ignore_ratings)
+        hci_drive_voltage_remark(drive, machine, remark);
+    return hci_drive_check_loop(drive, machine, o->speed_rad_per_s, remark, note);
+}
+
+hci_status hci_solve_for_drive(const hci_drive_data *drive, const hci_machine_data *machine,
+                               hci_solve_options *o, hci_component_set *set, hci_note *remark, hci_note *note)
+{
+    const double electrical = fabs(o->speed_rad_per_s) * machine->model.pole_pairs;
+    const double highest = hci_drive_highest_rad_per_s(drive) / electrical;
+    const double rpm = o->speed_rad_per_s * 30.0 / HCI_PI;
+    o->highest_rotor_order = highest;
+    o->sample_rad = hci_drive_sample_s(drive) * electrical;
+    hci_note_add(
+        remark,
+        "at %g rpm the sampling of the drive does for orders up to %.4g in the rotor frame (n - 1 of `pos`, "
+        "n + 1 of `neg`)",
+        rpm, floor(highest));
+    if (set) drop_components(set, highest, remark);
+    if (highest >= LEAST_ORDER) return check_loop(drive, machine, o, remark, note);
+    return hci_note_set(
+        note, HCI_ERROR_INPUT,
+        "%s: at %g rpm the sampling does for orders up to %.3g in the rotor frame, which leaves no "
+        "harmonic to choose; expected at least %g: give a lower --speed",
+        drive->path, rpm, highest, LEAST_ORDER);
+}
