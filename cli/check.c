@@ -324,9 +324,12 @@ static int check_table(const cli_arguments *a, const char *table_path, bool json
 
 /* ---- the command ---- */
 
-static int run(const cli_arguments *a)
+static int run(const cli_arguments *arguments)
 {
     static hci_check check;
+    cli_arguments recordings;
+    const cli_arguments *a = &recordings;
+    cli_reading_without_lists(arguments, 1, &recordings);
     hci_note note = {{0}};
     cli_reading reading;
     hci_status status = cli_reading_take(a, a->given[STRICT], &reading, &note);

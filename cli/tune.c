@@ -1,6 +1,7 @@
 #include <stdlib.h>
 
 #include "cli/command/command.h"
+#include "cli/command/reading.h"
 #include "cli/command/written.h"
 #include "cli/commands.h"
 #include "cli/terminal/say.h"
@@ -24,9 +25,12 @@ static hci_status steps(const cli_arguments *a, cli_tuning *t, hci_note *note)
     return hci_tuning_write(&t->tuning, t->out, note);
 }
 
-static int run(const cli_arguments *a)
+static int run(const cli_arguments *arguments)
 {
     hci_note note = {{0}};
+    cli_arguments recordings;
+    const cli_arguments *a = &recordings;
+    cli_reading_without_lists(arguments, 0, &recordings);
     cli_tuning *t = calloc(1, sizeof *t);
     if (!t) return cli_fail(hci_note_memory(&note, NULL, "the steps of tune"), &note);
     t->commands = (cli_tune_commands){&cli_init, &cli_harmonics, &cli_emit};

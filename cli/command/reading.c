@@ -1,6 +1,7 @@
 #include "cli/command/reading.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "cli/terminal/say.h"
@@ -22,20 +23,87 @@ void cli_reading_release(cli_reading *reading)
     hci_column_names_release(&reading->columns);
 }
 
+/* ---- recordings among words ---- */
+
+static bool is_column_list(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return strcmp(slash ? slash + 1 : path, "columns.csv") == 0;
+}
+
+void cli_reading_without_lists(const cli_arguments *from, size_t first, cli_arguments *to)
+{
+    *to = *from;
+    to->words = first < from->words ? first : from->words;
+    for (size_t k = to->words; k < from->words; ++k)
+        if (!is_column_list(from->word[k])) to->word[to->words++] = from->word[k];
+    if (to->words == first) *to = *from; /* nothing else: the reader says why */
+}
+
+/* ---- remarks of several recordings ---- */
+
+#define UNUSED "columns not used: "
+
+/* What is said of a recording: first how it was read, then which columns were not. */
+typedef enum { READ, NOT_USED } part_of_remark;
+
+typedef struct {
+    const char *text;
+    size_t length;
+} remark_part;
+
+static remark_part part_of(const hci_note *remark, part_of_remark which)
+{
+    const char *unused = strstr(remark->text, UNUSED);
+    if (which == NOT_USED) return (remark_part){unused ? unused : "", unused ? strlen(unused) : 0};
+    size_t length = unused ? (size_t)(unused - remark->text) : strlen(remark->text);
+    while (unused && length > 0 && strchr("; ", remark->text[length - 1]))
+        --length;
+    return (remark_part){remark->text, length};
+}
+
+static bool is_same(remark_part a, remark_part b)
+{
+    return a.length == b.length && memcmp(a.text, b.text, a.length) == 0;
+}
+
+void cli_remarks_group(const cli_remarks *all,
+                       void (*say)(void *to, size_t first, size_t alike, const char *text), void *to)
+{
+    for (size_t k = 0; k < 2 * all->count; ++k) {
+        const part_of_remark which = k < all->count ? READ : NOT_USED;
+        const size_t first = k % all->count;
+        const remark_part one = part_of(all->remark(all->context, first), which);
+        size_t before = 0, alike = 0;
+        for (size_t j = 0; j < all->count; ++j) {
+            const bool same = is_same(part_of(all->remark(all->context, j), which), one);
+            before += same && j < first;
+            alike += same;
+        }
+        char text[HCI_NOTE_SIZE];
+        snprintf(text, sizeof text, "%.*s", (int)one.length, one.text);
+        if (before == 0 && one.length > 0) say(to, first, alike, text);
+    }
+}
+
+static void say_each(void *to, size_t first, size_t alike, const char *text)
+{
+    const cli_remarks *all = to;
+    hci_note note = {{0}};
+    (void)first;
+    if (alike > 1)
+        hci_note_set(&note, HCI_OK, "%zu of %zu recordings: %s", alike, all->count, text);
+    else
+        hci_note_set(&note, HCI_OK, "%s", text);
+    cli_remark(&note);
+}
+
 void cli_remark_each(const hci_note *(*remark)(const void *context, size_t k), const void *context,
                      size_t count)
 {
-    for (size_t k = 0; k < count; ++k) {
-        const hci_note *one = remark(context, k);
-        size_t before = 0, alike = 0;
-        for (size_t j = 0; j < count; ++j) {
-            const bool is_same = strcmp(remark(context, j)->text, one->text) == 0;
-            before += is_same && j < k;
-            alike += is_same;
-        }
-        hci_note many = {{0}};
-        if (alike > 1 && one->text[0])
-            hci_note_set(&many, HCI_OK, "%zu of %zu recordings: %s", alike, count, one->text);
-        if (before == 0) cli_remark(many.text[0] ? &many : one);
-    }
+    cli_remarks all = {remark, context, count};
+    if (count == 1)
+        cli_remark(remark(context, 0));
+    else
+        cli_remarks_group(&all, say_each, &all);
 }

@@ -17,8 +17,23 @@ hci_status cli_reading_take(const cli_arguments *arguments, bool strict, cli_rea
                             hci_note *note);
 void cli_reading_release(cli_reading *reading);
 
-/* The remarks of recordings, remark(context, k) for k < count: what several have in common is said once, with
- * their number. */
+/* The words of a command line, from word `first` on recordings, without a `columns.csv`: what a shell makes
+ * of a pattern names it too, but it is no recording. to: out. */
+void cli_reading_without_lists(const cli_arguments *from, size_t first, cli_arguments *to);
+
+/* The remarks of recordings: remark(context, k) for k < count. */
+typedef struct {
+    const hci_note *(*remark)(const void *context, size_t k);
+    const void *context;
+    size_t count;
+} cli_remarks;
+
+/* Says each remark once: first how recordings were read, then the columns that were not used. first: the
+ * first recording that it is of; alike: how many it is of. */
+void cli_remarks_group(const cli_remarks *all,
+                       void (*say)(void *to, size_t first, size_t alike, const char *text), void *to);
+
+/* The same as remarks on standard error. */
 void cli_remark_each(const hci_note *(*remark)(const void *context, size_t k), const void *context,
                      size_t count);
 

@@ -228,21 +228,19 @@ static hci_status read_inputs(cli_tuning *t, hci_note *note)
     return hci_runs_read(t->list, &(hci_runs_options){t->reading.run, cli_progress, NULL}, &t->runs, note);
 }
 
-/* The same remark of many recordings is said once. */
-static void say_remark(cli_tuning *t, size_t k)
+static const hci_note *remark_of(const void *runs, size_t k)
 {
-    const char *text = t->runs.run[k].remark.text;
-    size_t count = 0;
-    for (size_t j = 0; j < t->runs.count; ++j) {
-        const bool is_same = strcmp(t->runs.run[j].remark.text, text) == 0;
-        if (is_same && j < k) return;
-        count += is_same;
-    }
-    if (!*text) return;
-    if (count > 1)
-        hci_tuning_say(&t->tuning, HCI_TUNING_READ, "%zu of %zu recordings: %s", count, t->runs.count, text);
+    return &((const hci_runs *)runs)->run[k].remark;
+}
+
+/* The same remark of many recordings is said once. */
+static void say_remark(void *to, size_t first, size_t alike, const char *text)
+{
+    cli_tuning *t = to;
+    if (alike > 1)
+        hci_tuning_say(&t->tuning, HCI_TUNING_READ, "%zu of %zu recordings: %s", alike, t->runs.count, text);
     else if (t->runs.count > 1)
-        hci_tuning_say(&t->tuning, HCI_TUNING_READ, "%s: %s", name_of(t, k), text);
+        hci_tuning_say(&t->tuning, HCI_TUNING_READ, "%s: %s", name_of(t, first), text);
     else
         hci_tuning_say(&t->tuning, HCI_TUNING_READ, "  %s", text);
 }
@@ -265,10 +263,9 @@ hci_status cli_tune_read(cli_tuning *t, hci_note *note)
     for (size_t k = 0; k < t->runs.count && !status; ++k)
         say_run(t, k);
     if (!status && t->runs.count > 0) choose_log(t);
-    for (size_t k = 0; k < t->runs.count && !status; ++k) {
-        say_remark(t, k);
+    if (!status) cli_remarks_group(&(cli_remarks){remark_of, &t->runs, t->runs.count}, say_remark, t);
+    for (size_t k = 0; k < t->runs.count && !status; ++k)
         t->has_unsteady = t->has_unsteady || t->runs.run[k].is_unsteady;
-    }
     return status;
 }
 

@@ -57,9 +57,9 @@ drive() {
 drive load -2 10
 drive back 0 0
 run 1 check "$work/typed" "$work/load.csv" "$work/back.csv" --verbose
-says '^hci-solve: note: .*`erpm` is read as.*columns not used: `odd`' '^1 slip found, 1 more possible: rated_current is rms' \
+says '^hci-solve: note: .*`erpm` is read as' '^hci-solve: note: .*columns not used: `odd`' '^1 slip found, 1 more possible: rated_current is rms' \
     'possible resistance_line' ' 1  change of the angle over time against the speed'
-check "the same remark twice" [ "$(grep -c 'note:' "$work/stderr")" -eq 1 ]
+check "the same remark twice" [ "$(grep -c 'note:' "$work/stderr")" -eq 2 ]
 says 'note: .*2 of 2 recordings: ' 
 sed -i 's/^resistance,0.38/resistance,0.2/; s/^rated_current,7.0710678/rated_current,10/' "$work/typed/machine.csv"
 printf 'order,amplitude_Nm_per_A,phase_rad\n1,0.2,0\n' >"$work/typed/back_emf.csv"
@@ -122,6 +122,18 @@ fi
 run 0 check data/machine_a --json
 check "no verdict" grep -q '"verdict":	"consistent"' "$work/stdout"
 
+# ---- what several recordings have in common is said once; a list of columns among them is none
+
+mkdir -p "$work/both"
+for k in 1 2 3; do
+    printf 'time_s,theta_m_rad,AI3,lamp\n0,0,1,0\n1,%s,2,0\n2,1,1,0\n' "0.$k" >"$work/both/run$k.csv"
+done
+printf 'name,column\ntorque_Nm,AI3\n' >"$work/both/columns.csv"
+sed -i 's/^1,0.2/x,0.2/' "$work/both/run2.csv"
+run 0 check data/machine_a "$work/both/"*.csv
+says '3 of 3 recordings: columns not used: `lamp`$'
+check "unused columns are said again" [ "$(grep -c 'lamp' "$work/stderr")" -eq 1 ]
+
 # ---- wrong: one line that says what and where
 
 run 2 check
@@ -129,7 +141,7 @@ says 'check: found 0 words, expected 1 or more: MACHINE'
 run 3 check "$work/none"
 says 'none: No such file'
 run 3 check data/machine_a data/machine_a/cogging.csv
-says 'cogging.csv:.*no column `theta_m_rad`.*theta_e_rad'
+says 'cogging.csv:.*no angle of the rotor.*theta_e'
 printf 'name,value,unit\npole_pairs,2.5,1\n' >"$work/typed/machine.csv"
 run 3 check "$work/typed"
 says 'machine.csv:2: `pole_pairs`: found 2.5'

@@ -108,7 +108,7 @@ write jmag.csv "$foreword"' NR == 1 { print "Time(s),theta_m(deg),Torque(Nm),Coi
 same_model jmag.csv '`Coil-U` is read as the current of phase a, and those after it as b and c, in A'
 write jmag_torque.csv "$foreword"' NR == 1 { print "Time(s),Torque(Nm)" } { print t "," T }'
 run 3 harmonics "$work/jmag_torque.csv" --quantity cogging --pole-pairs 2
-says 'jmag_torque.csv:8: found no column `theta_m_rad` but `Time\(s\)`, `Torque\(Nm\)`'
+says 'jmag_torque.csv:8: found no angle of the rotor but `Time\(s\)`, `Torque\(Nm\)`, expected a column theta_m or theta_e'
 sed '12s/.*/0.06,x,1,1,1,1/' "$work/jmag.csv" >"$work/jmag_broken.csv"
 run 0 predict data/machine_a "$work/jmag_broken.csv"
 says '1 of 400 rows have a hole and are left out, first line 12, column 2 `theta_m\(deg\)`: found `x`'
@@ -181,7 +181,7 @@ run 3 predict data/machine_a "$work/twice.csv"
 says 'twice.csv:1: column [23] `i_s?q`: found `iq_A` a second time'
 write rivals.csv 'NR == 1 { print "speed,torque"; print "theta_m,iq" } { print m "," iq }'
 run 3 predict data/machine_a "$work/rivals.csv" # which of the two is the header?
-says 'rivals.csv:1: found no column `theta_m_rad` but `speed`, `torque`'
+says 'rivals.csv:1: found no angle of the rotor but `speed`, `torque`'
 
 # ---- diagnose reads its list of such files
 

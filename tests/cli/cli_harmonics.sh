@@ -118,7 +118,7 @@ refused 3 'found no angle' "$work/voltages.csv" --quantity cogging --pole-pairs 
 refused 3 'none.csv: .*No such file' "$work/none.csv" --quantity cogging --pole-pairs 2
 sed '1s/theta_e_rad/theta/' "$work/shifted.csv" | cut -d , -f 1,2,4-7 >"$work/theta.csv"
 refused 3 'theta.csv:1: column 2 `theta`: found an angle that may be mechanical or electrical' "$work/theta.csv" --quantity back_emf --pole-pairs 4
-refused 3 'column `theta_m_rad` but .*`theta_e_rad` will do as well' "$source_dir/data/machine_a/back_emf.csv" --quantity back_emf --pole-pairs 4
+refused 3 'no angle of the rotor.*expected a column theta_m or theta_e' "$source_dir/data/machine_a/back_emf.csv" --quantity back_emf --pole-pairs 4
 printf 'theta_m_deg,iq_A,torque_Nm\n0,1,0\n1,2,0\n' >"$work/held.csv"
 refused 3 'add --torque-constant' "$work/held.csv" --quantity cogging --pole-pairs 2
 refused 3 'do not go round' "$work/held.csv" --quantity cogging --pole-pairs 2 --torque-constant 1

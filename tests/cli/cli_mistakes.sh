@@ -66,7 +66,7 @@ log time_s,theta_m_rad,iq_A,spare; cogging 0 'read as a holding test' -- --holdi
 { echo theta_m,iq_A,torque_Nm; awk 'BEGIN { for (k = 0; k < 360; ++k) print k ",0.5," k % 7 }'; } >r.csv
 run 0 predict m r.csv -o out.csv; says '`theta_m` has no unit and is read in rad, but looks like degrees: name it theta_m_deg'
 { echo 'Time(s),Torque(Nm)'; awk 'BEGIN { for (k = 0; k < 90; ++k) print k ",1" }'; } >r.csv
-cogging 3 'found no column `theta_m_rad`' 'a column `speed_rpm` beside the time will do, too'
+cogging 3 'found no angle of the rotor' 'a column `speed_rpm` beside the time will do, too'
 
 # ---- the wrong file or folder
 

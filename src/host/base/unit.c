@@ -62,6 +62,12 @@ static const hci_unit units[] = {
     {"deg", ANGLE, HCI_PI / 180},
     {"degree", ANGLE, HCI_PI / 180},
     {"degrees", ANGLE, HCI_PI / 180},
+    {"grad", ANGLE, HCI_PI / 180}, /* degrees in German; nobody logs gradians */
+    {"degre", ANGLE, HCI_PI / 180},
+    {"degres", ANGLE, HCI_PI / 180},
+    {"gradi", ANGLE, HCI_PI / 180},
+    {"grado", ANGLE, HCI_PI / 180},
+    {"grados", ANGLE, HCI_PI / 180},
     {"rev", ANGLE, 2 * HCI_PI},
     {"turn", ANGLE, 2 * HCI_PI},
     {"turns", ANGLE, 2 * HCI_PI},
@@ -75,6 +81,16 @@ static const hci_unit units[] = {
     {"1/min", SPEED, 2 * HCI_PI / 60},
     {"r/min", SPEED, 2 * HCI_PI / 60},
     {"rev/min", SPEED, 2 * HCI_PI / 60},
+    {"u/min", SPEED, 2 * HCI_PI / 60},
+    {"umdr/min", SPEED, 2 * HCI_PI / 60},
+    {"upm", SPEED, 2 * HCI_PI / 60},
+    {"tr/min", SPEED, 2 * HCI_PI / 60},
+    {"giri/min", SPEED, 2 * HCI_PI / 60},
+    {"min.1", SPEED, 2 * HCI_PI / 60},
+    {"grad/s", SPEED, HCI_PI / 180},
+    {"rad.s.1", SPEED, 1},
+    {"u/s", SPEED, 2 * HCI_PI},
+    {"tr/s", SPEED, 2 * HCI_PI},
     {"rev/s", SPEED, 2 * HCI_PI},
     {"rps", SPEED, 2 * HCI_PI},
     {"turn/s", SPEED, 2 * HCI_PI},
@@ -136,6 +152,9 @@ typedef struct {
 /* Tried in this order at each position. */
 static const replacement replacements[] = {
     {"_per_", "/"},
+    {"\xC3\xA9", "e"},              /* é */
+    {"\xC3\xA8", "e"},              /* è */
+    {"\xE2\x81\xBB\xC2\xB9", ".1"}, /* ⁻¹ */
     {" per ", "/"},
     {" / ", "/"},
     {"_", "."},

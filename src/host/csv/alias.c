@@ -26,6 +26,7 @@ const hci_alias hci_aliases[] = {
     PLAIN("x-axis", "time_s", NULL, "Keysight"),
     PLAIN("Source", "time_s", NULL, "Siglent"),
     PLAIN("Second", "time_s", "s", "Siglent"),
+    TOLD("X_Value", "time_s", "s", "LabVIEW", "the time"),
     BESIDE("Fd", "theta", "theta_e_rad", "deg", "SyR-e", "the electrical angle"),
     BESIDE("tau_M", "theta_m", "theta_e_rad", "rad", "motulator", "the electrical angle"),
     PLAIN("theta", NULL, NULL, "many"),

@@ -8,6 +8,7 @@
 #include "host/base/memory.h"
 #include "host/base/quote.h"
 #include "host/csv/column_name.h"
+#include "host/csv/name_words.h"
 #include "host/csv/table.h"
 
 /* ---- one column and what is asked for ---- */
@@ -199,6 +200,24 @@ static hci_column_match find_foreign(const hci_csv *csv, const char *name, const
     return result;
 }
 
+/* By the plain words of its name. */
+static hci_column_match find_by_words(const hci_csv *csv, const char *name, const hci_wanted_column *want)
+{
+    hci_column_match result = {.kind = HCI_COLUMN_NONE};
+    for (size_t column = 0; column < csv->columns; column++) {
+        const hci_unit *of_name, *of_row = hci_csv_row_unit(csv, column);
+        const hci_alias *said = hci_name_words(hci_csv_cell(csv, 0, column), of_row, &of_name);
+        if (said == NULL || said->column == NULL || strcmp(said->column, name) != 0 ||
+            is_given(csv, column) || hci_column_has_known_name(hci_csv_cell(csv, 0, column)))
+            continue;
+        hci_column_match next =
+            match_units(csv, column, want, of_name, hci_unit_find(said->unit, strlen(said->unit)));
+        next.alias = said;
+        if (next.kind != HCI_COLUMN_OTHER_UNIT && !add_match(&result, next)) break;
+    }
+    return result;
+}
+
 hci_column_match hci_column_find(const hci_csv *csv, const char *name)
 {
     const hci_wanted_column want = hci_wanted_column_of(name);
@@ -206,6 +225,7 @@ hci_column_match hci_column_find(const hci_csv *csv, const char *name)
     if (result.kind == HCI_COLUMN_NONE) result = find_foreign(csv, name, &want, true);
     if (result.kind == HCI_COLUMN_NONE) result = find_own(csv, name, &want);
     if (result.kind == HCI_COLUMN_NONE) result = find_foreign(csv, name, &want, false);
+    if (result.kind == HCI_COLUMN_NONE) result = find_by_words(csv, name, &want);
     return result;
 }
 
@@ -292,6 +312,7 @@ bool hci_csv_told(const hci_csv *csv, const char *name, hci_note *told)
     const hci_column_match found = hci_column_find(csv, name);
     char quoted[HCI_QUOTE_SIZE];
     if (found.alias == NULL || found.alias->meaning == NULL) return false;
+    if (hci_name_words_are_clear(found.alias) && found.has_unit) return false;
     const bool supposed = !found.has_unit && strcmp(found.alias->unit, "1") != 0;
     hci_note_set(told, HCI_OK, "%s is read as %s%s%s", hci_quote(hci_csv_cell(csv, 0, found.column), quoted),
                  found.alias->meaning, supposed ? ", in " : "", supposed ? found.alias->unit : "");
@@ -318,11 +339,15 @@ static hci_status unclear_error(const hci_csv *csv, size_t column, hci_note *not
 bool hci_csv_unclear(const hci_csv *csv, size_t *column)
 {
     const hci_unit *unit;
-    for (*column = 0; *column < csv->columns; ++*column)
-        for (size_t k = 0; k < hci_alias_count && !is_given(csv, *column); k++)
-            if (hci_aliases[k].column == NULL &&
-                hci_column_split_alias(hci_csv_cell(csv, 0, *column), &hci_aliases[k], &unit))
+    for (*column = 0; *column < csv->columns; ++*column) {
+        const char *header = hci_csv_cell(csv, 0, *column);
+        if (is_given(csv, *column)) continue;
+        for (size_t k = 0; k < hci_alias_count; k++)
+            if (hci_aliases[k].column == NULL && hci_column_split_alias(header, &hci_aliases[k], &unit))
                 return true;
+        const hci_alias *said = hci_name_words(header, hci_csv_row_unit(csv, *column), &unit);
+        if (said != NULL && said->column == NULL) return true;
+    }
     return false;
 }
 

@@ -57,7 +57,9 @@ static bool take_word(const char *name, worded_name *w)
     if (after) rest = after;
     if (!rest || *rest == '\0' || strlen(rest) + 3 > MOST_BARE) return false;
     if (strcmp(rest, current ? "A" : "V") == 0) return false; /* likely to be the unit */
-    snprintf(w->bare, sizeof w->bare, "%s", rest);
+    const bool is_between = rest[1] == '-' && rest[2] != '\0' &&
+                            strchr(" [(", rest[3]) != NULL; /* U-V: from one terminal to the other */
+    snprintf(w->bare, sizeof w->bare, "%s", is_between ? "" : rest);
     snprintf(w->with_letter, sizeof w->with_letter, "%c_%s", current ? 'i' : 'u', rest);
     w->dimension = hci_unit_find(current ? "A" : "V", 1)->dimension;
     return true;
@@ -103,16 +105,4 @@ bool hci_column_split_alias(const char *name, const hci_alias *alias, const hci_
     const hci_unit *of_alias = hci_unit_find(alias->unit, strlen(alias->unit));
     return of_alias != NULL && of_alias->dimension == w.dimension &&
            (split_alias(w.bare, alias, unit) || split_alias(w.with_letter, alias, unit));
-}
-
-bool hci_column_is_known(const char *name)
-{
-    const hci_unit *unit;
-    for (size_t k = 0; k < hci_alias_count; k++) {
-        if (hci_aliases[k].column == NULL) continue;
-        const hci_wanted_column want = hci_wanted_column_of(hci_aliases[k].column);
-        if (hci_column_split_alias(name, &hci_aliases[k], &unit) || hci_column_split(name, &want, &unit))
-            return true;
-    }
-    return false;
 }

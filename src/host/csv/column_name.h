@@ -25,7 +25,4 @@ bool hci_column_split_alias(const char *name, const hci_alias *alias, const hci_
 /* The unit that the end of a name gives: "_deg", " (deg)", "[deg]", " / deg", ", deg"; NULL: none. */
 const hci_unit *hci_column_unit_of_tail(const char *tail);
 
-/* Is a name one of those that a recording has, here or elsewhere? */
-bool hci_column_is_known(const char *name);
-
 #endif

@@ -15,6 +15,7 @@
 #include "host/csv/blanks.h"
 #include "host/csv/number_cell.h"
 #include "host/csv/table.h"
+#include "host/csv/twincat.h"
 #include "host/foreign/as_recording.h"
 
 enum { COLUMNS_MAX = 4096 };
@@ -313,12 +314,23 @@ static hci_status torn_row(reader *r, size_t line, size_t count)
     return HCI_OK;
 }
 
+/* LabVIEW names a last column for comments, and ends the rows before it. */
+static bool lacks_comment(const hci_csv *csv, size_t count)
+{
+    return count + 1 == csv->columns && csv->columns > 1 &&
+           hci_csv_same_name(hci_csv_cell(csv, 0, csv->columns - 1), "Comment");
+}
+
 static hci_status read_row(reader *r)
 {
     hci_csv *csv = r->csv;
     const size_t start = r->used, line = r->line;
     size_t count, filled;
-    const hci_status status = read_record(r, csv->columns, &count, &filled);
+    hci_status status = read_record(r, csv->columns, &count, &filled);
+    if (!status && lacks_comment(csv, count)) {
+        status = push(r, csv->index[r->used - 1] + (uint32_t)strlen(csv->text + csv->index[r->used - 1]));
+        ++count;
+    }
     if (status) return status;
     if (filled > 0 && filled <= csv->columns && count >= csv->columns) {
         csv->records++;
@@ -394,6 +406,7 @@ static hci_status read_table(hci_csv *csv, hci_note *note)
     reader r = {.csv = csv, .note = note, .line = 1};
     hci_status status = hci_csv_load(csv, note);
     if (!status) status = turn_into_table(csv, note);
+    if (!status) status = hci_csv_of_twincat(csv->path, csv->text, note);
     if (status) return status;
     hci_csv_prepare(csv->text);
     r.next = csv->text + (strncmp(csv->text, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0);

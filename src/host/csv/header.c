@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "host/csv/column_name.h"
+#include "host/csv/name_words.h"
 #include "host/csv/number_cell.h"
 #include "host/csv/table.h"
 

@@ -116,13 +116,19 @@ const char *hci_csv_name(const hci_csv *csv, size_t column)
 
 /* ---- row of units ---- */
 
+/* hh:mm:ss, HH:MM:SS.fff and the like say how the cells are written: clock times are in seconds. */
+static bool is_clock_format(const char *text, size_t length)
+{
+    return memchr(text, ':', length) != NULL && strspn(text, "hHmMsSfFiInNxX0:., ") >= length;
+}
+
 const hci_unit *hci_csv_cell_unit(const char *cell)
 {
-    const size_t length = strlen(cell);
+    size_t length = strlen(cell);
     if (length >= 2 &&
         ((cell[0] == '(' && cell[length - 1] == ')') || (cell[0] == '[' && cell[length - 1] == ']')))
-        return hci_unit_find(cell + 1, length - 2);
-    return hci_unit_find(cell, length);
+        ++cell, length -= 2;
+    return is_clock_format(cell, length) ? hci_unit_find("s", 1) : hci_unit_find(cell, length);
 }
 
 bool hci_csv_says_no_unit(const char *cell)

@@ -25,15 +25,21 @@ static char *copy_of(const char *text, size_t length)
 
 /* ---- quantities ---- */
 
-static bool is_quantity(const char *name)
+/* The quantity that a name asks for, in whatever unit; HCI_RUN_COLUMN_COUNT: none. */
+static unsigned quantity_of(const char *name)
 {
     const hci_unit *unit;
     for (unsigned k = 0; k < HCI_RUN_COLUMN_COUNT; ++k) {
         const hci_wanted_column want = hci_wanted_column_of(hci_run_column_name(k));
-        if (!hci_column_split(name, &want, &unit)) continue;
-        if (unit == NULL || unit->dimension == want.unit->dimension) return strlen(name) < 32;
+        if (hci_column_split(name, &want, &unit) && (unit == NULL || unit->dimension == want.unit->dimension))
+            return k;
     }
-    return false;
+    return HCI_RUN_COLUMN_COUNT;
+}
+
+static bool is_quantity(const char *name)
+{
+    return quantity_of(name) != HCI_RUN_COLUMN_COUNT && strlen(name) < 32;
 }
 
 /* "; did you mean `torque_Nm`?", or all that there is. */
@@ -275,12 +281,8 @@ static hci_status no_such_column(const hci_csv *csv, const hci_column_name *item
 /* Whether the file has the quantity under a name of its own. */
 static bool has_quantity(const hci_csv *csv, const char *name)
 {
-    const hci_unit *unit;
-    for (unsigned k = 0; k < HCI_RUN_COLUMN_COUNT; ++k) {
-        const hci_wanted_column want = hci_wanted_column_of(hci_run_column_name(k));
-        if (hci_column_split(name, &want, &unit) && hci_csv_has(csv, hci_run_column_name(k))) return true;
-    }
-    return false;
+    const unsigned which = quantity_of(name);
+    return which != HCI_RUN_COLUMN_COUNT && hci_csv_has(csv, hci_run_column_name(which));
 }
 
 /* In what is no radian: that nobody counts in. */
@@ -310,6 +312,19 @@ static bool find_counted(const hci_csv *csv, const hci_column_name *item, size_t
     return find_header(csv, header, column);
 }
 
+/* Whether another row names the column of the same quantity, as where one list serves recordings of two
+ * languages. */
+static bool is_named_otherwise(const hci_column_names *names, const hci_column_name *item, const hci_csv *csv)
+{
+    for (size_t k = 0; k < names->count; ++k) {
+        const hci_column_name *other = &names->item[k];
+        size_t column;
+        if (other == item || quantity_of(other->name) != quantity_of(item->name)) continue;
+        if (find_header(csv, other->column, &column) || find_counted(csv, other, &column)) return true;
+    }
+    return false;
+}
+
 static hci_status give_counted(hci_csv *csv, const hci_column_name *item, size_t column, hci_note *note)
 {
     size_t length;
@@ -327,7 +342,7 @@ hci_status hci_column_names_apply(const hci_column_names *names, bool optional, 
             status = give(csv, item, column, note);
         else if (find_counted(csv, item, &column))
             status = give_counted(csv, item, column, note);
-        else if (!optional || !has_quantity(csv, item->name))
+        else if (!is_named_otherwise(names, item, csv) && (!optional || !has_quantity(csv, item->name)))
             status = no_such_column(csv, item, note);
     }
     return status;

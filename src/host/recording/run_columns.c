@@ -1,12 +1,14 @@
 #include "host/recording/run_columns.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "host/base/memory.h"
 #include "host/base/quote.h"
 #include "host/csv/column.h"
 #include "host/csv/column_name.h"
+#include "host/csv/name_words.h"
 #include "host/csv/table.h"
 
 static const char *const NAME[HCI_RUN_COLUMN_COUNT] = {
@@ -51,16 +53,21 @@ static bool is_map(const hci_run_columns *c)
     return !c->has[HCI_RUN_VA] && !c->has[HCI_RUN_VAB] && !(c->has[HCI_RUN_TIME] && speed);
 }
 
-/* Could a column that is not known be the angle? Counts of an encoder are told apart. */
-static bool looks_like_angle(const char *name)
+static bool has_word(const char *name, const char *word)
 {
-    static const char *const WORDS[] = {"angle",    "theta",  "encoder", "enc_",
-                                        "position", "winkel", "resolver"};
     char lower[64] = "";
     for (size_t k = 0; name[k] != '\0' && k + 1 < sizeof lower; ++k)
         lower[k] = (char)(name[k] >= 'A' && name[k] <= 'Z' ? name[k] - 'A' + 'a' : name[k]);
+    return strstr(lower, word) != NULL;
+}
+
+/* Could a column that is not known be the angle? Counts of an encoder are told apart. */
+static bool looks_like_angle(const char *name)
+{
+    static const char *const WORDS[] = {"angle",    "theta",  "encoder",   "enc_",  "position", "winkel",
+                                        "resolver", "angolo", "angulaire", "angul", "rotor"};
     for (size_t k = 0; k < sizeof WORDS / sizeof *WORDS; ++k)
-        if (strstr(lower, WORDS[k]) != NULL && strstr(lower, "current") == NULL) return true;
+        if (has_word(name, WORDS[k]) && !has_word(name, "current")) return true;
     return false;
 }
 
@@ -118,26 +125,87 @@ void hci_run_columns_say_angle(const hci_run_columns *c, hci_note *missing)
                      name, name);
 }
 
-/* A list of recordings where one of them is expected. */
+static bool has_names(const hci_csv *csv, const char *first, const char *second)
+{
+    return hci_csv_columns(csv) >= 2 && hci_csv_same_name(hci_csv_name(csv, 0), first) &&
+           hci_csv_same_name(hci_csv_name(csv, 1), second);
+}
+
+/* A list of recordings, or of names of columns, where a recording is expected. */
 static hci_status refuse_list(const hci_run_columns *c)
 {
     char path[HCI_QUOTE_PATH_SIZE];
     const hci_csv *csv = c->csv;
-    if (hci_csv_columns(csv) < 2 || !hci_csv_same_name(hci_csv_name(csv, 0), "file") ||
-        !hci_csv_same_name(hci_csv_name(csv, 1), "role"))
-        return HCI_OK;
+    if (has_names(csv, "name", "column"))
+        return hci_note_set(
+            c->note, HCI_ERROR_INPUT,
+            "%s: found a list of names of columns, expected a recording; leave it out: it is read "
+            "with the recordings that it stands beside",
+            hci_quote_path(hci_csv_path(csv), path));
+    if (!has_names(csv, "file", "role")) return HCI_OK;
     return hci_note_set(c->note, HCI_ERROR_INPUT,
                         "%s: found a list of recordings, expected one of them; name the recordings one by "
                         "one, or give the list to --runs",
                         hci_quote_path(hci_csv_path(csv), path));
 }
 
+/* "`a`, `b`", the first columns of the file. */
+static void list_columns(const hci_csv *csv, char *text, size_t size)
+{
+    char quoted[HCI_QUOTE_SIZE];
+    size_t used = 0;
+    for (size_t column = 0; column < hci_csv_columns(csv) && used < size; ++column)
+        used += (size_t)snprintf(text + used, size - used, "%s%s", column > 0 ? ", " : "",
+                                 hci_quote(hci_csv_name(csv, column), quoted));
+    if (used >= size) snprintf(text + size - 6, 6, ", ...");
+}
+
+static hci_status no_angle(const hci_run_columns *c)
+{
+    char path[HCI_QUOTE_PATH_SIZE], list[240];
+    hci_note text = {{0}};
+    const bool is_likely = likely_angle(c) != NULL || likely_voltage(c) != NULL;
+    list_columns(c->csv, list, sizeof list);
+    hci_note_set(&text, HCI_OK,
+                 "%s:%zu: found no angle of the rotor%s%s, expected a column theta_m or theta_e",
+                 hci_quote_path(hci_csv_path(c->csv), path), hci_csv_record_line(c->csv, 0),
+                 is_likely ? "" : " but ", is_likely ? "" : list);
+    hci_run_columns_say_angle(c, &text);
+    return hci_note_set(c->note, HCI_ERROR_INPUT, "%s", text.text);
+}
+
+/* A column that is not read and is likely to be the time; NULL: none. */
+static const char *likely_time(const hci_run_columns *c)
+{
+    static const char *const WORDS[] = {"time",   "zeit", "uhr",   "temps", "heure",
+                                        "tiempo", "hora", "clock", "stamp"};
+    const hci_unit *second = hci_unit_find("s", 1);
+    for (size_t column = 0; column < hci_csv_columns(c->csv); ++column) {
+        const char *name = hci_csv_name(c->csv, column);
+        const hci_unit *unit = hci_column_unit(c->csv, column);
+        if (hci_column_is_known(name)) continue;
+        if (unit != NULL && unit->dimension == second->dimension) return name;
+        for (size_t k = 0; k < sizeof WORDS / sizeof *WORDS && unit == NULL; ++k)
+            if (has_word(name, WORDS[k])) return name;
+    }
+    return NULL;
+}
+
+static void tell_lost_time(const hci_run_columns *c)
+{
+    const char *name = c->has[HCI_RUN_TIME] ? NULL : likely_time(c);
+    if (name != NULL)
+        hci_note_add(
+            c->remark,
+            "no column is read as the time: if `%.60s` is it, say --column \"time_s=%.60s\" (time_ms in "
+            "milliseconds)",
+            name, name);
+}
+
 /* Neither angle nor voltages: most likely a column under another name. Where voltages would do without an
  * angle, one that may be either is refused all the same, and not passed over. */
 static hci_status check_angle(const hci_run_columns *c, bool is_needed)
 {
-    hci_note missing = {{0}};
-    double unused;
     if (c->has[HCI_RUN_THETA_M] || c->has[HCI_RUN_THETA_E]) return HCI_OK;
     hci_status status = refuse_list(c);
     if (!status) status = hci_csv_check_clear(c->csv, c->note);
@@ -147,10 +215,7 @@ static hci_status check_angle(const hci_run_columns *c, bool is_needed)
     }
     if (status || (!is_needed && has_any(c))) return status;
     if (hci_run_columns_suffice(c) && !(is_map(c) && likely_angle(c) != NULL)) return HCI_OK;
-    status = hci_csv_number(c->csv, NAME[HCI_RUN_THETA_M], 0, &unused, &missing);
-    hci_note_add(&missing, "`%s` will do as well", NAME[HCI_RUN_THETA_E]);
-    hci_run_columns_say_angle(c, &missing);
-    return hci_note_set(c->note, status, "%s", missing.text);
+    return no_angle(c);
 }
 
 static hci_status find(const hci_csv *csv, bool needs_angle, hci_run_columns *c, hci_note *remark,
@@ -163,6 +228,7 @@ static hci_status find(const hci_csv *csv, bool needs_angle, hci_run_columns *c,
     for (int k = 0; k < HCI_RUN_COLUMN_COUNT; ++k)
         c->has[k] = hci_csv_find(csv, NAME[k], &c->at[k]);
     const hci_status status = check_angle(c, needs_angle);
+    if (!status) tell_lost_time(c);
     if (!status && csv->decided.text[0]) hci_note_add(remark, "%s", csv->decided.text);
     if (!status && hci_csv_header_line(csv) > 0)
         hci_note_add(remark, "line %zu is the header, what stands before it is not read",

@@ -92,6 +92,49 @@ static void test_counts_of_an_encoder(void)
     text_has("found no column `enc_count/none`", note.text);
 }
 
+/* One list serves recordings of two languages: a row whose column is not in the file yields to another of the
+ * same quantity that is, in whatever unit; where none is, it is an error. */
+static void test_one_list_for_two_languages(void)
+{
+    add("theta_m_deg=Kanal W");
+    add("torque_Nm=Kanal M");
+    add("theta_m_deg=Voie A");
+    add("torque_mNm=Voie C");
+    files_write(path, "Kanal W;Kanal M\n0;1\n90;2\n180;3\n");
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, read_run(), note.text);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 2.0, run.torque_Nm[1]);
+    files_write(path, "Voie A;Voie C\n0;1000\n90;2000\n180;3000\n");
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, read_run(), note.text);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 2.0, run.torque_Nm[1]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.5 * REF_PI, run.theta_m_rad[1]);
+    files_write(path, "Voie A;Voie X\n0;1\n90;2\n180;3\n");
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, read_run());
+    text_has("found no column `Kanal M`", note.text);
+}
+
+static void test_a_list_of_columns_is_no_recording(void)
+{
+    files_write(path, "name,column\ntheta_m_deg,Winkel\n");
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, read_run());
+    text_has("found a list of names of columns, expected a recording; leave it out", note.text);
+}
+
+/* What is lost of time and angle is said before all else. */
+static void test_a_lost_time_is_said_first(void)
+{
+    files_write(path, "Laufzeit X;theta_m_deg;torque_Nm;a;b\n0;0;1;1;1\n1;90;2;1;1\n2;180;1;1;1\n");
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, read_run(), note.text);
+    static const char FIRST[] =
+        "no column is read as the time: if `Laufzeit X` is it, say --column \"time_s=Laufzeit X\"";
+    TEST_ASSERT_EQUAL_STRING_LEN(FIRST, run.remark.text, sizeof FIRST - 1);
+    files_write(path, "time_s;Rotor X;torque_Nm\n0;0;1\n1;90;2\n2;180;1\n");
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, read_run());
+    text_has(":1: found no angle of the rotor, expected a column theta_m or theta_e; if `Rotor X` is the "
+             "angle of the "
+             "rotor, say --column \"theta_m_deg=Rotor X\"",
+             note.text);
+}
+
 /* The unit of the header, or of the row of units, comes before that of the option. */
 static void test_units_of_the_file(void)
 {
@@ -212,6 +255,9 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_columns_without_a_name);
     RUN_TEST(test_counts_of_an_encoder);
+    RUN_TEST(test_one_list_for_two_languages);
+    RUN_TEST(test_a_list_of_columns_is_no_recording);
+    RUN_TEST(test_a_lost_time_is_said_first);
     RUN_TEST(test_units_of_the_file);
     RUN_TEST(test_what_is_said_comes_first);
     RUN_TEST(test_a_table_beside_the_recording_and_one_beside_the_list);

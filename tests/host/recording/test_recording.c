@@ -502,8 +502,8 @@ static void test_refused_runs(void)
     refused("theta_m_rad,id_A\n0,1\n", "add the column iq_A");
     refused("time_s,speed_rad_per_s,ia_A,ib_A,torque_Nm\n0,1,1,1,1\n", "no angle beside phase currents");
     refused("time_s,va_V,vb_V,vc_V,iq_A\n0,1,1,1,1\n", "theta_e_rad or theta_m_rad");
-    refused("time_s,torque_Nm\n0,1\n", "found no column `theta_m_rad` but `time_s`, `torque_Nm`");
-    refused("time_s,torque_Nm\n0,1\n", "`theta_e_rad` will do as well");
+    refused("time_s,torque_Nm\n0,1\n", "found no angle of the rotor but `time_s`, `torque_Nm`");
+    refused("time_s,torque_Nm\n0,1\n", "expected a column theta_m or theta_e");
     refused("time_s,theta,torque_Nm\n0,1,1\n",
             "column 2 `theta`: found an angle that may be mechanical or electrical");
     refused("time_s,theta,va_V,vb_V,vc_V\n0,1,1,1,1\n",

@@ -156,7 +156,7 @@ static void expect_refused(const char *text, const char *words)
 
 static void test_without_angle_or_voltages_it_is_refused(void)
 {
-    expect_refused("time_s,torque_Nm\n0,1\n", "no column `theta_m_rad`");
+    expect_refused("time_s,torque_Nm\n0,1\n", "no angle of the rotor");
     expect_refused("time_s,theta,va_V,vb_V,vc_V\n0,1,1,1,1\n", "may be mechanical or electrical");
     expect_refused("theta_m_rad,torque_Nm\n", "a header and no samples");
     TEST_ASSERT_EQUAL(HCI_OK, find("time_s,va_V,vb_V,vc_V\n0,1,1,1\n"));

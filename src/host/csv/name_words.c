@@ -1,0 +1,452 @@
+#include "host/csv/name_words.h"
+
+#include <string.h>
+
+#include "host/csv/column_name.h"
+#include "host/csv/table.h"
+
+/* ---- the words ---- */
+
+/* The kinds up to TEMPERATURE are quantities, of which a name says one. */
+typedef enum {
+    TIME,
+    ANGLE,
+    POSITION,
+    SPEED,
+    TORQUE,
+    CURRENT,
+    VOLTAGE,
+    TEMPERATURE,
+    QUANTITIES,
+    MECHANICAL = QUANTITIES,
+    ELECTRICAL,
+    TURNING,
+    COMPUTED,
+    MEASURED,
+    ACTUAL,
+    ROTOR,
+    SHAFT,
+    PHASE,
+    ALONG_D,
+    ALONG_Q,
+    RATE,
+    SMALL,
+    KINDS,
+    NUMBER, /* digits alone */
+    LETTER, /* of a phase */
+    DEVICE, /* letters with digits, as T40B */
+    UNKNOWN
+} word_kind;
+
+static const struct {
+    const char *kind, *words;
+} WORDS[KINDS] = {
+    [TIME] =
+        {"time",
+         "zeit uhrzeit zeitstempel messzeit time timestamp temps heure horodatage tempo ora tiempo hora"},
+    [ANGLE] = {"angle", "winkel drehwinkel rotorwinkel wellenwinkel winkelposition rotorlage lauferlage "
+                        "laeuferlage lauferwinkel laeuferwinkel angle angolo angulo theta phi"},
+    [POSITION] = {"angle, of what turns or in a unit of angle",
+                  "position lage istlage istposition lageistwert positionsistwert posizione posicion"},
+    [SPEED] =
+        {"speed",
+         "drehzahl istdrehzahl drehzahlistwert motordrehzahl winkelgeschwindigkeit geschwindigkeit speed "
+         "velocity vitesse regime velocita velocidad giri"},
+    [TORQUE] = {"torque",
+                "drehmoment moment wellenmoment motormoment istmoment istdrehmoment momentenistwert "
+                "drehmomentistwert drehmomentsensor messwelle torque couple coppia par"},
+    [CURRENT] = {"current",
+                 "strom phasenstrom strangstrom motorstrom iststrom stromistwert current courant intensite "
+                 "corrente corriente"},
+    [VOLTAGE] = {"voltage",
+                 "spannung phasenspannung strangspannung klemmenspannung voltage tension tensione voltaje"},
+    [TEMPERATURE] = {"temperature", "temperatur temperature temperatura"},
+    [MECHANICAL] = {"mechanical",
+                    "mech mechanisch mechanischer mechanical mecanique meca mec mecc meccanico meccanica "
+                    "mecanico mecanica"},
+    [ELECTRICAL] = {"electrical",
+                    "el elek elektr elektrisch elektrischer elec electrical electrique elettrico elettrica "
+                    "electrico electrica"},
+    [TURNING] = {"of what turns",
+                 "angular angulaire angolare rotation rotational rotatif rotative rotazione rotacion rot"},
+    [COMPUTED] =
+        {"computed",
+         "berechnet berechnetes errechnet geschatzt geschatztes geschaetzt calcule estime calculated "
+         "estimated computed calcolata calcolato stimata calculado estimado"},
+    [MEASURED] = {"measured",
+                  "gemessen gemessenes mess messwert measured meas mesure mesuree misurato misurata medido "
+                  "medida sensor aufnehmer messnabe capteur sensore transducer"},
+    [ACTUAL] = {"actual", "ist istwert actual act reel attuale"},
+    [ROTOR] =
+        {"rotor or motor",
+         "rotor laufer laeufer motor moteur motore magnet aimant magnete encoder drehgeber geber codeur"},
+    [SHAFT] = {"shaft", "welle shaft arbre albero eje"},
+    [PHASE] = {"phase", "phase fase strang leiter"},
+    [ALONG_D] = {"along d", "d sd feldbildend feldbildender langsstrom laengsstrom"},
+    [ALONG_Q] = {"along q", "q sq momentenbildend momentenbildender querstrom"},
+    [RATE] = {"rate of sampling", "standardmessrate messrate schnelle langsame default sample rate"},
+    [SMALL] = {"small words",
+               "de di del du der des den of the am an im in l la le value wert valeur valore valor"},
+};
+
+const char *hci_name_words_known(size_t k, const char **kind)
+{
+    if (k >= KINDS) return NULL;
+    *kind = WORDS[k].kind;
+    return WORDS[k].words;
+}
+
+/* ---- a name cut into words ---- */
+
+enum { MOST_WORDS = 12, MOST_BYTES = 96 };
+
+typedef struct {
+    char text[MOST_BYTES]; /* words one behind the other, each ended by a NUL */
+    const char *word[MOST_WORDS];
+    word_kind kind[MOST_WORDS];
+    size_t count;
+} name_words;
+
+/* The letter below an accent of Latin-1, as the second byte in UTF-8: C3 80 to C3 BF; 0: none. */
+static char without_accent(unsigned char byte)
+{
+    static const char LETTERS[] = "aaaaaa\0ceeeeiiii\0nooooo\0ouuuuy\0s";
+    const unsigned place = (byte & 0x3FU) % 0x20U;
+    return byte == 0x9F ? 's' : LETTERS[place];
+}
+
+static bool is_digit(char c)
+{
+    return c >= '0' && c <= '9';
+}
+
+static bool is_capital(char c)
+{
+    return c >= 'A' && c <= 'Z';
+}
+
+static bool is_letter(char c)
+{
+    return is_capital(c) || (c >= 'a' && c <= 'z');
+}
+
+/* Whether a word ends between two letters as they are written: PhaseCurrent, Strom1. */
+static bool is_edge(char before, char c, size_t length)
+{
+    if (is_capital(c)) return before >= 'a' && before <= 'z';
+    return is_digit(c) && !is_digit(before) && length > 3;
+}
+
+static bool put(name_words *w, size_t *used, char c)
+{
+    if (*used + 1 >= MOST_BYTES) return false;
+    w->text[(*used)++] = c;
+    return true;
+}
+
+/* Ends the word that began at `start`, if it has a letter. */
+static bool end_word(name_words *w, size_t *start, size_t *used)
+{
+    if (*used == *start) return true;
+    if (w->count == MOST_WORDS || !put(w, used, '\0')) return false;
+    w->word[w->count++] = w->text + *start;
+    *start = *used;
+    return true;
+}
+
+/* False: too long, or letters of another script. */
+static bool cut(const char *name, size_t length, name_words *w)
+{
+    size_t used = 0, start = 0;
+    bool good = true;
+    char before = '\0';
+    for (size_t k = 0; k < length && good; ++k) {
+        const unsigned char byte = (unsigned char)name[k];
+        char c = name[k];
+        if (byte == 0xC3 && k + 1 < length) c = without_accent((unsigned char)name[++k]);
+        if (c == '\0' || (c == name[k] && byte >= 0x80)) return false;
+        const bool is_word = is_letter(c) || is_digit(c);
+        if (!is_word || (used > start && is_edge(before, c, used - start))) good = end_word(w, &start, &used);
+        if (is_word) good = good && put(w, &used, (char)(is_capital(c) ? c - 'A' + 'a' : c));
+        if (!is_word && strchr(" _-.:,'/()", c) == NULL) return false;
+        if (c == '.' && k + 1 < length && is_letter(name[k + 1]))
+            return false; /* of a path, no abbreviation */
+        before = c;
+    }
+    return good && end_word(w, &start, &used) && w->count > 0;
+}
+
+static bool is_among(const char *list, const char *word)
+{
+    const size_t length = strlen(word);
+    for (const char *at = list; length > 0 && (at = strstr(at, word)) != NULL; at += length)
+        if ((at == list || at[-1] == ' ') && (at[length] == ' ' || at[length] == '\0')) return true;
+    return false;
+}
+
+static const char LETTERS_OF_PHASES[] = "a b c u v w 1 2 3 l1 l2 l3";
+static const char PAIRS[] = "ab bc ca uv vw wu 12 23 31";
+
+static word_kind kind_of(const char *word)
+{
+    const bool has_digit = word[strcspn(word, "0123456789")] != '\0';
+    for (int k = 0; k < KINDS; ++k)
+        if (is_among(WORDS[k].words, word)) return (word_kind)k;
+    if (is_among(LETTERS_OF_PHASES, word) || is_among(PAIRS, word)) return LETTER;
+    if (strspn(word, "0123456789") == strlen(word)) return NUMBER;
+    return has_digit ? DEVICE : UNKNOWN;
+}
+
+static bool is_axis(word_kind kind)
+{
+    return kind == LETTER || kind == ALONG_D || kind == ALONG_Q;
+}
+
+static bool is_in(const hci_unit *unit, const char *of)
+{
+    return unit != NULL && unit->dimension == hci_unit_find(of, strlen(of))->dimension;
+}
+
+/* A letter of a quantity at the beginning, alone or before that of a phase: "M Welle", "n ist", "Iq ist",
+ * "U12". */
+static void read_letter(name_words *w, const hci_unit *unit)
+{
+    static const char OTHERS[] = "d q sd sq";
+    const char first = w->word[0][0], *rest = w->word[0] + 1;
+    const bool is_known = w->kind[0] != LETTER && w->kind[0] != UNKNOWN && w->kind[0] != DEVICE;
+    if (is_known || (strchr("iuv", first) == NULL && *rest != '\0') || is_among(PAIRS, w->word[0])) return;
+    const bool is_fused =
+        is_among(LETTERS_OF_PHASES, rest) || is_among(PAIRS, rest) || is_among(OTHERS, rest);
+    if (*rest != '\0' && (!is_fused || w->count == MOST_WORDS)) return;
+    if (*rest == '\0' && w->count < 2) return;
+    if (*rest != '\0') {
+        memmove(w->word + 1, w->word, w->count * sizeof *w->word);
+        memmove(w->kind + 1, w->kind, w->count++ * sizeof *w->kind);
+        w->word[1] = rest;
+        w->kind[1] = kind_of(rest);
+    }
+    if (first == 'i') w->kind[0] = CURRENT;
+    if ((first == 'u' || first == 'v') && is_axis(w->kind[1])) w->kind[0] = VOLTAGE;
+    if (first == 'n' && is_in(unit, "rpm")) w->kind[0] = SPEED;
+    if (first == 'm' && is_in(unit, "N*m")) w->kind[0] = TORQUE;
+}
+
+/* ---- what the words say together ---- */
+
+#define SAID(column, unit, meaning)                                                                          \
+    {                                                                                                        \
+        "", column, unit, "words", meaning, NULL                                                             \
+    }
+
+static const hci_alias
+    OF_TIME = SAID("time_s", "s", "the time"),
+    OF_ANGLE[] = {SAID("theta_m_rad", "rad", "the mechanical angle"),
+                  SAID("theta_e_rad", "rad", "the electrical angle"), SAID(NULL, NULL, NULL)},
+    OF_SPEED[] = {SAID("speed_rad_per_s", "rpm", "the mechanical speed"),
+                  SAID("speed_e_rad_per_s", "rpm", "the electrical speed, divided by the pole pairs")},
+    OF_TORQUE[] = {SAID("torque_Nm", "N*m", "the torque"),
+                   SAID("torque_computed_Nm", "N*m",
+                        "a torque that the drive has computed from its current, not measured")},
+    OF_CURRENT[] = {SAID("ia_A", "A", "the current of phase a"), SAID("ib_A", "A", "the current of phase b"),
+                    SAID("ic_A", "A", "the current of phase c"), SAID("id_A", "A", "i_d"),
+                    SAID("iq_A", "A", "i_q")},
+    OF_VOLTAGE[] = {SAID("va_V", "V", "the voltage of phase a"), SAID("vb_V", "V", "the voltage of phase b"),
+                    SAID("vc_V", "V", "the voltage of phase c"), SAID("vd_V", "V", "v_d"),
+                    SAID("vq_V", "V", "v_q")},
+    OF_LINE[] = {SAID("vab_V", "V", "the voltage from a to b"), SAID("vbc_V", "V", "the voltage from b to c"),
+                 SAID("vca_V", "V", "the voltage from c to a")},
+    OF_TEMPERATURE = SAID("temperature_C", "degC", "the temperature of the magnets");
+
+static size_t count_of(const name_words *w, word_kind kind)
+{
+    size_t count = 0;
+    for (size_t k = 0; k < w->count; ++k)
+        count += w->kind[k] == kind;
+    return count;
+}
+
+static bool has(const name_words *w, word_kind kind)
+{
+    return count_of(w, kind) > 0;
+}
+
+/* The phase that one word or none names: 0 to 2; −1: none, or several. */
+static int letter_of(const name_words *w, const char *list)
+{
+    int found = -1;
+    for (size_t k = 0; k < w->count; ++k) {
+        if (w->kind[k] != LETTER) continue;
+        const char *at = list;
+        int place = 0;
+        for (; *at != '\0'; at += strcspn(at, " "), at += *at == ' ', ++place) {
+            const size_t length = strcspn(at, " ");
+            if (strlen(w->word[k]) == length && memcmp(at, w->word[k], length) == 0) break;
+        }
+        if (*at == '\0' || found >= 0) return -1;
+        found = place % 3;
+    }
+    return found;
+}
+
+/* d, q or a phase, as a place in the five of a quantity; −1: none of them. */
+static int axis_of(const name_words *w)
+{
+    const size_t d = count_of(w, ALONG_D), q = count_of(w, ALONG_Q);
+    if (d + q == 0) return letter_of(w, LETTERS_OF_PHASES);
+    return d > 0 && q > 0 ? -1 : has(w, LETTER) ? -1 : d > 0 ? 3 : 4;
+}
+
+static const hci_alias *current_of(const name_words *w)
+{
+    const int axis = axis_of(w);
+    return axis < 0 ? NULL : &OF_CURRENT[axis];
+}
+
+static const hci_alias *voltage_of(const name_words *w)
+{
+    const int axis = axis_of(w), pair = letter_of(w, PAIRS);
+    return axis >= 0 ? &OF_VOLTAGE[axis] : pair >= 0 ? &OF_LINE[pair] : NULL;
+}
+
+/* Where is not how far it has turned, as long as nothing says that it turns. */
+static const hci_alias *angle_of(const name_words *w, const hci_unit *unit)
+{
+    const bool turns = has(w, TURNING) || has(w, ROTOR) || has(w, SHAFT) || is_in(unit, "rad");
+    if ((has(w, POSITION) && !turns) || has(w, PHASE)) return NULL;
+    return has(w, MECHANICAL) != has(w, ELECTRICAL) ? &OF_ANGLE[has(w, ELECTRICAL)] : &OF_ANGLE[2];
+}
+
+/* What a drive calls the actual torque is its current in other words, unless a sensor or the shaft is named.
+ */
+static const hci_alias *torque_of(const name_words *w)
+{
+    static const char COMPUTED_WORDS[] = "istmoment istdrehmoment momentenistwert drehmomentistwert";
+    bool is_computed = has(w, COMPUTED) || has(w, ACTUAL);
+    for (size_t k = 0; k < w->count; ++k)
+        is_computed = is_computed || is_among(COMPUTED_WORDS, w->word[k]);
+    return &OF_TORQUE[is_computed && !has(w, MEASURED) && !has(w, SHAFT)];
+}
+
+static const hci_alias *quantity_of(const name_words *w, const hci_unit *unit)
+{
+    const bool is_plain = !has(w, ALONG_D) && !has(w, ALONG_Q) && !has(w, LETTER);
+    if (has(w, CURRENT)) return current_of(w);
+    if (has(w, VOLTAGE)) return voltage_of(w);
+    if (!is_plain) return NULL;
+    if (has(w, TIME)) return &OF_TIME;
+    if (has(w, ANGLE) || has(w, POSITION)) return angle_of(w, unit);
+    if (has(w, SPEED)) return &OF_SPEED[has(w, ELECTRICAL)];
+    if (has(w, TORQUE)) return torque_of(w);
+    return has(w, TEMPERATURE) && has(w, ROTOR) ? &OF_TEMPERATURE : NULL;
+}
+
+/* One quantity, and no word that could turn it into another: numbers and rates stand with a time alone, the
+ * name of a device before all others, "estimated" with a torque alone. */
+static bool is_sound(const name_words *w)
+{
+    size_t quantities = 0;
+    for (int k = 0; k < QUANTITIES; ++k)
+        quantities += count_of(w, (word_kind)k);
+    for (size_t k = 0; k < w->count; ++k) {
+        const word_kind kind = w->kind[k];
+        if (kind == UNKNOWN || (kind == DEVICE && k > 0)) return false;
+        if ((kind == NUMBER || kind == RATE) && !has(w, TIME)) return false;
+        if (kind == COMPUTED && !has(w, TORQUE)) return false;
+    }
+    return quantities == 1;
+}
+
+/* ---- */
+
+static bool is_fitting(const hci_alias *said, const hci_unit *unit)
+{
+    return unit == NULL || is_in(unit, said->unit != NULL ? said->unit : "rad");
+}
+
+/* What stands behind the last slash of a path. */
+static const char *last_part(const char *name, size_t *length)
+{
+    const char *from = name;
+    for (size_t k = 0; k + 1 < *length; ++k)
+        if (name[k] == '/' && name[k + 1] != ' ') from = name + k + 1;
+    *length -= (size_t)(from - name);
+    return from;
+}
+
+/* The last part of a path is read as the name of another tool, too. */
+static const hci_alias *alias_of(const char *name, size_t length)
+{
+    for (size_t k = 0; k < hci_alias_count; ++k)
+        if (hci_aliases[k].column != NULL && hci_aliases[k].unit != NULL && hci_aliases[k].beside == NULL &&
+            hci_alias_is_name(&hci_aliases[k], name, length))
+            return &hci_aliases[k];
+    return NULL;
+}
+
+static const hci_alias *say(const char *name, size_t length, const hci_unit *unit)
+{
+    name_words w = {.count = 0};
+    const char *part = last_part(name, &length);
+    const hci_alias *other = part != name ? alias_of(part, length) : NULL;
+    if (other != NULL) return other;
+    if (*part == '-' || !cut(part, length, &w)) return NULL;
+    for (size_t k = 0; k < w.count; ++k)
+        w.kind[k] = kind_of(w.word[k]);
+    for (size_t k = 0; k < w.count; ++k) /* "Zeit 1" */
+        if (w.kind[k] == LETTER && has(&w, TIME)) w.kind[k] = NUMBER;
+    read_letter(&w, unit);
+    if (!is_sound(&w)) return NULL;
+    const hci_alias *said = quantity_of(&w, unit);
+    return said != NULL && is_fitting(said, unit) ? said : NULL;
+}
+
+/* "Strom_A": likely to be the unit. */
+static bool ends_in_unit(const char *name)
+{
+    const size_t length = strlen(name);
+    if (length < 2 || strchr("AV", name[length - 1]) == NULL || strchr(" _", name[length - 2]) == NULL)
+        return false;
+    for (const char *at = name; *at != '\0'; ++at) /* but of phases that are named */
+        if (strncmp(at, "hase", 4) == 0 || strncmp(at, "HASE", 4) == 0 || strncmp(at, "ase ", 4) == 0)
+            return false;
+    return true;
+}
+
+bool hci_name_words_are_clear(const hci_alias *said)
+{
+    return said->name[0] == '\0' && said != &OF_TORQUE[1];
+}
+
+const hci_alias *hci_name_words(const char *name, const hci_unit *of_row, const hci_unit **unit)
+{
+    const size_t length = strlen(name);
+    *unit = NULL;
+    if (length > MOST_BYTES || name[0] == '\0') return NULL;
+    for (size_t end = 1; end < length; ++end) {
+        if (strchr("_([/, ", name[end]) == NULL) continue;
+        const hci_unit *of_tail = hci_column_unit_of_tail(name + end);
+        const hci_alias *said = of_tail != NULL ? say(name, end, of_tail) : NULL;
+        if (said == NULL) continue;
+        *unit = of_tail;
+        return said;
+    }
+    return ends_in_unit(name) ? NULL : say(name, length, of_row);
+}
+
+bool hci_column_has_known_name(const char *name)
+{
+    const hci_unit *unit;
+    for (size_t k = 0; k < hci_alias_count; k++) {
+        if (hci_aliases[k].column == NULL) continue;
+        const hci_wanted_column want = hci_wanted_column_of(hci_aliases[k].column);
+        if (hci_column_split_alias(name, &hci_aliases[k], &unit) || hci_column_split(name, &want, &unit))
+            return true;
+    }
+    return false;
+}
+
+bool hci_column_is_known(const char *name)
+{
+    const hci_unit *unit;
+    return hci_column_has_known_name(name) || hci_name_words(name, NULL, &unit) != NULL;
+}

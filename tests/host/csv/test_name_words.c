@@ -1,0 +1,273 @@
+/* Names of columns in plain words: what is read, what is not, the words of docs/files.md, and the text export
+ * of TwinCAT Scope. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "hci/host/csv/csv.h"
+#include "host/csv/name_words.h"
+#include "host/csv/table.h"
+#include "support/files.h"
+#include "support/reference.h"
+#include "support/texts.h"
+#include "unity.h"
+
+void setUp(void)
+{
+    files_begin();
+}
+
+void tearDown(void)
+{
+    files_end();
+}
+
+static hci_status read_text(const char *text, hci_csv **csv, hci_note *note)
+{
+    files_write(files_path("table.csv"), text);
+    return hci_csv_read_recording(files_path("table.csv"), csv, note);
+}
+
+static const char *const ASKED[] = {"time_s",
+                                    "theta_m_rad",
+                                    "theta_e_rad",
+                                    "speed_rad_per_s",
+                                    "speed_e_rad_per_s",
+                                    "ia_A",
+                                    "ib_A",
+                                    "ic_A",
+                                    "id_A",
+                                    "iq_A",
+                                    "torque_Nm",
+                                    "torque_computed_Nm",
+                                    "va_V",
+                                    "vb_V",
+                                    "vc_V",
+                                    "vab_V",
+                                    "vbc_V",
+                                    "vca_V",
+                                    "vd_V",
+                                    "vq_V",
+                                    "temperature_C"};
+enum { ASKED_COUNT = sizeof ASKED / sizeof *ASKED };
+
+/* is: the quantity, "unclear" for an angle of either kind, "" for nothing. */
+static const struct {
+    const char *header, *is;
+} NAMES[] = {
+    {"Uhrzeit", "time_s"},
+    {"Heure", "time_s"},
+    {"Zeit [hh:mm:ss]", "time_s"},
+    {"Time (HH:MM:SS.fff)", "time_s"},
+    {"Zeitstempel", "time_s"},
+    {"Zeit  1 - Standardmessrate [s]", "time_s"},
+    {"Time  1 - default sample rate [ms]", "time_s"},
+    {"Rotorwinkel mech. [°]", "theta_m_rad"},
+    {"Mech. Winkel [°]", "theta_m_rad"},
+    {"Winkel (mech.) [Grad]", "theta_m_rad"},
+    {"Angle mécanique rotor (°)", "theta_m_rad"},
+    {"ANGLE MÉCANIQUE [°]", "theta_m_rad"},
+    {"Läuferlage elektrisch [rad]", "theta_e_rad"},
+    {"Drehwinkel [Grad]", "unclear"},
+    {"Position angulaire [°]", "unclear"},
+    {"Posición angular (°)", "unclear"},
+    {"Lageistwert [°]", "unclear"},
+    {"Position [mm]", ""},
+    {"Posición", ""},
+    {"Phase angle [°]", ""},
+    {"Vitesse [tr/min]", "speed_rad_per_s"},
+    {"Drehzahl [U/min]", "speed_rad_per_s"},
+    {"Drehzahl in min⁻¹", "speed_rad_per_s"},
+    {"Istdrehzahl", "speed_rad_per_s"},
+    {"n_ist [1/min]", "speed_rad_per_s"},
+    {"n_ist", ""},
+    {"Geschwindigkeit [m/s]", ""},
+    {"Drehzahl soll [U/min]", ""},
+    {"Consigne vitesse [tr/min]", ""},
+    {"Phasenstrom 1", "ia_A"},
+    {"Phasenstrom2 [A]", "ib_A"},
+    {"Courant phase 1", "ia_A"},
+    {"Courant phase 3 [mA]", "ic_A"},
+    {"Phase B Current (A)", "ib_A"},
+    {"PhaseCurrentC [A]", "ic_A"},
+    {"Strom L2 gemessen [A]", "ib_A"},
+    {"Iq ist [A]", "iq_A"},
+    {"Stromistwert momentenbildend [A]", "iq_A"},
+    {"Corriente fase W (A)", "ic_A"},
+    {"Strom [A]", ""},
+    {"Strom_A", ""},
+    {"Motorstrom [A]", ""},
+    {"Batteriestrom 1 [A]", ""},
+    {"Strangspannung U [V]", "va_V"},
+    {"Tension composée U12 [V]", ""},
+    {"Tension phase 2 [V]", "vb_V"},
+    {"Spannung U-V [V]", "vab_V"},
+    {"Couple mesuré", "torque_Nm"},
+    {"Par medido (N·m)", "torque_Nm"},
+    {"Coppia misurata [Nm]", "torque_Nm"},
+    {"Drehmoment gemessen [N.m]", "torque_Nm"},
+    {"T40B Drehmoment [N*m]", "torque_Nm"},
+    {"M_Welle [Nm]", "torque_Nm"},
+    {"Model Root/Bench/M_Welle [Nm]", "torque_Nm"},
+    {"Model Root/Bench/theta_mech [rad]", "theta_m_rad"},
+    {"Model Root/Bench/i_q [A]", "iq_A"},
+    {"Drehmomentistwert [Nm]", "torque_computed_Nm"},
+    {"Torque actual value shaft [Nm]", "torque_Nm"},
+    {"Couple estimé [N.m]", "torque_computed_Nm"},
+    {"Drehmoment soll [Nm]", ""},
+    {"Drehmoment [A]", ""},
+    {"Moment 2 [Nm]", ""},
+    {"Temperatur Magnet [°C]", "temperature_C"},
+    {"Temperatur Raum [°C]", ""},
+};
+
+static void test_names_in_words(void)
+{
+    for (size_t k = 0; k < sizeof NAMES / sizeof *NAMES; ++k) {
+        char text[256];
+        hci_note note = {{0}};
+        hci_csv *csv;
+        snprintf(text, sizeof text, "\"%s\";x\n1;2\n2;3\n", NAMES[k].header);
+        TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, read_text(text, &csv, &note), note.text);
+        for (size_t j = 0; j < ASKED_COUNT; ++j)
+            TEST_ASSERT_EQUAL_MESSAGE(strcmp(ASKED[j], NAMES[k].is) == 0, hci_csv_has(csv, ASKED[j]),
+                                      NAMES[k].header);
+        TEST_ASSERT_EQUAL_MESSAGE(strcmp("unclear", NAMES[k].is) != 0,
+                                  hci_csv_check_clear(csv, &note) == HCI_OK, NAMES[k].header);
+        hci_csv_free(csv);
+    }
+}
+
+static double second_number(const hci_csv *csv, const char *column)
+{
+    double values[8] = {0};
+    hci_note note = {{0}};
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_csv_numbers(csv, column, values, &note), note.text);
+    return values[1];
+}
+
+static void test_units_of_other_languages(void)
+{
+    static const struct {
+        const char *header, *column;
+        double factor;
+    } UNITS[] = {{"Drehzahl [U/min]", "speed_rad_per_s", REF_PI / 30},
+                 {"Vitesse [tr/min]", "speed_rad_per_s", REF_PI / 30},
+                 {"Velocità [giri/min]", "speed_rad_per_s", REF_PI / 30},
+                 {"Drehzahl [min-1]", "speed_rad_per_s", REF_PI / 30},
+                 {"Drehzahl [min⁻¹]", "speed_rad_per_s", REF_PI / 30},
+                 {"Mech. Winkel [Grad]", "theta_m_rad", REF_PI / 180},
+                 {"Angle mécanique [degrés]", "theta_m_rad", REF_PI / 180},
+                 {"Couple mesuré [N.m]", "torque_Nm", 1}};
+    for (size_t k = 0; k < sizeof UNITS / sizeof *UNITS; ++k) {
+        char text[128];
+        hci_note note = {{0}};
+        hci_csv *csv;
+        snprintf(text, sizeof text, "%s;x\n1;2\n3;4\n", UNITS[k].header);
+        TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, read_text(text, &csv, &note), note.text);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-14, 3 * UNITS[k].factor, second_number(csv, UNITS[k].column));
+        hci_csv_free(csv);
+    }
+}
+
+static void test_a_clock_below_its_format(void)
+{
+    hci_note note = {{0}};
+    hci_csv *csv;
+    TEST_ASSERT_EQUAL(HCI_OK, read_text("Zeit [hh:mm:ss];x\n09:12:58,500;1\n09:13:00,250;2\n", &csv, &note));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 33180.25, second_number(csv, "time_s"));
+    hci_csv_free(csv);
+}
+
+/* What the words leave open is told, the rest is not. */
+static void test_what_is_told(void)
+{
+    hci_note note = {{0}}, told = {{0}};
+    hci_csv *csv;
+    TEST_ASSERT_EQUAL(HCI_OK,
+                      read_text("Couple mesuré;Vitesse arbre [tr/min];Istmoment x\n1;2;3\n", &csv, &note));
+    TEST_ASSERT_TRUE(hci_csv_told(csv, "torque_Nm", &told));
+    text_has("is read as the torque, in N*m", told.text);
+    TEST_ASSERT_FALSE(hci_csv_told(csv, "speed_rad_per_s", &told));
+    hci_csv_free(csv);
+}
+
+static void test_two_of_one_quantity_are_refused(void)
+{
+    hci_note note = {{0}};
+    hci_csv *csv;
+    double value;
+    TEST_ASSERT_EQUAL(HCI_OK, read_text("Drehmoment gemessen;Couple mesuré\n1;2\n", &csv, &note));
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, hci_csv_numbers(csv, "torque_Nm", &value, &note));
+    text_has("a second time", note.text);
+    hci_csv_free(csv);
+}
+
+static void test_the_page_lists_every_word(void)
+{
+    char *page = malloc(1 << 20);
+    const char *kind, *words;
+    FILE *f = fopen("docs/files.md", "r");
+    TEST_ASSERT_NOT_NULL(f);
+    page[fread(page, 1, (1 << 20) - 1, f)] = '\0';
+    fclose(f);
+    for (size_t k = 0; (words = hci_name_words_known(k, &kind)) != NULL; ++k) {
+        char row[1200];
+        snprintf(row, sizeof row, "| %s | %s |", kind, words);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(page, row), row);
+    }
+    free(page);
+}
+
+/* ---- TwinCAT Scope ---- */
+
+#define SCOPE(times, first)                                                                                  \
+    "Name\tscope\r\nStarttime of export\t1\tMontag, 2. Mai 2022\t15:56\r\n\r\n"                              \
+    "Name\tDrehmoment\tName\tMech. Winkel\r\nSymbolComment\t\tSymbolComment\t\r\n"                           \
+    "Data-Type\tREAL32\tData-Type\tREAL32\r\nSampleTime[ms]\t2\tSampleTime[ms]\t" times "\r\n"               \
+    "Unit\tmNm (Torque)\tUnit\t° (Angle)\r\nUnit Offset\t0\tUnit Offset\t0\r\n\r\n" first                    \
+    "\t5\t0\t10\r\n2\t6\t2\t20\r\n4\t7\t4\t30\r\nEOF\r\n"
+
+static void test_scope_of_twincat(void)
+{
+    hci_note note = {{0}};
+    hci_csv *csv;
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, read_text(SCOPE("2", "0"), &csv, &note), note.text);
+    TEST_ASSERT_EQUAL(3, hci_csv_rows(csv));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.002, second_number(csv, "time_s"));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.006, second_number(csv, "torque_Nm"));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, REF_PI / 9, second_number(csv, "theta_m_rad"));
+    hci_csv_free(csv);
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, read_text(SCOPE("5", "0"), &csv, &note));
+    text_has("several sample times", note.text);
+    note.text[0] = '\0';
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, read_text(SCOPE("2", "132959733843760000"), &csv, &note));
+    text_has("full time stamps", note.text);
+}
+
+/* ---- LabVIEW ---- */
+
+static void test_the_column_of_comments_may_be_missing(void)
+{
+    hci_note note = {{0}};
+    hci_csv *csv;
+    TEST_ASSERT_EQUAL(HCI_OK,
+                      read_text("X_Value\tMoment (Nm)\tComment\n0\t1\n0,5\t2\t\n1\t3\tend\n", &csv, &note));
+    TEST_ASSERT_EQUAL(3, hci_csv_rows(csv));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.5, second_number(csv, "time_s"));
+    hci_csv_free(csv);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_names_in_words);
+    RUN_TEST(test_units_of_other_languages);
+    RUN_TEST(test_a_clock_below_its_format);
+    RUN_TEST(test_what_is_told);
+    RUN_TEST(test_two_of_one_quantity_are_refused);
+    RUN_TEST(test_the_page_lists_every_word);
+    RUN_TEST(test_scope_of_twincat);
+    RUN_TEST(test_the_column_of_comments_may_be_missing);
+    return UNITY_END();
+}
