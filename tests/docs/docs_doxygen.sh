@@ -18,18 +18,15 @@ for header in $(cd include && find hci -name '*.h'); do
     grep -q "$page" "$work/docs/html/index.html" || { echo "docs/api.md does not name $header"; exit 1; }
 done
 
-# the same with one docstring less, in a copy
+# the same with two docstrings less, in a copy
 mkdir "$work/copy"
 cp -R Doxyfile cmake docs include scripts "$work/copy"
-refused() {
-    if (cd "$work/copy" && scripts/docs "$work/refused") >"$work/log" 2>&1; then
-        echo "not refused: $1"
-        exit 1
-    fi
-    grep -q "$1" "$work/log" || { cat "$work/log"; echo "refused, but not because of: $1"; exit 1; }
-}
 printf 'int hci_undocumented(void);\n' >>"$work/copy/include/hci/version.h"
-refused 'hci_undocumented.*is not documented'
-cp include/hci/version.h "$work/copy/include/hci/version.h"
 sed -i 's|/\* V, .* not used by the ideal loop \*/||' "$work/copy/include/hci/drive/control.h"
-refused 'Member v.*hci_control_state is not documented'
+if (cd "$work/copy" && scripts/docs "$work/refused") >"$work/log" 2>&1; then
+    echo "not refused: members without a docstring"
+    exit 1
+fi
+for refusal in 'hci_undocumented.*is not documented' 'Member v.*hci_control_state is not documented'; do
+    grep -q "$refusal" "$work/log" || { cat "$work/log"; echo "refused, but not because of: $refusal"; exit 1; }
+done
