@@ -25,6 +25,9 @@
 /* Version of the layout below; emitted files refuse to compile with another one. */
 #define HCI_LOOP_VERSION 1
 
+/* The most points of a table in RAM: sizes and angles then fit 32 bits. */
+#define HCI_LOOP_TABLE_MOST_POINTS 65536u
+
 /* Coordinates of one order: c cos(kφ) + s sin(kφ), φ the angle in the table's own period. */
 typedef struct {
     float c, s; /* of the cosine and of the sine */
@@ -302,7 +305,9 @@ static inline uint32_t hci_loop_floats(const hci_loop_f32 *loop, hci_loop_remedy
     return (2u * loop->order_count + hci_loop_rows(loop)) * loop->levels * hci_loop_values(remedy);
 }
 
-/* Gives tables their memory: hci_loop_floats of them. They are to be made before they are read. */
+/* Gives tables their memory: hci_loop_floats of them, which is not checked here. For orders that were loaded
+ * (hci/loop_blob.h) compare that number with the memory that there is. They are to be made before they are
+ * read. */
 static inline void hci_loop_start(hci_loop_tables *tables, const hci_loop_f32 *loop, hci_loop_remedy remedy,
                                   float *memory)
 {
@@ -550,6 +555,9 @@ static inline hci_table_verdict hci_loop_check(const hci_loop_f32 *loop)
 {
     if (loop->order_count == 0u || loop->levels == 0u || loop->points == 0u || loop->orders[0] != 0u)
         return HCI_TABLE_BAD_SHAPE;
+    if (loop->points > HCI_LOOP_TABLE_MOST_POINTS || loop->repeats == 0u || loop->period_turns == 0u)
+        return HCI_TABLE_BAD_SHAPE;
+    if (loop->levels > 1u && !(loop->torque_high_Nm > loop->torque_low_Nm)) return HCI_TABLE_BAD_SHAPE;
     if (loop->levels > 2u && loop->levels % 2u == 0u) return HCI_TABLE_BAD_SHAPE;
     if (loop->response_count == 1u) return HCI_TABLE_BAD_SHAPE;
     return hci_loop_crc32(loop) == loop->crc32 ? HCI_TABLE_GOOD : HCI_TABLE_BAD_CRC;

@@ -26,10 +26,15 @@ double hci_tabulation_bound_A(const hci_tabulation *t)
     return constant + t->torque_Nm * per_Nm;
 }
 
-/* |d²i/dθ²| of one wave: seen from the rotor, (n, σ) has the order n − σ. */
+double hci_tabulation_order_seen(const hci_tabulation *t, const hci_wave *w)
+{
+    return t->frame == HCI_TABLE_ABC ? w->order : w->order - w->sequence;
+}
+
+/* |d²i/dθ²| of one wave. */
 static double curvature(const hci_tabulation *t, const hci_wave *w)
 {
-    const double order = t->frame == HCI_TABLE_ABC ? w->order : w->order - w->sequence;
+    const double order = hci_tabulation_order_seen(t, w);
     return order * order * amplitude(w);
 }
 
@@ -50,6 +55,16 @@ double hci_tabulation_highest_order(const hci_tabulation *t)
         highest = fmax(highest, t->constant[k].order);
     for (size_t k = 0; k < t->per_Nm_count; ++k)
         highest = fmax(highest, t->per_Nm[k].order);
+    return highest;
+}
+
+double hci_tabulation_highest_seen(const hci_tabulation *t)
+{
+    double highest = 0.0;
+    for (size_t k = 0; k < t->constant_count; ++k)
+        highest = fmax(highest, fabs(hci_tabulation_order_seen(t, &t->constant[k])));
+    for (size_t k = 0; k < t->per_Nm_count; ++k)
+        highest = fmax(highest, fabs(hci_tabulation_order_seen(t, &t->per_Nm[k])));
     return highest;
 }
 

@@ -18,11 +18,19 @@ typedef struct {
 /* Σ|A| of the waves at the reference torque: no current is larger. */
 double hci_tabulation_bound_A(const hci_tabulation *t);
 
-/* Σ n²A at the reference torque: no second derivative of a current by the angle is larger. */
+/* The order of a wave in the columns: its own in those of the phases, n − σ in the rotor frame, where it may be
+ * below 0. */
+double hci_tabulation_order_seen(const hci_tabulation *t, const hci_wave *wave);
+
+/* Σ n²A at the reference torque, n as the columns see it: no second derivative of a current by the angle is
+ * larger. */
 double hci_tabulation_bend_A(const hci_tabulation *t);
 
-/* The highest order of all waves, at least 1. */
+/* The highest order of all waves in the phases, at least 1. */
 double hci_tabulation_highest_order(const hci_tabulation *t);
+
+/* The highest order in the columns: what a current loop that is given them has to follow. */
+double hci_tabulation_highest_seen(const hci_tabulation *t);
 
 /* The float that is not below x. */
 float hci_tabulation_round_up(double x);

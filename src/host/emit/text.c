@@ -143,7 +143,7 @@ void hci_emission_facts(const hci_emission *e, hci_output *out)
     if (e->tabulation.parts == 2)
         hci_output_text(out, " * Torque: any up to the reference torque, to which it is limited; one that is "
                              "no number is none.\n");
-    write_speed(f, hci_tabulation_highest_order(&e->tabulation), out);
+    write_speed(f, hci_tabulation_highest_seen(&e->tabulation), out);
 }
 
 void hci_emission_macros(const char *name, size_t pole_pairs, size_t turns, hci_output *out)

@@ -350,6 +350,22 @@ static void test_a_damaged_table_is_noticed(void)
     TEST_ASSERT_EQUAL_INT(HCI_TABLE_BAD_SHAPE, hci_loop_check(&loop));
 }
 
+/* Numbers with which reading it would divide by zero or run over 32 bits. */
+static void test_numbers_that_no_table_has(void)
+{
+    draw_loop(2);
+    loop.torque_high_Nm = loop.torque_low_Nm;
+    TEST_ASSERT_EQUAL_INT(HCI_TABLE_BAD_SHAPE, hci_loop_check(&loop));
+    draw_loop(2);
+    loop.points = 65537u;
+    TEST_ASSERT_EQUAL_INT(HCI_TABLE_BAD_SHAPE, hci_loop_check(&loop));
+    draw_loop(2);
+    loop.repeats = 0u;
+    TEST_ASSERT_EQUAL_INT(HCI_TABLE_BAD_SHAPE, hci_loop_check(&loop));
+    draw_loop(2);
+    TEST_ASSERT_EQUAL_INT(HCI_TABLE_GOOD, hci_loop_check(&loop));
+}
+
 void setUp(void)
 {
 }
@@ -373,5 +389,6 @@ int main(void)
     RUN_TEST(test_tables_say_when_they_are_old);
     RUN_TEST(test_nothing_is_infinite);
     RUN_TEST(test_a_damaged_table_is_noticed);
+    RUN_TEST(test_numbers_that_no_table_has);
     return UNITY_END();
 }

@@ -479,6 +479,18 @@ static void test_header_says_what_a_reader_must_know(void)
         (void)after(header, must[k]);
 }
 
+/* Order 5 of negative sequence in the phases is order 6 of i_d and i_q. */
+static void test_header_says_what_a_loop_has_to_follow(void)
+{
+    static const hci_wave WAVE[] = {{1.0, 1, 4.0, 0.0}, {5.0, -1, 0.5, 0.2}};
+    hci_emit_request r = {.name = "ripple_free", .format = HCI_EMIT_F32, .currents = WAVE, .current_count = 2};
+    (void)emit_well(&r);
+    (void)after(read_text("ripple_free.h"), "has to follow up to 5.0 times the electrical frequency");
+    r.frame = HCI_TABLE_DQ;
+    (void)emit_well(&r);
+    (void)after(read_text("ripple_free.h"), "has to follow up to 6.0 times the electrical frequency");
+}
+
 /* ---- refusals ---- */
 
 static void refuse(hci_emit_request r, hci_status status, const char *words)
@@ -648,6 +660,7 @@ int main(void)
     RUN_TEST(test_probes_catch_other_currents);
     RUN_TEST(test_same_request_same_bytes);
     RUN_TEST(test_header_says_what_a_reader_must_know);
+    RUN_TEST(test_header_says_what_a_loop_has_to_follow);
     RUN_TEST(test_names_that_are_no_identifiers_are_refused);
     RUN_TEST(test_other_names_are_taken);
     RUN_TEST(test_requests_that_cannot_be_met_are_refused);
