@@ -36,11 +36,19 @@ static double signal_of(const hci_run *run, size_t k)
     return run->theta_m_rad ? hci_run_dq(run, run->pole_pairs, k).q : run->i_A[3 * k];
 }
 
-static const char *name_of_signal(const hci_run *run)
+/* A quantity above a picture and within a sentence. */
+typedef struct {
+    const char *title, *words;
+} quantity_name;
+
+static quantity_name name_of_signal(const hci_run *run)
 {
-    if (run->torque_source == HCI_TORQUE_MEASURED) return "Torque in N·m";
-    if (run->v_V && run->torque_source == HCI_TORQUE_NONE) return "Voltage of phase a in V";
-    return run->theta_m_rad ? "i_q in A" : "i_a in A";
+    static const quantity_name TORQUE = {"Torque in N·m", "torque in N·m"},
+                               VOLTAGE = {"Voltage of phase a in V", "voltage of phase a in V"},
+                               Q = {"i_q in A", "i_q in A"}, A = {"i_a in A", "i_a in A"};
+    if (run->torque_source == HCI_TORQUE_MEASURED) return TORQUE;
+    if (run->v_V && run->torque_source == HCI_TORQUE_NONE) return VOLTAGE;
+    return run->theta_m_rad ? Q : A;
 }
 
 static void fill(raster *r, const hci_run *run, double (*value)(const hci_run *, size_t))
@@ -113,7 +121,7 @@ static void draw_panel(hci_output *out, const hci_svg_box *area, const hci_run *
 void hci_plot_log_ranges(const hci_run *run, hci_plot_log_facts *facts)
 {
     facts->position = run->theta_m_rad ? "mechanical angle in turns" : "speed in rpm";
-    facts->signal = name_of_signal(run);
+    facts->signal = name_of_signal(run).words;
     facts->of_position = facts->of_signal = HCI_RANGE_EMPTY;
     for (size_t k = 0; k < run->count; ++k) {
         hci_range_include(&facts->of_position, position_of(run, k));
@@ -129,7 +137,7 @@ void hci_plot_log(hci_output *out, const hci_svg_box *area, const void *log)
     lower.top = upper.bottom + 76.0;
     draw_panel(out, &upper, run, run->theta_m_rad ? "Mechanical angle in turns" : "Speed in rpm",
                position_of);
-    draw_panel(out, &lower, run, name_of_signal(run), signal_of);
+    draw_panel(out, &lower, run, name_of_signal(run).title, signal_of);
 }
 
 bool hci_plot_log_can(const hci_run *run)

@@ -26,7 +26,9 @@ void hci_page_swing(char text[HCI_PAGE_SWING_SIZE], hci_range r, double toleranc
 {
     char swing[HCI_HTML_NUMBER_SIZE];
     hci_html_quantity_text(swing, fmax(swing_Nm(r), tolerance_Nm), "N·m");
-    snprintf(text, HCI_PAGE_SWING_SIZE, "%s%s", swing_Nm(r) < tolerance_Nm ? "less than " : "", swing);
+    const bool is_tiny = strncmp(swing, "< ", 2) == 0;
+    snprintf(text, HCI_PAGE_SWING_SIZE, "%s%s", is_tiny || swing_Nm(r) < tolerance_Nm ? "less than " : "",
+             swing + (is_tiny ? 2 : 0));
 }
 
 bool hci_page_has_plain(const hci_solution *s)
@@ -101,9 +103,8 @@ void hci_page_ratio(char text[HCI_HTML_NUMBER_SIZE], double ratio)
 /* "3.775 N·m|153 % of the mean" */
 static void cell_of_ripple(char text[CELL_SIZE], const hci_solution *s, double swing, double mean)
 {
-    char percent[HCI_HTML_NUMBER_SIZE], number[HCI_HTML_NUMBER_SIZE], in_Nm[HCI_PAGE_SWING_SIZE];
-    hci_html_number_text(number, fmax(swing, s->tolerance_Nm));
-    snprintf(in_Nm, sizeof in_Nm, "%s%.20s N·m", swing < s->tolerance_Nm ? "less than " : "", number);
+    char percent[HCI_HTML_NUMBER_SIZE], in_Nm[HCI_PAGE_SWING_SIZE];
+    hci_page_swing(in_Nm, (hci_range){0.0, swing}, s->tolerance_Nm);
     hci_html_number_text(percent, 100.0 * swing / fabs(mean));
     if (fabs(mean) > NO_MEAN * swing && swing >= s->tolerance_Nm)
         snprintf(text, CELL_SIZE, "%s|%s %% of the mean", in_Nm, percent);
