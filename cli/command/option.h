@@ -53,15 +53,15 @@ typedef struct {
     bool repeats;              /* may be given more than once; at most one of a table */
 } cli_option;
 
-enum { CLI_MOST_OPTIONS = 40, CLI_MOST_WORDS = 72, CLI_HELP_SIZE = 512 };
+enum { CLI_MOST_OPTIONS = 40, CLI_MOST_REPEATS = 72, CLI_MOST_WORDS = 1024, CLI_HELP_SIZE = 512 };
 
 /* What stands on a command line, by the places of the options in the table. */
 typedef struct {
     bool given[CLI_MOST_OPTIONS];
-    const char *value[CLI_MOST_OPTIONS];  /* NULL for a flag or a count that was left out */
-    double number[CLI_MOST_OPTIONS];      /* NAN where no number is given */
-    int choice[CLI_MOST_OPTIONS];         /* place in choices; 0 where none is given */
-    const char *repeated[CLI_MOST_WORDS]; /* the values of an option that repeats, in their order */
+    const char *value[CLI_MOST_OPTIONS];    /* NULL for a flag or a count that was left out */
+    double number[CLI_MOST_OPTIONS];        /* NAN where no number is given */
+    int choice[CLI_MOST_OPTIONS];           /* place in choices; 0 where none is given */
+    const char *repeated[CLI_MOST_REPEATS]; /* the values of an option that repeats, in their order */
     size_t repeats;
     const char *word[CLI_MOST_WORDS]; /* what is no option */
     size_t words;

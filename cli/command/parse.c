@@ -51,6 +51,12 @@ static int option_of(const reader *r, const char *word, const char *equals)
     return word[2] == '\0' ? find_letter(options, word[1]) : -1;
 }
 
+/* An option where a value is expected: its value was forgotten. */
+static bool is_option(const reader *r, const char *word)
+{
+    return word[0] == '-' && word[1] != '\0' && option_of(r, word, strchr(word, '=')) >= 0;
+}
+
 /* The value of an option, in the same word after `=` or in the next one. */
 static hci_status take_value(reader *r, const cli_option *option, const char **value, hci_note *note)
 {
@@ -67,6 +73,11 @@ static hci_status take_value(reader *r, const cli_option *option, const char **v
     if (!next)
         return hci_note_set(note, HCI_ERROR_ARGUMENT, "%s: `%s` needs a value: %s", r->command->name, word,
                             option->value_name);
+    if (is_option(r, next))
+        return hci_note_set(note, HCI_ERROR_ARGUMENT,
+                            "%s: `%s` needs a value: %s; found the option `%s`; for a value of that name write "
+                            "--%s=%s",
+                            r->command->name, word, option->value_name, next, option->name, next);
     *value = r->words[++r->at];
     return HCI_OK;
 }
@@ -79,10 +90,23 @@ static hci_status take_option(reader *r, cli_arguments *a, hci_note *note)
     if (a->given[k] && !r->command->options[k].repeats)
         return hci_note_set(note, HCI_ERROR_ARGUMENT, "%s: `%s` is given twice", r->command->name, word);
     a->given[k] = true;
+    if (r->command->options[k].repeats && a->repeats == CLI_MOST_REPEATS)
+        return hci_note_set(note, HCI_ERROR_ARGUMENT, "%s: `%s` is given more than %d times, expected fewer",
+                            r->command->name, word, CLI_MOST_REPEATS);
     const hci_status status = take_value(r, &r->command->options[k], &a->value[k], note);
-    if (!status && r->command->options[k].repeats && a->repeats < CLI_MOST_WORDS)
-        a->repeated[a->repeats++] = a->value[k];
+    if (!status && r->command->options[k].repeats) a->repeated[a->repeats++] = a->value[k];
     return status;
+}
+
+static hci_status take_word(const reader *r, cli_arguments *a, hci_note *note)
+{
+    if (a->words == CLI_MOST_WORDS)
+        return hci_note_set(note, HCI_ERROR_ARGUMENT,
+                            "%s: found more than %d words; give fewer at a time, or a list where the command takes "
+                            "one",
+                            r->command->name, CLI_MOST_WORDS);
+    a->word[a->words++] = r->words[r->at];
+    return HCI_OK;
 }
 
 static hci_status check_word_count(const cli_command *c, const cli_arguments *a, hci_note *note)
@@ -113,8 +137,8 @@ hci_status cli_parse_words(const cli_command *command, int count, char *const *w
             only_words = true;
         else if (!only_words && word[0] == '-' && word[1] != '\0')
             status = take_option(&r, arguments, note);
-        else if (arguments->words < CLI_MOST_WORDS)
-            arguments->word[arguments->words++] = word;
+        else
+            status = take_word(&r, arguments, note);
     }
     return status ? status : check_word_count(command, arguments, note);
 }

@@ -17,7 +17,7 @@
 #include "hci/host/waveform/waveform.h"
 #include "hci/math/harmonic.h"
 
-enum { MOST_STEP_WORDS = 96 };
+enum { MOST_STEP_WORDS = 32 + 2 * CLI_MOST_REPEATS };
 
 /* ---- commands: as they are run, and as a shell repeats them ---- */
 
