@@ -74,10 +74,10 @@ static hci_status take_value(reader *r, const cli_option *option, const char **v
         return hci_note_set(note, HCI_ERROR_ARGUMENT, "%s: `%s` needs a value: %s", r->command->name, word,
                             option->value_name);
     if (is_option(r, next))
-        return hci_note_set(note, HCI_ERROR_ARGUMENT,
-                            "%s: `%s` needs a value: %s; found the option `%s`; for a value of that name write "
-                            "--%s=%s",
-                            r->command->name, word, option->value_name, next, option->name, next);
+        return hci_note_set(
+            note, HCI_ERROR_ARGUMENT,
+            "%s: `%s` needs a value: %s; found the option `%s`; for a value of that name write --%s=%s",
+            r->command->name, word, option->value_name, next, option->name, next);
     *value = r->words[++r->at];
     return HCI_OK;
 }
@@ -101,10 +101,10 @@ static hci_status take_option(reader *r, cli_arguments *a, hci_note *note)
 static hci_status take_word(const reader *r, cli_arguments *a, hci_note *note)
 {
     if (a->words == CLI_MOST_WORDS)
-        return hci_note_set(note, HCI_ERROR_ARGUMENT,
-                            "%s: found more than %d words; give fewer at a time, or a list where the command takes "
-                            "one",
-                            r->command->name, CLI_MOST_WORDS);
+        return hci_note_set(
+            note, HCI_ERROR_ARGUMENT,
+            "%s: found more than %d words; give fewer at a time, or a list where it takes one",
+            r->command->name, CLI_MOST_WORDS);
     a->word[a->words++] = r->words[r->at];
     return HCI_OK;
 }

@@ -65,8 +65,7 @@ static void show_control(const hci_simulation *s)
         cli_say("  no current   for the torque at %zu of %zu samples; the nearest was used\n",
                 s->without_current, s->samples);
     if (s->limited > 0) cli_say("  limited      current at %zu of %zu samples\n", s->limited, s->samples);
-    if (isfinite(s->energy_J.residual))
-        show_energy(s);
+    if (isfinite(s->energy_J.residual)) show_energy(s);
 }
 
 /* ---- spectrum ---- */

@@ -66,8 +66,8 @@ typedef struct {
  *     id0     i_d = 0, i_q = τ/e_q; whatever is not mutual torque stays
  *     cancel  i_q = τ/e_q and the shortest i_d with T = τ: i_d cancels all that is not mutual torque
  *
- * previous: NULL, and mtpa begins with the shortest of 48 rays, which finds the best of several ranges; or the
- * answer at a neighbouring angle, whose ray follows one range along θ.
+ * previous: NULL, and mtpa begins with the shortest of 48 rays, which finds the best of several ranges; or
+ * the answer at a neighbouring angle, whose ray follows one range along θ.
  *
  * x: out, also where the answer is no, as above. HCI_OK or HCI_NOT_REACHED. Some tens of torques from a
  * neighbouring current, about a thousand without one. */

@@ -64,8 +64,9 @@ double hci_harmonics_at(const hci_harmonic *terms, size_t count, double theta_ra
 /* x_a, x_b, x_c at one electrical angle. O(count). */
 void hci_waves_at(const hci_wave *waves, size_t count, double theta_rad, double abc[3]);
 
-/* Joins waves of equal order and sequence in place, ascending by order, and drops those that are no larger than
- * `relative_floor` times the largest; with 0 those that are zero. Returns how many are left. O(n log n), no workspace. */
+/* Joins waves of equal order and sequence in place, ascending by order, and drops those that are no larger
+ * than `relative_floor` times the largest; with 0 those that are zero. Returns how many are left. O(n log n),
+ * no workspace. */
 size_t hci_waves_join(hci_wave *waves, size_t count, double relative_floor);
 
 /* Mean over θ of x_a² + x_b² + x_c². Waves of equal order and sequence are added before squaring, so a list

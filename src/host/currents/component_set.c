@@ -111,7 +111,8 @@ static hci_status set_from_csv(const hci_csv *csv, bool has_neutral, hci_compone
     set->component = hci_memory_new(rows, sizeof *set->component);
     set->set = hci_memory_new(rows, sizeof *set->set);
     if (!order || !set->component || !set->set) status = hci_note_memory(note, hci_csv_path(csv), "its rows");
-    if (!status) status = hci_csv_check_rows(csv, HCI_MOST_ORDERS_LISTED, "keep the orders that matter", note);
+    if (!status)
+        status = hci_csv_check_rows(csv, HCI_MOST_ORDERS_LISTED, "keep the orders that matter", note);
     if (!status) status = hci_csv_numbers(csv, "order", order, note);
     if (!status && !hci_csv_has(csv, "set"))
         status = hci_note_set(note, HCI_ERROR_INPUT, "%s:1: no column `set`; expected the columns order,set",

@@ -111,7 +111,8 @@ static void fill_part(const hci_spline_room *r, const hci_table_i16 *x, size_t p
         for (size_t c = 0; c < t->columns; ++c)
             first[k + c] = 0.0;
     for (size_t w = 0; w < count; ++w) {
-        const double factor = scale * factor_of(x->degree, step_rad * hci_tabulation_order_seen(t, &waves[w]));
+        const double factor =
+            scale * factor_of(x->degree, step_rad * hci_tabulation_order_seen(t, &waves[w]));
         for (uint32_t j = 0; j < x->intervals + x->degree; ++j)
             add_wave(t, &waves[w], factor, step_rad * knot_place(x->degree, j), first + j * stride);
     }

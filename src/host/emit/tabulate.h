@@ -18,8 +18,8 @@ typedef struct {
 /* Σ|A| of the waves at the reference torque: no current is larger. */
 double hci_tabulation_bound_A(const hci_tabulation *t);
 
-/* The order of a wave in the columns: its own in those of the phases, n − σ in the rotor frame, where it may be
- * below 0. */
+/* The order of a wave in the columns: its own in those of the phases, n − σ in the rotor frame, where it may
+ * be below 0. */
 double hci_tabulation_order_seen(const hci_tabulation *t, const hci_wave *wave);
 
 /* Σ n²A at the reference torque, n as the columns see it: no second derivative of a current by the angle is

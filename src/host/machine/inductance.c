@@ -131,11 +131,12 @@ static hci_status drop_mean_slope(hci_inductance *terms, size_t count, const cha
     for (size_t k = 1; k < count; ++k)
         largest = fmax(largest, largest_entry(&terms[k]));
     if (mean > MOST_MEAN * largest)
-        return hci_note_set(note, HCI_ERROR_INPUT,
-                            "%s: found slopes with a mean of up to %.3g H/rad over the turn, expected 0, since an "
-                            "inductance comes back to where it was; name the columns La_H … Mca_H if they are "
-                            "inductances, or subtract the mean of each",
-                            path, mean);
+        return hci_note_set(
+            note, HCI_ERROR_INPUT,
+            "%s: found slopes with a mean of up to %.3g H/rad over the turn, expected 0, since an "
+            "inductance comes back to where it was; name the columns La_H … Mca_H if they are "
+            "inductances, or subtract the mean of each",
+            path, mean);
     terms[0] = (hci_inductance){0.0, {0}, {0}};
     return HCI_OK;
 }

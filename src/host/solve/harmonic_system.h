@@ -29,8 +29,8 @@ hci_status hci_harmonic_system_solve(const hci_harmonic_system *system, double *
                                      hci_note *note);
 void hci_harmonic_system_release(hci_harmonic_system *system);
 
-/* Mean of i_a² + i_b² + i_c² that 1 A² of a component's S (part 0) or C (part 1) makes, over 3/2: 1; of a direct
- * current of zero sequence 2 for C, and 0 for S, which flows in no phase. */
+/* Mean of i_a² + i_b² + i_c² that 1 A² of a component's S (part 0) or C (part 1) makes, over 3/2: 1; of a
+ * direct current of zero sequence 2 for C, and 0 for S, which flows in no phase. */
 double hci_component_copper(hci_component component, int part);
 
 /* Root of what a square of a component's current counts beside its copper. */

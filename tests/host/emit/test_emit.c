@@ -483,7 +483,8 @@ static void test_header_says_what_a_reader_must_know(void)
 static void test_header_says_what_a_loop_has_to_follow(void)
 {
     static const hci_wave WAVE[] = {{1.0, 1, 4.0, 0.0}, {5.0, -1, 0.5, 0.2}};
-    hci_emit_request r = {.name = "ripple_free", .format = HCI_EMIT_F32, .currents = WAVE, .current_count = 2};
+    hci_emit_request r = {
+        .name = "ripple_free", .format = HCI_EMIT_F32, .currents = WAVE, .current_count = 2};
     (void)emit_well(&r);
     (void)after(read_text("ripple_free.h"), "has to follow up to 5.0 times the electrical frequency");
     r.frame = HCI_TABLE_DQ;

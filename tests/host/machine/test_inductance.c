@@ -25,9 +25,9 @@ void tearDown(void)
 static hci_status read_slopes(double mean, hci_machine_data *machine, hci_note *note)
 {
     char text[ROWS * 160];
-    size_t used =
-        (size_t)snprintf(text, sizeof text, "theta_e_rad,dLa_H_per_rad,dLb_H_per_rad,dLc_H_per_rad,"
-                                            "dMab_H_per_rad,dMbc_H_per_rad,dMca_H_per_rad\n");
+    size_t used = (size_t)snprintf(text, sizeof text,
+                                   "theta_e_rad,dLa_H_per_rad,dLb_H_per_rad,dLc_H_per_rad,"
+                                   "dMab_H_per_rad,dMbc_H_per_rad,dMca_H_per_rad\n");
     for (int k = 0; k < ROWS; ++k) {
         const double theta = 2.0 * HCI_PI * k / ROWS, third = 2.0 * HCI_PI / 3.0;
         used += (size_t)snprintf(text + used, sizeof text - used, "%.17g,%.17g,%.17g,%.17g,0,0,0\n", theta,

@@ -959,8 +959,8 @@ static void test_closed_form(void)
     hci_solution_release(&s);
 }
 
-/* Order 3 by a direct current C of zero sequence, 3 C E, and by order 6 of it, (3/2) I E, whose order 9 is not
- * cared for. Their copper is 3 C² and (3/2) I², so the least of it has C = I = W/(4.5 E): W²/(4.5 E²). */
+/* Order 3 by a direct current C of zero sequence, 3 C E, and by order 6 of it, (3/2) I E, whose order 9 is
+ * not cared for. Their copper is 3 C² and (3/2) I², so the least of it has C = I = W/(4.5 E): W²/(4.5 E²). */
 static void test_direct_current_of_zero_sequence(void)
 {
     static problem p;
