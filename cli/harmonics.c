@@ -91,7 +91,9 @@ static hci_status read_orders(const char *text, double orders[MOST_ORDERS], size
         if (text[length] == '\0') return HCI_OK;
         text += length + 1;
     }
-    return hci_note_set(note, HCI_ERROR_ARGUMENT, "--orders: found more than %d orders", (int)MOST_ORDERS);
+    return hci_note_set(note, HCI_ERROR_ARGUMENT,
+                        "--orders: found more than %d orders; leave some out, or give --max-order",
+                        (int)MOST_ORDERS);
 }
 
 /* Options that exclude or need each other. */

@@ -89,7 +89,10 @@ static hci_status check_currents(const hci_emission *e, hci_note *note)
     const hci_tabulation *t = &e->tabulation;
     const double largest = (double)FLT_MAX / 8.0, sum_A = hci_tabulation_bound_A(t);
     if (!(sum_A < largest && t->torque_Nm < largest && (t->parts == 1 || sum_A / t->torque_Nm < largest)))
-        return hci_note_set(note, HCI_ERROR_ARGUMENT, "currents of %g A do not fit single precision", sum_A);
+        return hci_note_set(
+            note, HCI_ERROR_ARGUMENT,
+            "currents of %g A do not fit single precision; check the unit of the back-EMF of the machine",
+            sum_A);
     for (size_t k = 0; k < t->constant_count + t->per_Nm_count; ++k) {
         if (e->waves[k].order * (double)t->period_turns > 0.5 * HCI_EMIT_MAX_POINTS)
             return hci_note_set(

@@ -149,7 +149,11 @@ static hci_status search_subsets(selection *s, hci_subset_search *search, hci_no
         status = try_subset(s, search, note);
     }
     if (!status && !s->best.answer.x)
-        status = hci_note_set(note, HCI_ERROR_NUMERIC, "no subset of %zu components could be solved", most);
+        status = hci_note_set(
+            note, HCI_ERROR_NUMERIC,
+            "no subset of %zu components could be solved; try another number for --auto, or name a "
+            "set: --harmonics FILE",
+            most);
     return status;
 }
 

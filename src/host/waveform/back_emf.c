@@ -263,7 +263,8 @@ hci_status hci_waveform_back_emf(const hci_waveform_task *t)
     for (size_t k = 0; k < t->options->order_count; ++k)
         if (fabs(t->options->orders[k] - round(t->options->orders[k])) > HCI_ORDER_TOLERANCE)
             return hci_note_set(t->note, HCI_ERROR_ARGUMENT,
-                                "order %g: the back-EMF has whole electrical orders only",
+                                "order %g: the back-EMF has whole electrical orders only; leave it out, or "
+                                "say --order-base mechanical",
                                 t->options->orders[k]);
     hci_status status = allocate(t, &w);
     if (!status) status = back_emf_of(t, &w);
