@@ -22,7 +22,7 @@ def figure_of(figure: Optional["Figure"], width: float, height: float, title: st
         figure = pyplot.figure()
     figure.set_size_inches(width, height)
     figure.set_layout_engine("constrained")
-    heading = figure.suptitle(title, x=0.01, ha="left", fontsize=13, fontweight="bold", color=TEXT)
+    heading = figure.suptitle("\n".join(textwrap.wrap(title, int(7.5 * width))), x=0.01, ha="left", fontsize=13, fontweight="bold", color=TEXT)
     if facts:
         letters = int(9.5 * width)
         heading.set_text("\n".join(textwrap.wrap(title, letters) + textwrap.wrap(facts, letters)))

@@ -24,6 +24,14 @@ class Tables:
     def folder(self) -> Path:
         return Path(self._folder.name)
 
+    def solution(self, solution: Any, number: int = 0) -> str:
+        """The folder of a solution: its own, or one in here."""
+        if isinstance(solution, (str, os.PathLike)):
+            return os.fspath(solution)
+        folder = self.folder / f"solution_{number + 1}"
+        solution.write(folder)
+        return os.fspath(folder)
+
     def hide(self, words: str) -> str:
         """A message with the names of arguments in place of paths."""
         return re.sub(re.escape(self._folder.name + os.sep) + r"(\w+)(\.csv)?", r"argument \1", words)

@@ -72,7 +72,11 @@ class Diagnosis(Result):
         """The verdict as a few plain sentences."""
         words = ffi.new("char[4096]")
         lib.hci_diagnosis_words(self._c, words, len(words))
-        return text(words)
+        if self._c.again == ffi.NULL:
+            return text(words)
+        first = ffi.new("char[2048]")
+        lib.hci_again_words(self._c.again, first, len(first))
+        return text(first) + "\n" + text(words)
 
     @property
     def advice(self) -> str:

@@ -27,7 +27,7 @@ class HciError(Exception):
     def __init__(self, text: str) -> None:
         super().__init__(text)
         self.text = text
-        place = _PLACE.match(text)
+        place = None if isinstance(self, ArgumentError) else _PLACE.match(text)
         self.file = place["file"] if place else None
         self.line = int(place["line"]) if place and place["line"] else None
         self.column = int(place["column"]) if place and place["column"] else None

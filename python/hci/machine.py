@@ -1,6 +1,7 @@
 """A machine, and everything that is asked of it."""
 from __future__ import annotations
 
+import json
 import math
 import os
 import tempfile
@@ -9,6 +10,7 @@ from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple
 
 import numpy.typing as npt
 
+from . import _program
 from ._arrays import view
 from ._binding import ffi, lib
 from ._call import Note, Path, Progress, Watch, path, strings, text, whole, writing
@@ -16,11 +18,13 @@ from ._tables import Harmonics, Scenario, Tables, Target, harmonics_path, scenar
 from .check import Check
 from .diagnosis import Diagnosis
 from .errors import ArgumentError
+from .fit import Fit
 from .prediction import Prediction
 from .recording import Reading, Recordable, recordings_of
-from .simulation import Simulation
+from .simulation import Follow, Simulation
 from .solution import Solution, _word
 from .waveform import Waveform
+from .written import Sweep
 
 _METHODS = {"auto": lib.HCI_METHOD_AUTO, "lu": lib.HCI_METHOD_LU, "umfpack": lib.HCI_METHOD_UMFPACK,
             "qr": lib.HCI_METHOD_QR, "pointwise": lib.HCI_METHOD_POINTWISE}
@@ -156,7 +160,7 @@ class Machine:
               limit_copper_ratio: float = 0.0, limit_voltage_V: float = 0.0, speed_rpm: Optional[float] = None,
               voltage_reserve: float = 0.0, dead_time_s: float = 0.0, pwm_frequency_Hz: float = 0.0,
               ignore_ratings: bool = False, minimise: str = "auto", temperature_C: Optional[float] = None,
-              progress: Progress = None) -> Solution:
+              drive: Optional[Path] = None, progress: Progress = None) -> Solution:
         """Finds the currents that make the machine produce a wanted torque: `hci-solve solve`.
 
         Args:
@@ -182,6 +186,7 @@ class Machine:
             ignore_ratings: leave out the limits that machine.csv declares.
             minimise: which ripple is made smallest where limits act: auto, worst, peak-to-peak or rms.
             temperature_C: of the magnets.
+            drive: drive.csv: harmonics that its current loop cannot follow at speed_rpm are left out.
             progress: see docs/python.md.
 
         Returns:
@@ -199,14 +204,18 @@ class Machine:
                        "ignore_ratings": ignore_ratings}})
         if limit_voltage_V and speed_rpm is None:
             raise ArgumentError("limit_voltage_V: the voltage depends on the speed; give speed_rpm too")
+        if drive is not None and (not speed_rpm or method == "pointwise"):
+            raise ArgumentError("drive: what a current loop follows depends on the speed, and harmonics are left out; give speed_rpm, "
+                                "not 0, and another method than pointwise")
         _set_limits(options, limit_current_A, limit_rms_A)
         held = lib.hci_wave_polar(1.0, 1, *fundamental) if fundamental else None
         kept = ffi.new("hci_wave *", held) if held is not None else ffi.NULL
         options.held = kept
-        return self._solve(options, target, harmonics, Watch(progress))
+        return self._solve(options, target, harmonics, drive, Watch(progress))
 
-    def _solve(self, options: Any, target: Target, harmonics: Optional[Harmonics], watch: Watch) -> Solution:
-        note, solution = Note(), ffi.new("hci_solution *")
+    def _solve(self, options: Any, target: Target, harmonics: Optional[Harmonics], drive: Optional[Path],
+               watch: Watch) -> Solution:
+        note, remark, solution = Note(), Note(), ffi.new("hci_solution *")
         wanted = ffi.gc(ffi.new("hci_target *"), lib.hci_target_release)
         chosen = ffi.gc(ffi.new("hci_component_set *"), lib.hci_component_set_release)
         with Tables() as tables:
@@ -216,11 +225,14 @@ class Machine:
                                                       chosen, note.c), hide=tables.hide)
         options.target, options.set = wanted, chosen if harmonics is not None else ffi.NULL
         options.effects, options.uncertainty = ffi.addressof(self._effects, "list"), self._uncertainty
+        if drive is not None:
+            loop = drive_of(drive)
+            note.check(lib.hci_solve_for_drive(loop, self.c, options, options.set and chosen or ffi.NULL, remark.c, note.c))
         watch.into(options)
         status = lib.hci_solve(self.c, options, solution, note.c)
         found = ffi.gc(solution, lib.hci_solution_release)
         watch.finish()
-        return Solution(self, found, note.check(status))
+        return Solution(self, found, note.check(status), text(remark.c.text))
 
     def pointwise(self, target: Target, strategy: str = "mtpa", **more: Any) -> Solution:
         """The currents angle by angle: mtpa (the shortest), id0 or cancel. more: as of `solve`."""
@@ -253,7 +265,8 @@ class Machine:
 
     def diagnose(self, runs: Union[Path, Iterable[Recordable]], *, holdout: Iterable[Recordable] = (),
                  columns: Optional[Mapping[str, str]] = None, holding: bool = False, strict: bool = False,
-                 resolution_percent: float = 0.0, progress: Progress = None) -> Diagnosis:
+                 resolution_percent: float = 0.0, progress: Progress = None,
+                 _last: Optional["_Last"] = None) -> Diagnosis:
         """Finds what the model of the machine lacks to describe recordings: `hci-solve diagnose`.
 
         Ctrl-C, or a progress function that returns True, ends the search for effects with what it has so far
@@ -269,14 +282,30 @@ class Machine:
             progress: see docs/python.md.
         """
         watch = Watch(progress)
-        read = _Runs(self, runs, list(holdout), (columns, holding, strict))
+        read = _Runs(self, runs, list(holdout), (columns, holding, strict), _last)
         options = ffi.new("hci_diagnose_options *", {"resolution": resolution_percent / 100.0})
         watch.into(options)
         c, note = ffi.new("hci_diagnosis *"), Note()
         status = lib.hci_diagnose(self.c, ffi.addressof(self._effects, "list"), read.c, options, c, note.c)
         found = ffi.gc(c, lib.hci_diagnosis_release)
         watch.finish((KeyboardInterrupt,))
-        return Diagnosis(self, found, read, note.check(status))
+        note.check(status)
+        if _last is not None:
+            note.check(_last.compare(self, read, found, note))
+        return Diagnosis(self, found, read, status)
+
+    def fit(self, runs: Union[Path, Iterable[Recordable]], *, columns: Optional[Mapping[str, str]] = None,
+            strict: bool = False) -> Fit:
+        """The few parameters in which motors of one make differ, without a search: `hci-solve fit`.
+
+        Args:
+            runs: a list of runs as a file (runs.csv), or recordings.
+            columns: which column is which quantity, where names do not say it.
+            strict: a cell without a number is an error.
+        """
+        read, c, note = _Runs(self, runs, [], (columns, False, strict), plain=True), ffi.new("hci_fleet_fit *"), Note()
+        note.check(lib.hci_fleet_fit_runs(self.c, ffi.addressof(self._effects, "list"), read.c, c, note.c))
+        return Fit(c)
 
     def check(self, *recordings: Recordable, columns: Optional[Mapping[str, str]] = None, holding: bool = False,
               strict: bool = False) -> Check:
@@ -352,25 +381,140 @@ class Machine:
         note.check(status, hide=tables.hide)
         return Simulation(ffi.gc(found, lib.hci_simulation_release), ffi.gc(samples, lib.hci_samples_release))
 
+    def follow(self, solution: Union[Solution, Path, Sequence[Union[Solution, Path]]], drive: Path, speeds_rpm: Sequence[float],
+               **options: Any) -> Follow:
+        """Takes currents through the current loop of a real drive: `hci-solve simulate --table --drive --speeds`.
+
+        Args:
+            solution: a solution or its folder; several are levels of torque.
+            drive: drive.csv.
+            speeds_rpm: mechanical.
+            options: of the program with _ for -: torque=1.5, model_error=10.
+        """
+        with Tables() as tables:
+            folders = [tables.solution(one, k) for k, one in enumerate(_several(solution))]
+            words = _program.words_of({"table": folders, "drive": drive, "speeds": [float(x) for x in speeds_rpm], **options})
+            return Follow(*_program.run("simulate", self.path, *words, "--json"))
+
+    # ---- whole commands of the program ----
+
+    def sweep(self, folder: Path, **options: Any) -> Sweep:
+        """Solves over a grid: `hci-solve sweep`.
+
+        Args:
+            folder: where the results go; the same call goes on there.
+            options: those of the program with _ for -: trade_off=True, torque=2.4, currents=[12, 16, 20]; or envelope=True,
+                speeds="0:3000:100"; or map=True, torques=[1, 2], speeds=[0, 600].
+        """
+        return Sweep(folder, *_program.run("sweep", self.path, *_program.words_of(options), "--out", folder))
+
+    def export_fmu(self, file: Path, *, fmi: int = 2, inputs: Optional[str] = None,
+                   table: Union[Solution, Path, Sequence[Union[Solution, Path]], None] = None, drive: Optional[Path] = None,
+                   sources_only: bool = False) -> Dict[str, Any]:
+        """Writes an FMU of the machine with its effects, or of its controller: `hci-solve export-fmu`, docs/fmu.md.
+
+        Args:
+            file: the FMU.
+            fmi: 2 or 3.
+            inputs: voltages or currents; without it voltages.
+            table: the controller instead, with the table of this solution; several are levels of torque.
+            drive: drive.csv: the loop of a controller; of a machine what machine.csv lacks.
+            sources_only: no binary, and no C compiler is needed.
+
+        Returns:
+            What was made, by name.
+        """
+        with Tables() as tables:
+            folders = [tables.solution(one, k) for k, one in enumerate(_several(table))] if table is not None else None
+            words = _program.words_of({"fmi": str(fmi), "inputs": inputs, "table": folders, "drive": drive,
+                                       "sources_only": sources_only, "out": file})
+            made: Dict[str, Any] = json.loads(_program.run("export-fmu", self.path, *words, "--json")[1])
+            return made
+
+
+class _Last:
+    """The last diagnosis, which a new one goes on from."""
+
+    def __init__(self, folder: Path, before: Optional[Iterable[Recordable]]) -> None:
+        self.folder = os.fspath(folder)
+        self.list = os.path.join(self.folder, "declared", "runs.csv")
+        self.before = None if before is None else list(before)
+        self.count = 0
+        self.again = ffi.gc(ffi.new("hci_again *"), lib.hci_again_release)
+        if before is None and not os.path.exists(self.list):
+            raise ArgumentError(f"before: {self.list} is not there, since the recordings of last time were in memory; give them as before")
+
+    def compare(self, machine: Machine, runs: "_Runs", diagnosis: Any, note: Note) -> int:
+        """Sets what the new recordings say of it."""
+        folder = ffi.new("char[]", path(self.folder))
+        question = ffi.new("hci_again_question *", {
+            "machine": machine.c, "declared": ffi.addressof(machine._effects, "list"), "runs": runs.c,
+            "recordings_before": self.count, "folder": folder})
+        runs.last = self
+        return int(lib.hci_again_find(question, diagnosis, self.again, note.c))
+
 
 class _Runs:
-    """The recordings of a diagnosis, for as long as this lives."""
+    """The recordings of a diagnosis, for as long as this lives: those of the last one first."""
 
-    def __init__(self, machine: Machine, runs: Union[Path, Iterable[Recordable]], holdout: List[Recordable], how: Any) -> None:
+    def __init__(self, machine: Machine, runs: Union[Path, Iterable[Recordable]], holdout: List[Recordable], how: Any,
+                 last: Optional[_Last] = None, plain: bool = False) -> None:
         self.c = ffi.gc(ffi.new("hci_runs *"), lib.hci_runs_release)
+        self.last: Optional[_Last] = None
+        self._machine, self._how, self._plain = machine, how, plain
+        if last is not None:
+            self._add(last.list if last.before is None else last.before, [])
+            last.count = int(self.c.count)
+        self._add(runs, holdout)
+
+    def _reading(self, recordings: Sequence[Any]) -> Reading:
+        reading = self._machine._reading(recordings, *self._how)
+        if self._plain:  # as `fit` reads them: a torque is measured, or there is none
+            reading.c.inertia_kgm2, reading.c.torque_constant_Nm_per_A = math.nan, 0.0
+        return reading
+
+    def _add(self, runs: Union[Path, Iterable[Recordable]], holdout: List[Recordable]) -> None:
         note = Note()
         if isinstance(runs, (str, os.PathLike)):
             if holdout:
                 raise ArgumentError("holdout: a list of runs in a file says itself which are held out; leave one of them out")
-            reading = machine._reading([], *how)
-            note.check(lib.hci_runs_read(path(runs), ffi.new("hci_runs_options *", {"run": reading.c[0]}), self.c, note.c))
+            reading, more = self._reading([]), ffi.gc(ffi.new("hci_runs *"), lib.hci_runs_release)
+            note.check(lib.hci_runs_read(path(runs), ffi.new("hci_runs_options *", {"run": reading.c[0]}), more, note.c))
+            note.check(lib.hci_runs_join(self.c, more, note.c))
             return
         fitted = list(runs)
         all_of = recordings_of(fitted + holdout)
-        reading = machine._reading(all_of, *how)
+        reading = self._reading(all_of)
         for k, recording in enumerate(all_of):
             role = lib.HCI_ROLE_FIT if k < len(fitted) else lib.HCI_ROLE_HOLDOUT
             note.check(lib.hci_runs_add(self.c, path(recording.name), role, reading.c, note.c))
+
+
+def diagnose_again(last: Path, runs: Union[Path, Iterable[Recordable]], *, before: Optional[Iterable[Recordable]] = None,
+                   **more: Any) -> Diagnosis:
+    """Goes on from an earlier diagnosis with further recordings: `hci-solve diagnose --again`.
+
+    Whether the new recordings are as the last one promised is in `verdict` and in `summary["again"]`.
+
+    Args:
+        last: the folder that `Diagnosis.write` wrote.
+        runs: the new recordings, as of `Machine.diagnose`.
+        before: the recordings of last time, where they were in memory.
+        more: as of `Machine.diagnose`.
+    """
+    machine = Machine.read(os.path.join(os.fspath(last), "declared"))
+    return machine.diagnose(runs, _last=_Last(last, before), **more)
+
+
+def drive_of(file: Path) -> Any:
+    """drive.csv as the library has it."""
+    drive, note = ffi.gc(ffi.new("hci_drive_data *"), lib.hci_drive_release), Note()
+    note.check(lib.hci_drive_read(path(file), drive, note.c))
+    return drive
+
+
+def _several(solution: Union[Solution, Path, Sequence[Union[Solution, Path]]]) -> List[Union[Solution, Path]]:
+    return list(solution) if isinstance(solution, (list, tuple)) else [solution]  # type: ignore[list-item]
 
 
 def _set_limits(options: Any, current: PhaseLimit, rms: PhaseLimit) -> None:

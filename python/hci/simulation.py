@@ -1,6 +1,7 @@
 """The simulated drive."""
 from __future__ import annotations
 
+import json
 from typing import TYPE_CHECKING, Any, Optional
 
 import numpy as np
@@ -16,6 +17,48 @@ from .solution import Samples, amplitude
 if TYPE_CHECKING:
     import pandas
     from matplotlib.figure import Figure
+
+
+class Follow(Result):
+    """What `Machine.follow` has run: the ripple through a current loop, with each remedy at each speed.
+
+    Attributes:
+        summary: all figures, as `--json` of the program prints them.
+    """
+
+    def __init__(self, code: int, words: str, remark: str) -> None:
+        self.summary = json.loads(words)
+        self._remark = remark
+
+    @property
+    def verdict(self) -> str:
+        """The least ripple at each speed."""
+        lines = []
+        for row in self.summary["speeds"]:
+            best = min(row["remedies"], key=lambda one: float(one["T_ripple"]))
+            lines.append(f"{row['speed_rpm']:g} rpm: ripple {best['T_ripple']:.3g} % with {best['remedy']}")
+        return "\n".join(lines)
+
+    @property
+    def remark(self) -> str:
+        return self._remark
+
+    def to_pandas(self) -> "pandas.DataFrame":
+        """A row for each remedy at each speed."""
+        import pandas
+
+        return pandas.DataFrame([{"speed_rpm": row["speed_rpm"], **one} for row in self.summary["speeds"] for one in row["remedies"]])
+
+    def plot(self, figure: Optional["Figure"] = None) -> "Figure":
+        """Ripple over the speed."""
+        figure = _look.figure_of(figure, 7.0, 4.2, f"Ripple at {self.summary['torque_Nm']:.4g} N·m through the current loop")
+        axes, rows = figure.subplots(), self.summary["speeds"]
+        _look.axes_of(axes, "", "rpm", "ripple peak to peak, % of the mean")
+        for k, one in enumerate(rows[0]["remedies"]):
+            axes.plot([row["speed_rpm"] for row in rows], [row["remedies"][k]["T_ripple"] for row in rows], "o-", ms=4, label=one["remedy"])
+        _look.logarithmic(axes, "y")
+        _look.legend_of(axes)
+        return figure
 
 
 class Simulation(Result):

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Dict, List, NamedTuple, Optional, Sequence, Union
+from typing import TYPE_CHECKING, Any, Dict, List, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -27,6 +27,8 @@ _FORMATS = {"f32": lib.HCI_EMIT_F32, "i16": lib.HCI_EMIT_I16, "q15": lib.HCI_EMI
             "json": lib.HCI_EMIT_JSON}
 _SHAPES = {"auto": lib.HCI_EMIT_AUTO, "linear": lib.HCI_EMIT_LINEAR, "quadratic": lib.HCI_EMIT_QUADRATIC,
            "cubic": lib.HCI_EMIT_CUBIC}
+_WAVES = {"sine": lib.HCI_FOREIGN_SINE, "cosine": lib.HCI_FOREIGN_COSINE, "sine-lag": lib.HCI_FOREIGN_SINE_LAG,
+          "cosine-lag": lib.HCI_FOREIGN_COSINE_LAG}
 _FRAMES = {"abc": lib.HCI_TABLE_ABC, "dq": lib.HCI_TABLE_DQ}
 
 
@@ -74,8 +76,8 @@ class Solution(Result):
         summary: all figures, as summary.json has them.
     """
 
-    def __init__(self, machine: "Machine", c: Any, status: int) -> None:
-        self.machine, self._c, self._status = machine, c, status
+    def __init__(self, machine: "Machine", c: Any, status: int, remark: str = "") -> None:
+        self.machine, self._c, self._status, self._remark = machine, c, status, remark
         self.reached: bool = status == lib.HCI_OK
         self.summary = json_of(lib.hci_solution_json(c, status))
 
@@ -88,7 +90,7 @@ class Solution(Result):
 
     @property
     def remark(self) -> str:
-        return text(self._c.remark.text)
+        return "; ".join(part for part in (self._remark, text(self._c.remark.text)) if part)
 
     @property
     def currents(self) -> Array:
@@ -187,27 +189,38 @@ class Solution(Result):
             "frame": _word(_FRAMES, frame, "frame"), "points": whole(points, "points"), "max_error_A": max_error_A,
             "max_bytes": whole(max_bytes, "max_bytes"), "max_instructions": whole(max_instructions, "max_instructions"),
             "blob": blob})
+        with Tables() as tables:
+            return self._emit(folder, name, request, per_torque, reference_torque_Nm, tables)
+
+    def _parts(self, request: Any, per_torque: bool, reference_torque_Nm: Optional[float], tables: Tables) -> Tuple[Any, Any]:
+        """Puts all currents into a request, or those without and those by torque: as the program reads them from files, so
+        that the bytes of tables are the same."""
         if per_torque and self.currents_per_Nm is None:
             raise ArgumentError("per_torque: these currents are not linear in the mean torque (a held fundamental, or reluctance "
                                 "torque); leave it out")
-        if per_torque:
-            request.reference_torque_Nm = abs(self.mean_torque_Nm if reference_torque_Nm is None else reference_torque_Nm)
-        with Tables() as tables:
-            self.write(tables.folder)
-            return self._emit(folder, name, request, per_torque, tables)
-
-    def _emit(self, folder: Path, name: str, request: Any, per_torque: bool, tables: Tables) -> Emitted:
-        """By the files of a solution, as the program does it, so that the bytes are the same."""
-        source, note, result = path(tables.folder), Note(), ffi.new("hci_emit_result *")
+        self.write(tables.folder)
+        source = path(tables.folder)
         read = _currents(source, lib.HCI_SOLUTION_CURRENTS_CONSTANT if per_torque else lib.HCI_SOLUTION_CURRENTS, tables)
         parts = _currents(source, lib.HCI_SOLUTION_CURRENTS_PER_NM, tables) if per_torque else ffi.new("hci_currents *")
-        verdict = text(lib.hci_solution_verdict_words(lib.hci_solution_read_verdict(source)))
+        if per_torque:
+            mean, note = ffi.new("double *", reference_torque_Nm or 0.0), Note()
+            if reference_torque_Nm is None:
+                note.check(lib.hci_solution_read_mean_torque(source, mean, note.c), hide=tables.hide)
+            request.reference_torque_Nm = abs(mean[0])
+        request.per_Nm, request.per_Nm_count = parts.wave, parts.count
+        request.currents, request.current_count = read.wave, read.count
+        request.input_hash = (read.hash ^ (parts.hash * 31)) & 0xFFFFFFFFFFFFFFFF
+        return read, parts
+
+    def _emit(self, folder: Path, name: str, request: Any, per_torque: bool, reference_torque_Nm: Optional[float],
+              tables: Tables) -> Emitted:
+        note, result = Note(), ffi.new("hci_emit_result *")
+        read, parts = self._parts(request, per_torque, reference_torque_Nm, tables)
+        verdict = text(lib.hci_solution_verdict_words(lib.hci_solution_read_verdict(path(tables.folder))))
         lines, kept = strings([f"{read.count} current components, solved by hci-solve".encode(), verdict.encode()])
         identifier, facts = ffi.new("char[]", name.encode()), ffi.addressof(request, "facts")
-        request.name, request.currents, request.current_count = identifier, read.wave, read.count
-        request.per_Nm, request.per_Nm_count = parts.wave, parts.count
+        request.name = identifier
         request.has_neutral = any(part.wave[k].sequence == 0 for part in (read, parts) for k in range(part.count))
-        request.input_hash = (read.hash ^ (parts.hash * 31)) & 0xFFFFFFFFFFFFFFFF
         request.provenance, request.provenance_count = lines, 2 if verdict else 1
         note.check(lib.hci_emit_facts_read(path(self.machine.path), self.machine.c, facts, note.c))
         request.facts.mean_torque_Nm = float(self._c.wanted_mean_Nm)
@@ -218,6 +231,70 @@ class Solution(Result):
         data = request.format in (lib.HCI_EMIT_CSV, lib.HCI_EMIT_JSON)
         ends = [text(lib.hci_emit_format_name(request.format))] if data else ["h", "c"] + ["bin"] * bool(request.blob)
         return Emitted([f"{name}.{end}" for end in ends], summary)
+
+    def emit_for_drive(self, folder: Path, name: str, drive: Path, *, levels: Sequence[Union["Solution", Path]] = (),
+                       per_torque: bool = False, max_error_A: float = 0.0, up_to_rpm: float = 0.0, blob: bool = False) -> Emitted:
+        """Writes orders of current and voltage that a current loop can follow: `hci-solve emit --drive`, docs/drive.md.
+
+        Args:
+            folder: where the files go.
+            name: of the table, a C identifier.
+            drive: drive.csv.
+            levels: more solutions, or their folders, at other mean torques.
+            per_torque: both parts of this solution, for every torque up to its own, in place of levels.
+            max_error_A: of a table over the angle; 0: 2e-4 of the largest current.
+            up_to_rpm: up to which orders are used; 0: as far as voltage and sampling do.
+            blob: NAME.bin too, for hci/loop_blob.h.
+        """
+        from .machine import drive_of
+
+        note, result, loop = Note(), ffi.new("hci_emit_loop_result *"), drive_of(drive)
+        read = ffi.gc(ffi.new("hci_loop_levels *"), lib.hci_loop_levels_release)
+        with Tables() as tables:
+            folders, kept = strings([path(tables.solution(one, k)) for k, one in enumerate([self, *levels])])
+            note.check(lib.hci_loop_levels_read(folders, len(kept), per_torque, read, note.c), hide=tables.hide)
+        identifier = ffi.new("char[]", name.encode())
+        request = ffi.new("hci_emit_loop_request *", {
+            "name": identifier, "machine": self.machine.c, "drive": loop, "levels": read.level, "level_count": read.count,
+            "max_error_A": max_error_A, "speed_rad_per_s": up_to_rpm * np.pi / 30.0, "blob": blob, "input_hash": read.hash})
+        note.check(lib.hci_emit_facts_read(path(self.machine.path), self.machine.c, ffi.addressof(request, "facts"), note.c))
+        with writing:
+            note.check(lib.hci_emit_loop(path(folder), request, result, note.c))
+        return Emitted([f"{name}.{end}" for end in ["h", "c"] + ["bin"] * blob], json_of(lib.hci_emit_loop_json(request, result)))
+
+    def emit_for(self, target: str, folder: Path, name: str, *, per_torque: bool = False,
+                 reference_torque_Nm: Optional[float] = None, points: int = 0, torque_constant_Nm_per_A: float = 0.0,
+                 wave: str = "sine", counts_per_A: float = 0.0, encoder_offset_deg: float = 0.0,
+                 encoder_direction: int = 1) -> Emitted:
+        """Writes the compensation map of another maker's drive: `hci-solve emit --for`, docs/drives.
+
+        Args:
+            target: simplefoc, st-mcsdk, moteus, novanta, beckhoff, openffboard or csv.
+            folder: where the files go.
+            name: of the files, a C identifier.
+            per_torque: two parts, where the map depends on the torque.
+            reference_torque_Nm: for which the ripple is told then; otherwise the one solved for.
+            points: for targets that take any number; 0: theirs.
+            torque_constant_Nm_per_A: by which the drive makes i_q of a torque; 0: that of the machine.
+            wave: what the drive means by amplitude and phase: sine, cosine, sine-lag or cosine-lag.
+            counts_per_A: for targets with counts; 0: not known.
+            encoder_offset_deg: the drive's angle where the machine's is 0, in its own turns.
+            encoder_direction: 1, or -1 where its angle falls when the machine turns in its positive direction.
+        """
+        words = [text(lib.hci_foreign_word(k)) for k in range(lib.HCI_FOREIGN_TARGET_COUNT)]
+        note, result = Note(), ffi.new("hci_emit_foreign_result *")
+        identifier, own = ffi.new("char[]", name.encode()), ffi.new("char[]", path(self.machine.path))
+        request = ffi.new("hci_emit_foreign_request *", {
+            "name": identifier, "target": _word({word: k for k, word in enumerate(words)}, target, "target"), "machine_folder": own,
+            "machine": self.machine.c, "points": whole(points, "points"), "torque_constant_Nm_per_A": torque_constant_Nm_per_A,
+            "wave": _word(_WAVES, wave, "wave"), "counts_per_A": counts_per_A, "encoder_offset_deg": encoder_offset_deg,
+            "encoder_direction": encoder_direction})
+        with Tables() as tables:
+            kept = self._parts(request, per_torque, reference_torque_Nm, tables)
+        with writing:
+            note.check(lib.hci_emit_foreign(path(folder), request, result, note.c))
+        del kept
+        return Emitted(text(result.files).split(", "), json_of(lib.hci_emit_foreign_json(request, result)))
 
     def plot(self, figure: Optional["Figure"] = None) -> "Figure":
         """Torque, its spectrum, phase currents and current vector, as solution.svg shows them."""

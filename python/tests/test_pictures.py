@@ -50,13 +50,13 @@ def collisions(figure):
 @pytest.fixture
 def many_runs(machine_a):
     """A diagnosis of forty recordings, whose errors are within a decade."""
-    angle = np.arange(720) * 2 * np.pi / 720
+    angle = np.arange(180) * 2 * np.pi / 180
     iq = np.linspace(1.0, 3.0, 40)
     rng = np.random.default_rng(1)
     runs = []
     for k, size in enumerate(iq):
-        torque = 0.2 * size + 0.02 * np.sin(12 * angle) + rng.normal(0, 0.01, 720)
-        runs.append(hci.Recording({"theta_m_rad": angle, "iq_A": np.full(720, size), "torque_Nm": torque}, f"recording of run {k}"))
+        torque = 0.2 * size + 0.02 * np.sin(12 * angle) + rng.normal(0, 0.01, 180)
+        runs.append(hci.Recording({"theta_m_rad": angle, "iq_A": np.full(180, size), "torque_Nm": torque}, f"recording of run {k}"))
     return machine_a.diagnose(runs, progress=lambda what, share: True)
 
 

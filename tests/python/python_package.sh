@@ -31,7 +31,7 @@ export PYTHONPYCACHEPREFIX=$work/pycache
 export PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_NO_INPUT=1
 $python -m pip -q install --no-compile "scikit-build-core>=0.10" cffi >"$work/log" 2>&1 || skip "no packages to be had: $(tail -n 1 "$work/log")"
 # Those of the extra `test`, apart from the wheel, so that a failure below is one of the package.
-$python -m pip -q install --no-compile numpy pytest matplotlib pandas polars scipy tqdm nbclient nbformat ipykernel >"$work/log" 2>&1 ||
+$python -m pip -q install --no-compile numpy pytest matplotlib pandas polars scipy tqdm nbclient nbformat ipykernel mypy >"$work/log" 2>&1 ||
     skip "no packages to be had: $(tail -n 1 "$work/log")"
 
 export CMAKE_BUILD_PARALLEL_LEVEL=2
@@ -50,5 +50,7 @@ import hci
 
 print(f"import hci {hci.__version__}: {time.perf_counter() - between:.3f} s after numpy's {between - began:.3f} s")
 END
+(cd "$source_dir/python" && quietly $python -m mypy --strict --ignore-missing-imports --cache-dir "$work/mypy" hci)
+[ "$("$work/venv/bin/hci-solve" --version)" = "$("$program" --version)" ] || { echo "python_package: no hci-solve in the wheel"; exit 1; }
 HCI_SOLVE=$program HCI_DATA=$source_dir/data MPLBACKEND=Agg IPYTHONDIR=$work/ipython \
     $python -m pytest -q -p no:cacheprovider --durations=3 "$source_dir/python/tests"
