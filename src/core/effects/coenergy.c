@@ -30,8 +30,7 @@ void hci_coenergy_begin(hci_coenergy *w, int pole_pairs, const hci_sample *truth
     w->i[1] = i.q / unit_A;
     fill_powers(w->i[0], w->d);
     fill_powers(w->i[1], w->q);
-    for (int k = 0; k < HCI_COENERGY_WAVES; ++k)
-        w->wave[k].periods = -1.0;
+    w->waves = w->next = 0;
     w->monomial = none;
     w->torque_Nm = w->by_angle = w->by_d = w->by_q = w->by_dd = w->by_dq = w->by_qq = 0.0;
 }
@@ -65,22 +64,36 @@ static void open_monomial(hci_coenergy *w, int a, int b)
     w->monomial = m;
 }
 
-/* Place of the oscillation with so many periods in a turn. */
-static size_t wave_at(hci_coenergy *w, double periods)
+/* Place of a new oscillation; the last one's where there is no more room. */
+static size_t new_wave(hci_coenergy *w, double order)
 {
-    const size_t at = periods < 1e9 ? (size_t)periods % HCI_COENERGY_WAVES : 0;
-    if (w->wave[at].periods != periods) {
-        w->wave[at].periods = periods;
-        w->wave[at].sine = sin(periods * w->theta_m_rad);
-        w->wave[at].cosine = cos(periods * w->theta_m_rad);
+    const size_t at = w->waves < HCI_COENERGY_WAVES ? w->waves++ : HCI_COENERGY_WAVES - 1;
+    const double periods = hci_effect_periods(order, w->pole_pairs);
+    w->wave[at].order = order;
+    w->wave[at].periods = periods;
+    w->wave[at].sine = sin(periods * w->theta_m_rad);
+    w->wave[at].cosine = cos(periods * w->theta_m_rad);
+    return at;
+}
+
+/* Place of the oscillation of an order. Monomials have the same orders one after the other. */
+static size_t wave_at(hci_coenergy *w, double order)
+{
+    size_t at = w->next;
+    if (at >= w->waves || w->wave[at].order != order) {
+        at = 0;
+        while (at < w->waves && w->wave[at].order != order)
+            ++at;
+        if (at == w->waves) at = new_wave(w, order);
     }
+    w->next = at + 1 < w->waves ? at + 1 : 0;
     return at;
 }
 
 double hci_coenergy_add(hci_coenergy *w, int a, int b, bool cosine, double order, double c)
 {
-    const double k = hci_effect_periods(order, w->pole_pairs);
-    const size_t at = wave_at(w, k);
+    const size_t at = wave_at(w, order);
+    const double k = w->wave[at].periods;
     const double f = cosine ? w->wave[at].cosine : w->wave[at].sine;
     const double slope = cosine ? -k * w->wave[at].sine : k * w->wave[at].cosine;
     if (w->monomial.d != a || w->monomial.q != b) {

@@ -16,8 +16,7 @@
 
 enum {
     HCI_COENERGY_DEGREE = 8, /* of a monomial, at most */
-    HCI_COENERGY_WAVES = 61, /* oscillations that are remembered, by periods modulo this; prime, so that
-                              * multiples of 6p do not meet */
+    HCI_COENERGY_WAVES = 64, /* oscillations that are remembered */
 };
 
 /* x^n and its first two derivatives. */
@@ -40,8 +39,9 @@ typedef struct {
     double i[2];         /* d, q in unit_A */
     hci_coenergy_power d[HCI_COENERGY_DEGREE + 1], q[HCI_COENERGY_DEGREE + 1];
     struct {
-        double periods, sine, cosine;
-    } wave[HCI_COENERGY_WAVES];
+        double order, periods, sine, cosine;
+    } wave[HCI_COENERGY_WAVES]; /* in the order in which they were met, */
+    size_t waves, next;         /* so many, and the one that is likely to come next */
     hci_coenergy_monomial monomial; /* not in the sums below yet */
     double torque_Nm, by_angle;
     double by_d, by_q;          /* ∂T/∂(i_d, i_q), in unit_A */

@@ -6,7 +6,7 @@ enum { MOST_PARABOLAS = 12 };
 
 #define BETWEEN 0.5  /* share of the width within which the top of a parabola is trusted */
 #define CLOSER  0.1  /* by which the points then draw together */
-#define FINEST  1e-5 /* share of the first width at which it ends */
+#define FINEST  1e-3 /* share of the first width at which it ends */
 
 /* Where the parabola through three values has its top, in widths from the middle one; where it has none, the
  * higher side. */

@@ -2,8 +2,6 @@
  * grids. */
 #include "host/solution/limit_rows.h"
 
-#include "host/base/memory.h"
-
 /* What a quantity is limited to, but for the share that is kept free. */
 static double limit_of(const hci_limit_program *p, const hci_limit_point *at)
 {
@@ -63,17 +61,13 @@ static void add_grid(hci_limit_build *b, const hci_limit_grid *grid)
 static void add_angles(hci_limit_build *b, bool is_torque)
 {
     const hci_limit_program *p = b->of;
-    double *g = hci_memory_new(hci_limit_row_room(&p->field), sizeof *g);
-    b->is_full = b->is_full || !g;
-    for (size_t q = 0; g && q < p->grids; ++q)
+    for (size_t q = 0; q < p->grids; ++q)
         if ((p->grid[q].kind == HCI_POINT_TORQUE) == is_torque) add_grid(b, &p->grid[q]);
-    for (size_t k = 0; g && k < p->points.count; ++k) {
+    for (size_t k = 0; k < p->points.rows; ++k) {
         const hci_limit_point *at = &p->points.point[k];
-        if ((at->kind == HCI_POINT_TORQUE) != is_torque) continue;
-        const double constant = hci_limit_row(&p->field, at, g);
-        add_any_point(b, at, g, constant);
+        const double *g = hci_limit_points_row(&p->points, k);
+        if ((at->kind == HCI_POINT_TORQUE) == is_torque) add_any_point(b, at, g, g[b->coordinates]);
     }
-    hci_memory_free(g);
 }
 
 void hci_limit_add_angles(hci_limit_build *b)

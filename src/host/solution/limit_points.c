@@ -91,6 +91,21 @@ static double voltage_row(const hci_limit_field *f, const hci_limit_point *p, do
     return hci_line_of_plane(v.value, p->phase) + line_of(&v, &held, p->phase) - line_of(&v, &at, p->phase);
 }
 
+bool hci_limit_is_bent(const hci_limit_field *f)
+{
+    return f->voltage && f->voltage->effects && f->voltage->effects->count > 0;
+}
+
+double hci_limit_line_V(const hci_limit_field *f, int pair, double theta_rad, const hci_wave_list *i)
+{
+    hci_plane_current sum = {{0.0, 0.0}, {0.0, 0.0}};
+    double v[2];
+    for (size_t k = 0; k < i->count; ++k)
+        add_plane(&i->wave[k], theta_rad, &sum);
+    hci_voltage_at(f->voltage, theta_rad, &sum, v);
+    return hci_line_of_plane(v, pair);
+}
+
 /* Σ over orders above 0 of (U x − h) as a wave at the angle. The weight of the rows is taken out again. */
 static double torque_row(const hci_limit_field *f, const hci_limit_point *p, double *g)
 {
@@ -142,9 +157,52 @@ hci_status hci_limit_points_add(hci_limit_points *points, hci_limit_point point)
     return HCI_OK;
 }
 
+hci_status hci_limit_points_fill(const hci_limit_field *field, hci_limit_points *points)
+{
+    const size_t width = 2 * field->set->count + 1,
+                 needed = points->count * width + hci_limit_row_room(field); /* a row may write behind its end */
+    if (needed > points->row_room) {
+        double *more = hci_memory_resize(points->row, 2 * needed, sizeof *more);
+        if (!more) return HCI_ERROR_MEMORY;
+        points->row = more;
+        points->row_room = 2 * needed;
+    }
+    points->width = width;
+    for (; points->rows < points->count; ++points->rows) {
+        double *g = points->row + points->rows * width;
+        const double constant = hci_limit_row(field, &points->point[points->rows], g);
+        g[width - 1] = constant;
+    }
+    return HCI_OK;
+}
+
+const double *hci_limit_points_row(const hci_limit_points *points, size_t k)
+{
+    return points->row + k * points->width;
+}
+
+void hci_limit_points_keep(hci_limit_points *points, size_t k, size_t kept)
+{
+    points->point[kept] = points->point[k];
+    memmove(points->row + kept * points->width, points->row + k * points->width,
+            points->width * sizeof *points->row);
+}
+
+void hci_limit_points_cut(hci_limit_points *points, size_t count)
+{
+    points->count = count;
+    if (points->rows > count) points->rows = count;
+}
+
+void hci_limit_points_change(hci_limit_points *points)
+{
+    points->rows = 0;
+}
+
 void hci_limit_points_release(hci_limit_points *points)
 {
     hci_memory_free(points->point);
+    hci_memory_free(points->row);
     memset(points, 0, sizeof *points);
 }
 

@@ -35,17 +35,40 @@ typedef struct {
  * wanted, orders above 0. */
 double hci_limit_row(const hci_limit_field *field, const hci_limit_point *point, double *g);
 
+/* Whether the voltage is not linear in the currents. */
+bool hci_limit_is_bent(const hci_limit_field *field);
+
+/* The true line voltage of currents. */
+double hci_limit_line_V(const hci_limit_field *field, int pair, double theta_rad, const hci_wave_list *i);
+
 /* Room for a row of any kind: that of the torque is made in what is behind its end. */
 size_t hci_limit_row_room(const hci_limit_field *field);
 
-/* Points with what was added last behind. Start with {0}. */
+/* Points with what was added last behind, and the rows of the first of them. Start with {0}. */
 typedef struct {
     hci_limit_point *point;
     size_t count, room;
+    double *row; /* `width` numbers a point: g, then the constant */
+    size_t width, rows, row_room;
 } hci_limit_points;
 
 /* HCI_ERROR_MEMORY, without a note. */
 hci_status hci_limit_points_add(hci_limit_points *points, hci_limit_point point);
+
+/* Makes the rows of points that have none yet. HCI_ERROR_MEMORY, without a note. */
+hci_status hci_limit_points_fill(const hci_limit_field *field, hci_limit_points *points);
+
+/* g of a point whose row was made; the constant is behind it. */
+const double *hci_limit_points_row(const hci_limit_points *points, size_t k);
+
+/* Keeps point k and its row as number `kept` <= k. */
+void hci_limit_points_keep(hci_limit_points *points, size_t k, size_t kept);
+
+/* No more than the first `count` points; their rows stay. */
+void hci_limit_points_cut(hci_limit_points *points, size_t count);
+
+/* Where what is limited was made linear anew: no point has a row any more. */
+void hci_limit_points_change(hci_limit_points *points);
 void hci_limit_points_release(hci_limit_points *points);
 
 /* The rows of one quantity at angles that are evenly spaced over the period. Start with {0}. */

@@ -88,7 +88,7 @@ static hci_status try_sine(hci_wishes *w, const hci_answer *a, const beginning *
     hci_limit_merit merit;
     hci_status status = start_at_sine(w, a, x, note);
     w->is_hard = false;
-    w->program.points.count = 0;
+    hci_limit_points_cut(&w->program.points, 0);
     if (!status) status = hci_limited_path_approach(w, x, note);
     if (!status) status = merit_of(w, &merit, note);
     if (status) return status;

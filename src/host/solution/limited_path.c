@@ -10,7 +10,7 @@
 
 enum {
     MOST_STEPS = 60,
-    PATIENCE = 6, /* steps in which neither the change is halved nor the torque better, after which the
+    PATIENCE = 4, /* steps in which neither the change is halved nor the torque better, after which the
                    * distance is bounded */
     POLISHES = 3, /* steps after the last, each within less of it */
     HALVES = 5    /* of the currents that the first step begins at, where rounding spoils it */
@@ -26,6 +26,8 @@ enum {
 #define SHRINK        0.3
 #define AFTER_FAILURE 0.1 /* the same after a step that rounding spoils */
 #define GROW          2.0
+
+#define MEAN_TO_RIPPLE 2.0 /* ripple that an error of the mean stands for, per its size */
 
 static hci_status out_of_memory(hci_note *note)
 {
@@ -87,14 +89,46 @@ static hci_status step(const path *p, hci_note *note)
     return status ? status : hci_wishes_meet(w, note);
 }
 
+/* Share of the limit by which the true voltage is beyond it, which was made linear at other currents. */
+static double overshoot(const hci_wishes *w, const hci_wave_list *i)
+{
+    const hci_limit_program *p = &w->program;
+    double most = 0.0;
+    for (size_t q = 0; q < p->grids && hci_limit_is_bent(&p->field); ++q) {
+        const hci_limit_grid *grid = &p->grid[q];
+        const double limit_V = hci_limit_of_point(p->bounds, grid->kind, grid->phase) * (1.0 + p->widened);
+        for (size_t k = 0; grid->kind == HCI_POINT_VOLTAGE && k < grid->samples; ++k)
+            most = fmax(most, fabs(hci_limit_line_V(&p->field, grid->phase, grid->step_rad * (double)k, i)) /
+                                      limit_V -
+                                  1.0);
+    }
+    return most;
+}
+
 hci_status hci_limited_path_merit(const hci_wishes *w, const double *x, hci_limit_merit *merit,
                                   hci_note *note)
 {
     hci_wave_list i = {NULL, 0};
     hci_status status = waves_of(w, x, &i, note);
     if (!status) status = hci_limit_merit_evaluate(w->of->task, w->program.minimise, &i, merit, note);
+    if (!status) merit->overshoot_Nm = w->program.scale_Nm * overshoot(w, &i);
     hci_memory_free(i.wave);
     return status;
+}
+
+/* Whether an answer is better than the best. A step within a bound leaves errors of mean and voltage of the
+ * order of its square, which the next one takes away: as long as the mean can be had at all, such a step is
+ * judged by the ripple with those. */
+static bool is_less(const path *p, const hci_limit_merit *merit)
+{
+    const hci_limit_program *program = &p->wishes->program;
+    hci_limit_merit now = *merit, best = p->merit;
+    if (p->radius_A > 0.0 && p->wishes->is_coarse && program->has_mean) {
+        now.ripple_Nm += MEAN_TO_RIPPLE * (now.mean_error_Nm + now.overshoot_Nm);
+        best.ripple_Nm += MEAN_TO_RIPPLE * (best.mean_error_Nm + best.overshoot_Nm);
+        now.mean_error_Nm = best.mean_error_Nm = now.overshoot_Nm = best.overshoot_Nm = 0.0;
+    }
+    return hci_limit_merit_less(&now, &best, program->scale_Nm);
 }
 
 /* Keeps the answer where its true torque is better than that of the best. */
@@ -104,7 +138,7 @@ static hci_status judge(path *p, bool *is_better, hci_note *note)
     hci_limit_merit merit;
     const hci_status status = hci_limited_path_merit(w, w->x, &merit, note);
     if (status) return status;
-    *is_better = !p->best || hci_limit_merit_less(&merit, &p->merit, w->program.scale_Nm);
+    *is_better = !p->best || is_less(p, &merit);
     if (!*is_better) return HCI_OK;
     if (!p->best) p->best = hci_memory_new(p->n, sizeof *p->best);
     if (!p->best) return out_of_memory(note);
@@ -243,6 +277,7 @@ static hci_status polish_once(path *p, double radius_A, account *said, hci_note 
     bool is_better = false;
     hci_status status = settle_at(p, radius_A, false, &why);
     const account now = account_of(p->wishes);
+    if (!status) p->change = distance(p, p->wishes->x, p->from) / fmax(length(p, p->from), 1e-12);
     if (!status && now.exceeded_share <= said->exceeded_share) status = judge(p, &is_better, &why);
     if (is_better) said->minimised_Nm = now.minimised_Nm;
     return status == HCI_ERROR_MEMORY ? out_of_memory(note) : HCI_OK;
@@ -262,6 +297,7 @@ static hci_status polish(path *p, hci_note *note)
     for (int k = 0; k < POLISHES && !status; ++k)
         status = polish_once(p, radius_A *= POLISH, &said, note);
     if (!status) give_best(p, &said);
+    p->wishes->of->solution->newton_change = p->change;
     return status;
 }
 

@@ -58,7 +58,7 @@ hci_status hci_limit_merit_evaluate(const hci_task *task, hci_minimise minimise,
     hci_harmonic_list torque;
     const hci_status status =
         hci_torque_spectrum_evaluate(task, current->wave, current->count, &torque, note);
-    *merit = (hci_limit_merit){0.0, 0.0, hci_waves_mean_square(current->wave, current->count)};
+    *merit = (hci_limit_merit){0.0, 0.0, hci_waves_mean_square(current->wave, current->count), 0.0};
     if (!status) take_orders(task, minimise == HCI_MINIMISE_RMS, &torque, merit);
     if (!status && minimise == HCI_MINIMISE_PEAK_TO_PEAK) merit->ripple_Nm = swing(task, &torque);
     hci_memory_free(torque.harmonic);
@@ -67,7 +67,8 @@ hci_status hci_limit_merit_evaluate(const hci_task *task, hci_minimise minimise,
 
 bool hci_limit_merit_less(const hci_limit_merit *a, const hci_limit_merit *b, double scale_Nm)
 {
-    const double mean_Nm = a->mean_error_Nm - b->mean_error_Nm, ripple_Nm = a->ripple_Nm - b->ripple_Nm;
+    const double mean_Nm = a->mean_error_Nm + a->overshoot_Nm - b->mean_error_Nm - b->overshoot_Nm,
+                 ripple_Nm = a->ripple_Nm - b->ripple_Nm;
     if (fabs(mean_Nm) > SAME * scale_Nm) return mean_Nm < 0.0;
     if (fabs(ripple_Nm) > SAME * scale_Nm) return ripple_Nm < 0.0;
     return a->copper_A2 < (1.0 - SAME_COPPER) * b->copper_A2;

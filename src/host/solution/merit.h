@@ -7,6 +7,7 @@
 
 typedef struct {
     double mean_error_Nm, ripple_Nm, copper_A2;
+    double overshoot_Nm; /* what limits are exceeded by, as a torque: counts as the mean error does */
 } hci_limit_merit;
 
 /* *merit: out. HCI_ERROR_MEMORY. */

@@ -113,9 +113,10 @@ static void add_product(double factor, const double m[3], const double x[2], dou
     out[1] += factor * (m[1] * x[0] + m[2] * x[1]);
 }
 
-/* What the effects add: ω_m (∂T_x/∂i + p L_x di/dθ), since ∂T_x/∂i is the slope of their flux. */
+/* What the effects add: ω_m (∂T_x/∂i + p L_x di/dθ), since ∂T_x/∂i is the slope of their flux. inductance_H:
+ * out, L_x. */
 static void add_effects(const hci_voltage_model *v, double theta_rad, const hci_plane_current *i,
-                        double out[2])
+                        double out[2], double inductance_H[3])
 {
     hci_sample truth = {0};
     double force[2];
@@ -127,37 +128,46 @@ static void add_effects(const hci_voltage_model *v, double theta_rad, const hci_
     out[0] += v->speed_rad_per_s * force[0];
     out[1] += v->speed_rad_per_s * force[1];
     add_product(v->speed_rad_per_s * v->machine->pole_pairs, t.inductance_H, i->slope, out);
+    for (int k = 0; k < 3; ++k)
+        inductance_H[k] = t.inductance_H[k];
 }
 
+static bool has_effects(const hci_voltage_model *v)
+{
+    return v->effects && v->effects->count > 0;
+}
+
+/* inductance_H: out, that of the effects. */
 static void voltage_of(const hci_voltage_model *v, const magnetic *m, double theta_rad,
-                       const hci_plane_current *i, double out[2])
+                       const hci_plane_current *i, double out[2], double inductance_H[3])
 {
     const double w = v->speed_rad_per_s;
     for (int k = 0; k < 2; ++k)
         out[k] = v->machine->resistance_ohm * i->x[k] + w * m->e[k];
     add_product(w, m->slope, i->x, out);
     add_product(w * v->machine->pole_pairs, m->inductance_H, i->slope, out);
-    if (v->effects && v->effects->count > 0) add_effects(v, theta_rad, i, out);
+    inductance_H[0] = inductance_H[1] = inductance_H[2] = 0.0;
+    if (has_effects(v)) add_effects(v, theta_rad, i, out, inductance_H);
 }
 
 void hci_voltage_at(const hci_voltage_model *model, double theta_rad, const hci_plane_current *i, double v[2])
 {
     const magnetic m = magnetic_at(model, theta_rad);
-    voltage_of(model, &m, theta_rad, i, v);
+    double ignored_H[3];
+    voltage_of(model, &m, theta_rad, i, v, ignored_H);
 }
 
-/* One column of what the effects add, by the central difference; coordinate 0, 1: x, 2, 3: its slope. */
+/* One column of what the effects add by the current, by the central difference. */
 static void add_difference(const hci_voltage_model *model, double theta_rad, const hci_plane_current *i,
                            int coordinate, double column[2])
 {
     const double size_A = DIFFERENCE_A * fmax(1.0, hypot(i->x[0], i->x[1]));
-    double low[2] = {0.0, 0.0}, high[2] = {0.0, 0.0};
+    double low[2] = {0.0, 0.0}, high[2] = {0.0, 0.0}, ignored_H[3];
     hci_plane_current moved = *i;
-    double *at = coordinate < 2 ? &moved.x[coordinate] : &moved.slope[coordinate - 2];
-    *at += size_A;
-    add_effects(model, theta_rad, &moved, high);
-    *at -= 2.0 * size_A;
-    add_effects(model, theta_rad, &moved, low);
+    moved.x[coordinate] += size_A;
+    add_effects(model, theta_rad, &moved, high, ignored_H);
+    moved.x[coordinate] -= 2.0 * size_A;
+    add_effects(model, theta_rad, &moved, low, ignored_H);
     for (int k = 0; k < 2; ++k)
         column[k] += (high[k] - low[k]) / (2.0 * size_A);
 }
@@ -166,18 +176,19 @@ void hci_voltage_linearise(const hci_voltage_model *model, double theta_rad, con
                            hci_linear_voltage *v)
 {
     const magnetic m = magnetic_at(model, theta_rad);
-    const double speed = model->speed_rad_per_s, r = model->machine->resistance_ohm;
-    voltage_of(model, &m, theta_rad, i, v->value);
+    const double speed = model->speed_rad_per_s, r = model->machine->resistance_ohm,
+                 speed_e = speed * model->machine->pole_pairs;
+    double inductance_H[3];
+    voltage_of(model, &m, theta_rad, i, v->value, inductance_H);
     for (int k = 0; k < 2; ++k) {
         const double unit[2] = {k == 0, k == 1};
         double *by_current = v->by_current + 2 * k, *by_slope = v->by_slope + 2 * k;
         by_current[0] = r * unit[0], by_current[1] = r * unit[1];
         by_slope[0] = by_slope[1] = 0.0;
         add_product(speed, m.slope, unit, by_current);
-        add_product(speed * model->machine->pole_pairs, m.inductance_H, unit, by_slope);
-        if (!model->effects || model->effects->count == 0) continue;
-        add_difference(model, theta_rad, i, k, by_current);
-        add_difference(model, theta_rad, i, k + 2, by_slope);
+        add_product(speed_e, m.inductance_H, unit, by_slope);
+        add_product(speed_e, inductance_H, unit, by_slope);
+        if (has_effects(model)) add_difference(model, theta_rad, i, k, by_current);
     }
 }
 

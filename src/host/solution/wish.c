@@ -71,6 +71,7 @@ static hci_status try_round(hci_wishes *l, hci_limit_stage stage, hci_limit_opti
     const bool is_first = !o->x;
     hci_limit_optimum next;
     hci_note ignored = {{0}};
+    if (hci_limit_points_fill(&l->program.field, &l->program.points)) return out_of_memory(note);
     const hci_status status = hci_limit_stage_solve(&l->program, stage, &next, is_first ? note : &ignored);
     *goes_on = is_first || (status != HCI_ERROR_NUMERIC && !next.is_infeasible);
     hci_memory_free(*goes_on ? o->x : next.x);
@@ -105,21 +106,19 @@ static bool is_repeated(const hci_limit_program *p, size_t k)
 hci_status hci_wish_forget(hci_wishes *l, hci_note *note)
 {
     hci_limit_program *p = &l->program;
-    double *row = l->x ? hci_memory_new(hci_limit_row_room(&p->field), sizeof *row) : NULL;
+    const size_t n = 2 * l->set.count;
     size_t kept = 0;
     if (!l->x) return HCI_OK;
-    if (!row) return out_of_memory(note);
+    if (hci_limit_points_fill(&p->field, &p->points)) return out_of_memory(note);
     for (size_t k = 0; k < p->points.count; ++k) {
         const hci_limit_point *at = &p->points.point[k];
         if (is_repeated(p, k)) continue;
         const double limit = hci_limit_of_point(p->bounds, at->kind, at->phase) * (1.0 + p->widened),
-                     constant = hci_limit_row(&p->field, at, row);
-        if (at->kind == HCI_POINT_TORQUE ||
-            fabs(constant + hci_vector_dot(2 * l->set.count, row, l->x)) >= NEAR * limit)
-            p->points.point[kept++] = *at;
+                     *row = hci_limit_points_row(&p->points, k);
+        if (at->kind == HCI_POINT_TORQUE || fabs(row[n] + hci_vector_dot(n, row, l->x)) >= NEAR * limit)
+            hci_limit_points_keep(&p->points, k, kept++);
     }
-    p->points.count = kept;
-    hci_memory_free(row);
+    hci_limit_points_cut(&p->points, kept);
     return HCI_OK;
 }
 

@@ -168,7 +168,7 @@ static hci_status find_copper(hci_wishes *l, hci_note *note)
     if (status) return status;
     status = solve_copper(l, &o);
     if (is_settled(status, &o) || (l->is_coarse && !status && !o.is_infeasible)) {
-        if (p->has_mean && p->has_ripple) note_cost(l, HCI_COST_COPPER, &o, o.smallest);
+        if (p->has_mean) note_cost(l, HCI_COST_COPPER, &o, o.smallest);
         hci_wish_take(l, &o);
     }
     hci_memory_free(o.x);

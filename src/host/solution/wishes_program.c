@@ -6,7 +6,8 @@
 
 enum {
     PER_PERIOD = 64, /* samples in the period of the highest order: no peak hides between two of them */
-    STRIDE = 16      /* every so many of them is a row from the start: 4 times the highest order */
+    COARSE_PER_PERIOD = 16, /* while the currents are still on their way */
+    ROWS_PER_PERIOD = 4     /* samples that are rows from the start */
 };
 
 #define ALIKE 1e-9 /* share of a row within which two are the same */
@@ -78,11 +79,12 @@ static hci_status add_grid(hci_wishes *l, hci_point_kind kind, int phase, double
 {
     hci_limit_grid *g = &l->program.grid[l->program.grids++];
     const double periods = share * (double)l->program.field.turns;
-    const size_t samples = STRIDE * (size_t)ceil(periods * PER_PERIOD * fmax(top, 4.0) / STRIDE);
+    const size_t stride = (size_t)(l->is_coarse ? COARSE_PER_PERIOD : PER_PERIOD) / ROWS_PER_PERIOD;
+    const size_t samples = stride * (size_t)ceil(periods * ROWS_PER_PERIOD * fmax(top, 4.0));
     *g = (hci_limit_grid){
         .kind = kind, .phase = phase, .samples = samples, .period_rad = 2.0 * HCI_PI * periods};
     if (hci_limit_grid_make(&l->program.field, g)) return out_of_memory(note);
-    for (size_t k = 0; k < samples; k += STRIDE)
+    for (size_t k = 0; k < samples; k += stride)
         g->is_row[k] = true;
     return HCI_OK;
 }
@@ -146,6 +148,7 @@ hci_status hci_wishes_program_make(hci_wishes *l, hci_note *note)
     const hci_limited *of = l->of;
     hci_status status;
     hci_wishes_program_release(l);
+    hci_limit_points_change(&l->program.points);
     status =
         hci_harmonic_system_make(of->task, l->set.component, l->set.count,
                                  of->options->set ? of->options->compare : HCI_COMPARE_ALL, &l->system, note);

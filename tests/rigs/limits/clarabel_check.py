@@ -340,8 +340,11 @@ def scenarios(program, source, tally, work, which):
         for rpm, share in ((500.0, 0.95), (1500.0, 0.9), (3000.0, 0.85)):
             speed = rpm * math.pi / 30
             free = Task(machine, components, target, None, 1.0, speed).peaks(x)[1]
-            compare(program, machine, target, f"scenario {k} {rpm:g} rpm", tally, work,
-                    {"components": components, "line_V": share * free, "speed": speed})
+            voltage = {"components": components, "line_V": share * free, "speed": speed}
+            compare(program, machine, target, f"scenario {k} {rpm:g} rpm", tally, work, voltage)
+            for of_peak in (0.9, 0.7):
+                compare(program, machine, target, f"scenario {k} {rpm:g} rpm current {of_peak}", tally, work,
+                        {**voltage, "limit_A": of_peak * peak})
         print(f"scenario {k}: {tally.most}", flush=True)
 
 
