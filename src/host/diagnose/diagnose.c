@@ -7,6 +7,7 @@
 #include "host/base/memory.h"
 #include "host/diagnose/candidates/empirical_term.h"
 #include "host/diagnose/findings.h"
+#include "host/diagnose/free_friction.h"
 #include "host/diagnose/fit/dataset.h"
 #include "host/diagnose/fit/model.h"
 #include "host/diagnose/fit/standard_errors.h"
@@ -18,7 +19,6 @@
 #include "host/diagnose/search/backward.h"
 #include "host/diagnose/uncertainty.h"
 #include "host/machine/torque_constant.h"
-#include "host/recording/free_shaft.h"
 
 #define RESOLUTION 5e-4 /* of the largest rms torque */
 #define AGAINST    0.05 /* of the torque per ampere, that voltages which agree to 2 % exclude */
@@ -235,10 +235,29 @@ static hci_status nothing_measured(const hci_effects *declared, hci_diagnosis *d
     return HCI_NOT_REACHED;
 }
 
+static hci_status diagnose_from(const hci_machine_data *machine, const hci_effects *declared, const hci_runs *runs,
+                                const hci_diagnose_options *options, hci_diagnosis *diagnosis, hci_note *note)
+{
+    hci_dataset b;
+    hci_status status = hci_dataset_make(machine, declared, runs, &b, note);
+    if (status) return status;
+    status = diagnose(&b, machine, runs, options, diagnosis, note);
+    hci_dataset_release(&b);
+    if (status) hci_diagnosis_release(diagnosis);
+    return status;
+}
+
+static hci_status tell(const hci_free_friction *friction, const hci_runs *runs, hci_diagnosis *diagnosis, hci_note *note)
+{
+    const hci_status status = hci_free_friction_tell(friction, runs, diagnosis, note);
+    if (status) hci_diagnosis_release(diagnosis);
+    return status;
+}
+
 hci_status hci_diagnose(const hci_machine_data *machine, const hci_effects *declared, const hci_runs *runs,
                         const hci_diagnose_options *options, hci_diagnosis *diagnosis, hci_note *note)
 {
-    hci_dataset b;
+    hci_free_friction friction = {0};
     size_t usable = 0, fitted = 0;
     memset(diagnosis, 0, sizeof *diagnosis);
     for (size_t k = 0; k < runs->count; ++k) {
@@ -250,15 +269,12 @@ hci_status hci_diagnose(const hci_machine_data *machine, const hci_effects *decl
     const double off = hci_open_voltage_off(&machine->model, runs);
     diagnosis->open_voltage_off = off;
     if (usable == 0) return nothing_measured(declared, diagnosis, note);
-    hci_status status = hci_free_shafts_find(machine, declared, runs->run, runs->count, note);
-    if (!status) status = hci_dataset_make(machine, declared, runs, &b, note);
+    hci_status status = hci_free_friction_find(machine, declared, runs, &friction, note);
+    if (!status) status = diagnose_from(machine, friction.law.terms > 0 ? &friction.effects.list : declared, &friction.rest, options, diagnosis, note);
+    if (!status) status = tell(&friction, runs, diagnosis, note);
+    hci_free_friction_release(&friction);
     if (status) return status;
-    status = diagnose(&b, machine, runs, options, diagnosis, note);
-    hci_dataset_release(&b);
-    if (status) {
-        hci_diagnosis_release(diagnosis);
-        return status;
-    }
+    if (hci_constant_is_held(runs)) diagnosis->held_constant_Nm_per_A = hci_torque_constant(&machine->model, declared);
     diagnosis->open_voltage_off = off;
     if (off > HCI_OPEN_VOLTAGE_OFF && diagnosis->verdict == HCI_DIAGNOSIS_COMPLETE)
         diagnosis->verdict = HCI_DIAGNOSIS_UNKNOWN;

@@ -176,7 +176,7 @@ static double total_of(const hci_diagnosis *d, hci_role role, size_t member)
     return count > 0.0 ? sqrt(sum / count) : (double)NAN;
 }
 
-static void totals_fill(hci_diagnosis *d)
+void hci_run_errors_total(hci_diagnosis *d)
 {
     const hci_role fit = HCI_ROLE_FIT, test = HCI_ROLE_HOLDOUT;
     d->rms_before_Nm = total_of(d, fit, offsetof(hci_run_errors, rms_before_Nm));
@@ -216,6 +216,6 @@ hci_status hci_run_errors_fill(hci_dataset *b, const hci_runs *runs, size_t para
     b->regression.raw = false;
     hci_memory_free(before);
     if (status) return status;
-    totals_fill(d);
+    hci_run_errors_total(d);
     return HCI_OK;
 }

@@ -12,4 +12,7 @@
 hci_status hci_run_errors_fill(hci_dataset *dataset, const hci_runs *runs, size_t parameters,
                                hci_diagnosis *diagnosis, hci_note *note);
 
+/* Fills the totals from the errors of the runs. */
+void hci_run_errors_total(hci_diagnosis *diagnosis);
+
 #endif

@@ -8,4 +8,8 @@
  * turn: 3/2 of the fundamental of the back-EMF, with whatever effects make of it. O(terms + harmonics). */
 double hci_torque_constant(const hci_machine *machine, const hci_effects *effects);
 
+/* The same, and its derivatives by the values of all terms: by_value[terms]. work: [terms]. */
+double hci_torque_constant_by_value(const hci_machine *machine, const hci_effects *effects, double *by_value,
+                                    double *work);
+
 #endif

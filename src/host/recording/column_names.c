@@ -332,18 +332,37 @@ static hci_status give_counted(hci_csv *csv, const hci_column_name *item, size_t
                                 : counts_error(csv, item, true, note);
 }
 
+/* *found: whether the file has the column. */
+static hci_status apply(hci_csv *csv, const hci_column_name *item, bool *found, hci_note *note)
+{
+    size_t column;
+    *found = true;
+    if (find_header(csv, item->column, &column)) return give(csv, item, column, note);
+    if (find_counted(csv, item, &column)) return give_counted(csv, item, column, note);
+    *found = false;
+    return HCI_OK;
+}
+
 hci_status hci_column_names_apply(const hci_column_names *names, bool optional, hci_csv *csv, hci_note *note)
 {
     hci_status status = HCI_OK;
     for (size_t k = 0; names != NULL && k < names->count && !status; ++k) {
         const hci_column_name *item = &names->item[k];
-        size_t column;
-        if (find_header(csv, item->column, &column))
-            status = give(csv, item, column, note);
-        else if (find_counted(csv, item, &column))
-            status = give_counted(csv, item, column, note);
-        else if (!is_named_otherwise(names, item, csv) && (!optional || !has_quantity(csv, item->name)))
+        bool found;
+        status = apply(csv, item, &found, note);
+        if (!found && !is_named_otherwise(names, item, csv) && (!optional || !has_quantity(csv, item->name)))
             status = no_such_column(csv, item, note);
+    }
+    return status;
+}
+
+hci_status hci_column_names_apply_found(const hci_column_names *names, size_t *found, hci_csv *csv, hci_note *note)
+{
+    hci_status status = HCI_OK;
+    for (size_t k = 0; names != NULL && k < names->count && !status; ++k) {
+        bool has;
+        status = apply(csv, &names->item[k], &has, note);
+        if (has) ++found[k];
     }
     return status;
 }

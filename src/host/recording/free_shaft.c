@@ -9,6 +9,7 @@
 #define OF_RATED 0.1  /* what bearings, iron and air take of a machine's rated torque at most */
 #define OF_RMS   0.75 /* of the rms torque of i_q: a drag that is more leaves it hardly any variation */
 #define TWICE    2.0  /* a shaft whose acceleration takes half of the torque is free */
+#define HARDLY   0.1  /* of the current's torque that accelerates, which is next to none */
 
 /* Mean torques, N·m. */
 typedef struct {
@@ -17,12 +18,28 @@ typedef struct {
 
 typedef struct {
     balance plain, with_speed; /* as they are, and times the sign of the speed */
+    hci_drag drag, drag_with_speed; /* of the shaft, without drag_Nm */
     double rms_Nm;             /* of the torque that i_q makes */
+    double mean_Nm;            /* of it, times the sign of the speed */
+    double along_Nm2;          /* mean of its product with inertia × acceleration */
 } figures;
 
 static bool is_free(const hci_run *run)
 {
     return run->torque_source == HCI_TORQUE_INERTIA && run->theta_m_rad != NULL;
+}
+
+static void add_speed(double speed, double share, figures *f)
+{
+    const double sign = (speed > 0.0) - (speed < 0.0);
+    f->drag.sign += share * sign;
+    f->drag.constant += share;
+    f->drag.speed_rad_per_s += share * speed;
+    f->drag.square += share * speed * fabs(speed);
+    f->drag_with_speed.sign += share * fabs(sign);
+    f->drag_with_speed.constant += share * sign;
+    f->drag_with_speed.speed_rad_per_s += share * fabs(speed);
+    f->drag_with_speed.square += share * speed * speed;
 }
 
 static hci_status figures_of(const hci_machine_data *machine, const hci_effects *effects, const hci_run *run,
@@ -42,6 +59,9 @@ static hci_status figures_of(const hci_machine_data *machine, const hci_effects 
         f->with_speed.accelerating += share * sign * run->torque_Nm[k];
         const double made = constant * hci_run_dq(run, machine->model.pole_pairs, k).q;
         square += share * made * made;
+        f->mean_Nm += share * sign * made;
+        f->along_Nm2 += share * run->torque_Nm[k] * made;
+        add_speed(speed, share, f);
     }
     f->rms_Nm = sqrt(square);
     hci_memory_free(model_Nm);
@@ -98,19 +118,64 @@ static void set_loads(hci_run *runs, const figures *f, size_t count, double most
             set_load_beside(&runs[k]);
 }
 
+/* Neither on average nor in what varies: the balance of such a run holds for a torque per ampere of any size. */
+static bool hardly_accelerates(const figures *f)
+{
+    return fabs(f->with_speed.accelerating) < HARDLY * fabs(f->mean_Nm) && fabs(f->along_Nm2) < HARDLY * f->rms_Nm * f->rms_Nm;
+}
+
+static hci_drag drag_at(const figures *f)
+{
+    const balance *b = balance_of(f);
+    hci_drag drag = b == &f->plain ? f->drag : f->drag_with_speed;
+    drag.drag_Nm = b->made - b->accelerating;
+    return drag;
+}
+
+static void set_friction(hci_run *run, const hci_drag *drag)
+{
+    run->mean_is_unknown = true;
+    hci_note_add(&run->remark,
+                 "the current makes %.3g N·m on average by the declared torque per ampere, and nothing accelerates: that is the "
+                 "friction of the shaft and of what it drives",
+                 drag->drag_Nm);
+}
+
+/* Sets drag, and *is_friction where it is one. */
+static hci_status find_friction(hci_run *runs, const figures *f, size_t count, hci_drag *drag, bool *is_friction, hci_note *note)
+{
+    hci_drag *known = hci_memory_new(count + 1, sizeof *known);
+    size_t drags = 0;
+    if (known == NULL) return hci_note_memory(note, NULL, "a free shaft");
+    for (size_t k = 0; k < count; ++k) {
+        drag[k] = (hci_drag){.drag_Nm = NAN};
+        if (runs[k].hardly_accelerates) drag[k] = known[drags++] = drag_at(&f[k]);
+    }
+    const bool done = hci_drags_are_friction(known, drags, is_friction);
+    hci_memory_free(known);
+    for (size_t k = 0; k < count; ++k) {
+        if (!*is_friction) drag[k].drag_Nm = NAN;
+        if (!isnan(drag[k].drag_Nm)) set_friction(&runs[k], &drag[k]);
+    }
+    return done ? HCI_OK : hci_note_memory(note, NULL, "a free shaft");
+}
+
 hci_status hci_free_shafts_find(const hci_machine_data *machine, const hci_effects *effects, hci_run *runs,
-                                size_t count, hci_note *note)
+                                size_t count, hci_drag *drag, hci_note *note)
 {
     figures *f = hci_memory_new(count + 1, sizeof *f);
     hci_status status = HCI_OK;
     double most_Nm = OF_RATED * rated_torque_of(machine, effects);
+    bool is_friction = false;
     if (f == NULL) return hci_note_memory(note, NULL, "a free shaft");
     for (size_t k = 0; k < count && !status; ++k) {
         if (!is_free(&runs[k])) continue;
         status = figures_of(machine, effects, &runs[k], &f[k], note);
         most_Nm = fmax(most_Nm, OF_RMS * f[k].rms_Nm);
+        runs[k].hardly_accelerates = hardly_accelerates(&f[k]);
     }
-    if (!status) set_loads(runs, f, count, most_Nm);
+    if (!status && drag != NULL) status = find_friction(runs, f, count, drag, &is_friction, note);
+    if (!status && !is_friction) set_loads(runs, f, count, most_Nm);
     hci_memory_free(f);
     return status;
 }

@@ -85,7 +85,7 @@ typedef struct {
 static hci_status keep_free(task *t, hci_note *note)
 {
     hci_run *run = &t->done.run;
-    const hci_status status = hci_free_shafts_find(&t->machine, &t->effects.list, run, 1, note);
+    const hci_status status = hci_free_shafts_find(&t->machine, &t->effects.list, run, 1, NULL, note);
     if (status || !run->mean_is_unknown) return status;
     hci_memory_free(run->torque_Nm);
     run->torque_Nm = NULL;

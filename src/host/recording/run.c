@@ -21,6 +21,7 @@
 #include "host/recording/row_direction.h"
 #include "host/recording/run_columns.h"
 #include "host/recording/slow_turn.h"
+#include "host/recording/speed_sign.h"
 #include "host/recording/speed_variation.h"
 
 /* Less movement than this is a shaft at rest, whose angle only flickers. */
@@ -133,23 +134,41 @@ static bool is_zero(const double *values, size_t count)
     return true;
 }
 
-/* The slope of the angle where no speed was recorded, or one of 0 while the shaft moved. */
+static const char SLOPE[] = "the speed is the slope of the angle";
+static const char SLOPE_OF_ZERO[] = "the speed is 0 but the angle moves: the slope of the angle is taken";
+static const char SLOPE_OF_NOISE[] =
+    "noise turns the sign of the recorded speed about while the angle goes one way: the slope of the angle is taken";
+
+/* What is said of the slope of the angle where it takes the place of the speed; NULL: the speed stays. slope: NULL: not known yet, then
+ * whether it may take its place. */
+static const char *why_slope(const hci_run *run, const double *slope)
+{
+    if (run->speed_rad_per_s == NULL) return SLOPE;
+    if (hci_peak_to_peak(run->theta_m_rad, run->count) <= MOVED_RAD) return NULL;
+    if (is_zero(run->speed_rad_per_s, run->count)) return SLOPE_OF_ZERO;
+    if (hci_speed_sign_changes(run->speed_rad_per_s, run->count) < HCI_SPEED_SIGN_CHANGES) return NULL;
+    return slope == NULL || hci_speed_sign_is_noise(run, slope) ? SLOPE_OF_NOISE : NULL;
+}
+
+/* The slope of the angle where no speed was recorded, or one that does not tell which way the shaft turns. */
 static hci_status complete_speed(reader *r, hci_angle_path path)
 {
     hci_run *run = r->run;
-    const bool recorded = run->speed_rad_per_s != NULL;
     if (run->theta_m_rad == NULL || run->time_s == NULL || run->count < 2) return HCI_OK;
-    if (path == HCI_ANGLE_SCATTERED) return HCI_OK;
-    if (recorded && (!is_zero(run->speed_rad_per_s, run->count) ||
-                     hci_peak_to_peak(run->theta_m_rad, run->count) <= MOVED_RAD))
-        return HCI_OK;
-    if (!recorded) run->speed_rad_per_s = hci_memory_new(run->count, sizeof(double));
-    if (run->speed_rad_per_s == NULL) return memory_error(r);
-    run->speed_window = hci_derivative_window(run->time_s, run->theta_m_rad, run->count);
-    hci_derivative_over(run->time_s, run->theta_m_rad, run->count, run->speed_window, run->speed_rad_per_s);
-    hci_note_add(&r->run->remark, recorded
-                                      ? "the speed is 0 but the angle moves: the slope of the angle is taken"
-                                      : "the speed is the slope of the angle");
+    if (path == HCI_ANGLE_SCATTERED || why_slope(run, NULL) == NULL) return HCI_OK;
+    double *slope = hci_memory_new(run->count, sizeof *slope);
+    if (slope == NULL) return memory_error(r);
+    const size_t window = hci_derivative_window(run->time_s, run->theta_m_rad, run->count);
+    hci_derivative_over(run->time_s, run->theta_m_rad, run->count, window, slope);
+    const char *why = why_slope(run, slope);
+    if (why != NULL) {
+        hci_note_add(&run->remark, "%s", why);
+        run->speed_window = window;
+        hci_memory_free(run->speed_rad_per_s);
+        run->speed_rad_per_s = slope;
+    } else {
+        hci_memory_free(slope);
+    }
     return HCI_OK;
 }
 
@@ -597,7 +616,8 @@ static hci_status name_columns(const char *path, const hci_run_options *options,
     hci_status status = path ? hci_column_names_beside(&beside, path, note) : HCI_OK;
     if (!status) status = hci_column_names_apply(options->list_columns, true, csv, note);
     if (!status) status = hci_column_names_apply(&beside, true, csv, note);
-    if (!status) status = hci_column_names_apply(options->columns, false, csv, note);
+    if (!status) status = options->columns_found ? hci_column_names_apply_found(options->columns, options->columns_found, csv, note)
+                                                 : hci_column_names_apply(options->columns, false, csv, note);
     hci_column_names_release(&beside);
     return status;
 }

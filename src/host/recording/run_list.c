@@ -87,12 +87,50 @@ static hci_status row_options(const list_reader *l, size_t row, hci_run_options 
     return hci_column_names_add_text(columns, names, from, l->note);
 }
 
+/* ---- columns that only some recordings have ---- */
+
+/* Reads one that may lack columns which options name, and says so of it. */
+static hci_status read_lacking(const list_reader *l, const hci_run_options *options, const char *path, hci_run *run)
+{
+    const hci_column_names *names = options->columns;
+    const size_t count = names != NULL ? names->count : 0;
+    size_t *before = hci_memory_new(count + 1, sizeof *before);
+    if (before == NULL) return memory_error(l);
+    for (size_t k = 0; k < count; ++k)
+        before[k] = options->columns_found[k];
+    const hci_status status = hci_run_read(path, options, run, l->note);
+    for (size_t k = 0; k < count && !status; ++k)
+        if (options->columns_found[k] == before[k])
+            hci_note_add(&run->remark, "no column `%.60s`: read without %.40s", names->item[k].column, names->item[k].name);
+    hci_memory_free(before);
+    return status;
+}
+
+/* A column that no recording has: the error that the first one of them gives. */
+static hci_status check_found(const list_reader *l)
+{
+    const hci_column_names *names = l->run.columns;
+    hci_status status = HCI_OK;
+    for (size_t k = 0; names != NULL && k < names->count && !status; ++k) {
+        const hci_column_names one = {&names->item[k], 1};
+        hci_csv *csv;
+        if (l->run.columns_found[k] > 0) continue;
+        status = hci_csv_read_recording(l->runs->origin[0].path, &csv, l->note);
+        if (status) return status;
+        status = hci_column_names_apply(&one, false, csv, l->note);
+        hci_csv_free(csv);
+    }
+    return status;
+}
+
+/* ---- one run ---- */
+
 static hci_status read_named(const list_reader *l, size_t row, const hci_run_options *options,
                              const char *file, char *path)
 {
     const hci_column_names *const names[] = {options->list_columns, options->columns};
     hci_run *run = &l->runs->run[row];
-    const hci_status status = hci_run_read(path, options, run, l->note);
+    const hci_status status = read_lacking(l, options, path, run);
     if (status) {
         hci_memory_free(path);
         return status;
@@ -187,7 +225,11 @@ hci_status hci_runs_read(const char *path, const hci_runs_options *options, hci_
     list_reader l = {csv, options, options->run, runs, note};
     l.run.list_columns = &columns;
     status = hci_column_names_beside(&columns, path, note);
+    l.run.columns_found = hci_memory_new((options->run.columns != NULL ? options->run.columns->count : 0) + 1, sizeof(size_t));
+    if (!status && l.run.columns_found == NULL) status = memory_error(&l);
     if (!status) status = read_rows(&l);
+    if (!status) status = check_found(&l);
+    hci_memory_free(l.run.columns_found);
     hci_column_names_release(&columns);
     hci_csv_free(csv);
     if (status) hci_runs_release(runs);

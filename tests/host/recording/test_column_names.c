@@ -204,6 +204,25 @@ static void test_a_table_need_not_fit_where_names_do(void)
     text_has("it has `angle`, `iq_A`", note.text);
 }
 
+/* A recording of a list without such a column is read without it; one that none of them has is an error. */
+static void test_some_recordings_of_a_list_lack_a_column(void)
+{
+    const hci_runs_options options = {.run = {.pole_pairs = 2, .inertia_kgm2 = NAN, .columns = &names}};
+    hci_runs runs;
+    files_write(files_path("list.csv"), "file,role\nidle.csv,fit\nrun.csv,fit\n");
+    files_write(files_path("idle.csv"), "theta_m_rad,iq_A\n0.5,1\n");
+    files_write(path, "theta_m_rad,iq_A,M1\n0.5,1,7\n");
+    add("torque_Nm=M1");
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_runs_read(files_path("list.csv"), &options, &runs, &note), note.text);
+    TEST_ASSERT_NULL(runs.run[0].torque_Nm);
+    text_has("no column `M1`: read without torque_Nm", runs.run[0].remark.text);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 7.0, runs.run[1].torque_Nm[0]);
+    hci_runs_release(&runs);
+    add("speed_rad_per_s=M2");
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, hci_runs_read(files_path("list.csv"), &options, &runs, &note));
+    text_has("found no column `M2` in", note.text);
+}
+
 /* ---- wrong ones */
 
 static void wrong(const char *text, const char *words)
@@ -262,6 +281,7 @@ int main(void)
     RUN_TEST(test_what_is_said_comes_first);
     RUN_TEST(test_a_table_beside_the_recording_and_one_beside_the_list);
     RUN_TEST(test_a_table_need_not_fit_where_names_do);
+    RUN_TEST(test_some_recordings_of_a_list_lack_a_column);
     RUN_TEST(test_wrong_names_get_a_suggestion);
     RUN_TEST(test_memory_runs_out_everywhere);
     return UNITY_END();

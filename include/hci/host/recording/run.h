@@ -48,6 +48,7 @@ typedef struct {
     bool voltage_is_dq;   /* v_V was v_d and v_q, turned by the recorded angle: says nothing of its zero */
     bool only_mean;       /* no angle, but torques over i_d and i_q: means over a turn. i_A is of angle 0 */
     bool mean_is_unknown; /* a constant load stands in torque_Nm too: only what varies says something */
+    bool hardly_accelerates; /* a free shaft whose current answers a drag and cogging torque: no scale of its torque is in it */
     bool has_sum;         /* all three currents were recorded, so that their sum says something */
     int computed_phase; /* 1, 2, 3: of two phase currents the third was made, so that the sum is 0; 0: not */
     size_t *row;        /* [count], of the file, from 0; NULL: each row is a sample */
@@ -64,6 +65,8 @@ typedef struct {
     bool strict;               /* a hole refuses the file */
     hci_order_base order_base; /* of the tables of a machine that is read beside */
     const hci_column_names *columns;      /* which column is what, before all names; NULL: names say it */
+    size_t *columns_found; /* of each of columns: goes up by one where the file has it, and not to have it is no error;
+                            * NULL: it is one */
     const hci_column_names *list_columns; /* the same for all runs of a list, which counts least; or NULL */
     const hci_csv_memory *memory;         /* recordings in memory: read in place of files of their names */
     size_t memory_count;                  /* entries of memory */

@@ -6,6 +6,7 @@
 #include "host/base/memory.h"
 #include "host/diagnose/fit/predicted_reading.h"
 #include "host/diagnose/prepare/index_alignment.h"
+#include "host/machine/torque_constant.h"
 
 #define WORSE    1.02 /* of the residual with smoothed readings, beside that with readings as they are */
 #define ROUNDING 1e-6 /* noise of a sum of currents, as a share of them, that was not measured */
@@ -66,6 +67,16 @@ static hci_status indices_align(const hci_runs *runs, hci_dataset *b, hci_note *
     return status;
 }
 
+/* Of a shaft that hardly accelerates the torque is the one that its current makes. */
+static void torques_count(const hci_machine_data *machine, const hci_effects *declared, const hci_runs *runs, hci_dataset *b)
+{
+    const double constant = fabs(hci_torque_constant(&machine->model, declared));
+    for (size_t k = 0; k < runs->count; ++k) {
+        hci_run_statistics *f = &b->samples.statistics[k];
+        if (runs->run[k].hardly_accelerates) f->rms_torque_Nm = fmax(f->rms_torque_Nm, constant * f->current_A);
+    }
+}
+
 /* Mean square of a run's residual. */
 static double square_of(const hci_binned_samples *samples, size_t run, const double *residual_Nm)
 {
@@ -117,6 +128,7 @@ hci_status hci_dataset_make(const hci_machine_data *machine, const hci_effects *
 {
     memset(b, 0, sizeof *b);
     hci_status status = hci_binned_samples_make(&machine->model, runs->run, runs->count, &b->samples, note);
+    if (!status) torques_count(machine, declared, runs, b);
     if (!status) status = evidence_make(machine, declared, runs, b, note);
     if (!status) status = indices_align(runs, b, note);
     if (!status) status = smoothing_settle(b, note);

@@ -117,17 +117,35 @@ size_t hci_settling_samples(const hci_binned_sample *sample, const hci_segment *
     return lead < most ? lead : most;
 }
 
-/* Declared over modelled torque per ampere; 1 where there is no holding test. */
+/* Whether the current is the reading: nothing in such a run tells the size of a torque per ampere. */
+static bool reads_current(const hci_run *run)
+{
+    return run->torque_source == HCI_TORQUE_HOLDING || run->hardly_accelerates;
+}
+
+/* Declared over modelled torque per ampere; 1 where no run reads currents. */
 static double holding_scale(const hci_regression *e, const hci_effects *effects)
 {
     bool holds = false;
     for (size_t r = 0; r < e->samples->run_count; ++r)
-        holds = holds || (e->use[r] && e->runs[r].torque_source == HCI_TORQUE_HOLDING);
+        holds = holds || (e->use[r] && reads_current(&e->runs[r]));
     if (!holds) return 1.0;
     const double declared = fabs(hci_torque_constant(e->machine, e->declared));
     const double modelled = fabs(hci_torque_constant(e->machine, effects));
     if (!(declared > 0.0) || fabs(modelled - declared) < SAME_SCALE * declared) return 1.0;
     return modelled * LARGEST_SCALE > declared ? declared / modelled : LARGEST_SCALE;
+}
+
+/* Zeros where no shaft hardly accelerates, or none makes a torque. */
+static void constant_differentiate(const hci_regression *e, const hci_effects *effects, hci_predicted_reading *o)
+{
+    bool any = false;
+    for (size_t r = 0; r < e->samples->run_count; ++r)
+        any = any || (e->use[r] && e->runs[r].hardly_accelerates);
+    if (!any) return;
+    const double constant = hci_torque_constant_by_value(e->machine, effects, o->constant_by_value, o->sum);
+    for (size_t c = 0; c < o->terms; ++c)
+        o->constant_by_value[c] *= constant != 0.0 ? 1.0 / constant : 0.0;
 }
 
 bool hci_predicted_reading_make(const hci_regression *e, const hci_effects *effects, bool derivatives,
@@ -137,7 +155,7 @@ bool hci_predicted_reading_make(const hci_regression *e, const hci_effects *effe
     memset(o, 0, sizeof *o);
     o->terms = hci_effects_terms(effects);
     o->holding_scale = holding_scale(e, effects);
-    o->torque_Nm = hci_memory_new(4 * most + 4 * o->terms + 2, sizeof *o->torque_Nm);
+    o->torque_Nm = hci_memory_new(4 * most + 5 * o->terms + 2, sizeof *o->torque_Nm);
     if (derivatives) o->by_value = hci_memory_new(most * (o->terms + 1), sizeof *o->by_value);
     if (!o->torque_Nm || (derivatives && !o->by_value)) {
         hci_predicted_reading_release(o);
@@ -147,6 +165,8 @@ bool hci_predicted_reading_make(const hci_regression *e, const hci_effects *effe
     o->work = o->time_s + most;
     o->sum = o->work + 2 * most;
     o->row = o->sum + 2 * o->terms;
+    o->constant_by_value = o->row + 2 * (o->terms + 1);
+    if (derivatives) constant_differentiate(e, effects, o);
     return true;
 }
 
@@ -180,12 +200,27 @@ static double mean_over_turn(const hci_regression *e, const hci_effects *effects
     return mean_Nm;
 }
 
+/* What of a torque a current makes. */
+static double of_current(const hci_regression *e, const hci_effects *effects, const hci_sample *reading, double torque_Nm)
+{
+    hci_sample without = *reading;
+    without.i_abc[0] = without.i_abc[1] = without.i_abc[2] = 0.0;
+    return torque_Nm - hci_effects_predict(e->machine, effects, &without, NULL);
+}
+
+/* The scale of what the current makes is no value of these rows: friction and cogging torque are found times it. */
+static void hold_scale(const hci_predicted_reading *o, double of_current_Nm, double *by_value)
+{
+    for (size_t c = 0; c < o->terms; ++c)
+        by_value[c] -= of_current_Nm * o->constant_by_value[c];
+}
+
 /* Without the dynamics of the sensor. */
 static void fill_static(const hci_regression *e, const hci_effects *effects, const hci_segment *s,
                         hci_predicted_reading *o)
 {
     const hci_binned_sample *sample = e->samples->sample + s->first;
-    const bool holds = e->runs[s->run].torque_source == HCI_TORQUE_HOLDING;
+    const bool holds = reads_current(&e->runs[s->run]), scales = e->runs[s->run].hardly_accelerates;
     for (size_t k = 0; k < s->count; ++k) {
         double *by_value = o->by_value ? o->by_value + k * o->terms : NULL;
         const hci_sample *reading = e->raw ? &sample[k].raw : &sample[k].reading;
@@ -193,6 +228,7 @@ static void fill_static(const hci_regression *e, const hci_effects *effects, con
                               ? mean_over_turn(e, effects, reading, o, by_value)
                               : hci_effects_predict(e->machine, effects, reading, by_value);
         o->time_s[k] = sample[k].time_s;
+        if (scales && by_value) hold_scale(o, of_current(e, effects, reading, o->torque_Nm[k]), by_value);
         if (holds) o->torque_Nm[k] *= o->holding_scale;
         for (size_t c = 0; holds && by_value && c < o->terms; ++c)
             by_value[c] *= o->holding_scale;

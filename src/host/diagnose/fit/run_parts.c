@@ -2,9 +2,31 @@
 
 #include "host/base/memory.h"
 
+static bool are_alike(const hci_run *a, const hci_run *b)
+{
+    return a->torque_source == b->torque_source && a->hardly_accelerates == b->hardly_accelerates;
+}
+
+/* Whether one of the recordings without a torque sensor is the only one of its kind, so that the others cannot say what is in it:
+ * a holding test beside free shafts, a coast beside constant speeds. */
+static bool one_is_alone(const hci_regression *e)
+{
+    bool alone = false;
+    for (size_t r = 0; r < e->samples->run_count; ++r) {
+        size_t alike = 0;
+        if (!e->use[r]) continue;
+        if (e->runs[r].torque_source == HCI_TORQUE_MEASURED) return false;
+        for (size_t k = 0; k < e->samples->run_count; ++k)
+            alike += e->use[k] && are_alike(&e->runs[r], &e->runs[k]) ? 1 : 0;
+        alone = alone || alike == 1;
+    }
+    return alone;
+}
+
 size_t hci_run_parts(const hci_regression *e)
 {
     const size_t runs = hci_regression_runs_in_use(e);
+    if (runs >= HCI_LEAST_GROUPS && one_is_alone(e)) return HCI_LEAST_GROUPS;
     return runs > 0 && runs < HCI_LEAST_GROUPS ? (HCI_LEAST_GROUPS + runs) / runs : 1;
 }
 

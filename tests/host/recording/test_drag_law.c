@@ -1,0 +1,92 @@
+/* Drags of several runs: a friction in both directions is one, a constant load and another one in each run are none. */
+#include "host/recording/drag_law.h"
+
+#include <math.h>
+
+#include "unity.h"
+
+static hci_drag drag[8];
+static size_t count;
+static hci_drag_law law;
+
+void setUp(void)
+{
+    count = 0;
+}
+
+void tearDown(void)
+{
+}
+
+static void add(double speed, double drag_Nm)
+{
+    drag[count++] = (hci_drag){drag_Nm, (speed > 0.0) - (speed < 0.0), 1.0, speed, speed * fabs(speed)};
+}
+
+/* 20 mN·m, 1 mN·m·s/rad, and a load that is added. */
+static void add_friction(double speed, double load_Nm)
+{
+    add(speed, (speed > 0.0 ? 0.02 : -0.02) + 1e-3 * speed + load_Nm);
+}
+
+static bool are_friction(void)
+{
+    bool is = false;
+    TEST_ASSERT_TRUE(hci_drags_are_friction(drag, count, &is));
+    return is;
+}
+
+static void test_friction(void)
+{
+    add_friction(3.0, 0.0);
+    TEST_ASSERT_FALSE(are_friction()); /* one direction: a constant load looks the same */
+    add_friction(12.0, 0.0);
+    TEST_ASSERT_FALSE(are_friction());
+    add_friction(-3.0, 0.0);
+    TEST_ASSERT_TRUE(are_friction());
+    add_friction(-12.0, 0.0);
+    TEST_ASSERT_TRUE(are_friction());
+}
+
+static void test_loads(void)
+{
+    for (int k = 0; k < 4; ++k)
+        add_friction(k < 2 ? 3.0 + 9.0 * k : 15.0 - 9.0 * k, 0.006); /* a weight */
+    TEST_ASSERT_FALSE(are_friction());
+    for (size_t k = 0; k < 4; ++k)
+        drag[k].drag_Nm *= -1.0; /* drives */
+    TEST_ASSERT_FALSE(are_friction());
+    count = 0;
+    for (int k = 0; k < 6; ++k)
+        add(k % 2 ? -5.0 : 5.0, (k % 2 ? -0.02 : 0.02) * (1.0 + 0.4 * k)); /* another brake each time */
+    TEST_ASSERT_FALSE(are_friction());
+    count = 0;
+    TEST_ASSERT_FALSE(are_friction());
+}
+
+static void test_law(void)
+{
+    add_friction(3.0, 1e-4);
+    add_friction(-3.0, 1e-4);
+    TEST_ASSERT_TRUE(hci_drag_law_find(drag, count, &law));
+    TEST_ASSERT_EQUAL(1, law.terms);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.023, law.value[HCI_DRAG_COULOMB]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 1e-4, law.std_error[HCI_DRAG_COULOMB]); /* (1e-4² + 1e-4²)/1 over 2 */
+    add_friction(12.0, 1e-4);
+    add_friction(-12.0, 1e-4);
+    TEST_ASSERT_TRUE(hci_drag_law_find(drag, count, &law));
+    TEST_ASSERT_EQUAL(2, law.terms);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.02, law.value[HCI_DRAG_COULOMB]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 1e-3, law.value[HCI_DRAG_VISCOUS]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, -0.032, hci_drag_law_at(&law, &drag[3]));
+    TEST_ASSERT_TRUE(law.gain > 100.0);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_friction);
+    RUN_TEST(test_loads);
+    RUN_TEST(test_law);
+    return UNITY_END();
+}
