@@ -190,12 +190,14 @@ typedef void hci_effect_candidate_taker(void *context, const hci_effect_candidat
  *
  *     W'(θ, i_d, i_q) = Σ c cos nθ (i_d/I_0)^a (i_q/I_0)^b (b even) + Σ c sin nθ … (b odd)    n = 0, 6, 12, …
  *
- * of a rotor that looks alike both ways round. Power a + b = 0 is cogging torque, 1 back-EMF, 2 reluctance, 3
- * and more saturation; the torque is p ∂W'/∂θ at constant phase currents, so mean and ripple are one. */
+ * of a rotor that looks alike both ways round; sines and cosines change places in what another rotor has
+ * besides. Power a + b = 0 is cogging torque, 1 back-EMF, 2 reluctance, 3 and more saturation; the torque is
+ * p ∂W'/∂θ at constant phase currents, so mean and ripple are one. */
 typedef struct {
     int pole_pairs;             /* p */
     int power, order;           /* highest, of the currents and of the electrical angle */
     double reference_current_A; /* I_0 */
+    bool unlike; /* what a rotor that looks alike both ways round does not have, and only that */
 } hci_effect_coenergy_series;
 
 /* Takes candidates. */

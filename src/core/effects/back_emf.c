@@ -90,7 +90,7 @@ static void propose_coenergy(const hci_effect_coenergy_series *series, const hci
 {
     const double unit = series->pole_pairs / (1.5 * series->reference_current_A);
     for (int n = 1; n <= series->order; n += n % 6 == 1 ? 4 : 2)
-        hci_effect_propose_coenergy(to, SINE, 1, n, n * unit);
+        hci_effect_propose_coenergy(to, series->unlike ? COSINE : SINE, 1, n, n * unit);
 }
 
 const hci_effect_type hci_effect_back_emf = {

@@ -42,7 +42,7 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
 static void propose_coenergy(const hci_effect_coenergy_series *series, const hci_effect_proposals *to)
 {
     for (int n = 6; n <= series->order; n += 6)
-        hci_effect_propose_coenergy(to, SINE, 0, n, series->pole_pairs * n);
+        hci_effect_propose_coenergy(to, series->unlike ? COSINE : SINE, 0, n, series->pole_pairs * n);
 }
 
 /* How many declared orders are larger. */

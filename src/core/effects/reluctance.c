@@ -61,11 +61,11 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
 static void propose_coenergy(const hci_effect_coenergy_series *series, const hci_effect_proposals *to)
 {
     const double unit = 1.0 / (0.75 * series->reference_current_A * series->reference_current_A);
+    const size_t sine = series->unlike ? 1 : 0, cosine = 1 - sine;
     for (int n = 0; n <= series->order; n += 6) {
-        hci_effect_propose_coenergy(to, DD + 1, 2, n, unit);
-        if (n == 0) continue;
-        hci_effect_propose_coenergy(to, DQ, 2, n, 0.5 * unit);
-        hci_effect_propose_coenergy(to, QQ + 1, 2, n, unit);
+        if (n > 0 || cosine == 1) hci_effect_propose_coenergy(to, DD + cosine, 2, n, unit);
+        if (n > 0 || sine == 1) hci_effect_propose_coenergy(to, DQ + sine, 2, n, 0.5 * unit);
+        if (n > 0) hci_effect_propose_coenergy(to, QQ + cosine, 2, n, unit);
     }
 }
 

@@ -12,6 +12,7 @@ enum { MOST_POWER = 8, PLAIN_POWER = 4, MOST_ORDER = 96, PLAIN_ORDER = 48 };
 
 #define FIRST_OF_SLOTS 5.0  /* order of a back-EMF beside 6, the first of cogging torque and co-energy */
 #define WHOLE_TURN     0.9  /* electrical, of a run that tells orders by its samples */
+#define SHARED         0.6  /* of what was found as one, that each of those which make it together has */
 #define HALF           1e-6 /* of an order: half as many orders as samples is one too many */
 
 /* ---- how far ---- */
@@ -57,7 +58,7 @@ static hci_effect_coenergy_series series_of(const hci_regression *e, const hci_c
     if (!(reference_A > 0.0)) reference_A = current_of(e);
     if (!(reference_A > 0.0)) reference_A = 1.0;
     return (hci_effect_coenergy_series){e->machine->pole_pairs, saturates(fitted) ? MOST_POWER : PLAIN_POWER,
-                                        (int)fmax(0.0, order), reference_A};
+                                        (int)fmax(0.0, order), reference_A, false};
 }
 
 /* ---- terms ---- */
@@ -95,10 +96,32 @@ static bool is_by_width(const hci_candidates *fitted, const hci_candidate *known
     return saturates(fitted) && x->coenergy_unit > 0.0 && x->power >= 2;
 }
 
+/* Root of the mean square over the orders where something was found; one by itself may be the difference of
+ * two that are larger. */
+static double usual_size(const double size[HCI_COENERGY_ORDERS])
+{
+    double sum = 0.0, count = 0.0;
+    for (size_t k = 1; k < HCI_COENERGY_ORDERS; ++k) {
+        sum += size[k] * size[k];
+        count += size[k] > 0.0;
+    }
+    return count > 0.0 ? sqrt(sum / count) : 0.0;
+}
+
+/* What was found at an order may be another term that makes the same torque in the recordings: as large as
+ * that is likely. */
+static double twin_of(const hci_coenergy_sizes *found, const hci_candidate *x)
+{
+    const size_t place = hci_coenergy_place(x->term[0].order);
+    const double *size = x->unlike ? found->unlike : found->usual;
+    if (place == 0) return SHARED * x->coenergy_unit * size[0];
+    return size[place] > 0.0 ? SHARED * x->coenergy_unit * usual_size(size) : 0.0;
+}
+
 /* One term of a candidate: a term of the model keeps what was expected of it, unless that is by the width;
  * all others are expected where they are. */
-static void term_fill(const hci_regression *e, const hci_candidates *fitted, hci_candidate *x, size_t j,
-                      hci_allowed_terms *t)
+static void term_fill(const hci_regression *e, const hci_candidates *fitted, const hci_coenergy_sizes *found,
+                      hci_candidate *x, size_t j, hci_allowed_terms *t)
 {
     const hci_candidate *known = hci_candidates_find_in(fitted, x);
     const double deviation = known ? known->deviation : 0.0;
@@ -109,6 +132,7 @@ static void term_fill(const hci_regression *e, const hci_candidates *fitted, hci
     t->unit[at] = unit > 0.0 ? unit : 1.0;
     t->fixed[at] = by_width ? (double)NAN : deviation > 0.0 ? 1.0 / (deviation * deviation) : 0.0;
     t->centre[at] = known ? -x->term[j].value : 0.0;
+    t->twin[at] = isnan(t->fixed[at]) && x->coenergy_unit > 0.0 ? twin_of(found, x) : 0.0;
     t->of_mean[at] = x->coenergy_unit > 0.0 && x->term[j].order < FIRST_OF_SLOTS;
 }
 
@@ -116,12 +140,15 @@ hci_status hci_allowed_terms_make(const hci_regression *regression, const hci_ca
                                   hci_allowed_terms *t, hci_note *note)
 {
     const hci_effect_coenergy_series series = series_of(regression, fitted);
+    hci_coenergy_sizes found;
     memset(t, 0, sizeof *t);
-    const hci_status status = hci_coenergy_terms(fitted, &series, &t->candidates, note);
+    hci_coenergy_sizes_of(fitted, &series, &found);
+    hci_status status = hci_coenergy_terms(fitted, &series, &t->candidates, note);
+    if (!status) status = hci_coenergy_terms_unlike(&found, &series, &t->candidates, note);
     if (status) return status;
     t->candidates.reference_current_A = series.reference_current_A;
     const size_t terms = hci_candidates_terms_in(&t->candidates);
-    t->unit = hci_memory_new(3 * terms + 1, sizeof *t->unit);
+    t->unit = hci_memory_new(4 * terms + 1, sizeof *t->unit);
     t->of_mean = hci_memory_new(terms + 1, sizeof *t->of_mean);
     if (!t->unit || !t->of_mean) {
         hci_allowed_terms_release(t);
@@ -129,10 +156,11 @@ hci_status hci_allowed_terms_make(const hci_regression *regression, const hci_ca
     }
     t->fixed = t->unit + terms;
     t->centre = t->fixed + terms;
+    t->twin = t->centre + terms;
     for (size_t k = 0; k < t->candidates.count; ++k) {
         hci_candidate *x = &t->candidates.candidate[k];
         for (size_t j = 0; j < x->count; ++j)
-            term_fill(regression, fitted, x, j, t);
+            term_fill(regression, fitted, &found, x, j, t);
         x->deviation = 0.0;
     }
     return HCI_OK;
@@ -149,7 +177,8 @@ void hci_allowed_terms_release(hci_allowed_terms *t)
 void hci_allowed_terms_precision(const hci_allowed_terms *t, hci_allowed_width width, double *precision)
 {
     for (size_t k = 0; k < t->count; ++k) {
-        const double deviation = width.orders * (t->of_mean[k] ? width.mean_times : 1.0) * t->unit[k];
+        const double by_width = width.orders * (t->of_mean[k] ? width.mean_times : 1.0) * t->unit[k];
+        const double deviation = fmax(by_width, width.twins * t->twin[k]);
         precision[k] = isnan(t->fixed[k]) ? 1.0 / (deviation * deviation) : t->fixed[k];
     }
 }

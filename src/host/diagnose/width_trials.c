@@ -63,7 +63,7 @@ static hci_status try_all_alike(const hci_allowed_terms *terms, const hci_conden
     int worse = 0;
     hci_status status = HCI_OK;
     for (size_t w = 0; w < WIDTH_COUNT && worse < MOST_WORSE && !status; ++w) {
-        status = try(terms, runs, (hci_allowed_width){WIDTHS[w], 1.0}, t, note);
+        status = try(terms, runs, (hci_allowed_width){WIDTHS[w], 1.0, 0.0}, t, note);
         if (status) return status;
         const double misfit = t->trial[w].misfit, least = t->trial[t->best].misfit;
         worse = isfinite(misfit) && misfit > least + NONE_LEFT ? worse + 1 : 0;
@@ -79,7 +79,7 @@ static hci_status try_wider_means(const hci_allowed_terms *terms, const hci_cond
     hci_status status = HCI_OK;
     for (size_t w = best > 0 ? best - 1 : 0; w < tried && w <= best + 1; ++w)
         for (size_t k = 0; k < TIMES && !status; ++k)
-            status = try(terms, runs, (hci_allowed_width){WIDTHS[w], MEAN_TIMES[k]}, t, note);
+            status = try(terms, runs, (hci_allowed_width){WIDTHS[w], MEAN_TIMES[k], 0.0}, t, note);
     return status;
 }
 
@@ -115,9 +115,23 @@ void hci_width_trials_release(hci_width_trials *t)
     memset(t, 0, sizeof *t);
 }
 
+/* One over the size of the errors, in which expectations are counted; 0 where none is known. */
+static double twins_of(const hci_left_out_group *left, size_t count)
+{
+    double sum = 0.0, told = 0.0;
+    for (size_t g = 0; g < count; ++g) {
+        if (!isfinite(left[g].misfit)) continue;
+        sum += left[g].misfit;
+        told += 1.0;
+    }
+    return sum > 0.0 ? sqrt(told / sum) : 0.0;
+}
+
 bool hci_width_trials_ridge(const hci_width_trials *t, size_t at, const hci_allowed_terms *terms,
                             const hci_condensed *runs, hci_ridge *ridge)
 {
-    const hci_expectation expected = {precision_of(t, terms, t->trial[at].width), terms->centre};
+    hci_allowed_width width = t->trial[at].width;
+    width.twins = twins_of(t->trial[at].left, runs->count);
+    const hci_expectation expected = {precision_of(t, terms, width), terms->centre};
     return hci_ridge_make(runs, &expected, ridge);
 }

@@ -22,6 +22,7 @@ typedef struct {
     double coenergy_unit; /* of a term of the co-energy: the deviation to be expected of it where coefficients
                            * of power 2 and order 0 deviate by 1 N·m; else 0 */
     int power;            /* of the currents, there */
+    bool unlike;          /* of a rotor that does not look alike both ways round, there */
     bool in;              /* in the model */
 } hci_candidate;
 

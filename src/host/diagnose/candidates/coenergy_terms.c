@@ -3,12 +3,22 @@
 #include <math.h>
 #include <string.h>
 
+#define UNLIKE 0.1 /* of what is usual at an order, from which on it was found: less is noise */
+
 typedef struct {
     hci_candidates *all;
     const hci_effect_type *type; /* of what is added */
+    const bool *place;           /* [HCI_COENERGY_ORDERS]: of which orders; NULL: of all */
+    bool unlike;                 /* what a rotor that looks alike both ways round does not have */
     hci_note *note;
     hci_status status;
 } builder;
+
+size_t hci_coenergy_place(double order)
+{
+    const double place = floor((order + 1.0) / 6.0);
+    return place < HCI_COENERGY_ORDERS ? (size_t)place : HCI_COENERGY_ORDERS - 1;
+}
 
 /* The candidate that has a term already; NULL: none. */
 static hci_candidate *owner_of(const builder *b, const hci_effect_term *term)
@@ -29,6 +39,7 @@ static void add(void *context, const hci_effect_candidate *x)
     builder *b = context;
     const hci_effect_term term = {x->parameter, x->order, 0.0, NAN};
     hci_candidate *owner = owner_of(b, &term);
+    if (b->place && !b->place[hci_coenergy_place(x->order)]) return;
     if (owner) {
         owner->coenergy_unit = x->expected;
         owner->power = x->power;
@@ -38,6 +49,7 @@ static void add(void *context, const hci_effect_candidate *x)
                                      .count = 1,
                                      .coenergy_unit = x->expected,
                                      .power = x->power,
+                                     .unlike = b->unlike,
                                      .in = true};
         b->status = hci_candidates_add(b->all, &added, b->note);
     }
@@ -54,13 +66,69 @@ static hci_status keep(const hci_candidates *known, hci_candidates *all, hci_not
     return status;
 }
 
+static void propose(builder *b, const hci_effect_coenergy_series *series)
+{
+    const hci_effect_proposals to = {add, b};
+    for (size_t r = 0; (b->type = hci_effect_type_at(r)) != NULL; ++r)
+        if (b->type->propose_coenergy) b->type->propose_coenergy(series, &to);
+}
+
 hci_status hci_coenergy_terms(const hci_candidates *known, const hci_effect_coenergy_series *series,
                               hci_candidates *all, hci_note *note)
 {
-    builder b = {all, NULL, note, keep(known, all, note)};
-    const hci_effect_proposals to = {add, &b};
-    for (size_t r = 0; (b.type = hci_effect_type_at(r)) != NULL; ++r)
-        if (b.type->propose_coenergy) b.type->propose_coenergy(series, &to);
+    builder b = {all, NULL, NULL, false, note, keep(known, all, note)};
+    propose(&b, series);
+    if (b.status) hci_candidates_release(all);
+    return b.status;
+}
+
+/* ---- what was found ---- */
+
+typedef struct {
+    const hci_candidates *known;
+    const hci_effect_type *type;
+    double *size;
+} meter;
+
+/* For hci_effect_proposals: context is a meter. */
+static void measure(void *context, const hci_effect_candidate *x)
+{
+    const meter *m = context;
+    double *size = &m->size[hci_coenergy_place(x->order)];
+    for (size_t k = 0; k < m->known->count; ++k) {
+        const hci_candidate *c = &m->known->candidate[k];
+        for (size_t j = 0; c->in && c->type == m->type && j < c->count; ++j)
+            if (c->term[j].parameter == x->parameter &&
+                fabs(c->term[j].order - x->order) <= HCI_ORDER_TOLERANCE)
+                *size = fmax(*size, fabs(hci_candidate_departure(c, j)) / x->expected);
+    }
+}
+
+void hci_coenergy_sizes_of(const hci_candidates *known, const hci_effect_coenergy_series *series,
+                           hci_coenergy_sizes *sizes)
+{
+    hci_effect_coenergy_series to_measure = *series;
+    memset(sizes, 0, sizeof *sizes);
+    for (int unlike = 0; unlike < 2; ++unlike) {
+        meter m = {known, NULL, unlike ? sizes->unlike : sizes->usual};
+        const hci_effect_proposals to = {measure, &m};
+        to_measure.unlike = unlike == 1;
+        for (size_t r = 0; (m.type = hci_effect_type_at(r)) != NULL; ++r)
+            if (m.type->propose_coenergy) m.type->propose_coenergy(&to_measure, &to);
+    }
+}
+
+hci_status hci_coenergy_terms_unlike(const hci_coenergy_sizes *sizes,
+                                     const hci_effect_coenergy_series *series, hci_candidates *all,
+                                     hci_note *note)
+{
+    bool place[HCI_COENERGY_ORDERS];
+    builder b = {all, NULL, place, true, note, HCI_OK};
+    hci_effect_coenergy_series unlike = *series;
+    unlike.unlike = true;
+    for (size_t k = 0; k < HCI_COENERGY_ORDERS; ++k)
+        place[k] = sizes->unlike[k] > UNLIKE * sizes->usual[k];
+    propose(&b, &unlike);
     if (b.status) hci_candidates_release(all);
     return b.status;
 }

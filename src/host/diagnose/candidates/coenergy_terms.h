@@ -11,4 +11,26 @@
 hci_status hci_coenergy_terms(const hci_candidates *known, const hci_effect_coenergy_series *series,
                               hci_candidates *all, hci_note *note);
 
+enum { HCI_COENERGY_ORDERS = 32 }; /* multiples of six, from 0 */
+
+/* What was found at each order n of the co-energy, n/6 its place. */
+typedef struct {
+    double usual[HCI_COENERGY_ORDERS];  /* of a rotor that looks alike both ways round: the largest departure
+                                         * from the declared machine, as the coefficient of power 2 and order
+                                         * 0 that makes it as likely, N·m */
+    double unlike[HCI_COENERGY_ORDERS]; /* and of any other */
+} hci_coenergy_sizes;
+
+/* The place of a term's order; a back-EMF of order 6k ± 1 belongs to 6k. */
+size_t hci_coenergy_place(double order);
+
+void hci_coenergy_sizes_of(const hci_candidates *known, const hci_effect_coenergy_series *series,
+                           hci_coenergy_sizes *sizes);
+
+/* Adds to all, as hci_coenergy_terms does, what only a rotor has that does not look alike both ways round, at
+ * the orders where such a thing was found. On failure *all is empty. HCI_ERROR_MEMORY. */
+hci_status hci_coenergy_terms_unlike(const hci_coenergy_sizes *sizes,
+                                     const hci_effect_coenergy_series *series, hci_candidates *all,
+                                     hci_note *note);
+
 #endif

@@ -287,7 +287,7 @@ static hci_status comparison_make(comparison *c, hci_note *note)
 {
     hci_regression *e = c->search->regression;
     const hci_effect_coenergy_series series = {e->machine->pole_pairs, HIGH_POWER, highest_order(e),
-                                               c->known->candidates.reference_current_A};
+                                               c->known->candidates.reference_current_A, false};
     hci_status status = hci_coenergy_terms(&c->known->candidates, &series, &c->all, note);
     if (status) return status;
     start_from_zero(&c->all);

@@ -1,0 +1,173 @@
+/* With i_d = 0 a back-EMF of order 5 makes the same torque as one of order 7, and more of reluctance too: the
+ * bound on currents that tell them apart allows for each of them. Five diagnoses of small recordings: some
+ * tenths of a second. */
+#include "host/machine/expected_ripple.h"
+#include "support/diagnosing.h"
+
+enum { SAMPLES = 240, PATH = 240 };
+
+static double fifth[2], seventh[2]; /* back-EMF, N·m/A: of the sine and of the cosine */
+static double self_H, mutual_H;     /* of the q axis, cos 6θ, and of both axes, sin 6θ */
+static const double LOW_NOISE_NM = 2e-3;
+
+static hci_expected_ripple expected;
+static hci_sample sample[PATH];
+static double torque_Nm[PATH], real_Nm[PATH];
+
+void setUp(void)
+{
+    dataset_start();
+    fifth[0] = fifth[1] = seventh[0] = seventh[1] = self_H = mutual_H = 0.0;
+}
+
+void tearDown(void)
+{
+    dataset_end();
+}
+
+/* ---- the truth ---- */
+
+static double wave(const double x[2], int n, double theta)
+{
+    return x[0] * sin(n * theta) + x[1] * cos(n * theta);
+}
+
+/* p (∂W'/∂θ + i_q ∂W'/∂i_d − i_d ∂W'/∂i_q), W' = 3/4 L i_q² cos 6θ + 3/2 M i_d i_q sin 6θ */
+static double torque_of_iron(double theta, double d, double q)
+{
+    const double sine = sin(6.0 * theta), cosine = cos(6.0 * theta);
+    return P * (0.75 * self_H * (-6.0 * sine * q * q - 2.0 * cosine * d * q) +
+                1.5 * mutual_H * (6.0 * cosine * d * q + sine * (q * q - d * d)));
+}
+
+static double torque_of(double theta, double d, double q)
+{
+    double i[3], sum_Nm = 0.0;
+    rec_phases(d, q, theta, i);
+    for (int s = 0; s < 3; ++s) {
+        const double x = theta - 2.0 * REF_PI * s / 3.0;
+        sum_Nm += i[s] * (K_NM_PER_A * sin(x) + wave(fifth, 5, x) + wave(seventh, 7, x));
+    }
+    return sum_Nm + torque_of_iron(theta, d, q);
+}
+
+/* ---- recordings ---- */
+
+static void measure_at(double d, double q)
+{
+    hci_run *r = add_run(2 * SAMPLES);
+    for (size_t k = 0; k < r->count; ++k) {
+        const double theta = 2.0 * REF_PI * (double)k / SAMPLES;
+        r->theta_m_rad[k] = theta / P;
+        r->time_s[k] = 1e-3 * (double)k;
+        r->speed_rad_per_s[k] = 2.0 * REF_PI / P / SAMPLES / 1e-3;
+        rec_phases(d, q, theta, r->i_A + 3 * k);
+        r->torque_Nm[k] = torque_of(theta, d, q) + LOW_NOISE_NM * ref_normal(&seed);
+    }
+}
+
+static void measure_without_id(void)
+{
+    for (int k = 0; k < 4; ++k)
+        measure_at(0.0, 2.7 * k);
+}
+
+/* ---- what is said and what is so ---- */
+
+/* Fills `expected` for a ripple of order 6 in both currents about a mean; returns the error of the corrected
+ * machine from peak to peak. */
+static double error_at(double d, double q, double ripple_A)
+{
+    hci_note note = {{0}};
+    double low = INFINITY, high = -INFINITY;
+    for (size_t k = 0; k < PATH; ++k) {
+        const double theta = 2.0 * REF_PI * (double)k / PATH;
+        const double i_d = d + ripple_A * sin(6.0 * theta), i_q = q + ripple_A * cos(6.0 * theta);
+        sample[k] = (hci_sample){.theta_m_rad = theta / P};
+        rec_phases(i_d, i_q, theta, sample[k].i_abc);
+        real_Nm[k] = torque_of(theta, i_d, i_q);
+        torque_Nm[k] =
+            hci_torque_at(&machine.model, theta, sample[k].i_abc) +
+            hci_effects_torque(&machine.model, &diagnosis.effects.list, &sample[k], NULL).torque_Nm;
+        low = fmin(low, real_Nm[k] - torque_Nm[k]);
+        high = fmax(high, real_Nm[k] - torque_Nm[k]);
+    }
+    const hci_ripple_path path = {.machine = &machine.model,
+                                  .effects = &diagnosis.effects.list,
+                                  .sample = sample,
+                                  .torque_Nm = torque_Nm,
+                                  .count = PATH,
+                                  .speed_rad_per_s = NAN};
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_expected_ripple_find(&path, &diagnosis.uncertainty, &expected, &note));
+    TEST_ASSERT_EQUAL_INT(HCI_RIPPLE_KNOWN, expected.state);
+    return high - low;
+}
+
+static void is_within(double error_Nm, double most_times)
+{
+    char text[96];
+    snprintf(text, sizeof text, "error %g N·m, bound %g N·m", error_Nm, expected.error_peak_to_peak_Nm);
+    TEST_ASSERT_TRUE_MESSAGE(error_Nm <= expected.error_peak_to_peak_Nm, text);
+    TEST_ASSERT_TRUE_MESSAGE(expected.error_peak_to_peak_Nm <= most_times * error_Nm, text);
+}
+
+/* ---- tests ---- */
+
+static void diagnose_without_id(void)
+{
+    measure_without_id();
+    TEST_ASSERT_TRUE(diagnose(NULL) <= HCI_NOT_REACHED);
+    TEST_ASSERT_EQUAL_UINT(200, diagnosis.uncertainty.machines);
+}
+
+static void test_two_orders_of_the_back_emf(void)
+{
+    fifth[0] = 0.004;
+    seventh[0] = -0.003;
+    diagnose_without_id();
+    is_within(error_at(-2.0, 6.0, 0.2), 5.0);
+    is_within(error_at(0.0, 6.0, 0.4), 5.0);
+}
+
+/* Phases that a rotor which looks alike both ways round does not have. */
+static void test_two_orders_of_any_phase(void)
+{
+    fifth[1] = 0.004;
+    seventh[1] = -0.003;
+    diagnose_without_id();
+    is_within(error_at(-2.0, 6.0, 0.2), 5.0);
+}
+
+static void test_two_inductances(void)
+{
+    self_H = 2e-4;
+    mutual_H = -4e-4;
+    diagnose_without_id();
+    is_within(error_at(-3.0, 5.0, 0.2), 5.0);
+}
+
+/* A run with i_d tells them apart, and the bound is as narrow as its noise. */
+static void test_told_apart(void)
+{
+    fifth[0] = 0.004;
+    seventh[0] = -0.003;
+    diagnose_without_id();
+    error_at(-2.0, 6.0, 0.2);
+    const double before_Nm = expected.error_peak_to_peak_Nm;
+    hci_diagnosis_release(&diagnosis);
+    measure_at(-4.0, 6.0);
+    measure_at(-2.0, 3.0);
+    TEST_ASSERT_TRUE(diagnose(NULL) <= HCI_NOT_REACHED);
+    error_at(-2.0, 6.0, 0.2);
+    TEST_ASSERT_TRUE(expected.error_peak_to_peak_Nm < 0.25 * before_Nm);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_two_orders_of_the_back_emf);
+    RUN_TEST(test_two_orders_of_any_phase);
+    RUN_TEST(test_two_inductances);
+    RUN_TEST(test_told_apart);
+    return UNITY_END();
+}
