@@ -10,7 +10,7 @@
 #include "host/numeric/statistics.h"
 
 #define EXCEEDED 0.05 /* share of the machines above a figure */
-#define ROUNDING 1e-9 /* of a range of currents, by which one is not outside yet */
+#define ROUNDING 1e-9 /* of a range of currents, by which one is not outside yet, and of the torque */
 
 const char *hci_ripple_state_words(hci_ripple_state state)
 {
@@ -21,7 +21,10 @@ const char *hci_ripple_state_words(hci_ripple_state state)
         "Ripple not known: effects.csv is not the one that uncertainty.csv was found for; run diagnose "
         "again",
         "Ripple not known: the currents lie far outside of what one or two recordings show; record such a "
-        "run"};
+        "run",
+        "Ripple not known: the recordings tell of no order of the torque; record ones with more samples in "
+        "an "
+        "electrical turn"};
     return WORDS[state];
 }
 
@@ -209,6 +212,14 @@ static hci_expected_ripple nothing(hci_ripple_state state)
                                  none,  none, none, none, NAN, NAN, false, 0};
 }
 
+static double largest_torque_Nm(const hci_ripple_path *path)
+{
+    double most_Nm = 0.0;
+    for (size_t k = 0; k < path->count; ++k)
+        most_Nm = fmax(most_Nm, fabs(path->torque_Nm[k]));
+    return most_Nm;
+}
+
 hci_status hci_expected_ripple_find(const hci_ripple_path *path, const hci_uncertainty *u,
                                     hci_expected_ripple *expected, hci_note *note)
 {
@@ -231,5 +242,7 @@ hci_status hci_expected_ripple_find(const hci_ripple_path *path, const hci_uncer
         status = fill_worst(&m, expected, note);
     }
     hci_memory_free(m.torque_Nm);
+    if (!status && !(expected->error_peak_to_peak_Nm > ROUNDING * largest_torque_Nm(path)))
+        *expected = nothing(HCI_RIPPLE_UNTOLD);
     return status;
 }

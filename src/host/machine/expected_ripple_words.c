@@ -1,5 +1,6 @@
 /* What the real machine is expected to do, in words. */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "hci/math/harmonic.h"
@@ -9,18 +10,42 @@
 /* A mean torque so small beside the ripple is none to take a percentage of. */
 #define NO_MEAN_PERCENT 1000.0
 
+enum { NUMBER_SIZE = 48 };
+
+#define ROUNDED 1e-9 /* of a last digit, that is no more than rounding */
+
+/* Two digits and no exponent, such as 260, 1.6 or 0.00025; a limit is rounded up. */
+static const char *number(double value, bool limit, char text[NUMBER_SIZE])
+{
+    const double place = value > 0.0 && isfinite(value) ? floor(log10(value)) - 1.0 : 0.0;
+    const double digits = value / pow(10.0, place),
+                 whole = limit ? ceil(digits - ROUNDED) : floor(digits + 0.5);
+    const int decimals = (int)fmax(0.0, fmin(-place, NUMBER_SIZE - 16));
+    snprintf(text, NUMBER_SIZE, "%.*f", decimals, whole * pow(10.0, place));
+    for (size_t n = strlen(text); decimals > 0 && (text[n - 1] == '0' || text[n - 1] == '.'); --n) {
+        const bool point = text[n - 1] == '.';
+        text[n - 1] = '\0';
+        if (point) break;
+    }
+    return text;
+}
+
 static void say_ripple(const hci_words *w, const hci_expected_ripple *e)
 {
+    char percent[NUMBER_SIZE], Nm[NUMBER_SIZE], middle[NUMBER_SIZE];
     if (isfinite(e->T_ripple_percent) && e->T_ripple_percent < NO_MEAN_PERCENT)
         hci_words_say(
             w,
-            "Ripple at most %.2g %% of the mean torque (95 %%), %.2g N·m from peak to peak; half of the "
-            "machines that the recordings allow stay below %.2g %%.",
-            e->T_ripple_percent, e->peak_to_peak_Nm, e->middle_percent);
+            "Ripple at most %s %% of the mean torque (95 %%), %s N·m from peak to peak; half of the "
+            "machines that the recordings allow stay below %s %%.",
+            number(e->T_ripple_percent, true, percent), number(e->peak_to_peak_Nm, true, Nm),
+            number(e->middle_percent, false, middle));
     else
-        hci_words_say(w, "Ripple at most %.2g N·m from peak to peak (95 %%).", e->peak_to_peak_Nm);
+        hci_words_say(w, "Ripple at most %s N·m from peak to peak (95 %%).",
+                      number(e->peak_to_peak_Nm, true, Nm));
     if (isfinite(e->worst_order_Nm))
-        hci_words_say(w, " Worst order %.4g, at most %.2g N·m off.", e->worst_order, e->worst_order_Nm);
+        hci_words_say(w, " Worst order %.4g, at most %s N·m off.", e->worst_order,
+                      number(e->worst_order_Nm, true, Nm));
 }
 
 static void say_measured(const hci_words *w, const hci_expected_ripple *e)

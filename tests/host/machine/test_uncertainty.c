@@ -332,6 +332,46 @@ static void test_too_far_for_two_recordings(void)
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(words, "far outside of what one or two recordings show"), words);
 }
 
+/* No exponent, and no zero: a limit is rounded up, so that what is said is no less than what was found. */
+static void test_figures_in_words(void)
+{
+    char words[1024];
+    hci_ripple_path path = path_of(0.0, 1.0);
+    allow_cogging(0.01);
+    hci_expected_ripple e = expect(&path);
+    e.T_ripple_percent = 261.0;
+    e.peak_to_peak_Nm = 0.0000312;
+    e.middle_percent = 99.6;
+    e.worst_order_Nm = 1200.0;
+    hci_expected_ripple_words(&e, words, sizeof words);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(words, "at most 270 % of"), words);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(words, "0.000032 N·m from"), words);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(words, "stay below 100 %."), words);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(words, "at most 1200 N·m off"), words);
+    e.T_ripple_percent = 2.0;
+    e.peak_to_peak_Nm = 0.10000000000001;
+    e.middle_percent = 0.6;
+    hci_expected_ripple_words(&e, words, sizeof words);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(words, "at most 2 % of"), words);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(words, "0.1 N·m from"), words);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(words, "below 0.6 %."), words);
+}
+
+/* Machines that differ in nothing that makes torque here promise no ripple of 0. */
+static void test_no_order_is_told(void)
+{
+    char words[1024];
+    TEST_ASSERT_EQUAL_INT(HCI_OK, read_texts("effect,parameter,value,unit,departures\n"
+                                             "reluctance,dd_cosine_0,0,H,0.001 -0.002 0.0005\n",
+                                             RUNS));
+    hci_ripple_path path = path_of(0.0, 1.0);
+    const hci_expected_ripple e = expect(&path);
+    TEST_ASSERT_EQUAL_INT(HCI_RIPPLE_UNTOLD, e.state);
+    TEST_ASSERT_TRUE(isnan(e.T_ripple_percent) && isnan(e.peak_to_peak_Nm));
+    hci_expected_ripple_words(&e, words, sizeof words);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(words, "not known: the recordings tell of no order"), words);
+}
+
 static void test_words(void)
 {
     char words[1024];
@@ -339,7 +379,7 @@ static void test_words(void)
     allow_cogging(0.01);
     hci_expected_ripple e = expect(&path);
     hci_expected_ripple_words(&e, words, sizeof words);
-    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(words, "at most 1.6 % of the mean torque (95 %)"), words);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(words, "at most 1.7 % of the mean torque (95 %)"), words);
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(words, "lie within what was recorded (i_d -3 … 2.5 A"), words);
     path = path_of(0.0, 10.0);
     e = expect(&path);
@@ -386,6 +426,8 @@ int main(void)
     RUN_TEST(test_grows_with_the_current);
     RUN_TEST(test_not_known);
     RUN_TEST(test_too_far_for_two_recordings);
+    RUN_TEST(test_figures_in_words);
+    RUN_TEST(test_no_order_is_told);
     RUN_TEST(test_words);
     RUN_TEST(test_memory);
     return UNITY_END();

@@ -13,7 +13,9 @@ typedef enum {
     HCI_RIPPLE_KNOWN,
     HCI_RIPPLE_NO_RECORDINGS, /* the machine has no uncertainty.csv */
     HCI_RIPPLE_OTHER_EFFECTS, /* effects.csv is not the one that uncertainty.csv was found for */
-    HCI_RIPPLE_TOO_FAR /* parts of one or two recordings tell nothing of currents so far outside of them */
+    HCI_RIPPLE_TOO_FAR, /* parts of one or two recordings tell nothing of currents so far outside of them */
+    HCI_RIPPLE_UNTOLD   /* the recordings tell of no order of the torque, such as ones with a few samples in a
+                         * turn */
 } hci_ripple_state;
 
 /* Why it is not known in words, "" where it is; a static string. */
