@@ -105,7 +105,7 @@ bool hci_left_out_squares(const hci_groups *groups, const double *precision, dou
     return true;
 }
 
-bool hci_all_in_square(const hci_groups *groups, const double *precision, double *square)
+bool hci_all_in_squares(const hci_groups *groups, const double *precision, double *square)
 {
     workspace w;
     if (!workspace_make(&w, groups, precision)) {
@@ -113,9 +113,47 @@ bool hci_all_in_square(const hci_groups *groups, const double *precision, double
         return false;
     }
     const bool solved = solve_without(&w, NULL, precision);
-    *square = solved ? 0.0 : (double)INFINITY;
-    for (size_t g = 0; g < groups->count && solved; ++g)
-        *square += square_of(&w, &groups->group[g]);
+    for (size_t g = 0; g < groups->count; ++g)
+        square[g] = solved ? square_of(&w, &groups->group[g]) : (double)INFINITY;
     workspace_release(&w);
     return true;
+}
+
+/* Of all groups but one with the x of a solution, what is expected of it included. */
+static double sum_without(const workspace *w, const hci_groups *groups, size_t out, const double *precision)
+{
+    double sum = 0.0;
+    for (size_t g = 0; g < groups->count; ++g)
+        if (g != out) sum += square_of(w, &groups->group[g]);
+    for (size_t k = 0; k < w->count; ++k)
+        sum += precision[w->open[k]] * w->x[k] * w->x[k];
+    return sum;
+}
+
+bool hci_left_out_falls(const hci_groups *groups, const double *precision, double *fall)
+{
+    workspace w;
+    if (!workspace_make(&w, groups, precision)) {
+        workspace_release(&w);
+        return false;
+    }
+    const bool solved = solve_without(&w, NULL, precision);
+    const double all = solved ? sum_without(&w, groups, groups->count, precision) : (double)INFINITY;
+    for (size_t g = 0; g < groups->count; ++g)
+        fall[g] = solved && solve_without(&w, &groups->group[g], precision)
+                      ? fmax(0.0, all - sum_without(&w, groups, g, precision))
+                      : (double)INFINITY;
+    workspace_release(&w);
+    return true;
+}
+
+bool hci_all_in_square(const hci_groups *groups, const double *precision, double *sum)
+{
+    double *square = hci_memory_new(groups->count + 1, sizeof *square);
+    const bool made = square && hci_all_in_squares(groups, precision, square);
+    *sum = 0.0;
+    for (size_t g = 0; g < groups->count && made; ++g)
+        *sum += square[g];
+    hci_memory_free(square);
+    return made;
 }

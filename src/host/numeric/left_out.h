@@ -22,7 +22,14 @@ typedef struct {
  * False when memory is out. O(groups·n³/3). */
 bool hci_left_out_squares(const hci_groups *groups, const double *precision, double *square);
 
-/* The same with the x from all groups: the sum of the squares of all of them. O(n³/3). */
-bool hci_all_in_square(const hci_groups *groups, const double *precision, double *square);
+/* The same with the x from all groups. O(n³/3). */
+bool hci_all_in_squares(const hci_groups *groups, const double *precision, double *square);
+/* The sum of those. */
+bool hci_all_in_square(const hci_groups *groups, const double *precision, double *sum);
+
+/* fall: out, of each group, by how much the sum of the squares of all, with the x from all, falls without it.
+ * It is the square that is left out, each row in units of what noise and the x from the others make it
+ * uncertain by: far below that square where the others hardly tell what the group shows. O(groups·n³/3). */
+bool hci_left_out_falls(const hci_groups *groups, const double *precision, double *fall);
 
 #endif

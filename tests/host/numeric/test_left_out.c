@@ -114,6 +114,43 @@ static void test_all_in_is_the_fit_of_all(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, wanted, square);
 }
 
+/* Without group g the mean of the others fits better by 7 · 4/5 · (g − that mean)². */
+static void test_falls_of_the_fit(void)
+{
+    const double none = 0.0;
+    double fall[GROUPS], square[GROUPS], sum = 0.0, all;
+    for (size_t k = 0; k < ALL; ++k) {
+        x[k] = 1.0;
+        y[k] = (double)(k / ROWS);
+    }
+    const hci_groups groups = groups_of(1);
+    TEST_ASSERT_TRUE(hci_left_out_falls(&groups, &none, fall));
+    TEST_ASSERT_TRUE(hci_all_in_squares(&groups, &none, square));
+    TEST_ASSERT_TRUE(hci_all_in_square(&groups, &none, &all));
+    for (int g = 0; g < GROUPS; ++g) {
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, ROWS * 0.8 * pow(g - (10.0 - g) / 4.0, 2.0), fall[g]);
+        sum += square[g];
+    }
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, all, sum);
+}
+
+/* An unknown that one group alone tells: what that group misses is large, what the fit loses by it is not. */
+static void test_what_others_do_not_tell(void)
+{
+    const double weak[2] = {0.0, 1e-9};
+    double fall[GROUPS], square[GROUPS];
+    for (size_t k = 0; k < ALL; ++k) {
+        x[2 * k] = 1.0;
+        x[2 * k + 1] = k / ROWS == 2 ? 1.0 : 0.0;
+        y[k] = k / ROWS == 2 ? 50.0 : 1.0;
+    }
+    const hci_groups groups = groups_of(2);
+    TEST_ASSERT_TRUE(hci_left_out_squares(&groups, weak, square));
+    TEST_ASSERT_TRUE(hci_left_out_falls(&groups, weak, fall));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, ROWS * 49.0 * 49.0, square[2]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-4, 0.0, fall[2]);
+}
+
 /* What is held at 0 leaves the rows as they are. */
 static void test_infinite_precision_takes_an_unknown_out(void)
 {
@@ -153,6 +190,9 @@ static void test_memory_runs_out(void)
     const hci_groups groups = groups_of(COLUMNS);
     hci_memory_fail_after(0);
     TEST_ASSERT_FALSE(hci_left_out_squares(&groups, precision, square));
+    TEST_ASSERT_FALSE(hci_left_out_falls(&groups, precision, square));
+    TEST_ASSERT_FALSE(hci_all_in_squares(&groups, precision, square));
+    TEST_ASSERT_FALSE(hci_all_in_square(&groups, precision, square));
 }
 
 int main(void)
@@ -161,6 +201,8 @@ int main(void)
     RUN_TEST(test_one_constant_is_the_mean_of_the_others);
     RUN_TEST(test_squares_are_those_of_the_rows);
     RUN_TEST(test_all_in_is_the_fit_of_all);
+    RUN_TEST(test_falls_of_the_fit);
+    RUN_TEST(test_what_others_do_not_tell);
     RUN_TEST(test_infinite_precision_takes_an_unknown_out);
     RUN_TEST(test_columns_of_noise_cost);
     RUN_TEST(test_memory_runs_out);

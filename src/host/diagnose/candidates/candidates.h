@@ -78,6 +78,7 @@ typedef struct {
                         currents */
     size_t slots;    /* of the machine; 0: not known */
     bool known_only; /* without the one for what is not known */
+    bool no_current; /* without those that need a current */
 } hci_candidates_source;
 
 #endif

@@ -232,7 +232,7 @@ hci_status hci_candidates_make(const hci_candidates_source *source, const hci_ca
                                hci_candidates *candidates, hci_note *note)
 {
     hci_effect_survey x = survey_of(source);
-    builder b = {candidates, NULL, source->declared, 0, !(x.current_A > 0.0), false};
+    builder b = {candidates, NULL, source->declared, 0, source->no_current || !(x.current_A > 0.0), false};
     hci_candidate_orders lines;
     memset(candidates, 0, sizeof *candidates);
     candidates->reference_current_A = x.reference_current_A;

@@ -60,7 +60,8 @@ static void lag_derivative(const double *torque, const double *time_s, size_t n,
 
 bool hci_predicted_reading_is_dynamic(const hci_regression *e, const hci_segment *s)
 {
-    return s->timed && s->smooth && e->runs[s->run].torque_source == HCI_TORQUE_MEASURED;
+    return s->timed && (s->smooth || has_dynamics(e->declared)) &&
+           e->runs[s->run].torque_source == HCI_TORQUE_MEASURED;
 }
 
 /* Whether the torque is a slope of the speed. */

@@ -48,7 +48,8 @@ void hci_predicted_reading_release(hci_predicted_reading *reading_out);
 void hci_predicted_reading_fill(const hci_regression *regression, const hci_effects *effects,
                                 const hci_segment *segment, hci_predicted_reading *reading_out);
 
-/* Whether a torque sensor and a clock stood beside each other, so that its lag shows. */
+/* Whether a torque sensor and a clock stood beside each other, so that its lag shows: where readings
+ * are free of noise, which any lag would take away, or the lag is declared. */
 bool hci_predicted_reading_is_dynamic(const hci_regression *regression, const hci_segment *segment);
 
 /* Measured less modelled torque of each sample of the runs in use, others 0: residual_Nm[samples].

@@ -102,7 +102,7 @@ static bool segment_finish(const reduction *x, hci_segment *s)
         memcpy(sample[k].raw.curvature_A_per_s2, from->curvature_A_per_s2, sizeof from->curvature_A_per_s2);
         sample[k].raw.swing_rad_per_s = from->swing_rad_per_s;
     }
-    s->smooth = series;
+    s->smooth = series || x->statistics->no_current;
     return segment_add(x->samples, s);
 }
 

@@ -16,6 +16,7 @@ enum {
     MOST_PERIODS = 200,
     LEAST_SAMPLES = 20, /* for each coefficient */
     LEAST_IN_ALL = 2 * LEAST_SAMPLES * MOST_ORDER,
+    LEAST_IN_MEAN = LEAST_SAMPLES * FIRST_ORDERS, /* in a mean over turns, where less noise is left */
     ERROR_PERIODS = 5
 };
 
@@ -345,13 +346,15 @@ static bool workspace_make(series_workspace *r, size_t n, size_t columns)
 
 /* The currents as a series of the orders of the turn, or of the electrical period. series: out, whether there
  * is one. */
-static bool series_make(hci_binned_sample *sample, size_t n, int pole_pairs, bool turns, bool *series)
+static bool series_make(hci_binned_sample *sample, const hci_segment *segment, int pole_pairs, bool turns,
+                        bool *series)
 {
+    const size_t n = segment->count, least = segment->turns > 0 ? LEAST_IN_MEAN : LEAST_IN_ALL;
     size_t periods[MOST_PERIODS];
     const double resolved = periods_resolved(sample, n);
     const size_t count = periods_list(pole_pairs, turns, n, resolved, periods);
     series_workspace workspace;
-    if (n < LEAST_IN_ALL || count == 0) return true;
+    if (n < least || count == 0) return true;
     const bool made = workspace_make(&workspace, n, 2 * count + 1);
     if (made) *series = currents_smooth(sample, n, pole_pairs, periods, count, &workspace);
     hci_memory_free(workspace.rows);
@@ -368,7 +371,7 @@ bool hci_segment_smooth(hci_binned_sample *sample, const hci_segment *segment, i
         !angle_smooth(sample, n, pole_pairs, turns))
         return false;
     if (!is_steady(sample, n, pole_pairs)) return true;
-    if (!series_make(sample, n, pole_pairs, turns, series)) return false;
+    if (!series_make(sample, segment, pole_pairs, turns, series)) return false;
     if (*series || !turns || segment->turns > 0) return true;
-    return series_make(sample, n, pole_pairs, false, series); /* an arc tells no orders of the turn */
+    return series_make(sample, segment, pole_pairs, false, series); /* an arc tells no orders of the turn */
 }

@@ -7,6 +7,7 @@
 #include "host/recording/rotor_frame.h"
 
 #define STEADY   0.02 /* change of current and speed within a mean, as a share of their largest */
+#define CHANCE   4.0  /* or of current, standard deviations of what its noise makes of two means */
 #define STEADY_K 1.0  /* and of temperature, in kelvin */
 #define STEEP    6.0  /* standard errors of a line along the turns, and … */
 #define LIFT     0.2  /* … share of the scatter by which it rises or falls, that are no noise */
@@ -32,7 +33,8 @@ static double direction_of_turn(const hci_run *r, const hci_turn *x)
 
 static void sample_add(const hci_run *r, int pole_pairs, size_t k, hci_turn *sum)
 {
-    const hci_dq i = hci_run_dq(r, pole_pairs, k);
+    const hci_dq i = hci_run_dq(r, pole_pairs, k), last = hci_run_dq(r, pole_pairs, k > sum->first ? k - 1 : k);
+    sum->noise_A2 += 0.5 * ((i.d - last.d) * (i.d - last.d) + (i.q - last.q) * (i.q - last.q));
     sum->d += i.d;
     sum->q += i.q;
     const double speed = r->speed_rad_per_s ? r->speed_rad_per_s[k] : 0.0;
@@ -60,6 +62,7 @@ static hci_turn turn_from(const hci_run *run, int pole_pairs, size_t first)
     sum.whole = k < run->count && farthest >= (1.0 - NEARLY) * turn;
     sum.d /= (double)sum.count;
     sum.q /= (double)sum.count;
+    sum.noise_A2 /= (double)sum.count;
     sum.speed /= (double)sum.count;
     sum.temperature /= (double)sum.count;
     sum.torque /= (double)sum.count;
@@ -72,13 +75,20 @@ static bool is_even(const hci_run *run, const hci_turn *x)
     return run->torque_source != HCI_TORQUE_INERTIA || x->most_speed - x->least_speed <= EVEN * most;
 }
 
+static bool are_currents_alike(const hci_run_statistics *statistics, const hci_turn *a, const hci_turn *b)
+{
+    const double by_chance_A = CHANCE * sqrt(a->noise_A2 / (double)a->count + b->noise_A2 / (double)b->count);
+    return statistics->no_current ||
+           hypot(a->d - b->d, a->q - b->q) <= fmax(STEADY * statistics->current_A, by_chance_A) + 1e-12;
+}
+
 bool hci_turns_alike(const hci_run *run, const hci_run_statistics *statistics, const hci_turn *a,
                      const hci_turn *b)
 {
-    const double most_A = statistics->current_A, most_speed = fabs(statistics->mean_speed_rad_per_s);
+    const double most_speed = fabs(statistics->mean_speed_rad_per_s);
     return a->whole && b->whole && is_even(run, a) && is_even(run, b) &&
            direction_of_turn(run, a) == direction_of_turn(run, b) &&
-           (statistics->no_current || hypot(a->d - b->d, a->q - b->q) <= STEADY * most_A + 1e-12) &&
+           are_currents_alike(statistics, a, b) &&
            fabs(a->speed - b->speed) <= STEADY * most_speed + 1e-12 &&
            fabs(a->temperature - b->temperature) < STEADY_K;
 }

@@ -12,6 +12,7 @@
 #include "host/diagnose/search/candidate_models.h"
 #include "host/diagnose/search/coenergy.h"
 #include "host/diagnose/search/companions.h"
+#include "host/diagnose/search/no_load.h"
 #include "host/diagnose/search/rivals.h"
 #include "host/diagnose/search/rounds.h"
 #include "host/diagnose/search/settle.h"
@@ -212,7 +213,8 @@ static hci_status verdicts(hci_search *s, hci_attribution *a, hci_note *note)
 static hci_status attribute(hci_search *s, hci_attribution *a, hci_note *note)
 {
     hci_candidates none = {0};
-    hci_status status = hci_search_rounds(s, &a->model, note);
+    hci_status status = hci_search_no_load(s, &a->model, note);
+    if (!status) status = hci_search_rounds(s, &a->model, note);
     if (status) return status;
     hci_search_begin(s, "weighing the evidence", HCI_ROUNDS_SHARE, 1.0);
     status = hci_search_keep_predictive(s, &a->model, note);
@@ -247,6 +249,7 @@ hci_status hci_attribute(hci_regression *regression, const hci_attribute_options
     const hci_status status = attribute(&s, attribution, note);
     hci_memory_free(s.residual_Nm);
     hci_fitted_model_release(&s.disbelieved.model);
+    hci_fitted_model_release(&s.no_load);
     if (status) hci_attribution_release(attribution);
     return status;
 }

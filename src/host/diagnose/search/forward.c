@@ -16,6 +16,7 @@
 
 #define PAIR_MARGIN     0.02   /* what two effects at once must explain more than one, as a share */
 #define LOOSE_MARGIN    0.01   /* the same of a series, beside effects of few values that others may join */
+#define SERIES_MARGIN   0.005  /* what two effects may promise less than a series of as many values */
 #define LOOSE_MOST      5000.0 /* and no more: beside large effects of the iron the rest is a series */
 #define RESONANCE_PRICE 12.0   /* of having looked at so many frequencies */
 #define LAG_PRICE       6.0    /* and at so many time constants */
@@ -77,10 +78,14 @@ static bool is_loose(size_t type)
     return hci_candidate_type(type)->is_series || hci_candidate_type(type) == &hci_empirical_type;
 }
 
+/* In place of a series two effects may have as many values as that, and promise a little less: a promise is
+ * of orders that were chosen one by one. */
 static bool is_frugal(const hci_candidate_model *x, const hci_candidate_model *single)
 {
-    return is_pair(x) && !is_loose(x->a) && !is_loose(x->b) && x->terms <= single->terms && x->terms <= FEW &&
-           x->gain > single->gain + PAIR;
+    const bool series = hci_candidate_type(single->a)->is_series;
+    const double least = series ? (1.0 - SERIES_MARGIN) * single->gain : single->gain + PAIR;
+    return is_pair(x) && !is_loose(x->a) && !is_loose(x->b) && x->terms <= single->terms &&
+           (series || x->terms <= FEW) && x->gain > least;
 }
 
 /* The best pair of few values that explains more than a single effect with no fewer. */

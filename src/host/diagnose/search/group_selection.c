@@ -120,7 +120,8 @@ static void leave_superfluous(selecting *g)
  */
 static double select_terms(selecting *g)
 {
-    const int steps = g->a->is_series ? MOST_POWERS : MOST_ORDERS;
+    const int orders = g->a == g->b ? MOST_ORDERS : 2 * MOST_ORDERS;
+    const int steps = g->a->is_series ? MOST_POWERS : orders;
     for (int step = 0; step < steps; ++step) {
         if (!take_best(g, step == 0 && g->cost == 0.0)) break;
         leave_superfluous(g);

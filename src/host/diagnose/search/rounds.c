@@ -9,7 +9,7 @@
 #include "host/diagnose/search/rivals.h"
 #include "host/diagnose/search/settle.h"
 
-enum { MOST_EFFECTS = 6, MOST_ROUNDS = 14 };
+enum { MOST_EFFECTS = 9, MOST_ROUNDS = 14 };
 
 /* One more effect, then without those that it makes superfluous; where none comes in, another in place of one
  * that is, or a few in place of a series. again: out, whether anything changed. */

@@ -25,7 +25,9 @@ typedef struct {
                                      * more where it is to describe slopes */
     int richness;                   /* of saturation */
     hci_disbelieved disbelieved;    /* to be released */
+    hci_fitted_model no_load;       /* of the runs without a current alone; to be released */
     bool known_only;                /* nothing unknown competes */
+    bool no_current;                /* nor what needs a current */
     bool whole_coenergy;            /* all terms of the co-energy are in, each with an expectation */
     const char *doing;
     double share, until; /* of all work: done so far, and when the step at hand is done */

@@ -8,6 +8,9 @@
 
 #define FLOOR 0.05 /* mean square of a run, in units of its noise, below which it is as good as can be */
 
+#define HARDLY_TOLD                                                                                          \
+    10.0 /* times what a run left out lowers the squares by, that it misses where others do not tell it */
+
 #define BY_CHANCE 8.0 /* χ² by which runs left out are described worse for each term, and some more */
 
 enum { LEAST_RUNS = 6 }; /* for the whole of a model to be asked what it says of runs left out */
@@ -138,36 +141,59 @@ hci_status hci_search_left_out(hci_search *s, const hci_candidates *model, doubl
     return status;
 }
 
-/* Sums over the runs of their squares without any effect, less those of the model that was fitted to all of
- * them; and of those of the runs left out, less the same. */
-static hci_status promises_sum(const leaving *l, double *taken, double *missed, hci_note *note)
+/* Whether the other runs tell what one shows: without it the sum of the squares falls by about what it
+ * misses. Where it falls by far less, as without the only run of a current, the model may be right and the
+ * others do not tell its values. */
+static bool is_told(double fall, double left_out)
 {
-    double all_in = 0.0, without = 0.0, left_out = 0.0;
-    if (!hci_left_out_squares(&l->equations.groups, l->equations.precision, l->with) ||
-        !hci_all_in_square(&l->equations.groups, l->equations.precision, &all_in))
-        return hci_note_memory(note, NULL, "leaving runs out");
-    for (size_t r = 0; r < l->equations.groups.count; ++r) {
-        without += l->equations.groups.group[r].square;
-        left_out += l->with[r];
+    return fall * HARDLY_TOLD > left_out;
+}
+
+/* What runs left out say of a model. */
+typedef struct {
+    double taken;  /* sum of their squares without any effect, less those of the model fitted to all of them */
+    double missed; /* sum of their squares where they are left out, less the same */
+    size_t told;   /* of how many that is: of the others nothing is added */
+} promises;
+
+static void promises_add(const leaving *l, size_t run, double fall, promises *p)
+{
+    if (!is_told(fall, l->with[run])) return;
+    p->taken += l->equations.groups.group[run].square - l->without[run];
+    p->missed += l->with[run] - l->without[run];
+    ++p->told;
+}
+
+/* all: of all runs, where too few of them are told by the others. */
+static hci_status promises_sum(leaving *l, bool all, promises *p, hci_note *note)
+{
+    const hci_groups *groups = &l->equations.groups;
+    double *fall = hci_memory_new(groups->count + 1, sizeof *fall);
+    const bool made = fall && hci_left_out_squares(groups, l->equations.precision, l->with) &&
+                      hci_all_in_squares(groups, l->equations.precision, l->without) &&
+                      hci_left_out_falls(groups, l->equations.precision, fall);
+    *p = (promises){0.0, 0.0, 0};
+    for (size_t r = 0; r < groups->count && made; ++r) {
+        promises_add(l, r, all ? l->with[r] : fall[r], p);
     }
-    *taken = without - all_in;
-    *missed = left_out - all_in;
-    return HCI_OK;
+    hci_memory_free(fall);
+    return made ? HCI_OK : hci_note_memory(note, NULL, "leaving runs out");
 }
 
 hci_status hci_search_unpredicted(hci_search *s, const hci_candidates *model, double *share, hci_note *note)
 {
     leaving l;
-    double taken = 0.0, missed = 0.0;
+    promises p;
     *share = 0.0;
     if (hci_regression_runs_in_use(s->regression) < LEAST_RUNS || hci_candidates_types_in(model) == 0)
         return HCI_OK;
     hci_status status = leaving_start(s, model, &l, note);
     if (status) return status;
-    status = promises_sum(&l, &taken, &missed, note);
+    status = promises_sum(&l, false, &p, note);
+    if (!status && 3 * p.told < 2 * l.equations.groups.count) status = promises_sum(&l, true, &p, note);
     leaving_end(&l);
-    missed -= BY_CHANCE * (double)hci_candidates_terms_in(model);
-    if (!status && taken > 0.0) *share = fmax(0.0, missed / taken);
+    p.missed -= BY_CHANCE * (double)hci_candidates_terms_in(model);
+    if (!status && p.taken > 0.0) *share = fmax(0.0, p.missed / p.taken);
     return status;
 }
 

@@ -138,7 +138,7 @@ static void test_other_columns_of_a_mean(void)
     TEST_ASSERT_FALSE(binned.segment[0].timed);
     for (size_t k = 0; k < binned.count; ++k) {
         TEST_ASSERT_EQUAL_DOUBLE(0.0, binned.sample[k].time_s);
-        TEST_ASSERT_EQUAL_DOUBLE(0.0, binned.sample[k].reading.change_A_per_s[0]);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.0, binned.sample[k].reading.change_A_per_s[0]);
         TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.3, binned.sample[k].sum_A);
         TEST_ASSERT_DOUBLE_WITHIN(0.02, 40.19, binned.sample[k].reading.temperature_C);
     }
@@ -158,6 +158,20 @@ static void test_turns_without_current(void)
     TEST_ASSERT_EQUAL_UINT64(400, binned.count);
     for (int s = 0; s < 3; ++s)
         TEST_ASSERT_EQUAL_DOUBLE(0.0, binned.sample[7].raw.i_abc[s]);
+}
+
+/* A current sensor that is off by less than its noise: means of turns differ by chance and are still means. */
+static void test_turns_of_a_current_that_is_noise_and_an_offset(void)
+{
+    turn_steadily(20.0, 400.0, 50.0);
+    for (size_t k = 0; k < run.count; ++k)
+        for (size_t s = 0; s < 3; ++s)
+            run.i_A[3 * k + s] = (s == 0 ? 0.008 : -0.004) + 0.012 * ref_normal(&seed);
+    reduce();
+    TEST_ASSERT_FALSE(binned.statistics[0].no_current);
+    TEST_ASSERT_EQUAL_UINT64(1, binned.segment_count);
+    TEST_ASSERT_TRUE(binned.segment[0].turns > 0);
+    TEST_ASSERT_EQUAL_UINT64(400, binned.count);
 }
 
 /* ---- holding maps: the current that holds the shaft, at rest, one way and the other ---- */
@@ -307,6 +321,7 @@ int main(void)
     RUN_TEST(test_turns_of_a_wrapped_electrical_angle);
     RUN_TEST(test_other_columns_of_a_mean);
     RUN_TEST(test_turns_without_current);
+    RUN_TEST(test_turns_of_a_current_that_is_noise_and_an_offset);
     RUN_TEST(test_holding_there_and_back);
     RUN_TEST(test_an_unsteady_run_stays);
     RUN_TEST(test_short_runs);

@@ -10,7 +10,7 @@ static const hci_machine MACHINE = {.pole_pairs = P};
 static uint64_t seed;
 static hci_run run;
 static hci_binned_samples binned;
-static double truth[MOST]; /* mechanical angle, rad */
+static double truth[2 * MOST]; /* mechanical angle, rad */
 static double once;        /* how much of what is once a turn the currents have */
 
 void setUp(void)
@@ -219,6 +219,23 @@ static void test_currents_are_not_distorted(void)
 
 /* Noise of a constant current is no change: its slope would be as large as the highest order is, and a delay
  * of many periods of that would make many times the noise of it. What is there swings as it does. */
+/* The mean of many turns has less noise than a sample, and is smoothed from fewer of them: 400 a turn. */
+static void test_means_of_few_samples(void)
+{
+    turn(2 * MOST, 400.0, 50.0, 1.0, 0.0);
+    for (size_t k = 0; k < 3 * run.count; ++k)
+        run.i_A[k] += 0.05 * ref_normal(&seed);
+    reduce();
+    TEST_ASSERT_TRUE(binned.count < 480);
+    TEST_ASSERT_TRUE(binned.segment[0].turns > 0 && binned.segment[0].smooth);
+    for (size_t k = 0; k < binned.count; ++k) {
+        double i_abc[3];
+        rec_phases(0.0, 3.0, P * binned.sample[k].reading.theta_m_rad, i_abc);
+        for (int s = 0; s < 3; ++s)
+            TEST_ASSERT_DOUBLE_WITHIN(0.012, i_abc[s], binned.sample[k].reading.i_abc[s]);
+    }
+}
+
 static void test_rates_are_no_noise(void)
 {
     turn(MOST, 400.0, 50.0, 0.0, 0.0);
@@ -298,6 +315,7 @@ int main(void)
     RUN_TEST(test_what_is_not_smoothed);
     RUN_TEST(test_noise_of_currents);
     RUN_TEST(test_currents_are_not_distorted);
+    RUN_TEST(test_means_of_few_samples);
     RUN_TEST(test_rates_are_no_noise);
     RUN_TEST(test_ripple_of_few_samples);
     RUN_TEST(test_rate_of_change_of_a_short_run);
