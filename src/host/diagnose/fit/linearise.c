@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "host/base/memory.h"
+#include "host/diagnose/fit/current_sums.h"
 #include "host/diagnose/fit/known_equations.h"
 #include "host/diagnose/fit/predicted_reading.h"
 
@@ -108,10 +109,7 @@ static void sum_row(const filling *f, const hci_binned_sample *sample, double de
     const hci_model *m = f->model;
     const hci_sample truth = hci_effects_undo(&m->list, f->regression->machine->pole_pairs, &sample->reading);
     const double weight = sqrt(sample->count) / deviation_A;
-    *y = sample->sum_A;
-    for (int phase = 0; phase < 3; ++phase)
-        *y -= sample->reading.i_abc[phase] - truth.i_abc[phase];
-    *y *= weight;
+    *y = weight * hci_current_sum_left(f->regression, &m->list, sample);
     for (size_t c = 0; c < m->columns; ++c) {
         const hci_candidate *s = m->column[c].candidate;
         x[c] =

@@ -1,4 +1,5 @@
 #include "host/diagnose/search/search.h"
+#include "host/diagnose/fit/current_sums.h"
 #include "host/diagnose/fit/model.h"
 #include "host/diagnose/fit/noise_estimate.h"
 #include "host/diagnose/fit/predicted_reading.h"
@@ -134,6 +135,25 @@ double hci_search_noise_rms(const hci_search *s)
 
 /* ---- what an effect explains ---- */
 
+/* Whether what one model has besides the other shows in the sum of the currents, which says much of sensors
+ * that hardly make a torque. */
+static hci_status shows_in_sums(const hci_search *s, const hci_candidates *with,
+                                const hci_candidates *without, bool *shows, hci_note *note)
+{
+    hci_model more = {0}, less = {0};
+    *shows = false;
+    hci_status status = hci_model_make(s->regression->declared, with, false, &more, note);
+    if (!status) status = hci_model_make(s->regression->declared, without, false, &less, note);
+    if (!status) {
+        const double after = hci_current_sums_rms(s->regression, &more.list);
+        const double before = hci_current_sums_rms(s->regression, &less.list);
+        *shows = before * before - after * after > NOTICEABLE * NOTICEABLE;
+    }
+    hci_model_release(&more);
+    hci_model_release(&less);
+    return status;
+}
+
 hci_status hci_search_explained(hci_search *s, const hci_candidates *with, const hci_candidates *without,
                                 double *explained_Nm, hci_note *note)
 {
@@ -152,9 +172,10 @@ hci_status hci_search_noticeable(hci_search *s, const hci_candidates *with, cons
                                  bool *noticeable, hci_note *note)
 {
     double explained_Nm;
-    const hci_status status = hci_search_explained(s, with, without, &explained_Nm, note);
+    hci_status status = hci_search_explained(s, with, without, &explained_Nm, note);
     const double least = fmax(NOTICEABLE * hci_search_noise_rms(s), RESOLVED * s->resolution_Nm);
     *noticeable = !status &&
                   (explained_Nm > least || hci_candidates_types_in(with) == hci_candidates_types_in(without));
+    if (!status && !*noticeable) status = shows_in_sums(s, with, without, noticeable, note);
     return status;
 }
