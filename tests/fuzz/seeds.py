@@ -170,6 +170,9 @@ class Seeds:
         for k in range(9, 17):
             draws = random.Random(k)
             self.add("fuzz_laws", f"draws_{k}", bytes(draws.randrange(256) for _ in range(20 + 10 * k)))
+        for k in range(200):
+            draws = random.Random(k)
+            self.add("fuzz_core", f"draws_{k}", bytes([0, k % 4]) + bytes(draws.randrange(256) for _ in range(400)))
 
     def commands(self):
         run = recording(16)

@@ -128,6 +128,17 @@ static void leading_axis(double half, double off, const double e[2], double axis
     }
 }
 
+/* Below it a component of the back-EMF is rounding: where L' has no share in its direction either, a current of 1e14 A would be the
+ * answer that it gives. */
+#define ROUNDING (4.0 * DBL_EPSILON) /* of the back-EMF */
+
+/* The back-EMF along an axis. */
+static double along(double x, double y, double size)
+{
+    const double sum = x + y;
+    return fabs(sum) > ROUNDING * size ? sum : 0.0;
+}
+
 /* The eigenvalue nearer to zero comes from the determinant: mean ∓ radius would leave it the rounding of the
  * other one. */
 static shortest turn(const hci_machine_point *p, double tau)
@@ -144,8 +155,9 @@ static shortest turn(const hci_machine_point *p, double tau)
         t.h[1] = inner;
     }
     leading_axis(half, sign * p->slope[1], p->e, t.axis);
-    t.g[0] = sign * (t.axis[0] * p->e[0] + t.axis[1] * p->e[1]);
-    t.g[1] = sign * (t.axis[0] * p->e[1] - t.axis[1] * p->e[0]);
+    const double size = hypot(p->e[0], p->e[1]);
+    t.g[0] = sign * along(t.axis[0] * p->e[0], t.axis[1] * p->e[1], size);
+    t.g[1] = sign * along(t.axis[0] * p->e[1], -t.axis[1] * p->e[0], size);
     return t;
 }
 

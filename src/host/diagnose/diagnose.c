@@ -68,6 +68,10 @@ static hci_status fill(hci_dataset *b, const hci_runs *runs, hci_attribution *a,
     hci_status status = effects_fill(&b->regression, &a->model.candidates, d, note);
     if (!status && !a->unknown && a->ended == HCI_WORK_COMPLETE) /* of a model that had no rival: no bound */
         status = hci_uncertainty_find(&b->regression, &a->model.candidates, &d->uncertainty, note);
+    if (status == HCI_ERROR_STOPPED) { /* all else is known */
+        d->search = a->ended = HCI_WORK_INTERRUPTED;
+        status = HCI_OK;
+    }
     if (!status) status = hci_run_errors_fill(b, runs, a->model.fit.parameters, d, note);
     if (!status) hci_findings_fill(a, d);
     return status;
@@ -191,7 +195,9 @@ static hci_status diagnose(hci_dataset *b, const hci_machine_data *machine, cons
                                        options->progress_context,
                                        options->stop,
                                        options->stop_context};
+    hci_watch watch = {options->stop, options->stop_context, options->progress, options->progress_context, false};
     hci_attribution a;
+    b->regression.watch = &watch;
     hci_status status = hci_attribute(&b->regression, &how, &a, note);
     if (status) return status;
     if (!a.unknown) status = misleading_leave(b, runs, &a, note);

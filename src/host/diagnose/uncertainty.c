@@ -16,6 +16,7 @@ enum { MACHINES = 200, SEED = 1 };
 #define MOST_FREEDOM 200.0 /* of Student's distribution, that is a normal one */
 
 #define COPY  0.99 /* cosine of what two recordings tell, from which on they are left out together */
+#define TOLD  0.3 /* of the work, that recordings one by one are */
 #define WHOLE 1.0  /* electrical turns that remain of a run where a part of it is left out */
 
 typedef struct {
@@ -33,6 +34,8 @@ static hci_status part_add(void *context, const hci_regression *part, size_t run
 {
     finding *f = context;
     hci_normal_equations normal;
+    if (hci_watch_stops(part->watch)) return HCI_ERROR_STOPPED;
+    hci_watch_tell(part->watch, "looking at what is left open", TOLD * (double)run / (double)part->samples->run_count);
     const hci_status status = hci_regression_normal(part, &f->terms.candidates, true, &normal, note);
     if (status) return status;
     const bool told = normal.rows > 0.0;
@@ -62,16 +65,20 @@ static bool spans_enough(const hci_regression *e, size_t parts)
     return true;
 }
 
+static hci_status join_failed(const finding *f, hci_note *note)
+{
+    if (hci_watch_stops(f->parts.watch)) return HCI_ERROR_STOPPED;
+    return hci_note_memory(note, NULL, "what recordings leave open");
+}
+
 /* A recording that another one repeats is not left out while that one stays: both are. Where so few are left
  * that nothing can be left out, such as parts of one run, repetitions are all there is. */
 static hci_status runs_join(finding *f, hci_note *note)
 {
-    if (!hci_condensed_join(&f->parts, f->terms.unit, COPY, &f->runs, f->group))
-        return hci_note_memory(note, NULL, "what recordings leave open");
+    if (!hci_condensed_join(&f->parts, f->terms.unit, COPY, &f->runs, f->group)) return join_failed(f, note);
     if (f->runs.count >= HCI_LEAST_GROUPS || f->runs.count == f->parts.count) return HCI_OK;
     hci_condensed_release(&f->runs);
-    if (!hci_condensed_join(&f->parts, f->terms.unit, INFINITY, &f->runs, f->group))
-        return hci_note_memory(note, NULL, "what recordings leave open");
+    if (!hci_condensed_join(&f->parts, f->terms.unit, INFINITY, &f->runs, f->group)) return join_failed(f, note);
     return HCI_OK;
 }
 
@@ -84,6 +91,7 @@ static hci_status parts_add(finding *f, hci_note *note)
     if (!f->run || !hci_condensed_start(&f->parts, f->terms.count, most))
         return hci_note_memory(note, NULL, "what recordings leave open");
     f->group = f->run + most;
+    f->parts.watch = e->watch;
     const hci_status status = hci_run_parts_each(e, part_add, f, note);
     return status ? status : runs_join(f, note);
 }

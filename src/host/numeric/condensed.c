@@ -219,14 +219,15 @@ static bool leaders_find(const hci_condensed *all, double alike, size_t *of)
     likeness like = {hci_memory_new(all->count + 1, sizeof *like.square),
                      hci_memory_new(all->count * all->n + 1, sizeof *like.diagonal)};
     const bool made = like.square && like.diagonal;
-    for (size_t g = 0; g < all->count && made; ++g) {
+    size_t g = 0;
+    for (; g < all->count && made && !hci_watch_stops(all->watch); ++g) {
         likeness_fill(all, g, &like);
         of[g] = leader_of(all, g, alike, &like);
         of[g] = of[of[g]];
     }
     hci_memory_free(like.square);
     hci_memory_free(like.diagonal);
-    return made;
+    return made && g == all->count;
 }
 
 bool hci_condensed_join(const hci_condensed *all, const double *unit, double alike, hci_condensed *joined,
@@ -234,6 +235,7 @@ bool hci_condensed_join(const hci_condensed *all, const double *unit, double ali
 {
     size_t *place = hci_memory_new(all->count + 1, sizeof *place);
     bool made = place && hci_condensed_start(joined, all->n, all->count);
+    joined->watch = all->watch;
     made = made && leaders_find(all, alike, of);
     for (size_t g = 0; g < all->count && made; ++g) {
         if (of[g] == g) {

@@ -8,6 +8,7 @@
 #ifndef HCI_SRC_HOST_NUMERIC_CONDENSED_H
 #define HCI_SRC_HOST_NUMERIC_CONDENSED_H
 
+#include "host/base/watch.h"
 #include "host/numeric/normal_equations.h"
 
 typedef struct {
@@ -24,6 +25,7 @@ typedef struct {
     hci_condensed_group *group;
     size_t count;
     double *gram, *moment; /* [n][n], [n]: Σ XᵀX and Σ Xᵀy over the groups */
+    hci_watch *watch;      /* asked between groups by what takes long; NULL: nobody ends it */
 } hci_condensed;
 
 /* Room for so many groups of n unknowns. False when memory is out, and then *all is empty. */
@@ -36,7 +38,7 @@ bool hci_condensed_add(hci_condensed *all, const hci_normal_equations *group, co
 
 /* The same with groups joined that tell the same: whose XᵀX, each unknown in units of what all groups tell of
  * it, have a cosine of `alike` or more. joined: out, start with {0}; of[all->count]: out, the joined group of
- * each. False when memory is out, and then *joined is empty. O(n groups² + n² rank groups), and n rank² of
+ * each. False when memory is out or the watch stops, and then *joined is empty. O(n groups² + n² rank groups), and n rank² of
  * each pair whose diagonals alone do not tell that it differs. */
 bool hci_condensed_join(const hci_condensed *all, const double *unit, double alike, hci_condensed *joined,
                         size_t *of);

@@ -150,7 +150,7 @@ static bool leave_one(const hci_ridge *p, const hci_condensed_group *group, hci_
 bool hci_ridge_leave_out(const hci_ridge *ridge, const hci_condensed *rows, hci_left_out_group *out)
 {
     for (size_t g = 0; g < rows->count; ++g)
-        if (!leave_one(ridge, &rows->group[g], &out[g])) return false;
+        if (hci_watch_stops(rows->watch) || !leave_one(ridge, &rows->group[g], &out[g])) return false;
     return true;
 }
 

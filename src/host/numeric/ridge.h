@@ -44,7 +44,7 @@ typedef struct {
     double noise;      /* mean square of what no unknown describes; 0 where there is nothing else */
 } hci_left_out_group;
 
-/* out[rows->count]. False when memory is out. O(n² Σ rank). */
+/* out[rows->count]. False when memory is out or rows->watch stops. O(n² Σ rank). */
 bool hci_ridge_leave_out(const hci_ridge *ridge, const hci_condensed *rows, hci_left_out_group *out);
 
 /* By how much groups differ in the size of their errors, beyond what chance makes of few numbers.

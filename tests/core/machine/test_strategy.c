@@ -749,6 +749,18 @@ static void test_least_iq_is_the_threshold(void)
     TEST_ASSERT_TRUE(count[0] > 500 && count[1] > 500 && count[2] > 500);
 }
 
+/* Slopes along the back-EMF alone, with the least torque at 1 − e²/2h: none of 0, though rounding leaves a back-EMF of 1e-16 beside it,
+ * where nothing bounds the current. */
+static void test_rounding_beside_the_back_emf_makes_no_torque(void)
+{
+    const double e = -2.541259765625, h = 3.41943359375;
+    const hci_machine_point p = {{e, e}, {h, h, h}, 1.0};
+    double x[2];
+    TEST_ASSERT_EQUAL_INT(HCI_NOT_REACHED, hci_strategy_current(&p, HCI_STRATEGY_MTPA, 0.0, NULL, x, NULL));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-14, -0.5 * e / h, x[0]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-14, -0.5 * e / h, x[1]);
+}
+
 /* Without reluctance no i_d cancels any cogging, however large i_q. */
 static void test_cancel_without_reluctance(void)
 {
@@ -1032,6 +1044,7 @@ int main(void)
     RUN_TEST(test_cancel_stays_near_the_answer_before);
     RUN_TEST(test_cancel_where_l_d_vanishes);
     RUN_TEST(test_least_iq_is_the_threshold);
+    RUN_TEST(test_rounding_beside_the_back_emf_makes_no_torque);
     RUN_TEST(test_cancel_without_reluctance);
     RUN_TEST(test_strategies_without_back_emf);
     RUN_TEST(test_shortest_current_is_never_longer_than_cancel);

@@ -7,13 +7,13 @@
 
 enum { N = 600 };
 
-static long asked, until;
+static long asked, until, open_since; /* when what is left open was told of first */
 
 void setUp(void)
 {
     dataset_start();
     asked = 0;
-    until = -1;
+    until = open_since = -1;
 }
 
 void tearDown(void)
@@ -27,6 +27,13 @@ static bool stop(void *context)
     return asked++ >= until && until >= 0;
 }
 
+static void tell(void *context, const char *what, double share)
+{
+    TEST_ASSERT_EQUAL_PTR(&asked, context);
+    TEST_ASSERT_TRUE(share >= 0.0 && share <= 1.0);
+    if (strcmp(what, "looking at what is left open") == 0 && open_since < 0) open_since = asked;
+}
+
 /* Friction and cogging torque that the machine does not declare. */
 static void record_all(void)
 {
@@ -38,6 +45,8 @@ static void record_all(void)
     }
     options.stop = stop;
     options.stop_context = &asked;
+    options.progress = tell;
+    options.progress_context = &asked;
 }
 
 static bool says(const char *text)
@@ -81,6 +90,26 @@ static void test_at_any_time(void)
     TEST_ASSERT_DOUBLE_WITHIN(0.01 * end_Nm, end_Nm, last_Nm);
 }
 
+/* The effects are all known then: they stay, nothing is promised of what is left open. */
+static void test_while_looking_at_what_is_left_open(void)
+{
+    record_all();
+    TEST_ASSERT_EQUAL_INT(HCI_OK, diagnose(NULL));
+    const long first = open_since, all = asked;
+    const double end_Nm = diagnosis.rms_after_Nm;
+    TEST_ASSERT_TRUE(first > 0 && all > first + 10);
+    for (until = first - 1; until < all; until += (all - first) / 4) { /* asked before it is told */
+        asked = 0;
+        TEST_ASSERT_EQUAL_INT(HCI_NOT_REACHED, diagnose(NULL));
+        TEST_ASSERT_EQUAL_INT64(until + 1, asked);
+        TEST_ASSERT_EQUAL_INT(HCI_WORK_INTERRUPTED, diagnosis.search);
+        TEST_ASSERT_EQUAL_UINT64(0, diagnosis.uncertainty.machines);
+        TEST_ASSERT_EQUAL_INT(HCI_FINDING_ADDED, found("cogging")->verdict);
+        TEST_ASSERT_EQUAL_INT(HCI_FINDING_ADDED, found("friction")->verdict);
+        TEST_ASSERT_EQUAL_DOUBLE(end_Nm, diagnosis.rms_after_Nm);
+    }
+}
+
 static void test_a_limit_of_work(void)
 {
     double work = 0.0;
@@ -104,6 +133,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_until_the_end);
     RUN_TEST(test_at_any_time);
+    RUN_TEST(test_while_looking_at_what_is_left_open);
     RUN_TEST(test_a_limit_of_work);
     return UNITY_END();
 }

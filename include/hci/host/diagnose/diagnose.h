@@ -19,7 +19,7 @@ typedef struct {
                         * of a run; 0: 5e-4 */
     hci_progress *progress; /* may be NULL */
     void *progress_context; /* first argument of progress */
-    hci_stop *stop;         /* asked during the search for effects; may be NULL */
+    hci_stop *stop;         /* asked during the search for effects and what follows; may be NULL */
     void *stop_context;     /* first argument of stop */
 } hci_diagnose_options;
 

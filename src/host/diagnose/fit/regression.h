@@ -2,6 +2,7 @@
 #ifndef HCI_SRC_HOST_DIAGNOSE_FIT_REGRESSION_H
 #define HCI_SRC_HOST_DIAGNOSE_FIT_REGRESSION_H
 
+#include "host/base/watch.h"
 #include "host/diagnose/prepare/binned_samples.h"
 #include "host/numeric/noise.h"
 
@@ -20,6 +21,7 @@ typedef struct {
     hci_known_equations *known; /* of models linearised before; NULL: none are kept */
     double *work;               /* multiplications so far, about; NULL: not counted */
     bool free_means;            /* of each segment: nothing is concluded from them */
+    hci_watch *watch;           /* of what follows the search; NULL: it is not ended, and not told */
 } hci_regression;
 
 /* Work that a search may take; beyond it the best model so far is kept, and fits end after a few steps. */

@@ -28,6 +28,11 @@ bool hci_search_is_over(hci_search *s)
     return s->ended != HCI_WORK_COMPLETE;
 }
 
+bool hci_search_is_interrupted(hci_search *s)
+{
+    return hci_search_is_over(s) && s->ended == HCI_WORK_INTERRUPTED;
+}
+
 /* ---- progress ---- */
 
 static void tell(const hci_search *s)

@@ -38,6 +38,9 @@ typedef struct {
  * is over it stays so. */
 bool hci_search_is_over(hci_search *search);
 
+/* Whether the user wants the end: then nothing is judged any more that takes long. */
+bool hci_search_is_interrupted(hci_search *search);
+
 /* Tells of a step that takes the work from one share of the whole to another. */
 void hci_search_begin(hci_search *search, const char *doing, double from, double until);
 /* Tells of a part of it: there is no knowing how many follow, so each takes a little of what is left. */

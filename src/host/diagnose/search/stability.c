@@ -17,6 +17,7 @@ enum { LEAST_RUNS = 6 }; /* for the whole of a model to be asked what it says of
 
 /* The model's equations, run by run, and room for what is asked of them. */
 typedef struct {
+    hci_search *search;
     const hci_candidates *model;
     hci_run_equations equations;
     double *precision;      /* [columns], with a type held at 0 */
@@ -32,7 +33,7 @@ static void leaving_end(leaving *l)
 static hci_status leaving_start(hci_search *s, const hci_candidates *model, leaving *l, hci_note *note)
 {
     const size_t columns = hci_candidates_terms_in(model);
-    *l = (leaving){.model = model};
+    *l = (leaving){.search = s, .model = model};
     const hci_status status = hci_run_equations_make(s->regression, model, &l->equations, note);
     if (status) return status;
     const size_t groups = l->equations.groups.count;
@@ -94,10 +95,9 @@ static hci_status stays_count(leaving *l, hci_verdict *v, hci_note *note)
 {
     hci_status status = HCI_OK;
     hold(l, v->type);
-    v->left_out = l->equations.groups.count;
-    for (size_t run = 0; run < v->left_out && !status; ++run) {
+    for (; v->left_out < l->equations.groups.count && !status && !hci_search_is_interrupted(l->search); ++v->left_out) {
         bool stays = false;
-        status = stays_without(l, v->type, run, &stays, note);
+        status = stays_without(l, v->type, v->left_out, &stays, note);
         v->stays += stays;
     }
     return status;
@@ -185,7 +185,8 @@ hci_status hci_search_unpredicted(hci_search *s, const hci_candidates *model, do
     leaving l;
     promises p;
     *share = 0.0;
-    if (hci_regression_runs_in_use(s->regression) < LEAST_RUNS || hci_candidates_types_in(model) == 0)
+    if (hci_regression_runs_in_use(s->regression) < LEAST_RUNS || hci_candidates_types_in(model) == 0 ||
+        hci_search_is_interrupted(s))
         return HCI_OK;
     hci_status status = leaving_start(s, model, &l, note);
     if (status) return status;
@@ -242,19 +243,20 @@ hci_status hci_search_keep_predictive(hci_search *s, hci_fitted_model *model, hc
 {
     const hci_effect_type *useless = NULL;
     hci_status status = HCI_OK;
-    do {
+    while (!status && !hci_search_is_interrupted(s)) {
         hci_search_tell(s);
         status = useless_find(s, &model->candidates, &useless, note);
         if (status || !useless) break;
         hci_candidates_remove_type(&model->candidates, useless);
         status = hci_search_renew(s, model, note);
-    } while (!status);
+    }
     return status;
 }
 
 hci_status hci_search_stability(hci_search *s, hci_attribution *a, hci_note *note)
 {
     leaving l;
+    if (hci_search_is_interrupted(s)) return HCI_OK;
     hci_status status = leaving_start(s, &a->model.candidates, &l, note);
     if (status) return status;
     for (size_t r = 0; r < a->types && l.equations.groups.count >= HCI_LEAST_GROUPS && !status; ++r)

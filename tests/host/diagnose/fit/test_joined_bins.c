@@ -132,6 +132,34 @@ static void test_squares_of_narrow_bins(void)
     TEST_ASSERT_DOUBLE_WITHIN(0.1 * NOISE_NM, NOISE_NM / sqrt(in_one), hci_search_residual_rms(&search));
 }
 
+/* An order that nothing describes, 144 of the turn. Its variance over that of the noise of four joined bins is four times that over the
+ * noise of a narrow one, by which it is judged: a tenth is more than noise. */
+static bool noise_with_excess(double excess)
+{
+    const double bin_Nm = NOISE_NM / sqrt((double)N / 1024.0), size_Nm = bin_Nm * sqrt(2.0 * excess);
+    bool noise = false;
+    record_long(60.0, 3.0);
+    for (size_t k = 0; k < N; ++k)
+        run[0].torque_Nm[k] += size_Nm * sin(48.0 * P * run[0].theta_m_rad[k]);
+    search_start();
+    for (int j = 0; j < 2; ++j)
+        model_add("cogging", "sine", "cosine", ORDER[j]);
+    model_add("friction", "coulomb", NULL, 0.0);
+    model_fit();
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_is_noise(&search, &model.candidates, &noise, &note));
+    return noise;
+}
+
+static void test_an_excess_of_narrow_bins_is_noise(void)
+{
+    TEST_ASSERT_TRUE(noise_with_excess(0.2));
+}
+
+static void test_an_excess_beyond_them_is_none(void)
+{
+    TEST_ASSERT_FALSE(noise_with_excess(0.8));
+}
+
 /* ---- samples that lie close on one half of the turn ---- */
 
 static void record_uneven(double direction)
@@ -166,6 +194,8 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_the_values_of_all_rows);
     RUN_TEST(test_squares_of_narrow_bins);
+    RUN_TEST(test_an_excess_of_narrow_bins_is_noise);
+    RUN_TEST(test_an_excess_beyond_them_is_none);
     RUN_TEST(test_uneven_counts_are_noise);
     return UNITY_END();
 }
