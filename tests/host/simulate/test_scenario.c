@@ -82,8 +82,9 @@ static void test_missing_values_are_named_where_needed(void)
     TEST_ASSERT_TRUE(isnan(s.copper_W) && isnan(s.energy_J.stored));
     hci_simulation_release(&s);
     refused(&machine_a, "duration,1,s\nspeed_reference,80,rpm\n", "no `inertia`");
-    refused(&machine_a, RUNS "torque_reference,2,Nm\ncurrent_control,pi,\n",
-            "add a row `inductance_d,VALUE,H,SOURCE`");
+    refused(
+        &machine_a, RUNS "torque_reference,2,Nm\ncurrent_control,pi,\n",
+        "add `resistance,VALUE,ohm,SOURCE`, `inductance_d,VALUE,H,SOURCE`, `inductance_q,VALUE,H,SOURCE`");
     machine_a.inductance_d_H = 2e-3;
     refused(&machine_a, RUNS "torque_reference,2,Nm\ncurrent_control,pi,\n", "`inductance_q,VALUE,H,SOURCE`");
     machine_a.inductance_q_H = 2e-3;
