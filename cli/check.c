@@ -286,7 +286,11 @@ static void show_table(const char *run, double pole_pairs, const hci_table_rotat
         cli_say("  coarse       the log's angle goes in steps of %.3g degrees electrical; half of one cannot "
                 "be told\n",
                 degrees(x->step_rad));
-    if (x->is_rotated) show_table_remedy(pole_pairs, x);
+    if (x->is_rotated)
+        show_table_remedy(pole_pairs, x);
+    else
+        cli_say("  told         if the drive followed a torque reference; a position or speed loop makes the currents that the "
+                "shaft asks for, wherever the table is read: then compare the ripple of speed or current with and without it\n");
 }
 
 static hci_status compare_table(const cli_arguments *a, const char *table_path,

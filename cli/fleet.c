@@ -36,10 +36,30 @@ static void show_odd(const hci_line *l)
     if (hci_line_outside(l) > said) cli_say("  and %zu more, in deviations.csv\n", hci_line_outside(l) - said);
 }
 
+static void show_batches(const hci_line_parameter *p)
+{
+    const char *unit = strcmp(p->name.unit, "1") == 0 ? "" : p->name.unit;
+    cli_say("  batches      %s %s: they differ by %.3g %s; %s most, by %+.3g %s\n", p->name.effect, p->name.parameter,
+            p->batch_deviation, unit, p->batch ? p->batch : "none", p->batch_beside, unit);
+}
+
+/* Motors that are not compared, and dates that no trend is from. */
+static void show_left_out(const hci_line *l)
+{
+    size_t without = 0;
+    for (size_t k = 0; k < l->motors; ++k)
+        without += l->motor[k].state > HCI_FLEET_OPEN ? 1 : 0;
+    if (without > 0) cli_say("  no result    %zu motors (failed, late or crashed): not compared; the reasons are in fleet.csv\n", without);
+    if (l->dates_unread > 0)
+        cli_say("  dates        %zu are not read, such as `%s`: no trend is from them; write YYYY-MM-DD\n", l->dates_unread,
+                l->date_unread);
+}
+
 static void show(const hci_line *l)
 {
     const size_t outside = hci_line_outside(l);
     cli_say("%s%s" CLI_PLAIN ": %zu of %zu motors\n", outside == 0 ? CLI_GOOD : CLI_WARN, outside == 1 ? "stands out" : "stand out", outside, l->motors);
+    show_left_out(l);
     if (l->parameters == 0) {
         cli_say("  no parameters: only motors of batch --command fit or diagnose are compared\n");
         return;
@@ -49,7 +69,7 @@ static void show(const hci_line *l)
     for (size_t k = 0; k < l->parameters; ++k) {
         const hci_line_parameter *p = &l->parameter[k];
         if (p->has_trend) cli_say("  trend        %s %s: %+.3g ± %.1g %s in 30 days\n", p->name.effect, p->name.parameter, 30.0 * p->per_day, 30.0 * p->per_day_std_error, strcmp(p->name.unit, "1") == 0 ? "" : p->name.unit);
-        if (p->has_batches) cli_say("  batches      %s %s: they differ by %.3g %s\n", p->name.effect, p->name.parameter, p->batch_deviation, strcmp(p->name.unit, "1") == 0 ? "" : p->name.unit);
+        if (p->has_batches) show_batches(p);
     }
 }
 

@@ -83,6 +83,27 @@ static void say_unknown(cli_tuning *t)
                            t->arguments->given[TUNE_RUNS] ? t->runs.run[k].name : t->arguments->word[k]);
 }
 
+static bool has_sensor(const cli_tuning *t)
+{
+    for (size_t k = 0; k < t->diagnosis.runs; ++k)
+        if (t->diagnosis.run[k].source == HCI_TORQUE_MEASURED) return true;
+    return false;
+}
+
+/* What the bench at hand can do first. */
+static void say_next_on_machine(cli_tuning *t)
+{
+    if (!has_sensor(t))
+        hci_tuning_say(&t->tuning, HCI_TUNING_NEXT,
+                       "On the same bench: the same slow turn forward and back with the table in the drive shows what is left of "
+                       "the cogging torque; spins at two other speeds, each in both directions, tell friction. What load "
+                       "adds takes a torque sensor.");
+    else
+        hci_tuning_say(&t->tuning, HCI_TUNING_NEXT,
+                       "To know the ripple on the machine: three recordings or more under load, up to the "
+                       "currents of the table, with a torque sensor.");
+}
+
 static void say_next(cli_tuning *t)
 {
     if (t->has_unsteady)
@@ -103,10 +124,7 @@ static void say_next(cli_tuning *t)
         hci_tuning_say(&t->tuning, HCI_TUNING_NEXT,
                        "Correct what `slip` names (in %s, or in the log), and begin again with a new --out.",
                        t->machine);
-    if (t->is_solved && t->solution.expected.state != HCI_RIPPLE_KNOWN)
-        hci_tuning_say(&t->tuning, HCI_TUNING_NEXT,
-                       "To know the ripple on the machine: three recordings or more under load, up to the "
-                       "currents of the table, with a torque sensor.");
+    if (t->is_solved && t->solution.expected.state != HCI_RIPPLE_KNOWN) say_next_on_machine(t);
 }
 
 /* The largest ripple that is left unexplained in a recording, rms; 0 where all are near their noise. */

@@ -143,6 +143,8 @@ static void pool(const hci_line *l, size_t parameter, hci_trend_point *point, do
         const hci_trend_of_batches batches = hci_trend_batches(point, count);
         p->batch_deviation = batches.deviation;
         p->batch_criterion = batches.criterion;
+        p->batch = batches.furthest;
+        p->batch_beside = batches.beside;
         p->per_day_std_error *= batches.widening;
     }
     p->has_trend = fabs(p->per_day) > l->limit * p->per_day_std_error;

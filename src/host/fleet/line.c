@@ -8,6 +8,7 @@
 
 #include "host/base/memory.h"
 #include "host/base/whole_file.h"
+#include "host/fleet/dates.h"
 #include "host/fleet/row.h"
 
 enum { PATH_SIZE = 4096, COMMANDS = HCI_FLEET_FIT + 1 };
@@ -33,24 +34,13 @@ static int command_of(const char *text, char header[HCI_FLEET_ROW_SIZE])
     return k;
 }
 
-/* Days since a day long ago, of the proleptic Gregorian calendar. */
-static double day_of(const char *date)
-{
-    int year, month, day;
-    char end;
-    if (sscanf(date, "%4d-%2d-%2d%c", &year, &month, &day, &end) != 3 || month < 1 || month > 12 || day < 1 || day > 31)
-        return NAN;
-    const int shifted = year - (month <= 2), in_year = (153 * (month + (month > 2 ? -3 : 9)) + 2) / 5 + day - 1;
-    return 365.0 * shifted + shifted / 4 - shifted / 100 + shifted / 400 + in_year;
-}
-
 static void read_motor(const char *row, const char *header, hci_line_motor *m)
 {
     *m = (hci_line_motor){.row = row, .worst = HCI_LINE_NONE, .deviation = NAN};
     hci_fleet_row_cell(row, header, "motor", m->name, sizeof m->name);
     hci_fleet_row_cell(row, header, "batch", m->batch, sizeof m->batch);
     hci_fleet_row_cell(row, header, "date", m->date, sizeof m->date);
-    m->day = day_of(m->date);
+    m->day = NAN;
     m->state = hci_fleet_row_state(row);
 }
 
@@ -200,6 +190,31 @@ static hci_status take_rows(const rows *r, hci_line *line, hci_note *note)
     return take_fits(r, line, note);
 }
 
+/* ---- dates ---- */
+
+/* What dates like 05/10/2026 are, by those of the line that leave it not open; open where these contradict each other. */
+static hci_date_order order_of(const hci_line *line)
+{
+    bool day = false, month = false;
+    for (size_t k = 0; k < line->motors; ++k) {
+        const hci_date_order order = hci_date_order_of(line->motor[k].date);
+        day = day || (order == HCI_DATE_DAY_FIRST && !strchr(line->motor[k].date, '.'));
+        month = month || order == HCI_DATE_MONTH_FIRST;
+    }
+    return day == month ? HCI_DATE_OPEN : day ? HCI_DATE_DAY_FIRST : HCI_DATE_MONTH_FIRST;
+}
+
+static void read_dates(hci_line *line)
+{
+    const hci_date_order order = order_of(line);
+    for (size_t k = 0; k < line->motors; ++k) {
+        hci_line_motor *m = &line->motor[k];
+        m->day = hci_date_day(m->date, order);
+        if (!isnan(m->day) || m->date[0] == '\0') continue;
+        if (line->dates_unread++ == 0) memcpy(line->date_unread, m->date, sizeof m->date);
+    }
+}
+
 /* ---- all of it ---- */
 
 hci_status hci_line_read(const char *const *folder, size_t folders, hci_line *line, hci_note *note)
@@ -214,6 +229,7 @@ hci_status hci_line_read(const char *const *folder, size_t folders, hci_line *li
     if (!status && r.count == 0) status = wrong(folder[0], "no motor is done", note);
     if (!status) status = join(&r, note);
     if (!status) status = take_rows(&r, line, note);
+    if (!status) read_dates(line);
     hci_memory_free(r.item);
     return status;
 }

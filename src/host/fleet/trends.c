@@ -62,6 +62,8 @@ double hci_trend_normal_of_F(double F, double above, double below)
 /* Sums of one batch after the other. */
 typedef struct {
     double batches, motors, squares_of_counts, mean, between, within;
+    const char *furthest;
+    double beside;
 } variance;
 
 static void add_batch(const hci_trend_point *point, size_t n, double grand, variance *v)
@@ -69,6 +71,10 @@ static void add_batch(const hci_trend_point *point, size_t n, double grand, vari
     double mean = 0.0;
     for (size_t k = 0; k < n; ++k)
         mean += point[k].value / (double)n;
+    if (!v->furthest || fabs(mean - grand) > fabs(v->beside)) {
+        v->furthest = point[0].batch;
+        v->beside = mean - grand;
+    }
     for (size_t k = 0; k < n; ++k)
         v->within += (point[k].value - mean) * (point[k].value - mean);
     v->between += (double)n * (mean - grand) * (mean - grand);
@@ -86,8 +92,8 @@ static double widening_of(double deviation, double within, double usual)
 
 hci_trend_of_batches hci_trend_batches(hci_trend_point *point, size_t n)
 {
-    hci_trend_of_batches found = {NAN, NAN, 1.0};
-    variance v = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+    hci_trend_of_batches found = {NAN, NAN, NULL, 0.0, 1.0};
+    variance v = {.furthest = NULL};
     size_t first = 0;
     qsort(point, n, sizeof *point, by_batch);
     while (first < n && point[first].batch[0] == '\0')
@@ -104,6 +110,8 @@ hci_trend_of_batches hci_trend_batches(hci_trend_point *point, size_t n)
     const double usual = (v.motors - v.squares_of_counts / v.motors) / (v.batches - 1.0);
     found.deviation = sqrt(fmax((above - below) / usual, 0.0));
     found.criterion = hci_trend_normal_of_F(above / below, v.batches - 1.0, v.motors - v.batches);
+    found.furthest = v.furthest;
+    found.beside = v.beside;
     found.widening = widening_of(found.deviation, below, usual);
     return found;
 }

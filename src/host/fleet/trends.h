@@ -19,6 +19,8 @@ void hci_trend_find(hci_trend_point *point, size_t n, double between, double *pe
 typedef struct {
     double deviation; /* of the batches' means beyond what chance makes of them */
     double criterion; /* F as a normal deviate */
+    const char *furthest; /* batch whose mean is furthest from that of all; NULL: less than two */
+    double beside;    /* by so much */
     double widening;  /* of the standard error of a trend, since motors of a batch are no independent ones; 1: none */
 } hci_trend_of_batches;
 

@@ -176,6 +176,8 @@ hci_status hci_free_shafts_find(const hci_machine_data *machine, const hci_effec
     }
     if (!status && drag != NULL) status = find_friction(runs, f, count, drag, &is_friction, note);
     if (!status && !is_friction) set_loads(runs, f, count, most_Nm);
+    for (size_t k = 0; k < count; ++k) /* a mean that counts has a size */
+        runs[k].hardly_accelerates = runs[k].hardly_accelerates && runs[k].mean_is_unknown;
     hci_memory_free(f);
     return status;
 }

@@ -25,6 +25,8 @@ typedef struct {
     double per_day, per_day_std_error;      /* trend over the date, of the same; NAN: less than three days */
     double batch_deviation, batch_criterion; /* of the means of batches, beyond chance; normal deviate of the F
                                               * test of no difference; NAN: less than two batches */
+    const char *batch; /* whose mean is furthest from that of all; of the line; NULL: less than two batches */
+    double batch_beside; /* by so much */
     bool has_trend, has_batches;            /* more than chance, at the same rate of false alarms */
 } hci_line_parameter;
 
@@ -34,7 +36,7 @@ typedef struct {
     char name[HCI_FLEET_NAME_SIZE]; /* as in the list */
     char batch[64];        /* of the production, or "" */
     char date[32];         /* as in the list */
-    double day;            /* of the date, a count; NAN: no date YYYY-MM-DD */
+    double day;            /* of the date, a count; NAN: not read */
     hci_fleet_state state; /* how it came out */
     size_t worst;          /* parameter with the largest deviation; HCI_LINE_NONE: it has no parameters */
     double deviation;      /* that one, in robust standard deviations, signed */
@@ -50,6 +52,8 @@ typedef struct {
     size_t motors;                 /* entries of motor */
     hci_line_parameter *parameter; /* in the order of parameters.csv; the last one is the rms of what stays */
     size_t parameters;             /* entries of parameter; 0: no motor has any */
+    size_t dates_unread;           /* dates that are not read: no form that is known, or day and month may be either */
+    char date_unread[32];          /* the first of them */
     double *value, *std_error;     /* [motors][parameters]; NAN: not told */
     char **text;                   /* the files that rows point into */
     size_t texts;                  /* entries of text */

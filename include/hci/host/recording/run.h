@@ -48,7 +48,7 @@ typedef struct {
     bool voltage_is_dq;   /* v_V was v_d and v_q, turned by the recorded angle: says nothing of its zero */
     bool only_mean;       /* no angle, but torques over i_d and i_q: means over a turn. i_A is of angle 0 */
     bool mean_is_unknown; /* a constant load stands in torque_Nm too: only what varies says something */
-    bool hardly_accelerates; /* a free shaft whose current answers a drag and cogging torque: no scale of its torque is in it */
+    bool hardly_accelerates; /* beside mean_is_unknown: the current does not accelerate, so that the torque per ampere is not told */
     bool has_sum;         /* all three currents were recorded, so that their sum says something */
     int computed_phase; /* 1, 2, 3: of two phase currents the third was made, so that the sum is 0; 0: not */
     size_t *row;        /* [count], of the file, from 0; NULL: each row is a sample */

@@ -96,6 +96,7 @@ char *hci_line_json(const hci_line *l)
     hci_json json;
     hci_summary_begin(&json, "fleet");
     hci_json_number(&json, "motors", (double)l->motors);
+    hci_json_number(&json, "dates_unread", (double)l->dates_unread);
     hci_json_number(&json, "stand_out", (double)hci_line_outside(l));
     hci_json_number(&json, "false_alarms", l->false_alarms);
     hci_json_number(&json, "limit", l->limit);
