@@ -10,10 +10,12 @@
 #include "hci/host/fleet/fit.h"
 #include "hci/host/report/summary.h"
 
-enum { RUNS, OUT, CLI_READING_KEYS, CLI_COMMON_KEYS };
+enum { RUNS, LIMITS, OUT, CLI_READING_KEYS, CLI_COMMON_KEYS };
 
 static const cli_option OPTIONS[] = {
     [RUNS] = {"runs", 0, CLI_FILE, "LIST", .help = "table file,role: the recordings to fit"},
+    [LIMITS] = {"limits", 0, CLI_FILE, "FILE",
+                .help = "table effect,parameter,low,high: pass or fail, such as line.csv of fleet"},
     [OUT] = {"out", 'o', CLI_FOLDER, "FOLDER", .help = "where the results go; without it nothing is written"},
     CLI_READING_OPTIONS,
     CLI_COMMON_OPTIONS};
@@ -52,6 +54,9 @@ static void show(const cli_arguments *a, const hci_fleet_fit *fit)
     cli_say("  error        %.4g N·m rms as declared", fit->rms_before_Nm);
     if (fit->is_found) cli_say(", %.4g N·m fitted", fit->rms_after_Nm);
     cli_say("; %zu samples\n", fit->samples);
+    if (fit->judged > 0)
+        cli_say("  %s" CLI_PLAIN "         %zu of %zu parameters are outside of their limits\n", fit->beyond ? CLI_BAD "fail" : CLI_GOOD "pass",
+                fit->beyond, fit->judged);
     for (size_t k = 0; k < fit->count; ++k) {
         const hci_fleet_parameter *p = &fit->parameter[k];
         if (isnan(p->value))
@@ -70,6 +75,7 @@ static const hci_note *remark_of_run(const void *context, size_t k)
 static hci_status fit_and_give(const cli_arguments *a, const inputs *in, hci_fleet_fit *fit, hci_note *note)
 {
     hci_status status = hci_fleet_fit_runs(&in->machine, &in->declared.list, &in->runs, fit, note);
+    if (!status && a->value[LIMITS]) status = hci_fleet_fit_judge(a->value[LIMITS], fit, note);
     if (!status && a->value[OUT]) status = hci_fleet_fit_write(fit, a->value[OUT], note);
     if (status) return status;
     if (cli_is_wordy()) show(a, fit);
@@ -89,7 +95,7 @@ static int run(const cli_arguments *a)
     hci_fleet_fit fit;
     if (!status) status = fit_and_give(a, &in, &fit, &note);
     release(&in);
-    return status ? cli_fail(status, &note) : !fit.is_found;
+    return status ? cli_fail(status, &note) : !fit.is_found || fit.beyond > 0;
 }
 
 const cli_command cli_fit = {
@@ -101,7 +107,7 @@ const cli_command cli_fit = {
     .words_needed = 1,
     .word_kind = CLI_FILE,
     .example = "  hci-solve fit data/fem_c/machine --runs data/fem_c/runs.csv -o out/fitted\n"
-               "\nExit codes: 0 done; 1 no least error is found, the declared values stay; " CLI_EXIT_ERRORS,
+               "\nExit codes: 0 done; 1 no least error is found, the declared values stay, or a\nparameter is outside of its limits; " CLI_EXIT_ERRORS,
     .source = "cli/fit.c",
     .guide = "fleet.md",
     .run = run,

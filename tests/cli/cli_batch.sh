@@ -176,4 +176,37 @@ PY
 run 0 batch "$work/fit/motors.csv" --command fit --jobs 1 -q -o "$work/fit/batch"
 check "fleet.csv of a fit: $(cat "$work/fit/batch/fleet.csv")" grep -q '^one,.*,done,0,,"1 of 3 recordings are not used; .*; 3 rows .*",1021,1,3,' "$work/fit/batch/fleet.csv"
 
+# ---- limits: pass, fail, not told; the voltages of open terminals tell the magnets
+
+awk 'BEGIN { pi = atan2(0, -1)
+    print "time_s,theta_m_rad,speed_rad_per_s,va_V,vb_V,vc_V"
+    for (k = 0; k < 400; k++) { a = 4 * pi * k / 400
+        printf "%.9g,%.9g,%.9g", k / 400, a, 4 * pi
+        for (s = 0; s < 3; s++) printf ",%.9g", 0.97 * 4 * pi * 21.93 / (50 * pi) * sin(2 * a - s * 2 * pi / 3) + 1e-4 * ((k * 7919 + s * 31) % 97 - 48)
+        print "" } }' >"$work/fit/coast.csv"
+sed '4s/.*/coast.csv,fit/' "$work/fit/runs.csv" >"$work/fit/voltages.csv"
+printf 'effect,parameter,low,high\nback_emf,by_voltage,-0.0301,-0.0299\nresidual,rms,,0.02\nfriction,viscous,,\n' >"$work/pass.csv"
+printf 'effect,parameter,low,high\nback_emf,common,0,1\nposition_offset,angle,-1,1\nresidual,rms,,0.02\n' >"$work/fail.csv"
+printf 'effect,parameter,low,high\nback_emf,comon,0,1\n' >"$work/slip.csv"
+run 0 fit "$work/fit/m" --runs "$work/fit/voltages.csv" --limits "$work/pass.csv"
+says 'pass +0 of 2 parameters' 'back_emf by_voltage: -0.03' '3 rows of the recordings have a hole'
+check "a run whose voltages are used is not used: $(cat "$work/stderr")" [ -z "$(grep 'are not used; the first' "$work/stderr")" ]
+run 1 fit "$work/fit/m" --runs "$work/fit/runs.csv" --limits "$work/fail.csv" -o "$work/fit/failed"
+says 'fail +2 of 3 parameters' 'back_emf common: found -0\.0[0-9]+, expected 0 … 1' 'position_offset angle: not told, expected -1 … 1'
+check "the verdict: $(cat "$work/fit/failed/summary.json")" grep -q '"verdict":.*"fail"' "$work/fit/failed/summary.json"
+run 3 fit "$work/fit/m" --runs "$work/fit/runs.csv" --limits "$work/slip.csv"
+says 'slip.csv:2: column 2 `parameter`: found `comon`, expected an effect and a parameter of parameters.csv'
+
+# ---- fleet: motors without a result, dates in other forms, the batch that differs
+
+{
+    echo motor,batch,date,machine,runs
+    for k in 1 2 3 4 5 6; do echo "n$k,b$((k % 2)),0$k.10.2026,m,$([ $((k % 2)) = 1 ] && echo runs || echo voltages).csv"; done
+    echo lost,b1,7.10.26,m,none.csv
+} >"$work/fit/line.csv"
+run 1 batch "$work/fit/line.csv" --command fit --jobs 1 -q -o "$work/fit/line" -- --limits "$work/fail.csv"
+check "fleet.csv of a fit with limits: $(cat "$work/fit/line/fleet.csv")" grep -q '^n1,,b1,01.10.2026,open,1,fail,' "$work/fit/line/fleet.csv"
+run 0 fleet "$work/fit/line"
+says 'no result +1 motors' 'dates +1 are not read, such as `7.10.26`: no trend is from them; write YYYY-MM-DD'
+
 finish

@@ -13,7 +13,14 @@
 
 #define COARSE 24.0 /* samples in an electrical period, from which its order 12 shows */
 
-static const char FRICTION[] = "friction";
+/* The type that every motor of a make has of Coulomb's friction and one that grows with the speed. */
+static const hci_effect_type *friction(void)
+{
+    size_t k = 0;
+    while (hci_effect_type_at(k) && !(hci_effect_type_at(k)->coulomb_Nm && hci_effect_type_at(k)->propose_alike))
+        ++k;
+    return hci_effect_type_at(k);
+}
 
 #define LEFT 0.1 /* of the means, beyond which their friction is not the one of the machine */
 
@@ -63,7 +70,7 @@ static double declared_value(const hci_effects *declared, const hci_effect_type 
 /* The declared effects with the law beside what they have of friction. */
 static hci_status add_law(const hci_effects *declared, hci_free_friction *f, hci_note *note)
 {
-    hci_candidate law = {.type = hci_effect_type_find(FRICTION), .count = f->law.terms, .in = true};
+    hci_candidate law = {.type = friction(), .count = f->law.terms, .in = true};
     const hci_candidates list = {&law, 1, 0.0};
     hci_model model;
     for (size_t k = 0; k < HCI_DRAG_TERMS; ++k)
@@ -146,7 +153,7 @@ void hci_free_friction_release(hci_free_friction *f)
 
 static void describe(const hci_free_friction *f, hci_finding *finding)
 {
-    const hci_effect_type *type = hci_effect_type_find(FRICTION);
+    const hci_effect_type *type = friction();
     size_t used = 0;
     for (size_t k = 0; k < f->law.terms && used < sizeof finding->detail; ++k)
         used += (size_t)snprintf(finding->detail + used, sizeof finding->detail - used, "%s%s = %.4g ± %.2g %s", k > 0 ? "; " : "",
@@ -159,10 +166,10 @@ static void describe(const hci_free_friction *f, hci_finding *finding)
 static void put_finding(const hci_free_friction *f, hci_diagnosis *d)
 {
     size_t at = 0, to = d->findings > 0 && strcmp(d->finding[0].effect, "unknown") == 0;
-    while (at < d->findings && strcmp(d->finding[at].effect, FRICTION) != 0)
+    while (at < d->findings && strcmp(d->finding[at].effect, friction()->name) != 0)
         ++at;
     if (at == d->findings || d->finding[at].verdict != HCI_FINDING_REJECTED) return;
-    hci_finding finding = {.effect = FRICTION, .verdict = HCI_FINDING_ADDED, .delta_bic = f->law.gain, .residual_share = NAN};
+    hci_finding finding = {.effect = friction()->name, .verdict = HCI_FINDING_ADDED, .delta_bic = f->law.gain, .residual_share = NAN};
     describe(f, &finding);
     memmove(&d->finding[to + 1], &d->finding[to], (at - to) * sizeof finding);
     d->finding[to] = finding;
@@ -233,7 +240,7 @@ static hci_drag_law corrected_law(const hci_free_friction *f, const hci_diagnosi
 {
     hci_drag_law law = {.terms = HCI_DRAG_TERMS};
     for (size_t k = 0; k < law.terms; ++k)
-        law.value[k] = declared_value(&d->effects.list, hci_effect_type_find(FRICTION), k) - f->declared[k];
+        law.value[k] = declared_value(&d->effects.list, friction(), k) - f->declared[k];
     return law;
 }
 

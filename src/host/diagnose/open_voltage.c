@@ -78,7 +78,7 @@ bool hci_open_voltage_agrees(const hci_machine *machine, const hci_runs *runs)
 
 /* ---- how large they are ---- */
 
-static bool is_idle(const hci_machine *machine, const hci_run *run)
+bool hci_open_voltage_is_in(const hci_machine *machine, const hci_run *run)
 {
     if (!run->v_V || !run->theta_m_rad || !run->speed_rad_per_s || !run->i_A) return false;
     return is_open(run) || hci_run_statistics_of(run, machine->pole_pairs).no_current;
@@ -107,7 +107,20 @@ double hci_open_voltage_scale(const hci_machine *machine, const hci_runs *runs)
 {
     scale_sums sum = {0.0, 0.0, 0.0, 0.0};
     for (size_t r = 0; r < runs->count; ++r)
-        if (is_idle(machine, &runs->run[r])) scale_add(machine, &runs->run[r], &sum);
+        if (hci_open_voltage_is_in(machine, &runs->run[r])) scale_add(machine, &runs->run[r], &sum);
     const bool known = sum.square > 0.0 && sum.off < WELL_KNOWN * WELL_KNOWN * sum.square * sum.count;
     return known ? 1.0 + sum.along / sum.square : (double)NAN;
+}
+
+double hci_open_voltage_scale_fitted(const hci_machine *machine, const hci_runs *runs, double *std_error)
+{
+    scale_sums sum = {0.0, 0.0, 0.0, 0.0};
+    *std_error = NAN;
+    for (size_t r = 0; r < runs->count; ++r)
+        if (runs->role[r] == HCI_ROLE_FIT && hci_open_voltage_is_in(machine, &runs->run[r])) scale_add(machine, &runs->run[r], &sum);
+    if (!(sum.square > 0.0)) return NAN;
+    const double beside = sum.along / sum.square;
+    /* two of three phases are free: their mean is taken out */
+    *std_error = sqrt(1.5 * fmax(0.0, sum.off - beside * sum.along) / sum.count / sum.square);
+    return 1.0 + beside;
 }

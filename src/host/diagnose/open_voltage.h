@@ -21,4 +21,10 @@ bool hci_open_voltage_agrees(const hci_machine *machine, const hci_runs *runs);
  * without such voltages. Here currents that are nothing but the noise of their sensors are none. */
 double hci_open_voltage_scale(const hci_machine *machine, const hci_runs *runs);
 
+/* The same of the runs to be fitted, however well it is known, with its standard error by white noise. */
+double hci_open_voltage_scale_fitted(const hci_machine *machine, const hci_runs *runs, double *std_error);
+
+/* Whether a run has such voltages. */
+bool hci_open_voltage_is_in(const hci_machine *machine, const hci_run *run);
+
 #endif

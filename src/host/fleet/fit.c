@@ -8,9 +8,10 @@
 #include "hci/host/base/number.h"
 #include "hci/host/recording/predict.h"
 #include "host/base/memory.h"
+#include "host/diagnose/open_voltage.h"
 #include "host/numeric/normal_equations.h"
 
-enum { MOST_TERMS = HCI_FLEET_MOST_PARAMETERS - 2, MOST_EFFECTS = 64, STEPS = 10, HALVINGS = 12 };
+enum { MOST_TERMS = HCI_FLEET_MOST_PARAMETERS - 3, MOST_EFFECTS = 64, STEPS = 10, HALVINGS = 12 };
 
 /* Shares of the sum of squares: a step that lowers it by less is not made; the fit is found where none lowers it by more. */
 #define CONVERGED 1e-9
@@ -406,13 +407,13 @@ static const char *reason_against(const hci_run *r)
 }
 
 /* Those that are left out: how many of how many, and the first. */
-static void remark_unused(const hci_runs *runs, hci_fleet_fit *fit)
+static void remark_unused(const hci_machine *machine, const hci_runs *runs, hci_fleet_fit *fit)
 {
     const hci_run *first = NULL;
     for (size_t k = 0; k < runs->count; ++k) {
         if (runs->role[k] != HCI_ROLE_FIT) continue;
         ++fit->recordings;
-        if (!reason_against(&runs->run[k])) continue;
+        if (!reason_against(&runs->run[k]) || hci_open_voltage_is_in(machine, &runs->run[k])) continue;
         ++fit->recordings_unused;
         if (!first) first = &runs->run[k];
     }
@@ -431,6 +432,15 @@ static void remark_holes(const hci_runs *runs, hci_fleet_fit *fit)
     }
     if (fit->rows_unused > 0)
         hci_note_add(&fit->remark, "%zu rows of the recordings have a hole or repeat the one before, and are not used", fit->rows_unused);
+}
+
+/* The strength of the magnets by voltages without a current, behind the parameters of the torque. */
+static void list_voltages(const hci_machine *machine, const hci_runs *runs, hci_fleet_fit *fit)
+{
+    hci_fleet_parameter *p = &fit->parameter[fit->count++];
+    *p = (hci_fleet_parameter){"back_emf", "by_voltage", "1", NAN, NAN};
+    const double scale = hci_open_voltage_scale_fitted(machine, runs, &p->std_error);
+    if (!isnan(scale)) p->value = scale - 1.0;
 }
 
 static hci_status read_run(const hci_machine_data *machine, const hci_runs *runs, size_t k, data *d,
@@ -460,10 +470,11 @@ hci_status hci_fleet_fit_runs(const hci_machine_data *machine, const hci_effects
                               "%s: found no run to be fitted with an angle and a measured torque; expected one "
                               "at least",
                               runs->list ? runs->list : "recordings");
-    remark_unused(runs, fit);
+    remark_unused(&machine->model, runs, fit);
     remark_holes(runs, fit);
     make_model(&machine->model, declared, &m);
     if (!status) status = take_steps(&d, &m, fit, note);
+    if (!status) list_voltages(&machine->model, runs, fit);
     fit->samples = d.samples;
     for (size_t k = 0; k < runs->count; ++k)
         hci_memory_free(d.reading[k]);

@@ -24,6 +24,9 @@ char *hci_fleet_fit_json(const hci_fleet_fit *fit)
     hci_json_number(&json, "rows_unused", (double)fit->rows_unused);
     hci_json_text(&json, "remark", fit->remark.text);
     hci_json_bool(&json, "found", fit->is_found);
+    if (fit->judged > 0) hci_json_text(&json, "verdict", fit->beyond > 0 ? "fail" : "pass");
+    hci_json_number(&json, "judged", (double)fit->judged);
+    hci_json_number(&json, "beyond", (double)fit->beyond);
     hci_json_number(&json, "rms_before_Nm", fit->rms_before_Nm);
     hci_json_number(&json, "rms_after_Nm", fit->rms_after_Nm);
     hci_json_array(&json, "parameters");

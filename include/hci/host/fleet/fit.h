@@ -34,6 +34,7 @@ typedef struct {
     size_t samples;                     /* of all runs that were fitted */
     size_t recordings, recordings_unused; /* that the list gives to be fitted; and cannot be */
     size_t rows_unused; /* of the others: with a hole, or that repeat the one before; not those at the end */
+    size_t judged, beyond; /* parameters that limits were compared with; outside of them or not told */
     hci_note remark;    /* what was not used, and whether nothing was found; or "" */
     bool is_found; /* the error has its least value; false: no step lowers it any more, or too many are needed */
 } hci_fleet_fit;
@@ -47,6 +48,11 @@ typedef struct {
  * _MEMORY. O(samples·terms²). */
 hci_status hci_fleet_fit_runs(const hci_machine_data *machine, const hci_effects *declared,
                               const hci_runs *runs, hci_fleet_fit *fit, hci_note *note);
+
+/* Compares the values with a table of limits, columns effect, parameter, low, high, of which an empty cell is no limit: line.csv of
+ * `fleet` is one. `residual`, `rms` is the error that stays. The remark names each that is outside. A parameter that is not told is
+ * outside. HCI_ERROR_INPUT for an effect and parameter that a fit does not have, or low above high; _MEMORY. */
+hci_status hci_fleet_fit_judge(const char *limits, hci_fleet_fit *fit, hci_note *note);
 
 /* As in summary.json of `fit`; to be freed with hci_text_free, NULL when memory is out. */
 char *hci_fleet_fit_json(const hci_fleet_fit *fit);
