@@ -350,8 +350,7 @@ hci_status hci_column_names_apply(const hci_column_names *names, bool optional, 
         const hci_column_name *item = &names->item[k];
         bool found;
         status = apply(csv, item, &found, note);
-        if (!found && !is_named_otherwise(names, item, csv) && (!optional || !has_quantity(csv, item->name)))
-            status = no_such_column(csv, item, note);
+        if (!found && !is_named_otherwise(names, item, csv) && (!optional || !has_quantity(csv, item->name))) status = no_such_column(csv, item, note);
     }
     return status;
 }
@@ -362,7 +361,7 @@ hci_status hci_column_names_apply_found(const hci_column_names *names, size_t *f
     for (size_t k = 0; names != NULL && k < names->count && !status; ++k) {
         bool has;
         status = apply(csv, &names->item[k], &has, note);
-        if (has) ++found[k];
+        if (has || is_named_otherwise(names, &names->item[k], csv)) ++found[k];
     }
     return status;
 }
