@@ -12,7 +12,7 @@ enum { MOST_POWER = 8, PLAIN_POWER = 4, MOST_ORDER = 96, PLAIN_ORDER = 48 };
 
 #define FIRST_OF_SLOTS 5.0  /* order of a back-EMF beside 6, the first of cogging torque and co-energy */
 #define WHOLE_TURN     0.9  /* electrical, of a run that tells orders by its samples */
-#define SHARED         0.6  /* of what was found as one, that each of those which make it together has */
+#define SHARED         0.7  /* of what was found as one, that each of those which make it together has */
 #define HALF           1e-6 /* of an order: half as many orders as samples is one too many */
 
 /* ---- how far ---- */
@@ -118,6 +118,20 @@ static double twin_of(const hci_coenergy_sizes *found, const hci_candidate *x)
     return size[place] > 0.0 ? SHARED * x->coenergy_unit * usual_size(size) : 0.0;
 }
 
+/* A term that was found is about as large as what was found is: where the recordings tell it, that does not
+ * matter, and where a run that alone tells it from another is left out, it cannot be anything. */
+static void known_narrow(const hci_coenergy_sizes *found, const hci_candidate *x, size_t j,
+                         hci_allowed_terms *t, size_t at)
+{
+    const size_t place = hci_coenergy_place(x->term[j].order);
+    const double size = fmax(found->usual[place], found->unlike[place]);
+    const double departure = hci_candidate_departure(x, j);
+    const double deviation = fmax(fabs(departure), x->coenergy_unit * size);
+    if (isnan(t->fixed[at]) || !(x->coenergy_unit > 0.0 && deviation > 0.0)) return;
+    t->known[at] = deviation;
+    t->centre[at] = -departure;
+}
+
 /* One term of a candidate: a term of the model keeps what was expected of it, unless that is by the width;
  * all others are expected where they are. */
 static void term_fill(const hci_regression *e, const hci_candidates *fitted, const hci_coenergy_sizes *found,
@@ -133,6 +147,7 @@ static void term_fill(const hci_regression *e, const hci_candidates *fitted, con
     t->fixed[at] = by_width ? (double)NAN : deviation > 0.0 ? 1.0 / (deviation * deviation) : 0.0;
     t->centre[at] = known ? -x->term[j].value : 0.0;
     t->twin[at] = isnan(t->fixed[at]) && x->coenergy_unit > 0.0 ? twin_of(found, x) : 0.0;
+    if (known) known_narrow(found, x, j, t, at);
     t->of_mean[at] = x->coenergy_unit > 0.0 && x->term[j].order < FIRST_OF_SLOTS;
 }
 
@@ -148,7 +163,7 @@ hci_status hci_allowed_terms_make(const hci_regression *regression, const hci_ca
     if (status) return status;
     t->candidates.reference_current_A = series.reference_current_A;
     const size_t terms = hci_candidates_terms_in(&t->candidates);
-    t->unit = hci_memory_new(4 * terms + 1, sizeof *t->unit);
+    t->unit = hci_memory_new(5 * terms + 1, sizeof *t->unit);
     t->of_mean = hci_memory_new(terms + 1, sizeof *t->of_mean);
     if (!t->unit || !t->of_mean) {
         hci_allowed_terms_release(t);
@@ -157,6 +172,7 @@ hci_status hci_allowed_terms_make(const hci_regression *regression, const hci_ca
     t->fixed = t->unit + terms;
     t->centre = t->fixed + terms;
     t->twin = t->centre + terms;
+    t->known = t->twin + terms;
     for (size_t k = 0; k < t->candidates.count; ++k) {
         hci_candidate *x = &t->candidates.candidate[k];
         for (size_t j = 0; j < x->count; ++j)
@@ -180,5 +196,8 @@ void hci_allowed_terms_precision(const hci_allowed_terms *t, hci_allowed_width w
         const double by_width = width.orders * (t->of_mean[k] ? width.mean_times : 1.0) * t->unit[k];
         const double deviation = fmax(by_width, width.twins * t->twin[k]);
         precision[k] = isnan(t->fixed[k]) ? 1.0 / (deviation * deviation) : t->fixed[k];
+        if (!(t->known[k] > 0.0)) continue;
+        const double known = t->known[k] * (width.twins > 0.0 ? width.twins : 1.0);
+        precision[k] = fmax(precision[k], 1.0 / (known * known));
     }
 }

@@ -15,6 +15,7 @@ typedef struct {
     double *fixed; /* [count]: one over the variance that is expected whatever the width; NAN: by the width */
     double *centre; /* [count]: expected value less the value of the fitted machine */
     double *twin;   /* [count]: deviation that what was found at its order makes likely; 0: none */
+    double *known;  /* [count]: of one that was found, what is likely of it; 0: any */
     bool *of_mean;  /* [count]: whether it is one of the mean torque: order 0, and of the back-EMF order 1 */
 } hci_allowed_terms;
 
@@ -27,7 +28,7 @@ void hci_allowed_terms_release(hci_allowed_terms *terms);
  * times that, since slots make the orders and saturation of the iron as a whole the mean. */
 typedef struct {
     double orders, mean_times;
-    double twins; /* and no less than so many times `twin` */
+    double twins; /* and no less than so many times `twin`, in units of the errors' size */
 } hci_allowed_width;
 
 /* precision[count]: one over the variance that is expected. */

@@ -212,6 +212,7 @@ static hci_status diagnose(hci_dataset *b, const hci_machine_data *machine, cons
     }
     if (!status) d->beyond_voltages = beyond_voltages(b, machine, runs, d);
     if (!status) status = hci_next_points_unknown(&b->regression, machine, d, note);
+    if (!status) status = hci_next_points_left_open(&b->regression, machine, d, note);
     hci_attribution_release(&a);
     return status;
 }

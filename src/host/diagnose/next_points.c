@@ -8,6 +8,7 @@
 #include "host/base/words.h"
 #include "host/diagnose/fit/fit.h"
 #include "host/diagnose/fit/predicted_reading.h"
+#include "host/diagnose/next/open_points.h"
 #include "host/diagnose/next/tell_apart.h"
 #include "host/diagnose/next/unknown_points.h"
 
@@ -338,5 +339,50 @@ hci_status hci_next_points_unknown(const hci_regression *e, const hci_machine_da
     if (status) return status;
     points_add(e, &playable, &choice, found, d);
     advice_of_unknown(d, before);
+    return HCI_OK;
+}
+
+/* ---- what makes the same torque ---- */
+
+static void words_of_open(const hci_open_point *x, hci_next_point *to)
+{
+    const hci_words w = {to->why, sizeof to->why};
+    if (to->why[0]) hci_words_say(&w, "; ");
+    if (x->twin[0])
+        hci_words_say(&w, "tells %s from %s, which make the same torque in the recordings (χ² %.3g)",
+                      x->found, x->twin, x->chi_square);
+    else
+        hci_words_say(&w, "machines that the recordings allow differ by %.2g N·m rms here (χ² %.3g)",
+                      x->spread_Nm, x->chi_square);
+}
+
+static void advice_of_open(const hci_open_point *x, const hci_next_point *p, hci_diagnosis *d)
+{
+    const hci_words w = {d->advice, sizeof d->advice};
+    if (!advice_begin(d)) return;
+    if (x->twin[0])
+        hci_words_say(&w, "what was found as %s may be %s in part: ", x->found, x->twin);
+    else
+        hci_words_say(&w, "what these currents do not show: ");
+    advice_of_point(d, p);
+    hci_words_say(&w, " would tell (χ² %.3g)", x->chi_square);
+}
+
+hci_status hci_next_points_left_open(const hci_regression *e, const hci_machine_data *machine,
+                                     hci_diagnosis *d, hci_note *note)
+{
+    hci_operating_point point[HCI_OPERATING_POINTS];
+    hci_open_point open;
+    bool found = false;
+    const hci_playable playable = hci_playable_of(e, machine);
+    const hci_status status =
+        hci_open_points_find(&machine->model, &d->uncertainty, &playable, &open, &found, note);
+    if (status || !found) return status;
+    hci_operating_points(&playable, point);
+    hci_next_point *to = row_of(d, &playable, &point[open.point]);
+    if (!to) return HCI_OK;
+    to->chi_square += open.chi_square;
+    words_of_open(&open, to);
+    advice_of_open(&open, to, d);
     return HCI_OK;
 }

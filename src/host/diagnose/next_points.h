@@ -17,4 +17,9 @@ hci_status hci_next_points_tell_apart(const hci_regression *regression, const hc
 hci_status hci_next_points_unknown(const hci_regression *regression, const hci_machine_data *machine,
                                    hci_diagnosis *diagnosis, hci_note *note);
 
+/* For terms that make the same torque in all recordings as what was found: adds to both. The diagnosis is
+ * whole otherwise. HCI_ERROR_MEMORY. */
+hci_status hci_next_points_left_open(const hci_regression *regression, const hci_machine_data *machine,
+                                     hci_diagnosis *diagnosis, hci_note *note);
+
 #endif

@@ -50,7 +50,7 @@ static hci_status try(const hci_allowed_terms *terms, const hci_condensed *runs,
     if (!x->left) return hci_note_memory(note, NULL, "what recordings leave open");
     ++t->count;
     if (!hci_ridge_make(runs, &expected, &ridge)) return HCI_OK;
-    const bool left_out = hci_ridge_leave_out(&ridge, runs, x->left);
+    const bool left_out = hci_ridge_leave_out(&ridge, runs, t->share, x->left);
     hci_ridge_release(&ridge);
     if (!left_out && hci_watch_stops(runs->watch)) return HCI_ERROR_STOPPED;
     if (!left_out) return hci_note_memory(note, NULL, "leaving runs out");
@@ -98,13 +98,31 @@ static void weigh(hci_width_trials *t)
         t->trial[k].weight /= sum;
 }
 
+/* With the narrowest width: what a run alone tells of the model then, it tells with any. */
+static hci_status shares_find(const hci_allowed_terms *terms, const hci_condensed *runs, hci_width_trials *t,
+                              hci_note *note)
+{
+    const hci_allowed_width narrowest = {WIDTHS[WIDTH_COUNT - 1], 1.0, 0.0};
+    const hci_expectation expected = {precision_of(t, terms, narrowest), terms->centre};
+    hci_ridge ridge;
+    t->share = hci_memory_new(runs->count + 1, sizeof *t->share);
+    if (!t->share) return hci_note_memory(note, NULL, "leaving runs out");
+    t->shares = runs->count;
+    if (!hci_ridge_make(runs, &expected, &ridge)) return HCI_OK;
+    const bool made = hci_ridge_shares(&ridge, runs, t->share);
+    hci_ridge_release(&ridge);
+    if (!made && hci_watch_stops(runs->watch)) return HCI_ERROR_STOPPED;
+    return made ? HCI_OK : hci_note_memory(note, NULL, "leaving runs out");
+}
+
 hci_status hci_width_trials_make(const hci_allowed_terms *terms, const hci_condensed *runs,
                                  hci_width_trials *t, hci_note *note)
 {
     memset(t, 0, sizeof *t);
     t->precision = hci_memory_new(terms->count + 1, sizeof *t->precision);
     if (!t->precision) return hci_note_memory(note, NULL, "what recordings leave open");
-    hci_status status = try_all_alike(terms, runs, t, note);
+    hci_status status = shares_find(terms, runs, t, note);
+    if (!status) status = try_all_alike(terms, runs, t, note);
     if (!status) status = try_wider_means(terms, runs, t, note);
     if (!status) weigh(t);
     return status;
@@ -114,6 +132,9 @@ void hci_width_trials_release(hci_width_trials *t)
 {
     for (size_t k = 0; k < t->count; ++k)
         hci_memory_free(t->trial[k].left);
+    for (size_t g = 0; g < t->shares; ++g)
+        hci_memory_free(t->share[g]);
+    hci_memory_free(t->share);
     hci_memory_free(t->precision);
     memset(t, 0, sizeof *t);
 }

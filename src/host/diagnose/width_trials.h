@@ -25,6 +25,8 @@ typedef struct {
     hci_width_trial trial[HCI_MOST_WIDTHS];
     size_t count, best; /* best: the one with the least misfit */
     double *precision;  /* [terms], of work */
+    double **share;     /* [shares]: of each group of runs, what it alone tells has no say */
+    size_t shares;
 } hci_width_trials;
 
 /* trials: out; on failure as far as they came, to be released. HCI_ERROR_MEMORY, HCI_ERROR_STOPPED. O(n³/3) for each width. */

@@ -7,7 +7,7 @@
 #include "host/base/memory.h"
 
 #define REGULAR 1e-12 /* added to a diagonal of 1, so that rounding makes no pivot negative */
-#define ALONE   1e-8  /* the same of I − K, where a group alone tells of an unknown */
+#define ALONE   1e-11 /* the same of I − K, where a group alone tells of an unknown */
 
 static void matrix_fill(const hci_condensed *rows, const hci_expectation *expected, hci_ridge *p)
 {
@@ -60,6 +60,7 @@ void hci_ridge_release(hci_ridge *p)
 typedef struct {
     const hci_ridge *ridge;
     const hci_condensed_group *group;
+    const double *share; /* NULL: nothing of e is without a say */
     double *v, *k, *m, *u, *e;
 } leaving;
 
@@ -112,14 +113,27 @@ static bool errors_find(const leaving *w)
     return true;
 }
 
+/* eᵀ(I − share)e */
+static double told_by_others(const leaving *w)
+{
+    const size_t rank = w->group->rank;
+    double sum = 0.0;
+    for (size_t i = 0; i < rank; ++i) {
+        double x = w->e[i];
+        for (size_t j = 0; w->share && j < rank; ++j)
+            x -= w->share[i * rank + j] * w->e[j];
+        sum += w->e[i] * x;
+    }
+    return fmax(0.0, sum);
+}
+
 static hci_left_out_group judge(const leaving *w)
 {
     const size_t rank = w->group->rank;
     const double beside = w->group->rows - (double)rank,
                  noise = beside >= 1.0 ? w->group->rest / beside : 0.0;
-    double square = w->group->rest, sum = 0.0, trace = 0.0, squares = 0.0;
+    double square = w->group->rest + told_by_others(w), sum = 0.0, trace = 0.0, squares = 0.0;
     for (size_t i = 0; i < rank; ++i) {
-        square += w->e[i] * w->e[i];
         trace += w->k[i + i * rank];
         for (size_t j = 0; j < rank; ++j) {
             sum += w->u[i] * w->k[i + j * rank] * w->e[j];
@@ -130,28 +144,68 @@ static hci_left_out_group judge(const leaving *w)
     return (hci_left_out_group){square, sum / trace, trace * trace / squares, noise};
 }
 
-static bool leave_one(const hci_ridge *p, const hci_condensed_group *group, hci_left_out_group *out)
+/* False when memory is out. */
+static bool leaving_make(const hci_ridge *p, const hci_condensed_group *group, leaving *w)
 {
     const size_t rank = group->rank, n = p->n;
-    leaving w = {.ridge = p, .group = group};
-    w.v = hci_memory_new((n + 2 * rank + 2) * rank + 1, sizeof *w.v);
-    if (!w.v) return false;
-    w.k = w.v + n * rank;
-    w.m = w.k + rank * rank;
-    w.u = w.m + rank * rank;
-    w.e = w.u + rank;
-    whiten(&w);
-    products_fill(&w);
+    *w = (leaving){.ridge = p, .group = group};
+    w->v = hci_memory_new((n + 2 * rank + 2) * rank + 1, sizeof *w->v);
+    if (!w->v) return false;
+    w->k = w->v + n * rank;
+    w->m = w->k + rank * rank;
+    w->u = w->m + rank * rank;
+    w->e = w->u + rank;
+    whiten(w);
+    products_fill(w);
+    return true;
+}
+
+static bool leave_one(const hci_ridge *p, const hci_condensed_group *group, const double *share,
+                      hci_left_out_group *out)
+{
+    leaving w;
+    if (!leaving_make(p, group, &w)) return false;
+    w.share = share;
     *out = errors_find(&w) ? judge(&w) : (hci_left_out_group){INFINITY, NAN, 0.0, 0.0};
     hci_memory_free(w.v);
     return true;
 }
 
-bool hci_ridge_leave_out(const hci_ridge *ridge, const hci_condensed *rows, hci_left_out_group *out)
+bool hci_ridge_leave_out(const hci_ridge *ridge, const hci_condensed *rows, double *const *share,
+                         hci_left_out_group *out)
 {
     for (size_t g = 0; g < rows->count; ++g)
-        if (hci_watch_stops(rows->watch) || !leave_one(ridge, &rows->group[g], &out[g])) return false;
+        if (hci_watch_stops(rows->watch) || !leave_one(ridge, &rows->group[g], share ? share[g] : NULL, &out[g]))
+            return false;
     return true;
+}
+
+static double *share_of(const hci_ridge *ridge, const hci_condensed_group *group)
+{
+    const size_t rank = group->rank;
+    leaving w;
+    double *share = hci_memory_new(rank * rank + 1, sizeof *share);
+    if (!share || !leaving_make(ridge, group, &w)) {
+        hci_memory_free(share);
+        return NULL;
+    }
+    memcpy(share, w.k, rank * rank * sizeof *share);
+    hci_memory_free(w.v);
+    return share;
+}
+
+bool hci_ridge_shares(const hci_ridge *ridge, const hci_condensed *rows, double **share)
+{
+    bool made = true;
+    for (size_t g = 0; g < rows->count; ++g) {
+        share[g] = made && !hci_watch_stops(rows->watch) ? share_of(ridge, &rows->group[g]) : NULL;
+        made = made && share[g];
+    }
+    for (size_t g = 0; g < rows->count && !made; ++g) {
+        hci_memory_free(share[g]);
+        share[g] = NULL;
+    }
+    return made;
 }
 
 /* ---- how groups differ ---- */

@@ -38,14 +38,22 @@ void hci_ridge_release(hci_ridge *ridge);
 
 /* What leaving each group out tells. */
 typedef struct {
-    double square;     /* Σ (y − X x)² with the mean from all others */
+    double square;     /* Σ (y − X x)² with the mean from all others; with shares eᵀ(I − K)e + rest */
     double misfit;     /* s² of this group; NAN where it tells of no unknown */
     double directions; /* of how many squares that is the mean, (tr K)²/tr K² */
     double noise;      /* mean square of what no unknown describes; 0 where there is nothing else */
 } hci_left_out_group;
 
-/* out[rows->count]. False when memory is out or rows->watch stops. O(n² Σ rank). */
-bool hci_ridge_leave_out(const hci_ridge *ridge, const hci_condensed *rows, hci_left_out_group *out);
+/* K of each group, row by row: what share of all that is known each direction of it tells.
+ * share[rows->count]: out, each of [rank²], to be freed with hci_memory_free; on failure, when memory is out or
+ * rows->watch stops, all are NULL. O(n² Σ rank). */
+bool hci_ridge_shares(const hci_ridge *ridge, const hci_condensed *rows, double **share);
+
+/* share: of a ridge, or NULL: what a group alone tells by it has no say in `square`, since no mean from
+ * others describes it but by chance. out[rows->count]. False when memory is out or rows->watch stops.
+ * O(n² Σ rank). */
+bool hci_ridge_leave_out(const hci_ridge *ridge, const hci_condensed *rows, double *const *share,
+                         hci_left_out_group *out);
 
 /* By how much groups differ in the size of their errors, beyond what chance makes of few numbers.
  *

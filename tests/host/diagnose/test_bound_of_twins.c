@@ -146,7 +146,8 @@ static void test_two_inductances(void)
     is_within(error_at(-3.0, 5.0, 0.2), 5.0);
 }
 
-/* A run with i_d tells them apart, and the bound is as narrow as its noise. */
+/* A run with i_d tells them apart: that it is to be recorded is said, and with it the bound is as narrow as
+ * the noise. */
 static void test_told_apart(void)
 {
     fifth[0] = 0.004;
@@ -154,9 +155,15 @@ static void test_told_apart(void)
     diagnose_without_id();
     error_at(-2.0, 6.0, 0.2);
     const double before_Nm = expected.error_peak_to_peak_Nm;
+    TEST_ASSERT_EQUAL_UINT(1, diagnosis.next_points);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(diagnosis.next[0].why, "back_emf sine_5"), diagnosis.next[0].why);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(diagnosis.next[0].why, "back_emf sine_7"), diagnosis.next[0].why);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(diagnosis.advice, "in part: 10 turns at"), diagnosis.advice);
+    const hci_next_point next = diagnosis.next[0];
+    TEST_ASSERT_TRUE(next.id_A != 0.0 && isfinite(next.iq_A));
     hci_diagnosis_release(&diagnosis);
-    measure_at(-4.0, 6.0);
-    measure_at(-2.0, 3.0);
+    for (int k = 0; k < 5; ++k)
+        measure_at(next.id_A, next.iq_A);
     TEST_ASSERT_TRUE(diagnose(NULL) <= HCI_NOT_REACHED);
     error_at(-2.0, 6.0, 0.2);
     TEST_ASSERT_TRUE(expected.error_peak_to_peak_Nm < 0.25 * before_Nm);

@@ -76,7 +76,7 @@ static void solve(void)
     const hci_expectation expected = {precision, centre};
     condense();
     TEST_ASSERT_TRUE(hci_ridge_make(&condensed, &expected, &ridge));
-    TEST_ASSERT_TRUE(hci_ridge_leave_out(&ridge, &condensed, left));
+    TEST_ASSERT_TRUE(hci_ridge_leave_out(&ridge, &condensed, NULL, left));
 }
 
 /* ---- condensed groups ---- */
@@ -379,7 +379,7 @@ static void test_a_copy_does_not_vouch_for_a_run(void)
     TEST_ASSERT_DOUBLE_WITHIN(0.01, 0.0, left[0].square); /* the copy says 5 as well */
     TEST_ASSERT_TRUE(hci_condensed_join(&condensed, unit, 0.99, &joined, of));
     TEST_ASSERT_TRUE(hci_ridge_make(&joined, &expected, &of_joined));
-    TEST_ASSERT_TRUE(hci_ridge_leave_out(&of_joined, &joined, alone));
+    TEST_ASSERT_TRUE(hci_ridge_leave_out(&of_joined, &joined, NULL, alone));
     TEST_ASSERT_DOUBLE_WITHIN(0.01, 2.0 * 5.0 * 5.0, alone[of[0]].square);
     hci_ridge_release(&of_joined);
     hci_condensed_release(&joined);
@@ -463,7 +463,7 @@ static void test_memory(void)
     TEST_ASSERT_FALSE(hci_ridge_make(&condensed, &expected, &ridge));
     hci_memory_fail_after(1);
     TEST_ASSERT_TRUE(hci_ridge_make(&condensed, &expected, &ridge));
-    TEST_ASSERT_FALSE(hci_ridge_leave_out(&ridge, &condensed, left));
+    TEST_ASSERT_FALSE(hci_ridge_leave_out(&ridge, &condensed, NULL, left));
     for (long allocations = 0; allocations < 4; ++allocations) {
         hci_condensed joined = {0};
         size_t of[MOST_GROUPS];
