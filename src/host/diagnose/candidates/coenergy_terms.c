@@ -94,6 +94,7 @@ typedef struct {
 static void measure(void *context, const hci_effect_candidate *x)
 {
     const meter *m = context;
+    if (x->power == 0) return;
     double *size = &m->size[hci_coenergy_place(x->order)];
     for (size_t k = 0; k < m->known->count; ++k) {
         const hci_candidate *c = &m->known->candidate[k];

@@ -13,7 +13,8 @@ hci_status hci_coenergy_terms(const hci_candidates *known, const hci_effect_coen
 
 enum { HCI_COENERGY_ORDERS = 32 }; /* multiples of six, from 0 */
 
-/* What was found at each order n of the co-energy, n/6 its place. */
+/* What was found at each order n of the co-energy beside cogging torque, n/6 its place. A cogging torque says
+ * nothing of what grows with the current: all that it could be taken for would be seen beside it. */
 typedef struct {
     double usual[HCI_COENERGY_ORDERS];  /* of a rotor that looks alike both ways round: the largest departure
                                          * from the declared machine, as the coefficient of power 2 and order
