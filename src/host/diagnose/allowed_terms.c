@@ -12,7 +12,7 @@ enum { MOST_POWER = 8, PLAIN_POWER = 4, MOST_ORDER = 96, PLAIN_ORDER = 48 };
 
 #define FIRST_OF_SLOTS 5.0  /* order of a back-EMF beside 6, the first of cogging torque and co-energy */
 #define WHOLE_TURN     0.9  /* electrical, of a run that tells orders by its samples */
-#define SHARED         0.7  /* of what was found as one, that each of those which make it together has */
+#define SHARED         0.75 /* of what was found as one, that each of those which make it together has */
 #define HALF           1e-6 /* of an order: half as many orders as samples is one too many */
 
 /* ---- how far ---- */
