@@ -12,7 +12,6 @@ enum { MOST_POWER = 8, PLAIN_POWER = 4, MOST_ORDER = 96, PLAIN_ORDER = 48 };
 
 #define FIRST_OF_SLOTS 5.0  /* order of a back-EMF beside 6, the first of cogging torque and co-energy */
 #define WHOLE_TURN     0.9  /* electrical, of a run that tells orders by its samples */
-#define SHARED         0.75 /* of what was found as one, that each of those which make it together has */
 #define HALF           1e-6 /* of an order: half as many orders as samples is one too many */
 
 /* ---- how far ---- */
@@ -114,8 +113,8 @@ static double twin_of(const hci_coenergy_sizes *found, const hci_candidate *x)
 {
     const size_t place = hci_coenergy_place(x->term[0].order);
     const double *size = x->unlike ? found->unlike : found->usual;
-    if (place == 0) return SHARED * x->coenergy_unit * size[0];
-    return size[place] > 0.0 ? SHARED * x->coenergy_unit * usual_size(size) : 0.0;
+    if (place == 0) return x->coenergy_unit * size[0];
+    return size[place] > 0.0 ? x->coenergy_unit * usual_size(size) : 0.0;
 }
 
 /* A term that was found is about as large as what was found is: where the recordings tell it, that does not
