@@ -33,6 +33,11 @@ static const cli_option OPTIONS[] = {
 
 /* ---- words ---- */
 
+static double degrees(double rad)
+{
+    return rad * 180.0 / HCI_PI;
+}
+
 /* Bounds and numbers, in one column. */
 static const char *expected_of(const hci_check_evidence *e, char text[32])
 {
@@ -172,6 +177,20 @@ static void show_counts(const hci_check *c)
     cli_say(" (--verbose lists them)\n");
 }
 
+/* Half a degree and twice its error: less is none. */
+static void show_zero(const hci_check *c)
+{
+    const double off = -degrees(remainder(c->zero_rad, 2.0 * HCI_PI)),
+                 error = fmax(0.1, degrees(c->zero_error_rad));
+    for (size_t k = 0; k < c->findings; ++k)
+        if (strcmp(c->finding[k].slip, "run_angle_offset") == 0) return;
+    if (c->verdict != HCI_CHECK_SLIPS && fabs(off) > fmax(0.5, 2.0 * error))
+        cli_say("  angle zero   %.1f \xC2\xB1 %.1f degrees electrical off in the recordings: --angle-offset "
+                "%.1f takes it "
+                "out\n",
+                off, error, -off);
+}
+
 static void show(const hci_check *c, bool verbose)
 {
     show_verdict(c);
@@ -190,6 +209,7 @@ static void show(const hci_check *c, bool verbose)
         if (c->verdict != HCI_CHECK_CONSISTENT) cli_say("\n");
         show_counts(c);
     }
+    show_zero(c);
     show_untold(c, verbose);
 }
 
@@ -218,11 +238,6 @@ static hci_status give_results(const hci_check *c, const cli_arguments *a, hci_n
 }
 
 /* ---- at which angle a drive reads its table ---- */
-
-static double degrees(double rad)
-{
-    return rad * 180.0 / HCI_PI;
-}
 
 /* The angle is told to a hundredth of a degree at best: logs are not better; and to half a step. */
 static double shown_error(const hci_table_rotation *x)
@@ -336,7 +351,7 @@ static int run(const cli_arguments *arguments)
     cli_reading_without_lists(arguments, 1, &recordings);
     hci_note note = {{0}};
     cli_reading reading;
-    hci_status status = cli_reading_take(a, a->given[STRICT], &reading, &note);
+    hci_status status = cli_reading_take(a, a->given[STRICT], a->value[ANGLE_OFFSET], &reading, &note);
     reading.run.order_base = (hci_order_base)a->choice[ORDER_BASE];
     if (!status && a->given[TABLE]) {
         const int code = check_table(a, a->value[TABLE], a->given[JSON], &reading.run);

@@ -108,7 +108,7 @@ static hci_status read_inputs(const cli_arguments *a, inputs *in, hci_note *note
     if (!a->value[RUNS])
         return hci_note_set(note, HCI_ERROR_ARGUMENT,
                             "diagnose: the recordings are missing; add --runs LIST");
-    status = cli_reading_take(a, a->given[STRICT], &in->reading, note);
+    status = cli_reading_take(a, a->given[STRICT], a->value[ANGLE_OFFSET], &in->reading, note);
     if (!status) status = find_machine(a, in, note);
     in->options.resolution = cli_number_or(a, RESOLUTION, 0.0) / 100.0;
     in->options.progress = cli_progress;

@@ -31,7 +31,7 @@ static hci_status read_all(const cli_arguments *a, inputs *in, hci_note *note)
 {
     if (!a->value[RUNS])
         return hci_note_set(note, HCI_ERROR_ARGUMENT, "fit: the recordings are missing; add --runs LIST");
-    hci_status status = cli_reading_take(a, a->given[STRICT], &in->reading, note);
+    hci_status status = cli_reading_take(a, a->given[STRICT], a->value[ANGLE_OFFSET], &in->reading, note);
     if (!status) status = hci_machine_read(a->word[0], &in->machine, note);
     if (!status) status = hci_effects_read_machine(a->word[0], &in->declared, note);
     if (status) return status;

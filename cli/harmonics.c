@@ -161,7 +161,7 @@ static int run(const cli_arguments *a)
     cli_reading reading;
     memset(&options, 0, sizeof options);
     memset(&recording, 0, sizeof recording);
-    hci_status status = cli_reading_take(a, a->given[STRICT], &reading, &note);
+    hci_status status = cli_reading_take(a, a->given[STRICT], a->value[ANGLE_OFFSET], &reading, &note);
     if (!status) status = read_options(a, &options, orders, &note);
     reading.run.pole_pairs = a->value[POLE_PAIRS] ? (int)a->number[POLE_PAIRS] : 0;
     reading.run.holding = a->given[HOLDING];

@@ -112,7 +112,7 @@ static int run(const cli_arguments *a)
     hci_prediction prediction;
     hci_note note = {{0}};
     cli_reading reading;
-    hci_status status = cli_reading_take(a, a->given[STRICT], &reading, &note);
+    hci_status status = cli_reading_take(a, a->given[STRICT], a->value[ANGLE_OFFSET], &reading, &note);
     reading.run.holding = a->given[HOLDING];
     reading.run.order_base = (hci_order_base)a->choice[ORDER_BASE];
     if (!status) status = keep_apart(a->word[0], a->word[1], a->value[OUT], &note);

@@ -107,7 +107,7 @@ typedef struct {
     [HELP] = CLI_HELP_OPTION, CLI_END_OF_OPTIONS
 
 /* What every command that reads recordings has, before CLI_COMMON_KEYS and CLI_COMMON_OPTIONS. */
-#define CLI_READING_KEYS COLUMN, STRICT
+#define CLI_READING_KEYS COLUMN, ANGLE_OFFSET, STRICT
 #define CLI_READING_OPTIONS                                                                                  \
     [COLUMN] = {"column",                                                                                    \
                 0,                                                                                           \
@@ -117,6 +117,9 @@ typedef struct {
                     "which column of a recording is this quantity, such as torque_mNm=AI3; may be given "    \
                     "for several",                                                                           \
                 .repeats = true},                                                                            \
+    [ANGLE_OFFSET] = {"angle-offset", 0, CLI_TEXT, "ANGLE",                                                  \
+                      .help = "electrical angle to be added to that of a recording, in degrees or with its " \
+                              "unit, such as -0.55rad: from its zero to that of the back-EMF of phase a"},   \
     [STRICT] = {"strict", 0, CLI_FLAG, NULL,                                                                 \
                 .help = "refuse a recording with holes; without it such rows are left out and counted"}
 

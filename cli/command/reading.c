@@ -6,8 +6,10 @@
 
 #include "cli/terminal/say.h"
 
-hci_status cli_reading_take(const cli_arguments *a, bool strict, cli_reading *reading, hci_note *note)
+hci_status cli_reading_take(const cli_arguments *a, bool strict, const char *angle_offset,
+                            cli_reading *reading, hci_note *note)
 {
+    char offset[200];
     hci_status status = HCI_OK;
     memset(reading, 0, sizeof *reading);
     reading->run.inertia_kgm2 = NAN;
@@ -15,7 +17,9 @@ hci_status cli_reading_take(const cli_arguments *a, bool strict, cli_reading *re
     reading->run.columns = &reading->columns;
     for (size_t k = 0; k < a->repeats && !status; ++k)
         status = hci_column_names_add(&reading->columns, a->repeated[k], note);
-    return status;
+    if (status || angle_offset == NULL) return status;
+    snprintf(offset, sizeof offset, "angle_offset=%s", angle_offset);
+    return hci_column_names_add(&reading->columns, offset, note);
 }
 
 void cli_reading_release(cli_reading *reading)

@@ -11,10 +11,10 @@ typedef struct {
     hci_column_names columns;
 } cli_reading;
 
-/* Takes --column and, where it is given, --strict. *reading is to be released even after a failure, and not
- * to be moved. HCI_ERROR_ARGUMENT, HCI_ERROR_MEMORY. */
-hci_status cli_reading_take(const cli_arguments *arguments, bool strict, cli_reading *reading,
-                            hci_note *note);
+/* Takes --column and, where they are given, --strict and --angle-offset (NULL: not). *reading is to be
+ * released even after a failure, and not to be moved. HCI_ERROR_ARGUMENT, HCI_ERROR_MEMORY. */
+hci_status cli_reading_take(const cli_arguments *arguments, bool strict, const char *angle_offset,
+                            cli_reading *reading, hci_note *note);
 void cli_reading_release(cli_reading *reading);
 
 /* The words of a command line, from word `first` on recordings, without a `columns.csv`: what a shell makes

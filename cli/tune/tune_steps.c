@@ -84,6 +84,7 @@ static void add_reading(command_line *c, const cli_arguments *a)
 {
     for (size_t k = 0; k < a->repeats; ++k)
         add_option(c, "column", a->repeated[k]);
+    if (a->given[ANGLE_OFFSET]) add_option(c, "angle-offset", a->value[ANGLE_OFFSET]);
     if (a->given[STRICT]) add_option(c, "strict", NULL);
 }
 
@@ -217,7 +218,7 @@ static hci_status read_inputs(cli_tuning *t, hci_note *note)
     const cli_arguments *a = t->arguments;
     release_inputs(t);
     cli_reading_release(&t->reading);
-    hci_status status = cli_reading_take(a, a->given[STRICT], &t->reading, note);
+    hci_status status = cli_reading_take(a, a->given[STRICT], a->value[ANGLE_OFFSET], &t->reading, note);
     if (!status) status = hci_machine_read(t->machine, &t->declared, note);
     if (!status) status = hci_effects_read_machine(t->machine, &t->effects, note);
     if (status) return status;
@@ -756,7 +757,7 @@ bool cli_tune_knows_zero(const cli_tuning *t)
     for (size_t k = 0; k < t->runs.count; ++k) {
         const hci_run *r = &t->runs.run[k];
         const bool has_phases = r->v_V && r->theta_m_rad && !r->voltage_is_dq;
-        knows = knows || r->is_electrical || (t->has_emf && has_phases);
+        knows = knows || r->is_electrical || r->zero_is_given || (t->has_emf && has_phases);
     }
     return knows;
 }

@@ -5,6 +5,7 @@
 
 #include "host/check/error_place.h"
 #include "host/check/relations.h"
+#include "host/check/run_zero.h"
 
 /* A relation is met up to so many standard deviations. */
 #define MET 2.5
@@ -86,7 +87,7 @@ static void add_finding(const check_posterior *p, const char *name, hci_check *c
     size_t at = check->findings;
     if (finding.probability < HCI_CHECK_POSSIBLE || at == HCI_CHECK_MOST_FINDINGS) return;
     const check_error_set *best = best_with(p, name, &error);
-    const check_interpretation as = hci_check_interpretation_of(best);
+    const check_interpretation as = hci_check_interpretation_of(p->data, best);
     hci_check_error_locate(error, p->data, &as, &finding);
     add_alternatives(p, &finding);
     for (; at > 0 && check->finding[at - 1].probability < finding.probability; --at)
@@ -126,7 +127,7 @@ static bool possible_mends(const check_posterior *p, const hci_check *check, con
     const check_error *error;
     for (size_t k = 0; k < check->findings; ++k) {
         const check_interpretation as =
-            hci_check_interpretation_of(best_with(p, check->finding[k].slip, &error));
+            hci_check_interpretation_of(p->data, best_with(p, check->finding[k].slip, &error));
         if (hci_check_deviation(r, hci_check_relation_value(p->data, r, &as)) <= MET) return true;
     }
     return false;
@@ -135,7 +136,7 @@ static bool possible_mends(const check_posterior *p, const hci_check *check, con
 static hci_check_evidence evidence_of(const check_posterior *p, const check_relation *r)
 {
     const check_interpretation declared = hci_check_as_declared(),
-                               as = hci_check_interpretation_of(&p->list[p->best]);
+                               as = hci_check_interpretation_of(p->data, &p->list[p->best]);
     const check_value before = hci_check_relation_value(p->data, r, &declared),
                       after = hci_check_relation_value(p->data, r, &as);
     hci_check_state state = state_of(hci_check_deviation(r, before), hci_check_deviation(r, after));
@@ -167,19 +168,21 @@ static void add_evidence(const check_posterior *p, hci_check *check)
 /* ---- what leaves no trace */
 
 /* A combination with one error more, or with it in the place of the one about the same thing. */
-static check_interpretation with_error(const check_error_set *set, size_t error)
+static check_interpretation with_error(const check_data *data, const check_error_set *set, size_t error)
 {
     check_interpretation as = hci_check_as_declared();
     for (int k = 0; k < CHECK_MOST_ERRORS; ++k)
         if (set->error[k] >= 0 && HCI_CHECK_ERRORS[set->error[k]].aspect != HCI_CHECK_ERRORS[error].aspect)
             hci_check_error_apply(&as, &HCI_CHECK_ERRORS[set->error[k]]);
     hci_check_error_apply(&as, &HCI_CHECK_ERRORS[error]);
+    hci_check_take_run_zero(data, &as);
     return as;
 }
 
 static bool leaves_a_trace(const check_posterior *p, const check_error_set *in, size_t error)
 {
-    const check_interpretation before = hci_check_interpretation_of(in), after = with_error(in, error);
+    const check_interpretation before = hci_check_interpretation_of(p->data, in),
+                               after = with_error(p->data, in, error);
     for (size_t k = 0; k < hci_check_relation_count(); ++k) {
         const check_relation *r = hci_check_relation(k);
         if (p->used[k] && fabs(hci_check_loss(r, hci_check_relation_value(p->data, r, &after)) -
@@ -189,12 +192,27 @@ static bool leaves_a_trace(const check_posterior *p, const check_error_set *in, 
     return false;
 }
 
+static bool knows_zero(const check_data *data)
+{
+    const check_interpretation declared = hci_check_as_declared();
+    return hci_check_run_zero(data, &declared).is_known;
+}
+
+static bool has_angle(const check_data *data)
+{
+    bool has = false;
+    for (size_t k = 0; k < data->runs; ++k)
+        has = has || data->run[k].theta != NULL;
+    return has;
+}
+
 /* An error that can stand in these files, and in none of its forms changes anything, neither in the files as
  * declared nor in the best interpretation. */
 static bool is_untold(const check_posterior *p, const char *name)
 {
     const check_error_set *best = &p->list[p->best];
     bool applies = false;
+    if (strcmp(name, HCI_CHECK_RUN_OFFSET) == 0) return !knows_zero(p->data) && has_angle(p->data);
     if (has_error(best, name)) return false;
     for (size_t k = 0; k < HCI_CHECK_ERROR_COUNT; ++k) {
         if (strcmp(HCI_CHECK_ERRORS[k].name, name) != 0 ||
@@ -223,6 +241,15 @@ static hci_check_verdict verdict_of(const hci_check *check)
     return HCI_CHECK_CONSISTENT;
 }
 
+/* As declared, in the numbers as they are. */
+static void conclude_zero(const check_posterior *p, hci_check *check)
+{
+    const check_interpretation declared = hci_check_as_declared();
+    const check_run_zero zero = hci_check_run_zero(p->data, &declared);
+    check->zero_rad = zero.is_known ? zero.zero_rad : (double)NAN;
+    check->zero_error_rad = zero.is_known ? zero.std_error_rad : (double)NAN;
+}
+
 void hci_check_conclude(const check_posterior *p, hci_check *check)
 {
     check->probability_as_declared = p->list[0].probability;
@@ -231,4 +258,5 @@ void hci_check_conclude(const check_posterior *p, hci_check *check)
     add_evidence(p, check);
     add_untold(p, check);
     check->verdict = verdict_of(check);
+    conclude_zero(p, check);
 }

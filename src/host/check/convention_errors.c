@@ -15,6 +15,9 @@
 #define USUALLY 0.01
 #define SELDOM  0.005
 
+/* The index of an encoder is where it was screwed on. */
+#define INDEX 0.1
+
 #define FIELD(name) offsetof(check_interpretation, name)
 
 #define UNLOADED "a recording of voltages, angle and speed of the motor driven without current"
@@ -111,6 +114,9 @@ const check_error HCI_CHECK_ERRORS[] = {
     {"run_angle_zero_q_axis", CHECK_OF_RUN_ZERO, USUALLY, FIELD(run_zero_rad), 0.0, -0.5 * HCI_PI,
      CHECK_AT_THETA, "the recordings count the angle from the trough of the back-EMF (e_a = -cos)",
      "the electrical angle - pi/2", UNLOADED},
+    {HCI_CHECK_RUN_OFFSET, CHECK_OF_RUN_ZERO, INDEX, FIELD(run_zero_free), 0.0, 1.0, CHECK_AT_THETA,
+     "the electrical zero of the angle in the recordings is off", "--angle-offset",
+     "voltages with the angle, terminals open and turned by another motor"},
     {"direction_reversed", CHECK_OF_DIRECTION, SELDOM, FIELD(direction), -1.0, 0.0, CHECK_AT_THETA,
      "the angle of the recordings is counted backward", "the angle with the opposite sign",
      "a speed of its own beside time and angle (angle and speed reversed together look like b and c "

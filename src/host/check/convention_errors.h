@@ -81,6 +81,9 @@ typedef struct {
     const char *told_by;   /* what would tell this error from its like */
 } check_error;
 
+/* The error of a zero that may be anywhere. */
+#define HCI_CHECK_RUN_OFFSET "run_angle_offset"
+
 extern const check_error HCI_CHECK_ERRORS[];
 extern const size_t HCI_CHECK_ERROR_COUNT;
 

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "host/base/unit_lookup.h"
+#include "host/check/run_zero.h"
 
 /* Their texts are copied. */
 typedef char
@@ -108,16 +109,23 @@ static bool may_be_unsigned(const check_data *data)
     return goes_back;
 }
 
+static bool is_offset(const check_error *error)
+{
+    return error->field == offsetof(check_interpretation, run_zero_free);
+}
+
 /* Poles are an even number; a motor with one pole pair has no electrical radians of its own; degrees show by
  * phases above 2π, and read as degrees all others would be near 0. */
 bool hci_check_error_applies(const check_error *error, const check_data *data)
 {
+    const check_interpretation declared = hci_check_as_declared();
     const double p = data->value[CHECK_pole_pairs];
     const check_place *place = place_of(data, error->where);
     if (!place || !place->path) return false;
     if (error->where == CHECK_AT_POLES)
         return error->plus > 0.0 ? is_counted_otherwise(data) : fmod(p, 2.0) == 0.0;
     if (error->where == CHECK_AT_SPEED_SIGN) return may_be_unsigned(data);
+    if (is_offset(error)) return hci_check_run_zero(data, &declared).is_known;
     if (error->where == CHECK_AT_PHASE)
         return data->cogging.count > 0 && (is_beyond(&data->emf) || is_beyond(&data->cogging));
     if (error->where == CHECK_AT_EMF_PHASE) return is_beyond(&data->emf);
@@ -200,17 +208,34 @@ static void move_unit(const check_error *error, const check_place *place, char s
              in_both ? ", and " : "", name + base + 1, place->unit_line);
 }
 
+/* "the electrical zero of the angle in the recordings is 31.0 ± 0.4 degrees off" */
+static void say_offset(const check_data *data, const check_interpretation *as, hci_check_finding *finding)
+{
+    const check_run_zero zero = hci_check_run_zero(data, as);
+    const double degrees = -remainder(zero.zero_rad, 2.0 * HCI_PI) * 180.0 / HCI_PI;
+    const double error = fmax(0.1, zero.std_error_rad * 180.0 / HCI_PI);
+    snprintf(finding->words, sizeof finding->words,
+             "the electrical zero of the angle in the recordings is %.1f \xC2\xB1 %.1f degrees off: give "
+             "--angle-offset %.1f",
+             degrees, error, -degrees);
+    snprintf(finding->should_be, sizeof finding->should_be, "the electrical angle %s %.1f degrees",
+             degrees > 0.0 ? "-" : "+", fabs(degrees));
+}
+
 void hci_check_error_locate(const check_error *error, const check_data *data, const check_interpretation *as,
                             hci_check_finding *finding)
 {
     const check_place *place = place_of(data, error->where);
     finding->slip = error->name;
-    finding->words = error->words;
+    snprintf(finding->words, sizeof finding->words, "%s", error->words);
     finding->told_by = error->told_by;
     snprintf(finding->file, sizeof finding->file, "%s", place->path);
     finding->line = place->line;
     memcpy(finding->column, place->column, sizeof finding->column);
     memcpy(finding->found, place->text, sizeof finding->found);
     fill(finding->should_be, error->should_be, right_number(error, data, as));
-    if (place->unit_line > 0) move_unit(error, place, finding->should_be);
+    if (is_offset(error))
+        say_offset(data, as, finding);
+    else if (place->unit_line > 0)
+        move_unit(error, place, finding->should_be);
 }

@@ -40,7 +40,8 @@ typedef struct {
     double theta_unit;                                     /* rad per what stands in the column */
     double direction;                                      /* −1: the angle is counted backward */
     double run_zero_rad;                                   /* θ = angle of the recording + this */
-    double swapped;                                        /* 1: phases b and c of the recordings */
+    double run_zero_free; /* 1: that is what the recordings say themselves (run_zero.h) */
+    double swapped;       /* 1: phases b and c of the recordings */
     double currents_swapped, voltages_swapped; /* 1: those of the currents, of the voltages alone */
     double current, voltage;                   /* factors */
     double dq;                                 /* factor of i_d, i_q and of v_d, v_q */

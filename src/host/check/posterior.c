@@ -5,15 +5,17 @@
 #include "host/base/memory.h"
 #include "host/check/error_place.h"
 #include "host/check/relations.h"
+#include "host/check/run_zero.h"
 
 /* Tables and recordings of one bench are likely to have one zero of the angle. */
 #define SAME_ZERO 0.3
 
-check_interpretation hci_check_interpretation_of(const check_error_set *set)
+check_interpretation hci_check_interpretation_of(const check_data *data, const check_error_set *set)
 {
     check_interpretation as = hci_check_as_declared();
     for (int k = 0; k < CHECK_MOST_ERRORS; ++k)
         if (set->error[k] >= 0) hci_check_error_apply(&as, &HCI_CHECK_ERRORS[set->error[k]]);
+    hci_check_take_run_zero(data, &as);
     return as;
 }
 
@@ -51,9 +53,16 @@ static double log_likelihood(const check_posterior *p, const check_interpretatio
     return -least;
 }
 
+/* A zero that may be anywhere: of all that it could be, what the recordings leave. */
+static double share_of_turn(const check_data *data, const check_interpretation *as)
+{
+    const double error_rad = hypot(hci_check_run_zero(data, as).std_error_rad, CHECK_EMF_ANGLE_TOLERANCE);
+    return fmin(1.0, error_rad / sqrt(2.0 * HCI_PI));
+}
+
 static double log_prior(const check_posterior *p, const check_error_set *set, const check_interpretation *as)
 {
-    double sum = 0.0;
+    double sum = as->run_zero_free > 0.0 ? log(share_of_turn(p->data, as)) : 0.0;
     bool same_zero = fabs(as->zero_rad) > 0.0;
     same_zero = same_zero && fabs(as->zero_rad - as->run_zero_rad) < 1e-9;
     for (int k = 0; k < CHECK_MOST_ERRORS; ++k) {
@@ -82,7 +91,7 @@ static bool weigh(check_posterior *p, int first, int second, int third)
     check_error_set *set = next_of(p);
     if (!set) return false;
     *set = (check_error_set){{first, second, third}, 0.0};
-    const check_interpretation as = hci_check_interpretation_of(set);
+    const check_interpretation as = hci_check_interpretation_of(p->data, set);
     set->probability = log_prior(p, set, &as) + log_likelihood(p, &as);
     return true;
 }

@@ -32,6 +32,6 @@ hci_status hci_check_posterior(const check_data *data, check_posterior *p, hci_n
 void hci_check_posterior_release(check_posterior *p);
 
 /* What is supposed where these errors were made. */
-check_interpretation hci_check_interpretation_of(const check_error_set *set);
+check_interpretation hci_check_interpretation_of(const check_data *data, const check_error_set *set);
 
 #endif

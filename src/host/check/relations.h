@@ -16,7 +16,8 @@
 
 /* Tolerances that are also the measure of what is unknown in one recording. */
 #define CHECK_EMF_TOLERANCE           0.05
-#define CHECK_EMF_ANGLE_TOLERANCE     0.15
+#define CHECK_EMF_ANGLE_TOLERANCE     0.03
+#define CHECK_LOADED_ANGLE_UNKNOWN    0.15 /* rad, of a voltage beside a current, or that a drive asks for */
 #define CHECK_RESISTANCE_TOLERANCE    0.20
 #define CHECK_POWER_TOLERANCE         0.08
 #define CHECK_TORQUE_TOLERANCE        0.05
@@ -35,6 +36,15 @@
 /* A machine without inductances is declared to have L_d = L_q; so much of k_e may p (L_d − L_q) i_d be after
  * all. */
 #define CHECK_SALIENCY_UNKNOWN 0.15
+
+/* The back-EMF in the voltages of a recording that hci_check_has_emf. */
+typedef struct {
+    check_vector found, expected; /* in V: by the voltages, by the table */
+    double unknown;               /* of the length of what is expected */
+} check_emf;
+
+void hci_check_emf_of(const check_data *data, const check_run *r, const check_interpretation *as,
+                      const check_model *m, check_emf *emf);
 
 extern const check_relation_list HCI_CHECK_TABLE_RELATIONS, HCI_CHECK_WAVE_RELATIONS,
     HCI_CHECK_TORQUE_RELATIONS, HCI_CHECK_COGGING_RELATIONS, HCI_CHECK_PHASE_RELATIONS,

@@ -105,6 +105,25 @@ static double along_current_unknown(const check_run *r, const check_voltage_term
     return r->has_dq_voltage ? CHECK_SWITCHES_UNKNOWN * drop : CHECK_DROP_UNKNOWN * drop;
 }
 
+void hci_check_emf_of(const check_data *data, const check_run *r, const check_interpretation *as,
+                      const check_model *m, check_emf *emf)
+{
+    const check_voltage_terms terms = hci_check_voltage_terms_of(r, as, m);
+    const check_vector drop = drop_of(data, r, &terms, m);
+    emf->expected = hci_check_emf_expected(terms.speed, m);
+    emf->found = hci_check_sum(terms.voltage, hci_check_scaled(drop, -1.0));
+    emf->unknown = hypot(CHECK_DROP_UNKNOWN * hci_check_length(drop),
+                         hypot(along_current_unknown(r, &terms, m), voltage_unknown(r, &terms))) /
+                   hci_check_length(emf->expected);
+}
+
+/* Leads, iron and dead times turn a voltage beside a current. */
+static double angle_unknown(const check_data *data, const check_run *r, const check_emf *emf)
+{
+    const bool is_open = !r->has_dq_voltage && !hci_check_has_drop(data, r);
+    return is_open ? emf->unknown : hypot(emf->unknown, CHECK_LOADED_ANGLE_UNKNOWN);
+}
+
 /* Σ E Ê* / Σ |Ê|² over the recordings, with E = v − R i − jω(L_d i_d + jL_q i_q). */
 static check_value emf_fit(const check_data *data, const check_interpretation *as, const check_model *m,
                            bool of_angle)
@@ -113,16 +132,12 @@ static check_value emf_fit(const check_data *data, const check_interpretation *a
     check_fit re = {0}, im = {0};
     for (size_t k = 0; k < data->runs; ++k) {
         const check_run *r = &data->run[k];
+        check_emf emf;
         if (!hci_check_has_emf(data, r, m)) continue;
-        const check_voltage_terms terms = hci_check_voltage_terms_of(r, as, m);
-        const check_vector expected = hci_check_emf_expected(terms.speed, m),
-                           drop = drop_of(data, r, &terms, m);
-        const check_vector found = hci_check_sum(terms.voltage, hci_check_scaled(drop, -1.0));
-        const double length = hci_check_length(expected),
-                     unknown = hypot(CHECK_DROP_UNKNOWN * hci_check_length(drop),
-                                     hypot(along_current_unknown(r, &terms, m), voltage_unknown(r, &terms))) /
-                               length / tolerance;
-        const check_vector cross = hci_check_product(found, hci_check_conjugate(expected));
+        hci_check_emf_of(data, r, as, m, &emf);
+        const double length = hci_check_length(emf.expected),
+                     unknown = (of_angle ? angle_unknown(data, r, &emf) : emf.unknown) / tolerance;
+        const check_vector cross = hci_check_product(emf.found, hci_check_conjugate(emf.expected));
         hci_check_fit_add(&re, cross.re / length, length, unknown);
         hci_check_fit_add(&im, cross.im / length, length, unknown);
     }

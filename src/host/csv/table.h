@@ -44,6 +44,8 @@ struct hci_csv {
     char *shown;                 /* with them: the cell that was asked for last, as text */
     int pole_pairs;              /* that divide mechanical orders; 0: not known */
     bool orders_mechanical;      /* those of a column `order` */
+    bool has_angle_offset;       /* the user gives the zero of a recording's angle */
+    double angle_offset_rad;     /* electrical, to be added to it */
 };
 
 /* Reads the whole of csv->path into csv->text, and makes sure that it is text. HCI_ERROR_INPUT, _MEMORY. */

@@ -5,6 +5,7 @@
 
 #include "hci/host/base/number.h"
 #include "hci/host/base/spelling.h"
+#include "hci/host/base/text.h"
 #include "host/base/memory.h"
 #include "host/base/quote.h"
 #include "host/csv/column.h"
@@ -58,6 +59,59 @@ static void suggest_quantity(const char *name, char *text, size_t size)
         used += (size_t)snprintf(text + used, size - used, "%s%s", k > 0 ? ", " : "write one of ", names[k]);
 }
 
+/* ---- the zero of the angle, which is no column ---- */
+
+#define OFFSET "angle_offset"
+
+/* "angle_offset", or with a unit of angle behind it. unit: out, degrees without it. */
+static bool is_offset(const char *name, const hci_unit **unit)
+{
+    const hci_unit *degree = hci_unit_find("deg", 3);
+    const size_t length = strlen(OFFSET);
+    *unit = degree;
+    if (!hci_text_begins(name, OFFSET, length)) return false;
+    if (name[length] == '\0') return true;
+    *unit = name[length] == '_' ? hci_unit_of_suffix(name + length + 1) : NULL;
+    return *unit != NULL && (*unit)->dimension == degree->dimension;
+}
+
+/* "-31", "-31 deg", "-0.54rad", in the unit of the name where it has none itself. */
+static bool offset_of(const hci_column_name *item, double *offset_rad)
+{
+    static const char MINUS[] = "\xE2\x88\x92"; /* − */
+    const hci_unit *unit, *own;
+    char number[40];
+    const char *text = item->column;
+    const bool is_negative = strncmp(text, MINUS, sizeof MINUS - 1) == 0;
+    if (is_negative) text += sizeof MINUS - 1;
+    const size_t length = strspn(text, "+-.0123456789eE");
+    if (!is_offset(item->name, &unit) || length == 0 || length >= sizeof number) return false;
+    memcpy(number, text, length);
+    number[length] = '\0';
+    text += length + strspn(text + length, " ");
+    own = *text != '\0' ? hci_unit_find(text, strlen(text)) : unit;
+    if (own == NULL || own->dimension != unit->dimension || !hci_number_parse(number, offset_rad))
+        return false;
+    *offset_rad *= own->factor * (is_negative ? -1.0 : 1.0);
+    return true;
+}
+
+/* Whether it is an offset. *status: out, whether a good one. */
+static bool check_offset(const hci_column_name *item, hci_status bad, hci_status *status, hci_note *note)
+{
+    const hci_unit *unit;
+    double offset_rad;
+    char quoted[HCI_QUOTE_SIZE];
+    if (!is_offset(item->name, &unit)) return false;
+    *status = offset_of(item, &offset_rad)
+                  ? HCI_OK
+                  : hci_note_set(note, bad,
+                                 "%.300s: found %s, expected an electrical angle to be added to that of the "
+                                 "recording, in degrees or with its unit, such as -31.5 or -0.55rad",
+                                 item->from, hci_quote(item->column, quoted));
+    return true;
+}
+
 static hci_status unknown_name(const char *from, const char *name, hci_status status, hci_note *note)
 {
     char quoted[HCI_QUOTE_SIZE], remedy[400];
@@ -68,8 +122,15 @@ static hci_status unknown_name(const char *from, const char *name, hci_status st
 
 /* ---- the list ---- */
 
+static void release(hci_column_name *item)
+{
+    hci_memory_free(item->name);
+    hci_memory_free(item->column);
+    hci_memory_free(item->from);
+}
+
 /* Takes the three texts, whatever is returned. */
-static hci_status add(hci_column_names *names, hci_column_name item, hci_note *note)
+static hci_status append(hci_column_names *names, hci_column_name item, hci_note *note)
 {
     hci_column_name *larger = hci_memory_resize(names->item, names->count + 1, sizeof *larger);
     if (larger != NULL) names->item = larger;
@@ -77,10 +138,20 @@ static hci_status add(hci_column_names *names, hci_column_name item, hci_note *n
         names->item[names->count++] = item;
         return HCI_OK;
     }
-    hci_memory_free(item.name);
-    hci_memory_free(item.column);
-    hci_memory_free(item.from);
+    release(&item);
     return hci_note_memory(note, NULL, "names of columns");
+}
+
+/* The same of what may be no name of a quantity: then `bad`. */
+static hci_status add(hci_column_names *names, hci_column_name item, hci_status bad, hci_note *note)
+{
+    hci_status status = HCI_OK;
+    const bool is_whole = item.name != NULL && item.column != NULL && item.from != NULL;
+    if (is_whole && !check_offset(&item, bad, &status, note) && !is_quantity(item.name))
+        status = unknown_name(item.from, item.name, bad, note);
+    if (!status) return append(names, item, note);
+    release(&item);
+    return status;
 }
 
 hci_status hci_column_names_add(hci_column_names *names, const char *text, hci_note *note)
@@ -93,14 +164,7 @@ hci_status hci_column_names_add(hci_column_names *names, const char *text, hci_n
                             "--column: found `%.200s`, expected NAME=COLUMN such as torque_Nm=AI3", text);
     const hci_column_name item = {copy_of(text, (size_t)(equals - text)),
                                   copy_of(equals + 1, strlen(equals + 1)), copy_of(from, strlen(from))};
-    if (item.name != NULL && !is_quantity(item.name)) {
-        unknown_name(from, item.name, HCI_ERROR_ARGUMENT, note);
-        hci_memory_free(item.name);
-        hci_memory_free(item.column);
-        hci_memory_free(item.from);
-        return HCI_ERROR_ARGUMENT;
-    }
-    return add(names, item, note);
+    return add(names, item, HCI_ERROR_ARGUMENT, note);
 }
 
 hci_status hci_column_names_add_text(hci_column_names *names, const char *text, const char *from,
@@ -116,10 +180,7 @@ hci_status hci_column_names_add_text(hci_column_names *names, const char *text, 
                                 from, part);
         const hci_column_name item = {copy_of(part, name), copy_of(part + name + 1, length - name - 1),
                                       copy_of(from, strlen(from))};
-        const bool known = item.name == NULL || is_quantity(item.name);
-        if (!known) status = unknown_name(from, item.name, HCI_ERROR_INPUT, note);
-        const hci_status added = add(names, item, note);
-        if (!status) status = added;
+        status = add(names, item, HCI_ERROR_INPUT, note);
         part += length;
     }
     return status;
@@ -166,10 +227,9 @@ static hci_status read_row(hci_column_names *names, const hci_csv *csv, size_t r
     if (!status) status = hci_csv_text(csv, "column", row, &column, note);
     if (status) return status;
     snprintf(from, sizeof from, "%s:%zu", hci_quote_path(hci_csv_path(csv), path), hci_csv_line(csv, row));
-    if (!is_quantity(name)) return unknown_name(from, name, HCI_ERROR_INPUT, note);
     const hci_column_name item = {copy_of(name, strlen(name)), copy_of(column, strlen(column)),
                                   copy_of(from, strlen(from))};
-    return add(names, item, note);
+    return add(names, item, HCI_ERROR_INPUT, note);
 }
 
 hci_status hci_column_names_read(hci_column_names *names, const char *path, hci_note *note)
@@ -200,11 +260,8 @@ hci_status hci_column_names_beside(hci_column_names *names, const char *file, hc
 
 void hci_column_names_release(hci_column_names *names)
 {
-    for (size_t k = 0; k < names->count; ++k) {
-        hci_memory_free(names->item[k].name);
-        hci_memory_free(names->item[k].column);
-        hci_memory_free(names->item[k].from);
-    }
+    for (size_t k = 0; k < names->count; ++k)
+        release(&names->item[k]);
     hci_memory_free(names->item);
     memset(names, 0, sizeof *names);
 }
@@ -332,11 +389,15 @@ static hci_status give_counted(hci_csv *csv, const hci_column_name *item, size_t
                                 : counts_error(csv, item, true, note);
 }
 
-/* *found: whether the file has the column. */
+/* *found: whether the file has the column, or needs none. */
 static hci_status apply(hci_csv *csv, const hci_column_name *item, bool *found, hci_note *note)
 {
     size_t column;
     *found = true;
+    if (offset_of(item, &csv->angle_offset_rad)) {
+        csv->has_angle_offset = true;
+        return HCI_OK;
+    }
     if (find_header(csv, item->column, &column)) return give(csv, item, column, note);
     if (find_counted(csv, item, &column)) return give_counted(csv, item, column, note);
     *found = false;
@@ -350,12 +411,14 @@ hci_status hci_column_names_apply(const hci_column_names *names, bool optional, 
         const hci_column_name *item = &names->item[k];
         bool found;
         status = apply(csv, item, &found, note);
-        if (!found && !is_named_otherwise(names, item, csv) && (!optional || !has_quantity(csv, item->name))) status = no_such_column(csv, item, note);
+        if (!found && !is_named_otherwise(names, item, csv) && (!optional || !has_quantity(csv, item->name)))
+            status = no_such_column(csv, item, note);
     }
     return status;
 }
 
-hci_status hci_column_names_apply_found(const hci_column_names *names, size_t *found, hci_csv *csv, hci_note *note)
+hci_status hci_column_names_apply_found(const hci_column_names *names, size_t *found, hci_csv *csv,
+                                        hci_note *note)
 {
     hci_status status = HCI_OK;
     for (size_t k = 0; names != NULL && k < names->count && !status; ++k) {

@@ -272,6 +272,19 @@ static hci_status read_angles(reader *r, hci_angle_path *path)
     return status;
 }
 
+/* The zero that the user gives. */
+static void turn_angle(reader *r)
+{
+    const hci_csv *csv = r->columns.csv;
+    hci_run *run = r->run;
+    if (!csv->has_angle_offset || run->theta_m_rad == NULL) return;
+    for (size_t k = 0; k < run->count; ++k)
+        run->theta_m_rad[k] += csv->angle_offset_rad / r->pole_pairs;
+    run->zero_is_given = true;
+    hci_note_add(&run->remark, "%.4g degrees electrical are added to the angle",
+                 csv->angle_offset_rad * 180.0 / HCI_PI);
+}
+
 /* θ = ∫ω dt from 0, where only a speed was recorded. */
 static hci_status integrate_speed(reader *r)
 {
@@ -551,6 +564,7 @@ static hci_status read_all(reader *r)
     hci_status status = read_time(r);
     if (!status) status = read_speed(r);
     if (!status) status = read_angles(r, &path);
+    if (!status) turn_angle(r);
     if (!status) status = replace_angle(r);
     if (!status) status = mend_clock(r, path);
     if (!status) status = complete_speed(r, path);

@@ -93,6 +93,8 @@ char *hci_check_json(const hci_check *check)
     put_remarks(&json, check);
     hci_json_text(&json, "verdict", hci_check_verdict_name(check->verdict));
     hci_json_number(&json, "probability_as_declared", check->probability_as_declared);
+    hci_json_number(&json, "zero_e_rad", check->zero_rad);
+    hci_json_number(&json, "zero_error_e_rad", check->zero_error_rad);
     put_lists(&json, check);
     return hci_json_end(&json);
 }

@@ -513,6 +513,59 @@ MISTAKE(electrical_speed, x->speed *= 4.0)
 MISTAKE(rpm, x->speed *= 9.549296585513721)
 MISTAKE(milliseconds, x->time_s *= 1000.0)
 
+MISTAKE(off_by_31_degrees, x->theta += 31.0 / 4.0 * REF_PI / 180.0)
+MISTAKE(off_by_60_degrees, x->theta += 60.0 / 4.0 * REF_PI / 180.0)
+MISTAKE(off_by_240_degrees, x->theta += 240.0 / 4.0 * REF_PI / 180.0)
+MISTAKE(off_by_2_degrees, x->theta += 2.0 / 4.0 * REF_PI / 180.0)
+
+/* The index of an encoder is anywhere: what is off is said with its value, and steps of 60 degrees are not
+ * taken for other phases or signs. */
+static void test_an_index_that_is_off(void)
+{
+    static const struct {
+        mistake *wrong;
+        double degrees;
+        const char *words;
+    } CASES[] = {
+        {off_by_31_degrees, 31.0, "is 31.0 \xC2\xB1 0.1 degrees off: give --angle-offset -31.0"},
+        {off_by_60_degrees, 60.0, "is 60.0 \xC2\xB1 0.1 degrees off: give --angle-offset -60.0"},
+        {off_by_240_degrees, -120.0, "is -120.0 \xC2\xB1 0.1 degrees off: give --angle-offset 120.0"}};
+    for (size_t k = 0; k < sizeof CASES / sizeof *CASES; ++k) {
+        write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
+        TEST_ASSERT_EQUAL_MESSAGE(HCI_NOT_REACHED, check_runs(HEADER, CASES[k].wrong, true), note.text);
+        expect_only("run_angle_offset");
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(check.finding[0].words, CASES[k].words), check.finding[0].words);
+        TEST_ASSERT_DOUBLE_WITHIN(0.01, -CASES[k].degrees, check.zero_rad * 180.0 / REF_PI);
+        remove_files();
+    }
+    write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, check_runs(HEADER, off_by_2_degrees, true), note.text);
+    TEST_ASSERT_DOUBLE_WITHIN(0.01, -2.0, check.zero_rad * 180.0 / REF_PI);
+}
+
+/* Given, it is no slip any more; without voltages and with one load it is not known, and said to be. */
+static void test_an_offset_that_is_given(void)
+{
+    static const char *run[1];
+    hci_column_names names = {0};
+    const hci_run_options reading = {.columns = &names};
+    write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
+    TEST_ASSERT_EQUAL(HCI_OK, hci_column_names_add(&names, "angle_offset=-31", &note));
+    check_runs(HEADER, off_by_31_degrees, true);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_check_files(files_root, check.run, 2, &reading, &check, &note),
+                              note.text);
+    TEST_ASSERT_DOUBLE_WITHIN(0.01, 0.0, check.zero_rad * 180.0 / REF_PI);
+    hci_column_names_release(&names);
+    remove_files();
+    write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
+    run[0] = path[paths];
+    write_run("load.csv", "time_s,theta_m_rad,speed_rad_per_s,ia_A,ib_A,ic_A,,,,torque_Nm", 0.0, 10.0, none);
+    TEST_ASSERT_EQUAL_MESSAGE(
+        HCI_OK, hci_check_files(files_root, run, 1, &(hci_run_options){0}, &check, &note), note.text);
+    TEST_ASSERT_TRUE(is_untold("run_angle_offset"));
+    TEST_ASSERT_TRUE(isnan(check.zero_rad));
+}
+
 static void test_slips_of_recordings(void)
 {
     static const struct {
@@ -1048,6 +1101,8 @@ int main(void)
     RUN_TEST(test_zero_on_the_q_axis);
     RUN_TEST(test_slips_of_orders_and_phases);
     RUN_TEST(test_slopes_per_electrical_radian);
+    RUN_TEST(test_an_index_that_is_off);
+    RUN_TEST(test_an_offset_that_is_given);
     RUN_TEST(test_slips_of_recordings);
     RUN_TEST(test_mechanical_angle_under_electrical_name);
     RUN_TEST(test_slips_of_dq_currents);

@@ -112,6 +112,33 @@ static void test_one_list_for_two_languages(void)
     text_has("found no column `Kanal M`", note.text);
 }
 
+/* The zero of the angle, in degrees electrical or in a unit of its own; 2 pole pairs. */
+static void test_an_angle_offset(void)
+{
+    static const struct {
+        const char *text;
+        double degrees;
+    } OFFSETS[] = {{"angle_offset=-31", -31.0},
+                   {"angle_offset=-31.5 deg", -31.5},
+                   {"angle_offset_rad=0.5", 28.64788976},
+                   {"angle_offset=0.5rad", 28.64788976},
+                   {"angle_offset=\xE2\x88\x92"
+                    "31",
+                    -31.0}};
+    for (size_t k = 0; k < sizeof OFFSETS / sizeof *OFFSETS; ++k) {
+        add(OFFSETS[k].text);
+        files_write(path, "time_s,theta_e_deg,iq_A,torque_Nm\n0,0,1,1\n1,90,1,2\n2,180,1,3\n");
+        TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, read_run(), note.text);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, (90.0 + OFFSETS[k].degrees) / 2 * REF_PI / 180, run.theta_m_rad[1]);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, sin((90.0 + OFFSETS[k].degrees) * REF_PI / 180), run.i_A[3]);
+        TEST_ASSERT_TRUE(run.zero_is_given);
+        text_has("degrees electrical are added to the angle", run.remark.text);
+        hci_column_names_release(&names);
+    }
+    TEST_ASSERT_EQUAL(HCI_ERROR_ARGUMENT, hci_column_names_add(&names, "angle_offset=3V", &note));
+    text_has("expected an electrical angle to be added to that of the recording", note.text);
+}
+
 static void test_a_list_of_columns_is_no_recording(void)
 {
     files_write(path, "name,column\ntheta_m_deg,Winkel\n");
@@ -275,6 +302,7 @@ int main(void)
     RUN_TEST(test_columns_without_a_name);
     RUN_TEST(test_counts_of_an_encoder);
     RUN_TEST(test_one_list_for_two_languages);
+    RUN_TEST(test_an_angle_offset);
     RUN_TEST(test_a_list_of_columns_is_no_recording);
     RUN_TEST(test_a_lost_time_is_said_first);
     RUN_TEST(test_units_of_the_file);

@@ -21,6 +21,7 @@ enum {
     HCI_CHECK_MOST_ALTERNATIVES = 8, /* slips that mend the same */
     HCI_CHECK_MOST_UNTOLD = 64,      /* slips that leave no trace */
     HCI_CHECK_TEXT = 128,            /* bytes of a text */
+    HCI_CHECK_WORDS = 192,           /* bytes of the words of a slip */
     HCI_CHECK_PATH = 512             /* bytes of a path */
 };
 
@@ -47,7 +48,7 @@ typedef struct {
     char found[HCI_CHECK_TEXT];     /* what stands there */
     char should_be[HCI_CHECK_TEXT]; /* what it should be */
     double probability;             /* of all readings with this slip */
-    const char *words;              /* what it means; static */
+    char words[HCI_CHECK_WORDS];    /* what it means */
     const char *told_by;            /* what would tell it from its alternatives; static */
     const char *alternative[HCI_CHECK_MOST_ALTERNATIVES]; /* slips that mend the same things */
     size_t alternatives;                                  /* entries of alternative in use */
@@ -83,10 +84,12 @@ typedef struct {
 
 /* What a check has found. */
 typedef struct {
-    hci_check_verdict verdict;                            /* in a word */
-    hci_check_finding finding[HCI_CHECK_MOST_FINDINGS];   /* most probable first */
-    size_t findings;                                      /* entries of finding in use */
-    double probability_as_declared;                       /* that nothing is read wrongly */
+    hci_check_verdict verdict;                          /* in a word */
+    hci_check_finding finding[HCI_CHECK_MOST_FINDINGS]; /* most probable first */
+    size_t findings;                                    /* entries of finding in use */
+    double probability_as_declared;                     /* that nothing is read wrongly */
+    double zero_rad, zero_error_rad; /* electrical, to be added to the angle of the recordings so that its
+                                      * zero is that of the tables; NAN: they do not tell it */
     hci_check_evidence evidence[HCI_CHECK_MOST_EVIDENCE]; /* relations that could be checked */
     size_t evidences;                                     /* entries of evidence in use */
     hci_check_gap gap[HCI_CHECK_MOST_EVIDENCE];           /* relations that could not */

@@ -4,7 +4,9 @@
 #include <stdio.h>
 
 #include "hci/machine/frames.h"
+#include "hci/math/harmonic.h"
 #include "host/base/memory.h"
+#include "host/csv/table.h"
 #include "host/recording/clock.h"
 #include "host/recording/holes.h"
 
@@ -50,6 +52,17 @@ static hci_status read_angles(check_run *run, check_samples *s)
     if (!run->is_electrical) return read_column(s, HCI_RUN_THETA_M, &s->theta);
     const hci_status status = read_column(s, HCI_RUN_THETA_E, &s->theta);
     return status ? status : read_column(s, HCI_RUN_THETA_M, &s->other);
+}
+
+/* The zero that the user gives, of an angle that has been read. */
+static void turn_angle(const hci_csv *csv, double pole_pairs, const check_run *run, check_samples *s)
+{
+    double *theta = s->columns.value[run->is_electrical ? HCI_RUN_THETA_E : HCI_RUN_THETA_M];
+    if (!csv->has_angle_offset || theta == NULL) return;
+    for (size_t k = 0; k < s->count; ++k)
+        theta[k] += csv->angle_offset_rad / (run->is_electrical ? 1.0 : pole_pairs);
+    hci_note_add(s->columns.remark, "%.4g degrees electrical are added to the angle",
+                 csv->angle_offset_rad * 180.0 / HCI_PI);
 }
 
 static hci_status read_time(check_samples *s)
@@ -155,14 +168,15 @@ static hci_status read_torque(check_samples *s)
     return read_column(s, HCI_RUN_TORQUE, &s->torque);
 }
 
-hci_status hci_check_samples_read(const hci_csv *csv, check_run *run, check_samples *s, hci_note *remark,
-                                  hci_note *note)
+hci_status hci_check_samples_read(const hci_csv *csv, double pole_pairs, check_run *run, check_samples *s,
+                                  hci_note *remark, hci_note *note)
 {
     hci_run_column first = HCI_RUN_VA;
     hci_status status = hci_run_columns_open_any(csv, &s->columns, remark, note);
     s->count = s->columns.count;
     find_voltages(run, s, &first);
     if (!status) status = read_angles(run, s);
+    if (!status) turn_angle(csv, pole_pairs, run, s);
     if (!status) status = read_time(s);
     if (!status) status = read_speed(run, s);
     if (!status) status = read_torque(s);

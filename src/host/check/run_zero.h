@@ -1,0 +1,20 @@
+/* Where the electrical zero of the recorded angle is. In: the statistics of the recordings, in an
+ * interpretation. Out: the angle to be added to that of the recordings, by the phase of the back-EMF in their
+ * voltages, or where there are none by the torque of phase currents at several angles of the current. */
+#ifndef HCI_SRC_HOST_CHECK_RUN_ZERO_H
+#define HCI_SRC_HOST_CHECK_RUN_ZERO_H
+
+#include "host/check/interpreted_run.h"
+
+typedef struct {
+    bool is_known; /* the recordings have what tells it, in whatever interpretation */
+    double zero_rad, std_error_rad;
+} check_run_zero;
+
+/* as->run_zero_rad does not count. O(recordings). */
+check_run_zero hci_check_run_zero(const check_data *data, const check_interpretation *as);
+
+/* Takes it, where as->run_zero_free says so. */
+void hci_check_take_run_zero(const check_data *data, check_interpretation *as);
+
+#endif
