@@ -74,6 +74,12 @@ for zero in 0.3 -0.3; do
     shifted $zero "$work/shifted.csv"
     run 0 harmonics "$work/shifted.csv" --quantity back_emf --pole-pairs 4
     says 'currents of 1\.41 A rms flow'
+    run 0 harmonics "$work/shifted.csv" --quantity back_emf --pole-pairs 4 -o "$work/turned"
+    check "the fundamental that is written is not the zero" grep -q '^1,[0-9.e-]*,0,' "$work/turned/back_emf.csv"
+    offset=$(tr '\n' ' ' <"$work/stderr" | sed -n 's/.*--angle-offset \([-0-9.]*\) does.*/\1/p')
+    run 0 harmonics "$work/shifted.csv" --quantity back_emf --pole-pairs 4 --angle-offset "$offset"
+    check "$zero: still told with --angle-offset $offset" eval "! grep -q 'zero crossing' '$work/stderr'"
+    run 0 harmonics "$work/shifted.csv" --quantity back_emf --pole-pairs 4
     advice=$(tr '\n' ' ' <"$work/stderr" | sed -n 's/.*zero crossing: *\([a-z]* [0-9.]* rad [a-z]* theta_e\).*/\1/p')
     case $advice in
         'add '*' to theta_e') follows=$(echo "$advice" | awk '{ print $2 }') ;;

@@ -1,6 +1,17 @@
 /* The files that a measured waveform is written to. */
+#include <math.h>
+
 #include "hci/host/report/write.h"
+#include "hci/math/harmonic.h"
 #include "host/plot/plot.h"
+
+/* The fundamental is the zero: θ + φ in place of θ turns order n by −nφ. */
+static double phase_of(const hci_waveform *w, const hci_waveform_order *o)
+{
+    if (!(fabs(w->zero_rad) > 0.0)) return o->phase_rad;
+    const double phase = remainder(o->phase_rad - o->order * w->zero_rad, 2.0 * HCI_PI);
+    return fabs(o->order - 1.0) < HCI_ORDER_TOLERANCE ? 0.0 : phase;
+}
 
 static void write_orders(hci_output *out, const hci_waveform *w, const char *unit)
 {
@@ -10,7 +21,7 @@ static void write_orders(hci_output *out, const hci_waveform *w, const char *uni
         if (!o->kept) continue;
         hci_output_number(out, o->order, ',');
         hci_output_number(out, o->amplitude, ',');
-        hci_output_number(out, o->phase_rad, ',');
+        hci_output_number(out, phase_of(w, o), ',');
         hci_output_number(out, o->std_error, '\n');
     }
 }
