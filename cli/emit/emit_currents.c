@@ -118,3 +118,14 @@ void cli_emit_remark(const cli_arguments *a, const hci_machine_data *machine)
         cli_remark(&remark);
     }
 }
+
+void cli_emit_remark_zero(const cli_arguments *a)
+{
+    hci_note remark = {{0}};
+    if (!a->given[EMIT_ANGLE_OF_LOGS]) return;
+    hci_note_set(
+        &remark, HCI_OK,
+        "the angle is that of the logs, which do not tell where the electrical zero is: harmonics of the "
+        "back-EMF need it (docs/tutorials/zero.md)");
+    cli_remark(&remark);
+}

@@ -25,4 +25,7 @@ void cli_emit_currents_release(cli_emit_currents *in);
  * is given). */
 void cli_emit_remark(const cli_arguments *arguments, const hci_machine_data *machine);
 
+/* What --angle-of-logs says of a map, whose form has no place for it. */
+void cli_emit_remark_zero(const cli_arguments *arguments);
+
 #endif

@@ -53,6 +53,7 @@ int cli_emit_for_drive(const cli_arguments *a)
     if (!status) status = hci_emit_loop(folder, &in.request, &result, &note);
     if (!status && cli_is_wordy()) cli_show_loop(&in.request, &result, folder);
     if (!status) cli_emit_remark(a, &in.machine);
+    if (!status) cli_emit_remark_zero(a);
     if (!status && cli_emit_wants_json(a))
         status = cli_print_json(hci_emit_loop_json(&in.request, &result), &note);
     hci_loop_levels_release(&in.levels);

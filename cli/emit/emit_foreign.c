@@ -51,6 +51,7 @@ int cli_emit_for_foreign(const cli_arguments *a)
     if (!status) status = hci_emit_foreign(folder, &in.request, &result, &note);
     if (!status && cli_is_wordy()) cli_show_foreign(&in.request, &result, folder);
     if (!status) cli_emit_remark(a, &in.currents.machine);
+    if (!status) cli_emit_remark_zero(a);
     if (!status) cli_remark_foreign(&result);
     if (!status && cli_emit_wants_json(a))
         status = cli_print_json(hci_emit_foreign_json(&in.request, &result), &note);

@@ -101,9 +101,10 @@ const cli_option cli_emit_options[] = {
                    .help = "ID.bin too: the table as bytes that a bootloader or a bus brings, for "
                            "hci/blob.h; with --drive for "
                            "hci/loop_blob.h"},
-    [EMIT_ANGLE_OF_LOGS] = {"angle-of-logs", 0, CLI_FLAG, NULL,
-                            .help = "the header says that the angle is that of the logs, and where the "
-                                    "electrical zero is, is not known"},
+    [EMIT_ANGLE_OF_LOGS] =
+        {"angle-of-logs", 0, CLI_FLAG, NULL,
+         .help = "the header, or with --drive and --for a remark, says that the angle is that of "
+                 "the logs, and where the electrical zero is, is not known"},
     [EMIT_ORDER_BASE] = CLI_TABLE_ORDER_BASE_OPTION,
     [EMIT_OUT] = {"out", 'o', CLI_FOLDER, "FOLDER", .help = "where ID.h and ID.c go (default: here)"},
     CLI_COMMON_OPTIONS};
@@ -141,8 +142,6 @@ hci_status cli_emit_check(const cli_arguments *a, hci_note *note)
                        EMIT_MAX_INSTRUCTIONS, EMIT_SPEED),
          "the form of a map --for TARGET is that of the drive; leave out --format, --shape, --frame, "
          "--max-error, --max-bytes, --max-instructions and --speed"},
-        {a->given[EMIT_ANGLE_OF_LOGS] && (drive || target),
-         "--angle-of-logs goes with a table for hci/table.h or hci/table_i16.h; leave out --drive and --for"},
         {a->given[EMIT_SPEED] && !drive, "--speed goes with --drive"},
         {a->words > 1 && !drive, "several folders are levels of torque, which need --drive and --machine"},
         {drive && ANY(a, EMIT_POINTS, EMIT_REFERENCE, EMIT_FORMAT, EMIT_SHAPE, EMIT_MAX_BYTES,

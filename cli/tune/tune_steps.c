@@ -80,11 +80,17 @@ static void add_option(command_line *c, const char *name, const char *value)
     if (value) add(c, value);
 }
 
-static void add_reading(command_line *c, const cli_arguments *a)
+static const char *offset_of(const cli_tuning *t)
 {
+    return t->has_offset ? t->offset : t->arguments->value[ANGLE_OFFSET];
+}
+
+static void add_reading(command_line *c, const cli_tuning *t)
+{
+    const cli_arguments *a = t->arguments;
     for (size_t k = 0; k < a->repeats; ++k)
         add_option(c, "column", a->repeated[k]);
-    if (a->given[ANGLE_OFFSET]) add_option(c, "angle-offset", a->value[ANGLE_OFFSET]);
+    if (offset_of(t)) add_option(c, "angle-offset", offset_of(t));
     if (a->given[STRICT]) add_option(c, "strict", NULL);
 }
 
@@ -124,6 +130,25 @@ static hci_status run(cli_tuning *t, const cli_command *command, command_line *c
 static void path_in(const cli_tuning *t, const char *name, char path[CLI_TUNE_PATH])
 {
     snprintf(path, CLI_TUNE_PATH, "%.1900s/%s", t->out, name);
+}
+
+/* ---- what is known of the logs ---- */
+
+bool cli_tune_is_blocked(const cli_tuning *t)
+{
+    return t->has_slip || t->has_misfit || t->has_unsteady || t->has_alias;
+}
+
+double cli_tune_order_of_slots(const cli_tuning *t)
+{
+    const long slots = lround(t->declared.slots), poles = 2L * t->declared.model.pole_pairs;
+    long a = slots, b = poles;
+    if (!(t->declared.slots > 0.0) || slots < 1) return 0.0;
+    while (b > 0) {
+        const long rest = a % b;
+        a = b, b = rest;
+    }
+    return 2.0 * (double)(slots / a);
 }
 
 /* ---- what is read ---- */
@@ -218,7 +243,7 @@ static hci_status read_inputs(cli_tuning *t, hci_note *note)
     const cli_arguments *a = t->arguments;
     release_inputs(t);
     cli_reading_release(&t->reading);
-    hci_status status = cli_reading_take(a, a->given[STRICT], a->value[ANGLE_OFFSET], &t->reading, note);
+    hci_status status = cli_reading_take(a, a->given[STRICT], offset_of(t), &t->reading, note);
     if (!status) status = hci_machine_read(t->machine, &t->declared, note);
     if (!status) status = hci_effects_read_machine(t->machine, &t->effects, note);
     if (status) return status;
@@ -292,28 +317,83 @@ static void say_check(cli_tuning *t, const hci_check *c)
     }
 }
 
+/* What nothing can be solved with where it is not understood. */
+static bool is_of_angle(const char *relation)
+{
+    static const char *const NAMES[] = {"emf_angle",   "current_order",   "voltage_order", "angle_ratio",
+                                        "angle_speed", "frequency_speed", "cogging_share"};
+    for (size_t k = 0; k < sizeof NAMES / sizeof *NAMES; ++k)
+        if (strcmp(NAMES[k], relation) == 0) return true;
+    return false;
+}
+
+static void judge_check(cli_tuning *t, const hci_check *c)
+{
+    for (size_t k = 0; k < c->evidences && c->verdict == HCI_CHECK_NOT_UNDERSTOOD; ++k)
+        if (c->evidence[k].state == HCI_CHECK_UNMENDED)
+            *(is_of_angle(c->evidence[k].name) ? &t->has_misfit : &t->has_doubt) = true;
+}
+
 /* check has no list of recordings: their first HCI_CHECK_MOST_RUNS are its words. */
+static size_t checked_runs(const cli_tuning *t, const char *run[HCI_CHECK_MOST_RUNS])
+{
+    size_t count = 0;
+    for (; count < t->runs.count && count < HCI_CHECK_MOST_RUNS; ++count)
+        run[count] = t->arguments->given[TUNE_RUNS] ? t->runs.origin[count].path : t->arguments->word[count];
+    return count;
+}
+
+static hci_status run_check(cli_tuning *t, const char *run[HCI_CHECK_MOST_RUNS], hci_check *check,
+                            hci_note *note)
+{
+    hci_run_options reading = t->reading.run;
+    reading.holding = false;
+    const hci_status status = hci_check_files(t->machine, run, checked_runs(t, run), &reading, check, note);
+    return status > HCI_NOT_REACHED ? status : HCI_OK;
+}
+
+/* From here on recordings are read with another zero. */
+static void take_offset(cli_tuning *t, double more_rad, const char *why)
+{
+    const double so_far_rad = t->runs.count > 0 ? t->runs.run[0].zero_offset_rad : 0.0;
+    snprintf(t->offset, sizeof t->offset, "%.3f",
+             remainder(so_far_rad + more_rad, 2.0 * HCI_PI) * 180.0 / HCI_PI);
+    t->has_offset = true;
+    hci_tuning_say(&t->tuning, HCI_TUNING_READ, "--angle-offset %s: the electrical zero of the angle, by %s",
+                   t->offset, why);
+}
+
+/* A zero that is off, and nothing else, is set right. */
+static bool finds_offset(const hci_check *c)
+{
+    size_t found = 0;
+    for (size_t k = 0; k < c->findings; ++k)
+        found += c->finding[k].probability >= HCI_CHECK_FOUND;
+    return found == 1 && strcmp(c->finding[0].slip, "run_angle_offset") == 0;
+}
+
 hci_status cli_tune_check(cli_tuning *t, hci_note *note)
 {
     static hci_check check;
     const char *run[HCI_CHECK_MOST_RUNS];
     char folder[CLI_TUNE_PATH];
     command_line c = {{"check", t->machine}, 2};
-    size_t count = 0;
-    for (; count < t->runs.count && count < HCI_CHECK_MOST_RUNS; ++count) {
-        run[count] = t->arguments->given[TUNE_RUNS] ? t->runs.origin[count].path : t->arguments->word[count];
-        add(&c, run[count]);
+    hci_status status = run_check(t, run, &check, note);
+    if (!status && finds_offset(&check)) {
+        take_offset(t, check.zero_rad, "what check finds in the logs");
+        status = read_inputs(t, note);
+        if (!status) status = run_check(t, run, &check, note);
     }
+    if (status) return status;
+    for (size_t k = 0; k < checked_runs(t, run); ++k)
+        add(&c, run[k]);
     path_in(t, "check", folder);
-    add_reading(&c, t->arguments);
+    add_reading(&c, t);
     add(&c, "-o");
     add(&c, folder);
-    hci_run_options reading = t->reading.run;
-    reading.holding = false;
     note_command(t, &c, true);
-    const hci_status status = hci_check_files(t->machine, run, count, &reading, &check, note);
-    if (status > HCI_NOT_REACHED) return status;
     say_check(t, &check);
+    judge_check(t, &check);
     return hci_check_write(&check, folder, note);
 }
 
@@ -467,13 +547,14 @@ static hci_status take_waveform(cli_tuning *t, size_t k, const hci_waveform *w, 
     if (holds && t->declared.inertia_kgm2 > 0.0) add_option(&c, "inertia", inertia);
     if (is_far) add_option(&c, "max-order", "60");
     if (!is_emf && t->arguments->given[TUNE_HOLDING]) add_option(&c, "holding", NULL);
-    add_reading(&c, t->arguments);
+    add_reading(&c, t);
     add(&c, "-o");
     add(&c, t->machine);
     say_waveform(t, k, w);
     *(is_emf ? &t->has_emf : &t->has_cogging) = true;
     if (is_emf) t->emf_to_sheet = to_sheet(t, w);
     const hci_status status = run(t, t->commands.harmonics, &c, note);
+    if (!status && is_emf && fabs(w->zero_rad) > 0.0) take_offset(t, w->zero_rad, "the voltages");
     return status ? status : read_inputs(t, note);
 }
 
@@ -514,9 +595,18 @@ static hci_status find_waveform(cli_tuning *t, size_t k, hci_waveform_quantity q
     bool is_far = false;
     hci_status status = find_far(r, &options, &w, &is_far, &why);
     *found = !status && w.kept > 0;
+    if (*found && quantity == HCI_WAVEFORM_COGGING &&
+        cli_tune_order_of_slots(t) > (double)w.count * w.step + HCI_ORDER_TOLERANCE) {
+        t->cogging_reach = (double)w.count * w.step;
+        t->has_alias = true; /* until another recording shows it */
+        *found = false;
+    }
     if (status) hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN, "%s", why.text);
     status = *found ? take_waveform(t, k, &w, is_far, note) : HCI_OK;
-    if (quantity == HCI_WAVEFORM_COGGING && *found) t->cogging_reach = (double)w.count * w.step;
+    if (quantity == HCI_WAVEFORM_COGGING && *found) {
+        t->cogging_reach = (double)w.count * w.step;
+        t->has_alias = false;
+    }
     if (*found && quantity == HCI_WAVEFORM_COGGING && !status) {
         t->cogging = w;
     } else
@@ -543,13 +633,13 @@ hci_status cli_tune_waveforms(cli_tuning *t, hci_note *note)
 {
     static const hci_waveform_quantity QUANTITIES[] = {HCI_WAVEFORM_BACK_EMF, HCI_WAVEFORM_COGGING};
     hci_status status = HCI_OK;
-    for (int q = 0; q < 2 && t->is_own && !t->has_slip && !t->has_unsteady; ++q) {
+    for (int q = 0; q < 2 && t->is_own && !cli_tune_is_blocked(t); ++q) {
         bool found = false;
         for (size_t k = 0; k < t->runs.count && !found && !status; ++k)
             if (is_for(t, &t->runs.run[k], QUANTITIES[q]))
                 status = find_waveform(t, k, QUANTITIES[q], &found, note);
     }
-    if (!status && t->is_own && !t->has_slip && !t->has_unsteady) say_not_open(t);
+    if (!status && t->is_own && !cli_tune_is_blocked(t)) say_not_open(t);
     return status;
 }
 
@@ -560,10 +650,10 @@ hci_status cli_tune_diagnose(cli_tuning *t, hci_note *note)
     const hci_diagnose_options options = {.progress = cli_progress};
     char folder[CLI_TUNE_PATH];
     command_line c = {{"diagnose", t->machine, "--runs", t->list}, 4};
-    if (t->has_slip || t->has_unsteady) return HCI_OK;
+    if (cli_tune_is_blocked(t)) return HCI_OK;
     path_in(t, "diagnose", folder);
     if (t->arguments->given[TUNE_HOLDING]) add_option(&c, "holding", NULL);
-    add_reading(&c, t->arguments);
+    add_reading(&c, t);
     add(&c, "-o");
     add(&c, folder);
     note_command(t, &c, true);
@@ -578,7 +668,7 @@ hci_status cli_tune_diagnose(cli_tuning *t, hci_note *note)
 
 bool cli_tune_can_solve(const cli_tuning *t)
 {
-    return !t->has_slip && !t->has_unsteady &&
+    return !cli_tune_is_blocked(t) &&
            (t->has_emf || t->has_cogging || (!t->diagnosis.nothing_measured && t->diagnosis.runs > 0));
 }
 
@@ -762,6 +852,36 @@ bool cli_tune_knows_zero(const cli_tuning *t)
     return knows;
 }
 
+/* Components that a current loop is asked to follow; a few are usual. */
+#define MANY_COMPONENTS 24
+
+static void say_components(cli_tuning *t)
+{
+    const hci_currents *c = &t->solution.current;
+    double most = 0.0;
+    for (size_t k = 0; k < c->count; ++k)
+        most = fmax(most, c->wave[k].order);
+    hci_tuning_say(
+        &t->tuning, HCI_TUNING_LOAD,
+        "The currents have %zu component%s up to order %.4g, which is %.3g Hz at 100 rpm%s.", c->count,
+        c->count == 1 ? "" : "s", most, most * t->corrected.model.pole_pairs * 100.0 / 60.0,
+        c->count > MANY_COMPONENTS
+            ? ": more than most current loops follow; hci-solve solve --auto 6 finds the best six, and "
+              "simulate --table --drive says what the loop makes of them"
+            : "");
+}
+
+/* Where the solution is linear in the torque. */
+static void say_per_torque(cli_tuning *t, const char *currents, const char *name, const char *machine)
+{
+    if (t->solution.per_Nm == NULL) return;
+    hci_tuning_say(
+        &t->tuning, HCI_TUNING_LOAD,
+        "Where the torque changes, as in a joint that moves freely, load it in two parts, one of them times "
+        "the torque: hci-solve emit %s --name %s --frame dq --per-torque --machine %s%s -o FOLDER.",
+        currents, name, machine, cli_tune_knows_zero(t) ? "" : " --angle-of-logs");
+}
+
 hci_status cli_tune_emit(cli_tuning *t, hci_note *note)
 {
     const char *name = t->arguments->value[TUNE_NAME] ? t->arguments->value[TUNE_NAME] : "tuned";
@@ -780,14 +900,17 @@ hci_status cli_tune_emit(cli_tuning *t, hci_note *note)
     hci_tuning_say(&t->tuning, HCI_TUNING_LOAD,
                    "%s/%s.h and %s.c need hci/table.h alone: `hci_currents_dq i = hci_table_f32_dq(&%s, "
                    "angle);`, where 2^32 of "
-                   "the angle is %lu electrical turn%s from the zero of the logs%s. They are the whole "
+                   "the angle is %lu electrical turn%s from the zero of the logs%s%s%s. They are the whole "
                    "reference for %.4g N·m (docs/controller.md).",
                    folder, name, name, name, turns, turns == 1 ? "" : "s",
+                   offset_of(t) ? " with --angle-offset " : "", offset_of(t) ? offset_of(t) : "",
                    turns == 1 ? "" : ", not one: the angle goes on from turn to turn", t->mean_Nm);
     hci_tuning_say(&t->tuning, HCI_TUNING_LOAD,
                    "For a drive whose firmware is somebody else's: hci-solve emit %s --name %s --for "
-                   "simplefoc --machine %s -o %s, or another one of docs/drives.",
-                   currents, name, machine, folder);
+                   "simplefoc --machine %s%s -o %s, or another one of docs/drives.",
+                   currents, name, machine, cli_tune_knows_zero(t) ? "" : " --angle-of-logs", folder);
+    say_components(t);
+    say_per_torque(t, currents, name, machine);
     hci_tuning_say(&t->tuning, HCI_TUNING_LOAD,
                    "First turn on the bench: log angle and currents while the table is played, and run "
                    "hci-solve check %s LOG --table %s, which tells an angle that is off.",

@@ -37,11 +37,17 @@ typedef struct {
     bool has_slip, has_emf, has_cogging; /* check found one; they were measured without load */
     bool has_diagnosis;                  /* diagnose had something to do */
     bool has_unsteady;                   /* a slow turn sticks and slips */
-    double emf_to_sheet;                 /* has_emf: the measured back-EMF to that of the data sheet */
-    double cogging_reach;                /* order up to which a holding test was looked at; 0: none */
-    hci_waveform cogging;                /* of a holding test; empty: none */
-    bool has_load;                       /* a recording has a torque sensor and a mean torque */
-    double mean_Nm;                      /* that is solved for */
+    bool has_misfit; /* angle, order or speed contradict each other, and no slip explains it */
+    bool has_doubt;  /* check does not understand something else */
+    bool has_alias;  /* samples lie too far apart for the order of slots and poles, which shows as another one
+                      */
+    bool has_offset; /* recordings are read with an angle offset that was found here */
+    char offset[32]; /* in degrees, as --angle-offset takes it */
+    double emf_to_sheet;  /* has_emf: the measured back-EMF to that of the data sheet */
+    double cogging_reach; /* order up to which a holding test was looked at; 0: none */
+    hci_waveform cogging; /* of a holding test; empty: none */
+    bool has_load;        /* a recording has a torque sensor and a mean torque */
+    double mean_Nm;       /* that is solved for */
     hci_machine_data corrected;
     hci_effects_data found;
     hci_uncertainty uncertainty;
@@ -60,6 +66,12 @@ hci_status cli_tune_waveforms(cli_tuning *tune, hci_note *note);
 hci_status cli_tune_diagnose(cli_tuning *tune, hci_note *note);
 hci_status cli_tune_solve(cli_tuning *tune, hci_note *note);
 hci_status cli_tune_emit(cli_tuning *tune, hci_note *note);
+
+/* Whether the recordings cannot be used as they are: nothing is found nor solved. */
+bool cli_tune_is_blocked(const cli_tuning *tune);
+
+/* The electrical order of the cogging torque of slots and poles; 0: the slots are not given. */
+double cli_tune_order_of_slots(const cli_tuning *tune);
 
 /* Whether there is anything to solve with: no slip, no slow turn that sticks, and something was measured. */
 bool cli_tune_can_solve(const cli_tuning *tune);

@@ -24,23 +24,10 @@ static bool is_off_sheet(const cli_tuning *t)
     return t->has_emf && fabs(t->emf_to_sheet - 1.0) > OFF_SHEET;
 }
 
-/* The electrical order of the cogging torque of slots and poles; 0: the slots are not given. */
-static double order_of_slots(const cli_tuning *t)
-{
-    const long slots = lround(t->declared.slots), poles = 2L * t->declared.model.pole_pairs;
-    long a = slots, b = poles;
-    if (!(t->declared.slots > 0.0) || slots < 1) return 0.0;
-    while (b > 0) {
-        const long rest = a % b;
-        a = b, b = rest;
-    }
-    return 2.0 * (double)(slots / a);
-}
-
 /* Whether slots and poles say of cogging torque where the logs were not looked at. */
 static bool misses_slots(const cli_tuning *t)
 {
-    return t->cogging_reach > 0.0 && order_of_slots(t) > t->cogging_reach + HCI_ORDER_TOLERANCE;
+    return t->cogging_reach > 0.0 && cli_tune_order_of_slots(t) > t->cogging_reach + HCI_ORDER_TOLERANCE;
 }
 
 static void say_limits(cli_tuning *t)
@@ -55,7 +42,7 @@ static void say_limits(cli_tuning *t)
         hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
                        "The cogging torque of slots and poles, order %.5g: orders above %.5g were not looked "
                        "at, since the samples lie too far apart. Turn more slowly, or log more often.",
-                       order_of_slots(t), t->cogging_reach);
+                       cli_tune_order_of_slots(t), t->cogging_reach);
 }
 
 static void say_unknown(cli_tuning *t)
@@ -113,13 +100,26 @@ static void say_next(cli_tuning *t)
             "is to vary by less than 30 %% rms. Or move it in steps of half a degree or less, keep "
             "the samples at rest alone, and give them a column torque_Nm of 0. A log that sticks is "
             "left out of the next call.");
-    else if (!t->is_solved && !t->has_slip && !cli_tune_can_solve(t))
+    else if (!t->is_solved && !cli_tune_is_blocked(t) && !cli_tune_can_solve(t))
         hci_tuning_say(
             &t->tuning, HCI_TUNING_NEXT,
             "Without a torque sensor: turn the shaft slowly under position control, one turn "
             "forward and one back, log angle and i_q, and give --holding. With one: turn it slowly "
             "without current and log angle and torque; then under load, at three currents "
             "(docs/measuring.md).");
+    if (t->has_alias)
+        hci_tuning_say(
+            &t->tuning, HCI_TUNING_NEXT,
+            "Turn more slowly, or log more often: four samples or more in each period of order %.5g, %.0f "
+            "in a mechanical turn.",
+            cli_tune_order_of_slots(t),
+            ceil(4.0 * cli_tune_order_of_slots(t) * t->declared.model.pole_pairs));
+    if (t->has_misfit)
+        hci_tuning_say(
+            &t->tuning, HCI_TUNING_NEXT,
+            "Look at what is not understood: pole pairs, the unit of the angle and of the speed, the order "
+            "of the phases. Voltages with open terminals, beside the angle, tell most of it "
+            "(docs/check.md).");
     if (t->has_slip)
         hci_tuning_say(&t->tuning, HCI_TUNING_NEXT,
                        "Correct what `slip` names (in %s, or in the log), and begin again with a new --out.",
@@ -210,9 +210,12 @@ static void add_to_heading(cli_tuning *t)
     if (is_off_sheet(t))
         snprintf(heading + strlen(heading), size - strlen(heading),
                  "; the measured back-EMF is %.3g times that of the data sheet", t->emf_to_sheet);
+    if (t->has_doubt && !is_off_sheet(t))
+        snprintf(heading + strlen(heading), size - strlen(heading),
+                 "; check does not understand all that the logs say");
     if (misses_slots(t))
         snprintf(heading + strlen(heading), size - strlen(heading),
-                 "; order %.5g, which slots and poles make, was not looked at", order_of_slots(t));
+                 "; order %.5g, which slots and poles make, was not looked at", cli_tune_order_of_slots(t));
 }
 
 void cli_tune_conclude(cli_tuning *t)
@@ -222,17 +225,28 @@ void cli_tune_conclude(cli_tuning *t)
     say_cogging(t);
     say_unknown(t);
     say_next(t);
-    r->good = t->is_emitted && !t->diagnosed && !r->solved;
+    r->good = t->is_emitted && !t->diagnosed && !r->solved && !t->has_doubt;
     snprintf(r->verdict, sizeof r->verdict, "%s",
              r->good                                         ? "tuned"
              : t->has_slip                                   ? "a convention is broken"
+             : t->has_misfit                                 ? "the conventions are not understood"
              : t->has_unsteady                               ? "the shaft sticks and slips"
+             : t->has_alias                                  ? "the samples lie too far apart"
              : !t->is_emitted                                ? "not enough in the logs"
              : r->solved                                     ? "tuned, but not as wanted"
              : t->diagnosis.verdict == HCI_DIAGNOSIS_UNKNOWN ? "tuned with what is certain"
                                                              : "tuned, with something left open");
     if (t->is_solved)
         set_heading(t);
+    else if (t->has_misfit)
+        snprintf(r->heading, sizeof r->heading,
+                 "Angle, order or speed in the logs contradict each other, and no slip that is known "
+                 "explains it, so "
+                 "nothing was solved");
+    else if (t->has_alias)
+        snprintf(
+            r->heading, sizeof r->heading,
+            "Cogging torque of a higher order would look like one of a low order, so nothing was solved");
     else if (t->has_slip)
         snprintf(r->heading, sizeof r->heading,
                  "What the files say contradicts itself, so nothing was solved");

@@ -281,6 +281,7 @@ static void turn_angle(reader *r)
     for (size_t k = 0; k < run->count; ++k)
         run->theta_m_rad[k] += csv->angle_offset_rad / r->pole_pairs;
     run->zero_is_given = true;
+    run->zero_offset_rad = csv->angle_offset_rad;
     hci_note_add(&run->remark, "%.4g degrees electrical are added to the angle",
                  csv->angle_offset_rad * 180.0 / HCI_PI);
 }

@@ -195,13 +195,15 @@ static void align(const hci_average *average, const emf_work *w)
 /* sin(θ + γ) has its rising zero where θ + γ is 0. */
 static void remark_zero(const hci_waveform_task *t, double phase_rad)
 {
-    hci_note_add(&t->result->remark,
-                 "theta_e is 0 at %.4g rad of phase a's fundamental, not at its rising zero crossing: "
-                 "%s %.4g rad %s theta_e (%.4g rad %s theta_m), as --angle-offset %.2f does; a back_emf.csv is written "
-                 "of that angle, so that its fundamental has the phase 0: what else is read beside it needs it",
-                 phase_rad, phase_rad > 0.0 ? "add" : "subtract", fabs(phase_rad),
-                 phase_rad > 0.0 ? "to" : "from", fabs(phase_rad) / t->options->pole_pairs,
-                 phase_rad > 0.0 ? "to" : "from", phase_rad * 180.0 / HCI_PI);
+    hci_note_add(
+        &t->result->remark,
+        "theta_e is 0 at %.4g rad of phase a's fundamental, not at its rising zero crossing: "
+        "%s %.4g rad %s theta_e (%.4g rad %s theta_m), as --angle-offset %.2f does; a back_emf.csv is "
+        "written "
+        "of that angle, so that its fundamental has the phase 0: what else is read beside it needs it",
+        phase_rad, phase_rad > 0.0 ? "add" : "subtract", fabs(phase_rad), phase_rad > 0.0 ? "to" : "from",
+        fabs(phase_rad) / t->options->pole_pairs, phase_rad > 0.0 ? "to" : "from",
+        phase_rad * 180.0 / HCI_PI);
     t->result->zero_rad = phase_rad;
 }
 

@@ -45,6 +45,7 @@ typedef struct {
     bool is_electrical;   /* an electrical angle was recorded; else its zero is supposed to be that of the
                            * mechanical one */
     bool zero_is_given;   /* by an offset that the user adds to the angle */
+    double zero_offset_rad; /* that offset, electrical */
     bool zero_is_unknown; /* the angle is the integral of the speed, from 0 */
     bool voltage_is_dq;   /* v_V was v_d and v_q, turned by the recorded angle: says nothing of its zero */
     bool only_mean;       /* no angle, but torques over i_d and i_q: means over a turn. i_A is of angle 0 */

@@ -1,6 +1,7 @@
 /* The sections of a solution about its torque: over the angle and by order. */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "host/report/page/solution_sections.h"
 
@@ -43,7 +44,11 @@ void hci_page_torque(const hci_solution_page *p)
         .context = p->solution};
     hci_page_swing(before, p->facts.before_Nm, p->solution->tolerance_Nm);
     hci_page_swing(after, p->facts.after_Nm, p->solution->tolerance_Nm);
-    snprintf(heading, sizeof heading, "Over the angle the torque varies by %s, before by %s", after, before);
+    const bool is_smooth = strncmp(after, "less than", 9) == 0; /* than the tolerance of the model */
+    snprintf(heading, sizeof heading,
+             is_smooth ? "In the model nothing is left over the angle of a torque that varied by %.0s%s"
+                       : "Over the angle the torque varies by %s, before by %s",
+             after, before);
     hci_html_section(p->out, heading);
     hci_html_drawing_begin(p->out, &drawing);
     table_of_extremes(p);
