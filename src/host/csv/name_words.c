@@ -57,7 +57,7 @@ static const struct {
                 "drehmomentistwert drehmomentsensor messwelle torque couple coppia par"},
     [CURRENT] = {"current",
                  "strom phasenstrom strangstrom motorstrom iststrom stromistwert current courant intensite "
-                 "corrente corriente"},
+                 "corrente corriente intensidad"},
     [VOLTAGE] = {"voltage",
                  "spannung phasenspannung strangspannung klemmenspannung voltage tension tensione voltaje"},
     [TEMPERATURE] = {"temperature", "temperatur temperature temperatura"},
@@ -67,24 +67,26 @@ static const struct {
     [ELECTRICAL] = {"electrical",
                     "el elek elektr elektrisch elektrischer elec electrical electrique elettrico elettrica "
                     "electrico electrica"},
-    [TURNING] = {"of what turns",
-                 "angular angulaire angolare rotation rotational rotatif rotative rotazione rotacion rot"},
+    [TURNING] =
+        {"of what turns",
+         "angular angulaire angolare rotation rotational rotatif rotative rotazione rotacion rot giro tours"},
     [COMPUTED] =
         {"computed",
          "berechnet berechnetes errechnet geschatzt geschatztes geschaetzt calcule estime calculated "
          "estimated computed calcolata calcolato stimata calculado estimado"},
     [MEASURED] = {"measured",
                   "gemessen gemessenes mess messwert measured meas mesure mesuree misurato misurata medido "
-                  "medida sensor aufnehmer messnabe capteur sensore transducer"},
-    [ACTUAL] = {"actual", "ist istwert actual act reel attuale"},
+                  "medida sensor aufnehmer messnabe capteur sensore transducer external extern"},
+    [ACTUAL] = {"actual", "ist istwert actual act reel attuale feedback fb retour"},
     [ROTOR] =
         {"rotor or motor",
-         "rotor laufer laeufer motor moteur motore magnet aimant magnete encoder drehgeber geber codeur"},
+         "rotor laufer laeufer motor mot moteur motore magnet aimant magnete encoder drehgeber geber codeur"},
     [SHAFT] = {"shaft", "welle shaft arbre albero eje"},
     [PHASE] = {"phase", "phase fase strang leiter"},
     [ALONG_D] = {"along d", "d sd feldbildend feldbildender langsstrom laengsstrom"},
     [ALONG_Q] = {"along q", "q sq momentenbildend momentenbildender querstrom"},
-    [RATE] = {"rate of sampling", "standardmessrate messrate schnelle langsame default sample rate"},
+    [RATE] = {"rate of sampling", "standardmessrate messrate schnelle langsame default sample rate elapsed "
+                                  "ecoule relative relativ absolute absolut"},
     [SMALL] = {"small words",
                "de di del du der des den of the am an im in l la le value wert valeur valore valor"},
 };
@@ -184,7 +186,7 @@ static bool is_among(const char *list, const char *word)
     return false;
 }
 
-static const char LETTERS_OF_PHASES[] = "a b c u v w 1 2 3 l1 l2 l3";
+static const char LETTERS_OF_PHASES[] = "a b c u v w 1 2 3 l1 l2 l3 r s t";
 static const char PAIRS[] = "ab bc ca uv vw wu 12 23 31";
 
 static word_kind kind_of(const char *word)
@@ -207,6 +209,13 @@ static bool is_in(const hci_unit *unit, const char *of)
     return unit != NULL && unit->dimension == hci_unit_find(of, strlen(of))->dimension;
 }
 
+/* Controllers put the type of a variable before its name: fMechAngle, lrTorque. */
+static void drop_type(name_words *w)
+{
+    if (w->count < 2 || !is_among("f lr", w->word[0])) return;
+    memmove(w->word, w->word + 1, --w->count * sizeof *w->word);
+}
+
 /* A letter of a quantity at the beginning, alone or before that of a phase: "M Welle", "n ist", "Iq ist",
  * "U12". */
 static void read_letter(name_words *w, const hci_unit *unit)
@@ -214,6 +223,7 @@ static void read_letter(name_words *w, const hci_unit *unit)
     static const char OTHERS[] = "d q sd sq";
     const char first = w->word[0][0], *rest = w->word[0] + 1;
     const bool is_known = w->kind[0] != LETTER && w->kind[0] != UNKNOWN && w->kind[0] != DEVICE;
+    if (is_among("md mw", w->word[0]) && is_in(unit, "N*m")) w->kind[0] = TORQUE;
     if (is_known || (strchr("iuv", first) == NULL && *rest != '\0') || is_among(PAIRS, w->word[0])) return;
     const bool is_fused =
         is_among(LETTERS_OF_PHASES, rest) || is_among(PAIRS, rest) || is_among(OTHERS, rest);
@@ -390,6 +400,7 @@ static const hci_alias *say(const char *name, size_t length, const hci_unit *uni
     const hci_alias *other = part != name ? alias_of(part, length) : NULL;
     if (other != NULL) return other;
     if (*part == '-' || !cut(part, length, &w)) return NULL;
+    drop_type(&w);
     for (size_t k = 0; k < w.count; ++k)
         w.kind[k] = kind_of(w.word[k]);
     for (size_t k = 0; k < w.count; ++k) /* "Zeit 1" */
