@@ -230,7 +230,7 @@ static hci_status take_balanced(const hci_waveform_task *t, const hci_average *a
 static void remark_currents(const hci_waveform_task *t)
 {
     const double rms_A = hci_waveform_current_rms(t->run);
-    if (rms_A > 0.0)
+    if (hci_waveform_current_flows(t))
         hci_note_add(&t->result->remark, "currents of %.3g A rms flow: what they drop is in the voltages",
                      rms_A);
 }

@@ -4,6 +4,7 @@
 
 #include <math.h>
 
+#include "hci/machine/frames.h"
 #include "host/base/quote.h"
 
 /* Highest order of the turn; its polynomial costs the square. */
@@ -52,4 +53,22 @@ hci_status hci_waveform_average(const hci_waveform_task *t, const hci_average_sa
     };
     if (given && top / step > HIGHEST_MOST) return HCI_ERROR_SINGULAR;
     return hci_average_fit(samples, &orders, average);
+}
+
+/* Times what noise alone makes of a mean. */
+#define NOISE_OF_MEAN 5.0
+
+/* i_d and i_q of noise have means of √2 times its rms over the root of the samples. */
+bool hci_waveform_current_flows(const hci_waveform_task *t)
+{
+    const hci_run *run = t->run;
+    const double rms_A = hci_waveform_current_rms(run);
+    double d_A = 0.0, q_A = 0.0;
+    if (run->theta_m_rad == NULL || !(rms_A > 0.0)) return rms_A > 0.0;
+    for (size_t k = 0; k < run->count; ++k) {
+        const hci_dq i = hci_park(hci_clarke(run->i_A + 3 * k), t->options->pole_pairs * run->theta_m_rad[k]);
+        d_A += i.d / (double)run->count;
+        q_A += i.q / (double)run->count;
+    }
+    return hypot(d_A, q_A) > NOISE_OF_MEAN * sqrt(2.0) * rms_A / sqrt((double)run->count);
 }

@@ -2,6 +2,8 @@
 #ifndef HCI_SRC_HOST_WAVEFORM_TASK_H
 #define HCI_SRC_HOST_WAVEFORM_TASK_H
 
+#include <stdbool.h>
+
 #include "hci/host/waveform/waveform.h"
 #include "host/waveform/synchronous_average.h"
 
@@ -31,6 +33,10 @@ hci_status hci_waveform_memory(const hci_waveform_task *t);
 
 /* Of the phase currents, A: √((i_a² + i_b² + i_c²)/3) of the mean squares; 1/√2 of the peak of a sine. */
 double hci_waveform_current_rms(const hci_run *run);
+
+/* Whether a current flows, and is not what a sensor makes of none: noise and an offset do not turn with the
+ * angle. Without an angle: whether any was recorded. */
+bool hci_waveform_current_flows(const hci_waveform_task *t);
 
 /* hci_average_fit of turns whose orders are `step` electrical ones apart, up to the order that is asked for.
  */

@@ -13,6 +13,7 @@
 #include "hci/host/machine/machine.h"
 #include "hci/host/report/summary.h"
 #include "host/base/memory.h"
+#include "support/draws.h"
 #include "support/files.h"
 #include "support/reference.h"
 #include "support/texts.h"
@@ -657,6 +658,18 @@ static void test_currents_are_told_as_rms_of_a_phase(void)
     text_has("currents of 1.41 A rms flow", w.remark.text);
 }
 
+/* What sensors make of no current: noise, and an offset that does not turn with the angle. */
+static void test_noise_of_sensors_is_no_current(void)
+{
+    record_drive(5000, 0.25, 100.0, 0.0, &EVEN);
+    with_angle();
+    uint64_t state = 7;
+    for (size_t k = 0; k < 3 * run.count; ++k)
+        run.i_A[k] = 0.008 + 0.02 * ref_normal(&state);
+    find();
+    TEST_ASSERT_NULL_MESSAGE(strstr(w.remark.text, "flow"), w.remark.text);
+}
+
 static void test_swapped_phases_are_told(void)
 {
     channels c = EVEN;
@@ -915,6 +928,7 @@ int main(void)
     RUN_TEST(test_an_angle_with_another_zero_is_told);
     RUN_TEST(test_the_advice_on_the_angle_mends_it);
     RUN_TEST(test_currents_are_told_as_rms_of_a_phase);
+    RUN_TEST(test_noise_of_sensors_is_no_current);
     RUN_TEST(test_swapped_phases_are_told);
     RUN_TEST(test_back_emf_without_an_angle);
     RUN_TEST(test_frequency_is_exact_without_noise);
