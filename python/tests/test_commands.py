@@ -1,6 +1,10 @@
 """What is the work of whole commands, and what goes with them: the same as the program gives."""
 import json
+import os
+import signal
 import subprocess
+import threading
+import time
 import zipfile
 
 import numpy as np
@@ -106,6 +110,26 @@ def test_batch_and_fleet(data, tmp_path):
     assert np.ptp(table["rms_after_Nm"][:4]) == 0.0 and batch.plot().axes
     line = batch.fleet(tmp_path / "line")
     assert line.stands_out == [] and line.plot().axes and (tmp_path / "line/report.html").exists()
+
+
+def test_ctrl_c_ends_the_program_too(data, tmp_path):
+    """A motor whose target is never told; what was done before stays, and the same call goes on."""
+    os.mkfifo(tmp_path / "pipe.csv")
+    machine, target = data.resolve() / "machine_a", data.resolve() / "scenarios/02/target.csv"
+    (tmp_path / "motors.csv").write_text(f"motor,machine,target\ngood,{machine},{target}\nhangs,{machine},pipe.csv\n")
+
+    def when_one_is_done():
+        while not (tmp_path / "batch/motors/good").exists():
+            time.sleep(0.01)
+        os.kill(os.getpid(), signal.SIGINT)
+
+    thread = threading.Thread(target=when_one_is_done)
+    thread.start()
+    with pytest.raises(KeyboardInterrupt):
+        hci.batch(tmp_path / "motors.csv", "solve", tmp_path / "batch", jobs=2, auto=True)
+    thread.join()
+    late = hci.batch(tmp_path / "motors.csv", "solve", tmp_path / "batch", jobs=2, time_limit_s=0.3, auto=True)
+    assert list(late.table("fleet.csv")["state"]) == ["done", "late"]
 
 
 def test_sweep_and_fmu(machine_a, data, smooth, tmp_path):
