@@ -30,12 +30,14 @@ class Fit(Result):
 
     Attributes:
         found: whether the error has its least value; else the declared values stay.
+        passed: whether all parameters are within the limits that were given; None without limits.
         summary: all figures, as summary.json has them.
     """
 
     def __init__(self, c: Any) -> None:
         self._c = c
         self.found: bool = bool(c.is_found)
+        self.passed: Optional[bool] = c.beyond == 0 if c.judged else None
         self.summary = json_of(lib.hci_fleet_fit_json(c))
 
     @property

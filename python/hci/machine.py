@@ -295,16 +295,19 @@ class Machine:
         return Diagnosis(self, found, read, status)
 
     def fit(self, runs: Union[Path, Iterable[Recordable]], *, columns: Optional[Mapping[str, str]] = None,
-            strict: bool = False) -> Fit:
+            strict: bool = False, limits: Optional[Path] = None) -> Fit:
         """The few parameters in which motors of one make differ, without a search: `hci-solve fit`.
 
         Args:
             runs: a list of runs as a file (runs.csv), or recordings.
             columns: which column is which quantity, where names do not say it.
             strict: a cell without a number is an error.
+            limits: a table effect,parameter,low,high, such as line.csv of `fleet`: `Fit.passed` tells.
         """
         read, c, note = _Runs(self, runs, [], (columns, False, strict), plain=True), ffi.new("hci_fleet_fit *"), Note()
         note.check(lib.hci_fleet_fit_runs(self.c, ffi.addressof(self._effects, "list"), read.c, c, note.c))
+        if limits is not None:
+            note.check(lib.hci_fleet_fit_judge(path(limits), c, note.c))
         return Fit(c)
 
     def check(self, *recordings: Recordable, columns: Optional[Mapping[str, str]] = None, holding: bool = False,

@@ -41,6 +41,10 @@ def test_fit(machine_a, data, record, program, tmp_path):
     assert found.summary == said(program, "fit", data / "machine_a", "--runs", tmp_path / "runs.csv")
     assert machine_a.fit(tmp_path / "runs.csv").summary == found.summary
     assert found.found and {row.effect for row in found.parameters} >= {"back_emf", "friction"}
+    (tmp_path / "limits.csv").write_text("effect,parameter,low,high\nback_emf,common,-0.5,0.5\n")
+    assert found.passed is None and machine_a.fit(runs, limits=tmp_path / "limits.csv").passed is True
+    (tmp_path / "limits.csv").write_text("effect,parameter,low,high\nback_emf,common,0.4,0.5\n")
+    assert machine_a.fit(runs, limits=tmp_path / "limits.csv").passed is False
     found.write(tmp_path / "fit")
     assert (tmp_path / "fit/parameters.csv").exists() and found.plot().axes
 
