@@ -434,11 +434,21 @@ static void remark_holes(const hci_runs *runs, hci_fleet_fit *fit)
         hci_note_add(&fit->remark, "%zu rows of the recordings have a hole or repeat the one before, and are not used", fit->rows_unused);
 }
 
+/* The effect that the strength of the magnets belongs to: what equal phases look like. */
+static const char *name_of_strength(void)
+{
+    const hci_effect_type *type;
+    for (size_t k = 0; (type = hci_effect_type_at(k)) != NULL; ++k)
+        if (type->when_equal) return type->when_equal->name;
+    return "";
+}
+
 /* The strength of the magnets by voltages without a current, behind the parameters of the torque. */
 static void list_voltages(const hci_machine *machine, const hci_runs *runs, hci_fleet_fit *fit)
 {
     hci_fleet_parameter *p = &fit->parameter[fit->count++];
-    *p = (hci_fleet_parameter){"back_emf", "by_voltage", "1", NAN, NAN};
+    *p = (hci_fleet_parameter){"", "by_voltage", "1", NAN, NAN};
+    snprintf(p->effect, sizeof p->effect, "%s", name_of_strength());
     const double scale = hci_open_voltage_scale_fitted(machine, runs, &p->std_error);
     if (!isnan(scale)) p->value = scale - 1.0;
 }
