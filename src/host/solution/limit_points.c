@@ -160,7 +160,8 @@ hci_status hci_limit_points_add(hci_limit_points *points, hci_limit_point point)
 hci_status hci_limit_points_fill(const hci_limit_field *field, hci_limit_points *points)
 {
     const size_t width = 2 * field->set->count + 1,
-                 needed = points->count * width + hci_limit_row_room(field); /* a row may write behind its end */
+                 needed =
+                     points->count * width + hci_limit_row_room(field); /* a row may write behind its end */
     if (needed > points->row_room) {
         double *more = hci_memory_resize(points->row, 2 * needed, sizeof *more);
         if (!more) return HCI_ERROR_MEMORY;
