@@ -225,11 +225,12 @@ class Machine:
                                                       chosen, note.c), hide=tables.hide)
         options.target, options.set = wanted, chosen if harmonics is not None else ffi.NULL
         options.effects, options.uncertainty = ffi.addressof(self._effects, "list"), self._uncertainty
+        machine = self.c
         if drive is not None:
-            loop = drive_of(drive)
-            note.check(lib.hci_solve_for_drive(loop, self.c, options, options.set and chosen or ffi.NULL, remark.c, note.c))
+            loop, machine = drive_of(drive), ffi.new("hci_machine_data *", self.c[0])
+            note.check(lib.hci_solve_for_drive(loop, machine, options, options.set and chosen or ffi.NULL, remark.c, note.c))
         watch.into(options)
-        status = lib.hci_solve(self.c, options, solution, note.c)
+        status = lib.hci_solve(machine, options, solution, note.c)
         found = ffi.gc(solution, lib.hci_solution_release)
         watch.finish()
         return Solution(self, found, note.check(status), text(remark.c.text))

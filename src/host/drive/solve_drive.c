@@ -36,24 +36,34 @@ hci_status hci_drive_check_loop(const hci_drive_data *drive, const hci_machine_d
     return status ? status : hci_drive_check_speed(&d, &fitted, speed_rad_per_s, note);
 }
 
-void hci_drive_voltage_remark(const hci_drive_data *drive, const hci_machine_data *machine, hci_note *remark)
+static void take(double given, double *value)
 {
-    const bool is_sinusoidal = drive->modulation == HCI_MODULATION_SINUSOIDAL;
-    const bool keeps_machine = machine->dc_link_voltage_V > 0.0;
+    if (isnan(*value)) *value = given;
+}
+
+void hci_drive_complete(const hci_drive_data *drive, hci_machine_data *machine)
+{
+    take(drive->resistance_ohm, &machine->resistance_ohm);
+    if (machine->inductance_count > 0) return;
+    take(drive->inductance_d_H, &machine->inductance_d_H);
+    take(drive->inductance_q_H, &machine->inductance_q_H);
+}
+
+double hci_drive_line_V(const hci_drive_data *drive, const hci_machine_data *machine)
+{
     const double link_V =
         drive->dc_link_voltage_V > 0.0 ? drive->dc_link_voltage_V : machine->dc_link_voltage_V;
-    const double line_V = (is_sinusoidal ? 0.5 * sqrt(3.0) : 1.0) * link_V;
-    if (!(link_V > 0.0) || line_V == machine->dc_link_voltage_V) return;
-    if (keeps_machine)
-        hci_note_add(remark, "the voltage limit is the %g V of machine.csv", machine->dc_link_voltage_V);
-    else
-        hci_note_add(remark, "the voltage is not limited");
-    hci_note_add(remark,
-                 "the drive has a dc link of %g V%s: --limit-voltage %.4g keeps it at --speed "
-                 "(resistance and inductances then in machine.csv)",
-                 link_V,
-                 is_sinusoidal
-                     ? " and sinusoidal modulation, which reaches sqrt(3)/2 of it between phases of a sine"
-                     : "",
-                 line_V);
+    return link_V > 0.0 ? (drive->modulation == HCI_MODULATION_SINUSOIDAL ? 0.5 * sqrt(3.0) : 1.0) * link_V
+                        : 0.0;
+}
+
+bool hci_drive_limits_voltage(const hci_drive_data *drive, const hci_machine_data *machine, double *line_V,
+                              hci_note *remark)
+{
+    const bool has_inductance = machine->inductance_count > 0 || machine->model.slope_count > 0 ||
+                                (machine->inductance_d_H > 0.0 && machine->inductance_q_H > 0.0);
+    *line_V = hci_drive_line_V(drive, machine);
+    if (!(*line_V > 0.0) || !(machine->resistance_ohm > 0.0) || !has_inductance) return false;
+    hci_note_add(remark, "the voltage limit is the %.4g V between phases that the drive reaches", *line_V);
+    return true;
 }

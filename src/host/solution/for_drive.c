@@ -25,16 +25,20 @@ static void drop_components(hci_component_set *set, double highest, hci_note *re
 }
 
 /* Whether the loop can be used at all, and which voltage is kept. */
-static hci_status check_loop(const hci_drive_data *drive, const hci_machine_data *machine,
-                             const hci_solve_options *o, hci_note *remark, hci_note *note)
+static hci_status take_loop(const hci_drive_data *drive, hci_machine_data *machine, hci_solve_options *o,
+                            hci_note *remark, hci_note *note)
 {
-    if (!(o->limit_voltage_V > 0.0) && !o->limits.ignore_ratings)
-        hci_drive_voltage_remark(drive, machine, remark);
-    return hci_drive_check_loop(drive, machine, o->speed_rad_per_s, remark, note);
+    double line_V;
+    const hci_status status = hci_drive_check_loop(drive, machine, o->speed_rad_per_s, remark, note);
+    if (status) return status;
+    hci_drive_complete(drive, machine);
+    if (o->limit_voltage_V > 0.0 || o->limits.ignore_ratings) return HCI_OK;
+    if (hci_drive_limits_voltage(drive, machine, &line_V, remark)) o->limit_voltage_V = line_V;
+    return HCI_OK;
 }
 
-hci_status hci_solve_for_drive(const hci_drive_data *drive, const hci_machine_data *machine,
-                               hci_solve_options *o, hci_component_set *set, hci_note *remark, hci_note *note)
+hci_status hci_solve_for_drive(const hci_drive_data *drive, hci_machine_data *machine, hci_solve_options *o,
+                               hci_component_set *set, hci_note *remark, hci_note *note)
 {
     const double electrical = fabs(o->speed_rad_per_s) * machine->model.pole_pairs;
     const double highest = hci_drive_highest_rad_per_s(drive) / electrical;
@@ -47,7 +51,7 @@ hci_status hci_solve_for_drive(const hci_drive_data *drive, const hci_machine_da
         "n + 1 of `neg`)",
         rpm, floor(highest));
     if (set) drop_components(set, highest, remark);
-    if (highest >= LEAST_ORDER) return check_loop(drive, machine, o, remark, note);
+    if (highest >= LEAST_ORDER) return take_loop(drive, machine, o, remark, note);
     return hci_note_set(
         note, HCI_ERROR_INPUT,
         "%s: at %g rpm the sampling does for orders up to %.3g in the rotor frame, which leaves no "

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "host/base/memory.h"
+#include "host/solution/hold_least.h"
 #include "host/solve/linear.h"
 #include "host/solve/newton.h"
 #include "host/solve/pointwise.h"
@@ -54,6 +55,8 @@ typedef struct {
     hci_linear_torque *at;
     hci_solution *solution;
     double mean_Nm;
+    const hci_limited *of;
+    bool is_given; /* whether the answer has currents and no parts of them */
 } question;
 
 static hci_status ask(const question *q, hci_answer *a, hci_note *note)
@@ -168,15 +171,50 @@ static void tell(const question *q, const worth *first, const worth *w)
 
 /* ---- all of it ---- */
 
-static hci_status price(const question *q, hci_answer *a, hci_note *note)
+/* The currents of the least ripple, where they can be asked for and it is worth it; *is_found. */
+static hci_status find_least(question *q, hci_answer *a, worth *first, worth *w, bool *is_found,
+                             hci_note *note)
+{
+    const size_t n = 2 * a->set.count;
+    const double allowance = q->options->loss_allowance;
+    double *x = hci_memory_new(2 * n, sizeof *x);
+    hci_hold_question least = {q->of, &a->set, x,
+                               (allowance > 0.0 ? allowance : DEFAULT_LOSS) * first->copper_A2,
+                               ENOUGH * fabs(q->mean_Nm)};
+    if (!x) return hci_note_memory(note, NULL, "solving");
+    for (size_t j = 0; j < n; ++j)
+        x[j] = hci_coordinate(a->x, n, q->mean_Nm, j);
+    first->ripple_Nm = hci_hold_missed_Nm(&least, x);
+    hci_status status = hci_hold_least(&least, x + n, note);
+    w->ripple_Nm = hci_hold_missed_Nm(&least, x + n);
+    *is_found = !status && w->ripple_Nm < WORTH * first->ripple_Nm;
+    if (*is_found) {
+        memset(a->x, 0, n * sizeof *a->x);
+        memcpy(a->x + n, x + n, n * sizeof *a->x);
+        const double ripple_Nm = w->ripple_Nm;
+        status = weigh(q, a, w, note);
+        w->ripple_Nm = ripple_Nm;
+        q->is_given = true;
+    }
+    hci_memory_free(x);
+    return status == HCI_ERROR_NUMERIC ? HCI_OK : status;
+}
+
+static hci_status price(question *q, hci_answer *a, hci_note *note)
 {
     hci_answer before = {0};
     worth first, w;
+    bool is_found = false;
     hci_status status = weigh(q, a, &first, note);
     if (status || first.ripple_Nm <= ENOUGH * fabs(q->mean_Nm)) return status;
     if (hci_answer_copy(a, &before)) return hci_note_memory(note, NULL, "solving");
-    status = search(q, &first, a, &w, note);
-    if (!status && w.ripple_Nm > WORTH * first.ripple_Nm) {
+    const worth rough = first;
+    if (hci_hold_is_known(q->of)) status = find_least(q, a, &first, &w, &is_found, note);
+    if (!status && !is_found) {
+        first = rough;
+        status = search(q, &first, a, &w, note);
+    }
+    if (!status && !is_found && w.ripple_Nm > WORTH * first.ripple_Nm) {
         status = ask_at(q, 0.0, a, &w, note);
     } else if (!status) {
         tell(q, &first, &w);
@@ -186,12 +224,14 @@ static hci_status price(const question *q, hci_answer *a, hci_note *note)
     return status;
 }
 
-hci_status hci_held_answer(hci_task *task, const hci_solve_options *o, hci_linear_torque *at, hci_answer *a,
-                           hci_solution *s, hci_note *note)
+hci_status hci_held_answer(const hci_limited *of, hci_answer *a, bool *has_parts, hci_note *note)
 {
-    const question q = {task, o, at, s, hci_target_mean_Nm(o->target)};
+    const hci_solve_options *o = of->options;
+    question q = {of->task, o, of->at, of->solution, hci_target_mean_Nm(o->target), of, false};
     const bool is_priced = o->sample_rad > 0.0 && o->choose_at_most == 0 && q.mean_Nm != 0.0 &&
                            o->method != HCI_METHOD_POINTWISE;
-    const hci_status status = ask(&q, a, note);
-    return status || !is_priced ? status : price(&q, a, note);
+    hci_status status = ask(&q, a, note);
+    if (!status && is_priced) status = price(&q, a, note);
+    *has_parts = !o->held && hci_task_is_linear(of->task) && !q.is_given;
+    return status;
 }

@@ -250,10 +250,11 @@ static hci_status find_currents(const hci_machine_data *m, const hci_solve_optio
 {
     const hci_limited within = {&w->task, m, o, &w->bounds, &w->at, s};
     const double mean_Nm = hci_target_mean_Nm(o->target);
-    hci_status status = hci_held_answer(&w->task, o, &w->at, &w->answer, s, note);
+    bool has_parts;
+    hci_status status = hci_held_answer(&within, &w->answer, &has_parts, note);
     s->wanted_mean_Nm = mean_Nm;
     s->minimised_Nm = s->torque_at_limit_Nm = NAN;
-    if (!status) status = take_answer(m, o, w, !o->held && hci_task_is_linear(&w->task), s, note);
+    if (!status) status = take_answer(m, o, w, has_parts, s, note);
     if (status || o->method == HCI_METHOD_POINTWISE) return status;
     hci_limits_scale(&w->bounds, mean_Nm, s);
     if (s->within_limits && o->minimise == HCI_MINIMISE_AUTO) return HCI_OK;

@@ -1,5 +1,6 @@
 /* What a sampled loop leaves of currents, and high orders that are priced for it. */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "hci/host/machine/machine.h"
@@ -69,6 +70,25 @@ static void test_high_orders_are_priced(void)
     TEST_ASSERT_NOT_NULL(strstr(solution.remark.text, "reduced: "));
 }
 
+/* Where R and L are known, of all currents with this torque those that miss least: clarabel finds 1.6 % with
+ * orders up to 71. The torque stays, the copper and the dc link are kept. */
+static void test_the_least_is_missed(void)
+{
+    const double copper_A2 = solve();
+    double missed_percent = 0.0;
+    machine.resistance_ohm = 0.1;
+    machine.inductance_d_H = machine.inductance_q_H = 0.5e-3;
+    options.sample_rad = 100.0 * HCI_PI * 1e-4;
+    options.speed_rad_per_s = 50.0 * HCI_PI;
+    options.limit_voltage_V = 100.0;
+    TEST_ASSERT_TRUE(solve() <= 1.5 * copper_A2 * (1.0 + 1e-6));
+    TEST_ASSERT_TRUE(solution.within_limits);
+    TEST_ASSERT_TRUE(solution.worst_error_Nm < solution.tolerance_Nm);
+    TEST_ASSERT_EQUAL_INT(
+        1, sscanf(solution.remark.text, "between its samples the loop misses %lf", &missed_percent));
+    TEST_ASSERT_TRUE(missed_percent < 1.8);
+}
+
 /* At a tenth of the speed it is not worth a price. */
 static void test_nothing_is_priced_where_little_is_missed(void)
 {
@@ -83,6 +103,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_a_sine_between_its_samples);
     RUN_TEST(test_high_orders_are_priced);
+    RUN_TEST(test_the_least_is_missed);
     RUN_TEST(test_nothing_is_priced_where_little_is_missed);
     return UNITY_END();
 }

@@ -141,9 +141,17 @@ hci_status hci_drive_check_speed(const hci_drive_data *drive, const hci_machine_
 hci_status hci_drive_check_loop(const hci_drive_data *drive, const hci_machine_data *machine,
                                 double speed_rad_per_s, hci_note *remark, hci_note *note);
 
-/* Adds to the remark that the dc link and the modulation of a drive are no limit of currents that are solved
- * without an explicit one, and what to give; nothing where the one of the machine, which is, is the same. */
-void hci_drive_voltage_remark(const hci_drive_data *drive, const hci_machine_data *machine, hci_note *remark);
+/* Resistance and inductances that the machine does not have, as the drive gives them. */
+void hci_drive_complete(const hci_drive_data *drive, hci_machine_data *machine);
+
+/* The largest voltage between two phases that a drive reaches, by its dc link, or that of the machine where it
+ * has none, and its modulation; 0: not known. */
+double hci_drive_line_V(const hci_drive_data *drive, const hci_machine_data *machine);
+
+/* Whether that voltage is known and, of a machine that was completed, resistance and inductance too, so that
+ * currents can be kept below it. line_V: out. remark: says which it is. */
+bool hci_drive_limits_voltage(const hci_drive_data *drive, const hci_machine_data *machine, double *line_V,
+                              hci_note *remark);
 
 #ifdef __cplusplus
 }
