@@ -2,8 +2,8 @@
 #ifndef HCI_SRC_HOST_SOLUTION_LIMITED_PATH_H
 #define HCI_SRC_HOST_SOLUTION_LIMITED_PATH_H
 
-#include "host/solution/merit.h"
 #include "host/solution/wishes.h"
+#include "host/solve/merit.h"
 
 /* Meets the wishes with torque and voltage made linear again and again, from `from` (coordinates of
  * wishes->set; of no meaning afterwards) on: at the last answer, by Anderson's acceleration, as long as that

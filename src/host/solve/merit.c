@@ -1,4 +1,4 @@
-#include "host/solution/merit.h"
+#include "host/solve/merit.h"
 
 #include <math.h>
 

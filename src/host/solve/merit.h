@@ -1,6 +1,6 @@
 /* How good the true torque of currents within limits is, by the wishes in their order. */
-#ifndef HCI_SRC_HOST_SOLUTION_MERIT_H
-#define HCI_SRC_HOST_SOLUTION_MERIT_H
+#ifndef HCI_SRC_HOST_SOLVE_MERIT_H
+#define HCI_SRC_HOST_SOLVE_MERIT_H
 
 #include "host/machine/torque_gradient.h"
 #include "host/solve/task.h"
