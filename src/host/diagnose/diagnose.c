@@ -61,6 +61,7 @@ static hci_status fill(hci_dataset *b, const hci_runs *runs, hci_attribution *a,
                        hci_note *note)
 {
     d->search = a->ended;
+    d->no_load_alone = a->no_load_alone;
     d->disbelieved = a->disbelieved && a->unknown ? a->disbelieved->name : NULL;
     d->disbelieved_share = a->disbelieved_share;
     hci_unexplained_fill(b, a, d);
@@ -79,11 +80,44 @@ static hci_status fill(hci_dataset *b, const hci_runs *runs, hci_attribution *a,
 
 /* ---- the test ---- */
 
+static bool is_in(const hci_verdict *v)
+{
+    return v->in && v->type != &hci_empirical_type;
+}
+
+/* Whether all that is in was shown by the runs without a current alone. */
+static bool is_established(const hci_attribution *a)
+{
+    bool any = false, all = true;
+    for (size_t r = 0; r < a->types; ++r) {
+        any = any || is_in(&a->verdict[r]);
+        all = all && (!is_in(&a->verdict[r]) || a->verdict[r].established);
+    }
+    return any && all;
+}
+
+/* The model that is left, fitted anew; where only what the runs without a current show is left, as these do.
+ */
+static hci_status refit(hci_dataset *b, hci_attribution *a, hci_note *note)
+{
+    hci_candidates *model = &a->model.candidates;
+    hci_candidates shown = {0};
+    if (!is_established(a)) return hci_regression_fit(&b->regression, model, &a->model.fit, note);
+    const hci_status status = hci_candidates_copy(&a->no_load.candidates, &shown, note);
+    if (status) return status;
+    hci_candidates_release(model);
+    *model = shown;
+    for (size_t r = 0; r < a->types; ++r)
+        if (!a->verdict[r].in) hci_candidates_remove_type(model, a->verdict[r].type);
+    a->no_load_alone = true;
+    return HCI_OK;
+}
+
 /* What is left of the model describes the recordings anew, and the rest is unknown. */
 static hci_status refill(hci_dataset *b, const hci_runs *runs, hci_attribution *a, hci_diagnosis *d,
                          hci_note *note)
 {
-    hci_status status = hci_regression_fit(&b->regression, &a->model.candidates, &a->model.fit, note);
+    hci_status status = refit(b, a, note);
     a->unknown = true;
     for (int pass = 0; pass < 2 && !status; ++pass) { /* how much is unknown is known after the first */
         a->unexplained_Nm = sqrt(fmax(0.0, d->rms_after_Nm * d->rms_after_Nm - d->noise_Nm * d->noise_Nm));
@@ -95,19 +129,39 @@ static hci_status refill(hci_dataset *b, const hci_runs *runs, hci_attribution *
 }
 
 /* Takes out the effects that the runs held out contradict, or all of them where they are contradicted by
- * those that are left too. */
+ * those that are left too; not those that the runs without a current show by themselves. */
 static hci_status withdraw(hci_dataset *b, const hci_runs *runs, hci_attribution *a, hci_diagnosis *d,
                            bool all, hci_note *note)
 {
-    hci_candidates *model = &a->model.candidates;
-    hci_status status = all ? HCI_OK : hci_held_out_keep(b, runs, model, note);
+    hci_candidates *model = &a->model.candidates, kept = {0};
+    hci_status status = hci_candidates_copy(model, &kept, note);
+    if (!status && !all) status = hci_held_out_keep(b, runs, &kept, note);
     for (size_t r = 0; r < a->types && !status; ++r) {
         hci_verdict *v = &a->verdict[r];
-        if (all) hci_candidates_remove_type(model, v->type);
-        v->in = hci_candidates_have(model, v->type);
+        v->in = v->in && (v->established || (!all && hci_candidates_have(&kept, v->type)));
+        if (!v->in) hci_candidates_remove_type(model, v->type);
         v->ambiguous = v->ambiguous && v->in;
     }
+    hci_candidates_release(&kept);
     return status ? status : refill(b, runs, a, d, note);
+}
+
+/* Whether an effect is in that other runs than those without a current have to show. */
+static bool has_more(const hci_attribution *a)
+{
+    for (size_t r = 0; r < a->types; ++r)
+        if (is_in(&a->verdict[r]) && !a->verdict[r].established) return true;
+    return false;
+}
+
+/* Beside something unknown effects are certain only where the runs held out are no worse for them. */
+static hci_status rising_leave(hci_dataset *b, const hci_runs *runs, hci_attribution *a, hci_diagnosis *d,
+                               double resolution_Nm, hci_note *note)
+{
+    hci_status status = HCI_OK;
+    for (int all = 0; all < 2 && !status && has_more(a); ++all)
+        if (hci_held_out_rises(b, runs, d, resolution_Nm)) status = withdraw(b, runs, a, d, all, note);
+    return status;
 }
 
 /* What the runs held out say of the effects. */
@@ -205,6 +259,8 @@ static hci_status diagnose(hci_dataset *b, const hci_machine_data *machine, cons
     if (!status) status = fill(b, runs, &a, d, note);
     if (!status && !a.unknown && d->verdict != HCI_DIAGNOSIS_COMPLETE)
         status = test(b, runs, &a, d, how.resolution_Nm, note);
+    else if (!status && a.unknown)
+        status = rising_leave(b, runs, &a, d, how.resolution_Nm, note);
     if (!status && is_against_voltages(b, machine, runs, d)) {
         status = withdraw(b, runs, &a, d, true, note);
         d->contradicted = false;

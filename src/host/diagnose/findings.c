@@ -152,6 +152,7 @@ void hci_unexplained_fill(const hci_dataset *b, const hci_attribution *a, hci_di
     const hci_dataset_range most = hci_dataset_range_of(b);
     d->wanders = a->unknown && a->wanders;
     d->means_open = a->means_open;
+    d->means_alone = a->means_alone;
     for (size_t k = 0; k < a->model.candidates.count && a->unknown; ++k) {
         const hci_candidate *s = &a->model.candidates.candidate[k];
         if (s->in && s->type == &hci_empirical_type && d->unexplained_count < HCI_MOST_UNEXPLAINED)

@@ -17,6 +17,7 @@
 #define MEAN_LEFT     0.5  /* of the noise of a sample, that the mean of a run may be off */
 #define RIPPLE_LEFT   0.3  /* share of the error of a fitted run that a ripple beside its noise is of */
 #define HELPS         1.05 /* of the error held out, without an effect that lowers it */
+#define RISES         1.02 /* of an error, that is no rounding */
 #define STAYS         0.95 /* share of an error that has not fallen */
 #define SMALL         0.05 /* share of what all effects explain, that a small one explains of it at most */
 #define BY_CHANCE     20.0 /* χ² by which runs held out are described worse, all of them together */
@@ -112,6 +113,13 @@ hci_held_out_result hci_held_out_judge(const hci_dataset *b, const hci_runs *run
     const test_errors x = test_errors_of(b, runs, d, resolution_Nm);
     if (is_contradicted(&x, d->contradicted)) return HCI_HELD_OUT_CONTRADICTED;
     return is_partial(&x, d, resolution_Nm) ? HCI_HELD_OUT_PARTLY : HCI_HELD_OUT_DESCRIBED;
+}
+
+bool hci_held_out_rises(const hci_dataset *b, const hci_runs *runs, const hci_diagnosis *d,
+                        double resolution_Nm)
+{
+    const test_errors x = test_errors_of(b, runs, d, resolution_Nm);
+    return x.after > x.allowed && x.after > RISES * RISES * x.before;
 }
 
 /* ---- which effects help ---- */

@@ -20,6 +20,10 @@ typedef enum {
 hci_held_out_result hci_held_out_judge(const hci_dataset *dataset, const hci_runs *runs,
                                        const hci_diagnosis *diagnosis, double resolution_Nm);
 
+/* Whether their error is above the noise and larger than that of the declared machine. */
+bool hci_held_out_rises(const hci_dataset *dataset, const hci_runs *runs, const hci_diagnosis *diagnosis,
+                        double resolution_Nm);
+
 /* Takes the effects out of a fitted model without which these runs are described as well. HCI_ERROR_MEMORY.
  */
 hci_status hci_held_out_keep(hci_dataset *dataset, const hci_runs *runs, hci_candidates *model,

@@ -99,26 +99,36 @@ static bool is_of_voltages(const hci_diagnosis *d)
            !d->means_open && d->unexplained_count == 0 && !d->disbelieved && !d->contradicted;
 }
 
+static bool is_unfinished(const hci_diagnosis *d)
+{
+    return d->search != HCI_WORK_COMPLETE;
+}
+
 static void say_unknown(const hci_words *w, const hci_diagnosis *d)
 {
     if (d->verdict == HCI_DIAGNOSIS_UNKNOWN)
-        hci_words_say(w, is_of_voltages(d) ? "What the model lacks does not show in these torques."
-                                           : "No known effect explains what the model lacks.");
+        hci_words_say(w, is_of_voltages(d)  ? "What the model lacks does not show in these torques."
+                         : is_unfinished(d) ? "What the model lacks is not known yet."
+                                            : "No known effect explains what the model lacks.");
     if (d->verdict == HCI_DIAGNOSIS_PARTLY) {
         hci_words_say(w, "Partly explained: the model lacked ");
         say_names(w, d, HCI_FINDING_ADDED, " and ");
         if (!any(d, HCI_FINDING_ADDED)) say_names(w, d, HCI_FINDING_AMBIGUOUS, " or ");
-        hci_words_say(w, "; what else it lacks is not known.");
+        if (d->no_load_alone) hci_words_say(w, ", which the runs without a current show by themselves");
+        hci_words_say(w, "; what else it lacks is not known%s.", is_unfinished(d) ? " yet" : "");
     }
+    if (is_unfinished(d)) return; /* what is left may be what was not looked for */
     say_disbelieved(w, d);
     if (d->contradicted)
         hci_words_say(
             w, " Effects that describe the runs that were fitted and not those that were held out were "
                "dropped.");
     if (d->means_open)
-        hci_words_say(w,
-                      " The mean of each run is off by something else: what would explain all of them says "
-                      "nothing of a run left out, as where the zero of a sensor is another one each time.");
+        hci_words_say(w, d->means_alone
+                             ? " The mean of each run is off by something else: what would explain all of "
+                               "them says nothing of a run left out, as where the zero of a sensor is "
+                               "another one each time."
+                             : " What would explain all runs says nothing of a run left out.");
     if (d->wanders) hci_words_say(w, " Something in it does not repeat with the turn of the rotor.");
     for (size_t k = 0; k < d->unexplained_count; ++k) {
         const hci_unexplained *u = &d->unexplained[k];

@@ -88,6 +88,26 @@ static void test_means_of_runs_are_judged(void)
     TEST_ASSERT_EQUAL_INT(HCI_HELD_OUT_DESCRIBED, hci_held_out_judge(&none, &runs, &of_one, 1e-4));
 }
 
+/* An error held out that is larger for the effects, unless it is the noise. */
+static void test_a_rise_is_seen(void)
+{
+    hci_run_errors error = {
+        .role = HCI_ROLE_HOLDOUT, .rms_before_Nm = 0.048, .rms_after_Nm = 0.193, .noise_floor_Nm = 0.01};
+    const hci_diagnosis of_one = {.run = &error, .runs = 1};
+    record(SAMPLES, &(point){60.0, 9.0, 0.0, 0.0, 0.0});
+    record(SAMPLES, &(point){60.0, 9.0, 0.0, 0.0, 0.0});
+    role[1] = HCI_ROLE_HOLDOUT;
+    search_start();
+    error.file = run[1].name;
+    TEST_ASSERT_TRUE(hci_held_out_rises(&dataset, &runs, &of_one, 1e-4));
+    error.rms_after_Nm = 0.047;
+    TEST_ASSERT_FALSE(hci_held_out_rises(&dataset, &runs, &of_one, 1e-4));
+    error.rms_after_Nm = 0.014;
+    error.rms_before_Nm = 0.012;
+    TEST_ASSERT_FALSE(hci_held_out_rises(&dataset, &runs, &of_one, 1e-4));
+    search_end();
+}
+
 /* Nor is a ripple that is three times the noise of a run and most of what it was, such as of a lag in place
  * of a delay; noise of slopes is known by half. */
 static void test_ripple_of_fitted_runs_is_judged(void)
@@ -104,8 +124,8 @@ static void test_ripple_of_fitted_runs_is_judged(void)
     TEST_ASSERT_EQUAL_INT(HCI_HELD_OUT_DESCRIBED, hci_held_out_judge(&none, &runs, &of_one, 1e-4));
 }
 
-/* In one direction friction is not told from the zero of the sensor; so little of either beside much cogging is
- * neither, and no one asks which. */
+/* In one direction friction is not told from the zero of the sensor; so little of either beside much cogging
+ * is neither, and no one asks which. */
 static void test_faint_effects_leave_as_a_pair(void)
 {
     for (size_t k = 0; k < 4; ++k) {
@@ -230,6 +250,7 @@ int main(void)
     RUN_TEST(test_small_effects_that_mislead_are_left_out);
     RUN_TEST(test_small_effects_that_predict_stay);
     RUN_TEST(test_means_of_runs_are_judged);
+    RUN_TEST(test_a_rise_is_seen);
     RUN_TEST(test_ripple_of_fitted_runs_is_judged);
     RUN_TEST(test_faint_effects_leave_as_a_pair);
     RUN_TEST(test_what_helps_is_kept);

@@ -150,6 +150,9 @@ typedef struct {
                              dropped */
     bool means_open;      /* effects described the means of the runs that were fitted, but not of those left
                            * out, and were dropped */
+    bool means_alone;     /* and nothing stands in the ripple beside what is left of these means */
+    bool no_load_alone;   /* the effects are those that the runs without a current show by themselves, since
+                           * what   acts under load is not known */
     bool wanders;         /* something is left that does not repeat with the turn */
     bool inertia_as_well; /* free shafts alone: a wrong inertia looks the same as an ambiguous effect */
     double open_voltage_off; /* share by which voltages without a current differ from the declared back-EMF;

@@ -11,6 +11,7 @@
 #define REGULAR     1e-10 /* added to a diagonal of 1, so that rounding makes no pivot negative */
 #define WHERE_STUCK 1e-6  /* damping to begin with where the matrix is singular */
 #define WHERE_WORSE 1e-3  /* and where χ² rose */
+#define HOPELESS    20.0  /* times what a step promises, that the score is above what it has to be below */
 #define HARDER      10.0  /* factors of the damping */
 #define EASIER      0.1
 
@@ -74,6 +75,7 @@ typedef struct {
     double *matrix;                     /* [n][n] */
     double *scale, *unit, *step, *from; /* [n] */
     double damping;
+    double bar; /* no need to go on where the score stays above it */
 } fitting;
 
 /* G + damping·diag G in units where the diagonal is 1; a column without effect is left alone. */
@@ -161,6 +163,12 @@ static hci_status step_take(fitting *f, bool *last, hci_note *note)
     return HCI_OK;
 }
 
+/* Whether what a step promises is little beside what the score is above the bar. */
+static bool is_hopeless(const fitting *f, double promised)
+{
+    return score_of(f->candidates, &f->normal) - HOPELESS * promised > f->bar;
+}
+
 /* Steps until one promises next to nothing. */
 static hci_status steps_take(fitting *f, hci_note *note)
 {
@@ -173,7 +181,8 @@ static hci_status steps_take(fitting *f, hci_note *note)
             f->damping = fmax(WHERE_STUCK, HARDER * f->damping);
             continue;
         }
-        if (promise(f) < CONVERGED) break;
+        const double promised = promise(f);
+        if (promised < CONVERGED || is_hopeless(f, promised)) break;
         status = step_take(f, &last, note);
     }
     return status;
@@ -206,11 +215,12 @@ static void fitting_release(fitting *f)
     hci_normal_equations_release(&f->normal);
 }
 
-hci_status hci_regression_fit(const hci_regression *regression, hci_candidates *candidates, hci_fit *fit,
-                              hci_note *note)
+hci_status hci_regression_fit_below(const hci_regression *regression, hci_candidates *candidates, double bar,
+                                    hci_fit *fit, hci_note *note)
 {
     fitting f;
     hci_status status = fitting_make(regression, candidates, &f, note);
+    f.bar = bar;
     if (!status) status = hci_regression_normal(regression, candidates, false, &f.normal, note);
     if (!status) status = steps_take(&f, note);
     if (!status) {
@@ -219,4 +229,10 @@ hci_status hci_regression_fit(const hci_regression *regression, hci_candidates *
     }
     fitting_release(&f);
     return status;
+}
+
+hci_status hci_regression_fit(const hci_regression *regression, hci_candidates *candidates, hci_fit *fit,
+                              hci_note *note)
+{
+    return hci_regression_fit_below(regression, candidates, INFINITY, fit, note);
 }

@@ -32,4 +32,8 @@ double hci_fit_effective_score(const hci_fit *fit, const hci_candidates *candida
 /* The price of a candidate's coming in, in units of χ²: of its parameters and of the choice. */
 double hci_candidate_cost(const hci_candidate *candidate, double rows);
 
+/* The same, but not to the end where the score will not fall below a bar. */
+hci_status hci_regression_fit_below(const hci_regression *regression, hci_candidates *candidates, double bar,
+                                    hci_fit *fit, hci_note *note);
+
 #endif

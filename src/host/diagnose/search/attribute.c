@@ -30,6 +30,12 @@ static bool is_of_whole(const hci_search *s, const hci_effect_type *type)
     return s->whole_coenergy && type->propose_coenergy;
 }
 
+/* Where something is not known, effects may be a part of it; not those of the runs without a current. */
+static bool is_beside_unknown(const hci_attribution *a)
+{
+    return a->unknown && !a->no_load_alone;
+}
+
 /* What speaks for an effect that is in, and which others could stand in its place. */
 static hci_status verdict_of(hci_search *s, hci_attribution *a, hci_verdict *v, hci_note *note)
 {
@@ -42,8 +48,7 @@ static hci_status verdict_of(hci_search *s, hci_attribution *a, hci_verdict *v, 
                                 : without.fit.score - a->model.fit.score;
     status = hci_search_explained(s, &a->model.candidates, &without.candidates, &v->explained_Nm, note);
     hci_fitted_model_release(&without);
-    /* Beside an empirical term known effects may be a part of it. */
-    if (status || a->unknown || is_of_whole(s, v->type) || hci_search_is_over(s)) return status;
+    if (status || is_beside_unknown(a) || is_of_whole(s, v->type) || hci_search_is_over(s)) return status;
     return hci_search_rivals(s, v->type, a, note);
 }
 
@@ -105,7 +110,7 @@ static hci_status same_mark(hci_search *s, hci_attribution *a, size_t type, cons
 static hci_status verdicts_of_same(hci_search *s, hci_attribution *a, hci_note *note)
 {
     const hci_effect_type *same_as[HCI_MOST_TYPES];
-    if (a->unknown) return HCI_OK;
+    if (is_beside_unknown(a)) return HCI_OK;
     hci_status status = hci_candidate_models_same(s, &a->model.candidates, same_as, note);
     for (size_t r = 0; r < a->types && !status; ++r)
         if (same_as[r] && !is_of_whole(s, same_as[r])) status = same_mark(s, a, r, same_as[r], note);
@@ -160,7 +165,7 @@ static hci_status companions_leave(hci_search *s, hci_attribution *a, bool *left
     *left = false;
     for (size_t r = 0; r < a->types && !status && !*left; ++r) {
         hci_verdict *v = &a->verdict[r];
-        if (!v->in || v->type == &hci_empirical_type) continue;
+        if (!v->in || v->established || v->type == &hci_empirical_type) continue;
         if (!(v->gain < hci_companion_least(s->regression, a, v))) continue;
         hci_candidates_remove_type(&a->model.candidates, v->type);
         ambiguities_forget(a);
@@ -208,12 +213,39 @@ static hci_status verdicts(hci_search *s, hci_attribution *a, hci_note *note)
     return status;
 }
 
+/* ---- what stands in the runs without a current ---- */
+
+static void established_mark(hci_attribution *a)
+{
+    for (size_t r = 0; r < a->types; ++r) {
+        const hci_effect_type *type = a->verdict[r].type;
+        a->verdict[r].established = hci_candidates_have(&a->no_load.candidates, type) &&
+                                    hci_candidates_have(&a->model.candidates, type);
+    }
+}
+
+/* Goes by the runs without a current alone, where nothing else is understood: what they show is certain,
+ * whatever is wrong under load. */
+static hci_status no_load_stays(hci_search *s, hci_attribution *a, const bool *use, hci_note *note)
+{
+    hci_status status = HCI_OK;
+    if (a->unknown) status = hci_search_no_load_stays(s, a, note);
+    established_mark(a);
+    if (status || !a->no_load_alone) return status;
+    s->regression->use = use;
+    s->regression->free_means = false;
+    s->no_current = true;
+    return hci_search_renew(s, &a->model, note);
+}
+
 /* ---- the whole ---- */
 
-static hci_status attribute(hci_search *s, hci_attribution *a, hci_note *note)
+/* no_load: out, [runs], those without a current. */
+static hci_status attribute(hci_search *s, hci_attribution *a, bool *no_load, hci_note *note)
 {
     hci_candidates none = {0};
-    hci_status status = hci_search_no_load(s, &a->model, note);
+    hci_status status = hci_search_no_load(s, no_load, a, note);
+    s->from_no_load = hci_candidates_types_in(&a->model.candidates) > 0;
     if (!status) status = hci_search_rounds(s, &a->model, note);
     if (status) return status;
     hci_search_begin(s, "weighing the evidence", HCI_ROUNDS_SHARE, 1.0);
@@ -224,6 +256,7 @@ static hci_status attribute(hci_search *s, hci_attribution *a, hci_note *note)
     if (s->whole_coenergy && !status) status = hci_search_keep_predictive(s, &a->model, note);
     if (!status) status = hci_search_drop_unsure(s, &a->model, note);
     if (!status) status = hci_search_settle(s, a, note);
+    if (!status) status = no_load_stays(s, a, no_load, note);
     if (!status) status = verdicts(s, a, note);
     if (!status) status = hci_search_stability(s, a, note);
     if (!status) status = hci_regression_standard_errors(s->regression, &a->model.candidates, note);
@@ -244,12 +277,19 @@ hci_status hci_attribute(hci_regression *regression, const hci_attribute_options
     for (size_t r = 0; r < attribution->types; ++r)
         attribution->verdict[r].type = hci_candidate_type(r);
     s.residual_Nm = hci_memory_new(2 * samples + 1, sizeof *s.residual_Nm);
-    if (!s.residual_Nm) return hci_note_memory(note, NULL, "the search of effects");
+    bool *no_load = hci_memory_new(regression->samples->run_count + 1, sizeof *no_load);
+    if (!s.residual_Nm || !no_load) {
+        hci_memory_free(s.residual_Nm);
+        hci_memory_free(no_load);
+        return hci_note_memory(note, NULL, "the search of effects");
+    }
     s.variance = s.residual_Nm + samples;
-    const hci_status status = attribute(&s, attribution, note);
+    const bool *all = regression->use;
+    const hci_status status = attribute(&s, attribution, no_load, note);
+    regression->use = all;
+    hci_memory_free(no_load);
     hci_memory_free(s.residual_Nm);
     hci_fitted_model_release(&s.disbelieved.model);
-    hci_fitted_model_release(&s.no_load);
     if (status) hci_attribution_release(attribution);
     return status;
 }
@@ -259,5 +299,6 @@ void hci_attribution_release(hci_attribution *a)
     for (size_t r = 0; r < a->types; ++r)
         hci_fitted_model_release(&a->verdict[r].alternative);
     hci_fitted_model_release(&a->model);
+    hci_fitted_model_release(&a->no_load);
     memset(a, 0, sizeof *a);
 }

@@ -10,6 +10,7 @@ typedef struct {
     const hci_effect_type *type;
     bool in;                         /* in the model */
     bool ambiguous;                  /* in, but others fit as well; or one of those others */
+    bool established;                /* in, and shown by the runs without a current alone */
     const hci_effect_type *rival_of; /* the one that it could stand for */
     double gain;                     /* fall of the score by having it: positive speaks for it */
     double explained_Nm;             /* rms of what the model loses without it */
@@ -22,16 +23,19 @@ enum { HCI_MOST_TYPES = 32 };
 
 /* Start with {0}. */
 typedef struct {
-    hci_fitted_model model;             /* with the noise that was found in the end */
-    hci_fit before;                     /* without any effect, with the same noise */
-    hci_work_end ended;                 /* how */
-    bool unknown;                       /* something is left that no effect explains, and it is not small */
+    hci_fitted_model model;   /* with the noise that was found in the end */
+    hci_fit before;           /* without any effect, with the same noise */
+    hci_fitted_model no_load; /* of the runs without a current alone; empty: they do not tell */
+    bool no_load_alone;       /* model and before are of those runs, since the others are not understood */
+    hci_work_end ended;       /* how */
+    bool unknown;             /* something is left that no effect explains, and it is not small */
     const hci_effect_type *disbelieved; /* describes the recordings best, with values that nobody would
                                          * believe; NULL: none */
     double disbelieved_share;           /* of the declared torque per ampere, that it leaves */
     bool inertia_as_well;               /* a wrong inertia looks the same as an effect that is in */
-    bool means_open; /* what was found of the means of the runs says nothing of those left out, and is out */
-    bool wanders;    /* what is left does not repeat with the turn */
+    bool means_open;  /* what was found of the means of the runs says nothing of those left out, and is out */
+    bool means_alone; /* and nothing but those means is left */
+    bool wanders;     /* what is left does not repeat with the turn */
     double unexplained_Nm; /* rms of what no effect explains */
     hci_verdict verdict[HCI_MOST_TYPES];
     size_t types;

@@ -63,7 +63,8 @@ static hci_status leave_one(hci_search *s, hci_fitted_model *model, size_t k, bo
     hci_status status = hci_fitted_model_copy(model, &without, note);
     if (status) return status;
     without.candidates.candidate[k].in = false;
-    status = hci_regression_fit(s->regression, &without.candidates, &without.fit, note);
+    status = hci_regression_fit_below(s->regression, &without.candidates, model->fit.score + HCI_AS_GOOD,
+                                      &without.fit, note);
     *left = !status && without.fit.score <= model->fit.score + HCI_AS_GOOD;
     if (*left) hci_fitted_model_replace(model, &without);
     hci_fitted_model_release(&without);
@@ -89,7 +90,12 @@ static hci_status drop_type(hci_search *s, hci_fitted_model *model, const hci_ef
 {
     hci_fitted_model without = {0};
     bool noticeable = true;
-    hci_status status = hci_search_without(s, model, type, &without, note);
+    hci_status status = hci_fitted_model_copy(model, &without, note);
+    if (status) return status;
+    hci_search_tell(s);
+    hci_candidates_remove_type(&without.candidates, type);
+    status = hci_regression_fit_below(s->regression, &without.candidates, model->fit.score + HCI_DECISIVE,
+                                      &without.fit, note);
     if (!status)
         status = hci_search_noticeable(s, &model->candidates, &without.candidates, &noticeable, note);
     *dropped = !status && (without.fit.score < model->fit.score + HCI_DECISIVE || !noticeable);

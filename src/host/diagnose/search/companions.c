@@ -53,11 +53,11 @@ static bool jitters(const hci_regression *e)
 /* What a model of the type gets wrong, as a share of what it explains: a series in the currents is not what
  * iron does to the last digit, nor what a sensor answers between samples that are far apart in a period, nor
  * a delay the filter that makes it. */
-static double error_of(const hci_regression *e, const hci_attribution *a, const hci_effect_type *type)
+double hci_companion_error(const hci_regression *e, const hci_candidates *model, const hci_effect_type *type)
 {
     if (type->late && jitters(e)) return JITTER_ERROR;
     if (type->beyond_quadratic) return SERIES_ERROR;
-    return swings(&a->model.candidates, type) ? SWING_ERROR : 0.0;
+    return swings(model, type) ? SWING_ERROR : 0.0;
 }
 
 /* The fall of the score that another effect of the iron must reach to be more than a part of the error of the
@@ -67,7 +67,7 @@ static double least_of_iron(const hci_regression *e, const hci_attribution *a, c
     double most = 0.0;
     for (size_t r = 0; r < a->types; ++r) {
         const hci_verdict *other = &a->verdict[r];
-        const double error = error_of(e, a, other->type);
+        const double error = hci_companion_error(e, &a->model.candidates, other->type);
         const bool both = v->type->beyond_quadratic && other->type->beyond_quadratic;
         if (other->in && other != v && error > 0.0 && !both) most = fmax(most, error * other->gain);
     }

@@ -13,4 +13,9 @@ bool hci_are_free_shafts(const hci_regression *regression);
 double hci_companion_least(const hci_regression *regression, const hci_attribution *attribution,
                            const hci_verdict *verdict);
 
+/* What a type in a model gets wrong, as a share of what it explains: effects of the iron that explain less
+ * are a part of that. */
+double hci_companion_error(const hci_regression *regression, const hci_candidates *model,
+                           const hci_effect_type *type);
+
 #endif

@@ -40,8 +40,9 @@ hci_status hci_search_few_values(hci_search *s, hci_fitted_model *model, bool *c
 {
     hci_status status = HCI_OK;
     *changed = false;
-    if (!hci_candidates_have_series(&model->candidates)) return HCI_OK;
-    for (int empty = 0; empty < 2 && !*changed && !status && !hci_search_is_over(s); ++empty) {
+    const bool series = hci_candidates_have_series(&model->candidates);
+    if (!series && !s->from_no_load) return HCI_OK;
+    for (int empty = !series; empty < 2 && !*changed && !status && !hci_search_is_over(s); ++empty) {
         hci_fitted_model few = {0};
         status = start(s, model, empty, &few, note);
         if (!status) status = steps_run(s, model, &few, changed, note);

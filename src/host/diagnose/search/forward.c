@@ -7,6 +7,7 @@
 #include "host/diagnose/fit/resonance.h"
 #include "host/diagnose/search/belief.h"
 #include "host/diagnose/search/candidate_models.h"
+#include "host/diagnose/search/companions.h"
 
 /* Promises of the linearised problem, in units of the score. */
 #define PROMISING    (0.5 * HCI_DECISIVE) /* a single effect that is fitted in full */
@@ -21,6 +22,7 @@
 #define RESONANCE_PRICE 12.0   /* of having looked at so many frequencies */
 #define LAG_PRICE       6.0    /* and at so many time constants */
 #define LATE_PRICE      12.0   /* and at so many delays */
+#define FAINT           0.5    /* of what an effect of the iron will have to explain */
 #define MUCH            3.0    /* times the resolution, and … */
 #define STANDS_OUT                                                                                           \
     1.1 /* … times the noise: a residual in which high powers of the currents are looked for               \
@@ -284,6 +286,74 @@ static hci_status late_enter(comparison *c, const hci_effect_type *type, hci_not
     return status;
 }
 
+/* ---- what would not stay ---- */
+
+/* What an effect of the iron has to explain beside those that are in and not exact; half of it, since that
+ * was found when they came in. */
+static double least_of_iron(const hci_search *s, const hci_candidates *model, const hci_effect_type *type)
+{
+    double least = 0.0;
+    for (size_t r = 0; r < hci_candidate_types(); ++r) {
+        const hci_effect_type *other = hci_candidate_type(r);
+        if (other == type || !hci_candidates_have(model, other)) continue;
+        if (type->beyond_quadratic && other->beyond_quadratic) continue;
+        least = fmax(least, FAINT * s->came_with[r] * hci_companion_error(s->regression, model, other));
+    }
+    return least;
+}
+
+/* What a type must explain to come in; 0: anything. What no effect explains takes the place of those of the
+ * iron. */
+static double least_of(const hci_search *s, const hci_candidates *model, size_t type)
+{
+    const hci_effect_type *x = hci_candidate_type(type);
+    const bool of_iron = x->propose_coenergy || x == &hci_empirical_type;
+    return of_iron && !hci_candidates_have(model, x) ? least_of_iron(s, model, x) : 0.0;
+}
+
+/* What a type promises alone. */
+static double single_gain(const hci_candidate_models *t, size_t type)
+{
+    for (size_t k = 0; k < t->count; ++k)
+        if (t->model[k].a == type && t->model[k].b == type) return fmax(0.0, t->model[k].gain);
+    return 0.0;
+}
+
+/* Whether one type of a model adds less to the other than it must. */
+static bool is_faint(const hci_search *s, const hci_candidates *model, const hci_candidate_models *t,
+                     const hci_candidate_model *x)
+{
+    const double least_a = least_of(s, model, x->a), least_b = least_of(s, model, x->b);
+    if (!is_pair(x)) return x->gain < least_a;
+    return x->gain - single_gain(t, x->b) < least_a || x->gain - single_gain(t, x->a) < least_b;
+}
+
+/* Effects of the iron that would be taken for a part of the error of others in the end are not looked for:
+ * only noise is left. */
+static void faint_leave(const hci_search *s, const hci_candidates *model, hci_candidate_models *t)
+{
+    size_t count = 0;
+    for (size_t k = 0; k < t->count; ++k)
+        if (is_pair(&t->model[k]) && is_faint(s, model, t, &t->model[k])) t->model[k].gain = -INFINITY;
+    for (size_t k = 0; k < t->count; ++k)
+        if (isfinite(t->model[k].gain) && !(!is_pair(&t->model[k]) && is_faint(s, model, t, &t->model[k])))
+            t->model[count++] = t->model[k];
+    t->count = count;
+}
+
+/* Takes note of what the score falls by. */
+static void coming_note(hci_search *s, const hci_fitted_model *before, const hci_fitted_model *after)
+{
+    const bool alone =
+        hci_candidates_types_in(&after->candidates) == hci_candidates_types_in(&before->candidates) + 1;
+    for (size_t r = 0; r < hci_candidate_types() && alone; ++r)
+        if (!hci_candidates_have(&before->candidates, hci_candidate_type(r)) &&
+            hci_candidates_have(&after->candidates, hci_candidate_type(r)))
+            s->came_with[r] = before->fit.score - after->fit.score;
+}
+
+/* ---- the step ---- */
+
 static comparison comparison_from(hci_search *s, const hci_fitted_model *present)
 {
     return (comparison){s, present, {{NULL, 0, 0.0}, {0.0, 0, 0.0, 0.0}}, present->fit.score - HCI_DECISIVE};
@@ -296,6 +366,7 @@ hci_status hci_search_forward(hci_search *s, hci_fitted_model *model, bool *adde
     hci_status status = models_enriched(s, &model->candidates, &t, note);
     *added = false;
     if (status) return status;
+    faint_leave(s, &model->candidates, &t);
     status = models_enter(&c, &t, note);
     hci_candidate_models_release(&t);
     for (size_t r = 0; hci_effect_type_at(r) && !status && !hci_search_is_over(s); ++r)
@@ -305,6 +376,7 @@ hci_status hci_search_forward(hci_search *s, hci_fitted_model *model, bool *adde
     for (size_t r = 0; hci_effect_type_at(r) && !status && !hci_search_is_over(s); ++r)
         if (hci_effect_type_at(r)->late) status = late_enter(&c, hci_effect_type_at(r), note);
     if (!status && c.best.candidates.candidate) {
+        coming_note(s, model, &c.best);
         hci_fitted_model_replace(model, &c.best);
         *added = true;
         status = hci_search_renew(s, model, note);

@@ -1,6 +1,7 @@
 #include "host/diagnose/search/no_load.h"
 
-#include "host/base/memory.h"
+#include <math.h>
+
 #include "host/diagnose/candidates/empirical_term.h"
 #include "host/diagnose/search/backward.h"
 #include "host/diagnose/search/rounds.h"
@@ -47,29 +48,100 @@ static hci_status effects_find(hci_search *s, hci_fitted_model *model, bool *fou
     return status;
 }
 
-static hci_status of_runs(hci_search *s, hci_fitted_model *model, hci_note *note)
+/* Whether a term stands in the means of runs, as friction and the zero of a sensor do. */
+static bool is_of_means(const hci_candidate *x)
+{
+    const hci_effect_parameter *p = &x->type->parameter[x->term[0].parameter];
+    return !p->ordered && !(p->traits & HCI_PARAMETER_ALONG_TIME) && !x->type->sum_by_value;
+}
+
+/* As many values as runs describe their means whatever they are: those prove nothing. */
+static void unproven_leave(const hci_regression *e, hci_candidates *shown)
+{
+    size_t values = 0;
+    for (size_t k = 0; k < shown->count; ++k)
+        if (shown->candidate[k].in && is_of_means(&shown->candidate[k])) values += shown->candidate[k].count;
+    if (values < hci_regression_runs_in_use(e)) return;
+    for (size_t k = 0; k < shown->count; ++k)
+        if (shown->candidate[k].in && is_of_means(&shown->candidate[k]))
+            hci_candidates_remove_type(shown, shown->candidate[k].type);
+}
+
+static hci_status of_runs(hci_search *s, hci_attribution *a, hci_note *note)
 {
     bool found = false;
     s->no_current = true;
-    hci_status status = effects_find(s, model, &found, note);
+    hci_status status = effects_find(s, &a->model, &found, note);
     s->no_current = false;
-    if (!status && found) return hci_fitted_model_copy(model, &s->no_load, note);
-    hci_fitted_model_release(model);
+    if (!status && found) {
+        status = hci_fitted_model_copy(&a->model, &a->no_load, note);
+        unproven_leave(s->regression, &a->no_load.candidates);
+        return status;
+    }
+    hci_fitted_model_release(&a->model);
     return status;
 }
 
-hci_status hci_search_no_load(hci_search *s, hci_fitted_model *model, hci_note *note)
+hci_status hci_search_no_load(hci_search *s, bool *use, hci_attribution *a, hci_note *note)
 {
     hci_regression *e = s->regression;
     const bool *all = e->use;
-    bool *use = hci_memory_new(e->samples->run_count + 1, sizeof *use);
-    if (!use) return hci_note_memory(note, NULL, "runs without a current");
     hci_status status = HCI_OK;
-    if (runs_find(e, use) > 0) {
-        e->use = use;
-        status = of_runs(s, model, note);
-        e->use = all;
-    }
-    hci_memory_free(use);
+    if (runs_find(e, use) == 0) return HCI_OK;
+    e->use = use;
+    status = of_runs(s, a, note);
+    e->use = all;
     return status;
+}
+
+/* ---- where something is not known ---- */
+
+/* Whether a model has a known type that another one lacks. */
+static bool has_more(const hci_candidates *model, const hci_candidates *than)
+{
+    for (size_t r = 0; hci_effect_type_at(r); ++r)
+        if (hci_candidates_have(model, hci_effect_type_at(r)) &&
+            !hci_candidates_have(than, hci_effect_type_at(r)))
+            return true;
+    return false;
+}
+
+/* Adds the types that have left, with their values. */
+static hci_status lost_add(const hci_candidates *from, hci_candidates *to, hci_note *note)
+{
+    hci_candidates lacking = {0};
+    hci_status status = hci_candidates_copy(from, &lacking, note);
+    for (size_t r = 0; r < hci_candidate_types(); ++r)
+        if (hci_candidates_have(to, hci_candidate_type(r)))
+            hci_candidates_remove_type(&lacking, hci_candidate_type(r));
+    for (size_t k = 0; k < lacking.count && !status; ++k)
+        if (lacking.candidate[k].in) status = hci_candidates_add(to, &lacking.candidate[k], note);
+    hci_candidates_release(&lacking);
+    return status;
+}
+
+/* The model is that of the runs without a current; what it leaves of all is not known. */
+static hci_status model_replace(hci_search *s, hci_attribution *a, hci_note *note)
+{
+    hci_fitted_model copy = {0};
+    hci_status status = hci_fitted_model_copy(&a->no_load, &copy, note);
+    if (status) return status;
+    hci_fitted_model_replace(&a->model, &copy);
+    s->regression->free_means = false;
+    status = hci_search_noise(s, &a->model.candidates, note);
+    if (!status) status = hci_search_residual(s, &a->model.candidates, note);
+    const double left_Nm = hci_search_residual_rms(s), noise_Nm = hci_search_noise_rms(s);
+    a->unexplained_Nm = sqrt(fmax(0.0, left_Nm * left_Nm - noise_Nm * noise_Nm));
+    a->no_load_alone = !status;
+    return status;
+}
+
+hci_status hci_search_no_load_stays(hci_search *s, hci_attribution *a, hci_note *note)
+{
+    const hci_candidates *shown = &a->no_load.candidates;
+    if (hci_candidates_types_in(shown) == 0) return HCI_OK;
+    if (!has_more(&a->model.candidates, shown)) return model_replace(s, a, note);
+    if (!has_more(shown, &a->model.candidates)) return HCI_OK;
+    const hci_status status = lost_add(shown, &a->model.candidates, note);
+    return status ? status : hci_search_renew(s, &a->model, note);
 }

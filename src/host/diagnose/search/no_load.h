@@ -8,8 +8,12 @@
 
 #include "host/diagnose/search/search.h"
 
-/* The model stays empty where no runs are without a current, or all are, or where no known effects leave
- * nothing but noise of them. Sets search->no_load. HCI_ERROR_MEMORY. */
-hci_status hci_search_no_load(hci_search *search, hci_fitted_model *model, hci_note *note);
+/* use: out, [runs], which they are. The model stays empty where none is without a current, or where no known
+ * effects leave nothing but noise of them. Sets no_load of the attribution too. HCI_ERROR_MEMORY. */
+hci_status hci_search_no_load(hci_search *search, bool *use, hci_attribution *attribution, hci_note *note);
+
+/* Where something is not known: what they show stays. Sets no_load_alone where nothing else does, and then
+ * the model is theirs. HCI_ERROR_MEMORY. */
+hci_status hci_search_no_load_stays(hci_search *search, hci_attribution *attribution, hci_note *note);
 
 #endif

@@ -20,15 +20,16 @@ typedef struct {
 typedef struct {
     hci_regression *regression;
     const hci_attribute_options *options;
-    double *residual_Nm, *variance; /* of each sample, of the model looked at last */
-    double resolution_Nm;           /* what the model is not asked to be better than: as in the options, or
-                                     * more where it is to describe slopes */
-    int richness;                   /* of saturation */
-    hci_disbelieved disbelieved;    /* to be released */
-    hci_fitted_model no_load;       /* of the runs without a current alone; to be released */
-    bool known_only;                /* nothing unknown competes */
-    bool no_current;                /* nor what needs a current */
-    bool whole_coenergy;            /* all terms of the co-energy are in, each with an expectation */
+    double *residual_Nm, *variance;   /* of each sample, of the model looked at last */
+    double resolution_Nm;             /* what the model is not asked to be better than: as in the options, or
+                                       * more where it is to describe slopes */
+    int richness;                     /* of saturation */
+    hci_disbelieved disbelieved;      /* to be released */
+    double came_with[HCI_MOST_TYPES]; /* of each type, by how much the score fell when it came in alone */
+    bool known_only;                  /* nothing unknown competes */
+    bool no_current;                  /* nor what needs a current */
+    bool from_no_load;                /* the search went on from what the runs without a current show */
+    bool whole_coenergy;              /* all terms of the co-energy are in, each with an expectation */
     const char *doing;
     double share, until; /* of all work: done so far, and when the step at hand is done */
     hci_work_end ended;  /* HCI_WORK_COMPLETE until something makes it end early */

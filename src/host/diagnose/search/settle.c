@@ -20,6 +20,9 @@
 #define SMALL        0.6  /* what is not understood is no finding below this share of what is */
 #define UNTOUCHED    1.5  /* a known effect this much larger than what is not understood stands beside it */
 #define LEAST_BLOCKS 50.0 /* to tell from how uneven errors are */
+#define BESIDE_MEANS                                                                                         \
+    0.1 /* of the square of what is left, that may stand in the ripple beside means alone                    \
+         */
 #define UNPREDICTED                                                                                          \
     0.04 /* of what effects explain, that they leave in runs left out: a fifth of the error                  \
           */
@@ -297,7 +300,11 @@ static hci_status means_leave(hci_search *s, hci_attribution *a, hci_note *note)
     if (!status) status = hci_search_residual(s, model, note);
     const double left_Nm = hci_search_residual_rms(s);
     s->regression->free_means = true;
+    if (!status) status = hci_search_residual(s, model, note);
+    const double ripple_Nm = hci_search_residual_rms(s);
     a->means_open = a->unknown = true;
+    a->means_alone = ripple_Nm * ripple_Nm - noise_Nm * noise_Nm <
+                     BESIDE_MEANS * (left_Nm * left_Nm - noise_Nm * noise_Nm);
     a->unexplained_Nm = sqrt(fmax(0.0, left_Nm * left_Nm - noise_Nm * noise_Nm));
     return status;
 }

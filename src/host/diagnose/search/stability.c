@@ -151,7 +151,7 @@ static bool is_told(double fall, double left_out)
 
 /* What runs left out say of a model. */
 typedef struct {
-    double taken;  /* sum of their squares without any effect, less those of the model fitted to all of them */
+    double taken; /* sum of their squares without any effect, less those of the model fitted to all of them */
     double missed; /* sum of their squares where they are left out, less the same */
     size_t told;   /* of how many that is: of the others nothing is added */
 } promises;

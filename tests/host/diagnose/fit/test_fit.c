@@ -248,6 +248,24 @@ static void test_memory_is_out(void)
     }
 }
 
+/* A fit that cannot fall below a bar is not brought to its end, and one that can is. */
+static void test_below_a_bar(void)
+{
+    hci_fit full, below;
+    record_two(900, 0.2, 0.05, 0.0);
+    weigh(NOISE_NM);
+    model_add("position_offset", "angle", NULL, 0.0);
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_regression_fit(&dataset.regression, &model.candidates, &full, &note));
+    value_of(0, 0)->value = 0.0;
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_regression_fit_below(&dataset.regression, &model.candidates,
+                                                           2.0 * full.score, &below, &note));
+    TEST_ASSERT_DOUBLE_WITHIN(0.1, full.score, below.score);
+    value_of(0, 0)->value = 0.0;
+    TEST_ASSERT_EQUAL_INT(
+        HCI_OK, hci_regression_fit_below(&dataset.regression, &model.candidates, -1e9, &below, &note));
+    TEST_ASSERT_TRUE(below.score > full.score + 1.0);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -260,5 +278,6 @@ int main(void)
     RUN_TEST(test_standard_errors_are_the_scatter);
     RUN_TEST(test_correlated_noise_raises_the_errors);
     RUN_TEST(test_memory_is_out);
+    RUN_TEST(test_below_a_bar);
     return UNITY_END();
 }

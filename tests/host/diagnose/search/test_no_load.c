@@ -2,6 +2,7 @@
 #define _XOPEN_SOURCE 700
 #include "host/diagnose/search/no_load.h"
 
+#include "host/diagnose/search/attribute.h"
 #include "support/searching.h"
 
 enum { N = 600 };
@@ -11,9 +12,12 @@ void setUp(void)
     dataset_start();
 }
 
+static hci_attribution a;
+static bool idle[MOST_RUNS];
+
 void tearDown(void)
 {
-    hci_fitted_model_release(&search.no_load);
+    hci_attribution_release(&a);
     search_end();
     dataset_end();
 }
@@ -38,7 +42,12 @@ static void record_loads(size_t count)
 static void find(void)
 {
     search_start();
-    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_search_no_load(&search, &model, &note), note.text);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_search_no_load(&search, idle, &a, &note), note.text);
+}
+
+static bool has(const char *effect)
+{
+    return hci_candidates_have(&a.model.candidates, hci_effect_type_find(effect));
 }
 
 static void test_they_show_their_effects(void)
@@ -46,12 +55,12 @@ static void test_they_show_their_effects(void)
     record_idle(0.0);
     record_loads(3);
     find();
-    TEST_ASSERT_TRUE(model_has("friction") && model_has("cogging"));
-    TEST_ASSERT_EQUAL_UINT64(2, hci_candidates_types_in(&model.candidates));
-    TEST_ASSERT_EQUAL_UINT64(2, hci_candidates_types_in(&search.no_load.candidates));
+    TEST_ASSERT_TRUE(has("friction") && has("cogging"));
+    TEST_ASSERT_EQUAL_UINT64(2, hci_candidates_types_in(&a.model.candidates));
+    TEST_ASSERT_EQUAL_UINT64(2, hci_candidates_types_in(&a.no_load.candidates));
     TEST_ASSERT_EQUAL_UINT64(7, hci_regression_runs_in_use(&dataset.regression)); /* all of them again */
-    TEST_ASSERT_DOUBLE_WITHIN(0.002, 0.04, term_in(&model.candidates, "friction", "coulomb", 0.0)->value);
-    TEST_ASSERT_DOUBLE_WITHIN(0.002, 0.05, term_in(&model.candidates, "cogging", "sine", 6.0)->value);
+    TEST_ASSERT_DOUBLE_WITHIN(0.002, 0.04, term_in(&a.model.candidates, "friction", "coulomb", 0.0)->value);
+    TEST_ASSERT_DOUBLE_WITHIN(0.002, 0.05, term_in(&a.model.candidates, "cogging", "sine", 6.0)->value);
 }
 
 /* Something in them that no effect explains. */
@@ -60,15 +69,70 @@ static void test_what_is_no_noise_shows_nothing(void)
     record_idle(0.05);
     record_loads(3);
     find();
-    TEST_ASSERT_EQUAL_UINT64(0, hci_candidates_terms_in(&model.candidates));
-    TEST_ASSERT_EQUAL_UINT64(0, hci_candidates_terms_in(&search.no_load.candidates));
+    TEST_ASSERT_EQUAL_UINT64(0, hci_candidates_terms_in(&a.model.candidates));
+    TEST_ASSERT_EQUAL_UINT64(0, hci_candidates_terms_in(&a.no_load.candidates));
+}
+
+/* Two runs with zeros of their own: a friction and an offset say nothing that is not just as well chance. */
+static void test_as_many_values_as_runs_prove_nothing(void)
+{
+    record(N, &(point){60.0, 0.0, 0.0, 0.05, 0.0});
+    record(N, &(point){-60.0, 0.0, 0.0, -0.08, 0.0});
+    for (size_t r = 0; r < 2; ++r)
+        for (size_t k = 0; k < N; ++k)
+            run[r].torque_Nm[k] += 0.05 * sin(6.0 * P * run[r].theta_m_rad[k]);
+    record_loads(3);
+    find();
+    TEST_ASSERT_TRUE(has("friction"));
+    TEST_ASSERT_EQUAL_UINT64(1, hci_candidates_types_in(&a.no_load.candidates));
+    TEST_ASSERT_TRUE(hci_candidates_have(&a.no_load.candidates, hci_effect_type_find("cogging")));
+}
+
+/* Where the rest is not understood, they are all that is kept, with their own values. */
+static void test_what_they_show_stays(void)
+{
+    record_idle(0.0);
+    record_loads(3);
+    find();
+    hci_candidates_remove_type(&a.model.candidates, hci_effect_type_find("friction"));
+    a.model.candidates.candidate[0].term[0].value = 7.0;
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_no_load_stays(&search, &a, &note));
+    TEST_ASSERT_TRUE(a.no_load_alone && has("friction") && has("cogging"));
+    TEST_ASSERT_DOUBLE_WITHIN(0.002, 0.05, term_in(&a.model.candidates, "cogging", "sine", 6.0)->value);
+    TEST_ASSERT_DOUBLE_WITHIN(0.04, 0.5 * sqrt(0.5 * 3.0 / 7.0), a.unexplained_Nm); /* of three runs */
+}
+
+/* Beside effects that are certain by other runs, what has left comes back. */
+static void test_what_has_left_comes_back(void)
+{
+    const hci_candidate gain = candidate_of("torque_gain", "gain", NULL, 0.0);
+    record_idle(0.0);
+    record_loads(3);
+    find();
+    hci_candidates_remove_type(&a.model.candidates, hci_effect_type_find("friction"));
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_candidates_add(&a.model.candidates, &gain, &note));
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_no_load_stays(&search, &a, &note));
+    TEST_ASSERT_TRUE(!a.no_load_alone && has("friction") && has("cogging") && has("torque_gain"));
+}
+
+/* All of it: something under load that no effect is, and friction and cogging beyond doubt. */
+static void test_whatever_is_wrong_under_load(void)
+{
+    record_idle(0.0);
+    record_loads(4);
+    TEST_ASSERT_EQUAL_INT(HCI_NOT_REACHED, diagnose(NULL));
+    TEST_ASSERT_EQUAL_INT(HCI_DIAGNOSIS_PARTLY, diagnosis.verdict);
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_ADDED, found("friction")->verdict);
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_ADDED, found("cogging")->verdict);
+    TEST_ASSERT_DOUBLE_WITHIN(0.003, 0.05, term("cogging", "sine", 6.0)->value);
+    TEST_ASSERT_DOUBLE_WITHIN(0.003, 0.04, term("friction", "coulomb", 0.0)->value);
 }
 
 static void test_without_such_runs(void)
 {
     record_loads(3);
     find();
-    TEST_ASSERT_EQUAL_UINT64(0, hci_candidates_terms_in(&model.candidates));
+    TEST_ASSERT_EQUAL_UINT64(0, hci_candidates_terms_in(&a.model.candidates));
 }
 
 int main(void)
@@ -76,6 +140,10 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_they_show_their_effects);
     RUN_TEST(test_what_is_no_noise_shows_nothing);
+    RUN_TEST(test_as_many_values_as_runs_prove_nothing);
+    RUN_TEST(test_what_they_show_stays);
+    RUN_TEST(test_what_has_left_comes_back);
+    RUN_TEST(test_whatever_is_wrong_under_load);
     RUN_TEST(test_without_such_runs);
     return UNITY_END();
 }
