@@ -5,7 +5,7 @@
 #include "host/diagnose/search/attribute.h"
 #include "support/searching.h"
 
-enum { N = 600 };
+enum { N = 300 };
 
 void setUp(void)
 {
