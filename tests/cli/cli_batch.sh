@@ -90,6 +90,7 @@ PY
 
 chance=7
 killed=0
+mkdir -p "$work/killed/motors/.m04.part" && echo stale >"$work/killed/motors/.m04.part/stale.csv" # of a process that was killed at this motor
 # shellcheck disable=SC2086
 while [ $killed -lt 10 ]; do
     "$hci_solve" $batch --jobs 2 -q -o "$work/killed" >"$work/stdout" 2>"$work/stderr" &

@@ -248,6 +248,34 @@ static void test_too_few_turns(void)
     TEST_ASSERT_EQUAL_FLOAT(-1.0f, x.error);
 }
 
+/* Whole turns in one direction alone, or one in each: nothing is known, or no error. */
+static void test_turns_of_one_direction(void)
+{
+    hci_learn_result x = {0, {1.0f, 0.0f}, {0.0f, 0.0f}, -1.0f};
+    static const uint32_t TURNS[4][2] = {{0, 0}, {3, 0}, {0, 3}, {1, 1}};
+    for (int k = 0; k < 4; ++k) {
+        learn.turns_forward = TURNS[k][0];
+        learn.turns_backward = TURNS[k][1];
+        TEST_ASSERT_EQUAL_FLOAT(-1.0f, hci_learn_error(&learn, 1));
+        TEST_ASSERT_EQUAL(k == 3, hci_learn_result_of(&learn, 1, &x));
+        TEST_ASSERT_EQUAL_FLOAT(0.0f, hci_learn_square_of(&learn, 1, k == 3 ? -1.0f : 1.0f));
+    }
+    TEST_ASSERT_TRUE(hci_learn_stands_out(&x, 6.0f)); /* an error that is not known leaves no order out */
+}
+
+/* An order without any current makes a table of zeros, one that is exactly known too. */
+static void test_table_of_nothing(void)
+{
+    float row[2 * (POINTS + 1)];
+    hci_table_f32 table;
+    const hci_learn_table_options options = {POINTS, 2, 1, 0.0f, 0};
+    learn.turns_forward = learn.turns_backward = 3;
+    TEST_ASSERT_EQUAL_UINT32(ORDERS, hci_learn_table(&learn, &options, row, &table));
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, table.peak_A);
+    for (int k = 0; k < 2 * (POINTS + 1); ++k)
+        TEST_ASSERT_EQUAL_FLOAT(0.0f, row[k]);
+}
+
 static float table_rows[2 * (POINTS + 1)];
 
 /* The table is the cogging, within the error that it states; friction is not in it, nor what is only noise.
@@ -331,6 +359,18 @@ static void test_blob_restores_what_was_learnt(void)
     TEST_ASSERT_EQUAL_UINT32(0, again.turns_forward);
 }
 
+/* More orders than there may be make no blob, whatever the room; a blob that is none restores nothing. */
+static void test_no_blob(void)
+{
+    static unsigned char room[HCI_LEARN_HEAD + 1100 * HCI_LEARN_ORDER];
+    const hci_learn before = learn;
+    learn.order_count = HCI_LEARN_MOST_ORDERS + 1;
+    TEST_ASSERT_EQUAL_UINT32(0, hci_learn_write(&learn, &FACTS, room, sizeof room));
+    learn.order_count = ORDERS;
+    TEST_ASSERT_EQUAL(HCI_BLOB_NONE, hci_learn_restore(&learn, room, sizeof room));
+    TEST_ASSERT_EQUAL_MEMORY(&before, &learn, sizeof learn);
+}
+
 static void test_every_damage_is_refused(void)
 {
     const uint32_t size = write_blob();
@@ -390,9 +430,12 @@ int main(void)
     RUN_TEST(test_late_background);
     RUN_TEST(test_standard_error_is_that_of_the_noise);
     RUN_TEST(test_too_few_turns);
+    RUN_TEST(test_turns_of_one_direction);
+    RUN_TEST(test_table_of_nothing);
     RUN_TEST(test_table);
     RUN_TEST(test_table_of_a_part);
     RUN_TEST(test_blob_restores_what_was_learnt);
+    RUN_TEST(test_no_blob);
     RUN_TEST(test_every_damage_is_refused);
     RUN_TEST(test_power_cut_at_every_byte);
     return UNITY_END();

@@ -301,6 +301,16 @@ static void test_machine_at_is_the_sampled_machine(void)
     }
 }
 
+static void test_machine_at_without_slopes(void)
+{
+    drawn_machine m;
+    draw_machine(&m);
+    m.machine.slope_count = 0;
+    const hci_machine_point p = hci_machine_at(&m.machine, 0.3);
+    for (int k = 0; k < 3; ++k)
+        TEST_ASSERT_EQUAL_DOUBLE(0.0, p.slope[k]);
+}
+
 /* The plane's torque is that of the three phases, and the way to the phases keeps length and zero sum. */
 static void test_torque_in_the_plane_is_torque_of_the_phases(void)
 {
@@ -1029,6 +1039,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_machine_at_is_the_sampled_machine);
+    RUN_TEST(test_machine_at_without_slopes);
     RUN_TEST(test_torque_in_the_plane_is_torque_of_the_phases);
     RUN_TEST(test_shortest_current_makes_the_torque_and_none_is_shorter);
     RUN_TEST(test_shortest_current_meets_the_global_optimality_condition);

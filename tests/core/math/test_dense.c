@@ -446,6 +446,30 @@ static void test_lu_refuses(void)
     TEST_ASSERT_EQUAL_INT(HCI_ERROR_NOT_FINITE, hci_lu_factor(2, overflow, pivot));
 }
 
+/* Ones below the diagonal of ones, but for the last columns, which are equal: the right half has no pivot left. */
+static void test_lu_refuses_in_the_right_half(void)
+{
+    double a[64];
+    size_t pivot[8];
+    for (size_t j = 0; j < 8; j++)
+        for (size_t i = 0; i < 8; i++)
+            a[i + j * 8] = i >= (j < 7 ? j : 6) ? 1.0 : 0.0;
+    TEST_ASSERT_EQUAL_INT(HCI_ERROR_SINGULAR, hci_lu_factor(8, a, pivot));
+}
+
+/* [1 1; 1 1 + 2⁻⁵²] scaled so that its inverse overflows; and a solution that is no number stays as wrong as it is. */
+static void test_lu_condition_and_refinement_beyond_all_numbers(void)
+{
+    const double a[4] = {1e-300, 1e-300, 1e-300, 1.0000000000000002e-300};
+    double lu[4] = {a[0], a[1], a[2], a[3]}, x[2] = {(double)NAN, 1.0}, work[4];
+    const double b[2] = {1.0, 1.0};
+    size_t pivot[2];
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_lu_factor(2, lu, pivot));
+    TEST_ASSERT_TRUE(isinf(hci_lu_condition(2, lu, pivot, hci_norm_1(2, 2, a), work)));
+    TEST_ASSERT_TRUE(isnan(hci_lu_refine(2, a, lu, pivot, b, x, work)));
+    TEST_ASSERT_TRUE(isnan(x[0]) && x[1] == 1.0);
+}
+
 static void test_lu_extreme_scales(void)
 {
     const double scales[] = {1e300, 1e-300, 4.9e-322};
@@ -783,6 +807,8 @@ int main(void)
     RUN_TEST(test_lu_refinement_of_badly_scaled_systems);
     RUN_TEST(test_lu_refinement_never_makes_it_worse);
     RUN_TEST(test_lu_refuses);
+    RUN_TEST(test_lu_refuses_in_the_right_half);
+    RUN_TEST(test_lu_condition_and_refinement_beyond_all_numbers);
     RUN_TEST(test_lu_extreme_scales);
     RUN_TEST(test_lu_of_nothing);
     RUN_TEST(test_orthogonal_moore_penrose_for_every_small_shape);
