@@ -26,38 +26,45 @@ static const cli_command *const COMMANDS[] = {&cli_tune,    &cli_init,    &cli_c
                                               &cli_predict, &cli_diagnose, &cli_fit, &cli_batch_command, &cli_fleet};
 enum { COMMAND_COUNT = sizeof COMMANDS / sizeof COMMANDS[0] };
 
-static int print_usage(FILE *stream)
+static const char USE[] =
+    "Phase currents that make a permanent-magnet motor produce the torque you want. Commands, in the order in which one uses them:";
+
+static const char EXAMPLE[] = "\nFrom a data sheet to C tables\n"
+                              "  hci-solve init hub --poles 30 --kv 16 --slots 27 -o out/hub\n"
+                              "  hci-solve solve out/hub --target data/scenarios/02/target.csv \\\n"
+                              "      --auto -o out/currents\n"
+                              "  hci-solve emit out/currents --name hub --frame dq -o out/firmware\n\n";
+
+static const char COMMON[] =
+    "Each command prints what it found on standard output (with --json as JSON), progress, remarks and errors on standard error, "
+    "writes its files where --out says, and ends with exit code 0 when all is well. hci-solve help COMMAND tells its options, files "
+    "and exit codes, with an example; hci-solve -V the version. A file named - is standard input, where one table or one recording "
+    "is read.";
+
+static const char DOCUMENTATION[] = "Documentation: man hci-solve; guides to each step and the formats of all files in docs/ of the "
+                                    "sources, installed in share/doc/hci-solve.";
+
+static void print_commands(FILE *stream, int width)
 {
-    const int width = cli_width(fileno(stream));
-    fprintf(stream, "hci-solve COMMAND [OPTIONS]\n\n");
-    cli_print_wrapped(
-        stream, width, 0, 0,
-        "Phase currents that make a permanent-magnet motor produce the torque you want. Commands, in "
-        "the order in which one uses them:");
-    fputc('\n', stream);
     for (size_t k = 0; k < COMMAND_COUNT; ++k) {
         char line[256];
         snprintf(line, sizeof line, "%.*s", (int)strcspn(COMMANDS[k]->does, "\n"), COMMANDS[k]->does);
         fprintf(stream, "  %-10s  ", COMMANDS[k]->name);
         cli_print_wrapped(stream, width, 14, 14, line);
     }
-    fprintf(stream, "\nFrom a data sheet to C tables\n"
-                    "  hci-solve init hub --poles 30 --kv 16 --slots 27 -o out/hub\n"
-                    "  hci-solve solve out/hub --target data/scenarios/02/target.csv \\\n"
-                    "      --auto -o out/currents\n"
-                    "  hci-solve emit out/currents --name hub --frame dq -o out/firmware\n\n");
-    cli_print_wrapped(
-        stream, width, 0, 0,
-        "Each command prints what it found on standard output (with --json as JSON), progress, remarks and "
-        "errors "
-        "on standard error, writes its files where --out says, and ends with exit code 0 when all is well. "
-        "hci-solve help COMMAND tells its options, files and exit codes, with an example; hci-solve -V the "
-        "version. A file named - is standard input, where one table or one recording is read.");
+}
+
+static int print_usage(FILE *stream)
+{
+    const int width = cli_width(fileno(stream));
+    fprintf(stream, "hci-solve COMMAND [OPTIONS]\n\n");
+    cli_print_wrapped(stream, width, 0, 0, USE);
     fputc('\n', stream);
-    cli_print_wrapped(
-        stream, width, 0, 0,
-        "Documentation: man hci-solve; guides to each step and the formats of all files in docs/ of "
-        "the sources, installed in share/doc/hci-solve.");
+    print_commands(stream, width);
+    fprintf(stream, "%s", EXAMPLE);
+    cli_print_wrapped(stream, width, 0, 0, COMMON);
+    fputc('\n', stream);
+    cli_print_wrapped(stream, width, 0, 0, DOCUMENTATION);
     return 0;
 }
 

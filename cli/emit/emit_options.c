@@ -109,53 +109,72 @@ const cli_option cli_emit_options[] = {
     [EMIT_OUT] = {"out", 'o', CLI_FOLDER, "FOLDER", .help = "where ID.h and ID.c go (default: here)"},
     CLI_COMMON_OPTIONS};
 
+/* Options of which any is refused with any of the others, or without all of them; END behind the last. */
+enum { END = -1, MOST_KEYS = 9 };
+
+static const struct {
+    int any[MOST_KEYS];
+    bool is_with;
+    int other[3];
+    const char *words;
+} RULE[] = {
+    {{EMIT_DRIVE, END},
+     true,
+     {EMIT_FOR, END},
+     "--drive is for hci/loop.h, --for TARGET for another maker's drive; give one of them"},
+    {{EMIT_FOR, END}, false, {EMIT_MACHINE, END}, "--for TARGET needs --machine FOLDER"},
+    {{EMIT_DRIVE, END}, false, {EMIT_MACHINE, END}, "--drive FILE needs --machine FOLDER"},
+    {{EMIT_BLOB, END},
+     true,
+     {EMIT_FOR, END},
+     "--blob is for hci/table.h, hci/table_i16.h or hci/loop.h; leave out --for"},
+    {{EMIT_ENCODER_OFFSET, EMIT_ENCODER_DIRECTION, EMIT_TORQUE_CONSTANT, EMIT_COUNTS, EMIT_WAVE, END},
+     false,
+     {EMIT_FOR, END},
+     "--encoder-offset, --encoder-direction, --torque-constant, --counts-per-ampere and --wave go with --for "
+     "TARGET"},
+    {{EMIT_FORMAT, EMIT_SHAPE, EMIT_FRAME, EMIT_MAX_ERROR, EMIT_MAX_BYTES, EMIT_MAX_INSTRUCTIONS, EMIT_SPEED,
+      END},
+     true,
+     {EMIT_FOR, END},
+     "the form of a map --for TARGET is that of the drive; leave out --format, --shape, --frame, "
+     "--max-error, --max-bytes, --max-instructions and --speed"},
+    {{EMIT_SPEED, END}, false, {EMIT_DRIVE, END}, "--speed goes with --drive"},
+    {{EMIT_POINTS, EMIT_REFERENCE, EMIT_FORMAT, EMIT_SHAPE, EMIT_MAX_BYTES, EMIT_MAX_INSTRUCTIONS, END},
+     true,
+     {EMIT_DRIVE, END},
+     "--drive makes its tables in RAM, of floats; give --max-error alone of what says their size, and no "
+     "--format, --shape or --reference-torque"},
+    {{EMIT_POINTS, END}, true, {EMIT_MAX_ERROR, END}, "give --points or --max-error, not both"},
+    {{EMIT_REFERENCE, END}, false, {EMIT_PER_TORQUE, END}, "--reference-torque goes with --per-torque"},
+};
+
 /* Whether any of the options is given. */
-static bool any_of(const cli_arguments *a, const int *key, size_t count)
+static bool is_any(const cli_arguments *a, const int *key)
 {
-    bool any = false;
-    for (size_t k = 0; k < count; ++k)
-        any = any || a->given[key[k]];
-    return any;
+    for (; *key != END; ++key)
+        if (a->given[*key]) return true;
+    return false;
 }
 
-#define ANY(a, ...) any_of(a, (const int[]){__VA_ARGS__}, sizeof(const int[]){__VA_ARGS__} / sizeof(int))
+/* The first rule that is broken; NULL: none. */
+static const char *broken_rule(const cli_arguments *a)
+{
+    const bool drive = a->given[EMIT_DRIVE];
+    if (!a->value[EMIT_NAME]) return "the table has no name; add --name ID";
+    for (size_t k = 0; k < sizeof RULE / sizeof *RULE; ++k)
+        if (is_any(a, RULE[k].any) && is_any(a, RULE[k].other) == RULE[k].is_with) return RULE[k].words;
+    if (a->words > 1 && !drive)
+        return "several folders are levels of torque, which need --drive and --machine";
+    if (drive && a->given[EMIT_FRAME] && a->choice[EMIT_FRAME] != HCI_TABLE_DQ)
+        return "--drive is in the rotor frame; give --frame dq, or none";
+    return NULL;
+}
 
 hci_status cli_emit_check(const cli_arguments *a, hci_note *note)
 {
-    const bool drive = a->given[EMIT_DRIVE], target = a->given[EMIT_FOR], machine = a->given[EMIT_MACHINE];
-    const struct {
-        bool broken;
-        const char *words;
-    } rule[] = {
-        {!a->value[EMIT_NAME], "the table has no name; add --name ID"},
-        {drive && target,
-         "--drive is for hci/loop.h, --for TARGET for another maker's drive; give one of them"},
-        {target && !machine, "--for TARGET needs --machine FOLDER"},
-        {drive && !machine, "--drive FILE needs --machine FOLDER"},
-        {a->given[EMIT_BLOB] && target,
-         "--blob is for hci/table.h, hci/table_i16.h or hci/loop.h; leave out --for"},
-        {!target && ANY(a, EMIT_ENCODER_OFFSET, EMIT_ENCODER_DIRECTION, EMIT_TORQUE_CONSTANT, EMIT_COUNTS,
-                        EMIT_WAVE),
-         "--encoder-offset, --encoder-direction, --torque-constant, --counts-per-ampere and --wave go with "
-         "--for TARGET"},
-        {target && ANY(a, EMIT_FORMAT, EMIT_SHAPE, EMIT_FRAME, EMIT_MAX_ERROR, EMIT_MAX_BYTES,
-                       EMIT_MAX_INSTRUCTIONS, EMIT_SPEED),
-         "the form of a map --for TARGET is that of the drive; leave out --format, --shape, --frame, "
-         "--max-error, --max-bytes, --max-instructions and --speed"},
-        {a->given[EMIT_SPEED] && !drive, "--speed goes with --drive"},
-        {a->words > 1 && !drive, "several folders are levels of torque, which need --drive and --machine"},
-        {drive && ANY(a, EMIT_POINTS, EMIT_REFERENCE, EMIT_FORMAT, EMIT_SHAPE, EMIT_MAX_BYTES,
-                      EMIT_MAX_INSTRUCTIONS),
-         "--drive makes its tables in RAM, of floats; give --max-error alone of what says their size, and no "
-         "--format, --shape or --reference-torque"},
-        {drive && a->given[EMIT_FRAME] && a->choice[EMIT_FRAME] != HCI_TABLE_DQ,
-         "--drive is in the rotor frame; give --frame dq, or none"},
-        {a->value[EMIT_POINTS] && a->value[EMIT_MAX_ERROR], "give --points or --max-error, not both"},
-        {a->given[EMIT_REFERENCE] && !a->given[EMIT_PER_TORQUE], "--reference-torque goes with --per-torque"},
-    };
-    for (size_t k = 0; k < sizeof rule / sizeof *rule; ++k)
-        if (rule[k].broken) return hci_note_set(note, HCI_ERROR_ARGUMENT, "emit: %s", rule[k].words);
-    return HCI_OK;
+    const char *words = broken_rule(a);
+    return words ? hci_note_set(note, HCI_ERROR_ARGUMENT, "emit: %s", words) : HCI_OK;
 }
 
 const char *cli_emit_folder(const cli_arguments *a)

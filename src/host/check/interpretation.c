@@ -29,40 +29,36 @@ check_interpretation hci_check_as_declared(void)
                                   .time = 1.0};
 }
 
+/* Kinds of back-EMF that are a figure of a data sheet, and whether the number is that, or was divided by it already. */
+static const struct {
+    int kind;
+    hci_sheet_reading sheet;
+    bool is_taken;
+} SHEET[] = {
+    {CHECK_EMF_VOLT_PER_KRPM, HCI_SHEET_VOLT_PHASE_PEAK, false},
+    {CHECK_EMF_VOLT_PER_KRPM_LINE, HCI_SHEET_VOLT_LINE_PEAK, false},
+    {CHECK_EMF_VOLT_PER_KRPM_LINE_RMS, HCI_SHEET_VOLT_LINE_RMS, false},
+    {CHECK_EMF_KV, HCI_SHEET_KV_LINE_PEAK, false},
+    {CHECK_EMF_TAKEN_PER_KRPM, HCI_SHEET_VOLT_PHASE_PEAK, true},
+    {CHECK_EMF_TAKEN_PER_KRPM_LINE, HCI_SHEET_VOLT_LINE_PEAK, true},
+    {CHECK_EMF_TAKEN_PER_KRPM_LINE_RMS, HCI_SHEET_VOLT_LINE_RMS, true},
+};
+
 /* k_e in V·s/rad, peak of a phase, of the number in the table. */
 static double emf_of(const check_data *data, const check_interpretation *as, double pole_pairs)
 {
+    const int kind = (int)as->emf_kind;
     const double a = fabs(data->emf.amplitude[data->emf.largest]);
     const double declared =
         data->emf_in_volts ? a * pole_pairs / (2.0 * HCI_PI * data->value[CHECK_emf_frequency_Hz]) : a;
-    switch ((int)as->emf_kind) {
-    case CHECK_EMF_RMS:
-        return declared * SQRT2;
-    case CHECK_EMF_LINE:
-        return declared / SQRT3;
-    case CHECK_EMF_LINE_RMS:
-        return declared * SQRT2 / SQRT3;
-    case CHECK_EMF_VOLT_PER_KRPM:
-        return hci_sheet_emf(HCI_SHEET_VOLT_PHASE_PEAK, a, 1);
-    case CHECK_EMF_VOLT_PER_KRPM_LINE:
-        return hci_sheet_emf(HCI_SHEET_VOLT_LINE_PEAK, a, 1);
-    case CHECK_EMF_VOLT_PER_KRPM_LINE_RMS:
-        return hci_sheet_emf(HCI_SHEET_VOLT_LINE_RMS, a, 1);
-    case CHECK_EMF_KV:
-        return hci_sheet_emf(HCI_SHEET_KV_LINE_PEAK, a, 1);
-    case CHECK_EMF_VOLT_PER_HZ: /* ω_m = 2πf/p */
-        return a * pole_pairs / (2.0 * HCI_PI);
-    case CHECK_EMF_FLUX_LINKAGE:
-        return a * pole_pairs;
-    case CHECK_EMF_TAKEN_PER_KRPM:
-        return declared / hci_sheet_emf(HCI_SHEET_VOLT_PHASE_PEAK, 1.0, 1);
-    case CHECK_EMF_TAKEN_PER_KRPM_LINE:
-        return declared / hci_sheet_emf(HCI_SHEET_VOLT_LINE_PEAK, 1.0, 1);
-    case CHECK_EMF_TAKEN_PER_KRPM_LINE_RMS:
-        return declared / hci_sheet_emf(HCI_SHEET_VOLT_LINE_RMS, 1.0, 1);
-    default:
-        return declared;
-    }
+    for (size_t k = 0; k < sizeof SHEET / sizeof *SHEET; ++k)
+        if (SHEET[k].kind == kind)
+            return SHEET[k].is_taken ? declared / hci_sheet_emf(SHEET[k].sheet, 1.0, 1) : hci_sheet_emf(SHEET[k].sheet, a, 1);
+    if (kind == CHECK_EMF_VOLT_PER_HZ) return a * pole_pairs / (2.0 * HCI_PI); /* ω_m = 2πf/p */
+    if (kind == CHECK_EMF_FLUX_LINKAGE) return a * pole_pairs;
+    const double of_line = kind == CHECK_EMF_LINE || kind == CHECK_EMF_LINE_RMS ? SQRT3 : 1.0;
+    const double of_rms = kind == CHECK_EMF_RMS || kind == CHECK_EMF_LINE_RMS ? SQRT2 : 1.0;
+    return declared * of_rms / of_line;
 }
 
 /* A sin(nθ' + γ) with θ' = θ − zero is A sin(nθ + γ − n zero); the largest row is order 1. */

@@ -65,62 +65,67 @@ static void write_list(const hci_foreign_map *map, const hci_foreign_files *file
     }
 }
 
+/* The script that puts the file into a drive: three times the name. */
+static const char SCRIPT_HEAD[] =
+    "#!/usr/bin/env python3\n"
+    "\"\"\"Puts %s.csv, which stands beside this file, into a drive. Without --store nothing is sent.\n"
+    "\n"
+    "    %s_upload.py --net-id ID_OF_THE_MASTER --address ETHERCAT_ADDRESS [--channel A|B] [--store]\n"
+    "\n"
+    "--store needs the Python package pyads and a route to TwinCAT. The values last until the drive is "
+    "switched\n"
+    "off; to keep them, put them into its startup list.\n"
+    "\"\"\"\n"
+    "import argparse\n"
+    "import os\n"
+    "import struct\n"
+    "\n"
+    "HERE = os.path.dirname(os.path.abspath(__file__))\n"
+    "NAME = \"%s.csv\"\n"
+    "FORM = {\"INT16\": \"<h\", \"UINT32\": \"<I\", \"REAL32\": \"<f\"}\n"
+    "\n\n";
+
+/* Values of the file, and the arguments. */
+static const char SCRIPT_FUNCTIONS[] =
+    "def values(channel):\n"
+    "    with open(os.path.join(HERE, NAME), encoding=\"utf-8\") as file:\n"
+    "        lines = [line.strip() for line in file if not line.startswith(\"#\")][1:]\n"
+    "    for line in lines:\n"
+    "        index, sub, form, value, name = line.split(\",\")\n"
+    "        number = float(value) if form == \"REAL32\" else int(value)\n"
+    "        yield int(index, 16) + (0x400 if channel == \"B\" else 0), int(sub, 16), form, number, "
+    "name\n"
+    "\n\n"
+    "parser = argparse.ArgumentParser()\n"
+    "parser.add_argument(\"--net-id\")\n"
+    "parser.add_argument(\"--address\", type=int, default=1001)\n"
+    "parser.add_argument(\"--channel\", choices=[\"A\", \"B\"], default=\"A\")\n"
+    "parser.add_argument(\"--store\", action=\"store_true\")\n"
+    "arguments = parser.parse_args()\n";
+
+/* Writing, or telling. */
+static const char SCRIPT_WORK[] =
+    "if arguments.store:\n"
+    "    try:\n"
+    "        import pyads\n"
+    "    except ImportError as missing:\n"
+    "        raise SystemExit(f\"pyads is not there ({missing}); pip install pyads, then again\")\n"
+    "    drive = pyads.Connection(arguments.net_id, arguments.address)\n"
+    "    with drive:\n"
+    "        for index, sub, form, value, _ in values(arguments.channel):\n"
+    "            data = list(struct.pack(FORM[form], value))\n"
+    "            drive.write(0xF302, index << 16 | sub, data, pyads.PLCTYPE_BYTE * len(data))\n"
+    "    print(\"written\")\n"
+    "else:\n"
+    "    for index, sub, form, value, name in values(arguments.channel):\n"
+    "        print(f\"{index:#06x}:{sub:02x} {form} {value} {name}\")\n"
+    "    print(\"nothing was sent: --store writes these values\")\n";
+
 static void write_script(const hci_foreign_map *map, const hci_foreign_files *files, hci_output *output)
 {
     (void)map;
-    hci_output_text(
-        output,
-        "#!/usr/bin/env python3\n"
-        "\"\"\"Puts %s.csv, which stands beside this file, into a drive. Without --store nothing is sent.\n"
-        "\n"
-        "    %s_upload.py --net-id ID_OF_THE_MASTER --address ETHERCAT_ADDRESS [--channel A|B] [--store]\n"
-        "\n"
-        "--store needs the Python package pyads and a route to TwinCAT. The values last until the drive is "
-        "switched\n"
-        "off; to keep them, put them into its startup list.\n"
-        "\"\"\"\n"
-        "import argparse\n"
-        "import os\n"
-        "import struct\n"
-        "\n"
-        "HERE = os.path.dirname(os.path.abspath(__file__))\n"
-        "NAME = \"%s.csv\"\n"
-        "FORM = {\"INT16\": \"<h\", \"UINT32\": \"<I\", \"REAL32\": \"<f\"}\n"
-        "\n\n",
-        files->name, files->name, files->name);
-    hci_output_text(output,
-                    "def values(channel):\n"
-                    "    with open(os.path.join(HERE, NAME), encoding=\"utf-8\") as file:\n"
-                    "        lines = [line.strip() for line in file if not line.startswith(\"#\")][1:]\n"
-                    "    for line in lines:\n"
-                    "        index, sub, form, value, name = line.split(\",\")\n"
-                    "        number = float(value) if form == \"REAL32\" else int(value)\n"
-                    "        yield int(index, 16) + (0x400 if channel == \"B\" else 0), int(sub, 16), form, "
-                    "number, name\n"
-                    "\n\n"
-                    "parser = argparse.ArgumentParser()\n"
-                    "parser.add_argument(\"--net-id\")\n"
-                    "parser.add_argument(\"--address\", type=int, default=1001)\n"
-                    "parser.add_argument(\"--channel\", choices=[\"A\", \"B\"], default=\"A\")\n"
-                    "parser.add_argument(\"--store\", action=\"store_true\")\n"
-                    "arguments = parser.parse_args()\n");
-    hci_output_text(
-        output,
-        "if arguments.store:\n"
-        "    try:\n"
-        "        import pyads\n"
-        "    except ImportError as missing:\n"
-        "        raise SystemExit(f\"pyads is not there ({missing}); pip install pyads, then again\")\n"
-        "    drive = pyads.Connection(arguments.net_id, arguments.address)\n"
-        "    with drive:\n"
-        "        for index, sub, form, value, _ in values(arguments.channel):\n"
-        "            data = list(struct.pack(FORM[form], value))\n"
-        "            drive.write(0xF302, index << 16 | sub, data, pyads.PLCTYPE_BYTE * len(data))\n"
-        "    print(\"written\")\n"
-        "else:\n"
-        "    for index, sub, form, value, name in values(arguments.channel):\n"
-        "        print(f\"{index:#06x}:{sub:02x} {form} {value} {name}\")\n"
-        "    print(\"nothing was sent: --store writes these values\")\n");
+    hci_output_text(output, SCRIPT_HEAD, files->name, files->name, files->name);
+    hci_output_text(output, "%s%s", SCRIPT_FUNCTIONS, SCRIPT_WORK);
 }
 
 static bool recognises(const char *text)

@@ -52,57 +52,62 @@ static void write_config(const hci_foreign_map *map, const hci_foreign_files *fi
         hci_output_text(output, COMP "%zu %d\n", k, byte_of(map, k));
 }
 
+/* The script that puts the file into a controller: three times the name. */
+static const char SCRIPT_HEAD[] =
+    "#!/usr/bin/env python3\n"
+    "\"\"\"Puts %s.cfg, which stands beside this file, into a moteus. Without --store nothing is sent.\n"
+    "\n"
+    "    %s_upload.py [--target ID] [--store]\n"
+    "\n"
+    "--store needs the Python package moteus and an adapter that it finds.\n"
+    "\"\"\"\n"
+    "import argparse\n"
+    "import asyncio\n"
+    "import os\n"
+    "\n"
+    "NAME = \"%s.cfg\"\n"
+    "\n\n";
+
+/* Commands of the file, and how they are sent. */
+static const char SCRIPT_FUNCTIONS[] =
+    "def commands():\n"
+    "    path = os.path.join(os.path.dirname(os.path.abspath(__file__)), NAME)\n"
+    "    with open(path, encoding=\"utf-8\") as file:\n"
+    "        lines = [line.split(\"#\")[0].strip() for line in file]\n"
+    "    return [\"conf set \" + line for line in lines if line] + [\"conf write\"]\n"
+    "\n\n"
+    "async def store(target):\n"
+    "    try:\n"
+    "        import moteus\n"
+    "    except ImportError as missing:\n"
+    "        raise SystemExit(f\"moteus is not there ({missing}); pip install moteus, then again\")\n"
+    "    stream = moteus.Stream(moteus.Controller(id=target))\n"
+    "    await stream.write_message(b\"tel stop\")\n"
+    "    await stream.flush_read()\n"
+    "    await stream.command(b\"d stop\")\n"
+    "    for line in commands():\n"
+    "        await stream.command(line.encode(\"ascii\"))\n"
+    "\n\n";
+
+/* The arguments, sending, or telling. */
+static const char SCRIPT_WORK[] =
+    "parser = argparse.ArgumentParser()\n"
+    "parser.add_argument(\"--target\", \"-t\", type=int, default=1)\n"
+    "parser.add_argument(\"--store\", action=\"store_true\")\n"
+    "arguments = parser.parse_args()\n"
+    "if arguments.store:\n"
+    "    asyncio.run(store(arguments.target))\n"
+    "    print(f\"{len(commands())} commands sent to controller {arguments.target}\")\n"
+    "else:\n"
+    "    print(\"\\n\".join(commands()))\n"
+    "    print(f\"nothing was sent: --store sends these {len(commands())} commands to controller "
+    "{arguments.target}\")\n";
+
 static void write_script(const hci_foreign_map *map, const hci_foreign_files *files, hci_output *output)
 {
     (void)map;
-    hci_output_text(
-        output,
-        "#!/usr/bin/env python3\n"
-        "\"\"\"Puts %s.cfg, which stands beside this file, into a moteus. Without --store nothing is sent.\n"
-        "\n"
-        "    %s_upload.py [--target ID] [--store]\n"
-        "\n"
-        "--store needs the Python package moteus and an adapter that it finds.\n"
-        "\"\"\"\n"
-        "import argparse\n"
-        "import asyncio\n"
-        "import os\n"
-        "\n"
-        "NAME = \"%s.cfg\"\n"
-        "\n\n",
-        files->name, files->name, files->name);
-    hci_output_text(
-        output,
-        "def commands():\n"
-        "    path = os.path.join(os.path.dirname(os.path.abspath(__file__)), NAME)\n"
-        "    with open(path, encoding=\"utf-8\") as file:\n"
-        "        lines = [line.split(\"#\")[0].strip() for line in file]\n"
-        "    return [\"conf set \" + line for line in lines if line] + [\"conf write\"]\n"
-        "\n\n"
-        "async def store(target):\n"
-        "    try:\n"
-        "        import moteus\n"
-        "    except ImportError as missing:\n"
-        "        raise SystemExit(f\"moteus is not there ({missing}); pip install moteus, then again\")\n"
-        "    stream = moteus.Stream(moteus.Controller(id=target))\n"
-        "    await stream.write_message(b\"tel stop\")\n"
-        "    await stream.flush_read()\n"
-        "    await stream.command(b\"d stop\")\n"
-        "    for line in commands():\n"
-        "        await stream.command(line.encode(\"ascii\"))\n"
-        "\n\n");
-    hci_output_text(
-        output, "parser = argparse.ArgumentParser()\n"
-                "parser.add_argument(\"--target\", \"-t\", type=int, default=1)\n"
-                "parser.add_argument(\"--store\", action=\"store_true\")\n"
-                "arguments = parser.parse_args()\n"
-                "if arguments.store:\n"
-                "    asyncio.run(store(arguments.target))\n"
-                "    print(f\"{len(commands())} commands sent to controller {arguments.target}\")\n"
-                "else:\n"
-                "    print(\"\\n\".join(commands()))\n"
-                "    print(f\"nothing was sent: --store sends these {len(commands())} commands to controller "
-                "{arguments.target}\")\n");
+    hci_output_text(output, SCRIPT_HEAD, files->name, files->name, files->name);
+    hci_output_text(output, "%s%s", SCRIPT_FUNCTIONS, SCRIPT_WORK);
 }
 
 static bool recognises(const char *text)

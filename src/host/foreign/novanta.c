@@ -36,69 +36,76 @@ static void write_table(const hci_foreign_map *map, const hci_foreign_files *fil
         hci_output_text(output, "%zu,%s\n", k, hci_foreign_float(map->value[k], text));
 }
 
+/* The script that puts the file into a drive: three times the name, what it reads and how it connects, what it does. */
+static const char SCRIPT_HEAD[] =
+    "#!/usr/bin/env python3\n"
+    "\"\"\"Puts %s.csv, which stands beside this file, into a drive. Without --store nothing is sent.\n"
+    "\n"
+    "    %s_upload.py --interface IF --dictionary FILE [--slave N] [--axis N] (--store | --read FILE)\n"
+    "\n"
+    "--store and --read need the Python package ingenialink and EtherCAT. --store writes the table and "
+    "does not\n"
+    "switch it on: that is register 0x2306, and to keep it is `store all` of the drive. --read writes "
+    "the table\n"
+    "that is in the drive.\n"
+    "\"\"\"\n"
+    "import argparse\n"
+    "import os\n"
+    "\n"
+    "HERE = os.path.dirname(os.path.abspath(__file__))\n"
+    "NAME = \"%s.csv\"\n"
+    "\n\n";
+
+/* Rows of the file, a connection, the arguments. */
+static const char SCRIPT_FUNCTIONS[] =
+    "def rows():\n"
+    "    with open(os.path.join(HERE, NAME), encoding=\"utf-8\") as file:\n"
+    "        lines = [line for line in file if not line.startswith(\"#\")][1:]\n"
+    "    return [(int(k), float(value)) for k, value in (line.split(\",\") for line in lines)]\n"
+    "\n\n"
+    "def connect(a):\n"
+    "    try:\n"
+    "        from ingenialink.ethercat.network import EthercatNetwork\n"
+    "    except ImportError as missing:\n"
+    "        raise SystemExit(f\"ingenialink is not there ({missing}); pip install ingenialink, then "
+    "again\")\n"
+    "    return EthercatNetwork(a.interface).connect_to_slave(a.slave, a.dictionary)\n"
+    "\n\n"
+    "parser = argparse.ArgumentParser()\n"
+    "parser.add_argument(\"--interface\")\n"
+    "parser.add_argument(\"--dictionary\")\n"
+    "parser.add_argument(\"--slave\", type=int, default=1)\n"
+    "parser.add_argument(\"--axis\", type=int, default=1)\n"
+    "parser.add_argument(\"--store\", action=\"store_true\")\n"
+    "parser.add_argument(\"--read\")\n"
+    "arguments = parser.parse_args()\n";
+
+/* Writing, reading back, or telling. */
+static const char SCRIPT_WORK[] =
+    "INDEX, VALUE = \"COGGING_COMP_TABLE_INDEX\", \"COGGING_COMP_TABLE_VALUE\"\n"
+    "if arguments.store:\n"
+    "    servo = connect(arguments)\n"
+    "    for k, value in rows():\n"
+    "        servo.write(INDEX, k, arguments.axis)\n"
+    "        servo.write(VALUE, value, arguments.axis)\n"
+    "    print(f\"{len(rows())} values written\")\n"
+    "elif arguments.read:\n"
+    "    servo = connect(arguments)\n"
+    "    with open(arguments.read, \"w\", encoding=\"utf-8\") as file:\n"
+    "        file.write(INDEX + \",\" + VALUE + \"\\n\")\n"
+    "        for k, _ in rows():\n"
+    "            servo.write(INDEX, k, arguments.axis)\n"
+    "            file.write(f\"{k},{servo.read(VALUE, arguments.axis):.9g}\\n\")\n"
+    "else:\n"
+    "    for k, value in rows():\n"
+    "        print(f\"{INDEX} = {k}, {VALUE} = {value:.9g}\")\n"
+    "    print(f\"nothing was sent: --store writes these {len(rows())} values\")\n";
+
 static void write_script(const hci_foreign_map *map, const hci_foreign_files *files, hci_output *output)
 {
     (void)map;
-    hci_output_text(
-        output,
-        "#!/usr/bin/env python3\n"
-        "\"\"\"Puts %s.csv, which stands beside this file, into a drive. Without --store nothing is sent.\n"
-        "\n"
-        "    %s_upload.py --interface IF --dictionary FILE [--slave N] [--axis N] (--store | --read FILE)\n"
-        "\n"
-        "--store and --read need the Python package ingenialink and EtherCAT. --store writes the table and "
-        "does not\n"
-        "switch it on: that is register 0x2306, and to keep it is `store all` of the drive. --read writes "
-        "the table\n"
-        "that is in the drive.\n"
-        "\"\"\"\n"
-        "import argparse\n"
-        "import os\n"
-        "\n"
-        "HERE = os.path.dirname(os.path.abspath(__file__))\n"
-        "NAME = \"%s.csv\"\n"
-        "\n\n",
-        files->name, files->name, files->name);
-    hci_output_text(
-        output, "def rows():\n"
-                "    with open(os.path.join(HERE, NAME), encoding=\"utf-8\") as file:\n"
-                "        lines = [line for line in file if not line.startswith(\"#\")][1:]\n"
-                "    return [(int(k), float(value)) for k, value in (line.split(\",\") for line in lines)]\n"
-                "\n\n"
-                "def connect(a):\n"
-                "    try:\n"
-                "        from ingenialink.ethercat.network import EthercatNetwork\n"
-                "    except ImportError as missing:\n"
-                "        raise SystemExit(f\"ingenialink is not there ({missing}); pip install ingenialink, "
-                "then again\")\n"
-                "    return EthercatNetwork(a.interface).connect_to_slave(a.slave, a.dictionary)\n"
-                "\n\n"
-                "parser = argparse.ArgumentParser()\n"
-                "parser.add_argument(\"--interface\")\n"
-                "parser.add_argument(\"--dictionary\")\n"
-                "parser.add_argument(\"--slave\", type=int, default=1)\n"
-                "parser.add_argument(\"--axis\", type=int, default=1)\n"
-                "parser.add_argument(\"--store\", action=\"store_true\")\n"
-                "parser.add_argument(\"--read\")\n"
-                "arguments = parser.parse_args()\n");
-    hci_output_text(output, "INDEX, VALUE = \"COGGING_COMP_TABLE_INDEX\", \"COGGING_COMP_TABLE_VALUE\"\n"
-                            "if arguments.store:\n"
-                            "    servo = connect(arguments)\n"
-                            "    for k, value in rows():\n"
-                            "        servo.write(INDEX, k, arguments.axis)\n"
-                            "        servo.write(VALUE, value, arguments.axis)\n"
-                            "    print(f\"{len(rows())} values written\")\n"
-                            "elif arguments.read:\n"
-                            "    servo = connect(arguments)\n"
-                            "    with open(arguments.read, \"w\", encoding=\"utf-8\") as file:\n"
-                            "        file.write(INDEX + \",\" + VALUE + \"\\n\")\n"
-                            "        for k, _ in rows():\n"
-                            "            servo.write(INDEX, k, arguments.axis)\n"
-                            "            file.write(f\"{k},{servo.read(VALUE, arguments.axis):.9g}\\n\")\n"
-                            "else:\n"
-                            "    for k, value in rows():\n"
-                            "        print(f\"{INDEX} = {k}, {VALUE} = {value:.9g}\")\n"
-                            "    print(f\"nothing was sent: --store writes these {len(rows())} values\")\n");
+    hci_output_text(output, SCRIPT_HEAD, files->name, files->name, files->name);
+    hci_output_text(output, "%s%s", SCRIPT_FUNCTIONS, SCRIPT_WORK);
 }
 
 static bool recognises(const char *text)

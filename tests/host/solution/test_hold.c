@@ -3,32 +3,17 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "hci/host/machine/machine.h"
-#include "hci/host/solve/solve.h"
 #include "host/solution/hold.h"
-#include "unity.h"
-
-static hci_machine_data machine;
-static hci_target target;
-static hci_target_order order[1];
-static hci_solve_options options;
-static hci_solution solution;
+#include "support/solving.h"
 
 void setUp(void)
 {
-    hci_note note = {{0}};
-    memset(&options, 0, sizeof options);
-    memset(&solution, 0, sizeof solution);
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_machine_read("data/machine_a", &machine, &note), note.text);
-    order[0] = (hci_target_order){{0.0, 0.0, 2.46}, 1.0};
-    target = (hci_target){order, 1};
-    options.target = &target;
+    solving_start("data/machine_a", 2.46);
 }
 
 void tearDown(void)
 {
-    hci_solution_release(&solution);
-    hci_machine_release(&machine);
+    solving_end();
 }
 
 /* A sine of amplitude A and step x between two samples is missed by 1 − cos(x/2) of A between them, x²/8 of a

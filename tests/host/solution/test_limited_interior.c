@@ -3,38 +3,23 @@
 /* Limits on a machine with interior magnets, whose torque is not linear in the current: the largest mean
  * torque against the best current of all at each angle by search, and field weakening. */
 #include <math.h>
-#include <string.h>
 
-#include "hci/host/machine/machine.h"
 #include "hci/host/solve/solve.h"
 #include "hci/machine/frames.h"
 #include "hci/machine/torque.h"
 #include "support/reference.h"
-#include "unity.h"
+#include "support/solving.h"
 
 enum { ANGLES = 64, ALONG_A_SIDE = 200 };
 
-static hci_machine_data machine;
-static hci_target target;
-static hci_target_order order[1];
-static hci_solve_options options;
-static hci_solution solution;
-
 void setUp(void)
 {
-    hci_note note = {{0}};
-    memset(&options, 0, sizeof options);
-    memset(&solution, 0, sizeof solution);
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_machine_read("data/machine_c", &machine, &note), note.text);
-    order[0] = (hci_target_order){{0.0, 0.0, 8.0}, 1.0};
-    target = (hci_target){order, 1};
-    options.target = &target;
+    solving_start("data/machine_c", 8.0);
 }
 
 void tearDown(void)
 {
-    hci_solution_release(&solution);
-    hci_machine_release(&machine);
+    solving_end();
 }
 
 static void solve(hci_status expected)

@@ -2,43 +2,29 @@
  * form of the voltage circle; then its
  * smooth torque, with all harmonics. */
 #include <math.h>
-#include <string.h>
 
-#include "hci/host/machine/machine.h"
 #include "hci/host/solve/solve.h"
 #include "support/reference.h"
-#include "unity.h"
+#include "support/solving.h"
 
 #define RESISTANCE_OHM 0.1 /* assumed: the paper gives neither */
 #define INDUCTANCE_H   0.5e-3
 
-static hci_machine_data machine;
-static hci_target target;
-static hci_target_order order[1];
 static hci_component fundamental[1] = {{1.0, 1}};
 static hci_set name[1] = {HCI_SET_POS};
 static hci_component_set set;
-static hci_solve_options options;
-static hci_solution solution;
 
 void setUp(void)
 {
-    hci_note note = {{0}};
-    memset(&options, 0, sizeof options);
-    memset(&solution, 0, sizeof solution);
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_machine_read("data/machine_a", &machine, &note), note.text);
+    solving_start("data/machine_a", 2.46);
     machine.resistance_ohm = RESISTANCE_OHM;
     machine.inductance_d_H = machine.inductance_q_H = INDUCTANCE_H;
-    order[0] = (hci_target_order){{0.0, 0.0, 2.46}, 1.0};
-    target = (hci_target){order, 1};
     set = (hci_component_set){fundamental, name, 1, {{0}}};
-    options.target = &target;
 }
 
 void tearDown(void)
 {
-    hci_solution_release(&solution);
-    hci_machine_release(&machine);
+    solving_end();
 }
 
 static void solve(hci_status expected)
