@@ -450,6 +450,28 @@ static void test_a_plain_machine_turns_all_its_power_into_torque(void)
     }
 }
 
+/* L'(θ) i(θ) as waves is ∂T/∂i of a machine without back-EMF; a zero sequence of order 0 has no sine. */
+static void test_slopes_times_currents_as_waves(void)
+{
+    const hci_inductance_slope slope[2] = {{0.0, {0.0}, {0.3, -0.2, 0.1, 0.05, 0.07, -0.04}},
+                                           {2.0, {0.2, -0.1, 0.4, 0.15, -0.3, 0.25}, {-0.1, 0.3, 0.2, -0.05, 0.1, 0.35}}};
+    const hci_wave current[3] = {{1.0, 1, 2.0, -1.0}, {2.0, 0, 0.4, 0.7}, {5.0, -1, 0.3, 0.5}};
+    const hci_machine machine = {.pole_pairs = 2, .slope = slope, .slope_count = 2};
+    hci_wave waves[36];
+    TEST_ASSERT_EQUAL_UINT64(36, hci_slope_waves_capacity(&machine, 3));
+    const size_t count = hci_slope_waves(&machine, current, 3, waves);
+    for (int k = 0; k < 20; ++k) {
+        double i[3], expected[3], found[3];
+        hci_waves_at(current, 3, 0.37 * k, i);
+        hci_torque_gradient_at(&machine, 0.37 * k, i, expected);
+        hci_waves_at(waves, count, 0.37 * k, found);
+        for (int s = 0; s < 3; ++s)
+            TEST_ASSERT_DOUBLE_WITHIN(1e-13, expected[s], found[s]);
+    }
+    for (size_t k = 0; k < count; ++k)
+        TEST_ASSERT_TRUE(waves[k].order > 0.0 || waves[k].sequence != 0 || waves[k].sine == 0.0);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -466,5 +488,6 @@ int main(void)
     RUN_TEST(test_constant_currents_do_no_work_over_a_turn);
     RUN_TEST(test_mean_electrical_power_is_mean_torque_times_speed);
     RUN_TEST(test_a_plain_machine_turns_all_its_power_into_torque);
+    RUN_TEST(test_slopes_times_currents_as_waves);
     return UNITY_END();
 }

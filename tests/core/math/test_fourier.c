@@ -170,6 +170,8 @@ static hci_status fit(const double *theta, const double *x, size_t count, const 
                       size_t order_count, hci_harmonic *out)
 {
     double *work = doubles(hci_fourier_fit_workspace(order_count));
+    for (size_t k = 0; k < hci_fourier_fit_workspace(order_count); ++k)
+        work[k] = (double)NAN; /* what was there before counts for nothing */
     const hci_status status = hci_fourier_fit(theta, x, count, orders, order_count, out, work);
     free(work);
     return status;
