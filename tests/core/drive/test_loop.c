@@ -374,6 +374,22 @@ void tearDown(void)
 {
 }
 
+/* What no table has is refused before its sum is taken. */
+static void test_shapes_that_no_loop_has(void)
+{
+    static const uint16_t ORDER[1] = {0}, OTHER[1] = {6};
+    const hci_loop_f32 good = {.order_count = 1, .levels = 1, .points = 8, .orders = ORDER};
+    hci_loop_f32 bad[6] = {good, good, good, good, good, good};
+    bad[0].order_count = 0;
+    bad[1].levels = 0;
+    bad[2].points = 0;
+    bad[3].orders = OTHER;
+    bad[4].levels = 4;
+    bad[5].response_count = 1;
+    for (int k = 0; k < 6; ++k)
+        TEST_ASSERT_EQUAL(HCI_TABLE_BAD_SHAPE, hci_loop_check(&bad[k]));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -390,5 +406,6 @@ int main(void)
     RUN_TEST(test_nothing_is_infinite);
     RUN_TEST(test_a_damaged_table_is_noticed);
     RUN_TEST(test_numbers_that_no_table_has);
+    RUN_TEST(test_shapes_that_no_loop_has);
     return UNITY_END();
 }
