@@ -283,6 +283,17 @@ static void test_voltages_of_phases(void)
     TEST_ASSERT_FLOAT_WITHIN(1e-5f, -5.0f, v.vc_V);
 }
 
+/* No limit above 0 lets nothing flow; the root of 0; a change that begins at table 1, and one that is shorter than a sample. */
+static void test_ends_of_what_there_is(void)
+{
+    const hci_currents_abc none = hci_guard_abc((hci_currents_abc){1.0f, -0.5f, -0.5f}, 0.0f);
+    hci_guard_change one;
+    TEST_ASSERT_TRUE(none.ia_A == 0.0f && none.ib_A == 0.0f && none.ic_A == 0.0f);
+    TEST_ASSERT_EQUAL_UINT32(0, hci_guard_root(0));
+    hci_guard_change_start(&one, 1, 1e-3f, 1e-3f);
+    TEST_ASSERT_TRUE(one.share == 1.0f && one.step == 1.0f && one.wanted == 1u);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -298,5 +309,6 @@ int main(void)
     RUN_TEST(test_frames_are_those_of_the_core);
     RUN_TEST(test_controller_is_that_of_the_core);
     RUN_TEST(test_voltages_of_phases);
+    RUN_TEST(test_ends_of_what_there_is);
     return UNITY_END();
 }
