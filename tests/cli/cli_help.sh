@@ -155,7 +155,6 @@ wrong '--frame: found `xyz`, expected one of: abc, dq' emit $currents --name t -
 wrong '--format: found `q31`, expected one of: f32, i16, q15' emit $currents --name t --format q31 -o "$work/emitted"
 wrong '`cubic` with format `f32`.*use format `i16`' emit $currents --name t --shape cubic -o "$work/emitted"
 wrong 'instructions: found at most 20, but a linear table' emit $currents --name t --format q15 --max-instructions 20 -o "$work/emitted"
-wrong '--angle-of-logs goes with a table' emit $currents --name t --angle-of-logs --for simplefoc --machine data/machine_a
 wrong '--reference-torque goes with --per-torque' emit $currents --name t --reference-torque 2
 wrong '--per-torque needs the folder' emit $currents --name t --per-torque
 check "a wrong command line has written" [ ! -e "$work/emitted" ] && check "a wrong command line has written" [ ! -e "$work/x" ]

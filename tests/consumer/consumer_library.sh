@@ -57,7 +57,7 @@ use_package() {
 compile_headers() {
     (cd "$1/include" && find hci -name '*.h' | sort) | while read -r header; do
         printf '#include <%s>\ntypedef int used;\n' "$header" | cc $strict -I"$1/include" -fsyntax-only -x c -
-        printf '#include <%s>\ntypedef int used;\n' "$header" | c++ -Wall -Wextra -Wpedantic -Werror -I"$1/include" -fsyntax-only -x c++ -
+        printf '#include <%s>\ntypedef int used;\n' "$header" | c++ -std=c++20 -Wall -Wextra -Wpedantic -Werror -I"$1/include" -fsyntax-only -x c++ -
     done
 }
 

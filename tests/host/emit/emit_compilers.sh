@@ -47,12 +47,12 @@ compile_c() {
     echo "$1: C99, C11, C17"
 }
 compile_cxx() {
-    for standard in c++11 c++17; do
+    for standard in c++11 c++20; do
         "$1" -std=$standard -O2 $2 -Iinclude -I"$work/first" tests/host/emit/cxx/main.cpp "$work"/form_*.o -o "$work/program" ||
             fail "$1 -std=$standard"
         "$work/program" || fail "$1 -std=$standard: the program found fault $?"
     done
-    echo "$1: C++11, C++17"
+    echo "$1: C++11, C++20"
 }
 have() {
     command -v "$1" >/dev/null
