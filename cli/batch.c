@@ -16,20 +16,24 @@ enum { COMMAND, JOBS, SHARD, LIMIT, RETRY, OUT, CLI_COMMON_KEYS };
 static const cli_choice COMMANDS[] = {HCI_FLEET_COMMAND_NAMES(CLI_CHOICE_OF){NULL, NULL}};
 
 static const cli_option OPTIONS[] = {
-    [COMMAND] = {"command", 0, CLI_CHOICE, "COMMAND", .help = "what is run on each motor:",
-                 .choices = COMMANDS},
+    [COMMAND] = {"command", 0, CLI_CHOICE, "COMMAND",
+                 .help = "what is run on each motor:", .choices = COMMANDS},
     [JOBS] = {"jobs", 'j', CLI_WHOLE, "N", .help = "processes (default: as many as there are processors)",
               .low = 1.0, .high = CLI_MOST_JOBS},
     [SHARD] = {"shard", 0, CLI_TEXT, "K/N",
-               .help = "do only share K of N, such as 3/16; each share has its own --out, and fleet joins them"},
+               .help =
+                   "do only share K of N, such as 3/16; each share has its own --out, and fleet joins them"},
     [LIMIT] = {"time-limit", 0, CLI_NUMBER, "S", .help = "a motor that takes longer is ended, and is a row",
                .low = 1e-3, .high = 1e7},
     [RETRY] = {"retry", 0, CLI_FLAG, NULL, .help = "do motors again that have no result"},
-    [OUT] = {"out", 'o', CLI_FOLDER, "FOLDER", .help = "where the results go; the same command goes on there"},
+    [OUT] = {"out", 'o', CLI_FOLDER, "FOLDER",
+             .help = "where the results go; the same command goes on there"},
     CLI_COMMON_OPTIONS};
 
-static const cli_command *const RUN[] = {
-    [HCI_FLEET_DIAGNOSE] = &cli_diagnose, [HCI_FLEET_TUNE] = &cli_tune, [HCI_FLEET_SOLVE] = &cli_solve, [HCI_FLEET_FIT] = &cli_fit};
+static const cli_command *const RUN[] = {[HCI_FLEET_DIAGNOSE] = &cli_diagnose,
+                                         [HCI_FLEET_TUNE] = &cli_tune,
+                                         [HCI_FLEET_SOLVE] = &cli_solve,
+                                         [HCI_FLEET_FIT] = &cli_fit};
 
 /* ---- what came of it ---- */
 
@@ -54,7 +58,7 @@ static hci_status give(const cli_arguments *a, const cli_batch_work *w, hci_note
     if (a->given[JSON] && c.done == c.motors) status = cli_print_json(hci_summary_read(a->value[OUT]), note);
     if (status) return status;
     return c.of[HCI_FLEET_FAILED] + c.of[HCI_FLEET_LATE] + c.of[HCI_FLEET_CRASHED] > 0 ? HCI_NOT_REACHED
-                                                                                        : HCI_OK;
+                                                                                       : HCI_OK;
 }
 
 /* ---- the command ---- */
@@ -100,20 +104,22 @@ static int run(const cli_arguments *a)
 const cli_command cli_batch_command = {
     .name = "batch",
     .words = "LIST --command COMMAND -o FOLDER [-- OPTION...]",
-    .does = "Runs fit, diagnose, tune or solve on each motor of a list, by as many processes as there are processors.\n"
-            "Writes motors/NAME, what the command writes, for each motor as it is done, fleet.csv with a row for "
-            "each, and summary.json at the end. The same command goes on from there.\n"
-            "LIST: a table with a row for each motor: motor, its name; machine, its folder; logs, divided by "
-            "semicolons; serial, batch, date; any option of the command by its name, such as runs. Paths are from "
-            "the folder of LIST. What stands behind -- is given to the command for every motor.",
+    .does =
+        "Runs fit, diagnose, tune or solve on each motor of a list, by as many processes as there are "
+        "processors.\n"
+        "Writes motors/NAME, what the command writes, for each motor as it is done, fleet.csv with a row for "
+        "each, and summary.json at the end. The same command goes on from there.\n"
+        "LIST: a table with a row for each motor: motor, its name; machine, its folder; logs, divided by "
+        "semicolons; serial, batch, date; any option of the command by its name, such as runs. Paths are "
+        "from "
+        "the folder of LIST. What stands behind -- is given to the command for every motor.",
     .options = OPTIONS,
     .words_needed = 1,
     .takes_more_words = true,
     .names_files = true,
     .word_kind = CLI_FILE,
-    .example =
-        "  hci-solve batch data/fleet/motors.csv --command solve -o out/batch -- --auto\n"
-        "\nExit codes: 0 done; 1 done, but a motor has no result; " CLI_EXIT_ERRORS,
+    .example = "  hci-solve batch data/fleet/motors.csv --command solve -o out/batch -- --auto\n"
+               "\nExit codes: 0 done; 1 done, but a motor has no result; " CLI_EXIT_ERRORS,
     .source = "cli/batch.c",
     .guide = "fleet.md",
     .run = run,

@@ -304,8 +304,10 @@ static void show_table(const char *run, double pole_pairs, const hci_table_rotat
     if (x->is_rotated)
         show_table_remedy(pole_pairs, x);
     else
-        cli_say("  told         if the drive followed a torque reference; a position or speed loop makes the currents that the "
-                "shaft asks for, wherever the table is read: then compare the ripple of speed or current with and without it\n");
+        cli_say("  told         if the drive followed a torque reference; a position or speed loop makes the "
+                "currents that the "
+                "shaft asks for, wherever the table is read: then compare the ripple of speed or current "
+                "with and without it\n");
 }
 
 static hci_status compare_table(const cli_arguments *a, const char *table_path,

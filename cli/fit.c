@@ -50,13 +50,14 @@ static void release(inputs *in)
 
 static void show(const cli_arguments *a, const hci_fleet_fit *fit)
 {
-    cli_say("%s" CLI_PLAIN ": %s, %s\n", fit->is_found ? CLI_GOOD "fitted" : CLI_WARN "not fitted", a->word[0], a->value[RUNS]);
+    cli_say("%s" CLI_PLAIN ": %s, %s\n", fit->is_found ? CLI_GOOD "fitted" : CLI_WARN "not fitted",
+            a->word[0], a->value[RUNS]);
     cli_say("  error        %.4g N·m rms as declared", fit->rms_before_Nm);
     if (fit->is_found) cli_say(", %.4g N·m fitted", fit->rms_after_Nm);
     cli_say("; %zu samples\n", fit->samples);
     if (fit->judged > 0)
-        cli_say("  %s" CLI_PLAIN "         %zu of %zu parameters are outside of their limits\n", fit->beyond ? CLI_BAD "fail" : CLI_GOOD "pass",
-                fit->beyond, fit->judged);
+        cli_say("  %s" CLI_PLAIN "         %zu of %zu parameters are outside of their limits\n",
+                fit->beyond ? CLI_BAD "fail" : CLI_GOOD "pass", fit->beyond, fit->judged);
     for (size_t k = 0; k < fit->count; ++k) {
         const hci_fleet_parameter *p = &fit->parameter[k];
         if (isnan(p->value))
@@ -101,13 +102,15 @@ static int run(const cli_arguments *a)
 const cli_command cli_fit = {
     .name = "fit",
     .words = "MACHINE --runs LIST",
-    .does = "Fits the same few parameters to the recordings of any motor of a make, so that motors can be compared.\n"
+    .does = "Fits the same few parameters to the recordings of any motor of a make, so that motors can be "
+            "compared.\n"
             "Writes parameters.csv, by how much each differs from what MACHINE declares, and summary.json.",
     .options = OPTIONS,
     .words_needed = 1,
     .word_kind = CLI_FILE,
     .example = "  hci-solve fit data/fem_c/machine --runs data/fem_c/runs.csv -o out/fitted\n"
-               "\nExit codes: 0 done; 1 no least error is found, the declared values stay, or a\nparameter is outside of its limits; " CLI_EXIT_ERRORS,
+               "\nExit codes: 0 done; 1 no least error is found, the declared values stay, or a\nparameter "
+               "is outside of its limits; " CLI_EXIT_ERRORS,
     .source = "cli/fit.c",
     .guide = "fleet.md",
     .run = run,

@@ -20,14 +20,13 @@
 #include "hci/version.h"
 
 /* In the order in which one uses them. */
-static const cli_command *const COMMANDS[] = {&cli_tune,    &cli_init,    &cli_check, &cli_harmonics,
-                                              &cli_solve,   &cli_sweep,   &cli_emit,  &cli_simulate,
-                                              &cli_export_fmu,
-                                              &cli_predict, &cli_diagnose, &cli_fit, &cli_batch_command, &cli_fleet};
+static const cli_command *const COMMANDS[] = {
+    &cli_tune,     &cli_init,       &cli_check,   &cli_harmonics, &cli_solve, &cli_sweep,         &cli_emit,
+    &cli_simulate, &cli_export_fmu, &cli_predict, &cli_diagnose,  &cli_fit,   &cli_batch_command, &cli_fleet};
 enum { COMMAND_COUNT = sizeof COMMANDS / sizeof COMMANDS[0] };
 
-static const char USE[] =
-    "Phase currents that make a permanent-magnet motor produce the torque you want. Commands, in the order in which one uses them:";
+static const char USE[] = "Phase currents that make a permanent-magnet motor produce the torque you want. "
+                          "Commands, in the order in which one uses them:";
 
 static const char EXAMPLE[] = "\nFrom a data sheet to C tables\n"
                               "  hci-solve init hub --poles 30 --kv 16 --slots 27 -o out/hub\n"
@@ -35,14 +34,17 @@ static const char EXAMPLE[] = "\nFrom a data sheet to C tables\n"
                               "      --auto -o out/currents\n"
                               "  hci-solve emit out/currents --name hub --frame dq -o out/firmware\n\n";
 
-static const char COMMON[] =
-    "Each command prints what it found on standard output (with --json as JSON), progress, remarks and errors on standard error, "
-    "writes its files where --out says, and ends with exit code 0 when all is well. hci-solve help COMMAND tells its options, files "
-    "and exit codes, with an example; hci-solve -V the version. A file named - is standard input, where one table or one recording "
-    "is read.";
+static const char COMMON[] = "Each command prints what it found on standard output (with --json as JSON), "
+                             "progress, remarks and errors on standard error, "
+                             "writes its files where --out says, and ends with exit code 0 when all is well. "
+                             "hci-solve help COMMAND tells its options, files "
+                             "and exit codes, with an example; hci-solve -V the version. A file named - is "
+                             "standard input, where one table or one recording "
+                             "is read.";
 
-static const char DOCUMENTATION[] = "Documentation: man hci-solve; guides to each step and the formats of all files in docs/ of the "
-                                    "sources, installed in share/doc/hci-solve.";
+static const char DOCUMENTATION[] =
+    "Documentation: man hci-solve; guides to each step and the formats of all files in docs/ of the "
+    "sources, installed in share/doc/hci-solve.";
 
 static void print_commands(FILE *stream, int width)
 {

@@ -39,7 +39,6 @@ static void hci_python_progress(void *context, const char *what, double share)
 static bool hci_python_stop(void *context)
 {
     hci_python_watch *watch = context;
-    if (!watch->stopped && hci_python_is_due(watch))
-        watch->stopped = hci_python_tick(watch->handle, "", NAN);
+    if (!watch->stopped && hci_python_is_due(watch)) watch->stopped = hci_python_tick(watch->handle, "", NAN);
     return watch->stopped != 0;
 }

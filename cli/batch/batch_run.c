@@ -63,7 +63,8 @@ static bool listen(crew *c)
     if (!c->said) {
         c->said = tmpfile();
         if (!c->said) return false;
-        if (dup2(fileno(c->said), STDOUT_FILENO) < 0 || dup2(fileno(c->said), STDERR_FILENO) < 0) return false;
+        if (dup2(fileno(c->said), STDOUT_FILENO) < 0 || dup2(fileno(c->said), STDERR_FILENO) < 0)
+            return false;
         if (!freopen("/dev/null", "r", stdin)) return false;
     }
     fflush(NULL);
@@ -108,13 +109,16 @@ static hci_fleet_outcome run_command(crew *c, size_t motor, const char *part)
     return outcome;
 }
 
-/* Of a diagnosis the parameters in common too, so that motors can be compared. Where there are none, that is no failure. */
+/* Of a diagnosis the parameters in common too, so that motors can be compared. Where there are none, that is
+ * no failure. */
 static void fit_beside(crew *c, size_t motor, const char *part)
 {
     const cli_batch *b = c->work->batch;
     char folder[PATH_SIZE];
     cli_batch_words words;
-    if (c->work->results.command != HCI_FLEET_DIAGNOSE || snprintf(folder, sizeof folder, "%s/fit", part) >= PATH_SIZE) return;
+    if (c->work->results.command != HCI_FLEET_DIAGNOSE ||
+        snprintf(folder, sizeof folder, "%s/fit", part) >= PATH_SIZE)
+        return;
     cli_batch_paths_of(b, motor, &words);
     cli_batch_add(&words, "--quiet");
     cli_batch_add(&words, "--out");

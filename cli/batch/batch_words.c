@@ -127,11 +127,12 @@ hci_status cli_batch_check(const cli_batch *b, hci_note *note)
         const char *name = hci_csv_name(b->list.csv, k), *near;
         if (is_listed(OWN, name) || option_of(b->command, name)) continue;
         near = nearest(b, name);
-        return hci_note_set(note, HCI_ERROR_INPUT,
-                            "%s: column %zu: found `%.60s`, expected motor, serial, batch, date, machine, logs or an "
-                            "option of %s%s%s%s; rename or remove the column",
-                            b->path, k + 1, name, b->command->name, near ? " (did you mean `" : "",
-                            near ? near : "", near ? "`?)" : "");
+        return hci_note_set(
+            note, HCI_ERROR_INPUT,
+            "%s: column %zu: found `%.60s`, expected motor, serial, batch, date, machine, logs or an "
+            "option of %s%s%s%s; rename or remove the column",
+            b->path, k + 1, name, b->command->name, near ? " (did you mean `" : "", near ? near : "",
+            near ? "`?)" : "");
     }
     return HCI_OK;
 }

@@ -32,8 +32,8 @@ typedef struct {
 enum { CLI_JOB_LATE = -1 };
 
 /* Works at all items, or until it is told to stop. A process that a fault of its own ends (SIGSEGV and its
- * like) is replaced; one that was ended from outside ends the work, unless outlives_all. HCI_ERROR_MEMORY where no process can be
- * started, HCI_ERROR_NUMERIC where one was ended from outside. */
+ * like) is replaced; one that was ended from outside ends the work, unless outlives_all. HCI_ERROR_MEMORY
+ * where no process can be started, HCI_ERROR_NUMERIC where one was ended from outside. */
 hci_status cli_jobs_run(const cli_jobs *jobs, hci_note *note);
 
 /* Processors that this computer has for us, at least 1. */

@@ -79,7 +79,8 @@ static void roff_head(void)
            "From the back\\-EMF and cogging torque of a motor and a wanted torque\n"
            "to the harmonic currents that produce it, and to the C tables of its controller;\n"
            "from recordings to what the model of the motor lacks.\n.PP\n"
-           "Files go into the folder that \\fB\\-\\-out\\fR names. What was found is printed on standard output,\n"
+           "Files go into the folder that \\fB\\-\\-out\\fR names. What was found is printed on standard "
+           "output,\n"
            "with \\fB\\-\\-json\\fR as JSON; progress, remarks and errors on standard error.\n"
            "A file named \\fB\\-\\fR is standard input, where one table or one recording is read.\n");
 }

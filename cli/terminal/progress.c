@@ -66,7 +66,8 @@ void cli_progress_text(const cli_estimate *e, const cli_work *work, const char *
         room += RATE;
     }
     if (room >= LEAST_CELLS)
-        cli_bar_text(e->share, NAN, room < MOST_CELLS ? room : MOST_CELLS, cli_is_ascii(STDERR_FILENO), cells);
+        cli_bar_text(e->share, NAN, room < MOST_CELLS ? room : MOST_CELLS, cli_is_ascii(STDERR_FILENO),
+                     cells);
     if (words + FIGURES > columns) times[0] = '\0';
     snprintf(text, size, "%s %s%s%3.0f %%%s%s", what, cells, cells[0] ? " " : "", 100.0 * e->share, times,
              rate);

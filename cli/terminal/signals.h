@@ -15,7 +15,8 @@ void cli_signals_defer(void);
 /* Whether there was one that is remembered; an hci_stop. context: not used. */
 bool cli_signals_deferred(void *context);
 
-/* Ends the program as that signal would have, with what was said so far; nothing happens where there was none. */
+/* Ends the program as that signal would have, with what was said so far; nothing happens where there was
+ * none. */
 void cli_signals_obey(void);
 
 #endif

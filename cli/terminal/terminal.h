@@ -31,8 +31,8 @@ bool cli_is_terminal(int descriptor);
 bool cli_has_color(int descriptor);
 /* Whether the locale is one of UTF-8, by the names in LC_ALL, LC_CTYPE and LANG. */
 bool cli_is_utf8(void);
-/* Whether drawings there are made of ASCII: without a terminal, so that scripts see the same everywhere, and where
- * the locale is not of UTF-8. */
+/* Whether drawings there are made of ASCII: without a terminal, so that scripts see the same everywhere, and
+ * where the locale is not of UTF-8. */
 bool cli_is_ascii(int descriptor);
 /* Columns of the terminal: COLUMNS, else what `descriptor` says, else 80; at least 40. */
 int cli_width(int descriptor);

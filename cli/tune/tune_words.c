@@ -82,8 +82,10 @@ static void say_next_on_machine(cli_tuning *t)
 {
     if (!has_sensor(t))
         hci_tuning_say(&t->tuning, HCI_TUNING_NEXT,
-                       "On the same bench: the same slow turn forward and back with the table in the drive shows what is left of "
-                       "the cogging torque; spins at two other speeds, each in both directions, tell friction. What load "
+                       "On the same bench: the same slow turn forward and back with the table in the drive "
+                       "shows what is left of "
+                       "the cogging torque; spins at two other speeds, each in both directions, tell "
+                       "friction. What load "
                        "adds takes a torque sensor.");
     else
         hci_tuning_say(&t->tuning, HCI_TUNING_NEXT,

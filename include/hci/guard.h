@@ -150,8 +150,8 @@ typedef struct {
     float step;  /* of a sample */
 } hci_guard_ramp;
 
-/* From 0: it takes rise_s from there to 1, and as long back, to 1 % up to 3e5 samples. Above 3e7 a step is less
- * than half of the last digit of a float, and the share stays below 1. */
+/* From 0: it takes rise_s from there to 1, and as long back, to 1 % up to 3e5 samples. Above 3e7 a step is
+ * less than half of the last digit of a float, and the share stays below 1. */
 static inline void hci_guard_ramp_start(hci_guard_ramp *ramp, float rise_s, float sample_s)
 {
     ramp->share = 0.0f;

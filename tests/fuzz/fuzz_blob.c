@@ -1,6 +1,6 @@
-/* Any bytes as blobs of tables, with the CRC that they should have so that the checks behind it are reached too:
- * refused with the table as it was, or a table that can be read at every angle. No byte beyond is read: each lies
- * in memory of its own size. */
+/* Any bytes as blobs of tables, with the CRC that they should have so that the checks behind it are reached
+ * too: refused with the table as it was, or a table that can be read at every angle. No byte beyond is read:
+ * each lies in memory of its own size. */
 #include "fuzzing.h"
 
 #include <math.h>

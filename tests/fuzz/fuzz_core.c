@@ -1,9 +1,11 @@
-/* Numbers of any size for what runs on a microcontroller: refused, or the laws hold, each with the error that rounding explains.
+/* Numbers of any size for what runs on a microcontroller: refused, or the laws hold, each with the error that
+ * rounding explains.
  *
  *   lu         P A = L U within n·2⁻⁵²·|L||U|, and A x = b within the same times |x|
  *   strategy   the current makes the torque, and no ray has a shorter one that does
  *   table      between two rows nothing is beyond them
- *   learn      any blob and any samples: nothing outside the memory that is given; what is written is read back */
+ *   learn      any blob and any samples: nothing outside the memory that is given; what is written is read
+ * back */
 #include "fuzzing.h"
 
 #include <float.h>
@@ -71,12 +73,15 @@ static void check_factors(factored *f)
     for (size_t j = 0; j < n; ++j)
         for (size_t i = 0; i < n; ++i) {
             long double size, made = product_at(f, i, j, &size);
-            fuzz_require(fabsl(made - moved[i + j * n]) <= 2.0L * (long double)n * (long double)DBL_EPSILON * size + 1e-290L, "P A = L U");
+            fuzz_require(fabsl(made - moved[i + j * n]) <=
+                             2.0L * (long double)n * (long double)DBL_EPSILON * size + 1e-290L,
+                         "P A = L U");
             fuzz_require(i <= j || fabs(f->lu[i + j * n]) <= 1.0, "no multiplier above 1");
         }
 }
 
-/* |b − A x| within the rounding of |L||U||x|, all of it added up; transposed, x goes by the rows before their exchange, so its largest counts. */
+/* |b − A x| within the rounding of |L||U||x|, all of it added up; transposed, x goes by the rows before their
+ * exchange, so its largest counts. */
 static void check_solved(const factored *f, const double *b, const double *x, bool transposed)
 {
     long double most = 0.0L, largest = 0.0L;
@@ -92,7 +97,8 @@ static void check_solved(const factored *f, const double *b, const double *x, bo
         long double left = b[i];
         for (size_t j = 0; j < f->n; ++j)
             left -= (long double)f->a[transposed ? j + i * f->n : i + j * f->n] * x[j];
-        fuzz_require(fabsl(left) <= 6.0L * (long double)f->n * (long double)DBL_EPSILON * most + 1e-280L, transposed ? "Aᵀ x = b" : "A x = b");
+        fuzz_require(fabsl(left) <= 6.0L * (long double)f->n * (long double)DBL_EPSILON * most + 1e-280L,
+                     transposed ? "Aᵀ x = b" : "A x = b");
     }
 }
 
@@ -116,8 +122,10 @@ static void try_lu(void)
         b[k] = draw_number(40);
     for (int transposed = 0; transposed < 2; ++transposed) {
         memcpy(x, b, sizeof x);
-        if (transposed) hci_lu_solve_transposed(f.n, f.lu, f.pivot, x);
-        else hci_lu_solve(f.n, f.lu, f.pivot, x);
+        if (transposed)
+            hci_lu_solve_transposed(f.n, f.lu, f.pivot, x);
+        else
+            hci_lu_solve(f.n, f.lu, f.pivot, x);
         if (is_ordinary(x, f.n)) check_solved(&f, b, x, transposed == 1);
     }
 }
@@ -127,7 +135,8 @@ static void try_lu(void)
 /* Largest terms that the torque of x is a sum of. */
 static double terms_Nm(const hci_machine_point *p, const double x[2])
 {
-    const double length = hypot(x[0], x[1]), slope = fabs(p->slope[0]) + 2.0 * fabs(p->slope[1]) + fabs(p->slope[2]);
+    const double length = hypot(x[0], x[1]),
+                 slope = fabs(p->slope[0]) + 2.0 * fabs(p->slope[1]) + fabs(p->slope[2]);
     return hypot(p->e[0], p->e[1]) * length + slope * length * length + fabs(p->cogging_Nm);
 }
 
@@ -136,7 +145,8 @@ static double length_on_ray(const hci_machine_point *p, double torque_Nm, double
 {
     const double u[2] = {cos(angle), sin(angle)}, c = p->cogging_Nm - torque_Nm;
     const double b = p->e[0] * u[0] + p->e[1] * u[1];
-    const double a = 0.5 * p->slope[0] * u[0] * u[0] + p->slope[1] * u[0] * u[1] + 0.5 * p->slope[2] * u[1] * u[1];
+    const double a =
+        0.5 * p->slope[0] * u[0] * u[0] + p->slope[1] * u[0] * u[1] + 0.5 * p->slope[2] * u[1] * u[1];
     const double square = b * b - 4.0 * a * c;
     if (square < 0.0) return INFINITY;
     const double q = -0.5 * (b + copysign(sqrt(square), b));
@@ -163,16 +173,20 @@ static void check_shortest(const hci_machine_point *p, double torque_Nm, const d
 
 static void try_strategy(void)
 {
-    const hci_machine_point p = {{draw_number(3), draw_number(3)}, {draw_number(3), draw_number(3), draw_number(3)}, draw_number(3)};
+    const hci_machine_point p = {
+        {draw_number(3), draw_number(3)}, {draw_number(3), draw_number(3), draw_number(3)}, draw_number(3)};
     const double torque_Nm = draw_number(3), before[2] = {draw_number(2), draw_number(2)};
     for (int strategy = HCI_STRATEGY_MTPA; strategy <= HCI_STRATEGY_CANCEL; ++strategy) {
         double x[2], least;
-        const hci_status status = hci_strategy_current(&p, (hci_strategy)strategy, torque_Nm, draw(2) ? before : NULL, x, &least);
+        const hci_status status =
+            hci_strategy_current(&p, (hci_strategy)strategy, torque_Nm, draw(2) ? before : NULL, x, &least);
         fuzz_require(isfinite(x[0]) && isfinite(x[1]), "finite currents");
         fuzz_require(!isnan(least) && least >= 0.0, "a least current");
         if (strategy == HCI_STRATEGY_MTPA) check_shortest(&p, torque_Nm, x, status);
         if (strategy != HCI_STRATEGY_ID0 && status == HCI_OK)
-            fuzz_require(fabs(hci_point_torque_Nm(&p, x) - torque_Nm) <= 1e-9 * (terms_Nm(&p, x) + fabs(torque_Nm)), "the torque that was wanted");
+            fuzz_require(fabs(hci_point_torque_Nm(&p, x) - torque_Nm) <=
+                             1e-9 * (terms_Nm(&p, x) + fabs(torque_Nm)),
+                         "the torque that was wanted");
     }
 }
 
@@ -183,7 +197,12 @@ enum { MOST_POINTS = 16 };
 static void try_table(void)
 {
     float rows[(MOST_POINTS + 1) * 6], current[3], next[3];
-    hci_table_f32 table = {.rows = rows, .points = 1 + draw(MOST_POINTS), .columns = 2 + draw(2), .parts = 1, .frame = HCI_TABLE_ABC, .period_turns = 1};
+    hci_table_f32 table = {.rows = rows,
+                           .points = 1 + draw(MOST_POINTS),
+                           .columns = 2 + draw(2),
+                           .parts = 1,
+                           .frame = HCI_TABLE_ABC,
+                           .period_turns = 1};
     const size_t row = table.columns;
     for (size_t k = 0; k < sizeof rows / sizeof *rows; ++k)
         rows[k] = (float)draw_number(6);
@@ -195,7 +214,8 @@ static void try_table(void)
         memcpy(next, rows + (before + 1) * row, row * sizeof *rows);
         for (size_t c = 0; c < row; ++c) {
             const float at = rows[before * row + c], slack = 1e-6f * (fabsf(at) + fabsf(next[c]));
-            fuzz_require(current[c] >= fminf(at, next[c]) - slack && current[c] <= fmaxf(at, next[c]) + slack, "between its rows");
+            fuzz_require(current[c] >= fminf(at, next[c]) - slack && current[c] <= fmaxf(at, next[c]) + slack,
+                         "between its rows");
         }
         if (row == 2) fuzz_require(current[2] == -current[0] - current[1], "a star");
     }
@@ -239,9 +259,12 @@ static void check_kept(learner *l, uint32_t count)
     fuzz_require(hci_learn_write(&l->learn, &facts, second, size - 1) == 0, "no blob where there is no room");
     start(&other, count);
     fuzz_require(hci_learn_restore(&other.learn, first, size) == HCI_BLOB_GOOD, "a blob that is read");
-    fuzz_require(other.learn.turns_forward == l->learn.turns_forward && other.learn.turns_backward == l->learn.turns_backward, "the same turns");
+    fuzz_require(other.learn.turns_forward == l->learn.turns_forward &&
+                     other.learn.turns_backward == l->learn.turns_backward,
+                 "the same turns");
     for (uint32_t k = 1; k <= count; ++k)
-        fuzz_require(memcmp(other.sums[k].forward, l->sums[k].forward, 2 * sizeof(float)) == 0, "the same sums");
+        fuzz_require(memcmp(other.sums[k].forward, l->sums[k].forward, 2 * sizeof(float)) == 0,
+                     "the same sums");
     first[draw(size)] ^= (unsigned char)(1u << draw(8));
     fuzz_require(hci_learn_check(first, size, NULL) != HCI_BLOB_GOOD, "a bit that is not as it was");
     for (uint32_t cut = 0; cut < size; cut += 1 + draw(16))
@@ -260,7 +283,8 @@ static void try_learn(void)
         feed(&l);
     for (uint32_t k = 0; k <= count; ++k) {
         hci_learn_result result;
-        if (hci_learn_result_of(&l.learn, k, &result)) fuzz_require(isfinite(result.cogging[0]) && !isnan(result.error), "finite results");
+        if (hci_learn_result_of(&l.learn, k, &result))
+            fuzz_require(isfinite(result.cogging[0]) && !isnan(result.error), "finite results");
     }
     check_kept(&l, count);
 }

@@ -36,7 +36,8 @@ static void check_cells(const hci_csv *csv, const char *column)
         check_note(hci_csv_error(csv, column, row, &pointing, "something else", "change it"), &pointing);
         check_note(hci_csv_number(csv, column, row, &value, &number), &number);
         fuzz_require(isfinite(value), "a finite number");
-        fuzz_require(row == 0 || hci_csv_line(csv, row) > hci_csv_line(csv, row - 1), "rows in ascending lines");
+        fuzz_require(row == 0 || hci_csv_line(csv, row) > hci_csv_line(csv, row - 1),
+                     "rows in ascending lines");
     }
 }
 
@@ -61,7 +62,8 @@ static void check_aliases(const hci_csv *csv)
         hci_note told = {0};
         if (hci_aliases[k].column == NULL || !hci_csv_find(csv, hci_aliases[k].column, &column)) continue;
         fuzz_require(column < hci_csv_columns(csv), "a column of the file");
-        fuzz_require(hci_csv_told(csv, hci_aliases[k].column, &told) == (told.text[0] != '\0'), "told in words");
+        fuzz_require(hci_csv_told(csv, hci_aliases[k].column, &told) == (told.text[0] != '\0'),
+                     "told in words");
         fuzz_check_shown(told.text);
     }
 }
@@ -108,7 +110,7 @@ static void check_text(const char *text)
     fuzz_require(memcmp(&value, &reference, sizeof value) == 0, "the value of strtod");
     hci_number_text(value, written);
     fuzz_require(hci_number_parse(written, &back) && memcmp(&value, &back, sizeof value) == 0,
-            "the same number back");
+                 "the same number back");
 }
 
 /* A file without a name, in memory where that can be; /dev/fd reads it from its beginning. */
@@ -129,7 +131,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     char text[1024];
     if (descriptor < 0) descriptor = open_nameless(path);
     fuzz_require(ftruncate(descriptor, 0) == 0 && pwrite(descriptor, data, size, 0) == (ssize_t)size,
-            "a file that is written");
+                 "a file that is written");
     check_file(path, size);
     const size_t length = size < sizeof text ? size : sizeof text - 1;
     if (length > 0) memcpy(text, data, length);

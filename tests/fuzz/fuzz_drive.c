@@ -7,7 +7,8 @@
 #include "hci/host/drive/drive.h"
 #include "hci/host/simulate/simulate.h"
 
-#define CHECK_RANGE(x, low, high) fuzz_require(isnan(x) || ((x) >= (low) && (x) <= (high)), "a value in its range");
+#define CHECK_RANGE(x, low, high)                                                                            \
+    fuzz_require(isnan(x) || ((x) >= (low) && (x) <= (high)), "a value in its range");
 
 static void read_drive(void)
 {
@@ -22,7 +23,8 @@ static void read_drive(void)
 #undef CHECK_VALUE
     }
     for (size_t k = 1; k < drive.response_count; ++k)
-        fuzz_require(drive.response[k].frequency_Hz > drive.response[k - 1].frequency_Hz, "ascending frequencies");
+        fuzz_require(drive.response[k].frequency_Hz > drive.response[k - 1].frequency_Hz,
+                     "ascending frequencies");
     hci_drive_release(&drive);
 }
 

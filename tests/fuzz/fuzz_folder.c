@@ -1,5 +1,5 @@
-/* Any files in a folder of results, with summary.json and the journal of a set that was interrupted: it is read or refused
- * with words, and nothing outside of the folder is touched. */
+/* Any files in a folder of results, with summary.json and the journal of a set that was interrupted: it is
+ * read or refused with words, and nothing outside of the folder is touched. */
 #include "fuzzing.h"
 
 #include <math.h>

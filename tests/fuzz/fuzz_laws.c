@@ -1,12 +1,12 @@
-/* Valid machines with extreme values (subnormal numbers, 1e308, order 2000, a thousand harmonics, 200 pole pairs), made of the
- * bytes of the input. The machine is refused with words, or the laws hold for what `solve` finds:
+/* Valid machines with extreme values (subnormal numbers, 1e308, order 2000, a thousand harmonics, 200 pole
+ * pairs), made of the bytes of the input. The machine is refused with words, or the laws hold for what
+ * `solve` finds:
  *
- *   spectrum   the torque that is promised at each order is that of the sampled torque, and there is none at other orders
- *   verdict    an order that is said to be reached is
- *   linearity  currents = mean torque x per_Nm + constant
- *   copper     the mean square that is promised is that of the sampled currents
- *   rotation   the same machine with all angles counted from elsewhere costs the same and reaches the same
- *   repetition the same again gives the same bits */
+ *   spectrum   the torque that is promised at each order is that of the sampled torque, and there is none at
+ * other orders verdict    an order that is said to be reached is linearity  currents = mean torque x per_Nm +
+ * constant copper     the mean square that is promised is that of the sampled currents rotation   the same
+ * machine with all angles counted from elsewhere costs the same and reaches the same repetition the same
+ * again gives the same bits */
 #include "fuzzing.h"
 
 #include <math.h>
@@ -37,7 +37,8 @@ static unsigned draw(unsigned below)
 /* Of ordinary size three times in four; what is above 1e9 is refused, and rare. */
 static double draw_size(void)
 {
-    static const double size[] = {0.0, 5e-324, 1e-320, 2.3e-308, 1e-160, 1e-12, 1e-9, 1e-6, 1e-3, 0.1, 10.0, 1e3, 1e6, 9.9e8, 1e9};
+    static const double size[] = {0.0,  5e-324, 1e-320, 2.3e-308, 1e-160, 1e-12, 1e-9, 1e-6,
+                                  1e-3, 0.1,    10.0,   1e3,      1e6,    9.9e8, 1e9};
     if (draw(300) == 299) return 1.7e308;
     const double value = draw(4) == 0 ? size[draw(sizeof size / sizeof *size)] : 0.01 + 0.01 * draw(1000);
     return draw(5) == 0 ? -value : value;
@@ -77,9 +78,12 @@ static void say_table(const char *name, const char *unit, double shift)
     const unsigned count = draw_count(), kind = draw(4);
     const double first = draw_size();
     say("\n@@ machine/", 0, 0, 0);
-    used += (size_t)snprintf(text + used, sizeof text - used, "%s\norder,amplitude_%s,phase_rad\n", name, unit);
+    used +=
+        (size_t)snprintf(text + used, sizeof text - used, "%s\norder,amplitude_%s,phase_rad\n", name, unit);
     for (unsigned place = 0; place < count; ++place) {
-        const double order = order_of(kind, place), size = place == 0 ? first : draw(3) ? 0.3 * first / (1.0 + place) : draw_size();
+        const double order = order_of(kind, place), size = place == 0 ? first
+                                                           : draw(3)  ? 0.3 * first / (1.0 + place)
+                                                                      : draw_size();
         say("%.17g,%.17g,%.17g\n", order, size, draw_phase() + order * shift);
     }
 }
@@ -153,8 +157,10 @@ static bool is_large(const hci_machine *machine)
 static void make_task(task *t, const hci_machine *machine)
 {
     t->options.target = &t->target;
-    if (is_large(machine) || draw(3) == 2) make_set(t);
-    else if (draw(3) == 0) t->options.choose_at_most = 1 + draw(4);
+    if (is_large(machine) || draw(3) == 2)
+        make_set(t);
+    else if (draw(3) == 0)
+        t->options.choose_at_most = 1 + draw(4);
     t->options.method = !t->options.set && draw(6) == 0 ? HCI_METHOD_POINTWISE : HCI_METHOD_AUTO;
     t->options.compare = draw(4) == 0 ? HCI_COMPARE_SQUARE : HCI_COMPARE_ALL;
     t->options.limit_current_A = draw(6) == 0 ? fabs(draw_size()) : 0.0;
@@ -244,7 +250,8 @@ static bool sample(samples *s, const hci_machine *machine, const hci_solution *s
     s->turns = solution->period_turns;
     for (s->count = 64; (double)s->count <= 2.0 * most + 2.0; s->count *= 2)
         ;
-    if ((double)s->count * (double)(3 * (machine->back_emf_count + solution->current.count) + machine->cogging_count + solution->order_count) >
+    if ((double)s->count * (double)(3 * (machine->back_emf_count + solution->current.count) +
+                                    machine->cogging_count + solution->order_count) >
         (double)MOST_WORK)
         return false;
     s->sine = room(s->count);
@@ -286,11 +293,13 @@ static long double take_out(samples *s, const hci_harmonic *promised)
 static void check_order(samples *s, const hci_solution *solution, size_t k)
 {
     const hci_solved_order *o = &solution->order[k];
-    fuzz_require(isfinite(o->torque_Nm.sine) && isfinite(o->torque_Nm.cosine) && isfinite(o->error_Nm), "finite torque");
+    fuzz_require(isfinite(o->torque_Nm.sine) && isfinite(o->torque_Nm.cosine) && isfinite(o->error_Nm),
+                 "finite torque");
     const long double wanted = hypotl(o->target_Nm.sine, o->target_Nm.cosine);
     const long double rounding = 1e-10L * s->scale_Nm + 1e-14L * wanted + 1e-300L;
     fuzz_require(take_out(s, &o->torque_Nm) <= rounding, "the promised torque is that of the samples");
-    const long double error = hypotl((long double)o->torque_Nm.sine - o->target_Nm.sine, (long double)o->torque_Nm.cosine - o->target_Nm.cosine);
+    const long double error = hypotl((long double)o->torque_Nm.sine - o->target_Nm.sine,
+                                     (long double)o->torque_Nm.cosine - o->target_Nm.cosine);
     fuzz_require(fabsl(error - o->error_Nm) <= rounding, "the error is torque less target");
     if (o->verdict == HCI_ORDER_REACHED)
         fuzz_require(error <= solution->tolerance_Nm + rounding, "an order that is reached is");
@@ -314,8 +323,10 @@ static void check_copper(const samples *s, const hci_solution *solution)
             square += s->i_A[phase][k] * s->i_A[phase][k] / (long double)s->count;
             peak = fmaxl(peak, fabsl(s->i_A[phase][k]));
         }
-    fuzz_require(fabsl(square - solution->mean_square_A2) <= 1e-9L * square + 1e-300L, "the promised copper loss is that of the samples");
-    fuzz_require(peak <= solution->peak_phase_current_A * (1.0L + 1e-9L) + 1e-300L, "no sample is above the promised peak");
+    fuzz_require(fabsl(square - solution->mean_square_A2) <= 1e-9L * square + 1e-300L,
+                 "the promised copper loss is that of the samples");
+    fuzz_require(peak <= solution->peak_phase_current_A * (1.0L + 1e-9L) + 1e-300L,
+                 "no sample is above the promised peak");
     if (solution->within_limits && solution->limit_count > 0 && solution->limit[0].kind == HCI_LIMIT_CURRENT)
         fuzz_require(peak <= solution->limit[0].limit * (1.0L + 1e-6L), "currents within their limit are");
 }
@@ -332,7 +343,8 @@ static void check_linear(const hci_solution *solution, double mean_Nm)
         scale += fabs(solution->current.wave[k].sine) + fabs(solution->current.wave[k].cosine) +
                  fabs(solution->constant[k].sine) + fabs(solution->constant[k].cosine);
     for (size_t k = 0; k < solution->current.count && solution->per_Nm != NULL; ++k) {
-        const hci_wave *i = &solution->current.wave[k], *per = &solution->per_Nm[k], *rest = &solution->constant[k];
+        const hci_wave *i = &solution->current.wave[k], *per = &solution->per_Nm[k],
+                       *rest = &solution->constant[k];
         fuzz_require(is_near(i->sine, mean_Nm * per->sine + rest->sine, scale) &&
                          is_near(i->cosine, mean_Nm * per->cosine + rest->cosine, scale),
                      "currents are linear in the mean torque");
@@ -342,8 +354,10 @@ static void check_linear(const hci_solution *solution, double mean_Nm)
 static void check_finite(const hci_solution *solution)
 {
     for (size_t k = 0; k < solution->current.count; ++k)
-        fuzz_require(isfinite(solution->current.wave[k].sine) && isfinite(solution->current.wave[k].cosine), "finite currents");
-    fuzz_require(isfinite(solution->mean_square_A2) && isfinite(solution->peak_phase_current_A) && isfinite(solution->worst_error_Nm),
+        fuzz_require(isfinite(solution->current.wave[k].sine) && isfinite(solution->current.wave[k].cosine),
+                     "finite currents");
+    fuzz_require(isfinite(solution->mean_square_A2) && isfinite(solution->peak_phase_current_A) &&
+                     isfinite(solution->worst_error_Nm),
                  "finite figures");
     fuzz_check_shown(solution->remark.text);
 }
@@ -422,16 +436,19 @@ static outcome solve(const uint8_t *data, size_t size, double shift)
     if (!found.status) found.status = find(&machine, &t, &found, &note);
     hci_target_release(&t.target);
     hci_machine_release(&machine);
-    if (getenv("FUZZ_VERBOSE") != NULL) fprintf(stderr, "%s\nstatus %d %s\n", text, (int)found.status, note.text);
+    if (getenv("FUZZ_VERBOSE") != NULL)
+        fprintf(stderr, "%s\nstatus %d %s\n", text, (int)found.status, note.text);
     if (found.status != HCI_NOT_REACHED) fuzz_check_note(found.status, &note);
     return found;
 }
 
-/* Angles counted from elsewhere: the same copper, where rounding does not decide which components are chosen. */
+/* Angles counted from elsewhere: the same copper, where rounding does not decide which components are chosen.
+ */
 static void check_rotated(const outcome *first, const outcome *rotated)
 {
     if (first->status != rotated->status || !(first->condition < 1e6)) return;
-    fuzz_require(fabs(first->mean_square_A2 - rotated->mean_square_A2) <= 1e-6 * first->mean_square_A2 + 1e-200,
+    fuzz_require(fabs(first->mean_square_A2 - rotated->mean_square_A2) <=
+                     1e-6 * first->mean_square_A2 + 1e-200,
                  "the same copper loss whatever the zero of the angle");
 }
 
@@ -440,7 +457,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     const outcome first = solve(data, size, 0.0);
     if (first.status == HCI_ERROR_STOPPED) return -1;
     const outcome again = solve(data, size, 0.0);
-    fuzz_require(again.status == HCI_ERROR_STOPPED || (first.status == again.status && first.hash == again.hash), "the same again gives the same bits");
+    fuzz_require(again.status == HCI_ERROR_STOPPED ||
+                     (first.status == again.status && first.hash == again.hash),
+                 "the same again gives the same bits");
     if (first.is_given) {
         const outcome rotated = solve(data, size, 0.7);
         check_rotated(&first, &rotated);

@@ -1,4 +1,5 @@
-/* Any folder as a machine: it is refused with words, or its model gives finite torque and is the same each time. */
+/* Any folder as a machine: it is refused with words, or its model gives finite torque and is the same each
+ * time. */
 #include "fuzzing.h"
 
 #include <math.h>

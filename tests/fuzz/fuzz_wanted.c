@@ -1,4 +1,5 @@
-/* Any bytes as a target, a set of components, currents, points of a grid: refused with words, or finite values in order. */
+/* Any bytes as a target, a set of components, currents, points of a grid: refused with words, or finite
+ * values in order. */
 #include "fuzzing.h"
 
 #include <math.h>

@@ -88,7 +88,8 @@ static void unpack_one(const uint8_t *at, const uint8_t *end)
     char name[MOST_NAME] = "";
     if (line == NULL || line - at >= MOST_NAME) return;
     memcpy(name, at, (size_t)(line - at));
-    if (strlen(name) == (size_t)(line - at) && is_name(name)) write_file(name, line + 1, (size_t)(end - line - 1));
+    if (strlen(name) == (size_t)(line - at) && is_name(name))
+        write_file(name, line + 1, (size_t)(end - line - 1));
 }
 
 void fuzz_unpack(const uint8_t *data, size_t size)
@@ -97,8 +98,10 @@ void fuzz_unpack(const uint8_t *data, size_t size)
     if (home[0] == '\0') make_home();
     nftw(home, remove_one, 16, FTW_DEPTH | FTW_PHYS);
     fuzz_require(chdir(home) == 0, "the folder to work in");
-    if (size < 3 || memcmp(data, "@@ ", 3) != 0) at = find_mark(at, end);
-    else if (size >= 3) --at;
+    if (size < 3 || memcmp(data, "@@ ", 3) != 0)
+        at = find_mark(at, end);
+    else if (size >= 3)
+        --at;
     for (int files = 0; at < end && files < MOST_FILES; ++files) {
         const uint8_t *next = find_mark(at + 4, end);
         unpack_one(at + 4, next);
@@ -200,7 +203,8 @@ typedef struct {
 /* Words of the file `options`, but for paths that leave the folder and what starts other processes. */
 static void add_options(char *text, word_list *words)
 {
-    for (char *word = strtok(text, " \n"); word != NULL && words->count < MOST_WORDS; word = strtok(NULL, " \n"))
+    for (char *word = strtok(text, " \n"); word != NULL && words->count < MOST_WORDS;
+         word = strtok(NULL, " \n"))
         if (strchr(word, '/') == NULL && strstr(word, "..") == NULL && strncmp(word, "--j", 3) != 0)
             words->word[words->count++] = word;
 }
@@ -220,7 +224,8 @@ static void begin_capture(capture *c)
         strcpy(path, name[access("/dev/shm", W_OK) != 0]);
         c->kept[k] = dup(k + 1);
         c->file[k] = mkstemp(path);
-        fuzz_require(c->file[k] >= 0 && unlink(path) == 0 && dup2(c->file[k], k + 1) >= 0, "a captured stream");
+        fuzz_require(c->file[k] >= 0 && unlink(path) == 0 && dup2(c->file[k], k + 1) >= 0,
+                     "a captured stream");
     }
     own_stderr = c->kept[1];
     if (__sanitizer_set_report_fd) __sanitizer_set_report_fd((void *)(intptr_t)own_stderr);
@@ -235,7 +240,8 @@ static char *end_capture(capture *c, int k)
     close(c->kept[k]);
     fuzz_require(fstat(c->file[k], &info) == 0, "a captured stream");
     char *text = malloc((size_t)info.st_size + 1);
-    fuzz_require(text != NULL && pread(c->file[k], text, (size_t)info.st_size, 0) == info.st_size, "its text");
+    fuzz_require(text != NULL && pread(c->file[k], text, (size_t)info.st_size, 0) == info.st_size,
+                 "its text");
     text[info.st_size] = '\0';
     close(c->file[k]);
     return text;
@@ -264,7 +270,8 @@ static void check_end(int code, const word_list *words, char *said[2])
 {
     fuzz_require(code >= 0 && code <= 4, "an exit code of an input");
     fuzz_require(hci_utf8_valid(said[0]), "standard output in UTF-8");
-    fuzz_require(check_lines(said[1]) == (code > 1 && !is_json(words)), "one line for an error, none without");
+    fuzz_require(check_lines(said[1]) == (code > 1 && !is_json(words)),
+                 "one line for an error, none without");
     fuzz_require(code <= 1 || is_json(words) || said[0][0] == '\0', "an error without standard output");
     if (code > 1) fuzz_require(!fuzz_exists("out"), "nothing half written");
     if (fuzz_exists("out")) nftw("out", check_file, 16, FTW_PHYS);

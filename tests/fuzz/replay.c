@@ -51,8 +51,10 @@ int main(int count, char **words)
     for (int k = 1; k < count; ++k) {
         struct stat info;
         fuzz_require(stat(words[k], &info) == 0, words[k]);
-        if (S_ISDIR(info.st_mode)) replay_folder(words[k]);
-        else replay_file(words[k]);
+        if (S_ISDIR(info.st_mode))
+            replay_folder(words[k]);
+        else
+            replay_file(words[k]);
         free(words[k]);
     }
     printf("%d inputs\n", inputs);

@@ -40,8 +40,8 @@ typedef struct {
     hci_coenergy_power d[HCI_COENERGY_DEGREE + 1], q[HCI_COENERGY_DEGREE + 1];
     struct {
         double order, periods, sine, cosine;
-    } wave[HCI_COENERGY_WAVES]; /* in the order in which they were met, */
-    size_t waves, next;         /* so many, and the one that is likely to come next */
+    } wave[HCI_COENERGY_WAVES];     /* in the order in which they were met, */
+    size_t waves, next;             /* so many, and the one that is likely to come next */
     hci_coenergy_monomial monomial; /* not in the sums below yet */
     double torque_Nm, by_angle;
     double by_d, by_q;          /* ∂T/∂(i_d, i_q), in unit_A */

@@ -5,8 +5,8 @@
 enum { LEAST_PARTS = 4, MOST_PARTS = 12 }; /* of a step between samples */
 
 #define LONGEST_STEP 0.04 /* of a part, in radians of the resonance: the frequency is 0.013 % off */
-#define UNEVEN       0.1   /* of a step, that the next one may be longer or shorter */
-#define SAME_STEP    1e-6  /* of a step, by which another one differs and is the same */
+#define UNEVEN       0.1  /* of a step, that the next one may be longer or shorter */
+#define SAME_STEP    1e-6 /* of a step, by which another one differs and is the same */
 
 double hci_stage_step(const hci_sensor_stage *s, hci_stage_state *m, double step_s, double input)
 {

@@ -69,10 +69,11 @@ static void simulate(const hci_effect *effect, int pole_pairs, hci_sensor *senso
 
 /* ---- where to look for it ---- */
 
-#define LEAST_RANGE 4.0  /* fastest over slowest */
-#define STANDS_OUT  25.0 /* fall of χ² beside friction, that means of so many samples do not have by chance \
-                          */
-#define REGULAR 1e-9     /* added to a diagonal of 1: laws that the speeds do not tell apart */
+#define LEAST_RANGE 4.0 /* fastest over slowest */
+#define STANDS_OUT                                                                                           \
+    25.0             /* fall of χ² beside friction, that means of so many samples do not have by chance    \
+                      */
+#define REGULAR 1e-9 /* added to a diagonal of 1: laws that the speeds do not tell apart */
 
 enum { LAWS = 5, LEAST_SPEEDS = 4, SPEEDS_TRIED = 16 };
 

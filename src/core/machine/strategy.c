@@ -128,8 +128,8 @@ static void leading_axis(double half, double off, const double e[2], double axis
     }
 }
 
-/* Below it a component of the back-EMF is rounding: where L' has no share in its direction either, a current of 1e14 A would be the
- * answer that it gives. */
+/* Below it a component of the back-EMF is rounding: where L' has no share in its direction either, a current
+ * of 1e14 A would be the answer that it gives. */
 #define ROUNDING (4.0 * DBL_EPSILON) /* of the back-EMF */
 
 /* The back-EMF along an axis. */

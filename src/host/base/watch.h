@@ -15,7 +15,8 @@ typedef struct {
     bool stopped; /* false to begin with */
 } hci_watch;
 
-/* Whether to end with what there is. Once it is so it stays so, and nobody is asked any more. watch: may be NULL. */
+/* Whether to end with what there is. Once it is so it stays so, and nobody is asked any more. watch: may be
+ * NULL. */
 static inline bool hci_watch_stops(hci_watch *watch)
 {
     if (watch && !watch->stopped && watch->stop) watch->stopped = watch->stop(watch->stop_context);

@@ -29,7 +29,8 @@ check_interpretation hci_check_as_declared(void)
                                   .time = 1.0};
 }
 
-/* Kinds of back-EMF that are a figure of a data sheet, and whether the number is that, or was divided by it already. */
+/* Kinds of back-EMF that are a figure of a data sheet, and whether the number is that, or was divided by it
+ * already. */
 static const struct {
     int kind;
     hci_sheet_reading sheet;
@@ -53,7 +54,8 @@ static double emf_of(const check_data *data, const check_interpretation *as, dou
         data->emf_in_volts ? a * pole_pairs / (2.0 * HCI_PI * data->value[CHECK_emf_frequency_Hz]) : a;
     for (size_t k = 0; k < sizeof SHEET / sizeof *SHEET; ++k)
         if (SHEET[k].kind == kind)
-            return SHEET[k].is_taken ? declared / hci_sheet_emf(SHEET[k].sheet, 1.0, 1) : hci_sheet_emf(SHEET[k].sheet, a, 1);
+            return SHEET[k].is_taken ? declared / hci_sheet_emf(SHEET[k].sheet, 1.0, 1)
+                                     : hci_sheet_emf(SHEET[k].sheet, a, 1);
     if (kind == CHECK_EMF_VOLT_PER_HZ) return a * pole_pairs / (2.0 * HCI_PI); /* ω_m = 2πf/p */
     if (kind == CHECK_EMF_FLUX_LINKAGE) return a * pole_pairs;
     const double of_line = kind == CHECK_EMF_LINE || kind == CHECK_EMF_LINE_RMS ? SQRT3 : 1.0;

@@ -166,9 +166,10 @@ static const check_relation LIST[] = {
      rated_torque, "rated_torque and rated_current in machine.csv", ""},
     {"rated_voltage", "line-to-line back-EMF at rated speed over the dc link", CHECK_MOST, 1.0, 0.15, 5.0,
      rated_voltage, "rated_speed and dc_link_voltage in machine.csv", ""},
-    {"flux_size", "factor between the flux linkage k_e/p and 30 mWb, which is usual", CHECK_MOST, 300.0, 0.5, 4.0, flux_size, "",
-     ""},
-    {"flux_per_current", "factor between 5, which is usual, and flux linkage over inductance times rated current", CHECK_MOST,
+    {"flux_size", "factor between the flux linkage k_e/p and 30 mWb, which is usual", CHECK_MOST, 300.0, 0.5,
+     4.0, flux_size, "", ""},
+    {"flux_per_current",
+     "factor between 5, which is usual, and flux linkage over inductance times rated current", CHECK_MOST,
      30.0, 0.5, 4.0, flux_per_current, "inductance_d, inductance_q and rated_current in machine.csv", ""},
 };
 const check_relation_list HCI_CHECK_TABLE_RELATIONS = {LIST, sizeof LIST / sizeof *LIST};

@@ -1,4 +1,5 @@
-/* The whole of a file as one text, or why it is none; "-" is standard input, which can be read once. What a device has learnt becomes text here. */
+/* The whole of a file as one text, or why it is none; "-" is standard input, which can be read once. What a
+ * device has learnt becomes text here. */
 #include <errno.h>
 #include <stdbool.h>
 #include <stdio.h>

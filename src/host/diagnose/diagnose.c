@@ -7,10 +7,10 @@
 #include "host/base/memory.h"
 #include "host/diagnose/candidates/empirical_term.h"
 #include "host/diagnose/findings.h"
-#include "host/diagnose/free_friction.h"
 #include "host/diagnose/fit/dataset.h"
 #include "host/diagnose/fit/model.h"
 #include "host/diagnose/fit/standard_errors.h"
+#include "host/diagnose/free_friction.h"
 #include "host/diagnose/held_out.h"
 #include "host/diagnose/next_points.h"
 #include "host/diagnose/open_voltage.h"
@@ -249,7 +249,8 @@ static hci_status diagnose(hci_dataset *b, const hci_machine_data *machine, cons
                                        options->progress_context,
                                        options->stop,
                                        options->stop_context};
-    hci_watch watch = {options->stop, options->stop_context, options->progress, options->progress_context, false};
+    hci_watch watch = {options->stop, options->stop_context, options->progress, options->progress_context,
+                       false};
     hci_attribution a;
     b->regression.watch = &watch;
     hci_status status = hci_attribute(&b->regression, &how, &a, note);
@@ -298,8 +299,9 @@ static hci_status nothing_measured(const hci_effects *declared, hci_diagnosis *d
     return HCI_NOT_REACHED;
 }
 
-static hci_status diagnose_from(const hci_machine_data *machine, const hci_effects *declared, const hci_runs *runs,
-                                const hci_diagnose_options *options, hci_diagnosis *diagnosis, hci_note *note)
+static hci_status diagnose_from(const hci_machine_data *machine, const hci_effects *declared,
+                                const hci_runs *runs, const hci_diagnose_options *options,
+                                hci_diagnosis *diagnosis, hci_note *note)
 {
     hci_dataset b;
     hci_status status = hci_dataset_make(machine, declared, runs, &b, note);
@@ -310,7 +312,8 @@ static hci_status diagnose_from(const hci_machine_data *machine, const hci_effec
     return status;
 }
 
-static hci_status tell(const hci_free_friction *friction, const hci_runs *runs, hci_diagnosis *diagnosis, hci_note *note)
+static hci_status tell(const hci_free_friction *friction, const hci_runs *runs, hci_diagnosis *diagnosis,
+                       hci_note *note)
 {
     const hci_status status = hci_free_friction_tell(friction, runs, diagnosis, note);
     if (status) hci_diagnosis_release(diagnosis);
@@ -333,11 +336,14 @@ hci_status hci_diagnose(const hci_machine_data *machine, const hci_effects *decl
     diagnosis->open_voltage_off = off;
     if (usable == 0) return nothing_measured(declared, diagnosis, note);
     hci_status status = hci_free_friction_find(machine, declared, runs, &friction, note);
-    if (!status) status = diagnose_from(machine, friction.law.terms > 0 ? &friction.effects.list : declared, &friction.rest, options, diagnosis, note);
+    if (!status)
+        status = diagnose_from(machine, friction.law.terms > 0 ? &friction.effects.list : declared,
+                               &friction.rest, options, diagnosis, note);
     if (!status) status = tell(&friction, runs, diagnosis, note);
     hci_free_friction_release(&friction);
     if (status) return status;
-    if (hci_constant_is_held(runs)) diagnosis->held_constant_Nm_per_A = hci_torque_constant(&machine->model, declared);
+    if (hci_constant_is_held(runs))
+        diagnosis->held_constant_Nm_per_A = hci_torque_constant(&machine->model, declared);
     diagnosis->open_voltage_off = off;
     if (off > HCI_OPEN_VOLTAGE_OFF && diagnosis->verdict == HCI_DIAGNOSIS_COMPLETE)
         diagnosis->verdict = HCI_DIAGNOSIS_UNKNOWN;

@@ -17,7 +17,8 @@
 static const hci_effect_type *friction(void)
 {
     size_t k = 0;
-    while (hci_effect_type_at(k) && !(hci_effect_type_at(k)->coulomb_Nm && hci_effect_type_at(k)->propose_alike))
+    while (hci_effect_type_at(k) &&
+           !(hci_effect_type_at(k)->coulomb_Nm && hci_effect_type_at(k)->propose_alike))
         ++k;
     return hci_effect_type_at(k);
 }
@@ -95,7 +96,8 @@ static bool is_coarse(const hci_run *run, const hci_drag *drag)
 static bool is_fitted(const hci_runs *runs, size_t k)
 {
     const hci_run *r = &runs->run[k];
-    return runs->role[k] == HCI_ROLE_FIT && r->torque_Nm && (r->theta_m_rad || r->only_mean) && r->i_A && r->count > 0;
+    return runs->role[k] == HCI_ROLE_FIT && r->torque_Nm && (r->theta_m_rad || r->only_mean) && r->i_A &&
+           r->count > 0;
 }
 
 /* Sets is_apart, and none where nothing to be fitted would be left. */
@@ -114,7 +116,8 @@ static hci_status take_rest(const hci_runs *runs, hci_free_friction *f, hci_note
     f->is_apart = hci_memory_new(runs->count + 1, sizeof *f->is_apart);
     f->rest.run = hci_memory_new(runs->count + 1, sizeof *f->rest.run);
     f->rest.role = hci_memory_new(runs->count + 1, sizeof *f->rest.role);
-    if (!f->is_apart || !f->rest.run || !f->rest.role) return hci_note_memory(note, NULL, "the friction of free shafts");
+    if (!f->is_apart || !f->rest.run || !f->rest.role)
+        return hci_note_memory(note, NULL, "the friction of free shafts");
     f->rest.list = runs->list;
     if (f->drag) set_apart(runs, f);
     for (size_t k = 0; k < runs->count; ++k) {
@@ -125,8 +128,8 @@ static hci_status take_rest(const hci_runs *runs, hci_free_friction *f, hci_note
     return HCI_OK;
 }
 
-hci_status hci_free_friction_find(const hci_machine_data *machine, const hci_effects *declared, const hci_runs *runs,
-                                  hci_free_friction *f, hci_note *note)
+hci_status hci_free_friction_find(const hci_machine_data *machine, const hci_effects *declared,
+                                  const hci_runs *runs, hci_free_friction *f, hci_note *note)
 {
     memset(f, 0, sizeof *f);
     if (!any_measured(runs)) {
@@ -156,10 +159,12 @@ static void describe(const hci_free_friction *f, hci_finding *finding)
     const hci_effect_type *type = friction();
     size_t used = 0;
     for (size_t k = 0; k < f->law.terms && used < sizeof finding->detail; ++k)
-        used += (size_t)snprintf(finding->detail + used, sizeof finding->detail - used, "%s%s = %.4g ± %.2g %s", k > 0 ? "; " : "",
-                                 type->parameter[k].name, f->law.value[k], f->law.std_error[k], type->parameter[k].unit);
+        used += (size_t)snprintf(finding->detail + used, sizeof finding->detail - used,
+                                 "%s%s = %.4g ± %.2g %s", k > 0 ? "; " : "", type->parameter[k].name,
+                                 f->law.value[k], f->law.std_error[k], type->parameter[k].unit);
     if (used < sizeof finding->detail)
-        snprintf(finding->detail + used, sizeof finding->detail - used, ", times the declared torque per ampere");
+        snprintf(finding->detail + used, sizeof finding->detail - used,
+                 ", times the declared torque per ampere");
 }
 
 /* Behind what is not known, which stands first. */
@@ -169,7 +174,10 @@ static void put_finding(const hci_free_friction *f, hci_diagnosis *d)
     while (at < d->findings && strcmp(d->finding[at].effect, friction()->name) != 0)
         ++at;
     if (at == d->findings || d->finding[at].verdict != HCI_FINDING_REJECTED) return;
-    hci_finding finding = {.effect = friction()->name, .verdict = HCI_FINDING_ADDED, .delta_bic = f->law.gain, .residual_share = NAN};
+    hci_finding finding = {.effect = friction()->name,
+                           .verdict = HCI_FINDING_ADDED,
+                           .delta_bic = f->law.gain,
+                           .residual_share = NAN};
     describe(f, &finding);
     memmove(&d->finding[to + 1], &d->finding[to], (at - to) * sizeof finding);
     d->finding[to] = finding;
@@ -192,7 +200,8 @@ static void put_mean(double before_Nm, double after_Nm, hci_run_errors *e)
 static hci_run_errors errors_apart(const hci_runs *runs, size_t run)
 {
     const hci_run *r = &runs->run[run];
-    const double mean_Nm = hci_mean(r->torque_Nm, r->count), ripple_Nm = sqrt(hci_mean_square_about(r->torque_Nm, r->count, mean_Nm));
+    const double mean_Nm = hci_mean(r->torque_Nm, r->count),
+                 ripple_Nm = sqrt(hci_mean_square_about(r->torque_Nm, r->count, mean_Nm));
     return (hci_run_errors){.file = r->name,
                             .role = runs->role[run],
                             .source = r->torque_source,
@@ -211,7 +220,8 @@ static bool has_errors(const hci_diagnosis *d, size_t at, const hci_run *run)
 }
 
 /* The errors of all runs in the order of the list, with the numbers that lines have of them. */
-static hci_status join_errors(const hci_free_friction *f, const hci_runs *runs, hci_diagnosis *d, hci_note *note)
+static hci_status join_errors(const hci_free_friction *f, const hci_runs *runs, hci_diagnosis *d,
+                              hci_note *note)
 {
     hci_run_errors *all = hci_memory_new(runs->count + 1, sizeof *all);
     size_t *moved = hci_memory_new(runs->count + 1, sizeof *moved);
@@ -262,7 +272,8 @@ static bool add_means(const hci_free_friction *f, const hci_runs *runs, hci_diag
     return after <= LEFT * LEFT * before;
 }
 
-hci_status hci_free_friction_tell(const hci_free_friction *f, const hci_runs *runs, hci_diagnosis *d, hci_note *note)
+hci_status hci_free_friction_tell(const hci_free_friction *f, const hci_runs *runs, hci_diagnosis *d,
+                                  hci_note *note)
 {
     if (f->law.terms == 0) return HCI_OK;
     const hci_status status = join_errors(f, runs, d, note);

@@ -233,7 +233,8 @@ static void advice_of_same(const hci_attribution *a, hci_diagnosis *d)
 {
     if (a->inertia_as_well && advice_begin(d))
         hci_words_say(&(hci_words){d->advice, sizeof d->advice},
-                      "torque per ampere or inertia: the voltages of the open terminals would tell while the shaft coasts or another "
+                      "torque per ampere or inertia: the voltages of the open terminals would tell while the "
+                      "shaft coasts or another "
                       "motor turns it, or spins with a disc of known inertia; a torque sensor as well");
     for (size_t r = 0; r < a->types; ++r) {
         const hci_verdict *v = &a->verdict[r];

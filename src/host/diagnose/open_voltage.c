@@ -117,7 +117,8 @@ double hci_open_voltage_scale_fitted(const hci_machine *machine, const hci_runs 
     scale_sums sum = {0.0, 0.0, 0.0, 0.0};
     *std_error = NAN;
     for (size_t r = 0; r < runs->count; ++r)
-        if (runs->role[r] == HCI_ROLE_FIT && hci_open_voltage_is_in(machine, &runs->run[r])) scale_add(machine, &runs->run[r], &sum);
+        if (runs->role[r] == HCI_ROLE_FIT && hci_open_voltage_is_in(machine, &runs->run[r]))
+            scale_add(machine, &runs->run[r], &sum);
     if (!(sum.square > 0.0)) return NAN;
     const double beside = sum.along / sum.square;
     /* two of three phases are free: their mean is taken out */

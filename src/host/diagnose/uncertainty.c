@@ -16,7 +16,7 @@ enum { MACHINES = 200, SEED = 1 };
 #define MOST_FREEDOM 200.0 /* of Student's distribution, that is a normal one */
 
 #define COPY  0.99 /* cosine of what two recordings tell, from which on they are left out together */
-#define TOLD  0.3 /* of the work, that recordings one by one are */
+#define TOLD  0.3  /* of the work, that recordings one by one are */
 #define WHOLE 1.0  /* electrical turns that remain of a run where a part of it is left out */
 
 typedef struct {
@@ -35,7 +35,8 @@ static hci_status part_add(void *context, const hci_regression *part, size_t run
     finding *f = context;
     hci_normal_equations normal;
     if (hci_watch_stops(part->watch)) return HCI_ERROR_STOPPED;
-    hci_watch_tell(part->watch, "looking at what is left open", TOLD * (double)run / (double)part->samples->run_count);
+    hci_watch_tell(part->watch, "looking at what is left open",
+                   TOLD * (double)run / (double)part->samples->run_count);
     const hci_status status = hci_regression_normal(part, &f->terms.candidates, true, &normal, note);
     if (status) return status;
     const bool told = normal.rows > 0.0;
@@ -78,7 +79,8 @@ static hci_status runs_join(finding *f, hci_note *note)
     if (!hci_condensed_join(&f->parts, f->terms.unit, COPY, &f->runs, f->group)) return join_failed(f, note);
     if (f->runs.count >= HCI_LEAST_GROUPS || f->runs.count == f->parts.count) return HCI_OK;
     hci_condensed_release(&f->runs);
-    if (!hci_condensed_join(&f->parts, f->terms.unit, INFINITY, &f->runs, f->group)) return join_failed(f, note);
+    if (!hci_condensed_join(&f->parts, f->terms.unit, INFINITY, &f->runs, f->group))
+        return join_failed(f, note);
     return HCI_OK;
 }
 

@@ -13,7 +13,8 @@
 
 /* fitted: the terms of the model that are in, with their values; regression: with the noise that the model
  * leaves. uncertainty: out; empty where fewer than three runs, or parts of runs that are long enough, tell
- * something. HCI_ERROR_MEMORY, HCI_ERROR_STOPPED by regression->watch, and then it is empty too. O(terms³/3 + runs·samples·terms²). */
+ * something. HCI_ERROR_MEMORY, HCI_ERROR_STOPPED by regression->watch, and then it is empty too. O(terms³/3 +
+ * runs·samples·terms²). */
 hci_status hci_uncertainty_find(hci_regression *regression, const hci_candidates *fitted,
                                 hci_uncertainty *uncertainty, hci_note *note);
 

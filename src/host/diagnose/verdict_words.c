@@ -148,10 +148,12 @@ static void say_free_shafts(const hci_words *w, const hci_diagnosis *d)
         hci_words_say(w, " The torque of %zu of %zu runs is inertia x acceleration, as of a free shaft.",
                       count, d->runs);
     if (d->of_mean_currents > 0)
-        hci_words_say(w, " The mean currents of %zu of them, at constant speed, are friction.", d->of_mean_currents);
+        hci_words_say(w, " The mean currents of %zu of them, at constant speed, are friction.",
+                      d->of_mean_currents);
     if (d->held_constant_Nm_per_A != 0.0)
         hci_words_say(w,
-                      " No run tells the torque per ampere: torques are currents times the declared %.4g N·m/A, and where that "
+                      " No run tells the torque per ampere: torques are currents times the declared %.4g "
+                      "N·m/A, and where that "
                       "is off by 5 %%, so are they; ± leaves that out.",
                       d->held_constant_Nm_per_A);
 }

@@ -19,7 +19,7 @@ enum {
     MOST_WORSE = 2
 };
 
-#define TOLD      0.3 /* of what is left open, that has been done before */
+#define TOLD      0.3  /* of what is left open, that has been done before */
 #define NONE_LEFT 15.0 /* of the misfit above the least: of 200 machines not one */
 
 static const double *precision_of(const hci_width_trials *t, const hci_allowed_terms *terms,
@@ -44,7 +44,8 @@ static hci_status try(const hci_allowed_terms *terms, const hci_condensed *runs,
 {
     const hci_expectation expected = {precision_of(t, terms, width), terms->centre};
     hci_width_trial *x = &t->trial[t->count];
-    hci_watch_tell(runs->watch, "looking at what is left open", TOLD + (1.0 - TOLD) * (double)t->count / HCI_MOST_WIDTHS);
+    hci_watch_tell(runs->watch, "looking at what is left open",
+                   TOLD + (1.0 - TOLD) * (double)t->count / HCI_MOST_WIDTHS);
     hci_ridge ridge;
     *x = (hci_width_trial){width, INFINITY, 0.0, hci_memory_new(runs->count + 1, sizeof *x->left)};
     if (!x->left) return hci_note_memory(note, NULL, "what recordings leave open");

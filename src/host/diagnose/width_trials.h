@@ -29,7 +29,8 @@ typedef struct {
     size_t shares;
 } hci_width_trials;
 
-/* trials: out; on failure as far as they came, to be released. HCI_ERROR_MEMORY, HCI_ERROR_STOPPED. O(n³/3) for each width. */
+/* trials: out; on failure as far as they came, to be released. HCI_ERROR_MEMORY, HCI_ERROR_STOPPED. O(n³/3)
+ * for each width. */
 hci_status hci_width_trials_make(const hci_allowed_terms *terms, const hci_condensed *runs,
                                  hci_width_trials *trials, hci_note *note);
 void hci_width_trials_release(hci_width_trials *trials);

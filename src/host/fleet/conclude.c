@@ -17,7 +17,8 @@ static size_t gather(const hci_line *l, const double *from, size_t parameter, do
 {
     size_t count = 0;
     for (size_t k = 0; k < l->motors; ++k)
-        if (!isnan(l->value[k * l->parameters + parameter])) to[count++] = from[k * l->parameters + parameter];
+        if (!isnan(l->value[k * l->parameters + parameter]))
+            to[count++] = from[k * l->parameters + parameter];
     return count;
 }
 
@@ -37,7 +38,8 @@ static void describe(const hci_line *l, size_t parameter, double *work)
     p->high = p->median + l->limit * p->scale;
 }
 
-/* The spread that the motors have has the usual noise in it; one that was recorded worse, with so much more noise, has more. */
+/* The spread that the motors have has the usual noise in it; one that was recorded worse, with so much more
+ * noise, has more. */
 static double deviation_of(const hci_line *l, size_t motor, size_t parameter, double own_noise)
 {
     const hci_line_parameter *p = &l->parameter[parameter];
@@ -65,8 +67,9 @@ static void take_worst(hci_line_motor *m, size_t parameter, double deviation)
     m->deviation = deviation;
 }
 
-/* What stays unexplained, the last parameter, widens all standard errors. It is a fault that the parameters describe in part
- * where one of them is beyond its limit by the usual noise, and three of its own standard errors off: that one names it. */
+/* What stays unexplained, the last parameter, widens all standard errors. It is a fault that the parameters
+ * describe in part where one of them is beyond its limit by the usual noise, and three of its own standard
+ * errors off: that one names it. */
 static void name_residual(const hci_line *l, hci_line_motor *m, size_t motor)
 {
     const size_t last = l->parameters - 1;
@@ -75,7 +78,8 @@ static void name_residual(const hci_line *l, hci_line_motor *m, size_t motor)
     for (size_t k = 0; k < last; ++k) {
         const double deviation = deviation_of(l, motor, k, usual);
         if (isnan(deviation) || l->parameter[k].motors < 2) continue;
-        if (fabs(deviation) > l->limit && fabs(hci_line_deviation(l, motor, k)) > OWN_ERRORS) take_worst(&named, k, deviation);
+        if (fabs(deviation) > l->limit && fabs(hci_line_deviation(l, motor, k)) > OWN_ERRORS)
+            take_worst(&named, k, deviation);
     }
     take_worst(m, last, hci_line_deviation(l, motor, last));
     if (named.worst == HCI_LINE_NONE) return;
@@ -117,7 +121,8 @@ static size_t gather_sound(const hci_line *l, size_t parameter, hci_trend_point 
     for (size_t k = 0; k < l->motors; ++k) {
         const size_t at = k * l->parameters + parameter;
         if (isnan(l->value[at]) || l->motor[k].stands_out) continue;
-        point[count++] = (hci_trend_point){l->value[at], l->std_error[at], l->motor[k].day, l->motor[k].batch};
+        point[count++] =
+            (hci_trend_point){l->value[at], l->std_error[at], l->motor[k].day, l->motor[k].batch};
     }
     return count;
 }

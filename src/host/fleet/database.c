@@ -1,5 +1,5 @@
-/* fleet.sqlite by SQLite, which no other file includes. It is opened for each writing and closed behind it, so that it
- * is not open where a process is started. */
+/* fleet.sqlite by SQLite, which no other file includes. It is opened for each writing and closed behind it,
+ * so that it is not open where a process is started. */
 #include <math.h>
 #include <sqlite3.h>
 #include <stdio.h>
@@ -23,9 +23,10 @@ typedef struct {
 
 static hci_status refused(const database *d)
 {
-    return hci_note_set(d->note, HCI_ERROR_OUTPUT,
-                        "%.300s: %.200s; when it cannot be mended, delete it: it is made again from the folders",
-                        d->path, d->file ? sqlite3_errmsg(d->file) : "out of memory");
+    return hci_note_set(
+        d->note, HCI_ERROR_OUTPUT,
+        "%.300s: %.200s; when it cannot be mended, delete it: it is made again from the folders", d->path,
+        d->file ? sqlite3_errmsg(d->file) : "out of memory");
 }
 
 static hci_status run(const database *d, const char *sql)

@@ -14,14 +14,14 @@ static int split(const char *date, parts *p)
 {
     char second = '\0';
     int at[3] = {0}, end = 0, from = 0;
-    if (sscanf(date, "%4d%n%c%2d%n%c%n%4d%n", &p->number[0], &at[0], &p->between, &p->number[1], &at[1], &second, &from, &p->number[2],
-               &end) != 5)
+    if (sscanf(date, "%4d%n%c%2d%n%c%n%4d%n", &p->number[0], &at[0], &p->between, &p->number[1], &at[1],
+               &second, &from, &p->number[2], &end) != 5)
         return 0;
     p->digits[0] = at[0];
     p->digits[1] = at[1] - at[0] - 1;
     p->digits[2] = end - from;
-    return p->between == second && strchr("-./", second) && (date[end] == '\0' || date[end] == ' ' || date[end] == 'T') &&
-           date[0] != '-' && date[0] != '+';
+    return p->between == second && strchr("-./", second) &&
+           (date[end] == '\0' || date[end] == ' ' || date[end] == 'T') && date[0] != '-' && date[0] != '+';
 }
 
 hci_date_order hci_date_order_of(const char *date)
@@ -35,7 +35,8 @@ hci_date_order hci_date_order_of(const char *date)
 static double day_of(int year, int month, int day)
 {
     if (month < 1 || month > 12 || day < 1 || day > 31) return NAN;
-    const int shifted = year - (month <= 2), in_year = (153 * (month + (month > 2 ? -3 : 9)) + 2) / 5 + day - 1;
+    const int shifted = year - (month <= 2),
+              in_year = (153 * (month + (month > 2 ? -3 : 9)) + 2) / 5 + day - 1;
     return 365.0 * shifted + shifted / 4 - shifted / 100 + shifted / 400 + in_year;
 }
 

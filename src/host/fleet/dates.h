@@ -1,5 +1,5 @@
-/* Dates as lists have them: 2026-10-05, 2026/10/5, 05.10.2026, 2026-10-05T08:00; and 05/10/2026 where one date of the list says
- * which number is the month. */
+/* Dates as lists have them: 2026-10-05, 2026/10/5, 05.10.2026, 2026-10-05T08:00; and 05/10/2026 where one
+ * date of the list says which number is the month. */
 #ifndef HCI_SRC_HOST_FLEET_DATES_H
 #define HCI_SRC_HOST_FLEET_DATES_H
 
@@ -13,8 +13,8 @@ typedef enum {
 
 hci_date_order hci_date_order_of(const char *date);
 
-/* Days since a day long ago, of the proleptic Gregorian calendar. order: of dates that leave it open; HCI_DATE_OPEN: not known. NAN: not
- * read. */
+/* Days since a day long ago, of the proleptic Gregorian calendar. order: of dates that leave it open;
+ * HCI_DATE_OPEN: not known. NAN: not read. */
 double hci_date_day(const char *date, hci_date_order order);
 
 #endif

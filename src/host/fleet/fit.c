@@ -13,9 +13,10 @@
 
 enum { MOST_TERMS = HCI_FLEET_MOST_PARAMETERS - 3, MOST_EFFECTS = 64, STEPS = 10, HALVINGS = 12 };
 
-/* Shares of the sum of squares: a step that lowers it by less is not made; the fit is found where none lowers it by more. */
+/* Shares of the sum of squares: a step that lowers it by less is not made; the fit is found where none lowers
+ * it by more. */
 #define CONVERGED 1e-9
-#define FOUND 1e-4
+#define FOUND     1e-4
 
 /* ---- the model: what is declared, and behind it the terms in common ---- */
 
@@ -133,7 +134,8 @@ static hci_status look(const data *d, const model *m, place *p, hci_note *note)
     if (status) return status;
     if (!hci_sweep_start(&p->sweep, &p->s.normal)) return hci_note_memory(note, NULL, "a fit");
     for (size_t k = 0; k < m->terms; ++k)
-        if (!m->is_left_out[k]) (void)hci_sweep_in(&p->sweep, k); /* one that depends on those before stays out */
+        if (!m->is_left_out[k])
+            (void)hci_sweep_in(&p->sweep, k); /* one that depends on those before stays out */
     return HCI_OK;
 }
 
@@ -256,8 +258,8 @@ static void list_values(const model *m, const hci_sweep *sweep, hci_fleet_fit *f
     }
 }
 
-/* The deviation by which standard errors are wider than those for residuals of a deviation of 1. Noise that is correlated from
- * sample to sample by ρ counts as (1 − ρ)/(1 + ρ) as many samples. */
+/* The deviation by which standard errors are wider than those for residuals of a deviation of 1. Noise that
+ * is correlated from sample to sample by ρ counts as (1 − ρ)/(1 + ρ) as many samples. */
 static double deviation_of(const sums *s, size_t samples, size_t columns)
 {
     const double correlation = s->square > 0.0 ? fmin(fmax(s->beside / s->square, 0.0), 0.99) : 0.0;
@@ -271,7 +273,8 @@ static bool is_coulomb(const model *m, size_t term)
 {
     for (size_t k = 0; k < m->list.count; ++k) {
         const hci_effect *e = &m->effect[k];
-        if (e->type->coulomb_Nm && e->term >= m->term && e->term <= m->term + term && m->term + term < e->term + e->count)
+        if (e->type->coulomb_Nm && e->term >= m->term && e->term <= m->term + term &&
+            m->term + term < e->term + e->count)
             return strcmp(e->type->parameter[m->term[term].parameter].name, "coulomb") == 0;
     }
     return false;
@@ -284,20 +287,24 @@ typedef struct {
     double samples;
 } yardstick;
 
-/* Where terms are as declared: by what the first step is expected to leave, whose correlation is not known. */
+/* Where terms are as declared: by what the first step is expected to leave, whose correlation is not known.
+ */
 static yardstick before(const model *m, const place *p, size_t samples)
 {
     const sums s = {.square = fmax(p->sweep.square, 0.0)};
-    return (yardstick){sqrt(s.square / (double)samples), deviation_of(&s, samples, m->terms), (double)samples};
+    return (yardstick){sqrt(s.square / (double)samples), deviation_of(&s, samples, m->terms),
+                       (double)samples};
 }
 
 static yardstick after(const model *m, const place *p, size_t samples)
 {
-    return (yardstick){sqrt(p->s.square / (double)samples), deviation_of(&p->s, samples, m->terms), (double)samples};
+    return (yardstick){sqrt(p->s.square / (double)samples), deviation_of(&p->s, samples, m->terms),
+                       (double)samples};
 }
 
-/* By how much a term is beyond belief; up to 1 it is believed. Its standard error moves the torque by more than the rms of what
- * stays, or is larger than the values that there are; or it is a friction that drives. */
+/* By how much a term is beyond belief; up to 1 it is believed. Its standard error moves the torque by more
+ * than the rms of what stays, or is larger than the values that there are; or it is a friction that drives.
+ */
 static double doubt(const model *m, const hci_sweep *sweep, const yardstick *by, size_t term)
 {
     const double std_error = by->deviation * sqrt(sweep->a[term * sweep->n + term]);
@@ -309,7 +316,8 @@ static double doubt(const model *m, const hci_sweep *sweep, const yardstick *by,
     return worst;
 }
 
-#define ALIKE 0.3 /* terms that one direction confounds have doubts alike; the one that is listed last goes */
+#define ALIKE 0.3 /* terms that one direction confounds have doubts alike; the one that is listed last goes  \
+                   */
 
 /* Leaves out the term that is told least. False: all are told. */
 static bool leave_out(model *m, const hci_sweep *sweep, const yardstick *by)
@@ -344,7 +352,8 @@ static bool leave_out_curved(model *m, const hci_sweep *sweep)
         if (e->term < m->term || e->term >= m->term + m->terms) continue; /* declared */
         for (size_t j = e->count; j-- > 0;) {
             const size_t term = (size_t)(e->term - m->term) + j;
-            if (!sweep->in[term] || (e->type->parameter[e->term[j].parameter].traits & HCI_PARAMETER_LINEAR)) continue;
+            if (!sweep->in[term] || (e->type->parameter[e->term[j].parameter].traits & HCI_PARAMETER_LINEAR))
+                continue;
             m->is_left_out[term] = true;
             return true;
         }
@@ -362,7 +371,8 @@ static hci_status fit_once(const data *d, model *m, place *p, hci_fleet_fit *fit
     release_place(p);
     hci_status status = look(d, m, p, note);
     if (status) return status;
-    if (!isfinite(p->s.square)) return hci_note_set(note, HCI_ERROR_NUMERIC, "the terms in common cannot be fitted");
+    if (!isfinite(p->s.square))
+        return hci_note_set(note, HCI_ERROR_NUMERIC, "the terms in common cannot be fitted");
     fit->rms_before_Nm = sqrt(p->s.square / (double)d->samples);
     leave_out_first(m, p, d->samples);
     return descend(d, m, p, &fit->is_found, note);
@@ -373,7 +383,8 @@ static void keep_declared(hci_fleet_fit *fit)
     fit->rms_after_Nm = NAN;
     for (size_t k = 0; k < fit->count; ++k)
         fit->parameter[k].value = fit->parameter[k].std_error = NAN;
-    hci_note_add(&fit->remark, "the error cannot be brought to its least value, and the declared values stay: `check` the recordings, or `diagnose` them");
+    hci_note_add(&fit->remark, "the error cannot be brought to its least value, and the declared values "
+                               "stay: `check` the recordings, or `diagnose` them");
 }
 
 static hci_status take_steps(const data *d, model *m, hci_fleet_fit *fit, hci_note *note)
@@ -418,8 +429,8 @@ static void remark_unused(const hci_machine *machine, const hci_runs *runs, hci_
         if (!first) first = &runs->run[k];
     }
     if (first)
-        hci_note_add(&fit->remark, "%zu of %zu recordings are not used; the first, %.200s, is %s", fit->recordings_unused, fit->recordings,
-                     first->name, reason_against(first));
+        hci_note_add(&fit->remark, "%zu of %zu recordings are not used; the first, %.200s, is %s",
+                     fit->recordings_unused, fit->recordings, first->name, reason_against(first));
 }
 
 /* Rows of the recordings in use that are not among their samples. */
@@ -431,7 +442,9 @@ static void remark_holes(const hci_runs *runs, hci_fleet_fit *fit)
             fit->rows_unused += r->row[r->count - 1] + 1 - r->count;
     }
     if (fit->rows_unused > 0)
-        hci_note_add(&fit->remark, "%zu rows of the recordings have a hole or repeat the one before, and are not used", fit->rows_unused);
+        hci_note_add(&fit->remark,
+                     "%zu rows of the recordings have a hole or repeat the one before, and are not used",
+                     fit->rows_unused);
 }
 
 /* The effect that the strength of the magnets belongs to: what equal phases look like. */
@@ -476,10 +489,11 @@ hci_status hci_fleet_fit_runs(const hci_machine_data *machine, const hci_effects
     for (size_t k = 0; k < runs->count && !status; ++k)
         status = read_run(machine, runs, k, &d, note);
     if (!status && d.samples == 0)
-        status = hci_note_set(note, HCI_ERROR_INPUT,
-                              "%s: found no run to be fitted with an angle and a measured torque; expected one "
-                              "at least",
-                              runs->list ? runs->list : "recordings");
+        status =
+            hci_note_set(note, HCI_ERROR_INPUT,
+                         "%s: found no run to be fitted with an angle and a measured torque; expected one "
+                         "at least",
+                         runs->list ? runs->list : "recordings");
     remark_unused(&machine->model, runs, fit);
     remark_holes(runs, fit);
     make_model(&machine->model, declared, &m);

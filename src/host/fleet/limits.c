@@ -35,7 +35,9 @@ static bool find(const hci_fleet_fit *fit, const char *effect, const char *param
     if (strcmp(effect, "residual") == 0 && strcmp(parameter, "rms") == 0) return true;
     for (size_t k = 0; k < fit->count; ++k) {
         *value = fit->parameter[k].value;
-        if (strcmp(fit->parameter[k].effect, effect) == 0 && strcmp(fit->parameter[k].parameter, parameter) == 0) return true;
+        if (strcmp(fit->parameter[k].effect, effect) == 0 &&
+            strcmp(fit->parameter[k].parameter, parameter) == 0)
+            return true;
     }
     return false;
 }
@@ -47,9 +49,11 @@ static void judge(const limit *l, const char *effect, const char *parameter, dou
     if (value >= l->low && value <= l->high) return;
     ++fit->beyond;
     if (isnan(value))
-        hci_note_add(&fit->remark, "%.40s %.40s: not told, expected %.4g … %.4g", effect, parameter, l->low, l->high);
+        hci_note_add(&fit->remark, "%.40s %.40s: not told, expected %.4g … %.4g", effect, parameter, l->low,
+                     l->high);
     else
-        hci_note_add(&fit->remark, "%.40s %.40s: found %.4g, expected %.4g … %.4g", effect, parameter, value, l->low, l->high);
+        hci_note_add(&fit->remark, "%.40s %.40s: found %.4g, expected %.4g … %.4g", effect, parameter, value,
+                     l->low, l->high);
 }
 
 static hci_status judge_row(limit *l, hci_fleet_fit *fit, hci_note *note)
@@ -61,7 +65,8 @@ static hci_status judge_row(limit *l, hci_fleet_fit *fit, hci_note *note)
     if (!status) status = read_limit(l, note);
     if (status) return status;
     if (!find(fit, effect, parameter, &value))
-        return hci_csv_error(l->csv, "parameter", l->row, note, "an effect and a parameter of parameters.csv", "take their names from there");
+        return hci_csv_error(l->csv, "parameter", l->row, note, "an effect and a parameter of parameters.csv",
+                             "take their names from there");
     judge(l, effect, parameter, value, fit);
     return HCI_OK;
 }

@@ -17,9 +17,9 @@ enum { PATH_SIZE = 4096, COMMANDS = HCI_FLEET_FIT + 1 };
 
 static hci_status wrong(const char *path, const char *what, hci_note *note)
 {
-    return hci_note_set(note, HCI_ERROR_INPUT,
-                        "%.300s: %s; expected fleet.csv as hci-solve batch writes it: give the --out of a batch", path,
-                        what);
+    return hci_note_set(
+        note, HCI_ERROR_INPUT,
+        "%.300s: %s; expected fleet.csv as hci-solve batch writes it: give the --out of a batch", path, what);
 }
 
 /* The command whose header a file has; COMMANDS: none. */
@@ -84,7 +84,8 @@ static hci_status split(char *text, const char *folder, rows *r, hci_note *note)
 static hci_status read_folder(const char *folder, hci_line *line, rows *r, hci_note *note)
 {
     char path[PATH_SIZE];
-    if (snprintf(path, sizeof path, "%s/fleet.csv", folder) >= PATH_SIZE) return wrong(folder, "the path is too long", note);
+    if (snprintf(path, sizeof path, "%s/fleet.csv", folder) >= PATH_SIZE)
+        return wrong(folder, "the path is too long", note);
     char *text = hci_whole_file(path);
     if (!text) return wrong(path, "cannot be read", note);
     line->text[line->texts++] = text;
@@ -108,9 +109,10 @@ static hci_status join(rows *r, hci_note *note)
     for (size_t k = 0; k < r->count; ++k) {
         const bool is_same = kept > 0 && by_name(&r->item[kept - 1], &r->item[k]) == 0;
         if (is_same && strcmp(r->item[kept - 1].motor.row, r->item[k].motor.row) != 0)
-            return hci_note_set(note, HCI_ERROR_INPUT,
-                                "%.300s and %.300s: found motor `%.100s` in both with different rows, expected each once",
-                                r->item[kept - 1].folder, r->item[k].folder, r->item[k].motor.name);
+            return hci_note_set(
+                note, HCI_ERROR_INPUT,
+                "%.300s and %.300s: found motor `%.100s` in both with different rows, expected each once",
+                r->item[kept - 1].folder, r->item[k].folder, r->item[k].motor.name);
         if (!is_same) r->item[kept++] = r->item[k];
     }
     r->count = kept;
@@ -120,7 +122,8 @@ static hci_status join(rows *r, hci_note *note)
 /* ---- parameters ---- */
 
 /* Beside what the command wrote: of a diagnosis in a folder of its own. */
-static hci_status read_fit(const hci_line *line, const placed *p, hci_fleet_fit *fit, bool *is_there, hci_note *note)
+static hci_status read_fit(const hci_line *line, const placed *p, hci_fleet_fit *fit, bool *is_there,
+                           hci_note *note)
 {
     char folder[PATH_SIZE];
     *is_there = false;
@@ -138,7 +141,8 @@ static hci_status begin(hci_line *line, const hci_fleet_fit *fit, hci_note *note
     line->parameter = hci_memory_new(line->parameters, sizeof *line->parameter);
     line->value = hci_memory_new(line->motors * line->parameters, sizeof *line->value);
     line->std_error = hci_memory_new(line->motors * line->parameters, sizeof *line->std_error);
-    if (!line->parameter || !line->value || !line->std_error) return hci_note_memory(note, NULL, "the parameters of a fleet");
+    if (!line->parameter || !line->value || !line->std_error)
+        return hci_note_memory(note, NULL, "the parameters of a fleet");
     for (size_t k = 0; k < line->motors * line->parameters; ++k)
         line->value[k] = line->std_error[k] = NAN;
     for (size_t k = 0; k < fit->count; ++k)
@@ -147,15 +151,18 @@ static hci_status begin(hci_line *line, const hci_fleet_fit *fit, hci_note *note
     return HCI_OK;
 }
 
-static hci_status take_fit(hci_line *line, size_t motor, const placed *p, const hci_fleet_fit *fit, hci_note *note)
+static hci_status take_fit(hci_line *line, size_t motor, const placed *p, const hci_fleet_fit *fit,
+                           hci_note *note)
 {
-    double *value = line->value + motor * line->parameters, *std_error = line->std_error + motor * line->parameters;
+    double *value = line->value + motor * line->parameters,
+           *std_error = line->std_error + motor * line->parameters;
     for (size_t k = 0; k < fit->count; ++k) {
         const hci_fleet_parameter *is = &fit->parameter[k], *expected = &line->parameter[k].name;
         if (fit->count + 1 != line->parameters || strcmp(is->effect, expected->effect) != 0 ||
             strcmp(is->parameter, expected->parameter) != 0 || strcmp(is->unit, expected->unit) != 0)
             return hci_note_set(note, HCI_ERROR_INPUT,
-                                "%.300s: motor `%.100s` has other parameters than the first one; expected motors of one make, "
+                                "%.300s: motor `%.100s` has other parameters than the first one; expected "
+                                "motors of one make, "
                                 "fitted with one machine folder",
                                 p->folder, p->motor.name);
         value[k] = is->value;
@@ -192,7 +199,8 @@ static hci_status take_rows(const rows *r, hci_line *line, hci_note *note)
 
 /* ---- dates ---- */
 
-/* What dates like 05/10/2026 are, by those of the line that leave it not open; open where these contradict each other. */
+/* What dates like 05/10/2026 are, by those of the line that leave it not open; open where these contradict
+ * each other. */
 static hci_date_order order_of(const hci_line *line)
 {
     bool day = false, month = false;

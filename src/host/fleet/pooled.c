@@ -1,5 +1,5 @@
-/* Random effects by restricted maximum likelihood (H. D. Patterson and R. Thompson, Recovery of inter-block information when
- * block sizes are unequal, Biometrika 58, 1971): docs/theory.md, section 17. */
+/* Random effects by restricted maximum likelihood (H. D. Patterson and R. Thompson, Recovery of inter-block
+ * information when block sizes are unequal, Biometrika 58, 1971): docs/theory.md, section 17. */
 #include "host/fleet/pooled.h"
 
 #include <math.h>
@@ -64,7 +64,8 @@ hci_pooled hci_pooled_find(const double *value, const double *std_error, size_t 
         }
     }
     double between = 0.5 * (low + high);
-    if (hci_pooled_likelihood(value, std_error, n, 0.0) >= hci_pooled_likelihood(value, std_error, n, between))
+    if (hci_pooled_likelihood(value, std_error, n, 0.0) >=
+        hci_pooled_likelihood(value, std_error, n, between))
         between = 0.0; /* no number, where a standard error is 0 */
     const sums s = sums_of(value, std_error, n, between);
     return (hci_pooled){s.mean, 1.0 / sqrt(s.weight), between};

@@ -152,7 +152,8 @@ void hci_fleet_row_make(const hci_fleet_results *results, size_t motor, const hc
 
 /* ---- a cell of a row ---- */
 
-/* Copies the cell that begins at `at`, without its quotes, and returns where the next one begins; NULL: none. */
+/* Copies the cell that begins at `at`, without its quotes, and returns where the next one begins; NULL: none.
+ */
 static const char *next_cell(const char *at, char *cell, size_t size)
 {
     const bool quoted = *at == '"';

@@ -83,7 +83,8 @@ static void add_batch(const hci_trend_point *point, size_t n, double grand, vari
     v->batches += 1.0;
 }
 
-/* 1 + (m − 1) ρ, the variance of a mean over batches of m whose motors are alike by ρ (L. Kish, Survey Sampling, 1965). */
+/* 1 + (m − 1) ρ, the variance of a mean over batches of m whose motors are alike by ρ (L. Kish, Survey
+ * Sampling, 1965). */
 static double widening_of(double deviation, double within, double usual)
 {
     const double alike = deviation * deviation / (deviation * deviation + within);

@@ -36,7 +36,8 @@ static void write_table(const hci_foreign_map *map, const hci_foreign_files *fil
         hci_output_text(output, "%zu,%s\n", k, hci_foreign_float(map->value[k], text));
 }
 
-/* The script that puts the file into a drive: three times the name, what it reads and how it connects, what it does. */
+/* The script that puts the file into a drive: three times the name, what it reads and how it connects, what
+ * it does. */
 static const char SCRIPT_HEAD[] =
     "#!/usr/bin/env python3\n"
     "\"\"\"Puts %s.csv, which stands beside this file, into a drive. Without --store nothing is sent.\n"

@@ -105,7 +105,8 @@ hci_status hci_spectrum_rows(const hci_csv *csv, const char *amplitude_column, h
     *row_of = hci_memory_new(n, sizeof **row_of);
     if (!rows || !column || !*terms || !*row_of)
         status = hci_note_memory(note, hci_csv_path(csv), "%zu rows", n);
-    if (!status) status = hci_csv_check_rows(csv, HCI_MOST_ORDERS_LISTED, "keep the orders that matter", note);
+    if (!status)
+        status = hci_csv_check_rows(csv, HCI_MOST_ORDERS_LISTED, "keep the orders that matter", note);
     if (!status) {
         const spectrum_columns t = {csv, amplitude_column, column, column + n, column + 2 * n};
         status = read_rows(&t, rows, n, note);

@@ -38,8 +38,8 @@ bool hci_condensed_add(hci_condensed *all, const hci_normal_equations *group, co
 
 /* The same with groups joined that tell the same: whose XᵀX, each unknown in units of what all groups tell of
  * it, have a cosine of `alike` or more. joined: out, start with {0}; of[all->count]: out, the joined group of
- * each. False when memory is out or the watch stops, and then *joined is empty. O(n groups² + n² rank groups), and n rank² of
- * each pair whose diagonals alone do not tell that it differs. */
+ * each. False when memory is out or the watch stops, and then *joined is empty. O(n groups² + n² rank
+ * groups), and n rank² of each pair whose diagonals alone do not tell that it differs. */
 bool hci_condensed_join(const hci_condensed *all, const double *unit, double alike, hci_condensed *joined,
                         size_t *of);
 

@@ -175,7 +175,8 @@ bool hci_ridge_leave_out(const hci_ridge *ridge, const hci_condensed *rows, doub
                          hci_left_out_group *out)
 {
     for (size_t g = 0; g < rows->count; ++g)
-        if (hci_watch_stops(rows->watch) || !leave_one(ridge, &rows->group[g], share ? share[g] : NULL, &out[g]))
+        if (hci_watch_stops(rows->watch) ||
+            !leave_one(ridge, &rows->group[g], share ? share[g] : NULL, &out[g]))
             return false;
     return true;
 }

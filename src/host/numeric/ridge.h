@@ -45,8 +45,8 @@ typedef struct {
 } hci_left_out_group;
 
 /* K of each group, row by row: what share of all that is known each direction of it tells.
- * share[rows->count]: out, each of [rank²], to be freed with hci_memory_free; on failure, when memory is out or
- * rows->watch stops, all are NULL. O(n² Σ rank). */
+ * share[rows->count]: out, each of [rank²], to be freed with hci_memory_free; on failure, when memory is out
+ * or rows->watch stops, all are NULL. O(n² Σ rank). */
 bool hci_ridge_shares(const hci_ridge *ridge, const hci_condensed *rows, double **share);
 
 /* share: of a ridge, or NULL: what a group alone tells by it has no say in `square`, since no mean from

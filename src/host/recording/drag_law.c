@@ -25,7 +25,8 @@ static bool start(const hci_drag *drag, size_t count, hci_normal_equations *norm
     if (!hci_normal_equations_start(normal, COLUMNS)) return false;
     for (size_t k = 0; k < count; ++k) {
         const hci_drag *d = &drag[k];
-        const double row[COLUMNS] = {d->sign, d->speed_rad_per_s / fastest, d->square / (fastest * fastest), d->constant};
+        const double row[COLUMNS] = {d->sign, d->speed_rad_per_s / fastest, d->square / (fastest * fastest),
+                                     d->constant};
         hci_normal_equations_add(normal, row, &d->drag_Nm, 1);
     }
     hci_normal_equations_finish(normal);
@@ -40,7 +41,8 @@ static bool is_law(const hci_normal_equations *normal, hci_sweep *sweep)
     const bool both_ways = hci_sweep_in(sweep, SIGN) && hci_sweep_in(sweep, CONSTANT);
     (void)hci_sweep_in(sweep, SPEED);
     if (normal->rows >= LEAST_FOR_SQUARE) (void)hci_sweep_in(sweep, SQUARE);
-    return both_ways && sweep->square <= allowed && sweep->b[CONSTANT] * sweep->b[CONSTANT] * normal->rows <= allowed;
+    return both_ways && sweep->square <= allowed &&
+           sweep->b[CONSTANT] * sweep->b[CONSTANT] * normal->rows <= allowed;
 }
 
 static bool all_brake(const hci_drag *drag, size_t count)
@@ -82,11 +84,13 @@ static size_t speeds_of(const hci_drag *drag, size_t count)
 
 static double variance_of(const hci_normal_equations *normal, const hci_sweep *sweep, size_t terms)
 {
-    const double freedom = normal->rows - (double)terms, rms = NEARLY * NEARLY * normal->square / normal->rows;
+    const double freedom = normal->rows - (double)terms,
+                 rms = NEARLY * NEARLY * normal->square / normal->rows;
     return freedom >= 1.0 && sweep->square > 0.0 ? sweep->square / freedom : rms;
 }
 
-static void fill(const hci_normal_equations *normal, const hci_sweep *sweep, double fastest, hci_drag_law *law)
+static void fill(const hci_normal_equations *normal, const hci_sweep *sweep, double fastest,
+                 hci_drag_law *law)
 {
     const double variance = variance_of(normal, sweep, law->terms);
     double unit = 1.0;
@@ -94,7 +98,8 @@ static void fill(const hci_normal_equations *normal, const hci_sweep *sweep, dou
         law->value[k] = sweep->b[k] * unit;
         law->std_error[k] = sqrt(variance * sweep->a[k * sweep->n + k]) * unit;
     }
-    law->gain = (normal->square - sweep->square) / variance - (double)law->terms * log(fmax(2.0, normal->rows));
+    law->gain =
+        (normal->square - sweep->square) / variance - (double)law->terms * log(fmax(2.0, normal->rows));
 }
 
 bool hci_drag_law_find(const hci_drag *drag, size_t count, hci_drag_law *law)

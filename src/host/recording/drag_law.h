@@ -1,7 +1,8 @@
 /* What drags of several runs have in common.
  *
- * In: the drag of each run on average, and its speed. Out: whether Coulomb's friction and one that grows with the speed
- * make all of them, in both directions, and that friction: a load that is constant, or another one in each run, is none. */
+ * In: the drag of each run on average, and its speed. Out: whether Coulomb's friction and one that grows with
+ * the speed make all of them, in both directions, and that friction: a load that is constant, or another one
+ * in each run, is none. */
 #ifndef HCI_SRC_HOST_RECORDING_DRAG_LAW_H
 #define HCI_SRC_HOST_RECORDING_DRAG_LAW_H
 
@@ -26,12 +27,13 @@ typedef struct {
     double gain;  /* fall of the Bayesian information criterion by it */
 } hci_drag_law;
 
-/* *is_friction: the law, Q where there are five drags or more, leaves up to a tenth of the rms drag, beside it a constant load has
- * up to a tenth, and the drags brake. False in one direction. False returned: memory is out. */
+/* *is_friction: the law, Q where there are five drags or more, leaves up to a tenth of the rms drag, beside
+ * it a constant load has up to a tenth, and the drags brake. False in one direction. False returned: memory
+ * is out. */
 bool hci_drags_are_friction(const hci_drag *drag, size_t count, bool *is_friction);
 
-/* The law of least squares with as many terms as there are speeds that differ by 15 %, and T_c of 0 or more. Errors by what it
- * leaves; where that is nothing, of a tenth of the rms drag. False: memory is out. */
+/* The law of least squares with as many terms as there are speeds that differ by 15 %, and T_c of 0 or more.
+ * Errors by what it leaves; where that is nothing, of a tenth of the rms drag. False: memory is out. */
 bool hci_drag_law_find(const hci_drag *drag, size_t count, hci_drag_law *law);
 
 /* Of the run. */

@@ -17,11 +17,11 @@ typedef struct {
 } balance;
 
 typedef struct {
-    balance plain, with_speed; /* as they are, and times the sign of the speed */
+    balance plain, with_speed;      /* as they are, and times the sign of the speed */
     hci_drag drag, drag_with_speed; /* of the shaft, without drag_Nm */
-    double rms_Nm;             /* of the torque that i_q makes */
-    double mean_Nm;            /* of it, times the sign of the speed */
-    double along_Nm2;          /* mean of its product with inertia × acceleration */
+    double rms_Nm;                  /* of the torque that i_q makes */
+    double mean_Nm;                 /* of it, times the sign of the speed */
+    double along_Nm2;               /* mean of its product with inertia × acceleration */
 } figures;
 
 static bool is_free(const hci_run *run)
@@ -118,10 +118,12 @@ static void set_loads(hci_run *runs, const figures *f, size_t count, double most
             set_load_beside(&runs[k]);
 }
 
-/* Neither on average nor in what varies: the balance of such a run holds for a torque per ampere of any size. */
+/* Neither on average nor in what varies: the balance of such a run holds for a torque per ampere of any size.
+ */
 static bool hardly_accelerates(const figures *f)
 {
-    return fabs(f->with_speed.accelerating) < HARDLY * fabs(f->mean_Nm) && fabs(f->along_Nm2) < HARDLY * f->rms_Nm * f->rms_Nm;
+    return fabs(f->with_speed.accelerating) < HARDLY * fabs(f->mean_Nm) &&
+           fabs(f->along_Nm2) < HARDLY * f->rms_Nm * f->rms_Nm;
 }
 
 static hci_drag drag_at(const figures *f)
@@ -136,13 +138,15 @@ static void set_friction(hci_run *run, const hci_drag *drag)
 {
     run->mean_is_unknown = true;
     hci_note_add(&run->remark,
-                 "the current makes %.3g N·m on average by the declared torque per ampere, and nothing accelerates: that is the "
+                 "the current makes %.3g N·m on average by the declared torque per ampere, and nothing "
+                 "accelerates: that is the "
                  "friction of the shaft and of what it drives",
                  drag->drag_Nm);
 }
 
 /* Sets drag, and *is_friction where it is one. */
-static hci_status find_friction(hci_run *runs, const figures *f, size_t count, hci_drag *drag, bool *is_friction, hci_note *note)
+static hci_status find_friction(hci_run *runs, const figures *f, size_t count, hci_drag *drag,
+                                bool *is_friction, hci_note *note)
 {
     hci_drag *known = hci_memory_new(count + 1, sizeof *known);
     size_t drags = 0;

@@ -13,9 +13,9 @@
  * with another source of torque are not looked at. HCI_ERROR_INPUT for a run without an angle,
  * HCI_ERROR_MEMORY. O(samples·(terms + harmonics)).
  *
- * drag: [count], of each run whose current hardly accelerates it, by the declared torque per ampere, where all of them are
- * one friction: mean_is_unknown is set of these runs, since their means say nothing else, and of no other.
- * NAN in drag_Nm of the other runs, and where they are no friction. NULL: not asked. */
+ * drag: [count], of each run whose current hardly accelerates it, by the declared torque per ampere, where
+ * all of them are one friction: mean_is_unknown is set of these runs, since their means say nothing else, and
+ * of no other. NAN in drag_Nm of the other runs, and where they are no friction. NULL: not asked. */
 hci_status hci_free_shafts_find(const hci_machine_data *machine, const hci_effects *effects, hci_run *runs,
                                 size_t count, hci_drag *drag, hci_note *note);
 

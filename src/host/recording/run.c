@@ -136,11 +136,11 @@ static bool is_zero(const double *values, size_t count)
 
 static const char SLOPE[] = "the speed is the slope of the angle";
 static const char SLOPE_OF_ZERO[] = "the speed is 0 but the angle moves: the slope of the angle is taken";
-static const char SLOPE_OF_NOISE[] =
-    "noise turns the sign of the recorded speed about while the angle goes one way: the slope of the angle is taken";
+static const char SLOPE_OF_NOISE[] = "noise turns the sign of the recorded speed about while the angle goes "
+                                     "one way: the slope of the angle is taken";
 
-/* What is said of the slope of the angle where it takes the place of the speed; NULL: the speed stays. slope: NULL: not known yet, then
- * whether it may take its place. */
+/* What is said of the slope of the angle where it takes the place of the speed; NULL: the speed stays. slope:
+ * NULL: not known yet, then whether it may take its place. */
 static const char *why_slope(const hci_run *run, const double *slope)
 {
     if (run->speed_rad_per_s == NULL) return SLOPE;
@@ -631,8 +631,10 @@ static hci_status name_columns(const char *path, const hci_run_options *options,
     hci_status status = path ? hci_column_names_beside(&beside, path, note) : HCI_OK;
     if (!status) status = hci_column_names_apply(options->list_columns, true, csv, note);
     if (!status) status = hci_column_names_apply(&beside, true, csv, note);
-    if (!status) status = options->columns_found ? hci_column_names_apply_found(options->columns, options->columns_found, csv, note)
-                                                 : hci_column_names_apply(options->columns, false, csv, note);
+    if (!status)
+        status = options->columns_found
+                     ? hci_column_names_apply_found(options->columns, options->columns_found, csv, note)
+                     : hci_column_names_apply(options->columns, false, csv, note);
     hci_column_names_release(&beside);
     return status;
 }

@@ -90,7 +90,8 @@ static hci_status row_options(const list_reader *l, size_t row, hci_run_options 
 /* ---- columns that only some recordings have ---- */
 
 /* Reads one that may lack columns which options name, and says so of it. */
-static hci_status read_lacking(const list_reader *l, const hci_run_options *options, const char *path, hci_run *run)
+static hci_status read_lacking(const list_reader *l, const hci_run_options *options, const char *path,
+                               hci_run *run)
 {
     const hci_column_names *names = options->columns;
     const size_t count = names != NULL ? names->count : 0;
@@ -101,7 +102,8 @@ static hci_status read_lacking(const list_reader *l, const hci_run_options *opti
     const hci_status status = hci_run_read(path, options, run, l->note);
     for (size_t k = 0; k < count && !status; ++k)
         if (options->columns_found[k] == before[k])
-            hci_note_add(&run->remark, "no column `%.60s`: read without %.40s", names->item[k].column, names->item[k].name);
+            hci_note_add(&run->remark, "no column `%.60s`: read without %.40s", names->item[k].column,
+                         names->item[k].name);
     hci_memory_free(before);
     return status;
 }
@@ -199,7 +201,8 @@ static hci_status read_rows(const list_reader *l)
         return hci_note_set(l->note, HCI_ERROR_INPUT, "%s: found no run, expected a row for each; add one",
                             hci_quote_path(hci_csv_path(l->csv), path));
     }
-    status = hci_csv_check_rows(l->csv, HCI_MOST_RUNS_LISTED, "join short recordings, or leave some out", l->note);
+    status =
+        hci_csv_check_rows(l->csv, HCI_MOST_RUNS_LISTED, "join short recordings, or leave some out", l->note);
     if (status) return status;
     l->runs->run = hci_memory_new(rows, sizeof *l->runs->run);
     l->runs->role = hci_memory_new(rows, sizeof *l->runs->role);
@@ -225,7 +228,8 @@ hci_status hci_runs_read(const char *path, const hci_runs_options *options, hci_
     list_reader l = {csv, options, options->run, runs, note};
     l.run.list_columns = &columns;
     status = hci_column_names_beside(&columns, path, note);
-    l.run.columns_found = hci_memory_new((options->run.columns != NULL ? options->run.columns->count : 0) + 1, sizeof(size_t));
+    l.run.columns_found =
+        hci_memory_new((options->run.columns != NULL ? options->run.columns->count : 0) + 1, sizeof(size_t));
     if (!status && l.run.columns_found == NULL) status = memory_error(&l);
     if (!status) status = read_rows(&l);
     if (!status) status = check_found(&l);

@@ -11,8 +11,8 @@
 /* Points into itself: not to be copied. */
 typedef struct {
     hci_drive drive;
-    hci_drive_state state; /* at the start, and then */
-    double *rows;          /* of the table */
+    hci_drive_state state;           /* at the start, and then */
+    double *rows;                    /* of the table */
     hci_plant_inductance inductance; /* what the table was made of */
     hci_inductance *terms;           /* integrated from slopes, or NULL */
     hci_currents fixed, per_Nm;

@@ -28,14 +28,14 @@ typedef struct {
     const double *centre; /* coordinates from which x is at most radius_A away, √Σ of squares; 0: no bound */
     double radius_A;
 
-    double precision; /* of the solver, relative; 0: as precise as it gets */
-    double widened;   /* share by which every limit is wider than asked for */
-    double mean_Nm;   /* RIPPLE and COPPER: nearest mean torque */
-    bool has_mean;    /* it is the wanted one */
-    double ripple_Nm; /* COPPER: smallest ripple */
+    double precision;     /* of the solver, relative; 0: as precise as it gets */
+    double widened;       /* share by which every limit is wider than asked for */
+    double mean_Nm;       /* RIPPLE and COPPER: nearest mean torque */
+    bool has_mean;        /* it is the wanted one */
+    double ripple_Nm;     /* COPPER: smallest ripple */
     const hci_task *task; /* what a square of current counts */
-    double slack;     /* share of the ripple by which the copper may make it worse */
-    bool has_ripple;  /* none is left: all orders are as wanted */
+    double slack;         /* share of the ripple by which the copper may make it worse */
+    bool has_ripple;      /* none is left: all orders are as wanted */
 } hci_limit_program;
 
 /* What a stage gives. gain and rows: see hci_limit; by the kind, and of the phase where phases differ. */

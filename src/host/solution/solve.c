@@ -30,10 +30,9 @@ static hci_status check_machine(const hci_machine_data *m, const hci_solve_optio
         return hci_note_set(note, HCI_ERROR_ARGUMENT,
                             "method pointwise finds the whole current; it cannot hold the fundamental fixed");
     if (o->set && (o->choose_at_most > 0 || o->method == HCI_METHOD_POINTWISE))
-        return hci_note_set(note, HCI_ERROR_ARGUMENT,
-                            "a set of harmonics is given, and %s; leave out one of them",
-                            o->choose_at_most > 0 ? "so many are to be chosen"
-                                                  : "method pointwise has no set");
+        return hci_note_set(
+            note, HCI_ERROR_ARGUMENT, "a set of harmonics is given, and %s; leave out one of them",
+            o->choose_at_most > 0 ? "so many are to be chosen" : "method pointwise has no set");
     return HCI_OK;
 }
 

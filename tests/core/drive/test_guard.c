@@ -283,7 +283,8 @@ static void test_voltages_of_phases(void)
     TEST_ASSERT_FLOAT_WITHIN(1e-5f, -5.0f, v.vc_V);
 }
 
-/* No limit above 0 lets nothing flow; the root of 0; a change that begins at table 1, and one that is shorter than a sample. */
+/* No limit above 0 lets nothing flow; the root of 0; a change that begins at table 1, and one that is shorter
+ * than a sample. */
 static void test_ends_of_what_there_is(void)
 {
     const hci_currents_abc none = hci_guard_abc((hci_currents_abc){1.0f, -0.5f, -0.5f}, 0.0f);

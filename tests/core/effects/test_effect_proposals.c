@@ -31,7 +31,8 @@ static const hci_effect_proposals TO = {take, &count};
 /* The three largest; of two that are equal the first; none that is a mean. */
 static void test_cogging_of_one_make(void)
 {
-    const hci_harmonic cogging[] = {{6.0, 0.3, 0.4}, {12.0, 0.5, 0.0}, {18.0, 0.1, 0.0}, {24.0, 0.0, 2.0}, {30.0, 0.7, 0.0}};
+    const hci_harmonic cogging[] = {
+        {6.0, 0.3, 0.4}, {12.0, 0.5, 0.0}, {18.0, 0.1, 0.0}, {24.0, 0.0, 2.0}, {30.0, 0.7, 0.0}};
     const hci_harmonic mean[] = {{0.0, 0.0, 1.0}, {6.0, 0.3, 0.4}};
     const hci_machine machine = {.pole_pairs = 1, .cogging = cogging, .cogging_count = 5};
     const hci_machine with_mean = {.pole_pairs = 1, .cogging = mean, .cogging_count = 2};
@@ -59,7 +60,8 @@ static void test_magnets_of_one_make(void)
     TEST_ASSERT_TRUE(count > 2 && count < 2 + 39);
 }
 
-/* Orders in which load and cogging vary alike; a drift where a run is long enough to tell; a gain where both are off alike. */
+/* Orders in which load and cogging vary alike; a drift where a run is long enough to tell; a gain where both
+ * are off alike. */
 static void test_what_recordings_ask_for(void)
 {
     const double flux_order[2] = {1.0 / 3.0, 2.0 / 3.0};

@@ -1,4 +1,5 @@
-/* A resonance that swings by itself, y = cos ωt, against its closed form: how far its phase is behind after ten periods. */
+/* A resonance that swings by itself, y = cos ωt, against its closed form: how far its phase is behind after
+ * ten periods. */
 #include "core/effects/sensor_stage.h"
 
 #include <math.h>
@@ -23,10 +24,12 @@ static double phase_behind_rad(double step_rad)
     for (size_t k = 0; k < steps * parts; ++k)
         hci_stage_step(&stage, &state, step_rad / omega / (double)parts, 0.0);
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, 1.0, hypot(state.y, state.v / omega)); /* trapezoids keep the energy */
-    return fabs(remainder((double)steps * step_rad - atan2(-state.v / omega, state.y), 2.0 * 3.14159265358979));
+    return fabs(
+        remainder((double)steps * step_rad - atan2(-state.v / omega, state.y), 2.0 * 3.14159265358979));
 }
 
-/* Parts of 0.04 rad swing 0.04²/12 too slowly; twelve of them do for samples at a thirteenth of the period. */
+/* Parts of 0.04 rad swing 0.04²/12 too slowly; twelve of them do for samples at a thirteenth of the period.
+ */
 static void test_a_resonance_keeps_its_frequency(void)
 {
     static const double STEP_RAD[] = {0.05, 0.2, 0.44, 0.48};

@@ -759,8 +759,8 @@ static void test_least_iq_is_the_threshold(void)
     TEST_ASSERT_TRUE(count[0] > 500 && count[1] > 500 && count[2] > 500);
 }
 
-/* Slopes along the back-EMF alone, with the least torque at 1 − e²/2h: none of 0, though rounding leaves a back-EMF of 1e-16 beside it,
- * where nothing bounds the current. */
+/* Slopes along the back-EMF alone, with the least torque at 1 − e²/2h: none of 0, though rounding leaves a
+ * back-EMF of 1e-16 beside it, where nothing bounds the current. */
 static void test_rounding_beside_the_back_emf_makes_no_torque(void)
 {
     const double e = -2.541259765625, h = 3.41943359375;

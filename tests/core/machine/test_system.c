@@ -26,7 +26,7 @@ typedef struct {
     hci_component component[MAX_COMPONENTS];
     double x[2 * MAX_COMPONENTS]; /* I cos γ, I sin γ */
     double scale;                 /* Σ|E|·Σ|I|·3 */
-    ref_spectrum torque; /* by transform_torque */
+    ref_spectrum torque;          /* by transform_torque */
 } trial;
 
 typedef enum { BALANCED_STAR, BALANCED_NEUTRAL, UNBALANCED } trial_kind;

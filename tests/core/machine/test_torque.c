@@ -453,8 +453,9 @@ static void test_a_plain_machine_turns_all_its_power_into_torque(void)
 /* L'(θ) i(θ) as waves is ∂T/∂i of a machine without back-EMF; a zero sequence of order 0 has no sine. */
 static void test_slopes_times_currents_as_waves(void)
 {
-    const hci_inductance_slope slope[2] = {{0.0, {0.0}, {0.3, -0.2, 0.1, 0.05, 0.07, -0.04}},
-                                           {2.0, {0.2, -0.1, 0.4, 0.15, -0.3, 0.25}, {-0.1, 0.3, 0.2, -0.05, 0.1, 0.35}}};
+    const hci_inductance_slope slope[2] = {
+        {0.0, {0.0}, {0.3, -0.2, 0.1, 0.05, 0.07, -0.04}},
+        {2.0, {0.2, -0.1, 0.4, 0.15, -0.3, 0.25}, {-0.1, 0.3, 0.2, -0.05, 0.1, 0.35}}};
     const hci_wave current[3] = {{1.0, 1, 2.0, -1.0}, {2.0, 0, 0.4, 0.7}, {5.0, -1, 0.3, 0.5}};
     const hci_machine machine = {.pole_pairs = 2, .slope = slope, .slope_count = 2};
     hci_wave waves[36];

@@ -446,7 +446,8 @@ static void test_lu_refuses(void)
     TEST_ASSERT_EQUAL_INT(HCI_ERROR_NOT_FINITE, hci_lu_factor(2, overflow, pivot));
 }
 
-/* Ones below the diagonal of ones, but for the last columns, which are equal: the right half has no pivot left. */
+/* Ones below the diagonal of ones, but for the last columns, which are equal: the right half has no pivot
+ * left. */
 static void test_lu_refuses_in_the_right_half(void)
 {
     double a[64];
@@ -457,7 +458,8 @@ static void test_lu_refuses_in_the_right_half(void)
     TEST_ASSERT_EQUAL_INT(HCI_ERROR_SINGULAR, hci_lu_factor(8, a, pivot));
 }
 
-/* [1 1; 1 1 + 2⁻⁵²] scaled so that its inverse overflows; and a solution that is no number stays as wrong as it is. */
+/* [1 1; 1 1 + 2⁻⁵²] scaled so that its inverse overflows; and a solution that is no number stays as wrong as
+ * it is. */
 static void test_lu_condition_and_refinement_beyond_all_numbers(void)
 {
     const double a[4] = {1e-300, 1e-300, 1e-300, 1.0000000000000002e-300};

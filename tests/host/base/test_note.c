@@ -49,7 +49,8 @@ static void test_a_long_path_keeps_its_end(void)
     TEST_ASSERT_EQUAL_STRING_LEN("\xE2\x80\xA6", out, 3);
 }
 
-/* Words of a command line and names out of files are quoted as they stand: none may drive a terminal or spoil JSON. */
+/* Words of a command line and names out of files are quoted as they stand: none may drive a terminal or spoil
+ * JSON. */
 static void test_what_would_drive_a_terminal_is_masked(void)
 {
     hci_note note = {0}, remark = {{0}};

@@ -1,4 +1,5 @@
-/* Shafts without a torque sensor at constant speed: their mean currents are friction, by the declared torque per ampere. */
+/* Shafts without a torque sensor at constant speed: their mean currents are friction, by the declared torque
+ * per ampere. */
 #define _XOPEN_SOURCE 700
 #include "host/diagnose/free_friction.h"
 
@@ -19,7 +20,8 @@ void tearDown(void)
     dataset_end();
 }
 
-/* The current of a shaft that friction alone brakes, with a load; its acceleration is noise. per_turn: samples. */
+/* The current of a shaft that friction alone brakes, with a load; its acceleration is noise. per_turn:
+ * samples. */
 static void record_free(double speed, double load_Nm, double per_turn)
 {
     const double drag = (speed > 0.0 ? COULOMB_NM : -COULOMB_NM) + VISCOUS * speed + load_Nm;
@@ -30,7 +32,8 @@ static void record_free(double speed, double load_Nm, double per_turn)
     for (size_t k = 0; k < N; ++k) {
         r->theta_m_rad[k] *= 300.0 / per_turn;
         r->time_s[k] = r->theta_m_rad[k] / speed;
-        const double noise_A = 0.002 * ref_normal(&seed), iq_A = drag / (1.5 * K_NM_PER_A) + 0.002 * ref_normal(&seed);
+        const double noise_A = 0.002 * ref_normal(&seed),
+                     iq_A = drag / (1.5 * K_NM_PER_A) + 0.002 * ref_normal(&seed);
         rec_phases(noise_A, iq_A, P * r->theta_m_rad[k], r->i_A + 3 * k);
     }
 }
@@ -71,7 +74,8 @@ static void test_a_weight_is_no_friction(void)
     TEST_ASSERT_EQUAL(0, diagnosis.of_mean_currents);
 }
 
-/* A holding test shows cogging torque, and goes on showing it beside shafts whose samples are too far apart for it. */
+/* A holding test shows cogging torque, and goes on showing it beside shafts whose samples are too far apart
+ * for it. */
 static void test_more_recordings_tell_no_less(void)
 {
     record_holding(800, COULOMB_NM, 0.1, 0.0);

@@ -1,6 +1,6 @@
 /* labels: slow */
-/* What is to be recorded next lies within reach, and recorded, it tells what was open. Each case diagnoses twice, before
- * and after that recording: a second each, which sanitizers make ten. */
+/* What is to be recorded next lies within reach, and recorded, it tells what was open. Each case diagnoses
+ * twice, before and after that recording: a second each, which sanitizers make ten. */
 #include <math.h>
 
 #include "host/base/memory.h"

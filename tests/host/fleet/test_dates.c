@@ -1,4 +1,5 @@
-/* Dates as people write them; one that may be read in two ways is not read, unless another date of the list says how. */
+/* Dates as people write them; one that may be read in two ways is not read, unless another date of the list
+ * says how. */
 #include "host/fleet/dates.h"
 
 #include <math.h>
@@ -22,7 +23,8 @@ static void is_day(double day, const char *date, hci_date_order order)
 static void test_forms(void)
 {
     const double day = hci_date_day("2026-10-05", HCI_DATE_OPEN);
-    TEST_ASSERT_EQUAL_DOUBLE(1.0, hci_date_day("2024-03-01", HCI_DATE_OPEN) - hci_date_day("2024-02-29", HCI_DATE_OPEN));
+    TEST_ASSERT_EQUAL_DOUBLE(1.0, hci_date_day("2024-03-01", HCI_DATE_OPEN) -
+                                      hci_date_day("2024-02-29", HCI_DATE_OPEN));
     TEST_ASSERT_EQUAL_DOUBLE(365.0, hci_date_day("2027-10-05", HCI_DATE_OPEN) - day);
     is_day(day, "2026/10/5", HCI_DATE_OPEN);
     is_day(day, "2026-10-05T08:00:00", HCI_DATE_OPEN);
@@ -37,7 +39,9 @@ static void test_forms(void)
 
 static void test_not_read(void)
 {
-    static const char *const WRONG[] = {"", "05/10/2026", "5.10.26", "2026-13-01", "2026-10-32", "13/13/2026", "2026-10/05", "-026-10-05", "monday", "2026-10-05x"};
+    static const char *const WRONG[] = {"",           "05/10/2026", "5.10.26",    "2026-13-01",
+                                        "2026-10-32", "13/13/2026", "2026-10/05", "-026-10-05",
+                                        "monday",     "2026-10-05x"};
     for (size_t k = 0; k < sizeof WRONG / sizeof *WRONG; ++k)
         TEST_ASSERT_TRUE_MESSAGE(isnan(hci_date_day(WRONG[k], HCI_DATE_OPEN)), WRONG[k]);
     TEST_ASSERT_EQUAL(HCI_DATE_OPEN, hci_date_order_of("05/10/2026"));

@@ -1,4 +1,5 @@
-/* The distribution of motors behind values with errors: against the likelihood itself on a grid, integrated over the mean. */
+/* The distribution of motors behind values with errors: against the likelihood itself on a grid, integrated
+ * over the mean. */
 #include "host/fleet/pooled.h"
 
 #include <math.h>
@@ -54,7 +55,8 @@ static void test_likelihood_is_that_over_all_means(void)
     const double apart = hci_pooled_likelihood(value, std_error, MOTORS, 0.8) - integrated(0.8);
     for (int k = 0; k < 8; ++k) {
         const double between = 0.3 * k;
-        TEST_ASSERT_DOUBLE_WITHIN(1e-9, apart, hci_pooled_likelihood(value, std_error, MOTORS, between) - integrated(between));
+        TEST_ASSERT_DOUBLE_WITHIN(
+            1e-9, apart, hci_pooled_likelihood(value, std_error, MOTORS, between) - integrated(between));
     }
 }
 
@@ -118,26 +120,34 @@ static void test_a_line_and_steps_are_found(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.01, per_day);
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.1 / sqrt(60.0 * 3599.0 / 12.0), error);
     for (int k = 0; k < 60; ++k)
-        point[k] = (hci_trend_point){(k % 2 ? 0.1 : -0.1) + (k < 30 ? 0.0 : 1.0), 0.1, NAN, k < 30 ? "b1" : "b2"};
+        point[k] =
+            (hci_trend_point){(k % 2 ? 0.1 : -0.1) + (k < 30 ? 0.0 : 1.0), 0.1, NAN, k < 30 ? "b1" : "b2"};
     const hci_trend_of_batches found = hci_trend_batches(point, 60);
     TEST_ASSERT_DOUBLE_WITHIN(0.01, sqrt(0.5), found.deviation);
     TEST_ASSERT_TRUE(found.criterion > 5.0);
     TEST_ASSERT_DOUBLE_WITHIN(0.2, sqrt(30.0), found.widening);
 }
 
-/* One parameter is told, one by no motor, one by the odd motor alone; the last is what stays, which is large in that motor. */
+/* One parameter is told, one by no motor, one by the odd motor alone; the last is what stays, which is large
+ * in that motor. */
 static void test_what_is_not_told_names_no_motor(void)
 {
     enum { LINE = 12, PARAMETERS = 4, ODD = 7 };
     hci_line_motor motor[LINE];
     hci_line_parameter parameter[PARAMETERS];
     double told[LINE * PARAMETERS], error[LINE * PARAMETERS];
-    hci_line line = {.motor = motor, .motors = LINE, .parameter = parameter, .parameters = PARAMETERS, .value = told, .std_error = error};
+    hci_line line = {.motor = motor,
+                     .motors = LINE,
+                     .parameter = parameter,
+                     .parameters = PARAMETERS,
+                     .value = told,
+                     .std_error = error};
     hci_note note;
     memset(motor, 0, sizeof motor);
     memset(parameter, 0, sizeof parameter);
     for (int k = 0; k < LINE; ++k) {
-        const double not_told = NAN, *row = (double[]){0.01 * (k % 5), not_told, k == ODD ? 1.0 : not_told, k == ODD ? 0.5 : 0.1 + 0.001 * (k % 3)};
+        const double not_told = NAN, *row = (double[]){0.01 * (k % 5), not_told, k == ODD ? 1.0 : not_told,
+                                                       k == ODD ? 0.5 : 0.1 + 0.001 * (k % 3)};
         memcpy(told + PARAMETERS * k, row, PARAMETERS * sizeof *row);
         for (int j = 0; j < PARAMETERS; ++j)
             error[PARAMETERS * k + j] = isnan(row[j]) ? not_told : 0.01 * (j + 1 < PARAMETERS);

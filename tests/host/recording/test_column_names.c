@@ -240,7 +240,8 @@ static void test_some_recordings_of_a_list_lack_a_column(void)
     files_write(files_path("idle.csv"), "theta_m_rad,iq_A\n0.5,1\n");
     files_write(path, "theta_m_rad,iq_A,M1\n0.5,1,7\n");
     add("torque_Nm=M1");
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_runs_read(files_path("list.csv"), &options, &runs, &note), note.text);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_runs_read(files_path("list.csv"), &options, &runs, &note),
+                              note.text);
     TEST_ASSERT_NULL(runs.run[0].torque_Nm);
     text_has("no column `M1`: read without torque_Nm", runs.run[0].remark.text);
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, 7.0, runs.run[1].torque_Nm[0]);

@@ -1,4 +1,5 @@
-/* Drags of several runs: a friction in both directions is one, a constant load and another one in each run are none. */
+/* Drags of several runs: a friction in both directions is one, a constant load and another one in each run
+ * are none. */
 #include "host/recording/drag_law.h"
 
 #include <math.h>

@@ -21,7 +21,8 @@ void tearDown(void)
     files_end();
 }
 
-/* There and back at 0.2 rad/s; the speed reads `off` to and fro beside it, times `sign`. Or a shaft that shivers. */
+/* There and back at 0.2 rad/s; the speed reads `off` to and fro beside it, times `sign`. Or a shaft that
+ * shivers. */
 static void read_turn(double off, double sign, double shiver)
 {
     const char *path = files_path("run.csv");
@@ -37,7 +38,9 @@ static void read_turn(double off, double sign, double shiver)
     }
     fclose(file);
     hci_run_release(&run);
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_run_read(path, &(hci_run_options){.pole_pairs = 3, .holding = true}, &run, &note), note.text);
+    TEST_ASSERT_EQUAL_MESSAGE(
+        HCI_OK, hci_run_read(path, &(hci_run_options){.pole_pairs = 3, .holding = true}, &run, &note),
+        note.text);
 }
 
 static bool is_slope(void)
@@ -51,7 +54,8 @@ static void test_noise(void)
     TEST_ASSERT_TRUE(is_slope());
     text_has("noise turns the sign of the recorded speed about", run.remark.text);
     for (size_t k = 100; k < 1900; ++k)
-        if (k < 900 || k > 1100) TEST_ASSERT_DOUBLE_WITHIN(1e-3, k < 1000 ? 0.2 : -0.2, run.speed_rad_per_s[k]);
+        if (k < 900 || k > 1100)
+            TEST_ASSERT_DOUBLE_WITHIN(1e-3, k < 1000 ? 0.2 : -0.2, run.speed_rad_per_s[k]);
 }
 
 static void test_what_stays(void)

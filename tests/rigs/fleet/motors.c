@@ -1,17 +1,17 @@
 /* motors COUNT SEED FOLDER [FIRST [SHARE]]: a test line on paper.
  *
- * Writes FOLDER/machine (what the data sheet says of every motor), FOLDER/runs/NAME (five short recordings of each
- * motor), FOLDER/motors.csv (the list for `hci-solve batch`) and FOLDER/truth.csv (the fault of each motor, `none` for
- * most). FIRST: number of the first motor, 1 where it is left out, so that a large fleet can be made in blocks; a
- * motor is the same in any block. SHARE: of motors with a hidden fault, 0.03.
+ * Writes FOLDER/machine (what the data sheet says of every motor), FOLDER/runs/NAME (five short recordings of
+ * each motor), FOLDER/motors.csv (the list for `hci-solve batch`) and FOLDER/truth.csv (the fault of each
+ * motor, `none` for most). FIRST: number of the first motor, 1 where it is left out, so that a large fleet
+ * can be made in blocks; a motor is the same in any block. SHARE: of motors with a hidden fault, 0.03.
  *
- * Each motor differs from the sheet by chance, as motors of one line do, its batch from other batches, and one
- * parameter drifts with the date. Torque at the angle θ (electrical, θ = pθ_m), with the flux 1 + M(θ_m):
+ * Each motor differs from the sheet by chance, as motors of one line do, its batch from other batches, and
+ * one parameter drifts with the date. Torque at the angle θ (electrical, θ = pθ_m), with the flux 1 + M(θ_m):
  *
  *     T = (1 + M) Σ_s g_s e_s(θ) i_s + (1 + M)² T_cog(θ) − T_c sign ω − Bω
  *
- * e_s(θ) = e(θ − 2πs/3), of orders 1, 5 and 7; the encoder reads θ + δ, and the current was controlled by what it
- * reads. Nothing here includes a header of the library or links with it. */
+ * e_s(θ) = e(θ − 2πs/3), of orders 1, 5 and 7; the encoder reads θ + δ, and the current was controlled by
+ * what it reads. Nothing here includes a header of the library or links with it. */
 #include <errno.h>
 #include <math.h>
 #include <stdint.h>
@@ -59,11 +59,11 @@ static const int EMF_ORDER[3] = {1, 5, 7};
 
 typedef struct {
     int fault;
-    double magnets;      /* relative change of the flux, of all poles */
-    double phase[3];     /* and of the turns of each phase */
-    double pole;         /* and of one magnet */
-    double pole_at;      /* its place in the turn, mechanical */
-    double offset_rad;   /* of the encoder, electrical */
+    double magnets;    /* relative change of the flux, of all poles */
+    double phase[3];   /* and of the turns of each phase */
+    double pole;       /* and of one magnet */
+    double pole_at;    /* its place in the turn, mechanical */
+    double offset_rad; /* of the encoder, electrical */
     double coulomb_Nm, viscous;
     double cogging_Nm[2], cogging_rad[2]; /* of orders 6 and 12 */
 } motor;
@@ -143,8 +143,10 @@ static FILE *open_file(const char *folder, const char *name)
 static void write_machine(const char *folder)
 {
     FILE *f = open_file(folder, "machine.csv");
-    fprintf(f, "name,value,unit,source\npole_pairs,%d,1,sheet\nconnection,star,,sheet\nrated_current,4,A,sheet\n"
-               "rated_torque,2.4,Nm,sheet\nrated_speed,60,rad/s,sheet\n", POLE_PAIRS);
+    fprintf(f,
+            "name,value,unit,source\npole_pairs,%d,1,sheet\nconnection,star,,sheet\nrated_current,4,A,sheet\n"
+            "rated_torque,2.4,Nm,sheet\nrated_speed,60,rad/s,sheet\n",
+            POLE_PAIRS);
     fclose(f);
     f = open_file(folder, "back_emf.csv");
     fprintf(f, "order,amplitude_Nm_per_A,phase_rad\n");
@@ -155,8 +157,10 @@ static void write_machine(const char *folder)
     fprintf(f, "order,amplitude_Nm,phase_rad\n6,0.05,0.4\n12,0.02,-1.1\n");
     fclose(f);
     f = open_file(folder, "effects.csv");
-    fprintf(f, "effect,parameter,value,unit,std_error\nfriction,coulomb,%g,Nm,\nfriction,viscous,%g,Nms_per_rad,\n",
-            COULOMB_NM, VISCOUS);
+    fprintf(
+        f,
+        "effect,parameter,value,unit,std_error\nfriction,coulomb,%g,Nm,\nfriction,viscous,%g,Nms_per_rad,\n",
+        COULOMB_NM, VISCOUS);
     fclose(f);
 }
 
@@ -172,7 +176,8 @@ static void write_run(const motor *m, const point *p, const char *folder)
     FILE *f = open_file(folder, p->name);
     fprintf(f, "time_s,theta_m_rad,ia_A,ib_A,ic_A,torque_Nm\n");
     for (int k = 0; k < SAMPLES; ++k) {
-        const double time = k * step, read = POLE_PAIRS * (p->speed * time + 0.3), theta = read - m->offset_rad;
+        const double time = k * step, read = POLE_PAIRS * (p->speed * time + 0.3),
+                     theta = read - m->offset_rad;
         double current[3];
         for (int s = 0; s < 3; ++s) {
             const double at = read - 2.0 * PI * s / 3.0;
@@ -230,10 +235,10 @@ int main(int argc, char **argv)
         snprintf(path, sizeof path, "%.3000s/runs/m%06ld", argv[3], k);
         make_folder(path);
         write_runs(&m, path);
-        fprintf(list, "m%06ld,%ld,b%03ld,20%02ld-%02ld-%02ld,machine,runs/m%06ld/runs.csv\n", k, 700000 + k, k / BATCH,
-                25 + day / 336, 1 + day / 28 % 12, 1 + day % 28, k);
-        fprintf(truth, "m%06ld,%s,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g\n", k, FAULT[m.fault], m.magnets, m.phase[0], m.phase[1],
-                m.phase[2], m.coulomb_Nm, m.offset_rad);
+        fprintf(list, "m%06ld,%ld,b%03ld,20%02ld-%02ld-%02ld,machine,runs/m%06ld/runs.csv\n", k, 700000 + k,
+                k / BATCH, 25 + day / 336, 1 + day / 28 % 12, 1 + day % 28, k);
+        fprintf(truth, "m%06ld,%s,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g\n", k, FAULT[m.fault], m.magnets, m.phase[0],
+                m.phase[1], m.phase[2], m.coulomb_Nm, m.offset_rad);
     }
     return fclose(list) | fclose(truth) ? 1 : 0;
 }

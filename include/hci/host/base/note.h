@@ -12,8 +12,8 @@ extern "C" {
 /* Bytes of a note. */
 #define HCI_NOTE_SIZE 1024
 
-/* A text for the user, in UTF-8 and without control characters whatever it quotes. Start with {0}. The first error wins: a note that already has a text is not
- * overwritten. */
+/* A text for the user, in UTF-8 and without control characters whatever it quotes. Start with {0}. The first
+ * error wins: a note that already has a text is not overwritten. */
 typedef struct {
     char text[HCI_NOTE_SIZE]; /* "" for nothing to say */
 } hci_note;

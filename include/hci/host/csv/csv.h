@@ -48,8 +48,8 @@ const char *hci_csv_path(const hci_csv *csv);
  * word such as "moteus", or NULL. */
 const char *hci_csv_map_of(const hci_csv *csv);
 
-/* The pole pairs in what a device has learnt (hci/learn.h), which has been read as a recording; 0 for any other
- * file. */
+/* The pole pairs in what a device has learnt (hci/learn.h), which has been read as a recording; 0 for any
+ * other file. */
 int hci_csv_learned_pole_pairs(const hci_csv *csv);
 
 /* Rows of data: without the header, the row of units and comments. */

@@ -144,8 +144,8 @@ hci_status hci_drive_check_loop(const hci_drive_data *drive, const hci_machine_d
 /* Resistance and inductances that the machine does not have, as the drive gives them. */
 void hci_drive_complete(const hci_drive_data *drive, hci_machine_data *machine);
 
-/* The largest voltage between two phases that a drive reaches, by its dc link, or that of the machine where it
- * has none, and its modulation; 0: not known. */
+/* The largest voltage between two phases that a drive reaches, by its dc link, or that of the machine where
+ * it has none, and its modulation; 0: not known. */
 double hci_drive_line_V(const hci_drive_data *drive, const hci_machine_data *machine);
 
 /* Whether that voltage is known and, of a machine that was completed, resistance and inductance too, so that

@@ -1,5 +1,5 @@
-/* The same terms fitted to each motor of one make: in which it differs from what is declared of all, without a
- * search, so that motors can be compared. */
+/* The same terms fitted to each motor of one make: in which it differs from what is declared of all, without
+ * a search, so that motors can be compared. */
 #ifndef HCI_HOST_FLEET_FIT_H
 #define HCI_HOST_FLEET_FIT_H
 
@@ -28,30 +28,33 @@ typedef struct {
 /* What was fitted. */
 typedef struct {
     hci_fleet_parameter parameter[HCI_FLEET_MOST_PARAMETERS]; /* in the order of the effects */
-    size_t count;                       /* entries of parameter */
-    double rms_before_Nm, rms_after_Nm; /* measured less modelled torque: as declared, and fitted;
-                                         * NAN: no least error was found */
-    size_t samples;                     /* of all runs that were fitted */
+    size_t count;                                             /* entries of parameter */
+    double rms_before_Nm, rms_after_Nm;   /* measured less modelled torque: as declared, and fitted;
+                                           * NAN: no least error was found */
+    size_t samples;                       /* of all runs that were fitted */
     size_t recordings, recordings_unused; /* that the list gives to be fitted; and cannot be */
     size_t rows_unused; /* of the others: with a hole, or that repeat the one before; not those at the end */
     size_t judged, beyond; /* parameters that limits were compared with; outside of them or not told */
-    hci_note remark;    /* what was not used, and whether nothing was found; or "" */
-    bool is_found; /* the error has its least value; false: no step lowers it any more, or too many are needed */
+    hci_note remark;       /* what was not used, and whether nothing was found; or "" */
+    bool is_found; /* the error has its least value; false: no step lowers it any more, or too many are needed
+                    */
 } hci_fleet_fit;
 
 /* Fits the terms that each effect names for this, together and with equal weights, to all samples with a
  * measured torque of the runs to be fitted: Gauss–Newton steps from what is declared, halved until
- * the error falls. A term that the runs cannot tell from those before it stays as declared; so does one whose standard error moves the
- * torque by more than the rms of what stays, or is larger than the values that there are, and a Coulomb friction that drives: the
- * rest is fitted again without it. Where no least error is found all values stay as declared. Standard errors are those of white noise, widened for
- * noise that is correlated from sample to sample. HCI_ERROR_INPUT where no run tells a torque, _NUMERIC,
- * _MEMORY. O(samples·terms²). */
+ * the error falls. A term that the runs cannot tell from those before it stays as declared; so does one whose
+ * standard error moves the torque by more than the rms of what stays, or is larger than the values that there
+ * are, and a Coulomb friction that drives: the rest is fitted again without it. Where no least error is found
+ * all values stay as declared. Standard errors are those of white noise, widened for noise that is correlated
+ * from sample to sample. HCI_ERROR_INPUT where no run tells a torque, _NUMERIC, _MEMORY. O(samples·terms²).
+ */
 hci_status hci_fleet_fit_runs(const hci_machine_data *machine, const hci_effects *declared,
                               const hci_runs *runs, hci_fleet_fit *fit, hci_note *note);
 
-/* Compares the values with a table of limits, columns effect, parameter, low, high, of which an empty cell is no limit: line.csv of
- * `fleet` is one. `residual`, `rms` is the error that stays. The remark names each that is outside. A parameter that is not told is
- * outside. HCI_ERROR_INPUT for an effect and parameter that a fit does not have, or low above high; _MEMORY. */
+/* Compares the values with a table of limits, columns effect, parameter, low, high, of which an empty cell is
+ * no limit: line.csv of `fleet` is one. `residual`, `rms` is the error that stays. The remark names each that
+ * is outside. A parameter that is not told is outside. HCI_ERROR_INPUT for an effect and parameter that a fit
+ * does not have, or low above high; _MEMORY. */
 hci_status hci_fleet_fit_judge(const char *limits, hci_fleet_fit *fit, hci_note *note);
 
 /* As in summary.json of `fit`; to be freed with hci_text_free, NULL when memory is out. */

@@ -53,8 +53,10 @@ void hci_column_names_release(hci_column_names *names);
  * not have the quantity under a name of its own either. */
 hci_status hci_column_names_apply(const hci_column_names *names, bool optional, hci_csv *csv, hci_note *note);
 
-/* The same of one of several files: found[k] goes up by one where the file has column k, and what it does not have is no error. */
-hci_status hci_column_names_apply_found(const hci_column_names *names, size_t *found, hci_csv *csv, hci_note *note);
+/* The same of one of several files: found[k] goes up by one where the file has column k, and what it does not
+ * have is no error. */
+hci_status hci_column_names_apply_found(const hci_column_names *names, size_t *found, hci_csv *csv,
+                                        hci_note *note);
 
 #ifdef __cplusplus
 }

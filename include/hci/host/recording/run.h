@@ -42,16 +42,17 @@ typedef struct {
     bool turn_known;  /* the angle is mechanical, or an electrical one that is not wrapped: orders k/p are in
                          it */
     bool is_unsteady; /* a holding test whose shaft sticks and slips: its current tells no cogging torque */
-    bool is_electrical;   /* an electrical angle was recorded; else its zero is supposed to be that of the
-                           * mechanical one */
-    bool zero_is_given;   /* by an offset that the user adds to the angle */
+    bool is_electrical;     /* an electrical angle was recorded; else its zero is supposed to be that of the
+                             * mechanical one */
+    bool zero_is_given;     /* by an offset that the user adds to the angle */
     double zero_offset_rad; /* that offset, electrical */
-    bool zero_is_unknown; /* the angle is the integral of the speed, from 0 */
-    bool voltage_is_dq;   /* v_V was v_d and v_q, turned by the recorded angle: says nothing of its zero */
-    bool only_mean;       /* no angle, but torques over i_d and i_q: means over a turn. i_A is of angle 0 */
-    bool mean_is_unknown; /* a constant load stands in torque_Nm too: only what varies says something */
-    bool hardly_accelerates; /* beside mean_is_unknown: the current does not accelerate, so that the torque per ampere is not told */
-    bool has_sum;         /* all three currents were recorded, so that their sum says something */
+    bool zero_is_unknown;   /* the angle is the integral of the speed, from 0 */
+    bool voltage_is_dq;     /* v_V was v_d and v_q, turned by the recorded angle: says nothing of its zero */
+    bool only_mean;         /* no angle, but torques over i_d and i_q: means over a turn. i_A is of angle 0 */
+    bool mean_is_unknown;   /* a constant load stands in torque_Nm too: only what varies says something */
+    bool hardly_accelerates; /* beside mean_is_unknown: the current does not accelerate, so that the torque
+                                per ampere is not told */
+    bool has_sum;            /* all three currents were recorded, so that their sum says something */
     int computed_phase; /* 1, 2, 3: of two phase currents the third was made, so that the sum is 0; 0: not */
     size_t *row;        /* [count], of the file, from 0; NULL: each row is a sample */
     hci_note remark;    /* what was supposed on reading, or "" */
@@ -66,9 +67,9 @@ typedef struct {
     bool holding;              /* without a torque column the shaft is turned slowly, and its torque is 0 */
     bool strict;               /* a hole refuses the file */
     hci_order_base order_base; /* of the tables of a machine that is read beside */
-    const hci_column_names *columns;      /* which column is what, before all names; NULL: names say it */
-    size_t *columns_found; /* of each of columns: goes up by one where the file has it, and not to have it is no error;
-                            * NULL: it is one */
+    const hci_column_names *columns; /* which column is what, before all names; NULL: names say it */
+    size_t *columns_found; /* of each of columns: goes up by one where the file has it, and not to have it is
+                            * no error; NULL: it is one */
     const hci_column_names *list_columns; /* the same for all runs of a list, which counts least; or NULL */
     const hci_csv_memory *memory;         /* recordings in memory: read in place of files of their names */
     size_t memory_count;                  /* entries of memory */

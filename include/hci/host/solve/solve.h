@@ -94,8 +94,8 @@ typedef struct {
     /* Electrical angle between two samples of the current loop: of currents with the same torque those are
      * taken of which the loop misses least between its samples, or 1 % of the mean torque, peak to peak,
      * with at most loss_allowance (0: 1.5) times the copper; needs speed_rad_per_s, R and L_d, L_q, without
-     * which, or with interior magnets, squares of high orders are priced in its place. 0: a loop without samples. Without effect on choose_at_most
-     * and method pointwise. */
+     * which, or with interior magnets, squares of high orders are priced in its place. 0: a loop without
+     * samples. Without effect on choose_at_most and method pointwise. */
     double sample_rad;
     const hci_effects *effects; /* beside the declared machine, or NULL; needed where it has_effects */
     const hci_uncertainty *uncertainty; /* what recordings of the machine leave open, or NULL */

@@ -59,9 +59,10 @@ typedef struct {
                                             * of the record; negative: turned backward */
     double speed_rad_per_s;                /* back-EMF: mean, mechanical */
     hci_waveform_channel channel[3];       /* back-EMF */
-    double zero_rad; /* back-EMF: phase of the fundamental at θ = 0 where that is clearly not 0: the electrical
-                      * angle to be added to that of the recording, to which what is written is turned; else 0 */
-    hci_note remark;                       /* what the reader should know, or "" */
+    double
+        zero_rad; /* back-EMF: phase of the fundamental at θ = 0 where that is clearly not 0: the electrical
+                   * angle to be added to that of the recording, to which what is written is turned; else 0 */
+    hci_note remark; /* what the reader should know, or "" */
 } hci_waveform;
 
 /* Finds the orders of a recording.

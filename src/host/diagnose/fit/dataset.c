@@ -36,7 +36,7 @@ static hci_status evidence_make(const hci_machine_data *machine, const hci_effec
     b->fit = hci_memory_new(2 * runs->count + 1, sizeof *b->fit);
     b->index_offset_rad = hci_memory_new(runs->count + 1, sizeof *b->index_offset_rad);
     *e = (hci_regression){&machine->model, declared, &b->samples, runs->run, b->fit, false, NULL, NULL,
-                          &b->known,       &b->work, false, NULL};
+                          &b->known,       &b->work, false,       NULL};
     e->noise = hci_memory_new(b->samples.segment_count + 1, sizeof *e->noise);
     e->sum_deviation_A = hci_memory_new(runs->count + 1, sizeof *e->sum_deviation_A);
     if (!b->fit || !b->index_offset_rad || !e->noise || !e->sum_deviation_A)
@@ -68,12 +68,14 @@ static hci_status indices_align(const hci_runs *runs, hci_dataset *b, hci_note *
 }
 
 /* Of a shaft that hardly accelerates the torque is the one that its current makes. */
-static void torques_count(const hci_machine_data *machine, const hci_effects *declared, const hci_runs *runs, hci_dataset *b)
+static void torques_count(const hci_machine_data *machine, const hci_effects *declared, const hci_runs *runs,
+                          hci_dataset *b)
 {
     const double constant = fabs(hci_torque_constant(&machine->model, declared));
     for (size_t k = 0; k < runs->count; ++k) {
         hci_run_statistics *f = &b->samples.statistics[k];
-        if (runs->run[k].hardly_accelerates) f->rms_torque_Nm = fmax(f->rms_torque_Nm, constant * f->current_A);
+        if (runs->run[k].hardly_accelerates)
+            f->rms_torque_Nm = fmax(f->rms_torque_Nm, constant * f->current_A);
     }
 }
 

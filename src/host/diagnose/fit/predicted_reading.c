@@ -138,7 +138,8 @@ static double holding_scale(const hci_regression *e, const hci_effects *effects)
 }
 
 /* Zeros where no shaft hardly accelerates, or none makes a torque. */
-static void constant_differentiate(const hci_regression *e, const hci_effects *effects, hci_predicted_reading *o)
+static void constant_differentiate(const hci_regression *e, const hci_effects *effects,
+                                   hci_predicted_reading *o)
 {
     bool any = false;
     for (size_t r = 0; r < e->samples->run_count; ++r)
@@ -202,14 +203,16 @@ static double mean_over_turn(const hci_regression *e, const hci_effects *effects
 }
 
 /* What of a torque a current makes. */
-static double of_current(const hci_regression *e, const hci_effects *effects, const hci_sample *reading, double torque_Nm)
+static double of_current(const hci_regression *e, const hci_effects *effects, const hci_sample *reading,
+                         double torque_Nm)
 {
     hci_sample without = *reading;
     without.i_abc[0] = without.i_abc[1] = without.i_abc[2] = 0.0;
     return torque_Nm - hci_effects_predict(e->machine, effects, &without, NULL);
 }
 
-/* The scale of what the current makes is no value of these rows: friction and cogging torque are found times it. */
+/* The scale of what the current makes is no value of these rows: friction and cogging torque are found times
+ * it. */
 static void hold_scale(const hci_predicted_reading *o, double of_current_Nm, double *by_value)
 {
     for (size_t c = 0; c < o->terms; ++c)

@@ -7,7 +7,8 @@
  *
  * In a holding test the current is what was measured, and the torque that the model leaves stands for the
  * current that would make it: it is given in units of the declared torque per ampere, so that a model which
- * makes no torque at all does not describe every holding test. The same holds for a free shaft that hardly accelerates. */
+ * makes no torque at all does not describe every holding test. The same holds for a free shaft that hardly
+ * accelerates. */
 #ifndef HCI_SRC_HOST_DIAGNOSE_FIT_PREDICTED_READING_H
 #define HCI_SRC_HOST_DIAGNOSE_FIT_PREDICTED_READING_H
 
@@ -35,7 +36,7 @@ typedef struct {
     double *work; /* [2 samples], for slopes */
     bool instant; /* wanted as it is at each sample, not as a slope shows it */
     size_t terms;
-    double holding_scale; /* of torques in a holding test: declared over modelled torque per ampere */
+    double holding_scale;      /* of torques in a holding test: declared over modelled torque per ampere */
     double *constant_by_value; /* [terms], derivatives of the logarithm of the modelled torque per ampere */
 } hci_predicted_reading;
 

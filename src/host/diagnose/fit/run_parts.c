@@ -7,8 +7,8 @@ static bool are_alike(const hci_run *a, const hci_run *b)
     return a->torque_source == b->torque_source && a->hardly_accelerates == b->hardly_accelerates;
 }
 
-/* Whether one of the recordings without a torque sensor is the only one of its kind, so that the others cannot say what is in it:
- * a holding test beside free shafts, a coast beside constant speeds. */
+/* Whether one of the recordings without a torque sensor is the only one of its kind, so that the others
+ * cannot say what is in it: a holding test beside free shafts, a coast beside constant speeds. */
 static bool one_is_alone(const hci_regression *e)
 {
     bool alone = false;

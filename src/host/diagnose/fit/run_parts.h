@@ -4,7 +4,8 @@
 
 #include "host/diagnose/fit/regression.h"
 
-/* Fewer runs than this are cut into parts, and those of which one without a torque sensor is the only one of its kind. */
+/* Fewer runs than this are cut into parts, and those of which one without a torque sensor is the only one of
+ * its kind. */
 enum { HCI_LEAST_GROUPS = 3 };
 
 /* Into how many parts each run in use is cut; 1 where there are runs enough. */

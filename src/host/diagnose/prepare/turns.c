@@ -33,7 +33,8 @@ static double direction_of_turn(const hci_run *r, const hci_turn *x)
 
 static void sample_add(const hci_run *r, int pole_pairs, size_t k, hci_turn *sum)
 {
-    const hci_dq i = hci_run_dq(r, pole_pairs, k), last = hci_run_dq(r, pole_pairs, k > sum->first ? k - 1 : k);
+    const hci_dq i = hci_run_dq(r, pole_pairs, k),
+                 last = hci_run_dq(r, pole_pairs, k > sum->first ? k - 1 : k);
     sum->noise_A2 += 0.5 * ((i.d - last.d) * (i.d - last.d) + (i.q - last.q) * (i.q - last.q));
     sum->d += i.d;
     sum->q += i.q;
@@ -87,8 +88,7 @@ bool hci_turns_alike(const hci_run *run, const hci_run_statistics *statistics, c
 {
     const double most_speed = fabs(statistics->mean_speed_rad_per_s);
     return a->whole && b->whole && is_even(run, a) && is_even(run, b) &&
-           direction_of_turn(run, a) == direction_of_turn(run, b) &&
-           are_currents_alike(statistics, a, b) &&
+           direction_of_turn(run, a) == direction_of_turn(run, b) && are_currents_alike(statistics, a, b) &&
            fabs(a->speed - b->speed) <= STEADY * most_speed + 1e-12 &&
            fabs(a->temperature - b->temperature) < STEADY_K;
 }

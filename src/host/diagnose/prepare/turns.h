@@ -10,9 +10,9 @@
 /* Samples of one turn, and their means. */
 typedef struct {
     size_t first, count;
-    double d, q;  /* A */
+    double d, q;     /* A */
     double noise_A2; /* mean square of their noise, from neighbouring samples */
-    double speed; /* rad/s; 0: not recorded */
+    double speed;    /* rad/s; 0: not recorded */
     double least_speed, most_speed;
     double temperature; /* °C; 0: not recorded */
     double torque;      /* N·m; 0: not recorded */
@@ -30,8 +30,8 @@ double hci_turn_direction(const hci_run *run, size_t from, size_t to);
 bool hci_turns_find(const hci_run *run, int pole_pairs, hci_turn **turns, size_t *count);
 
 /* Whether two turns may go into one mean: whole, the same way round, and current, speed and temperature
- * differ by less than 2 % of the run's, or currents by chance, and 1 K. Those of a free shaft must be even in themselves, since a
- * mean is spread evenly over the time of a turn and accelerations are of time. */
+ * differ by less than 2 % of the run's, or currents by chance, and 1 K. Those of a free shaft must be even in
+ * themselves, since a mean is spread evenly over the time of a turn and accelerations are of time. */
 bool hci_turns_alike(const hci_run *run, const hci_run_statistics *statistics, const hci_turn *a,
                      const hci_turn *b);
 

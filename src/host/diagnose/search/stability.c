@@ -95,7 +95,8 @@ static hci_status stays_count(leaving *l, hci_verdict *v, hci_note *note)
 {
     hci_status status = HCI_OK;
     hold(l, v->type);
-    for (; v->left_out < l->equations.groups.count && !status && !hci_search_is_interrupted(l->search); ++v->left_out) {
+    for (; v->left_out < l->equations.groups.count && !status && !hci_search_is_interrupted(l->search);
+         ++v->left_out) {
         bool stays = false;
         status = stays_without(l, v->type, v->left_out, &stays, note);
         v->stays += stays;

@@ -84,7 +84,9 @@ static void draw_panel(hci_output *out, const hci_line *l, size_t parameter, hci
     const hci_svg_box b = hci_svg_box_beside(box, &y);
     const hci_svg_axis x = hci_svg_axis_over(places, b.left, b.right, 10.0);
     hci_plot_parameter_name(l, parameter, name);
-    snprintf(title, sizeof title, "%s%s%s", name, strcmp(l->parameter[parameter].name.unit, "1") == 0 ? "" : " in ", strcmp(l->parameter[parameter].name.unit, "1") == 0 ? "" : l->parameter[parameter].name.unit);
+    snprintf(title, sizeof title, "%s%s%s", name,
+             strcmp(l->parameter[parameter].name.unit, "1") == 0 ? "" : " in ",
+             strcmp(l->parameter[parameter].name.unit, "1") == 0 ? "" : l->parameter[parameter].name.unit);
     hci_svg_name(out, "head", b.left, b.top - 10.0, title, b.right - b.left);
     hci_svg_grid(out, &x, &b, false);
     hci_svg_grid(out, &y, &b, true);
@@ -111,5 +113,6 @@ void hci_plot_batches(hci_output *out, const hci_svg_box *area, const void *cont
         box.bottom = area->top + (double)(k + 1) * height - (k + 1 < count ? 20.0 : 0.0);
         draw_panel(out, l, parameter[k], box);
     }
-    hci_svg_label(out, "quiet middle", 0.5 * (area->left + area->right), area->bottom + 35.0, "batches in their order; bars: twice the standard error");
+    hci_svg_label(out, "quiet middle", 0.5 * (area->left + area->right), area->bottom + 35.0,
+                  "batches in their order; bars: twice the standard error");
 }

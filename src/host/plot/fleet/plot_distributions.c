@@ -31,7 +31,8 @@ static void draw_bars(hci_output *out, const row *r, const size_t count[BINS])
     for (size_t k = 0; k < BINS; ++k)
         most = count[k] > most ? count[k] : most;
     for (size_t k = 0; k < BINS; ++k) {
-        const double left = -EDGE + 2.0 * EDGE * (double)k / BINS, high = (r->height - 8.0) * (double)count[k] / (double)most;
+        const double left = -EDGE + 2.0 * EDGE * (double)k / BINS,
+                     high = (r->height - 8.0) * (double)count[k] / (double)most;
         if (count[k] > 0)
             hci_svg_rectangle(out, "after", hci_svg_at(&r->x, left) + 0.5, r->foot - fmax(high, 0.7),
                               hci_svg_at(&r->x, left + 2.0 * EDGE / BINS) - 0.5, r->foot);
@@ -44,8 +45,8 @@ static void mark_outside(hci_output *out, const row *r)
     for (size_t k = 0; k < r->line->motors && marks < MOST_MARKS; ++k) {
         const double deviation = hci_line_deviation(r->line, k, r->parameter);
         if (!(fabs(deviation) > r->line->limit)) continue;
-        hci_svg_circle(out, r->line->motor[k].worst == r->parameter ? "ring" : "before", hci_svg_at(&r->x, deviation),
-                       r->foot - 0.5 * r->height + 3.0, 2.6);
+        hci_svg_circle(out, r->line->motor[k].worst == r->parameter ? "ring" : "before",
+                       hci_svg_at(&r->x, deviation), r->foot - 0.5 * r->height + 3.0, 2.6);
         ++marks;
     }
 }
@@ -73,7 +74,9 @@ static void draw_row(hci_output *out, const row *r, double label_at)
 
 void hci_plot_distributions(hci_output *out, const hci_svg_box *area, const void *context)
 {
-    static const hci_svg_entry LEGEND[] = {{HCI_SVG_BAR, "after", "motors"}, {HCI_SVG_DOT, "ring", "stands out by this"}, {HCI_SVG_LINE, "limit", "limit"}};
+    static const hci_svg_entry LEGEND[] = {{HCI_SVG_BAR, "after", "motors"},
+                                           {HCI_SVG_DOT, "ring", "stands out by this"},
+                                           {HCI_SVG_LINE, "limit", "limit"}};
     const hci_line *l = context;
     hci_svg_box b = *area;
     b.left = area->left + 110.0;
@@ -86,6 +89,8 @@ void hci_plot_distributions(hci_output *out, const hci_svg_box *area, const void
         if (l->parameter[k].motors > 1) draw_row(out, &r, b.left - 6.0);
     }
     for (int side = -1; side <= 1; side += 2)
-        hci_svg_segment(out, "limit", hci_svg_at(&x, side * l->limit), b.top, hci_svg_at(&x, side * l->limit), b.bottom);
-    hci_svg_label(out, "quiet middle", 0.5 * (b.left + b.right), b.bottom + 35.0, "standard deviations of each parameter (robust); what is beyond 12 lies at the edge");
+        hci_svg_segment(out, "limit", hci_svg_at(&x, side * l->limit), b.top, hci_svg_at(&x, side * l->limit),
+                        b.bottom);
+    hci_svg_label(out, "quiet middle", 0.5 * (b.left + b.right), b.bottom + 35.0,
+                  "standard deviations of each parameter (robust); what is beyond 12 lies at the edge");
 }

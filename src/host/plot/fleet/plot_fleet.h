@@ -1,4 +1,5 @@
-/* Pictures of motors of one make, each about the box of its axes as host/plot/plot.h describes; line: an hci_line. */
+/* Pictures of motors of one make, each about the box of its axes as host/plot/plot.h describes; line: an
+ * hci_line. */
 #ifndef HCI_SRC_HOST_PLOT_FLEET_PLOT_FLEET_H
 #define HCI_SRC_HOST_PLOT_FLEET_PLOT_FLEET_H
 

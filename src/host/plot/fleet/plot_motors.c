@@ -27,15 +27,18 @@ static double place_of(const hci_line *l, const order *o, size_t k)
     return o->by_day ? l->motor[k].day - l->motor[0].day : (double)k + 1.0;
 }
 
-static void draw_sound(hci_output *out, const hci_line *l, const order *o, const hci_svg_axis *x, const hci_svg_axis *y)
+static void draw_sound(hci_output *out, const hci_line *l, const order *o, const hci_svg_axis *x,
+                       const hci_svg_axis *y)
 {
     const size_t every = l->motors / MOST_SOUND + 1;
     for (size_t k = 0; k < l->motors; k += every)
         if (!l->motor[k].stands_out && l->motor[k].worst != HCI_LINE_NONE)
-            hci_svg_circle(out, "before", hci_svg_at(x, place_of(l, o, k)), hci_svg_log_at(y, fabs(l->motor[k].deviation)), 1.5);
+            hci_svg_circle(out, "before", hci_svg_at(x, place_of(l, o, k)),
+                           hci_svg_log_at(y, fabs(l->motor[k].deviation)), 1.5);
 }
 
-static void draw_odd(hci_output *out, const hci_line *l, const order *o, const hci_svg_axis *x, const hci_svg_axis *y)
+static void draw_odd(hci_output *out, const hci_line *l, const order *o, const hci_svg_axis *x,
+                     const hci_svg_axis *y)
 {
     size_t drawn = 0;
     for (size_t k = 0; k < l->motors && drawn < MOST_ODD; ++k) {
@@ -46,22 +49,27 @@ static void draw_odd(hci_output *out, const hci_line *l, const order *o, const h
         snprintf(text, sizeof text, "%s: %s, %.1f standard deviations", m->name, name, m->deviation);
         hci_svg_tell(out, text);
         hci_svg_hint(out);
-        hci_svg_circle(out, "ring", hci_svg_at(x, place_of(l, o, k)), hci_svg_log_at(y, fabs(m->deviation)), 3.0);
+        hci_svg_circle(out, "ring", hci_svg_at(x, place_of(l, o, k)), hci_svg_log_at(y, fabs(m->deviation)),
+                       3.0);
         hci_svg_hint_end(out);
         if (hci_line_outside(l) <= MOST_NAMES)
-            hci_svg_name(out, "small", hci_svg_at(x, place_of(l, o, k)) + 5.0, hci_svg_log_at(y, fabs(m->deviation)) - 4.0, m->name, 90.0);
+            hci_svg_name(out, "small", hci_svg_at(x, place_of(l, o, k)) + 5.0,
+                         hci_svg_log_at(y, fabs(m->deviation)) - 4.0, m->name, 90.0);
         ++drawn;
     }
 }
 
 void hci_plot_motors(hci_output *out, const hci_svg_box *area, const void *context)
 {
-    static const hci_svg_entry LEGEND[] = {{HCI_SVG_DOT, "before", "motor"}, {HCI_SVG_DOT, "ring", "stands out"}, {HCI_SVG_LINE, "limit", "limit"}};
+    static const hci_svg_entry LEGEND[] = {{HCI_SVG_DOT, "before", "motor"},
+                                           {HCI_SVG_DOT, "ring", "stands out"},
+                                           {HCI_SVG_LINE, "limit", "limit"}};
     const hci_line *l = context;
     const order o = order_of(l);
     hci_range r = {0.5, 2.0 * l->limit};
     for (size_t k = 0; k < l->motors; ++k)
-        if (l->motor[k].worst != HCI_LINE_NONE) hci_range_include(&r, fmin(fabs(l->motor[k].deviation), EDGE));
+        if (l->motor[k].worst != HCI_LINE_NONE)
+            hci_range_include(&r, fmin(fabs(l->motor[k].deviation), EDGE));
     const hci_svg_axis y = hci_svg_log_axis(r, area->bottom, area->top, 3.0);
     const hci_svg_box b = hci_svg_log_box_beside(*area, &y);
     const hci_svg_axis x = hci_svg_axis_over(o.range, b.left, b.right, 10.0);
@@ -70,6 +78,8 @@ void hci_plot_motors(hci_output *out, const hci_svg_box *area, const void *conte
     hci_svg_log_grid(out, &y, &b, true);
     draw_sound(out, l, &o, &x, &y);
     draw_odd(out, l, &o, &x, &y);
-    hci_svg_segment(out, "limit", b.left, hci_svg_log_at(&y, l->limit), b.right, hci_svg_log_at(&y, l->limit));
-    hci_svg_label(out, "quiet middle", 0.5 * (b.left + b.right), b.bottom + 35.0, o.by_day ? "days since the date of the first motor" : "motors by their names");
+    hci_svg_segment(out, "limit", b.left, hci_svg_log_at(&y, l->limit), b.right,
+                    hci_svg_log_at(&y, l->limit));
+    hci_svg_label(out, "quiet middle", 0.5 * (b.left + b.right), b.bottom + 35.0,
+                  o.by_day ? "days since the date of the first motor" : "motors by their names");
 }

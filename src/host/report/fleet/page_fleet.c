@@ -16,11 +16,14 @@ static void say_results(hci_output *out, const hci_line *l)
     size_t without = 0;
     for (size_t k = 0; k < l->motors; ++k)
         without += l->motor[k].worst == HCI_LINE_NONE;
-    hci_html_say(out, "lead", "%zu motors; %zu of them were fitted, %zu were not.", l->motors, l->motors - without, without);
-    hci_html_say(out, NULL,
-                 "A motor stands out where one of its parameters is more than %.3g robust standard deviations from the median of all: "
-                 "of sound motors whose parameters are normally distributed, %.3g %% would, some %.2g of these.",
-                 l->limit, 100.0 * l->false_alarms, l->false_alarms * (double)(l->motors - without));
+    hci_html_say(out, "lead", "%zu motors; %zu of them were fitted, %zu were not.", l->motors,
+                 l->motors - without, without);
+    hci_html_say(
+        out, NULL,
+        "A motor stands out where one of its parameters is more than %.3g robust standard deviations from "
+        "the median of all: "
+        "of sound motors whose parameters are normally distributed, %.3g %% would, some %.2g of these.",
+        l->limit, 100.0 * l->false_alarms, l->false_alarms * (double)(l->motors - without));
     hci_html_evidence(out);
 }
 
@@ -28,7 +31,8 @@ static void say_results(hci_output *out, const hci_line *l)
 
 static int by_deviation(const void *a, const void *b)
 {
-    const double x = fabs((*(const hci_line_motor *const *)a)->deviation), y = fabs((*(const hci_line_motor *const *)b)->deviation);
+    const double x = fabs((*(const hci_line_motor *const *)a)->deviation),
+                 y = fabs((*(const hci_line_motor *const *)b)->deviation);
     return (x < y) - (x > y);
 }
 
@@ -51,13 +55,17 @@ static void odd_row(hci_output *out, const hci_line *l, const hci_line_motor *m)
 
 static void table_of_odd(hci_output *out, const hci_line *l)
 {
-    static const char *const COLUMN[] = {"<motor", "<batch", "<date", "<by", "value", "median", "<unit", "standard deviations", NULL};
+    static const char *const COLUMN[] = {
+        "<motor", "<batch", "<date", "<by", "value", "median", "<unit", "standard deviations", NULL};
     const hci_line_motor *odd[MOST_ROWS];
     size_t count = 0;
     for (size_t k = 0; k < l->motors && count < MOST_ROWS; ++k)
         if (l->motor[k].stands_out) odd[count++] = &l->motor[k];
     qsort(odd, count, sizeof odd[0], by_deviation);
-    hci_html_table(out, hci_line_outside(l) > MOST_ROWS ? "Motors that stand out; the first of them" : "Motors that stand out", COLUMN);
+    hci_html_table(out,
+                   hci_line_outside(l) > MOST_ROWS ? "Motors that stand out; the first of them"
+                                                   : "Motors that stand out",
+                   COLUMN);
     for (size_t k = 0; k < count; ++k)
         odd_row(out, l, odd[k]);
     hci_html_table_end(out);
@@ -65,15 +73,17 @@ static void table_of_odd(hci_output *out, const hci_line *l)
 
 static void show_motors(hci_output *out, const hci_line *l)
 {
-    const hci_html_drawing drawing = {.id = "motors",
-                                      .title = "Largest deviation of each motor",
-                                      .description = "A dot for each motor: its largest deviation in standard deviations, logarithmic, over the date.",
-                                      .caption = "The parameter in which a motor is furthest from the median, whichever that is.",
-                                      .wide = 300,
-                                      .narrow = 300,
-                                      .legend_rows = 2,
-                                      .draw = hci_plot_motors,
-                                      .context = l};
+    const hci_html_drawing drawing = {
+        .id = "motors",
+        .title = "Largest deviation of each motor",
+        .description =
+            "A dot for each motor: its largest deviation in standard deviations, logarithmic, over the date.",
+        .caption = "The parameter in which a motor is furthest from the median, whichever that is.",
+        .wide = 300,
+        .narrow = 300,
+        .legend_rows = 2,
+        .draw = hci_plot_motors,
+        .context = l};
     hci_html_section(out, "Which motors stand out");
     hci_html_drawing_begin(out, &drawing);
     table_of_odd(out, l);
@@ -85,12 +95,15 @@ static void show_motors(hci_output *out, const hci_line *l)
 
 static void table_of_parameters(hci_output *out, const hci_line *l)
 {
-    static const char *const COLUMN[] = {"<parameter", "<unit", "motors", "median", "standard deviation (robust)", "lower limit", "upper limit",
-                                         "outside", "in common", "± ", "between motors", "noise of one", NULL};
+    static const char *const COLUMN[] = {
+        "<parameter",     "<unit",        "motors",  "median",    "standard deviation (robust)",
+        "lower limit",    "upper limit",  "outside", "in common", "± ",
+        "between motors", "noise of one", NULL};
     hci_html_table(out, "Parameters", COLUMN);
     for (size_t k = 0; k < l->parameters; ++k) {
         const hci_line_parameter *p = &l->parameter[k];
-        const double value[] = {(double)p->motors, p->median, p->scale, p->low, p->high, (double)p->outside, p->mean, p->mean_std_error, p->between, p->noise};
+        const double value[] = {(double)p->motors,  p->median, p->scale,          p->low,     p->high,
+                                (double)p->outside, p->mean,   p->mean_std_error, p->between, p->noise};
         char name[96];
         hci_plot_parameter_name(l, k, name);
         hci_html_row(out);
@@ -106,16 +119,19 @@ static void table_of_parameters(hci_output *out, const hci_line *l)
 static void show_distributions(hci_output *out, const hci_line *l)
 {
     const int high = (int)l->parameters * HCI_PLOT_PARAMETER_DOWN + 110;
-    const hci_html_drawing drawing = {.id = "parameters",
-                                      .title = "How each parameter is distributed",
-                                      .description = "A row for each parameter: a histogram of the motors' deviations, and a ring for each motor that stands out by it.",
-                                      .caption = "What a motor has beyond the machine folder, less the median, over the robust standard deviation. "
-                                                 "Grey rings: motors that stand out more by another parameter.",
-                                      .wide = high,
-                                      .narrow = high,
-                                      .legend_rows = 2,
-                                      .draw = hci_plot_distributions,
-                                      .context = l};
+    const hci_html_drawing drawing = {
+        .id = "parameters",
+        .title = "How each parameter is distributed",
+        .description = "A row for each parameter: a histogram of the motors' deviations, and a ring for each "
+                       "motor that stands out by it.",
+        .caption = "What a motor has beyond the machine folder, less the median, over the robust standard "
+                   "deviation. "
+                   "Grey rings: motors that stand out more by another parameter.",
+        .wide = high,
+        .narrow = high,
+        .legend_rows = 2,
+        .draw = hci_plot_distributions,
+        .context = l};
     hci_html_section(out, "How each parameter is distributed");
     hci_html_drawing_begin(out, &drawing);
     table_of_parameters(out, l);
@@ -133,24 +149,28 @@ static void say_trends(hci_output *out, const hci_line *l)
         const char *unit = strcmp(p->name.unit, "1") == 0 ? "" : p->name.unit;
         hci_plot_parameter_name(l, k, name);
         if (p->has_trend)
-            hci_html_say(out, NULL, "%s changes by %.3g ± %.1g %s in 30 days.", name, 30.0 * p->per_day, 30.0 * p->per_day_std_error, unit);
+            hci_html_say(out, NULL, "%s changes by %.3g ± %.1g %s in 30 days.", name, 30.0 * p->per_day,
+                         30.0 * p->per_day_std_error, unit);
         if (p->has_batches)
-            hci_html_say(out, NULL, "%s differs from batch to batch by %.3g %s (standard deviation of the batches).", name, p->batch_deviation, unit);
+            hci_html_say(out, NULL,
+                         "%s differs from batch to batch by %.3g %s (standard deviation of the batches).",
+                         name, p->batch_deviation, unit);
     }
 }
 
 static void show_trends(hci_output *out, const hci_line *l)
 {
     const int high = (int)hci_plot_batches_count(l) * HCI_PLOT_BATCHES_DOWN + 40;
-    const hci_html_drawing drawing = {.id = "batches",
-                                      .title = "Means of batches",
-                                      .description = "A dot for each batch: the mean of a parameter over its motors that do not stand out.",
-                                      .caption = "Parameters that change most over the date or from batch to batch.",
-                                      .wide = high,
-                                      .narrow = high,
-                                      .headless = true,
-                                      .draw = hci_plot_batches,
-                                      .context = l};
+    const hci_html_drawing drawing = {
+        .id = "batches",
+        .title = "Means of batches",
+        .description = "A dot for each batch: the mean of a parameter over its motors that do not stand out.",
+        .caption = "Parameters that change most over the date or from batch to batch.",
+        .wide = high,
+        .narrow = high,
+        .headless = true,
+        .draw = hci_plot_batches,
+        .context = l};
     if (hci_plot_batches_count(l) == 0) return;
     hci_html_section(out, "What changes over time and from batch to batch");
     say_trends(out, l);
@@ -177,8 +197,11 @@ void hci_page_fleet(hci_output *out, const hci_line *l)
     const size_t outside = hci_line_outside(l);
     char heading[160], kicker[160];
     snprintf(kicker, sizeof kicker, "Motors of one make · %s", hci_fleet_command_name(l->command));
-    snprintf(heading, sizeof heading, outside == 1 ? "%zu of %zu motors stands out" : "%zu of %zu motors stand out", outside, l->motors);
-    hci_html_begin(out, &(hci_html_opening){kicker, outside == 0 ? "None stands out" : "Some stand out", heading, outside == 0});
+    snprintf(heading, sizeof heading,
+             outside == 1 ? "%zu of %zu motors stands out" : "%zu of %zu motors stand out", outside,
+             l->motors);
+    hci_html_begin(out, &(hci_html_opening){kicker, outside == 0 ? "None stands out" : "Some stand out",
+                                            heading, outside == 0});
     say_results(out, l);
     if (l->parameters > 0) {
         show_motors(out, l);

@@ -32,7 +32,8 @@ static void write_rows(const hci_line *l, hci_output *out)
 
 static void write_parameters(const hci_line *l, hci_output *out)
 {
-    hci_output_text(out, "effect,parameter,unit,motors,median,standard_deviation,low,high,outside,mean,mean_std_error,between,noise,per_day,"
+    hci_output_text(out, "effect,parameter,unit,motors,median,standard_deviation,low,high,outside,mean,mean_"
+                         "std_error,between,noise,per_day,"
                          "per_day_std_error,batch_deviation,batch_criterion\n");
     for (size_t k = 0; k < l->parameters; ++k) {
         const hci_line_parameter *p = &l->parameter[k];
@@ -61,7 +62,8 @@ static void write_names(const hci_line *l, hci_output *out)
     for (size_t k = 0; k < l->parameters; ++k) {
         const hci_fleet_parameter *p = &l->parameter[k].name;
         const bool has_unit = strcmp(p->unit, "1") != 0;
-        hci_output_text(out, ",%s_%s%s%s", p->effect, p->parameter, has_unit ? "_" : "", has_unit ? p->unit : "");
+        hci_output_text(out, ",%s_%s%s%s", p->effect, p->parameter, has_unit ? "_" : "",
+                        has_unit ? p->unit : "");
     }
     hci_output_text(out, "\n");
 }
@@ -70,15 +72,16 @@ static void write_motor(const hci_line *l, size_t motor, hci_output *out)
 {
     const hci_line_motor *m = &l->motor[motor];
     const hci_fleet_parameter *worst = m->worst == HCI_LINE_NONE ? NULL : &l->parameter[m->worst].name;
-    hci_output_text(out, "%s,%s,%s,%s,%s,", m->name, hci_fleet_state_name(m->state), m->stands_out ? "yes" : "no", worst ? worst->effect : "",
-                    worst ? worst->parameter : "");
+    hci_output_text(out, "%s,%s,%s,%s,%s,", m->name, hci_fleet_state_name(m->state),
+                    m->stands_out ? "yes" : "no", worst ? worst->effect : "", worst ? worst->parameter : "");
     put(out, m->deviation, l->parameters > 0 ? ',' : '\n');
     for (size_t k = 0; k < l->parameters; ++k) {
         const hci_line_parameter *p = &l->parameter[k];
         const hci_pooled in_common = {p->mean, p->mean_std_error, p->between};
         const size_t at = motor * l->parameters + k;
         double open;
-        put(out, hci_pooled_shrunken(&in_common, l->value[at], l->std_error[at], &open), k + 1 < l->parameters ? ',' : '\n');
+        put(out, hci_pooled_shrunken(&in_common, l->value[at], l->std_error[at], &open),
+            k + 1 < l->parameters ? ',' : '\n');
     }
 }
 

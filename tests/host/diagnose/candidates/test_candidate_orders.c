@@ -44,7 +44,7 @@ void setUp(void)
         use[r] = true;
     }
     samples = (hci_binned_samples){sample, COUNT, segment, RUNS, statistics, RUNS};
-    source = (hci_candidates_source){&MACHINE, &NO_EFFECTS, &samples, run, use,  residual_Nm,
+    source = (hci_candidates_source){&MACHINE, &NO_EFFECTS, &samples, run, use,   residual_Nm,
                                      variance, NAN,         0,        0,   false, false};
 }
 

@@ -65,7 +65,7 @@ static void hide(double periods, double amplitude_Nm)
 
 static hci_status make_from(const hci_candidates *known)
 {
-    const hci_candidates_source source = {&machine, &declared, &samples, run, use,       residual_Nm,
+    const hci_candidates_source source = {&machine, &declared, &samples, run, use,        residual_Nm,
                                           variance, NAN,       richness, 0,   known_only, false};
     hci_note note = {{0}};
     hci_candidates_release(&list);

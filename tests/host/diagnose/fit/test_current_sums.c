@@ -1,4 +1,5 @@
-/* What a model leaves of the sum of the currents, and that it makes a small defect of a current sensor count. */
+/* What a model leaves of the sum of the currents, and that it makes a small defect of a current sensor count.
+ */
 #define _XOPEN_SOURCE 700
 #include "host/diagnose/fit/current_sums.h"
 
@@ -19,7 +20,8 @@ void tearDown(void)
     dataset_end();
 }
 
-/* There and back at 9 A, sensors with noise, that of phase a with an offset that makes no torque to speak of. */
+/* There and back at 9 A, sensors with noise, that of phase a with an offset that makes no torque to speak of.
+ */
 static void record_offset(double offset_A)
 {
     for (size_t r = 0; r < 2; ++r) {

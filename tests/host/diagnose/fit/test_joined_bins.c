@@ -132,8 +132,8 @@ static void test_squares_of_narrow_bins(void)
     TEST_ASSERT_DOUBLE_WITHIN(0.1 * NOISE_NM, NOISE_NM / sqrt(in_one), hci_search_residual_rms(&search));
 }
 
-/* An order that nothing describes, 144 of the turn. Its variance over that of the noise of four joined bins is four times that over the
- * noise of a narrow one, by which it is judged: a tenth is more than noise. */
+/* An order that nothing describes, 144 of the turn. Its variance over that of the noise of four joined bins
+ * is four times that over the noise of a narrow one, by which it is judged: a tenth is more than noise. */
 static bool noise_with_excess(double excess)
 {
     const double bin_Nm = NOISE_NM / sqrt((double)N / 1024.0), size_Nm = bin_Nm * sqrt(2.0 * excess);

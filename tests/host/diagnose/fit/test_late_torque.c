@@ -64,8 +64,8 @@ static void test_bins_make_no_smaller_steps(void)
     TEST_ASSERT_DOUBLE_WITHIN(2e-5, 4.5e-3, find(4.5e-3, 1.0).delay_s);
 }
 
-/* Two runs, one with half the torque, each fiftieth sample a hole that tells nothing, whatever stands there: χ² falls by what the
- * delay makes of the others. */
+/* Two runs, one with half the torque, each fiftieth sample a hole that tells nothing, whatever stands there:
+ * χ² falls by what the delay makes of the others. */
 static void test_all_runs_count_and_holes_do_not(void)
 {
     const double delay_s = 8.0 * 2.0 * REF_PI / PER_TURN / SPEED;
@@ -78,16 +78,22 @@ static void test_all_runs_count_and_holes_do_not(void)
     for (size_t k = 0; k < 2 * N; ++k) {
         hci_binned_sample *x = &dataset.samples.sample[k];
         const double noise_Nm = NOISE_NM * ref_normal(&seed), size = k < N ? 1.0 : 0.5;
-        const double wrong_Nm = k % 50 == 7 ? 50.0 : 0.0, late_Nm = size * wave(x->time_s - delay_s) + noise_Nm;
+        const double wrong_Nm = k % 50 == 7 ? 50.0 : 0.0,
+                     late_Nm = size * wave(x->time_s - delay_s) + noise_Nm;
         dataset.regression.noise[k < N ? 0 : 1] = hci_noise_white(NOISE_NM);
         search.residual_Nm[k] = late_Nm - size * wave(x->time_s) + wrong_Nm;
         x->torque_Nm = late_Nm + wrong_Nm;
-        if (k % 50 == 7) x->count = 0.0;
-        else fall += (search.residual_Nm[k] * search.residual_Nm[k] - noise_Nm * noise_Nm) / (NOISE_NM * NOISE_NM);
+        if (k % 50 == 7)
+            x->count = 0.0;
+        else
+            fall +=
+                (search.residual_Nm[k] * search.residual_Nm[k] - noise_Nm * noise_Nm) / (NOISE_NM * NOISE_NM);
     }
-    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_late_torque_find(&dataset.regression, search.residual_Nm, &found, &note));
+    TEST_ASSERT_EQUAL_INT(HCI_OK,
+                          hci_late_torque_find(&dataset.regression, search.residual_Nm, &found, &note));
     TEST_ASSERT_DOUBLE_WITHIN(1e-5, delay_s, found.delay_s);
-    TEST_ASSERT_DOUBLE_WITHIN(0.01 * fall, fall, found.gain); /* eight samples before each run stay as they are */
+    TEST_ASSERT_DOUBLE_WITHIN(0.01 * fall, fall,
+                              found.gain); /* eight samples before each run stay as they are */
 }
 
 /* Of 46 delays the best one lowers χ² by little. */

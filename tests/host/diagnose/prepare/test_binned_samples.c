@@ -160,7 +160,8 @@ static void test_turns_without_current(void)
         TEST_ASSERT_EQUAL_DOUBLE(0.0, binned.sample[7].raw.i_abc[s]);
 }
 
-/* A current sensor that is off by less than its noise: means of turns differ by chance and are still means. */
+/* A current sensor that is off by less than its noise: means of turns differ by chance and are still means.
+ */
 static void test_turns_of_a_current_that_is_noise_and_an_offset(void)
 {
     turn_steadily(20.0, 400.0, 50.0);

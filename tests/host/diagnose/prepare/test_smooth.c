@@ -11,7 +11,7 @@ static uint64_t seed;
 static hci_run run;
 static hci_binned_samples binned;
 static double truth[2 * MOST]; /* mechanical angle, rad */
-static double once;        /* how much of what is once a turn the currents have */
+static double once;            /* how much of what is once a turn the currents have */
 
 void setUp(void)
 {

@@ -11,8 +11,8 @@ extern "C" {
 /* As in summary.json of `fleet`; to be freed with hci_text_free, NULL when memory is out. */
 char *hci_line_json(const hci_line *line);
 
-/* Writes fleet.csv, line.csv, deviations.csv, report.html and summary.json into `folder`; all or none. HCI_ERROR_OUTPUT,
- * _MEMORY. */
+/* Writes fleet.csv, line.csv, deviations.csv, report.html and summary.json into `folder`; all or none.
+ * HCI_ERROR_OUTPUT, _MEMORY. */
 hci_status hci_line_write(const hci_line *line, const char *folder, hci_note *note);
 
 #ifdef __cplusplus
