@@ -162,7 +162,7 @@ typedef struct {
     double beyond_voltages; /* share by which the corrected torque per ampere is above what voltages that were
                              * recorded without a current show; 0: none were recorded */
     size_t of_mean_currents;       /* free shafts at constant speed, whose mean currents are a friction by the
-                                    * declared       torque per ampere; 0: no friction is of them */
+                                    * declared torque per ampere; 0: no friction is of them */
     double held_constant_Nm_per_A; /* torque per ampere as declared, that no run to be fitted tells and that
                                     * torques are found by; 0: one tells it */
     bool nothing_measured;         /* no run to be fitted has an angle and a torque: nothing can be said */
