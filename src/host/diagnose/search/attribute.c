@@ -238,6 +238,40 @@ static hci_status no_load_stays(hci_search *s, hci_attribution *a, const bool *u
     return hci_search_renew(s, &a->model, note);
 }
 
+/* ---- saturated iron ---- */
+
+/* Single terms of the iron may say nothing of runs left out where all of them together do. model: the one
+ * before `known`, that had them. */
+static hci_status whole_try(hci_search *s, hci_fitted_model *model, hci_fitted_model *known, hci_note *note)
+{
+    hci_status status = hci_search_renew(s, model, note);
+    if (!status) status = hci_search_coenergy(s, model, note);
+    if (!status && s->whole_coenergy) status = hci_search_keep_predictive(s, model, note);
+    if (status) return status;
+    if (s->whole_coenergy && hci_search_saturates(&model->candidates)) {
+        hci_fitted_model_replace(known, model);
+        return HCI_OK;
+    }
+    s->whole_coenergy = false;
+    return hci_search_renew(s, known, note);
+}
+
+/* Leaves out what says nothing of runs left out, and takes the whole co-energy in place of single terms. */
+static hci_status predictive_find(hci_search *s, hci_fitted_model *model, hci_note *note)
+{
+    hci_fitted_model before = {0};
+    hci_status status = hci_fitted_model_copy(model, &before, note);
+    if (!status) status = hci_search_keep_predictive(s, model, note);
+    if (!status && !hci_search_is_over(s)) {
+        if (hci_search_saturates(&before.candidates) && !hci_search_saturates(&model->candidates))
+            status = whole_try(s, &before, model, note);
+        else
+            status = hci_search_coenergy(s, model, note);
+    }
+    hci_fitted_model_release(&before);
+    return status;
+}
+
 /* ---- the whole ---- */
 
 /* no_load: out, [runs], those without a current. */
@@ -249,8 +283,7 @@ static hci_status attribute(hci_search *s, hci_attribution *a, bool *no_load, hc
     if (!status) status = hci_search_rounds(s, &a->model, note);
     if (status) return status;
     hci_search_begin(s, "weighing the evidence", HCI_ROUNDS_SHARE, 1.0);
-    status = hci_search_keep_predictive(s, &a->model, note);
-    if (!status && !hci_search_is_over(s)) status = hci_search_coenergy(s, &a->model, note);
+    status = predictive_find(s, &a->model, note);
     for (bool dropped = s->whole_coenergy; dropped && !status;)
         status = hci_search_drop(s, &a->model, &dropped, note);
     if (s->whole_coenergy && !status) status = hci_search_keep_predictive(s, &a->model, note);

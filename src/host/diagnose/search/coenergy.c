@@ -322,7 +322,7 @@ static hci_status refit(hci_search *s, hci_fitted_model *model, double rms_Nm, h
     return hci_regression_fit(s->regression, &model->candidates, &model->fit, note);
 }
 
-static bool saturates(const hci_candidates *candidates)
+bool hci_search_saturates(const hci_candidates *candidates)
 {
     for (size_t k = 0; k < candidates->count; ++k)
         if (candidates->candidate[k].in && candidates->candidate[k].type->beyond_quadratic) return true;
@@ -357,7 +357,8 @@ hci_status hci_search_coenergy(hci_search *s, hci_fitted_model *model, hci_note 
 {
     comparison c = {.search = s, .known = model};
     choice best = {0};
-    if (!saturates(&model->candidates) || different_currents(s->regression) < LEAST_RUNS) return HCI_OK;
+    if (!hci_search_saturates(&model->candidates) || different_currents(s->regression) < LEAST_RUNS)
+        return HCI_OK;
     c.noise_Nm = hci_search_noise_rms(s);
     if (c.noise_Nm > BLUNT * s->resolution_Nm) return HCI_OK;
     noise_even(s->regression, c.noise_Nm);

@@ -10,6 +10,9 @@
 
 #include "host/diagnose/search/search.h"
 
+/* Whether saturation is in a model. */
+bool hci_search_saturates(const hci_candidates *candidates);
+
 /* Sets search->whole_coenergy where that was done. Nothing is changed without saturation, and with fewer than
  * five runs. HCI_ERROR_MEMORY. O(runs·terms³/3), some ten times. */
 hci_status hci_search_coenergy(hci_search *search, hci_fitted_model *model, hci_note *note);
