@@ -26,7 +26,7 @@ static void describe(const hci_line *l, size_t parameter, double *work)
 {
     hci_line_parameter *p = &l->parameter[parameter];
     p->motors = gather(l, l->value, parameter, work);
-    p->median = p->scale = p->noise = NAN;
+    p->median = p->scale = p->noise = p->low = p->high = NAN;
     if (p->motors == 0) return;
     p->median = hci_median(work, p->motors);
     for (size_t k = 0; k < p->motors; ++k)

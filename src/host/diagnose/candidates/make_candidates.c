@@ -210,7 +210,27 @@ static void add_all(builder *b, const hci_candidates_source *s, hci_effect_surve
 
 /* ---- the list ---- */
 
-/* What is in the model stays in the list, in its place. */
+/* Whether one candidate has a term of another one. */
+static bool shares_a_term(const hci_candidate *a, const hci_candidate *b)
+{
+    for (size_t k = 0; a->type == b->type && k < a->count; ++k)
+        for (size_t j = 0; j < b->count; ++j)
+            if (a->term[k].parameter == b->term[j].parameter &&
+                fabs(a->term[k].order - b->term[j].order) <= HCI_ORDER_TOLERANCE)
+                return true;
+    return false;
+}
+
+/* A law of fewer terms, as some of the runs alone tell it, goes on as the one that all runs tell. */
+static void widen(hci_candidate *wide, const hci_candidate *known)
+{
+    wide->in = true;
+    for (size_t j = 0; j < wide->count; ++j)
+        for (size_t k = 0; k < known->count; ++k)
+            if (wide->term[j].parameter == known->term[k].parameter) wide->term[j] = known->term[k];
+}
+
+/* What is in the model stays in the list, in its place, and no term is there twice. */
 static hci_status keep_known(const hci_candidates *known, hci_candidates *list, hci_note *note)
 {
     hci_status status = HCI_OK;
@@ -218,12 +238,14 @@ static hci_status keep_known(const hci_candidates *known, hci_candidates *list, 
         const hci_candidate *x = &known->candidate[k];
         size_t at = 0;
         if (!x->in) continue;
-        while (at < list->count && !hci_candidate_same(x, &list->candidate[at]))
+        while (at < list->count && !shares_a_term(x, &list->candidate[at]))
             ++at;
-        if (at < list->count)
-            list->candidate[at] = *x;
-        else
+        if (at == list->count)
             status = hci_candidates_add(list, x, note);
+        else if (list->candidate[at].count > x->count)
+            widen(&list->candidate[at], x);
+        else
+            list->candidate[at] = *x;
     }
     return status;
 }
