@@ -221,16 +221,8 @@ static bool shares_a_term(const hci_candidate *a, const hci_candidate *b)
     return false;
 }
 
-/* A law of fewer terms, as some of the runs alone tell it, goes on as the one that all runs tell. */
-static void widen(hci_candidate *wide, const hci_candidate *known)
-{
-    wide->in = true;
-    for (size_t j = 0; j < wide->count; ++j)
-        for (size_t k = 0; k < known->count; ++k)
-            if (wide->term[j].parameter == known->term[k].parameter) wide->term[j] = known->term[k];
-}
-
-/* What is in the model stays in the list, in its place, and no term is there twice. */
+/* What is in the model stays in the list, in its place. No term is there twice: a law of fewer terms, as some
+ * of the runs alone tell it, gives way to the one that all runs may tell. */
 static hci_status keep_known(const hci_candidates *known, hci_candidates *list, hci_note *note)
 {
     hci_status status = HCI_OK;
@@ -242,9 +234,7 @@ static hci_status keep_known(const hci_candidates *known, hci_candidates *list, 
             ++at;
         if (at == list->count)
             status = hci_candidates_add(list, x, note);
-        else if (list->candidate[at].count > x->count)
-            widen(&list->candidate[at], x);
-        else
+        else if (list->candidate[at].count <= x->count)
             list->candidate[at] = *x;
     }
     return status;

@@ -240,6 +240,8 @@ static hci_status no_load_stays(hci_search *s, hci_attribution *a, const bool *u
 
 /* ---- saturated iron ---- */
 
+#define LITTLE_LEFT 0.25 /* of the torque that is not explained without the iron */
+
 /* Single terms of the iron may say nothing of runs left out where all of them together do. model: the one
  * before `known`, that had them. */
 static hci_status whole_try(hci_search *s, hci_fitted_model *model, hci_fitted_model *known, hci_note *note)
@@ -247,8 +249,12 @@ static hci_status whole_try(hci_search *s, hci_fitted_model *model, hci_fitted_m
     hci_status status = hci_search_renew(s, model, note);
     if (!status) status = hci_search_coenergy(s, model, note);
     if (!status && s->whole_coenergy) status = hci_search_keep_predictive(s, model, note);
+    if (!status) status = hci_search_residual(s, &known->candidates, note);
+    const double known_Nm = hci_search_residual_rms(s);
+    if (!status) status = hci_search_residual(s, &model->candidates, note);
     if (status) return status;
-    if (s->whole_coenergy && hci_search_saturates(&model->candidates)) {
+    if (s->whole_coenergy && hci_search_residual_rms(s) < LITTLE_LEFT * known_Nm &&
+        hci_search_saturates(&model->candidates)) {
         hci_fitted_model_replace(known, model);
         return HCI_OK;
     }

@@ -74,9 +74,8 @@ static hci_status of_runs(hci_search *s, hci_attribution *a, hci_note *note)
     hci_status status = effects_find(s, &a->model, &found, note);
     s->no_current = false;
     if (!status && found) {
-        status = hci_fitted_model_copy(&a->model, &a->no_load, note);
-        unproven_leave(s->regression, &a->no_load.candidates);
-        return status;
+        unproven_leave(s->regression, &a->model.candidates);
+        return hci_fitted_model_copy(&a->model, &a->no_load, note);
     }
     hci_fitted_model_release(&a->model);
     return status;

@@ -356,7 +356,7 @@ static void test_the_model_stays_in_the_list(void)
 }
 
 /* Coulomb friction that runs of one speed tell, beside runs of three: no term of it is there twice. */
-static void test_a_law_of_few_runs_becomes_that_of_all(void)
+static void test_a_law_of_few_runs_gives_way_to_that_of_all(void)
 {
     hci_candidate in = {.type = hci_effect_type_find("friction"), .count = 1, .in = true};
     const hci_candidates known = {&in, 1, 1.0};
@@ -364,9 +364,8 @@ static void test_a_law_of_few_runs_becomes_that_of_all(void)
     make();
     TEST_ASSERT_EQUAL_INT(HCI_OK, make_from(&known));
     TEST_ASSERT_EQUAL_UINT64(1, terms_of("friction", "coulomb", NULL));
-    TEST_ASSERT_EQUAL_UINT64(3, hci_candidates_terms_in(&list));
-    for (size_t k = 0; k < list.count; ++k)
-        if (list.candidate[k].in) TEST_ASSERT_EQUAL_DOUBLE(0.03, list.candidate[k].term[0].value);
+    TEST_ASSERT_EQUAL_UINT64(3, terms_of("friction", "", NULL));
+    TEST_ASSERT_EQUAL_UINT64(0, hci_candidates_terms_in(&list));
     use[1] = use[2] = false; /* the other way round: what is in has more */
     in.count = 2;
     in.term[1] = (hci_effect_term){1, 0.0, 0.001, 0.0001};
@@ -406,7 +405,7 @@ int main(void)
     RUN_TEST(test_without_a_known_turn_no_orders_of_the_turn);
     RUN_TEST(test_more_is_offered_where_the_iron_saturates);
     RUN_TEST(test_the_model_stays_in_the_list);
-    RUN_TEST(test_a_law_of_few_runs_becomes_that_of_all);
+    RUN_TEST(test_a_law_of_few_runs_gives_way_to_that_of_all);
     RUN_TEST(test_memory_is_out);
     return UNITY_END();
 }
