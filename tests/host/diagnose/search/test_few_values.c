@@ -66,7 +66,7 @@ static void test_a_series_gives_way_to_few_values(void)
     record_salient(0.05);
     model.candidates.reference_current_A = 10.0;
     model_add("saturation", "d1q2_cosine", NULL, 0.0);
-    model_add("friction", "coulomb", NULL, 0.0);
+    model_add("friction", "coulomb", "viscous", 0.0);
     model_fit();
     TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_few_values(&search, &model, &changed, &note));
     TEST_ASSERT_TRUE(changed && model_has("friction"));
@@ -79,7 +79,7 @@ static void test_few_values_stay(void)
 {
     bool changed = false;
     record_salient(0.05);
-    model_add("friction", "coulomb", NULL, 0.0);
+    model_add("friction", "coulomb", "viscous", 0.0);
     model_fit();
     TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_few_values(&search, &model, &changed, &note));
     TEST_ASSERT_FALSE(changed);
