@@ -27,14 +27,25 @@ static double samples_of(const hci_dataset *b, size_t run)
     return count;
 }
 
-/* Over samples: a mean over turns has the scatter of those that are in it too. NAN without samples. */
+/* How the residual changes along the angle, from the samples beside one of a segment. */
+static double slope_at(const hci_segment *s, const hci_binned_sample *sample, const double *residual, size_t j)
+{
+    const size_t before = j > s->first ? j - 1 : j, behind = j + 1 < s->first + s->count ? j + 1 : j;
+    const double step_rad = sample[behind].raw.theta_m_rad - sample[before].raw.theta_m_rad;
+    return step_rad != 0.0 ? (residual[behind] - residual[before]) / step_rad : 0.0;
+}
+
+/* Over samples: a mean over turns has the scatter of those that are in it too, and what the residual does
+ * along their angles. NAN without samples. */
 static double rms_of(const hci_dataset *b, size_t run, const double *residual)
 {
     double sum = 0.0, count = 0.0;
     for (const hci_segment *s = NULL; (s = hci_segment_next(&b->samples, run, s)) != NULL;)
         for (size_t j = s->first; j < s->first + s->count; ++j) {
-            sum += b->samples.sample[j].count * residual[j] * residual[j] + b->samples.sample[j].scatter_N2m2;
-            count += b->samples.sample[j].count;
+            const hci_binned_sample *x = &b->samples.sample[j];
+            const double slope = s->turns > 0 ? slope_at(s, b->samples.sample, residual, j) : 0.0;
+            sum += x->count * (residual[j] * residual[j] + slope * slope * x->spread_rad2) + x->scatter_N2m2;
+            count += x->count;
         }
     return count > 0.0 ? sqrt(sum / count) : (double)NAN;
 }

@@ -130,7 +130,8 @@ static void mean_add(const reduction *r, hci_binned_sample *c, const hci_binned_
     m->temperature_C += w * (x->reading.temperature_C - m->temperature_C);
     m->elapsed_s += w * (x->reading.elapsed_s - m->elapsed_s);
     c->torque_Nm += w * (x->torque_Nm - c->torque_Nm);
-    c->scatter_N2m2 += departure * (measured_Nm(r, x) - measured_Nm(r, c));
+    c->scatter_N2m2 += (1.0 - w) * departure * departure;
+    c->moment_Nmrad += (1.0 - w) * departure * step_rad;
     c->sum_A += w * (x->sum_A - c->sum_A);
 }
 
@@ -177,6 +178,7 @@ static void mean_join(const reduction *r, hci_binned_sample *c, const hci_binned
     c->torque_Nm += w * (x->torque_Nm - c->torque_Nm);
     c->sum_A += w * (x->sum_A - c->sum_A);
     c->scatter_N2m2 += x->scatter_N2m2 + rest * w * count * departure * departure;
+    c->moment_Nmrad += x->moment_Nmrad + rest * w * count * departure * step_rad;
     c->spread_rad2 = rest * c->spread_rad2 + w * x->spread_rad2 + rest * w * step_rad * step_rad;
     c->count = count;
 }
@@ -217,6 +219,19 @@ static size_t bins_close(hci_binned_sample *sample, double direction, double tur
     return kept;
 }
 
+/* Takes out of the scatter what the torque does along the angle within a bin, as its neighbours show it. */
+static void slopes_leave(const reduction *r, hci_binned_sample *sample, size_t count)
+{
+    for (size_t k = 1; k + 1 < count; ++k) {
+        hci_binned_sample *x = &sample[k];
+        const hci_binned_sample *before = x - 1, *behind = x + 1;
+        const double slope = (measured_Nm(r, behind) - measured_Nm(r, before)) /
+                             (behind->reading.theta_m_rad - before->reading.theta_m_rad);
+        const double along = slope * (slope * x->count * x->spread_rad2 - 2.0 * x->moment_Nmrad);
+        x->scatter_N2m2 = fmax(0.0, x->scatter_N2m2 + fmin(0.0, along));
+    }
+}
+
 /* Time of one turn, from samples that do not span whole turns exactly; 0 without time. */
 static double period_of(const reduction *x, size_t first, size_t last)
 {
@@ -239,6 +254,7 @@ static bool mean_segment(const reduction *x, const hci_turn *turns, size_t count
     const size_t narrow = bins_join(x, sample, joined_to_one(x));
     s.count =
         bins_close(sample, hci_turn_direction(r, first, last), hci_turn_rad(x->run, x->pole_pairs), period_s);
+    slopes_leave(x, sample, s.count);
     s.joined = s.count > 0 ? (double)narrow / (double)s.count : 1.0;
     x->samples->count += s.count;
     return segment_finish(x, &s);

@@ -12,7 +12,9 @@ typedef struct {
     double sum_A;        /* i_a + i_b + i_c; NAN where they were not recorded one by one */
     double time_s;       /* ascending within a segment; 0 where there is none */
     double count;        /* samples in it; 0: it tells no torque */
-    double scatter_N2m2; /* sum of the squared departures of their torques from the mean */
+    double scatter_N2m2; /* sum of the squared departures of their torques from the line along the angle
+                            through the mean */
+    double moment_Nmrad; /* sum of the products of the departures of torque and angle */
     double spread_rad2;  /* variance of their angles */
 } hci_binned_sample;
 

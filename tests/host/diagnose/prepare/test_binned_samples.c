@@ -105,6 +105,21 @@ static void test_turns_become_one_mean(void)
     }
 }
 
+/* A steep ripple is no scatter of the samples that are at about the same angle. */
+static void test_a_steep_torque_does_not_scatter(void)
+{
+    double square = 0.0, freedom = 0.0;
+    turn_steadily(200.0, 401.618, 50.0);
+    for (size_t k = 0; k < run.count; ++k)
+        run.torque_Nm[k] += 2.0 * sin(24.0 * run.theta_m_rad[k]); /* 12 mN·m a milliradian */
+    reduce();
+    for (size_t k = 0; k < binned.count; ++k) {
+        square += binned.sample[k].scatter_N2m2;
+        freedom += binned.sample[k].count - 1.0;
+    }
+    TEST_ASSERT_DOUBLE_WITHIN(0.02 * NOISE_NM, NOISE_NM, sqrt(square / freedom));
+}
+
 /* A wrapped electrical angle: which of the pole pairs it is about is not known, so electrical periods are the
  * turns. */
 static void test_turns_of_a_wrapped_electrical_angle(void)
@@ -319,6 +334,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_turns_become_one_mean);
+    RUN_TEST(test_a_steep_torque_does_not_scatter);
     RUN_TEST(test_turns_of_a_wrapped_electrical_angle);
     RUN_TEST(test_other_columns_of_a_mean);
     RUN_TEST(test_turns_without_current);
