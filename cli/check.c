@@ -3,7 +3,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cli/check/check_drive.h"
 #include "cli/command/command.h"
+#include "cli/command/parse.h"
 #include "cli/command/reading.h"
 #include "cli/commands.h"
 #include "cli/terminal/say.h"
@@ -17,12 +19,18 @@
 #include "hci/host/report/write.h"
 #include "hci/math/harmonic.h"
 
-enum { TABLE, VERBOSE, OUT, ORDER_BASE, CLI_READING_KEYS, CLI_COMMON_KEYS };
+enum { TABLE, DRIVE, SPEED, VERBOSE, OUT, ORDER_BASE, CLI_READING_KEYS, CLI_COMMON_KEYS };
 
 static const cli_option OPTIONS[] = {
     [TABLE] =
         {"table", 0, CLI_FILE, "CURRENTS_OR_FOLDER",
          .help = "instead: whether the drive of the one recording reads this table at the angle of its log"},
+    [DRIVE] = {"drive", 0, CLI_FILE, "FILE",
+               .help =
+                   "instead: the current loop of this drive.csv: is it stable, how fast, up to which speed, "
+                   "is its loop.csv that of its gains"},
+    [SPEED] = {"speed", 0, CLI_NUMBER, "RPM",
+               .help = "with --drive: mechanical, at which it is looked at, too", .low = 1e-3, .high = 1e7},
     [VERBOSE] = {"verbose", 'v', CLI_FLAG, NULL,
                  .help = "what agrees, with its numbers, and what could not be checked, too"},
     [OUT] = {"out", 'o', CLI_FOLDER, "FOLDER",
@@ -345,8 +353,25 @@ static int check_table(const cli_arguments *a, const char *table_path, bool json
 
 /* ---- the command ---- */
 
+static int check_drive(const cli_arguments *a)
+{
+    const cli_check_drive_words words = {.machine = a->word[0],
+                                         .drive = a->value[DRIVE],
+                                         .order_base = (hci_order_base)a->choice[ORDER_BASE],
+                                         .speed_rad_per_s = cli_number_or(a, SPEED, 0.0) * HCI_PI / 30.0,
+                                         .out = a->value[OUT],
+                                         .json = a->given[JSON]};
+    hci_note note = {{0}};
+    if (a->words == 1 && !a->given[TABLE]) return cli_check_drive(&words);
+    return cli_fail(
+        hci_note_set(&note, HCI_ERROR_ARGUMENT,
+                     "check: --drive FILE goes with a machine alone, without recordings and --table"),
+        &note);
+}
+
 static int run(const cli_arguments *arguments)
 {
+    if (arguments->given[DRIVE]) return check_drive(arguments);
     static hci_check check;
     cli_arguments recordings;
     const cli_arguments *a = &recordings;
@@ -381,7 +406,8 @@ const cli_command cli_check = {
     .word_kind = CLI_FILE,
     .example = "  hci-solve check data/machine_c\n"
                "  hci-solve check data/fem_c/machine data/fem_c/runs/I0.csv data/fem_c/runs/id0_iq6.csv\n"
-               "\nExit codes: 0 consistent, or aligned; 1 slips found, ambiguous, not understood or "
+               "  hci-solve check data/machine_a --drive data/drive/machine_a_10kHz.csv --speed 1500\n"
+               "\nExit codes: 0 consistent, aligned or stable; 1 slips found, ambiguous, not understood or "
                "rotated; " CLI_EXIT_ERRORS,
     .source = "cli/check.c",
     .guide = "check.md",

@@ -53,6 +53,21 @@ run 3 simulate data/machine_a --table "$work/a/currents.csv" --drive $drive --sp
 says 'currents.csv'
 check "something was written" [ ! -e "$work/out" ]
 
+# ---- check says what loop it is before anything runs
+
+run 0 check data/machine_a --drive $drive --speed 1500 -o "$work/loop"
+says '^stable: ' 'bandwidth +d 479 Hz, q 479 Hz' 'gains +5.0[0-9]* times as large' '3e\+04 rpm .*at 1500 rpm for orders up to 80'
+check "files of check --drive" [ "$(ls -A "$work/loop")" = summary.json ]
+run 0 check data/machine_a --drive $drive --speed 1500 --json -o "$work/loop"
+check "--json differs from summary.json" cmp -s "$work/stdout" "$work/loop/summary.json"
+run 3 check data/machine_a --drive "$work/drive.csv"
+says 'not stable at 0 rpm'
+printf 'frequency_Hz,gain_d,phase_d_rad,gain_q,phase_q_rad\n50,1,-9,1,-9\n100,1,-18,1,-18\n200,0.98,-36.2,0.98,-36.2\n400,0.81,-70.9,0.81,-70.9\n' >"$work/loop.csv"
+sed '$a response,loop.csv,,logged' $drive >"$work/logged.csv"
+run 1 check data/machine_a --drive "$work/logged.csv"
+says '^not understood: the measured response' 'response +at most [0-9.]+ % off' 'remedy +its phases are in degrees.*then [0-9.]+ % are left'
+refused check data/machine_a data/machine_a --drive $drive -o "$work/out" -- 'a machine alone'
+
 # ---- a machine that saturates: its currents are for it, and the loop's tables do for most of it
 
 cp -r data/machine_c_saturated "$work/saturated"

@@ -186,21 +186,23 @@ hci_loop_answer hci_loop_answer_at(const hci_loop_model *m, double nu)
 
 enum { STATES = 6 }; /* current, integral, last output */
 
-/* The closed loop from one sample to the next. */
+/* The closed loop from one sample to the next. Without k_i there is no integral, whose state would stand
+ * still on the circle. */
 static void transition(const hci_loop_model *m, double a[STATES][STATES])
 {
+    const double integrates = m->ki_ohm_per_s > 0.0;
     const sampled_plant p = sample_plant(m);
     const hci_matrix2 feedback = by_measured(m), through = times(p.now, feedback);
     memset(a, 0, STATES * sizeof *a);
     for (int i = 0; i < 2; ++i) {
         for (int j = 0; j < 2; ++j) {
             a[i][j] = creal(p.current.m[i][j] - through.m[i][j]);
-            a[i][2 + j] = creal(p.now.m[i][j]);
+            a[i][2 + j] = integrates * creal(p.now.m[i][j]);
             a[i][4 + j] = creal(p.before.m[i][j]);
             a[4 + i][j] = -creal(feedback.m[i][j]);
         }
         a[2 + i][i] = -m->ki_ohm_per_s * m->sample_s;
-        a[2 + i][2 + i] = a[4 + i][2 + i] = 1.0;
+        a[2 + i][2 + i] = a[4 + i][2 + i] = integrates;
     }
 }
 

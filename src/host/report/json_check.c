@@ -118,3 +118,44 @@ char *hci_table_rotation_json(const hci_table_rotation *x)
     hci_json_number(&json, "samples", (double)x->samples);
     return hci_json_end(&json);
 }
+
+static void put_axes(hci_json *json, const char *name, const double value[2])
+{
+    hci_json_object(json, name);
+    hci_json_number(json, "d", value[0]);
+    hci_json_number(json, "q", value[1]);
+    hci_json_close(json);
+}
+
+static void put_response(hci_json *json, const hci_drive_facts *f)
+{
+    hci_json_object(json, "response");
+    hci_json_number(json, "frequencies", (double)f->response_count);
+    hci_json_number(json, "off", f->response_off);
+    hci_json_number(json, "off_at_Hz", f->response_off_Hz);
+    hci_json_text(json, "reading", hci_response_reading_name(f->reading));
+    hci_json_number(json, "off_as_read", f->reading_off);
+    hci_json_number(json, "value", f->reading_value);
+    hci_json_close(json);
+}
+
+char *hci_drive_facts_json(const hci_drive_facts *f)
+{
+    hci_json json;
+    hci_summary_begin(&json, "check");
+    hci_json_number(&json, "current_sample_time_s", f->drive.sample_s);
+    hci_json_number(&json, "computing_delay_s", f->drive.computing_delay_s);
+    hci_json_number(&json, "current_kp_ohm", f->drive.kp_ohm);
+    hci_json_number(&json, "current_ki_V_per_As", f->drive.ki_ohm_per_s);
+    put_axes(&json, "inductance_H", f->inductance_H);
+    put_axes(&json, "bandwidth_Hz", f->bandwidth_Hz);
+    hci_json_number(&json, "lead_s", f->lead_s);
+    hci_json_number(&json, "largest_pole", f->largest_pole);
+    hci_json_number(&json, "gain_margin", f->gain_margin);
+    hci_json_number(&json, "stable_rad_per_s", f->stable_rad_per_s);
+    hci_json_number(&json, "sampled_rad_per_s", f->sampled_rad_per_s);
+    hci_json_number(&json, "highest_order", f->highest_order);
+    hci_json_number(&json, "dc_link_V", f->drive.dc_link_voltage_V);
+    put_response(&json, f);
+    return hci_json_end(&json);
+}

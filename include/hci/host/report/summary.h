@@ -6,6 +6,7 @@
 #include "hci/host/check/check.h"
 #include "hci/host/check/table_rotation.h"
 #include "hci/host/diagnose/diagnose.h"
+#include "hci/host/drive/drive_facts.h"
 #include "hci/host/emit/emit.h"
 #include "hci/host/emit/emit_foreign.h"
 #include "hci/host/emit/emit_loop.h"
@@ -37,6 +38,9 @@ char *hci_emit_loop_json(const hci_emit_loop_request *request, const hci_emit_lo
 
 /* What `check --table` has found. */
 char *hci_table_rotation_json(const hci_table_rotation *rotation);
+
+/* What `check --drive` has found. */
+char *hci_drive_facts_json(const hci_drive_facts *facts);
 
 /* What `check` has found. */
 char *hci_check_json(const hci_check *check);

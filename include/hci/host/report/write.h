@@ -5,6 +5,7 @@
 
 #include "hci/host/check/check.h"
 #include "hci/host/diagnose/diagnose.h"
+#include "hci/host/drive/drive_facts.h"
 #include "hci/host/report/page/sources.h"
 #include "hci/host/simulate/simulate.h"
 #include "hci/host/simulate/speeds.h"
@@ -42,6 +43,9 @@ hci_status hci_waveform_write(const hci_waveform *waveform, const char *folder, 
 
 /* Writes summary.json of a check into `folder`. HCI_ERROR_OUTPUT, _MEMORY. */
 hci_status hci_check_write(const hci_check *check, const char *folder, hci_note *note);
+
+/* The same of `check --drive`. */
+hci_status hci_drive_facts_write(const hci_drive_facts *facts, const char *folder, hci_note *note);
 
 /* Writes speeds.csv, speeds.svg, summary.json and, with sources, report.html into `folder`; all or none.
  * HCI_ERROR_OUTPUT, _MEMORY. */
