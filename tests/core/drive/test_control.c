@@ -299,12 +299,13 @@ static void ask_for(void *context, const hci_measurement *measured, double torqu
     r->i_A[0] = wanted[0];
     r->i_A[1] = wanted[1] * torque_Nm;
     r->v_V[0] = wanted[2];
+    r->v_V[1] = wanted[3];
 }
 
 /* What code asks for is in the rotor frame; its voltage goes on top of the controller's. */
 static void test_code_gives_current_and_voltage(void)
 {
-    double wanted[3] = {1.0, 2.0, 5.0};
+    double wanted[4] = {1.5, 2.0, 5.0, -3.0};
     const hci_reference_code code = {ask_for, wanted};
     const hci_measurement m = {{0.0, 0.0, 0.0}, 0.3, 0.0};
     const double theta = 3 * 0.3;
@@ -316,12 +317,12 @@ static void test_code_gives_current_and_voltage(void)
     hci_control_step(&drive.control, &state.control, &m, 0.5);
     hci_plane_to_abc(state.control.reference, abc);
     const hci_dq i = hci_park(hci_clarke(abc), theta);
-    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 1.0, i.d);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 1.5, i.d);
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, 1.0, i.q);
     hci_plane_to_abc(state.control.v, abc);
     const hci_dq v = hci_park(hci_clarke(abc), theta);
-    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 6.0 * 1.0 + 5.0, v.d);
-    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 6.0 * 1.0, v.q);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 6.0 * 1.5 + 5.0, v.d);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 6.0 * 1.0 - 3.0, v.q);
 }
 
 /* At the hexagon the integrals must not grow: a step that needs more voltage than there is overshoots no more
@@ -422,28 +423,44 @@ static void test_hysteresis_keeps_the_band(void)
 
 /* ---- references ---- */
 
-/* Limits in the frame dq_x as frames.h has it. */
-static void test_current_limits(void)
+/* The reference of `cancel` at 100 angles and either torque in the frame dq_x as frames.h has it. */
+static void references(hci_dqx x[100])
 {
-    use_machine(&PM_INTERIOR, POINTS);
-    source.strategy = HCI_STRATEGY_CANCEL;
-    drive.control.iq_limit = 5.0;
-    drive.control.id_limit = 0.6;
-    double most_d = 0.0;
+    memset(&state, 0, sizeof state);
     for (int k = 0; k < 100; ++k) {
-        const double theta_m = 0.031 * k;
-        const hci_measurement m = {{0.0, 0.0, 0.0}, theta_m, 0.0};
+        const hci_measurement m = {{0.0, 0.0, 0.0}, 0.031 * k, 0.0};
         double e[3], abc[3];
         hci_control_step(&drive.control, &state.control, &m, k % 2 ? 8.0 : -8.0);
-        hci_waves_at(lists.emf, PM_INTERIOR.emf_count, 2.0 * theta_m, e);
+        hci_waves_at(lists.emf, PM_INTERIOR.emf_count, 2.0 * 0.031 * k, e);
         hci_plane_to_abc(state.control.reference, abc);
-        const hci_dqx x = hci_dqx_from_abc(hci_dqx_frame_of(e), abc);
-        TEST_ASSERT_DOUBLE_WITHIN(1e-6, k % 2 ? 5.0 : -5.0, x.q);
-        TEST_ASSERT_TRUE(fabs(x.d) <= 0.6 + 1e-6);
-        most_d = fmax(most_d, fabs(x.d));
+        x[k] = hci_dqx_from_abc(hci_dqx_frame_of(e), abc);
     }
-    TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0.6, most_d);
+}
+
+/* Each axis by itself; one that is within its limit stays as it is. */
+static void test_current_limits(void)
+{
+    hci_dqx whole[100], x[100];
+    unsigned beyond = 0;
+    use_machine(&PM_INTERIOR, POINTS);
+    source.strategy = HCI_STRATEGY_CANCEL;
+    references(whole);
+    TEST_ASSERT_EQUAL_UINT64(0, state.control.limited);
+    drive.control.iq_limit = 5.0;
+    drive.control.id_limit = 0.6;
+    references(x);
     TEST_ASSERT_EQUAL_UINT64(100, state.control.limited);
+    for (int k = 0; k < 100; ++k) {
+        TEST_ASSERT_DOUBLE_WITHIN(1e-6, k % 2 ? 5.0 : -5.0, x[k].q);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-6, fmax(-0.6, fmin(0.6, whole[k].d)), x[k].d);
+        beyond += fabs(whole[k].d) > 0.6;
+    }
+    TEST_ASSERT_TRUE(beyond > 10 && beyond < 90);
+    drive.control.iq_limit = INFINITY;
+    references(x);
+    TEST_ASSERT_EQUAL_UINT64(beyond, state.control.limited);
+    for (int k = 0; k < 100; ++k)
+        TEST_ASSERT_DOUBLE_WITHIN(1e-6, whole[k].q, x[k].q);
     drive.control.peak_limit_A = 3.0;
     for (int k = 0; k < 100; ++k) {
         const hci_measurement m = {{0.0, 0.0, 0.0}, 0.031 * k, 0.0};
@@ -581,6 +598,8 @@ static void test_sensors_stand_between(void)
 {
     hci_sensor sensors[HCI_SENSE_COUNT] = {{0}};
     sensors[HCI_SENSE_IA].offset = 0.5;
+    sensors[HCI_SENSE_IB].offset = -0.25;
+    sensors[HCI_SENSE_IC].offset = 0.125;
     sensors[HCI_SENSE_ANGLE].offset = 0.01;
     sensors[HCI_SENSE_SPEED].gain_error = 0.1;
     sensors[HCI_SENSE_TORQUE].offset = -1.0;
@@ -591,7 +610,8 @@ static void test_sensors_stand_between(void)
         hci_sensor_start(&sensors[k], &state.sensors[k], NULL, 1, 0.0);
     hci_drive_step(&drive, &state, 2.0, 0.0);
     TEST_ASSERT_EQUAL_DOUBLE(0.5, state.measured.i_abc[0]);
-    TEST_ASSERT_EQUAL_DOUBLE(0.0, state.measured.i_abc[1]);
+    TEST_ASSERT_EQUAL_DOUBLE(-0.25, state.measured.i_abc[1]);
+    TEST_ASSERT_EQUAL_DOUBLE(0.125, state.measured.i_abc[2]);
     TEST_ASSERT_EQUAL_DOUBLE(0.01, state.measured.theta_m_rad);
     TEST_ASSERT_EQUAL_DOUBLE(11.0, state.measured.speed_rad_per_s);
     TEST_ASSERT_EQUAL_DOUBLE(state.torque_Nm - 1.0, state.torque_measured_Nm);

@@ -211,11 +211,13 @@ static void test_alignment(void)
 {
     hci_counter counter;
     for (int32_t direction = -1; direction <= 1; direction += 2) {
+        memset(&counter, 0xA5, sizeof counter); /* nothing of what was there before is left */
         hci_counter_start(&counter, 65536u, 4000u, direction, 777u);
+        TEST_ASSERT_EQUAL_UINT32(hci_counter_own_angle(&counter), hci_counter_angle(&counter, 777u));
         (void)hci_counter_angle(&counter, 1234u);
-        hci_counter_align(&counter, 0x30000000u, 7u);
+        hci_counter_align(&counter, 0x31234567u, 7u);
         const uint32_t there = hci_counter_angle(&counter, 1234u);
-        TEST_ASSERT_UINT32_WITHIN(7u, 0x30000000u, hci_angle_from_mechanical(there, 7u));
+        TEST_ASSERT_UINT32_WITHIN(7u, 0x31234567u, hci_angle_from_mechanical(there, 7u));
         const uint32_t on = hci_counter_angle(&counter, direction > 0 ? 2234u : 234u);
         TEST_ASSERT_UINT32_WITHIN(2u, 0x40000000u, on - there);
     }
@@ -273,6 +275,37 @@ static void test_controller_is_that_of_the_core(void)
     TEST_ASSERT_EQUAL_MEMORY(&before, &pi, sizeof pi);
 }
 
+/* Both axes with feed voltages, the vector limited as one: the law in double precision. */
+static void test_controller_of_both_axes(void)
+{
+    const double kp = 4.0, ki = 900.0, h = 2e-4, most = 25.0;
+    double integral[2] = {0.0, 0.0};
+    int limited = 0;
+    hci_foc_pi pi = {0};
+    uint64_t seed = 8;
+    hci_foc_gains(&pi, 4.0f, 900.0f, 2e-4f);
+    for (int k = 0; k < 3000; ++k) {
+        const hci_currents_dq error = {(float)ref_uniform(&seed, -3.0, 2.0),
+                                       (float)ref_uniform(&seed, -2.0, 3.5)};
+        const hci_voltages_dq feed = {(float)ref_uniform(&seed, -2.0, 6.0),
+                                      (float)ref_uniform(&seed, -7.0, 1.0)};
+        const hci_voltages_dq v = hci_foc_step(&pi, error, feed, 25.0f);
+        const double e[2] = {(double)error.id_A, (double)error.iq_A};
+        const double raw[2] = {kp * e[0] + integral[0] + (double)feed.vd_V,
+                               kp * e[1] + integral[1] + (double)feed.vq_V};
+        const double share = fmin(1.0, most / hypot(raw[0], raw[1]));
+        TEST_ASSERT_DOUBLE_WITHIN(1e-3, share * raw[0], (double)v.vd_V);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-3, share * raw[1], (double)v.vq_V);
+        for (int a = 0; a < 2; ++a)
+            integral[a] += ki * h * (e[a] + (share - 1.0) * raw[a] / kp);
+        limited += share < 1.0;
+    }
+    TEST_ASSERT_TRUE(limited > 300 && limited < 2700);
+    hci_foc_gains(&pi, 0.0f, 900.0f, 2e-4f); /* without k_p all that was cut off goes back at once */
+    TEST_ASSERT_EQUAL_FLOAT(1.0f, pi.drawn);
+    TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.18f, pi.integral_ohm);
+}
+
 static void test_voltages_of_phases(void)
 {
     float s, c;
@@ -281,6 +314,23 @@ static void test_voltages_of_phases(void)
     TEST_ASSERT_FLOAT_WITHIN(1e-5f, 10.0f, v.va_V);
     TEST_ASSERT_FLOAT_WITHIN(1e-5f, -5.0f, v.vb_V);
     TEST_ASSERT_FLOAT_WITHIN(1e-5f, -5.0f, v.vc_V);
+    hci_angle_sine_cosine(0x2A000000u, &s, &c);
+    const hci_voltages_abc x = hci_foc_phase_voltages((hci_voltages_dq){3.0f, -7.0f}, s, c);
+    double abc[3];
+    hci_clarke_inverse(hci_park_inverse((hci_dq){3.0, -7.0, 0.0}, 0x2A / 256.0 * 2.0 * REF_PI), abc);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-5, abc[0], (double)x.va_V);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-5, abc[1], (double)x.vb_V);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-5, abc[2], (double)x.vc_V);
+}
+
+static void test_between_two_tables(void)
+{
+    const hci_currents_dq dq =
+        hci_guard_blend_dq((hci_currents_dq){1.0f, -2.0f}, (hci_currents_dq){3.0f, 6.0f}, 0.25f);
+    const hci_currents_abc abc = hci_guard_blend_abc((hci_currents_abc){1.0f, -2.0f, 5.0f},
+                                                     (hci_currents_abc){3.0f, 6.0f, -3.0f}, 0.25f);
+    TEST_ASSERT_TRUE(dq.id_A == 1.5f && dq.iq_A == 0.0f);
+    TEST_ASSERT_TRUE(abc.ia_A == 1.5f && abc.ib_A == 0.0f && abc.ic_A == 3.0f);
 }
 
 /* No limit above 0 lets nothing flow; the root of 0; a change that begins at table 1, and one that is shorter
@@ -309,7 +359,9 @@ int main(void)
     RUN_TEST(test_alignment);
     RUN_TEST(test_frames_are_those_of_the_core);
     RUN_TEST(test_controller_is_that_of_the_core);
+    RUN_TEST(test_controller_of_both_axes);
     RUN_TEST(test_voltages_of_phases);
+    RUN_TEST(test_between_two_tables);
     RUN_TEST(test_ends_of_what_there_is);
     return UNITY_END();
 }

@@ -4,6 +4,7 @@
 #include <stdbool.h>
 #include <string.h>
 
+#include "core/drive/table_code.h"
 #include "hci/loop.h"
 #include "support/draws.h"
 #include "unity.h"
@@ -390,6 +391,43 @@ static void test_shapes_that_no_loop_has(void)
         TEST_ASSERT_EQUAL(HCI_TABLE_BAD_SHAPE, hci_loop_check(&bad[k]));
 }
 
+/* ---- on a simulated drive ---- */
+
+/* Any angle, forwards and back, with an encoder or without: the table at the angle of its own periods. */
+static void test_a_simulated_drive_reads_the_table(void)
+{
+    hci_table_code code = {.pole_pairs = 6, .sine_A = 2.5f};
+    draw_loop(3);
+    loop.period_turns = 2;
+    make(HCI_LOOP_FEEDFORWARD, 900.0f);
+    code.tables = tables;
+    for (int k = 0; k < 200; ++k) {
+        const hci_measurement m = {{0.0, 0.0, 0.0}, 0.37 * (k - 100), k % 3 * 150.0};
+        const double turns = m.theta_m_rad / (2.0 * REF_PI);
+        hci_reference_dq r = {{9.0, 9.0}, {9.0, 9.0}};
+        code.counts = k % 2 ? 1000 : 0;
+        const double periods = 3.0 * (k % 2 ? floor(turns * 1000.0 + 0.5) / 1000.0 : turns);
+        const hci_loop_reference expected =
+            hci_loop_at(&tables, (uint32_t)((periods - floor(periods)) * 4294967295.0), 1.7f,
+                        (float)(6.0 * m.speed_rad_per_s));
+        hci_table_code_at(&code, &m, 1.7, &r);
+        /* both angles are cut to 2^-32 of a turn of their own: 1e-9 turns of 24 waves of 40 A, or V */
+        TEST_ASSERT_DOUBLE_WITHIN(1e-3, (double)expected.id_A, r.i_A[0]);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-3, (double)expected.iq_A, r.i_A[1]);
+        TEST_ASSERT_DOUBLE_WITHIN(2e-2, (double)expected.vd_V, r.v_V[0]);
+        TEST_ASSERT_DOUBLE_WITHIN(2e-2, (double)expected.vq_V, r.v_V[1]);
+    }
+}
+
+static void test_without_a_table_a_sine(void)
+{
+    hci_table_code code = {.pole_pairs = 6, .sine_A = 2.5f};
+    const hci_measurement m = {{0.0, 0.0, 0.0}, 0.4, 10.0};
+    hci_reference_dq r = {{0.0, 0.0}, {0.0, 0.0}};
+    hci_table_code_at(&code, &m, 1.7, &r);
+    TEST_ASSERT_TRUE(r.i_A[0] == 0.0 && r.i_A[1] == 2.5 && r.v_V[0] == 0.0 && r.v_V[1] == 0.0);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -407,5 +445,7 @@ int main(void)
     RUN_TEST(test_a_damaged_table_is_noticed);
     RUN_TEST(test_numbers_that_no_table_has);
     RUN_TEST(test_shapes_that_no_loop_has);
+    RUN_TEST(test_a_simulated_drive_reads_the_table);
+    RUN_TEST(test_without_a_table_a_sine);
     return UNITY_END();
 }

@@ -173,6 +173,22 @@ static hci_table_f32 known_table(void)
     return table;
 }
 
+/* Of 1 to 4 bytes, bit by bit with the reversed polynomial of IEEE 802.3. */
+static void test_crc_of_some_bytes(void)
+{
+    uint32_t crc = 0xFFFFFFFFu;
+    for (uint32_t k = 1; k < 200; ++k) {
+        const int bytes = (int)(k % 4u) + 1;
+        const uint32_t bits = (k * 2654435769u) & (0xFFFFFFFFu >> (32 - 8 * bytes));
+        uint32_t slow = crc ^ bits;
+        for (int b = 0; b < 8 * bytes; ++b)
+            slow = (slow >> 1) ^ (slow & 1u ? 0xEDB88320u : 0u);
+        TEST_ASSERT_EQUAL_HEX32(slow, hci_table_crc32_bytes(crc, bits, bytes));
+        if (bytes == 4) TEST_ASSERT_EQUAL_HEX32(slow, hci_table_crc32_word(crc, bits));
+        crc = slow;
+    }
+}
+
 /* The figure is zlib.crc32 of the six values as little-endian single precision. */
 static void test_crc_is_that_of_zlib(void)
 {
@@ -281,6 +297,7 @@ int main(void)
     RUN_TEST(test_radians);
     RUN_TEST(test_counts);
     RUN_TEST(test_mechanical_angle_wraps);
+    RUN_TEST(test_crc_of_some_bytes);
     RUN_TEST(test_crc_is_that_of_zlib);
     RUN_TEST(test_check_passes_a_good_table);
     RUN_TEST(test_check_sees_every_one_and_two_flipped_bits);
