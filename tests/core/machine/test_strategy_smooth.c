@@ -21,8 +21,11 @@ typedef struct {
     double cubic[4]; /* of x², x²y, xy², y³ times x, 1, 1, 1 */
 } curve;
 
+static unsigned asked; /* how often for a torque */
+
 static double torque_at(const void *context, const double x[2], double gradient[2])
 {
+    ++asked;
     const curve *c = context;
     const double *e = c->quadric.e, *h = c->quadric.slope, *q = c->cubic, a = x[0], b = x[1];
     gradient[0] = e[0] + h[0] * a + h[1] * b + 3.0 * q[0] * a * a + 2.0 * q[1] * a * b + q[2] * b * b;
@@ -109,8 +112,10 @@ static void test_shortest_current_under_saturation(void)
         const hci_smooth_torque torque = {torque_at, &c};
         const double wanted = (trial % 2 ? 1.0 : -1.0) * ref_uniform(&seed, 0.8, 2.0);
         double x[2], y[2], near[2];
+        asked = 0;
         TEST_ASSERT_EQUAL_INT(
             HCI_OK, hci_strategy_smooth_current(&torque, &c.quadric, HCI_STRATEGY_MTPA, wanted, NULL, x));
+        const unsigned asked_here = asked;
         TEST_ASSERT_DOUBLE_WITHIN(1e-9, wanted, value_at(&c, x[0], x[1]));
         const double size = hypot(x[0], x[1]), best = shortest_by_rays(&c, wanted, 2.0 * size);
         TEST_ASSERT_DOUBLE_WITHIN(1e-3 * size, best, size);
@@ -118,10 +123,13 @@ static void test_shortest_current_under_saturation(void)
         double g[2];
         torque_at(&c, x, g);
         TEST_ASSERT_DOUBLE_WITHIN(1e-6 * size * hypot(g[0], g[1]), 0.0, g[0] * x[1] - g[1] * x[0]);
+        TEST_ASSERT_TRUE(asked_here <= 1300);
         near[0] = 1.1 * x[0] - 0.2 * x[1]; /* a neighbour's ray leads to the same */
         near[1] = 1.1 * x[1] + 0.2 * x[0];
+        asked = 0;
         TEST_ASSERT_EQUAL_INT(
             HCI_OK, hci_strategy_smooth_current(&torque, &c.quadric, HCI_STRATEGY_MTPA, wanted, near, y));
+        TEST_ASSERT_TRUE(asked <= 80); /* some tens */
         TEST_ASSERT_DOUBLE_WITHIN(1e-6 * size, x[0], y[0]);
         TEST_ASSERT_DOUBLE_WITHIN(1e-6 * size, x[1], y[1]);
     }
@@ -218,6 +226,25 @@ static void test_what_is_not_reached(void)
     TEST_ASSERT_TRUE(x[0] == 0.0 && x[1] == 0.0);
 }
 
+/* T = −x²: no current is nearer than none. */
+static double only_brakes(const void *context, const double x[2], double gradient[2])
+{
+    (void)context;
+    gradient[0] = -2.0 * x[0];
+    gradient[1] = -2.0 * x[1];
+    return -x[0] * x[0] - x[1] * x[1];
+}
+
+static void test_where_no_current_helps(void)
+{
+    const hci_smooth_torque torque = {only_brakes, NULL};
+    const hci_machine_point mutual = {{0.0, 1.3}, {0.0, 0.0, 0.0}, 0.0};
+    double x[2] = {7.0, 7.0};
+    TEST_ASSERT_EQUAL_INT(HCI_NOT_REACHED,
+                          hci_strategy_smooth_current(&torque, &mutual, HCI_STRATEGY_MTPA, 1.0, NULL, x));
+    TEST_ASSERT_TRUE(x[0] == 0.0 && x[1] == 0.0);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -226,5 +253,6 @@ int main(void)
     RUN_TEST(test_cancelling_under_saturation);
     RUN_TEST(test_of_two_roots_the_nearer);
     RUN_TEST(test_what_is_not_reached);
+    RUN_TEST(test_where_no_current_helps);
     return UNITY_END();
 }
