@@ -49,8 +49,9 @@ static hci_status fill_peaks(hci_torque_evaluation *e, hci_note *note)
     const size_t turns = e->period_turns;
     const double top = e->torque_Nm[e->order_count - 1].order;
     const size_t n = hci_fft_size(fmax(LEAST_SAMPLES, SAMPLES_PER_PERIOD * (top + 1.0)) * (double)turns);
-    double *re = hci_memory_new(2 * n, sizeof *re), *im = re + n, most, least;
+    double *re = hci_memory_new(2 * n, sizeof *re), most, least;
     if (!re) return hci_note_memory(note, NULL, "evaluating currents");
+    double *const im = re + n;
     for (size_t k = 0; k < e->order_count; ++k) {
         const size_t at = (size_t)floor(e->torque_Nm[k].order * (double)turns + 0.5);
         re[at] += e->torque_Nm[k].cosine; /* the real part of (C − jS) e^(jnθ) */

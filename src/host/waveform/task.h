@@ -44,8 +44,7 @@ hci_status hci_waveform_average(const hci_waveform_task *t, const hci_average_sa
                                 hci_average *average);
 
 /* Order, amplitude, phase and chance of an estimate. */
-void hci_waveform_set_order(hci_waveform_order *order, double electrical_order,
-                            const hci_order_estimate *estimate);
+void hci_waveform_set_order(hci_waveform_order *o, double order, const hci_order_estimate *e);
 
 /* The orders of the options and no others, by least squares over all samples, into the result. value: of each
  * sample; angle_rad: room for as many. HCI_ERROR_INPUT where the angles cannot tell the orders apart,

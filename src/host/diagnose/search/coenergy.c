@@ -215,9 +215,10 @@ static hci_status settle_part(const comparison *c, choice *how, int part, hci_no
     hci_status status = leave_out(c, how, &out, note);
     how->without[part] = false;
     if (!status) status = leave_out(c, how, &in, note);
+    if (status) return status;
     const bool missed = in.misfit + NO_WORSE < out.misfit || in.square + HCI_DECISIVE < out.square;
     how->without[part] = !missed || explained_by(c, how, part) < LEAST * c->search->resolution_Nm;
-    return status;
+    return HCI_OK;
 }
 
 /* changed: out, whether a part came in or went. */

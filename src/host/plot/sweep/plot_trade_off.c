@@ -142,10 +142,11 @@ static hci_svg_axis limit_axis(hci_range r, const hci_svg_box *b)
     return a;
 }
 
-static void draw_panel(hci_output *out, panel *p)
+static void draw_panel(hci_output *out, panel whole)
 {
     static const hci_svg_entry LEGEND[] = {{HCI_SVG_LINE, "a", "within the limit"},
                                            {HCI_SVG_DOT, "before", "plain sine"}};
+    panel *const p = &whole;
     hci_range over, values;
     ranges(p, &over, &values);
     const hci_svg_axis y = hci_svg_axis_over(values, p->box->bottom, p->box->top, 6.0);
@@ -166,22 +167,22 @@ static void draw_panel(hci_output *out, panel *p)
 
 void hci_plot_ripple_by_current(hci_output *out, const hci_svg_box *box, const void *sweep)
 {
-    draw_panel(out, &(panel){sweep, false, ripple, box, "Torque ripple in %"});
+    draw_panel(out, (panel){sweep, false, ripple, box, "Torque ripple in %"});
 }
 
 void hci_plot_ripple_by_copper(hci_output *out, const hci_svg_box *box, const void *sweep)
 {
-    draw_panel(out, &(panel){sweep, true, ripple, box, "Torque ripple in %"});
+    draw_panel(out, (panel){sweep, true, ripple, box, "Torque ripple in %"});
 }
 
 void hci_plot_copper_by_current(hci_output *out, const hci_svg_box *box, const void *sweep)
 {
-    draw_panel(out, &(panel){sweep, false, copper, box, "Copper loss, × the plain sine"});
+    draw_panel(out, (panel){sweep, false, copper, box, "Copper loss, × the plain sine"});
 }
 
 void hci_plot_peak_by_copper(hci_output *out, const hci_svg_box *box, const void *sweep)
 {
-    draw_panel(out, &(panel){sweep, true, peak, box, "Peak phase current in A"});
+    draw_panel(out, (panel){sweep, true, peak, box, "Peak phase current in A"});
 }
 
 void hci_plot_trade_off(hci_output *out, const hci_grid *s)
