@@ -32,7 +32,10 @@ def text(pointer: Any) -> str:
 
 def path(value: Path) -> bytes:
     """A path for C."""
-    return os.fsencode(os.fspath(value))
+    encoded = os.fsencode(os.fspath(value))
+    if b"\0" in encoded:
+        raise errors.ArgumentError(f"path {os.fspath(value)!r}: found a zero byte; give the path of a file or folder")
+    return encoded
 
 
 class Note:
@@ -49,9 +52,17 @@ class Note:
         raise _CLASSES.get(status, errors.NumericError)(hide(words) if hide else words)
 
 
+def number(value: Any, name: str) -> float:
+    """A number, also one of numpy."""
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise errors.ArgumentError(f"{name}: found {value!r}, expected a number; give another one") from None
+
+
 def whole(value: int, name: str) -> int:
     """A whole number that C takes as a size."""
-    if not 0 <= value < 2**31 or value != int(value):
+    if not 0 <= number(value, name) < 2**31 or value != int(value):
         raise errors.ArgumentError(f"{name}: found {value!r}, expected a whole number from 0 on; give another one")
     return int(value)
 

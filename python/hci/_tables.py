@@ -7,6 +7,9 @@ import tempfile
 from pathlib import Path
 from typing import Any, Iterable, Mapping, Sequence, Tuple, Union
 
+from ._call import number
+from .errors import ArgumentError
+
 
 class Tables:
     """A temporary folder, of which messages say nothing: a table in it is the argument that it was made of."""
@@ -39,15 +42,15 @@ class Tables:
     def write(self, name: str, columns: Sequence[str], rows: Iterable[Sequence[Any]]) -> Path:
         """A table; numbers are written so that they read back to the same double."""
         path = self.folder / name
-        lines = [",".join(columns)] + [",".join(_cell(value) for value in row) for row in rows]
+        lines = [",".join(columns)] + [",".join(_cell(value, f"argument {path.stem}") for value in row) for row in rows]
         path.write_text("\n".join(lines) + "\n", encoding="utf-8")
         return path
 
 
-def _cell(value: Any) -> str:
+def _cell(value: Any, where: str) -> str:
     if isinstance(value, str):
         return '"' + value.replace('"', '""') + '"' if set(value) & set(',"\n') else value
-    return repr(float(value))
+    return repr(number(value, where))
 
 
 #: Order to amplitude in N·m, or to (amplitude, phase in rad), or to (amplitude, phase, weight).
@@ -59,12 +62,14 @@ def target_path(target: Target, tables: Tables) -> Path:
     if isinstance(target, (str, os.PathLike)):
         return Path(target)
     if not isinstance(target, Mapping):
-        target = {0.0: float(target)}
+        target = {0.0: target}
     rows = []
     for order, value in target.items():
         parts = tuple(value) if isinstance(value, (tuple, list)) else (value,)
-        amplitude, phase, weight = (*parts, 0.0, 1.0)[:3] if len(parts) == 1 else (*parts, 1.0)[:3]
-        rows.append((order, amplitude, phase, weight))
+        if not 1 <= len(parts) <= 3:
+            raise ArgumentError(f"target, order {order}: found {value!r}, expected an amplitude, or an amplitude, a phase and a weight; "
+                                "leave the others out")
+        rows.append((order, *parts, *(0.0, 1.0)[len(parts) - 1:]))
     return tables.write("target.csv", ("order", "amplitude_Nm", "phase_rad", "weight"), rows)
 
 

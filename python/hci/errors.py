@@ -4,7 +4,9 @@ from __future__ import annotations
 import re
 from typing import Optional
 
-_PLACE = re.compile(r"^(?P<file>[^\n]+?)(?::(?P<line>\d+))?: (?:column (?P<column>\d+)\b)?")
+#: With a line first, since the name of a recording may have ": " in it.
+_PLACES = (re.compile(r"^(?P<file>[^\n`]+?):(?P<line>\d+): (?:column (?P<column>\d+)\b)?"),
+           re.compile(r"^(?P<file>[^\n]+?)(?P<line>): (?:column (?P<column>\d+)\b)?"))
 
 
 class HciError(Exception):
@@ -27,7 +29,8 @@ class HciError(Exception):
     def __init__(self, text: str) -> None:
         super().__init__(text)
         self.text = text
-        place = None if isinstance(self, ArgumentError) else _PLACE.match(text)
+        of_argument = isinstance(self, ArgumentError) or text.startswith("--")
+        place = None if of_argument else _PLACES[0].match(text) or _PLACES[1].match(text)
         self.file = place["file"] if place else None
         self.line = int(place["line"]) if place and place["line"] else None
         self.column = int(place["column"]) if place and place["column"] else None

@@ -4,6 +4,7 @@ from __future__ import annotations
 import json
 import math
 import os
+import re
 import tempfile
 from pathlib import Path as FilePath
 from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Union
@@ -13,14 +14,14 @@ import numpy.typing as npt
 from . import _program
 from ._arrays import view
 from ._binding import ffi, lib
-from ._call import Note, Path, Progress, Watch, path, strings, text, whole, writing
+from ._call import Note, Path, Progress, Watch, number, path, strings, text, whole, writing
 from ._tables import Harmonics, Scenario, Tables, Target, harmonics_path, scenario_path, target_path
 from .check import Check
 from .diagnosis import Diagnosis
 from .errors import ArgumentError
 from .fit import Fit
 from .prediction import Prediction
-from .recording import Reading, Recordable, recordings_of
+from .recording import Reading, Recordable, listed, recordings_of
 from .simulation import Follow, Simulation
 from .solution import Solution, _word
 from .waveform import Waveform
@@ -107,12 +108,22 @@ class Machine:
             "rated_torque_Nm": rated_torque_Nm, "rated_speed_rpm": rated_speed_rpm,
             "dc_link_voltage_V": dc_link_voltage_V})
         own = tempfile.TemporaryDirectory(prefix="hci-machine-") if folder is None else None
-        where = os.path.join(own.name, name) if own is not None else os.fspath(folder or "")
+        where = os.path.join(own.name, re.sub(r"[^\w.-]", "_", name).lstrip(".") or "machine") if own is not None else os.fspath(folder or "")
         with writing:
             note.check(lib.hci_init_write(path(where), sheet, note.c))
         machine = cls(where)
         machine._folder = own
         return machine
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        """Other processes read the folder, which has to be there as long as they do."""
+        return Machine, (os.path.abspath(self.path),)
+
+    def __copy__(self) -> "Machine":
+        return self  # nothing of a machine changes
+
+    def __deepcopy__(self, _: Any) -> "Machine":
+        return self
 
     def __repr__(self) -> str:
         return f"<Machine {self.path}: {self.pole_pairs} pole pairs, {len(self.back_emf)} back-EMF orders>"
@@ -208,7 +219,7 @@ class Machine:
             raise ArgumentError("drive: what a current loop follows depends on the speed, and harmonics are left out; give speed_rpm, "
                                 "not 0, and another method than pointwise")
         _set_limits(options, limit_current_A, limit_rms_A)
-        held = lib.hci_wave_polar(1.0, 1, *fundamental) if fundamental else None
+        held = lib.hci_wave_polar(1.0, 1, *_held(fundamental)) if fundamental is not None else None
         kept = ffi.new("hci_wave *", held) if held is not None else ffi.NULL
         options.held = kept
         return self._solve(options, target, harmonics, drive, Watch(progress))
@@ -283,7 +294,7 @@ class Machine:
             progress: see docs/python.md.
         """
         watch = Watch(progress)
-        read = _Runs(self, runs, list(holdout), (columns, holding, strict), _last)
+        read = _Runs(self, runs, holdout, (columns, holding, strict), _last)
         options = ffi.new("hci_diagnose_options *", {"resolution": resolution_percent / 100.0})
         watch.into(options)
         c, note = ffi.new("hci_diagnosis *"), Note()
@@ -461,7 +472,7 @@ class _Last:
 class _Runs:
     """The recordings of a diagnosis, for as long as this lives: those of the last one first."""
 
-    def __init__(self, machine: Machine, runs: Union[Path, Iterable[Recordable]], holdout: List[Recordable], how: Any,
+    def __init__(self, machine: Machine, runs: Union[Path, Iterable[Recordable]], holdout: Iterable[Recordable], how: Any,
                  last: Optional[_Last] = None, plain: bool = False) -> None:
         self.c = ffi.gc(ffi.new("hci_runs *"), lib.hci_runs_release)
         self.last: Optional[_Last] = None
@@ -477,17 +488,17 @@ class _Runs:
             reading.c.inertia_kgm2, reading.c.torque_constant_Nm_per_A = math.nan, 0.0
         return reading
 
-    def _add(self, runs: Union[Path, Iterable[Recordable]], holdout: List[Recordable]) -> None:
-        note = Note()
+    def _add(self, runs: Union[Path, Iterable[Recordable]], holdout: Iterable[Recordable]) -> None:
+        note, held = Note(), listed(holdout)
         if isinstance(runs, (str, os.PathLike)):
-            if holdout:
+            if held:
                 raise ArgumentError("holdout: a list of runs in a file says itself which are held out; leave one of them out")
             reading, more = self._reading([]), ffi.gc(ffi.new("hci_runs *"), lib.hci_runs_release)
             note.check(lib.hci_runs_read(path(runs), ffi.new("hci_runs_options *", {"run": reading.c[0]}), more, note.c))
             note.check(lib.hci_runs_join(self.c, more, note.c))
             return
-        fitted = list(runs)
-        all_of = recordings_of(fitted + holdout)
+        fitted = listed(runs)
+        all_of = recordings_of(fitted + held)
         reading = self._reading(all_of)
         for k, recording in enumerate(all_of):
             role = lib.HCI_ROLE_FIT if k < len(fitted) else lib.HCI_ROLE_HOLDOUT
@@ -517,6 +528,14 @@ def drive_of(file: Path) -> Any:
     return drive
 
 
+def _held(fundamental: Tuple[float, float]) -> List[float]:
+    """Amplitude and phase of the fundamental that is held."""
+    parts = [number(part, "fundamental") for part in fundamental] if isinstance(fundamental, (tuple, list)) else []
+    if len(parts) != 2 or not all(map(math.isfinite, parts)):
+        raise ArgumentError(f"fundamental: found {fundamental!r}, expected a peak amplitude in A and a phase in rad; give two finite numbers")
+    return parts
+
+
 def _several(solution: Union[Solution, Path, Sequence[Union[Solution, Path]]]) -> List[Union[Solution, Path]]:
     return list(solution) if isinstance(solution, (list, tuple)) else [solution]  # type: ignore[list-item]
 
@@ -524,10 +543,18 @@ def _several(solution: Union[Solution, Path, Sequence[Union[Solution, Path]]]) -
 def _set_limits(options: Any, current: PhaseLimit, rms: PhaseLimit) -> None:
     """Limits of all phases or of some."""
     if isinstance(current, Mapping):
-        for phase, value in current.items():
-            options.limits.is_open["abc".index(phase)] = value == 0.0
-            options.limits.current_A["abc".index(phase)] = value
+        for phase, value in _by_phase(current, "limit_current_A"):
+            options.limits.is_open[phase] = value == 0.0
+            options.limits.current_A[phase] = value
     else:
-        options.limit_current_A = current
-    for phase in "abc":
-        options.limits.rms_A["abc".index(phase)] = rms.get(phase, 0.0) if isinstance(rms, Mapping) else rms
+        options.limit_current_A = number(current, "limit_current_A")
+    for phase, value in _by_phase(rms if isinstance(rms, Mapping) else dict.fromkeys("abc", rms), "limit_rms_A"):
+        options.limits.rms_A[phase] = value
+
+
+def _by_phase(limits: Mapping[str, float], name: str) -> List[Tuple[int, float]]:
+    """Phases 0, 1 and 2 with their limits."""
+    for phase in limits:
+        if phase not in ("a", "b", "c"):
+            raise ArgumentError(f"{name}: found phase {phase!r}, expected a, b or c; give one of these")
+    return [("abc".index(phase), number(value, name)) for phase, value in limits.items()]

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any, Dict, Iterable, List, Mapping, Optional, Sequence, Set, Tuple, Union
+from typing import TYPE_CHECKING, Any, Dict, Iterable, List, Mapping, Optional, Sequence, Set, Union, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -10,6 +10,9 @@ import numpy.typing as npt
 from ._arrays import view
 from ._binding import ffi, lib
 from ._call import Note, Path, path, text
+from ._columns import columns_of, has_columns
+from ._mat import vectors_of
+from .errors import InputError
 
 if TYPE_CHECKING:
     import pandas
@@ -23,8 +26,10 @@ class Recording:
     Args:
         data: the path of a CSV file, a DataFrame of pandas or polars, a mapping of names to arrays, or an
             array with named fields. Names are as docs/files.md has them, with their units ("torque_mNm"), or
-            those of other tools; two rows of names, as pandas reads a row of units, are "name (unit)". Columns of
-            dates become seconds, columns of words are left out.
+            those of other tools; two rows of names, as pandas reads a row of units, are "name (unit)". An index of
+            pandas is a column where it has a name or is a date. Columns of dates become time from the first on, in
+            seconds or in the unit of their name; numbers as text become numbers, and what is none a hole. A single
+            number is that of all samples.
         name: stands for a path in messages.
 
     Columns that are contiguous doubles are not copied.
@@ -37,18 +42,8 @@ class Recording:
             self.path = os.fspath(data)
             self.name = self.path
             return
-        self.name = name
-        seen: Set[str] = set()
-        for label, values in _pairs(data):
-            column, numbers = _name(label), _numbers(values)
-            if column in seen:
-                raise ValueError(f"{name}: column {column!r}: found twice, expected each name once; rename one of them")
-            seen.add(column)
-            if numbers is not None:
-                self.columns[column] = numbers
-        lengths = {column: len(values) for column, values in self.columns.items()}
-        if len(set(lengths.values())) > 1:
-            raise ValueError(f"{name}: columns of different lengths: {lengths}; give as many values of each")
+        self.name = name or "recording"
+        self.columns = columns_of(data, self.name)
 
     @classmethod
     def from_mat(cls, file: Path, variables: Optional[Sequence[str]] = None, name: Optional[str] = None) -> "Recording":
@@ -57,23 +52,10 @@ class Recording:
         Args:
             file: the file.
             variables: those that are columns; otherwise all vectors that are as long as the longest. Fields of a
-                struct count by their own names.
+                struct count by their own names, signals of Simulink by their labels; log.iq_A is the one of log.
             name: stands for the path in messages.
         """
-        from scipy.io import loadmat
-
-        found: Dict[str, Array] = {}
-        for key, value in loadmat(file, squeeze_me=True, struct_as_record=True).items():
-            if not key.startswith("__"):
-                _flatten(key, value, found)
-        if variables is not None:
-            missing = [key for key in variables if key not in found]
-            if missing:
-                raise ValueError(f"{os.fspath(file)}: found no variable {missing[0]} but {', '.join(found)}")
-            found = {key: found[key] for key in variables}
-        longest = max((len(value) for value in found.values()), default=0)
-        columns = {key: value for key, value in found.items() if len(value) == longest}
-        return cls(columns, name or os.fspath(file))
+        return cls(vectors_of(file, variables), name or os.fspath(file))
 
     def write(self, file: Path) -> str:
         """Writes columns in memory as a CSV file that reads back to the same numbers. Returns its path."""
@@ -112,14 +94,21 @@ class Recording:
 Recordable = Union[Recording, str, "os.PathLike[str]", Any]
 
 
-def recordings_of(data: Iterable[Recordable]) -> List[Recording]:
-    """Each as a recording, those in memory with names of their own."""
+def listed(data: Union[Recordable, Iterable[Recordable]]) -> List[Recordable]:
+    """Recordings as a list; one alone is a list of one."""
+    alone = isinstance(data, (Recording, str, os.PathLike)) or has_columns(data)
+    return [data] if alone else list(cast(Iterable[Recordable], data))
+
+
+def recordings_of(data: Union[Recordable, Iterable[Recordable]]) -> List[Recording]:
+    """Each as a recording, those in memory with names of their own"""
     found = [value if isinstance(value, Recording) else Recording(value, f"recording {k + 1}")
-             for k, value in enumerate(data)]
-    names = [value.name for value in found]
-    for name in names:
-        if names.count(name) > 1:
-            raise ValueError(f"{name}: found twice, expected each recording once; give names of their own")
+             for k, value in enumerate(listed(data))]
+    seen: Set[str] = set()
+    for value in found:
+        if value.name in seen:
+            raise InputError(f"{value.name}: found twice, expected each recording once; give names of their own")
+        seen.add(value.name)
     return found
 
 
@@ -228,57 +217,3 @@ class Run:
         import pandas
 
         return pandas.DataFrame(self.arrays())
-
-
-def _pairs(data: Any) -> Iterable[Tuple[Any, Any]]:
-    """Columns of whatever has some."""
-    if isinstance(data, Mapping):
-        return data.items()
-    if isinstance(data, np.ndarray) and data.dtype.names:
-        return [(name, data[name]) for name in data.dtype.names]
-    frame: Any = data
-    if hasattr(frame, "columns") and hasattr(frame, "__getitem__"):
-        return [(name, frame[name]) for name in frame.columns]
-    raise TypeError(f"found {type(data).__name__}, expected a path, a DataFrame, a mapping of arrays or an array "
-                    "with named fields")
-
-
-def _name(label: Any) -> str:
-    """Of a column; of several rows of names, as pandas reads them, the last is the unit."""
-    if not isinstance(label, tuple):
-        return str(label)
-    *words, unit = [str(word) for word in label]
-    name = " ".join(word for word in words if word and not word.startswith("Unnamed: "))
-    return name if unit in ("", "-", "1") or unit.startswith("Unnamed: ") else f"{name} ({unit})".strip()
-
-
-def _numbers(values: Any) -> Optional[npt.NDArray[np.float64]]:
-    """A column as contiguous doubles; None for words."""
-    array = np.asarray(values.to_numpy() if hasattr(values, "to_numpy") else values)
-    if array.dtype.kind in "Mm":
-        array = _seconds(array)
-    if array.dtype.kind == "O":
-        try:
-            array = np.array([np.nan if value is None else value for value in array], np.float64)
-        except (TypeError, ValueError):
-            return None
-    if array.dtype.kind not in "biuf" or array.ndim != 1:
-        return None
-    return np.ascontiguousarray(array, np.float64)
-
-
-def _seconds(array: Array) -> Array:
-    """Dates, from the first on, or durations."""
-    spans = array - array[0] if array.dtype.kind == "M" and len(array) else array
-    seconds = spans.astype("timedelta64[ns]").astype(np.float64) * 1e-9
-    return np.where(np.isnat(spans), np.nan, seconds)
-
-
-def _flatten(key: str, value: Any, found: Dict[str, Array]) -> None:
-    """Vectors of a MAT file; fields of structs count by their own names."""
-    array = np.asarray(value)
-    if array.dtype.names:
-        for name in array.dtype.names:
-            _flatten(name, array[name].item() if array.ndim == 0 else array[name], found)
-    elif array.dtype.kind in "biuf" and array.ndim == 1:
-        found[key] = array

@@ -345,7 +345,7 @@ class Solution(Result):
 
 def _word(words: Dict[str, int], word: str, what: str) -> int:
     if word not in words:
-        raise ValueError(f"{what}: found {word!r}, expected one of {', '.join(words)}")
+        raise ArgumentError(f"{what}: found {word!r}, expected one of {', '.join(words)}; give one of these")
     return words[word]
 
 

@@ -53,6 +53,16 @@ def test_arguments(machine_a, tmp_path):
         hci.Recording({"a": [1.0, 2.0], "b": [1.0]})
     with pytest.raises(hci.ArgumentError, match="per_torque: these currents are not linear"):
         machine_a.solve(1.0, fundamental=(5.0, 0.1)).emit(tmp_path, "x", per_torque=True)
+    for words, wrong in (("target, order 0: found", {"target": {0: (2.4, 0, 1, 9)}}), ("argument target: found None", {"target": None}),
+                         ("limit_current_A: found phase 'd'", {"limit_current_A": {"d": 3}}), ("at_most: found '3'", {"at_most": "3"}),
+                         ("limit_rms_A: found None", {"limit_rms_A": {"a": None}}), ("fundamental: found", {"fundamental": (np.nan, 0)})):
+        with pytest.raises(hci.ArgumentError, match=words):
+            machine_a.solve(**{"target": 1.0, **wrong})
+    with pytest.raises(hci.ArgumentError, match="found a zero byte"):
+        hci.Machine.read(machine_a.path + "\0x")
+    with pytest.raises(hci.ArgumentError, match="^rated_speed: found a value"):
+        hci.Machine.from_datasheet(pole_pairs=2, strength=0.1, reading="flux", rated_speed_rpm=-1)
+    assert hci.Machine.from_datasheet(pole_pairs=2, strength=0.1, reading="flux", name="a/../../b").name == "a_.._.._b"
     with pytest.raises(TypeError, match="expected a path"):
         hci.Recording(3)
 
@@ -60,6 +70,8 @@ def test_arguments(machine_a, tmp_path):
 @pytest.mark.parametrize("text, place", [
     ("a/b.csv:7: column 2 `x; y`: found `;`, expected a number; write one", ("a/b.csv", 7, 2, "write one")),
     ("a/b.csv:7: found nothing", ("a/b.csv", 7, None, None)),
+    ("bench 3: Monday:7: column 2: found `x:9: y`", ("bench 3: Monday", 7, 2, None)),
+    ("--column iq_A=I: found no column `I`; write one", (None, None, None, "write one")),
     ("out of memory", (None, None, None, None)),
 ])
 def test_places(text, place):

@@ -1,5 +1,7 @@
 """Long work: progress, stopping, Ctrl-C, and other threads that go on."""
+import copy
 import os
+import pickle
 import signal
 import threading
 import time
@@ -78,6 +80,8 @@ def test_two_threads(machine_a):
     for thread in threads:
         thread.join()
     assert np.array_equal(found[1], machine_a.solve(2.0).currents)
+    other = pickle.loads(pickle.dumps(machine_a))  # for processes in place of threads
+    assert np.array_equal(found[1], other.solve(2.0).currents) and copy.deepcopy(machine_a) is machine_a
 
 
 def test_tqdm_fits(machine_c):

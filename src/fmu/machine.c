@@ -155,9 +155,14 @@ const char *hci_fmu_to_initial_state(hci_fmu_model *m)
 
 /* ---- a step ---- */
 
+#define MOST_PARTS 1e9
+
 /* A delay is so many internal steps; where there is one, these have to be as long as the parameter says. */
-static const char *check_step(hci_fmu_model *m, double step_s)
+static const char *check_step(hci_fmu_model *m, double parts, double step_s)
 {
+    if (!(parts <= MOST_PARTS))
+        return "a communication step of more than 1e9 internal steps, which would take a quarter of an hour; "
+               "give a shorter one, or a longer parameter step";
     if (m->ring_size == 0 || fabs(step_s - VALUE(STEP)) <= 1e-6 * VALUE(STEP)) return NULL;
     snprintf(m->head.words, sizeof m->head.words,
              "sensors of this machine have a delay, so that a communication step has to be a multiple of "
@@ -197,7 +202,7 @@ static bool is_finite(const hci_plant_state *s)
 const char *hci_fmu_step(hci_fmu_model *m, double duration_s)
 {
     const double parts = fmax(ceil(duration_s / VALUE(STEP) - 1e-6), 1.0), step_s = duration_s / parts;
-    const char *words = check_step(m, step_s);
+    const char *words = check_step(m, parts, step_s);
     double held[2];
     if (words) return words;
     hold_inputs(m, held);

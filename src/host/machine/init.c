@@ -208,18 +208,32 @@ static bool not_below(double value, double least)
     return isnan(value) || (isfinite(value) && value >= least);
 }
 
+/* The first value of a sheet that cannot be, NULL where all can. */
+static const char *wrong_value(const hci_sheet *s)
+{
+    if (s->pole_pairs < 1 || s->pole_pairs > MOST_POLE_PAIRS) return "pole_pairs";
+    if (s->slots < 0 || s->slots > HCI_MOST_SLOTS) return "slots";
+    if (!(s->strength > 0.0 && isfinite(s->strength))) return "strength";
+    const struct {
+        const char *name;
+        double value;
+    } rest[] = {{"resistance", s->resistance_ohm},     {"inductance_d", s->inductance_d_H},
+                {"inductance_q", s->inductance_q_H},   {"inertia", s->inertia_kgm2},
+                {"rated_current", s->rated_current_A}, {"rated_torque", s->rated_torque_Nm},
+                {"rated_speed", s->rated_speed_rpm},   {"dc_link_voltage", s->dc_link_voltage_V}};
+    for (size_t k = 0; k < sizeof rest / sizeof *rest; ++k)
+        if (!not_below(rest[k].value, 0.0)) return rest[k].name;
+    return NULL;
+}
+
 static hci_status check_sheet(const hci_sheet *s, hci_note *note)
 {
-    const double values[] = {s->resistance_ohm,  s->inductance_d_H,   s->inductance_q_H,
-                             s->inertia_kgm2,    s->rated_current_A,  s->rated_torque_Nm,
-                             s->rated_speed_rpm, s->dc_link_voltage_V};
-    bool good = s->pole_pairs >= 1 && s->pole_pairs <= MOST_POLE_PAIRS && s->slots >= 0 &&
-                s->slots <= HCI_MOST_SLOTS && s->strength > 0.0 && isfinite(s->strength);
-    for (size_t k = 0; k < sizeof values / sizeof *values && good; ++k)
-        good = not_below(values[k], 0.0);
-    if (!good)
+    const char *wrong = wrong_value(s);
+    if (wrong)
         return hci_note_set(note, HCI_ERROR_ARGUMENT,
-                            "a value of the data sheet is negative, not finite or out of its range");
+                            "%s: found a value that is negative, not finite or out of its range; "
+                            "take it from the data sheet again",
+                            wrong);
     if (emf(s) >= 1e-9 && emf(s) <= 1e6) return HCI_OK;
     return hci_note_set(
         note, HCI_ERROR_ARGUMENT,

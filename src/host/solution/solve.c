@@ -50,6 +50,10 @@ static hci_status check_star(const hci_machine_data *m, const hci_task *t, hci_n
 
 static hci_status check_held(const hci_solve_options *o, hci_note *note)
 {
+    if (o->held && !(isfinite(o->held->sine) && isfinite(o->held->cosine)))
+        return hci_note_set(note, HCI_ERROR_ARGUMENT,
+                            "the fundamental that is held has an amplitude or a phase that is not finite; "
+                            "give two finite numbers");
     for (size_t k = 0; o->held && o->set && k < o->set->count; ++k)
         if (o->set->component[k].sequence == o->held->sequence &&
             fabs(o->set->component[k].order - o->held->order) < HCI_ORDER_TOLERANCE)

@@ -233,6 +233,7 @@ def check_refusals(name):
     slave = Slave(name)
     slave.start()
     for wrong in (lambda: slave.set(inertia=1.0), lambda: slave.set(torque=1.0), lambda: slave.step(-1.0),
+                  lambda: slave.step(0.0), lambda: slave.step(float("inf")), lambda: slave.step(float("nan")), lambda: slave.step(1e9),
                   lambda: slave.set(va=float("nan"))):
         try:
             wrong()

@@ -355,11 +355,13 @@ static void test_wrong_values_are_refused(void)
     bad[5].slots = HCI_MOST_SLOTS + 1;
     bad[6].resistance_ohm = -1.0;
     bad[7].dc_link_voltage_V = INFINITY;
+    static const char *const NAMES[] = {"pole_pairs", "pole_pairs", "strength",   "strength",
+                                        "slots",      "slots",      "resistance", "dc_link_voltage"};
     for (int k = 0; k < 8; ++k) {
         hci_note note = {{0}};
         TEST_ASSERT_EQUAL_MESSAGE(HCI_ERROR_ARGUMENT, hci_init_write(files_path("m"), &bad[k], &note),
                                   note.text);
-        TEST_ASSERT_TRUE(note.text[0] != '\0');
+        TEST_ASSERT_EQUAL_STRING_LEN(NAMES[k], note.text, strlen(NAMES[k]));
         TEST_ASSERT_EQUAL_INT(-1, files_count(files_path("m")));
     }
 }

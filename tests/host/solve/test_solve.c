@@ -870,7 +870,7 @@ static void test_pointwise(void)
     }
 }
 
-static void test_pointwise_refuses_a_held_fundamental(void)
+static void test_held_fundamentals_that_cannot_be(void)
 {
     static problem p;
     uint64_t seed = 20212;
@@ -882,6 +882,9 @@ static void test_pointwise_refuses_a_held_fundamental(void)
     p.options.strategy = HCI_STRATEGY_MTPA;
     TEST_ASSERT_EQUAL_INT(HCI_ERROR_ARGUMENT, solve(&p, &solution));
     TEST_ASSERT_NULL(solution.current.wave);
+    p.options.method = HCI_METHOD_AUTO;
+    p.held.sine = NAN;
+    TEST_ASSERT_EQUAL_INT(HCI_ERROR_ARGUMENT, solve(&p, &solution));
 }
 
 /* ---- a chosen set without a limit to its size
@@ -1106,7 +1109,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_random_machines);
     RUN_TEST(test_pointwise);
-    RUN_TEST(test_pointwise_refuses_a_held_fundamental);
+    RUN_TEST(test_held_fundamentals_that_cannot_be);
     RUN_TEST(test_auto);
     RUN_TEST(test_closed_form);
     RUN_TEST(test_direct_current_of_zero_sequence);

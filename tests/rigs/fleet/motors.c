@@ -1,9 +1,10 @@
-/* motors COUNT SEED FOLDER [FIRST [SHARE]]: a test line on paper.
+/* motors COUNT SEED FOLDER [FIRST [SHARE [SIZE]]]: a test line on paper.
  *
  * Writes FOLDER/machine (what the data sheet says of every motor), FOLDER/runs/NAME (five short recordings of
  * each motor), FOLDER/motors.csv (the list for `hci-solve batch`) and FOLDER/truth.csv (the fault of each
  * motor, `none` for most). FIRST: number of the first motor, 1 where it is left out, so that a large fleet
  * can be made in blocks; a motor is the same in any block. SHARE: of motors with a hidden fault, 0.03.
+ * SIZE: of the faults, as a part of what they are without it (1).
  *
  * Each motor differs from the sheet by chance, as motors of one line do, its batch from other batches, and
  * one parameter drifts with the date. Torque at the angle θ (electrical, θ = pθ_m), with the flux 1 + M(θ_m):
@@ -75,9 +76,9 @@ static double batch_magnets(uint64_t seed, long number)
     return normal(0.006);
 }
 
-static void hide(motor *m)
+static void hide(motor *m, double part)
 {
-    const double size = uniform(0.75, 1.35), sign = uniform(-1.0, 1.0) < 0.0 ? -1.0 : 1.0;
+    const double size = part * uniform(0.75, 1.35), sign = uniform(-1.0, 1.0) < 0.0 ? -1.0 : 1.0;
     m->fault = 1 + (int)uniform(0.0, FAULTS);
     if (m->fault == 1) m->magnets -= 0.09 * size;
     if (m->fault == 2) m->phase[(int)uniform(0.0, 3.0)] -= 0.05 * size;
@@ -86,7 +87,7 @@ static void hide(motor *m)
     if (m->fault == 5) m->offset_rad += 0.06 * size * sign;
 }
 
-static motor make(uint64_t seed, long number, double share)
+static motor make(uint64_t seed, long number, double share, double part)
 {
     motor m = {0};
     m.magnets = batch_magnets(seed, number);
@@ -102,7 +103,7 @@ static motor make(uint64_t seed, long number, double share)
     m.cogging_rad[0] = 0.4 + normal(0.05);
     m.cogging_rad[1] = -1.1 + normal(0.05);
     m.pole_at = uniform(0.0, 2.0 * PI);
-    if (uniform(0.0, 1.0) < share) hide(&m);
+    if (uniform(0.0, 1.0) < share) hide(&m, part);
     return m;
 }
 
@@ -216,10 +217,10 @@ static void make_folder(const char *folder)
 int main(int argc, char **argv)
 {
     char path[PATH];
-    if (argc < 4) return fprintf(stderr, "motors COUNT SEED FOLDER [FIRST [SHARE]]\n"), 2;
+    if (argc < 4) return fprintf(stderr, "motors COUNT SEED FOLDER [FIRST [SHARE [SIZE]]]\n"), 2;
     const long count = atol(argv[1]), first = argc > 4 ? atol(argv[4]) : 1;
     const uint64_t seed = (uint64_t)strtoull(argv[2], NULL, 10);
-    const double share = argc > 5 ? atof(argv[5]) : 0.03;
+    const double share = argc > 5 ? atof(argv[5]) : 0.03, part = argc > 6 ? atof(argv[6]) : 1.0;
     make_folder(argv[3]);
     snprintf(path, sizeof path, "%.3000s/machine", argv[3]);
     make_folder(path);
@@ -230,7 +231,7 @@ int main(int argc, char **argv)
     fprintf(list, "motor,serial,batch,date,machine,runs\n");
     fprintf(truth, "motor,fault,magnets,phase_a,phase_b,phase_c,coulomb_Nm,offset_rad\n");
     for (long k = first; k < first + count; ++k) {
-        const motor m = make(seed, k, share);
+        const motor m = make(seed, k, share, part);
         const long day = k / 50;
         snprintf(path, sizeof path, "%.3000s/runs/m%06ld", argv[3], k);
         make_folder(path);
