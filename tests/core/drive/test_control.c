@@ -253,6 +253,22 @@ static void test_dead_time_is_against_each_phase_current(void)
     }
 }
 
+/* Without a crossing it has the sign of the current, and no current has none. */
+static void test_dead_time_of_no_current(void)
+{
+    const hci_dead_time dead = {3.0, 0.0};
+    const double none[2] = {0.0, 0.0}, a[2] = {2.0, 0.0};
+    double v[2] = {1.0, -3.0};
+    hci_inverter_dead_time(&dead, none, -1.0, v);
+    TEST_ASSERT_TRUE(v[0] == 1.0 && v[1] == -3.0);
+    hci_inverter_dead_time(&dead, a, -1.0, v); /* a against b and c: 4/3 of it in a, −2/3 in b and c */
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 1.0 - sqrt(1.5) * 4.0, v[0]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, -3.0, v[1]);
+    double small[2] = {30.0, -40.0}; /* within what there is nothing is taken away */
+    TEST_ASSERT_EQUAL_DOUBLE(1.0, hci_inverter_sinusoidal(120.0, small));
+    TEST_ASSERT_TRUE(small[0] == 30.0 && small[1] == -40.0);
+}
+
 /* With the current that flows known, the compensation leaves nothing of it. */
 static void test_dead_time_is_compensated(void)
 {
@@ -655,6 +671,7 @@ int main(void)
     RUN_TEST(test_pwm_delay_is_one_sample);
     RUN_TEST(test_delay_in_steps);
     RUN_TEST(test_dead_time_is_against_each_phase_current);
+    RUN_TEST(test_dead_time_of_no_current);
     RUN_TEST(test_dead_time_is_compensated);
     RUN_TEST(test_sinusoidal_modulation_ends_at_half_the_link);
     RUN_TEST(test_code_gives_current_and_voltage);

@@ -376,19 +376,37 @@ void tearDown(void)
 }
 
 /* What no table has is refused before its sum is taken. */
+/* Each by what it is alone: all else is as it should be. */
 static void test_shapes_that_no_loop_has(void)
 {
-    static const uint16_t ORDER[1] = {0}, OTHER[1] = {6};
-    const hci_loop_f32 good = {.order_count = 1, .levels = 1, .points = 8, .orders = ORDER};
-    hci_loop_f32 bad[6] = {good, good, good, good, good, good};
+    static const uint16_t OTHER[ORDERS] = {6, 12, 18, 24};
+    enum { SHAPES = 11 };
+    draw_loop(3);
+    TEST_ASSERT_EQUAL(HCI_TABLE_GOOD, hci_loop_check(&loop));
+    hci_loop_f32 bad[SHAPES];
+    for (int k = 0; k < SHAPES; ++k)
+        bad[k] = loop;
     bad[0].order_count = 0;
     bad[1].levels = 0;
     bad[2].points = 0;
     bad[3].orders = OTHER;
     bad[4].levels = 4;
     bad[5].response_count = 1;
-    for (int k = 0; k < 6; ++k)
-        TEST_ASSERT_EQUAL(HCI_TABLE_BAD_SHAPE, hci_loop_check(&bad[k]));
+    bad[6].points = HCI_LOOP_TABLE_MOST_POINTS + 1u;
+    bad[7].repeats = 0;
+    bad[8].period_turns = 0;
+    bad[9].torque_high_Nm = bad[9].torque_low_Nm;
+    bad[10].torque_low_Nm = NAN;
+    for (int k = 0; k < SHAPES; ++k)
+        TEST_ASSERT_EQUAL_MESSAGE(HCI_TABLE_BAD_SHAPE, hci_loop_check(&bad[k]), "of the list above");
+    loop.points = HCI_LOOP_TABLE_MOST_POINTS;
+    loop.response_count = 2;
+    TEST_ASSERT_EQUAL(HCI_TABLE_GOOD, hci_loop_check(&loop));
+    draw_loop(2);
+    TEST_ASSERT_EQUAL(HCI_TABLE_GOOD, hci_loop_check(&loop));
+    draw_loop(1);
+    loop.torque_high_Nm = loop.torque_low_Nm; /* one level is for any torque */
+    TEST_ASSERT_EQUAL(HCI_TABLE_GOOD, hci_loop_check(&loop));
 }
 
 /* ---- on a simulated drive ---- */

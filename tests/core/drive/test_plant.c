@@ -1,4 +1,5 @@
 /* The plant against closed forms and conservation laws; plant_machine.h has the machine's formulas. */
+#include <limits.h>
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
@@ -135,6 +136,35 @@ static void test_table_refuses(void)
     TEST_ASSERT_EQUAL_INT(HCI_ERROR_NOT_FINITE,
                           hci_plant_table_fill(&lists.machine, &lists.given, 64, rows, &plant.table));
     TEST_ASSERT_EQUAL_MEMORY(&untouched, &plant.table, sizeof untouched);
+}
+
+/* An order that is whole in no turn, wherever it stands; below 0; no pole pairs; more rows than an int
+ * counts; an inductance below 0 in both axes, whose determinant is above. */
+static void test_table_refuses_each_alone(void)
+{
+    hci_inductance odd = {.order = 0.3};
+    const hci_wave waves[2] = {{1.0, 1, 0.5, 0.0}, {0.3, 1, 0.1, 0.0}};
+    const hci_harmonic below = {-2.0, 0.1, 0.0};
+    const hci_plant_inductance negative = {NULL, 0, -0.02, -0.01}, given = {NULL, 0, 0.02, 0.01};
+    const hci_plant_inductance other = {&odd, 1, 0.02, 0.01};
+    hci_machine machine = {.pole_pairs = 2, .back_emf = waves, .back_emf_count = 1};
+    TEST_ASSERT_EQUAL_INT(1, hci_plant_table_turns(&machine, &given));
+    TEST_ASSERT_EQUAL_INT(0, hci_plant_table_turns(&machine, &other));
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_plant_table_fill(&machine, &given, 4, rows, &plant.table));
+    TEST_ASSERT_EQUAL_UINT(12 * 5, hci_plant_table_size(4));
+    TEST_ASSERT_EQUAL_INT(HCI_ERROR_SINGULAR,
+                          hci_plant_table_fill(&machine, &negative, 64, rows, &plant.table));
+    TEST_ASSERT_EQUAL_INT(HCI_ERROR_ARGUMENT,
+                          hci_plant_table_fill(&machine, &given, INT_MAX / 12 + 1, rows, &plant.table));
+    machine.back_emf_count = 2;
+    TEST_ASSERT_EQUAL_INT(0, hci_plant_table_turns(&machine, &given));
+    machine.back_emf_count = 1;
+    machine.cogging = &below;
+    machine.cogging_count = 1;
+    TEST_ASSERT_EQUAL_INT(0, hci_plant_table_turns(&machine, &given));
+    machine.cogging_count = 0;
+    machine.pole_pairs = 0;
+    TEST_ASSERT_EQUAL_INT(0, hci_plant_table_turns(&machine, &given));
 }
 
 /* A state that is not a number any more must not read outside the table: for the address sanitizer. */
@@ -549,6 +579,10 @@ static void test_angle_is_wrapped_and_counted(void)
         TEST_ASSERT_DOUBLE_WITHIN(1e-7, sign * 1e4, hci_plant_angle_rad(&y));
         TEST_ASSERT_EQUAL_DOUBLE(sign > 0 ? 1591.0 : -1592.0, y.turns);
     }
+    hci_plant_state y = {{0.0, 0.0}, 0.0, 2.0 * REF_PI, 3.0}; /* a turn is no angle any more */
+    hci_plant_step_imposed(&plant, &y, none, 0.0, 1e-4);
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, y.theta_m_rad);
+    TEST_ASSERT_EQUAL_DOUBLE(4.0, y.turns);
 }
 
 static void test_runs_repeat_to_the_bit(void)
@@ -566,6 +600,7 @@ int main(void)
     RUN_TEST(test_slope_is_the_derivative_of_the_interpolant);
     RUN_TEST(test_fractional_orders_span_the_mechanical_turn);
     RUN_TEST(test_table_refuses);
+    RUN_TEST(test_table_refuses_each_alone);
     RUN_TEST(test_any_angle_stays_within_the_table);
     RUN_TEST(test_a_state_that_is_not_a_number_ends_its_step);
     RUN_TEST(test_saliency_from_constants);

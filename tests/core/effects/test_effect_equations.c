@@ -200,6 +200,54 @@ static void test_torque_of_each_effect(void)
     }
 }
 
+/* Many terms together, orders and powers in any sequence, more orders than are remembered: the sum of each
+ * alone. */
+static void sums_up(const char *effect, const char *const parameter[], int parameters, bool with_reference)
+{
+    enum { TERMS = 90 };
+    uint64_t seed = 21;
+    el_list all = {0};
+    double by_value[EL_TERMS];
+    if (with_reference) el_add(&all, effect, "reference_current", 0.0, 7.0);
+    for (int k = 0; k < TERMS; ++k) /* neither order nor power stays for long */
+        el_add(&all, effect, parameter[k % 7 % parameters], k < 80 ? (double)k : (double)(k - 60),
+               1e-3 * ref_uniform(&seed, -1.0, 1.0));
+    for (int j = 0; j < 5; ++j) {
+        const hci_sample x = el_sample(&seed);
+        const hci_effect_torque t = hci_effects_torque(&m.machine, &all.list, &x, by_value);
+        hci_effect_torque sum = {0};
+        for (size_t k = with_reference ? 1 : 0; k < all.effect[0].count; ++k) {
+            double by[2];
+            const hci_effect_term terms[2] = {all.term[0][k], all.term[0][0]};
+            const hci_effect effect_alone = {all.effect[0].type, terms, with_reference ? 2 : 1};
+            const hci_effects alone = {&effect_alone, 1};
+            const hci_effect_torque one = hci_effects_torque(&m.machine, &alone, &x, by);
+            sum.torque_Nm += one.torque_Nm;
+            sum.by_angle += one.by_angle;
+            for (int s = 0; s < 3; ++s) {
+                sum.by_current[s] += one.by_current[s];
+                sum.inductance_H[s] += one.inductance_H[s];
+            }
+            TEST_ASSERT_DOUBLE_WITHIN(1e-10 * (1.0 + fabs(by[0])), by[0], by_value[k]);
+        }
+        TEST_ASSERT_DOUBLE_WITHIN(1e-10, sum.torque_Nm, t.torque_Nm);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-8, sum.by_angle, t.by_angle);
+        for (int s = 0; s < 3; ++s) {
+            TEST_ASSERT_DOUBLE_WITHIN(1e-10, sum.by_current[s], t.by_current[s]);
+            TEST_ASSERT_DOUBLE_WITHIN(1e-11, sum.inductance_H[s], t.inductance_H[s]);
+        }
+    }
+}
+
+static void test_terms_of_the_coenergy_add_up(void)
+{
+    static const char *const SATURATION[] = {"d1q2_cosine", "d3q0_sine",   "d0q4_cosine", "d2q2_sine",
+                                             "d0q3_sine",   "d2q1_cosine", "d1q2_sine"};
+    static const char *const RELUCTANCE[] = {"dd_cosine", "dq_sine", "qq_cosine", "dq_cosine", "dd_sine"};
+    sums_up("saturation", SATURATION, 7, true);
+    sums_up("reluctance", RELUCTANCE, 5, false);
+}
+
 static void test_saturation_scales_with_its_reference(void)
 {
     uint64_t seed = 2;
@@ -940,6 +988,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_torque_of_each_effect);
+    RUN_TEST(test_terms_of_the_coenergy_add_up);
     RUN_TEST(test_saturation_scales_with_its_reference);
     RUN_TEST(test_unknown_temperature_is_the_reference);
     RUN_TEST(test_friction_brakes);
