@@ -281,30 +281,38 @@ static void show_no_table(const char *run, double pole_pairs, const hci_table_ro
                 "of one steady speed\n");
 }
 
+static void show_rotation(const char *run, const hci_table_rotation *x)
+{
+    if (x->is_rotated)
+        cli_say(CLI_BAD
+                "rotated" CLI_PLAIN
+                ": %s: the table is read %s%.2f ± %.2g degrees electrical %s of the angle in the log\n",
+                run, x->backwards ? "backwards, " : "", fabs(degrees(x->rotation_rad)), shown_error(x),
+                x->rotation_rad < 0.0 ? "behind" : "ahead");
+    else
+        cli_say(CLI_GOOD "aligned" CLI_PLAIN
+                         ": %s: the table is read at the angle in the log, to %.2g degrees electrical\n",
+                run, shown_error(x));
+}
+
+static void show_currents_left(const hci_table_rotation *x)
+{
+    cli_say("  difference   %.1f %% of the current as it is, %.1f %% where the table is turned so; the "
+            "currents are %.4g times the table\n",
+            100.0 * x->left_as_is, 100.0 * x->left, x->gain);
+    if (x->period_turns > 1)
+        cli_say("  elsewhere    %.1f %% at best in another of the %zu electrical turns\n",
+                100.0 * x->left_elsewhere, x->period_turns);
+}
+
 static void show_table(const char *run, double pole_pairs, const hci_table_rotation *x)
 {
     if (!x->is_found) {
         show_no_table(run, pole_pairs, x);
         return;
     }
-    if (x->is_rotated)
-        cli_say(CLI_BAD "rotated" CLI_PLAIN
-                        ": %s: the table is read %s%.2f ± %.2g degrees electrical %s of the "
-                        "angle in the log\n",
-                run, x->backwards ? "backwards, " : "", fabs(degrees(x->rotation_rad)), shown_error(x),
-                x->rotation_rad < 0.0 ? "behind" : "ahead");
-    else
-        cli_say(CLI_GOOD "aligned" CLI_PLAIN
-                         ": %s: the table is read at the angle in the log, to %.2g degrees "
-                         "electrical\n",
-                run, shown_error(x));
-    cli_say("  difference   %.1f %% of the current as it is, %.1f %% where the table is turned so; the "
-            "currents are "
-            "%.4g times the table\n",
-            100.0 * x->left_as_is, 100.0 * x->left, x->gain);
-    if (x->period_turns > 1)
-        cli_say("  elsewhere    %.1f %% at best in another of the %zu electrical turns\n",
-                100.0 * x->left_elsewhere, x->period_turns);
+    show_rotation(run, x);
+    show_currents_left(x);
     if (x->step_rad > 0.0)
         cli_say("  coarse       the log's angle goes in steps of %.3g degrees electrical; half of one cannot "
                 "be told\n",
@@ -313,9 +321,8 @@ static void show_table(const char *run, double pole_pairs, const hci_table_rotat
         show_table_remedy(pole_pairs, x);
     else
         cli_say("  told         if the drive followed a torque reference; a position or speed loop makes the "
-                "currents that the "
-                "shaft asks for, wherever the table is read: then compare the ripple of speed or current "
-                "with and without it\n");
+                "currents that the shaft asks for, wherever the table is read: then compare the ripple of "
+                "speed or current with and without it\n");
 }
 
 static hci_status compare_table(const cli_arguments *a, const char *table_path,

@@ -70,8 +70,9 @@ static hci_status find_machine(const cli_arguments *a, inputs *in, hci_note *not
     struct stat there;
     if (a->words != wanted)
         return hci_note_set(note, HCI_ERROR_ARGUMENT,
-                            "diagnose: found %zu words, expected %zu: %s; see hci-solve diagnose --help",
-                            a->words, wanted, wanted ? "MACHINE --runs LIST" : "--again LAST --runs LIST");
+                            "diagnose: found %zu word%s, expected %zu: %s; see hci-solve diagnose --help",
+                            a->words, a->words == 1 ? "" : "s", wanted,
+                            wanted ? "MACHINE --runs LIST" : "--again LAST --runs LIST");
     if (snprintf(in->folder, PATH_SIZE, "%s%s", wanted ? a->word[0] : a->value[AGAIN],
                  wanted ? "" : "/declared") >= PATH_SIZE)
         return hci_note_set(note, HCI_ERROR_ARGUMENT, "--again: the path is too long");

@@ -78,8 +78,8 @@ typedef struct {
     uint32_t way; /* the background: how far the turn has come */
 } hci_learn;
 
-/* What was learnt of an order. In the unit of the samples; cosine first, then sine, of the mechanical angle.
- */
+/* What was learnt of an order. In the unit of the samples; cosine first, then sine, of the mechanical
+ * angle. */
 typedef struct {
     uint32_t order;    /* mechanical */
     float cogging[2];  /* the same in both directions: what holds the shaft against cogging */
@@ -142,8 +142,8 @@ static inline void hci_learn_turn(hci_learn *learn, int32_t direction)
 
 /* ---- in the interrupt ---- */
 
-/* Adds to the sums of a step: a few samples at a time, so that many are not rounded away, and 65536 at most.
- */
+/* Adds to the sums of a step: a few samples at a time, so that many are not rounded away, and 65536 at
+ * most. */
 static inline void hci_learn_add(hci_learn *learn, float value)
 {
     if (learn->whole_count >= 65536u) return;

@@ -120,8 +120,8 @@ static inline float hci_loop_size(float x)
     return x < 0.0f ? -x : x;
 }
 
-/* A pair is the complex number c − js, so that its order is Re((c − js) e^(jkφ)). The product with re + j·im.
- */
+/* A pair is the complex number c − js, so that its order is Re((c − js) e^(jkφ)). The product with re +
+ * j·im. */
 static inline hci_loop_pair hci_loop_times(hci_loop_pair x, float re, float im)
 {
     hci_loop_pair y;
@@ -412,9 +412,9 @@ static inline void hci_loop_make(hci_loop_tables *tables, float speed_rad_per_s)
         hci_loop_make_row(tables, row);
 }
 
-/* Whether the speed is so far from that of the tables that they should be made again: by 1/64 of it, near a
- * standstill of an eighth of where the first order fades. Tables that do not depend on the speed never are.
- */
+/* Whether the speed is so far from that of the tables that they should be made again: by 1/64 of it,
+ * near a standstill of an eighth of where the first order fades. Tables that do not depend on the speed
+ * never are. */
 static inline int hci_loop_is_old(const hci_loop_tables *tables, float speed_rad_per_s)
 {
     const float speed = hci_loop_size(speed_rad_per_s);
@@ -507,8 +507,7 @@ static inline uint32_t hci_loop_ahead(const hci_loop_f32 *loop, uint32_t angle, 
 
 /* What the loop is to be asked for at a sample. angle: of the sample; speed_rad_per_s: electrical. On a
  * Cortex-M4F 170 instructions with one level of torque, 290 with HCI_LOOP_FEEDFORWARD; may run in an
- * interrupt.
- */
+ * interrupt. */
 static inline hci_loop_reference hci_loop_at(const hci_loop_tables *tables, uint32_t angle, float torque_Nm,
                                              float speed_rad_per_s)
 {

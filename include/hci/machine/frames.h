@@ -27,8 +27,8 @@ hci_alpha_beta hci_clarke(const double abc[3]);
  * interrupt. */
 void hci_clarke_inverse(hci_alpha_beta x, double abc[3]);
 
-/* d = −α cos θ − β sin θ, q = α sin θ − β cos θ; zero stays. theta_rad: electrical. May run in an interrupt.
- */
+/* d = −α cos θ − β sin θ, q = α sin θ − β cos θ; zero stays. theta_rad: electrical. May run in an
+ * interrupt. */
 hci_dq hci_park(hci_alpha_beta x, double theta_rad);
 
 /* The inverse: α = −d cos θ + q sin θ, β = −d sin θ − q cos θ; zero stays. May run in an interrupt. */

@@ -237,6 +237,24 @@ static double beyond_voltages(const hci_dataset *b, const hci_machine_data *mach
     return fabs(shown) > 0.0 ? corrected / shown - 1.0 : 0.0;
 }
 
+/* What stays and what goes once the search has answered: d is what is said of it. */
+static hci_status conclude(hci_dataset *b, const hci_machine_data *machine, const hci_runs *runs,
+                           double resolution_Nm, hci_attribution *a, hci_diagnosis *d, hci_note *note)
+{
+    hci_status status = HCI_OK;
+    if (!a->unknown && d->verdict != HCI_DIAGNOSIS_COMPLETE)
+        status = test(b, runs, a, d, resolution_Nm, note);
+    else if (a->unknown)
+        status = rising_leave(b, runs, a, d, resolution_Nm, note);
+    if (!status && is_against_voltages(b, machine, runs, d)) {
+        status = withdraw(b, runs, a, d, true, note);
+        d->contradicted = false;
+        d->against_voltages = true;
+    }
+    if (!status) d->beyond_voltages = beyond_voltages(b, machine, runs, d);
+    return status;
+}
+
 static hci_status diagnose(hci_dataset *b, const hci_machine_data *machine, const hci_runs *runs,
                            const hci_diagnose_options *options, hci_diagnosis *d, hci_note *note)
 {
@@ -258,16 +276,7 @@ static hci_status diagnose(hci_dataset *b, const hci_machine_data *machine, cons
     if (!a.unknown) status = misleading_leave(b, runs, &a, note);
     if (!status) status = hci_next_points_tell_apart(&b->regression, machine, &a, d, note);
     if (!status) status = fill(b, runs, &a, d, note);
-    if (!status && !a.unknown && d->verdict != HCI_DIAGNOSIS_COMPLETE)
-        status = test(b, runs, &a, d, how.resolution_Nm, note);
-    else if (!status && a.unknown)
-        status = rising_leave(b, runs, &a, d, how.resolution_Nm, note);
-    if (!status && is_against_voltages(b, machine, runs, d)) {
-        status = withdraw(b, runs, &a, d, true, note);
-        d->contradicted = false;
-        d->against_voltages = true;
-    }
-    if (!status) d->beyond_voltages = beyond_voltages(b, machine, runs, d);
+    if (!status) status = conclude(b, machine, runs, how.resolution_Nm, &a, d, note);
     if (!status) status = hci_next_points_unknown(&b->regression, machine, d, note);
     if (!status) status = hci_next_points_left_open(&b->regression, machine, d, note);
     hci_attribution_release(&a);

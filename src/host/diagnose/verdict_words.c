@@ -104,25 +104,41 @@ static bool is_unfinished(const hci_diagnosis *d)
     return d->search != HCI_WORK_COMPLETE;
 }
 
+static void say_not_known(const hci_words *w, const hci_diagnosis *d)
+{
+    hci_words_say(w, is_of_voltages(d)  ? "What the model lacks does not show in these torques."
+                     : is_unfinished(d) ? "What the model lacks is not known yet."
+                                        : "No known effect explains what the model lacks.");
+}
+
+static void say_partly(const hci_words *w, const hci_diagnosis *d)
+{
+    hci_words_say(w, "Partly explained: the model lacked ");
+    say_names(w, d, HCI_FINDING_ADDED, " and ");
+    if (!any(d, HCI_FINDING_ADDED)) say_names(w, d, HCI_FINDING_AMBIGUOUS, " or ");
+    if (d->no_load_alone) hci_words_say(w, ", which the runs without a current show by themselves");
+    hci_words_say(w, "; what else it lacks is not known%s.", is_unfinished(d) ? " yet" : "");
+}
+
+static void say_orders_left(const hci_words *w, const hci_diagnosis *d)
+{
+    for (size_t k = 0; k < d->unexplained_count; ++k) {
+        const hci_unexplained *u = &d->unexplained[k];
+        hci_words_say(w, " Order %.6g (up to %.3g N·m) grows as |i|^%.3g |ω|^%.3g%s.", u->order,
+                      u->amplitude_Nm, u->current_exponent, u->speed_exponent,
+                      u->turns_sign ? " and turns its sign with the direction" : "");
+    }
+}
+
 static void say_unknown(const hci_words *w, const hci_diagnosis *d)
 {
-    if (d->verdict == HCI_DIAGNOSIS_UNKNOWN)
-        hci_words_say(w, is_of_voltages(d)  ? "What the model lacks does not show in these torques."
-                         : is_unfinished(d) ? "What the model lacks is not known yet."
-                                            : "No known effect explains what the model lacks.");
-    if (d->verdict == HCI_DIAGNOSIS_PARTLY) {
-        hci_words_say(w, "Partly explained: the model lacked ");
-        say_names(w, d, HCI_FINDING_ADDED, " and ");
-        if (!any(d, HCI_FINDING_ADDED)) say_names(w, d, HCI_FINDING_AMBIGUOUS, " or ");
-        if (d->no_load_alone) hci_words_say(w, ", which the runs without a current show by themselves");
-        hci_words_say(w, "; what else it lacks is not known%s.", is_unfinished(d) ? " yet" : "");
-    }
+    if (d->verdict == HCI_DIAGNOSIS_UNKNOWN) say_not_known(w, d);
+    if (d->verdict == HCI_DIAGNOSIS_PARTLY) say_partly(w, d);
     if (is_unfinished(d)) return; /* what is left may be what was not looked for */
     say_disbelieved(w, d);
     if (d->contradicted)
-        hci_words_say(
-            w, " Effects that describe the runs that were fitted and not those that were held out were "
-               "dropped.");
+        hci_words_say(w, " Effects that describe the runs that were fitted and not those that were held out "
+                         "were dropped.");
     if (d->means_open)
         hci_words_say(w, d->means_alone
                              ? " The mean of each run is off by something else: what would explain all of "
@@ -130,12 +146,7 @@ static void say_unknown(const hci_words *w, const hci_diagnosis *d)
                                "another one each time."
                              : " What would explain all runs says nothing of a run left out.");
     if (d->wanders) hci_words_say(w, " Something in it does not repeat with the turn of the rotor.");
-    for (size_t k = 0; k < d->unexplained_count; ++k) {
-        const hci_unexplained *u = &d->unexplained[k];
-        hci_words_say(w, " Order %.6g (up to %.3g N·m) grows as |i|^%.3g |ω|^%.3g%s.", u->order,
-                      u->amplitude_Nm, u->current_exponent, u->speed_exponent,
-                      u->turns_sign ? " and turns its sign with the direction" : "");
-    }
+    say_orders_left(w, d);
 }
 
 /* A torque that no sensor has read is right only where the shaft drives nothing. */

@@ -257,26 +257,42 @@ static hci_status fill(least *l, bool is_copper, hci_note *note)
     return status;
 }
 
-static hci_status answer(const least *l, const equations *e, bool is_copper, double *x, hci_note *note)
+/* What is made least: the swing high − low, or the copper. */
+typedef struct {
+    double *p, *c; /* n × n, n */
+} objective;
+
+static hci_status make_objective(const least *l, bool is_copper, objective *o, hci_note *note)
 {
-    const size_t voltages = l->pairs * l->angles, cone = l->coordinates + 1, n = l->n;
-    double *p = hci_memory_new(n * n, sizeof *p), *c = hci_memory_new(n, sizeof *c);
-    hci_cone_answer a = {.x = NULL};
-    hci_status status = p && c ? HCI_OK : hci_note_memory(note, NULL, "solving");
-    for (size_t j = 0; j < n && !status; ++j)
-        p[j * (n + 1)] = j < l->coordinates && !is_copper ? 1.0 : 1e-9;
-    if (!status && is_copper) {
-        c[l->coordinates] = 1.0;
-        c[l->coordinates + 1] = -1.0;
+    o->p = hci_memory_new(l->n * l->n, sizeof *o->p);
+    o->c = hci_memory_new(l->n, sizeof *o->c);
+    if (!o->p || !o->c) return hci_note_memory(note, NULL, "solving");
+    for (size_t j = 0; j < l->n; ++j)
+        o->p[j * (l->n + 1)] = j < l->coordinates && !is_copper ? 1.0 : 1e-9;
+    if (is_copper) {
+        o->c[l->coordinates] = 1.0;
+        o->c[l->coordinates + 1] = -1.0;
     }
-    const hci_cone_problem problem = {.unknowns = n,
-                                      .p = p,
-                                      .c = c,
+    return HCI_OK;
+}
+
+static bool is_solved(const hci_cone_answer *a)
+{
+    return a->end != HCI_CONE_INFEASIBLE && a->end != HCI_CONE_UNBOUNDED && a->error < 10.0 * WORKING;
+}
+
+static hci_status minimise(const least *l, const equations *e, const objective *o, bool is_copper,
+                           hci_cone_answer *a, hci_note *note)
+{
+    const size_t cone = l->coordinates + 1;
+    const hci_cone_problem problem = {.unknowns = l->n,
+                                      .p = o->p,
+                                      .c = o->c,
                                       .equalities = e->count,
                                       .a = e->a,
                                       .b = e->b,
                                       .rows = l->rows,
-                                      .two_sided = voltages,
+                                      .two_sided = l->pairs * l->angles,
                                       .linear = l->rows - (is_copper ? cone : 0),
                                       .g = l->g,
                                       .h = l->h,
@@ -284,15 +300,21 @@ static hci_status answer(const least *l, const equations *e, bool is_copper, dou
                                       .cones = is_copper ? 1 : 0,
                                       .cone = &cone,
                                       .precision = WORKING};
-    if (!status) status = hci_cone_solve(&problem, &a, note);
-    if (!status &&
-        (a.end == HCI_CONE_INFEASIBLE || a.end == HCI_CONE_UNBOUNDED || !(a.error < 10.0 * WORKING)))
-        status = HCI_ERROR_NUMERIC;
+    const hci_status status = hci_cone_solve(&problem, a, note);
+    return !status && !is_solved(a) ? HCI_ERROR_NUMERIC : status;
+}
+
+static hci_status answer(const least *l, const equations *e, bool is_copper, double *x, hci_note *note)
+{
+    objective o = {NULL, NULL};
+    hci_cone_answer a = {.x = NULL};
+    hci_status status = make_objective(l, is_copper, &o, note);
+    if (!status) status = minimise(l, e, &o, is_copper, &a, note);
     for (size_t j = 0; j < l->coordinates && !status; ++j)
         x[j] = is_followed(l, j) ? l->scale_A * a.x[j] : 0.0;
     hci_cone_answer_release(&a);
-    hci_memory_free(p);
-    hci_memory_free(c);
+    hci_memory_free(o.p);
+    hci_memory_free(o.c);
     return status;
 }
 

@@ -1,18 +1,13 @@
 /* With i_d = 0 a back-EMF of order 5 makes the same torque as one of order 7, and more of reluctance too: the
  * bound on currents that tell them apart allows for each of them. Five diagnoses of small recordings: some
  * tenths of a second. */
-#include "host/machine/expected_ripple.h"
-#include "support/diagnosing.h"
+#include "support/expecting.h"
 
-enum { SAMPLES = 240, PATH = 240 };
+enum { SAMPLES = 240 };
 
 static double fifth[2], seventh[2]; /* back-EMF, N·m/A: of the sine and of the cosine */
 static double self_H, mutual_H;     /* of the q axis, cos 6θ, and of both axes, sin 6θ */
 static const double LOW_NOISE_NM = 2e-3;
-
-static hci_expected_ripple expected;
-static hci_sample sample[PATH];
-static double torque_Nm[PATH], real_Nm[PATH];
 
 void setUp(void)
 {
@@ -74,33 +69,11 @@ static void measure_without_id(void)
 
 /* ---- what is said and what is so ---- */
 
-/* Fills `expected` for a ripple of order 6 in both currents about a mean; returns the error of the corrected
- * machine from peak to peak. */
 static double error_at(double d, double q, double ripple_A)
 {
-    hci_note note = {{0}};
-    double low = INFINITY, high = -INFINITY;
-    for (size_t k = 0; k < PATH; ++k) {
-        const double theta = 2.0 * REF_PI * (double)k / PATH;
-        const double i_d = d + ripple_A * sin(6.0 * theta), i_q = q + ripple_A * cos(6.0 * theta);
-        sample[k] = (hci_sample){.theta_m_rad = theta / P};
-        rec_phases(i_d, i_q, theta, sample[k].i_abc);
-        real_Nm[k] = torque_of(theta, i_d, i_q);
-        torque_Nm[k] =
-            hci_torque_at(&machine.model, theta, sample[k].i_abc) +
-            hci_effects_torque(&machine.model, &diagnosis.effects.list, &sample[k], NULL).torque_Nm;
-        low = fmin(low, real_Nm[k] - torque_Nm[k]);
-        high = fmax(high, real_Nm[k] - torque_Nm[k]);
-    }
-    const hci_ripple_path path = {.machine = &machine.model,
-                                  .effects = &diagnosis.effects.list,
-                                  .sample = sample,
-                                  .torque_Nm = torque_Nm,
-                                  .count = PATH,
-                                  .speed_rad_per_s = NAN};
-    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_expected_ripple_find(&path, &diagnosis.uncertainty, &expected, &note));
+    const double error_Nm = expected_error_Nm(&(current){d, q, ripple_A}, torque_of);
     TEST_ASSERT_EQUAL_INT(HCI_RIPPLE_KNOWN, expected.state);
-    return high - low;
+    return error_Nm;
 }
 
 static void is_within(double error_Nm, double most_times)

@@ -4,14 +4,10 @@
  * The bound on the ripple against a machine that is known (support/saturated_iron.h), whose iron is none of
  * the series that the bound comes from: at currents between those recorded, beyond them, and with more noise,
  * where diagnose finds single terms only. */
-#include "hci/machine/frames.h"
-#include "host/machine/expected_ripple.h"
+#include "support/expecting.h"
 #include "support/saturated_iron.h"
 
-enum { PATH = 240, SEEDS = 2 };
-
-static hci_expected_ripple expected;
-static double torque_Nm[PATH], real_Nm[PATH];
+enum { SEEDS = 2 };
 
 void setUp(void)
 {
@@ -26,64 +22,20 @@ void tearDown(void)
 
 /* ---- one current ---- */
 
-/* i_d, i_q and a ripple in both of order 6. */
-typedef struct {
-    double d, q, ripple_A;
-} current;
-
 static const current BETWEEN[] = {{-3.0, 6.0, 0.0}, {-2.0, 7.0, 1.0}, {-4.0, 4.0, 0.5}, {2.0, 4.0, 0.0},
                                   {0.0, 4.5, 2.0},  {-5.0, 8.0, 0.5}, {0.0, 8.0, 0.0},  {1.0, -3.0, 0.5}};
 static const current BEYOND[] = {{0.0, 12.0, 0.0}, {-8.0, 10.0, 0.0}, {6.0, 9.0, 0.5}, {-3.0, 12.0, 1.0}};
 
 enum { MANY = sizeof BETWEEN / sizeof *BETWEEN, FEW = sizeof BEYOND / sizeof *BEYOND };
 
-static hci_sample sample_at(const current *i, size_t k)
+static double torque_of(double theta, double d, double q)
 {
-    const double theta = 2.0 * REF_PI * (double)k / PATH;
-    const double d = i->d + i->ripple_A * sin(6.0 * theta), q = i->q + i->ripple_A * cos(6.0 * theta);
-    hci_sample x = {.theta_m_rad = theta / P};
-    rec_phases(d, q, theta, x.i_abc);
-    real_Nm[k] = 1.5 * K_NM_PER_A * q + torque_of_iron(theta, d, q);
-    return x;
+    return 1.5 * K_NM_PER_A * q + torque_of_iron(theta, d, q);
 }
 
-static double peak_to_peak(const double *x)
-{
-    double low = x[0], high = x[0];
-    for (size_t k = 1; k < PATH; ++k) {
-        low = fmin(low, x[k]);
-        high = fmax(high, x[k]);
-    }
-    return high - low;
-}
-
-/* Fills `expected` for what stands in torque_Nm. */
-static void expect(const hci_sample *sample)
-{
-    hci_note note = {{0}};
-    const hci_ripple_path path = {.machine = &machine.model,
-                                  .effects = &diagnosis.effects.list,
-                                  .sample = sample,
-                                  .torque_Nm = torque_Nm,
-                                  .count = PATH,
-                                  .speed_rad_per_s = NAN};
-    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_expected_ripple_find(&path, &diagnosis.uncertainty, &expected, &note));
-}
-
-/* Fills `expected`; returns the error of the corrected machine from peak to peak. */
 static double error_at(const current *i)
 {
-    static hci_sample sample[PATH];
-    double error_Nm[PATH];
-    for (size_t k = 0; k < PATH; ++k) {
-        sample[k] = sample_at(i, k);
-        torque_Nm[k] =
-            hci_torque_at(&machine.model, P * sample[k].theta_m_rad, sample[k].i_abc) +
-            hci_effects_torque(&machine.model, &diagnosis.effects.list, &sample[k], NULL).torque_Nm;
-        error_Nm[k] = real_Nm[k] - torque_Nm[k];
-    }
-    expect(sample);
-    return peak_to_peak(error_Nm);
+    return expected_error_Nm(i, torque_of);
 }
 
 /* ---- many currents ---- */

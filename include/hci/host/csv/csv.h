@@ -32,10 +32,9 @@ typedef struct {
     size_t columns, rows;       /* entries of column and of value; of each of these */
 } hci_csv_memory;
 
-/* The same as if it had been read from a file with the header in its line 1. from: kept as long as *csv,
- * which is to be given to hci_csv_free. HCI_ERROR_INPUT for names that no header may have, _MEMORY.
- * O(columns²).
- */
+/* The same as if it had been read from a file with the header in its line 1. from: kept as long as
+ * *csv, which is to be given to hci_csv_free. HCI_ERROR_INPUT for names that no header may have,
+ * _MEMORY. O(columns²). */
 hci_status hci_csv_of_memory(const hci_csv_memory *from, hci_csv **csv, hci_note *note);
 
 /* Frees a table; NULL is fine. */

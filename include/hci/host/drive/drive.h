@@ -1,5 +1,5 @@
-/* The drive that is to make the currents: drive.csv, and the measured response of its current loop, loop.csv.
- */
+/* The drive that is to make the currents: drive.csv, and the measured response of its current loop,
+ * loop.csv. */
 #ifndef HCI_HOST_DRIVE_DRIVE_H
 #define HCI_HOST_DRIVE_DRIVE_H
 
@@ -48,8 +48,7 @@ extern "C" {
 
 /* Decoupling by the measured current. */
 typedef enum {
-    HCI_DECOUPLING_TABLE, /* ω (e + L'i) and ω L i a quarter turn on, with all that the machine's tables say
-                           */
+    HCI_DECOUPLING_TABLE,    /* ω (e + L'i) and ω L i a quarter turn on, of all tables of the machine */
     HCI_DECOUPLING_CONSTANT, /* ω L_q i_q, ω L_d i_d and the fundamental of the back-EMF */
     HCI_DECOUPLING_NONE      /* nothing */
 } hci_decoupling;

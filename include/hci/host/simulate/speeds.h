@@ -83,8 +83,8 @@ typedef struct {
  * hci_speeds_release; it is empty on failure. Same input, same result to the bit on one libm. */
 hci_status hci_simulate_speeds(const hci_speeds_request *request, hci_speeds *speeds, hci_note *note);
 
-/* Whether T_ripple of the remedy is more than that of the plain sine at this speed, by 0.1 % of it at least.
- */
+/* Whether T_ripple of the remedy is more than that of the plain sine at this speed, by 0.1 % of it at
+ * least. */
 bool hci_speeds_is_worse(const hci_speed_row *row, hci_remedy remedy);
 
 /* Frees what the result holds and empties it. */

@@ -33,10 +33,9 @@ void hci_grid_inputs_add_file(hci_grid_inputs *inputs, const char *name, const c
 /* Appends those of a machine folder. */
 void hci_grid_inputs_add_machine(hci_grid_inputs *inputs, const char *folder);
 
-/* Takes the points that `folder` holds into the sweep; none where it has no points.csv and must_be is false.
- * A last row whose end is missing is left out, and the remark says so.
- * HCI_ERROR_INPUT where they are of other inputs, which the note names, or cannot be read; HCI_ERROR_MEMORY.
- */
+/* Takes the points that `folder` holds into the sweep; none where it has no points.csv and must_be is
+ * false. A last row whose end is missing is left out, and the remark says so. HCI_ERROR_INPUT where
+ * they are of other inputs, which the note names, or cannot be read; HCI_ERROR_MEMORY. */
 hci_status hci_grid_take_points(hci_grid *sweep, const hci_grid_inputs *inputs, const char *folder,
                                 bool must_be, hci_note *note);
 

@@ -153,7 +153,7 @@ static void test_other_columns_of_a_mean(void)
     TEST_ASSERT_FALSE(binned.segment[0].timed);
     for (size_t k = 0; k < binned.count; ++k) {
         TEST_ASSERT_EQUAL_DOUBLE(0.0, binned.sample[k].time_s);
-        TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.0, binned.sample[k].reading.change_A_per_s[0]);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.0, binned.sample[k].reading.change_A_per_s[0]); /* slope of means */
         TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.3, binned.sample[k].sum_A);
         TEST_ASSERT_DOUBLE_WITHIN(0.02, 40.19, binned.sample[k].reading.temperature_C);
     }
