@@ -100,6 +100,10 @@ static hci_status take_option(reader *r, cli_arguments *a, hci_note *note)
 
 static hci_status take_word(const reader *r, cli_arguments *a, hci_note *note)
 {
+    if (r->words[r->at][0] == '\0')
+        return hci_note_set(note, HCI_ERROR_ARGUMENT,
+                            "%s: found an empty word, expected %s; is a variable of the shell not set?",
+                            r->command->name, r->command->words);
     if (a->words == CLI_MOST_WORDS)
         return hci_note_set(
             note, HCI_ERROR_ARGUMENT,
@@ -113,8 +117,9 @@ static hci_status check_word_count(const cli_command *c, const cli_arguments *a,
 {
     if (a->words == c->words_needed || (a->words > c->words_needed && c->takes_more_words)) return HCI_OK;
     return hci_note_set(note, HCI_ERROR_ARGUMENT,
-                        "%s: found %zu words, expected %zu%s: %s; see hci-solve %s --help", c->name, a->words,
-                        c->words_needed, c->takes_more_words ? " or more" : "", c->words, c->name);
+                        "%s: found %zu word%s, expected %zu%s: %s; see hci-solve %s --help", c->name,
+                        a->words, a->words == 1 ? "" : "s", c->words_needed,
+                        c->takes_more_words ? " or more" : "", c->words, c->name);
 }
 
 static void clear(cli_arguments *a)
@@ -158,13 +163,32 @@ static bool has_unit(const char *text)
     return hci_number_parse(number, &value);
 }
 
+/* A number with a decimal comma. */
+static bool has_comma(const char *text)
+{
+    char number[32];
+    double value;
+    const char *comma = strchr(text, ',');
+    if (!comma || strlen(text) >= sizeof number) return false;
+    strcpy(number, text);
+    number[comma - text] = '.';
+    return hci_number_parse(number, &value);
+}
+
+static const char *remedy_of(const cli_option *o, const char *text)
+{
+    if (o->remedy) return o->remedy;
+    if (has_comma(text)) return "write a decimal point in place of the comma";
+    return has_unit(text) ? "give the number without its unit" : NULL;
+}
+
 static hci_status wrong_number(const cli_option *o, const char *text, hci_note *note)
 {
     const char *what = o->kind == CLI_NUMBER ? "a number"
                        : o->step == 2        ? "an even number"
                        : o->step == 3        ? "a multiple of 3"
                                              : "a whole number";
-    const char *remedy = o->remedy ? o->remedy : has_unit(text) ? "give the number without its unit" : NULL;
+    const char *remedy = remedy_of(o, text);
     return hci_note_set(note, HCI_ERROR_ARGUMENT, "--%s: found `%.60s`, expected %s from %g to %g%s%s",
                         o->name, text, what, o->low, o->high, remedy ? "; " : "", remedy ? remedy : "");
 }

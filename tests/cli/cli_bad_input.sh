@@ -36,9 +36,9 @@ fresh
 
 rm -r "$m"; refused 3 '/m: No such file or directory; expected the folder of a machine with machine.csv'
 rm -r "$m"; echo x >"$m"; refused 3 '/m: found a file, expected the folder of a machine'
-run 3 solve '' --target "$t"; says 'No such file'; nothing_on_stdout
+run 2 solve '' --target "$t"; says 'found an empty word, expected MACHINE'; nothing_on_stdout
 rm "$m/machine.csv"; refused 3 '/m/machine.csv: .*(No such file|not exist)'
-rm "$m/back_emf.csv"; refused 3 '/m/back_emf.csv: .*(No such file|not exist)'
+rm "$m/back_emf.csv"; refused 3 '/m/back_emf.csv: No such file; expected the orders of the back-EMF; .*init.*harmonics'
 rm "$t"; refused 3 '/t.csv: .*(No such file|not exist)'
 rm "$h"; refused 3 '/h.csv: .*(No such file|not exist)' -- --harmonics "$h"
 for file in machine.csv back_emf.csv cogging.csv; do
@@ -89,6 +89,7 @@ printf 'value,unit\n2,1\n' >"$m/machine.csv"; refused 3 'machine.csv:1: .*name'
 
 printf 'theta_e_rad,La_H,Lb_H,Lc_H,Mab_H,Mbc_H,Mca_H\n0,1,1,1,0,0,0\n' >"$m/inductance.csv"; refused 3 'inductance.csv'
 effects='effect,parameter,value,unit,std_error'
+echo order,amplitude_Nm >"$m/effects.csv"; refused 3 'effects.csv:1: found no column `effect` but `order`, `amplitude_Nm`' # and no row
 printf '%s\nwobble,a,1,,\n' $effects >"$m/effects.csv"; refused 3 'effects.csv:2: .*`wobble`, expected one of cogging'
 printf '%s\nsaturation,d9q0_sine_6,1,Nm,\n' $effects >"$m/effects.csv"; refused 3 'effects.csv:2: .*`d9q0_sine_6`, expected one of d3q0_sine_ORDER'
 printf '%s\nsaturation,d0q3_sine_0.3333,1,Nm,\n' $effects >"$m/effects.csv"; refused 3 'no common period .*k/pole_pairs'

@@ -197,6 +197,9 @@ says 'fail +2 of 3 parameters' 'back_emf common: found -0\.0[0-9]+, expected 0 â
 check "the verdict: $(cat "$work/fit/failed/summary.json")" grep -q '"verdict":.*"fail"' "$work/fit/failed/summary.json"
 run 3 fit "$work/fit/m" --runs "$work/fit/runs.csv" --limits "$work/slip.csv"
 says 'slip.csv:2: column 2 `parameter`: found `comon`, expected an effect and a parameter of parameters.csv'
+echo effect,param,low,high >"$work/slip.csv"
+run 3 fit "$work/fit/m" --runs "$work/fit/runs.csv" --limits "$work/slip.csv"
+says 'slip.csv:1: found no column `parameter` but `effect`, `param`'
 
 # ---- fleet: motors without a result, dates in other forms, the batch that differs
 

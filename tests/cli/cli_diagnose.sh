@@ -141,7 +141,7 @@ refused() { # CODE EXPRESSION WORD...
 
 refused 2 'recordings are missing; add --runs LIST' machine -o refused
 refused 2 'found 0 words, expected 1: MACHINE' --runs list.csv -o refused
-refused 2 'found 1 words, expected 0: --again' machine --again out2 --runs list.csv -o refused
+refused 2 'found 1 word, expected 0: --again' machine --again out2 --runs list.csv -o refused
 refused 3 'later/declared/machine.csv: found no such file, expected the --out of a diagnosis' --again later --runs list.csv -o refused
 refused 3 'found .a.csv., expected new recordings only' --again out2 --runs list2.csv -o refused
 refused 2 'resolution' machine --runs list.csv --resolution -3 -o refused

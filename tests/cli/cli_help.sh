@@ -84,6 +84,8 @@ wrong 'unknown command `xyzzy`; hci-solve --help' xyzzy
 wrong 'unknown command `--bogus`' --bogus
 wrong 'found 0 words, expected 1: MACHINE --target FILE; see hci-solve solve --help' solve
 wrong 'found 2 words, expected 1' solve data/machine_a data/machine_b --target $target
+wrong 'solve: found an empty word, expected MACHINE --target FILE; is a variable of the shell not set\?' solve "" --target $target
+wrong '--speed: found `1,5`, expected a number from .*; write a decimal point in place of the comma' solve data/machine_a --target $target --speed 1,5
 wrong 'unknown option `--bogus`; see hci-solve solve --help' solve data/machine_a --bogus
 wrong 'unknown option `--targe`; did you mean `--target`\? see hci-solve solve --help' solve data/machine_a --targe $target
 wrong 'unknown option `--targets=x`; did you mean `--target`' solve data/machine_a --targets=x

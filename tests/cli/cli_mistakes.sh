@@ -76,6 +76,7 @@ run 3 emit m --name x -o out; says 'm: found the folder of a machine, expected o
 mkdir empty
 run 3 emit empty --name x -o out; says 'empty: found a folder without currents.csv'
 run 3 solve empty --target t.csv; says 'empty/machine.csv: No such file; expected the folder of a machine' 'hci-solve init'
+run 3 check empty; says 'empty/machine.csv: No such file; expected the folder of a machine' 'hci-solve init'
 run 3 solve m/machine.csv --target t.csv; says 'found a file, expected the folder of a machine'
 log $names; run 3 diagnose m --runs r.csv; says 'r.csv: found a recording with time_s, expected a list of recordings' 'file,role'
 printf 'r.csv,fit\n' >runs.csv; run 3 diagnose m --runs runs.csv; says 'runs.csv:1: found no column `file`' 'write that header as the first line'

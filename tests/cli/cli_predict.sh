@@ -82,7 +82,7 @@ refused() { # CODE EXPRESSION WORD...
     check "more than one line is said" [ "$(wc -l <"$work/stderr")" -eq 1 ]
 }
 
-refused 2 'found 1 words, expected 2: MACHINE RUN' data/machine_a
+refused 2 'found 1 word, expected 2: MACHINE RUN' data/machine_a
 refused 3 'none.csv: .*No such file' data/machine_a "$work/none.csv" -o "$work/refused/x.csv"
 refused 2 'run.csv would be replaced by its prediction' data/machine_a "$work/run.csv" -o "$work/./run.csv"
 cp -R data/machine_a "$work/kept"

@@ -294,6 +294,14 @@ hci_status hci_column_error(const hci_csv *csv, const char *name, const hci_colu
                                           : match_error(csv, name, found, note);
 }
 
+hci_status hci_columns_check(const hci_csv *csv, const char *const *names, size_t count, hci_note *note)
+{
+    for (size_t k = 0; k < count; ++k)
+        if (hci_column_find(csv, names[k]).kind == HCI_COLUMN_NONE)
+            return missing_column(csv, names[k], note);
+    return HCI_OK;
+}
+
 bool hci_csv_has(const hci_csv *csv, const char *column)
 {
     const hci_column_kind kind = hci_column_find(csv, column).kind;

@@ -36,4 +36,8 @@ hci_column_match hci_column_find(const hci_csv *csv, const char *name);
 hci_status hci_column_error(const hci_csv *csv, const char *name, const hci_column_match *found,
                             hci_note *note);
 
+/* Whether the header has columns of all these names: a reader that goes by rows misses none of them in a
+ * table without rows. HCI_ERROR_INPUT for the first that is not there. */
+hci_status hci_columns_check(const hci_csv *csv, const char *const *names, size_t count, hci_note *note);
+
 #endif

@@ -4,6 +4,9 @@
 
 #include "hci/host/csv/csv.h"
 #include "hci/host/fleet/fit.h"
+#include "host/csv/column.h"
+
+static const char *const COLUMN[] = {"effect", "parameter", "low", "high"};
 
 typedef struct {
     const hci_csv *csv;
@@ -77,6 +80,7 @@ hci_status hci_fleet_fit_judge(const char *limits, hci_fleet_fit *fit, hci_note 
     hci_status status = hci_csv_read(limits, &csv, note);
     if (status) return status;
     fit->judged = fit->beyond = 0;
+    status = hci_columns_check(csv, COLUMN, sizeof COLUMN / sizeof *COLUMN, note);
     for (size_t row = 0; row < hci_csv_rows(csv) && !status; ++row)
         status = judge_row(&(limit){.csv = csv, .row = row}, fit, note);
     hci_csv_free(csv);

@@ -13,6 +13,7 @@
 #include "hci/host/base/spelling.h"
 #include "hci/host/csv/csv.h"
 #include "host/base/memory.h"
+#include "host/csv/column.h"
 #include "host/csv/name_values.h"
 #include "host/machine/effect_rows.h"
 
@@ -208,6 +209,13 @@ static void group(const effect_row *rows, size_t count, hci_effects_data *effect
     effects->list = (hci_effects){effects->effect, n};
 }
 
+/* Without rows as well: a table without effects is one, another table is a mistake. */
+static hci_status check_columns(const hci_csv *csv, hci_note *note)
+{
+    static const char *const NAME[] = {"effect", "parameter", "value"};
+    return hci_columns_check(csv, NAME, sizeof NAME / sizeof *NAME, note);
+}
+
 hci_status hci_effects_of_csv(const hci_csv *csv, hci_effects_data *effects, size_t *row_of, hci_note *note)
 {
     const size_t count = hci_csv_rows(csv);
@@ -218,6 +226,7 @@ hci_status hci_effects_of_csv(const hci_csv *csv, hci_effects_data *effects, siz
     effects->term = hci_memory_new(count, sizeof *effects->term);
     if (!rows || !effects->effect || !effects->term)
         status = hci_note_memory(note, hci_csv_path(csv), "%zu rows", count);
+    if (!status) status = check_columns(csv, note);
     if (!status) status = read_rows(csv, rows, count, note);
     if (!status) group(rows, count, effects);
     for (size_t k = 0; k < count && row_of && !status; ++k)

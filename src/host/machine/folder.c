@@ -29,7 +29,9 @@ hci_status hci_machine_path(char *path, size_t size, const char *folder, const c
                         size - 1);
 }
 
-hci_status hci_machine_check_folder(const char *folder, hci_note *note)
+/* ---- whether it is one ---- */
+
+static hci_status check_is_folder(const char *folder, hci_note *note)
 {
     struct stat info;
     if (stat(folder, &info) != 0)
@@ -40,6 +42,37 @@ hci_status hci_machine_check_folder(const char *folder, hci_note *note)
     return hci_note_set(
         note, HCI_ERROR_INPUT,
         "%.300s: found a file, expected the folder of a machine with machine.csv and back_emf.csv", folder);
+}
+
+/* A folder without machine.csv: what it is, and what to do. */
+static hci_status no_machine(const char *folder, const char *path, hci_note *note)
+{
+    char inner[PATH_SIZE];
+    hci_status status = hci_machine_path(inner, PATH_SIZE, folder, "machine/machine.csv", note);
+    if (status) return status;
+    if (hci_machine_has(inner))
+        return hci_note_set(note, HCI_ERROR_INPUT,
+                            "%.300s: No such file; the machine is in the folder below: give %.300s/machine",
+                            path, folder);
+    return hci_note_set(
+        note, HCI_ERROR_INPUT,
+        "%.300s: No such file; expected the folder of a machine with machine.csv and back_emf.csv: give "
+        "that folder, or make a first one with hci-solve init",
+        path);
+}
+
+hci_status hci_machine_check_folder(const char *folder, hci_note *note)
+{
+    char path[PATH_SIZE];
+    hci_status status = check_is_folder(folder, note);
+    if (!status) status = hci_machine_path(path, PATH_SIZE, folder, "machine.csv", note);
+    if (!status && !hci_machine_has(path)) return no_machine(folder, path, note);
+    if (!status) status = hci_machine_path(path, PATH_SIZE, folder, "back_emf.csv", note);
+    if (status || hci_machine_has(path)) return status;
+    return hci_note_set(note, HCI_ERROR_INPUT,
+                        "%.300s: No such file; expected the orders of the back-EMF; hci-solve init writes it "
+                        "from a data sheet, hci-solve harmonics --quantity back_emf from a recording",
+                        path);
 }
 
 /* ---- which machine it is ---- */

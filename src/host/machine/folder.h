@@ -22,7 +22,7 @@ bool hci_machine_has(const char *path);
  * effects.csv cannot be read. */
 void hci_machine_identify(const char *folder, hci_machine_data *machine);
 
-/* HCI_ERROR_INPUT with a note where there is no such folder. */
+/* HCI_ERROR_INPUT with a note where there is no such folder, or it has not the files of a machine. */
 hci_status hci_machine_check_folder(const char *folder, hci_note *note);
 
 #endif

@@ -162,28 +162,10 @@ static hci_status read_inductance(const char *path, hci_machine_data *m, hci_not
     return status;
 }
 
-/* A folder without machine.csv: what it is, and what to do. */
-static hci_status no_machine(const char *folder, const char *path, hci_note *note)
-{
-    char inner[PATH_SIZE];
-    hci_status status = hci_machine_path(inner, PATH_SIZE, folder, "machine/machine.csv", note);
-    if (status) return status;
-    if (hci_machine_has(inner))
-        return hci_note_set(note, HCI_ERROR_INPUT,
-                            "%.300s: No such file; the machine is in the folder below: give %.300s/machine",
-                            path, folder);
-    return hci_note_set(
-        note, HCI_ERROR_INPUT,
-        "%.300s: No such file; expected the folder of a machine with machine.csv and back_emf.csv: give "
-        "that folder, or make a first one with hci-solve init",
-        path);
-}
-
 static hci_status read_folder(const char *folder, hci_machine_data *m, hci_note *note)
 {
     char path[PATH_SIZE];
     hci_status status = hci_machine_path(path, PATH_SIZE, folder, "machine.csv", note);
-    if (!status && !hci_machine_has(path)) return no_machine(folder, path, note);
     if (!status) status = read_values(path, m, note);
     if (!status) status = hci_machine_path(path, PATH_SIZE, folder, "back_emf.csv", note);
     if (!status) status = read_emf(path, m, note);

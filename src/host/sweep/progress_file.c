@@ -110,11 +110,11 @@ static hci_status check_inputs(const hci_grid_inputs *inputs, const char *folder
     hci_csv *csv;
     hci_status status = hci_machine_path(path, sizeof path, folder, INPUTS, note);
     if (!status && !hci_machine_has(path))
-        return hci_note_set(note, HCI_ERROR_INPUT,
-                            "%s: is not there, and without it nobody knows what points.csv beside it is of; "
-                            "expected both, as sweep leaves them: give another --out, or delete points.csv "
-                            "to begin anew",
-                            path);
+        return hci_note_set(
+            note, HCI_ERROR_INPUT,
+            "%s: is not there; expected it and points.csv, as sweep leaves them in --out; "
+            "beside points.csv alone, whose inputs nobody knows, begin anew in another folder",
+            path);
     if (!status) status = hci_csv_read(path, &csv, note);
     if (status) return status;
     for (size_t k = 0; k < inputs->count && !status; ++k) {
