@@ -110,6 +110,10 @@ static void take_point(void *context, size_t item, const void *answer, int numbe
         snprintf(reason, sizeof reason, "the solver ended by signal %d", number);
         hci_grid_fail(&w->sweep->plan.point[item], reason, &w->sweep->row[item]);
     }
+    if (w->sweep->row[item].out_of_memory) {
+        if (!w->status) w->status = hci_note_memory(&w->note, NULL, "point %zu of the grid", item + 1);
+        return;
+    }
     w->sweep->done[item] = true;
     w->is_any = w->is_any || w->sweep->row[item].verdict != HCI_GRID_FAILED;
     w->is_changed = true;

@@ -3,8 +3,10 @@
     every_allocation.py LIBRARY STRIDE HCI_SOLVE COMMAND [WORD...]
 
 LIBRARY is failing_malloc.c, compiled; of the allocations every STRIDE-th is tried. The command gets -q and -o FOLDER.
-It has to end with exit code 4, words and no folder, or as it does with enough memory, with the same files. Prints how
-often which happened, and each that is neither; ends with 1 if there was one.
+It has to end with exit code 4, words and no folder, or as it does with enough memory, with the same files; `batch`
+also with exit code 1 and a row of a motor that says it, or with exit code 4, words and a folder from which the same
+command goes on to the same files. Prints how often which happened, and each that is neither;
+ends with 1 if there was one.
 """
 
 import collections
@@ -18,9 +20,9 @@ import tempfile
 
 
 def files_below(folder):
-    return sorted(
-        os.path.relpath(os.path.join(path, name), folder) for path, _, names in os.walk(folder) for name in names
-    )
+    """Without the database of `batch`, which has times in it."""
+    paths = [os.path.join(path, name) for path, _, names in os.walk(folder) for name in names]
+    return sorted(os.path.relpath(path, folder) for path in paths if not path.endswith(".sqlite"))
 
 
 def is_same(folder, other):
@@ -32,14 +34,27 @@ class Trial:
     def __init__(self, library, command, folder):
         self.library, self.command, self.folder = library, command, folder
 
-    def run(self, at):
+    def run(self, at, goes_on=False):
         """Exit code and standard error with allocation number `at` failing, of 0 none."""
-        shutil.rmtree(self.folder, ignore_errors=True)
+        if not goes_on:
+            shutil.rmtree(self.folder, ignore_errors=True)
         environment = dict(os.environ, LD_PRELOAD=self.library, FAIL_AT=str(at), OPENBLAS_NUM_THREADS="1", FAIL_COUNT="2")
         ended = subprocess.run(
             self.command + ["-q", "-o", self.folder], env=environment, stdin=subprocess.DEVNULL, capture_output=True
         )
         return ended.returncode, ended.stderr.decode(errors="replace")
+
+
+def has_row(folder):
+    """Whether a motor has no result for lack of memory, and its row says so."""
+    path = os.path.join(folder, "fleet.csv")
+    return os.path.exists(path) and ",failed,4,,out of memory" in open(path).read()
+
+
+def ends(trial, whole_folder):
+    """Whether the same command ends what it has begun."""
+    code, _ = trial.run(0, goes_on=True)
+    return code == 0 and is_same(trial.folder, whole_folder)
 
 
 def outcome(trial, at, code, words, whole):
@@ -50,17 +65,21 @@ def outcome(trial, at, code, words, whole):
         return "no memory" if said else None
     if code == whole_code and is_same(trial.folder, whole_folder):
         return "absorbed"
+    if code == 1 and has_row(trial.folder):
+        return "row"
+    if code == 4 and said and trial.command[1] == "batch" and ends(trial, whole_folder):
+        return "goes on"
     return None
 
 
 def main(library, stride, *command):
     counted, wrong = collections.Counter(), 0
     with tempfile.TemporaryDirectory() as work:
-        trial = Trial(library, list(command), os.path.join(work, "whole"))
+        trial = Trial(library, list(command), os.path.join(work, "out"))
         code, words = trial.run(0)
         allocations = int(words.split()[-1])
-        whole = code, trial.folder
-        trial.folder = os.path.join(work, "out")
+        whole = code, os.path.join(work, "whole")
+        os.rename(trial.folder, whole[1])
         for at in range(1, allocations + 1, int(stride)):
             ended, words = trial.run(at)
             what = outcome(trial, at, ended, words, whole)
@@ -69,7 +88,7 @@ def main(library, stride, *command):
                 wrong += 1
                 print(f"allocation {at}: exit code {ended}, left {files_below(trial.folder)}: {words.strip()}")
     print(f"{allocations} allocations: {dict(counted)}")
-    return 1 if wrong or not counted["no memory"] else 0
+    return 0 if not wrong and counted["no memory"] + counted["row"] else 1
 
 
 if __name__ == "__main__":

@@ -1,10 +1,12 @@
-/* Preloaded into a program: its allocation number FAIL_AT fails, whichever library makes it. With FAIL_COUNT
- * set, how many there were is written to that file descriptor as the program ends. */
+/* Preloaded into a program: its allocation number FAIL_AT fails, whichever library makes it, counted over the
+ * processes that it forks too. With FAIL_COUNT set, how many there were is written to that file descriptor as
+ * the program ends. */
 #define _GNU_SOURCE
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 /* The allocator of glibc below the names that are replaced here. */
@@ -12,12 +14,14 @@ extern void *__libc_malloc(size_t);
 extern void *__libc_calloc(size_t, size_t);
 extern void *__libc_realloc(void *, size_t);
 
-static long count;
+static long *count;
 
 static int fails(void)
 {
     static long at = -1;
-    const long now = __sync_add_and_fetch(&count, 1);
+    if (count == NULL)
+        count = mmap(NULL, sizeof *count, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    const long now = __sync_add_and_fetch(count, 1);
     if (at < 0) at = getenv("FAIL_AT") ? atol(getenv("FAIL_AT")) : 0;
     if (now == at) errno = ENOMEM;
     return now == at;
@@ -43,6 +47,6 @@ __attribute__((destructor)) static void tell(void)
     char text[32];
     const char *to = getenv("FAIL_COUNT");
     if (to == NULL) return;
-    snprintf(text, sizeof text, "%ld\n", count);
+    snprintf(text, sizeof text, "%ld\n", count ? *count : 0);
     if (write(atoi(to), text, strlen(text)) < 0) _exit(1);
 }

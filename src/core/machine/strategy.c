@@ -269,7 +269,8 @@ static void solve_by_delta(const shortest *p, const double *previous, double x[2
     turn_back(p, y, x);
 }
 
-/* Both eigenvalues <= 0: φ(∞) = Σ g²/(2|h|) is the most torque there is, at x = −H⁻¹g. */
+/* Both eigenvalues <= 0: φ(∞) = Σ g²/(2|h|) is the most torque there is, at x = −H⁻¹g; a τ that is it but for
+ * rounding is reached. */
 static hci_status solve_bounded(const shortest *p, double x[2])
 {
     double most = 0.0, y[2] = {0.0, 0.0};
@@ -279,7 +280,7 @@ static hci_status solve_bounded(const shortest *p, double x[2])
     }
     if (most > p->tau && solve_by_lambda(p, 1e300, x)) return HCI_OK;
     turn_back(p, y, x);
-    return most < p->tau ? HCI_NOT_REACHED : HCI_OK;
+    return most < p->tau * (1.0 - ROUNDING) ? HCI_NOT_REACHED : HCI_OK;
 }
 
 static hci_status shortest_current(const hci_machine_point *point, double tau, const double *previous,

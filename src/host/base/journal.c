@@ -30,10 +30,19 @@ static bool path_of(const char *folder, const char *name, char path[PATH_SIZE])
 
 /* ---- writing ---- */
 
+/* A new file, in the place of what a killed process has left; a link there is not followed. */
 FILE *hci_journal_open(const char *folder)
 {
     char draft[PATH_SIZE];
-    return path_of(folder, DRAFT, draft) ? fopen(draft, "w") : NULL;
+    if (!path_of(folder, DRAFT, draft)) return NULL;
+    unlink(draft);
+    const int descriptor = open(draft, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    FILE *stream = descriptor < 0 ? NULL : fdopen(descriptor, "w");
+    if (descriptor < 0 || stream != NULL) return stream;
+    close(descriptor);
+    unlink(draft);
+    errno = ENOMEM;
+    return NULL;
 }
 
 /* A line each: what is done, and the three names between tabs. */
@@ -113,11 +122,28 @@ bool hci_journal_exists(const char *folder)
     return path_of(folder, JOURNAL, path) && lstat(path, &status) == 0;
 }
 
+/* Neither a pipe, which would be waited for, nor a link is ours. */
+static FILE *open_plain(const char *path)
+{
+    struct stat status;
+    const int descriptor = open(path, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    FILE *stream = NULL;
+    if (descriptor < 0) return NULL;
+    if (fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode))
+        stream = fdopen(descriptor, "r");
+    else
+        errno = EINVAL;
+    const int error = errno;
+    if (stream == NULL) close(descriptor);
+    errno = error;
+    return stream;
+}
+
 bool hci_journal_finish(const char *folder)
 {
     char path[PATH_SIZE], line[LINE_SIZE];
     bool good = path_of(folder, JOURNAL, path);
-    FILE *stream = good ? fopen(path, "r") : NULL;
+    FILE *stream = good ? open_plain(path) : NULL;
     if (stream == NULL) return good && errno == ENOENT;
     while (good && fgets(line, sizeof line, stream) != NULL)
         good = do_step(folder, line);

@@ -6,16 +6,32 @@
 #include <math.h>
 #include <string.h>
 
+#include "host/base/memory.h"
+
+/* cJSON has no other way to tell that memory is out. */
+static void use_own_memory(void)
+{
+    cJSON_Hooks own = {hci_memory_malloc, hci_memory_free};
+    cJSON_InitHooks(&own);
+}
+
 void hci_json_begin(hci_json *j)
 {
+    use_own_memory();
     j->open[0] = cJSON_CreateObject();
     j->depth = 1;
     j->failed = !j->open[0];
 }
 
+static cJSON *parsed(const char *text)
+{
+    use_own_memory();
+    return cJSON_Parse(text);
+}
+
 void hci_json_continue(hci_json *j, const char *text)
 {
-    j->open[0] = cJSON_Parse(text);
+    j->open[0] = parsed(text);
     j->depth = 1;
     j->failed = !cJSON_IsObject(j->open[0]);
 }
@@ -91,7 +107,7 @@ static const cJSON *find(const cJSON *all, const char *object, const char *name)
 
 bool hci_json_find_bool(const char *text, const char *object, const char *name, bool *value)
 {
-    cJSON *all = cJSON_Parse(text);
+    cJSON *all = parsed(text);
     const cJSON *item = find(all, object, name);
     const bool found = cJSON_IsBool(item);
     if (found) *value = cJSON_IsTrue(item);
@@ -101,7 +117,7 @@ bool hci_json_find_bool(const char *text, const char *object, const char *name, 
 
 bool hci_json_find_number(const char *text, const char *object, const char *name, double *value)
 {
-    cJSON *all = cJSON_Parse(text);
+    cJSON *all = parsed(text);
     const cJSON *item = find(all, object, name);
     const bool found = cJSON_IsNumber(item);
     if (found) *value = item->valuedouble;
@@ -111,7 +127,7 @@ bool hci_json_find_number(const char *text, const char *object, const char *name
 
 bool hci_json_find_text(const char *text, const char *object, const char *name, char *value, size_t size)
 {
-    cJSON *all = cJSON_Parse(text);
+    cJSON *all = parsed(text);
     const cJSON *item = find(all, object, name);
     const bool found = cJSON_IsString(item) && strlen(item->valuestring) < size;
     if (found) strcpy(value, item->valuestring);

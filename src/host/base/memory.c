@@ -9,16 +9,37 @@
 static long remaining = -1;
 static bool only_one_fails;
 
+/* An allocation has failed since it was last asked for. */
+static bool short_of_memory;
+
 void hci_memory_fail_after(long count)
 {
     remaining = count;
-    only_one_fails = false;
+    only_one_fails = short_of_memory = false;
 }
 
 void hci_memory_fail_once_after(long count)
 {
-    remaining = count;
+    hci_memory_fail_after(count);
     only_one_fails = true;
+}
+
+bool hci_memory_was_short(void)
+{
+    const bool was = short_of_memory;
+    short_of_memory = false;
+    return was;
+}
+
+void hci_memory_is_short(void)
+{
+    short_of_memory = true;
+}
+
+static void *noted(void *block)
+{
+    if (block == NULL) hci_memory_is_short();
+    return block;
 }
 
 static bool refused(void)
@@ -42,25 +63,23 @@ static size_t at_least_one(size_t size)
 
 void *hci_memory_new(size_t count, size_t size)
 {
-    if (refused() || overflows(count, size)) return NULL;
-    return calloc(at_least_one(count), at_least_one(size));
+    if (refused() || overflows(count, size)) return noted(NULL);
+    return noted(calloc(at_least_one(count), at_least_one(size)));
 }
 
 void *hci_memory_malloc(size_t size)
 {
-    if (refused()) return NULL;
-    return malloc(at_least_one(size));
+    return noted(refused() ? NULL : malloc(at_least_one(size)));
 }
 
 void *hci_memory_realloc(void *block, size_t size)
 {
-    if (refused()) return NULL;
-    return realloc(block, at_least_one(size));
+    return noted(refused() ? NULL : realloc(block, at_least_one(size)));
 }
 
 void *hci_memory_resize(void *block, size_t count, size_t size)
 {
-    if (overflows(count, size)) return NULL;
+    if (overflows(count, size)) return noted(NULL);
     return hci_memory_realloc(block, count * size);
 }
 

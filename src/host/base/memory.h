@@ -2,6 +2,7 @@
 #ifndef HCI_SRC_HOST_BASE_MEMORY_H
 #define HCI_SRC_HOST_BASE_MEMORY_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 /* Like calloc/realloc/free; NULL when memory is out. A size of 0 gives a valid pointer. */
@@ -13,6 +14,13 @@ void hci_memory_free(void *block);
  * hci_memory_free). */
 void *hci_memory_malloc(size_t size);
 void *hci_memory_realloc(void *block, size_t size);
+
+/* Whether an allocation has failed since the last call. A function may have gone on without what it had no
+ * memory for, and its result is then another one: who writes or keeps a result asks before. */
+bool hci_memory_was_short(void);
+
+/* It was short elsewhere, as in the C library. */
+void hci_memory_is_short(void);
 
 /* For tests: let `count` more allocations succeed and every later one fail; a negative count switches this
  * off. SuiteSparse and cJSON allocate through these functions too. */

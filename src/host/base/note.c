@@ -3,6 +3,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+#include "host/base/memory.h"
 #include "host/base/quote.h"
 #include "host/base/words.h"
 
@@ -24,6 +25,7 @@ hci_status hci_note_memory(hci_note *note, const char *path, const char *what, .
     va_start(arguments, what);
     vsnprintf(text, sizeof text, what, arguments);
     va_end(arguments);
+    hci_memory_is_short();
     return hci_note_set(note, HCI_ERROR_MEMORY, "%s%sout of memory for %s",
                         path != NULL ? hci_quote_path(path, shown) : "", path != NULL ? ": " : "", text);
 }

@@ -466,9 +466,19 @@ hci_status hci_output_checksums(hci_output *output,
     return HCI_OK;
 }
 
+/* What had no memory may be missing in these files. It is told once. */
+static hci_status check_memory(const hci_output *output, hci_note *note)
+{
+    if (!hci_memory_was_short()) return HCI_OK;
+    (void)hci_note_memory(note, output->folder, "a part of what is to be written");
+    (void)hci_memory_was_short();
+    return HCI_ERROR_MEMORY;
+}
+
 static hci_status publish_all(hci_output *output, hci_note *note)
 {
     hci_status status = hci_output_check(output, note);
+    if (!status) status = check_memory(output, note);
     if (!status) status = begin_journal(output, note);
     if (status) return status;
     for (size_t i = 0; i < output->count && !status; i++)

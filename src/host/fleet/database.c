@@ -23,10 +23,12 @@ typedef struct {
 
 static hci_status refused(const database *d)
 {
+    if (!d->file || sqlite3_errcode(d->file) == SQLITE_NOMEM)
+        return hci_note_memory(d->note, d->path, "the database of motors");
     return hci_note_set(
         d->note, HCI_ERROR_OUTPUT,
         "%.300s: %.200s; when it cannot be mended, delete it: it is made again from the folders", d->path,
-        d->file ? sqlite3_errmsg(d->file) : "out of memory");
+        sqlite3_errmsg(d->file));
 }
 
 static hci_status run(const database *d, const char *sql)

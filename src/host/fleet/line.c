@@ -87,6 +87,7 @@ static hci_status read_folder(const char *folder, hci_line *line, rows *r, hci_n
     if (snprintf(path, sizeof path, "%s/fleet.csv", folder) >= PATH_SIZE)
         return wrong(folder, "the path is too long", note);
     char *text = hci_whole_file(path);
+    if (!text && hci_memory_was_short()) return hci_note_memory(note, path, "reading it");
     if (!text) return wrong(path, "cannot be read", note);
     line->text[line->texts++] = text;
     const int command = command_of(text, r->header);

@@ -92,17 +92,31 @@ static hci_status appear(const hci_fleet_results *r, const char *part, const cha
     return hci_sync_folder(motors) ? HCI_OK : refused(motors, "cannot be brought to the disk", note);
 }
 
-hci_status hci_fleet_end(const hci_fleet_results *results, size_t motor, const hci_fleet_outcome *outcome,
-                         const hci_fleet_digest *digest, char row[HCI_FLEET_ROW_SIZE], hci_note *note)
+static hci_status end_once(const hci_fleet_results *results, size_t motor, const hci_fleet_outcome *outcome,
+                           const hci_fleet_digest *digest, char row[HCI_FLEET_ROW_SIZE], hci_note *note)
 {
     char part[PATH_SIZE], path[PATH_SIZE];
     hci_status status = path_of(results, motor, "part", part, note);
     if (!status) status = path_of(results, motor, "", path, note);
     if (!status && outcome->state > HCI_FLEET_OPEN) status = hci_fleet_begin(results, motor, note);
     if (status) return status;
+    if (outcome->state > HCI_FLEET_OPEN) (void)hci_memory_was_short(); /* it may be why there is no result */
     hci_fleet_row_make(results, motor, outcome, digest, part, row);
     status = write_row(results, part, row, note);
     return status ? status : appear(results, part, path, note);
+}
+
+/* A result for whose row there was no memory is none. */
+hci_status hci_fleet_end(const hci_fleet_results *results, size_t motor, const hci_fleet_outcome *outcome,
+                         const hci_fleet_digest *digest, char row[HCI_FLEET_ROW_SIZE], hci_note *note)
+{
+    const hci_fleet_outcome failed = {.state = HCI_FLEET_FAILED,
+                                      .exit_code = hci_status_exit_code(HCI_ERROR_MEMORY),
+                                      .reason = "out of memory for its row"};
+    const hci_status status = end_once(results, motor, outcome, digest, row, note);
+    if (status != HCI_ERROR_MEMORY || outcome->state > HCI_FLEET_OPEN) return status;
+    note->text[0] = '\0';
+    return end_once(results, motor, &failed, digest, row, note);
 }
 
 /* ---- what is done ---- */
@@ -145,7 +159,7 @@ hci_status hci_fleet_known(const hci_fleet_results *results, size_t motor, const
     if (status) return status;
     strcat(path, "/" ROW);
     char *text = hci_whole_file(path);
-    if (!text) return HCI_OK;
+    if (!text) return hci_memory_was_short() ? hci_note_memory(note, path, "reading it") : HCI_OK;
     hci_fleet_header(results->command, header);
     if (!take_row(text, header, row))
         status = other_words(path, "found a row of another command or version", note);

@@ -31,6 +31,7 @@ static hci_status read_text(const char *folder, const char *name, char **text, h
     char path[4096];
     snprintf(path, sizeof path, "%s/%s", folder, name);
     *text = hci_whole_file(path);
+    if (!*text && hci_memory_was_short()) return hci_note_memory(note, path, "reading it");
     if (!*text) return hci_note_set(note, HCI_ERROR_OUTPUT, "%s: cannot be read again", path);
     flatten_include(*text);
     return HCI_OK;

@@ -27,11 +27,15 @@ static void solve_torque(const hci_grid_request *r, const hci_grid_point *p, hci
 
 void hci_grid_solve(const hci_grid_request *request, const hci_grid_point *point, hci_grid_row *row)
 {
+    (void)hci_memory_was_short();
     hci_grid_row_begin(point, row);
     if (request->kind == HCI_GRID_ENVELOPE)
         hci_grid_envelope(request, point, row);
     else
         solve_torque(request, point, row);
+    if (!hci_memory_was_short()) return;
+    hci_grid_fail(point, "out of memory", row);
+    row->out_of_memory = true;
 }
 
 /* ---- the grid ---- */

@@ -287,6 +287,36 @@ static void test_a_journal_of_others_is_not_followed(void)
     }
 }
 
+/* What had no memory may be missing in it. */
+static void test_a_set_for_which_memory_was_short_is_not_written(void)
+{
+    hci_note note = {0};
+    hci_output *output = two_files(files_root);
+    hci_memory_fail_once_after(0);
+    TEST_ASSERT_NULL(hci_memory_new(1, 1));
+    TEST_ASSERT_EQUAL(HCI_ERROR_MEMORY, hci_output_commit(output, &note));
+    TEST_ASSERT_NOT_NULL(strstr(note.text, "out of memory"));
+    TEST_ASSERT_EQUAL(0, files_count(files_root));
+    TEST_ASSERT_EQUAL(HCI_OK, hci_output_commit(two_files(files_root), NULL));
+}
+
+/* A pipe that nobody writes into would hold the process up, behind signals that wait. */
+static void test_a_journal_that_is_no_plain_file_is_left(void)
+{
+    for (int kind = 0; kind < 2; kind++) {
+        const char *journal = files_path(".hci-journal");
+        TEST_ASSERT_EQUAL(0, kind ? symlink("/dev/zero", journal) : mkfifo(journal, 0666));
+        alarm(5);
+        hci_output_finish_interrupted(files_root);
+        hci_output *output = open_set(files_root);
+        start(output, "a.csv", "new a\n");
+        start(output, "b.csv", "new b\n");
+        TEST_ASSERT_EQUAL(HCI_OK, hci_output_commit(output, NULL));
+        alarm(0);
+        TEST_ASSERT_EQUAL(2, files_count(files_root));
+    }
+}
+
 /* ---- what is refused ---- */
 
 static void assert_refused(const char *folder, const char *name, hci_status expected, const char *reason)
@@ -490,6 +520,8 @@ int main(void)
     RUN_TEST(test_left_over_files);
     RUN_TEST(test_a_set_that_was_interrupted_is_ended);
     RUN_TEST(test_a_journal_of_others_is_not_followed);
+    RUN_TEST(test_a_set_for_which_memory_was_short_is_not_written);
+    RUN_TEST(test_a_journal_that_is_no_plain_file_is_left);
     RUN_TEST(test_folders_that_cannot_be_are_refused);
     RUN_TEST(test_only_plain_files_are_replaced);
     RUN_TEST(test_names_have_no_folder_part);

@@ -56,7 +56,9 @@ hci_status hci_output_checksums(hci_output *output,
  * left, and files that were there before are untouched: each is kept by a second link until the last rename
  * has succeeded; signals wait until then. When the process is killed or the power fails between the first and
  * the last rename, the next set that is opened there, or hci_output_finish_interrupted, does the rest; until
- * then the folder has a hidden `.hci-journal`. HCI_ERROR_OUTPUT, _NOT_FINITE, _MEMORY. */
+ * then the folder has a hidden `.hci-journal`. HCI_ERROR_OUTPUT, _NOT_FINITE, _MEMORY, which is also where
+ * an allocation has failed since the last commit, and something of what is written may not be what it is
+ * else. */
 hci_status hci_output_commit(hci_output *output, hci_note *note);
 
 /* Removes the temporary files and frees. output may be NULL. */

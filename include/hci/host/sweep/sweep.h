@@ -102,6 +102,7 @@ typedef struct {
     hci_grid_figures sine;    /* of the plain sine: envelope: of its largest mean torque within the same
                                * limits; else of the one with the wanted mean, without limits */
     char reason[HCI_GRID_REASON_SIZE]; /* of a point that failed, or "" */
+    bool out_of_memory;                /* it failed for that: to be solved again, and not to be kept */
 } hci_grid_row;
 
 /* A row of a point that failed. */
@@ -132,7 +133,7 @@ hci_status hci_grid_plan_make(const hci_grid_request *request, const hci_grid_sp
 /* Frees what a plan holds and empties it. */
 void hci_grid_plan_release(hci_grid_plan *plan);
 
-/* Solves one point. What goes wrong is its verdict and reason. */
+/* Solves one point. What goes wrong is its verdict and reason; a lack of memory is told apart. */
 void hci_grid_solve(const hci_grid_request *request, const hci_grid_point *point, hci_grid_row *row);
 
 /* A grid, solved as far as it is. Start with {0}. */
