@@ -174,22 +174,23 @@ static closed_loop loop_of(const hci_plant *plant, const hci_current_source *sou
 {
     closed_loop c = {.set_point = SPEED_rad_per_s, .load_Nm = 8.0};
     c.drive.plant = *plant;
-    c.drive.control = (hci_control){.table = &plant->table,
-                                    .step_s = step_s,
-                                    .dc_link_V = 311.0,
-                                    .speed_controlled = 1,
-                                    .speed = {20.0, 200.0},
-                                    .speed_every = every,
-                                    .torque_limit_Nm = 9.8,
-                                    .sources = source,
-                                    .source_count = 1,
-                                    .current_every = every,
-                                    .id_limit = 8.0,
-                                    .iq_limit = 8.0,
-                                    .peak_limit_A = INFINITY,
-                                    .loop = loop,
-                                    .hysteresis = {0.1, hci_hysteresis_hold(20e3, step_s)},
-                                    .current = {{50.0, 5000.0}, 1, 1}};
+    c.drive.control = (hci_control){
+        .table = &plant->table,
+        .step_s = step_s,
+        .dc_link_V = 311.0,
+        .speed_controlled = 1,
+        .speed = {20.0, 200.0},
+        .speed_every = every,
+        .torque_limit_Nm = 9.8,
+        .sources = source,
+        .source_count = 1,
+        .current_every = every,
+        .id_limit = 8.0,
+        .iq_limit = 8.0,
+        .peak_limit_A = INFINITY,
+        .loop = loop,
+        .hysteresis = {0.1, hci_hysteresis_hold(20e3, step_s)},
+        .current = {.pi = {{50.0, 5000.0}, {50.0, 5000.0}}, .decoupled = true, .delay_steps = 1}};
     c.state.plant.speed_rad_per_s = SPEED_rad_per_s;
     return c;
 }

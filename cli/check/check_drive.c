@@ -24,12 +24,23 @@ static void show_axis(const char *axis, double bandwidth_Hz)
         cli_say("%s beyond what the sampling does for", axis);
 }
 
+/* What not every loop has. */
+static void show_more(const hci_drive_facts *f)
+{
+    const hci_drive_data *d = &f->drive;
+    if (d->kp_q_ohm < d->kp_ohm || d->kp_q_ohm > d->kp_ohm || d->ki_q_ohm_per_s < d->ki_ohm_per_s ||
+        d->ki_q_ohm_per_s > d->ki_ohm_per_s)
+        cli_say("  of q         k_p %.4g V/A, k_i %.4g V/(A·s)\n", d->kp_q_ohm, d->ki_q_ohm_per_s);
+    if (d->filter_s > 0.0) cli_say("  filter       of the measured current, %.4g us\n", 1e6 * d->filter_s);
+}
+
 static void show_loop(const hci_drive_facts *f)
 {
     cli_say("  loop         pi at %.4g kHz, k_p %.4g V/A, k_i %.4g V/(A·s); a voltage acts %.4g us after "
             "its sample\n",
             1e-3 / f->drive.sample_s, f->drive.kp_ohm, f->drive.ki_ohm_per_s,
             1e6 * f->drive.computing_delay_s);
+    show_more(f);
     cli_say("  bandwidth    ");
     show_axis("d", f->bandwidth_Hz[0]);
     show_axis(", q", f->bandwidth_Hz[1]);

@@ -23,7 +23,7 @@
 #include "hci/table.h"
 
 /* Version of the layout below; emitted files refuse to compile with another one. */
-#define HCI_LOOP_VERSION 1
+#define HCI_LOOP_VERSION 2
 
 /* The most points of a table in RAM: sizes and angles then fit 32 bits. */
 #define HCI_LOOP_TABLE_MOST_POINTS 65536u
@@ -40,8 +40,8 @@ typedef struct {
     hci_loop_pair own_Vs[2];     /* what the drive's own decoupling adds at i*, by ω */
 } hci_loop_wave;
 
-/* Measured answers of a loop at one frequency: (1/G − 1)/(R + jνL), what is to be asked for on top of i* for
- * each volt that it lacks. */
+/* Measured answers of a loop at one frequency: (1/G − F)/(R + jνL), F the filter of the measured current:
+ * what is to be asked for on top of F i* for each volt that it lacks. */
 typedef struct {
     float frequency_rad_per_s; /* ascending, > 0 */
     float re[2], im[2];        /* d and q, A/V */
@@ -71,8 +71,9 @@ typedef struct {
     float torque_high_Nm;               /* of the last level; what is outside is clamped */
     float resistance_ohm;               /* of a phase */
     float inductance_H[2];              /* L_d, L_q */
-    float proportional_ohm;             /* k_p */
-    float integral_ohm_per_s;           /* k_i */
+    float proportional_ohm[2];          /* k_p of d and q */
+    float integral_ohm_per_s[2];        /* k_i of both */
+    float filter;                       /* share of a new reading in what the PI sees; 0: no filter */
     float sample_s;                     /* from one sample to the next */
     float delay_s;                      /* from a sample to the middle of its voltage's use */
     float whole_rad_per_s;              /* |ω| below which nothing fades */
@@ -142,12 +143,13 @@ static inline hci_loop_pair hci_loop_plus(hci_loop_pair x, float factor, hci_loo
 
 /* What all levels of an order share. */
 typedef struct {
-    float nu_rad_per_s;       /* frequency in the rotor frame, signed like the speed */
-    float half;               /* ν T/2 */
-    float share;              /* what fading leaves of it */
-    float ahead_re, ahead_im; /* e^(jν·delay) */
-    float straight, crossed;  /* 1/sinc of the held voltage, mean and half difference of both sequences */
-    float image;              /* 1/sinc² − 1 */
+    float nu_rad_per_s;         /* frequency in the rotor frame, signed like the speed */
+    float half;                 /* ν T/2 */
+    float share;                /* what fading leaves of it */
+    float ahead_re, ahead_im;   /* e^(jν·delay) */
+    float straight, crossed;    /* 1/sinc of the held voltage, mean and half difference of both sequences */
+    float image;                /* 1/sinc² − 1 */
+    float filter_re, filter_im; /* what the filter of the measured current makes of it */
 } hci_loop_order;
 
 /* What is left of an order at a speed. */
@@ -171,6 +173,22 @@ static inline void hci_loop_hold(const hci_loop_f32 *loop, float speed_rad_per_s
     order->image = 1.0f / (sinc * sinc) - 1.0f;
 }
 
+/* F = f/(1 − (1 − f) e^(−jνT)). */
+static inline void hci_loop_filter(const hci_loop_f32 *loop, hci_loop_order *order)
+{
+    const float left = 1.0f - loop->filter;
+    float s, c, re, im, scale;
+    order->filter_re = 1.0f;
+    order->filter_im = 0.0f;
+    if (!(loop->filter > 0.0f) || !(left > 0.0f)) return;
+    hci_angle_sine_cosine(hci_angle_from_rad(order->nu_rad_per_s * loop->sample_s), &s, &c);
+    re = 1.0f - left * c;
+    im = left * s;
+    scale = loop->filter / (re * re + im * im);
+    order->filter_re = scale * re;
+    order->filter_im = -scale * im;
+}
+
 /* The order number k at a speed. */
 static inline hci_loop_order hci_loop_order_at(const hci_loop_f32 *loop, uint32_t k, float speed_rad_per_s)
 {
@@ -182,6 +200,7 @@ static inline hci_loop_order hci_loop_order_at(const hci_loop_f32 *loop, uint32_
     hci_angle_sine_cosine(hci_angle_from_rad(order.nu_rad_per_s * loop->delay_s), &order.ahead_im,
                           &order.ahead_re);
     hci_loop_hold(loop, speed_rad_per_s, &order);
+    hci_loop_filter(loop, &order);
     return order;
 }
 
@@ -194,27 +213,30 @@ static inline void hci_loop_held(const hci_loop_order *order, const hci_loop_pai
 }
 
 /* What samples read where i* is meant: a held voltage makes ripple between the samples, which they see as
- * this much more of the order, image·v/(jνL). */
+ * this much more of the order, image·v/(jνL); and of that what the filter lets through. */
 static inline hci_loop_pair hci_loop_sampled(const hci_loop_f32 *loop, const hci_loop_order *order, int axis,
                                              hci_loop_pair current, hci_loop_pair voltage)
 {
-    if (!(order->image > 0.0f)) return current;
-    return hci_loop_plus(
-        current, 1.0f,
-        hci_loop_times(voltage, 0.0f, -order->image / (order->nu_rad_per_s * loop->inductance_H[axis])));
+    if (order->image > 0.0f)
+        current = hci_loop_plus(
+            current, 1.0f,
+            hci_loop_times(voltage, 0.0f, -order->image / (order->nu_rad_per_s * loop->inductance_H[axis])));
+    return hci_loop_times(current, order->filter_re, order->filter_im);
 }
 
 /* 1/C(ν) of the sampled controller, C = k_p − k_i T/2 − j (k_i T/2) cot(ν T/2). */
 static inline hci_loop_pair hci_loop_through_control(const hci_loop_f32 *loop, const hci_loop_order *order,
-                                                     hci_loop_pair x)
+                                                     int axis, hci_loop_pair x)
 {
-    const float held = 0.5f * loop->integral_ohm_per_s * loop->sample_s;
+    const float held = 0.5f * loop->integral_ohm_per_s[axis] * loop->sample_s;
     const float sinc = hci_loop_sinc(order->half), y = order->half * order->half;
     const float cosine = 1.0f - y * (0.5f - y * (4.16666667e-2f - y * (1.38888889e-3f - y * 2.48015873e-5f)));
     /* times x = ν T/2, so that nothing is infinite at a standstill: 1/C = x/(x re − j im) */
-    const float re = (loop->proportional_ohm - held) * order->half, im = held * cosine / sinc;
+    const float re = (loop->proportional_ohm[axis] - held) * order->half, im = held * cosine / sinc;
     const float square = re * re + im * im;
     const float scale = square > 0.0f ? order->half / square : 0.0f;
+    if (!(held > 0.0f) && loop->proportional_ohm[axis] > 0.0f) /* nothing sees to the mean */
+        return hci_loop_times(x, 1.0f / loop->proportional_ohm[axis], 0.0f);
     return hci_loop_times(x, re * scale, im * scale);
 }
 
@@ -255,11 +277,12 @@ static inline void hci_loop_compensated(const hci_loop_f32 *loop, const hci_loop
             out[a] = hci_loop_times(wave->own_Vs[a], order->ahead_re, -order->ahead_im); /* it acts as late */
             out[a] = hci_loop_through_response(loop, order->nu_rad_per_s, a,
                                                hci_loop_plus(needed[a], -speed_rad_per_s, out[a]));
-            out[a] = hci_loop_plus(out[a], 1.0f, wave->current_A[a]);
+            out[a] = hci_loop_plus(out[a], 1.0f,
+                                   hci_loop_times(wave->current_A[a], order->filter_re, order->filter_im));
         } else {
             out[a] = hci_loop_plus(hci_loop_times(held[a], order->ahead_re, order->ahead_im),
                                    -speed_rad_per_s, wave->own_Vs[a]);
-            out[a] = hci_loop_plus(hci_loop_through_control(loop, order, out[a]), 1.0f,
+            out[a] = hci_loop_plus(hci_loop_through_control(loop, order, a, out[a]), 1.0f,
                                    hci_loop_sampled(loop, order, a, wave->current_A[a], needed[a]));
         }
     }

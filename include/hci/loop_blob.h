@@ -10,12 +10,12 @@
  *        then floats:
  *    48  torque of the first level, N*m       52  of the last
  *    56  resistance, ohm                      60  L_d, H
- *    64  L_q, H                               68  k_p, ohm
- *    72  k_i, ohm/s                           76  sample, s
+ *    64  L_q, H                               68  k_p of d, ohm
+ *    72  k_i of d, ohm/s                      76  sample, s
  *    80  delay, s                             84  speed below which nothing fades, rad/s
  *    88  lead, s
  *    92  name of the machine, up to 35 bytes and zeros
- *   128  waves, ranges, responses; orders of 16 bits, filled up to four bytes
+ *   128  waves, ranges, responses; orders of 16 bits, filled up to four bytes; k_p and k_i of q, filter
  *        CRC-32 of all that stands before
  *
  * Low bytes first. For start-up. C99 and C++. */
@@ -37,7 +37,8 @@ typedef char
 
 /* Where the parts begin, and where the CRC-32 is. */
 typedef struct {
-    uint32_t ranges, responses, orders, end; /* bytes from the beginning; waves are at HCI_BLOB_HEAD */
+    uint32_t ranges, responses, orders, axis_q,
+        end; /* bytes from the beginning; waves are at HCI_BLOB_HEAD */
 } hci_loop_blob_places;
 
 /* Whether numbers are so small that places can be computed of them. */
@@ -59,7 +60,8 @@ static inline hci_loop_blob_places hci_loop_blob_places_of(const void *blob)
     at.ranges = HCI_BLOB_HEAD + orders * hci_blob_u32(blob, 32u) * 48u;
     at.responses = at.ranges + orders * 8u;
     at.orders = at.responses + hci_blob_u32(blob, 28u) * 20u;
-    at.end = (at.orders + orders * 2u + 3u) & ~3u;
+    at.axis_q = (at.orders + orders * 2u + 3u) & ~3u;
+    at.end = at.axis_q + 12u;
     return at;
 }
 
@@ -83,7 +85,7 @@ static inline void hci_loop_blob_point(const void *blob, hci_loop_blob_places at
 }
 
 /* The numbers that are no arrays. */
-static inline void hci_loop_blob_numbers(const void *blob, hci_loop_f32 *loop)
+static inline void hci_loop_blob_numbers(const void *blob, hci_loop_blob_places at, hci_loop_f32 *loop)
 {
     loop->order_count = hci_blob_u32(blob, 24u);
     loop->response_count = hci_blob_u32(blob, 28u);
@@ -97,8 +99,11 @@ static inline void hci_loop_blob_numbers(const void *blob, hci_loop_f32 *loop)
     loop->resistance_ohm = hci_blob_float(blob, 56u);
     loop->inductance_H[0] = hci_blob_float(blob, 60u);
     loop->inductance_H[1] = hci_blob_float(blob, 64u);
-    loop->proportional_ohm = hci_blob_float(blob, 68u);
-    loop->integral_ohm_per_s = hci_blob_float(blob, 72u);
+    loop->proportional_ohm[0] = hci_blob_float(blob, 68u);
+    loop->proportional_ohm[1] = hci_blob_float(blob, at.axis_q);
+    loop->integral_ohm_per_s[0] = hci_blob_float(blob, 72u);
+    loop->integral_ohm_per_s[1] = hci_blob_float(blob, at.axis_q + 4u);
+    loop->filter = hci_blob_float(blob, at.axis_q + 8u);
     loop->sample_s = hci_blob_float(blob, 76u);
     loop->delay_s = hci_blob_float(blob, 80u);
     loop->whole_rad_per_s = hci_blob_float(blob, 84u);
@@ -118,7 +123,7 @@ static inline hci_blob_verdict hci_loop_blob_read(const void *blob, uint32_t siz
     at = hci_loop_blob_places_of(blob);
     if (hci_blob_u32(blob, 8u) != at.end + 4u) return HCI_BLOB_DAMAGED;
     hci_loop_blob_point(blob, at, &x);
-    hci_loop_blob_numbers(blob, &x);
+    hci_loop_blob_numbers(blob, at, &x);
     x.crc32 = hci_loop_crc32(&x); /* of waves that the blob's own CRC has found whole */
     if (hci_loop_check(&x) != HCI_TABLE_GOOD) return HCI_BLOB_DAMAGED;
     *loop = x;

@@ -62,6 +62,9 @@ static const char *check_parameters(hci_fmu_model *m)
     if (!(VALUE(REMEDY) >= 1.0 && VALUE(REMEDY) <= 4.0)) return "remedy is none of the four";
     if (!(VALUE(DC_LINK) > 0.0)) return "dc_link_voltage has to be above 0";
     if (!(VALUE(KP) >= 0.0 && VALUE(KI) >= 0.0)) return "current_kp and current_ki have to be 0 or more";
+    if (!(VALUE(KP_Q) >= 0.0 && VALUE(KI_Q) >= 0.0))
+        return "current_kp_q and current_ki_q have to be 0 or more";
+    if (!(VALUE(FILTER) >= 0.0 && VALUE(FILTER) <= 1.0)) return "current_filter has to be 0 to 1";
     if (!(VALUE(QUANTUM) >= 0.0)) return "current_quantum has to be 0 or more";
     if (!(VALUE(COUNTS) >= 0.0 && VALUE(COUNTS) <= 1e9)) return "encoder_counts has to be 0 to 1e9";
     return NULL;
@@ -71,7 +74,9 @@ static void set_loop(hci_fmu_model *m)
 {
     const hci_fmu_controller_data *d = &hci_fmu_controller;
     hci_current_pi *pi = &m->control.current;
-    pi->pi = (hci_pi){VALUE(KP), VALUE(KI)};
+    pi->pi[0] = (hci_pi){VALUE(KP), VALUE(KI)};
+    pi->pi[1] = (hci_pi){VALUE(KP_Q), VALUE(KI_Q)};
+    pi->filter = VALUE(FILTER);
     pi->decoupled = d->decoupled;
     pi->delay_steps = d->delay_steps;
     pi->sinusoidal = d->sinusoidal;

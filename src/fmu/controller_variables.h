@@ -26,7 +26,11 @@
     X(DEAD_TIME_VOLTAGE, "dead_time_voltage", REAL, PARAMETER, "V",                                          \
       "what is added for the inverter's dead time: dc link x dead time / period; 0: nothing")                \
     X(DEAD_TIME_CROSSING, "dead_time_crossing", REAL, PARAMETER, "A",                                        \
-      "current below which that is added in part")
+      "current below which that is added in part")                                                           \
+    X(KP_Q, "current_kp_q", REAL, PARAMETER, "V/A", "of q in the PI current loop")                           \
+    X(KI_Q, "current_ki_q", REAL, PARAMETER, "V/(A.s)", "the same")                                          \
+    X(FILTER, "current_filter", REAL, PARAMETER, "",                                                         \
+      "share of a new reading in what the PI sees of the current; 0: no filter")
 
 enum {
 #define HCI_FMU_KEY(key, name, type, causality, unit, description) HCI_FMU_CONTROLLER_##key,

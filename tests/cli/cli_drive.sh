@@ -184,7 +184,7 @@ if command -v cc >/dev/null; then
         check "$folder: smooth.c does not compile" cc -std=c99 -Wall -Wextra -Wpedantic -Wconversion -Wdouble-promotion -Werror -Iinclude \
             -c "$work/$folder/smooth.c" -o "$work/$folder/smooth.o"
     done
-    sed 's/HCI_LOOP_VERSION 1/HCI_LOOP_VERSION 2/' include/hci/loop.h >"$work/loop.h"
+    sed 's/HCI_LOOP_VERSION 2/HCI_LOOP_VERSION 3/' include/hci/loop.h >"$work/loop.h"
     mkdir -p "$work/hci" && mv "$work/loop.h" "$work/hci" && cp include/hci/table.h "$work/hci"
     check "another version compiles" sh -c "! cc -std=c99 -I'$work' -c '$work/c/smooth.c' -o '$work/smooth.o' 2>/dev/null"
 fi

@@ -62,7 +62,8 @@ unsigned hci_hysteresis_step(const hci_hysteresis *hysteresis, hci_hysteresis_st
  * Gains in V/A and V/(A·s) are the same in amplitude-invariant and orthonormal axes. The voltage is turned
  * ahead by the rotor's way from the sample to the middle of its use. */
 typedef struct {
-    hci_pi pi;      /* of both axes, V/A and V/(A·s) */
+    hci_pi pi[2];   /* of d and q, V/A and V/(A·s) */
+    double filter;  /* share of a new reading in the low-pass of i_d and i_q before the PI; 0, 1: none */
     bool decoupled; /* adds ω (e + L'i) and the rotation of L i, from the table */
     /* Steps from a sample to the use of its voltage, at most those of a sample: all of them where a PWM unit
      * is loaded once a period. */
@@ -74,6 +75,7 @@ typedef struct {
 /* What a PI current control keeps from sample to sample. */
 typedef struct {
     double integral[2]; /* d, q, V */
+    double filtered[2]; /* d, q, A; where there is a filter */
     double v[2];        /* in use, αβ */
     double pending[2];  /* from the last sample */
     unsigned wait;      /* steps until that is used; 0: it is */

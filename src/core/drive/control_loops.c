@@ -97,15 +97,28 @@ static double limit_voltage(const hci_control *control, double v[2])
                                        : hci_inverter_average(control->dc_link_V, v);
 }
 
+/* What the PI sees in place of reference − current: reference − filtered current. */
+static void filter_error(const hci_current_pi *pi, hci_current_pi_state *state, const double current_dq[2],
+                         double error_dq[2])
+{
+    if (!(pi->filter > 0.0)) return;
+    for (int k = 0; k < 2; ++k) {
+        state->filtered[k] += pi->filter * (current_dq[k] - state->filtered[k]);
+        error_dq[k] += current_dq[k] - state->filtered[k];
+    }
+}
+
 /* state->pending: out. */
 static void pi_in_rotor_frame(const hci_control *control, hci_current_pi_state *state, const pi_sample *x)
 {
-    const hci_pi *pi = &control->current.pi;
-    double s = sin(x->theta_rad), c = cos(x->theta_rad), error_dq[2], raw[2], ahead[2];
+    const hci_pi *pi = control->current.pi;
+    double s = sin(x->theta_rad), c = cos(x->theta_rad), error_dq[2], current_dq[2], raw[2], ahead[2];
     to_rotor(x->error, s, c, error_dq);
+    to_rotor(x->current, s, c, current_dq);
+    filter_error(&control->current, state, current_dq, error_dq);
     to_rotor(x->feed, s, c, raw);
     for (int k = 0; k < 2; ++k)
-        raw[k] += pi->proportional * error_dq[k] + state->integral[k];
+        raw[k] += pi[k].proportional * error_dq[k] + state->integral[k];
     if (x->ahead_rad != 0.0) {
         s = sin(x->theta_rad + x->ahead_rad);
         c = cos(x->theta_rad + x->ahead_rad);
@@ -117,7 +130,7 @@ static void pi_in_rotor_frame(const hci_control *control, hci_current_pi_state *
     state->limited += factor < 1.0;
     for (int k = 0; k < 2; ++k)
         state->integral[k] =
-            integrate(pi, state->integral[k], error_dq[k], raw[k], factor * raw[k], x->sample_s);
+            integrate(&pi[k], state->integral[k], error_dq[k], raw[k], factor * raw[k], x->sample_s);
 }
 
 void hci_current_pi_sample(const hci_control *control, hci_control_state *state, const double current[2],

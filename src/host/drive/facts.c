@@ -53,19 +53,12 @@ static double bandwidth_Hz(const hci_loop_model *m, int axis, double highest_rad
 
 /* ---- stability ---- */
 
-static hci_loop_model with_gains(hci_loop_model m, double factor)
-{
-    m.kp_ohm *= factor;
-    m.ki_ohm_per_s *= factor;
-    return m;
-}
-
 static double gain_margin(const hci_loop_model *m)
 {
     double low = 1.0, high = 100.0;
     for (int k = 0; k < HALVINGS; ++k) {
         const double middle = sqrt(low * high);
-        const hci_loop_model more = with_gains(*m, middle);
+        const hci_loop_model more = hci_loop_with_gains(*m, middle);
         if (hci_loop_largest_pole(&more) < 1.0)
             low = middle;
         else
@@ -146,7 +139,7 @@ static explanation explain(const response *r, const hci_loop_model *m)
     keep_better(&best, HCI_RESPONSE_SIGN, off_of(r, m, -1.0, NULL), (double)NAN);
     for (int k = -96; k <= 96; ++k) {
         const double factor = pow(2.0, k / 24.0);
-        const hci_loop_model other = with_gains(*m, factor);
+        const hci_loop_model other = hci_loop_with_gains(*m, factor);
         keep_better(&best, HCI_RESPONSE_GAINS, off_of(r, &other, 1.0, NULL), factor);
     }
     for (int k = 0; k <= 40; ++k) {

@@ -1,5 +1,6 @@
 /* A drive and a machine that belong together: defaults, what is missing, and whether the loop is stable. */
 #include <math.h>
+#include <stdio.h>
 
 #include "host/base/quote.h"
 #include "host/drive/machine_model.h"
@@ -37,6 +38,11 @@ double hci_drive_sample_s(const hci_drive_data *drive)
     return isnan(drive->sample_s) ? SAMPLE_s : drive->sample_s;
 }
 
+double hci_drive_filter_share(const hci_drive_data *drive)
+{
+    return drive->filter_s > 0.0 ? -expm1(-hci_drive_sample_s(drive) / drive->filter_s) : 0.0;
+}
+
 double hci_drive_highest_rad_per_s(const hci_drive_data *drive)
 {
     return SAMPLING_SHARE * HCI_PI / hci_drive_sample_s(drive);
@@ -47,6 +53,9 @@ static void fill_defaults(hci_drive_data *d, const hci_machine_model *m)
     const double bandwidth_per_s = 0.2 / d->sample_s;
     fill(&d->kp_ohm, bandwidth_per_s * 0.5 * (m->inductance_H[0] + m->inductance_H[1]));
     fill(&d->ki_ohm_per_s, bandwidth_per_s * m->resistance_ohm);
+    fill(&d->kp_q_ohm, d->kp_ohm);
+    fill(&d->ki_q_ohm_per_s, d->ki_ohm_per_s);
+    fill(&d->filter_s, 0.0);
     fill(&d->computing_delay_s, d->sample_s);
     fill(&d->dead_time_s, 0.0);
     fill(&d->dead_time_crossing_A, 0.0);
@@ -70,14 +79,12 @@ static hci_status check_times(const hci_drive_data *d, hci_note *note)
 }
 
 /* The share of k_p and k_i at which the loop is just stable, by bisection; 0 where none is. */
-static double stable_share(hci_loop_model model)
+static double stable_share(hci_loop_model whole)
 {
-    const double kp = model.kp_ohm, ki = model.ki_ohm_per_s;
     double low = 0.0, high = 1.0;
     for (int k = 0; k < 24; ++k) {
         const double share = 0.5 * (low + high);
-        model.kp_ohm = share * kp;
-        model.ki_ohm_per_s = share * ki;
+        const hci_loop_model model = hci_loop_with_gains(whole, share);
         if (hci_loop_largest_pole(&model) < 1.0)
             low = share;
         else
@@ -86,20 +93,32 @@ static double stable_share(hci_loop_model model)
     return low;
 }
 
+enum { Q_SIZE = 64 };
+
+/* The gains of q in words, where they are others. */
+static const char *also_of_q(const hci_drive_data *d, char text[Q_SIZE])
+{
+    text[0] = '\0';
+    if (d->kp_q_ohm < d->kp_ohm || d->kp_q_ohm > d->kp_ohm || d->ki_q_ohm_per_s < d->ki_ohm_per_s ||
+        d->ki_q_ohm_per_s > d->ki_ohm_per_s)
+        snprintf(text, Q_SIZE, " (of q %g and %g)", d->kp_q_ohm, d->ki_q_ohm_per_s);
+    return text;
+}
+
 static hci_status check_stable(const hci_drive_data *d, const hci_machine_model *m, double speed_rad_per_s,
                                hci_note *note)
 {
     const hci_loop_model model = hci_drive_loop(d, m, speed_rad_per_s);
     const double pole = hci_loop_largest_pole(&model);
-    char path[HCI_QUOTE_PATH_SIZE];
+    char path[HCI_QUOTE_PATH_SIZE], q[Q_SIZE];
     if (pole < 1.0) return HCI_OK;
     const double share = stable_share(model);
     if (share > 1e-3)
         return hci_note_set(
             note, HCI_ERROR_INPUT,
-            "%s: `current_kp` of %g V/A with `current_ki` of %g V/(A*s) is not stable at %g rpm: "
+            "%s: `current_kp` of %g V/A with `current_ki` of %g V/(A*s)%s is not stable at %g rpm: "
             "largest pole %.4g, expected less than 1; both together at most %.2g of that are",
-            file_of(d, path), d->kp_ohm, d->ki_ohm_per_s,
+            file_of(d, path), d->kp_ohm, d->ki_ohm_per_s, also_of_q(d, q),
             speed_rad_per_s * 30.0 / HCI_PI / m->table.pole_pairs, pole, share);
     return hci_note_set(
         note, HCI_ERROR_INPUT,

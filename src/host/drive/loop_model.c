@@ -130,11 +130,32 @@ static sampled_plant sample_plant(const hci_loop_model *m)
     return p;
 }
 
-/* What the control makes of the measured current but for its integral: k_p − decoupling. */
-static hci_matrix2 by_measured(const hci_loop_model *m)
+/* What the decoupling adds by the measured current. */
+static hci_matrix2 decoupling_of(const hci_loop_model *m)
 {
     const double w = m->decoupled ? m->speed_rad_per_s : 0.0;
-    return (hci_matrix2){{{m->kp_ohm, w * m->inductance_H[1]}, {-w * m->inductance_H[0], m->kp_ohm}}};
+    return (hci_matrix2){{{0.0, -w * m->inductance_H[1]}, {w * m->inductance_H[0], 0.0}}};
+}
+
+/* Share of a new reading in what the PI sees. */
+static double new_share(const hci_loop_model *m)
+{
+    return m->filter > 0.0 ? m->filter : 1.0;
+}
+
+double complex hci_loop_filter_at(const hci_loop_model *m, double nu)
+{
+    const double share = new_share(m);
+    return share / (1.0 - (1.0 - share) * cexp(-J * nu * m->sample_s));
+}
+
+hci_loop_model hci_loop_with_gains(hci_loop_model m, double factor)
+{
+    for (int axis = 0; axis < 2; ++axis) {
+        m.kp_ohm[axis] *= factor;
+        m.ki_ohm_per_s[axis] *= factor;
+    }
+    return m;
 }
 
 /* ---- the answer at one frequency ---- */
@@ -167,11 +188,13 @@ static hci_matrix2 admittance_at(const hci_loop_model *m, double nu)
 hci_loop_answer hci_loop_answer_at(const hci_loop_model *m, double nu)
 {
     const double complex z = cexp(J * nu * m->sample_s);
-    const double complex integral = m->ki_ohm_per_s * m->sample_s / (z - 1.0);
+    const double complex sum = m->sample_s / (z - 1.0);
     const sampled_plant p = sample_plant(m);
     const hci_matrix2 admittance = admittance_at(m, nu);
-    const hci_matrix2 control = diagonal(m->kp_ohm + integral, m->kp_ohm + integral);
-    const hci_matrix2 feedback = plus(by_measured(m), integral, diagonal(1.0, 1.0));
+    const hci_matrix2 control =
+        diagonal(m->kp_ohm[0] + m->ki_ohm_per_s[0] * sum, m->kp_ohm[1] + m->ki_ohm_per_s[1] * sum);
+    const hci_matrix2 feedback =
+        plus(plus(diagonal(0.0, 0.0), hci_loop_filter_at(m, nu), control), -1.0, decoupling_of(m));
     const hci_matrix2 sampled = times(inverse(plus(diagonal(z, z), -1.0, p.current)),
                                       plus(p.now, 1.0 / z, p.before)); /* held voltage to sampled current */
     const hci_matrix2 loop = inverse(plus(diagonal(1.0, 1.0), 1.0, times(feedback, sampled)));
@@ -184,25 +207,45 @@ hci_loop_answer hci_loop_answer_at(const hci_loop_model *m, double nu)
 
 /* ---- stability ---- */
 
-enum { STATES = 6 }; /* current, integral, last output */
+enum { CURRENT = 0, INTEGRAL = 2, OUTPUT = 4, FILTERED = 6, STATES = 8 };
+
+/* What the control puts out of the states: −k_p of what it sees, its integral and the decoupling. */
+static void put_output(const hci_loop_model *m, double u[2][STATES])
+{
+    const hci_matrix2 decoupling = decoupling_of(m);
+    const double share = new_share(m);
+    memset(u, 0, 2 * sizeof *u);
+    for (int i = 0; i < 2; ++i) {
+        for (int j = 0; j < 2; ++j)
+            u[i][CURRENT + j] = creal(decoupling.m[i][j]);
+        u[i][CURRENT + i] -= share * m->kp_ohm[i];
+        u[i][FILTERED + i] = -(1.0 - share) * m->kp_ohm[i];
+        u[i][INTEGRAL + i] = m->ki_ohm_per_s[i] > 0.0;
+    }
+}
 
 /* The closed loop from one sample to the next. Without k_i there is no integral, whose state would stand
  * still on the circle. */
 static void transition(const hci_loop_model *m, double a[STATES][STATES])
 {
-    const double integrates = m->ki_ohm_per_s > 0.0;
     const sampled_plant p = sample_plant(m);
-    const hci_matrix2 feedback = by_measured(m), through = times(p.now, feedback);
+    const double share = new_share(m);
+    double u[2][STATES];
+    put_output(m, u);
     memset(a, 0, STATES * sizeof *a);
     for (int i = 0; i < 2; ++i) {
+        for (int k = 0; k < STATES; ++k)
+            a[CURRENT + i][k] = creal(p.now.m[i][0]) * u[0][k] + creal(p.now.m[i][1]) * u[1][k];
         for (int j = 0; j < 2; ++j) {
-            a[i][j] = creal(p.current.m[i][j] - through.m[i][j]);
-            a[i][2 + j] = integrates * creal(p.now.m[i][j]);
-            a[i][4 + j] = creal(p.before.m[i][j]);
-            a[4 + i][j] = -creal(feedback.m[i][j]);
+            a[CURRENT + i][CURRENT + j] += creal(p.current.m[i][j]);
+            a[CURRENT + i][OUTPUT + j] += creal(p.before.m[i][j]);
         }
-        a[2 + i][i] = -m->ki_ohm_per_s * m->sample_s;
-        a[2 + i][2 + i] = a[4 + i][2 + i] = integrates;
+        a[INTEGRAL + i][INTEGRAL + i] = m->ki_ohm_per_s[i] > 0.0;
+        a[INTEGRAL + i][CURRENT + i] = -m->ki_ohm_per_s[i] * m->sample_s * share;
+        a[INTEGRAL + i][FILTERED + i] = -m->ki_ohm_per_s[i] * m->sample_s * (1.0 - share);
+        memcpy(a[OUTPUT + i], u[i], sizeof u[i]);
+        a[FILTERED + i][CURRENT + i] = share;
+        a[FILTERED + i][FILTERED + i] = 1.0 - share;
     }
 }
 

@@ -13,7 +13,8 @@
 
 typedef struct {
     double resistance_ohm, inductance_H[2]; /* L_d, L_q */
-    double kp_ohm, ki_ohm_per_s;
+    double kp_ohm[2], ki_ohm_per_s[2];      /* of d and q */
+    double filter; /* share of a new reading in the low-pass of the measured i_d and i_q; 0, 1: none */
     double sample_s, delay_s; /* from a sample to the beginning of its voltage's use, at most a sample */
     double speed_rad_per_s;   /* ω, electrical */
     bool decoupled;           /* ω L_q i_q and ω L_d i_d are added by the measured current */
@@ -22,6 +23,12 @@ typedef struct {
 typedef struct {
     double complex m[2][2]; /* rows: d, q of what comes out */
 } hci_matrix2;
+
+/* The same with all gains times a factor. */
+hci_loop_model hci_loop_with_gains(hci_loop_model model, double factor);
+
+/* What the low-pass makes of a current at ν. */
+double complex hci_loop_filter_at(const hci_loop_model *model, double nu_rad_per_s);
 
 /* Both at the frequency ν != 0 in the rotor frame, signed, |ν| below half the sampling. */
 typedef struct {

@@ -174,15 +174,17 @@ static double lead_of(const maker *m)
     return -carg(hci_loop_answer_at(&model, nu).reference.m[1][1]) / nu;
 }
 
-/* (1/G − 1)/(R + jνL) at a measured frequency. */
+/* (1/G − F)/(R + jνL) at a measured frequency, F the filter of the measured current. */
 static hci_loop_response response_of(const maker *m, const hci_loop_point *p)
 {
     const double nu = 2.0 * HCI_PI * p->frequency_Hz;
+    const hci_loop_model model = hci_drive_loop(m->task->drive, &m->machine, 0.0);
+    const double complex filter = hci_loop_filter_at(&model, nu);
     hci_loop_response r = {.frequency_rad_per_s = (float)nu};
     for (int a = 0; a < 2; ++a) {
         const double complex inverse = cexp(-p->phase_rad[a] * (double complex)I) / p->gain[a];
-        const double complex x = (inverse - 1.0) / (m->machine.resistance_ohm +
-                                                    nu * m->machine.inductance_H[a] * (double complex)I);
+        const double complex x = (inverse - filter) / (m->machine.resistance_ohm +
+                                                       nu * m->machine.inductance_H[a] * (double complex)I);
         r.re[a] = (float)creal(x);
         r.im[a] = (float)cimag(x);
     }
@@ -210,8 +212,11 @@ static void fill_loop(maker *m)
     loop->resistance_ohm = (float)m->machine.resistance_ohm;
     loop->inductance_H[0] = (float)m->machine.inductance_H[0];
     loop->inductance_H[1] = (float)m->machine.inductance_H[1];
-    loop->proportional_ohm = (float)d->kp_ohm;
-    loop->integral_ohm_per_s = (float)d->ki_ohm_per_s;
+    loop->proportional_ohm[0] = (float)d->kp_ohm;
+    loop->proportional_ohm[1] = (float)d->kp_q_ohm;
+    loop->integral_ohm_per_s[0] = (float)d->ki_ohm_per_s;
+    loop->integral_ohm_per_s[1] = (float)d->ki_q_ohm_per_s;
+    loop->filter = (float)hci_drive_filter_share(d);
     loop->sample_s = (float)d->sample_s;
     loop->delay_s = (float)(d->computing_delay_s + 0.5 * d->sample_s);
     loop->lead_s = (float)lead_of(m);

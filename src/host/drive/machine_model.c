@@ -117,8 +117,9 @@ hci_loop_model hci_drive_loop(const hci_drive_data *drive, const hci_machine_mod
 {
     return (hci_loop_model){.resistance_ohm = machine->resistance_ohm,
                             .inductance_H = {machine->inductance_H[0], machine->inductance_H[1]},
-                            .kp_ohm = drive->kp_ohm,
-                            .ki_ohm_per_s = drive->ki_ohm_per_s,
+                            .kp_ohm = {drive->kp_ohm, drive->kp_q_ohm},
+                            .ki_ohm_per_s = {drive->ki_ohm_per_s, drive->ki_q_ohm_per_s},
+                            .filter = hci_drive_filter_share(drive),
                             .sample_s = drive->sample_s,
                             .delay_s = drive->computing_delay_s,
                             .speed_rad_per_s = speed_rad_per_s,

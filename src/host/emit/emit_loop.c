@@ -189,17 +189,24 @@ static void write_value(hci_output *out, float value, const char *name)
     hci_output_text(out, "%s */\n", name);
 }
 
+static void write_axes(hci_output *out, const float value[2], const char *name)
+{
+    hci_output_text(out, "    {");
+    hci_emission_float(out, value[0], ", ");
+    hci_emission_float(out, value[1], "}, /* ");
+    hci_output_text(out, "%s */\n", name);
+}
+
 static void write_values(const hci_loop_f32 *loop, hci_output *out)
 {
     write_value(out, loop->base_order, "base_order");
     write_value(out, loop->torque_low_Nm, "torque_low_Nm");
     write_value(out, loop->torque_high_Nm, "torque_high_Nm");
     write_value(out, loop->resistance_ohm, "resistance_ohm");
-    hci_output_text(out, "    {");
-    hci_emission_float(out, loop->inductance_H[0], ", ");
-    hci_emission_float(out, loop->inductance_H[1], "}, /* inductance_H */\n");
-    write_value(out, loop->proportional_ohm, "proportional_ohm");
-    write_value(out, loop->integral_ohm_per_s, "integral_ohm_per_s");
+    write_axes(out, loop->inductance_H, "inductance_H");
+    write_axes(out, loop->proportional_ohm, "proportional_ohm");
+    write_axes(out, loop->integral_ohm_per_s, "integral_ohm_per_s");
+    write_value(out, loop->filter, "filter");
     write_value(out, loop->sample_s, "sample_s");
     write_value(out, loop->delay_s, "delay_s");
     write_value(out, loop->whole_rad_per_s, "whole_rad_per_s");

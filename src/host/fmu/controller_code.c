@@ -62,6 +62,9 @@ static void fill_start(hci_fmu_controller_model *m)
     m->start[HCI_FMU_CONTROLLER_REMEDY] = FEEDFORWARD;
     m->start[HCI_FMU_CONTROLLER_KP] = d->kp_ohm;
     m->start[HCI_FMU_CONTROLLER_KI] = d->ki_ohm_per_s;
+    m->start[HCI_FMU_CONTROLLER_KP_Q] = d->kp_q_ohm;
+    m->start[HCI_FMU_CONTROLLER_KI_Q] = d->ki_q_ohm_per_s;
+    m->start[HCI_FMU_CONTROLLER_FILTER] = hci_drive_filter_share(d);
     m->start[HCI_FMU_CONTROLLER_DC_LINK] = d->dc_link_voltage_V;
     m->start[HCI_FMU_CONTROLLER_QUANTUM] = d->current_quantum_A;
     m->start[HCI_FMU_CONTROLLER_COUNTS] = d->encoder_counts;

@@ -147,6 +147,9 @@ char *hci_drive_facts_json(const hci_drive_facts *f)
     hci_json_number(&json, "computing_delay_s", f->drive.computing_delay_s);
     hci_json_number(&json, "current_kp_ohm", f->drive.kp_ohm);
     hci_json_number(&json, "current_ki_V_per_As", f->drive.ki_ohm_per_s);
+    hci_json_number(&json, "current_kp_q_ohm", f->drive.kp_q_ohm);
+    hci_json_number(&json, "current_ki_q_V_per_As", f->drive.ki_q_ohm_per_s);
+    hci_json_number(&json, "current_filter_s", f->drive.filter_s);
     put_axes(&json, "inductance_H", f->inductance_H);
     put_axes(&json, "bandwidth_Hz", f->bandwidth_Hz);
     hci_json_number(&json, "lead_s", f->lead_s);

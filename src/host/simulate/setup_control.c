@@ -47,6 +47,16 @@ static hci_status set_delay(const hci_setup_task *b)
                            s->computing_delay_s);
 }
 
+/* k_p and k_i of d, which are those of q as well where nothing else is said. */
+static void set_gains(const hci_scenario *s, double kp_ohm, double ki_ohm_per_s, hci_control *control)
+{
+    const double sample_s = control->step_s * control->current_every;
+    control->current.pi[0] = (hci_pi){kp_ohm, ki_ohm_per_s};
+    control->current.pi[1] = (hci_pi){hci_value_or(s->current_kp_q_ohm, kp_ohm),
+                                      hci_value_or(s->current_ki_q_V_per_As, ki_ohm_per_s)};
+    if (s->current_filter_s > 0.0) control->current.filter = -expm1(-sample_s / s->current_filter_s);
+}
+
 /* Bandwidth 0.2 of a sample's rate, in rad: the 1.5 samples of delay then take 0.3 rad of the phase. */
 static void set_current_pi(const hci_setup_task *b)
 {
@@ -58,9 +68,8 @@ static void set_current_pi(const hci_setup_task *b)
         const hci_plant_point p = hci_plant_table_at(control->table, 2.0 * HCI_PI * k / 360.0);
         mean_H += 0.5 * (p.inductance_H[0] + p.inductance_H[2]) / 360.0;
     }
-    control->current.pi.proportional = hci_value_or(s->current_kp_ohm, bandwidth_per_s * mean_H);
-    control->current.pi.integral_per_s =
-        hci_value_or(s->current_ki_V_per_As, bandwidth_per_s * b->machine->resistance_ohm);
+    set_gains(s, hci_value_or(s->current_kp_ohm, bandwidth_per_s * mean_H),
+              hci_value_or(s->current_ki_V_per_As, bandwidth_per_s * b->machine->resistance_ohm), control);
     control->current.decoupled = hci_value_or(s->decoupling, 1.0) > 0.5;
     control->current.sinusoidal = b->loop && b->loop->sinusoidal;
     if (b->loop && b->loop->known) control->table = b->loop->known;

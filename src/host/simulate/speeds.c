@@ -53,6 +53,9 @@ static void fill_scenario(const grid *g, double speed_rad_per_s, hci_scenario *s
     s->current_sample_time_s = d->sample_s;
     s->current_kp_ohm = d->kp_ohm;
     s->current_ki_V_per_As = d->ki_ohm_per_s;
+    s->current_kp_q_ohm = d->kp_q_ohm;
+    s->current_ki_q_V_per_As = d->ki_q_ohm_per_s;
+    s->current_filter_s = d->filter_s;
     s->computing_delay_s = s->step_s * floor(d->computing_delay_s / s->step_s + 0.5);
     s->decoupling = d->decoupling != HCI_DECOUPLING_NONE;
     s->dc_link_voltage_V = d->dc_link_voltage_V;

@@ -140,7 +140,7 @@ static void current_step(double step_s, double speed, bool decoupled, double l_q
     deviation[0] = deviation[1] = 0.0;
     drive.control.step_s = step_s;
     drive.control.loop = HCI_CURRENT_PI;
-    drive.control.current = (hci_current_pi){.pi = {kp, ki}, .decoupled = decoupled};
+    drive.control.current = (hci_current_pi){.pi = {{kp, ki}, {kp, ki}}, .decoupled = decoupled};
     drive.plant.inertia_kgm2 = INFINITY;
     state.plant.theta_m_rad = 0.7;
     state.plant.speed_rad_per_s = speed;
@@ -198,7 +198,8 @@ static void test_pwm_delay_is_one_sample(void)
         use_machine(&PM_SINE, 256);
         drive.control.loop = HCI_CURRENT_PI;
         drive.control.current_every = 4;
-        drive.control.current = (hci_current_pi){.pi = {6.0, 0.0}, .delay_steps = delayed ? 4 : 0};
+        drive.control.current =
+            (hci_current_pi){.pi = {{6.0, 0.0}, {6.0, 0.0}}, .delay_steps = delayed ? 4 : 0};
         hci_measurement m = {{0.0, 0.0, 0.0}, 0.3, 2.0};
         for (int k = 0; k < 12; ++k) {
             hci_control_step(&drive.control, &state.control, &m, 1.0 + (k >= 4));
@@ -220,7 +221,7 @@ static void test_delay_in_steps(void)
     use_machine(&PM_SINE, 256);
     drive.control.loop = HCI_CURRENT_PI;
     drive.control.current_every = 4;
-    drive.control.current = (hci_current_pi){.pi = {6.0, 0.0}, .delay_steps = 3};
+    drive.control.current = (hci_current_pi){.pi = {{6.0, 0.0}, {6.0, 0.0}}, .delay_steps = 3};
     const hci_measurement m = {{0.0, 0.0, 0.0}, 0.3, 0.0};
     double last = 0.0;
     for (int k = 0; k < 16; ++k) {
@@ -279,7 +280,8 @@ static void test_dead_time_is_compensated(void)
         drive.plant.inertia_kgm2 = INFINITY;
         drive.control.loop = HCI_CURRENT_PI;
         drive.control.current_every = 10;
-        drive.control.current = (hci_current_pi){.pi = {40.0, 3000.0}, .decoupled = true, .delay_steps = 10};
+        drive.control.current =
+            (hci_current_pi){.pi = {{40.0, 3000.0}, {40.0, 3000.0}}, .decoupled = true, .delay_steps = 10};
         if (how > 0) drive.dead_time = (hci_dead_time){6.0, 0.05};
         if (how > 1) drive.control.current.dead_time = drive.dead_time;
         state.plant.speed_rad_per_s = 5.0;
@@ -329,7 +331,7 @@ static void test_code_gives_current_and_voltage(void)
     use_machine(&PM_SINE, 256);
     source.code = &code;
     drive.control.loop = HCI_CURRENT_PI;
-    drive.control.current.pi = (hci_pi){6.0, 0.0};
+    drive.control.current.pi[0] = drive.control.current.pi[1] = (hci_pi){6.0, 0.0};
     hci_control_step(&drive.control, &state.control, &m, 0.5);
     hci_plane_to_abc(state.control.reference, abc);
     const hci_dq i = hci_park(hci_clarke(abc), theta);
@@ -349,8 +351,9 @@ static void test_current_loop_does_not_wind_up(void)
     use_machine(&PM_SINE, 4096);
     drive.control.dc_link_V = 60.0;
     drive.control.loop = HCI_CURRENT_PI;
-    drive.control.current = (hci_current_pi){
-        .pi = {12.0, 900.0}, .decoupled = true}; /* k_i/k_p = R/L: first order, no overshoot */
+    drive.control.current =
+        (hci_current_pi){.pi = {{12.0, 900.0}, {12.0, 900.0}},
+                         .decoupled = true}; /* k_i/k_p = R/L: first order, no overshoot */
     drive.plant.inertia_kgm2 = INFINITY;
     for (int k = 0; k < 20000; ++k) {
         hci_drive_step(&drive, &state, 27.0, 0.0);

@@ -47,8 +47,9 @@ static void draw_loop(uint32_t levels)
                           .torque_high_Nm = 6.0f,
                           .resistance_ohm = 0.7f,
                           .inductance_H = {2e-3f, 3e-3f},
-                          .proportional_ohm = 5.0f,
-                          .integral_ohm_per_s = 1400.0f,
+                          .proportional_ohm = {5.0f, 4.0f},
+                          .integral_ohm_per_s = {1400.0f, 900.0f},
+                          .filter = 0.6f,
                           .sample_s = 1e-4f,
                           .delay_s = 1.5e-4f,
                           .whole_rad_per_s = 1e6f,
@@ -204,11 +205,22 @@ static void unhold(const double complex v[2], double nu, double w, double comple
     u[1] = (ahead - behind) / (2.0 * J);
 }
 
+/* k_p + k_i T/(z − 1) of an axis, and the filter f/(1 − (1 − f)/z). */
+static double complex control_of(int axis, double nu)
+{
+    const double complex z = cexp(J * nu * 1e-4);
+    return axis == 0 ? 5.0 + 1400.0 * 1e-4 / (z - 1.0) : 4.0 + 900.0 * 1e-4 / (z - 1.0);
+}
+
+static double complex filter_of(double nu)
+{
+    return 0.6 / (1.0 - 0.4 * cexp(-J * nu * 1e-4));
+}
+
 static answer expect(uint32_t k, double w, bool compensated)
 {
     const hci_loop_wave *x = &waves[k];
     const double nu = 6.0 * orders[k] * w, l[2] = {2e-3, 3e-3};
-    const double complex z = cexp(J * nu * 1e-4), control = 5.0 + 1400.0 * 1e-4 / (z - 1.0);
     double complex needed[2], u[2];
     answer out;
     for (int a = 0; a < 2; ++a)
@@ -218,8 +230,9 @@ static answer expect(uint32_t k, double w, bool compensated)
         const double image = 1.0 / pow(sinc(0.5e-4 * nu), 2.0) - 1.0;
         out.reference[a] = number(x->current_A[a]);
         if (k > 0) out.reference[a] += image * needed[a] / (J * nu * l[a]);
+        out.reference[a] *= filter_of(nu);
         out.voltage[a] = u[a] - w * number(x->own_Vs[a]);
-        if (compensated && k > 0) out.reference[a] += out.voltage[a] / control;
+        if (compensated && k > 0) out.reference[a] += out.voltage[a] / control_of(a, nu);
     }
     return out;
 }
@@ -264,7 +277,7 @@ static void test_compensation_and_feedforward_are_the_formulas(void)
     }
 }
 
-/* A response that was measured on the loop itself: 1/G − 1 = 1/(C H P) without decoupling. */
+/* A response that was measured on the loop itself: 1/G − F = 1/(C H P) without decoupling. */
 static void test_a_measured_response_takes_the_place_of_the_gains(void)
 {
     enum { N = 200 };
@@ -275,11 +288,10 @@ static void test_a_measured_response_takes_the_place_of_the_gains(void)
         memset(waves[k].own_Vs, 0, sizeof waves[k].own_Vs);
     for (int k = 0; k < N; ++k) {
         const double nu = 50.0 * (k + 1);
-        const double complex z = cexp(J * nu * 1e-4), control = 5.0 + 1400.0 * 1e-4 / (z - 1.0);
         const double complex held = sinc(0.5e-4 * nu) * cexp(-J * nu * 1.5e-4);
         for (int a = 0; a < 2; ++a) {
-            response[k].re[a] = (float)creal(1.0 / (control * held));
-            response[k].im[a] = (float)cimag(1.0 / (control * held));
+            response[k].re[a] = (float)creal(1.0 / (control_of(a, nu) * held));
+            response[k].im[a] = (float)cimag(1.0 / (control_of(a, nu) * held));
         }
         response[k].frequency_rad_per_s = (float)nu;
     }
@@ -290,11 +302,11 @@ static void test_a_measured_response_takes_the_place_of_the_gains(void)
     for (uint32_t k = 0; k < ORDERS; ++k)
         for (int a = 0; a < 2; ++a) {
             const double nu = 6.0 * orders[k] * w, half = 0.5e-4 * nu;
-            const double complex z = cexp(J * nu * 1e-4), control = 5.0 + 1400.0 * 1e-4 / (z - 1.0);
-            double complex expected = number(waves[k].current_A[a]);
+            const double complex current = number(waves[k].current_A[a]);
+            double complex expected = current * filter_of(nu);
             if (k > 0) /* the integral of the drive sees to the mean */
-                expected += (0.7 * expected + w * number(waves[k].voltage_Vs[a])) /
-                            (control * sinc(half) * cexp(-J * nu * 1.5e-4));
+                expected += (0.7 * current + w * number(waves[k].voltage_Vs[a])) /
+                            (control_of(a, nu) * sinc(half) * cexp(-J * nu * 1.5e-4));
             TEST_ASSERT_DOUBLE_WITHIN(2e-3 * (1.0 + cabs(expected)), 0.0,
                                       cabs(order_of(orders[k], w, a) - expected));
         }

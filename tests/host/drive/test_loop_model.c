@@ -60,7 +60,9 @@ static void make_drive(const experiment *x, hci_drive *drive, hci_current_source
     c->current_every = STEPS;
     c->torque_limit_Nm = c->id_limit = c->iq_limit = c->peak_limit_A = INFINITY;
     c->loop = HCI_CURRENT_PI;
-    c->current.pi = (hci_pi){x->model.kp_ohm, x->model.ki_ohm_per_s};
+    for (int axis = 0; axis < 2; ++axis)
+        c->current.pi[axis] = (hci_pi){x->model.kp_ohm[axis], x->model.ki_ohm_per_s[axis]};
+    c->current.filter = x->model.filter;
     c->current.decoupled = x->model.decoupled;
     c->current.delay_steps = (unsigned)floor(x->model.delay_s / c->step_s + 0.5);
 }
@@ -102,8 +104,8 @@ static hci_loop_model loop_of(double l_d, double l_q, double delay_samples, doub
 {
     const hci_loop_model m = {.resistance_ohm = R_ohm,
                               .inductance_H = {l_d, l_q},
-                              .kp_ohm = 0.2 * 0.5 * (l_d + l_q) / SAMPLE_s,
-                              .ki_ohm_per_s = 300.0,
+                              .kp_ohm = {0.1 * (l_d + l_q) / SAMPLE_s, 0.1 * (l_d + l_q) / SAMPLE_s},
+                              .ki_ohm_per_s = {300.0, 300.0},
                               .sample_s = SAMPLE_s,
                               .delay_s = delay_samples * SAMPLE_s,
                               .speed_rad_per_s = speed,
@@ -111,22 +113,31 @@ static hci_loop_model loop_of(double l_d, double l_q, double delay_samples, doub
     return m;
 }
 
+enum { LOOPS = 8 };
+
 static const hci_loop_model *loops(void)
 {
-    static hci_loop_model m[6];
+    static hci_loop_model m[LOOPS];
     m[0] = loop_of(2e-3, 2e-3, 1.0, 0.0, false);
     m[1] = loop_of(2e-3, 2e-3, 1.0, 500.0, true);
     m[2] = loop_of(1e-3, 3e-3, 1.0, 500.0, false);
     m[3] = loop_of(1e-3, 3e-3, 0.5, -700.0, true);
     m[4] = loop_of(3e-3, 1e-3, 0.0, 900.0, false);
     m[5] = loop_of(3e-3, 1e-3, 0.25, 900.0, true);
+    m[6] = loop_of(3e-3, 1e-3, 1.0, 600.0, true); /* gains of its own for each axis, and a filter */
+    m[6].kp_ohm[1] *= 0.6;
+    m[6].ki_ohm_per_s[1] = 900.0;
+    m[6].filter = 0.5;
+    m[7] = loop_of(2e-3, 2e-3, 0.5, -400.0, false);
+    m[7].kp_ohm[0] *= 1.3;
+    m[7].filter = 0.8;
     return m;
 }
 
 static void test_reference_is_answered_as_simulated(void)
 {
     static const int PERIODS[] = {2, 20, 90, 200, 270}; /* 33 Hz to 4.5 kHz */
-    for (int l = 0; l < 6; ++l)
+    for (int l = 0; l < LOOPS; ++l)
         for (int f = 0; f < 5; ++f)
             for (int axis = 0; axis < 2; ++axis) {
                 experiment x = {loops()[l], {1.0, 1, 0.0, 0.0}, {frequency(PERIODS[f]), 1.0, axis, 0}};
@@ -142,7 +153,7 @@ static void test_reference_is_answered_as_simulated(void)
  */
 static void test_disturbance_is_answered_as_simulated(void)
 {
-    for (int l = 1; l < 6; ++l)
+    for (int l = 1; l < LOOPS; ++l)
         for (int sigma = -1; sigma < 2; sigma += 2) {
             experiment x = {loops()[l], {6.0 + sigma, sigma, 1.0, 0.0}, {0.0, 0.0, 0, 0}};
             x.model.speed_rad_per_s = copysign(frequency(60) / 6.0, x.model.speed_rad_per_s);
@@ -168,18 +179,24 @@ static void test_poles_of_a_pure_inductance(void)
     for (double g = 0.05; g < 1.6; g += 0.05) {
         hci_loop_model m = loop_of(2e-3, 2e-3, 1.0, 0.0, false);
         m.resistance_ohm = 0.0;
-        m.ki_ohm_per_s = 0.0;
-        m.kp_ohm = g * 2e-3 / SAMPLE_s;
+        m.ki_ohm_per_s[0] = m.ki_ohm_per_s[1] = 0.0;
+        m.kp_ohm[0] = m.kp_ohm[1] = g * 2e-3 / SAMPLE_s;
         const double complex root = csqrt(0.25 - g);
         const double expected = fmax(cabs(0.5 + root), cabs(0.5 - root));
         TEST_ASSERT_DOUBLE_WITHIN(2e-4, expected, hci_loop_largest_pole(&m));
     }
 }
 
+static void set_kp(hci_loop_model *m, const hci_loop_model *of, double factor)
+{
+    for (int axis = 0; axis < 2; ++axis)
+        m->kp_ohm[axis] = factor * of->kp_ohm[axis];
+}
+
 static void test_largest_pole_tells_whether_the_drive_is_stable(void)
 {
     static const double GAIN[] = {0.5, 0.9, 1.02, 1.1, 1.3};
-    for (int l = 0; l < 6; ++l) {
+    for (int l = 0; l < LOOPS; ++l) {
         const hci_loop_model stable = loops()[l];
         TEST_ASSERT_TRUE(hci_loop_largest_pole(&stable) < 1.0);
         for (int k = 0; k < 5; ++k) {
@@ -188,13 +205,13 @@ static void test_largest_pole_tells_whether_the_drive_is_stable(void)
             /* around the gain at which it turns over, found from the poles */
             double low = 1.0, high = 30.0;
             for (int n = 0; n < 40; ++n) {
-                x.model.kp_ohm = 0.5 * (low + high) * stable.kp_ohm;
+                set_kp(&x.model, &stable, 0.5 * (low + high));
                 if (hci_loop_largest_pole(&x.model) < 1.0)
                     low = 0.5 * (low + high);
                 else
                     high = 0.5 * (low + high);
             }
-            x.model.kp_ohm = GAIN[k] * low * stable.kp_ohm;
+            set_kp(&x.model, &stable, GAIN[k] * low);
             measure(&x, x.reference.nu_rad_per_s, seen);
             const bool is_bounded = largest_A < 50.0;
             TEST_ASSERT_EQUAL_INT(GAIN[k] < 1.0, is_bounded);

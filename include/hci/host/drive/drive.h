@@ -20,6 +20,10 @@ extern "C" {
       "of the current loop, and period of its PWM")                                                          \
     X(kp_ohm, "current_kp", "ohm", 0.0, 1e9, "0.2 L/current_sample_time", "k_p of the PI loop, V/A")         \
     X(ki_ohm_per_s, "current_ki", "V/(A*s)", 0.0, 1e12, "0.2 R/current_sample_time", "k_i of the PI loop")   \
+    X(kp_q_ohm, "current_kp_q", "ohm", 0.0, 1e9, "current_kp", "k_p of q, where it is not that of d")        \
+    X(ki_q_ohm_per_s, "current_ki_q", "V/(A*s)", 0.0, 1e12, "current_ki", "the same of k_i")                 \
+    X(filter_s, "current_filter", "s", 0.0, 0.1, "0: none",                                                  \
+      "time constant of the low-pass that the PI sees i_d and i_q through")                                  \
     X(computing_delay_s, "computing_delay", "s", 0.0, 0.1, "current_sample_time",                            \
       "from a sample to the use of its voltage, which then holds for a sample")                              \
     X(dc_link_voltage_V, "dc_link_voltage", "V", 1e-9, 1e7, "machine.csv", "of the inverter")                \
@@ -114,6 +118,9 @@ void hci_drive_init(hci_drive_data *drive);
 
 /* From one sample of a drive's current loop to the next, its default where none is given. */
 double hci_drive_sample_s(const hci_drive_data *drive);
+
+/* Share of a new reading in the low-pass of the measured current, 1 − e^(−T/τ); 0: there is none. */
+double hci_drive_filter_share(const hci_drive_data *drive);
 
 /* The highest frequency in the rotor frame that references can make of a drive, 0.8 of half its sampling:
  * above it the ripple between the samples is as large as what it is to take away. */

@@ -74,7 +74,10 @@ static void make_control(hci_drive *drive, const hci_current_source *source)
     c->source_count = 1;
     c->current_every = STEPS;
     c->loop = HCI_CURRENT_PI;
-    c->current.pi = (hci_pi){(double)smooth.proportional_ohm, (double)smooth.integral_ohm_per_s};
+    for (int axis = 0; axis < 2; ++axis)
+        c->current.pi[axis] =
+            (hci_pi){(double)smooth.proportional_ohm[axis], (double)smooth.integral_ohm_per_s[axis]};
+    c->current.filter = (double)smooth.filter;
     c->current.decoupled = true;
     c->current.delay_steps = STEPS;
 }
