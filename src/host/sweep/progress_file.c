@@ -112,8 +112,8 @@ static hci_status check_inputs(const hci_grid_inputs *inputs, const char *folder
     if (!status && !hci_machine_has(path))
         return hci_note_set(
             note, HCI_ERROR_INPUT,
-            "%s: is not there; expected it and points.csv, as sweep leaves them in --out; "
-            "beside points.csv alone, whose inputs nobody knows, begin anew in another folder",
+            "%s: is not there; expected it and points.csv, as sweep leaves both: give another "
+            "folder, or delete points.csv to begin anew",
             path);
     if (!status) status = hci_csv_read(path, &csv, note);
     if (status) return status;
