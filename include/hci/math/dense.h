@@ -26,7 +26,7 @@ void hci_lu_solve(size_t n, const double *lu, const size_t *pivot, double *x);
 /* Solves Aᵀ x = b from the factors. O(n²). */
 void hci_lu_solve_transposed(size_t n, const double *lu, const size_t *pivot, double *x);
 
-/* Largest column sum of |a|: the 1-norm of an m×n matrix. */
+/* Largest column sum of |a|: the 1-norm of an m×n matrix; NaN where an entry is NaN. */
 double hci_norm_1(size_t m, size_t n, const double *a);
 
 /* Estimate of the 1-norm condition number ‖A‖₁‖A⁻¹‖₁ (a lower bound, rarely below a third of it; Higham

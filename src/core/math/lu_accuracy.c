@@ -9,7 +9,7 @@ double hci_norm_1(size_t m, size_t n, const double *a)
     double largest = 0.0;
     for (size_t j = 0; j < n; j++) {
         const double sum = hci_vector_norm_1(m, a + j * m);
-        if (!(sum <= largest)) largest = sum;
+        if (sum > largest || isnan(sum)) largest = sum; /* NaN stays */
     }
     return largest;
 }

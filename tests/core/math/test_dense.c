@@ -795,6 +795,20 @@ static void test_cholesky_refuses(void)
     }
 }
 
+/* The largest sum of a column, whichever it is; what is not a number stays. */
+static void test_norm_is_that_of_the_largest_column(void)
+{
+    for (int k = 0; k < 3; ++k) {
+        double a[6] = {1.0, -1.0, 0.5, 1.0, -1.0, 0.25};
+        a[2 * k] = 3.0;
+        a[2 * k + 1] = -4.0;
+        TEST_ASSERT_EQUAL_DOUBLE(7.0, hci_norm_1(2, 3, a));
+        a[2 * k] = NAN;
+        TEST_ASSERT_TRUE(isnan(hci_norm_1(2, 3, a)));
+    }
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, hci_norm_1(2, 0, NULL));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -827,5 +841,6 @@ int main(void)
     RUN_TEST(test_cholesky_of_pascal_is_exact);
     RUN_TEST(test_cholesky_of_gram_matrices);
     RUN_TEST(test_cholesky_refuses);
+    RUN_TEST(test_norm_is_that_of_the_largest_column);
     return UNITY_END();
 }
