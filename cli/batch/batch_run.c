@@ -264,6 +264,7 @@ static hci_status do_motors(crew *c, hci_note *note)
                           .outlives_all = true};
     c->kept_s = now_s();
     const hci_status status = cli_jobs_run(&all, note);
+    c->stored.is_last = true;
     keep(c);
     cli_progress_end();
     if (!status && c->status) return hci_note_set(note, c->status, "%s", c->note.text);
@@ -278,7 +279,7 @@ hci_status cli_batch_run(cli_batch_work *work, hci_note *note)
     hci_status status = HCI_OK;
     work->row = calloc(count, sizeof *work->row);
     c.item = malloc(count * sizeof *c.item);
-    c.stored = (hci_fleet_stored){calloc(count, sizeof(double)), calloc(count, sizeof(bool)), false};
+    c.stored = (hci_fleet_stored){calloc(count, sizeof(double)), calloc(count, sizeof(bool)), false, false};
     if (!work->row || !c.item || !c.stored.seconds || !c.stored.is_stored)
         status = hci_note_memory(note, NULL, "the motors of a list");
     cli_signals_defer();

@@ -44,10 +44,10 @@ def axes_of(axes: "Axes", title: str, x: str, y: str) -> "Axes":
     return axes
 
 
-def calm(axes: "Axes") -> None:
-    """No axis over rounding alone: at least a millionth of the values is shown."""
+def calm(axes: "Axes", share: float = 1e-6) -> None:
+    """No axis over rounding alone: at least this share of the values is shown."""
     low, high = axes.get_ylim()
-    least = 1e-6 * max(abs(low), abs(high), 1e-9)
+    least = share * max(abs(low), abs(high), 1e-9)
     if high - low < least:
         axes.set_ylim((low + high - least) / 2, (low + high + least) / 2)
 

@@ -119,7 +119,7 @@ class Simulation(Result):
             place.plot(time, rows[column], color=_look.AFTER, lw=1.2)
             place.axvspan(time[0], self._c.from_s, color="#eceef1", zorder=0)
             place.margins(x=0)
-            _look.calm(place)
+            _look.calm(place, 0.05)  # a smooth torque looks smooth
         self._draw_end(axes[1][1])
         self._draw_spectrum(axes[0][1])
         return figure

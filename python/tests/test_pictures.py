@@ -25,11 +25,14 @@ def test_a_solution(smooth):
     assert before == pytest.approx(smooth.spectrum()["before_Nm"][1])
 
 
-def test_the_others(machine_a, machine_c, data):
+def test_the_others(machine_a, smooth, data):
     drive = machine_a.simulate(data / "drive/driven.csv")
     columns = {name: drive.trajectory[name] for name in ("time_s", "theta_m_rad", "speed_rad_per_s", "torque_Nm")}
     prediction = machine_a.predict(columns)
     results = [drive, prediction, machine_a.harmonics(columns, "cogging"), machine_a.check(columns)]
+    drive_smooth = machine_a.simulate({"duration": 0.1, "prescribed_speed": 100.0, "current_control": "ideal"}, currents=smooth)
+    low, high = axes(drive_smooth.plot(), "Torque").get_ylim()
+    assert high - low >= 0.0499 * drive_smooth.mean_torque_Nm
     for result in results:
         figure = result.plot()
         assert figure.axes and all(one.lines or one.patches or one.collections for one in figure.axes)

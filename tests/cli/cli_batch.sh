@@ -126,17 +126,33 @@ check "exit code of a batch with a crash" [ $? -eq 1 ]
 check "a crash is no row" grep -q '^hangs,,,,crashed,,,its process was ended by signal 9,' "$work/crashed/fleet.csv"
 check "nothing came after the crash" grep -q '^m1,,,,done,' "$work/crashed/fleet.csv"
 
-# ---- Ctrl-C
+# ---- Ctrl-C; before it another program holds fleet.sqlite, which stops nothing
 
+mkdir "$work/stopped"
+python3 - "$work/stopped/fleet.sqlite" <<'PY' &
+import os, sqlite3, sys, time
+base = sqlite3.connect(sys.argv[1], isolation_level=None)
+base.execute("BEGIN EXCLUSIVE")
+open(sys.argv[1] + ".held", "w").close()
+until = time.monotonic() + 30
+while os.path.exists(sys.argv[1] + ".held") and time.monotonic() < until:
+    time.sleep(0.02)
+PY
+tries=0
+while ! [ -e "$work/stopped/fleet.sqlite.held" ] && [ $tries -lt 400 ]; do sleep 0.02 && tries=$((tries + 1)); done
 env --default-signal=INT "$hci_solve" batch "$work/hangs.csv" --command solve --jobs 2 -o "$work/stopped" >"$work/stdout" 2>"$work/stderr" &
 job=$!
 tries=0
-while ! [ -e "$work/stopped/motors/m1" ] && [ $tries -lt 200 ]; do sleep 0.02 && tries=$((tries + 1)); done
+while ! [ -e "$work/stopped/fleet.csv" ] && [ $tries -lt 200 ]; do sleep 0.02 && tries=$((tries + 1)); done
+check "a file that another program holds stops the batch" grep -q '^m1,,,,done,' "$work/stopped/fleet.csv"
+rm -f "$work/stopped/fleet.sqlite.held"
 kill -INT $job
 wait $job
 check "exit code after Ctrl-C" [ $? -eq 130 ]
 says '^not done yet: 1 of 2 motors' 'the same command goes on from there'
 check "fleet.csv after Ctrl-C" grep -q '^m1,,,,done,' "$work/stopped/fleet.csv"
+check "fleet.sqlite after it was held" python3 -c 'import sqlite3, sys
+assert sqlite3.connect(sys.argv[1]).execute("SELECT motor, state FROM motor").fetchall() == [("m1", "done")]' "$work/stopped/fleet.sqlite"
 
 # ---- fit: one direction and one kind of current do not tell the strength of the magnets and the angle apart; what is not used is said
 
@@ -201,16 +217,19 @@ echo effect,param,low,high >"$work/slip.csv"
 run 3 fit "$work/fit/m" --runs "$work/fit/runs.csv" --limits "$work/slip.csv"
 says 'slip.csv:1: found no column `parameter` but `effect`, `param`'
 
-# ---- fleet: motors without a result, dates in other forms, the batch that differs
+# ---- fleet: motors without a result, a name with a comma and quotes, dates in other forms, the batch that differs
 
 {
     echo motor,batch,date,machine,runs
     for k in 1 2 3 4 5 6; do echo "n$k,b$((k % 2)),0$k.10.2026,m,$([ $((k % 2)) = 1 ] && echo runs || echo voltages).csv"; done
-    echo lost,b1,7.10.26,m,none.csv
+    echo '"lost, ""it""",b1,7.10.26,m,none.csv'
 } >"$work/fit/line.csv"
 run 1 batch "$work/fit/line.csv" --command fit --jobs 1 -q -o "$work/fit/line" -- --limits "$work/fail.csv"
 check "fleet.csv of a fit with limits: $(cat "$work/fit/line/fleet.csv")" grep -q '^n1,,b1,01.10.2026,open,1,fail,' "$work/fit/line/fleet.csv"
-run 0 fleet "$work/fit/line"
+run 0 fleet "$work/fit/line" -o "$work/fit/out_line"
 says 'no result +1 motors' 'dates +1 are not read, such as `7.10.26`: no trend is from them; write YYYY-MM-DD'
+for table in fleet deviations; do
+    check "the name of a motor in $table.csv" grep -q '^"lost, ""it""",' "$work/fit/out_line/$table.csv"
+done
 
 finish

@@ -10,7 +10,7 @@
 #include "host/base/words.h"
 #include "host/fleet/row.h"
 
-enum { PATH_SIZE = 4096, SQL_SIZE = 8192, CELL_SIZE = 1024, WAIT_MS = 10000 };
+enum { PATH_SIZE = 4096, SQL_SIZE = 8192, CELL_SIZE = 1024, WAIT_MS = 100, LAST_WAIT_MS = 10000 };
 
 /* A file that is open, and what is prepared for it. */
 typedef struct {
@@ -21,10 +21,21 @@ typedef struct {
     hci_note *note;
 } database;
 
+/* Another program reads or writes it. */
+static bool is_held(const database *d)
+{
+    const int code = sqlite3_errcode(d->file);
+    return code == SQLITE_BUSY || code == SQLITE_LOCKED;
+}
+
 static hci_status refused(const database *d)
 {
     if (!d->file || sqlite3_errcode(d->file) == SQLITE_NOMEM)
         return hci_note_memory(d->note, d->path, "the database of motors");
+    if (is_held(d))
+        return hci_note_set(d->note, HCI_ERROR_OUTPUT,
+                            "%.300s: another program holds it; close it there, and the same command goes on",
+                            d->path);
     return hci_note_set(
         d->note, HCI_ERROR_OUTPUT,
         "%.300s: %.200s; when it cannot be mended, delete it: it is made again from the folders", d->path,
@@ -227,12 +238,12 @@ static hci_status put_all(const database *d, char *const *row, hci_fleet_stored 
 
 /* ---- all of it ---- */
 
-static hci_status open_file(database *d)
+static hci_status open_file(database *d, int wait_ms)
 {
     if (snprintf(d->path, sizeof d->path, "%s/fleet.sqlite", d->results->folder) >= PATH_SIZE)
         return hci_note_set(d->note, HCI_ERROR_OUTPUT, "%.200s…: the path is too long", d->results->folder);
     if (sqlite3_open(d->path, &d->file) != SQLITE_OK) return refused(d);
-    sqlite3_busy_timeout(d->file, WAIT_MS); /* somebody may be reading */
+    sqlite3_busy_timeout(d->file, wait_ms); /* somebody may be reading */
     hci_fleet_header(d->results->command, d->header);
     hci_status status = run(d, "BEGIN IMMEDIATE");
     if (!status) status = make_tables(d);
@@ -247,6 +258,13 @@ static void close_file(database *d)
     sqlite3_close(d->file);
 }
 
+/* Nothing of this call is there. */
+static void take_back(const hci_fleet_results *results, hci_fleet_stored *stored)
+{
+    memset(stored->is_stored, 0, results->list->count * sizeof *stored->is_stored);
+    stored->is_begun = false;
+}
+
 hci_status hci_fleet_store(const hci_fleet_results *results, char *const *row, hci_fleet_stored *stored,
                            hci_note *note)
 {
@@ -254,9 +272,11 @@ hci_status hci_fleet_store(const hci_fleet_results *results, char *const *row, h
     memset(&d, 0, sizeof d);
     d.results = results;
     d.note = note;
-    hci_status status = open_file(&d);
+    hci_status status = open_file(&d, stored->is_last ? LAST_WAIT_MS : WAIT_MS);
     if (!status) status = put_all(&d, row, stored);
     if (!status) status = run(&d, "COMMIT");
+    if (status) take_back(results, stored);
+    if (status && !stored->is_last && is_held(&d)) status = HCI_OK;
     close_file(&d); /* what was not committed is rolled back */
     return status;
 }

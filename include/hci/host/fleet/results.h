@@ -125,6 +125,8 @@ typedef struct {
     double *seconds; /* that each motor of the list took; NAN: not known */
     bool *is_stored; /* of each: it has its row there */
     bool is_begun;   /* the first hci_fleet_store has been */
+    bool is_last;    /* a file that another program holds is waited for, and then an error; else the rows
+                        are left for the next call */
 } hci_fleet_stored;
 
 /* Brings fleet.sqlite up to the rows that are not NULL, in one transaction: table `motor` with the columns of

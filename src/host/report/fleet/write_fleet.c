@@ -4,6 +4,7 @@
 
 #include "hci/host/base/output.h"
 #include "hci/host/report/fleet/write.h"
+#include "host/csv/write.h"
 #include "host/fleet/pooled.h"
 #include "host/fleet/row.h"
 #include "host/report/fleet/page_fleet.h"
@@ -72,8 +73,9 @@ static void write_motor(const hci_line *l, size_t motor, hci_output *out)
 {
     const hci_line_motor *m = &l->motor[motor];
     const hci_fleet_parameter *worst = m->worst == HCI_LINE_NONE ? NULL : &l->parameter[m->worst].name;
-    hci_output_text(out, "%s,%s,%s,%s,%s,", m->name, hci_fleet_state_name(m->state),
-                    m->stands_out ? "yes" : "no", worst ? worst->effect : "", worst ? worst->parameter : "");
+    hci_csv_write_cell(out, m->name, true);
+    hci_output_text(out, "%s,%s,%s,%s,", hci_fleet_state_name(m->state), m->stands_out ? "yes" : "no",
+                    worst ? worst->effect : "", worst ? worst->parameter : "");
     put(out, m->deviation, l->parameters > 0 ? ',' : '\n');
     for (size_t k = 0; k < l->parameters; ++k) {
         const hci_line_parameter *p = &l->parameter[k];
