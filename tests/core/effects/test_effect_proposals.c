@@ -408,6 +408,17 @@ static void test_friction_that_fades(void)
     TEST_ASSERT_EQUAL_UINT64(1, count);
     TEST_ASSERT_EQUAL_DOUBLE(0.0, start[0]);
     TEST_ASSERT_TRUE(fabs(log(start[1] / 8.0)) <= 0.5 * log(100.0) / 15.0 + 0.02);
+    static const double ALIKE[MEANS] = {2.0,  -2.0,  2.1,  -2.1,  20.0, -20.0,
+                                        21.0, -21.0, 60.0, -60.0, 62.0, -62.0};
+    for (int last = 0; last < 2; ++last) { /* three speeds within 10 %; with another one four */
+        for (int k = 0; k < MEANS; ++k) {
+            const double w = last && k > 9 ? 1.5 * ALIKE[k] : ALIKE[k], sign = w > 0.0 ? 1.0 : -1.0;
+            mean[k] = (hci_effect_speed_mean){w, -sign * 0.05 * exp(-w * w / 64.0), 1e8};
+        }
+        count = 0;
+        hci_effect_type_find("stribeck_friction")->propose(&s, &with_start);
+        TEST_ASSERT_EQUAL_UINT64((size_t)last, count);
+    }
     s.of_speeds = 6; /* three speeds only */
     count = 0;
     hci_effect_type_find("stribeck_friction")->propose(&s, &with_start);
