@@ -62,6 +62,7 @@ static hci_status fill(hci_dataset *b, const hci_runs *runs, hci_attribution *a,
 {
     d->search = a->ended;
     d->no_load_alone = a->no_load_alone;
+    d->slip = a->unknown ? a->slip : NULL;
     d->disbelieved = a->disbelieved && a->unknown ? a->disbelieved->name : NULL;
     d->disbelieved_share = a->disbelieved_share;
     hci_unexplained_fill(b, a, d);

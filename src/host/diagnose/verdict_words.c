@@ -81,6 +81,16 @@ static void say_disbelieved(const hci_words *w, const hci_diagnosis *d)
            "machine folder.");
 }
 
+/* What a slip makes, and no effect. */
+static void say_slip(const hci_words *w, const hci_diagnosis *d)
+{
+    if (d->slip)
+        hci_words_say(w,
+                      " %s: see with `check` whether signs, angle, pole pairs and motor are those of the "
+                      "machine folder.",
+                      d->slip);
+}
+
 /* Effects that hang on one run. */
 static void say_unstable(const hci_words *w, const hci_diagnosis *d)
 {
@@ -134,6 +144,7 @@ static void say_unknown(const hci_words *w, const hci_diagnosis *d)
 {
     if (d->verdict == HCI_DIAGNOSIS_UNKNOWN) say_not_known(w, d);
     if (d->verdict == HCI_DIAGNOSIS_PARTLY) say_partly(w, d);
+    say_slip(w, d);
     if (is_unfinished(d)) return; /* what is left may be what was not looked for */
     say_disbelieved(w, d);
     if (d->contradicted)

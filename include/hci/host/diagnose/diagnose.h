@@ -146,15 +146,17 @@ typedef struct {
     hci_next_point next[HCI_MOST_NEXT_POINTS]; /* what to record next, most telling first */
     size_t next_points;                        /* entries of next in use; 0: nothing is left open */
     char advice[3 * HCI_DETAIL_SIZE];          /* the same in a few sentences, or "" */
-    bool contradicted;    /* effects described the runs that were fitted, but not those held out, and were
-                             dropped */
-    bool means_open;      /* effects described the means of the runs that were fitted, but not of those left
-                           * out, and were dropped */
-    bool means_alone;     /* and nothing stands in the ripple beside what is left of these means */
-    bool no_load_alone;   /* the effects are those that the runs without a current show by themselves, since
-                           * what   acts under load is not known */
-    bool wanders;         /* something is left that does not repeat with the turn */
-    bool inertia_as_well; /* free shafts alone: a wrong inertia looks the same as an ambiguous effect */
+    bool contradicted;  /* effects described the runs that were fitted, but not those held out, and were
+                           dropped */
+    bool means_open;    /* effects described the means of the runs that were fitted, but not of those left
+                         * out, and were dropped */
+    bool means_alone;   /* and nothing stands in the ripple beside what is left of these means */
+    bool no_load_alone; /* the effects are those that the runs without a current show by themselves, since
+                         * what   acts under load is not known */
+    bool wanders;       /* something is left that does not repeat with the turn */
+    const char *slip;   /* what a wrong sign, direction, zero or number of pole pairs shows, and no effect was
+                         * made of, in words; NULL: nothing such */
+    bool inertia_as_well;    /* free shafts alone: a wrong inertia looks the same as an ambiguous effect */
     double open_voltage_off; /* share by which voltages without a current differ from the declared back-EMF;
                               * 0: none were recorded */
     bool against_voltages; /* the torques ask for another torque per ampere, which voltages that were recorded

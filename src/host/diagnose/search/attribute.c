@@ -16,9 +16,11 @@
 #include "host/diagnose/search/rivals.h"
 #include "host/diagnose/search/rounds.h"
 #include "host/diagnose/search/settle.h"
+#include "host/diagnose/search/slip.h"
 #include "host/diagnose/search/stability.h"
 
 #define RATIO       1e-3 /* change of the torque per ampere, as a share, that an inertia may be wrong by */
+#define MOST_LEFT   0.5  /* of all torque: more of it has another cause than an effect */
 #define EQUAL_SHARE 0.2  /* of their mean, by which values of three phases may differ and are equal */
 
 /* ---- verdicts ---- */
@@ -30,10 +32,11 @@ static bool is_of_whole(const hci_search *s, const hci_effect_type *type)
     return s->whole_coenergy && type->propose_coenergy;
 }
 
-/* Where something is not known, effects may be a part of it; not those of the runs without a current. */
+/* Where something is not known, effects may be a part of it; not those of the runs without a current, unless
+ * what these show is left out as well. */
 static bool is_beside_unknown(const hci_attribution *a)
 {
-    return a->unknown && !a->no_load_alone;
+    return a->unknown && (a->slip || !a->no_load_alone);
 }
 
 /* What speaks for an effect that is in, and which others could stand in its place. */
@@ -280,13 +283,35 @@ static hci_status predictive_find(hci_search *s, hci_fitted_model *model, hci_no
 
 /* ---- the whole ---- */
 
-/* no_load: out, [runs], those without a current. */
-static hci_status attribute(hci_search *s, hci_attribution *a, bool *no_load, hci_note *note)
+/* Whether the machine leaves most of all torque, which no effect corrects that is believed. */
+static hci_status is_of_another(hci_search *s, const hci_fitted_model *model, bool *other, hci_note *note)
 {
-    hci_candidates none = {0};
-    hci_status status = hci_search_no_load(s, no_load, a, note);
-    s->from_no_load = hci_candidates_types_in(&a->model.candidates) > 0;
-    if (!status) status = hci_search_rounds(s, &a->model, note);
+    const hci_status status = hci_search_residual(s, &model->candidates, note);
+    double left = 0.0, whole = 0.0;
+    for (const hci_segment *x = NULL; !status && (x = hci_regression_next(s->regression, x)) != NULL;)
+        for (size_t j = x->first; j < x->first + x->count; ++j) {
+            left += pow(s->residual_Nm[j], 2.0);
+            whole += pow(s->regression->samples->sample[j].torque_Nm, 2.0);
+        }
+    *other = !status && left > MOST_LEFT * MOST_LEFT * whole;
+    return status;
+}
+
+/* Where a slip is so plain that there is nothing to be looked for. */
+static hci_status slip_judge(hci_search *s, hci_attribution *a, hci_note *note)
+{
+    bool opposite = false;
+    hci_status status = hci_search_opposite(s, &opposite, note);
+    if (!status && a->slip) status = is_of_another(s, &a->model, &a->unknown, note);
+    if (opposite) a->unknown = true;
+    if (opposite && !a->slip) a->slip = hci_slip_of_load();
+    return status;
+}
+
+/* From the model of the runs without a current to what is judged. */
+static hci_status model_find(hci_search *s, hci_attribution *a, hci_note *note)
+{
+    hci_status status = hci_search_rounds(s, &a->model, note);
     if (status) return status;
     hci_search_begin(s, "weighing the evidence", HCI_ROUNDS_SHARE, 1.0);
     status = predictive_find(s, &a->model, note);
@@ -294,7 +319,17 @@ static hci_status attribute(hci_search *s, hci_attribution *a, bool *no_load, hc
         status = hci_search_drop(s, &a->model, &dropped, note);
     if (s->whole_coenergy && !status) status = hci_search_keep_predictive(s, &a->model, note);
     if (!status) status = hci_search_drop_unsure(s, &a->model, note);
-    if (!status) status = hci_search_settle(s, a, note);
+    return status ? status : hci_search_settle(s, a, note);
+}
+
+/* no_load: out, [runs], those without a current. */
+static hci_status attribute(hci_search *s, hci_attribution *a, bool *no_load, hci_note *note)
+{
+    hci_candidates none = {0};
+    hci_status status = hci_search_no_load(s, no_load, a, note);
+    s->from_no_load = hci_candidates_types_in(&a->model.candidates) > 0;
+    if (!status) status = slip_judge(s, a, note);
+    if (!status && !a->unknown) status = model_find(s, a, note);
     if (!status) status = no_load_stays(s, a, no_load, note);
     if (!status) status = verdicts(s, a, note);
     if (!status) status = hci_search_stability(s, a, note);

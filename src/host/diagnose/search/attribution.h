@@ -27,6 +27,7 @@ typedef struct {
     hci_fit before;           /* without any effect, with the same noise */
     hci_fitted_model no_load; /* of the runs without a current alone; empty: they do not tell */
     bool no_load_alone;       /* model and before are of those runs, since the others are not understood */
+    const char *slip;         /* what looks like a slip and no effect, in words; NULL: nothing. Static */
     hci_work_end ended;       /* how */
     bool unknown;             /* something is left that no effect explains, and it is not small */
     const hci_effect_type *disbelieved; /* describes the recordings best, with values that nobody would

@@ -6,9 +6,12 @@
 #include "host/diagnose/search/backward.h"
 #include "host/diagnose/search/rounds.h"
 #include "host/diagnose/search/settle.h"
+#include "host/diagnose/search/slip.h"
 #include "host/diagnose/search/stability.h"
 
 #define LITTLE 0.01 /* of the largest current, that is none */
+#define ALONE  0.95 /* correlation of a torque that hardly depends on anything else */
+#define NEARLY 0.5  /* about -1, by which effects may change a torque that has the opposite sign */
 
 /* ---- which runs ---- */
 
@@ -32,6 +35,48 @@ static size_t runs_find(const hci_regression *e, bool *use)
         count += use[r];
     }
     return count;
+}
+
+/* ---- the torque of the others ---- */
+
+/* Sums over samples of the measured torque and of that of the machine. */
+typedef struct {
+    double count, x, y, xx, xy, yy;
+} moments;
+
+static void moments_add(const hci_search *s, const hci_segment *x, moments *m)
+{
+    for (size_t j = x->first; j < x->first + x->count; ++j) {
+        const double measured = s->regression->samples->sample[j].torque_Nm;
+        const double machine = measured - s->residual_Nm[j];
+        m->count += 1.0;
+        m->x += machine;
+        m->y += measured;
+        m->xx += machine * machine;
+        m->xy += machine * measured;
+        m->yy += measured * measured;
+    }
+}
+
+/* The measured torque against that of the machine: by how much it rises with it, where it hardly depends on
+ * anything else; else 1. */
+static double slope_of(const moments *m)
+{
+    const double xx = m->xx - m->x * m->x / m->count, yy = m->yy - m->y * m->y / m->count;
+    const double xy = m->xy - m->x * m->y / m->count;
+    return xx > 0.0 && xy * xy > ALONE * ALONE * xx * yy ? xy / xx : 1.0;
+}
+
+hci_status hci_search_opposite(hci_search *s, bool *opposite, hci_note *note)
+{
+    const hci_candidates none = {0};
+    const double least_A = LITTLE * largest_A(s->regression);
+    moments m = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+    const hci_status status = hci_search_residual(s, &none, note);
+    for (const hci_segment *x = NULL; !status && (x = hci_regression_next(s->regression, x)) != NULL;)
+        if (s->regression->samples->statistics[x->run].current_A > least_A) moments_add(s, x, &m);
+    *opposite = !status && m.count > 0.0 && fabs(slope_of(&m) + 1.0) < NEARLY;
+    return status;
 }
 
 /* ---- their effects ---- */
@@ -75,6 +120,7 @@ static hci_status of_runs(hci_search *s, hci_attribution *a, hci_note *note)
     s->no_current = false;
     if (!status && found) {
         unproven_leave(s->regression, &a->model.candidates);
+        a->slip = hci_slip_of_cogging(s->regression->machine, &a->model.candidates);
         return hci_fitted_model_copy(&a->model, &a->no_load, note);
     }
     hci_fitted_model_release(&a->model);
@@ -131,13 +177,24 @@ static hci_status model_replace(hci_search *s, hci_attribution *a, hci_note *not
     if (!status) status = hci_search_residual(s, &a->model.candidates, note);
     const double left_Nm = hci_search_residual_rms(s), noise_Nm = hci_search_noise_rms(s);
     a->unexplained_Nm = sqrt(fmax(0.0, left_Nm * left_Nm - noise_Nm * noise_Nm));
-    a->no_load_alone = !status;
+    a->no_load_alone = !status && hci_candidates_types_in(&a->model.candidates) > 0;
     return status;
+}
+
+/* Where an angle or a sign is not what is meant by it, or the motor another one, the means alone tell. */
+static hci_status means_stay(hci_search *s, hci_attribution *a, hci_note *note)
+{
+    hci_candidates *shown = &a->no_load.candidates;
+    for (size_t k = 0; k < shown->count; ++k)
+        shown->candidate[k].in = shown->candidate[k].in && is_of_means(&shown->candidate[k]);
+    const hci_status status = model_replace(s, a, note);
+    return status ? status : hci_search_renew(s, &a->model, note);
 }
 
 hci_status hci_search_no_load_stays(hci_search *s, hci_attribution *a, hci_note *note)
 {
     const hci_candidates *shown = &a->no_load.candidates;
+    if (a->slip) return means_stay(s, a, note);
     if (hci_candidates_types_in(shown) == 0) return HCI_OK;
     if (!has_more(&a->model.candidates, shown)) return model_replace(s, a, note);
     if (!has_more(shown, &a->model.candidates)) return HCI_OK;

@@ -12,8 +12,11 @@
  * effects leave nothing but noise of them. Sets no_load of the attribution too. HCI_ERROR_MEMORY. */
 hci_status hci_search_no_load(hci_search *search, bool *use, hci_attribution *attribution, hci_note *note);
 
-/* Where something is not known: what they show stays. Sets no_load_alone where nothing else does, and then
- * the model is theirs. HCI_ERROR_MEMORY. */
+/* Whether the other runs show the torque of the declared machine with the opposite sign. HCI_ERROR_MEMORY. */
+hci_status hci_search_opposite(hci_search *search, bool *opposite, hci_note *note);
+
+/* Where something is not known: what they show stays; where that looks like a slip, their means alone. Sets
+ * no_load_alone where nothing else does, and then the model is theirs. HCI_ERROR_MEMORY. */
 hci_status hci_search_no_load_stays(hci_search *search, hci_attribution *attribution, hci_note *note);
 
 #endif

@@ -128,6 +128,49 @@ static void test_whatever_is_wrong_under_load(void)
     TEST_ASSERT_DOUBLE_WITHIN(0.003, 0.04, term("friction", "coulomb", 0.0)->value);
 }
 
+/* Of the same runs, every torque with the opposite sign. */
+static void reverse(void)
+{
+    for (size_t r = 0; r < runs.count; ++r)
+        for (size_t k = 0; k < run[r].count; ++k)
+            run[r].torque_Nm[k] = -run[r].torque_Nm[k];
+}
+
+/* A sensor that counts the other way: nothing is made of it, and what it looks like is said. */
+static void test_the_opposite_sign_under_load(void)
+{
+    char text[2048];
+    record(N, &(point){60.0, 0.0, 0.0, 0.0, 0.0});
+    record(N, &(point){60.0, 3.0, 0.0, 0.0, 0.0});
+    record(N, &(point){-60.0, 6.0, 0.0, 0.0, 0.0});
+    record(N, &(point){120.0, -5.0, 0.0, 0.0, 0.0});
+    reverse();
+    TEST_ASSERT_EQUAL_INT(HCI_NOT_REACHED, diagnose(NULL));
+    TEST_ASSERT_EQUAL_INT(HCI_DIAGNOSIS_UNKNOWN, diagnosis.verdict);
+    TEST_ASSERT_EQUAL_UINT64(0, diagnosis.effects.list.count);
+    hci_diagnosis_words(&diagnosis, text, sizeof text);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(text, "with the opposite sign: see with `check`"), text);
+}
+
+/* The declared cogging torque turned about is no cogging torque, where under load most is not understood
+ * either; the friction of these runs is one whatever the angle is. */
+static void test_a_slip_is_no_cogging(void)
+{
+    const hci_harmonic declared = {6.0, -0.05, 0.0};
+    record_idle(0.0);
+    for (size_t r = 0; r < 3; ++r)
+        record(N, &(point){60.0, 3.0 + 2.0 * (double)r, 0.0, r % 2 ? 5.0 : -4.0, 0.5});
+    machine.model.cogging = &declared;
+    machine.model.cogging_count = 1;
+    const hci_status status = diagnose(NULL);
+    machine.model.cogging_count = 0;
+    TEST_ASSERT_EQUAL_INT(HCI_NOT_REACHED, status);
+    TEST_ASSERT_EQUAL_INT(HCI_DIAGNOSIS_PARTLY, diagnosis.verdict);
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_ADDED, found("friction")->verdict);
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_REJECTED, found("cogging")->verdict);
+    TEST_ASSERT_NOT_NULL(diagnosis.slip);
+}
+
 static void test_without_such_runs(void)
 {
     record_loads(3);
@@ -144,6 +187,8 @@ int main(void)
     RUN_TEST(test_what_they_show_stays);
     RUN_TEST(test_what_has_left_comes_back);
     RUN_TEST(test_whatever_is_wrong_under_load);
+    RUN_TEST(test_the_opposite_sign_under_load);
+    RUN_TEST(test_a_slip_is_no_cogging);
     RUN_TEST(test_without_such_runs);
     return UNITY_END();
 }

@@ -1,0 +1,125 @@
+#include "host/diagnose/search/slip.h"
+
+#include <math.h>
+
+#define SAME  0.1 /* of the declared torque, that noise and smoothing leave of a difference */
+#define OTHER 0.5 /* of it, that is no small error of the angle: that is an effect of its own */
+
+enum { MOST_ORDERS = 16, STEPS = 64 }; /* steps of the angle in a period of the highest order */
+
+/* The declared orders that a model changes: as declared, and with what the model adds. */
+typedef struct {
+    hci_harmonic declared[MOST_ORDERS], shown[MOST_ORDERS];
+    size_t count;
+    double highest, square; /* order, and sum of squares of what is declared */
+} change;
+
+/* ---- declared and shown ---- */
+
+/* The terms of an order are its sine and its cosine. */
+static void order_add(change *c, const hci_harmonic *a, const hci_candidate *x)
+{
+    const hci_harmonic declared = {a->order, a->sine + x->declared[0], a->cosine + x->declared[1]};
+    c->declared[c->count] = declared;
+    c->shown[c->count++] = (hci_harmonic){a->order, a->sine + x->term[0].value, a->cosine + x->term[1].value};
+    c->highest = fmax(c->highest, a->order);
+}
+
+static const hci_candidate *candidate_at(const hci_candidates *model, double order)
+{
+    const hci_effect_type *cogging = hci_effect_type_find("cogging");
+    for (size_t k = 0; k < model->count; ++k) {
+        const hci_candidate *x = &model->candidate[k];
+        if (x->in && x->type == cogging && fabs(x->term[0].order - order) < HCI_ORDER_TOLERANCE) return x;
+    }
+    return NULL;
+}
+
+static double square_of(const hci_harmonic *a)
+{
+    return a->sine * a->sine + a->cosine * a->cosine;
+}
+
+/* Whether the largest declared order is among those that are changed. */
+static bool change_find(const hci_machine *machine, const hci_candidates *model, change *c)
+{
+    double largest = 0.0, changed = 0.0;
+    *c = (change){.count = 0};
+    for (size_t k = 0; k < machine->cogging_count; ++k) {
+        const hci_harmonic *a = &machine->cogging[k];
+        const hci_candidate *x = candidate_at(model, a->order);
+        largest = fmax(largest, square_of(a));
+        if (!x || x->count != 2 || c->count == MOST_ORDERS) continue;
+        order_add(c, a, x);
+        c->square += square_of(&c->declared[c->count - 1]);
+        changed = fmax(changed, square_of(a));
+    }
+    return c->count > 0 && changed >= largest && largest > 0.0;
+}
+
+/* ---- slips ---- */
+
+/* Which way round an angle is counted, by how much it is ahead, and the sign of the torque. */
+typedef struct {
+    double sign, way, ahead_rad;
+} slip;
+
+/* The order as it is read with a slip. */
+static hci_harmonic slipped(const hci_harmonic *a, const slip *x)
+{
+    const double c = cos(a->order * x->ahead_rad), s = sin(a->order * x->ahead_rad);
+    const hci_harmonic y = {a->order, x->sign * x->way * (a->sine * c - a->cosine * s),
+                            x->sign * (a->sine * s + a->cosine * c)};
+    return y;
+}
+
+/* Sum of squares of what is shown less what the slip makes of what is declared. */
+static double missed(const change *c, const slip *x)
+{
+    double sum = 0.0;
+    for (size_t k = 0; k < c->count; ++k) {
+        const hci_harmonic y = slipped(&c->declared[k], x);
+        const hci_harmonic left = {0.0, c->shown[k].sine - y.sine, c->shown[k].cosine - y.cosine};
+        sum += square_of(&left);
+    }
+    return sum;
+}
+
+static bool is_turned(const change *c)
+{
+    static const slip NONE = {1.0, 1.0, 0.0};
+    const double least = SAME * SAME * c->square, steps = ceil(STEPS * c->highest);
+    if (missed(c, &NONE) < OTHER * OTHER * c->square) return false;
+    for (int kind = 0; kind < 4; ++kind)
+        for (double k = 0.0; k < steps; k += 1.0) {
+            const slip x = {kind & 1 ? -1.0 : 1.0, kind & 2 ? -1.0 : 1.0, 2.0 * HCI_PI * k / steps};
+            if (missed(c, &x) < least) return true;
+        }
+    return false;
+}
+
+static bool is_gone(const change *c)
+{
+    double sum = 0.0;
+    for (size_t k = 0; k < c->count; ++k)
+        sum += square_of(&c->shown[k]);
+    return sum < SAME * SAME * c->square;
+}
+
+const char *hci_slip_of_cogging(const hci_machine *machine, const hci_candidates *model)
+{
+    change c;
+    if (!change_find(machine, model, &c)) return NULL;
+    if (is_gone(&c))
+        return "The runs without a current show nothing at the orders of the declared cogging torque, as of "
+               "other pole pairs or another motor";
+    if (is_turned(&c))
+        return "The runs without a current show the declared cogging torque with another sign, direction or "
+               "zero, and no other one";
+    return NULL;
+}
+
+const char *hci_slip_of_load(void)
+{
+    return "The runs with a current show the torque of the declared machine with the opposite sign";
+}

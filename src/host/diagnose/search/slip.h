@@ -1,0 +1,20 @@
+/* Whether what a model makes of the declared cogging torque is what a slip makes of it.
+ *
+ * A cogging torque of its own is beside the declared one, or another share of it. A wrong sign of torque or
+ * angle, the other direction and another zero of the angle leave every amplitude as it is declared:
+ *
+ *     T(θ) = ± Σ S sin n(±θ + δ) + C cos n(±θ + δ).
+ *
+ * Another number of pole pairs, and another motor, leave nothing at the declared orders. */
+#ifndef HCI_SRC_HOST_DIAGNOSE_SEARCH_SLIP_H
+#define HCI_SRC_HOST_DIAGNOSE_SEARCH_SLIP_H
+
+#include "host/diagnose/candidates/candidates.h"
+
+/* What it looks like, in words; NULL: like none, or nothing is declared. Static. */
+const char *hci_slip_of_cogging(const hci_machine *machine, const hci_candidates *model);
+
+/* The same of a torque with the opposite sign. */
+const char *hci_slip_of_load(void);
+
+#endif

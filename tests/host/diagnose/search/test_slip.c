@@ -1,0 +1,136 @@
+/* Cogging torque that a slip makes: what is declared, read another way, or nothing of it. */
+#include "host/diagnose/search/slip.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "unity.h"
+
+static const hci_harmonic DECLARED[] = {{6.0, 0.5, 0.2}, {12.0, -0.1, 0.15}};
+static const hci_machine MACHINE = {.cogging = DECLARED, .cogging_count = 2};
+
+static hci_candidate candidate[4];
+static hci_candidates model;
+
+void setUp(void)
+{
+    model = (hci_candidates){.candidate = candidate};
+}
+
+void tearDown(void)
+{
+}
+
+/* The model makes this of an order. */
+static void show(double order, double sine, double cosine)
+{
+    hci_candidate *x = &candidate[model.count++];
+    const hci_harmonic *a = order == 6.0 ? &DECLARED[0] : order == 12.0 ? &DECLARED[1] : NULL;
+    *x = (hci_candidate){.type = hci_effect_type_find("cogging"), .count = 2, .in = true};
+    x->term[0] = (hci_effect_term){0, order, sine - (a ? a->sine : 0.0), NAN};
+    x->term[1] = (hci_effect_term){1, order, cosine - (a ? a->cosine : 0.0), NAN};
+}
+
+/* Both declared orders at θ + δ. */
+static void show_ahead(double ahead_rad, double sign, double way)
+{
+    for (size_t k = 0; k < 2; ++k) {
+        const hci_harmonic *a = &DECLARED[k];
+        const double amplitude = hypot(a->sine, a->cosine);
+        const double phase = atan2(a->cosine, a->sine) + a->order * ahead_rad;
+        show(a->order, sign * way * amplitude * cos(phase), sign * amplitude * sin(phase));
+    }
+}
+
+static const char *slip(void)
+{
+    return hci_slip_of_cogging(&MACHINE, &model);
+}
+
+static void is_slip(const char *part)
+{
+    TEST_ASSERT_NOT_NULL(slip());
+    TEST_ASSERT_NOT_NULL(strstr(slip(), part));
+}
+
+static void test_another_sign(void)
+{
+    show_ahead(0.0, -1.0, 1.0);
+    is_slip("sign");
+}
+
+static void test_the_other_direction(void)
+{
+    show_ahead(0.0, 1.0, -1.0);
+    is_slip("direction");
+}
+
+static void test_the_other_direction_from_another_zero(void)
+{
+    show_ahead(0.9, -1.0, -1.0);
+    is_slip("direction");
+}
+
+static void test_another_zero(void)
+{
+    show_ahead(0.4, 1.0, 1.0);
+    is_slip("zero");
+}
+
+/* That is an effect of the angle, which is looked for. */
+static void test_a_little_ahead_is_none(void)
+{
+    show_ahead(0.05, 1.0, 1.0);
+    TEST_ASSERT_NULL(slip());
+}
+
+static void test_orders_turned_by_themselves_are_none(void)
+{
+    show(6.0, -0.5, -0.2);
+    show(12.0, 0.3, 0.3);
+    TEST_ASSERT_NULL(slip());
+}
+
+static void test_nothing_at_its_orders(void)
+{
+    show(6.0, 0.01, -0.01);
+    show(4.0, 0.5, 0.2);
+    is_slip("pole pairs");
+}
+
+static void test_a_cogging_torque_of_its_own_is_none(void)
+{
+    show(4.0, 0.5, 0.2);
+    show(18.0, 0.1, 0.2);
+    TEST_ASSERT_NULL(slip());
+}
+
+static void test_another_share_is_none(void)
+{
+    show(6.0, 1.0, 0.4);
+    show(12.0, -0.2, 0.3);
+    TEST_ASSERT_NULL(slip());
+}
+
+/* A small order says nothing of the others. */
+static void test_the_largest_order_decides(void)
+{
+    show(12.0, 0.0, 0.0);
+    TEST_ASSERT_NULL(slip());
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_another_sign);
+    RUN_TEST(test_the_other_direction);
+    RUN_TEST(test_the_other_direction_from_another_zero);
+    RUN_TEST(test_another_zero);
+    RUN_TEST(test_a_little_ahead_is_none);
+    RUN_TEST(test_orders_turned_by_themselves_are_none);
+    RUN_TEST(test_nothing_at_its_orders);
+    RUN_TEST(test_a_cogging_torque_of_its_own_is_none);
+    RUN_TEST(test_another_share_is_none);
+    RUN_TEST(test_the_largest_order_decides);
+    return UNITY_END();
+}
