@@ -150,6 +150,7 @@ typedef struct {
     bool both_directions;       /* in one run forward, in one backward */
     bool has_temperature;       /* of the magnets, which changes */
     bool has_turn;              /* the angle tells where in the mechanical turn the rotor was */
+    bool has_neutral;           /* the phases may carry the same current all at once */
     bool creeps;                /* in a run the mean torque of a turn rises or falls from turn to turn */
     double duration_s;          /* of the longest run with time */
     size_t speeds;              /* how many different ones, at most 3 */

@@ -70,6 +70,12 @@ static double largest_of(const hci_machine *machine)
     return most;
 }
 
+/* What is the same in all three phases makes no torque where their currents add up to nothing. */
+static bool can_act(const hci_effect_survey *survey, int order)
+{
+    return survey->has_neutral || hci_sequence_of_order(order) != 0;
+}
+
 static void propose(const hci_effect_survey *survey, const hci_effect_proposals *to)
 {
     const int step = has_even(survey->machine) ? 1 : 2;
@@ -77,7 +83,8 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
     hci_effect_propose(to, SINE, 1, 1.0, 2.0, expected);
     hci_effect_propose(to, COSINE, 1, 1.0, 2.0, expected);
     for (int n = 1 + step; n <= MOST_ORDER; n += step)
-        hci_effect_propose(to, SINE, 2, n, n % 6 == 1 || n % 6 == 5 ? USUAL : UNUSUAL, expected);
+        if (can_act(survey, n))
+            hci_effect_propose(to, SINE, 2, n, n % 6 == 1 || n % 6 == 5 ? USUAL : UNUSUAL, expected);
     for (int n = 1; n <= MOST_UNBALANCED; n += step) {
         const int sequence = hci_sequence_of_order(n);
         if (sequence != 1) hci_effect_propose(to, POSITIVE, 2, n, UNUSUAL, expected);

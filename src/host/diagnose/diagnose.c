@@ -264,6 +264,7 @@ static hci_status diagnose(hci_dataset *b, const hci_machine_data *machine, cons
                                        resolution * hci_dataset_range_of(b).torque_Nm,
                                        machine->rated_current_A,
                                        machine->slots > 0.0 ? (size_t)machine->slots : 0,
+                                       machine->has_neutral,
                                        options->progress,
                                        options->progress_context,
                                        options->stop,

@@ -181,12 +181,20 @@ void hci_candidate_orders_release(hci_candidate_orders *lines)
 
 /* ---- those that stand out ---- */
 
+/* Whether slots and poles make a whole electrical order: teeth that differ make even ones, magnets whose
+ * north poles differ from their south poles multiples of three. One angle in an electrical period is all that
+ * is known where the turn is not, and then any order may be theirs. */
+static bool is_of_poles(const hci_candidate_orders *lines, size_t order)
+{
+    return order % 2 == 0 || order % 3 == 0 || lines->stride > 1;
+}
+
 /* Whether an order of the mechanical turn is one of slots and poles: a whole electrical order, one of all the
  * slots, which magnets that differ make, or one that a group of the poles shares with a group of the slots.
  */
 static bool is_of_slots(const hci_candidate_orders *lines, size_t periods, size_t pole_pairs)
 {
-    if (periods % pole_pairs == 0) return true;
+    if (periods % pole_pairs == 0 && is_of_poles(lines, periods / pole_pairs)) return true;
     if (lines->slots > 1 && periods % lines->slots == 0) return true;
     return periods > pole_pairs && periods % 3 == 0 && hci_common_divisor(periods, pole_pairs) > 1;
 }

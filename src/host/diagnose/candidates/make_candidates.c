@@ -150,7 +150,10 @@ static bool warms(const hci_candidates_source *s)
 
 static hci_effect_survey survey_of(const hci_candidates_source *s)
 {
-    hci_effect_survey x = {.machine = s->machine, .richness = s->richness, .speeds = speeds_of(s)};
+    hci_effect_survey x = {.machine = s->machine,
+                           .richness = s->richness,
+                           .speeds = speeds_of(s),
+                           .has_neutral = s->has_neutral};
     bool ahead = false, back = false;
     for (size_t r = 0; r < s->samples->run_count; ++r) {
         const hci_run_statistics *f = &s->samples->statistics[r];

@@ -161,22 +161,33 @@ static void ambiguities_forget(hci_attribution *a)
     }
 }
 
-/* Effects beside such others that the recordings do not ask for. */
+/* What an effect that is in explains, as a share of what it must beside the others; those that prove
+ * themselves: INFINITY. */
+static double share_of_least(const hci_search *s, const hci_attribution *a, const hci_verdict *v)
+{
+    if (!v->in || v->established || v->type == &hci_empirical_type) return INFINITY;
+    const double linear = is_of_whole(s, v->type) ? 0.0 : hci_companion_of_series(a, v);
+    const double least = fmax(linear, hci_companion_least(s->regression, a, v));
+    return least > 0.0 && v->gain < least ? v->gain / least : (double)INFINITY;
+}
+
+/* The effect beside such others that the recordings ask for least of those that they do not ask for. */
 static hci_status companions_leave(hci_search *s, hci_attribution *a, bool *left, hci_note *note)
 {
-    hci_status status = HCI_OK;
-    *left = false;
-    for (size_t r = 0; r < a->types && !status && !*left; ++r) {
-        hci_verdict *v = &a->verdict[r];
-        if (!v->in || v->established || v->type == &hci_empirical_type) continue;
-        if (!(v->gain < hci_companion_least(s->regression, a, v))) continue;
-        hci_candidates_remove_type(&a->model.candidates, v->type);
-        ambiguities_forget(a);
-        v->in = false;
-        *left = true;
-        status = hci_search_renew(s, &a->model, note);
+    hci_verdict *least = NULL;
+    double share = INFINITY;
+    for (size_t r = 0; r < a->types; ++r) {
+        const double x = share_of_least(s, a, &a->verdict[r]);
+        if (!(x < share)) continue;
+        share = x;
+        least = &a->verdict[r];
     }
-    return status;
+    *left = least != NULL;
+    if (!least) return HCI_OK;
+    hci_candidates_remove_type(&a->model.candidates, least->type);
+    ambiguities_forget(a);
+    least->in = false;
+    return hci_search_renew(s, &a->model, note);
 }
 
 /* Free shafts show torque per ampere and inertia as their ratio only: what changes the one is as well a wrong

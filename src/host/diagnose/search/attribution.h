@@ -49,6 +49,7 @@ typedef struct {
     double resolution_Nm;       /* what the model is not asked to be better than */
     double reference_current_A; /* of a series in the currents; NAN: the largest of the runs */
     size_t slots;               /* of the machine; 0: not known */
+    bool has_neutral;           /* of the machine */
     hci_progress *progress;     /* may be NULL */
     void *context;
     hci_stop *stop; /* may be NULL */

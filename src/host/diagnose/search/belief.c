@@ -11,16 +11,47 @@
 #define HARDLY         0.1  /* acceleration beside a residual, that is next to none */
 #define ROUNDING       1e-6 /* of the torque per ampere, that is none */
 
-/* A defect that nobody would have left unnoticed; their number: none. */
-static size_t large_defect(const hci_candidates *candidates)
+/* The time of a turn of the slowest run in use that turns; infinite where none does. */
+static double longest_turn_s(const hci_regression *e)
 {
-    for (size_t k = 0; k < candidates->count; ++k) {
-        const hci_candidate *x = &candidates->candidate[k];
-        if (!x->in || !x->type->is_small || !(x->deviation > 0.0)) continue;
-        for (size_t j = 0; j < x->count; ++j)
-            if (fabs(hci_candidate_departure(x, j)) > LARGEST_DEFECT * x->deviation) return k;
+    double slowest = INFINITY;
+    for (size_t r = 0; r < e->samples->run_count; ++r) {
+        const double speed = fabs(e->samples->statistics[r].mean_speed_rad_per_s);
+        if (e->use[r] && speed > 0.0) slowest = fmin(slowest, speed);
     }
-    return candidates->count;
+    return isfinite(slowest) ? 2.0 * HCI_PI / slowest : (double)INFINITY;
+}
+
+/* The longest lag of a sensor, or of a resonance so damped that it is one: 2ζ/ω_n. */
+static double lag_of(const hci_candidate *x)
+{
+    const size_t *resonance = x->type->resonance;
+    double lag_s = 0.0, frequency_Hz = INFINITY, damping = 0.0;
+    for (size_t j = 0; j < x->count; ++j) {
+        const hci_effect_term *t = &x->term[j];
+        if (x->type->parameter[t->parameter].traits & HCI_PARAMETER_LAG) lag_s = fmax(lag_s, t->value);
+        if (resonance && t->parameter == resonance[0]) frequency_Hz = t->value;
+        if (resonance && t->parameter == resonance[1]) damping = t->value;
+    }
+    return fmax(lag_s, damping / (HCI_PI * frequency_Hz));
+}
+
+/* Behind a lag of more than a turn a sensor shows nothing of any torque, as if there were none. */
+static bool is_large_defect(const hci_regression *e, const hci_candidate *x)
+{
+    for (size_t j = 0; j < x->count && x->type->is_small && x->deviation > 0.0; ++j)
+        if (fabs(hci_candidate_departure(x, j)) > LARGEST_DEFECT * x->deviation) return true;
+    return lag_of(x) > longest_turn_s(e);
+}
+
+/* A defect that nobody would have left unnoticed; their number: none. */
+static size_t large_defect(const hci_regression *e, const hci_candidates *candidates)
+{
+    size_t k = 0;
+    while (k < candidates->count &&
+           !(candidates->candidate[k].in && is_large_defect(e, &candidates->candidate[k])))
+        ++k;
+    return k;
 }
 
 hci_status hci_search_constant_share(const hci_search *s, const hci_candidates *candidates, double *share,
@@ -87,11 +118,11 @@ static hci_status defects_leave(hci_search *s, hci_fitted_model *model, hci_note
 {
     const size_t types = hci_candidates_types_in(&model->candidates);
     hci_status status = HCI_OK;
-    size_t k = large_defect(&model->candidates);
+    size_t k = large_defect(s->regression, &model->candidates);
     while (!status && k < model->candidates.count) {
         model->candidates.candidate[k].in = false;
         status = hci_regression_fit(s->regression, &model->candidates, &model->fit, note);
-        k = large_defect(&model->candidates);
+        k = large_defect(s->regression, &model->candidates);
     }
     if (hci_candidates_types_in(&model->candidates) < types) model->fit.score = INFINITY;
     return status;
@@ -102,7 +133,7 @@ hci_status hci_search_fit(hci_search *s, hci_fitted_model *model, hci_note *note
     const hci_effect_type *culprit = NULL;
     double share = 1.0;
     hci_status status = hci_regression_fit(s->regression, &model->candidates, &model->fit, note);
-    const size_t defect = large_defect(&model->candidates);
+    const size_t defect = large_defect(s->regression, &model->candidates);
     if (!status && defect < model->candidates.count) {
         status = disbelieve(s, model, model->candidates.candidate[defect].type, share, note);
         if (!status) status = defects_leave(s, model, note);
@@ -119,7 +150,7 @@ hci_status hci_search_fit(hci_search *s, hci_fitted_model *model, hci_note *note
 static hci_status unbelieved_find(const hci_search *s, const hci_candidates *candidates,
                                   const hci_effect_type **type, hci_note *note)
 {
-    const size_t defect = large_defect(candidates);
+    const size_t defect = large_defect(s->regression, candidates);
     double share = 1.0;
     *type = defect < candidates->count ? candidates->candidate[defect].type : NULL;
     if (*type) return HCI_OK;

@@ -42,7 +42,8 @@ static hci_status candidates_renew(hci_search *s, const hci_candidates *model, h
                                           saturates ? s->richness : 0,
                                           s->options->slots,
                                           s->known_only,
-                                          s->no_current};
+                                          s->no_current,
+                                          s->options->has_neutral};
     const hci_status status = hci_search_residual(s, model, note);
     if (status) return status;
     variance_set(s);

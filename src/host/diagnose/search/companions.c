@@ -9,7 +9,10 @@
 #define JITTER_ERROR 0.25 /* of a delay that is another one at each sample */
 #define JITTER       1.5  /* largest over least noise of a run that tells of it */
 #define ANY_ERROR    3e-4 /* a noise of another size in each run, an inertia, the angle between two samples */
-#define PLAIN        40.0 /* a fall of the score that no such error makes */
+#define KNEE                                                                                                 \
+    0.1 /* of what a power describes of tanh x or x/√(1 + x²) up to x = 1, that a linear part beside it   \
+           describes better */
+#define PLAIN 40.0 /* a fall of the score that no such error makes */
 
 /* Whether a type that is in delays, or has a lag or a resonance: the zero of a torque sensor has none. */
 static bool swings(const hci_candidates *model, const hci_effect_type *type)
@@ -81,6 +84,53 @@ static double least_of_any(const hci_attribution *a, const hci_verdict *v)
     for (size_t r = 0; r < a->types; ++r)
         if (a->verdict[r].in && &a->verdict[r] != v) most = fmax(most, a->verdict[r].gain);
     return fmin(PLAIN, ANY_ERROR * most);
+}
+
+/* ---- the linear part of iron ---- */
+
+/* Whether a series in the model has an order that this one of a back-EMF makes with the currents. */
+static bool series_has(const hci_candidates *model, double order)
+{
+    for (size_t k = 0; k < model->count; ++k) {
+        const hci_candidate *x = &model->candidate[k];
+        for (size_t j = 0; x->in && x->type->is_series && j < x->count; ++j)
+            if (fabs(fabs(x->term[j].order - order) - 1.0) < HCI_ORDER_TOLERANCE) return true;
+    }
+    return false;
+}
+
+/* Whether all that a type has in the model are back-EMFs of a balanced machine at the orders of a series. */
+static bool is_linear_part(const hci_candidates *model, const hci_effect_type *type)
+{
+    bool any = false;
+    for (size_t k = 0; k < model->count && type->is_small && type->propose_coenergy; ++k) {
+        const hci_candidate *x = &model->candidate[k];
+        if (!x->in || x->type != type) continue;
+        if (!type->parameter[x->term[0].parameter].whole || !series_has(model, x->term[0].order))
+            return false;
+        any = true;
+    }
+    return any;
+}
+
+/* Reluctance and saturation. */
+static bool is_of_powers(const hci_effect_type *type)
+{
+    return type->propose_coenergy && !type->any_phase && !type->is_small;
+}
+
+/* Others that are in would take the linear part in its place, and the iron be wrong by it. */
+double hci_companion_of_series(const hci_attribution *a, const hci_verdict *v)
+{
+    double sum = 0.0;
+    if (!is_linear_part(&a->model.candidates, v->type)) return 0.0;
+    for (size_t r = 0; r < a->types; ++r) {
+        const hci_verdict *other = &a->verdict[r];
+        if (!other->in || other == v || other->type->any_phase) continue;
+        if (!is_of_powers(other->type)) return 0.0;
+        sum += other->gain;
+    }
+    return KNEE * sum;
 }
 
 /* ---- delays of free shafts ---- */

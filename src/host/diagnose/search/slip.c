@@ -25,12 +25,17 @@ static void order_add(change *c, const hci_harmonic *a, const hci_candidate *x)
     c->highest = fmax(c->highest, a->order);
 }
 
+/* A torque of any order and phase, with terms of the co-energy that need no current. */
+static bool is_cogging(const hci_effect_type *type)
+{
+    return type->any_phase && type->propose_coenergy;
+}
+
 static const hci_candidate *candidate_at(const hci_candidates *model, double order)
 {
-    const hci_effect_type *cogging = hci_effect_type_find("cogging");
     for (size_t k = 0; k < model->count; ++k) {
         const hci_candidate *x = &model->candidate[k];
-        if (x->in && x->type == cogging && fabs(x->term[0].order - order) < HCI_ORDER_TOLERANCE) return x;
+        if (x->in && is_cogging(x->type) && fabs(x->term[0].order - order) < HCI_ORDER_TOLERANCE) return x;
     }
     return NULL;
 }

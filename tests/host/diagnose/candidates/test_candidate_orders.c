@@ -44,8 +44,8 @@ void setUp(void)
         use[r] = true;
     }
     samples = (hci_binned_samples){sample, COUNT, segment, RUNS, statistics, RUNS};
-    source = (hci_candidates_source){&MACHINE, &NO_EFFECTS, &samples, run, use,   residual_Nm,
-                                     variance, NAN,         0,        0,   false, false};
+    source = (hci_candidates_source){&MACHINE, &NO_EFFECTS, &samples, run,   use,   residual_Nm, variance,
+                                     NAN,      0,           0,        false, false, false};
 }
 
 void tearDown(void)
@@ -178,6 +178,20 @@ static void test_slots_and_the_turn(void)
     TEST_ASSERT_TRUE((first == 1 && second == 7) || (first == 7 && second == 1));
 }
 
+/* Once in an electrical period no tooth meets a pole: what does is something else that turns. */
+static void test_an_order_of_no_slot(void)
+{
+    double under = INFINITY;
+    hide(P, 0.05, 0.0);
+    find(1);
+    TEST_ASSERT_EQUAL_UINT64(P, hci_candidate_orders_next(&orders, P, false, &under));
+    under = INFINITY;
+    TEST_ASSERT_NOT_EQUAL(P, hci_candidate_orders_next(&orders, P, true, &under));
+    find(P);
+    under = INFINITY;
+    TEST_ASSERT_EQUAL_UINT64(P, hci_candidate_orders_next(&orders, P, true, &under));
+}
+
 /* With 8 declared slots 8 and 16 a turn are theirs, which are no whole electrical orders of 3 pole pairs. */
 static void test_orders_of_all_the_slots(void)
 {
@@ -256,6 +270,7 @@ int main(void)
     RUN_TEST(test_noise_stands_out_at_the_rate_of_the_limit);
     RUN_TEST(test_orders_end_below_half_the_samples);
     RUN_TEST(test_slots_and_the_turn);
+    RUN_TEST(test_an_order_of_no_slot);
     RUN_TEST(test_orders_of_all_the_slots);
     RUN_TEST(test_groups_of_slots);
     RUN_TEST(test_growth_that_no_effect_has);

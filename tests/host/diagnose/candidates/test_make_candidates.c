@@ -22,7 +22,7 @@ static double residual_Nm[RUNS * SAMPLES], variance[RUNS * SAMPLES];
 static hci_binned_samples samples;
 static hci_candidates list;
 static int richness;
-static bool known_only;
+static bool known_only, has_neutral;
 
 /* One turn each at three speeds and currents, with noise for a residual. */
 void setUp(void)
@@ -30,7 +30,7 @@ void setUp(void)
     seed = 77;
     declared = NO_EFFECTS;
     richness = 0;
-    known_only = false;
+    known_only = has_neutral = false;
     back_emf[0] = (hci_wave){1.0, 1, 0.2, 0.0};
     back_emf[1] = (hci_wave){2.0, -1, 0.001, 0.0};
     machine = (hci_machine){.pole_pairs = P, .back_emf = back_emf, .back_emf_count = 1};
@@ -65,8 +65,9 @@ static void hide(double periods, double amplitude_Nm)
 
 static hci_status make_from(const hci_candidates *known)
 {
-    const hci_candidates_source source = {&machine, &declared, &samples, run, use,        residual_Nm,
-                                          variance, NAN,       richness, 0,   known_only, false};
+    const hci_candidates_source source = {&machine,    &declared, &samples,   run,      use,
+                                          residual_Nm, variance,  NAN,        richness, 0,
+                                          known_only,  false,     has_neutral};
     hci_note note = {{0}};
     hci_candidates_release(&list);
     return hci_candidates_make(&source, known, &list, &note);
@@ -256,6 +257,16 @@ static void test_even_harmonics_only_beside_even_ones(void)
     TEST_ASSERT_TRUE(is_offered("back_emf", "sine", 5.0) && is_offered("back_emf", "sine", 4.0));
 }
 
+/* In a star no current is the same in all three phases, which orders of multiples of three take. */
+static void test_zero_sequences_need_a_neutral(void)
+{
+    make();
+    TEST_ASSERT_TRUE(is_offered("back_emf", "sine", 5.0) && !is_offered("back_emf", "sine", 15.0));
+    has_neutral = true;
+    make();
+    TEST_ASSERT_TRUE(is_offered("back_emf", "sine", 5.0) && is_offered("back_emf", "sine", 15.0));
+}
+
 /* ---- orders ---- */
 
 /* Orders of cogging and of the turn are those that stand out: of pure noise next to none. */
@@ -399,6 +410,7 @@ int main(void)
     RUN_TEST(test_the_magnets_need_a_temperature);
     RUN_TEST(test_without_current_no_saturation);
     RUN_TEST(test_even_harmonics_only_beside_even_ones);
+    RUN_TEST(test_zero_sequences_need_a_neutral);
     RUN_TEST(test_orders_stand_out_of_the_residual);
     RUN_TEST(test_known_effects_alone);
     RUN_TEST(test_orders_above_half_the_samples_are_none);

@@ -77,6 +77,29 @@ static void test_a_sensor_with_half_its_gain_is_not(void)
     TEST_ASSERT_EQUAL_STRING("current_gain", search.disbelieved.type->name);
 }
 
+/* A sensor that needs longer than a turn shows nothing of any torque: that describes a machine without one.
+ */
+static void test_a_lag_of_more_than_a_turn_is_not(void)
+{
+    record_share(0.0, 0.0);
+    model_add("torque_sensor", "time_constant", NULL, 0.0);
+    model.candidates.candidate[0].term[0].value = 0.3;
+    fit();
+    TEST_ASSERT_NOT_NULL(search.disbelieved.type);
+    TEST_ASSERT_EQUAL_STRING("torque_sensor", search.disbelieved.type->name);
+}
+
+static void test_nor_a_resonance_that_is_one(void)
+{
+    record_share(0.0, 0.0);
+    model_add("torque_sensor", "natural_frequency", "damping", 0.0);
+    model.candidates.candidate[0].term[0].value = 70.0;
+    model.candidates.candidate[0].term[1].value = 1e4;
+    fit();
+    TEST_ASSERT_NOT_NULL(search.disbelieved.type);
+    TEST_ASSERT_EQUAL_STRING("torque_sensor", search.disbelieved.type->name);
+}
+
 /* Fitted without being asked, as where the means of the runs do not count, it leaves; friction stays. */
 static void test_what_is_not_believed_leaves(void)
 {
@@ -167,6 +190,8 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_weak_magnets_are_believed);
     RUN_TEST(test_a_tenth_of_the_magnets_is_not);
+    RUN_TEST(test_a_lag_of_more_than_a_turn_is_not);
+    RUN_TEST(test_nor_a_resonance_that_is_one);
     RUN_TEST(test_a_sensor_with_half_its_gain_is_not);
     RUN_TEST(test_what_is_not_believed_leaves);
     RUN_TEST(test_what_is_believed_stays);

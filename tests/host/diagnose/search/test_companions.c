@@ -102,6 +102,37 @@ static void test_the_iron_beside_a_series(void)
     TEST_ASSERT_DOUBLE_WITHIN(0.2, 0.1, least(series));
 }
 
+static void add_order(const char *effect, const char *parameter, double order)
+{
+    const hci_candidate x = candidate_of(effect, parameter, NULL, order);
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_candidates_add(&attribution.model.candidates, &x, &note));
+}
+
+/* Up to the knee of its curve a power of the current misses what a linear part of a tenth takes, at its own
+ * orders; an order that it has not, and phases that differ, are no part of it. */
+static void test_a_linear_part_beside_a_series(void)
+{
+    record_two(HCI_TORQUE_MEASURED);
+    const hci_verdict *emf = add("back_emf", 400.0);
+    add("saturation", 4000.0);
+    add("reluctance", 1000.0);
+    add("cogging", 1e5);
+    add_order("back_emf", "sine", 1.0);
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, hci_companion_of_series(&attribution, emf));
+    add_order("saturation", "d1q2_cosine", 0.0);
+    TEST_ASSERT_DOUBLE_WITHIN(0.1, 500.0, hci_companion_of_series(&attribution, emf));
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, hci_companion_of_series(&attribution, &attribution.verdict[1]));
+    add_order("back_emf", "sine", 5.0);
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, hci_companion_of_series(&attribution, emf));
+    add_order("saturation", "d0q3_sine", 6.0);
+    TEST_ASSERT_DOUBLE_WITHIN(0.1, 500.0, hci_companion_of_series(&attribution, emf));
+    add("iron_drag", 10.0);
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, hci_companion_of_series(&attribution, emf)); /* it would stand in for it */
+    attribution.types -= 1;
+    add_order("back_emf", "neg_sine", 1.0);
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, hci_companion_of_series(&attribution, emf));
+}
+
 /* A slope of the angle is not known to be at a time better than a sample; what a sensor reads is. */
 static void test_delays_within_a_slope(void)
 {
@@ -124,6 +155,7 @@ int main(void)
     RUN_TEST(test_the_iron_beside_lags_and_delays);
     RUN_TEST(test_the_iron_beside_jitter);
     RUN_TEST(test_the_iron_beside_a_series);
+    RUN_TEST(test_a_linear_part_beside_a_series);
     RUN_TEST(test_delays_within_a_slope);
     return UNITY_END();
 }
