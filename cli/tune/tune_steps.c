@@ -290,8 +290,10 @@ hci_status cli_tune_read(cli_tuning *t, hci_note *note)
         say_run(t, k);
     if (!status && t->runs.count > 0) choose_log(t);
     if (!status) cli_remarks_group(&(cli_remarks){remark_of, &t->runs, t->runs.count}, say_remark, t);
-    for (size_t k = 0; k < t->runs.count && !status; ++k)
+    for (size_t k = 0; k < t->runs.count && !status; ++k) {
         t->has_unsteady = t->has_unsteady || t->runs.run[k].is_unsteady;
+        t->needs_inertia = t->needs_inertia || t->runs.run[k].needs_inertia;
+    }
     return status;
 }
 

@@ -37,8 +37,9 @@ typedef struct {
     bool has_slip, has_emf, has_cogging; /* check found one; they were measured without load */
     bool has_diagnosis;                  /* diagnose had something to do */
     bool has_unsteady;                   /* a slow turn sticks and slips */
-    bool has_misfit; /* angle, order or speed contradict each other, and no slip explains it */
-    bool has_doubt;  /* check does not understand something else */
+    bool needs_inertia; /* the current of a slow turn does not tell its cogging torque without the inertia */
+    bool has_misfit;    /* angle, order or speed contradict each other, and no slip explains it */
+    bool has_doubt;     /* check does not understand something else */
     bool has_alias;  /* samples lie too far apart for the order of slots and poles, which shows as another one
                       */
     bool has_offset; /* recordings are read with an angle offset that was found here */

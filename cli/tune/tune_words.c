@@ -45,6 +45,19 @@ static void say_limits(cli_tuning *t)
                        cli_tune_order_of_slots(t), t->cogging_reach);
 }
 
+static void say_unknown_zero(cli_tuning *t)
+{
+    hci_tuning_say(
+        &t->tuning, HCI_TUNING_UNKNOWN,
+        "Where the electrical zero is: the logs have the angle of an encoder, whose zero is "
+        "taken for that of the back-EMF of phase a; v_d and v_q, turned by the same angle, do not "
+        "tell it. The angle of the table is that of the logs, and its header says so. The dq table "
+        "answers cogging torque at the "
+        "right angle of the encoder whatever the zero, as long as the drive's own angle makes "
+        "the phase currents; harmonics of the back-EMF and tables of phase currents need it "
+        "(docs/tutorials/zero.md).");
+}
+
 static void say_unknown(cli_tuning *t)
 {
     say_limits(t);
@@ -52,22 +65,20 @@ static void say_unknown(cli_tuning *t)
         hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
                        "The torque per ampere and the back-EMF are those of the data sheet; voltages of the "
                        "open machine, driven by another, would tell them.");
-    if (!cli_tune_knows_zero(t))
-        hci_tuning_say(
-            &t->tuning, HCI_TUNING_UNKNOWN,
-            "Where the electrical zero is: the logs have the angle of an encoder, whose zero is "
-            "taken for that of the back-EMF of phase a; v_d and v_q, turned by the same angle, do not "
-            "tell it. The angle of the table is that of the logs, and its header says so. The dq table "
-            "answers cogging torque at the "
-            "right angle of the encoder whatever the zero, as long as the drive's own angle makes "
-            "the phase currents; harmonics of the back-EMF and tables of phase currents need it "
-            "(docs/tutorials/zero.md).");
-    for (size_t k = 0; k < t->runs.count; ++k)
-        if (t->runs.run[k].is_unsteady)
+    if (!cli_tune_knows_zero(t)) say_unknown_zero(t);
+    for (size_t k = 0; k < t->runs.count; ++k) {
+        const hci_run *r = &t->runs.run[k];
+        const char *name = t->arguments->given[TUNE_RUNS] ? r->name : t->arguments->word[k];
+        if (r->is_unsteady)
             hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
                            "What of the current in %s answers cogging torque, and what answers the shaft's "
                            "sticking and slipping.",
-                           t->arguments->given[TUNE_RUNS] ? t->runs.run[k].name : t->arguments->word[k]);
+                           name);
+        if (r->needs_inertia)
+            hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
+                           "What of the cogging torque in %s the inertia answers, and what the current.",
+                           name);
+    }
 }
 
 static bool has_sensor(const cli_tuning *t)
@@ -93,39 +104,58 @@ static void say_next_on_machine(cli_tuning *t)
                        "currents of the table, with a torque sensor.");
 }
 
-static void say_next(cli_tuning *t)
+/* Of logs that nothing was solved with, what would do. */
+static void say_next_turn(cli_tuning *t)
 {
+    hci_tuning *r = &t->tuning;
     if (t->has_unsteady)
         hci_tuning_say(
-            &t->tuning, HCI_TUNING_NEXT,
+            r, HCI_TUNING_NEXT,
             "Turn the shaft evenly: a stiffer position control, or a lower speed with it; its speed "
             "is to vary by less than 30 %% rms. Or move it in steps of half a degree or less, keep "
             "the samples at rest alone, and give them a column torque_Nm of 0. A log that sticks is "
             "left out of the next call.");
+    else if (t->needs_inertia)
+        hci_tuning_say(
+            r, HCI_TUNING_NEXT,
+            "Give --inertia, of the rotor with what turns with it, which takes out what accelerates; "
+            "or turn the shaft more slowly, a third of the speed or less, with a stiff control.");
     else if (!t->is_solved && !cli_tune_is_blocked(t) && !cli_tune_can_solve(t))
         hci_tuning_say(
-            &t->tuning, HCI_TUNING_NEXT,
+            r, HCI_TUNING_NEXT,
             "Without a torque sensor: turn the shaft slowly under position control, one turn "
             "forward and one back, log angle and i_q, and give --holding. With one: turn it slowly "
             "without current and log angle and torque; then under load, at three currents "
             "(docs/measuring.md).");
+}
+
+/* Of logs that contradict themselves. */
+static void say_next_correction(cli_tuning *t)
+{
+    hci_tuning *r = &t->tuning;
+    const double order = cli_tune_order_of_slots(t);
     if (t->has_alias)
         hci_tuning_say(
-            &t->tuning, HCI_TUNING_NEXT,
-            "Turn more slowly, or log more often: four samples or more in each period of order %.5g, %.0f "
-            "in a mechanical turn.",
-            cli_tune_order_of_slots(t),
-            ceil(4.0 * cli_tune_order_of_slots(t) * t->declared.model.pole_pairs));
+            r, HCI_TUNING_NEXT,
+            "Turn more slowly, or log more often: four samples or more in each period of order %.5g, "
+            "%.0f in a mechanical turn.",
+            order, ceil(4.0 * order * t->declared.model.pole_pairs));
     if (t->has_misfit)
         hci_tuning_say(
-            &t->tuning, HCI_TUNING_NEXT,
+            r, HCI_TUNING_NEXT,
             "Look at what is not understood: pole pairs, the unit of the angle and of the speed, the order "
             "of the phases. Voltages with open terminals, beside the angle, tell most of it "
             "(docs/check.md).");
     if (t->has_slip)
-        hci_tuning_say(&t->tuning, HCI_TUNING_NEXT,
+        hci_tuning_say(r, HCI_TUNING_NEXT,
                        "Correct what `slip` names (in %s, or in the log), and begin again with a new --out.",
                        t->machine);
+}
+
+static void say_next(cli_tuning *t)
+{
+    say_next_turn(t);
+    say_next_correction(t);
     if (t->is_solved && t->solution.expected.state != HCI_RIPPLE_KNOWN) say_next_on_machine(t);
 }
 
@@ -220,6 +250,35 @@ static void add_to_heading(cli_tuning *t)
                  "; order %.5g, which slots and poles make, was not looked at", cli_tune_order_of_slots(t));
 }
 
+/* Of logs that no currents were solved for. */
+static const char *why_not_solved(const cli_tuning *t)
+{
+    return t->has_misfit
+               ? "Angle, order or speed in the logs contradict each other, and no slip that is known "
+                 "explains it, so nothing was solved"
+           : t->has_alias
+               ? "Cogging torque of a higher order would look like one of a low order, so nothing was solved"
+           : t->has_slip     ? "What the files say contradicts itself, so nothing was solved"
+           : t->has_unsteady ? "The current of a shaft that turns in jerks does not tell its cogging torque, "
+                               "so nothing was "
+                               "solved"
+           : t->needs_inertia ? "The inertia may answer what the current does not, so nothing was solved"
+                              : "The logs tell neither cogging torque nor back-EMF, so nothing was solved";
+}
+
+static const char *verdict_of(const cli_tuning *t)
+{
+    return t->tuning.good                                  ? "tuned"
+           : t->has_slip                                   ? "a convention is broken"
+           : t->has_misfit                                 ? "the conventions are not understood"
+           : t->has_unsteady                               ? "the shaft sticks and slips"
+           : t->has_alias                                  ? "the samples lie too far apart"
+           : !t->is_emitted                                ? "not enough in the logs"
+           : t->tuning.solved                              ? "tuned, but not as wanted"
+           : t->diagnosis.verdict == HCI_DIAGNOSIS_UNKNOWN ? "tuned with what is certain"
+                                                           : "tuned, with something left open";
+}
+
 void cli_tune_conclude(cli_tuning *t)
 {
     hci_tuning *r = &t->tuning;
@@ -228,38 +287,11 @@ void cli_tune_conclude(cli_tuning *t)
     say_unknown(t);
     say_next(t);
     r->good = t->is_emitted && !t->diagnosed && !r->solved && !t->has_doubt;
-    snprintf(r->verdict, sizeof r->verdict, "%s",
-             r->good                                         ? "tuned"
-             : t->has_slip                                   ? "a convention is broken"
-             : t->has_misfit                                 ? "the conventions are not understood"
-             : t->has_unsteady                               ? "the shaft sticks and slips"
-             : t->has_alias                                  ? "the samples lie too far apart"
-             : !t->is_emitted                                ? "not enough in the logs"
-             : r->solved                                     ? "tuned, but not as wanted"
-             : t->diagnosis.verdict == HCI_DIAGNOSIS_UNKNOWN ? "tuned with what is certain"
-                                                             : "tuned, with something left open");
+    snprintf(r->verdict, sizeof r->verdict, "%s", verdict_of(t));
     if (t->is_solved)
         set_heading(t);
-    else if (t->has_misfit)
-        snprintf(r->heading, sizeof r->heading,
-                 "Angle, order or speed in the logs contradict each other, and no slip that is known "
-                 "explains it, so "
-                 "nothing was solved");
-    else if (t->has_alias)
-        snprintf(
-            r->heading, sizeof r->heading,
-            "Cogging torque of a higher order would look like one of a low order, so nothing was solved");
-    else if (t->has_slip)
-        snprintf(r->heading, sizeof r->heading,
-                 "What the files say contradicts itself, so nothing was solved");
-    else if (t->has_unsteady)
-        snprintf(
-            r->heading, sizeof r->heading,
-            "The current of a shaft that turns in jerks does not tell its cogging torque, so nothing was "
-            "solved");
     else
-        snprintf(r->heading, sizeof r->heading,
-                 "The logs tell neither cogging torque nor back-EMF, so nothing was solved");
+        snprintf(r->heading, sizeof r->heading, "%s", why_not_solved(t));
     add_to_heading(t);
 }
 

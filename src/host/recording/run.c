@@ -20,9 +20,8 @@
 #include "host/recording/rotor_frame.h"
 #include "host/recording/row_direction.h"
 #include "host/recording/run_columns.h"
-#include "host/recording/slow_turn.h"
 #include "host/recording/speed_sign.h"
-#include "host/recording/speed_variation.h"
+#include "host/recording/untold_torque.h"
 
 /* Less movement than this is a shaft at rest, whose angle only flickers. */
 #define MOVED_RAD (2.0 * HCI_PI / 100.0)
@@ -437,90 +436,6 @@ static hci_status read_voltages(reader *r)
 
 /* ---- torque ---- */
 
-/* A share of its mean speed by which a shaft that sticks and slips varies, and one that control turns does
- * not. */
-#define UNSTEADY 0.3
-
-/* Told where the current answers breakaway and acceleration, and not cogging torque alone. */
-static hci_status judge_speed(reader *r)
-{
-    hci_run *run = r->run;
-    double share;
-    if (!hci_speed_variation(run, r->pole_pairs, &share)) return memory_error(r);
-    run->is_unsteady = share > UNSTEADY;
-    if (run->is_unsteady)
-        hci_note_add(&run->remark,
-                     "the speed varies by %.0f %% rms within half an electrical turn: the shaft sticks and "
-                     "slips, or goes in steps, so that its current answers acceleration and breakaway, and "
-                     "orders found in it are not those of cogging torque",
-                     100.0 * share);
-    return HCI_OK;
-}
-
-/* The shaft turns so slowly that the current is the reading, less what of it accelerates: torque_Nm. */
-static hci_status hold(reader *r, const char *why)
-{
-    hci_run *run = r->run;
-    const double constant = r->options->torque_constant_Nm_per_A;
-    run->torque_source = HCI_TORQUE_HOLDING;
-    hci_note_add(&run->remark, "no torque_Nm: %s, read as a holding test", why);
-    if (constant > 0.0 && run->theta_m_rad != NULL && !is_zero(run->torque_Nm, run->count))
-        hci_slow_turn_correct(run, r->pole_pairs, constant);
-    for (size_t k = 0; k < run->count; ++k)
-        run->torque_Nm[k] = 0.0;
-    if (!hci_row_direction_set(run)) return memory_error(r);
-    return judge_speed(r);
-}
-
-/* Without a current but with voltages something drives the shaft, whose torque is not known. */
-static bool can_accelerate(const reader *r)
-{
-    const hci_run *run = r->run;
-    if (r->no_currents && run->v_V != NULL) return false;
-    return r->options->inertia_kgm2 > 0.0 && run->time_s != NULL && run->speed_rad_per_s != NULL &&
-           run->count >= 3;
-}
-
-/* torque_Nm as inertia × acceleration. */
-static void accelerate(hci_run *run, double inertia_kgm2)
-{
-    run->torque_window = hci_derivative_window(run->time_s, run->speed_rad_per_s, run->count);
-    hci_derivative_over(run->time_s, run->speed_rad_per_s, run->count, run->torque_window, run->torque_Nm);
-    for (size_t k = 0; k < run->count; ++k)
-        run->torque_Nm[k] *= inertia_kgm2;
-}
-
-/* What makes a run a holding test; NULL: nothing. torque_Nm: as of accelerate, where that can be. */
-static const char *why_held(const reader *r, bool accelerates)
-{
-    const double constant = r->options->torque_constant_Nm_per_A;
-    if (r->options->holding) return "turned slowly, as --holding says";
-    if (accelerates)
-        return hci_is_slow_turn(r->run, r->pole_pairs, r->options->inertia_kgm2, constant)
-                   ? "the shaft turns so slowly that its current answers cogging and friction"
-                   : NULL;
-    return constant > 0.0 && hci_is_slow_turn_both_ways(r->run, r->pole_pairs)
-               ? "turned slowly forward and back, its current answers cogging and friction"
-               : NULL;
-}
-
-static hci_status torque_of_inertia(reader *r)
-{
-    hci_run *run = r->run;
-    const bool accelerates = can_accelerate(r);
-    const char *why = accelerates ? NULL : why_held(r, false);
-    if (!accelerates && why == NULL) return HCI_OK;
-    run->torque_Nm = hci_memory_new(run->count, sizeof(double));
-    if (run->torque_Nm == NULL) return memory_error(r);
-    if (accelerates) accelerate(run, r->options->inertia_kgm2);
-    if (accelerates) why = why_held(r, true);
-    if (why != NULL) run->torque_window = 0;
-    if (why != NULL) return hold(r, why);
-    run->torque_source = HCI_TORQUE_INERTIA;
-    hci_note_add(&r->run->remark, "no torque_Nm: as of a free shaft it is inertia x acceleration");
-    return HCI_OK;
-}
-
 /* Frees a torque that is nothing but the current. */
 static hci_status drop_computed(reader *r)
 {
@@ -550,7 +465,7 @@ static hci_status read_torque(reader *r)
     if (!status) status = drop_computed(r);
     if (status) return status;
     hci_run_computed_torque_leave(&r->columns);
-    if (run->torque_Nm == NULL) return torque_of_inertia(r);
+    if (run->torque_Nm == NULL) return hci_untold_torque_set(run, r->options, r->no_currents, r->note);
     run->torque_source = is_zero(run->torque_Nm, run->count) ? HCI_TORQUE_HOLDING : HCI_TORQUE_MEASURED;
     if (run->torque_source == HCI_TORQUE_HOLDING && !hci_row_direction_set(run)) return memory_error(r);
     return HCI_OK;

@@ -49,15 +49,22 @@ static void ways_of(const double *theta_m_rad, size_t count, double *up_rad, dou
     }
 }
 
-bool hci_is_slow_turn_both_ways(const hci_run *run, int pole_pairs)
+bool hci_is_slow(const hci_run *run, int pole_pairs)
 {
-    double up_rad, down_rad, pace = 0.0;
+    double pace = 0.0;
     if (run->theta_m_rad == NULL || run->time_s == NULL || run->speed_rad_per_s == NULL) return false;
     if (run->count < LEAST || !(rms_of_current(run, pole_pairs, 1.0) > 0.0)) return false;
     for (size_t k = 0; k < run->count; ++k)
         pace += fabs(run->speed_rad_per_s[k]) / (double)run->count;
+    return pace < SLOW;
+}
+
+bool hci_is_slow_turn_both_ways(const hci_run *run, int pole_pairs)
+{
+    double up_rad, down_rad;
+    if (!hci_is_slow(run, pole_pairs)) return false;
     ways_of(run->theta_m_rad, run->count, &up_rad, &down_rad);
-    return pace < SLOW && fmin(up_rad, down_rad) > HCI_PI / pole_pairs;
+    return fmin(up_rad, down_rad) > HCI_PI / pole_pairs;
 }
 
 void hci_slow_turn_correct(hci_run *run, int pole_pairs, double torque_constant_Nm_per_A)

@@ -13,6 +13,9 @@
 bool hci_is_slow_turn(const hci_run *run, int pole_pairs, double inertia_kgm2,
                       double torque_constant_Nm_per_A);
 
+/* Whether a run with an angle, a clock and a current turns at no more than 20 rpm. O(samples). */
+bool hci_is_slow(const hci_run *run, int pole_pairs);
+
 /* The same where the inertia is not known: a current, and half an electrical turn or more in each direction
  * at no more than 20 rpm. A shaft that another one turns so has no current. O(samples). */
 bool hci_is_slow_turn_both_ways(const hci_run *run, int pole_pairs);

@@ -25,6 +25,10 @@ static hci_status check_cogging(const hci_waveform_task *t)
     if (t->run->theta_m_rad == NULL)
         return hci_waveform_refuse(t, "no angle", "theta_m_rad or theta_e_rad",
                                    "add the column, or say which it is: --column theta_m_deg=COLUMN");
+    if (t->run->needs_inertia)
+        return hci_waveform_refuse(
+            t, "a speed that varies with the angle so fast that the inertia may answer the cogging torque",
+            "a current that does", "give --inertia, which takes out what accelerates, or record more slowly");
     if (t->run->torque_Nm == NULL)
         return hci_waveform_refuse(
             t, "no torque", "torque_Nm",

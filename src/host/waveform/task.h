@@ -5,7 +5,7 @@
 #include <stdbool.h>
 
 #include "hci/host/waveform/waveform.h"
-#include "host/waveform/synchronous_average.h"
+#include "host/numeric/synchronous_average.h"
 
 /* Electrical orders that are looked at, and those for which turns are put together where one has too few
  * samples; the user's own highest order is both. */

@@ -42,9 +42,11 @@ typedef struct {
     bool turn_known;  /* the angle is mechanical, or an electrical one that is not wrapped: orders k/p are in
                          it */
     bool is_unsteady; /* a holding test whose shaft sticks and slips: its current tells no cogging torque */
-    bool is_electrical;     /* an electrical angle was recorded; else its zero is supposed to be that of the
-                             * mechanical one */
-    bool zero_is_given;     /* by an offset that the user adds to the angle */
+    bool needs_inertia; /* a slow turn of which the current answers a part that only the inertia tells: it has
+                         * no torque */
+    bool is_electrical; /* an electrical angle was recorded; else its zero is supposed to be that of the
+                         * mechanical one */
+    bool zero_is_given; /* by an offset that the user adds to the angle */
     double zero_offset_rad; /* that offset, electrical */
     bool zero_is_unknown;   /* the angle is the integral of the speed, from 0 */
     bool voltage_is_dq;     /* v_V was v_d and v_q, turned by the recorded angle: says nothing of its zero */
@@ -98,8 +100,11 @@ typedef struct {
  * A run without torque_Nm has inertia × acceleration, or a torque of 0 where options->holding, or where it is
  * a slow turn under control: its current varies by more than five times what accelerates, and its kinetic
  * energy is less than the work of that over one electrical radian; or, where the inertia is not known and the
- * torque constant is, it turns forward and back at no more than 20 rpm. What of its i_q accelerates is then
- * taken out where inertia and torque constant are known.
+ * torque constant is, it turns forward and back at no more than 20 rpm. With the inertia any slow turn of one
+ * steady speed is one. What of its i_q accelerates is then taken out where inertia and torque constant are
+ * known, by the orders of the angle over time where whole turns show them, or where forward and back differ
+ * by what one inertia explains. Where a usual inertia would matter and is not known, the run has no torque
+ * and needs_inertia is set.
  *
  * On failure *run is empty. HCI_ERROR_INPUT, _MEMORY, _ARGUMENT for less than one pole pair. O(samples). */
 hci_status hci_run_read(const char *path, const hci_run_options *options, hci_run *run, hci_note *note);

@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "hci/math/harmonic.h"
-#include "host/waveform/synchronous_average.h"
+#include "host/numeric/synchronous_average.h"
 
 enum {
     NEIGHBOURS = 20 /* on each side */,

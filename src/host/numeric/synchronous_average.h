@@ -1,7 +1,7 @@
 /* What repeats with the turn: a recording cut into turns, a trigonometric polynomial for each, their mean and
  * how far they agree. */
-#ifndef HCI_SRC_HOST_WAVEFORM_SYNCHRONOUS_AVERAGE_H
-#define HCI_SRC_HOST_WAVEFORM_SYNCHRONOUS_AVERAGE_H
+#ifndef HCI_SRC_HOST_NUMERIC_SYNCHRONOUS_AVERAGE_H
+#define HCI_SRC_HOST_NUMERIC_SYNCHRONOUS_AVERAGE_H
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -49,6 +49,9 @@ typedef struct {
 hci_status hci_average_fit(const hci_average_samples *samples, const hci_average_orders *orders,
                            hci_average *average);
 void hci_average_release(hci_average *average);
+
+/* The passes of one direction alone; part: released by the caller. HCI_ERROR_MEMORY. */
+hci_status hci_average_of_direction(const hci_average *average, int direction, hci_average *part);
 
 hci_average_harmonic *hci_average_at(const hci_average *average, size_t pass, size_t channel, size_t order);
 

@@ -1,4 +1,4 @@
-#include "host/waveform/synchronous_average.h"
+#include "host/numeric/synchronous_average.h"
 
 #include <math.h>
 #include <string.h>
@@ -360,6 +360,24 @@ void hci_average_release(hci_average *average)
     hci_memory_free(average->pass);
     hci_memory_free(average->wave);
     memset(average, 0, sizeof *average);
+}
+
+hci_status hci_average_of_direction(const hci_average *average, int direction, hci_average *part)
+{
+    const size_t waves = average->channels * (average->highest + 1);
+    *part = (hci_average){average->highest, average->channels, 0, average->turns_each, NULL, NULL};
+    part->pass = hci_memory_new(average->count + 1, sizeof *part->pass);
+    part->wave = hci_memory_new((average->count + 1) * waves, sizeof *part->wave);
+    if (part->pass == NULL || part->wave == NULL) {
+        hci_average_release(part);
+        return HCI_ERROR_MEMORY;
+    }
+    for (size_t k = 0; k < average->count; ++k) {
+        if (average->pass[k].direction != direction) continue;
+        memcpy(part->wave + part->count * waves, average->wave + k * waves, waves * sizeof *part->wave);
+        part->pass[part->count++] = average->pass[k];
+    }
+    return HCI_OK;
 }
 
 hci_average_harmonic *hci_average_at(const hci_average *average, size_t pass, size_t channel, size_t order)

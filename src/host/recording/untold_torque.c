@@ -1,0 +1,274 @@
+#include "host/recording/untold_torque.h"
+
+#include <math.h>
+
+#include "host/base/memory.h"
+#include "host/numeric/derivative.h"
+#include "host/numeric/statistics.h"
+#include "host/recording/row_direction.h"
+#include "host/recording/slow_turn.h"
+#include "host/recording/speed_variation.h"
+#include "host/recording/turn_balance.h"
+#include "host/recording/turn_ways.h"
+
+/* A share of its mean speed by which a shaft that sticks and slips varies, and one that control turns does
+ * not. */
+#define UNSTEADY 0.3
+
+typedef struct {
+    hci_run *run;
+    const hci_run_options *options;
+    bool accelerates; /* torque_Nm is inertia × acceleration */
+    bool has_ways;    /* turns are told apart */
+    hci_turn_ways ways;
+    hci_note *note;
+} task;
+
+static hci_status memory_error(const task *t)
+{
+    return hci_note_memory(t->note, t->run->name, "%zu samples", t->run->count);
+}
+
+/* ---- inertia × acceleration ---- */
+
+static bool knows_inertia(const hci_run_options *o)
+{
+    return o->inertia_kgm2 > 0.0;
+}
+
+/* Without a current but with voltages something drives the shaft, whose torque is not known. */
+static bool can_accelerate(const task *t, bool no_currents)
+{
+    const hci_run *run = t->run;
+    if (no_currents && run->v_V != NULL) return false;
+    return knows_inertia(t->options) && run->time_s != NULL && run->speed_rad_per_s != NULL &&
+           run->count >= 3;
+}
+
+/* torque_Nm as inertia × the slope of the speed. */
+static void accelerate(hci_run *run, double inertia_kgm2)
+{
+    run->torque_window = hci_derivative_window(run->time_s, run->speed_rad_per_s, run->count);
+    hci_derivative_over(run->time_s, run->speed_rad_per_s, run->count, run->torque_window, run->torque_Nm);
+    for (size_t k = 0; k < run->count; ++k)
+        run->torque_Nm[k] *= inertia_kgm2;
+}
+
+/* torque_Nm as inertia × what the orders of the angle over time say. */
+static void accelerate_by_orders(const task *t, double inertia_kgm2)
+{
+    hci_run *run = t->run;
+    for (size_t k = 0; k < run->count; ++k) {
+        const hci_way *way = &t->ways.way[run->speed_rad_per_s[k] < 0.0];
+        run->torque_Nm[k] =
+            way->any ? inertia_kgm2 * hci_way_acceleration(&t->ways, way, run->theta_m_rad[k]) : 0.0;
+    }
+}
+
+/* ---- a shaft that is turned slowly ---- */
+
+static hci_status find_ways(task *t)
+{
+    const bool can = t->options->torque_constant_Nm_per_A > 0.0 && t->run->speed_rad_per_s != NULL;
+    const hci_status status =
+        can ? hci_turn_ways_find(t->run, t->run->pole_pairs, &t->ways, &t->has_ways) : HCI_OK;
+    return status ? memory_error(t) : HCI_OK;
+}
+
+/* Told where the current answers breakaway and acceleration, and not cogging torque alone. */
+static hci_status judge_speed(const task *t)
+{
+    hci_run *run = t->run;
+    double share;
+    if (!hci_speed_variation(run, run->pole_pairs, &share)) return memory_error(t);
+    run->is_unsteady = share > UNSTEADY;
+    if (run->is_unsteady)
+        hci_note_add(&run->remark,
+                     "the speed varies by %.0f %% rms within half an electrical turn: the shaft sticks and "
+                     "slips, or goes in steps, so that its current answers acceleration and breakaway, and "
+                     "orders found in it are not those of cogging torque",
+                     100.0 * share);
+    return HCI_OK;
+}
+
+/* The current is the reading, less what of it accelerates: torque_Nm. */
+static hci_status hold(const task *t)
+{
+    hci_run *run = t->run;
+    const double constant = t->options->torque_constant_Nm_per_A;
+    run->torque_source = HCI_TORQUE_HOLDING;
+    run->torque_window = 0;
+    if (constant > 0.0 && run->theta_m_rad != NULL &&
+        hci_mean_square_about(run->torque_Nm, run->count, 0.0) > 0.0)
+        hci_slow_turn_correct(run, run->pole_pairs, constant);
+    for (size_t k = 0; k < run->count; ++k)
+        run->torque_Nm[k] = 0.0;
+    return hci_row_direction_set(run) ? HCI_OK : memory_error(t);
+}
+
+static void leave_untold(const task *t)
+{
+    hci_run *run = t->run;
+    hci_memory_free(run->torque_Nm);
+    run->torque_Nm = NULL;
+    run->torque_source = HCI_TORQUE_NONE;
+    run->needs_inertia = true;
+    hci_note_add(
+        &run->remark,
+        "not used as one: the speed varies with the angle so fast that the inertia may answer a good "
+        "part of the cogging torque, which the current then does not show (it does within a tenth "
+        "where rotor and what turns with it have less than %.2g kg·m²); give the inertia, or record "
+        "more slowly",
+        hci_balance_limit(&t->ways, t->options->torque_constant_Nm_per_A));
+}
+
+/* Takes out what accelerates where that is known; inertia_kgm2: that the turns tell, or 0. */
+static hci_status settle(const task *t, double inertia_kgm2)
+{
+    hci_note *remark = &t->run->remark;
+    const hci_status status = judge_speed(t);
+    if (status) return status;
+    if (knows_inertia(t->options)) {
+        if (t->has_ways) accelerate_by_orders(t, t->options->inertia_kgm2);
+        if (t->accelerates || t->has_ways)
+            hci_note_add(remark, t->has_ways ? "acceleration by the orders of the angle over time"
+                                             : "acceleration by the slope of the speed");
+        return hold(t);
+    }
+    if (!t->has_ways) return hold(t);
+    if (inertia_kgm2 > 0.0) {
+        hci_note_add(remark, "an inertia of %.3g kg·m² makes the torque of its turns agree", inertia_kgm2);
+        accelerate_by_orders(t, inertia_kgm2);
+    } else if (!t->run->is_unsteady && hci_balance_needs_inertia(&t->ways)) {
+        leave_untold(t);
+        return HCI_OK;
+    }
+    return hold(t);
+}
+
+static const char *why_held(const task *t)
+{
+    const hci_run_options *o = t->options;
+    if (o->holding) return "turned slowly, as --holding says";
+    if (t->accelerates &&
+        hci_is_slow_turn(t->run, t->run->pole_pairs, o->inertia_kgm2, o->torque_constant_Nm_per_A))
+        return "the shaft turns so slowly that its current answers cogging and friction";
+    if (t->has_ways && knows_inertia(o) && hci_is_slow(t->run, t->run->pole_pairs))
+        return "turned slowly by control, its current and its inertia answer cogging and friction";
+    if (!t->accelerates && o->torque_constant_Nm_per_A > 0.0 &&
+        hci_is_slow_turn_both_ways(t->run, t->run->pole_pairs))
+        return "turned slowly forward and back, its current answers cogging and friction";
+    return NULL;
+}
+
+static hci_status free_or_held(task *t)
+{
+    hci_run *run = t->run;
+    if (t->accelerates) accelerate(run, t->options->inertia_kgm2);
+    const char *why = why_held(t);
+    if (why != NULL) {
+        hci_note_add(&run->remark, "no torque_Nm: %s, read as a holding test", why);
+        return settle(t, t->has_ways ? hci_balance_inertia(&t->ways, 1, t->options->torque_constant_Nm_per_A)
+                                     : 0.0);
+    }
+    if (t->accelerates) {
+        run->torque_source = HCI_TORQUE_INERTIA;
+        hci_note_add(&run->remark, "no torque_Nm: as of a free shaft it is inertia x acceleration");
+        return HCI_OK;
+    }
+    hci_memory_free(run->torque_Nm);
+    run->torque_Nm = NULL;
+    return HCI_OK;
+}
+
+/* Whether orders of the turn could be of use: they cost some time. */
+static bool may_be_slow(const task *t, bool no_currents)
+{
+    return !no_currents && t->options->torque_constant_Nm_per_A > 0.0 &&
+           (t->options->holding || hci_is_slow(t->run, t->run->pole_pairs));
+}
+
+hci_status hci_untold_torque_set(hci_run *run, const hci_run_options *options, bool no_currents,
+                                 hci_note *note)
+{
+    task t = {.run = run, .options = options, .note = note};
+    t.accelerates = can_accelerate(&t, no_currents);
+    hci_status status = may_be_slow(&t, no_currents) ? find_ways(&t) : HCI_OK;
+    if (!status) run->torque_Nm = hci_memory_new(run->count, sizeof(double));
+    if (!status) status = run->torque_Nm != NULL ? free_or_held(&t) : memory_error(&t);
+    hci_turn_ways_release(&t.ways);
+    return status;
+}
+
+/* ---- turns beside each other ---- */
+
+typedef struct {
+    task *task;          /* [count], of which slow ones have ways */
+    hci_turn_ways *ways; /* [used], of the slow ones */
+    size_t count, used;
+    bool forward, backward, told; /* ways that there are; a run was read as slow by itself */
+} slow_runs;
+
+/* A run that its own turns do not tell enough of. */
+static bool is_open(const hci_run *run)
+{
+    return run->torque_Nm == NULL && (run->needs_inertia || hci_is_slow(run, run->pole_pairs));
+}
+
+static hci_status find_slow(hci_run *runs, const hci_run_options *options, slow_runs *s, hci_note *note)
+{
+    hci_status status = HCI_OK;
+    for (size_t k = 0; k < s->count && !status; ++k) {
+        task *t = &s->task[k];
+        *t = (task){.run = &runs[k], .options = options, .note = note};
+        if (is_open(t->run)) status = find_ways(t);
+        if (!t->has_ways) continue;
+        s->ways[s->used++] = t->ways;
+        s->forward = s->forward || t->ways.way[0].any;
+        s->backward = s->backward || t->ways.way[1].any;
+        s->told = s->told || t->run->needs_inertia;
+    }
+    return status;
+}
+
+static hci_status settle_slow(const slow_runs *s)
+{
+    const bool both = s->forward && s->backward;
+    hci_status status = HCI_OK;
+    if (s->used < 2 || !(both || s->told)) return HCI_OK;
+    const double inertia_kgm2 =
+        hci_balance_inertia(s->ways, s->used, s->task[0].options->torque_constant_Nm_per_A);
+    for (size_t k = 0; k < s->count && !status; ++k) {
+        const task *t = &s->task[k];
+        hci_run *run = t->run;
+        if (!t->has_ways || !(both || run->needs_inertia)) continue;
+        if (run->needs_inertia && !(inertia_kgm2 > 0.0)) continue;
+        run->torque_Nm = hci_memory_new(run->count, sizeof(double));
+        if (run->torque_Nm == NULL) return memory_error(t);
+        hci_note_add(&run->remark, "%s",
+                     run->needs_inertia ? "beside other recordings it is used"
+                                        : "no torque_Nm: turned slowly, forward in one recording and back in "
+                                          "another, read as a holding test");
+        run->needs_inertia = false;
+        status = settle(t, inertia_kgm2);
+    }
+    return status;
+}
+
+hci_status hci_untold_torques_join(hci_run *runs, size_t count, const hci_run_options *options,
+                                   hci_note *note)
+{
+    slow_runs s = {.count = count};
+    if (knows_inertia(options) || !(options->torque_constant_Nm_per_A > 0.0) || count < 2) return HCI_OK;
+    s.task = hci_memory_new(count, sizeof *s.task);
+    s.ways = hci_memory_new(count, sizeof *s.ways);
+    hci_status status = s.task != NULL && s.ways != NULL
+                            ? find_slow(runs, options, &s, note)
+                            : hci_note_memory(note, NULL, "%zu recordings", count);
+    if (!status) status = settle_slow(&s);
+    for (size_t k = 0; k < count && s.task != NULL; ++k)
+        hci_turn_ways_release(&s.task[k].ways);
+    hci_memory_free(s.task);
+    hci_memory_free(s.ways);
+    return status;
+}
