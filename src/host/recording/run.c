@@ -20,7 +20,7 @@
 #include "host/recording/rotor_frame.h"
 #include "host/recording/row_direction.h"
 #include "host/recording/run_columns.h"
-#include "host/recording/speed_sign.h"
+#include "host/recording/speed_variation.h"
 #include "host/recording/untold_torque.h"
 
 /* Less movement than this is a shaft at rest, whose angle only flickers. */

@@ -1,4 +1,4 @@
-/* How evenly a shaft turns within an electrical turn. */
+/* How a speed varies: within an electrical turn as the shaft turns unevenly, or about 0 as noise makes it. */
 #ifndef HCI_SRC_HOST_RECORDING_SPEED_VARIATION_H
 #define HCI_SRC_HOST_RECORDING_SPEED_VARIATION_H
 
@@ -9,5 +9,14 @@
  * The speed is the slope of the angle, since a recorded one may be noisier. *share: out, 0 where a run
  * without time or with too few such samples does not tell. False: no memory. O(samples). */
 bool hci_speed_variation(const hci_run *run, int pole_pairs, double *share);
+
+/* How often a speed changes its sign: below HCI_SPEED_SIGN_CHANGES it is not noise around 0. */
+enum { HCI_SPEED_SIGN_CHANGES = 4 };
+size_t hci_speed_sign_changes(const double *speed, size_t count);
+
+/* Whether noise turns the sign of a recorded speed about while the angle goes one way, as that of a slow
+ * turn. slope: [count], of the angle. The speed has the other sign in one row of a hundred or more, changes
+ * it four times as often as the angle, and is that of the angle on the whole. O(samples). */
+bool hci_speed_sign_is_noise(const hci_run *run, const double *slope);
 
 #endif

@@ -5,6 +5,7 @@
 
 #include "hci/math/harmonic.h"
 #include "host/base/memory.h"
+#include "host/numeric/statistics.h"
 #include "host/numeric/synchronous_average.h"
 #include "host/recording/rotor_frame.h"
 
@@ -18,6 +19,11 @@
 /* As orders of a waveform are kept: of all orders noise makes one in so many recordings, of three errors. */
 #define FALSE_SHARE 0.01
 #define TIMES_ERROR 3.0
+
+/* Of the steps of an encoder, what is seen of a movement that comes back in each turn: the pattern in which
+ * samples fall on steps comes back too. */
+#define OF_STEP   0.1
+#define LEAST_RAD 1e-9
 
 enum { TIME, CURRENT, CHANNELS, MOST_PARTS = 64, HIGHEST_MOST = 2000, POINTS_PER_ORDER = 4 };
 
@@ -179,12 +185,14 @@ static void set_acceleration(const hci_turn_ways *ways, hci_way *way)
     }
 }
 
-static void take_orders(const hci_average *one, hci_way *way)
+static void take_orders(const hci_average *one, double resolution_rad, hci_way *way)
 {
+    const double least_s = resolution_rad / fabs(way->speed_rad_per_s);
     for (size_t k = 0; k <= one->highest; ++k) {
         hci_way_order *o = &way->order[k];
         o->time_s = wave_of(one, TIME, k);
         o->iq_A = wave_of(one, CURRENT, k);
+        o->time_s.stands_out = o->time_s.stands_out && hypot(o->time_s.sine, o->time_s.cosine) > least_s;
         if (o->time_s.stands_out || o->iq_A.stands_out) way->seen[way->count++] = k;
     }
 }
@@ -199,7 +207,7 @@ static hci_status take_way(const hci_average *average, int direction, hci_turn_w
     way->seen = hci_memory_new(ways->highest + 1, sizeof *way->seen);
     const bool has_room = way->order != NULL && way->seen != NULL;
     if (way->any && has_room) {
-        take_orders(&one, way);
+        take_orders(&one, ways->resolution_rad, way);
         set_acceleration(ways, way);
     }
     hci_average_release(&one);
@@ -214,6 +222,7 @@ static hci_status take_turns(path *p, hci_turn_ways *ways)
     hci_status status = fit(p, ways->scale, &average);
     if (status) return status;
     ways->highest = average.highest;
+    ways->resolution_rad = OF_STEP * hci_quantum(p->run->theta_m_rad, p->run->count, LEAST_RAD);
     for (int d = 0; d < 2 && !status; ++d)
         status = take_way(&average, d == 0 ? 1 : -1, ways, &ways->way[d]);
     hci_average_release(&average);

@@ -28,9 +28,10 @@ typedef struct {
 
 /* Start with {0}. */
 typedef struct {
-    double scale;   /* the turn is scale × the mechanical one: 1, or the pole pairs */
-    size_t highest; /* order of the turn */
-    hci_way way[2]; /* forward, backward */
+    double scale;          /* the turn is scale × the mechanical one: 1, or the pole pairs */
+    size_t highest;        /* order of the turn */
+    double resolution_rad; /* of movements that come back in each turn */
+    hci_way way[2];        /* forward, backward */
 } hci_turn_ways;
 
 /* Of a run with an angle, a clock and currents. *found: whether it goes round a turn in a direction, at
