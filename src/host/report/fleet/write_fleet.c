@@ -82,8 +82,9 @@ static void write_motor(const hci_line *l, size_t motor, hci_output *out)
         const hci_pooled in_common = {p->mean, p->mean_std_error, p->between};
         const size_t at = motor * l->parameters + k;
         double open;
-        put(out, hci_pooled_shrunken(&in_common, l->value[at], l->std_error[at], &open),
-            k + 1 < l->parameters ? ',' : '\n');
+        const double as_fitted = l->value[at] - p->mean, /* of one that is not like the others */
+            drawn = hci_pooled_shrunken(&in_common, l->value[at], l->std_error[at], &open);
+        put(out, m->stands_out ? as_fitted : drawn, k + 1 < l->parameters ? ',' : '\n');
     }
 }
 
