@@ -11,7 +11,7 @@
 
 #define RESOLVED 0.48 /* orders for each sample of a turn */
 
-enum { MOST_PERIODS = 1200 /* in a mechanical turn */, MOST_ELECTRICAL = 96 };
+enum { MOST_PERIODS = 1200 /* in a mechanical turn */, MOST_ELECTRICAL = 96, FEW_A_TURN = 4 };
 
 /* ---- sums ---- */
 
@@ -181,12 +181,14 @@ void hci_candidate_orders_release(hci_candidate_orders *lines)
 
 /* ---- those that stand out ---- */
 
-/* Whether slots and poles make a whole electrical order: teeth that differ make even ones, magnets whose
- * north poles differ from their south poles multiples of three. One angle in an electrical period is all that
- * is known where the turn is not, and then any order may be theirs. */
-static bool is_of_poles(const hci_candidate_orders *lines, size_t order)
+/* Whether a whole electrical order is one of slots and poles: teeth that differ make even ones, magnets whose
+ * north poles differ from their south poles multiples of three, and both together any. But what is also few
+ * times a turn, as a coupling or a load that is out of line makes it, is that. Where the turn is not known,
+ * any order may be theirs. */
+static bool is_of_poles(const hci_candidate_orders *lines, size_t periods, size_t pole_pairs)
 {
-    return order % 2 == 0 || order % 3 == 0 || lines->stride > 1;
+    const size_t order = periods / pole_pairs;
+    return order % 2 == 0 || order % 3 == 0 || periods > FEW_A_TURN || lines->stride > 1;
 }
 
 /* Whether an order of the mechanical turn is one of slots and poles: a whole electrical order, one of all the
@@ -194,7 +196,7 @@ static bool is_of_poles(const hci_candidate_orders *lines, size_t order)
  */
 static bool is_of_slots(const hci_candidate_orders *lines, size_t periods, size_t pole_pairs)
 {
-    if (periods % pole_pairs == 0 && is_of_poles(lines, periods / pole_pairs)) return true;
+    if (periods % pole_pairs == 0 && is_of_poles(lines, periods, pole_pairs)) return true;
     if (lines->slots > 1 && periods % lines->slots == 0) return true;
     return periods > pole_pairs && periods % 3 == 0 && hci_common_divisor(periods, pole_pairs) > 1;
 }

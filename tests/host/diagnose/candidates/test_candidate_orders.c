@@ -178,7 +178,8 @@ static void test_slots_and_the_turn(void)
     TEST_ASSERT_TRUE((first == 1 && second == 7) || (first == 7 && second == 1));
 }
 
-/* Once in an electrical period no tooth meets a pole: what does is something else that turns. */
+/* Once in an electrical period no tooth meets a pole: what does so few times a turn is something else that
+ * turns, and of many pole pairs uneven teeth and magnets. */
 static void test_an_order_of_no_slot(void)
 {
     double under = INFINITY;
@@ -190,6 +191,11 @@ static void test_an_order_of_no_slot(void)
     find(P);
     under = INFINITY;
     TEST_ASSERT_EQUAL_UINT64(P, hci_candidate_orders_next(&orders, P, true, &under));
+    hide(P, -0.05, 0.0);
+    hide(11, 0.05, 0.0);
+    find(1);
+    under = INFINITY;
+    TEST_ASSERT_EQUAL_UINT64(11, hci_candidate_orders_next(&orders, 11, true, &under));
 }
 
 /* With 8 declared slots 8 and 16 a turn are theirs, which are no whole electrical orders of 3 pole pairs. */
