@@ -32,9 +32,15 @@ hci_date_order hci_date_order_of(const char *date)
     return p.number[1] > 12 ? HCI_DATE_MONTH_FIRST : HCI_DATE_OPEN;
 }
 
+static int days_of(int year, int month)
+{
+    const int is_leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
+    return month == 2 ? 28 + is_leap : 30 + (month + month / 8) % 2;
+}
+
 static double day_of(int year, int month, int day)
 {
-    if (month < 1 || month > 12 || day < 1 || day > 31) return NAN;
+    if (month < 1 || month > 12 || day < 1 || day > days_of(year, month)) return NAN;
     const int shifted = year - (month <= 2),
               in_year = (153 * (month + (month > 2 ? -3 : 9)) + 2) / 5 + day - 1;
     return 365.0 * shifted + shifted / 4 - shifted / 100 + shifted / 400 + in_year;

@@ -244,9 +244,13 @@ static void test_scope_of_twincat(void)
     hci_csv *csv;
     TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, read_text(SCOPE("2", "0"), &csv, &note), note.text);
     TEST_ASSERT_EQUAL(3, hci_csv_rows(csv));
+    TEST_ASSERT_EQUAL_STRING("Drehmoment", hci_csv_name(csv, 1));
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.002, second_number(csv, "time_s"));
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.006, second_number(csv, "torque_Nm"));
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, REF_PI / 9, second_number(csv, "theta_m_rad"));
+    hci_csv_free(csv);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, read_text(SCOPE("2", "86400000.5"), &csv, &note),
+                              note.text); /* a day */
     hci_csv_free(csv);
     TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, read_text(SCOPE("5", "0"), &csv, &note));
     text_has("several sample times", note.text);

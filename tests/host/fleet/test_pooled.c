@@ -128,8 +128,8 @@ static void test_a_line_and_steps_are_found(void)
     TEST_ASSERT_DOUBLE_WITHIN(0.2, sqrt(30.0), found.widening);
 }
 
-/* One parameter is told, one by no motor, one by the odd motor alone; the last is what stays, which is large
- * in that motor. */
+/* One parameter is told, but for the last motor; one by no motor, one by the odd motor alone; the last is
+ * what stays, which is large in that motor and not told of the first. */
 static void test_what_is_not_told_names_no_motor(void)
 {
     enum { LINE = 12, PARAMETERS = 4, ODD = 7 };
@@ -149,8 +149,11 @@ static void test_what_is_not_told_names_no_motor(void)
         const double not_told = NAN, *row = (double[]){0.01 * (k % 5), not_told, k == ODD ? 1.0 : not_told,
                                                        k == ODD ? 0.5 : 0.1 + 0.001 * (k % 3)};
         memcpy(told + PARAMETERS * k, row, PARAMETERS * sizeof *row);
+        if (k == LINE - 1) told[PARAMETERS * k] = not_told;
+        if (k == 0) told[PARAMETERS - 1] = not_told;
         for (int j = 0; j < PARAMETERS; ++j)
-            error[PARAMETERS * k + j] = isnan(row[j]) ? not_told : 0.01 * (j + 1 < PARAMETERS);
+            error[PARAMETERS * k + j] =
+                isnan(told[PARAMETERS * k + j]) ? not_told : 0.01 * (j + 1 < PARAMETERS);
     }
     TEST_ASSERT_EQUAL(HCI_OK, hci_line_conclude(0.002, &line, &note));
     TEST_ASSERT_EQUAL(1, hci_line_outside(&line));
@@ -158,6 +161,11 @@ static void test_what_is_not_told_names_no_motor(void)
     TEST_ASSERT_EQUAL(PARAMETERS - 1, motor[ODD].worst);
     TEST_ASSERT_TRUE(isfinite(motor[ODD].deviation));
     TEST_ASSERT_TRUE(isnan(hci_line_deviation(&line, 0, 1)));
+    TEST_ASSERT_EQUAL(0, motor[0].worst);
+    TEST_ASSERT_TRUE(isfinite(motor[0].deviation));
+    TEST_ASSERT_EQUAL(LINE - 1, parameter[0].motors);
+    TEST_ASSERT_TRUE(isfinite(parameter[0].mean) && isfinite(parameter[0].between));
+    TEST_ASSERT_TRUE(isnan(parameter[1].mean) && isnan(parameter[2].mean) && isnan(parameter[1].low));
 }
 
 int main(void)

@@ -107,6 +107,10 @@ static void test_one_list_for_two_languages(void)
     TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, read_run(), note.text);
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, 2.0, run.torque_Nm[1]);
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.5 * REF_PI, run.theta_m_rad[1]);
+    add("theta_m=Zaehler/3600");
+    files_write(path, "Zaehler;Kanal M\n0;1\n900;2\n1800;3\n");
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, read_run(), note.text);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.5 * REF_PI, run.theta_m_rad[1]);
     files_write(path, "Voie A;Voie X\n0;1\n90;2\n180;3\n");
     TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, read_run());
     text_has("found no column `Kanal M`", note.text);
