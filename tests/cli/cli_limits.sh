@@ -3,6 +3,7 @@
 # tests/host/solution; wrong values of the options in cli_help.sh.
 #   cli_limits.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
 . "$1/tests/support/common.sh"
+use_plain_build # the programs are those of tests/host/solution, which has sanitizers
 . "$source_dir/tests/cli/small_machine.sh"
 cd "$source_dir" || exit 1
 

@@ -145,7 +145,15 @@ use_documents() {
     done
 }
 
-for root in "$work"/tar/* "$work/deb/usr"; do
+# Both packages have the same files, but for the page, licence and changes, which each has in its own way. So libraries and
+# firmware are built with one of them.
+files_of() {
+    (cd "$1" && find . -type f ! -name 'hci-solve.1*' ! -iname 'changelog*' ! -name LICENSE -exec md5sum {} + | sort -k 2)
+}
+step files
+[ "$(files_of "$work"/tar/*)" = "$(files_of "$work/deb/usr")" ] || fail "the .deb and the .tar.gz have other files"
+
+for root in "$work/deb/usr" "$work"/tar/*; do
     step "${root#"$work/"}"
     doc=$root/share/doc/hci-solve
     rm -rf "$work/here" "$work/home"
@@ -153,10 +161,9 @@ for root in "$work"/tar/* "$work/deb/usr"; do
     says_nothing_of_the_build "$root"
     use_program
     use_shell
-    use_libraries
-    use_firmware
 done
-root=$(echo "$work"/tar/*) doc=$root/share/doc/hci-solve
+use_libraries
+use_firmware
 step documents
 use_documents
 echo done
