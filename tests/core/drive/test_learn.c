@@ -25,6 +25,7 @@ static hci_learn_sums sums[ORDERS + 1];
 
 void setUp(void)
 {
+    memset(&learn, 0xA5, sizeof learn); /* nothing of what was there before is left */
     hci_learn_start(&learn, ORDER, ORDERS, sums, 4096);
 }
 void tearDown(void)

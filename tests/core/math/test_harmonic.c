@@ -170,6 +170,14 @@ static void test_mean_square_of_known_currents(void)
     TEST_ASSERT_DOUBLE_WITHIN(ROUNDING, 12.0, hci_waves_mean_square(&neutral, 1));
 }
 
+/* The floor is a share of the largest amplitude, wherever that stands. */
+static void test_floor_is_of_the_largest(void)
+{
+    hci_wave waves[3] = {{7.0, 1, 1e-3, 0.0}, {5.0, -1, 0.6, 0.8}, {1.0, 1, 0.0, 2e-3}};
+    TEST_ASSERT_EQUAL_UINT64(1, hci_waves_join(waves, 3, 1e-2));
+    TEST_ASSERT_EQUAL_DOUBLE(5.0, waves[0].order);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -184,5 +192,6 @@ int main(void)
     RUN_TEST(test_no_waves_are_zero);
     RUN_TEST(test_mean_square_is_the_average_of_the_samples);
     RUN_TEST(test_mean_square_of_known_currents);
+    RUN_TEST(test_floor_is_of_the_largest);
     return UNITY_END();
 }

@@ -9,7 +9,7 @@
 enum { FINE = 400000 };
 
 static const double R_ohm = 0.5, L_H = 1.2e-3, W = 700.0;
-static const hci_wave EMF[] = {{1.0, 1, 0.2, 0.0}, {5.0, -1, 0.02, 0.01}};
+static hci_wave emf[] = {{1.0, 1, 0.2, 0.0}, {5.0, -1, 0.02, 0.01}};
 
 static hci_machine_data m;
 static hci_solve_options o;
@@ -24,7 +24,7 @@ void setUp(void)
     memset(&o, 0, sizeof o);
     memset(&s, 0, sizeof s);
     m.pole_pairs = m.model.pole_pairs = 2;
-    m.model.back_emf = (hci_wave *)(void *)EMF;
+    m.model.back_emf = emf;
     m.model.back_emf_count = 2;
     m.resistance_ohm = R_ohm;
     m.inductance_d_H = m.inductance_q_H = L_H;
@@ -53,8 +53,8 @@ static void at(double theta, double i[3], double line[3])
             slope += waves[k].order * (waves[k].sine * cos(x) - waves[k].cosine * sin(x));
         }
         for (int k = 0; k < 2; ++k) {
-            const double x = EMF[k].order * theta - EMF[k].sequence * p * 2.0 * REF_PI / 3.0;
-            e += EMF[k].sine * sin(x) + EMF[k].cosine * cos(x);
+            const double x = emf[k].order * theta - emf[k].sequence * p * 2.0 * REF_PI / 3.0;
+            e += emf[k].sine * sin(x) + emf[k].cosine * cos(x);
         }
         v[p] = R_ohm * i[p] + 2.0 * W * L_H * slope + W * e;
     }
