@@ -37,7 +37,7 @@ function(hci_add_program name source)
     set(layer core)
     if(cli_includes)
         set(layer cli)
-    elseif(host_includes)
+    elseif(host_includes OR source MATCHES "/tests/host/") # or by a header of tests/support
         set(layer host)
     endif()
     set(HCI_LAYER ${layer} PARENT_SCOPE)

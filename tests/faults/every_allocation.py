@@ -48,7 +48,7 @@ class Trial:
 def has_row(folder):
     """Whether a motor has no result for lack of memory, and its row says so."""
     path = os.path.join(folder, "fleet.csv")
-    return os.path.exists(path) and ",failed,4,,out of memory" in open(path).read()
+    return os.path.exists(path) and re.search(",failed,4,,[^,]*out of memory", open(path).read())
 
 
 def ends(trial, whole_folder):

@@ -92,11 +92,34 @@ static bool rename_again(const char *folder, const char *temporary, const char *
            (rename(from, to) == 0 || errno == ENOENT);
 }
 
-/* Only hidden files of ours are renamed, and only in this folder. */
-static bool is_ours(char *const field[4])
+/* Behind the name of a folder within this one, of `length` bytes with its slash; NULL: it is not there. */
+static const char *name_within(const char *path, const char *folder, size_t length)
 {
-    return strncmp(field[1], ".hci-", 5) == 0 && strncmp(field[2], ".hci-", 5) == 0 && *field[3] != '\0' &&
-           strpbrk(field[1], "/") == NULL && strpbrk(field[2], "/") == NULL && strpbrk(field[3], "/") == NULL;
+    const bool is_there = strncmp(path, folder, length) == 0 && strchr(path + length, '/') == NULL;
+    return is_there ? path + length : NULL;
+}
+
+/* A folder within this one, and no link that leads elsewhere. length: of its name. */
+static bool is_within(const char *folder, const char *name, size_t length)
+{
+    char path[PATH_SIZE];
+    struct stat status;
+    if (!path_of(folder, name, path)) return false;
+    path[strlen(folder) + 1 + length] = '\0';
+    return *name != '.' && length > 0 && lstat(path, &status) == 0 && S_ISDIR(status.st_mode);
+}
+
+/* Only hidden files of ours are renamed, in this folder or in one within it, where they are. */
+static bool is_ours(const char *folder, char *const field[4])
+{
+    const char *slash = strchr(field[3], '/');
+    const size_t length = slash != NULL ? (size_t)(slash - field[3]) + 1 : 0;
+    const char *name[3];
+    if (slash != NULL && !is_within(folder, field[3], length - 1)) return false;
+    for (int k = 0; k < 3; ++k)
+        name[k] = name_within(field[k + 1], field[3], length);
+    return name[0] != NULL && name[1] != NULL && name[2] != NULL && strncmp(name[0], ".hci-", 5) == 0 &&
+           strncmp(name[1], ".hci-", 5) == 0 && *name[2] != '\0';
 }
 
 static bool do_step(const char *folder, char *line)
@@ -108,7 +131,7 @@ static bool do_step(const char *folder, char *line)
         line += strcspn(line, "\t");
         if (*line != '\0') *line++ = '\0';
     }
-    if (!is_ours(field)) return errno = EINVAL, false;
+    if (!is_ours(folder, field)) return errno = EINVAL, false;
     const bool done = strcmp(field[0], "remove") == 0
                           ? take_away(folder, field[3]) && take_away(folder, field[1])
                           : rename_again(folder, field[1], field[3]);

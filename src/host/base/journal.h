@@ -11,7 +11,7 @@
 FILE *hci_journal_open(const char *folder);
 
 /* `temporary` is to become `target`, or `target` is to go where is_removed; `backup` is to go. Names in the
- * folder. */
+ * folder, or all three in one folder within it. */
 void hci_journal_step(FILE *journal, bool is_removed, const char *temporary, const char *backup,
                       const char *target);
 

@@ -130,6 +130,23 @@ static void remove_left_over(const char *folder)
     closedir(names);
 }
 
+static void finish_here(const char *folder)
+{
+    bool is_alone;
+    if (!hci_journal_exists(folder)) return;
+    hci_folder_lock *lock = hci_folder_lock_take(folder, LOCK_WAIT_ms, &is_alone);
+    if (lock != NULL && is_alone) hci_journal_finish(folder);
+    hci_folder_lock_release(lock);
+}
+
+/* A set may have files in a folder within its own, such as `machine` of a diagnosis. */
+static void finish_above(const char *folder)
+{
+    char path[4096];
+    const int length = snprintf(path, sizeof path, "%s/..", folder);
+    if (length > 0 && length < (int)sizeof path) finish_here(path);
+}
+
 /* Locks the folder, and ends what a process that was killed has begun there. */
 static hci_status lock_folder(hci_output *set, hci_note *note)
 {
@@ -139,6 +156,7 @@ static hci_status lock_folder(hci_output *set, hci_note *note)
         return output_error(set->folder, note, "another process is writing into it",
                             "wait until it has ended, or name another folder");
     if (set->lock == NULL) return system_error(set->folder, note, errno, "check the folder");
+    finish_above(set->folder);
     if (is_alone && hci_journal_finish(set->folder)) remove_left_over(set->folder);
     return HCI_OK;
 }
@@ -422,32 +440,55 @@ static const char *name_of(const char *path)
     return strrchr(path, '/') + 1;
 }
 
-/* From here on the set is written, whatever becomes of the process. One file needs no journal. */
-static hci_status begin_journal(const hci_output *output, hci_note *note)
+/* Sets that are renamed together: the last one's folder has those of the others within. */
+typedef struct {
+    hci_output *const *set;
+    size_t count;
+} sets;
+
+static hci_output *outer_of(const sets *all)
 {
-    if (output->count < 2) return HCI_OK;
-    FILE *journal = hci_journal_open(output->folder);
-    for (size_t i = 0; i < output->count && journal != NULL; i++) {
-        const file *f = &output->files[i];
-        hci_journal_step(journal, f->absent, name_of(f->temporary), name_of(f->backup), name_of(f->target));
-    }
-    if (journal != NULL && hci_journal_begin(output->folder, journal)) return HCI_OK;
-    return system_error(output->folder, note, errno, "free some space or name another folder");
+    return all->set[all->count - 1];
 }
 
-static void undo(hci_output *output)
+static void note_steps(FILE *journal, const sets *all)
 {
-    hci_journal_end(output->folder);
-    for (size_t i = output->count; i-- > 0;)
-        withdraw(&output->files[i]);
+    const size_t skipped = strlen(outer_of(all)->folder) + 1;
+    for (size_t k = 0; k < all->count; k++)
+        for (size_t i = 0; i < all->set[k]->count; i++) {
+            const file *f = &all->set[k]->files[i];
+            hci_journal_step(journal, f->absent, f->temporary + skipped, f->backup + skipped,
+                             f->target + skipped);
+        }
 }
 
-static void end_journal(hci_output *output)
+/* From here on the sets are written, whatever becomes of the process. One file needs no journal. */
+static hci_status begin_journal(const sets *all, hci_note *note)
 {
-    hci_sync_folder(output->folder);
-    hci_journal_end(output->folder);
-    for (size_t i = 0; i < output->count; i++)
-        if (output->files[i].has_backup) unlink(output->files[i].backup);
+    const hci_output *outer = outer_of(all);
+    if (all->count == 1 && outer->count < 2) return HCI_OK;
+    FILE *journal = hci_journal_open(outer->folder);
+    if (journal != NULL) note_steps(journal, all);
+    if (journal != NULL && hci_journal_begin(outer->folder, journal)) return HCI_OK;
+    return system_error(outer->folder, note, errno, "free some space or name another folder");
+}
+
+static void undo(const sets *all)
+{
+    hci_journal_end(outer_of(all)->folder);
+    for (size_t k = all->count; k-- > 0;)
+        for (size_t i = all->set[k]->count; i-- > 0;)
+            withdraw(&all->set[k]->files[i]);
+}
+
+static void end_journal(const sets *all)
+{
+    for (size_t k = 0; k < all->count; k++)
+        hci_sync_folder(all->set[k]->folder);
+    hci_journal_end(outer_of(all)->folder);
+    for (size_t k = 0; k < all->count; k++)
+        for (size_t i = 0; i < all->set[k]->count; i++)
+            if (all->set[k]->files[i].has_backup) unlink(all->set[k]->files[i].backup);
 }
 
 hci_status hci_output_checksums(hci_output *output,
@@ -475,32 +516,51 @@ static hci_status check_memory(const hci_output *output, hci_note *note)
     return HCI_ERROR_MEMORY;
 }
 
-static hci_status publish_all(hci_output *output, hci_note *note)
+static hci_status publish_set(const hci_output *output, hci_note *note)
 {
-    hci_status status = hci_output_check(output, note);
-    if (!status) status = check_memory(output, note);
-    if (!status) status = begin_journal(output, note);
-    if (status) return status;
+    hci_status status = HCI_OK;
     for (size_t i = 0; i < output->count && !status; i++)
         status = publish(&output->files[i], note);
+    return status;
+}
+
+static hci_status publish_all(const sets *all, hci_note *note)
+{
+    hci_status status = HCI_OK;
+    for (size_t k = 0; k < all->count && !status; k++)
+        status = hci_output_check(all->set[k], note);
+    if (!status) status = check_memory(outer_of(all), note);
+    if (!status) status = begin_journal(all, note);
+    if (status) return status;
+    for (size_t k = 0; k < all->count && !status; k++)
+        status = publish_set(all->set[k], note);
     if (status)
-        undo(output);
+        undo(all);
     else
-        end_journal(output);
+        end_journal(all);
+    return status;
+}
+
+hci_status hci_output_commit_together(hci_output *const set[], size_t count, hci_note *note)
+{
+    const sets all = {set, count};
+    sigset_t signals;
+    for (size_t k = 0; k < count; k++)
+        close_stream(set[k]);
+    hold_signals(&signals);
+    const hci_status status = publish_all(&all, note);
+    for (size_t k = 0; k < count; k++) {
+        if (!status) set[k]->existing = strlen(set[k]->folder);
+        if (!status) tell(set[k]);
+        hci_output_discard(set[k]);
+    }
+    release_signals(&signals);
     return status;
 }
 
 hci_status hci_output_commit(hci_output *output, hci_note *note)
 {
-    sigset_t signals;
-    close_stream(output);
-    hold_signals(&signals);
-    const hci_status status = publish_all(output, note);
-    if (!status) output->existing = strlen(output->folder);
-    if (!status) tell(output);
-    hci_output_discard(output);
-    release_signals(&signals);
-    return status;
+    return hci_output_commit_together(&output, 1, note);
 }
 
 void hci_output_discard(hci_output *output)
@@ -524,11 +584,8 @@ void hci_output_discard(hci_output *output)
 
 void hci_output_finish_interrupted(const char *folder)
 {
-    bool is_alone;
-    if (!hci_journal_exists(folder)) return;
-    hci_folder_lock *lock = hci_folder_lock_take(folder, LOCK_WAIT_ms, &is_alone);
-    if (lock != NULL && is_alone) hci_journal_finish(folder);
-    hci_folder_lock_release(lock);
+    finish_here(folder);
+    finish_above(folder);
 }
 
 void hci_output_abandon(void)

@@ -191,20 +191,6 @@ static hci_status results_write(hci_output *out, const hci_diagnosis *d, const h
     return status ? status : hci_summary_write(out, hci_diagnosis_json(d, resolution), note);
 }
 
-/* The sets appear one after the other, the one with the summary last. */
-static hci_status commit(hci_output *set[], size_t count, hci_status status, hci_note *note)
-{
-    for (size_t k = 0; k < count && !status; ++k)
-        status = hci_output_check(set[k], note);
-    for (size_t k = 0; k < count; ++k) {
-        if (status)
-            hci_output_discard(set[k]);
-        else
-            status = hci_output_commit(set[k], note);
-    }
-    return status;
-}
-
 hci_status hci_diagnosis_write(const hci_diagnosis *d, const hci_resolution *resolution, const hci_runs *runs,
                                const char *machine_folder, const char *folder, hci_note *note)
 {
@@ -213,5 +199,8 @@ hci_status hci_diagnosis_write(const hci_diagnosis *d, const hci_resolution *res
     if (!status) status = results_write(set[2], d, resolution, runs, machine_folder, note);
     if (!status) status = declared_write(machine_folder, runs, folder, &set[0], note);
     if (!status) status = machine_write(d, machine_folder, folder, &set[1], note);
-    return commit(set, 3, status, note);
+    if (!status) return hci_output_commit_together(set, 3, note);
+    for (size_t k = 0; k < 3; ++k)
+        hci_output_discard(set[k]);
+    return status;
 }

@@ -277,14 +277,62 @@ static void test_a_journal_of_others_is_not_followed(void)
 {
     static const char *const STEP[] = {"rename\t.hci-7-0.tmp\t.hci-7-0.old\t../b.csv\n",
                                        "rename\tprecious\t.hci-7-0.old\tb.csv\n",
-                                       "remove\t.hci-7-0.tmp\tprecious\tb.csv\n", "rename\n", "\n"};
+                                       "remove\t.hci-7-0.tmp\tprecious\tb.csv\n",
+                                       "remove\tto/.hci-7-0.tmp\tto/.hci-7-0.old\tto/precious\n",
+                                       "remove\t/.hci-7-0.tmp\t/.hci-7-0.old\t/precious\n",
+                                       "remove\t./.hci-7-0.tmp\t./.hci-7-0.old\t./precious\n",
+                                       "rename\n",
+                                       "\n"};
+    TEST_ASSERT_EQUAL(0, symlink(".", files_path("to")));
     for (size_t k = 0; k < sizeof STEP / sizeof *STEP; k++) {
         files_write(files_path("precious"), "precious\n");
         files_write(files_path(".hci-7-0.tmp"), "new\n");
         files_write(files_path(".hci-journal"), STEP[k]);
         hci_output_finish_interrupted(files_root);
-        TEST_ASSERT_EQUAL_MESSAGE(3, files_count(files_root), STEP[k]);
+        TEST_ASSERT_EQUAL_MESSAGE(4, files_count(files_root), STEP[k]);
     }
+}
+
+/* A folder within goes along, and whoever comes to it first ends the set. */
+static void test_a_set_with_a_folder_within_is_ended(void)
+{
+    for (int k = 0; k < 2; k++) {
+        TEST_ASSERT_EQUAL(0, mkdir(files_path("m"), 0777));
+        files_write(files_path("a.csv"), "old a\n");
+        files_write(files_path(".hci-7-0.tmp"), "new a\n");
+        files_write(files_path("m/b.csv"), "old b\n");
+        files_write(files_path("m/.hci-7-0.tmp"), "new b\n");
+        files_write(files_path(".hci-journal"), "rename\tm/.hci-7-0.tmp\tm/.hci-7-0.old\tm/b.csv\n"
+                                                "rename\t.hci-7-0.tmp\t.hci-7-0.old\ta.csv\n");
+        if (k == 0) hci_output_finish_interrupted(files_path("m"));
+        if (k == 1) hci_output_discard(open_set(files_path("m")));
+        assert_holds(files_path("a.csv"), "new a\n");
+        assert_holds(files_path("m/b.csv"), "new b\n");
+        TEST_ASSERT_EQUAL(2, files_count(files_root));
+        files_remove(files_path("m"));
+    }
+}
+
+static hci_output *set_of(const char *folder, const char *name)
+{
+    hci_output *output = open_set(folder);
+    start(output, name, "new\n");
+    return output;
+}
+
+static void test_sets_appear_together_or_not_at_all(void)
+{
+    for (int fails = 1; fails >= 0; fails--) {
+        hci_output *set[2];
+        set[1] = set_of(files_root, "a.csv");
+        set[0] = set_of(files_path("m"), "b.csv");
+        if (fails) TEST_ASSERT_EQUAL(0, mkdir(files_path("a.csv"), 0777));
+        TEST_ASSERT_EQUAL(fails ? HCI_ERROR_OUTPUT : HCI_OK, hci_output_commit_together(set, 2, NULL));
+        TEST_ASSERT_EQUAL(fails ? 1 : 2, files_count(files_root));
+        if (fails) TEST_ASSERT_EQUAL(0, rmdir(files_path("a.csv")));
+    }
+    assert_holds(files_path("a.csv"), "new\n");
+    assert_holds(files_path("m/b.csv"), "new\n");
 }
 
 /* What had no memory may be missing in it. */
@@ -521,6 +569,8 @@ int main(void)
     RUN_TEST(test_a_set_that_was_interrupted_is_ended);
     RUN_TEST(test_a_journal_of_others_is_not_followed);
     RUN_TEST(test_a_set_for_which_memory_was_short_is_not_written);
+    RUN_TEST(test_a_set_with_a_folder_within_is_ended);
+    RUN_TEST(test_sets_appear_together_or_not_at_all);
     RUN_TEST(test_a_journal_that_is_no_plain_file_is_left);
     RUN_TEST(test_folders_that_cannot_be_are_refused);
     RUN_TEST(test_only_plain_files_are_replaced);

@@ -61,6 +61,10 @@ hci_status hci_output_checksums(hci_output *output,
  * else. */
 hci_status hci_output_commit(hci_output *output, hci_note *note);
 
+/* The same for sets whose files belong together: all of them appear, or none. The last one's folder has the
+ * folders of the others within it, each by its name alone. */
+hci_status hci_output_commit_together(hci_output *const set[], size_t count, hci_note *note);
+
 /* Removes the temporary files and frees. output may be NULL. */
 void hci_output_discard(hci_output *output);
 
