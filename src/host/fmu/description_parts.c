@@ -21,7 +21,7 @@ void hci_fmu_attribute(hci_long_text *text, const char *name, const char *value)
     hci_long_text_add(text, "\"");
 }
 
-void hci_fmu_attribute_number(hci_long_text *text, const char *name, double value)
+static void attribute_number(hci_long_text *text, const char *name, double value)
 {
     hci_long_text_add(text, " %s=\"", name);
     hci_long_text_number(text, value);
@@ -104,7 +104,7 @@ void hci_fmu_value_attributes(const hci_fmu_description *d, size_t k, hci_long_t
     else if (v->type == HCI_FMU_BOOLEAN)
         hci_long_text_add(text, " start=\"%s\"", d->start[k] > 0.0 ? "true" : "false");
     else if (v->causality != HCI_FMU_OUTPUT)
-        hci_fmu_attribute_number(text, "start", d->start[k]);
+        attribute_number(text, "start", d->start[k]);
 }
 
 void hci_fmu_experiment(const hci_fmu_description *d, hci_long_text *text)
@@ -112,7 +112,7 @@ void hci_fmu_experiment(const hci_fmu_description *d, hci_long_text *text)
     hci_long_text_add(text, "  <LogCategories>\n    <Category name=\"logStatusError\"/>\n"
                             "    <Category name=\"logStatusDiscard\"/>\n  </LogCategories>\n"
                             "  <DefaultExperiment startTime=\"0.0\"");
-    hci_fmu_attribute_number(text, "stepSize", d->step_s);
+    attribute_number(text, "stepSize", d->step_s);
     hci_long_text_add(text, "/>\n");
 }
 

@@ -6,7 +6,6 @@
 
 /* ` name="value"`, with the letters escaped that XML needs. */
 void hci_fmu_attribute(hci_long_text *text, const char *name, const char *value);
-void hci_fmu_attribute_number(hci_long_text *text, const char *name, double value);
 
 /* From the first line to the attributes of CoSimulation; token: the name that the version has for it; more:
  * attributes that it has besides. */

@@ -29,7 +29,8 @@ void hci_foreign_map_release(hci_foreign_map *map)
 
 /* ---- angles ---- */
 
-double hci_foreign_fraction(double x)
+/* x without its whole part, in [0, 1). */
+static double fraction_of(double x)
 {
     const double f = x - floor(x);
     return f < 1.0 ? f : 0.0;
@@ -42,7 +43,7 @@ static double zero_in_turns(const hci_foreign_map *map)
 
 double hci_foreign_turn(const hci_foreign_map *map, double theta_rad)
 {
-    return hci_foreign_fraction(zero_in_turns(map) + map->direction * theta_rad / (2.0 * HCI_PI));
+    return fraction_of(zero_in_turns(map) + map->direction * theta_rad / (2.0 * HCI_PI));
 }
 
 double hci_foreign_theta_rad(const hci_foreign_map *map, double turn)
@@ -160,7 +161,7 @@ static double lead_rad(const hci_foreign_map *map)
 double hci_foreign_phase_in_file(const hci_foreign_map *map, double phase_rad)
 {
     const double phase = (phase_rad - lead_rad(map)) * (lags(map) ? -1.0 : 1.0);
-    return 2.0 * HCI_PI * hci_foreign_fraction(phase / (2.0 * HCI_PI));
+    return 2.0 * HCI_PI * fraction_of(phase / (2.0 * HCI_PI));
 }
 
 double hci_foreign_phase_of_file(const hci_foreign_map *map, double phase_rad)

@@ -103,9 +103,6 @@ hci_status hci_foreign_map_points(hci_foreign_map *map, size_t points, hci_note 
 
 void hci_foreign_map_release(hci_foreign_map *map);
 
-/* x without its whole part, in [0, 1). */
-double hci_foreign_fraction(double x);
-
 /* The drive's angle in turns, 0 to 1, for one of the machine in rad of the same kind, and the other way
  * round.
  */

@@ -127,14 +127,6 @@ hci_status hci_bounds_make(const hci_machine_data *machine, const hci_solve_opti
     return take_copper(machine, &options->limits, plain_A, bounds, note);
 }
 
-bool hci_bounds_any(const hci_bounds *b)
-{
-    bool any = b->line_V < HUGE_VAL || b->mean_square_A2 < HUGE_VAL;
-    for (int s = 0; s < 3; ++s)
-        any = any || b->current_A[s] < HUGE_VAL || b->rms_A[s] < HUGE_VAL;
-    return any;
-}
-
 bool hci_bounds_are_alike(const hci_bounds *b)
 {
     bool alike = true;

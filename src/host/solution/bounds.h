@@ -20,9 +20,6 @@ typedef struct {
 hci_status hci_bounds_make(const hci_machine_data *machine, const hci_solve_options *options, double plain_A,
                            hci_bounds *bounds, hci_note *note);
 
-/* Whether there is any. */
-bool hci_bounds_any(const hci_bounds *bounds);
-
 /* Whether the three phases have the same ones. */
 bool hci_bounds_are_alike(const hci_bounds *bounds);
 

@@ -137,14 +137,16 @@ double hci_limit_row(const hci_limit_field *field, const hci_limit_point *point,
     return torque_row(field, point, g);
 }
 
-size_t hci_limit_row_room(const hci_limit_field *f)
+/* Room for a row of any kind: that of the torque is made in what is behind its end. */
+static size_t row_room_of(const hci_limit_field *f)
 {
     return 2 * f->set->count + (f->system ? f->system->rows + f->system->unknowns : 0);
 }
 
 /* ---- lists ---- */
 
-hci_status hci_limit_points_add(hci_limit_points *points, hci_limit_point point)
+/* HCI_ERROR_MEMORY, without a note. */
+static hci_status add_point(hci_limit_points *points, hci_limit_point point)
 {
     if (points->count == points->room) {
         const size_t room = 2 * points->room + 64;
@@ -160,8 +162,7 @@ hci_status hci_limit_points_add(hci_limit_points *points, hci_limit_point point)
 hci_status hci_limit_points_fill(const hci_limit_field *field, hci_limit_points *points)
 {
     const size_t width = 2 * field->set->count + 1,
-                 needed =
-                     points->count * width + hci_limit_row_room(field); /* a row may write behind its end */
+                 needed = points->count * width + row_room_of(field); /* a row may write behind its end */
     if (needed > points->row_room) {
         double *more = hci_memory_resize(points->row, 2 * needed, sizeof *more);
         if (!more) return HCI_ERROR_MEMORY;
@@ -213,7 +214,7 @@ hci_status hci_limit_grid_make(const hci_limit_field *field, hci_limit_grid *gri
 {
     grid->unknowns = 2 * field->set->count;
     grid->step_rad = grid->period_rad / (double)grid->samples;
-    grid->g = hci_memory_new(grid->samples * grid->unknowns + hci_limit_row_room(field), sizeof *grid->g);
+    grid->g = hci_memory_new(grid->samples * grid->unknowns + row_room_of(field), sizeof *grid->g);
     grid->constant = hci_memory_new(grid->samples, sizeof *grid->constant);
     grid->is_row = hci_memory_new(grid->samples, sizeof *grid->is_row);
     if (!grid->g || !grid->constant || !grid->is_row) return HCI_ERROR_MEMORY;
@@ -274,15 +275,14 @@ static hci_status take_peak(const search *s, size_t k, hci_limit_points *points,
     const double most = hci_peak_refine(&f, s->grid->step_rad, &theta_rad);
     *worst = fmax(*worst, most);
     if (most <= 0.0) return HCI_OK;
-    return hci_limit_points_add(points, (hci_limit_point){s->grid->kind, s->grid->phase, theta_rad});
+    return add_point(points, (hci_limit_point){s->grid->kind, s->grid->phase, theta_rad});
 }
 
 hci_status hci_limit_peaks(const hci_limit_field *field, const hci_limit_grid *grid, const double *x,
                            const double range[2], hci_limit_points *points, double *worst)
 {
     const size_t n = grid->samples;
-    double *row = hci_memory_new(hci_limit_row_room(field) + n, sizeof *row),
-           *over = row + hci_limit_row_room(field);
+    double *row = hci_memory_new(row_room_of(field) + n, sizeof *row), *over = row + row_room_of(field);
     const search s = {field, grid, x, range, row};
     const double near = NEARLY * (range[1] - range[0]);
     hci_status status = row ? HCI_OK : HCI_ERROR_MEMORY;

@@ -41,9 +41,6 @@ bool hci_limit_is_bent(const hci_limit_field *field);
 /* The true line voltage of currents. */
 double hci_limit_line_V(const hci_limit_field *field, int pair, double theta_rad, const hci_wave_list *i);
 
-/* Room for a row of any kind: that of the torque is made in what is behind its end. */
-size_t hci_limit_row_room(const hci_limit_field *field);
-
 /* Points with what was added last behind, and the rows of the first of them. Start with {0}. */
 typedef struct {
     hci_limit_point *point;
@@ -51,9 +48,6 @@ typedef struct {
     double *row; /* `width` numbers a point: g, then the constant */
     size_t width, rows, row_room;
 } hci_limit_points;
-
-/* HCI_ERROR_MEMORY, without a note. */
-hci_status hci_limit_points_add(hci_limit_points *points, hci_limit_point point);
 
 /* Makes the rows of points that have none yet. HCI_ERROR_MEMORY, without a note. */
 hci_status hci_limit_points_fill(const hci_limit_field *field, hci_limit_points *points);

@@ -47,7 +47,7 @@ static double ripple_percent(const hci_solution *s, bool is_plain)
     return 100.0 * (high - low) / fabs(mean_Nm);
 }
 
-hci_grid_figures hci_grid_figures_of(const hci_solution *s)
+static hci_grid_figures figures_of(const hci_solution *s)
 {
     hci_grid_figures f = hci_grid_no_figures();
     f.mean_Nm = s->order_count ? s->order[0].torque_Nm.cosine : 0.0;
@@ -66,7 +66,8 @@ hci_grid_figures hci_grid_figures_of(const hci_solution *s)
     return f;
 }
 
-hci_grid_figures hci_grid_plain_figures_of(const hci_solution *s)
+/* Of the plain sine that a solution is compared with. */
+static hci_grid_figures plain_figures_of(const hci_solution *s)
 {
     hci_grid_figures f = hci_grid_no_figures();
     if (!(s->plain_amplitude_A > 0.0)) return f;
@@ -118,8 +119,8 @@ static void solve(const hci_machine_data *machine, const hci_solve_options *o, h
     a->figures = a->plain = hci_grid_no_figures();
     if (status > HCI_NOT_REACHED) return;
     a->verdict = verdict_of(&s, status, &a->reason);
-    if (a->verdict < HCI_GRID_LIMITS) a->figures = hci_grid_figures_of(&s);
-    a->plain = hci_grid_plain_figures_of(&s);
+    if (a->verdict < HCI_GRID_LIMITS) a->figures = figures_of(&s);
+    a->plain = plain_figures_of(&s);
     hci_solution_release(&s);
 }
 

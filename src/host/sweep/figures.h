@@ -10,10 +10,6 @@ hci_grid_figures hci_grid_no_figures(void);
 /* A row without figures. */
 void hci_grid_row_begin(const hci_grid_point *point, hci_grid_row *row);
 
-/* Of a solution; of the plain sine that it is compared with. */
-hci_grid_figures hci_grid_figures_of(const hci_solution *solution);
-hci_grid_figures hci_grid_plain_figures_of(const hci_solution *solution);
-
 /* The options of one point, for this target. */
 hci_solve_options hci_grid_options_of(const hci_grid_request *request, const hci_grid_point *point,
                                       const hci_target *target);

@@ -75,7 +75,7 @@ double hci_candidate_departure(const hci_candidate *x, size_t k)
     return parameter->traits & HCI_PARAMETER_SCALE ? 0.0 : x->term[k].value - x->declared[k];
 }
 
-bool hci_candidate_same(const hci_candidate *a, const hci_candidate *b)
+static bool have_same_terms(const hci_candidate *a, const hci_candidate *b)
 {
     if (a->type != b->type || a->count != b->count) return false;
     for (size_t k = 0; k < a->count; ++k)
@@ -88,7 +88,7 @@ bool hci_candidate_same(const hci_candidate *a, const hci_candidate *b)
 const hci_candidate *hci_candidates_find_in(const hci_candidates *candidates, const hci_candidate *candidate)
 {
     for (size_t k = 0; k < candidates->count; ++k)
-        if (candidates->candidate[k].in && hci_candidate_same(&candidates->candidate[k], candidate))
+        if (candidates->candidate[k].in && have_same_terms(&candidates->candidate[k], candidate))
             return &candidates->candidate[k];
     return NULL;
 }

@@ -49,9 +49,6 @@ hci_status hci_candidates_add(hci_candidates *candidates, const hci_candidate *c
 /* By how much the value of term k is away from the declared one; 0 of a scale, which is nothing by itself. */
 double hci_candidate_departure(const hci_candidate *candidate, size_t k);
 
-/* Whether two are the same terms. */
-bool hci_candidate_same(const hci_candidate *a, const hci_candidate *b);
-
 /* The one with the same terms that is in; NULL where there is none. */
 const hci_candidate *hci_candidates_find_in(const hci_candidates *candidates, const hci_candidate *candidate);
 
