@@ -5,7 +5,7 @@
 LIBRARY is failing_malloc.c, compiled; of the allocations every STRIDE-th is tried. The command gets -q and -o FOLDER.
 It has to end with exit code 4, words and no folder, or as it does with enough memory, with the same files; `batch`
 also with exit code 1 and a row of a motor that says it, or with exit code 4, words and a folder from which the same
-command goes on to the same files. Prints how often which happened, and each that is neither;
+command goes on to the same files, as `sweep` does. Prints how often which happened, and each that is neither;
 ends with 1 if there was one.
 """
 
@@ -67,7 +67,7 @@ def outcome(trial, at, code, words, whole):
         return "absorbed"
     if code == 1 and has_row(trial.folder):
         return "row"
-    if code == 4 and said and trial.command[1] == "batch" and ends(trial, whole_folder):
+    if code == 4 and said and trial.command[1] in ("batch", "sweep") and ends(trial, whole_folder):
         return "goes on"
     return None
 

@@ -1,9 +1,12 @@
 #include "host/base/checksum.h"
 
+#include <errno.h>
 #include <inttypes.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
+
+#include "host/base/memory.h"
 
 enum { PART_SIZE = 1 << 14 };
 
@@ -30,6 +33,7 @@ bool hci_checksum_file(const char *path, char text[HCI_CHECKSUM_SIZE])
     uint64_t size = 0;
     size_t length;
     FILE *file = fopen(path, "rb");
+    if (file == NULL && errno == ENOMEM) hci_memory_is_short();
     if (file == NULL) return false;
     fill_table(table);
     for (; (length = fread(part, 1, sizeof part, file)) > 0; size += length)
