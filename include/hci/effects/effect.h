@@ -36,6 +36,7 @@ typedef struct {
     double theta_m_rad; /* mechanical, of any size; θ = p·θ_m. Only an unwrapped electrical angle divided
                          * by p will do where there are orders k/p */
     double speed_rad_per_s;   /* mechanical */
+    double acceleration_rad_per_s2; /* mechanical; 0 where it is not known */
     double i_abc[3];          /* A */
     double change_A_per_s[3]; /* how fast the currents change in the rotor frame, as phase quantities: 0 for
                                * currents that turn with the rotor. Only delays use it */
@@ -155,6 +156,7 @@ typedef struct {
     double duration_s;          /* of the longest run with time */
     size_t speeds;              /* how many different ones, at most 3 */
     double torque_Nm;           /* largest rms of a run */
+    double acceleration_rad_per_s2; /* largest rms of a run with a torque sensor */
     double current_A;           /* largest rms length of a run's current vector */
     double reference_current_A; /* for HCI_PARAMETER_REFERENCE_CURRENT */
     int richness;               /* of series in the currents: 0 low orders, 1 all orders, 2 high powers too */
@@ -227,7 +229,8 @@ enum {
     HCI_EFFECT_NEEDS_SPEED = 2,       /* speed_rad_per_s, given or from time and angle */
     HCI_EFFECT_NEEDS_TEMPERATURE = 4, /* temperature_C */
     HCI_EFFECT_NEEDS_TURN = 8,        /* an angle that tells where in the mechanical turn the rotor was */
-    HCI_EFFECT_NEEDS_RATE = 16        /* how fast the currents change: change_A_per_s */
+    HCI_EFFECT_NEEDS_RATE = 16,        /* how fast the currents change: change_A_per_s */
+    HCI_EFFECT_NEEDS_ACCELERATION = 32 /* acceleration_rad_per_s2, from time and speed */
 };
 
 /* What is known of an effect: all of it, so that a new one is one file and one line in the registry. A member

@@ -23,6 +23,7 @@
     X(friction)                                                                                              \
     X(stribeck_friction)                                                                                     \
     X(iron_drag)                                                                                             \
+    X(rotor_inertia)                                                                                         \
     X(channel_delay)                                                                                         \
     X(current_filter)                                                                                        \
     X(position_eccentricity)                                                                                 \

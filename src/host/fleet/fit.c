@@ -474,7 +474,7 @@ static hci_status read_run(const hci_machine_data *machine, const hci_runs *runs
     d->reading[k] = hci_memory_new(r->count, sizeof *d->reading[k]);
     if (!d->reading[k]) return hci_note_memory(note, r->name, "its samples");
     d->samples += r->count;
-    return hci_predict_readings(r, machine->model.pole_pairs, false, d->reading[k], note);
+    return hci_predict_readings(r, machine->model.pole_pairs, 0, d->reading[k], note);
 }
 
 hci_status hci_fleet_fit_runs(const hci_machine_data *machine, const hci_effects *declared,

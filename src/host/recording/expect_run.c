@@ -36,12 +36,11 @@ hci_status hci_expect_run(const hci_machine_data *machine, const hci_effects *ef
                           const hci_uncertainty *uncertainty, const hci_run *run,
                           hci_expected_ripple *expected, hci_note *note)
 {
-    const bool with_change = (hci_effects_needs(effects) & HCI_EFFECT_NEEDS_RATE) != 0;
     hci_sample *sample = hci_memory_new(run->count, sizeof *sample);
     double *torque_Nm = hci_memory_new(run->count, sizeof *torque_Nm);
     hci_status status =
         sample && torque_Nm ? HCI_OK : hci_note_memory(note, run->name, "%zu samples", run->count);
-    if (!status) status = hci_predict_readings(run, machine->model.pole_pairs, with_change, sample, note);
+    if (!status) status = hci_predict_readings(run, machine->model.pole_pairs, hci_effects_needs(effects), sample, note);
     if (!status) {
         hci_ripple_path path = {.machine = &machine->model,
                                 .effects = effects,

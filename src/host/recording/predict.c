@@ -7,6 +7,7 @@
 #include "host/base/memory.h"
 #include "host/base/quote.h"
 #include "host/numeric/derivative.h"
+#include "host/recording/acceleration.h"
 #include "host/recording/rotor_frame.h"
 
 /* ---- readings ---- */
@@ -30,7 +31,15 @@ static void set_changes(const hci_run *run, int pole_pairs, hci_sample *reading,
     }
 }
 
-hci_status hci_predict_readings(const hci_run *run, int pole_pairs, bool with_change, hci_sample *reading,
+/* work: count. */
+static void set_accelerations(const hci_run *run, hci_sample *reading, double *work)
+{
+    hci_run_accelerations(run, work);
+    for (size_t k = 0; k < run->count; ++k)
+        reading[k].acceleration_rad_per_s2 = work[k];
+}
+
+hci_status hci_predict_readings(const hci_run *run, int pole_pairs, unsigned needs, hci_sample *reading,
                                 hci_note *note)
 {
     if (run->theta_m_rad == NULL) {
@@ -50,10 +59,12 @@ hci_status hci_predict_readings(const hci_run *run, int pole_pairs, bool with_ch
         for (int s = 0; s < 3; ++s)
             x->i_abc[s] = run->i_A[3 * k + (size_t)s];
     }
-    if (!with_change || run->time_s == NULL || run->count < 2) return HCI_OK;
+    const unsigned along_time = HCI_EFFECT_NEEDS_RATE | HCI_EFFECT_NEEDS_ACCELERATION;
+    if (!(needs & along_time) || run->time_s == NULL || run->count < 2) return HCI_OK;
     double *work = hci_memory_new(run->count, 6 * sizeof *work);
     if (work == NULL) return hci_note_memory(note, run->name, "a prediction of %zu samples", run->count);
-    set_changes(run, pole_pairs, reading, work);
+    if (needs & HCI_EFFECT_NEEDS_RATE) set_changes(run, pole_pairs, reading, work);
+    if (needs & HCI_EFFECT_NEEDS_ACCELERATION) set_accelerations(run, reading, work);
     hci_memory_free(work);
     return HCI_OK;
 }
@@ -65,9 +76,8 @@ hci_status hci_predict(const hci_machine_data *machine, const hci_effects *effec
 {
     hci_sample *reading = hci_memory_new(run->count, sizeof *reading);
     if (reading == NULL) return hci_note_memory(note, run->name, "a prediction of %zu samples", run->count);
-    const bool with_change = (hci_effects_needs(effects) & HCI_EFFECT_NEEDS_RATE) != 0;
     const hci_status status =
-        hci_predict_readings(run, machine->model.pole_pairs, with_change, reading, note);
+        hci_predict_readings(run, machine->model.pole_pairs, hci_effects_needs(effects), reading, note);
     for (size_t k = 0; k < run->count && !status; ++k)
         torque_Nm[k] = hci_effects_predict(&machine->model, effects, &reading[k], NULL);
     if (!status && run->time_s != NULL) hci_effects_filter(effects, run->time_s, run->count, torque_Nm, NULL);

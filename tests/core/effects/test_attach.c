@@ -125,11 +125,23 @@ static void test_without_a_state_the_sensor_sees_no_friction(void)
     el_add(&l, "friction", "coulomb", 0.0, 0.05);
     el_add(&l, "stribeck_friction", "excess", 0.0, 0.04);
     el_add(&l, "iron_drag", "eddy", 0.0, 5e-5);
+    el_add(&l, "rotor_inertia", "inertia", 0.0, 0.02);
     TEST_ASSERT_EQUAL_INT(HCI_OK, put(NULL));
     TEST_ASSERT_EQUAL_DOUBLE(2.0, read(HCI_SENSE_TORQUE, 2.0, 0.3));
 }
 
 /* ---- what remembers ---- */
+
+/* A speed that rises straight in time; the first reading has none before it. */
+static void test_what_turns_the_rotor_is_not_read(void)
+{
+    el_add(&l, "rotor_inertia", "inertia", 0.0, 0.02);
+    attach(NOTHING);
+    for (int k = 0; k < 5; ++k) {
+        plant.speed_rad_per_s = OMEGA + 300.0 * STEP_s * k;
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, k > 0 ? 2.0 - 0.02 * 300.0 : 2.0, read(HCI_SENSE_TORQUE, 2.0, 0.3));
+    }
+}
 
 /* Of what goes straight in time a delay by parts of a step is exact; an angle that wraps goes straight too.
  */
@@ -302,6 +314,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_readings_are_the_equations);
     RUN_TEST(test_friction_is_before_the_torque_sensor);
+    RUN_TEST(test_what_turns_the_rotor_is_not_read);
     RUN_TEST(test_without_a_state_the_sensor_sees_no_friction);
     RUN_TEST(test_delays_by_parts_of_a_step);
     RUN_TEST(test_filters_of_sines);

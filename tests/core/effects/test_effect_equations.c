@@ -913,6 +913,22 @@ static void test_torque_drift_follows_the_time(void)
     }
 }
 
+/* Newton's law for what turns before the sensor. */
+static void test_rotor_inertia_takes_what_accelerates_it(void)
+{
+    const hci_effects none = {NULL, 0};
+    hci_sample x = {.theta_m_rad = 0.4, .i_abc = {1.0, 2.0, -3.0}, .temperature_C = NAN};
+    el_list l = {0};
+    el_add(&l, "rotor_inertia", "inertia", 0.0, 0.02);
+    for (int k = -2; k <= 2; ++k) {
+        double by = 0.0;
+        x.acceleration_rad_per_s2 = 30.0 * k;
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, hci_effects_predict(&m.machine, &none, &x, NULL) - 0.6 * k,
+                                  hci_effects_predict(&m.machine, &l.list, &x, &by));
+        TEST_ASSERT_EQUAL_DOUBLE(-30.0 * k, by);
+    }
+}
+
 /* A column of regressors is filtered like the torque. */
 static void test_torque_sensor_filters_regressors(void)
 {
@@ -955,7 +971,8 @@ static void test_registry(void)
                                         "current_filter",
                                         "position_harmonics",
                                         "torque_gain",
-                                        "torque_drift"};
+                                        "torque_drift",
+                                        "rotor_inertia"};
     const size_t count = sizeof NAMES / sizeof *NAMES;
     for (size_t k = 0; k < count; ++k) {
         const hci_effect_type *type = hci_effect_type_find(NAMES[k]);
@@ -999,6 +1016,7 @@ int main(void)
     RUN_TEST(test_harmonics_of_a_resolver);
     RUN_TEST(test_current_filter_of_a_sine);
     RUN_TEST(test_torque_drift_follows_the_time);
+    RUN_TEST(test_rotor_inertia_takes_what_accelerates_it);
     RUN_TEST(test_linear_parameters);
     RUN_TEST(test_derivatives_by_current_and_angle);
     RUN_TEST(test_derivatives_by_every_parameter);

@@ -68,8 +68,8 @@ static void test_what_recordings_ask_for(void)
     const double flux_order[2] = {1.0 / 3.0, 2.0 / 3.0};
     const hci_machine machine = {.pole_pairs = 3};
     hci_effect_survey survey = {.machine = &machine, .torque_Nm = 4.0, .flux_order = flux_order};
-    static const char *const NAME[] = {"unequal_magnets", "torque_drift", "torque_gain"};
-    for (int k = 0; k < 3; ++k)
+    static const char *const NAME[] = {"unequal_magnets", "torque_drift", "torque_gain", "rotor_inertia"};
+    for (int k = 0; k < 4; ++k)
         hci_effect_type_find(NAME[k])->propose(&survey, &TO);
     survey.creeps = true;
     hci_effect_type_find("torque_drift")->propose(&survey, &TO);
@@ -77,9 +77,10 @@ static void test_what_recordings_ask_for(void)
     survey.flux_orders = 2;
     survey.one_gain = true;
     survey.duration_s = 10.0;
-    for (int k = 0; k < 3; ++k)
+    survey.acceleration_rad_per_s2 = 3.0;
+    for (int k = 0; k < 4; ++k)
         hci_effect_type_find(NAME[k])->propose(&survey, &TO);
-    TEST_ASSERT_EQUAL_UINT64(4, count);
+    TEST_ASSERT_EQUAL_UINT64(5, count);
     TEST_ASSERT_EQUAL_DOUBLE(1.0 / 3.0, taken[0].order);
     TEST_ASSERT_EQUAL_DOUBLE(2.0 / 3.0, taken[1].order);
     TEST_ASSERT_TRUE(taken[2].expected > 0.0 && taken[2].expected < 0.4 && taken[3].expected > 0.0);

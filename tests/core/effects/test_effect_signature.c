@@ -71,6 +71,7 @@ static const signature TABLE[] = {
     {"stribeck_friction", "excess", 0.0, 0.01, SINE, 0, 0, 1, {0}}, /* with a Stribeck speed far above */
     {"iron_drag", "hysteresis", 0.0, 1e-3, SINE, 2, 0, 1, {0}},
     {"iron_drag", "eddy", 0.0, 1e-5, SINE, 2, 1, 1, {0}},
+    {"rotor_inertia", "inertia", 0.0, 1e-6, SINE, 0, 2, 1, {1.5}},
     {"current_filter", "time_constant", 0.0, 1e-7, FIFTH, 1, 1, 2, {0, 6}},
     {"position_harmonics", "sine", 1.0, 1e-4, SINE, 1, 0, 1, {1}},
     {"position_harmonics", "cosine", 2.0, 1e-5, FIFTH, 1, 0, 3, {2, 4, 8}},
@@ -98,13 +99,14 @@ static void declare(declared *d, machine_kind kind)
     d->machine = (hci_machine){P, d->emf, kind == FIFTH ? 2 : 1, d->cogging, kind == COGGING, NULL, 0};
 }
 
-/* A sine with i_d and i_q, at constant speed. */
+/* A sine with i_d and i_q, at constant speed but for a small swing, three times a turn, of the acceleration. */
 static hci_sample truth_at(double current, double speed, int k)
 {
     hci_sample x = {0};
     x.theta_m_rad = 2.0 * REF_PI * k / N;
     x.speed_rad_per_s = speed;
     x.elapsed_s = x.theta_m_rad / speed;
+    x.acceleration_rad_per_s2 = 0.01 * speed * speed * sin(3.0 * x.theta_m_rad);
     x.temperature_C = 70.0;
     for (int s = 0; s < 3; ++s)
         x.i_abc[s] = current * sin(P * x.theta_m_rad - 2.0 * REF_PI * s / 3.0 + 0.5);

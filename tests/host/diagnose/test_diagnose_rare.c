@@ -105,6 +105,33 @@ static void test_what_stands_still_does_not_drift(void)
     TEST_ASSERT_EQUAL_UINT64(1, count_of(HCI_FINDING_ADDED));
 }
 
+/* ---- a rotor before the torque sensor ---- */
+
+/* The load machine's speed swings three times a turn. */
+static void record_swinging(double speed, double iq, double inertia_kgm2)
+{
+    const double swing_rad = 0.02;
+    record(450, &(point){speed, iq, 0.0, 0.0, 0.0});
+    hci_run *r = &run[runs.count - 1];
+    for (size_t k = 0; k < r->count; ++k) {
+        const double turned = 3.0 * speed * r->time_s[k];
+        r->theta_m_rad[k] = speed * r->time_s[k] + swing_rad * sin(turned);
+        r->speed_rad_per_s[k] = speed * (1.0 + 3.0 * swing_rad * cos(turned));
+        rec_phases(0.0, iq, P * r->theta_m_rad[k], r->i_A + 3 * k);
+        r->torque_Nm[k] += inertia_kgm2 * swing_rad * 9.0 * speed * speed * sin(turned);
+    }
+}
+
+static void test_the_rotor_takes_its_part(void)
+{
+    for (int k = 0; k < 4; ++k)
+        record_swinging(k < 2 ? 60.0 : -150.0, k % 2 ? 9.0 : 2.0, 2e-4);
+    TEST_ASSERT_EQUAL_INT(HCI_OK, diagnose(NULL));
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_ADDED, found("rotor_inertia")->verdict);
+    TEST_ASSERT_EQUAL_UINT64(1, count_of(HCI_FINDING_ADDED));
+    TEST_ASSERT_DOUBLE_WITHIN(0.02 * 2e-4, 2e-4, term("rotor_inertia", "inertia", 0.0)->value);
+}
+
 /* ---- a low pass ---- */
 
 /* Six runs at three speeds, with i_d too; what is read of the currents is the answer of a low pass to a sine.
@@ -316,6 +343,7 @@ int main(void)
     RUN_TEST(test_drift_of_the_torque_sensor);
     RUN_TEST(test_drift_in_long_runs);
     RUN_TEST(test_what_stands_still_does_not_drift);
+    RUN_TEST(test_the_rotor_takes_its_part);
     RUN_TEST(test_filter_of_the_currents);
     RUN_TEST(test_a_short_filter_is_a_delay);
     RUN_TEST(test_weak_magnets_are_no_calibration);

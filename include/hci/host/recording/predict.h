@@ -11,11 +11,11 @@
 extern "C" {
 #endif
 
-/* The samples of a run as the effects take them. with_change: how fast the currents change in the rotor
- * frame, which delays of channels ask for and which is 0 without; it needs time. What the run does not have
- * is 0, temperatures NAN. reading: out, run->count. HCI_ERROR_INPUT for a run without an angle,
+/* The samples of a run as the effects take them. needs: of HCI_EFFECT_NEEDS_RATE, how fast the currents change in
+ * the rotor frame, and HCI_EFFECT_NEEDS_ACCELERATION, which take time and are 0 where they are not asked for.
+ * What the run does not have is 0, temperatures NAN. reading: out, run->count. HCI_ERROR_INPUT for a run without an angle,
  * HCI_ERROR_MEMORY. O(samples). */
-hci_status hci_predict_readings(const hci_run *run, int pole_pairs, bool with_change, hci_sample *reading,
+hci_status hci_predict_readings(const hci_run *run, int pole_pairs, unsigned needs, hci_sample *reading,
                                 hci_note *note);
 
 /* The torque that the sensor of the bench should have read: declared machine, and effects, the sensor's lag

@@ -166,6 +166,7 @@ static hci_effect_survey survey_of(const hci_candidates_source *s)
         if (s->runs[r].time_s && s->runs[r].count > 0)
             x.duration_s = fmax(x.duration_s, s->runs[r].time_s[s->runs[r].count - 1] - s->runs[r].time_s[0]);
         x.torque_Nm = fmax(x.torque_Nm, f->rms_torque_Nm);
+        if (s->use[r]) x.acceleration_rad_per_s2 = fmax(x.acceleration_rad_per_s2, f->rms_acceleration);
         x.current_A = fmax(x.current_A, f->current_A);
     }
     x.has_temperature = warms(s);

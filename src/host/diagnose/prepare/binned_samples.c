@@ -11,6 +11,7 @@
 #include "host/diagnose/prepare/smooth.h"
 #include "host/diagnose/prepare/turns.h"
 #include "host/machine/torque_constant.h"
+#include "host/recording/acceleration.h"
 #include "host/recording/rotor_frame.h"
 
 enum {
@@ -30,6 +31,7 @@ typedef struct {
     double holding_Nm_per_A; /* in a holding test, where the current of the q axis is what was measured; else
                                 0 */
     const hci_run_statistics *statistics;
+    const double *acceleration; /* of each sample, rad/s²; 0 where a rotor's inertia is not in the torque */
     const bool *at_rest; /* of each sample of the run: it tells no torque */
     hci_binned_samples *samples;
     size_t *capacity; /* samples that there is memory for */
@@ -42,6 +44,7 @@ static void sample_of(const reduction *x, size_t k, hci_binned_sample *c)
     const hci_run *r = x->run;
     memset(c, 0, sizeof *c);
     c->reading.theta_m_rad = r->theta_m_rad ? r->theta_m_rad[k] : 0.0;
+    c->reading.acceleration_rad_per_s2 = x->acceleration[k];
     c->reading.speed_rad_per_s = r->speed_rad_per_s ? r->speed_rad_per_s[k] : 0.0;
     memcpy(c->reading.i_abc, r->i_A + 3 * k, sizeof c->reading.i_abc);
     c->reading.computed_phase = r->computed_phase;
@@ -125,6 +128,7 @@ static void mean_add(const reduction *r, hci_binned_sample *c, const hci_binned_
     c->spread_rad2 = (1.0 - w) * (c->spread_rad2 + w * step_rad * step_rad);
     m->theta_m_rad += w * (x->reading.theta_m_rad - m->theta_m_rad);
     m->speed_rad_per_s += w * (x->reading.speed_rad_per_s - m->speed_rad_per_s);
+    m->acceleration_rad_per_s2 += w * (x->reading.acceleration_rad_per_s2 - m->acceleration_rad_per_s2);
     for (int s = 0; s < 3; ++s)
         m->i_abc[s] += w * (x->reading.i_abc[s] - m->i_abc[s]);
     m->temperature_C += w * (x->reading.temperature_C - m->temperature_C);
@@ -172,6 +176,7 @@ static void mean_join(const reduction *r, hci_binned_sample *c, const hci_binned
                       rest * before.zero + w * other.zero};
     m->theta_m_rad += w * step_rad;
     m->speed_rad_per_s += w * (x->reading.speed_rad_per_s - m->speed_rad_per_s);
+    m->acceleration_rad_per_s2 += w * (x->reading.acceleration_rad_per_s2 - m->acceleration_rad_per_s2);
     hci_phases_of_dq(i, r->pole_pairs * m->theta_m_rad, m->i_abc);
     m->temperature_C += w * (x->reading.temperature_C - m->temperature_C);
     m->elapsed_s += w * (x->reading.elapsed_s - m->elapsed_s);
@@ -358,24 +363,48 @@ static bool is_usable(const hci_run *run)
     return run->torque_Nm && (run->theta_m_rad || run->only_mean) && run->i_A && run->count > 0;
 }
 
+static double rms_of(const double *x, size_t count)
+{
+    double square = 0.0;
+    for (size_t k = 0; k < count; ++k)
+        square += x[k] * x[k];
+    return count > 0 ? sqrt(square / (double)count) : 0.0;
+}
+
+/* What the samples are made of, besides the run itself. False when memory is out. */
+static bool run_fill(const hci_run *run, hci_run_statistics *statistics, bool *at_rest, double *acceleration)
+{
+    if (!at_rest || !acceleration) return false;
+    if (!is_usable(run)) return true;
+    hci_rest_find(run, at_rest);
+    if (run->torque_source != HCI_TORQUE_MEASURED) return true;
+    hci_run_accelerations(run, acceleration);
+    statistics->rms_acceleration = rms_of(acceleration, run->count);
+    return true;
+}
+
 /* Adds run k. False when memory is out. */
 static bool run_add(const hci_machine *machine, const hci_run *run, size_t k, hci_binned_samples *samples,
                     size_t *capacity)
 {
     static const hci_effects none = {NULL, 0};
+    hci_run_statistics *statistics = &samples->statistics[k];
     const bool holds = run->torque_source == HCI_TORQUE_HOLDING;
     bool *at_rest = hci_memory_new(run->count + 1, sizeof *at_rest);
+    double *acceleration = hci_memory_new(run->count + 1, sizeof *acceleration);
     const reduction x = {run,
                          k,
                          machine->pole_pairs,
                          holds ? hci_torque_constant(machine, &none) : 0.0,
-                         &samples->statistics[k],
+                         statistics,
+                         acceleration,
                          at_rest,
                          samples,
                          capacity};
-    samples->statistics[k] = hci_run_statistics_of(run, machine->pole_pairs);
-    if (at_rest && is_usable(run)) hci_rest_find(run, at_rest);
-    const bool done = at_rest && (!is_usable(run) || run_reduce(&x));
+    *statistics = hci_run_statistics_of(run, machine->pole_pairs);
+    const bool done =
+        run_fill(run, statistics, at_rest, acceleration) && (!is_usable(run) || run_reduce(&x));
+    hci_memory_free(acceleration);
     hci_memory_free(at_rest);
     return done;
 }

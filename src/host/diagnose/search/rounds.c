@@ -51,7 +51,9 @@ static hci_status rounds_run(hci_search *s, hci_fitted_model *model, hci_note *n
 
 /* ---- known effects alone ---- */
 
-/* Whether the known effects alone describe the recordings down to the noise, and better. Both are judged by
+#define AS_MUCH 0.01 /* of what is left, that orders of any growth may take more */
+
+/* Whether the known effects alone describe the recordings down to the noise, and as well. Both are judged by
  * the noise that these leave. */
 static hci_status is_better(hci_search *s, hci_fitted_model *known, hci_fitted_model *model, bool *better,
                             hci_note *note)
@@ -59,7 +61,7 @@ static hci_status is_better(hci_search *s, hci_fitted_model *known, hci_fitted_m
     hci_status status = hci_search_is_noise(s, &known->candidates, better, note);
     if (!status && *better) status = hci_regression_fit(s->regression, &known->candidates, &known->fit, note);
     if (!status && *better) status = hci_regression_fit(s->regression, &model->candidates, &model->fit, note);
-    *better = *better && known->fit.score < model->fit.score;
+    *better = *better && known->fit.score < model->fit.score + AS_MUCH * fabs(model->fit.score);
     return status;
 }
 
