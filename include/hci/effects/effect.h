@@ -35,9 +35,9 @@ extern "C" {
 typedef struct {
     double theta_m_rad; /* mechanical, of any size; θ = p·θ_m. Only an unwrapped electrical angle divided
                          * by p will do where there are orders k/p */
-    double speed_rad_per_s;   /* mechanical */
+    double speed_rad_per_s;         /* mechanical */
     double acceleration_rad_per_s2; /* mechanical; 0 where it is not known */
-    double i_abc[3];          /* A */
+    double i_abc[3];                /* A */
     double change_A_per_s[3]; /* how fast the currents change in the rotor frame, as phase quantities: 0 for
                                * currents that turn with the rotor. Only delays use it */
     double curvature_A_per_s2[3]; /* the same of that rate; where it is not known, 0 */
@@ -145,31 +145,31 @@ typedef struct {
 
 /* What recordings are like as a whole, for an effect to say which of its terms could be found in them. */
 typedef struct {
-    const hci_machine *machine; /* declared */
-    bool timed;                 /* a run has time and speed */
-    bool moving;                /* the shaft turned */
-    bool both_directions;       /* in one run forward, in one backward */
-    bool has_temperature;       /* of the magnets, which changes */
-    bool has_turn;              /* the angle tells where in the mechanical turn the rotor was */
-    bool has_neutral;           /* the phases may carry the same current all at once */
-    bool creeps;                /* in a run the mean torque of a turn rises or falls from turn to turn */
-    double duration_s;          /* of the longest run with time */
-    size_t speeds;              /* how many different ones, at most 3 */
-    double torque_Nm;           /* largest rms of a run */
+    const hci_machine *machine;     /* declared */
+    bool timed;                     /* a run has time and speed */
+    bool moving;                    /* the shaft turned */
+    bool both_directions;           /* in one run forward, in one backward */
+    bool has_temperature;           /* of the magnets, which changes */
+    bool has_turn;                  /* the angle tells where in the mechanical turn the rotor was */
+    bool has_neutral;               /* the phases may carry the same current all at once */
+    bool creeps;                    /* in a run the mean torque of a turn rises or falls from turn to turn */
+    double duration_s;              /* of the longest run with time */
+    size_t speeds;                  /* how many different ones, at most 3 */
+    double torque_Nm;               /* largest rms of a run */
     double acceleration_rad_per_s2; /* largest rms of a run with a torque sensor */
-    double current_A;           /* largest rms length of a run's current vector */
-    double reference_current_A; /* for HCI_PARAMETER_REFERENCE_CURRENT */
-    int richness;               /* of series in the currents: 0 low orders, 1 all orders, 2 high powers too */
-    const double *slot_order;   /* electrical orders of the residual that stand out, whole ones: slots and
-                                 * poles; the strongest first */
-    size_t slot_orders;         /* entries of slot_order */
-    const double *turn_order;   /* and those that repeat with the mechanical turn only */
-    size_t turn_orders;         /* entries of turn_order */
-    double orders;              /* how many orders they were chosen from */
-    const double *flux_order;   /* fractions at which cogging and torque with the currents vary alike over the
-                                 * turn, as the declared ones do with the flux; the strongest first */
-    size_t flux_orders;         /* entries of flux_order */
-    bool one_gain;              /* torque with the currents and cogging are off by the same factor */
+    double current_A;               /* largest rms length of a run's current vector */
+    double reference_current_A;     /* for HCI_PARAMETER_REFERENCE_CURRENT */
+    int richness;             /* of series in the currents: 0 low orders, 1 all orders, 2 high powers too */
+    const double *slot_order; /* electrical orders of the residual that stand out, whole ones: slots and
+                               * poles; the strongest first */
+    size_t slot_orders;       /* entries of slot_order */
+    const double *turn_order; /* and those that repeat with the mechanical turn only */
+    size_t turn_orders;       /* entries of turn_order */
+    double orders;            /* how many orders they were chosen from */
+    const double *flux_order; /* fractions at which cogging and torque with the currents vary alike over the
+                               * turn, as the declared ones do with the flux; the strongest first */
+    size_t flux_orders;       /* entries of flux_order */
+    bool one_gain;            /* torque with the currents and cogging are off by the same factor */
     const hci_effect_speed_mean *of_speed; /* measured torques by the speed, each direction by itself */
     size_t of_speeds;                      /* entries of of_speed */
 } hci_effect_survey;
@@ -225,10 +225,10 @@ typedef struct {
 
 /* What a run must have for an effect to act in a model. */
 enum {
-    HCI_EFFECT_NEEDS_TIME = 1,        /* time_s */
-    HCI_EFFECT_NEEDS_SPEED = 2,       /* speed_rad_per_s, given or from time and angle */
-    HCI_EFFECT_NEEDS_TEMPERATURE = 4, /* temperature_C */
-    HCI_EFFECT_NEEDS_TURN = 8,        /* an angle that tells where in the mechanical turn the rotor was */
+    HCI_EFFECT_NEEDS_TIME = 1,         /* time_s */
+    HCI_EFFECT_NEEDS_SPEED = 2,        /* speed_rad_per_s, given or from time and angle */
+    HCI_EFFECT_NEEDS_TEMPERATURE = 4,  /* temperature_C */
+    HCI_EFFECT_NEEDS_TURN = 8,         /* an angle that tells where in the mechanical turn the rotor was */
     HCI_EFFECT_NEEDS_RATE = 16,        /* how fast the currents change: change_A_per_s */
     HCI_EFFECT_NEEDS_ACCELERATION = 32 /* acceleration_rad_per_s2, from time and speed */
 };

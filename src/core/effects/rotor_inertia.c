@@ -50,7 +50,8 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
 const hci_effect_type hci_effect_rotor_inertia = {
     .name = "rotor_inertia",
     .equation = "T_read = T − J dω/dt",
-    .signature = "follows the acceleration; grows with the square of the speed where that varies with the angle",
+    .signature =
+        "follows the acceleration; grows with the square of the speed where that varies with the angle",
     HCI_EFFECT_PARAMETERS(PARAMETER),
     .needs = HCI_EFFECT_NEEDS_TIME | HCI_EFFECT_NEEDS_SPEED | HCI_EFFECT_NEEDS_ACCELERATION,
     .without = "without time and speed the inertia before the torque sensor is left out",

@@ -9,6 +9,7 @@
 #include "host/base/quote.h"
 #include "host/csv/column.h"
 #include "host/csv/table.h"
+#include "host/numeric/statistics.h"
 
 typedef struct {
     hci_run_columns *c;
@@ -17,6 +18,7 @@ typedef struct {
     hci_csv_hole first;  /* the first hole */
     size_t holes, twice; /* rows without a number somewhere; rows that are there a second time */
     size_t first_twice;  /* line of the first of them */
+    size_t still;        /* rows that repeat a reading */
 } rows_task;
 
 static hci_status memory_error(const rows_task *t)
@@ -135,6 +137,117 @@ static void leave_twice_out(rows_task *t)
     }
 }
 
+/* ---- readings that stand still ---- */
+
+#define BY_CHANCE 1e-6 /* of a stretch of equal readings in a recording */
+#define FINE      4.0 /* usual steps of a reading, in units of the smallest one, that are not its resolution */
+#define WHOLE     0.02 /* off a whole number of such units */
+#define MOSTLY    0.9  /* share of the steps */
+
+enum { LEAST_FRESH = 50 };
+
+/* Columns that are read together. */
+typedef struct {
+    const double *column[3];
+    size_t columns;
+    const char *what;
+} readings;
+
+static bool is_same(const readings *x, size_t a, size_t b)
+{
+    for (size_t c = 0; c < x->columns; ++c)
+        if (fabs(x->column[c][a] - x->column[c][b]) > 0.0) return false;
+    return true;
+}
+
+/* Rows that are used and whose reading is another one than before. Returns how many. */
+static size_t fresh_find(const rows_task *t, const readings *x, size_t *fresh)
+{
+    size_t count = 0;
+    for (size_t k = 0; k < t->rows; ++k)
+        if (t->is_left[k] && (count == 0 || !is_same(x, k, fresh[count - 1]))) fresh[count++] = k;
+    return count;
+}
+
+/* Whether a reading that stays shows more than its resolution: its steps are no multiples of a smallest one,
+ * or usually of many of them. step: [count] */
+static bool is_fine(const readings *x, const size_t *fresh, size_t count, double *step)
+{
+    double least = INFINITY, multiples = 0.0;
+    size_t steps = 0;
+    for (size_t k = 0; k + 1 < count; ++k) {
+        const double size = fabs(x->column[0][fresh[k + 1]] - x->column[0][fresh[k]]);
+        if (!(size > 0.0)) continue;
+        step[steps++] = size;
+        least = fmin(least, size);
+    }
+    for (size_t k = 0; k < steps; ++k)
+        multiples += fabs(step[k] / least - floor(step[k] / least + 0.5)) < WHOLE;
+    return steps > 0 && (multiples < MOSTLY * (double)steps || hci_median(step, steps) > FINE * least);
+}
+
+/* The longest stretch of equal readings that there may be by chance, if neighbours are equal as often as a
+ * reading and the second one behind it. */
+static double longest_by_chance(const readings *x, const size_t *fresh, size_t count)
+{
+    double equal = 0.0;
+    for (size_t k = 0; k + 2 < count; ++k)
+        equal += is_same(x, fresh[k], fresh[k + 2]);
+    if (!(equal > 0.0)) return 1.0;
+    return 1.0 + log(BY_CHANCE / (double)count) / log(fmin(equal / (double)count, 0.999));
+}
+
+/* Leaves the rows out that repeat a reading for longer. Returns how many. */
+static size_t stretches_leave(rows_task *t, const size_t *fresh, size_t count, double longest)
+{
+    size_t left_out = 0;
+    for (size_t k = 0; k < count; ++k) {
+        const size_t end = k + 1 < count ? fresh[k + 1] : t->rows;
+        size_t length = 0;
+        for (size_t j = fresh[k]; j < end; ++j)
+            length += t->is_left[j];
+        if (!((double)length > longest)) continue;
+        for (size_t j = fresh[k] + 1; j < end; ++j)
+            t->is_left[j] = false;
+        left_out += length - 1;
+    }
+    return left_out;
+}
+
+static hci_status leave_still_out(rows_task *t, const readings *x)
+{
+    size_t *fresh = hci_memory_new(t->rows + 1, sizeof *fresh), left_out = 0;
+    double *step = hci_memory_new(t->rows + 1, sizeof *step);
+    if (fresh && step) {
+        const size_t count = fresh_find(t, x, fresh);
+        if (count >= LEAST_FRESH && is_fine(x, fresh, count, step))
+            left_out = stretches_leave(t, fresh, count, longest_by_chance(x, fresh, count));
+    }
+    if (left_out > 0)
+        hci_note_add(t->c->remark,
+                     "%zu of %zu rows repeat the %s before: read less often than the rest, or "
+                     "standing still, and left out",
+                     left_out, t->rows, x->what);
+    t->still += left_out;
+    const bool made = fresh && step;
+    hci_memory_free(fresh);
+    hci_memory_free(step);
+    return made ? HCI_OK : memory_error(t);
+}
+
+/* Torque and currents; beside an angle that goes on these show what the machine does. */
+static hci_status leave_all_still_out(rows_task *t)
+{
+    double *const *ready = t->c->ready;
+    readings torque = {{ready[HCI_RUN_TORQUE]}, 1, "torque"}, currents = {{NULL}, 0, "currents"};
+    hci_status status = HCI_OK;
+    for (unsigned which = HCI_RUN_IA; which <= HCI_RUN_IC; ++which)
+        if (ready[which]) currents.column[currents.columns++] = ready[which];
+    if (torque.column[0]) status = leave_still_out(t, &torque);
+    if (!status && currents.columns > 1) status = leave_still_out(t, &currents);
+    return status;
+}
+
 /* ---- what is left ---- */
 
 static hci_status too_many(const rows_task *t, size_t holes, size_t rows)
@@ -181,7 +294,7 @@ static hci_status conclude(rows_task *t)
                      "%zu rows are the same as those before them, time included, and are left "
                      "out, first line %zu",
                      t->twice, t->first_twice);
-    return t->holes + t->twice > 0 ? compact(t) : HCI_OK;
+    return t->holes + t->twice + t->still > 0 ? compact(t) : HCI_OK;
 }
 
 /* A column of angles without one number. */
@@ -205,6 +318,7 @@ static hci_status leave_holes_out(hci_run_columns *c)
         t.is_left[k] = true;
     hci_status status = read_columns(&t);
     if (!status) leave_twice_out(&t);
+    if (!status) status = leave_all_still_out(&t);
     if (!status) status = conclude(&t);
     hci_memory_free(t.is_left);
     return status;

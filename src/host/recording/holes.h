@@ -1,5 +1,5 @@
 /* Rows of a recording that cannot be used: cells without a number, lines that are cut or joined, lines that
- * are there twice. */
+ * are there twice, readings that stand still while the rest goes on. */
 #ifndef HCI_SRC_HOST_RECORDING_HOLES_H
 #define HCI_SRC_HOST_RECORDING_HOLES_H
 
@@ -7,7 +7,8 @@
 
 /* Finds the columns of a recording as hci_run_columns_find does. Where holes may be left out
  * (hci_csv_read_recording) it reads those that say something of their own, and leaves out the rows in which
- * one of them has no number, and those that repeat the row before them with its time. c->ready, c->row and
+ * one of them has no number, those that repeat the row before them with its time, and those in which the
+ * torque, or all currents, were not read anew. c->ready, c->row and
  * c->count: of the rows that are left. A column without any number is one that the file does not have, and
  * missing temperatures are interpolated. remark says what was left out, each once. HCI_ERROR_INPUT where more
  * than half of the rows would be, or for a column that cannot be read; HCI_ERROR_MEMORY. */

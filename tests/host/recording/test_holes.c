@@ -1,6 +1,7 @@
 /* Recordings with holes: what is left out, what is said of it, and when a file is refused for it. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "hci/host/recording/predict.h"
@@ -240,6 +241,60 @@ static void test_memory_runs_out_everywhere(void)
     TEST_ASSERT_TRUE(allowed > 8);
 }
 
+/* ---- readings that stand still ---- */
+
+enum { ROWS = 1200 };
+
+static double ripple_Nm = 0.3;
+
+/* A turning shaft with a torque that was read anew every `each` rows, in units of `unit_Nm` (0: as it is),
+ * and currents every `current_each`. */
+static void read_held(int each, double unit_Nm, int current_each)
+{
+    char *text = malloc(ROWS * 120);
+    size_t at = (size_t)sprintf(text, "time_s,theta_m_rad,ia_A,ib_A,ic_A,torque_Nm\n");
+    TEST_ASSERT_NOT_NULL(text);
+    for (int k = 0; k < ROWS; ++k) {
+        const double torque = 1.0 + sin(0.013 * (k / each * each)) + ripple_Nm * sin(0.7 * (k / each * each));
+        const double theta = 0.01 * k, of_current = 2.0 * 0.01 * (k / current_each * current_each);
+        at += (size_t)sprintf(text + at, "%g,%.9g,%.12g,%.12g,%.12g,%.12g\n", 1e-3 * k, theta,
+                              sin(of_current), sin(of_current - 2.0943951), sin(of_current + 2.0943951),
+                              unit_Nm > 0.0 ? unit_Nm * floor(torque / unit_Nm) : torque);
+    }
+    read_text(text);
+    free(text);
+}
+
+static void test_a_torque_that_is_read_less_often(void)
+{
+    read_held(8, 0.0, 1);
+    TEST_ASSERT_EQUAL_UINT64(ROWS / 8, run.count);
+    for (size_t k = 0; k < run.count; ++k)
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, 8e-3 * (double)k, run.time_s[k]);
+    text_has("1050 of 1200 rows repeat the torque before", run.remark.text);
+}
+
+static void test_currents_that_are_read_less_often(void)
+{
+    read_held(1, 0.0, 5);
+    TEST_ASSERT_EQUAL_UINT64(ROWS / 5, run.count);
+    text_has("960 of 1200 rows repeat the currents before", run.remark.text);
+}
+
+/* Of a coarse reading neighbours are equal, and that says what it is. */
+static void test_a_coarse_torque_stays(void)
+{
+    static const double UNIT_NM[] = {0.05, 0.2, 0.5};
+    for (size_t k = 0; k < sizeof UNIT_NM / sizeof *UNIT_NM; ++k) {
+        read_held(1, UNIT_NM[k], 1);
+        TEST_ASSERT_EQUAL_UINT64(ROWS, run.count);
+    }
+    ripple_Nm = 0.0; /* it goes up and down by one unit at a time, and never comes back at once */
+    read_held(1, 0.01, 1);
+    ripple_Nm = 0.3;
+    TEST_ASSERT_EQUAL_UINT64(ROWS, run.count);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -256,6 +311,9 @@ int main(void)
     RUN_TEST(test_temperatures_between_are_interpolated);
     RUN_TEST(test_no_derivative_across_a_hole);
     RUN_TEST(test_a_prediction_leaves_the_cells_of_a_hole_empty);
+    RUN_TEST(test_a_torque_that_is_read_less_often);
+    RUN_TEST(test_currents_that_are_read_less_often);
+    RUN_TEST(test_a_coarse_torque_stays);
     RUN_TEST(test_memory_runs_out_everywhere);
     return UNITY_END();
 }

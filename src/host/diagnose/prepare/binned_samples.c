@@ -32,7 +32,7 @@ typedef struct {
                                 0 */
     const hci_run_statistics *statistics;
     const double *acceleration; /* of each sample, rad/s²; 0 where a rotor's inertia is not in the torque */
-    const bool *at_rest; /* of each sample of the run: it tells no torque */
+    const bool *at_rest;        /* of each sample of the run: it tells no torque */
     hci_binned_samples *samples;
     size_t *capacity; /* samples that there is memory for */
 } reduction;
@@ -402,8 +402,7 @@ static bool run_add(const hci_machine *machine, const hci_run *run, size_t k, hc
                          samples,
                          capacity};
     *statistics = hci_run_statistics_of(run, machine->pole_pairs);
-    const bool done =
-        run_fill(run, statistics, at_rest, acceleration) && (!is_usable(run) || run_reduce(&x));
+    const bool done = run_fill(run, statistics, at_rest, acceleration) && (!is_usable(run) || run_reduce(&x));
     hci_memory_free(acceleration);
     hci_memory_free(at_rest);
     return done;

@@ -11,7 +11,7 @@ typedef struct {
     double mean_speed_rad_per_s, current_A; /* root mean square of the current vector's length */
     double mean_id_A, mean_iq_A;
     double rms_acceleration; /* rad/s², of a run with a torque sensor */
-    bool no_current;  /* what was read as current is the noise of its sensors, and current_A is 0 */
+    bool no_current;         /* what was read as current is the noise of its sensors, and current_A is 0 */
     double repeat_Nm; /* rms departure of a sample from the mean over the turns at its angle; NAN: one turn */
     double angle_step_rad; /* smallest step of the mechanical angle: the encoder's resolution or finer */
     bool creeps;           /* the mean torque of a turn rises or falls from turn to turn */
