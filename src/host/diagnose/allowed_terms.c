@@ -107,14 +107,30 @@ static double usual_size(const double size[HCI_COENERGY_ORDERS])
     return count > 0.0 ? sqrt(sum / count) : 0.0;
 }
 
+/* What is expected of order 0 before anything is recorded, as the coefficient of i_d²: saliency, 3/4 ΔL I².
+ */
+static double usual_of_mean(const hci_regression *e, double reference_A)
+{
+    const double difference_H = e->saliency.inductance_H + e->saliency.flux_Wb / reference_A;
+    return 0.75 * difference_H * reference_A * reference_A;
+}
+
+/* As large as squares and higher powers were found, where any were; where none, as all that was. */
+static double size_of_power(const hci_coenergy_sizes *found, const hci_candidate *x)
+{
+    const double squares =
+        x->power > 1 ? usual_size(x->unlike ? found->unlike_squares : found->usual_squares) : 0.0;
+    return squares > 0.0 ? squares : usual_size(x->unlike ? found->unlike : found->usual);
+}
+
 /* What was found at an order may be another term that makes the same torque in the recordings: as large as
- * that is likely. */
+ * that is likely. What no recording varies is as large as rotors are: of order 0, that of i_d i_q. */
 static double twin_of(const hci_coenergy_sizes *found, const hci_candidate *x)
 {
     const size_t place = hci_coenergy_place(x->term[0].order);
     const double *size = x->unlike ? found->unlike : found->usual;
-    if (place == 0) return x->coenergy_unit * size[0];
-    return size[place] > 0.0 ? x->coenergy_unit * usual_size(size) : 0.0;
+    if (place == 0) return x->coenergy_unit * (x->unlike ? size[0] : fmax(size[0], found->mean));
+    return size[place] > 0.0 ? x->coenergy_unit * size_of_power(found, x) : 0.0;
 }
 
 /* A term that was found is about as large as what was found is: where the recordings tell it, that does not
@@ -148,6 +164,7 @@ static void term_fill(const hci_regression *e, const hci_candidates *fitted, con
     t->twin[at] = isnan(t->fixed[at]) && x->coenergy_unit > 0.0 ? twin_of(found, x) : 0.0;
     if (known) known_narrow(found, x, j, t, at);
     t->of_mean[at] = x->coenergy_unit > 0.0 && x->term[j].order < FIRST_OF_SLOTS;
+    t->power[at] = x->coenergy_unit > 0.0 ? x->power : 0;
 }
 
 hci_status hci_allowed_terms_make(const hci_regression *regression, const hci_candidates *fitted,
@@ -157,6 +174,7 @@ hci_status hci_allowed_terms_make(const hci_regression *regression, const hci_ca
     hci_coenergy_sizes found;
     memset(t, 0, sizeof *t);
     hci_coenergy_sizes_of(fitted, &series, &found);
+    found.mean = usual_of_mean(regression, series.reference_current_A);
     hci_status status = hci_coenergy_terms(fitted, &series, &t->candidates, note);
     if (!status) status = hci_coenergy_terms_unlike(&found, &series, &t->candidates, note);
     if (status) return status;
@@ -164,7 +182,8 @@ hci_status hci_allowed_terms_make(const hci_regression *regression, const hci_ca
     const size_t terms = hci_candidates_terms_in(&t->candidates);
     t->unit = hci_memory_new(5 * terms + 1, sizeof *t->unit);
     t->of_mean = hci_memory_new(terms + 1, sizeof *t->of_mean);
-    if (!t->unit || !t->of_mean) {
+    t->power = hci_memory_new(terms + 1, sizeof *t->power);
+    if (!t->unit || !t->of_mean || !t->power) {
         hci_allowed_terms_release(t);
         return hci_note_memory(note, NULL, "what recordings leave open");
     }
@@ -186,14 +205,21 @@ void hci_allowed_terms_release(hci_allowed_terms *t)
     hci_candidates_release(&t->candidates);
     hci_memory_free(t->unit);
     hci_memory_free(t->of_mean);
+    hci_memory_free(t->power);
     memset(t, 0, sizeof *t);
+}
+
+/* By how much less than what was found a term is expected to be for its power of the currents. */
+static double of_power(const hci_allowed_terms *t, size_t k, hci_allowed_width width)
+{
+    return t->power[k] > 2 ? width.beyond : 1.0;
 }
 
 void hci_allowed_terms_precision(const hci_allowed_terms *t, hci_allowed_width width, double *precision)
 {
     for (size_t k = 0; k < t->count; ++k) {
         const double by_width = width.orders * (t->of_mean[k] ? width.mean_times : 1.0) * t->unit[k];
-        const double deviation = fmax(by_width, width.twins * t->twin[k]);
+        const double deviation = fmax(by_width, width.twins * of_power(t, k, width) * t->twin[k]);
         precision[k] = isnan(t->fixed[k]) ? 1.0 / (deviation * deviation) : t->fixed[k];
         if (!(t->known[k] > 0.0)) continue;
         const double known = t->known[k] * (width.twins > 0.0 ? width.twins : 1.0);

@@ -17,6 +17,7 @@ typedef struct {
     double *twin;   /* [count]: deviation that what was found at its order makes likely; 0: none */
     double *known;  /* [count]: of one that was found, what is likely of it; 0: any */
     bool *of_mean;  /* [count]: whether it is one of the mean torque: order 0, and of the back-EMF order 1 */
+    int *power;     /* [count]: of the currents in the co-energy */
 } hci_allowed_terms;
 
 /* fitted: those that are in are the model. On failure *terms is empty. HCI_ERROR_MEMORY. O(terms²). */
@@ -28,7 +29,8 @@ void hci_allowed_terms_release(hci_allowed_terms *terms);
  * times that, since slots make the orders and saturation of the iron as a whole the mean. */
 typedef struct {
     double orders, mean_times;
-    double twins; /* and no less than so many times `twin`, in units of the errors' size */
+    double twins;  /* and no less than so many times `twin`, in units of the errors' size, */
+    double beyond; /* times this where the co-energy grows as a higher power than the square */
 } hci_allowed_width;
 
 /* precision[count]: one over the variance that is expected. */

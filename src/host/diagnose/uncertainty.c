@@ -202,10 +202,10 @@ static double next_size(const finding *f, const double *size, size_t *at)
 
 /* Departures of the machines from one place to another, of one trial: errors of the size that is to be
  * expected of one run after the other, and more, since few runs may have shown too little. */
-static hci_status trial_draw(const finding *f, size_t trial, size_t from, size_t until, drawing *d,
+static hci_status trial_draw(const finding *f, hci_width_place trial, size_t from, size_t until, drawing *d,
                              hci_note *note)
 {
-    const double freedom = hci_group_sizes(f->trials.trial[trial].left, f->runs.count, d->size);
+    const double freedom = hci_group_sizes(f->trials.trial[trial.width].left, f->runs.count, d->size);
     const unsigned whole = (unsigned)fmin(MOST_FREEDOM, fmax(1.0, freedom));
     size_t at = 0;
     hci_ridge ridge;
@@ -221,7 +221,7 @@ static hci_status trial_draw(const finding *f, size_t trial, size_t from, size_t
     return HCI_OK;
 }
 
-/* Each trial has as many machines as its weight is of all. */
+/* Each trial, with each share of the powers, has as many machines as its weight is of all. */
 static hci_status machines_draw(const finding *f, const hci_model *model, hci_uncertainty *u, hci_note *note)
 {
     drawing d = {model, u, {SEED}, hci_memory_new(model->columns + f->runs.count + 1, sizeof *d.x), NULL};
@@ -229,10 +229,11 @@ static hci_status machines_draw(const finding *f, const hci_model *model, hci_un
     size_t from = 0;
     hci_status status = d.x ? HCI_OK : hci_note_memory(note, NULL, "what recordings leave open");
     if (d.x) d.size = d.x + model->columns;
-    for (size_t k = 0; k < f->trials.count && !status; ++k) {
-        sum += f->trials.trial[k].weight;
+    for (size_t k = 0; k < f->trials.count * f->trials.powers.count && !status; ++k) {
+        const hci_width_place at = {k / f->trials.powers.count, k % f->trials.powers.count};
+        sum += f->trials.trial[at.width].weight * f->trials.powers.trial[at.power].weight;
         const size_t until = (size_t)floor(sum * (double)u->machines + 0.5);
-        if (until > from) status = trial_draw(f, k, from, until, &d, note);
+        if (until > from) status = trial_draw(f, at, from, until, &d, note);
         from = until;
     }
     hci_memory_free(d.x);

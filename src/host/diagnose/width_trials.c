@@ -67,7 +67,7 @@ static hci_status try_all_alike(const hci_allowed_terms *terms, const hci_conden
     int worse = 0;
     hci_status status = HCI_OK;
     for (size_t w = 0; w < WIDTH_COUNT && worse < MOST_WORSE && !status; ++w) {
-        status = try(terms, runs, (hci_allowed_width){WIDTHS[w], 1.0, 0.0}, t, note);
+        status = try(terms, runs, (hci_allowed_width){WIDTHS[w], 1.0, 0.0, 1.0}, t, note);
         if (status) return status;
         const double misfit = t->trial[w].misfit, least = t->trial[t->best].misfit;
         worse = isfinite(misfit) && misfit > least + NONE_LEFT ? worse + 1 : 0;
@@ -83,7 +83,7 @@ static hci_status try_wider_means(const hci_allowed_terms *terms, const hci_cond
     hci_status status = HCI_OK;
     for (size_t w = best > 0 ? best - 1 : 0; w < tried && w <= best + 1; ++w)
         for (size_t k = 0; k < TIMES && !status; ++k)
-            status = try(terms, runs, (hci_allowed_width){WIDTHS[w], MEAN_TIMES[k], 0.0}, t, note);
+            status = try(terms, runs, (hci_allowed_width){WIDTHS[w], MEAN_TIMES[k], 0.0, 1.0}, t, note);
     return status;
 }
 
@@ -103,7 +103,7 @@ static void weigh(hci_width_trials *t)
 static hci_status shares_find(const hci_allowed_terms *terms, const hci_condensed *runs, hci_width_trials *t,
                               hci_note *note)
 {
-    const hci_allowed_width narrowest = {WIDTHS[WIDTH_COUNT - 1], 1.0, 0.0};
+    const hci_allowed_width narrowest = {WIDTHS[WIDTH_COUNT - 1], 1.0, 0.0, 1.0};
     const hci_expectation expected = {precision_of(t, terms, narrowest), terms->centre};
     hci_ridge ridge;
     t->share = hci_memory_new(runs->count + 1, sizeof *t->share);
@@ -114,30 +114,6 @@ static hci_status shares_find(const hci_allowed_terms *terms, const hci_condense
     hci_ridge_release(&ridge);
     if (!made && hci_watch_stops(runs->watch)) return HCI_ERROR_STOPPED;
     return made ? HCI_OK : hci_note_memory(note, NULL, "leaving runs out");
-}
-
-hci_status hci_width_trials_make(const hci_allowed_terms *terms, const hci_condensed *runs,
-                                 hci_width_trials *t, hci_note *note)
-{
-    memset(t, 0, sizeof *t);
-    t->precision = hci_memory_new(terms->count + 1, sizeof *t->precision);
-    if (!t->precision) return hci_note_memory(note, NULL, "what recordings leave open");
-    hci_status status = shares_find(terms, runs, t, note);
-    if (!status) status = try_all_alike(terms, runs, t, note);
-    if (!status) status = try_wider_means(terms, runs, t, note);
-    if (!status) weigh(t);
-    return status;
-}
-
-void hci_width_trials_release(hci_width_trials *t)
-{
-    for (size_t k = 0; k < t->count; ++k)
-        hci_memory_free(t->trial[k].left);
-    for (size_t g = 0; g < t->shares; ++g)
-        hci_memory_free(t->share[g]);
-    hci_memory_free(t->share);
-    hci_memory_free(t->precision);
-    memset(t, 0, sizeof *t);
 }
 
 /* One over the size of the errors, in which expectations are counted; 0 where none is known. */
@@ -152,11 +128,46 @@ static double twins_of(const hci_left_out_group *left, size_t count)
     return sum > 0.0 ? sqrt(told / sum) : 0.0;
 }
 
-bool hci_width_trials_ridge(const hci_width_trials *t, size_t at, const hci_allowed_terms *terms,
+static hci_status try_powers(const hci_allowed_terms *terms, const hci_condensed *runs, hci_width_trials *t,
+                             hci_note *note)
+{
+    const hci_width_trial *best = &t->trial[t->best];
+    hci_power_trials_of of = {terms, runs, best->width, t->precision};
+    of.width.twins = twins_of(best->left, runs->count);
+    return hci_power_trials_make(&of, &t->powers, note);
+}
+
+hci_status hci_width_trials_make(const hci_allowed_terms *terms, const hci_condensed *runs,
+                                 hci_width_trials *t, hci_note *note)
+{
+    memset(t, 0, sizeof *t);
+    t->precision = hci_memory_new(terms->count + 1, sizeof *t->precision);
+    if (!t->precision) return hci_note_memory(note, NULL, "what recordings leave open");
+    hci_status status = shares_find(terms, runs, t, note);
+    if (!status) status = try_all_alike(terms, runs, t, note);
+    if (!status) status = try_wider_means(terms, runs, t, note);
+    if (!status) weigh(t);
+    if (!status) status = try_powers(terms, runs, t, note);
+    return status;
+}
+
+void hci_width_trials_release(hci_width_trials *t)
+{
+    for (size_t k = 0; k < t->count; ++k)
+        hci_memory_free(t->trial[k].left);
+    for (size_t g = 0; g < t->shares; ++g)
+        hci_memory_free(t->share[g]);
+    hci_memory_free(t->share);
+    hci_memory_free(t->precision);
+    memset(t, 0, sizeof *t);
+}
+
+bool hci_width_trials_ridge(const hci_width_trials *t, hci_width_place at, const hci_allowed_terms *terms,
                             const hci_condensed *runs, hci_ridge *ridge)
 {
-    hci_allowed_width width = t->trial[at].width;
-    width.twins = twins_of(t->trial[at].left, runs->count);
+    hci_allowed_width width = t->trial[at.width].width;
+    width.twins = twins_of(t->trial[at.width].left, runs->count);
+    width.beyond = t->powers.trial[at.power].beyond;
     const hci_expectation expected = {precision_of(t, terms, width), terms->centre};
     return hci_ridge_make(runs, &expected, ridge);
 }

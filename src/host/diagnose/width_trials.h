@@ -8,6 +8,7 @@
 
 #include "hci/host/base/note.h"
 #include "host/diagnose/allowed_terms.h"
+#include "host/diagnose/power_trials.h"
 #include "host/numeric/ridge.h"
 
 enum { HCI_MOST_WIDTHS = 24 };
@@ -27,6 +28,7 @@ typedef struct {
     double *precision;  /* [terms], of work */
     double **share;     /* [shares]: of each group of runs, what it alone tells has no say */
     size_t shares;
+    hci_power_trials powers; /* with the best of them */
 } hci_width_trials;
 
 /* trials: out; on failure as far as they came, to be released. HCI_ERROR_MEMORY, HCI_ERROR_STOPPED. O(n³/3)
@@ -35,8 +37,14 @@ hci_status hci_width_trials_make(const hci_allowed_terms *terms, const hci_conde
                                  hci_width_trials *trials, hci_note *note);
 void hci_width_trials_release(hci_width_trials *trials);
 
-/* What the runs say with one of the widths. False when memory is out or there is nothing. */
-bool hci_width_trials_ridge(const hci_width_trials *trials, size_t at, const hci_allowed_terms *terms,
-                            const hci_condensed *runs, hci_ridge *ridge);
+/* Places in `trial` and in `powers.trial`. */
+typedef struct {
+    size_t width, power;
+} hci_width_place;
+
+/* What the runs say with one of the widths and one of the powers' shares. False when memory is out or there
+ * is nothing. */
+bool hci_width_trials_ridge(const hci_width_trials *trials, hci_width_place at,
+                            const hci_allowed_terms *terms, const hci_condensed *runs, hci_ridge *ridge);
 
 #endif

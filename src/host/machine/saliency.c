@@ -6,6 +6,7 @@
 #include "hci/host/machine/effects.h"
 #include "hci/machine/torque.h"
 #include "host/base/quote.h"
+#include "host/machine/torque_constant.h"
 
 enum { STEP_deg = 15, TURN_deg = 360 };
 
@@ -46,6 +47,34 @@ void hci_saliency_remark(const char *folder, double inductance_d_H, double induc
         "Mab = -(L_d + L_q)/6 + (L_d - L_q)/3 cos(2θ - 2π/3), Lb and Mbc the same at θ - 2π/3, "
         "Lc and Mca at θ + 2π/3; or give both the same value",
         hci_quote_path(folder, shown), inductance_d_H, inductance_q_H);
+}
+
+/* Of the mean of L_d and L_q where both are declared: what instruments and saturation by the magnets leave.
+ */
+static const double OF_INDUCTANCE = 0.1;
+
+/* Of the magnets' flux where they are not: (L_d - L_q) times the rated current is 0 to 0.05 of it with
+ * magnets on the surface, and 0.1 to 0.5 with magnets inside. */
+static const double OF_FLUX = 0.2;
+
+/* Mean of L_d and L_q; 0: not declared. */
+static double mean_inductance_H(const hci_machine_data *m)
+{
+    for (size_t k = 0; k < m->inductance_count; ++k)
+        if (m->inductance[k].order == 0.0)
+            return m->inductance[k].cosine[HCI_AA] - m->inductance[k].cosine[HCI_AB];
+    const double mean_H = 0.5 * (m->inductance_d_H + m->inductance_q_H);
+    return mean_H > 0.0 ? mean_H : 0.0;
+}
+
+hci_saliency_width hci_saliency_width_of(const hci_machine_data *m)
+{
+    const double mean_H = mean_inductance_H(m);
+    const double flux_Wb = hci_machine_torque_constant(m) / (1.5 * m->model.pole_pairs);
+    if (!(mean_H > 0.0)) return (hci_saliency_width){0.0, OF_FLUX * fabs(flux_Wb)};
+    const bool is_modelled = m->model.slope_count > 0 || m->inductance_count > 0;
+    const double lacking_H = is_modelled ? 0.0 : m->inductance_d_H - m->inductance_q_H;
+    return (hci_saliency_width){hypot(OF_INDUCTANCE * mean_H, lacking_H), 0.0};
 }
 
 /* 2/3 u(x)ᵀL u(y) with unit vectors u along phases x and y, and L of the plane: mean + half cos 2θ, half sin

@@ -133,15 +133,18 @@ static hci_left_out_group judge(const leaving *w)
     const double beside = w->group->rows - (double)rank,
                  noise = beside >= 1.0 ? w->group->rest / beside : 0.0;
     double square = w->group->rest + told_by_others(w), sum = 0.0, trace = 0.0, squares = 0.0;
+    double spread = 0.0, surprise = 0.0;
     for (size_t i = 0; i < rank; ++i) {
         trace += w->k[i + i * rank];
+        spread -= 2.0 * log(w->m[i + i * rank]);
+        surprise += w->u[i] * w->e[i];
         for (size_t j = 0; j < rank; ++j) {
             sum += w->u[i] * w->k[i + j * rank] * w->e[j];
             squares += w->k[i + j * rank] * w->k[i + j * rank];
         }
     }
-    if (!(trace > 0.0)) return (hci_left_out_group){square, NAN, 0.0, noise};
-    return (hci_left_out_group){square, sum / trace, trace * trace / squares, noise};
+    if (!(trace > 0.0)) return (hci_left_out_group){square, NAN, 0.0, noise, spread, surprise};
+    return (hci_left_out_group){square, sum / trace, trace * trace / squares, noise, spread, surprise};
 }
 
 /* False when memory is out. */
@@ -166,7 +169,7 @@ static bool leave_one(const hci_ridge *p, const hci_condensed_group *group, cons
     leaving w;
     if (!leaving_make(p, group, &w)) return false;
     w.share = share;
-    *out = errors_find(&w) ? judge(&w) : (hci_left_out_group){INFINITY, NAN, 0.0, 0.0};
+    *out = errors_find(&w) ? judge(&w) : (hci_left_out_group){INFINITY, NAN, 0.0, 0.0, INFINITY, 0.0};
     hci_memory_free(w.v);
     return true;
 }

@@ -42,6 +42,8 @@ typedef struct {
     double misfit;     /* s² of this group; NAN where it tells of no unknown */
     double directions; /* of how many squares that is the mean, (tr K)²/tr K² */
     double noise;      /* mean square of what no unknown describes; 0 where there is nothing else */
+    double spread; /* ln |(I − K)⁻¹|: how uncertain what is expected of the group is, of all directions */
+    double surprise; /* eᵀ(I − K)e, which is s² for each direction where that is right */
 } hci_left_out_group;
 
 /* K of each group, row by row: what share of all that is known each direction of it tells.

@@ -1,5 +1,5 @@
 /* With i_d = 0 a back-EMF of order 5 makes the same torque as one of order 7, and more of reluctance too: the
- * bound on currents that tell them apart allows for each of them. Five diagnoses of small recordings: some
+ * bound on currents that tell them apart allows for each of them. Seven diagnoses of small recordings: some
  * tenths of a second. */
 #include "support/expecting.h"
 
@@ -7,12 +7,20 @@ enum { SAMPLES = 240 };
 
 static double fifth[2], seventh[2]; /* back-EMF, N·m/A: of the sine and of the cosine */
 static double self_H, mutual_H;     /* of the q axis, cos 6θ, and of both axes, sin 6θ */
+static double saliency_H;           /* L_d − L_q, at all angles */
 static const double LOW_NOISE_NM = 2e-3;
+
+/* A rotor with magnets on the surface, whose L_d and L_q are on its sheet. */
+static void declare_round_rotor(void)
+{
+    machine.inductance_d_H = machine.inductance_q_H = 2e-4;
+}
 
 void setUp(void)
 {
     dataset_start();
-    fifth[0] = fifth[1] = seventh[0] = seventh[1] = self_H = mutual_H = 0.0;
+    declare_round_rotor();
+    fifth[0] = fifth[1] = seventh[0] = seventh[1] = self_H = mutual_H = saliency_H = 0.0;
 }
 
 void tearDown(void)
@@ -31,7 +39,7 @@ static double wave(const double x[2], int n, double theta)
 static double torque_of_iron(double theta, double d, double q)
 {
     const double sine = sin(6.0 * theta), cosine = cos(6.0 * theta);
-    return P * (0.75 * self_H * (-6.0 * sine * q * q - 2.0 * cosine * d * q) +
+    return P * (1.5 * saliency_H * d * q + 0.75 * self_H * (-6.0 * sine * q * q - 2.0 * cosine * d * q) +
                 1.5 * mutual_H * (6.0 * cosine * d * q + sine * (q * q - d * d)));
 }
 
@@ -119,6 +127,33 @@ static void test_two_inductances(void)
     is_within(error_at(-3.0, 5.0, 0.2), 6.0);
 }
 
+/* The torque of i_d i_q shows in no recording, and is as large as rotors with magnets inside have it. */
+static void test_saliency(void)
+{
+    machine.inductance_d_H = machine.inductance_q_H = NAN;
+    saliency_H = -1.6e-3;
+    diagnose_without_id();
+    is_within(error_at(0.0, 6.0, 0.4), 5.0);
+    is_within(error_at(-2.0, 6.0, 0.2), 5.0);
+}
+
+/* Currents that tell how all grows, and so that cubes and more are not as large as what was found. */
+static void test_growth_is_recorded(void)
+{
+    fifth[0] = 0.004;
+    seventh[0] = -0.003;
+    measure_without_id();
+    measure_at(-3.0, 2.7);
+    measure_at(-3.0, 8.1);
+    measure_at(-6.0, 5.4);
+    TEST_ASSERT_TRUE(diagnose(NULL) <= HCI_NOT_REACHED);
+    const double error_Nm = error_at(-5.0, 6.0, 0.4);
+    char text[96];
+    snprintf(text, sizeof text, "error %g N·m, bound %g N·m", error_Nm, expected.error_peak_to_peak_Nm);
+    TEST_ASSERT_TRUE_MESSAGE(error_Nm <= expected.error_peak_to_peak_Nm, text);
+    TEST_ASSERT_TRUE_MESSAGE(expected.error_peak_to_peak_Nm < 0.6 * LOW_NOISE_NM, text);
+}
+
 /* A run with i_d tells them apart: that it is to be recorded is said, and with it the bound is as narrow as
  * the noise. */
 static void test_told_apart(void)
@@ -148,6 +183,8 @@ int main(void)
     RUN_TEST(test_two_orders_of_the_back_emf);
     RUN_TEST(test_two_orders_of_any_phase);
     RUN_TEST(test_two_inductances);
+    RUN_TEST(test_saliency);
+    RUN_TEST(test_growth_is_recorded);
     RUN_TEST(test_told_apart);
     return UNITY_END();
 }

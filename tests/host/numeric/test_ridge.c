@@ -124,7 +124,8 @@ static void test_what_no_unknown_describes_is_the_rest(void)
 
 /* ---- mean, and groups left out ---- */
 
-/* One row y_g = x in each of R groups and precision P: mean Σy/(R + P); without group g Σ'y/(R − 1 + P). */
+/* One row y_g = x in each of R groups and precision P: mean Σy/(R + P); without group g Σ'y/(R − 1 + P), by
+ * which y_g is foreseen with the variance 1 + 1/(R − 1 + P). */
 static void test_one_unknown(void)
 {
     enum { R = 4 };
@@ -142,6 +143,8 @@ static void test_one_unknown(void)
         const double error = VALUE[g] - (sum - VALUE[g]) / (R - 1.0 + p), k = 1.0 / (R + p);
         TEST_ASSERT_DOUBLE_WITHIN(1e-6, error * error, left[g].square);
         TEST_ASSERT_DOUBLE_WITHIN(1e-6, error * error * (1.0 - k), left[g].misfit);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-6, log(1.0 + 1.0 / (R - 1.0 + p)), left[g].spread);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-6, error * error / (1.0 + 1.0 / (R - 1.0 + p)), left[g].surprise);
     }
 }
 
@@ -391,7 +394,7 @@ static void test_a_copy_does_not_vouch_for_a_run(void)
 static void draw_sizes(size_t count, double directions, const double *true_size)
 {
     for (size_t g = 0; g < count; ++g) {
-        left[g] = (hci_left_out_group){0.0, 0.0, directions, true_size[g] * true_size[g]};
+        left[g] = (hci_left_out_group){0.0, 0.0, directions, true_size[g] * true_size[g], 0.0, 0.0};
         for (int k = 0; k < (int)directions; ++k)
             left[g].misfit += pow(true_size[g] * ref_normal(&seed), 2.0) / directions;
     }
@@ -431,7 +434,7 @@ static void test_groups_without_noise(void)
 {
     double s[4];
     for (size_t g = 0; g < 4; ++g)
-        left[g] = (hci_left_out_group){0.0, 1.0 + 0.1 * (double)g, 100.0, 0.0};
+        left[g] = (hci_left_out_group){0.0, 1.0 + 0.1 * (double)g, 100.0, 0.0, 0.0, 0.0};
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, 4.0, hci_group_sizes(left, 4, s));
     for (size_t g = 0; g < 4; ++g)
         TEST_ASSERT_DOUBLE_WITHIN(1e-12, sqrt(left[g].misfit), s[g]);
@@ -440,8 +443,8 @@ static void test_groups_without_noise(void)
 static void test_groups_that_tell_nothing(void)
 {
     double s[3];
-    left[0] = left[2] = (hci_left_out_group){1.0, 4.0, 2.0, 4.0};
-    left[1] = (hci_left_out_group){1.0, NAN, 0.0, 4.0};
+    left[0] = left[2] = (hci_left_out_group){1.0, 4.0, 2.0, 4.0, 0.0, 0.0};
+    left[1] = (hci_left_out_group){1.0, NAN, 0.0, 4.0, 0.0, 0.0};
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, 4.0, hci_group_sizes(left, 3, s));
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, 2.0, s[0]);
     TEST_ASSERT_TRUE(isnan(s[1]));

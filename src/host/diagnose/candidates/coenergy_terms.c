@@ -87,7 +87,7 @@ hci_status hci_coenergy_terms(const hci_candidates *known, const hci_effect_coen
 typedef struct {
     const hci_candidates *known;
     const hci_effect_type *type;
-    double *size;
+    double *size, *squares;
 } meter;
 
 /* For hci_effect_proposals: context is a meter. */
@@ -95,14 +95,17 @@ static void measure(void *context, const hci_effect_candidate *x)
 {
     const meter *m = context;
     if (x->power == 0) return;
-    double *size = &m->size[hci_coenergy_place(x->order)];
+    const size_t place = hci_coenergy_place(x->order);
+    double size = 0.0;
     for (size_t k = 0; k < m->known->count; ++k) {
         const hci_candidate *c = &m->known->candidate[k];
         for (size_t j = 0; c->in && c->type == m->type && j < c->count; ++j)
             if (c->term[j].parameter == x->parameter &&
                 fabs(c->term[j].order - x->order) <= HCI_ORDER_TOLERANCE)
-                *size = fmax(*size, fabs(hci_candidate_departure(c, j)) / x->expected);
+                size = fmax(size, fabs(hci_candidate_departure(c, j)) / x->expected);
     }
+    m->size[place] = fmax(m->size[place], size);
+    if (x->power > 1) m->squares[place] = fmax(m->squares[place], size);
 }
 
 void hci_coenergy_sizes_of(const hci_candidates *known, const hci_effect_coenergy_series *series,
@@ -111,7 +114,8 @@ void hci_coenergy_sizes_of(const hci_candidates *known, const hci_effect_coenerg
     hci_effect_coenergy_series to_measure = *series;
     memset(sizes, 0, sizeof *sizes);
     for (int unlike = 0; unlike < 2; ++unlike) {
-        meter m = {known, NULL, unlike ? sizes->unlike : sizes->usual};
+        meter m = {known, NULL, unlike ? sizes->unlike : sizes->usual,
+                   unlike ? sizes->unlike_squares : sizes->usual_squares};
         const hci_effect_proposals to = {measure, &m};
         to_measure.unlike = unlike == 1;
         for (size_t r = 0; (m.type = hci_effect_type_at(r)) != NULL; ++r)

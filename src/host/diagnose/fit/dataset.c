@@ -35,8 +35,9 @@ static hci_status evidence_make(const hci_machine_data *machine, const hci_effec
     hci_regression *e = &b->regression;
     b->fit = hci_memory_new(2 * runs->count + 1, sizeof *b->fit);
     b->index_offset_rad = hci_memory_new(runs->count + 1, sizeof *b->index_offset_rad);
-    *e = (hci_regression){&machine->model, declared, &b->samples, runs->run, b->fit, false, NULL, NULL,
-                          &b->known,       &b->work, false,       NULL};
+    *e = (hci_regression){&machine->model, declared, &b->samples, runs->run, b->fit,    false, NULL, NULL,
+                          &b->known,       &b->work, false,       NULL,      {0.0, 0.0}};
+    e->saliency = hci_saliency_width_of(machine);
     e->noise = hci_memory_new(b->samples.segment_count + 1, sizeof *e->noise);
     e->sum_deviation_A = hci_memory_new(runs->count + 1, sizeof *e->sum_deviation_A);
     if (!b->fit || !b->index_offset_rad || !e->noise || !e->sum_deviation_A)

@@ -4,6 +4,7 @@
 
 #include "host/base/watch.h"
 #include "host/diagnose/prepare/binned_samples.h"
+#include "host/machine/saliency.h"
 #include "host/numeric/noise.h"
 
 typedef struct hci_known_equations hci_known_equations;
@@ -14,14 +15,15 @@ typedef struct {
     const hci_effects *declared; /* those that the machine has already */
     const hci_binned_samples *samples;
     const hci_run *runs;
-    const bool *use;            /* of each run */
-    bool raw;                   /* readings as they are, not smoothed */
-    hci_noise *noise;           /* of each segment */
-    double *sum_deviation_A;    /* of each run: noise of i_a + i_b + i_c; NAN where that says nothing */
-    hci_known_equations *known; /* of models linearised before; NULL: none are kept */
-    double *work;               /* multiplications so far, about; NULL: not counted */
-    bool free_means;            /* of each segment: nothing is concluded from them */
-    hci_watch *watch;           /* of what follows the search; NULL: it is not ended, and not told */
+    const bool *use;             /* of each run */
+    bool raw;                    /* readings as they are, not smoothed */
+    hci_noise *noise;            /* of each segment */
+    double *sum_deviation_A;     /* of each run: noise of i_a + i_b + i_c; NAN where that says nothing */
+    hci_known_equations *known;  /* of models linearised before; NULL: none are kept */
+    double *work;                /* multiplications so far, about; NULL: not counted */
+    bool free_means;             /* of each segment: nothing is concluded from them */
+    hci_watch *watch;            /* of what follows the search; NULL: it is not ended, and not told */
+    hci_saliency_width saliency; /* what the machine's own leaves open */
 } hci_regression;
 
 /* Work that a search may take; beyond it the best model so far is kept, and fits end after a few steps. */

@@ -30,8 +30,9 @@ hci_status hci_trial_run_make(const hci_regression *e, const hci_playable *playa
     b->noise = hci_noise_white(playable->noise_Nm);
     b->sum_deviation_A = NAN;
     b->use = true;
-    b->regression = (hci_regression){e->machine, e->declared,         &b->samples, &b->run, &b->use, false,
-                                     &b->noise,  &b->sum_deviation_A, NULL,        NULL,    false,   NULL};
+    b->regression = (hci_regression){e->machine, e->declared, &b->samples,         &b->run, &b->use,
+                                     false,      &b->noise,   &b->sum_deviation_A, NULL,    NULL,
+                                     false,      NULL,        e->saliency};
     return b->sample && b->residual_Nm ? HCI_OK : hci_note_memory(note, NULL, "what to measure next");
 }
 
