@@ -282,14 +282,18 @@ static void show_torque(const hci_solution *s, bool reached)
 
 void cli_show_solution(const hci_solution *s, const char *machine, const char *target)
 {
+    const bool doubtful = hci_expected_ripple_is_doubtful(&s->expected);
     bool reached = true;
     for (size_t k = 0; k < s->order_count; ++k)
         reached = reached && s->order[k].verdict <= HCI_ORDER_FREE;
     cli_say("%s%s" CLI_PLAIN "%s%s: %s, %s\n",
-            !reached           ? CLI_BAD
-            : s->within_limits ? CLI_GOOD
-                               : CLI_WARN,
-            reached ? "reached" : "not reached", reached ? "" : " (the nearest is given)",
+            !reached                        ? CLI_BAD
+            : s->within_limits && !doubtful ? CLI_GOOD
+                                            : CLI_WARN,
+            reached ? "reached" : "not reached",
+            !reached   ? " (the nearest is given)"
+            : doubtful ? " in a model that is not to be relied on"
+                       : "",
             s->within_limits ? "" : ", but a limit is not kept", machine, target);
     show_torque(s, reached);
     show_expected(&s->expected);

@@ -239,6 +239,11 @@ static void add_to_heading(cli_tuning *t)
 {
     char *heading = t->tuning.heading;
     const size_t size = sizeof t->tuning.heading;
+    if (t->is_solved && hci_expected_ripple_is_doubtful(&t->solution.expected))
+        snprintf(heading + strlen(heading), size - strlen(heading), "; the model is not to be relied on: %s",
+                 isfinite(t->solution.expected.unbelievable_order)
+                     ? "a back-EMF that is not believable is in it"
+                     : "it does not explain the recordings");
     if (is_off_sheet(t))
         snprintf(heading + strlen(heading), size - strlen(heading),
                  "; the measured back-EMF is %.3g times that of the data sheet", t->emf_to_sheet);

@@ -208,6 +208,17 @@ static void move_unit(const check_error *error, const check_place *place, char s
              in_both ? ", and " : "", name + base + 1, place->unit_line);
 }
 
+#define THIRD_OF_TURN 120.0 /* degrees */
+#define NEAR_THIRD    2.0   /* degrees, and three times the error */
+
+/* A third of a turn is also what columns make that begin with another phase. */
+static const char *other_phases(double degrees, double error)
+{
+    if (fabs(fabs(degrees) - THIRD_OF_TURN) > fmax(NEAR_THIRD, 3.0 * error)) return "";
+    return degrees > 0.0 ? "; or the columns a, b, c hold the phases b, c, a"
+                         : "; or the columns a, b, c hold the phases c, a, b";
+}
+
 /* "the electrical zero of the angle in the recordings is 31.0 ± 0.4 degrees off" */
 static void say_offset(const check_data *data, const check_interpretation *as, hci_check_finding *finding)
 {
@@ -216,8 +227,8 @@ static void say_offset(const check_data *data, const check_interpretation *as, h
     const double error = fmax(0.1, zero.std_error_rad * 180.0 / HCI_PI);
     snprintf(finding->words, sizeof finding->words,
              "the electrical zero of the angle in the recordings is %.1f \xC2\xB1 %.1f degrees off: give "
-             "--angle-offset %.1f",
-             degrees, error, -degrees);
+             "--angle-offset %.1f%s",
+             degrees, error, -degrees, other_phases(degrees, error));
     snprintf(finding->should_be, sizeof finding->should_be, "the electrical angle %s %.1f degrees",
              degrees > 0.0 ? "-" : "+", fabs(degrees));
 }

@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "hci/math/dense.h"
 #include "host/check/relations.h"
 
 /* Of the torque of a recording, beside what its currents make by the magnets: friction, iron, reluctance. */
@@ -49,39 +50,104 @@ static check_run_zero by_voltage(const check_data *data, const check_interpretat
 
 /* ---- by the torque */
 
-/* Normal equations of T = 3/2 |e| (Re(i e*) cos z + Im(i e*) sin z) / |e|. */
+/* L_d - L_q is not told by the tables: times the largest current, of the magnets' flux; and where it is, as
+ * saturation leaves it. */
+#define RELUCTANCE_UNKNOWN 0.3
+#define RELUCTANCE_KNOWN   0.25
+#define RELUCTANCE_LEAST   0.05
+
+enum { COSINE, SINE, RELUCTANCE, UNKNOWNS };
+
+/* Normal equations of T = Re(p) cos z + Im(p) sin z + reluctance, p = 3/2 i e*, each run by its own size. p
+ * is as the recording has it, turned by `from`. */
 typedef struct {
-    double cc, cs, ss, c, s;
+    double from_rad, most; /* most: the largest |p| */
+    double gram[UNKNOWNS * UNKNOWNS], moment[UNKNOWNS];
+    double expected, unknown; /* of the reluctance, as its torque at the largest current over that of p */
     size_t count;
 } torque_fit;
 
-static void torque_add(torque_fit *x, const check_data *data, const check_run *r,
-                       const check_interpretation *as, const check_model *m)
+static check_vector mutual_of(const check_run *r, const check_interpretation *as, const check_model *m)
 {
-    if (!r->has_abc || !r->has_torque || !r->theta || !hci_check_has_vector_current(data, r)) return;
     const check_vector i = hci_check_current_of(r, as, m), e = hci_check_emf_expected(1.0, m);
-    const check_vector p = hci_check_scaled(hci_check_product(i, hci_check_conjugate(e)), 1.5);
+    return hci_check_scaled(hci_check_product(i, hci_check_conjugate(e)), 1.5);
+}
+
+static bool tells_torque(const check_data *data, const check_run *r)
+{
+    return r->has_abc && r->has_torque && r->theta && hci_check_has_vector_current(data, r);
+}
+
+static void torque_add(torque_fit *x, const check_run *r, const check_interpretation *as,
+                       const check_model *m)
+{
+    const check_vector read = mutual_of(r, as, m), p = hci_check_turned(read, -x->from_rad);
+    const double column[UNKNOWNS] = {p.re, p.im, -p.re * p.im / x->most};
     const double y = r->torque_mean * as->torque, length = hci_check_length(p);
     if (!(length > 0.0)) return;
     const double weight = 1.0 / (length * length);
-    x->cc += weight * p.re * p.re, x->cs += weight * p.re * p.im, x->ss += weight * p.im * p.im;
-    x->c += weight * p.re * y, x->s += weight * p.im * y;
+    for (int k = 0; k < UNKNOWNS; ++k) {
+        x->moment[k] += weight * column[k] * y;
+        for (int j = 0; j < UNKNOWNS; ++j)
+            x->gram[k + j * UNKNOWNS] += weight * column[k] * column[j];
+    }
     ++x->count;
 }
 
+static torque_fit torque_fit_of(const check_data *data, const check_interpretation *as, const check_model *m,
+                                double from_rad)
+{
+    torque_fit x = {.from_rad = from_rad};
+    const double k_Nm_per_A = 1.5 * hci_check_length(hci_check_emf_expected(1.0, m));
+    for (size_t k = 0; k < data->runs; ++k)
+        if (tells_torque(data, &data->run[k]))
+            x.most = fmax(x.most, hci_check_length(mutual_of(&data->run[k], as, m)));
+    for (size_t k = 0; k < data->runs; ++k)
+        if (tells_torque(data, &data->run[k])) torque_add(&x, &data->run[k], as, m);
+    const bool is_known = !isnan(m->reluctance_Nm_per_A2);
+    x.expected = is_known ? m->reluctance_Nm_per_A2 * x.most / (k_Nm_per_A * k_Nm_per_A) : 0.0;
+    x.unknown = is_known ? RELUCTANCE_LEAST + RELUCTANCE_KNOWN * fabs(x.expected) : RELUCTANCE_UNKNOWN;
+    return x;
+}
+
+/* Whether currents at several angles tell the cosine and the sine. */
+static bool tells_zero(const torque_fit *x)
+{
+    const double cc = x->gram[COSINE], ss = x->gram[SINE + SINE * UNKNOWNS], cs = x->gram[SINE];
+    const double half = 0.5 * (cc + ss), apart = hypot(0.5 * (cc - ss), cs);
+    return x->count >= 2 && half - apart > LEAST_AXIS * (half + apart);
+}
+
+/* The reluctance is as uncertain as it is expected, and the zero with it as far as the runs do not tell them
+ * apart. */
+static check_run_zero solved(torque_fit *x)
+{
+    const double precision = TORQUE_UNKNOWN * TORQUE_UNKNOWN / (x->unknown * x->unknown);
+    double sine[UNKNOWNS] = {[SINE] = 1.0};
+    x->gram[RELUCTANCE + RELUCTANCE * UNKNOWNS] += precision;
+    x->moment[RELUCTANCE] += precision * x->expected;
+    if (hci_cholesky_factor(UNKNOWNS, x->gram)) return (check_run_zero){.is_known = false};
+    hci_cholesky_solve(UNKNOWNS, x->gram, x->moment);
+    hci_cholesky_solve(UNKNOWNS, x->gram, sine);
+    return (check_run_zero){true, x->from_rad + atan2(x->moment[SINE], x->moment[COSINE]),
+                            TORQUE_UNKNOWN * sqrt(sine[SINE])};
+}
+
+/* Currents along d and q are those of the zero that is looked for. */
 static check_run_zero by_torque(const check_data *data, const check_interpretation *as, const check_model *m)
 {
-    torque_fit x = {0};
+    enum { PASSES = 4 };
+    torque_fit x = torque_fit_of(data, as, m, 0.0);
     check_run_zero zero = {.is_known = false};
-    for (size_t k = 0; k < data->runs; ++k)
-        torque_add(&x, data, &data->run[k], as, m);
-    const double half = 0.5 * (x.cc + x.ss), apart = hypot(0.5 * (x.cc - x.ss), x.cs);
-    const double determinant = x.cc * x.ss - x.cs * x.cs;
-    if (x.count < 2 || !(half - apart > LEAST_AXIS * (half + apart)) || !(determinant > 0.0)) return zero;
-    const double c = (x.c * x.ss - x.s * x.cs) / determinant, s = (x.s * x.cc - x.c * x.cs) / determinant;
-    zero.is_known = true;
-    zero.zero_rad = atan2(s, c);
-    zero.std_error_rad = TORQUE_UNKNOWN / sqrt(half - apart);
+    if (!tells_zero(&x)) return zero;
+    zero.zero_rad = atan2(x.moment[SINE] * x.gram[COSINE] - x.moment[COSINE] * x.gram[SINE],
+                          x.moment[COSINE] * x.gram[SINE + SINE * UNKNOWNS] - x.moment[SINE] * x.gram[SINE]);
+    for (int pass = 0; pass < PASSES; ++pass) {
+        x = torque_fit_of(data, as, m, zero.zero_rad);
+        zero = solved(&x);
+        if (!zero.is_known) return zero;
+    }
+    zero.zero_rad = remainder(zero.zero_rad, 2.0 * HCI_PI);
     return zero;
 }
 

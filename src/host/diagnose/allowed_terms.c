@@ -129,7 +129,8 @@ static double twin_of(const hci_coenergy_sizes *found, const hci_candidate *x)
 {
     const size_t place = hci_coenergy_place(x->term[0].order);
     const double *size = x->unlike ? found->unlike : found->usual;
-    if (place == 0) return x->coenergy_unit * (x->unlike ? size[0] : fmax(size[0], found->mean));
+    const double of_mean = x->power == 2 && !x->unlike ? fmax(size[0], found->mean) : size[0];
+    if (place == 0) return x->coenergy_unit * of_mean;
     return size[place] > 0.0 ? x->coenergy_unit * size_of_power(found, x) : 0.0;
 }
 

@@ -285,6 +285,29 @@ static hci_status diagnose(hci_dataset *b, const hci_machine_data *machine, cons
     return status;
 }
 
+/* Over all recordings, of a ripple beside the mean of each. */
+static double unexplained_ripple_Nm(const hci_diagnosis *d)
+{
+    double sum = 0.0, count = 0.0;
+    for (size_t k = 0; k < d->runs; ++k) {
+        const hci_run_errors *e = &d->run[k];
+        const double square = e->ripple_after_Nm * e->ripple_after_Nm - e->noise_floor_Nm * e->noise_floor_Nm;
+        if (!isfinite(square)) continue;
+        sum += fmax(0.0, square);
+        count += 1.0;
+    }
+    return count > 0.0 ? sqrt(sum / count) : (double)NAN;
+}
+
+/* Goes with the corrected machine, whether or not anything is stated of it. */
+static void origin_fill(hci_diagnosis *d)
+{
+    hci_machine_origin *origin = &d->uncertainty.origin;
+    snprintf(origin->verdict, sizeof origin->verdict, "%s", hci_diagnosis_verdict_name(d->verdict));
+    snprintf(origin->search, sizeof origin->search, "%s", hci_diagnosis_search_name(d->search));
+    origin->unexplained_Nm = unexplained_ripple_Nm(d);
+}
+
 static bool is_usable(const hci_runs *runs, size_t k)
 {
     const hci_run *r = &runs->run[k];
@@ -345,7 +368,11 @@ hci_status hci_diagnose(const hci_machine_data *machine, const hci_effects *decl
         return hci_note_set(note, HCI_ERROR_INPUT, "no run has the role `fit`; give it to at least one");
     const double off = hci_open_voltage_off(&machine->model, runs);
     diagnosis->open_voltage_off = off;
-    if (usable == 0) return nothing_measured(declared, diagnosis, note);
+    if (usable == 0) {
+        const hci_status nothing = nothing_measured(declared, diagnosis, note);
+        if (nothing == HCI_NOT_REACHED) origin_fill(diagnosis);
+        return nothing;
+    }
     hci_status status = hci_free_friction_find(machine, declared, runs, &friction, note);
     if (!status)
         status = diagnose_from(machine, friction.law.terms > 0 ? &friction.effects.list : declared,
@@ -358,6 +385,7 @@ hci_status hci_diagnose(const hci_machine_data *machine, const hci_effects *decl
     diagnosis->open_voltage_off = off;
     if (off > HCI_OPEN_VOLTAGE_OFF && diagnosis->verdict == HCI_DIAGNOSIS_COMPLETE)
         diagnosis->verdict = HCI_DIAGNOSIS_UNKNOWN;
+    origin_fill(diagnosis);
     return diagnosis->verdict >= HCI_DIAGNOSIS_AMBIGUOUS || diagnosis->search != HCI_WORK_COMPLETE
                ? HCI_NOT_REACHED
                : HCI_OK;

@@ -28,7 +28,8 @@ static double samples_of(const hci_dataset *b, size_t run)
 }
 
 /* How the residual changes along the angle, from the samples beside one of a segment. */
-static double slope_at(const hci_segment *s, const hci_binned_sample *sample, const double *residual, size_t j)
+static double slope_at(const hci_segment *s, const hci_binned_sample *sample, const double *residual,
+                       size_t j)
 {
     const size_t before = j > s->first ? j - 1 : j, behind = j + 1 < s->first + s->count ? j + 1 : j;
     const double step_rad = sample[behind].raw.theta_m_rad - sample[before].raw.theta_m_rad;

@@ -24,7 +24,8 @@ const char *hci_ripple_state_words(hci_ripple_state state)
         "run",
         "Ripple not known: the recordings tell of no order of the torque; record ones with more samples in "
         "an "
-        "electrical turn"};
+        "electrical turn",
+        "Ripple not known: the diagnosis of this machine has not explained its recordings"};
     return WORDS[state];
 }
 
@@ -208,8 +209,8 @@ bool hci_expected_ripple_is_far(const hci_expected_ripple *e)
 static hci_expected_ripple nothing(hci_ripple_state state)
 {
     const hci_measured_range none = {NAN, NAN};
-    return (hci_expected_ripple){state, NAN,  NAN,  NAN,  NAN, NAN, NAN,   none,
-                                 none,  none, none, none, NAN, NAN, false, 0};
+    return (hci_expected_ripple){state, NAN,  NAN, NAN, NAN,   NAN, NAN,           none, none, none,
+                                 none,  none, NAN, NAN, false, 0,   {"", "", NAN}, NAN,  NAN};
 }
 
 static double largest_torque_Nm(const hci_ripple_path *path)
@@ -220,8 +221,8 @@ static double largest_torque_Nm(const hci_ripple_path *path)
     return most_Nm;
 }
 
-hci_status hci_expected_ripple_find(const hci_ripple_path *path, const hci_uncertainty *u,
-                                    hci_expected_ripple *expected, hci_note *note)
+static hci_status find(const hci_ripple_path *path, const hci_uncertainty *u, hci_expected_ripple *expected,
+                       hci_note *note)
 {
     machines m;
     *expected = nothing(HCI_RIPPLE_NO_RECORDINGS);
@@ -245,4 +246,71 @@ hci_status hci_expected_ripple_find(const hci_ripple_path *path, const hci_uncer
     if (!status && !(expected->error_peak_to_peak_Nm > ROUNDING * largest_torque_Nm(path)))
         *expected = nothing(HCI_RIPPLE_UNTOLD);
     return status;
+}
+
+/* ---- what nobody would believe ---- */
+
+#define RECTANGLES                                                                                           \
+    2.0 /* times the order that a wave of constant size has, from which on nobody believes it */
+
+static double fundamental_of(const hci_ripple_path *path)
+{
+    double sine = 0.0, cosine = 0.0;
+    for (size_t k = 0; k < path->machine->back_emf_count; ++k) {
+        const hci_wave *w = &path->machine->back_emf[k];
+        if (w->sequence == 1 && fabs(w->order - 1.0) < HCI_ORDER_TOLERANCE)
+            sine += w->sine, cosine += w->cosine;
+    }
+    return hypot(sine, cosine);
+}
+
+static bool is_back_emf(const hci_effect_type *type)
+{
+    return strcmp(type->parameter[0].unit, "Nm_per_A") == 0;
+}
+
+/* Amplitude of an order of the back-EMF that an effect adds. */
+static double added_of(const hci_effect *effect, double order)
+{
+    double square = 0.0;
+    for (size_t j = 0; j < effect->count; ++j)
+        if (fabs(effect->term[j].order - order) < HCI_ORDER_TOLERANCE)
+            square += effect->term[j].value * effect->term[j].value;
+    return sqrt(square);
+}
+
+/* A wave of constant size, as of magnets of one strength under full-pitch coils, has 1/n of its fundamental
+ * at order n. */
+static void fill_unbelievable(const hci_ripple_path *path, hci_expected_ripple *e)
+{
+    const double fundamental = fundamental_of(path);
+    double most = 1.0;
+    for (size_t k = 0; path->effects && k < path->effects->count; ++k) {
+        const hci_effect *effect = &path->effects->effect[k];
+        for (size_t j = 0; is_back_emf(effect->type) && j < effect->count; ++j) {
+            const double order = effect->term[j].order, share = added_of(effect, order) / fundamental;
+            const double beyond = order > 1.5 ? share * order / RECTANGLES : 0.0;
+            if (!(beyond > most)) continue;
+            most = beyond;
+            e->unbelievable_order = order;
+            e->unbelievable_share = share;
+        }
+    }
+}
+
+bool hci_expected_ripple_is_doubtful(const hci_expected_ripple *e)
+{
+    return hci_machine_origin_is_doubtful(&e->origin) || isfinite(e->unbelievable_order);
+}
+
+hci_status hci_expected_ripple_find(const hci_ripple_path *path, const hci_uncertainty *u,
+                                    hci_expected_ripple *expected, hci_note *note)
+{
+    const hci_status status = find(path, u, expected, note);
+    if (status) return status;
+    if (u) expected->origin = u->origin;
+    fill_unbelievable(path, expected);
+    if (expected->state == HCI_RIPPLE_NO_RECORDINGS && hci_machine_origin_is_doubtful(&expected->origin))
+        expected->state = HCI_RIPPLE_UNEXPLAINED;
+    return HCI_OK;
 }

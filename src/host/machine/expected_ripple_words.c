@@ -91,16 +91,38 @@ static void say_recordings(const hci_words *w, const hci_expected_ripple *e)
             e->recordings, e->recordings == 1 ? "" : "s");
 }
 
+/* What holds for the model alone. */
+static void say_origin(const hci_words *w, const hci_expected_ripple *e)
+{
+    char Nm[NUMBER_SIZE];
+    if (hci_machine_origin_is_doubtful(&e->origin)) {
+        hci_words_say(w, " What currents do in this model holds for the model alone: its diagnosis is %s%s",
+                      e->origin.verdict,
+                      strcmp(e->origin.search, "complete") != 0 ? ", and its search ended early" : "");
+        if (e->origin.unexplained_Nm > 0.0)
+            hci_words_say(w, "; its recordings have another %s N·m rms of ripple",
+                          number(e->origin.unexplained_Nm, false, Nm));
+        hci_words_say(w, ".");
+    }
+    if (isfinite(e->unbelievable_order))
+        hci_words_say(w,
+                      " Its back-EMF of order %.4g is %.2g %% of the fundamental, which is not believable: a "
+                      "wave of constant size has %.2g %%.",
+                      e->unbelievable_order, 100.0 * e->unbelievable_share, 100.0 / e->unbelievable_order);
+}
+
 void hci_expected_ripple_words(const hci_expected_ripple *e, char *text, size_t size)
 {
     const hci_words w = {text, size};
     text[0] = '\0';
     if (e->state != HCI_RIPPLE_KNOWN) {
         hci_words_say(&w, "%s.", hci_ripple_state_words(e->state));
+        say_origin(&w, e);
         return;
     }
     say_ripple(&w, e);
     say_currents(&w, e);
     say_speed(&w, e);
     say_recordings(&w, e);
+    say_origin(&w, e);
 }

@@ -60,6 +60,12 @@ bool hci_uncertainty_is_of(const hci_uncertainty *u, const hci_effects *effects)
     return holds_all(effects, &u->effects.list) && holds_all(&u->effects.list, effects);
 }
 
+bool hci_machine_origin_is_doubtful(const hci_machine_origin *origin)
+{
+    return strcmp(origin->verdict, "partly explained") == 0 || strcmp(origin->verdict, "unknown") == 0 ||
+           (origin->search[0] && strcmp(origin->search, "complete") != 0);
+}
+
 /* ---- what was measured ---- */
 
 static void widen(hci_measured_range *range, hci_measured_range by)

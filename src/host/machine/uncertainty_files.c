@@ -1,4 +1,4 @@
-/* uncertainty.csv and measured.csv. */
+/* uncertainty.csv, measured.csv and diagnosis.csv. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <math.h>
@@ -18,6 +18,7 @@ enum { PATH_SIZE = 4096 };
 
 #define UNCERTAINTY "uncertainty.csv"
 #define MEASURED    "measured.csv"
+#define DIAGNOSIS   "diagnosis.csv"
 #define DEPARTURES  "departures"
 
 /* ---- reading uncertainty.csv ---- */
@@ -141,14 +142,68 @@ static hci_status both_read(const char *uncertainty, const char *measured, hci_u
     return status;
 }
 
+/* ---- reading diagnosis.csv ---- */
+
+static const char *const VERDICTS[] = {"complete",         "explained", "ambiguous",
+                                       "partly explained", "unknown",   NULL};
+static const char *const SEARCHES[] = {"complete", "interrupted", "limited", NULL};
+
+/* One of the words, or an error. */
+static hci_status word_of(const hci_csv *csv, size_t row, const char *const *words, size_t size, char *out,
+                          hci_note *note)
+{
+    const char *text;
+    const hci_status status = hci_csv_text(csv, "value", row, &text, note);
+    if (status) return status;
+    for (; *words; ++words)
+        if (strcmp(*words, text) == 0) {
+            snprintf(out, size, "%s", text);
+            return HCI_OK;
+        }
+    return hci_csv_error(csv, "value", row, note, "a word that diagnose writes there",
+                         "let diagnose write the file again, or remove it");
+}
+
+static hci_status origin_row(const hci_csv *csv, size_t row, hci_machine_origin *origin, hci_note *note)
+{
+    const char *name;
+    const hci_status status = hci_csv_text(csv, "name", row, &name, note);
+    if (status) return status;
+    if (strcmp(name, "verdict") == 0)
+        return word_of(csv, row, VERDICTS, sizeof origin->verdict, origin->verdict, note);
+    if (strcmp(name, "search") == 0)
+        return word_of(csv, row, SEARCHES, sizeof origin->search, origin->search, note);
+    if (strcmp(name, "unexplained_ripple") == 0)
+        return cell_read(csv, "value", row, &origin->unexplained_Nm, note);
+    return hci_csv_error(csv, "name", row, note, "verdict, search or unexplained_ripple",
+                         "let diagnose write the file again, or remove it");
+}
+
+static hci_status origin_read(const char *path, hci_machine_origin *origin, hci_note *note)
+{
+    hci_csv *csv = NULL;
+    origin->unexplained_Nm = NAN;
+    if (!hci_machine_has(path)) return HCI_OK;
+    hci_status status = hci_csv_read(path, &csv, note);
+    for (size_t row = 0; !status && row < hci_csv_rows(csv); ++row)
+        status = origin_row(csv, row, origin, note);
+    hci_csv_free(csv);
+    return status;
+}
+
 hci_status hci_uncertainty_read_machine(const char *folder, hci_uncertainty *u, hci_note *note)
 {
-    char uncertainty[PATH_SIZE], measured[PATH_SIZE];
+    char uncertainty[PATH_SIZE], measured[PATH_SIZE], diagnosis[PATH_SIZE];
+    hci_machine_origin origin = {"", "", NAN};
     memset(u, 0, sizeof *u);
     hci_status status = hci_machine_path(uncertainty, sizeof uncertainty, folder, UNCERTAINTY, note);
     if (!status) status = hci_machine_path(measured, sizeof measured, folder, MEASURED, note);
-    if (status || (!hci_machine_has(uncertainty) && !hci_machine_has(measured))) return status;
-    return both_read(uncertainty, measured, u, note);
+    if (!status) status = hci_machine_path(diagnosis, sizeof diagnosis, folder, DIAGNOSIS, note);
+    if (!status) status = origin_read(diagnosis, &origin, note);
+    if (!status && (hci_machine_has(uncertainty) || hci_machine_has(measured)))
+        status = both_read(uncertainty, measured, u, note);
+    if (!status) u->origin = origin;
+    return status;
 }
 
 /* ---- writing ---- */
@@ -209,8 +264,22 @@ static hci_status runs_write(hci_output *out, const hci_uncertainty *u, hci_note
     return HCI_OK;
 }
 
+static hci_status origin_write(hci_output *out, const hci_machine_origin *origin, hci_note *note)
+{
+    if (!origin->verdict[0]) return hci_output_without(out, DIAGNOSIS, note);
+    const hci_status status = hci_output_file(out, DIAGNOSIS, note);
+    if (status) return status;
+    hci_output_text(out, "name,value,unit\nverdict,%s,\nsearch,%s,\nunexplained_ripple,", origin->verdict,
+                    origin->search);
+    cell_write(out, origin->unexplained_Nm, ',');
+    hci_output_text(out, "Nm\n");
+    return HCI_OK;
+}
+
 hci_status hci_uncertainty_write(hci_output *out, const hci_uncertainty *u, hci_note *note)
 {
+    const hci_status of_origin = origin_write(out, &u->origin, note);
+    if (of_origin) return of_origin;
     if (u->machines == 0) {
         const hci_status status = hci_output_without(out, UNCERTAINTY, note);
         return status ? status : hci_output_without(out, MEASURED, note);

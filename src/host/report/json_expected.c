@@ -1,4 +1,6 @@
 /* What the real machine is expected to do: a part of several summaries. */
+#include <math.h>
+
 #include "host/report/summary.h"
 
 static void put_range(hci_json *json, const char *name, hci_measured_range range)
@@ -29,5 +31,14 @@ void hci_summary_expected(hci_json *json, const hci_expected_ripple *e)
     hci_json_number(json, "outside_A", e->outside_A);
     hci_json_bool(json, "speed_outside", e->speed_outside);
     hci_json_number(json, "recordings", (double)e->recordings);
+    hci_json_object(json, "model");
+    hci_json_text(json, "verdict", e->origin.verdict);
+    hci_json_text(json, "search", e->origin.search);
+    hci_json_number(json, "unexplained_ripple_Nm",
+                    e->origin.verdict[0] ? e->origin.unexplained_Nm : (double)NAN);
+    hci_json_number(json, "unbelievable_order", e->unbelievable_order);
+    hci_json_number(json, "unbelievable_share", e->unbelievable_share);
+    hci_json_bool(json, "doubtful", hci_expected_ripple_is_doubtful(e));
+    hci_json_close(json);
     hci_json_close(json);
 }

@@ -516,6 +516,13 @@ MISTAKE(milliseconds, x->time_s *= 1000.0)
 MISTAKE(off_by_31_degrees, x->theta += 31.0 / 4.0 * REF_PI / 180.0)
 MISTAKE(off_by_60_degrees, x->theta += 60.0 / 4.0 * REF_PI / 180.0)
 MISTAKE(off_by_240_degrees, x->theta += 240.0 / 4.0 * REF_PI / 180.0)
+static void rotate(double x[3])
+{
+    const double first = x[0];
+    x[0] = x[1], x[1] = x[2], x[2] = first;
+}
+
+MISTAKE(phases_one_on, (rotate(x->i), rotate(x->v)))
 MISTAKE(off_by_2_degrees, x->theta += 2.0 / 4.0 * REF_PI / 180.0)
 
 /* The index of an encoder is anywhere: what is off is said with its value, and steps of 60 degrees are not
@@ -529,7 +536,10 @@ static void test_an_index_that_is_off(void)
     } CASES[] = {
         {off_by_31_degrees, 31.0, "is 31.0 \xC2\xB1 0.1 degrees off: give --angle-offset -31.0"},
         {off_by_60_degrees, 60.0, "is 60.0 \xC2\xB1 0.1 degrees off: give --angle-offset -60.0"},
-        {off_by_240_degrees, -120.0, "is -120.0 \xC2\xB1 0.1 degrees off: give --angle-offset 120.0"}};
+        {off_by_240_degrees, -120.0,
+         "is -120.0 \xC2\xB1 0.1 degrees off: give --angle-offset 120.0; or the columns a, b, c hold the "
+         "phases c, a, b"},
+        {phases_one_on, 120.0, "give --angle-offset -120.0; or the columns a, b, c hold the phases b, c, a"}};
     for (size_t k = 0; k < sizeof CASES / sizeof *CASES; ++k) {
         write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
         TEST_ASSERT_EQUAL_MESSAGE(HCI_NOT_REACHED, check_runs(HEADER, CASES[k].wrong, true), note.text);
@@ -564,6 +574,41 @@ static void test_an_offset_that_is_given(void)
         HCI_OK, hci_check_files(files_root, run, 1, &(hci_run_options){0}, &check, &note), note.text);
     TEST_ASSERT_TRUE(is_untold("run_angle_offset"));
     TEST_ASSERT_TRUE(isnan(check.zero_rad));
+}
+
+/* T = 3/2 k_e i_q - 5 mN·m/A² i_d i_q: (L_d - L_q) i_d is a third of the magnets' flux at 10 A. */
+static void salient(sample *x)
+{
+    double i_d = 0.0, i_q = 0.0;
+    for (int s = 0; s < 3; ++s) {
+        const double a = 4.0 * x->theta - 2.0 * REF_PI * s / 3.0;
+        i_d -= 2.0 / 3.0 * x->i[s] * cos(a);
+        i_q += 2.0 / 3.0 * x->i[s] * sin(a);
+    }
+    x->torque_Nm -= 5e-3 * i_d * i_q;
+}
+
+/* The torque of i_d i_q turns with the angle of the current as a zero that is off does. */
+static void test_saliency_is_no_offset(void)
+{
+    static const double AT[][2] = {{0.0, 6.0}, {-3.0, 5.0}, {3.0, 8.0}, {-5.0, 8.0}};
+    static const char *run[4];
+    for (int is_salient = 0; is_salient < 2; ++is_salient) {
+        write_machine("name,value,unit,source\npole_pairs,4,1,\nrated_current,10,A,\n", "amplitude_Nm_per_A",
+                      0.1, 0.0);
+        for (size_t k = 0; k < 4; ++k) {
+            char name[32];
+            snprintf(name, sizeof name, "%zu.csv", k);
+            run[k] = path[paths];
+            write_run(name, "time_s,theta_m_rad,speed_rad_per_s,ia_A,ib_A,ic_A,,,,torque_Nm", AT[k][0],
+                      AT[k][1], is_salient ? salient : none);
+        }
+        hci_check_files(files_root, run, 4, &(hci_run_options){0}, &check, &note);
+        TEST_ASSERT_TRUE_MESSAGE(isfinite(check.zero_rad), note.text);
+        TEST_ASSERT_TRUE(check.zero_error_rad > 0.0 && check.zero_error_rad < 0.2);
+        TEST_ASSERT_DOUBLE_WITHIN(is_salient ? 1.5 * check.zero_error_rad : 1e-6, 0.0, check.zero_rad);
+        remove_files();
+    }
 }
 
 static void test_slips_of_recordings(void)
@@ -1103,6 +1148,7 @@ int main(void)
     RUN_TEST(test_slopes_per_electrical_radian);
     RUN_TEST(test_an_index_that_is_off);
     RUN_TEST(test_an_offset_that_is_given);
+    RUN_TEST(test_saliency_is_no_offset);
     RUN_TEST(test_slips_of_recordings);
     RUN_TEST(test_mechanical_angle_under_electrical_name);
     RUN_TEST(test_slips_of_dq_currents);

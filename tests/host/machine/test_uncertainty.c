@@ -130,6 +130,40 @@ static void test_no_files_are_no_knowledge(void)
     TEST_ASSERT_EQUAL_INT(0, files_count(files_root));
 }
 
+/* ---- diagnosis.csv ---- */
+
+static hci_status read_diagnosis(const char *text)
+{
+    note.text[0] = '\0';
+    hci_uncertainty_release(&uncertainty);
+    files_write(files_path("diagnosis.csv"), text);
+    return hci_uncertainty_read_machine(files_root, &uncertainty, &note);
+}
+
+static const char PARTLY[] =
+    "name,value,unit\nverdict,partly explained,\nsearch,limited,\nunexplained_ripple,0.0123,Nm\n";
+
+static void test_origin_is_written_again(void)
+{
+    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, read_diagnosis(PARTLY), note.text);
+    TEST_ASSERT_EQUAL_STRING("limited", uncertainty.origin.search);
+    TEST_ASSERT_TRUE(hci_machine_origin_is_doubtful(&uncertainty.origin));
+    files_remove(files_path("diagnosis.csv"));
+    write_all();
+    check_file("diagnosis.csv", PARTLY);
+    TEST_ASSERT_EQUAL_INT(HCI_OK, read_diagnosis("name,value,unit\nverdict,explained,\nsearch,complete,\n"));
+    TEST_ASSERT_FALSE(hci_machine_origin_is_doubtful(&uncertainty.origin));
+    TEST_ASSERT_TRUE(isnan(uncertainty.origin.unexplained_Nm));
+}
+
+static void test_origin_that_is_wrong(void)
+{
+    TEST_ASSERT_EQUAL_INT(HCI_ERROR_INPUT, read_diagnosis("name,value,unit\nverdict,perhaps,\n"));
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(note.text, "diagnosis.csv:2"), note.text);
+    TEST_ASSERT_EQUAL_INT(HCI_ERROR_INPUT, read_diagnosis("name,value,unit\nsearch,limited,\nveredict,x,\n"));
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(note.text, "veredict"), note.text);
+}
+
 static void check_refused(const char *terms, const char *measured, const char *words)
 {
     TEST_ASSERT_EQUAL_INT(HCI_ERROR_INPUT, read_texts(terms, measured));
@@ -333,6 +367,37 @@ static void test_too_far_for_two_recordings(void)
 }
 
 /* No exponent, and no zero: a limit is rounded up, so that what is said is no less than what was found. */
+/* A rectangular wave has a fifth of its fundamental at order 5: twice that is where belief ends. */
+static void test_what_holds_for_the_model_alone(void)
+{
+    hci_effects_data data = {0};
+    char words[1024];
+    files_write(files_path("effects.csv"),
+                "effect,parameter,value,unit,std_error\nback_emf,sine_5,0.079,Nm_per_A,\n");
+    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_effects_read_machine(files_root, &data, &note), note.text);
+    hci_ripple_path path = path_of(0.0, 1.0);
+    path.effects = &data.list;
+    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, read_diagnosis(PARTLY), note.text);
+    hci_expected_ripple e = expect(&path);
+    TEST_ASSERT_EQUAL_INT(HCI_RIPPLE_UNEXPLAINED, e.state);
+    TEST_ASSERT_TRUE(hci_expected_ripple_is_doubtful(&e) && isnan(e.unbelievable_order));
+    hci_expected_ripple_words(&e, words, sizeof words);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(words, "is partly explained, and its search ended early"), words);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(words, "another 0.012 N\xC2\xB7m rms"), words);
+    files_remove(files_path("diagnosis.csv"));
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_uncertainty_read_machine(files_root, &uncertainty, &note));
+    e = expect(&path);
+    TEST_ASSERT_FALSE(hci_expected_ripple_is_doubtful(&e));
+    data.term[0].value = 0.081;
+    e = expect(&path);
+    hci_effects_release(&data);
+    TEST_ASSERT_TRUE(hci_expected_ripple_is_doubtful(&e));
+    TEST_ASSERT_EQUAL_DOUBLE(5.0, e.unbelievable_order);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.405, e.unbelievable_share);
+    hci_expected_ripple_words(&e, words, sizeof words);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(words, "order 5 is 40 % of the fundamental"), words);
+}
+
 static void test_figures_in_words(void)
 {
     char words[1024];
@@ -419,6 +484,8 @@ int main(void)
     RUN_TEST(test_all_recordings_together);
     RUN_TEST(test_no_files_are_no_knowledge);
     RUN_TEST(test_files_that_are_wrong);
+    RUN_TEST(test_origin_is_written_again);
+    RUN_TEST(test_origin_that_is_wrong);
     RUN_TEST(test_belongs_to_one_list_of_effects);
     RUN_TEST(test_one_uncertain_order);
     RUN_TEST(test_ripple_of_the_model);
@@ -426,6 +493,7 @@ int main(void)
     RUN_TEST(test_grows_with_the_current);
     RUN_TEST(test_not_known);
     RUN_TEST(test_too_far_for_two_recordings);
+    RUN_TEST(test_what_holds_for_the_model_alone);
     RUN_TEST(test_figures_in_words);
     RUN_TEST(test_no_order_is_told);
     RUN_TEST(test_words);

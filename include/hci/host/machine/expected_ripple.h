@@ -14,8 +14,9 @@ typedef enum {
     HCI_RIPPLE_NO_RECORDINGS, /* the machine has no uncertainty.csv */
     HCI_RIPPLE_OTHER_EFFECTS, /* effects.csv is not the one that uncertainty.csv was found for */
     HCI_RIPPLE_TOO_FAR, /* parts of one or two recordings tell nothing of currents so far outside of them */
-    HCI_RIPPLE_UNTOLD   /* the recordings tell of no order of the torque, such as ones with a few samples in a
+    HCI_RIPPLE_UNTOLD,  /* the recordings tell of no order of the torque, such as ones with a few samples in a
                          * turn */
+    HCI_RIPPLE_UNEXPLAINED /* the diagnosis that the machine comes from has not explained its recordings */
 } hci_ripple_state;
 
 /* Why it is not known in words, "" where it is; a static string. */
@@ -32,11 +33,19 @@ typedef struct {
                                          * amplitude; NAN where the samples are no whole turns */
     hci_measured_range id_A, iq_A;      /* that flow */
     hci_measured_range measured_id_A, measured_iq_A, measured_speed_rad_per_s; /* that were recorded */
-    double outside_share; /* of the angle, where i_d or i_q is outside of what was recorded: 0 to 1 */
-    double outside_A;     /* how far at most */
-    bool speed_outside;   /* the speed is; false where it is not known */
-    size_t recordings;    /* that tell it; 0: not known. Of fewer than three, parts were compared */
+    double outside_share;      /* of the angle, where i_d or i_q is outside of what was recorded: 0 to 1 */
+    double outside_A;          /* how far at most */
+    bool speed_outside;        /* the speed is; false where it is not known */
+    size_t recordings;         /* that tell it; 0: not known. Of fewer than three, parts were compared */
+    hci_machine_origin origin; /* known or not: where the model comes from */
+    double unbelievable_order; /* the order of an effect's back-EMF that is larger than magnets and windings
+                                * make it; NAN: none */
+    double unbelievable_share; /* its amplitude over that of the fundamental; NAN: none */
 } hci_expected_ripple;
+
+/* Whether what holds for the model may not hold for the machine at all: the diagnosis has not explained its
+ * recordings, or a value of it is not believable. */
+bool hci_expected_ripple_is_doubtful(const hci_expected_ripple *expected);
 
 /* What to expect in a few plain sentences. size: of text, 1024 will do. */
 void hci_expected_ripple_words(const hci_expected_ripple *expected, char *text, size_t size);

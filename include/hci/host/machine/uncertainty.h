@@ -1,4 +1,5 @@
-/* What the recordings of a machine leave open: uncertainty.csv and measured.csv of a machine folder. */
+/* What the recordings of a machine leave open: uncertainty.csv, measured.csv and diagnosis.csv of a machine
+ * folder. */
 #ifndef HCI_HOST_MACHINE_UNCERTAINTY_H
 #define HCI_HOST_MACHINE_UNCERTAINTY_H
 
@@ -23,25 +24,38 @@ typedef struct {
                     * expected; root of the mean over the recordings: 1. NAN: the recording tells nothing */
 } hci_measured_run;
 
+/* The diagnosis that a machine comes from. */
+typedef struct {
+    char verdict[20];      /* in a word or two, as in its summary.json; "": it comes from none */
+    char search[16];       /* how its search ended, likewise */
+    double unexplained_Nm; /* rms of the ripple in its recordings that the model does not have and that is
+                            * not noise; NAN: not known */
+} hci_machine_origin;
+
+/* Whether it has not explained its recordings: partly explained, unknown, or a search that ended early. */
+bool hci_machine_origin_is_doubtful(const hci_machine_origin *origin);
+
 /* Machines that the recordings allow as well as the one that is written down. Start with {0}: nothing is
  * known. */
 typedef struct {
     hci_effects_data effects; /* all terms that could differ, with the values that are written down */
     double *departure; /* [terms][machines]: value in each of these machines less the value written down */
     size_t machines;   /* 0: nothing is known */
-    hci_measured_run *run; /* what was recorded */
-    size_t runs;           /* entries of run */
+    hci_measured_run *run;     /* what was recorded */
+    size_t runs;               /* entries of run */
+    hci_machine_origin origin; /* whether or not any machine is known to be allowed */
 } hci_uncertainty;
 
 /* Room for so many runs and machines; effects are the caller's to fill in before. HCI_ERROR_MEMORY. */
 hci_status hci_uncertainty_reserve(hci_uncertainty *uncertainty, size_t runs, size_t machines,
                                    hci_note *note);
 
-/* Reads uncertainty.csv and measured.csv of a machine folder; neither there: nothing is known. What is wrong
- * with a file, or one of them alone: HCI_ERROR_INPUT. HCI_ERROR_MEMORY. On failure *uncertainty is empty. */
+/* Reads uncertainty.csv and measured.csv of a machine folder, neither there: nothing is known; and
+ * diagnosis.csv where it is there. What is wrong with a file, or one of the first two alone: HCI_ERROR_INPUT.
+ * HCI_ERROR_MEMORY. On failure *uncertainty is empty. */
 hci_status hci_uncertainty_read_machine(const char *folder, hci_uncertainty *uncertainty, hci_note *note);
 
-/* Writes both as the next files of a set, or takes care that neither is there where nothing is known.
+/* Writes them as the next files of a set, or takes care that those are not there of which nothing is known.
  * Departures have four digits. HCI_ERROR_OUTPUT, _MEMORY; discard the set then. */
 hci_status hci_uncertainty_write(hci_output *output, const hci_uncertainty *uncertainty, hci_note *note);
 
