@@ -1,6 +1,7 @@
 /* With i_d = 0 a back-EMF of order 5 makes the same torque as one of order 7, and more of reluctance too: the
  * bound on currents that tell them apart allows for each of them. Seven diagnoses of small recordings: some
  * tenths of a second. */
+#include "host/machine/expected_ripple.h"
 #include "support/expecting.h"
 
 enum { SAMPLES = 240 };

@@ -4,6 +4,7 @@
  * The bound on the ripple against a machine that is known (support/saturated_iron.h), whose iron is none of
  * the series that the bound comes from: at currents between those recorded, beyond them, and with more noise,
  * where diagnose finds single terms only. */
+#include "host/machine/expected_ripple.h"
 #include "support/expecting.h"
 #include "support/saturated_iron.h"
 
