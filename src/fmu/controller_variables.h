@@ -29,7 +29,7 @@
       "current below which that is added in part")                                                           \
     X(KP_Q, "current_kp_q", REAL, PARAMETER, "V/A", "of q in the PI current loop")                           \
     X(KI_Q, "current_ki_q", REAL, PARAMETER, "V/(A.s)", "the same")                                          \
-    X(FILTER, "current_filter", REAL, PARAMETER, "",                                                         \
+    X(FILTER, "current_filter_time", REAL, PARAMETER, "",                                                    \
       "share of a new reading in what the PI sees of the current; 0: no filter")
 
 enum {

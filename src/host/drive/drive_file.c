@@ -42,6 +42,20 @@ void hci_drive_init(hci_drive_data *drive)
         *list[k].value = NAN;
 }
 
+/* ---- what a file leaves open ---- */
+
+static const double SAMPLE_s = 1e-4;
+
+double hci_drive_sample_s(const hci_drive_data *drive)
+{
+    return isnan(drive->sample_s) ? SAMPLE_s : drive->sample_s;
+}
+
+double hci_drive_filter_share(const hci_drive_data *drive)
+{
+    return drive->filter_s > 0.0 ? -expm1(-hci_drive_sample_s(drive) / drive->filter_s) : 0.0;
+}
+
 /* ---- words ---- */
 
 enum { CURRENT_CONTROL, DECOUPLING, MODULATION, RESPONSE, WORDS };

@@ -28,20 +28,8 @@ static void fill(double *value, double fallback)
     if (isnan(*value)) *value = fallback;
 }
 
-static const double SAMPLE_s = 1e-4;
-
 /* Share of half the sampling frequency. */
 static const double SAMPLING_SHARE = 0.8;
-
-double hci_drive_sample_s(const hci_drive_data *drive)
-{
-    return isnan(drive->sample_s) ? SAMPLE_s : drive->sample_s;
-}
-
-double hci_drive_filter_share(const hci_drive_data *drive)
-{
-    return drive->filter_s > 0.0 ? -expm1(-hci_drive_sample_s(drive) / drive->filter_s) : 0.0;
-}
 
 double hci_drive_highest_rad_per_s(const hci_drive_data *drive)
 {
@@ -153,7 +141,7 @@ hci_status hci_drive_fit(hci_drive_data *drive, const hci_machine_data *machine,
 {
     hci_machine_model model;
     *fitted = *machine;
-    fill(&drive->sample_s, SAMPLE_s);
+    drive->sample_s = hci_drive_sample_s(drive);
     hci_status status = join_all(drive, fitted, note);
     if (status) return status;
     drive->dc_link_voltage_V = fitted->dc_link_voltage_V;

@@ -7,7 +7,6 @@
 #include "host/base/memory.h"
 #include "host/base/quote.h"
 #include "host/numeric/derivative.h"
-#include "host/recording/acceleration.h"
 #include "host/recording/rotor_frame.h"
 
 /* ---- readings ---- */
@@ -34,7 +33,7 @@ static void set_changes(const hci_run *run, int pole_pairs, hci_sample *reading,
 /* work: count. */
 static void set_accelerations(const hci_run *run, hci_sample *reading, double *work)
 {
-    hci_run_accelerations(run, work);
+    hci_derivative(run->time_s, run->speed_rad_per_s, run->count, work);
     for (size_t k = 0; k < run->count; ++k)
         reading[k].acceleration_rad_per_s2 = work[k];
 }
@@ -64,7 +63,8 @@ hci_status hci_predict_readings(const hci_run *run, int pole_pairs, unsigned nee
     double *work = hci_memory_new(run->count, 6 * sizeof *work);
     if (work == NULL) return hci_note_memory(note, run->name, "a prediction of %zu samples", run->count);
     if (needs & HCI_EFFECT_NEEDS_RATE) set_changes(run, pole_pairs, reading, work);
-    if (needs & HCI_EFFECT_NEEDS_ACCELERATION) set_accelerations(run, reading, work);
+    if ((needs & HCI_EFFECT_NEEDS_ACCELERATION) && run->speed_rad_per_s != NULL)
+        set_accelerations(run, reading, work);
     hci_memory_free(work);
     return HCI_OK;
 }

@@ -120,7 +120,7 @@ static void test_other_loops_are_compensated(void)
                                         "computing_delay,50,us\ncurrent_kp,150,ohm\n",
                                         "computing_delay,0,us\ndecoupling,constant,\ncurrent_ki,40000,\n"
                                         "current_kp,150,ohm\ncurrent_kp_q,260,ohm\ncurrent_ki_q,20000,\n"
-                                        "current_filter,80,us\n"};
+                                        "current_filter_time,80,us\n"};
     for (int l = 0; l < 4; ++l) {
         const grid g = {&machine_c, LOOPS[l], 8.0, {320.0}, 0.0};
         hci_speeds s = run(&g);

@@ -22,7 +22,7 @@ extern "C" {
     X(ki_ohm_per_s, "current_ki", "V/(A*s)", 0.0, 1e12, "0.2 R/current_sample_time", "k_i of the PI loop")   \
     X(kp_q_ohm, "current_kp_q", "ohm", 0.0, 1e9, "current_kp", "k_p of q, where it is not that of d")        \
     X(ki_q_ohm_per_s, "current_ki_q", "V/(A*s)", 0.0, 1e12, "current_ki", "the same of k_i")                 \
-    X(filter_s, "current_filter", "s", 0.0, 0.1, "0: none",                                                  \
+    X(filter_s, "current_filter_time", "s", 0.0, 0.1, "0: none",                                             \
       "time constant of the low-pass that the PI sees i_d and i_q through")                                  \
     X(computing_delay_s, "computing_delay", "s", 0.0, 0.1, "current_sample_time",                            \
       "from a sample to the use of its voltage, which then holds for a sample")                              \

@@ -60,7 +60,7 @@ extern "C" {
       "of the pi loop")                                                                                      \
     X(current_kp_q_ohm, "current_kp_q", "ohm", 0.0, 1e9, "current_kp", "of q in the pi loop")                \
     X(current_ki_q_V_per_As, "current_ki_q", "V/(A*s)", 0.0, 1e12, "current_ki", "the same")                 \
-    X(current_filter_s, "current_filter", "s", 0.0, 0.1, "0: none",                                          \
+    X(current_filter_s, "current_filter_time", "s", 0.0, 0.1, "0: none",                                     \
       "time constant of the low-pass that the pi loop sees i_d and i_q through")                             \
     X(pwm_delay, "pwm_delay", "count", 0.0, 1.0, "1", "1: the pi loop's voltage is used one sample later")   \
     X(decoupling, "decoupling", "count", 0.0, 1.0, "1",                                                      \

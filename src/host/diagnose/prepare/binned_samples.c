@@ -11,7 +11,7 @@
 #include "host/diagnose/prepare/smooth.h"
 #include "host/diagnose/prepare/turns.h"
 #include "host/machine/torque_constant.h"
-#include "host/recording/acceleration.h"
+#include "host/numeric/derivative.h"
 #include "host/recording/rotor_frame.h"
 
 enum {
@@ -19,6 +19,7 @@ enum {
     OF_PERIOD = 180,      /* of them, for each electrical period in it, that are left where they are joined */
     MOST_JOINED = 4,
     LEAST_TURNS = 3,    /* for such a mean */
+    LEAST_OF_SLOPE = 2, /* samples */
     MOST_OPEN = 8,      /* segments of samples as they are, for each run */
     CREEPING_PIECES = 4 /* means of one steady run whose torque creeps */
 };
@@ -377,8 +378,9 @@ static bool run_fill(const hci_run *run, hci_run_statistics *statistics, bool *a
     if (!at_rest || !acceleration) return false;
     if (!is_usable(run)) return true;
     hci_rest_find(run, at_rest);
-    if (run->torque_source != HCI_TORQUE_MEASURED) return true;
-    hci_run_accelerations(run, acceleration);
+    if (run->torque_source != HCI_TORQUE_MEASURED || !run->time_s || !run->speed_rad_per_s) return true;
+    if (run->count < LEAST_OF_SLOPE) return true;
+    hci_derivative(run->time_s, run->speed_rad_per_s, run->count, acceleration);
     statistics->rms_acceleration = rms_of(acceleration, run->count);
     return true;
 }
