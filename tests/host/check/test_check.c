@@ -1113,6 +1113,7 @@ static void test_what_is_nearer_is_not_called_mended(void)
 static void test_wrong_input_is_said(void)
 {
     write_file("machine.csv", "name,value,unit\npole_pairs,2.5,1\n");
+    write_file("back_emf.csv", "order,amplitude_Nm_per_A,phase_rad\n1,0.1,0\n");
     TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, check_machine());
     TEST_ASSERT_NOT_NULL(strstr(note.text, "machine.csv:2"));
 }

@@ -16,6 +16,7 @@ static double offset_A, drag_Nm, cogging_Nm;
 void setUp(void)
 {
     dataset_start();
+    machine.inductance_d_H = machine.inductance_q_H = 2e-4; /* a round rotor */
     offset_A = drag_Nm = cogging_Nm = 0.0;
 }
 
