@@ -14,6 +14,7 @@
 #include "cli/terminal/say.h"
 #include "cli/terminal/signals.h"
 #include "cli/terminal/terminal.h"
+#include "hci/host/check/check.h"
 #include "hci/host/diagnose/again.h"
 #include "hci/host/report/summary.h"
 #include "hci/host/report/write.h"
@@ -38,6 +39,8 @@ static const cli_option OPTIONS[] = {
     [HOLDING] = CLI_HOLDING_OPTION,
     CLI_READING_OPTIONS,
     CLI_COMMON_OPTIONS};
+
+#define SURE 0.95 /* of a slip, to be named in a diagnosis */
 
 enum { PATH_SIZE = 4096 };
 
@@ -162,6 +165,25 @@ static void show_remarks(const inputs *in)
     cli_remark_each(remark_of_run, in, in->runs.count);
 }
 
+/* Where something is left that is not known it may be a slip of convention: check reads them as one or not.
+ */
+static void show_convention(const inputs *in, const hci_diagnosis *d)
+{
+    static hci_check check;
+    const char *run[HCI_CHECK_MOST_RUNS];
+    hci_run_options reading = in->reading.run;
+    hci_note note = {{0}};
+    size_t count = 0;
+    const bool open = d->verdict == HCI_DIAGNOSIS_UNKNOWN || d->verdict == HCI_DIAGNOSIS_PARTLY;
+    if (!open || !in->runs.origin) return;
+    for (; count < in->runs.count && count < HCI_CHECK_MOST_RUNS; ++count)
+        run[count] = in->runs.origin[count].path;
+    reading.holding = false;
+    if (hci_check_files(in->folder, run, count, &reading, &check, &note) > HCI_NOT_REACHED) return;
+    for (size_t k = 0; k < check.findings; ++k)
+        if (check.finding[k].probability >= SURE) cli_show_convention(&check.finding[k]);
+}
+
 static int give_results(const cli_arguments *a, const inputs *in, const hci_diagnosis *d,
                         const hci_resolution *r, hci_status verdict)
 {
@@ -170,6 +192,7 @@ static int give_results(const cli_arguments *a, const inputs *in, const hci_diag
     cli_progress_end();
     if (a->value[OUT]) status = write_results(a, in, d, r, &note);
     if (!status && cli_is_wordy()) cli_show_diagnosis(d, r, in->folder, a->value[RUNS]);
+    if (!status && cli_is_wordy()) show_convention(in, d);
     if (!status) show_remarks(in);
     if (!status && a->given[JSON])
         status =

@@ -161,6 +161,13 @@ static void draw_runs(const hci_diagnosis *d)
     if (rows < d->runs) cli_say("  and %zu runs with smaller errors\n", d->runs - rows);
 }
 
+void cli_show_convention(const hci_check_finding *f)
+{
+    cli_say("  check finds  %s (%.3g %% sure): %s:%zu: column %s: found %s, should be %s; mend that "
+            "first and diagnose again\n",
+            f->words, 100.0 * f->probability, f->file, f->line, f->column, f->found, f->should_be);
+}
+
 void cli_show_diagnosis(const hci_diagnosis *d, const hci_resolution *r, const char *machine,
                         const char *runs)
 {

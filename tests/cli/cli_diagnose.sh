@@ -190,6 +190,12 @@ done
 says 'values that'
 check "what was left out" grep -q '"left_out":.*"back_emf"' weak/summary.json
 check "a sign" grep -q 'with the opposite sign' turned/summary.json
+for f in slow back held; do
+    awk -F, -v OFS=, '{ b = $5; $5 = $6; $6 = b } 1' "$f.csv" | sed '1s/.*/time_s,theta_m_rad,speed_rad_per_s,ia_A,ib_A,ic_A,torque_Nm/' >"swapped_$f.csv"
+done
+printf 'file,role\nswapped_slow.csv,fit\nswapped_back.csv,fit\nswapped_held.csv,holdout\n' >swapped.csv
+run 1 diagnose machine --runs swapped.csv
+says 'check finds  phases b and c of the recordings are swapped' 'swapped_slow.csv:1: column ia_A'
 mv machine.kept machine/machine.csv
 sed '4s/.*/1,2,3/' slow.csv >short.csv
 wrong_list 'short.csv:4: ' 'file,role\nback.csv,fit\nshort.csv,fit\n' --strict

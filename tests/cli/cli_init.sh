@@ -161,7 +161,7 @@ for option in resistance inductance inertia rated-current rated-torque rated-spe
     wrong "--$option: found \`0\`, expected a number from .* to .*; give it in" --pole-pairs 4 --kv 300 "--$option" 0
 done
 run 2 init '' --pole-pairs 4 --kv 300
-says 'expected a name'
+says 'found an empty word, expected NAME'
 run 2 init
 says 'found 0 words, expected 1: NAME; see hci-solve init --help'
 
