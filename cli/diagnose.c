@@ -191,8 +191,10 @@ static int give_results(const cli_arguments *a, const inputs *in, const hci_diag
     hci_status status = HCI_OK;
     cli_progress_end();
     if (a->value[OUT]) status = write_results(a, in, d, r, &note);
-    if (!status && cli_is_wordy()) cli_show_diagnosis(d, r, in->folder, a->value[RUNS]);
-    if (!status && cli_is_wordy()) show_convention(in, d);
+    if (!status && cli_is_wordy()) {
+        show_convention(in, d);
+        cli_show_diagnosis(d, r, in->folder, a->value[RUNS]);
+    }
     if (!status) show_remarks(in);
     if (!status && a->given[JSON])
         status =

@@ -163,8 +163,8 @@ static void draw_runs(const hci_diagnosis *d)
 
 void cli_show_convention(const hci_check_finding *f)
 {
-    cli_say("  check finds  %s (%.3g %% sure): %s:%zu: column %s: found %s, should be %s; mend that "
-            "first and diagnose again\n",
+    cli_say("check finds: %s (%.3g %% sure): %s:%zu: column %s: found %s, should be %s; mend that "
+            "first and diagnose again\n\n",
             f->words, 100.0 * f->probability, f->file, f->line, f->column, f->found, f->should_be);
 }
 

@@ -195,7 +195,7 @@ for f in slow back held; do
 done
 printf 'file,role\nswapped_slow.csv,fit\nswapped_back.csv,fit\nswapped_held.csv,holdout\n' >swapped.csv
 run 1 diagnose machine --runs swapped.csv
-says 'check finds  phases b and c of the recordings are swapped' 'swapped_slow.csv:1: column ia_A'
+says 'check finds: phases b and c of the recordings are swapped' 'swapped_slow.csv:1: column ia_A'
 mv machine.kept machine/machine.csv
 sed '4s/.*/1,2,3/' slow.csv >short.csv
 wrong_list 'short.csv:4: ' 'file,role\nback.csv,fit\nshort.csv,fit\n' --strict

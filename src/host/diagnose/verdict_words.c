@@ -128,6 +128,8 @@ static void say_partly(const hci_words *w, const hci_diagnosis *d)
     if (!any(d, HCI_FINDING_ADDED)) say_names(w, d, HCI_FINDING_AMBIGUOUS, " or ");
     if (d->no_load_alone) hci_words_say(w, ", which the runs without a current show by themselves");
     hci_words_say(w, "; what else it lacks is not known%s.", is_unfinished(d) ? " yet" : "");
+    if (d->no_load_alone && d->holdout_after_Nm > (1.0 + SAME) * d->holdout_before_Nm)
+        hci_words_say(w, " Under load that does not hold by itself: there the error rises with it.");
 }
 
 static void say_orders_left(const hci_words *w, const hci_diagnosis *d)

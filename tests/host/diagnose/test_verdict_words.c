@@ -61,6 +61,12 @@ static void test_what_runs_without_a_current_show(void)
     d.no_load_alone = true;
     TEST_ASSERT_TRUE(
         says("the model lacked friction, which the runs without a current show by themselves; what else"));
+    TEST_ASSERT_FALSE(says("Under load"));
+    d.holdout_before_Nm = 0.03;
+    d.holdout_after_Nm = 0.04;
+    TEST_ASSERT_TRUE(says("Under load that does not hold by itself"));
+    d.holdout_after_Nm = 0.0301;
+    TEST_ASSERT_FALSE(says("Under load"));
 }
 
 int main(void)

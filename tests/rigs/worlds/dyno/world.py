@@ -582,18 +582,18 @@ def midnight(rng):
     c.clock = lambda r, t: round((86399.0 + t if r.name == 'brake' else 3600 * 7 + t) % day, 3); return c
 @kind
 def spin_up(rng):
-    """speed ramps up and down without current, rotor inertia inside the flange: torque of acceleration, no known effect (inertia is declared)"""
+    """speed ramps up and down without current, rotor inertia inside the flange: torque of acceleration (an effect since; the author had it outside)"""
     c = context(rng, 'servo'); wf = c.w[1]; c.runs = []; c.J = c.Tr * .08 / (wf / 2.0)
     for k, s in enumerate([1, -1, 1, -1]):
         up = k < 2; c.runs.append(Run(f'{"up" if up else "down"}{k}', s * (wf * .05 if up else wf), 0, 0, N=3000, fs=1500, accel=s * (1 if up else -1) * wf * .45, J=c.J, temp=25))
     for k, s in enumerate([.4, -.4]): c.runs.append(Run(f'steady{k}', s * wf, 0, 0, N=2400, turns=14, J=c.J, temp=25, role='fit'))
-    c.truth.update(outside=True); c.h6 = (0, 0); return c
+    c.truth.update(hidden=['rotor_inertia']); c.h6 = (0, 0); return c
 @kind
 def iron_drag(rng):
-    """hysteresis and eddy drag of the iron that grows with load and speed, beyond friction"""
+    """hysteresis and eddy drag of the iron that grows with load and speed, beyond friction (an effect since; the author had it outside)"""
     c = context(rng, rng.choice(['traction', 'spindle'])); c.runs = plan_good(rng, c); I, Tr, wf = c.I, c.Tr, c.w[1]
     c.b.drag = lambda w, d, q: Tr * (.01 + .03 * (d * d + q * q) / I ** 2 * (w / wf) ** .5 + .01 * w / wf)
-    c.truth.update(hidden=['friction'], outside=True); return c
+    c.truth.update(hidden=['friction', 'iron_drag']); return c
 @kind
 def mean_map(rng):
     """spreadsheet: one line an operating point, means over ten seconds: speed, id, iq, torque, temperature; no angle"""
