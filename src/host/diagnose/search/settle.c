@@ -283,7 +283,7 @@ static hci_status unpredicted_leave(hci_search *s, hci_candidates *model, hci_no
     return status;
 }
 
-/* Keeps what stands in the ripple alone. What is left of the means then is not known. */
+/* Keeps what stands in the ripple alone. What is left of the means then, more than noise, is not known. */
 static hci_status means_leave(hci_search *s, hci_attribution *a, hci_note *note)
 {
     hci_candidates *model = &a->model.candidates;
@@ -299,6 +299,7 @@ static hci_status means_leave(hci_search *s, hci_attribution *a, hci_note *note)
         status = forbidden_leaves(s, model, hci_candidate_type(r), note);
     if (!status) status = hci_search_residual(s, model, note);
     const double left_Nm = hci_search_residual_rms(s);
+    if (status || !(left_Nm > noise_Nm)) return status; /* noise alone: there is nothing to describe */
     s->regression->free_means = true;
     if (!status) status = hci_search_residual(s, model, note);
     const double ripple_Nm = hci_search_residual_rms(s);
