@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "cli/command/command.h"
@@ -899,24 +900,32 @@ hci_status cli_tune_emit(cli_tuning *t, hci_note *note)
     if (status) return status;
     t->is_emitted = true;
     const unsigned long turns = turns_of_table(folder, name);
-    hci_tuning_say(&t->tuning, HCI_TUNING_LOAD,
-                   "%s/%s.h and %s.c need hci/table.h alone: `hci_currents_dq i = hci_table_f32_dq(&%s, "
-                   "angle);`, where 2^32 of "
-                   "the angle is %lu electrical turn%s from the zero of the logs%s%s%s. They are the whole "
-                   "reference for %.4g N·m (docs/controller.md).",
-                   folder, name, name, name, turns, turns == 1 ? "" : "s",
-                   offset_of(t) ? " with --angle-offset " : "", offset_of(t) ? offset_of(t) : "",
-                   turns == 1 ? "" : ", not one: the angle goes on from turn to turn", t->mean_Nm);
+    hci_tuning_say(
+        &t->tuning, HCI_TUNING_LOAD,
+        "%s/%s.h and %s.c need hci/table.h alone: `hci_currents_dq i = hci_table_f32_dq(&%s, "
+        "angle);`, where 2^32 of "
+        "the angle is %lu electrical turn%s from the zero of the logs%s%s%s. They are the whole "
+        "reference for %.4g N·m (docs/controller.md), cut to 1 %% of the peak current: what that leaves "
+        "comes on top of the ripple above, and emit --max-error, in amperes, makes it less.",
+        folder, name, name, name, turns, turns == 1 ? "" : "s", offset_of(t) ? " with --angle-offset " : "",
+        offset_of(t) ? offset_of(t) : "", turns == 1 ? "" : ", not one: the angle goes on from turn to turn",
+        t->mean_Nm);
     hci_tuning_say(&t->tuning, HCI_TUNING_LOAD,
                    "For a drive whose firmware is somebody else's: hci-solve emit %s --name %s --for "
                    "simplefoc --machine %s%s -o %s, or another one of docs/drives.",
                    currents, name, machine, cli_tune_knows_zero(t) ? "" : " --angle-of-logs", folder);
+    if (offset_of(t))
+        hci_tuning_say(&t->tuning, HCI_TUNING_LOAD,
+                       "The zero of the logs is not the machine's: a map over the encoder's turn takes "
+                       "--encoder-offset %.6g besides (mechanical degrees, of the encoder that was logged).",
+                       -strtod(offset_of(t), NULL) / t->reading.run.pole_pairs);
     say_components(t);
     say_per_torque(t, currents, name, machine);
     hci_tuning_say(&t->tuning, HCI_TUNING_LOAD,
                    "First turn on the bench: log angle and currents while the table is played, and run "
-                   "hci-solve check %s LOG --table %s, which tells an angle that is off.",
-                   machine, currents);
+                   "hci-solve check %s LOG --table %s%s%s, which tells an angle that is off.",
+                   machine, currents, offset_of(t) ? " --angle-offset " : "",
+                   offset_of(t) ? offset_of(t) : "");
     return HCI_OK;
 }
 
