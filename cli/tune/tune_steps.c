@@ -538,18 +538,22 @@ static double to_sheet(const cli_tuning *t, const hci_waveform *w)
 static hci_status take_waveform(cli_tuning *t, size_t k, const hci_waveform *w, bool is_far, hci_note *note)
 {
     const bool is_emf = w->quantity == HCI_WAVEFORM_BACK_EMF;
-    const bool holds = !is_emf && t->runs.run[k].torque_source == HCI_TORQUE_HOLDING;
+    const hci_run *r = &t->runs.run[k];
+    const bool holds = !is_emf && r->torque_source == HCI_TORQUE_HOLDING;
+    const double inertia_kgm2 =
+        t->declared.inertia_kgm2 > 0.0 ? t->declared.inertia_kgm2 : r->turns_inertia_kgm2;
     char pole_pairs[16], constant[32], inertia[32];
     command_line c = {{"harmonics", t->arguments->word[k]}, 2};
     snprintf(pole_pairs, sizeof pole_pairs, "%d", t->declared.model.pole_pairs);
     hci_number_text(t->reading.run.torque_constant_Nm_per_A, constant);
-    hci_number_text(t->declared.inertia_kgm2, inertia);
+    hci_number_text(inertia_kgm2, inertia);
     add_option(&c, "quantity", is_emf ? "back_emf" : "cogging");
     add_option(&c, "pole-pairs", pole_pairs);
     if (holds) add_option(&c, "torque-constant", constant);
-    if (holds && t->declared.inertia_kgm2 > 0.0) add_option(&c, "inertia", inertia);
+    if (holds && inertia_kgm2 > 0.0) add_option(&c, "inertia", inertia);
     if (is_far) add_option(&c, "max-order", "60");
-    if (!is_emf && t->arguments->given[TUNE_HOLDING]) add_option(&c, "holding", NULL);
+    if (!is_emf && (t->arguments->given[TUNE_HOLDING] || r->slow_beside_others))
+        add_option(&c, "holding", NULL);
     add_reading(&c, t);
     add(&c, "-o");
     add(&c, t->machine);
@@ -885,6 +889,46 @@ static void say_per_torque(cli_tuning *t, const char *currents, const char *name
         currents, name, machine, cli_tune_knows_zero(t) ? "" : " --angle-of-logs");
 }
 
+/* What the table is, and how its firmware reads it. */
+static void say_table(cli_tuning *t, const char *name, const char *folder)
+{
+    const unsigned long turns = turns_of_table(folder, name);
+    hci_tuning_say(
+        &t->tuning, HCI_TUNING_LOAD,
+        "%s/%s.h and %s.c need hci/table.h alone: `hci_currents_dq i = hci_table_f32_dq(&%s, "
+        "angle);`, where 2^32 of "
+        "the angle is %lu electrical turn%s from the zero of the logs%s%s%s. They are the whole "
+        "reference for %.4g N·m (docs/controller.md), cut to 1 %% of the peak current: what that "
+        "leaves comes on top of the ripple above, and emit --max-error, in amperes, makes it less.",
+        folder, name, name, name, turns, turns == 1 ? "" : "s", offset_of(t) ? " with --angle-offset " : "",
+        offset_of(t) ? offset_of(t) : "", turns == 1 ? "" : ", not one: the angle goes on from turn to turn",
+        t->mean_Nm);
+}
+
+/* Maps of other drives begin at the encoder's zero, and so do the logs. */
+static void say_other_drives(cli_tuning *t, const char *currents, const char *name, const char *machine,
+                             const char *folder)
+{
+    hci_tuning_say(&t->tuning, HCI_TUNING_LOAD,
+                   "For a drive whose firmware is somebody else's: hci-solve emit %s --name %s --for "
+                   "simplefoc --machine %s%s -o %s, or another one of docs/drives.",
+                   currents, name, machine, cli_tune_knows_zero(t) ? "" : " --angle-of-logs", folder);
+    if (offset_of(t))
+        hci_tuning_say(&t->tuning, HCI_TUNING_LOAD,
+                       "The zero of the logs is not the machine's: a map over the encoder's turn takes "
+                       "--encoder-offset %.6g besides (mechanical degrees, of the encoder that was logged).",
+                       -strtod(offset_of(t), NULL) / t->declared.model.pole_pairs);
+}
+
+static void say_first_turn(cli_tuning *t, const char *machine, const char *currents)
+{
+    hci_tuning_say(&t->tuning, HCI_TUNING_LOAD,
+                   "First turn on the bench: log angle and currents while the table is played, and run "
+                   "hci-solve check %s LOG --table %s%s%s, which tells an angle that is off.",
+                   machine, currents, offset_of(t) ? " --angle-offset " : "",
+                   offset_of(t) ? offset_of(t) : "");
+}
+
 hci_status cli_tune_emit(cli_tuning *t, hci_note *note)
 {
     const char *name = t->arguments->value[TUNE_NAME] ? t->arguments->value[TUNE_NAME] : "tuned";
@@ -899,33 +943,11 @@ hci_status cli_tune_emit(cli_tuning *t, hci_note *note)
     const hci_status status = run(t, t->commands.emit, &c, note);
     if (status) return status;
     t->is_emitted = true;
-    const unsigned long turns = turns_of_table(folder, name);
-    hci_tuning_say(
-        &t->tuning, HCI_TUNING_LOAD,
-        "%s/%s.h and %s.c need hci/table.h alone: `hci_currents_dq i = hci_table_f32_dq(&%s, "
-        "angle);`, where 2^32 of "
-        "the angle is %lu electrical turn%s from the zero of the logs%s%s%s. They are the whole "
-        "reference for %.4g N·m (docs/controller.md), cut to 1 %% of the peak current: what that leaves "
-        "comes on top of the ripple above, and emit --max-error, in amperes, makes it less.",
-        folder, name, name, name, turns, turns == 1 ? "" : "s", offset_of(t) ? " with --angle-offset " : "",
-        offset_of(t) ? offset_of(t) : "", turns == 1 ? "" : ", not one: the angle goes on from turn to turn",
-        t->mean_Nm);
-    hci_tuning_say(&t->tuning, HCI_TUNING_LOAD,
-                   "For a drive whose firmware is somebody else's: hci-solve emit %s --name %s --for "
-                   "simplefoc --machine %s%s -o %s, or another one of docs/drives.",
-                   currents, name, machine, cli_tune_knows_zero(t) ? "" : " --angle-of-logs", folder);
-    if (offset_of(t))
-        hci_tuning_say(&t->tuning, HCI_TUNING_LOAD,
-                       "The zero of the logs is not the machine's: a map over the encoder's turn takes "
-                       "--encoder-offset %.6g besides (mechanical degrees, of the encoder that was logged).",
-                       -strtod(offset_of(t), NULL) / t->reading.run.pole_pairs);
+    say_table(t, name, folder);
+    say_other_drives(t, currents, name, machine, folder);
     say_components(t);
     say_per_torque(t, currents, name, machine);
-    hci_tuning_say(&t->tuning, HCI_TUNING_LOAD,
-                   "First turn on the bench: log angle and currents while the table is played, and run "
-                   "hci-solve check %s LOG --table %s%s%s, which tells an angle that is off.",
-                   machine, currents, offset_of(t) ? " --angle-offset " : "",
-                   offset_of(t) ? offset_of(t) : "");
+    say_first_turn(t, machine, currents);
     return HCI_OK;
 }
 

@@ -309,6 +309,10 @@ struct hci_effect_type {
     void (*simulate)(const hci_effect *effect, int pole_pairs, hci_sensor *sensors,
                      hci_effect_channel *channels);
 
+    /* A link in the torque's channel of a simulated drive, where that is all: as hci_effect_link.modify. */
+    double (*modify_torque)(const hci_effect *effect, const hci_plant_state *plant, double step_s,
+                            double *memory, double value, double theta_m_rad);
+
     /* In place: the torque that reaches a sensor to what that makes of it at once, before its zero. by_value:
      * in/out, derivatives by the values of all effects, so many columns; or NULL. own_column: the first one
      * of the effect's terms. */

@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/effects/type.h"
+
 static double modify(const void *context, double value, double theta_m_rad)
 {
     hci_effects_probe *const p = *(hci_effects_probe *const *)context;
@@ -53,15 +55,23 @@ static hci_status set_delay(hci_effects_probe *p, bool wraps, hci_sensor *sensor
     return HCI_OK;
 }
 
+static void simulate_one(const hci_effect *effect, int pole_pairs, hci_sensor *sensors,
+                         hci_effect_channel *channels)
+{
+    const hci_effect_link link = {effect->type->modify_torque, effect, {0.0}};
+    if (effect->type->simulate) effect->type->simulate(effect, pole_pairs, sensors, channels);
+    if (link.modify) hci_effect_link_add(&channels[HCI_SENSE_TORQUE], &link);
+}
+
 /* What each type of effect does to the sensors, in the order of the registry. */
 static void simulate_types(const hci_effects *effects, int pole_pairs, hci_sensor *sensors,
                            hci_effect_channel *channels)
 {
     const hci_effect_type *type;
     for (size_t r = 0; (type = hci_effect_type_at(r)) != NULL; ++r)
-        for (size_t k = 0; k < effects->count && type->simulate; ++k)
+        for (size_t k = 0; k < effects->count; ++k)
             if (effects->effect[k].type == type)
-                type->simulate(&effects->effect[k], pole_pairs, sensors, channels);
+                simulate_one(&effects->effect[k], pole_pairs, sensors, channels);
 }
 
 static hci_status set_sensors(const hci_effects *effects, int pole_pairs, hci_effects_attachment *a,

@@ -50,15 +50,6 @@ static double modify(const hci_effect *effect, const hci_plant_state *plant, dou
     return value - coulomb_Nm(effect) * law(COULOMB, speed) - drag_Nm(effect, plant);
 }
 
-static void simulate(const hci_effect *effect, int pole_pairs, hci_sensor *sensors,
-                     hci_effect_channel *channels)
-{
-    const hci_effect_link link = {modify, effect, {0.0}};
-    (void)pole_pairs;
-    (void)sensors;
-    hci_effect_link_add(&channels[HCI_SENSE_TORQUE], &link);
-}
-
 /* All of the law that the speeds can tell: a part left out would go into the others. */
 static void propose(const hci_effect_survey *survey, const hci_effect_proposals *to)
 {
@@ -84,5 +75,5 @@ const hci_effect_type hci_effect_friction = {
     .torque = torque,
     .drag_Nm = drag_Nm,
     .coulomb_Nm = coulomb_Nm,
-    .simulate = simulate,
+    .modify_torque = modify,
 };

@@ -59,15 +59,6 @@ static double modify(const hci_effect *effect, const hci_plant_state *plant, dou
     return plant ? value - drag_Nm(effect, plant) : value;
 }
 
-static void simulate(const hci_effect *effect, int pole_pairs, hci_sensor *sensors,
-                     hci_effect_channel *channels)
-{
-    const hci_effect_link link = {modify, effect, {0.0}};
-    (void)pole_pairs;
-    (void)sensors;
-    hci_effect_link_add(&channels[HCI_SENSE_TORQUE], &link);
-}
-
 #define EXPECTED 0.05 /* of the largest torque, at the largest current */
 
 /* In one direction it is an even power of the current like those of reluctance and saturation: both
@@ -91,5 +82,5 @@ const hci_effect_type hci_effect_iron_drag = {
     .propose = propose,
     .torque = torque,
     .drag_Nm = drag_Nm,
-    .simulate = simulate,
+    .modify_torque = modify,
 };

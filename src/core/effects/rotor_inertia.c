@@ -33,15 +33,6 @@ static double modify(const hci_effect *effect, const hci_plant_state *plant, dou
     return value - hci_effect_value(effect, INERTIA) * change / step_s;
 }
 
-static void simulate(const hci_effect *effect, int pole_pairs, hci_sensor *sensors,
-                     hci_effect_channel *channels)
-{
-    const hci_effect_link link = {modify, effect, {0.0}};
-    (void)pole_pairs;
-    (void)sensors;
-    hci_effect_link_add(&channels[HCI_SENSE_TORQUE], &link);
-}
-
 static void propose(const hci_effect_survey *survey, const hci_effect_proposals *to)
 {
     if (survey->acceleration_rad_per_s2 > 0.0) hci_effect_propose(to, INERTIA, 1, 0.0, 1.0, 0.0);
@@ -58,5 +49,5 @@ const hci_effect_type hci_effect_rotor_inertia = {
     .told_by = "a run that speeds up and slows down without current",
     .propose = propose,
     .torque = torque,
-    .simulate = simulate,
+    .modify_torque = modify,
 };

@@ -58,15 +58,6 @@ static double modify(const hci_effect *effect, const hci_plant_state *plant, dou
     return value - coulomb_Nm(effect) * sign_of(plant->speed_rad_per_s) - drag_Nm(effect, plant);
 }
 
-static void simulate(const hci_effect *effect, int pole_pairs, hci_sensor *sensors,
-                     hci_effect_channel *channels)
-{
-    const hci_effect_link link = {modify, effect, {0.0}};
-    (void)pole_pairs;
-    (void)sensors;
-    hci_effect_link_add(&channels[HCI_SENSE_TORQUE], &link);
-}
-
 /* ---- where to look for it ---- */
 
 #define LEAST_RANGE 4.0 /* fastest over slowest */
@@ -176,5 +167,5 @@ const hci_effect_type hci_effect_stribeck_friction = {
     .torque = torque,
     .drag_Nm = drag_Nm,
     .coulomb_Nm = coulomb_Nm,
-    .simulate = simulate,
+    .modify_torque = modify,
 };

@@ -32,15 +32,6 @@ static double modify(const hci_effect *effect, const hci_plant_state *plant, dou
     return value + drift_Nm;
 }
 
-static void simulate(const hci_effect *effect, int pole_pairs, hci_sensor *sensors,
-                     hci_effect_channel *channels)
-{
-    const hci_effect_link link = {modify, effect, {0.0}};
-    (void)pole_pairs;
-    (void)sensors;
-    hci_effect_link_add(&channels[HCI_SENSE_TORQUE], &link);
-}
-
 #define EXPECTED 0.05 /* of the largest torque, in the longest run */
 
 /* A mean over turns does not tell a drift from an offset: it takes a run whose turns differ along time. */
@@ -61,5 +52,5 @@ const hci_effect_type hci_effect_torque_drift = {
     .is_small = true,
     .propose = propose,
     .torque = torque,
-    .simulate = simulate,
+    .modify_torque = modify,
 };

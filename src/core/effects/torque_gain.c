@@ -30,15 +30,6 @@ static double modify(const hci_effect *effect, const hci_plant_state *plant, dou
     return value * (1.0 + hci_effect_value(effect, GAIN));
 }
 
-static void simulate(const hci_effect *effect, int pole_pairs, hci_sensor *sensors,
-                     hci_effect_channel *channels)
-{
-    const hci_effect_link link = {modify, effect, {0.0}};
-    (void)pole_pairs;
-    (void)sensors;
-    hci_effect_link_add(&channels[HCI_SENSE_TORQUE], &link);
-}
-
 #define EXPECTED 0.1
 
 /* Where cogging and the torque with the currents are not off alike, it is the magnets. */
@@ -57,5 +48,5 @@ const hci_effect_type hci_effect_torque_gain = {
     .seen_as = &hci_effect_back_emf,
     .propose = propose,
     .read_torque = read_torque,
-    .simulate = simulate,
+    .modify_torque = modify,
 };

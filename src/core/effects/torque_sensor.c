@@ -169,10 +169,9 @@ static double modify(const hci_effect *effect, const hci_plant_state *plant, dou
 static void simulate(const hci_effect *effect, int pole_pairs, hci_sensor *sensors,
                      hci_effect_channel *channels)
 {
-    const hci_effect_link link = {modify, effect, {0.0}};
     (void)pole_pairs;
+    (void)channels;
     sensors[HCI_SENSE_TORQUE].offset += hci_effect_value(effect, OFFSET);
-    hci_effect_link_add(&channels[HCI_SENSE_TORQUE], &link);
 }
 
 static const size_t RESONANCE[] = {NATURAL_FREQUENCY, DAMPING}, LAG[] = {TIME_CONSTANT};
@@ -205,6 +204,7 @@ const hci_effect_type hci_effect_torque_sensor = {
     .propose_alike = propose_alike,
     .torque = torque,
     .simulate = simulate,
+    .modify_torque = modify,
     .filter = filter,
     .filter_many = filter_many,
 };

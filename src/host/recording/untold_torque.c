@@ -138,6 +138,7 @@ static hci_status settle(const task *t, double inertia_kgm2)
     if (!t->has_ways) return hold(t);
     if (inertia_kgm2 > 0.0) {
         hci_note_add(remark, "an inertia of %.3g kg·m² makes the torque of its turns agree", inertia_kgm2);
+        t->run->turns_inertia_kgm2 = inertia_kgm2;
         accelerate_by_orders(t, inertia_kgm2);
     } else if (!t->run->is_unsteady && hci_balance_needs_inertia(&t->ways)) {
         leave_untold(t);
@@ -250,6 +251,7 @@ static hci_status settle_slow(const slow_runs *s)
                                         : "no torque_Nm: turned slowly, forward in one recording and back in "
                                           "another, read as a holding test");
         run->needs_inertia = false;
+        run->slow_beside_others = true;
         status = settle(t, inertia_kgm2);
     }
     return status;
