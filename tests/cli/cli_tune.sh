@@ -103,6 +103,13 @@ says '^tuned: .*in the model with a sine as back-EMF: harmonics of the real one.
     'Where the electrical zero is: ' '  order 12: 0\.02[0-9]* ± ' '--max-order 60'
 check "cogging torque is found twice: $(grep -c 'cogging' "$work/stdout")" [ "$(grep -c '^  order 12: ' "$work/stdout")" = 0 ]
 check "the table's period is not said" grep -q "the angle is $(sed -n 's/.*2^32 = \([0-9]* electrical turns*\).*/\1/p' slow/table/tuned.h) from" slow/summary.json
+# the same in two files, one for each direction: neither of them tells it by itself
+slow_turn both.csv 0.02
+head -1001 both.csv >there.csv
+sed -n '1p; 1002,$p' both.csv >back.csv
+run 0 tune there.csv back.csv --pole-pairs 7 --kv 120 -o apart
+says '^tuned: ' '  order 12: 0\.02[0-9]* ± ' 'forward in one recording and back in another'
+check "each step can be repeated" grep -q 'harmonics there.csv .* --holding' apart/commands.sh
 # voltages that are mostly what the current drops are no back-EMF, rated for much or not
 awk -F';' -v OFS=';' '{ print $0, NR == 1 ? "d_axis_voltage;q_axis_voltage" : "0;" 0.5 * $3 + $2 / 66.84507 * 0.08 }' slow.csv >volts.csv
 run 0 tune volts.csv --pole-pairs 7 --kv 120 --slots 12 --rated-current 20 -o volts
@@ -129,6 +136,8 @@ run 1 tune index.csv --pole-pairs 7 --flux 0.0142857 -o index
 says 'angle-offset -31\.0[0-9]*: the electrical zero of the angle, by ' 'order 5: 0\.005 ± ' 'from the zero of the logs with --angle-offset -31'
 check "the fundamental is not the zero: $(cat index/machine/back_emf.csv)" awk -F, '$1 == 1 { found = $3 ^ 2 < 1e-6 } END { exit !found }' index/machine/back_emf.csv
 check "later steps lack the offset" grep -q 'diagnose.*--angle-offset -31' index/commands.sh
+check "a map of another drive lacks the zero that was found" grep -q 'takes --encoder-offset 4\.42[89]' index/summary.json
+check "the first turn is checked without the zero" grep -q 'check .*--table .* --angle-offset -31' index/summary.json
 slow_turn jerks.csv 0.9
 run 1 tune slow.csv jerks.csv --pole-pairs 7 --kv 120 -o jerks
 says '^the shaft sticks and slips: ' 'varies by [0-9]+ % rms' 'What of the current in jerks.csv answers cogging torque' 'Turn the shaft evenly'
