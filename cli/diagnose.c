@@ -40,7 +40,7 @@ static const cli_option OPTIONS[] = {
     CLI_READING_OPTIONS,
     CLI_COMMON_OPTIONS};
 
-#define SURE 0.95 /* of a slip, to be named in a diagnosis */
+#define LIKELY 0.95 /* slip, to be named in a diagnosis */
 
 enum { PATH_SIZE = 4096 };
 
@@ -53,6 +53,8 @@ typedef struct {
     hci_diagnose_options options;
     char folder[PATH_SIZE];   /* of the machine */
     size_t recordings_before; /* of the last diagnosis */
+    hci_check check;          /* of machine and recordings, once it was asked for */
+    bool is_checked, has_check;
 } inputs;
 
 /* The machine that is read would be replaced by a folder of that name within the results. */
@@ -165,26 +167,42 @@ static void show_remarks(const inputs *in)
     cli_remark_each(remark_of_run, in, in->runs.count);
 }
 
-/* Where something is left that is not known it may be a slip of convention: check reads them as one or not.
- */
-static void show_convention(const inputs *in, const hci_diagnosis *d)
+/* What check says of machine and recordings; NULL: they cannot be checked. */
+static const hci_check *check_of(inputs *in)
 {
-    static hci_check check;
     const char *run[HCI_CHECK_MOST_RUNS];
     hci_run_options reading = in->reading.run;
     hci_note note = {{0}};
     size_t count = 0;
-    const bool open = d->verdict == HCI_DIAGNOSIS_UNKNOWN || d->verdict == HCI_DIAGNOSIS_PARTLY;
-    if (!open || !in->runs.origin) return;
-    for (; count < in->runs.count && count < HCI_CHECK_MOST_RUNS; ++count)
+    for (; in->runs.origin && !in->is_checked && count < in->runs.count && count < HCI_CHECK_MOST_RUNS;
+         ++count)
         run[count] = in->runs.origin[count].path;
     reading.holding = false;
-    if (hci_check_files(in->folder, run, count, &reading, &check, &note) > HCI_NOT_REACHED) return;
-    for (size_t k = 0; k < check.findings; ++k)
-        if (check.finding[k].probability >= SURE) cli_show_convention(&check.finding[k]);
+    if (count > 0)
+        in->has_check = hci_check_files(in->folder, run, count, &reading, &in->check, &note) <= HCI_NOT_REACHED;
+    in->is_checked = true;
+    return in->has_check ? &in->check : NULL;
 }
 
-static int give_results(const cli_arguments *a, const inputs *in, const hci_diagnosis *d,
+/* What is wrong with the files beyond doubt, as hci_diagnose_options.slip. */
+static const char *slip_of(void *context)
+{
+    const hci_check *check = check_of(context);
+    const hci_check_finding *slip = check ? hci_check_sure_slip(check) : NULL;
+    return slip ? slip->words : NULL;
+}
+
+/* Where something is left that is not known it may be a slip of convention: check reads them as one or not.
+ */
+static void show_convention(inputs *in, const hci_diagnosis *d)
+{
+    const bool open = d->verdict == HCI_DIAGNOSIS_UNKNOWN || d->verdict == HCI_DIAGNOSIS_PARTLY;
+    const hci_check *check = open ? check_of(in) : NULL;
+    for (size_t k = 0; check && k < check->findings; ++k)
+        if (check->finding[k].probability >= LIKELY) cli_show_convention(&check->finding[k]);
+}
+
+static int give_results(const cli_arguments *a, inputs *in, const hci_diagnosis *d,
                         const hci_resolution *r, hci_status verdict)
 {
     hci_note note = {{0}};
@@ -203,7 +221,7 @@ static int give_results(const cli_arguments *a, const inputs *in, const hci_diag
 }
 
 /* What was found, and where it was wanted the currents for it. */
-static int solve_and_give(const cli_arguments *a, const inputs *in, const hci_diagnosis *d,
+static int solve_and_give(const cli_arguments *a, inputs *in, const hci_diagnosis *d,
                           hci_status verdict)
 {
     const hci_solve_options how = {.target = &in->target, .progress = in->options.progress};
@@ -223,6 +241,8 @@ static int solve_and_give(const cli_arguments *a, const inputs *in, const hci_di
 static hci_status search(inputs *in, hci_diagnosis *d, hci_note *note)
 {
     in->options.stop = cli_signals_deferred;
+    in->options.slip = slip_of;
+    in->options.slip_context = in;
     cli_signals_defer();
     const hci_status status =
         hci_diagnose(&in->machine, &in->declared.list, &in->runs, &in->options, d, note);
@@ -244,7 +264,7 @@ static hci_status compare(const cli_arguments *a, const inputs *in, hci_status s
 
 static int run(const cli_arguments *a)
 {
-    inputs in;
+    static inputs in; /* large */
     hci_diagnosis diagnosis;
     hci_again again = {0};
     hci_note note = {{0}};

@@ -34,10 +34,16 @@ static size_t parts_length(const char *text, size_t parts)
     return length;
 }
 
+/* What no effect explains is in no machine, whatever the table calls it. */
+static const char *verdict_words(const hci_finding *f)
+{
+    return strcmp(f->effect, "unknown") == 0 ? "left" : hci_finding_verdict_name(f->verdict);
+}
+
 static void show_finding(const hci_diagnosis *d, const hci_finding *f)
 {
     const size_t terms = terms_of(d, f->effect), length = parts_length(f->detail, MOST_TERMS);
-    cli_say("  %-12s %s: %.*s", hci_finding_verdict_name(f->verdict), f->effect, (int)length, f->detail);
+    cli_say("  %-12s %s: %.*s", verdict_words(f), f->effect, (int)length, f->detail);
     if (f->detail[length] && terms > MOST_TERMS) cli_say("; and %zu more", terms - MOST_TERMS);
     cli_say("\n");
 }
@@ -92,8 +98,8 @@ static void finding_row(const void *context, size_t row, cli_cell cell[])
     for (size_t shown = 0; shown < row || !is_shown(f); ++f)
         shown += is_shown(f);
     snprintf(cell[0].text, sizeof cell[0].text, "%s", f->effect);
-    snprintf(cell[1].text, sizeof cell[1].text, "%s", hci_finding_verdict_name(f->verdict));
-    snprintf(cell[2].text, sizeof cell[2].text, "%.4g", f->delta_bic);
+    snprintf(cell[1].text, sizeof cell[1].text, "%s", verdict_words(f));
+    if (isfinite(f->delta_bic)) snprintf(cell[2].text, sizeof cell[2].text, "%.4g", f->delta_bic);
     if (!isfinite(f->residual_share)) return;
     snprintf(cell[3].text, sizeof cell[3].text, "%.4g", own_Nm(d, f));
     cell[4].value = own_Nm(d, f);

@@ -195,7 +195,12 @@ for f in slow back held; do
 done
 printf 'file,role\nswapped_slow.csv,fit\nswapped_back.csv,fit\nswapped_held.csv,holdout\n' >swapped.csv
 run 1 diagnose machine --runs swapped.csv
-says 'check finds: phases b and c of the recordings are swapped' 'swapped_slow.csv:1: column ia_A'
+says 'check finds: phases b and c of the recordings are swapped' 'swapped_slow.csv:1: column ia_A' 'No effect was looked for'
+sed 's/pole_pairs,2/pole_pairs,4/' machine.kept >machine/machine.csv
+run 1 diagnose machine --runs list.csv -o poles # nor beside poles that were given for pole pairs
+says 'list.csv: unknown$' 'check finds: pole_pairs is the number of poles' 'No effect was looked for'
+check "an effect" [ "$(cut -d, -f2,3 poles/effects.csv | grep -c -e ,added -e ,ambiguous)" -eq 1 ]
+check "a run to record next" [ ! -e poles/measure_next.csv ]
 mv machine.kept machine/machine.csv
 sed '4s/.*/1,2,3/' slow.csv >short.csv
 wrong_list 'short.csv:4: ' 'file,role\nback.csv,fit\nshort.csv,fit\n' --strict

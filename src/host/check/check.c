@@ -19,6 +19,14 @@ const char *hci_check_state_name(hci_check_state state)
     return NAME[state];
 }
 
+const hci_check_finding *hci_check_sure_slip(const hci_check *check)
+{
+    for (size_t k = 0; k < check->findings; ++k)
+        if (check->finding[k].is_no_effect && check->finding[k].probability >= HCI_CHECK_SURE)
+            return &check->finding[k];
+    return NULL;
+}
+
 hci_status hci_check_files(const char *machine, const char *const *run, size_t runs,
                            const hci_run_options *reading, hci_check *check, hci_note *note)
 {

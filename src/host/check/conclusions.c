@@ -80,6 +80,19 @@ static void add_alternatives(const check_posterior *p, hci_check_finding *findin
     }
 }
 
+/* Whether no effect makes numbers like those of an error. A gain does those of a factor, and an angle that is
+ * off those of another zero. */
+static bool is_no_effect(const check_error *error)
+{
+    static const int ASPECTS[] = {CHECK_OF_POLES,      CHECK_OF_THETA,        CHECK_OF_THETA_UNIT,
+                                  CHECK_OF_DIRECTION,  CHECK_OF_PHASES,       CHECK_OF_CURRENT_SIGN,
+                                  CHECK_OF_TORQUE,     CHECK_OF_TORQUE_UNIT,  CHECK_OF_SPEED,
+                                  CHECK_OF_EMF_ORDER};
+    for (size_t k = 0; k < sizeof ASPECTS / sizeof *ASPECTS; ++k)
+        if (error->aspect == ASPECTS[k]) return true;
+    return false;
+}
+
 static void add_finding(const check_posterior *p, const char *name, hci_check *check)
 {
     hci_check_finding finding = {.probability = probability(p, name, NULL, false)};
@@ -89,6 +102,7 @@ static void add_finding(const check_posterior *p, const char *name, hci_check *c
     const check_error_set *best = best_with(p, name, &error);
     const check_interpretation as = hci_check_interpretation_of(p->data, best);
     hci_check_error_locate(error, p->data, &as, &finding);
+    finding.is_no_effect = is_no_effect(error);
     add_alternatives(p, &finding);
     for (; at > 0 && check->finding[at - 1].probability < finding.probability; --at)
         check->finding[at] = check->finding[at - 1];

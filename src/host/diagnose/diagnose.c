@@ -63,6 +63,7 @@ static hci_status fill(hci_dataset *b, const hci_runs *runs, hci_attribution *a,
     d->search = a->ended;
     d->no_load_alone = a->no_load_alone;
     d->slip = a->unknown ? a->slip : NULL;
+    d->not_searched = a->not_searched;
     d->disbelieved = a->disbelieved && a->unknown ? a->disbelieved->name : NULL;
     d->disbelieved_share = a->disbelieved_share;
     hci_unexplained_fill(b, a, d);
@@ -268,7 +269,9 @@ static hci_status diagnose(hci_dataset *b, const hci_machine_data *machine, cons
                                        options->progress,
                                        options->progress_context,
                                        options->stop,
-                                       options->stop_context};
+                                       options->stop_context,
+                                       options->slip,
+                                       options->slip_context};
     hci_watch watch = {options->stop, options->stop_context, options->progress, options->progress_context,
                        false};
     hci_attribution a;
@@ -279,8 +282,8 @@ static hci_status diagnose(hci_dataset *b, const hci_machine_data *machine, cons
     if (!status) status = hci_next_points_tell_apart(&b->regression, machine, &a, d, note);
     if (!status) status = fill(b, runs, &a, d, note);
     if (!status) status = conclude(b, machine, runs, how.resolution_Nm, &a, d, note);
-    if (!status) status = hci_next_points_unknown(&b->regression, machine, d, note);
-    if (!status) status = hci_next_points_left_open(&b->regression, machine, d, note);
+    if (!status && !a.not_searched) status = hci_next_points_unknown(&b->regression, machine, d, note);
+    if (!status && !a.not_searched) status = hci_next_points_left_open(&b->regression, machine, d, note);
     hci_attribution_release(&a);
     return status;
 }

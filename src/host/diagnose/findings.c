@@ -80,6 +80,15 @@ static void finding_put(hci_diagnosis *d, const hci_finding *f)
     ++d->findings;
 }
 
+/* What is left as far as it was looked into. */
+static const char *left_words(const hci_attribution *a)
+{
+    if (a->not_searched) return "that was not looked into";
+    if (a->ended != HCI_WORK_COMPLETE) return "that no effect explains which was compared";
+    return a->means_open && a->means_alone ? "in the means of the runs, that no known effect explains"
+                                           : "that no known effect explains";
+}
+
 /* What no effect explains goes first, in place of what the search says of it. */
 static void unknown_put(const hci_attribution *a, double whole_Nm2, hci_diagnosis *d)
 {
@@ -91,9 +100,7 @@ static void unknown_put(const hci_attribution *a, double whole_Nm2, hci_diagnosi
     memmove(f + 1, f, at * sizeof *f);
     *f = (hci_finding){hci_empirical_type.name, HCI_FINDING_ADDED, NAN, f->stays, f->left_out, NAN, ""};
     if (whole_Nm2 > 0.0) f->residual_share = a->unexplained_Nm * a->unexplained_Nm / whole_Nm2;
-    f->delta_bic = a->before.score - a->model.fit.score;
-    snprintf(f->detail, sizeof f->detail, "rms %.3g N·m that grows as no known effect does",
-             a->unexplained_Nm);
+    snprintf(f->detail, sizeof f->detail, "rms %.3g N·m %s", a->unexplained_Nm, left_words(a));
 }
 
 /* Whether an effect with a name is in the model. */

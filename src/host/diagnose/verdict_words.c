@@ -84,7 +84,7 @@ static void say_disbelieved(const hci_words *w, const hci_diagnosis *d)
 /* What a slip makes, and no effect. */
 static void say_slip(const hci_words *w, const hci_diagnosis *d)
 {
-    if (d->slip)
+    if (d->slip && !d->not_searched)
         hci_words_say(w,
                       " %s: see with `check` whether signs, angle, pole pairs and motor are those of the "
                       "machine folder.",
@@ -112,6 +112,15 @@ static bool is_of_voltages(const hci_diagnosis *d)
 static bool is_unfinished(const hci_diagnosis *d)
 {
     return d->search != HCI_WORK_COMPLETE;
+}
+
+/* No effect was looked for. */
+static void say_not_searched(const hci_words *w, const hci_diagnosis *d)
+{
+    hci_words_say(w,
+                  "No effect was looked for, since none makes what is wrong with the files: %s. As declared the "
+                  "machine leaves %.3g N·m rms of what was measured. Mend that first: see with `check`.",
+                  d->slip, d->rms_before_Nm);
 }
 
 static void say_not_known(const hci_words *w, const hci_diagnosis *d)
@@ -259,7 +268,10 @@ static void say_verdict(const hci_words *w, const hci_diagnosis *d)
         say_complete(w, d);
         return;
     case HCI_DIAGNOSIS_UNKNOWN:
-        say_unknown(w, d);
+        if (d->not_searched)
+            say_not_searched(w, d);
+        else
+            say_unknown(w, d);
         return;
     case HCI_DIAGNOSIS_PARTLY:
         say_unknown(w, d);

@@ -372,7 +372,9 @@ static void expect_slip_of_machine(const char *slip, const char *from, const cha
 static void test_slips_of_machine_csv(void)
 {
     expect_slip_of_machine("poles_for_pole_pairs", "pole_pairs,4", "pole_pairs,8", "4", 2);
+    TEST_ASSERT_EQUAL_PTR(&check.finding[0], hci_check_sure_slip(&check)); /* no effect is like it */
     expect_slip_of_machine("resistance_line", "resistance,0.2", "resistance,0.4", "0.2", 3);
+    TEST_ASSERT_NULL(hci_check_sure_slip(&check));
     expect_slip_of_machine("rated_current_rms", "rated_current,10", "rated_current,7.0710678", "10", 6);
 }
 

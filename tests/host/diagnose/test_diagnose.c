@@ -35,6 +35,40 @@ static void test_nothing_is_missing(void)
     TEST_ASSERT_TRUE(isnan(diagnosis.holdout_after_Nm));
 }
 
+static const char *phases_are_swapped(void *asked)
+{
+    ++*(int *)asked;
+    return "phases b and c are swapped";
+}
+
+/* Whether something is wrong with the files is asked where the machine is far off, and no effect is looked for
+ * then. */
+static void test_a_slip_is_not_searched(void)
+{
+    int asked = 0;
+    char words[2048];
+    options.slip = phases_are_swapped;
+    options.slip_context = &asked;
+    record_map(0.3, 0.0);
+    TEST_ASSERT_EQUAL_INT(HCI_OK, diagnose(NULL));
+    TEST_ASSERT_EQUAL_INT(0, asked);
+    for (size_t r = 0; r < runs.count; ++r)
+        for (size_t k = 0; k < run[r].count; ++k) {
+            double *i = run[r].i_A + 3 * k;
+            const double b = i[1];
+            i[1] = i[2];
+            i[2] = b;
+        }
+    TEST_ASSERT_EQUAL_INT(HCI_NOT_REACHED, diagnose(NULL));
+    TEST_ASSERT_EQUAL_INT(1, asked);
+    TEST_ASSERT_TRUE(diagnosis.not_searched);
+    TEST_ASSERT_EQUAL_INT(HCI_DIAGNOSIS_UNKNOWN, diagnosis.verdict);
+    TEST_ASSERT_EQUAL_UINT64(0, diagnosis.effects.list.count + diagnosis.next_points);
+    hci_diagnosis_words(&diagnosis, words, sizeof words);
+    TEST_ASSERT_NOT_NULL(strstr(words, "No effect was looked for"));
+    TEST_ASSERT_NOT_NULL(strstr(words, "phases b and c are swapped"));
+}
+
 /* What is wrong in a run that is held out shows in its error and nowhere else. */
 static void test_a_run_held_out_takes_no_part(void)
 {
@@ -295,6 +329,7 @@ int main(void)
     RUN_TEST(test_equal_phases_are_a_back_emf);
     RUN_TEST(test_unequal_phases_are_not);
     RUN_TEST(test_nothing_is_missing);
+    RUN_TEST(test_a_slip_is_not_searched);
     RUN_TEST(test_a_run_held_out_takes_no_part);
     RUN_TEST(test_current_offset);
     RUN_TEST(test_noise_of_currents_is_no_sensor);

@@ -25,6 +25,9 @@ enum {
     HCI_CHECK_PATH = 512             /* bytes of a path */
 };
 
+/* A slip is beyond doubt from this probability on. */
+#define HCI_CHECK_SURE 0.99
+
 /* A slip is found from this probability on. */
 #define HCI_CHECK_FOUND 0.8
 
@@ -48,6 +51,8 @@ typedef struct {
     char found[HCI_CHECK_TEXT];     /* what stands there */
     char should_be[HCI_CHECK_TEXT]; /* what it should be */
     double probability;             /* of all readings with this slip */
+    bool is_no_effect;              /* no effect of a machine or a bench makes numbers like these: poles for pole
+                                     * pairs, swapped phases, a sign, a unit of the angle */
     char words[HCI_CHECK_WORDS];    /* what it means */
     const char *told_by;            /* what would tell it from its alternatives; static */
     const char *alternative[HCI_CHECK_MOST_ALTERNATIVES]; /* slips that mend the same things */
@@ -110,6 +115,9 @@ typedef struct {
  * verdict but consistent; HCI_ERROR_INPUT, _MEMORY, _ARGUMENT; *check is then undefined. O(samples). */
 hci_status hci_check_files(const char *machine, const char *const *run, size_t runs,
                            const hci_run_options *reading, hci_check *check, hci_note *note);
+
+/* What is found beyond doubt and no effect makes; NULL: nothing. */
+const hci_check_finding *hci_check_sure_slip(const hci_check *check);
 
 /* "consistent", "slips", "ambiguous", "not_understood"; a static string. */
 const char *hci_check_verdict_name(hci_check_verdict verdict);

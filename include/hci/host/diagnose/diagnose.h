@@ -13,6 +13,10 @@
 extern "C" {
 #endif
 
+/* What is wrong with files of the machine or of the recordings that no effect makes, such as swapped phases, in
+ * words that outlive the diagnosis; NULL: nothing. */
+typedef const char *hci_diagnose_slip(void *context);
+
 /* How to look. All zeros will do. */
 typedef struct {
     double resolution; /* what the model is not asked to be better than, as a share of the largest rms torque
@@ -21,6 +25,9 @@ typedef struct {
     void *progress_context; /* first argument of progress */
     hci_stop *stop;         /* asked during the search for effects and what follows; may be NULL */
     void *stop_context;     /* first argument of stop */
+    hci_diagnose_slip *slip; /* asked where the declared machine leaves more than half of all torque: no effect is
+                              * looked for then if there is one; may be NULL */
+    void *slip_context;      /* first argument of slip */
 } hci_diagnose_options;
 
 /* Whether the recordings show an effect. */
@@ -40,7 +47,8 @@ enum { HCI_DETAIL_SIZE = 512 };
 typedef struct {
     const char *effect;          /* as in effects.csv; `unknown` for what no effect explains */
     hci_finding_verdict verdict; /* what the recordings say of it */
-    double delta_bic; /* fall of the Bayesian information criterion by having it: positive speaks for it */
+    double delta_bic; /* fall of the Bayesian information criterion by having it: positive speaks for it; NAN:
+                       * of `unknown`, which is in no model */
     size_t stays, left_out; /* with how many of the fitted runs that were left out in turn it is found all the
                              * same; of parts of them, where there are fewer than three */
     double residual_share;  /* of the mean square of the residual before, that it explains; NAN: none */
@@ -156,6 +164,7 @@ typedef struct {
     bool wanders;       /* something is left that does not repeat with the turn */
     const char *slip;   /* what a wrong sign, direction, zero or number of pole pairs shows, and no effect was
                          * made of, in words; NULL: nothing such */
+    bool not_searched;       /* because of that slip no effect was looked for */
     bool inertia_as_well;    /* free shafts alone: a wrong inertia looks the same as an ambiguous effect */
     double open_voltage_off; /* share by which voltages without a current differ from the declared back-EMF;
                               * 0: none were recorded */

@@ -304,7 +304,7 @@ static hci_status is_of_another(hci_search *s, const hci_fitted_model *model, bo
             left += pow(s->residual_Nm[j], 2.0);
             whole += pow(s->regression->samples->sample[j].torque_Nm, 2.0);
         }
-    *other = !status && left > MOST_LEFT * MOST_LEFT * whole;
+    *other = !status && whole > 0.0 && left > MOST_LEFT * MOST_LEFT * whole;
     return status;
 }
 
@@ -316,6 +316,18 @@ static hci_status slip_judge(hci_search *s, hci_attribution *a, hci_note *note)
     if (!status && a->slip) status = is_of_another(s, &a->model, &a->unknown, note);
     if (opposite) a->unknown = true;
     if (opposite && !a->slip) a->slip = hci_slip_of_load();
+    return status;
+}
+
+/* What no effect makes, such as swapped phases, is not looked for among them. */
+static hci_status convention_judge(hci_search *s, hci_attribution *a, hci_note *note)
+{
+    const hci_fitted_model none = {0};
+    bool other = false;
+    if (!s->options->slip) return HCI_OK;
+    const hci_status status = is_of_another(s, &none, &other, note);
+    if (other) a->slip = s->options->slip(s->options->slip_context);
+    a->not_searched = a->unknown = a->slip != NULL;
     return status;
 }
 
@@ -337,12 +349,13 @@ static hci_status model_find(hci_search *s, hci_attribution *a, hci_note *note)
 static hci_status attribute(hci_search *s, hci_attribution *a, bool *no_load, hci_note *note)
 {
     hci_candidates none = {0};
-    hci_status status = hci_search_no_load(s, no_load, a, note);
+    hci_status status = convention_judge(s, a, note);
+    if (!status && !a->not_searched) status = hci_search_no_load(s, no_load, a, note);
     s->from_no_load = hci_candidates_types_in(&a->model.candidates) > 0;
-    if (!status) status = slip_judge(s, a, note);
+    if (!status && !a->not_searched) status = slip_judge(s, a, note);
     if (!status && !a->unknown) status = model_find(s, a, note);
     if (!status) status = no_load_stays(s, a, no_load, note);
-    if (!status) status = verdicts(s, a, note);
+    if (!status && !a->not_searched) status = verdicts(s, a, note);
     if (!status) status = hci_search_stability(s, a, note);
     if (!status) status = hci_regression_standard_errors(s->regression, &a->model.candidates, note);
     if (!status) status = hci_regression_fit(s->regression, &none, &a->before, note);

@@ -28,6 +28,7 @@ typedef struct {
     hci_fitted_model no_load; /* of the runs without a current alone; empty: they do not tell */
     bool no_load_alone;       /* model and before are of those runs, since the others are not understood */
     const char *slip;         /* what looks like a slip and no effect, in words; NULL: nothing. Static */
+    bool not_searched;        /* because of it no effect was looked for */
     hci_work_end ended;       /* how */
     bool unknown;             /* something is left that no effect explains, and it is not small */
     const hci_effect_type *disbelieved; /* describes the recordings best, with values that nobody would
@@ -54,6 +55,8 @@ typedef struct {
     void *context;
     hci_stop *stop; /* may be NULL */
     void *stop_context;
+    const char *(*slip)(void *context); /* as in hci_diagnose_options; may be NULL */
+    void *slip_context;
 } hci_attribute_options;
 
 #endif
