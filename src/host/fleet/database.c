@@ -28,10 +28,16 @@ static bool is_held(const database *d)
     return code == SQLITE_BUSY || code == SQLITE_LOCKED;
 }
 
+/* Memory was short: for SQLite, or for its access to files. */
+static bool is_short(const database *d)
+{
+    return !d->file || sqlite3_errcode(d->file) == SQLITE_NOMEM ||
+           sqlite3_extended_errcode(d->file) == SQLITE_IOERR_NOMEM;
+}
+
 static hci_status refused(const database *d)
 {
-    if (!d->file || sqlite3_errcode(d->file) == SQLITE_NOMEM)
-        return hci_note_memory(d->note, d->path, "the database of motors");
+    if (is_short(d)) return hci_note_memory(d->note, d->path, "the database of motors");
     if (is_held(d))
         return hci_note_set(d->note, HCI_ERROR_OUTPUT,
                             "%.300s: another program holds it; close it there, and the same command goes on",
@@ -128,21 +134,20 @@ static hci_status prepare_all(database *d)
 
 /* ---- rows ---- */
 
-static void bind_text(sqlite3_stmt *s, int at, const char *text)
+/* A value that is not bound, for lack of memory, would be NULL in the row without a word. */
+static bool bind_text(sqlite3_stmt *s, int at, const char *text)
 {
-    sqlite3_bind_text(s, at, text, -1, SQLITE_TRANSIENT);
+    return sqlite3_bind_text(s, at, text, -1, SQLITE_TRANSIENT) == SQLITE_OK;
 }
 
-static void bind_number(sqlite3_stmt *s, int at, double value)
+static bool bind_number(sqlite3_stmt *s, int at, double value)
 {
-    if (isfinite(value))
-        sqlite3_bind_double(s, at, value);
-    else
-        sqlite3_bind_null(s, at);
+    return (isfinite(value) ? sqlite3_bind_double(s, at, value) : sqlite3_bind_null(s, at)) == SQLITE_OK;
 }
 
-static hci_status do_it(const database *d, sqlite3_stmt *s)
+static hci_status do_it(const database *d, sqlite3_stmt *s, bool is_bound)
 {
+    if (!is_bound) return refused(d);
     const int result = sqlite3_step(s);
     sqlite3_reset(s);
     return result == SQLITE_DONE ? HCI_OK : refused(d);
@@ -150,10 +155,8 @@ static hci_status do_it(const database *d, sqlite3_stmt *s)
 
 static hci_status forget(const database *d, const char *motor)
 {
-    bind_text(d->forget, 1, motor);
-    bind_text(d->forget_parameters, 1, motor);
-    const hci_status status = do_it(d, d->forget);
-    return status ? status : do_it(d, d->forget_parameters);
+    const hci_status status = do_it(d, d->forget, bind_text(d->forget, 1, motor));
+    return status ? status : do_it(d, d->forget_parameters, bind_text(d->forget_parameters, 1, motor));
 }
 
 static hci_status put_parameters(const database *d, const char *motor, const hci_fleet_fit *fit)
@@ -161,13 +164,11 @@ static hci_status put_parameters(const database *d, const char *motor, const hci
     hci_status status = HCI_OK;
     for (size_t k = 0; k < fit->count && !status; ++k) {
         const hci_fleet_parameter *p = &fit->parameter[k];
-        bind_text(d->put_parameter, 1, motor);
-        bind_text(d->put_parameter, 2, p->effect);
-        bind_text(d->put_parameter, 3, p->parameter);
-        bind_number(d->put_parameter, 4, p->value);
-        bind_text(d->put_parameter, 5, p->unit);
-        bind_number(d->put_parameter, 6, p->std_error);
-        status = do_it(d, d->put_parameter);
+        sqlite3_stmt *put = d->put_parameter;
+        status = do_it(d, put,
+                       bind_text(put, 1, motor) && bind_text(put, 2, p->effect) &&
+                           bind_text(put, 3, p->parameter) && bind_number(put, 4, p->value) &&
+                           bind_text(put, 5, p->unit) && bind_number(put, 6, p->std_error));
     }
     return status;
 }
@@ -176,20 +177,18 @@ static hci_status put_parameters(const database *d, const char *motor, const hci
 static hci_status put_row(const database *d, const char *row, double seconds)
 {
     const char *header = d->header;
+    bool is_bound = true;
     int at = 0;
     while (*header) {
         char column[64], cell[CELL_SIZE];
         const size_t length = strcspn(header, ",");
         snprintf(column, sizeof column, "%.*s", (int)length, header);
         hci_fleet_row_cell(row, d->header, column, cell, sizeof cell);
-        if (cell[0])
-            bind_text(d->put, ++at, cell);
-        else
-            sqlite3_bind_null(d->put, ++at);
+        ++at;
+        is_bound = is_bound && (cell[0] ? bind_text(d->put, at, cell) : bind_number(d->put, at, NAN));
         header += length + (header[length] == ',');
     }
-    bind_number(d->put, ++at, seconds);
-    return do_it(d, d->put);
+    return do_it(d, d->put, is_bound && bind_number(d->put, ++at, seconds));
 }
 
 static hci_status put_motor(const database *d, size_t motor, const char *row, double seconds)
@@ -213,8 +212,8 @@ static bool has_row(const database *d, size_t motor, const char *row)
     char digest[32];
     bool is_same = false;
     hci_fleet_row_cell(row, d->header, "words_digest", digest, sizeof digest);
-    bind_text(d->find, 1, hci_fleet_cell(d->results->list, motor, "motor"));
-    if (sqlite3_step(d->find) == SQLITE_ROW) {
+    if (bind_text(d->find, 1, hci_fleet_cell(d->results->list, motor, "motor")) &&
+        sqlite3_step(d->find) == SQLITE_ROW) {
         const unsigned char *found = sqlite3_column_text(d->find, 0);
         is_same = found && strcmp((const char *)found, digest) == 0;
     }
@@ -265,18 +264,27 @@ static void take_back(const hci_fleet_results *results, hci_fleet_stored *stored
     stored->is_begun = false;
 }
 
-hci_status hci_fleet_store(const hci_fleet_results *results, char *const *row, hci_fleet_stored *stored,
-                           hci_note *note)
+static hci_status store(const hci_fleet_results *results, char *const *row, hci_fleet_stored *stored,
+                        int wait_ms, hci_note *note)
 {
     database d;
     memset(&d, 0, sizeof d);
     d.results = results;
     d.note = note;
-    hci_status status = open_file(&d, stored->is_last ? LAST_WAIT_MS : WAIT_MS);
+    hci_status status = open_file(&d, wait_ms);
     if (!status) status = put_all(&d, row, stored);
     if (!status) status = run(&d, "COMMIT");
     if (status) take_back(results, stored);
     if (status && !stored->is_last && is_held(&d)) status = HCI_OK;
     close_file(&d); /* what was not committed is rolled back */
     return status;
+}
+
+/* Memory that was short for a moment may have hidden a table from SQLite: an error is one that comes again.
+ */
+hci_status hci_fleet_store(const hci_fleet_results *results, char *const *row, hci_fleet_stored *stored,
+                           hci_note *note)
+{
+    const hci_status status = store(results, row, stored, stored->is_last ? LAST_WAIT_MS : WAIT_MS, note);
+    return status == HCI_ERROR_OUTPUT ? store(results, row, stored, WAIT_MS, note) : status;
 }

@@ -20,17 +20,15 @@
 bool hci_search_is_over(hci_search *s)
 {
     const double *work = s->regression->work;
-    if (s->ended != HCI_WORK_COMPLETE) return true;
-    if (s->options->stop && s->options->stop(s->options->stop_context))
-        s->ended = HCI_WORK_INTERRUPTED;
-    else if (work && *work > HCI_MOST_WORK)
+    if (!hci_search_is_interrupted(s) && s->ended == HCI_WORK_COMPLETE && work && *work > HCI_MOST_WORK)
         s->ended = HCI_WORK_LIMITED;
     return s->ended != HCI_WORK_COMPLETE;
 }
 
 bool hci_search_is_interrupted(hci_search *s)
 {
-    return hci_search_is_over(s) && s->ended == HCI_WORK_INTERRUPTED;
+    if (s->options->stop && s->options->stop(s->options->stop_context)) s->ended = HCI_WORK_INTERRUPTED;
+    return s->ended == HCI_WORK_INTERRUPTED;
 }
 
 /* ---- progress ---- */
