@@ -56,6 +56,11 @@ always='currents.csv waveform.csv spectrum.csv summary.json machine_a.h machine_
 for result in $named $(printf 'out/machine_a/%s ' $always); do
     [ -s "$result" ] || fail "$start did not write $result"
 done
+# The picture that the README shows says what the command's says; its coordinates may differ in the last digit.
+for picture in docs/pictures/machine_a.svg out/machine_a/solution.svg; do
+    grep '<title id\|<desc' "$picture" >"$work/$(basename "$picture")" || fail "$picture has no title"
+done
+cmp "$work/machine_a.svg" "$work/solution.svg" || fail "docs/pictures/machine_a.svg is not what $start makes"
 
 echo "--- $test"
 # All of them run where this test does: here some will do.
