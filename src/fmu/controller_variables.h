@@ -17,7 +17,8 @@
     X(ID_REFERENCE, "id_reference", REAL, OUTPUT, "A",                                                       \
       "what the current loop is asked for along the magnets' flux, amplitude-invariant")                     \
     X(IQ_REFERENCE, "iq_reference", REAL, OUTPUT, "A", "the same of the current that leads it")              \
-    X(REMEDY, "remedy", CHOICE, PARAMETER, "", "what is done about the current loop")                        \
+    X(REMEDY, "remedy", INTEGER, PARAMETER, "",                                                              \
+      "what is done about the current loop: 1 table, 2 lead, 3 compensation, 4 feedforward")                 \
     X(KP, "current_kp", REAL, PARAMETER, "V/A", "of the PI current loop")                                    \
     X(KI, "current_ki", REAL, PARAMETER, "V/(A.s)", "of the PI current loop")                                \
     X(DC_LINK, "dc_link_voltage", REAL, PARAMETER, "V", "of the inverter")                                   \

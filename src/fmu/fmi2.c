@@ -126,13 +126,13 @@ fmi2Status HCI_FMI2(fmi2SetReal)(fmi2Component c, const fmi2ValueReference vr[],
 fmi2Status HCI_FMI2(fmi2GetInteger)(fmi2Component c, const fmi2ValueReference vr[], size_t n,
                                     fmi2Integer value[])
 {
-    return (fmi2Status)get_whole(c, HCI_FMU_CHOICE, vr, n, value);
+    return (fmi2Status)get_whole(c, HCI_FMU_INTEGER, vr, n, value);
 }
 
 fmi2Status HCI_FMI2(fmi2SetInteger)(fmi2Component c, const fmi2ValueReference vr[], size_t n,
                                     const fmi2Integer value[])
 {
-    return (fmi2Status)set_whole(c, HCI_FMU_CHOICE, vr, n, value);
+    return (fmi2Status)set_whole(c, HCI_FMU_INTEGER, vr, n, value);
 }
 
 fmi2Status HCI_FMI2(fmi2GetBoolean)(fmi2Component c, const fmi2ValueReference vr[], size_t n,

@@ -116,7 +116,7 @@ fmi3Status HCI_FMI3(fmi3Reset)(fmi3Instance c)
 
 /* ---- values ---- */
 
-HCI_FMU_WHOLE(integer, fmi3Int64)
+HCI_FMU_WHOLE(integer, fmi3Int32)
 HCI_FMU_WHOLE(truth, fmi3Boolean)
 
 /* NAME(values): the call where there are as many values as references, else an error. */
@@ -135,16 +135,16 @@ fmi3Status HCI_FMI3(fmi3SetFloat64)(fmi3Instance c, const fmi3ValueReference vr[
     return IF_ENOUGH(hci_fmu_set(c, HCI_FMU_REAL, vr, n, value));
 }
 
-fmi3Status HCI_FMI3(fmi3GetInt64)(fmi3Instance c, const fmi3ValueReference vr[], size_t n, fmi3Int64 value[],
+fmi3Status HCI_FMI3(fmi3GetInt32)(fmi3Instance c, const fmi3ValueReference vr[], size_t n, fmi3Int32 value[],
                                   size_t values)
 {
-    return IF_ENOUGH(get_integer(c, HCI_FMU_CHOICE, vr, n, value));
+    return IF_ENOUGH(get_integer(c, HCI_FMU_INTEGER, vr, n, value));
 }
 
-fmi3Status HCI_FMI3(fmi3SetInt64)(fmi3Instance c, const fmi3ValueReference vr[], size_t n,
-                                  const fmi3Int64 value[], size_t values)
+fmi3Status HCI_FMI3(fmi3SetInt32)(fmi3Instance c, const fmi3ValueReference vr[], size_t n,
+                                  const fmi3Int32 value[], size_t values)
 {
-    return IF_ENOUGH(set_integer(c, HCI_FMU_CHOICE, vr, n, value));
+    return IF_ENOUGH(set_integer(c, HCI_FMU_INTEGER, vr, n, value));
 }
 
 fmi3Status HCI_FMI3(fmi3GetBoolean)(fmi3Instance c, const fmi3ValueReference vr[], size_t n,

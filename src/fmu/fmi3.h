@@ -101,7 +101,7 @@ HCI_FMI3_FUNCTION(fmi3Status, fmi3Terminate)(fmi3Instance c);
 HCI_FMI3_FUNCTION(fmi3Status, fmi3Reset)(fmi3Instance c);
 
 HCI_FMI3_VALUES(Float64)
-HCI_FMI3_VALUES(Int64)
+HCI_FMI3_VALUES(Int32)
 HCI_FMI3_VALUES(Boolean)
 
 HCI_FMI3_FUNCTION(fmi3Status, fmi3GetFMUState)(fmi3Instance c, fmi3FMUState *state);

@@ -15,8 +15,8 @@
     HCI_FMI3_ABSENT_TYPE(X, UInt8)                                                                           \
     HCI_FMI3_ABSENT_TYPE(X, Int16)                                                                           \
     HCI_FMI3_ABSENT_TYPE(X, UInt16)                                                                          \
-    HCI_FMI3_ABSENT_TYPE(X, Int32)                                                                           \
     HCI_FMI3_ABSENT_TYPE(X, UInt32)                                                                          \
+    HCI_FMI3_ABSENT_TYPE(X, Int64)                                                                           \
     HCI_FMI3_ABSENT_TYPE(X, UInt64)                                                                          \
     HCI_FMI3_ABSENT_TYPE(X, String)                                                                          \
     X(fmi3GetBinary, n,                                                                                      \

@@ -6,7 +6,7 @@
 typedef enum {
     HCI_FMU_REAL,
     HCI_FMU_BOOLEAN,
-    HCI_FMU_CHOICE /* a whole number from 1 on, each with a word */
+    HCI_FMU_INTEGER
 } hci_fmu_type;
 
 typedef enum {

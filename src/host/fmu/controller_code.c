@@ -10,12 +10,11 @@
 #include "host/fmu/data_code.h"
 
 static const hci_fmu_variable LIST[] = {HCI_FMU_CONTROLLER_VARIABLES(HCI_FMU_ENTRY)};
-static const char *const REMEDIES[] = {"table", "lead", "compensation", "feedforward", NULL};
 
 /* Delays are counted in tenths of a sample, as `simulate` has it. */
 enum { STEPS_OF_A_SAMPLE = 10 };
 
-static const double FEEDFORWARD = 4.0; /* its place among the remedies, from 1 */
+enum { FEEDFORWARD = 4 }; /* its place among the remedies, from 1: the last one */
 
 /* ---- the table ---- */
 
@@ -120,7 +119,7 @@ void hci_fmu_controller_describe(const hci_fmu_controller_model *m, hci_fmu_desc
     d->count = HCI_FMU_CONTROLLER_COUNT;
     d->start = m->start;
     d->left_out = m->left_out;
-    d->choices = REMEDIES;
+    d->choices = FEEDFORWARD;
     d->feeds = feeds;
     d->context = m;
     d->step_s = m->delay_steps % STEPS_OF_A_SAMPLE == 0 ? sample_s : sample_s / STEPS_OF_A_SAMPLE;

@@ -16,9 +16,9 @@ typedef struct hci_fmu_description {
     const char *token;
     const hci_fmu_variable *list;
     size_t count;
-    const double *start;        /* of each variable */
-    const bool *left_out;       /* variables that this model does not have */
-    const char *const *choices; /* words of the one variable that is a choice, up to NULL; or NULL */
+    const double *start;  /* of each variable */
+    const bool *left_out; /* variables that this model does not have */
+    int choices;          /* an integer is one of 1 … choices */
     bool (*feeds)(const void *context, size_t input, size_t output); /* whether it acts at once */
     const void *context;
     double step_s; /* of communication, to begin with */

@@ -23,7 +23,7 @@ static void add_head(const hci_fmu_description *d, hci_long_text *text)
 static void add_variables(const hci_fmu_description *d, hci_long_text *text)
 {
     static const char *const TYPES[] = {
-        [HCI_FMU_REAL] = "Real", [HCI_FMU_BOOLEAN] = "Boolean", [HCI_FMU_CHOICE] = "Enumeration"};
+        [HCI_FMU_REAL] = "Real", [HCI_FMU_BOOLEAN] = "Boolean", [HCI_FMU_INTEGER] = "Integer"};
     hci_long_text_add(text, "  <ModelVariables>\n");
     for (size_t k = 0; k < d->count; ++k) {
         if (d->left_out[k]) continue;
@@ -59,7 +59,6 @@ void hci_fmu_describe_2(const hci_fmu_description *d, hci_long_text *text)
 {
     add_head(d, text);
     hci_fmu_units(d, text);
-    hci_fmu_choices(d, "<SimpleType name=\"Choice\"><Enumeration>", "</Enumeration></SimpleType>", text);
     hci_fmu_experiment(d, text);
     add_variables(d, text);
     add_structure(d, text);

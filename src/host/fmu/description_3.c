@@ -10,7 +10,7 @@ static size_t reference_of(const hci_fmu_description *d, size_t variable)
 static void add_variable(const hci_fmu_description *d, size_t k, hci_long_text *text)
 {
     static const char *const TYPES[] = {
-        [HCI_FMU_REAL] = "Float64", [HCI_FMU_BOOLEAN] = "Boolean", [HCI_FMU_CHOICE] = "Enumeration"};
+        [HCI_FMU_REAL] = "Float64", [HCI_FMU_BOOLEAN] = "Boolean", [HCI_FMU_INTEGER] = "Int32"};
     const hci_fmu_variable *v = &d->list[k];
     hci_long_text_add(text, "    <%s", TYPES[v->type]);
     hci_fmu_attribute(text, "name", v->name);
@@ -53,7 +53,6 @@ void hci_fmu_describe_3(const hci_fmu_description *d, hci_long_text *text)
     hci_fmu_head(d, 3, "instantiationToken", "", text);
     hci_long_text_add(text, " canGetAndSetFMUState=\"true\" canSerializeFMUState=\"true\"/>\n");
     hci_fmu_units(d, text);
-    hci_fmu_choices(d, "<EnumerationType name=\"Choice\">", "</EnumerationType>", text);
     hci_fmu_experiment(d, text);
     add_variables(d, text);
     add_structure(d, text);

@@ -47,15 +47,6 @@ void hci_fmu_head(const hci_fmu_description *d, int version, const char *token, 
     hci_long_text_add(text, " canHandleVariableCommunicationStepSize=\"true\"");
 }
 
-void hci_fmu_choices(const hci_fmu_description *d, const char *open, const char *close, hci_long_text *text)
-{
-    if (!d->choices) return;
-    hci_long_text_add(text, "  <TypeDefinitions>\n    %s\n", open);
-    for (int k = 0; d->choices[k]; ++k)
-        hci_long_text_add(text, "      <Item name=\"%s\" value=\"%d\"/>\n", d->choices[k], k + 1);
-    hci_long_text_add(text, "    %s\n  </TypeDefinitions>\n", close);
-}
-
 /* ---- units ---- */
 
 static const struct {
@@ -99,8 +90,8 @@ void hci_fmu_value_attributes(const hci_fmu_description *d, size_t k, hci_long_t
 {
     const hci_fmu_variable *v = &d->list[k];
     if (v->unit[0]) hci_fmu_attribute(text, "unit", v->unit);
-    if (v->type == HCI_FMU_CHOICE)
-        hci_long_text_add(text, " declaredType=\"Choice\" start=\"%d\"", (int)d->start[k]);
+    if (v->type == HCI_FMU_INTEGER)
+        hci_long_text_add(text, " min=\"1\" max=\"%d\" start=\"%d\"", d->choices, (int)d->start[k]);
     else if (v->type == HCI_FMU_BOOLEAN)
         hci_long_text_add(text, " start=\"%s\"", d->start[k] > 0.0 ? "true" : "false");
     else if (v->causality != HCI_FMU_OUTPUT)

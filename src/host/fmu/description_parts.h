@@ -12,10 +12,7 @@ void hci_fmu_attribute(hci_long_text *text, const char *name, const char *value)
 void hci_fmu_head(const hci_fmu_description *d, int version, const char *token, const char *more,
                   hci_long_text *text);
 
-/* TypeDefinitions with the words of the choice between an opening and a closing, where there is one. */
-void hci_fmu_choices(const hci_fmu_description *d, const char *open, const char *close, hci_long_text *text);
-
-/* unit, declared type and start of a variable, as far as it has them. */
+/* unit, range and start of a variable, as far as it has them. */
 void hci_fmu_value_attributes(const hci_fmu_description *d, size_t variable, hci_long_text *text);
 
 /* UnitDefinitions; times: the second is among them. */

@@ -67,7 +67,9 @@ build = ElementTree.parse("controller/sources/buildDescription.xml").getroot()
 listed = {file.get("name") for file in build.iter("SourceFile")}
 assert listed == {name[8:] for name in archive.namelist() if name.startswith("sources/") and name.endswith(".c")}, listed
 assert "torque_table.c" in listed and "fmu_machine.c" not in listed
-assert [item.get("name") for item in root.iter("Item")] == ["table", "lead", "compensation", "feedforward"]
+(remedy,) = root.iter("Int32")  # no enumeration: other programs do not know them
+assert remedy.get("name") == "remedy" and [remedy.get(word) for word in ("min", "max", "start")] == ["1", "4", "4"]
+assert remedy.get("description").endswith("1 table, 2 lead, 3 compensation, 4 feedforward")
 assert root.get("instantiationToken") in open("controller/sources/hci_data.c").read()
 END
 for file in controller/sources/fmu_*.c controller/sources/hci_data.c controller/sources/torque_table.c; do

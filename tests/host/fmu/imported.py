@@ -62,7 +62,7 @@ class Slave:
         for name, value in values.items():
             variable = self.variables[name]
             kind = {"Float64": "Float64", "Real": "Real", "Boolean": "Boolean",
-                    "Enumeration": "Int64" if self.is_3 else "Integer"}[variable.type]
+                    "Int32": "Int32", "Integer": "Integer"}[variable.type]
             getattr(self.fmu, "set" + kind)([variable.valueReference], [value])
 
     def get(self, *names):
