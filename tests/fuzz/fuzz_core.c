@@ -6,6 +6,7 @@
  *   table      between two rows nothing is beyond them
  *   learn      any blob and any samples: nothing outside the memory that is given; what is written is read
  * back */
+#include "draws.h"
 #include "fuzzing.h"
 
 #include <float.h>
@@ -15,17 +16,6 @@
 #include "hci/learn.h"
 #include "hci/machine/strategy.h"
 #include "hci/math/dense.h"
-
-static const uint8_t *bytes;
-static size_t bytes_left;
-
-static unsigned draw(unsigned below)
-{
-    unsigned value = 0;
-    for (int k = 0; k < 2; ++k)
-        if (bytes_left > 0) value = value * 256u + *bytes++, --bytes_left;
-    return value % below;
-}
 
 /* Zeros, ones and numbers of ordinary size, and now and then any power of ten up to 1e±span. */
 static double draw_number(int span)
@@ -292,7 +282,7 @@ static void try_learn(void)
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     static void (*const TRY[])(void) = {try_lu, try_strategy, try_table, try_learn};
-    bytes = data, bytes_left = size;
+    draws_begin(data, size);
     TRY[draw(sizeof TRY / sizeof *TRY)]();
     return 0;
 }

@@ -2,11 +2,14 @@
  * pairs), made of the bytes of the input. The machine is refused with words, or the laws hold for what
  * `solve` finds:
  *
- *   spectrum   the torque that is promised at each order is that of the sampled torque, and there is none at
- * other orders verdict    an order that is said to be reached is linearity  currents = mean torque x per_Nm +
- * constant copper     the mean square that is promised is that of the sampled currents rotation   the same
- * machine with all angles counted from elsewhere costs the same and reaches the same repetition the same
- * again gives the same bits */
+ *   spectrum    the torque that is promised at each order is that of the sampled torque, and there is none at
+ *               other orders
+ *   verdict     an order that is said to be reached is
+ *   linearity   currents = mean torque x per_Nm + constant
+ *   copper      the mean square that is promised is that of the sampled currents
+ *   rotation    the same machine with all angles counted from elsewhere costs the same
+ *   repetition  the same again gives the same bits */
+#include "draws.h"
 #include "fuzzing.h"
 
 #include <math.h>
@@ -22,17 +25,6 @@ static const long double PI = 3.14159265358979323846264338327950288L;
 enum { MOST_TEXT = 200000, MOST_WORK = 4000000 };
 
 /* ---- draws from the bytes of the input ---- */
-
-static const uint8_t *bytes;
-static size_t bytes_left;
-
-static unsigned draw(unsigned below)
-{
-    unsigned value = 0;
-    for (int k = 0; k < 2; ++k)
-        if (bytes_left > 0) value = value * 256u + *bytes++, --bytes_left;
-    return value % below;
-}
 
 /* Of ordinary size three times in four; what is above 1e9 is refused, and rare. */
 static double draw_size(void)
@@ -424,7 +416,7 @@ static outcome solve(const uint8_t *data, size_t size, double shift)
     hci_machine_data machine;
     task t;
     hci_note note = {{0}};
-    bytes = data, bytes_left = size;
+    draws_begin(data, size);
     memset(&machine, 0, sizeof machine);
     memset(&t, 0, sizeof t);
     make_machine(shift);

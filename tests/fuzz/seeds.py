@@ -173,6 +173,8 @@ class Seeds:
         for k in range(200):
             draws = random.Random(k)
             self.add("fuzz_core", f"draws_{k}", bytes([0, k % 4]) + bytes(draws.randrange(256) for _ in range(400)))
+            if k < 40:
+                self.add("fuzz_power", f"draws_{k}", bytes(draws.randrange(256) for _ in range(300)))
 
     def commands(self):
         run = recording(16)
