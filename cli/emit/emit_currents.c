@@ -24,6 +24,9 @@ static hci_status read_facts(const cli_arguments *a, cli_emit_currents *in, hci_
     if (!a->given[EMIT_MACHINE]) return HCI_OK;
     status = hci_machine_read_orders(a->value[EMIT_MACHINE], (hci_order_base)a->choice[EMIT_ORDER_BASE],
                                      &in->machine, note);
+    in->request.machine = &in->machine;
+    in->request.machine_folder = a->value[EMIT_MACHINE];
+    in->request.expected_ripple_Nm = hci_solution_read_expected_ripple(a->word[0]);
     return status ? status : hci_emit_facts_read(a->value[EMIT_MACHINE], &in->machine, facts, note);
 }
 

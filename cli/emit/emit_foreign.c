@@ -36,6 +36,7 @@ static hci_status read_foreign_inputs(const cli_arguments *a, foreign_inputs *in
                                    .counts_per_A = cli_number_or(a, EMIT_COUNTS, 0.0),
                                    .encoder_offset_deg = cli_number_or(a, EMIT_ENCODER_OFFSET, 0.0),
                                    .encoder_direction = a->choice[EMIT_ENCODER_DIRECTION] == 1 ? -1 : 1,
+                                   .expected_ripple_Nm = currents->expected_ripple_Nm,
                                    .input_hash = currents->input_hash};
     return status;
 }

@@ -49,9 +49,11 @@ const cli_option cli_emit_options[] = {
                                "sensor tells"},
     [EMIT_SHAPE] = {"shape", 0, CLI_CHOICE, "NAME", NULL, .choices = SHAPES},
     [EMIT_FRAME] = {"frame", 0, CLI_CHOICE, "NAME", NULL, .choices = FRAMES},
-    [EMIT_MAX_ERROR] = {"max-error", 0, CLI_NUMBER, "A",
-                        .help = "the fewest points that keep every current within it (1 % of the peak)",
-                        .low = 1e-12, .high = 1e9},
+    [EMIT_MAX_ERROR] =
+        {"max-error", 0, CLI_NUMBER, "A",
+         .help = "the fewest points that keep every current within it (1 % of the peak; with --machine "
+                 "what adds a tenth or less to the ripple to expect)",
+         .low = 1e-12, .high = 1e9},
     [EMIT_POINTS] = {"points", 0, CLI_WHOLE, "N",
                      .help = "instead: rows of a period; of i16, q15 and i8 steps in the part that is kept; "
                              "with --for a power "
@@ -69,8 +71,8 @@ const cli_option cli_emit_options[] = {
                         .high = 1e9},
     [EMIT_MACHINE] =
         {"machine", 0, CLI_FOLDER, "FOLDER",
-         .help = "the machine of the currents: its name and pole pairs go into the header; needed with "
-                 "--drive and --for"},
+         .help = "the machine of the currents: its name and pole pairs go into the header, and the ripple "
+                 "that the table leaves is told; needed with --drive and --for"},
     [EMIT_DRIVE] =
         {"drive", 0, CLI_FILE, "FILE",
          .help = "drive.csv: orders of current and voltage for hci/loop.h, which a current loop can follow; "

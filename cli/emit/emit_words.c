@@ -22,6 +22,30 @@ static void show_choices(const hci_emit_result *result)
     }
 }
 
+/* Where the figures above it hold, and what is known of the machine itself. expected_Nm: 0 where nothing is.
+ */
+static void show_expected(double expected_Nm)
+{
+    if (expected_Nm > 0.0)
+        cli_say("               in the model; on the machine solve expects at most %.3g N·m of the currents "
+                "(95 %%), to which this adds its part\n",
+                expected_Nm);
+    else
+        cli_say("               in the model; what is left on the machine is not known\n");
+}
+
+static void show_table_ripple(const hci_emit_request *r, const hci_emit_result *result)
+{
+    if (result->ripples == 0) return;
+    cli_say("  ripple       peak to peak, N·m         sine  with the table  of which the table\n");
+    for (size_t k = 0; k < result->ripples; ++k) {
+        const hci_table_ripple *x = &result->ripple[k];
+        cli_say("               at %8.4g N·m    %10.4g      %10.4g          %10.4g\n", x->torque_Nm,
+                x->sine_Nm, x->with_Nm, x->own_Nm);
+    }
+    show_expected(r->expected_ripple_Nm);
+}
+
 void cli_show_table(const hci_emit_request *r, const hci_emit_result *result, const char *folder)
 {
     const bool is_data = r->format == HCI_EMIT_CSV || r->format == HCI_EMIT_JSON;
@@ -44,6 +68,7 @@ void cli_show_table(const hci_emit_request *r, const hci_emit_result *result, co
         cli_say("\n  rows         straight lines between them; after the last comes the first\n");
     else
         cli_say("\n  runtime      hci/%s\n", r->format == HCI_EMIT_F32 ? "table.h" : "table_i16.h");
+    show_table_ripple(r, result);
 }
 
 static void show_speed(const char *what, double speed_rad_per_s)
@@ -97,6 +122,7 @@ void cli_show_foreign(const hci_emit_foreign_request *r, const hci_emit_foreign_
     cli_say("  ripple       peak to peak, N·m         sine    with this map\n");
     for (size_t k = 0; k < x->ripples; ++k)
         show_ripple(&x->ripple[k]);
+    show_expected(r->expected_ripple_Nm);
 }
 
 /* ---- remarks ---- */

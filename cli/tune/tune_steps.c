@@ -47,11 +47,13 @@ static void note_quoted(cli_tuning *t, const char *word)
     note_text(t, "'");
 }
 
-/* A word of a shell. What begins with the folder of the results goes into the folder of the repetition. */
-static void note_word(cli_tuning *t, const char *word)
+/* A word of a shell. What begins with the folder of the results goes into the folder of the repetition; a
+ * name may be the same word. */
+static void note_word(cli_tuning *t, const char *word, bool is_name)
 {
     const size_t length = strlen(t->out);
-    const bool is_out = strncmp(word, t->out, length) == 0 && (word[length] == '/' || word[length] == '\0');
+    const bool is_out =
+        !is_name && strncmp(word, t->out, length) == 0 && (word[length] == '/' || word[length] == '\0');
     note_text(t, is_out ? " \"$OUT\"" : " ");
     word += is_out ? length : 0;
     if (is_plain(word))
@@ -102,7 +104,7 @@ static void note_command(cli_tuning *t, const command_line *c, bool may_be_no)
         if (k == 0)
             note_text(t, " %s", c->word[k]);
         else
-            note_word(t, c->word[k]);
+            note_word(t, c->word[k], strcmp(c->word[k - 1], "--name") == 0);
     note_text(t, may_be_no ? " || [ $? -eq 1 ]\n" : "\n");
 }
 
@@ -174,7 +176,7 @@ static hci_status list_logs(cli_tuning *t, hci_note *note)
     path_in(t, "runs.csv", t->list);
     note_text(t, "echo file,role,test >\"$OUT\"/runs.csv\nfor log in");
     for (size_t k = 0; k < a->words; ++k)
-        note_word(t, a->word[k]);
+        note_word(t, a->word[k], false);
     note_text(t,
               "; do echo \"$(realpath --relative-to=\"$OUT\" \"$log\"),fit,%s\"; done >>\"$OUT\"/runs.csv\n",
               test);
@@ -223,13 +225,14 @@ static void say_run(cli_tuning *t, size_t k)
 {
     const hci_run *r = &t->runs.run[k];
     double most_A = 0.0;
-    char time[48] = "";
+    char time[48] = "", currents[48] = "no current";
     for (size_t n = 0; n < 3 * r->count; ++n)
         most_A = fmax(most_A, fabs(r->i_A[n]));
     if (r->time_s && r->count > 1)
         snprintf(time, sizeof time, ", %.4g s", r->time_s[r->count - 1] - r->time_s[0]);
-    hci_tuning_say(&t->tuning, HCI_TUNING_READ, "%s: %zu samples%s; %s; phase currents up to %.3g A%s",
-                   name_of(t, k), r->count, time, source_words(r), most_A, r->v_V ? "; voltages" : "");
+    if (most_A > 0.0) snprintf(currents, sizeof currents, "phase currents up to %.3g A", most_A);
+    hci_tuning_say(&t->tuning, HCI_TUNING_READ, "%s: %zu samples%s; %s; %s%s", name_of(t, k), r->count, time,
+                   source_words(r), currents, r->v_V ? "; voltages" : "");
 }
 
 static void release_inputs(cli_tuning *t)
@@ -835,17 +838,26 @@ hci_status cli_tune_solve(cli_tuning *t, hci_note *note)
 
 /* ---- table ---- */
 
-/* Electrical turns of the table that was emitted, as its header states them; 0: it does not. */
-static unsigned long turns_of_table(const char *folder, const char *name)
+/* What the header of the table that was emitted says of it; 0: nothing. */
+typedef struct {
+    unsigned long turns;
+    double own_Nm, torque_Nm, with_Nm; /* ripple that its cut makes, at which torque, and all that is left */
+} table_header;
+
+static table_header read_header(const char *folder, const char *name)
 {
     char path[2 * CLI_TUNE_PATH], line[512];
-    unsigned long turns = 0;
+    table_header h = {0};
     snprintf(path, sizeof path, "%s/%s.h", folder, name);
     FILE *f = fopen(path, "r");
-    while (f && turns == 0 && fgets(line, sizeof line, f))
-        if (sscanf(line, " * Angle: uint32_t, 2^32 = %lu electrical turn", &turns) != 1) turns = 0;
+    while (f && fgets(line, sizeof line, f)) {
+        sscanf(line, " * Angle: uint32_t, 2^32 = %lu electrical turn", &h.turns);
+        sscanf(line,
+               " * Ripple: the cut to this table makes %lf N*m from peak to peak at %lf N*m; with it %lf N*m",
+               &h.own_Nm, &h.torque_Nm, &h.with_Nm);
+    }
     if (f) fclose(f);
-    return turns;
+    return h;
 }
 
 bool cli_tune_knows_zero(const cli_tuning *t)
@@ -890,22 +902,20 @@ static void say_per_torque(cli_tuning *t, const char *currents, const char *name
 }
 
 /* What the table is, and how its firmware reads it. */
-static void say_table(cli_tuning *t, const char *name, const char *folder)
+static void say_table(cli_tuning *t, const char *name, const char *folder, const table_header *h)
 {
-    const unsigned long turns = turns_of_table(folder, name);
     hci_tuning_say(
         &t->tuning, HCI_TUNING_LOAD,
         "%s/%s.h and %s.c need hci/table.h alone: `hci_currents_dq i = hci_table_f32_dq(&%s, "
         "angle);`, where 2^32 of "
         "the angle is %lu electrical turn%s from the zero of the logs%s%s%s. They are the whole "
-        "reference for %.4g N·m (docs/controller.md), cut to 1 %% of the peak current: what that "
-        "leaves comes on top of the ripple above, and emit --max-error, in amperes, makes it less.",
-        folder, name, name, name, turns, turns == 1 ? "" : "s", offset_of(t) ? " with --angle-offset " : "",
-        offset_of(t) ? offset_of(t) : "", turns == 1 ? "" : ", not one: the angle goes on from turn to turn",
-        t->mean_Nm);
+        "reference for %.4g N·m (docs/controller.md); their cut makes %.2g N·m of ripple, which is in the "
+        "figures above; another --max-error of emit makes it less, or the table smaller.",
+        folder, name, name, name, h->turns, h->turns == 1 ? "" : "s",
+        offset_of(t) ? " with --angle-offset " : "", offset_of(t) ? offset_of(t) : "",
+        h->turns == 1 ? "" : ", not one: the angle goes on from turn to turn", t->mean_Nm, h->own_Nm);
 }
 
-/* Maps of other drives begin at the encoder's zero, and so do the logs. */
 static void say_other_drives(cli_tuning *t, const char *currents, const char *name, const char *machine,
                              const char *folder)
 {
@@ -943,7 +953,11 @@ hci_status cli_tune_emit(cli_tuning *t, hci_note *note)
     const hci_status status = run(t, t->commands.emit, &c, note);
     if (status) return status;
     t->is_emitted = true;
-    say_table(t, name, folder);
+    const table_header header = read_header(folder, name);
+    t->tuning.table_Nm = header.with_Nm;
+    if (t->solution.expected.state == HCI_RIPPLE_KNOWN)
+        hci_expected_ripple_add_table(&t->solution.expected, header.own_Nm, t->mean_Nm);
+    say_table(t, name, folder, &header);
     say_other_drives(t, currents, name, machine, folder);
     say_components(t);
     say_per_torque(t, currents, name, machine);

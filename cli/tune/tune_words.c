@@ -192,46 +192,57 @@ static void say_cogging(cli_tuning *t)
                        "it.");
 }
 
-/* What the figures of the model leave open. */
-static void limit_of(const cli_tuning *t, double before_Nm, char text[256])
+/* With the table, in the model: as it was read back, or of the currents where that is not known. */
+static void swing_of(const cli_tuning *t, double *before_Nm, double *after_Nm)
+{
+    hci_tuning_swing(&t->solution, before_Nm, after_Nm);
+    if (t->tuning.table_Nm > 0.0) *after_Nm = t->tuning.table_Nm;
+}
+
+/* What a figure of the model leaves open. */
+static const char *not_known(const cli_tuning *t)
+{
+    return t->solution.expected.state == HCI_RIPPLE_KNOWN ? "these recordings do not bound what is left"
+           : t->is_own && !t->has_emf && !t->has_load
+               ? "what harmonics of the real back-EMF add under load is not known"
+               : "what is left on the machine is not known";
+}
+
+static void say_fall(cli_tuning *t, char *text, size_t size)
 {
     const hci_expected_ripple *e = &t->solution.expected;
-    if (e->state == HCI_RIPPLE_KNOWN && e->peak_to_peak_Nm < BOUNDLESS * before_Nm)
-        snprintf(text, 256, "in the model; on the machine it is at most %.3g N·m (95 %%)",
-                 e->peak_to_peak_Nm);
-    else if (e->state == HCI_RIPPLE_KNOWN)
-        snprintf(text, 256, "in the model; what is left on the machine is not bounded by these recordings");
-    else if (t->is_own && !t->has_emf && !t->has_load)
-        snprintf(text, 256,
-                 "in the model with a sine as back-EMF: harmonics of the real one, and the ripple that they "
-                 "make with current, are not known");
+    double before_Nm, after_Nm;
+    swing_of(t, &before_Nm, &after_Nm);
+    if (hci_expected_ripple_is_doubtful(e))
+        snprintf(text, size, "%s, so what the table leaves of a ripple of %.3g N·m is not to be relied on",
+                 isfinite(e->unbelievable_order) ? "A back-EMF that is not believable is in the model"
+                                                 : "The model does not explain the recordings",
+                 before_Nm);
+    else if (e->state == HCI_RIPPLE_KNOWN && e->peak_to_peak_Nm < BOUNDLESS * before_Nm)
+        snprintf(
+            text, size,
+            "A ripple of %.3g N·m from peak to peak falls to at most %.3g N·m on the machine (95 %%), of "
+            "which the table %.2g",
+            before_Nm, e->peak_to_peak_Nm, e->table_peak_to_peak_Nm);
     else
-        snprintf(text, 256, "in the model; what is left on the machine is not known");
+        snprintf(text, size, "A ripple of %.3g N·m from peak to peak %s %.3g N·m in the model; %s", before_Nm,
+                 after_Nm < before_Nm ? "falls to" : "becomes one of", after_Nm, not_known(t));
 }
 
 static void set_heading(cli_tuning *t)
 {
     hci_tuning *r = &t->tuning;
     double before_Nm, after_Nm;
-    char limit[256];
     hci_tuning_swing(&t->solution, &before_Nm, &after_Nm);
-    limit_of(t, before_Nm, limit);
-    if (before_Nm < t->solution.tolerance_Nm && unexplained_Nm(t) > 0.0)
+    if (before_Nm >= t->solution.tolerance_Nm)
+        say_fall(t, r->heading, sizeof r->heading);
+    else if (unexplained_Nm(t) > 0.0)
         snprintf(r->heading, sizeof r->heading,
                  "Nothing certain was found that makes a ripple, but up to %.3g N·m rms of it is in the "
                  "recordings",
                  unexplained_Nm(t));
-    else if (before_Nm < t->solution.tolerance_Nm)
-        snprintf(r->heading, sizeof r->heading, "Nothing was found that would make a ripple");
-    else if (after_Nm < 1e-3 * before_Nm)
-        snprintf(r->heading, sizeof r->heading,
-                 "A ripple of %.3g N·m from peak to peak falls to less than a thousandth, %s", before_Nm,
-                 limit);
     else
-        snprintf(r->heading, sizeof r->heading,
-                 after_Nm < before_Nm ? "A ripple of %.3g N·m from peak to peak falls to %.3g N·m, %s"
-                                      : "A ripple of %.3g N·m from peak to peak becomes one of %.3g N·m, %s",
-                 before_Nm, after_Nm, limit);
+        snprintf(r->heading, sizeof r->heading, "Nothing was found that would make a ripple");
 }
 
 /* What a reader of the heading alone has to know. */
@@ -239,11 +250,6 @@ static void add_to_heading(cli_tuning *t)
 {
     char *heading = t->tuning.heading;
     const size_t size = sizeof t->tuning.heading;
-    if (t->is_solved && hci_expected_ripple_is_doubtful(&t->solution.expected))
-        snprintf(heading + strlen(heading), size - strlen(heading), "; the model is not to be relied on: %s",
-                 isfinite(t->solution.expected.unbelievable_order)
-                     ? "a back-EMF that is not believable is in it"
-                     : "it does not explain the recordings");
     if (is_off_sheet(t))
         snprintf(heading + strlen(heading), size - strlen(heading),
                  "; the measured back-EMF is %.3g times that of the data sheet", t->emf_to_sheet);
@@ -316,12 +322,13 @@ static void show_part(const hci_tuning *t, hci_tuning_part part)
     }
 }
 
-static void show_before_and_after(const hci_solution *s)
+static void show_before_and_after(const cli_tuning *t)
 {
+    const hci_solution *s = &t->solution;
     const hci_expected_ripple *e = &s->expected;
     double before_Nm, after_Nm;
     char expected[64] = "not known";
-    hci_tuning_swing(s, &before_Nm, &after_Nm);
+    swing_of(t, &before_Nm, &after_Nm);
     if (e->state == HCI_RIPPLE_KNOWN)
         snprintf(expected, sizeof expected, "at most %.3g N·m (95 %%)", e->peak_to_peak_Nm);
     if (after_Nm < s->tolerance_Nm) after_Nm = 0.0;
@@ -361,7 +368,7 @@ void cli_show_tuning(const cli_tuning *t)
     cli_say("%s%s" CLI_PLAIN ": %s\n", r->good ? CLI_GOOD : CLI_WARN, r->verdict, r->heading);
     if (t->is_solved) {
         char words[1024];
-        show_before_and_after(&t->solution);
+        show_before_and_after(t);
         hci_expected_ripple_words(&t->solution.expected, words, sizeof words);
         cli_say("  on the real machine\n");
         cli_say_paragraph(4, words);

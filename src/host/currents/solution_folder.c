@@ -163,6 +163,17 @@ hci_status hci_solution_read_mean_torque(const char *folder, double *torque_Nm, 
 
 /* ---- what solve said of them ---- */
 
+double hci_solution_read_expected_ripple(const char *path)
+{
+    double ripple_Nm = 0.0;
+    bool is_known = false;
+    char *text = hci_solution_is_folder(path) ? summary_of(path) : NULL;
+    if (text && hci_json_find_bool(text, "expected", "known", &is_known) && is_known)
+        hci_json_find_number(text, "expected", "peak_to_peak_Nm_95", &ripple_Nm);
+    hci_memory_free(text);
+    return ripple_Nm;
+}
+
 hci_solution_verdict hci_solution_read_verdict(const char *path)
 {
     bool reached = true, within = true;

@@ -5,16 +5,26 @@
 #include "host/base/memory.h"
 #include "host/emit/cost.h"
 #include "host/emit/emission.h"
+#include "host/emit/table_ripple.h"
 
 /* ---- what is asked for ---- */
 
-/* The error to keep; INFINITY where only bytes are given, 0 where points are. */
+/* The error to keep; INFINITY where only bytes are given, 0 where points are, NAN where nothing is. */
 static double error_asked_A(const hci_emission *e)
 {
     const hci_emit_request *r = e->request;
     if (r->points > 0) return 0.0;
     if (r->max_error_A > 0.0) return r->max_error_A;
-    return r->max_bytes > 0 ? (double)INFINITY : HCI_EMIT_ERROR_SHARE * hci_tabulation_peak_A(&e->tabulation);
+    return r->max_bytes > 0 ? (double)INFINITY : (double)NAN;
+}
+
+/* With which the table adds little to the ripple that is to be expected. */
+static double error_wished_A(const hci_emission *e, double most_A, double peak_A)
+{
+    const double expected_Nm = e->request->expected_ripple_Nm;
+    const double share = HCI_EMIT_RIPPLE_SHARE * expected_Nm / (2.0 * hci_table_torque_per_error(e));
+    const double least_A = HCI_EMIT_LEAST_ERROR_SHARE * peak_A;
+    return expected_Nm > 0.0 ? fmin(most_A, fmax(share, least_A)) : least_A;
 }
 
 static size_t values_in_row(const hci_emission *e)
@@ -22,10 +32,12 @@ static size_t values_in_row(const hci_emission *e)
     return e->tabulation.columns * e->tabulation.parts;
 }
 
-static bool fits(const hci_emit_request *r, const hci_emit_choice *c, double error_A)
+static bool fits(const hci_emission *e, const hci_emit_choice *c, double error_A)
 {
-    return (error_A == 0.0 || c->max_error_A <= error_A) && (r->max_bytes == 0 || c->bytes <= r->max_bytes) &&
-           (r->max_instructions == 0 || c->cortex_m4f <= r->max_instructions);
+    const size_t instructions = e->request->max_instructions;
+    return (error_A == 0.0 || c->max_error_A <= error_A) &&
+           (e->most_bytes == 0 || c->bytes <= e->most_bytes) &&
+           (instructions == 0 || c->cortex_m4f <= instructions);
 }
 
 /* ---- one shape ---- */
@@ -89,13 +101,21 @@ static void make(hci_emission *e, hci_emit_choice *c, double error_A)
             (double)(hci_emit_is_integer(c->format) ? e->spline.max_error_q15_A : e->spline.max_error_A);
     }
     hci_emit_cost(&e->tabulation, c);
-    c->fits = made && fits(e->request, c, error_A);
+    c->fits = made && fits(e, c, error_A);
 }
 
 /* ---- all of them ---- */
 
-/* All shapes, or with a number of points those of the format that it is meant for. */
-static void make_all(hci_emission *e, double error_A)
+/* Whether a format has to be made to know those that are asked for: 8-bit knots begin at what 16 bits need.
+ */
+static bool is_needed(hci_emit_format asked, hci_emit_format format)
+{
+    return format == asked || (asked == HCI_EMIT_I8 && !hci_emit_has_rows(format));
+}
+
+/* All shapes, or with a number of points those of the format that it is meant for. is_shown: also those
+ * that are not asked for, to be shown beside. */
+static void make_all(hci_emission *e, double error_A, bool is_shown)
 {
     const hci_emit_format asked = e->request->format;
     const hci_emit_format rows = hci_emit_has_rows(asked) ? asked : HCI_EMIT_F32,
@@ -108,8 +128,10 @@ static void make_all(hci_emission *e, double error_A)
                                                         {.format = HCI_EMIT_I8, .shape = HCI_EMIT_QUADRATIC},
                                                         {.format = HCI_EMIT_I8, .shape = HCI_EMIT_CUBIC}};
     hci_emit_result *x = &e->result;
+    x->choices = 0;
     for (size_t k = 0; k < HCI_EMIT_MOST_CHOICES; ++k) {
         if (e->request->points > 0 && all[k].format != asked) continue;
+        if (!is_shown && !is_needed(asked, all[k].format)) continue;
         x->choice[x->choices] = all[k];
         make(e, &x->choice[x->choices++], error_A);
     }
@@ -204,13 +226,40 @@ static hci_status reserve(hci_emission *e, hci_note *note)
                : hci_note_memory(note, NULL, "the table");
 }
 
+static const hci_emit_choice *best_within(hci_emission *e, double error_A)
+{
+    make_all(e, error_A, true);
+    return best_of(e, error_A);
+}
+
+static bool can_keep(hci_emission *e, double error_A)
+{
+    make_all(e, error_A, false);
+    return best_of(e, error_A) != NULL;
+}
+
+/* Where nothing is asked for: without a machine a share of the peak current, and so where nothing finer fits.
+ */
+static const hci_emit_choice *best_chosen(hci_emission *e, double *error_A)
+{
+    const double peak_A = hci_tabulation_peak_A(&e->tabulation), most_A = HCI_EMIT_ERROR_SHARE * peak_A;
+    e->most_bytes = HCI_EMIT_CHOSEN_BYTES;
+    *error_A = e->plant ? error_wished_A(e, most_A, peak_A) : most_A;
+    while (*error_A < most_A && !can_keep(e, *error_A))
+        *error_A *= 2.0;
+    if (*error_A < most_A) return best_within(e, *error_A);
+    e->most_bytes = e->request->max_bytes;
+    *error_A = most_A;
+    return best_within(e, most_A);
+}
+
 hci_status hci_emission_choose(hci_emission *e, hci_note *note)
 {
-    const double error_A = error_asked_A(e);
+    double error_A = error_asked_A(e);
     const hci_status status = reserve(e, note);
     if (status) return status;
-    make_all(e, error_A);
-    const hci_emit_choice *best = best_of(e, error_A);
+    e->most_bytes = e->request->max_bytes;
+    const hci_emit_choice *best = isnan(error_A) ? best_chosen(e, &error_A) : best_within(e, error_A);
     if (!best) return none_fits(e, error_A, note);
     e->result.chosen = *best;
     make(e, &e->result.chosen, error_A);

@@ -3,19 +3,23 @@
 #define HCI_SRC_HOST_EMIT_EMISSION_H
 
 #include "host/emit/spline.h"
+#include "host/machine/machine_plant.h"
 
 enum { HCI_EMIT_PROBES = 8 };
 
 /* All that is emitted. Start with {0}. */
 typedef struct {
     const hci_emit_request *request;
-    hci_wave *waves; /* the constant ones, then those per N·m */
+    const hci_machine_plant *plant; /* NULL: no machine is given */
+    hci_wave *waves;                /* the constant ones, then those per N·m */
     hci_tabulation tabulation;
     hci_emit_result result;
 
     float *rows; /* of format f32 */
     hci_table_f32 table;
     hci_table_f32_probe probes[HCI_EMIT_PROBES];
+
+    size_t most_bytes; /* of rows or knots; 0: any */
 
     hci_spline_room room; /* of i16 and q15 */
     hci_table_i16 spline;

@@ -11,6 +11,7 @@
 
 #include "host/base/memory.h"
 #include "host/emit/request.h"
+#include "host/emit/table_ripple.h"
 #include "host/emit/text.h"
 
 /* ---- the period ---- */
@@ -220,18 +221,30 @@ static hci_status make_table(hci_emission *e, hci_note *note)
     else
         fill_spline_probes(e);
     finish_result(e);
+    if (e->plant) hci_table_ripples(e);
     return HCI_OK;
+}
+
+static hci_status take_machine(hci_emission *e, hci_machine_plant *plant, hci_note *note)
+{
+    const hci_emit_request *r = e->request;
+    if (!r->machine) return HCI_OK;
+    e->plant = plant;
+    return hci_machine_plant_make(r->machine_folder, r->machine, plant, note);
 }
 
 hci_status hci_emit(const char *folder, const hci_emit_request *request, hci_emit_result *result,
                     hci_note *note)
 {
     hci_emission e = {.request = request};
+    hci_machine_plant plant = {0};
     hci_status status = hci_emit_request_check(request, note);
+    if (!status) status = take_machine(&e, &plant, note);
     if (!status) status = make_table(&e, note);
     if (!status) status = write_files(&e, folder, note);
     if (!status && result) *result = e.result;
     hci_emission_release(&e);
     hci_memory_free(e.waves);
+    hci_machine_plant_release(&plant);
     return status;
 }

@@ -8,7 +8,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "hci/host/machine/effects.h"
 #include "host/base/memory.h"
 #include "host/emit/foreign_ripple.h"
 #include "host/emit/request.h"
@@ -18,8 +17,7 @@ enum { MOST_POINTS = 4096, LEAST_POINTS = 8, LINES = 8, LINE_SIZE = 120 };
 typedef struct {
     const hci_emit_foreign_request *request;
     const hci_foreign_type *type;
-    hci_effects_data effects;
-    hci_quadratic_model model;
+    hci_machine_plant plant;
     hci_foreign_need need;
     hci_foreign_map map;
     hci_emit_foreign_result result;
@@ -58,20 +56,17 @@ static hci_status check_target(const hci_emit_foreign_request *r, const hci_fore
     return check_points(r->points, type, note);
 }
 
-/* The machine with what its effects add up to the second degree. */
+/* The machine with what its effects add. */
 static hci_status take_machine(emission *e, hci_note *note)
 {
     const hci_emit_foreign_request *r = e->request;
-    hci_status status = hci_effects_read_machine(r->machine_folder, &e->effects, note);
-    if (!status)
-        status = hci_quadratic_model_make(&r->machine->model, &e->effects.list, (double)NAN, &e->model, note);
+    const hci_status status = hci_machine_plant_make(r->machine_folder, r->machine, &e->plant, note);
     if (status) return status;
     const double own = r->torque_constant_Nm_per_A;
-    e->need = (hci_foreign_need){.machine = &e->model.machine,
-                                 .higher = e->model.higher.effects ? &e->model.higher : NULL,
-                                 .request = r,
-                                 .torque_constant_Nm_per_A =
-                                     own > 0.0 ? own : hci_machine_torque_constant(r->machine)};
+    e->need =
+        (hci_foreign_need){.plant = &e->plant,
+                           .request = r,
+                           .torque_constant_Nm_per_A = own > 0.0 ? own : e->plant.torque_constant_Nm_per_A};
     hci_foreign_need_begin(&e->need);
     return HCI_OK;
 }
@@ -93,9 +88,10 @@ static void turn_round(const hci_foreign_map *map, double *value)
 static hci_status row_at(const emission *e, double turn, double *value, hci_note *note)
 {
     const hci_foreign_map *map = &e->map;
-    const int turns = map->type->is_electrical ? e->need.machine->pole_pairs : 1;
-    const double theta_rad = hci_foreign_theta_rad(map, turn) *
-                             (map->type->is_electrical ? 1.0 : (double)e->need.machine->pole_pairs);
+    const int turns = map->type->is_electrical ? hci_machine_plant_pole_pairs(&e->plant) : 1;
+    const double theta_rad =
+        hci_foreign_theta_rad(map, turn) *
+        (map->type->is_electrical ? 1.0 : (double)hci_machine_plant_pole_pairs(&e->plant));
     hci_status status = HCI_OK;
     memset(value, 0, map->columns * sizeof *value);
     for (int k = 0; !status && k < turns; ++k) {
@@ -258,7 +254,6 @@ hci_status hci_emit_foreign(const char *folder, const hci_emit_foreign_request *
     }
     if (!status && result) *result = e.result;
     hci_foreign_map_release(&e.map);
-    hci_quadratic_model_release(&e.model);
-    hci_effects_release(&e.effects);
+    hci_machine_plant_release(&e.plant);
     return status;
 }

@@ -2,14 +2,6 @@
 
 #include <math.h>
 
-void hci_foreign_phases(double theta_rad, const double dq[2], double abc[3])
-{
-    for (int s = 0; s < 3; ++s) {
-        const double x = theta_rad - 2.0 * HCI_PI * s / 3.0;
-        abc[s] = dq[1] * sin(x) - dq[0] * cos(x);
-    }
-}
-
 /* i_d and i_q of waves. */
 static void rotor_frame(const hci_wave *waves, size_t count, double theta_rad, double dq[2])
 {
@@ -23,31 +15,6 @@ static void rotor_frame(const hci_wave *waves, size_t count, double theta_rad, d
     }
 }
 
-static hci_effect_torque higher_at(const hci_foreign_need *need, double theta_rad, const double abc[3])
-{
-    const hci_sample truth = {.theta_m_rad = theta_rad / need->machine->pole_pairs,
-                              .i_abc = {abc[0], abc[1], abc[2]},
-                              .temperature_C = need->higher->temperature_C};
-    return hci_effects_torque(need->higher->machine, need->higher->effects, &truth, NULL);
-}
-
-double hci_foreign_torque_at(const hci_foreign_need *need, double theta_rad, const double abc[3],
-                             double *by_q)
-{
-    double torque_Nm = hci_torque_at(need->machine, theta_rad, abc), one[3], slope[3];
-    hci_torque_gradient_at(need->machine, theta_rad, abc, slope);
-    if (need->higher) {
-        const hci_effect_torque more = higher_at(need, theta_rad, abc);
-        torque_Nm += more.torque_Nm;
-        for (int s = 0; s < 3; ++s)
-            slope[s] += more.by_current[s];
-    }
-    if (by_q == NULL) return torque_Nm;
-    hci_foreign_phases(theta_rad, (double[2]){0.0, 1.0}, one);
-    *by_q = slope[0] * one[0] + slope[1] * one[1] + slope[2] * one[2];
-    return torque_Nm;
-}
-
 static double torque_at(const hci_foreign_need *need, double theta_rad)
 {
     double abc[3], more[3];
@@ -56,13 +23,13 @@ static double torque_at(const hci_foreign_need *need, double theta_rad)
     hci_waves_at(r->per_Nm, r->per_Nm ? r->per_Nm_count : 0, theta_rad, more);
     for (int s = 0; s < 3; ++s)
         abc[s] += r->reference_torque_Nm * more[s];
-    return hci_foreign_torque_at(need, theta_rad, abc, NULL);
+    return hci_machine_plant_torque_at(need->plant, theta_rad, abc, NULL);
 }
 
 void hci_foreign_need_begin(hci_foreign_need *need)
 {
     enum { ANGLES = 4096 };
-    const double turn = 2.0 * HCI_PI * need->machine->pole_pairs;
+    const double turn = 2.0 * HCI_PI * hci_machine_plant_pole_pairs(need->plant);
     double sum = 0.0;
     for (int k = 0; k < ANGLES; ++k)
         sum += torque_at(need, turn * k / ANGLES);
@@ -77,9 +44,11 @@ static hci_status find_q(const hci_foreign_need *need, double theta_rad, double 
     const double K = need->torque_constant_Nm_per_A;
     *q_A = torque_Nm / K;
     for (int step = 0; step < 20; ++step) {
-        double abc[3], by_q;
-        hci_foreign_phases(theta_rad, (double[2]){0.0, *q_A}, abc);
-        const double error_Nm = hci_foreign_torque_at(need, theta_rad, abc, &by_q) - torque_Nm;
+        double abc[3], one[3], slope[3];
+        hci_machine_plant_phases(theta_rad, (double[2]){0.0, *q_A}, abc);
+        hci_machine_plant_phases(theta_rad, (double[2]){0.0, 1.0}, one);
+        const double error_Nm = hci_machine_plant_torque_at(need->plant, theta_rad, abc, slope) - torque_Nm;
+        const double by_q = slope[0] * one[0] + slope[1] * one[1] + slope[2] * one[2];
         if (!(by_q > 0.05 * K))
             return hci_note_set(note, HCI_ERROR_INPUT,
                                 "at the electrical angle %.4g rad 1 A of i_q makes %.3g N·m, less than a "

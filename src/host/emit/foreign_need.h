@@ -4,23 +4,15 @@
 
 #include "hci/host/emit/emit_foreign.h"
 #include "host/foreign/map.h"
-#include "host/machine/quadratic_model.h"
+#include "host/machine/machine_plant.h"
 
 /* The torque of the currents, and the machine that makes it. */
 typedef struct {
-    const hci_machine *machine;      /* torque up to the second degree of the currents */
-    const hci_effects_plant *higher; /* torque above it; NULL: none */
+    const hci_machine_plant *plant;
     const hci_emit_foreign_request *request;
     double torque_constant_Nm_per_A; /* of the drive */
     double torque_Nm;                /* mean of the currents over a mechanical turn */
 } hci_foreign_need;
-
-/* i_d and i_q in phase currents. */
-void hci_foreign_phases(double theta_rad, const double dq[2], double abc[3]);
-
-/* The torque of the machine in N·m, and its derivative by i_q in N·m/A (by_q may be NULL). */
-double hci_foreign_torque_at(const hci_foreign_need *need, double theta_rad, const double abc[3],
-                             double *by_q);
 
 /* Fills torque_Nm. */
 void hci_foreign_need_begin(hci_foreign_need *need);

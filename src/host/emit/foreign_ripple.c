@@ -20,7 +20,8 @@ static void currents_at(const hci_foreign_need *need, const hci_foreign_map *map
                         double own_q_A, double dq[2])
 {
     double add[2];
-    const double angle_rad = map->type->is_electrical ? theta_rad : theta_rad / need->machine->pole_pairs;
+    const double angle_rad =
+        map->type->is_electrical ? theta_rad : theta_rad / hci_machine_plant_pole_pairs(need->plant);
     map->type->at(map, hci_foreign_turn(map, angle_rad), map->direction * own_q_A, add);
     if (map->type->kind == HCI_FOREIGN_TORQUE) add[1] /= need->torque_constant_Nm_per_A;
     dq[0] = add[0];
@@ -30,13 +31,13 @@ static void currents_at(const hci_foreign_need *need, const hci_foreign_map *map
 static double torque_at(const hci_foreign_need *need, double theta_rad, const double dq[2])
 {
     double abc[3];
-    hci_foreign_phases(theta_rad, dq, abc);
-    return hci_foreign_torque_at(need, theta_rad, abc, NULL);
+    hci_machine_plant_phases(theta_rad, dq, abc);
+    return hci_machine_plant_torque_at(need->plant, theta_rad, abc, NULL);
 }
 
 static double angle_rad(const hci_foreign_need *need, int k)
 {
-    return 2.0 * HCI_PI * need->machine->pole_pairs * (k + 0.5) / ANGLES;
+    return 2.0 * HCI_PI * hci_machine_plant_pole_pairs(need->plant) * (k + 0.5) / ANGLES;
 }
 
 /* ---- one i_q of the drive ---- */
@@ -64,7 +65,7 @@ static void widen_by_steps(turn *t)
     if (t->map == NULL || !t->map->type->in_middle) return;
     for (size_t k = 0; k < SIDES * t->map->points; ++k) {
         const double place = ((double)(k / SIDES) + (k % SIDES ? side : -side)) / (double)t->map->points;
-        for (int turns = 0; turns < t->need->machine->pole_pairs; ++turns)
+        for (int turns = 0; turns < hci_machine_plant_pole_pairs(t->need->plant); ++turns)
             widen(&t->torque_Nm, torque_of(t, hci_foreign_theta_rad(t->map, place) + 2.0 * HCI_PI * turns));
     }
 }
@@ -113,9 +114,17 @@ static void find_mean(turn *t, double torque_Nm)
 static turn at_mean(const hci_foreign_need *need, const hci_foreign_map *map, double torque_Nm)
 {
     turn t = {.need = need, .map = map};
-    t.slope_Nm_per_A = hci_machine_torque_constant(need->request->machine);
+    t.slope_Nm_per_A = need->plant->torque_constant_Nm_per_A;
     find_mean(&t, torque_Nm);
     return t;
+}
+
+double hci_emit_sine_ripple_Nm(const hci_machine_plant *plant, double torque_Nm)
+{
+    const hci_foreign_need need = {.plant = plant,
+                                   .torque_constant_Nm_per_A = plant->torque_constant_Nm_per_A};
+    const turn t = at_mean(&need, NULL, torque_Nm);
+    return t.torque_Nm.high - t.torque_Nm.low;
 }
 
 hci_foreign_ripple hci_foreign_ripple_of(const hci_foreign_need *need, const hci_foreign_map *map,

@@ -10,4 +10,7 @@
 hci_foreign_ripple hci_foreign_ripple_of(const hci_foreign_need *need, const hci_foreign_map *map,
                                          double torque_Nm);
 
+/* Peak to peak of the torque over one mechanical turn with a plain sine of that mean torque. */
+double hci_emit_sine_ripple_Nm(const hci_machine_plant *plant, double torque_Nm);
+
 #endif

@@ -146,6 +146,17 @@ void hci_emission_facts(const hci_emission *e, hci_output *out)
     write_speed(f, hci_tabulation_highest_seen(&e->tabulation), out);
 }
 
+void hci_emission_ripple(const hci_emission *e, hci_output *out)
+{
+    const hci_table_ripple *r = &e->result.ripple[e->result.ripples > 1 ? 1 : 0];
+    if (e->result.ripples > 0)
+        hci_output_text(
+            out,
+            " * Ripple: the cut to this table makes %.3g N*m from peak to peak at %.4g N*m; with it "
+            "%.3g N*m are\n *         left in the model of the machine.\n",
+            r->own_Nm, r->torque_Nm, r->with_Nm);
+}
+
 void hci_emission_macros(const char *name, size_t pole_pairs, size_t turns, hci_output *out)
 {
     if (pole_pairs == 0) return;

@@ -44,6 +44,9 @@ void hci_emission_facts_of_machine(const hci_emit_facts *facts, hci_output *outp
 /* The same, torque, and what a current loop has to follow. */
 void hci_emission_facts(const hci_emission *e, hci_output *output);
 
+/* What ripple the table leaves in the model, where its machine is given. */
+void hci_emission_ripple(const hci_emission *e, hci_output *output);
+
 /* NAME_POLE_PAIRS and NAME_PERIODS, of a table over so many electrical turns, where they are known. */
 void hci_emission_macros(const char *name, size_t pole_pairs, size_t turns, hci_output *output);
 

@@ -30,7 +30,9 @@ static void write_figures(const hci_emission *e, hci_output *out)
     if (t->parts == 2)
         hci_output_text(out, ", |torque| <= %s N*m",
                         hci_emission_number((double)t->reference_torque_Nm, text));
-    hci_output_text(out, ".\n * CRC-32: %08" PRIx32 " (IEEE 802.3) of the rows.\n", e->result.crc32);
+    hci_output_text(out, ".\n");
+    hci_emission_ripple(e, out);
+    hci_output_text(out, " * CRC-32: %08" PRIx32 " (IEEE 802.3) of the rows.\n", e->result.crc32);
 }
 
 void hci_emission_write_header(const hci_emission *e, hci_output *out)

@@ -65,6 +65,7 @@ static void write_figures(const hci_emission *e, hci_output *out)
     write_torque(e, out);
     hci_output_text(out, ".\n * Unit:   unit_A = %s A, of the integers.\n",
                     hci_emission_number((double)e->spline.unit_A, text));
+    hci_emission_ripple(e, out);
     hci_output_text(out, " * CRC-32: %08" PRIx32 " (IEEE 802.3) of the knots, low byte first.\n",
                     e->spline.crc32);
 }

@@ -80,6 +80,8 @@ static void write_facts(const hci_emission *e, hci_output *out)
         hci_output_text(out, "  \"pole_pairs\": %zu,\n", e->request->facts.pole_pairs);
     write_member(out, "max_error_A", (double)t->max_error_A);
     write_member(out, "peak_A", (double)t->peak_A);
+    if (e->result.ripples > 0)
+        write_member(out, "ripple_of_the_table_Nm", e->result.ripple[e->result.ripples > 1 ? 1 : 0].own_Nm);
     if (t->parts == 2) write_member(out, "reference_torque_Nm", (double)t->reference_torque_Nm);
 }
 

@@ -210,7 +210,7 @@ static hci_expected_ripple nothing(hci_ripple_state state)
 {
     const hci_measured_range none = {NAN, NAN};
     return (hci_expected_ripple){state, NAN,  NAN, NAN, NAN,   NAN, NAN,           none, none, none,
-                                 none,  none, NAN, NAN, false, 0,   {"", "", NAN}, NAN,  NAN};
+                                 none,  none, NAN, NAN, false, 0,   {"", "", NAN}, NAN,  NAN,  0.0};
 }
 
 static double largest_torque_Nm(const hci_ripple_path *path)
@@ -296,6 +296,20 @@ static void fill_unbelievable(const hci_ripple_path *path, hci_expected_ripple *
             e->unbelievable_share = share;
         }
     }
+}
+
+/* The largest amplitude of one order in a wave of that size, peak to peak: of a square wave. */
+#define OF_SQUARE (2.0 / HCI_PI)
+
+void hci_expected_ripple_add_table(hci_expected_ripple *e, double table_Nm, double mean_Nm)
+{
+    const double percent = 100.0 * table_Nm / fabs(mean_Nm);
+    e->table_peak_to_peak_Nm += table_Nm;
+    e->peak_to_peak_Nm += table_Nm;
+    e->error_peak_to_peak_Nm += table_Nm;
+    e->worst_order_Nm += OF_SQUARE * table_Nm;
+    e->T_ripple_percent += percent; /* NAN where there is no mean */
+    e->middle_percent += percent;
 }
 
 bool hci_expected_ripple_is_doubtful(const hci_expected_ripple *e)

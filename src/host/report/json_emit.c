@@ -28,6 +28,16 @@ char *hci_emit_json(const hci_emit_request *request, const hci_emit_result *resu
     hci_json_number(&json, "unit_A", result->unit_A);
     hci_json_number(&json, "peak_A", result->peak_A);
     hci_json_number(&json, "crc32", result->crc32);
+    hci_json_array(&json, "ripple");
+    for (size_t k = 0; k < result->ripples; ++k) {
+        hci_json_object(&json, NULL);
+        hci_json_number(&json, "torque_Nm", result->ripple[k].torque_Nm);
+        hci_json_number(&json, "sine_peak_to_peak_Nm", result->ripple[k].sine_Nm);
+        hci_json_number(&json, "table_peak_to_peak_Nm", result->ripple[k].with_Nm);
+        hci_json_number(&json, "table_own_peak_to_peak_Nm", result->ripple[k].own_Nm);
+        hci_json_close(&json);
+    }
+    hci_json_close(&json);
     hci_json_array(&json, "choices");
     for (size_t k = 0; k < result->choices; ++k) {
         hci_json_object(&json, NULL);

@@ -19,6 +19,8 @@ void hci_summary_expected(hci_json *json, const hci_expected_ripple *e)
     hci_json_number(json, "T_ripple_percent_95", e->T_ripple_percent);
     hci_json_number(json, "T_ripple_percent_50", e->middle_percent);
     hci_json_number(json, "peak_to_peak_Nm_95", e->peak_to_peak_Nm);
+    if (e->table_peak_to_peak_Nm > 0.0)
+        hci_json_number(json, "table_peak_to_peak_Nm", e->table_peak_to_peak_Nm);
     hci_json_number(json, "error_peak_to_peak_Nm_95", e->error_peak_to_peak_Nm);
     hci_json_number(json, "worst_order", e->worst_order);
     hci_json_number(json, "worst_order_Nm_95", e->worst_order_Nm);

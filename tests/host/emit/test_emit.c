@@ -646,9 +646,100 @@ static void test_every_failing_allocation_is_survived(void)
     TEST_ASSERT_GREATER_THAN(2, succeed);
 }
 
+/* ---- ripple ---- */
+
+/* A sinusoidal machine, whose torque of i_q is 1.5 · 0.4 N·m/A whatever the angle, with cogging torque. */
+static const double NM_PER_A = 1.5 * 0.4, COGGING_NM = 0.02;
+
+static hci_machine_data machine_with_cogging(void)
+{
+    hci_machine_data machine;
+    hci_note note = {{0}};
+    TEST_ASSERT_EQUAL(0, mkdir(files_path("machine"), 0777));
+    files_write(files_path("machine/machine.csv"), "name,value,unit\npole_pairs,2,1\n");
+    files_write(files_path("machine/back_emf.csv"), "order,amplitude_Nm_per_A,phase_rad\n1,0.4,0\n");
+    files_write(files_path("machine/cogging.csv"), "order,amplitude_Nm,phase_rad\n6,0.02,0.3\n");
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_machine_read(files_path("machine"), &machine, &note), note.text);
+    return machine;
+}
+
+static void widen(double range[2], double x)
+{
+    range[0] = fmin(range[0], x);
+    range[1] = fmax(range[1], x);
+}
+
+/* What the emitted text makes of the torque, by the sine formula in double. */
+static void ripple_of_text(const emitted *e, const currents *c, double *with_Nm, double *own_Nm)
+{
+    double with[2] = {HUGE_VAL, -HUGE_VAL}, own[2] = {HUGE_VAL, -HUGE_VAL};
+    for (int k = 0; k < 100000; ++k) {
+        const double theta = 2.0 * REF_PI * k / 100000.0;
+        double exact[3];
+        float read[3];
+        reference_currents(c, HCI_TABLE_DQ, theta, exact);
+        hci_table_f32_currents(&e->table, (uint32_t)(k / 100000.0 * 4294967296.0), 0.0f, read);
+        widen(own, NM_PER_A * ((double)read[1] - exact[1]));
+        widen(with, NM_PER_A * (double)read[1] + COGGING_NM * sin(6.0 * theta + 0.3));
+    }
+    *with_Nm = with[1] - with[0];
+    *own_Nm = own[1] - own[0];
+}
+
+static void test_ripple_is_that_of_the_emitted_numbers(void)
+{
+    const currents c = injected();
+    hci_machine_data machine = machine_with_cogging();
+    emitted e;
+    double with_Nm, own_Nm;
+    hci_emit_request r = request_for(&c);
+    r.frame = HCI_TABLE_DQ;
+    r.points = 100;
+    r.machine = &machine;
+    r.machine_folder = files_path("machine");
+    const hci_emit_result result = emit_and_read(&r, &e);
+    TEST_ASSERT_EQUAL(1, result.ripples);
+    ripple_of_text(&e, &c, &with_Nm, &own_Nm);
+    TEST_ASSERT_DOUBLE_WITHIN(0.01 * own_Nm, own_Nm, result.ripple[0].own_Nm);
+    TEST_ASSERT_DOUBLE_WITHIN(0.01 * with_Nm, with_Nm, result.ripple[0].with_Nm);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-5, 2.0 * COGGING_NM, result.ripple[0].sine_Nm);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, NM_PER_A * 12.0 * cos(0.2), result.ripple[0].torque_Nm);
+    TEST_ASSERT_NOT_NULL(strstr(read_text("ripple_free.h"), " * Ripple: the cut to this table makes "));
+    hci_machine_release(&machine);
+}
+
+/* What is chosen keeps the part of the table below a tenth of the ripple to expect, and no format is refused.
+ */
+static void test_chosen_cut_adds_little_to_the_ripple_to_expect(void)
+{
+    const currents c = injected();
+    hci_machine_data machine = machine_with_cogging();
+    hci_emit_request r = request_for(&c);
+    r.machine = &machine;
+    r.machine_folder = files_path("machine");
+    for (int form = 0; form < 2 * (HCI_EMIT_CSV + 1); ++form) {
+        r.format = (hci_emit_format)(form / 2);
+        r.frame = form % 2 == 0 ? HCI_TABLE_ABC : HCI_TABLE_DQ;
+        r.expected_ripple_Nm = 0.1;
+        const hci_emit_result known = emit_well(&r);
+        if (r.format == HCI_EMIT_I8) continue; /* too coarse: as fine as it is */
+        at_most(0.01, known.ripple[0].own_Nm);
+        more_than(0.002, known.ripple[0].own_Nm);
+        r.expected_ripple_Nm = 0.0;
+        const hci_emit_result unknown = emit_well(&r);
+        at_most(unknown.peak_A / 4096.0, unknown.chosen.max_error_A);
+        at_most(16384, (double)unknown.chosen.bytes);
+        r.expected_ripple_Nm = 1e6;
+        at_most(0.01 * known.peak_A, emit_well(&r).chosen.max_error_A);
+    }
+    hci_machine_release(&machine);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_ripple_is_that_of_the_emitted_numbers);
+    RUN_TEST(test_chosen_cut_adds_little_to_the_ripple_to_expect);
     RUN_TEST(test_stated_error_holds);
     RUN_TEST(test_constant_current_needs_one_point);
     RUN_TEST(test_fewest_points_for_an_error);

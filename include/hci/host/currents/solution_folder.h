@@ -46,6 +46,9 @@ hci_status hci_solution_read_mean_torque(const char *folder, double *torque_Nm, 
 /* The same, 0 where it was solved without a mean torque. */
 hci_status hci_solution_read_wanted_torque(const char *folder, double *torque_Nm, hci_note *note);
 
+/* What `solve` expects of them on the machine, peak to peak in N·m (95 %); 0: not known, or one file. */
+double hci_solution_read_expected_ripple(const char *path);
+
 /* How the currents of a folder stand to what was asked of `solve`. */
 typedef enum {
     HCI_SOLUTION_GOOD,         /* as wanted, or nothing is known of them */

@@ -26,6 +26,16 @@ enum { HCI_EMIT_SMALL_BYTES = 1024 };
 /* Without points, error or bytes: the largest error as a share of the peak current. */
 #define HCI_EMIT_ERROR_SHARE 0.01
 
+/* The least that is chosen with a machine: what a current sensor of 12 bits over plus and minus the peak
+ * still tells apart. */
+#define HCI_EMIT_LEAST_ERROR_SHARE (1.0 / 4096.0)
+
+/* The share of the ripple to be expected that a table may add to it. */
+#define HCI_EMIT_RIPPLE_SHARE 0.1
+
+/* The bytes up to which a table is held to that. */
+enum { HCI_EMIT_CHOSEN_BYTES = 16384 };
+
 /* What the numbers of a table are. */
 typedef enum {
     HCI_EMIT_F32, /* float rows, hci/table.h */
@@ -80,26 +90,30 @@ const char *hci_emit_shape_name(hci_emit_shape shape);
 
 /* What goes into a table. Start with {0}; the arrays and strings belong to the caller. */
 typedef struct {
-    const char *name;              /* of the table, its two files and nothing else: a C identifier */
-    hci_emit_format format;        /* of its numbers */
-    hci_emit_shape shape;          /* of its pieces; f32: auto or linear */
-    hci_table_frame frame;         /* phase currents, or rotor frame */
-    bool has_neutral;              /* else a star connection: no zero sequence, ic = −ia − ib */
-    const hci_wave *currents;      /* i(θ) in A, or B(θ) when there is a part proportional to torque */
-    size_t current_count;          /* 0: none */
-    const hci_wave *per_Nm;        /* A(θ) in A/(N·m) for i = T·A(θ) + B(θ), or NULL */
-    size_t per_Nm_count;           /* not used with per_Nm NULL */
-    double reference_torque_Nm;    /* > 0 with per_Nm: the largest |T| for which errors and peak are stated */
-    size_t points;                 /* f32: rows in a period; else steps in the part that is kept; 0: from
-                                    * max_error_A, or from HCI_EMIT_ERROR_SHARE without that and max_bytes */
-    double max_error_A;            /* > 0: the fewest points that keep every current within it; else 0 */
-    size_t max_bytes;              /* of rows or knots; 0: any. Alone, it gives the least error in so many */
-    size_t max_instructions;       /* of one call on a Cortex-M4F; 0: any */
-    hci_emit_facts facts;          /* for the header and the blob */
-    bool blob;                     /* NAME.bin too, for hci/blob.h; not of csv and json */
-    const char *const *provenance; /* lines for the comment, without paths and dates */
-    size_t provenance_count;       /* entries of provenance */
-    uint64_t input_hash;           /* 64-bit FNV-1a of what the currents were read from */
+    const char *name;           /* of the table, its two files and nothing else: a C identifier */
+    hci_emit_format format;     /* of its numbers */
+    hci_emit_shape shape;       /* of its pieces; f32: auto or linear */
+    hci_table_frame frame;      /* phase currents, or rotor frame */
+    bool has_neutral;           /* else a star connection: no zero sequence, ic = −ia − ib */
+    const hci_wave *currents;   /* i(θ) in A, or B(θ) when there is a part proportional to torque */
+    size_t current_count;       /* 0: none */
+    const hci_wave *per_Nm;     /* A(θ) in A/(N·m) for i = T·A(θ) + B(θ), or NULL */
+    size_t per_Nm_count;        /* not used with per_Nm NULL */
+    double reference_torque_Nm; /* > 0 with per_Nm: the largest |T| for which errors and peak are stated */
+    size_t points;              /* f32: rows in a period; else steps in the part that is kept; 0: from
+                                 * max_error_A, or without that and max_bytes chosen, see below */
+    double max_error_A;         /* > 0: the fewest points that keep every current within it; else 0 */
+    size_t max_bytes;           /* of rows or knots; 0: any. Alone, it gives the least error in so many */
+    size_t max_instructions;    /* of one call on a Cortex-M4F; 0: any */
+    const hci_machine_data *machine; /* that the currents flow in, or NULL: the ripple is not told */
+    const char *machine_folder;      /* of it; its effects.csv is read too */
+    double expected_ripple_Nm;       /* to be expected of the currents on the machine, peak to peak; 0: not
+                                      * known */
+    hci_emit_facts facts;            /* for the header and the blob */
+    bool blob;                       /* NAME.bin too, for hci/blob.h; not of csv and json */
+    const char *const *provenance;   /* lines for the comment, without paths and dates */
+    size_t provenance_count;         /* entries of provenance */
+    uint64_t input_hash;             /* 64-bit FNV-1a of what the currents were read from */
 } hci_emit_request;
 
 /* A table as it could be. */
@@ -117,6 +131,17 @@ typedef struct {
 /* One of format f32, three of splines with knots of 16 bits and three with knots of 8. */
 enum { HCI_EMIT_MOST_CHOICES = 7 };
 
+/* Ripple at one torque, peak to peak over a mechanical turn, in the model of the machine. */
+typedef struct {
+    double torque_Nm; /* mean */
+    double sine_Nm;   /* with a plain sine of current of that mean torque */
+    double with_Nm;   /* with the table, as a controller reads it */
+    double own_Nm;    /* of the torque with the table less that of the currents it was made from */
+} hci_table_ripple;
+
+/* Torques at which the ripple is told. */
+enum { HCI_TABLE_RIPPLES = 3 };
+
 /* What a table has become. */
 typedef struct {
     hci_emit_choice chosen;                        /* what was written */
@@ -128,7 +153,14 @@ typedef struct {
     double unit_A;                                 /* of the integers; NAN for f32 */
     double peak_A;                                 /* largest |phase current| */
     uint32_t crc32;                                /* of the rows or knots */
+    hci_table_ripple ripple[HCI_TABLE_RIPPLES];    /* that of the currents; of two parts at 0, T and −T */
+    size_t ripples;                                /* entries of ripple; 0: no machine is given */
 } hci_emit_result;
+
+/* Without points, error and bytes, and with a machine, the error is chosen: what makes no more than
+ * HCI_EMIT_RIPPLE_SHARE of the expected ripple, between HCI_EMIT_LEAST_ERROR_SHARE (also where that ripple is
+ * not known) and HCI_EMIT_ERROR_SHARE of the peak current, and twice, four times … that where
+ * HCI_EMIT_CHOSEN_BYTES or the format do not allow it. */
 
 /* Writes NAME.h and NAME.c, and NAME.bin where asked for, or NAME.csv or NAME.json alone, into `folder`, all
  * or none; same request, same bytes. result and note may be NULL. HCI_ERROR_ARGUMENT, _NOT_FINITE, _MEMORY,

@@ -29,7 +29,9 @@ typedef struct {
     size_t points;                   /* for targets that take any number; 0: theirs */
     double encoder_offset_deg; /* what the drive's angle is where the machine's is 0, in its own turns */
     int encoder_direction; /* 1, or −1 where it falls when the machine turns in its positive direction */
-    uint64_t input_hash;   /* 64-bit FNV-1a of what the currents were read from */
+    double
+        expected_ripple_Nm; /* of the currents on the machine, peak to peak; 0: not known; for words alone */
+    uint64_t input_hash;    /* 64-bit FNV-1a of what the currents were read from */
 } hci_emit_foreign_request;
 
 /* Ripple at one torque, peak to peak over a mechanical turn. */

@@ -41,7 +41,13 @@ typedef struct {
     double unbelievable_order; /* the order of an effect's back-EMF that is larger than magnets and windings
                                 * make it; NAN: none */
     double unbelievable_share; /* its amplitude over that of the fundamental; NAN: none */
+    double table_peak_to_peak_Nm; /* the part of peak_to_peak_Nm that the cut of a table adds; 0: currents as
+                                   * they were solved */
 } hci_expected_ripple;
+
+/* The same with a table that the currents were cut to. table_Nm: peak to peak, of the torque with the table
+ * less that of the currents; mean_Nm: of the torque. */
+void hci_expected_ripple_add_table(hci_expected_ripple *expected, double table_Nm, double mean_Nm);
 
 /* Whether what holds for the model may not hold for the machine at all: the diagnosis has not explained its
  * recordings, or a value of it is not believable. */

@@ -35,6 +35,14 @@ void hci_tuning_swing(const hci_solution *s, double *before_Nm, double *after_Nm
     *after_Nm = facts.after_Nm.high - facts.after_Nm.low;
 }
 
+/* Of the table that was emitted, where that is known. */
+static void show_before_and_after(const hci_solution_page *page, double table_Nm)
+{
+    hci_solution_page p = *page;
+    if (table_Nm > 0.0) p.facts.after_Nm = (hci_range){0.0, table_Nm};
+    hci_page_before_and_after(&p);
+}
+
 static void say_lines(hci_output *out, const char *text)
 {
     while (*text) {
@@ -144,7 +152,7 @@ void hci_page_tuning(hci_output *out, const hci_tuning *t)
     hci_html_begin(out, &(hci_html_opening){"From a log to a table", t->verdict, t->heading, t->good});
     if (t->solution) {
         hci_plot_solution_facts(t->solution, &p.facts);
-        hci_page_before_and_after(&p);
+        show_before_and_after(&p, t->table_Nm);
         show_log(out, t);
         show_open_torque(out, t);
         hci_page_torque(&p);

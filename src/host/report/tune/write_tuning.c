@@ -74,8 +74,9 @@ static void put_lines(hci_json *json, const char *name, const char *text)
     hci_json_close(json);
 }
 
-static void put_solution(hci_json *json, const hci_solution *s)
+static void put_solution(hci_json *json, const hci_tuning *t)
 {
+    const hci_solution *s = t->solution;
     double before_Nm, after_Nm;
     hci_tuning_swing(s, &before_Nm, &after_Nm);
     hci_json_object(json, "before");
@@ -87,6 +88,7 @@ static void put_solution(hci_json *json, const hci_solution *s)
     hci_json_number(json, "peak_phase_A", s->peak_phase_current_A);
     hci_json_number(json, "loss_ratio_to_plain", s->loss_to_plain);
     hci_json_number(json, "peak_to_peak_Nm", after_Nm);
+    hci_json_number(json, "table_peak_to_peak_Nm", t->table_Nm > 0.0 ? t->table_Nm : (double)NAN);
     hci_json_close(json);
     hci_summary_expected(json, &s->expected);
 }
@@ -99,7 +101,7 @@ char *hci_tuning_json(const hci_tuning *t)
     hci_json_bool(&json, "good", t->good);
     hci_json_text(&json, "verdict", t->verdict);
     hci_json_text(&json, "words", t->heading);
-    if (t->solution) put_solution(&json, t->solution);
+    if (t->solution) put_solution(&json, t);
     for (int k = 0; k < HCI_TUNING_PARTS; ++k)
         put_lines(&json, KEYS[k], t->part[k]);
     put_lines(&json, "commands", t->commands);

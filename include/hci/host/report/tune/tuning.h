@@ -31,6 +31,7 @@ typedef struct {
     char commands[HCI_TUNING_TEXT];               /* the steps, for a shell */
     const hci_solution *solution;                 /* the currents; NULL: none were solved */
     hci_status solved;                            /* what solving them answered */
+    double table_Nm;                              /* ripple with the table, in the model; 0: not known */
     const hci_run *log;                           /* the recording that is shown; NULL: none */
     const char *log_name;                         /* as it was given */
     const double *open_Nm;   /* torque without current over a turn, HCI_TUNING_POINTS; NULL: none */
