@@ -8,6 +8,9 @@
 #define APART             2.0  /* ratio of speeds that are different */
 #define FURTHER           4.0  /* ratio to a further one where all are the same */
 
+/* A recording of fewer turns may be repeated. */
+enum { LEAST_RECORDED_TURNS = 10 };
+
 /* ---- what may be played ---- */
 
 static double mean_noise_Nm(const hci_regression *e)
@@ -81,7 +84,46 @@ hci_playable hci_playable_of(const hci_regression *e, const hci_machine_data *ma
     x.most_V = machine->dc_link_voltage_V > 0.0 ? machine->dc_link_voltage_V / sqrt(3.0) : (double)INFINITY;
     x.volts_s = hci_machine_torque_constant(machine) / 1.5;
     x.ohm = machine->resistance_ohm > 0.0 ? machine->resistance_ohm : 0.0;
+    x.recorded = e->samples->statistics;
+    x.use = e->use;
+    x.recorded_count = e->samples->run_count;
     return x;
+}
+
+/* ---- what was recorded ---- */
+
+#define SAME_CURRENT 0.05 /* of the largest current */
+#define SAME_SPEED   0.1  /* of the speed */
+
+static bool is_recorded_by(const hci_playable *x, const hci_run_statistics *run,
+                           const hci_operating_point *at)
+{
+    const double near_A = SAME_CURRENT * x->most_A;
+    const double flowing_A = hypot(run->mean_id_A, run->mean_iq_A);
+    return run->turns >= LEAST_RECORDED_TURNS && isfinite(at->iq_A) &&
+           fabs(run->mean_speed_rad_per_s - at->speed_rad_per_s) <= SAME_SPEED * fabs(at->speed_rad_per_s) &&
+           hypot(run->mean_id_A - at->id_A, run->mean_iq_A - at->iq_A) <= near_A &&
+           run->current_A - flowing_A <= near_A;
+}
+
+static bool is_recorded(const hci_playable *x, const hci_operating_point *at)
+{
+    for (size_t r = 0; r < x->recorded_count; ++r)
+        if (x->use[r] && is_recorded_by(x, &x->recorded[r], at)) return true;
+    return false;
+}
+
+/* Leaves those that are not recorded yet, in their order. Returns how many. */
+static size_t leave_new(const hci_playable *x, hci_operating_point *point, size_t count)
+{
+    size_t left = 0;
+    for (size_t k = 0; k < count; ++k)
+        left += !is_recorded(x, &point[k]);
+    if (left == 0) return count;
+    left = 0;
+    for (size_t k = 0; k < count; ++k)
+        if (!is_recorded(x, &point[k])) point[left++] = point[k];
+    return left;
 }
 
 /* ---- the grid ---- */
@@ -135,5 +177,5 @@ size_t hci_operating_points(const hci_playable *x, hci_operating_point *point)
             count = both_ways(x, -current_A * sin(AHEAD_RAD[a]), current_A * cos(AHEAD_RAD[a]), count, point);
         count = both_ways(x, 0.0, -current_A, count, point);
     }
-    return count;
+    return leave_new(x, point, count);
 }

@@ -17,6 +17,10 @@ typedef struct {
     double volts_s, ohm;  /* peak back-EMF of a phase per mechanical rad/s; resistance or 0 */
     double noise_Nm;      /* of a sample */
     double temperature_C; /* of the last recording that tells it, or NAN */
+    const hci_run_statistics
+        *recorded;   /* [recorded_count], of the recordings so far; those that are not used */
+    const bool *use; /* have false here, and are no reason not to record a point */
+    size_t recorded_count;
 } hci_playable;
 
 /* rated_current and rated_speed where the machine declares them, else what was recorded; the voltage of
@@ -34,7 +38,8 @@ typedef struct {
 
 enum { HCI_OPERATING_POINTS = 64 };
 
-/* Fills point[HCI_OPERATING_POINTS]; returns how many there are, at least one. */
+/* Fills point[HCI_OPERATING_POINTS] with what no recording of ten turns or more has shown, or with all where
+ * all have been; returns how many there are, at least one. */
 size_t hci_operating_points(const hci_playable *playable, hci_operating_point *point);
 
 #endif

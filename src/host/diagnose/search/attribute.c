@@ -98,6 +98,24 @@ static hci_status rival_mark(hci_search *s, hci_attribution *a, size_t type, con
     return status;
 }
 
+/* The same, unless the recordings contradict it in that place: means of a few runs may look alike in sum
+ * where one run alone, such as one without a current, tells the two apart. */
+static hci_status rival_mark_unless_worse(hci_search *s, hci_attribution *a, size_t type,
+                                          const hci_effect_type *as, hci_note *note)
+{
+    hci_verdict *v = &a->verdict[type], *other = &a->verdict[verdict_at(a, as)];
+    const bool was_ambiguous = other->ambiguous;
+    const hci_status status = rival_mark(s, a, type, as, note);
+    if (status || !v->alternative.candidates.candidate ||
+        v->alternative.fit.score < a->model.fit.score + HCI_DECISIVE)
+        return status;
+    v->ambiguous = false;
+    v->rival_of = NULL;
+    other->ambiguous = was_ambiguous;
+    hci_fitted_model_release(&v->alternative);
+    return HCI_OK;
+}
+
 /* Marks a type that looks the same as a part of another, unless it would explain nothing without that. */
 static hci_status same_mark(hci_search *s, hci_attribution *a, size_t type, const hci_effect_type *as,
                             hci_note *note)
@@ -106,7 +124,7 @@ static hci_status same_mark(hci_search *s, hci_attribution *a, size_t type, cons
     if (v->in || v->ambiguous || !a->plausible[verdict_at(a, as)][type] || is_convention(v->type, as))
         return HCI_OK;
     if (v->type->seen_as || as->seen_as == v->type) return HCI_OK;
-    return rival_mark(s, a, type, as, note);
+    return rival_mark_unless_worse(s, a, type, as, note);
 }
 
 /* Effects that look the same as a part of one that is in. */
