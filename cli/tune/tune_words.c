@@ -229,12 +229,44 @@ static void say_fall(cli_tuning *t, char *text, size_t size)
                  after_Nm < before_Nm ? "falls to" : "becomes one of", after_Nm, not_known(t));
 }
 
+/* Whether no log has a torque of any kind. */
+static bool lacks_torque(const cli_tuning *t)
+{
+    for (size_t k = 0; k < t->runs.count; ++k)
+        if (t->runs.run[k].torque_source != HCI_TORQUE_NONE || t->runs.run[k].needs_inertia) return false;
+    return t->runs.count > 0;
+}
+
+/* A column that was not read and may be the torque; NULL: none. */
+static const char *torque_like(const cli_tuning *t)
+{
+    for (size_t k = 0; k < t->runs.count; ++k)
+        if (t->runs.run[k].torque_like[0]) return t->runs.run[k].torque_like;
+    return NULL;
+}
+
+/* What is not in the logs goes before what is. */
+static void say_lack_of_torque(const cli_tuning *t, char *text, size_t size)
+{
+    const char *column = torque_like(t);
+    if (column)
+        snprintf(
+            text, size,
+            "No log has a torque, so the table takes no cogging torque away; if the column `%s` is one, add "
+            "--column 'torque_Nm=%s'",
+            column, column);
+    else
+        snprintf(text, size, "No log has a torque, so the table takes no cogging torque away");
+}
+
 static void set_heading(cli_tuning *t)
 {
     hci_tuning *r = &t->tuning;
     double before_Nm, after_Nm;
     hci_tuning_swing(&t->solution, &before_Nm, &after_Nm);
-    if (before_Nm >= t->solution.tolerance_Nm)
+    if (lacks_torque(t) && !t->has_cogging && t->declared.model.cogging_count == 0)
+        say_lack_of_torque(t, r->heading, sizeof r->heading);
+    else if (before_Nm >= t->solution.tolerance_Nm)
         say_fall(t, r->heading, sizeof r->heading);
     else if (unexplained_Nm(t) > 0.0)
         snprintf(r->heading, sizeof r->heading,
@@ -277,6 +309,16 @@ static const char *why_not_solved(const cli_tuning *t)
                               : "The logs tell neither cogging torque nor back-EMF, so nothing was solved";
 }
 
+static void say_why_not_solved(cli_tuning *t)
+{
+    hci_tuning *r = &t->tuning;
+    const char *column = lacks_torque(t) ? torque_like(t) : NULL;
+    snprintf(r->heading, sizeof r->heading, "%s", why_not_solved(t));
+    if (column)
+        snprintf(r->heading + strlen(r->heading), sizeof r->heading - strlen(r->heading),
+                 "; if the column `%s` is a torque, add --column 'torque_Nm=%s'", column, column);
+}
+
 static const char *verdict_of(const cli_tuning *t)
 {
     return t->tuning.good                                  ? "tuned"
@@ -302,7 +344,7 @@ void cli_tune_conclude(cli_tuning *t)
     if (t->is_solved)
         set_heading(t);
     else
-        snprintf(r->heading, sizeof r->heading, "%s", why_not_solved(t));
+        say_why_not_solved(t);
     add_to_heading(t);
 }
 

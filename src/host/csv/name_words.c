@@ -76,13 +76,14 @@ static const struct {
          "estimated computed calcolata calcolato stimata calculado estimado"},
     [MEASURED] = {"measured",
                   "gemessen gemessenes mess messwert measured meas mesure mesuree misurato misurata medido "
-                  "medida sensor aufnehmer messnabe capteur sensore transducer external extern"},
+                  "medida sensor aufnehmer messnabe messflansch capteur couplemetre sensore torsiometro "
+                  "transducer torquemeter external extern"},
     [ACTUAL] = {"actual", "ist istwert actual act reel attuale feedback fb retour"},
     [ROTOR] =
         {"rotor or motor",
          "rotor laufer laeufer motor mot moteur motore magnet aimant magnete encoder drehgeber geber codeur"},
-    [SHAFT] = {"shaft", "welle shaft arbre albero eje"},
-    [PHASE] = {"phase", "phase fase strang leiter"},
+    [SHAFT] = {"shaft", "welle motorwelle shaft arbre albero eje"},
+    [PHASE] = {"phase", "phase fase strang leiter klemme klemmen terminal terminals borne bornes morsetto"},
     [ALONG_D] = {"along d", "d sd feldbildend feldbildender langsstrom laengsstrom"},
     [ALONG_Q] = {"along q", "q sq momentenbildend momentenbildender querstrom"},
     [RATE] = {"rate of sampling", "standardmessrate messrate schnelle langsame default sample rate elapsed "
@@ -280,22 +281,42 @@ static bool has(const name_words *w, word_kind kind)
     return count_of(w, kind) > 0;
 }
 
+/* The place of a word in a list, three by three; −1: it is not there. */
+static int place_in(const char *list, const char *word)
+{
+    int place = 0;
+    for (const char *at = list; *at != '\0'; at += strcspn(at, " "), at += *at == ' ', ++place) {
+        const size_t length = strcspn(at, " ");
+        if (strlen(word) == length && memcmp(at, word, length) == 0) return place % 3;
+    }
+    return -1;
+}
+
 /* The phase that one word or none names: 0 to 2; −1: none, or several. */
 static int letter_of(const name_words *w, const char *list)
 {
     int found = -1;
     for (size_t k = 0; k < w->count; ++k) {
         if (w->kind[k] != LETTER) continue;
-        const char *at = list;
-        int place = 0;
-        for (; *at != '\0'; at += strcspn(at, " "), at += *at == ' ', ++place) {
-            const size_t length = strcspn(at, " ");
-            if (strlen(w->word[k]) == length && memcmp(at, w->word[k], length) == 0) break;
-        }
-        if (*at == '\0' || found >= 0) return -1;
-        found = place % 3;
+        const int place = place_in(list, w->word[k]);
+        if (place < 0 || found >= 0) return -1;
+        found = place;
     }
     return found;
+}
+
+/* From one phase to the next: "UV", or "U-V" as two words that follow each other. */
+static int pair_of(const name_words *w)
+{
+    char both[3] = "";
+    if (count_of(w, LETTER) != 2) return letter_of(w, PAIRS);
+    for (size_t k = 0; k + 1 < w->count; ++k)
+        if (w->kind[k] == LETTER && w->kind[k + 1] == LETTER && w->word[k][1] == '\0' &&
+            w->word[k + 1][1] == '\0') {
+            both[0] = w->word[k][0];
+            both[1] = w->word[k + 1][0];
+        }
+    return place_in(PAIRS, both);
 }
 
 /* d, q or a phase, as a place in the five of a quantity; −1: none of them. */
@@ -314,7 +335,7 @@ static const hci_alias *current_of(const name_words *w)
 
 static const hci_alias *voltage_of(const name_words *w)
 {
-    const int axis = axis_of(w), pair = letter_of(w, PAIRS);
+    const int axis = axis_of(w), pair = pair_of(w);
     return axis >= 0 ? &OF_VOLTAGE[axis] : pair >= 0 ? &OF_LINE[pair] : NULL;
 }
 
@@ -322,7 +343,7 @@ static const hci_alias *voltage_of(const name_words *w)
 static const hci_alias *angle_of(const name_words *w, const hci_unit *unit)
 {
     const bool turns = has(w, TURNING) || has(w, ROTOR) || has(w, SHAFT) || is_in(unit, "rad");
-    if ((has(w, POSITION) && !turns) || has(w, PHASE)) return NULL;
+    if ((has(w, POSITION) && !has(w, ANGLE) && !turns) || has(w, PHASE)) return NULL;
     return has(w, MECHANICAL) != has(w, ELECTRICAL) ? &OF_ANGLE[has(w, ELECTRICAL)] : &OF_ANGLE[2];
 }
 
@@ -350,16 +371,24 @@ static const hci_alias *quantity_of(const name_words *w, const hci_unit *unit)
     return has(w, TEMPERATURE) && has(w, ROTOR) ? &OF_TEMPERATURE : NULL;
 }
 
-/* One quantity, and no word that could turn it into another: numbers and rates stand with a time alone, the
- * name of a device before all others, "estimated" with a torque alone. */
+/* A name of a type as T40B; T2 would be the second of several. */
+static bool is_type(const char *word)
+{
+    return strlen(word) > 2;
+}
+
+/* One quantity, which several words may say ("Drehmoment (Messwelle)"; where it stands is an angle, too), and
+ * no word that could turn it into another: numbers and rates stand with a time alone, the name of a device
+ * before all others or with a torque, "estimated" with a torque alone. */
 static bool is_sound(const name_words *w)
 {
     size_t quantities = 0;
     for (int k = 0; k < QUANTITIES; ++k)
-        quantities += count_of(w, (word_kind)k);
+        quantities += has(w, (word_kind)k) && !(k == POSITION && has(w, ANGLE));
     for (size_t k = 0; k < w->count; ++k) {
         const word_kind kind = w->kind[k];
-        if (kind == UNKNOWN || (kind == DEVICE && k > 0)) return false;
+        if (kind == UNKNOWN || (kind == DEVICE && k > 0 && !(has(w, TORQUE) && is_type(w->word[k]))))
+            return false;
         if ((kind == NUMBER || kind == RATE) && !has(w, TIME)) return false;
         if (kind == COMPUTED && !has(w, TORQUE)) return false;
     }
@@ -421,6 +450,31 @@ static bool ends_in_unit(const char *name)
         if (strncmp(at, "hase", 4) == 0 || strncmp(at, "HASE", 4) == 0 || strncmp(at, "ase ", 4) == 0)
             return false;
     return true;
+}
+
+/* Words of what is wanted, limited or put on, not of what is. */
+static const char NOT_MEASURED[] =
+    "soll sollwert vorgabe last lastmoment grenze max min ref reference command cmd setpoint demand target "
+    "limit load consigne riferimento consigna referencia reference true model residual";
+
+bool hci_name_words_like_torque(const char *name, const hci_unit *of_row)
+{
+    name_words w = {.count = 0};
+    bool is_like = is_in(of_row, "N*m");
+    for (size_t end = 1; name[0] != '\0' && name[end] != '\0'; ++end)
+        is_like =
+            is_like || (strchr("_([/, ", name[end]) && is_in(hci_column_unit_of_tail(name + end), "N*m"));
+    char plain[MOST_BYTES];
+    size_t used = 0;
+    for (; name[used] != '\0' && used + 1 < sizeof plain; ++used) /* the words alone, whatever is between */
+        plain[used] = is_letter(name[used]) || is_digit(name[used]) || (name[used] & 0x80) ? name[used] : ' ';
+    plain[used] = '\0';
+    if (!cut(plain, used, &w)) return is_like;
+    for (size_t k = 0; k < w.count; ++k) {
+        if (is_among(NOT_MEASURED, w.word[k])) return false;
+        is_like = is_like || kind_of(w.word[k]) == TORQUE;
+    }
+    return is_like;
 }
 
 bool hci_name_words_are_clear(const hci_alias *said)

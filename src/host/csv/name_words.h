@@ -16,6 +16,9 @@
  * none. O(length · words). */
 const hci_alias *hci_name_words(const char *name, const hci_unit *of_row, const hci_unit **unit);
 
+/* Whether a name that is not read may be that of a measured torque: by a word or its unit. */
+bool hci_name_words_like_torque(const char *name, const hci_unit *of_row);
+
 /* Whether an alias is one of words that leave nothing to be checked where the file says the unit. */
 bool hci_name_words_are_clear(const hci_alias *said);
 

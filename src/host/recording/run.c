@@ -488,6 +488,8 @@ static hci_status read_all(reader *r)
     if (!status) status = read_voltages(r);
     if (!status) status = read_column(r, HCI_RUN_TEMPERATURE, &run->temperature_C);
     if (!status) status = read_torque(r);
+    if (!status && run->torque_source == HCI_TORQUE_NONE)
+        hci_run_columns_torque_like(&r->columns, run->torque_like);
     if (!status) hci_run_columns_tell_unused(&r->columns);
     return status;
 }

@@ -354,6 +354,20 @@ void hci_run_columns_tell_unused(const hci_run_columns *c)
     hci_csv_unused(c->csv, c->used, c->remark);
 }
 
+void hci_run_columns_torque_like(const hci_run_columns *c, char name[HCI_RUN_NAME])
+{
+    char quoted[HCI_QUOTE_SIZE];
+    for (size_t column = 0; column < hci_csv_columns(c->csv) && name[0] == '\0'; ++column) {
+        const char *is = hci_csv_name(c->csv, column);
+        if (c->used[column] || strlen(is) >= HCI_RUN_NAME ||
+            !hci_name_words_like_torque(is, hci_csv_row_unit(c->csv, column)))
+            continue;
+        snprintf(name, HCI_RUN_NAME, "%s", is);
+        hci_note_add(c->remark, "%s may be the torque: if it is, add --column 'torque_Nm=%s'",
+                     hci_quote(is, quoted), is);
+    }
+}
+
 /* ---- three phases */
 
 int hci_run_phase_count(const hci_run_columns *c, hci_run_column first)

@@ -7,6 +7,7 @@
 #define HCI_SRC_HOST_RECORDING_RUN_COLUMNS_H
 
 #include "hci/host/csv/csv.h"
+#include "hci/host/recording/run.h"
 
 /* Phases of one kind follow each other. */
 #define HCI_RUN_COLUMNS(X)                                                                                   \
@@ -55,6 +56,10 @@ typedef struct {
  * {0}. *c is to be released even after a failure. HCI_ERROR_INPUT for a file without samples, without angle
  * or voltages, or with an angle that may be mechanical or electrical; HCI_ERROR_MEMORY. */
 hci_status hci_run_columns_find(const hci_csv *csv, hci_run_columns *c, hci_note *remark, hci_note *note);
+
+/* The column that was not read and may be a measured torque, which the remark tells, too. name: out, left
+ * where there is none. */
+void hci_run_columns_torque_like(const hci_run_columns *c, char name[HCI_RUN_NAME]);
 
 /* Adds to an error which column may be the angle, and how to say it. */
 void hci_run_columns_say_angle(const hci_run_columns *c, hci_note *missing);

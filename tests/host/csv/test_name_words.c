@@ -127,6 +127,30 @@ static const struct {
     {"Corrente di fase S (A)", "ib_A"},
     {"Intensidad fase 2 (A)", "ib_A"},
     {"External Torque (Nm)", "torque_Nm"},
+    {"Drehmoment (Messwelle)", "torque_Nm"},
+    {"Messwelle Drehmoment [Nm]", "torque_Nm"},
+    {"Drehmoment Messwelle", "torque_Nm"},
+    {"Drehmoment (Messflansch T40B) [Nm]", "torque_Nm"},
+    {"Moment (Drehmomentsensor)", "torque_Nm"},
+    {"Couple (couplemètre) [N.m]", "torque_Nm"},
+    {"Couple arbre (torque)", "torque_Nm"},
+    {"Torque (T20WN) [Nm]", "torque_Nm"},
+    {"Torque T2 [Nm]", ""},
+    {"Drehmoment (Drehzahl)", ""},
+    {"Drehzahl (Geschwindigkeit) [U/min]", "speed_rad_per_s"},
+    {"Speed (velocity) [rpm]", "speed_rad_per_s"},
+    {"Vitesse (régime) [tr/min]", "speed_rad_per_s"},
+    {"Rotorwinkel (Winkel mech.) [°]", "theta_m_rad"},
+    {"Winkel elektr. (Position) [°]", "theta_e_rad"},
+    {"Position (angle méca) [°]", "theta_m_rad"},
+    {"Strom U (Phasenstrom) [A]", "ia_A"},
+    {"Phasenstrom (Strom L2) [A]", "ib_A"},
+    {"Courant phase 1 (intensité) [A]", "ia_A"},
+    {"Spannung U-V (Klemmenspannung) [V]", "vab_V"},
+    {"Spannung V (Klemme) [V]", "vb_V"},
+    {"Zeit (Zeitstempel)", "time_s"},
+    {"Temperatur (Magnettemperatur)", ""},
+    {"Temperatur (Temperature) Magnet [°C]", "temperature_C"},
     {"Temperatur Magnet [°C]", "temperature_C"},
     {"Temperatur Raum [°C]", ""},
 };
@@ -146,6 +170,19 @@ static void test_names_in_words(void)
                                   hci_csv_check_clear(csv, &note) == HCI_OK, NAMES[k].header);
         hci_csv_free(csv);
     }
+}
+
+static void test_names_that_look_like_a_torque(void)
+{
+    const hci_unit *Nm = hci_unit_find("N*m", 3);
+    TEST_ASSERT_TRUE(hci_name_words_like_torque("Drehmoment XY7 (Kanal 3)", NULL));
+    TEST_ASSERT_TRUE(hci_name_words_like_torque("Kanal 3 [Nm]", NULL));
+    TEST_ASSERT_TRUE(hci_name_words_like_torque("Kanal 3", Nm));
+    TEST_ASSERT_TRUE(hci_name_words_like_torque("torque@shaft#2", NULL));
+    TEST_ASSERT_FALSE(hci_name_words_like_torque("Drehmoment soll [Nm]", NULL));
+    TEST_ASSERT_FALSE(hci_name_words_like_torque("torque_command_Nm", NULL));
+    TEST_ASSERT_FALSE(hci_name_words_like_torque("Temperatur Raum", NULL));
+    TEST_ASSERT_FALSE(hci_name_words_like_torque("", NULL));
 }
 
 static double second_number(const hci_csv *csv, const char *column)
@@ -276,6 +313,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_names_in_words);
+    RUN_TEST(test_names_that_look_like_a_torque);
     RUN_TEST(test_units_of_other_languages);
     RUN_TEST(test_a_clock_below_its_format);
     RUN_TEST(test_what_is_told);

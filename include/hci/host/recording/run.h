@@ -23,6 +23,9 @@ typedef enum {
     HCI_TORQUE_INERTIA   /* a free shaft: moment of inertia × angular acceleration */
 } hci_torque_source;
 
+/* Bytes of the name of a column that is told. */
+enum { HCI_RUN_NAME = 96 };
+
 /* Columns of `count` samples as they were recorded; what the run does not have is NULL. Start with {0}. */
 typedef struct {
     char *name;              /* the file as the list names it */
@@ -58,8 +61,10 @@ typedef struct {
                                 per ampere is not told */
     bool has_sum;            /* all three currents were recorded, so that their sum says something */
     int computed_phase; /* 1, 2, 3: of two phase currents the third was made, so that the sum is 0; 0: not */
-    size_t *row;        /* [count], of the file, from 0; NULL: each row is a sample */
-    hci_note remark;    /* what was supposed on reading, or "" */
+    char torque_like[HCI_RUN_NAME]; /* no torque was read, and this column, which was not, may be one; "":
+                                       none */
+    size_t *row;                    /* [count], of the file, from 0; NULL: each row is a sample */
+    hci_note remark;                /* what was supposed on reading, or "" */
 } hci_run;
 
 /* What reading a run asks for beside its file. */
