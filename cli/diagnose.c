@@ -179,7 +179,8 @@ static const hci_check *check_of(inputs *in)
         run[count] = in->runs.origin[count].path;
     reading.holding = false;
     if (count > 0)
-        in->has_check = hci_check_files(in->folder, run, count, &reading, &in->check, &note) <= HCI_NOT_REACHED;
+        in->has_check =
+            hci_check_files(in->folder, run, count, &reading, &in->check, &note) <= HCI_NOT_REACHED;
     in->is_checked = true;
     return in->has_check ? &in->check : NULL;
 }
@@ -202,8 +203,8 @@ static void show_convention(inputs *in, const hci_diagnosis *d)
         if (check->finding[k].probability >= LIKELY) cli_show_convention(&check->finding[k]);
 }
 
-static int give_results(const cli_arguments *a, inputs *in, const hci_diagnosis *d,
-                        const hci_resolution *r, hci_status verdict)
+static int give_results(const cli_arguments *a, inputs *in, const hci_diagnosis *d, const hci_resolution *r,
+                        hci_status verdict)
 {
     hci_note note = {{0}};
     hci_status status = HCI_OK;
@@ -221,8 +222,7 @@ static int give_results(const cli_arguments *a, inputs *in, const hci_diagnosis 
 }
 
 /* What was found, and where it was wanted the currents for it. */
-static int solve_and_give(const cli_arguments *a, inputs *in, const hci_diagnosis *d,
-                          hci_status verdict)
+static int solve_and_give(const cli_arguments *a, inputs *in, const hci_diagnosis *d, hci_status verdict)
 {
     const hci_solve_options how = {.target = &in->target, .progress = in->options.progress};
     hci_resolution resolution;

@@ -84,10 +84,9 @@ static void add_alternatives(const check_posterior *p, hci_check_finding *findin
  * off those of another zero. */
 static bool is_no_effect(const check_error *error)
 {
-    static const int ASPECTS[] = {CHECK_OF_POLES,      CHECK_OF_THETA,        CHECK_OF_THETA_UNIT,
-                                  CHECK_OF_DIRECTION,  CHECK_OF_PHASES,       CHECK_OF_CURRENT_SIGN,
-                                  CHECK_OF_TORQUE,     CHECK_OF_TORQUE_UNIT,  CHECK_OF_SPEED,
-                                  CHECK_OF_EMF_ORDER};
+    static const int ASPECTS[] = {
+        CHECK_OF_POLES,        CHECK_OF_THETA,  CHECK_OF_THETA_UNIT,  CHECK_OF_DIRECTION, CHECK_OF_PHASES,
+        CHECK_OF_CURRENT_SIGN, CHECK_OF_TORQUE, CHECK_OF_TORQUE_UNIT, CHECK_OF_SPEED,     CHECK_OF_EMF_ORDER};
     for (size_t k = 0; k < sizeof ASPECTS / sizeof *ASPECTS; ++k)
         if (error->aspect == ASPECTS[k]) return true;
     return false;

@@ -14,6 +14,7 @@
 #include "host/diagnose/held_out.h"
 #include "host/diagnose/next_points.h"
 #include "host/diagnose/open_voltage.h"
+#include "host/diagnose/prepare/swing_groups.h"
 #include "host/diagnose/run_errors.h"
 #include "host/diagnose/search/attribute.h"
 #include "host/diagnose/search/backward.h"
@@ -56,6 +57,17 @@ static hci_status effects_fill(const hci_regression *e, const hci_candidates *ca
 
 /* ---- the whole ---- */
 
+static void swings_fill(const hci_binned_samples *samples, hci_diagnosis *d)
+{
+    const hci_swing_groups found = hci_swing_groups_find(samples->statistics, samples->run_count);
+    d->swings = 0;
+    for (size_t k = 0; k < found.count && d->swings < HCI_MOST_FREE_SWINGS; ++k) {
+        const hci_swing_group *g = &found.group[k];
+        d->swing[d->swings++] =
+            (hci_free_swing){g->of_turn, g->frequency, g->error, g->amplitude_Nm, g->runs};
+    }
+}
+
 /* What no effect explains is described, and then leaves: it never gets into a machine. */
 static hci_status fill(hci_dataset *b, const hci_runs *runs, hci_attribution *a, hci_diagnosis *d,
                        hci_note *note)
@@ -66,6 +78,7 @@ static hci_status fill(hci_dataset *b, const hci_runs *runs, hci_attribution *a,
     d->not_searched = a->not_searched;
     d->disbelieved = a->disbelieved && a->unknown ? a->disbelieved->name : NULL;
     d->disbelieved_share = a->disbelieved_share;
+    swings_fill(&b->samples, d);
     hci_unexplained_fill(b, a, d);
     hci_candidates_remove_type(&a->model.candidates, &hci_empirical_type);
     hci_status status = effects_fill(&b->regression, &a->model.candidates, d, note);

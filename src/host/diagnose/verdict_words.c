@@ -117,10 +117,11 @@ static bool is_unfinished(const hci_diagnosis *d)
 /* No effect was looked for. */
 static void say_not_searched(const hci_words *w, const hci_diagnosis *d)
 {
-    hci_words_say(w,
-                  "No effect was looked for, since none makes what is wrong with the files: %s. As declared the "
-                  "machine leaves %.3g N·m rms of what was measured. Mend that first: see with `check`.",
-                  d->slip, d->rms_before_Nm);
+    hci_words_say(
+        w,
+        "No effect was looked for, since none makes what is wrong with the files: %s. As declared the "
+        "machine leaves %.3g N·m rms of what was measured. Mend that first: see with `check`.",
+        d->slip, d->rms_before_Nm);
 }
 
 static void say_not_known(const hci_words *w, const hci_diagnosis *d)
@@ -169,6 +170,24 @@ static void say_unknown(const hci_words *w, const hci_diagnosis *d)
                              : " What would explain all runs says nothing of a run left out.");
     if (d->wanders) hci_words_say(w, " Something in it does not repeat with the turn of the rotor.");
     say_orders_left(w, d);
+}
+
+/* What was taken out, since it is none of the motor's. */
+static void say_swings(const hci_words *w, const hci_diagnosis *d)
+{
+    for (size_t k = 0; k < d->swings; ++k) {
+        const hci_free_swing *x = &d->swing[k];
+        hci_words_say(w, "%s swing of %.3g N·m %s %.5g ± %.1g %s (%zu of %zu runs)",
+                      k == 0               ? " The torque has a"
+                      : k + 1 == d->swings ? " and a"
+                                           : ", a",
+                      x->amplitude_Nm, x->of_turn ? "that comes" : "at", x->frequency, x->error,
+                      x->of_turn ? "times a turn" : "Hz", x->runs, d->runs);
+    }
+    if (d->swings > 0)
+        hci_words_say(
+            w, ", which does not repeat with the turn of the rotor, as of the load, a belt or the mains: "
+               "it was taken out.");
 }
 
 /* A torque that no sensor has read is right only where the shaft drives nothing. */
@@ -296,6 +315,7 @@ void hci_diagnosis_words(const hci_diagnosis *d, char *text, size_t size)
         say_nothing_measured(&w);
     else
         say_verdict(&w, d);
+    say_swings(&w, d);
     say_open_voltage(&w, d);
     say_free_shafts(&w, d);
 }

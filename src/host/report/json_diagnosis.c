@@ -53,6 +53,17 @@ static void put_unexplained(hci_json *json, const hci_unexplained *u)
     hci_json_close(json);
 }
 
+static void put_swing(hci_json *json, const hci_free_swing *x)
+{
+    hci_json_object(json, NULL);
+    hci_json_bool(json, "of_turn", x->of_turn);
+    hci_json_number(json, "frequency", x->frequency);
+    hci_json_number(json, "error", x->error);
+    hci_json_number(json, "amplitude_Nm", x->amplitude_Nm);
+    hci_json_number(json, "runs", (double)x->runs);
+    hci_json_close(json);
+}
+
 static void put_next_point(hci_json *json, const hci_next_point *p)
 {
     hci_json_object(json, NULL);
@@ -91,6 +102,10 @@ static void put_lists(hci_json *json, const hci_diagnosis *d)
     hci_json_array(json, "unexplained");
     for (size_t k = 0; k < d->unexplained_count; ++k)
         put_unexplained(json, &d->unexplained[k]);
+    hci_json_close(json);
+    hci_json_array(json, "swings");
+    for (size_t k = 0; k < d->swings; ++k)
+        put_swing(json, &d->swing[k]);
     hci_json_close(json);
     hci_json_array(json, "measure_next_points");
     for (size_t k = 0; k < d->next_points; ++k)

@@ -41,8 +41,8 @@ static const char *phases_are_swapped(void *asked)
     return "phases b and c are swapped";
 }
 
-/* Whether something is wrong with the files is asked where the machine is far off, and no effect is looked for
- * then. */
+/* Whether something is wrong with the files is asked where the machine is far off, and no effect is looked
+ * for then. */
 static void test_a_slip_is_not_searched(void)
 {
     int asked = 0;

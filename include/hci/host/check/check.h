@@ -51,10 +51,10 @@ typedef struct {
     char found[HCI_CHECK_TEXT];     /* what stands there */
     char should_be[HCI_CHECK_TEXT]; /* what it should be */
     double probability;             /* of all readings with this slip */
-    bool is_no_effect;              /* no effect of a machine or a bench makes numbers like these: poles for pole
-                                     * pairs, swapped phases, a sign, a unit of the angle */
-    char words[HCI_CHECK_WORDS];    /* what it means */
-    const char *told_by;            /* what would tell it from its alternatives; static */
+    bool is_no_effect;           /* no effect of a machine or a bench makes numbers like these: poles for pole
+                                  * pairs, swapped phases, a sign, a unit of the angle */
+    char words[HCI_CHECK_WORDS]; /* what it means */
+    const char *told_by;         /* what would tell it from its alternatives; static */
     const char *alternative[HCI_CHECK_MOST_ALTERNATIVES]; /* slips that mend the same things */
     size_t alternatives;                                  /* entries of alternative in use */
 } hci_check_finding;

@@ -13,20 +13,20 @@
 extern "C" {
 #endif
 
-/* What is wrong with files of the machine or of the recordings that no effect makes, such as swapped phases, in
- * words that outlive the diagnosis; NULL: nothing. */
+/* What is wrong with files of the machine or of the recordings that no effect makes, such as swapped phases,
+ * in words that outlive the diagnosis; NULL: nothing. */
 typedef const char *hci_diagnose_slip(void *context);
 
 /* How to look. All zeros will do. */
 typedef struct {
     double resolution; /* what the model is not asked to be better than, as a share of the largest rms torque
                         * of a run; 0: 5e-4 */
-    hci_progress *progress; /* may be NULL */
-    void *progress_context; /* first argument of progress */
-    hci_stop *stop;         /* asked during the search for effects and what follows; may be NULL */
-    void *stop_context;     /* first argument of stop */
-    hci_diagnose_slip *slip; /* asked where the declared machine leaves more than half of all torque: no effect is
-                              * looked for then if there is one; may be NULL */
+    hci_progress *progress;  /* may be NULL */
+    void *progress_context;  /* first argument of progress */
+    hci_stop *stop;          /* asked during the search for effects and what follows; may be NULL */
+    void *stop_context;      /* first argument of stop */
+    hci_diagnose_slip *slip; /* asked where the declared machine leaves more than half of all torque: no
+                              * effect is looked for then if there is one; may be NULL */
     void *slip_context;      /* first argument of slip */
 } hci_diagnose_options;
 
@@ -78,6 +78,15 @@ typedef struct {
     double noise_Nm;            /* amplitude that noise alone exceeds once in twenty times */
 } hci_residual_line;
 
+/* A torque that swings beside the turn of the rotor, of the load, a belt or the mains: no effect, and taken
+ * out of the torque of each run that has it. */
+typedef struct {
+    bool of_turn;            /* frequency and error are per turn of the rotor, else in Hz */
+    double frequency, error; /* error: standard error */
+    double amplitude_Nm;     /* mean of the runs */
+    size_t runs;             /* in so many */
+} hci_free_swing;
+
 /* An order that no effect explains, and how it grows over the runs:
  * T = (S sin nθ + C cos nθ) |i/A|^a |ω/(rad/s)|^b (sign ω)^c, a description and not physics. */
 typedef struct {
@@ -105,8 +114,8 @@ typedef struct {
 /* How such a run is recorded in a word: dyno (with a torque sensor), holding, free; a static string. */
 const char *hci_next_test_name(hci_torque_source source);
 
-/* Capacities: of effects, and of orders that none explains, of runs to record next. */
-enum { HCI_MOST_FINDINGS = 32, HCI_MOST_UNEXPLAINED = 8, HCI_MOST_NEXT_POINTS = 8 };
+/* Capacities: of effects, of orders that none explains, of runs to record next, of swings. */
+enum { HCI_MOST_FINDINGS = 32, HCI_MOST_UNEXPLAINED = 8, HCI_MOST_NEXT_POINTS = 8, HCI_MOST_FREE_SWINGS = 4 };
 
 /* How well the model as a whole describes the recordings. */
 typedef enum {
@@ -142,6 +151,8 @@ typedef struct {
     size_t lines;                                      /* entries of line */
     hci_unexplained unexplained[HCI_MOST_UNEXPLAINED]; /* orders that no effect explains */
     size_t unexplained_count;                          /* entries of unexplained in use */
+    hci_free_swing swing[HCI_MOST_FREE_SWINGS];        /* beside the turn of the rotor */
+    size_t swings;                                     /* entries of swing in use */
     double rms_before_Nm, rms_after_Nm, noise_Nm;      /* of the runs that were fitted */
     double holdout_before_Nm, holdout_after_Nm, holdout_noise_Nm; /* NAN without such runs */
     double holdout_mean_before_Nm, holdout_mean_after_Nm;         /* rms of the mean errors of these runs */
@@ -164,7 +175,7 @@ typedef struct {
     bool wanders;       /* something is left that does not repeat with the turn */
     const char *slip;   /* what a wrong sign, direction, zero or number of pole pairs shows, and no effect was
                          * made of, in words; NULL: nothing such */
-    bool not_searched;       /* because of that slip no effect was looked for */
+    bool not_searched;  /* because of that slip no effect was looked for */
     bool inertia_as_well;    /* free shafts alone: a wrong inertia looks the same as an ambiguous effect */
     double open_voltage_off; /* share by which voltages without a current differ from the declared back-EMF;
                               * 0: none were recorded */

@@ -9,6 +9,7 @@
 #include "host/diagnose/prepare/rest.h"
 #include "host/diagnose/prepare/run_statistics.h"
 #include "host/diagnose/prepare/smooth.h"
+#include "host/diagnose/prepare/swing.h"
 #include "host/diagnose/prepare/turns.h"
 #include "host/machine/torque_constant.h"
 #include "host/numeric/derivative.h"
@@ -53,6 +54,7 @@ static void sample_of(const reduction *x, size_t k, hci_binned_sample *c)
     c->torque_Nm = r->torque_Nm[k];
     c->sum_A = r->has_sum ? r->i_A[3 * k] + r->i_A[3 * k + 1] + r->i_A[3 * k + 2] : (double)NAN;
     c->time_s = r->time_s ? r->time_s[k] : 0.0;
+    if (x->statistics->swings > 0) c->torque_Nm -= hci_swings_at_Nm(x->statistics, c->time_s);
     c->reading.elapsed_s = r->time_s ? r->time_s[k] - r->time_s[0] : 0.0;
     c->count = x->at_rest[k] ? 0.0 : 1.0;
 }
@@ -403,11 +405,36 @@ static bool run_add(const hci_machine *machine, const hci_run *run, size_t k, hc
                          at_rest,
                          samples,
                          capacity};
-    *statistics = hci_run_statistics_of(run, machine->pole_pairs);
     const bool done = run_fill(run, statistics, at_rest, acceleration) && (!is_usable(run) || run_reduce(&x));
     hci_memory_free(acceleration);
     hci_memory_free(at_rest);
     return done;
+}
+
+/* Swings of all runs; known: of others, NULL: not yet. False when memory is out. */
+static bool swings_fill(const hci_machine *machine, const hci_run *runs, const hci_swing_groups *known,
+                        hci_binned_samples *samples)
+{
+    static const hci_effects none = {NULL, 0};
+    for (size_t k = 0; k < samples->run_count; ++k) {
+        hci_run_statistics *f = &samples->statistics[k];
+        const hci_swing_question question = {&runs[k], f, hci_torque_constant(machine, &none),
+                                             machine->pole_pairs};
+        const size_t swings = is_usable(&runs[k]) ? hci_swings_find(&question, known, f->swing) : 0;
+        if (swings > HCI_MOST_SWINGS) return false;
+        f->swings = swings;
+    }
+    return true;
+}
+
+/* What is known of the runs before they are reduced. False when memory is out. */
+static bool statistics_fill(const hci_machine *machine, const hci_run *runs, hci_binned_samples *samples)
+{
+    for (size_t k = 0; k < samples->run_count; ++k)
+        samples->statistics[k] = hci_run_statistics_of(&runs[k], machine->pole_pairs);
+    if (!swings_fill(machine, runs, NULL, samples)) return false;
+    const hci_swing_groups known = hci_swing_groups_find(samples->statistics, samples->run_count);
+    return known.count == 0 || swings_fill(machine, runs, &known, samples);
 }
 
 hci_status hci_binned_samples_make(const hci_machine *machine, const hci_run *runs, size_t run_count,
@@ -417,7 +444,7 @@ hci_status hci_binned_samples_make(const hci_machine *machine, const hci_run *ru
     memset(samples, 0, sizeof *samples);
     samples->run_count = run_count;
     samples->statistics = hci_memory_new(run_count + 1, sizeof *samples->statistics);
-    bool done = samples->statistics != NULL;
+    bool done = samples->statistics && statistics_fill(machine, runs, samples);
     for (size_t k = 0; k < run_count && done; ++k)
         done = run_add(machine, &runs[k], k, samples, &capacity);
     if (done) return HCI_OK;

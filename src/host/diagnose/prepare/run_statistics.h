@@ -5,6 +5,15 @@
 
 #include "hci/host/recording/run.h"
 
+enum { HCI_MOST_SWINGS = 4 };
+
+/* A swing of the torque at a frequency that is no multiple of that of the turn. */
+typedef struct {
+    double frequency_Hz, error_Hz; /* error: standard error */
+    double turn_Hz;                /* of the rotor */
+    double cosine_Nm, sine_Nm;     /* cosine_Nm·cos ωt + sine_Nm·sin ωt, t as recorded */
+} hci_swing;
+
 typedef struct {
     double mean_torque_Nm, rms_torque_Nm;
     double speed_deviation;                 /* rad/s, about the mean */
@@ -17,7 +26,9 @@ typedef struct {
     bool creeps;           /* the mean torque of a turn rises or falls from turn to turn */
     double turns;          /* of the mechanical angle, from the least to the largest */
     double temperature_C;  /* mean; NAN */
-    double coldest_C, hottest_C; /* of its samples; NAN */
+    double coldest_C, hottest_C;      /* of its samples; NAN */
+    hci_swing swing[HCI_MOST_SWINGS]; /* taken out of the samples' torques; the largest first */
+    size_t swings;                    /* entries of swing in use */
 } hci_run_statistics;
 
 /* Of a run without an angle all is 0, but for what is not known (NAN). O(samples). */

@@ -6,6 +6,7 @@
 #include "hci/math/dense.h"
 #include "host/base/memory.h"
 #include "host/numeric/normal_equations.h"
+#include "host/numeric/statistics.h"
 #include "host/recording/rotor_frame.h"
 
 enum {
@@ -17,6 +18,7 @@ enum {
     LEAST_SAMPLES = 20, /* for each coefficient */
     LEAST_IN_ALL = 2 * LEAST_SAMPLES * MOST_ORDER,
     LEAST_IN_MEAN = LEAST_SAMPLES * FIRST_ORDERS, /* in a mean over turns, where less noise is left */
+    SHARPEST = 120,                               /* electrical order, of currents with edges */
     ERROR_PERIODS = 5
 };
 
@@ -24,6 +26,7 @@ enum {
 #define RESOLVED 0.48 /* periods for each sample */
 #define BY_CHANCE                                                                                            \
     10.0 /* times the mean square that noise has at an order: of 200 one in a hundred recordings */
+#define NOTHING 1e-5 /* of the current, that is no order of it */
 #define STEADY  0.05 /* change of current within the segment, as a share */
 #define TURNING 0.5  /* and of speed, for the angle to be a smooth curve */
 
@@ -316,16 +319,89 @@ static void coordinates_write(const series_workspace *r, size_t n, int pole_pair
     }
 }
 
-/* Replaces the currents by their series; false, and nothing is changed, where one has no solution. */
-static bool currents_smooth(hci_binned_sample *sample, size_t n, int pole_pairs, const size_t *periods,
-                            size_t count, series_workspace *r)
+/* ---- edges ---- */
+
+/* Sums of i_d and i_q with a wave. */
+typedef struct {
+    double cosine[2], sine[2];
+} order_sums;
+
+/* Squared amplitude of the larger one. */
+static double largest_of(const order_sums *x, size_t n)
+{
+    double most = 0.0;
+    for (int axis = 0; axis < 2; ++axis)
+        most = fmax(most, x->cosine[axis] * x->cosine[axis] + x->sine[axis] * x->sine[axis]);
+    return most * 4.0 / ((double)n * (double)n);
+}
+
+/* What the series took of i_d and i_q at a sample. */
+static void taken_at(const hci_binned_sample *sample, int pole_pairs, const series_workspace *r, size_t k,
+                     double taken[2])
+{
+    const hci_dq i = hci_sample_dq(&sample[k].reading, pole_pairs);
+    taken[0] = i.d - r->coordinate[0][k];
+    taken[1] = i.q - r->coordinate[1][k];
+}
+
+/* Of the electrical orders above those of the series, each. */
+static void orders_sum(const hci_binned_sample *sample, size_t n, int pole_pairs, const series_workspace *r,
+                       order_sums *sums)
+{
+    double taken[2];
+    memset(sums, 0, (SHARPEST + 1) * sizeof *sums);
+    for (size_t k = 0; k < n; ++k) {
+        const double theta = pole_pairs * sample[k].reading.theta_m_rad, c = cos(theta), s = sin(theta);
+        double x = cos(MOST_ORDER * theta), y = sin(MOST_ORDER * theta);
+        taken_at(sample, pole_pairs, r, k, taken);
+        for (size_t order = MOST_ORDER + 1; order <= SHARPEST; ++order) {
+            const double next = c * x - s * y;
+            y = s * x + c * y;
+            x = next;
+            for (int axis = 0; axis < 2; ++axis) {
+                sums[order].cosine[axis] += x * taken[axis];
+                sums[order].sine[axis] += y * taken[axis];
+            }
+        }
+    }
+}
+
+/* What noise alone has at an order hardly ever: most orders are noise alone, so their median tells. */
+static double by_chance(const order_sums *sums, size_t n)
+{
+    double square[SHARPEST - MOST_ORDER];
+    for (size_t k = 0; k < SHARPEST - MOST_ORDER; ++k)
+        square[k] = largest_of(&sums[MOST_ORDER + 1 + k], n);
+    return BY_CHANCE / log(2.0) * hci_median(square, SHARPEST - MOST_ORDER);
+}
+
+/* Blocks of current have orders far above those that drives ripple at: a series that ends before them rounds
+ * their edges, and that passes for effects of those orders. Adds the orders that stand out of what the series
+ * took; returns how many periods there are then. */
+static size_t edges_add(const hci_binned_sample *sample, size_t n, int pole_pairs, const series_workspace *r,
+                        size_t *periods, size_t count, double resolved)
+{
+    order_sums sums[SHARPEST + 1];
+    const size_t p = (size_t)pole_pairs,
+                 most = n / LEAST_SAMPLES < MOST_PERIODS ? n / LEAST_SAMPLES : MOST_PERIODS;
+    const double current_A = NOTHING * hypot(r->coordinate[0][0], r->coordinate[1][0]);
+    orders_sum(sample, n, pole_pairs, r, sums);
+    const double least = fmax(by_chance(sums, n), current_A * current_A);
+    for (size_t order = MOST_ORDER + 1; order <= SHARPEST && count < most; ++order)
+        if ((double)(order * p) <= resolved && largest_of(&sums[order], n) > least)
+            periods[count++] = order * p;
+    return count;
+}
+
+/* The series of the currents; false where one has no solution. */
+static bool currents_fit(const hci_binned_sample *sample, size_t n, int pole_pairs, const size_t *periods,
+                         size_t count, series_workspace *r)
 {
     coordinates_read(sample, n, pole_pairs, periods, count, r);
     hci_normal_equations_add(&r->normal, r->rows, r->coordinate[0], n);
     hci_normal_equations_finish(&r->normal);
     for (int c = 0; c < 3; ++c)
         if (!coordinate_smooth(r, n, periods, c)) return false;
-    coordinates_write(r, n, pole_pairs, sample);
     return true;
 }
 
@@ -344,6 +420,12 @@ static bool workspace_make(series_workspace *r, size_t n, size_t columns)
     return true;
 }
 
+static void workspace_release(series_workspace *r)
+{
+    hci_memory_free(r->rows);
+    hci_normal_equations_release(&r->normal);
+}
+
 /* The currents as a series of the orders of the turn, or of the electrical period. series: out, whether there
  * is one. */
 static bool series_make(hci_binned_sample *sample, const hci_segment *segment, int pole_pairs, bool turns,
@@ -355,10 +437,17 @@ static bool series_make(hci_binned_sample *sample, const hci_segment *segment, i
     const size_t count = periods_list(pole_pairs, turns, n, resolved, periods);
     series_workspace workspace;
     if (n < least || count == 0) return true;
-    const bool made = workspace_make(&workspace, n, 2 * count + 1);
-    if (made) *series = currents_smooth(sample, n, pole_pairs, periods, count, &workspace);
-    hci_memory_free(workspace.rows);
-    hci_normal_equations_release(&workspace.normal);
+    bool made = workspace_make(&workspace, n, 2 * count + 1);
+    if (made) *series = currents_fit(sample, n, pole_pairs, periods, count, &workspace);
+    const size_t all =
+        made && *series ? edges_add(sample, n, pole_pairs, &workspace, periods, count, resolved) : count;
+    if (all > count) {
+        workspace_release(&workspace);
+        made = workspace_make(&workspace, n, 2 * all + 1);
+        if (made) *series = currents_fit(sample, n, pole_pairs, periods, all, &workspace);
+    }
+    if (made && *series) coordinates_write(&workspace, n, pole_pairs, sample);
+    workspace_release(&workspace);
     return made;
 }
 

@@ -306,6 +306,35 @@ static void test_a_ramp_of_current_stays(void)
         TEST_ASSERT_EQUAL_DOUBLE(run.i_A[3 * k], binned.sample[k].reading.i_abc[0]);
 }
 
+/* Blocks of current behind a filter of ten samples, with orders far above those that drives ripple at: the
+ * series has them, and is nearer to what flowed than the readings. */
+static void test_edges_stay(void)
+{
+    enum { N = 4000 };
+    static double flowed[3 * N];
+    double reading = 0.0, smooth = 0.0, current[3] = {0.0};
+    turn(N, 400.0, 80.0, 0.0, 0.0);
+    for (size_t k = 0; k < N; ++k)
+        for (int s = 0; s < 3; ++s) {
+            for (int part = 0; part < 20; ++part) {
+                const double theta = 2.0 * REF_PI * ((double)k + 0.05 * part) / 400.0;
+                const double wave = sin(P * theta - 2.0 * REF_PI * s / 3.0);
+                current[s] += 0.005 * (5.0 * ((wave > 0.5) - (wave < -0.5)) - current[s]);
+            }
+            flowed[3 * k + (size_t)s] = current[s];
+            run.i_A[3 * k + (size_t)s] = current[s] + 0.05 * ref_normal(&seed);
+        }
+    reduce();
+    TEST_ASSERT_TRUE(binned.segment[0].smooth);
+    for (size_t k = 200; k < N - 20; ++k)
+        for (int s = 0; s < 3; ++s) {
+            const double is = flowed[3 * k + (size_t)s];
+            reading += pow(binned.sample[k].raw.i_abc[s] - is, 2.0);
+            smooth += pow(binned.sample[k].reading.i_abc[s] - is, 2.0);
+        }
+    TEST_ASSERT_TRUE(smooth < 0.6 * reading);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -320,5 +349,6 @@ int main(void)
     RUN_TEST(test_ripple_of_few_samples);
     RUN_TEST(test_rate_of_change_of_a_short_run);
     RUN_TEST(test_a_ramp_of_current_stays);
+    RUN_TEST(test_edges_stay);
     return UNITY_END();
 }

@@ -1,0 +1,137 @@
+/* Torques that swing at a frequency of their own, beside what repeats with the turn. */
+#define _XOPEN_SOURCE 700
+#include "host/diagnose/prepare/swing.h"
+
+#include "support/recording.h"
+#include "unity.h"
+
+enum { P = 4, N = 6000, RUNS = 4 };
+
+static const double RATE_HZ = 5000.0, K_NM_PER_A = 0.45, NOISE_NM = 0.02, IQ_A = 5.0;
+
+static hci_run run[RUNS];
+static hci_run_statistics statistics[RUNS];
+static uint64_t seed = 7;
+
+void setUp(void)
+{
+}
+
+void tearDown(void)
+{
+    for (size_t k = 0; k < RUNS; ++k)
+        rec_release(&run[k]);
+    memset(statistics, 0, sizeof statistics);
+}
+
+/* A run at so many turns a second, with cogging torque. swing_Hz, swing_Nm: of the load; current_A, speed:
+ * that swing with it. */
+typedef struct {
+    double turn_Hz, swing_Hz, swing_Nm, current_A, speed;
+} point;
+
+static void record(size_t r, const point *x)
+{
+    run[r] = rec_make(N);
+    const double phase = ref_uniform(&seed, 0.0, 6.0);
+    for (size_t k = 0; k < N; ++k) {
+        const double t = (double)k / RATE_HZ, wave = sin(2.0 * REF_PI * x->swing_Hz * t + phase);
+        const double theta = 2.0 * REF_PI * x->turn_Hz * t, iq = IQ_A + x->current_A * wave;
+        run[r].time_s[k] = t;
+        run[r].theta_m_rad[k] = theta;
+        run[r].speed_rad_per_s[k] = 2.0 * REF_PI * x->turn_Hz + x->speed * wave + 0.01 * ref_normal(&seed);
+        rec_phases(0.0, iq + 0.01 * ref_normal(&seed), P * theta, run[r].i_A + 3 * k);
+        run[r].torque_Nm[k] = 0.9 * K_NM_PER_A * iq + 0.1 * sin(6.0 * P * theta) + x->swing_Nm * wave +
+                              NOISE_NM * ref_normal(&seed);
+    }
+    statistics[r] = hci_run_statistics_of(&run[r], P);
+}
+
+static void find(size_t r, const hci_swing_groups *known)
+{
+    const hci_swing_question question = {&run[r], &statistics[r], K_NM_PER_A, P};
+    statistics[r].swings = hci_swings_find(&question, known, statistics[r].swing);
+    TEST_ASSERT_TRUE(statistics[r].swings <= HCI_MOST_SWINGS);
+}
+
+static void find_all(void)
+{
+    for (size_t r = 0; r < RUNS; ++r)
+        find(r, NULL);
+    const hci_swing_groups known = hci_swing_groups_find(statistics, RUNS);
+    for (size_t r = 0; r < RUNS; ++r)
+        find(r, &known);
+}
+
+static double left_Nm(size_t r)
+{
+    double square = 0.0;
+    for (size_t k = 0; k < N; ++k) {
+        const double x = run[r].torque_Nm[k] - 0.9 * K_NM_PER_A * IQ_A -
+                         0.1 * sin(6.0 * P * run[r].theta_m_rad[k]) -
+                         hci_swings_at_Nm(&statistics[r], run[r].time_s[k]);
+        square += x * x / N;
+    }
+    return sqrt(square);
+}
+
+/* 3.3 Hz are 0.22 to 1.32 times a turn; of three turns alone it is not found, and beside the others it is. */
+static void test_a_load_that_swings(void)
+{
+    static const double TURN_HZ[RUNS] = {2.5, 6.0, 10.0, 15.0};
+    for (size_t r = 0; r < RUNS; ++r)
+        record(r, &(point){TURN_HZ[r], 3.3, 0.06, 0.0, 0.0});
+    find_all();
+    const hci_swing_groups groups = hci_swing_groups_find(statistics, RUNS);
+    TEST_ASSERT_EQUAL_UINT64(1, groups.count);
+    TEST_ASSERT_FALSE(groups.group[0].of_turn);
+    TEST_ASSERT_EQUAL_UINT64(RUNS, groups.group[0].runs);
+    TEST_ASSERT_DOUBLE_WITHIN(4.0 * groups.group[0].error, 3.3, groups.group[0].frequency);
+    TEST_ASSERT_TRUE(groups.group[0].error < 0.01);
+    for (size_t r = 0; r < RUNS; ++r)
+        TEST_ASSERT_DOUBLE_WITHIN(0.05 * NOISE_NM, NOISE_NM, left_Nm(r));
+}
+
+/* 50 Hz are five times a turn of the first, where its changes over a turn do not show it. */
+static void test_the_mains_at_an_order(void)
+{
+    static const double TURN_HZ[RUNS] = {10.0, 6.0, 7.3, 15.0};
+    for (size_t r = 0; r < RUNS; ++r)
+        record(r, &(point){TURN_HZ[r], 49.98, 0.03, 0.0, 0.0});
+    find_all();
+    for (size_t r = 0; r < RUNS; ++r)
+        TEST_ASSERT_DOUBLE_WITHIN(0.05 * NOISE_NM, NOISE_NM, left_Nm(r));
+}
+
+static void test_a_belt(void)
+{
+    static const double TURN_HZ[RUNS] = {5.0, 10.0, 20.0, 25.0};
+    for (size_t r = 0; r < RUNS; ++r)
+        record(r, &(point){TURN_HZ[r], 0.3717 * TURN_HZ[r], 0.08, 0.0, 0.0});
+    find_all();
+    const hci_swing_groups groups = hci_swing_groups_find(statistics, RUNS);
+    TEST_ASSERT_EQUAL_UINT64(1, groups.count);
+    TEST_ASSERT_TRUE(groups.group[0].of_turn);
+    TEST_ASSERT_DOUBLE_WITHIN(4.0 * groups.group[0].error, 0.3717, groups.group[0].frequency);
+}
+
+static void test_what_is_no_swing_of_its_own(void)
+{
+    record(0, &(point){6.0, 3.3, 0.0, 0.0, 0.0});  /* none */
+    record(1, &(point){6.0, 3.3, 0.06, 0.2, 0.0}); /* the current swings with it */
+    record(2, &(point){6.0, 3.3, 0.06, 0.0, 0.3}); /* the speed does, and an inertia makes a torque of that */
+    record(3, &(point){6.0, 24.0, 0.06, 0.0, 0.0}); /* an order of the turn */
+    find_all();
+    for (size_t r = 0; r < RUNS; ++r)
+        TEST_ASSERT_EQUAL_UINT64(0, statistics[r].swings);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_a_load_that_swings);
+    RUN_TEST(test_the_mains_at_an_order);
+    RUN_TEST(test_a_belt);
+    RUN_TEST(test_what_is_no_swing_of_its_own);
+    return UNITY_END();
+}
