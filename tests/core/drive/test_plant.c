@@ -143,7 +143,7 @@ static void test_table_refuses(void)
 static void test_table_refuses_each_alone(void)
 {
     hci_inductance odd = {.order = 0.3};
-    const hci_wave waves[2] = {{1.0, 1, 0.5, 0.0}, {0.3, 1, 0.1, 0.0}};
+    const hci_wave waves[3] = {{1.0, 1, 0.5, 0.0}, {0.3, 1, 0.1, 0.0}, {1.0, 1, 0.5, 0.0}};
     const hci_harmonic below = {-2.0, 0.1, 0.0};
     const hci_plant_inductance negative = {NULL, 0, -0.02, -0.01}, given = {NULL, 0, 0.02, 0.01};
     const hci_plant_inductance other = {&odd, 1, 0.02, 0.01};
@@ -158,6 +158,9 @@ static void test_table_refuses_each_alone(void)
                           hci_plant_table_fill(&machine, &given, INT_MAX / 12 + 1, rows, &plant.table));
     machine.back_emf_count = 2;
     TEST_ASSERT_EQUAL_INT(0, hci_plant_table_turns(&machine, &given));
+    machine.back_emf = waves + 1;
+    TEST_ASSERT_EQUAL_INT(0, hci_plant_table_turns(&machine, &given));
+    machine.back_emf = waves;
     machine.back_emf_count = 1;
     machine.cogging = &below;
     machine.cogging_count = 1;

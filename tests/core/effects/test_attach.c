@@ -205,6 +205,20 @@ static void test_filters_of_sines(void)
     TEST_ASSERT_EQUAL_DOUBLE(5.0, read(HCI_SENSE_IC, 5.0, 0.0));
 }
 
+/* What has been as it is for long stays: a sensor begins settled, whatever its memory held. */
+static void test_filters_of_a_constant(void)
+{
+    el_add(&l, "current_filter", "time_constant", 0.0, 3e-4);
+    el_add(&l, "torque_sensor", "time_constant", 0.0, 2e-3);
+    el_add(&l, "torque_sensor", "natural_frequency", 0.0, 40.0);
+    el_add(&l, "torque_sensor", "damping", 0.0, 0.1);
+    attach(NOTHING);
+    for (int k = 0; k < 50; ++k) {
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, 1.7, read(HCI_SENSE_IA, 1.7, 0.0));
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, 1.7, read(HCI_SENSE_TORQUE, 1.7, 0.0));
+    }
+}
+
 static void test_no_filter_no_link(void)
 {
     el_add(&l, "current_filter", "time_constant", 0.0, 0.0);
@@ -318,6 +332,7 @@ int main(void)
     RUN_TEST(test_without_a_state_the_sensor_sees_no_friction);
     RUN_TEST(test_delays_by_parts_of_a_step);
     RUN_TEST(test_filters_of_sines);
+    RUN_TEST(test_filters_of_a_constant);
     RUN_TEST(test_no_filter_no_link);
     RUN_TEST(test_the_plant_has_the_torque);
     RUN_TEST(test_nothing_is_nothing);

@@ -462,6 +462,55 @@ static void test_words_of_a_status(void)
     TEST_ASSERT_EQUAL(4, hci_status_exit_code((hci_status)99));
 }
 
+/* The speed that is named for an excess that fades with `of`, at speeds up to 100 times the unit, forward and
+ * back; 0: none. */
+static double stribeck_speed(double of, double unit)
+{
+    const hci_effect_proposals with_start = {take_start, &count};
+    hci_effect_speed_mean mean[MEANS + 1] = {{0.0, 0.0, 1e8}}; /* a run at rest tells nothing of it */
+    hci_effect_survey s = recordings();
+    for (int k = 0; k < MEANS; ++k) {
+        const double w = (k % 2 ? -unit : unit) * pow(100.0, (k / 2) / 5.0), sign = w > 0.0 ? 1.0 : -1.0;
+        mean[k + 1] = (hci_effect_speed_mean){w, -sign * 0.05 * exp(-w * w / (of * of)), 1e8};
+    }
+    s.of_speed = mean;
+    s.of_speeds = MEANS + 1;
+    count = 0;
+    hci_effect_type_find("stribeck_friction")->propose(&s, &with_start);
+    return count == 1 ? start[1] : 0.0;
+}
+
+/* Whatever speeds are counted in, and up to next to the fastest. */
+static void test_the_speed_at_which_friction_fades(void)
+{
+    const double half_a_step = 0.5 * log(100.0) / 15.0 + 0.02;
+    for (double of = 2.0; of < 71.0; of *= 1.6)
+        TEST_ASSERT_DOUBLE_WITHIN(half_a_step, log(of), log(stribeck_speed(of, 1.0)));
+    TEST_ASSERT_DOUBLE_WITHIN(half_a_step, log(70.0), log(stribeck_speed(70.0, 1.0)));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6 * 8e-5, 1e-5 * stribeck_speed(8.0, 1.0), stribeck_speed(8e-5, 1e-5));
+}
+
+/* A motor of a hundredth of the flux has harmonics of a hundredth. */
+static void test_a_back_emf_is_expected_in_proportion(void)
+{
+    static double usual[MOST];
+    hci_wave wave = {1.0, 1, 0.5, 0.0};
+    const hci_machine machine = {.pole_pairs = 3, .back_emf = &wave, .back_emf_count = 1};
+    hci_effect_survey s = recordings();
+    s.machine = &machine;
+    hci_effect_type_find("back_emf")->propose(&s, &TO);
+    const size_t proposed = count;
+    TEST_ASSERT_TRUE(proposed > 10);
+    for (size_t k = 0; k < proposed; ++k)
+        usual[k] = taken[k].expected;
+    wave.sine = 0.005;
+    count = 0;
+    hci_effect_type_find("back_emf")->propose(&s, &TO);
+    TEST_ASSERT_EQUAL_UINT64(proposed, count);
+    for (size_t k = 0; k < count; ++k)
+        TEST_ASSERT_DOUBLE_WITHIN(1e-15, 0.01 * usual[k], taken[k].expected);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -475,6 +524,8 @@ int main(void)
     RUN_TEST(test_powers_of_saturation);
     RUN_TEST(test_series_of_the_coenergy);
     RUN_TEST(test_friction_that_fades);
+    RUN_TEST(test_the_speed_at_which_friction_fades);
+    RUN_TEST(test_a_back_emf_is_expected_in_proportion);
     RUN_TEST(test_what_motors_of_one_make_differ_in);
     RUN_TEST(test_words_of_a_status);
     return UNITY_END();

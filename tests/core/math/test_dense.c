@@ -424,6 +424,27 @@ static void test_lu_refinement_never_makes_it_worse(void)
     free(a), free(wrong), free(b), free(work), free(lu), free(x), free(kept);
 }
 
+/* An error in one component alone, of systems of one row and of more rows than are looked at together. */
+static void test_lu_refinement_of_each_component(void)
+{
+    enum { MOST = 40 };
+    static const size_t sizes[] = {1, 2, 31, 32, 33, MOST};
+    for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++)
+        for (size_t wrong = 0; wrong < sizes[s]; wrong++) {
+            const size_t n = sizes[s];
+            double a[MOST * MOST] = {0}, b[MOST], x[MOST], work[3 * MOST];
+            size_t pivot[MOST];
+            for (size_t k = 0; k < n; k++) {
+                a[k + k * n] = b[k] = 1.0 + (double)k;
+                pivot[k] = k;
+                x[k] = k == wrong ? 1.0 + 1e-6 : 1.0;
+            }
+            TEST_ASSERT_TRUE(hci_lu_refine(n, a, a, pivot, b, x, work) <= DBL_EPSILON);
+            for (size_t k = 0; k < n; k++)
+                TEST_ASSERT_DOUBLE_WITHIN(DBL_EPSILON, 1.0, x[k]);
+        }
+}
+
 static void test_lu_refuses(void)
 {
     const double bad[] = {(double)NAN, HUGE_VAL, -HUGE_VAL};
@@ -822,6 +843,7 @@ int main(void)
     RUN_TEST(test_lu_condition_needs_the_climb);
     RUN_TEST(test_lu_refinement_of_badly_scaled_systems);
     RUN_TEST(test_lu_refinement_never_makes_it_worse);
+    RUN_TEST(test_lu_refinement_of_each_component);
     RUN_TEST(test_lu_refuses);
     RUN_TEST(test_lu_refuses_in_the_right_half);
     RUN_TEST(test_lu_condition_and_refinement_beyond_all_numbers);
