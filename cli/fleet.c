@@ -31,7 +31,9 @@ static void show_odd(const hci_line *l)
         cli_say("  %-12s %s %s: %+.3g%s%s, %+.1f standard deviations%s\n", m->name, p->effect, p->parameter,
                 l->value[k * l->parameters + m->worst], strcmp(p->unit, "1") == 0 ? "" : " ",
                 strcmp(p->unit, "1") == 0 ? "" : p->unit, m->deviation,
-                m->worst + 1 == l->parameters ? "; none of the parameters describes it: diagnose it" : "");
+                m->worst + 1 == l->parameters ? "; none of the parameters describes it: diagnose it"
+                : m->leaves_more              ? ", which describes it in part: diagnose it"
+                                              : "");
         ++said;
     }
     if (hci_line_outside(l) > said)

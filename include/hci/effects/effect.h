@@ -265,8 +265,9 @@ struct hci_effect_type {
     /* Names the terms that such recordings could show. */
     void (*propose)(const hci_effect_survey *survey, const hci_effect_proposals *to);
 
-    /* Names the terms in which motors of one make differ, that are fitted to each of them alike. */
-    void (*propose_alike)(const hci_machine *machine, const hci_effect_proposals *to);
+    /* Names the terms in which motors of one make differ, that are fitted to each of them alike. slots: of
+     * the stator; NAN: not known. */
+    void (*propose_alike)(const hci_machine *machine, double slots, const hci_effect_proposals *to);
 
     /* Names its terms of the co-energy, each expected as if the coefficients of power 2 and order 0 had a
      * standard deviation of 1 N·m; those of higher powers and orders are smaller, since iron is smooth. */

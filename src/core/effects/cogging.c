@@ -57,8 +57,9 @@ static int rank_of(const hci_machine *machine, size_t order)
     return larger;
 }
 
-static void propose_alike(const hci_machine *machine, const hci_effect_proposals *to)
+static void propose_alike(const hci_machine *machine, double slots, const hci_effect_proposals *to)
 {
+    (void)slots;
     for (size_t k = 0; k < machine->cogging_count; ++k)
         if (machine->cogging[k].order > 0.0 && rank_of(machine, k) < MOST_ALIKE)
             hci_effect_propose(to, SINE, 2, machine->cogging[k].order, 1.0, 0.0);

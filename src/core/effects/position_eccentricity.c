@@ -56,6 +56,14 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
         hci_effect_propose(to, SINE, 2, n, ORDERS, EXPECTED_RAD);
 }
 
+/* Out of centre, as a mounted encoder is. */
+static void propose_alike(const hci_machine *machine, double slots, const hci_effect_proposals *to)
+{
+    (void)machine;
+    (void)slots;
+    hci_effect_propose(to, SINE, 2, 1.0, 1.0, EXPECTED_RAD);
+}
+
 const hci_effect_type hci_effect_position_eccentricity = {
     .name = "position_eccentricity",
     .equation = "θ_m,read = θ_m + Σ S sin kθ_m + C cos kθ_m",
@@ -63,6 +71,7 @@ const hci_effect_type hci_effect_position_eccentricity = {
     HCI_EFFECT_PARAMETERS(PARAMETER),
     .is_small = true,
     .propose = propose,
+    .propose_alike = propose_alike,
     .sense = sense,
     .undo = undo,
     .undo_adjoint = undo_adjoint,

@@ -40,9 +40,10 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
     hci_effect_propose(to, ANGLE, 1, 0.0, 1.0, EXPECTED_RAD);
 }
 
-static void propose_alike(const hci_machine *machine, const hci_effect_proposals *to)
+static void propose_alike(const hci_machine *machine, double slots, const hci_effect_proposals *to)
 {
     (void)machine;
+    (void)slots;
     hci_effect_propose(to, ANGLE, 1, 0.0, 1.0, EXPECTED_RAD);
 }
 

@@ -184,9 +184,10 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
     if (survey->timed) hci_effect_propose(to, TIME_CONSTANT, 1, 0.0, 1.0, 0.0);
 }
 
-static void propose_alike(const hci_machine *machine, const hci_effect_proposals *to)
+static void propose_alike(const hci_machine *machine, double slots, const hci_effect_proposals *to)
 {
     (void)machine;
+    (void)slots;
     hci_effect_propose(to, OFFSET, 1, 0.0, 1.0, 0.0);
 }
 

@@ -62,10 +62,15 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
         hci_effect_propose(to, SINE, 2, survey->flux_order[k], survey->machine->pole_pairs, EXPECTED);
 }
 
-static void propose_alike(const hci_machine *machine, const hci_effect_proposals *to)
+/* Once and twice a turn; and as often as there are slots, each of which a weak magnet passes: coils in series
+ * leave only that. Where it is a whole electrical order, any machine may have it. */
+static void propose_alike(const hci_machine *machine, double slots, const hci_effect_proposals *to)
 {
+    const double of_slots = slots / machine->pole_pairs;
     for (int k = 1; k < machine->pole_pairs && k <= MOST_ALIKE; ++k)
         hci_effect_propose(to, SINE, 2, (double)k / machine->pole_pairs, 1.0, EXPECTED);
+    if (slots > MOST_ALIKE && fmod(of_slots, 1.0) != 0.0)
+        hci_effect_propose(to, SINE, 2, of_slots, 1.0, EXPECTED);
 }
 
 const hci_effect_type hci_effect_unequal_magnets = {

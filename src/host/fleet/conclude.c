@@ -38,6 +38,19 @@ static void describe(const hci_line *l, size_t parameter, double *work)
     p->high = p->median + l->limit * p->scale;
 }
 
+/* Parameters by which motors are compared. */
+static size_t told(const hci_line *l)
+{
+    size_t count = 0;
+    for (size_t k = 0; k < l->parameters; ++k) {
+        size_t motors = 0;
+        for (size_t j = 0; j < l->motors; ++j)
+            motors += isnan(l->value[j * l->parameters + k]) ? 0 : 1;
+        count += motors > 1 ? 1 : 0;
+    }
+    return count;
+}
+
 /* The spread that the motors have has the usual noise in it; one that was recorded worse, with so much more
  * noise, has more. */
 static double deviation_of(const hci_line *l, size_t motor, size_t parameter, double own_noise)
@@ -91,15 +104,18 @@ static void judge(hci_line *l, size_t motor)
 {
     hci_line_motor *m = &l->motor[motor];
     m->worst = HCI_LINE_NONE;
+    m->leaves_more = false;
     for (size_t k = 0; k < l->parameters; ++k) {
         const double deviation = hci_line_deviation(l, motor, k);
         const bool is_residual = k + 1 == l->parameters;
         if (isnan(deviation) || l->parameter[k].motors < 2) continue;
         if (fabs(deviation) > l->limit) ++l->parameter[k].outside;
-        if (is_residual && deviation > l->limit)
+        if (is_residual && deviation > l->limit) {
+            m->leaves_more = true;
             name_residual(l, m, motor);
-        else
+        } else {
             take_worst(m, k, deviation);
+        }
     }
     m->stands_out = m->worst != HCI_LINE_NONE && fabs(m->deviation) > l->limit;
 }
@@ -160,7 +176,7 @@ static void pool(const hci_line *l, size_t parameter, hci_trend_point *point, do
 
 hci_status hci_line_conclude(double false_alarms, hci_line *line, hci_note *note)
 {
-    const double many = line->parameters > 0 ? (double)line->parameters : 1.0;
+    const double many = fmax((double)told(line), 1.0);
     double *work = hci_memory_new(2 * line->motors + 2, sizeof *work);
     hci_trend_point *point = hci_memory_new(line->motors + 1, sizeof *point);
     line->false_alarms = false_alarms;

@@ -9,9 +9,10 @@
 #include "hci/host/recording/predict.h"
 #include "host/base/memory.h"
 #include "host/diagnose/open_voltage.h"
+#include "host/fleet/beside_torque.h"
 #include "host/numeric/normal_equations.h"
 
-enum { MOST_TERMS = HCI_FLEET_MOST_PARAMETERS - 3, MOST_EFFECTS = 64, STEPS = 10, HALVINGS = 12 };
+enum { MOST_TERMS = HCI_FLEET_MOST_PARAMETERS - 11, MOST_EFFECTS = 64, STEPS = 10, HALVINGS = 12 };
 
 /* Shares of the sum of squares: a step that lowers it by less is not made; the fit is found where none lowers
  * it by more. */
@@ -26,7 +27,7 @@ typedef struct {
     hci_effect_term term[MOST_TERMS]; /* those in common */
     double expected[MOST_TERMS];      /* standard deviation of values that there are; 0: any */
     bool is_left_out[MOST_TERMS];     /* the recordings do not tell it */
-    double coulomb_Nm;                /* that is declared */
+    double brakes[MOST_TERMS];        /* declared of that friction; NAN: no friction */
     size_t terms, declared_terms;
 } model;
 
@@ -47,26 +48,48 @@ static void take(void *context, const hci_effect_candidate *candidate)
     }
 }
 
-static void add_type(const hci_machine *machine, const hci_effect_type *type, model *m)
+static void add_type(const hci_machine_data *machine, const hci_effect_type *type, model *m)
 {
     taking t = {m, type};
     const hci_effect_proposals to = {take, &t};
     const size_t first = m->terms;
     if (!type->propose_alike) return;
-    type->propose_alike(machine, &to);
+    type->propose_alike(&machine->model, machine->slots, &to);
     if (m->terms > first && m->list.count < MOST_EFFECTS)
         m->effect[m->list.count++] = (hci_effect){type, m->term + first, m->terms - first};
 }
 
-static void make_model(const hci_machine *machine, const hci_effects *declared, model *m)
+/* What is declared of a kind of friction, by which a smaller one still brakes. */
+static double declared_of(const hci_effects *declared, const hci_effect_type *type, size_t parameter)
+{
+    double sum = 0.0;
+    for (size_t k = 0; k < declared->count; ++k)
+        for (size_t j = 0; declared->effect[k].type == type && j < declared->effect[k].count; ++j)
+            if (declared->effect[k].term[j].parameter == parameter) sum += declared->effect[k].term[j].value;
+    return sum;
+}
+
+static void find_brakes(const hci_effects *declared, model *m)
+{
+    for (size_t k = 0; k < m->terms; ++k)
+        m->brakes[k] = NAN;
+    for (size_t k = 0; k < m->list.count; ++k) {
+        const hci_effect *e = &m->effect[k];
+        if (!e->type->coulomb_Nm || e->term < m->term || e->term >= m->term + m->terms) continue;
+        for (size_t j = 0; j < e->count; ++j)
+            m->brakes[(size_t)(e->term - m->term) + j] = declared_of(declared, e->type, e->term[j].parameter);
+    }
+}
+
+static void make_model(const hci_machine_data *machine, const hci_effects *declared, model *m)
 {
     memset(m, 0, sizeof *m);
     m->declared_terms = hci_effects_terms(declared);
     for (size_t k = 0; k < declared->count && k < MOST_EFFECTS; ++k)
         m->effect[m->list.count++] = declared->effect[k];
-    m->coulomb_Nm = hci_effects_coulomb_Nm(declared);
     for (size_t k = 0; hci_effect_type_at(k); ++k)
         add_type(machine, hci_effect_type_at(k), m);
+    find_brakes(declared, m);
     m->list.effect = m->effect;
 }
 
@@ -269,17 +292,6 @@ static double deviation_of(const sums *s, size_t samples, size_t columns)
 
 /* ---- what the recordings do not tell ---- */
 
-static bool is_coulomb(const model *m, size_t term)
-{
-    for (size_t k = 0; k < m->list.count; ++k) {
-        const hci_effect *e = &m->effect[k];
-        if (e->type->coulomb_Nm && e->term >= m->term && e->term <= m->term + term &&
-            m->term + term < e->term + e->count)
-            return strcmp(e->type->parameter[m->term[term].parameter].name, "coulomb") == 0;
-    }
-    return false;
-}
-
 /* What doubts are measured by. */
 typedef struct {
     double rms_Nm;    /* of what stays */
@@ -311,13 +323,14 @@ static double doubt(const model *m, const hci_sweep *sweep, const yardstick *by,
     const double as_torque = std_error * sqrt(sweep->diagonal[term] / by->samples);
     double worst = by->rms_Nm > 0.0 ? as_torque / by->rms_Nm : 0.0;
     if (m->expected[term] > 0.0) worst = fmax(worst, std_error / m->expected[term]);
-    if (is_coulomb(m, term) && std_error > 0.0)
-        worst = fmax(worst, -(m->coulomb_Nm + m->term[term].value) / (3.0 * std_error));
+    if (!isnan(m->brakes[term]) && std_error > 0.0)
+        worst = fmax(worst, -(m->brakes[term] + m->term[term].value) / (3.0 * std_error));
     return worst;
 }
 
-#define ALIKE 0.3 /* terms that one direction confounds have doubts alike; the one that is listed last goes  \
-                   */
+#define ALIKE                                                                                                \
+    0.3 /* terms that one direction confounds have doubts alike; the one that is listed last goes            \
+         */
 
 /* Leaves out the term that is told least. False: all are told. */
 static bool leave_out(model *m, const hci_sweep *sweep, const yardstick *by)
@@ -378,13 +391,39 @@ static hci_status fit_once(const data *d, model *m, place *p, hci_fleet_fit *fit
     return descend(d, m, p, &fit->is_found, note);
 }
 
-static void keep_declared(hci_fleet_fit *fit)
+#define BELIEVED 6.0 /* standard deviations of the values that there are */
+
+/* A share, of the flux or of a phase, that no motor of the make has. NULL: none. */
+static const hci_effect *beyond_belief(const model *m)
 {
-    fit->rms_after_Nm = NAN;
+    for (size_t k = 0; k < m->list.count; ++k) {
+        const hci_effect *e = &m->effect[k];
+        if (e->term < m->term || e->term >= m->term + m->terms) continue; /* declared */
+        for (size_t j = 0; j < e->count; ++j) {
+            const double expected = m->expected[(size_t)(e->term - m->term) + j];
+            const bool is_share = e->type->parameter[e->term[j].parameter].traits & HCI_PARAMETER_LINEAR;
+            if (is_share && expected > 0.0 && fabs(e->term[j].value) > BELIEVED * expected) return e;
+        }
+    }
+    return NULL;
+}
+
+static void keep_declared(const hci_effect *beyond, hci_fleet_fit *fit)
+{
+    fit->is_found = false;
+    fit->rms_after_Nm = fit->rms_before_Nm;
     for (size_t k = 0; k < fit->count; ++k)
         fit->parameter[k].value = fit->parameter[k].std_error = NAN;
-    hci_note_add(&fit->remark, "the error cannot be brought to its least value, and the declared values "
-                               "stay: `check` the recordings, or `diagnose` them");
+    if (beyond)
+        hci_note_add(
+            &fit->remark,
+            "the least error asks for more %s than any motor has, and the declared values stay: the "
+            "wiring, the columns or the pole pairs are others than of the machine folder; `check` the "
+            "recordings",
+            beyond->type->name);
+    else
+        hci_note_add(&fit->remark, "the error cannot be brought to its least value, and the declared values "
+                                   "stay: `check` the recordings, or `diagnose` them");
 }
 
 static hci_status take_steps(const data *d, model *m, hci_fleet_fit *fit, hci_note *note)
@@ -401,7 +440,8 @@ static hci_status take_steps(const data *d, model *m, hci_fleet_fit *fit, hci_no
     if (!status) fit->rms_after_Nm = sqrt(p.s.square / (double)d->samples);
     for (size_t k = 0; k < fit->count && !status; ++k)
         fit->parameter[k].std_error *= deviation_of(&p.s, d->samples, m->terms);
-    if (!status && !fit->is_found) keep_declared(fit);
+    const hci_effect *beyond = fit->is_found ? beyond_belief(m) : NULL;
+    if (!status && (beyond || !fit->is_found)) keep_declared(beyond, fit);
     release_place(&p);
     return status;
 }
@@ -447,25 +487,6 @@ static void remark_holes(const hci_runs *runs, hci_fleet_fit *fit)
                      fit->rows_unused);
 }
 
-/* The effect that the strength of the magnets belongs to: what equal phases look like. */
-static const char *name_of_strength(void)
-{
-    const hci_effect_type *type;
-    for (size_t k = 0; (type = hci_effect_type_at(k)) != NULL; ++k)
-        if (type->when_equal) return type->when_equal->name;
-    return "";
-}
-
-/* The strength of the magnets by voltages without a current, behind the parameters of the torque. */
-static void list_voltages(const hci_machine *machine, const hci_runs *runs, hci_fleet_fit *fit)
-{
-    hci_fleet_parameter *p = &fit->parameter[fit->count++];
-    *p = (hci_fleet_parameter){"", "by_voltage", "1", NAN, NAN};
-    snprintf(p->effect, sizeof p->effect, "%s", name_of_strength());
-    const double scale = hci_open_voltage_scale_fitted(machine, runs, &p->std_error);
-    if (!isnan(scale)) p->value = scale - 1.0;
-}
-
 static hci_status read_run(const hci_machine_data *machine, const hci_runs *runs, size_t k, data *d,
                            hci_note *note)
 {
@@ -496,9 +517,9 @@ hci_status hci_fleet_fit_runs(const hci_machine_data *machine, const hci_effects
                          runs->list ? runs->list : "recordings");
     remark_unused(&machine->model, runs, fit);
     remark_holes(runs, fit);
-    make_model(&machine->model, declared, &m);
+    make_model(machine, declared, &m);
     if (!status) status = take_steps(&d, &m, fit, note);
-    if (!status) list_voltages(&machine->model, runs, fit);
+    if (!status) status = hci_fleet_list_beside(machine, runs, fit, note);
     fit->samples = d.samples;
     for (size_t k = 0; k < runs->count; ++k)
         hci_memory_free(d.reading[k]);

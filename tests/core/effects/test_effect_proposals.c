@@ -38,8 +38,8 @@ static void test_cogging_of_one_make(void)
     const hci_machine machine = {.pole_pairs = 1, .cogging = cogging, .cogging_count = 5};
     const hci_machine with_mean = {.pole_pairs = 1, .cogging = mean, .cogging_count = 2};
     static const double EXPECTED[] = {6.0, 24.0, 30.0, 6.0};
-    hci_effect_type_find("cogging")->propose_alike(&machine, &TO);
-    hci_effect_type_find("cogging")->propose_alike(&with_mean, &TO);
+    hci_effect_type_find("cogging")->propose_alike(&machine, NAN, &TO);
+    hci_effect_type_find("cogging")->propose_alike(&with_mean, NAN, &TO);
     TEST_ASSERT_EQUAL_UINT64(4, count);
     for (size_t k = 0; k < count; ++k) {
         TEST_ASSERT_EQUAL_UINT64(2, taken[k].count);
@@ -49,16 +49,23 @@ static void test_cogging_of_one_make(void)
 
 static void test_magnets_of_one_make(void)
 {
-    const hci_machine one = {.pole_pairs = 1}, three = {.pole_pairs = 3}, many = {.pole_pairs = 40};
+    const hci_machine one = {.pole_pairs = 1}, three = {.pole_pairs = 3}, five = {.pole_pairs = 5},
+                      many = {.pole_pairs = 40};
     const hci_effect_type *magnets = hci_effect_type_find("unequal_magnets");
-    magnets->propose_alike(&one, &TO);
+    magnets->propose_alike(&one, NAN, &TO);
     TEST_ASSERT_EQUAL_UINT64(0, count);
-    magnets->propose_alike(&three, &TO);
+    magnets->propose_alike(&three, NAN, &TO);
     TEST_ASSERT_EQUAL_UINT64(2, count);
     TEST_ASSERT_EQUAL_DOUBLE(1.0 / 3.0, taken[0].order);
     TEST_ASSERT_EQUAL_DOUBLE(2.0 / 3.0, taken[1].order);
-    magnets->propose_alike(&many, &TO);
+    magnets->propose_alike(&many, NAN, &TO);
     TEST_ASSERT_TRUE(count > 2 && count < 2 + 39);
+    count = 0;
+    magnets->propose_alike(&three, 9.0, &TO); /* whole */
+    TEST_ASSERT_EQUAL_UINT64(2, count);
+    magnets->propose_alike(&five, 12.0, &TO);
+    TEST_ASSERT_EQUAL_UINT64(5, count);
+    TEST_ASSERT_EQUAL_DOUBLE(12.0 / 5.0, taken[4].order);
 }
 
 /* Orders in which load and cogging vary alike; a drift where a run is long enough to tell; a gain where both
@@ -440,7 +447,7 @@ static void test_friction_that_fades(void)
 static void alike(const char *type, named x)
 {
     count = 0;
-    hci_effect_type_find(type)->propose_alike(&MACHINE, &TO);
+    hci_effect_type_find(type)->propose_alike(&MACHINE, NAN, &TO);
     takes(type, 0, x);
     TEST_ASSERT_EQUAL_UINT64_MESSAGE(strcmp(type, "phase_imbalance") ? 1 : 3, count, type);
 }

@@ -41,6 +41,8 @@ typedef struct {
     size_t worst;     /* parameter with the largest deviation; HCI_LINE_NONE: it has no parameters */
     double deviation; /* that one, in robust standard deviations, signed */
     bool stands_out;  /* beyond the limit */
+    bool leaves_more; /* what stays is beyond its limit too: that parameter describes the fault in part, or
+                       * where it is what stays itself, none does */
 } hci_line_motor;
 
 /* All of it. Start with {0}. */

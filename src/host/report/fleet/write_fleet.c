@@ -59,7 +59,7 @@ static void write_parameters(const hci_line *l, hci_output *out)
 
 static void write_names(const hci_line *l, hci_output *out)
 {
-    hci_output_text(out, "motor,state,stands_out,effect,parameter,deviation");
+    hci_output_text(out, "motor,state,stands_out,described,effect,parameter,deviation");
     for (size_t k = 0; k < l->parameters; ++k) {
         const hci_fleet_parameter *p = &l->parameter[k].name;
         const bool has_unit = strcmp(p->unit, "1") != 0;
@@ -69,13 +69,20 @@ static void write_names(const hci_line *l, hci_output *out)
     hci_output_text(out, "\n");
 }
 
+/* Whether its parameter is all that a motor has; "" where it does not stand out. */
+static const char *described(const hci_line *l, const hci_line_motor *m)
+{
+    if (!m->stands_out) return "";
+    return m->worst + 1 == l->parameters ? "no" : m->leaves_more ? "part" : "yes";
+}
+
 static void write_motor(const hci_line *l, size_t motor, hci_output *out)
 {
     const hci_line_motor *m = &l->motor[motor];
     const hci_fleet_parameter *worst = m->worst == HCI_LINE_NONE ? NULL : &l->parameter[m->worst].name;
     hci_csv_write_cell(out, m->name, true);
-    hci_output_text(out, "%s,%s,%s,%s,", hci_fleet_state_name(m->state), m->stands_out ? "yes" : "no",
-                    worst ? worst->effect : "", worst ? worst->parameter : "");
+    hci_output_text(out, "%s,%s,%s,%s,%s,", hci_fleet_state_name(m->state), m->stands_out ? "yes" : "no",
+                    described(l, m), worst ? worst->effect : "", worst ? worst->parameter : "");
     put(out, m->deviation, l->parameters > 0 ? ',' : '\n');
     for (size_t k = 0; k < l->parameters; ++k) {
         const hci_line_parameter *p = &l->parameter[k];
