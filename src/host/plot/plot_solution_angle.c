@@ -1,6 +1,7 @@
 /* Torque, and phase currents, over the electrical angle. */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "host/plot/solution_curves.h"
 
@@ -104,30 +105,46 @@ static void draw_phase_letter(hci_output *out, const double *value, const char *
                   hci_svg_at(y, value[peak]) - 5.0, letter);
 }
 
+typedef struct {
+    hci_svg_entry entry;
+    int curve;
+    const char *letter;
+} phase_curve;
+
+/* Over several turns three phases are a woven band: phase a alone shows how one turn differs from the next.
+ */
+static size_t phases_of(const hci_solution_curves *c, phase_curve list[4])
+{
+    static const phase_curve ALL[] = {{{HCI_SVG_LINE, "before", "i_a before"}, HCI_CURVE_PLAIN_A, NULL},
+                                      {{HCI_SVG_LINE, "a", "i_a"}, HCI_CURVE_PHASE_A, "a"},
+                                      {{HCI_SVG_LINE, "b", "i_b"}, HCI_CURVE_PHASE_B, "b"},
+                                      {{HCI_SVG_LINE, "c", "i_c"}, HCI_CURVE_PHASE_C, "c"}};
+    const size_t count = c->turns > 1.0 ? 2 : 4;
+    memcpy(list, ALL, count * sizeof *list);
+    return count;
+}
+
 void hci_panel_currents(hci_output *out, const hci_solution_curves *c, const hci_svg_box *box)
 {
-    static const hci_svg_entry LEGEND[] = {{HCI_SVG_LINE, "before", "i_a before"},
-                                           {HCI_SVG_LINE, "a", "i_a"},
-                                           {HCI_SVG_LINE, "b", "i_b"},
-                                           {HCI_SVG_LINE, "c", "i_c"}};
+    phase_curve phase[4];
+    hci_svg_entry legend[4];
+    told curve[4];
+    const size_t count = phases_of(c, phase);
     const hci_svg_axis y =
         hci_svg_axis_over(range_of(c, HCI_CURVE_PHASE_A, HCI_CURVE_PLAIN_A), box->bottom, box->top, 6.0);
     const hci_svg_box b = hci_svg_box_beside(*box, &y);
     const hci_svg_axis x = hci_svg_axis_of_angle(c->turns, &b);
-    hci_svg_head(out, &b, "Phase currents in A", LEGEND, 4);
+    for (size_t k = 0; k < count; ++k) {
+        legend[k] = phase[k].entry;
+        curve[k] = (told){phase[k].entry.text, c->value[phase[k].curve]};
+    }
+    hci_svg_head(out, &b, "Phase currents in A", legend, count);
     hci_panel_angle(out, c, &x, &b);
     hci_svg_grid(out, &y, &b, true);
-    draw_curve(out, "before", c->value[HCI_CURVE_PLAIN_A], &x, &y);
-    draw_curve(out, "c", c->value[HCI_CURVE_PHASE_C], &x, &y);
-    draw_curve(out, "b", c->value[HCI_CURVE_PHASE_B], &x, &y);
-    draw_curve(out, "a", c->value[HCI_CURVE_PHASE_A], &x, &y);
-    draw_phase_letter(out, c->value[HCI_CURVE_PHASE_A], "a", &y, &b);
-    draw_phase_letter(out, c->value[HCI_CURVE_PHASE_B], "b", &y, &b);
-    draw_phase_letter(out, c->value[HCI_CURVE_PHASE_C], "c", &y, &b);
-    draw_strips(out, c, &b, "A",
-                (const told[]){{"i_a before", c->value[HCI_CURVE_PLAIN_A]},
-                               {"i_a", c->value[HCI_CURVE_PHASE_A]},
-                               {"i_b", c->value[HCI_CURVE_PHASE_B]},
-                               {"i_c", c->value[HCI_CURVE_PHASE_C]}},
-                4);
+    draw_curve(out, "before", curve[0].value, &x, &y);
+    for (size_t k = count - 1; k > 0; --k)
+        draw_curve(out, phase[k].entry.style, curve[k].value, &x, &y);
+    for (size_t k = 1; k < count && count > 2; ++k)
+        draw_phase_letter(out, curve[k].value, phase[k].letter, &y, &b);
+    draw_strips(out, c, &b, "A", curve, count);
 }

@@ -653,6 +653,13 @@ static void test_many_turns(void)
     draw();
     check_picture();
     TEST_ASSERT_NOT_NULL(strstr(picture, ">14400</text>"));
+    TEST_ASSERT_NOT_NULL(
+        strstr(picture, "i<tspan class=\"sub\" dy=\"3\">a</tspan>")); /* three phases would be a woven band */
+    TEST_ASSERT_NULL(strstr(picture, "i<tspan class=\"sub\" dy=\"3\">b</tspan>"));
+    TEST_ASSERT_NULL(strstr(picture, "i_c "));
+    solution.period_turns = 1;
+    draw();
+    TEST_ASSERT_NOT_NULL(strstr(picture, "i<tspan class=\"sub\" dy=\"3\">b</tspan>"));
     solution.period_turns = 4096;
     draw();
     check_picture();

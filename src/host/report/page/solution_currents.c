@@ -51,8 +51,8 @@ void hci_page_currents(const hci_solution_page *p)
     const hci_html_drawing drawing = {
         .id = "current",
         .title = "Phase currents over the electrical angle",
-        .description = "Lines in A over the electrical angle in degrees: the plain sine of phase a, and "
-                       "phases a, b and c of the solution.",
+        .description = "Lines in A over the electrical angle in degrees: the plain sine of phase a, and of "
+                       "the solution the three phases, or phase a alone over several turns.",
         .caption = p->facts.baseline,
         .wide = 285,
         .narrow = 300,
