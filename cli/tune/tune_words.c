@@ -14,6 +14,9 @@
 /* Times the ripple of a plain sine: a bound that is more says nothing. */
 #define BOUNDLESS 10.0
 
+/* Recordings under load that tell the ripple on the machine, if they are explained. */
+enum { ENOUGH_LOADS = 3 };
+
 /* ---- what is concluded ---- */
 
 /* Of the data sheet, that a measured back-EMF may be off and not be a contradiction. */
@@ -88,16 +91,40 @@ static bool has_sensor(const cli_tuning *t)
     return false;
 }
 
+/* Recordings with a torque sensor and a current. */
+static size_t loads_of(const cli_tuning *t)
+{
+    size_t loads = 0;
+    for (size_t k = 0; k < t->runs.count; ++k) {
+        const hci_run *r = &t->runs.run[k];
+        bool flows = false;
+        for (size_t n = 0; n < 3 * r->count && !flows; ++n)
+            flows = r->i_A[n] != 0.0;
+        loads += flows && r->torque_source == HCI_TORQUE_MEASURED;
+    }
+    return loads;
+}
+
 /* What the bench at hand can do first. */
 static void say_next_on_machine(cli_tuning *t)
 {
-    if (!has_sensor(t))
+    if (t->diagnosis.search != HCI_WORK_COMPLETE)
+        hci_tuning_say(
+            &t->tuning, HCI_TUNING_NEXT,
+            "Nothing, as far as this tells: the search for effects ended before all had been compared. "
+            "It gets further with fewer logs, or with MACHINE --runs LIST and what is known in "
+            "MACHINE/effects.csv.");
+    else if (!has_sensor(t))
         hci_tuning_say(&t->tuning, HCI_TUNING_NEXT,
                        "On the same bench: the same slow turn forward and back with the table in the drive "
                        "shows what is left of "
                        "the cogging torque; spins at two other speeds, each in both directions, tell "
                        "friction. What load "
                        "adds takes a torque sensor.");
+    else if (loads_of(t) >= ENOUGH_LOADS && t->diagnosis.verdict >= HCI_DIAGNOSIS_PARTLY)
+        hci_tuning_say(&t->tuning, HCI_TUNING_NEXT,
+                       "Not more of the same: as long as something in these recordings is not explained, the "
+                       "ripple on the machine is not known.");
     else
         hci_tuning_say(&t->tuning, HCI_TUNING_NEXT,
                        "To know the ripple on the machine: three recordings or more under load, up to the "
@@ -216,7 +243,9 @@ static void say_fall(cli_tuning *t, char *text, size_t size)
     if (hci_expected_ripple_is_doubtful(e))
         snprintf(text, size, "%s, so what the table leaves of a ripple of %.3g N·m is not to be relied on",
                  isfinite(e->unbelievable_order) ? "A back-EMF that is not believable is in the model"
-                                                 : "The model does not explain the recordings",
+                 : t->diagnosis.verdict < HCI_DIAGNOSIS_PARTLY
+                     ? "The search for what makes the ripple ended before all was compared"
+                     : "The model does not explain the recordings",
                  before_Nm);
     else if (e->state == HCI_RIPPLE_KNOWN && e->peak_to_peak_Nm < BOUNDLESS * before_Nm)
         snprintf(

@@ -42,6 +42,25 @@ static void describe(const hci_candidates *candidates, const hci_effect_type *ty
     }
 }
 
+#define SURELY 2.0 /* standard errors by which a value is below 0 */
+
+/* A law of friction of as many terms as there are speeds fits any means: a term below 0 is what a sum that is
+ * right at these speeds takes, and no friction. */
+static void say_sum_of_friction(const hci_candidates *candidates, const hci_effect_type *type, char *text,
+                                size_t size)
+{
+    const size_t used = strlen(text);
+    bool is_below = false;
+    for (size_t k = 0; k < candidates->count; ++k) {
+        const hci_candidate *x = &candidates->candidate[k];
+        for (size_t j = 0; x->in && x->type == type && j < x->count; ++j)
+            is_below = is_below || x->term[j].value < -SURELY * x->term[j].std_error;
+    }
+    if (is_below && type->coulomb_Nm)
+        snprintf(text + used, size - used,
+                 "; only their sum at the recorded speeds is told: a term below 0 is no friction by itself");
+}
+
 /* ---- findings ---- */
 
 static hci_finding finding_of(const hci_attribution *a, const hci_verdict *v, double whole_Nm2)
@@ -52,7 +71,10 @@ static hci_finding finding_of(const hci_attribution *a, const hci_verdict *v, do
     else if (v->in)
         f.verdict = HCI_FINDING_ADDED;
     if (v->in && whole_Nm2 > 0.0) f.residual_share = fmin(1.0, v->explained_Nm * v->explained_Nm / whole_Nm2);
-    if (v->in) describe(&a->model.candidates, v->type, f.detail, sizeof f.detail);
+    if (v->in) {
+        describe(&a->model.candidates, v->type, f.detail, sizeof f.detail);
+        say_sum_of_friction(&a->model.candidates, v->type, f.detail, sizeof f.detail);
+    }
     if (!v->in && v->ambiguous) {
         const int n = snprintf(f.detail, sizeof f.detail, "in place of %s: ", v->rival_of->name);
         describe(&v->alternative.candidates, v->type, f.detail + n, sizeof f.detail - (size_t)n);

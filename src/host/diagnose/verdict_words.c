@@ -235,9 +235,13 @@ static void say_open_voltage(const hci_words *w, const hci_diagnosis *d)
 static void say_search(const hci_words *w, const hci_diagnosis *d)
 {
     if (d->search == HCI_WORK_COMPLETE) return;
-    hci_words_say(w, "%s: this is the best model that it had found; others have not been compared with it. ",
+    hci_words_say(w,
+                  "%s: this is the best model that it had found; others have not been compared with it%s. ",
                   d->search == HCI_WORK_INTERRUPTED ? "The search was interrupted"
-                                                    : "The search reached the limit of its work");
+                                                    : "The search reached the limit of its work",
+                  d->search == HCI_WORK_INTERRUPTED
+                      ? ""
+                      : " (it gets further with fewer runs, or where effects.csv declares what is known)");
 }
 
 static void say_nothing_measured(const hci_words *w)

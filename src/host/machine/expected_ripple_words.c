@@ -94,14 +94,27 @@ static void say_recordings(const hci_words *w, const hci_expected_ripple *e)
             e->recordings, e->recordings == 1 ? "" : "s");
 }
 
+/* Whether the diagnosis explains the recordings, but had not compared all that may. */
+static bool is_unfinished(const hci_expected_ripple *e)
+{
+    return e->origin.search[0] && strcmp(e->origin.search, "complete") != 0 &&
+           strcmp(e->origin.verdict, "partly explained") != 0 && strcmp(e->origin.verdict, "unknown") != 0;
+}
+
 /* What holds for the model alone. */
 static void say_origin(const hci_words *w, const hci_expected_ripple *e)
 {
     char Nm[NUMBER_SIZE];
     if (hci_machine_origin_is_doubtful(&e->origin)) {
-        hci_words_say(w, " What currents do in this model holds for the model alone: its diagnosis is %s%s",
-                      e->origin.verdict,
-                      strcmp(e->origin.search, "complete") != 0 ? ", and its search ended early" : "");
+        if (is_unfinished(e))
+            hci_words_say(
+                w, " The model describes the recordings, but the search for effects ended before all had been "
+                   "compared: what currents do in this model holds for the model alone");
+        else
+            hci_words_say(w,
+                          " What currents do in this model holds for the model alone: its diagnosis is %s%s",
+                          e->origin.verdict,
+                          strcmp(e->origin.search, "complete") != 0 ? ", and its search ended early" : "");
         if (e->origin.unexplained_Nm > 0.0)
             hci_words_say(w, "; its recordings have another %s N·m rms of ripple",
                           number(e->origin.unexplained_Nm, false, Nm));
@@ -119,7 +132,10 @@ void hci_expected_ripple_words(const hci_expected_ripple *e, char *text, size_t 
     const hci_words w = {text, size};
     text[0] = '\0';
     if (e->state != HCI_RIPPLE_KNOWN) {
-        hci_words_say(&w, "%s.", hci_ripple_state_words(e->state));
+        if (e->state == HCI_RIPPLE_UNEXPLAINED && is_unfinished(e))
+            hci_words_say(&w, "Ripple not known.");
+        else
+            hci_words_say(&w, "%s.", hci_ripple_state_words(e->state));
         say_origin(&w, e);
         return;
     }

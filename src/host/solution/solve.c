@@ -215,8 +215,10 @@ static void remark_left_out(const hci_effects *effects, hci_note *remark)
     }
     hci_note_add(
         remark,
-        "effects.csv: left out, since not in the machine: %s; the currents are for the true angle and the "
-        "true current, so the drive that plays them has to correct what its sensors read",
+        "effects.csv: not compensated, since it acts on the shaft or in a sensor and not in the machine: %s; "
+        "the currents are for the true angle and the true current, so the drive that plays them has to "
+        "correct "
+        "what its sensors read",
         names);
 }
 

@@ -366,6 +366,26 @@ static void test_too_far_for_two_recordings(void)
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(words, "far outside of what one or two recordings show"), words);
 }
 
+/* What the cut of a table adds is in the bound and in the words; of one order it is no more than of a square
+ * wave. */
+static void test_a_table_is_in_the_bound(void)
+{
+    char words[1024];
+    hci_ripple_path path = path_of(0.0, 1.0);
+    allow_cogging(0.01);
+    const hci_expected_ripple bare = expect(&path);
+    hci_expected_ripple e = bare;
+    hci_expected_ripple_add_table(&e, 0.003, 2.0);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, bare.peak_to_peak_Nm + 0.003, e.peak_to_peak_Nm);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, bare.error_peak_to_peak_Nm + 0.003, e.error_peak_to_peak_Nm);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, bare.T_ripple_percent + 0.15, e.T_ripple_percent);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, bare.worst_order_Nm + 0.006 / HCI_PI, e.worst_order_Nm);
+    hci_expected_ripple_words(&e, words, sizeof words);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(words, "makes 0.003 N\xC2\xB7m"), words);
+    hci_expected_ripple_words(&bare, words, sizeof words);
+    TEST_ASSERT_NULL_MESSAGE(strstr(words, "the table"), words);
+}
+
 /* No exponent, and no zero: a limit is rounded up, so that what is said is no less than what was found. */
 /* A rectangular wave has a fifth of its fundamental at order 5: twice that is where belief ends. */
 static void test_what_holds_for_the_model_alone(void)
@@ -384,6 +404,11 @@ static void test_what_holds_for_the_model_alone(void)
     hci_expected_ripple_words(&e, words, sizeof words);
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(words, "is partly explained, and its search ended early"), words);
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(words, "another 0.012 N\xC2\xB7m rms"), words);
+    strcpy(e.origin.verdict, "explained"); /* as far as the search came */
+    hci_expected_ripple_words(&e, words, sizeof words);
+    TEST_ASSERT_NULL_MESSAGE(strstr(words, "has not explained"), words);
+    TEST_ASSERT_NULL_MESSAGE(strstr(words, "diagnosis is explained"), words);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(words, "ended before all had been compared"), words);
     files_remove(files_path("diagnosis.csv"));
     TEST_ASSERT_EQUAL_INT(HCI_OK, hci_uncertainty_read_machine(files_root, &uncertainty, &note));
     e = expect(&path);
@@ -479,6 +504,7 @@ static void test_memory(void)
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_a_table_is_in_the_bound);
     RUN_TEST(test_what_is_read_is_written_again);
     RUN_TEST(test_rows_in_any_order);
     RUN_TEST(test_all_recordings_together);
