@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import os
+import re
 import threading
 from typing import Any, Callable, Dict, List, Optional, Tuple, Type, Union
 
@@ -25,9 +26,18 @@ _CLASSES: Dict[int, Type[errors.HciError]] = {
 }
 
 
+#: Options in the words of the library, of which the argument here is `columns`: at the beginning, where a name may have
+#: blanks in it, and as a remedy, with or without quotes.
+_COLUMN = (re.compile(r"^--column (?P<quote>)(?P<name>[^=\s]+)=(?P<column>.*?)(?=: )"),
+           re.compile(r"""--column (?P<quote>["']?)(?P<name>[^="'\s]+)=(?P<column>[^"']+?)(?P=quote)(?=[\s;,)]|$)"""))
+
+
 def text(pointer: Any) -> str:
     """A string of C; "" for NULL."""
-    return "" if pointer == ffi.NULL else ffi.string(pointer).decode("utf-8", "replace")
+    words = "" if pointer == ffi.NULL else ffi.string(pointer).decode("utf-8", "replace")
+    for column in _COLUMN if "--column" in words else ():
+        words = column.sub(r'columns={"\g<name>": "\g<column>"}', words)
+    return words
 
 
 def path(value: Path) -> bytes:

@@ -56,6 +56,8 @@ def _pairs(data: Any) -> Iterable[Tuple[Any, Any]]:
     if hasattr(frame, "columns") and hasattr(frame, "__getitem__"):
         columns = [(name, frame[name]) for name in frame.columns]
         return _index(getattr(frame, "index", None), [name for name, _ in columns]) + columns
+    if isinstance(data, (list, tuple)):
+        raise TypeError(f"found a {type(data).__name__}, expected one recording; take its elements one by one")
     raise TypeError(f"found {type(data).__name__}, expected a path, a DataFrame, a mapping of arrays or an array "
                     "with named fields; give each column a name, such as {\"iq_A\": values}")
 

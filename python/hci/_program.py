@@ -74,4 +74,7 @@ def run(*words: Any) -> Tuple[int, str, str]:
     if code in (0, 1):
         return code, out.decode("utf-8", "replace").strip(), "\n".join(line[len("note: "):] for line in lines)
     kind = errors.StoppedError if code < 0 or code > 128 else _CLASSES.get(code, errors.HciError)
+    if lines and lines[-1].startswith("--"):  # an option; here an argument
+        option, rest = lines[-1][2:].split(":", 1)
+        raise kind(f"{option.replace('-', '_')}:{rest}")
     raise kind(lines[-1] if lines else f"hci-solve ended with exit code {code}")

@@ -5,7 +5,7 @@ import base64
 import html
 import io
 import json
-from typing import TYPE_CHECKING, Any, Dict, Optional
+from typing import TYPE_CHECKING, Any, Dict, Optional, Tuple, Union
 
 from ._binding import ffi, lib
 from ._call import text
@@ -32,6 +32,10 @@ class Result:
 
     #: All figures by name, as `--json` of the program prints them.
     summary: Dict[str, Any]
+
+    def __reduce__(self) -> Union[str, Tuple[Any, ...]]:
+        raise TypeError(f"{type(self).__name__}: memory of the library cannot be pickled or copied; hand on its `summary`, and "
+                        "copies of its arrays")
 
     @property
     def verdict(self) -> str:

@@ -29,7 +29,7 @@ class HciError(Exception):
     def __init__(self, text: str) -> None:
         super().__init__(text)
         self.text = text
-        of_argument = isinstance(self, ArgumentError) or text.startswith("--")
+        of_argument = isinstance(self, ArgumentError) or text.startswith(("--", "columns="))
         place = None if of_argument else _PLACES[0].match(text) or _PLACES[1].match(text)
         self.file = place["file"] if place else None
         self.line = int(place["line"]) if place and place["line"] else None

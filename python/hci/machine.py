@@ -57,6 +57,7 @@ class Machine:
         self.path = os.fspath(folder)
         self.name = FilePath(self.path).name
         self._folder: Optional[tempfile.TemporaryDirectory[str]] = None
+        self._of_sheet = ""
         note = Note()
         self.c = ffi.gc(ffi.new("hci_machine_data *"), lib.hci_machine_release)
         self._effects = ffi.gc(ffi.new("hci_effects_data *"), lib.hci_effects_release)
@@ -98,21 +99,23 @@ class Machine:
             dc_link_voltage_V: of battery or supply.
         """
         label, note = ffi.new("char[]", name.encode()), Note()
-        both = not math.isnan(inductance_H)
+        both = not math.isnan(number(inductance_H, "inductance_H"))
         sheet = ffi.new("hci_sheet *", {
             "name": label, "pole_pairs": whole(pole_pairs, "pole_pairs"), "slots": whole(slots, "slots"), "reading": _word(_READINGS, reading, "reading"),
-            "strength": strength, "resistance_ohm": resistance_ohm, "resistance_of_line": resistance_of_line,
-            "inductance_d_H": inductance_H if both else inductance_d_H,
-            "inductance_q_H": inductance_H if both else inductance_q_H, "inertia_kgm2": inertia_kgm2,
-            "rated_current_A": rated_current_A, "rated_current_is_rms": rated_current_is_rms,
-            "rated_torque_Nm": rated_torque_Nm, "rated_speed_rpm": rated_speed_rpm,
-            "dc_link_voltage_V": dc_link_voltage_V})
+            "resistance_of_line": resistance_of_line, "rated_current_is_rms": rated_current_is_rms,
+            **{key: number(value, key) for key, value in {
+                "strength": strength, "resistance_ohm": resistance_ohm, "inductance_d_H": inductance_H if both else inductance_d_H,
+                "inductance_q_H": inductance_H if both else inductance_q_H, "inertia_kgm2": inertia_kgm2,
+                "rated_current_A": rated_current_A, "rated_torque_Nm": rated_torque_Nm, "rated_speed_rpm": rated_speed_rpm,
+                "dc_link_voltage_V": dc_link_voltage_V}.items()}})
         own = tempfile.TemporaryDirectory(prefix="hci-machine-") if folder is None else None
         where = os.path.join(own.name, re.sub(r"[^\w.-]", "_", name).lstrip(".") or "machine") if own is not None else os.fspath(folder or "")
         with writing:
             note.check(lib.hci_init_write(path(where), sheet, note.c))
         machine = cls(where)
         machine._folder = own
+        lib.hci_sheet_remark(sheet, note.c)
+        machine._of_sheet = text(note.c.text)
         return machine
 
     def __reduce__(self) -> Tuple[Any, ...]:
@@ -159,8 +162,8 @@ class Machine:
 
     @property
     def remark(self) -> str:
-        """What a reader should know, such as names that were not understood."""
-        return text(self.c.remark.text)
+        """What a reader should know, such as names that were not understood, or ratings that do not agree."""
+        return "; ".join(words for words in (self._of_sheet, text(self.c.remark.text)) if words)
 
     # ---- currents ----
 

@@ -48,6 +48,7 @@ class Written(Result):
 
     #: The table of `to_pandas`.
     _main = ""
+    __reduce__ = object.__reduce__  # files and numbers
 
     def __init__(self, folder: Path, code: int, words: str, remark: str) -> None:
         self.folder = FilePath(folder)

@@ -1,4 +1,6 @@
 """Exceptions say where it is wrong and what to do."""
+import pickle
+
 import numpy as np
 import pytest
 
@@ -77,3 +79,29 @@ def test_arguments(machine_a, tmp_path):
 def test_places(text, place):
     error = hci.InputError(text)
     assert (error.file, error.line, error.column, error.remedy) == place
+
+
+def test_words_of_the_program_are_those_of_python(machine_a):
+    log = {"time_s": [0.0, 0.1, 0.2], "x": [1.0, 2.0, 3.0]}
+    with pytest.raises(hci.InputError, match=r'say which column it is: columns=\{"theta_m_deg": "COLUMN"\}'):
+        machine_a.predict(log)
+    with pytest.raises(hci.InputError, match=r'^columns=\{"torque_Nm": "Channel 3"\}: found no column') as error:
+        machine_a.predict(log, columns={"torque_Nm": "Channel 3"})
+    assert error.value.file is None
+    with pytest.raises(hci.ArgumentError, match="^fmi: found `4`"):
+        machine_a.export_fmu("none.fmu", fmi=4)
+    with pytest.raises(TypeError, match="expected one recording"):
+        machine_a.predict([log])
+
+
+def test_results_say_why_they_cannot_be_pickled(machine_a):
+    with pytest.raises(TypeError, match="hand on its `summary`"):
+        pickle.dumps(machine_a.solve(1.0))
+
+
+def test_a_data_sheet_that_does_not_agree():
+    sheet = {"pole_pairs": 7, "reading": "kv_line_peak", "strength": 110}
+    assert hci.Machine.from_datasheet(**sheet, rated_current_A=4, rated_torque_Nm=0.3).remark == ""
+    assert "998 times" in hci.Machine.from_datasheet(**sheet, rated_current_A=4, rated_torque_Nm=300).remark
+    with pytest.raises(hci.ArgumentError, match="^strength: found '110 rpm/V', expected a number"):
+        hci.Machine.from_datasheet(**{**sheet, "strength": "110 rpm/V"})
