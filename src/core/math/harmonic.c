@@ -51,7 +51,7 @@ void hci_waves_at(const hci_wave *waves, size_t count, double theta_rad, double 
 {
     abc[0] = abc[1] = abc[2] = 0.0;
     for (size_t k = 0; k < count; ++k) {
-        const double s = sin(waves[k].order * theta_rad), c = cos(waves[k].order * theta_rad);
+        const double angle_rad = waves[k].order * theta_rad, s = sin(angle_rad), c = cos(angle_rad);
         const double x = waves[k].sine * s + waves[k].cosine * c;
         const double y = waves[k].sine * c - waves[k].cosine * s;
         hci_phases_add(x, y, waves[k].sequence, abc);

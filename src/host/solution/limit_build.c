@@ -41,6 +41,7 @@ void hci_limit_build_release(hci_limit_build *b)
     hci_memory_free(b->row);
     hci_memory_free(b->low);
     hci_memory_free(b->limit_of);
+    hci_memory_free(b->at);
     hci_memory_free(b->cone);
     hci_memory_free(b->equal);
     hci_memory_free(b->p);
@@ -56,7 +57,9 @@ static bool grow(hci_limit_build *b)
     if (low) b->low = low;
     size_t *limit_of = hci_memory_resize(b->limit_of, room, sizeof *limit_of);
     if (limit_of) b->limit_of = limit_of;
-    b->is_full = b->is_full || !row || !low || !limit_of;
+    hci_limit_point *at = hci_memory_resize(b->at, room, sizeof *at);
+    if (at) b->at = at;
+    b->is_full = b->is_full || !row || !low || !limit_of || !at;
     if (!b->is_full) b->room = room;
     return !b->is_full;
 }

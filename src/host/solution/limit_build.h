@@ -15,8 +15,9 @@ typedef struct {
 
     size_t rows, room;
     double *row;
-    double *low;      /* of two-sided rows; room */
-    size_t *limit_of; /* whose multiplier a row has: hci_limit_tag, 0 of none; room */
+    double *low;         /* of two-sided rows; room */
+    hci_limit_point *at; /* of rows of angles: which; room */
+    size_t *limit_of;    /* whose multiplier a row has: hci_limit_tag, 0 of none; room */
     size_t two_sided, linear;
     size_t *cone, cones; /* rows of each cone */
 

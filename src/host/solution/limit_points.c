@@ -145,8 +145,7 @@ static size_t row_room_of(const hci_limit_field *f)
 
 /* ---- lists ---- */
 
-/* HCI_ERROR_MEMORY, without a note. */
-static hci_status add_point(hci_limit_points *points, hci_limit_point point)
+hci_status hci_limit_points_add(hci_limit_points *points, hci_limit_point point)
 {
     if (points->count == points->room) {
         const size_t room = 2 * points->room + 64;
@@ -275,7 +274,7 @@ static hci_status take_peak(const search *s, size_t k, hci_limit_points *points,
     const double most = hci_peak_refine(&f, s->grid->step_rad, &theta_rad);
     *worst = fmax(*worst, most);
     if (most <= 0.0) return HCI_OK;
-    return add_point(points, (hci_limit_point){s->grid->kind, s->grid->phase, theta_rad});
+    return hci_limit_points_add(points, (hci_limit_point){s->grid->kind, s->grid->phase, theta_rad});
 }
 
 hci_status hci_limit_peaks(const hci_limit_field *field, const hci_limit_grid *grid, const double *x,

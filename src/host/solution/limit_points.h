@@ -49,6 +49,9 @@ typedef struct {
     size_t width, rows, row_room;
 } hci_limit_points;
 
+/* Appends a point. HCI_ERROR_MEMORY, without a note. */
+hci_status hci_limit_points_add(hci_limit_points *points, hci_limit_point point);
+
 /* Makes the rows of points that have none yet. HCI_ERROR_MEMORY, without a note. */
 hci_status hci_limit_points_fill(const hci_limit_field *field, hci_limit_points *points);
 

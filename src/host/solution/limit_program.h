@@ -45,7 +45,7 @@ typedef struct {
     double highest_Nm, lowest_Nm; /* of a peak-to-peak: torque less what is wanted */
     double current_gain[3], rms_gain[3], voltage_gain, copper_gain;
     bool is_infeasible;
-    bool is_settled; /* the caller's: it keeps the limits at every angle */
+    bool is_settled; /* it keeps the limits at every angle */
 } hci_limit_optimum;
 
 /* A share of a limit that is kept free, so that peaks found to the same share beyond are within it. */

@@ -5,7 +5,7 @@
 
 #include "host/solution/limit_build.h"
 
-/* Phase currents and line voltages at angles, or the torque there (limit_angle_rows.c). */
+/* Phase currents and line voltages at angles, or the torque there (limit_current_rows.c). */
 void hci_limit_add_angles(hci_limit_build *build);
 void hci_limit_add_torque_angles(hci_limit_build *build);
 

@@ -38,7 +38,7 @@ static void fill_objective(hci_limit_build *b)
         b->p[j * (b->n + 1)] = LEAST_PRICE;
 }
 
-static void fill(hci_limit_build *b)
+void hci_limit_stage_fill(hci_limit_build *b)
 {
     hci_limit_add_angles(b);
     b->two_sided = b->stage == HCI_STAGE_FIT ? 0 : b->rows;
@@ -97,7 +97,7 @@ static double copper_A2(const hci_limit_build *b, const double *x)
     return 1.5 * sum;
 }
 
-static void read_answer(const hci_limit_build *b, const hci_cone_answer *a, hci_limit_optimum *o)
+void hci_limit_stage_read(const hci_limit_build *b, const hci_cone_answer *a, hci_limit_optimum *o)
 {
     const double unit = unit_of(b), *wish = a->x + hci_limit_objective(b);
     o->is_infeasible = a->end == HCI_CONE_INFEASIBLE;
@@ -133,8 +133,8 @@ static hci_cone_problem problem_of(const hci_limit_build *b, const double *g, co
                               .precision = b->of->precision};
 }
 
-static hci_status solve(const hci_limit_build *b, const hci_cone_problem *problem, hci_limit_optimum *o,
-                        hci_note *note)
+static hci_status solve(const hci_limit_build *b, const hci_cone_problem *problem, hci_limit_finish *finish,
+                        hci_limit_optimum *o, hci_note *note)
 {
     hci_cone_answer answer;
     hci_status status = hci_cone_solve(problem, &answer, note);
@@ -142,18 +142,21 @@ static hci_status solve(const hci_limit_build *b, const hci_cone_problem *proble
         status = hci_note_set(note, HCI_ERROR_NUMERIC,
                               "they were not met to working precision (%.1e); try wider or fewer ones",
                               answer.error);
-    if (!status) read_answer(b, &answer, o);
+    if (!status) hci_limit_stage_read(b, &answer, o);
+    if (!status && finish && answer.end == HCI_CONE_SOLVED && finish(b, &answer, o))
+        status = hci_note_memory(note, NULL, "solving within limits");
     hci_cone_answer_release(&answer);
     return status;
 }
 
-static hci_status solve_built(const hci_limit_build *b, hci_limit_optimum *o, hci_note *note)
+static hci_status solve_built(const hci_limit_build *b, hci_limit_finish *finish, hci_limit_optimum *o,
+                              hci_note *note)
 {
     double *g = by_columns(b->row, b->rows, b->width), *equal = by_columns(b->equal, b->equalities, b->width);
     hci_status status = g && equal ? HCI_OK : hci_note_memory(note, NULL, "solving within limits");
     if (!status) {
         const hci_cone_problem problem = problem_of(b, g, equal);
-        status = solve(b, &problem, o, note);
+        status = solve(b, &problem, finish, o, note);
     }
     hci_memory_free(g);
     hci_memory_free(equal);
@@ -161,17 +164,17 @@ static hci_status solve_built(const hci_limit_build *b, hci_limit_optimum *o, hc
 }
 
 hci_status hci_limit_stage_solve(const hci_limit_program *program, hci_limit_stage stage,
-                                 hci_limit_optimum *optimum, hci_note *note)
+                                 hci_limit_finish *finish, hci_limit_optimum *optimum, hci_note *note)
 {
     hci_limit_build b;
     hci_status status = HCI_OK;
     bool has_memory = hci_limit_build_begin(program, stage, &b);
     memset(optimum, 0, sizeof *optimum);
     optimum->x = hci_memory_new(b.coordinates, sizeof *optimum->x);
-    if (has_memory) fill(&b);
+    if (has_memory) hci_limit_stage_fill(&b);
     if (!has_memory || b.is_full || !optimum->x)
         status = hci_note_memory(note, NULL, "solving within limits");
-    if (!status) status = solve_built(&b, optimum, note);
+    if (!status) status = solve_built(&b, finish, optimum, note);
     hci_limit_build_release(&b);
     return status;
 }

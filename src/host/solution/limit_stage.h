@@ -2,11 +2,24 @@
 #ifndef HCI_SRC_HOST_SOLUTION_LIMIT_STAGE_H
 #define HCI_SRC_HOST_SOLUTION_LIMIT_STAGE_H
 
-#include "host/solution/limit_program.h"
+#include "host/conic/problem.h"
+#include "host/solution/limit_build.h"
 
-/* *optimum: out; x to be freed with hci_memory_free, also where it is infeasible. HCI_ERROR_MEMORY, _NUMERIC.
+/* What ends the solution of a stage, from its program and its answer; HCI_ERROR_MEMORY, without a note. */
+typedef hci_status hci_limit_finish(const hci_limit_build *build, const hci_cone_answer *answer,
+                                    hci_limit_optimum *optimum);
+
+/* finish: or NULL. *optimum: out; x to be freed with hci_memory_free, also where it is infeasible.
+ * HCI_ERROR_MEMORY, _NUMERIC.
  */
 hci_status hci_limit_stage_solve(const hci_limit_program *program, hci_limit_stage stage,
-                                 hci_limit_optimum *optimum, hci_note *note);
+                                 hci_limit_finish *finish, hci_limit_optimum *optimum, hci_note *note);
+
+/* The rows, cones, equations and the objective of a stage into a build that has begun. */
+void hci_limit_stage_fill(hci_limit_build *build);
+
+/* What an answer to a build says, into an optimum whose x has room and whose gains are 0. */
+void hci_limit_stage_read(const hci_limit_build *build, const hci_cone_answer *answer,
+                          hci_limit_optimum *optimum);
 
 #endif

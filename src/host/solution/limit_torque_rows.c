@@ -95,12 +95,13 @@ void hci_limit_add_torque_cones(hci_limit_build *b)
 {
     const hci_harmonic_system *s = b->of->field.system;
     const bool is_one = b->of->minimise == HCI_MINIMISE_RMS;
+    const size_t none = b->cones;
     size_t head = 0;
     if (b->stage < HCI_STAGE_RIPPLE || hci_limit_is_swing(b)) return;
     if (b->stage == HCI_STAGE_COPPER && b->of->has_ripple) return;
     for (size_t k = has_mean_row(s) ? 1 : 0; k < s->rows; k += 2) {
         if (!is_reached(s, k, 2)) continue;
-        if (head == 0 || !is_one) head = begin_cone(b);
+        if (b->cones == none || !is_one) head = begin_cone(b);
         add_torque_row(b, k);
         add_torque_row(b, k + 1);
         b->cone[b->cones - 1] = b->rows - head;

@@ -5,6 +5,7 @@
 
 #include "core/math/vector.h"
 #include "host/base/memory.h"
+#include "host/solution/limit_newton.h"
 #include "host/solution/limit_stage.h"
 
 enum {
@@ -14,6 +15,7 @@ enum {
 };
 
 #define ROUGH  1e-6 /* of the solver while peaks are still looked for */
+#define STILL  1e-5 /* change of what is minimised below which it becomes precise too */
 #define NEAR   0.97 /* share of a limit from which a peak of the last answer is kept as a row */
 #define BESIDE 0.25 /* of the spacing of samples: of points nearer than that the last is kept */
 #define IDLE   0.7  /* share of a limit below which an angle is left out until a peak is there */
@@ -72,7 +74,8 @@ static hci_status try_round(hci_wishes *l, hci_limit_stage stage, hci_limit_opti
     hci_limit_optimum next;
     hci_note ignored = {{0}};
     if (hci_limit_points_fill(&l->program.field, &l->program.points)) return out_of_memory(note);
-    const hci_status status = hci_limit_stage_solve(&l->program, stage, &next, is_first ? note : &ignored);
+    const hci_status status = hci_limit_stage_solve(
+        &l->program, stage, l->is_coarse ? NULL : hci_limit_newton, &next, is_first ? note : &ignored);
     *goes_on = is_first || (status != HCI_ERROR_NUMERIC && !next.is_infeasible);
     hci_memory_free(*goes_on ? o->x : next.x);
     if (!*goes_on) return HCI_OK;
@@ -128,19 +131,31 @@ static bool needs_precision(const hci_wishes *l)
     return l->is_coarse && !l->is_far && !(l->program.radius_A > 0.0);
 }
 
-/* Roughly until no peaks are left, then precisely until there are none either. */
+/* Whether peaks no longer change much of the mean or the ripple. */
+static bool is_still(const hci_wishes *l, hci_limit_stage stage, double before, double now)
+{
+    const bool is_torque = stage == HCI_STAGE_MEAN || stage == HCI_STAGE_RIPPLE;
+    return is_torque && fabs(now - before) < STILL * l->program.scale_Nm;
+}
+
+/* Roughly until no peaks are left, then precisely until there are none either, or Newton's method has found
+ * the end. */
 hci_status hci_wish_solve(hci_wishes *l, hci_limit_stage stage, hci_limit_optimum *o, hci_note *note)
 {
     size_t added = 1;
     bool goes_on = true;
     hci_status status = HCI_OK;
     memset(o, 0, sizeof *o);
+    o->smallest = HUGE_VAL;
     l->program.precision = needs_precision(l) ? 0.0 : ROUGH;
     for (int round = 0; round < rounds_of(l) && goes_on && !status; ++round) {
+        const double before = o->smallest;
         status = try_round(l, stage, o, &goes_on, note);
+        if (o->is_settled) return status;
         if (!status && goes_on) status = add_peaks(l, stage, o, &added, note);
         if (added == 0 && (l->is_coarse || !(l->program.precision > 0.0))) break;
-        if (added < FEW && !l->is_coarse) l->program.precision = 0.0;
+        if (!l->is_coarse && (added < FEW || is_still(l, stage, before, o->smallest)))
+            l->program.precision = 0.0;
     }
     o->is_settled = added == 0;
     return status;

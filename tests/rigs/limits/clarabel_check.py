@@ -111,8 +111,8 @@ class Task:
                 constants.append(self.speed * (e[s] - e[(s + 1) % 3]) / self.line_V)
         return np.array(rows), np.array(constants)
 
-    def peaks(self, x):
-        """Angles of all local peaks, refined, and the largest share of a limit."""
+    def peaks(self, x, beyond=1 + 3e-10):
+        """Angles of all local peaks that are beyond a share of the limit, refined, and the largest share."""
         count = int(64 * max(self.top, max(n for n, _, _ in self.machine.emf)))
         step = TURN / count
         theta = step * np.arange(count)
@@ -133,7 +133,7 @@ class Task:
                 r, c = self.limited(np.array([at]))
                 peak = float(np.abs(r[q] @ x + c[q])[0])
                 most = max(most, peak)
-                if peak > 1 + 3e-10:
+                if peak > beyond:
                     found.append((q, at))
         return found, max(most, float(value.max()))
 
@@ -158,8 +158,9 @@ def conic(p, q, a, b, cones):
     return answer
 
 
-def solve(task, wish, mean=None, worst=None):
-    """Optimum of one wish: peaks beyond the limits are added until there are none."""
+def solve(task, wish, mean=None, worst=None, near=None):
+    """Optimum of one wish: peaks beyond the limits are added until there are none. near: currents whose peaks are
+    among the first angles, which saves rounds; rows of any angles are rows of the task."""
     n = 2 * len(task.components)
     scale = task.limit_A or 10.0
     extra = 0 if wish == "copper" else 1
@@ -167,6 +168,8 @@ def solve(task, wish, mean=None, worst=None):
     kinds = len(task.limited(np.zeros(1))[0])
     theta = TURN * (0.0137 + np.arange(4 * int(task.top))) / (4 * int(task.top))
     places = [(q, at) for q in range(kinds) for at in theta]
+    if near is not None:
+        places += task.peaks(near, 0.99)[0]
     for _ in range(40):
         rows, constants = task.limited(np.array([at for _, at in places]))
         which = np.array([q for q, _ in places])
@@ -281,7 +284,7 @@ def compare(program, machine, target, name, tally, work, limits):
     tally.note(name, "mean", abs(abs(task.mean(x) - task.mean_h) - max(least, 0.0)) / scale, TOLERANCE + room)
     if summary["limits"]["cost"] == "torque":  # next to the largest torque a wish for ripple has next to no room
         return
-    smallest, why = solve(task, "ripple", task.mean(x))
+    smallest, why = solve(task, "ripple", task.mean(x), near=x)
     tally.judge(name, "ripple", task.worst(x), smallest, why, scale, room)
     compare_copper(task, x, name, tally, scale)
 
@@ -295,7 +298,7 @@ def compare_copper(task, x, name, tally, scale):
     def theirs(tighter):
         task.limit_A = limit_A and limit_A * (1 - tighter)
         task.line_V = line_V and line_V * (1 - tighter)
-        return solve(task, "copper", mean, worst)
+        return solve(task, "copper", mean, worst, x)
 
     copper, why = theirs(TIGHTER)
     if copper is None or why or abs(ours - copper) <= TOLERANCE * copper:
