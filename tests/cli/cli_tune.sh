@@ -35,6 +35,7 @@ says '^tuned: A ripple of 0\.04[0-9]* N·m from peak to peak falls to at most 0\
 files_are() { check "files of $1: $(ls "$1" | tr '\n' ' ')" [ "$(ls "$1" | tr '\n' ' ')" = "$2 " ]; }
 files_are out 'check commands.sh currents diagnose machine report.html runs.csv summary.json table target.csv'
 check "code is not set as code" grep -q '<code>hci_currents_dq i' out/report.html
+check "the orders are not set in" grep -q '<p class="of">order 12: ' out/report.html
 files_are out/table 'tuned.c tuned.h'
 bound=$(number T_ripple_percent_95 out/summary.json)
 printf 'name,value,unit\nduration,0.3,s\nprescribed_speed,240,rpm\ncurrent_control,ideal,\ncurrents,out/currents/currents.csv,\n' >played.csv

@@ -47,7 +47,7 @@ static const struct {
     [ANGLE] = {"angle", "winkel drehwinkel rotorwinkel wellenwinkel winkelposition rotorlage lauferlage "
                         "laeuferlage lauferwinkel laeuferwinkel angle angolo angulo theta phi"},
     [POSITION] = {"angle, of what turns or in a unit of angle",
-                  "position lage istlage istposition lageistwert positionsistwert posizione posicion"},
+                  "position pos lage istlage istposition lageistwert positionsistwert posizione posicion"},
     [SPEED] =
         {"speed",
          "drehzahl istdrehzahl drehzahlistwert motordrehzahl winkelgeschwindigkeit geschwindigkeit speed "
@@ -339,11 +339,18 @@ static const hci_alias *voltage_of(const name_words *w)
     return axis >= 0 ? &OF_VOLTAGE[axis] : pair >= 0 ? &OF_LINE[pair] : NULL;
 }
 
+/* Turns of a position are counted on the shaft. */
+static bool is_turn(const hci_unit *unit)
+{
+    return is_in(unit, "rad") && hci_unit_equal(unit, hci_unit_find("turn", 4));
+}
+
 /* Where is not how far it has turned, as long as nothing says that it turns. */
 static const hci_alias *angle_of(const name_words *w, const hci_unit *unit)
 {
     const bool turns = has(w, TURNING) || has(w, ROTOR) || has(w, SHAFT) || is_in(unit, "rad");
     if ((has(w, POSITION) && !has(w, ANGLE) && !turns) || has(w, PHASE)) return NULL;
+    if (has(w, POSITION) && is_turn(unit)) return &OF_ANGLE[has(w, ELECTRICAL)];
     return has(w, MECHANICAL) != has(w, ELECTRICAL) ? &OF_ANGLE[has(w, ELECTRICAL)] : &OF_ANGLE[2];
 }
 

@@ -29,11 +29,12 @@ static const char STYLE[] =
     "h1{font-size:2.1rem;margin:.3rem 0 .8rem}"
     "h2{font-size:1.3rem;margin:2.2rem 0 .5rem;padding-top:.8rem;border-top:1px solid var(--line)}"
     "h1,h2,p,td,figcaption{overflow-wrap:anywhere}"
-    "p{margin:.4rem 0;max-width:46rem}.lead{font-size:1.15rem}"
+    "p{margin:.4rem 0;max-width:46rem}.lead{font-size:1.15rem}p.of{margin:.1rem 0 .1rem 1.2rem}"
     "p.quiet,figcaption,caption,.kicker{color:var(--quiet);font-size:.875rem}"
     ".kicker{border-top:5px solid var(--ink);padding-top:.7rem;margin:0;max-width:none}"
     ".badge{display:inline-block;border:2px solid currentColor;border-radius:.3rem;padding:0 .5rem;"
-    "font-weight:700;margin-right:.6rem}.good{color:var(--good)}.bad{color:var(--bad)}"
+    "font-weight:700;margin-right:.6rem}.topic{display:inline-block}.good{color:var(--good)}.bad{color:var(--"
+    "bad)}"
     "figure{margin:.6rem 0 0}figcaption{max-width:46rem;margin:.3rem 0}"
     ".table{overflow:auto;max-height:28rem}.table+.table{margin-top:1rem}"
     ".wide svg,.narrow svg{display:block;width:100%;height:auto}.narrow{display:none}"
@@ -86,9 +87,9 @@ void hci_html_begin(hci_output *out, const hci_html_opening *o)
                     "Skip to the evidence</a>\n<main>\n<p class=\"kicker\"><span class=\"badge %s\">",
                     STYLE, hci_svg_style, o->good ? "good" : "bad");
     hci_svg_text(out, o->badge);
-    hci_output_text(out, "</span> ");
+    hci_output_text(out, "</span> <span class=\"topic\">");
     hci_svg_text(out, o->kicker);
-    hci_output_text(out, "</p>\n<h1>");
+    hci_output_text(out, "</span></p>\n<h1>");
     hci_svg_text(out, o->heading);
     hci_output_text(out, "</h1>\n");
 }

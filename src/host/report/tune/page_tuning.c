@@ -43,11 +43,13 @@ static void show_before_and_after(const hci_solution_page *page, double table_Nm
     hci_page_before_and_after(&p);
 }
 
+/* What is set in belongs to the line above it. */
 static void say_lines(hci_output *out, const char *text)
 {
     while (*text) {
         const size_t length = strcspn(text, "\n");
-        hci_html_say(out, "", "%.*s", (int)length, text);
+        const size_t blanks = strspn(text, " ");
+        hci_html_say(out, blanks > 0 ? "of" : "", "%.*s", (int)(length - blanks), text + blanks);
         text += length + (text[length] == '\n');
     }
 }

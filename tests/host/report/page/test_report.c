@@ -221,7 +221,9 @@ static void test_diagnosis(void)
     check_page(2 * 4); /* each for a screen and for a telephone */
     hci_diagnosis_words(&diagnosis, words, sizeof words);
     text_has(words, page);
-    text_has("badge good\">Explained</span> Diagnosis of a machine model · data/&#60;machine&#62;</p>", page);
+    text_has("badge good\">Explained</span> <span class=\"topic\">Diagnosis of a machine model · "
+             "data/&#60;machine&#62;</span></p>",
+             page);
     text_has("<h1>The model lacked cogging</h1>", page);
     text_has("Looked for and not needed: friction.", page);
     text_has("<td>0.5 N·m</td><td>0.004 N·m</td><td>0.003 N·m</td>", page);
@@ -660,7 +662,9 @@ static void test_solution(void)
     hci_page_solution(out, &s, HCI_NOT_REACHED, &sources);
     read_page(out);
     check_page(2 * 4); /* each for a screen and for a telephone */
-    text_has("badge bad\">Not reached</span> Currents for a wanted torque · m</p>", page);
+    text_has(
+        "badge bad\">Not reached</span> <span class=\"topic\">Currents for a wanted torque · m</span></p>",
+        page);
     text_has("<h1>2.1 N·m, with 0.625 N·m of ripple from peak to peak</h1>", page);
     text_has("<td>1 N·m<small>47.6 % of the mean</small>\n</td><td>0.625 N·m<small>29.8 % of the "
              "mean</small>\n</td>"
