@@ -35,7 +35,8 @@ static const cli_option OPTIONS[] = {
     [SWEEP_LINKS] = {"dc-links", 0, CLI_TEXT, "V,...",
                      .help = "with --envelope and --map: dc-link voltages, each with all speeds"},
     [SWEEP_RIPPLE] = {"ripple", 0, CLI_NUMBER, "PERCENT",
-                      .help = "with --envelope: T_ripple that is allowed (1)", .low = 0.02, .high = 1000.0},
+                      .help = "with --envelope: T_ripple that is allowed (1); 0: none, which is below 0.01 %",
+                      .low = 0.0, .high = 1000.0},
     [SWEEP_CURRENTS] = {"currents", 0, CLI_TEXT, "A,...",
                         .help = "with --trade-off: limits of the peak phase current (default: chosen)"},
     [SWEEP_COPPERS] =

@@ -243,7 +243,7 @@ static void fill_request(const cli_arguments *a, size_t points, cli_sweep_inputs
                                                                         : HCI_GRID_MAP,
                                      .machine = &in->machine,
                                      .options = &in->options,
-                                     .ripple_percent = cli_number_or(a, SWEEP_RIPPLE, 1.0),
+                                     .ripple_percent = fmax(cli_number_or(a, SWEEP_RIPPLE, 1.0), HCI_GRID_SMOOTH),
                                      .torque_Nm = axis_of(&in->torque_Nm),
                                      .speed_rad_per_s = axis_of(&in->speed_rad_per_s),
                                      .link_V = axis_of(&in->link_V),

@@ -143,7 +143,7 @@ awk 'function c(of) { return cos(2 * t + of) / 1e4 } BEGIN { print "theta_e_rad,
         printf "%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g\n", t, s - c(0), s - c(third), s - c(-third), -s / 2 - c(-third), -s / 2 - c(0), -s / 2 - c(third) } }' \
     >"$work/interior/inductance.csv"
 printf 'order,set\n1,pos\n5,neg\n7,pos\n' >"$work/three.csv"
-run 0 sweep "$work/interior" --envelope --ripple 0.1 --speeds 3500 --limit-current 260 --harmonics "$work/three.csv" -q -o "$work/bound"
+run 0 sweep "$work/interior" --envelope --ripple 0 --speeds 3500 --limit-current 260 --harmonics "$work/three.csv" -q -o "$work/bound"
 check "$(cell mean_Nm "$work/bound/envelope.csv") N·m is below the plain sine" \
     awk -v a="$(cell mean_Nm "$work/bound/envelope.csv")" -v b="$(cell sine_mean_Nm "$work/bound/envelope.csv")" 'BEGIN { exit !(a >= b && b > 140) }'
 
