@@ -564,6 +564,26 @@ static void test_waves_scale_with_torque(void)
     }
 }
 
+/* With one wave, of either kind, no strategy is asked. */
+static void test_one_wave_is_all_the_reference(void)
+{
+    const ref_wave ref = {5, -1, 0.3, 1.0};
+    hci_wave wave;
+    use_machine(&PM_SINE, 256);
+    wave = hci_wave_polar(5, -1, 0.3, 1.0);
+    for (int fixed = 0; fixed < 2; ++fixed) {
+        source = (hci_current_source){0.0, HCI_STRATEGY_ID0, &wave, !fixed, &wave, (size_t)fixed, NULL};
+        for (int k = 0; k < 10; ++k) {
+            const hci_measurement m = {{0.0, 0.0, 0.0}, 0.1 * k, 0.0};
+            double abc[3];
+            hci_control_step(&drive.control, &state.control, &m, 4.0);
+            hci_plane_to_abc(state.control.reference, abc);
+            for (int s = 0; s < 3; ++s)
+                TEST_ASSERT_DOUBLE_WITHIN(1e-12, (fixed ? 1.0 : 4.0) * ref_wave_at(&ref, s, 0.3 * k), abc[s]);
+        }
+    }
+}
+
 /* Samples over one mechanical turn at constant speed, at angles that are points of the table, have exactly
  * the spectrum that torque.c predicts in closed form: mutual, reluctance and cogging torque, orders k/2
  * included. */
@@ -687,6 +707,7 @@ int main(void)
     RUN_TEST(test_strategies_change_in_time);
     RUN_TEST(test_unreached_samples_are_counted);
     RUN_TEST(test_waves_scale_with_torque);
+    RUN_TEST(test_one_wave_is_all_the_reference);
     RUN_TEST(test_imposed_currents_have_the_predicted_spectrum);
     RUN_TEST(test_sensors_stand_between);
     RUN_TEST(test_noisy_runs_repeat_to_the_bit);

@@ -118,6 +118,19 @@ static void test_fractional_orders_span_the_mechanical_turn(void)
     }
 }
 
+/* Whatever the memory held. */
+static void test_every_row_is_filled(void)
+{
+    enum { FEW = 16 };
+    pm_list(&PM_SMOOTH, &lists);
+    for (size_t k = 0; k < hci_plant_table_size(FEW); ++k)
+        rows[k] = NAN;
+    TEST_ASSERT_EQUAL_INT(HCI_OK,
+                          hci_plant_table_fill(&lists.machine, &lists.given, FEW, rows, &plant.table));
+    for (size_t k = 0; k < hci_plant_table_size(FEW); ++k)
+        TEST_ASSERT_FALSE(isnan(rows[k]));
+}
+
 static void test_table_refuses(void)
 {
     const hci_harmonic third = hci_harmonic_polar(1.0 / 3.0, 0.1, 0.0), bad = {2.0, NAN, 0.0};
@@ -602,6 +615,7 @@ int main(void)
     RUN_TEST(test_table_follows_the_formulas);
     RUN_TEST(test_slope_is_the_derivative_of_the_interpolant);
     RUN_TEST(test_fractional_orders_span_the_mechanical_turn);
+    RUN_TEST(test_every_row_is_filled);
     RUN_TEST(test_table_refuses);
     RUN_TEST(test_table_refuses_each_alone);
     RUN_TEST(test_any_angle_stays_within_the_table);

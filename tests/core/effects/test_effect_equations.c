@@ -1,4 +1,6 @@
 /* Each effect against equations written here, and every derivative against differences. */
+#include <stdlib.h>
+
 #include "support/effect_list.h"
 #include "unity.h"
 
@@ -587,6 +589,25 @@ static void test_readings_and_back(void)
     }
 }
 
+/* Of a list that ends where its memory ends: for the address sanitizer. */
+static void test_nothing_behind_the_last_effect(void)
+{
+    uint64_t seed = 5;
+    double by_value[EL_TERMS], same[EL_TERMS];
+    el_list l;
+    bench(&l);
+    hci_effect *exact = malloc(l.list.count * sizeof *exact);
+    TEST_ASSERT_NOT_NULL(exact);
+    memcpy(exact, l.effect, l.list.count * sizeof *exact);
+    const hci_effects list = {exact, l.list.count};
+    const hci_sample reading = el_sample(&seed);
+    TEST_ASSERT_TRUE(hci_effects_terms(&list) <= EL_TERMS);
+    TEST_ASSERT_EQUAL_DOUBLE(hci_effects_predict(&m.machine, &l.list, &reading, by_value),
+                             hci_effects_predict(&m.machine, &list, &reading, same));
+    TEST_ASSERT_EQUAL_MEMORY(by_value, same, hci_effects_terms(&list) * sizeof *same);
+    free(exact);
+}
+
 /* A phase without a sensor is minus the sum of what the other two read, errors and all; undoing them gives it
  * back, and the derivatives by the errors are those of the whole. */
 static void test_a_phase_without_a_sensor(void)
@@ -1011,6 +1032,7 @@ int main(void)
     RUN_TEST(test_friction_brakes);
     RUN_TEST(test_stribeck_friction_fades);
     RUN_TEST(test_iron_drag_grows_with_load);
+    RUN_TEST(test_nothing_behind_the_last_effect);
     RUN_TEST(test_a_phase_without_a_sensor);
     RUN_TEST(test_all_readings_and_back);
     RUN_TEST(test_harmonics_of_a_resolver);

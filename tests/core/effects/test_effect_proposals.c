@@ -497,6 +497,24 @@ static void test_the_speed_at_which_friction_fades(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-6 * 8e-5, 1e-5 * stribeck_speed(8.0, 1.0), stribeck_speed(8e-5, 1e-5));
 }
 
+/* Poles that are not alike show in the declared back-EMF, wherever the even order stands. */
+static void test_even_orders_of_a_back_emf(void)
+{
+    const hci_wave wave[] = {{1.0, 1, 0.5, 0.0}, {2.0, -1, 0.01, 0.0}, {1.0, 1, 0.5, 0.0}};
+    size_t proposed[3];
+    for (int k = 0; k < 3; ++k) { /* none, behind, before */
+        const hci_machine machine = {
+            .pole_pairs = 3, .back_emf = wave + (k == 2), .back_emf_count = k ? 2 : 1};
+        hci_effect_survey s = recordings();
+        s.machine = &machine;
+        count = 0;
+        hci_effect_type_find("back_emf")->propose(&s, &TO);
+        proposed[k] = count;
+    }
+    TEST_ASSERT_TRUE(proposed[1] > proposed[0]);
+    TEST_ASSERT_EQUAL_UINT64(proposed[1], proposed[2]);
+}
+
 /* A motor of a hundredth of the flux has harmonics of a hundredth. */
 static void test_a_back_emf_is_expected_in_proportion(void)
 {
@@ -532,6 +550,7 @@ int main(void)
     RUN_TEST(test_series_of_the_coenergy);
     RUN_TEST(test_friction_that_fades);
     RUN_TEST(test_the_speed_at_which_friction_fades);
+    RUN_TEST(test_even_orders_of_a_back_emf);
     RUN_TEST(test_a_back_emf_is_expected_in_proportion);
     RUN_TEST(test_what_motors_of_one_make_differ_in);
     RUN_TEST(test_words_of_a_status);

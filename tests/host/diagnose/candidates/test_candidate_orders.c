@@ -198,6 +198,20 @@ static void test_an_order_of_no_slot(void)
     TEST_ASSERT_EQUAL_UINT64(11, hci_candidate_orders_next(&orders, 11, true, &under));
 }
 
+/* Of one pole pair: teeth that differ make even orders, poles that differ multiples of three, and no load
+ * turns more than four times a turn; what is left is the first. */
+static void test_low_orders_of_one_pole_pair(void)
+{
+    for (size_t periods = 1; periods < 6; ++periods) {
+        double under = INFINITY;
+        hide(periods, 0.05, 0.0);
+        find(1);
+        const size_t next = hci_candidate_orders_next(&orders, 1, true, &under);
+        TEST_ASSERT_EQUAL(periods > 1, next == periods);
+        hide(periods, -0.05, 0.0);
+    }
+}
+
 /* With 8 declared slots 8 and 16 a turn are theirs, which are no whole electrical orders of 3 pole pairs. */
 static void test_orders_of_all_the_slots(void)
 {
@@ -277,6 +291,7 @@ int main(void)
     RUN_TEST(test_orders_end_below_half_the_samples);
     RUN_TEST(test_slots_and_the_turn);
     RUN_TEST(test_an_order_of_no_slot);
+    RUN_TEST(test_low_orders_of_one_pole_pair);
     RUN_TEST(test_orders_of_all_the_slots);
     RUN_TEST(test_groups_of_slots);
     RUN_TEST(test_growth_that_no_effect_has);
