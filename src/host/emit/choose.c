@@ -238,15 +238,27 @@ static bool can_keep(hci_emission *e, double error_A)
     return best_of(e, error_A) != NULL;
 }
 
+/* The error that can be kept, from one that is wished: where that cannot be, the least to a fifth. */
+static double error_kept_A(hci_emission *e, double wished_A, double most_A)
+{
+    double kept_A = wished_A;
+    while (kept_A < most_A && !can_keep(e, kept_A))
+        kept_A *= 2.0;
+    double missed_A = 0.5 * kept_A;
+    for (int step = 0; step < 2 && kept_A > wished_A && kept_A < most_A; ++step) {
+        const double middle_A = sqrt(missed_A * kept_A);
+        *(can_keep(e, middle_A) ? &kept_A : &missed_A) = middle_A;
+    }
+    return kept_A;
+}
+
 /* Where nothing is asked for: without a machine a share of the peak current, and so where nothing finer fits.
  */
 static const hci_emit_choice *best_chosen(hci_emission *e, double *error_A)
 {
     const double peak_A = hci_tabulation_peak_A(&e->tabulation), most_A = HCI_EMIT_ERROR_SHARE * peak_A;
     e->most_bytes = HCI_EMIT_CHOSEN_BYTES;
-    *error_A = e->plant ? error_wished_A(e, most_A, peak_A) : most_A;
-    while (*error_A < most_A && !can_keep(e, *error_A))
-        *error_A *= 2.0;
+    *error_A = e->plant ? error_kept_A(e, error_wished_A(e, most_A, peak_A), most_A) : most_A;
     if (*error_A < most_A) return best_within(e, *error_A);
     e->most_bytes = e->request->max_bytes;
     *error_A = most_A;
