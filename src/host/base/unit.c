@@ -129,6 +129,7 @@ static const hci_unit units[] = {
     {"uh/rad", INDUCTANCE_SLOPE, 1e-6},
     {"ohm", RESISTANCE, 1},
     {"mohm", RESISTANCE, 1e-3},
+    {"v/a", RESISTANCE, 1},
     {"kg.m2", INERTIA, 1},
     {"kg.cm2", INERTIA, 1e-4},
     {"g.cm2", INERTIA, 1e-7},

@@ -55,6 +55,7 @@ static void test_units_convert_by_their_definition(void)
         {"\xE2\x84\xA6", "mohm", 1e3},
         {"m\xCE\xA9", "ohm", 1e-3},
         {"Ohm", "ohm", 1},
+        {"V/A", "ohm", 1},
         {"kg\xC2\xB7m\xC2\xB2", "kgm2", 1},
         {"kg*m^2", "kg_m2", 1},
         {"kg m2", "kg\xC2\xB7m\xC2\xB2", 1},
