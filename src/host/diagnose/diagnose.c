@@ -13,6 +13,7 @@
 #include "host/diagnose/free_friction.h"
 #include "host/diagnose/held_out.h"
 #include "host/diagnose/next_points.h"
+#include "host/diagnose/no_load_denied.h"
 #include "host/diagnose/open_voltage.h"
 #include "host/diagnose/prepare/swing_groups.h"
 #include "host/diagnose/run_errors.h"
@@ -179,6 +180,30 @@ static hci_status rising_leave(hci_dataset *b, const hci_runs *runs, hci_attribu
     return status;
 }
 
+/* Where nothing else is understood, a torque over the angle that the runs without a current show leaves if
+ * those under load deny it, or a sensor may make it. */
+static hci_status denied_leave(hci_dataset *b, const hci_runs *runs, hci_attribution *a, hci_diagnosis *d,
+                               hci_note *note)
+{
+    bool asked = false;
+    for (size_t r = 0; r < a->types; ++r)
+        asked = asked || (is_in(&a->verdict[r]) && hci_no_load_is_asked(a->verdict[r].type));
+    if (!asked || !d->no_load_alone) return HCI_OK;
+    const char *why = hci_no_load_denied(b, runs, &a->model.candidates, d);
+    if (!why) return HCI_OK;
+    for (size_t r = 0; r < a->types; ++r) {
+        hci_verdict *v = &a->verdict[r];
+        if (!v->in || !hci_no_load_is_asked(v->type)) continue;
+        v->in = v->established = v->ambiguous = false;
+        hci_candidates_remove_type(&a->model.candidates, v->type);
+    }
+    a->no_load_alone = is_established(a);
+    const hci_status status = refill(b, runs, a, d, note);
+    d->contradicted = false;
+    d->no_load_denied = why;
+    return status;
+}
+
 /* What the runs held out say of the effects. */
 static hci_status test(hci_dataset *b, const hci_runs *runs, hci_attribution *a, hci_diagnosis *d,
                        double resolution_Nm, hci_note *note)
@@ -261,6 +286,7 @@ static hci_status conclude(hci_dataset *b, const hci_machine_data *machine, cons
         status = test(b, runs, a, d, resolution_Nm, note);
     else if (a->unknown)
         status = rising_leave(b, runs, a, d, resolution_Nm, note);
+    if (!status && a->unknown) status = denied_leave(b, runs, a, d, note);
     if (!status && is_against_voltages(b, machine, runs, d)) {
         status = withdraw(b, runs, a, d, true, note);
         d->contradicted = false;

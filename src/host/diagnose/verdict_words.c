@@ -138,7 +138,7 @@ static void say_partly(const hci_words *w, const hci_diagnosis *d)
     if (!any(d, HCI_FINDING_ADDED)) say_names(w, d, HCI_FINDING_AMBIGUOUS, " or ");
     if (d->no_load_alone) hci_words_say(w, ", which the runs without a current show by themselves");
     hci_words_say(w, "; what else it lacks is not known%s.", is_unfinished(d) ? " yet" : "");
-    if (d->no_load_alone && d->holdout_after_Nm > (1.0 + SAME) * d->holdout_before_Nm)
+    if (d->no_load_alone && !d->no_load_denied && d->holdout_after_Nm > (1.0 + SAME) * d->holdout_before_Nm)
         hci_words_say(w, " Under load that does not hold by itself: there the error rises with it.");
 }
 
@@ -157,6 +157,7 @@ static void say_unknown(const hci_words *w, const hci_diagnosis *d)
     if (d->verdict == HCI_DIAGNOSIS_UNKNOWN) say_not_known(w, d);
     if (d->verdict == HCI_DIAGNOSIS_PARTLY) say_partly(w, d);
     say_slip(w, d);
+    if (d->no_load_denied) hci_words_say(w, " %s.", d->no_load_denied);
     if (is_unfinished(d)) return; /* what is left may be what was not looked for */
     say_disbelieved(w, d);
     if (d->contradicted)

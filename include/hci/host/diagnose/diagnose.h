@@ -172,10 +172,12 @@ typedef struct {
     bool means_alone;   /* and nothing stands in the ripple beside what is left of these means */
     bool no_load_alone; /* the effects are those that the runs without a current show by themselves, since
                          * what   acts under load is not known */
-    bool wanders;       /* something is left that does not repeat with the turn */
-    const char *slip;   /* what a wrong sign, direction, zero or number of pole pairs shows, and no effect was
-                         * made of, in words; NULL: nothing such */
-    bool not_searched;  /* because of that slip no effect was looked for */
+    const char *no_load_denied; /* why what the runs without a current show was left out, in words; NULL: it
+                                 * was not */
+    bool wanders;               /* something is left that does not repeat with the turn */
+    const char *slip;  /* what a wrong sign, direction, zero or number of pole pairs shows, and no effect was
+                        * made of, in words; NULL: nothing such */
+    bool not_searched; /* because of that slip no effect was looked for */
     bool inertia_as_well;    /* free shafts alone: a wrong inertia looks the same as an ambiguous effect */
     double open_voltage_off; /* share by which voltages without a current differ from the declared back-EMF;
                               * 0: none were recorded */

@@ -171,7 +171,8 @@ static double periods_resolved(const hci_binned_sample *sample, size_t n)
     return span_rad > 0.0 ? RESOLVED * (double)(n - 1) * 2.0 * HCI_PI / span_rad : 0.0;
 }
 
-/* Periods in a turn, ascending: the electrical orders that drives ripple at, and as many as the samples bear
+/* Periods in a turn, ascending: the electrical orders that drives ripple at, once and twice a turn, which an
+ * eccentric encoder makes of a steady current, and as many as the samples bear
  * of those of the rotor and of the encoder, up to a few times the pole pairs, and of higher electrical
  * orders. In the rotor frame injected 5th and 7th harmonics are of order 6. Without a known turn only the
  * electrical ones. resolved: no more than so many. */
@@ -180,7 +181,8 @@ static size_t periods_list(int pole_pairs, bool turns, size_t n, double resolved
     const size_t p = (size_t)pole_pairs, most = n / (2 * LEAST_SAMPLES);
     size_t count = 0, others = most > FIRST_ORDERS ? most - FIRST_ORDERS : 0;
     for (size_t k = 1; k <= MOST_ORDER * p && (double)k <= resolved && count < MOST_PERIODS; ++k) {
-        const bool whole = k % p == 0, first = whole && k <= FIRST_ORDERS * p;
+        const bool whole = k % p == 0, of_encoder = turns && k <= 2;
+        const bool first = of_encoder || (whole && k <= FIRST_ORDERS * p);
         if (!first && (others == 0 || (!whole && (!turns || k > ALL_ORDERS * p)))) continue;
         others -= !first;
         periods[count++] = k;

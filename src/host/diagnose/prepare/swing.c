@@ -36,6 +36,7 @@ enum {
 #define ALIAS      0.03 /* of an electrical order, that is the order */
 #define FOLDED     64.0 /* samples in an electrical period: with more no order of note is above half of them */
 #define ALIKE      1.5  /* times as large or as small as in other runs */
+#define MULTIPLE   4.0  /* errors of a frequency */
 #define OFF        0.5  /* of a line, that it may be another one in the torque itself */
 #define GOLDEN     0.61803398874989485
 
@@ -400,6 +401,20 @@ static bool has(const changes *c, const line *lines, size_t count, const hci_swi
     return false;
 }
 
+/* Whether a swing is one of other runs too: several show it, or a part of it of which it is a multiple, as of
+ * the mains. */
+static bool is_known(const hci_swing_groups *known, const hci_swing_group *x)
+{
+    for (size_t g = 0; g < known->count; ++g) {
+        const hci_swing_group *y = &known->group[g];
+        const double times = round(x->frequency / y->frequency), off = x->frequency - times * y->frequency;
+        if (y->runs >= LEAST_RUNS && y->of_turn == x->of_turn && times >= 1.0 &&
+            fabs(off) < MULTIPLE * fmax(x->error, times * y->error))
+            return true;
+    }
+    return false;
+}
+
 /* Adds those that other runs show, where they are about as large here. Returns how many there are then. */
 static size_t known_take(const hci_swing_question *x, changes *c, const hci_swing_groups *known, line *lines,
                          size_t count)
@@ -407,7 +422,7 @@ static size_t known_take(const hci_swing_question *x, changes *c, const hci_swin
     for (size_t g = 0; g < known->count && count < HCI_MOST_SWINGS; ++g) {
         const hci_swing_group *k = &known->group[g];
         const double frequency_Hz = k->of_turn ? k->frequency / c->turn_s : k->frequency;
-        if (k->runs < LEAST_RUNS || has(c, lines, count, k)) continue;
+        if (!is_known(known, k) || has(c, lines, count, k)) continue;
         const line a = seen(c, frequency_Hz) > APART ? line_fit(c, frequency_Hz)
                                                      : line_of_torque(x, frequency_Hz); /* hardly shows */
         const double ratio = hypot(a.cosine, a.sine) / k->amplitude_Nm;

@@ -103,6 +103,21 @@ static void test_the_mains_at_an_order(void)
         TEST_ASSERT_DOUBLE_WITHIN(0.05 * NOISE_NM, NOISE_NM, left_Nm(r));
 }
 
+/* Three times the mains, which one run shows, is looked for in the others as well. */
+static void test_a_multiple_of_the_mains(void)
+{
+    static const double TURN_HZ[RUNS] = {10.0, 6.0, 7.3, 15.0};
+    for (size_t r = 0; r < RUNS; ++r) {
+        record(r, &(point){TURN_HZ[r], 49.98, 0.03, 0.0, 0.0});
+        for (size_t k = 0; k < N; ++k)
+            run[r].torque_Nm[k] +=
+                (r == 2 ? 0.012 : 0.009) * sin(2.0 * REF_PI * 149.94 * run[r].time_s[k] + 1.0);
+    }
+    find_all();
+    for (size_t r = 0; r < RUNS; ++r)
+        TEST_ASSERT_DOUBLE_WITHIN(0.05 * NOISE_NM, NOISE_NM, left_Nm(r));
+}
+
 static void test_a_belt(void)
 {
     static const double TURN_HZ[RUNS] = {5.0, 10.0, 20.0, 25.0};
@@ -131,6 +146,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_a_load_that_swings);
     RUN_TEST(test_the_mains_at_an_order);
+    RUN_TEST(test_a_multiple_of_the_mains);
     RUN_TEST(test_a_belt);
     RUN_TEST(test_what_is_no_swing_of_its_own);
     return UNITY_END();

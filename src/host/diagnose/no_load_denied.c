@@ -1,0 +1,93 @@
+#include "host/diagnose/no_load_denied.h"
+
+#include <math.h>
+
+#define LITTLE  0.01 /* of the largest current, that is none */
+#define RISES   1.02 /* times the error before */
+#define ONE     0.1  /* of a speed, by which others are the same */
+#define SHRINKS 1.05 /* times an amplitude, that a lag leaves of it at most */
+
+bool hci_no_load_is_asked(const hci_effect_type *type)
+{
+    return type->any_phase && type->parameter[0].ordered;
+}
+
+/* ---- under load ---- */
+
+static bool is_loaded(const hci_dataset *b, size_t run)
+{
+    return b->samples.statistics[run].current_A > LITTLE * hci_dataset_range_of(b).current_A;
+}
+
+/* The run of an entry of the diagnosis, which has those with a torque alone. */
+static size_t run_of(const hci_runs *runs, const hci_run_errors *e)
+{
+    size_t run = 0;
+    while (runs->run[run].name != e->file)
+        ++run;
+    return run;
+}
+
+/* Whether the ripple that is left of the runs under load is larger than that of the declared machine. */
+static bool rises(const hci_dataset *b, const hci_runs *runs, const hci_diagnosis *d)
+{
+    double before = 0.0, after = 0.0, noise = 0.0;
+    for (size_t k = 0; k < d->runs; ++k) {
+        const hci_run_errors *e = &d->run[k];
+        if (!is_loaded(b, run_of(runs, e))) continue;
+        before += e->ripple_before_Nm * e->ripple_before_Nm;
+        after += e->ripple_after_Nm * e->ripple_after_Nm;
+        noise += e->noise_floor_Nm * e->noise_floor_Nm;
+    }
+    return after > RISES * RISES * fmax(before, noise);
+}
+
+/* ---- at one speed ---- */
+
+static bool is_one_speed(const hci_dataset *b, const hci_runs *runs)
+{
+    double least = INFINITY, most = 0.0;
+    for (size_t r = 0; r < runs->count; ++r) {
+        const double speed = fabs(b->samples.statistics[r].mean_speed_rad_per_s);
+        if (runs->run[r].torque_source != HCI_TORQUE_MEASURED || is_loaded(b, r)) continue;
+        least = fmin(least, speed);
+        most = fmax(most, speed);
+    }
+    return most > 0.0 && most - least <= ONE * most;
+}
+
+static const hci_harmonic *declared_at(const hci_machine *machine, double order)
+{
+    for (size_t k = 0; k < machine->cogging_count; ++k)
+        if (fabs(machine->cogging[k].order - order) < HCI_ORDER_TOLERANCE) return &machine->cogging[k];
+    return NULL;
+}
+
+/* Whether it makes nothing but declared torques smaller, or turns them, as a sensor does that lags or
+ * averages. */
+static bool is_like_lag(const hci_machine *machine, const hci_candidates *model)
+{
+    for (size_t k = 0; k < model->count; ++k) {
+        const hci_candidate *x = &model->candidate[k];
+        if (!x->in || !hci_no_load_is_asked(x->type) || x->count != 2) continue;
+        const hci_harmonic *a = declared_at(machine, x->term[0].order);
+        if (!a || hypot(a->sine + x->term[0].value, a->cosine + x->term[1].value) >
+                      SHRINKS * hypot(a->sine, a->cosine))
+            return false;
+    }
+    return true;
+}
+
+const char *hci_no_load_denied(const hci_dataset *b, const hci_runs *runs, const hci_candidates *model,
+                               const hci_diagnosis *d)
+{
+    if (rises(b, runs, d))
+        return "The runs under load deny a torque over the angle that those without a current show: their "
+               "ripple is larger with it, as where the torque sensor lags or its coupling has play; it was "
+               "left out";
+    if (is_one_speed(b, runs) && is_like_lag(b->regression.machine, model))
+        return "What the runs without a current show at their one speed may be other cogging, or a torque "
+               "sensor "
+               "that lags or averages; it was left out, and a run at another speed would tell";
+    return NULL;
+}

@@ -1,0 +1,106 @@
+/* What runs without a current show of a torque over the angle, beside runs under load that are not
+ * understood. */
+#define _XOPEN_SOURCE 700
+#include "host/diagnose/no_load_denied.h"
+
+#include "support/searching.h"
+
+void setUp(void)
+{
+    dataset_start();
+    files_write(files_path("cogging.csv"), "order,amplitude_Nm,phase_rad\n6,0.1,0\n");
+    hci_machine_release(&machine);
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_machine_read(files_root, &machine, &(hci_note){{0}}));
+}
+
+void tearDown(void)
+{
+    dataset_end();
+}
+
+/* A cogging torque of so much; under load beside a torque that is another one each time. */
+static void record_cogging(const point *x, double cogging_Nm, double lag_rad)
+{
+    const size_t r = runs.count;
+    record(600, x);
+    for (size_t k = 0; k < 600; ++k)
+        run[r].torque_Nm[k] += cogging_Nm * sin(6.0 * (P * run[r].theta_m_rad[k] - lag_rad));
+}
+
+static void record_loads(double cogging_Nm, double lag_rad)
+{
+    for (int k = 0; k < 4; ++k)
+        record_cogging(&(point){k < 2 ? 40.0 : -90.0, k % 2 ? 9.0 : 4.0, 0.0, 0.0, 0.04}, cogging_Nm,
+                       lag_rad);
+}
+
+static bool words_say(const char *text)
+{
+    char words[2048];
+    hci_diagnosis_words(&diagnosis, words, sizeof words);
+    return strstr(words, text) != NULL;
+}
+
+/* Without load a sensor with play shows hardly any of the declared cogging torque, and under load all of it.
+ */
+static void test_denied_under_load(void)
+{
+    record_cogging(&(point){60.0, 0.0, 0.0, 0.0, 0.0}, 0.02, 0.0);
+    record_cogging(&(point){-100.0, 0.0, 0.0, 0.0, 0.0}, 0.02, 0.0);
+    record_loads(0.1, 0.0);
+    TEST_ASSERT_EQUAL_INT(HCI_NOT_REACHED, diagnose(NULL));
+    TEST_ASSERT_EQUAL_INT(HCI_DIAGNOSIS_UNKNOWN, diagnosis.verdict);
+    TEST_ASSERT_EQUAL_UINT64(0, diagnosis.effects.list.count);
+    TEST_ASSERT_TRUE(words_say("The runs under load deny"));
+}
+
+/* What is said of a change of the declared cogging torque of 0.1 sin 6θ, beside runs without load at these
+ * speeds and one under load whose ripple it leaves as it is. */
+static const char *said_of(double sine, double cosine, double speed)
+{
+    static hci_run_errors errors[3];
+    const char *why;
+    record_cogging(&(point){60.0, 0.0, 0.0, 0.0, 0.0}, 0.1, 0.0);
+    record_cogging(&(point){speed, 0.0, 0.0, 0.0, 0.0}, 0.1, 0.0);
+    record_cogging(&(point){60.0, 5.0, 0.0, 0.0, 0.0}, 0.1, 0.0);
+    search_start();
+    model_add("cogging", "sine", "cosine", 6.0);
+    model.candidates.candidate[0].term[0].value = sine;
+    model.candidates.candidate[0].term[1].value = cosine;
+    for (size_t r = 0; r < 3; ++r)
+        errors[r] = (hci_run_errors){
+            .file = run[r].name, .ripple_before_Nm = 0.05, .ripple_after_Nm = 0.05, .noise_floor_Nm = 0.01};
+    why = hci_no_load_denied(&dataset, &runs, &model.candidates, &(hci_diagnosis){.run = errors, .runs = 3});
+    search_end();
+    tearDown();
+    setUp();
+    return why;
+}
+
+/* At one speed a sensor that lags shows the declared torque smaller and later; a larger one is none. */
+static void test_one_speed_does_not_tell_a_lag(void)
+{
+    TEST_ASSERT_NOT_NULL(said_of(-0.02, -0.03, -60.0));
+    TEST_ASSERT_NULL(said_of(-0.02, -0.03, 110.0));
+    TEST_ASSERT_NULL(said_of(0.02, -0.03, -60.0));
+}
+
+/* Of two speeds that show the same, it is cogging. */
+static void test_two_speeds_tell_it(void)
+{
+    record_cogging(&(point){60.0, 0.0, 0.0, 0.0, 0.0}, 0.07, 0.0);
+    record_cogging(&(point){-110.0, 0.0, 0.0, 0.0, 0.0}, 0.07, 0.0);
+    record_loads(0.07, 0.0);
+    TEST_ASSERT_EQUAL_INT(HCI_NOT_REACHED, diagnose(NULL));
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_ADDED, found("cogging")->verdict);
+    TEST_ASSERT_FALSE(words_say("deny") || words_say("lags or averages"));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_denied_under_load);
+    RUN_TEST(test_one_speed_does_not_tell_a_lag);
+    RUN_TEST(test_two_speeds_tell_it);
+    return UNITY_END();
+}
