@@ -296,6 +296,18 @@ static hci_status conclude(hci_dataset *b, const hci_machine_data *machine, cons
     return status;
 }
 
+/* What goes with the rotor and not in step with it, as a bearing does, may be of the motor: no effect
+ * explains it. */
+static void loose_swings_judge(hci_diagnosis *d)
+{
+    bool any = false;
+    for (size_t k = 0; k < d->swings; ++k)
+        any = any || (d->swing[k].of_turn && d->swing[k].runs > 1);
+    if (!any || d->verdict > HCI_DIAGNOSIS_EXPLAINED) return;
+    d->verdict = d->verdict == HCI_DIAGNOSIS_COMPLETE ? HCI_DIAGNOSIS_UNKNOWN : HCI_DIAGNOSIS_PARTLY;
+    hci_uncertainty_release(&d->uncertainty);
+}
+
 static hci_status diagnose(hci_dataset *b, const hci_machine_data *machine, const hci_runs *runs,
                            const hci_diagnose_options *options, hci_diagnosis *d, hci_note *note)
 {
@@ -321,6 +333,7 @@ static hci_status diagnose(hci_dataset *b, const hci_machine_data *machine, cons
     if (!status) status = hci_next_points_tell_apart(&b->regression, machine, &a, d, note);
     if (!status) status = fill(b, runs, &a, d, note);
     if (!status) status = conclude(b, machine, runs, how.resolution_Nm, &a, d, note);
+    if (!status) loose_swings_judge(d);
     if (!status && !a.not_searched) status = hci_next_points_unknown(&b->regression, machine, d, note);
     if (!status && !a.not_searched) status = hci_next_points_left_open(&b->regression, machine, d, note);
     hci_attribution_release(&a);

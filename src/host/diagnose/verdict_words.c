@@ -186,9 +186,9 @@ static void say_swings(const hci_words *w, const hci_diagnosis *d)
                       x->of_turn ? "times a turn" : "Hz", x->runs, d->runs);
     }
     if (d->swings > 0)
-        hci_words_say(
-            w, ", which does not repeat with the turn of the rotor, as of the load, a belt or the mains: "
-               "it was taken out.");
+        hci_words_say(w, ", which does not repeat with the turn of the rotor, as of a load, a bearing, a "
+                         "belt or the mains: "
+                         "it was taken out.");
 }
 
 /* A torque that no sensor has read is right only where the shaft drives nothing. */

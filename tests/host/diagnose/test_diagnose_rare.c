@@ -61,6 +61,37 @@ static void test_plain_friction_has_no_excess(void)
     TEST_ASSERT_EQUAL_UINT64(1, count_of(HCI_FINDING_ADDED));
 }
 
+/* ---- swings beside the turn ---- */
+
+/* Of a frequency in Hz, or so often in a turn. */
+static void record_swinging(double frequency_Hz, double per_turn)
+{
+    for (int k = 0; k < 4; ++k) {
+        record(1800, &(point){k < 2 ? 60.0 + 7.0 * k : -130.0 - 9.0 * k, k % 2 ? 9.0 : 2.0, 0.0, 0.0, 0.0});
+        for (size_t j = 0; j < 1800; ++j)
+            run[k].torque_Nm[j] += 0.05 * sin(2.0 * REF_PI * frequency_Hz * run[k].time_s[j] +
+                                              per_turn * run[k].theta_m_rad[j] + k);
+    }
+    diagnose(NULL);
+    TEST_ASSERT_EQUAL_UINT64(1, diagnosis.swings);
+    TEST_ASSERT_EQUAL_UINT64(4, diagnosis.swing[0].runs);
+    TEST_ASSERT_EQUAL_UINT64(0, diagnosis.effects.list.count);
+}
+
+/* That of a load is none of the motor's; what goes with the rotor may be its bearing. */
+static void test_swings_are_said(void)
+{
+    record_swinging(13.1, 0.0);
+    TEST_ASSERT_FALSE(diagnosis.swing[0].of_turn);
+    TEST_ASSERT_EQUAL_INT(HCI_DIAGNOSIS_COMPLETE, diagnosis.verdict);
+    tearDown();
+    setUp();
+    record_swinging(0.0, 1.3717);
+    TEST_ASSERT_TRUE(diagnosis.swing[0].of_turn);
+    TEST_ASSERT_DOUBLE_WITHIN(0.01, 1.3717, diagnosis.swing[0].frequency);
+    TEST_ASSERT_EQUAL_INT(HCI_DIAGNOSIS_UNKNOWN, diagnosis.verdict);
+}
+
 /* ---- a zero that creeps ---- */
 
 /* Two currents there, two back and faster; n: samples, 300 a turn. */
@@ -338,6 +369,7 @@ static void test_beside_such_zeros_ripple_is_explained(void)
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_swings_are_said);
     RUN_TEST(test_stribeck_friction);
     RUN_TEST(test_plain_friction_has_no_excess);
     RUN_TEST(test_drift_of_the_torque_sensor);
