@@ -64,7 +64,7 @@ static void test_plain_friction_has_no_excess(void)
 /* ---- swings beside the turn ---- */
 
 /* Of a frequency in Hz, or so often in a turn. */
-static void record_swinging(double frequency_Hz, double per_turn)
+static void record_beside(double frequency_Hz, double per_turn)
 {
     for (int k = 0; k < 4; ++k) {
         record(1800, &(point){k < 2 ? 60.0 + 7.0 * k : -130.0 - 9.0 * k, k % 2 ? 9.0 : 2.0, 0.0, 0.0, 0.0});
@@ -81,12 +81,12 @@ static void record_swinging(double frequency_Hz, double per_turn)
 /* That of a load is none of the motor's; what goes with the rotor may be its bearing. */
 static void test_swings_are_said(void)
 {
-    record_swinging(13.1, 0.0);
+    record_beside(13.1, 0.0);
     TEST_ASSERT_FALSE(diagnosis.swing[0].of_turn);
     TEST_ASSERT_EQUAL_INT(HCI_DIAGNOSIS_COMPLETE, diagnosis.verdict);
     tearDown();
     setUp();
-    record_swinging(0.0, 1.3717);
+    record_beside(0.0, 1.3717);
     TEST_ASSERT_TRUE(diagnosis.swing[0].of_turn);
     TEST_ASSERT_DOUBLE_WITHIN(0.01, 1.3717, diagnosis.swing[0].frequency);
     TEST_ASSERT_EQUAL_INT(HCI_DIAGNOSIS_UNKNOWN, diagnosis.verdict);
