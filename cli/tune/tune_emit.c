@@ -1,0 +1,136 @@
+#include "cli/tune/tune_steps.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/tune/tune_commands.h"
+#include "cli/tune/tune_options.h"
+
+/* What the header of the table that was emitted says of it; 0: nothing. */
+typedef struct {
+    unsigned long turns;
+    double own_Nm, torque_Nm, with_Nm; /* ripple that its cut makes, at which torque, and all that is left */
+} table_header;
+
+static table_header read_header(const char *folder, const char *name)
+{
+    char path[2 * CLI_TUNE_PATH], line[512];
+    table_header h = {0};
+    snprintf(path, sizeof path, "%s/%s.h", folder, name);
+    FILE *f = fopen(path, "r");
+    while (f && fgets(line, sizeof line, f)) {
+        sscanf(line, " * Angle: uint32_t, 2^32 = %lu electrical turn", &h.turns);
+        sscanf(line,
+               " * Ripple: the cut to this table makes %lf N*m from peak to peak at %lf N*m; with it %lf N*m",
+               &h.own_Nm, &h.torque_Nm, &h.with_Nm);
+    }
+    if (f) fclose(f);
+    return h;
+}
+
+bool cli_tune_knows_zero(const cli_tuning *t)
+{
+    bool knows = !t->is_own || t->has_load;
+    for (size_t k = 0; k < t->runs.count; ++k) {
+        const hci_run *r = &t->runs.run[k];
+        const bool has_phases = r->v_V && r->theta_m_rad && !r->voltage_is_dq;
+        knows = knows || r->is_electrical || r->zero_is_given || (t->has_emf && has_phases);
+    }
+    return knows;
+}
+
+/* Components that a current loop is asked to follow; a few are usual. */
+#define MANY_COMPONENTS 24
+
+static void say_components(cli_tuning *t)
+{
+    const hci_currents *c = &t->solution.current;
+    double most = 0.0;
+    for (size_t k = 0; k < c->count; ++k)
+        most = fmax(most, c->wave[k].order);
+    hci_tuning_say(
+        &t->tuning, HCI_TUNING_LOAD,
+        "The currents have %zu component%s up to order %.4g, which is %.3g Hz at 100 rpm%s.", c->count,
+        c->count == 1 ? "" : "s", most, most * t->corrected.model.pole_pairs * 100.0 / 60.0,
+        c->count > MANY_COMPONENTS
+            ? ": more than most current loops follow; hci-solve solve --auto 6 finds the best six, and "
+              "simulate --table --drive says what the loop makes of them"
+            : "");
+}
+
+/* Where the solution is linear in the torque. */
+static void say_per_torque(cli_tuning *t, const char *currents, const char *name, const char *machine)
+{
+    if (t->solution.per_Nm == NULL) return;
+    hci_tuning_say(
+        &t->tuning, HCI_TUNING_LOAD,
+        "Where the torque changes, as in a joint that moves freely, load it in two parts, one of them times "
+        "the torque: hci-solve emit %s --name %s --frame dq --per-torque --machine %s%s -o FOLDER.",
+        currents, name, machine, cli_tune_knows_zero(t) ? "" : " --angle-of-logs");
+}
+
+/* What the table is, and how its firmware reads it. */
+static void say_table(cli_tuning *t, const char *name, const char *folder, const table_header *h)
+{
+    hci_tuning_say(
+        &t->tuning, HCI_TUNING_LOAD,
+        "%s/%s.h and %s.c need hci/table.h alone: `hci_currents_dq i = hci_table_f32_dq(&%s, "
+        "angle);`, where 2^32 of "
+        "the angle is %lu electrical turn%s from the zero of the logs%s%s%s. They are the whole "
+        "reference for %.4g N·m (docs/controller.md); their cut makes %.2g N·m of ripple, which is in the "
+        "figures above; another --max-error of emit makes it less, or the table smaller.",
+        folder, name, name, name, h->turns, h->turns == 1 ? "" : "s",
+        cli_tune_offset(t) ? " with --angle-offset " : "", cli_tune_offset(t) ? cli_tune_offset(t) : "",
+        h->turns == 1 ? "" : ", not one: the angle goes on from turn to turn", t->mean_Nm, h->own_Nm);
+}
+
+static void say_other_drives(cli_tuning *t, const char *currents, const char *name, const char *machine,
+                             const char *folder)
+{
+    hci_tuning_say(&t->tuning, HCI_TUNING_LOAD,
+                   "For a drive whose firmware is somebody else's: hci-solve emit %s --name %s --for "
+                   "simplefoc --machine %s%s -o %s, or another one of docs/drives.",
+                   currents, name, machine, cli_tune_knows_zero(t) ? "" : " --angle-of-logs", folder);
+    if (cli_tune_offset(t))
+        hci_tuning_say(&t->tuning, HCI_TUNING_LOAD,
+                       "The zero of the logs is not the machine's: a map over the encoder's turn takes "
+                       "--encoder-offset %.6g besides (mechanical degrees, of the encoder that was logged).",
+                       -strtod(cli_tune_offset(t), NULL) / t->declared.model.pole_pairs);
+}
+
+static void say_first_turn(cli_tuning *t, const char *machine, const char *currents)
+{
+    hci_tuning_say(&t->tuning, HCI_TUNING_LOAD,
+                   "First turn on the bench: log angle and currents while the table is played, and run "
+                   "hci-solve check %s LOG --table %s%s%s, which tells an angle that is off.",
+                   machine, currents, cli_tune_offset(t) ? " --angle-offset " : "",
+                   cli_tune_offset(t) ? cli_tune_offset(t) : "");
+}
+
+hci_status cli_tune_emit(cli_tuning *t, hci_note *note)
+{
+    const char *name = t->arguments->value[TUNE_NAME] ? t->arguments->value[TUNE_NAME] : "tuned";
+    char currents[CLI_TUNE_PATH], folder[CLI_TUNE_PATH], machine[CLI_TUNE_PATH];
+    if (!t->is_solved) return HCI_OK;
+    cli_tune_path(t, "currents", currents);
+    cli_tune_path(t, "table", folder);
+    cli_tune_path(t, "diagnose/machine", machine);
+    cli_tune_line c = {
+        {"emit", currents, "--name", name, "--frame", "dq", "--machine", machine, "-o", folder}, 10};
+    if (!cli_tune_knows_zero(t)) cli_tune_add_option(&c, "angle-of-logs", NULL);
+    const hci_status status = cli_tune_run(t, t->commands.emit, &c, note);
+    if (status) return status;
+    t->is_emitted = true;
+    const table_header header = read_header(folder, name);
+    t->tuning.table_Nm = header.with_Nm;
+    if (t->solution.expected.state == HCI_RIPPLE_KNOWN)
+        hci_expected_ripple_add_table(&t->solution.expected, header.own_Nm, t->mean_Nm);
+    say_table(t, name, folder, &header);
+    say_other_drives(t, currents, name, machine, folder);
+    say_components(t);
+    say_per_torque(t, currents, name, machine);
+    say_first_turn(t, machine, currents);
+    return HCI_OK;
+}

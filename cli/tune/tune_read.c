@@ -1,0 +1,294 @@
+#include "cli/tune/tune_steps.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/terminal/progress.h"
+#include "cli/tune/tune_commands.h"
+#include "cli/tune/tune_options.h"
+#include "cli/tune/tune_read.h"
+#include "hci/host/currents/target.h"
+#include "hci/host/report/write.h"
+#include "hci/host/waveform/waveform.h"
+#include "hci/math/harmonic.h"
+
+/* ---- what is known of the logs ---- */
+
+bool cli_tune_is_blocked(const cli_tuning *t)
+{
+    return t->has_slip || t->has_misfit || t->has_unsteady || t->has_alias;
+}
+
+double cli_tune_order_of_slots(const cli_tuning *t)
+{
+    const long slots = lround(t->declared.slots), poles = 2L * t->declared.model.pole_pairs;
+    long a = slots, b = poles;
+    if (!(t->declared.slots > 0.0) || slots < 1) return 0.0;
+    while (b > 0) {
+        const long rest = a % b;
+        a = b, b = rest;
+    }
+    return 2.0 * (double)(slots / a);
+}
+
+/* ---- what is read ---- */
+
+static hci_status init_machine(cli_tuning *t, hci_note *note)
+{
+    const cli_arguments *a = t->arguments;
+    cli_tune_line c = {{"init", "machine"}, 2};
+    for (int k = 0; k <= TUNE_DC_LINK; ++k)
+        if (a->given[k]) cli_tune_add_option(&c, cli_tune_options[k].name, a->value[k]);
+    cli_tune_path(t, "machine", t->machine);
+    cli_tune_add(&c, "-o");
+    cli_tune_add(&c, t->machine);
+    t->is_own = true;
+    return cli_tune_run(t, t->commands.init, &c, note);
+}
+
+static hci_status list_logs(cli_tuning *t, hci_note *note)
+{
+    const cli_arguments *a = t->arguments;
+    const char *test = a->given[TUNE_HOLDING] ? "holding" : "";
+    cli_tune_path(t, "runs.csv", t->list);
+    cli_tune_note(t, "echo file,role,test >\"$OUT\"/runs.csv\nfor log in");
+    for (size_t k = 0; k < a->words; ++k)
+        cli_tune_note_word(t, a->word[k], false);
+    cli_tune_note(
+        t, "; do echo \"$(realpath --relative-to=\"$OUT\" \"$log\"),fit,%s\"; done >>\"$OUT\"/runs.csv\n",
+        test);
+    return hci_tuning_write_list(t->out, a->word, a->words, test, note);
+}
+
+hci_status cli_tune_begin(const cli_arguments *a, cli_tuning *t, hci_note *note)
+{
+    hci_status status;
+    t->arguments = a;
+    t->out = a->value[TUNE_OUT];
+    if (!t->out || !*t->out)
+        return hci_note_set(note, HCI_ERROR_ARGUMENT, "tune: add --out FOLDER, a new folder for the results");
+    if (a->given[TUNE_RUNS] && a->words != 1)
+        return hci_note_set(note, HCI_ERROR_ARGUMENT,
+                            "tune: found %zu words, expected one machine beside --runs LIST", a->words);
+    cli_tune_note(t, "#!/bin/sh\n# What tune did, step by step, from the folder where it was called: sh "
+                     "commands.sh NEW_FOLDER\n"
+                     "set -eu\nOUT=${1:?give a new folder}\nmkdir -p \"$OUT\"\n");
+    if (a->given[TUNE_RUNS]) {
+        snprintf(t->machine, sizeof t->machine, "%s", a->word[0]);
+        snprintf(t->list, sizeof t->list, "%s", a->value[TUNE_RUNS]);
+        return HCI_OK;
+    }
+    status = init_machine(t, note);
+    return status ? status : list_logs(t, note);
+}
+
+static const char *source_words(const hci_run *r)
+{
+    static const char *const WORDS[] = {
+        "no torque in it", "torque as measured",
+        "the shaft is held or turned slowly by control: its current answers cogging and friction",
+        "a free shaft: torque is inertia x acceleration"};
+    return WORDS[r->torque_source];
+}
+
+const char *cli_tune_name_of(const cli_tuning *t, size_t k)
+{
+    return t->arguments->given[TUNE_RUNS] ? t->runs.run[k].name : t->arguments->word[k];
+}
+
+/* "log.csv: 9000 samples, 12.3 s, torque as measured; currents up to 3.2 A" */
+static void say_run(cli_tuning *t, size_t k)
+{
+    const hci_run *r = &t->runs.run[k];
+    double most_A = 0.0;
+    char time[48] = "", currents[48] = "no current";
+    for (size_t n = 0; n < 3 * r->count; ++n)
+        most_A = fmax(most_A, fabs(r->i_A[n]));
+    if (r->time_s && r->count > 1)
+        snprintf(time, sizeof time, ", %.4g s", r->time_s[r->count - 1] - r->time_s[0]);
+    if (most_A > 0.0) snprintf(currents, sizeof currents, "phase currents up to %.3g A", most_A);
+    hci_tuning_say(&t->tuning, HCI_TUNING_READ, "%s: %zu samples%s; %s; %s%s", cli_tune_name_of(t, k),
+                   r->count, time, source_words(r), currents, r->v_V ? "; voltages" : "");
+}
+
+static void release_inputs(cli_tuning *t)
+{
+    hci_runs_release(&t->runs);
+    hci_effects_release(&t->effects);
+    hci_machine_release(&t->declared);
+}
+
+hci_status cli_tune_read_inputs(cli_tuning *t, hci_note *note)
+{
+    const cli_arguments *a = t->arguments;
+    release_inputs(t);
+    cli_reading_release(&t->reading);
+    hci_status status = cli_reading_take(a, a->given[STRICT], cli_tune_offset(t), &t->reading, note);
+    if (!status) status = hci_machine_read(t->machine, &t->declared, note);
+    if (!status) status = hci_effects_read_machine(t->machine, &t->effects, note);
+    if (status) return status;
+    t->reading.run.pole_pairs = t->declared.model.pole_pairs;
+    t->reading.run.holding = a->given[TUNE_HOLDING];
+    t->reading.run.inertia_kgm2 = t->declared.inertia_kgm2;
+    t->reading.run.torque_constant_Nm_per_A = hci_machine_torque_constant(&t->declared);
+    return hci_runs_read(t->list, &(hci_runs_options){t->reading.run, cli_progress, NULL}, &t->runs, note);
+}
+
+static const hci_note *remark_of(const void *runs, size_t k)
+{
+    return &((const hci_runs *)runs)->run[k].remark;
+}
+
+/* The same remark of many recordings is said once. */
+static void say_remark(void *to, size_t first, size_t alike, const char *text)
+{
+    cli_tuning *t = to;
+    if (alike > 1)
+        hci_tuning_say(&t->tuning, HCI_TUNING_READ, "%zu of %zu recordings: %s", alike, t->runs.count, text);
+    else if (t->runs.count > 1)
+        hci_tuning_say(&t->tuning, HCI_TUNING_READ, "%s: %s", cli_tune_name_of(t, first), text);
+    else
+        hci_tuning_say(&t->tuning, HCI_TUNING_READ, "  %s", text);
+}
+
+/* The one that is shown: what sticks, or else the first that tells where the shaft is. */
+static void choose_log(cli_tuning *t)
+{
+    size_t shown = 0;
+    for (size_t k = t->runs.count; k-- > 0;)
+        if (t->runs.run[k].theta_m_rad || t->runs.run[k].speed_rad_per_s) shown = k;
+    for (size_t k = t->runs.count; k-- > 0;)
+        if (t->runs.run[k].is_unsteady) shown = k;
+    t->shown = shown;
+    t->tuning.log_name = cli_tune_name_of(t, shown);
+}
+
+hci_status cli_tune_read(cli_tuning *t, hci_note *note)
+{
+    const hci_status status = cli_tune_read_inputs(t, note);
+    for (size_t k = 0; k < t->runs.count && !status; ++k)
+        say_run(t, k);
+    if (!status && t->runs.count > 0) choose_log(t);
+    if (!status) cli_remarks_group(&(cli_remarks){remark_of, &t->runs, t->runs.count}, say_remark, t);
+    for (size_t k = 0; k < t->runs.count && !status; ++k) {
+        t->has_unsteady = t->has_unsteady || t->runs.run[k].is_unsteady;
+        t->needs_inertia = t->needs_inertia || t->runs.run[k].needs_inertia;
+    }
+    return status;
+}
+
+/* ---- conventions ---- */
+
+static void say_check(cli_tuning *t, const hci_check *c)
+{
+    hci_tuning_say(&t->tuning, HCI_TUNING_READ, "conventions: %s (%zu relations checked)",
+                   hci_check_verdict_name(c->verdict), c->evidences);
+    for (size_t k = 0; k < c->evidences; ++k)
+        if (c->evidence[k].state == HCI_CHECK_UNMENDED)
+            hci_tuning_say(&t->tuning, HCI_TUNING_READ, "  not understood: %s is %.4g, expected %s%.4g",
+                           c->evidence[k].words, c->evidence[k].declared,
+                           c->evidence[k].at_most ? "at most " : "", c->evidence[k].expected);
+    for (size_t k = 0; k < c->findings; ++k) {
+        const hci_check_finding *f = &c->finding[k];
+        const bool is_found = f->probability >= HCI_CHECK_FOUND;
+        hci_tuning_say(&t->tuning, is_found ? HCI_TUNING_READ : HCI_TUNING_UNKNOWN,
+                       "%s: %s (%.3g %%); %s:%zu, %s: found %s, should be %s",
+                       is_found ? "slip" : "possible slip", f->words, 100.0 * f->probability, f->file,
+                       f->line, f->column, f->found, f->should_be);
+        t->has_slip = t->has_slip || is_found;
+    }
+}
+
+/* What nothing can be solved with where it is not understood. */
+static bool is_of_angle(const char *relation)
+{
+    static const char *const NAMES[] = {"emf_angle",   "current_order",   "voltage_order", "angle_ratio",
+                                        "angle_speed", "frequency_speed", "cogging_share"};
+    for (size_t k = 0; k < sizeof NAMES / sizeof *NAMES; ++k)
+        if (strcmp(NAMES[k], relation) == 0) return true;
+    return false;
+}
+
+static void judge_check(cli_tuning *t, const hci_check *c)
+{
+    for (size_t k = 0; k < c->evidences && c->verdict == HCI_CHECK_NOT_UNDERSTOOD; ++k)
+        if (c->evidence[k].state == HCI_CHECK_UNMENDED)
+            *(is_of_angle(c->evidence[k].name) ? &t->has_misfit : &t->has_doubt) = true;
+}
+
+/* check has no list of recordings: their first HCI_CHECK_MOST_RUNS are its words. */
+static size_t checked_runs(const cli_tuning *t, const char *run[HCI_CHECK_MOST_RUNS])
+{
+    size_t count = 0;
+    for (; count < t->runs.count && count < HCI_CHECK_MOST_RUNS; ++count)
+        run[count] = t->arguments->given[TUNE_RUNS] ? t->runs.origin[count].path : t->arguments->word[count];
+    return count;
+}
+
+static hci_status run_check(cli_tuning *t, const char *run[HCI_CHECK_MOST_RUNS], hci_check *check,
+                            hci_note *note)
+{
+    hci_run_options reading = t->reading.run;
+    reading.holding = false;
+    const hci_status status = hci_check_files(t->machine, run, checked_runs(t, run), &reading, check, note);
+    return status > HCI_NOT_REACHED ? status : HCI_OK;
+}
+
+void cli_tune_take_offset(cli_tuning *t, double more_rad, const char *why)
+{
+    const double so_far_rad = t->runs.count > 0 ? t->runs.run[0].zero_offset_rad : 0.0;
+    snprintf(t->offset, sizeof t->offset, "%.3f",
+             remainder(so_far_rad + more_rad, 2.0 * HCI_PI) * 180.0 / HCI_PI);
+    t->has_offset = true;
+    hci_tuning_say(&t->tuning, HCI_TUNING_READ, "--angle-offset %s: the electrical zero of the angle, by %s",
+                   t->offset, why);
+}
+
+/* A zero that is off, and nothing else, is set right. */
+static bool finds_offset(const hci_check *c)
+{
+    size_t found = 0;
+    for (size_t k = 0; k < c->findings; ++k)
+        found += c->finding[k].probability >= HCI_CHECK_FOUND;
+    return found == 1 && strcmp(c->finding[0].slip, "run_angle_offset") == 0;
+}
+
+hci_status cli_tune_check(cli_tuning *t, hci_note *note)
+{
+    static hci_check check;
+    const char *run[HCI_CHECK_MOST_RUNS];
+    char folder[CLI_TUNE_PATH];
+    cli_tune_line c = {{"check", t->machine}, 2};
+    hci_status status = run_check(t, run, &check, note);
+    if (!status && finds_offset(&check)) {
+        cli_tune_take_offset(t, check.zero_rad, "what check finds in the logs");
+        status = cli_tune_read_inputs(t, note);
+        if (!status) status = run_check(t, run, &check, note);
+    }
+    if (status) return status;
+    for (size_t k = 0; k < checked_runs(t, run); ++k)
+        cli_tune_add(&c, run[k]);
+    cli_tune_path(t, "check", folder);
+    cli_tune_add_reading(&c, t);
+    cli_tune_add(&c, "-o");
+    cli_tune_add(&c, folder);
+    cli_tune_note_line(t, &c, true);
+    say_check(t, &check);
+    judge_check(t, &check);
+    return hci_check_write(&check, folder, note);
+}
+
+void cli_tune_release(cli_tuning *t)
+{
+    if (t->is_solved) hci_solution_release(&t->solution);
+    hci_target_release(&t->target);
+    hci_uncertainty_release(&t->uncertainty);
+    hci_effects_release(&t->found);
+    hci_machine_release(&t->corrected);
+    hci_diagnosis_release(&t->diagnosis);
+    hci_waveform_release(&t->cogging);
+    release_inputs(t);
+    cli_reading_release(&t->reading);
+}

@@ -1,0 +1,197 @@
+#include "cli/tune/tune_steps.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "cli/terminal/progress.h"
+#include "cli/tune/tune_commands.h"
+#include "cli/tune/tune_options.h"
+#include "cli/tune/tune_waveforms.h"
+#include "hci/host/base/number.h"
+#include "hci/host/currents/target.h"
+#include "hci/host/recording/predict.h"
+#include "hci/host/report/write.h"
+#include "hci/math/harmonic.h"
+
+/* ---- what the model lacks ---- */
+
+hci_status cli_tune_diagnose(cli_tuning *t, hci_note *note)
+{
+    const hci_diagnose_options options = {.progress = cli_progress};
+    char folder[CLI_TUNE_PATH];
+    cli_tune_line c = {{"diagnose", t->machine, "--runs", t->list}, 4};
+    if (cli_tune_is_blocked(t)) return HCI_OK;
+    cli_tune_path(t, "diagnose", folder);
+    if (t->arguments->given[TUNE_HOLDING]) cli_tune_add_option(&c, "holding", NULL);
+    cli_tune_add_reading(&c, t);
+    cli_tune_add(&c, "-o");
+    cli_tune_add(&c, folder);
+    cli_tune_note_line(t, &c, true);
+    t->diagnosed = hci_diagnose(&t->declared, &t->effects.list, &t->runs, &options, &t->diagnosis, note);
+    cli_progress_end();
+    if (t->diagnosed > HCI_NOT_REACHED) return t->diagnosed;
+    t->has_diagnosis = true;
+    return hci_diagnosis_write(&t->diagnosis, NULL, &t->runs, t->machine, folder, note);
+}
+
+/* ---- currents ---- */
+
+bool cli_tune_can_solve(const cli_tuning *t)
+{
+    return !cli_tune_is_blocked(t) &&
+           (t->has_emf || t->has_cogging || (!t->diagnosis.nothing_measured && t->diagnosis.runs > 0));
+}
+
+/* The largest mean torque, and the largest i_q as torque, that the recordings show. */
+static void recorded(const cli_tuning *t, double *mean_Nm, double *current_Nm)
+{
+    double most_A = 0.0;
+    *mean_Nm = 0.0;
+    for (size_t k = 0; k < t->diagnosis.runs; ++k)
+        if (t->diagnosis.run[k].source == HCI_TORQUE_MEASURED)
+            *mean_Nm = fmax(*mean_Nm, fabs(t->diagnosis.run[k].mean_torque_Nm));
+    for (size_t k = 0; k < t->runs.count; ++k) {
+        const hci_run *r = &t->runs.run[k];
+        const size_t count = cli_tune_has_no_current(t, r) ? 0 : 3 * r->count;
+        for (size_t n = 0; n < count; ++n)
+            most_A = fmax(most_A, fabs(r->i_A[n]));
+    }
+    *current_Nm = most_A * t->reading.run.torque_constant_Nm_per_A;
+}
+
+/* Three digits are enough of a torque that nobody asked for. */
+static double rounded(double x)
+{
+    char text[32];
+    double value = 0.0;
+    snprintf(text, sizeof text, "%.2g", x);
+    sscanf(text, "%lf", &value);
+    return value;
+}
+
+static double rounded_down(double x)
+{
+    const double digit = pow(10.0, floor(log10(x)) - 1.0);
+    return rounded(digit * floor(x / digit));
+}
+
+/* The most that is taken of the torque that a sine of the rated current makes, where nobody asked for one. */
+static const double OF_RATED = 0.9;
+
+/* A mean torque below this share of what the currents could make is friction or the zero of the sensor. */
+static const double LEAST_LOAD = 0.02;
+
+static void choose_torque(cli_tuning *t)
+{
+    const hci_machine_data *m = &t->declared;
+    const double rated_Nm = m->rated_current_A * t->reading.run.torque_constant_Nm_per_A;
+    const char *why;
+    double mean_Nm, current_Nm;
+    recorded(t, &mean_Nm, &current_Nm);
+    if (!(mean_Nm > LEAST_LOAD * current_Nm && current_Nm > 0.0)) mean_Nm = 0.0;
+    t->has_load = mean_Nm > 0.0;
+    if (t->arguments->given[TUNE_TORQUE])
+        t->mean_Nm = t->arguments->number[TUNE_TORQUE], why = "as asked for by --torque";
+    else if (m->rated_torque_Nm > 0.0 && !(mean_Nm > 0.0 && mean_Nm < m->rated_torque_Nm))
+        t->mean_Nm = m->rated_torque_Nm, why = "the rated torque";
+    else if (mean_Nm > 0.0)
+        t->mean_Nm = rounded(mean_Nm),
+        why = "the largest mean torque of the recordings; up to there they tell what to expect";
+    else if (rated_Nm > 0.0)
+        t->mean_Nm = rounded(rated_Nm / 3.0),
+        why = "what a third of the rated current makes; no recording has a load";
+    else if (!(current_Nm > 0.0))
+        t->mean_Nm = rounded(t->reading.run.torque_constant_Nm_per_A),
+        why = "what 1 A makes; nothing is rated, and no recording has a current";
+    else
+        t->mean_Nm = rounded(current_Nm),
+        why = "what the largest recorded current makes; nothing is rated, and no recording has a load";
+    const bool is_chosen = !t->arguments->given[TUNE_TORQUE] && !(m->rated_torque_Nm > 0.0);
+    if (is_chosen && rated_Nm > 0.0 && t->mean_Nm > OF_RATED * rated_Nm)
+        t->mean_Nm = rounded_down(OF_RATED * rated_Nm),
+        why = "nine tenths of what a sine of the rated current makes; what takes the ripple away heats, too";
+    hci_tuning_say(&t->tuning, HCI_TUNING_WANTED, "a torque without ripple of %.4g N·m: %s", t->mean_Nm, why);
+}
+
+static hci_status read_corrected(cli_tuning *t, const char *machine, hci_note *note)
+{
+    char path[CLI_TUNE_PATH];
+    cli_tune_path(t, "target.csv", path);
+    hci_status status = hci_tuning_write_target(t->out, t->mean_Nm, note);
+    if (!status) status = hci_target_read(path, &t->target, note);
+    if (!status) status = hci_machine_read(machine, &t->corrected, note);
+    if (!status) status = hci_effects_read_machine(machine, &t->found, note);
+    if (!status) status = hci_uncertainty_read_machine(machine, &t->uncertainty, note);
+    return status;
+}
+
+/* A sine of the rated current heats as much as is allowed: so much rms in each phase. */
+static void limit_heat(cli_tuning *t, hci_solve_options *o, char text[32], cli_tune_line *c)
+{
+    if (!(t->corrected.rated_current_A > 0.0)) return;
+    double rms_A = 0.0;
+    snprintf(text, 32, "%.5g", t->corrected.rated_current_A / sqrt(2.0));
+    sscanf(text, "%lf", &rms_A);
+    for (int s = 0; s < 3; ++s)
+        o->limits.rms_A[s] = rms_A;
+    cli_tune_add_option(c, "limit-rms", text);
+    hci_tuning_say(&t->tuning, HCI_TUNING_WANTED,
+                   "within %s A rms in each phase, the heat of a sine of the rated current", text);
+}
+
+static void note_target(cli_tuning *t)
+{
+    char mean[32];
+    hci_number_text(t->mean_Nm, mean);
+    cli_tune_note(t, "printf 'order,amplitude_Nm,phase_rad\\n0,%s,0\\n' >\"$OUT\"/target.csv\n", mean);
+}
+
+/* What the corrected machine makes without current: over a mechanical turn where the logs know it. */
+static hci_status open_torque(cli_tuning *t, hci_note *note)
+{
+    static double theta_m_rad[HCI_TUNING_POINTS], i_A[3 * HCI_TUNING_POINTS], still[HCI_TUNING_POINTS];
+    hci_run run = {.count = HCI_TUNING_POINTS,
+                   .pole_pairs = t->corrected.model.pole_pairs,
+                   .theta_m_rad = theta_m_rad,
+                   .speed_rad_per_s = still,
+                   .i_A = i_A,
+                   .turn_known = true};
+    for (size_t k = 0; k < t->runs.count; ++k)
+        t->tuning.open_is_mechanical = t->tuning.open_is_mechanical || t->runs.run[k].turn_known;
+    const double turns = t->tuning.open_is_mechanical ? 1.0 : 1.0 / run.pole_pairs;
+    for (size_t k = 0; k < HCI_TUNING_POINTS; ++k)
+        theta_m_rad[k] = 2.0 * HCI_PI * turns * (double)k / (HCI_TUNING_POINTS - 1);
+    const hci_status status = hci_predict(&t->corrected, &t->found.list, &run, t->open_Nm, note);
+    if (!status) t->tuning.open_Nm = t->open_Nm;
+    return status;
+}
+
+hci_status cli_tune_solve(cli_tuning *t, hci_note *note)
+{
+    char machine[CLI_TUNE_PATH], target[CLI_TUNE_PATH], folder[CLI_TUNE_PATH], rms[32];
+    if (!cli_tune_can_solve(t)) return HCI_OK;
+    cli_tune_path(t, "diagnose/machine", machine);
+    cli_tune_path(t, "target.csv", target);
+    cli_tune_path(t, "currents", folder);
+    choose_torque(t);
+    if (!(t->mean_Nm > 0.0)) return HCI_OK;
+    cli_tune_line c = {{"solve", machine, "--target", target, "--auto", "--report", "-o", folder}, 8};
+    hci_status status = read_corrected(t, machine, note);
+    if (!status) status = open_torque(t, note);
+    if (status) return status;
+    hci_solve_options options = {.target = &t->target,
+                                 .effects = &t->found.list,
+                                 .uncertainty = &t->uncertainty,
+                                 .progress = cli_progress};
+    limit_heat(t, &options, rms, &c);
+    note_target(t);
+    cli_tune_note_line(t, &c, true);
+    t->tuning.solved = hci_solve(&t->corrected, &options, &t->solution, note);
+    cli_progress_end();
+    if (t->tuning.solved > HCI_NOT_REACHED) return t->tuning.solved;
+    t->is_solved = true;
+    t->tuning.solution = &t->solution;
+    return hci_solution_write_with_report(&t->corrected, &t->solution, t->tuning.solved,
+                                          &(hci_report_sources){.machine = machine, .target = target}, folder,
+                                          note);
+}

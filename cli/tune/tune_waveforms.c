@@ -1,0 +1,261 @@
+#include "cli/tune/tune_steps.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "cli/tune/tune_commands.h"
+#include "cli/tune/tune_options.h"
+#include "cli/tune/tune_read.h"
+#include "cli/tune/tune_waveforms.h"
+#include "hci/host/base/number.h"
+#include "hci/host/waveform/waveform.h"
+#include "hci/math/harmonic.h"
+
+/* Of the phase currents, beside those that another recording has or the machine is rated for. */
+#define NO_CURRENT 0.01
+
+/* Times what noise alone makes of a mean. */
+#define NOISE_OF_MEAN 5.0
+
+static double rms_of(const hci_run *r)
+{
+    double sum = 0.0;
+    for (size_t k = 0; k < 3 * r->count; ++k)
+        sum += r->i_A[k] * r->i_A[k];
+    return sqrt(sum / (3.0 * (double)r->count));
+}
+
+/* Of phase currents in the plane that turns with the angle: what a drive makes stands still there, and noise
+ * and the offsets of sensors go to 0. */
+static double mean_vector(const hci_run *r)
+{
+    double along = 0.0, across = 0.0;
+    for (size_t k = 0; k < r->count && r->theta_m_rad; ++k)
+        for (int s = 0; s < 3; ++s) {
+            const double x = r->pole_pairs * r->theta_m_rad[k] - 2.0 * HCI_PI * s / 3.0;
+            along += r->i_A[3 * k + (size_t)s] * cos(x);
+            across += r->i_A[3 * k + (size_t)s] * sin(x);
+        }
+    return 2.0 / 3.0 * hypot(along, across) / (double)r->count;
+}
+
+bool cli_tune_has_no_current(const cli_tuning *t, const hci_run *r)
+{
+    const double rms_A = rms_of(r);
+    double most_A = t->declared.rated_current_A > 0.0 ? t->declared.rated_current_A : 0.0;
+    for (size_t k = 0; k < t->runs.count; ++k)
+        most_A = fmax(most_A, rms_of(&t->runs.run[k]));
+    if (rms_A <= NO_CURRENT * most_A) return true;
+    return r->theta_m_rad && mean_vector(r) < NOISE_OF_MEAN * rms_A / sqrt((double)r->count);
+}
+
+/* Of the voltages, that of currents may drop and no more. */
+#define DROP 0.01
+
+/* Times what chance makes two recordings of noise have in common. */
+#define CHANCE 3.0
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* Of three phases, without what they have in common. */
+static void star(const double phase[3], double without[3])
+{
+    for (int s = 0; s < 3; ++s)
+        without[s] = phase[s] - (phase[0] + phase[1] + phase[2]) / 3.0;
+}
+
+/* The part of the voltages that follows the current, in phase with it or a quarter of a turn off, from 0 to
+ * 1: at least the share of what the current drops in an unknown resistance, as long as the current itself is
+ * not noise. */
+static double share_that_follows(const hci_run *r)
+{
+    double v[3], i[3], along = 0.0, across = 0.0, vv = 0.0, ii = 0.0;
+    for (size_t k = 0; k < r->count; ++k) {
+        star(r->v_V + 3 * k, v);
+        star(r->i_A + 3 * k, i);
+        const double quarter[3] = {(i[1] - i[2]) / sqrt(3.0), (i[2] - i[0]) / sqrt(3.0),
+                                   (i[0] - i[1]) / sqrt(3.0)};
+        along += dot(v, i), across += dot(v, quarter);
+        vv += dot(v, v), ii += dot(i, i);
+    }
+    return vv * ii > 0.0 ? hypot(along, across) / sqrt(vv * ii) : 0.0;
+}
+
+static double rms_voltage(const hci_run *r)
+{
+    double v[3], sum = 0.0;
+    for (size_t k = 0; k < r->count; ++k) {
+        star(r->v_V + 3 * k, v);
+        sum += dot(v, v);
+    }
+    return sqrt(sum / (3.0 * (double)r->count));
+}
+
+/* Whether what the currents drop cannot matter in the voltages: by a known resistance, or because the
+ * voltages do not follow the currents. */
+static bool drops_nothing(const cli_tuning *t, const hci_run *r)
+{
+    const double ohm = t->declared.resistance_ohm;
+    if (ohm > 0.0 && ohm * rms_of(r) <= DROP * rms_voltage(r)) return true;
+    return share_that_follows(r) <= DROP + CHANCE / sqrt(2.0 * (double)r->count);
+}
+
+/* Whether a recording is one for the quantity. Cogging torque that a sensor has measured is left to diagnose,
+ * which finds it in all recordings at once and knows what they leave open of it: from one of them alone it is
+ * off by more than what would be stated. */
+static bool is_for(const cli_tuning *t, const hci_run *r, hci_waveform_quantity quantity)
+{
+    if (quantity == HCI_WAVEFORM_BACK_EMF)
+        return r->v_V && cli_tune_has_no_current(t, r) && drops_nothing(t, r);
+    return r->torque_source == HCI_TORQUE_HOLDING;
+}
+
+/* The largest of them. */
+static void say_waveform(cli_tuning *t, size_t run, const hci_waveform *w)
+{
+    const bool is_emf = w->quantity == HCI_WAVEFORM_BACK_EMF;
+    double above = HUGE_VAL;
+    if (w->remark.text[0]) hci_tuning_say(&t->tuning, HCI_TUNING_READ, "  %s", w->remark.text);
+    if (!is_emf) return; /* said when diagnose has added to it */
+    hci_tuning_say(&t->tuning, HCI_TUNING_FOUND, "back-EMF, %zu orders, from %s", w->kept,
+                   cli_tune_name_of(t, run));
+    for (size_t shown = 0; shown < CLI_TUNE_ORDERS_SAID && shown < w->kept; ++shown) {
+        const hci_waveform_order *most = NULL;
+        for (size_t k = 0; k < w->count; ++k)
+            if (w->order[k].kept && w->order[k].amplitude < above &&
+                (!most || w->order[k].amplitude > most->amplitude))
+                most = &w->order[k];
+        if (!most) break;
+        above = most->amplitude;
+        hci_tuning_say(&t->tuning, HCI_TUNING_FOUND, "  order %.5g: %.4g ± %.1g V·s/rad (peak of a phase)",
+                       most->order, most->amplitude, most->std_error);
+    }
+}
+
+/* Times the back-EMF of the data sheet, of what was measured. */
+static double to_sheet(const cli_tuning *t, const hci_waveform *w)
+{
+    for (size_t k = 0; k < w->count; ++k)
+        if (fabs(w->order[k].order - 1.0) < HCI_ORDER_TOLERANCE)
+            return 1.5 * w->order[k].amplitude / t->reading.run.torque_constant_Nm_per_A;
+    return 1.0;
+}
+
+/* Puts it into the machine in place of what the data sheet gave. */
+static hci_status take_waveform(cli_tuning *t, size_t k, const hci_waveform *w, bool is_far, hci_note *note)
+{
+    const bool is_emf = w->quantity == HCI_WAVEFORM_BACK_EMF;
+    const hci_run *r = &t->runs.run[k];
+    const bool holds = !is_emf && r->torque_source == HCI_TORQUE_HOLDING;
+    const double inertia_kgm2 =
+        t->declared.inertia_kgm2 > 0.0 ? t->declared.inertia_kgm2 : r->turns_inertia_kgm2;
+    char pole_pairs[16], constant[32], inertia[32];
+    cli_tune_line c = {{"harmonics", t->arguments->word[k]}, 2};
+    snprintf(pole_pairs, sizeof pole_pairs, "%d", t->declared.model.pole_pairs);
+    hci_number_text(t->reading.run.torque_constant_Nm_per_A, constant);
+    hci_number_text(inertia_kgm2, inertia);
+    cli_tune_add_option(&c, "quantity", is_emf ? "back_emf" : "cogging");
+    cli_tune_add_option(&c, "pole-pairs", pole_pairs);
+    if (holds) cli_tune_add_option(&c, "torque-constant", constant);
+    if (holds && inertia_kgm2 > 0.0) cli_tune_add_option(&c, "inertia", inertia);
+    if (is_far) cli_tune_add_option(&c, "max-order", "60");
+    if (!is_emf && (t->arguments->given[TUNE_HOLDING] || r->slow_beside_others))
+        cli_tune_add_option(&c, "holding", NULL);
+    cli_tune_add_reading(&c, t);
+    cli_tune_add(&c, "-o");
+    cli_tune_add(&c, t->machine);
+    say_waveform(t, k, w);
+    *(is_emf ? &t->has_emf : &t->has_cogging) = true;
+    if (is_emf) t->emf_to_sheet = to_sheet(t, w);
+    const hci_status status = cli_tune_run(t, t->commands.harmonics, &c, note);
+    if (!status && is_emf && fabs(w->zero_rad) > 0.0) cli_tune_take_offset(t, w->zero_rad, "the voltages");
+    return status ? status : cli_tune_read_inputs(t, note);
+}
+
+#define USUAL_ORDER 60.0
+
+/* Up to the usual order; where the samples of a turn do not reach it, those of turns are put together. */
+static hci_status find_far(const hci_run *r, const hci_waveform_options *options, hci_waveform *w,
+                           bool *is_far, hci_note *why)
+{
+    hci_waveform_options far = *options;
+    hci_waveform more = {0};
+    hci_note unused = {{0}};
+    const hci_status status = hci_waveform_find(r, options, w, why);
+    *is_far = false;
+    if (status || (double)w->count * w->step > USUAL_ORDER - 1.0) return status;
+    far.max_order = USUAL_ORDER;
+    if (hci_waveform_find(r, &far, &more, &unused)) return HCI_OK;
+    hci_waveform_release(w);
+    *w = more;
+    *is_far = true;
+    return HCI_OK;
+}
+
+static hci_status find_waveform(cli_tuning *t, size_t k, hci_waveform_quantity quantity, bool *found,
+                                hci_note *note)
+{
+    const hci_run *r = &t->runs.run[k];
+    const bool holds = r->torque_source == HCI_TORQUE_HOLDING;
+    const hci_waveform_options options = {.quantity = quantity,
+                                          .pole_pairs = t->declared.model.pole_pairs,
+                                          .max_order = (double)NAN,
+                                          .torque_constant_Nm_per_A =
+                                              quantity == HCI_WAVEFORM_COGGING && holds
+                                                  ? t->reading.run.torque_constant_Nm_per_A
+                                                  : (double)NAN};
+    hci_waveform w = {0};
+    hci_note why = {{0}};
+    bool is_far = false;
+    hci_status status = find_far(r, &options, &w, &is_far, &why);
+    *found = !status && w.kept > 0;
+    if (*found && quantity == HCI_WAVEFORM_COGGING &&
+        cli_tune_order_of_slots(t) > (double)w.count * w.step + HCI_ORDER_TOLERANCE) {
+        t->cogging_reach = (double)w.count * w.step;
+        t->has_alias = true; /* until another recording shows it */
+        *found = false;
+    }
+    if (status) hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN, "%s", why.text);
+    status = *found ? take_waveform(t, k, &w, is_far, note) : HCI_OK;
+    if (quantity == HCI_WAVEFORM_COGGING && *found) {
+        t->cogging_reach = (double)w.count * w.step;
+        t->has_alias = false;
+    }
+    if (*found && quantity == HCI_WAVEFORM_COGGING && !status) {
+        t->cogging = w;
+    } else
+        hci_waveform_release(&w);
+    return status;
+}
+
+/* Voltages that nothing was taken from. */
+static void say_not_open(cli_tuning *t)
+{
+    for (size_t k = 0; k < t->runs.count && !t->has_emf; ++k) {
+        const hci_run *r = &t->runs.run[k];
+        if (!r->v_V || is_for(t, r, HCI_WAVEFORM_BACK_EMF)) continue;
+        hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
+                       "The back-EMF is not taken from the voltages of %s: currents of %.3g A rms flow, and "
+                       "%.0f %% of the voltage follows them. Record voltages with open terminals, turned by "
+                       "another motor.",
+                       cli_tune_name_of(t, k), rms_of(r), 100.0 * share_that_follows(r));
+    }
+}
+
+/* Of each quantity the first recording that shows it. */
+hci_status cli_tune_waveforms(cli_tuning *t, hci_note *note)
+{
+    static const hci_waveform_quantity QUANTITIES[] = {HCI_WAVEFORM_BACK_EMF, HCI_WAVEFORM_COGGING};
+    hci_status status = HCI_OK;
+    for (int q = 0; q < 2 && t->is_own && !cli_tune_is_blocked(t); ++q) {
+        bool found = false;
+        for (size_t k = 0; k < t->runs.count && !found && !status; ++k)
+            if (is_for(t, &t->runs.run[k], QUANTITIES[q]))
+                status = find_waveform(t, k, QUANTITIES[q], &found, note);
+    }
+    if (!status && t->is_own && !cli_tune_is_blocked(t)) say_not_open(t);
+    return status;
+}
