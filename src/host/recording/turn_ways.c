@@ -25,6 +25,8 @@
 #define OF_STEP   0.1
 #define LEAST_RAD 1e-9
 
+#define LEAST_SLOPE 0.1 /* of the mean: ten times the mean speed is no turn that control holds */
+
 enum { TIME, CURRENT, CHANNELS, MOST_PARTS = 64, HIGHEST_MOST = 2000, POINTS_PER_ORDER = 4 };
 
 /* Samples first … end − 1 go one way. */
@@ -156,9 +158,9 @@ static hci_way_wave wave_of(const hci_average *average, size_t channel, size_t k
     return (hci_way_wave){e.mean.sine, e.mean.cosine, e.std_error, k > 0 && stands_out};
 }
 
-double hci_way_acceleration(const hci_turn_ways *ways, const hci_way *way, double theta_m_rad)
+/* t′ by the angle of the turn, and t″. */
+static double slope_at(const hci_turn_ways *ways, const hci_way *way, double phi, double *bend_out)
 {
-    const double phi = ways->scale * theta_m_rad;
     double slope = 1.0 / (ways->scale * way->speed_rad_per_s), bend = 0.0;
     for (size_t j = 0; j < way->count; ++j) {
         const hci_way_wave *w = &way->order[way->seen[j]].time_s;
@@ -167,7 +169,27 @@ double hci_way_acceleration(const hci_turn_ways *ways, const hci_way *way, doubl
         slope += n * (w->sine * cosine - w->cosine * sine);
         bend -= n * n * (w->sine * sine + w->cosine * cosine);
     }
+    *bend_out = bend;
+    return slope;
+}
+
+double hci_way_acceleration(const hci_turn_ways *ways, const hci_way *way, double theta_m_rad)
+{
+    double bend;
+    const double slope = slope_at(ways, way, ways->scale * theta_m_rad, &bend);
     return -bend / (slope * slope * slope) / ways->scale;
+}
+
+/* Whether the time is one at each angle: a shaft that sticks goes back a little, or stands and jumps. */
+static bool goes_on(const hci_turn_ways *ways, const hci_way *way)
+{
+    const size_t points = way->any ? POINTS_PER_ORDER * ways->highest : 0;
+    for (size_t j = 0; j < points; ++j) {
+        double bend;
+        const double slope = slope_at(ways, way, 2.0 * HCI_PI * (double)j / (double)points, &bend);
+        if (slope * ways->scale * way->speed_rad_per_s < LEAST_SLOPE) return false;
+    }
+    return true;
 }
 
 /* The orders of the acceleration over one turn. */
@@ -249,7 +271,8 @@ hci_status hci_turn_ways_find(const hci_run *run, int pole_pairs, hci_turn_ways 
     if (!speed_of(&p, 1, &ways->way[0].speed_rad_per_s) || !speed_of(&p, -1, &ways->way[1].speed_rad_per_s))
         return HCI_OK;
     const hci_status status = find(&p, ways);
-    *found = !status && (ways->way[0].any || ways->way[1].any);
+    *found = !status && (ways->way[0].any || ways->way[1].any) && goes_on(ways, &ways->way[0]) &&
+             goes_on(ways, &ways->way[1]);
     if (!*found) hci_turn_ways_release(ways);
     return status == HCI_ERROR_SINGULAR ? HCI_OK : status;
 }

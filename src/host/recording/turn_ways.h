@@ -35,10 +35,10 @@ typedef struct {
 } hci_turn_ways;
 
 /* Of a run with an angle, a clock and currents. *found: whether it goes round a turn in a direction, at
- * speeds of that direction that differ by less than a tenth from part to part; where not, *ways is empty. The
- * turn is the mechanical one where the angle knows it, else the electrical one.
- * What is near a reversal, half an electrical turn, is left out. HCI_ERROR_MEMORY.
- * O(samples·orders + turns·orders²). */
+ * speeds of that direction that differ by less than a tenth from part to part, and nowhere goes back or ten
+ * times as fast as on the average, as a shaft that sticks does; where not, *ways is empty. The turn is the
+ * mechanical one where the angle knows it, else the electrical one. What is near a reversal, half an
+ * electrical turn, is left out. HCI_ERROR_MEMORY. O(samples·orders + turns·orders²). */
 hci_status hci_turn_ways_find(const hci_run *run, int pole_pairs, hci_turn_ways *ways, bool *found);
 void hci_turn_ways_release(hci_turn_ways *ways);
 

@@ -2,6 +2,7 @@
  * with ω²/2 as a sum of sines of the angle, so that dω/dt = d(ω²/2)/dθ in closed form. */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "hci/math/harmonic.h"
 #include "host/recording/rotor_frame.h"
@@ -148,6 +149,29 @@ static void test_a_quiet_turn_is_held_without_it(void)
     is_held(&run, 0.1);
 }
 
+/* A shaft that sticks and slips and goes back a little has no one time at each angle: orders of it would be
+ * accelerations without end. */
+static void test_a_shaft_that_goes_back_is_not_taken_by_orders(void)
+{
+    const hci_run_options options = {
+        .pole_pairs = P, .inertia_kgm2 = INERTIA, .torque_constant_Nm_per_A = CONSTANT, .holding = true};
+    double most_Nm = 0.0;
+    FILE *file = fopen(path, "w");
+    TEST_ASSERT_NOT_NULL(file);
+    fprintf(file, "time_s,theta_m_rad,iq_A\n");
+    for (int k = 0; k < N; ++k) {
+        const double even = 0.8 * STEP_S * k;
+        fprintf(file, "%.4f,%.9f,%.9f\n", STEP_S * k, even + 1.3 / EVENTS * sin(EVENTS * even),
+                0.1 + 0.05 * sin(EVENTS * even));
+    }
+    fclose(file);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_run_read(path, &options, &run, &note), note.text);
+    TEST_ASSERT_NULL(strstr(run.remark.text, "by the orders of the angle"));
+    for (size_t k = 0; k < run.count; ++k)
+        most_Nm = fmax(most_Nm, fabs(CONSTANT * hci_run_dq(&run, P, k).q));
+    TEST_ASSERT_TRUE(most_Nm < 0.05);
+}
+
 static void read_two(const way *ways, hci_runs *runs)
 {
     const hci_run_options reading = {.pole_pairs = P, .torque_constant_Nm_per_A = CONSTANT};
@@ -186,6 +210,7 @@ int main(void)
     RUN_TEST(test_forward_and_back_tell_the_inertia);
     RUN_TEST(test_what_is_not_told_is_not_given);
     RUN_TEST(test_a_quiet_turn_is_held_without_it);
+    RUN_TEST(test_a_shaft_that_goes_back_is_not_taken_by_orders);
     RUN_TEST(test_forward_in_one_file_and_back_in_another);
     return UNITY_END();
 }
