@@ -224,6 +224,9 @@ class Solution(Result):
         request.provenance, request.provenance_count = lines, 2 if verdict else 1
         note.check(lib.hci_emit_facts_read(path(self.machine.path), self.machine.c, facts, note.c))
         request.facts.mean_torque_Nm = float(self._c.wanted_mean_Nm)
+        machine_folder = ffi.new("char[]", path(self.machine.path))
+        request.machine, request.machine_folder = self.machine.c, machine_folder
+        request.expected_ripple_Nm = lib.hci_solution_read_expected_ripple(path(tables.folder))
         with writing:
             note.check(lib.hci_emit(path(folder), request, result, note.c))
         summary = json_of(lib.hci_emit_json(request, result))

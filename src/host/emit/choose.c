@@ -7,6 +7,9 @@
 #include "host/emit/emission.h"
 #include "host/emit/table_ripple.h"
 
+#define HEAVY                                                                                                \
+    3e4 /* waves, times their highest order, times turns: shapes that nobody asked for are not made */
+
 /* ---- what is asked for ---- */
 
 /* The error to keep; INFINITY where only bytes are given, 0 where points are, NAN where nothing is. */
@@ -42,6 +45,14 @@ static bool fits(const hci_emission *e, const hci_emit_choice *c, double error_A
 
 /* ---- one shape ---- */
 
+/* Where it is only asked whether a table fits, no more than fit are looked at. */
+static size_t most_points(const hci_emission *e)
+{
+    const size_t fitting = e->most_bytes / (values_in_row(e) * sizeof *e->rows);
+    return e->only_whether && e->most_bytes > 0 && fitting <= HCI_EMIT_MAX_POINTS ? fitting
+                                                                                  : HCI_EMIT_MAX_POINTS;
+}
+
 /* Rows of floats: the fewest within the error, as many as asked for, or as many as fit. */
 static bool make_f32(hci_emission *e, double error_A)
 {
@@ -50,7 +61,9 @@ static bool make_f32(hci_emission *e, double error_A)
     size_t points = r->points;
     if (isinf(error_A)) points = r->max_bytes / row_bytes > 1 ? r->max_bytes / row_bytes - 1 : 1;
     if (points > HCI_EMIT_MAX_POINTS) points = HCI_EMIT_MAX_POINTS;
-    if (points == 0 && hci_tabulate_within(&e->tabulation, error_A, e->rows, &e->table)) return true;
+    if (points == 0 && hci_tabulate_within(&e->tabulation, error_A, most_points(e), e->rows, &e->table))
+        return true;
+    if (e->only_whether) return false;
     hci_tabulate(&e->tabulation, points > 0 ? points : HCI_EMIT_MAX_POINTS, e->rows, &e->table);
     return points > 0;
 }
@@ -226,15 +239,25 @@ static hci_status reserve(hci_emission *e, hci_note *note)
                : hci_note_memory(note, NULL, "the table");
 }
 
-static const hci_emit_choice *best_within(hci_emission *e, double error_A)
+/* Whether all shapes are made in a second or two. */
+static bool is_light(const hci_emission *e)
 {
-    make_all(e, error_A, true);
+    const hci_tabulation *t = &e->tabulation;
+    const double waves = (double)(t->constant_count + t->per_Nm_count);
+    return waves * hci_tabulation_highest_order(t) * (double)t->period_turns < HEAVY;
+}
+
+static const hci_emit_choice *best_within(hci_emission *e, double error_A, bool is_shown)
+{
+    make_all(e, error_A, is_shown);
     return best_of(e, error_A);
 }
 
 static bool can_keep(hci_emission *e, double error_A)
 {
+    e->only_whether = true;
     make_all(e, error_A, false);
+    e->only_whether = false;
     return best_of(e, error_A) != NULL;
 }
 
@@ -259,10 +282,10 @@ static const hci_emit_choice *best_chosen(hci_emission *e, double *error_A)
     const double peak_A = hci_tabulation_peak_A(&e->tabulation), most_A = HCI_EMIT_ERROR_SHARE * peak_A;
     e->most_bytes = HCI_EMIT_CHOSEN_BYTES;
     *error_A = e->plant ? error_kept_A(e, error_wished_A(e, most_A, peak_A), most_A) : most_A;
-    if (*error_A < most_A) return best_within(e, *error_A);
+    if (*error_A < most_A) return best_within(e, *error_A, is_light(e));
     e->most_bytes = e->request->max_bytes;
     *error_A = most_A;
-    return best_within(e, most_A);
+    return best_within(e, most_A, is_light(e));
 }
 
 hci_status hci_emission_choose(hci_emission *e, hci_note *note)
@@ -271,7 +294,7 @@ hci_status hci_emission_choose(hci_emission *e, hci_note *note)
     const hci_status status = reserve(e, note);
     if (status) return status;
     e->most_bytes = e->request->max_bytes;
-    const hci_emit_choice *best = isnan(error_A) ? best_chosen(e, &error_A) : best_within(e, error_A);
+    const hci_emit_choice *best = isnan(error_A) ? best_chosen(e, &error_A) : best_within(e, error_A, true);
     if (!best) return none_fits(e, error_A, note);
     e->result.chosen = *best;
     make(e, &e->result.chosen, error_A);

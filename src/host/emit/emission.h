@@ -20,6 +20,7 @@ typedef struct {
     hci_table_f32_probe probes[HCI_EMIT_PROBES];
 
     size_t most_bytes; /* of rows or knots; 0: any */
+    bool only_whether; /* it is only asked whether a table fits */
 
     hci_spline_room room; /* of i16 and q15 */
     hci_table_i16 spline;

@@ -182,12 +182,13 @@ static void measure_at(const hci_tabulation *t, const hci_table_f32 *table, uint
     most->peak_A = fmax(most->peak_A, phase_A);
 }
 
-/* Measures interval k, until the error passes `limit_A`. Currents are linear in torque: the ends decide. */
+/* Measures interval k, from its middle on and around, where a chord is most off, until the error passes
+ * `limit_A`. Currents are linear in torque: the ends decide. */
 static void measure_interval(const hci_tabulation *t, const hci_table_f32 *table, grid g, size_t k,
                              double limit_A, extremes *most)
 {
     for (size_t j = 0; j < g.fine && most->error_A <= limit_A; ++j) {
-        const uint32_t angle = grid_angle(g, k, j);
+        const uint32_t angle = grid_angle(g, k, (j + g.fine / 2) % g.fine);
         measure_at(t, table, angle, t->torque_Nm, most);
         if (t->parts == 2) measure_at(t, table, angle, -t->torque_Nm, most);
     }
@@ -243,10 +244,11 @@ void hci_tabulate(const hci_tabulation *t, size_t points, float *rows, hci_table
 
 /* The error does not fall steadily with the points, so each number is tried in turn, beginning where the one
  * before has failed: that is nearly always enough to refuse it. */
-bool hci_tabulate_within(const hci_tabulation *t, double max_error_A, float *rows, hci_table_f32 *table)
+bool hci_tabulate_within(const hci_tabulation *t, double max_error_A, size_t most_points, float *rows,
+                         hci_table_f32 *table)
 {
     double first = 0.0;
-    for (size_t points = 1; points <= HCI_EMIT_MAX_POINTS; ++points) {
+    for (size_t points = 1; points <= most_points; ++points) {
         const grid g = grid_of(t, points);
         const double limit_A = max_error_A - g.margin_A;
         if (limit_A >= 0.0 && tabulate(t, g, limit_A, &first, rows, table) &&

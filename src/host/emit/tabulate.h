@@ -50,8 +50,9 @@ double hci_tabulation_clean(double current);
  * other fields but probes and CRC are set too. */
 void hci_tabulate(const hci_tabulation *t, size_t points, float *rows, hci_table_f32 *table);
 
-/* The same with the fewest points whose error is at most max_error_A; rows for HCI_EMIT_MAX_POINTS points.
- * False when no table is good enough; *table is then undefined. */
-bool hci_tabulate_within(const hci_tabulation *t, double max_error_A, float *rows, hci_table_f32 *table);
+/* The same with the fewest points whose error is at most max_error_A; rows for most_points points, at most
+ * HCI_EMIT_MAX_POINTS. False when no table is good enough; *table is then undefined. */
+bool hci_tabulate_within(const hci_tabulation *t, double max_error_A, size_t most_points, float *rows,
+                         hci_table_f32 *table);
 
 #endif

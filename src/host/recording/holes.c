@@ -143,6 +143,7 @@ static void leave_twice_out(rows_task *t)
 #define FINE      4.0 /* usual steps of a reading, in units of the smallest one, that are not its resolution */
 #define WHOLE     0.02 /* off a whole number of such units */
 #define MOSTLY    0.9  /* share of the steps */
+#define ROUNDING  1e-9 /* of the largest reading */
 
 enum { LEAST_FRESH = 50 };
 
@@ -170,12 +171,14 @@ static size_t fresh_find(const rows_task *t, const readings *x, size_t *fresh)
 }
 
 /* Whether a reading that stays shows more than its resolution: its steps are no multiples of a smallest one,
- * or usually of many of them. step: [count] */
+ * or usually of many of them. What was computed and is constant but for rounding stays by chance. step:
+ * [count] */
 static bool is_fine(const readings *x, const size_t *fresh, size_t count, double *step)
 {
-    double least = INFINITY, multiples = 0.0;
+    double least = INFINITY, multiples = 0.0, most = 0.0;
     size_t steps = 0;
     for (size_t k = 0; k + 1 < count; ++k) {
+        most = fmax(most, fabs(x->column[0][fresh[k]]));
         const double size = fabs(x->column[0][fresh[k + 1]] - x->column[0][fresh[k]]);
         if (!(size > 0.0)) continue;
         step[steps++] = size;
@@ -183,7 +186,8 @@ static bool is_fine(const readings *x, const size_t *fresh, size_t count, double
     }
     for (size_t k = 0; k < steps; ++k)
         multiples += fabs(step[k] / least - floor(step[k] / least + 0.5)) < WHOLE;
-    return steps > 0 && (multiples < MOSTLY * (double)steps || hci_median(step, steps) > FINE * least);
+    const double usual = steps > 0 ? hci_median(step, steps) : 0.0;
+    return usual > ROUNDING * most && (multiples < MOSTLY * (double)steps || usual > FINE * least);
 }
 
 /* The longest stretch of equal readings that there may be by chance, if neighbours are equal as often as a

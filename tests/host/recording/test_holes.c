@@ -281,6 +281,22 @@ static void test_currents_that_are_read_less_often(void)
     text_has("960 of 1200 rows repeat the currents before", run.remark.text);
 }
 
+/* A torque that a model made is one number but for rounding, of which two are equal here and there. */
+static void test_a_torque_without_ripple_stays(void)
+{
+    char *text = malloc(ROWS * 120);
+    size_t at = (size_t)sprintf(text, "time_s,theta_m_rad,ia_A,ib_A,ic_A,torque_Nm\n");
+    TEST_ASSERT_NOT_NULL(text);
+    for (int k = 0; k < ROWS; ++k) {
+        const double rounding = 4e-15 * sin(2.3 * (k == 700 ? 699 : k)), theta = 0.01 * k;
+        at += (size_t)sprintf(text + at, "%g,%.9g,%.12g,%.12g,%.12g,%.17g\n", 1e-3 * k, theta, sin(theta),
+                              sin(theta - 2.0943951), sin(theta + 2.0943951), 2.0 + rounding);
+    }
+    read_text(text);
+    free(text);
+    TEST_ASSERT_EQUAL_UINT64(ROWS, run.count);
+}
+
 /* Of a coarse reading neighbours are equal, and that says what it is. */
 static void test_a_coarse_torque_stays(void)
 {
@@ -313,6 +329,7 @@ int main(void)
     RUN_TEST(test_a_prediction_leaves_the_cells_of_a_hole_empty);
     RUN_TEST(test_a_torque_that_is_read_less_often);
     RUN_TEST(test_currents_that_are_read_less_often);
+    RUN_TEST(test_a_torque_without_ripple_stays);
     RUN_TEST(test_a_coarse_torque_stays);
     RUN_TEST(test_memory_runs_out_everywhere);
     return UNITY_END();
