@@ -195,38 +195,40 @@ static hci_status find_far(const hci_run *r, const hci_waveform_options *options
     return HCI_OK;
 }
 
+static hci_waveform_options options_of(const cli_tuning *t, const hci_run *r, hci_waveform_quantity quantity)
+{
+    const bool holds = quantity == HCI_WAVEFORM_COGGING && r->torque_source == HCI_TORQUE_HOLDING;
+    return (hci_waveform_options){.quantity = quantity,
+                                  .pole_pairs = t->declared.model.pole_pairs,
+                                  .max_order = (double)NAN,
+                                  .torque_constant_Nm_per_A =
+                                      holds ? t->reading.run.torque_constant_Nm_per_A : (double)NAN};
+}
+
+/* Takes note of how far cogging torque was looked at. Whether the order of slots and poles is in that. */
+static bool reaches_slots(cli_tuning *t, const hci_waveform *w)
+{
+    t->cogging_reach = (double)w->count * w->step;
+    t->has_alias = cli_tune_order_of_slots(t) > t->cogging_reach + HCI_ORDER_TOLERANCE;
+    return !t->has_alias; /* until another recording shows it */
+}
+
 static hci_status find_waveform(cli_tuning *t, size_t k, hci_waveform_quantity quantity, bool *found,
                                 hci_note *note)
 {
-    const hci_run *r = &t->runs.run[k];
-    const bool holds = r->torque_source == HCI_TORQUE_HOLDING;
-    const hci_waveform_options options = {.quantity = quantity,
-                                          .pole_pairs = t->declared.model.pole_pairs,
-                                          .max_order = (double)NAN,
-                                          .torque_constant_Nm_per_A =
-                                              quantity == HCI_WAVEFORM_COGGING && holds
-                                                  ? t->reading.run.torque_constant_Nm_per_A
-                                                  : (double)NAN};
+    const hci_waveform_options options = options_of(t, &t->runs.run[k], quantity);
+    const bool is_cogging = quantity == HCI_WAVEFORM_COGGING;
     hci_waveform w = {0};
     hci_note why = {{0}};
     bool is_far = false;
-    hci_status status = find_far(r, &options, &w, &is_far, &why);
+    hci_status status = find_far(&t->runs.run[k], &options, &w, &is_far, &why);
     *found = !status && w.kept > 0;
-    if (*found && quantity == HCI_WAVEFORM_COGGING &&
-        cli_tune_order_of_slots(t) > (double)w.count * w.step + HCI_ORDER_TOLERANCE) {
-        t->cogging_reach = (double)w.count * w.step;
-        t->has_alias = true; /* until another recording shows it */
-        *found = false;
-    }
+    if (*found && is_cogging) *found = reaches_slots(t, &w);
     if (status) hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN, "%s", why.text);
     status = *found ? take_waveform(t, k, &w, is_far, note) : HCI_OK;
-    if (quantity == HCI_WAVEFORM_COGGING && *found) {
-        t->cogging_reach = (double)w.count * w.step;
-        t->has_alias = false;
-    }
-    if (*found && quantity == HCI_WAVEFORM_COGGING && !status) {
+    if (*found && is_cogging && !status)
         t->cogging = w;
-    } else
+    else
         hci_waveform_release(&w);
     return status;
 }

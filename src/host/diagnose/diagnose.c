@@ -409,10 +409,26 @@ static hci_status tell(const hci_free_friction *friction, const hci_runs *runs, 
     return status;
 }
 
+/* Of the runs that tell a torque; friction of free shafts comes first. */
+static hci_status diagnose_measured(const hci_machine_data *machine, const hci_effects *declared,
+                                    const hci_runs *runs, const hci_diagnose_options *options,
+                                    hci_diagnosis *diagnosis, hci_note *note)
+{
+    hci_free_friction friction = {0};
+    hci_status status = hci_free_friction_find(machine, declared, runs, &friction, note);
+    if (!status)
+        status = diagnose_from(machine, friction.law.terms > 0 ? &friction.effects.list : declared,
+                               &friction.rest, options, diagnosis, note);
+    if (!status) status = tell(&friction, runs, diagnosis, note);
+    hci_free_friction_release(&friction);
+    if (!status && hci_constant_is_held(runs))
+        diagnosis->held_constant_Nm_per_A = hci_torque_constant(&machine->model, declared);
+    return status;
+}
+
 hci_status hci_diagnose(const hci_machine_data *machine, const hci_effects *declared, const hci_runs *runs,
                         const hci_diagnose_options *options, hci_diagnosis *diagnosis, hci_note *note)
 {
-    hci_free_friction friction = {0};
     size_t usable = 0, fitted = 0;
     memset(diagnosis, 0, sizeof *diagnosis);
     for (size_t k = 0; k < runs->count; ++k) {
@@ -421,24 +437,12 @@ hci_status hci_diagnose(const hci_machine_data *machine, const hci_effects *decl
     }
     if (fitted == 0)
         return hci_note_set(note, HCI_ERROR_INPUT, "no run has the role `fit`; give it to at least one");
-    const double off = hci_open_voltage_off(&machine->model, runs);
-    diagnosis->open_voltage_off = off;
-    if (usable == 0) {
-        const hci_status nothing = nothing_measured(declared, diagnosis, note);
-        if (nothing == HCI_NOT_REACHED) origin_fill(diagnosis);
-        return nothing;
-    }
-    hci_status status = hci_free_friction_find(machine, declared, runs, &friction, note);
-    if (!status)
-        status = diagnose_from(machine, friction.law.terms > 0 ? &friction.effects.list : declared,
-                               &friction.rest, options, diagnosis, note);
-    if (!status) status = tell(&friction, runs, diagnosis, note);
-    hci_free_friction_release(&friction);
-    if (status) return status;
-    if (hci_constant_is_held(runs))
-        diagnosis->held_constant_Nm_per_A = hci_torque_constant(&machine->model, declared);
-    diagnosis->open_voltage_off = off;
-    if (off > HCI_OPEN_VOLTAGE_OFF && diagnosis->verdict == HCI_DIAGNOSIS_COMPLETE)
+    const hci_status status = usable > 0
+                                  ? diagnose_measured(machine, declared, runs, options, diagnosis, note)
+                                  : nothing_measured(declared, diagnosis, note);
+    if (status > HCI_NOT_REACHED) return status;
+    diagnosis->open_voltage_off = hci_open_voltage_off(&machine->model, runs);
+    if (diagnosis->open_voltage_off > HCI_OPEN_VOLTAGE_OFF && diagnosis->verdict == HCI_DIAGNOSIS_COMPLETE)
         diagnosis->verdict = HCI_DIAGNOSIS_UNKNOWN;
     origin_fill(diagnosis);
     return diagnosis->verdict >= HCI_DIAGNOSIS_AMBIGUOUS || diagnosis->search != HCI_WORK_COMPLETE

@@ -7,8 +7,8 @@
 #include "host/emit/emission.h"
 #include "host/emit/table_ripple.h"
 
-#define HEAVY                                                                                                \
-    3e4 /* waves, times their highest order, times turns: shapes that nobody asked for are not made */
+/* Waves times their highest order times turns: from here on shapes that nobody asked for are not made. */
+#define HEAVY 3e4
 
 /* ---- what is asked for ---- */
 

@@ -735,9 +735,27 @@ static void test_chosen_cut_adds_little_to_the_ripple_to_expect(void)
     hci_machine_release(&machine);
 }
 
+/* Many waves over many turns: nothing but what was asked for is made, unless a size is given. */
+static void test_shapes_beside_are_made_where_that_is_quick(void)
+{
+    enum { WAVES = 120 };
+    hci_wave wave[WAVES];
+    for (size_t k = 0; k < WAVES; ++k)
+        wave[k] = (hci_wave){1.0 + (double)(6 * k) / 14.0, 1, k == 0 ? 10.0 : 0.01, 0.0};
+    const currents few = injected();
+    hci_emit_request quick = request_for(&few), r = quick;
+    r.currents = wave;
+    r.current_count = WAVES;
+    TEST_ASSERT_EQUAL(1, emit_well(&r).choices);
+    r.max_error_A = 0.3;
+    TEST_ASSERT_EQUAL(HCI_EMIT_MOST_CHOICES, emit_well(&r).choices);
+    TEST_ASSERT_EQUAL(HCI_EMIT_MOST_CHOICES, emit_well(&quick).choices);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_shapes_beside_are_made_where_that_is_quick);
     RUN_TEST(test_ripple_is_that_of_the_emitted_numbers);
     RUN_TEST(test_chosen_cut_adds_little_to_the_ripple_to_expect);
     RUN_TEST(test_stated_error_holds);

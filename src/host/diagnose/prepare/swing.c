@@ -7,6 +7,7 @@
 #include "hci/math/harmonic.h"
 #include "host/base/memory.h"
 #include "host/numeric/fft.h"
+#include "host/numeric/peak.h"
 #include "host/numeric/statistics.h"
 #include "host/recording/rotor_frame.h"
 
@@ -15,8 +16,7 @@ enum {
     LEAST_OF_TURN = 64, /* samples */
     MOST_MEANS = 8192,  /* that the differences are reduced to */
     NEAR = 64,          /* places of the spectrum on each side that tell the noise */
-    STEPS = 14,         /* of the search for a frequency, each of which leaves 62 % */
-    PLACES = 6,         /* on each side, that are tried before */
+    PLACES = 6,         /* on each side, that are tried for a frequency */
     SWEEPS = 3,
     LEAST_RUNS = 2 /* that show a swing, to be looked for in others */
 };
@@ -38,7 +38,6 @@ enum {
 #define ALIKE      1.5  /* times as large or as small as in other runs */
 #define MULTIPLE   4.0  /* errors of a frequency */
 #define OFF        0.5  /* of a line, that it may be another one in the torque itself */
-#define GOLDEN     0.61803398874989485
 
 /* Each torque less that of one turn before, as means over some neighbours. */
 typedef struct {
@@ -198,25 +197,20 @@ static line line_fit(const changes *c, double frequency_Hz)
     return a;
 }
 
-/* The best frequency between two. */
-static line line_between(const changes *c, double low, double high)
+static double square_at(const void *changes_of, double frequency_Hz)
 {
-    line a = line_fit(c, high - GOLDEN * (high - low)), b = line_fit(c, low + GOLDEN * (high - low));
-    for (int k = 0; k < STEPS; ++k) {
-        if (a.square > b.square) {
-            high = b.frequency_Hz;
-            b = a;
-            a = line_fit(c, high - GOLDEN * (high - low));
-        } else {
-            low = a.frequency_Hz;
-            a = b;
-            b = line_fit(c, low + GOLDEN * (high - low));
-        }
-    }
-    return a.square > b.square ? a : b;
+    return line_fit(changes_of, frequency_Hz).square;
 }
 
-/* The best frequency about one, within what the length of the run tells apart. */
+/* The best frequency near one, within what the length of the run tells apart. */
+static line line_near(const changes *c, double frequency_Hz)
+{
+    const hci_peak_function square = {square_at, c};
+    hci_peak_refine(&square, 0.25 / c->span_s, &frequency_Hz);
+    return line_fit(c, frequency_Hz);
+}
+
+/* The best frequency about one. */
 static line line_refine(const changes *c, double frequency_Hz)
 {
     const double step_Hz = 0.25 / c->span_s;
@@ -225,7 +219,7 @@ static line line_refine(const changes *c, double frequency_Hz)
         const line a = line_fit(c, frequency_Hz + k * step_Hz);
         if (a.frequency_Hz > 0.0 && a.square > best.square) best = a;
     }
-    return line_between(c, best.frequency_Hz - step_Hz, best.frequency_Hz + step_Hz);
+    return line_near(c, best.frequency_Hz);
 }
 
 /* Takes a line out (share 1) or puts it back (−1). */
@@ -242,9 +236,8 @@ static void lines_settle(changes *c, line *lines, size_t count)
 {
     for (int sweep = 0; sweep < SWEEPS && count > 1; ++sweep)
         for (size_t k = 0; k < count; ++k) {
-            const double reach_Hz = 0.25 / c->span_s;
             line_leave(c, &lines[k], -1.0);
-            lines[k] = line_between(c, lines[k].frequency_Hz - reach_Hz, lines[k].frequency_Hz + reach_Hz);
+            lines[k] = line_near(c, lines[k].frequency_Hz);
             line_leave(c, &lines[k], 1.0);
         }
 }
