@@ -2,6 +2,7 @@
 
 #include "cli/batch/batch_run.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -86,6 +87,18 @@ static void hear(const crew *c, char reason[HCI_FLEET_REASON_SIZE])
     snprintf(reason, HCI_FLEET_REASON_SIZE, "%.480s", begin);
 }
 
+static hci_fleet_outcome not_begun(bool is_full)
+{
+    hci_fleet_outcome outcome = {.state = HCI_FLEET_FAILED, .exit_code = -1};
+    const bool is_short = !is_full && errno == ENOMEM;
+    if (is_short) outcome.exit_code = hci_status_exit_code(HCI_ERROR_MEMORY);
+    snprintf(outcome.reason, sizeof outcome.reason, "%s",
+             is_full    ? "too many words for one command"
+             : is_short ? "out of memory for what it says"
+                        : "no temporary file can be made");
+    return outcome;
+}
+
 /* Runs the command on a motor; its results are in its part folder then. */
 static hci_fleet_outcome run_command(crew *c, size_t motor, const char *part)
 {
@@ -95,12 +108,7 @@ static hci_fleet_outcome run_command(crew *c, size_t motor, const char *part)
     cli_batch_add(&words, "--quiet");
     cli_batch_add(&words, "--out");
     cli_batch_add(&words, part);
-    if (words.is_full || !listen(c)) {
-        outcome.state = HCI_FLEET_FAILED;
-        snprintf(outcome.reason, sizeof outcome.reason, "%s",
-                 words.is_full ? "too many words for one command" : "no temporary file can be made");
-        return outcome;
-    }
+    if (words.is_full || !listen(c)) return not_begun(words.is_full);
     outcome.exit_code = cli_command_run(c->work->batch->command, (int)words.count, words.word);
     outcome.state = outcome.exit_code == 0   ? HCI_FLEET_DONE
                     : outcome.exit_code == 1 ? HCI_FLEET_OPEN

@@ -2,7 +2,7 @@
 
     every_allocation.py LIBRARY STRIDE HCI_SOLVE COMMAND [WORD...]
 
-LIBRARY is failing_malloc.c, compiled; of the allocations every STRIDE-th is tried. The command gets -q and -o FOLDER.
+LIBRARY is failing_malloc.c, compiled; of the allocations every STRIDE-th is tried, with STRIDE:LAST up to one. The command gets -q and -o FOLDER.
 It has to end with exit code 4, words and no folder, or as it does with enough memory, with the same files; `batch`
 also with exit code 1 and a row of a motor that says it, or with exit code 4, words and a folder from which the same
 command goes on to the same files, as `sweep` does. Prints how often which happened, and each that is neither;
@@ -80,7 +80,8 @@ def main(library, stride, *command):
         allocations = int(words.split()[-1])
         whole = code, os.path.join(work, "whole")
         os.rename(trial.folder, whole[1])
-        for at in range(1, allocations + 1, int(stride)):
+        step, _, last = stride.partition(":")
+        for at in range(1, int(last or allocations) + 1, int(step)):
             ended, words = trial.run(at)
             what = outcome(trial, at, ended, words, whole)
             counted[what or "wrong"] += 1

@@ -1,7 +1,8 @@
 #!/bin/sh
 # One allocation of the process fails, ours or that of a library: exit code 4 and nothing written, or the same files.
 # tests/faults/every_allocation.py with a stride of 1 tries each; here it is some of them, and of `batch` and `sweep` those
-# at which a row or a point once became another one without a word.
+# at which a row or a point once became another one without a word, or another
+# process was blamed.
 . "$(dirname "$0")/../support/common.sh"
 use_plain_build
 export hci_solve
@@ -21,6 +22,7 @@ scenario=$source_dir/data/scenarios/02
 tries 7 solve "$source_dir/data/machine_a" --target "$scenario/target.csv" --harmonics "$scenario/harmonics.csv"
 tries 97 solve "$source_dir/data/machine_a" --target "$scenario/target.csv" --harmonics "$scenario/harmonics.csv" \
     --limit-current 20
-tries 1200 batch "$source_dir/data/fleet/motors.csv" --command solve -j 1
+tries 2400 batch "$source_dir/data/fleet/motors.csv" --command solve -j 1
+tries 3:45 batch "$source_dir/data/fleet/motors.csv" --command solve -j 1
 tries 900 sweep "$source_dir/data/machine_a" --map --torques 1,2 --speeds 0 --limit-current 20 -j 1
 finish

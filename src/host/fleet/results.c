@@ -57,6 +57,7 @@ hci_status hci_fleet_part(const hci_fleet_results *results, size_t motor, char *
 
 static hci_status refused(const char *path, const char *what, hci_note *note)
 {
+    if (errno == ENOMEM) return hci_note_memory(note, path, "the folder");
     return hci_note_set(note, HCI_ERROR_OUTPUT, "%.300s: %s: %s", path, what, strerror(errno));
 }
 
@@ -207,6 +208,7 @@ hci_status hci_fleet_lock(const hci_fleet_results *results, void **lock, hci_not
     if (!hci_folder_make(motors, &existing)) return refused(motors, "cannot be made", note);
     *lock = hci_folder_lock_take(motors, WAIT_MS, &is_alone);
     if (*lock) return HCI_OK;
+    if (errno != EWOULDBLOCK) return refused(motors, "cannot be read", note);
     return hci_note_set(note, HCI_ERROR_OUTPUT,
                         "%.300s: another process works at the motors there; expected one at a time: wait for "
                         "it, or give each --shard its own --out",
