@@ -18,7 +18,7 @@
 
 bool cli_tune_is_blocked(const cli_tuning *t)
 {
-    return t->has_slip || t->has_misfit || t->has_unsteady || t->has_alias;
+    return t->has_slip || t->has_misfit || t->has_unsteady || t->has_no_angle || t->has_alias;
 }
 
 double cli_tune_order_of_slots(const cli_tuning *t)
@@ -48,7 +48,7 @@ static hci_status init_machine(cli_tuning *t, hci_note *note)
     return cli_tune_run(t, t->commands.init, &c, note);
 }
 
-static hci_status list_logs(cli_tuning *t, hci_note *note)
+hci_status cli_tune_list_logs(cli_tuning *t, hci_note *note)
 {
     const cli_arguments *a = t->arguments;
     const char *test = a->given[TUNE_HOLDING] ? "holding" : "";
@@ -81,7 +81,7 @@ hci_status cli_tune_begin(const cli_arguments *a, cli_tuning *t, hci_note *note)
         return HCI_OK;
     }
     status = init_machine(t, note);
-    return status ? status : list_logs(t, note);
+    return status ? status : cli_tune_list_logs(t, note);
 }
 
 static const char *source_words(const hci_run *r)
@@ -153,29 +153,12 @@ static void say_remark(void *to, size_t first, size_t alike, const char *text)
         hci_tuning_say(&t->tuning, HCI_TUNING_READ, "  %s", text);
 }
 
-/* The one that is shown: what sticks, or else the first that tells where the shaft is. */
-static void choose_log(cli_tuning *t)
-{
-    size_t shown = 0;
-    for (size_t k = t->runs.count; k-- > 0;)
-        if (t->runs.run[k].theta_m_rad || t->runs.run[k].speed_rad_per_s) shown = k;
-    for (size_t k = t->runs.count; k-- > 0;)
-        if (t->runs.run[k].is_unsteady) shown = k;
-    t->shown = shown;
-    t->tuning.log_name = cli_tune_name_of(t, shown);
-}
-
 hci_status cli_tune_read(cli_tuning *t, hci_note *note)
 {
     const hci_status status = cli_tune_read_inputs(t, note);
     for (size_t k = 0; k < t->runs.count && !status; ++k)
         say_run(t, k);
-    if (!status && t->runs.count > 0) choose_log(t);
     if (!status) cli_remarks_group(&(cli_remarks){remark_of, &t->runs, t->runs.count}, say_remark, t);
-    for (size_t k = 0; k < t->runs.count && !status; ++k) {
-        t->has_unsteady = t->has_unsteady || t->runs.run[k].is_unsteady;
-        t->needs_inertia = t->needs_inertia || t->runs.run[k].needs_inertia;
-    }
     return status;
 }
 

@@ -7,6 +7,9 @@
 /* A recording as it was given; in a list, as that names it. */
 const char *cli_tune_name_of(const cli_tuning *tune, size_t run);
 
+/* Writes the list of the recordings that the arguments name, and notes it. */
+hci_status cli_tune_list_logs(cli_tuning *tune, hci_note *note);
+
 /* Machine and recordings anew, with the zero of the angle that is known by now. */
 hci_status cli_tune_read_inputs(cli_tuning *tune, hci_note *note);
 

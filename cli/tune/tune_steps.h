@@ -22,6 +22,8 @@ typedef struct {
 /* What the steps hand on to each other. Start with zeros. */
 typedef struct {
     const cli_arguments *arguments;
+    cli_arguments kept;  /* the same without the recordings that are left out */
+    size_t left_out;     /* how many these are */
     cli_tune_commands commands;
     const char *out;
     char machine[CLI_TUNE_PATH]; /* folder of the machine that recordings are read with */
@@ -36,7 +38,8 @@ typedef struct {
     size_t shown;                        /* recording in the report */
     bool has_slip, has_emf, has_cogging; /* check found one; they were measured without load */
     bool has_diagnosis;                  /* diagnose had something to do */
-    bool has_unsteady;                   /* a slow turn sticks and slips */
+    bool has_unsteady;                   /* a slow turn sticks and slips, and no other recording is of use */
+    bool has_no_angle;                   /* a recording has none, and no other is of use */
     bool needs_inertia; /* the current of a slow turn does not tell its cogging torque without the inertia */
     bool has_misfit;    /* angle, order or speed contradict each other, and no slip explains it */
     bool has_doubt;     /* check does not understand something else */
@@ -59,9 +62,11 @@ typedef struct {
     hci_tuning tuning;
 } cli_tuning;
 
-/* In this order. Errors are those of the commands; what a recording does not hold is none. */
+/* In this order. Errors are those of the commands; what a recording does not hold is none. Recordings that a
+ * table cannot be made of are left out where another one is of use; of a list that was given none is. */
 hci_status cli_tune_begin(const cli_arguments *arguments, cli_tuning *tune, hci_note *note);
 hci_status cli_tune_read(cli_tuning *tune, hci_note *note);
+hci_status cli_tune_leave_out(cli_tuning *tune, hci_note *note);
 hci_status cli_tune_check(cli_tuning *tune, hci_note *note);
 hci_status cli_tune_waveforms(cli_tuning *tune, hci_note *note);
 hci_status cli_tune_diagnose(cli_tuning *tune, hci_note *note);
@@ -73,6 +78,9 @@ bool cli_tune_is_blocked(const cli_tuning *tune);
 
 /* The electrical order of the cogging torque of slots and poles; 0: the slots are not given. */
 double cli_tune_order_of_slots(const cli_tuning *tune);
+
+/* Whether the torque of a recording was typed, and none is measured. */
+bool cli_tune_is_typed(const cli_tuning *tune);
 
 /* Whether there is anything to solve with: no slip, no slow turn that sticks, and something was measured. */
 bool cli_tune_can_solve(const cli_tuning *tune);

@@ -68,10 +68,14 @@ static void say_unknown(cli_tuning *t)
         hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
                        "The torque per ampere and the back-EMF are those of the data sheet; voltages of the "
                        "open machine, driven by another, would tell them.");
-    if (!cli_tune_knows_zero(t)) say_unknown_zero(t);
+    if (t->is_solved && !cli_tune_knows_zero(t)) say_unknown_zero(t);
     for (size_t k = 0; k < t->runs.count; ++k) {
         const hci_run *r = &t->runs.run[k];
         const char *name = t->arguments->given[TUNE_RUNS] ? r->name : t->arguments->word[k];
+        if (r->torque_is_typed)
+            hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
+                           "The ripple in %s: its torque is one number in every row, typed and not measured.",
+                           name);
         if (r->is_unsteady)
             hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
                            "What of the current in %s answers cogging torque, and what answers the shaft's "
@@ -131,22 +135,51 @@ static void say_next_on_machine(cli_tuning *t)
                        "currents of the table, with a torque sensor.");
 }
 
+/* What --column takes where a column that was not read may be the angle; NULL: none. */
+static const char *angle_like(const cli_tuning *t)
+{
+    for (size_t k = 0; k < t->runs.count; ++k)
+        if (t->runs.run[k].angle_like[0]) return t->runs.run[k].angle_like;
+    return NULL;
+}
+
+static void say_next_angle(cli_tuning *t)
+{
+    const char *column = angle_like(t);
+    if (column)
+        hci_tuning_say(&t->tuning, HCI_TUNING_NEXT,
+                       "If the log has the angle under a name of its own, say which column it is: --column "
+                       "'%s' (an encoder's counts, over those of a turn).",
+                       column);
+    hci_tuning_say(&t->tuning, HCI_TUNING_NEXT,
+                   "Log the angle of the rotor beside the current, that of the encoder which the drive has, "
+                   "and without a torque sensor turn the shaft slowly under position control, one turn "
+                   "forward and one back.");
+}
+
 /* Of logs that nothing was solved with, what would do. */
 static void say_next_turn(cli_tuning *t)
 {
     hci_tuning *r = &t->tuning;
-    if (t->has_unsteady)
+    if (t->has_no_angle)
+        say_next_angle(t);
+    else if (t->has_unsteady)
         hci_tuning_say(
             r, HCI_TUNING_NEXT,
             "Turn the shaft evenly: a stiffer position control, or a lower speed with it; its speed "
             "is to vary by less than 30 %% rms. Or move it in steps of half a degree or less, keep "
-            "the samples at rest alone, and give them a column torque_Nm of 0. A log that sticks is "
-            "left out of the next call.");
+            "the samples at rest alone, and give them a column torque_Nm of 0.");
     else if (t->needs_inertia)
         hci_tuning_say(
             r, HCI_TUNING_NEXT,
             "Give --inertia, of the rotor with what turns with it, which takes out what accelerates; "
             "or turn the shaft more slowly, a third of the speed or less, with a stiff control.");
+    else if (cli_tune_is_typed(t) && !t->is_solved)
+        hci_tuning_say(
+            r, HCI_TUNING_NEXT,
+            "Log what a torque sensor measures, at three currents (docs/measuring.md). Without a sensor: "
+            "take the brake off, leave the column out, and turn the shaft slowly under position control, one "
+            "turn forward and one back, with angle and i_q.");
     else if (!t->is_solved && !cli_tune_is_blocked(t) && !cli_tune_can_solve(t))
         hci_tuning_say(
             r, HCI_TUNING_NEXT,
@@ -314,6 +347,9 @@ static void add_to_heading(cli_tuning *t)
     if (is_off_sheet(t))
         snprintf(heading + strlen(heading), size - strlen(heading),
                  "; the measured back-EMF is %.3g times that of the data sheet", t->emf_to_sheet);
+    if (t->left_out > 0)
+        snprintf(heading + strlen(heading), size - strlen(heading), "; %zu of %zu logs left out", t->left_out,
+                 t->left_out + t->kept.words);
     if (t->has_doubt && !is_off_sheet(t))
         snprintf(heading + strlen(heading), size - strlen(heading),
                  "; check does not understand all that the logs say");
@@ -330,10 +366,14 @@ static const char *why_not_solved(const cli_tuning *t)
                  "explains it, so nothing was solved"
            : t->has_alias
                ? "Cogging torque of a higher order would look like one of a low order, so nothing was solved"
+           : t->has_no_angle ? "The log has no angle of the rotor, and a table over one whose zero nobody knows "
+                               "cannot be played, so nothing was solved"
            : t->has_slip     ? "What the files say contradicts itself, so nothing was solved"
            : t->has_unsteady ? "The current of a shaft that turns in jerks does not tell its cogging torque, "
                                "so nothing was "
                                "solved"
+           : cli_tune_is_typed(t) ? "The torque in the log is one number in every row, typed and not measured, and tells "
+                           "the mean alone, so nothing was solved"
            : t->needs_inertia ? "The inertia may answer what the current does not, so nothing was solved"
                               : "The logs tell neither cogging torque nor back-EMF, so nothing was solved";
 }
@@ -353,6 +393,7 @@ static const char *verdict_of(const cli_tuning *t)
     return t->tuning.good                                  ? "tuned"
            : t->has_slip                                   ? "a convention is broken"
            : t->has_misfit                                 ? "the conventions are not understood"
+           : t->has_no_angle                               ? "not enough in the logs"
            : t->has_unsteady                               ? "the shaft sticks and slips"
            : t->has_alias                                  ? "the samples lie too far apart"
            : !t->is_emitted                                ? "not enough in the logs"
@@ -404,7 +445,10 @@ static void show_before_and_after(const cli_tuning *t)
         snprintf(expected, sizeof expected, "at most %.3g N·m (95 %%)", e->peak_to_peak_Nm);
     if (after_Nm < s->tolerance_Nm) after_Nm = 0.0;
     cli_say("                              plain sine   with the table   to expect on the machine\n");
-    cli_say("  ripple, peak to peak, N·m   %10.3g   %14.3g   %s\n", before_Nm, after_Nm, expected);
+    if (!hci_tuning_knows_ripple(s))
+        cli_say("  ripple, peak to peak, N·m    not known        not known   %s\n", expected);
+    else
+        cli_say("  ripple, peak to peak, N·m   %10.3g   %14.3g   %s\n", before_Nm, after_Nm, expected);
     cli_say("  peak phase current, A       %10.4g   %14.4g   the same, if the current loop follows\n",
             s->plain_amplitude_A, s->peak_phase_current_A);
     cli_say("  copper loss, to the sine    %10d   %14.4g   the same\n", 1, s->loss_to_plain);

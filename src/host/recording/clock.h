@@ -23,6 +23,11 @@ typedef struct {
  * False: they say nothing (all equal, descending, or a step back for every 20 samples). O(n). */
 bool hci_clock_mend(hci_stamps stamps, hci_note *remark);
 
+/* Whether stamps come early and late by turns, by a tenth of the time between samples or more, as where a bus
+ * or a whole number of milliseconds makes them: what varies from sample to sample is then not told by them.
+ * Before they are mended. work: n. O(n). */
+bool hci_clock_is_rough(hci_stamps stamps, double *work);
+
 typedef enum {
     HCI_CLOCK_AGREES,  /* the angle is a smooth function of the stamps, or rough in any case */
     HCI_CLOCK_JITTERS, /* it is one of the rows, and not of the stamps */

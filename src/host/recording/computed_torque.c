@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "host/numeric/statistics.h"
+#include "host/recording/rotor_frame.h"
 
 #define DIGITS 1e-6 /* of the largest torque: numbers in files have seven digits or more */
 #define VARIES 1e-2 /* of the largest current */
@@ -15,6 +16,23 @@ static double largest_of(const double *x, size_t n)
     for (size_t k = 0; k < n; ++k)
         most = fmax(most, fabs(x[k]));
     return most;
+}
+
+#define STILL 1e-3 /* of the currents: less is rounding */
+
+bool hci_torque_is_typed(const hci_run *run)
+{
+    double mean = 0.0, square = 0.0;
+    const double share = 1.0 / (double)run->count;
+    if (run->count < LEAST || run->theta_m_rad == NULL || !(fabs(run->torque_Nm[0]) > 0.0)) return false;
+    for (size_t k = 1; k < run->count; ++k)
+        if (run->torque_Nm[k] < run->torque_Nm[0] || run->torque_Nm[k] > run->torque_Nm[0]) return false;
+    for (size_t k = 0; k < run->count; ++k) {
+        const double iq_A = hci_run_dq(run, run->pole_pairs, k).q;
+        mean += share * iq_A;
+        square += share * iq_A * iq_A;
+    }
+    return square - mean * mean > STILL * STILL * square;
 }
 
 bool hci_torque_is_of_current(const double *torque_Nm, const double *iq_A, size_t n, double *constant)

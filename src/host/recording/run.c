@@ -84,6 +84,10 @@ static hci_status read_time(reader *r)
     hci_run *run = r->run;
     const hci_status status = read_column(r, HCI_RUN_TIME, &run->time_s);
     if (status || run->time_s == NULL) return status;
+    double *work = hci_memory_new(run->count, sizeof *work);
+    if (work == NULL) return memory_error(r);
+    run->rough_clock = hci_clock_is_rough(stamps_of(run), work);
+    hci_memory_free(work);
     if (!hci_clock_mend(stamps_of(run), &run->remark)) drop_time(run);
     return HCI_OK;
 }
@@ -297,7 +301,7 @@ static hci_status integrate_speed(reader *r)
                                           (run->time_s[k] - run->time_s[k - 1]);
     run->turn_known = run->zero_is_unknown = true;
     hci_note_add(&run->remark, "no angle: it is speed x time, and its zero is not known");
-    return HCI_OK;
+    return hci_run_columns_angle_like(&r->columns, run->theta_m_rad, run->angle_like);
 }
 
 /* What does without an angle. */
@@ -458,13 +462,29 @@ static hci_status drop_computed(reader *r)
     return HCI_OK;
 }
 
+/* Frees a torque that is one number while the current varies. */
+static void drop_typed(reader *r)
+{
+    hci_run *run = r->run;
+    if (run->torque_Nm == NULL || !hci_torque_is_typed(run)) return;
+    hci_note_add(&run->remark,
+                 "the torque is %.6g N·m in every row while the current varies: typed, or of a sensor that "
+                 "stands still, and not measured. It tells the mean alone and is not used",
+                 run->torque_Nm[0]);
+    run->torque_is_typed = true;
+    hci_memory_free(run->torque_Nm);
+    run->torque_Nm = NULL;
+}
+
 static hci_status read_torque(reader *r)
 {
     hci_run *run = r->run;
     hci_status status = read_column(r, HCI_RUN_TORQUE, &run->torque_Nm);
     if (!status) status = drop_computed(r);
     if (status) return status;
+    drop_typed(r);
     hci_run_computed_torque_leave(&r->columns);
+    if (run->torque_is_typed) return HCI_OK; /* a load: neither a free shaft nor a holding test */
     if (run->torque_Nm == NULL) return hci_untold_torque_set(run, r->options, r->no_currents, r->note);
     run->torque_source = is_zero(run->torque_Nm, run->count) ? HCI_TORQUE_HOLDING : HCI_TORQUE_MEASURED;
     if (run->torque_source == HCI_TORQUE_HOLDING && !hci_row_direction_set(run)) return memory_error(r);

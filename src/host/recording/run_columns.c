@@ -4,12 +4,14 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "hci/math/harmonic.h"
 #include "host/base/memory.h"
 #include "host/base/quote.h"
 #include "host/csv/column.h"
 #include "host/csv/column_name.h"
 #include "host/csv/name_words.h"
 #include "host/csv/table.h"
+#include "host/numeric/statistics.h"
 
 static const char *const NAME[HCI_RUN_COLUMN_COUNT] = {
 #define NAME_ONE(name, text) text,
@@ -123,6 +125,63 @@ void hci_run_columns_say_angle(const hci_run_columns *c, hci_note *missing)
                      "theta_m_rad; theta_e of an "
                      "electrical angle)",
                      name, name);
+}
+
+/* ---- counts of an encoder ---- */
+
+#define NEAR 0.05 /* of the counts of a turn, by which those that a speed tells are off */
+
+/* Parts of the recording that each tell them. */
+enum { COUNT_PARTS = 100 };
+
+/* Counts that encoders have: powers of two, and round decimal ones; 0: not near one. */
+static double usual_counts(double found)
+{
+    const double binary = exp2(round(log2(found)));
+    const double decade = pow(10.0, floor(log10(found))),
+                 decimal = round(found / decade * 2.0) / 2.0 * decade;
+    const double nearest = fabs(found - binary) < fabs(found - decimal) ? binary : decimal;
+    return fabs(found / nearest - 1.0) < NEAR ? nearest : 0.0;
+}
+
+/* Of a turn; 0: not told. The median of the parts, of which a few go over the end of a turn or a gap. */
+static double counts_of_turn(const double *counts, const double *theta_m_rad, size_t n)
+{
+    double part[COUNT_PARTS];
+    size_t parts = 0;
+    for (size_t k = 0; k < COUNT_PARTS && n > COUNT_PARTS; ++k) {
+        const size_t from = k * (n - 1) / COUNT_PARTS, to = (k + 1) * (n - 1) / COUNT_PARTS;
+        const double turned_rad = theta_m_rad[to] - theta_m_rad[from];
+        if (fabs(turned_rad) > 0.0) part[parts++] = 2.0 * HCI_PI * (counts[to] - counts[from]) / turned_rad;
+    }
+    const double found = parts > 0 ? fabs(hci_median(part, parts)) : 0.0;
+    return found > 1.0 ? usual_counts(found) : 0.0;
+}
+
+hci_status hci_run_columns_angle_like(const hci_run_columns *c, const double *theta_m_rad,
+                                      char text[HCI_RUN_NAME])
+{
+    const char *name = likely_angle(c);
+    if (name == NULL || strlen(name) + 24 > HCI_RUN_NAME) return HCI_OK;
+    if (!hci_csv_counts(name)) {
+        snprintf(text, HCI_RUN_NAME, "theta_m_deg=%s", name);
+        hci_note_add(c->remark, "`%s` may be the angle: if it is, add --column '%s' (theta_m_rad in rad)", name,
+                     text);
+        return HCI_OK;
+    }
+    hci_note unused = {{0}};
+    double *counts = hci_memory_new(c->count, sizeof *counts), of_turn = 0.0;
+    if (counts == NULL) return memory_error(c);
+    if (!hci_csv_numbers(c->csv, name, counts, &unused)) of_turn = counts_of_turn(counts, theta_m_rad, c->count);
+    hci_memory_free(counts);
+    if (of_turn > 0.0)
+        snprintf(text, HCI_RUN_NAME, "theta_m=%s/%.0f", name, of_turn);
+    else
+        snprintf(text, HCI_RUN_NAME, "theta_m=%s/COUNTS", name);
+    hci_note_add(c->remark,
+                 "`%s` may be the angle: if it is, add --column '%s', the counts of a turn behind the stroke",
+                 name, text);
+    return HCI_OK;
 }
 
 static bool has_names(const hci_csv *csv, const char *first, const char *second)

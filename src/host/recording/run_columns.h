@@ -64,6 +64,12 @@ void hci_run_columns_torque_like(const hci_run_columns *c, char name[HCI_RUN_NAM
 /* Adds to an error which column may be the angle, and how to say it. */
 void hci_run_columns_say_angle(const hci_run_columns *c, hci_note *missing);
 
+/* The column that was not read and may be the angle, as --column takes it: an encoder's counts over those of
+ * a turn, which theta_m_rad, [count], tells where they are usual ones. text: out, left
+ * where there is none; the remark says it, too. HCI_ERROR_MEMORY. */
+hci_status hci_run_columns_angle_like(const hci_run_columns *c, const double *theta_m_rad,
+                                      char text[HCI_RUN_NAME]);
+
 /* So, for who can do without angle and voltages: any column that is known will do. */
 hci_status hci_run_columns_find_any(const hci_csv *csv, hci_run_columns *c, hci_note *remark, hci_note *note);
 void hci_run_columns_release(hci_run_columns *c);

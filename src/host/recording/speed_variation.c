@@ -1,10 +1,12 @@
 #include "host/recording/speed_variation.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "hci/math/harmonic.h"
 #include "host/base/memory.h"
 #include "host/numeric/derivative.h"
+#include "host/recording/clock.h"
 
 #define SAME_PACE 2.0  /* mean speeds of neighbouring windows within this factor */
 #define PAUSE     0.2  /* of the mean speed of the run */
@@ -61,14 +63,29 @@ static double share_of(const hci_run *run, const double *rate, int pole_pairs)
     return used > ENOUGH * (double)run->count ? sqrt(sum / used) : 0.0;
 }
 
+/* The same run over stamps that are smoothed. work: twice its samples, which it then uses. */
+static void make_even(hci_run *run, double *work)
+{
+    hci_note unused = {{0}};
+    memcpy(work, run->time_s, run->count * sizeof *work);
+    run->time_s = work;
+    hci_clock_smooth((hci_stamps){work, run->row, run->count}, work + run->count, &unused);
+}
+
 bool hci_speed_variation(const hci_run *run, int pole_pairs, double *share)
 {
     *share = 0.0;
     if (run->time_s == NULL || run->theta_m_rad == NULL || run->count < LEAST) return true;
-    double *rate = hci_memory_new(run->count, sizeof *rate);
+    if (run->rough_clock && run->speed_rad_per_s != NULL && run->speed_window == 0) {
+        *share = share_of(run, run->speed_rad_per_s, pole_pairs);
+        return true;
+    }
+    double *rate = hci_memory_new(run->count, 3 * sizeof *rate);
     if (rate == NULL) return false;
-    hci_derivative(run->time_s, run->theta_m_rad, run->count, rate);
-    *share = share_of(run, rate, pole_pairs);
+    hci_run even = *run;
+    if (run->rough_clock) make_even(&even, rate + run->count);
+    hci_derivative(even.time_s, run->theta_m_rad, run->count, rate);
+    *share = share_of(&even, rate, pole_pairs);
     hci_memory_free(rate);
     return true;
 }

@@ -6,7 +6,8 @@
 
 /* rms of the speed about its mean over half an electrical turn, as a share of that mean; where the shaft
  * keeps its direction and about its pace, so that neither a turn round nor a pause nor another speed counts.
- * The speed is the slope of the angle, since a recorded one may be noisier. *share: out, 0 where a run
+ * The speed is the slope of the angle, since a recorded one may be noisier; where the clock is rough it
+ * is the recorded one, or else the slope over stamps that are smoothed. *share: out, 0 where a run
  * without time or with too few such samples does not tell. False: no memory. O(samples). */
 bool hci_speed_variation(const hci_run *run, int pole_pairs, double *share);
 

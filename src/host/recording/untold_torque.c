@@ -86,8 +86,12 @@ static hci_status judge_speed(const task *t)
         hci_note_add(&run->remark,
                      "the speed varies by %.0f %% rms within half an electrical turn: the shaft sticks and "
                      "slips, or goes in steps, so that its current answers acceleration and breakaway, and "
-                     "orders found in it are not those of cogging torque",
-                     100.0 * share);
+                     "orders found in it are not those of cogging torque%s",
+                     100.0 * share,
+                     run->rough_clock && run->speed_window > 0
+                         ? "; or its stamps, which come early and late by turns, are too coarse to tell, and "
+                           "rows of an even period, or a column of the speed, would"
+                         : "");
     return HCI_OK;
 }
 
@@ -213,7 +217,7 @@ typedef struct {
 /* A run that its own turns do not tell enough of. */
 static bool is_open(const hci_run *run)
 {
-    return run->torque_Nm == NULL && (run->needs_inertia || hci_is_slow(run, run->pole_pairs));
+    return run->torque_Nm == NULL && !run->torque_is_typed && (run->needs_inertia || hci_is_slow(run, run->pole_pairs));
 }
 
 static hci_status find_slow(hci_run *runs, const hci_run_options *options, slow_runs *s, hci_note *note)

@@ -128,6 +128,37 @@ static void test_without_a_current_it_is_one(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-4, iq[10] * sin(1.4), run.i_A[30]);
 }
 
+/* One number in every row beside a current that varies: of a brake, that somebody has typed. */
+static void read_number(double torque_Nm, double step_Nm)
+{
+    const hci_run_options options = {.pole_pairs = 7, .inertia_kgm2 = 1e-3, .torque_constant_Nm_per_A = 0.05};
+    FILE *file = fopen(path, "w");
+    TEST_ASSERT_NOT_NULL(file);
+    fprintf(file, "time_s,theta_m_rad,iq_A,torque_Nm\n");
+    for (size_t k = 0; k < N; ++k)
+        fprintf(file, "%.4f,%.6f,%.6f,%.4f\n", 1e-3 * (double)k, 0.02 * (double)k, iq[k],
+                torque_Nm + (k == 7 ? step_Nm : 0.0));
+    fclose(file);
+    hci_run_release(&run);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_run_read(path, &options, &run, &note), note.text);
+}
+
+static void test_one_number_is_typed(void)
+{
+    read_number(0.4, 0.0);
+    TEST_ASSERT_EQUAL(HCI_TORQUE_NONE, run.torque_source);
+    TEST_ASSERT_TRUE(run.torque_is_typed);
+    text_has("the torque is 0.4 N·m in every row while the current varies", run.remark.text);
+    read_number(0.4, 0.001);
+    TEST_ASSERT_EQUAL(HCI_TORQUE_MEASURED, run.torque_source);
+    read_number(0.0, 0.0);
+    TEST_ASSERT_EQUAL(HCI_TORQUE_HOLDING, run.torque_source);
+    for (size_t k = 0; k < N; ++k) /* a machine that needs no other current for it */
+        iq[k] = 3.0;
+    read_number(0.4, 0.0);
+    TEST_ASSERT_EQUAL(HCI_TORQUE_MEASURED, run.torque_source);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -137,5 +168,6 @@ int main(void)
     RUN_TEST(test_by_its_name);
     RUN_TEST(test_by_its_values);
     RUN_TEST(test_without_a_current_it_is_one);
+    RUN_TEST(test_one_number_is_typed);
     return UNITY_END();
 }

@@ -41,8 +41,8 @@ static void read_turn(double speed, double load_Nm, double wobble_rad, const hci
         const double t = STEP_S * (double)k, turn = speed * t;
         const double wobble = wobble_rad * sin(12.0 * turn),
                      rate = 12.0 * speed * wobble_rad * cos(12.0 * turn);
-        fprintf(file, "%.4f,%.9f,%.9f,%.9f,0.01\n", t, turn + wobble, speed + rate,
-                (load_Nm + COGGING_Nm * sin(12.0 * turn)) / CONSTANT);
+        fprintf(file, "%.4f,%.9f,%.9f,%.9f,%.4f\n", t, turn + wobble, speed + rate,
+                (load_Nm + COGGING_Nm * sin(12.0 * turn)) / CONSTANT, 0.01 + 0.001 * cos(12.0 * turn));
     }
     fclose(file);
     TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_run_read(path, options, &run, &note), note.text);
@@ -143,6 +143,43 @@ static void test_a_shaft_that_sticks_and_slips_is_told(void)
     TEST_ASSERT_FALSE(run.is_unsteady);
 }
 
+/* Samples every 2 ms of a shaft whose speed varies by 0.2 / √2; a bus stamps them up to 4 ms late, in whole
+ * ms. */
+static void read_late(const char *speed_name, double wobble)
+{
+    const hci_run_options said = {.pole_pairs = P, .inertia_kgm2 = NAN, .holding = true};
+    uint64_t seed = 3;
+    double before_s = 0.0;
+    FILE *file = fopen(path, "w");
+    TEST_ASSERT_NOT_NULL(file);
+    fprintf(file, "time_s,theta_m_rad,iq_A,%s\n", speed_name);
+    for (size_t k = 0; k < 2 * N; ++k) {
+        const double t = 0.002 * (double)k, late_s = 0.001 * fmin(4.0, -1.2 * log(ref_uniform(&seed, 1e-9, 1.0)));
+        before_s = fmax(before_s, floor(1e3 * (t + late_s)) * 1e-3);
+        fprintf(file, "%.3f,%.9f,%.9f,%.9f\n", before_s, 0.6 * t + wobble / 12.0 * sin(12.0 * 0.6 * t),
+                0.2 * sin(12.0 * 0.6 * t), 0.6 * (1.0 + wobble * cos(12.0 * 0.6 * t)));
+    }
+    fclose(file);
+    hci_run_release(&run);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_run_read(path, &said, &run, &note), note.text);
+    TEST_ASSERT_TRUE(run.rough_clock);
+}
+
+/* Late stamps are no sticking: the recorded speed tells, or else the stamps when they are smoothed. */
+static void test_late_stamps_are_no_sticking(void)
+{
+    read_late("speed_rad_per_s", 0.2);
+    TEST_ASSERT_FALSE_MESSAGE(run.is_unsteady, run.remark.text);
+    read_late("lamp", 0.2);
+    TEST_ASSERT_FALSE_MESSAGE(run.is_unsteady, run.remark.text);
+    read_late("speed_rad_per_s", 0.9);
+    TEST_ASSERT_TRUE(run.is_unsteady);
+    text_lacks("too coarse to tell", run.remark.text);
+    read_late("lamp", 0.9);
+    TEST_ASSERT_TRUE(run.is_unsteady);
+    text_has("its stamps, which come early and late by turns, are too coarse to tell", run.remark.text);
+}
+
 /* Forward and back, so slowly that a shaft without control would not do it; inertia not known. */
 static void test_a_turn_forward_and_back_is_found(void)
 {
@@ -200,6 +237,7 @@ int main(void)
     RUN_TEST(test_it_takes_inertia_and_torque_constant);
     RUN_TEST(test_it_can_be_said);
     RUN_TEST(test_a_shaft_that_sticks_and_slips_is_told);
+    RUN_TEST(test_late_stamps_are_no_sticking);
     RUN_TEST(test_a_turn_forward_and_back_is_found);
     RUN_TEST(test_what_accelerates_is_taken_out);
     return UNITY_END();

@@ -49,6 +49,10 @@ typedef struct {
     double turns_inertia_kgm2; /* that makes the torques of slow turns agree, taken out; 0: none was found */
     bool needs_inertia; /* a slow turn of which the current answers a part that only the inertia tells: it has
                          * no torque */
+    bool rough_clock;    /* its stamps came early and late by turns, and were mended or are so still */
+    char angle_like[HCI_RUN_NAME]; /* zero_is_unknown, and this, as --column takes it, may read an angle that
+                                    * stands in the file; "": none */
+    bool torque_is_typed; /* one number in every row beside a current that varies: no measurement, not used */
     bool is_electrical; /* an electrical angle was recorded; else its zero is supposed to be that of the
                          * mechanical one */
     bool zero_is_given; /* by an offset that the user adds to the angle */

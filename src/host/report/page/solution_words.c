@@ -131,6 +131,10 @@ static void row_of_ripple(const hci_solution_page *p)
 {
     const hci_solution *s = p->solution;
     char before[CELL_SIZE], after[CELL_SIZE], machine[CELL_SIZE] = "|not known";
+    if (p->ripple_is_unknown) {
+        row_of(p->out, "Torque ripple, peak to peak", "not known", "not known", machine);
+        return;
+    }
     cell_of_ripple(before, s, swing_Nm(p->facts.before_Nm), has_mean(s) ? s->order[0].before_Nm.cosine : 0.0);
     cell_of_ripple(after, s, swing_Nm(p->facts.after_Nm), mean_Nm(s));
     if (s->expected.state == HCI_RIPPLE_KNOWN)

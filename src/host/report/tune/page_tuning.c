@@ -35,6 +35,13 @@ void hci_tuning_swing(const hci_solution *s, double *before_Nm, double *after_Nm
     *after_Nm = facts.after_Nm.high - facts.after_Nm.low;
 }
 
+bool hci_tuning_knows_ripple(const hci_solution *s)
+{
+    double before_Nm, after_Nm;
+    hci_tuning_swing(s, &before_Nm, &after_Nm);
+    return before_Nm >= s->tolerance_Nm;
+}
+
 /* Of the table that was emitted, where that is known. */
 static void show_before_and_after(const hci_solution_page *page, double table_Nm)
 {
@@ -154,10 +161,11 @@ void hci_page_tuning(hci_output *out, const hci_tuning *t)
     hci_html_begin(out, &(hci_html_opening){"From a log to a table", t->verdict, t->heading, t->good});
     if (t->solution) {
         hci_plot_solution_facts(t->solution, &p.facts);
+        p.ripple_is_unknown = !hci_tuning_knows_ripple(t->solution);
         show_before_and_after(&p, t->table_Nm);
         show_log(out, t);
         show_open_torque(out, t);
-        hci_page_torque(&p);
+        if (!p.ripple_is_unknown) hci_page_torque(&p);
         hci_page_currents(&p);
     } else {
         hci_html_evidence(out);

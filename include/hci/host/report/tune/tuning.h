@@ -47,6 +47,9 @@ void hci_tuning_say(hci_tuning *tuning, hci_tuning_part part, const char *format
 /* Peak to peak of the torque of the plain sine and of the currents, in N·m. solution: with orders. */
 void hci_tuning_swing(const hci_solution *solution, double *before_Nm, double *after_Nm);
 
+/* Whether a ripple was found: a model without one says nothing of the machine's. solution: with orders. */
+bool hci_tuning_knows_ripple(const hci_solution *solution);
+
 /* Writes `runs.csv`, a list of recordings that are all fitted, into `folder`; test: "holding" or "".
  * HCI_ERROR_INPUT for one that is not there, HCI_ERROR_OUTPUT, _MEMORY. */
 hci_status hci_tuning_write_list(const char *folder, const char *const *log, size_t count, const char *test,

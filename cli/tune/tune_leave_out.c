@@ -1,0 +1,101 @@
+#include "cli/tune/tune_steps.h"
+
+#include "cli/tune/tune_read.h"
+
+/* A table over an angle whose zero is unknown cannot be played. */
+static bool has_no_angle(const hci_run *r)
+{
+    return r->zero_is_unknown;
+}
+
+static bool is_useless(const hci_run *r)
+{
+    return has_no_angle(r) || r->is_unsteady;
+}
+
+static bool is_useful(const hci_run *r)
+{
+    return !is_useless(r) && r->theta_m_rad && (r->torque_source != HCI_TORQUE_NONE || r->v_V);
+}
+
+static void say_left_out(cli_tuning *t, size_t k)
+{
+    const hci_run *r = &t->runs.run[k];
+    const char *name = cli_tune_name_of(t, k);
+    if (!has_no_angle(r))
+        hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
+                       "What of the current in %s answers cogging torque, and what answers the shaft's "
+                       "sticking and slipping: it is left out.",
+                       name);
+    else if (r->angle_like[0])
+        hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
+                       "Where the shaft was in %s, which has no angle and is left out; --column '%s' may "
+                       "read one.",
+                       name, r->angle_like);
+    else
+        hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
+                       "Where the shaft was in %s, which has no angle and is left out.", name);
+}
+
+/* The list and the recordings without them. */
+static hci_status read_others(cli_tuning *t, hci_note *note)
+{
+    t->kept = *t->arguments;
+    t->kept.words = 0;
+    for (size_t k = 0; k < t->runs.count; ++k)
+        if (!is_useless(&t->runs.run[k])) t->kept.word[t->kept.words++] = t->arguments->word[k];
+    t->left_out = t->runs.count - t->kept.words;
+    t->arguments = &t->kept;
+    const hci_status status = cli_tune_list_logs(t, note);
+    return status ? status : cli_tune_read_inputs(t, note);
+}
+
+/* The one that is shown: what sticks, or else the first that tells where the shaft is. */
+static void choose_log(cli_tuning *t)
+{
+    size_t shown = 0;
+    for (size_t k = t->runs.count; k-- > 0;)
+        if (t->runs.run[k].theta_m_rad || t->runs.run[k].speed_rad_per_s) shown = k;
+    for (size_t k = t->runs.count; k-- > 0;)
+        if (t->runs.run[k].is_unsteady) shown = k;
+    t->shown = shown;
+    t->tuning.log_name = cli_tune_name_of(t, shown);
+}
+
+/* Why nothing can be done with what is there. */
+static void judge_runs(cli_tuning *t)
+{
+    for (size_t k = 0; k < t->runs.count; ++k) {
+        t->has_unsteady = t->has_unsteady || t->runs.run[k].is_unsteady;
+        t->has_no_angle = t->has_no_angle || has_no_angle(&t->runs.run[k]);
+        t->needs_inertia = t->needs_inertia || t->runs.run[k].needs_inertia;
+    }
+}
+
+hci_status cli_tune_leave_out(cli_tuning *t, hci_note *note)
+{
+    size_t useless = 0, useful = 0;
+    hci_status status = HCI_OK;
+    for (size_t k = 0; k < t->runs.count; ++k) {
+        useless += is_useless(&t->runs.run[k]);
+        useful += is_useful(&t->runs.run[k]);
+    }
+    if (useless > 0 && useful > 0 && t->is_own) {
+        for (size_t k = 0; k < t->runs.count; ++k)
+            if (is_useless(&t->runs.run[k])) say_left_out(t, k);
+        status = read_others(t, note);
+    }
+    if (!status && t->runs.count > 0) choose_log(t);
+    if (!status) judge_runs(t);
+    return status;
+}
+
+bool cli_tune_is_typed(const cli_tuning *t)
+{
+    bool typed = false;
+    for (size_t k = 0; k < t->runs.count; ++k) {
+        if (t->runs.run[k].torque_source == HCI_TORQUE_MEASURED) return false;
+        typed = typed || t->runs.run[k].torque_is_typed;
+    }
+    return typed;
+}
