@@ -75,6 +75,12 @@ double hci_candidate_departure(const hci_candidate *x, size_t k)
     return parameter->traits & HCI_PARAMETER_SCALE ? 0.0 : x->term[k].value - x->declared[k];
 }
 
+void hci_candidate_shorten(hci_candidate *x)
+{
+    --x->count;
+    x->shortened = true;
+}
+
 static bool have_same_terms(const hci_candidate *a, const hci_candidate *b)
 {
     if (a->type != b->type || a->count != b->count) return false;

@@ -23,6 +23,7 @@ typedef struct {
                            * of power 2 and order 0 deviate by 1 N·m; else 0 */
     int power;            /* of the currents, there */
     bool unlike;          /* of a rotor that does not look alike both ways round, there */
+    bool shortened;       /* of the terms that stand together the last ones are another candidate */
     bool in;              /* in the model */
 } hci_candidate;
 
@@ -48,6 +49,9 @@ hci_status hci_candidates_add(hci_candidates *candidates, const hci_candidate *c
 
 /* By how much the value of term k is away from the declared one; 0 of a scale, which is nothing by itself. */
 double hci_candidate_departure(const hci_candidate *candidate, size_t k);
+
+/* Leaves the last of several terms out. */
+void hci_candidate_shorten(hci_candidate *candidate);
 
 /* The one with the same terms that is in; NULL where there is none. */
 const hci_candidate *hci_candidates_find_in(const hci_candidates *candidates, const hci_candidate *candidate);

@@ -225,8 +225,23 @@ static bool shares_a_term(const hci_candidate *a, const hci_candidate *b)
     return false;
 }
 
+/* Those terms of a whole that are behind the last one of a candidate in the model. */
+static hci_status rest_add(const hci_candidate *x, const hci_candidate *whole, hci_candidates *list,
+                           hci_note *note)
+{
+    hci_candidate rest = *whole;
+    rest.count = 0;
+    for (size_t k = 0; k < whole->count; ++k) {
+        if (whole->term[k].parameter <= x->term[x->count - 1].parameter) continue;
+        rest.term[rest.count] = whole->term[k];
+        rest.declared[rest.count++] = whole->declared[k];
+    }
+    return rest.count > 0 ? hci_candidates_add(list, &rest, note) : HCI_OK;
+}
+
 /* What is in the model stays in the list, in its place. No term is there twice: a law of fewer terms, as some
- * of the runs alone tell it, gives way to the one that all runs may tell. */
+ * of the runs alone tell it, gives way to the one that all runs may tell. Where terms have left it, they are a
+ * candidate of their own. */
 static hci_status keep_known(const hci_candidates *known, hci_candidates *list, hci_note *note)
 {
     hci_status status = HCI_OK;
@@ -238,8 +253,11 @@ static hci_status keep_known(const hci_candidates *known, hci_candidates *list, 
             ++at;
         if (at == list->count)
             status = hci_candidates_add(list, x, note);
-        else if (list->candidate[at].count <= x->count)
+        else if (x->shortened || list->candidate[at].count <= x->count) {
+            const hci_candidate whole = list->candidate[at];
             list->candidate[at] = *x;
+            status = x->shortened ? rest_add(x, &whole, list, note) : HCI_OK;
+        }
     }
     return status;
 }

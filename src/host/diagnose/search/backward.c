@@ -5,6 +5,7 @@
 #include "host/diagnose/candidates/empirical_term.h"
 #include "host/diagnose/fit/linearise.h"
 #include "host/diagnose/fit/standard_errors.h"
+#include "host/diagnose/search/brakes.h"
 
 /* ---- single orders ---- */
 
@@ -71,6 +72,27 @@ static hci_status leave_one(hci_search *s, hci_fitted_model *model, size_t k, bo
     return status;
 }
 
+/* Beside another brake the law of friction has no further powers of the speed that are not asked for: as many
+ * values as there are speeds tell nothing of a run of another one. */
+static hci_status powers_leave(hci_search *s, hci_fitted_model *model, size_t k, hci_note *note)
+{
+    const hci_candidate *x = &model->candidates.candidate[k];
+    hci_status status = HCI_OK;
+    bool left = x->in && hci_brakes_have_other(&model->candidates, x->type);
+    while (!status && left && hci_brakes_has_further_power(&model->candidates.candidate[k])) {
+        hci_fitted_model without = {0};
+        status = hci_fitted_model_copy(model, &without, note);
+        if (status) return status;
+        hci_candidate_shorten(&without.candidates.candidate[k]);
+        status = hci_regression_fit_below(s->regression, &without.candidates, model->fit.score + HCI_AS_GOOD,
+                                          &without.fit, note);
+        left = !status && without.fit.score <= model->fit.score + HCI_AS_GOOD;
+        if (left) hci_fitted_model_replace(model, &without);
+        hci_fitted_model_release(&without);
+    }
+    return status;
+}
+
 hci_status hci_search_prune(hci_search *s, hci_fitted_model *model, hci_note *note)
 {
     hci_status status = HCI_OK;
@@ -80,6 +102,8 @@ hci_status hci_search_prune(hci_search *s, hci_fitted_model *model, hci_note *no
         status = superfluous_find(s, &model->candidates, &worst, note);
         if (!status && worst < model->candidates.count) status = leave_one(s, model, worst, &again, note);
     }
+    for (size_t k = 0; k < model->candidates.count && !status; ++k)
+        status = powers_leave(s, model, k, note);
     return status;
 }
 

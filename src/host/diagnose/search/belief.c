@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "host/diagnose/fit/model.h"
+#include "host/diagnose/search/brakes.h"
 #include "host/machine/torque_constant.h"
 
 #define LEAST_CONSTANT 0.5  /* of the torque per ampere that is declared: a correction leaves no less */
@@ -166,6 +167,19 @@ hci_status hci_search_keep_believed(hci_search *s, hci_fitted_model *model, hci_
         hci_candidates_remove_type(&model->candidates, type);
         status = hci_search_renew(s, model, note);
         if (!status) status = unbelieved_find(s, &model->candidates, &type, note);
+    }
+    return status;
+}
+
+hci_status hci_search_keep_brakes(hci_search *s, hci_fitted_model *model, hci_note *note)
+{
+    const hci_effect_type *type = NULL;
+    hci_status status = hci_brakes_find_driving(s->regression, &model->candidates, &type, note);
+    while (!status && type) {
+        status = disbelieve(s, model, type, 1.0, note);
+        hci_candidates_remove_type(&model->candidates, type);
+        if (!status) status = hci_search_renew(s, model, note);
+        if (!status) status = hci_brakes_find_driving(s->regression, &model->candidates, &type, note);
     }
     return status;
 }

@@ -1,9 +1,9 @@
 /* Which fitted models nobody would believe, however well they describe the recordings.
  *
- * In: a machine with the effects of a model. Out: whether it keeps a torque per ampere, and whether its
- * sensors are as good as sensors are. Recordings that were meant otherwise (another sign, unit or motor) are
- * described best by a machine that hardly makes torque, and an effect that is missing in the catalogue by
- * sensors with large errors. */
+ * In: a machine with the effects of a model. Out: whether it keeps a torque per ampere, whether its sensors
+ * are as good as sensors are, and whether what brakes does not drive. Recordings that were meant otherwise
+ * (another sign, unit or motor) are described best by a machine that hardly makes torque, and an effect that
+ * is missing in the catalogue by sensors with large errors. */
 #ifndef HCI_SRC_HOST_DIAGNOSE_SEARCH_BELIEF_H
 #define HCI_SRC_HOST_DIAGNOSE_SEARCH_BELIEF_H
 
@@ -21,6 +21,10 @@ hci_status hci_search_constant_share(const hci_search *search, const hci_candida
 /* Takes the types out of a model that was fitted without that, one by one, whose values cannot be believed or
  * which take the torque per ampere away; with the noise found anew. HCI_ERROR_MEMORY. */
 hci_status hci_search_keep_believed(hci_search *search, hci_fitted_model *model, hci_note *note);
+
+/* The same of what brakes and would drive, whatever the search went through on its way: the best of such models
+ * is kept in search->disbelieved. HCI_ERROR_MEMORY. */
+hci_status hci_search_keep_brakes(hci_search *search, hci_fitted_model *model, hci_note *note);
 
 /* How well the best model that is not believed describes the recordings, beside the one that is. */
 typedef enum {

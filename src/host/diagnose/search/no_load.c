@@ -4,6 +4,7 @@
 
 #include "host/diagnose/candidates/empirical_term.h"
 #include "host/diagnose/search/backward.h"
+#include "host/diagnose/search/belief.h"
 #include "host/diagnose/search/rounds.h"
 #include "host/diagnose/search/settle.h"
 #include "host/diagnose/search/slip.h"
@@ -88,6 +89,7 @@ static hci_status effects_find(hci_search *s, hci_fitted_model *model, bool *fou
     *found = false;
     if (!status) status = hci_search_keep_predictive(s, model, note);
     if (!status) status = hci_search_drop_unsure(s, model, note);
+    if (!status) status = hci_search_keep_brakes(s, model, note);
     if (!status) status = hci_search_is_noise(s, &model->candidates, found, note);
     *found = *found && !hci_candidates_have(&model->candidates, &hci_empirical_type);
     return status;

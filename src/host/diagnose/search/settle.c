@@ -293,6 +293,7 @@ static hci_status means_leave(hci_search *s, hci_attribution *a, hci_note *note)
     if (!status) status = hci_search_keep_predictive(s, &a->model, note);
     if (!status) status = unpredicted_leave(s, model, note);
     if (!status) status = hci_search_keep_believed(s, &a->model, note);
+    if (!status) status = hci_search_keep_brakes(s, &a->model, note);
     const double noise_Nm = hci_search_noise_rms(s);
     s->regression->free_means = false;
     for (size_t r = 0; r < a->types && !status; ++r)
@@ -324,6 +325,7 @@ static hci_status means_judge(hci_search *s, hci_attribution *a, hci_note *note)
 hci_status hci_search_settle(hci_search *s, hci_attribution *a, hci_note *note)
 {
     hci_status status = means_judge(s, a, note);
+    if (!status && !a->means_open) status = hci_search_keep_brakes(s, &a->model, note);
     if (!status && !a->means_open) status = settle(s, a, note);
     return status ? status : hci_search_renew(s, &a->model, note);
 }

@@ -386,6 +386,22 @@ static void test_a_law_of_few_runs_gives_way_to_that_of_all(void)
     TEST_ASSERT_EQUAL_UINT64(2, hci_candidates_terms_in(&list));
 }
 
+/* Of three parts one is in, the last two have left: they stand behind it and may come back. */
+static void test_what_has_left_a_law_is_a_candidate(void)
+{
+    hci_candidate in = {.type = hci_effect_type_find("friction"), .count = 2, .in = true};
+    const hci_candidates known = {&in, 1, 1.0};
+    in.term[0] = (hci_effect_term){0, 0.0, 0.03, 0.001};
+    in.term[1] = (hci_effect_term){1, 0.0, 0.01, 0.001};
+    hci_candidate_shorten(&in);
+    make();
+    TEST_ASSERT_EQUAL_INT(HCI_OK, make_from(&known));
+    TEST_ASSERT_EQUAL_UINT64(1, terms_of("friction", "coulomb", NULL));
+    TEST_ASSERT_EQUAL_UINT64(1, terms_of("friction", "viscous", NULL));
+    TEST_ASSERT_EQUAL_UINT64(3, terms_of("friction", "", NULL));
+    TEST_ASSERT_EQUAL_UINT64(1, hci_candidates_terms_in(&list));
+}
+
 static void test_memory_is_out(void)
 {
     make();
@@ -418,6 +434,7 @@ int main(void)
     RUN_TEST(test_more_is_offered_where_the_iron_saturates);
     RUN_TEST(test_the_model_stays_in_the_list);
     RUN_TEST(test_a_law_of_few_runs_gives_way_to_that_of_all);
+    RUN_TEST(test_what_has_left_a_law_is_a_candidate);
     RUN_TEST(test_memory_is_out);
     return UNITY_END();
 }

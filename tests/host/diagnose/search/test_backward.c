@@ -81,6 +81,55 @@ static void test_a_price_decides(void)
     }
 }
 
+/* Three speeds each way; the excess is gone at the second. */
+static void record_stribeck(double coulomb_Nm, double excess_Nm, double viscous_Nms)
+{
+    static const double SPEED[] = {20.0, 60.0, 150.0};
+    for (int k = 0; k < 6; ++k) {
+        const double speed = SPEED[k / 2], sign = k % 2 ? -1.0 : 1.0;
+        const double brake_Nm = coulomb_Nm + excess_Nm * exp(-pow(speed / 25.0, 2.0)) + viscous_Nms * speed;
+        record(SAMPLES, &(point){sign * speed, 2.0, 0.0, sign * brake_Nm, 0.0});
+    }
+    search_start();
+    model_add("friction", "coulomb", "viscous", 0.0);
+}
+
+static void add_stribeck(void)
+{
+    model_add("stribeck_friction", "excess", "speed", 0.0);
+    model.candidates.candidate[1].term[1].value = 20.0;
+}
+
+/* As many values as speeds tell nothing of another speed. */
+static void test_powers_beside_another_brake_leave(void)
+{
+    record_stribeck(0.1, 0.2, 0.0);
+    add_stribeck();
+    model_fit();
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_prune(&search, &model, &note));
+    TEST_ASSERT_EQUAL_UINT64(3, hci_candidates_terms_in(&model.candidates));
+    TEST_ASSERT_TRUE(model.candidates.candidate[0].shortened);
+    TEST_ASSERT_DOUBLE_WITHIN(5e-3, 0.1, term_in(&model.candidates, "friction", "coulomb", 0.0)->value);
+}
+
+static void test_powers_that_are_there_stay(void)
+{
+    record_stribeck(0.1, 0.2, 1e-3);
+    add_stribeck();
+    model_fit();
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_prune(&search, &model, &note));
+    TEST_ASSERT_EQUAL_UINT64(4, hci_candidates_terms_in(&model.candidates));
+}
+
+/* Alone the law stays whole: a part left out would go into the others. */
+static void test_powers_of_a_law_alone_stay(void)
+{
+    record_stribeck(0.1, 0.0, 0.0);
+    model_fit();
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_prune(&search, &model, &note));
+    TEST_ASSERT_EQUAL_UINT64(2, hci_candidates_terms_in(&model.candidates));
+}
+
 /* ---- effects ---- */
 
 /* An offset of a current makes a wave of order 1 that grows with nothing: cogging of order 1 described it
@@ -151,6 +200,9 @@ int main(void)
     RUN_TEST(test_orders_that_are_not_there_leave);
     RUN_TEST(test_orders_that_are_there_stay);
     RUN_TEST(test_a_price_decides);
+    RUN_TEST(test_powers_beside_another_brake_leave);
+    RUN_TEST(test_powers_that_are_there_stay);
+    RUN_TEST(test_powers_of_a_law_alone_stay);
     RUN_TEST(test_an_effect_that_became_superfluous_leaves);
     RUN_TEST(test_effects_that_are_there_stay);
     RUN_TEST(test_effects_that_are_not_there_leave);

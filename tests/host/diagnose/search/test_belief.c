@@ -100,6 +100,81 @@ static void test_nor_a_resonance_that_is_one(void)
     TEST_ASSERT_EQUAL_STRING("torque_sensor", search.disbelieved.type->name);
 }
 
+/* ---- what brakes ---- */
+
+/* Two speeds in each direction, with what the sensor reads too little at the slower and the faster. */
+static void record_brake(double slow_Nm, double fast_Nm)
+{
+    for (int k = 0; k < 4; ++k) {
+        const double sign = k < 2 ? 1.0 : -1.0, brake_Nm = k % 2 ? fast_Nm : slow_Nm;
+        record(SAMPLES, &(point){sign * (k % 2 ? 150.0 : 60.0), 2.0, 0.0, sign * brake_Nm, 0.0});
+    }
+    search_start();
+}
+
+static void keep_brakes(void)
+{
+    model_fit();
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_keep_brakes(&search, &model, &note));
+}
+
+static void test_a_friction_that_drives_is_not(void)
+{
+    record_brake(-0.05, -0.05);
+    model_add("friction", "coulomb", NULL, 0.0);
+    keep_brakes();
+    TEST_ASSERT_FALSE(model_has("friction"));
+    TEST_ASSERT_EQUAL_STRING("friction", search.disbelieved.type->name);
+}
+
+/* It says nothing of what brakes at other speeds, and would drive at some. */
+static void test_nor_one_that_falls_with_the_speed(void)
+{
+    record_brake(0.2, 0.1);
+    model_add("friction", "coulomb", "viscous", 0.0);
+    keep_brakes();
+    TEST_ASSERT_FALSE(model_has("friction"));
+    TEST_ASSERT_NOT_NULL(search.disbelieved.type);
+    TEST_ASSERT_EQUAL_STRING("friction", search.disbelieved.type->name);
+}
+
+/* Nor, of a shaft that goes back and forth, any that drives. */
+static void test_nor_one_of_a_shaft_that_goes_back(void)
+{
+    record(2 * SAMPLES, &(point){60.0, 2.0, 0.0, 0.0, 0.0});
+    for (size_t j = 0; j < 2 * SAMPLES; ++j) {
+        run[0].speed_rad_per_s[j] = j < SAMPLES ? 60.0 : -60.0;
+        run[0].torque_Nm[j] += j < SAMPLES ? 0.05 : -0.05;
+    }
+    search_start();
+    model_add("friction", "coulomb", NULL, 0.0);
+    keep_brakes();
+    TEST_ASSERT_FALSE(model_has("friction"));
+}
+
+static void test_one_that_grows_is(void)
+{
+    record_brake(0.1, 0.2);
+    model_add("friction", "coulomb", "viscous", 0.0);
+    keep_brakes();
+    TEST_ASSERT_NULL(search.disbelieved.type);
+    TEST_ASSERT_EQUAL_UINT64(2, hci_candidates_terms_in(&model.candidates));
+}
+
+/* What is more at low speeds falls by its nature. */
+static void test_and_one_of_stribeck(void)
+{
+    record_brake(0.2, 0.1);
+    model_add("friction", "coulomb", NULL, 0.0);
+    model_add("stribeck_friction", "excess", "speed", 0.0);
+    model.candidates.candidate[1].term[1].value = 80.0;
+    keep_brakes();
+    TEST_ASSERT_NULL(search.disbelieved.type);
+    TEST_ASSERT_EQUAL_UINT64(2, hci_candidates_types_in(&model.candidates));
+}
+
+/* ---- what becomes of it ---- */
+
 /* Fitted without being asked, as where the means of the runs do not count, it leaves; friction stays. */
 static void test_what_is_not_believed_leaves(void)
 {
@@ -193,6 +268,11 @@ int main(void)
     RUN_TEST(test_a_lag_of_more_than_a_turn_is_not);
     RUN_TEST(test_nor_a_resonance_that_is_one);
     RUN_TEST(test_a_sensor_with_half_its_gain_is_not);
+    RUN_TEST(test_a_friction_that_drives_is_not);
+    RUN_TEST(test_nor_one_that_falls_with_the_speed);
+    RUN_TEST(test_nor_one_of_a_shaft_that_goes_back);
+    RUN_TEST(test_one_that_grows_is);
+    RUN_TEST(test_and_one_of_stribeck);
     RUN_TEST(test_what_is_not_believed_leaves);
     RUN_TEST(test_what_is_believed_stays);
     RUN_TEST(test_what_both_have_in_common_stays);
