@@ -30,15 +30,25 @@ static table_header read_header(const char *folder, const char *name)
     return h;
 }
 
+/* Whether a recording tells it: by voltages or currents of the phases, since i_d and i_q, v_d and v_q are
+ * turned by the angle of the drive itself. */
+static bool tells_zero(const cli_tuning *t, const hci_run *r)
+{
+    const bool has_voltages = r->v_V && !r->voltage_is_dq, has_currents = r->has_sum || r->computed_phase > 0;
+    if (!r->theta_m_rad || r->zero_is_unknown) return false;
+    return r->is_electrical || r->zero_is_given || (t->has_emf && has_voltages) ||
+           (t->has_load && r->torque_source == HCI_TORQUE_MEASURED && has_currents);
+}
+
 bool cli_tune_knows_zero(const cli_tuning *t)
 {
-    bool knows = !t->is_own || t->has_load;
+    bool has_angle = false, knows = false;
     for (size_t k = 0; k < t->runs.count; ++k) {
-        const hci_run *r = &t->runs.run[k];
-        const bool has_phases = r->v_V && r->theta_m_rad && !r->voltage_is_dq;
-        knows = knows || r->is_electrical || r->zero_is_given || (t->has_emf && has_phases);
+        has_angle = has_angle || t->runs.run[k].theta_m_rad;
+        knows = knows || tells_zero(t, &t->runs.run[k]);
     }
-    return knows;
+    if (!t->is_own) return true;
+    return has_angle ? knows : t->has_emf; /* a table of voltages alone begins where they do */
 }
 
 /* Components that a current loop is asked to follow; a few are usual. */

@@ -37,6 +37,7 @@ typedef struct {
     hci_status diagnosed;
     size_t shown;                        /* recording in the report */
     bool has_slip, has_emf, has_cogging; /* check found one; they were measured without load */
+    bool emf_is_size_alone;              /* has_emf: of a recording whose zero is not that of the others */
     bool has_diagnosis;                  /* diagnose had something to do */
     bool has_unsteady;                   /* a slow turn sticks and slips, and no other recording is of use */
     bool has_no_angle;                   /* a recording has none, and no other is of use */
@@ -85,7 +86,7 @@ bool cli_tune_is_typed(const cli_tuning *tune);
 /* Whether there is anything to solve with: no slip, no slow turn that sticks, and something was measured. */
 bool cli_tune_can_solve(const cli_tuning *tune);
 
-/* Whether a recording tells where the electrical angle is 0: not by v_d and v_q. */
+/* Whether a recording tells where the electrical angle is 0: not by v_d and v_q, nor by i_d and i_q. */
 bool cli_tune_knows_zero(const cli_tuning *tune);
 
 void cli_tune_release(cli_tuning *tune);

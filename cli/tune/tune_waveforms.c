@@ -144,6 +144,24 @@ static double to_sheet(const cli_tuning *t, const hci_waveform *w)
     return 1.0;
 }
 
+/* Without an angle, beside others that have one: its zero is not theirs. */
+static bool has_other_zero(const cli_tuning *t, const hci_run *r)
+{
+    bool any = false;
+    for (size_t k = 0; k < t->runs.count; ++k)
+        any = any || t->runs.run[k].theta_m_rad;
+    return any && !r->theta_m_rad;
+}
+
+static void say_size_alone(cli_tuning *t, size_t k)
+{
+    hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
+                   "Where the back-EMF of %s lies beside the angle of the other logs, since it has none: its "
+                   "size, order 1, is taken, and its harmonics are left out of the table. Log the angle beside "
+                   "the voltages, which tells the electrical zero, too (docs/tutorials/zero.md).",
+                   cli_tune_name_of(t, k));
+}
+
 /* Puts it into the machine in place of what the data sheet gave. */
 static hci_status take_waveform(cli_tuning *t, size_t k, const hci_waveform *w, bool is_far, hci_note *note)
 {
@@ -161,7 +179,13 @@ static hci_status take_waveform(cli_tuning *t, size_t k, const hci_waveform *w, 
     cli_tune_add_option(&c, "pole-pairs", pole_pairs);
     if (holds) cli_tune_add_option(&c, "torque-constant", constant);
     if (holds && inertia_kgm2 > 0.0) cli_tune_add_option(&c, "inertia", inertia);
-    if (is_far) cli_tune_add_option(&c, "max-order", "60");
+    t->emf_is_size_alone = t->emf_is_size_alone || (is_emf && has_other_zero(t, r));
+    if (!is_emf || !t->emf_is_size_alone) {
+        if (is_far) cli_tune_add_option(&c, "max-order", "60");
+    } else {
+        cli_tune_add_option(&c, "max-order", "1");
+        say_size_alone(t, k);
+    }
     if (!is_emf && (t->arguments->given[TUNE_HOLDING] || r->slow_beside_others))
         cli_tune_add_option(&c, "holding", NULL);
     cli_tune_add_reading(&c, t);
@@ -247,16 +271,19 @@ static void say_not_open(cli_tuning *t)
     }
 }
 
-/* Of each quantity the first recording that shows it. */
+/* Of each quantity the first recording that shows it, of those with an angle before others. */
 hci_status cli_tune_waveforms(cli_tuning *t, hci_note *note)
 {
     static const hci_waveform_quantity QUANTITIES[] = {HCI_WAVEFORM_BACK_EMF, HCI_WAVEFORM_COGGING};
     hci_status status = HCI_OK;
     for (int q = 0; q < 2 && t->is_own && !cli_tune_is_blocked(t); ++q) {
         bool found = false;
-        for (size_t k = 0; k < t->runs.count && !found && !status; ++k)
-            if (is_for(t, &t->runs.run[k], QUANTITIES[q]))
+        for (size_t n = 0; n < 2 * t->runs.count && !found && !status; ++n) {
+            const size_t k = n % t->runs.count;
+            const hci_run *r = &t->runs.run[k];
+            if ((r->theta_m_rad != NULL) == (n < t->runs.count) && is_for(t, r, QUANTITIES[q]))
                 status = find_waveform(t, k, QUANTITIES[q], &found, note);
+        }
     }
     if (!status && t->is_own && !cli_tune_is_blocked(t)) say_not_open(t);
     return status;

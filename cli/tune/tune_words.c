@@ -53,8 +53,8 @@ static void say_unknown_zero(cli_tuning *t)
     hci_tuning_say(
         &t->tuning, HCI_TUNING_UNKNOWN,
         "Where the electrical zero is: the logs have the angle of an encoder, whose zero is "
-        "taken for that of the back-EMF of phase a; v_d and v_q, turned by the same angle, do not "
-        "tell it. The angle of the table is that of the logs, and its header says so. The dq table "
+        "taken for that of the back-EMF of phase a; i_d and i_q, v_d and v_q, turned by the same angle, do "
+        "not tell it. The angle of the table is that of the logs, and its header says so. The dq table "
         "answers cogging torque at the "
         "right angle of the encoder whatever the zero, as long as the drive's own angle makes "
         "the phase currents; harmonics of the back-EMF and tables of phase currents need it "
@@ -263,7 +263,7 @@ static void swing_of(const cli_tuning *t, double *before_Nm, double *after_Nm)
 static const char *not_known(const cli_tuning *t)
 {
     return t->solution.expected.state == HCI_RIPPLE_KNOWN ? "these recordings do not bound what is left"
-           : t->is_own && !t->has_emf && !t->has_load
+           : t->is_own && (!t->has_emf || t->emf_is_size_alone) && !t->has_load
                ? "what harmonics of the real back-EMF add under load is not known"
                : "what is left on the machine is not known";
 }

@@ -56,6 +56,18 @@ run 0 simulate true --table out/currents --drive drive.csv --speeds 20 -q -o spe
 check "through the current loop the table does not take the ripple away: $(cat speeds/speeds.csv)" \
     awk -F, '{ at[$2] = $3 } END { exit !(at["sine"] > 7 && at["compensation"] < 0.01 * at["sine"]) }' speeds/speeds.csv
 
+# ---- i_d and i_q of a drive do not tell where the electrical zero is, whatever torque is measured beside them
+
+for name in load back; do
+    awk -F, -v OFS=, 'NR == 1 { print "time_s,theta_m_rad,speed_rad_per_s,id_A,iq_A,torque_Nm"; next }
+        { x = 7 * $2; t = 2.0943951023931953; print $1, $2 + 0.2, $3, 0, 2 / 3 * ($4 * sin(x) + $5 * sin(x - t) + $6 * sin(x + t)), $7 }' "$name.csv" >"dq_$name.csv"
+done
+awk -F, -v OFS=, '{ print $1, NR == 1 ? $2 : $2 + 0.2, $3, $7 }' idle.csv >dq_idle.csv
+run 0 tune dq_idle.csv dq_load.csv dq_back.csv --pole-pairs 7 --flux 0.0142857142857143 --rated-current 6 -o of_logs
+says 'Where the electrical zero is: ' '--angle-of-logs'
+check "the header says a zero that is not known" [ "$(grep -c 'the rising zero crossing of the fundamental' of_logs/table/tuned.h)" -eq 0 ]
+check "whose zero the angle has" grep -q 'the zero of the logs, which do not tell where phase' of_logs/table/tuned.h
+
 # ---- each step is the ordinary command
 
 mkdir bin && ln -s "$hci_solve" bin/hci-solve
@@ -116,6 +128,13 @@ sed -n '1p; 1002,$p' both.csv >back.csv
 run 0 tune there.csv back.csv --pole-pairs 7 --kv 120 -o apart
 says '^tuned: ' '  order 12: 0\.02[0-9]* ± ' 'forward in one recording and back in another'
 check "each step can be repeated" grep -q 'harmonics there.csv .* --holding' apart/commands.sh
+# voltages without an angle beside it: their size is taken, and not their harmonics, whose phases are of another zero
+awk 'BEGIN { print "Time (s),CH1 (V),CH2 (V),CH3 (V)"; turn = 6.283185307179586
+    for (k = 0; k < 4000; ++k) { x = turn * k / 100 + 1; y = x - turn / 3; z = x + turn / 3
+        printf "%.6f,%.6f,%.6f,%.6f\n", k / 5000, 2.06 * (sin(x) + 0.05 * sin(5 * x)), 2.06 * (sin(y) + 0.05 * sin(5 * y)), 2.06 * (sin(z) + 0.05 * sin(5 * z)) } }' >scope.csv
+run 1 tune scope.csv slow.csv --pole-pairs 7 --kv 120 -o scope # the steps of this encoder are left in the second log
+says '^tuned' 'Where the back-EMF of scope.csv lies beside the angle' 'order 5: '
+check "harmonics of another zero are in the machine: $(cat scope/machine/back_emf.csv)" [ "$(wc -l <scope/machine/back_emf.csv)" -eq 2 ]
 # voltages that are mostly what the current drops are no back-EMF, rated for much or not
 awk -F';' -v OFS=';' '{ print $0, NR == 1 ? "d_axis_voltage;q_axis_voltage" : "0;" 0.5 * $3 + $2 / 66.84507 * 0.08 }' slow.csv >volts.csv
 run 0 tune volts.csv --pole-pairs 7 --kv 120 --slots 12 --rated-current 20 -o volts

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Logs that a table cannot be made of: no angle, a torque that was typed, a shaft that sticks. Nothing is searched in them: it takes a second.
+# Logs that a table cannot be made of: no angle, a torque that was typed, currents in mA, a shaft that sticks. Nothing is searched in them: it takes a second.
 #   cli_tune_logs.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
 . "$1/tests/support/common.sh"
 cd "$work" || exit 1
@@ -45,6 +45,14 @@ for inertia in '' '--inertia 1e-5'; do
     check "the number is not said" grep -q 'the torque is 0.4 N·m in every row while the current varies' "typed$inertia/summary.json"
     refused "typed$inertia"
 done
+
+# ---- mA under a name that is read as A
+
+awk -F, -v OFS=, '{ print $1, $2, $4, NR == 1 ? $5 : 1000 * $5 }' slow.csv >milli.csv
+run 1 tune milli.csv --pole-pairs 7 --kv 120 -o milli
+says '^a convention is broken: ' 'slip: the currents are in mA \(9[0-9]\.[0-9] %\)'
+check "the remedy is not named" grep -q "in mA: --column 'iq_mA=Iq_measured'" milli/summary.json
+refused milli
 
 # ---- a shaft that sticks
 

@@ -181,9 +181,33 @@ static check_value torque_size(const check_data *data, const check_interpretatio
     return hci_check_effects_value(&x, CHECK_TORQUE_TOLERANCE);
 }
 
+/* ---- how large the currents are */
+
+/* rad/s at most, and A that a shaft turned slowly without a load asks for: a small motor some tenths of one,
+ * a large one more. Of what is rated, any recording. */
+#define SLOWLY     2.1
+#define UNLOADED_A 6.0
+
+static check_value current_size(const check_data *data, const check_interpretation *as, const check_model *m)
+{
+    const bool is_rated = m->rated_current_A > 0.0;
+    double most = NAN;
+    for (size_t k = 0; k < data->runs; ++k) {
+        const check_run *r = &data->run[k];
+        const double length = length_A(r, as) / (is_rated ? m->rated_current_A : UNLOADED_A);
+        const bool is_slow = fabs(hci_check_speed_of(r, as, m)) < SLOWLY && (r->is_held || !r->has_torque);
+        if ((r->has_abc || r->has_dq) && (is_rated || is_slow)) most = fmax(most, length);
+    }
+    return hci_check_found(most);
+}
+
 /* ---- the list */
 
 static const check_relation LIST[] = {
+    {"current_size",
+     "largest rms current over the rated one, or where none is rated over 6 A, of a shaft turned slowly",
+     CHECK_MOST, 5.0, 0.35, 9.0, current_size,
+     "a recording of currents, and rated_current in machine.csv or a shaft turned slowly", ""},
     {"power_balance", "torque x speed and copper loss over v.i", CHECK_RATIO, 1.0, CHECK_POWER_TOLERANCE, 9.0,
      power_balance, "a recording of voltages, currents, torque and speed", ""},
     {"torque_size", "torque over 3/2 k_e i_q and the reluctance torque", CHECK_FLUX, 1.0,

@@ -508,6 +508,7 @@ MISTAKE(from_trough, x->theta += 0.5 * REF_PI / 4.0) /* e_a = −cos θ' with θ
 MISTAKE(angle_backward, x->theta = -x->theta)
 MISTAKE(currents_out, times(x->i, -1.0))
 MISTAKE(currents_rms, times(x->i, 0.70710678118))
+MISTAKE(milliampere, times(x->i, 1000.0))
 MISTAKE(voltages_out, times(x->v, -1.0))
 MISTAKE(generator, x->torque_Nm = -x->torque_Nm)
 MISTAKE(millinewton, x->torque_Nm *= 1000.0)
@@ -630,6 +631,7 @@ static void test_slips_of_recordings(void)
         {"currents_swapped", swap_clamps, ""},
         {"voltages_swapped", swap_probes, ""},
         {"current_rms", currents_rms, ""},
+        {"current_milliampere", milliampere, "in mA"},
         {"voltage_line", voltages_to_lines, ""},
         {"voltage_sign", voltages_out, ""},
         {"torque_millinewton", millinewton, ""},

@@ -257,6 +257,8 @@ static void test_torque(void)
            {"torque_size", "emf_rms", 1.62 / (1.5 * SQRT2 + 0.12)},
            {"torque_size", "current_sign", 1.62 / (-1.5 + 0.12)},
            {"torque_size", "current_rms", 1.62 / (1.5 * SQRT2 + 0.24)},
+           {"current_size", "", 1.019803902718557},
+           {"current_size", "current_milliampere", 1.019803902718557e-3},
            {"torque_size", "inductance_per_electrical_radian", 1.62 / (1.5 + 0.48)});
 }
 

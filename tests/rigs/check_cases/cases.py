@@ -687,6 +687,14 @@ def millinewton_salient(rng):
     return files
 
 
+@slip("current_milliampere")
+def milliampere_points(rng):
+    m = Machine(rng)
+    files = with_runs(m, Columns(rng, m), {"points": (map_points(m)[::2], "speed_rpm id_A iq_A torque_Nm")})
+    column(files, "id_A iq_A", 1000)
+    return files
+
+
 @slip("torque_sign", ("current_sign", "run_angle_zero_d_axis"))
 def generator_there_and_back(rng):
     m = Machine(rng)
