@@ -53,8 +53,8 @@ typedef struct {
     hci_diagnose_options options;
     char folder[PATH_SIZE];   /* of the machine */
     size_t recordings_before; /* of the last diagnosis */
-    hci_check check;          /* of machine and recordings, once it was asked for */
-    bool is_checked, has_check;
+    hci_check_inquiry check;  /* of machine and recordings */
+    const char *checked[HCI_CHECK_MOST_RUNS];
 } inputs;
 
 /* The machine that is read would be replaced by a folder of that name within the results. */
@@ -167,30 +167,14 @@ static void show_remarks(const inputs *in)
     cli_remark_each(remark_of_run, in, in->runs.count);
 }
 
-/* What check says of machine and recordings; NULL: they cannot be checked. */
-static const hci_check *check_of(inputs *in)
+/* What check is asked about: the recordings by their files. */
+static void prepare_check(inputs *in)
 {
-    const char *run[HCI_CHECK_MOST_RUNS];
-    hci_run_options reading = in->reading.run;
-    hci_note note = {{0}};
     size_t count = 0;
-    for (; in->runs.origin && !in->is_checked && count < in->runs.count && count < HCI_CHECK_MOST_RUNS;
-         ++count)
-        run[count] = in->runs.origin[count].path;
-    reading.holding = false;
-    if (count > 0)
-        in->has_check =
-            hci_check_files(in->folder, run, count, &reading, &in->check, &note) <= HCI_NOT_REACHED;
-    in->is_checked = true;
-    return in->has_check ? &in->check : NULL;
-}
-
-/* What is wrong with the files beyond doubt, as hci_diagnose_options.slip. */
-static const char *slip_of(void *context)
-{
-    const hci_check *check = check_of(context);
-    const hci_check_finding *slip = check ? hci_check_sure_slip(check) : NULL;
-    return slip ? slip->words : NULL;
+    for (; in->runs.origin && count < in->runs.count && count < HCI_CHECK_MOST_RUNS; ++count)
+        in->checked[count] = in->runs.origin[count].path;
+    in->check = (hci_check_inquiry){
+        .machine = in->folder, .run = in->checked, .runs = count, .reading = in->reading.run};
 }
 
 /* Where something is left that is not known it may be a slip of convention: check reads them as one or not.
@@ -198,7 +182,7 @@ static const char *slip_of(void *context)
 static void show_convention(inputs *in, const hci_diagnosis *d)
 {
     const bool open = d->verdict == HCI_DIAGNOSIS_UNKNOWN || d->verdict == HCI_DIAGNOSIS_PARTLY;
-    const hci_check *check = open ? check_of(in) : NULL;
+    const hci_check *check = open ? hci_check_ask(&in->check) : NULL;
     for (size_t k = 0; check && k < check->findings; ++k)
         if (check->finding[k].probability >= LIKELY) cli_show_convention(&check->finding[k]);
 }
@@ -241,8 +225,9 @@ static int solve_and_give(const cli_arguments *a, inputs *in, const hci_diagnosi
 static hci_status search(inputs *in, hci_diagnosis *d, hci_note *note)
 {
     in->options.stop = cli_signals_deferred;
-    in->options.slip = slip_of;
-    in->options.slip_context = in;
+    prepare_check(in);
+    in->options.slip = hci_check_slip;
+    in->options.slip_context = &in->check;
     cli_signals_defer();
     const hci_status status =
         hci_diagnose(&in->machine, &in->declared.list, &in->runs, &in->options, d, note);

@@ -58,7 +58,8 @@ class Diagnosis(Result):
     """
 
     def __init__(self, machine: "Machine", c: Any, runs: Any, status: int) -> None:
-        self.machine, self._c, self._runs = machine, c, runs
+        self.machine, self._c = machine, c
+        self._runs, self._slip = runs  # the words of a slip are those of the check
         self.complete: bool = status == lib.HCI_OK
         self.summary = json_of(lib.hci_diagnosis_json(c, ffi.NULL))
 

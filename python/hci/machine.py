@@ -299,6 +299,8 @@ class Machine:
         watch = Watch(progress)
         read = _Runs(self, runs, holdout, (columns, holding, strict), _last)
         options = ffi.new("hci_diagnose_options *", {"resolution": resolution_percent / 100.0})
+        slip = _Inquiry(self, read)
+        options.slip, options.slip_context = ffi.addressof(lib, "hci_check_slip"), slip.c
         watch.into(options)
         c, note = ffi.new("hci_diagnosis *"), Note()
         status = lib.hci_diagnose(self.c, ffi.addressof(self._effects, "list"), read.c, options, c, note.c)
@@ -307,7 +309,7 @@ class Machine:
         note.check(status)
         if _last is not None:
             note.check(_last.compare(self, read, found, note))
-        return Diagnosis(self, found, read, status)
+        return Diagnosis(self, found, (read, slip), status)
 
     def fit(self, runs: Union[Path, Iterable[Recordable]], *, columns: Optional[Mapping[str, str]] = None,
             strict: bool = False, limits: Optional[Path] = None) -> Fit:
@@ -480,6 +482,7 @@ class _Runs:
         self.c = ffi.gc(ffi.new("hci_runs *"), lib.hci_runs_release)
         self.last: Optional[_Last] = None
         self._machine, self._how, self._plain = machine, how, plain
+        self.recordings: List[Any] = []
         if last is not None:
             self._add(last.list if last.before is None else last.before, [])
             last.count = int(self.c.count)
@@ -503,9 +506,22 @@ class _Runs:
         fitted = listed(runs)
         all_of = recordings_of(fitted + held)
         reading = self._reading(all_of)
+        self.recordings += all_of
         for k, recording in enumerate(all_of):
             role = lib.HCI_ROLE_FIT if k < len(fitted) else lib.HCI_ROLE_HOLDOUT
             note.check(lib.hci_runs_add(self.c, path(recording.name), role, reading.c, note.c))
+
+
+class _Inquiry:
+    """What the library may ask check about in a diagnosis, for as long as this lives."""
+
+    def __init__(self, machine: Machine, runs: _Runs) -> None:
+        files = [] if runs.c.origin == ffi.NULL else [ffi.string(runs.c.origin[k].path) for k in range(runs.c.count)]
+        names = files or [path(recording.name) for recording in runs.recordings]
+        self._reading = runs._reading(runs.recordings)
+        self._folder, self._kept = ffi.new("char[]", path(machine.path)), strings(names)
+        self.c = ffi.new("hci_check_inquiry *", {"machine": self._folder, "run": self._kept[0], "runs": len(names),
+                                                 "reading": self._reading.c[0]})
 
 
 def diagnose_again(last: Path, runs: Union[Path, Iterable[Recordable]], *, before: Optional[Iterable[Recordable]] = None,

@@ -44,3 +44,14 @@ def test_currents_of_a_solution_flow(machine_a, smooth):
     drive = machine_a.simulate({"duration": 0.2, "prescribed_speed": 100.0}, currents=smooth)
     assert drive.T_ripple_percent < 1e-3
     assert np.ptp(drive.trajectory["torque_Nm"]) < 1e-4
+
+
+def test_a_slip_is_said_and_nothing_searched(machine_a):
+    """Phases b and c swapped, as `check` finds."""
+    rows = machine_a.simulate({"duration": 0.3, "prescribed_speed": (600, "rpm"), "torque_reference": 2.0, "torque_noise": 0.01,
+                               "strategy": "id0", "trajectory_every": 16}).trajectory
+    log = {name: rows[name] for name in ("time_s", "theta_m_rad", "speed_rad_per_s", "ia_A", "ic_A", "ib_A", "torque_Nm")}
+    swapped = hci.Recording(dict(zip(("time_s", "theta_m_rad", "speed_rad_per_s", "ia_A", "ib_A", "ic_A", "torque_Nm"), log.values())), "swapped")
+    assert machine_a.check(swapped).slips[0].probability > 0.99
+    found = machine_a.diagnose(swapped)
+    assert found.word == "unknown" and "swapped" in found.verdict and "No effect was looked for" in found.verdict

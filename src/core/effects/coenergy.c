@@ -30,6 +30,7 @@ void hci_coenergy_begin(hci_coenergy *w, int pole_pairs, const hci_sample *truth
     w->i[1] = i.q / unit_A;
     fill_powers(w->i[0], w->d);
     fill_powers(w->i[1], w->q);
+    w->turning = (hci_turning)HCI_TURNING;
     w->waves = w->next = 0;
     w->monomial = none;
     w->torque_Nm = w->by_angle = w->by_d = w->by_q = w->by_dd = w->by_dq = w->by_qq = 0.0;
@@ -68,11 +69,11 @@ static void open_monomial(hci_coenergy *w, int a, int b)
 static size_t new_wave(hci_coenergy *w, double order)
 {
     const size_t at = w->waves < HCI_COENERGY_WAVES ? w->waves++ : HCI_COENERGY_WAVES - 1;
-    const double periods = hci_effect_periods(order, w->pole_pairs);
+    hci_effect_turn_to(&w->turning, order, w->pole_pairs, w->theta_m_rad);
     w->wave[at].order = order;
-    w->wave[at].periods = periods;
-    w->wave[at].sine = sin(periods * w->theta_m_rad);
-    w->wave[at].cosine = cos(periods * w->theta_m_rad);
+    w->wave[at].periods = w->turning.k;
+    w->wave[at].sine = w->turning.s;
+    w->wave[at].cosine = w->turning.c;
     return at;
 }
 

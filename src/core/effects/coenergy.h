@@ -36,7 +36,8 @@ typedef struct {
     int pole_pairs;
     double theta_m_rad, unit_A;
     double sine, cosine; /* of θ */
-    double i[2];         /* d, q in unit_A */
+    hci_turning turning;
+    double i[2]; /* d, q in unit_A */
     hci_coenergy_power d[HCI_COENERGY_DEGREE + 1], q[HCI_COENERGY_DEGREE + 1];
     struct {
         double order, periods, sine, cosine;

@@ -91,6 +91,7 @@ static void put_current(hci_json *json, const hci_solution *s)
     hci_json_object(json, "current");
     hci_json_number(json, "components", (double)s->current.count);
     hci_json_number(json, "peak_phase_A", s->peak_phase_current_A);
+    hci_json_number(json, "rms_phase_A", s->rms_phase_current_A);
     hci_json_number(json, "peak_line_voltage_V", s->peak_line_voltage_V);
     hci_json_bool(json, "within_limits", s->within_limits);
     hci_json_number(json, "torque_at_limit_Nm", s->torque_at_limit_Nm);

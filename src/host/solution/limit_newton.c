@@ -14,6 +14,7 @@
 enum {
     MOST_SEARCHES = 12, /* of peaks that were not known */
     MOST_STEPS = 12,    /* between two searches */
+    MOST_CLIMBS = 16,   /* samples by which a peak is followed in one step */
     REFINEMENTS = 2,
     MOST_SETS = 30 /* of constraints that act, in one step */
 };
@@ -159,27 +160,55 @@ static void add_square(newton *w, double t, const double *v)
         hci_vector_add(w->n - j, t * v[j], v + j, w->hessian + j * w->n + j);
 }
 
+/* The quantity of a peak beside its angle: rows at it and at h on both sides, and what they are of the limit.
+ */
+typedef struct {
+    double h, *before, *middle, *after; /* n each */
+    double slope, bend;                 /* of the size over the angle */
+} flank;
+
+static flank flank_of(newton *w, peak *p)
+{
+    flank f = {.h = BESIDE * p->grid->step_rad, .before = w->around};
+    f.middle = f.before + w->n;
+    f.after = f.middle + w->n;
+    const double low = share_at(w, p, p->at.theta_rad - f.h, f.before),
+                 high = share_at(w, p, p->at.theta_rad + f.h, f.after),
+                 here = share_at(w, p, p->at.theta_rad, f.middle);
+    p->side = here < 0.0 ? -1.0 : 1.0;
+    f.slope = p->side * (high - low) / (2.0 * f.h);
+    f.bend = p->side * (high - 2.0 * here + low) / (f.h * f.h);
+    return f;
+}
+
+/* The peak to where it is at these currents, uphill in steps of a sample until its top is near. */
+static flank climb(newton *w, peak *p)
+{
+    const double most = p->grid->step_rad;
+    flank f = flank_of(w, p);
+    for (int k = 0; k < MOST_CLIMBS; ++k) {
+        const double shift = f.bend < 0.0 ? -f.slope / f.bend : copysign(most, f.slope);
+        if (f.bend < 0.0 && fabs(shift) <= most) break;
+        p->at.theta_rad += copysign(most, f.slope);
+        f = flank_of(w, p);
+    }
+    return f;
+}
+
 /* The peak to where it is at these currents; and how it bends over them, since its angle follows. */
 static void follow_peak(newton *w, peak *p)
 {
-    const double h = BESIDE * p->grid->step_rad;
-    double *before = w->around, *middle = before + w->n, *after = middle + w->n;
-    const double low = share_at(w, p, p->at.theta_rad - h, before),
-                 high = share_at(w, p, p->at.theta_rad + h, after),
-                 here = share_at(w, p, p->at.theta_rad, middle);
-    const double slope = (high - low) / (2.0 * h);
-    p->side = here < 0.0 ? -1.0 : 1.0;
-    const double bend = p->side * (high - 2.0 * here + low) / (h * h);
-    if (!(bend < 0.0)) {
+    const flank f = climb(w, p);
+    if (!(f.bend < 0.0)) {
         w->has_failed = w->has_failed || p->weight > 0.0;
         return;
     }
-    const double shift = -p->side * slope / bend, most = p->grid->step_rad;
-    p->at.theta_rad += fmax(-most, fmin(most, shift));
+    const double most = p->grid->step_rad;
+    p->at.theta_rad += fmax(-most, fmin(most, -f.slope / f.bend));
     if (!(p->weight > 0.0)) return;
     for (size_t j = 0; j < w->n; ++j)
-        middle[j] = (after[j] - before[j]) / (2.0 * h);
-    add_square(w, p->weight / -bend, middle);
+        f.middle[j] = (f.after[j] - f.before[j]) / (2.0 * f.h);
+    add_square(w, p->weight / -f.bend, f.middle);
 }
 
 /* The program of the peaks alone, at the angles where they are. */

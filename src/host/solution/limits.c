@@ -12,6 +12,9 @@
 #define KEPT    1e-9 /* share beyond a limit that is rounding */
 #define FAR_OFF 1e-3 /* share below a limit from which it does not bind */
 
+#define HOTTER 1e-3 /* share above the heat of rated_current that is spoken of */
+#define HIGHER 0.1  /* the same of a peak, which lasts a moment */
+
 enum { SAMPLES_PER_PERIOD = 64 };
 
 const char *hci_limit_kind_name(hci_limit_kind kind)
@@ -177,16 +180,18 @@ static void check_currents(hci_solution *s, size_t samples, double *value)
 {
     curve c = {s, NULL, 0, 2.0 * HCI_PI * (double)s->period_turns / (double)samples};
     sample(&c, samples, value);
-    s->peak_phase_current_A = 0.0;
+    s->peak_phase_current_A = s->rms_phase_current_A = 0.0;
     for (; c.phase < 3; ++c.phase) {
         hci_limit *l = find_limit(s, HCI_LIMIT_CURRENT, c.phase);
         const double peak_A = peak_of(&c, samples, l, value + c.phase);
         double sum = 0.0;
         for (size_t k = 0; k < samples; ++k)
             sum += value[3 * k + (size_t)c.phase] * value[3 * k + (size_t)c.phase];
+        const double rms_A = sqrt(sum / (double)samples);
         take_value(l, peak_A);
-        take_value(find_limit(s, HCI_LIMIT_RMS, c.phase), sqrt(sum / (double)samples));
+        take_value(find_limit(s, HCI_LIMIT_RMS, c.phase), rms_A);
         s->peak_phase_current_A = fmax(s->peak_phase_current_A, peak_A);
+        s->rms_phase_current_A = fmax(s->rms_phase_current_A, rms_A);
     }
 }
 
@@ -251,6 +256,35 @@ hci_status hci_limits_check(const hci_machine_data *m, const hci_solve_options *
     if (!status) judge(s);
     hci_memory_free(value);
     return status;
+}
+
+/* ---- the rated current ---- */
+
+static bool is_limited(const hci_solution *s, hci_limit_kind kind)
+{
+    for (size_t k = 0; k < s->limit_count; ++k)
+        if (s->limit[k].kind == kind) return true;
+    return false;
+}
+
+void hci_limits_remark_rated(const hci_machine_data *m, hci_solution *s)
+{
+    const double rated_A = m->rated_current_A, heat_A = rated_A / sqrt(2.0), peak_A = s->peak_phase_current_A,
+                 rms_A = s->rms_phase_current_A;
+    const bool heats = rms_A > (1.0 + HOTTER) * heat_A && !is_limited(s, HCI_LIMIT_RMS),
+               is_high = peak_A > (1.0 + HIGHER) * rated_A && !is_limited(s, HCI_LIMIT_CURRENT);
+    if (heats)
+        hci_note_add(
+            &s->remark,
+            "the rms current of a phase, %.4g A, is that of a sine of %.4g A: more heat than that of "
+            "rated_current, %.4g A; --limit-rms %.4g holds the heat",
+            rms_A, rms_A * sqrt(2.0), rated_A, heat_A);
+    if (is_high)
+        hci_note_add(
+            &s->remark,
+            "the peak, %.4g A, is above rated_current, %.4g A, which is the peak of a sine and no "
+            "limit; where the drive gives no more, --limit-current %.4g or `max_current` in machine.csv",
+            peak_A, rated_A, rated_A);
 }
 
 /* ---- the same currents for less torque ---- */

@@ -13,6 +13,10 @@ void hci_limits_list(const hci_bounds *bounds, hci_solution *solution);
 hci_status hci_limits_check(const hci_machine_data *machine, const hci_solve_options *options,
                             const hci_bounds *bounds, hci_solution *solution, hci_note *note);
 
+/* Says in the remark what of the currents is beyond rated_current, which is no limit, unless a limit of that
+ * kind was given. */
+void hci_limits_remark_rated(const hci_machine_data *machine, hci_solution *solution);
+
 /* Fills torque_at_limit_Nm of currents that are not shaped by limits. */
 void hci_limits_scale(const hci_bounds *bounds, double wanted_Nm, hci_solution *solution);
 

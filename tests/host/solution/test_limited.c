@@ -110,6 +110,29 @@ static void test_a_wide_limit_changes_nothing(void)
     TEST_ASSERT_NOT_NULL(solution.per_Nm);
 }
 
+/* 10 A beside a rated sine of 8 A; each limit silences what is said of its kind. */
+static void test_beyond_the_rated_current(void)
+{
+    machine.rated_current_A = 8.0;
+    solve(HCI_OK);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 10.0 / sqrt(2.0), solution.rms_phase_current_A);
+    TEST_ASSERT_NOT_NULL(strstr(solution.remark.text, "7.071 A, is that of a sine of 10 A"));
+    TEST_ASSERT_NOT_NULL(strstr(solution.remark.text, "the peak, 10 A, is above rated_current, 8 A"));
+    options.limit_current_A = 11.0;
+    solve(HCI_OK);
+    TEST_ASSERT_NULL(strstr(solution.remark.text, "the peak"));
+    options.limits.rms_A[0] = options.limits.rms_A[1] = options.limits.rms_A[2] = 7.1;
+    solve(HCI_OK);
+    TEST_ASSERT_EQUAL_STRING("", solution.remark.text);
+}
+
+static void test_within_the_rated_current(void)
+{
+    machine.rated_current_A = 10.0;
+    solve(HCI_OK);
+    TEST_ASSERT_EQUAL_STRING("", solution.remark.text);
+}
+
 static void test_rms(void)
 {
     for (int s = 0; s < 3; ++s)
@@ -437,6 +460,8 @@ int main(void)
     RUN_TEST(test_a_sine_at_its_peak);
     RUN_TEST(test_braking);
     RUN_TEST(test_a_wide_limit_changes_nothing);
+    RUN_TEST(test_beyond_the_rated_current);
+    RUN_TEST(test_within_the_rated_current);
     RUN_TEST(test_rms);
     RUN_TEST(test_copper);
     RUN_TEST(test_an_open_phase);

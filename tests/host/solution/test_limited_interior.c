@@ -3,6 +3,7 @@
 /* Limits on a machine with interior magnets, whose torque is not linear in the current: the largest mean
  * torque against the best current of all at each angle by search, and field weakening. */
 #include <math.h>
+#include <string.h>
 
 #include "hci/host/solve/solve.h"
 #include "hci/machine/frames.h"
@@ -27,7 +28,7 @@ static void solve(hci_status expected)
     hci_note note = {{0}};
     hci_solution_release(&solution);
     TEST_ASSERT_EQUAL_MESSAGE(expected, hci_solve(&machine, &options, &solution, &note), note.text);
-    TEST_ASSERT_EQUAL_STRING("", solution.remark.text);
+    TEST_ASSERT_NULL(strstr(solution.remark.text, "limits: "));
 }
 
 /* The most torque at one angle of all currents with |i_s| <= 5 A and no sum, which stands at their edge. */

@@ -119,6 +119,24 @@ hci_status hci_check_files(const char *machine, const char *const *run, size_t r
 /* What is found beyond doubt and no effect makes; NULL: nothing. */
 const hci_check_finding *hci_check_sure_slip(const hci_check *check);
 
+/* A check that is made once something wants to know it. Zeros but for the first four. */
+typedef struct {
+    const char *machine;     /* as of hci_check_files, which see */
+    const char *const *run;  /* of more than HCI_CHECK_MOST_RUNS the first ones */
+    size_t runs;             /* entries of run; 0: nothing can be checked */
+    hci_run_options reading; /* how they are read; `holding` is not used */
+    hci_check check;         /* what was found, once is_made and has_check */
+    bool is_made;            /* it was asked for */
+    bool has_check;          /* the files could be read */
+} hci_check_inquiry;
+
+/* What is found; NULL: the files cannot be checked. Made the first time it is asked for. */
+const hci_check *hci_check_ask(hci_check_inquiry *inquiry);
+
+/* The words of hci_check_sure_slip for hci_diagnose_options.slip, as long as the hci_check_inquiry that
+ * inquiry points at; NULL: nothing. */
+const char *hci_check_slip(void *inquiry);
+
 /* "consistent", "slips", "ambiguous", "not_understood"; a static string. */
 const char *hci_check_verdict_name(hci_check_verdict verdict);
 

@@ -231,6 +231,7 @@ typedef struct {
 
     bool within_limits;          /* whether it fits; true where there is no limit */
     double peak_phase_current_A; /* largest |phase current| */
+    double rms_phase_current_A;  /* of the phase that has most */
     double peak_line_voltage_V;  /* largest |line voltage| at the speed asked for; NAN without one */
     double torque_at_limit_Nm;   /* the largest mean torque at which the currents without limits, scaled with
                                   * it, keep the current limit; NAN when they do anyhow, or not known */
