@@ -80,7 +80,8 @@ static void test_nothing_is_priced_where_little_is_missed(void)
     const double copper_A2 = solve();
     options.sample_rad = 10.0 * HCI_PI * 1e-4;
     TEST_ASSERT_EQUAL_DOUBLE(copper_A2, solve());
-    TEST_ASSERT_EQUAL_STRING("", solution.remark.text);
+    TEST_ASSERT_NULL(strstr(solution.remark.text, "reduced: "));
+    TEST_ASSERT_NULL(strstr(solution.remark.text, "the loop misses"));
 }
 
 int main(void)
