@@ -75,7 +75,7 @@ def of_source(path):
     yield "numbers", sums([float(x) for x in NUMBER.findall(text)]), zlib.crc32(NUMBER.sub("0", text).encode())
 
 
-READERS = {".csv": of_table, ".json": of_json, ".svg": of_picture, ".html": of_picture, ".h": of_source, ".c": of_source}
+READERS = {".csv": of_table, ".json": of_json, ".svg": of_picture, ".html": of_picture, ".h": of_source, ".c": of_source, ".cfg": of_source, ".txt": of_source}
 
 
 def lines_of(folder):
