@@ -256,6 +256,12 @@ static double shown_error(const hci_table_rotation *x)
 static void show_table_remedy(double pole_pairs, const hci_table_rotation *x)
 {
     const double turns = x->rotation_rad / (2.0 * HCI_PI) / pole_pairs;
+    if (x->of_index) {
+        cli_say("  remedy       take %.3f degrees from the mechanical angle by which the table is read, and "
+                "leave the angle of the drive's own i_d and i_q as it is\n",
+                360.0 * turns);
+        return;
+    }
     if (x->backwards) cli_say("  remedy       the encoder counts against a-b-c: its direction is -1\n");
     if (!x->backwards || fabs(x->rotation_rad) > 0.01)
         cli_say("  %s add 0x%08" PRIX32 "u to zero_angle of hci/counter.h, or take %.3f degrees from the "
@@ -284,10 +290,12 @@ static void show_no_table(const char *run, double pole_pairs, const hci_table_ro
 static void show_rotation(const char *run, const hci_table_rotation *x)
 {
     if (x->is_rotated)
-        cli_say(CLI_BAD
-                "rotated" CLI_PLAIN
-                ": %s: the table is read %s%.2f ± %.2g degrees electrical %s of the angle in the log\n",
-                run, x->backwards ? "backwards, " : "", fabs(degrees(x->rotation_rad)), shown_error(x),
+        cli_say(CLI_BAD "rotated" CLI_PLAIN
+                        ": %s: %s is read %s%.2f ± %.2g degrees electrical %s of the angle in the log\n",
+                run,
+                x->of_index ? "the index of the table, in a frame of i_d and i_q that is right,"
+                            : "the table",
+                x->backwards ? "backwards, " : "", fabs(degrees(x->rotation_rad)), shown_error(x),
                 x->rotation_rad < 0.0 ? "behind" : "ahead");
     else
         cli_say(CLI_GOOD "aligned" CLI_PLAIN

@@ -229,13 +229,18 @@ void cli_tune_take_offset(cli_tuning *t, double more_rad, const char *why)
                    t->offset, why);
 }
 
+/* An encoder's zero may lie on an axis as anywhere else. */
+static const char AXIS[] = "run_angle_zero_";
+
 /* A zero that is off, and nothing else, is set right. */
 static bool finds_offset(const hci_check *c)
 {
     size_t found = 0;
     for (size_t k = 0; k < c->findings; ++k)
         found += c->finding[k].probability >= HCI_CHECK_FOUND;
-    return found == 1 && strcmp(c->finding[0].slip, "run_angle_offset") == 0;
+    const char *slip = found == 1 ? c->finding[0].slip : "";
+    return isfinite(c->zero_rad) &&
+           (strcmp(slip, "run_angle_offset") == 0 || strncmp(slip, AXIS, strlen(AXIS)) == 0);
 }
 
 hci_status cli_tune_check(cli_tuning *t, hci_note *note)

@@ -22,8 +22,8 @@ typedef struct {
 /* What the steps hand on to each other. Start with zeros. */
 typedef struct {
     const cli_arguments *arguments;
-    cli_arguments kept;  /* the same without the recordings that are left out */
-    size_t left_out;     /* how many these are */
+    cli_arguments kept; /* the same without the recordings that are left out */
+    size_t left_out;    /* how many these are */
     cli_tune_commands commands;
     const char *out;
     char machine[CLI_TUNE_PATH]; /* folder of the machine that recordings are read with */

@@ -155,11 +155,12 @@ static bool has_other_zero(const cli_tuning *t, const hci_run *r)
 
 static void say_size_alone(cli_tuning *t, size_t k)
 {
-    hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
-                   "Where the back-EMF of %s lies beside the angle of the other logs, since it has none: its "
-                   "size, order 1, is taken, and its harmonics are left out of the table. Log the angle beside "
-                   "the voltages, which tells the electrical zero, too (docs/tutorials/zero.md).",
-                   cli_tune_name_of(t, k));
+    hci_tuning_say(
+        &t->tuning, HCI_TUNING_UNKNOWN,
+        "Where the back-EMF of %s lies beside the angle of the other logs, since it has none: its "
+        "size, order 1, is taken, and its harmonics are left out of the table. Log the angle beside "
+        "the voltages, which tells the electrical zero, too (docs/tutorials/zero.md).",
+        cli_tune_name_of(t, k));
 }
 
 /* Puts it into the machine in place of what the data sheet gave. */

@@ -366,14 +366,16 @@ static const char *why_not_solved(const cli_tuning *t)
                  "explains it, so nothing was solved"
            : t->has_alias
                ? "Cogging torque of a higher order would look like one of a low order, so nothing was solved"
-           : t->has_no_angle ? "The log has no angle of the rotor, and a table over one whose zero nobody knows "
-                               "cannot be played, so nothing was solved"
+           : t->has_no_angle
+               ? "The log has no angle of the rotor, and a table over one whose zero nobody knows "
+                 "cannot be played, so nothing was solved"
            : t->has_slip     ? "What the files say contradicts itself, so nothing was solved"
            : t->has_unsteady ? "The current of a shaft that turns in jerks does not tell its cogging torque, "
                                "so nothing was "
                                "solved"
-           : cli_tune_is_typed(t) ? "The torque in the log is one number in every row, typed and not measured, and tells "
-                           "the mean alone, so nothing was solved"
+           : cli_tune_is_typed(t)
+               ? "The torque in the log is one number in every row, typed and not measured, and tells "
+                 "the mean alone, so nothing was solved"
            : t->needs_inertia ? "The inertia may answer what the current does not, so nothing was solved"
                               : "The logs tell neither cogging torque nor back-EMF, so nothing was solved";
 }

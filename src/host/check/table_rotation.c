@@ -1,11 +1,15 @@
 /* Where a drive reads a table. In: the waves of a table, a recording of phase currents over the angle; out:
- * the shift at which the one fits the other best. The table is computed on a fine grid, all shifts by whole
- * steps of it are tried on some samples, and the best is refined by Newton's method on all of them. */
+ * the shift at which the one fits the other best: of the phase currents as a whole, or of i_d and i_q in the
+ * frame of the recorded angle, as a drive that commutates by itself plays them. The table is computed on a
+ * fine grid, all shifts by whole steps of it are tried on some samples, and the best is refined by Newton's
+ * method on all of them. */
 #include "hci/host/check/table_rotation.h"
 
 #include <math.h>
 #include <stdint.h>
+#include <string.h>
 
+#include "hci/machine/frames.h"
 #include "hci/math/harmonic.h"
 #include "host/base/memory.h"
 
@@ -17,12 +21,18 @@ enum { GRID = 512, MOST_TURNS = 64, TRIED = 600, MOST_PAIRS = 64 };
  * on. */
 static const double FOUND = 0.95, SEEN = 0.5;
 
+/* Of what differs as it is: a rotation that leaves more mends nothing. Of what is left where the phases are
+ * turned: the index of a table in the frame of i_d and i_q leaves less, where it is that which is rotated. */
+static const double LESSENED = 0.95, CLEARLY = 0.5, NOTHING = 1e-3;
+
 typedef struct {
     const hci_currents *table;
     const hci_run *run;
     double pole_pairs;
     size_t turns;
-    double *grid; /* [GRID·turns][3] */
+    double *grid;           /* [GRID·turns][3] */
+    bool in_frame;          /* i_d, i_q and zero sequence are compared, and not the phases */
+    const double *measured; /* [samples][3], in the same */
 } comparison;
 
 /* Sums over samples: measured², table², measured·table. */
@@ -43,13 +53,27 @@ static size_t period_of(const hci_currents *table)
     return MOST_TURNS;
 }
 
+static void to_frame(double x[3], double theta)
+{
+    const hci_dq in = hci_park(hci_clarke(x), theta);
+    x[0] = in.d;
+    x[1] = in.q;
+    x[2] = in.zero;
+}
+
+static void value_at(const comparison *c, double theta, double value[3])
+{
+    hci_waves_at(c->table->wave, c->table->count, theta, value);
+    if (c->in_frame) to_frame(value, theta);
+}
+
 static hci_status make_grid(comparison *c, hci_note *note)
 {
     c->turns = period_of(c->table);
     c->grid = hci_memory_new(GRID * c->turns * 3, sizeof *c->grid);
     if (!c->grid) return hci_note_memory(note, c->run->name, "%zu turns of the table", c->turns);
     for (size_t k = 0; k < GRID * c->turns; ++k)
-        hci_waves_at(c->table->wave, c->table->count, 2.0 * HCI_PI * (double)k / GRID, c->grid + 3 * k);
+        value_at(c, 2.0 * HCI_PI * (double)k / GRID, c->grid + 3 * k);
     return HCI_OK;
 }
 
@@ -84,7 +108,7 @@ static double try_shift(const comparison *c, size_t shift, bool backwards)
         const size_t k = (size_t)(((uint64_t)(n * 2654435769u) * c->run->count) >> 32);
         const double turns = theta_rad(c, k, backwards) / (2.0 * HCI_PI * (double)c->turns);
         const size_t place = (size_t)((turns - floor(turns)) * (double)all + 0.5) + shift;
-        add(&s, c->run->i_A + 3 * k, c->grid + 3 * (place % all));
+        add(&s, c->measured + 3 * k, c->grid + 3 * (place % all));
     }
     return left_of(&s);
 }
@@ -94,9 +118,9 @@ static void table_at(const comparison *c, double theta, double value[3], double 
 {
     const double step = 1e-5;
     double before[3], after[3];
-    hci_waves_at(c->table->wave, c->table->count, theta, value);
-    hci_waves_at(c->table->wave, c->table->count, theta - step, before);
-    hci_waves_at(c->table->wave, c->table->count, theta + step, after);
+    value_at(c, theta, value);
+    value_at(c, theta - step, before);
+    value_at(c, theta + step, after);
     for (int k = 0; k < 3; ++k)
         slope[k] = (after[k] - before[k]) / (2.0 * step);
 }
@@ -106,7 +130,7 @@ static void refine(const comparison *c, hci_table_rotation *x)
 {
     double tt = 0.0, ts = 0.0, ss = 0.0, rt = 0.0, rs = 0.0, rr = 0.0, mm = 0.0, determinant;
     for (size_t k = 0; k < c->run->count; ++k) {
-        const double *i = c->run->i_A + 3 * k;
+        const double *i = c->measured + 3 * k;
         double t[3], slope[3];
         table_at(c, theta_rad(c, k, x->backwards) + x->rotation_rad, t, slope);
         for (int s = 0; s < 3; ++s) {
@@ -129,8 +153,8 @@ static double gain_at(const comparison *c, double rotation_rad, bool backwards, 
     sums s = {0.0, 0.0, 0.0};
     for (size_t k = 0; k < c->run->count; ++k) {
         double t[3];
-        hci_waves_at(c->table->wave, c->table->count, theta_rad(c, k, backwards) + rotation_rad, t);
-        add(&s, c->run->i_A + 3 * k, t);
+        value_at(c, theta_rad(c, k, backwards) + rotation_rad, t);
+        add(&s, c->measured + 3 * k, t);
     }
     *left = sqrt(left_of(&s));
     return s.tt > 0.0 ? s.mt / s.tt : 0.0;
@@ -142,11 +166,28 @@ static size_t best_shift(const comparison *c, double *best)
     const size_t all = GRID * c->turns;
     size_t at = 0;
     *best = 2.0;
-    for (size_t k = 0; k < 2 * all; ++k) {
+    for (size_t k = 0; k < (c->in_frame ? 1 : 2) * all; ++k) {
         const double left = try_shift(c, k % all, k >= all);
         if (!(left < *best)) continue;
         *best = left;
         at = k;
+    }
+    return at;
+}
+
+/* Times what the best shift leaves: one within half an electrical turn that leaves no more is as good. */
+#define AS_GOOD 1.1
+
+static size_t as_good_near(const comparison *c, double best, size_t at)
+{
+    const size_t all = GRID * c->turns;
+    double least = AS_GOOD * best + 1e-9;
+    for (size_t k = 0; k < GRID; ++k) {
+        const size_t near = (k + all - GRID / 2) % all;
+        const double left = try_shift(c, near, false);
+        if (!(left < least)) continue;
+        least = left;
+        at = near;
     }
     return at;
 }
@@ -159,6 +200,7 @@ static void search(const comparison *c, hci_table_rotation *x)
     size_t at = best_shift(c, &best);
     x->backwards = at >= all;
     at %= all;
+    if (!x->backwards) at = as_good_near(c, best, at);
     for (size_t turn = 1; turn < c->turns; ++turn)
         for (size_t k = 0; k < 33; ++k)
             elsewhere = fmin(elsewhere, try_shift(c, (at + turn * GRID + k + all - 16) % all, x->backwards));
@@ -228,20 +270,59 @@ static hci_status check_inputs(const comparison *c, hci_note *note)
     return HCI_OK;
 }
 
+static void fit(const comparison *c, hci_table_rotation *x)
+{
+    *x = (hci_table_rotation){.period_turns = c->turns, .samples = c->run->count, .of_index = c->in_frame};
+    search(c, x);
+    (void)gain_at(c, 0.0, false, &x->left_as_is);
+    x->gain = gain_at(c, x->rotation_rad, x->backwards, &x->left);
+    for (int k = 0; k < 4; ++k)
+        refine(c, x);
+    if (x->backwards || x->left < LESSENED * x->left_as_is || x->left >= FOUND) return;
+    x->rotation_rad = 0.0; /* what mends nothing is no rotation */
+    x->gain = gain_at(c, 0.0, false, &x->left);
+    for (int k = 0; k < 2; ++k)
+        refine(c, x);
+    x->rotation_rad = 0.0;
+}
+
+/* The same in the frame of the recorded angle, if that can leave less than the phases. */
+static hci_status fit_in_frame(comparison c, double phases_left, hci_table_rotation *x, hci_note *note)
+{
+    double *measured = hci_memory_new(c.run->count, 3 * sizeof *measured);
+    if (!measured) return hci_note_memory(note, c.run->name, "%zu samples", c.run->count);
+    memcpy(measured, c.run->i_A, c.run->count * 3 * sizeof *measured);
+    c.in_frame = true;
+    c.measured = measured;
+    for (size_t k = 0; k < c.run->count; ++k)
+        to_frame(measured + 3 * k, theta_rad(&c, k, false));
+    for (size_t k = 0; k < GRID * c.turns; ++k)
+        to_frame(c.grid + 3 * k, 2.0 * HCI_PI * (double)k / GRID);
+    double best;
+    (void)best_shift(&c, &best);
+    if (sqrt(best) < phases_left) {
+        fit(&c, x);
+        conclude(&c, x);
+    }
+    hci_memory_free(measured);
+    return HCI_OK;
+}
+
 hci_status hci_table_rotation_of(const hci_currents *table, const hci_run *run, int pole_pairs,
                                  hci_table_rotation *x, hci_note *note)
 {
-    comparison c = {table, run, pole_pairs, 1, NULL};
+    comparison c = {table, run, pole_pairs, 1, NULL, false, run->i_A};
+    const bool is_dq = !run->has_sum && run->computed_phase == 0;
+    hci_table_rotation of_index;
     hci_status status = check_inputs(&c, note);
     if (!status) status = make_grid(&c, note);
     if (status) return status;
-    *x = (hci_table_rotation){.period_turns = c.turns, .samples = run->count};
-    search(&c, x);
-    (void)gain_at(&c, 0.0, false, &x->left_as_is);
-    x->gain = gain_at(&c, x->rotation_rad, x->backwards, &x->left);
-    for (int k = 0; k < 4; ++k)
-        refine(&c, x);
+    fit(&c, x);
     conclude(&c, x);
+    of_index.is_rotated = false;
+    if (!x->backwards && x->left > NOTHING) status = fit_in_frame(c, x->left, &of_index, note);
+    if (!status && of_index.is_rotated && of_index.left < (is_dq ? LESSENED : CLEARLY) * x->left)
+        *x = of_index;
     hci_memory_free(c.grid);
-    return HCI_OK;
+    return status;
 }

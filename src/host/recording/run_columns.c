@@ -165,14 +165,15 @@ hci_status hci_run_columns_angle_like(const hci_run_columns *c, const double *th
     if (name == NULL || strlen(name) + 24 > HCI_RUN_NAME) return HCI_OK;
     if (!hci_csv_counts(name)) {
         snprintf(text, HCI_RUN_NAME, "theta_m_deg=%s", name);
-        hci_note_add(c->remark, "`%s` may be the angle: if it is, add --column '%s' (theta_m_rad in rad)", name,
-                     text);
+        hci_note_add(c->remark, "`%s` may be the angle: if it is, add --column '%s' (theta_m_rad in rad)",
+                     name, text);
         return HCI_OK;
     }
     hci_note unused = {{0}};
     double *counts = hci_memory_new(c->count, sizeof *counts), of_turn = 0.0;
     if (counts == NULL) return memory_error(c);
-    if (!hci_csv_numbers(c->csv, name, counts, &unused)) of_turn = counts_of_turn(counts, theta_m_rad, c->count);
+    if (!hci_csv_numbers(c->csv, name, counts, &unused))
+        of_turn = counts_of_turn(counts, theta_m_rad, c->count);
     hci_memory_free(counts);
     if (of_turn > 0.0)
         snprintf(text, HCI_RUN_NAME, "theta_m=%s/%.0f", name, of_turn);

@@ -217,7 +217,8 @@ typedef struct {
 /* A run that its own turns do not tell enough of. */
 static bool is_open(const hci_run *run)
 {
-    return run->torque_Nm == NULL && !run->torque_is_typed && (run->needs_inertia || hci_is_slow(run, run->pole_pairs));
+    return run->torque_Nm == NULL && !run->torque_is_typed &&
+           (run->needs_inertia || hci_is_slow(run, run->pole_pairs));
 }
 
 static hci_status find_slow(hci_run *runs, const hci_run_options *options, slow_runs *s, hci_note *note)

@@ -108,6 +108,7 @@ char *hci_table_rotation_json(const hci_table_rotation *x)
     hci_json_number(&json, "rotation_e_rad", x->rotation_rad);
     hci_json_number(&json, "error_e_rad", x->error_rad);
     hci_json_number(&json, "step_e_rad", x->step_rad);
+    hci_json_bool(&json, "of_index", x->of_index);
     hci_json_bool(&json, "backwards", x->backwards);
     hci_json_number(&json, "gain", x->gain);
     hci_json_number(&json, "left_as_is", x->left_as_is);

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "hci/host/check/table_rotation.h"
+#include "hci/machine/frames.h"
 #include "support/reference.h"
 #include "unity.h"
 
@@ -91,6 +92,53 @@ static void test_backwards(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-2, 0.5, x.rotation_rad);
 }
 
+/* A drive that commutates by itself: i_d and i_q of the table at another place, in the frame of the angle. */
+static void play_index(double ahead_rad, double noise_A)
+{
+    uint64_t seed = 11;
+    for (size_t k = 0; k < COUNT; ++k) {
+        double phases[3];
+        theta[k] = 6.0 * REF_PI * (double)k / COUNT;
+        hci_waves_at(wave, table.count, PAIRS * theta[k] + ahead_rad, phases);
+        const hci_dq in = hci_park(hci_clarke(phases), PAIRS * theta[k] + ahead_rad);
+        hci_clarke_inverse(hci_park_inverse(in, PAIRS * theta[k]), current + 3 * k);
+        for (int s = 0; s < 3; ++s)
+            current[3 * k + (size_t)s] += noise_A * ref_normal(&seed);
+    }
+}
+
+static void test_the_index_of_a_table_in_the_frame(void)
+{
+    for (int with_turns = 0; with_turns < 2; ++with_turns) {
+        table.count = with_turns ? 4 : 3;
+        for (int has_phases = 0; has_phases < 2 - with_turns; ++has_phases) {
+            run.has_sum = has_phases == 1;
+            play_index(0.17, 0.05);
+            hci_table_rotation x = compare();
+            TEST_ASSERT_TRUE(x.of_index && x.is_rotated && x.is_found && !x.backwards);
+            TEST_ASSERT_DOUBLE_WITHIN(3e-3, 0.17, x.rotation_rad);
+            TEST_ASSERT_TRUE(x.left < 0.02 && x.left_as_is > 0.03);
+            play_index(0.0, 0.05);
+            TEST_ASSERT_FALSE(compare().is_rotated);
+            play(0.17, 1.0, 0.05, 1, 1); /* as a whole */
+            x = compare();
+            TEST_ASSERT_TRUE(x.is_rotated && !x.of_index);
+        }
+    }
+}
+
+/* A difference that no rotation lessens is none that a rotation mends. */
+static void test_what_mends_nothing_is_no_rotation(void)
+{
+    table.count = 4;
+    play(0.0, 1.0, 0.0, 1, 1);
+    for (size_t k = 0; k < COUNT; ++k) /* what follows the mechanical turn is not in the currents */
+        hci_waves_at(wave, 3, PAIRS * theta[k], current + 3 * k);
+    const hci_table_rotation x = compare();
+    TEST_ASSERT_FALSE(x.is_rotated);
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, x.rotation_rad);
+}
+
 /* A half order of the shaft tells the seven turns apart. */
 static void test_which_of_the_turns(void)
 {
@@ -168,6 +216,8 @@ int main(void)
     RUN_TEST(test_any_rotation);
     RUN_TEST(test_the_error_is_that_of_the_noise);
     RUN_TEST(test_backwards);
+    RUN_TEST(test_the_index_of_a_table_in_the_frame);
+    RUN_TEST(test_what_mends_nothing_is_no_rotation);
     RUN_TEST(test_which_of_the_turns);
     RUN_TEST(test_other_pole_pairs);
     RUN_TEST(test_noise_is_no_table);

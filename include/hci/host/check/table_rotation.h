@@ -10,16 +10,19 @@ extern "C" {
 #endif
 
 /* How the currents of a recording lie to those of a table: i(θ) = gain · table(θ + rotation), or with −θ
- * where it is read backwards. */
+ * where it is read backwards; or so i_d and i_q alone, in the frame of θ, where of_index. */
 typedef struct {
     double rotation_rad; /* electrical, −π·period … π·period: the table is read so far ahead of the log's
                             angle */
     double error_rad;    /* standard error of it */
     double gain;         /* the recorded currents by the table's: the share of the torque */
     bool backwards;      /* against the direction of the log's angle */
-    bool is_found;       /* the table is in the recording: at its best it leaves less than 95 % of the rms */
-    bool is_rotated;     /* by more than three errors, half a step and 0.01 rad, or backwards */
-    double step_rad;     /* electrical, of the log's angle where it stands still between samples; else 0 */
+    bool of_index; /* the drive commutates by an angle of its own, which is that of the log, and reads i_d and
+                    * i_q of the table at another place; else the phase currents are turned as a whole */
+    bool is_found; /* the table is in the recording: at its best it leaves less than 95 % of the rms */
+    bool is_rotated; /* by more than three errors, half a step and 0.01 rad, which leaves a twentieth less of
+                      * the difference, or backwards */
+    double step_rad; /* electrical, of the log's angle where it stands still between samples; else 0 */
     size_t pole_pairs_seen; /* where it is not found: pole pairs with which it is; 0: none up to 64 */
     double left_as_is;      /* rms of what differs by rms of the currents, at no rotation */
     double left;            /* and at this one */
