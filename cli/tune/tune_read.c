@@ -90,6 +90,9 @@ static const char *source_words(const hci_run *r)
         "no torque in it", "torque as measured",
         "the shaft is held or turned slowly by control: its current answers cogging and friction",
         "a free shaft: torque is inertia x acceleration"};
+    if (r->torque_source == HCI_TORQUE_HOLDING && hci_run_is_loaded(r, r->pole_pairs))
+        return "the shaft is turned slowly by control against a load: its current answers that, cogging "
+               "torque, and the harmonics of the back-EMF";
     return WORDS[r->torque_source];
 }
 

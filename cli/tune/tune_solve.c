@@ -42,21 +42,37 @@ bool cli_tune_can_solve(const cli_tuning *t)
            (t->has_emf || t->has_cogging || (!t->diagnosis.nothing_measured && t->diagnosis.runs > 0));
 }
 
-/* The largest mean torque, and the largest i_q as torque, that the recordings show. */
-static void recorded(const cli_tuning *t, double *mean_Nm, double *current_Nm)
+/* Torques that the recordings show, the largest: the mean of a sensor, what the mean size of i_q makes
+ * against a brake without one, and what the largest current makes. */
+typedef struct {
+    double mean_Nm, brake_Nm, current_Nm;
+} recorded;
+
+/* Against a brake the phase currents of a run are those of its load. */
+static double mean_length_A(const hci_run *r)
 {
-    double most_A = 0.0;
-    *mean_Nm = 0.0;
+    double square = 0.0;
+    for (size_t n = 0; n < 3 * r->count; ++n)
+        square += r->i_A[n] * r->i_A[n];
+    return sqrt(2.0 / 3.0 * square / (double)r->count);
+}
+
+static recorded recorded_of(const cli_tuning *t)
+{
+    const double Nm_per_A = t->reading.run.torque_constant_Nm_per_A;
+    recorded x = {0.0, 0.0, 0.0};
     for (size_t k = 0; k < t->diagnosis.runs; ++k)
         if (t->diagnosis.run[k].source == HCI_TORQUE_MEASURED)
-            *mean_Nm = fmax(*mean_Nm, fabs(t->diagnosis.run[k].mean_torque_Nm));
+            x.mean_Nm = fmax(x.mean_Nm, fabs(t->diagnosis.run[k].mean_torque_Nm));
     for (size_t k = 0; k < t->runs.count; ++k) {
         const hci_run *r = &t->runs.run[k];
         const size_t count = cli_tune_has_no_current(t, r) ? 0 : 3 * r->count;
         for (size_t n = 0; n < count; ++n)
-            most_A = fmax(most_A, fabs(r->i_A[n]));
+            x.current_Nm = fmax(x.current_Nm, fabs(r->i_A[n]) * Nm_per_A);
+        if (count > 0 && r->torque_source == HCI_TORQUE_HOLDING && hci_run_is_loaded(r, r->pole_pairs))
+            x.brake_Nm = fmax(x.brake_Nm, mean_length_A(r) * Nm_per_A);
     }
-    *current_Nm = most_A * t->reading.run.torque_constant_Nm_per_A;
+    return x;
 }
 
 /* Three digits are enough of a torque that nobody asked for. */
@@ -86,17 +102,18 @@ static void choose_torque(cli_tuning *t)
     const hci_machine_data *m = &t->declared;
     const double rated_Nm = m->rated_current_A * t->reading.run.torque_constant_Nm_per_A;
     const char *why;
-    double mean_Nm, current_Nm;
-    recorded(t, &mean_Nm, &current_Nm);
-    if (!(mean_Nm > LEAST_LOAD * current_Nm && current_Nm > 0.0)) mean_Nm = 0.0;
-    t->has_load = mean_Nm > 0.0;
+    const recorded x = recorded_of(t);
+    const bool is_measured = x.mean_Nm > LEAST_LOAD * x.current_Nm && x.current_Nm > 0.0;
+    const double mean_Nm = is_measured ? x.mean_Nm : x.brake_Nm, current_Nm = x.current_Nm;
+    t->has_load = is_measured;
     if (t->arguments->given[TUNE_TORQUE])
         t->mean_Nm = t->arguments->number[TUNE_TORQUE], why = "as asked for by --torque";
     else if (m->rated_torque_Nm > 0.0 && !(mean_Nm > 0.0 && mean_Nm < m->rated_torque_Nm))
         t->mean_Nm = m->rated_torque_Nm, why = "the rated torque";
     else if (mean_Nm > 0.0)
         t->mean_Nm = rounded(mean_Nm),
-        why = "the largest mean torque of the recordings; up to there they tell what to expect";
+        why = is_measured ? "the largest mean torque of the recordings; up to there they tell what to expect"
+                          : "what the recorded current makes against its load";
     else if (rated_Nm > 0.0)
         t->mean_Nm = rounded(rated_Nm / 3.0),
         why = "what a third of the rated current makes; no recording has a load";

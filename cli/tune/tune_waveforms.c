@@ -105,12 +105,12 @@ static bool drops_nothing(const cli_tuning *t, const hci_run *r)
 
 /* Whether a recording is one for the quantity. Cogging torque that a sensor has measured is left to diagnose,
  * which finds it in all recordings at once and knows what they leave open of it: from one of them alone it is
- * off by more than what would be stated. */
+ * off by more than what would be stated. So is that under a load, which makes a ripple of its own. */
 static bool is_for(const cli_tuning *t, const hci_run *r, hci_waveform_quantity quantity)
 {
     if (quantity == HCI_WAVEFORM_BACK_EMF)
         return r->v_V && cli_tune_has_no_current(t, r) && drops_nothing(t, r);
-    return r->torque_source == HCI_TORQUE_HOLDING;
+    return r->torque_source == HCI_TORQUE_HOLDING && !hci_run_is_loaded(r, t->declared.model.pole_pairs);
 }
 
 /* The largest of them. */

@@ -268,6 +268,28 @@ static const char *not_known(const cli_tuning *t)
                : "what is left on the machine is not known";
 }
 
+static const char *becomes(double before_Nm, double after_Nm)
+{
+    return after_Nm < before_Nm ? "falls to" : "becomes one of";
+}
+
+/* A bound above what a plain sine leaves promises nothing. */
+static void say_bound(const hci_expected_ripple *e, double before_Nm, double after_Nm, char *text,
+                      size_t size)
+{
+    if (e->peak_to_peak_Nm < before_Nm)
+        snprintf(
+            text, size,
+            "A ripple of %.3g N·m from peak to peak falls to at most %.3g N·m on the machine (95 %%), of "
+            "which the table %.2g",
+            before_Nm, e->peak_to_peak_Nm, e->table_peak_to_peak_Nm);
+    else
+        snprintf(text, size,
+                 "A ripple of %.3g N·m from peak to peak %s %.3g N·m in the model; on the machine it is at "
+                 "most %.3g N·m (95 %%), so that the recordings do not promise less than without the table",
+                 before_Nm, becomes(before_Nm, after_Nm), after_Nm, e->peak_to_peak_Nm);
+}
+
 static void say_fall(cli_tuning *t, char *text, size_t size)
 {
     const hci_expected_ripple *e = &t->solution.expected;
@@ -281,14 +303,10 @@ static void say_fall(cli_tuning *t, char *text, size_t size)
                      : "The model does not explain the recordings",
                  before_Nm);
     else if (e->state == HCI_RIPPLE_KNOWN && e->peak_to_peak_Nm < BOUNDLESS * before_Nm)
-        snprintf(
-            text, size,
-            "A ripple of %.3g N·m from peak to peak falls to at most %.3g N·m on the machine (95 %%), of "
-            "which the table %.2g",
-            before_Nm, e->peak_to_peak_Nm, e->table_peak_to_peak_Nm);
+        say_bound(e, before_Nm, after_Nm, text, size);
     else
         snprintf(text, size, "A ripple of %.3g N·m from peak to peak %s %.3g N·m in the model; %s", before_Nm,
-                 after_Nm < before_Nm ? "falls to" : "becomes one of", after_Nm, not_known(t));
+                 becomes(before_Nm, after_Nm), after_Nm, not_known(t));
 }
 
 /* Whether no log has a torque of any kind. */

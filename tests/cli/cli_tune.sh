@@ -135,6 +135,17 @@ awk 'BEGIN { print "Time (s),CH1 (V),CH2 (V),CH3 (V)"; turn = 6.283185307179586
 run 1 tune scope.csv slow.csv --pole-pairs 7 --kv 120 -o scope # the steps of this encoder are left in the second log
 says '^tuned' 'Where the back-EMF of scope.csv lies beside the angle' 'order 5: '
 check "harmonics of another zero are in the machine: $(cat scope/machine/back_emf.csv)" [ "$(wc -l <scope/machine/back_emf.csv)" -eq 2 ]
+# against a brake, there and back: the ripple of the back-EMF turns its sign with the load, and is no cogging torque
+for way in 1 -1; do
+    awk -v way="$way" 'BEGIN { srand(5); print "time_s,pos_rad,speed_rad_per_s,iq_A"; w = 1.2566
+        for (k = 0; k < 2000; ++k) { t = 0.01 * k; x = way * w * t
+            printf "%.3f,%.5f,%.4f,%.5f\n", t, x, way * w,
+                (way * 0.4 - 0.02 * sin(84 * x)) / (0.15 * (1 + 0.03 * cos(42 * x))) + 0.02 * (rand() - 0.5) } }' >"brake$way.csv"
+done
+run 0 tune brake1.csv brake-1.csv --pole-pairs 7 --flux 0.0142857142857143 --inertia 1e-4 -o brake
+says '^tuned: ' 'slowly by control' '  order 12: 0\.0(2|20|19)[0-9]* ± ' '  order [57]: 0\.00(3|29|30)[0-9]* ± .* Nm_per_A' \
+    'a torque without ripple of 0\.4 N·m: what the recorded current makes against'
+check "cogging torque from one direction of it" [ "$(grep -c 'harmonics' brake/commands.sh)" -eq 0 ]
 # voltages that are mostly what the current drops are no back-EMF, rated for much or not
 awk -F';' -v OFS=';' '{ print $0, NR == 1 ? "d_axis_voltage;q_axis_voltage" : "0;" 0.5 * $3 + $2 / 66.84507 * 0.08 }' slow.csv >volts.csv
 run 0 tune volts.csv --pole-pairs 7 --kv 120 --slots 12 --rated-current 20 -o volts

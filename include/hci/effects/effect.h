@@ -72,7 +72,9 @@ enum {
     HCI_PARAMETER_REFERENCE_CURRENT = 64, /* the current at which the other values hold: not fitted, a
                                            * diagnosis sets it to the largest that was measured */
     HCI_PARAMETER_SCALE =
-        128 /* how far the other values of the effect reach; says nothing while those are 0 */
+        128, /* how far the other values of the effect reach; says nothing while those are 0 */
+    HCI_PARAMETER_WITH_LOAD = 256 /* makes a ripple in proportion to the current: to be seen in a holding test
+                                   * against a steady load, but for order 1, the torque per ampere itself */
 };
 
 /* One kind of number that an effect has. */

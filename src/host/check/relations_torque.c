@@ -201,6 +201,38 @@ static check_value current_size(const check_data *data, const check_interpretati
     return hci_check_found(most);
 }
 
+/* ---- without a torque sensor */
+
+/* Of the rms of the current: a friction that stands out from what cogging torque and a weight leave in means
+ * of parts of a turn. */
+#define STANDS_OUT 0.2
+
+static bool is_of_friction(const check_data *data, const check_run *r)
+{
+    return !r->has_torque && !r->is_held && hci_check_has_speed(r) && hci_check_has_current(data, r) &&
+           (r->has_dq || hci_check_has_vector_current(data, r));
+}
+
+/* i_q forward less that back, half: a weight is in both alike, and friction takes power, as a brake does. As
+ * a share of what would be plain: 1, and -1 where friction would drive. */
+static check_value friction_way(const check_data *data, const check_interpretation *as, const check_model *m)
+{
+    double iq_A[2] = {0.0, 0.0}, square = 0.0, count[2] = {0.0, 0.0};
+    for (size_t k = 0; k < data->runs; ++k) {
+        const check_run *r = &data->run[k];
+        const double speed = is_of_friction(data, r) ? hci_check_speed_of(r, as, m) : 0.0,
+                     n = (double)r->count;
+        if (!(fabs(speed) > 0.0 && fabs(speed) < SLOWLY)) continue;
+        iq_A[speed < 0.0] += n * hci_check_current_of(r, as, m).im;
+        square += n * length_A(r, as) * length_A(r, as);
+        count[speed < 0.0] += n;
+    }
+    if (!(count[0] > 0.0 && count[1] > 0.0)) return HCI_CHECK_NONE;
+    const double friction_A = 0.5 * (iq_A[0] / count[0] - iq_A[1] / count[1]);
+    const double rms_A = sqrt(square / (count[0] + count[1]));
+    return hci_check_found(fmax(-1.0, fmin(1.0, friction_A / (STANDS_OUT * rms_A))));
+}
+
 /* ---- the list */
 
 static const check_relation LIST[] = {
@@ -212,5 +244,7 @@ static const check_relation LIST[] = {
      power_balance, "a recording of voltages, currents, torque and speed", ""},
     {"torque_size", "torque over 3/2 k_e i_q and the reluctance torque", CHECK_FLUX, 1.0,
      CHECK_TORQUE_TOLERANCE, 9.0, torque_size, "a recording of currents, angle and torque", ""},
+    {"friction_way", "i_q of a slow turn forward less that back, 1 where friction brakes", CHECK_SHARE, 1.0,
+     0.4, 9.0, friction_way, "recordings of currents, slowly turned forward and back, without torque", ""},
 };
 const check_relation_list HCI_CHECK_TORQUE_RELATIONS = {LIST, sizeof LIST / sizeof *LIST};

@@ -8,6 +8,7 @@
 
 #define NEGLIGIBLE 0.2   /* inertia × acceleration beside the torque of the current */
 #define SLOW       2.1   /* rad/s; control follows cogging torque up to some ten events a second */
+#define LOAD       4.0   /* times what the size of a current varies by */
 #define WORTH_WORD 0.005 /* inertia × acceleration of which nothing need be said, in the same measure */
 
 enum { LEAST = 16 };
@@ -82,4 +83,16 @@ void hci_slow_turn_correct(hci_run *run, int pole_pairs, double torque_constant_
         hci_note_add(&run->remark,
                      "inertia x acceleration, %.3g N·m rms, is taken out of the %.3g N·m that i_q makes",
                      rms_Nm, made_Nm);
+}
+
+bool hci_run_is_loaded(const hci_run *run, int pole_pairs)
+{
+    double size_A = 0.0, square = 0.0;
+    if (run->count == 0 || !run->i_A || !run->theta_m_rad) return false;
+    for (size_t k = 0; k < run->count; ++k) {
+        const double iq_A = hci_run_dq(run, pole_pairs, k).q;
+        size_A += fabs(iq_A) / (double)run->count;
+        square += iq_A * iq_A / (double)run->count;
+    }
+    return size_A * size_A > LOAD * LOAD * (square - size_A * size_A);
 }

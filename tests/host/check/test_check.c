@@ -297,6 +297,38 @@ static void test_holding_currents_commutate(void)
     TEST_ASSERT_EQUAL_STRING("7", check.finding[0].should_be);
 }
 
+/* A slow turn of five pole pairs under control, from `forward_A` forward and `back_A` back. */
+static void check_slow_turn(double forward_A, double back_A)
+{
+    static char text[60000];
+    static const char *run[1];
+    size_t used = (size_t)snprintf(text, sizeof text, "time_s,theta_m_rad,speed_rad_per_s,iq_A\n");
+    for (int k = 0; k < 1000; ++k) {
+        const double way = k < 500 ? 1.0 : -1.0, theta_m = 0.02 * (k < 500 ? k : 999 - k);
+        const double iq_A = (k < 500 ? forward_A : back_A) + 0.2 * sin(30.0 * theta_m);
+        used += (size_t)snprintf(text + used, sizeof text - used, "%.3f,%.5f,%.3f,%.5f\n", 0.02 * k, theta_m,
+                                 way, iq_A);
+    }
+    write_file("slow.csv", text);
+    run[0] = path[0];
+    write_machine("name,value,unit\npole_pairs,5,1\n", "amplitude_Nm_per_A", 0.1, 0.0);
+    hci_check_files(files_root, run, 1, &(hci_run_options){0}, &check, &note);
+}
+
+/* Friction brakes: i_q is above in the way forward, whatever a weight adds to both. */
+static void test_friction_does_not_drive(void)
+{
+    check_slow_turn(0.12, -0.06);
+    TEST_ASSERT_EQUAL(HCI_CHECK_CONSISTENT, check.verdict);
+    remove_files();
+    check_slow_turn(-0.25, -0.1);
+    expect_only("current_sign");
+    TEST_ASSERT_TRUE(check.finding[0].probability > HCI_CHECK_FOUND);
+    remove_files();
+    check_slow_turn(0.004, 0.006); /* what cogging leaves in a mean tells nothing */
+    TEST_ASSERT_EQUAL(0, (int)check.findings);
+}
+
 /* ---- slips of the tables, in numbers worked out by hand for k_e = 0.1 V·s/rad and 4 pole pairs */
 
 static void test_slips_of_the_emf(void)
@@ -1144,6 +1176,7 @@ int main(void)
     RUN_TEST(test_a_holding_map_knows_the_cogging_torque);
     RUN_TEST(test_a_holding_map_knows_the_pole_pairs);
     RUN_TEST(test_holding_currents_commutate);
+    RUN_TEST(test_friction_does_not_drive);
     RUN_TEST(test_slips_of_the_emf);
     RUN_TEST(test_an_emf_in_volts);
     RUN_TEST(test_slips_of_machine_csv);

@@ -130,6 +130,47 @@ static void test_holding_map(void)
     TEST_ASSERT_EQUAL_UINT64(2, diagnosis.effects.list.count);
 }
 
+/* The current that turns a shaft slowly against a brake; the back-EMF is cosine_Nm_per_A of order 6 stronger. */
+static void record_brake(bool back, double brake_Nm, double cosine_Nm_per_A, double cogging_Nm)
+{
+    enum { SAMPLES = 1200 };
+    hci_run *r = add_run(SAMPLES);
+    r->torque_source = HCI_TORQUE_HOLDING;
+    for (size_t k = 0; k < SAMPLES; ++k) {
+        const double x = 2.0 * REF_PI * (double)k / (0.5 * SAMPLES), theta_m = back ? -x : x;
+        const double torque_Nm = (back ? -brake_Nm : brake_Nm) - cogging_Nm * sin(6.0 * P * theta_m);
+        const double Nm_per_A = 1.5 * K_NM_PER_A + cosine_Nm_per_A * cos(6.0 * P * theta_m);
+        r->time_s[k] = 0.02 * (double)k;
+        r->theta_m_rad[k] = theta_m;
+        r->speed_rad_per_s[k] = (back ? -2.0 : 2.0) * REF_PI / (0.5 * SAMPLES) / 0.02;
+        rec_phases(0.0, torque_Nm / Nm_per_A + 0.01 * ref_normal(&seed), P * theta_m, r->i_A + 3 * k);
+    }
+}
+
+/* With the load the ripple of the back-EMF turns its sign, and cogging torque does not. */
+static void test_back_emf_against_a_brake(void)
+{
+    const double Nm_per_A = 0.02 * 1.5 * K_NM_PER_A;
+    record_brake(false, 2.0, Nm_per_A, 0.02);
+    record_brake(true, 2.0, Nm_per_A, 0.02);
+    TEST_ASSERT_EQUAL_INT(HCI_OK, diagnose(NULL));
+    const double deviation = sqrt(2.0) * 1.5 * K_NM_PER_A * 0.01 / sqrt(2400.0);
+    is_value(0.02, deviation, term("cogging", "sine", 6.0));
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_ADDED, found("back_emf")->verdict);
+    const hci_effect_term *t = term("back_emf", "sine", 5.0); /* or 7, which i_q alone does not tell */
+    TEST_ASSERT_DOUBLE_WITHIN(4.5 * t->std_error, Nm_per_A, 1.5 * fabs(t->value));
+    TEST_ASSERT_TRUE(t->std_error < 0.01 * Nm_per_A);
+}
+
+/* Friction explains no ripple, so that a large one beside it is not small for the friction's size. */
+static void test_ripple_beside_friction(void)
+{
+    record_holding(2400, 2.0, 0.0, 0.1);
+    TEST_ASSERT_EQUAL_INT(HCI_NOT_REACHED, diagnose(NULL));
+    TEST_ASSERT_EQUAL_INT(HCI_DIAGNOSIS_PARTLY, diagnosis.verdict);
+    TEST_ASSERT_DOUBLE_WITHIN(0.05, 2.0, term("friction", "coulomb", 0.0)->value);
+}
+
 /* A drag with the square of the current, there and back. */
 static void test_iron_drag(void)
 {
@@ -334,6 +375,8 @@ int main(void)
     RUN_TEST(test_current_offset);
     RUN_TEST(test_noise_of_currents_is_no_sensor);
     RUN_TEST(test_holding_map);
+    RUN_TEST(test_back_emf_against_a_brake);
+    RUN_TEST(test_ripple_beside_friction);
     RUN_TEST(test_iron_drag);
     RUN_TEST(test_iron_drag_takes_both_directions);
     RUN_TEST(test_position_harmonics);

@@ -128,6 +128,11 @@ hci_status hci_run_of_csv(const hci_csv *csv, const hci_run_options *options, hc
  * file beside it. */
 hci_status hci_run_csv(const char *path, const hci_run_options *options, hci_csv **csv, hci_note *note);
 
+/* Whether the current works against a load, as a brake: the size of i_q is more than four times what it varies
+ * by, forward or back. A shaft that control turns slowly tells the harmonics of the back-EMF then, as well as
+ * cogging torque and friction. False without currents or an angle. O(samples). */
+bool hci_run_is_loaded(const hci_run *run, int pole_pairs);
+
 /* Frees what a run holds and empties it. */
 void hci_run_release(hci_run *run);
 

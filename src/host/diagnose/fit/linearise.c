@@ -31,24 +31,31 @@ static bool filters_speed(const hci_run *run)
     return run->torque_source == HCI_TORQUE_INERTIA && run->speed_window == 0;
 }
 
+/* Whether a holding test can show a term: of what acts with the current only a ripple under a steady load. */
+static bool holding_shows(const hci_run_statistics *x, unsigned traits, double order)
+{
+    if (traits & HCI_PARAMETER_WITH_SPEED) return false;
+    if (!(traits & HCI_PARAMETER_WITH_CURRENT)) return true;
+    return (traits & HCI_PARAMETER_WITH_LOAD) && x->is_loaded && fabs(order - 1.0) > HCI_ORDER_TOLERANCE;
+}
+
 /* Whether a run can show a term of an effect at all. */
-static bool can_show(const hci_run *run, bool no_current, const hci_candidate *s, size_t term)
+static bool can_show(const hci_run *run, const hci_run_statistics *x, const hci_candidate *s, size_t term)
 {
     const unsigned traits = s->type->parameter[s->term[term].parameter].traits;
-    if (no_current && ((traits & HCI_PARAMETER_WITH_CURRENT) || s->type->sum_by_value)) return false;
+    if (x->no_current && ((traits & HCI_PARAMETER_WITH_CURRENT) || s->type->sum_by_value)) return false;
     if (run->torque_source == HCI_TORQUE_MEASURED) return true;
     if (traits & HCI_PARAMETER_OF_TRANSDUCER) return false;
     if (filters_speed(run) && (s->type->needs & HCI_EFFECT_NEEDS_RATE)) return false;
-    return run->torque_source != HCI_TORQUE_HOLDING ||
-           !(traits & (HCI_PARAMETER_WITH_CURRENT | HCI_PARAMETER_WITH_SPEED));
+    return run->torque_source != HCI_TORQUE_HOLDING || holding_shows(x, traits, s->term[term].order);
 }
 
 static void columns_clear(const filling *f, const hci_segment *s)
 {
     const hci_model *m = f->model;
-    const bool no_current = f->regression->samples->statistics[s->run].no_current;
+    const hci_run_statistics *x = &f->regression->samples->statistics[s->run];
     for (size_t c = 0; c < m->columns; ++c) {
-        if (can_show(&f->regression->runs[s->run], no_current, m->column[c].candidate, m->column[c].term))
+        if (can_show(&f->regression->runs[s->run], x, m->column[c].candidate, m->column[c].term))
             continue;
         for (size_t j = 0; j < s->count; ++j)
             f->x[j * m->columns + c] = 0.0;
@@ -237,7 +244,7 @@ static bool is_shown(const filling *f, size_t column)
 {
     const hci_model_column *x = &f->model->column[column];
     for (const hci_segment *s = NULL; (s = hci_regression_next(f->regression, s)) != NULL;)
-        if (!can_show(&f->regression->runs[s->run], f->regression->samples->statistics[s->run].no_current,
+        if (!can_show(&f->regression->runs[s->run], &f->regression->samples->statistics[s->run],
                       x->candidate, x->term))
             return false;
     return true;

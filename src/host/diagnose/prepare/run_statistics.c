@@ -103,6 +103,7 @@ hci_run_statistics hci_run_statistics_of(const hci_run *r, int pole_pairs)
     f.current_A = sqrt(f.current_A);
     f.speed_deviation = sqrt(fmax(0.0, f.speed_deviation - f.mean_speed_rad_per_s * f.mean_speed_rad_per_s));
     f.no_current = is_noise(r, pole_pairs, f.current_A);
+    f.is_loaded = !f.no_current && hci_run_is_loaded(r, pole_pairs);
     if (f.no_current) f.current_A = f.mean_id_A = f.mean_iq_A = 0.0;
     if (r->only_mean) return f;
     f.angle_step_rad = angle_step(r);

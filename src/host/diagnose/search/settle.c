@@ -200,13 +200,54 @@ static hci_status explained_add(hci_search *s, const hci_fitted_model *model, co
     return status;
 }
 
-static hci_status known_of(hci_search *s, const hci_fitted_model *model, double *known_Nm, hci_note *note)
+/* The rms of the residual about its mean in each segment, forward and back by itself. */
+static double ripple_rms(const hci_search *s)
 {
+    double sum = 0.0, count = 0.0;
+    for (const hci_segment *x = NULL; (x = hci_regression_next(s->regression, x)) != NULL;) {
+        double mean[2] = {0.0, 0.0}, telling[2] = {0.0, 0.0};
+        for (size_t j = x->first; j < x->first + x->count; ++j) {
+            const hci_binned_sample *b = &s->regression->samples->sample[j];
+            const int back = b->reading.speed_rad_per_s < 0.0;
+            mean[back] += s->residual_Nm[j];
+            telling[back] += b->count > 0.0 ? 1.0 : 0.0;
+            sum += s->residual_Nm[j] * s->residual_Nm[j];
+        }
+        for (int back = 0; back < 2; ++back) {
+            sum -= telling[back] > 0.0 ? mean[back] * mean[back] / telling[back] : 0.0;
+            count += telling[back];
+        }
+    }
+    return count > 0.0 ? sqrt(fmax(0.0, sum / count)) : 0.0;
+}
+
+/* What is understood and what is not, as rms; the same of the ripple beside the means. */
+typedef struct {
+    double known_Nm, unexplained_Nm, known_ripple_Nm, unexplained_ripple_Nm;
+} understanding;
+
+/* Of a model: what its effects explain, each by itself, and all together of the ripple. */
+static hci_status known_of(hci_search *s, const hci_fitted_model *model, understanding *u, hci_note *note)
+{
+    static const hci_candidates none = {0};
     hci_status status = HCI_OK;
-    *known_Nm = 0.0;
     for (size_t r = 0; hci_effect_type_at(r) && !status; ++r)
-        status = explained_add(s, model, hci_effect_type_at(r), known_Nm, note);
+        status = explained_add(s, model, hci_effect_type_at(r), &u->known_Nm, note);
+    if (!status) status = hci_search_residual(s, &none, note);
+    const double before_Nm = ripple_rms(s);
+    if (!status) status = hci_search_residual(s, &model->candidates, note);
+    const double after_Nm = ripple_rms(s), all_Nm = hci_search_residual_rms(s);
+    u->known_ripple_Nm = sqrt(fmax(0.0, before_Nm * before_Nm - after_Nm * after_Nm));
+    u->unexplained_ripple_Nm = all_Nm > 0.0 ? u->unexplained_Nm * fmin(1.0, after_Nm / all_Nm) : 0.0;
     return status;
+}
+
+/* Whether what is not understood is large beside what is, or its ripple, above the noise, beside the ripple
+ * that is: a friction, which makes none, explains none. */
+static bool is_much(const hci_search *s, const understanding *u)
+{
+    return u->unexplained_Nm > SMALL * u->known_Nm ||
+           u->unexplained_ripple_Nm > fmax(SMALL * u->known_ripple_Nm, hci_search_noise_rms(s));
 }
 
 /* Known effects beside something larger that is not understood cannot be told from a part of it, and go; a
@@ -239,19 +280,19 @@ static void disbelieved_set(const hci_search *s, hci_yield yield, hci_attributio
 
 static hci_status settle(hci_search *s, hci_attribution *a, hci_note *note)
 {
-    double known_Nm = 0.0;
+    understanding u = {0.0, 0.0, 0.0, 0.0};
     hci_yield yield = HCI_YIELD_NOTHING;
     hci_status status = hci_search_yield(s, &a->model, &yield, note);
     if (!status) status = residual_judge(s, a, note);
     if (yield) disbelieved_set(s, yield, a);
-    double unexplained_Nm = a->unexplained_Nm;
-    if (!status) status = explained_add(s, &a->model, &hci_empirical_type, &unexplained_Nm, note);
-    if (status || !(unexplained_Nm > 0.0)) return status;
-    status = known_of(s, &a->model, &known_Nm, note);
+    u.unexplained_Nm = a->unexplained_Nm;
+    if (!status) status = explained_add(s, &a->model, &hci_empirical_type, &u.unexplained_Nm, note);
+    if (status || !(u.unexplained_Nm > 0.0)) return status;
+    status = known_of(s, &a->model, &u, note);
     if (status) return status;
-    a->unknown = yield == HCI_YIELD_BETTER || unexplained_Nm > SMALL * known_Nm;
-    status = types_leave(s, a, unexplained_Nm, note);
-    if (!status && a->unknown) a->unexplained_Nm = unexplained_Nm;
+    a->unknown = yield == HCI_YIELD_BETTER || is_much(s, &u);
+    status = types_leave(s, a, u.unexplained_Nm, note);
+    if (!status && a->unknown) a->unexplained_Nm = u.unexplained_Nm;
     return status;
 }
 
