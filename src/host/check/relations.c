@@ -1,5 +1,9 @@
 #include "host/check/relations.h"
 
+#include <assert.h>
+
+#include "hci/host/check/check.h"
+
 static const check_relation_list *const LISTS[] = {&HCI_CHECK_TABLE_RELATIONS,  &HCI_CHECK_WAVE_RELATIONS,
                                                    &HCI_CHECK_TORQUE_RELATIONS, &HCI_CHECK_COGGING_RELATIONS,
                                                    &HCI_CHECK_PHASE_RELATIONS,  &HCI_CHECK_POLE_RELATIONS};
@@ -10,6 +14,7 @@ size_t hci_check_relation_count(void)
     size_t count = 0;
     for (int k = 0; k < LIST_COUNT; ++k)
         count += LISTS[k]->count;
+    assert(count <= HCI_CHECK_MOST_EVIDENCE);
     return count;
 }
 

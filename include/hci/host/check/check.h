@@ -17,7 +17,7 @@ extern "C" {
 enum {
     HCI_CHECK_MOST_RUNS = 64,        /* recordings */
     HCI_CHECK_MOST_FINDINGS = 12,    /* slips */
-    HCI_CHECK_MOST_EVIDENCE = 32,    /* relations */
+    HCI_CHECK_MOST_EVIDENCE = 40,    /* relations */
     HCI_CHECK_MOST_ALTERNATIVES = 8, /* slips that mend the same */
     HCI_CHECK_MOST_UNTOLD = 64,      /* slips that leave no trace */
     HCI_CHECK_TEXT = 128,            /* bytes of a text */
