@@ -18,6 +18,9 @@ kept loop_check 0 check $a --drive data/drive/machine_a_10kHz.csv --speed 500
 kept beckhoff 0 emit kept/auto --name map --for beckhoff --machine $a
 kept moteus 0 emit kept/auto --name map --for moteus --machine $a
 kept openffboard 0 emit kept/auto --name map --for openffboard --machine $a --counts-per-ampere 400
+kept salient_limited 0 solve data/machine_c --target $t --auto --limit-current 6 --limit-voltage 200 --speed 300 --report
+kept moved.fmu 0 export-fmu $a --table kept/auto --drive data/drive/machine_a_10kHz.csv --fmi 3 --sources-only
+kept machine.fmu 0 export-fmu data/machine_c --sources-only
 kept rows 0 emit kept/auto --name rows --points 64
 kept knots 0 emit kept/auto --name knots --frame dq --format i16 --per-torque --max-error 0.05
 kept_all currents "${4-}"

@@ -5,6 +5,11 @@
 . "$1/tests/support/common.sh"
 . "$source_dir/tests/cli/kept_inputs.sh"
 kept check 0 check data/fem_c/machine data/fem_c/runs/I0.csv data/fem_c/runs/id0_iq6.csv
+kept check_simple 0 check simple slow.csv back.csv fast.csv
+kept check_worn 1 check simple worn_slow.csv worn_back.csv worn_fast.csv worn_idle.csv
+kept check_wrong 1 check $a slow.csv back.csv
+kept worn_cogging 0 harmonics worn_slow.csv --quantity cogging --pole-pairs 2 --torque-constant 0.3
+kept worn_fit 0 fit simple --runs worn.csv
 kept fit 0 fit data/fem_c/machine --runs data/fem_c/runs.csv
 kept diagnose 0 diagnose simple --runs runs.csv
 kept worn 1 diagnose simple --runs worn.csv --target $t

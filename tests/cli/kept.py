@@ -13,6 +13,7 @@ import math
 import pathlib
 import re
 import sys
+import zipfile
 import zlib
 
 NUMBER = re.compile(r"(?<![\w#.])[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
@@ -75,7 +76,15 @@ def of_source(path):
     yield "numbers", sums([float(x) for x in NUMBER.findall(text)]), zlib.crc32(NUMBER.sub("0", text).encode())
 
 
-READERS = {".csv": of_table, ".json": of_json, ".svg": of_picture, ".html": of_picture, ".h": of_source, ".c": of_source, ".cfg": of_source, ".txt": of_source}
+def of_archive(path):
+    """What an FMU says of its machine; its identifier is a digest of that."""
+    archive = zipfile.ZipFile(path)
+    for name in ("modelDescription.xml", "sources/hci_data.c"):
+        text = re.sub(r"\{[-0-9a-fA-F]+\}|hci-solve [\d.]+|generationDateAndTime=\S+", "", archive.read(name).decode())
+        yield name, sums([float(x) for x in NUMBER.findall(text)]), zlib.crc32(NUMBER.sub("0", text).encode())
+
+
+READERS = {".fmu": of_archive, ".csv": of_table, ".json": of_json, ".svg": of_picture, ".html": of_picture, ".h": of_source, ".c": of_source, ".cfg": of_source, ".txt": of_source}
 
 
 def lines_of(folder):
