@@ -12,7 +12,6 @@ kept interior 0 solve data/machine_c --target $t --auto
 kept saturated 0 solve data/machine_c_saturated --target $t --auto
 kept pointwise 0 solve $a --target $t --method pointwise
 kept driven_set 0 solve $a --target $t --auto --drive data/drive/machine_a_10kHz.csv --speed 600
-kept worst 1 solve m --target $t --harmonics few.csv --minimise worst --limit-current 15
 kept loop 0 emit kept/auto --name loop --machine $a --drive data/drive/machine_a_10kHz.csv
 kept loop_check 0 check $a --drive data/drive/machine_a_10kHz.csv --speed 500
 kept beckhoff 0 emit kept/auto --name map --for beckhoff --machine $a
