@@ -183,6 +183,9 @@ static void say_check(cli_tuning *t, const hci_check *c)
                        "%s: %s (%.3g %%); %s:%zu, %s: found %s, should be %s",
                        is_found ? "slip" : "possible slip", f->words, 100.0 * f->probability, f->file,
                        f->line, f->column, f->found, f->should_be);
+        if (is_found && !t->has_slip)
+            snprintf(t->slip, sizeof t->slip, "Most likely %s (%.3g %%), so nothing was solved", f->words,
+                     100.0 * f->probability);
         t->has_slip = t->has_slip || is_found;
     }
 }

@@ -214,7 +214,7 @@ static void say_next_correction(cli_tuning *t)
 
 static void say_next(cli_tuning *t)
 {
-    say_next_turn(t);
+    if (!t->has_slip) say_next_turn(t);
     say_next_correction(t);
     if (t->is_solved && t->solution.expected.state != HCI_RIPPLE_KNOWN) say_next_on_machine(t);
 }
@@ -387,7 +387,7 @@ static const char *why_not_solved(const cli_tuning *t)
            : t->has_no_angle
                ? "The log has no angle of the rotor, and a table over one whose zero nobody knows "
                  "cannot be played, so nothing was solved"
-           : t->has_slip     ? "What the files say contradicts itself, so nothing was solved"
+           : t->has_slip     ? t->slip
            : t->has_unsteady ? "The current of a shaft that turns in jerks does not tell its cogging torque, "
                                "so nothing was "
                                "solved"

@@ -233,14 +233,29 @@ static void say_offset(const check_data *data, const check_interpretation *as, h
              degrees > 0.0 ? "-" : "+", fabs(degrees));
 }
 
-/* In mA, and how to say it of a column whose name has no unit or another one. */
-static void say_milliampere(const check_data *data, const check_place *place, hci_check_finding *finding)
+/* What a current is called that a recording has: i_q or of phase a. */
+static const char *current_of(const check_data *data, const check_place *place)
 {
     bool is_dq = true;
     for (size_t k = 0; k < data->runs; ++k)
         if (data->run[k].current_cell.path == place->path) is_dq = data->run[k].has_dq;
-    snprintf(finding->should_be, sizeof finding->should_be,
-             "in mA: --column '%s_mA=%.60s', and so of each current", is_dq ? "iq" : "ia", place->column);
+    return is_dq ? "iq" : "ia";
+}
+
+/* How to say it of a column whose name says nothing or something else. */
+static void say_column(const check_error *error, const check_data *data, const check_place *place,
+                       hci_check_finding *finding)
+{
+    char *text = finding->should_be;
+    const size_t size = sizeof finding->should_be;
+    if (error->aspect == CHECK_OF_CURRENT_UNIT)
+        snprintf(text, size, "in mA: --column '%s_mA=%.60s', and so of each current", current_of(data, place),
+                 place->column);
+    if (error->aspect == CHECK_OF_CURRENT_SIGN)
+        snprintf(text, size, "with the opposite sign: --column '%s=-%.60s', and so of each current",
+                 current_of(data, place), place->column);
+    if (error->where == CHECK_AT_TORQUE && error->times < 0.0)
+        snprintf(text, size, "with the opposite sign: --column 'torque=-%.60s'", place->column);
 }
 
 void hci_check_error_locate(const check_error *error, const check_data *data, const check_interpretation *as,
@@ -259,6 +274,6 @@ void hci_check_error_locate(const check_error *error, const check_data *data, co
         say_offset(data, as, finding);
     else if (place->unit_line > 0)
         move_unit(error, place, finding->should_be);
-    else if (error->aspect == CHECK_OF_CURRENT_UNIT)
-        say_milliampere(data, place, finding);
+    else
+        say_column(error, data, place, finding);
 }

@@ -91,6 +91,7 @@ static hci_column_match find_given(const hci_csv *csv, const hci_wanted_column *
         if (unit == NULL) unit = want->unit;
         result.factor = unit->factor / want->unit->factor;
         if (csv->given[k].counts > 0.0) result.factor /= csv->given[k].counts;
+        if (csv->given[k].is_opposite) result.factor = -result.factor;
         if (unit->dimension != want->unit->dimension) result.kind = HCI_COLUMN_GIVEN_UNIT;
         return result;
     }
@@ -128,6 +129,7 @@ hci_status hci_csv_give_counts(hci_csv *csv, const char *name, size_t column, do
     snprintf(given->name, sizeof given->name, "%s", name);
     given->column = column;
     given->counts = counts;
+    given->is_opposite = false;
     return HCI_OK;
 }
 

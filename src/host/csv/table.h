@@ -20,7 +20,8 @@ typedef struct {
 typedef struct {
     char name[32]; /* canonical, with its unit or without */
     size_t column;
-    double counts; /* of a turn, where the column counts them; 0: it does not */
+    double counts;    /* of a turn, where the column counts them; 0: it does not */
+    bool is_opposite; /* the quantity is the negative of the column */
 } hci_csv_given;
 
 struct hci_csv {

@@ -377,7 +377,10 @@ static bool is_named_otherwise(const hci_column_names *names, const hci_column_n
         const hci_column_name *other = &names->item[k];
         size_t column;
         if (other == item || quantity_of(other->name) != quantity_of(item->name)) continue;
-        if (find_header(csv, other->column, &column) || find_counted(csv, other, &column)) return true;
+        const hci_column_name plain = {other->name, other->column + (other->column[0] == '-'), other->from};
+        if (find_header(csv, other->column, &column) || find_header(csv, plain.column, &column) ||
+            find_counted(csv, &plain, &column))
+            return true;
     }
     return false;
 }
@@ -389,19 +392,32 @@ static hci_status give_counted(hci_csv *csv, const hci_column_name *item, size_t
                                 : counts_error(csv, item, true, note);
 }
 
-/* *found: whether the file has the column, or needs none. */
-static hci_status apply(hci_csv *csv, const hci_column_name *item, bool *found, hci_note *note)
+/* *found: whether the file has the column. */
+static hci_status apply_column(hci_csv *csv, const hci_column_name *item, bool *found, hci_note *note)
 {
     size_t column;
     *found = true;
-    if (offset_of(item, &csv->angle_offset_rad)) {
-        csv->has_angle_offset = true;
-        return HCI_OK;
-    }
     if (find_header(csv, item->column, &column)) return give(csv, item, column, note);
     if (find_counted(csv, item, &column)) return give_counted(csv, item, column, note);
     *found = false;
     return HCI_OK;
+}
+
+/* "-COLUMN", where no header is written so, has the opposite sign. *found: whether the file has the column,
+ * or needs none. */
+static hci_status apply(hci_csv *csv, const hci_column_name *item, bool *found, hci_note *note)
+{
+    size_t column;
+    if (offset_of(item, &csv->angle_offset_rad)) {
+        csv->has_angle_offset = *found = true;
+        return HCI_OK;
+    }
+    if (item->column[0] != '-' || find_header(csv, item->column, &column))
+        return apply_column(csv, item, found, note);
+    const hci_column_name opposite = {item->name, item->column + 1, item->from};
+    const hci_status status = apply_column(csv, &opposite, found, note);
+    if (!status && *found) csv->given[csv->given_count - 1].is_opposite = true;
+    return status;
 }
 
 hci_status hci_column_names_apply(const hci_column_names *names, bool optional, hci_csv *csv, hci_note *note)

@@ -92,6 +92,27 @@ static void test_counts_of_an_encoder(void)
     text_has("found no column `enc_count/none`", note.text);
 }
 
+/* A minus before the column, unless a header is written so. */
+static void test_the_opposite_sign(void)
+{
+    files_write(path, "angle_rad,current,-current,load\n0,1,7,1\n0.25,2,8,2\n0.5,3,9,3\n");
+    add("theta_m=-angle_rad/1");
+    add("torque_mNm=-load");
+    add("iq=-current");
+    TEST_ASSERT_EQUAL(HCI_OK, read_run());
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, -0.002, run.torque_Nm[1]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, -0.25 * 2.0 * REF_PI, run.theta_m_rad[1] - run.theta_m_rad[0]);
+    double square = 0.0;
+    for (int s = 3; s < 6; ++s)
+        square += run.i_A[s] * run.i_A[s];
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 1.5 * 8.0 * 8.0, square);
+    hci_column_names_release(&names);
+    add("theta_m=angle_rad");
+    add("torque_Nm=-loud");
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, read_run());
+    text_has("found no column `-loud`", note.text);
+}
+
 /* One list serves recordings of two languages: a row whose column is not in the file yields to another of the
  * same quantity that is, in whatever unit; where none is, it is an error. */
 static void test_one_list_for_two_languages(void)
@@ -306,6 +327,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_columns_without_a_name);
     RUN_TEST(test_counts_of_an_encoder);
+    RUN_TEST(test_the_opposite_sign);
     RUN_TEST(test_one_list_for_two_languages);
     RUN_TEST(test_an_angle_offset);
     RUN_TEST(test_a_list_of_columns_is_no_recording);

@@ -15,7 +15,8 @@ extern "C" {
 typedef struct {
     char *name;   /* as in docs/files.md; its unit, of its own or none ("torque_mNm", "torque"), is that of a
                    column   that says none */
-    char *column; /* as the header of the recording spells it */
+    char *column; /* as the header of the recording spells it; "-COLUMN": the opposite of it, "COLUMN/COUNTS":
+                   * an angle in the counts of a turn */
     char *from;   /* who says so: "path:line", or "--column NAME=COLUMN" */
 } hci_column_name;
 
