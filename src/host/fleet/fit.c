@@ -98,7 +98,7 @@ static void make_model(const hci_machine_data *machine, const hci_effects *decla
 typedef struct {
     const hci_machine *machine;
     const hci_runs *runs;
-    hci_sample **reading; /* of each run; NULL: not used */
+    bool *is_used; /* of each run */
     size_t samples;
 } data;
 
@@ -113,8 +113,9 @@ static void add_run(const data *d, size_t run, const model *m, double *by_value,
     const hci_run *r = &d->runs->run[run];
     double last = 0.0;
     for (size_t k = 0; k < r->count; ++k) {
+        const hci_sample reading = hci_predict_reading(r, k); /* made anew: 128 bytes a row to keep it */
         const double residual =
-            r->torque_Nm[k] - hci_effects_predict(d->machine, &m->list, &d->reading[run][k], by_value);
+            r->torque_Nm[k] - hci_effects_predict(d->machine, &m->list, &reading, by_value);
         hci_normal_equations_add(&s->normal, by_value + m->declared_terms, &residual, 1);
         s->square += residual * residual;
         s->beside += residual * last;
@@ -131,7 +132,7 @@ static hci_status sum_up(const data *d, const model *m, sums *s, hci_note *note)
         return hci_note_memory(note, NULL, "a fit");
     }
     for (size_t k = 0; k < d->runs->count; ++k)
-        if (d->reading[k]) add_run(d, k, m, by_value, s);
+        if (d->is_used[k]) add_run(d, k, m, by_value, s);
     hci_normal_equations_finish(&s->normal);
     hci_memory_free(by_value);
     return HCI_OK;
@@ -487,15 +488,12 @@ static void remark_holes(const hci_runs *runs, hci_fleet_fit *fit)
                      fit->rows_unused);
 }
 
-static hci_status read_run(const hci_machine_data *machine, const hci_runs *runs, size_t k, data *d,
-                           hci_note *note)
+static void choose_runs(data *d)
 {
-    const hci_run *r = &runs->run[k];
-    if (runs->role[k] != HCI_ROLE_FIT || reason_against(r)) return HCI_OK;
-    d->reading[k] = hci_memory_new(r->count, sizeof *d->reading[k]);
-    if (!d->reading[k]) return hci_note_memory(note, r->name, "its samples");
-    d->samples += r->count;
-    return hci_predict_readings(r, machine->model.pole_pairs, 0, d->reading[k], note);
+    for (size_t k = 0; k < d->runs->count; ++k) {
+        d->is_used[k] = d->runs->role[k] == HCI_ROLE_FIT && !reason_against(&d->runs->run[k]);
+        if (d->is_used[k]) d->samples += d->runs->run[k].count;
+    }
 }
 
 hci_status hci_fleet_fit_runs(const hci_machine_data *machine, const hci_effects *declared,
@@ -505,11 +503,10 @@ hci_status hci_fleet_fit_runs(const hci_machine_data *machine, const hci_effects
     model m;
     hci_status status = HCI_OK;
     memset(fit, 0, sizeof *fit);
-    d.reading = hci_memory_new(runs->count, sizeof *d.reading);
-    if (!d.reading) return hci_note_memory(note, NULL, "a fit");
-    for (size_t k = 0; k < runs->count && !status; ++k)
-        status = read_run(machine, runs, k, &d, note);
-    if (!status && d.samples == 0)
+    d.is_used = hci_memory_new(runs->count, sizeof *d.is_used);
+    if (!d.is_used) return hci_note_memory(note, NULL, "a fit");
+    choose_runs(&d);
+    if (d.samples == 0)
         status =
             hci_note_set(note, HCI_ERROR_INPUT,
                          "%s: found no run to be fitted with an angle and a measured torque; expected one "
@@ -521,8 +518,6 @@ hci_status hci_fleet_fit_runs(const hci_machine_data *machine, const hci_effects
     if (!status) status = take_steps(&d, &m, fit, note);
     if (!status) status = hci_fleet_list_beside(machine, runs, fit, note);
     fit->samples = d.samples;
-    for (size_t k = 0; k < runs->count; ++k)
-        hci_memory_free(d.reading[k]);
-    hci_memory_free(d.reading);
+    hci_memory_free(d.is_used);
     return status;
 }

@@ -38,6 +38,17 @@ static void set_accelerations(const hci_run *run, hci_sample *reading, double *w
         reading[k].acceleration_rad_per_s2 = work[k];
 }
 
+hci_sample hci_predict_reading(const hci_run *run, size_t k)
+{
+    hci_sample x = {.theta_m_rad = run->theta_m_rad[k], .computed_phase = run->computed_phase};
+    x.speed_rad_per_s = run->speed_rad_per_s != NULL ? run->speed_rad_per_s[k] : 0.0;
+    x.temperature_C = run->temperature_C != NULL ? run->temperature_C[k] : (double)NAN;
+    x.elapsed_s = run->time_s != NULL ? run->time_s[k] - run->time_s[0] : 0.0;
+    for (int s = 0; s < 3; ++s)
+        x.i_abc[s] = run->i_A[3 * k + (size_t)s];
+    return x;
+}
+
 hci_status hci_predict_readings(const hci_run *run, int pole_pairs, unsigned needs, hci_sample *reading,
                                 hci_note *note)
 {
@@ -49,15 +60,8 @@ hci_status hci_predict_readings(const hci_run *run, int pole_pairs, unsigned nee
             "--column theta_m_deg=COLUMN",
             hci_quote_path(run->name, path));
     }
-    for (size_t k = 0; k < run->count; ++k) {
-        hci_sample *x = &reading[k];
-        *x = (hci_sample){.theta_m_rad = run->theta_m_rad[k], .computed_phase = run->computed_phase};
-        x->speed_rad_per_s = run->speed_rad_per_s != NULL ? run->speed_rad_per_s[k] : 0.0;
-        x->temperature_C = run->temperature_C != NULL ? run->temperature_C[k] : (double)NAN;
-        x->elapsed_s = run->time_s != NULL ? run->time_s[k] - run->time_s[0] : 0.0;
-        for (int s = 0; s < 3; ++s)
-            x->i_abc[s] = run->i_A[3 * k + (size_t)s];
-    }
+    for (size_t k = 0; k < run->count; ++k)
+        reading[k] = hci_predict_reading(run, k);
     const unsigned along_time = HCI_EFFECT_NEEDS_RATE | HCI_EFFECT_NEEDS_ACCELERATION;
     if (!(needs & along_time) || run->time_s == NULL || run->count < 2) return HCI_OK;
     double *work = hci_memory_new(run->count, 6 * sizeof *work);

@@ -11,10 +11,13 @@
 extern "C" {
 #endif
 
-/* The samples of a run as the effects take them. needs: of HCI_EFFECT_NEEDS_RATE, how fast the currents change in
- * the rotor frame, and HCI_EFFECT_NEEDS_ACCELERATION, which take time and are 0 where they are not asked for.
- * What the run does not have is 0, temperatures NAN. reading: out, run->count. HCI_ERROR_INPUT for a run without an angle,
- * HCI_ERROR_MEMORY. O(samples). */
+/* One sample of a run that has an angle, as the effects take it: rates of change are 0. */
+hci_sample hci_predict_reading(const hci_run *run, size_t sample);
+
+/* The samples of a run as the effects take them. needs: of HCI_EFFECT_NEEDS_RATE, how fast the currents
+ * change in the rotor frame, and HCI_EFFECT_NEEDS_ACCELERATION, which take time and are 0 where they are not
+ * asked for. What the run does not have is 0, temperatures NAN. reading: out, run->count. HCI_ERROR_INPUT for
+ * a run without an angle, HCI_ERROR_MEMORY. O(samples). */
 hci_status hci_predict_readings(const hci_run *run, int pole_pairs, unsigned needs, hci_sample *reading,
                                 hci_note *note);
 
