@@ -14,8 +14,8 @@ static hci_status steps(const cli_arguments *a, cli_tuning *t, hci_note *note)
 {
     hci_status status = cli_tune_begin(a, t, note);
     if (!status) status = cli_tune_read(t, note);
-    if (!status) status = cli_tune_leave_out(t, note);
     if (!status) status = cli_tune_check(t, note);
+    if (!status) status = cli_tune_leave_out(t, note);
     if (!status) status = cli_tune_waveforms(t, note);
     if (!status) status = cli_tune_diagnose(t, note);
     if (!status && t->has_diagnosis) cli_tune_say_diagnosis(t);

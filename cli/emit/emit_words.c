@@ -97,9 +97,13 @@ void cli_show_loop(const hci_emit_loop_request *r, const hci_emit_loop_result *r
     cli_say("  runtime      hci/loop.h and hci/table.h\n");
 }
 
+/* Of a torque that is 0. */
+#define ROUNDING_Nm 1e-12
+
 static void show_ripple(const hci_foreign_ripple *r)
 {
-    cli_say("               at %8.4g N·m    %10.4g   ", r->torque_Nm, r->without_Nm);
+    cli_say("               at %8.4g N·m    %10.4g   ", fabs(r->torque_Nm) < ROUNDING_Nm ? 0.0 : r->torque_Nm,
+            r->without_Nm);
     if (hci_foreign_ripple_is_reached(r))
         cli_say("%10.4g\n", r->with_Nm);
     else

@@ -62,8 +62,10 @@ static void say_components(cli_tuning *t)
         most = fmax(most, c->wave[k].order);
     hci_tuning_say(
         &t->tuning, HCI_TUNING_LOAD,
-        "The currents have %zu component%s up to order %.4g, which is %.3g Hz at 100 rpm%s.", c->count,
-        c->count == 1 ? "" : "s", most, most * t->corrected.model.pole_pairs * 100.0 / 60.0,
+        "The currents have %zu component%s up to order %.4g of a phase, which is %.3g Hz at 100 rpm (in i_d "
+        "and "
+        "i_q up to one order more)%s.",
+        c->count, c->count == 1 ? "" : "s", most, most * t->corrected.model.pole_pairs * 100.0 / 60.0,
         c->count > MANY_COMPONENTS
             ? ": more than most current loops follow; hci-solve solve --auto 6 finds the best six, and "
               "simulate --table --drive says what the loop makes of them"
@@ -77,8 +79,9 @@ static void say_per_torque(cli_tuning *t, const char *currents, const char *name
     hci_tuning_say(
         &t->tuning, HCI_TUNING_LOAD,
         "Where the torque changes, as in a joint that moves freely, load it in two parts, one of them times "
-        "the torque: hci-solve emit %s --name %s --frame dq --per-torque --machine %s%s -o FOLDER.",
-        currents, name, machine, cli_tune_knows_zero(t) ? "" : " --angle-of-logs");
+        "the torque, up to %.3g N·m, for which it was solved (tune --torque for more): hci-solve emit %s "
+        "--name %s --frame dq --per-torque --machine %s%s -o FOLDER.",
+        t->mean_Nm, currents, name, machine, cli_tune_knows_zero(t) ? "" : " --angle-of-logs");
 }
 
 /* What the table is, and how its firmware reads it. */
@@ -96,13 +99,17 @@ static void say_table(cli_tuning *t, const char *name, const char *folder, const
         h->turns == 1 ? "" : ", not one: the angle goes on from turn to turn", t->mean_Nm, h->own_Nm);
 }
 
-static void say_other_drives(cli_tuning *t, const char *currents, const char *name, const char *machine,
-                             const char *folder)
+/* A map of one electrical turn, where that is all that the currents have; else of the mechanical one. */
+static void say_other_drives(cli_tuning *t, const char *currents, const char *machine, unsigned long turns)
 {
+    const char *name = t->arguments->value[TUNE_NAME] ? t->arguments->value[TUNE_NAME] : "tuned";
+    char folder[CLI_TUNE_PATH];
+    cli_tune_path(t, "table", folder);
     hci_tuning_say(&t->tuning, HCI_TUNING_LOAD,
-                   "For a drive whose firmware is somebody else's: hci-solve emit %s --name %s --for "
-                   "simplefoc --machine %s%s -o %s, or another one of docs/drives.",
-                   currents, name, machine, cli_tune_knows_zero(t) ? "" : " --angle-of-logs", folder);
+                   "For a drive whose firmware is somebody else's: hci-solve emit %s --name %s --for %s "
+                   "--machine %s%s -o %s, or another one of docs/drives.",
+                   currents, name, turns > 1 ? "moteus" : "simplefoc", machine,
+                   cli_tune_knows_zero(t) ? "" : " --angle-of-logs", folder);
     if (cli_tune_offset(t))
         hci_tuning_say(&t->tuning, HCI_TUNING_LOAD,
                        "The zero of the logs is not the machine's: a map over the encoder's turn takes "
@@ -138,7 +145,7 @@ hci_status cli_tune_emit(cli_tuning *t, hci_note *note)
     if (t->solution.expected.state == HCI_RIPPLE_KNOWN)
         hci_expected_ripple_add_table(&t->solution.expected, header.own_Nm, t->mean_Nm);
     say_table(t, name, folder, &header);
-    say_other_drives(t, currents, name, machine, folder);
+    say_other_drives(t, currents, machine, header.turns);
     say_components(t);
     say_per_torque(t, currents, name, machine);
     say_first_turn(t, machine, currents);

@@ -145,6 +145,26 @@ static size_t sum_cogging(const cli_tuning *t, order_sum sum[MOST_ORDERS])
     return count;
 }
 
+/* Times its standard error, beyond which an order is more than chance. */
+#define SURE 3.0
+
+/* Order 1 of a current that balances the cogging torque is most likely the zero of its sensors. */
+static void say_offset(cli_tuning *t, const order_sum *sum, size_t count)
+{
+    for (size_t k = 0; k < count; ++k) {
+        const double amplitude_Nm = hypot(sum[k].sine_Nm, sum[k].cosine_Nm);
+        if (fabs(sum[k].order - 1.0) > HCI_ORDER_TOLERANCE || amplitude_Nm < SURE * sum[k].std_error_Nm)
+            continue;
+        hci_tuning_say(
+            &t->tuning, HCI_TUNING_UNKNOWN,
+            "Whether order 1 is of the machine: it is most likely the offset of the current sensors, "
+            "%.2g A of i_q, which makes order 1 whatever the load. The table takes it away as it is, "
+            "with these sensors. Where they are nulled, or in another drive, it would add %.2g N·m: "
+            "null them first and record again.",
+            amplitude_Nm / t->reading.run.torque_constant_Nm_per_A, amplitude_Nm);
+    }
+}
+
 static void say_cogging(cli_tuning *t)
 {
     static order_sum sum[MOST_ORDERS];
@@ -164,6 +184,7 @@ static void say_cogging(cli_tuning *t)
         hci_tuning_say(&t->tuning, HCI_TUNING_FOUND, "  order %.5g: %.4g ± %.1g N·m", o.order,
                        hypot(o.sine_Nm, o.cosine_Nm), o.std_error_Nm);
     }
+    say_offset(t, sum, count);
     size_t from = 0;
     if (isfinite(t->cogging.friction_Nm) && !next_found(t, is_friction, &from))
         hci_tuning_say(&t->tuning, HCI_TUNING_FOUND,
@@ -186,6 +207,14 @@ static void say_sentence(cli_tuning *t, const char *text)
     bool found = !t->diagnosed;
     for (size_t k = 0; k < sizeof FOUND / sizeof *FOUND; ++k)
         found = found || begins(text, FOUND[k]);
+    if (t->has_emf && begins(text, "No run tells the torque per ampere")) {
+        hci_tuning_say(
+            &t->tuning, HCI_TUNING_FOUND,
+            "Torques are currents times %.4g N·m/A, 3/2 of the back-EMF that was measured; ± leaves "
+            "the error of that out.",
+            t->reading.run.torque_constant_Nm_per_A);
+        return;
+    }
     const char *rest = begins(text, PARTLY) ? strstr(text, ELSE) : NULL;
     if (!rest) {
         hci_tuning_say(&t->tuning, found ? HCI_TUNING_FOUND : HCI_TUNING_UNKNOWN, "%s", text);

@@ -80,7 +80,7 @@ hci_status cli_tune_leave_out(cli_tuning *t, hci_note *note)
         useless += is_useless(&t->runs.run[k]);
         useful += is_useful(&t->runs.run[k]);
     }
-    if (useless > 0 && useful > 0 && t->is_own) {
+    if (useless > 0 && useful > 0 && t->is_own && !t->has_slip && !t->has_misfit) {
         for (size_t k = 0; k < t->runs.count; ++k)
             if (is_useless(&t->runs.run[k])) say_left_out(t, k);
         status = read_others(t, note);

@@ -171,11 +171,16 @@ static void say_check(cli_tuning *t, const hci_check *c)
 {
     hci_tuning_say(&t->tuning, HCI_TUNING_READ, "conventions: %s (%zu relations checked)",
                    hci_check_verdict_name(c->verdict), c->evidences);
-    for (size_t k = 0; k < c->evidences; ++k)
-        if (c->evidence[k].state == HCI_CHECK_UNMENDED)
-            hci_tuning_say(&t->tuning, HCI_TUNING_READ, "  not understood: %s is %.4g, expected %s%.4g",
-                           c->evidence[k].words, c->evidence[k].declared,
-                           c->evidence[k].at_most ? "at most " : "", c->evidence[k].expected);
+    for (size_t k = 0; k < c->evidences; ++k) {
+        const hci_check_evidence *e = &c->evidence[k];
+        if (e->state != HCI_CHECK_UNMENDED) continue;
+        hci_tuning_say(
+            &t->tuning, HCI_TUNING_READ, "  not understood: %s is %.4g, expected %s%.4g%s", e->words,
+            e->declared, e->at_most ? "at most " : "", e->expected,
+            strcmp(e->name, "angle_speed") == 0 && fabs(e->declared / 360.0 - 1.0) < 0.05
+                ? ": 360 is degrees in a column that is read in turns; say --column theta_m_deg=COLUMN"
+                : "");
+    }
     for (size_t k = 0; k < c->findings; ++k) {
         const hci_check_finding *f = &c->finding[k];
         const bool is_found = f->probability >= HCI_CHECK_FOUND;
@@ -200,8 +205,23 @@ static bool is_of_angle(const char *relation)
     return false;
 }
 
+/* Whether something in the files counts the pole pairs. */
+static bool counts_pole_pairs(const cli_tuning *t, const hci_check *c)
+{
+    static const char *const NAMES[] = {"current_order", "voltage_order", "angle_ratio", "frequency_speed",
+                                        "ripple_orders"};
+    bool is_told = t->declared.model.pole_pairs % 2 == 0; /* else they are no number of poles */
+    for (size_t k = 0; k < c->untolds; ++k)
+        is_told = is_told && strcmp(c->untold[k], "poles_for_pole_pairs") != 0;
+    for (size_t k = 0; k < c->evidences; ++k)
+        for (size_t n = 0; n < sizeof NAMES / sizeof *NAMES; ++n)
+            is_told = is_told || strcmp(c->evidence[k].name, NAMES[n]) == 0;
+    return is_told;
+}
+
 static void judge_check(cli_tuning *t, const hci_check *c)
 {
+    t->counts_pole_pairs = counts_pole_pairs(t, c);
     for (size_t k = 0; k < c->evidences && c->verdict == HCI_CHECK_NOT_UNDERSTOOD; ++k)
         if (c->evidence[k].state == HCI_CHECK_UNMENDED)
             *(is_of_angle(c->evidence[k].name) ? &t->has_misfit : &t->has_doubt) = true;

@@ -119,7 +119,7 @@ static void choose_torque(cli_tuning *t)
         why = "what a third of the rated current makes; no recording has a load";
     else if (!(current_Nm > 0.0))
         t->mean_Nm = rounded(t->reading.run.torque_constant_Nm_per_A),
-        why = "what 1 A makes; nothing is rated, and no recording has a current";
+        why = "what 1 A makes; nothing is rated, and no recording has a load";
     else
         t->mean_Nm = rounded(current_Nm),
         why = "what the largest recorded current makes; nothing is rated, and no recording has a load";

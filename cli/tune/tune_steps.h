@@ -44,7 +44,8 @@ typedef struct {
     bool has_no_angle;                   /* a recording has none, and no other is of use */
     bool needs_inertia; /* the current of a slow turn does not tell its cogging torque without the inertia */
     bool has_misfit;    /* angle, order or speed contradict each other, and no slip explains it */
-    bool has_doubt;     /* check does not understand something else */
+    bool counts_pole_pairs; /* something in the recordings does */
+    bool has_doubt;         /* check does not understand something else */
     bool has_alias;  /* samples lie too far apart for the order of slots and poles, which shows as another one
                       */
     bool has_offset; /* recordings are read with an angle offset that was found here */
@@ -68,8 +69,8 @@ typedef struct {
  * table cannot be made of are left out where another one is of use; of a list that was given none is. */
 hci_status cli_tune_begin(const cli_arguments *arguments, cli_tuning *tune, hci_note *note);
 hci_status cli_tune_read(cli_tuning *tune, hci_note *note);
-hci_status cli_tune_leave_out(cli_tuning *tune, hci_note *note);
 hci_status cli_tune_check(cli_tuning *tune, hci_note *note);
+hci_status cli_tune_leave_out(cli_tuning *tune, hci_note *note);
 hci_status cli_tune_waveforms(cli_tuning *tune, hci_note *note);
 hci_status cli_tune_diagnose(cli_tuning *tune, hci_note *note);
 hci_status cli_tune_solve(cli_tuning *tune, hci_note *note);

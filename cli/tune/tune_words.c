@@ -64,11 +64,17 @@ static void say_unknown_zero(cli_tuning *t)
 static void say_unknown(cli_tuning *t)
 {
     say_limits(t);
-    if (t->is_own && !t->has_emf && !t->has_load)
+    if (t->is_solved && t->is_own && !t->has_emf && !t->has_load)
         hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
                        "The torque per ampere and the back-EMF are those of the data sheet; voltages of the "
                        "open machine, driven by another, would tell them.");
     if (t->is_solved && !cli_tune_knows_zero(t)) say_unknown_zero(t);
+    if (t->is_solved && t->is_own && !t->counts_pole_pairs)
+        hci_tuning_say(
+            &t->tuning, HCI_TUNING_UNKNOWN,
+            "Whether there are %d pole pairs: nothing in these logs counts them. Voltages or currents "
+            "of the phases beside the angle would.",
+            t->declared.model.pole_pairs);
     for (size_t k = 0; k < t->runs.count; ++k) {
         const hci_run *r = &t->runs.run[k];
         const char *name = t->arguments->given[TUNE_RUNS] ? r->name : t->arguments->word[k];
@@ -76,7 +82,7 @@ static void say_unknown(cli_tuning *t)
             hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
                            "The ripple in %s: its torque is one number in every row, typed and not measured.",
                            name);
-        if (r->is_unsteady)
+        if (r->is_unsteady && !t->has_slip && !t->has_misfit)
             hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
                            "What of the current in %s answers cogging torque, and what answers the shaft's "
                            "sticking and slipping.",
@@ -163,13 +169,13 @@ static void say_next_turn(cli_tuning *t)
     hci_tuning *r = &t->tuning;
     if (t->has_no_angle)
         say_next_angle(t);
-    else if (t->has_unsteady)
+    else if (t->has_unsteady && !t->has_slip && !t->has_misfit)
         hci_tuning_say(
             r, HCI_TUNING_NEXT,
             "Turn the shaft evenly: a stiffer position control, or a lower speed with it; its speed "
             "is to vary by less than 30 %% rms. Or move it in steps of half a degree or less, keep "
             "the samples at rest alone, and give them a column torque_Nm of 0.");
-    else if (t->needs_inertia)
+    else if (t->needs_inertia && !t->has_slip && !t->has_misfit)
         hci_tuning_say(
             r, HCI_TUNING_NEXT,
             "Give --inertia, of the rotor with what turns with it, which takes out what accelerates; "
@@ -208,7 +214,9 @@ static void say_next_correction(cli_tuning *t)
             "(docs/check.md).");
     if (t->has_slip)
         hci_tuning_say(r, HCI_TUNING_NEXT,
-                       "Correct what `slip` names (in %s, or in the log), and begin again with a new --out.",
+                       "Correct what `slip` names (in the log, by its header or by --column, or in %s), and "
+                       "begin again with a "
+                       "new --out.",
                        t->machine);
 }
 

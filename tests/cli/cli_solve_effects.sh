@@ -25,7 +25,7 @@ check "parts of a current that has none" [ ! -e "$work/new/currents_per_Nm.csv" 
 cp -r data/machine_a "$work/bench"
 printf 'effect,parameter,value,unit,std_error\nposition_offset,angle,2,deg,\ncurrent_offset,a,0.1,A,\nfriction,coulomb,0.2,Nm,\n' >"$work/bench/effects.csv"
 run 0 solve "$work/bench" --target data/scenarios/02/target.csv -o "$work/with_bench"
-says 'note: effects.csv: not compensated, since it acts on the shaft or in a sensor and not in the machine: .*position_offset.*true angle'
+says 'effects.csv: not compensated, since it acts on the shaft or in a sensor and not in the machine: .*position_offset.*true angle'
 run 0 solve data/machine_a --target data/scenarios/02/target.csv -q -o "$work/without_bench"
 check "effects on the bench change the currents" cmp -s "$work/without_bench/currents.csv" "$work/with_bench/currents.csv"
 

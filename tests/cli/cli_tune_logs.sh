@@ -53,6 +53,13 @@ run 1 tune milli.csv --pole-pairs 7 --kv 120 -o milli
 says '^a convention is broken: ' 'slip: the currents are in mA \(9[0-9]\.[0-9] %\)'
 check "the remedy is not named" grep -q "in mA: --column 'iq_mA=Iq_measured'" milli/summary.json
 refused milli
+# degrees in a column that is read in turns look like jerks: it is the unit that is said
+awk -F, -v OFS=, '{ print $1, $2, NR == 1 ? $4 : 360 * $4, $5 }' slow.csv >degrees.csv
+run 1 tune degrees.csv --pole-pairs 7 --kv 120 -o degrees
+says '^(the conventions are not understood|a convention is broken): '
+check "the unit is not said" grep -q '360 is degrees in a column that is read in turns' degrees/summary.json
+check "jerks are accused" [ "$(grep -c 'Turn the shaft evenly\|left out' degrees/summary.json)" -eq 0 ]
+refused degrees
 
 # ---- a shaft that sticks
 

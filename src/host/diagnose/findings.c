@@ -23,6 +23,12 @@ static size_t describe_term(const hci_effect_type *type, const hci_effect_term *
     return (size_t)length < size ? (size_t)length : size - 1;
 }
 
+/* 0 without an error is what nothing was fitted to. */
+static bool is_not_looked_at(const hci_effect_term *term)
+{
+    return !(fabs(term->value) > 0.0) && !(term->std_error > 0.0);
+}
+
 /* All terms of a type that are in, as many as fit. */
 static void describe(const hci_candidates *candidates, const hci_effect_type *type, char *text, size_t size)
 {
@@ -32,6 +38,7 @@ static void describe(const hci_candidates *candidates, const hci_effect_type *ty
         const hci_candidate *x = &candidates->candidate[k];
         for (size_t j = 0; x->in && x->type == type && j < x->count; ++j) {
             const char *between = used == 0 ? "" : "; ";
+            if (is_not_looked_at(&x->term[j])) continue;
             if (used + LONGEST_TERM > size) {
                 snprintf(text + used, size - used, "; …");
                 return;

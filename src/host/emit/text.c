@@ -81,8 +81,9 @@ void hci_emission_angle(const hci_emission *e, hci_output *out)
     if (turns > 1)
         hci_output_text(
             out,
-            " *         Which of the pole pairs begins the table: the one at angle 0 of the recordings and\n"
-            " *         tables of the machine; hci/counter.h and `hci-solve check --table` say how to get "
+            " *         Which of the pole pairs begins the table: the one at angle 0 of the recordings, as\n"
+            " *         they were read (--angle-offset), and tables of the machine; hci/counter.h and "
+            "`hci-solve check --table` say how to get "
             "there.\n");
     hci_output_text(
         out,
@@ -111,13 +112,15 @@ static void write_magnets(const hci_emit_facts *f, hci_output *out)
 }
 
 /* The frequency that a current loop has to follow, which bounds the speed. */
-static void write_speed(const hci_emit_facts *f, double highest, hci_output *out)
+static void write_speed(const hci_emission *e, double highest, hci_output *out)
 {
+    const hci_emit_facts *f = &e->request->facts;
     char text[32];
     const double per_rpm_Hz = highest * (double)f->pole_pairs / 60.0;
     const double rated_rpm = f->rated_speed_rad_per_s * 30.0 / HCI_PI;
-    hci_output_text(out, " * Loop:   has to follow up to %s times the electrical frequency",
-                    hci_emission_number(highest, text));
+    hci_output_text(out, " * Loop:   has to follow up to %s times the electrical frequency%s",
+                    hci_emission_number(highest, text),
+                    e->request->frame == HCI_TABLE_ABC ? "" : ", in i_d and i_q");
     if (f->pole_pairs > 0) hci_output_text(out, ", %.0f Hz at 1000 rpm", 1000.0 * per_rpm_Hz);
     hci_output_text(out, ";\n *         above what it follows, fade out (hci/guard.h) or emit --drive.\n");
     if (rated_rpm > 0.0 && f->pole_pairs > 0)
@@ -143,7 +146,7 @@ void hci_emission_facts(const hci_emission *e, hci_output *out)
     if (e->tabulation.parts == 2)
         hci_output_text(out, " * Torque: any up to the reference torque, to which it is limited; one that is "
                              "no number is none.\n");
-    write_speed(f, hci_tabulation_highest_seen(&e->tabulation), out);
+    write_speed(e, hci_tabulation_highest_seen(&e->tabulation), out);
 }
 
 void hci_emission_ripple(const hci_emission *e, hci_output *out)

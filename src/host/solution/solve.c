@@ -207,19 +207,23 @@ static hci_status verdict_of(const hci_solution *s)
 static void remark_left_out(const hci_effects *effects, hci_note *remark)
 {
     char names[256] = "";
+    bool senses = false;
     for (size_t k = 0; k < effects->count; ++k) {
         const size_t used = strlen(names);
         if (effects->effect[k].type->in_machine) continue;
+        senses = senses || effects->effect[k].type->sense || effects->effect[k].type->undo;
         snprintf(names + used, sizeof names - used, "%s%s", used > 0 ? ", " : "",
                  effects->effect[k].type->name);
     }
     hci_note_add(
         remark,
-        "effects.csv: not compensated, since it acts on the shaft or in a sensor and not in the machine: %s; "
-        "the currents are for the true angle and the true current, so the drive that plays them has to "
-        "correct "
-        "what its sensors read",
-        names);
+        "effects.csv: not compensated, since it acts on the shaft or in a sensor and not in the machine: "
+        "%s%s",
+        names,
+        senses
+            ? "; the currents are for the true angle and the true current, so the drive that plays them has "
+              "to correct what its sensors read"
+            : "");
 }
 
 /* Everything that is freed when a solution is made. */

@@ -161,6 +161,7 @@ void hci_page_tuning(hci_output *out, const hci_tuning *t)
     hci_html_begin(out, &(hci_html_opening){"From a log to a table", t->verdict, t->heading, t->good});
     if (t->solution) {
         hci_plot_solution_facts(t->solution, &p.facts);
+        p.is_cut = t->table_Nm > 0.0;
         p.ripple_is_unknown = !hci_tuning_knows_ripple(t->solution);
         show_before_and_after(&p, t->table_Nm);
         show_log(out, t);
