@@ -91,6 +91,27 @@ static hci_status find_machine(const cli_arguments *a, inputs *in, hci_note *not
     return status ? status : keep_apart(in->folder, a->value[OUT], "machine", note);
 }
 
+/* Those of the last diagnosis, whose list names their columns: where none of them has one that is named here,
+ * that is of the new ones. */
+static hci_status read_last(const char *list, inputs *in, hci_note *note)
+{
+    static const char OFFSET[] = "angle_offset";
+    const hci_column_names *given = in->reading.run.columns;
+    hci_column_name item[CLI_MOST_REPEATS + 1];
+    hci_column_names offsets = {item, 0};
+    hci_runs_options reading = {in->reading.run, in->options.progress, NULL};
+    hci_note why = {{0}};
+    const hci_status status = hci_runs_read(list, &reading, &in->runs, &why);
+    if (status != HCI_ERROR_INPUT) {
+        if (status) *note = why;
+        return status;
+    }
+    for (size_t k = 0; given && k < given->count && offsets.count <= CLI_MOST_REPEATS; ++k)
+        if (strncmp(given->item[k].name, OFFSET, strlen(OFFSET)) == 0) item[offsets.count++] = given->item[k];
+    reading.run.columns = &offsets;
+    return hci_runs_read(list, &reading, &in->runs, note);
+}
+
 /* The recordings of the last diagnosis, if there was one, and the new ones behind them. */
 static hci_status read_runs(const cli_arguments *a, inputs *in, hci_note *note)
 {
@@ -100,7 +121,7 @@ static hci_status read_runs(const cli_arguments *a, inputs *in, hci_note *note)
     if (!a->value[AGAIN]) return hci_runs_read(a->value[RUNS], &reading, &in->runs, note);
     if (snprintf(list, sizeof list, "%s/declared/runs.csv", a->value[AGAIN]) >= PATH_SIZE)
         return hci_note_set(note, HCI_ERROR_ARGUMENT, "--again: the path is too long");
-    hci_status status = hci_runs_read(list, &reading, &in->runs, note);
+    hci_status status = read_last(list, in, note);
     in->recordings_before = in->runs.count;
     if (!status) status = hci_runs_read(a->value[RUNS], &reading, &more, note);
     if (!status) status = hci_runs_join(&in->runs, &more, note);
