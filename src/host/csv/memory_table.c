@@ -41,7 +41,6 @@ static hci_status fill(const hci_csv_memory *from, hci_csv *csv, hci_note *note)
     memcpy(csv->path, from->name, strlen(from->name) + 1);
     csv->columns = from->columns;
     csv->records = 1 + from->rows;
-    csv->separator = ',';
     csv->number = from->value;
     write_header(from, csv);
     return hci_csv_check_header(csv, note);

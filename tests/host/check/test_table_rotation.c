@@ -198,6 +198,13 @@ static void test_a_coarse_angle(void)
     TEST_ASSERT_TRUE(compare().step_rad == 0.0);
 }
 
+/* Currents of a small motor are no smaller for that. */
+static void test_small_currents(void)
+{
+    play(0.3, 1e-4, 0.0, 1, 1);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0.3, compare().rotation_rad);
+}
+
 static void test_what_cannot_be_compared(void)
 {
     hci_table_rotation x;
@@ -222,6 +229,7 @@ int main(void)
     RUN_TEST(test_other_pole_pairs);
     RUN_TEST(test_noise_is_no_table);
     RUN_TEST(test_a_coarse_angle);
+    RUN_TEST(test_small_currents);
     RUN_TEST(test_what_cannot_be_compared);
     return UNITY_END();
 }

@@ -708,6 +708,16 @@ static void test_small_ripple_on_a_large_mean(void)
     TEST_ASSERT_TRUE(x > 54.0 + 1.0 && x - width_of("10000.0000") > 0.0);
 }
 
+/* Steps from 1e-4 on are written out. */
+static void test_small_steps(void)
+{
+    char text[HCI_SVG_NUMBER_SIZE];
+    hci_svg_tick_text(text, 3e-4, 1e-4, 5e-4);
+    TEST_ASSERT_EQUAL_STRING("0.0003", text);
+    hci_svg_tick_text(text, 3e-5, 1e-5, 5e-5);
+    TEST_ASSERT_EQUAL_STRING("3e-5", text);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -734,6 +744,7 @@ int main(void)
     RUN_TEST(test_many_turns);
     RUN_TEST(test_high_orders_keep_their_peaks);
     RUN_TEST(test_sizes);
+    RUN_TEST(test_small_steps);
     RUN_TEST(test_small_ripple_on_a_large_mean);
     return UNITY_END();
 }
