@@ -170,13 +170,26 @@ static bool has_more(const hci_attribution *a)
     return false;
 }
 
+/* What the runs without a current show by themselves, too, where those held out are worse for it. */
+static hci_status established_leave(hci_dataset *b, const hci_runs *runs, hci_attribution *a,
+                                    hci_diagnosis *d, hci_note *note)
+{
+    for (size_t r = 0; r < a->types; ++r)
+        a->verdict[r].established = false;
+    a->no_load_alone = false;
+    return withdraw(b, runs, a, d, true, note);
+}
+
 /* Beside something unknown effects are certain only where the runs held out are no worse for them. */
 static hci_status rising_leave(hci_dataset *b, const hci_runs *runs, hci_attribution *a, hci_diagnosis *d,
                                double resolution_Nm, hci_note *note)
 {
     hci_status status = HCI_OK;
     for (int all = 0; all < 2 && !status && has_more(a); ++all)
-        if (hci_held_out_rises(b, runs, d, resolution_Nm)) status = withdraw(b, runs, a, d, all, note);
+        if (hci_held_out_rises(b, runs, d, resolution_Nm) || hci_held_out_rises_both(b, runs, d))
+            status = withdraw(b, runs, a, d, all, note);
+    if (!status && is_established(a) && hci_held_out_rises_both(b, runs, d))
+        status = established_leave(b, runs, a, d, note);
     return status;
 }
 
@@ -284,8 +297,7 @@ static hci_status conclude(hci_dataset *b, const hci_machine_data *machine, cons
     hci_status status = HCI_OK;
     if (!a->unknown && d->verdict != HCI_DIAGNOSIS_COMPLETE)
         status = test(b, runs, a, d, resolution_Nm, note);
-    else if (a->unknown)
-        status = rising_leave(b, runs, a, d, resolution_Nm, note);
+    if (!status && a->unknown) status = rising_leave(b, runs, a, d, resolution_Nm, note);
     if (!status && a->unknown) status = denied_leave(b, runs, a, d, note);
     if (!status && is_against_voltages(b, machine, runs, d)) {
         status = withdraw(b, runs, a, d, true, note);

@@ -122,6 +122,30 @@ bool hci_held_out_rises(const hci_dataset *b, const hci_runs *runs, const hci_di
     return x.after > x.allowed && x.after > RISES * RISES * x.before;
 }
 
+/* The samples of a run. */
+static double rows_of(const hci_dataset *b, size_t run)
+{
+    double rows = 0.0;
+    for (size_t k = 0; k < b->samples.segment_count; ++k)
+        if (b->samples.segment[k].run == run) rows += (double)b->samples.segment[k].count;
+    return rows;
+}
+
+bool hci_held_out_rises_both(const hci_dataset *b, const hci_runs *runs, const hci_diagnosis *d)
+{
+    double mean = 0.0, ripple = 0.0; /* χ² by which they rise */
+    for (size_t k = 0, run = 0; k < runs->count && run < d->runs; ++k) {
+        const hci_run_errors *e = &d->run[run];
+        if (e->file != runs->run[k].name) continue;
+        ++run;
+        if (e->role == HCI_ROLE_FIT || !is_within(&b->samples.statistics[k], b)) continue;
+        const double weight = rows_of(b, k) / (e->noise_floor_Nm * e->noise_floor_Nm);
+        mean += weight * (pow(e->error_mean_after_Nm, 2.0) - pow(e->error_mean_before_Nm, 2.0));
+        ripple += weight * (pow(e->ripple_after_Nm, 2.0) - pow(e->ripple_before_Nm, 2.0));
+    }
+    return mean > BY_CHANCE && ripple > BY_CHANCE;
+}
+
 /* ---- which effects help ---- */
 
 /* Mean square over the runs held out within what was fitted, of the residual of a model, N²·m². residual_Nm:

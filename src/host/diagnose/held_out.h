@@ -24,6 +24,10 @@ hci_held_out_result hci_held_out_judge(const hci_dataset *dataset, const hci_run
 bool hci_held_out_rises(const hci_dataset *dataset, const hci_runs *runs, const hci_diagnosis *diagnosis,
                         double resolution_Nm);
 
+/* Whether both the means of these runs and the ripple about them are described worse than by the declared
+ * machine, by more than chance, however near to their noise they are. */
+bool hci_held_out_rises_both(const hci_dataset *b, const hci_runs *runs, const hci_diagnosis *d);
+
 /* Takes the effects out of a fitted model without which these runs are described as well. HCI_ERROR_MEMORY.
  */
 hci_status hci_held_out_keep(hci_dataset *dataset, const hci_runs *runs, hci_candidates *model,

@@ -4,6 +4,8 @@
 
 #define LITTLE  0.01 /* of the largest current, that is none */
 #define RISES   1.02 /* times the error before */
+#define DENIED  0.25 /* of the square that a torque takes away, by which it may raise others */
+#define BY_CHANCE 2.0 /* deviations */
 #define ONE     0.1  /* of a speed, by which others are the same */
 #define SHRINKS 1.05 /* times an amplitude, that a lag leaves of it at most */
 
@@ -28,18 +30,40 @@ static size_t run_of(const hci_runs *runs, const hci_run_errors *e)
     return run;
 }
 
+/* Squares of ripples, summed over runs, and by how much they rise in each. */
+typedef struct {
+    double before, after, noise, runs;
+    double rise, rise_square;
+} ripples;
+
+static void ripples_add(const hci_run_errors *e, ripples *x)
+{
+    const double before = e->ripple_before_Nm * e->ripple_before_Nm;
+    const double after = e->ripple_after_Nm * e->ripple_after_Nm;
+    x->before += before;
+    x->after += after;
+    x->noise += e->noise_floor_Nm * e->noise_floor_Nm;
+    x->runs += 1.0;
+    x->rise += after - before;
+    x->rise_square += (after - before) * (after - before);
+}
+
+/* Whether ripples rise by a part of what the torque takes away in other runs, and by more than by chance lie
+ * above falling as much: beside a large unknown ripple the one run rises and the other falls. */
+static bool rises_by_part(const ripples *loaded, const ripples *other)
+{
+    const double rise = loaded->rise / loaded->runs, fall = -other->rise / other->runs;
+    const double variance = fmax(0.0, loaded->rise_square / loaded->runs - rise * rise);
+    return fall > 0.0 && rise > DENIED * fall && rise + fall > BY_CHANCE * sqrt(variance / loaded->runs);
+}
+
 /* Whether the ripple that is left of the runs under load is larger than that of the declared machine. */
 static bool rises(const hci_dataset *b, const hci_runs *runs, const hci_diagnosis *d)
 {
-    double before = 0.0, after = 0.0, noise = 0.0;
-    for (size_t k = 0; k < d->runs; ++k) {
-        const hci_run_errors *e = &d->run[k];
-        if (!is_loaded(b, run_of(runs, e))) continue;
-        before += e->ripple_before_Nm * e->ripple_before_Nm;
-        after += e->ripple_after_Nm * e->ripple_after_Nm;
-        noise += e->noise_floor_Nm * e->noise_floor_Nm;
-    }
-    return after > RISES * RISES * fmax(before, noise);
+    ripples loaded = {0}, other = {0};
+    for (size_t k = 0; k < d->runs; ++k)
+        ripples_add(&d->run[k], is_loaded(b, run_of(runs, &d->run[k])) ? &loaded : &other);
+    return loaded.after > RISES * RISES * fmax(loaded.before, loaded.noise) || rises_by_part(&loaded, &other);
 }
 
 /* ---- at one speed ---- */

@@ -108,6 +108,27 @@ static void test_a_rise_is_seen(void)
     search_end();
 }
 
+/* Mean and ripple of 450 samples that are off by three tenths of their noise are χ² of 40 more each; where one
+ * of them alone rises, the other speaks for the effects. */
+static void test_a_rise_of_both_is_seen(void)
+{
+    hci_run_errors error = {.role = HCI_ROLE_HOLDOUT, .noise_floor_Nm = 0.01};
+    const hci_diagnosis of_one = {.run = &error, .runs = 1};
+    record(SAMPLES, &(point){60.0, 9.0, 0.0, 0.0, 0.0});
+    record(SAMPLES, &(point){60.0, 9.0, 0.0, 0.0, 0.0});
+    role[1] = HCI_ROLE_HOLDOUT;
+    search_start();
+    error.file = run[1].name;
+    error.error_mean_after_Nm = error.ripple_after_Nm = 0.003;
+    TEST_ASSERT_TRUE(hci_held_out_rises_both(&dataset, &runs, &of_one));
+    error.ripple_before_Nm = 0.003;
+    TEST_ASSERT_FALSE(hci_held_out_rises_both(&dataset, &runs, &of_one));
+    error.ripple_before_Nm = 0.0;
+    error.error_mean_before_Nm = 0.0029;
+    TEST_ASSERT_FALSE(hci_held_out_rises_both(&dataset, &runs, &of_one));
+    search_end();
+}
+
 /* Nor is a ripple that is three times the noise of a run and most of what it was, such as of a lag in place
  * of a delay; noise of slopes is known by half. */
 static void test_ripple_of_fitted_runs_is_judged(void)
@@ -251,6 +272,7 @@ int main(void)
     RUN_TEST(test_small_effects_that_predict_stay);
     RUN_TEST(test_means_of_runs_are_judged);
     RUN_TEST(test_a_rise_is_seen);
+    RUN_TEST(test_a_rise_of_both_is_seen);
     RUN_TEST(test_ripple_of_fitted_runs_is_judged);
     RUN_TEST(test_faint_effects_leave_as_a_pair);
     RUN_TEST(test_what_helps_is_kept);

@@ -355,6 +355,8 @@ static bool run_reduce(const reduction *x)
     if (done) x->samples->statistics[x->index].creeps = any_creeps(x, turns, count);
     if (done && x->run->count <= HCI_LONGEST_SEGMENT)
         done = open_segment(x, 0, x->run->count);
+    else if (done && hci_turns_swing(x->run, x->statistics, turns, count))
+        done = open_segments(x, 0, x->run->count);
     else
         done = done && turns_reduce(x, turns, count);
     hci_memory_free(turns);

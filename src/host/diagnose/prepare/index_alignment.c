@@ -52,16 +52,47 @@ static size_t samples_of(const hci_binned_samples *samples, size_t run)
     return count;
 }
 
-/* Friction makes a mean that depends on the direction; order 0 is left out. */
+/* Mean residuals of the samples that turn one way and the other, or stand. */
+typedef struct {
+    double mean[3], count[3];
+} way_means;
+
+static size_t way_of(const hci_binned_sample *x)
+{
+    return x->reading.speed_rad_per_s > 0.0 ? 2 : x->reading.speed_rad_per_s < 0.0 ? 0 : 1;
+}
+
+static bool is_in_part(const part *p, double at, double all)
+{
+    return at >= p->from * all && at < p->until * all;
+}
+
+static way_means way_means_of(const hci_binned_samples *samples, const part *p, const double *residual)
+{
+    const double all = (double)samples_of(samples, p->run);
+    way_means m = {{0.0}, {0.0}};
+    double at = 0.0;
+    for (const hci_segment *s = NULL; (s = hci_segment_next(samples, p->run, s)) != NULL;)
+        for (size_t j = s->first; j < s->first + s->count; ++j, at += 1.0) {
+            const size_t way = way_of(&samples->sample[j]);
+            if (is_in_part(p, at, all)) m.mean[way] += (residual[j] - m.mean[way]) / (m.count[way] += 1.0);
+        }
+    return m;
+}
+
+/* Friction makes a mean that depends on the direction: it leaves, since over other than whole turns it has a
+ * part in all orders. */
 static void map_make(const hci_binned_samples *samples, const part *p, const double *residual, map *m)
 {
     const double all = (double)samples_of(samples, p->run);
+    const way_means means = way_means_of(samples, p, residual);
     double count = 0.0, at = 0.0;
     memset(m, 0, sizeof *m);
     for (const hci_segment *s = NULL; (s = hci_segment_next(samples, p->run, s)) != NULL;)
         for (size_t j = s->first; j < s->first + s->count; ++j, at += 1.0) {
-            if (at < p->from * all || at >= p->until * all) continue;
-            map_add(m, samples->sample[j].reading.theta_m_rad, residual[j]);
+            const hci_binned_sample *x = &samples->sample[j];
+            if (!is_in_part(p, at, all)) continue;
+            map_add(m, x->reading.theta_m_rad, residual[j] - means.mean[way_of(x)]);
             count += 1.0;
         }
     for (int n = 0; n < ORDERS && count > 0.0; ++n) {

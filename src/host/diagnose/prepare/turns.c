@@ -7,6 +7,7 @@
 #include "host/recording/rotor_frame.h"
 
 #define STEADY   0.02 /* change of current and speed within a mean, as a share of their largest */
+#define SWINGS   0.02 /* change of current in a part of a turn, as a share of the largest of the run */
 #define CHANCE   4.0  /* or of current, standard deviations of what its noise makes of two means */
 #define STEADY_K 1.0  /* and of temperature, in kelvin */
 #define STEEP    6.0  /* standard errors of a line along the turns, and … */
@@ -14,7 +15,7 @@
 #define EVEN     0.5  /* change of speed within a turn of a free shaft, as a share of the largest */
 #define NEARLY   0.02 /* of a turn: turning back by more ends a turn, falling short by less does not count */
 
-enum { LEAST_OF_LINE = 6 }; /* turns */
+enum { LEAST_OF_LINE = 6 /* turns */, OFTEN = 4 /* one in so many */ };
 
 double hci_turn_rad(const hci_run *run, int pole_pairs)
 {
@@ -31,10 +32,19 @@ static double direction_of_turn(const hci_run *r, const hci_turn *x)
     return hci_turn_direction(r, x->first, x->first + x->count - 1);
 }
 
+static void part_add(const hci_dq *i, hci_turn_part *part)
+{
+    const double w = 1.0 / (part->count += 1.0);
+    part->d += w * (i->d - part->d);
+    part->q += w * (i->q - part->q);
+}
+
 static void sample_add(const hci_run *r, int pole_pairs, size_t k, hci_turn *sum)
 {
     const hci_dq i = hci_run_dq(r, pole_pairs, k),
                  last = hci_run_dq(r, pole_pairs, k > sum->first ? k - 1 : k);
+    const double turns = r->theta_m_rad[k] / hci_turn_rad(r, pole_pairs);
+    part_add(&i, &sum->part[(size_t)((turns - floor(turns)) * HCI_TURN_PARTS) % HCI_TURN_PARTS]);
     sum->noise_A2 += 0.5 * ((i.d - last.d) * (i.d - last.d) + (i.q - last.q) * (i.q - last.q));
     sum->d += i.d;
     sum->q += i.q;
@@ -91,6 +101,34 @@ bool hci_turns_alike(const hci_run *run, const hci_run_statistics *statistics, c
            direction_of_turn(run, a) == direction_of_turn(run, b) && are_currents_alike(statistics, a, b) &&
            fabs(a->speed - b->speed) <= STEADY * most_speed + 1e-12 &&
            fabs(a->temperature - b->temperature) < STEADY_K;
+}
+
+/* Whether the current of each part is the same, but for noise. */
+static bool are_parts_alike(const hci_run_statistics *statistics, const hci_turn *a, const hci_turn *b)
+{
+    for (size_t k = 0; k < HCI_TURN_PARTS; ++k) {
+        const hci_turn_part *x = &a->part[k], *y = &b->part[k];
+        if (!(x->count > 1.0 && y->count > 1.0)) continue;
+        const double by_chance_A = CHANCE * sqrt(a->noise_A2 / x->count + b->noise_A2 / y->count);
+        const double change_A = hypot(x->d - y->d, x->q - y->q);
+        if (change_A > fmax(SWINGS * statistics->current_A, by_chance_A) + 1e-12) return false;
+    }
+    return true;
+}
+
+/* In a holding test the current is what is measured, and is not smoothed. */
+bool hci_turns_swing(const hci_run *run, const hci_run_statistics *statistics, const hci_turn *turns,
+                     size_t count)
+{
+    size_t asked = 0, swinging = 0, first = 0;
+    if (run->torque_source != HCI_TORQUE_MEASURED || statistics->no_current) return false;
+    for (size_t k = 1; k < count; ++k) {
+        const bool alike = hci_turns_alike(run, statistics, &turns[first], &turns[k]);
+        asked += alike;
+        swinging += alike && !are_parts_alike(statistics, &turns[first], &turns[k]);
+        first = alike ? first : k;
+    }
+    return swinging * OFTEN > asked;
 }
 
 bool hci_turns_creep(const hci_run_statistics *statistics, const hci_turn *turns, size_t count)

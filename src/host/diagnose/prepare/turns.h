@@ -7,10 +7,19 @@
 
 #include "host/diagnose/prepare/run_statistics.h"
 
+enum { HCI_TURN_PARTS = 8 };
+
+/* The current in a part of a turn. */
+typedef struct {
+    double d, q;  /* A */
+    double count; /* samples */
+} hci_turn_part;
+
 /* Samples of one turn, and their means. */
 typedef struct {
     size_t first, count;
     double d, q;     /* A */
+    hci_turn_part part[HCI_TURN_PARTS]; /* evenly, from the zero of the angle on */
     double noise_A2; /* mean square of their noise, from neighbouring samples */
     double speed;    /* rad/s; 0: not recorded */
     double least_speed, most_speed;
@@ -34,6 +43,12 @@ bool hci_turns_find(const hci_run *run, int pole_pairs, hci_turn **turns, size_t
  * themselves, since a mean is spread evenly over the time of a turn and accelerations are of time. */
 bool hci_turns_alike(const hci_run *run, const hci_run_statistics *statistics, const hci_turn *a,
                      const hci_turn *b);
+
+/* Whether within turns that are alike the current is often another one, part by part, than in the first: by
+ * 2 % of the run's and more than chance in one of four, as where it follows a load that does not turn with
+ * the shaft. A mean of few turns has lost that. O(count). */
+bool hci_turns_swing(const hci_run *run, const hci_run_statistics *statistics, const hci_turn *turns,
+                     size_t count);
 
 /* Whether the mean torque of turns that are alike rises or falls from the first to the last: by a line that
  * is six of its standard errors steep, and by a fifth of how much single samples scatter. Less than six turns

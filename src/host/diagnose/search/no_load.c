@@ -5,6 +5,7 @@
 #include "host/diagnose/candidates/empirical_term.h"
 #include "host/diagnose/search/backward.h"
 #include "host/diagnose/search/belief.h"
+#include "host/diagnose/search/rivals.h"
 #include "host/diagnose/search/rounds.h"
 #include "host/diagnose/search/settle.h"
 #include "host/diagnose/search/slip.h"
@@ -114,11 +115,26 @@ static void unproven_leave(const hci_regression *e, hci_candidates *shown)
             hci_candidates_remove_type(shown, shown->candidate[k].type);
 }
 
+/* What they do not tell from another effect, such as friction on ramps from the torque that accelerates the
+ * rotor, is left to all runs. */
+static hci_status untold_leave(hci_search *s, hci_fitted_model *model, hci_note *note)
+{
+    bool told[HCI_MOST_TYPES] = {false};
+    hci_status status = hci_search_renew(s, model, note); /* judging has found the noise anew */
+    for (size_t r = 0; r < hci_candidate_types() && !status; ++r)
+        if (hci_candidates_have(&model->candidates, hci_candidate_type(r)))
+            status = hci_search_is_told(s, model, hci_candidate_type(r), &told[r], note);
+    for (size_t r = 0; r < hci_candidate_types() && !status; ++r)
+        if (!told[r]) hci_candidates_remove_type(&model->candidates, hci_candidate_type(r));
+    return status;
+}
+
 static hci_status of_runs(hci_search *s, hci_attribution *a, hci_note *note)
 {
     bool found = false;
     s->no_current = true;
     hci_status status = effects_find(s, &a->model, &found, note);
+    if (!status && found) status = untold_leave(s, &a->model, note);
     s->no_current = false;
     if (!status && found) {
         unproven_leave(s->regression, &a->model.candidates);

@@ -12,6 +12,8 @@
 #define PROMISED_SHARE 0.6  /* what a rival must promise of the gain of the effect … */
 #define PROMISED_LESS  20.0 /* … less so much: promises are of a linearised problem */
 
+enum { VALUES_MORE = 2 }; /* of a rival that may be what recordings show */
+
 /* Other effects in place of one that is in the model, one after the other. */
 typedef struct {
     hci_search *search;
@@ -164,6 +166,12 @@ static hci_status is_as_good(const rivalry *r, const hci_fitted_model *rival, bo
     return status;
 }
 
+/* Whether an effect may stand in the place of another one under its own name. */
+static bool is_of_its_own(const hci_effect_type *type, const hci_effect_type *other)
+{
+    return other != &hci_empirical_type && !other->seen_as && !is_called(type, other);
+}
+
 hci_status hci_search_rivals(hci_search *s, const hci_effect_type *type, hci_attribution *a, hci_note *note)
 {
     rivalry r;
@@ -174,12 +182,37 @@ hci_status hci_search_rivals(hci_search *s, const hci_effect_type *type, hci_att
     while (!status && !hci_search_is_over(s)) {
         status = rivalry_next(&r, &rival, &with, note);
         if (status || with == hci_candidate_types()) break;
-        const bool is_empirical = hci_candidate_type(with) == &hci_empirical_type;
-        bool equal = !is_empirical && !hci_candidate_type(with)->seen_as &&
-                     !is_called(type, hci_candidate_type(with)) &&
+        bool equal = is_of_its_own(type, hci_candidate_type(with)) &&
                      rival.fit.score < a->model.fit.score + EQUAL;
         if (equal) status = is_as_good(&r, &rival, &equal, note);
         if (!status && equal) rival_mark(&r, with, &rival, a);
+        hci_fitted_model_release(&rival);
+    }
+    rivalry_end(&r);
+    return status;
+}
+
+/* Whether a rival of hardly more values describes the recordings as well: what it costs in values does not
+ * make it unlikely, as of a friction whose law comes in as a whole. */
+static bool describes_as_well(const hci_fitted_model *model, const hci_fitted_model *rival)
+{
+    return isfinite(rival->fit.score) && rival->fit.square < model->fit.square + HCI_DECISIVE &&
+           hci_candidates_terms_in(&rival->candidates) <=
+               hci_candidates_terms_in(&model->candidates) + VALUES_MORE;
+}
+
+hci_status hci_search_is_told(hci_search *s, const hci_fitted_model *model, const hci_effect_type *type,
+                              bool *told, hci_note *note)
+{
+    rivalry r;
+    hci_fitted_model rival = {0};
+    size_t with = 0;
+    hci_status status = rivalry_start(s, model, type, &r, note);
+    *told = true;
+    while (!status && *told) {
+        status = rivalry_next(&r, &rival, &with, note);
+        if (status || with == hci_candidate_types()) break;
+        *told = !is_of_its_own(type, hci_candidate_type(with)) || !describes_as_well(model, &rival);
         hci_fitted_model_release(&rival);
     }
     rivalry_end(&r);

@@ -17,4 +17,9 @@ hci_status hci_search_instead(hci_search *search, const hci_fitted_model *model,
                               const hci_effect_type *in_place, const hci_effect_type *type,
                               hci_fitted_model *instead, hci_note *note);
 
+/* Whether the runs in use tell an effect from every other one in its place: none of them fits nearly as well.
+ * HCI_ERROR_MEMORY. */
+hci_status hci_search_is_told(hci_search *search, const hci_fitted_model *model, const hci_effect_type *type,
+                              bool *told, hci_note *note);
+
 #endif

@@ -252,17 +252,37 @@ static bool is_sample(const hci_binned_sample *c, size_t k)
            c->raw.i_abc[1] == run.i_A[3 * k + 1] && c->time_s == run.time_s[k];
 }
 
-/* Neither speed nor current change for a moment only: nothing is averaged, and parts of it stand for all. */
+/* The current swings so often in a turn. */
+static void swing(double times)
+{
+    turn_steadily(20.0, 800.0, 50.0);
+    for (size_t k = 0; k < run.count; ++k)
+        rec_phases(-1.0, 3.0 + 0.3 * sin(times * run.theta_m_rad[k]), P * run.theta_m_rad[k],
+                   run.i_A + 3 * k);
+}
+
+/* With the turn it is the same at each angle. */
+static void test_a_current_that_swings_with_the_turn_has_a_mean(void)
+{
+    swing(2.0);
+    reduce();
+    TEST_ASSERT_EQUAL_UINT64(1, binned.segment_count);
+    TEST_ASSERT_EQUAL_UINT64(19, binned.segment[0].turns); /* the last one is cut off */
+}
+
+/* Neither speed nor current change for a moment only, or the current swings beside the turn, nearly with it
+ * too: nothing is averaged, and parts of it stand for all. */
 static void test_an_unsteady_run_stays(void)
 {
-    for (int what = 0; what < 2; ++what) {
+    for (int what = 0; what < 4; ++what) {
         size_t at = 0;
         turn_steadily(100.0, 800.0, 50.0);
-        for (size_t k = 0; k < run.count; ++k) {
+        for (size_t k = 0; k < run.count && what < 2; ++k) {
             const double share = (double)k / (double)run.count;
             if (what == 0) run.speed_rad_per_s[k] *= 1.0 + 4.0 * share;
             if (what == 1) rec_phases(-1.0, 3.0 + 12.0 * share, P * run.theta_m_rad[k], run.i_A + 3 * k);
         }
+        if (what > 1) swing(what == 2 ? 0.37 : 1.01);
         reduce();
         TEST_ASSERT_TRUE(binned.segment_count > 1 && binned.count <= run.count);
         for (size_t s = 0; s < binned.segment_count; ++s) {
@@ -340,6 +360,7 @@ int main(void)
     RUN_TEST(test_turns_without_current);
     RUN_TEST(test_turns_of_a_current_that_is_noise_and_an_offset);
     RUN_TEST(test_holding_there_and_back);
+    RUN_TEST(test_a_current_that_swings_with_the_turn_has_a_mean);
     RUN_TEST(test_an_unsteady_run_stays);
     RUN_TEST(test_short_runs);
     RUN_TEST(test_an_uneven_free_shaft_stays);

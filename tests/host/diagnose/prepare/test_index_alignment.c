@@ -111,6 +111,25 @@ static void test_what_does_not_tell(void)
         TEST_ASSERT_EQUAL_DOUBLE(0.0, offset_rad[r]);
 }
 
+/* One and a half turns there and back: friction has a part in all orders, and another one each way. */
+static void test_friction_is_no_map(void)
+{
+    for (size_t r = 0; r < RUNS; ++r) {
+        statistics[r].turns = 1.5;
+        for (size_t k = 0; k < SAMPLES; ++k) {
+            sample[r * SAMPLES + k].reading.theta_m_rad = 3.0 * REF_PI * (double)k / SAMPLES;
+            sample[r * SAMPLES + k].reading.speed_rad_per_s = r == 2 ? -1.0 : 1.0;
+        }
+        for (size_t k = 0; k < SAMPLES; ++k)
+            residual_Nm[r * SAMPLES + k] =
+                0.006 * sin(12.0 * sample[r * SAMPLES + k].reading.theta_m_rad + 0.6) +
+                (r == 2 ? 0.02 : -0.02);
+    }
+    TEST_ASSERT_EQUAL_INT(HCI_OK, find());
+    for (size_t r = 0; r < RUNS; ++r)
+        TEST_ASSERT_EQUAL_DOUBLE(0.0, offset_rad[r]);
+}
+
 /* A run with current, of half a turn, or whose turn is not known, is not compared; a holding test is. */
 static void test_which_runs_are_compared(void)
 {
@@ -164,6 +183,7 @@ int main(void)
     RUN_TEST(test_a_turned_map_is_found);
     RUN_TEST(test_noise_moves_the_angle_by_what_it_must);
     RUN_TEST(test_what_does_not_tell);
+    RUN_TEST(test_friction_is_no_map);
     RUN_TEST(test_which_runs_are_compared);
     RUN_TEST(test_angle_and_currents_are_turned_back);
     RUN_TEST(test_memory_is_out);

@@ -63,6 +63,34 @@ static void test_they_show_their_effects(void)
     TEST_ASSERT_DOUBLE_WITHIN(0.002, 0.05, term_in(&a.model.candidates, "cogging", "sine", 6.0)->value);
 }
 
+/* A second from 5 to 65 rad/s, there and back, against friction: the torque that accelerates an inertia is
+ * the same. */
+static void record_ramps(void)
+{
+    for (int back = 0; back < 2; ++back) {
+        hci_run *r = add_run(N);
+        const double sign = back ? -1.0 : 1.0;
+        for (size_t k = 0; k < N; ++k) {
+            const double t = (double)k / N;
+            r->time_s[k] = t;
+            r->speed_rad_per_s[k] = sign * (5.0 + 60.0 * t);
+            r->theta_m_rad[k] = sign * (5.0 * t + 30.0 * t * t);
+            r->torque_Nm[k] =
+                0.05 * sin(6.0 * P * r->theta_m_rad[k]) - sign * 0.04 + NOISE_NM * ref_normal(&seed);
+        }
+    }
+}
+
+static void test_what_they_do_not_tell_is_left_to_all(void)
+{
+    record_ramps();
+    record_loads(3);
+    find();
+    TEST_ASSERT_TRUE(has("cogging"));
+    TEST_ASSERT_FALSE(has("friction") || has("rotor_inertia"));
+    TEST_ASSERT_EQUAL_UINT64(1, hci_candidates_types_in(&a.no_load.candidates));
+}
+
 /* Something in them that no effect explains. */
 static void test_what_is_no_noise_shows_nothing(void)
 {
@@ -120,6 +148,9 @@ static void test_whatever_is_wrong_under_load(void)
 {
     record_idle(0.0);
     record_loads(4);
+    for (size_t r = 4; r < 8; ++r)
+        for (size_t k = 0; k < N; ++k)
+            run[r].torque_Nm[k] += 0.05 * sin(6.0 * P * run[r].theta_m_rad[k]);
     TEST_ASSERT_EQUAL_INT(HCI_NOT_REACHED, diagnose(NULL));
     TEST_ASSERT_EQUAL_INT(HCI_DIAGNOSIS_PARTLY, diagnosis.verdict);
     TEST_ASSERT_EQUAL_INT(HCI_FINDING_ADDED, found("friction")->verdict);
@@ -182,6 +213,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_they_show_their_effects);
+    RUN_TEST(test_what_they_do_not_tell_is_left_to_all);
     RUN_TEST(test_what_is_no_noise_shows_nothing);
     RUN_TEST(test_as_many_values_as_runs_prove_nothing);
     RUN_TEST(test_what_they_show_stays);
