@@ -14,9 +14,9 @@
 #define UNUSED      1e-13 /* share of the largest coordinate, below which a component carries nothing */
 #define DOUBLINGS   5
 
-/* A current that needs more than this of a torque that is sampled has a kink, and no order would be enough.
- */
-#define MOST_SAMPLED_ORDER 512.0
+/* A current that needs more components than this of a torque that is sampled has a kink, and no order would
+ * be enough. */
+#define MOST_SAMPLED 512.0
 
 typedef struct {
     const hci_task *task;
@@ -102,7 +102,7 @@ static hci_status find_upper(search *s, double *below, double *top, bool *found,
         *found = !status && is_good_enough(s, &s->best);
         if (status || *found) return status;
         if (doubling == DOUBLINGS || is_all(s->task, *top) ||
-            (s->task->higher && 2.0 * *top > MOST_SAMPLED_ORDER))
+            (s->task->higher && 2.0 * 2.0 * *top * (double)s->task->period_turns > MOST_SAMPLED))
             return HCI_OK;
         *below = *top;
         *top *= 2.0;

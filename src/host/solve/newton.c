@@ -16,8 +16,9 @@
 
 enum {
     MOST_STEPS = 60,
-    PATIENCE_FREE = 25, /* steps without coming nearer to the target after which it ends */
-    PATIENCE_FEW = 8    /* the same for a choice of few components, which is never exact and need not rest */
+    MOST_AT_FIRST = 500, /* waves of the current that it begins with */
+    PATIENCE_FREE = 25,  /* steps without coming nearer to the target after which it ends */
+    PATIENCE_FEW = 8     /* the same for a choice of few components, which is never exact and need not rest */
 };
 
 #define CONVERGED  1e-9  /* change of the current as a share of it */
@@ -87,6 +88,13 @@ static hci_status current_of(const hci_task *t, const hci_answer *a, hci_wave_li
 
 /* ---- where to begin ---- */
 
+/* Currents with kinks have no end of orders, and each costs as much: to begin with, the largest will do. */
+static void keep_largest(hci_wave_list *i)
+{
+    for (double share = 10.0 * NEGLIGIBLE; i->count > MOST_AT_FIRST && share < 0.1; share *= 10.0)
+        i->count = hci_waves_join(i->wave, i->count, share);
+}
+
 /* The shortest currents angle by angle; none at angles where there are none. */
 static hci_status begin(newton *n, hci_note *note)
 {
@@ -99,6 +107,7 @@ static hci_status begin(newton *n, hci_note *note)
     start.held = NULL;
     status = hci_pointwise_answer(&start, &a, &ignored, note);
     if (!status) status = current_of(&start, &a, &n->current, note);
+    if (!status) keep_largest(&n->current);
     hci_answer_release(&a);
     return status;
 }
