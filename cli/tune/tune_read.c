@@ -219,9 +219,38 @@ static bool counts_pole_pairs(const cli_tuning *t, const hci_check *c)
     return is_told;
 }
 
+/* Where it is certain that something is read wrongly, and not what. */
+static void judge_ambiguous(cli_tuning *t, const hci_check *c)
+{
+    if (t->has_slip || c->verdict != HCI_CHECK_AMBIGUOUS ||
+        c->probability_as_declared > 1.0 - HCI_CHECK_FOUND)
+        return;
+    t->has_slip = true;
+    snprintf(t->slip, sizeof t->slip, "Something is read wrongly (%.3g %%)%s%s, so nothing was solved",
+             100.0 * (1.0 - c->probability_as_declared), c->findings > 0 ? ", perhaps " : "",
+             c->findings > 0 ? c->finding[0].words : "");
+}
+
+/* Of measured and calculated torque, or its inverse: beyond it no magnet and no sensor is meant. */
+#define ANOTHER_TORQUE 2.5
+
+static void judge_torque(cli_tuning *t, const hci_check_evidence *e)
+{
+    if (t->has_slip || strcmp(e->name, "torque_size") != 0) return;
+    if (fabs(log(fabs(e->declared / e->expected))) < log(ANOTHER_TORQUE)) return;
+    t->has_slip = true;
+    snprintf(t->slip, sizeof t->slip,
+             "The torque is %.3g times what the currents make with the constant of the sheet (the other side "
+             "of a gear, another unit, another motor), so nothing was solved",
+             e->declared / e->expected);
+}
+
 static void judge_check(cli_tuning *t, const hci_check *c)
 {
     t->counts_pole_pairs = counts_pole_pairs(t, c);
+    for (size_t k = 0; k < c->evidences && c->verdict != HCI_CHECK_CONSISTENT; ++k)
+        judge_torque(t, &c->evidence[k]);
+    judge_ambiguous(t, c);
     for (size_t k = 0; k < c->evidences && c->verdict == HCI_CHECK_NOT_UNDERSTOOD; ++k)
         if (c->evidence[k].state == HCI_CHECK_UNMENDED)
             *(is_of_angle(c->evidence[k].name) ? &t->has_misfit : &t->has_doubt) = true;

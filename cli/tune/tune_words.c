@@ -115,6 +115,41 @@ static size_t loads_of(const cli_tuning *t)
     return loads;
 }
 
+/* Of two mean speeds, in one direction, that tell nothing that one does not. */
+#define ONE_SPEED 1.2
+
+/* Whether all that a torque sensor has measured in time is of one speed: one that reads late turns the orders
+ * by an angle that is not told then. */
+static bool has_one_speed(const cli_tuning *t)
+{
+    double least = HUGE_VAL, most = -HUGE_VAL;
+    for (size_t k = 0; k < t->runs.count; ++k) {
+        const hci_run *r = &t->runs.run[k];
+        double mean = 0.0;
+        if (r->torque_source != HCI_TORQUE_MEASURED || !r->time_s || !r->speed_rad_per_s) continue;
+        for (size_t n = 0; n < r->count; ++n)
+            mean += r->speed_rad_per_s[n] / (double)r->count;
+        least = fmin(least, mean);
+        most = fmax(most, mean);
+    }
+    return least * most > 0.0 && fmax(fabs(least), fabs(most)) < ONE_SPEED * fmin(fabs(least), fabs(most));
+}
+
+/* The bound of recordings at one speed. */
+static bool hangs_on_lag(const cli_tuning *t)
+{
+    return t->is_solved && t->solution.expected.state == HCI_RIPPLE_KNOWN && has_one_speed(t);
+}
+
+static void say_lag(cli_tuning *t)
+{
+    hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
+                   "Whether the torque sensor reads late: every recording with it has one speed and one "
+                   "direction, and a delay turns the orders by an angle that the bound leaves out.");
+    hci_tuning_say(&t->tuning, HCI_TUNING_NEXT,
+                   "One of the loads turned back, or at another speed, which tells a delay of the sensor.");
+}
+
 /* What the bench at hand can do first. */
 static void say_next_on_machine(cli_tuning *t)
 {
@@ -213,11 +248,11 @@ static void say_next_correction(cli_tuning *t)
             "of the phases. Voltages with open terminals, beside the angle, tell most of it "
             "(docs/check.md).");
     if (t->has_slip)
-        hci_tuning_say(r, HCI_TUNING_NEXT,
-                       "Correct what `slip` names (in the log, by its header or by --column, or in %s), and "
-                       "begin again with a "
-                       "new --out.",
-                       t->machine);
+        hci_tuning_say(
+            r, HCI_TUNING_NEXT,
+            "Correct what the first line and `slip` name (in the log, by its header or by --column, or in "
+            "%s), and begin again with a new --out.",
+            t->machine);
 }
 
 static void say_next(cli_tuning *t)
@@ -370,6 +405,9 @@ static void add_to_heading(cli_tuning *t)
 {
     char *heading = t->tuning.heading;
     const size_t size = sizeof t->tuning.heading;
+    if (hangs_on_lag(t))
+        snprintf(heading + strlen(heading), size - strlen(heading),
+                 "; unless the torque sensor reads late, which one speed does not tell");
     if (is_off_sheet(t))
         snprintf(heading + strlen(heading), size - strlen(heading),
                  "; the measured back-EMF is %.3g times that of the data sheet", t->emf_to_sheet);
@@ -436,6 +474,7 @@ void cli_tune_conclude(cli_tuning *t)
     r->log = t->runs.count > 0 ? &t->runs.run[t->shown] : NULL;
     say_cogging(t);
     say_unknown(t);
+    if (hangs_on_lag(t)) say_lag(t);
     say_next(t);
     r->good = t->is_emitted && !t->diagnosed && !r->solved && !t->has_doubt;
     snprintf(r->verdict, sizeof r->verdict, "%s", verdict_of(t));

@@ -55,7 +55,7 @@ run() {
 # What was found is on standard output, a remark or an error on standard error; with an error standard output is empty, or has it as JSON.
 streams_are_kept() {
     if [ "$code" -le 1 ]; then
-        ! grep -v '^hci-solve: note: ' "$work/stderr" >"$work/strays" || fail "more than remarks on standard error"
+        ! grep -Ev '^hci-solve: (.\[[0-9;]*m)?note:' "$work/stderr" >"$work/strays" || fail "more than remarks on standard error"
     elif [ -s "$work/stdout" ]; then
         grep -q '^	"error":' "$work/stdout" || fail "an error has standard output"
     fi

@@ -98,8 +98,8 @@ static void test_moments_are_the_slope(void)
     }
 }
 
-/* Without current nothing that grows with it can show; in a holding test the current answers to the torque.
- */
+/* Without current nothing that grows with it can show; in a holding test the current answers to the torque, and
+ * under a steady load harmonics of the back-EMF alone show. */
 static void test_what_a_run_cannot_show(void)
 {
     static const char *const OF_CURRENT[][2] = {
@@ -114,7 +114,7 @@ static void test_what_a_run_cannot_show(void)
         model_add("cogging", "sine", NULL, 6.0);
         linearise(&here);
         for (size_t c = 0; c < 5; ++c)
-            TEST_ASSERT_EQUAL(c == 4, here.gram[c * 5 + c] > 0.0);
+            TEST_ASSERT_EQUAL(c == 4 || (c == 0 && holding), here.gram[c * 5 + c] > 0.0);
         tearDown();
         setUp();
     }
