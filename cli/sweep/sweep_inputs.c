@@ -238,19 +238,20 @@ static hci_grid_axis axis_of(const cli_list *list)
 
 static void fill_request(const cli_arguments *a, size_t points, cli_sweep_inputs *in)
 {
-    in->request = (hci_grid_request){.kind = a->given[SWEEP_TRADE_OFF]  ? HCI_GRID_TRADE_OFF
-                                             : a->given[SWEEP_ENVELOPE] ? HCI_GRID_ENVELOPE
-                                                                        : HCI_GRID_MAP,
-                                     .machine = &in->machine,
-                                     .options = &in->options,
-                                     .ripple_percent = fmax(cli_number_or(a, SWEEP_RIPPLE, 1.0), HCI_GRID_SMOOTH),
-                                     .torque_Nm = axis_of(&in->torque_Nm),
-                                     .speed_rad_per_s = axis_of(&in->speed_rad_per_s),
-                                     .link_V = axis_of(&in->link_V),
-                                     .limit_current_A = axis_of(&in->current_A),
-                                     .limit_copper = axis_of(&in->copper),
-                                     .point = in->point,
-                                     .point_count = points};
+    in->request =
+        (hci_grid_request){.kind = a->given[SWEEP_TRADE_OFF]  ? HCI_GRID_TRADE_OFF
+                                   : a->given[SWEEP_ENVELOPE] ? HCI_GRID_ENVELOPE
+                                                              : HCI_GRID_MAP,
+                           .machine = &in->machine,
+                           .options = &in->options,
+                           .ripple_percent = fmax(cli_number_or(a, SWEEP_RIPPLE, 1.0), HCI_GRID_SMOOTH),
+                           .torque_Nm = axis_of(&in->torque_Nm),
+                           .speed_rad_per_s = axis_of(&in->speed_rad_per_s),
+                           .link_V = axis_of(&in->link_V),
+                           .limit_current_A = axis_of(&in->current_A),
+                           .limit_copper = axis_of(&in->copper),
+                           .point = in->point,
+                           .point_count = points};
 }
 
 hci_status cli_sweep_read(const cli_option *table, const cli_arguments *a, cli_sweep_inputs *in,

@@ -236,7 +236,7 @@ static void judge_ambiguous(cli_tuning *t, const hci_check *c)
 
 static void judge_torque(cli_tuning *t, const hci_check_evidence *e)
 {
-    if (t->has_slip || strcmp(e->name, "torque_size") != 0) return;
+    if (t->has_slip || e->state == HCI_CHECK_AGREES || strcmp(e->name, "torque_size") != 0) return;
     if (fabs(log(fabs(e->declared / e->expected))) < log(ANOTHER_TORQUE)) return;
     t->has_slip = true;
     snprintf(t->slip, sizeof t->slip,

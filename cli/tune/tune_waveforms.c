@@ -163,35 +163,58 @@ static void say_size_alone(cli_tuning *t, size_t k)
         cli_tune_name_of(t, k));
 }
 
-/* Puts it into the machine in place of what the data sheet gave. */
-static hci_status take_waveform(cli_tuning *t, size_t k, const hci_waveform *w, bool is_far, hci_note *note)
+/* "--max-order" of a back-EMF: 1 where only its size is taken. */
+static void add_max_order(cli_tuning *t, size_t k, bool is_emf, bool is_far, cli_tune_line *c)
 {
-    const bool is_emf = w->quantity == HCI_WAVEFORM_BACK_EMF;
-    const hci_run *r = &t->runs.run[k];
-    const bool holds = !is_emf && r->torque_source == HCI_TORQUE_HOLDING;
+    t->emf_is_size_alone = t->emf_is_size_alone || (is_emf && has_other_zero(t, &t->runs.run[k]));
+    if (is_emf && t->emf_is_size_alone) {
+        cli_tune_add_option(c, "max-order", "1");
+        say_size_alone(t, k);
+    } else if (is_far) {
+        cli_tune_add_option(c, "max-order", "60");
+    }
+}
+
+/* The numbers of a line, which has but pointers to them. */
+typedef struct {
+    char pole_pairs[16], constant[32], inertia[32];
+} line_numbers;
+
+/* What a holding test needs to tell cogging torque from its current. */
+static void add_holding(const cli_tuning *t, const hci_run *r, line_numbers *n, cli_tune_line *c)
+{
     const double inertia_kgm2 =
         t->declared.inertia_kgm2 > 0.0 ? t->declared.inertia_kgm2 : r->turns_inertia_kgm2;
-    char pole_pairs[16], constant[32], inertia[32];
+    hci_number_text(t->reading.run.torque_constant_Nm_per_A, n->constant);
+    hci_number_text(inertia_kgm2, n->inertia);
+    cli_tune_add_option(c, "torque-constant", n->constant);
+    if (inertia_kgm2 > 0.0) cli_tune_add_option(c, "inertia", n->inertia);
+}
+
+/* The call of `harmonics` for a recording. */
+static cli_tune_line harmonics_line(cli_tuning *t, size_t k, bool is_emf, bool is_far, line_numbers *n)
+{
+    const hci_run *r = &t->runs.run[k];
     cli_tune_line c = {{"harmonics", t->arguments->word[k]}, 2};
-    snprintf(pole_pairs, sizeof pole_pairs, "%d", t->declared.model.pole_pairs);
-    hci_number_text(t->reading.run.torque_constant_Nm_per_A, constant);
-    hci_number_text(inertia_kgm2, inertia);
+    snprintf(n->pole_pairs, sizeof n->pole_pairs, "%d", t->declared.model.pole_pairs);
     cli_tune_add_option(&c, "quantity", is_emf ? "back_emf" : "cogging");
-    cli_tune_add_option(&c, "pole-pairs", pole_pairs);
-    if (holds) cli_tune_add_option(&c, "torque-constant", constant);
-    if (holds && inertia_kgm2 > 0.0) cli_tune_add_option(&c, "inertia", inertia);
-    t->emf_is_size_alone = t->emf_is_size_alone || (is_emf && has_other_zero(t, r));
-    if (!is_emf || !t->emf_is_size_alone) {
-        if (is_far) cli_tune_add_option(&c, "max-order", "60");
-    } else {
-        cli_tune_add_option(&c, "max-order", "1");
-        say_size_alone(t, k);
-    }
+    cli_tune_add_option(&c, "pole-pairs", n->pole_pairs);
+    if (!is_emf && r->torque_source == HCI_TORQUE_HOLDING) add_holding(t, r, n, &c);
+    add_max_order(t, k, is_emf, is_far, &c);
     if (!is_emf && (t->arguments->given[TUNE_HOLDING] || r->slow_beside_others))
         cli_tune_add_option(&c, "holding", NULL);
     cli_tune_add_reading(&c, t);
     cli_tune_add(&c, "-o");
     cli_tune_add(&c, t->machine);
+    return c;
+}
+
+/* Puts it into the machine in place of what the data sheet gave. */
+static hci_status take_waveform(cli_tuning *t, size_t k, const hci_waveform *w, bool is_far, hci_note *note)
+{
+    const bool is_emf = w->quantity == HCI_WAVEFORM_BACK_EMF;
+    line_numbers numbers;
+    cli_tune_line c = harmonics_line(t, k, is_emf, is_far, &numbers);
     say_waveform(t, k, w);
     *(is_emf ? &t->has_emf : &t->has_cogging) = true;
     if (is_emf) t->emf_to_sheet = to_sheet(t, w);

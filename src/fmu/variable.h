@@ -3,11 +3,7 @@
 #define HCI_SRC_FMU_VARIABLE_H
 
 /* How a value is read and set; all are kept as double. */
-typedef enum {
-    HCI_FMU_REAL,
-    HCI_FMU_BOOLEAN,
-    HCI_FMU_INTEGER
-} hci_fmu_type;
+typedef enum { HCI_FMU_REAL, HCI_FMU_BOOLEAN, HCI_FMU_INTEGER } hci_fmu_type;
 
 typedef enum {
     HCI_FMU_PARAMETER, /* set before the initialization ends */

@@ -7,22 +7,14 @@ enum { SINE, COSINE, POSITIVE = 2, NEGATIVE = 4, ZERO = 6 };
 #define TRAITS (HCI_PARAMETER_LINEAR | HCI_PARAMETER_WITH_CURRENT | HCI_PARAMETER_WITH_LOAD)
 
 static const hci_effect_parameter PARAMETER[] = {
-    HCI_WHOLE("sine", "Nm_per_A", "the same in each phase, of sin nθ", 1.0,
-              TRAITS),
-    HCI_WHOLE("cosine", "Nm_per_A", "the same in each phase, of cos nθ", 1.0,
-              TRAITS),
-    HCI_ORDERED("pos_sine", "Nm_per_A", "positive sequence, of sin nθ", 1e-6,
-                TRAITS),
-    HCI_ORDERED("pos_cosine", "Nm_per_A", "positive sequence, of cos nθ", 1e-6,
-                TRAITS),
-    HCI_ORDERED("neg_sine", "Nm_per_A", "negative sequence, of sin nθ", 1e-6,
-                TRAITS),
-    HCI_ORDERED("neg_cosine", "Nm_per_A", "negative sequence, of cos nθ", 1e-6,
-                TRAITS),
-    HCI_ORDERED("zero_sine", "Nm_per_A", "zero sequence, of sin nθ", 1e-6,
-                TRAITS),
-    HCI_ORDERED("zero_cosine", "Nm_per_A", "zero sequence, of cos nθ", 1e-6,
-                TRAITS),
+    HCI_WHOLE("sine", "Nm_per_A", "the same in each phase, of sin nθ", 1.0, TRAITS),
+    HCI_WHOLE("cosine", "Nm_per_A", "the same in each phase, of cos nθ", 1.0, TRAITS),
+    HCI_ORDERED("pos_sine", "Nm_per_A", "positive sequence, of sin nθ", 1e-6, TRAITS),
+    HCI_ORDERED("pos_cosine", "Nm_per_A", "positive sequence, of cos nθ", 1e-6, TRAITS),
+    HCI_ORDERED("neg_sine", "Nm_per_A", "negative sequence, of sin nθ", 1e-6, TRAITS),
+    HCI_ORDERED("neg_cosine", "Nm_per_A", "negative sequence, of cos nθ", 1e-6, TRAITS),
+    HCI_ORDERED("zero_sine", "Nm_per_A", "zero sequence, of sin nθ", 1e-6, TRAITS),
+    HCI_ORDERED("zero_cosine", "Nm_per_A", "zero sequence, of cos nθ", 1e-6, TRAITS),
 };
 
 static int sequence_of(const hci_effect_term *term)

@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "host/check/relations.h"
+#include "host/recording/slow_turn.h"
 
 #define SQRT3 1.7320508075688772
 
@@ -183,9 +184,8 @@ static check_value torque_size(const check_data *data, const check_interpretatio
 
 /* ---- how large the currents are */
 
-/* rad/s at most, and A that a shaft turned slowly without a load asks for: a small motor some tenths of one,
- * a large one more. Of what is rated, any recording. */
-#define SLOWLY     2.1
+/* That a shaft turned slowly without a load asks for: a small motor some tenths of one, a large one more. Of
+ * what is rated, any recording. */
 #define UNLOADED_A 6.0
 
 static check_value current_size(const check_data *data, const check_interpretation *as, const check_model *m)
@@ -195,7 +195,8 @@ static check_value current_size(const check_data *data, const check_interpretati
     for (size_t k = 0; k < data->runs; ++k) {
         const check_run *r = &data->run[k];
         const double length = length_A(r, as) / (is_rated ? m->rated_current_A : UNLOADED_A);
-        const bool is_slow = fabs(hci_check_speed_of(r, as, m)) < SLOWLY && (r->is_held || !r->has_torque);
+        const bool is_slow =
+            fabs(hci_check_speed_of(r, as, m)) < HCI_SLOW_TURN_RAD_PER_S && (r->is_held || !r->has_torque);
         if ((r->has_abc || r->has_dq) && (is_rated || is_slow)) most = fmax(most, length);
     }
     return hci_check_found(most);
@@ -222,7 +223,7 @@ static check_value friction_way(const check_data *data, const check_interpretati
         const check_run *r = &data->run[k];
         const double speed = is_of_friction(data, r) ? hci_check_speed_of(r, as, m) : 0.0,
                      n = (double)r->count;
-        if (!(fabs(speed) > 0.0 && fabs(speed) < SLOWLY)) continue;
+        if (!(fabs(speed) > 0.0 && fabs(speed) < HCI_SLOW_TURN_RAD_PER_S)) continue;
         iq_A[speed < 0.0] += n * hci_check_current_of(r, as, m).im;
         square += n * length_A(r, as) * length_A(r, as);
         count[speed < 0.0] += n;

@@ -2,12 +2,12 @@
 
 #include <math.h>
 
-#define LITTLE  0.01 /* of the largest current, that is none */
-#define RISES   1.02 /* times the error before */
-#define DENIED  0.25 /* of the square that a torque takes away, by which it may raise others */
-#define BY_CHANCE 2.0 /* deviations */
-#define ONE     0.1  /* of a speed, by which others are the same */
-#define SHRINKS 1.05 /* times an amplitude, that a lag leaves of it at most */
+#define LITTLE    0.01 /* of the largest current, that is none */
+#define RISES     1.02 /* times the error before */
+#define DENIED    0.25 /* of the square that a torque takes away, by which it may raise others */
+#define BY_CHANCE 2.0  /* deviations */
+#define ONE       0.1  /* of a speed, by which others are the same */
+#define SHRINKS   1.05 /* times an amplitude, that a lag leaves of it at most */
 
 bool hci_no_load_is_asked(const hci_effect_type *type)
 {

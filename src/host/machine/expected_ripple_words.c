@@ -108,8 +108,9 @@ static void say_origin(const hci_words *w, const hci_expected_ripple *e)
     if (hci_machine_origin_is_doubtful(&e->origin)) {
         if (is_unfinished(e))
             hci_words_say(
-                w, " The model describes the recordings, but the search for effects ended before all had been "
-                   "compared: what currents do in this model holds for the model alone");
+                w,
+                " The model describes the recordings, but the search for effects ended before all had been "
+                "compared: what currents do in this model holds for the model alone");
         else
             hci_words_say(w,
                           " What currents do in this model holds for the model alone: its diagnosis is %s%s",

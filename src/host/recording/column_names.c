@@ -369,6 +369,12 @@ static bool find_counted(const hci_csv *csv, const hci_column_name *item, size_t
     return find_header(csv, header, column);
 }
 
+/* "-COLUMN" as "COLUMN". */
+static hci_column_name without_sign(const hci_column_name *item)
+{
+    return (hci_column_name){item->name, item->column + (item->column[0] == '-'), item->from};
+}
+
 /* Whether another row names the column of the same quantity, as where one list serves recordings of two
  * languages. */
 static bool is_named_otherwise(const hci_column_names *names, const hci_column_name *item, const hci_csv *csv)
@@ -377,7 +383,7 @@ static bool is_named_otherwise(const hci_column_names *names, const hci_column_n
         const hci_column_name *other = &names->item[k];
         size_t column;
         if (other == item || quantity_of(other->name) != quantity_of(item->name)) continue;
-        const hci_column_name plain = {other->name, other->column + (other->column[0] == '-'), other->from};
+        const hci_column_name plain = without_sign(other);
         if (find_header(csv, other->column, &column) || find_header(csv, plain.column, &column) ||
             find_counted(csv, &plain, &column))
             return true;
@@ -414,7 +420,7 @@ static hci_status apply(hci_csv *csv, const hci_column_name *item, bool *found, 
     }
     if (item->column[0] != '-' || find_header(csv, item->column, &column))
         return apply_column(csv, item, found, note);
-    const hci_column_name opposite = {item->name, item->column + 1, item->from};
+    const hci_column_name opposite = without_sign(item);
     const hci_status status = apply_column(csv, &opposite, found, note);
     if (!status && *found) csv->given[csv->given_count - 1].is_opposite = true;
     return status;

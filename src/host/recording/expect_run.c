@@ -40,7 +40,9 @@ hci_status hci_expect_run(const hci_machine_data *machine, const hci_effects *ef
     double *torque_Nm = hci_memory_new(run->count, sizeof *torque_Nm);
     hci_status status =
         sample && torque_Nm ? HCI_OK : hci_note_memory(note, run->name, "%zu samples", run->count);
-    if (!status) status = hci_predict_readings(run, machine->model.pole_pairs, hci_effects_needs(effects), sample, note);
+    if (!status)
+        status =
+            hci_predict_readings(run, machine->model.pole_pairs, hci_effects_needs(effects), sample, note);
     if (!status) {
         hci_ripple_path path = {.machine = &machine->model,
                                 .effects = effects,

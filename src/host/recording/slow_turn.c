@@ -7,7 +7,6 @@
 #include "host/recording/rotor_frame.h"
 
 #define NEGLIGIBLE 0.2   /* inertia × acceleration beside the torque of the current */
-#define SLOW       2.1   /* rad/s; control follows cogging torque up to some ten events a second */
 #define LOAD       4.0   /* times what the size of a current varies by */
 #define WORTH_WORD 0.005 /* inertia × acceleration of which nothing need be said, in the same measure */
 
@@ -57,7 +56,7 @@ bool hci_is_slow(const hci_run *run, int pole_pairs)
     if (run->count < LEAST || !(rms_of_current(run, pole_pairs, 1.0) > 0.0)) return false;
     for (size_t k = 0; k < run->count; ++k)
         pace += fabs(run->speed_rad_per_s[k]) / (double)run->count;
-    return pace < SLOW;
+    return pace < HCI_SLOW_TURN_RAD_PER_S;
 }
 
 bool hci_is_slow_turn_both_ways(const hci_run *run, int pole_pairs)

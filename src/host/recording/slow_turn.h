@@ -5,6 +5,9 @@
 
 #include "hci/host/recording/run.h"
 
+/* The most at which control follows cogging torque, up to some ten events a second: 20 rpm. */
+#define HCI_SLOW_TURN_RAD_PER_S 2.1
+
 /* Whether a run without a torque column is one. torque_Nm of the run is inertia × acceleration. T is the rms
  * of what varies in torque_constant·i_q: what varies in inertia × acceleration is less than T/5, so that the
  * current does not accelerate, and J ω²/2 of the rms speed is less than the work of T over one electrical

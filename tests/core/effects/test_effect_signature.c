@@ -99,7 +99,8 @@ static void declare(declared *d, machine_kind kind)
     d->machine = (hci_machine){P, d->emf, kind == FIFTH ? 2 : 1, d->cogging, kind == COGGING, NULL, 0};
 }
 
-/* A sine with i_d and i_q, at constant speed but for a small swing, three times a turn, of the acceleration. */
+/* A sine with i_d and i_q, at constant speed but for a small swing, three times a turn, of the acceleration.
+ */
 static hci_sample truth_at(double current, double speed, int k)
 {
     hci_sample x = {0};

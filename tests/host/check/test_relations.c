@@ -252,14 +252,13 @@ static void test_power(void)
 static void test_torque(void)
 {
     record_load();
-    EXPECT({"torque_size", "", 1.0}, {"torque_size", "torque_sign", -1.0},
-           {"torque_size", "torque_millinewton", 1e-3},
-           {"torque_size", "emf_rms", 1.62 / (1.5 * SQRT2 + 0.12)},
-           {"torque_size", "current_sign", 1.62 / (-1.5 + 0.12)},
-           {"torque_size", "current_rms", 1.62 / (1.5 * SQRT2 + 0.24)},
-           {"current_size", "", 1.019803902718557},
-           {"current_size", "current_milliampere", 1.019803902718557e-3},
-           {"torque_size", "inductance_per_electrical_radian", 1.62 / (1.5 + 0.48)});
+    EXPECT(
+        {"torque_size", "", 1.0}, {"torque_size", "torque_sign", -1.0},
+        {"torque_size", "torque_millinewton", 1e-3}, {"torque_size", "emf_rms", 1.62 / (1.5 * SQRT2 + 0.12)},
+        {"torque_size", "current_sign", 1.62 / (-1.5 + 0.12)},
+        {"torque_size", "current_rms", 1.62 / (1.5 * SQRT2 + 0.24)}, {"current_size", "", 1.019803902718557},
+        {"current_size", "current_milliampere", 1.019803902718557e-3},
+        {"torque_size", "inductance_per_electrical_radian", 1.62 / (1.5 + 0.48)});
 }
 
 static void test_cogging_torque_of_the_recordings(void)

@@ -130,7 +130,8 @@ static void test_holding_map(void)
     TEST_ASSERT_EQUAL_UINT64(2, diagnosis.effects.list.count);
 }
 
-/* The current that turns a shaft slowly against a brake; the back-EMF is cosine_Nm_per_A of order 6 stronger. */
+/* The current that turns a shaft slowly against a brake; the back-EMF is cosine_Nm_per_A of order 6 stronger.
+ */
 static void record_brake(bool back, double brake_Nm, double cosine_Nm_per_A, double cogging_Nm)
 {
     enum { SAMPLES = 1200 };

@@ -88,16 +88,22 @@ static void test_means_of_runs_are_judged(void)
     TEST_ASSERT_EQUAL_INT(HCI_HELD_OUT_DESCRIBED, hci_held_out_judge(&none, &runs, &of_one, 1e-4));
 }
 
+/* Two recordings at one current, of which the second is held out. */
+static void hold_one_out(void)
+{
+    record(SAMPLES, &(point){60.0, 9.0, 0.0, 0.0, 0.0});
+    record(SAMPLES, &(point){60.0, 9.0, 0.0, 0.0, 0.0});
+    role[1] = HCI_ROLE_HOLDOUT;
+    search_start();
+}
+
 /* An error held out that is larger for the effects, unless it is the noise. */
 static void test_a_rise_is_seen(void)
 {
     hci_run_errors error = {
         .role = HCI_ROLE_HOLDOUT, .rms_before_Nm = 0.048, .rms_after_Nm = 0.193, .noise_floor_Nm = 0.01};
     const hci_diagnosis of_one = {.run = &error, .runs = 1};
-    record(SAMPLES, &(point){60.0, 9.0, 0.0, 0.0, 0.0});
-    record(SAMPLES, &(point){60.0, 9.0, 0.0, 0.0, 0.0});
-    role[1] = HCI_ROLE_HOLDOUT;
-    search_start();
+    hold_one_out();
     error.file = run[1].name;
     TEST_ASSERT_TRUE(hci_held_out_rises(&dataset, &runs, &of_one, 1e-4));
     error.rms_after_Nm = 0.047;
@@ -108,16 +114,13 @@ static void test_a_rise_is_seen(void)
     search_end();
 }
 
-/* Mean and ripple of 450 samples that are off by three tenths of their noise are χ² of 40 more each; where one
- * of them alone rises, the other speaks for the effects. */
+/* Mean and ripple of 450 samples that are off by three tenths of their noise are χ² of 40 more each; where
+ * one of them alone rises, the other speaks for the effects. */
 static void test_a_rise_of_both_is_seen(void)
 {
     hci_run_errors error = {.role = HCI_ROLE_HOLDOUT, .noise_floor_Nm = 0.01};
     const hci_diagnosis of_one = {.run = &error, .runs = 1};
-    record(SAMPLES, &(point){60.0, 9.0, 0.0, 0.0, 0.0});
-    record(SAMPLES, &(point){60.0, 9.0, 0.0, 0.0, 0.0});
-    role[1] = HCI_ROLE_HOLDOUT;
-    search_start();
+    hold_one_out();
     error.file = run[1].name;
     error.error_mean_after_Nm = error.ripple_after_Nm = 0.003;
     TEST_ASSERT_TRUE(hci_held_out_rises_both(&dataset, &runs, &of_one));

@@ -68,9 +68,10 @@ static const char *said_with(double sine, double cosine, double speed, double id
     model.candidates.candidate[0].term[0].value = sine;
     model.candidates.candidate[0].term[1].value = cosine;
     for (size_t r = 0; r < 3; ++r)
-        errors[r] = (hci_run_errors){
-            .file = run[r].name, .ripple_before_Nm = 0.05, .ripple_after_Nm = r < 2 ? idle_Nm : loaded_Nm,
-            .noise_floor_Nm = 0.01};
+        errors[r] = (hci_run_errors){.file = run[r].name,
+                                     .ripple_before_Nm = 0.05,
+                                     .ripple_after_Nm = r < 2 ? idle_Nm : loaded_Nm,
+                                     .noise_floor_Nm = 0.01};
     why = hci_no_load_denied(&dataset, &runs, &model.candidates, &(hci_diagnosis){.run = errors, .runs = 3});
     search_end();
     tearDown();

@@ -154,7 +154,8 @@ static void read_late(const char *speed_name, double wobble)
     TEST_ASSERT_NOT_NULL(file);
     fprintf(file, "time_s,theta_m_rad,iq_A,%s\n", speed_name);
     for (size_t k = 0; k < 2 * N; ++k) {
-        const double t = 0.002 * (double)k, late_s = 0.001 * fmin(4.0, -1.2 * log(ref_uniform(&seed, 1e-9, 1.0)));
+        const double t = 0.002 * (double)k,
+                     late_s = 0.001 * fmin(4.0, -1.2 * log(ref_uniform(&seed, 1e-9, 1.0)));
         before_s = fmax(before_s, floor(1e3 * (t + late_s)) * 1e-3);
         fprintf(file, "%.3f,%.9f,%.9f,%.9f\n", before_s, 0.6 * t + wobble / 12.0 * sin(12.0 * 0.6 * t),
                 0.2 * sin(12.0 * 0.6 * t), 0.6 * (1.0 + wobble * cos(12.0 * 0.6 * t)));

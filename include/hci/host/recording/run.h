@@ -49,13 +49,13 @@ typedef struct {
     double turns_inertia_kgm2; /* that makes the torques of slow turns agree, taken out; 0: none was found */
     bool needs_inertia; /* a slow turn of which the current answers a part that only the inertia tells: it has
                          * no torque */
-    bool rough_clock;    /* its stamps came early and late by turns, and were mended or are so still */
+    bool rough_clock;   /* its stamps came early and late by turns, and were mended or are so still */
     char angle_like[HCI_RUN_NAME]; /* zero_is_unknown, and this, as --column takes it, may read an angle that
                                     * stands in the file; "": none */
     bool torque_is_typed; /* one number in every row beside a current that varies: no measurement, not used */
-    bool is_electrical; /* an electrical angle was recorded; else its zero is supposed to be that of the
-                         * mechanical one */
-    bool zero_is_given; /* by an offset that the user adds to the angle */
+    bool is_electrical;   /* an electrical angle was recorded; else its zero is supposed to be that of the
+                           * mechanical one */
+    bool zero_is_given;   /* by an offset that the user adds to the angle */
     double zero_offset_rad; /* that offset, electrical */
     bool zero_is_unknown;   /* the angle is the integral of the speed, from 0 */
     bool voltage_is_dq;     /* v_V was v_d and v_q, turned by the recorded angle: says nothing of its zero */
@@ -128,9 +128,9 @@ hci_status hci_run_of_csv(const hci_csv *csv, const hci_run_options *options, hc
  * file beside it. */
 hci_status hci_run_csv(const char *path, const hci_run_options *options, hci_csv **csv, hci_note *note);
 
-/* Whether the current works against a load, as a brake: the size of i_q is more than four times what it varies
- * by, forward or back. A shaft that control turns slowly tells the harmonics of the back-EMF then, as well as
- * cogging torque and friction. False without currents or an angle. O(samples). */
+/* Whether the current works against a load, as a brake: the size of i_q is more than four times what it
+ * varies by, forward or back. A shaft that control turns slowly tells the harmonics of the back-EMF then, as
+ * well as cogging torque and friction. False without currents or an angle. O(samples). */
 bool hci_run_is_loaded(const hci_run *run, int pole_pairs);
 
 /* Frees what a run holds and empties it. */

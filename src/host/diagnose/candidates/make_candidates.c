@@ -240,8 +240,8 @@ static hci_status rest_add(const hci_candidate *x, const hci_candidate *whole, h
 }
 
 /* What is in the model stays in the list, in its place. No term is there twice: a law of fewer terms, as some
- * of the runs alone tell it, gives way to the one that all runs may tell. Where terms have left it, they are a
- * candidate of their own. */
+ * of the runs alone tell it, gives way to the one that all runs may tell. Where terms have left it, they are
+ * a candidate of their own. */
 static hci_status keep_known(const hci_candidates *known, hci_candidates *list, hci_note *note)
 {
     hci_status status = HCI_OK;

@@ -55,8 +55,7 @@ static void columns_clear(const filling *f, const hci_segment *s)
     const hci_model *m = f->model;
     const hci_run_statistics *x = &f->regression->samples->statistics[s->run];
     for (size_t c = 0; c < m->columns; ++c) {
-        if (can_show(&f->regression->runs[s->run], x, m->column[c].candidate, m->column[c].term))
-            continue;
+        if (can_show(&f->regression->runs[s->run], x, m->column[c].candidate, m->column[c].term)) continue;
         for (size_t j = 0; j < s->count; ++j)
             f->x[j * m->columns + c] = 0.0;
     }
@@ -244,8 +243,8 @@ static bool is_shown(const filling *f, size_t column)
 {
     const hci_model_column *x = &f->model->column[column];
     for (const hci_segment *s = NULL; (s = hci_regression_next(f->regression, s)) != NULL;)
-        if (!can_show(&f->regression->runs[s->run], &f->regression->samples->statistics[s->run],
-                      x->candidate, x->term))
+        if (!can_show(&f->regression->runs[s->run], &f->regression->samples->statistics[s->run], x->candidate,
+                      x->term))
             return false;
     return true;
 }

@@ -19,7 +19,7 @@ typedef struct {
     double speed_deviation;                 /* rad/s, about the mean */
     double mean_speed_rad_per_s, current_A; /* root mean square of the current vector's length */
     double mean_id_A, mean_iq_A;
-    bool is_loaded; /* the size of i_q stays far above what it varies by, as against a brake */
+    bool is_loaded;          /* the size of i_q stays far above what it varies by, as against a brake */
     double rms_acceleration; /* rad/s², of a run with a torque sensor */
     bool no_current;         /* what was read as current is the noise of its sensors, and current_A is 0 */
     double repeat_Nm; /* rms departure of a sample from the mean over the turns at its angle; NAN: one turn */

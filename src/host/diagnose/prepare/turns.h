@@ -18,10 +18,10 @@ typedef struct {
 /* Samples of one turn, and their means. */
 typedef struct {
     size_t first, count;
-    double d, q;     /* A */
+    double d, q;                        /* A */
     hci_turn_part part[HCI_TURN_PARTS]; /* evenly, from the zero of the angle on */
-    double noise_A2; /* mean square of their noise, from neighbouring samples */
-    double speed;    /* rad/s; 0: not recorded */
+    double noise_A2;                    /* mean square of their noise, from neighbouring samples */
+    double speed;                       /* rad/s; 0: not recorded */
     double least_speed, most_speed;
     double temperature; /* °C; 0: not recorded */
     double torque;      /* N·m; 0: not recorded */

@@ -4,7 +4,8 @@
 
 #include "host/diagnose/fit/model.h"
 
-#define DRIVES 0.2 /* of what an effect brakes with at most, that it may drive with, or brake less, elsewhere */
+#define DRIVES                                                                                               \
+    0.2 /* of what an effect brakes with at most, that it may drive with, or brake less, elsewhere */
 
 /* ---- what brakes ---- */
 
@@ -90,7 +91,8 @@ hci_status hci_brakes_find_driving(const hci_regression *e, const hci_candidates
     if (status) return status;
     for (size_t k = 0; k < model.list.count && !*type; ++k) {
         const hci_effect *x = &model.list.effect[k];
-        if (is_brake(x->type) && hci_candidates_have(candidates, x->type) && is_driving(e, x)) *type = x->type;
+        if (is_brake(x->type) && hci_candidates_have(candidates, x->type) && is_driving(e, x))
+            *type = x->type;
     }
     hci_model_release(&model);
     return HCI_OK;

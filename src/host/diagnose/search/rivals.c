@@ -182,8 +182,8 @@ hci_status hci_search_rivals(hci_search *s, const hci_effect_type *type, hci_att
     while (!status && !hci_search_is_over(s)) {
         status = rivalry_next(&r, &rival, &with, note);
         if (status || with == hci_candidate_types()) break;
-        bool equal = is_of_its_own(type, hci_candidate_type(with)) &&
-                     rival.fit.score < a->model.fit.score + EQUAL;
+        bool equal =
+            is_of_its_own(type, hci_candidate_type(with)) && rival.fit.score < a->model.fit.score + EQUAL;
         if (equal) status = is_as_good(&r, &rival, &equal, note);
         if (!status && equal) rival_mark(&r, with, &rival, a);
         hci_fitted_model_release(&rival);

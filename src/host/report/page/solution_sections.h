@@ -13,7 +13,7 @@ typedef struct {
     hci_output *out;
     const hci_solution *solution;
     hci_plot_facts facts;
-    bool is_cut; /* to a table, which leaves more than these currents */
+    bool is_cut;            /* to a table, which leaves more than these currents */
     bool ripple_is_unknown; /* the model has none, and that is not what was measured */
     char origin[HCI_PAGE_ORIGIN_SIZE];
 } hci_solution_page;

@@ -98,8 +98,8 @@ static void test_moments_are_the_slope(void)
     }
 }
 
-/* Without current nothing that grows with it can show; in a holding test the current answers to the torque, and
- * under a steady load harmonics of the back-EMF alone show. */
+/* Without current nothing that grows with it can show; in a holding test the current answers to the torque,
+ * and under a steady load harmonics of the back-EMF alone show. */
 static void test_what_a_run_cannot_show(void)
 {
     static const char *const OF_CURRENT[][2] = {
