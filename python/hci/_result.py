@@ -71,12 +71,13 @@ class Result:
         return "\n".join(page)
 
     def _picture(self) -> str:
-        """The picture in base64, or "" without matplotlib."""
+        """The picture in base64, without a title, since the verdict stands above it, or "" without matplotlib."""
         try:
             from matplotlib.figure import Figure
         except ImportError:
             return ""
         figure, out = Figure(), io.BytesIO()
         self.plot(figure)
+        figure.suptitle("")
         figure.savefig(out, format="png", dpi=90)
         return base64.b64encode(out.getvalue()).decode()

@@ -76,6 +76,17 @@ def test_in_a_notebook(smooth):
     assert repr(smooth) == "<Solution: Reached: every torque order is within 2.463 µN·m of what is wanted>"
 
 
+def test_a_notebook_says_the_verdict_once(smooth, monkeypatch):
+    from matplotlib.figure import Figure
+
+    drawn = []
+    save = Figure.savefig
+    monkeypatch.setattr(Figure, "savefig", lambda figure, *words, **more: (drawn.append(figure), save(figure, *words, **more)))
+    smooth._repr_html_()
+    assert [figure.get_suptitle() for figure in drawn] == [""]
+    assert smooth.verdict.splitlines()[0] in smooth.plot().get_suptitle().replace("\n", " ")
+
+
 def test_everything_is_documented_and_typed():
     for name in hci.__all__:
         thing = getattr(hci, name)
