@@ -152,14 +152,28 @@ static double turn_current(const hci_sample *x, double theta, double d, double q
     return 0.03 * q * cos(2.0 * x->theta_m_rad);
 }
 
-static double unequal_third(const hci_sample *x, double theta, double d, double q)
+/* The flux in the air gap is 1 + M of what it should be: torque with currents in proportion, cogging squared.
+ */
+static double unequal(const hci_sample *x, double theta, double change)
 {
     double sum = 2.0 * 0.05 * sin(12.0 * theta + 0.3);
-    (void)d;
-    (void)q;
     for (int s = 0; s < 3; ++s)
         sum += el_emf(s, theta) * x->i_abc[s];
-    return 0.03 * sin(x->theta_m_rad) * sum;
+    return change * sum;
+}
+
+static double unequal_twice(const hci_sample *x, double theta, double d, double q)
+{
+    (void)d;
+    (void)q;
+    return unequal(x, theta, 0.03 * cos(2.0 * x->theta_m_rad));
+}
+
+static double unequal_third(const hci_sample *x, double theta, double d, double q)
+{
+    (void)d;
+    (void)q;
+    return unequal(x, theta, 0.03 * sin(x->theta_m_rad));
 }
 
 static const machine_case MACHINE[] = {
@@ -179,6 +193,7 @@ static const machine_case MACHINE[] = {
     {"mechanical_order", "sine", 1.0 / 3.0, 0.03, turn_constant},
     {"mechanical_order", "iq_cosine", 0.666667, 0.03, turn_current},
     {"unequal_magnets", "sine", 0.333333, 0.03, unequal_third},
+    {"unequal_magnets", "cosine", 0.666667, 0.03, unequal_twice},
 };
 
 enum { MACHINE_CASES = sizeof MACHINE / sizeof *MACHINE };

@@ -1035,6 +1035,29 @@ static void test_machine_c_over_a_turn(void)
     TEST_ASSERT_DOUBLE_WITHIN(0.1, 0.5, fine.jump_A / f[HCI_STRATEGY_MTPA].jump_A);
 }
 
+/* No back-EMF along the axis of the larger slope: two currents that mirror each other there make the torque,
+ * and the one nearer to what went before is taken. */
+static void test_of_two_mirrored_currents_the_nearer(void)
+{
+    for (int k = 0; k < 2000; ++k) {
+        const double angle = 0.5 * REF_PI * (double)(k % 4), u[2] = {round(cos(angle)), round(sin(angle))};
+        const double large = uniform(1.0, 3.0), small = uniform(-1.0, 0.5), e = uniform(0.1, 0.5);
+        const hci_machine_point p = {
+            {-e * u[1], e * u[0]},
+            {large * u[0] * u[0] + small * u[1] * u[1], 0.0, large * u[1] * u[1] + small * u[0] * u[0]},
+            0.0};
+        const double before[2] = {uniform(-5.0, 5.0), uniform(-5.0, 5.0)};
+        double x[2];
+        TEST_ASSERT_EQUAL(HCI_OK, hci_strategy_current(&p, HCI_STRATEGY_MTPA, 20.0, before, x, NULL));
+        const double along = x[0] * u[0] + x[1] * u[1];
+        const double mirror[2] = {x[0] - 2.0 * along * u[0], x[1] - 2.0 * along * u[1]};
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, 20.0, hci_point_torque_Nm(&p, x));
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, 20.0, hci_point_torque_Nm(&p, mirror));
+        TEST_ASSERT_TRUE(fabs(along) > 1.0 && hypot(x[0] - before[0], x[1] - before[1]) <=
+                                                  hypot(mirror[0] - before[0], mirror[1] - before[1]));
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -1058,6 +1081,7 @@ int main(void)
     RUN_TEST(test_rounding_beside_the_back_emf_makes_no_torque);
     RUN_TEST(test_cancel_without_reluctance);
     RUN_TEST(test_strategies_without_back_emf);
+    RUN_TEST(test_of_two_mirrored_currents_the_nearer);
     RUN_TEST(test_shortest_current_is_never_longer_than_cancel);
     RUN_TEST(test_accuracy_against_long_double);
     RUN_TEST(test_speed_is_told);

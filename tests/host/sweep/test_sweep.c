@@ -315,6 +315,40 @@ static void test_points_are_read_as_they_were_written(void)
     hci_grid_release(&two);
 }
 
+/* In place of the number of the first row. */
+static void renumber(const char *number)
+{
+    char *text = files_read(files_path("kept/points.csv")), *row = text ? strstr(text, "\n1,") : NULL;
+    FILE *file = fopen(files_path("kept/points.csv"), "w");
+    TEST_ASSERT_TRUE(row != NULL && file != NULL);
+    *row = '\0';
+    fprintf(file, "%s\n%s,%s", text, number, row + 3);
+    fclose(file);
+}
+
+/* The number of the first point in points.csv becomes another one, of which the grid of three has none or
+ * another point. */
+static void test_points_of_other_numbers_are_refused(void)
+{
+    static const char *const NUMBER[] = {"0", "-1", "2", "4", "999999999", "1e300"};
+    hci_grid one, two;
+    hci_grid_inputs inputs = {.count = 0};
+    hci_note note = {{0}};
+    begin(&one);
+    hci_grid_fail(&one.plan.point[0], "why", &one.row[0]);
+    one.done[0] = true;
+    for (size_t k = 0; k < sizeof NUMBER / sizeof *NUMBER; ++k) {
+        TEST_ASSERT_EQUAL(HCI_OK, hci_grid_keep_points(&one, &inputs, files_path("kept"), &note));
+        renumber(NUMBER[k]);
+        begin(&two);
+        TEST_ASSERT_EQUAL_MESSAGE(
+            HCI_ERROR_INPUT, hci_grid_take_points(&two, &inputs, files_path("kept"), true, &note), NUMBER[k]);
+        TEST_ASSERT_EQUAL(0, hci_grid_done(&two));
+        hci_grid_release(&two);
+    }
+    hci_grid_release(&one);
+}
+
 static void test_points_of_other_inputs_are_refused(void)
 {
     hci_grid one, two;
@@ -349,6 +383,7 @@ int main(void)
     RUN_TEST(test_a_point_of_a_map_is_what_solve_finds);
     RUN_TEST(test_the_order_of_a_map);
     RUN_TEST(test_points_are_read_as_they_were_written);
+    RUN_TEST(test_points_of_other_numbers_are_refused);
     RUN_TEST(test_points_of_other_inputs_are_refused);
     return UNITY_END();
 }

@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "host/diagnose/candidates/residual_by_speed.h"
+
 #include "host/base/memory.h"
 #include "support/recording.h"
 #include "unity.h"
@@ -79,6 +81,35 @@ static void make(void)
     hci_binned_samples_release(&samples);
     TEST_ASSERT_EQUAL_INT(HCI_OK, hci_binned_samples_make(&machine, run, RUNS, &samples, &note));
     TEST_ASSERT_EQUAL_INT(HCI_OK, make_from(NULL));
+}
+
+/* Weighted means at each speed and direction, weights 1/variance; nothing of a run that is not used. */
+static void test_what_is_left_at_each_speed(void)
+{
+    const hci_candidates_source source = {
+        .samples = &samples, .runs = run, .use = use, .residual_Nm = residual_Nm, .variance = variance};
+    hci_effect_speed_mean mean[HCI_SPEED_MEANS];
+    double sum[2] = {0.0, 0.0}, weight[2] = {0.0, 0.0};
+    for (size_t k = 0; k < SAMPLES; ++k) {
+        run[2].speed_rad_per_s[k] *= -1.0;
+        run[2].theta_m_rad[k] *= -1.0;
+    }
+    use[1] = false;
+    for (size_t k = 0; k < RUNS * SAMPLES; ++k) {
+        const size_t r = k / SAMPLES;
+        residual_Nm[k] += 0.1 * (double)(r + 1);
+        variance[k] = r == 0 || k % 2 == 0 ? 4.0 : 1.0;
+        sum[r == 2] += r == 1 ? 0.0 : residual_Nm[k] / variance[k];
+        weight[r == 2] += r == 1 ? 0.0 : 1.0 / variance[k];
+    }
+    make();
+    TEST_ASSERT_EQUAL_UINT64(RUNS * SAMPLES, samples.count);
+    TEST_ASSERT_EQUAL_UINT64(2, hci_residual_by_speed(&source, mean));
+    for (int j = 0; j < 2; ++j) { /* forward first */
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, j == 0 ? 20.0 : -60.0, mean[j].speed_rad_per_s);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, sum[j] / weight[j], mean[j].residual_Nm);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, weight[j], mean[j].weight);
+    }
 }
 
 static void free_column(double **column)
@@ -417,6 +448,7 @@ static void test_memory_is_out(void)
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_what_is_left_at_each_speed);
     RUN_TEST(test_the_list_is_in_order);
     RUN_TEST(test_declared_values_are_where_to_begin);
     RUN_TEST(test_noise_is_no_current);

@@ -105,6 +105,22 @@ static void test_what_is_expected_draws_a_value(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-6 * pays, pays, model.fit.square);
 }
 
+/* A term counts as 1 − (standard error/deviation)² of a parameter, whose price is ln(rows): nothing where its
+ * expectation alone says what it is, as one where nothing is expected. What is out does not count. */
+static void test_a_score_of_what_the_recordings_tell(void)
+{
+    hci_candidate x[3] = {{.count = 2, .price = 3.0, .deviation = 0.5, .in = true},
+                          {.count = 1, .price = 7.0, .in = true},
+                          {.count = 1, .price = 11.0}};
+    const hci_candidates all = {x, 3, NAN};
+    const hci_fit of = {.square = 100.0, .rows = 50.0};
+    x[0].term[0].std_error = 0.3;
+    x[0].term[1].std_error = 0.6;
+    x[1].term[0].std_error = 9.0;
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 100.0 + 3.0 + 7.0 + (0.64 + 1.0) * log(50.0),
+                              hci_fit_effective_score(&of, &all));
+}
+
 /* A value does not pass what it may be at least. */
 static void test_a_value_stays_above_its_least(void)
 {
@@ -271,6 +287,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_a_linear_term);
     RUN_TEST(test_what_is_expected_draws_a_value);
+    RUN_TEST(test_a_score_of_what_the_recordings_tell);
     RUN_TEST(test_a_value_stays_above_its_least);
     RUN_TEST(test_a_term_twice);
     RUN_TEST(test_an_angle_is_found);
