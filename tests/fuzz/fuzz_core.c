@@ -144,11 +144,14 @@ static double length_on_ray(const hci_machine_point *p, double torque_Nm, double
     return fmin(first > 0.0 ? first : (double)INFINITY, second > 0.0 ? second : (double)INFINITY);
 }
 
-/* Whether a current on a ray makes the torque, as far as rounding lets that be told. */
+/* Whether a current on a ray makes the torque. Of a long one whose large terms cancel rounding does not let
+ * that be told. */
 static bool is_made(const hci_machine_point *p, double torque_Nm, double length, double angle)
 {
     const double x[2] = {length * cos(angle), length * sin(angle)};
-    return fabs(hci_point_torque_Nm(p, x) - torque_Nm) <= 1e-6 * fabs(torque_Nm - p->cogging_Nm);
+    const double rounding_Nm = 8.0 * DBL_EPSILON * terms_Nm(p, x);
+    return fabs(hci_point_torque_Nm(p, x) - torque_Nm) + rounding_Nm <=
+           1e-6 * fabs(torque_Nm - p->cogging_Nm);
 }
 
 static void check_shortest(const hci_machine_point *p, double torque_Nm, const double x[2], hci_status status)
