@@ -19,6 +19,9 @@ enum { ENOUGH_LOADS = 3 };
 
 /* ---- what is concluded ---- */
 
+/* Up to which cogging torque may be, where no slots are given. */
+#define USUAL_ORDER 60.0
+
 /* Of the data sheet, that a measured back-EMF may be off and not be a contradiction. */
 #define OFF_SHEET 0.15
 
@@ -33,8 +36,29 @@ static bool misses_slots(const cli_tuning *t)
     return t->cogging_reach > 0.0 && cli_tune_order_of_slots(t) > t->cogging_reach + HCI_ORDER_TOLERANCE;
 }
 
+/* The order up to which recordings show a torque of the angle by the slope of the speed; 0: where another one
+ * shows it, or no slot is known to be beyond it. */
+static double reach_of_slopes(const cli_tuning *t)
+{
+    double reach = 0.0;
+    for (size_t k = 0; k < t->runs.count; ++k) {
+        if (t->runs.run[k].torque_source == HCI_TORQUE_NONE) continue;
+        if (!(t->runs.run[k].torque_reach > 0.0)) return 0.0;
+        reach = fmax(reach, t->runs.run[k].torque_reach);
+    }
+    const double slots = cli_tune_order_of_slots(t);
+    return reach < (slots > 0.0 ? slots : USUAL_ORDER) ? reach : 0.0;
+}
+
 static void say_limits(cli_tuning *t)
 {
+    const double reach = reach_of_slopes(t);
+    if (reach > 0.0)
+        hci_tuning_say(
+            &t->tuning, HCI_TUNING_UNKNOWN,
+            "Cogging torque above the electrical order %.3g: the speed swings too little by it. Turn "
+            "the shaft slowly under control, forward and back, or measure the torque.",
+            reach);
     if (is_off_sheet(t))
         hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
                        "Which back-EMF is right: the measured one is %.3g times that of the data sheet, and "
@@ -305,6 +329,7 @@ static void swing_of(const cli_tuning *t, double *before_Nm, double *after_Nm)
 /* What a figure of the model leaves open. */
 static const char *not_known(const cli_tuning *t)
 {
+    if (reach_of_slopes(t) > 0.0) return "these recordings do not show cogging torque of high orders";
     return t->solution.expected.state == HCI_RIPPLE_KNOWN ? "these recordings do not bound what is left"
            : t->is_own && (!t->has_emf || t->emf_is_size_alone) && !t->has_load
                ? "what harmonics of the real back-EMF add under load is not known"

@@ -1,7 +1,9 @@
 #include "host/recording/untold_torque.h"
 
 #include <math.h>
+#include <stdlib.h>
 
+#include "hci/math/harmonic.h"
 #include "host/base/memory.h"
 #include "host/numeric/derivative.h"
 #include "host/numeric/statistics.h"
@@ -14,6 +16,9 @@
 /* A share of its mean speed by which a shaft that sticks and slips varies, and one that control turns does
  * not. */
 #define UNSTEADY 0.3
+
+/* The order up to which cogging torque may matter. */
+#define WORTH_ORDER 60.0
 
 typedef struct {
     hci_run *run;
@@ -45,6 +50,33 @@ static bool can_accelerate(const task *t, bool no_currents)
            run->count >= 3;
 }
 
+static int compare(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* rad/s, which a tenth of the samples do not exceed. */
+static double slowest_of(const hci_run *run)
+{
+    enum { MOST = 1000 };
+    double speed[MOST];
+    const size_t count = run->count < MOST ? run->count : MOST;
+    for (size_t k = 0; k < count; ++k)
+        speed[k] = fabs(run->speed_rad_per_s[k * run->count / count]);
+    qsort(speed, count, sizeof *speed, compare);
+    return speed[count / 10];
+}
+
+/* The electrical order of which the slopes last a whole period where the shaft is slow: a slope over a period
+ * shows 3/π² of what swings, and over more of them next to nothing. */
+static double reach_of(const hci_run *run)
+{
+    const double span = (double)(run->torque_window + run->speed_window) / (double)(run->count - 1);
+    const double slope_s = span * (run->time_s[run->count - 1] - run->time_s[0]);
+    return 2.0 * HCI_PI / (slope_s * slowest_of(run) * run->pole_pairs);
+}
+
 /* torque_Nm as inertia × the slope of the speed. */
 static void accelerate(hci_run *run, double inertia_kgm2)
 {
@@ -52,6 +84,7 @@ static void accelerate(hci_run *run, double inertia_kgm2)
     hci_derivative_over(run->time_s, run->speed_rad_per_s, run->count, run->torque_window, run->torque_Nm);
     for (size_t k = 0; k < run->count; ++k)
         run->torque_Nm[k] *= inertia_kgm2;
+    run->torque_reach = reach_of(run);
 }
 
 /* torque_Nm as inertia × what the orders of the angle over time say. */
@@ -102,6 +135,7 @@ static hci_status hold(const task *t)
     const double constant = t->options->torque_constant_Nm_per_A;
     run->torque_source = HCI_TORQUE_HOLDING;
     run->torque_window = 0;
+    run->torque_reach = 0.0;
     if (constant > 0.0 && run->theta_m_rad != NULL &&
         hci_mean_square_about(run->torque_Nm, run->count, 0.0) > 0.0)
         hci_slow_turn_correct(run, run->pole_pairs, constant);
@@ -179,6 +213,10 @@ static hci_status free_or_held(task *t)
     if (t->accelerates) {
         run->torque_source = HCI_TORQUE_INERTIA;
         hci_note_add(&run->remark, "no torque_Nm: as of a free shaft it is inertia x acceleration");
+        if (run->torque_reach < WORTH_ORDER)
+            hci_note_add(&run->remark,
+                         "its slopes show next to nothing of a torque of an electrical order above %.3g",
+                         run->torque_reach);
         return HCI_OK;
     }
     hci_memory_free(run->torque_Nm);

@@ -1,5 +1,6 @@
 /* Reading runs: what each column becomes, against the motion that the files were written from. */
 #include "hci/host/recording/run.h"
+#include "hci/math/harmonic.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -483,6 +484,42 @@ static void test_torque_of_inertia(void)
         TEST_ASSERT_DOUBLE_WITHIN(0.02 * 0.05, 0.02 * acceleration_at(time_at(k)), run.torque_Nm[k]);
 }
 
+/* Of a speed that swings, and whose noise makes its slopes long, the share of J dω/dt that torque_Nm has. */
+static double swing(double order)
+{
+    enum { ROWS = 4000 };
+    const double speed = 8.0, size = 1.0, step_s = 1e-3;
+    double sine = 0.0, cosine = 0.0;
+    uint64_t state = 1;
+    FILE *file = begin("time_s,theta_m_rad,speed_rad_per_s");
+    for (int k = 0; k < ROWS; ++k) {
+        const double t = k * step_s, x = order * 4.0 * speed * t;
+        const double noise = 0.1 * ref_normal(&state);
+        row(file, 3, t, speed * t, speed + size / (order * 4.0 * speed) * sin(x) + noise);
+    }
+    fclose(file);
+    hci_run_release(&run);
+    read_run(4, 1.0);
+    for (int k = ROWS / 4; k < 3 * ROWS / 4; ++k) {
+        const double x = order * 4.0 * speed * k * step_s;
+        cosine += 4.0 / ROWS * run.torque_Nm[k] * cos(x);
+        sine += 4.0 / ROWS * run.torque_Nm[k] * sin(x);
+    }
+    return hypot(cosine, sine) / size;
+}
+
+/* A slope over all samples of W s shows 3(sin x − x cos x)/x³ of what swings with f, x = πfW; with the order
+ * of which W is a period, x = π at that order. */
+static void test_orders_that_slopes_show(void)
+{
+    static const double ORDERS[] = {0.5, 1.0, 2.0};
+    for (size_t k = 0; k < 3; ++k) {
+        const double share = swing(ORDERS[k]), x = HCI_PI * ORDERS[k] / run.torque_reach;
+        text_has("next to nothing of a torque of an electrical order above", run.remark.text);
+        TEST_ASSERT_DOUBLE_WITHIN(0.05, 3.0 * fabs(sin(x) - x * cos(x)) / (x * x * x), share);
+    }
+}
+
 /* With voltages and without a current something turns the shaft. */
 static void test_a_driven_shaft_is_not_free(void)
 {
@@ -678,6 +715,7 @@ int main(void)
     RUN_TEST(test_a_torque_map_knows_the_mean_only);
     RUN_TEST(test_torque_sources);
     RUN_TEST(test_torque_of_inertia);
+    RUN_TEST(test_orders_that_slopes_show);
     RUN_TEST(test_a_driven_shaft_is_not_free);
     RUN_TEST(test_refused_runs);
     RUN_TEST(test_unused_columns_are_named);
