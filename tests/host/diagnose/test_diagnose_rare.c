@@ -366,6 +366,35 @@ static void test_beside_such_zeros_ripple_is_explained(void)
     is_value(0.3, 0.05, term("current_offset", "a", 0.0));
 }
 
+/* ---- a sensor that answers otherwise in one direction ---- */
+
+/* 3 % too much forward and too little back, of the cogging torque without a current as well. */
+static void record_crosstalk(void)
+{
+    static const double SPEED[] = {20.0, -20.0, 20.0, -100.0, 100.0, -20.0, 100.0};
+    static const double IQ_A[] = {0.0, 0.0, 9.0, 4.0, 8.0, -9.0, 3.0};
+    static const double ID_A[] = {0.0, 0.0, 0.0, -3.0, 4.0, 0.0, 0.0};
+    declare_cogging();
+    for (int k = 0; k < 7; ++k) {
+        record(900, &(point){SPEED[k], IQ_A[k], 0.0, 0.0, 0.0});
+        for (size_t j = 0; j < 900; ++j) {
+            const double theta = P * run[k].theta_m_rad[j], cogging_Nm = 0.1 * sin(12.0 * theta);
+            run[k].torque_Nm[j] += cogging_Nm + 0.03 * fabs(1.5 * K_NM_PER_A * IQ_A[k] + cogging_Nm);
+            rec_phases(ID_A[k], IQ_A[k], theta, run[k].i_A + 3 * j);
+        }
+    }
+}
+
+/* A torque that keeps its sign with the load is none of the iron, nor is what the sensor reads too much
+ * without a current its zero. */
+static void test_crosstalk_is_no_effect(void)
+{
+    record_crosstalk();
+    TEST_ASSERT_EQUAL_INT(HCI_NOT_REACHED, diagnose(NULL));
+    TEST_ASSERT_EQUAL_INT(HCI_DIAGNOSIS_UNKNOWN, diagnosis.verdict);
+    TEST_ASSERT_EQUAL_UINT64(0, diagnosis.effects.list.count);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -387,5 +416,6 @@ int main(void)
     RUN_TEST(test_a_lag_within_an_arc);
     RUN_TEST(test_zeros_of_their_own_are_no_effect);
     RUN_TEST(test_beside_such_zeros_ripple_is_explained);
+    RUN_TEST(test_crosstalk_is_no_effect);
     return UNITY_END();
 }

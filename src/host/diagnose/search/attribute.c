@@ -15,6 +15,7 @@
 #include "host/diagnose/search/no_load.h"
 #include "host/diagnose/search/rivals.h"
 #include "host/diagnose/search/rounds.h"
+#include "host/diagnose/search/scaled.h"
 #include "host/diagnose/search/settle.h"
 #include "host/diagnose/search/slip.h"
 #include "host/diagnose/search/stability.h"
@@ -262,11 +263,27 @@ static hci_status no_load_stays(hci_search *s, hci_attribution *a, const bool *u
 {
     hci_status status = HCI_OK;
     if (a->unknown) status = hci_search_no_load_stays(s, a, note);
-    established_mark(a);
     if (status || !a->no_load_alone) return status;
     s->regression->use = use;
     s->regression->free_means = false;
     s->no_current = true;
+    return hci_search_renew(s, &a->model, note);
+}
+
+/* What is certain beside something unknown, and that this does not make as well. */
+static hci_status certain_stays(hci_search *s, hci_attribution *a, const bool *no_load, hci_note *note)
+{
+    const bool *all = s->regression->use;
+    double share = 0.0;
+    hci_status status = HCI_OK;
+    if (a->unknown) status = hci_search_mean_share(s, &a->model.candidates, &share, note);
+    if (!status && a->means_open) status = hci_search_scaled_leave(s, &a->model, share, note);
+    if (!status) status = no_load_stays(s, a, no_load, note);
+    if (!status && a->no_load_alone && !a->slip) status = hci_search_scaled_leave(s, &a->model, share, note);
+    established_mark(a);
+    if (status || !a->no_load_alone || hci_candidates_types_in(&a->model.candidates) > 0) return status;
+    a->no_load_alone = s->no_current = false;
+    s->regression->use = all;
     return hci_search_renew(s, &a->model, note);
 }
 
@@ -372,7 +389,7 @@ static hci_status attribute(hci_search *s, hci_attribution *a, bool *no_load, hc
     s->from_no_load = hci_candidates_types_in(&a->model.candidates) > 0;
     if (!status && !a->not_searched) status = slip_judge(s, a, note);
     if (!status && !a->unknown) status = model_find(s, a, note);
-    if (!status) status = no_load_stays(s, a, no_load, note);
+    if (!status) status = certain_stays(s, a, no_load, note);
     if (!status && !a->not_searched) status = verdicts(s, a, note);
     if (!status) status = hci_search_stability(s, a, note);
     if (!status) status = hci_regression_standard_errors(s->regression, &a->model.candidates, note);

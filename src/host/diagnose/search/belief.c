@@ -4,6 +4,7 @@
 
 #include "host/diagnose/fit/model.h"
 #include "host/diagnose/search/brakes.h"
+#include "host/diagnose/search/mirror.h"
 #include "host/machine/torque_constant.h"
 
 #define LEAST_CONSTANT 0.5  /* of the torque per ampere that is declared: a correction leaves no less */
@@ -171,15 +172,25 @@ hci_status hci_search_keep_believed(hci_search *s, hci_fitted_model *model, hci_
     return status;
 }
 
+/* A type that brakes and would drive, or of the iron's mean that keeps its sign with the load; NULL: none. */
+static hci_status unnatural_find(const hci_search *s, const hci_candidates *candidates,
+                                 const hci_effect_type **type, hci_note *note)
+{
+    const hci_status status = hci_brakes_find_driving(s->regression, candidates, type, note);
+    for (size_t k = 0; k < candidates->count && !status && !*type; ++k)
+        if (hci_mirror_is_broken(s->regression, candidates, k)) *type = candidates->candidate[k].type;
+    return status;
+}
+
 hci_status hci_search_keep_brakes(hci_search *s, hci_fitted_model *model, hci_note *note)
 {
     const hci_effect_type *type = NULL;
-    hci_status status = hci_brakes_find_driving(s->regression, &model->candidates, &type, note);
+    hci_status status = unnatural_find(s, &model->candidates, &type, note);
     while (!status && type) {
         status = disbelieve(s, model, type, 1.0, note);
         hci_candidates_remove_type(&model->candidates, type);
         if (!status) status = hci_search_renew(s, model, note);
-        if (!status) status = hci_brakes_find_driving(s->regression, &model->candidates, &type, note);
+        if (!status) status = unnatural_find(s, &model->candidates, &type, note);
     }
     return status;
 }

@@ -22,8 +22,9 @@ hci_status hci_search_constant_share(const hci_search *search, const hci_candida
  * which take the torque per ampere away; with the noise found anew. HCI_ERROR_MEMORY. */
 hci_status hci_search_keep_believed(hci_search *search, hci_fitted_model *model, hci_note *note);
 
-/* The same of what brakes and would drive, whatever the search went through on its way: the best of such
- * models is kept in search->disbelieved. HCI_ERROR_MEMORY. */
+/* The same of what brakes and would drive, and of a mean torque of the iron that keeps its sign with the load,
+ * whatever the search went through on its way: the best of such models is kept in search->disbelieved.
+ * HCI_ERROR_MEMORY. */
 hci_status hci_search_keep_brakes(hci_search *search, hci_fitted_model *model, hci_note *note);
 
 /* How well the best model that is not believed describes the recordings, beside the one that is. */

@@ -1,0 +1,67 @@
+#include "host/diagnose/search/mirror.h"
+
+#include <math.h>
+
+#include "hci/machine/frames.h"
+#include "host/recording/rotor_frame.h"
+
+/* A torque at i_d, i_q in two parts: what turns its sign with i_q and what does not. */
+typedef struct {
+    double turns_Nm, keeps_Nm;
+} parts;
+
+static bool is_of_mean(const hci_candidate *x)
+{
+    return x->in && x->type->propose_coenergy && x->count == 1 && x->term[0].order == 0.0;
+}
+
+/* The mean torque of a term. */
+static double torque_Nm(const hci_machine *machine, const hci_candidate *x, double reference_A, double d,
+                        double q)
+{
+    hci_effect_term term[2] = {x->term[0]};
+    const hci_effect effect = {x->type, term, 2};
+    const hci_effects list = {&effect, 1};
+    hci_sample truth = {0};
+    for (size_t k = 0; k < x->type->parameter_count; ++k)
+        if (x->type->parameter[k].traits & HCI_PARAMETER_REFERENCE_CURRENT)
+            term[1] = (hci_effect_term){k, 0.0, reference_A, NAN};
+    hci_phases_of_dq((hci_dq){d, q, 0.0}, 0.0, truth.i_abc);
+    return hci_effects_torque(machine, &list, &truth, NULL).torque_Nm;
+}
+
+static parts parts_of(const hci_regression *e, const hci_candidates *c, size_t k, size_t run)
+{
+    const hci_run_statistics *x = &e->samples->statistics[run];
+    const double d = x->mean_id_A, q = x->mean_iq_A;
+    const double there = torque_Nm(e->machine, &c->candidate[k], c->reference_current_A, d, q);
+    const double back = torque_Nm(e->machine, &c->candidate[k], c->reference_current_A, d, -q);
+    return (parts){0.5 * (there - back), 0.5 * (there + back)};
+}
+
+/* Squares over the runs of what one candidate, or all of them, make. */
+static parts squares_of(const hci_regression *e, const hci_candidates *c, size_t first, size_t end)
+{
+    parts square = {0.0, 0.0};
+    for (size_t r = 0; r < e->samples->run_count; ++r) {
+        parts sum = {0.0, 0.0};
+        for (size_t k = first; k < end && e->use[r]; ++k) {
+            if (!is_of_mean(&c->candidate[k])) continue;
+            const parts one = parts_of(e, c, k, r);
+            sum.turns_Nm += one.turns_Nm;
+            sum.keeps_Nm += one.keeps_Nm;
+        }
+        square.turns_Nm += sum.turns_Nm * sum.turns_Nm;
+        square.keeps_Nm += sum.keeps_Nm * sum.keeps_Nm;
+    }
+    return square;
+}
+
+bool hci_mirror_is_broken(const hci_regression *e, const hci_candidates *candidates, size_t k)
+{
+    if (e->machine->slope_count > 0 || !is_of_mean(&candidates->candidate[k])) return false;
+    const parts own = squares_of(e, candidates, k, k + 1);
+    if (!(own.keeps_Nm > own.turns_Nm)) return false;
+    const parts all = squares_of(e, candidates, 0, candidates->count);
+    return all.keeps_Nm > all.turns_Nm;
+}
