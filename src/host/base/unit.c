@@ -28,6 +28,8 @@ enum {
     FLUX
 };
 
+#define SQRT2 1.4142135623730951
+
 /* In lower case; a '.' is a product that may be written in any way or left out. The first of a dimension has
  * factor 1. */
 static const hci_unit units[] = {
@@ -39,6 +41,12 @@ static const hci_unit units[] = {
     {"amps", CURRENT, 1},
     {"ampere", CURRENT, 1},
     {"amperes", CURRENT, 1},
+    {"arms", CURRENT, SQRT2}, /* of servo drives, whose currents are those of a sine */
+    {"a.rms", CURRENT, SQRT2},
+    {"aeff", CURRENT, SQRT2},
+    {"a.eff", CURRENT, SQRT2},
+    {"apk", CURRENT, 1},
+    {"a.pk", CURRENT, 1},
     {"ma", CURRENT, 1e-3},
     {"ka", CURRENT, 1e3},
     {"v", VOLTAGE, 1},

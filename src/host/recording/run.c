@@ -485,6 +485,9 @@ static hci_status read_torque(reader *r)
     drop_typed(r);
     hci_run_computed_torque_leave(&r->columns);
     if (run->torque_is_typed) return HCI_OK; /* a load: neither a free shaft nor a holding test */
+    if (run->torque_Nm == NULL && r->options->holding && r->no_currents)
+        return missing(r, "a holding test without a current that is read", "the current that holds the shaft",
+                       "name its column by --column iq_A=COLUMN, or its torque by --column torque_Nm=COLUMN");
     if (run->torque_Nm == NULL) return hci_untold_torque_set(run, r->options, r->no_currents, r->note);
     run->torque_source = is_zero(run->torque_Nm, run->count) ? HCI_TORQUE_HOLDING : HCI_TORQUE_MEASURED;
     if (run->torque_source == HCI_TORQUE_HOLDING && !hci_row_direction_set(run)) return memory_error(r);

@@ -33,6 +33,8 @@ static void test_units_convert_by_their_definition(void)
         {"rad_s", "rad/s", 1},
         {"rev/s", "rpm", 60},
         {"mA", "A", 1e-3},
+        {"Arms", "A", 1.4142135623730951},
+        {"A_rms", "A", 1.4142135623730951},
         {"A", "mA", 1e3},
         {"mV", "kV", 1e-6},
         {"ms", "us", 1e3},

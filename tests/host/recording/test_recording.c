@@ -484,6 +484,15 @@ static void test_torque_of_inertia(void)
         TEST_ASSERT_DOUBLE_WITHIN(0.02 * 0.05, 0.02 * acceleration_at(time_at(k)), run.torque_Nm[k]);
 }
 
+/* Nothing would be left of what holds the shaft, and no cogging torque found. */
+static void test_holding_takes_a_current(void)
+{
+    files_write(path, "time_s,theta_m_rad,u [Arms]\n0,0,1\n1,0.5,1\n2,1,1\n3,1.5,1\n");
+    const hci_run_options options = {.pole_pairs = 4, .holding = true};
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, hci_run_read(path, &options, &run, &note));
+    text_has("--column iq_A=COLUMN", note.text);
+}
+
 /* Of a speed that swings, and whose noise makes its slopes long, the share of J dω/dt that torque_Nm has. */
 static double swing(double order)
 {
@@ -715,6 +724,7 @@ int main(void)
     RUN_TEST(test_a_torque_map_knows_the_mean_only);
     RUN_TEST(test_torque_sources);
     RUN_TEST(test_torque_of_inertia);
+    RUN_TEST(test_holding_takes_a_current);
     RUN_TEST(test_orders_that_slopes_show);
     RUN_TEST(test_a_driven_shaft_is_not_free);
     RUN_TEST(test_refused_runs);
