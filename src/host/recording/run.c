@@ -414,6 +414,7 @@ static hci_status read_currents(reader *r)
     r->no_currents = !has(r, HCI_RUN_IQ);
     if (r->no_currents && r->run->theta_m_rad != NULL)
         hci_note_add(&r->run->remark, "no currents: taken as 0");
+    if (r->no_currents) hci_run_columns_current_like(&r->columns);
     return read_dq(r, HCI_RUN_ID, HCI_RUN_IQ, &r->run->i_A);
 }
 

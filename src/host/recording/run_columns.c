@@ -428,6 +428,19 @@ void hci_run_columns_torque_like(const hci_run_columns *c, char name[HCI_RUN_NAM
     }
 }
 
+void hci_run_columns_current_like(const hci_run_columns *c)
+{
+    const hci_unit *ampere = hci_unit_find("A", 1);
+    char quoted[HCI_QUOTE_SIZE];
+    for (size_t column = 0; column < hci_csv_columns(c->csv); ++column) {
+        const char *name = hci_csv_name(c->csv, column);
+        const hci_unit *unit = hci_column_unit(c->csv, column);
+        if (!c->used[column] && unit != NULL && unit->dimension == ampere->dimension)
+            hci_note_add(c->remark, "%s is a current that was not read: if it is i_q, add --column 'iq=%s'",
+                         hci_quote(name, quoted), name);
+    }
+}
+
 /* ---- three phases */
 
 int hci_run_phase_count(const hci_run_columns *c, hci_run_column first)

@@ -61,6 +61,9 @@ hci_status hci_run_columns_find(const hci_csv *csv, hci_run_columns *c, hci_note
  * where there is none. */
 void hci_run_columns_torque_like(const hci_run_columns *c, char name[HCI_RUN_NAME]);
 
+/* Tells in the remark which columns that were not read are currents by their unit. */
+void hci_run_columns_current_like(const hci_run_columns *c);
+
 /* Adds to an error which column may be the angle, and how to say it. */
 void hci_run_columns_say_angle(const hci_run_columns *c, hci_note *missing);
 

@@ -493,6 +493,13 @@ static void test_holding_takes_a_current(void)
     text_has("--column iq_A=COLUMN", note.text);
 }
 
+static void test_a_current_that_was_not_read_is_named(void)
+{
+    files_write(path, "time_s,theta_m_rad,torque_Nm,Actual current [Arms]\n0,0,1,1\n1,0.5,1,1\n2,1,1,1\n");
+    read_run(4, 0.0);
+    text_has("if it is i_q, add --column 'iq=Actual current [Arms]'", run.remark.text);
+}
+
 /* Of a speed that swings, and whose noise makes its slopes long, the share of J dω/dt that torque_Nm has. */
 static double swing(double order)
 {
@@ -725,6 +732,7 @@ int main(void)
     RUN_TEST(test_torque_sources);
     RUN_TEST(test_torque_of_inertia);
     RUN_TEST(test_holding_takes_a_current);
+    RUN_TEST(test_a_current_that_was_not_read_is_named);
     RUN_TEST(test_orders_that_slopes_show);
     RUN_TEST(test_a_driven_shaft_is_not_free);
     RUN_TEST(test_refused_runs);
