@@ -223,8 +223,6 @@ static hci_status take_waveform(cli_tuning *t, size_t k, const hci_waveform *w, 
     return status ? status : cli_tune_read_inputs(t, note);
 }
 
-#define USUAL_ORDER 60.0
-
 /* Up to the usual order; where the samples of a turn do not reach it, those of turns are put together. */
 static hci_status find_far(const hci_run *r, const hci_waveform_options *options, hci_waveform *w,
                            bool *is_far, hci_note *why)
@@ -234,8 +232,8 @@ static hci_status find_far(const hci_run *r, const hci_waveform_options *options
     hci_note unused = {{0}};
     const hci_status status = hci_waveform_find(r, options, w, why);
     *is_far = false;
-    if (status || (double)w->count * w->step > USUAL_ORDER - 1.0) return status;
-    far.max_order = USUAL_ORDER;
+    if (status || (double)w->count * w->step > HCI_USUAL_ORDER - 1.0) return status;
+    far.max_order = HCI_USUAL_ORDER;
     if (hci_waveform_find(r, &far, &more, &unused)) return HCI_OK;
     hci_waveform_release(w);
     *w = more;

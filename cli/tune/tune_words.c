@@ -19,9 +19,6 @@ enum { ENOUGH_LOADS = 3 };
 
 /* ---- what is concluded ---- */
 
-/* Up to which cogging torque may be, where no slots are given. */
-#define USUAL_ORDER 60.0
-
 /* Of the data sheet, that a measured back-EMF may be off and not be a contradiction. */
 #define OFF_SHEET 0.15
 
@@ -47,7 +44,7 @@ static double reach_of_slopes(const cli_tuning *t)
         reach = fmax(reach, t->runs.run[k].torque_reach);
     }
     const double slots = cli_tune_order_of_slots(t);
-    return reach < (slots > 0.0 ? slots : USUAL_ORDER) ? reach : 0.0;
+    return reach < (slots > 0.0 ? slots : HCI_USUAL_ORDER) ? reach : 0.0;
 }
 
 static void say_limits(cli_tuning *t)
@@ -56,7 +53,7 @@ static void say_limits(cli_tuning *t)
     if (reach > 0.0)
         hci_tuning_say(
             &t->tuning, HCI_TUNING_UNKNOWN,
-            "Cogging torque above the electrical order %.3g: the speed swings too little by it. Turn "
+            "Cogging torque above the electrical order %.3g: the slope of the speed hardly shows it. Turn "
             "the shaft slowly under control, forward and back, or measure the torque.",
             reach);
     if (is_off_sheet(t))
@@ -329,7 +326,6 @@ static void swing_of(const cli_tuning *t, double *before_Nm, double *after_Nm)
 /* What a figure of the model leaves open. */
 static const char *not_known(const cli_tuning *t)
 {
-    if (reach_of_slopes(t) > 0.0) return "these recordings do not show cogging torque of high orders";
     return t->solution.expected.state == HCI_RIPPLE_KNOWN ? "these recordings do not bound what is left"
            : t->is_own && (!t->has_emf || t->emf_is_size_alone) && !t->has_load
                ? "what harmonics of the real back-EMF add under load is not known"
@@ -430,6 +426,9 @@ static void add_to_heading(cli_tuning *t)
 {
     char *heading = t->tuning.heading;
     const size_t size = sizeof t->tuning.heading;
+    if (reach_of_slopes(t) > 0.0)
+        snprintf(heading + strlen(heading), size - strlen(heading),
+                 "; these recordings do not show cogging torque above order %.3g", reach_of_slopes(t));
     if (hangs_on_lag(t))
         snprintf(heading + strlen(heading), size - strlen(heading),
                  "; unless the torque sensor reads late, which one speed does not tell");

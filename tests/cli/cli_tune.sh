@@ -219,4 +219,13 @@ check "what failed is left: $(ls none 2>/dev/null)" [ ! -e none ]
 run 3 tune out/runs.csv --pole-pairs 7 --kv 100 -o none
 says 'out/runs.csv: found a list of recordings' '--runs'
 
+# ---- a shaft that runs out: the slope of its speed, from noisy samples, hides the cogging torque of its slots
+
+awk 'BEGIN { srand(3); print "time_s,theta_m_rad,speed_rad_per_s"; J = 2.1e-4; w = 120; h = 1e-4
+    for (n = 0; w > 6; ++n) {
+        if (n % 10 == 0) printf "%.4f,%.6f,%.4f\n", n * h, x, w + 0.2 * (rand() - 0.5)
+        w += h / J * (-0.006 - 2e-5 * w + 0.004 * sin(84 * x + 0.4)); x += h * w } }' >coast.csv
+run 0 tune coast.csv --pole-pairs 14 --kv 90 --inertia 2.1e-4 --slots 12 -o coast
+says '^tuned: .*; these recordings do not show cogging torque above order 0\.[0-9]*$' 'Cogging torque above the electrical order 0\.[0-9]*: '
+
 finish

@@ -17,9 +17,6 @@
  * not. */
 #define UNSTEADY 0.3
 
-/* The order up to which cogging torque may matter. */
-#define WORTH_ORDER 60.0
-
 typedef struct {
     hci_run *run;
     const hci_run_options *options;
@@ -213,7 +210,7 @@ static hci_status free_or_held(task *t)
     if (t->accelerates) {
         run->torque_source = HCI_TORQUE_INERTIA;
         hci_note_add(&run->remark, "no torque_Nm: as of a free shaft it is inertia x acceleration");
-        if (run->torque_reach < WORTH_ORDER)
+        if (run->torque_reach < HCI_USUAL_ORDER)
             hci_note_add(&run->remark,
                          "its slopes show next to nothing of a torque of an electrical order above %.3g",
                          run->torque_reach);

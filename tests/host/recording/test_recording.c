@@ -525,7 +525,8 @@ static double swing(double order)
 }
 
 /* A slope over all samples of W s shows 3(sin x − x cos x)/x³ of what swings with f, x = πfW; with the order
- * of which W is a period, x = π at that order. */
+ * of which W is a period, x = π at that order. Beside that the noise has a part of that frequency: 0.035 of
+ * the swing at most with these draws. */
 static void test_orders_that_slopes_show(void)
 {
     static const double ORDERS[] = {0.5, 1.0, 2.0};

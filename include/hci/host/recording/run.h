@@ -14,6 +14,9 @@
 extern "C" {
 #endif
 
+/* The electrical order up to which cogging torque is looked at where nothing is said. */
+#define HCI_USUAL_ORDER 60.0
+
 /* Where the torque of a run comes from. */
 typedef enum {
     HCI_TORQUE_NONE,     /* neither of the following */
@@ -39,10 +42,9 @@ typedef struct {
     double *i_A;             /* [count][3], phase currents; of dq currents, turned by the recorded angle */
     double *torque_Nm;       /* on the shaft, as torque_source says */
     size_t torque_window;    /* samples that an acceleration in torque_Nm is a slope over; 0: it has none */
-    double
-        torque_reach; /* electrical order up to which such a slope shows a torque of the angle; 0: no slope */
-    double *temperature_C;           /* of the magnets */
-    double *v_V;                     /* [count][3], phase voltages */
+    double torque_reach;     /* electrical order up to which that slope shows torque; 0: it has none */
+    double *temperature_C;   /* of the magnets */
+    double *v_V;             /* [count][3], phase voltages */
     hci_torque_source torque_source; /* where torque_Nm is from */
     bool turn_known;  /* the angle is mechanical, or an electrical one that is not wrapped: orders k/p are in
                          it */

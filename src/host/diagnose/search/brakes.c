@@ -4,8 +4,8 @@
 
 #include "host/diagnose/fit/model.h"
 
-#define DRIVES                                                                                               \
-    0.2 /* of what an effect brakes with at most, that it may drive with, or brake less, elsewhere */
+/* Of what an effect brakes with at most, that it may drive with, or brake less, elsewhere. */
+#define DRIVES 0.2
 
 /* ---- what brakes ---- */
 

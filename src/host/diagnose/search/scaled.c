@@ -68,13 +68,9 @@ static double torque_rms(const hci_search *s)
 static hci_status leave_below(hci_search *s, hci_fitted_model *model, const hci_effect_type *type,
                               double most_Nm, hci_note *note)
 {
-    hci_fitted_model without = {0};
-    double explained_Nm = 0.0;
+    double explained_Nm;
     if (!hci_candidates_have(&model->candidates, type)) return HCI_OK;
-    hci_status status = hci_search_without(s, model, type, &without, note);
-    if (!status)
-        status = hci_search_explained(s, &model->candidates, &without.candidates, &explained_Nm, note);
-    hci_fitted_model_release(&without);
+    const hci_status status = hci_search_explained_by(s, model, type, &explained_Nm, note);
     if (status || explained_Nm > most_Nm) return status;
     hci_candidates_remove_type(&model->candidates, type);
     return hci_search_renew(s, model, note);

@@ -172,6 +172,19 @@ hci_status hci_search_explained(hci_search *s, const hci_candidates *with, const
     return HCI_OK;
 }
 
+hci_status hci_search_explained_by(hci_search *s, const hci_fitted_model *model, const hci_effect_type *type,
+                                   double *explained_Nm, hci_note *note)
+{
+    hci_fitted_model without = {0};
+    *explained_Nm = 0.0;
+    if (!hci_candidates_have(&model->candidates, type)) return HCI_OK;
+    hci_status status = hci_search_without(s, model, type, &without, note);
+    if (!status)
+        status = hci_search_explained(s, &model->candidates, &without.candidates, explained_Nm, note);
+    hci_fitted_model_release(&without);
+    return status;
+}
+
 hci_status hci_search_noticeable(hci_search *s, const hci_candidates *with, const hci_candidates *without,
                                  bool *noticeable, hci_note *note)
 {

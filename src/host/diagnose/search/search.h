@@ -69,6 +69,11 @@ double hci_search_noise_rms(const hci_search *search);
 hci_status hci_search_explained(hci_search *search, const hci_candidates *with, const hci_candidates *without,
                                 double *explained_Nm, hci_note *note);
 
+/* The same of a type in a model, beside that model fitted without it; 0 where it is not in.
+ * HCI_ERROR_MEMORY. */
+hci_status hci_search_explained_by(hci_search *search, const hci_fitted_model *model,
+                                   const hci_effect_type *type, double *explained_Nm, hci_note *note);
+
 /* Whether that is large enough to matter; an effect that is in may always become more exact. */
 hci_status hci_search_noticeable(hci_search *search, const hci_candidates *with,
                                  const hci_candidates *without, bool *noticeable, hci_note *note);

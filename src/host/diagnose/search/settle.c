@@ -189,13 +189,8 @@ static hci_status residual_judge(hci_search *s, hci_attribution *a, hci_note *no
 static hci_status explained_add(hci_search *s, const hci_fitted_model *model, const hci_effect_type *type,
                                 double *sum_Nm, hci_note *note)
 {
-    hci_fitted_model without = {0};
-    double explained_Nm = 0.0;
-    if (!hci_candidates_have(&model->candidates, type)) return HCI_OK;
-    hci_status status = hci_search_without(s, model, type, &without, note);
-    if (!status)
-        status = hci_search_explained(s, &model->candidates, &without.candidates, &explained_Nm, note);
-    hci_fitted_model_release(&without);
+    double explained_Nm;
+    const hci_status status = hci_search_explained_by(s, model, type, &explained_Nm, note);
     *sum_Nm = hypot(*sum_Nm, explained_Nm);
     return status;
 }
