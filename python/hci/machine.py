@@ -198,7 +198,8 @@ class Machine:
             dead_time_s: with pwm_frequency_Hz: what line voltages lose.
             pwm_frequency_Hz: see dead_time_s.
             ignore_ratings: leave out the limits that machine.csv declares.
-            minimise: which ripple is made smallest where limits act: auto, worst, peak-to-peak or rms.
+            minimise: which ripple is made smallest where the torque cannot be as wanted: auto, worst,
+                peak-to-peak or rms.
             temperature_C: of the magnets.
             drive: drive.csv: harmonics that its current loop cannot follow at speed_rpm are left out.
             progress: see docs/python.md.

@@ -137,7 +137,10 @@ static hci_status begin_again(hci_wishes *w, const hci_answer *a, double *x, hci
     return status;
 }
 
-static hci_status solve(hci_wishes *w, hci_answer *a, hci_note *note)
+/* ---- all of it ---- */
+
+/* w->x: the best currents within the limits. */
+static hci_status find(hci_wishes *w, const hci_answer *a, hci_note *note)
 {
     double *x = hci_memory_new(2 * w->set.count, sizeof *x);
     hci_status status = x ? HCI_OK : out_of_memory(note);
@@ -146,10 +149,39 @@ static hci_status solve(hci_wishes *w, hci_answer *a, hci_note *note)
         status = hci_limited_path_follow(w, x, note);
     }
     if (!status && may_find_more(w)) status = begin_again(w, a, x, note);
-    if (!status) status = give(w, a, note);
-    if (!status) status = hci_linear_describe(w->of->task, a, w->of->solution, note);
     hci_memory_free(x);
     return status;
+}
+
+/* Whether what was found is to take the place of the currents without limits: where those do not keep them or
+ * are worse. */
+static hci_status find_whether_better(const hci_wishes *w, const hci_solution *without, bool *is_better,
+                                      hci_note *note)
+{
+    const hci_wave_list i = {without->current.wave, without->current.count};
+    hci_limit_merit before, now;
+    hci_status status;
+    *is_better = true;
+    if (!without->within_limits) return HCI_OK;
+    status = hci_limit_merit_evaluate(w->of->task, w->program.minimise, &i, &before, note);
+    if (!status) status = merit_of(w, &now, note);
+    if (!status) *is_better = hci_limit_merit_less(&now, &before, w->program.scale_Nm);
+    return status;
+}
+
+static hci_status solve(hci_wishes *w, hci_answer *a, hci_note *note)
+{
+    const hci_solution without = *w->of->solution;
+    bool is_better = true;
+    hci_status status = find(w, a, note);
+    if (!status) status = find_whether_better(w, &without, &is_better, note);
+    if (!status && !is_better) {
+        *w->of->solution = without;
+        w->cost = (hci_limit_optimum){0};
+        return HCI_OK;
+    }
+    if (!status) status = give(w, a, note);
+    return status ? status : hci_linear_describe(w->of->task, a, w->of->solution, note);
 }
 
 /* Where working precision does not do, the currents without limits stay and that is said. */

@@ -15,6 +15,7 @@
 #include "host/solution/limits.h"
 #include "host/solve/evaluate_solution.h"
 #include "host/solve/pointwise.h"
+#include "host/solve/torque_spectrum.h"
 
 #define DEFAULT_TOLERANCE 1e-6
 
@@ -252,21 +253,49 @@ static hci_status take_answer(const hci_machine_data *m, const hci_solve_options
     return status ? status : hci_limits_check(m, o, &w->bounds, s, note);
 }
 
-/* The currents without limits; where they do not keep them, or a ripple is to be made smallest, those within.
- */
+/* Whether the torque of the currents is within the tolerance at every order that is cared for. */
+static hci_status find_whether_met(const hci_task *t, const hci_solution *s, bool *is_met, hci_note *note)
+{
+    hci_harmonic_list torque;
+    const hci_status status =
+        hci_torque_spectrum_evaluate(t, s->current.wave, s->current.count, &torque, note);
+    *is_met = true;
+    for (size_t k = 0; k < torque.count; ++k) {
+        const hci_target_order wanted = hci_target_at(t->target, torque.harmonic[k].order);
+        if (wanted.weight > 0.0 &&
+            hci_torque_distance_Nm(torque.harmonic[k], wanted.torque_Nm) > s->tolerance_Nm)
+            *is_met = false;
+    }
+    hci_memory_free(torque.harmonic);
+    return status;
+}
+
+/* Whether the currents without limits are the answer: they keep the limits, and no ripple is left that is to
+ * be made smallest. */
+static hci_status find_whether_done(const hci_task *t, const hci_solve_options *o, const hci_solution *s,
+                                    bool *is_done, hci_note *note)
+{
+    *is_done = s->within_limits;
+    if (!s->within_limits || o->minimise == HCI_MINIMISE_AUTO) return HCI_OK;
+    return find_whether_met(t, s, is_done, note);
+}
+
+/* The currents without limits; where they do not keep them, or leave a ripple that is to be made smallest,
+ * those within. */
 static hci_status find_currents(const hci_machine_data *m, const hci_solve_options *o, work *w,
                                 hci_solution *s, hci_note *note)
 {
     const hci_limited within = {&w->task, m, o, &w->bounds, &w->at, s};
     const double mean_Nm = hci_target_mean_Nm(o->target);
-    bool has_parts;
+    bool has_parts, is_done;
     hci_status status = hci_held_answer(&within, &w->answer, &has_parts, note);
     s->wanted_mean_Nm = mean_Nm;
     s->minimised_Nm = s->torque_at_limit_Nm = NAN;
     if (!status) status = take_answer(m, o, w, has_parts, s, note);
     if (status || o->method == HCI_METHOD_POINTWISE) return status;
     hci_limits_scale(&w->bounds, mean_Nm, s);
-    if (s->within_limits && o->minimise == HCI_MINIMISE_AUTO) return HCI_OK;
+    status = find_whether_done(&w->task, o, s, &is_done, note);
+    if (status || is_done) return status;
     status = hci_limited_answer(&within, &w->answer, note);
     return status ? status : take_answer(m, o, w, false, s, note);
 }

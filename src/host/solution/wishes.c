@@ -11,6 +11,7 @@
 enum { MOST_SLACKS = 4 }; /* of tenfold room for the least copper */
 
 #define REACHED 0.1  /* share of the tolerance within which a wish is called met */
+#define ROUGHLY 1e-4 /* share of the torque within which a mean is met where the solver is not precise */
 #define COSTS   1e-5 /* what a limit costs of the whole, below which it costs nothing */
 
 static hci_status out_of_memory(hci_note *note)
@@ -50,6 +51,12 @@ static double tolerance_Nm(const hci_wishes *l)
     return REACHED * l->of->solution->tolerance_Nm;
 }
 
+/* A program that is solved roughly misses a mean that can be had by more than the tolerance. */
+static bool is_mean_met(const hci_wishes *l, double missed_Nm)
+{
+    return missed_Nm <= fmax(tolerance_Nm(l), l->is_far ? ROUGHLY * l->program.scale_Nm : 0.0);
+}
+
 /* Widens the limits until there is a current. */
 static hci_status fit(hci_wishes *l, hci_note *note)
 {
@@ -86,7 +93,7 @@ static hci_status find_mean(hci_wishes *l, hci_note *note)
     hci_limit_optimum o;
     const hci_status status = solve_mean(l, &o, note);
     if (!status) {
-        p->has_mean = o.smallest <= tolerance_Nm(l);
+        p->has_mean = is_mean_met(l, o.smallest);
         p->mean_Nm = p->field.mean_Nm - o.smallest;
         if (!p->has_mean) note_cost(l, HCI_COST_TORQUE, &o, p->scale_Nm);
         hci_wish_take(l, &o);

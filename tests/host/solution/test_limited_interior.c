@@ -98,9 +98,75 @@ static void test_a_limit_a_little_below_the_peak(void)
     TEST_ASSERT_TRUE(solution.worst_error_Nm < 1e-3);
 }
 
+/* Every component up to order 61, which the currents within limits have where none are named. */
+enum { COMPONENTS = 21 };
+
+static void use_components(void)
+{
+    static hci_component component[COMPONENTS];
+    static hci_set name[COMPONENTS];
+    static const hci_component_set SET = {component, name, COMPONENTS, {{0}}};
+    for (int k = 0; k < COMPONENTS; ++k) {
+        component[k] =
+            (hci_component){1.0 + 6.0 * ((k + 1) / 2) - (k % 2 == 1 ? 2.0 : 0.0), k % 2 == 1 ? -1 : 1};
+        name[k] = k % 2 == 1 ? HCI_SET_NEG : HCI_SET_POS;
+    }
+    options.set = &SET;
+}
+
+/* Where the torque is as wanted within a limit, there is no ripple to be made smallest. */
+static void test_a_wish_that_is_met_changes_nothing(void)
+{
+    static const hci_minimise WHAT[] = {HCI_MINIMISE_WORST, HCI_MINIMISE_PEAK_TO_PEAK, HCI_MINIMISE_RMS};
+    solve(HCI_OK);
+    const double least_A2 = solution.mean_square_A2;
+    const size_t count = solution.current.count;
+    options.limits.rms_A[0] = options.limits.rms_A[1] = options.limits.rms_A[2] = 5.0;
+    for (int k = 0; k < 3; ++k) {
+        options.minimise = WHAT[k];
+        solve(HCI_OK);
+        TEST_ASSERT_EQUAL(count, solution.current.count);
+        TEST_ASSERT_EQUAL_DOUBLE(least_A2, solution.mean_square_A2);
+        TEST_ASSERT_EQUAL(HCI_COST_NONE, solution.limit_cost);
+    }
+}
+
+/* A limit that is never touched leaves the way to the smallest ripple as it is without one. */
+static void test_a_limit_far_off_leaves_the_smallest_ripple(void)
+{
+    double worst_Nm[2];
+    use_components();
+    options.minimise = HCI_MINIMISE_WORST;
+    for (int k = 0; k < 2; ++k) {
+        for (int s = 0; s < 3; ++s)
+            options.limits.rms_A[s] = k == 0 ? 0.0 : 5.0;
+        solve(HCI_NOT_REACHED);
+        TEST_ASSERT_TRUE(solution.newton_converged);
+        worst_Nm[k] = solution.worst_error_Nm;
+    }
+    TEST_ASSERT_TRUE(worst_Nm[0] < 1e-4);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, worst_Nm[0], worst_Nm[1]);
+}
+
+/* Nor are currents within limits worse than those without that keep them. */
+static void test_the_currents_without_limits_stay_where_none_are_better(void)
+{
+    use_components();
+    solve(HCI_NOT_REACHED);
+    const double least_A2 = solution.mean_square_A2;
+    for (int s = 0; s < 3; ++s)
+        options.limits.rms_A[s] = 5.0;
+    options.minimise = HCI_MINIMISE_RMS;
+    solve(HCI_NOT_REACHED);
+    TEST_ASSERT_TRUE(solution.mean_square_A2 <= (1.0 + 1e-9) * least_A2);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_a_wish_that_is_met_changes_nothing);
+    RUN_TEST(test_a_limit_far_off_leaves_the_smallest_ripple);
+    RUN_TEST(test_the_currents_without_limits_stay_where_none_are_better);
     RUN_TEST(test_the_largest_torque_of_a_peak_current);
     RUN_TEST(test_field_weakening);
     RUN_TEST(test_a_limit_a_little_below_the_peak);
