@@ -19,6 +19,7 @@ static const double ENOUGH = 0.01, /* ripple as a share of the mean torque that 
     LEAST_PRICE = 1e-18, MOST_PRICE = 1e-2;
 static const double WORTH = 0.9;   /* share of the ripple without a price above which there is none */
 static const double REDUCED = 0.7; /* share of its current below which a component is named */
+static const double SAME = 1e-6;   /* share of the ripple within which it is that of the same currents */
 
 /* ---- what the hold leaves ---- */
 
@@ -59,6 +60,16 @@ typedef struct {
     bool is_given; /* whether the answer has currents and no parts of them */
 } question;
 
+static question question_of(const hci_limited *of)
+{
+    return (question){.task = of->task,
+                      .options = of->options,
+                      .at = of->at,
+                      .solution = of->solution,
+                      .mean_Nm = hci_target_mean_Nm(of->options->target),
+                      .of = of};
+}
+
 static hci_status ask(const question *q, hci_answer *a, hci_note *note)
 {
     hci_answer_release(a);
@@ -77,12 +88,7 @@ static hci_wave wave_of(const question *q, const hci_answer *a, size_t k)
                       hci_coordinate(a->x, n, q->mean_Nm, 2 * k + 1)};
 }
 
-/* What counts of an answer. */
-typedef struct {
-    double ripple_Nm, copper_A2;
-} worth;
-
-static hci_status weigh(const question *q, const hci_answer *a, worth *w, hci_note *note)
+static hci_status weigh(const question *q, const hci_answer *a, hci_held_worth *w, hci_note *note)
 {
     hci_wave *wave = hci_memory_new(a->set.count + 1, sizeof *wave);
     if (!wave) return hci_note_memory(note, NULL, "solving");
@@ -94,7 +100,7 @@ static hci_status weigh(const question *q, const hci_answer *a, worth *w, hci_no
     return HCI_OK;
 }
 
-static hci_status ask_at(const question *q, double price, hci_answer *a, worth *w, hci_note *note)
+static hci_status ask_at(const question *q, double price, hci_answer *a, hci_held_worth *w, hci_note *note)
 {
     q->task->rotor_price = price;
     hci_status status = ask(q, a, note);
@@ -102,7 +108,8 @@ static hci_status ask_at(const question *q, double price, hci_answer *a, worth *
 }
 
 /* The least price that does, or the highest that the copper allows; the answer at it. */
-static hci_status search(const question *q, const worth *first, hci_answer *a, worth *w, hci_note *note)
+static hci_status search(const question *q, const hci_held_worth *first, hci_answer *a, hci_held_worth *w,
+                         hci_note *note)
 {
     const double enough_Nm = ENOUGH * fabs(q->mean_Nm), allowance = q->options->loss_allowance,
                  most_A2 = (allowance > 0.0 ? allowance : DEFAULT_LOSS) * first->copper_A2;
@@ -134,7 +141,7 @@ static double amplitude_of(const question *q, const hci_answer *a, hci_component
     return 0.0;
 }
 
-/* The components of which most is gone. */
+/* The components of which most is gone. before: the orders as they come; a: what is left of them. */
 static void name_reduced(const question *q, const hci_answer *before, const hci_answer *a, hci_note *remark)
 {
     bool is_named[MOST_NAMED + 1] = {false};
@@ -159,21 +166,11 @@ static void name_reduced(const question *q, const hci_answer *before, const hci_
     }
 }
 
-static void tell(const question *q, const worth *first, const worth *w)
-{
-    const double percent = 100.0 / fabs(q->mean_Nm);
-    hci_note_add(
-        &q->solution->remark,
-        "between its samples the loop misses %.2g %% of the mean torque of these currents, peak to "
-        "peak; high orders are reduced for that (%.2g %% without), which takes %.3g times the copper",
-        percent * w->ripple_Nm, percent * first->ripple_Nm, w->copper_A2 / first->copper_A2);
-}
-
 /* ---- all of it ---- */
 
 /* The currents of the least ripple, where they can be asked for and it is worth it; *is_found. */
-static hci_status find_least(question *q, hci_answer *a, worth *first, worth *w, bool *is_found,
-                             hci_note *note)
+static hci_status find_least(question *q, hci_answer *a, hci_held_worth *first, hci_held_worth *w,
+                             bool *is_found, hci_note *note)
 {
     const size_t n = 2 * a->set.count;
     const double allowance = q->options->loss_allowance;
@@ -200,38 +197,74 @@ static hci_status find_least(question *q, hci_answer *a, worth *first, worth *w,
     return status == HCI_ERROR_NUMERIC ? HCI_OK : status;
 }
 
-static hci_status price(question *q, hci_answer *a, hci_note *note)
+static hci_status price(question *q, hci_answer *a, hci_held *held, hci_note *note)
 {
-    hci_answer before = {0};
-    worth first, w;
-    bool is_found = false;
-    hci_status status = weigh(q, a, &first, note);
-    if (status || first.ripple_Nm <= ENOUGH * fabs(q->mean_Nm)) return status;
-    if (hci_answer_copy(a, &before)) return hci_note_memory(note, NULL, "solving");
-    const worth rough = first;
-    if (hci_hold_is_known(q->of)) status = find_least(q, a, &first, &w, &is_found, note);
-    if (!status && !is_found) {
-        first = rough;
-        status = search(q, &first, a, &w, note);
+    hci_held_worth rough;
+    hci_status status = weigh(q, a, &rough, note);
+    if (status || rough.ripple_Nm <= ENOUGH * fabs(q->mean_Nm)) return status;
+    if (hci_answer_copy(a, &held->as_they_come)) return hci_note_memory(note, NULL, "solving");
+    held->first = rough;
+    if (hci_hold_is_known(q->of)) status = find_least(q, a, &held->first, &held->now, &held->is_exact, note);
+    if (!status && !held->is_exact) {
+        held->first = rough;
+        status = search(q, &held->first, a, &held->now, note);
     }
-    if (!status && !is_found && w.ripple_Nm > WORTH * first.ripple_Nm) {
-        status = ask_at(q, 0.0, a, &w, note);
-    } else if (!status) {
-        tell(q, &first, &w);
-        name_reduced(q, &before, a, &q->solution->remark);
-    }
-    hci_answer_release(&before);
-    return status;
+    held->is_worth_it = held->is_exact || held->now.ripple_Nm <= WORTH * held->first.ripple_Nm;
+    return status || held->is_worth_it ? status : ask_at(q, 0.0, a, &held->now, note);
 }
 
-hci_status hci_held_answer(const hci_limited *of, hci_answer *a, bool *has_parts, hci_note *note)
+hci_status hci_held_answer(const hci_limited *of, hci_answer *a, bool *has_parts, hci_held *held,
+                           hci_note *note)
 {
     const hci_solve_options *o = of->options;
-    question q = {of->task, o, of->at, of->solution, hci_target_mean_Nm(o->target), of, false};
+    question q = question_of(of);
     const bool is_priced = o->sample_rad > 0.0 && o->choose_at_most == 0 && q.mean_Nm != 0.0 &&
                            o->method != HCI_METHOD_POINTWISE;
     hci_status status = ask(&q, a, note);
-    if (!status && is_priced) status = price(&q, a, note);
+    if (!status && is_priced) status = price(&q, a, held, note);
     *has_parts = !o->held && hci_task_is_linear(of->task) && !q.is_given;
     return status;
+}
+
+/* What is missed of the answer in the end, which is another one where limits act, as `held` measured it. */
+static hci_status missed_of(const question *q, const hci_held *held, const hci_answer *a, double *ripple_Nm,
+                            hci_note *note)
+{
+    const size_t n = 2 * a->set.count;
+    hci_held_worth w = {0.0, 0.0};
+    double *x = hci_memory_new(n, sizeof *x);
+    const hci_hold_question exact = {q->of, &a->set, x, 0.0, 0.0};
+    hci_status status = x ? HCI_OK : hci_note_memory(note, NULL, "solving");
+    for (size_t j = 0; j < n && !status; ++j)
+        x[j] = hci_coordinate(a->x, n, q->mean_Nm, j);
+    if (!status && !held->is_exact) status = weigh(q, a, &w, note);
+    if (!status) *ripple_Nm = held->is_exact ? hci_hold_missed_Nm(&exact, x) : w.ripple_Nm;
+    hci_memory_free(x);
+    return status || *ripple_Nm < HUGE_VAL ? status : hci_note_memory(note, NULL, "solving");
+}
+
+hci_status hci_held_tell(const hci_limited *of, const hci_held *held, const hci_answer *a, hci_note *note)
+{
+    const question q = question_of(of);
+    const double percent = 100.0 / fabs(q.mean_Nm), copper = held->now.copper_A2 / held->first.copper_A2;
+    double ripple_Nm = NAN;
+    if (!held->is_worth_it) return HCI_OK;
+    const hci_status status = missed_of(&q, held, a, &ripple_Nm, note);
+    if (status) return status;
+    if (fabs(ripple_Nm - held->now.ripple_Nm) > SAME * ripple_Nm) {
+        hci_note_add(
+            &of->solution->remark,
+            "between its samples the loop misses %.2g %% of the mean torque of these currents, peak to "
+            "peak; without limits high orders are reduced for that, to %.2g %% with %.3g times the "
+            "copper, which does not keep them",
+            percent * ripple_Nm, percent * held->now.ripple_Nm, copper);
+        return HCI_OK;
+    }
+    hci_note_add(
+        &of->solution->remark,
+        "between its samples the loop misses %.2g %% of the mean torque of these currents, peak to "
+        "peak; high orders are reduced for that (%.2g %% without), which takes %.3g times the copper",
+        percent * ripple_Nm, percent * held->first.ripple_Nm, copper);
+    name_reduced(&q, &held->as_they_come, a, &of->solution->remark);
+    return HCI_OK;
 }

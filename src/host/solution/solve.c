@@ -234,6 +234,7 @@ typedef struct {
     hci_bounds bounds;
     hci_linear_torque at; /* where the task was made linear last */
     hci_answer answer;
+    hci_held held;
 } work;
 
 /* What the plain sine of the wanted mean torque takes, by which a ratio of copper is meant. */
@@ -282,13 +283,14 @@ static hci_status find_whether_done(const hci_task *t, const hci_solve_options *
 
 /* The currents without limits; where they do not keep them, or leave a ripple that is to be made smallest,
  * those within. */
-static hci_status find_currents(const hci_machine_data *m, const hci_solve_options *o, work *w,
-                                hci_solution *s, hci_note *note)
+static hci_status find_currents(const hci_limited *within, work *w, hci_note *note)
 {
-    const hci_limited within = {&w->task, m, o, &w->bounds, &w->at, s};
+    const hci_machine_data *m = within->machine;
+    const hci_solve_options *o = within->options;
+    hci_solution *s = within->solution;
     const double mean_Nm = hci_target_mean_Nm(o->target);
     bool has_parts, is_done;
-    hci_status status = hci_held_answer(&within, &w->answer, &has_parts, note);
+    hci_status status = hci_held_answer(within, &w->answer, &has_parts, &w->held, note);
     s->wanted_mean_Nm = mean_Nm;
     s->minimised_Nm = s->torque_at_limit_Nm = NAN;
     if (!status) status = take_answer(m, o, w, has_parts, s, note);
@@ -296,7 +298,7 @@ static hci_status find_currents(const hci_machine_data *m, const hci_solve_optio
     hci_limits_scale(&w->bounds, mean_Nm, s);
     status = find_whether_done(&w->task, o, s, &is_done, note);
     if (status || is_done) return status;
-    status = hci_limited_answer(&within, &w->answer, note);
+    status = hci_limited_answer(within, &w->answer, note);
     return status ? status : take_answer(m, o, w, false, s, note);
 }
 
@@ -304,13 +306,15 @@ static hci_status solve_task(const hci_machine_data *machine, const hci_solve_op
                              hci_solution *s, hci_note *note)
 {
     hci_task *t = &w->task;
+    const hci_limited within = {t, machine, o, &w->bounds, &w->at, s};
     hci_status status;
     s->with_effects = o->effects && o->effects->count > 0;
     s->period_turns = t->period_turns;
     s->tolerance_Nm = (o->tolerance > 0.0 ? o->tolerance : DEFAULT_TOLERANCE) * torque_scale_Nm(t);
     s->limit_mean_square_A2 = hci_pointwise_mean_square_A2(t);
     hci_limits_list(&w->bounds, s);
-    status = find_currents(machine, o, w, s, note);
+    status = find_currents(&within, w, note);
+    if (!status) status = hci_held_tell(&within, &w->held, &w->answer, note);
     if (!status)
         status = hci_solution_evaluate(t, &w->answer.set, o->set ? o->compare : HCI_COMPARE_ALL, s, note);
     if (!status && o->method != HCI_METHOD_POINTWISE) status = fill_system(t, &w->answer, s, note);
@@ -333,6 +337,7 @@ hci_status hci_solve(const hci_machine_data *machine, const hci_solve_options *o
     if (!status && !options->limits.ignore_ratings) hci_limits_remark_rated(machine, solution);
     if (!status && w.model.left_out > 0) remark_left_out(options->effects, &solution->remark);
     hci_answer_release(&w.answer);
+    hci_answer_release(&w.held.as_they_come);
     hci_linear_torque_release(&w.at);
     hci_quadratic_model_release(&w.model);
     if (!status) return verdict_of(solution);

@@ -74,6 +74,26 @@ static void test_the_least_is_missed(void)
     TEST_ASSERT_TRUE(missed_percent < 1.8);
 }
 
+/* Currents that a limit puts in the place of those of which the loop misses least are told of by themselves.
+ */
+static void test_what_limits_put_in_their_place_is_told(void)
+{
+    const double sample_rad = 100.0 * HCI_PI * 1e-4;
+    double missed_percent = 0.0;
+    options.sample_rad = sample_rad;
+    solve();
+    const double mean_Nm = solution.order[0].torque_Nm.cosine;
+    options.limit_current_A = 0.99 * solution.peak_phase_current_A;
+    hci_solution_release(&solution);
+    TEST_ASSERT_TRUE(hci_solve(&machine, &options, &solution, NULL) <= HCI_NOT_REACHED);
+    TEST_ASSERT_TRUE(solution.within_limits);
+    TEST_ASSERT_NULL(strstr(solution.remark.text, "reduced: "));
+    const char *told = strstr(solution.remark.text, "between its samples");
+    TEST_ASSERT_NOT_NULL(told);
+    TEST_ASSERT_EQUAL_INT(1, sscanf(told, "between its samples the loop misses %lf", &missed_percent));
+    TEST_ASSERT_DOUBLE_WITHIN(0.06 * missed_percent, 100.0 * ripple_Nm(sample_rad) / mean_Nm, missed_percent);
+}
+
 /* At a tenth of the speed it is not worth a price. */
 static void test_nothing_is_priced_where_little_is_missed(void)
 {
@@ -90,6 +110,7 @@ int main(void)
     RUN_TEST(test_a_sine_between_its_samples);
     RUN_TEST(test_high_orders_are_priced);
     RUN_TEST(test_the_least_is_missed);
+    RUN_TEST(test_what_limits_put_in_their_place_is_told);
     RUN_TEST(test_nothing_is_priced_where_little_is_missed);
     return UNITY_END();
 }
