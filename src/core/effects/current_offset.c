@@ -1,6 +1,8 @@
 /* Current sensors whose zero is off. */
 #include "core/effects/type.h"
 
+#include <math.h>
+
 static const hci_effect_parameter PARAMETER[] = {
     HCI_PLAIN("a", "A", "read too much in phase a", 0.0, -DBL_MAX, 0),
     HCI_PLAIN("b", "A", "read too much in phase b", 0.0, -DBL_MAX, 0),
@@ -48,11 +50,11 @@ static double sum_by_value(const hci_effect_term *term, const hci_sample *truth)
     return 1.0;
 }
 
-#define EXPECTED 0.05 /* of the largest current */
+#define EXPECTED 0.05 /* of the largest current; what stands still while the rotor turns may all be theirs */
 
 static void propose(const hci_effect_survey *survey, const hci_effect_proposals *to)
 {
-    hci_effect_propose_phases(to, EXPECTED * survey->current_A);
+    hci_effect_propose_phases(to, fmax(EXPECTED * survey->current_A, survey->standing_current_A));
 }
 
 static void propose_alike(const hci_machine *machine, double slots, const hci_effect_proposals *to)

@@ -69,6 +69,19 @@ static void swings_fill(const hci_binned_samples *samples, hci_diagnosis *d)
     }
 }
 
+static void zeros_fill(const hci_binned_samples *samples, hci_diagnosis *d)
+{
+    d->zeros_read = 0;
+    d->zeros_read_A = 0.0;
+    for (size_t r = 0; r < samples->run_count; ++r) {
+        const hci_run_statistics *x = &samples->statistics[r];
+        if (!x->zeros_read) continue;
+        ++d->zeros_read;
+        for (size_t s = 0; s < 3; ++s)
+            d->zeros_read_A = fmax(d->zeros_read_A, fabs(x->standing_A[s]));
+    }
+}
+
 /* What no effect explains is described, and then leaves: it never gets into a machine. */
 static hci_status fill(hci_dataset *b, const hci_runs *runs, hci_attribution *a, hci_diagnosis *d,
                        hci_note *note)
@@ -80,6 +93,7 @@ static hci_status fill(hci_dataset *b, const hci_runs *runs, hci_attribution *a,
     d->disbelieved = a->disbelieved && a->unknown ? a->disbelieved->name : NULL;
     d->disbelieved_share = a->disbelieved_share;
     swings_fill(&b->samples, d);
+    zeros_fill(&b->samples, d);
     hci_unexplained_fill(b, a, d);
     hci_candidates_remove_type(&a->model.candidates, &hci_empirical_type);
     hci_status status = effects_fill(&b->regression, &a->model.candidates, d, note);

@@ -191,6 +191,15 @@ static void say_swings(const hci_words *w, const hci_diagnosis *d)
                          "it was taken out.");
 }
 
+static void say_zeros(const hci_words *w, const hci_diagnosis *d)
+{
+    if (d->zeros_read > 0)
+        hci_words_say(w,
+                      " In %zu of %zu runs what was read as current, up to %.2g A, stands still while the "
+                      "rotor turns: zeros of the sensors, taken as no current.",
+                      d->zeros_read, d->runs, d->zeros_read_A);
+}
+
 /* A torque that no sensor has read is right only where the shaft drives nothing. */
 static void say_free_shafts(const hci_words *w, const hci_diagnosis *d)
 {
@@ -321,6 +330,7 @@ void hci_diagnosis_words(const hci_diagnosis *d, char *text, size_t size)
     else
         say_verdict(&w, d);
     say_swings(&w, d);
+    say_zeros(&w, d);
     say_open_voltage(&w, d);
     say_free_shafts(&w, d);
 }

@@ -70,6 +70,17 @@ static void test_what_runs_without_a_current_show(void)
     TEST_ASSERT_FALSE(says("Under load"));
 }
 
+static void test_zeros_of_sensors(void)
+{
+    hci_run_errors run[7] = {{0}};
+    d.run = run;
+    d.runs = 7;
+    TEST_ASSERT_FALSE(says("zeros of the sensors"));
+    d.zeros_read = 3;
+    d.zeros_read_A = 0.123;
+    TEST_ASSERT_TRUE(says("In 3 of 7 runs what was read as current, up to 0.12 A, stands still"));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -77,5 +88,6 @@ int main(void)
     RUN_TEST(test_means_beside_a_ripple);
     RUN_TEST(test_an_unfinished_search_gives_no_causes);
     RUN_TEST(test_what_runs_without_a_current_show);
+    RUN_TEST(test_zeros_of_sensors);
     return UNITY_END();
 }

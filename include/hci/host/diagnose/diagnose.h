@@ -153,6 +153,8 @@ typedef struct {
     size_t unexplained_count;                          /* entries of unexplained in use */
     hci_free_swing swing[HCI_MOST_FREE_SWINGS];        /* beside the turn of the rotor */
     size_t swings;                                     /* entries of swing in use */
+    size_t zeros_read;   /* runs in which all that was read as current is the zeros of the sensors */
+    double zeros_read_A; /* the largest of them */
     double rms_before_Nm, rms_after_Nm, noise_Nm;      /* of the runs that were fitted */
     double holdout_before_Nm, holdout_after_Nm, holdout_noise_Nm; /* NAN without such runs */
     double holdout_mean_before_Nm, holdout_mean_after_Nm;         /* rms of the mean errors of these runs */

@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#define ZEROS_DRIFT 0.05 /* of a sensor's zero, from one run to another */
+
 double hci_current_sum_left(const hci_regression *e, const hci_effects *effects,
                             const hci_binned_sample *sample)
 {
@@ -24,6 +26,31 @@ double hci_current_sums_rms(const hci_regression *e, const hci_effects *effects)
             square += sample->count * left * left;
             count += sample->count;
         }
+    }
+    return count > 0.0 ? sqrt(square / count) : 0.0;
+}
+
+hci_current_zeros hci_current_zeros_left(const hci_regression *e, const hci_effects *effects,
+                                         const hci_segment *s)
+{
+    const hci_run_statistics *x = &e->samples->statistics[s->run];
+    const hci_sample *reading = &e->samples->sample[s->first].reading;
+    const double length_A = hypot(hypot(x->standing_A[0], x->standing_A[1]), x->standing_A[2]);
+    hci_current_zeros left = {.deviation_A = ZEROS_DRIFT * length_A};
+    if (!x->zeros_read || !(length_A > 0.0) || hci_segment_next(e->samples, s->run, NULL) != s) return left;
+    left.truth = hci_effects_undo(effects, e->machine->pole_pairs, reading);
+    for (size_t phase = 0; phase < 3; ++phase)
+        if (reading->computed_phase != (int)phase + 1) left.phase[left.count++] = phase;
+    return left;
+}
+
+double hci_current_zeros_rms(const hci_regression *e, const hci_effects *effects)
+{
+    double square = 0.0, count = 0.0;
+    for (const hci_segment *s = NULL; (s = hci_regression_next(e, s)) != NULL;) {
+        const hci_current_zeros left = hci_current_zeros_left(e, effects, s);
+        for (size_t k = 0; k < left.count; ++k, count += 1.0)
+            square += pow(left.truth.i_abc[left.phase[k]] / left.deviation_A, 2.0);
     }
     return count > 0.0 ? sqrt(square / count) : 0.0;
 }

@@ -1,5 +1,5 @@
-/* What a model leaves of i_a + i_b + i_c, which is 0 where no neutral is connected: gains and offsets of
- * current sensors show there, however little torque they make. */
+/* What a model leaves of currents that are 0: of i_a + i_b + i_c where no neutral is connected, and of each
+ * where none flowed. Gains and offsets of current sensors show there, however little torque they make. */
 #ifndef HCI_SRC_HOST_DIAGNOSE_FIT_CURRENT_SUMS_H
 #define HCI_SRC_HOST_DIAGNOSE_FIT_CURRENT_SUMS_H
 
@@ -12,5 +12,20 @@ double hci_current_sum_left(const hci_regression *regression, const hci_effects 
 /* Root mean square over the runs in use whose sums say something, in units of the noise of a sample; 0: none
  * does. O(samples·terms). */
 double hci_current_sums_rms(const hci_regression *regression, const hci_effects *effects);
+
+/* What is left of the currents of a run in which none flowed, by sensor. */
+typedef struct {
+    hci_sample truth;
+    size_t phase[3],
+        count; /* 0, 1, 2: those with a sensor; count: 0 of other runs, and but for the first segment */
+    double deviation_A; /* by which zeros differ from one run to another */
+} hci_current_zeros;
+
+hci_current_zeros hci_current_zeros_left(const hci_regression *regression, const hci_effects *effects,
+                                         const hci_segment *segment);
+
+/* Root mean square over the runs in use in which no current flowed, in units of deviation_A; 0: none is.
+ * O(runs·terms). */
+double hci_current_zeros_rms(const hci_regression *regression, const hci_effects *effects);
 
 #endif

@@ -130,7 +130,8 @@ hci_status hci_dataset_make(const hci_machine_data *machine, const hci_effects *
                             const hci_runs *runs, hci_dataset *b, hci_note *note)
 {
     memset(b, 0, sizeof *b);
-    hci_status status = hci_binned_samples_make(&machine->model, runs->run, runs->count, &b->samples, note);
+    hci_status status = hci_binned_samples_make(&machine->model, machine->rated_current_A, runs->run,
+                                                runs->count, &b->samples, note);
     if (!status) torques_count(machine, declared, runs, b);
     if (!status) status = evidence_make(machine, declared, runs, b, note);
     if (!status) status = indices_align(runs, b, note);

@@ -10,6 +10,8 @@
 
 #define ROUNDING 1e-12 /* square of a column beside the largest of its effect that is rounding */
 
+enum { PHASES = 3 };
+
 enum { BLOCK = 120 }; /* rows, longer than anything in the noise is correlated */
 
 /* What goes into the normal equations, and rows on their way. */
@@ -43,7 +45,8 @@ static bool holding_shows(const hci_run_statistics *x, unsigned traits, double o
 static bool can_show(const hci_run *run, const hci_run_statistics *x, const hci_candidate *s, size_t term)
 {
     const unsigned traits = s->type->parameter[s->term[term].parameter].traits;
-    if (x->no_current && ((traits & HCI_PARAMETER_WITH_CURRENT) || s->type->sum_by_value)) return false;
+    if ((x->no_current || x->zeros_read) && (traits & HCI_PARAMETER_WITH_CURRENT)) return false;
+    if (x->no_current && s->type->sum_by_value) return false;
     if (run->torque_source == HCI_TORQUE_MEASURED) return true;
     if (traits & HCI_PARAMETER_OF_TRANSDUCER) return false;
     if (filters_speed(run) && (s->type->needs & HCI_EFFECT_NEEDS_RATE)) return false;
@@ -135,6 +138,23 @@ static bool sum_rows(const filling *f, const hci_segment *s)
     return true;
 }
 
+/* Where no current flowed a row for each sensor of a run, which offsets must explain. Returns how many. */
+static size_t zero_rows(const filling *f, const hci_segment *s)
+{
+    const hci_model *m = f->model;
+    const hci_current_zeros left = hci_current_zeros_left(f->regression, &m->list, s);
+    for (size_t k = 0; k < left.count; ++k) {
+        for (size_t c = 0; c < m->columns; ++c) {
+            const hci_candidate *a = m->column[c].candidate;
+            const hci_effect_term *t = &a->term[m->column[c].term];
+            const bool acts = a->type->sum_by_value && t->parameter == left.phase[k];
+            f->x[k * m->columns + c] = acts ? a->type->sum_by_value(t, &left.truth) / left.deviation_A : 0.0;
+        }
+        f->y[k] = left.truth.i_abc[left.phase[k]] / left.deviation_A;
+    }
+    return left.count;
+}
+
 static void scatter_add(const filling *f, size_t rows, size_t block)
 {
     const size_t n = f->normal->n;
@@ -164,7 +184,8 @@ static void joined_add(const filling *f, const hci_segment *s)
     f->normal->square += rows;
 }
 
-/* Sums of currents inform, but the price of a parameter is that of torques: they do not count as rows. */
+/* Sums and zeros of currents inform, but the price of a parameter is that of torques: they do not count as
+ * rows. */
 static void segment_add(const filling *f, const hci_segment *s, hci_predicted_reading *predicted)
 {
     hci_predicted_reading_fill(f->regression, &f->model->list, s, predicted);
@@ -174,6 +195,7 @@ static void segment_add(const filling *f, const hci_segment *s, hci_predicted_re
     joined_add(f, s);
     const double rows = f->normal->rows;
     if (sum_rows(f, s)) rows_add(f, s);
+    hci_normal_equations_add(f->normal, f->x, f->y, zero_rows(f, s));
     f->normal->rows = rows;
 }
 
@@ -221,7 +243,8 @@ static void expectations_add(const hci_model *m, hci_normal_equations *normal)
 static bool rows_fill(filling *f)
 {
     const hci_regression *e = f->regression;
-    const size_t most = hci_segment_longest(e->samples), n = f->model->columns;
+    const size_t longest = hci_segment_longest(e->samples), n = f->model->columns;
+    const size_t most = longest > PHASES ? longest : PHASES;
     hci_predicted_reading predicted;
     f->x = hci_memory_new(most * (n + 2), sizeof *f->x);
     if (!f->x) return false;

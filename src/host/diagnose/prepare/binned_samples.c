@@ -82,11 +82,11 @@ static bool segment_add(hci_binned_samples *samples, const hci_segment *s)
     return true;
 }
 
-/* No current flowed where only noise was read. */
-static void currents_clear(hci_binned_sample *sample, size_t count)
+/* Where besides what stands still only noise was read, no other current flowed. */
+static void currents_stand(hci_binned_sample *sample, size_t count, const double standing_A[3])
 {
     for (size_t k = 0; k < count; ++k)
-        memset(sample[k].reading.i_abc, 0, sizeof sample[k].reading.i_abc);
+        memcpy(sample[k].reading.i_abc, standing_A, sizeof sample[k].reading.i_abc);
 }
 
 /* Keeps the readings, smooths them, and finds how fast the currents change. */
@@ -94,7 +94,8 @@ static bool segment_finish(const reduction *x, hci_segment *s)
 {
     hci_binned_sample *sample = x->samples->sample + s->first;
     bool series = false;
-    if (x->statistics->no_current) currents_clear(sample, s->count);
+    const bool stands = x->statistics->no_current || x->statistics->stands;
+    if (stands) currents_stand(sample, s->count, x->statistics->standing_A);
     for (size_t k = 0; k < s->count; ++k)
         sample[k].raw = sample[k].reading;
     /* in a holding test the current is what is measured, noise and all */
@@ -108,7 +109,7 @@ static bool segment_finish(const reduction *x, hci_segment *s)
         memcpy(sample[k].raw.curvature_A_per_s2, from->curvature_A_per_s2, sizeof from->curvature_A_per_s2);
         sample[k].raw.swing_rad_per_s = from->swing_rad_per_s;
     }
-    s->smooth = series || x->statistics->no_current;
+    s->smooth = series || stands;
     return segment_add(x->samples, s);
 }
 
@@ -430,23 +431,25 @@ static bool swings_fill(const hci_machine *machine, const hci_run *runs, const h
 }
 
 /* What is known of the runs before they are reduced. False when memory is out. */
-static bool statistics_fill(const hci_machine *machine, const hci_run *runs, hci_binned_samples *samples)
+static bool statistics_fill(const hci_machine *machine, double rated_current_A, const hci_run *runs,
+                            hci_binned_samples *samples)
 {
     for (size_t k = 0; k < samples->run_count; ++k)
         samples->statistics[k] = hci_run_statistics_of(&runs[k], machine->pole_pairs);
+    hci_run_statistics_zeros_find(samples->statistics, samples->run_count, rated_current_A);
     if (!swings_fill(machine, runs, NULL, samples)) return false;
     const hci_swing_groups known = hci_swing_groups_find(samples->statistics, samples->run_count);
     return known.count == 0 || swings_fill(machine, runs, &known, samples);
 }
 
-hci_status hci_binned_samples_make(const hci_machine *machine, const hci_run *runs, size_t run_count,
-                                   hci_binned_samples *samples, hci_note *note)
+hci_status hci_binned_samples_make(const hci_machine *machine, double rated_current_A, const hci_run *runs,
+                                   size_t run_count, hci_binned_samples *samples, hci_note *note)
 {
     size_t capacity = 0;
     memset(samples, 0, sizeof *samples);
     samples->run_count = run_count;
     samples->statistics = hci_memory_new(run_count + 1, sizeof *samples->statistics);
-    bool done = samples->statistics && statistics_fill(machine, runs, samples);
+    bool done = samples->statistics && statistics_fill(machine, rated_current_A, runs, samples);
     for (size_t k = 0; k < run_count && done; ++k)
         done = run_add(machine, &runs[k], k, samples, &capacity);
     if (done) return HCI_OK;

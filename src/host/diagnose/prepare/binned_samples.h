@@ -23,9 +23,10 @@ typedef struct {
     size_t run_count;
 } hci_binned_samples;
 
-/* Runs without a torque give no samples. HCI_ERROR_MEMORY. O(samples). */
-hci_status hci_binned_samples_make(const hci_machine *machine, const hci_run *runs, size_t run_count,
-                                   hci_binned_samples *samples, hci_note *note);
+/* Runs without a torque give no samples. rated_current_A: peak of a phase; NAN: not known. HCI_ERROR_MEMORY.
+ * O(samples). */
+hci_status hci_binned_samples_make(const hci_machine *machine, double rated_current_A, const hci_run *runs,
+                                   size_t run_count, hci_binned_samples *samples, hci_note *note);
 void hci_binned_samples_release(hci_binned_samples *samples);
 
 /* Samples of a segment that tell a torque. */

@@ -8,10 +8,11 @@
 
 #define ROUNDING_RAD 1e-7 /* a step of angle up to this is none */
 #define FREEDOM      100.0
+#define ZEROS        0.05 /* of the largest current, that nobody would have left unnoticed as zeros of sensors */
 #define COMMON       0.02 /* share of the mean square that neighbours have in common, of a current that flows … */
 #define CHANCE       3.0 /* … beyond what they have by chance, in standard deviations */
 
-enum { LEAST_SAMPLES = 64, LEAST_TURNS = 3, LEAST_PER_RANGE = 4, MOST_STEPS = 20000 };
+enum { LEAST_SAMPLES = 64, LEAST_TURNS = 3, LEAST_PER_RANGE = 4, LEAST_PERIODS = 10, MOST_STEPS = 20000 };
 
 /* The smallest step between neighbours that is not rounding. */
 static double angle_step(const hci_run *r)
@@ -77,19 +78,44 @@ static void sample_add(const hci_run *r, int pole_pairs, size_t k, hci_run_stati
     f->hottest_C = fmax(f->hottest_C, r->temperature_C[k]);
 }
 
-/* Whether the current is nothing but noise: white, so that neighbours have nothing in common, while a current
- * that flows is much the same from one sample to the next. In a holding test the current is what was
- * measured. */
-static bool is_noise(const hci_run *r, int pole_pairs, double current_A)
+/* i_d and i_q of what the phase currents are besides a part that stands still. */
+static hci_dq moving_dq(const hci_run *r, int pole_pairs, size_t k, const double standing_A[3])
 {
-    const double n = (double)r->count, square = current_A * current_A;
-    double common = 0.0;
+    double i[3];
+    for (size_t s = 0; s < 3; ++s)
+        i[s] = r->i_A[3 * k + s] - standing_A[s];
+    return hci_park(hci_clarke(i), pole_pairs * (r->theta_m_rad ? r->theta_m_rad[k] : 0.0));
+}
+
+/* Whether the current besides a standing part is nothing but noise: white, so that neighbours have nothing in
+ * common, while a current that flows is much the same from one sample to the next. In a holding test the
+ * current is what was measured. */
+static bool is_noise(const hci_run *r, int pole_pairs, const double standing_A[3])
+{
+    const double n = (double)r->count;
+    double common = 0.0, square = 0.0;
     if (r->count < LEAST_SAMPLES || r->torque_source == HCI_TORQUE_HOLDING || !r->time_s) return false;
+    hci_dq before = moving_dq(r, pole_pairs, 0, standing_A);
     for (size_t k = 1; k < r->count; ++k) {
-        const hci_dq a = hci_run_dq(r, pole_pairs, k - 1), b = hci_run_dq(r, pole_pairs, k);
-        common += (a.d * b.d + a.q * b.q) / (n - 1.0);
+        const hci_dq i = moving_dq(r, pole_pairs, k, standing_A);
+        common += i.d * before.d + i.q * before.q;
+        square += i.d * i.d + i.q * i.q;
+        before = i;
     }
     return common < (COMMON + CHANCE / sqrt(2.0 * n)) * square;
+}
+
+/* Means of the phase currents of a shaft that turns: of a sine they are next to nothing in so many periods.
+ * What else was read may be noise: then they are what flowed, or zeros of sensors. */
+static void standing_find(const hci_run *r, int pole_pairs, hci_run_statistics *f)
+{
+    double mean_A[3] = {0.0};
+    if (!(f->turns * pole_pairs >= LEAST_PERIODS)) return;
+    for (size_t k = 0; k < 3 * r->count; ++k)
+        mean_A[k % 3] += r->i_A[k] / (double)r->count;
+    for (size_t s = 0; s < 3; ++s)
+        f->standing_A[s] = mean_A[s];
+    f->stands = is_noise(r, pole_pairs, mean_A);
 }
 
 hci_run_statistics hci_run_statistics_of(const hci_run *r, int pole_pairs)
@@ -102,12 +128,32 @@ hci_run_statistics hci_run_statistics_of(const hci_run *r, int pole_pairs)
     f.rms_torque_Nm = sqrt(f.rms_torque_Nm);
     f.current_A = sqrt(f.current_A);
     f.speed_deviation = sqrt(fmax(0.0, f.speed_deviation - f.mean_speed_rad_per_s * f.mean_speed_rad_per_s));
-    f.no_current = is_noise(r, pole_pairs, f.current_A);
+    f.no_current = is_noise(r, pole_pairs, f.standing_A);
     f.is_loaded = !f.no_current && hci_run_is_loaded(r, pole_pairs);
     if (f.no_current) f.current_A = f.mean_id_A = f.mean_iq_A = 0.0;
     if (r->only_mean) return f;
     f.angle_step_rad = angle_step(r);
     f.turns = turns_of(r);
+    if (!f.no_current) standing_find(r, pole_pairs, &f);
     if (r->torque_Nm) f.repeat_Nm = repeatability(r, f.turns);
     return f;
+}
+
+/* ---- beside each other ---- */
+
+static double largest_of(const double x[3])
+{
+    return fmax(fabs(x[0]), fmax(fabs(x[1]), fabs(x[2])));
+}
+
+void hci_run_statistics_zeros_find(hci_run_statistics *statistics, size_t runs, double rated_current_A)
+{
+    double most_A = fmax(0.0, rated_current_A);
+    for (size_t r = 0; r < runs; ++r)
+        most_A = fmax(most_A, statistics[r].current_A);
+    for (size_t r = 0; r < runs; ++r) {
+        hci_run_statistics *f = &statistics[r];
+        f->zeros_read = f->stands && largest_of(f->standing_A) <= ZEROS * most_A;
+        f->is_loaded = f->is_loaded && !f->zeros_read;
+    }
 }

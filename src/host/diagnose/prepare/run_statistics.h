@@ -19,6 +19,9 @@ typedef struct {
     double speed_deviation;                 /* rad/s, about the mean */
     double mean_speed_rad_per_s, current_A; /* root mean square of the current vector's length */
     double mean_id_A, mean_iq_A;
+    double standing_A[3];    /* means of the phase currents over ten electrical turns or more; 0: fewer */
+    bool stands;             /* besides them the currents are noise */
+    bool zeros_read;         /* and they are the zeros of the sensors: no current flowed */
     bool is_loaded;          /* the size of i_q stays far above what it varies by, as against a brake */
     double rms_acceleration; /* rad/s², of a run with a torque sensor */
     bool no_current;         /* what was read as current is the noise of its sensors, and current_A is 0 */
@@ -34,5 +37,9 @@ typedef struct {
 
 /* Of a run without an angle all is 0, but for what is not known (NAN). O(samples). */
 hci_run_statistics hci_run_statistics_of(const hci_run *run, int pole_pairs);
+
+/* Where all that was read as current stands still while the rotor turns and is small beside the largest
+ * current of the runs and the rated one (A, peak; NAN: not known), no current flowed: zeros_read is set. */
+void hci_run_statistics_zeros_find(hci_run_statistics *statistics, size_t runs, double rated_current_A);
 
 #endif

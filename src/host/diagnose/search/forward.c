@@ -37,6 +37,11 @@ static bool is_pair(const hci_candidate_model *x)
     return x->a != x->b;
 }
 
+static bool has_both(const hci_candidate_model *x, size_t a, size_t b)
+{
+    return (x->a == a || x->b == a) && (x->a == b || x->b == b);
+}
+
 static bool is_picked(const hci_candidate_model *x, const hci_candidate_model *const *picked, size_t count)
 {
     for (size_t k = 0; k < count; ++k)
@@ -165,6 +170,7 @@ typedef struct {
     const hci_fitted_model *present;
     hci_fitted_model best;
     double bar;
+    bool refused; /* one was fitted and is not believed */
 } comparison;
 
 /* Takes the candidate as the best where it is, else leaves it. */
@@ -192,18 +198,40 @@ static double handicap_of(const hci_candidate_model *x, const hci_candidate_mode
     return pair + loose + (a->seen_as || b->seen_as ? HCI_DECISIVE : 0.0);
 }
 
-static hci_status models_enter(comparison *c, const hci_candidate_models *t, hci_note *note)
+/* One of the table, fitted in full. Where that is not believed it leaves the table, and all that it is a part
+ * of. */
+static hci_status model_enter(comparison *c, hci_candidate_models *t, const hci_candidate_model *x,
+                              double handicap, hci_note *note)
+{
+    hci_fitted_model candidate = {0};
+    hci_status status = hci_candidate_model_fit(c->search, t, x, &candidate, note);
+    const bool believed = isfinite(candidate.fit.score);
+    const size_t a = x->a, b = x->b;
+    if (!status && believed) status = contender_enter(c, &candidate, handicap, note);
+    c->refused = c->refused || !believed;
+    for (size_t k = 0; k < t->count && !status && !believed; ++k)
+        if (has_both(&t->model[k], a, b)) t->model[k].gain = -INFINITY;
+    hci_fitted_model_release(&candidate);
+    return status;
+}
+
+static hci_status models_enter(comparison *c, hci_candidate_models *t, hci_note *note)
 {
     const hci_candidate_model *picked[SINGLES + PAIRS];
     const size_t count = models_pick(t, picked);
+    const hci_candidate_model first = count > 0 ? *picked[0] : (hci_candidate_model){0};
     hci_status status = HCI_OK;
-    for (size_t k = 0; k < count && !status && !hci_search_is_over(c->search); ++k) {
-        hci_fitted_model candidate = {0};
-        const double handicap = handicap_of(picked[k], picked[0]);
-        status = hci_candidate_model_fit(c->search, t, picked[k], &candidate, note);
-        if (!status) status = contender_enter(c, &candidate, handicap, note);
-        hci_fitted_model_release(&candidate);
-    }
+    for (size_t k = 0; k < count && !status && !hci_search_is_over(c->search); ++k)
+        status = model_enter(c, t, picked[k], handicap_of(picked[k], &first), note);
+    return status;
+}
+
+/* Where none of those that promise most comes in and one was not believed, those behind it. */
+static hci_status believed_enter(comparison *c, hci_candidate_models *t, hci_note *note)
+{
+    hci_status status = models_enter(c, t, note);
+    if (!status && c->refused && !c->best.candidates.candidate && !hci_search_is_over(c->search))
+        status = models_enter(c, t, note);
     return status;
 }
 
@@ -356,7 +384,8 @@ static void coming_note(hci_search *s, const hci_fitted_model *before, const hci
 
 static comparison comparison_from(hci_search *s, const hci_fitted_model *present)
 {
-    return (comparison){s, present, {{NULL, 0, 0.0}, {0.0, 0, 0.0, 0.0}}, present->fit.score - HCI_DECISIVE};
+    return (comparison){
+        s, present, {{NULL, 0, 0.0}, {0.0, 0, 0.0, 0.0}}, present->fit.score - HCI_DECISIVE, false};
 }
 
 hci_status hci_search_forward(hci_search *s, hci_fitted_model *model, bool *added, hci_note *note)
@@ -367,7 +396,7 @@ hci_status hci_search_forward(hci_search *s, hci_fitted_model *model, bool *adde
     *added = false;
     if (status) return status;
     faint_leave(s, &model->candidates, &t);
-    status = models_enter(&c, &t, note);
+    status = believed_enter(&c, &t, note);
     hci_candidate_models_release(&t);
     for (size_t r = 0; hci_effect_type_at(r) && !status && !hci_search_is_over(s); ++r)
         if (hci_effect_type_at(r)->resonance) status = resonance_enter(&c, hci_effect_type_at(r), note);

@@ -13,6 +13,8 @@
 
 #define WITHIN_SLOPE 0.25 /* of what a torque varies within the window of a slope, that is not known */
 
+#define ZEROS_SHOW 9.0 /* three times what zeros differ by, squared */
+
 #define PART 0.02 /* of what is left of a step that a fit or a residual takes */
 
 /* ---- the end ---- */
@@ -139,8 +141,8 @@ double hci_search_noise_rms(const hci_search *s)
 
 /* ---- what an effect explains ---- */
 
-/* Whether what one model has besides the other shows in the sum of the currents, which says much of sensors
- * that hardly make a torque. */
+/* Whether what one model has besides the other shows in the sum of the currents or in those of runs in which
+ * none flowed, which say much of sensors that hardly make a torque. */
 static hci_status shows_in_sums(const hci_search *s, const hci_candidates *with,
                                 const hci_candidates *without, bool *shows, hci_note *note)
 {
@@ -151,7 +153,10 @@ static hci_status shows_in_sums(const hci_search *s, const hci_candidates *with,
     if (!status) {
         const double after = hci_current_sums_rms(s->regression, &more.list);
         const double before = hci_current_sums_rms(s->regression, &less.list);
-        *shows = before * before - after * after > NOTICEABLE * NOTICEABLE;
+        const double zeros_after = hci_current_zeros_rms(s->regression, &more.list);
+        const double zeros_before = hci_current_zeros_rms(s->regression, &less.list);
+        *shows = before * before - after * after > NOTICEABLE * NOTICEABLE ||
+                 zeros_before * zeros_before - zeros_after * zeros_after > ZEROS_SHOW;
     }
     hci_model_release(&more);
     hci_model_release(&less);

@@ -79,7 +79,7 @@ static void make(void)
 {
     hci_note note = {{0}};
     hci_binned_samples_release(&samples);
-    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_binned_samples_make(&machine, run, RUNS, &samples, &note));
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_binned_samples_make(&machine, NAN, run, RUNS, &samples, &note));
     TEST_ASSERT_EQUAL_INT(HCI_OK, make_from(NULL));
 }
 

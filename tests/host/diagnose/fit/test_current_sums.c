@@ -7,7 +7,7 @@
 
 enum { N = 600 };
 
-static const double READ_A = 0.005, OFFSET_A = 0.002;
+static const double READ_A = 0.005, OFFSET_A = 0.002, ZERO_A[3] = {0.3, -0.1, 0.05};
 
 void setUp(void)
 {
@@ -73,11 +73,80 @@ static void test_what_shows_in_the_sum_is_noticeable(void)
     TEST_ASSERT_TRUE(noticeable);
 }
 
+/* Four runs in which nothing flows and each sensor reads its zero, one of them drifted, beside a run at 9 A.
+ */
+static void record_zeros(double drift)
+{
+    for (size_t r = 0; r < 5; ++r) {
+        record(4 * N, &(point){r % 2 ? -60.0 : 60.0, r < 4 ? 0.0 : 9.0, 0.0, 0.0, 0.0});
+        for (size_t k = 0; k < 12 * N && r < 4; ++k)
+            run[r].i_A[k] = (r == 3 ? drift : 1.0) * ZERO_A[k % 3] + READ_A * ref_normal(&seed);
+        for (size_t k = 0; k < 12 * N && r == 4; ++k)
+            run[r].i_A[k] += ZERO_A[k % 3];
+    }
+    search_start();
+}
+
+/* In units of 5 % of the zeros, (|0.3, -0.1, 0.05| A): each run leaves three readings, and with the right
+ * offsets nothing but the drift of the last. */
+static void test_zeros_are_left_and_taken(void)
+{
+    static const hci_effects none = {NULL, 0};
+    const hci_effect_type *type = hci_effect_type_find("current_offset");
+    hci_effect_term term[3];
+    const hci_effect offset = {type, term, 3};
+    const hci_effects known = {&offset, 1};
+    for (size_t s = 0; s < 3; ++s)
+        term[s] = (hci_effect_term){s, 0.0, ZERO_A[s], NAN};
+    record_zeros(1.1);
+    const double left = 20.0 * sqrt((3.0 + 1.0) / 4.0 / 3.0);
+    TEST_ASSERT_DOUBLE_WITHIN(0.02 * left, left, hci_current_zeros_rms(&dataset.regression, &none));
+    const double drift = 20.0 * (0.1 / 1.1) * sqrt(1.0 / 12.0);
+    TEST_ASSERT_DOUBLE_WITHIN(0.05 * drift, drift, hci_current_zeros_rms(&dataset.regression, &known));
+    TEST_ASSERT_EQUAL_UINT64(
+        0, hci_current_zeros_left(&dataset.regression, &none, hci_segment_next(&dataset.samples, 4, NULL))
+               .count);
+}
+
+/* A phase that was computed from the others has no sensor, and no zero. */
+static void test_zeros_of_two_sensors(void)
+{
+    static const hci_effects none = {NULL, 0};
+    record_zeros(1.0);
+    const hci_segment *s = hci_segment_next(&dataset.samples, 0, NULL);
+    TEST_ASSERT_EQUAL_UINT64(3, hci_current_zeros_left(&dataset.regression, &none, s).count);
+    dataset.samples.sample[s->first].reading.computed_phase = 2;
+    const hci_current_zeros left = hci_current_zeros_left(&dataset.regression, &none, s);
+    TEST_ASSERT_EQUAL_UINT64(2, left.count);
+    TEST_ASSERT_EQUAL_UINT64(0, left.phase[0]);
+    TEST_ASSERT_EQUAL_UINT64(2, left.phase[1]);
+}
+
+/* The zeros alone find the offsets: without torque that these readings would make. */
+static void test_a_fit_finds_the_zeros(void)
+{
+    record_zeros(1.0);
+    for (int s = 0; s < 3; ++s)
+        model_add("current_offset", s == 0 ? "a" : s == 1 ? "b" : "c", NULL, 0.0);
+    model_fit();
+    for (int s = 0; s < 3; ++s)
+        TEST_ASSERT_DOUBLE_WITHIN(0.02, ZERO_A[s],
+                                  term_in(&model.candidates, "current_offset",
+                                          s == 0   ? "a"
+                                          : s == 1 ? "b"
+                                                   : "c",
+                                          0.0)
+                                      ->value);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_an_offset_is_left_and_taken);
     RUN_TEST(test_nothing_where_there_is_no_sum);
     RUN_TEST(test_what_shows_in_the_sum_is_noticeable);
+    RUN_TEST(test_zeros_are_left_and_taken);
+    RUN_TEST(test_zeros_of_two_sensors);
+    RUN_TEST(test_a_fit_finds_the_zeros);
     return UNITY_END();
 }

@@ -32,7 +32,7 @@ static void reduce(void)
 {
     hci_note note = {{0}};
     hci_binned_samples_release(&binned);
-    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_binned_samples_make(&MACHINE, &run, 1, &binned, &note),
+    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_binned_samples_make(&MACHINE, NAN, &run, 1, &binned, &note),
                                   note.text);
 }
 
@@ -341,7 +341,7 @@ static void test_memory_is_out(void)
     for (; status == HCI_ERROR_MEMORY; ++n) {
         memset(&note, 0, sizeof note);
         hci_memory_fail_after(n);
-        status = hci_binned_samples_make(&MACHINE, &run, 1, &binned, &note);
+        status = hci_binned_samples_make(&MACHINE, NAN, &run, 1, &binned, &note);
         hci_memory_fail_after(-1);
         TEST_ASSERT_EQUAL(status == HCI_OK, note.text[0] == '\0');
         TEST_ASSERT_EQUAL(status == HCI_OK, binned.sample != NULL);

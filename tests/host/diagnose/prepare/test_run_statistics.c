@@ -6,7 +6,7 @@
 
 enum { P = 3, PER_TURN = 600, TURNS = 40, N = TURNS * PER_TURN };
 
-static const double NOISE_NM = 0.05, RIPPLE_NM = 0.5;
+static const double NOISE_NM = 0.05, RIPPLE_NM = 0.5, NOISE_A = 0.02;
 
 static uint64_t seed;
 static hci_run run;
@@ -69,6 +69,55 @@ static void test_repeatability(void)
     TEST_ASSERT_TRUE(isnan(hci_run_statistics_of(&run, P).repeat_Nm));
 }
 
+/* Zeros of sensors, and their noise, while the rotor turns. */
+static void read_zeros(const double zero_A[3])
+{
+    for (size_t k = 0; k < 3 * N; ++k)
+        run.i_A[k] = zero_A[k % 3] + NOISE_A * ref_normal(&seed);
+}
+
+/* What stands still is found, and taken for zeros of sensors beside a larger current alone: the rated one or
+ * that of another run. */
+static void test_zeros_of_sensors(void)
+{
+    static const double ZERO_A[3] = {0.3, -0.1, 0.05};
+    hci_run_statistics x[2] = {{0}};
+    read_zeros(ZERO_A);
+    x[0] = hci_run_statistics_of(&run, P);
+    TEST_ASSERT_TRUE(x[0].stands && !x[0].no_current && !x[0].zeros_read);
+    for (size_t s = 0; s < 3; ++s)
+        TEST_ASSERT_DOUBLE_WITHIN(4.0 * NOISE_A / sqrt(N), ZERO_A[s], x[0].standing_A[s]);
+    hci_run_statistics_zeros_find(x, 1, NAN);
+    TEST_ASSERT_FALSE(x[0].zeros_read);
+    hci_run_statistics_zeros_find(x, 1, 0.3 / 0.06);
+    TEST_ASSERT_FALSE(x[0].zeros_read);
+    hci_run_statistics_zeros_find(x, 1, 0.3 / 0.04);
+    TEST_ASSERT_TRUE(x[0].zeros_read);
+    x[1].current_A = 0.3 / 0.04;
+    hci_run_statistics_zeros_find(x, 2, NAN);
+    TEST_ASSERT_TRUE(x[0].zeros_read && !x[1].zeros_read);
+}
+
+/* Neither in less than ten electrical turns, nor where a current flows: what turns with the rotor has a mean
+ * of next to nothing, and beside it even a zero is not all that was read. */
+static void test_a_current_that_flows_is_no_zero(void)
+{
+    static const double ZERO_A[3] = {0.3, -0.1, 0.05};
+    hci_run_statistics x = hci_run_statistics_of(&run, P);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.0, x.standing_A[0]);
+    for (size_t k = 0; k < 3 * N; ++k)
+        run.i_A[k] += ZERO_A[k % 3];
+    x = hci_run_statistics_of(&run, P);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.3, x.standing_A[0]);
+    TEST_ASSERT_FALSE(x.stands);
+    read_zeros(ZERO_A);
+    for (size_t k = 0; k < N; ++k)
+        run.theta_m_rad[k] *= 3.0 / TURNS;
+    x = hci_run_statistics_of(&run, P);
+    TEST_ASSERT_FALSE(x.stands);
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, x.standing_A[0]);
+}
+
 /* Without angle or samples nothing is known. */
 static void test_nothing_is_there(void)
 {
@@ -83,6 +132,8 @@ int main(void)
     RUN_TEST(test_means);
     RUN_TEST(test_angle);
     RUN_TEST(test_repeatability);
+    RUN_TEST(test_zeros_of_sensors);
+    RUN_TEST(test_a_current_that_flows_is_no_zero);
     RUN_TEST(test_nothing_is_there);
     return UNITY_END();
 }

@@ -29,7 +29,7 @@ static void reduce(void)
 {
     hci_note note = {{0}};
     hci_binned_samples_release(&binned);
-    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_binned_samples_make(&MACHINE, &run, 1, &binned, &note),
+    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_binned_samples_make(&MACHINE, NAN, &run, 1, &binned, &note),
                                   note.text);
     TEST_ASSERT_EQUAL_UINT64(1, binned.segment_count);
 }
