@@ -21,7 +21,8 @@ static const cli_option OPTIONS[] = {
                          .help =
                              "ripple by the limit of the peak current and by that of copper, for --torque"},
     [SWEEP_ENVELOPE] = {"envelope", 0, CLI_FLAG, NULL,
-                        .help = "the largest torque at each of --speeds, beside that of the plain sine"},
+                        .help = "the largest torque at each of --speeds with the components that may be "
+                                "used, beside that of the plain sine"},
     [SWEEP_MAP] = {"map", 0, CLI_FLAG, NULL, .help = "each of --torques at each of --speeds"},
     [SWEEP_TORQUE] = {"torque", 0, CLI_NUMBER, "NM", .help = "with --trade-off: mean torque", .low = -1e9,
                       .high = 1e9},

@@ -196,6 +196,35 @@ static hci_status check_links(const cli_sweep_inputs *in, size_t points, hci_not
                         points ? "dc_link_V of the GRID" : "--dc-links");
 }
 
+/* A speed of a point that a voltage has to go with, or 0. */
+static double speed_without_link(const cli_sweep_inputs *in, size_t points)
+{
+    for (size_t k = 0; k < points; ++k)
+        if (in->point[k].speed_rad_per_s != 0.0 && isnan(in->point[k].link_V))
+            return in->point[k].speed_rad_per_s;
+    for (size_t k = 0; k < in->speed_rad_per_s.count && in->link_V.count == 0; ++k)
+        if (in->speed_rad_per_s.value[k] != 0.0) return in->speed_rad_per_s.value[k];
+    return 0.0;
+}
+
+/* A speed acts through the voltage alone: without one every speed would have the same torque. */
+static hci_status check_speeds(const cli_arguments *a, const cli_sweep_inputs *in, size_t points,
+                               hci_note *note)
+{
+    const hci_solve_options *o = &in->options;
+    const double speed_rad_per_s = speed_without_link(in, points);
+    const bool is_declared = in->machine.dc_link_voltage_V > 0.0 && !o->limits.ignore_ratings;
+    if (speed_rad_per_s == 0.0 || o->limit_voltage_V > 0.0 || is_declared) return HCI_OK;
+    return hci_note_set(
+        note, HCI_ERROR_ARGUMENT,
+        "sweep: a speed changes currents through the voltage alone, and no dc link is known that limits it "
+        "at "
+        "%g rpm; add %s--limit-voltage V or, in machine.csv, `dc_link_voltage`%s, or give %s 0",
+        speed_rad_per_s / RPM, a->given[SWEEP_TRADE_OFF] ? "" : "--dc-links V,..., ",
+        o->limits.ignore_ratings ? " without --ignore-ratings" : "",
+        a->given[SWEEP_TRADE_OFF] ? "--speed" : "--speeds");
+}
+
 /* ---- what results depend on ---- */
 
 static bool is_about_work(int key)
@@ -271,6 +300,7 @@ hci_status cli_sweep_read(const cli_option *table, const cli_arguments *a, cli_s
     if (!status && a->words == 2) status = hci_grid_read(a->word[1], &in->point, &points, note);
     if (!status) status = check_voltage(a, in, note);
     if (!status) status = check_links(in, points, note);
+    if (!status) status = check_speeds(a, in, points, note);
     if (status) return status;
     fill_options(a, in);
     fill_request(a, points, in);

@@ -425,7 +425,8 @@ class Machine:
         Args:
             folder: where the results go; the same call goes on there.
             options: those of the program with _ for -: trade_off=True, torque=2.4, currents=[12, 16, 20]; or envelope=True,
-                speeds="0:3000:100"; or map=True, torques=[1, 2], speeds=[0, 600].
+                speeds="0:3000:100"; or map=True, torques=[1, 2], speeds=[0].
+                Other speeds need a dc link.
         """
         return Sweep(folder, *_program.run("sweep", self.path, *_program.words_of(options), "--out", folder))
 

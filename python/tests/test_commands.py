@@ -137,9 +137,9 @@ def test_ctrl_c_ends_the_program_too(data, tmp_path):
 
 
 def test_sweep_and_fmu(machine_a, data, smooth, tmp_path):
-    swept = machine_a.sweep(tmp_path / "sweep", map=True, torques=[1, 2], speeds=[0, 600])
+    swept = machine_a.sweep(tmp_path / "sweep", map=True, torques=[1, 2], speeds=[0], limit_current=20)
     points = swept.table("map.csv")
-    assert sorted(zip(points["torque_Nm"], points["speed_rpm"])) == [(1, 0), (1, 600), (2, 0), (2, 600)] and swept.plot().axes
+    assert sorted(zip(points["torque_Nm"], points["speed_rpm"])) == [(1, 0), (2, 0)] and swept.plot().axes
     made = machine_a.export_fmu(tmp_path / "controller.fmu", table=smooth, drive=data / DRIVE, fmi=3, sources_only=True)
     assert made["fmi_version"] == 3 and made["binary_bytes"] == 0
     names = zipfile.ZipFile(tmp_path / "controller.fmu").namelist()

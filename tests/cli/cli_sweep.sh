@@ -31,7 +31,14 @@ refused '--ripple goes with --envelope' "$m" --map --torques 1 --speeds 100 --ri
 refused 'go with --trade-off' "$m" --envelope --speeds 100 --torque 1
 refused 'takes the place of --torques' "$m" "$t" --torques 1
 refused 'expected MACHINE, or MACHINE and a GRID' "$m" "$t" "$h" --map
-refused 'give the limit in W' "$m" --envelope --speeds 100 --limit-copper 1.2x
+refused 'give the limit in W' "$m" --envelope --speeds 0 --limit-copper 1.2x
+no_link='no dc link is known that limits it at 100 rpm; add .*--limit-voltage V or, in machine.csv, `dc_link_voltage`'
+refused "$no_link" "$m" --envelope --speeds 0,100 --limit-current 5
+refused "$no_link" "$m" --map --torques 1 --speeds 100
+refused "$no_link" "$m" --trade-off --torque 1 --speed 100
+printf 'torque_Nm,speed_rpm\n1,100\n' >"$work/unlinked.csv"
+refused "$no_link" "$m" "$work/unlinked.csv"
+refused 'without --ignore-ratings' data/machine_c --map --torques 1 --speeds 100 --ignore-ratings
 refused 'limited at a speed; add --speed RPM' "$m" --trade-off --torque 1 --limit-voltage 50
 refused 'such as 3/16' "$m" --map --torques 1 --speeds 100 --shard 3
 refused 'such as 3/16' "$m" --map --torques 1 --speeds 100 --shard 4/3
@@ -117,7 +124,7 @@ check "a sweep whose points all fail left a folder" [ ! -e "$work/all_failed" ]
 run 0 sweep "$m" --map --torques 1,2 --speeds 300 --limit-voltage 40 --shard 1/2 -q -o "$work/failed_share"
 check "a share whose points all fail is not kept" grep -q '^1,.*,failed,.*inductance' "$work/failed_share/points.csv"
 cp "$work/own.csv" "$m/machine.csv"
-run 3 sweep "$m" --envelope --speeds 300 -q
+run 3 sweep "$m" --envelope --speeds 0 -q
 says 'limit-current'
 run 0 sweep "$m" --envelope --speeds 300,1200 --ripple 60 --limit-current 12 --limit-voltage 40 --harmonics "$h" -o "$work/envelope"
 says "any  ripple %      sine  ripple %  binds"

@@ -196,8 +196,10 @@ void hci_plot_envelope(hci_output *out, const hci_grid *s)
     static const hci_svg_picture PICTURE = {
         "sweep",
         "Largest torque over the speed",
-        "Above: the largest mean torque over the speed with little ripple, with any ripple and of the plain "
-        "sine, within the same limits. Below: the ripple of these torques. envelope.csv has the numbers.",
+        "Above: the largest mean torque over the speed, found with the components that may be used, with "
+        "little "
+        "ripple and with any, and of the plain sine, within the same limits. Below: the ripple of these "
+        "torques. envelope.csv has the numbers.",
         0,
         0,
         WIDTH,

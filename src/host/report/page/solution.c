@@ -14,7 +14,8 @@ static void table_of_cost(const hci_solution_page *p)
     hci_html_quantity(out, "amplitude of the plain sine in A", s->plain_amplitude_A);
     hci_html_quantity(out, "copper loss to that of the plain sine", s->loss_to_plain);
     hci_html_quantity(out, "copper loss to the least possible", s->loss_to_limit);
-    hci_html_quantity(out, "largest mean torque within the current limit in N·m", s->torque_at_limit_Nm);
+    hci_html_quantity(out, "mean torque at which currents of this shape keep the current limit in N·m",
+                      s->torque_at_limit_Nm);
     hci_html_quantity(out, "equations that were solved", (double)s->rows);
     hci_html_quantity(out, "unknowns", (double)s->unknowns);
     hci_html_quantity(out, "rank", (double)s->rank);

@@ -217,7 +217,8 @@ static const picture ENVELOPE[] = {
       .description =
           "Lines in N·m over the speed in rpm: with little ripple, with any, and of the plain sine, "
           "within the same limits.",
-      .caption = "The largest mean torque within the limits. " RIPPLE_IS,
+      .caption = "The largest mean torque found within the limits, but for the plain sine of the components "
+                 "that may be used. " RIPPLE_IS,
       .wide = 320,
       .narrow = 320,
       .legend_rows = 3,
