@@ -127,6 +127,16 @@ hci_status hci_bounds_make(const hci_machine_data *machine, const hci_solve_opti
     return take_copper(machine, &options->limits, plain_A, bounds, note);
 }
 
+static bool is_driven(const hci_bounds *b, int pair)
+{
+    return b->current_A[pair] > 0.0 && b->current_A[(pair + 1) % 3] > 0.0;
+}
+
+bool hci_bounds_drive_pair(const hci_bounds *b, int pair)
+{
+    return is_driven(b, pair) || !(is_driven(b, 0) || is_driven(b, 1) || is_driven(b, 2));
+}
+
 bool hci_bounds_are_alike(const hci_bounds *b)
 {
     bool alike = true;

@@ -20,6 +20,10 @@ typedef struct {
 hci_status hci_bounds_make(const hci_machine_data *machine, const hci_solve_options *options, double plain_A,
                            hci_bounds *bounds, hci_note *note);
 
+/* Whether line voltage `pair` (0, 1, 2: ab, bc, ca) is one that the inverter makes: both of its phases are
+ * driven, or no two phases are. That of an open phase is what its terminal shows. */
+bool hci_bounds_drive_pair(const hci_bounds *bounds, int pair);
+
 /* Whether the three phases have the same ones. */
 bool hci_bounds_are_alike(const hci_bounds *bounds);
 

@@ -195,16 +195,21 @@ static void check_currents(hci_solution *s, size_t samples, double *value)
     }
 }
 
-static void check_voltages(const hci_voltage_model *v, hci_solution *s, size_t samples, double *value)
+/* The largest of the line voltages that the inverter makes, and of those that open phases show. */
+static void check_voltages(const hci_voltage_model *v, const hci_bounds *b, hci_solution *s, size_t samples,
+                           double *value)
 {
     curve c = {s, v, 0, 2.0 * HCI_PI * (double)s->period_turns / (double)samples};
     sample(&c, samples, value);
     s->peak_line_voltage_V = 0.0;
     for (; c.phase < 3; ++c.phase) {
-        hci_limit *l = find_limit(s, HCI_LIMIT_VOLTAGE, c.phase);
+        hci_limit *l = hci_bounds_drive_pair(b, c.phase) ? find_limit(s, HCI_LIMIT_VOLTAGE, c.phase) : NULL;
         const double peak_V = peak_of(&c, samples, l, value + c.phase);
         take_value(l, peak_V);
-        s->peak_line_voltage_V = fmax(s->peak_line_voltage_V, peak_V);
+        if (l)
+            s->peak_line_voltage_V = fmax(s->peak_line_voltage_V, peak_V);
+        else
+            s->peak_open_voltage_V = fmax(s->peak_open_voltage_V, peak_V);
     }
 }
 
@@ -245,14 +250,14 @@ hci_status hci_limits_check(const hci_machine_data *m, const hci_solve_options *
     double *value = hci_memory_new(3 * samples, sizeof *value);
     hci_voltage_model voltage;
     hci_status status = value ? HCI_OK : hci_note_memory(note, NULL, "checking limits");
-    s->peak_line_voltage_V = NAN;
+    s->peak_line_voltage_V = s->peak_open_voltage_V = NAN;
     for (size_t k = 0; k < s->limit_count; ++k) {
         s->limit[k].value = 0.0;
         s->limit[k].touch_count = 0;
     }
     if (!status) check_currents(s, samples, value);
     if (!status && has_voltage) status = hci_voltage_model_make(m, o, &voltage, note);
-    if (!status && has_voltage) check_voltages(&voltage, s, samples, value);
+    if (!status && has_voltage) check_voltages(&voltage, b, s, samples, value);
     if (!status) judge(s);
     hci_memory_free(value);
     return status;
@@ -285,6 +290,19 @@ void hci_limits_remark_rated(const hci_machine_data *m, hci_solution *s)
             "the peak, %.4g A, is above rated_current, %.4g A, which is the peak of a sine and no "
             "limit; where the drive gives no more, --limit-current %.4g or `max_current` in machine.csv",
             peak_A, rated_A, rated_A);
+}
+
+/* ---- an open phase ---- */
+
+void hci_limits_remark_open(const hci_bounds *b, hci_solution *s)
+{
+    const double link_V = b->line_V / b->line_V_per_V;
+    if (!(s->peak_open_voltage_V > link_V)) return;
+    hci_note_add(
+        &s->remark,
+        "the open phase shows up to %.4g V against the others, more than the dc link of %.4g V: it has to "
+        "be disconnected, since of a leg that is only switched off the diodes would conduct",
+        s->peak_open_voltage_V, link_V);
 }
 
 /* ---- the same currents for less torque ---- */

@@ -17,6 +17,9 @@ hci_status hci_limits_check(const hci_machine_data *machine, const hci_solve_opt
  * kind was given. */
 void hci_limits_remark_rated(const hci_machine_data *machine, hci_solution *solution);
 
+/* Says in the remark where an open phase shows more than the dc link. */
+void hci_limits_remark_open(const hci_bounds *bounds, hci_solution *solution);
+
 /* Fills torque_at_limit_Nm of currents that are not shaped by limits. */
 void hci_limits_scale(const hci_bounds *bounds, double wanted_Nm, hci_solution *solution);
 

@@ -335,6 +335,7 @@ hci_status hci_solve(const hci_machine_data *machine, const hci_solve_options *o
     if (!status) status = solve_task(machine, options, &w, solution, note);
     if (!status) solution->machine = machine->identity;
     if (!status && !options->limits.ignore_ratings) hci_limits_remark_rated(machine, solution);
+    if (!status) hci_limits_remark_open(&w.bounds, solution);
     if (!status && w.model.left_out > 0) remark_left_out(options->effects, &solution->remark);
     hci_answer_release(&w.answer);
     hci_answer_release(&w.held.as_they_come);

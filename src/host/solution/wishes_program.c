@@ -119,7 +119,8 @@ static hci_status add_voltages(hci_wishes *l, hci_note *note)
     if (!(l->of->bounds->line_V < HUGE_VAL)) return HCI_OK;
     status = find_symmetry(l, HCI_POINT_VOLTAGE, &pairs, &share, note);
     for (int pair = 0; pair < pairs && !status; ++pair)
-        status = add_grid(l, HCI_POINT_VOLTAGE, pair, top_of_voltage(l), share, note);
+        if (hci_bounds_drive_pair(l->of->bounds, pair))
+            status = add_grid(l, HCI_POINT_VOLTAGE, pair, top_of_voltage(l), share, note);
     return status;
 }
 

@@ -174,6 +174,26 @@ static void test_an_open_phase(void)
     }
 }
 
+/* Braking, the current takes voltage off the two phases that carry it and half as much off those with the
+ * open one, whose terminal shows more than the inverter has to make. */
+static void test_an_open_phase_shows_a_voltage_that_is_not_limited(void)
+{
+    use(2, (const hci_component[]){{1.0, 1}, {1.0, -1}});
+    machine.inductance_d_H = machine.inductance_q_H = 1e-6;
+    order[0].torque_Nm.cosine = -3.0;
+    options.limits.is_open[0] = true;
+    options.speed_rad_per_s = 200.0;
+    options.limit_voltage_V = 60.0;
+    solve(HCI_NOT_REACHED);
+    const double emf_V = sqrt(3.0) * K_E * 200.0, current_A = 6.0 / (sqrt(3.0) * K_E);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, -3.0, mean_Nm());
+    TEST_ASSERT_TRUE(solution.within_limits);
+    TEST_ASSERT_DOUBLE_WITHIN(0.05, emf_V - 2.0 * 0.4 * current_A, solution.peak_line_voltage_V);
+    TEST_ASSERT_TRUE(solution.peak_open_voltage_V > 60.0 && solution.peak_open_voltage_V < emf_V);
+    TEST_ASSERT_NOT_NULL(strstr(solution.remark.text, "it has to be disconnected"));
+    TEST_ASSERT_FALSE(limit(HCI_LIMIT_VOLTAGE)->binds);
+}
+
 /* Without R: U/√3 = p ω_m √((ψ + L i_d)² + (L i_q)²), ψ = K_E/p, and 3 N·m take i_q = 10 A. */
 static void test_field_weakening(void)
 {
@@ -465,6 +485,7 @@ int main(void)
     RUN_TEST(test_rms);
     RUN_TEST(test_copper);
     RUN_TEST(test_an_open_phase);
+    RUN_TEST(test_an_open_phase_shows_a_voltage_that_is_not_limited);
     RUN_TEST(test_field_weakening);
     RUN_TEST(test_limits_that_nothing_keeps);
     RUN_TEST(test_ratings);

@@ -233,6 +233,7 @@ typedef struct {
     double peak_phase_current_A; /* largest |phase current| */
     double rms_phase_current_A;  /* of the phase that has most */
     double peak_line_voltage_V;  /* largest |line voltage| at the speed asked for; NAN without one */
+    double peak_open_voltage_V;  /* the same against an open phase, which is not limited; NAN without one */
     double torque_at_limit_Nm;   /* the largest mean torque at which the currents without limits, scaled with
                                   * it, keep the current limit; NAN when they do anyhow, or not known */
 
