@@ -143,6 +143,8 @@ static void show_current(const hci_solution *s)
     const bool to_plain = isfinite(s->loss_to_plain), to_limit = isfinite(s->loss_to_limit);
     cli_say("  currents     %zu component%s up to order %g, peak phase current %.4g A\n", s->current.count,
             s->current.count == 1 ? "" : "s", top_order(s), s->peak_phase_current_A);
+    if (isfinite(s->rms_neutral_A))
+        cli_say("  neutral      peak %.4g A, rms %.4g A\n", s->peak_neutral_A, s->rms_neutral_A);
     if (!to_plain && !to_limit) return;
     cli_say("  copper loss  ");
     if (to_plain)
@@ -251,7 +253,8 @@ static void show_cost(const hci_solution *s)
 static void show_limits(const hci_solution *s)
 {
     if (isfinite(s->peak_line_voltage_V))
-        cli_say("  voltage      peak line voltage %.4g V\n", s->peak_line_voltage_V);
+        cli_say("  voltage      peak line voltage %.4g V%s\n", s->peak_line_voltage_V,
+                isfinite(s->rms_neutral_A) ? "; that of a phase against the neutral is not limited" : "");
     if (s->within_limits || s->limit_cost == HCI_COST_LIMITS) show_cost(s);
     if (!s->within_limits && s->limit_cost != HCI_COST_LIMITS) {
         cli_say("  limits       not kept%s",

@@ -1,4 +1,6 @@
 /* summary.json of `solve`. */
+#include <math.h>
+
 #include "host/report/summary.h"
 
 static void put_remedy(hci_json *json, hci_component remedy)
@@ -92,6 +94,10 @@ static void put_current(hci_json *json, const hci_solution *s)
     hci_json_number(json, "components", (double)s->current.count);
     hci_json_number(json, "peak_phase_A", s->peak_phase_current_A);
     hci_json_number(json, "rms_phase_A", s->rms_phase_current_A);
+    if (isfinite(s->rms_neutral_A)) {
+        hci_json_number(json, "peak_neutral_A", s->peak_neutral_A);
+        hci_json_number(json, "rms_neutral_A", s->rms_neutral_A);
+    }
     hci_json_number(json, "peak_line_voltage_V", s->peak_line_voltage_V);
     hci_json_bool(json, "within_limits", s->within_limits);
     hci_json_number(json, "torque_at_limit_Nm", s->torque_at_limit_Nm);

@@ -195,6 +195,31 @@ static void check_currents(hci_solution *s, size_t samples, double *value)
     }
 }
 
+static double neutral_at(const void *context, double theta_rad)
+{
+    const curve *c = context;
+    double abc[3];
+    hci_waves_at(c->solution->current.wave, c->solution->current.count, theta_rad, abc);
+    return fabs(abc[0] + abc[1] + abc[2]);
+}
+
+static void check_neutral(hci_solution *s, size_t samples)
+{
+    const curve c = {s, NULL, 0, 2.0 * HCI_PI * (double)s->period_turns / (double)samples};
+    const hci_peak_function f = {neutral_at, &c};
+    double sum = 0.0, most_A = 0.0, at_rad = 0.0;
+    for (size_t k = 0; k < samples; ++k) {
+        const double size_A = neutral_at(&c, c.step_rad * (double)k);
+        sum += size_A * size_A;
+        if (size_A > most_A) at_rad = c.step_rad * (double)k;
+        most_A = fmax(most_A, size_A);
+    }
+    s->peak_neutral_A = s->rms_neutral_A = 0.0;
+    if (most_A <= KEPT * s->peak_phase_current_A) return; /* rounding */
+    s->rms_neutral_A = sqrt(sum / (double)samples);
+    s->peak_neutral_A = fmax(most_A, hci_peak_refine(&f, c.step_rad, &at_rad));
+}
+
 /* The largest of the line voltages that the inverter makes, and of those that open phases show. */
 static void check_voltages(const hci_voltage_model *v, const hci_bounds *b, hci_solution *s, size_t samples,
                            double *value)
@@ -250,12 +275,13 @@ hci_status hci_limits_check(const hci_machine_data *m, const hci_solve_options *
     double *value = hci_memory_new(3 * samples, sizeof *value);
     hci_voltage_model voltage;
     hci_status status = value ? HCI_OK : hci_note_memory(note, NULL, "checking limits");
-    s->peak_line_voltage_V = s->peak_open_voltage_V = NAN;
+    s->peak_line_voltage_V = s->peak_open_voltage_V = s->peak_neutral_A = s->rms_neutral_A = NAN;
     for (size_t k = 0; k < s->limit_count; ++k) {
         s->limit[k].value = 0.0;
         s->limit[k].touch_count = 0;
     }
     if (!status) check_currents(s, samples, value);
+    if (!status && m->has_neutral) check_neutral(s, samples);
     if (!status && has_voltage) status = hci_voltage_model_make(m, o, &voltage, note);
     if (!status && has_voltage) check_voltages(&voltage, b, s, samples, value);
     if (!status) judge(s);

@@ -128,11 +128,29 @@ static void test_phases_by_themselves(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-8, s.peak_phase_current_A, s.limit[0].value);
 }
 
+/* Three times 2 sin 3θ + 0.5 A: a peak of 7.5 A, and 3 √(2 + 0.25) = 4.5 A. */
+static void test_the_neutral_carries_three_times_the_zero_sequence(void)
+{
+    hci_wave zero[3] = {waves[0], {3.0, 0, 2.0, 0.0}, {0.0, 0, 0.0, 0.5}};
+    s.current.wave = zero;
+    hci_limits_list(&bounds, &s);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_limits_check(&m, &o, &bounds, &s, &note), note.text);
+    TEST_ASSERT_TRUE(isnan(s.peak_neutral_A) && isnan(s.rms_neutral_A));
+    m.has_neutral = true;
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_limits_check(&m, &o, &bounds, &s, &note), note.text);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 7.5, s.peak_neutral_A);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 4.5, s.rms_neutral_A);
+    s.current.wave = waves;
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_limits_check(&m, &o, &bounds, &s, &note), note.text);
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, s.peak_neutral_A);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_peaks_and_effective_values);
     RUN_TEST(test_what_touches_and_what_exceeds);
     RUN_TEST(test_phases_by_themselves);
+    RUN_TEST(test_the_neutral_carries_three_times_the_zero_sequence);
     return UNITY_END();
 }

@@ -229,13 +229,14 @@ typedef struct {
     double limit_mean_square_A2, loss_to_limit; /* of the pointwise limit, and copper loss over that; NAN when
                                                  * e⊥ vanishes at an angle */
 
-    bool within_limits;          /* whether it fits; true where there is no limit */
-    double peak_phase_current_A; /* largest |phase current| */
-    double rms_phase_current_A;  /* of the phase that has most */
-    double peak_line_voltage_V;  /* largest |line voltage| at the speed asked for; NAN without one */
-    double peak_open_voltage_V;  /* the same against an open phase, which is not limited; NAN without one */
-    double torque_at_limit_Nm;   /* the largest mean torque at which the currents without limits, scaled with
-                                  * it, keep the current limit; NAN when they do anyhow, or not known */
+    bool within_limits;                   /* whether it fits; true where there is no limit */
+    double peak_phase_current_A;          /* largest |phase current| */
+    double rms_phase_current_A;           /* of the phase that has most */
+    double peak_neutral_A, rms_neutral_A; /* of the neutral conductor; NAN without one */
+    double peak_line_voltage_V;           /* largest |line voltage| at the speed asked for; NAN without one */
+    double peak_open_voltage_V; /* the same against an open phase, which is not limited; NAN without one */
+    double torque_at_limit_Nm;  /* the largest mean torque at which the currents without limits, scaled with
+                                 * it, keep the current limit; NAN when they do anyhow, or not known */
 
     hci_limit limit[HCI_MOST_LIMITS]; /* each limit there is */
     size_t limit_count;               /* of them */

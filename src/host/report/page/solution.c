@@ -16,6 +16,8 @@ static void table_of_cost(const hci_solution_page *p)
     hci_html_quantity(out, "copper loss to the least possible", s->loss_to_limit);
     hci_html_quantity(out, "mean torque at which currents of this shape keep the current limit in N·m",
                       s->torque_at_limit_Nm);
+    hci_html_quantity(out, "peak of the neutral current in A", s->peak_neutral_A);
+    hci_html_quantity(out, "rms of the neutral current in A", s->rms_neutral_A);
     hci_html_quantity(out, "equations that were solved", (double)s->rows);
     hci_html_quantity(out, "unknowns", (double)s->unknowns);
     hci_html_quantity(out, "rank", (double)s->rank);
