@@ -11,6 +11,7 @@
 enum {
     FEW = 12, /* peaks that are left when it becomes precise */
     COARSE_ROUNDS = 2,
+    MANY = 20,       /* rounds of all wishes, as a rule */
     MOST_ROUNDS = 40 /* of adding peaks, each of which squares the error */
 };
 
@@ -138,6 +139,15 @@ static bool is_still(const hci_wishes *l, hci_limit_stage stage, double before, 
     return is_torque && fabs(now - before) < STILL * l->program.scale_Nm;
 }
 
+/* How many programs it takes is not known before, so that the share only comes nearer to 1. */
+static void tell_round(hci_wishes *l)
+{
+    const hci_task *t = l->of->task;
+    ++l->rounds;
+    if (t->progress)
+        t->progress(t->progress_context, "keeping limits", (double)l->rounds / (double)(l->rounds + MANY));
+}
+
 /* Roughly until no peaks are left, then precisely until there are none either, or Newton's method has found
  * the end. */
 hci_status hci_wish_solve(hci_wishes *l, hci_limit_stage stage, hci_limit_optimum *o, hci_note *note)
@@ -151,6 +161,7 @@ hci_status hci_wish_solve(hci_wishes *l, hci_limit_stage stage, hci_limit_optimu
     for (int round = 0; round < rounds_of(l) && goes_on && !status; ++round) {
         const double before = o->smallest;
         status = try_round(l, stage, o, &goes_on, note);
+        tell_round(l);
         if (o->is_settled) return status;
         if (!status && goes_on) status = add_peaks(l, stage, o, &added, note);
         if (added == 0 && (l->is_coarse || !(l->program.precision > 0.0))) break;

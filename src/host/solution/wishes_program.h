@@ -26,6 +26,7 @@ typedef struct {
     hci_wave_list current; /* where voltage and torque are made linear */
     hci_limit_program program;
     double *x;              /* S and C of each component, A: what was found */
+    size_t rounds;          /* programs solved so far */
     bool is_coarse;         /* the torque is still being made linear: peaks may stay for the next step */
     bool is_far;            /* and so far off that the solver need not be precise */
     bool is_hard;           /* the torque of the last step could not be as wanted */

@@ -174,6 +174,29 @@ static void test_an_open_phase(void)
     }
 }
 
+static size_t told;
+static double told_share;
+
+static void tell(void *context, const char *what, double share)
+{
+    (void)context;
+    if (strcmp(what, "keeping limits") != 0) return;
+    TEST_ASSERT_TRUE(share > told_share && share < 1.0);
+    told_share = share;
+    ++told;
+}
+
+/* Of periods of many turns each program takes seconds. */
+static void test_progress_is_told_within_limits(void)
+{
+    told = 0;
+    told_share = 0.0;
+    options.progress = tell;
+    options.limit_current_A = 5.0;
+    solve(HCI_NOT_REACHED);
+    TEST_ASSERT_TRUE(told >= 2);
+}
+
 /* Braking, the current takes voltage off the two phases that carry it and half as much off those with the
  * open one, whose terminal shows more than the inverter has to make. */
 static void test_an_open_phase_shows_a_voltage_that_is_not_limited(void)
@@ -484,6 +507,7 @@ int main(void)
     RUN_TEST(test_within_the_rated_current);
     RUN_TEST(test_rms);
     RUN_TEST(test_copper);
+    RUN_TEST(test_progress_is_told_within_limits);
     RUN_TEST(test_an_open_phase);
     RUN_TEST(test_an_open_phase_shows_a_voltage_that_is_not_limited);
     RUN_TEST(test_field_weakening);
