@@ -81,6 +81,13 @@ static double stable_share(hci_loop_model whole)
     return low;
 }
 
+/* Two digits that are no more than the value, which is above 0: at them the loop is stable. */
+static double two_digits_below(double value)
+{
+    const double unit = pow(10.0, floor(log10(value)) - 1.0);
+    return unit * floor(value / unit);
+}
+
 enum { Q_SIZE = 64 };
 
 /* The gains of q in words, where they are others. */
@@ -107,7 +114,7 @@ static hci_status check_stable(const hci_drive_data *d, const hci_machine_model 
             "%s: `current_kp` of %g V/A with `current_ki` of %g V/(A*s)%s is not stable at %g rpm: "
             "largest pole %.4g, expected less than 1; both together at most %.2g of that are",
             file_of(d, path), d->kp_ohm, d->ki_ohm_per_s, also_of_q(d, q),
-            speed_rad_per_s * 30.0 / HCI_PI / m->table.pole_pairs, pole, share);
+            speed_rad_per_s * 30.0 / HCI_PI / m->table.pole_pairs, pole, two_digits_below(share));
     return hci_note_set(
         note, HCI_ERROR_INPUT,
         "%s: the current loop is not stable at %g rpm: largest pole %.4g, expected less than 1; "

@@ -154,6 +154,25 @@ static void test_drive_and_machine_complete_each_other(void)
     refuse_fit("dead_time,60,us\n", &machine_c, "less than half");
 }
 
+/* Gains just above those that are stable: the share of them that is advised is stable, and less than all. */
+static void test_the_share_that_is_advised_is_stable(void)
+{
+    hci_machine_data fitted;
+    hci_note note = {{0}};
+    double stable_ohm = 800.0, unstable_ohm = 1300.0;
+    char row[64];
+    for (int k = 0; k < 8; ++k) { /* to 2 V/A, of which a share of 0.998 is left */
+        const double middle_ohm = 0.5 * (stable_ohm + unstable_ohm);
+        snprintf(row, sizeof row, "current_kp,%g,ohm\ncurrent_ki,6000,\n", middle_ohm);
+        if (fit(row, &machine_c, &fitted, &note) == HCI_OK)
+            stable_ohm = middle_ohm;
+        else
+            unstable_ohm = middle_ohm;
+    }
+    snprintf(row, sizeof row, "current_kp,%g,ohm\ncurrent_ki,6000,\n", unstable_ohm);
+    refuse_fit(row, &machine_c, "both together at most 0.99 of that are");
+}
+
 /* Machine C's loop turns unstable at five times the default gain, which is said with the share that is not.
  */
 static void test_an_unstable_loop_is_refused_before_it_runs(void)
@@ -221,6 +240,7 @@ int main(void)
     RUN_TEST(test_wrong_rows_are_named);
     RUN_TEST(test_a_measured_response_is_read);
     RUN_TEST(test_drive_and_machine_complete_each_other);
+    RUN_TEST(test_the_share_that_is_advised_is_stable);
     RUN_TEST(test_an_unstable_loop_is_refused_before_it_runs);
     RUN_TEST(test_mean_inductances);
     RUN_TEST(test_memory_runs_out_with_a_note);
