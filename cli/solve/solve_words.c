@@ -163,19 +163,33 @@ static void show_expected(const hci_expected_ripple *e)
     cli_say_paragraph(4, words);
 }
 
+/* Copper is a loss where the resistance is known. */
+static bool is_loss(const hci_solution *s, const hci_limit *l)
+{
+    return l->kind == HCI_LIMIT_COPPER && s->resistance_ohm > 0.0;
+}
+
 /* "phase current a", "line voltage" */
-static const char *name_of(const hci_limit *l)
+static const char *name_of(const hci_solution *s, const hci_limit *l)
 {
     static const char *const PHASE[] = {"phase current a", "phase current b", "phase current c"};
     static const char *const RMS[] = {"rms current a", "rms current b", "rms current c"};
     if (l->kind == HCI_LIMIT_CURRENT) return l->phase < 0 ? "phase current" : PHASE[l->phase];
     if (l->kind == HCI_LIMIT_RMS) return l->phase < 0 ? "rms current" : RMS[l->phase];
+    if (is_loss(s, l)) return "copper loss";
     return l->kind == HCI_LIMIT_VOLTAGE ? "line voltage" : "mean of i_a² + i_b² + i_c²";
 }
 
-static const char *unit_of(const hci_limit *l)
+static const char *unit_of(const hci_solution *s, const hci_limit *l)
 {
+    if (is_loss(s, l)) return "W";
     return l->kind == HCI_LIMIT_VOLTAGE ? "V" : l->kind == HCI_LIMIT_COPPER ? "A²" : "A";
+}
+
+/* Of the unit that is shown, for 1 of the limit's own. */
+static double scale_of(const hci_solution *s, const hci_limit *l)
+{
+    return is_loss(s, l) ? s->resistance_ohm : 1.0;
 }
 
 /* Share of the mean torque above which the ripple beside the largest mean is spoken of. */
@@ -187,8 +201,8 @@ static void show_gain(const hci_solution *s, const hci_limit *l)
     static const char *const WHAT[] = {"", "A² less copper", "N·m less ripple",
                                        "N·m nearer to the wanted mean", "% less to widen all limits by"};
     if (!l->binds) return;
-    cli_say("; 1 %s more%s: %.3g %s", unit_of(l), l->kind == HCI_LIMIT_VOLTAGE ? " of dc link" : "",
-            s->limit_cost == HCI_COST_LIMITS ? 100.0 * l->gain : l->gain, WHAT[s->limit_cost]);
+    cli_say("; 1 %s more%s: %.3g %s", unit_of(s, l), l->kind == HCI_LIMIT_VOLTAGE ? " of dc link" : "",
+            (s->limit_cost == HCI_COST_LIMITS ? 100.0 : 1.0) * l->gain / scale_of(s, l), WHAT[s->limit_cost]);
 }
 
 static void show_touches(const hci_limit *l)
@@ -206,8 +220,9 @@ static void show_touches(const hci_limit *l)
 
 static void show_limit(const hci_solution *s, const hci_limit *l)
 {
-    cli_say("  limit        %s %.4g of %.4g %s%s", name_of(l), l->value, l->limit, unit_of(l),
-            l->is_declared ? " (machine.csv)" : "");
+    const double scale = scale_of(s, l);
+    cli_say("  limit        %s %.4g of %.4g %s%s", name_of(s, l), scale * l->value, scale * l->limit,
+            unit_of(s, l), l->is_declared ? " (machine.csv)" : "");
     show_gain(s, l);
     show_touches(l);
     cli_say("\n");

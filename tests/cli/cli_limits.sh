@@ -34,9 +34,9 @@ says 'not reached \(the nearest is given\)' 'kept; 2\.[0-9]* N·m is the mean to
 run 1 solve "$m" --target "$t" --limit-rms 6.5
 says 'limit +rms current 6\.5 of 6\.5 A; 1 A more: 0\.4[0-9]* N·m nearer'
 run 1 solve "$m" --target "$t" --limit-copper 30
-says 'limit +mean of i_a² \+ i_b² \+ i_c² 75 of 75 A²; 1 A² more'
+says 'limit +copper loss 30 of 30 W; 1 W more: 0\.0[0-9]* N·m nearer'
 run 1 solve "$m" --target "$t" --limit-copper 0.9x
-says '135 of 135 A²'
+says '54 of 54 W'
 run 0 solve "$m" --target "$t" --limit-voltage 60 --speed 1500
 says 'kept; they cost copper only' 'limit +line voltage 60 of 60 V; 1 V more of dc link: [0-9.]* A² less copper' 'touched at ab'
 run 0 solve "$m" --target "$t" --limit-voltage 64 --speed 1500 --voltage-reserve 0.05 --dead-time 2e-6 --pwm-frequency 10000

@@ -100,6 +100,7 @@ static hci_status take_copper(const hci_machine_data *m, const hci_solve_limits 
                               hci_bounds *b, hci_note *note)
 {
     b->mean_square_A2 = HUGE_VAL;
+    b->resistance_ohm = m->resistance_ohm;
     if (is_given(l->copper_W) && !is_given(m->resistance_ohm))
         return hci_note_set(
             note, HCI_ERROR_INPUT,

@@ -11,6 +11,7 @@ typedef struct {
     double line_V;            /* largest |line voltage| */
     double line_V_per_V;      /* of it for 1 V of dc link */
     double mean_square_A2;    /* of all phases together: copper */
+    double resistance_ohm;    /* by which that is a loss; NAN where not known */
     bool current_is_declared; /* by the machine, of all phases without one of their own */
     bool voltage_is_declared;
 } hci_bounds;

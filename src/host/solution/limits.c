@@ -12,6 +12,7 @@
 #define KEPT    1e-9 /* share beyond a limit that is rounding */
 #define FAR_OFF 1e-3 /* share below a limit from which it does not bind */
 
+#define NOISE  1e-5 /* share of what all limits cost that is rounding */
 #define HOTTER 1e-3 /* share above the heat of rated_current that is spoken of */
 #define HIGHER 0.1  /* the same of a peak, which lasts a moment */
 
@@ -50,11 +51,25 @@ static void add_phases(hci_solution *s, hci_limit_kind kind, const double limit[
 void hci_limits_list(const hci_bounds *b, hci_solution *s)
 {
     s->limit_count = 0;
+    s->resistance_ohm = b->resistance_ohm;
     add_phases(s, HCI_LIMIT_CURRENT, b->current_A, b->current_is_declared);
     add_phases(s, HCI_LIMIT_RMS, b->rms_A, false);
     if (b->line_V < HUGE_VAL)
         add_limit(s, HCI_LIMIT_VOLTAGE, -1, b->line_V)->is_declared = b->voltage_is_declared;
     if (b->mean_square_A2 < HUGE_VAL) add_limit(s, HCI_LIMIT_COPPER, -1, b->mean_square_A2);
+}
+
+/* A multiplier next to which others are many times as large is the rounding of the program. */
+static void drop_noise(hci_solution *s)
+{
+    double sum = 0.0;
+    for (size_t k = 0; k < s->limit_count; ++k)
+        sum += fmax(s->limit[k].gain * s->limit[k].limit, 0.0);
+    for (size_t k = 0; k < s->limit_count; ++k) {
+        hci_limit *l = &s->limit[k];
+        l->binds = l->gain * l->limit > NOISE * sum;
+        if (!l->binds) l->gain = 0.0;
+    }
 }
 
 void hci_limits_take_gains(const hci_limit_optimum *c, hci_solution *s)
@@ -66,8 +81,8 @@ void hci_limits_take_gains(const hci_limit_optimum *c, hci_solution *s)
         l->gain = l->kind == HCI_LIMIT_VOLTAGE  ? c->voltage_gain
                   : l->kind == HCI_LIMIT_COPPER ? c->copper_gain
                                                 : sum;
-        l->binds = l->gain > 0.0;
     }
+    drop_noise(s);
 }
 
 /* ---- peaks ---- */

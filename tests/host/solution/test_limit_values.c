@@ -128,6 +128,19 @@ static void test_phases_by_themselves(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-8, s.peak_phase_current_A, s.limit[0].value);
 }
 
+/* What the program leaves of multipliers beside the one that counts is no price. */
+static void test_rounding_is_no_price(void)
+{
+    const hci_limit_optimum cost = {.current_gain = {1e-9, 0.0, 1e-9}, .voltage_gain = 0.5};
+    hci_limits_list(&bounds, &s);
+    hci_limits_take_gains(&cost, &s);
+    for (size_t k = 0; k < s.limit_count; ++k) {
+        const bool is_voltage = s.limit[k].kind == HCI_LIMIT_VOLTAGE;
+        TEST_ASSERT_EQUAL(is_voltage, s.limit[k].binds);
+        TEST_ASSERT_EQUAL_DOUBLE(is_voltage ? 0.5 : 0.0, s.limit[k].gain);
+    }
+}
+
 /* Three times 2 sin 3θ + 0.5 A: a peak of 7.5 A, and 3 √(2 + 0.25) = 4.5 A. */
 static void test_the_neutral_carries_three_times_the_zero_sequence(void)
 {
@@ -151,6 +164,7 @@ int main(void)
     RUN_TEST(test_peaks_and_effective_values);
     RUN_TEST(test_what_touches_and_what_exceeds);
     RUN_TEST(test_phases_by_themselves);
+    RUN_TEST(test_rounding_is_no_price);
     RUN_TEST(test_the_neutral_carries_three_times_the_zero_sequence);
     return UNITY_END();
 }

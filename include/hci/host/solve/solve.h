@@ -241,6 +241,7 @@ typedef struct {
     hci_limit limit[HCI_MOST_LIMITS]; /* each limit there is */
     size_t limit_count;               /* of them */
     hci_limit_cost limit_cost;        /* what they cost */
+    double resistance_ohm;            /* of a phase, by which the copper loss is in W; NAN where not known */
     double exceeded_share;            /* HCI_COST_LIMITS: by how much every limit is widened; else 0 */
     double wanted_mean_Nm;            /* mean torque asked for */
     hci_minimise minimised;           /* which ripple was made smallest within limits */
