@@ -284,6 +284,9 @@ static void show_limits(const hci_solution *s)
         show_limit(s, &s->limit[k]);
 }
 
+/* T_ripple in per cent below which its value says nothing. */
+static const double LEAST_PERCENT = 1e-4;
+
 /* An error that is rounding is none. */
 static const double ROUNDING = 1e-3;
 
@@ -296,6 +299,20 @@ static void show_torque(const hci_solution *s, bool reached)
     else
         cli_say("worst error %.3g N·m at order %g (tolerance %.3g N·m)\n", s->worst_error_Nm, s->worst_order,
                 s->tolerance_Nm);
+}
+
+/* Peak to peak over the mean. */
+static void show_ripple(const hci_solution *s)
+{
+    if (!isfinite(s->T_ripple_percent)) return;
+    cli_say("  T_ripple     ");
+    if (s->T_ripple_percent < LEAST_PERCENT)
+        cli_say("below %g %%", LEAST_PERCENT);
+    else
+        cli_say("%.3g %%", s->T_ripple_percent);
+    if (isfinite(s->T_ripple_before_percent))
+        cli_say("; of the plain fundamental %.3g %%", s->T_ripple_before_percent);
+    cli_say("\n");
 }
 
 void cli_show_solution(const hci_solution *s, const char *machine, const char *target)
@@ -314,6 +331,7 @@ void cli_show_solution(const hci_solution *s, const char *machine, const char *t
                        : "",
             s->within_limits ? "" : ", but a limit is not kept", machine, target);
     show_torque(s, reached);
+    show_ripple(s);
     show_expected(&s->expected);
     show_current(s);
     show_limits(s);

@@ -76,6 +76,8 @@ static void put_torque(hci_json *json, const hci_solution *s)
     const bool has_mean = s->order_count > 0 && s->order[0].torque_Nm.order < HCI_ORDER_TOLERANCE;
     hci_json_object(json, "torque");
     hci_json_number(json, "mean_Nm", has_mean ? s->order[0].torque_Nm.cosine : 0.0);
+    hci_json_number(json, "T_ripple_percent", s->T_ripple_percent);
+    hci_json_number(json, "T_ripple_before_percent", s->T_ripple_before_percent);
     hci_json_number(json, "worst_error_Nm", s->worst_error_Nm);
     hci_json_number(json, "worst_order", s->worst_order);
     hci_json_number(json, "tolerance_Nm", s->tolerance_Nm);

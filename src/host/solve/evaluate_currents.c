@@ -4,23 +4,12 @@
 #include <string.h>
 
 #include "host/base/memory.h"
-#include "host/numeric/fft.h"
 #include "host/solve/torque_spectrum.h"
-
-/* Samples in the period of the highest order: peaks between them are off by less than 1 − cos(π/16) of that
- * order. */
-enum { SAMPLES_PER_PERIOD = 16, LEAST_SAMPLES = 1024 };
 
 static double mean_square(hci_harmonic h)
 {
     const double square = h.sine * h.sine + h.cosine * h.cosine;
     return h.order < HCI_ORDER_TOLERANCE ? h.cosine * h.cosine : 0.5 * square;
-}
-
-static double percent(double value_Nm, double mean_Nm)
-{
-    if (mean_Nm == 0.0) return NAN;
-    return 100.0 * value_Nm / fabs(mean_Nm);
 }
 
 static void fill_errors(const hci_target *target, hci_torque_evaluation *e)
@@ -40,33 +29,15 @@ static void fill_errors(const hci_target *target, hci_torque_evaluation *e)
         e->worst_order = h.order;
     }
     e->rms_error_Nm = sqrt(sum);
-    e->F_ripple_percent = percent(sqrt(ripple), e->mean_Nm);
+    e->F_ripple_percent = hci_percent_of_mean(sqrt(ripple), e->mean_Nm);
 }
 
-/* The torque over its period from its spectrum. */
 static hci_status fill_peaks(hci_torque_evaluation *e, hci_note *note)
 {
-    const size_t turns = e->period_turns;
-    const double top = e->torque_Nm[e->order_count - 1].order;
-    const size_t n = hci_fft_size(fmax(LEAST_SAMPLES, SAMPLES_PER_PERIOD * (top + 1.0)) * (double)turns);
-    double *re = hci_memory_new(2 * n, sizeof *re), most, least;
-    if (!re) return hci_note_memory(note, NULL, "evaluating currents");
-    double *const im = re + n;
-    for (size_t k = 0; k < e->order_count; ++k) {
-        const size_t at = (size_t)floor(e->torque_Nm[k].order * (double)turns + 0.5);
-        re[at] += e->torque_Nm[k].cosine; /* the real part of (C − jS) e^(jnθ) */
-        im[at] -= e->torque_Nm[k].sine;
-    }
-    hci_fft(re, im, n, 1);
-    most = least = re[0];
-    for (size_t k = 1; k < n; ++k) {
-        most = fmax(most, re[k]);
-        least = fmin(least, re[k]);
-    }
-    hci_memory_free(re);
-    e->peak_to_peak_Nm = most - least;
-    e->T_ripple_percent = percent(e->peak_to_peak_Nm, e->mean_Nm);
-    return HCI_OK;
+    const hci_harmonic_list torque = {e->torque_Nm, e->order_count};
+    const hci_status status = hci_torque_swing(&torque, e->period_turns, &e->peak_to_peak_Nm, note);
+    e->T_ripple_percent = hci_percent_of_mean(e->peak_to_peak_Nm, e->mean_Nm);
+    return status;
 }
 
 static hci_status evaluate(const hci_quadratic_model *model, const hci_currents *currents,

@@ -118,6 +118,19 @@ static hci_status fill_orders(const criteria *c, const hci_torque_spectra *t, hc
     return HCI_OK;
 }
 
+/* Swing over mean of one of the two torques; a mean that is none, of which the ripple would be any share, has
+ * none. */
+static hci_status find_ripple(const hci_solution *s, hci_harmonic *torque, double *percent, hci_note *note)
+{
+    const hci_harmonic_list list = {torque, s->order_count};
+    const double mean_Nm =
+        s->order_count > 0 && torque[0].order < HCI_ORDER_TOLERANCE ? torque[0].cosine : 0.0;
+    double swing_Nm;
+    const hci_status status = hci_torque_swing(&list, s->period_turns, &swing_Nm, note);
+    *percent = fabs(mean_Nm) > s->tolerance_Nm ? hci_percent_of_mean(swing_Nm, mean_Nm) : (double)NAN;
+    return status;
+}
+
 /* NAN where there is nothing to compare with. */
 static double ratio(double value, double reference)
 {
@@ -165,6 +178,8 @@ hci_status hci_solution_evaluate(const hci_task *task, const hci_component_set *
         const criteria c = {task, set, system.order, system.order_count, reached};
         status = fill_orders(&c, &torque, solution, note);
     }
+    if (!status) status = find_ripple(solution, torque.first, &solution->T_ripple_percent, note);
+    if (!status) status = find_ripple(solution, torque.second, &solution->T_ripple_before_percent, note);
     hci_harmonic_system_release(&system);
     hci_torque_spectra_release(&torque);
     hci_memory_free(reached);

@@ -8,6 +8,7 @@
 
 #include "host/base/memory.h"
 #include "host/machine/sampled_torque.h"
+#include "host/numeric/fft.h"
 
 #define NEGLIGIBLE 1e-12 /* waves of e + ½L'i below this share of the largest make no torque that matters */
 
@@ -165,4 +166,37 @@ hci_status hci_torque_error_evaluate(const hci_task *task, const hci_wave *wave,
     }
     hci_memory_free(torque.harmonic);
     return status;
+}
+
+/* Samples in the period of the highest order: peaks between them are off by less than 1 − cos(π/16) of that
+ * order. */
+enum { SAMPLES_PER_PERIOD = 16, LEAST_SAMPLES = 1024 };
+
+hci_status hci_torque_swing(const hci_harmonic_list *torque, size_t turns, double *swing_Nm, hci_note *note)
+{
+    const double top = torque->count > 0 ? torque->harmonic[torque->count - 1].order : 0.0;
+    const size_t n = hci_fft_size(fmax(LEAST_SAMPLES, SAMPLES_PER_PERIOD * (top + 1.0)) * (double)turns);
+    double *re = hci_memory_new(2 * n, sizeof *re), most, least;
+    *swing_Nm = NAN;
+    if (!re) return hci_note_memory(note, NULL, "the torque over the angle");
+    double *const im = re + n;
+    for (size_t k = 0; k < torque->count; ++k) {
+        const size_t at = (size_t)floor(torque->harmonic[k].order * (double)turns + 0.5);
+        re[at] += torque->harmonic[k].cosine; /* the real part of (C − jS) e^(jnθ) */
+        im[at] -= torque->harmonic[k].sine;
+    }
+    hci_fft(re, im, n, 1);
+    most = least = re[0];
+    for (size_t k = 1; k < n; ++k) {
+        most = fmax(most, re[k]);
+        least = fmin(least, re[k]);
+    }
+    hci_memory_free(re);
+    *swing_Nm = most - least;
+    return HCI_OK;
+}
+
+double hci_percent_of_mean(double value_Nm, double mean_Nm)
+{
+    return mean_Nm == 0.0 ? (double)NAN : 100.0 * value_Nm / fabs(mean_Nm);
 }

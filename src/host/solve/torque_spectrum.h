@@ -36,6 +36,13 @@ typedef struct {
 hci_status hci_torque_error_evaluate(const hci_task *task, const hci_wave *wave, size_t count,
                                      hci_torque_error *error, hci_note *note);
 
+/* *swing_Nm: out, max − min over `turns` electrical turns, in which all orders are whole, ascending.
+ * HCI_ERROR_MEMORY. */
+hci_status hci_torque_swing(const hci_harmonic_list *torque, size_t turns, double *swing_Nm, hci_note *note);
+
+/* 100 value/|mean|; NAN without a mean. */
+double hci_percent_of_mean(double value_Nm, double mean_Nm);
+
 /* |a − b| as a peak amplitude. */
 double hci_torque_distance_Nm(hci_harmonic a, hci_harmonic b);
 

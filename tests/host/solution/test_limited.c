@@ -174,6 +174,21 @@ static void test_an_open_phase(void)
     }
 }
 
+/* A cogging torque of 0.06 N·m swings by 4 % of 3 N·m, until components take it away. */
+static void test_the_ripple_before_and_after(void)
+{
+    cogging[0] = (hci_harmonic){6.0, 0.06, 0.0};
+    machine.model.cogging_count = 1;
+    solve(HCI_NOT_REACHED);
+    TEST_ASSERT_DOUBLE_WITHIN(0.02, 4.0, solution.T_ripple_before_percent);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, solution.T_ripple_before_percent, solution.T_ripple_percent);
+    hci_solution_release(&solution);
+    use(3, (const hci_component[]){{1.0, 1}, {5.0, -1}, {7.0, 1}});
+    solve(HCI_OK);
+    TEST_ASSERT_DOUBLE_WITHIN(0.02, 4.0, solution.T_ripple_before_percent);
+    TEST_ASSERT_TRUE(solution.T_ripple_percent < 1e-9);
+}
+
 static size_t told;
 static double told_share;
 
@@ -507,6 +522,7 @@ int main(void)
     RUN_TEST(test_within_the_rated_current);
     RUN_TEST(test_rms);
     RUN_TEST(test_copper);
+    RUN_TEST(test_the_ripple_before_and_after);
     RUN_TEST(test_progress_is_told_within_limits);
     RUN_TEST(test_an_open_phase);
     RUN_TEST(test_an_open_phase_shows_a_voltage_that_is_not_limited);

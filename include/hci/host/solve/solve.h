@@ -205,6 +205,8 @@ typedef struct {
     size_t order_count;                 /* entries of order */
     double tolerance_Nm;                /* within which an order is reached */
     double worst_error_Nm, worst_order; /* of those cared for */
+    double T_ripple_percent;            /* 100 (max − min)/mean of the torque; NAN without a mean */
+    double T_ripple_before_percent;     /* the same of the plain fundamental; NAN without one */
     size_t period_turns;                /* electrical turns after which everything repeats */
 
     hci_method method;           /* how it was found */
