@@ -15,7 +15,7 @@
 /* Samples that are so many usual steps apart are no neighbours. */
 #define GAP 20.0
 
-enum { WINDOW_LEAST = 5, STEPS_LEAST = 20, STILL_SHARE = 5, PROBES = 512 };
+enum { WINDOW_LEAST = 5, STEPS_LEAST = 20, STILL_SHARE = 5, PROBES = 512, OVERLAP = 4 };
 
 /* ---- steps in time ---- */
 
@@ -172,13 +172,19 @@ static double change_by(window_sums *s, size_t n, size_t window, size_t next, si
     return used > 0.0 ? square / used : 0.0;
 }
 
+/* Longer windows share their samples: so few of them that each sample is in OVERLAP. */
+static size_t probes_of(size_t n, size_t window)
+{
+    const size_t most = n < PROBES ? n : PROBES, distinct = OVERLAP * n / window;
+    return distinct < most ? distinct : most;
+}
+
 /* Windows grow until the noise is small against the slope, or until the slopes change by more than noise
  * explains: then a longer one would smooth away what is to be seen (Lepski 1991). */
 static size_t window_of(window_sums *s, size_t n)
 {
     double rate[PROBES];
     const size_t most = n / 4 > WINDOW_LEAST ? n / 4 : n < WINDOW_LEAST ? n : WINDOW_LEAST;
-    const size_t probes = n < PROBES ? n : PROBES;
     const double quantum = quantum_of(s->x, n), step_s = usual_step(s->t, n, GAP);
     size_t window = most < WINDOW_LEAST ? most : WINDOW_LEAST;
     while (window < most && way_over(s->x, n, window) < STEPS_LEAST * quantum)
@@ -189,6 +195,7 @@ static size_t window_of(window_sums *s, size_t n)
     const double noise = fmax(noise_rms(s->t, s->x, n, step_s), quantum * sqrt(lasting / 12.0)) / step_s;
     for (size_t next = window + window / 2; next <= most; window = next, next += next / 2) {
         const double length = (double)window, longer = (double)next;
+        const size_t probes = probes_of(n, window);
         const double variance = 12.0 * noise * noise / (length * length * length);
         const double square = probe(s, n, window, probes, rate) - variance;
         if (variance <= NOISE_SHARE * NOISE_SHARE * square) break;
