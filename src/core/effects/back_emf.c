@@ -54,7 +54,10 @@ static bool has_even(const hci_machine *machine)
     return false;
 }
 
-#define EXPECTED 0.3 /* of the largest wave that is declared */
+/* Of the largest wave that is declared. */
+#define EXPECTED 0.3
+#define UNBALANCED                                                                                           \
+    0.05 /* of waves that take phases that differ: a short of some turns, a magnet that is weak */
 
 static double largest_of(const hci_machine *machine)
 {
@@ -73,7 +76,7 @@ static bool can_act(const hci_effect_survey *survey, int order)
 static void propose(const hci_effect_survey *survey, const hci_effect_proposals *to)
 {
     const int step = has_even(survey->machine) ? 1 : 2;
-    const double expected = EXPECTED * largest_of(survey->machine);
+    const double largest = largest_of(survey->machine), expected = EXPECTED * largest;
     hci_effect_propose(to, SINE, 1, 1.0, 2.0, expected);
     hci_effect_propose(to, COSINE, 1, 1.0, 2.0, expected);
     for (int n = 1 + step; n <= MOST_ORDER; n += step)
@@ -81,8 +84,8 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
             hci_effect_propose(to, SINE, 2, n, n % 6 == 1 || n % 6 == 5 ? USUAL : UNUSUAL, expected);
     for (int n = 1; n <= MOST_UNBALANCED; n += step) {
         const int sequence = hci_sequence_of_order(n);
-        if (sequence != 1) hci_effect_propose(to, POSITIVE, 2, n, UNUSUAL, expected);
-        if (sequence != -1) hci_effect_propose(to, NEGATIVE, 2, n, UNUSUAL, expected);
+        if (sequence != 1) hci_effect_propose(to, POSITIVE, 2, n, UNUSUAL, UNBALANCED * largest);
+        if (sequence != -1) hci_effect_propose(to, NEGATIVE, 2, n, UNUSUAL, UNBALANCED * largest);
     }
 }
 

@@ -115,12 +115,22 @@ static double readings_in_one(const hci_dataset *b, const hci_segment *s)
     return readings / fmax(1.0, (double)hci_segment_telling(&b->samples, s));
 }
 
-/* Of one reading, from the spectrum between the orders; NAN without samples. */
-static double noise_of_spectrum(const hci_dataset *b, size_t run)
+/* Of a sample: from the spectrum between the orders, or, of few samples, from neighbours. */
+static double noise_of_segment(const hci_dataset *b, const hci_segment *s, const double *residual)
+{
+    const double shared = hci_regression_noise(&b->regression, s)->rms;
+    const double own = s->count < HCI_NOISE_LEAST && s->turns == 0
+                           ? hci_noise_of_neighbours(residual + s->first, s->count)
+                           : (double)NAN;
+    return fmin(shared, own);
+}
+
+/* Of one reading; NAN without samples. */
+static double noise_of_spectrum(const hci_dataset *b, size_t run, const double *residual)
 {
     double sum = 0.0, count = 0.0;
     for (const hci_segment *s = NULL; (s = hci_segment_next(&b->samples, run, s)) != NULL;) {
-        const double rms = hci_regression_noise(&b->regression, s)->rms;
+        const double rms = noise_of_segment(b, s, residual);
         sum += (double)s->count * rms * rms * readings_in_one(b, s);
         count += (double)s->count;
     }
@@ -143,7 +153,7 @@ static hci_run_errors errors_of(const hci_dataset *b, const hci_runs *runs, size
     e.ripple_before_Nm = beside_mean(e.rms_before_Nm, e.error_mean_before_Nm);
     e.ripple_after_Nm = beside_mean(e.rms_after_Nm, e.error_mean_after_Nm);
     e.noise_floor_Nm = noise_of_turns(b, runs->run, run, after);
-    if (!isfinite(e.noise_floor_Nm)) e.noise_floor_Nm = noise_of_spectrum(b, run);
+    if (!isfinite(e.noise_floor_Nm)) e.noise_floor_Nm = noise_of_spectrum(b, run, after);
     e.after_low_Nm = e.rms_after_Nm * fmax(0.0, 1.0 - spread);
     e.after_high_Nm = e.rms_after_Nm * (1.0 + spread);
     return e;
@@ -157,7 +167,7 @@ static hci_status lines_fill(const hci_dataset *b, const double *before, const d
     double *noise_Nm = hci_memory_new(b->samples.run_count + 1, sizeof *noise_Nm);
     if (!noise_Nm) return hci_note_memory(note, NULL, "the errors of the recordings");
     for (size_t r = 0; r < b->samples.run_count; ++r)
-        noise_Nm[r] = noise_of_spectrum(b, r);
+        noise_Nm[r] = noise_of_spectrum(b, r, after);
     const hci_residuals residuals = {before, after, noise_Nm};
     const hci_status status =
         hci_residual_spectrum_make(&b->regression, &residuals, &d->line, &d->lines, note);

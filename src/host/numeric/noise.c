@@ -128,6 +128,17 @@ void hci_noise_find(const double *residual, size_t n, bool closed, double floor,
     predictor(r, noise);
 }
 
+double hci_noise_of_neighbours(const double *x, size_t n)
+{
+    double sum = 0.0;
+    if (n < HCI_NOISE_FEWEST) return NAN;
+    for (size_t k = 1; k + 1 < n; ++k) {
+        const double off = x[k] - 0.5 * (x[k - 1] + x[k + 1]);
+        sum += off * off;
+    }
+    return sqrt(sum / (1.5 * (double)(n - 2)));
+}
+
 hci_noise hci_noise_white(double rms)
 {
     const hci_noise noise = {{0.0}, rms, rms};

@@ -5,7 +5,11 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-enum { HCI_NOISE_MEMORY = 6, HCI_NOISE_LEAST = 128 /* samples to tell a colour from */ };
+enum {
+    HCI_NOISE_MEMORY = 6,
+    HCI_NOISE_LEAST = 128 /* samples to tell a colour from */,
+    HCI_NOISE_FEWEST = 8
+};
 
 /* x_k = Σ_j prediction_j x_{k−j} + innovation */
 typedef struct {
@@ -20,6 +24,13 @@ typedef struct {
 size_t hci_noise_workspace(size_t n);
 void hci_noise_find(const double *residual, size_t n, bool closed, double floor, hci_noise *noise,
                     double *work);
+
+/* rms of white noise in a residual of fewer samples, from how each differs from the mean of its neighbours:
+ *
+ *     σ² = ⅔ mean (x_k − ½(x_{k−1} + x_{k+1}))²
+ *
+ * What varies slowly from sample to sample is none of it. NAN of less than HCI_NOISE_FEWEST samples. */
+double hci_noise_of_neighbours(const double *residual, size_t n);
 
 /* White noise of a known size. */
 hci_noise hci_noise_white(double rms);

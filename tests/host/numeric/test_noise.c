@@ -212,6 +212,21 @@ static void test_white_noise_of_a_known_size(void)
         TEST_ASSERT_EQUAL_DOUBLE(2.0 * (k + 1), column[k]);
 }
 
+/* What varies slowly is no noise, whatever its size; and a few samples tell nothing. */
+static void test_noise_of_neighbours(void)
+{
+    double wave[400], plain;
+    for (size_t k = 0; k < 400; ++k)
+        wave[k] = 0.3 * ref_normal(&seed);
+    plain = hci_noise_of_neighbours(wave, 400);
+    TEST_ASSERT_DOUBLE_WITHIN(4.0 * 0.3 * sqrt(35.0 / 36.0 / 400.0), 0.3, plain); /* of second differences */
+    for (size_t k = 0; k < 400; ++k)
+        wave[k] += 5.0 + 3.0 * sin(2.0 * REF_PI * (double)k / 200.0);
+    TEST_ASSERT_DOUBLE_WITHIN(0.01 * plain, plain, hci_noise_of_neighbours(wave, 400));
+    TEST_ASSERT_TRUE(isnan(hci_noise_of_neighbours(wave, HCI_NOISE_FEWEST - 1)));
+    TEST_ASSERT_FALSE(isnan(hci_noise_of_neighbours(wave, HCI_NOISE_FEWEST)));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -222,5 +237,6 @@ int main(void)
     RUN_TEST(test_whitened_is_white);
     RUN_TEST(test_whitening_of_columns);
     RUN_TEST(test_white_noise_of_a_known_size);
+    RUN_TEST(test_noise_of_neighbours);
     return UNITY_END();
 }

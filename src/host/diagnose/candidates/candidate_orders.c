@@ -9,7 +9,8 @@
 #include "host/numeric/wide.h"
 #include "host/recording/rotor_frame.h"
 
-#define RESOLVED 0.48 /* orders for each sample of a turn */
+#define RESOLVED  0.48 /* orders for each sample of a turn */
+#define LEAST_ARC 0.02 /* electrical turns: a shaft that is held moves as much, and tells no order */
 
 enum { MOST_PERIODS = 1200 /* in a mechanical turn */, MOST_ELECTRICAL = 96, FEW_A_TURN = 4 };
 
@@ -26,17 +27,24 @@ static double range_of(const hci_binned_samples *samples, const hci_segment *x)
     return most - least;
 }
 
-static size_t most_periods(const hci_candidates_source *s)
+/* Periods in a mechanical turn that the samples tell. */
+static double resolved_periods(const hci_candidates_source *s)
 {
     double sum = 0.0, turns = 0.0;
     for (size_t k = 0; k < s->samples->segment_count; ++k) {
         const hci_segment *x = &s->samples->segment[k];
+        const double covered = range_of(s->samples, x) / (2.0 * HCI_PI);
+        if (covered * s->machine->pole_pairs < LEAST_ARC) continue;
         sum += (double)x->count;
-        turns += range_of(s->samples, x) / (2.0 * HCI_PI);
+        turns += covered;
     }
-    const double resolved = turns > 0.0 ? RESOLVED * sum / turns : 1.0;
+    return turns > 0.0 ? RESOLVED * sum / turns : (double)INFINITY;
+}
+
+static size_t most_periods(const hci_candidates_source *s, double resolved)
+{
     const double wanted = fmin(resolved, MOST_ELECTRICAL * (double)s->machine->pole_pairs);
-    return (size_t)fmax(1.0, fmin(wanted, MOST_PERIODS)) + 1;
+    return isfinite(resolved) ? (size_t)fmax(1.0, fmin(wanted, MOST_PERIODS)) + 1 : 2;
 }
 
 /* Means of the residual of each run, by weight. */
@@ -152,8 +160,10 @@ static void lines_fill(const sums *sum, size_t runs, hci_candidate_orders *lines
 /* Everything in one block, which begins at `still`. */
 bool hci_candidate_orders_make(const hci_candidates_source *s, size_t stride, hci_candidate_orders *lines)
 {
-    const size_t runs = s->samples->run_count, count = most_periods(s) / stride + 1;
+    const double resolved = resolved_periods(s);
+    const size_t runs = s->samples->run_count, count = most_periods(s, resolved) / stride + 1;
     memset(lines, 0, sizeof *lines);
+    lines->resolved = resolved / s->machine->pole_pairs;
     lines->stride = stride;
     lines->slots = s->slots;
     lines->count = count;

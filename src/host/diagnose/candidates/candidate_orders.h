@@ -16,6 +16,7 @@
 typedef struct {
     size_t stride, slots; /* slots: of the machine; 0: not known */
     size_t count;         /* orders 0 … count − 1 */
+    double resolved; /* highest electrical order that the samples tell; INFINITY: no run covers an angle */
     double *still, *with_current;
     double *of_run; /* [run][2][count]: weighted sums with cos and with sin */
     double *weight; /* of each run */

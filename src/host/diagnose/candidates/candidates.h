@@ -75,12 +75,13 @@ typedef struct {
     const double *residual_Nm;  /* of each sample */
     const double *variance;     /* of each sample, N²·m² */
     double reference_current_A; /* of a series in the currents; NAN: the largest of the runs */
-    int richness;     /* as in hci_effect_survey: 0 low orders, 1 all orders, 2 to high powers of the
-                         currents */
-    size_t slots;     /* of the machine; 0: not known */
-    bool known_only;  /* without the one for what is not known */
-    bool no_current;  /* without those that need a current */
-    bool has_neutral; /* of the machine */
+    int richness;       /* as in hci_effect_survey: 0 low orders, 1 all orders, 2 to high powers of the
+                           currents */
+    size_t slots;       /* of the machine; 0: not known */
+    bool known_only;    /* without the one for what is not known */
+    bool magnetic_only; /* only those of the magnetic circuit that the currents tell apart */
+    bool no_current;    /* without those that need a current */
+    bool has_neutral;   /* of the machine */
 } hci_candidates_source;
 
 #endif

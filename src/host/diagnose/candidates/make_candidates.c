@@ -20,6 +20,8 @@ enum {
 #define SIMILAR 0.15 /* speeds that differ by less, as a share, are the same */
 #define AROUND  1.2  /* standard deviations above a mean speed: at 0.85 of a ramp from 0 */
 
+#define LITTLE 0.1 /* current beside the largest, that is next to none */
+
 #define LEAST_WARMING_K 2.0 /* a sensor of a temperature that stays wanders less */
 
 /* ---- a list that grows ---- */
@@ -29,6 +31,7 @@ typedef struct {
     const hci_effect_type *type; /* of what is added */
     const hci_effects *declared;
     size_t capacity;
+    double resolved;         /* highest order that the samples tell */
     bool no_current, failed; /* no_current: of no run */
 } builder;
 
@@ -71,7 +74,7 @@ static bool needs_current(const hci_effect_type *type, size_t parameter)
 static void add(void *context, const hci_effect_candidate *x)
 {
     builder *b = context;
-    if (b->no_current && needs_current(b->type, x->parameter)) return;
+    if (x->order > b->resolved || (b->no_current && needs_current(b->type, x->parameter))) return;
     b->failed = b->failed || !reserve(b);
     if (b->failed) return;
     hci_candidate *s = &b->list->candidate[b->list->count++];
@@ -190,6 +193,17 @@ static size_t orders_of(const hci_candidate_orders *lines, int pole_pairs, bool 
     return most;
 }
 
+/* Whether an effect of the magnetic circuit is told apart by the currents: a torque that no current makes is,
+ * where little current flows. */
+static bool is_magnetic(const hci_candidates_source *s, const hci_effect_type *type, double most_A)
+{
+    double least_A = INFINITY;
+    if (!type->propose_coenergy) return false;
+    for (size_t r = 0; r < s->samples->run_count; ++r)
+        if (s->use[r]) least_A = fmin(least_A, s->samples->statistics[r].current_A);
+    return !type->any_phase || least_A < LITTLE * most_A;
+}
+
 static void add_all(builder *b, const hci_candidates_source *s, hci_effect_survey *x,
                     const hci_candidate_orders *lines)
 {
@@ -210,7 +224,8 @@ static void add_all(builder *b, const hci_candidates_source *s, hci_effect_surve
     x->of_speed = of_speed;
     x->of_speeds = hci_residual_by_speed(s, of_speed);
     for (size_t r = 0; !b->failed && (b->type = hci_effect_type_at(r)) != NULL; ++r)
-        if (b->type->propose) b->type->propose(x, &to);
+        if (b->type->propose && (!s->magnetic_only || is_magnetic(s, b->type, x->current_A)))
+            b->type->propose(x, &to);
     if (!s->known_only) add_unknown(b, s, lines);
 }
 
@@ -268,12 +283,15 @@ hci_status hci_candidates_make(const hci_candidates_source *source, const hci_ca
                                hci_candidates *candidates, hci_note *note)
 {
     hci_effect_survey x = survey_of(source);
-    builder b = {candidates, NULL, source->declared, 0, source->no_current || !(x.current_A > 0.0), false};
+    builder b = {.list = candidates,
+                 .declared = source->declared,
+                 .no_current = source->no_current || !(x.current_A > 0.0)};
     hci_candidate_orders lines;
     memset(candidates, 0, sizeof *candidates);
     candidates->reference_current_A = x.reference_current_A;
     b.failed =
         !hci_candidate_orders_make(source, x.has_turn ? 1 : (size_t)source->machine->pole_pairs, &lines);
+    b.resolved = lines.resolved;
     if (!b.failed) add_all(&b, source, &x, &lines);
     hci_candidate_orders_release(&lines);
     const hci_status status =

@@ -8,6 +8,8 @@
 
 #define ROUNDING_RAD 1e-7 /* a step of angle up to this is none */
 #define FREEDOM      100.0
+#define LEAST_ARC    0.1  /* electrical turns that a rotor has to be turned by to be at other angles */
+#define STEADY       0.05 /* of a direct current, as a share, by which readings of it may vary */
 #define ZEROS        0.05 /* of the largest current, that nobody would have left unnoticed as zeros of sensors */
 #define COMMON       0.02 /* share of the mean square that neighbours have in common, of a current that flows … */
 #define CHANCE       3.0 /* … beyond what they have by chance, in standard deviations */
@@ -118,6 +120,22 @@ static void standing_find(const hci_run *r, int pole_pairs, hci_run_statistics *
     f->stands = is_noise(r, pole_pairs, mean_A);
 }
 
+/* Whether each phase current is the same at all angles of the rotor, of which there are more than a few. */
+static bool is_direct(const hci_run *r, int pole_pairs, double turns)
+{
+    double sum[3] = {0.0}, square[3] = {0.0}, varies = 0.0, whole = 0.0;
+    if (!(turns * pole_pairs > LEAST_ARC)) return false;
+    for (size_t k = 0; k < 3 * r->count; ++k) {
+        sum[k % 3] += r->i_A[k];
+        square[k % 3] += r->i_A[k] * r->i_A[k];
+    }
+    for (size_t s = 0; s < 3; ++s) {
+        varies += square[s] - sum[s] * sum[s] / (double)r->count;
+        whole += square[s];
+    }
+    return whole > 0.0 && varies < STEADY * STEADY * whole;
+}
+
 hci_run_statistics hci_run_statistics_of(const hci_run *r, int pole_pairs)
 {
     hci_run_statistics f = {.repeat_Nm = NAN, .temperature_C = NAN, .coldest_C = NAN, .hottest_C = NAN};
@@ -135,6 +153,7 @@ hci_run_statistics hci_run_statistics_of(const hci_run *r, int pole_pairs)
     f.angle_step_rad = angle_step(r);
     f.turns = turns_of(r);
     if (!f.no_current) standing_find(r, pole_pairs, &f);
+    f.is_direct = !f.no_current && is_direct(r, pole_pairs, f.turns);
     if (r->torque_Nm) f.repeat_Nm = repeatability(r, f.turns);
     return f;
 }

@@ -19,10 +19,12 @@ typedef struct {
     double speed_deviation;                 /* rad/s, about the mean */
     double mean_speed_rad_per_s, current_A; /* root mean square of the current vector's length */
     double mean_id_A, mean_iq_A;
-    double standing_A[3];    /* means of the phase currents over ten electrical turns or more; 0: fewer */
-    bool stands;             /* besides them the currents are noise */
-    bool zeros_read;         /* and they are the zeros of the sensors: no current flowed */
-    bool is_loaded;          /* the size of i_q stays far above what it varies by, as against a brake */
+    double standing_A[3]; /* means of the phase currents over ten electrical turns or more; 0: fewer */
+    bool stands;          /* besides them the currents are noise */
+    bool zeros_read;      /* and they are the zeros of the sensors: no current flowed */
+    bool is_direct;       /* the phase currents stay as they are while the rotor is at other angles, as when
+                           * direct current flows and the rotor is locked */
+    bool is_loaded;       /* the size of i_q stays far above what it varies by, as against a brake */
     double rms_acceleration; /* rad/s², of a run with a torque sensor */
     bool no_current;         /* what was read as current is the noise of its sensors, and current_A is 0 */
     double repeat_Nm; /* rms departure of a sample from the mean over the turns at its angle; NAN: one turn */

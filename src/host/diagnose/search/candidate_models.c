@@ -31,19 +31,20 @@ static hci_status candidates_renew(hci_search *s, const hci_candidates *model, h
                                    hci_note *note)
 {
     const bool saturates = hci_candidates_have_series(model);
-    const hci_candidates_source source = {s->regression->machine,
-                                          s->regression->declared,
-                                          s->regression->samples,
-                                          s->options->runs,
-                                          s->regression->use,
-                                          s->residual_Nm,
-                                          s->variance,
-                                          s->options->reference_current_A,
-                                          saturates ? s->richness : 0,
-                                          s->options->slots,
-                                          s->known_only,
-                                          s->no_current,
-                                          s->options->has_neutral};
+    const hci_candidates_source source = {.machine = s->regression->machine,
+                                          .declared = s->regression->declared,
+                                          .samples = s->regression->samples,
+                                          .runs = s->options->runs,
+                                          .use = s->regression->use,
+                                          .residual_Nm = s->residual_Nm,
+                                          .variance = s->variance,
+                                          .reference_current_A = s->options->reference_current_A,
+                                          .richness = saturates ? s->richness : 0,
+                                          .slots = s->options->slots,
+                                          .known_only = s->known_only,
+                                          .magnetic_only = s->magnetic_only,
+                                          .no_current = s->no_current,
+                                          .has_neutral = s->options->has_neutral};
     const hci_status status = hci_search_residual(s, model, note);
     if (status) return status;
     variance_set(s);

@@ -85,6 +85,87 @@ static hci_status try_known(hci_search *s, hci_fitted_model *model, hci_note *no
     return status;
 }
 
+/* ---- direct current ---- */
+
+#define AS_GOOD 0.1 /* of what all effects explain, that those of the magnetic circuit may leave besides */
+
+/* Whether all runs in use are of direct current: one length of the current vector each, and to each angle of
+ * the rotor one direction. */
+static bool is_direct(const hci_regression *e)
+{
+    bool any = false;
+    for (size_t r = 0; r < e->samples->run_count; ++r) {
+        if (!e->use[r]) continue;
+        if (!e->samples->statistics[r].is_direct || e->runs[r].torque_source != HCI_TORQUE_MEASURED)
+            return false;
+        any = true;
+    }
+    return any;
+}
+
+/* Whether a type is of the iron: it grows with a power of the currents. */
+static bool is_of_iron(const hci_effect_type *type)
+{
+    return type->propose_coenergy && !type->any_phase && !type->is_small;
+}
+
+/* Takes out what direct currents do not tell from iron, and what they tell as well, which is found anew.
+ * iron, others: out, whether such were in. */
+static void magnetic_only_keep(hci_candidates *model, bool *iron, bool *others)
+{
+    *iron = *others = false;
+    for (size_t r = 0; r < hci_candidate_types(); ++r) {
+        const hci_effect_type *type = hci_candidate_type(r);
+        if (!hci_candidates_have(model, type)) continue;
+        *iron = *iron || is_of_iron(type);
+        *others = *others || !type->propose_coenergy || type->any_phase;
+        hci_candidates_remove_type(model, type);
+    }
+}
+
+static hci_status square_of(hci_search *s, const hci_candidates *model, double *square, hci_note *note)
+{
+    const hci_status status = hci_search_residual(s, model, note);
+    *square = pow(hci_search_residual_rms(s), 2.0);
+    return status;
+}
+
+/* Whether the magnetic circuit explains nearly all that the effects of a model do. */
+static hci_status is_nearly_all(hci_search *s, const hci_candidates *magnetic, const hci_candidates *model,
+                                bool *nearly, hci_note *note)
+{
+    static const hci_candidates none = {0};
+    double before = 0.0, after = 0.0, left = 0.0;
+    hci_status status = square_of(s, &none, &before, note);
+    if (!status) status = square_of(s, model, &after, note);
+    if (!status) status = square_of(s, magnetic, &left, note);
+    *nearly = !status && left - after < AS_GOOD * (before - after);
+    return status;
+}
+
+/* With direct current each run says how the torque varies over the angle at one current. That iron which
+ * saturates makes of the currents is then also a torque that is there without them, and what sensors that
+ * are wrong make of the torque of the others. */
+static hci_status try_magnetic(hci_search *s, hci_fitted_model *model, hci_note *note)
+{
+    hci_fitted_model magnetic = {0};
+    bool iron = false, others = false, nearly = false;
+    if (!is_direct(s->regression)) return HCI_OK;
+    hci_status status = hci_fitted_model_copy(model, &magnetic, note);
+    if (status) return status;
+    magnetic_only_keep(&magnetic.candidates, &iron, &others);
+    s->magnetic_only = s->known_only = iron && others;
+    if (s->magnetic_only) status = hci_search_renew(s, &magnetic, note);
+    if (!status && s->magnetic_only) status = rounds_run(s, &magnetic, note);
+    if (!status && s->magnetic_only)
+        status = is_nearly_all(s, &magnetic.candidates, &model->candidates, &nearly, note);
+    s->magnetic_only = s->known_only = nearly;
+    if (!status && nearly) hci_fitted_model_replace(model, &magnetic);
+    if (!status) status = hci_search_renew(s, model, note);
+    hci_fitted_model_release(&magnetic);
+    return status;
+}
+
 hci_status hci_search_rounds(hci_search *s, hci_fitted_model *model, hci_note *note)
 {
     hci_search_begin(s, "looking for effects", 0.0, 0.0);
@@ -92,5 +173,5 @@ hci_status hci_search_rounds(hci_search *s, hci_fitted_model *model, hci_note *n
     if (!status) status = rounds_run(s, model, note);
     if (!status && hci_candidates_have(&model->candidates, &hci_empirical_type) && !hci_search_is_over(s))
         status = try_known(s, model, note);
-    return status;
+    return status ? status : try_magnetic(s, model, note);
 }

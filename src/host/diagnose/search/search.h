@@ -27,6 +27,7 @@ typedef struct {
     hci_disbelieved disbelieved;      /* to be released */
     double came_with[HCI_MOST_TYPES]; /* of each type, by how much the score fell when it came in alone */
     bool known_only;                  /* nothing unknown competes */
+    bool magnetic_only;               /* nor what direct currents do not tell from the magnetic circuit */
     bool no_current;                  /* nor what needs a current */
     bool from_no_load;                /* the search went on from what the runs without a current show */
     bool whole_coenergy;              /* all terms of the co-energy are in, each with an expectation */

@@ -6,6 +6,7 @@
 #include "host/base/memory.h"
 #include "host/diagnose/candidates/empirical_term.h"
 #include "host/diagnose/search/belief.h"
+#include "host/diagnose/search/coenergy.h"
 #include "host/diagnose/search/stability.h"
 
 #define EXCESS       0.1  /* variance over that of the noise that tells of something that does not repeat */
@@ -27,6 +28,9 @@
     0.04 /* of what effects explain, that they leave in runs left out: a fifth of the error                  \
           */
 
+#define MOSTLY   0.25 /* the same, of effects that are there and not all */
+#define AS_BADLY 0.5  /* of that, by the ripple alone: then it is not the means */
+
 enum { BLOCK = 24 }; /* samples */
 
 /* ---- whether what is left is noise ---- */
@@ -37,6 +41,7 @@ typedef struct {
     double block, block_square, blocks; /* sums of whitened squares over short blocks */
     double left, follows, rate; /* of free shafts: residual², × rate of the modelled torque, rate² */
     double time_s, steps;       /* of them */
+    double few_square, few_noise, few_rows; /* of segments that are too short for a spectrum */
 } goodness;
 
 static void blocks_add(const double *whitened, size_t n, goodness *g)
@@ -136,6 +141,18 @@ static void goodness_add(const hci_search *s, const hci_segment *x, double *whit
         following_add(s, x, residual, g);
 }
 
+/* Of few samples the noise is in what neighbours differ by; what they have in common is not. */
+static void few_add(const hci_search *s, const hci_segment *x, goodness *g)
+{
+    const double *residual = s->residual_Nm + x->first;
+    const double own = hypot(hci_noise_of_neighbours(residual, x->count), s->resolution_Nm);
+    if (!isfinite(own) || x->turns > 0) return;
+    for (size_t j = 0; j < x->count; ++j)
+        g->few_square += residual[j] * residual[j];
+    g->few_noise += (double)x->count * own * own;
+    g->few_rows += (double)x->count;
+}
+
 static hci_status goodness_of(hci_search *s, const hci_candidates *model, goodness *g, hci_note *note)
 {
     double *whitened = hci_memory_new(hci_segment_longest(s->regression->samples), sizeof *whitened);
@@ -143,7 +160,10 @@ static hci_status goodness_of(hci_search *s, const hci_candidates *model, goodne
     if (!whitened) return hci_note_memory(note, NULL, "judging the residual");
     const hci_status status = hci_search_noise(s, model, note);
     for (const hci_segment *x = NULL; !status && (x = hci_regression_next(s->regression, x)) != NULL;)
-        if (x->count >= HCI_NOISE_LEAST) goodness_add(s, x, whitened, g);
+        if (x->count >= HCI_NOISE_LEAST)
+            goodness_add(s, x, whitened, g);
+        else
+            few_add(s, x, g);
     hci_memory_free(whitened);
     return status;
 }
@@ -155,9 +175,21 @@ static double most_clumps(const goodness *g)
     return fmax(CLUMPS, 1.0 + SPREAD * sqrt((2.0 + 12.0 / BLOCK) / fmax(1.0, g->blocks)));
 }
 
+static bool is_long_noise(const goodness *g)
+{
+    return !(g->rows > 0.0) ||
+           (g->square < (1.0 + EXCESS) * g->noise && clumps_of(g) < most_clumps(g) && !is_late(g));
+}
+
+/* The ratio of both is 1 ± √(3/n) for noise. */
+static bool is_few_noise(const goodness *g)
+{
+    return !(g->few_rows > 0.0) || g->few_square < (1.0 + SPREAD * sqrt(3.0 / g->few_rows)) * g->few_noise;
+}
+
 static bool is_noise(const goodness *g)
 {
-    return g->square < (1.0 + EXCESS) * g->noise && clumps_of(g) < most_clumps(g) && !is_late(g);
+    return is_long_noise(g) && is_few_noise(g);
 }
 
 hci_status hci_search_is_noise(hci_search *s, const hci_candidates *model, bool *noise, hci_note *note)
@@ -169,16 +201,19 @@ hci_status hci_search_is_noise(hci_search *s, const hci_candidates *model, bool 
 }
 
 /* Whether the residual that is left is noise: its variance against that of the noise under its lines, and
- * whether its size is the same all along. */
-static hci_status residual_judge(hci_search *s, hci_attribution *a, hci_note *note)
+ * whether its size is the same all along. noise_Nm: out. */
+static hci_status residual_judge(hci_search *s, hci_attribution *a, double *noise_Nm, hci_note *note)
 {
     const double least_Nm = NOT_SMALL * s->resolution_Nm;
     goodness g;
     const hci_status status = goodness_of(s, &a->model.candidates, &g, note);
-    if (status || !(g.rows > 0.0)) return status;
-    const double excess = g.square / g.noise - 1.0, left = g.square / g.rows;
-    a->wanders = !is_noise(&g);
-    a->unknown = a->wanders && left > least_Nm * least_Nm;
+    const double rows = g.rows + g.few_rows;
+    if (status || !(rows > 0.0)) return status;
+    const double square = g.square + g.few_square, noise = g.noise + g.few_noise;
+    const double excess = square / noise - 1.0, left = square / rows;
+    a->wanders = !is_long_noise(&g);
+    a->unknown = !is_noise(&g) && left > least_Nm * least_Nm;
+    *noise_Nm = sqrt(noise / rows);
     a->unexplained_Nm = a->unknown ? sqrt(left * fmax(excess / (1.0 + excess), LEAST_SHARE)) : 0.0;
     return HCI_OK;
 }
@@ -218,7 +253,7 @@ static double ripple_rms(const hci_search *s)
 
 /* What is understood and what is not, as rms; the same of the ripple beside the means. */
 typedef struct {
-    double known_Nm, unexplained_Nm, known_ripple_Nm, unexplained_ripple_Nm;
+    double known_Nm, unexplained_Nm, known_ripple_Nm, unexplained_ripple_Nm, noise_Nm;
 } understanding;
 
 /* Of a model: what its effects explain, each by itself, and all together of the ripple. */
@@ -239,10 +274,10 @@ static hci_status known_of(hci_search *s, const hci_fitted_model *model, underst
 
 /* Whether what is not understood is large beside what is, or its ripple, above the noise, beside the ripple
  * that is: a friction, which makes none, explains none. */
-static bool is_much(const hci_search *s, const understanding *u)
+static bool is_much(const understanding *u)
 {
     return u->unexplained_Nm > SMALL * u->known_Nm ||
-           u->unexplained_ripple_Nm > fmax(SMALL * u->known_ripple_Nm, hci_search_noise_rms(s));
+           u->unexplained_ripple_Nm > fmax(SMALL * u->known_ripple_Nm, u->noise_Nm);
 }
 
 /* Known effects beside something larger that is not understood cannot be told from a part of it, and go; a
@@ -273,19 +308,21 @@ static void disbelieved_set(const hci_search *s, hci_yield yield, hci_attributio
     a->unexplained_Nm = hci_search_residual_rms(s);
 }
 
-static hci_status settle(hci_search *s, hci_attribution *a, hci_note *note)
+/* unpredicted: runs left out say that the effects are not all. */
+static hci_status settle(hci_search *s, bool unpredicted, hci_attribution *a, hci_note *note)
 {
-    understanding u = {0.0, 0.0, 0.0, 0.0};
+    understanding u = {0.0, 0.0, 0.0, 0.0, 0.0};
     hci_yield yield = HCI_YIELD_NOTHING;
     hci_status status = hci_search_yield(s, &a->model, &yield, note);
-    if (!status) status = residual_judge(s, a, note);
+    if (!status) status = residual_judge(s, a, &u.noise_Nm, note);
     if (yield) disbelieved_set(s, yield, a);
+    if (unpredicted) a->unexplained_Nm = fmax(a->unexplained_Nm, hci_search_residual_rms(s));
     u.unexplained_Nm = a->unexplained_Nm;
     if (!status) status = explained_add(s, &a->model, &hci_empirical_type, &u.unexplained_Nm, note);
     if (status || !(u.unexplained_Nm > 0.0)) return status;
     status = known_of(s, &a->model, &u, note);
     if (status) return status;
-    a->unknown = yield == HCI_YIELD_BETTER || is_much(s, &u);
+    a->unknown = unpredicted || yield == HCI_YIELD_BETTER || is_much(&u);
     status = types_leave(s, a, u.unexplained_Nm, note);
     if (!status && a->unknown) a->unexplained_Nm = u.unexplained_Nm;
     return status;
@@ -347,21 +384,40 @@ static hci_status means_leave(hci_search *s, hci_attribution *a, hci_note *note)
     return status;
 }
 
+/* Whether runs left out are described for the most part, and their means no worse than their ripple, by iron
+ * that saturates, of which a series in the currents is never all. share: of all. */
+static hci_status is_of_ripple(hci_search *s, const hci_candidates *model, double share, bool *of_ripple,
+                               hci_note *note)
+{
+    double ripple = 0.0;
+    *of_ripple = false;
+    if (!hci_search_saturates(model)) return HCI_OK;
+    s->regression->free_means = true;
+    const hci_status status = hci_search_unpredicted(s, model, &ripple, note);
+    s->regression->free_means = false;
+    *of_ripple = !status && share < MOSTLY && ripple < MOSTLY && ripple > AS_BADLY * share;
+    return status;
+}
+
 /* A few numbers for as many runs describe the mean of each whatever it is, such as a zero that is another one
- * each time: effects that explain the runs but not those left out are none. */
-static hci_status means_judge(hci_search *s, hci_attribution *a, hci_note *note)
+ * each time: effects that explain the runs but not those left out are none. unpredicted: out, they are some,
+ * and something else is missing. */
+static hci_status means_judge(hci_search *s, hci_attribution *a, bool *unpredicted, hci_note *note)
 {
     double share = 0.0;
     if (s->whole_coenergy) return HCI_OK;
-    const hci_status status = hci_search_unpredicted(s, &a->model.candidates, &share, note);
-    return status || !(share > UNPREDICTED) ? status : means_leave(s, a, note);
+    hci_status status = hci_search_unpredicted(s, &a->model.candidates, &share, note);
+    if (status || !(share > UNPREDICTED)) return status;
+    status = is_of_ripple(s, &a->model.candidates, share, unpredicted, note);
+    return status || *unpredicted ? status : means_leave(s, a, note);
 }
 
 /* Judging finds the noise anew, and scores are comparable with the same noise only. */
 hci_status hci_search_settle(hci_search *s, hci_attribution *a, hci_note *note)
 {
-    hci_status status = means_judge(s, a, note);
+    bool unpredicted = false;
+    hci_status status = means_judge(s, a, &unpredicted, note);
     if (!status && !a->means_open) status = hci_search_keep_brakes(s, &a->model, note);
-    if (!status && !a->means_open) status = settle(s, a, note);
+    if (!status && !a->means_open) status = settle(s, unpredicted, a, note);
     return status ? status : hci_search_renew(s, &a->model, note);
 }

@@ -44,8 +44,14 @@ void setUp(void)
         use[r] = true;
     }
     samples = (hci_binned_samples){sample, COUNT, segment, RUNS, statistics, RUNS};
-    source = (hci_candidates_source){&MACHINE, &NO_EFFECTS, &samples, run,   use,   residual_Nm, variance,
-                                     NAN,      0,           0,        false, false, false};
+    source = (hci_candidates_source){.machine = &MACHINE,
+                                     .declared = &NO_EFFECTS,
+                                     .samples = &samples,
+                                     .runs = run,
+                                     .use = use,
+                                     .residual_Nm = residual_Nm,
+                                     .variance = variance,
+                                     .reference_current_A = NAN};
 }
 
 void tearDown(void)

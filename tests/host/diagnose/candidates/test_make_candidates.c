@@ -24,7 +24,7 @@ static double residual_Nm[RUNS * SAMPLES], variance[RUNS * SAMPLES];
 static hci_binned_samples samples;
 static hci_candidates list;
 static int richness;
-static bool known_only, has_neutral;
+static bool known_only, magnetic_only, has_neutral;
 
 /* One turn each at three speeds and currents, with noise for a residual. */
 void setUp(void)
@@ -32,7 +32,7 @@ void setUp(void)
     seed = 77;
     declared = NO_EFFECTS;
     richness = 0;
-    known_only = has_neutral = false;
+    known_only = magnetic_only = has_neutral = false;
     back_emf[0] = (hci_wave){1.0, 1, 0.2, 0.0};
     back_emf[1] = (hci_wave){2.0, -1, 0.001, 0.0};
     machine = (hci_machine){.pole_pairs = P, .back_emf = back_emf, .back_emf_count = 1};
@@ -67,9 +67,18 @@ static void hide(double periods, double amplitude_Nm)
 
 static hci_status make_from(const hci_candidates *known)
 {
-    const hci_candidates_source source = {&machine,    &declared, &samples,   run,      use,
-                                          residual_Nm, variance,  NAN,        richness, 0,
-                                          known_only,  false,     has_neutral};
+    const hci_candidates_source source = {.machine = &machine,
+                                          .declared = &declared,
+                                          .samples = &samples,
+                                          .runs = run,
+                                          .use = use,
+                                          .residual_Nm = residual_Nm,
+                                          .variance = variance,
+                                          .reference_current_A = NAN,
+                                          .richness = richness,
+                                          .known_only = known_only,
+                                          .magnetic_only = magnetic_only,
+                                          .has_neutral = has_neutral};
     hci_note note = {{0}};
     hci_candidates_release(&list);
     return hci_candidates_make(&source, known, &list, &note);
@@ -315,7 +324,6 @@ static void test_orders_stand_out_of_the_residual(void)
     TEST_ASSERT_FALSE(is_offered("mechanical_order", "sine", 6.0));
 }
 
-/* 180 samples in a turn tell orders up to 90 periods: 30 electrical ones. */
 /* What no effect explains may be kept from competing. */
 static void test_known_effects_alone(void)
 {
@@ -329,6 +337,7 @@ static void test_known_effects_alone(void)
     }
 }
 
+/* 180 samples in a turn tell orders up to 90 periods: 30 electrical ones. */
 static void test_orders_above_half_the_samples_are_none(void)
 {
     double most;
@@ -357,6 +366,7 @@ static void test_more_is_offered_where_the_iron_saturates(void)
 {
     size_t powers[3], reluctance[3];
     double order[3];
+    machine.pole_pairs = 1; /* 180 samples in an electrical turn */
     for (richness = 0; richness < 3; ++richness) {
         make();
         powers[richness] = terms_of("saturation", "", &order[richness]);
@@ -369,6 +379,40 @@ static void test_more_is_offered_where_the_iron_saturates(void)
     richness = 1;
     make();
     TEST_ASSERT_FALSE(is_offered("saturation", "d0q6_cosine", 0.0));
+}
+
+/* 60 samples in an electrical turn tell orders up to 29, of any effect, and 180 up to 86. */
+static void test_orders_of_iron_end_at_half_the_samples(void)
+{
+    static const double MOST[2][2] = {{24.0, 24.0}, {60.0, 60.0}};
+    for (int fine = 0; fine < 2; ++fine) {
+        double saturation, reluctance;
+        richness = 1;
+        machine.pole_pairs = fine ? 1 : P;
+        make();
+        TEST_ASSERT_TRUE(terms_of("saturation", "", &saturation) > 0 &&
+                         terms_of("reluctance", "", &reluctance) > 0);
+        TEST_ASSERT_EQUAL_DOUBLE(MOST[fine][0], saturation);
+        TEST_ASSERT_EQUAL_DOUBLE(MOST[fine][1], reluctance);
+    }
+}
+
+/* Where the magnetic circuit alone is looked for, nothing else is offered, and a torque that no current makes
+ * only where next to none flows. */
+static void test_the_magnetic_circuit_alone(void)
+{
+    static const char *const OTHER[] = {"friction",      "position_offset", "current_offset", "current_gain",
+                                        "torque_sensor", "channel_delay",   "phase_imbalance"};
+    hide(6.0 * P, 0.02);
+    magnetic_only = true;
+    make();
+    for (size_t k = 0; k < sizeof OTHER / sizeof *OTHER; ++k)
+        TEST_ASSERT_EQUAL_UINT64(0, terms_of(OTHER[k], "", NULL));
+    TEST_ASSERT_TRUE(terms_of("reluctance", "", NULL) > 0 && terms_of("back_emf", "", NULL) > 0);
+    TEST_ASSERT_TRUE(is_offered("cogging", "sine", 6.0)); /* the first run has no current */
+    use[0] = false;
+    make();
+    TEST_ASSERT_FALSE(is_offered("cogging", "sine", 6.0));
 }
 
 /* What is in the model stays with its value, also where it would not be offered anew. */
@@ -464,6 +508,8 @@ int main(void)
     RUN_TEST(test_orders_above_half_the_samples_are_none);
     RUN_TEST(test_without_a_known_turn_no_orders_of_the_turn);
     RUN_TEST(test_more_is_offered_where_the_iron_saturates);
+    RUN_TEST(test_orders_of_iron_end_at_half_the_samples);
+    RUN_TEST(test_the_magnetic_circuit_alone);
     RUN_TEST(test_the_model_stays_in_the_list);
     RUN_TEST(test_a_law_of_few_runs_gives_way_to_that_of_all);
     RUN_TEST(test_what_has_left_a_law_is_a_candidate);

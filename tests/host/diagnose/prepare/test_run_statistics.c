@@ -126,6 +126,20 @@ static void test_nothing_is_there(void)
     TEST_ASSERT_TRUE(x.turns == 0.0 && x.current_A == 0.0 && isnan(x.repeat_Nm) && isnan(x.temperature_C));
 }
 
+/* Phase currents that stay while the rotor turns are direct; those that turn with it are not, nor is one of
+ * which nothing is seen but at one angle. */
+static void test_direct_current(void)
+{
+    static const double PHASE_A[3] = {4.0, -2.0, -2.0};
+    TEST_ASSERT_FALSE(hci_run_statistics_of(&run, P).is_direct);
+    for (size_t k = 0; k < 3 * N; ++k)
+        run.i_A[k] = PHASE_A[k % 3] + 0.01 * ref_normal(&seed);
+    TEST_ASSERT_TRUE(hci_run_statistics_of(&run, P).is_direct);
+    for (size_t k = 0; k < N; ++k)
+        run.theta_m_rad[k] *= 0.09 / (TURNS * P);
+    TEST_ASSERT_FALSE(hci_run_statistics_of(&run, P).is_direct);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -135,5 +149,6 @@ int main(void)
     RUN_TEST(test_zeros_of_sensors);
     RUN_TEST(test_a_current_that_flows_is_no_zero);
     RUN_TEST(test_nothing_is_there);
+    RUN_TEST(test_direct_current);
     return UNITY_END();
 }

@@ -96,11 +96,30 @@ static void test_means_of_noise_are_known(void)
     hci_attribution_release(&a);
 }
 
+/* Too few samples for a spectrum: noise is noise, and a wave that is slow beside them is none. */
+static void test_few_samples(void)
+{
+    for (uint64_t k = 0; k < 40; ++k) {
+        seed = 900 + k;
+        for (size_t r = 0; r < 3; ++r)
+            record(40, &(point){60.0, 2.0, 0.0, 0.0, 0.0});
+        TEST_ASSERT_TRUE(is_noise());
+        for (size_t j = 0; j < 120; ++j)
+            run[j / 40].torque_Nm[j % 40] += 3.0 * NOISE_NM * sin(2.0 * REF_PI * (double)(j % 40) / 20.0);
+        search_end();
+        TEST_ASSERT_FALSE(is_noise());
+        tearDown();
+        setUp();
+    }
+    search_start();
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_short_noise_is_noise);
     RUN_TEST(test_bursts_are_no_noise);
+    RUN_TEST(test_few_samples);
     RUN_TEST(test_what_a_filter_leaves_is_no_noise);
     RUN_TEST(test_means_of_noise_are_known);
     return UNITY_END();
