@@ -177,7 +177,8 @@ static const char *name_of(const hci_solution *s, const hci_limit *l)
     if (l->kind == HCI_LIMIT_CURRENT) return l->phase < 0 ? "phase current" : PHASE[l->phase];
     if (l->kind == HCI_LIMIT_RMS) return l->phase < 0 ? "rms current" : RMS[l->phase];
     if (is_loss(s, l)) return "copper loss";
-    return l->kind == HCI_LIMIT_VOLTAGE ? "line voltage" : "mean of i_a² + i_b² + i_c²";
+    if (l->kind != HCI_LIMIT_VOLTAGE) return "mean of i_a² + i_b² + i_c²";
+    return l->of_phases ? "2 × phase voltage" : "line voltage";
 }
 
 static const char *unit_of(const hci_solution *s, const hci_limit *l)
@@ -207,13 +208,11 @@ static void show_gain(const hci_solution *s, const hci_limit *l)
 
 static void show_touches(const hci_limit *l)
 {
-    static const char *const PHASE[] = {"a", "b", "c"}, *const PAIR[] = {"ab", "bc", "ca"};
     const size_t shown = l->touch_count < 6 ? l->touch_count : 6;
     if (!l->binds || shown == 0) return;
     cli_say("\n               touched at");
     for (size_t k = 0; k < shown; ++k)
-        cli_say("%s %s %.1f°", k > 0 ? "," : "",
-                (l->kind == HCI_LIMIT_VOLTAGE ? PAIR : PHASE)[l->touch[k].phase],
+        cli_say("%s %s %.1f°", k > 0 ? "," : "", hci_limit_place_name(l, l->touch[k].phase),
                 l->touch[k].theta_rad * 180.0 / HCI_PI);
     if (l->touch_count > shown) cli_say(" and at %zu more angles", l->touch_count - shown);
 }

@@ -49,21 +49,25 @@ void hci_drive_complete(const hci_drive_data *drive, hci_machine_data *machine)
     take(drive->inductance_q_H, &machine->inductance_q_H);
 }
 
-double hci_drive_line_V(const hci_drive_data *drive, const hci_machine_data *machine)
+static double link_of(const hci_drive_data *drive, const hci_machine_data *machine)
 {
-    const double link_V =
-        drive->dc_link_voltage_V > 0.0 ? drive->dc_link_voltage_V : machine->dc_link_voltage_V;
-    return link_V > 0.0 ? (drive->modulation == HCI_MODULATION_SINUSOIDAL ? 0.5 * sqrt(3.0) : 1.0) * link_V
-                        : 0.0;
+    return drive->dc_link_voltage_V > 0.0 ? drive->dc_link_voltage_V : machine->dc_link_voltage_V;
 }
 
-bool hci_drive_limits_voltage(const hci_drive_data *drive, const hci_machine_data *machine, double *line_V,
+bool hci_drive_limits_voltage(const hci_drive_data *drive, const hci_machine_data *machine, double *link_V,
                               hci_note *remark)
 {
     const bool has_inductance = machine->inductance_count > 0 || machine->model.slope_count > 0 ||
                                 (machine->inductance_d_H > 0.0 && machine->inductance_q_H > 0.0);
-    *line_V = hci_drive_line_V(drive, machine);
-    if (!(*line_V > 0.0) || !(machine->resistance_ohm > 0.0) || !has_inductance) return false;
-    hci_note_add(remark, "the voltage limit is the %.4g V between phases that the drive reaches", *line_V);
+    *link_V = fmax(0.0, link_of(drive, machine));
+    if (!(*link_V > 0.0) || !(machine->resistance_ohm > 0.0) || !has_inductance) return false;
+    if (drive->modulation == HCI_MODULATION_SINUSOIDAL)
+        hci_note_add(
+            remark,
+            "the voltage limit is the %.4g V that the drive reaches in each phase, half of its dc link",
+            0.5 * *link_V);
+    else
+        hci_note_add(remark, "the voltage limit is the %.4g V between phases that the drive reaches",
+                     *link_V);
     return true;
 }

@@ -111,13 +111,10 @@ static void put_current(hci_json *json, const hci_solution *s)
     hci_json_close(json);
 }
 
-static void put_phase(hci_json *json, const char *name, hci_limit_kind kind, int phase)
+static void put_phase(hci_json *json, const char *name, const hci_limit *l, int phase)
 {
-    static const char *const PHASE[] = {"a", "b", "c"}, *const PAIR[] = {"ab", "bc", "ca"};
-    if (phase < 0 || kind == HCI_LIMIT_COPPER)
-        hci_json_text(json, name, "all");
-    else
-        hci_json_text(json, name, (kind == HCI_LIMIT_VOLTAGE ? PAIR : PHASE)[phase]);
+    const bool all = phase < 0 || l->kind == HCI_LIMIT_COPPER;
+    hci_json_text(json, name, all ? "all" : hci_limit_place_name(l, phase));
 }
 
 static void put_touches(hci_json *json, const hci_limit *l)
@@ -125,7 +122,7 @@ static void put_touches(hci_json *json, const hci_limit *l)
     hci_json_array(json, "touched_at");
     for (size_t k = 0; k < l->touch_count && k < HCI_MOST_TOUCHES; ++k) {
         hci_json_object(json, NULL);
-        put_phase(json, "phase", l->kind, l->touch[k].phase);
+        put_phase(json, "phase", l, l->touch[k].phase);
         hci_json_number(json, "theta_e_rad", l->touch[k].theta_rad);
         hci_json_close(json);
     }
@@ -137,7 +134,7 @@ static void put_limit(hci_json *json, const hci_limit *l)
 {
     hci_json_object(json, NULL);
     hci_json_text(json, "kind", hci_limit_kind_name(l->kind));
-    put_phase(json, "phase", l->kind, l->phase);
+    put_phase(json, "phase", l, l->phase);
     hci_json_number(json, "limit", l->limit);
     hci_json_number(json, "value", l->value);
     hci_json_bool(json, "declared", l->is_declared);

@@ -8,7 +8,8 @@
 typedef struct {
     double current_A[3]; /* largest |current| of each phase; 0: open */
     double rms_A[3];
-    double line_V;            /* largest |line voltage| */
+    double line_V;            /* largest |line voltage|, or twice that of a phase: */
+    bool sinusoidal;          /* modulation without a zero sequence */
     double line_V_per_V;      /* of it for 1 V of dc link */
     double mean_square_A2;    /* of all phases together: copper */
     double resistance_ohm;    /* by which that is a loss; NAN where not known */
@@ -21,8 +22,9 @@ typedef struct {
 hci_status hci_bounds_make(const hci_machine_data *machine, const hci_solve_options *options, double plain_A,
                            hci_bounds *bounds, hci_note *note);
 
-/* Whether line voltage `pair` (0, 1, 2: ab, bc, ca) is one that the inverter makes: both of its phases are
- * driven, or no two phases are. That of an open phase is what its terminal shows. */
+/* Whether line voltage `pair` (0, 1, 2: ab, bc, ca), or with `sinusoidal` that of a phase (a, b, c), is one
+ * that the inverter makes: its phases are driven, or no two phases are. That of an open phase is what its
+ * terminal shows. */
 bool hci_bounds_drive_pair(const hci_bounds *bounds, int pair);
 
 /* Whether the three phases have the same ones. */

@@ -28,12 +28,13 @@ static void drop_components(hci_component_set *set, double highest, hci_note *re
 static hci_status take_loop(const hci_drive_data *drive, hci_machine_data *machine, hci_solve_options *o,
                             hci_note *remark, hci_note *note)
 {
-    double line_V;
+    double link_V;
     const hci_status status = hci_drive_check_loop(drive, machine, o->speed_rad_per_s, remark, note);
     if (status) return status;
     hci_drive_complete(drive, machine);
+    o->limits.sinusoidal = drive->modulation == HCI_MODULATION_SINUSOIDAL;
     if (o->limit_voltage_V > 0.0 || o->limits.ignore_ratings) return HCI_OK;
-    if (hci_drive_limits_voltage(drive, machine, &line_V, remark)) o->limit_voltage_V = line_V;
+    if (hci_drive_limits_voltage(drive, machine, &link_V, remark)) o->limit_voltage_V = link_V;
     return HCI_OK;
 }
 

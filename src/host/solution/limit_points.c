@@ -66,13 +66,14 @@ static double current_row(const hci_limit_field *f, const hci_limit_point *p, do
 }
 
 /* by_current · x + by_slope · x' */
-static double line_of(const hci_linear_voltage *v, const hci_plane_current *i, int pair)
+static double link_of(const hci_limit_field *f, const hci_linear_voltage *v, const hci_plane_current *i,
+                      int place)
 {
     double sum[2];
     for (int k = 0; k < 2; ++k)
         sum[k] = v->by_current[k] * i->x[0] + v->by_current[2 + k] * i->x[1] + v->by_slope[k] * i->slope[0] +
                  v->by_slope[2 + k] * i->slope[1];
-    return hci_line_of_plane(sum, pair);
+    return hci_voltage_of_link(f->voltage, sum, place);
 }
 
 static double voltage_row(const hci_limit_field *f, const hci_limit_point *p, double *g)
@@ -84,11 +85,12 @@ static double voltage_row(const hci_limit_field *f, const hci_limit_point *p, do
     hci_voltage_linearise(f->voltage, p->theta_rad, &at, &v);
     for (size_t k = 0; k < f->set->count; ++k) {
         plane_pair(f->set->component[k], p->theta_rad, i);
-        g[2 * k] = line_of(&v, &i[0], p->phase);
-        g[2 * k + 1] = line_of(&v, &i[1], p->phase);
+        g[2 * k] = link_of(f, &v, &i[0], p->phase);
+        g[2 * k + 1] = link_of(f, &v, &i[1], p->phase);
     }
     if (f->held) add_plane(f->held, p->theta_rad, &held);
-    return hci_line_of_plane(v.value, p->phase) + line_of(&v, &held, p->phase) - line_of(&v, &at, p->phase);
+    return hci_voltage_of_link(f->voltage, v.value, p->phase) + link_of(f, &v, &held, p->phase) -
+           link_of(f, &v, &at, p->phase);
 }
 
 bool hci_limit_is_bent(const hci_limit_field *f)
@@ -96,14 +98,14 @@ bool hci_limit_is_bent(const hci_limit_field *f)
     return f->voltage && f->voltage->effects && f->voltage->effects->count > 0;
 }
 
-double hci_limit_line_V(const hci_limit_field *f, int pair, double theta_rad, const hci_wave_list *i)
+double hci_limit_link_V(const hci_limit_field *f, int place, double theta_rad, const hci_wave_list *i)
 {
     hci_plane_current sum = {{0.0, 0.0}, {0.0, 0.0}};
     double v[2];
     for (size_t k = 0; k < i->count; ++k)
         add_plane(&i->wave[k], theta_rad, &sum);
     hci_voltage_at(f->voltage, theta_rad, &sum, v);
-    return hci_line_of_plane(v, pair);
+    return hci_voltage_of_link(f->voltage, v, place);
 }
 
 /* Σ over orders above 0 of (U x − h) as a wave at the angle. The weight of the rows is taken out again. */

@@ -38,8 +38,9 @@ double hci_limit_row(const hci_limit_field *field, const hci_limit_point *point,
 /* Whether the voltage is not linear in the currents. */
 bool hci_limit_is_bent(const hci_limit_field *field);
 
-/* The true line voltage of currents. */
-double hci_limit_line_V(const hci_limit_field *field, int pair, double theta_rad, const hci_wave_list *i);
+/* The true voltage of currents that has to stay within the dc link: a line voltage, or with sinusoidal
+ * modulation twice that of a phase. */
+double hci_limit_link_V(const hci_limit_field *field, int place, double theta_rad, const hci_wave_list *i);
 
 /* Points with what was added last behind, and the rows of the first of them. Start with {0}. */
 typedef struct {

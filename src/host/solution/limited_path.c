@@ -98,7 +98,7 @@ static double overshoot(const hci_wishes *w, const hci_wave_list *i)
         const hci_limit_grid *grid = &p->grid[q];
         const double limit_V = hci_limit_of_point(p->bounds, grid->kind, grid->phase) * (1.0 + p->widened);
         for (size_t k = 0; grid->kind == HCI_POINT_VOLTAGE && k < grid->samples; ++k)
-            most = fmax(most, fabs(hci_limit_line_V(&p->field, grid->phase, grid->step_rad * (double)k, i)) /
+            most = fmax(most, fabs(hci_limit_link_V(&p->field, grid->phase, grid->step_rad * (double)k, i)) /
                                       limit_V -
                                   1.0);
     }

@@ -24,6 +24,12 @@ const char *hci_limit_kind_name(hci_limit_kind kind)
     return NAME[kind];
 }
 
+const char *hci_limit_place_name(const hci_limit *l, int phase)
+{
+    static const char *const PHASE[] = {"a", "b", "c"}, *const PAIR[] = {"ab", "bc", "ca"};
+    return (l->kind == HCI_LIMIT_VOLTAGE && !l->of_phases ? PAIR : PHASE)[phase];
+}
+
 const char *hci_limit_cost_name(hci_limit_cost cost)
 {
     static const char *const NAME[] = {"none", "copper", "ripple", "torque", "limits"};
@@ -54,8 +60,11 @@ void hci_limits_list(const hci_bounds *b, hci_solution *s)
     s->resistance_ohm = b->resistance_ohm;
     add_phases(s, HCI_LIMIT_CURRENT, b->current_A, b->current_is_declared);
     add_phases(s, HCI_LIMIT_RMS, b->rms_A, false);
-    if (b->line_V < HUGE_VAL)
-        add_limit(s, HCI_LIMIT_VOLTAGE, -1, b->line_V)->is_declared = b->voltage_is_declared;
+    if (b->line_V < HUGE_VAL) {
+        hci_limit *l = add_limit(s, HCI_LIMIT_VOLTAGE, -1, b->line_V);
+        l->is_declared = b->voltage_is_declared;
+        l->of_phases = b->sinusoidal;
+    }
     if (b->mean_square_A2 < HUGE_VAL) add_limit(s, HCI_LIMIT_COPPER, -1, b->mean_square_A2);
 }
 
@@ -122,7 +131,7 @@ static void sizes_at(const curve *c, double theta_rad, double size[3])
         hci_waves_at(c->solution->current.wave, c->solution->current.count, theta_rad, size);
     }
     for (int k = 0; k < 3; ++k)
-        size[k] = fabs(c->voltage ? hci_line_of_plane(v, k) : size[k]);
+        size[k] = fabs(c->voltage ? hci_voltage_of_link(c->voltage, v, k) : size[k]);
 }
 
 static double size_at(const void *context, double theta_rad)
@@ -235,22 +244,36 @@ static void check_neutral(hci_solution *s, size_t samples)
     s->peak_neutral_A = fmax(most_A, hci_peak_refine(&f, c.step_rad, &at_rad));
 }
 
-/* The largest of the line voltages that the inverter makes, and of those that open phases show. */
-static void check_voltages(const hci_voltage_model *v, const hci_bounds *b, hci_solution *s, size_t samples,
-                           double *value)
+/* The largest of the voltages that the inverter makes, which is returned, and of those that open phases show.
+ * limited: they are what has to stay within the dc link. */
+static double check_link(const hci_voltage_model *v, const hci_bounds *b, bool limited, hci_solution *s,
+                         size_t samples, double *value)
 {
     curve c = {s, v, 0, 2.0 * HCI_PI * (double)s->period_turns / (double)samples};
+    double most_V = 0.0;
     sample(&c, samples, value);
-    s->peak_line_voltage_V = 0.0;
     for (; c.phase < 3; ++c.phase) {
-        hci_limit *l = hci_bounds_drive_pair(b, c.phase) ? find_limit(s, HCI_LIMIT_VOLTAGE, c.phase) : NULL;
+        const bool driven = hci_bounds_drive_pair(b, c.phase);
+        hci_limit *l = driven && limited ? find_limit(s, HCI_LIMIT_VOLTAGE, c.phase) : NULL;
         const double peak_V = peak_of(&c, samples, l, value + c.phase);
         take_value(l, peak_V);
-        if (l)
-            s->peak_line_voltage_V = fmax(s->peak_line_voltage_V, peak_V);
+        if (driven)
+            most_V = fmax(most_V, peak_V);
         else
             s->peak_open_voltage_V = fmax(s->peak_open_voltage_V, peak_V);
     }
+    return most_V;
+}
+
+/* The line voltages; sinusoidal modulation limits those of the phases in their place. */
+static void check_voltages(const hci_voltage_model *v, const hci_bounds *b, hci_solution *s, size_t samples,
+                           double *value)
+{
+    hci_voltage_model lines = *v;
+    hci_bounds of_lines = *b;
+    lines.sinusoidal = of_lines.sinusoidal = false;
+    if (b->sinusoidal) check_link(v, b, true, s, samples, value);
+    s->peak_line_voltage_V = check_link(&lines, &of_lines, !b->sinusoidal, s, samples, value);
 }
 
 static double top_of_voltage(const hci_machine_data *m, const hci_effects *effects)

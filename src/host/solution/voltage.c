@@ -46,7 +46,11 @@ static void fill_mean(const hci_machine_data *m, double mean_H[3])
 hci_status hci_voltage_model_make(const hci_machine_data *m, const hci_solve_options *o,
                                   hci_voltage_model *model, hci_note *note)
 {
-    *model = (hci_voltage_model){m, o->effects, o->speed_rad_per_s, hci_magnet_temperature_C(o), {0}};
+    *model = (hci_voltage_model){.machine = m,
+                                 .effects = o->effects,
+                                 .speed_rad_per_s = o->speed_rad_per_s,
+                                 .temperature_C = hci_magnet_temperature_C(o),
+                                 .sinusoidal = o->limits.sinusoidal};
     fill_mean(m, model->mean_H);
     if (!isnan(m->resistance_ohm) && (!isnan(model->mean_H[0]) || o->speed_rad_per_s == 0.0)) return HCI_OK;
     return hci_note_set(
@@ -192,9 +196,9 @@ void hci_voltage_linearise(const hci_voltage_model *model, double theta_rad, con
     }
 }
 
-double hci_line_of_plane(const double v[2], int pair)
+double hci_voltage_of_link(const hci_voltage_model *model, const double v[2], int place)
 {
     double abc[3];
     hci_plane_to_abc(v, abc);
-    return abc[pair] - abc[(pair + 1) % 3];
+    return model->sinusoidal ? 2.0 * abc[place] : abc[place] - abc[(place + 1) % 3];
 }

@@ -9,6 +9,7 @@ typedef struct {
     const hci_effects *effects; /* or NULL */
     double speed_rad_per_s, temperature_C;
     double mean_H[3]; /* the constant part of L in the orthonormal plane: αα, αβ, ββ */
+    bool sinusoidal;  /* modulation without a zero sequence */
 } hci_voltage_model;
 
 /* A current and its derivative by the electrical angle, in the orthonormal plane. */
@@ -35,7 +36,8 @@ void hci_voltage_at(const hci_voltage_model *model, double theta_rad, const hci_
 void hci_voltage_linearise(const hci_voltage_model *model, double theta_rad, const hci_plane_current *i,
                            hci_linear_voltage *v);
 
-/* v_a − v_b, v_b − v_c or v_c − v_a (pair 0, 1, 2) of phase voltages in the plane. */
-double hci_line_of_plane(const double v[2], int pair);
+/* What has to stay within the dc link, of phase voltages in the plane: v_a − v_b, v_b − v_c or v_c − v_a
+ * (place 0, 1, 2), of which the inverter makes any by a zero sequence; without one 2 v_a, 2 v_b or 2 v_c. */
+double hci_voltage_of_link(const hci_voltage_model *model, const double v[2], int place);
 
 #endif

@@ -104,10 +104,60 @@ static void test_smooth_torque_takes_a_negative_i_d(void)
     TEST_ASSERT_TRUE(before_A < -1.0);
 }
 
+/* ---- without a zero sequence ---- */
+
+/* The largest phase and line voltage of the solved currents by v = R i + ω (L di/dθ) + ω_m e, and differences
+ * of neighbours for the derivative. */
+static void voltages_by_samples(double *phase_V, double *line_V)
+{
+    enum { N = 20000 };
+    static double i_A[N][3], e[3];
+    const double speed = options.speed_rad_per_s, step = 2.0 * REF_PI / N;
+    *phase_V = *line_V = 0.0;
+    for (size_t k = 0; k < N; ++k)
+        hci_waves_at(solution.current.wave, solution.current.count, step * (double)k, i_A[k]);
+    for (size_t k = 0; k < N; ++k) {
+        double v[3];
+        hci_waves_at(machine.model.back_emf, machine.model.back_emf_count, step * (double)k, e);
+        const double zero = (e[0] + e[1] + e[2]) / 3.0; /* the star point takes it */
+        for (int s = 0; s < 3; ++s) {
+            const double slope = (i_A[(k + 1) % N][s] - i_A[(k + N - 1) % N][s]) / (2.0 * step);
+            v[s] = RESISTANCE_OHM * i_A[k][s] + 2.0 * speed * INDUCTANCE_H * slope + speed * (e[s] - zero);
+            *phase_V = fmax(*phase_V, fabs(v[s]));
+        }
+        for (int s = 0; s < 3; ++s)
+            *line_V = fmax(*line_V, fabs(v[s] - v[(s + 1) % 3]));
+    }
+}
+
+/* Half of the dc link in each phase is less than the line voltage alone would allow, and of harmonics it is
+ * not √3/2 of that. */
+static void test_sinusoidal_modulation_keeps_each_phase(void)
+{
+    double phase_V, line_V;
+    options.speed_rad_per_s = 1500.0 * REF_PI / 30.0;
+    options.limit_voltage_V = 102.0;
+    options.limits.sinusoidal = true;
+    solve(HCI_OK);
+    voltages_by_samples(&phase_V, &line_V);
+    TEST_ASSERT_EQUAL(HCI_COST_COPPER, solution.limit_cost); /* it acts */
+    TEST_ASSERT_DOUBLE_WITHIN(1e-4 * 51.0, 51.0, phase_V);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-4 * line_V, line_V, solution.peak_line_voltage_V);
+    TEST_ASSERT_TRUE(solution.limit_count == 1 && solution.limit[0].of_phases);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-3, 102.0, solution.limit[0].value);
+    TEST_ASSERT_EQUAL_STRING("c", hci_limit_place_name(&solution.limit[0], 2));
+    options.limits.sinusoidal = false;
+    solve(HCI_OK);
+    voltages_by_samples(&phase_V, &line_V);
+    TEST_ASSERT_TRUE(phase_V > 51.0);
+    TEST_ASSERT_EQUAL_STRING("ca", hci_limit_place_name(&solution.limit[0], 2));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_the_plain_sine_follows_the_voltage_circle);
     RUN_TEST(test_smooth_torque_takes_a_negative_i_d);
+    RUN_TEST(test_sinusoidal_modulation_keeps_each_phase);
     return UNITY_END();
 }

@@ -150,13 +150,10 @@ hci_status hci_drive_check_loop(const hci_drive_data *drive, const hci_machine_d
 /* Resistance and inductances that the machine does not have, as the drive gives them. */
 void hci_drive_complete(const hci_drive_data *drive, hci_machine_data *machine);
 
-/* The largest voltage between two phases that a drive reaches, by its dc link, or that of the machine where
- * it has none, and its modulation; 0: not known. */
-double hci_drive_line_V(const hci_drive_data *drive, const hci_machine_data *machine);
-
-/* Whether that voltage is known and, of a machine that was completed, resistance and inductance too, so that
- * currents can be kept below it. line_V: out. remark: says which it is. */
-bool hci_drive_limits_voltage(const hci_drive_data *drive, const hci_machine_data *machine, double *line_V,
+/* Whether the dc link, of the drive or where it has none of the machine, is known and, of a machine that was
+ * completed, resistance and inductance too, so that the voltage of currents can be kept within it. link_V:
+ * out, 0: not known. remark: says what the drive reaches with its modulation. */
+bool hci_drive_limits_voltage(const hci_drive_data *drive, const hci_machine_data *machine, double *link_V,
                               hci_note *remark);
 
 #ifdef __cplusplus

@@ -65,6 +65,8 @@ typedef struct {
     double rms_A[3];                      /* of each phase */
     double voltage_reserve;               /* share of the dc link that is left for the control, below 1 */
     double dead_time_s, pwm_frequency_Hz; /* line voltages lose 2 · dead time · frequency of the dc link */
+    bool sinusoidal;                      /* modulation adds no zero sequence: each phase voltage is at most
+                                           * half of limit_voltage_V, which is less than line voltages have */
     double copper_W;                      /* copper loss of all phases; needs `resistance` */
     double copper_ratio;                  /* copper loss over that of the plain sine */
     bool ignore_ratings;                  /* leave out what the machine declares */
@@ -153,7 +155,7 @@ typedef struct {
 typedef enum {
     HCI_LIMIT_CURRENT, /* |current| of a phase, A */
     HCI_LIMIT_RMS,     /* rms current of a phase, A */
-    HCI_LIMIT_VOLTAGE, /* |voltage| between two phases, V */
+    HCI_LIMIT_VOLTAGE, /* |voltage| between two phases, V, or twice that of a phase */
     HCI_LIMIT_COPPER   /* mean of i_a² + i_b² + i_c², A² */
 } hci_limit_kind;
 
@@ -165,7 +167,7 @@ enum { HCI_MOST_LIMITS = 8, HCI_MOST_TOUCHES = 24 };
 
 /* Where a limit is touched. */
 typedef struct {
-    int phase;        /* 0, 1, 2: a, b, c; of voltages ab, bc, ca */
+    int phase;        /* 0, 1, 2: a, b, c; of voltages between two phases ab, bc, ca */
     double theta_rad; /* electrical */
 } hci_limit_touch;
 
@@ -175,11 +177,15 @@ typedef struct {
     int phase;           /* 0, 1, 2: of phase a, b, c alone; −1: the same for all */
     double limit, value; /* what is allowed, and the largest there is; unit of the kind */
     bool is_declared;    /* by the machine, not asked for */
+    bool of_phases;      /* a voltage: twice that of each phase, as of sinusoidal modulation */
     bool binds;          /* it is touched and costs something */
     double gain;         /* what 1 more of it would give, by solution.limit_cost; 0 where it does not bind */
     hci_limit_touch touch[HCI_MOST_TOUCHES]; /* currents and voltages: where it is touched */
     size_t touch_count;                      /* of them; those beyond HCI_MOST_TOUCHES are not kept */
 } hci_limit;
+
+/* "a", or "ab" of a voltage between two phases; a static string. phase: 0, 1, 2. */
+const char *hci_limit_place_name(const hci_limit *limit, int phase);
 
 /* What limits have cost, the worst first of which applies, and so what a wider limit would give. */
 typedef enum {

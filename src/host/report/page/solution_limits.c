@@ -15,18 +15,18 @@ static void name_of(const hci_limit *l, char text[HCI_HTML_NUMBER_SIZE])
 {
     static const char *const NAME[] = {"phase current", "rms current", "line voltage", "copper"};
     static const char *const PHASE[] = {"", " of a", " of b", " of c"};
-    snprintf(text, HCI_HTML_NUMBER_SIZE, "%s%s", NAME[l->kind], PHASE[l->phase + 1]);
+    snprintf(text, HCI_HTML_NUMBER_SIZE, "%s%s", l->of_phases ? "2 × phase voltage" : NAME[l->kind],
+             PHASE[l->phase + 1]);
 }
 
 /* The angles at which a limit is touched, in degrees. */
 static void say_touches(const hci_limit *l, char *text, size_t size)
 {
-    static const char *const PHASE[] = {"a", "b", "c"}, *const PAIR[] = {"ab", "bc", "ca"};
     size_t used = 0;
     text[0] = '\0';
     for (size_t k = 0; k < l->touch_count && k < HCI_MOST_TOUCHES && used + 24 < size; ++k)
         used += (size_t)snprintf(text + used, size - used, "%s%s %.1f°", k > 0 ? ", " : "",
-                                 (l->kind == HCI_LIMIT_VOLTAGE ? PAIR : PHASE)[l->touch[k].phase],
+                                 hci_limit_place_name(l, l->touch[k].phase),
                                  l->touch[k].theta_rad * 180.0 / HCI_PI);
 }
 
