@@ -93,6 +93,7 @@ void cli_show_loop(const hci_emit_loop_request *r, const hci_emit_loop_result *r
     cli_say("  lead         %.4g us\n", 1e6 * result->lead_s);
     show_speed("voltage     ", result->voltage_rad_per_s);
     show_speed("sampling    ", result->sampled_rad_per_s);
+    if (isfinite(result->measured_rad_per_s)) show_speed("loop.csv    ", result->measured_rad_per_s);
     if (r->blob) cli_say("  blob         %s.bin, for hci/loop_blob.h\n", r->name);
     cli_say("  runtime      hci/loop.h and hci/table.h\n");
 }

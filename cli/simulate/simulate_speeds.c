@@ -166,6 +166,7 @@ static void show(const hci_speeds *s, const cli_speeds_words *w)
     cli_say("\n");
     show_limit("voltage ", s->voltage_rad_per_s);
     show_limit("sampling", s->sampled_rad_per_s);
+    if (isfinite(s->measured_rad_per_s)) show_limit("loop.csv", s->measured_rad_per_s);
     show_harm(s);
 }
 

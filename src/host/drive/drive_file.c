@@ -58,16 +58,18 @@ double hci_drive_filter_share(const hci_drive_data *drive)
 
 /* ---- words ---- */
 
-enum { CURRENT_CONTROL, DECOUPLING, MODULATION, RESPONSE, WORDS };
+enum { CURRENT_CONTROL, DECOUPLING, MODULATION, RESPONSE_OF, RESPONSE, WORDS };
 
-static const char *const WORD[WORDS] = {"current_control", "decoupling", "modulation", "response"};
+static const char *const WORD[WORDS] = {"current_control", "decoupling", "modulation", "response_of",
+                                        "response"};
 
 #define WORD_OF(value, word) [value] = word,
 static const char *const LOOPS[] = {"pi", NULL};
 static const char *const DECOUPLINGS[] = {HCI_DECOUPLING_NAMES(WORD_OF) NULL};
 static const char *const MODULATIONS[] = {HCI_MODULATION_NAMES(WORD_OF) NULL};
+static const char *const RESPONSES_OF[] = {HCI_RESPONSE_OF_NAMES(WORD_OF) NULL};
 #undef WORD_OF
-static const char *const *const CHOICES[RESPONSE] = {LOOPS, DECOUPLINGS, MODULATIONS};
+static const char *const *const CHOICES[RESPONSE] = {LOOPS, DECOUPLINGS, MODULATIONS, RESPONSES_OF};
 
 /* A path in the file is relative to the file's folder. */
 static hci_status read_response(const hci_csv *csv, size_t row, hci_drive_data *d, hci_note *note)
@@ -92,6 +94,7 @@ static hci_status read_word(const hci_csv *csv, size_t row, int word, hci_drive_
     if (status) return status;
     if (word == DECOUPLING) d->decoupling = (hci_decoupling)choice;
     if (word == MODULATION) d->modulation = (hci_modulation)choice;
+    if (word == RESPONSE_OF) d->response_of = (hci_response_of)choice;
     return HCI_OK;
 }
 

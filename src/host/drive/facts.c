@@ -99,10 +99,11 @@ typedef struct {
     const hci_loop_point *point;
     size_t count;
     double highest_rad_per_s; /* up to which the loop is compared */
+    hci_response_of of;
 } response;
 
-/* Largest |measured/computed − 1|, with phases times a factor. at_Hz: out, or NULL. */
-static double off_of(const response *r, const hci_loop_model *m, double phase_factor, double *at_Hz)
+/* Largest |measured/computed − 1|. at_Hz: out, or NULL. */
+static double off_of(const response *r, const hci_loop_model *m, double *at_Hz)
 {
     double most = 0.0;
     for (size_t k = 0; k < r->count; ++k) {
@@ -110,9 +111,10 @@ static double off_of(const response *r, const hci_loop_model *m, double phase_fa
         const double nu = 2.0 * HCI_PI * p->frequency_Hz;
         if (nu > r->highest_rad_per_s) break;
         for (int axis = 0; axis < 2; ++axis) {
-            const double complex measured =
-                p->gain[axis] * cexp(phase_factor * p->phase_rad[axis] * (double complex)I);
-            const double off = cabs(measured / answer_of(m, axis, nu) - 1.0);
+            const double complex measured = p->gain[axis] * cexp(p->phase_rad[axis] * (double complex)I);
+            const hci_loop_answer answer = hci_loop_answer_at(m, nu);
+            const hci_matrix2 *of = r->of == HCI_RESPONSE_OF_SAMPLES ? &answer.sampled : &answer.reference;
+            const double off = cabs(measured / of->m[axis][axis] - 1.0);
             if (!(off > most)) continue;
             most = off;
             if (at_Hz) *at_Hz = p->frequency_Hz;
@@ -135,28 +137,30 @@ static void keep_better(explanation *best, hci_response_reading reading, double 
 static explanation explain(const response *r, const hci_loop_model *m)
 {
     explanation best = {HCI_RESPONSE_UNKNOWN, HUGE_VAL, (double)NAN};
-    keep_better(&best, HCI_RESPONSE_DEGREES, off_of(r, m, HCI_PI / 180.0, NULL), (double)NAN);
-    keep_better(&best, HCI_RESPONSE_SIGN, off_of(r, m, -1.0, NULL), (double)NAN);
+    response other_current = *r;
+    other_current.of = r->of == HCI_RESPONSE_OF_SAMPLES ? HCI_RESPONSE_OF_CURRENT : HCI_RESPONSE_OF_SAMPLES;
+    keep_better(&best, HCI_RESPONSE_OTHER_CURRENT, off_of(&other_current, m, NULL), (double)NAN);
     for (int k = -96; k <= 96; ++k) {
         const double factor = pow(2.0, k / 24.0);
         const hci_loop_model other = hci_loop_with_gains(*m, factor);
-        keep_better(&best, HCI_RESPONSE_GAINS, off_of(r, &other, 1.0, NULL), factor);
+        keep_better(&best, HCI_RESPONSE_GAINS, off_of(r, &other, NULL), factor);
     }
     for (int k = 0; k <= 40; ++k) {
         hci_loop_model other = *m;
         other.delay_s = m->sample_s * k / 40.0;
-        keep_better(&best, HCI_RESPONSE_DELAY, off_of(r, &other, 1.0, NULL), other.delay_s);
+        keep_better(&best, HCI_RESPONSE_DELAY, off_of(r, &other, NULL), other.delay_s);
     }
     return best;
 }
 
 static void compare_response(const hci_drive_data *drive, const hci_loop_model *m, hci_drive_facts *f)
 {
-    const response r = {drive->response, drive->response_count, hci_drive_highest_rad_per_s(drive)};
+    const response r = {drive->response, drive->response_count, hci_drive_highest_rad_per_s(drive),
+                        drive->response_of};
     f->response_off = f->response_off_Hz = f->reading_off = f->reading_value = (double)NAN;
     f->response_count = drive->response_count;
     if (r.count == 0) return;
-    f->reading_off = f->response_off = off_of(&r, m, 1.0, &f->response_off_Hz);
+    f->reading_off = f->response_off = off_of(&r, m, &f->response_off_Hz);
     if (f->response_off <= HCI_RESPONSE_TOLERANCE) return;
     const explanation e = explain(&r, m);
     f->reading = HCI_RESPONSE_UNKNOWN;

@@ -185,22 +185,36 @@ static hci_matrix2 admittance_at(const hci_loop_model *m, double nu)
     return inverse(z);
 }
 
+/* From held voltage to sampled current. */
+static hci_matrix2 sampled_at(const hci_loop_model *m, double complex z)
+{
+    const sampled_plant p = sample_plant(m);
+    return times(inverse(plus(diagonal(z, z), -1.0, p.current)), plus(p.now, 1.0 / z, p.before));
+}
+
+double complex hci_loop_sampling_at(const hci_loop_model *model, int axis, double nu)
+{
+    hci_loop_model m = *model;
+    m.speed_rad_per_s = 0.0;
+    const hci_matrix2 flows = times(admittance_at(&m, nu), hold_at(&m, nu));
+    return sampled_at(&m, cexp(J * nu * m.sample_s)).m[axis][axis] / flows.m[axis][axis];
+}
+
 hci_loop_answer hci_loop_answer_at(const hci_loop_model *m, double nu)
 {
     const double complex z = cexp(J * nu * m->sample_s);
     const double complex sum = m->sample_s / (z - 1.0);
-    const sampled_plant p = sample_plant(m);
     const hci_matrix2 admittance = admittance_at(m, nu);
     const hci_matrix2 control =
         diagonal(m->kp_ohm[0] + m->ki_ohm_per_s[0] * sum, m->kp_ohm[1] + m->ki_ohm_per_s[1] * sum);
     const hci_matrix2 feedback =
         plus(plus(diagonal(0.0, 0.0), hci_loop_filter_at(m, nu), control), -1.0, decoupling_of(m));
-    const hci_matrix2 sampled = times(inverse(plus(diagonal(z, z), -1.0, p.current)),
-                                      plus(p.now, 1.0 / z, p.before)); /* held voltage to sampled current */
+    const hci_matrix2 sampled = sampled_at(m, z);
     const hci_matrix2 loop = inverse(plus(diagonal(1.0, 1.0), 1.0, times(feedback, sampled)));
     const hci_matrix2 through = times(times(admittance, hold_at(m, nu)), loop);
     hci_loop_answer answer;
     answer.reference = times(through, control);
+    answer.sampled = times(times(sampled, loop), control);
     answer.disturbance = plus(admittance, -1.0, times(times(through, feedback), admittance));
     return answer;
 }

@@ -33,10 +33,15 @@ double complex hci_loop_filter_at(const hci_loop_model *model, double nu_rad_per
 /* Both at the frequency ν != 0 in the rotor frame, signed, |ν| below half the sampling. */
 typedef struct {
     hci_matrix2 reference;   /* G */
+    hci_matrix2 sampled;     /* the same of what the samples read */
     hci_matrix2 disturbance; /* Y, A/V */
 } hci_loop_answer;
 
 hci_loop_answer hci_loop_answer_at(const hci_loop_model *model, double nu_rad_per_s);
+
+/* At standstill, of d or q: what the samples read of the current that a voltage makes, over the part of it at
+ * that frequency, P_s/(P H). */
+double complex hci_loop_sampling_at(const hci_loop_model *model, int axis, double nu_rad_per_s);
 
 /* Largest magnitude of the closed loop's poles in z: below 1 it is stable. To 1e-4. */
 double hci_loop_largest_pole(const hci_loop_model *model);

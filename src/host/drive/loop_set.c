@@ -6,6 +6,7 @@
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "host/base/memory.h"
@@ -163,18 +164,43 @@ static hci_status fill_waves(maker *m)
 
 /* ---- the loop ---- */
 
-/* How late the current is at low frequency: −arg G/ν. */
-static double lead_of(const maker *m)
+#define LITTLE_RAD 0.5 /* lateness of i_q that is in proportion to the frequency, or nearly */
+
+static int compare(const void *a, const void *b)
 {
-    const hci_drive_data *d = m->task->drive;
-    if (d->response_count > 0)
-        return -d->response[0].phase_rad[1] / (2.0 * HCI_PI * d->response[0].frequency_Hz);
-    const hci_loop_model model = hci_drive_loop(d, &m->machine, 0.0);
-    const double nu = 0.02 * HCI_PI / d->sample_s;
-    return -carg(hci_loop_answer_at(&model, nu).reference.m[1][1]) / nu;
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
 }
 
-/* (1/G − F)/(R + jνL) at a measured frequency, F the filter of the measured current. */
+/* The median over the frequencies at which the current is a little late: the lowest one alone is as good as
+ * the smallest angle that was measured. */
+static hci_status measured_lead(const hci_drive_data *d, double *lead_s, hci_note *note)
+{
+    double *late_s = hci_memory_new(d->response_count, sizeof *late_s);
+    size_t n = 0;
+    if (!late_s) return hci_note_memory(note, NULL, "%zu frequencies", d->response_count);
+    for (; n < d->response_count && (n == 0 || fabs(d->response[n].phase_rad[1]) < LITTLE_RAD); ++n)
+        late_s[n] = -d->response[n].phase_rad[1] / (2.0 * HCI_PI * d->response[n].frequency_Hz);
+    qsort(late_s, n, sizeof *late_s, compare);
+    *lead_s = 0.5 * (late_s[(n - 1) / 2] + late_s[n / 2]);
+    hci_memory_free(late_s);
+    return HCI_OK;
+}
+
+/* How late the current is at low frequency: −arg G/ν. */
+static hci_status lead_find(const maker *m, double *lead_s)
+{
+    const hci_drive_data *d = m->task->drive;
+    if (d->response_count > 0) return measured_lead(d, lead_s, m->note);
+    const hci_loop_model model = hci_drive_loop(d, &m->machine, 0.0);
+    const double nu = 0.02 * HCI_PI / d->sample_s;
+    *lead_s = -carg(hci_loop_answer_at(&model, nu).reference.m[1][1]) / nu;
+    return HCI_OK;
+}
+
+/* 1/(C H) at a measured frequency: (1/G − Fρ)/(R + jνL) of the current that flows, ρ(1/G − F)/(R + jνL) of
+ * the samples; F the filter of the measured current, ρ what the samples read of the current at that
+ * frequency. */
 static hci_loop_response response_of(const maker *m, const hci_loop_point *p)
 {
     const double nu = 2.0 * HCI_PI * p->frequency_Hz;
@@ -183,8 +209,12 @@ static hci_loop_response response_of(const maker *m, const hci_loop_point *p)
     hci_loop_response r = {.frequency_rad_per_s = (float)nu};
     for (int a = 0; a < 2; ++a) {
         const double complex inverse = cexp(-p->phase_rad[a] * (double complex)I) / p->gain[a];
-        const double complex x = (inverse - filter) / (m->machine.resistance_ohm +
-                                                       nu * m->machine.inductance_H[a] * (double complex)I);
+        const double complex read = hci_loop_sampling_at(&model, a, nu);
+        const double complex open = m->task->drive->response_of == HCI_RESPONSE_OF_SAMPLES
+                                        ? read * (inverse - filter)
+                                        : inverse - filter * read;
+        const double complex x =
+            open / (m->machine.resistance_ohm + nu * m->machine.inductance_H[a] * (double complex)I);
         r.re[a] = (float)creal(x);
         r.im[a] = (float)cimag(x);
     }
@@ -205,8 +235,10 @@ static hci_status fill_responses(maker *m)
     return HCI_OK;
 }
 
-static void fill_loop(maker *m)
+static hci_status fill_loop(maker *m)
 {
+    double lead_s = 0.0;
+    const hci_status status = lead_find(m, &lead_s);
     const hci_drive_data *d = m->task->drive;
     hci_loop_f32 *loop = &m->set->loop;
     loop->resistance_ohm = (float)m->machine.resistance_ohm;
@@ -219,7 +251,8 @@ static void fill_loop(maker *m)
     loop->filter = (float)hci_drive_filter_share(d);
     loop->sample_s = (float)d->sample_s;
     loop->delay_s = (float)(d->computing_delay_s + 0.5 * d->sample_s);
-    loop->lead_s = (float)lead_of(m);
+    loop->lead_s = (float)lead_s;
+    return status;
 }
 
 /* ---- where it ends ---- */
@@ -304,6 +337,15 @@ static void limit_range(const maker *m, size_t k, hci_loop_range *range)
     *range = (hci_loop_range){(float)whole, (float)(whole / 0.9)};
 }
 
+/* Electrical speed at which the highest order is that of the last frequency that was measured. */
+static double measured_end(const maker *m)
+{
+    const hci_drive_data *d = m->task->drive;
+    if (d->response_count == 0 || m->count < 2) return HUGE_VAL;
+    const double order = (double)m->order[m->count - 1] / (double)m->level[0].turns;
+    return 2.0 * HCI_PI * d->response[d->response_count - 1].frequency_Hz / order;
+}
+
 static hci_status fill_ranges(maker *m)
 {
     const double p = m->machine.table.pole_pairs;
@@ -322,6 +364,7 @@ static hci_status fill_ranges(maker *m)
     for (size_t l = 0; l < m->task->level_count; ++l)
         fill_level_ranges(m, l, x);
     set->voltage_rad_per_s = m->voltage_end / p;
+    set->measured_rad_per_s = measured_end(m) / p;
     set->loop.ranges = set->ranges;
     set->loop.whole_rad_per_s = FLT_MAX;
     for (size_t k = 0; k < m->count; ++k)
@@ -387,11 +430,10 @@ static hci_status make(maker *m)
     if (!status) status = choose_orders(m);
     if (!status) status = fill_waves(m);
     if (!status) status = fill_responses(m);
-    if (status) return status;
-    fill_loop(m);
-    status = fill_ranges(m);
+    if (!status) status = fill_loop(m);
+    if (!status) status = fill_ranges(m);
     if (!status) status = choose_points(m);
-    m->set->loop.crc32 = hci_loop_crc32(&m->set->loop);
+    if (!status) m->set->loop.crc32 = hci_loop_crc32(&m->set->loop);
     return status;
 }
 

@@ -23,11 +23,12 @@ typedef struct {
     uint16_t *orders;
     hci_loop_range *ranges;
     hci_loop_response *responses;
-    double max_error_A;       /* of any current against the waves of its level */
-    double peak_A;            /* largest current, length of the vector */
-    double voltage_rad_per_s; /* mechanical: above it the voltage does not do for all orders; HUGE_VAL */
-    double sampled_rad_per_s; /* mechanical: above it the sampling does not do for all orders; HUGE_VAL */
-    double share_left_out;    /* largest current of the orders that were too small to keep, of the peak */
+    double max_error_A;        /* of any current against the waves of its level */
+    double peak_A;             /* largest current, length of the vector */
+    double voltage_rad_per_s;  /* mechanical: above it the voltage does not do for all orders; HUGE_VAL */
+    double sampled_rad_per_s;  /* mechanical: above it the sampling does not do for all orders; HUGE_VAL */
+    double measured_rad_per_s; /* mechanical: above it orders lie beyond the measured response; HUGE_VAL */
+    double share_left_out;     /* largest current of the orders that were too small to keep, of the peak */
 } hci_loop_set;
 
 /* HCI_ERROR_INPUT, _ARGUMENT (levels that do not fit), _MEMORY. To be released, on failure too. */

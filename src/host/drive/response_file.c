@@ -1,5 +1,7 @@
 #include "host/drive/response_file.h"
 
+#include <math.h>
+
 #include "hci/host/csv/csv.h"
 
 #include "host/base/memory.h"
@@ -20,6 +22,45 @@ static hci_status check_row(const hci_csv *csv, size_t row, const hci_loop_point
         if (!(p->gain[axis] > 0.0))
             return hci_csv_error(csv, COLUMN[axis ? GAIN_Q : GAIN_D], row, note,
                                  "a ratio of amplitudes above 0, not decibels", "10^(dB/20) is the ratio");
+    return HCI_OK;
+}
+
+/* A loop that lets most of a reference through is late by less than half a period. */
+#define LETS_THROUGH 0.7
+#define HALF_RAD     3.14159265358979323846
+
+static bool is_of_degrees(const hci_loop_point *p, int axis)
+{
+    return p->gain[axis] > LETS_THROUGH && fabs(p->phase_rad[axis]) > HALF_RAD;
+}
+
+/* Whether no phase of an axis is below 0, and one is plainly above. */
+static bool is_early(const hci_loop_point *points, size_t count, int axis)
+{
+    double most_rad = 0.0;
+    for (size_t k = 0; k < count; ++k) {
+        if (points[k].phase_rad[axis] < 0.0) return false;
+        most_rad = fmax(most_rad, points[k].phase_rad[axis]);
+    }
+    return most_rad > 0.1 * HALF_RAD;
+}
+
+/* Phases that no loop has. */
+static hci_status check_phases(const hci_csv *csv, const hci_loop_point *points, hci_note *note)
+{
+    const size_t count = hci_csv_rows(csv);
+    for (int axis = 0; axis < 2; ++axis) {
+        const char *const column = COLUMN[axis ? PHASE_Q : PHASE_D];
+        for (size_t k = 0; k < count; ++k)
+            if (is_of_degrees(&points[k], axis))
+                return hci_csv_error(csv, column, k, note,
+                                     "less than half a period of lateness where the gain is above 0.7",
+                                     axis ? "degrees are in a column `phase_q_deg`, which is converted"
+                                          : "degrees are in a column `phase_d_deg`, which is converted");
+        if (is_early(points, count, axis))
+            return hci_csv_error(csv, column, count - 1, note, "phases below 0, since the current is late",
+                                 "turn the sign of the column");
+    }
     return HCI_OK;
 }
 
@@ -48,7 +89,7 @@ static hci_status take_columns(const hci_csv *csv, hci_loop_point *points, doubl
     }
     for (size_t k = 0; k < rows && !status; ++k)
         status = check_row(csv, k, &points[k], note);
-    return status;
+    return status ? status : check_phases(csv, points, note);
 }
 
 hci_status hci_response_read(const char *path, hci_loop_point **points, size_t *count, hci_note *note)

@@ -303,6 +303,7 @@ static hci_emit_loop_result result_of(const hci_loop_set *set)
         .lead_s = (double)loop->lead_s,
         .voltage_rad_per_s = set->voltage_rad_per_s,
         .sampled_rad_per_s = set->sampled_rad_per_s,
+        .measured_rad_per_s = set->measured_rad_per_s,
         .crc32 = loop->crc32};
 }
 

@@ -70,6 +70,7 @@ char *hci_emit_loop_json(const hci_emit_loop_request *request, const hci_emit_lo
     hci_json_number(&json, "lead_s", r->lead_s);
     hci_json_number(&json, "voltage_rpm", r->voltage_rad_per_s * 30.0 / HCI_PI);
     hci_json_number(&json, "sampled_rpm", r->sampled_rad_per_s * 30.0 / HCI_PI);
+    hci_json_number(&json, "measured_rpm", r->measured_rad_per_s * 30.0 / HCI_PI);
     hci_json_number(&json, "crc32", r->crc32);
     return hci_json_end(&json);
 }

@@ -125,6 +125,7 @@ char *hci_speeds_json(const hci_speeds *s)
     hci_json_number(&json, "model_error_percent", 100.0 * s->model_error);
     hci_json_number(&json, "voltage_rpm", hci_rpm(s->voltage_rad_per_s));
     hci_json_number(&json, "sampled_rpm", hci_rpm(s->sampled_rad_per_s));
+    hci_json_number(&json, "measured_rpm", hci_rpm(s->measured_rad_per_s));
     hci_json_object(&json, "harmful_from_rpm");
     for (int k = HCI_REMEDY_TABLE; k < HCI_REMEDIES; ++k)
         hci_json_number(&json, hci_remedy_name((hci_remedy)k), hci_rpm(s->harmful_rad_per_s[k]));

@@ -311,6 +311,7 @@ static hci_status fill(grid *g)
     r->lead_s = (double)g->set.loop.lead_s;
     r->voltage_rad_per_s = g->set.voltage_rad_per_s;
     r->sampled_rad_per_s = g->set.sampled_rad_per_s;
+    r->measured_rad_per_s = g->set.measured_rad_per_s;
     for (int k = 0; k < HCI_REMEDIES && !status; ++k)
         r->harmful_rad_per_s[k] = k == HCI_REMEDY_SINE ? HUGE_VAL : harmful_from(r, k);
     return status;

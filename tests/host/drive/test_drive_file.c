@@ -112,6 +112,8 @@ static void test_a_measured_response_is_read(void)
     refuse_response("10,1,0,1,0\n20,1,0,1,0\n20,1,0,1,0\n40,1,0,1,0\n", "loop.csv:4: column");
     refuse_response("0,1,0,1,0\n20,1,0,1,0\n30,1,0,1,0\n40,1,0,1,0\n", "a frequency above 0");
     refuse_response("10,1,0,1,0\n20,1,0,-3,0\n30,1,0,1,0\n40,1,0,1,0\n", "not decibels");
+    refuse_response("10,1,-2,1,-2\n20,1,-4,1,-4\n30,1,-6,1,-6\n40,1,-8,1,-8\n", "phase_d_deg");
+    refuse_response("10,1,-.1,1,.1\n20,1,-.2,1,.2\n30,1,-.3,1,.3\n40,1,-.4,1,.4\n", "the current is late");
 }
 
 /* ---- with a machine ---- */

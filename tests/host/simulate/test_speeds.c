@@ -131,8 +131,9 @@ static void test_other_loops_are_compensated(void)
     }
 }
 
-/* loop.csv as a drive would record it, from the model of the loop: as good as its gains. */
-static void write_response(void)
+/* loop.csv as a drive records it, or an analyser outside, from the model of the loop: as good as its gains.
+ */
+static void write_response(bool of_samples)
 {
     hci_drive_data d = drive_of("decoupling,constant,\n");
     hci_machine_data fitted;
@@ -145,7 +146,8 @@ static void write_response(void)
     const hci_loop_model loop = hci_drive_loop(&d, &model, 0.0);
     fprintf(file, "frequency_Hz,gain_d,phase_d_rad,gain_q,phase_q_rad\n");
     for (double f = 5.0; f < 2500.0; f *= 1.15) {
-        const hci_matrix2 g = hci_loop_answer_at(&loop, 2.0 * REF_PI * f).reference;
+        const hci_loop_answer answer = hci_loop_answer_at(&loop, 2.0 * REF_PI * f);
+        const hci_matrix2 g = of_samples ? answer.sampled : answer.reference;
         fprintf(file, "%.9g,%.9g,%.9g,%.9g,%.9g\n", f, cabs(g.m[0][0]), carg(g.m[0][0]), cabs(g.m[1][1]),
                 carg(g.m[1][1]));
     }
@@ -156,13 +158,26 @@ static void write_response(void)
 
 static void test_a_measured_response_does_as_well(void)
 {
-    write_response();
-    const grid g = {&machine_c, "decoupling,constant,\nresponse,loop.csv,\n", 8.0, {80.0, 320.0}, 0.0};
-    hci_speeds s = run(&g);
-    TEST_ASSERT_TRUE(ripple(&s, 0, HCI_REMEDY_COMPENSATION) < 0.01);
-    TEST_ASSERT_TRUE(ripple(&s, 1, HCI_REMEDY_COMPENSATION) < 0.06);
-    TEST_ASSERT_DOUBLE_WITHIN(0.1, 2.07, ripple(&s, 1, HCI_REMEDY_LEAD));
-    hci_speeds_release(&s);
+    const grid gains = {&machine_c, "decoupling,constant,\n", 8.0, {80.0, 320.0}, 0.0};
+    hci_speeds of_gains = run(&gains);
+    const double by_gains = ripple(&of_gains, 1, HCI_REMEDY_LEAD);
+    TEST_ASSERT_EQUAL_DOUBLE(HUGE_VAL, of_gains.measured_rad_per_s);
+    hci_speeds_release(&of_gains);
+    for (int of_samples = 0; of_samples < 2; ++of_samples) {
+        write_response(of_samples);
+        const grid g = {&machine_c,
+                        of_samples ? "decoupling,constant,\nresponse,loop.csv,\n"
+                                   : "decoupling,constant,\nresponse,loop.csv,\nresponse_of,current,\n",
+                        8.0,
+                        {80.0, 320.0},
+                        0.0};
+        hci_speeds s = run(&g);
+        TEST_ASSERT_TRUE(ripple(&s, 0, HCI_REMEDY_COMPENSATION) < 0.01);
+        TEST_ASSERT_TRUE(ripple(&s, 1, HCI_REMEDY_COMPENSATION) < 0.06);
+        TEST_ASSERT_DOUBLE_WITHIN(0.1, by_gains, ripple(&s, 1, HCI_REMEDY_LEAD));
+        TEST_ASSERT_TRUE(isfinite(s.measured_rad_per_s));
+        hci_speeds_release(&s);
+    }
 }
 
 /* Dead time, coarse readings: the remedies cannot know them, but the drive's compensation can. */

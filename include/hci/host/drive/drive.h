@@ -50,6 +50,11 @@ extern "C" {
     X(HCI_MODULATION_SPACE_VECTOR, "space_vector")                                                           \
     X(HCI_MODULATION_SINUSOIDAL, "sinusoidal")
 
+/* Which current a measured response is of: X(value, word). */
+#define HCI_RESPONSE_OF_NAMES(X)                                                                             \
+    X(HCI_RESPONSE_OF_SAMPLES, "samples")                                                                    \
+    X(HCI_RESPONSE_OF_CURRENT, "current")
+
 /* Decoupling by the measured current. */
 typedef enum {
     HCI_DECOUPLING_TABLE,    /* ω (e + L'i) and ω L i a quarter turn on, of all tables of the machine */
@@ -62,6 +67,12 @@ typedef enum {
     HCI_MODULATION_SPACE_VECTOR, /* with the best zero sequence: line voltages up to the dc link */
     HCI_MODULATION_SINUSOIDAL    /* without: phase voltages up to half the dc link */
 } hci_modulation;
+
+/* Which current a measured response is of. */
+typedef enum {
+    HCI_RESPONSE_OF_SAMPLES, /* the readings of the drive itself, one each sample */
+    HCI_RESPONSE_OF_CURRENT  /* that which flows, as an analyser sees it, of the same frequency */
+} hci_response_of;
 
 /* The closed loop's answer at one frequency: current by reference, in d and in q. */
 typedef struct {
@@ -104,6 +115,7 @@ typedef struct {
 #undef HCI_DRIVE_FIELD
     hci_decoupling decoupling;      /* what it adds */
     hci_modulation modulation;      /* what voltages it reaches */
+    hci_response_of response_of;    /* which current it is of */
     hci_loop_point *response;       /* loop.csv, ascending; NULL with count 0: from the gains */
     size_t response_count;          /* entries of response */
     char path[HCI_DRIVE_PATH_SIZE]; /* of drive.csv, for messages; "" for none */

@@ -13,20 +13,21 @@ extern "C" {
 /* What would make a measured response that of the gains: X(value, word, what it says). */
 #define HCI_RESPONSE_READINGS(X)                                                                             \
     X(HCI_RESPONSE_AS_DECLARED, "as_declared", "as declared")                                                \
-    X(HCI_RESPONSE_DEGREES, "degrees", "its phases are in degrees; the columns want rad")                    \
-    X(HCI_RESPONSE_SIGN, "sign", "its phases have the other sign; below 0 is late")                          \
+    X(HCI_RESPONSE_OTHER_CURRENT, "other_current",                                                           \
+      "it is of the other current: change `response_of`, `samples` as the drive reads it or `current` as "   \
+      "an "                                                                                                  \
+      "analyser does")                                                                                       \
     X(HCI_RESPONSE_GAINS, "gains", "k_p and k_i of the drive are others")                                    \
     X(HCI_RESPONSE_DELAY, "delay", "computing_delay is another")                                             \
     X(HCI_RESPONSE_UNKNOWN, "unknown", "no other gains, delay or units explain it")
 
 /* Which reading of a response agrees. */
 typedef enum {
-    HCI_RESPONSE_AS_DECLARED, /* within HCI_RESPONSE_TOLERANCE */
-    HCI_RESPONSE_DEGREES,     /* phases in degrees */
-    HCI_RESPONSE_SIGN,        /* phases with the other sign */
-    HCI_RESPONSE_GAINS,       /* gains times one factor */
-    HCI_RESPONSE_DELAY,       /* another computing delay */
-    HCI_RESPONSE_UNKNOWN      /* none of these */
+    HCI_RESPONSE_AS_DECLARED,   /* within HCI_RESPONSE_TOLERANCE */
+    HCI_RESPONSE_OTHER_CURRENT, /* that which flows for that of the samples, or the other way round */
+    HCI_RESPONSE_GAINS,         /* gains times one factor */
+    HCI_RESPONSE_DELAY,         /* another computing delay */
+    HCI_RESPONSE_UNKNOWN        /* none of these */
 } hci_response_reading;
 
 /* Share by which a response may be off: what R and L that are known to a tenth do to it, and some noise. */

@@ -39,9 +39,10 @@ typedef struct {
     double peak_A;                 /* largest current, length of the vector */
     double torque_low_Nm, torque_high_Nm; /* of the levels */
     double lead_s;                        /* delay of the loop at low frequency */
-    double voltage_rad_per_s; /* mechanical: above it the voltage does not do for all orders; HUGE_VAL */
-    double sampled_rad_per_s; /* mechanical: above it the sampling does not do for all orders; HUGE_VAL */
-    uint32_t crc32;           /* of the waves */
+    double voltage_rad_per_s;  /* mechanical: above it the voltage does not do for all orders; HUGE_VAL */
+    double sampled_rad_per_s;  /* mechanical: above it the sampling does not do for all orders; HUGE_VAL */
+    double measured_rad_per_s; /* mechanical: above it orders lie beyond the measured response; HUGE_VAL */
+    uint32_t crc32;            /* of the waves */
 } hci_emit_loop_result;
 
 /* Writes NAME.h and NAME.c into `folder`, and NAME.bin where asked for, all or none; same request, same

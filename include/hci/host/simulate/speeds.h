@@ -67,14 +67,15 @@ typedef struct {
 
 /* Start with {0}. */
 typedef struct {
-    hci_speed_row *row;       /* one for each speed */
-    size_t count;             /* entries of row */
-    double torque_Nm;         /* asked for */
-    double model_error;       /* as requested */
-    double dc_link_V;         /* of the drive */
-    double lead_s;            /* by which the table is read ahead */
-    double voltage_rad_per_s; /* mechanical: above it the voltage does not do for all orders; HUGE_VAL */
-    double sampled_rad_per_s; /* mechanical: above it the sampling does not do for all orders; HUGE_VAL */
+    hci_speed_row *row;        /* one for each speed */
+    size_t count;              /* entries of row */
+    double torque_Nm;          /* asked for */
+    double model_error;        /* as requested */
+    double dc_link_V;          /* of the drive */
+    double lead_s;             /* by which the table is read ahead */
+    double voltage_rad_per_s;  /* mechanical: above it the voltage does not do for all orders; HUGE_VAL */
+    double sampled_rad_per_s;  /* mechanical: above it the sampling does not do for all orders; HUGE_VAL */
+    double measured_rad_per_s; /* mechanical: above it orders lie beyond the measured response; HUGE_VAL */
     double harmful_rad_per_s[HCI_REMEDIES]; /* mechanical: above it, straight between the speeds, the plain
                                                sine has less T_ripple; HUGE_VAL where it has not */
 } hci_speeds;
