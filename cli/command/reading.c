@@ -111,3 +111,10 @@ void cli_remark_each(const hci_note *(*remark)(const void *context, size_t k), c
     else
         cli_remarks_group(&all, say_each, &all);
 }
+
+void cli_remark_drive(const hci_drive_data *drive)
+{
+    hci_note remark = {{0}};
+    hci_drive_remark(drive, &remark);
+    cli_remark(&remark);
+}

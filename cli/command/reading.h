@@ -1,8 +1,10 @@
-/* How recordings are read, from the options that every command that reads them has. Uses option. */
+/* How recordings are read, from the options that every command that reads them has, and what is said of files
+ * that several commands read. Uses option. */
 #ifndef HCI_CLI_READING_H
 #define HCI_CLI_READING_H
 
 #include "cli/command/option.h"
+#include "hci/host/drive/drive.h"
 #include "hci/host/recording/run.h"
 
 /* The options of reading, and what they own. */
@@ -36,5 +38,8 @@ void cli_remarks_group(const cli_remarks *all,
 /* The same as remarks on standard error. */
 void cli_remark_each(const hci_note *(*remark)(const void *context, size_t k), const void *context,
                      size_t count);
+
+/* What was taken for what drive.csv does not say. */
+void cli_remark_drive(const hci_drive_data *drive);
 
 #endif

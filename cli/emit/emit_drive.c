@@ -4,6 +4,7 @@
 
 #include "cli/command/command.h"
 #include "cli/command/parse.h"
+#include "cli/command/reading.h"
 #include "cli/emit/emit_currents.h"
 #include "cli/emit/emit_options.h"
 #include "cli/emit/emit_words.h"
@@ -52,6 +53,7 @@ int cli_emit_for_drive(const cli_arguments *a)
     hci_status status = read_drive_inputs(a, &in, &note);
     if (!status) status = hci_emit_loop(folder, &in.request, &result, &note);
     if (!status && cli_is_wordy()) cli_show_loop(&in.request, &result, folder);
+    if (!status) cli_remark_drive(&in.drive);
     if (!status) cli_emit_remark(a, &in.machine);
     if (!status) cli_emit_remark_zero(a);
     if (!status && cli_emit_wants_json(a))

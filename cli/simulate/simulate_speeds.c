@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "cli/command/command.h"
+#include "cli/command/reading.h"
 #include "cli/terminal/chart.h"
 #include "cli/terminal/progress.h"
 #include "cli/terminal/say.h"
@@ -120,7 +121,7 @@ static void list_worse(const hci_speeds *s, hci_remedy remedy)
     const char *between = "";
     cli_say("at ");
     for (size_t k = 0; k < s->count; ++k) {
-        if (!hci_speeds_is_worse(&s->row[k], remedy)) continue;
+        if (!hci_speeds_is_worse(s, k, remedy)) continue;
         cli_say("%s%.4g", between, rpm(s->row[k].speed_rad_per_s));
         between = ", ";
     }
@@ -132,7 +133,7 @@ static void show_worse(const hci_speeds *s, hci_remedy remedy)
 {
     size_t worse = 0, first = s->count;
     for (size_t k = s->count; k-- > 0;)
-        if (hci_speeds_is_worse(&s->row[k], remedy)) ++worse, first = k;
+        if (hci_speeds_is_worse(s, k, remedy)) ++worse, first = k;
     if (worse == 0) return;
     cli_say("  %s is worse than the plain sine ", hci_remedy_name(remedy));
     if (worse == s->count)
@@ -144,10 +145,30 @@ static void show_worse(const hci_speeds *s, hci_remedy remedy)
         list_worse(s, remedy);
 }
 
+static bool is_compared(const hci_speeds *s, size_t row)
+{
+    bool all = true;
+    for (int r = HCI_REMEDY_TABLE; r < HCI_REMEDIES; ++r)
+        all = all && hci_speeds_is_comparable(s, row, (hci_remedy)r);
+    return all;
+}
+
+/* Where the plain sine makes another torque, or next to none. */
+static void show_not_compared(const hci_speeds *s)
+{
+    for (size_t k = 0; k < s->count && s->torque_Nm != 0.0; ++k)
+        if (!is_compared(s, k))
+            cli_say("  at %.4g rpm what makes another torque is not compared with the plain sine, which "
+                    "makes %.3g of %.4g "
+                    "N·m\n",
+                    rpm(s->row[k].speed_rad_per_s), s->row[k].remedy[HCI_REMEDY_SINE].mean_Nm, s->torque_Nm);
+}
+
 static void show_harm(const hci_speeds *s)
 {
     for (int r = HCI_REMEDY_TABLE; r < HCI_REMEDIES; ++r)
         show_worse(s, (hci_remedy)r);
+    show_not_compared(s);
 }
 
 static void show(const hci_speeds *s, const cli_speeds_words *w)
@@ -191,6 +212,7 @@ static hci_status simulate(const cli_speeds_words *w, inputs *in, hci_note *note
     cli_progress_end();
     if (!status && w->out) status = hci_speeds_write(&speeds, w->report ? &sources : NULL, w->out, note);
     if (!status && cli_is_wordy()) show(&speeds, w);
+    if (!status) cli_remark_drive(&in->drive);
     for (size_t k = 0; k < w->table_count && !status; ++k) {
         hci_note remark = {{0}};
         hci_solution_remark(w->table[k], &in->machine, &remark);

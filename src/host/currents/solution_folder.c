@@ -211,6 +211,20 @@ static void remark_machine(const char *path, const hci_machine_identity *is, hci
                  hci_quote_path(path, shown), was.name, was.digest, is->name, is->digest);
 }
 
+/* Where currents were solved with phases that carry none. */
+static void remark_open(const char *path, hci_note *remark)
+{
+    char open[4] = "", shown[HCI_QUOTE_PATH_SIZE];
+    char *text = hci_solution_is_folder(path) ? summary_of(path) : NULL;
+    if (text && hci_json_find_text(text, "limits", "open_phases", open, sizeof open) && open[0])
+        hci_note_add(
+            remark,
+            "%s: these currents were solved with an open phase (%s); they are for a drive in which it is "
+            "disconnected, while what controls or simulates three phases drives all of them",
+            hci_quote_path(path, shown), open);
+    hci_memory_free(text);
+}
+
 void hci_solution_remark(const char *path, const hci_machine_data *machine, hci_note *remark)
 {
     const hci_solution_verdict verdict = hci_solution_read_verdict(path);
@@ -218,5 +232,6 @@ void hci_solution_remark(const char *path, const hci_machine_data *machine, hci_
     if (verdict != HCI_SOLUTION_GOOD)
         hci_note_add(remark, "%s: %s (summary.json)", hci_quote_path(path, shown),
                      hci_solution_verdict_words(verdict));
+    remark_open(path, remark);
     if (machine) remark_machine(path, &machine->identity, remark);
 }

@@ -92,7 +92,10 @@ static hci_status read_word(const hci_csv *csv, size_t row, int word, hci_drive_
     if (word == RESPONSE) return read_response(csv, row, d, note);
     const hci_status status = hci_value_read_choice(csv, row, CHOICES[word], REMEDY, &choice, note);
     if (status) return status;
-    if (word == DECOUPLING) d->decoupling = (hci_decoupling)choice;
+    if (word == DECOUPLING) {
+        d->decoupling = (hci_decoupling)choice;
+        d->decoupling_is_given = true;
+    }
     if (word == MODULATION) d->modulation = (hci_modulation)choice;
     if (word == RESPONSE_OF) d->response_of = (hci_response_of)choice;
     return HCI_OK;
@@ -148,6 +151,17 @@ hci_status hci_drive_read(const char *path, hci_drive_data *drive, hci_note *not
     hci_csv_free(csv);
     if (status) hci_drive_release(drive);
     return status;
+}
+
+void hci_drive_remark(const hci_drive_data *drive, hci_note *remark)
+{
+    char path[HCI_QUOTE_PATH_SIZE];
+    if (drive->decoupling_is_given) return;
+    hci_note_add(remark,
+                 "%s: no `decoupling`, so `table` is taken, of a drive that knows the harmonics of the "
+                 "machine; nearly all "
+                 "have `constant` or `none`, which leave more ripple: add the row",
+                 hci_quote_path(drive->path, path));
 }
 
 void hci_drive_release(hci_drive_data *drive)

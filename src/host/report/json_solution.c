@@ -144,6 +144,17 @@ static void put_limit(hci_json *json, const hci_limit *l)
     hci_json_close(json);
 }
 
+/* "a", "ab": phases that are limited to no current; "" for none. */
+static void put_open(hci_json *json, const hci_solution *s)
+{
+    char open[4] = "";
+    for (size_t k = 0, n = 0; k < s->limit_count && n < 3; ++k) {
+        const hci_limit *l = &s->limit[k];
+        if (l->kind == HCI_LIMIT_CURRENT && l->phase >= 0 && !(l->limit > 0.0)) open[n++] = "abc"[l->phase];
+    }
+    hci_json_text(json, "open_phases", open);
+}
+
 static void put_limits(hci_json *json, const hci_solution *s)
 {
     static const char *const MINIMISED[] = {"", "worst", "peak-to-peak", "rms"};
@@ -155,6 +166,7 @@ static void put_limits(hci_json *json, const hci_solution *s)
     hci_json_text(json, "minimised", MINIMISED[s->minimised]);
     hci_json_number(json, "minimised_Nm", s->minimised_Nm);
     hci_json_number(json, "exceeded_share", s->exceeded_share);
+    put_open(json, s);
     hci_json_array(json, "limit");
     for (size_t k = 0; k < s->limit_count; ++k)
         put_limit(json, &s->limit[k]);

@@ -214,10 +214,21 @@ static hci_status run_speed(grid *g, hci_speed_row *row)
  * ones. */
 static const double WORSE = 1e-3;
 
-bool hci_speeds_is_worse(const hci_speed_row *row, hci_remedy remedy)
+/* Of the torque that is asked for. */
+static const double SAME_TORQUE = 0.1, LEAST_TORQUE = 0.5;
+
+bool hci_speeds_is_comparable(const hci_speeds *s, size_t row, hci_remedy remedy)
 {
-    const double sine_percent = row->remedy[HCI_REMEDY_SINE].T_ripple_percent;
-    return row->remedy[remedy].T_ripple_percent > (1.0 + WORSE) * sine_percent;
+    const hci_speed_result *of = s->row[row].remedy, *sine = &of[HCI_REMEDY_SINE];
+    return sine->mean_Nm * s->torque_Nm >= LEAST_TORQUE * s->torque_Nm * s->torque_Nm &&
+           fabs(of[remedy].mean_Nm - sine->mean_Nm) <= SAME_TORQUE * fabs(s->torque_Nm);
+}
+
+bool hci_speeds_is_worse(const hci_speeds *s, size_t row, hci_remedy remedy)
+{
+    const hci_speed_result *of = s->row[row].remedy;
+    return hci_speeds_is_comparable(s, row, remedy) &&
+           of[remedy].T_ripple_percent > (1.0 + WORSE) * of[HCI_REMEDY_SINE].T_ripple_percent;
 }
 
 /* Where the remedy's ripple passes that of the plain sine, straight between the speeds. */
@@ -228,7 +239,7 @@ static double harmful_from(const hci_speeds *s, int remedy)
         const hci_speed_row *row = &s->row[k];
         const double more =
             row->remedy[remedy].T_ripple_percent - row->remedy[HCI_REMEDY_SINE].T_ripple_percent;
-        const bool is_worse = hci_speeds_is_worse(row, (hci_remedy)remedy);
+        const bool is_worse = hci_speeds_is_worse(s, k, (hci_remedy)remedy);
         if (is_worse && k == 0) return row->speed_rad_per_s;
         if (is_worse) return speed_before + (row->speed_rad_per_s - speed_before) * before / (before - more);
         before = fmin(more, 0.0);

@@ -114,6 +114,7 @@ typedef struct {
     HCI_DRIVE_VALUES(HCI_DRIVE_FIELD)
 #undef HCI_DRIVE_FIELD
     hci_decoupling decoupling;      /* what it adds */
+    bool decoupling_is_given;       /* in the file */
     hci_modulation modulation;      /* what voltages it reaches */
     hci_response_of response_of;    /* which current it is of */
     hci_loop_point *response;       /* loop.csv, ascending; NULL with count 0: from the gains */
@@ -124,6 +125,9 @@ typedef struct {
 /* Reads drive.csv, and the loop.csv that it names. On success *drive is to be given to hci_drive_release; on
  * failure it is empty and the note says why. HCI_ERROR_INPUT, HCI_ERROR_MEMORY. */
 hci_status hci_drive_read(const char *path, hci_drive_data *drive, hci_note *note);
+
+/* Says what was taken for what the file does not say and drives differ in: the decoupling. */
+void hci_drive_remark(const hci_drive_data *drive, hci_note *remark);
 
 /* Nothing given: every number NAN. */
 void hci_drive_init(hci_drive_data *drive);

@@ -77,16 +77,20 @@ typedef struct {
     double sampled_rad_per_s;  /* mechanical: above it the sampling does not do for all orders; HUGE_VAL */
     double measured_rad_per_s; /* mechanical: above it orders lie beyond the measured response; HUGE_VAL */
     double harmful_rad_per_s[HCI_REMEDIES]; /* mechanical: above it, straight between the speeds, the plain
-                                               sine has less T_ripple; HUGE_VAL where it has not */
+                                               sine has less T_ripple at the same torque; HUGE_VAL where it
+                                               has not */
 } hci_speeds;
 
 /* Runs each remedy at each speed. HCI_ERROR_INPUT, _ARGUMENT, _NUMERIC, _MEMORY. *speeds is to be given to
  * hci_speeds_release; it is empty on failure. Same input, same result to the bit on one libm. */
 hci_status hci_simulate_speeds(const hci_speeds_request *request, hci_speeds *speeds, hci_note *note);
 
-/* Whether T_ripple of the remedy is more than that of the plain sine at this speed, by 0.1 % of it at
- * least. */
-bool hci_speeds_is_worse(const hci_speed_row *row, hci_remedy remedy);
+/* Whether a remedy and the plain sine make the same mean torque at one of the speeds, to a tenth of that
+ * asked for, and at least half of it: else the ripple of the one says nothing beside that of the other. */
+bool hci_speeds_is_comparable(const hci_speeds *speeds, size_t row, hci_remedy remedy);
+
+/* Whether it is, and T_ripple of the remedy more than that of the plain sine, by 0.1 % of it at least. */
+bool hci_speeds_is_worse(const hci_speeds *speeds, size_t row, hci_remedy remedy);
 
 /* Frees what the result holds and empties it. */
 void hci_speeds_release(hci_speeds *speeds);
