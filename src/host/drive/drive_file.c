@@ -51,6 +51,11 @@ double hci_drive_sample_s(const hci_drive_data *drive)
     return isnan(drive->sample_s) ? SAMPLE_s : drive->sample_s;
 }
 
+double hci_drive_dead_share(const hci_drive_data *drive)
+{
+    return drive->dead_time_s * drive->pwm_frequency_Hz;
+}
+
 double hci_drive_filter_share(const hci_drive_data *drive)
 {
     return drive->filter_s > 0.0 ? -expm1(-hci_drive_sample_s(drive) / drive->filter_s) : 0.0;

@@ -46,6 +46,7 @@ static void fill_defaults(hci_drive_data *d, const hci_machine_model *m)
     fill(&d->filter_s, 0.0);
     fill(&d->computing_delay_s, d->sample_s);
     fill(&d->dead_time_s, 0.0);
+    fill(&d->pwm_frequency_Hz, 1.0 / d->sample_s);
     fill(&d->dead_time_crossing_A, 0.0);
     fill(&d->dead_time_compensation, 0.0);
     fill(&d->current_quantum_A, 0.0);
@@ -59,10 +60,12 @@ static hci_status check_times(const hci_drive_data *d, hci_note *note)
         return hci_note_set(note, HCI_ERROR_INPUT,
                             "%s: `computing_delay` is %g s, expected at most `current_sample_time`, %g s",
                             file_of(d, path), d->computing_delay_s, d->sample_s);
-    if (d->dead_time_s >= 0.5 * d->sample_s)
-        return hci_note_set(note, HCI_ERROR_INPUT,
-                            "%s: `dead_time` is %g s, expected less than half of `current_sample_time`, %g s",
-                            file_of(d, path), d->dead_time_s, d->sample_s);
+    if (hci_drive_dead_share(d) >= 0.5)
+        return hci_note_set(
+            note, HCI_ERROR_INPUT,
+            "%s: `dead_time` is %g s, expected less than half a period of the PWM, which is %g s by "
+            "`pwm_frequency`, or else `current_sample_time`",
+            file_of(d, path), d->dead_time_s, 1.0 / d->pwm_frequency_Hz);
     return HCI_OK;
 }
 

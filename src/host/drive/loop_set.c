@@ -281,7 +281,7 @@ static void add_order(const maker *m, size_t level, size_t k, partial_turn *x)
 static double voltage_end(const maker *m, const partial_turn *x, double beyond)
 {
     const hci_drive_data *d = m->task->drive;
-    const double there_V = d->dc_link_voltage_V * (1.0 - 2.0 * d->dead_time_s / d->sample_s);
+    const double there_V = d->dc_link_voltage_V * (1.0 - 2.0 * hci_drive_dead_share(d));
     double low = 0.0, high = beyond;
     for (int k = 0; k < 32; ++k) {
         const double speed = 0.5 * (low + high);

@@ -57,7 +57,7 @@ static hci_status emit_table(hci_fmu_controller_model *m, hci_note *note)
 static void fill_start(hci_fmu_controller_model *m)
 {
     const hci_drive_data *d = m->request->drive;
-    const double dead_time_V = d->dc_link_voltage_V * d->dead_time_s / d->sample_s;
+    const double dead_time_V = d->dc_link_voltage_V * hci_drive_dead_share(d);
     m->start[HCI_FMU_CONTROLLER_REMEDY] = FEEDFORWARD;
     m->start[HCI_FMU_CONTROLLER_KP] = d->kp_ohm;
     m->start[HCI_FMU_CONTROLLER_KI] = d->ki_ohm_per_s;

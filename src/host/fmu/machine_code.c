@@ -57,7 +57,7 @@ static void fill_start(hci_fmu_machine_model *m)
     m->start[HCI_FMU_MACHINE_STEP] = m->step_s;
     if (!r->drive) return;
     m->start[HCI_FMU_MACHINE_DEAD_TIME_VOLTAGE] =
-        r->drive->dc_link_voltage_V * r->drive->dead_time_s / r->drive->sample_s;
+        r->drive->dc_link_voltage_V * hci_drive_dead_share(r->drive);
     m->start[HCI_FMU_MACHINE_DEAD_TIME_CROSSING] = r->drive->dead_time_crossing_A;
 }
 

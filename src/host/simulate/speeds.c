@@ -59,7 +59,7 @@ static void fill_scenario(const grid *g, double speed_rad_per_s, hci_scenario *s
     s->computing_delay_s = s->step_s * floor(d->computing_delay_s / s->step_s + 0.5);
     s->decoupling = d->decoupling != HCI_DECOUPLING_NONE;
     s->dc_link_voltage_V = d->dc_link_voltage_V;
-    s->dead_time_s = d->dead_time_s;
+    s->dead_time_s = hci_drive_dead_share(d) * d->sample_s; /* in each sample */
     s->dead_time_crossing_A = d->dead_time_crossing_A;
     s->dead_time_compensation = d->dead_time_compensation;
     s->current_quantum_A = d->current_quantum_A;

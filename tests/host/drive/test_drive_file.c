@@ -154,6 +154,7 @@ static void test_drive_and_machine_complete_each_other(void)
     refuse_fit("inductance_d,1,mH\n", &machine_c, "beside inductance.csv");
     refuse_fit("computing_delay,150,us\n", &machine_c, "`computing_delay` is 0.00015 s, expected at most");
     refuse_fit("dead_time,60,us\n", &machine_c, "less than half");
+    refuse_fit("dead_time,30,us\npwm_frequency,20,kHz\n", &machine_c, "which is 5e-05 s");
 }
 
 /* Gains just above those that are stable: the share of them that is advised is stable, and less than all. */

@@ -199,6 +199,21 @@ static void test_dead_time_and_readings_are_in_the_loop(void)
     hci_speeds_release(&m);
 }
 
+/* Twice the dead time at half the frequency of the PWM takes the same, whatever the sampling. */
+static void test_dead_time_goes_with_the_pwm(void)
+{
+    const grid once = {&machine_c, "dead_time,2,us\n", 8.0, {80.0}, 0.0},
+               edges = {&machine_c, "dead_time,4,us\npwm_frequency,5,kHz\n", 8.0, {80.0}, 0.0},
+               more = {&machine_c, "dead_time,4,us\n", 8.0, {80.0}, 0.0};
+    hci_speeds a = run(&once), b = run(&edges), c = run(&more);
+    const double expected = ripple(&a, 0, HCI_REMEDY_FEEDFORWARD);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9 * expected, expected, ripple(&b, 0, HCI_REMEDY_FEEDFORWARD));
+    TEST_ASSERT_TRUE(ripple(&c, 0, HCI_REMEDY_FEEDFORWARD) > 1.5 * expected);
+    hci_speeds_release(&a);
+    hci_speeds_release(&b);
+    hci_speeds_release(&c);
+}
+
 /* R, L and flux a tenth off: what is left, on both sides of what was found. */
 static void test_a_wrong_model_leaves_something(void)
 {
@@ -366,6 +381,7 @@ int main(void)
     RUN_TEST(test_other_loops_are_compensated);
     RUN_TEST(test_a_measured_response_does_as_well);
     RUN_TEST(test_dead_time_and_readings_are_in_the_loop);
+    RUN_TEST(test_dead_time_goes_with_the_pwm);
     RUN_TEST(test_a_wrong_model_leaves_something);
     RUN_TEST(test_orders_end_with_the_voltage);
     RUN_TEST(test_levels_of_torque_follow_the_solutions);

@@ -16,8 +16,7 @@ extern "C" {
 /* Numbers of drive.csv: X(field, name in the file, unit, lowest, highest, default, what it is). Unit `count`
  * is a whole number. Not given: NAN until hci_drive_fit has filled the defaults in. */
 #define HCI_DRIVE_VALUES(X)                                                                                  \
-    X(sample_s, "current_sample_time", "s", 1e-7, 0.1, "100 us",                                             \
-      "of the current loop, and period of its PWM")                                                          \
+    X(sample_s, "current_sample_time", "s", 1e-7, 0.1, "100 us", "of the current loop")                      \
     X(kp_ohm, "current_kp", "ohm", 0.0, 1e9, "0.2 L/current_sample_time", "k_p of the PI loop, V/A")         \
     X(ki_ohm_per_s, "current_ki", "V/(A*s)", 0.0, 1e12, "0.2 R/current_sample_time", "k_i of the PI loop")   \
     X(kp_q_ohm, "current_kp_q", "ohm", 0.0, 1e9, "current_kp", "k_p of q, where it is not that of d")        \
@@ -28,6 +27,8 @@ extern "C" {
       "from a sample to the use of its voltage, which then holds for a sample")                              \
     X(dc_link_voltage_V, "dc_link_voltage", "V", 1e-9, 1e7, "machine.csv", "of the inverter")                \
     X(dead_time_s, "dead_time", "s", 0.0, 0.01, "0", "of a leg, once in each period of the PWM")             \
+    X(pwm_frequency_Hz, "pwm_frequency", "Hz", 1.0, 1e7, "1/current_sample_time",                            \
+      "how often a leg switches on: half of the sampling where that is at both edges")                       \
     X(dead_time_crossing_A, "dead_time_crossing", "A", 0.0, 1e6, "0",                                        \
       "current below which dead time acts in part: half the ripple of the PWM")                              \
     X(dead_time_compensation, "dead_time_compensation", "count", 0.0, 1.0, "0",                              \
@@ -134,6 +135,10 @@ void hci_drive_init(hci_drive_data *drive);
 
 /* From one sample of a drive's current loop to the next, its default where none is given. */
 double hci_drive_sample_s(const hci_drive_data *drive);
+
+/* Share of the dc link that dead time takes from the mean voltage of a leg, of a drive that was fitted: dead
+ * time × frequency of the PWM. */
+double hci_drive_dead_share(const hci_drive_data *drive);
 
 /* Share of a new reading in the low-pass of the measured current, 1 − e^(−T/τ); 0: there is none. */
 double hci_drive_filter_share(const hci_drive_data *drive);
