@@ -38,7 +38,9 @@ double hci_drive_highest_rad_per_s(const hci_drive_data *drive)
 
 static void fill_defaults(hci_drive_data *d, const hci_machine_model *m)
 {
-    const double bandwidth_per_s = 0.2 / d->sample_s;
+    const double bandwidth_per_s =
+        isnan(d->bandwidth_Hz) ? 0.2 / d->sample_s : 2.0 * HCI_PI * d->bandwidth_Hz;
+    fill(&d->bandwidth_Hz, bandwidth_per_s / (2.0 * HCI_PI));
     fill(&d->kp_ohm, bandwidth_per_s * 0.5 * (m->inductance_H[0] + m->inductance_H[1]));
     fill(&d->ki_ohm_per_s, bandwidth_per_s * m->resistance_ohm);
     fill(&d->kp_q_ohm, d->kp_ohm);

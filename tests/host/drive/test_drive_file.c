@@ -138,6 +138,27 @@ static void refuse_fit(const char *rows, const hci_machine_data *machine, const 
 
 #define WINDING "resistance,0.1,ohm\ninductance_d,0.5,mH\ninductance_q,0.5,mH\n"
 
+/* k_p = 2π f L and k_i = 2π f R, and gains that are given come first. */
+static void test_gains_by_a_bandwidth(void)
+{
+    for (int given = 0; given < 2; ++given) {
+        hci_machine_data fitted;
+        hci_drive_data d;
+        hci_note note;
+        TEST_ASSERT_EQUAL_INT_MESSAGE(
+            HCI_OK,
+            read_rows(given ? WINDING "dc_link_voltage,60,V\nbandwidth,0.2,kHz\ncurrent_kp,3,ohm\n"
+                            : WINDING "dc_link_voltage,60,V\nbandwidth,0.2,kHz\n",
+                      &d, &note),
+            note.text);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_drive_fit(&d, &machine_a, &fitted, &note), note.text);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, given ? 3.0 : 2.0 * 3.14159265358979323846 * 200.0 * 0.5e-3,
+                                  d.kp_ohm);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, 2.0 * 3.14159265358979323846 * 200.0 * 0.1, d.ki_ohm_per_s);
+        hci_drive_release(&d);
+    }
+}
+
 static void test_drive_and_machine_complete_each_other(void)
 {
     hci_machine_data fitted;
@@ -242,6 +263,7 @@ int main(void)
     RUN_TEST(test_values_are_read_in_their_units);
     RUN_TEST(test_wrong_rows_are_named);
     RUN_TEST(test_a_measured_response_is_read);
+    RUN_TEST(test_gains_by_a_bandwidth);
     RUN_TEST(test_drive_and_machine_complete_each_other);
     RUN_TEST(test_the_share_that_is_advised_is_stable);
     RUN_TEST(test_an_unstable_loop_is_refused_before_it_runs);

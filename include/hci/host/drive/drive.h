@@ -17,8 +17,10 @@ extern "C" {
  * is a whole number. Not given: NAN until hci_drive_fit has filled the defaults in. */
 #define HCI_DRIVE_VALUES(X)                                                                                  \
     X(sample_s, "current_sample_time", "s", 1e-7, 0.1, "100 us", "of the current loop")                      \
-    X(kp_ohm, "current_kp", "ohm", 0.0, 1e9, "0.2 L/current_sample_time", "k_p of the PI loop, V/A")         \
-    X(ki_ohm_per_s, "current_ki", "V/(A*s)", 0.0, 1e12, "0.2 R/current_sample_time", "k_i of the PI loop")   \
+    X(bandwidth_Hz, "bandwidth", "Hz", 1e-3, 1e6, "0.032/current_sample_time",                               \
+      "by which the gains are chosen where they are not given")                                              \
+    X(kp_ohm, "current_kp", "ohm", 0.0, 1e9, "2 pi bandwidth L", "k_p of the PI loop, V/A")                  \
+    X(ki_ohm_per_s, "current_ki", "V/(A*s)", 0.0, 1e12, "2 pi bandwidth R", "k_i of the PI loop")            \
     X(kp_q_ohm, "current_kp_q", "ohm", 0.0, 1e9, "current_kp", "k_p of q, where it is not that of d")        \
     X(ki_q_ohm_per_s, "current_ki_q", "V/(A*s)", 0.0, 1e12, "current_ki", "the same of k_i")                 \
     X(filter_s, "current_filter_time", "s", 0.0, 0.1, "0: none",                                             \
