@@ -229,8 +229,8 @@ static void harmonics_of_the_back_emf(bool has_neutral)
             if (has_neutral || n % 3 != 0)
                 takes("back_emf", k++, (named){"sine", 2, n, n % 6 == 1 || n % 6 == 5 ? 8.0 : 40.0, 0.15});
         for (int n = 1; n <= 7; n += step) {
-            if (n % 3 != 1) takes("back_emf", k++, (named){"pos_sine", 2, n, 40.0, 0.15});
-            if (n % 3 != 2) takes("back_emf", k++, (named){"neg_sine", 2, n, 40.0, 0.15});
+            if (n % 3 != 1) takes("back_emf", k++, (named){"pos_sine", 2, n, 40.0, 0.025});
+            if (n % 3 != 2) takes("back_emf", k++, (named){"neg_sine", 2, n, 40.0, 0.025});
         }
         TEST_ASSERT_EQUAL_UINT64(k, count);
     }
