@@ -140,6 +140,7 @@ static void leave_twice_out(rows_task *t)
 /* ---- readings that stand still ---- */
 
 #define BY_CHANCE 1e-6 /* of a stretch of equal readings in a recording */
+#define FEW_PAIRS 8    /* more of them are once in 250 recordings where three are to be expected */
 #define FINE      4.0 /* usual steps of a reading, in units of the smallest one, that are not its resolution */
 #define WHOLE     0.02 /* off a whole number of such units */
 #define MOSTLY    0.9  /* share of the steps */
@@ -190,14 +191,28 @@ static bool is_fine(const readings *x, const size_t *fresh, size_t count, double
     return usual > ROUNDING * most && (multiples < MOSTLY * (double)steps || usual > FINE * least);
 }
 
+/* Rows that are used from one fresh reading up to the next. */
+static size_t length_of(const rows_task *t, const size_t *fresh, size_t count, size_t k)
+{
+    const size_t end = k + 1 < count ? fresh[k + 1] : t->rows;
+    size_t length = 0;
+    for (size_t j = fresh[k]; j < end; ++j)
+        length += t->is_left[j];
+    return length;
+}
+
 /* The longest stretch of equal readings that there may be by chance, if neighbours are equal as often as a
- * reading and the second one behind it. */
-static double longest_by_chance(const readings *x, const size_t *fresh, size_t count)
+ * reading and the second one behind it. Where none of those is, that is up to three times (95 %), and so many
+ * pairs or some more tell nothing. */
+static double longest_by_chance(const rows_task *t, const readings *x, const size_t *fresh, size_t count)
 {
     double equal = 0.0;
+    size_t stays = 0;
     for (size_t k = 0; k + 2 < count; ++k)
         equal += is_same(x, fresh[k], fresh[k + 2]);
-    if (!(equal > 0.0)) return 1.0;
+    for (size_t k = 0; k < count; ++k)
+        stays += length_of(t, fresh, count, k) > 1;
+    if (!(equal > 0.0)) return stays <= FEW_PAIRS ? 2.0 : 1.0;
     return 1.0 + log(BY_CHANCE / (double)count) / log(fmin(equal / (double)count, 0.999));
 }
 
@@ -207,9 +222,7 @@ static size_t stretches_leave(rows_task *t, const size_t *fresh, size_t count, d
     size_t left_out = 0;
     for (size_t k = 0; k < count; ++k) {
         const size_t end = k + 1 < count ? fresh[k + 1] : t->rows;
-        size_t length = 0;
-        for (size_t j = fresh[k]; j < end; ++j)
-            length += t->is_left[j];
+        const size_t length = length_of(t, fresh, count, k);
         if (!((double)length > longest)) continue;
         for (size_t j = fresh[k] + 1; j < end; ++j)
             t->is_left[j] = false;
@@ -225,7 +238,7 @@ static hci_status leave_still_out(rows_task *t, const readings *x)
     if (fresh && step) {
         const size_t count = fresh_find(t, x, fresh);
         if (count >= LEAST_FRESH && is_fine(x, fresh, count, step))
-            left_out = stretches_leave(t, fresh, count, longest_by_chance(x, fresh, count));
+            left_out = stretches_leave(t, fresh, count, longest_by_chance(t, x, fresh, count));
     }
     if (left_out > 0)
         hci_note_add(t->c->remark,

@@ -311,6 +311,33 @@ static void test_a_coarse_torque_stays(void)
     TEST_ASSERT_EQUAL_UINT64(ROWS, run.count);
 }
 
+/* Of noise in six digits a few neighbours are equal by chance, and stay; a reading that stays for longer does
+ * not, nor do pairs all along. */
+static void test_a_few_pairs_are_chance(void)
+{
+    static const struct {
+        int pairs, longer;
+        size_t left;
+    } CASE[] = {{2, 0, ROWS}, {2, 5, ROWS - 5}, {ROWS / 2, 0, ROWS / 2}};
+    for (size_t c = 0; c < sizeof CASE / sizeof *CASE; ++c) {
+        char *text = malloc(ROWS * 120);
+        size_t at = (size_t)sprintf(text, "time_s,theta_m_rad,ia_A,ib_A,ic_A,torque_Nm\n");
+        const int apart = ROWS / CASE[c].pairs;
+        uint64_t seed = 7;
+        double torque = 0.0;
+        TEST_ASSERT_NOT_NULL(text);
+        for (int k = 0; k < ROWS; ++k) {
+            const double theta = 0.01 * k, fresh = 1.0 + 0.1 * ref_normal(&seed);
+            if (k % apart != 1 && !(k > 700 && k <= 700 + CASE[c].longer)) torque = fresh;
+            at += (size_t)sprintf(text + at, "%g,%.9g,%.12g,%.12g,%.12g,%.12g\n", 1e-3 * k, theta, sin(theta),
+                                  sin(theta - 2.0943951), sin(theta + 2.0943951), torque);
+        }
+        read_text(text);
+        free(text);
+        TEST_ASSERT_EQUAL_UINT64(CASE[c].left, run.count);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -328,6 +355,7 @@ int main(void)
     RUN_TEST(test_no_derivative_across_a_hole);
     RUN_TEST(test_a_prediction_leaves_the_cells_of_a_hole_empty);
     RUN_TEST(test_a_torque_that_is_read_less_often);
+    RUN_TEST(test_a_few_pairs_are_chance);
     RUN_TEST(test_currents_that_are_read_less_often);
     RUN_TEST(test_a_torque_without_ripple_stays);
     RUN_TEST(test_a_coarse_torque_stays);
