@@ -200,6 +200,16 @@ static void say_zeros(const hci_words *w, const hci_diagnosis *d)
                       d->zeros_read, d->runs, d->zeros_read_A);
 }
 
+/* What was not looked for, and what would show it. */
+static void say_magnetic_only(const hci_words *w, const hci_diagnosis *d)
+{
+    if (d->magnetic_only)
+        hci_words_say(
+            w, " Direct current in a rotor that is held does not tell iron that saturates from errors of the "
+               "sensors, or from a torque without current: these were not looked for. Runs with a rotor that "
+               "turns, one of them without current, tell them.");
+}
+
 /* A torque that no sensor has read is right only where the shaft drives nothing. */
 static void say_free_shafts(const hci_words *w, const hci_diagnosis *d)
 {
@@ -331,6 +341,7 @@ void hci_diagnosis_words(const hci_diagnosis *d, char *text, size_t size)
         say_verdict(&w, d);
     say_swings(&w, d);
     say_zeros(&w, d);
+    say_magnetic_only(&w, d);
     say_open_voltage(&w, d);
     say_free_shafts(&w, d);
 }

@@ -140,6 +140,7 @@ char *hci_diagnosis_json(const hci_diagnosis *d, const hci_resolution *r)
     put_errors(&json, d);
     hci_json_bool(&json, "contradicted_by_holdout", d->contradicted);
     hci_json_bool(&json, "does_not_repeat", d->wanders);
+    hci_json_bool(&json, "magnetic_only", d->magnetic_only);
     hci_json_text(&json, "left_out", d->disbelieved ? d->disbelieved : "");
     put_lists(&json, d);
     if (d->again) hci_again_put(&json, d->again);

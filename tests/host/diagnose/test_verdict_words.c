@@ -81,6 +81,13 @@ static void test_zeros_of_sensors(void)
     TEST_ASSERT_TRUE(says("In 3 of 7 runs what was read as current, up to 0.12 A, stands still"));
 }
 
+static void test_what_was_not_looked_for(void)
+{
+    TEST_ASSERT_FALSE(says("Direct current"));
+    d.magnetic_only = true;
+    TEST_ASSERT_TRUE(says("these were not looked for"));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -89,5 +96,6 @@ int main(void)
     RUN_TEST(test_an_unfinished_search_gives_no_causes);
     RUN_TEST(test_what_runs_without_a_current_show);
     RUN_TEST(test_zeros_of_sensors);
+    RUN_TEST(test_what_was_not_looked_for);
     return UNITY_END();
 }

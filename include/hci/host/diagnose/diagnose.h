@@ -155,7 +155,7 @@ typedef struct {
     size_t swings;                                     /* entries of swing in use */
     size_t zeros_read;   /* runs in which all that was read as current is the zeros of the sensors */
     double zeros_read_A; /* the largest of them */
-    double rms_before_Nm, rms_after_Nm, noise_Nm;      /* of the runs that were fitted */
+    double rms_before_Nm, rms_after_Nm, noise_Nm;                 /* of the runs that were fitted */
     double holdout_before_Nm, holdout_after_Nm, holdout_noise_Nm; /* NAN without such runs */
     double holdout_mean_before_Nm, holdout_mean_after_Nm;         /* rms of the mean errors of these runs */
     double holdout_ripple_before_Nm, holdout_ripple_after_Nm;     /* and of what is left beside the means */
@@ -177,9 +177,10 @@ typedef struct {
     const char *no_load_denied; /* why what the runs without a current show was left out, in words; NULL: it
                                  * was not */
     bool wanders;               /* something is left that does not repeat with the turn */
-    const char *slip;  /* what a wrong sign, direction, zero or number of pole pairs shows, and no effect was
-                        * made of, in words; NULL: nothing such */
-    bool not_searched; /* because of that slip no effect was looked for */
+    const char *slip;   /* what a wrong sign, direction, zero or number of pole pairs shows, and no effect was
+                         * made of, in words; NULL: nothing such */
+    bool not_searched;  /* because of that slip no effect was looked for */
+    bool magnetic_only; /* direct current alone: beside iron nothing else was looked for */
     bool inertia_as_well;    /* free shafts alone: a wrong inertia looks the same as an ambiguous effect */
     double open_voltage_off; /* share by which voltages without a current differ from the declared back-EMF;
                               * 0: none were recorded */

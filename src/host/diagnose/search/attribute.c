@@ -396,6 +396,7 @@ static hci_status attribute(hci_search *s, hci_attribution *a, bool *no_load, hc
     if (!status) status = hci_regression_fit(s->regression, &none, &a->before, note);
     s->regression->free_means = false;
     a->ended = s->ended;
+    a->magnetic_only = s->magnetic_only;
     return status;
 }
 

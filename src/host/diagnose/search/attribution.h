@@ -34,6 +34,7 @@ typedef struct {
     const hci_effect_type *disbelieved; /* describes the recordings best, with values that nobody would
                                          * believe; NULL: none */
     double disbelieved_share;           /* of the declared torque per ampere, that it leaves */
+    bool magnetic_only;                 /* direct current alone: beside iron nothing else was looked for */
     bool inertia_as_well;               /* a wrong inertia looks the same as an effect that is in */
     bool means_open;  /* what was found of the means of the runs says nothing of those left out, and is out */
     bool means_alone; /* and nothing but those means is left */
