@@ -1,6 +1,6 @@
 """`hci-solve solve` within limits against clarabel, an independent solver of conic programs.
 
-    python3 clarabel_check.py HCI_SOLVE SOURCE_DIR {few,scenarios,random} [COUNT]
+    python3 clarabel_check.py HCI_SOLVE SOURCE_DIR {few,scenarios [NUMBER...],random [COUNT]}
 
 The task is built anew from the physics: torque of each component by sampling e·i over the turn and a Fourier
 transform, voltages by R i + ω L di/dθ + ω_m e, peaks on a dense grid with refinement. Nothing of the project's
@@ -501,7 +501,7 @@ def main():
             scenarios(program, source, tally, work, (2, 8))
             random_machines(program, tally, work, 6)
         elif which == "scenarios":
-            scenarios(program, source, tally, work, range(1, 13))
+            scenarios(program, source, tally, work, [int(k) for k in sys.argv[4:]] or range(1, 13))
         else:
             random_machines(program, tally, work, int(sys.argv[4]) if len(sys.argv) > 4 else 200)
     print(f"{tally.cases} cases, {tally.limited} in which a limit acts; largest deviations: "
