@@ -185,7 +185,8 @@ static void ambiguities_forget(hci_attribution *a)
 static double share_of_least(const hci_search *s, const hci_attribution *a, const hci_verdict *v)
 {
     if (!v->in || v->established || v->type == &hci_empirical_type) return INFINITY;
-    const double linear = is_of_whole(s, v->type) ? 0.0 : hci_companion_of_series(a, v);
+    if (is_of_whole(s, v->type)) return INFINITY;
+    const double linear = hci_companion_of_series(a, v);
     const double least = fmax(linear, hci_companion_least(s->regression, a, v));
     return least > 0.0 && v->gain < least ? v->gain / least : (double)INFINITY;
 }

@@ -14,7 +14,8 @@ enum {
     LEAST_RUNS = 5,
     LOW_POWER = 4,
     HIGH_POWER = 6,
-    MOST_ORDER = 60,
+    MOST_ORDER = 90,
+    PASSES = 4, /* over the parts, at most */
     SINGLE_POWERS = 3,
     PARTS = SINGLE_POWERS + HCI_MOST_TYPES
 };
@@ -176,19 +177,26 @@ static double sum_of(const comparison *c)
     return sum;
 }
 
+/* A sum of squares over all rows, in units of the noise, as rms torque. */
+static double rms_of(const comparison *c, double squares)
+{
+    double rows = 0.0;
+    for (size_t r = 0; r < c->runs.count; ++r)
+        rows += c->runs.group[r].rows;
+    return rows > 0.0 ? c->noise_Nm * sqrt(fmax(0.0, squares) / rows) : 0.0;
+}
+
 /* rms torque that a fit to all runs loses without one part; 0 when memory is out. */
 static double explained_by(const comparison *c, const choice *how, int part)
 {
     choice less = *how;
-    double with = 0.0, without = 0.0, rows = 0.0;
+    double with = 0.0, without = 0.0;
     less.without[part] = true;
     precision_set(c, how);
     bool made = hci_all_in_square(&c->runs, c->precision, &with);
     precision_set(c, &less);
     made = made && hci_all_in_square(&c->runs, c->precision, &without);
-    for (size_t r = 0; r < c->runs.count; ++r)
-        rows += c->runs.group[r].rows;
-    return made && rows > 0.0 ? c->noise_Nm * sqrt(fmax(0.0, without - with) / rows) : 0.0;
+    return made ? rms_of(c, without - with) : 0.0;
 }
 
 /* How well left-out runs are described. */
@@ -205,9 +213,16 @@ static hci_status leave_out(const comparison *c, const choice *how, left_out *x,
 }
 
 /* Cogging and back-EMF are in the declared tables, iron can saturate without reluctance, and what is not of
- * the series is unusual. Such a part has to be large enough for a name, and left-out runs have to miss it: as
- * a whole, which tells of small effects in long recordings, or on the average, where a run that lies outside
- * of the others counts no more than they do. */
+ * the series is unusual. Left-out runs have to miss such a part: as a whole, which tells of small effects in
+ * long recordings, or on the average, where a run that lies outside of the others counts no more than they
+ * do. */
+static bool is_missed(const left_out *in, const left_out *out)
+{
+    return in->misfit + NO_WORSE < out->misfit || in->square + HCI_DECISIVE < out->square;
+}
+
+/* And it has to be large enough for a name: in the fit to all runs, or by what left-out runs miss, since
+ * higher powers take its place where there are runs, and beside them do not. */
 static hci_status settle_part(const comparison *c, choice *how, int part, hci_note *note)
 {
     left_out in, out;
@@ -216,8 +231,9 @@ static hci_status settle_part(const comparison *c, choice *how, int part, hci_no
     how->without[part] = false;
     if (!status) status = leave_out(c, how, &in, note);
     if (status) return status;
-    const bool missed = in.misfit + NO_WORSE < out.misfit || in.square + HCI_DECISIVE < out.square;
-    how->without[part] = !missed || explained_by(c, how, part) < LEAST * c->search->resolution_Nm;
+    const bool large = explained_by(c, how, part) >= LEAST * c->search->resolution_Nm ||
+                       rms_of(c, out.square - in.square) >= c->search->resolution_Nm;
+    how->without[part] = !large || !is_missed(&in, &out);
     return HCI_OK;
 }
 
@@ -239,7 +255,8 @@ static hci_status settle_parts(const comparison *c, choice *how, bool *changed, 
 }
 
 /* The series without what is declared and what the search has found beside it; then with what left-out runs
- * miss, for which the width is chosen again. Width 0, the model as it was, where that describes left-out runs
+ * miss, for which the width is chosen again, until neither changes: what stood for a part that has come in
+ * goes. Width 0, the model as it was, where that describes left-out runs
  * much better. */
 static hci_status choose_all(const comparison *c, choice *best, hci_note *note)
 {
@@ -250,9 +267,10 @@ static hci_status choose_all(const comparison *c, choice *best, hci_note *note)
         best->without[part] = true;
     hci_status status = misfit_of(c, &as_it_was, &known, note);
     if (!status) status = choose(c, best, &least, note);
-    if (!status) status = settle_parts(c, best, &changed, note);
-    if (!status && changed) status = choose(c, best, &least, note);
-    if (!status && changed) status = settle_parts(c, best, &changed, note);
+    for (int k = 0; k < PASSES && !status && (k == 0 || changed); ++k) {
+        status = settle_parts(c, best, &changed, note);
+        if (!status && changed) status = choose(c, best, &least, note);
+    }
     if (!status && least > known + SELECTED) best->width = 0.0;
     return status;
 }
