@@ -289,3 +289,9 @@ double hci_loop_largest_pole(const hci_loop_model *model)
         logarithm = 2.0 * logarithm + square(a);
     return exp(ldexp(logarithm, -20));
 }
+
+double hci_loop_slowest_s(const hci_loop_model *model)
+{
+    const double pole = hci_loop_largest_pole(model);
+    return pole < 1.0 ? -model->sample_s / log(pole) : (double)INFINITY;
+}

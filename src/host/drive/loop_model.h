@@ -46,4 +46,7 @@ double complex hci_loop_sampling_at(const hci_loop_model *model, int axis, doubl
 /* Largest magnitude of the closed loop's poles in z: below 1 it is stable. To 1e-4. */
 double hci_loop_largest_pole(const hci_loop_model *model);
 
+/* Time constant of the slowest of them, s: what is forgotten by 1/e in. INFINITY where it is not stable. */
+double hci_loop_slowest_s(const hci_loop_model *model);
+
 #endif

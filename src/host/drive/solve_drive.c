@@ -54,20 +54,10 @@ static double link_of(const hci_drive_data *drive, const hci_machine_data *machi
     return drive->dc_link_voltage_V > 0.0 ? drive->dc_link_voltage_V : machine->dc_link_voltage_V;
 }
 
-bool hci_drive_limits_voltage(const hci_drive_data *drive, const hci_machine_data *machine, double *link_V,
-                              hci_note *remark)
+bool hci_drive_limits_voltage(const hci_drive_data *drive, const hci_machine_data *machine, double *link_V)
 {
     const bool has_inductance = machine->inductance_count > 0 || machine->model.slope_count > 0 ||
                                 (machine->inductance_d_H > 0.0 && machine->inductance_q_H > 0.0);
     *link_V = fmax(0.0, link_of(drive, machine));
-    if (!(*link_V > 0.0) || !(machine->resistance_ohm > 0.0) || !has_inductance) return false;
-    if (drive->modulation == HCI_MODULATION_SINUSOIDAL)
-        hci_note_add(
-            remark,
-            "the voltage limit is the %.4g V that the drive reaches in each phase, half of its dc link",
-            0.5 * *link_V);
-    else
-        hci_note_add(remark, "the voltage limit is the %.4g V between phases that the drive reaches",
-                     *link_V);
-    return true;
+    return *link_V > 0.0 && machine->resistance_ohm > 0.0 && has_inductance;
 }

@@ -74,12 +74,21 @@ static double default_settle_s(const hci_setup_task *b)
     return last_s + 0.5 * (s->duration_s - last_s);
 }
 
+/* A control that samples takes its samples at steps: as many to a sample as makes the step no longer than was
+ * asked for. */
+static double step_of(const hci_setup_task *b)
+{
+    const hci_scenario *s = b->scenario;
+    const double step_s = hci_value_or(s->step_s, default_step_s(b));
+    const double sample_s = hci_value_or(s->current_sample_time_s, 1e-4);
+    return s->current_control == HCI_CURRENT_PI ? sample_s / ceil(sample_s / step_s * (1.0 - 1e-9)) : step_s;
+}
+
 static hci_status set_steps(const hci_setup_task *b)
 {
     const hci_scenario *s = b->scenario;
     hci_setup *p = b->setup;
-    const double step_s = hci_value_or(s->step_s, default_step_s(b)),
-                 steps = ceil(s->duration_s / step_s * (1.0 - 1e-12) - 1e-6);
+    const double step_s = step_of(b), steps = ceil(s->duration_s / step_s * (1.0 - 1e-12) - 1e-6);
     p->drive.control.step_s = step_s;
     p->settle_s = hci_value_or(s->settle_s, default_settle_s(b));
     if (steps < 2.0)

@@ -36,13 +36,17 @@ typedef struct {
 
 enum { STEPS_OF_A_SAMPLE = 10 };
 
-/* Time constants of the winding until the start is forgotten, and seconds that are evaluated at least. */
+/* Time constants of the winding, and of the slowest pole of the closed loop, until the start is forgotten,
+ * and seconds that are evaluated at least. */
 static const double SETTLE = 12.0, LEAST_s = 0.2;
 
 static void fill_scenario(const grid *g, double speed_rad_per_s, hci_scenario *s)
 {
     const hci_drive_data *d = g->request->drive;
-    const double slow_s = fmax(g->known.inductance_H[0], g->known.inductance_H[1]) / g->known.resistance_ohm;
+    const hci_loop_model loop = hci_drive_loop(d, &g->known, speed_rad_per_s * g->machine.model.pole_pairs);
+    const double winding_s =
+        fmax(g->known.inductance_H[0], g->known.inductance_H[1]) / g->known.resistance_ohm;
+    const double slow_s = fmax(winding_s, hci_loop_slowest_s(&loop));
     hci_scenario_init(s);
     s->step_s = d->sample_s / STEPS_OF_A_SAMPLE;
     s->settle_s = SETTLE * slow_s + 200.0 * d->sample_s;
@@ -67,7 +71,9 @@ static void fill_scenario(const grid *g, double speed_rad_per_s, hci_scenario *s
 }
 
 typedef struct {
-    double settle_s, line_V;
+    const grid *grid;
+    double settle_s, duration_s, told_s; /* told_s: when progress was told last */
+    double line_V;
 } voltage_watch;
 
 static hci_status watch_from(void *context, const hci_simulation_plan *plan, hci_note *note)
@@ -78,10 +84,26 @@ static hci_status watch_from(void *context, const hci_simulation_plan *plan, hci
     return HCI_OK;
 }
 
+/* share: of the run that is going on. */
+static void tell(const grid *g, double share)
+{
+    const hci_speeds_request *q = g->request;
+    if (q->progress)
+        q->progress(q->progress_context, "simulating", ((double)g->done + share) / (double)g->runs);
+}
+
+static void tell_time(voltage_watch *w, double time_s)
+{
+    if (time_s - w->told_s < 0.01 * w->duration_s) return;
+    w->told_s = time_s;
+    tell(w->grid, time_s / w->duration_s);
+}
+
 static void watch_voltage(void *context, const hci_simulation_step *step)
 {
     voltage_watch *w = context;
     double abc[3];
+    tell_time(w, step->time_s);
     if (step->time_s < w->settle_s) return;
     hci_plane_to_abc(step->v_V, abc);
     w->line_V = fmax(w->line_V, fmax(abc[0], fmax(abc[1], abc[2])) - fmin(abc[0], fmin(abc[1], abc[2])));
@@ -103,11 +125,12 @@ static hci_status run(grid *g, const hci_machine_data *machine, hci_remedy remed
                       hci_speed_result *result)
 {
     hci_table_code code;
-    voltage_watch watch = {0.0, 0.0};
+    voltage_watch watch = {.grid = g};
     hci_scenario scenario;
     hci_simulation s;
     const hci_simulation_observer observer = {watch_from, watch_voltage, &watch};
     fill_scenario(g, speed_rad_per_s, &scenario);
+    watch.duration_s = scenario.duration_s;
     start_code(g, remedy, speed_rad_per_s, &code);
     const hci_simulate_loop loop = {{hci_table_code_at, &code},
                                     &g->known.table,
@@ -125,8 +148,8 @@ static hci_status run(grid *g, const hci_machine_data *machine, hci_remedy remed
                                  .limited_share = (double)s.voltage_limited / (double)s.samples,
                                  .worst_T_ripple_percent = (double)NAN};
     hci_simulation_release(&s);
-    if (g->request->progress)
-        g->request->progress(g->request->progress_context, "simulating", (double)++g->done / (double)g->runs);
+    ++g->done;
+    tell(g, 0.0);
     return HCI_OK;
 }
 

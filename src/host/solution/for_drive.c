@@ -24,6 +24,30 @@ static void drop_components(hci_component_set *set, double highest, hci_note *re
     set->count = kept;
 }
 
+/* What the inverter's dead time takes of the voltage, unless that was given. */
+static void take_dead_time(const hci_drive_data *drive, hci_solve_limits *limits)
+{
+    const double pwm_Hz = drive->pwm_frequency_Hz;
+    if (limits->dead_time_s > 0.0 || !(drive->dead_time_s > 0.0)) return;
+    limits->dead_time_s = drive->dead_time_s;
+    limits->pwm_frequency_Hz = pwm_Hz > 0.0 ? pwm_Hz : 1.0 / hci_drive_sample_s(drive);
+}
+
+static void remark_voltage(double link_V, const hci_solve_limits *limits, hci_note *remark)
+{
+    const double lost = limits->voltage_reserve + 2.0 * limits->dead_time_s * limits->pwm_frequency_Hz;
+    const double left_V = link_V * (1.0 - lost);
+    const char *less = lost > 0.0 ? ", without dead time and reserve" : "";
+    if (limits->sinusoidal)
+        hci_note_add(remark,
+                     "the voltage limit is the %.4g V that the drive reaches in each phase, half of its dc "
+                     "link%s",
+                     0.5 * left_V, less);
+    else
+        hci_note_add(remark, "the voltage limit is the %.4g V between phases that the drive reaches%s",
+                     left_V, less);
+}
+
 /* Whether the loop can be used at all, and which voltage is kept. */
 static hci_status take_loop(const hci_drive_data *drive, hci_machine_data *machine, hci_solve_options *o,
                             hci_note *remark, hci_note *note)
@@ -33,8 +57,14 @@ static hci_status take_loop(const hci_drive_data *drive, hci_machine_data *machi
     if (status) return status;
     hci_drive_complete(drive, machine);
     o->limits.sinusoidal = drive->modulation == HCI_MODULATION_SINUSOIDAL;
-    if (o->limit_voltage_V > 0.0 || o->limits.ignore_ratings) return HCI_OK;
-    if (hci_drive_limits_voltage(drive, machine, &link_V, remark)) o->limit_voltage_V = link_V;
+    if (!(o->limit_voltage_V > 0.0) && o->limits.ignore_ratings) return HCI_OK;
+    if (o->limit_voltage_V > 0.0) {
+        take_dead_time(drive, &o->limits);
+    } else if (hci_drive_limits_voltage(drive, machine, &link_V)) {
+        take_dead_time(drive, &o->limits);
+        o->limit_voltage_V = link_V;
+        remark_voltage(link_V, &o->limits, remark);
+    }
     return HCI_OK;
 }
 

@@ -175,9 +175,8 @@ void hci_drive_complete(const hci_drive_data *drive, hci_machine_data *machine);
 
 /* Whether the dc link, of the drive or where it has none of the machine, is known and, of a machine that was
  * completed, resistance and inductance too, so that the voltage of currents can be kept within it. link_V:
- * out, 0: not known. remark: says what the drive reaches with its modulation. */
-bool hci_drive_limits_voltage(const hci_drive_data *drive, const hci_machine_data *machine, double *link_V,
-                              hci_note *remark);
+ * out, 0: not known. */
+bool hci_drive_limits_voltage(const hci_drive_data *drive, const hci_machine_data *machine, double *link_V);
 
 #ifdef __cplusplus
 }
